@@ -1,0 +1,17 @@
+# Compiler options that every target of the project shares; they are not exported to users.
+add_library(sweepface_options INTERFACE)
+target_compile_options(sweepface_options INTERFACE
+  -Wall -Wextra -Wpedantic -Wconversion -Wno-sign-conversion -Wshadow
+  -ffp-contract=off)  # the same bytes with every compiler
+if(SWEEPFACE_WARNINGS_AS_ERRORS)
+  target_compile_options(sweepface_options INTERFACE -Werror)
+endif()
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  # GCC 12 reports these inside its own standard library.
+  target_compile_options(sweepface_options INTERFACE -Wno-maybe-uninitialized -Wno-restrict
+    -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread -Wno-dangling-pointer)
+endif()
+if(SWEEPFACE_SANITIZE)
+  add_compile_options(-fsanitize=${SWEEPFACE_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=${SWEEPFACE_SANITIZE})
+endif()
