@@ -42,7 +42,7 @@ Progress progress(TimeLaw law, double s) noexcept;
 struct MotionSample {
   double position = 0;  ///< the weight
   double velocity = 0;  ///< per second
-  double force = 0;     ///< mass × acceleration per second²
+  double force = 0;     ///< mass × acceleration, the latter per second²
 };
 
 /// A motion of K weights from one set to another. Blending is linear in the weights, so every
