@@ -1,0 +1,62 @@
+# A thin front to CMake's presets and to scripts/. `make` alone says what there is.
+BUILD := build/release
+FUZZ_SECONDS ?= 60
+
+.PHONY: help deps build demo test test-long bench fuzz format clean
+
+help:
+	@echo 'make build      build the tool, build/release/sweepface'
+	@echo 'make demo       install what is missing, build, and show the tool on a sample face'
+	@echo 'make test       install what is missing, build everything, run the tests'
+	@echo 'make test-long  the long tests, and all others under sanitizers and with clang'
+	@echo 'make bench      build and run the benchmarks'
+	@echo 'make fuzz       run each fuzz target for FUZZ_SECONDS (60)'
+	@echo 'make format     format the sources'
+	@echo 'make deps       only install what is missing (Debian packages)'
+	@echo 'make clean      remove build/'
+
+deps:
+	scripts/install-deps
+
+build:
+	cmake --preset release
+	cmake --build $(BUILD) --target sweepface examples/all
+
+demo: deps
+	$(MAKE) build
+	scripts/demo
+
+test: deps
+	cmake --preset release
+	cmake --build $(BUILD)
+	ctest --preset release --label-exclude '^long$$'
+	@if [ -z "$$SWEEPFACE_DATA" ]; then \
+	  echo 'SWEEPFACE_DATA is not set: the tests on real faces were skipped.'; fi
+
+test-long:
+	scripts/install-deps clang
+	cmake --preset release
+	cmake --build $(BUILD)
+	ctest --preset release --label-regex '^long$$'
+	for preset in clang asan tsan; do \
+	  cmake --preset $$preset && cmake --build build/$$preset && \
+	  ctest --preset $$preset --label-exclude '^long$$' || exit 1; done
+
+bench:
+	scripts/install-deps bench
+	cmake --preset bench
+	cmake --build build/bench
+	scripts/bench build/bench
+
+fuzz:
+	scripts/install-deps clang
+	cmake --preset fuzz
+	cmake --build build/fuzz
+	scripts/fuzz $(FUZZ_SECONDS) build/fuzz
+
+format:
+	scripts/install-deps format
+	scripts/format
+
+clean:
+	rm -rf build

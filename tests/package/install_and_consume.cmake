@@ -1,0 +1,29 @@
+function(run)
+  execute_process(COMMAND ${ARGN} COMMAND_ERROR_IS_FATAL ANY)
+endfunction()
+
+file(REMOVE_RECURSE ${WORK})
+set(prefix ${WORK}/prefix)
+run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${prefix})
+
+set(compile -G ${GENERATOR} -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_BUILD_TYPE=Release)
+if(SANITIZE)
+  list(APPEND compile -DCMAKE_CXX_FLAGS=-fsanitize=${SANITIZE})
+endif()
+
+function(consume folder)
+  run(${CMAKE_COMMAND} -S ${CONSUMER} -B ${WORK}/${folder} ${compile} ${ARGN})
+  run(${CMAKE_COMMAND} --build ${WORK}/${folder})
+  file(GLOB programs ${WORK}/${folder}/plays* ${WORK}/${folder}/converts*)
+  foreach(program IN LISTS programs)
+    run(${program})
+  endforeach()
+endfunction()
+
+consume(by_cmake -DCMAKE_PREFIX_PATH=${prefix})
+set(ENV{PKG_CONFIG_PATH} ${prefix}/${LIBDIR}/pkgconfig)
+consume(by_pkg_config -DFIND_BY_PKG_CONFIG=ON)
+
+if(EXISTS ${prefix}/bin/sweepface)
+  run(${prefix}/bin/sweepface --help OUTPUT_QUIET)
+endif()
