@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "sweepface/mesh.hpp"
+#include "sweepface/result.hpp"
+
+namespace sweepface {
+
+/// The mesh in an .obj or .ply file, told apart by extension.
+Result<PolygonMesh> readMesh(const std::filesystem::path& path);
+
+/// The mesh in a Wavefront OBJ text; messages call it `name`.
+Result<PolygonMesh> parseObj(std::string_view text, std::string_view name);
+
+/// The mesh in a PLY file (ASCII, binary of either endianness); messages call it `name`.
+Result<PolygonMesh> parsePly(std::string_view bytes, std::string_view name);
+
+/// Hears how many target files of how many are read; one call at a time, from any thread.
+using ReadProgress = std::function<void(std::size_t done, std::size_t total)>;
+
+/// A neutral mesh and its targets, each named after its file. A target that is a folder stands for
+/// all .obj and .ply files in it, in the order of their names, without the neutral and hidden
+/// files.
+Result<MeshRig> readRig(const std::filesystem::path& neutral,
+                        std::span<const std::filesystem::path> targets,
+                        const ReadProgress& progress = {});
+
+/// What formatObj writes.
+struct ObjOutput {
+  std::span<const Vec3> positions;
+  std::span<const Vec3> normals;  ///< one a vertex, or empty
+  const Polygons& polygons;
+};
+
+/// A Wavefront OBJ text. Its numbers read back as exactly the same doubles.
+std::string formatObj(const ObjOutput& output);
+
+/// All bytes of a file.
+Result<std::string> readFile(const std::filesystem::path& path);
+
+/// Writes beside `path` and renames, so that the file is either whole or as it was.
+Result<void> writeFile(const std::filesystem::path& path, std::string_view bytes);
+
+}  // namespace sweepface

@@ -1,0 +1,134 @@
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <fmt/format.h>
+#include <memory>
+#include <system_error>
+
+#include "sweepface/io.hpp"
+
+#include "io/text.hpp"
+
+namespace sweepface {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct CloseFile {
+  void operator()(std::FILE* file) const { std::fclose(file); }
+};
+using File = std::unique_ptr<std::FILE, CloseFile>;
+
+std::string reason(int code) { return std::generic_category().message(code); }
+
+std::unexpected<Error> cannotWrite(const fs::path& path, int code) {
+  return fail(fmt::format("Cannot write {}: {}.", path.string(), reason(code)));
+}
+
+/// Writes and closes; 0 or the errno of what went wrong.
+int writeAll(File file, std::string_view bytes) {
+  errno = 0;
+  const bool whole = std::fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size();
+  const int writeError = errno;
+  // A full disk may show only when the last bytes leave the buffer.
+  errno = 0;
+  if (std::fclose(file.release()) == 0 && whole) return 0;
+  const int code = whole ? errno : writeError;
+  return code != 0 ? code : EIO;
+}
+
+struct Temporary {
+  fs::path path;
+  File file;
+};
+
+/// A new file in the folder; the name is short because the target's may be as long as can be.
+Temporary createTemporary(const fs::path& folder) {
+  for (int number = 0; number < 10'000; ++number) {
+    fs::path path = folder / fmt::format(".sweepface-{}.tmp", number);
+    errno = 0;
+    File file(std::fopen(path.string().c_str(), "wbx"));
+    if (file || errno != EEXIST) return {std::move(path), std::move(file)};
+  }
+  return {};
+}
+
+/// Why no file can be created in a folder.
+std::unexpected<Error> cannotCreate(const fs::path& path, const fs::path& folder, int code) {
+  std::error_code ignored;
+  if (!fs::exists(folder, ignored))
+    return fail(fmt::format("Cannot write {}: the folder {} does not exist; create it first.",
+                            path.string(), folder.string()));
+  if (!fs::is_directory(folder, ignored))
+    return fail(fmt::format("Cannot write {}: {} is not a folder; choose another place.",
+                            path.string(), folder.string()));
+  return fail(
+      fmt::format("Cannot write {}: the folder {} takes no new file ({}); choose another "
+                  "place or change its permissions.",
+                  path.string(), folder.string(), reason(code)));
+}
+
+Result<void> writeDirectly(const fs::path& path, std::string_view bytes) {
+  File file(std::fopen(path.string().c_str(), "wb"));
+  if (!file) return cannotWrite(path, errno);
+  if (const int code = writeAll(std::move(file), bytes)) return cannotWrite(path, code);
+  return {};
+}
+
+Result<void> replaceFile(const fs::path& path, std::string_view bytes) {
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  Temporary temporary = createTemporary(folder);
+  if (!temporary.file) return cannotCreate(path, folder, errno);
+  std::error_code error, ignored;
+  if (const int code = writeAll(std::move(temporary.file), bytes)) {
+    fs::remove(temporary.path, ignored);
+    return cannotWrite(path, code);
+  }
+  fs::rename(temporary.path, path, error);
+  if (!error) return {};
+  fs::remove(temporary.path, ignored);
+  return cannotWrite(path, error.value());
+}
+
+}  // namespace
+
+Result<std::string> readFile(const fs::path& path) {
+  const auto cannotRead = [&](std::string_view why) {
+    return fail(fmt::format("Cannot read {}: {}.", path.string(), why));
+  };
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (status.type() == fs::file_type::not_found)
+    return cannotRead("there is no such file; check the name");
+  if (fs::is_directory(status)) return cannotRead("it is a folder; name a file in it");
+  const File file(std::fopen(path.string().c_str(), "rb"));
+  if (!file) return cannotRead(reason(errno));
+
+  std::string bytes;
+  const auto size = fs::file_size(path, error);
+  if (!error && size <= io::maxFileBytes) bytes.reserve(size);
+  std::array<char, 1 << 16> chunk;
+  while (const std::size_t count = std::fread(chunk.data(), 1, chunk.size(), file.get())) {
+    bytes.append(chunk.data(), count);
+    if (bytes.size() > io::maxFileBytes) return cannotRead("it is larger than 2 GiB");
+  }
+  if (std::ferror(file.get())) return cannotRead(reason(errno));
+  return bytes;
+}
+
+Result<void> writeFile(const fs::path& path, std::string_view bytes) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (fs::is_directory(status))
+    return fail(fmt::format("Cannot write {}: it is a folder; name a file.", path.string()));
+  if (!path.has_filename()) return fail("Cannot write a file without a name.");
+  // A device or a pipe is not to be replaced, nor is a link: what it points to is.
+  if (fs::exists(status) && !fs::is_regular_file(status)) return writeDirectly(path, bytes);
+  if (fs::is_symlink(fs::symlink_status(path, error))) {
+    const fs::path pointed = fs::weakly_canonical(path, error);
+    if (!error) return replaceFile(pointed, bytes);
+  }
+  return replaceFile(path, bytes);
+}
+
+}  // namespace sweepface

@@ -1,0 +1,222 @@
+#include <fmt/format.h>
+#include <utility>
+
+#include "sweepface/io.hpp"
+
+#include "io/ply_body.hpp"
+#include "io/ply_header.hpp"
+#include "io/target_shape.hpp"
+
+namespace sweepface {
+namespace {
+
+using namespace io;
+
+/// Reads the elements that a mesh is made of and skips the others; the first value that makes no
+/// sense ends it.
+template <typename Body>
+class PlyReader {
+ public:
+  PlyReader(std::string_view bytes, std::string_view name, const PlyHeader& header)
+      : name_(name), header_(header), body_(bytes, header) {}
+
+  bool read() {
+    if (!checkVertexElement()) return false;
+    for (const PlyElement& element : header_.elements) {
+      if (!checkRoom(element)) return false;
+      if (!readElement(element)) return false;
+    }
+    return true;
+  }
+
+  Error error() { return {std::move(error_)}; }
+  PolygonMesh mesh;
+
+ private:
+  bool failFile(std::string_view what) {
+    error_ = fmt::format("{} {}.", name_, what);
+    return false;
+  }
+
+  bool failRow(std::string_view what) {
+    error_ = fmt::format("{}, {} {} ({}): {}; export the mesh again or copy the file again.", name_,
+                         element_->name, row_, body_.place(), what);
+    return false;
+  }
+
+  bool checkVertexElement() {
+    const PlyElement* const vertex = header_.find("vertex");
+    if (!vertex || vertex->count == 0)
+      return failFile("has no vertices (element 'vertex'); export the mesh again");
+    vertexCount_ = static_cast<double>(vertex->count);
+    slots_ = {vertex->find({"x"}), vertex->find({"y"}), vertex->find({"z"}),
+              vertex->find({"s", "u", "texture_u"}), vertex->find({"t", "v", "texture_v"})};
+    for (int axis = 0; axis < 3; ++axis)
+      if (slots_[axis] < 0 || vertex->properties[slots_[axis]].countType)
+        return failFile(
+            fmt::format("has no vertex property '{}' that is a number; export the mesh "
+                        "with positions",
+                        "xyz"[axis]));
+    return true;
+  }
+
+  /// Compares what the header promises with what the file can hold, before anything is allocated.
+  bool checkRoom(const PlyElement& element) {
+    std::size_t least = 0;
+    for (const PlyProperty& property : element.properties)
+      least += Body::leastSize(property.countType.value_or(property.type));
+    if (least == 0 || element.count <= body_.bytesLeft() / least) return true;
+    return failFile(fmt::format(
+        "is cut short: its header promises {} of element {}, but only {} bytes are left for them; "
+        "export the mesh again or copy the file again",
+        element.count, inQuotes(element.name), body_.bytesLeft()));
+  }
+
+  bool readElement(const PlyElement& element) {
+    element_ = &element;
+    if (element.name == "vertex") return readVertices(element);
+    if (element.name == "face") return readFaces(element);
+    if (element.properties.empty()) return true;
+    return readRows(element, [this](std::size_t property) { return skip(property); });
+  }
+
+  /// Reads each row, property by property.
+  bool readRows(const PlyElement& element, auto readProperty) {
+    for (row_ = 0; row_ < element.count; ++row_) {
+      if (!body_.beginRow()) return failRow(body_.problem());
+      for (std::size_t property = 0; property < element.properties.size(); ++property)
+        if (!readProperty(property)) return false;
+      if (!body_.endRow()) return failRow(body_.problem());
+    }
+    return true;
+  }
+
+  bool readValue(PlyScalar type, double& value) {
+    return body_.read(type, value) || failRow(body_.problem());
+  }
+
+  /// The count of a list whose values the file can still hold.
+  bool readCount(const PlyProperty& list, double& count) {
+    if (!readValue(*list.countType, count)) return false;
+    const double least = static_cast<double>(Body::leastSize(list.type));
+    if (count < 0 || count * least > static_cast<double>(body_.bytesLeft()))
+      return failRow(fmt::format("the list '{}' claims {} values", list.name, count));
+    return true;
+  }
+
+  bool skip(std::size_t index) {
+    const PlyProperty& property = element_->properties[index];
+    double count = 1, value = 0;
+    if (property.countType && !readCount(property, count)) return false;
+    for (double i = 0; i < count; ++i)
+      if (!readValue(property.type, value)) return false;
+    return true;
+  }
+
+  bool readVertices(const PlyElement& element) {
+    const bool textured = isNumber(element, slots_[3]) && isNumber(element, slots_[4]);
+    mesh.positions.reserve(element.count);
+    std::vector<double> row(element.properties.size());
+    return readRows(element, [&](std::size_t property) {
+      if (element.properties[property].countType) {
+        if (!skip(property)) return false;
+      } else if (!readValue(element.properties[property].type, row[property])) {
+        return false;
+      }
+      return property + 1 < row.size() || addVertex(row, textured);
+    });
+  }
+
+  static bool isNumber(const PlyElement& element, Index property) {
+    return property >= 0 && !element.properties[property].countType;
+  }
+
+  bool addVertex(const std::vector<double>& row, bool textured) {
+    for (int i = 0; i < (textured ? 5 : 3); ++i)
+      if (!isUsable(row[slots_[i]]))
+        return failRow(fmt::format("the coordinate {} is not finite or too large", row[slots_[i]]));
+    mesh.positions.push_back({row[slots_[0]], row[slots_[1]], row[slots_[2]]});
+    if (textured) mesh.polygons.texcoords.push_back({row[slots_[3]], row[slots_[4]]});
+    return true;
+  }
+
+  bool readFaces(const PlyElement& element) {
+    const Index list = element.find({"vertex_indices", "vertex_index"});
+    if (element.count == 0) return true;
+    if (list < 0 || !element.properties[list].countType ||
+        !isInteger(element.properties[list].type))
+      return failFile(
+          "has faces without a list 'vertex_indices' of integers; export the mesh again");
+    return readRows(element, [&](std::size_t property) {
+      return static_cast<Index>(property) == list ? readFace(element.properties[property])
+                                                  : skip(property);
+    });
+  }
+
+  bool readFace(const PlyProperty& list) {
+    Polygons& polygons = mesh.polygons;
+    double count = 0, vertex = 0;
+    if (!readCount(list, count)) return false;
+    if (count < 3) return failRow(fmt::format("the face has {} of the 3 corners it needs", count));
+    for (double i = 0; i < count; ++i) {
+      if (!readValue(list.type, vertex)) return false;
+      if (vertex < 0 || vertex >= vertexCount_)
+        return failRow(fmt::format("the face refers to vertex {}, but they go from 0 to {}", vertex,
+                                   vertexCount_ - 1));
+      polygons.corners.push_back(static_cast<Index>(vertex));
+    }
+    polygons.faceStart.push_back(static_cast<Index>(polygons.corners.size()));
+    polygons.faceGroup.push_back(-1);
+    polygons.faceMaterial.push_back(-1);
+    return true;
+  }
+
+  std::string_view name_;
+  const PlyHeader& header_;
+  Body body_;
+  double vertexCount_ = 0;
+  std::array<Index, 5> slots_{};  // of x, y, z and the texture coordinates in a vertex row
+  const PlyElement* element_ = nullptr;
+  std::uint64_t row_ = 0;
+  std::string error_;
+};
+
+template <typename Body>
+Result<PolygonMesh> readBody(std::string_view bytes, std::string_view name,
+                             const PlyHeader& header) {
+  PlyReader<Body> reader(bytes, name, header);
+  if (!reader.read()) return std::unexpected(reader.error());
+  // Texture coordinates are a vertex's here, so corners share its index.
+  Polygons& polygons = reader.mesh.polygons;
+  if (!polygons.texcoords.empty()) polygons.cornerTexcoords = polygons.corners;
+  return std::move(reader.mesh);
+}
+
+/// A mesh that may lack faces.
+Result<PolygonMesh> readPly(std::string_view bytes, std::string_view name) {
+  if (bytes.size() > maxFileBytes)
+    return fail(fmt::format("{} is larger than 2 GiB; export only the face.", name));
+  const Result<PlyHeader> header = parsePlyHeader(bytes, name);
+  if (!header) return std::unexpected(header.error());
+  return header->format == PlyFormat::ascii ? readBody<AsciiBody>(bytes, name, *header)
+                                            : readBody<BinaryBody>(bytes, name, *header);
+}
+
+}  // namespace
+
+Result<PolygonMesh> parsePly(std::string_view bytes, std::string_view name) {
+  Result<PolygonMesh> mesh = readPly(bytes, name);
+  if (mesh && mesh->polygons.faceCount() == 0)
+    return fail(
+        fmt::format("{} has no faces (element 'face'); export the mesh with its faces.", name));
+  return mesh;
+}
+
+Result<io::TargetShape> io::parsePlyTarget(std::string_view bytes, std::string_view name) {
+  Result<PolygonMesh> mesh = readPly(bytes, name);
+  if (!mesh) return std::unexpected(mesh.error());
+  const Index faceCount = mesh->polygons.faceCount();
+  return TargetShape{std::move(mesh->positions), faceCount};
+}
+
+}  // namespace sweepface

@@ -1,0 +1,151 @@
+#include <algorithm>
+#include <fmt/format.h>
+#include <map>
+#include <mutex>
+#include <system_error>
+#include <tbb/parallel_for.h>
+
+#include "sweepface/io.hpp"
+
+#include "io/target_shape.hpp"
+#include "io/text.hpp"
+
+namespace sweepface {
+namespace {
+
+namespace fs = std::filesystem;
+using Paths = std::vector<fs::path>;
+
+std::string extension(const fs::path& path) {
+  std::string text = path.extension().string();
+  for (char& c : text)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return text;
+}
+
+bool isMesh(const fs::path& path) {
+  const std::string kind = extension(path);
+  return kind == ".obj" || kind == ".ply";
+}
+
+std::unexpected<Error> unknownKind(const fs::path& path) {
+  return fail(fmt::format("{} is neither an .obj nor a .ply file; export the mesh as one of them.",
+                          path.string()));
+}
+
+Result<Paths> meshesIn(const fs::path& folder, const fs::path& neutral) {
+  Paths found;
+  std::error_code error, ignored;
+  for (fs::directory_iterator entry(folder, error); !error && entry != fs::directory_iterator();
+       entry.increment(error)) {
+    const fs::path& path = entry->path();
+    const bool hidden = path.filename().string().starts_with('.');
+    if (!hidden && isMesh(path) && !entry->is_directory(ignored) &&
+        !fs::equivalent(path, neutral, ignored))
+      found.push_back(path);
+  }
+  if (error)
+    return fail(fmt::format("Cannot read the folder {}: {}.", folder.string(), error.message()));
+  if (found.empty())
+    return fail(
+        fmt::format("The folder {} has no .obj or .ply files of targets; name the folder "
+                    "that has.",
+                    folder.string()));
+  std::ranges::sort(found, {}, [](const fs::path& path) { return path.filename().string(); });
+  return found;
+}
+
+/// Every target's file, folders replaced by what is in them.
+Result<Paths> targetFiles(std::span<const fs::path> targets, const fs::path& neutral) {
+  Paths files;
+  for (const fs::path& target : targets) {
+    std::error_code ignored;
+    if (!fs::is_directory(target, ignored)) {
+      files.push_back(target);
+      continue;
+    }
+    const Result<Paths> found = meshesIn(target, neutral);
+    if (!found) return std::unexpected(found.error());
+    files.insert(files.end(), found->begin(), found->end());
+  }
+  return files;
+}
+
+Result<std::vector<std::string>> targetNames(const Paths& files) {
+  std::vector<std::string> names;
+  std::map<std::string, const fs::path*> owners;
+  for (const fs::path& file : files) {
+    std::string name = file.stem().string();
+    // The stem of ".obj" is ".obj", though what it lacks is the name.
+    if (io::trimmed(name).empty() || (!file.has_extension() && isMesh("x" + name)))
+      return fail(fmt::format("The target {} has no name before its extension; rename the file.",
+                              io::inQuotes(file.string())));
+    const auto [owner, isNew] = owners.emplace(name, &file);
+    if (!isNew)
+      return fail(fmt::format("The targets {} and {} are both named '{}'; rename one of the files.",
+                              owner->second->string(), file.string(), name));
+    names.push_back(std::move(name));
+  }
+  return names;
+}
+
+Result<std::vector<Vec3>> readTarget(const fs::path& path, const fs::path& neutralPath,
+                                     const PolygonMesh& neutral) {
+  if (!isMesh(path)) return unknownKind(path);
+  const Result<std::string> bytes = readFile(path);
+  if (!bytes) return std::unexpected(bytes.error());
+  const auto parse = extension(path) == ".obj" ? io::parseObjTarget : io::parsePlyTarget;
+  Result<io::TargetShape> shape = parse(*bytes, path.string());
+  if (!shape) return std::unexpected(shape.error());
+
+  const auto differs = [&](std::string_view what, std::size_t count, std::size_t expected) {
+    return fail(
+        fmt::format("{} has {} {} but the neutral {} has {}; export every target with the "
+                    "neutral's vertices and faces in the same order.",
+                    path.string(), count, what, neutralPath.string(), expected));
+  };
+  if (shape->positions.size() != neutral.positions.size())
+    return differs("vertices", shape->positions.size(), neutral.positions.size());
+  if (shape->faceCount != 0 && shape->faceCount != neutral.polygons.faceCount())
+    return differs("faces", shape->faceCount, neutral.polygons.faceCount());
+  return std::move(shape->positions);
+}
+
+}  // namespace
+
+Result<PolygonMesh> readMesh(const fs::path& path) {
+  if (!isMesh(path)) return unknownKind(path);
+  const Result<std::string> bytes = readFile(path);
+  if (!bytes) return std::unexpected(bytes.error());
+  const auto parse = extension(path) == ".obj" ? parseObj : parsePly;
+  return parse(*bytes, path.string());
+}
+
+Result<MeshRig> readRig(const fs::path& neutralPath, std::span<const fs::path> targets,
+                        const ReadProgress& progress) {
+  Result<PolygonMesh> neutral = readMesh(neutralPath);
+  if (!neutral) return std::unexpected(neutral.error());
+  const Result<Paths> files = targetFiles(targets, neutralPath);
+  if (!files) return std::unexpected(files.error());
+  Result<std::vector<std::string>> names = targetNames(*files);
+  if (!names) return std::unexpected(names.error());
+
+  std::vector<Result<std::vector<Vec3>>> read(files->size());
+  std::mutex reporting;
+  std::size_t done = 0;
+  tbb::parallel_for(std::size_t{0}, files->size(), [&](std::size_t i) {
+    read[i] = readTarget((*files)[i], neutralPath, *neutral);
+    const std::scoped_lock lock(reporting);
+    ++done;
+    if (progress) progress(done, files->size());
+  });
+
+  MeshRig rig{std::move(*neutral), {}};
+  for (std::size_t i = 0; i < read.size(); ++i) {
+    if (!read[i]) return std::unexpected(read[i].error());
+    rig.targets.push_back({std::move((*names)[i]), std::move(*read[i])});
+  }
+  return rig;
+}
+
+}  // namespace sweepface

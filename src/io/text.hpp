@@ -1,0 +1,121 @@
+#pragma once
+
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sweepface/vec.hpp"
+
+namespace sweepface::io {
+
+/// Files beyond this could hold more corners than an Index can count.
+inline constexpr std::size_t maxFileBytes = std::numeric_limits<Index>::max();
+
+inline bool isBlank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
+
+inline std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && isBlank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && isBlank(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+/// The lines of a text, one after the other, counted from 1.
+class LineCursor {
+ public:
+  LineCursor(std::string_view text, char lineBreak) : rest_(text), break_(lineBreak) {}
+
+  /// Moves to the next line; false at the end of the text.
+  bool next() {
+    if (rest_.empty()) return false;
+    const std::size_t length = rest_.find(break_);
+    endsInBreak_ = length != std::string_view::npos;
+    line_ = rest_.substr(0, length);
+    rest_.remove_prefix(endsInBreak_ ? length + 1 : rest_.size());
+    ++number_;
+    return true;
+  }
+
+  std::string_view line() const { return line_; }
+  std::size_t number() const { return number_; }
+  char lineBreak() const { return break_; }
+  /// What follows the line.
+  std::string_view rest() const { return rest_; }
+  /// Whether the text ends within the line, as it does where a file was cut short.
+  bool cutShort() const { return !endsInBreak_; }
+
+ private:
+  std::string_view rest_, line_;
+  std::size_t number_ = 0;
+  char break_;
+  bool endsInBreak_ = true;
+};
+
+/// The words of a line.
+class Words {
+ public:
+  explicit Words(std::string_view line) : at_(line.data()), end_(at_ + line.size()) {}
+
+  /// The next word; empty at the end.
+  std::string_view next() {
+    while (at_ != end_ && isBlank(*at_)) ++at_;
+    const char* const start = at_;
+    while (at_ != end_ && !isBlank(*at_)) ++at_;
+    return {start, at_};
+  }
+
+  /// All that is left, without blanks around it.
+  std::string_view rest() const { return trimmed({at_, end_}); }
+
+ private:
+  const char* at_;
+  const char* end_;
+};
+
+/// The number a word spells, or nothing where it spells none.
+template <typename Number>
+std::optional<Number> toNumber(std::string_view word) {
+  if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
+  Number value{};
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (error != std::errc{} || end != word.data() + word.size()) return std::nullopt;
+  return value;
+}
+
+/// Whether a coordinate is a number that a float can hold, which all that follows counts on.
+inline bool isUsable(double coordinate) {
+  return std::abs(coordinate) <= std::numeric_limits<float>::max();
+}
+
+/// A word for a message: in quotes, printable and short.
+inline std::string inQuotes(std::string_view word) {
+  constexpr std::size_t longest = 40;
+  std::string text = "'";
+  for (const char c : word.substr(0, longest)) text += c >= ' ' && c != '\x7f' ? c : '?';
+  return text += word.size() > longest ? "...'" : "'";
+}
+
+/// Numbers names in the order in which they first come up.
+class NameIndex {
+ public:
+  explicit NameIndex(std::vector<std::string>& names) : names_(names) {}
+
+  Index operator()(std::string_view name) {
+    if (name.empty()) return -1;
+    const auto found = indices_.find(name);
+    if (found != indices_.end()) return found->second;
+    names_.emplace_back(name);
+    return indices_.emplace(name, static_cast<Index>(names_.size() - 1)).first->second;
+  }
+
+ private:
+  std::vector<std::string>& names_;
+  std::map<std::string, Index, std::less<>> indices_;
+};
+
+}  // namespace sweepface::io
