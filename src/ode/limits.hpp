@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+#include "sweepface/result.hpp"
+
+// Which parameters are refused, and what the refusal says.
+namespace sweepface::ode {
+
+/// Beside a resonance of oscillating solutions the basis multiplies every error of the data: no
+/// function may exceed `largestValue` on the grid, which has six places a period at `largestRoot`.
+constexpr double largestValue = 10, largestRoot = 1000;
+constexpr int gridSteps = 1024;
+
+inline std::string number(double x) {
+  char buffer[32];
+  std::snprintf(buffer, sizeof buffer, "%.4g", x);
+  return buffer;
+}
+
+/// A parameter divided by the leading one, for u in [0,1] instead of lengths.
+inline Result<double> scaled(double parameter, double leading, double length, int power) {
+  const double value = parameter / leading * std::pow(length, power);
+  if (!(length > 0)) return fail("The length of a sweep must be a positive number.");
+  if (std::isfinite(value) && std::isfinite(leading) && std::isfinite(length)) return value;
+  return fail("The shape parameters and the length must be finite, also after scaling.");
+}
+
+/// The largest value of any function on the grid, or one that is not finite.
+template <typename Basis>
+double largestOnGrid(const Basis& basis) {
+  double largest = 0;
+  for (int i = 0; i <= gridSteps && std::isfinite(largest); ++i)
+    for (const double g : basis.at(double(i) / gridSteps))
+      if (!(std::abs(g) <= largest)) largest = std::abs(g);
+  return largest;
+}
+
+/// The basis, or why it cannot be used. `root` bounds the roots; a safe basis never resonates.
+template <typename Basis>
+Result<Basis> accepted(const Basis& basis, double root, bool isSafe, const std::string& safe) {
+  for (const double g : basis.at(0.5, 3))
+    if (!std::isfinite(g)) return fail("The shape parameters are too large, or meet a resonance.");
+  if (isSafe) return basis;
+  if (root > largestRoot)
+    return fail("The solutions oscillate too fast to be checked: use " + safe +
+                ", or smaller parameters or a shorter length (roots near " + number(root) +
+                ", at most " + number(largestRoot) + ").");
+  const double largest = largestOnGrid(basis);
+  if (largest <= largestValue) return basis;
+  return fail("The shape parameters are close to a resonance: use " + safe +
+              ", or other parameters (a basis function reaches " + number(largest) + ", at most " +
+              number(largestValue) + ").");
+}
+
+}  // namespace sweepface::ode
