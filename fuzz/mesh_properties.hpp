@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <string_view>
+
+#include "sweepface/io.hpp"
+
+/// What must hold of whatever a mesh reader accepts.
+namespace sweepface::fuzzing {
+
+inline std::string_view asText(const std::uint8_t* data, std::size_t size) {
+  return {reinterpret_cast<const char*>(data), size};
+}
+
+inline void require(bool holds) {
+  if (!holds) std::abort();
+}
+
+inline void requireIndices(const std::vector<Index>& indices, std::size_t size, std::size_t count,
+                           Index least) {
+  require(indices.size() == size);
+  for (const Index index : indices)
+    require(index >= least && index < static_cast<std::int64_t>(count));
+}
+
+inline void requireWhole(const PolygonMesh& mesh) {
+  const Polygons& polygons = mesh.polygons;
+  require(polygons.faceCount() > 0 && polygons.faceStart.front() == 0);
+  for (Index face = 0; face < polygons.faceCount(); ++face) require(polygons.faceSize(face) >= 3);
+  const auto faces = static_cast<std::size_t>(polygons.faceCount());
+  require(polygons.faceStart.back() == static_cast<std::int64_t>(polygons.corners.size()));
+
+  requireIndices(polygons.corners, polygons.corners.size(), mesh.positions.size(), 0);
+  requireIndices(polygons.faceGroup, faces, polygons.groups.size(), -1);
+  requireIndices(polygons.faceMaterial, faces, polygons.materials.size(), -1);
+  require(polygons.texcoords.empty() == polygons.cornerTexcoords.empty());
+  if (!polygons.cornerTexcoords.empty())
+    requireIndices(polygons.cornerTexcoords, polygons.corners.size(), polygons.texcoords.size(),
+                   -1);
+  for (const Vec3& position : mesh.positions) require(isFinite(position));
+  for (const Vec2& t : polygons.texcoords) require(std::isfinite(t.x) && std::isfinite(t.y));
+}
+
+inline void requireSame(const PolygonMesh& a, const PolygonMesh& b) {
+  require(a.positions == b.positions);
+  require(a.polygons.faceStart == b.polygons.faceStart);
+  require(a.polygons.corners == b.polygons.corners);
+  require(a.polygons.texcoords == b.polygons.texcoords);
+  require(a.polygons.cornerTexcoords == b.polygons.cornerTexcoords);
+}
+
+/// An error is a sentence; a mesh is whole and is the same when written and read again.
+inline void requireSound(const Result<PolygonMesh>& mesh) {
+  if (!mesh) return require(mesh.error().message.ends_with('.'));
+  requireWhole(*mesh);
+  const auto again = parseObj(formatObj({mesh->positions, {}, mesh->polygons}), "again");
+  require(again.has_value());
+  requireWhole(*again);
+  requireSame(*mesh, *again);
+  const auto shaded = parseObj(formatObj({mesh->positions, mesh->positions, mesh->polygons}), "n");
+  require(shaded.has_value());
+  requireSame(*mesh, *shaded);
+}
+
+}  // namespace sweepface::fuzzing

@@ -1,0 +1,7 @@
+#include "mesh_properties.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace sweepface;
+  fuzzing::requireSound(parseObj(fuzzing::asText(data, size), "input.obj"));
+  return 0;
+}
