@@ -7,6 +7,8 @@
 
 #include "sweepface/io.hpp"
 
+#include "io/target_shape.hpp"
+
 /// What must hold of whatever a mesh reader accepts.
 namespace sweepface::fuzzing {
 
@@ -62,6 +64,15 @@ inline void requireSound(const Result<PolygonMesh>& mesh) {
   const auto shaded = parseObj(formatObj({mesh->positions, mesh->positions, mesh->polygons}), "n");
   require(shaded.has_value());
   requireSame(*mesh, *shaded);
+}
+
+/// A file that is a whole mesh is a target with the same positions and as many faces.
+inline void requireTarget(const Result<PolygonMesh>& mesh, const Result<io::TargetShape>& target) {
+  if (target)
+    for (const Vec3& position : target->positions) require(isFinite(position));
+  if (!mesh) return;
+  require(target.has_value() && target->positions == mesh->positions);
+  require(target->faceCount == mesh->polygons.faceCount());
 }
 
 }  // namespace sweepface::fuzzing

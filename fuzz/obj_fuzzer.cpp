@@ -2,6 +2,9 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace sweepface;
-  fuzzing::requireSound(parseObj(fuzzing::asText(data, size), "input.obj"));
+  const std::string_view text = fuzzing::asText(data, size);
+  const auto mesh = parseObj(text, "input.obj");
+  fuzzing::requireSound(mesh);
+  fuzzing::requireTarget(mesh, io::parseObjTarget(text, "input.obj"));
   return 0;
 }

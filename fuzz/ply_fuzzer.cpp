@@ -2,6 +2,9 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace sweepface;
-  fuzzing::requireSound(parsePly(fuzzing::asText(data, size), "input.ply"));
+  const std::string_view text = fuzzing::asText(data, size);
+  const auto mesh = parsePly(text, "input.ply");
+  fuzzing::requireSound(mesh);
+  fuzzing::requireTarget(mesh, io::parsePlyTarget(text, "input.ply"));
   return 0;
 }

@@ -40,15 +40,16 @@ int writeAll(File file, std::string_view bytes) {
 struct Temporary {
   fs::path path;
   File file;
+  int code = EEXIST;  ///< why there is no file
 };
 
 /// A new file in the folder; the name is short because the target's may be as long as can be.
 Temporary createTemporary(const fs::path& folder) {
   for (int number = 0; number < 10'000; ++number) {
     fs::path path = folder / fmt::format(".sweepface-{}.tmp", number);
-    errno = 0;
     File file(std::fopen(path.string().c_str(), "wbx"));
-    if (file || errno != EEXIST) return {std::move(path), std::move(file)};
+    const int code = file ? 0 : errno;
+    if (code != EEXIST) return {std::move(path), std::move(file), code};
   }
   return {};
 }
@@ -78,7 +79,7 @@ Result<void> writeDirectly(const fs::path& path, std::string_view bytes) {
 Result<void> replaceFile(const fs::path& path, std::string_view bytes) {
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
   Temporary temporary = createTemporary(folder);
-  if (!temporary.file) return cannotCreate(path, folder, errno);
+  if (!temporary.file) return cannotCreate(path, folder, temporary.code);
   std::error_code error, ignored;
   if (const int code = writeAll(std::move(temporary.file), bytes)) {
     fs::remove(temporary.path, ignored);

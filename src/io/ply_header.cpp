@@ -10,6 +10,9 @@
 namespace sweepface::io {
 namespace {
 
+/// Far more than a mesh has; finding an element goes through all of them.
+constexpr std::size_t maxElements = 100;
+
 std::optional<PlyScalar> scalarNamed(std::string_view name) {
   static constexpr std::array<std::pair<std::string_view, PlyScalar>, 16> names{{
       {"char", PlyScalar::int8},
@@ -99,6 +102,8 @@ class HeaderReader {
     if (!number) return failLine(fmt::format("the element count {} is no count", inQuotes(count)));
     if (header_.find(name))
       return failLine(fmt::format("there is a second element {}", inQuotes(name)));
+    if (header_.elements.size() == maxElements)
+      return failLine(fmt::format("there are more than {} elements", maxElements));
     header_.elements.push_back({std::string(name), *number, {}});
     return true;
   }

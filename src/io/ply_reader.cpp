@@ -100,7 +100,7 @@ class PlyReader {
     if (!readValue(*list.countType, count)) return false;
     const double least = static_cast<double>(Body::leastSize(list.type));
     if (count < 0 || count * least > static_cast<double>(body_.bytesLeft()))
-      return failRow(fmt::format("the list '{}' claims {} values", list.name, count));
+      return failRow(fmt::format("the list {} claims {} values", inQuotes(list.name), count));
     return true;
   }
 

@@ -261,6 +261,12 @@ INSTANTIATE_TEST_SUITE_P(
                {"face 0", "missing"}}),
     [](const auto& tested) { return tested.param.name; });
 
+TEST(PlyErrors, NameTooManyElements) {
+  std::string elements;
+  for (int i = 0; i < 101; ++i) elements += "element e" + std::to_string(i) + " 0\n";
+  EXPECT_TRUE(failsWith(parsePly(ply(elements, ""), "a.ply"), {"line 104", "more than 100"}));
+}
+
 TEST(PlyErrors, NameNonFiniteBinaryCoordinates) {
   Bytes bytes;
   bytes << 0.f << std::numeric_limits<float>::quiet_NaN() << 0.f;
