@@ -23,6 +23,7 @@ enum class RootCase { Small, Close, Apart };
 struct Roots {
   RootCase kind = RootCase::Small;
   double first = 0, second = 0;
+  double firstTail = 0, secondTail = 0;  // what doubles leave out of oscillating roots
 };
 
 /// Coefficients of N even and N odd atoms: [order of derivative][0 even, 1 odd][end

@@ -16,11 +16,16 @@ struct Wave {
 
 // cosh(r t) and sinh(r t)/r for r^2 = s. Growing ones are divided by e^(r/2), their value at the
 // ends; the distance to the nearer end keeps boundary layers exact.
-Wave wave(double s, double u) {
+Wave wave(double s, double tail, double u) {
   const double t = u - 0.5;
   if (s == 0) return {1, t};
   const double r = std::sqrt(std::abs(s));
-  if (s < 0) return {std::cos(r * t), std::sin(r * t) / r};
+  if (s < 0) {
+    // The phase to more digits than a double has: resonance would multiply its error.
+    const double phase = r * t, rest = std::fma(r, t, -phase) + tail * t;
+    const double sine = std::sin(phase), cosine = std::cos(phase);
+    return {cosine - rest * sine, (sine + rest * cosine) / r};
+  }
   const double end = std::min(u, 1 - u);
   const double decay = 0.5 * std::exp(-r * end), rest = std::expm1(-r * (1 - 2 * end));
   return {decay * (2 + rest), std::copysign(decay * rest / r, t)};
@@ -39,7 +44,7 @@ Wave bend(double s, double u) {
 }
 
 bool isSmall(double s) { return std::abs(s) <= smallSquare; }
-Wave apart(double s, double u) { return isSmall(s) ? bend(s, u) : wave(s, u); }
+Wave apart(double s, double tail, double u) { return isSmall(s) ? bend(s, u) : wave(s, tail, u); }
 
 // G_m(t) = sum h_k t^(2k+m)/(2k+m)!, m = 2..5, of which each is the derivative of the next.
 Atoms<3> series(double a, double b, double u) {
@@ -58,43 +63,82 @@ Atoms<3> series(double a, double b, double u) {
   return {{1, g[0], g[2]}, {t, g[1], g[3]}};
 }
 
+// A double and the little that it lacks of an exact value.
+struct Exact {
+  double value, tail;
+};
+
+Exact sum(double a, double b) {
+  const double s = a + b, part = s - a;
+  return {s, (a - (s - part)) + (b - part)};
+}
+
+// The tail of |r| for r^2 = s < 0.
+double rootTail(Exact s) {
+  if (!(s.value < 0)) return 0;
+  const double r = std::sqrt(-s.value);
+  return (std::fma(-r, r, -s.value) - s.tail) / (2 * r);
+}
+
+Roots withTails(RootCase kind, Exact first, Exact second) {
+  return {kind, first.value, second.value, rootTail(first), rootTail(second)};
+}
+
+// r = p + q and p - q for b >= 0, where p^2 and q^2 are real; this is the one with +-sqrt(b).
+Exact closeSquare(double a, double b, double sign) {
+  const double root = std::sqrt(b);
+  const double rootRest = root > 0 ? std::fma(-root, root, b) / (2 * root) : 0;
+  const auto [value, tail] = sum(-a / 2, sign * root);
+  return {value / 2, (tail + sign * rootRest) / 2};
+}
+
+// The larger and the smaller real root s of s^2 + a s + b, one Newton step beyond doubles.
+Roots apartRoots(double a, double b, double s1) {
+  const auto [other, otherTail] = sum(s1, a);
+  const double product = s1 * other;
+  const double residual = (product + b) + std::fma(s1, other, -product) + s1 * otherTail;
+  const double tail1 = -residual / (s1 + other);
+  const double s2 = b / s1;  // their difference would cancel
+  const double tail2 = (std::fma(-s2, s1, b) - s2 * tail1) / s1;
+  return withTails(RootCase::Apart, {s1, tail1}, {s2, tail2});
+}
+
 }  // namespace
 
 Roots findRoots(double a, double b) {
-  const double root = std::sqrt(std::abs(b)), discriminant = a * a / 4 - b;
-  // s = r^2, the larger first; the smaller by division, where a difference would cancel.
+  const double discriminant = a * a / 4 - b;
   const double s1 = -a / 2 - std::copysign(std::sqrt(std::max(discriminant, 0.0)), a);
-  if (discriminant < 0 ? isSmall(root) : isSmall(s1)) return {RootCase::Small, a, b};
-  // r = p + q and p - q: p^2 and q^2 are real for b >= 0.
-  const double p = (-a / 2 + root) / 2, q = (-a / 2 - root) / 2;
-  // Two waves of real s differ by a factor of about e^|q|: together they are a pair, further
+  if (discriminant < 0 ? isSmall(std::sqrt(b)) : isSmall(s1)) return {RootCase::Small, a, b};
+  if (b < 0) return apartRoots(a, b, s1);
+  const Exact p = closeSquare(a, b, 1), q = closeSquare(a, b, -1);
+  // Real s: two solutions differ by a factor of about e^|q|. Together they are a pair, further
   // apart each stands for itself.
-  const bool isPair = b >= 0 && (discriminant <= 0 || std::min(std::abs(p), std::abs(q)) < 1.5);
-  if (isPair) return {RootCase::Close, p, q};
-  return {RootCase::Apart, s1, b / s1};
+  if (discriminant > 0 && std::min(std::abs(p.value), std::abs(q.value)) >= 1.5)
+    return apartRoots(a, b, s1);
+  return withTails(RootCase::Close, p, q);
 }
 
 double magnitude(const Roots& roots) {
-  const auto [kind, first, second] = roots;
+  const auto [kind, first, second, firstTail, secondTail] = roots;
   const double square = kind == RootCase::Small ? smallSquare : std::abs(first) + std::abs(second);
   return std::sqrt(std::max(1.0, square));
 }
 
 Atoms<3> atomsAt(const Roots& roots, double u) {
-  const auto [kind, first, second] = roots;
+  const auto [kind, first, second, firstTail, secondTail] = roots;
   if (kind == RootCase::Small) return series(first, second, u);
   if (kind == RootCase::Close) {
-    const auto [pEven, pOdd] = wave(first, u);
-    const auto [qEven, qOdd] = wave(second, u);
+    const auto [pEven, pOdd] = wave(first, firstTail, u);
+    const auto [qEven, qOdd] = wave(second, secondTail, u);
     return {{1, pEven * qEven, pOdd * qOdd}, {u - 0.5, pOdd * qEven, pEven * qOdd}};
   }
-  const auto [even1, odd1] = apart(first, u);
-  const auto [even2, odd2] = apart(second, u);
+  const auto [even1, odd1] = apart(first, firstTail, u);
+  const auto [even2, odd2] = apart(second, secondTail, u);
   return {{1, even1, even2}, {u - 0.5, odd1, odd2}};
 }
 
 Derivative<3> derivative(const Roots& roots) {
-  const auto [kind, first, second] = roots;
+  const auto [kind, first, second, firstTail, secondTail] = roots;
   const Matrix<3> same{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
   if (kind == RootCase::Small) return {{{{}, {1, -first, -second}, {0, 1, 0}}}, same};
   if (kind == RootCase::Close)
@@ -104,7 +148,7 @@ Derivative<3> derivative(const Roots& roots) {
 }
 
 Atoms<2> atomsAt(double s, double u) {
-  const auto [even, odd] = apart(s, u);
+  const auto [even, odd] = apart(s, rootTail({s, 0}), u);
   return {{1, even}, {u - 0.5, odd}};
 }
 

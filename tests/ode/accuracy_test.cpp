@@ -186,7 +186,7 @@ TEST_P(AccuracyLong, isTwelveDigitsForRootsUpTo20) { check(GetParam(), plain, 40
 TEST_P(AccuracyLong, isTwelveDigitsForRootsUpTo100) { check(GetParam(), fast, 400); }
 TEST_P(AccuracyLong, isNineDigitsForRootsUpTo500) { check(GetParam(), stiff, 50); }
 
-const auto nameOf = [](const auto& info) { return std::string(info.param.name); };
+const auto nameOf = [](const auto& test) { return std::string(test.param.name); };
 INSTANTIATE_TEST_SUITE_P(Roots, Accuracy, testing::ValuesIn(kinds), nameOf);
 INSTANTIATE_TEST_SUITE_P(Roots, AccuracyLong, testing::ValuesIn(kinds), nameOf);
 
