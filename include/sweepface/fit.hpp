@@ -1,0 +1,41 @@
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sweepface/mesh.hpp"
+#include "sweepface/rig.hpp"
+
+namespace sweepface {
+
+struct ConvertOptions {
+  /// Largest allowed distance between a source vertex and its surface point, in model units, in the
+  /// neutral and in every target at weight 1; 0: 0.02 % of the neutral's bounding-box diagonal.
+  double tolerance = 0;
+  /// Refine also where the surface's normal is further than this from the source's vertex normal,
+  /// degrees; 0: in proportion to the tolerance (docs/fitting.md); 180: never.
+  double normalLimit = 0;
+  /// Try shape parameters on every ribbon and keep what lowers the error.
+  bool chooseShapes = true;
+  /// Called now and then with what is going on and how far it is, 0 to 1.
+  std::function<void(std::string_view what, double done)> progress;
+  /// Set by another thread to give up; convert then fails.
+  const std::atomic<bool>* cancel = nullptr;
+};
+
+struct Conversion {
+  Rig rig;
+  std::vector<std::string> warnings;
+};
+
+/// The length of the neutral's bounding-box diagonal.
+double diagonal(const PolygonMesh& mesh);
+
+/// Turns a mesh rig into a rig of ODE sweeping surfaces. Uses all cores that the calling TBB arena
+/// allows; the result does not depend on how many. Fails if the tolerance cannot be met.
+Result<Conversion> convert(const MeshRig& source, const ConvertOptions& options = {});
+
+}  // namespace sweepface

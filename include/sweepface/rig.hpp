@@ -1,0 +1,57 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sweepface/polygons.hpp"
+#include "sweepface/surface.hpp"
+
+namespace sweepface {
+
+/// A named expression: what its weight adds to every stored vector.
+struct Target {
+  std::string name;
+  std::vector<Vec3> difference;       ///< [storedCount]
+  std::vector<Vec3> looseDifference;  ///< [loose vertices]
+  friend bool operator==(const Target&, const Target&) = default;
+};
+
+/// How the model answers in the source's own vertex order.
+struct SourceMesh {
+  std::vector<Index> gridVertex;  ///< [V] vertex of the tessellation at level 1, or -1 - k: loose vertex k
+  std::vector<Vec3> loose;        ///< vertices of no face, kept as they are
+  Polygons polygons;
+  /// [grid quads × 4] face corner of the source at each corner of the patches' quads, patch by patch in
+  /// rows of constant v, counter-clockwise from (i, j).
+  std::vector<Index> quadCorners;
+};
+
+/// A neutral model and its targets over one wireframe.
+struct Rig {
+  Surface surface;
+  std::vector<Vec3> neutral;  ///< [storedCount] the neutral's stored vectors
+  std::vector<Target> targets;
+  SourceMesh source;
+  double tolerance = 0;  ///< the error it was made for, in model units
+
+  /// Index of a target by its name, or -1.
+  Index find(std::string_view name) const;
+};
+
+/// A weight for every target.
+using Weights = std::vector<double>;
+
+/// Parses "jawOpen=1,eyeBlink_L=0.5" into weights for the rig's targets. The error names what is
+/// unknown or malformed and what there is instead.
+Result<Weights> parseWeights(const Rig& rig, std::string_view text);
+
+/// Neutral + Σ weight · difference on the stored vectors, settled: [vectorCount]. Blending happens
+/// here, never on vertices.
+void blend(const Rig& rig, std::span<const double> weights, std::span<Vec3> vectors);
+std::vector<Vec3> blend(const Rig& rig, std::span<const double> weights);
+/// The loose vertices under the same weights.
+std::vector<Vec3> blendLoose(const Rig& rig, std::span<const double> weights);
+
+}  // namespace sweepface

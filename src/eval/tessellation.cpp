@@ -1,0 +1,131 @@
+#include <algorithm>
+
+#include "sweepface/eval.hpp"
+
+namespace sweepface {
+
+Tessellation::Tessellation(const Surface& surface, Index level) : surface_(&surface), level_(level) {
+  placeArcs();
+  placePatches();
+}
+
+void Tessellation::placeArcs() {
+  const Wireframe& w = surface_->wireframe();
+  const Connectivity& c = surface_->connectivity();
+  nodeVertex_.assign(w.nodes.size(), -1);
+  std::vector<Index> ofPoint(w.points, -1);
+  const auto add = [&](Index arc, Index step) {
+    const HalfArc h = c.patchOf[2 * arc] >= 0 ? 2 * arc : 2 * arc + 1;
+    const double t = static_cast<double>(step) / level_;
+    sites_.push_back(surface_->siteOnArc(h, h & 1 ? w.arcs[arc].edges - t : t));
+    arcOfVertex_.push_back(arc);
+    stepOnArc_.push_back(step);
+    return vertexCount() - 1;
+  };
+  for (std::size_t n = 0; n < w.nodes.size(); ++n) {
+    const Index point = w.nodes[n].point;
+    if (point >= 0 && ofPoint[point] >= 0) {
+      nodeVertex_[n] = ofPoint[point];
+      continue;
+    }
+    const auto& arms = c.stars[n].arms;
+    const auto open = std::find_if(arms.begin(), arms.end(), [&](HalfArc h) { return !w.arcs[arcOf(h)].collapsed; });
+    const HalfArc arm = open == arms.end() ? arms[0] : *open;
+    nodeVertex_[n] = add(arcOf(arm), arm & 1 ? level_ * w.arcs[arcOf(arm)].edges : 0);
+    if (point >= 0) ofPoint[point] = nodeVertex_[n];
+  }
+  for (Index a = 0; a < static_cast<Index>(w.arcs.size()); ++a) {
+    arcVertex_.push_back(vertexCount());
+    if (w.arcs[a].collapsed) continue;
+    for (Index step = 1; step < level_ * w.arcs[a].edges; ++step) add(a, step);
+  }
+}
+
+void Tessellation::placePatches() {
+  for (Index p = 0; p < surface_->patchCount(); ++p) {
+    patchVertex_.push_back(vertexCount());
+    for (Index j = 1; j < level_ * surface_->edgesV(p); ++j)
+      for (Index i = 1; i < level_ * surface_->edgesU(p); ++i)
+        sites_.push_back({p, static_cast<double>(i) / level_, static_cast<double>(j) / level_});
+  }
+}
+
+Index Tessellation::sideVertex(Index patch, int side, Index steps) const {
+  const Wireframe& w = surface_->wireframe();
+  for (HalfArc h : w.side(patch, side)) {
+    const Arc& arc = w.arcs[arcOf(h)];
+    const Index length = level_ * arc.edges;
+    if (steps == 0 || (arc.collapsed && steps <= length)) return nodeVertex_[w.start(h)];
+    if (steps < length) return arcVertex_[arcOf(h)] + (h & 1 ? length - steps : steps) - 1;
+    steps -= length;
+  }
+  return nodeVertex_[w.end(w.side(patch, side).back())];
+}
+
+Index Tessellation::vertex(Index patch, Index i, Index j) const {
+  const Index m = level_ * surface_->edgesU(patch), n = level_ * surface_->edgesV(patch);
+  if (j == 0) return sideVertex(patch, 0, i);
+  if (i == m) return sideVertex(patch, 1, j);
+  if (j == n) return sideVertex(patch, 2, m - i);
+  if (i == 0) return sideVertex(patch, 3, n - j);
+  return patchVertex_[patch] + (j - 1) * (m - 1) + i - 1;
+}
+
+std::vector<std::array<Index, 4>> Tessellation::faces() const {
+  std::vector<std::array<Index, 4>> result;
+  for (Index p = 0; p < surface_->patchCount(); ++p) {
+    const Index m = level_ * surface_->edgesU(p), n = level_ * surface_->edgesV(p);
+    std::vector<Index> row(m + 1), above(m + 1);
+    for (Index i = 0; i <= m; ++i) row[i] = vertex(p, i, 0);
+    for (Index j = 0; j < n; ++j, std::swap(row, above)) {
+      for (Index i = 0; i <= m; ++i) above[i] = vertex(p, i, j + 1);
+      for (Index i = 0; i < m; ++i) result.push_back({row[i], row[i + 1], above[i + 1], above[i]});
+    }
+  }
+  return result;
+}
+
+void Tessellation::positions(std::span<const Vec3> vectors, std::span<Vec3> out) const {
+  const auto onArcs = static_cast<Index>(arcOfVertex_.size());
+  for (Index v = 0; v < onArcs; ++v)
+    out[v] = surface_->pointOnArc(vectors, arcOfVertex_[v], static_cast<double>(stepOnArc_[v]) / level_);
+  for (Index v = onArcs; v < vertexCount(); ++v) out[v] = surface_->evaluate(vectors, sites_[v]);
+}
+
+std::vector<Vec3> Tessellation::positions(std::span<const Vec3> vectors) const {
+  std::vector<Vec3> out(vertexCount());
+  positions(vectors, out);
+  return out;
+}
+
+std::vector<Vec3> Tessellation::normals(std::span<const Vec3> vectors) const {
+  std::vector<Vec3> out(vertexCount());
+  for (Index v = 0; v < vertexCount(); ++v) out[v] = surface_->normal(vectors, sites_[v]);
+  return out;
+}
+
+namespace {
+
+std::vector<Vec3> inSourceOrder(const SourceMesh& source, const std::vector<Vec3>& grid,
+                                const std::vector<Vec3>& loose) {
+  std::vector<Vec3> out(source.gridVertex.size());
+  for (std::size_t v = 0; v < out.size(); ++v) {
+    const Index g = source.gridVertex[v];
+    out[v] = g >= 0 ? grid[g] : loose[-1 - g];
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<Vec3> sourcePositions(const Rig& rig, const Tessellation& level1, std::span<const Vec3> vectors,
+                                  std::span<const double> weights) {
+  return inSourceOrder(rig.source, level1.positions(vectors), blendLoose(rig, weights));
+}
+
+std::vector<Vec3> sourceNormals(const Rig& rig, const Tessellation& level1, std::span<const Vec3> vectors) {
+  return inSourceOrder(rig.source, level1.normals(vectors),
+                       std::vector<Vec3>(rig.source.loose.size(), Vec3{0, 0, 1}));
+}
+
+}  // namespace sweepface

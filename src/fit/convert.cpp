@@ -1,0 +1,156 @@
+#include <algorithm>
+#include <cmath>
+
+#include "fit/refine.hpp"
+#include "fit/source_data.hpp"
+#include "sweepface/eval.hpp"
+#include "sweepface/fit.hpp"
+
+namespace sweepface {
+
+double diagonal(const PolygonMesh& mesh) {
+  Vec3 low = mesh.positions.front(), high = low;
+  for (const Vec3& p : mesh.positions) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  return norm(high - low);
+}
+
+namespace {
+
+constexpr int kMostRounds = 60;
+// At the default tolerance of 0.02 % of the diagonal normals may be this far off, in degrees.
+constexpr double kNormalLimitAtDefault = 4;
+
+double normalLimit(const ConvertOptions& options, double tolerance, double size) {
+  if (options.normalLimit > 0) return options.normalLimit;
+  return std::clamp(kNormalLimitAtDefault * tolerance / (0.0002 * size), 2.0, 60.0);
+}
+
+// Files hold single precision. What is verified is what will be read back.
+void roundToFile(Solution& solution) { solution = solution.cast<float>().cast<double>(); }
+
+// The stored vectors as they will be after the file: neutral and differences rounded each.
+Solution asStored(const Solution& solution) {
+  Solution rounded = solution;
+  const auto poses = solution.cols() / 3;
+  Solution neutral = solution.leftCols(3);
+  roundToFile(neutral);
+  rounded.leftCols(3) = neutral;
+  for (Eigen::Index k = 1; k < poses; ++k) {
+    Solution difference = solution.middleCols(3 * k, 3) - solution.leftCols(3);
+    roundToFile(difference);
+    rounded.middleCols(3 * k, 3) = neutral + difference;
+  }
+  return rounded;
+}
+
+class Converter {
+ public:
+  Converter(const MeshRig& source, const ConvertOptions& options) : source_(source), options_(options) {}
+
+  Result<Conversion> run() {
+    const double size = diagonal(source_.neutral);
+    if (!(size > 0)) return fail("all vertices of the neutral stand at one place; there is no surface to fit");
+    const double tolerance = options_.tolerance > 0 ? options_.tolerance : 0.0002 * size;
+    limits_ = {tolerance, normalLimit(options_, tolerance, size)};
+
+    auto mesh = makeGridMesh(source_);
+    if (!mesh) return std::unexpected(mesh.error());
+    SourceData data = gatherSource(source_, *mesh, tolerance);
+    Layout layout(*mesh, source_.neutral.positions);
+    auto solution = fit(layout, data);
+    if (!solution) return std::unexpected(solution.error());
+    Conversion conversion{assemble(*mesh, *solution, data), mesh->warnings};
+    conversion.rig.tolerance = tolerance;
+    return conversion;
+  }
+
+ private:
+  bool cancelled() const { return options_.cancel && options_.cancel->load(); }
+  void report(std::string_view what, double done) const {
+    if (options_.progress) options_.progress(what, done);
+  }
+
+  // Solve, measure, refine, until every vertex is within the limits. The limit on distance is a promise,
+  // the one on normals an aim: once refinement stalls, only the promise counts.
+  Result<Solution> fit(Layout& layout, SourceData& data) {
+    WholeJets wholeJets;
+    for (int round = 0; round < kMostRounds; ++round) {
+      if (cancelled()) return fail("the conversion was interrupted");
+      auto draft = makeDraft(layout, wholeJets);
+      if (!draft) return std::unexpected(draft.error());
+      auto solution = solve(layout, *draft, data);
+      if (!solution) return std::unexpected(solution.error());
+      *solution = asStored(*solution);
+      const DraftErrors errors = measureDraft(layout, *draft, data, *solution);
+      const bool within = errors.largestDistance <= limits_.distance;
+      report("fitting", within ? 0.9 : 0.9 * std::min(1.0, std::pow(limits_.distance / errors.largestDistance, 0.5)));
+      if (std::getenv("SWEEPFACE_TRACE"))
+        fprintf(stderr, "round %d patches %d points %d max %.5f rms angle %.3f\n", round, draft->surface.patchCount(),
+                draft->surface.storedCount(), errors.largestDistance, errors.rmsAngle);
+      const Index changed = refine(layout, *draft, data, errors, limits_);
+      if (within && changed == 0) {
+        draft_ = std::move(*draft);
+        return solution;
+      }
+      if (changed == 0) break;
+      if (within && ++smoothing_ >= 8) limits_.angle = 180;
+    }
+    return fail("the tolerance could not be met everywhere; allow a larger one");
+  }
+
+  Rig assemble(const GridMesh& mesh, const Solution& solution, const SourceData& data) {
+    Rig rig{std::move(draft_.surface), {}, {}, {}, 0};
+    const auto row = [&](Eigen::Index v, Index pose) { return SourceData::at(solution, static_cast<Index>(v), pose); };
+    for (Eigen::Index v = 0; v < solution.rows(); ++v) rig.neutral.push_back(row(v, 0));
+    for (Index k = 1; k < data.poses; ++k) {
+      Target target{source_.targets[k - 1].name, {}, {}};
+      for (Eigen::Index v = 0; v < solution.rows(); ++v) target.difference.push_back(row(v, k) - row(v, 0));
+      rig.targets.push_back(std::move(target));
+    }
+    mapSource(rig, mesh);
+    return rig;
+  }
+
+  void mapSource(Rig& rig, const GridMesh& mesh) const {
+    const Tessellation grid(rig.surface, 1);
+    std::vector<Index> gridOfPoint(mesh.pointCount(), -1);
+    for (Index p = 0; p < rig.surface.patchCount(); ++p) {
+      const GridPatch& patch = draft_.patches[p];
+      for (Index j = 0; j <= patch.n; ++j)
+        for (Index i = 0; i <= patch.m; ++i) gridOfPoint[mesh.point[patch.vertex(i, j)]] = grid.vertex(p, i, j);
+      for (std::size_t q = 0; q < patch.quads.size(); ++q)
+        for (int k = 0; k < 4; ++k)
+          rig.source.quadCorners.push_back(mesh.quadCorners[patch.quads[q]][((patch.bottoms[q] & 3) + k) % 4]);
+    }
+    const auto& positions = source_.neutral.positions;
+    for (std::size_t v = 0; v < positions.size(); ++v) {
+      const Index point = mesh.pointOfSource[v];
+      if (point >= 0) {
+        rig.source.gridVertex.push_back(gridOfPoint[point]);
+        continue;
+      }
+      rig.source.gridVertex.push_back(-1 - static_cast<Index>(rig.source.loose.size()));
+      rig.source.loose.push_back(positions[v]);
+      for (std::size_t k = 0; k < rig.targets.size(); ++k)
+        rig.targets[k].looseDifference.push_back(source_.targets[k].positions[v] - positions[v]);
+    }
+    rig.source.polygons = source_.neutral.polygons;
+  }
+
+  const MeshRig& source_;
+  const ConvertOptions& options_;
+  Limits limits_{};
+  Draft draft_;
+  int smoothing_ = 0;
+};
+
+}  // namespace
+
+Result<Conversion> convert(const MeshRig& source, const ConvertOptions& options) {
+  return Converter(source, options).run();
+}
+
+}  // namespace sweepface

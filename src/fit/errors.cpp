@@ -1,0 +1,132 @@
+#include "fit/errors.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace sweepface {
+
+namespace {
+
+using Evaluated = Eigen::Matrix<double, 1, Eigen::Dynamic>;
+
+class PatchMeter {
+ public:
+  PatchMeter(const Layout& layout, const Draft& draft, const SourceData& data, Index patch, const PoseMatrix& settled)
+      : mesh_(layout.mesh()), surface_(draft.surface), grid_(draft.patches[patch]), data_(data), patch_(patch),
+        vectors_(patchVectors(draft, patch, settled)) {}
+
+  struct Vertex {
+    double distance = 0, angle = 0, squaredAngles = 0;
+  };
+  std::vector<Vertex> vertices() const {
+    std::vector<Vertex> result;
+    for (Index j = 0; j <= grid_.n; ++j)
+      for (Index i = 0; i <= grid_.m; ++i) {
+        const Index point = mesh_.point[grid_.vertex(i, j)];
+        const Evaluated position = at(i, j, 0, 0);
+        Evaluated u, v;
+        derivatives(i, j, u, v);
+        Vertex worst;
+        for (Index k = 0; k < data_.poses; ++k) {
+          worst.distance = std::max(worst.distance, norm(vec(position, k) - data_.point(point, k)));
+          const double angle = angleDegrees(cross(vec(u, k), vec(v, k)), data_.normal(point, k));
+          worst.angle = std::max(worst.angle, angle);
+          worst.squaredAngles += angle * angle;
+        }
+        result.push_back(worst);
+      }
+    return result;
+  }
+
+  // Does the surface look the other way than a source face that is itself sound?
+  bool folds() const {
+    for (Index j = 0; j < grid_.n; ++j)
+      for (Index i = 0; i < grid_.m; ++i)
+        for (const auto& [a, b] : {std::pair{0.2, 0.2}, {0.8, 0.2}, {0.2, 0.8}, {0.8, 0.8}}) {
+          const Evaluated u = at(i + a, j + b, 1, 0), v = at(i + a, j + b, 0, 1);
+          for (Index k = 0; k < data_.poses; ++k)
+            if (soundFace(i, j, k) && dot(cross(vec(u, k), vec(v, k)), faceNormal(i, j, k)) < 0) return true;
+        }
+    return false;
+  }
+
+ private:
+  static Vec3 vec(const Evaluated& row, Index pose) { return {row[3 * pose], row[3 * pose + 1], row[3 * pose + 2]}; }
+  Evaluated at(double u, double v, int du, int dv) const {
+    const auto w = surface_.weights({patch_, u, v}, du, dv);
+    return Eigen::Map<const Eigen::Matrix<double, 1, 36>>(w.factors.data()) * vectors_;
+  }
+  // At a collapsed side one derivative vanishes; its limit is what it grows to inside.
+  void derivatives(Index i, Index j, Evaluated& u, Evaluated& v) const {
+    const bool pole = touchesCollapsed(i, j);
+    const double x = pole ? i + (grid_.m * 0.5 - i) * 1e-3 : i, y = pole ? j + (grid_.n * 0.5 - j) * 1e-3 : j;
+    u = at(x, y, 1, 0);
+    v = at(x, y, 0, 1);
+  }
+  bool touchesCollapsed(Index i, Index j) const {
+    const Index p = mesh_.point[grid_.vertex(i, j)];
+    const auto same = [&](Index a, Index b) {
+      return a >= 0 && b >= 0 && a <= grid_.m && b <= grid_.n && mesh_.point[grid_.vertex(a, b)] == p;
+    };
+    return same(i - 1, j) || same(i + 1, j) || same(i, j - 1) || same(i, j + 1);
+  }
+  Vec3 corner(Index i, Index j, int k, Index pose) const {
+    return data_.point(mesh_.point[grid_.vertex(i + (k == 1 || k == 2), j + (k >= 2))], pose);
+  }
+  Vec3 faceNormal(Index i, Index j, Index pose) const {
+    return cross(corner(i, j, 2, pose) - corner(i, j, 0, pose), corner(i, j, 3, pose) - corner(i, j, 1, pose));
+  }
+  bool soundFace(Index i, Index j, Index pose) const {
+    const Vec3 n = faceNormal(i, j, pose);
+    for (int k = 0; k < 4; ++k) {
+      const Vec3 a = corner(i, j, (k + 1) % 4, pose) - corner(i, j, k, pose);
+      const Vec3 b = corner(i, j, (k + 3) % 4, pose) - corner(i, j, k, pose);
+      if (dot(cross(a, b), n) <= 0.05 * dot(n, n)) return false;
+    }
+    return true;
+  }
+
+  const GridMesh& mesh_;
+  const Surface& surface_;
+  const GridPatch& grid_;
+  const SourceData& data_;
+  Index patch_;
+  PoseMatrix vectors_;  // [36 × 3·poses]
+};
+
+}  // namespace
+
+DraftErrors measureDraft(const Layout& layout, const Draft& draft, const SourceData& data,
+                         const Solution& solution) {
+  const PoseMatrix settled = settleAll(draft.surface, solution);
+  const Index patches = draft.surface.patchCount();
+  std::vector<std::vector<PatchMeter::Vertex>> measured(patches);
+  DraftErrors errors;
+  errors.folded.assign(patches, 0);
+  tbb::parallel_for(Index{0}, patches, [&](Index p) {
+    const PatchMeter meter(layout, draft, data, p, settled);
+    measured[p] = meter.vertices();
+    errors.folded[p] = meter.folds();
+  });
+
+  const Index vertices = layout.mesh().vertexCount();
+  errors.distance.assign(vertices, 0);
+  errors.angle.assign(vertices, 0);
+  double squares = 0, count = 0;
+  for (Index p = 0; p < patches; ++p)
+    for (std::size_t k = 0; k < measured[p].size(); ++k) {
+      const Index v = draft.patches[p].vertices[k];
+      const auto& m = measured[p][k];
+      errors.distance[v] = std::max(errors.distance[v], m.distance);
+      errors.angle[v] = std::max(errors.angle[v], m.angle);
+      squares += m.squaredAngles;
+      count += data.poses;
+    }
+  errors.largestDistance = *std::max_element(errors.distance.begin(), errors.distance.end());
+  errors.rmsAngle = std::sqrt(squares / count);
+  return errors;
+}
+
+}  // namespace sweepface

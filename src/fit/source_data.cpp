@@ -1,0 +1,55 @@
+#include "fit/source_data.hpp"
+
+namespace sweepface {
+
+std::vector<Vec3> vertexNormals(const Polygons& polygons, std::span<const Vec3> positions,
+                                const std::vector<Index>& pointOf, Index pointCount) {
+  std::vector<Vec3> normals(pointCount);
+  for (Index f = 0; f < polygons.faceCount(); ++f) {
+    const Index begin = polygons.faceStart[f], size = polygons.faceSize(f);
+    for (Index k = 0; k < size; ++k) {
+      const Index v = polygons.corners[begin + k];
+      const Vec3& p = positions[v];
+      const Vec3 next = positions[polygons.corners[begin + (k + 1) % size]] - p;
+      const Vec3 last = positions[polygons.corners[begin + (k + size - 1) % size]] - p;
+      if (pointOf[v] >= 0) normals[pointOf[v]] += cross(next, last);
+    }
+  }
+  for (Vec3& n : normals) n = normalized(n);
+  return normals;
+}
+
+SourceData gatherSource(const MeshRig& rig, const GridMesh& mesh, double tolerance) {
+  SourceData data;
+  const Index points = mesh.pointCount();
+  data.poses = 1 + static_cast<Index>(rig.targets.size());
+  data.points.resize(points, 3 * data.poses);
+  data.normals.resize(points, 3 * data.poses);
+  for (Index k = 0; k < data.poses; ++k) {
+    const auto& positions = k == 0 ? rig.neutral.positions : rig.targets[k - 1].positions;
+    const auto normals = vertexNormals(rig.neutral.polygons, positions, mesh.pointOfSource, points);
+    for (Index p = 0; p < points; ++p) {
+      const Vec3 &x = positions[mesh.source[p]], &n = normals[p];
+      data.points.row(p).segment<3>(3 * k) << x.x, x.y, x.z;
+      data.normals.row(p).segment<3>(3 * k) << n.x, n.y, n.z;
+    }
+  }
+
+  std::vector<double> sum(points, 0);
+  std::vector<Index> count(points, 0);
+  for (HalfEdge h = 0; h < static_cast<HalfEdge>(mesh.twin.size()); ++h) {
+    if (mesh.collapsed[h]) continue;
+    const Index a = mesh.point[mesh.from(h)], b = mesh.point[mesh.to(h)];
+    const double length = norm(data.point(a, 0) - data.point(b, 0));
+    for (Index p : {a, b}) sum[p] += length, ++count[p];
+  }
+  // Points move by a good part of the tolerance anyway: shorter edges than that mean nothing.
+  const double least = tolerance / 2;
+  for (Index p = 0; p < points; ++p) {
+    data.edgeLength.push_back(count[p] ? sum[p] / count[p] : least);
+    data.weight.push_back(1 / (data.edgeLength[p] * data.edgeLength[p] + least * least));
+  }
+  return data;
+}
+
+}  // namespace sweepface

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <vector>
+
+#include "layout/layout.hpp"
+#include "mesh/grid_mesh.hpp"
+#include "sweepface/mesh.hpp"
+
+namespace sweepface {
+
+/// One row per point or sample, three columns per pose.
+using PoseMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+using PoseRow = Eigen::Matrix<double, 1, Eigen::Dynamic>;
+
+/// What is fitted: the source's points and normals in all poses, and how much each point counts.
+struct SourceData {
+  Index poses = 0;                ///< the neutral and all targets
+  PoseMatrix points;              ///< [points × 3·poses]
+  PoseMatrix normals;             ///< [points × 3·poses] unit vertex normals
+  std::vector<double> edgeLength; ///< [points] mean length of the neutral's edges there
+  std::vector<double> weight;     ///< [points] 1 / length²: an error counts relative to the mesh's size
+
+  Vec3 point(Index p, Index pose) const { return at(points, p, pose); }
+  Vec3 normal(Index p, Index pose) const { return at(normals, p, pose); }
+  static Vec3 at(const PoseMatrix& m, Index row, Index pose) {
+    return {m(row, 3 * pose), m(row, 3 * pose + 1), m(row, 3 * pose + 2)};
+  }
+};
+
+SourceData gatherSource(const MeshRig& rig, const GridMesh& mesh, double tolerance);
+
+/// The vertex normals of one pose [V]: the sum of edge × edge over a vertex's face corners. On a regular
+/// grid this is the cross product of the central differences, so a smooth surface through the vertices
+/// has it too; weighting by angle or by whole faces differs from it by degrees on uneven meshes.
+std::vector<Vec3> vertexNormals(const Polygons& polygons, std::span<const Vec3> positions,
+                                const std::vector<Index>& pointOf, Index pointCount);
+
+}  // namespace sweepface

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "mesh/grid_mesh.hpp"
+#include "sweepface/surface.hpp"
+
+namespace sweepface {
+
+/// A patch as the grid of source quads that it covers.
+struct GridPatch {
+  Index m = 0, n = 0;
+  std::vector<Index> vertices;  ///< [(n + 1)(m + 1)] rows of constant v
+  std::vector<Index> quads;     ///< [n · m]
+  std::vector<HalfEdge> bottoms;  ///< [n · m] the side of each quad that runs along +u
+  Index vertex(Index i, Index j) const { return vertices[j * (m + 1) + i]; }
+};
+
+/// Curves on a grid mesh: a set of marked edges whose regions are grids of quads.
+class Layout {
+ public:
+  /// Marks the boundary and traces edge loops from every irregular vertex until they meet (the
+  /// motorcycle graph of Eppstein et al. 2008, with chord lengths for time), then cuts rings open.
+  Layout(const GridMesh& mesh, std::span<const Vec3> positions);
+
+  const GridMesh& mesh() const { return mesh_; }
+  /// Reads the patches off the marks. Fails if a region is not four-sided.
+  Result<std::vector<GridPatch>> patches() const;
+  /// The wireframe of the marks, patch by patch in the order of `patches`, which are turned so that
+  /// ribbons stay short. Masks store as much as the vertices around a node can determine.
+  Wireframe wireframe(std::vector<GridPatch>& patches) const;
+  /// The mesh vertex of each node of the latest wireframe.
+  const std::vector<Index>& nodeVertices() const { return nodeVertices_; }
+
+  /// Marks the line from `vertex` through arm `arm` up to the first line it meets.
+  void trace(Index vertex, int arm);
+  /// Cuts a patch along the grid line through column i (alongV) or row i.
+  void split(const GridPatch& patch, bool alongV, Index i);
+  /// Runs the line that ends at a T-vertex on through the patch it stands at.
+  void extend(Index vertex);
+
+  bool isNode(Index vertex) const;
+  /// Irregular vertices, crossings and boundary vertices where a line ends; not T-vertices.
+  bool isFull(Index vertex) const;
+  bool isRegular(Index vertex) const;
+  Index armCount(Index vertex) const { return static_cast<Index>(sectors(vertex).size()) + boundary_[vertex]; }
+  /// The vertices next to `vertex` on the grid line through `vertex` and `neighbour`: the one on the
+  /// other side, or -1.
+  Index beyond(Index vertex, Index neighbour) const;
+
+ private:
+  std::span<const HalfEdge> sectors(Index v) const {
+    return {ring_.data() + ringStart_[v], ring_.data() + ringStart_[v + 1]};
+  }
+  HalfEdge arm(Index vertex, int k) const;  // an outgoing half-edge, or the incoming one of a boundary
+  Index target(Index vertex, int k) const;
+  struct Arrival {
+    Index vertex;
+    int arm;  // the way back
+  };
+  Arrival walk(Index vertex, int k) const;
+  int opposite(Index vertex, int k) const;
+  bool marked(Index vertex, int k) const { return mark_[arm(vertex, k)]; }
+  int marks(Index vertex) const;
+  void setMark(HalfEdge h);
+  void buildRings();
+  void traceFromIrregular(std::span<const Vec3> positions);
+  void cutRings();
+
+  const GridMesh& mesh_;
+  std::vector<char> mark_;        // [half-edges], the same on both sides of an edge
+  std::vector<Index> ringStart_;  // [vertices + 1]
+  std::vector<HalfEdge> ring_;    // half-edges leaving each vertex, counter-clockwise
+  std::vector<char> boundary_;    // [vertices]
+  mutable std::vector<Index> nodeVertices_;
+};
+
+}  // namespace sweepface

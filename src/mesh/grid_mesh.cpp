@@ -1,0 +1,211 @@
+#include "mesh/grid_mesh.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <map>
+#include <numeric>
+#include <unordered_map>
+
+#include "mesh/union_find.hpp"
+
+namespace sweepface {
+
+namespace {
+
+// The first vertex that stands at the same place in the neutral and in every target.
+std::vector<Index> weld(const MeshRig& rig) {
+  const auto& positions = rig.neutral.positions;
+  struct Hash {
+    std::size_t operator()(const Vec3& p) const {
+      std::size_t h = 0;
+      for (double c : {p.x, p.y, p.z})
+        h = (h ^ std::bit_cast<std::uint64_t>(c + 0.0)) * 0x9e3779b97f4a7c15ull, h ^= h >> 29;
+      return h;
+    }
+  };
+  const auto same = [&](Index a, Index b) {
+    return std::all_of(rig.targets.begin(), rig.targets.end(),
+                       [&](const MeshTarget& t) { return t.positions[a] == t.positions[b]; });
+  };
+  std::unordered_map<Vec3, std::vector<Index>, Hash> seen;
+  std::vector<Index> first(positions.size());
+  for (Index v = 0; v < static_cast<Index>(positions.size()); ++v) {
+    auto& here = seen[positions[v]];
+    const auto match = std::find_if(here.begin(), here.end(), [&](Index w) { return same(v, w); });
+    first[v] = match == here.end() ? v : *match;
+    if (match == here.end()) here.push_back(v);
+  }
+  return first;
+}
+
+// A face corner with the welded vertex it stands at.
+struct Corner {
+  Index vertex, corner;
+};
+
+// Cuts the source's faces into quads and triangles of distinct vertices.
+struct FaceCutter {
+  std::vector<std::vector<Corner>> pieces;
+  Index dropped = 0;
+
+  void cut(std::vector<Corner> face) {
+    simplify(face);
+    while (face.size() > 4) {
+      std::vector<Corner> quad(face.begin(), face.begin() + 4);
+      face.erase(face.begin() + 1, face.begin() + 3);
+      keep(std::move(quad));
+    }
+    keep(std::move(face));
+  }
+
+ private:
+  static void simplify(std::vector<Corner>& face) {
+    for (std::size_t k = 0; k < face.size() && face.size() > 1;)
+      if (face[k].vertex == face[(k + 1) % face.size()].vertex)
+        face.erase(face.begin() + static_cast<std::ptrdiff_t>((k + 1) % face.size()));
+      else
+        ++k;
+  }
+  void keep(std::vector<Corner> piece) {
+    simplify(piece);
+    if (piece.size() == 4 && (piece[0].vertex == piece[2].vertex || piece[1].vertex == piece[3].vertex))
+      piece.clear();
+    if (piece.size() < 3)
+      ++dropped;
+    else
+      pieces.push_back(std::move(piece));
+  }
+};
+
+// Which corner of each triangle becomes its collapsed side: the one where most triangles meet, so that
+// fans share their pole, and otherwise the most irregular one.
+void rotateTriangles(std::vector<std::vector<Corner>>& pieces, std::size_t vertexCount) {
+  std::vector<Index> triangles(vertexCount, 0), faces(vertexCount, 0);
+  for (const auto& piece : pieces)
+    for (const Corner& c : piece) {
+      ++faces[c.vertex];
+      triangles[c.vertex] += piece.size() == 3;
+    }
+  const auto rank = [&](const Corner& c) {
+    const bool pole = triangles[c.vertex] == faces[c.vertex] && faces[c.vertex] > 4;
+    return std::tuple(pole, triangles[c.vertex], std::abs(faces[c.vertex] - 4), -c.vertex);
+  };
+  for (auto& piece : pieces)
+    if (piece.size() == 3) {
+      const auto best = std::max_element(piece.begin(), piece.end(), [&](const Corner& a, const Corner& b) {
+        return rank(a) < rank(b);
+      });
+      std::rotate(piece.begin(), best == piece.begin() + 2 ? piece.begin() : best + 1, piece.end());
+      piece.push_back(piece.back());
+    }
+}
+
+// Joins quads over every edge that exactly two of them share in opposite directions.
+Index pairEdges(GridMesh& mesh, const std::vector<std::array<Index, 4>>& welded) {
+  struct Edge {
+    Index low, high;
+    HalfEdge h;
+  };
+  std::vector<Edge> edges;
+  for (HalfEdge h = 0; h < static_cast<HalfEdge>(4 * welded.size()); ++h) {
+    const Index a = welded[h >> 2][h & 3], b = welded[h >> 2][(h + 1) & 3];
+    if (a != b) edges.push_back({std::min(a, b), std::max(a, b), h});
+  }
+  std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
+    return std::tie(a.low, a.high, a.h) < std::tie(b.low, b.high, b.h);
+  });
+  Index cuts = 0;
+  for (std::size_t k = 0; k < edges.size();) {
+    std::size_t end = k + 1;
+    while (end < edges.size() && edges[end].low == edges[k].low && edges[end].high == edges[k].high) ++end;
+    const auto startsLow = [&](HalfEdge h) { return welded[h >> 2][h & 3] == edges[k].low; };
+    if (end - k == 2 && startsLow(edges[k].h) != startsLow(edges[k + 1].h)) {
+      mesh.twin[edges[k].h] = edges[k + 1].h;
+      mesh.twin[edges[k + 1].h] = edges[k].h;
+    } else if (end - k > 1) {
+      ++cuts;
+    }
+    k = end;
+  }
+  return cuts;
+}
+
+// One vertex for each fan of quads around a welded vertex, one point for vertices that collapsed
+// sides tie together.
+void numberVertices(GridMesh& mesh, const std::vector<std::array<Index, 4>>& welded,
+                    std::size_t sourceCount) {
+  const auto halves = static_cast<HalfEdge>(4 * welded.size());
+  UnionFind fans(halves);
+  for (HalfEdge h = 0; h < halves; ++h)
+    if (const HalfEdge t = mesh.twin[prevIn(h)]; t >= 0) fans.join(h, t);
+  std::vector<Index> vertexOf(halves, -1), anchor;
+  mesh.quads.resize(welded.size());
+  for (HalfEdge h = 0; h < halves; ++h) {
+    Index& v = vertexOf[fans.find(h)];
+    if (v < 0) {
+      v = static_cast<Index>(anchor.size());
+      anchor.push_back(welded[h >> 2][h & 3]);
+    }
+    mesh.quads[h >> 2][h & 3] = v;
+  }
+  UnionFind ties(static_cast<Index>(anchor.size()));
+  for (HalfEdge h = 0; h < halves; ++h)
+    if (mesh.collapsed[h]) ties.join(mesh.from(h), mesh.to(h));
+  mesh.point.assign(anchor.size(), -1);
+  mesh.pointOfSource.assign(sourceCount, -1);
+  std::vector<Index> pointOf(anchor.size(), -1);
+  for (Index v = 0; v < static_cast<Index>(anchor.size()); ++v) {
+    Index& p = pointOf[ties.find(v)];
+    if (p < 0) {
+      p = mesh.pointCount();
+      mesh.source.push_back(anchor[v]);
+    }
+    mesh.point[v] = p;
+    if (mesh.pointOfSource[anchor[v]] < 0) mesh.pointOfSource[anchor[v]] = p;
+  }
+}
+
+std::string plural(Index count, const char* one, const char* many) {
+  return std::to_string(count) + " " + (count == 1 ? one : many);
+}
+
+}  // namespace
+
+Result<GridMesh> makeGridMesh(const MeshRig& rig) {
+  const Polygons& faces = rig.neutral.polygons;
+  const std::vector<Index> first = weld(rig);
+  FaceCutter cutter;
+  for (Index f = 0; f < faces.faceCount(); ++f) {
+    std::vector<Corner> face;
+    for (Index c = faces.faceStart[f]; c < faces.faceStart[f + 1]; ++c)
+      face.push_back({first[faces.corners[c]], c});
+    cutter.cut(std::move(face));
+  }
+  if (cutter.pieces.empty()) return fail("the mesh has no face with an area; nothing can be converted");
+  rotateTriangles(cutter.pieces, first.size());
+
+  GridMesh mesh;
+  std::vector<std::array<Index, 4>> welded;
+  for (const auto& piece : cutter.pieces) {
+    std::array<Index, 4> quad, corners;
+    for (int k = 0; k < 4; ++k) quad[k] = piece[k].vertex, corners[k] = piece[k].corner;
+    welded.push_back(quad);
+    mesh.quadCorners.push_back(corners);
+  }
+  mesh.twin.assign(4 * welded.size(), -1);
+  mesh.collapsed.assign(4 * welded.size(), 0);
+  for (std::size_t q = 0; q < welded.size(); ++q) mesh.collapsed[4 * q + 2] = welded[q][2] == welded[q][3];
+  const Index cuts = pairEdges(mesh, welded);
+  numberVertices(mesh, welded, first.size());
+  for (std::size_t v = 0; v < first.size(); ++v) mesh.pointOfSource[v] = mesh.pointOfSource[first[v]];
+
+  if (cutter.dropped > 0)
+    mesh.warnings.push_back(plural(cutter.dropped, "face has", "faces have") +
+                            " fewer than three different corners and no surface; the source order keeps them.");
+  if (cuts > 0)
+    mesh.warnings.push_back(plural(cuts, "edge joins", "edges join") +
+                            " more than two faces or faces of opposite orientation; the surface is cut there.");
+  return mesh;
+}
+
+}  // namespace sweepface

@@ -1,0 +1,76 @@
+#include "sweepface/rig.hpp"
+
+#include <charconv>
+#include <cmath>
+
+namespace sweepface {
+
+Index Rig::find(std::string_view name) const {
+  for (std::size_t k = 0; k < targets.size(); ++k)
+    if (targets[k].name == name) return static_cast<Index>(k);
+  return -1;
+}
+
+namespace {
+
+std::string listNames(const Rig& rig) {
+  if (rig.targets.empty()) return "this face has no targets";
+  std::string list = "its targets are ";
+  for (std::size_t k = 0; k < rig.targets.size(); ++k)
+    list += (k ? ", " : "") + rig.targets[k].name;
+  return list;
+}
+
+}  // namespace
+
+Result<Weights> parseWeights(const Rig& rig, std::string_view text) {
+  Weights weights(rig.targets.size(), 0.0);
+  while (!text.empty()) {
+    const auto comma = text.find(',');
+    const std::string_view item = text.substr(0, comma);
+    text = comma == std::string_view::npos ? "" : text.substr(comma + 1);
+    if (item.empty()) continue;
+    const auto equals = item.rfind('=');
+    const std::string_view name = item.substr(0, equals);
+    const Index target = rig.find(name);
+    if (target < 0)
+      return fail("there is no target named '" + std::string(name) + "'; " + listNames(rig));
+    double value = 1;
+    if (equals != std::string_view::npos) {
+      const std::string_view digits = item.substr(equals + 1);
+      const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+      if (error != std::errc{} || end != digits.data() + digits.size() || !std::isfinite(value))
+        return fail("the weight of '" + std::string(name) + "' must be a finite number, not '" +
+                    std::string(digits) + "'");
+    }
+    weights[target] = value;
+  }
+  return weights;
+}
+
+void blend(const Rig& rig, std::span<const double> weights, std::span<Vec3> vectors) {
+  const std::size_t stored = rig.neutral.size();
+  for (std::size_t v = 0; v < stored; ++v) vectors[v] = rig.neutral[v];
+  for (std::size_t k = 0; k < rig.targets.size() && k < weights.size(); ++k) {
+    if (weights[k] == 0) continue;
+    const auto& difference = rig.targets[k].difference;
+    for (std::size_t v = 0; v < stored; ++v) vectors[v] += weights[k] * difference[v];
+  }
+  rig.surface.settle(vectors.first(stored), vectors);
+}
+
+std::vector<Vec3> blend(const Rig& rig, std::span<const double> weights) {
+  std::vector<Vec3> vectors(rig.surface.vectorCount());
+  blend(rig, weights, vectors);
+  return vectors;
+}
+
+std::vector<Vec3> blendLoose(const Rig& rig, std::span<const double> weights) {
+  std::vector<Vec3> loose = rig.source.loose;
+  for (std::size_t k = 0; k < rig.targets.size() && k < weights.size(); ++k)
+    for (std::size_t v = 0; v < loose.size(); ++v)
+      loose[v] += weights[k] * rig.targets[k].looseDifference[v];
+  return loose;
+}
+
+}  // namespace sweepface

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "sweepface/ode.hpp"
+#include "sweepface/vec.hpp"
+
+namespace sweepface {
+
+/// The basis of every ribbon at every length that occurs, each solved once.
+class BasisTable {
+ public:
+  /// Fails where a ribbon's shape parameters are refused at one of its lengths.
+  static Result<BasisTable> make(const std::vector<Shape>& ribbons,
+                                 std::vector<std::array<Index, 2>> ribbonsAndEdges);
+  Index find(Index ribbon, Index edges) const;
+  const SweepBasis& at(Index ribbon, Index edges) const { return bases_[find(ribbon, edges)]; }
+  const SweepBasis& operator[](Index basis) const { return bases_[basis]; }
+
+ private:
+  std::vector<std::array<Index, 2>> keys_;  // sorted
+  std::vector<SweepBasis> bases_;
+};
+
+}  // namespace sweepface

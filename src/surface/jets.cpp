@@ -1,0 +1,463 @@
+#include "surface/jets.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "surface/basis_table.hpp"
+#include "surface/chart.hpp"
+
+namespace sweepface {
+
+namespace {
+
+using Row = std::vector<Term>;
+
+int comp(int i, int j) { return 3 * i + j; }
+double signOf(int power) { return power % 2 ? -1 : 1; }
+
+// ∂α^i ∂β^j of a jet known in axes (x, y) that are turned by `quarter` right angles from (α, β).
+struct Turned {
+  int component;
+  double sign;
+};
+Turned turned(int quarter, int i, int j) {
+  switch (quarter) {
+    case 0: return {comp(i, j), 1};
+    case 1: return {comp(j, i), signOf(j)};
+    case 2: return {comp(i, j), signOf(i + j)};
+    default: return {comp(j, i), signOf(i)};
+  }
+}
+
+}  // namespace
+
+// Numbers all vectors first, so that rows may refer to each other in any order, then writes the rows
+// and puts them into an order in which each needs only earlier ones.
+class JetBuilder {
+ public:
+  JetBuilder(const Wireframe& w, const Connectivity& c, const BasisTable& bases)
+      : w_(w), c_(c), bases_(bases) {}
+
+  Result<JetTable> build(std::vector<Index>* circle) {
+    number();
+    for (Index n = 0; n < nodeCount(); ++n) {
+      if (c_.kinds[n] == NodeKind::crossing) predict(n);
+      if (c_.kinds[n] == NodeKind::hanging) hang(n);
+    }
+    for (const Hub& hub : hubs_)
+      if (hub.first >= 0) chart(hub);
+    return order(circle);
+  }
+
+ private:
+  // The vectors of an irregular point and the ring of sectors around it.
+  struct Hub {
+    Index first = -1;          // of its six vectors: p, A, B and the second derivatives C, D, E
+    std::vector<Index> nodes;  // in the order of the ring; several only around collapsed arcs
+  };
+  struct Owner {
+    Index node = -1;
+    int i = 0, j = 0;
+  };
+
+  Index nodeCount() const { return static_cast<Index>(w_.nodes.size()); }
+  Index add(Owner owner, bool stored) {
+    owners_.push_back(owner);
+    isStored_.push_back(stored);
+    rows_.emplace_back();
+    return static_cast<Index>(rows_.size()) - 1;
+  }
+
+  void number() {
+    base_.assign(nodeCount(), -1);
+    hubs_.resize(w_.points);
+    armBase_.assign(nodeCount(), -1);
+    mixedBase_.assign(4 * w_.patches.size(), -1);
+    for (Index n = 0; n < nodeCount(); ++n) {
+      if (c_.kinds[n] == NodeKind::irregular) {
+        numberIrregular(n);
+        continue;
+      }
+      const bool crossing = c_.kinds[n] == NodeKind::crossing;
+      base_[n] = static_cast<Index>(rows_.size());
+      for (int k = 0; k < 9; ++k)
+        add({n, k / 3, k % 3}, crossing && (k == 0 || (w_.nodes[n].stored >> k & 1)));
+    }
+  }
+
+  void numberIrregular(Index n) {
+    Hub& hub = hubs_[w_.nodes[n].point];
+    if (hub.first < 0) {
+      constexpr int kOrders[6][2] = {{0, 0}, {1, 0}, {0, 1}, {2, 0}, {1, 1}, {0, 2}};
+      hub.first = static_cast<Index>(rows_.size());
+      for (auto [i, j] : kOrders) add({n, i, j}, true);
+    }
+    hub.nodes.push_back(n);
+    const Star& star = c_.stars[n];
+    armBase_[n] = static_cast<Index>(rows_.size());
+    for (std::size_t k = 0; k < 2 * star.arms.size(); ++k) add({n, 0, 0}, false);
+    for (Index corner : star.sectors) {
+      mixedBase_[corner] = static_cast<Index>(rows_.size());
+      for (int k = 0; k < 4; ++k) add({n, 0, 0}, false);
+    }
+  }
+
+  // ∂α^i ∂β^j at a corner.
+  JetRef cornerJet(Index corner, int i, int j) const {
+    const Index n = c_.cornerNode[corner];
+    const int sector = c_.cornerSector[corner];
+    const Star& star = c_.stars[n];
+    if (c_.kinds[n] == NodeKind::irregular) {
+      if (i == 0 && j == 0) return {hubs_[w_.nodes[n].point].first, 1};
+      const int arms = static_cast<int>(star.arms.size());
+      if (j == 0) return {armBase_[n] + 2 * sector + i - 1, 1};
+      if (i == 0) return {armBase_[n] + 2 * ((sector + 1) % arms) + j - 1, 1};
+      return {mixedBase_[corner] + 2 * (i - 1) + j - 1, 1};
+    }
+    int quarter = sector;
+    if (c_.kinds[n] == NodeKind::hanging) quarter = (sector - hostArm(n) + 3) % 3;
+    const Turned t = turned(quarter, i, j);
+    return {base_[n] + t.component, t.sign};
+  }
+
+  // The arm of a T-node along which its own x axis runs: the stem follows counter-clockwise.
+  int hostArm(Index n) const {
+    const Star& star = c_.stars[n];
+    const auto straight = std::find(star.sectors.begin(), star.sectors.end(), kStraight);
+    return static_cast<int>(straight - star.sectors.begin() + 1) % 3;
+  }
+
+  // A T-node hangs on a rail: its jet is that of the rail's curve and cross-derivative curves, which
+  // the sub-patches' own curves continue because ρ, η, λ are given per unit length.
+  void hang(Index n) {
+    const int host = hostArm(n);
+    const Star& star = c_.stars[n];
+    const Rail ahead = followRail(w_, c_, star.arms[host]);
+    const Rail behind = followRail(w_, c_, star.arms[(host + 2) % 3]);
+    const Index endCorner = c_.cornerAt[c_.next[ahead.last]];
+    const Index startCorner = c_.cornerAt[twin(behind.last)];
+    const int length = ahead.edges + behind.edges;
+    const SweepBasis& g = bases_.at(w_.arcs[arcOf(star.arms[host])].ribbon, length);
+    for (int i = 0; i < 3; ++i) {
+      const auto value = g.at(static_cast<double>(behind.edges) / length, i);
+      for (int j = 0; j < 3; ++j) {
+        Row& row = rows_[base_[n] + comp(i, j)];
+        for (int a = 0; a < 3; ++a) {
+          const double scale = std::pow(length, a - i);
+          addTo(row, cornerJet(startCorner, a, j), value[a] * scale);
+          addTo(row, cornerJet(endCorner, j, a), value[3 + a] * scale * signOf(a));
+        }
+      }
+    }
+  }
+
+  // ∂^j across a line, to the left of travel, at the node where its rail arrives. Where patches on
+  // both sides know it, their mean: they differ only at irregular nodes.
+  Row acrossAtEnd(const Rail& rail, int j) const {
+    Row row;
+    const Index left = c_.patchOf[rail.last] < 0 ? -1 : c_.cornerAt[c_.next[rail.last]];
+    const Index right = c_.patchOf[twin(rail.last)] < 0 ? -1 : c_.cornerAt[twin(rail.last)];
+    const double share = left >= 0 && right >= 0 ? 0.5 : 1;
+    if (left >= 0) addTo(row, cornerJet(left, j, 0), share);
+    if (right >= 0) addTo(row, cornerJet(right, 0, j), share * signOf(j));
+    return row;
+  }
+
+  // Values of ∂^other across the line through node n along axis d, at its two neighbours.
+  struct Neighbours {
+    bool has[2] = {false, false};
+    double distance[2] = {0, 0};
+    Row value[2];
+  };
+  Neighbours neighbours(Index n, int d, int other) const {
+    Neighbours result;
+    const Star& star = c_.stars[n];
+    for (int e = 0; e < 2; ++e) {
+      const std::size_t arm = d + 2 * e;
+      if (arm >= star.arms.size()) continue;
+      const Rail rail = followRail(w_, c_, star.arms[arm]);
+      result.has[e] = true;
+      result.distance[e] = rail.edges;
+      result.value[e] = acrossAtEnd(rail, other);
+      if ((d == 0) == (e == 1))  // the other axis points to the right of travel
+        for (Term& t : result.value[e]) t.factor *= signOf(other);
+    }
+    return result;
+  }
+
+  void predict(Index n) {
+    for (int k = 1; k < 9; ++k)
+      if (!isStored_[base_[n] + k]) predictComponent(n, k / 3, k % 3);
+  }
+
+  // A component that is not stored follows from the polynomial along one line through the node that
+  // takes the values of the neighbours and what the node itself stores.
+  void predictComponent(Index n, int i, int j) {
+    const auto known = [&](int a, int b) { return a < 3 && b < 3 && isStored_[base_[n] + comp(a, b)]; };
+    int alongX = 0, alongY = 0;
+    while (known(alongX, j)) ++alongX;
+    while (known(i, alongY)) ++alongY;
+    const int d = alongX >= alongY && (alongX > 0 || i > 0) ? 0 : 1;
+    const int order = d == 0 ? i : j, other = d == 0 ? j : i;
+    const int count = std::max(1, d == 0 ? alongX : alongY);
+    const auto own = [&](int a) { return JetRef{base_[n] + (d == 0 ? comp(a, other) : comp(other, a)), 1}; };
+    Row& row = rows_[base_[n] + comp(i, j)];
+    const Neighbours at = neighbours(n, d, other);
+    if (count == 1)
+      predictFromValues(row, at, own(0), order);
+    else
+      predictFromSlope(row, at, own(0), own(1));
+  }
+
+  // Derivative 1 or 2 of the parabola through the node and its neighbours.
+  static void predictFromValues(Row& row, const Neighbours& at, JetRef own, int order) {
+    if (!at.has[0] || !at.has[1]) {  // the end of a line: a straight one
+      if (order == 1)
+        for (int e = 0; e < 2; ++e)
+          if (at.has[e]) {
+            const double s = (e == 0 ? 1 : -1) / at.distance[e];
+            addTo(row, at.value[e], s);
+            addTo(row, own, -s);
+          }
+      return;
+    }
+    const double a = at.distance[0], b = at.distance[1];
+    const double s = (order == 1 ? 1 : 2) / (a * b * (a + b));
+    addTo(row, at.value[0], order == 1 ? b * b * s : b * s);
+    addTo(row, at.value[1], order == 1 ? -a * a * s : a * s);
+    addTo(row, own, order == 1 ? (a * a - b * b) * s : -(a + b) * s);
+  }
+
+  // Second derivative of the cubic through the neighbours that has the node's value and slope; at the
+  // end of a line, of the parabola through its one neighbour.
+  static void predictFromSlope(Row& row, const Neighbours& at, JetRef own, JetRef slope) {
+    for (int e = 0; e < 2; ++e) {
+      if (!at.has[e]) continue;
+      const double h = at.distance[e], outward = e == 0 ? 1 : -1;
+      const double weight = at.has[1 - e] ? at.distance[1 - e] / (h + at.distance[1 - e]) : 1;
+      const double s = 2 * weight / (h * h);
+      addTo(row, at.value[e], s);
+      addTo(row, own, -s);
+      addTo(row, slope, -outward * h * s);
+    }
+  }
+
+  // The surface near an irregular point is F(x, y) = p + A x + B y + ½(C x² + 2 D x y + E y²) over the
+  // chart; the patches' corners are the jets of F composed with the chart's corner maps.
+  void chart(const Hub& hub) {
+    const std::vector<Index> ring = orderRing(hub);
+    int steps = 0;
+    double logLength = 0;
+    int spokes = 0;
+    for (Index n : ring)
+      for (std::size_t s = 0; s < c_.stars[n].arms.size(); ++s) {
+        const HalfArc arm = c_.stars[n].arms[s];
+        const Arc& arc = w_.arcs[arcOf(arm)];
+        if (!arc.collapsed) {
+          logLength += std::log(followRail(w_, c_, arm).edges);
+          ++spokes;
+        }
+      }
+    for (Index n : ring) {
+      const Star& star = c_.stars[n];
+      for (std::size_t s = 0; s < star.sectors.size(); ++s)
+        if (!collapsedArm(n, s) && !collapsedArm(n, s + 1)) ++steps;
+      if (!star.closed && collapsedArm(n, star.arms.size() - 1)) steps += lastEdges(n);
+    }
+    const bool open = !c_.stars[ring[0]].closed && !collapsedArm(ring[0], 0);
+    const double step = (open ? 1 : 2) * std::numbers::pi / steps;
+    const double scale = std::max(1.0, 0.25 * std::exp(logLength / std::max(1, spokes)));
+    double angle = 0;
+    for (Index n : ring) angle = chartNode(hub, n, angle, step, scale);
+  }
+
+  bool collapsedArm(Index n, std::size_t arm) const {
+    const Star& star = c_.stars[n];
+    return w_.arcs[arcOf(star.arms[arm % star.arms.size()])].collapsed;
+  }
+  Index lastEdges(Index n) const { return w_.arcs[arcOf(c_.stars[n].arms.back())].edges; }
+
+  // Around a pole the nodes follow each other counter-clockwise across collapsed arcs.
+  std::vector<Index> orderRing(const Hub& hub) const {
+    Index first = hub.nodes[0];
+    for (Index n : hub.nodes)
+      if (!c_.stars[n].closed && !collapsedArm(n, 0)) first = n;
+    std::vector<Index> ring;
+    for (Index n = first; ring.size() < hub.nodes.size();) {
+      ring.push_back(n);
+      const HalfArc last = c_.stars[n].arms.back();
+      if (c_.stars[n].closed || !w_.arcs[arcOf(last)].collapsed) break;
+      n = w_.end(last);
+      if (n == first) break;
+    }
+    return ring;
+  }
+
+  // Writes the rows of one node of a hub whose first real spoke stands at `angle`; returns the angle
+  // of the next node's.
+  double chartNode(const Hub& hub, Index n, double angle, double step, double scale) {
+    const Star& star = c_.stars[n];
+    for (std::size_t s = 0; s < star.sectors.size(); ++s) {
+      const bool first = collapsedArm(n, s), second = collapsedArm(n, s + 1);
+      PlaneJet jet;
+      if (first)
+        jet = collapsedCorner(angle, -step, true);
+      else if (second)
+        jet = collapsedCorner(angle, step, false);
+      else
+        jet = characteristicCorner(angle, step, scale);
+      if (!first) writeSpoke(hub, n, s, angle, step, scale, first || second);
+      for (int k = 0; k < 4; ++k)
+        compose(rows_[mixedBase_[star.sectors[s]] + k], hub, jet, 1 + k / 2, 1 + k % 2);
+      if (!first && !second) angle += step;
+    }
+    if (star.closed) return angle;
+    const std::size_t last = star.arms.size() - 1;
+    if (!collapsedArm(n, last)) writeSpoke(hub, n, last, angle, step, scale, false);
+    return collapsedArm(n, last) ? angle + step * lastEdges(n) : angle;
+  }
+
+  void writeSpoke(const Hub& hub, Index n, std::size_t arm, double angle, double step, double scale,
+                  bool ray) {
+    const Star& star = c_.stars[n];
+    ray = ray || (arm > 0 && collapsedArm(n, arm - 1));
+    const auto d = ray ? std::array<std::complex<double>, 2>{std::polar(1.0, angle), 0}
+                       : characteristicSpoke(angle, step, scale);
+    PlaneJet along{};
+    along[comp(1, 0)] = d[0];
+    along[comp(2, 0)] = d[1];
+    (void)star;
+    compose(rows_[armBase_[n] + 2 * static_cast<Index>(arm)], hub, along, 1, 0);
+    compose(rows_[armBase_[n] + 2 * static_cast<Index>(arm) + 1], hub, along, 2, 0);
+  }
+
+  // ∂α^i ∂β^j of F(φ(α, β)) by Leibniz' rule.
+  static void compose(Row& row, const Hub& hub, const PlaneJet& jet, int i, int j) {
+    constexpr double kBinomial[3][3] = {{1, 0, 0}, {1, 1, 0}, {1, 2, 1}};
+    double xx = 0, xy = 0, yy = 0;
+    for (int a = 0; a <= i; ++a)
+      for (int b = 0; b <= j; ++b) {
+        const auto p = jet[comp(a, b)], q = jet[comp(i - a, j - b)];
+        const double k = kBinomial[i][a] * kBinomial[j][b];
+        xx += k * p.real() * q.real();
+        xy += k * p.real() * q.imag();
+        yy += k * p.imag() * q.imag();
+      }
+    const auto d = jet[comp(i, j)];
+    const double factors[5] = {d.real(), d.imag(), xx / 2, xy, yy / 2};
+    for (int k = 0; k < 5; ++k) addTo(row, JetRef{hub.first + 1 + k, 1}, factors[k]);
+  }
+
+  static void addTo(Row& row, JetRef ref, double factor) {
+    if (factor != 0) row.push_back({ref.vector, ref.sign * factor});
+  }
+  static void addTo(Row& row, const Row& other, double factor) {
+    for (const Term& t : other) row.push_back({t.vector, t.factor * factor});
+  }
+
+  // Kahn's algorithm: stored vectors first, then derived ones as soon as all they need is there.
+  Result<JetTable> order(std::vector<Index>* circle) {
+    const std::size_t count = rows_.size();
+    std::vector<Index> place(count, -1), waitsFor(count, 0);
+    std::vector<std::vector<Index>> dependents(count);
+    JetTable table;
+    for (std::size_t v = 0; v < count; ++v) {
+      if (isStored_[v]) {
+        place[v] = static_cast<Index>(table.stored.size());
+        table.stored.push_back({owners_[v].node, owners_[v].i, owners_[v].j});
+        continue;
+      }
+      merge(rows_[v]);
+      for (const Term& t : rows_[v])
+        if (!isStored_[t.vector]) {
+          ++waitsFor[v];
+          dependents[t.vector].push_back(static_cast<Index>(v));
+        }
+    }
+    std::vector<Index> ready;
+    for (std::size_t v = 0; v < count; ++v)
+      if (!isStored_[v] && waitsFor[v] == 0) ready.push_back(static_cast<Index>(v));
+    for (std::size_t k = 0; k < ready.size(); ++k) {
+      const Index v = ready[k];
+      place[v] = static_cast<Index>(table.stored.size() + k);
+      for (const Term& t : rows_[v]) table.terms.push_back({place[t.vector], t.factor});
+      table.rowStart.push_back(static_cast<Index>(table.terms.size()));
+      for (Index d : dependents[v])
+        if (--waitsFor[d] == 0) ready.push_back(d);
+    }
+    if (table.stored.size() + ready.size() < count) return circular(place, circle);
+    fillCorners(table, place);
+    return table;
+  }
+
+  // Follows unmet needs until they repeat. Every circle that is met names one node which could break
+  // it: one that predicts if there is any, else a T-node.
+  Result<JetTable> circular(const std::vector<Index>& place, std::vector<Index>* circle) const {
+    std::vector<Index> seenFrom(place.size(), -1);
+    std::vector<Index> found;
+    for (Index start = 0; start < static_cast<Index>(place.size()); ++start) {
+      Index v = start;
+      while (place[v] < 0 && seenFrom[v] < 0) {
+        seenFrom[v] = start;
+        v = unmet(v, place);
+      }
+      if (place[v] < 0 && seenFrom[v] == start) found.push_back(breaker(v, place));
+    }
+    if (circle) *circle = found;
+    return fail("the derivatives at node " + std::to_string(found.front()) +
+                " are derived from themselves; let it store its own");
+  }
+  Index unmet(Index v, const std::vector<Index>& place) const {
+    const Row& row = rows_[v];
+    return std::find_if(row.begin(), row.end(), [&](const Term& t) { return place[t.vector] < 0; })->vector;
+  }
+  Index breaker(Index first, const std::vector<Index>& place) const {
+    Index v = first;
+    do {
+      if (c_.kinds[owners_[v].node] == NodeKind::crossing) break;
+      v = unmet(v, place);
+    } while (v != first);
+    return owners_[v].node;
+  }
+
+  static void merge(Row& row) {
+    std::sort(row.begin(), row.end(), [](const Term& a, const Term& b) { return a.vector < b.vector; });
+    std::size_t n = 0;
+    for (const Term& t : row)
+      if (n > 0 && row[n - 1].vector == t.vector)
+        row[n - 1].factor += t.factor;
+      else
+        row[n++] = t;
+    row.resize(n);
+    std::erase_if(row, [](const Term& t) { return t.factor == 0; });
+  }
+
+  void fillCorners(JetTable& table, const std::vector<Index>& place) const {
+    table.corners.reserve(36 * w_.patches.size());
+    for (Index corner = 0; corner < static_cast<Index>(4 * w_.patches.size()); ++corner)
+      for (int k = 0; k < 9; ++k) {
+        JetRef ref = cornerJet(corner, k / 3, k % 3);
+        ref.vector = place[ref.vector];
+        table.corners.push_back(ref);
+      }
+  }
+
+  const Wireframe& w_;
+  const Connectivity& c_;
+  const BasisTable& bases_;
+  std::vector<Row> rows_;
+  std::vector<char> isStored_;
+  std::vector<Owner> owners_;
+  std::vector<Index> base_;       // [nodes] first of nine vectors of a crossing or a T-node
+  std::vector<Index> armBase_;    // [nodes] first of two vectors an arm of an irregular node
+  std::vector<Index> mixedBase_;  // [corners] first of four mixed vectors at an irregular node
+  std::vector<Hub> hubs_;         // [points]
+};
+
+Result<JetTable> buildJets(const Wireframe& wireframe, const Connectivity& connectivity,
+                           const BasisTable& bases, std::vector<Index>* circle) {
+  return JetBuilder(wireframe, connectivity, bases).build(circle);
+}
+
+}  // namespace sweepface

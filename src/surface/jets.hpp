@@ -1,0 +1,22 @@
+#pragma once
+
+#include "surface/basis_table.hpp"
+#include "sweepface/surface.hpp"
+
+namespace sweepface {
+
+/// Every vector of a model and how the derived ones follow from the stored ones.
+struct JetTable {
+  std::vector<StoredVector> stored;
+  std::vector<Index> rowStart{0};  ///< rows of the derived vectors, in an order that can be evaluated
+  std::vector<Term> terms;
+  std::vector<JetRef> corners;  ///< [patches × 4 × 9], index 3i + j: ∂α^i ∂β^j
+};
+
+/// Works out the jets of all corners of all patches: stored, predicted, of charts and of T-nodes.
+/// Fails where the derivations run in a circle; `circle`, if given, receives a node of each
+/// circle that could break it by storing its whole jet (or, a T-node, by becoming a crossing).
+Result<JetTable> buildJets(const Wireframe& wireframe, const Connectivity& connectivity,
+                           const BasisTable& bases, std::vector<Index>* circle = nullptr);
+
+}  // namespace sweepface

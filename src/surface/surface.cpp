@@ -1,0 +1,219 @@
+#include "sweepface/surface.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "surface/basis_table.hpp"
+#include "surface/jets.hpp"
+
+namespace sweepface {
+
+namespace {
+
+// The bases a wireframe needs: of rails (T-nodes stand on them), of arcs, and of patches' sides.
+std::vector<std::array<Index, 2>> basisKeys(const Wireframe& w, const Connectivity& c) {
+  std::vector<std::array<Index, 2>> keys;
+  for (const Arc& arc : w.arcs) keys.push_back({arc.ribbon, arc.edges});
+  for (Index p = 0; p < static_cast<Index>(w.patches.size()); ++p)
+    for (int s = 0; s < 4; ++s)
+      keys.push_back({w.arcs[arcOf(w.side(p, s)[0])].ribbon, w.sideEdges(p, s)});
+  for (std::size_t n = 0; n < w.nodes.size(); ++n) {
+    if (c.kinds[n] != NodeKind::hanging) continue;
+    for (HalfArc arm : c.stars[n].arms) {
+      const Index stem = w.start(arm);
+      const auto& arms = c.stars[stem].arms;
+      const int on = c.opposite(stem, static_cast<int>(std::find(arms.begin(), arms.end(), arm) - arms.begin()));
+      if (on < 0) continue;
+      keys.push_back({w.arcs[arcOf(arm)].ribbon,
+                      followRail(w, c, arm).edges + followRail(w, c, arms[on]).edges});
+    }
+  }
+  return keys;
+}
+
+// A ribbon owns the two sides a patch sweeps along and every arc of a rail.
+Result<void> checkRibbons(const Wireframe& w, const Connectivity& c) {
+  for (Index p = 0; p < static_cast<Index>(w.patches.size()); ++p) {
+    const auto ribbon = [&](HalfArc h) { return w.arcs[arcOf(h)].ribbon; };
+    for (int s = 0; s < 4; ++s)
+      for (HalfArc h : w.side(p, s))
+        if (ribbon(h) != ribbon(w.side(p, s)[0]))
+          return fail("a side of patch " + std::to_string(p) + " changes its ribbon half-way");
+    if (ribbon(w.side(p, 0)[0]) != ribbon(w.side(p, 2)[0]))
+      return fail("patch " + std::to_string(p) + " sweeps along sides of two ribbons");
+  }
+  for (std::size_t n = 0; n < w.nodes.size(); ++n) {
+    if (c.kinds[n] != NodeKind::hanging) continue;
+    const auto& arms = c.stars[n].arms;
+    for (int k = 0; k < 3; ++k) {
+      const int on = c.opposite(static_cast<Index>(n), k);
+      if (on >= 0 && w.arcs[arcOf(arms[k])].ribbon != w.arcs[arcOf(arms[on])].ribbon)
+        return fail("the ribbon changes at T-node " + std::to_string(n));
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<Surface> Surface::make(Wireframe wireframe, std::vector<Index>* circle) {
+  auto connectivity = Connectivity::make(wireframe);
+  if (!connectivity) return std::unexpected(connectivity.error());
+  if (auto ok = checkRibbons(wireframe, *connectivity); !ok) return std::unexpected(ok.error());
+  auto bases = BasisTable::make(wireframe.ribbons, basisKeys(wireframe, *connectivity));
+  if (!bases) return std::unexpected(bases.error());
+  auto jets = buildJets(wireframe, *connectivity, *bases, circle);
+  if (!jets) return std::unexpected(jets.error());
+
+  Surface surface;
+  surface.wireframe_ = std::move(wireframe);
+  surface.connectivity_ = std::move(*connectivity);
+  surface.bases_ = std::make_shared<const BasisTable>(std::move(*bases));
+  surface.stored_ = std::move(jets->stored);
+  surface.rowStart_ = std::move(jets->rowStart);
+  surface.terms_ = std::move(jets->terms);
+  surface.corners_ = std::move(jets->corners);
+  surface.frame();
+  return surface;
+}
+
+void Surface::frame() {
+  const Wireframe& w = wireframe_;
+  const auto basisOf = [&](HalfArc h, Index edges) { return bases_->find(w.arcs[arcOf(h)].ribbon, edges); };
+  frames_.resize(w.patches.size());
+  for (Index p = 0; p < patchCount(); ++p) {
+    Frame& f = frames_[p];
+    f.m = w.sideEdges(p, 0);
+    f.n = w.sideEdges(p, 1);
+    f.u = basisOf(w.side(p, 0)[0], f.m);
+    f.v[0] = basisOf(w.side(p, 3)[0], f.n);
+    f.v[1] = basisOf(w.side(p, 1)[0], f.n);
+  }
+  for (const Arc& arc : w.arcs) arcBases_.push_back(bases_->find(arc.ribbon, arc.edges));
+}
+
+std::span<const Term> Surface::derivation(Index vector) const {
+  const Index row = vector - storedCount();
+  return {terms_.data() + rowStart_[row], terms_.data() + rowStart_[row + 1]};
+}
+
+void Surface::settle(std::span<const Vec3> stored, std::span<Vec3> vectors) const {
+  const Index count = storedCount();
+  if (stored.data() != vectors.data()) std::copy_n(stored.begin(), count, vectors.begin());
+  for (Index v = count; v < vectorCount(); ++v) {
+    Vec3 sum;
+    for (const Term& t : derivation(v)) sum += t.factor * vectors[t.vector];
+    vectors[v] = sum;
+  }
+}
+
+JetRef Surface::alongJet(HalfArc h, int i) const {
+  const Index corner = connectivity_.cornerAt[h];
+  if (corner >= 0) return corners_[9 * corner + 3 * i];
+  const HalfArc after = connectivity_.patchOf[twin(h)] < 0 ? -1 : connectivity_.next[twin(h)];
+  return corners_[9 * connectivity_.cornerAt[after] + i];
+}
+
+namespace {
+
+// Where the jets of a corner stand among g₁…g₆ in u and v, and how its axes (α, β) lie there.
+struct CornerPlace {
+  int u, v;           // 0: at u (v) = 0, 3: at the other end
+  bool alphaIsU;      // α runs along u
+  int signU, signV;   // +1 where the corner's axis points along +u (+v)
+};
+constexpr CornerPlace kCorners[4] = {
+    {0, 0, true, 1, 1}, {3, 0, false, -1, 1}, {3, 3, true, -1, -1}, {0, 3, false, 1, -1}};
+
+}  // namespace
+
+Surface::Weights Surface::weights(const Site& site, int du, int dv) const {
+  const Frame& f = frames_[site.patch];
+  const auto scaled = [](const SweepBasis& basis, double t, Index edges, int order) {
+    auto g = basis.at(t / edges, order);
+    const double h = edges, unit = std::pow(h, -order);
+    for (int k = 0; k < 6; ++k) g[k] *= unit * (k % 3 == 0 ? 1 : k % 3 == 1 ? h : h * h);
+    return g;
+  };
+  const auto gu = scaled((*bases_)[f.u], site.u, f.m, du);
+  const auto g0 = scaled((*bases_)[f.v[0]], site.v, f.n, dv);
+  const auto g1 = f.v[0] == f.v[1] ? g0 : scaled((*bases_)[f.v[1]], site.v, f.n, dv);
+  Weights w;
+  for (int corner = 0, k = 0; corner < 4; ++corner) {
+    const CornerPlace& place = kCorners[corner];
+    const auto& gv = place.u == 0 ? g0 : g1;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j, ++k) {
+        const JetRef ref = cornerJet(site.patch, corner, place.alphaIsU ? i : j, place.alphaIsU ? j : i);
+        const double sign = (i == 1 ? place.signU : 1) * (j == 1 ? place.signV : 1);
+        w.vectors[k] = ref.vector;
+        w.factors[k] = ref.sign * sign * gu[place.u + i] * gv[place.v + j];
+      }
+  }
+  return w;
+}
+
+Vec3 Surface::evaluate(std::span<const Vec3> vectors, const Site& site, int du, int dv) const {
+  const Weights w = weights(site, du, dv);
+  Vec3 sum;
+  for (int k = 0; k < 36; ++k) sum += w.factors[k] * vectors[w.vectors[k]];
+  return sum;
+}
+
+Vec3 Surface::normal(std::span<const Vec3> vectors, const Site& site) const {
+  const Frame& f = frames_[site.patch];
+  const Vec3 u = evaluate(vectors, site, 1, 0), v = evaluate(vectors, site, 0, 1);
+  const Vec3 n = cross(u, v);
+  if (norm(n) > 1e-9 * norm(u) * norm(v) && norm(u) > 0 && norm(v) > 0) return normalized(n);
+  // Nothing to be had here: look from a little inside the patch.
+  const Site inside{site.patch, site.u + (f.m * 0.5 - site.u) * 1e-3, site.v + (f.n * 0.5 - site.v) * 1e-3};
+  return normalized(cross(evaluate(vectors, inside, 1, 0), evaluate(vectors, inside, 0, 1)));
+}
+
+Vec3 Surface::pointOnArc(std::span<const Vec3> vectors, Index arc, double t) const {
+  const HalfArc forward = 2 * arc;
+  const double h = wireframe_.arcs[arc].edges;
+  const auto g = (*bases_)[arcBases_[arc]].at(t / h);
+  const double scale[3] = {1, h, h * h};
+  Vec3 sum;
+  for (int i = 0; i < 3; ++i) {
+    const JetRef a = alongJet(forward, i), b = alongJet(twin(forward), i);
+    sum += (a.sign * g[i] * scale[i]) * vectors[a.vector];
+    sum += (b.sign * (i == 1 ? -1 : 1) * g[3 + i] * scale[i]) * vectors[b.vector];
+  }
+  return sum;
+}
+
+Site Surface::siteOnArc(HalfArc h, double t) const {
+  const Index patch = connectivity_.patchOf[h];
+  const double m = frames_[patch].m, n = frames_[patch].n;
+  for (int s = 0; s < 4; ++s) {
+    double before = 0;
+    for (HalfArc g : wireframe_.side(patch, s)) {
+      const double x = before + t;
+      if (g == h) {
+        if (s == 0) return {patch, x, 0};
+        if (s == 1) return {patch, m, x};
+        if (s == 2) return {patch, m - x, n};
+        return {patch, 0, n - x};
+      }
+      before += wireframe_.arcs[arcOf(g)].edges;
+    }
+  }
+  return {};
+}
+
+std::vector<Index> Surface::owners(Index stored) const {
+  std::vector<char> moved(vectorCount(), 0);
+  moved[stored] = 1;
+  for (Index v = storedCount(); v < vectorCount(); ++v)
+    for (const Term& t : derivation(v)) moved[v] |= moved[t.vector];
+  std::vector<Index> patches;
+  for (Index p = 0; p < patchCount(); ++p)
+    if (std::any_of(corners_.begin() + 36 * p, corners_.begin() + 36 * (p + 1),
+                    [&](const JetRef& ref) { return moved[ref.vector]; }))
+      patches.push_back(p);
+  return patches;
+}
+
+}  // namespace sweepface

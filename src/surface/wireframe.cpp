@@ -1,0 +1,175 @@
+#include <algorithm>
+
+#include "sweepface/surface.hpp"
+
+namespace sweepface {
+
+Index Wireframe::sideEdges(Index patch, int s) const {
+  Index sum = 0;
+  for (HalfArc h : side(patch, s)) sum += arcs[arcOf(h)].edges;
+  return sum;
+}
+
+namespace {
+
+std::string name(const char* what, Index index) { return std::string(what) + " " + std::to_string(index); }
+
+Result<void> checkIndices(const Wireframe& w) {
+  const auto nodes = static_cast<Index>(w.nodes.size());
+  const auto halves = static_cast<Index>(2 * w.arcs.size());
+  for (std::size_t a = 0; a < w.arcs.size(); ++a) {
+    const Arc& arc = w.arcs[a];
+    const auto id = static_cast<Index>(a);
+    if (arc.from < 0 || arc.from >= nodes || arc.to < 0 || arc.to >= nodes)
+      return fail(name("arc", id) + " ends at a node that does not exist");
+    if (arc.edges < 1) return fail(name("arc", id) + " has no length");
+    if (arc.ribbon < 0 || arc.ribbon >= static_cast<Index>(w.ribbons.size()))
+      return fail(name("arc", id) + " belongs to a ribbon that does not exist");
+  }
+  for (std::size_t n = 0; n < w.nodes.size(); ++n)
+    if (w.nodes[n].point < -1 || w.nodes[n].point >= w.points)
+      return fail(name("node", static_cast<Index>(n)) + " stands at a point that does not exist");
+  for (std::size_t p = 0; p < w.patches.size(); ++p) {
+    const auto& sides = w.patches[p].sides;
+    for (int s = 0; s < 4; ++s)
+      if (sides[s] < 0 || sides[s + 1] <= sides[s] ||
+          sides[s + 1] > static_cast<Index>(w.loops.size()))
+        return fail(name("patch", static_cast<Index>(p)) + " lacks a side");
+  }
+  for (HalfArc h : w.loops)
+    if (h < 0 || h >= halves) return fail("a patch is bounded by an arc that does not exist");
+  return {};
+}
+
+// Links the half-arcs of every loop and checks that each loop closes and is four-sided.
+Result<void> linkLoops(const Wireframe& w, Connectivity& c) {
+  const std::size_t halves = 2 * w.arcs.size();
+  c.patchOf.assign(halves, -1);
+  c.cornerAt.assign(halves, -1);
+  c.next.assign(halves, -1);
+  c.prev.assign(halves, -1);
+  for (Index p = 0; p < static_cast<Index>(w.patches.size()); ++p) {
+    const auto& sides = w.patches[p].sides;
+    const Index begin = sides[0], size = sides[4] - begin;
+    for (Index k = 0; k < size; ++k) {
+      const HalfArc h = w.loops[begin + k], g = w.loops[begin + (k + 1) % size];
+      if (c.patchOf[h] >= 0) return fail(name("arc", arcOf(h)) + " is used twice in the same direction");
+      if (w.end(h) != w.start(g)) return fail(name("patch", p) + " is not a closed loop of arcs");
+      c.patchOf[h] = p;
+      c.next[h] = g;
+      c.prev[g] = h;
+    }
+    for (int s = 0; s < 4; ++s) c.cornerAt[w.loops[sides[s]]] = 4 * p + s;
+    for (int s = 0; s < 2; ++s)
+      if (w.sideEdges(p, s) != w.sideEdges(p, s + 2))
+        return fail(name("patch", p) + " has opposite sides of different length");
+  }
+  return {};
+}
+
+// The arms of a node, counter-clockwise, from one of the half-arcs that leave it.
+Result<Star> starAt(const Wireframe& w, const Connectivity& c, Index node,
+                    const std::vector<HalfArc>& leaving) {
+  Star star;
+  if (leaving.empty()) return fail(name("node", node) + " belongs to no patch");
+  HalfArc first = leaving[0];
+  for (HalfArc h : leaving)
+    if (c.patchOf[twin(h)] < 0) first = h;
+  HalfArc h = first;
+  do {
+    star.arms.push_back(h);
+    star.sectors.push_back(c.cornerAt[h] >= 0 ? c.cornerAt[h] : kStraight);
+    h = twin(c.prev[h]);
+  } while (h != first && c.patchOf[h] >= 0 && star.arms.size() <= leaving.size());
+  star.closed = h == first;
+  if (!star.closed) star.arms.push_back(h);
+  if (star.sectors.size() != leaving.size())
+    return fail(name("node", node) + " joins patches that only touch there; give each its own node");
+  (void)w;
+  return star;
+}
+
+int quarterTurns(const Star& star) {
+  int turns = 0;
+  for (Index s : star.sectors) turns += s == kStraight ? 2 : 1;
+  return turns;
+}
+
+Result<NodeKind> kindOf(const Wireframe& w, Index node, const Star& star) {
+  const auto straight = std::count(star.sectors.begin(), star.sectors.end(), kStraight);
+  const bool atPole = std::any_of(star.arms.begin(), star.arms.end(),
+                                  [&](HalfArc h) { return w.arcs[arcOf(h)].collapsed; });
+  if (straight > 0) {
+    if (straight > 1 || !star.closed || star.arms.size() != 3)
+      return fail(name("node", node) + " stands on the side of a patch but is no T of three arcs");
+    return NodeKind::hanging;
+  }
+  if (atPole) return NodeKind::irregular;
+  const int turns = quarterTurns(star);
+  return (star.closed ? turns == 4 : turns <= 2) ? NodeKind::crossing : NodeKind::irregular;
+}
+
+}  // namespace
+
+Result<Connectivity> Connectivity::make(const Wireframe& w) {
+  if (auto ok = checkIndices(w); !ok) return std::unexpected(ok.error());
+  Connectivity c;
+  if (auto ok = linkLoops(w, c); !ok) return std::unexpected(ok.error());
+
+  std::vector<std::vector<HalfArc>> leaving(w.nodes.size());
+  for (HalfArc h : w.loops) leaving[w.start(h)].push_back(h);
+  c.stars.resize(w.nodes.size());
+  c.kinds.resize(w.nodes.size());
+  c.cornerSector.assign(4 * w.patches.size(), -1);
+  c.cornerNode.assign(4 * w.patches.size(), -1);
+  for (Index n = 0; n < static_cast<Index>(w.nodes.size()); ++n) {
+    auto star = starAt(w, c, n, leaving[n]);
+    if (!star) return std::unexpected(star.error());
+    auto kind = kindOf(w, n, *star);
+    if (!kind) return std::unexpected(kind.error());
+    if ((*kind == NodeKind::hanging) != (w.nodes[n].point < 0))
+      return fail(name("node", n) + (w.nodes[n].point < 0 ? " needs a point of its own"
+                                                          : " hangs on an arc and must not have a point"));
+    for (std::size_t s = 0; s < star->sectors.size(); ++s)
+      if (star->sectors[s] != kStraight) {
+        c.cornerSector[star->sectors[s]] = static_cast<Index>(s);
+        c.cornerNode[star->sectors[s]] = n;
+      }
+    c.stars[n] = std::move(*star);
+    c.kinds[n] = *kind;
+  }
+  return c;
+}
+
+int Connectivity::opposite(Index node, int arm) const {
+  const Star& star = stars[node];
+  const int arms = static_cast<int>(star.arms.size());
+  const int sectors = static_cast<int>(star.sectors.size());
+  if (kinds[node] == NodeKind::irregular) return -1;
+  if (!star.closed) return sectors == 2 && arm != 1 ? 2 - arm : -1;
+  int turns = 0;
+  for (int k = 0; k < arms; ++k) {
+    if (turns == 2) return (arm + k) % arms;
+    turns += star.sectors[(arm + k) % sectors] == kStraight ? 2 : 1;
+  }
+  return -1;
+}
+
+Rail followRail(const Wireframe& w, const Connectivity& c, HalfArc first) {
+  Rail rail;
+  HalfArc h = first;
+  for (std::size_t guard = 0; guard <= 2 * w.arcs.size(); ++guard) {
+    rail.last = h;
+    rail.edges += w.arcs[arcOf(h)].edges;
+    const Index node = w.end(h);
+    if (c.kinds[node] != NodeKind::hanging) break;
+    const Star& star = c.stars[node];
+    const auto arm = std::find(star.arms.begin(), star.arms.end(), twin(h)) - star.arms.begin();
+    const int on = c.opposite(node, static_cast<int>(arm));
+    if (on < 0) break;
+    h = star.arms[on];
+  }
+  return rail;
+}
+
+}  // namespace sweepface
