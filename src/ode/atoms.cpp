@@ -88,8 +88,9 @@ Roots withTails(RootCase kind, Exact first, Exact second) {
 Exact closeSquare(double a, double b, double sign) {
   const double root = std::sqrt(b);
   const double rootRest = root > 0 ? std::fma(-root, root, b) / (2 * root) : 0;
-  const auto [value, tail] = sum(-a / 2, sign * root);
-  return {value / 2, (tail + sign * rootRest) / 2};
+  const auto [large, small] = sum(-a / 2, sign * root);
+  const auto [value, tail] = sum(large, small + sign * rootRest);  // `large` may have cancelled
+  return {value / 2, tail / 2};
 }
 
 // The larger and the smaller real root s of s^2 + a s + b, one Newton step beyond doubles.

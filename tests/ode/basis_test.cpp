@@ -114,6 +114,44 @@ TEST_P(Basis, dependsOnQuotientsAndLengthAlone) {
 INSTANTIATE_TEST_SUITE_P(Equations, Basis, testing::ValuesIn(equations),
                          [](const auto& test) { return std::string(test.param.name); });
 
+// Where the roots change their kind, or the library the form in which it writes the solutions.
+TEST(Borders, areCrossedWithoutAStep) {
+  const auto squares = [](double s1, double s2) { return std::pair{-(s1 + s2), s1 * s2}; };
+  const double close = std::sqrt(1.5);
+  const std::pair<double, double> borders[] = {
+      {0, 0},
+      {-10, 0},
+      {30, 0},
+      {-300, 0},
+      {0, 256},
+      {-20, 256},
+      {20, 256},
+      squares(16, 1),
+      squares(-16, 1),
+      squares(-16, -5),
+      squares(16, 16),
+      squares(-16, -16),
+      squares(90, 90),
+      squares(-50, -50),
+      squares(std::pow(9 + close, 2), std::pow(9 - close, 2)),
+      squares(-std::pow(9 + close, 2), -std::pow(9 - close, 2))};
+  for (const auto& [a, b] : borders) {
+    const double da = 1e-15 * (1 + std::abs(a)), db = 1e-15 * (1 + std::abs(b));
+    const auto one = SweepBasis::make({1, a - da, b - db}).value();
+    const auto other = SweepBasis::make({1, a + da, b + db}).value();
+    for (int order = 0; order < 4; ++order) {
+      std::array<double, 6> largest{}, step{};
+      for (double u = 0; u <= 1; u += 0.03125)
+        for (int i = 0; i < 6; ++i) {
+          const double g = one.at(u, order)[i], h = other.at(u, order)[i];
+          largest[i] = std::max(largest[i], std::abs(g));
+          step[i] = std::max(step[i], std::abs(g - h));
+        }
+      for (int i = 0; i < 6; ++i) EXPECT_LE(step[i], 1e-12 * largest[i]) << a << ", " << b;
+    }
+  }
+}
+
 TEST(SweepBasisDefault, isTheQuinticHermitePolynomials) {
   for (double u = 0; u <= 1; u += 0.0625) {
     const auto g = SweepBasis().at(u);
