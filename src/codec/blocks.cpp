@@ -1,0 +1,145 @@
+#include "codec/blocks.hpp"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+namespace sweepface::codec {
+
+namespace {
+
+constexpr unsigned kMasked = 1, kDouble = 2;  // bits of the form of a block of vectors
+
+std::array<double, 2> components(const Vec2& v) { return {v.x, v.y}; }
+std::array<double, 3> components(const Vec3& v) { return {v.x, v.y, v.z}; }
+void assign(Vec2& v, const std::array<double, 2>& c) { v = {c[0], c[1]}; }
+void assign(Vec3& v, const std::array<double, 3>& c) { v = {c[0], c[1], c[2]}; }
+
+float rounded(double x) {
+  constexpr double largest = std::numeric_limits<float>::max();
+  return static_cast<float>(std::clamp(x, -largest, largest));
+}
+
+template <typename V>
+bool fitFloats(const std::vector<V>& vectors) {
+  return std::ranges::all_of(vectors, [](const V& v) {
+    return std::ranges::all_of(components(v), [](double x) { return rounded(x) == x; });
+  });
+}
+
+// Zero as it would be read back; not -0, which is another number.
+bool isZero(double x, bool isDouble) {
+  return isDouble ? std::bit_cast<std::uint64_t>(x) == 0
+                  : std::bit_cast<std::uint32_t>(rounded(x)) == 0;
+}
+
+template <typename V>
+std::vector<bool> findNonZero(const std::vector<V>& vectors, bool isDouble) {
+  std::vector<bool> mask;
+  for (const V& v : vectors)
+    mask.push_back(
+        !std::ranges::all_of(components(v), [&](double x) { return isZero(x, isDouble); }));
+  return mask;
+}
+
+std::size_t maskBytes(std::size_t count) { return count / 8 + (count % 8 != 0); }
+
+}  // namespace
+
+void writeMask(Writer& out, const std::vector<bool>& mask) {
+  for (std::size_t k = 0; k < mask.size(); k += 8) {
+    unsigned bits = 0;
+    for (std::size_t bit = 0; bit < std::min<std::size_t>(8, mask.size() - k); ++bit)
+      bits |= unsigned{mask[k + bit]} << bit;
+    out.byte(bits);
+  }
+}
+
+std::vector<bool> readMask(Reader& in, std::size_t count) {
+  const std::string_view bytes = in.raw(maskBytes(count));
+  if (!in.ok()) return {};
+  const auto bit = [&](std::size_t k) { return bytes[k / 8] >> (k % 8) & 1; };
+  std::vector<bool> mask(count);
+  for (std::size_t k = 0; k < count; ++k) mask[k] = bit(k);
+  for (std::size_t k = count; k < 8 * bytes.size(); ++k)
+    if (bit(k)) in.refuse("a mask has bits beyond its end");
+  return mask;
+}
+
+template <typename V>
+void writeVectors(Writer& out, const std::vector<V>& vectors, Precision precision) {
+  const bool isDouble = precision == Precision::exact && !fitFloats(vectors);
+  const std::vector<bool> mask = findNonZero(vectors, isDouble);
+  const std::size_t size = components(V{}).size() * (isDouble ? 8 : 4);
+  const auto zeros = static_cast<std::size_t>(std::ranges::count(mask, false));
+  const bool masked = maskBytes(vectors.size()) < zeros * size;
+  out.byte((masked ? kMasked : 0) | (isDouble ? kDouble : 0));
+  if (masked) writeMask(out, mask);
+  for (std::size_t k = 0; k < vectors.size(); ++k)
+    if (!masked || mask[k])
+      for (const double x : components(vectors[k])) isDouble ? out.f64(x) : out.f32(rounded(x));
+}
+
+template <typename V>
+std::vector<V> readVectors(Reader& in, std::size_t count, Precision precision) {
+  const unsigned form = in.byte();
+  const bool isDouble = form & kDouble;
+  if (form > (precision == Precision::exact ? kMasked | kDouble : kMasked))
+    in.refuse("vectors are held in a form this program does not know");
+  std::vector<bool> mask;
+  if (form & kMasked) mask = readMask(in, count);
+  auto value = components(V{});
+  const std::size_t held = mask.empty() ? count : std::ranges::count(mask, true);
+  if (held > in.left() / (value.size() * (isDouble ? 8 : 4))) in.refuse("vectors are missing");
+  if (!in.ok()) return {};
+  std::vector<V> vectors(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    if (!mask.empty() && !mask[k]) continue;
+    for (double& x : value) x = isDouble ? in.f64() : in.f32();
+    assign(vectors[k], value);
+  }
+  return vectors;
+}
+
+template void writeVectors(Writer&, const std::vector<Vec2>&, Precision);
+template void writeVectors(Writer&, const std::vector<Vec3>&, Precision);
+template std::vector<Vec2> readVectors(Reader&, std::size_t, Precision);
+template std::vector<Vec3> readVectors(Reader&, std::size_t, Precision);
+
+void writeRuns(Writer& out, const std::vector<Index>& values) {
+  std::vector<std::size_t> starts;
+  for (std::size_t k = 0; k < values.size(); ++k)
+    if (k == 0 || values[k] != values[k - 1]) starts.push_back(k);
+  out.number(starts.size());
+  starts.push_back(values.size());
+  for (std::size_t r = 0; r + 1 < starts.size(); ++r) {
+    out.signedNumber(values[starts[r]]);
+    out.number(starts[r + 1] - starts[r]);
+  }
+}
+
+std::vector<Index> readRuns(Reader& in, Index low, Index high, std::size_t most,
+                            std::string_view what) {
+  std::vector<Index> values;
+  for (std::size_t runs = in.count(2, "runs"); runs > 0 && in.ok(); --runs) {
+    const Index value = in.step(0, low, high, what);
+    const std::uint64_t length = in.number();
+    if (length == 0 || length > most - values.size()) in.refuse("a run has a wrong length");
+    if (in.ok()) values.insert(values.end(), static_cast<std::size_t>(length), value);
+  }
+  return values;
+}
+
+void writeTexts(Writer& out, const std::vector<std::string>& texts) {
+  out.number(texts.size());
+  for (const std::string& text : texts) out.text(text);
+}
+
+std::vector<std::string> readTexts(Reader& in, std::string_view what) {
+  std::vector<std::string> texts;
+  for (std::size_t count = in.count(1, what); count > 0 && in.ok(); --count)
+    texts.emplace_back(in.text());
+  return texts;
+}
+
+}  // namespace sweepface::codec

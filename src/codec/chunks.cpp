@@ -1,0 +1,108 @@
+#include "codec/chunks.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include "codec/crc.hpp"
+
+namespace sweepface::codec {
+
+int rankOf(std::string_view code) {
+  const auto found = std::ranges::find(kKinds, code, &Kind::code);
+  return found == kKinds.end() ? -1 : static_cast<int>(found - kKinds.begin());
+}
+
+void writeHeader(Writer& out) {
+  out.raw(kMagic);
+  out.byte(kVersion);
+}
+
+void writeChunk(Writer& out, std::string_view code, std::string_view payload) {
+  out.raw(code);
+  out.fixed(static_cast<std::uint32_t>(payload.size()));
+  out.fixed(crc32(payload, crc32(code)));
+  out.raw(payload);
+}
+
+namespace {
+
+std::uint32_t fixed32(std::string_view bytes) {
+  std::uint32_t value = 0;
+  for (std::size_t k = 0; k < 4; ++k)
+    value |= std::uint32_t{static_cast<unsigned char>(bytes[k])} << (8 * k);
+  return value;
+}
+
+bool isCode(std::string_view code) {
+  return std::ranges::all_of(code, [](char c) { return c >= ' ' && c <= '~'; });
+}
+bool isOptional(std::string_view code) { return code[0] >= 'a' && code[0] <= 'z'; }
+
+class ChunkReader {
+ public:
+  ChunkReader(std::string_view bytes, std::string_view name) : bytes_(bytes), name_(name) {}
+
+  Result<std::vector<Chunk>> read() {
+    if (auto ok = readHeader(); !ok) return std::unexpected(ok.error());
+    std::vector<Chunk> chunks;
+    do {
+      auto chunk = readChunk();
+      if (!chunk) return std::unexpected(chunk.error());
+      chunks.push_back(*chunk);
+    } while (chunks.back().rank != rankOf("END "));
+    if (at_ < bytes_.size()) return failHere("the file goes on after its last chunk");
+    return chunks;
+  }
+
+ private:
+  std::unexpected<Error> failHere(const std::string& what) const {
+    return fail(name_ + ", byte " + std::to_string(at_) + ": " + what +
+                "; copy the file again or convert the source again.");
+  }
+
+  Result<void> readHeader() {
+    if (bytes_.empty()) return fail(name_ + " is empty; convert the source again.");
+    if (!bytes_.starts_with(kMagic))
+      return fail(name_ + " does not begin with " + std::string(kMagic) +
+                  "; check that it is a .sweep file.");
+    at_ = kMagic.size();
+    if (bytes_.size() < kHeaderSize) return failHere("the file ends before its version");
+    const int version = static_cast<unsigned char>(bytes_[at_]);
+    if (version != kVersion)
+      return fail(name_ + " is of version " + std::to_string(version) + " and this program reads " +
+                  std::to_string(kVersion) +
+                  "; get a program that fits or convert the source again.");
+    at_ = kHeaderSize;
+    return {};
+  }
+
+  Result<Chunk> readChunk() {
+    if (bytes_.size() - at_ < kFrameSize) return failHere("the file ends before its last chunk");
+    const std::string_view code = bytes_.substr(at_, 4);
+    if (!isCode(code)) return failHere("there is no chunk where one must begin");
+    const std::uint32_t size = fixed32(bytes_.substr(at_ + 4)),
+                        sum = fixed32(bytes_.substr(at_ + 8));
+    const std::string quoted = "chunk '" + std::string(code) + "'";
+    if (size > bytes_.size() - at_ - kFrameSize) return failHere("the file ends within " + quoted);
+    const Chunk chunk{rankOf(code), bytes_.substr(at_ + kFrameSize, size), at_ + kFrameSize};
+    if (crc32(chunk.payload, crc32(code)) != sum)
+      return failHere("the checksum of " + quoted + " does not match");
+    if (chunk.rank < 0 && !isOptional(code))
+      return fail(name_ + ", byte " + std::to_string(at_) + ": " + quoted +
+                  " is required and unknown to this program; get a newer one.");
+    at_ = chunk.offset + size;
+    return chunk;
+  }
+
+  std::string_view bytes_;
+  std::string name_;
+  std::size_t at_ = 0;
+};
+
+}  // namespace
+
+Result<std::vector<Chunk>> readChunks(std::string_view bytes, std::string_view name) {
+  return ChunkReader(bytes, name).read();
+}
+
+}  // namespace sweepface::codec

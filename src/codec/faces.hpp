@@ -1,0 +1,23 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+
+#include "sweepface/polygons.hpp"
+
+namespace sweepface::codec {
+
+/// The corners around a face of four, from one of them; all -1 where the face has not four or there
+/// is none.
+inline std::array<Index, 4> aroundQuad(const Polygons& polygons, Index corner) {
+  const auto& starts = polygons.faceStart;
+  if (corner < 0 || starts.empty() || corner >= starts.back()) return {-1, -1, -1, -1};
+  const auto end = std::ranges::upper_bound(starts, corner);
+  const Index begin = *(end - 1), first = corner - begin;
+  if (*end - begin != 4) return {-1, -1, -1, -1};
+  std::array<Index, 4> around;
+  for (Index k = 0; k < 4; ++k) around[k] = begin + (first + k) % 4;
+  return around;
+}
+
+}  // namespace sweepface::codec

@@ -1,0 +1,89 @@
+#include "codec/reader.hpp"
+
+#include <bit>
+#include <cmath>
+
+namespace sweepface::codec {
+
+void Reader::refuse(std::string_view problem) {
+  if (ok()) problem_ = problem;
+}
+
+std::string_view Reader::raw(std::size_t size) {
+  if (size > left()) {
+    refuse("the chunk ends within a value");
+    return {};
+  }
+  at_ += size;
+  return bytes_.substr(at_ - size, size);
+}
+
+unsigned Reader::byte() {
+  const std::string_view taken = raw(1);
+  return taken.empty() ? 0 : static_cast<unsigned char>(taken[0]);
+}
+
+std::uint64_t Reader::fixed(std::size_t size) {
+  std::uint64_t value = 0;
+  const std::string_view taken = raw(size);
+  for (std::size_t k = 0; k < taken.size(); ++k)
+    value |= std::uint64_t{static_cast<unsigned char>(taken[k])} << (8 * k);
+  return value;
+}
+
+double Reader::f32() {
+  const float value = std::bit_cast<float>(static_cast<std::uint32_t>(fixed(4)));
+  if (!std::isfinite(value)) refuse("a coordinate is not finite");
+  return ok() ? value : 0;
+}
+
+double Reader::f64() {
+  const double value = std::bit_cast<double>(fixed(8));
+  if (!std::isfinite(value)) refuse("a value is not finite");
+  return ok() ? value : 0;
+}
+
+std::uint64_t Reader::number() {
+  std::uint64_t value = 0;
+  for (int shift = 0; shift < 56; shift += 7) {
+    const unsigned next = byte();
+    value |= std::uint64_t{next & 127} << shift;
+    if (next >= 128) continue;
+    if (next == 0 && shift > 0) refuse("a number is not in its shortest form");
+    return ok() ? value : 0;
+  }
+  refuse("a number is too large");
+  return 0;
+}
+
+std::int64_t Reader::signedNumber() {
+  const std::uint64_t value = number();
+  return static_cast<std::int64_t>(value >> 1) ^ -static_cast<std::int64_t>(value & 1);
+}
+
+std::string_view Reader::text() { return raw(count(1, "letters")); }
+
+std::size_t Reader::count(std::size_t leastBytes, std::string_view what) {
+  const std::uint64_t entries = number();
+  if (entries <= left() / leastBytes) return static_cast<std::size_t>(entries);
+  refuse("there are said to be " + std::to_string(entries) + " " + std::string(what) +
+         ", more than the chunk can hold");
+  return 0;
+}
+
+Index Reader::number(std::int64_t low, std::int64_t high, std::string_view what) {
+  return checked(static_cast<std::int64_t>(number()), low, high, what);
+}
+
+Index Reader::step(Index previous, std::int64_t low, std::int64_t high, std::string_view what) {
+  return checked(previous + signedNumber(), low, high, what);
+}
+
+Index Reader::checked(std::int64_t value, std::int64_t low, std::int64_t high,
+                      std::string_view what) {
+  if (ok() && value >= low && value < high) return static_cast<Index>(value);
+  refuse(std::string(what) + " " + std::to_string(value) + " is out of range");
+  return static_cast<Index>(low);
+}
+
+}  // namespace sweepface::codec

@@ -1,0 +1,118 @@
+#include "codec/wire.hpp"
+
+#include <algorithm>
+
+namespace sweepface::codec {
+
+namespace {
+
+constexpr std::int64_t kLongestArc = 65535;
+
+// A set that is closed downwards: whoever has ∂x^i ∂y^j has all that comes before.
+bool isClosed(JetMask mask) {
+  for (int k = 0; k < 9; ++k) {
+    if (!(mask >> k & 1)) continue;
+    if (k >= 3 && !(mask >> (k - 3) & 1)) return false;
+    if (k % 3 > 0 && !(mask >> (k - 1) & 1)) return false;
+  }
+  return true;
+}
+
+void readNodes(Reader& in, Wireframe& w) {
+  const std::size_t count = in.count(2, "nodes");
+  if (w.points > static_cast<std::int64_t>(count)) in.refuse("there are more points than nodes");
+  Index point = -1;
+  for (std::size_t n = 0; n < count && in.ok(); ++n) {
+    Node node;
+    node.point = point = in.step(point, -1, w.points, "point");
+    node.stored = static_cast<JetMask>(in.number(0, kWholeJet + 1, "jet mask"));
+    if (!isClosed(node.stored)) in.refuse("a jet stores a derivative without those before it");
+    w.nodes.push_back(node);
+  }
+}
+
+bool meetInOnePoint(const Wireframe& w, const Arc& arc) {
+  const Index point = w.nodes[arc.from].point;
+  return point >= 0 && point == w.nodes[arc.to].point;
+}
+
+void readArcs(Reader& in, Wireframe& w) {
+  const std::size_t count = in.count(4, "arcs");
+  const auto nodes = static_cast<Index>(w.nodes.size());
+  Index from = 0, ribbon = 0;
+  for (std::size_t a = 0; a < count && in.ok(); ++a) {
+    Arc arc;
+    arc.from = from = in.step(from, 0, nodes, "node");
+    arc.to = in.step(from, 0, nodes, "node");
+    const Index length = in.number(2, 2 * (kLongestArc + 1), "twice the length of an arc");
+    arc.edges = length / 2;
+    arc.collapsed = length % 2;
+    arc.ribbon = ribbon = in.step(ribbon, 0, INT32_MAX, "ribbon");
+    if (in.ok() && arc.collapsed && !meetInOnePoint(w, arc))
+      in.refuse("a collapsed arc joins two points");
+    w.arcs.push_back(arc);
+  }
+}
+
+void readPatches(Reader& in, Wireframe& w) {
+  const std::size_t count = in.count(8, "patches");
+  const auto halves = static_cast<std::int64_t>(2 * w.arcs.size());
+  HalfArc last = 0;
+  for (std::size_t p = 0; p < count && in.ok(); ++p) {
+    Patch patch;
+    for (int s = 0; s < 4; ++s) {
+      patch.sides[s] = static_cast<Index>(w.loops.size());
+      const std::size_t size = in.count(1, "arcs on a side");
+      if (size == 0) in.refuse("a patch lacks a side");
+      for (std::size_t k = 0; k < size && in.ok(); ++k)
+        w.loops.push_back(last = in.step(last, 0, halves, "half-arc"));
+    }
+    patch.sides[4] = static_cast<Index>(w.loops.size());
+    w.patches.push_back(patch);
+  }
+}
+
+std::int64_t length(const Wireframe& w, std::size_t patch, int side) {
+  std::int64_t sum = 0;
+  for (HalfArc h : w.side(static_cast<Index>(patch), side)) sum += w.arcs[arcOf(h)].edges;
+  return sum;
+}
+
+bool isSmallEnough(const Wireframe& w) {
+  std::int64_t vertices = 0;
+  for (const Arc& arc : w.arcs) vertices += arc.edges;
+  for (std::size_t p = 0; p < w.patches.size(); ++p) {
+    const std::int64_t m = length(w, p, 0), n = length(w, p, 1);
+    if (vertices > kMostGridVertices || m > kMostGridVertices || n > kMostGridVertices)
+      return false;
+    vertices += m * n;
+  }
+  return vertices <= kMostGridVertices;
+}
+
+bool allArcsBound(const Wireframe& w) {
+  std::vector<bool> bounds(w.arcs.size());
+  for (HalfArc h : w.loops) bounds[arcOf(h)] = true;
+  return std::ranges::find(bounds, false) == bounds.end();
+}
+
+}  // namespace
+
+std::size_t gridQuads(const Wireframe& w) {
+  std::int64_t quads = 0;
+  for (std::size_t p = 0; p < w.patches.size(); ++p) quads += length(w, p, 0) * length(w, p, 1);
+  return static_cast<std::size_t>(quads);
+}
+
+Wireframe readWireframe(Reader& in) {
+  Wireframe w;
+  w.points = in.number(0, INT32_MAX, "number of points");
+  readNodes(in, w);
+  readArcs(in, w);
+  readPatches(in, w);
+  if (in.ok() && !isSmallEnough(w)) in.refuse("the patches have too many vertices");
+  if (in.ok() && !allArcsBound(w)) in.refuse("an arc bounds no patch");
+  return w;
+}
+
+}  // namespace sweepface::codec

@@ -1,0 +1,148 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <gtest/gtest.h>
+
+#include "sweepface/codec.hpp"
+#include "sweepface/eval.hpp"
+
+// Small rigs made by hand.
+namespace sweepface::testing {
+
+inline Arc arc(Index from, Index to, Index edges, Index ribbon) {
+  return {from, to, edges, ribbon, false};
+}
+
+/// A patch of m × n quads. Ribbon 0 runs along u, ribbon 1 along v.
+inline Wireframe onePatch(Index m, Index n) {
+  Wireframe w;
+  w.points = 4;
+  for (Index k = 0; k < 4; ++k) w.nodes.push_back({k, kWholeJet});
+  w.arcs = {arc(0, 1, m, 0), arc(1, 2, n, 1), arc(3, 2, m, 0), arc(3, 0, n, 1)};
+  w.patches = {{{0, 1, 2, 3, 4}}};
+  w.loops = {0, 2, 5, 6};
+  w.ribbons = {{}, {1, -0.5, 0.25}};
+  return w;
+}
+
+/// Two patches side by side along u that share an arc.
+inline Wireframe twoPatches() {
+  Wireframe w;
+  w.points = 6;
+  for (Index k = 0; k < 6; ++k) w.nodes.push_back({k, kPosition});
+  // 3 --- 4 --- 5
+  // |     |     |
+  // 0 --- 1 --- 2
+  w.arcs = {arc(0, 1, 3, 0), arc(1, 2, 2, 0), arc(3, 4, 3, 0), arc(4, 5, 2, 0),
+            arc(0, 3, 2, 1), arc(1, 4, 2, 1), arc(2, 5, 2, 1)};
+  w.patches = {{{0, 1, 2, 3, 4}}, {{4, 5, 6, 7, 8}}};
+  w.loops = {0, 10, 5, 9, 2, 12, 7, 11};
+  w.ribbons = {{}, {}};
+  return w;
+}
+
+/// A patch whose side 3 is collapsed: a slice of a fan.
+inline Wireframe slice() {
+  Wireframe w = onePatch(3, 2);
+  w.points = 3;
+  w.nodes[3].point = 0;
+  w.nodes[1].point = 1, w.nodes[2].point = 2;
+  w.arcs[3].collapsed = true;
+  return w;
+}
+
+/// Something between -2 and 2 that single precision holds.
+inline double anything(Index k) { return std::round(std::sin(1.7 * k) * 2048) / 1024; }
+inline Vec3 anyVector(Index k) {
+  return {anything(3 * k), anything(3 * k + 1), anything(3 * k + 2)};
+}
+
+/// A source whose vertices and faces are those of the surface at level 1, its vertices backwards.
+inline SourceMesh makeSource(const Surface& surface) {
+  SourceMesh source;
+  const Tessellation grid(surface, 1);
+  const Index last = grid.vertexCount() - 1;
+  for (Index v = 0; v <= last; ++v) source.gridVertex.push_back(last - v);
+  Polygons& faces = source.polygons;
+  for (const auto& face : grid.faces()) {
+    const auto start = static_cast<Index>(faces.corners.size());
+    for (Index v : face) faces.corners.push_back(last - v);
+    for (Index k = 0; k < 4; ++k) source.quadCorners.push_back(start + (k + faces.faceCount()) % 4);
+    faces.faceStart.push_back(start + 4);
+  }
+  return source;
+}
+
+/// Neutral, source and the targets open (everywhere), wink (here and there), rest (nowhere).
+inline Rig makeRig(Wireframe wireframe) {
+  Rig rig;
+  rig.surface = Surface::make(std::move(wireframe)).value();
+  const Index count = rig.surface.storedCount();
+  for (Index v = 0; v < count; ++v) rig.neutral.push_back(anyVector(v));
+  rig.targets = {{"open", {}, {}}, {"wink \xC3\xA9", {}, {}}, {"rest", {}, {}}};
+  for (Index v = 0; v < count; ++v) {
+    rig.targets[0].difference.push_back(anyVector(v + 100));
+    rig.targets[1].difference.push_back(v % 4 == 1 ? anyVector(v + 200) : Vec3{});
+    rig.targets[2].difference.push_back({});
+  }
+  rig.source = makeSource(rig.surface);
+  rig.tolerance = 0.0123;
+  return rig;
+}
+
+/// Texture coordinates, materials, groups and two loose vertices on top.
+inline Rig dressed(Rig rig) {
+  SourceMesh& source = rig.source;
+  Polygons& faces = source.polygons;
+  for (std::size_t c = 0; c < faces.corners.size(); ++c) {
+    faces.texcoords.push_back({0.25 * static_cast<double>(c), 0.1});
+    faces.cornerTexcoords.push_back(c % 5 == 0 ? -1 : static_cast<Index>(c));
+  }
+  faces.materials = {"skin", ""};
+  faces.groups = {"head"};
+  faces.materialFiles = {"a face.mtl"};
+  for (Index f = 0; f < faces.faceCount(); ++f) {
+    faces.faceMaterial.push_back(f % 3 - 1);
+    faces.faceGroup.push_back(0);
+  }
+  source.gridVertex.push_back(-1);
+  source.gridVertex.push_back(-2);
+  source.loose = {{0.1, 0.2, 0.3}, {4, 5, 6}};
+  for (Target& target : rig.targets) target.looseDifference = {{}, {0.5, 0, 1e-9}};
+  rig.targets[2].looseDifference = {{}, {}};
+  return rig;
+}
+
+/// A small rig of every sort.
+inline std::vector<Rig> someRigs() {
+  return {
+      makeRig(onePatch(1, 1)),  makeRig(onePatch(3, 2)),          makeRig(twoPatches()),
+      makeRig(slice()),         dressed(makeRig(onePatch(2, 3))), dressed(makeRig(twoPatches())),
+      dressed(makeRig(slice()))};
+}
+
+inline void expectEqual(const Polygons& a, const Polygons& b) {
+  EXPECT_EQ(a.faceStart, b.faceStart);
+  EXPECT_EQ(a.corners, b.corners);
+  EXPECT_EQ(a.texcoords, b.texcoords);
+  EXPECT_EQ(a.cornerTexcoords, b.cornerTexcoords);
+  EXPECT_EQ(a.materials, b.materials);
+  EXPECT_EQ(a.faceMaterial, b.faceMaterial);
+  EXPECT_EQ(a.groups, b.groups);
+  EXPECT_EQ(a.faceGroup, b.faceGroup);
+  EXPECT_EQ(a.materialFiles, b.materialFiles);
+}
+
+inline void expectEqual(const Rig& a, const Rig& b) {
+  EXPECT_EQ(a.surface.wireframe(), b.surface.wireframe());
+  EXPECT_EQ(a.neutral, b.neutral);
+  EXPECT_EQ(a.targets, b.targets);
+  EXPECT_EQ(a.tolerance, b.tolerance);
+  EXPECT_EQ(a.source.gridVertex, b.source.gridVertex);
+  EXPECT_EQ(a.source.loose, b.source.loose);
+  EXPECT_EQ(a.source.quadCorners, b.source.quadCorners);
+  expectEqual(a.source.polygons, b.source.polygons);
+}
+
+}  // namespace sweepface::testing

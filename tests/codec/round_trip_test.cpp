@@ -1,0 +1,75 @@
+#include <gtest/gtest.h>
+#include <limits>
+
+#include "codec/rigs.hpp"
+
+namespace sweepface {
+namespace {
+
+using namespace sweepface::testing;
+
+TEST(RoundTrip, GivesTheSameRig) {
+  for (const Rig& rig : someRigs()) {
+    const auto back = decode(encode(rig), "a.sweep");
+    ASSERT_TRUE(back) << back.error().message;
+    expectEqual(*back, rig);
+  }
+}
+
+TEST(RoundTrip, GivesTheSameBytes) {
+  for (const Rig& rig : someRigs()) {
+    const std::string bytes = encode(rig);
+    EXPECT_EQ(encode(decode(bytes, "a.sweep").value()), bytes);
+  }
+}
+
+TEST(RoundTrip, GivesTheSamePoints) {
+  for (const Rig& rig : someRigs()) {
+    const Rig back = decode(encode(rig), "a.sweep").value();
+    const Weights weights{1, 0.5, -2};
+    EXPECT_EQ(Tessellation(back.surface, 3).positions(blend(back, weights)),
+              Tessellation(rig.surface, 3).positions(blend(rig, weights)));
+    EXPECT_EQ(blendLoose(back, weights), blendLoose(rig, weights));
+  }
+}
+
+TEST(RoundTrip, KeepsARigWithoutSourceOrTargets) {
+  Rig rig = makeRig(onePatch(2, 2));
+  rig.source = {};
+  rig.targets.clear();
+  expectEqual(decode(encode(rig), "a.sweep").value(), rig);
+}
+
+TEST(RoundTrip, KeepsFacesThatAreNotQuadsAndQuadsThatAreNotFaces) {
+  Rig rig = makeRig(onePatch(2, 1));
+  Polygons& faces = rig.source.polygons;
+  faces.faceStart = {0, 3, 8};
+  faces.corners = {0, 1, 2, 3, 4, 5, 1, 2};
+  rig.source.quadCorners = {2, 1, 1, 0, 7, 6, 3, 4};
+  expectEqual(decode(encode(rig), "a.sweep").value(), rig);
+}
+
+TEST(RoundTrip, RoundsVectorsToSinglePrecision) {
+  Rig rig = makeRig(onePatch(1, 1));
+  rig.neutral[0] = {0.1, 1e300, -1e-300};
+  const Rig back = decode(encode(rig), "a.sweep").value();
+  EXPECT_EQ(back.neutral[0], (Vec3{0.1f, std::numeric_limits<float>::max(), -0.0}));
+}
+
+TEST(RoundTrip, KeepsTheSignOfZero) {
+  Rig rig = makeRig(onePatch(1, 1));
+  rig.targets[2].difference[3] = {0, -0.0, 0};
+  const Rig back = decode(encode(rig), "a.sweep").value();
+  EXPECT_TRUE(std::signbit(back.targets[2].difference[3].y));
+}
+
+TEST(RoundTrip, KeepsTextureCoordinatesAndLooseVerticesInDoublePrecision) {
+  Rig rig = dressed(makeRig(onePatch(1, 1)));
+  rig.source.polygons.texcoords[1] = {1.0 / 3, 1e-300};
+  rig.source.loose[1] = {1.0 / 7, 1e200, 0};
+  rig.targets[0].looseDifference[0] = {1.0 / 9, 0, 0};
+  expectEqual(decode(encode(rig), "a.sweep").value(), rig);
+}
+
+}  // namespace
+}  // namespace sweepface
