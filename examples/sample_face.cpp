@@ -107,7 +107,6 @@ class MeshBuilder {
       addSide(axis, cells[axis]);
     }
     for (const Opening& opening : openings) addRings(opening);
-    std::ranges::stable_sort(mesh_.quads, {}, &Quad::part);
     return std::move(mesh_);
   }
 
