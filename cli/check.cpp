@@ -1,0 +1,239 @@
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <tbb/parallel_for.h>
+
+#include "sweepface/eval.hpp"
+#include "sweepface/fit.hpp"
+
+#include "command.hpp"
+#include "output.hpp"
+
+namespace sweepface::cli {
+namespace {
+
+struct CheckArguments {
+  std::string face;
+  bool quiet = false, json = false;
+};
+
+void addOptions(CLI::App& app, CheckArguments& a) {
+  addFace(app, a.face);
+  addQuiet(app, a.quiet);
+  addJson(app, a.json);
+  app.footer(
+      "\nLooks at the neutral, at every target and at a random mixture of all. Ends with 1 and "
+      "names what is\nbroken if there is a gap between patches, a kink where there must be "
+      "none, or a number that is\nnot finite.\n\nExample:\n  sweepface check face.sweep");
+}
+
+// What a sound file may show from rounding: gaps in units of the model's size, jumps of derivatives
+// relative to the largest one.
+constexpr double kLargestGap = 1e-12, kLargestJump = 1e-9;
+constexpr int kSamples = 5;
+constexpr std::array kClassNames{"boundary", "C2", "spoke"};
+
+/// A face to look at.
+struct Pose {
+  std::string name;
+  Weights weights;
+};
+
+std::vector<Pose> posesOf(const Rig& rig) {
+  std::vector<Pose> poses{{"the neutral", single(rig, -1)}};
+  for (std::size_t k = 0; k < rig.targets.size(); ++k)
+    poses.push_back({rig.targets[k].name, single(rig, static_cast<Index>(k))});
+  if (rig.targets.empty()) return poses;
+  Weights mixture;
+  std::mt19937 random(1);
+  for (std::size_t k = 0; k < rig.targets.size(); ++k)
+    mixture.push_back(static_cast<double>(random()) / static_cast<double>(std::mt19937::max()));
+  poses.push_back({"a mixture of all targets", mixture});
+  return poses;
+}
+
+/// All joins of a class: lengths in the neutral, the rest over every pose.
+struct ClassReport {
+  std::size_t count = 0;
+  double length = 0;
+  double gap = 0;  ///< relative to the model's size
+  double first = 0, second = 0, normal = 0;
+  double normalSquares = 0, weight = 0;  ///< of the angles, by length
+
+  double normalRms() const { return weight > 0 ? std::sqrt(normalSquares / weight) : 0; }
+
+  void add(const JoinReport& join, double size) {
+    gap = std::max(gap, join.positionGap / size);
+    first = std::max(first, join.firstJump);
+    second = std::max(second, join.secondJump);
+    normal = std::max(normal, join.normalJump);
+    normalSquares += join.length * join.normalJump * join.normalJump;
+    weight += join.length;
+  }
+};
+
+struct PoseJoins {
+  bool finite = true;
+  std::vector<JoinReport> joins;
+};
+
+PoseJoins lookAt(const Rig& rig, const Pose& pose) {
+  const std::vector<Vec3> vectors = blend(rig, pose.weights);
+  PoseJoins result;
+  result.finite = std::ranges::all_of(vectors, isFinite);
+  if (result.finite) result.joins = examineJoins(rig.surface, vectors, kSamples);
+  return result;
+}
+
+class Checker {
+ public:
+  explicit Checker(const Rig& rig) : rig_(rig), poses_(posesOf(rig)) {
+    const Tessellation grid(rig.surface, 1);
+    size_ = diagonal({grid.positions(blend(rig, poses_[0].weights)), {}});
+  }
+
+  void run(bool quiet) {
+    ProgressBar bar(quiet);
+    std::vector<PoseJoins> looks(poses_.size());
+    std::atomic<std::size_t> done = 0;
+    tbb::parallel_for(std::size_t{0}, poses_.size(), [&](std::size_t k) {
+      looks[k] = lookAt(rig_, poses_[k]);
+      bar.show("checking", static_cast<double>(++done) / static_cast<double>(poses_.size()));
+    });
+    for (std::size_t k = 0; k < looks.size(); ++k) judge(poses_[k].name, looks[k]);
+    for (const JoinReport& join : looks[0].joins) {
+      ClassReport& c = classes_[static_cast<std::size_t>(join.joinClass)];
+      ++c.count;
+      c.length += join.length;
+    }
+  }
+
+  const std::vector<std::string>& problems() const { return problems_; }
+  nlohmann::ordered_json report(const std::string& file) const;
+  void print(const std::string& file) const;
+
+ private:
+  void judge(const std::string& pose, const PoseJoins& look) {
+    if (!look.finite) problems_.push_back(fmt::format("{} has vectors that are not finite", pose));
+    Joint gap, first, second;
+    for (std::size_t a = 0; a < look.joins.size(); ++a) {
+      const JoinReport& join = look.joins[a];
+      classes_[static_cast<std::size_t>(join.joinClass)].add(join, size_);
+      gap.see(a, join.positionGap / size_);
+      if (join.joinClass != JoinClass::c2) continue;
+      first.see(a, join.firstJump);
+      second.see(a, join.secondJump);
+    }
+    report(pose, gap, kLargestGap,
+           "the patches beside arc {} come apart by {:.2g} of the model's size");
+    report(pose, first, kLargestJump,
+           "the first derivative jumps across arc {} by {:.2g} of the largest");
+    report(pose, second, kLargestJump,
+           "the second derivative jumps across arc {} by {:.2g} of the largest");
+  }
+
+  /// The arc where something is largest.
+  struct Joint {
+    std::size_t arc = 0;
+    double value = 0;
+    void see(std::size_t a, double x) {
+      if (!(x <= value)) arc = a, value = x;
+    }
+  };
+
+  void report(const std::string& pose, const Joint& worst, double limit, fmt::string_view what) {
+    if (worst.value <= limit) return;
+    problems_.push_back(pose + ": " + fmt::format(fmt::runtime(what), worst.arc, worst.value));
+  }
+
+  std::ptrdiff_t nodes(NodeKind kind) const {
+    return std::ranges::count(rig_.surface.connectivity().kinds, kind);
+  }
+  double totalLength() const {
+    double sum = 0;
+    for (const ClassReport& c : classes_) sum += c.length;
+    return sum > 0 ? sum : 1;
+  }
+
+  const Rig& rig_;
+  std::vector<Pose> poses_;
+  double size_ = 1;
+  std::array<ClassReport, 3> classes_;
+  std::vector<std::string> problems_;
+};
+
+nlohmann::ordered_json Checker::report(const std::string& file) const {
+  nlohmann::ordered_json joins;
+  for (std::size_t k = 0; k < classes_.size(); ++k) {
+    const ClassReport& c = classes_[k];
+    auto& join = joins[kClassNames[k]];
+    join = {{"count", c.count}, {"length", c.length}, {"lengthShare", c.length / totalLength()}};
+    if (static_cast<JoinClass>(k) == JoinClass::boundary) continue;
+    join.update({{"positionGap", c.gap},
+                 {"firstJump", c.first},
+                 {"secondJump", c.second},
+                 {"normalJumpMax", c.normal},
+                 {"normalJumpRms", c.normalRms()}});
+  }
+  return {{"file", file},
+          {"sound", problems_.empty()},
+          {"problems", problems_},
+          {"poses", poses_.size()},
+          {"fullNodes", nodes(NodeKind::crossing)},
+          {"irregularNodes", nodes(NodeKind::irregular)},
+          {"hangingNodes", nodes(NodeKind::hanging)},
+          {"ribbons", rig_.surface.wireframe().ribbons.size()},
+          {"joins", joins}};
+}
+
+void Checker::print(const std::string& file) const {
+  fmt::print("{}: {}\n", file, problems_.empty() ? "sound" : "broken");
+  fmt::print("  {} poses: the neutral, {} targets{}\n", poses_.size(), rig_.targets.size(),
+             rig_.targets.empty() ? "" : " and a mixture of all");
+  fmt::print("  nodes: {} full, {} irregular, {} hanging (T-nodes)\n", nodes(NodeKind::crossing),
+             nodes(NodeKind::irregular), nodes(NodeKind::hanging));
+  fmt::print("  ribbons: {}, all with shape parameters that the equation allows\n",
+             rig_.surface.wireframe().ribbons.size());
+  fmt::print("\n  {:<9} {:>7} {:>11} {:>7}   {:>9} {:>9} {:>9} {:>9} {:>9}\n", "joins", "count",
+             "length", "share", "gap", "1st jump", "2nd jump", "max angle", "RMS angle");
+  for (std::size_t k = 0; k < classes_.size(); ++k) {
+    const ClassReport& c = classes_[k];
+    fmt::print("  {:<9} {:>7} {:>11.4f} {:>5.1f} %", kClassNames[k], c.count, c.length,
+               100 * c.length / totalLength());
+    if (static_cast<JoinClass>(k) != JoinClass::boundary)
+      fmt::print("   {:>9.1e} {:>9.1e} {:>9.1e} {:>7.2g} ° {:>7.2g} °", c.gap, c.first, c.second,
+                 c.normal, c.normalRms());
+    fmt::print("\n");
+  }
+}
+
+Result<int> runCheck(const CheckArguments& a) {
+  const Result<Rig> rig = readFace(a.face);
+  if (!rig) return std::unexpected(rig.error());
+  Checker checker(*rig);
+  checker.run(a.quiet);
+  if (a.json)
+    printJson(checker.report(a.face));
+  else if (!a.quiet)
+    checker.print(a.face);
+  std::fflush(stdout);
+  const auto& problems = checker.problems();
+  if (problems.empty()) return 0;
+  constexpr std::size_t most = 10;
+  for (std::size_t k = 0; k < std::min(most, problems.size()); ++k)
+    printError(fmt::format("{} is broken: {}.", a.face, problems[k]));
+  if (problems.size() > most) printError(fmt::format("And {} more.", problems.size() - most));
+  return 1;
+}
+
+}  // namespace
+
+Command addCheck(CLI::App& tool) {
+  return makeCommand(tool, "check", "Test that a face is watertight, smooth and finite", runCheck);
+}
+
+}  // namespace sweepface::cli

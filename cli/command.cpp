@@ -1,0 +1,131 @@
+#include "command.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <fmt/format.h>
+#include <system_error>
+#include <unistd.h>
+
+#include "sweepface/codec.hpp"
+#include "sweepface/io.hpp"
+
+namespace sweepface::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Whether all of a text is a number; inf and nan are none.
+template <typename Number>
+bool parse(const std::string& text, Number& number) {
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, number);
+  return error == std::errc{} && stop == end && std::isfinite(static_cast<double>(number));
+}
+
+std::string extension(const fs::path& path) {
+  std::string text = path.extension().string();
+  std::ranges::transform(text, text.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+}  // namespace
+
+void addQuiet(CLI::App& app, bool& quiet) {
+  app.add_flag("-q,--quiet", quiet, "Print errors and warnings only");
+}
+
+void addJson(CLI::App& app, bool& json) {
+  app.add_flag("--json", json, "Print the report as JSON, for programs");
+}
+
+void addFace(CLI::App& app, std::string& face) {
+  app.add_option("FACE", face, "The face, a .sweep file made by `sweepface convert`")->required();
+}
+
+void addOutput(CLI::App& app, std::string& output, const std::string& description) {
+  app.add_option("-o,--output", output, description)->required()->type_name("PATH");
+}
+
+void addWeights(CLI::App& app, std::string& weights) {
+  app.add_option("--weights", weights,
+                 "The expression: targets and how much of each, e.g. jawOpen=1,eyeBlink_L=0.5; "
+                 "targets that are not named are at 0")
+      ->type_name("NAME=W,...");
+}
+
+CLI::Option* addLod(CLI::App& app, int& lod, const std::string& description) {
+  return app.add_option("--lod", lod, description)->check(wholeNumber(1, 64))->type_name("N");
+}
+
+void addMeshes(CLI::App& app, std::string& neutral, std::vector<std::string>& targets) {
+  app.add_option("NEUTRAL", neutral, "The face at rest, an .obj or .ply file")->required();
+  app.add_option("TARGETS", targets,
+                 "Its expressions: .obj or .ply files with the same vertices in the same order, or "
+                 "folders of them; each is named after its file");
+}
+
+void addThreads(CLI::App& app, int& threads) {
+  app.add_option("--threads", threads, "How many threads may work; all cores if not given")
+      ->check(wholeNumber(1, 1024))
+      ->type_name("N");
+}
+
+CLI::Validator wholeNumber(int low, int high) {
+  const auto check = [=](const std::string& text) -> std::string {
+    int number = 0;
+    if (parse(text, number) && number >= low && number <= high) return {};
+    return fmt::format("This must be a whole number from {} to {}, not '{}'.", low, high, text);
+  };
+  return CLI::Validator(check, "", "");
+}
+
+CLI::Validator positiveNumber(double high) {
+  const auto check = [=](const std::string& text) -> std::string {
+    double number = 0;
+    if (parse(text, number) && number > 0 && (high == 0 || number <= high)) return {};
+    const std::string limit = high > 0 ? fmt::format(" and at most {}", high) : "";
+    return fmt::format("This must be a finite number greater than 0{}, not '{}'.", limit, text);
+  };
+  return CLI::Validator(check, "", "");
+}
+
+Result<Rig> readFace(const std::string& path) {
+  const Result<std::string> bytes = readFile(path);
+  if (!bytes) return std::unexpected(bytes.error());
+  return decode(*bytes, path);
+}
+
+Result<void> checkOutput(const fs::path& output, const std::vector<std::string>& inputs,
+                         std::initializer_list<std::string_view> foreign) {
+  const auto cannot = [&](std::string_view why) {
+    return fail(fmt::format("Cannot write {}: {}.", output.string(), why));
+  };
+  std::error_code ignored;
+  for (const std::string& input : inputs)
+    if (fs::equivalent(output, input, ignored))
+      return cannot("it is what is read; choose another name");
+  for (const std::string_view kind : foreign)
+    if (extension(output) == kind)
+      return cannot(fmt::format("its name promises another kind of file ({})", kind));
+  if (!output.has_filename() || fs::is_directory(output, ignored))
+    return cannot("it is a folder; name a file");
+  // A device is written to as it is; any other file is replaced in its folder.
+  const bool device = fs::exists(output, ignored) && !fs::is_regular_file(output, ignored);
+  const fs::path folder = output.has_parent_path() ? output.parent_path() : fs::path(".");
+  if (!device && !fs::is_directory(folder, ignored))
+    return cannot(fmt::format("there is no folder {}; create it first", folder.string()));
+  if (access((device ? output : folder).c_str(), W_OK) != 0)
+    return cannot(std::generic_category().message(errno));
+  return {};
+}
+
+Weights single(const Rig& rig, Index target) {
+  Weights weights(rig.targets.size(), 0.0);
+  if (target >= 0) weights[target] = 1;
+  return weights;
+}
+
+}  // namespace sweepface::cli

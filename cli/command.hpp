@@ -1,0 +1,68 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "sweepface/result.hpp"
+#include "sweepface/rig.hpp"
+
+namespace sweepface::cli {
+
+/// A command of the tool and what it does once its options are parsed: the exit code, or why it
+/// failed.
+struct Command {
+  CLI::App* app = nullptr;
+  std::function<Result<int>()> run;
+};
+
+Command addConvert(CLI::App& tool);
+Command addInfo(CLI::App& tool);
+Command addCheck(CLI::App& tool);
+Command addMeasure(CLI::App& tool);
+Command addExport(CLI::App& tool);
+Command addAnimate(CLI::App& tool);
+Command addWireframe(CLI::App& tool);
+
+/// A command whose options are an Options with a static add(CLI::App&, Options&).
+template <typename Options>
+Command makeCommand(CLI::App& tool, const std::string& name, const std::string& description,
+                    Result<int> (*run)(const Options&)) {
+  CLI::App* app = tool.add_subcommand(name, description);
+  auto options = std::make_shared<Options>();
+  addOptions(*app, *options);
+  return {app, [options, run] { return run(*options); }};
+}
+
+// ---- Options that several commands have ----
+
+void addQuiet(CLI::App& app, bool& quiet);
+void addJson(CLI::App& app, bool& json);
+void addFace(CLI::App& app, std::string& face);
+void addOutput(CLI::App& app, std::string& output, const std::string& description);
+void addWeights(CLI::App& app, std::string& weights);
+CLI::Option* addLod(CLI::App& app, int& lod, const std::string& description);
+void addMeshes(CLI::App& app, std::string& neutral, std::vector<std::string>& targets);
+void addThreads(CLI::App& app, int& threads);
+
+CLI::Validator wholeNumber(int low, int high);
+/// A finite number > 0, and at most `high` if that is given.
+CLI::Validator positiveNumber(double high = 0);
+
+// ---- Files ----
+
+Result<Rig> readFace(const std::string& path);
+
+/// Whether a file can be made at `output` without loss of an input, asked before the long work. A
+/// name that ends in one of `foreign` promises another kind of file.
+Result<void> checkOutput(const std::filesystem::path& output,
+                         const std::vector<std::string>& inputs,
+                         std::initializer_list<std::string_view> foreign);
+
+/// Weights with one target at 1; all at 0 for -1.
+Weights single(const Rig& rig, Index target);
+
+}  // namespace sweepface::cli

@@ -1,0 +1,252 @@
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+
+#include "sweepface/codec.hpp"
+#include "sweepface/eval.hpp"
+#include "sweepface/fit.hpp"
+#include "sweepface/io.hpp"
+
+#include "command.hpp"
+#include "output.hpp"
+
+namespace sweepface::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ConvertArguments {
+  std::string neutral, output;
+  std::vector<std::string> targets;
+  double tolerance = 0, normalLimit = 0;
+  int threads = 0;
+  bool noShapes = false, quiet = false, json = false;
+};
+
+void addOptions(CLI::App& app, ConvertArguments& a) {
+  addMeshes(app, a.neutral, a.targets);
+  addOutput(app, a.output, "The .sweep file to write");
+  app.add_option("--tolerance", a.tolerance,
+                 "Largest allowed distance between a vertex and the surface, in the mesh's units; "
+                 "0.02 % of the neutral's bounding-box diagonal if not given")
+      ->check(positiveNumber())
+      ->type_name("T");
+  app.add_option("--normal-limit", a.normalLimit,
+                 "Aim at normals no further than this from the mesh's, in degrees; 180 to ignore "
+                 "normals; in proportion to the tolerance if not given")
+      ->check(positiveNumber(180))
+      ->type_name("DEG");
+  addThreads(app, a.threads);
+  app.add_flag("--no-shapes", a.noShapes,
+               "Do not look for shape parameters: quicker, a bit larger");
+  addQuiet(app, a.quiet);
+  addJson(app, a.json);
+  app.footer(
+      "\nThe file is written only if every vertex of the neutral and of every expression is "
+      "within the tolerance.\n\nExample:\n"
+      "  sweepface convert head.obj expressions/ -o head.sweep --tolerance 0.05");
+}
+
+// ---- Interruption ----
+
+std::atomic<bool> interrupted{false};
+static_assert(std::atomic<bool>::is_always_lock_free, "signal handlers may not lock");
+constexpr int kInterrupted = 130;
+
+/// The first Ctrl-C asks the work to stop, a second one ends the program.
+void catchInterrupts() {
+  struct sigaction action {};
+  action.sa_handler = [](int) { interrupted = true; };
+  action.sa_flags = static_cast<int>(SA_RESETHAND);
+  struct sigaction before {};
+  sigaction(SIGINT, nullptr, &before);
+  if (before.sa_handler != SIG_IGN) sigaction(SIGINT, &action, nullptr);
+}
+
+// ---- Verification ----
+
+struct Worst {
+  double distance = 0;
+  std::size_t vertex = 0;
+  Index target = -1;
+};
+
+Worst worstOf(const Rig& rig, const Tessellation& grid, Index target,
+              const std::vector<Vec3>& source) {
+  const Weights weights = single(rig, target);
+  const std::vector<Vec3> found = sourcePositions(rig, grid, blend(rig, weights), weights);
+  Worst worst{.target = target};
+  for (std::size_t v = 0; v < source.size(); ++v) {
+    const double distance = norm(found[v] - source[v]);
+    // Also true where the distance is not a number.
+    if (!(distance <= worst.distance)) worst = {distance, v, target};
+    if (std::isnan(distance)) break;
+  }
+  return worst;
+}
+
+/// The vertex furthest from its source, over the neutral and every target.
+Worst compare(const Rig& rig, const MeshRig& source) {
+  const Tessellation grid(rig.surface, 1);
+  std::vector<Worst> each(rig.targets.size() + 1);
+  tbb::parallel_for(std::size_t{0}, each.size(), [&](std::size_t k) {
+    each[k] = worstOf(rig, grid, static_cast<Index>(k) - 1,
+                      k == 0 ? source.neutral.positions : source.targets[k - 1].positions);
+  });
+  Worst worst = each[0];
+  for (const Worst& w : each)
+    if (!(w.distance <= worst.distance)) worst = w;
+  return worst;
+}
+
+std::string nameOfShape(const Rig& rig, Index target) {
+  return target < 0 ? "the neutral" : rig.targets[target].name;
+}
+
+/// What a reader of the bytes will see, compared with the source.
+Result<Worst> verify(std::string_view bytes, const std::string& name, const MeshRig& source,
+                     double tolerance) {
+  const Result<Rig> rig = decode(bytes, name);
+  if (!rig) return std::unexpected(rig.error());
+  if (rig->targets.size() != source.targets.size() ||
+      rig->source.gridVertex.size() != source.neutral.positions.size())
+    return fail(
+        "The encoded face lacks vertices or targets of the source; nothing was written. "
+        "This is a fault of sweepface, please report it.");
+  const Worst worst = compare(*rig, source);
+  if (worst.distance <= tolerance) return worst;
+  return fail(
+      fmt::format("Vertex {} of {} would be {:.6g} away from the source, beyond the "
+                  "tolerance of {:.6g}; nothing was written. This is a fault of sweepface, "
+                  "please report it.",
+                  worst.vertex + 1, nameOfShape(*rig, worst.target), worst.distance, tolerance));
+}
+
+/// Writes and makes sure that the disk holds what was meant.
+Result<void> writeAndReadBack(const fs::path& path, std::string_view bytes) {
+  if (auto written = writeFile(path, bytes); !written) return written;
+  std::error_code ignored;
+  if (!fs::is_regular_file(path, ignored)) return {};
+  const Result<std::string> back = readFile(path);
+  if (!back) return std::unexpected(back.error());
+  if (*back == bytes) return {};
+  return fail(fmt::format("{} reads back differently from what was written; check the disk.",
+                          path.string()));
+}
+
+// ---- The summary ----
+
+struct Summary {
+  const ConvertArguments& arguments;
+  const Conversion& conversion;
+  Worst worst;
+  std::size_t vertices, bytes;
+  double seconds;
+};
+
+nlohmann::ordered_json toJson(const Summary& s) {
+  const Rig& rig = s.conversion.rig;
+  return {{"file", s.arguments.output},
+          {"patches", rig.surface.patchCount()},
+          {"vectors", rig.surface.storedCount()},
+          {"vertices", s.vertices},
+          {"targets", rig.targets.size()},
+          {"tolerance", rig.tolerance},
+          {"worstDistance", s.worst.distance},
+          {"worstVertex", s.worst.vertex},
+          {"worstShape", nameOfShape(rig, s.worst.target)},
+          {"bytes", s.bytes},
+          {"seconds", s.seconds},
+          {"warnings", s.conversion.warnings}};
+}
+
+void printText(const Summary& s) {
+  const Rig& rig = s.conversion.rig;
+  const Index points = rig.surface.storedCount();
+  fmt::print("{}: {} patches, {} points ({:.1f} % of the source's {} vertices), {} targets\n",
+             s.arguments.output, rig.surface.patchCount(), points,
+             100.0 * points / static_cast<double>(s.vertices), s.vertices, rig.targets.size());
+  fmt::print("worst distance {:.4g} of {:.4g} allowed, at vertex {} of {}\n", s.worst.distance,
+             rig.tolerance, s.worst.vertex + 1, nameOfShape(rig, s.worst.target));
+  fmt::print("{} bytes in {:.1f} s\n", s.bytes, s.seconds);
+}
+
+// ---- The command ----
+
+Result<MeshRig> readSource(const ConvertArguments& a, ProgressBar& bar) {
+  const std::vector<fs::path> targets(a.targets.begin(), a.targets.end());
+  return readRig(a.neutral, targets, [&](std::size_t done, std::size_t total) {
+    bar.show("reading", static_cast<double>(done) / static_cast<double>(total));
+  });
+}
+
+ConvertOptions optionsOf(const ConvertArguments& a, ProgressBar& bar) {
+  ConvertOptions options;
+  options.tolerance = a.tolerance;
+  options.normalLimit = a.normalLimit;
+  options.chooseShapes = !a.noShapes;
+  options.progress = [&](std::string_view what, double done) { bar.show(what, done); };
+  options.cancel = &interrupted;
+  return options;
+}
+
+Result<int> convertAndWrite(const ConvertArguments& a) {
+  const auto start = std::chrono::steady_clock::now();
+  std::optional<ProgressBar> bar(std::in_place, a.quiet);
+  const Result<MeshRig> source = readSource(a, *bar);
+  if (!source) return std::unexpected(source.error());
+  if (interrupted) return kInterrupted;
+  const Result<Conversion> conversion = convert(*source, optionsOf(a, *bar));
+  if (!conversion) return std::unexpected(conversion.error());
+  bar->show("verifying", 1);
+  const std::string bytes = encode(conversion->rig);
+  const Result<Worst> worst = verify(bytes, a.output, *source, conversion->rig.tolerance);
+  if (!worst) return std::unexpected(worst.error());
+  if (interrupted) return kInterrupted;
+  if (auto written = writeAndReadBack(a.output, bytes); !written)
+    return std::unexpected(written.error());
+  bar.reset();
+
+  for (const std::string& warning : conversion->warnings) printWarning(warning);
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+  const Summary summary{
+      a, *conversion, *worst, source->neutral.positions.size(), bytes.size(), seconds.count()};
+  if (a.json)
+    printJson(toJson(summary));
+  else if (!a.quiet)
+    printText(summary);
+  return 0;
+}
+
+Result<int> runConvert(const ConvertArguments& a) {
+  std::vector<std::string> inputs = a.targets;
+  inputs.push_back(a.neutral);
+  if (auto ok = checkOutput(a.output, inputs, {".obj", ".ply"}); !ok)
+    return std::unexpected(ok.error());
+  std::optional<tbb::global_control> limit;
+  if (a.threads > 0)
+    limit.emplace(tbb::global_control::max_allowed_parallelism,
+                  static_cast<std::size_t>(a.threads));
+  catchInterrupts();
+  Result<int> code = convertAndWrite(a);
+  // Whatever failed after Ctrl-C failed because of it.
+  if (interrupted && code != 0) {
+    printError("Interrupted; nothing was written.");
+    return kInterrupted;
+  }
+  return code;
+}
+
+}  // namespace
+
+Command addConvert(CLI::App& tool) {
+  return makeCommand(tool, "convert", "Turn a face mesh and its expressions into a .sweep file",
+                     runConvert);
+}
+
+}  // namespace sweepface::cli

@@ -1,0 +1,63 @@
+// The tool: `sweepface COMMAND ...`. Each command has a file of its own.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <fmt/format.h>
+
+#include "command.hpp"
+#include "output.hpp"
+
+namespace sweepface::cli {
+namespace {
+
+constexpr int kFailed = 1, kMisused = 2;
+
+std::string usageMessage(const CLI::App* app, const CLI::Error& error) {
+  const std::string name = app->get_parent() ? "sweepface " + app->get_name() : "sweepface";
+  return fmt::format("sweepface: {}\nTry `{} --help`.\n", error.what(), name);
+}
+
+int run(int argc, char** argv) {
+  CLI::App tool(
+      "Turns a face mesh and its expressions into a network of smooth surfaces with a "
+      "guaranteed error,\nand moves it by Newton's second law.",
+      "sweepface");
+  tool.set_version_flag("--version", "sweepface " SWEEPFACE_VERSION, "Print the version and exit");
+  tool.require_subcommand(1);
+  tool.failure_message(usageMessage);
+  tool.footer(
+      "\nStart with:\n  sweepface convert neutral.obj expressions/ -o face.sweep\n"
+      "  sweepface COMMAND --help tells more about a command.");
+  std::vector<Command> commands;
+  for (auto add : {addConvert, addInfo, addCheck, addMeasure, addExport, addAnimate, addWireframe})
+    commands.push_back(add(tool));
+
+  try {
+    tool.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return tool.exit(error) == 0 ? 0 : kMisused;
+  }
+  for (const Command& command : commands) {
+    if (!command.app->parsed()) continue;
+    const Result<int> code = command.run();
+    if (code && std::fflush(stdout) == 0) return *code;
+    printError(code ? "Cannot write the report: the output is full or closed."
+                    : code.error().message);
+    return kFailed;
+  }
+  return kMisused;
+}
+
+}  // namespace
+}  // namespace sweepface::cli
+
+int main(int argc, char** argv) {
+  try {
+    return sweepface::cli::run(argc, argv);
+  } catch (const std::bad_alloc&) {
+    sweepface::cli::printError("There is not enough memory for this.");
+  } catch (const std::exception& error) {
+    sweepface::cli::printError(error.what());
+  }
+  return 1;
+}

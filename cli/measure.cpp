@@ -1,0 +1,121 @@
+#include "sweepface/measure.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "sweepface/io.hpp"
+
+#include "command.hpp"
+#include "output.hpp"
+
+namespace sweepface::cli {
+namespace {
+
+struct MeasureArguments {
+  std::string face, neutral;
+  std::vector<std::string> targets;
+  MeasureOptions options;
+  bool quiet = false, json = false;
+};
+
+void addOptions(CLI::App& app, MeasureArguments& a) {
+  addFace(app, a.face);
+  addMeshes(app, a.neutral, a.targets);
+  app.add_option("--mixtures", a.options.mixtures,
+                 "Also compare N random mixtures with the same blend of the meshes")
+      ->check(wholeNumber(0, 100'000))
+      ->capture_default_str()
+      ->type_name("N");
+  app.add_option("--seed", a.options.seed, "Which random mixtures")
+      ->check(wholeNumber(0, std::numeric_limits<int>::max()))
+      ->capture_default_str()
+      ->type_name("S");
+  addQuiet(app, a.quiet);
+  addJson(app, a.json);
+  app.footer(
+      "\nDistances are in the mesh's units, angles in degrees. The distance is that of the "
+      "vertices from the\nsurface, the facets' that of the surface from the flat faces, the "
+      "excess what of it the faces' own\ncoarseness does not explain. Folds are places where "
+      "the surface looks the other way than the mesh.\n\n"
+      "Example:\n  sweepface measure face.sweep neutral.obj expressions/");
+}
+
+void printHead(std::size_t width) {
+  fmt::print("{:<{}}  {:^29}  {:^23}  {:^19}\n", "", width, "distance", "angle", "facets");
+  fmt::print("{:<{}}  {:>9} {:>9} {:>9}  {:>7} {:>7} {:>7}  {:>9} {:>9} {:>6}\n", "shape", width,
+             "max", "99.9 %", "RMS", "RMS", "99.9 %", "max", "distance", "excess", "folds");
+}
+
+void printRow(std::string_view name, const PoseErrors& e, std::size_t width) {
+  fmt::print(
+      "{:<{}}  {:>9.3g} {:>9.3g} {:>9.3g}  {:>7.3f} {:>7.3f} {:>7.3f}  {:>9.3g} {:>9.3g} {:>6}\n",
+      name, width, e.distanceMax, e.distance999, e.distanceRms, e.angleRms, e.angle999, e.angleMax,
+      e.facetDistance, e.facetExcess, e.folds);
+}
+
+void printText(const Measurement& m) {
+  std::size_t width = 8;
+  for (const auto* rows : {&m.shapes, &m.mixtures})
+    for (const PoseErrors& e : *rows) width = std::max(width, e.name.size());
+  printHead(width);
+  for (const PoseErrors& e : m.shapes) printRow(e.name, e, width);
+  printRow("worst", m.worst, width);
+  for (const PoseErrors& e : m.mixtures) printRow(e.name, e, width);
+}
+
+nlohmann::ordered_json toJson(const PoseErrors& e) {
+  return {{"name", e.name},
+          {"distanceMax", e.distanceMax},
+          {"distance999", e.distance999},
+          {"distanceRms", e.distanceRms},
+          {"angleRms", e.angleRms},
+          {"angle999", e.angle999},
+          {"angleMax", e.angleMax},
+          {"facetDistance", e.facetDistance},
+          {"facetExcess", e.facetExcess},
+          {"folds", e.folds}};
+}
+
+nlohmann::ordered_json toJson(const MeasureArguments& a, const Rig& rig, const Measurement& m) {
+  nlohmann::ordered_json report{{"file", a.face},
+                                {"tolerance", rig.tolerance},
+                                {"shapes", nlohmann::ordered_json::array()},
+                                {"worst", toJson(m.worst)},
+                                {"mixtures", nlohmann::ordered_json::array()}};
+  for (const PoseErrors& e : m.shapes) report["shapes"].push_back(toJson(e));
+  for (const PoseErrors& e : m.mixtures) report["mixtures"].push_back(toJson(e));
+  return report;
+}
+
+Result<MeshRig> readSource(const MeasureArguments& a) {
+  ProgressBar bar(a.quiet);
+  const std::vector<std::filesystem::path> targets(a.targets.begin(), a.targets.end());
+  return readRig(a.neutral, targets, [&](std::size_t done, std::size_t total) {
+    bar.show("reading", static_cast<double>(done) / static_cast<double>(total));
+  });
+}
+
+Result<int> runMeasure(const MeasureArguments& a) {
+  const Result<Rig> rig = readFace(a.face);
+  if (!rig) return std::unexpected(rig.error());
+  const Result<MeshRig> source = readSource(a);
+  if (!source) return std::unexpected(source.error());
+  const Result<Measurement> measurement = measure(*rig, *source, a.options);
+  if (!measurement) return std::unexpected(measurement.error());
+  if (a.json)
+    printJson(toJson(a, *rig, *measurement));
+  else if (!a.quiet)
+    printText(*measurement);
+  return 0;
+}
+
+}  // namespace
+
+Command addMeasure(CLI::App& tool) {
+  return makeCommand(tool, "measure", "Compare a face with the meshes it was made from",
+                     runMeasure);
+}
+
+}  // namespace sweepface::cli

@@ -1,0 +1,45 @@
+#include "output.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+namespace sweepface::cli {
+
+void printError(std::string_view sentence) { fmt::print(stderr, "sweepface: {}\n", sentence); }
+
+void printWarning(std::string_view sentence) {
+  fmt::print(stderr, "sweepface: warning: {}\n", sentence);
+}
+
+void printJson(const nlohmann::ordered_json& report) {
+  using Handler = nlohmann::ordered_json::error_handler_t;
+  fmt::print("{}\n", report.dump(2, ' ', false, Handler::replace));
+}
+
+ProgressBar::ProgressBar(bool quiet) : visible_(!quiet && isatty(STDERR_FILENO)) {}
+
+ProgressBar::~ProgressBar() {
+  if (!text_.empty()) fmt::print(stderr, "\r\033[K");
+}
+
+void ProgressBar::show(std::string_view what, double done) {
+  if (!visible_) return;
+  constexpr int width = 30;
+  const double share = std::isfinite(done) ? std::clamp(done, 0.0, 1.0) : 0.0;
+  const std::scoped_lock lock(drawing_);
+  const auto now = std::chrono::steady_clock::now();
+  // Terminals are slow: no more than some frames a second.
+  if (share < 1 && now - last_ < std::chrono::milliseconds(50)) return;
+  last_ = now;
+  const int full = static_cast<int>(share * width);
+  text_ =
+      fmt::format("[{:=<{}}{: <{}}] {:3.0f} % {}", "", full, "", width - full, 100 * share, what);
+  fmt::print(stderr, "\r\033[K{}", text_);
+  std::fflush(stderr);
+}
+
+}  // namespace sweepface::cli
