@@ -87,9 +87,6 @@ class Converter {
       const DraftErrors errors = measureDraft(layout, *draft, data, *solution);
       const bool within = errors.largestDistance <= limits_.distance;
       report("fitting", within ? 0.9 : 0.9 * std::min(1.0, std::pow(limits_.distance / errors.largestDistance, 0.5)));
-      if (std::getenv("SWEEPFACE_TRACE"))
-        fprintf(stderr, "round %d patches %d points %d max %.5f rms angle %.3f\n", round, draft->surface.patchCount(),
-                draft->surface.storedCount(), errors.largestDistance, errors.rmsAngle);
       const Index changed = refine(layout, *draft, data, errors, limits_);
       if (within && changed == 0) {
         draft_ = std::move(*draft);

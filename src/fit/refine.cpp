@@ -135,6 +135,21 @@ Index refine(Layout& layout, const Draft& draft, SourceData& data, const DraftEr
   const auto excess = [&](Index v) {
     return std::max(errors.distance[v] / limits.distance, errors.angle[v] / limits.angle);
   };
+  // A patch that is nearly within the limits may get there without more points if its worst vertices
+  // count more (Lawson's way from least squares to least maximum). Tried twice for each vertex.
+  constexpr double kNearly = 1.5;
+  constexpr int kEmphases = 2;
+  const auto emphasize = [&](const GridPatch& grid) {
+    bool any = false;
+    for (Index v : grid.vertices) {
+      const Index point = mesh.point[v];
+      if (excess(v) <= 1 || data.emphases[point] >= kEmphases) continue;
+      ++data.emphases[point];
+      data.weight[point] *= 2;
+      any = true;
+    }
+    return any;
+  };
   std::vector<std::pair<double, Index>> bad;
   for (Index p = 0; p < draft.surface.patchCount(); ++p) {
     double worst = errors.folded[p] ? 1.5 : 0;
@@ -145,6 +160,10 @@ Index refine(Layout& layout, const Draft& draft, SourceData& data, const DraftEr
   Index changed = 0;
   for (auto [worst, p] : bad) {
     const GridPatch& grid = draft.patches[p];
+    if (!errors.folded[p] && -worst < kNearly && emphasize(grid)) {
+      ++changed;
+      continue;
+    }
     if (splitPatch(layout, grid, data)) {
       ++changed;
       continue;

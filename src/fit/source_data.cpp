@@ -35,6 +35,7 @@ SourceData gatherSource(const MeshRig& rig, const GridMesh& mesh, double toleran
     }
   }
 
+  data.emphases.assign(points, 0);
   std::vector<double> sum(points, 0);
   std::vector<Index> count(points, 0);
   for (HalfEdge h = 0; h < static_cast<HalfEdge>(mesh.twin.size()); ++h) {

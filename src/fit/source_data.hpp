@@ -20,6 +20,7 @@ struct SourceData {
   PoseMatrix normals;             ///< [points × 3·poses] unit vertex normals
   std::vector<double> edgeLength; ///< [points] mean length of the neutral's edges there
   std::vector<double> weight;     ///< [points] 1 / length²: an error counts relative to the mesh's size
+  std::vector<int> emphases;      ///< [points] how often the weight was raised since
 
   Vec3 point(Index p, Index pose) const { return at(points, p, pose); }
   Vec3 normal(Index p, Index pose) const { return at(normals, p, pose); }
