@@ -52,6 +52,46 @@ inline Wireframe slice() {
   return w;
 }
 
+/// Two patches on top of one: a T-node.
+inline Wireframe tee() {
+  Wireframe w;
+  w.points = 7;
+  for (Index point : {0, 1, 2, -1, 3, 4, 5, 6}) w.nodes.push_back({point, kPosition});
+  // 5 --- 6 --- 7
+  // |     |     |
+  // 2 --- 3 --- 4
+  // |           |
+  // 0 --------- 1
+  w.arcs = {arc(0, 1, 4, 0), arc(2, 3, 2, 0), arc(3, 4, 2, 0), arc(5, 6, 2, 0), arc(6, 7, 2, 0),
+            arc(0, 2, 1, 1), arc(1, 4, 1, 1), arc(2, 5, 1, 1), arc(3, 6, 1, 1), arc(4, 7, 1, 1)};
+  w.patches = {{{0, 1, 2, 4, 5}}, {{5, 6, 7, 8, 9}}, {{9, 10, 11, 12, 13}}};
+  w.loops = {0, 12, 5, 3, 11, 2, 16, 7, 15, 4, 18, 9, 17};
+  w.ribbons = {{}, {}};
+  return w;
+}
+
+/// The slices of a fan around a pole.
+inline Wireframe fan(Index slices) {
+  Wireframe w;
+  w.points = 1 + slices;
+  for (Index k = 0; k < slices; ++k) w.nodes.push_back({0, kPosition});
+  for (Index k = 0; k < slices; ++k) w.nodes.push_back({1 + k, kPosition});
+  for (Index k = 0; k < slices; ++k) {
+    const Index next = (k + 1) % slices;
+    w.arcs.push_back({k, next, 1, 1, true});
+    w.arcs.push_back(arc(k, slices + k, 2, 0));
+    w.arcs.push_back(arc(slices + k, slices + next, 1, 1));
+  }
+  for (Index k = 0; k < slices; ++k) {
+    const Index next = (k + 1) % slices, start = 4 * k;
+    w.patches.push_back({{start, start + 1, start + 2, start + 3, start + 4}});
+    for (HalfArc h : {2 * (3 * k + 1), 2 * (3 * k + 2), 2 * (3 * next + 1) + 1, 2 * (3 * k) + 1})
+      w.loops.push_back(h);
+  }
+  w.ribbons = {{}, {}};
+  return w;
+}
+
 /// Something between -2 and 2 that single precision holds.
 inline double anything(Index k) { return std::round(std::sin(1.7 * k) * 2048) / 1024; }
 inline Vec3 anyVector(Index k) {
@@ -114,12 +154,17 @@ inline Rig dressed(Rig rig) {
   return rig;
 }
 
-/// A small rig of every sort.
+/// Small rigs of every sort.
 inline std::vector<Rig> someRigs() {
-  return {
-      makeRig(onePatch(1, 1)),  makeRig(onePatch(3, 2)),          makeRig(twoPatches()),
-      makeRig(slice()),         dressed(makeRig(onePatch(2, 3))), dressed(makeRig(twoPatches())),
-      dressed(makeRig(slice()))};
+  return {makeRig(onePatch(1, 1)),
+          makeRig(onePatch(3, 2)),
+          makeRig(twoPatches()),
+          makeRig(slice()),
+          makeRig(tee()),
+          makeRig(fan(4)),
+          dressed(makeRig(onePatch(2, 3))),
+          dressed(makeRig(twoPatches())),
+          dressed(makeRig(slice()))};
 }
 
 inline void expectEqual(const Polygons& a, const Polygons& b) {

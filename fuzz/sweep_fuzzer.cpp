@@ -1,0 +1,91 @@
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+
+#include "sweepface/codec.hpp"
+
+#include "codec/chunks.hpp"
+#include "codec/crc.hpp"
+#include "codec/wire.hpp"
+
+namespace {
+
+using namespace sweepface;
+
+std::uint32_t fixed32(std::string_view bytes) {
+  std::uint32_t value = 0;
+  for (std::size_t k = 0; k < 4; ++k)
+    value |= std::uint32_t{static_cast<unsigned char>(bytes[k])} << (8 * k);
+  return value;
+}
+
+/// Makes every checksum right, or no mutation would get past it.
+std::string repaired(std::string bytes) {
+  for (std::size_t at = 8; at + 12 <= bytes.size();) {
+    const std::string_view frame = std::string_view(bytes).substr(at);
+    const std::size_t size = fixed32(frame.substr(4));
+    if (size > frame.size() - 12) break;
+    const std::uint32_t sum =
+        codec::crc32(frame.substr(12, size), codec::crc32(frame.substr(0, 4)));
+    for (std::size_t k = 0; k < 4; ++k) bytes[at + 8 + k] = static_cast<char>(sum >> (8 * k) & 255);
+    at += 12 + size;
+  }
+  return bytes;
+}
+
+void require(bool condition) {
+  if (!condition) std::abort();
+}
+
+void play(const Surface& surface, const std::vector<Vec3>& vectors) {
+  double sum = 0;  // whatever the vectors are: nothing may be read that is not there
+  for (Index p = 0; p < surface.patchCount(); ++p)
+    for (const double t : {0.0, 0.3, 1.0})
+      sum += norm(surface.evaluate(vectors, {p, t * surface.edgesU(p), t * surface.edgesV(p)}));
+  const auto arcs = static_cast<Index>(surface.wireframe().arcs.size());
+  for (Index a = 0; a < arcs; ++a) sum += norm(surface.pointOnArc(vectors, a, 0.5));
+  require(!(sum < 0));
+}
+
+void play(const Rig& rig) {
+  const Weights weights(rig.targets.size(), 0.5);
+  require(blendLoose(rig, weights).size() == rig.source.loose.size());
+  play(rig.surface, blend(rig, weights));
+}
+
+/// A wireframe on its own gets further than one whose vectors must be as many as it stores.
+void playWireframe(std::string_view payload) {
+  codec::Reader in(payload, 0);
+  Wireframe wireframe = codec::readWireframe(in);
+  if (!in.ok()) return;
+  wireframe.ribbons.resize(8);
+  const auto surface = Surface::make(std::move(wireframe));
+  if (surface) play(*surface, std::vector<Vec3>(surface->vectorCount()));
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string bytes = repaired({reinterpret_cast<const char*>(data), size});
+  if (const auto chunks = codec::readChunks(bytes, "input.sweep"))
+    for (const auto& chunk : *chunks)
+      if (chunk.rank == codec::rankOf("WIRE")) playWireframe(chunk.payload);
+  const auto rig = decode(bytes, "input.sweep");
+  const auto parts = fileParts(bytes, "input.sweep");
+  if (!rig) {
+    require(rig.error().message.starts_with("input.sweep"));
+    return 0;
+  }
+  std::size_t sum = 0;
+  for (const FilePart& part : parts.value()) sum += part.bytes;
+  require(sum == bytes.size());
+  play(*rig);
+
+  // Encoded once more, the file stays as it is.
+  const std::string again = encode(*rig);
+  const auto back = decode(again, "again.sweep");
+  require(back.has_value());
+  require(back->neutral == rig->neutral && back->targets == rig->targets);
+  require(encode(*back) == again);
+  return 0;
+}

@@ -1,0 +1,185 @@
+#include <gtest/gtest.h>
+
+#include "codec/files.hpp"
+#include "codec/rigs.hpp"
+
+namespace sweepface {
+namespace {
+
+using namespace sweepface::testing;
+
+void expectRefused(const std::string& bytes, std::string_view because) {
+  const auto rig = decode(bytes, "a.sweep");
+  ASSERT_FALSE(rig) << "expected: " << because;
+  EXPECT_TRUE(rig.error().message.starts_with("a.sweep")) << rig.error().message;
+  EXPECT_NE(rig.error().message.find(because), std::string::npos) << rig.error().message;
+}
+
+/// Everything can be asked of the rig that can be asked of any.
+void expectSound(const Rig& rig) {
+  const Weights weights(rig.targets.size(), 1.0);
+  const Tessellation grid(rig.surface, 1);
+  const auto vertices = sourcePositions(rig, grid, blend(rig, weights), weights);
+  EXPECT_EQ(vertices.size(), rig.source.gridVertex.size());
+  for (Index v : rig.source.polygons.corners) EXPECT_LT(v, static_cast<Index>(vertices.size()));
+  const std::string bytes = encode(rig);
+  EXPECT_EQ(encode(decode(bytes, "again.sweep").value()), bytes);
+}
+
+TEST(Damage, EveryTruncationIsRefused) {
+  for (const Rig& rig : someRigs()) {
+    const std::string bytes = encode(rig);
+    for (std::size_t size = 0; size < bytes.size(); ++size)
+      EXPECT_FALSE(decode(std::string_view(bytes).substr(0, size), "a.sweep")) << size;
+  }
+}
+
+TEST(Damage, EveryFlippedBitIsRefused) {
+  for (const Rig& rig : someRigs()) {
+    std::string bytes = encode(rig);
+    for (std::size_t k = 0; k < 8 * bytes.size(); ++k) {
+      bytes[k / 8] ^= static_cast<char>(1 << k % 8);
+      EXPECT_FALSE(decode(bytes, "a.sweep")) << "bit " << k;
+      bytes[k / 8] ^= static_cast<char>(1 << k % 8);
+    }
+  }
+}
+
+TEST(Damage, AFlippedBitUnderAMatchingChecksumLeavesASoundRigOrNone) {
+  std::size_t accepted = 0, refused = 0;
+  for (const Rig& rig : someRigs()) {
+    auto chunks = takeApart(encode(rig));
+    for (FileChunk& chunk : chunks)
+      for (std::size_t k = 0; k < 8 * chunk.payload.size(); ++k) {
+        chunk.payload[k / 8] ^= static_cast<char>(1 << k % 8);
+        const auto changed = decode(putTogether(chunks), "a.sweep");
+        if (changed) expectSound(*changed);
+        ++(changed ? accepted : refused);
+        chunk.payload[k / 8] ^= static_cast<char>(1 << k % 8);
+      }
+  }
+  EXPECT_GT(accepted, 1000u);  // bits of coordinates
+  EXPECT_GT(refused, 1000u);   // bits of counts and indices
+}
+
+TEST(Damage, EveryTruncationOfAPayloadIsRefused) {
+  for (const Rig& rig : someRigs()) {
+    auto chunks = takeApart(encode(rig));
+    for (FileChunk& chunk : chunks) {
+      const std::string whole = chunk.payload;
+      for (std::size_t size = 0; size < whole.size(); ++size) {
+        chunk.payload = whole.substr(0, size);
+        EXPECT_FALSE(decode(putTogether(chunks), "a.sweep")) << chunk.code << size;
+      }
+      chunk.payload = whole + '\0';
+      EXPECT_FALSE(decode(putTogether(chunks), "a.sweep")) << chunk.code;
+      chunk.payload = whole;
+    }
+  }
+}
+
+TEST(Damage, MessagesSayWhatIsWrongAndWhatToDo) {
+  const std::string bytes = encode(makeRig(onePatch(1, 1)));
+  const auto at = [&](std::size_t k, char value) {
+    std::string changed = bytes;
+    changed[k] = value;
+    return changed;
+  };
+  expectRefused("", "a.sweep is empty; convert the source again.");
+  expectRefused("v 0 0 0\n",
+                "a.sweep does not begin with SWEEPFC; check that it is a .sweep file.");
+  expectRefused("SWEEPFC",
+                "a.sweep, byte 7: the file ends before its version; copy the file again");
+  expectRefused(at(7, 2), "a.sweep is of version 2 and this program reads 1; get a program");
+  expectRefused(bytes.substr(0, 30),
+                "byte 8: the file ends within chunk 'HEAD'; copy the file again");
+  expectRefused(bytes.substr(0, bytes.size() - 12), "the file ends before its last chunk");
+  expectRefused(at(25, 'x'), "byte 8: the checksum of chunk 'HEAD' does not match");
+  expectRefused(at(8, 7), "byte 8: there is no chunk where one must begin");
+  expectRefused(bytes + "x", "the file goes on after its last chunk");
+}
+
+TEST(Damage, UnknownOptionalChunksAreSkippedWhereverTheyAre) {
+  const Rig rig = makeRig(twoPatches());
+  const auto chunks = takeApart(encode(rig));
+  for (std::size_t k = 0; k < chunks.size(); ++k) {
+    auto more = chunks;
+    more.insert(more.begin() + static_cast<std::ptrdiff_t>(k), {"hair", "anything"});
+    const auto back = decode(putTogether(more), "a.sweep");
+    ASSERT_TRUE(back) << back.error().message;
+    expectEqual(*back, rig);
+  }
+}
+
+TEST(Damage, UnknownRequiredChunksAreRefused) {
+  auto chunks = takeApart(encode(makeRig(onePatch(1, 1))));
+  chunks.insert(chunks.begin() + 3, {"HAIR", "anything"});
+  expectRefused(putTogether(chunks), "chunk 'HAIR' is required and unknown to this program");
+}
+
+TEST(Damage, ChunksThatAreMissingTwiceThereOrOutOfOrderAreRefused) {
+  const auto chunks = takeApart(encode(dressed(makeRig(onePatch(1, 1)))));
+  for (std::size_t k = 0; k < chunks.size(); ++k) {
+    auto changed = chunks;
+    changed.insert(changed.begin() + static_cast<std::ptrdiff_t>(k), chunks[k]);
+    EXPECT_FALSE(decode(putTogether(changed), "a.sweep")) << "twice: " << chunks[k].code;
+    if (k + 1 < chunks.size() && chunks[k].code != chunks[k + 1].code) {
+      changed = chunks;
+      std::swap(changed[k], changed[k + 1]);
+      EXPECT_FALSE(decode(putTogether(changed), "a.sweep")) << "swapped: " << chunks[k].code;
+    }
+    changed = chunks;
+    changed.erase(changed.begin() + static_cast<std::ptrdiff_t>(k));
+    if (chunks[k].code == "texc" || chunks[k].code == "quad") continue;  // nothing builds on them
+    EXPECT_FALSE(decode(putTogether(changed), "a.sweep")) << "without: " << chunks[k].code;
+  }
+}
+
+TEST(Damage, TargetsMustHaveNamesAndDifferentOnes) {
+  Rig rig = makeRig(onePatch(1, 1));
+  for (const char* name :
+       {"", "\xFF", "\xC3", "\xC0\x80", "\xED\xA0\x80", "\xF4\x90\x80\x80", "a\nb"}) {
+    rig.targets[0].name = name;
+    expectRefused(encode(rig), "the target's name is empty or not UTF-8");
+  }
+  rig.targets[0].name = "rest";
+  expectRefused(encode(rig), "there are two targets named 'rest'");
+}
+
+TEST(Damage, WhatIsNotFiniteIsRefused) {
+  Rig rig = dressed(makeRig(onePatch(1, 1)));
+  rig.neutral[2].y = std::nan("");
+  expectRefused(encode(rig), "chunk 'NEUT'");
+  rig = dressed(makeRig(onePatch(1, 1)));
+  rig.source.loose[0].x = 1.0 / 0.0;
+  expectRefused(encode(rig), "chunk 'loos'");
+  rig = makeRig(onePatch(1, 1));
+  rig.tolerance = -1;
+  expectRefused(encode(rig), "the tolerance is negative");
+}
+
+TEST(Damage, IndicesOutOfRangeAreRefused) {
+  const Rig good = dressed(makeRig(onePatch(2, 2)));
+  const auto expectOutOfRange = [&](std::string_view code, auto change) {
+    Rig rig = good;
+    change(rig.source);
+    expectRefused(encode(rig), "chunk '" + std::string(code) + "'");
+  };
+  expectOutOfRange("ordr", [](SourceMesh& s) { s.gridVertex[0] = 9; });
+  expectOutOfRange("ordr", [](SourceMesh& s) { s.gridVertex[0] = -3; });
+  expectOutOfRange("poly", [](SourceMesh& s) { s.polygons.corners[3] = 11; });
+  expectOutOfRange("poly", [](SourceMesh& s) { s.polygons.corners[3] = -1; });
+  expectOutOfRange("poly", [](SourceMesh& s) { s.polygons.faceMaterial[0] = 2; });
+  expectOutOfRange("poly", [](SourceMesh& s) { s.polygons.faceGroup[1] = -2; });
+  expectOutOfRange("poly", [](SourceMesh& s) { s.polygons.faceGroup.pop_back(); });
+  expectOutOfRange("poly", [](SourceMesh& s) { s.polygons.faceStart[1] = 2; });
+  expectOutOfRange("texc", [](SourceMesh& s) { s.polygons.cornerTexcoords[0] = 16; });
+  expectOutOfRange("texc", [](SourceMesh& s) { s.polygons.cornerTexcoords[0] = -2; });
+  expectOutOfRange("texc", [](SourceMesh& s) { s.polygons.cornerTexcoords.pop_back(); });
+  expectOutOfRange("quad", [](SourceMesh& s) { s.quadCorners[5] = 16; });
+  expectOutOfRange("quad", [](SourceMesh& s) { s.quadCorners.resize(12); });
+  expectOutOfRange("quad", [](SourceMesh& s) { s.quadCorners.resize(20); });
+}
+
+}  // namespace
+}  // namespace sweepface

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <gtest/gtest.h>
+#include <string>
+#include <vector>
+
+#include "codec/chunks.hpp"
+
+// Files taken apart and put together again.
+namespace sweepface::testing {
+
+struct FileChunk {
+  std::string code, payload;
+};
+
+inline std::vector<FileChunk> takeApart(const std::string& bytes) {
+  std::vector<FileChunk> chunks;
+  const auto whole = codec::readChunks(bytes, "whole.sweep").value();
+  for (const codec::Chunk& chunk : whole)
+    chunks.push_back(
+        {bytes.substr(chunk.offset - codec::kFrameSize, 4), std::string(chunk.payload)});
+  return chunks;
+}
+
+/// With checksums that match.
+inline std::string putTogether(const std::vector<FileChunk>& chunks) {
+  codec::Writer out;
+  codec::writeHeader(out);
+  for (const FileChunk& chunk : chunks) codec::writeChunk(out, chunk.code, chunk.payload);
+  return out.take();
+}
+
+inline FileChunk& chunkOf(std::vector<FileChunk>& chunks, std::string_view code) {
+  for (FileChunk& chunk : chunks)
+    if (chunk.code == code) return chunk;
+  ADD_FAILURE() << "no chunk " << code;
+  return chunks.front();
+}
+
+/// The file with the payload of its first chunk of a kind replaced.
+inline std::string withPayload(const std::string& bytes, std::string_view code,
+                               std::string payload) {
+  auto chunks = takeApart(bytes);
+  chunkOf(chunks, code).payload = std::move(payload);
+  return putTogether(chunks);
+}
+
+/// The payload that `write` puts into a Writer.
+template <typename Write>
+std::string payloadOf(Write write) {
+  codec::Writer out;
+  write(out);
+  return out.take();
+}
+
+}  // namespace sweepface::testing

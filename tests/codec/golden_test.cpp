@@ -1,0 +1,51 @@
+#include <gtest/gtest.h>
+
+#include "codec/rigs.hpp"
+
+namespace sweepface {
+namespace {
+
+using namespace sweepface::testing;
+
+// A file of version 1 with a chunk of every kind. It must be read and written like this for ever.
+constexpr std::string_view kHex =
+    "5357454550464301484541440b0000008632e2568d28ed0dbe30893f04030257495245240000005f"
+    "b1ff2404040201020102010201040002020002020202040102010005020201010001040106010253"
+    "4841501a00000038fdc6ee0202000000000000f03f000000000000e0bf000000000000d03f4e4555"
+    "54310000009533c02d000000000000e0fd3f00c002bf0000edbf00007d3f0060cc3f0020b3bf0040"
+    "9ebf0000dc3f00404b3f0020f6bf008098be5441524750000000917f25f2046f70656e0000a0df3f"
+    "00c03d3f0000f8bf000078be0000004000008cbe0000f7bf0040453f0080dd3f00c09bbf0060b5bf"
+    "0080ca3f0302000000000000e03f000000000000000095d626e80b2e113e5441524730000000d46d"
+    "b9180777696e6b20c3a9010200e0ce3f00c0753f0080eebf0302000000000000e03f000000000000"
+    "000095d626e80b2e113e54415247090000002153617b0472657374010001006c6f6f733100000058"
+    "88f029029a9999999999b93f9a9999999999c93f333333333333d33f000000000000104000000000"
+    "0000144000000000000018406f72647207000000cb7f13e506060303030303706f6c7926000000ce"
+    "da32dd010801060101010204736b696e00010101010468656164010001010a6120666163652e6d74"
+    "6c74657863470000006da7c988040200000000000000009a9999999999b93f000000000000d03f9a"
+    "9999999999b93f000000000000e03f9a9999999999b93f000000000000e83f9a9999999999b93f01"
+    "0004020271756164010000007861f51600454e442000000000107df158";
+
+std::string goldenBytes() {
+  const auto digit = [](char c) { return c <= '9' ? c - '0' : c - 'a' + 10; };
+  std::string bytes;
+  for (std::size_t k = 0; k < kHex.size(); k += 2)
+    bytes += static_cast<char>(16 * digit(kHex[k]) + digit(kHex[k + 1]));
+  return bytes;
+}
+
+Rig goldenRig() {
+  Wireframe wireframe = onePatch(1, 1);
+  for (Node& node : wireframe.nodes) node.stored = kPosition;
+  return dressed(makeRig(wireframe));
+}
+
+TEST(Golden, IsWrittenByteForByte) { EXPECT_EQ(encode(goldenRig()), goldenBytes()); }
+
+TEST(Golden, IsRead) {
+  const auto rig = decode(goldenBytes(), "golden.sweep");
+  ASSERT_TRUE(rig) << rig.error().message;
+  expectEqual(*rig, goldenRig());
+}
+
+}  // namespace
+}  // namespace sweepface

@@ -1,0 +1,115 @@
+#include <cstdlib>
+#include <gtest/gtest.h>
+#include <new>
+
+#include "codec/files.hpp"
+#include "codec/rigs.hpp"
+
+namespace {
+std::size_t largestAllocation = 0;
+}
+
+// Watched. Kept out of line, or GCC sees malloc meet delete and warns.
+[[gnu::noinline]] void* operator new(std::size_t size) {
+  largestAllocation = std::max(largestAllocation, size);
+  if (void* memory = std::malloc(size ? size : 1)) return memory;
+  std::abort();
+}
+[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+
+namespace sweepface {
+namespace {
+
+using namespace sweepface::testing;
+
+constexpr std::uint64_t kMany = std::uint64_t{1} << 31;
+
+// A count of `kMany` in the first payload of a kind, after `before`.
+void expectRefusedInLittleMemory(const std::string& bytes, std::string_view code, auto before) {
+  const std::string changed = withPayload(bytes, code, payloadOf([&](codec::Writer& out) {
+                                            before(out);
+                                            out.number(kMany);
+                                            out.raw("some more");
+                                          }));
+  largestAllocation = 0;
+  const auto rig = decode(changed, "a.sweep");
+  EXPECT_FALSE(rig) << code;
+  EXPECT_LT(largestAllocation, 100'000u) << code;
+}
+
+TEST(Hostile, CountsAreRefusedBeforeRoomIsMadeForThem) {
+  const std::string bytes = encode(dressed(makeRig(onePatch(1, 1))));
+  const auto nothing = [](codec::Writer&) {};
+  for (const char* code : {"WIRE", "SHAP", "TARG", "ordr", "poly", "texc", "quad"})
+    expectRefusedInLittleMemory(bytes, code, nothing);
+  expectRefusedInLittleMemory(bytes, "WIRE", [](codec::Writer& out) { out.number(4); });
+  expectRefusedInLittleMemory(bytes, "poly",
+                              [](codec::Writer& out) { out.number(1), out.number(8); });
+  expectRefusedInLittleMemory(bytes, "poly", [](codec::Writer& out) { out.number(1); });
+  for (int skipped = 0; skipped < 3; ++skipped)
+    expectRefusedInLittleMemory(bytes, "HEAD", [&](codec::Writer& out) {
+      out.f64(1);
+      for (int k = 0; k < skipped; ++k) out.number(36);
+    });
+}
+
+TEST(Hostile, LengthsOfChunksBeyondTheFileAreRefused) {
+  std::string bytes = encode(makeRig(onePatch(1, 1)));
+  for (int k = 12; k < 16; ++k) bytes[k] = '\xFF';
+  largestAllocation = 0;
+  EXPECT_FALSE(decode(bytes, "a.sweep"));
+  EXPECT_LT(largestAllocation, 10'000u);
+}
+
+TEST(Hostile, NumbersMustBeShortAndSmall) {
+  const std::string bytes = encode(makeRig(onePatch(1, 1)));
+  const auto message = [&](std::string_view number) {
+    return decode(withPayload(bytes, "ordr", std::string(number)), "a.sweep").error().message;
+  };
+  EXPECT_NE(message({"\x80\0", 2}).find("shortest form"), std::string::npos);
+  EXPECT_NE(message(std::string(20, '\xFF')).find("too large"), std::string::npos);
+}
+
+std::string refusalOf(Wireframe wireframe) {
+  Rig rig;
+  rig.surface = Surface::make(std::move(wireframe)).value();
+  rig.neutral.resize(rig.surface.storedCount());
+  const auto back = decode(encode(rig), "a.sweep");
+  return back ? "" : back.error().message;
+}
+
+TEST(Hostile, PatchesMustNotHaveTooManyVertices) {
+  EXPECT_EQ(refusalOf(onePatch(65535, 970)), "");
+  EXPECT_NE(refusalOf(onePatch(65535, 980)).find("too many vertices"), std::string::npos);
+  EXPECT_NE(refusalOf(onePatch(65536, 1)).find("length of an arc"), std::string::npos);
+}
+
+TEST(Hostile, WireframesThatCannotBeEvaluatedAreRefused) {
+  Wireframe unused = onePatch(1, 1);
+  unused.arcs.push_back(unused.arcs[0]);
+  EXPECT_NE(refusalOf(unused).find("an arc bounds no patch"), std::string::npos);
+
+  Wireframe torn = onePatch(1, 1);
+  torn.arcs[0].collapsed = true;
+  EXPECT_NE(refusalOf(torn).find("a collapsed arc joins two points"), std::string::npos);
+
+  Wireframe gap = onePatch(1, 1);
+  gap.nodes[0].stored = 1 | 1 << 2;
+  EXPECT_NE(refusalOf(gap).find("without those before it"), std::string::npos);
+}
+
+TEST(Hostile, WhatTheSurfaceRefusesIsPassedOn) {
+  auto chunks = takeApart(encode(makeRig(onePatch(1, 1))));
+  // The last byte is a step from half-arc to half-arc.
+  std::string& wire = chunkOf(chunks, "WIRE").payload;
+  wire.back() = 4;
+  const auto rig = decode(putTogether(chunks), "a.sweep");
+  ASSERT_FALSE(rig);
+  EXPECT_NE(rig.error().message.find("the wireframe is unsound: patch 0 is not a closed loop"),
+            std::string::npos)
+      << rig.error().message;
+}
+
+}  // namespace
+}  // namespace sweepface

@@ -1,0 +1,77 @@
+#include <gtest/gtest.h>
+#include <map>
+
+#include "codec/files.hpp"
+#include "codec/rigs.hpp"
+
+namespace sweepface {
+namespace {
+
+using namespace sweepface::testing;
+
+std::map<std::string, std::size_t> partsOf(const std::string& bytes) {
+  std::map<std::string, std::size_t> parts;
+  const auto listed = fileParts(bytes, "a.sweep").value();
+  for (const FilePart& part : listed) {
+    EXPECT_FALSE(parts.contains(part.name)) << part.name;
+    parts[part.name] = part.bytes;
+  }
+  return parts;
+}
+
+TEST(Parts, SumToTheFile) {
+  for (const Rig& rig : someRigs()) {
+    const std::string bytes = encode(rig);
+    std::size_t sum = 0;
+    for (const auto& [name, size] : partsOf(bytes)) sum += size;
+    EXPECT_EQ(sum, bytes.size());
+  }
+}
+
+TEST(Parts, HaveTheNamesOfWhatTheyHold) {
+  const auto parts = partsOf(encode(dressed(makeRig(onePatch(1, 1)))));
+  for (const char* name :
+       {"container", "wireframe", "shape parameters", "neutral", "targets", "loose vertices",
+        "source order", "polygons", "texture coordinates", "quad corners"})
+    EXPECT_TRUE(parts.contains(name)) << name;
+  EXPECT_EQ(parts.size(), 10u);
+  EXPECT_EQ(partsOf(encode(makeRig(onePatch(1, 1)))).contains("loose vertices"), false);
+}
+
+TEST(Parts, CountWhatIsUnknown) {
+  auto chunks = takeApart(encode(makeRig(onePatch(1, 1))));
+  chunks.insert(chunks.begin(), {"hair", "12345"});
+  EXPECT_EQ(partsOf(putTogether(chunks)).at("unknown"), 5u);
+}
+
+TEST(Parts, AreRefusedForADamagedFile) {
+  std::string bytes = encode(makeRig(onePatch(1, 1)));
+  bytes[60] ^= 1;
+  EXPECT_FALSE(fileParts(bytes, "a.sweep"));
+  EXPECT_FALSE(fileParts("", "a.sweep"));
+}
+
+TEST(Sizes, ATargetThatMovesNothingCostsABitAVector) {
+  Rig rig = makeRig(onePatch(8, 8));
+  const std::string before = encode(rig);
+  rig.targets.push_back({"nothing", std::vector<Vec3>(rig.neutral.size()), {}});
+  // Frame, name, two forms and the mask; the counts stay as long as they are.
+  EXPECT_EQ(encode(rig).size() - before.size(), 12 + 8 + 2 + (rig.neutral.size() + 7) / 8);
+}
+
+TEST(Sizes, AVectorCostsTwelveBytes) {
+  Rig rig = makeRig(onePatch(8, 8));
+  rig.targets.clear();
+  EXPECT_EQ(partsOf(encode(rig)).at("neutral"), 1 + 12 * rig.neutral.size());
+}
+
+TEST(Sizes, AQuadOfTheSourceCostsAFewBytes) {
+  const Rig rig = makeRig(onePatch(40, 50));
+  const auto parts = partsOf(encode(rig));
+  EXPECT_LE(parts.at("quad corners"), 2 * 2000u);
+  EXPECT_LE(parts.at("polygons"), 8 * 2000u);
+  EXPECT_LE(parts.at("source order"), 2 * 2091u);
+}
+
+}  // namespace
+}  // namespace sweepface
