@@ -21,7 +21,7 @@ namespace {
 
 constexpr int kMostRounds = 60;
 // At the default tolerance of 0.02 % of the diagonal normals may be this far off, in degrees.
-constexpr double kNormalLimitAtDefault = 4;
+constexpr double kNormalLimitAtDefault = 3;
 
 double normalLimit(const ConvertOptions& options, double tolerance, double size) {
   if (options.normalLimit > 0) return options.normalLimit;
