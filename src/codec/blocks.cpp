@@ -2,16 +2,19 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <cmath>
 #include <limits>
 
 namespace sweepface::codec {
 
 namespace {
 
-constexpr unsigned kMasked = 1, kDouble = 2;  // bits of the form of a block of vectors
+constexpr unsigned kMasked = 1, kDouble = 2,
+                   kDecimal = 4;  // bits of the form of a block of vectors
 
-std::array<double, 2> components(const Vec2& v) { return {v.x, v.y}; }
-std::array<double, 3> components(const Vec3& v) { return {v.x, v.y, v.z}; }
+constexpr std::array<double, 2> components(const Vec2& v) { return {v.x, v.y}; }
+constexpr std::array<double, 3> components(const Vec3& v) { return {v.x, v.y, v.z}; }
 void assign(Vec2& v, const std::array<double, 2>& c) { v = {c[0], c[1]}; }
 void assign(Vec3& v, const std::array<double, 3>& c) { v = {c[0], c[1], c[2]}; }
 
@@ -42,6 +45,68 @@ std::vector<bool> findNonZero(const std::vector<V>& vectors, bool isDouble) {
   return mask;
 }
 
+// Powers of ten that doubles hold, so that n / 10^digits is the double nearest to the decimal
+// number: the one that a text with so many digits is read as.
+constexpr std::array<double, 10> kPowersOfTen{1, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9};
+constexpr double kMostDecimal = 9e15;  // whole numbers below are exact
+
+bool isDecimal(double x, double power) {
+  const double n = x * power;
+  if (!(std::abs(n) < kMostDecimal)) return false;
+  return std::bit_cast<std::uint64_t>(static_cast<double>(std::llround(n)) / power) ==
+         std::bit_cast<std::uint64_t>(x);
+}
+
+// The fewest digits after the point with which all components can be written, or -1.
+template <typename V>
+int decimalDigits(const std::vector<V>& vectors) {
+  std::size_t digits = 0;
+  for (const V& v : vectors)
+    for (const double x : components(v))
+      while (digits < kPowersOfTen.size() && !isDecimal(x, kPowersOfTen[digits])) ++digits;
+  const bool found = digits < kPowersOfTen.size() && std::ranges::all_of(vectors, [&](const V& v) {
+                       return std::ranges::all_of(components(v), [&](double x) {
+                         return isDecimal(x, kPowersOfTen[digits]);
+                       });
+                     });
+  return found ? static_cast<int>(digits) : -1;
+}
+
+template <typename V>
+void writeDecimals(Writer& out, const std::vector<V>& vectors, int digits) {
+  out.byte(kDecimal);
+  out.byte(static_cast<unsigned>(digits));
+  std::array<std::int64_t, components(V{}).size()> last{};
+  for (const V& v : vectors)
+    for (std::size_t k = 0; k < last.size(); ++k) {
+      const std::int64_t n = std::llround(components(v)[k] * kPowersOfTen[digits]);
+      out.signedNumber(n - last[k]);
+      last[k] = n;
+    }
+}
+
+template <typename V>
+std::vector<V> readDecimals(Reader& in, std::size_t count) {
+  const unsigned digits = in.byte();
+  if (digits >= kPowersOfTen.size()) in.refuse("decimals have too many digits");
+  auto value = components(V{});
+  std::array<std::int64_t, value.size()> last{};
+  if (count > in.left() / value.size()) in.refuse("vectors are missing");
+  if (!in.ok()) return {};
+  std::vector<V> vectors(count);
+  for (V& v : vectors) {
+    for (std::size_t k = 0; k < last.size(); ++k) {
+      last[k] += in.signedNumber();
+      if (std::abs(static_cast<double>(last[k])) >= kMostDecimal)
+        in.refuse("a decimal is too large");
+      if (!in.ok()) return {};
+      value[k] = static_cast<double>(last[k]) / kPowersOfTen[digits];
+    }
+    assign(v, value);
+  }
+  return vectors;
+}
+
 std::size_t maskBytes(std::size_t count) { return count / 8 + (count % 8 != 0); }
 
 }  // namespace
@@ -69,6 +134,8 @@ std::vector<bool> readMask(Reader& in, std::size_t count) {
 template <typename V>
 void writeVectors(Writer& out, const std::vector<V>& vectors, Precision precision) {
   const bool isDouble = precision == Precision::exact && !fitFloats(vectors);
+  if (const int digits = isDouble ? decimalDigits(vectors) : -1; digits >= 0)
+    return writeDecimals(out, vectors, digits);
   const std::vector<bool> mask = findNonZero(vectors, isDouble);
   const std::size_t size = components(V{}).size() * (isDouble ? 8 : 4);
   const auto zeros = static_cast<std::size_t>(std::ranges::count(mask, false));
@@ -84,6 +151,7 @@ template <typename V>
 std::vector<V> readVectors(Reader& in, std::size_t count, Precision precision) {
   const unsigned form = in.byte();
   const bool isDouble = form & kDouble;
+  if (form == kDecimal && precision == Precision::exact) return readDecimals<V>(in, count);
   if (form > (precision == Precision::exact ? kMasked | kDouble : kMasked))
     in.refuse("vectors are held in a form this program does not know");
   std::vector<bool> mask;

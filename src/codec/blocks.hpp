@@ -10,7 +10,7 @@
 // What several kinds of chunks are made of, written and read side by side.
 namespace sweepface::codec {
 
-/// `exact` holds doubles where floats would not do.
+/// `exact` holds decimals or doubles where floats would not do.
 enum class Precision { single, exact };
 
 /// Vec2 or Vec3. Where it is shorter, a mask says which are not zero and only those follow. Nothing

@@ -79,6 +79,21 @@ std::string refusalOf(Wireframe wireframe) {
   return back ? "" : back.error().message;
 }
 
+TEST(Hostile, DecimalsMustStayExact) {
+  const std::string bytes = encode(dressed(makeRig(onePatch(1, 1))));
+  const auto decimals = [&](unsigned digits, std::int64_t value) {
+    const auto payload = payloadOf([&](codec::Writer& out) {
+      out.number(1), out.byte(4), out.byte(digits);
+      out.signedNumber(value), out.signedNumber(0), out.byte(0);
+    });
+    return decode(withPayload(bytes, "texc", payload), "a.sweep");
+  };
+  EXPECT_TRUE(decimals(9, 8'999'999'999'999'999));
+  EXPECT_FALSE(decimals(10, 1));
+  EXPECT_FALSE(decimals(9, 9'000'000'000'000'000));
+  EXPECT_FALSE(decimals(9, -9'000'000'000'000'000));
+}
+
 TEST(Hostile, PatchesMustNotHaveTooManyVertices) {
   EXPECT_EQ(refusalOf(onePatch(65535, 970)), "");
   EXPECT_NE(refusalOf(onePatch(65535, 980)).find("too many vertices"), std::string::npos);

@@ -148,7 +148,7 @@ inline Rig dressed(Rig rig) {
   }
   source.gridVertex.push_back(-1);
   source.gridVertex.push_back(-2);
-  source.loose = {{0.1, 0.2, 0.3}, {4, 5, 6}};
+  source.loose = {{1.0 / 3, 0.2, 0.3}, {4, 5, 6}};
   for (Target& target : rig.targets) target.looseDifference = {{}, {0.5, 0, 1e-9}};
   rig.targets[2].looseDifference = {{}, {}};
   return rig;

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 #include <limits>
+#include <string>
 
 #include "codec/rigs.hpp"
 
@@ -69,6 +70,28 @@ TEST(RoundTrip, KeepsTextureCoordinatesAndLooseVerticesInDoublePrecision) {
   rig.source.loose[1] = {1.0 / 7, 1e200, 0};
   rig.targets[0].looseDifference[0] = {1.0 / 9, 0, 0};
   expectEqual(decode(encode(rig), "a.sweep").value(), rig);
+}
+
+TEST(RoundTrip, KeepsDecimalsOfATextExactlyAndInFewBytes) {
+  Rig rig = makeRig(onePatch(1, 1));
+  auto& texcoords = rig.source.polygons.texcoords;
+  for (int k = 0; k < 1000; ++k)
+    texcoords.push_back({std::stod("0." + std::to_string(100000 + 37 * k)), -k / 1e4});
+  const std::string bytes = encode(rig);
+  expectEqual(decode(bytes, "a.sweep").value(), rig);
+  rig.source.polygons.texcoords.clear();
+  EXPECT_LE(bytes.size() - encode(rig).size(), 4 * 1000u);
+}
+
+TEST(RoundTrip, KeepsNumbersThatAreNearlyDecimals) {
+  Rig rig = makeRig(onePatch(1, 1));
+  for (const Vec2 t : {Vec2{0.1, std::nextafter(0.2, 1)}, Vec2{0.1, -0.0}, Vec2{0.1, 1e16},
+                       Vec2{1e-9, 9e6}, Vec2{0.123456789, 8'999'999.5}, Vec2{1e-10, 1}}) {
+    rig.source.polygons.texcoords = {t};
+    const Rig back = decode(encode(rig), "a.sweep").value();
+    EXPECT_EQ(back.source.polygons.texcoords[0], t);
+    EXPECT_EQ(std::signbit(back.source.polygons.texcoords[0].y), std::signbit(t.y));
+  }
 }
 
 }  // namespace
