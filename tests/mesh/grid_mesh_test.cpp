@@ -1,0 +1,192 @@
+#include "mesh/grid_mesh.hpp"
+
+#include "faces.hpp"
+
+namespace sweepface {
+namespace {
+
+using namespace sweepface::testing;
+
+GridMesh gridOf(const MeshRig& rig) { return makeGridMesh(rig).value(); }
+GridMesh gridOf(PolygonMesh mesh) { return gridOf(MeshRig{std::move(mesh), {}}); }
+
+Index openSides(const GridMesh& mesh) {
+  Index count = 0;
+  for (std::size_t h = 0; h < mesh.twin.size(); ++h) count += mesh.twin[h] < 0 && !mesh.collapsed[h];
+  return count;
+}
+
+class EveryFace : public ::testing::TestWithParam<Face> {};
+INSTANTIATE_TEST_SUITE_P(GridMesh, EveryFace, eachFace(), faceName);
+
+TEST_P(EveryFace, becomesQuadsBetweenTheSourceVerticesAtTheirCorners) {
+  const MeshRig& rig = GetParam().rig;
+  const GridMesh mesh = gridOf(rig);
+  const std::vector<Index> first = weldedVertices(rig);
+  for (std::size_t q = 0; q < mesh.quads.size(); ++q)
+    for (std::size_t k = 0; k < 4; ++k) {
+      const Index source = rig.neutral.polygons.corners[mesh.quadCorners[q][k]];
+      EXPECT_EQ(mesh.pointOfSource[source], mesh.point[mesh.quads[q][k]]);
+      EXPECT_EQ(first[mesh.source[mesh.point[mesh.quads[q][k]]]], first[source]);
+    }
+}
+
+TEST_P(EveryFace, pairsHalfEdgesWithTheirTwins) {
+  const GridMesh mesh = gridOf(GetParam().rig);
+  for (HalfEdge h = 0; h < static_cast<HalfEdge>(mesh.twin.size()); ++h) {
+    if (mesh.twin[h] < 0) continue;
+    EXPECT_EQ(mesh.twin[mesh.twin[h]], h);
+    EXPECT_EQ(mesh.from(h), mesh.to(mesh.twin[h]));
+  }
+}
+
+TEST_P(EveryFace, keepsItsShape) {
+  const GridMesh mesh = gridOf(GetParam().rig);
+  std::vector<Loop> quads;
+  for (const auto& quad : mesh.quads) {
+    Loop loop;
+    for (Index v : quad) loop.push_back(mesh.point[v]);
+    quads.push_back(loop);
+  }
+  EXPECT_EQ(topologyOf(quads), topologyOf(weldedLoops(GetParam().rig)));
+  EXPECT_TRUE(mesh.warnings.empty());
+}
+
+TEST(Welding, joinsVerticesThatStandTogetherInEveryPose) {
+  const MeshRig seam = withTargets(cylinder(12, 4, true));
+  EXPECT_EQ(gridOf(seam).pointCount(), 12 * 5);
+  EXPECT_EQ(openSides(gridOf(seam)), 2 * 12);
+}
+
+TEST(Welding, leavesVerticesApartThatOneTargetParts) {
+  MeshRig seam = withTargets(cylinder(12, 4, true));
+  for (std::size_t v = 0; v < seam.neutral.positions.size(); v += 13) seam.targets[1].positions[v].x += 1;
+  EXPECT_EQ(gridOf(seam).pointCount(), 13 * 5);
+  EXPECT_EQ(openSides(gridOf(seam)), 2 * 12 + 2 * 4);
+}
+
+TEST(Welding, takesBothZerosForTheSame) {
+  PolygonMesh mesh;
+  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {-0.0, 0, 0}, {-1, 1, 0}};
+  addFace(mesh, {0, 1, 2, 3});
+  addFace(mesh, {4, 3, 5});
+  EXPECT_EQ(openSides(gridOf(mesh)), 5);
+}
+
+TEST(Cutting, turnsAPolygonIntoQuadsAndAtMostOneTriangle) {
+  for (Index corners = 3; corners <= 12; ++corners) {
+    PolygonMesh mesh;
+    Loop face;
+    for (Index k = 0; k < corners; ++k) {
+      face.push_back(k);
+      mesh.positions.push_back({std::cos(turn(1.0 * k / corners)), std::sin(turn(1.0 * k / corners)), 0});
+    }
+    addFace(mesh, face);
+    const GridMesh result = gridOf(mesh);
+    EXPECT_EQ(static_cast<Index>(result.quads.size()), (corners - 1) / 2);
+    EXPECT_EQ(std::ranges::count(result.collapsed, 1), corners % 2);
+    EXPECT_EQ(openSides(result), corners);
+  }
+}
+
+TEST(Fans, shareTheirPole) {
+  const GridMesh mesh = gridOf(uvSphere(16, 8));
+  const auto south = static_cast<Index>(uvSphere(16, 8).positions.size()) - 2;
+  std::map<Index, Index> collapsedAt;
+  for (HalfEdge h = 0; h < static_cast<HalfEdge>(mesh.twin.size()); ++h)
+    if (mesh.collapsed[h]) ++collapsedAt[mesh.point[mesh.from(h)]];
+  EXPECT_EQ(collapsedAt, (std::map<Index, Index>{{mesh.pointOfSource[south], 16},
+                                                 {mesh.pointOfSource[south + 1], 16}}));
+}
+
+TEST(Fans, haveAVertexForEveryRayAtThePole) {
+  const GridMesh mesh = gridOf(uvSphere(16, 8));
+  EXPECT_EQ(mesh.pointCount(), 16 * 7 + 2);
+  EXPECT_EQ(mesh.vertexCount(), 16 * 7 + 2 * 16);
+}
+
+TEST(Damage, aFaceOfTwoCornersHasNoSurfaceAndIsReported) {
+  PolygonMesh mesh = plane(3, 3);
+  addFace(mesh, {0, 1, 0});
+  addFace(mesh, {5, 5, 5, 5});
+  const GridMesh result = gridOf(mesh);
+  EXPECT_EQ(result.quads.size(), 9u);
+  ASSERT_EQ(result.warnings.size(), 1u);
+  EXPECT_TRUE(result.warnings[0].starts_with("2 faces have fewer than three")) << result.warnings[0];
+}
+
+TEST(Damage, aRepeatedCornerIsCountedOnce) {
+  PolygonMesh mesh;
+  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  addFace(mesh, {0, 1, 1, 2, 3, 0});
+  EXPECT_EQ(gridOf(mesh).quads.size(), 1u);
+  EXPECT_TRUE(gridOf(mesh).warnings.empty());
+}
+
+TEST(Damage, aFaceOfNoAreaStays) {
+  PolygonMesh mesh = plane(3, 3);
+  mesh.positions[5] = 0.5 * (mesh.positions[4] + mesh.positions[6]);
+  mesh.positions.push_back(0.5 * (mesh.positions[0] + mesh.positions[1]));
+  addFace(mesh, {1, 0, 16});  // a sliver
+  EXPECT_EQ(gridOf(mesh).quads.size(), 10u);
+}
+
+TEST(Damage, edgesOfThreeFacesAreCutAndReported) {
+  PolygonMesh mesh = plane(4, 4);
+  mesh.positions.push_back({2, 2, 9});
+  addFace(mesh, {6, 7, 25});
+  const GridMesh result = gridOf(mesh);
+  EXPECT_EQ(result.quads.size(), 17u);
+  EXPECT_EQ(openSides(result), 16 + 3 + 2);
+  ASSERT_EQ(result.warnings.size(), 1u);
+  EXPECT_TRUE(result.warnings[0].starts_with("1 edge joins more than two faces")) << result.warnings[0];
+}
+
+TEST(Damage, aFaceTurnedOverIsCutOutAndReported) {
+  const PolygonMesh whole = plane(3, 3);
+  PolygonMesh mesh{whole.positions, {}};
+  std::vector<Loop> faces = loopsOf(whole.polygons);
+  std::ranges::reverse(faces[4]);
+  for (const Loop& face : faces) addFace(mesh, face);
+  const GridMesh result = gridOf(mesh);
+  EXPECT_EQ(result.quads.size(), 9u);
+  EXPECT_EQ(openSides(result), 12 + 8);
+  ASSERT_EQ(result.warnings.size(), 1u);
+  EXPECT_TRUE(result.warnings[0].starts_with("4 edges join")) << result.warnings[0];
+}
+
+TEST(Damage, aFaceGivenTwiceStaysTwice) {
+  PolygonMesh mesh = plane(3, 3);
+  addFace(mesh, loopsOf(mesh.polygons)[4]);
+  EXPECT_EQ(gridOf(mesh).quads.size(), 10u);
+  EXPECT_EQ(gridOf(mesh).warnings.size(), 1u);
+}
+
+TEST(Damage, facesThatTouchInAPointOnlyAreTwoFans) {
+  PolygonMesh mesh;
+  for (Index k = 0; k < 9; ++k) mesh.positions.push_back({1.0 * (k % 3), 1.0 * (k / 3), 0});
+  addFace(mesh, {0, 1, 4, 3});
+  addFace(mesh, {4, 5, 8, 7});
+  const GridMesh result = gridOf(mesh);
+  EXPECT_EQ(result.vertexCount(), 8);
+  EXPECT_EQ(openSides(result), 8);
+}
+
+TEST(Damage, looseVerticesBelongToNoPoint) {
+  PolygonMesh mesh = plane(3, 3);
+  mesh.positions.insert(mesh.positions.begin() + 16, {7, 7, 7});
+  const GridMesh result = gridOf(mesh);
+  EXPECT_EQ(result.pointOfSource[16], -1);
+  EXPECT_EQ(std::ranges::count(result.pointOfSource, -1), 1);
+}
+
+TEST(Damage, aMeshWithoutFacesIsRefused) {
+  MeshRig rig;
+  rig.neutral.positions = {{0, 0, 0}, {1, 0, 0}};
+  const auto none = makeGridMesh(rig);
+  ASSERT_FALSE(none);
+  EXPECT_EQ(none.error().message, "the mesh has no face with an area; nothing can be converted");
+}
+
+}  // namespace
+}  // namespace sweepface
