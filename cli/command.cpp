@@ -33,6 +33,19 @@ std::string extension(const fs::path& path) {
 
 }  // namespace
 
+std::string HelpFormatter::make_option_desc(const CLI::Option* option) const {
+  constexpr std::size_t width = 68;
+  std::string text = CLI::Formatter::make_option_desc(option);
+  std::size_t line = 0;
+  while (text.size() - line > width) {
+    const std::size_t space = text.rfind(' ', line + width);
+    if (space == std::string::npos || space <= line) break;
+    text[space] = '\n';
+    line = space + 1;
+  }
+  return text;
+}
+
 void addQuiet(CLI::App& app, bool& quiet) {
   app.add_flag("-q,--quiet", quiet, "Print errors and warnings only");
 }
@@ -42,7 +55,9 @@ void addJson(CLI::App& app, bool& json) {
 }
 
 void addFace(CLI::App& app, std::string& face) {
-  app.add_option("FACE", face, "The face, a .sweep file made by `sweepface convert`")->required();
+  app.add_option("FACE", face, "The face, a .sweep file made by `sweepface convert`")
+      ->required()
+      ->type_name("");
 }
 
 void addOutput(CLI::App& app, std::string& output, const std::string& description) {
@@ -61,10 +76,13 @@ CLI::Option* addLod(CLI::App& app, int& lod, const std::string& description) {
 }
 
 void addMeshes(CLI::App& app, std::string& neutral, std::vector<std::string>& targets) {
-  app.add_option("NEUTRAL", neutral, "The face at rest, an .obj or .ply file")->required();
+  app.add_option("NEUTRAL", neutral, "The face at rest, an .obj or .ply file")
+      ->required()
+      ->type_name("");
   app.add_option("TARGETS", targets,
                  "Its expressions: .obj or .ply files with the same vertices in the same order, or "
-                 "folders of them; each is named after its file");
+                 "folders of them; each is named after its file")
+      ->type_name("");
 }
 
 void addThreads(CLI::App& app, int& threads) {

@@ -27,7 +27,12 @@ Command addExport(CLI::App& tool);
 Command addAnimate(CLI::App& tool);
 Command addWireframe(CLI::App& tool);
 
-/// A command whose options are an Options with a static add(CLI::App&, Options&).
+/// Help that breaks long descriptions into lines.
+class HelpFormatter : public CLI::Formatter {
+  std::string make_option_desc(const CLI::Option* option) const override;
+};
+
+/// A command whose options are declared by addOptions(CLI::App&, Options&).
 template <typename Options>
 Command makeCommand(CLI::App& tool, const std::string& name, const std::string& description,
                     Result<int> (*run)(const Options&)) {

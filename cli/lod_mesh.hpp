@@ -21,16 +21,15 @@ class QuadTexture {
 
   QuadTexture(const std::vector<Vec2>& source, Index level) : points_(source), level_(level) {}
 
-  /// The texture coordinate at (i, j) steps of `level` from the first corner.
-  Index at(const Corners& t, Index i, Index j) {
+  /// The texture coordinate at (i, j) steps of `level` from the first corner of a quad.
+  Index at(Index quad, const Corners& t, Index i, Index j) {
     if (j == 0) return onEdge(t[0], t[1], i);
     if (j == level_) return onEdge(t[3], t[2], i);
     if (i == 0) return onEdge(t[0], t[3], j);
     if (i == level_) return onEdge(t[1], t[2], j);
-    const double b = static_cast<double>(j) / level_;
-    const Vec2 low = between(points_[t[0]], points_[t[1]], i),
-               high = between(points_[t[3]], points_[t[2]], i);
-    return add({std::lerp(low.x, high.x, b), std::lerp(low.y, high.y, b)});
+    const auto [first, isNew] = interiors_.try_emplace(quad, static_cast<Index>(points_.size()));
+    if (isNew) addInterior(t);
+    return first->second + (j - 1) * (level_ - 1) + i - 1;
   }
 
   std::vector<Vec2> take() { return std::move(points_); }
@@ -39,6 +38,12 @@ class QuadTexture {
   Vec2 between(const Vec2& a, const Vec2& b, Index step) const {
     const double t = static_cast<double>(step) / level_;
     return {std::lerp(a.x, b.x, t), std::lerp(a.y, b.y, t)};
+  }
+  void addInterior(const Corners& t) {
+    for (Index j = 1; j < level_; ++j)
+      for (Index i = 1; i < level_; ++i)
+        add(between(between(points_[t[0]], points_[t[1]], i),
+                    between(points_[t[3]], points_[t[2]], i), j));
   }
   Index add(const Vec2& point) {
     points_.push_back(point);
@@ -56,6 +61,7 @@ class QuadTexture {
   std::vector<Vec2> points_;
   Index level_;
   std::map<std::tuple<Index, Index, Index>, Index> edges_;
+  std::map<Index, Index> interiors_;  // by quad: its first interior point
 };
 
 /// The polygons of a tessellation with the materials, groups and texture coordinates of the source:
@@ -100,7 +106,7 @@ class LodPolygons {
       result_.corners.push_back(vertices[k]);
       if (!source_.cornerTexcoords.empty())
         result_.cornerTexcoords.push_back(
-            textured ? texture_.at(texcoords, i + (k == 1 || k == 2), j + (k >= 2)) : -1);
+            textured ? texture_.at(quad, texcoords, i + (k == 1 || k == 2), j + (k >= 2)) : -1);
     }
     result_.faceStart.push_back(static_cast<Index>(result_.corners.size()));
     const Index face = faceOfCorner_[corners[0]];

@@ -1,5 +1,6 @@
 // The tool: `sweepface COMMAND ...`. Each command has a file of its own.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <fmt/format.h>
@@ -12,9 +13,19 @@ namespace {
 
 constexpr int kFailed = 1, kMisused = 2;
 
+/// What was misused and where to read on; `app` is the whole tool.
 std::string usageMessage(const CLI::App* app, const CLI::Error& error) {
-  const std::string name = app->get_parent() ? "sweepface " + app->get_name() : "sweepface";
-  return fmt::format("sweepface: {}\nTry `{} --help`.\n", error.what(), name);
+  const std::vector<const CLI::App*> commands = app->get_subcommands({});
+  const auto used = std::ranges::find_if(commands, [](const CLI::App* c) { return c->parsed(); });
+  const std::vector<std::string> unknown = app->remaining();
+  std::string sentence = error.what();
+  std::string help = "sweepface";
+  if (used != commands.end())
+    help += " " + (*used)->get_name();
+  else
+    sentence = unknown.empty() ? "A command is required."
+                               : fmt::format("There is no command '{}'.", unknown.front());
+  return fmt::format("sweepface: {}\nTry `{} --help`.\n", sentence, help);
 }
 
 int run(int argc, char** argv) {
@@ -22,6 +33,7 @@ int run(int argc, char** argv) {
       "Turns a face mesh and its expressions into a network of smooth surfaces with a "
       "guaranteed error,\nand moves it by Newton's second law.",
       "sweepface");
+  tool.formatter(std::make_shared<HelpFormatter>());
   tool.set_version_flag("--version", "sweepface " SWEEPFACE_VERSION, "Print the version and exit");
   tool.require_subcommand(1);
   tool.failure_message(usageMessage);

@@ -1,0 +1,84 @@
+#include "cli/tool.hpp"
+
+namespace sweepface {
+namespace {
+
+using namespace testing;
+
+class Animate : public Tool {
+ protected:
+  std::vector<Vec3> frame(int number) {
+    return mesh(fmt::format("frames/frame_{:04}.obj", number)).positions;
+  }
+  std::vector<Vec3> exported(const std::string& weights) {
+    EXPECT_EQ(run("export face.sweep -o out.obj --weights '" + weights + "'").code, 0);
+    return mesh("out.obj").positions;
+  }
+};
+
+TEST_F(Animate, ObeysNewton) {
+  convertRig();
+  const Outcome r = run("animate face.sweep --to jawOpen=1,smile=0.5 --frames 11 -o frames/");
+  ASSERT_EQ(r.code, 0) << r.err;
+  const auto first = exported(""), last = exported("jawOpen=1,smile=0.5");
+  for (int f = 0; f <= 10; ++f) {
+    const double t = f / 10.0;
+    const auto found = frame(f);
+    ASSERT_EQ(found.size(), first.size());
+    for (std::size_t v = 0; v < found.size(); ++v)
+      EXPECT_LE(norm(found[v] - (first[v] + (last[v] - first[v]) * (t * t))), 1e-13);
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder / "frames/frame_0011.obj"));
+}
+
+TEST_F(Animate, BeginsAndEndsWhereItIsTold) {
+  convertRig();
+  for (const std::string law : {"linear", "newton", "brake", "accelerate-brake"}) {
+    ASSERT_EQ(run("animate face.sweep --from smile=0.3 --to jawOpen=0.7 --seconds 0.3 --frames 4 "
+                  "-o frames --law " +
+                  law)
+                  .code,
+              0);
+    EXPECT_EQ(frame(0), exported("smile=0.3")) << law;
+    EXPECT_EQ(frame(3), exported("jawOpen=0.7")) << law;
+  }
+}
+
+TEST_F(Animate, HasLawsThatDiffer) {
+  convertRig();
+  std::vector<double> ways;
+  const auto first = exported(""), last = exported("jawOpen=1");
+  for (const std::string law : {"linear", "newton", "brake", "accelerate-brake"}) {
+    ASSERT_EQ(run("animate face.sweep --to jawOpen=1 --frames 5 -o frames --law " + law).code, 0);
+    ways.push_back(norm(frame(1).back() - first.back()) / norm(last.back() - first.back()));
+  }
+  const std::vector<double> expected{0.25, 0.0625, 0.4375, 0.125};
+  for (std::size_t k = 0; k < ways.size(); ++k) EXPECT_NEAR(ways[k], expected[k], 1e-12);
+}
+
+TEST_F(Animate, WritesFinerMeshes) {
+  convertRig();
+  ASSERT_EQ(run("animate face.sweep --to smile=1 --frames 2 --lod 2 --quiet -o a/b/frames").code,
+            0);
+  EXPECT_EQ(mesh("a/b/frames/frame_0001.obj").polygons.faceCount(), 120);
+}
+
+TEST_F(Animate, RefusesWhatCannotBe) {
+  convertRig();
+  const std::string command = "animate face.sweep -o frames ";
+  EXPECT_TRUE(fails(command + "--to frown=1", "no target named 'frown'"));
+  EXPECT_TRUE(fails(command + "--from frown=1 --to smile=1", "no target named 'frown'"));
+  EXPECT_TRUE(fails(command + "--to smile=1 --law magic", "accelerate-brake"));
+  EXPECT_TRUE(fails(command + "--to smile=1 --frames 1",
+                    "--frames: This must be a whole number from 2", 2));
+  EXPECT_TRUE(fails(command + "--to smile=1 --seconds 0", "--seconds", 2));
+  EXPECT_TRUE(fails(command + "--to smile=1 --lod 99", "--lod", 2));
+  EXPECT_TRUE(fails(command, "--to is required", 2));
+  EXPECT_FALSE(std::filesystem::exists(folder / "frames"));
+  EXPECT_TRUE(fails("animate face.sweep --to smile=1 -o neutral.obj", "neutral.obj"));
+  EXPECT_TRUE(fails("animate face.sweep --to smile=1 -o neutral.obj/frames", "neutral.obj"));
+  EXPECT_EQ(contents(folder / "neutral.obj"), sheet());
+}
+
+}  // namespace
+}  // namespace sweepface

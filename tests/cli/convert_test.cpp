@@ -1,0 +1,143 @@
+#include <csignal>
+#include <fcntl.h>
+#include <nlohmann/json.hpp>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "cli/tool.hpp"
+
+namespace sweepface {
+namespace {
+
+using namespace testing;
+using Convert = Tool;
+
+TEST_F(Convert, SaysWhatItMade) {
+  makeRig();
+  const Outcome r = run("convert neutral.obj targets -o face.sweep --tolerance 0.01");
+  EXPECT_EQ(r.code, 0);
+  EXPECT_EQ(r.err, "");
+  EXPECT_NE(r.out.find("of the source's 42 vertices), 2 targets\n"), std::string::npos) << r.out;
+  EXPECT_NE(r.out.find(" of 0.01 allowed"), std::string::npos) << r.out;
+  EXPECT_NE(r.out.find(fmt::format("{} bytes", contents(folder / "face.sweep").size())),
+            std::string::npos)
+      << r.out;
+}
+
+TEST_F(Convert, KeepsToTheTolerance) {
+  makeRig();
+  for (const double tolerance : {0.1, 0.005}) {
+    const Outcome r = run(
+        fmt::format("convert neutral.obj targets -o face.sweep --json --tolerance {}", tolerance));
+    ASSERT_EQ(r.code, 0) << r.err;
+    const auto report = nlohmann::json::parse(r.out);
+    EXPECT_EQ(report["tolerance"], tolerance);
+    EXPECT_LE(report["worstDistance"], tolerance);
+    EXPECT_EQ(report["targets"], 2);
+    for (const std::string target : {"jawOpen", "smile"}) {
+      ASSERT_EQ(run("export face.sweep -o out.obj --weights " + target + "=1").code, 0);
+      EXPECT_LE(
+          largestDistance(mesh("out.obj").positions, mesh("targets/" + target + ".obj").positions),
+          tolerance);
+    }
+    ASSERT_EQ(run("export face.sweep -o out.obj").code, 0);
+    EXPECT_LE(largestDistance(mesh("out.obj").positions, mesh("neutral.obj").positions), tolerance);
+  }
+}
+
+TEST_F(Convert, TakesFilesInTheirOrderAndNoTargetsAtAll) {
+  makeRig();
+  ASSERT_EQ(run("convert neutral.obj targets/smile.obj targets/jawOpen.obj -o face.sweep "
+                "--tolerance 0.01")
+                .code,
+            0);
+  const auto info = nlohmann::json::parse(run("info face.sweep --json").out);
+  EXPECT_EQ(info["targets"], (std::vector<std::string>{"smile", "jawOpen"}));
+  ASSERT_EQ(run("convert neutral.obj -o still.sweep --tolerance 0.01").code, 0);
+  EXPECT_TRUE(nlohmann::json::parse(run("info still.sweep --json").out)["targets"].empty());
+}
+
+TEST_F(Convert, MakesTheSameFileWithAnyNumberOfThreads) {
+  convertRig("--threads 1");
+  const std::string one = contents(folder / "face.sweep");
+  convertRig("--threads 2");
+  EXPECT_EQ(contents(folder / "face.sweep"), one);
+}
+
+TEST_F(Convert, LeavesShapeParametersOutIfAsked) {
+  convertRig("--no-shapes");
+  EXPECT_EQ(nlohmann::json::parse(run("info face.sweep --json").out)["shapedRibbons"], 0);
+}
+
+TEST_F(Convert, IsSilentIfAskedAndLeavesNothingElse) {
+  makeRig();
+  const Outcome r =
+      run("convert neutral.obj targets -o face.sweep --tolerance 0.01 --quiet --normal-limit 180");
+  EXPECT_EQ(r.code, 0);
+  EXPECT_EQ(r.out + r.err, "");
+  for (const auto& entry : std::filesystem::directory_iterator(folder / ""))
+    EXPECT_NE(entry.path().extension(), ".tmp") << entry.path();
+}
+
+TEST_F(Convert, RefusesWrongNumbers) {
+  makeRig();
+  const std::string command = "convert neutral.obj -o face.sweep ";
+  for (const std::string text : {"0", "-1", "nan", "inf", "much", "1e999", "1x"})
+    EXPECT_TRUE(fails(command + "--tolerance " + text,
+                      "--tolerance: This must be a finite number greater than 0", 2))
+        << text;
+  EXPECT_TRUE(fails(command + "--normal-limit 181", "at most 180", 2));
+  EXPECT_TRUE(fails(command + "--threads 0", "--threads: This must be a whole number from 1", 2));
+  EXPECT_FALSE(std::filesystem::exists(folder / "face.sweep"));
+}
+
+TEST_F(Convert, LeavesTheOldFileWhereItFails) {
+  makeRig();
+  folder.file("face.sweep", "old");
+  folder.file("fewer.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  EXPECT_TRUE(fails("convert nothing.obj -o face.sweep", "nothing.obj"));
+  EXPECT_TRUE(fails("convert neutral.obj nothing.obj -o face.sweep", "nothing.obj"));
+  EXPECT_TRUE(fails("convert neutral.obj fewer.obj -o face.sweep", "fewer.obj has 3 vertices"));
+  EXPECT_TRUE(fails("convert neutral.obj face.sweep -o other.sweep", "face.sweep"));
+  EXPECT_EQ(contents(folder / "face.sweep"), "old");
+}
+
+TEST_F(Convert, ChecksItsOutputFirst) {
+  makeRig();
+  // The source is not there either, so what is reported was found before reading.
+  EXPECT_TRUE(fails("convert nothing.obj -o no/face.sweep", "there is no folder no"));
+  EXPECT_TRUE(fails("convert nothing.obj -o targets", "it is a folder"));
+  EXPECT_TRUE(fails("convert nothing.obj -o targets/jawOpen.obj", "another kind of file"));
+  EXPECT_TRUE(fails("convert neutral.obj targets -o neutral.obj", "it is what is read"));
+  EXPECT_EQ(contents(folder / "neutral.obj"), sheet());
+}
+
+TEST_F(Convert, StopsOnInterrupt) {
+  folder.file("face.sweep", "old");
+  // The tool has opened the pipe once opening it here returns, and waits for a mesh that never
+  // comes.
+  const std::filesystem::path pipe = folder / "neutral.obj", output = folder / "face.sweep";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  const pid_t child = fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    std::signal(SIGINT, SIG_DFL);
+    const int errors = open((folder / ".err").c_str(), O_CREAT | O_WRONLY, 0600);
+    dup2(errors, STDERR_FILENO);
+    execl(SWEEPFACE_TOOL, SWEEPFACE_TOOL, "convert", pipe.c_str(), "-o", output.c_str(), nullptr);
+    _exit(127);
+  }
+  const int writer = open(pipe.c_str(), O_WRONLY);
+  ASSERT_GE(writer, 0);
+  kill(child, SIGINT);
+  close(writer);
+  int status = 0;
+  waitpid(child, &status, 0);
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 130);
+  EXPECT_EQ(contents(folder / ".err"), "sweepface: Interrupted; nothing was written.\n");
+  EXPECT_EQ(contents(output), "old");
+}
+
+}  // namespace
+}  // namespace sweepface

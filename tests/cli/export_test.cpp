@@ -1,0 +1,237 @@
+#include <map>
+#include <set>
+
+#include "sweepface/fit.hpp"
+
+#include "../cli/lod_mesh.hpp"
+#include "cli/tool.hpp"
+
+namespace sweepface {
+namespace {
+
+using namespace testing;
+using Export = Tool;
+using Wires = Tool;
+
+TEST_F(Export, WritesTheSourcesOwnPolygons) {
+  convertRig();
+  ASSERT_EQ(run("export face.sweep -o out.obj").code, 0);
+  const PolygonMesh in = mesh("neutral.obj"), out = mesh("out.obj");
+  EXPECT_EQ(out.polygons.faceStart, in.polygons.faceStart);
+  EXPECT_EQ(out.polygons.corners, in.polygons.corners);
+  EXPECT_EQ(out.polygons.cornerTexcoords, in.polygons.cornerTexcoords);
+  EXPECT_EQ(out.polygons.texcoords.size(), in.polygons.texcoords.size());
+  EXPECT_EQ(out.polygons.materials, in.polygons.materials);
+  EXPECT_EQ(out.polygons.faceMaterial, in.polygons.faceMaterial);
+  EXPECT_EQ(out.polygons.groups, in.polygons.groups);
+  EXPECT_EQ(out.polygons.faceGroup, in.polygons.faceGroup);
+  EXPECT_EQ(out.polygons.materialFiles, in.polygons.materialFiles);
+  EXPECT_NE(contents(folder / "out.obj").find("\nvn "), std::string::npos);
+  ASSERT_EQ(run("export face.sweep -o same.obj --source-order --quiet").code, 0);
+  EXPECT_EQ(contents(folder / "same.obj"), contents(folder / "out.obj"));
+}
+
+TEST_F(Export, BlendsLinearly) {
+  convertRig();
+  const auto exported = [&](const std::string& weights) {
+    EXPECT_EQ(run("export face.sweep -o out.obj --weights '" + weights + "'").code, 0);
+    return mesh("out.obj").positions;
+  };
+  const auto neutral = exported(""), open = exported("jawOpen"), smile = exported("smile=1"),
+             both = exported("jawOpen=0.5,smile=-2");
+  for (std::size_t v = 0; v < neutral.size(); ++v) {
+    const Vec3 expected = neutral[v] + 0.5 * (open[v] - neutral[v]) - 2 * (smile[v] - neutral[v]);
+    EXPECT_LE(norm(both[v] - expected), 1e-12);
+  }
+}
+
+TEST_F(Export, KeepsLooseVertices) {
+  folder.file("neutral.obj", sheet() + "v 9 9 9\n");
+  ASSERT_EQ(run("convert neutral.obj -o face.sweep --tolerance 0.01").code, 0);
+  ASSERT_EQ(run("export face.sweep -o out.obj").code, 0);
+  const auto positions = mesh("out.obj").positions;
+  ASSERT_EQ(positions.size(), 43u);
+  EXPECT_EQ(positions.back(), (Vec3{9, 9, 9}));
+}
+
+/// How often each edge is used, by its ends in their order.
+std::map<std::pair<Index, Index>, int> edgeUses(const Polygons& polygons) {
+  std::map<std::pair<Index, Index>, int> uses;
+  for (Index f = 0; f < polygons.faceCount(); ++f)
+    for (Index k = 0, size = polygons.faceSize(f); k < size; ++k) {
+      const Index* face = &polygons.corners[polygons.faceStart[f]];
+      ++uses[{face[k], face[(k + 1) % size]}];
+    }
+  return uses;
+}
+
+TEST_F(Export, FinerMeshesStayClosed) {
+  folder.file("cube.obj", cube(3));
+  ASSERT_EQ(run("convert cube.obj -o face.sweep --tolerance 0.2").code, 0);
+  for (const int lod : {1, 2, 5}) {
+    ASSERT_EQ(run(fmt::format("export face.sweep -o out.obj --lod {}", lod)).code, 0);
+    const PolygonMesh out = mesh("out.obj");
+    EXPECT_EQ(out.polygons.faceCount(), 54 * lod * lod);
+    EXPECT_EQ(static_cast<int>(out.positions.size()), 54 * lod * lod + 2);
+    const auto uses = edgeUses(out.polygons);
+    for (const auto& [edge, count] : uses) {
+      EXPECT_EQ(count, 1);
+      EXPECT_TRUE(uses.contains({edge.second, edge.first}));
+    }
+  }
+}
+
+/// A texture that is an affine image of the sheet stays one at every level, so that each corner's
+/// coordinates follow from the source's face alone.
+TEST_F(Export, CarriesTextureAndMaterialsOver) {
+  convertRig();
+  ASSERT_EQ(run("export face.sweep -o out.obj --lod 4").code, 0);
+  const PolygonMesh in = mesh("neutral.obj"), out = mesh("out.obj");
+  const Polygons& p = out.polygons;
+  EXPECT_EQ(p.faceCount(), 30 * 16);
+  EXPECT_EQ(p.texcoords.size(), 25u * 21u);
+  EXPECT_EQ(std::set(p.materials.begin(), p.materials.end()),
+            (std::set<std::string>{"skin", "lips"}));
+  EXPECT_EQ(std::set(p.groups.begin(), p.groups.end()), (std::set<std::string>{"row0", "row1"}));
+  ASSERT_EQ(p.cornerTexcoords.size(), p.corners.size());
+  for (Index f = 0; f < p.faceCount(); ++f) {
+    Vec2 middle;
+    for (Index c = p.faceStart[f]; c < p.faceStart[f + 1]; ++c) {
+      const Vec2 t = p.texcoords[p.cornerTexcoords[c]];
+      const Vec3 at = out.positions[p.corners[c]];
+      EXPECT_NEAR(6 * t.x, at.x, 0.05);
+      EXPECT_NEAR(5 * t.y, at.y / 1.1, 0.05);
+      middle = {middle.x + t.x / 4, middle.y + t.y / 4};
+    }
+    const int row = static_cast<int>(5 * middle.y);
+    EXPECT_EQ(p.materials[p.faceMaterial[f]], row % 2 ? "skin" : "lips");
+    EXPECT_EQ(p.groups[p.faceGroup[f]], fmt::format("row{}", row / 3));
+  }
+}
+
+TEST(LodPolygons, HasTrianglesAtCollapsedSides) {
+  // A fan of six triangles round a raised middle.
+  std::string text = "v 0 0 0.5\n";
+  for (int k = 0; k < 6; ++k)
+    text += fmt::format("v {} {} 0\n", std::cos(1.0472 * k), std::sin(1.0472 * k));
+  for (int k = 0; k < 6; ++k) text += fmt::format("f 1 {} {}\n", k + 2, (k + 1) % 6 + 2);
+  const auto mesh = parseObj(text, "fan");
+  ASSERT_TRUE(mesh.has_value()) << mesh.error().message;
+  ConvertOptions options;
+  options.tolerance = 0.05;
+  const auto conversion = convert({*mesh, {}}, options);
+  ASSERT_TRUE(conversion.has_value()) << conversion.error().message;
+  const Rig& rig = conversion->rig;
+  const Tessellation grid(rig.surface, 2);
+  const Polygons polygons = cli::LodPolygons(rig, grid).make();
+  EXPECT_EQ(polygons.faceCount(), 6 * 4);
+  int triangles = 0;
+  for (Index f = 0; f < polygons.faceCount(); ++f) {
+    triangles += polygons.faceSize(f) == 3;
+    EXPECT_GE(polygons.faceSize(f), 3);
+  }
+  EXPECT_EQ(triangles, 6 * 2);
+  for (const auto& [edge, count] : edgeUses(polygons)) {
+    EXPECT_NE(edge.first, edge.second);
+    EXPECT_EQ(count, 1);
+  }
+}
+
+TEST_F(Export, LeavesTheOldFileWhereItFails) {
+  convertRig();
+  folder.file("out.obj", "old");
+  const std::string face = contents(folder / "face.sweep");
+  EXPECT_TRUE(fails("export face.sweep -o out.obj --weights frown=1",
+                    "no target named 'frown'; its targets are jawOpen, smile"));
+  EXPECT_TRUE(fails("export face.sweep -o out.obj --weights smile=x", "finite number"));
+  EXPECT_TRUE(fails("export neutral.obj -o out.obj", "neutral.obj"));
+  EXPECT_TRUE(fails("export face.sweep -o no/out.obj", "there is no folder no"));
+  EXPECT_TRUE(fails("export face.sweep -o face.sweep", "it is what is read"));
+  EXPECT_TRUE(fails("export face.sweep -o out.ply", "another kind of file"));
+  for (const std::string lod : {"0", "65", "-2", "1.5", "fine"})
+    EXPECT_TRUE(fails("export face.sweep -o out.obj --lod " + lod, "whole number from 1 to 64", 2))
+        << lod;
+  EXPECT_TRUE(fails("export face.sweep -o out.obj --lod 2 --source-order", "--lod", 2));
+  EXPECT_EQ(contents(folder / "out.obj"), "old");
+  EXPECT_EQ(contents(folder / "face.sweep"), face);
+}
+
+/// The points and lines of an OBJ text, by group.
+struct Lines {
+  std::vector<Vec3> points;
+  std::map<std::string, std::vector<std::vector<std::size_t>>> groups;
+};
+
+Lines readLines(const std::filesystem::path& path) {
+  Lines lines;
+  std::ifstream file(path);
+  std::string line, group;
+  while (std::getline(file, line)) {
+    std::istringstream words(line);
+    std::string keyword;
+    words >> keyword;
+    if (keyword == "g") words >> group;
+    if (keyword == "v") {
+      Vec3& p = lines.points.emplace_back();
+      words >> p.x >> p.y >> p.z;
+    }
+    if (keyword == "p" || keyword == "l")
+      lines.groups[group].emplace_back(std::istream_iterator<std::size_t>(words),
+                                       std::istream_iterator<std::size_t>());
+  }
+  return lines;
+}
+
+TEST_F(Wires, HasNodesBoundariesAndControls) {
+  folder.file("cube.obj", cube(3));
+  ASSERT_EQ(run("convert cube.obj -o face.sweep --tolerance 0.2").code, 0);
+  const Outcome r = run("wireframe face.sweep -o wire.obj --lod 4");
+  ASSERT_EQ(r.code, 0) << r.err;
+  Lines lines = readLines(folder / "wire.obj");
+  EXPECT_EQ(lines.groups.size(), 3u);
+  const auto boundaries = lines.groups["boundary_curves"].size();
+  // Every arc of a closed face has a patch on both sides.
+  EXPECT_EQ(lines.groups["control_curves"].size(), 4 * boundaries);
+  EXPECT_GE(lines.groups["nodes"].size(), 8u);
+  for (const auto& [group, curves] : lines.groups)
+    for (const auto& curve : curves) {
+      EXPECT_EQ(curve.size() % 4, 1u);
+      for (const std::size_t v : curve) EXPECT_LE(v, lines.points.size());
+    }
+}
+
+TEST_F(Wires, ControlsOfAPlaneLieAtTheirShares) {
+  std::string plane;
+  for (int j = 0; j <= 4; ++j)
+    for (int i = 0; i <= 4; ++i) plane += fmt::format("v {} {} 0\n", i, j);
+  for (int j = 0; j < 4; ++j)
+    for (int i = 0; i < 4; ++i) {
+      const int a = 5 * j + i + 1;
+      plane += fmt::format("f {} {} {} {}\n", a, a + 1, a + 6, a + 5);
+    }
+  folder.file("plane.obj", plane);
+  ASSERT_EQ(run("convert plane.obj -o face.sweep").code, 0);
+  ASSERT_EQ(run("wireframe face.sweep -o wire.obj --lod 1").code, 0);
+  Lines lines = readLines(folder / "wire.obj");
+  ASSERT_EQ(lines.groups["boundary_curves"].size(), 4u) << "the plane is one patch";
+  std::set<double> away;
+  for (const auto& curve : lines.groups["control_curves"]) {
+    const Vec3 p = lines.points[curve[curve.size() / 2] - 1];
+    EXPECT_NEAR(p.z, 0, 1e-5);
+    away.insert(std::round(1e3 * std::min({p.x, p.y, 4 - p.x, 4 - p.y})) / 1e3);
+  }
+  EXPECT_EQ(away, (std::set<double>{0.4, 1}));
+}
+
+TEST_F(Wires, FollowsTheWeights) {
+  convertRig();
+  ASSERT_EQ(run("wireframe face.sweep -o a.obj").code, 0);
+  ASSERT_EQ(run("wireframe face.sweep -o b.obj --weights smile=1").code, 0);
+  EXPECT_EQ(readLines(folder / "a.obj").points.size(), readLines(folder / "b.obj").points.size());
+  EXPECT_NE(contents(folder / "a.obj"), contents(folder / "b.obj"));
+  EXPECT_TRUE(fails("wireframe face.sweep -o b.obj --weights frown=1", "frown"));
+  EXPECT_TRUE(fails("wireframe face.sweep -o b.obj --lod 0", "--lod", 2));
+}
+
+}  // namespace
+}  // namespace sweepface

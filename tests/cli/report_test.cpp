@@ -1,0 +1,171 @@
+#include <nlohmann/json.hpp>
+
+#include "cli/tool.hpp"
+
+namespace sweepface {
+namespace {
+
+using namespace testing;
+using nlohmann::json;
+using Info = Tool;
+using Check = Tool;
+using Measure = Tool;
+using Usage = Tool;
+
+TEST_F(Info, CountsWhatIsThere) {
+  convertRig();
+  const Outcome r = run("info face.sweep --json");
+  ASSERT_EQ(r.code, 0) << r.err;
+  const json info = json::parse(r.out);
+  EXPECT_EQ(info["quads"], 30);
+  EXPECT_EQ(info["vertices"], 42);
+  EXPECT_EQ(info["targets"], (std::vector<std::string>{"jawOpen", "smile"}));
+  EXPECT_EQ(info["tolerance"], 0.01);
+  EXPECT_GE(info["patches"], 1);
+  EXPECT_EQ(info["nodes"], info["fullNodes"].get<int>() + info["irregularNodes"].get<int>() +
+                               info["hangingNodes"].get<int>());
+  EXPECT_GE(info["arcs"], 4);
+  EXPECT_GE(info["vectors"], 4);
+}
+
+TEST_F(Info, ItsPartsMakeUpTheFile) {
+  convertRig();
+  const json info = json::parse(run("info face.sweep --json").out);
+  std::size_t sum = 0;
+  for (const auto& [part, bytes] : info["parts"].items()) sum += bytes.get<std::size_t>();
+  EXPECT_EQ(sum, contents(folder / "face.sweep").size());
+  EXPECT_EQ(info["bytes"], sum);
+}
+
+TEST_F(Info, IsReadableByPeople) {
+  convertRig();
+  const Outcome r = run("info face.sweep");
+  EXPECT_EQ(r.code, 0);
+  for (const std::string part :
+       {"over 30 quads", "2: jawOpen, smile", "42 vertices", "tolerance  0.01"})
+    EXPECT_NE(r.out.find(part), std::string::npos) << part << "\n" << r.out;
+  EXPECT_EQ(run("info face.sweep --quiet").out, "");
+}
+
+TEST_F(Info, RefusesWhatIsNoFace) {
+  EXPECT_TRUE(fails("info face.sweep", "face.sweep: there is no such file"));
+  folder.file("face.sweep", "not a face");
+  EXPECT_TRUE(fails("info face.sweep", "face.sweep"));
+  EXPECT_TRUE(fails("info .", "it is a folder"));
+}
+
+TEST_F(Check, FindsAFreshFaceSound) {
+  folder.file("cube.obj", cube(3));
+  ASSERT_EQ(run("convert cube.obj -o face.sweep --tolerance 0.2").code, 0);
+  const Outcome r = run("check face.sweep --json");
+  ASSERT_EQ(r.code, 0) << r.err;
+  const json report = json::parse(r.out);
+  EXPECT_EQ(report["sound"], true);
+  EXPECT_TRUE(report["problems"].empty());
+  EXPECT_EQ(report["irregularNodes"], 8);
+  EXPECT_EQ(report["joins"]["boundary"]["count"], 0);
+  EXPECT_GT(report["joins"]["spoke"]["count"], 0);
+  double share = 0;
+  for (const json& join : report["joins"]) share += join["lengthShare"].get<double>();
+  EXPECT_NEAR(share, 1, 1e-12);
+  for (const std::string kind : {"C2", "spoke"})
+    EXPECT_LE(report["joins"][kind]["positionGap"], 1e-12) << kind;
+}
+
+TEST_F(Check, LooksAtEveryPose) {
+  convertRig();
+  const Outcome r = run("check face.sweep");
+  EXPECT_EQ(r.code, 0) << r.err;
+  EXPECT_NE(r.out.find("face.sweep: sound\n"), std::string::npos) << r.out;
+  EXPECT_NE(r.out.find("4 poses: the neutral, 2 targets and a mixture"), std::string::npos)
+      << r.out;
+  EXPECT_EQ(run("check face.sweep --quiet").out, "");
+}
+
+TEST_F(Check, RefusesADamagedFile) {
+  convertRig();
+  std::string bytes = contents(folder / "face.sweep");
+  bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 0x10);
+  folder.file("damaged.sweep", bytes);
+  EXPECT_TRUE(fails("check damaged.sweep", "damaged.sweep"));
+  folder.file("short.sweep", bytes.substr(0, bytes.size() / 3));
+  EXPECT_TRUE(fails("check short.sweep", "short.sweep"));
+}
+
+TEST_F(Measure, ComparesEveryShapeAndMixture) {
+  convertRig();
+  const Outcome r = run("measure face.sweep neutral.obj targets --mixtures 3 --json");
+  ASSERT_EQ(r.code, 0) << r.err;
+  const json report = json::parse(r.out);
+  ASSERT_EQ(report["shapes"].size(), 3u);
+  EXPECT_EQ(report["shapes"][1]["name"], "jawOpen");
+  EXPECT_EQ(report["mixtures"].size(), 3u);
+  for (const json& row : report["shapes"]) {
+    EXPECT_LE(row["distanceMax"], 0.01);
+    EXPECT_LE(row["distanceRms"], row["distanceMax"]);
+    EXPECT_LE(row["distanceMax"], report["worst"]["distanceMax"]);
+  }
+}
+
+TEST_F(Measure, PrintsARowAShape) {
+  convertRig();
+  const Outcome r = run("measure face.sweep neutral.obj targets --mixtures 2");
+  ASSERT_EQ(r.code, 0) << r.err;
+  EXPECT_EQ(std::count(r.out.begin(), r.out.end(), '\n'), 2 + 3 + 1 + 2) << r.out;
+  for (const std::string name : {"\njawOpen ", "\nsmile ", "\nworst "})
+    EXPECT_NE(r.out.find(name), std::string::npos) << name << r.out;
+}
+
+TEST_F(Measure, DrawsTheMixturesOfASeed) {
+  convertRig();
+  const std::string command = "measure face.sweep neutral.obj targets --mixtures 1 --seed ";
+  EXPECT_EQ(run(command + "5").out, run(command + "5").out);
+  EXPECT_NE(run(command + "5").out, run(command + "6").out);
+}
+
+TEST_F(Measure, RefusesForeignMeshes) {
+  convertRig();
+  folder.file("cube.obj", cube(2));
+  folder.file("other.obj", sheet(opened));
+  EXPECT_EQ(run("measure face.sweep cube.obj").code, 1);
+  EXPECT_EQ(run("measure face.sweep neutral.obj other.obj").code, 1);
+  EXPECT_TRUE(fails("measure face.sweep nothing.obj", "nothing.obj"));
+  EXPECT_TRUE(fails("measure face.sweep neutral.obj --mixtures -1", "--mixtures", 2));
+}
+
+TEST_F(Usage, EveryCommandHelps) {
+  for (const std::string command :
+       {"convert", "info", "check", "measure", "export", "animate", "wireframe"}) {
+    const Outcome r = run(command + " --help");
+    EXPECT_EQ(r.code, 0);
+    EXPECT_NE(r.out.find("  sweepface " + command), std::string::npos) << r.out;
+    EXPECT_NE(r.out.find("--quiet"), std::string::npos) << r.out;
+    EXPECT_NE(run("--help").out.find("  " + command), std::string::npos);
+    EXPECT_TRUE(fails(command, "is required\nTry `sweepface " + command + " --help`", 2));
+  }
+}
+
+TEST_F(Usage, HasAVersion) {
+  const Outcome r = run("--version");
+  EXPECT_EQ(r.code, 0);
+  EXPECT_TRUE(r.out.starts_with("sweepface ")) << r.out;
+}
+
+TEST_F(Usage, RefusesWhatItDoesNotKnow) {
+  EXPECT_TRUE(fails("", "A command is required", 2));
+  EXPECT_TRUE(fails("info face.sweep --loud", "--loud", 2));
+  EXPECT_TRUE(fails("dance --quickly", "There is no command 'dance'", 2));
+}
+
+TEST_F(Usage, NoticesThatNobodyCanReadTheReport) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP();
+  convertRig();
+  const std::string command =
+      fmt::format("'{}' info '{}' >/dev/full 2>'{}'", SWEEPFACE_TOOL,
+                  (folder / "face.sweep").string(), (folder / ".err").string());
+  EXPECT_NE(std::system(command.c_str()), 0);
+  EXPECT_NE(contents(folder / ".err").find("Cannot write the report"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace sweepface
