@@ -47,7 +47,8 @@ std::vector<bool> findNonZero(const std::vector<V>& vectors, bool isDouble) {
 
 // Powers of ten that doubles hold, so that n / 10^digits is the double nearest to the decimal
 // number: the one that a text with so many digits is read as.
-constexpr std::array<double, 10> kPowersOfTen{1, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9};
+constexpr std::array<double, 13> kPowersOfTen{1,   1e1, 1e2, 1e3,  1e4,  1e5, 1e6,
+                                              1e7, 1e8, 1e9, 1e10, 1e11, 1e12};
 constexpr double kMostDecimal = 9e15;  // whole numbers below are exact
 
 bool isDecimal(double x, double power) {

@@ -88,10 +88,10 @@ TEST(Hostile, DecimalsMustStayExact) {
     });
     return decode(withPayload(bytes, "texc", payload), "a.sweep");
   };
-  EXPECT_TRUE(decimals(9, 8'999'999'999'999'999));
-  EXPECT_FALSE(decimals(10, 1));
-  EXPECT_FALSE(decimals(9, 9'000'000'000'000'000));
-  EXPECT_FALSE(decimals(9, -9'000'000'000'000'000));
+  EXPECT_TRUE(decimals(12, 8'999'999'999'999'999));
+  EXPECT_FALSE(decimals(13, 1));
+  EXPECT_FALSE(decimals(12, 9'000'000'000'000'000));
+  EXPECT_FALSE(decimals(12, -9'000'000'000'000'000));
 }
 
 TEST(Hostile, PatchesMustNotHaveTooManyVertices) {
