@@ -1,7 +1,7 @@
 // Writes a small head and eight expressions as OBJ files: sample_face OUTDIR
 //
 // The mesh starts as the surface of a box of grid cells. Blocks of cells at the eyes and the mouth
-// give way to rings round a hole. sample_head.hpp turns every vertex into a point of the head.
+// give way to rings round a hole; relaxing evens out the rest. sample_head.hpp gives the shape.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -49,6 +49,11 @@ Site boxSite(const Cell& at) {
   const double width = std::tan(52 * degree), x = angle(0, -52, 52), y = angle(1, -76, 62);
   const double z = angle(2, -38, 38) * width;
   return {std::atan2(x, z) / degree, std::atan2(std::hypot(x, z), y) / degree};
+}
+
+Vec3 direction(const Site& site) {
+  const double a = site.around * degree, d = site.down * degree;
+  return {std::sin(d) * std::sin(a), std::cos(d), std::sin(d) * std::cos(a)};
 }
 
 /// A hole in the front: the block of cells that it replaces, and its loops.
@@ -107,6 +112,7 @@ class MeshBuilder {
       addSide(axis, cells[axis]);
     }
     for (const Opening& opening : openings) addRings(opening);
+    for (int pass = 0; pass < 30; ++pass) relax();
     return std::move(mesh_);
   }
 
@@ -151,6 +157,23 @@ class MeshBuilder {
         mesh_.quads.push_back({{outer[k], outer[next], inner[next], inner[k]}, part});
       }
       outer = inner;
+    }
+  }
+
+  /// Moves every site towards the middle of its neighbours, but those of the lips and lids.
+  void relax() {
+    std::vector<Vec3> sums(mesh_.sites.size());
+    for (const Quad& quad : mesh_.quads)
+      for (int k = 0; k < 4; ++k) {
+        sums[quad.corners[k]] += direction(mesh_.sites[quad.corners[(k + 1) % 4]]);
+        sums[quad.corners[k]] += direction(mesh_.sites[quad.corners[(k + 3) % 4]]);
+      }
+    for (std::size_t v = 0; v < sums.size(); ++v) {
+      Site& site = mesh_.sites[v];
+      if (site.near > 0.6) continue;
+      const Vec3 to = normalized(sums[v]) + direction(site);
+      site.around = std::atan2(to.x, to.z) / degree;
+      site.down = std::atan2(std::hypot(to.x, to.z), to.y) / degree;
     }
   }
 
