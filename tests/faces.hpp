@@ -183,6 +183,32 @@ inline PolygonMesh dart(Index corners, Index m = 8, Index n = 8) {
   return mesh;
 }
 
+/// `valence` grids of n × n quads around one vertex, the first.
+inline PolygonMesh pinwheel(Index valence, Index n = 4) {
+  PolygonMesh mesh;
+  mesh.positions.push_back(onHill(5, 4));
+  const auto at = [&](Index sector, Index i, Index j) {  // 1 ≤ i ≤ n, 0 ≤ j ≤ n
+    return 1 + (sector % valence) * n * (n + 1) + (i - 1) * (n + 1) + j;
+  };
+  const auto spoke = [&](Index s) {
+    return Vec3{std::cos(turn(1.0 * s / valence)), std::sin(turn(1.0 * s / valence)), 0};
+  };
+  for (Index s = 0; s < valence; ++s)
+    for (Index i = 1; i <= n; ++i)
+      for (Index j = 0; j <= n; ++j) {
+        const Vec3 p = 1.0 * i * spoke(s) + 1.0 * j * spoke(s + 1);
+        mesh.positions.push_back(onHill(5 + p.x, 4 + p.y));
+      }
+  const auto vertex = [&](Index s, Index i, Index j) {
+    return i == 0 && j == 0 ? 0 : i == 0 ? at(s + 1, j, 0) : at(s, i, j);
+  };
+  for (Index s = 0; s < valence; ++s)
+    for (Index i = 0; i < n; ++i)
+      for (Index j = 0; j < n; ++j)
+        addFace(mesh, {vertex(s, i, j), vertex(s, i + 1, j), vertex(s, i + 1, j + 1), vertex(s, i, j + 1)});
+  return mesh;
+}
+
 inline PolygonMesh joined(PolygonMesh a, const PolygonMesh& b, const Vec3& offset) {
   const auto first = static_cast<Index>(a.positions.size());
   for (const Vec3& p : b.positions) a.positions.push_back(p + offset);
@@ -233,6 +259,7 @@ inline const std::vector<Face>& everyFace() {
     add("windowed", windowed());
     add("triangle", dart(3));
     add("pentagon", dart(5));
+    add("pinwheel", pinwheel(5));
     add("two", joined(plane(6, 5), cubeSphere(3, 2), {4, 3, 12}));
     return list;
   }();

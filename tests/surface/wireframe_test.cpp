@@ -1,0 +1,224 @@
+#include "surface/surfaces.hpp"
+
+namespace sweepface {
+namespace {
+
+using namespace sweepface::testing;
+
+Connectivity connect(const Wireframe& w) { return Connectivity::make(w).value(); }
+std::string refusal(const Wireframe& w) {
+  const auto surface = Surface::make(w);
+  return surface ? "" : surface.error().message;
+}
+
+TEST(Kinds, cornersAndSidesOfABoundaryCross) {
+  for (NodeKind kind : connect(twoPatches()).kinds) EXPECT_EQ(kind, NodeKind::crossing);
+}
+
+TEST(Kinds, aTNodeHangs) {
+  const Connectivity c = connect(tee());
+  for (std::size_t n = 0; n < c.kinds.size(); ++n)
+    EXPECT_EQ(c.kinds[n], n == 3 ? NodeKind::hanging : NodeKind::crossing);
+}
+
+TEST(Kinds, threePatchesAroundANodeAreIrregular) {
+  const Surface cube = surfaceOf(MeshRig{cubeSphere(2), {}});
+  EXPECT_EQ(cube.connectivity().kinds, std::vector<NodeKind>(8, NodeKind::irregular));
+  for (const Star& star : cube.connectivity().stars) {
+    EXPECT_TRUE(star.closed);
+    EXPECT_EQ(star.arms.size(), 3u);
+  }
+}
+
+TEST(Kinds, aConcaveCornerIsIrregular) {
+  const Surface l = surfaceOf(MeshRig{lShape(), {}});
+  EXPECT_EQ(std::ranges::count(l.connectivity().kinds, NodeKind::irregular), 1);
+}
+
+TEST(Kinds, aPoleIsIrregularOnEveryRay) {
+  const Connectivity c = connect(fan(5));
+  EXPECT_EQ(std::ranges::count(c.kinds, NodeKind::irregular), 5);
+}
+
+TEST(Kinds, aRailRunsThroughTNodes) {
+  const Wireframe w = tee();
+  const Rail rail = followRail(w, connect(w), 2 * 1);
+  EXPECT_EQ(rail.edges, 4);
+  EXPECT_EQ(w.end(rail.last), 4);
+}
+
+// Arm by arm, the patch to the left of one arm is the patch to the right of the next.
+TEST(Stars, areCounterClockwise) {
+  for (const auto& [name, surface] : everySurface()) {
+    SCOPED_TRACE(name);
+    const Wireframe& w = surface.wireframe();
+    const Connectivity& c = surface.connectivity();
+    for (Index n = 0; n < static_cast<Index>(w.nodes.size()); ++n) {
+      const Star& star = c.stars[n];
+      ASSERT_EQ(star.sectors.size(), star.arms.size() - (star.closed ? 0 : 1));
+      for (HalfArc arm : star.arms) EXPECT_EQ(w.start(arm), n);
+      for (std::size_t s = 0; s < star.sectors.size(); ++s) {
+        const HalfArc arm = star.arms[s], next = star.arms[(s + 1) % star.arms.size()];
+        EXPECT_EQ(c.patchOf[arm], c.patchOf[twin(next)]);
+        EXPECT_EQ(c.next[twin(next)], arm);
+        EXPECT_EQ(star.sectors[s], c.cornerAt[arm]);
+      }
+      if (!star.closed) {
+        EXPECT_EQ(c.patchOf[twin(star.arms.front())], -1);
+        EXPECT_EQ(c.patchOf[star.arms.back()], -1);
+      }
+    }
+  }
+}
+
+TEST(Stars, oppositeArmsAreEachOthersOpposite) {
+  for (const auto& [name, surface] : everySurface()) {
+    const Connectivity& c = surface.connectivity();
+    for (Index n = 0; n < static_cast<Index>(c.stars.size()); ++n)
+      for (int k = 0; k < static_cast<int>(c.stars[n].arms.size()); ++k)
+        if (const int on = c.opposite(n, k); on >= 0) {
+          EXPECT_EQ(c.opposite(n, on), k) << name;
+        }
+  }
+}
+
+struct Broken {
+  const char* name;
+  std::function<Wireframe()> make;
+  const char* message;
+  friend void PrintTo(const Broken& broken, std::ostream* out) { *out << broken.name; }
+};
+
+template <typename Change>
+auto with(Wireframe w, Change change) {
+  return [=] {
+    Wireframe broken = w;
+    change(broken);
+    return broken;
+  };
+}
+
+const Broken broken[] = {
+    {"openLoop", with(onePatch(2, 2), [](Wireframe& w) { w.loops[2] = 4; }),
+     "patch 0 is not a closed loop of arcs"},
+    {"arcTwice", with(twoPatches(), [](Wireframe& w) { std::copy_n(w.loops.begin(), 4, w.loops.begin() + 4); }),
+     "arc 0 is used twice in the same direction"},
+    {"differentLengths", with(onePatch(2, 2), [](Wireframe& w) { w.arcs[2].edges = 3; }),
+     "patch 0 has opposite sides of different length"},
+    {"missingNode", with(onePatch(2, 2), [](Wireframe& w) { w.arcs[1].to = 4; }),
+     "arc 1 ends at a node that does not exist"},
+    {"negativeNode", with(onePatch(2, 2), [](Wireframe& w) { w.arcs[3].from = -1; }),
+     "arc 3 ends at a node that does not exist"},
+    {"lonelyNode", with(onePatch(2, 2), [](Wireframe& w) { w.nodes.push_back({0, kPosition}); }),
+     "node 4 belongs to no patch"},
+    {"noLength", with(onePatch(2, 2), [](Wireframe& w) { w.arcs[0].edges = 0; }), "arc 0 has no length"},
+    {"noRibbon", with(onePatch(2, 2), [](Wireframe& w) { w.arcs[2].ribbon = 2; }),
+     "arc 2 belongs to a ribbon that does not exist"},
+    {"noPoint", with(onePatch(2, 2), [](Wireframe& w) { w.nodes[2].point = 4; }),
+     "node 2 stands at a point that does not exist"},
+    {"pointless", with(onePatch(2, 2), [](Wireframe& w) { w.nodes[2].point = -1; }), "node 2 needs a point of its own"},
+    {"pointOnTNode", with(tee(), [](Wireframe& w) { w.nodes[3].point = 0; }),
+     "node 3 hangs on an arc and must not have a point"},
+    {"noSide", with(onePatch(2, 2), [](Wireframe& w) { w.patches[0].sides[2] = 1; }), "patch 0 lacks a side"},
+    {"noArc", with(onePatch(2, 2), [](Wireframe& w) { w.loops[1] = 8; }),
+     "a patch is bounded by an arc that does not exist"},
+    {"halfT",
+     [] {  // a side of two arcs on the boundary: no third arc arrives
+       Wireframe w = onePatch(2, 2);
+       w.points = 5;
+       w.nodes.push_back({4, kWholeJet});
+       w.arcs[0] = arc(0, 4, 1, 0);
+       w.arcs.push_back(arc(4, 1, 1, 0));
+       w.patches = {{{0, 2, 3, 4, 5}}};
+       w.loops = {0, 8, 2, 5, 6};
+       return w;
+     },
+     "node 4 stands on the side of a patch but is no T of three arcs"},
+    {"touching",
+     [] {  // two patches that share one node and nothing else
+       Wireframe w = onePatch(1, 1), other = onePatch(1, 1);
+       w.points = 7;
+       for (Index k = 4; k < 7; ++k) w.nodes.push_back({k, kWholeJet});
+       for (Arc a : other.arcs) {
+         a.from = a.from == 0 ? 2 : a.from + 3;
+         a.to = a.to == 0 ? 2 : a.to + 3;
+         w.arcs.push_back(a);
+       }
+       for (HalfArc h : other.loops) w.loops.push_back(h + 8);
+       w.patches.push_back({{4, 5, 6, 7, 8}});
+       return w;
+     },
+     "node 2 joins patches that only touch there; give each its own node"},
+    {"ribbonHalfWay", with(tee(), [](Wireframe& w) { w.arcs[2].ribbon = 1; }),
+     "a side of patch 0 changes its ribbon half-way"},
+    {"twoRibbons", with(onePatch(2, 2), [](Wireframe& w) { w.arcs[2].ribbon = 1; }),
+     "patch 0 sweeps along sides of two ribbons"},
+    {"refusedShape", with(onePatch(2, 2), [](Wireframe& w) { w.ribbons[0] = {1, 1000, 0}; }), "ribbon 0: "},
+    {"noShape", with(onePatch(2, 2), [](Wireframe& w) { w.ribbons[1] = {0, 0, 0}; }), "ribbon 1: "},
+};
+
+class Refusal : public ::testing::TestWithParam<Broken> {};
+INSTANTIATE_TEST_SUITE_P(Wireframe, Refusal, ::testing::ValuesIn(broken),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+TEST_P(Refusal, namesThePlace) {
+  const std::string message = refusal(GetParam().make());
+  EXPECT_TRUE(message.starts_with(GetParam().message)) << message;
+}
+
+// Four T-nodes in a whirl: every arc ends on the next one's rail.
+Wireframe whirl() {
+  Wireframe w;
+  const auto node = [&](Index point) { w.nodes.push_back({point, kPosition}); };
+  for (Index k = 0; k < 8; ++k) node(k);
+  for (Index k = 0; k < 4; ++k) node(-1);
+  w.points = 8;
+  // corners 0 (0,0), 2 (3,0), 4 (3,3), 6 (0,3); sides 1 (2,0), 3 (3,2), 5 (1,3), 7 (0,1);
+  // inner 8 (2,1), 9 (2,2), 10 (1,2), 11 (1,1)
+  const auto add = [&](Index a, Index b, Index edges, Index ribbon) {
+    w.arcs.push_back(arc(a, b, edges, ribbon));
+    return static_cast<HalfArc>(2 * w.arcs.size() - 2);
+  };
+  const HalfArc s01 = add(0, 1, 2, 0), s12 = add(1, 2, 1, 0), s23 = add(2, 3, 2, 0), s34 = add(3, 4, 1, 0),
+                s45 = add(4, 5, 2, 0), s56 = add(5, 6, 1, 0), s67 = add(6, 7, 2, 0), s70 = add(7, 0, 1, 0);
+  const HalfArc r1 = add(1, 8, 1, 0), q1 = add(8, 9, 1, 0), r3 = add(3, 9, 1, 0), q3 = add(9, 10, 1, 0),
+                r5 = add(5, 10, 1, 0), q5 = add(10, 11, 1, 0), r7 = add(7, 11, 1, 0), q7 = add(11, 8, 1, 0);
+  const auto patch = [&](std::initializer_list<std::initializer_list<HalfArc>> sides) {
+    Patch p;
+    int s = 0;
+    for (const auto& side : sides) {
+      p.sides[s++] = static_cast<Index>(w.loops.size());
+      w.loops.insert(w.loops.end(), side);
+    }
+    p.sides[4] = static_cast<Index>(w.loops.size());
+    w.patches.push_back(p);
+  };
+  patch({{s01}, {r1}, {twin(q7), twin(r7)}, {s70}});
+  patch({{s23}, {r3}, {twin(q1), twin(r1)}, {s12}});
+  patch({{s45}, {r5}, {twin(q3), twin(r3)}, {s34}});
+  patch({{s67}, {r7}, {twin(q5), twin(r5)}, {s56}});
+  patch({{q1}, {q3}, {q5}, {q7}});
+  w.ribbons = {{}};
+  return w;
+}
+
+TEST(Circles, areRefusedAndNameANodeThatBreaksThem) {
+  Wireframe w = whirl();
+  for (int round = 0; round < 9; ++round) {
+    std::vector<Index> circle;
+    const auto surface = Surface::make(w, &circle);
+    ASSERT_FALSE(surface);
+    EXPECT_TRUE(surface.error().message.ends_with("are derived from themselves; let it store its own"))
+        << surface.error().message;
+    ASSERT_FALSE(circle.empty());
+    for (Index node : circle) {
+      if (node >= 8) return;  // a T-node: it must become a crossing
+      EXPECT_NE(w.nodes[node].stored, kWholeJet) << "node " << node;
+      w.nodes[node].stored = kWholeJet;
+    }
+  }
+  FAIL() << "no T-node is named";
+}
+
+}  // namespace
+}  // namespace sweepface
