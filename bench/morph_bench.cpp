@@ -73,10 +73,10 @@ void morphBlend(benchmark::State& state, Active active, std::size_t chunk) {
                           static_cast<std::int64_t>(out.size() * sizeof(float)));
 }
 constexpr std::size_t kChunk = 3 * 1024, kWhole = static_cast<std::size_t>(-1);
-BENCHMARK_CAPTURE(morphBlend, naive / ten, Active::ten, kWhole)->Unit(benchmark::kMicrosecond);
-BENCHMARK_CAPTURE(morphBlend, naive / all, Active::all, kWhole)->Unit(benchmark::kMicrosecond);
-BENCHMARK_CAPTURE(morphBlend, chunked / ten, Active::ten, kChunk)->Unit(benchmark::kMicrosecond);
-BENCHMARK_CAPTURE(morphBlend, chunked / all, Active::all, kChunk)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(morphBlend, naive_ten, Active::ten, kWhole)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(morphBlend, naive_all, Active::all, kWhole)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(morphBlend, chunked_ten, Active::ten, kChunk)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(morphBlend, chunked_all, Active::all, kChunk)->Unit(benchmark::kMicrosecond);
 
 }  // namespace
 }  // namespace sweepface::bench
