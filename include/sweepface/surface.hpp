@@ -80,6 +80,12 @@ enum class NodeKind {
   hanging     ///< a T-node: derived from the arc it stands on
 };
 
+/// A straight run of arcs up to the next node that does not merely hang on it.
+struct Rail {
+  HalfArc last = -1;  ///< arrives at the rail's end
+  Index edges = 0;
+};
+
 /// Who meets whom in a wireframe; derived, never stored.
 struct Connectivity {
   std::vector<Index> patchOf;       ///< [half-arcs] the patch on the left, or -1
@@ -89,6 +95,7 @@ struct Connectivity {
   std::vector<NodeKind> kinds;      ///< [nodes]
   std::vector<Index> cornerSector;  ///< [4·patches] sector of the corner in its node's star
   std::vector<Index> cornerNode;    ///< [4·patches]
+  std::vector<Rail> rails;          ///< [half-arcs] the rest of the rail from each on
 
   /// Fails with the place where the loops do not form a surface.
   static Result<Connectivity> make(const Wireframe& wireframe);
@@ -96,12 +103,7 @@ struct Connectivity {
   int opposite(Index node, int arm) const;
 };
 
-/// A straight run of arcs up to the next node that does not merely hang on it.
-struct Rail {
-  HalfArc last = -1;  ///< arrives at the rail's end
-  Index edges = 0;
-};
-Rail followRail(const Wireframe&, const Connectivity&, HalfArc first);
+inline Rail followRail(const Wireframe&, const Connectivity& c, HalfArc first) { return c.rails[first]; }
 
 /// One term of a linear combination of vectors.
 struct Term {
@@ -167,6 +169,13 @@ class Surface {
     std::array<double, 36> factors;
   };
   Weights weights(const Site& site, int du = 0, int dv = 0) const;
+  /// The same as if the sweep and the curves at u = 0 and u = m had other bases: what a change of shape
+  /// parameters would do.
+  struct PatchBasis {
+    const SweepBasis *u, *v0, *v1;
+  };
+  PatchBasis patchBasis(Index patch) const;
+  Weights weights(const Site& site, const PatchBasis& basis, int du = 0, int dv = 0) const;
   /// ∂u^du ∂v^dv S; `vectors` is a settled pose.
   Vec3 evaluate(std::span<const Vec3> vectors, const Site& site, int du = 0, int dv = 0) const;
   /// The outward unit normal; at a collapsed side or a vanishing derivative its limit from inside.

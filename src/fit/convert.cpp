@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "fit/refine.hpp"
+#include "fit/shapes.hpp"
 #include "fit/source_data.hpp"
 #include "sweepface/eval.hpp"
 #include "sweepface/fit.hpp"
@@ -21,7 +22,7 @@ namespace {
 
 constexpr int kMostRounds = 60;
 // At the default tolerance of 0.02 % of the diagonal normals may be this far off, in degrees.
-constexpr double kNormalLimitAtDefault = 3;
+constexpr double kNormalLimitAtDefault = 2.8;
 
 double normalLimit(const ConvertOptions& options, double tolerance, double size) {
   if (options.normalLimit > 0) return options.normalLimit;
@@ -90,12 +91,33 @@ class Converter {
       const Index changed = refine(layout, *draft, data, errors, limits_);
       if (within && changed == 0) {
         draft_ = std::move(*draft);
-        return solution;
+        return reshape(layout, data, *solution, errors);
       }
       if (changed == 0) break;
       if (within && ++smoothing_ >= 8) limits_.angle = 180;
     }
     return fail("the tolerance could not be met everywhere; allow a larger one");
+  }
+
+  // Gives ribbons shape parameters that bring the surface nearer, and keeps them if the fit that follows
+  // is better and still within the limits.
+  Result<Solution> reshape(const Layout& layout, const SourceData& data, Solution& solution,
+                           const DraftErrors& errors) {
+    if (!options_.chooseShapes) return std::move(solution);
+    report("shape parameters", 0.92);
+    Wireframe wireframe = draft_.surface.wireframe();
+    if (chooseShapes(layout, draft_, data, solution, wireframe.ribbons) == 0) return std::move(solution);
+    auto surface = Surface::make(std::move(wireframe));
+    if (!surface) return std::move(solution);
+    Draft reshaped{draft_.patches, std::move(*surface)};
+    auto again = solve(layout, reshaped, data);
+    if (!again) return std::move(solution);
+    *again = asStored(*again);
+    const DraftErrors now = measureDraft(layout, reshaped, data, *again);
+    if (now.largestDistance > limits_.distance || now.weightedSquares >= errors.weightedSquares)
+      return std::move(solution);
+    draft_ = std::move(reshaped);
+    return again;
   }
 
   Rig assemble(const GridMesh& mesh, const Solution& solution, const SourceData& data) {

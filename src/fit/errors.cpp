@@ -18,7 +18,7 @@ class PatchMeter {
         vectors_(patchVectors(draft, patch, settled)) {}
 
   struct Vertex {
-    double distance = 0, angle = 0, squaredAngles = 0;
+    double distance = 0, angle = 0, squares = 0, squaredAngles = 0;
   };
   std::vector<Vertex> vertices() const {
     std::vector<Vertex> result;
@@ -30,7 +30,9 @@ class PatchMeter {
         derivatives(i, j, u, v);
         Vertex worst;
         for (Index k = 0; k < data_.poses; ++k) {
-          worst.distance = std::max(worst.distance, norm(vec(position, k) - data_.point(point, k)));
+          const double distance = norm(vec(position, k) - data_.point(point, k));
+          worst.distance = std::max(worst.distance, distance);
+          worst.squares += distance * distance;
           const double angle = angleDegrees(cross(vec(u, k), vec(v, k)), data_.normal(point, k));
           worst.angle = std::max(worst.angle, angle);
           worst.squaredAngles += angle * angle;
@@ -122,6 +124,7 @@ DraftErrors measureDraft(const Layout& layout, const Draft& draft, const SourceD
       errors.distance[v] = std::max(errors.distance[v], m.distance);
       errors.angle[v] = std::max(errors.angle[v], m.angle);
       squares += m.squaredAngles;
+      errors.weightedSquares += data.weight[layout.mesh().point[v]] * m.squares;
       count += data.poses;
     }
   errors.largestDistance = *std::max_element(errors.distance.begin(), errors.distance.end());

@@ -13,6 +13,7 @@ struct DraftErrors {
   std::vector<char> folded;       ///< [patches] the surface turns over against a source face somewhere
   double largestDistance = 0;
   double rmsAngle = 0;
+  double weightedSquares = 0;  ///< of all distances, as the fit counts them
 };
 
 DraftErrors measureDraft(const Layout& layout, const Draft& draft, const SourceData& data,

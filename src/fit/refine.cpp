@@ -135,18 +135,19 @@ Index refine(Layout& layout, const Draft& draft, SourceData& data, const DraftEr
   const auto excess = [&](Index v) {
     return std::max(errors.distance[v] / limits.distance, errors.angle[v] / limits.angle);
   };
-  // A patch that is nearly within the limits may get there without more points if its worst vertices
-  // count more (Lawson's way from least squares to least maximum). Tried twice for each vertex.
-  constexpr double kNearly = 1.5;
-  constexpr int kEmphases = 2;
+  // A patch that is nearly within the limits may get there without more points if what is wrong at its
+  // worst vertices counts more (Lawson's way from least squares to least maximum). Twice at most.
+  constexpr double kNearly = 1.5, kMost = 4;
   const auto emphasize = [&](const GridPatch& grid) {
     bool any = false;
-    for (Index v : grid.vertices) {
-      const Index point = mesh.point[v];
-      if (excess(v) <= 1 || data.emphases[point] >= kEmphases) continue;
-      ++data.emphases[point];
-      data.weight[point] *= 2;
+    const auto raise = [&](double& emphasis) {
+      if (emphasis >= kMost) return;
+      emphasis *= 2;
       any = true;
+    };
+    for (Index v : grid.vertices) {
+      if (errors.distance[v] > limits.distance) raise(data.placeEmphasis[mesh.point[v]]);
+      if (errors.angle[v] > limits.angle) raise(data.slopeEmphasis[mesh.point[v]]);
     }
     return any;
   };
@@ -175,11 +176,12 @@ Index refine(Layout& layout, const Draft& draft, SourceData& data, const DraftEr
         ++changed;
       }
   }
-  if (changed > 0) return changed;
-  // Nothing left to cut: let the vertices that are too far off count more than their neighbours.
+  const Index stalled = draft.surface.patchCount() / 500;
+  if (changed > stalled) return changed;
+  // Little is left to cut: let positions that are too far off count more than what surrounds them.
   for (Index v = 0; v < mesh.vertexCount(); ++v)
     if (errors.distance[v] > limits.distance) {
-      data.weight[mesh.point[v]] *= 4;
+      data.placeEmphasis[mesh.point[v]] *= 8;
       ++changed;
     }
   return changed;

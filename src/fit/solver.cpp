@@ -74,6 +74,7 @@ class PatchAssembler {
   };
 
   double weightAt(Index i, Index j) const { return data_.weight[mesh_.point[grid_.vertex(i, j)]]; }
+  double slopeWeight(Index vertex) const { return kTangentWeight * data_.slopeEmphasis[mesh_.point[vertex]]; }
   auto valueOf(Index vertex) const { return data_.points.row(mesh_.point[vertex]); }
 
   void add(double u, double v, int du, int dv, double weight, PoseRow value) {
@@ -83,7 +84,7 @@ class PatchAssembler {
   void addVertex(Index i, Index j) {
     const Index vertex = grid_.vertex(i, j);
     const double weight = weightAt(i, j);
-    add(i, j, 0, 0, weight, valueOf(vertex));
+    add(i, j, 0, 0, weight * data_.placeEmphasis[mesh_.point[vertex]], valueOf(vertex));
     if (!layout_.isRegular(vertex)) return;
     for (int axis = 0; axis < 2; ++axis) {
       const auto at = [&](Index d) -> Index {
@@ -97,8 +98,8 @@ class PatchAssembler {
       PoseRow slope = valueOf(ahead >= 0 ? ahead : vertex) - valueOf(behind >= 0 ? behind : vertex);
       if (central) slope *= 0.5;
       turnIntoTangentPlane(slope, vertex, false);
-      add(i, j, axis == 0, axis == 1, weight * kTangentWeight * (central ? 1 : kOneSidedTangent),
-          std::move(slope));
+      add(i, j, axis == 0, axis == 1,
+          weight * slopeWeight(vertex) * (central ? 1 : kOneSidedTangent), std::move(slope));
     }
   }
 
@@ -114,7 +115,7 @@ class PatchAssembler {
         PoseRow slope = valueOf(other) - valueOf(vertex);
         if ((axis == 0 ? i : j) > 0) slope *= -1;
         turnIntoTangentPlane(slope, vertex, true);
-        add(i, j, axis == 0, axis == 1, weightAt(i, j) * kTangentWeight, std::move(slope));
+        add(i, j, axis == 0, axis == 1, weightAt(i, j) * slopeWeight(vertex), std::move(slope));
       }
     }
   }

@@ -35,7 +35,8 @@ SourceData gatherSource(const MeshRig& rig, const GridMesh& mesh, double toleran
     }
   }
 
-  data.emphases.assign(points, 0);
+  data.placeEmphasis.assign(points, 1);
+  data.slopeEmphasis.assign(points, 1);
   std::vector<double> sum(points, 0);
   std::vector<Index> count(points, 0);
   for (HalfEdge h = 0; h < static_cast<HalfEdge>(mesh.twin.size()); ++h) {

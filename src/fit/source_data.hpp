@@ -20,7 +20,8 @@ struct SourceData {
   PoseMatrix normals;             ///< [points × 3·poses] unit vertex normals
   std::vector<double> edgeLength; ///< [points] mean length of the neutral's edges there
   std::vector<double> weight;     ///< [points] 1 / length²: an error counts relative to the mesh's size
-  std::vector<int> emphases;      ///< [points] how often the weight was raised since
+  std::vector<double> placeEmphasis; ///< [points] factor on the weight of the position there
+  std::vector<double> slopeEmphasis; ///< [points] factor on the weight of the tangents there
 
   Vec3 point(Index p, Index pose) const { return at(points, p, pose); }
   Vec3 normal(Index p, Index pose) const { return at(normals, p, pose); }

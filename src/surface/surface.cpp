@@ -127,17 +127,26 @@ constexpr CornerPlace kCorners[4] = {
 
 }  // namespace
 
+Surface::PatchBasis Surface::patchBasis(Index patch) const {
+  const Frame& f = frames_[patch];
+  return {&(*bases_)[f.u], &(*bases_)[f.v[0]], &(*bases_)[f.v[1]]};
+}
+
 Surface::Weights Surface::weights(const Site& site, int du, int dv) const {
+  return weights(site, patchBasis(site.patch), du, dv);
+}
+
+Surface::Weights Surface::weights(const Site& site, const PatchBasis& basis, int du, int dv) const {
   const Frame& f = frames_[site.patch];
-  const auto scaled = [](const SweepBasis& basis, double t, Index edges, int order) {
-    auto g = basis.at(t / edges, order);
-    const double h = edges, unit = std::pow(h, -order);
-    for (int k = 0; k < 6; ++k) g[k] *= unit * (k % 3 == 0 ? 1 : k % 3 == 1 ? h : h * h);
-    return g;
+  const auto scaled = [](const SweepBasis& g, double t, Index edges, int order) {
+    auto values = g.at(t / edges, order);
+    const double h = edges, unit = order == 0 ? 1 : order == 1 ? 1 / h : std::pow(h, -order);
+    for (int k = 0; k < 6; ++k) values[k] *= unit * (k % 3 == 0 ? 1 : k % 3 == 1 ? h : h * h);
+    return values;
   };
-  const auto gu = scaled((*bases_)[f.u], site.u, f.m, du);
-  const auto g0 = scaled((*bases_)[f.v[0]], site.v, f.n, dv);
-  const auto g1 = f.v[0] == f.v[1] ? g0 : scaled((*bases_)[f.v[1]], site.v, f.n, dv);
+  const auto gu = scaled(*basis.u, site.u, f.m, du);
+  const auto g0 = scaled(*basis.v0, site.v, f.n, dv);
+  const auto g1 = basis.v0 == basis.v1 ? g0 : scaled(*basis.v1, site.v, f.n, dv);
   Weights w;
   for (int corner = 0, k = 0; corner < 4; ++corner) {
     const CornerPlace& place = kCorners[corner];

@@ -109,6 +109,35 @@ Result<NodeKind> kindOf(const Wireframe& w, Index node, const Star& star) {
   return (star.closed ? turns == 4 : turns <= 2) ? NodeKind::crossing : NodeKind::irregular;
 }
 
+// The half-arc that runs straight on where `h` arrives at a T-node, or -1 where its rail ends.
+HalfArc straightOn(const Wireframe& w, const Connectivity& c, HalfArc h) {
+  const Index node = w.end(h);
+  if (c.kinds[node] != NodeKind::hanging) return -1;
+  const auto& arms = c.stars[node].arms;
+  const auto arm = std::find(arms.begin(), arms.end(), twin(h)) - arms.begin();
+  const int on = c.opposite(node, static_cast<int>(arm));
+  return on < 0 ? -1 : arms[on];
+}
+
+// Adds up every rail from its end, so that all of them take no longer than the arcs are many.
+Result<void> followRails(const Wireframe& w, Connectivity& c) {
+  c.rails.assign(2 * w.arcs.size(), {});
+  for (HalfArc last = 0; last < static_cast<HalfArc>(2 * w.arcs.size()); ++last) {
+    if (straightOn(w, c, last) >= 0) continue;
+    Index edges = 0;
+    for (HalfArc h = last; h >= 0;) {
+      edges += w.arcs[arcOf(h)].edges;
+      c.rails[h] = {last, edges};
+      const HalfArc before = straightOn(w, c, twin(h));
+      h = before < 0 ? -1 : twin(before);
+    }
+  }
+  for (std::size_t h = 0; h < c.rails.size(); ++h)
+    if (c.rails[h].last < 0)
+      return fail(name("arc", arcOf(static_cast<HalfArc>(h))) + " lies on a ring of T-nodes; cut it at a node");
+  return {};
+}
+
 }  // namespace
 
 Result<Connectivity> Connectivity::make(const Wireframe& w) {
@@ -138,6 +167,7 @@ Result<Connectivity> Connectivity::make(const Wireframe& w) {
     c.stars[n] = std::move(*star);
     c.kinds[n] = *kind;
   }
+  if (auto ok = followRails(w, c); !ok) return std::unexpected(ok.error());
   return c;
 }
 
@@ -153,23 +183,6 @@ int Connectivity::opposite(Index node, int arm) const {
     turns += star.sectors[(arm + k) % sectors] == kStraight ? 2 : 1;
   }
   return -1;
-}
-
-Rail followRail(const Wireframe& w, const Connectivity& c, HalfArc first) {
-  Rail rail;
-  HalfArc h = first;
-  for (std::size_t guard = 0; guard <= 2 * w.arcs.size(); ++guard) {
-    rail.last = h;
-    rail.edges += w.arcs[arcOf(h)].edges;
-    const Index node = w.end(h);
-    if (c.kinds[node] != NodeKind::hanging) break;
-    const Star& star = c.stars[node];
-    const auto arm = std::find(star.arms.begin(), star.arms.end(), twin(h)) - star.arms.begin();
-    const int on = c.opposite(node, static_cast<int>(arm));
-    if (on < 0) break;
-    h = star.arms[on];
-  }
-  return rail;
 }
 
 }  // namespace sweepface
