@@ -153,7 +153,7 @@ const Broken broken[] = {
      "a side of patch 0 changes its ribbon half-way"},
     {"twoRibbons", with(onePatch(2, 2), [](Wireframe& w) { w.arcs[2].ribbon = 1; }),
      "patch 0 sweeps along sides of two ribbons"},
-    {"refusedShape", with(onePatch(2, 2), [](Wireframe& w) { w.ribbons[0] = {1, 1000, 0}; }), "ribbon 0: "},
+    {"refusedShape", with(onePatch(2, 2), [](Wireframe& w) { w.ribbons[0] = {1, 80.7836 / 4, 1.0 / 16}; }), "ribbon 0: "},
     {"noShape", with(onePatch(2, 2), [](Wireframe& w) { w.ribbons[1] = {0, 0, 0}; }), "ribbon 1: "},
 };
 
