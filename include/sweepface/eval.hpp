@@ -43,8 +43,11 @@ class Tessellation {
   std::vector<Index> arcVertex_;   // [arcs] first interior vertex
   std::vector<Index> patchVertex_; // [patches] first interior vertex
   std::vector<Site> sites_;
-  std::vector<Index> arcOfVertex_;   // [node and arc vertices] the arc that carries it
-  std::vector<Index> stepOnArc_;     // how many steps from the arc's start
+  Index onArcs_ = 0;               // vertices of nodes and arcs come first
+  // Weights of every vertex: of the six vectors of its arc, or of the 36 of its patch. They are the same in
+  // every pose.
+  std::vector<Surface::ArcWeights> arcWeights_;   // [onArcs_]
+  std::vector<Surface::Weights> patchWeights_;    // [vertexCount - onArcs_]
 };
 
 /// Vertices in the source's own order [V] and their normals.

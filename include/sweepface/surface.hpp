@@ -180,6 +180,12 @@ class Surface {
   Vec3 evaluate(std::span<const Vec3> vectors, const Site& site, int du = 0, int dv = 0) const;
   /// The outward unit normal; at a collapsed side or a vanishing derivative its limit from inside.
   Vec3 normal(std::span<const Vec3> vectors, const Site& site) const;
+  /// The six vectors an arc is made of and their weights in its point at t ∈ [0, edges].
+  struct ArcWeights {
+    std::array<Index, 6> vectors;
+    std::array<double, 6> factors;
+  };
+  ArcWeights arcWeights(Index arc, double t) const;
   /// A point at t ∈ [0, edges] on an arc: computed from the arc alone, never from a patch.
   Vec3 pointOnArc(std::span<const Vec3> vectors, Index arc, double t) const;
 

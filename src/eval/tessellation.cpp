@@ -6,6 +6,7 @@ namespace sweepface {
 
 Tessellation::Tessellation(const Surface& surface, Index level) : surface_(&surface), level_(level) {
   placeArcs();
+  onArcs_ = vertexCount();
   placePatches();
 }
 
@@ -18,8 +19,7 @@ void Tessellation::placeArcs() {
     const HalfArc h = c.patchOf[2 * arc] >= 0 ? 2 * arc : 2 * arc + 1;
     const double t = static_cast<double>(step) / level_;
     sites_.push_back(surface_->siteOnArc(h, h & 1 ? w.arcs[arc].edges - t : t));
-    arcOfVertex_.push_back(arc);
-    stepOnArc_.push_back(step);
+    arcWeights_.push_back(surface_->arcWeights(arc, t));
     return vertexCount() - 1;
   };
   for (std::size_t n = 0; n < w.nodes.size(); ++n) {
@@ -45,8 +45,10 @@ void Tessellation::placePatches() {
   for (Index p = 0; p < surface_->patchCount(); ++p) {
     patchVertex_.push_back(vertexCount());
     for (Index j = 1; j < level_ * surface_->edgesV(p); ++j)
-      for (Index i = 1; i < level_ * surface_->edgesU(p); ++i)
+      for (Index i = 1; i < level_ * surface_->edgesU(p); ++i) {
         sites_.push_back({p, static_cast<double>(i) / level_, static_cast<double>(j) / level_});
+        patchWeights_.push_back(surface_->weights(sites_.back()));
+      }
   }
 }
 
@@ -86,10 +88,13 @@ std::vector<std::array<Index, 4>> Tessellation::faces() const {
 }
 
 void Tessellation::positions(std::span<const Vec3> vectors, std::span<Vec3> out) const {
-  const auto onArcs = static_cast<Index>(arcOfVertex_.size());
-  for (Index v = 0; v < onArcs; ++v)
-    out[v] = surface_->pointOnArc(vectors, arcOfVertex_[v], static_cast<double>(stepOnArc_[v]) / level_);
-  for (Index v = onArcs; v < vertexCount(); ++v) out[v] = surface_->evaluate(vectors, sites_[v]);
+  const auto combine = [&](const auto& w) {
+    Vec3 sum;
+    for (std::size_t k = 0; k < w.vectors.size(); ++k) sum += w.factors[k] * vectors[w.vectors[k]];
+    return sum;
+  };
+  for (Index v = 0; v < onArcs_; ++v) out[v] = combine(arcWeights_[v]);
+  for (Index v = onArcs_; v < vertexCount(); ++v) out[v] = combine(patchWeights_[v - onArcs_]);
 }
 
 std::vector<Vec3> Tessellation::positions(std::span<const Vec3> vectors) const {

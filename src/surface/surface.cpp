@@ -179,17 +179,26 @@ Vec3 Surface::normal(std::span<const Vec3> vectors, const Site& site) const {
   return normalized(cross(evaluate(vectors, inside, 1, 0), evaluate(vectors, inside, 0, 1)));
 }
 
-Vec3 Surface::pointOnArc(std::span<const Vec3> vectors, Index arc, double t) const {
+Surface::ArcWeights Surface::arcWeights(Index arc, double t) const {
   const HalfArc forward = 2 * arc;
   const double h = wireframe_.arcs[arc].edges;
   const auto g = (*bases_)[arcBases_[arc]].at(t / h);
   const double scale[3] = {1, h, h * h};
-  Vec3 sum;
+  ArcWeights w;
   for (int i = 0; i < 3; ++i) {
     const JetRef a = alongJet(forward, i), b = alongJet(twin(forward), i);
-    sum += (a.sign * g[i] * scale[i]) * vectors[a.vector];
-    sum += (b.sign * (i == 1 ? -1 : 1) * g[3 + i] * scale[i]) * vectors[b.vector];
+    w.vectors[i] = a.vector;
+    w.factors[i] = a.sign * g[i] * scale[i];
+    w.vectors[3 + i] = b.vector;
+    w.factors[3 + i] = b.sign * (i == 1 ? -1 : 1) * g[3 + i] * scale[i];
   }
+  return w;
+}
+
+Vec3 Surface::pointOnArc(std::span<const Vec3> vectors, Index arc, double t) const {
+  const ArcWeights w = arcWeights(arc, t);
+  Vec3 sum;
+  for (int k = 0; k < 6; ++k) sum += w.factors[k] * vectors[w.vectors[k]];
   return sum;
 }
 
