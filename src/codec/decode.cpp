@@ -64,15 +64,15 @@ class Decoder {
   void head(Reader& in) {
     rig_.tolerance = in.f64();
     if (rig_.tolerance < 0) in.refuse("the tolerance is negative");
-    stored_ = in.number();
-    targets_ = in.number();
-    looseCount_ = in.number();
+    stored_ = in.size();
+    targets_ = in.size();
+    looseCount_ = in.size();
   }
 
   void wireframe(Reader& in) { wireframe_ = readWireframe(in); }
 
   void shapes(Reader& in) {
-    const std::uint64_t count = in.number();
+    const std::size_t count = in.size();
     if (count / 8 > in.left()) in.refuse("there are more ribbons than the chunk can hold");
     if (!in.ok()) return;
     wireframe_.ribbons.resize(count);
@@ -87,7 +87,7 @@ class Decoder {
     auto surface = Surface::make(std::move(wireframe_));
     if (!surface) return in.refuse("the wireframe is unsound: " + surface.error().message);
     rig_.surface = std::move(*surface);
-    if (static_cast<std::uint64_t>(rig_.surface.storedCount()) != stored_)
+    if (static_cast<std::size_t>(rig_.surface.storedCount()) != stored_)
       in.refuse("the wireframe stores " + std::to_string(rig_.surface.storedCount()) +
                 " vectors and the file " + std::to_string(stored_));
   }
@@ -172,7 +172,7 @@ class Decoder {
 
   void texcoords(Reader& in) {
     Polygons& faces = rig_.source.polygons;
-    const std::uint64_t count = in.number();
+    const std::size_t count = in.size();
     faces.texcoords = readVectors<Vec2>(in, count, Precision::exact);
     if (in.number(0, 2, "flag") == 0) return;
     if (faces.corners.size() > in.left()) in.refuse("texture coordinates of corners are missing");
@@ -211,7 +211,7 @@ class Decoder {
   std::string_view bytes_;
   std::string name_;
   int rank_ = -1;  // of the last chunk
-  std::uint64_t stored_ = 0, targets_ = 0, looseCount_ = 0;
+  std::size_t stored_ = 0, targets_ = 0, looseCount_ = 0;
   std::size_t quads_ = 0;
   std::set<std::string_view> names_;
   Wireframe wireframe_;

@@ -43,6 +43,12 @@ double Reader::f64() {
   return ok() ? value : 0;
 }
 
+std::size_t Reader::size() {
+  const std::uint64_t value = number();
+  if (value > 0x7fffffff) refuse("a count is beyond what any index can hold");
+  return ok() ? static_cast<std::size_t>(value) : 0;
+}
+
 std::uint64_t Reader::number() {
   std::uint64_t value = 0;
   for (int shift = 0; shift < 56; shift += 7) {

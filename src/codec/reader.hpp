@@ -25,6 +25,7 @@ class Reader {
 
   unsigned byte();
   std::uint64_t number();  // below 2^56
+  std::size_t size();      // a number that every index can hold
   std::int64_t signedNumber();
   double f32();  // finite
   double f64();  // finite

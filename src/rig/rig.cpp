@@ -1,7 +1,7 @@
 #include "sweepface/rig.hpp"
 
-#include <charconv>
 #include <cmath>
+#include <cstdlib>
 
 namespace sweepface {
 
@@ -37,11 +37,11 @@ Result<Weights> parseWeights(const Rig& rig, std::string_view text) {
       return fail("there is no target named '" + std::string(name) + "'; " + listNames(rig));
     double value = 1;
     if (equals != std::string_view::npos) {
-      const std::string_view digits = item.substr(equals + 1);
-      const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-      if (error != std::errc{} || end != digits.data() + digits.size() || !std::isfinite(value))
-        return fail("the weight of '" + std::string(name) + "' must be a finite number, not '" +
-                    std::string(digits) + "'");
+      const std::string digits(item.substr(equals + 1));
+      char* end = nullptr;  // not from_chars: libc++ 19 has none for floating point
+      value = std::strtod(digits.c_str(), &end);
+      if (digits.empty() || *end != 0 || !std::isfinite(value))
+        return fail("the weight of '" + std::string(name) + "' must be a finite number, not '" + digits + "'");
     }
     weights[target] = value;
   }
