@@ -1,0 +1,216 @@
+#include "sweepface/fit.hpp"
+
+#include <tbb/global_control.h>
+
+#include <thread>
+
+#include "faces.hpp"
+#include "sweepface/codec.hpp"
+#include "sweepface/eval.hpp"
+
+namespace sweepface {
+namespace {
+
+using namespace sweepface::testing;
+
+// The largest distance between source vertices and their surface points, over the neutral and all
+// targets at weight 1.
+double worstDistance(const Rig& rig, const MeshRig& source) {
+  const Tessellation level1(rig.surface, 1);
+  double worst = 0;
+  for (std::size_t pose = 0; pose <= source.targets.size(); ++pose) {
+    Weights weights(source.targets.size(), 0);
+    if (pose > 0) weights[pose - 1] = 1;
+    const auto& expected = pose == 0 ? source.neutral.positions : source.targets[pose - 1].positions;
+    const auto positions = sourcePositions(rig, level1, blend(rig, weights), weights);
+    if (positions.size() != expected.size()) return 1e300;
+    for (std::size_t v = 0; v < positions.size(); ++v) worst = std::max(worst, norm(positions[v] - expected[v]));
+  }
+  return worst;
+}
+
+void expectSmoothJoins(const Rig& rig) {
+  for (std::size_t pose = 0; pose <= rig.targets.size(); ++pose) {
+    Weights weights(rig.targets.size(), 0);
+    if (pose > 0) weights[pose - 1] = 1;
+    for (const JoinReport& join : examineJoins(rig.surface, blend(rig, weights)))
+      if (join.joinClass == JoinClass::c2) {
+        EXPECT_LE(join.secondJump, 1e-9);
+      }
+  }
+}
+
+std::string refusal(const MeshRig& source, const ConvertOptions& options = {}) {
+  const auto conversion = convert(source, options);
+  return conversion ? "" : conversion.error().message;
+}
+
+MeshRig scaled(MeshRig rig, double unit, const Vec3& offset = {}) {
+  const auto move = [&](std::vector<Vec3>& positions) {
+    for (Vec3& p : positions) p = unit * (p + offset);
+  };
+  move(rig.neutral.positions);
+  for (MeshTarget& t : rig.targets) move(t.positions);
+  return rig;
+}
+
+class EveryFit : public ::testing::TestWithParam<Face> {
+ protected:
+  const MeshRig& source() const { return GetParam().rig; }
+};
+INSTANTIATE_TEST_SUITE_P(Convert, EveryFit, eachFace(), faceName);
+
+TEST_P(EveryFit, meetsTheDefaultToleranceInEveryPose) {
+  const auto conversion = convert(source());
+  ASSERT_TRUE(conversion) << conversion.error().message;
+  EXPECT_DOUBLE_EQ(conversion->rig.tolerance, 0.0002 * diagonal(source().neutral));
+  EXPECT_LE(worstDistance(conversion->rig, source()), conversion->rig.tolerance);
+  expectSmoothJoins(conversion->rig);
+  EXPECT_TRUE(conversion->warnings.empty());
+}
+
+TEST_P(EveryFit, meetsALooseToleranceWithNoMoreVectors) {
+  ConvertOptions loose;
+  loose.tolerance = 0.01 * diagonal(source().neutral);
+  const auto rough = convert(source(), loose), fine = convert(source());
+  ASSERT_TRUE(rough) << rough.error().message;
+  ASSERT_TRUE(fine) << fine.error().message;
+  EXPECT_LE(worstDistance(rough->rig, source()), loose.tolerance);
+  EXPECT_LE(rough->rig.surface.storedCount(), fine->rig.surface.storedCount());
+}
+
+TEST_P(EveryFit, meetsATightTolerance) {
+  ConvertOptions tight;
+  tight.tolerance = 1e-5 * diagonal(source().neutral);
+  const auto conversion = convert(source(), tight);
+  ASSERT_TRUE(conversion) << conversion.error().message;
+  EXPECT_LE(worstDistance(conversion->rig, source()), tight.tolerance);
+}
+
+TEST_P(EveryFit, givesTheSameBytesForAnyNumberOfThreads) {
+  std::vector<std::string> bytes;
+  for (std::size_t threads : {1u, 4u}) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    const auto conversion = convert(source());
+    ASSERT_TRUE(conversion) << conversion.error().message;
+    bytes.push_back(encode(conversion->rig));
+  }
+  EXPECT_EQ(bytes[0], bytes[1]);
+}
+
+TEST_P(EveryFit, keepsItsToleranceThroughAFile) {
+  const auto conversion = convert(source());
+  ASSERT_TRUE(conversion) << conversion.error().message;
+  const Rig read = decode(encode(conversion->rig), "face").value();
+  EXPECT_LE(worstDistance(read, source()), conversion->rig.tolerance);
+}
+
+TEST_P(EveryFit, keepsTheSourcesFaces) {
+  const auto conversion = convert(source());
+  ASSERT_TRUE(conversion) << conversion.error().message;
+  EXPECT_EQ(conversion->rig.source.polygons.corners, source().neutral.polygons.corners);
+  EXPECT_EQ(conversion->rig.source.polygons.faceStart, source().neutral.polygons.faceStart);
+}
+
+class Units : public ::testing::TestWithParam<double> {};
+INSTANTIATE_TEST_SUITE_P(Convert, Units, ::testing::Values(1e-6, 1e-3, 1, 1e3, 1e6));
+
+TEST_P(Units, doNotMatter) {
+  for (std::size_t k : {0u, 4u, 6u, 11u}) {
+    const MeshRig source = scaled(everyFace()[k].rig, GetParam());
+    const auto conversion = convert(source);
+    ASSERT_TRUE(conversion) << conversion.error().message;
+    EXPECT_LE(worstDistance(conversion->rig, source), 0.0002 * diagonal(source.neutral));
+    EXPECT_EQ(conversion->rig.surface.patchCount(), convert(everyFace()[k].rig)->rig.surface.patchCount());
+  }
+}
+
+TEST(Convert, meetsItsToleranceFarFromTheOrigin) {
+  const MeshRig source = scaled(withTargets(cubeSphere()), 1, {1000, -500, 200});
+  const auto conversion = convert(source);
+  ASSERT_TRUE(conversion) << conversion.error().message;
+  EXPECT_LE(worstDistance(conversion->rig, source), conversion->rig.tolerance);
+}
+
+TEST(Convert, copesWithASourceThatIsNoSurface) {
+  PolygonMesh mesh = plane(6, 6);
+  mesh.positions[24] = mesh.positions[25];   // a quad becomes a triangle
+  mesh.positions.push_back({3, 3, 9});
+  addFace(mesh, {10, 11, 49});               // a fin: three faces at an edge
+  addFace(mesh, {0, 1, 1});                  // no surface
+  const MeshRig source = withTargets(mesh);
+  const auto conversion = convert(source);
+  ASSERT_TRUE(conversion) << conversion.error().message;
+  EXPECT_EQ(conversion->warnings.size(), 2u);
+  EXPECT_LE(worstDistance(conversion->rig, source), conversion->rig.tolerance);
+}
+
+TEST(Convert, givesLooseVerticesBackExactly) {
+  MeshRig source = withTargets(plane(5, 4));
+  const Vec3 lonely{1.0 / 3, 1e-7, -123.456789};
+  source.neutral.positions.insert(source.neutral.positions.begin() + 3, lonely);
+  for (Index& c : source.neutral.polygons.corners) c += c >= 3;
+  for (MeshTarget& t : source.targets) t.positions.insert(t.positions.begin() + 3, lonely + Vec3{0.5, 0, 0.25});
+  ConvertOptions options;
+  options.tolerance = 0.01;
+  const auto conversion = convert(source, options);
+  ASSERT_TRUE(conversion) << conversion.error().message;
+  const Rig& rig = conversion->rig;
+  const Tessellation level1(rig.surface, 1);
+  const Weights rest{0, 0}, one{1, 0};
+  EXPECT_EQ(sourcePositions(rig, level1, blend(rig, rest), rest)[3], lonely);
+  EXPECT_EQ(sourcePositions(rig, level1, blend(rig, one), one)[3], source.targets[0].positions[3]);
+}
+
+TEST(Convert, ofASingleFaceWorks) {
+  for (Index corners : {3, 4, 5, 7}) {
+    PolygonMesh mesh;
+    Loop face;
+    for (Index k = 0; k < corners; ++k) {
+      face.push_back(k);
+      mesh.positions.push_back({std::cos(turn(1.0 * k / corners)), std::sin(turn(1.0 * k / corners)), 0});
+    }
+    addFace(mesh, face);
+    const MeshRig source = withTargets(mesh, 1, 2);
+    const auto conversion = convert(source);
+    ASSERT_TRUE(conversion) << corners << " corners: " << conversion.error().message;
+    EXPECT_LE(worstDistance(conversion->rig, source), conversion->rig.tolerance);
+  }
+}
+
+TEST(Cancel, endsAConversion) {
+  std::atomic<bool> cancel = true;
+  ConvertOptions options;
+  options.cancel = &cancel;
+  EXPECT_EQ(refusal(withTargets(plane()), options), "the conversion was interrupted");
+}
+
+TEST(Cancel, isHeardBetweenRounds) {
+  std::atomic<bool> cancel = false;
+  ConvertOptions options;
+  options.cancel = &cancel;
+  options.tolerance = 1e-4;
+  options.progress = [&](std::string_view, double) { cancel = true; };
+  EXPECT_EQ(refusal(withTargets(torus()), options), "the conversion was interrupted");
+}
+
+TEST(Refusal, isASentenceOfWhatIsWrong) {
+  MeshRig flat = withTargets(plane(2, 2), 0);
+  for (Vec3& p : flat.neutral.positions) p = {1, 2, 3};
+  EXPECT_EQ(refusal(flat), "all vertices of the neutral stand at one place; there is no surface to fit");
+  MeshRig faceless;
+  faceless.neutral.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  EXPECT_EQ(refusal(faceless), "the mesh has no face with an area; nothing can be converted");
+}
+
+TEST(Refusal, ofAToleranceBelowTheFilesPrecision) {
+  ConvertOptions options;
+  options.tolerance = 1e-12;
+  EXPECT_EQ(refusal(withTargets(plane(4, 4)), options),
+            "the tolerance could not be met everywhere; allow a larger one");
+}
+
+TEST(Diagonal, spansTheBoundingBox) { EXPECT_DOUBLE_EQ(diagonal(grid(3, 4, [](double x, double y) { return Vec3{x, y, 0}; })), 5); }
+
+}  // namespace
+}  // namespace sweepface

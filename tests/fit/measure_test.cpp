@@ -1,0 +1,148 @@
+#include "sweepface/measure.hpp"
+
+#include "faces.hpp"
+#include "sweepface/eval.hpp"
+#include "sweepface/fit.hpp"
+
+namespace sweepface {
+namespace {
+
+using namespace sweepface::testing;
+
+Rig rigOf(const MeshRig& source) {
+  ConvertOptions options;
+  options.tolerance = 0.01 * diagonal(source.neutral);
+  return convert(source, options).value().rig;
+}
+
+// The rig's own vertices and targets as a mesh.
+MeshRig exported(const Rig& rig, const MeshRig& source) {
+  MeshRig mesh = source;
+  const Tessellation level1(rig.surface, 1);
+  Weights weights(rig.targets.size(), 0);
+  mesh.neutral.positions = sourcePositions(rig, level1, blend(rig, weights), weights);
+  for (std::size_t k = 0; k < rig.targets.size(); ++k) {
+    weights[k] = 1;
+    mesh.targets[k].positions = sourcePositions(rig, level1, blend(rig, weights), weights);
+    weights[k] = 0;
+  }
+  return mesh;
+}
+
+class EveryMeasure : public ::testing::TestWithParam<Face> {};
+INSTANTIATE_TEST_SUITE_P(Measure, EveryMeasure, eachFace(), faceName);
+
+TEST_P(EveryMeasure, findsNoDistanceToTheRigsOwnExport) {
+  const Rig rig = rigOf(GetParam().rig);
+  const auto m = measure(rig, exported(rig, GetParam().rig));
+  ASSERT_TRUE(m) << m.error().message;
+  ASSERT_EQ(m->shapes.size(), 3u);
+  for (const PoseErrors& e : m->shapes) EXPECT_EQ(e.distanceMax, 0) << e.name;
+  ASSERT_EQ(m->mixtures.size(), 10u);
+  for (const PoseErrors& e : m->mixtures) EXPECT_LT(e.distanceMax, 1e-12 * diagonal(GetParam().rig.neutral)) << e.name;
+  EXPECT_EQ(m->worst.distanceRms, 0);
+}
+
+TEST_P(EveryMeasure, showsAKnownDisplacementAsThatDistance) {
+  const Rig rig = rigOf(GetParam().rig);
+  MeshRig source = exported(rig, GetParam().rig);
+  for (Vec3& p : source.targets[1].positions) p += {0.3, -0.4, 1.2};
+  const auto m = measure(rig, source);
+  ASSERT_TRUE(m) << m.error().message;
+  EXPECT_EQ(m->shapes[0].distanceMax, 0);
+  EXPECT_EQ(m->shapes[1].distanceMax, 0);
+  for (double d : {m->shapes[2].distanceMax, m->shapes[2].distance999, m->shapes[2].distanceRms, m->worst.distanceMax})
+    EXPECT_NEAR(d, 1.3, 1e-12);
+  EXPECT_NEAR(m->worst.distanceRms, 1.3 / std::sqrt(3), 1e-12);
+}
+
+TEST(Measure, findsNoAngleOnAPlane) {
+  const MeshRig flat{grid(6, 5, [](double x, double y) { return Vec3{x, y, 0}; }), {}};
+  const auto m = measure(rigOf(flat), flat);
+  ASSERT_TRUE(m) << m.error().message;
+  EXPECT_LT(m->worst.angleMax, 1e-6);
+  EXPECT_LT(m->worst.facetDistance, 1e-6);
+  EXPECT_EQ(m->worst.folds, 0);
+  EXPECT_TRUE(m->mixtures.empty());
+}
+
+TEST(Measure, showsAKnownTiltAsThatAngle) {
+  const auto tilted = [](double degrees) {
+    const double a = degrees * std::numbers::pi / 180;
+    return grid(6, 5, [=](double x, double y) { return Vec3{x, y * std::cos(a), y * std::sin(a)}; });
+  };
+  const MeshRig flat{tilted(0), {}}, raised{tilted(5), {}};
+  const auto m = measure(rigOf(flat), raised);
+  ASSERT_TRUE(m) << m.error().message;
+  EXPECT_NEAR(m->worst.angleMax, 5, 1e-4);
+  EXPECT_NEAR(m->worst.angleRms, 5, 1e-4);
+}
+
+TEST(Measure, seesAnOutlierInTheMaximumOnly) {
+  const MeshRig source{plane(50, 50), {}};
+  const Rig rig = rigOf(source);
+  MeshRig moved = exported(rig, source);
+  moved.neutral.positions[1300].z += 1;
+  const auto m = measure(rig, moved);
+  ASSERT_TRUE(m) << m.error().message;
+  EXPECT_NEAR(m->worst.distanceMax, 1, 1e-12);
+  EXPECT_EQ(m->worst.distance999, 0);
+  EXPECT_NEAR(m->worst.distanceRms, 1 / std::sqrt(51.0 * 51), 1e-12);
+}
+
+TEST(Measure, countsFolds) {
+  const MeshRig source{plane(8, 8), {}};
+  Rig rig = rigOf(source);
+  EXPECT_EQ(measure(rig, source)->worst.folds, 0);
+  for (Vec3& v : rig.neutral) v.x = -v.x;  // every triangle of level 4 looks the other way
+  EXPECT_EQ(measure(rig, source)->worst.folds, 2 * 16 * 8 * 8);
+}
+
+TEST(Measure, countsAFoldBetweenVerticesThatFit) {
+  const MeshRig source{grid(8, 8, [](double x, double y) { return Vec3{x, y, 0}; }), {}};
+  ConvertOptions options;
+  options.tolerance = 1;
+  Rig rig = convert(source, options).value().rig;
+  rig.tolerance = 0.01;  // facets no larger than the tolerance are not looked at
+  for (Index v = 0; v < rig.surface.storedCount(); ++v)
+    if (const StoredVector& s = rig.surface.stored(v); s.i + s.j == 1) rig.neutral[v] *= 12.0;
+  EXPECT_GT(measure(rig, source)->worst.folds, 0);
+}
+
+TEST(Measure, drawsTheSameMixturesFromTheSameSeed) {
+  const MeshRig& source = everyFace()[0].rig;
+  const Rig rig = rigOf(source);
+  const auto rms = [&](unsigned seed) {
+    std::vector<double> list;
+    const Measurement m = measure(rig, source, {4, seed}).value();
+    for (const PoseErrors& e : m.mixtures) list.push_back(e.distanceRms);
+    return list;
+  };
+  EXPECT_EQ(rms(3).size(), 4u);
+  EXPECT_EQ(rms(3), rms(3));
+  EXPECT_NE(rms(3), rms(4));
+}
+
+TEST(Measure, findsTargetsByName) {
+  MeshRig source = everyFace()[0].rig;
+  const Rig rig = rigOf(source);
+  source = exported(rig, source);
+  std::swap(source.targets[0], source.targets[1]);
+  EXPECT_EQ(measure(rig, source)->worst.distanceMax, 0);
+  source.targets.pop_back();
+  EXPECT_EQ(measure(rig, source)->shapes.size(), 2u);
+}
+
+TEST(Measure, refusesWhatDoesNotBelongTogether) {
+  const MeshRig source = everyFace()[0].rig;
+  const Rig rig = rigOf(source);
+  MeshRig renamed = source;
+  renamed.targets[1].name = "frown";
+  EXPECT_EQ(measure(rig, renamed).error().message,
+            "the model has no target named 'frown'; give the targets it was converted from");
+  EXPECT_EQ(measure(rig, withTargets(plane(3, 3))).error().message,
+            "the neutral has 16 vertices, the model was made from 99; give the mesh it was converted from");
+}
+
+}  // namespace
+}  // namespace sweepface

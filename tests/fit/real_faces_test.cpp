@@ -1,0 +1,48 @@
+#include "faces.hpp"
+#include "sweepface/fit.hpp"
+#include "sweepface/io.hpp"
+#include "sweepface/measure.hpp"
+
+namespace sweepface {
+namespace {
+
+using namespace sweepface::testing;
+
+// A head of 11 248 vertices in centimetres with 57 expressions.
+Result<MeshRig> head(bool expressions) {
+  const std::filesystem::path folder = std::filesystem::path(realFaces()) / "ictface" / "head";
+  std::vector<std::filesystem::path> targets;
+  if (expressions) targets.push_back(folder / "expressions");
+  return readRig(folder / "neutral.obj", targets);
+}
+
+double largestSecondJump(const Rig& rig, const Weights& weights) {
+  double worst = 0;
+  for (const JoinReport& join : examineJoins(rig.surface, blend(rig, weights)))
+    if (join.joinClass == JoinClass::c2) worst = std::max(worst, join.secondJump);
+  return worst;
+}
+
+TEST(RealFaceLong, aHeadAndItsExpressionsStayWithinTheirTolerance) {
+  SKIP_WITHOUT_REAL_FACES();
+  const auto source = head(true);
+  ASSERT_TRUE(source) << source.error().message;
+  ASSERT_EQ(source->targets.size(), 57u);
+  ConvertOptions options;
+  options.tolerance = 0.02;
+  const auto conversion = convert(*source, options);
+  ASSERT_TRUE(conversion) << conversion.error().message;
+  const auto m = measure(conversion->rig, *source);
+  ASSERT_TRUE(m) << m.error().message;
+  EXPECT_LE(m->worst.distanceMax, options.tolerance);
+  EXPECT_LE(m->worst.angleRms, 1);
+  EXPECT_LE(m->worst.angle999, 6);
+  for (std::size_t k = 0; k <= source->targets.size(); k += 8) {
+    Weights weights(source->targets.size(), 0);
+    if (k > 0) weights[k - 1] = 1;
+    EXPECT_LE(largestSecondJump(conversion->rig, weights), 1e-9);
+  }
+}
+
+}  // namespace
+}  // namespace sweepface
