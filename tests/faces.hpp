@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <map>
 #include <numbers>
+#include <random>
 #include <set>
 #include <string>
 #include <vector>
@@ -233,6 +234,34 @@ inline MeshRig withTargets(PolygonMesh mesh, int targets = 2, double size = 10) 
   for (int k = 1; k <= targets; ++k)
     rig.targets.push_back({"target" + std::to_string(k), deformed(rig.neutral.positions, k, size)});
   return rig;
+}
+
+/// The same vertices with faces missing, cut, turned over or sewn together, another way for every seed.
+inline PolygonMesh damaged(const PolygonMesh& mesh, unsigned seed) {
+  std::mt19937 random(seed);
+  const auto any = [&](std::size_t count) { return static_cast<std::size_t>(random() % count); };
+  PolygonMesh result{mesh.positions, {}};
+  const auto how = any(32);
+  for (Loop face : loopsOf(mesh.polygons)) {
+    if (how & 1 && any(100) < 8) continue;
+    if (how & 4 && any(100) < 3) std::ranges::reverse(face);
+    if (how & 2 && face.size() == 4 && any(100) < 15) {
+      addFace(result, {face[0], face[1], face[2]});
+      face.erase(face.begin() + 1);
+    }
+    addFace(result, face);
+  }
+  if (how & 8) {
+    auto& corners = result.polygons.corners;
+    const Index from = corners[any(corners.size())], to = corners[any(corners.size())];
+    std::ranges::replace(corners, from, to);
+  }
+  if (how & 16) {
+    Loop fin;
+    for (int k = 0; k < 3; ++k) fin.push_back(static_cast<Index>(any(mesh.positions.size())));
+    addFace(result, fin);
+  }
+  return result;
 }
 
 struct Face {

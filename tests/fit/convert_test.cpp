@@ -105,6 +105,18 @@ TEST_P(EveryFit, keepsItsToleranceThroughAFile) {
   EXPECT_LE(worstDistance(read, source()), conversion->rig.tolerance);
 }
 
+TEST_P(EveryFit, meetsItsToleranceWhateverIsDamaged) {
+  for (unsigned seed = 1; seed <= 8; ++seed) {
+    const MeshRig rig = withTargets(damaged(source().neutral, seed), 1);
+    ConvertOptions options;
+    options.tolerance = seed % 2 ? 0.002 * diagonal(rig.neutral) : 0;
+    const auto conversion = convert(rig, options);
+    ASSERT_TRUE(conversion) << "seed " << seed << ": " << conversion.error().message;
+    EXPECT_LE(worstDistance(conversion->rig, rig), conversion->rig.tolerance) << "seed " << seed;
+    expectSmoothJoins(conversion->rig);
+  }
+}
+
 TEST_P(EveryFit, keepsTheSourcesFaces) {
   const auto conversion = convert(source());
   ASSERT_TRUE(conversion) << conversion.error().message;

@@ -1,4 +1,7 @@
+#include <tbb/global_control.h>
+
 #include "faces.hpp"
+#include "sweepface/codec.hpp"
 #include "sweepface/fit.hpp"
 #include "sweepface/io.hpp"
 #include "sweepface/measure.hpp"
@@ -21,6 +24,20 @@ double largestSecondJump(const Rig& rig, const Weights& weights) {
   for (const JoinReport& join : examineJoins(rig.surface, blend(rig, weights)))
     if (join.joinClass == JoinClass::c2) worst = std::max(worst, join.secondJump);
   return worst;
+}
+
+TEST(RealFaceLong, aHeadHasTheSameBytesForAnyNumberOfThreads) {
+  SKIP_WITHOUT_REAL_FACES();
+  const auto source = head(false);
+  ASSERT_TRUE(source) << source.error().message;
+  std::vector<std::string> bytes;
+  for (std::size_t threads : {1u, 4u}) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    ConvertOptions options;
+    options.tolerance = 0.05;
+    bytes.push_back(encode(convert(*source, options).value().rig));
+  }
+  EXPECT_EQ(bytes[0], bytes[1]);
 }
 
 TEST(RealFaceLong, aHeadAndItsExpressionsStayWithinTheirTolerance) {

@@ -95,6 +95,14 @@ TEST_P(EveryLayout, staysOneWhileItsTNodesRunOn) {
   expectSurface(laid);
 }
 
+TEST_P(EveryLayout, coversEveryQuadWhateverIsDamaged) {
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    const Laid laid(MeshRig{damaged(GetParam().rig.neutral, seed), {}});
+    expectGrids(laid);
+    expectSurface(laid);
+  }
+}
+
 std::size_t patchCount(PolygonMesh mesh) { return Laid(MeshRig{std::move(mesh), {}}).patches().size(); }
 
 TEST(Layout, ofAPlaneIsOnePatch) { EXPECT_EQ(patchCount(plane()), 1u); }
