@@ -4,10 +4,30 @@
 
 #include "codec/rigs.hpp"
 #include "faces.hpp"
-#include "fit/refine.hpp"
+#include "layout/layout.hpp"
 
 // Surfaces over the layouts of meshes, and poses that nothing smooths.
 namespace sweepface::testing {
+
+/// The surface over a layout. Where derivations run in a circle, nodes store their jets or lines run on.
+inline Surface surfaceOf(Layout& layout) {
+  std::set<Index> whole;
+  while (true) {
+    auto patches = layout.patches().value();
+    Wireframe w = layout.wireframe(patches);
+    const std::vector<Index> vertexOf = layout.nodeVertices();
+    for (std::size_t n = 0; n < w.nodes.size(); ++n)
+      if (w.nodes[n].point >= 0 && whole.contains(vertexOf[n])) w.nodes[n].stored = kWholeJet;
+    std::vector<Index> circle;
+    auto surface = Surface::make(w, &circle);
+    if (surface || circle.empty()) return surface.value();
+    for (Index n : circle)
+      if (w.nodes[n].point < 0)
+        layout.extend(vertexOf[n]);
+      else
+        whole.insert(vertexOf[n]);
+  }
+}
 
 /// The surface over a face's layout after random splits: with T-nodes where `splits` > 0.
 inline Surface surfaceOf(const MeshRig& rig, int splits = 0, unsigned seed = 1) {
@@ -21,8 +41,7 @@ inline Surface surfaceOf(const MeshRig& rig, int splits = 0, unsigned seed = 1) 
     if (const Index n = alongV ? p.m : p.n; n > 1)
       layout.split(p, alongV, 1 + static_cast<Index>(random() % static_cast<unsigned>(n - 1)));
   }
-  WholeJets wholeJets;
-  return makeDraft(layout, wholeJets).value().surface;
+  return surfaceOf(layout);
 }
 
 /// A settled pose of any stored vectors.
