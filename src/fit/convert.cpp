@@ -65,13 +65,15 @@ class Converter {
     if (!solution) return std::unexpected(solution.error());
     Conversion conversion{assemble(*mesh, *solution, data), mesh->warnings};
     conversion.rig.tolerance = tolerance;
+    report("done", 1);
     return conversion;
   }
 
  private:
   bool cancelled() const { return options_.cancel && options_.cancel->load(); }
-  void report(std::string_view what, double done) const {
-    if (options_.progress) options_.progress(what, done);
+  void report(std::string_view what, double done) {
+    done_ = std::max(done_, done);
+    if (options_.progress) options_.progress(what, done_);
   }
 
   // Solve, measure, refine, until every vertex is within the limits. The limit on distance is a promise,
@@ -164,6 +166,7 @@ class Converter {
   Limits limits_{};
   Draft draft_;
   int smoothing_ = 0;
+  double done_ = 0;
 };
 
 }  // namespace

@@ -9,7 +9,7 @@ struct Limits {
   double angle;     ///< degrees
 };
 
-/// Which node of the mesh stores its whole jet because its prediction would run in a circle.
+/// Which vertices of the mesh, as nodes, store their whole jet because its prediction would run in a circle.
 using WholeJets = std::vector<char>;
 
 /// Reads the patches and the surface off a layout. Circles of derivations are broken by letting nodes

@@ -1,5 +1,7 @@
 #include "fit/source_data.hpp"
 
+#include <algorithm>
+
 namespace sweepface {
 
 std::vector<Vec3> vertexNormals(const Polygons& polygons, std::span<const Vec3> positions,
@@ -37,18 +39,16 @@ SourceData gatherSource(const MeshRig& rig, const GridMesh& mesh, double toleran
 
   data.placeEmphasis.assign(points, 1);
   data.slopeEmphasis.assign(points, 1);
-  std::vector<double> sum(points, 0);
-  std::vector<Index> count(points, 0);
+  data.edgeLength.assign(points, 1e300);
   for (HalfEdge h = 0; h < static_cast<HalfEdge>(mesh.twin.size()); ++h) {
     if (mesh.collapsed[h]) continue;
     const Index a = mesh.point[mesh.from(h)], b = mesh.point[mesh.to(h)];
     const double length = norm(data.point(a, 0) - data.point(b, 0));
-    for (Index p : {a, b}) sum[p] += length, ++count[p];
+    for (Index p : {a, b}) data.edgeLength[p] = std::min(data.edgeLength[p], length);
   }
   // Points move by a good part of the tolerance anyway: shorter edges than that mean nothing.
   const double least = tolerance / 2;
   for (Index p = 0; p < points; ++p) {
-    data.edgeLength.push_back(count[p] ? sum[p] / count[p] : least);
     data.weight.push_back(1 / (data.edgeLength[p] * data.edgeLength[p] + least * least));
   }
   return data;

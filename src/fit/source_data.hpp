@@ -18,7 +18,7 @@ struct SourceData {
   Index poses = 0;                ///< the neutral and all targets
   PoseMatrix points;              ///< [points × 3·poses]
   PoseMatrix normals;             ///< [points × 3·poses] unit vertex normals
-  std::vector<double> edgeLength; ///< [points] mean length of the neutral's edges there
+  std::vector<double> edgeLength; ///< [points] shortest of the neutral's edges there
   std::vector<double> weight;     ///< [points] 1 / length²: an error counts relative to the mesh's size
   std::vector<double> placeEmphasis; ///< [points] factor on the weight of the position there
   std::vector<double> slopeEmphasis; ///< [points] factor on the weight of the tangents there
