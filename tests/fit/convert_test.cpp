@@ -190,6 +190,20 @@ TEST(Convert, ofASingleFaceWorks) {
   }
 }
 
+TEST(Progress, risesToItsEnd) {
+  std::vector<double> heard;
+  ConvertOptions options;
+  options.progress = [&](std::string_view what, double done) {
+    EXPECT_FALSE(what.empty());
+    heard.push_back(done);
+  };
+  ASSERT_TRUE(convert(everyFace()[3].rig, options));
+  ASSERT_FALSE(heard.empty());
+  EXPECT_TRUE(std::ranges::is_sorted(heard)) << ::testing::PrintToString(heard);
+  EXPECT_GE(heard.front(), 0);
+  EXPECT_EQ(heard.back(), 1);
+}
+
 TEST(Cancel, endsAConversion) {
   std::atomic<bool> cancel = true;
   ConvertOptions options;

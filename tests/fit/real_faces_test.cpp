@@ -26,6 +26,21 @@ double largestSecondJump(const Rig& rig, const Weights& weights) {
   return worst;
 }
 
+TEST(RealFaceLong, aNeutralHeadNeedsAFifthOfItsVertices) {
+  SKIP_WITHOUT_REAL_FACES();
+  const auto source = head(false);
+  ASSERT_TRUE(source) << source.error().message;
+  ConvertOptions options;
+  options.tolerance = 0.095;
+  const auto conversion = convert(*source, options);
+  ASSERT_TRUE(conversion) << conversion.error().message;
+  const auto vertices = static_cast<double>(source->neutral.positions.size());
+  EXPECT_EQ(vertices, 11248);
+  EXPECT_LE(conversion->rig.surface.storedCount(), 0.2 * vertices);
+  EXPECT_LE(measure(conversion->rig, *source)->worst.distanceMax, options.tolerance);
+  EXPECT_LE(largestSecondJump(conversion->rig, {}), 1e-9);
+}
+
 TEST(RealFaceLong, aHeadHasTheSameBytesForAnyNumberOfThreads) {
   SKIP_WITHOUT_REAL_FACES();
   const auto source = head(false);
