@@ -10,6 +10,7 @@
 namespace sweepface {
 
 double diagonal(const PolygonMesh& mesh) {
+  if (mesh.positions.empty()) return 0;
   Vec3 low = mesh.positions.front(), high = low;
   for (const Vec3& p : mesh.positions) {
     low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
@@ -52,6 +53,7 @@ class Converter {
   Converter(const MeshRig& source, const ConvertOptions& options) : source_(source), options_(options) {}
 
   Result<Conversion> run() {
+    if (source_.neutral.positions.empty()) return fail("the neutral has no vertices; there is no surface to fit");
     const double size = diagonal(source_.neutral);
     if (!(size > 0)) return fail("all vertices of the neutral stand at one place; there is no surface to fit");
     const double tolerance = options_.tolerance > 0 ? options_.tolerance : 0.0002 * size;

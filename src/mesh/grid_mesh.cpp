@@ -101,7 +101,9 @@ void rotateTriangles(std::vector<std::vector<Corner>>& pieces, std::size_t verte
 }
 
 // Joins quads over every edge that exactly two of them share in opposite directions.
-Index pairEdges(GridMesh& mesh, const std::vector<std::array<Index, 4>>& welded) {
+// Edges that cannot be joined are added to `cut`.
+void pairEdges(GridMesh& mesh, const std::vector<std::array<Index, 4>>& welded,
+               std::vector<std::pair<Index, Index>>& cut) {
   struct Edge {
     Index low, high;
     HalfEdge h;
@@ -114,7 +116,6 @@ Index pairEdges(GridMesh& mesh, const std::vector<std::array<Index, 4>>& welded)
   std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
     return std::tie(a.low, a.high, a.h) < std::tie(b.low, b.high, b.h);
   });
-  Index cuts = 0;
   for (std::size_t k = 0; k < edges.size();) {
     std::size_t end = k + 1;
     while (end < edges.size() && edges[end].low == edges[k].low && edges[end].high == edges[k].high) ++end;
@@ -123,11 +124,10 @@ Index pairEdges(GridMesh& mesh, const std::vector<std::array<Index, 4>>& welded)
       mesh.twin[edges[k].h] = edges[k + 1].h;
       mesh.twin[edges[k + 1].h] = edges[k].h;
     } else if (end - k > 1) {
-      ++cuts;
+      cut.emplace_back(edges[k].low, edges[k].high);
     }
     k = end;
   }
-  return cuts;
 }
 
 // One vertex for each fan of quads around a welded vertex, one point for vertices that collapsed
@@ -171,9 +171,12 @@ std::string plural(Index count, const char* one, const char* many) {
 
 }  // namespace
 
-Result<GridMesh> makeGridMesh(const MeshRig& rig) {
+namespace {
+
+// The grid mesh of the source with its vertices welded as `first` says; edges left open go to `cut`.
+Result<GridMesh> build(const MeshRig& rig, const std::vector<Index>& first,
+                       std::vector<std::pair<Index, Index>>& cut) {
   const Polygons& faces = rig.neutral.polygons;
-  const std::vector<Index> first = weld(rig);
   FaceCutter cutter;
   for (Index f = 0; f < faces.faceCount(); ++f) {
     std::vector<Corner> face;
@@ -195,17 +198,42 @@ Result<GridMesh> makeGridMesh(const MeshRig& rig) {
   mesh.twin.assign(4 * welded.size(), -1);
   mesh.collapsed.assign(4 * welded.size(), 0);
   for (std::size_t q = 0; q < welded.size(); ++q) mesh.collapsed[4 * q + 2] = welded[q][2] == welded[q][3];
-  const Index cuts = pairEdges(mesh, welded);
+  pairEdges(mesh, welded, cut);
   numberVertices(mesh, welded, first.size());
   for (std::size_t v = 0; v < first.size(); ++v) mesh.pointOfSource[v] = mesh.pointOfSource[first[v]];
-
   if (cutter.dropped > 0)
     mesh.warnings.push_back(plural(cutter.dropped, "face has", "faces have") +
                             " fewer than three different corners and no surface; the source order keeps them.");
-  if (cuts > 0)
-    mesh.warnings.push_back(plural(cuts, "edge joins", "edges join") +
-                            " more than two faces or faces of opposite orientation; the surface is cut there.");
   return mesh;
+}
+
+// Separate sheets that merely touch must not be welded: they would meet in edges of three and more faces.
+// Takes apart what was welded at the ends of such edges; false if there was nothing to take apart.
+bool takeApart(std::vector<Index>& first, const std::vector<std::pair<Index, Index>>& cut) {
+  std::vector<char> apart(first.size(), 0);
+  for (auto [a, b] : cut) apart[a] = apart[b] = 1;
+  bool any = false;
+  for (std::size_t v = 0; v < first.size(); ++v)
+    if (first[v] != static_cast<Index>(v) && apart[first[v]]) {
+      first[v] = static_cast<Index>(v);
+      any = true;
+    }
+  return any;
+}
+
+}  // namespace
+
+Result<GridMesh> makeGridMesh(const MeshRig& rig) {
+  std::vector<Index> first = weld(rig);
+  while (true) {
+    std::vector<std::pair<Index, Index>> cut;
+    auto mesh = build(rig, first, cut);
+    if (!mesh || cut.empty()) return mesh;
+    if (takeApart(first, cut)) continue;
+    mesh->warnings.push_back(plural(static_cast<Index>(cut.size()), "edge joins", "edges join") +
+                             " more than two faces or faces of opposite orientation; the surface is cut there.");
+    return mesh;
+  }
 }
 
 }  // namespace sweepface

@@ -346,7 +346,8 @@ class JetBuilder {
       }
     const auto d = jet[comp(i, j)];
     const double factors[5] = {d.real(), d.imag(), xx / 2, xy, yy / 2};
-    for (int k = 0; k < 5; ++k) addTo(row, JetRef{hub.first + 1 + k, 1}, factors[k]);
+    for (int k = 0; k < 5; ++k)  // what is rounding only must not tie patches together
+      if (std::abs(factors[k]) > 1e-14) addTo(row, JetRef{hub.first + 1 + k, 1}, factors[k]);
   }
 
   static void addTo(Row& row, JetRef ref, double factor) {
