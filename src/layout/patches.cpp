@@ -156,14 +156,16 @@ void chooseSweeps(Wireframe& w, std::vector<GridPatch>& patches, const Connectiv
 // for each vertex that lies nearer to this node than to the next that stores any.
 int determined(const Wireframe& w, const Connectivity& c, Index node, int axis) {
   const Star& star = c.stars[node];
-  double own = 0;
+  double reach[2] = {0.5, 0.5};
   int arms = 0;
-  for (std::size_t k = axis; k < star.arms.size() && k < 4; k += 2) {
+  for (std::size_t k = axis; k < star.arms.size() && k < 4; k += 2, ++arms) {
     const Rail rail = followRail(w, c, star.arms[k]);
-    own += c.kinds[w.end(rail.last)] == NodeKind::hanging ? rail.edges - 0.5 : rail.edges / 2.0;
-    ++arms;
+    reach[arms] = c.kinds[w.end(rail.last)] == NodeKind::hanging ? rail.edges - 0.5 : rail.edges / 2.0;
   }
-  if (arms < 2) own += 0.5;
+  // Derivatives that only a long side determines would swing on a short one.
+  constexpr double kUneven = 3;
+  const double shorter = std::min(reach[0], reach[1]), longer = std::max(reach[0], reach[1]);
+  const double own = arms < 2 ? shorter + longer : shorter + std::min(longer, kUneven * shorter);
   const int count = own < 1.75 ? 1 : own < 2.75 ? 2 : 3;
   return arms < 2 ? std::max(2, count) : count;  // the end of a line has nothing to predict from
 }
