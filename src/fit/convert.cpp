@@ -22,6 +22,9 @@ double diagonal(const PolygonMesh& mesh) {
 namespace {
 
 constexpr int kMostRounds = 60;
+// Predicted slopes overshoot where an edge is this many times as long as the next along its line.
+constexpr double kUneven = 3;
+constexpr JetMask kSlopes = kPosition | 1 << 1 | 1 << 3;
 // At the default tolerance of 0.02 % of the diagonal normals may be this far off, in degrees.
 constexpr double kNormalLimitAtDefault = 2.8;
 
@@ -63,6 +66,8 @@ class Converter {
     if (!mesh) return std::unexpected(mesh.error());
     SourceData data = gatherSource(source_, *mesh, tolerance);
     Layout layout(*mesh, source_.neutral.positions);
+    for (Index v = 0; v < mesh->vertexCount(); ++v)
+      data.uneven.push_back(layout.isUneven(v, source_.neutral.positions, kUneven));
     auto solution = fit(layout, data);
     if (!solution) return std::unexpected(solution.error());
     Conversion conversion{assemble(*mesh, *solution, data), mesh->warnings};
@@ -81,10 +86,12 @@ class Converter {
   // Solve, measure, refine, until every vertex is within the limits. The limit on distance is a promise,
   // the one on normals an aim: once refinement stalls, only the promise counts.
   Result<Solution> fit(Layout& layout, SourceData& data) {
-    WholeJets wholeJets;
+    ExtraJets extra(data.uneven.size(), 0);
+    for (std::size_t v = 0; v < extra.size(); ++v)
+      if (data.uneven[v]) extra[v] = kSlopes;
     for (int round = 0; round < kMostRounds; ++round) {
       if (cancelled()) return fail("the conversion was interrupted");
-      auto draft = makeDraft(layout, wholeJets);
+      auto draft = makeDraft(layout, extra);
       if (!draft) return std::unexpected(draft.error());
       auto solution = solve(layout, *draft, data);
       if (!solution) return std::unexpected(solution.error());

@@ -5,15 +5,14 @@
 
 namespace sweepface {
 
-Result<Draft> makeDraft(Layout& layout, WholeJets& wholeJets) {
-  wholeJets.resize(layout.mesh().vertexCount(), 0);
+Result<Draft> makeDraft(Layout& layout, ExtraJets& extra) {
   while (true) {
     auto patches = layout.patches();
     if (!patches) return std::unexpected(patches.error());
     Wireframe wireframe = layout.wireframe(*patches);
     const std::vector<Index> vertexOf = layout.nodeVertices();
     for (std::size_t n = 0; n < wireframe.nodes.size(); ++n)
-      if (wholeJets[vertexOf[n]] && wireframe.nodes[n].point >= 0) wireframe.nodes[n].stored = kWholeJet;
+      if (wireframe.nodes[n].point >= 0) wireframe.nodes[n].stored |= extra[vertexOf[n]];
     while (true) {
       std::vector<Index> circle;
       auto surface = Surface::make(wireframe, &circle);
@@ -26,7 +25,7 @@ Result<Draft> makeDraft(Layout& layout, WholeJets& wholeJets) {
           extended = true;
         } else {
           wireframe.nodes[n].stored = kWholeJet;
-          wholeJets[vertexOf[n]] = 1;
+          extra[vertexOf[n]] = kWholeJet;
         }
       }
       if (extended) break;

@@ -9,12 +9,14 @@ struct Limits {
   double angle;     ///< degrees
 };
 
-/// Which vertices of the mesh, as nodes, store their whole jet because its prediction would run in a circle.
-using WholeJets = std::vector<char>;
+/// What a vertex of the mesh stores as a node beyond what the layout grants it: its slopes where lines pass
+/// from a long edge to a short one, because predicted slopes overshoot there; its whole jet where its
+/// prediction would run in a circle.
+using ExtraJets = std::vector<JetMask>;
 
 /// Reads the patches and the surface off a layout. Circles of derivations are broken by letting nodes
-/// store their jets or by running lines on; both are remembered in the layout and in `wholeJets`.
-Result<Draft> makeDraft(Layout& layout, WholeJets& wholeJets);
+/// store their jets or by running lines on; both are remembered in the layout and in `extra`.
+Result<Draft> makeDraft(Layout& layout, ExtraJets& extra);
 
 /// Splits every patch that breaks a limit where that promises most, and lets vertices count more that
 /// no split can help. Returns how many patches it changed.

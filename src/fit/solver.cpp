@@ -98,6 +98,7 @@ class PatchAssembler {
       PoseRow slope = valueOf(ahead >= 0 ? ahead : vertex) - valueOf(behind >= 0 ? behind : vertex);
       if (central) slope *= 0.5;
       turnIntoTangentPlane(slope, vertex, false);
+      if (central && data_.uneven[vertex]) limitLength(slope, vertex, ahead, behind);
       add(i, j, axis == 0, axis == 1,
           weight * slopeWeight(vertex) * (central ? 1 : kOneSidedTangent), std::move(slope));
     }
@@ -129,6 +130,17 @@ class PatchAssembler {
       const double before = s.norm();
       s -= s.dot(n) * n;
       if (const double after = s.norm(); keepLength && after > 1e-9 * before) s *= before / after;
+    }
+  }
+
+  // Where a short edge follows a long one the mean slope is several times the short edge, and a curve with
+  // that slope turns back on itself. Twice the shorter edge is as steep as it may be.
+  void limitLength(PoseRow& slope, Index vertex, Index ahead, Index behind) const {
+    for (Index k = 0; k < data_.poses; ++k) {
+      const auto at = [&](Index v) { return valueOf(v).template segment<3>(3 * k); };
+      const double most = 2 * std::min((at(ahead) - at(vertex)).norm(), (at(vertex) - at(behind)).norm());
+      auto s = slope.segment<3>(3 * k);
+      if (const double length = s.norm(); most > 0 && length > most) s *= most / length;
     }
   }
 

@@ -90,6 +90,16 @@ Index Layout::beyond(Index vertex, Index neighbour) const {
   return -1;
 }
 
+bool Layout::isUneven(Index v, std::span<const Vec3> positions, double ratio) const {
+  const auto place = [&](Index u) { return positions[mesh_.source[mesh_.point[u]]]; };
+  for (int k = 0; k < armCount(v); ++k)
+    if (const int on = opposite(v, k); on >= 0) {
+      const double here = norm(place(target(v, k)) - place(v)), there = norm(place(target(v, on)) - place(v));
+      if (here > ratio * there && there > 0) return true;
+    }
+  return false;
+}
+
 void Layout::setMark(HalfEdge h) {
   mark_[h] = 1;
   if (mesh_.twin[h] >= 0) mark_[mesh_.twin[h]] = 1;

@@ -45,6 +45,8 @@ class Layout {
   bool isFull(Index vertex) const;
   bool isRegular(Index vertex) const;
   Index armCount(Index vertex) const { return static_cast<Index>(sectors(vertex).size()) + boundary_[vertex]; }
+  /// Whether a grid line through a regular vertex passes from an edge to one `ratio` times as long.
+  bool isUneven(Index vertex, std::span<const Vec3> positions, double ratio) const;
   /// The vertices next to `vertex` on the grid line through `vertex` and `neighbour`: the one on the
   /// other side, or -1.
   Index beyond(Index vertex, Index neighbour) const;
