@@ -44,6 +44,7 @@ double distanceToTriangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec
 struct FaceMap {
   std::vector<Index> faceOfQuad;
   std::vector<std::vector<Index>> around;  // [F] faces that share a vertex, itself first
+  std::map<std::pair<Index, Index>, std::pair<Index, Index>> rims;  // boundary edge → corners before and after
 
   FaceMap(const SourceMesh& source) {
     const Polygons& p = source.polygons;
@@ -65,6 +66,28 @@ struct FaceMap {
       list.erase(std::unique(list.begin(), list.end()), list.end());
       std::iter_swap(list.begin(), std::find(list.begin(), list.end(), f));
     }
+    findRims(source);
+  }
+
+ private:
+  // The edges that one face alone has, each with the vertices before and after it along the boundary.
+  void findRims(const SourceMesh& source) {
+    const Polygons& p = source.polygons;
+    std::map<std::pair<Index, Index>, std::pair<Index, Index>> edges;  // welded ends → corners
+    for (Index f = 0; f < p.faceCount(); ++f)
+      for (Index k = 0; k < p.faceSize(f); ++k) {
+        const Index a = p.faceStart[f] + k, b = p.faceStart[f] + (k + 1) % p.faceSize(f);
+        edges[{source.gridVertex[p.corners[a]], source.gridVertex[p.corners[b]]}] = {a, b};
+      }
+    std::map<Index, Index> before, after;
+    for (const auto& [ends, corners] : edges)
+      if (!edges.contains({ends.second, ends.first})) {
+        after[ends.first] = corners.second;
+        before[ends.second] = corners.first;
+      }
+    for (const auto& [ends, corners] : edges)
+      if (!edges.contains({ends.second, ends.first}) && before.contains(ends.first) && after.contains(ends.second))
+        rims[{corners.first, corners.second}] = {before[ends.first], after[ends.second]};
   }
 };
 
@@ -90,7 +113,8 @@ class Facets {
   }
   // How far a smooth surface with the source's vertex normals rises above the flat face: an edge whose end
   // normals differ by a small angle is the chord of an arc that rises by length · angle / 8, and a face
-  // bulges by the sum of its two directions.
+  // bulges by the sum of its two directions. A boundary edge rises within the surface as well: by an eighth
+  // of the second difference of the boundary's vertices.
   double sag(Index face) const {
     const Index begin = polygons_.faceStart[face], size = polygons_.faceSize(face);
     double rise[2] = {0, 0};
@@ -98,7 +122,14 @@ class Facets {
       const Index a = begin + k, b = begin + (k + 1) % size;
       rise[k % 2] = std::max(rise[k % 2], std::abs(dot(normalAt(b) - normalAt(a), at(b) - at(a))) / 8);
     }
-    return rise[0] + rise[1];
+    double rim = 0;
+    for (Index k = 0; k < size; ++k) {
+      const Index a = begin + k, b = begin + (k + 1) % size;
+      if (const auto it = map_.rims.find({a, b}); it != map_.rims.end())
+        rim = std::max({rim, norm(at(it->second.first) - 2 * at(a) + at(b)) / 8,
+                        norm(at(a) - 2 * at(b) + at(it->second.second)) / 8});
+    }
+    return rise[0] + rise[1] + rim;
   }
   // A face that is folded, or thinner than its vertices may move, says nothing about which way is out.
   bool isSound(Index face) const {
