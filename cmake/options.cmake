@@ -12,6 +12,8 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread -Wno-dangling-pointer)
 endif()
 if(SWEEPFACE_SANITIZE)
-  add_compile_options(-fsanitize=${SWEEPFACE_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  # The runtime has no run-time type information, so the check of virtual pointers cannot work.
+  add_compile_options(-fsanitize=${SWEEPFACE_SANITIZE} -fno-sanitize=vptr -fno-sanitize-recover=all
+                      -fno-omit-frame-pointer)
   add_link_options(-fsanitize=${SWEEPFACE_SANITIZE})
 endif()
