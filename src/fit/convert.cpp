@@ -68,6 +68,7 @@ class Converter {
     Layout layout(*mesh, source_.neutral.positions);
     for (Index v = 0; v < mesh->vertexCount(); ++v)
       data.uneven.push_back(layout.isUneven(v, source_.neutral.positions, kUneven));
+    if (limits_.angle >= 180) data.slopeWeight = 0.1;
     auto solution = fit(layout, data);
     if (!solution) return std::unexpected(solution.error());
     Conversion conversion{assemble(*mesh, *solution, data), mesh->warnings};

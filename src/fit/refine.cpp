@@ -135,12 +135,14 @@ Index refine(Layout& layout, const Draft& draft, SourceData& data, const DraftEr
     return std::max(errors.distance[v] / limits.distance, errors.angle[v] / limits.angle);
   };
   // A patch that is nearly within the limits may get there without more points if what is wrong at its
-  // worst vertices counts more (Lawson's way from least squares to least maximum). Twice at most.
-  constexpr double kNearly = 1.5, kMost = 4;
+  // worst vertices counts more (Lawson's way from least squares to least maximum). That costs smoothness: where
+  // normals matter it is tried less.
+  const bool smooth = limits.angle < 180;
+  const double nearly = smooth ? 1.5 : 3, most = smooth ? 4 : 64;
   const auto emphasize = [&](const GridPatch& grid) {
     bool any = false;
     const auto raise = [&](double& emphasis) {
-      if (emphasis >= kMost) return;
+      if (emphasis >= most) return;
       emphasis *= 2;
       any = true;
     };
@@ -160,7 +162,7 @@ Index refine(Layout& layout, const Draft& draft, SourceData& data, const DraftEr
   Index changed = 0;
   for (auto [worst, p] : bad) {
     const GridPatch& grid = draft.patches[p];
-    if (!errors.folded[p] && -worst < kNearly && emphasize(grid)) {
+    if (!errors.folded[p] && -worst < nearly && emphasize(grid)) {
       ++changed;
       continue;
     }

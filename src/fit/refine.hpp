@@ -6,7 +6,7 @@ namespace sweepface {
 
 struct Limits {
   double distance;  ///< model units
-  double angle;     ///< degrees
+  double angle;     ///< degrees; 180: normals do not matter
 };
 
 /// What a vertex of the mesh stores as a node beyond what the layout grants it: its slopes where lines pass

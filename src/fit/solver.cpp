@@ -14,7 +14,6 @@ using Dense = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMa
 using SparseRow = std::vector<Term>;
 
 // How much a sample counts beside a vertex.
-constexpr double kTangentWeight = 1.0;
 constexpr double kOneSidedTangent = 0.1;
 constexpr double kBetweenWeight = 0.05;
 constexpr double kSmoothWeight = 1e-4;
@@ -74,7 +73,7 @@ class PatchAssembler {
   };
 
   double weightAt(Index i, Index j) const { return data_.weight[mesh_.point[grid_.vertex(i, j)]]; }
-  double slopeWeight(Index vertex) const { return kTangentWeight * data_.slopeEmphasis[mesh_.point[vertex]]; }
+  double slopeWeight(Index vertex) const { return data_.slopeWeight * data_.slopeEmphasis[mesh_.point[vertex]]; }
   auto valueOf(Index vertex) const { return data_.points.row(mesh_.point[vertex]); }
 
   void add(double u, double v, int du, int dv, double weight, PoseRow value) {

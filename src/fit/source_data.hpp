@@ -20,6 +20,7 @@ struct SourceData {
   PoseMatrix normals;             ///< [points × 3·poses] unit vertex normals
   std::vector<double> edgeLength; ///< [points] shortest of the neutral's edges there
   std::vector<double> weight;     ///< [points] 1 / length²: an error counts relative to the mesh's size
+  double slopeWeight = 1;         ///< of a tangent beside a position
   std::vector<char> uneven;       ///< [vertices] a line passes from a long edge to a short one
   std::vector<double> placeEmphasis; ///< [points] factor on the weight of the position there
   std::vector<double> slopeEmphasis; ///< [points] factor on the weight of the tangents there
