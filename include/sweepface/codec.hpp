@@ -12,8 +12,8 @@ namespace sweepface {
 /// Vectors are held in single precision.
 std::string encode(const Rig& rig);
 
-/// Reads a .sweep file; `name` is what messages call it. Whatever the bytes, the answer is a sound rig
-/// or an error: memory stays in proportion to the bytes given.
+/// Reads a .sweep file; `name` is what messages call it. Whatever the bytes, the answer is a sound
+/// rig or an error: memory stays in proportion to the bytes given.
 Result<Rig> decode(std::string_view bytes, std::string_view name);
 
 /// What a part of a file costs.

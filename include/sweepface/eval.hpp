@@ -7,11 +7,11 @@
 
 namespace sweepface {
 
-/// The surface as a mesh of quads: every arc cut into `level` times its source edge count. A vertex on
-/// an arc is computed once, from the arc, and shared by index, so that no level has a crack.
+/// The surface as a mesh of quads: every arc cut into `level` times its source edge count. A vertex
+/// on an arc is computed once, from the arc, and shared by index, so that no level has a crack.
 ///
-/// Vertices are numbered nodes first, then arcs' interiors, then patches' interiors. At level 1 there
-/// is exactly one vertex for every welded source vertex.
+/// Vertices are numbered nodes first, then arcs' interiors, then patches' interiors. At level 1
+/// there is exactly one vertex for every welded source vertex.
 class Tessellation {
  public:
   Tessellation(const Surface& surface, Index level);
@@ -22,8 +22,8 @@ class Tessellation {
   Index vertex(Index patch, Index i, Index j) const;
   /// A site at which a vertex lies; vertices on arcs and nodes lie on several.
   const Site& site(Index vertex) const { return sites_[vertex]; }
-  /// Faces [F], patch by patch in rows of constant v: four vertices, counter-clockwise from (i, j); two
-  /// neighbours are equal where a side is collapsed.
+  /// Faces [F], patch by patch in rows of constant v: four vertices, counter-clockwise from (i, j);
+  /// two neighbours are equal where a side is collapsed.
   std::vector<std::array<Index, 4>> faces() const;
 
   /// Positions of all vertices [vertexCount] of a settled pose. Linear in `vectors`.
@@ -39,20 +39,21 @@ class Tessellation {
 
   const Surface* surface_;
   Index level_;
-  std::vector<Index> nodeVertex_;  // [nodes]
-  std::vector<Index> arcVertex_;   // [arcs] first interior vertex
-  std::vector<Index> patchVertex_; // [patches] first interior vertex
+  std::vector<Index> nodeVertex_;   // [nodes]
+  std::vector<Index> arcVertex_;    // [arcs] first interior vertex
+  std::vector<Index> patchVertex_;  // [patches] first interior vertex
   std::vector<Site> sites_;
-  Index onArcs_ = 0;               // vertices of nodes and arcs come first
-  // Weights of every vertex: of the six vectors of its arc, or of the 36 of its patch. They are the same in
-  // every pose.
-  std::vector<Surface::ArcWeights> arcWeights_;   // [onArcs_]
-  std::vector<Surface::Weights> patchWeights_;    // [vertexCount - onArcs_]
+  Index onArcs_ = 0;  // vertices of nodes and arcs come first
+  // Weights of every vertex: of the six vectors of its arc, or of the 36 of its patch. They are the
+  // same in every pose.
+  std::vector<Surface::ArcWeights> arcWeights_;  // [onArcs_]
+  std::vector<Surface::Weights> patchWeights_;   // [vertexCount - onArcs_]
 };
 
 /// Vertices in the source's own order [V] and their normals.
-std::vector<Vec3> sourcePositions(const Rig& rig, const Tessellation& level1, std::span<const Vec3> vectors,
-                                  std::span<const double> weights);
-std::vector<Vec3> sourceNormals(const Rig& rig, const Tessellation& level1, std::span<const Vec3> vectors);
+std::vector<Vec3> sourcePositions(const Rig& rig, const Tessellation& level1,
+                                  std::span<const Vec3> vectors, std::span<const double> weights);
+std::vector<Vec3> sourceNormals(const Rig& rig, const Tessellation& level1,
+                                std::span<const Vec3> vectors);
 
 }  // namespace sweepface

@@ -20,11 +20,12 @@ struct Target {
 
 /// How the model answers in the source's own vertex order.
 struct SourceMesh {
-  std::vector<Index> gridVertex;  ///< [V] vertex of the tessellation at level 1, or -1 - k: loose vertex k
-  std::vector<Vec3> loose;        ///< vertices of no face, kept as they are
+  std::vector<Index>
+      gridVertex;  ///< [V] vertex of the tessellation at level 1, or -1 - k: loose vertex k
+  std::vector<Vec3> loose;  ///< vertices of no face, kept as they are
   Polygons polygons;
-  /// [grid quads × 4] face corner of the source at each corner of the patches' quads, patch by patch in
-  /// rows of constant v, counter-clockwise from (i, j).
+  /// [grid quads × 4] face corner of the source at each corner of the patches' quads, patch by
+  /// patch in rows of constant v, counter-clockwise from (i, j).
   std::vector<Index> quadCorners;
 };
 

@@ -34,7 +34,7 @@ inline constexpr JetMask kWholeJet = 0x1ff;
 
 /// A point where arcs meet.
 struct Node {
-  Index point = -1;            ///< place in the numbering of points; -1 for a T-node, which stores nothing
+  Index point = -1;  ///< place in the numbering of points; -1 for a T-node, which stores nothing
   JetMask stored = kPosition;  ///< used by crossings only
   friend bool operator==(const Node&, const Node&) = default;
 };
@@ -88,8 +88,8 @@ struct Rail {
 
 /// Who meets whom in a wireframe; derived, never stored.
 struct Connectivity {
-  std::vector<Index> patchOf;       ///< [half-arcs] the patch on the left, or -1
-  std::vector<Index> cornerAt;      ///< [half-arcs] 4·patch + corner if a side starts with it, or -1
+  std::vector<Index> patchOf;   ///< [half-arcs] the patch on the left, or -1
+  std::vector<Index> cornerAt;  ///< [half-arcs] 4·patch + corner if a side starts with it, or -1
   std::vector<HalfArc> next, prev;  ///< [half-arcs] in the loop of the patch on the left
   std::vector<Star> stars;          ///< [nodes]
   std::vector<NodeKind> kinds;      ///< [nodes]
@@ -103,7 +103,9 @@ struct Connectivity {
   int opposite(Index node, int arm) const;
 };
 
-inline Rail followRail(const Wireframe&, const Connectivity& c, HalfArc first) { return c.rails[first]; }
+inline Rail followRail(const Wireframe&, const Connectivity& c, HalfArc first) {
+  return c.rails[first];
+}
 
 /// One term of a linear combination of vectors.
 struct Term {
@@ -129,13 +131,13 @@ struct Site {
   double u = 0, v = 0;
 };
 
-/// A wireframe made ready for evaluation. A pose is its stored vectors; everything else is linear in
-/// them. Building costs a few microseconds a patch; afterwards nothing changes and any number of
+/// A wireframe made ready for evaluation. A pose is its stored vectors; everything else is linear
+/// in them. Building costs a few microseconds a patch; afterwards nothing changes and any number of
 /// threads may read.
 class Surface {
  public:
-  /// Fails where the wireframe is inconsistent, naming the place. Where derivatives are derived from
-  /// themselves, `circle` (if given) receives for each circle one node that could break it.
+  /// Fails where the wireframe is inconsistent, naming the place. Where derivatives are derived
+  /// from themselves, `circle` (if given) receives for each circle one node that could break it.
   static Result<Surface> make(Wireframe wireframe, std::vector<Index>* circle = nullptr);
 
   const Wireframe& wireframe() const { return wireframe_; }
@@ -169,8 +171,8 @@ class Surface {
     std::array<double, 36> factors;
   };
   Weights weights(const Site& site, int du = 0, int dv = 0) const;
-  /// The same as if the sweep and the curves at u = 0 and u = m had other bases: what a change of shape
-  /// parameters would do.
+  /// The same as if the sweep and the curves at u = 0 and u = m had other bases: what a change of
+  /// shape parameters would do.
   struct PatchBasis {
     const SweepBasis *u, *v0, *v1;
   };
@@ -197,7 +199,7 @@ class Surface {
 
  private:
   struct Frame {
-    Index m = 1, n = 1;         // source edges along u and v
+    Index m = 1, n = 1;          // source edges along u and v
     Index u = 0, v[2] = {0, 0};  // bases of the sweep and of the curves at u = 0 and u = m
   };
   void frame();
@@ -209,8 +211,8 @@ class Surface {
   std::vector<Term> terms_;
   std::vector<JetRef> corners_;  // [patches × 4 × 9]
   std::shared_ptr<const class BasisTable> bases_;
-  std::vector<Frame> frames_;      // [patches]
-  std::vector<Index> arcBases_;    // [arcs]
+  std::vector<Frame> frames_;    // [patches]
+  std::vector<Index> arcBases_;  // [arcs]
 };
 
 /// What kind of join an arc is.
@@ -222,16 +224,17 @@ enum class JoinClass {
 
 struct JoinReport {
   JoinClass joinClass = JoinClass::boundary;
-  double length = 0;          ///< of the arc, in model units
-  double positionGap = 0;     ///< largest distance between the two sides
-  double firstJump = 0;       ///< of the first cross derivative, relative to the largest of the model
-  double secondJump = 0;      ///< of the second, likewise
-  double normalJump = 0;      ///< largest angle between the normals, degrees
+  double length = 0;       ///< of the arc, in model units
+  double positionGap = 0;  ///< largest distance between the two sides
+  double firstJump = 0;    ///< of the first cross derivative, relative to the largest of the model
+  double secondJump = 0;   ///< of the second, likewise
+  double normalJump = 0;   ///< largest angle between the normals, degrees
 };
 
 /// The class of an arc by the nodes at its ends.
 JoinClass joinClass(const Surface& surface, Index arc);
 /// Both sides of every arc compared at `samples` points along it.
-std::vector<JoinReport> examineJoins(const Surface& surface, std::span<const Vec3> vectors, int samples = 5);
+std::vector<JoinReport> examineJoins(const Surface& surface, std::span<const Vec3> vectors,
+                                     int samples = 5);
 
 }  // namespace sweepface

@@ -4,7 +4,8 @@
 
 namespace sweepface {
 
-Tessellation::Tessellation(const Surface& surface, Index level) : surface_(&surface), level_(level) {
+Tessellation::Tessellation(const Surface& surface, Index level)
+    : surface_(&surface), level_(level) {
   placeArcs();
   onArcs_ = vertexCount();
   placePatches();
@@ -29,7 +30,8 @@ void Tessellation::placeArcs() {
       continue;
     }
     const auto& arms = c.stars[n].arms;
-    const auto open = std::find_if(arms.begin(), arms.end(), [&](HalfArc h) { return !w.arcs[arcOf(h)].collapsed; });
+    const auto open = std::find_if(arms.begin(), arms.end(),
+                                   [&](HalfArc h) { return !w.arcs[arcOf(h)].collapsed; });
     const HalfArc arm = open == arms.end() ? arms[0] : *open;
     nodeVertex_[n] = add(arcOf(arm), arm & 1 ? level_ * w.arcs[arcOf(arm)].edges : 0);
     if (point >= 0) ofPoint[point] = nodeVertex_[n];
@@ -123,12 +125,13 @@ std::vector<Vec3> inSourceOrder(const SourceMesh& source, const std::vector<Vec3
 
 }  // namespace
 
-std::vector<Vec3> sourcePositions(const Rig& rig, const Tessellation& level1, std::span<const Vec3> vectors,
-                                  std::span<const double> weights) {
+std::vector<Vec3> sourcePositions(const Rig& rig, const Tessellation& level1,
+                                  std::span<const Vec3> vectors, std::span<const double> weights) {
   return inSourceOrder(rig.source, level1.positions(vectors), blendLoose(rig, weights));
 }
 
-std::vector<Vec3> sourceNormals(const Rig& rig, const Tessellation& level1, std::span<const Vec3> vectors) {
+std::vector<Vec3> sourceNormals(const Rig& rig, const Tessellation& level1,
+                                std::span<const Vec3> vectors) {
   return inSourceOrder(rig.source, level1.normals(vectors),
                        std::vector<Vec3>(rig.source.loose.size(), Vec3{0, 0, 1}));
 }

@@ -1,11 +1,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sweepface/eval.hpp"
+#include "sweepface/fit.hpp"
+
 #include "fit/refine.hpp"
 #include "fit/shapes.hpp"
 #include "fit/source_data.hpp"
-#include "sweepface/eval.hpp"
-#include "sweepface/fit.hpp"
 
 namespace sweepface {
 
@@ -53,12 +54,15 @@ Solution asStored(const Solution& solution) {
 
 class Converter {
  public:
-  Converter(const MeshRig& source, const ConvertOptions& options) : source_(source), options_(options) {}
+  Converter(const MeshRig& source, const ConvertOptions& options)
+      : source_(source), options_(options) {}
 
   Result<Conversion> run() {
-    if (source_.neutral.positions.empty()) return fail("the neutral has no vertices; there is no surface to fit");
+    if (source_.neutral.positions.empty())
+      return fail("the neutral has no vertices; there is no surface to fit");
     const double size = diagonal(source_.neutral);
-    if (!(size > 0)) return fail("all vertices of the neutral stand at one place; there is no surface to fit");
+    if (!(size > 0))
+      return fail("all vertices of the neutral stand at one place; there is no surface to fit");
     const double tolerance = options_.tolerance > 0 ? options_.tolerance : 0.0002 * size;
     limits_ = {tolerance, normalLimit(options_, tolerance, size)};
 
@@ -84,8 +88,8 @@ class Converter {
     if (options_.progress) options_.progress(what, done_);
   }
 
-  // Solve, measure, refine, until every vertex is within the limits. The limit on distance is a promise,
-  // the one on normals an aim: once refinement stalls, only the promise counts.
+  // Solve, measure, refine, until every vertex is within the limits. The limit on distance is a
+  // promise, the one on normals an aim: once refinement stalls, only the promise counts.
   Result<Solution> fit(Layout& layout, SourceData& data) {
     ExtraJets extra(data.uneven.size(), 0);
     for (std::size_t v = 0; v < extra.size(); ++v)
@@ -99,7 +103,10 @@ class Converter {
       *solution = asStored(*solution);
       const DraftErrors errors = measureDraft(layout, *draft, data, *solution);
       const bool within = errors.largestDistance <= limits_.distance;
-      report("fitting", within ? 0.9 : 0.9 * std::min(1.0, std::pow(limits_.distance / errors.largestDistance, 0.5)));
+      report("fitting",
+             within
+                 ? 0.9
+                 : 0.9 * std::min(1.0, std::pow(limits_.distance / errors.largestDistance, 0.5)));
       const Index changed = refine(layout, *draft, data, errors, limits_);
       if (within && changed == 0) {
         draft_ = std::move(*draft);
@@ -111,14 +118,15 @@ class Converter {
     return fail("the tolerance could not be met everywhere; allow a larger one");
   }
 
-  // Gives ribbons shape parameters that bring the surface nearer, and keeps them if the fit that follows
-  // is better and still within the limits.
+  // Gives ribbons shape parameters that bring the surface nearer, and keeps them if the fit that
+  // follows is better and still within the limits.
   Result<Solution> reshape(const Layout& layout, const SourceData& data, Solution& solution,
                            const DraftErrors& errors) {
     if (!options_.chooseShapes) return std::move(solution);
     report("shape parameters", 0.92);
     Wireframe wireframe = draft_.surface.wireframe();
-    if (chooseShapes(layout, draft_, data, solution, wireframe.ribbons) == 0) return std::move(solution);
+    if (chooseShapes(layout, draft_, data, solution, wireframe.ribbons) == 0)
+      return std::move(solution);
     auto surface = Surface::make(std::move(wireframe));
     if (!surface) return std::move(solution);
     Draft reshaped{draft_.patches, std::move(*surface)};
@@ -134,11 +142,14 @@ class Converter {
 
   Rig assemble(const GridMesh& mesh, const Solution& solution, const SourceData& data) {
     Rig rig{std::move(draft_.surface), {}, {}, {}, 0};
-    const auto row = [&](Eigen::Index v, Index pose) { return SourceData::at(solution, static_cast<Index>(v), pose); };
+    const auto row = [&](Eigen::Index v, Index pose) {
+      return SourceData::at(solution, static_cast<Index>(v), pose);
+    };
     for (Eigen::Index v = 0; v < solution.rows(); ++v) rig.neutral.push_back(row(v, 0));
     for (Index k = 1; k < data.poses; ++k) {
       Target target{source_.targets[k - 1].name, {}, {}};
-      for (Eigen::Index v = 0; v < solution.rows(); ++v) target.difference.push_back(row(v, k) - row(v, 0));
+      for (Eigen::Index v = 0; v < solution.rows(); ++v)
+        target.difference.push_back(row(v, k) - row(v, 0));
       rig.targets.push_back(std::move(target));
     }
     mapSource(rig, mesh);
@@ -151,10 +162,12 @@ class Converter {
     for (Index p = 0; p < rig.surface.patchCount(); ++p) {
       const GridPatch& patch = draft_.patches[p];
       for (Index j = 0; j <= patch.n; ++j)
-        for (Index i = 0; i <= patch.m; ++i) gridOfPoint[mesh.point[patch.vertex(i, j)]] = grid.vertex(p, i, j);
+        for (Index i = 0; i <= patch.m; ++i)
+          gridOfPoint[mesh.point[patch.vertex(i, j)]] = grid.vertex(p, i, j);
       for (std::size_t q = 0; q < patch.quads.size(); ++q)
         for (int k = 0; k < 4; ++k)
-          rig.source.quadCorners.push_back(mesh.quadCorners[patch.quads[q]][((patch.bottoms[q] & 3) + k) % 4]);
+          rig.source.quadCorners.push_back(
+              mesh.quadCorners[patch.quads[q]][((patch.bottoms[q] & 3) + k) % 4]);
     }
     const auto& positions = source_.neutral.positions;
     for (std::size_t v = 0; v < positions.size(); ++v) {

@@ -1,9 +1,8 @@
 #include "fit/errors.hpp"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
+#include <tbb/parallel_for.h>
 
 namespace sweepface {
 
@@ -13,8 +12,13 @@ using Evaluated = Eigen::Matrix<double, 1, Eigen::Dynamic>;
 
 class PatchMeter {
  public:
-  PatchMeter(const Layout& layout, const Draft& draft, const SourceData& data, Index patch, const PoseMatrix& settled)
-      : mesh_(layout.mesh()), surface_(draft.surface), grid_(draft.patches[patch]), data_(data), patch_(patch),
+  PatchMeter(const Layout& layout, const Draft& draft, const SourceData& data, Index patch,
+             const PoseMatrix& settled)
+      : mesh_(layout.mesh()),
+        surface_(draft.surface),
+        grid_(draft.patches[patch]),
+        data_(data),
+        patch_(patch),
         vectors_(patchVectors(draft, patch, settled)) {}
 
   struct Vertex {
@@ -49,13 +53,16 @@ class PatchMeter {
         for (const auto& [a, b] : {std::pair{0.2, 0.2}, {0.8, 0.2}, {0.2, 0.8}, {0.8, 0.8}}) {
           const Evaluated u = at(i + a, j + b, 1, 0), v = at(i + a, j + b, 0, 1);
           for (Index k = 0; k < data_.poses; ++k)
-            if (soundFace(i, j, k) && dot(cross(vec(u, k), vec(v, k)), faceNormal(i, j, k)) < 0) return true;
+            if (soundFace(i, j, k) && dot(cross(vec(u, k), vec(v, k)), faceNormal(i, j, k)) < 0)
+              return true;
         }
     return false;
   }
 
  private:
-  static Vec3 vec(const Evaluated& row, Index pose) { return {row[3 * pose], row[3 * pose + 1], row[3 * pose + 2]}; }
+  static Vec3 vec(const Evaluated& row, Index pose) {
+    return {row[3 * pose], row[3 * pose + 1], row[3 * pose + 2]};
+  }
   Evaluated at(double u, double v, int du, int dv) const {
     const auto w = surface_.weights({patch_, u, v}, du, dv);
     return Eigen::Map<const Eigen::Matrix<double, 1, 36>>(w.factors.data()) * vectors_;
@@ -63,14 +70,16 @@ class PatchMeter {
   // At a collapsed side one derivative vanishes; its limit is what it grows to inside.
   void derivatives(Index i, Index j, Evaluated& u, Evaluated& v) const {
     const bool pole = touchesCollapsed(i, j);
-    const double x = pole ? i + (grid_.m * 0.5 - i) * 1e-3 : i, y = pole ? j + (grid_.n * 0.5 - j) * 1e-3 : j;
+    const double x = pole ? i + (grid_.m * 0.5 - i) * 1e-3 : i,
+                 y = pole ? j + (grid_.n * 0.5 - j) * 1e-3 : j;
     u = at(x, y, 1, 0);
     v = at(x, y, 0, 1);
   }
   bool touchesCollapsed(Index i, Index j) const {
     const Index p = mesh_.point[grid_.vertex(i, j)];
     const auto same = [&](Index a, Index b) {
-      return a >= 0 && b >= 0 && a <= grid_.m && b <= grid_.n && mesh_.point[grid_.vertex(a, b)] == p;
+      return a >= 0 && b >= 0 && a <= grid_.m && b <= grid_.n &&
+             mesh_.point[grid_.vertex(a, b)] == p;
     };
     return same(i - 1, j) || same(i + 1, j) || same(i, j - 1) || same(i, j + 1);
   }
@@ -78,7 +87,8 @@ class PatchMeter {
     return data_.point(mesh_.point[grid_.vertex(i + (k == 1 || k == 2), j + (k >= 2))], pose);
   }
   Vec3 faceNormal(Index i, Index j, Index pose) const {
-    return cross(corner(i, j, 2, pose) - corner(i, j, 0, pose), corner(i, j, 3, pose) - corner(i, j, 1, pose));
+    return cross(corner(i, j, 2, pose) - corner(i, j, 0, pose),
+                 corner(i, j, 3, pose) - corner(i, j, 1, pose));
   }
   bool soundFace(Index i, Index j, Index pose) const {
     const Vec3 n = faceNormal(i, j, pose);

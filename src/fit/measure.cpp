@@ -1,14 +1,14 @@
 #include "sweepface/measure.hpp"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <random>
+#include <tbb/parallel_for.h>
+
+#include "sweepface/eval.hpp"
 
 #include "fit/source_data.hpp"
-#include "sweepface/eval.hpp"
 
 namespace sweepface {
 
@@ -44,7 +44,8 @@ double distanceToTriangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec
 struct FaceMap {
   std::vector<Index> faceOfQuad;
   std::vector<std::vector<Index>> around;  // [F] faces that share a vertex, itself first
-  std::map<std::pair<Index, Index>, std::pair<Index, Index>> rims;  // boundary edge → corners before and after
+  std::map<std::pair<Index, Index>, std::pair<Index, Index>>
+      rims;  // boundary edge → corners before and after
 
   FaceMap(const SourceMesh& source) {
     const Polygons& p = source.polygons;
@@ -70,7 +71,8 @@ struct FaceMap {
   }
 
  private:
-  // The edges that one face alone has, each with the vertices before and after it along the boundary.
+  // The edges that one face alone has, each with the vertices before and after it along the
+  // boundary.
   void findRims(const SourceMesh& source) {
     const Polygons& p = source.polygons;
     std::map<std::pair<Index, Index>, std::pair<Index, Index>> edges;  // welded ends → corners
@@ -86,7 +88,8 @@ struct FaceMap {
         before[ends.second] = corners.first;
       }
     for (const auto& [ends, corners] : edges)
-      if (!edges.contains({ends.second, ends.first}) && before.contains(ends.first) && after.contains(ends.second))
+      if (!edges.contains({ends.second, ends.first}) && before.contains(ends.first) &&
+          after.contains(ends.second))
         rims[{corners.first, corners.second}] = {before[ends.first], after[ends.second]};
   }
 };
@@ -96,8 +99,12 @@ class Facets {
  public:
   Facets(const SourceMesh& source, const FaceMap& map, std::span<const Vec3> positions,
          std::span<const Vec3> gridNormals, double tolerance)
-      : polygons_(source.polygons), gridVertex_(source.gridVertex), map_(map), positions_(positions),
-        gridNormals_(gridNormals), tolerance_(tolerance) {}
+      : polygons_(source.polygons),
+        gridVertex_(source.gridVertex),
+        map_(map),
+        positions_(positions),
+        gridNormals_(gridNormals),
+        tolerance_(tolerance) {}
 
   double distance(const Vec3& p, Index face) const {
     double best = 1e300;
@@ -108,19 +115,21 @@ class Facets {
   Vec3 normal(Index face) const {
     Vec3 sum;
     const Index begin = polygons_.faceStart[face], size = polygons_.faceSize(face);
-    for (Index k = 1; k + 1 < size; ++k) sum += cross(at(begin + k) - at(begin), at(begin + k + 1) - at(begin));
+    for (Index k = 1; k + 1 < size; ++k)
+      sum += cross(at(begin + k) - at(begin), at(begin + k + 1) - at(begin));
     return sum;
   }
-  // How far a smooth surface with the source's vertex normals rises above the flat face: an edge whose end
-  // normals differ by a small angle is the chord of an arc that rises by length · angle / 8, and a face
-  // bulges by the sum of its two directions. A boundary edge rises within the surface as well: by an eighth
-  // of the second difference of the boundary's vertices.
+  // How far a smooth surface with the source's vertex normals rises above the flat face: an edge
+  // whose end normals differ by a small angle is the chord of an arc that rises by length · angle /
+  // 8, and a face bulges by the sum of its two directions. A boundary edge rises within the surface
+  // as well: by an eighth of the second difference of the boundary's vertices.
   double sag(Index face) const {
     const Index begin = polygons_.faceStart[face], size = polygons_.faceSize(face);
     double rise[2] = {0, 0};
     for (Index k = 0; k < size; ++k) {
       const Index a = begin + k, b = begin + (k + 1) % size;
-      rise[k % 2] = std::max(rise[k % 2], std::abs(dot(normalAt(b) - normalAt(a), at(b) - at(a))) / 8);
+      rise[k % 2] =
+          std::max(rise[k % 2], std::abs(dot(normalAt(b) - normalAt(a), at(b) - at(a))) / 8);
     }
     double rim = 0;
     for (Index k = 0; k < size; ++k) {
@@ -131,7 +140,8 @@ class Facets {
     }
     return rise[0] + rise[1] + rim;
   }
-  // A face that is folded, or thinner than its vertices may move, says nothing about which way is out.
+  // A face that is folded, or thinner than its vertices may move, says nothing about which way is
+  // out.
   bool isSound(Index face) const {
     const Vec3 n = normal(face);
     const Index begin = polygons_.faceStart[face], size = polygons_.faceSize(face);
@@ -199,10 +209,14 @@ void summarize(PoseErrors& e, std::vector<double>& distances, std::vector<double
 class Meter {
  public:
   explicit Meter(const Rig& rig)
-      : rig_(rig), grid_(rig.surface, 1), fine_(rig.surface, kLevel), fineFaces_(fine_.faces()),
+      : rig_(rig),
+        grid_(rig.surface, 1),
+        fine_(rig.surface, kLevel),
+        fineFaces_(fine_.faces()),
         map_(rig.source) {}
 
-  PoseSamples measure(std::string name, const Weights& weights, std::span<const Vec3> source) const {
+  PoseSamples measure(std::string name, const Weights& weights,
+                      std::span<const Vec3> source) const {
     PoseSamples s;
     s.errors.name = std::move(name);
     const auto vectors = blend(rig_, weights);
@@ -240,12 +254,14 @@ class Meter {
           s.errors.folds += folds(fineFaces_[face], positions, facets, sourceFace);
         }
       for (Index j = 0; j < n; ++j)
-        for (Index i = 0; i < m; ++i) compareFacet(s.errors, p, i, j, positions, facets, map_.faceOfQuad[quad + j * m + i]);
+        for (Index i = 0; i < m; ++i)
+          compareFacet(s.errors, p, i, j, positions, facets, map_.faceOfQuad[quad + j * m + i]);
       quad += static_cast<std::size_t>(m) * n;
     }
   }
 
-  static Index folds(const std::array<Index, 4>& q, const std::vector<Vec3>& x, const Facets& facets, Index face) {
+  static Index folds(const std::array<Index, 4>& q, const std::vector<Vec3>& x,
+                     const Facets& facets, Index face) {
     const Vec3 n = facets.normal(face);
     Index count = 0;
     for (const auto& [a, b, c] : {std::array{q[0], q[1], q[2]}, {q[0], q[2], q[3]}}) {
@@ -255,8 +271,8 @@ class Meter {
     return count;
   }
 
-  void compareFacet(PoseErrors& e, Index patch, Index i, Index j, const std::vector<Vec3>& positions,
-                    const Facets& facets, Index face) const {
+  void compareFacet(PoseErrors& e, Index patch, Index i, Index j,
+                    const std::vector<Vec3>& positions, const Facets& facets, Index face) const {
     const double sag = facets.sag(face);
     for (Index b = 0; b <= kLevel; ++b)
       for (Index a = 0; a <= kLevel; ++a) {
@@ -273,16 +289,20 @@ class Meter {
   FaceMap map_;
 };
 
-Result<std::vector<std::pair<Weights, const std::vector<Vec3>*>>> matchShapes(const Rig& rig, const MeshRig& source) {
+Result<std::vector<std::pair<Weights, const std::vector<Vec3>*>>> matchShapes(
+    const Rig& rig, const MeshRig& source) {
   const std::size_t vertices = rig.source.gridVertex.size();
   if (source.neutral.positions.size() != vertices)
-    return fail("the neutral has " + std::to_string(source.neutral.positions.size()) + " vertices, the model was made from " +
-                std::to_string(vertices) + "; give the mesh it was converted from");
+    return fail("the neutral has " + std::to_string(source.neutral.positions.size()) +
+                " vertices, the model was made from " + std::to_string(vertices) +
+                "; give the mesh it was converted from");
   std::vector<std::pair<Weights, const std::vector<Vec3>*>> shapes;
   shapes.emplace_back(Weights(rig.targets.size(), 0.0), &source.neutral.positions);
   for (const MeshTarget& t : source.targets) {
     const Index k = rig.find(t.name);
-    if (k < 0) return fail("the model has no target named '" + t.name + "'; give the targets it was converted from");
+    if (k < 0)
+      return fail("the model has no target named '" + t.name +
+                  "'; give the targets it was converted from");
     shapes.emplace_back(Weights(rig.targets.size(), 0.0), &t.positions);
     shapes.back().first[k] = 1;
   }
@@ -295,7 +315,8 @@ std::vector<Vec3> blendSource(const Rig& rig, const MeshRig& source, const Weigh
   for (const MeshTarget& t : source.targets) {
     const double w = weights[rig.find(t.name)];
     if (w == 0) continue;
-    for (std::size_t v = 0; v < positions.size(); ++v) positions[v] += w * (t.positions[v] - source.neutral.positions[v]);
+    for (std::size_t v = 0; v < positions.size(); ++v)
+      positions[v] += w * (t.positions[v] - source.neutral.positions[v]);
   }
   return positions;
 }
@@ -317,7 +338,8 @@ Result<Measurement> measure(const Rig& rig, const MeshRig& source, const Measure
   const Meter meter(rig);
   std::vector<PoseSamples> samples(shapes->size());
   tbb::parallel_for(std::size_t{0}, samples.size(), [&](std::size_t k) {
-    samples[k] = meter.measure(k == 0 ? "neutral" : source.targets[k - 1].name, (*shapes)[k].first, *(*shapes)[k].second);
+    samples[k] = meter.measure(k == 0 ? "neutral" : source.targets[k - 1].name, (*shapes)[k].first,
+                               *(*shapes)[k].second);
   });
 
   Measurement result;
@@ -340,7 +362,10 @@ Result<Measurement> measure(const Rig& rig, const MeshRig& source, const Measure
   for (int k = 0; k < options.mixtures; ++k) mixtures.push_back(randomWeights(rig, source, random));
   result.mixtures.resize(mixtures.size());
   tbb::parallel_for(std::size_t{0}, mixtures.size(), [&](std::size_t k) {
-    result.mixtures[k] = meter.measure("mixture " + std::to_string(k + 1), mixtures[k], blendSource(rig, source, mixtures[k])).errors;
+    result.mixtures[k] = meter
+                             .measure("mixture " + std::to_string(k + 1), mixtures[k],
+                                      blendSource(rig, source, mixtures[k]))
+                             .errors;
   });
   return result;
 }

@@ -68,15 +68,17 @@ class PatchSplitter {
     return alongV ? grid_.vertex(i, end ? grid_.n : 0) : grid_.vertex(end ? grid_.m : 0, i);
   }
   double crowding(bool alongV, Index i, Index n, int end) const {
-    const auto node = [&](Index k) { return k >= 0 && k <= n && layout_.isNode(vertexOnSide(alongV, k, end)); };
+    const auto node = [&](Index k) {
+      return k >= 0 && k <= n && layout_.isNode(vertexOnSide(alongV, k, end));
+    };
     if (node(i)) return 0;
     if (node(i - 1) || node(i + 1)) return 1;
     if (node(i - 2) || node(i + 2)) return 0.3;
     return 0.05;
   }
 
-  // The largest distance, relative to the edges there, of the vertices of any grid line along u (v) from
-  // the parabola that fits them best.
+  // The largest distance, relative to the edges there, of the vertices of any grid line along u (v)
+  // from the parabola that fits them best.
   double residual(bool alongU) const {
     const Index n = alongU ? grid_.m : grid_.n, lines = alongU ? grid_.n : grid_.m;
     if (n < 3) return 0;
@@ -86,7 +88,8 @@ class PatchSplitter {
       basis.row(i) << 1, t, t * t;
     }
     const Eigen::MatrixXd projector =
-        Eigen::MatrixXd::Identity(n + 1, n + 1) - basis * (basis.transpose() * basis).ldlt().solve(basis.transpose());
+        Eigen::MatrixXd::Identity(n + 1, n + 1) -
+        basis * (basis.transpose() * basis).ldlt().solve(basis.transpose());
     double worst = 0;
     PoseMatrix values(n + 1, data_.points.cols());
     for (Index line = 0; line <= lines; ++line) {
@@ -109,7 +112,8 @@ class PatchSplitter {
   const SourceData& data_;
 };
 
-// Splits a patch along one line, or two where both directions are as rough. False if it is too small.
+// Splits a patch along one line, or two where both directions are as rough. False if it is too
+// small.
 bool splitPatch(Layout& layout, const GridPatch& grid, const SourceData& data) {
   const PatchSplitter splitter(layout, grid, data);
   Cut columns = splitter.best(true), rows = splitter.best(false);
@@ -129,14 +133,15 @@ bool splitPatch(Layout& layout, const GridPatch& grid, const SourceData& data) {
 
 }  // namespace
 
-Index refine(Layout& layout, const Draft& draft, SourceData& data, const DraftErrors& errors, const Limits& limits) {
+Index refine(Layout& layout, const Draft& draft, SourceData& data, const DraftErrors& errors,
+             const Limits& limits) {
   const GridMesh& mesh = layout.mesh();
   const auto excess = [&](Index v) {
     return std::max(errors.distance[v] / limits.distance, errors.angle[v] / limits.angle);
   };
-  // A patch that is nearly within the limits may get there without more points if what is wrong at its
-  // worst vertices counts more (Lawson's way from least squares to least maximum). That costs smoothness: where
-  // normals matter it is tried less.
+  // A patch that is nearly within the limits may get there without more points if what is wrong at
+  // its worst vertices counts more (Lawson's way from least squares to least maximum). That costs
+  // smoothness: where normals matter it is tried less.
   const bool smooth = limits.angle < 180;
   const double nearly = smooth ? 1.5 : 3, most = smooth ? 4 : 64;
   const auto emphasize = [&](const GridPatch& grid) {

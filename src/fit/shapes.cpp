@@ -1,19 +1,20 @@
 #include "fit/shapes.hpp"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <memory>
+#include <tbb/parallel_for.h>
 
 namespace sweepface {
 
 namespace {
 
-// The squared errors of a patch at its vertices as a quadratic form in the 36 basis values, summed over all
-// poses: |b·Q − y|² = b QQᵀ b − 2 b Qyᵀ + yyᵀ. Once made, trying another basis costs no pose any more.
+// The squared errors of a patch at its vertices as a quadratic form in the 36 basis values, summed
+// over all poses: |b·Q − y|² = b QQᵀ b − 2 b Qyᵀ + yyᵀ. Once made, trying another basis costs no
+// pose any more.
 class PatchForm {
  public:
-  PatchForm(const Layout& layout, const Draft& draft, const SourceData& data, Index patch, const PoseMatrix& settled)
+  PatchForm(const Layout& layout, const Draft& draft, const SourceData& data, Index patch,
+            const PoseMatrix& settled)
       : surface_(&draft.surface), grid_(&draft.patches[patch]), patch_(patch) {
     const GridMesh& mesh = layout.mesh();
     const PoseMatrix q = patchVectors(draft, patch, settled);
@@ -49,14 +50,15 @@ class PatchForm {
   std::vector<Eigen::Matrix<double, 36, 1>> cross_;
 };
 
-// Stiffness of the candidates over the ribbon's longest sweep: −η/ρ and λ/ρ of the unit interval. Less than
-// this does nothing visible.
-constexpr std::pair<double, double> kCandidates[] = {{40, 0}, {200, 0}, {1000, 0}, {0, 1e3}, {0, 2e4}};
+// Stiffness of the candidates over the ribbon's longest sweep: −η/ρ and λ/ρ of the unit interval.
+// Less than this does nothing visible.
+constexpr std::pair<double, double> kCandidates[] = {
+    {40, 0}, {200, 0}, {1000, 0}, {0, 1e3}, {0, 2e4}};
 
 class ShapeChooser {
  public:
-  ShapeChooser(const Layout& layout, const Draft& draft, const SourceData& data, const Solution& solution,
-               std::vector<Shape>& ribbons)
+  ShapeChooser(const Layout& layout, const Draft& draft, const SourceData& data,
+               const Solution& solution, std::vector<Shape>& ribbons)
       : surface_(draft.surface), w_(draft.surface.wireframe()), ribbons_(ribbons) {
     const PoseMatrix settled = settleAll(draft.surface, solution);
     const Index patches = surface_.patchCount();
@@ -91,7 +93,8 @@ class ShapeChooser {
     for (std::size_t n = 0; n < w_.nodes.size(); ++n)
       if (c.kinds[n] == NodeKind::hanging)
         for (int k = 0; k < 3; ++k)
-          if (c.opposite(static_cast<Index>(n), k) >= 0) fixed_[w_.arcs[arcOf(c.stars[n].arms[k])].ribbon] = 1;
+          if (c.opposite(static_cast<Index>(n), k) >= 0)
+            fixed_[w_.arcs[arcOf(c.stars[n].arms[k])].ribbon] = 1;
   }
 
   // The error of all patches that a ribbon touches if it had another shape.
@@ -140,8 +143,8 @@ class ShapeChooser {
 
 }  // namespace
 
-Index chooseShapes(const Layout& layout, const Draft& draft, const SourceData& data, const Solution& solution,
-                   std::vector<Shape>& ribbons) {
+Index chooseShapes(const Layout& layout, const Draft& draft, const SourceData& data,
+                   const Solution& solution, std::vector<Shape>& ribbons) {
   return ShapeChooser(layout, draft, data, solution, ribbons).run();
 }
 

@@ -1,10 +1,9 @@
 #include "fit/solver.hpp"
 
-#include <tbb/parallel_for.h>
-
 #include <Eigen/Sparse>
 #include <algorithm>
 #include <cmath>
+#include <tbb/parallel_for.h>
 
 namespace sweepface {
 
@@ -26,7 +25,8 @@ std::vector<SparseRow> expand(const Surface& surface) {
     SparseRow& row = rows[v];
     for (const Term& t : surface.derivation(v))
       for (const Term& s : rows[t.vector]) row.push_back({s.vector, s.factor * t.factor});
-    std::sort(row.begin(), row.end(), [](const Term& a, const Term& b) { return a.vector < b.vector; });
+    std::sort(row.begin(), row.end(),
+              [](const Term& a, const Term& b) { return a.vector < b.vector; });
     std::size_t n = 0;
     for (const Term& t : row)
       if (n > 0 && row[n - 1].vector == t.vector)
@@ -38,7 +38,8 @@ std::vector<SparseRow> expand(const Surface& surface) {
   return rows;
 }
 
-// The normal equations of one patch in its own 36 vectors, then in the stored vectors it depends on.
+// The normal equations of one patch in its own 36 vectors, then in the stored vectors it depends
+// on.
 struct PatchEquations {
   std::vector<Index> unknowns;
   Dense matrix;    // [unknowns × unknowns]
@@ -49,8 +50,13 @@ class PatchAssembler {
  public:
   PatchAssembler(const Layout& layout, const Draft& draft, const SourceData& data, Index patch,
                  const std::vector<Index>& owner)
-      : layout_(layout), mesh_(layout.mesh()), surface_(draft.surface), grid_(draft.patches[patch]),
-        data_(data), patch_(patch), owner_(owner) {
+      : layout_(layout),
+        mesh_(layout.mesh()),
+        surface_(draft.surface),
+        grid_(draft.patches[patch]),
+        data_(data),
+        patch_(patch),
+        owner_(owner) {
     const Index samples = 8 * (grid_.m + 1) * (grid_.n + 1);
     rows_.reserve(samples);
   }
@@ -73,7 +79,9 @@ class PatchAssembler {
   };
 
   double weightAt(Index i, Index j) const { return data_.weight[mesh_.point[grid_.vertex(i, j)]]; }
-  double slopeWeight(Index vertex) const { return data_.slopeWeight * data_.slopeEmphasis[mesh_.point[vertex]]; }
+  double slopeWeight(Index vertex) const {
+    return data_.slopeWeight * data_.slopeEmphasis[mesh_.point[vertex]];
+  }
   auto valueOf(Index vertex) const { return data_.points.row(mesh_.point[vertex]); }
 
   void add(double u, double v, int du, int dv, double weight, PoseRow value) {
@@ -110,7 +118,8 @@ class PatchAssembler {
       const Index vertex = grid_.vertex(i, j);
       if (layout_.isRegular(vertex)) continue;
       for (int axis = 0; axis < 2; ++axis) {
-        const Index other = axis == 0 ? grid_.vertex(i ? i - 1 : 1, j) : grid_.vertex(i, j ? j - 1 : 1);
+        const Index other =
+            axis == 0 ? grid_.vertex(i ? i - 1 : 1, j) : grid_.vertex(i, j ? j - 1 : 1);
         if (mesh_.point[other] == mesh_.point[vertex]) continue;  // a collapsed side
         PoseRow slope = valueOf(other) - valueOf(vertex);
         if ((axis == 0 ? i : j) > 0) slope *= -1;
@@ -132,12 +141,13 @@ class PatchAssembler {
     }
   }
 
-  // Where a short edge follows a long one the mean slope is several times the short edge, and a curve with
-  // that slope turns back on itself. Twice the shorter edge is as steep as it may be.
+  // Where a short edge follows a long one the mean slope is several times the short edge, and a
+  // curve with that slope turns back on itself. Twice the shorter edge is as steep as it may be.
   void limitLength(PoseRow& slope, Index vertex, Index ahead, Index behind) const {
     for (Index k = 0; k < data_.poses; ++k) {
       const auto at = [&](Index v) { return valueOf(v).template segment<3>(3 * k); };
-      const double most = 2 * std::min((at(ahead) - at(vertex)).norm(), (at(vertex) - at(behind)).norm());
+      const double most =
+          2 * std::min((at(ahead) - at(vertex)).norm(), (at(vertex) - at(behind)).norm());
       auto s = slope.segment<3>(3 * k);
       if (const double length = s.norm(); most > 0 && length > most) s *= most / length;
     }
@@ -161,9 +171,11 @@ class PatchAssembler {
     const Index m = grid_.m, n = grid_.n;
     std::vector<Middle> alongU, alongV;
     for (Index j = 0; j <= n; ++j)
-      for (Index i = 0; i < m; ++i) alongU.push_back(middle(grid_.vertex(i, j), grid_.vertex(i + 1, j)));
+      for (Index i = 0; i < m; ++i)
+        alongU.push_back(middle(grid_.vertex(i, j), grid_.vertex(i + 1, j)));
     for (Index j = 0; j < n; ++j)
-      for (Index i = 0; i <= m; ++i) alongV.push_back(middle(grid_.vertex(i, j), grid_.vertex(i, j + 1)));
+      for (Index i = 0; i <= m; ++i)
+        alongV.push_back(middle(grid_.vertex(i, j), grid_.vertex(i, j + 1)));
     for (Index j = 0; j < n; ++j)
       for (Index i = 0; i < m; ++i) {
         const Middle &south = alongU[j * m + i], &north = alongU[(j + 1) * m + i];
@@ -174,8 +186,10 @@ class PatchAssembler {
         if (j == n - 1) add(i + 0.5, n, 0, 0, w * north.trust * 0.5, north.value);
         if (i == m - 1) add(m, j + 0.5, 0, 0, w * east.trust * 0.5, east.value);
         const PoseRow corners = valueOf(grid_.vertex(i, j)) + valueOf(grid_.vertex(i + 1, j)) +
-                                valueOf(grid_.vertex(i, j + 1)) + valueOf(grid_.vertex(i + 1, j + 1));
-        add(i + 0.5, j + 0.5, 0, 0, w * std::min({south.trust, north.trust, west.trust, east.trust}),
+                                valueOf(grid_.vertex(i, j + 1)) +
+                                valueOf(grid_.vertex(i + 1, j + 1));
+        add(i + 0.5, j + 0.5, 0, 0,
+            w * std::min({south.trust, north.trust, west.trust, east.trust}),
             0.5 * (south.value + north.value + west.value + east.value) - 0.25 * corners);
       }
   }
@@ -184,7 +198,8 @@ class PatchAssembler {
     for (Index j = 0; j < grid_.n; ++j)
       for (Index i = 0; i < grid_.m; ++i)
         for (int d = 0; d <= 3; ++d)
-          add(i + 0.5, j + 0.5, d, 3 - d, kSmoothWeight * weightAt(i, j) * (d == 1 || d == 2 ? 3 : 1), {});
+          add(i + 0.5, j + 0.5, d, 3 - d,
+              kSmoothWeight * weightAt(i, j) * (d == 1 || d == 2 ? 3 : 1), {});
   }
 
   PatchEquations reduce(const std::vector<SparseRow>& expanded) const {
@@ -197,7 +212,8 @@ class PatchAssembler {
     Dense spread = Dense::Zero(36, static_cast<Index>(e.unknowns.size()));
     for (int k = 0; k < 36; ++k)
       for (const Term& t : expanded[vectors[k]])
-        spread(k, std::lower_bound(e.unknowns.begin(), e.unknowns.end(), t.vector) - e.unknowns.begin()) += t.factor;
+        spread(k, std::lower_bound(e.unknowns.begin(), e.unknowns.end(), t.vector) -
+                      e.unknowns.begin()) += t.factor;
 
     const auto count = static_cast<Index>(rows_.size());
     Dense basis(count, 36);
@@ -241,7 +257,8 @@ Result<Solution> solveScaled(SparseMatrix& matrix, const PoseMatrix& rhs) {
   for (Index k = 0; k < n; ++k) scale[k] = 1 / std::sqrt(std::max(matrix.coeff(k, k), 1e-300));
   for (Index k = 0; k < n; ++k)
     for (SparseMatrix::InnerIterator it(matrix, k); it; ++it)
-      it.valueRef() = it.value() * scale[it.row()] * scale[it.col()] + (it.row() == it.col() ? 1e-11 : 0);
+      it.valueRef() =
+          it.value() * scale[it.row()] * scale[it.col()] + (it.row() == it.col() ? 1e-11 : 0);
   Eigen::SimplicialLDLT<SparseMatrix> factor(matrix);
   if (factor.info() != Eigen::Success)
     return fail("the fit cannot be solved; are there coordinates of wildly different size?");
@@ -249,7 +266,8 @@ Result<Solution> solveScaled(SparseMatrix& matrix, const PoseMatrix& rhs) {
   constexpr Index kBlock = 12;
   const auto blocks = static_cast<Index>((rhs.cols() + kBlock - 1) / kBlock);
   tbb::parallel_for(Index{0}, blocks, [&](Index b) {
-    const Index first = b * kBlock, columns = std::min<Index>(kBlock, static_cast<Index>(rhs.cols()) - first);
+    const Index first = b * kBlock,
+                columns = std::min<Index>(kBlock, static_cast<Index>(rhs.cols()) - first);
     const Eigen::MatrixXd scaled = scale.asDiagonal() * rhs.middleCols(first, columns);
     solution.middleCols(first, columns) = scale.asDiagonal() * factor.solve(scaled);
   });
@@ -264,8 +282,8 @@ Result<Solution> solve(const Layout& layout, const Draft& draft, const SourceDat
   const Index unknowns = draft.surface.storedCount();
   PoseMatrix rhs = PoseMatrix::Zero(unknowns, 3 * data.poses);
   std::vector<Eigen::Triplet<double>> entries;
-  // In batches: the patches' equations are large, and adding them up in order keeps the bytes the same
-  // for any number of threads.
+  // In batches: the patches' equations are large, and adding them up in order keeps the bytes the
+  // same for any number of threads.
   constexpr Index kBatch = 64;
   for (Index first = 0; first < draft.surface.patchCount(); first += kBatch) {
     const Index count = std::min(kBatch, draft.surface.patchCount() - first);
@@ -277,7 +295,8 @@ Result<Solution> solve(const Layout& layout, const Draft& draft, const SourceDat
       for (std::size_t a = 0; a < e.unknowns.size(); ++a) {
         rhs.row(e.unknowns[a]) += e.rhs.row(static_cast<Index>(a));
         for (std::size_t b = 0; b <= a; ++b)
-          entries.emplace_back(e.unknowns[a], e.unknowns[b], e.matrix(static_cast<Index>(a), static_cast<Index>(b)));
+          entries.emplace_back(e.unknowns[a], e.unknowns[b],
+                               e.matrix(static_cast<Index>(a), static_cast<Index>(b)));
       }
   }
   SparseMatrix matrix(unknowns, unknowns);

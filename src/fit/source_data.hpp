@@ -3,9 +3,10 @@
 #include <Eigen/Dense>
 #include <vector>
 
+#include "sweepface/mesh.hpp"
+
 #include "layout/layout.hpp"
 #include "mesh/grid_mesh.hpp"
-#include "sweepface/mesh.hpp"
 
 namespace sweepface {
 
@@ -15,15 +16,16 @@ using PoseRow = Eigen::Matrix<double, 1, Eigen::Dynamic>;
 
 /// What is fitted: the source's points and normals in all poses, and how much each point counts.
 struct SourceData {
-  Index poses = 0;                ///< the neutral and all targets
-  PoseMatrix points;              ///< [points × 3·poses]
-  PoseMatrix normals;             ///< [points × 3·poses] unit vertex normals
-  std::vector<double> edgeLength; ///< [points] shortest of the neutral's edges there
-  std::vector<double> weight;     ///< [points] 1 / length²: an error counts relative to the mesh's size
-  double slopeWeight = 1;         ///< of a tangent beside a position
-  std::vector<char> uneven;       ///< [vertices] a line passes from a long edge to a short one
-  std::vector<double> placeEmphasis; ///< [points] factor on the weight of the position there
-  std::vector<double> slopeEmphasis; ///< [points] factor on the weight of the tangents there
+  Index poses = 0;                 ///< the neutral and all targets
+  PoseMatrix points;               ///< [points × 3·poses]
+  PoseMatrix normals;              ///< [points × 3·poses] unit vertex normals
+  std::vector<double> edgeLength;  ///< [points] shortest of the neutral's edges there
+  std::vector<double>
+      weight;                ///< [points] 1 / length²: an error counts relative to the mesh's size
+  double slopeWeight = 1;    ///< of a tangent beside a position
+  std::vector<char> uneven;  ///< [vertices] a line passes from a long edge to a short one
+  std::vector<double> placeEmphasis;  ///< [points] factor on the weight of the position there
+  std::vector<double> slopeEmphasis;  ///< [points] factor on the weight of the tangents there
 
   Vec3 point(Index p, Index pose) const { return at(points, p, pose); }
   Vec3 normal(Index p, Index pose) const { return at(normals, p, pose); }
@@ -34,9 +36,10 @@ struct SourceData {
 
 SourceData gatherSource(const MeshRig& rig, const GridMesh& mesh, double tolerance);
 
-/// The vertex normals of one pose [V]: the sum of edge × edge over a vertex's face corners. On a regular
-/// grid this is the cross product of the central differences, so a smooth surface through the vertices
-/// has it too; weighting by angle or by whole faces differs from it by degrees on uneven meshes.
+/// The vertex normals of one pose [V]: the sum of edge × edge over a vertex's face corners. On a
+/// regular grid this is the cross product of the central differences, so a smooth surface through
+/// the vertices has it too; weighting by angle or by whole faces differs from it by degrees on
+/// uneven meshes.
 std::vector<Vec3> vertexNormals(const Polygons& polygons, std::span<const Vec3> positions,
                                 const std::vector<Index>& pointOf, Index pointCount);
 

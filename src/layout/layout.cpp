@@ -94,7 +94,8 @@ bool Layout::isUneven(Index v, std::span<const Vec3> positions, double ratio) co
   const auto place = [&](Index u) { return positions[mesh_.source[mesh_.point[u]]]; };
   for (int k = 0; k < armCount(v); ++k)
     if (const int on = opposite(v, k); on >= 0) {
-      const double here = norm(place(target(v, k)) - place(v)), there = norm(place(target(v, on)) - place(v));
+      const double here = norm(place(target(v, k)) - place(v)),
+                   there = norm(place(target(v, on)) - place(v));
       if (here > ratio * there && there > 0) return true;
     }
   return false;
@@ -183,7 +184,8 @@ void Layout::cutRings() {
 void Layout::split(const GridPatch& patch, bool alongV, Index i) {
   const Index steps = alongV ? patch.n : patch.m;
   for (Index k = 0; k < steps; ++k) {
-    const HalfEdge bottom = alongV ? patch.bottoms[k * patch.m + i] : patch.bottoms[i * patch.m + k];
+    const HalfEdge bottom =
+        alongV ? patch.bottoms[k * patch.m + i] : patch.bottoms[i * patch.m + k];
     setMark(alongV ? prevIn(bottom) : bottom);
   }
 }

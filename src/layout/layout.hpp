@@ -3,16 +3,17 @@
 #include <span>
 #include <vector>
 
-#include "mesh/grid_mesh.hpp"
 #include "sweepface/surface.hpp"
+
+#include "mesh/grid_mesh.hpp"
 
 namespace sweepface {
 
 /// A patch as the grid of source quads that it covers.
 struct GridPatch {
   Index m = 0, n = 0;
-  std::vector<Index> vertices;  ///< [(n + 1)(m + 1)] rows of constant v
-  std::vector<Index> quads;     ///< [n · m]
+  std::vector<Index> vertices;    ///< [(n + 1)(m + 1)] rows of constant v
+  std::vector<Index> quads;       ///< [n · m]
   std::vector<HalfEdge> bottoms;  ///< [n · m] the side of each quad that runs along +u
   Index vertex(Index i, Index j) const { return vertices[j * (m + 1) + i]; }
 };
@@ -44,18 +45,21 @@ class Layout {
   /// Irregular vertices, crossings and boundary vertices where a line ends; not T-vertices.
   bool isFull(Index vertex) const;
   bool isRegular(Index vertex) const;
-  Index armCount(Index vertex) const { return static_cast<Index>(sectors(vertex).size()) + boundary_[vertex]; }
+  Index armCount(Index vertex) const {
+    return static_cast<Index>(sectors(vertex).size()) + boundary_[vertex];
+  }
   /// Whether a grid line through a regular vertex passes from an edge to one `ratio` times as long.
   bool isUneven(Index vertex, std::span<const Vec3> positions, double ratio) const;
-  /// The vertices next to `vertex` on the grid line through `vertex` and `neighbour`: the one on the
-  /// other side, or -1.
+  /// The vertices next to `vertex` on the grid line through `vertex` and `neighbour`: the one on
+  /// the other side, or -1.
   Index beyond(Index vertex, Index neighbour) const;
 
  private:
   std::span<const HalfEdge> sectors(Index v) const {
     return {ring_.data() + ringStart_[v], ring_.data() + ringStart_[v + 1]};
   }
-  HalfEdge arm(Index vertex, int k) const;  // an outgoing half-edge, or the incoming one of a boundary
+  HalfEdge arm(Index vertex,
+               int k) const;  // an outgoing half-edge, or the incoming one of a boundary
   Index target(Index vertex, int k) const;
   struct Arrival {
     Index vertex;

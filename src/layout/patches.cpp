@@ -55,7 +55,8 @@ Result<std::vector<GridPatch>> Layout::patches() const {
     GridPatch p;
     for (HalfEdge row = h;; row = mesh_.twin[across(row)]) {
       for (HalfEdge b = row;; b = nextIn(mesh_.twin[nextIn(b)])) {
-        if (seen[b >> 2]) return fail("the region around face " + std::to_string(h >> 2) + " has no four sides");
+        if (seen[b >> 2])
+          return fail("the region around face " + std::to_string(h >> 2) + " has no four sides");
         seen[b >> 2] = 1;
         p.bottoms.push_back(b);
         p.quads.push_back(b >> 2);
@@ -71,12 +72,14 @@ Result<std::vector<GridPatch>> Layout::patches() const {
     for (Index j = 0; j <= p.n; ++j)
       for (Index i = 0; i <= p.m; ++i) {
         const HalfEdge b = p.bottoms[std::min(j, p.n - 1) * p.m + std::min(i, p.m - 1)];
-        const HalfEdge corner = i < p.m ? (j < p.n ? b : prevIn(b)) : (j < p.n ? nextIn(b) : across(b));
+        const HalfEdge corner =
+            i < p.m ? (j < p.n ? b : prevIn(b)) : (j < p.n ? nextIn(b) : across(b));
         p.vertices.push_back(mesh_.from(corner));
       }
     result.push_back(std::move(p));
   }
-  if (covered != mesh_.quads.size()) return fail("the traced lines leave a region without four sides");
+  if (covered != mesh_.quads.size())
+    return fail("the traced lines leave a region without four sides");
   return result;
 }
 
@@ -129,7 +132,9 @@ void chooseSweeps(Wireframe& w, std::vector<GridPatch>& patches, const Connectiv
           join(arcOf(c.stars[n].arms[k]), arcOf(c.stars[n].arms[on]));
   for (Index p = 0; p < static_cast<Index>(w.patches.size()); ++p) {
     const auto first = [&](int s) { return sets.find(arcOf(w.side(p, s)[0])); };
-    const auto cost = [&](int s) { return first(s) == first(s + 2) ? 0 : size[first(s)] + size[first(s + 2)]; };
+    const auto cost = [&](int s) {
+      return first(s) == first(s + 2) ? 0 : size[first(s)] + size[first(s + 2)];
+    };
     const bool turn = std::pair(cost(1), patches[p].m) < std::pair(cost(0), patches[p].n);
     join(first(turn ? 1 : 0), first(turn ? 3 : 2));
     if (!turn) continue;
@@ -152,15 +157,16 @@ void chooseSweeps(Wireframe& w, std::vector<GridPatch>& patches, const Connectiv
   }
 }
 
-// How many derivatives the source vertices along one line of a node can determine: one stored vector
-// for each vertex that lies nearer to this node than to the next that stores any.
+// How many derivatives the source vertices along one line of a node can determine: one stored
+// vector for each vertex that lies nearer to this node than to the next that stores any.
 int determined(const Wireframe& w, const Connectivity& c, Index node, int axis) {
   const Star& star = c.stars[node];
   double reach[2] = {0.5, 0.5};
   int arms = 0;
   for (std::size_t k = axis; k < star.arms.size() && k < 4; k += 2, ++arms) {
     const Rail rail = followRail(w, c, star.arms[k]);
-    reach[arms] = c.kinds[w.end(rail.last)] == NodeKind::hanging ? rail.edges - 0.5 : rail.edges / 2.0;
+    reach[arms] =
+        c.kinds[w.end(rail.last)] == NodeKind::hanging ? rail.edges - 0.5 : rail.edges / 2.0;
   }
   // Derivatives that only a long side determines would swing on a short one.
   constexpr double kUneven = 3;

@@ -68,7 +68,8 @@ struct FaceCutter {
   }
   void keep(std::vector<Corner> piece) {
     simplify(piece);
-    if (piece.size() == 4 && (piece[0].vertex == piece[2].vertex || piece[1].vertex == piece[3].vertex))
+    if (piece.size() == 4 &&
+        (piece[0].vertex == piece[2].vertex || piece[1].vertex == piece[3].vertex))
       piece.clear();
     if (piece.size() < 3)
       ++dropped;
@@ -77,8 +78,8 @@ struct FaceCutter {
   }
 };
 
-// Which corner of each triangle becomes its collapsed side: the one where most triangles meet, so that
-// fans share their pole, and otherwise the most irregular one.
+// Which corner of each triangle becomes its collapsed side: the one where most triangles meet, so
+// that fans share their pole, and otherwise the most irregular one.
 void rotateTriangles(std::vector<std::vector<Corner>>& pieces, std::size_t vertexCount) {
   std::vector<Index> triangles(vertexCount, 0), faces(vertexCount, 0);
   for (const auto& piece : pieces)
@@ -92,9 +93,9 @@ void rotateTriangles(std::vector<std::vector<Corner>>& pieces, std::size_t verte
   };
   for (auto& piece : pieces)
     if (piece.size() == 3) {
-      const auto best = std::max_element(piece.begin(), piece.end(), [&](const Corner& a, const Corner& b) {
-        return rank(a) < rank(b);
-      });
+      const auto best =
+          std::max_element(piece.begin(), piece.end(),
+                           [&](const Corner& a, const Corner& b) { return rank(a) < rank(b); });
       std::rotate(piece.begin(), best == piece.begin() + 2 ? piece.begin() : best + 1, piece.end());
       piece.push_back(piece.back());
     }
@@ -118,7 +119,8 @@ void pairEdges(GridMesh& mesh, const std::vector<std::array<Index, 4>>& welded,
   });
   for (std::size_t k = 0; k < edges.size();) {
     std::size_t end = k + 1;
-    while (end < edges.size() && edges[end].low == edges[k].low && edges[end].high == edges[k].high) ++end;
+    while (end < edges.size() && edges[end].low == edges[k].low && edges[end].high == edges[k].high)
+      ++end;
     const auto startsLow = [&](HalfEdge h) { return welded[h >> 2][h & 3] == edges[k].low; };
     if (end - k == 2 && startsLow(edges[k].h) != startsLow(edges[k + 1].h)) {
       mesh.twin[edges[k].h] = edges[k + 1].h;
@@ -173,7 +175,8 @@ std::string plural(Index count, const char* one, const char* many) {
 
 namespace {
 
-// The grid mesh of the source with its vertices welded as `first` says; edges left open go to `cut`.
+// The grid mesh of the source with its vertices welded as `first` says; edges left open go to
+// `cut`.
 Result<GridMesh> build(const MeshRig& rig, const std::vector<Index>& first,
                        std::vector<std::pair<Index, Index>>& cut) {
   const Polygons& faces = rig.neutral.polygons;
@@ -184,7 +187,8 @@ Result<GridMesh> build(const MeshRig& rig, const std::vector<Index>& first,
       face.push_back({first[faces.corners[c]], c});
     cutter.cut(std::move(face));
   }
-  if (cutter.pieces.empty()) return fail("the mesh has no face with an area; nothing can be converted");
+  if (cutter.pieces.empty())
+    return fail("the mesh has no face with an area; nothing can be converted");
   rotateTriangles(cutter.pieces, first.size());
 
   GridMesh mesh;
@@ -197,18 +201,22 @@ Result<GridMesh> build(const MeshRig& rig, const std::vector<Index>& first,
   }
   mesh.twin.assign(4 * welded.size(), -1);
   mesh.collapsed.assign(4 * welded.size(), 0);
-  for (std::size_t q = 0; q < welded.size(); ++q) mesh.collapsed[4 * q + 2] = welded[q][2] == welded[q][3];
+  for (std::size_t q = 0; q < welded.size(); ++q)
+    mesh.collapsed[4 * q + 2] = welded[q][2] == welded[q][3];
   pairEdges(mesh, welded, cut);
   numberVertices(mesh, welded, first.size());
-  for (std::size_t v = 0; v < first.size(); ++v) mesh.pointOfSource[v] = mesh.pointOfSource[first[v]];
+  for (std::size_t v = 0; v < first.size(); ++v)
+    mesh.pointOfSource[v] = mesh.pointOfSource[first[v]];
   if (cutter.dropped > 0)
-    mesh.warnings.push_back(plural(cutter.dropped, "face has", "faces have") +
-                            " fewer than three different corners and no surface; the source order keeps them.");
+    mesh.warnings.push_back(
+        plural(cutter.dropped, "face has", "faces have") +
+        " fewer than three different corners and no surface; the source order keeps them.");
   return mesh;
 }
 
-// Separate sheets that merely touch must not be welded: they would meet in edges of three and more faces.
-// Takes apart what was welded at the ends of such edges; false if there was nothing to take apart.
+// Separate sheets that merely touch must not be welded: they would meet in edges of three and more
+// faces. Takes apart what was welded at the ends of such edges; false if there was nothing to take
+// apart.
 bool takeApart(std::vector<Index>& first, const std::vector<std::pair<Index, Index>>& cut) {
   std::vector<char> apart(first.size(), 0);
   for (auto [a, b] : cut) apart[a] = apart[b] = 1;
@@ -230,8 +238,9 @@ Result<GridMesh> makeGridMesh(const MeshRig& rig) {
     auto mesh = build(rig, first, cut);
     if (!mesh || cut.empty()) return mesh;
     if (takeApart(first, cut)) continue;
-    mesh->warnings.push_back(plural(static_cast<Index>(cut.size()), "edge joins", "edges join") +
-                             " more than two faces or faces of opposite orientation; the surface is cut there.");
+    mesh->warnings.push_back(
+        plural(static_cast<Index>(cut.size()), "edge joins", "edges join") +
+        " more than two faces or faces of opposite orientation; the surface is cut there.");
     return mesh;
   }
 }

@@ -14,9 +14,9 @@ inline HalfEdge nextIn(HalfEdge h) { return (h & ~3) | ((h + 1) & 3); }
 inline HalfEdge prevIn(HalfEdge h) { return (h & ~3) | ((h + 3) & 3); }
 inline HalfEdge across(HalfEdge h) { return h ^ 2; }
 
-/// The source mesh as quads only: seams welded, larger polygons cut into quads, triangles turned into
-/// quads with one side collapsed into a point. A vertex is one fan of quads; around the pole of a fan
-/// of triangles every ray ends at a vertex of its own, and these share one point.
+/// The source mesh as quads only: seams welded, larger polygons cut into quads, triangles turned
+/// into quads with one side collapsed into a point. A vertex is one fan of quads; around the pole
+/// of a fan of triangles every ray ends at a vertex of its own, and these share one point.
 struct GridMesh {
   std::vector<std::array<Index, 4>> quads;        ///< [Q] vertices, counter-clockwise
   std::vector<HalfEdge> twin;                     ///< [4Q] or -1
@@ -25,7 +25,7 @@ struct GridMesh {
   std::vector<Index> point;                       ///< [vertices]
   std::vector<Index> source;                      ///< [points] a source vertex at that place
   std::vector<Index> pointOfSource;               ///< [source vertices] or -1 where no face uses it
-  std::vector<std::string> warnings;              ///< what had to be done to the source, in sentences
+  std::vector<std::string> warnings;  ///< what had to be done to the source, in sentences
 
   Index vertexCount() const { return static_cast<Index>(point.size()); }
   Index pointCount() const { return static_cast<Index>(source.size()); }

@@ -40,9 +40,11 @@ Result<Weights> parseWeights(const Rig& rig, std::string_view text) {
       const std::string digits(item.substr(equals + 1));
       char* end = nullptr;  // not from_chars: libc++ 19 has none for floating point
       value = std::strtod(digits.c_str(), &end);
-      const bool plain = digits.find_first_not_of("0123456789+-.eE") == std::string::npos && digits[0] != '+';
+      const bool plain =
+          digits.find_first_not_of("0123456789+-.eE") == std::string::npos && digits[0] != '+';
       if (digits.empty() || !plain || *end != 0 || !std::isfinite(value))
-        return fail("the weight of '" + std::string(name) + "' must be a finite number, not '" + digits + "'");
+        return fail("the weight of '" + std::string(name) + "' must be a finite number, not '" +
+                    digits + "'");
     }
     weights[target] = value;
   }

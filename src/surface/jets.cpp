@@ -23,17 +23,21 @@ struct Turned {
 };
 Turned turned(int quarter, int i, int j) {
   switch (quarter) {
-    case 0: return {comp(i, j), 1};
-    case 1: return {comp(j, i), signOf(j)};
-    case 2: return {comp(i, j), signOf(i + j)};
-    default: return {comp(j, i), signOf(i)};
+    case 0:
+      return {comp(i, j), 1};
+    case 1:
+      return {comp(j, i), signOf(j)};
+    case 2:
+      return {comp(i, j), signOf(i + j)};
+    default:
+      return {comp(j, i), signOf(i)};
   }
 }
 
 }  // namespace
 
-// Numbers all vectors first, so that rows may refer to each other in any order, then writes the rows
-// and puts them into an order in which each needs only earlier ones.
+// Numbers all vectors first, so that rows may refer to each other in any order, then writes the
+// rows and puts them into an order in which each needs only earlier ones.
 class JetBuilder {
  public:
   JetBuilder(const Wireframe& w, const Connectivity& c, const BasisTable& bases)
@@ -128,8 +132,8 @@ class JetBuilder {
     return static_cast<int>(straight - star.sectors.begin() + 1) % 3;
   }
 
-  // A T-node hangs on a rail: its jet is that of the rail's curve and cross-derivative curves, which
-  // the sub-patches' own curves continue because ρ, η, λ are given per unit length.
+  // A T-node hangs on a rail: its jet is that of the rail's curve and cross-derivative curves,
+  // which the sub-patches' own curves continue because ρ, η, λ are given per unit length.
   void hang(Index n) {
     const int host = hostArm(n);
     const Star& star = c_.stars[n];
@@ -194,14 +198,18 @@ class JetBuilder {
   // A component that is not stored follows from the polynomial along one line through the node that
   // takes the values of the neighbours and what the node itself stores.
   void predictComponent(Index n, int i, int j) {
-    const auto known = [&](int a, int b) { return a < 3 && b < 3 && isStored_[base_[n] + comp(a, b)]; };
+    const auto known = [&](int a, int b) {
+      return a < 3 && b < 3 && isStored_[base_[n] + comp(a, b)];
+    };
     int alongX = 0, alongY = 0;
     while (known(alongX, j)) ++alongX;
     while (known(i, alongY)) ++alongY;
     const int d = alongX >= alongY && (alongX > 0 || i > 0) ? 0 : 1;
     const int order = d == 0 ? i : j, other = d == 0 ? j : i;
     const int count = std::max(1, d == 0 ? alongX : alongY);
-    const auto own = [&](int a) { return JetRef{base_[n] + (d == 0 ? comp(a, other) : comp(other, a)), 1}; };
+    const auto own = [&](int a) {
+      return JetRef{base_[n] + (d == 0 ? comp(a, other) : comp(other, a)), 1};
+    };
     Row& row = rows_[base_[n] + comp(i, j)];
     const Neighbours at = neighbours(n, d, other);
     if (count == 1)
@@ -229,8 +237,8 @@ class JetBuilder {
     addTo(row, own, order == 1 ? (a * a - b * b) * s : -(a + b) * s);
   }
 
-  // Second derivative of the cubic through the neighbours that has the node's value and slope; at the
-  // end of a line, of the parabola through its one neighbour.
+  // Second derivative of the cubic through the neighbours that has the node's value and slope; at
+  // the end of a line, of the parabola through its one neighbour.
   static void predictFromSlope(Row& row, const Neighbours& at, JetRef own, JetRef slope) {
     for (int e = 0; e < 2; ++e) {
       if (!at.has[e]) continue;
@@ -243,8 +251,8 @@ class JetBuilder {
     }
   }
 
-  // The surface near an irregular point is F(x, y) = p + A x + B y + ½(C x² + 2 D x y + E y²) over the
-  // chart; the patches' corners are the jets of F composed with the chart's corner maps.
+  // The surface near an irregular point is F(x, y) = p + A x + B y + ½(C x² + 2 D x y + E y²) over
+  // the chart; the patches' corners are the jets of F composed with the chart's corner maps.
   void chart(const Hub& hub) {
     const std::vector<Index> ring = orderRing(hub);
     int steps = 0;
@@ -294,8 +302,8 @@ class JetBuilder {
     return ring;
   }
 
-  // Writes the rows of one node of a hub whose first real spoke stands at `angle`; returns the angle
-  // of the next node's.
+  // Writes the rows of one node of a hub whose first real spoke stands at `angle`; returns the
+  // angle of the next node's.
   double chartNode(const Hub& hub, Index n, double angle, double step, double scale) {
     const Star& star = c_.stars[n];
     for (std::size_t s = 0; s < star.sectors.size(); ++s) {
@@ -392,8 +400,8 @@ class JetBuilder {
     return table;
   }
 
-  // Follows unmet needs until they repeat. Every circle that is met names one node which could break
-  // it: one that predicts if there is any, else a T-node.
+  // Follows unmet needs until they repeat. Every circle that is met names one node which could
+  // break it: one that predicts if there is any, else a T-node.
   Result<JetTable> circular(const std::vector<Index>& place, std::vector<Index>* circle) const {
     std::vector<Index> seenFrom(place.size(), -1);
     std::vector<Index> found;
@@ -411,7 +419,8 @@ class JetBuilder {
   }
   Index unmet(Index v, const std::vector<Index>& place) const {
     const Row& row = rows_[v];
-    return std::find_if(row.begin(), row.end(), [&](const Term& t) { return place[t.vector] < 0; })->vector;
+    return std::find_if(row.begin(), row.end(), [&](const Term& t) { return place[t.vector] < 0; })
+        ->vector;
   }
   Index breaker(Index first, const std::vector<Index>& place) const {
     Index v = first;
@@ -423,7 +432,8 @@ class JetBuilder {
   }
 
   static void merge(Row& row) {
-    std::sort(row.begin(), row.end(), [](const Term& a, const Term& b) { return a.vector < b.vector; });
+    std::sort(row.begin(), row.end(),
+              [](const Term& a, const Term& b) { return a.vector < b.vector; });
     std::size_t n = 0;
     for (const Term& t : row)
       if (n > 0 && row[n - 1].vector == t.vector)

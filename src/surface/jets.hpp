@@ -1,14 +1,16 @@
 #pragma once
 
-#include "surface/basis_table.hpp"
 #include "sweepface/surface.hpp"
+
+#include "surface/basis_table.hpp"
 
 namespace sweepface {
 
 /// Every vector of a model and how the derived ones follow from the stored ones.
 struct JetTable {
   std::vector<StoredVector> stored;
-  std::vector<Index> rowStart{0};  ///< rows of the derived vectors, in an order that can be evaluated
+  std::vector<Index> rowStart{
+      0};  ///< rows of the derived vectors, in an order that can be evaluated
   std::vector<Term> terms;
   std::vector<JetRef> corners;  ///< [patches × 4 × 9], index 3i + j: ∂α^i ∂β^j
 };

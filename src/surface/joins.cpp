@@ -50,7 +50,8 @@ JoinClass joinClass(const Surface& surface, Index arc) {
   return JoinClass::c2;
 }
 
-std::vector<JoinReport> examineJoins(const Surface& surface, std::span<const Vec3> vectors, int samples) {
+std::vector<JoinReport> examineJoins(const Surface& surface, std::span<const Vec3> vectors,
+                                     int samples) {
   const auto& w = surface.wireframe();
   std::vector<JoinReport> reports(w.arcs.size());
   double firstScale = 0, secondScale = 0;

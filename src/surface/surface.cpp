@@ -22,7 +22,8 @@ std::vector<std::array<Index, 2>> basisKeys(const Wireframe& w, const Connectivi
     for (HalfArc arm : c.stars[n].arms) {
       const Index stem = w.start(arm);
       const auto& arms = c.stars[stem].arms;
-      const int on = c.opposite(stem, static_cast<int>(std::find(arms.begin(), arms.end(), arm) - arms.begin()));
+      const int on = c.opposite(
+          stem, static_cast<int>(std::find(arms.begin(), arms.end(), arm) - arms.begin()));
       if (on < 0) continue;
       keys.push_back({w.arcs[arcOf(arm)].ribbon,
                       followRail(w, c, arm).edges + followRail(w, c, arms[on]).edges});
@@ -79,7 +80,9 @@ Result<Surface> Surface::make(Wireframe wireframe, std::vector<Index>* circle) {
 
 void Surface::frame() {
   const Wireframe& w = wireframe_;
-  const auto basisOf = [&](HalfArc h, Index edges) { return bases_->find(w.arcs[arcOf(h)].ribbon, edges); };
+  const auto basisOf = [&](HalfArc h, Index edges) {
+    return bases_->find(w.arcs[arcOf(h)].ribbon, edges);
+  };
   frames_.resize(w.patches.size());
   for (Index p = 0; p < patchCount(); ++p) {
     Frame& f = frames_[p];
@@ -118,9 +121,9 @@ namespace {
 
 // Where the jets of a corner stand among g₁…g₆ in u and v, and how its axes (α, β) lie there.
 struct CornerPlace {
-  int u, v;           // 0: at u (v) = 0, 3: at the other end
-  bool alphaIsU;      // α runs along u
-  int signU, signV;   // +1 where the corner's axis points along +u (+v)
+  int u, v;          // 0: at u (v) = 0, 3: at the other end
+  bool alphaIsU;     // α runs along u
+  int signU, signV;  // +1 where the corner's axis points along +u (+v)
 };
 constexpr CornerPlace kCorners[4] = {
     {0, 0, true, 1, 1}, {3, 0, false, -1, 1}, {3, 3, true, -1, -1}, {0, 3, false, 1, -1}};
@@ -153,7 +156,8 @@ Surface::Weights Surface::weights(const Site& site, const PatchBasis& basis, int
     const auto& gv = place.u == 0 ? g0 : g1;
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j, ++k) {
-        const JetRef ref = cornerJet(site.patch, corner, place.alphaIsU ? i : j, place.alphaIsU ? j : i);
+        const JetRef ref =
+            cornerJet(site.patch, corner, place.alphaIsU ? i : j, place.alphaIsU ? j : i);
         const double sign = (i == 1 ? place.signU : 1) * (j == 1 ? place.signV : 1);
         w.vectors[k] = ref.vector;
         w.factors[k] = ref.sign * sign * gu[place.u + i] * gv[place.v + j];
@@ -175,7 +179,8 @@ Vec3 Surface::normal(std::span<const Vec3> vectors, const Site& site) const {
   const Vec3 n = cross(u, v);
   if (norm(n) > 1e-9 * norm(u) * norm(v) && norm(u) > 0 && norm(v) > 0) return normalized(n);
   // Nothing to be had here: look from a little inside the patch.
-  const Site inside{site.patch, site.u + (f.m * 0.5 - site.u) * 1e-3, site.v + (f.n * 0.5 - site.v) * 1e-3};
+  const Site inside{site.patch, site.u + (f.m * 0.5 - site.u) * 1e-3,
+                    site.v + (f.n * 0.5 - site.v) * 1e-3};
   return normalized(cross(evaluate(vectors, inside, 1, 0), evaluate(vectors, inside, 0, 1)));
 }
 

@@ -12,7 +12,9 @@ Index Wireframe::sideEdges(Index patch, int s) const {
 
 namespace {
 
-std::string name(const char* what, Index index) { return std::string(what) + " " + std::to_string(index); }
+std::string name(const char* what, Index index) {
+  return std::string(what) + " " + std::to_string(index);
+}
 
 Result<void> checkIndices(const Wireframe& w) {
   const auto nodes = static_cast<Index>(w.nodes.size());
@@ -53,7 +55,8 @@ Result<void> linkLoops(const Wireframe& w, Connectivity& c) {
     const Index begin = sides[0], size = sides[4] - begin;
     for (Index k = 0; k < size; ++k) {
       const HalfArc h = w.loops[begin + k], g = w.loops[begin + (k + 1) % size];
-      if (c.patchOf[h] >= 0) return fail(name("arc", arcOf(h)) + " is used twice in the same direction");
+      if (c.patchOf[h] >= 0)
+        return fail(name("arc", arcOf(h)) + " is used twice in the same direction");
       if (w.end(h) != w.start(g)) return fail(name("patch", p) + " is not a closed loop of arcs");
       c.patchOf[h] = p;
       c.next[h] = g;
@@ -84,7 +87,8 @@ Result<Star> starAt(const Wireframe& w, const Connectivity& c, Index node,
   star.closed = h == first;
   if (!star.closed) star.arms.push_back(h);
   if (star.sectors.size() != leaving.size())
-    return fail(name("node", node) + " joins patches that only touch there; give each its own node");
+    return fail(name("node", node) +
+                " joins patches that only touch there; give each its own node");
   (void)w;
   return star;
 }
@@ -134,7 +138,8 @@ Result<void> followRails(const Wireframe& w, Connectivity& c) {
   }
   for (std::size_t h = 0; h < c.rails.size(); ++h)
     if (c.rails[h].last < 0)
-      return fail(name("arc", arcOf(static_cast<HalfArc>(h))) + " lies on a ring of T-nodes; cut it at a node");
+      return fail(name("arc", arcOf(static_cast<HalfArc>(h))) +
+                  " lies on a ring of T-nodes; cut it at a node");
   return {};
 }
 
@@ -157,8 +162,9 @@ Result<Connectivity> Connectivity::make(const Wireframe& w) {
     auto kind = kindOf(w, n, *star);
     if (!kind) return std::unexpected(kind.error());
     if ((*kind == NodeKind::hanging) != (w.nodes[n].point < 0))
-      return fail(name("node", n) + (w.nodes[n].point < 0 ? " needs a point of its own"
-                                                          : " hangs on an arc and must not have a point"));
+      return fail(name("node", n) + (w.nodes[n].point < 0
+                                         ? " needs a point of its own"
+                                         : " hangs on an arc and must not have a point"));
     for (std::size_t s = 0; s < star->sectors.size(); ++s)
       if (star->sectors[s] != kStraight) {
         c.cornerSector[star->sectors[s]] = static_cast<Index>(s);

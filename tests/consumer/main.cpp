@@ -1,8 +1,7 @@
 // A small program that uses an installed Sweepface: one bicubic-looking patch, bent and evaluated.
+#include <cmath>
 #include <sweepface/eval.hpp>
 #include <sweepface/motion.hpp>
-
-#include <cmath>
 
 using namespace sweepface;
 
@@ -26,10 +25,12 @@ int main() {
   std::vector<Vec3> vectors(surface->vectorCount());
   const Vec3 corners[4] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
   for (Index v = 0; v < surface->storedCount(); ++v)
-    if (const StoredVector& s = surface->stored(v); s.i == 0 && s.j == 0) vectors[v] = corners[s.node];
+    if (const StoredVector& s = surface->stored(v); s.i == 0 && s.j == 0)
+      vectors[v] = corners[s.node];
   surface->settle({vectors.data(), static_cast<std::size_t>(surface->storedCount())}, vectors);
   const Tessellation mesh(*surface, 4);
   const auto positions = mesh.positions(vectors);
-  const bool covers = mesh.vertexCount() == 25 && norm(positions[mesh.vertex(0, 2, 2)] - Vec3{0.5, 0.5, 0}) < 1e-12;
+  const bool covers =
+      mesh.vertexCount() == 25 && norm(positions[mesh.vertex(0, 2, 2)] - Vec3{0.5, 0.5, 0}) < 1e-12;
   return covers && progress(TimeLaw::newton, 0.5).position == 0.25 ? 0 : 1;
 }
