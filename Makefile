@@ -52,7 +52,7 @@ fuzz:
 	scripts/install-deps clang
 	cmake --preset fuzz
 	cmake --build build/fuzz
-	scripts/fuzz $(FUZZ_SECONDS) build/fuzz
+	fuzz/run $(FUZZ_SECONDS)
 
 format:
 	scripts/install-deps format

@@ -94,6 +94,7 @@ class Converter {
     ExtraJets extra(data.uneven.size(), 0);
     for (std::size_t v = 0; v < extra.size(); ++v)
       if (data.uneven[v]) extra[v] = kSlopes;
+    int smoothing = 0;  // rounds since the promise holds, spent on normals
     for (int round = 0; round < kMostRounds; ++round) {
       if (cancelled()) return fail("the conversion was interrupted");
       auto draft = makeDraft(layout, extra);
@@ -113,7 +114,7 @@ class Converter {
         return reshape(layout, data, *solution, errors);
       }
       if (changed == 0) break;
-      if (within && ++smoothing_ >= 8) limits_.angle = 180;
+      if (within && ++smoothing >= 8) limits_.angle = 180;
     }
     return fail("the tolerance could not be met everywhere; allow a larger one");
   }
@@ -188,7 +189,6 @@ class Converter {
   const ConvertOptions& options_;
   Limits limits_{};
   Draft draft_;
-  int smoothing_ = 0;
   double done_ = 0;
 };
 

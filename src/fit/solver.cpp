@@ -5,6 +5,8 @@
 #include <cmath>
 #include <tbb/parallel_for.h>
 
+#include "surface/terms.hpp"
+
 namespace sweepface {
 
 namespace {
@@ -25,15 +27,7 @@ std::vector<SparseRow> expand(const Surface& surface) {
     SparseRow& row = rows[v];
     for (const Term& t : surface.derivation(v))
       for (const Term& s : rows[t.vector]) row.push_back({s.vector, s.factor * t.factor});
-    std::sort(row.begin(), row.end(),
-              [](const Term& a, const Term& b) { return a.vector < b.vector; });
-    std::size_t n = 0;
-    for (const Term& t : row)
-      if (n > 0 && row[n - 1].vector == t.vector)
-        row[n - 1].factor += t.factor;
-      else
-        row[n++] = t;
-    row.resize(n);
+    mergeTerms(row);
   }
   return rows;
 }

@@ -6,6 +6,7 @@
 
 #include "surface/basis_table.hpp"
 #include "surface/chart.hpp"
+#include "surface/terms.hpp"
 
 namespace sweepface {
 
@@ -328,14 +329,12 @@ class JetBuilder {
 
   void writeSpoke(const Hub& hub, Index n, std::size_t arm, double angle, double step, double scale,
                   bool ray) {
-    const Star& star = c_.stars[n];
     ray = ray || (arm > 0 && collapsedArm(n, arm - 1));
     const auto d = ray ? std::array<std::complex<double>, 2>{std::polar(1.0, angle), 0}
                        : characteristicSpoke(angle, step, scale);
     PlaneJet along{};
     along[comp(1, 0)] = d[0];
     along[comp(2, 0)] = d[1];
-    (void)star;
     compose(rows_[armBase_[n] + 2 * static_cast<Index>(arm)], hub, along, 1, 0);
     compose(rows_[armBase_[n] + 2 * static_cast<Index>(arm) + 1], hub, along, 2, 0);
   }
@@ -432,15 +431,7 @@ class JetBuilder {
   }
 
   static void merge(Row& row) {
-    std::sort(row.begin(), row.end(),
-              [](const Term& a, const Term& b) { return a.vector < b.vector; });
-    std::size_t n = 0;
-    for (const Term& t : row)
-      if (n > 0 && row[n - 1].vector == t.vector)
-        row[n - 1].factor += t.factor;
-      else
-        row[n++] = t;
-    row.resize(n);
+    mergeTerms(row);
     std::erase_if(row, [](const Term& t) { return t.factor == 0; });
   }
 

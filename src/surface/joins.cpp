@@ -14,7 +14,6 @@ struct CrossJet {
 
 CrossJet crossJet(const Surface& surface, std::span<const Vec3> vectors, HalfArc h, double t) {
   const Site site = surface.siteOnArc(h, t);
-  const Index m = surface.edgesU(site.patch), n = surface.edgesV(site.patch);
   const auto& w = surface.wireframe();
   const auto on = [&](int s) {
     const auto side = w.side(site.patch, s);
@@ -22,7 +21,6 @@ CrossJet crossJet(const Surface& surface, std::span<const Vec3> vectors, HalfArc
   };
   const bool acrossV = on(0) || on(2);
   const double inward = on(0) || on(3) ? 1 : -1;
-  (void)m, (void)n;
   CrossJet jet;
   jet.position = surface.evaluate(vectors, site);
   jet.first = inward * surface.evaluate(vectors, site, acrossV ? 0 : 1, acrossV ? 1 : 0);

@@ -71,8 +71,7 @@ Result<void> linkLoops(const Wireframe& w, Connectivity& c) {
 }
 
 // The arms of a node, counter-clockwise, from one of the half-arcs that leave it.
-Result<Star> starAt(const Wireframe& w, const Connectivity& c, Index node,
-                    const std::vector<HalfArc>& leaving) {
+Result<Star> starAt(const Connectivity& c, Index node, const std::vector<HalfArc>& leaving) {
   Star star;
   if (leaving.empty()) return fail(name("node", node) + " belongs to no patch");
   HalfArc first = leaving[0];
@@ -89,7 +88,6 @@ Result<Star> starAt(const Wireframe& w, const Connectivity& c, Index node,
   if (star.sectors.size() != leaving.size())
     return fail(name("node", node) +
                 " joins patches that only touch there; give each its own node");
-  (void)w;
   return star;
 }
 
@@ -157,7 +155,7 @@ Result<Connectivity> Connectivity::make(const Wireframe& w) {
   c.cornerSector.assign(4 * w.patches.size(), -1);
   c.cornerNode.assign(4 * w.patches.size(), -1);
   for (Index n = 0; n < static_cast<Index>(w.nodes.size()); ++n) {
-    auto star = starAt(w, c, n, leaving[n]);
+    auto star = starAt(c, n, leaving[n]);
     if (!star) return std::unexpected(star.error());
     auto kind = kindOf(w, n, *star);
     if (!kind) return std::unexpected(kind.error());
