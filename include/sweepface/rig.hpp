@@ -36,6 +36,9 @@ struct Rig {
   std::vector<Target> targets;
   SourceMesh source;
   double tolerance = 0;  ///< the error it was made for, in model units
+  /// A GLB of what the source's scene held besides the rig (docs/glb.md), or empty. Opaque to what
+  /// plays.
+  std::string scene;
 
   /// Index of a target by its name, or -1.
   Index find(std::string_view name) const;
