@@ -142,7 +142,7 @@ class Converter {
   }
 
   Rig assemble(const GridMesh& mesh, const Solution& solution, const SourceData& data) {
-    Rig rig{std::move(draft_.surface), {}, {}, {}, 0};
+    Rig rig{std::move(draft_.surface), {}, {}, {}, 0, {}};
     const auto row = [&](Eigen::Index v, Index pose) {
       return SourceData::at(solution, static_cast<Index>(v), pose);
     };
