@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <span>
 #include <string>
 #include <string_view>
@@ -29,6 +30,25 @@ struct SourceMesh {
   std::vector<Index> quadCorners;
 };
 
+/// How a file holds the vectors of a rig (docs/file-format.md): as whole multiples of steps, each
+/// beyond what its neighbours and mirror images predict. The fit chooses it and `decode` tells what
+/// it found; `encode` chooses where nothing is chosen.
+struct Packing {
+  double neutralStep = 0, targetStep = 0;  ///< model units; 0: not chosen
+  int axis = 0;                            ///< 0, 1, 2: the mirror lies across x, y, z
+  /// Half-arcs that mirror each other, each with its patch on the left; one pair for every part of
+  /// the wireframe that has a mirror image.
+  std::vector<std::array<HalfArc, 2>> mirror;
+  struct Pose {
+    int finer = 0;     ///< its step is divided by 2^finer
+    Index image = -1;  ///< the pose whose mirror image it is compared with, itself or an earlier
+                       ///< one; -1: with none
+    friend bool operator==(const Pose&, const Pose&) = default;
+  };
+  std::vector<Pose> poses;  ///< the neutral, then the targets
+  friend bool operator==(const Packing&, const Packing&) = default;
+};
+
 /// A neutral model and its targets over one wireframe.
 struct Rig {
   Surface surface;
@@ -39,6 +59,8 @@ struct Rig {
   /// A GLB of what the source's scene held besides the rig (docs/glb.md), or empty. Opaque to what
   /// plays.
   std::string scene;
+
+  Packing packing;
 
   /// Index of a target by its name, or -1.
   Index find(std::string_view name) const;

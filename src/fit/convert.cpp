@@ -93,7 +93,11 @@ class Converter {
   Result<Solution> fit(Layout& layout, SourceData& data) {
     ExtraJets extra(data.uneven.size(), 0);
     for (std::size_t v = 0; v < extra.size(); ++v)
-      if (data.uneven[v]) extra[v] = kSlopes;
+      if (data.uneven[v]) {
+        extra[v] = kSlopes;
+        const Index image = layout.image(static_cast<Index>(v));
+        if (image >= 0) extra[image] = kSlopes;
+      }
     int smoothing = 0;  // rounds since the promise holds, spent on normals
     for (int round = 0; round < kMostRounds; ++round) {
       if (cancelled()) return fail("the conversion was interrupted");
