@@ -25,7 +25,6 @@ namespace {
 constexpr int kMostRounds = 60;
 // Predicted slopes overshoot where an edge is this many times as long as the next along its line.
 constexpr double kUneven = 3;
-constexpr JetMask kSlopes = kPosition | 1 << 1 | 1 << 3;
 // At the default tolerance of 0.02 % of the diagonal normals may be this far off, in degrees.
 constexpr double kNormalLimitAtDefault = 2.8;
 
@@ -108,7 +107,7 @@ class Converter {
              within
                  ? 0.9
                  : 0.9 * std::min(1.0, std::pow(limits_.distance / errors.largestDistance, 0.5)));
-      const Index changed = refine(layout, *draft, data, errors, limits_);
+      const Index changed = refine(layout, *draft, data, errors, limits_, extra);
       if (within && changed == 0) {
         draft_ = std::move(*draft);
         return reshape(layout, data, *solution, errors);
