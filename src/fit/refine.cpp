@@ -183,7 +183,7 @@ Index refine(Layout& layout, const Draft& draft, SourceData& data, const DraftEr
         layout.extend(v);
         ++changed;
         unfolding |= errors.folded[p] != 0;
-      } else if (errors.nearFold[v] && (extra[v] & kSlopes) != kSlopes) {
+      } else if (smooth && errors.nearFold[v] && (extra[v] & kSlopes) != kSlopes) {
         extra[v] |= kSlopes;
         ++changed;
         unfolding = true;
