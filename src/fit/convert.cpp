@@ -63,7 +63,8 @@ class Converter {
     if (!(size > 0))
       return fail("all vertices of the neutral stand at one place; there is no surface to fit");
     const double tolerance = options_.tolerance > 0 ? options_.tolerance : 0.0002 * size;
-    limits_ = {tolerance, normalLimit(options_, tolerance, size)};
+    const double angle = normalLimit(options_, tolerance, size);
+    limits_ = {tolerance, angle, angle < 180};
 
     auto mesh = makeGridMesh(source_);
     if (!mesh) return std::unexpected(mesh.error());
@@ -71,7 +72,7 @@ class Converter {
     Layout layout(*mesh, source_.neutral.positions);
     for (Index v = 0; v < mesh->vertexCount(); ++v)
       data.uneven.push_back(layout.isUneven(v, source_.neutral.positions, kUneven));
-    if (limits_.angle >= 180) data.slopeWeight = 0.1;
+    if (!limits_.smooth) data.slopeWeight = 0.1;
     auto solution = fit(layout, data);
     if (!solution) return std::unexpected(solution.error());
     Conversion conversion{assemble(*mesh, *solution, data), mesh->warnings};

@@ -142,8 +142,7 @@ Index refine(Layout& layout, const Draft& draft, SourceData& data, const DraftEr
   // A patch that is nearly within the limits may get there without more points if what is wrong at
   // its worst vertices counts more (Lawson's way from least squares to least maximum). That costs
   // smoothness: where normals matter it is tried less.
-  const bool smooth = limits.angle < 180;
-  const double nearly = smooth ? 1.5 : 3, most = smooth ? 4 : 64;
+  const double nearly = limits.smooth ? 1.5 : 3, most = limits.smooth ? 4 : 64;
   const auto emphasize = [&](const GridPatch& grid) {
     bool any = false;
     const auto raise = [&](double& emphasis) {
@@ -183,7 +182,7 @@ Index refine(Layout& layout, const Draft& draft, SourceData& data, const DraftEr
         layout.extend(v);
         ++changed;
         unfolding |= errors.folded[p] != 0;
-      } else if (smooth && errors.nearFold[v] && (extra[v] & kSlopes) != kSlopes) {
+      } else if (limits.smooth && errors.nearFold[v] && (extra[v] & kSlopes) != kSlopes) {
         extra[v] |= kSlopes;
         ++changed;
         unfolding = true;

@@ -6,7 +6,8 @@ namespace sweepface {
 
 struct Limits {
   double distance;  ///< model units
-  double angle;     ///< degrees; 180: normals do not matter
+  double angle;     ///< degrees
+  bool smooth;      ///< normals matter: tangents may not be given up for points
 };
 
 /// What a vertex of the mesh stores as a node beyond what the layout grants it: its slopes where
