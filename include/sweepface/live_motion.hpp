@@ -71,7 +71,8 @@ class MotionState {
     double began = 0, switchAt = 0;
     Kinematics at(double time) const noexcept;
   };
-  Result<void> take(Coordinate& coordinate, const Trajectory& next, double delay);
+  Result<Trajectory> prepare(std::size_t weight, double goal, const Drive& drive) const;
+  void take(std::size_t weight, const Trajectory& next, double delay) noexcept;
 
   std::vector<Coordinate> coordinates_;
   double now_ = 0;

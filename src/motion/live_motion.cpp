@@ -81,39 +81,44 @@ void MotionState::advance(double seconds) noexcept {
   if (seconds > 0) now_ += seconds;
 }
 
-Result<void> MotionState::take(Coordinate& coordinate, const Trajectory& next, double delay) {
+Result<Trajectory> MotionState::prepare(std::size_t weight, double goal, const Drive& drive) const {
+  if (auto ok = checkIndex(weight, size()); !ok) return std::unexpected(ok.error());
+  if (!(std::isfinite(drive.delay) && drive.delay >= 0))
+    return fail("The delay of a motion must be at least 0 seconds.");
+  // Where it will stand when the drive sets out.
+  const Coordinate& coordinate = coordinates_[weight];
+  const double start = now_ + drive.delay;
+  const Kinematics from = now_ < coordinate.switchAt ? coordinate.now.at(start - coordinate.began)
+                                                     : coordinate.at(start);
+  return trajectoryOf(drive, {from.position, from.velocity}, goal);
+}
+
+void MotionState::take(std::size_t weight, const Trajectory& next, double delay) noexcept {
   // A drive that still waits is replaced; one that has set out is what goes on until the switch.
+  Coordinate& coordinate = coordinates_[weight];
   if (now_ >= coordinate.switchAt) {
     coordinate.now = coordinate.next;
     coordinate.began = coordinate.switchAt;
   }
   coordinate.next = next;
   coordinate.switchAt = now_ + delay;
-  return {};
 }
 
 Result<void> MotionState::moveTo(std::size_t weight, double goal, const Drive& drive) {
-  if (auto ok = checkIndex(weight, size()); !ok) return ok;
-  if (!(std::isfinite(drive.delay) && drive.delay >= 0))
-    return fail("The delay of a motion must be at least 0 seconds.");
-  Coordinate& coordinate = coordinates_[weight];
-  // Where it will stand when the drive sets out.
-  const double start = now_ + drive.delay;
-  const Kinematics from = now_ < coordinate.switchAt ? coordinate.now.at(start - coordinate.began)
-                                                     : coordinate.at(start);
-  const Result<Trajectory> next = trajectoryOf(drive, {from.position, from.velocity}, goal);
+  const Result<Trajectory> next = prepare(weight, goal, drive);
   if (!next) return std::unexpected(next.error());
-  return take(coordinate, *next, drive.delay);
+  take(weight, *next, drive.delay);
+  return {};
 }
 
 Result<void> MotionState::moveTo(std::span<const double> goals, const Drive& drive) {
   if (goals.size() != size())
     return fail("There are " + std::to_string(goals.size()) + " goals for " +
                 std::to_string(size()) + " weights; give one each.");
-  for (const double goal : goals)
-    if (!std::isfinite(goal)) return fail("A motion needs finite numbers.");
+  // All are prepared before the first sets out, so that an error leaves everything as it was.
   for (std::size_t k = 0; k < size(); ++k)
-    if (auto ok = moveTo(k, goals[k], drive); !ok) return ok;
+    if (const auto next = prepare(k, goals[k], drive); !next) return std::unexpected(next.error());
+  for (std::size_t k = 0; k < size(); ++k) take(k, *prepare(k, goals[k], drive), drive.delay);
   return {};
 }
 
@@ -122,7 +127,8 @@ Result<void> MotionState::push(std::size_t weight, double velocityChange, double
   const Kinematics from = sample(weight);
   const auto next = Trajectory::impulse({from.position, from.velocity}, velocityChange, drag);
   if (!next) return std::unexpected(next.error());
-  return take(coordinates_[weight], *next, 0);
+  take(weight, *next, 0);
+  return {};
 }
 
 Kinematics MotionState::sample(std::size_t weight) const noexcept {

@@ -4,6 +4,7 @@
 #include <new>
 #include <vector>
 
+#include "sweepface/live_motion.hpp"
 #include "sweepface/motion.hpp"
 
 namespace {
@@ -35,6 +36,21 @@ TEST(Motion, EvaluatesWithoutAllocating) {
     motion->forces(0.3, out);
     EXPECT_EQ(allocations, made);
   }
+}
+
+TEST(MotionState, MovesWithoutAllocating) {
+  Result<MotionState> state = MotionState::make(std::vector<double>(57, 0.0));
+  const std::vector<double> goals(57, 1.0);
+  std::vector<double> out(57);
+  const std::size_t before = allocations;
+  for (int frame = 0; frame < 100; ++frame) {
+    state->advance(1.0 / 60);
+    ASSERT_TRUE(state->moveTo(goals));
+    ASSERT_TRUE(state->push(3, 0.1, 1));
+    state->positions(out);
+    state->velocities(out);
+  }
+  EXPECT_EQ(allocations, before);
 }
 
 }  // namespace
