@@ -1,11 +1,12 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <vector>
 
 #include "codec/hierarchy.hpp"
-#include "codec/mixing.hpp"
+#include "codec/symbols.hpp"
 
 namespace sweepface::codec {
 
@@ -21,6 +22,18 @@ enum class Symmetry {
   partner  ///< with the mirror image of an earlier pose
 };
 
+/// The same in steps that are 2^finer times smaller, or larger where `finer` is negative.
+inline Coefficients inFinerSteps(Coefficients q, int finer) {
+  constexpr std::int64_t kMost = 1 << 28;
+  for (Steps3& v : q)
+    for (std::int32_t& x : v) {
+      const std::int64_t y =
+          finer >= 0 ? x * (std::int64_t{1} << std::min(finer, 30)) : x >> std::min(-finer, 30);
+      x = static_cast<std::int32_t>(std::clamp(y, -kMost, kMost));
+    }
+  return q;
+}
+
 /// Codes the coefficients of one pose after the other, coarse to fine; learns as it goes. Reader
 /// and writer are the same code over a RangeDecoder or a RangeEncoder.
 template <typename Coder>
@@ -32,23 +45,18 @@ class CoefficientCoder {
     active_.resize(sites);
     below_.resize(sites);
     history_.assign(sites, 0);
-    kind_.resize(h_.steps().size());
-    parents_.resize(sites);
-    for (const Hierarchy::Step& step : h_.steps()) {
-      const Site& site = h_.sites()[step.site];
-      kind_[step.vector] = step.vector == site.first ? 0 : 1;
-      if (step.vector == site.first)
-        for (const Term& t : h_.terms(step)) addParent(step.site, t);
-    }
+    positionStep_.resize(sites);
+    for (std::size_t k = 0; k < h_.steps().size(); ++k)
+      if (const auto& step = h_.steps()[k]; step.vector == h_.sites()[step.site].first)
+        positionStep_[step.site] = static_cast<Index>(k);
   }
 
-  void code(Coefficients& q, Symmetry symmetry, const Coefficients* partner, bool neutral) {
+  void code(Coefficients& q, Symmetry symmetry, const Coefficients& partner, bool neutral) {
     const auto& sites = h_.sites();
     residual_.assign(q.size(), Steps3{});
-    neutral_ = neutral;
-    const bool writing = std::is_same_v<Coder, class RangeEncoder>;
+    constexpr bool writing = kWrites<Coder>;
     expected_.assign(q.size(), Steps3{});
-    if (symmetry == Symmetry::partner) expect(*partner, false);
+    if (symmetry == Symmetry::partner) expect(partner, false);
     if (writing) {
       if (symmetry == Symmetry::self) expect(q, true);
       for (std::size_t v = 0; v < q.size(); ++v)
@@ -59,9 +67,10 @@ class CoefficientCoder {
       std::fill(below_.begin(), below_.end(), 0);
     }
     for (Index s = 0; s < static_cast<Index>(sites.size()); ++s) {
-      const Site& site = sites[s];
+      const CodedSite& site = sites[s];
       phase_ = neutral ? 0 : symmetry == Symmetry::partner ? 3 : 1;
-      if (symmetry == Symmetry::self && site.mirror >= 0 && site.mirror < s) phase_ += neutral ? 4 : 1;
+      if (symmetry == Symmetry::self && site.mirror >= 0 && site.mirror < s)
+        phase_ += neutral ? 4 : 1;
       if (site.parent < 0 || below_[site.parent])
         codeSite(s);
       else if (!writing)
@@ -83,12 +92,9 @@ class CoefficientCoder {
 
   enum BitKind { kAny, kBelow, kVector, kZero, kSign, kMore };
 
-  void addParent(Index site, const Term& t) {
-    for (Index s = site; s-- > 0;) {
-      (void)s;
-      break;
-    }
-    parents_[site].push_back(t.vector);
+  // The sites whose positions predict a site's, by their positions.
+  std::span<const Term> parents(Index site) const {
+    return h_.terms(h_.steps()[positionStep_[site]]);
   }
 
   // The image of another pose's vector, negated along the mirror's axis.
@@ -100,7 +106,7 @@ class CoefficientCoder {
   }
   void expect(const Coefficients& from, bool self) {
     for (Index s = 0; s < static_cast<Index>(h_.sites().size()); ++s) {
-      const Site& site = h_.sites()[s];
+      const CodedSite& site = h_.sites()[s];
       if (site.mirror < 0 || (self && site.mirror >= s)) continue;
       for (Index v = site.first; v < site.first + site.count; ++v) image(from, v);
     }
@@ -137,14 +143,16 @@ class CoefficientCoder {
   }
 
   void codeSite(Index s) {
-    const Site& site = h_.sites()[s];
-    const std::uint32_t level = site.span == 0 ? 0 : site.span <= 2 ? 1 : site.span <= 4 ? 2 : site.span <= 8 ? 3 : site.span <= 16 ? 4 : 5;
+    const CodedSite& site = h_.sites()[s];
+    const std::uint32_t level = site.span == 0    ? 0
+                                : site.span <= 2  ? 1
+                                : site.span <= 4  ? 2
+                                : site.span <= 8  ? 3
+                                : site.span <= 16 ? 4
+                                                  : 5;
     const std::uint32_t parent = site.parent < 0 ? 2 : active_[site.parent];
-    std::uint32_t near = 0, count = 0;
-    for (const Index v : parents_[s]) {
-      near += residual_[v] != Steps3{};
-      ++count;
-    }
+    std::uint32_t near = 0;
+    for (const Term& t : parents(s)) near += residual_[t.vector] != Steps3{};
     near = std::min(near, 4u);
     const std::uint32_t past = std::min<std::uint32_t>(history_[s], 6);
     const std::uint32_t mirrored =
@@ -170,7 +178,7 @@ class CoefficientCoder {
   }
 
   void codeVectors(Index s, std::uint32_t level, std::uint32_t near) {
-    const Site& site = h_.sites()[s];
+    const CodedSite& site = h_.sites()[s];
     std::uint32_t before = 0;
     for (Index k = 0; k < site.count; ++k) {
       const Index v = site.first + k;
@@ -193,10 +201,11 @@ class CoefficientCoder {
     Steps3& r = residual_[v];
     std::array<std::int32_t, 3> around{};
     if (k == 0)
-      for (const Index u : parents_[s])
-        for (int a = 0; a < 3; ++a) {
-          if (std::abs(residual_[u][a]) > std::abs(around[a])) around[a] = residual_[u][a];
-        }
+      for (const Term& t : parents(s))
+        for (int a = 0; a < 3; ++a)
+          if (const std::int32_t beside = residual_[t.vector][a];
+              std::abs(beside) > std::abs(around[a]))
+            around[a] = beside;
     const std::uint32_t p = phase_, order = k == 0 ? 0 : k < 3 ? 1 : 2;
     std::uint32_t pattern = 0;
     for (int a = 0; a < 3; ++a) {
@@ -234,9 +243,10 @@ class CoefficientCoder {
     constexpr std::uint32_t kUnary = 17;
     std::uint32_t n = 1;
     while (n < kUnary) {
-      const bool more = bit(kMore, static_cast<int>(std::min(n, 8u)), size > n,
-                            {place * 32 + n, (place * 8 + by) * 32 + n, (place * 8 + level) * 32 + n,
-                             v * 32 + n, level * 32 + n, (by * 8 + level) * 32 + n});
+      const bool more =
+          bit(kMore, static_cast<int>(std::min(n, 8u)), size > n,
+              {place * 32 + n, (place * 8 + by) * 32 + n, (place * 8 + level) * 32 + n, v * 32 + n,
+               level * 32 + n, (by * 8 + level) * 32 + n});
       if (!more) return n;
       ++n;
     }
@@ -259,11 +269,10 @@ class CoefficientCoder {
   const Hierarchy& h_;
   int axis_;
   Model<Coder> model_;
-  bool neutral_ = false;
   std::uint32_t phase_ = 0;
-  std::vector<char> active_, below_, kind_;
-  std::vector<Index> history_;
-  std::vector<std::vector<Index>> parents_;
+  std::vector<char> active_, below_;  // [sites]
+  std::vector<Index> history_;        // [sites] poses in which it was active
+  std::vector<Index> positionStep_;   // [sites] the step of its position
   Coefficients residual_, expected_;
 };
 

@@ -1,12 +1,19 @@
+#include <algorithm>
+#include <optional>
 #include <set>
+#include <span>
 
 #include "sweepface/codec.hpp"
 
 #include "codec/blocks.hpp"
 #include "codec/chunks.hpp"
 #include "codec/faces.hpp"
+#include "codec/lattice.hpp"
+#include "codec/limits.hpp"
+#include "codec/names.hpp"
 #include "codec/utf8.hpp"
-#include "codec/wire.hpp"
+#include "codec/wire_version1.hpp"
+#include "codec/wireframe_coder.hpp"
 
 namespace sweepface {
 
@@ -20,7 +27,9 @@ class Decoder {
   Result<Rig> run() {
     const auto chunks = readChunks(bytes_, name_);
     if (!chunks) return std::unexpected(chunks.error());
-    for (const Chunk& chunk : *chunks) {
+    kinds_ = kindsOf(chunks->version);
+    handlers_ = chunks->version == 1 ? kHandlers1 : kHandlers2;
+    for (const Chunk& chunk : chunks->list) {
       if (chunk.rank < 0) continue;
       if (auto ok = admit(chunk); !ok) return std::unexpected(ok.error());
       if (auto ok = readChunk(chunk); !ok) return std::unexpected(ok.error());
@@ -29,37 +38,144 @@ class Decoder {
   }
 
  private:
+  struct Handler {
+    void (Decoder::*read)(Reader&);
+    bool required = false, repeated = false;
+  };
+  static const Handler kHandlers1[], kHandlers2[];
+
   std::unexpected<Error> failAt(const Chunk& chunk, std::size_t byte,
                                 const std::string& what) const {
-    return fail(name_ + ", chunk '" + std::string(kKinds[chunk.rank].code) + "', byte " +
+    return fail(name_ + ", chunk '" + std::string(kinds_[chunk.rank].code) + "', byte " +
                 std::to_string(byte) + ": " + what + "; convert the source again.");
   }
 
-  // Chunks come in the order of the registry, targets as many as the head says.
+  // Chunks come in the order of the registry; targets of version 1 as many as the head says.
   Result<void> admit(const Chunk& chunk) {
-    static constexpr int kTarget = 4, kRequired = 4;
-    if (chunk.rank < rank_ || (chunk.rank == rank_ && chunk.rank != kTarget))
+    if (chunk.rank < rank_ || (chunk.rank == rank_ && !handlers_[chunk.rank].repeated))
       return failAt(chunk, chunk.offset, "it comes twice or out of its order");
-    if (chunk.rank > rank_ + 1 && rank_ + 1 < kRequired)
-      return failAt(chunk, chunk.offset,
-                    "chunk '" + std::string(kKinds[rank_ + 1].code) + "' is missing before it");
-    if (chunk.rank > kTarget && rig_.targets.size() < targets_)
+    for (int rank = rank_ + 1; rank < chunk.rank; ++rank)
+      if (handlers_[rank].required)
+        return failAt(chunk, chunk.offset,
+                      "chunk '" + std::string(kinds_[rank].code) + "' is missing before it");
+    if (rank_ >= 0 && handlers_[rank_].repeated && chunk.rank > rank_ &&
+        rig_.targets.size() < targets_)
       return failAt(chunk, chunk.offset, "targets are missing before it");
     rank_ = chunk.rank;
     return {};
   }
 
   Result<void> readChunk(const Chunk& chunk) {
-    static constexpr void (Decoder::*read[kKinds.size()])(Reader&) = {
-        &Decoder::head,      &Decoder::wireframe,   &Decoder::shapes,      &Decoder::neutral,
-        &Decoder::target,    &Decoder::loose,       &Decoder::sourceOrder, &Decoder::polygons,
-        &Decoder::texcoords, &Decoder::quadCorners, &Decoder::end};
     Reader in(chunk.payload, chunk.offset);
-    (this->*read[chunk.rank])(in);
+    (this->*handlers_[chunk.rank].read)(in);
     if (in.left() > 0) in.refuse("the chunk goes on after its last value");
     if (!in.ok()) return failAt(chunk, in.place(), in.problem());
     return {};
   }
+
+  // ---- Version 2 ----
+
+  void base(Reader& in) {
+    rig_.tolerance = in.f64();
+    if (rig_.tolerance < 0) in.refuse("the tolerance is negative");
+    rig_.packing.neutralStep = in.f64();
+    rig_.packing.targetStep = in.f64();
+    if (!(rig_.packing.neutralStep > 0) || !(rig_.packing.targetStep > 0))
+      in.refuse("a step is not positive");
+    targets_ = in.size();
+    looseCount_ = in.size();
+  }
+
+  // All that follows of a chunk, through a range decoder.
+  template <typename Read>
+  void decodeRest(Reader& in, Read read) {
+    RangeDecoder coder(in.raw(in.left()));
+    Symbols<RangeDecoder> symbols(coder);
+    if (in.ok()) read(coder, symbols);
+    if (!symbols.ok()) in.refuse(symbols.problem());
+    if (!coder.exhausted()) in.refuse("the chunk goes on after its last value");
+  }
+
+  void grid(Reader& in) {
+    // A patch, an arc or a node takes a fraction of a bit at best.
+    const std::size_t most = std::min<std::size_t>(1 << 22, 64 * in.left() + 256);
+    decodeRest(in, [&](RangeDecoder&, Symbols<RangeDecoder>& symbols) {
+      Wireframe wireframe = readWireframe(symbols, most, kMostGridVertices);
+      const auto halves = static_cast<std::uint32_t>(2 * wireframe.arcs.size());
+      rig_.packing.axis = static_cast<int>(symbols.index(kMirrorAxis, 3, 0));
+      auto& pairs = rig_.packing.mirror;
+      pairs.resize(std::min<std::size_t>(symbols.number(kMirrorCount, 0, 0, 0), halves));
+      for (auto& pair : pairs)
+        for (HalfArc& h : pair) h = static_cast<HalfArc>(symbols.index(kMirrorArc, halves, 0));
+      if (!symbols.ok()) return;
+      quads_ = gridQuads(wireframe);
+      auto surface = Surface::make(std::move(wireframe));
+      if (!surface) return symbols.refuse("the wireframe is unsound: " + surface.error().message);
+      rig_.surface = std::move(*surface);
+    });
+    if (!in.ok()) return;
+    stored_ = static_cast<std::size_t>(rig_.surface.storedCount());
+    // What is still costs nothing, so that memory is limited here.
+    if (targets_ + 1 > kMostVectors / std::max<std::size_t>(1, stored_) ||
+        (targets_ + 1) * stored_ > kVectorsAByte * bytes_.size() + kVectorsAnyway)
+      return in.refuse("there are more targets than the file can hold");
+    lattice_.emplace(rig_.surface, rig_.packing);
+  }
+
+  void names(Reader& in) {
+    decodeRest(in, [&](RangeDecoder&, Symbols<RangeDecoder>& symbols) {
+      for (std::size_t k = 0; k < targets_ && symbols.ok(); ++k) {
+        Target target;
+        target.name = codeName(symbols, "");
+        if (target.name.empty() || !isUtf8(target.name))
+          symbols.refuse("the target's name is empty or not UTF-8");
+        if (!allNames_.insert(target.name).second)
+          symbols.refuse("there are two targets named '" + target.name + "'");
+        rig_.targets.push_back(std::move(target));
+      }
+    });
+  }
+
+  void rest(Reader& in) {
+    decodeRest(in, [&](RangeDecoder& coder, Symbols<RangeDecoder>& symbols) {
+      rig_.packing.poses.resize(1);
+      CoefficientCoder<RangeDecoder> vectors(lattice_->hierarchy(), coder, lattice_->axis());
+      std::vector<Coefficients> poses(1);
+      readPose(symbols, vectors, poses, 0, rig_.neutral);
+    });
+  }
+
+  void moves(Reader& in) {
+    decodeRest(in, [&](RangeDecoder& coder, Symbols<RangeDecoder>& symbols) {
+      rig_.packing.poses.resize(targets_ + 1);
+      CoefficientCoder<RangeDecoder> vectors(lattice_->hierarchy(), coder, lattice_->axis());
+      std::vector<Coefficients> poses(targets_ + 1);
+      for (std::size_t k = 0; k < targets_ && symbols.ok(); ++k)
+        readPose(symbols, vectors, poses, static_cast<Index>(k) + 1, rig_.targets[k].difference);
+    });
+    for (Target& target : rig_.targets) target.looseDifference.resize(looseCount_);
+  }
+
+  void readPose(Symbols<RangeDecoder>& symbols, CoefficientCoder<RangeDecoder>& vectors,
+                std::vector<Coefficients>& poses, Index pose, std::vector<Vec3>& out) {
+    Packing::Pose& form = rig_.packing.poses[pose];
+    codePose(symbols, form, pose);
+    if (!symbols.ok()) return;
+    poses[pose].resize(stored_);
+    vectors.code(poses[pose], symmetryOf(form, pose), partnerOf(rig_.packing, poses, pose),
+                 pose == 0);
+    out.resize(stored_);
+    lattice_->restore(poses[pose], stepOf(rig_.packing, pose), out);
+    if (!std::ranges::all_of(out, isFinite)) symbols.refuse("a coordinate is not finite");
+  }
+
+  void drift(Reader& in) {
+    for (Target& target : rig_.targets)
+      target.looseDifference = readVectors<Vec3>(in, looseCount_, Precision::exact);
+    if (rig_.source.loose.empty()) in.refuse("there are no loose vertices that could move");
+  }
+
+  // ---- Version 1 ----
 
   void head(Reader& in) {
     rig_.tolerance = in.f64();
@@ -205,18 +321,42 @@ class Decoder {
   }
 
   void end(Reader& in) {
+    if (rig_.targets.size() < targets_) in.refuse("targets are missing");
+    for (const Target& target : rig_.targets)
+      if (target.difference.size() != stored_) in.refuse("the targets' vectors are missing");
     if (rig_.source.loose.size() != looseCount_) in.refuse("the loose vertices are missing");
   }
 
   std::string_view bytes_;
   std::string name_;
+  std::span<const Kind> kinds_;
+  const Handler* handlers_ = nullptr;
   int rank_ = -1;  // of the last chunk
   std::size_t stored_ = 0, targets_ = 0, looseCount_ = 0;
   std::size_t quads_ = 0;
   std::set<std::string_view> names_;
+  std::set<std::string> allNames_;
+  std::optional<Lattice> lattice_;
   Wireframe wireframe_;
   Rig rig_;
 };
+
+const Decoder::Handler Decoder::kHandlers1[] = {{&Decoder::head, true},
+                                                {&Decoder::wireframe, true},
+                                                {&Decoder::shapes, true},
+                                                {&Decoder::neutral, true},
+                                                {&Decoder::target, false, true},
+                                                {&Decoder::loose},
+                                                {&Decoder::sourceOrder},
+                                                {&Decoder::polygons},
+                                                {&Decoder::texcoords},
+                                                {&Decoder::quadCorners},
+                                                {&Decoder::end}};
+const Decoder::Handler Decoder::kHandlers2[] = {
+    {&Decoder::base, true}, {&Decoder::grid, true},  {&Decoder::names},
+    {&Decoder::rest, true}, {&Decoder::moves},       {&Decoder::loose},
+    {&Decoder::drift},      {&Decoder::sourceOrder}, {&Decoder::polygons},
+    {&Decoder::texcoords},  {&Decoder::quadCorners}, {&Decoder::end}};
 
 }  // namespace
 }  // namespace codec

@@ -6,75 +6,59 @@
 #include "codec/blocks.hpp"
 #include "codec/chunks.hpp"
 #include "codec/faces.hpp"
+#include "codec/lattice.hpp"
+#include "codec/names.hpp"
+#include "codec/wireframe_coder.hpp"
 
 namespace sweepface {
 
 namespace codec {
 namespace {
 
-std::string head(const Rig& rig) {
+std::string base(const Rig& rig, const Packing& packing) {
   Writer out;
   out.f64(rig.tolerance);
-  out.number(rig.neutral.size());
+  out.f64(packing.neutralStep);
+  out.f64(packing.targetStep);
   out.number(rig.targets.size());
   out.number(rig.source.loose.size());
   return out.take();
 }
 
-void writeNodes(Writer& out, const Wireframe& w) {
-  out.number(w.nodes.size());
-  Index point = -1;
-  for (const Node& node : w.nodes) {
-    out.signedNumber(node.point - std::int64_t{point});
-    out.number(node.stored);
-    point = node.point;
+std::string grid(const Wireframe& wireframe, const Packing& packing) {
+  RangeEncoder coder;
+  Symbols<RangeEncoder> out(coder);
+  writeWireframe(out, wireframe);
+  const auto halves = static_cast<std::uint32_t>(2 * wireframe.arcs.size());
+  out.index(kMirrorAxis, 3, static_cast<std::uint32_t>(packing.axis));
+  out.number(kMirrorCount, 0, 0, packing.mirror.size());
+  for (const auto& pair : packing.mirror)
+    for (const HalfArc h : pair) out.index(kMirrorArc, halves, static_cast<std::uint32_t>(h));
+  return coder.finish();
+}
+
+std::string names(const std::vector<Target>& targets) {
+  RangeEncoder coder;
+  Symbols<RangeEncoder> out(coder);
+  for (const Target& target : targets) codeName(out, target.name);
+  return coder.finish();
+}
+
+// Poses from `first` up to `end`, 0 the neutral.
+std::string poses(const Rig& rig, const Packing& packing, const Lattice& lattice, Index first,
+                  Index end) {
+  RangeEncoder coder;
+  Symbols<RangeEncoder> out(coder);
+  CoefficientCoder<RangeEncoder> vectors(lattice.hierarchy(), coder, lattice.axis());
+  std::vector<Coefficients> all(end);
+  for (Index pose = first; pose < end; ++pose) {
+    Packing::Pose form = packing.poses[pose];
+    codePose(out, form, pose);
+    all[pose] = lattice.round(pose == 0 ? rig.neutral : rig.targets[pose - 1].difference,
+                              stepOf(packing, pose));
+    vectors.code(all[pose], symmetryOf(form, pose), partnerOf(packing, all, pose), pose == 0);
   }
-}
-
-void writeArcs(Writer& out, const Wireframe& w) {
-  out.number(w.arcs.size());
-  Index from = 0, ribbon = 0;
-  for (const Arc& arc : w.arcs) {
-    out.signedNumber(arc.from - std::int64_t{from});
-    out.signedNumber(arc.to - std::int64_t{arc.from});
-    out.number(2 * static_cast<std::uint64_t>(arc.edges) + arc.collapsed);
-    out.signedNumber(arc.ribbon - std::int64_t{ribbon});
-    from = arc.from, ribbon = arc.ribbon;
-  }
-}
-
-void writePatches(Writer& out, const Wireframe& w) {
-  out.number(w.patches.size());
-  HalfArc last = 0;
-  for (Index p = 0; p < static_cast<Index>(w.patches.size()); ++p)
-    for (int s = 0; s < 4; ++s) {
-      out.number(w.side(p, s).size());
-      for (HalfArc h : w.side(p, s)) {
-        out.signedNumber(h - std::int64_t{last});
-        last = h;
-      }
-    }
-}
-
-std::string wireframe(const Wireframe& w) {
-  Writer out;
-  out.number(static_cast<std::uint64_t>(w.points));
-  writeNodes(out, w);
-  writeArcs(out, w);
-  writePatches(out, w);
-  return out.take();
-}
-
-std::string shapes(const std::vector<Shape>& ribbons) {
-  Writer out;
-  out.number(ribbons.size());
-  std::vector<bool> chosen;
-  for (const Shape& shape : ribbons) chosen.push_back(shape != Shape{});
-  writeMask(out, chosen);
-  for (const Shape& shape : ribbons)
-    if (shape != Shape{})
-      for (const double x : {shape.rho, shape.eta, shape.lambda}) out.f64(x);
-  return out.take();
+  return coder.finish();
 }
 
 std::string vectors(const std::vector<Vec3>& vectors, Precision precision) {
@@ -83,11 +67,9 @@ std::string vectors(const std::vector<Vec3>& vectors, Precision precision) {
   return out.take();
 }
 
-std::string target(const Target& target) {
+std::string drift(const std::vector<Target>& targets) {
   Writer out;
-  out.text(target.name);
-  writeVectors(out, target.difference, Precision::single);
-  writeVectors(out, target.looseDifference, Precision::exact);
+  for (const Target& target : targets) writeVectors(out, target.looseDifference, Precision::exact);
   return out.take();
 }
 
@@ -163,12 +145,19 @@ std::string encode(const Rig& rig) {
   const Polygons& faces = source.polygons;
   Writer out;
   writeHeader(out);
-  writeChunk(out, "HEAD", head(rig));
-  writeChunk(out, "WIRE", wireframe(rig.surface.wireframe()));
-  writeChunk(out, "SHAP", shapes(rig.surface.wireframe().ribbons));
-  writeChunk(out, "NEUT", vectors(rig.neutral, Precision::single));
-  for (const Target& t : rig.targets) writeChunk(out, "TARG", target(t));
-  if (!source.loose.empty()) writeChunk(out, "loos", vectors(source.loose, Precision::exact));
+  const Packing packing = completed(rig);
+  const Lattice lattice(rig.surface, packing);
+  writeChunk(out, "BASE", base(rig, packing));
+  writeChunk(out, "GRID", grid(rig.surface.wireframe(), packing));
+  if (!rig.targets.empty()) writeChunk(out, "NAME", names(rig.targets));
+  writeChunk(out, "REST", poses(rig, packing, lattice, 0, 1));
+  if (!rig.targets.empty())
+    writeChunk(out, "MOVE",
+               poses(rig, packing, lattice, 1, static_cast<Index>(rig.targets.size()) + 1));
+  if (!source.loose.empty()) {
+    writeChunk(out, "loos", vectors(source.loose, Precision::exact));
+    if (!rig.targets.empty()) writeChunk(out, "drif", drift(rig.targets));
+  }
   if (!source.gridVertex.empty()) writeChunk(out, "ordr", sourceOrder(source.gridVertex));
   if (hasFaces(faces)) writeChunk(out, "poly", polygons(faces));
   if (!faces.texcoords.empty() || !faces.cornerTexcoords.empty())

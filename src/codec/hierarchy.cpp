@@ -24,7 +24,10 @@ constexpr double kReach[3] = {1, 0.16, 0.0173};
 class HierarchyBuilder {
  public:
   HierarchyBuilder(const Surface& surface, const Mirror& mirror, Hierarchy& out)
-      : surface_(surface), w_(surface.wireframe()), c_(surface.connectivity()), mirror_(mirror),
+      : surface_(surface),
+        w_(surface.wireframe()),
+        c_(surface.connectivity()),
+        mirror_(mirror),
         out_(out) {}
 
   void build() {
@@ -44,8 +47,8 @@ class HierarchyBuilder {
  private:
   using Terms = std::vector<Term>;
 
-  // How far one unit of a vector moves the surface: what it does to the corners of patches, there by
-  // the largest values of the basis, and to what is derived from it.
+  // How far one unit of a vector moves the surface: what it does to the corners of patches, there
+  // by the largest values of the basis, and to what is derived from it.
   void measureReach() {
     reach_.assign(surface_.vectorCount(), 0);
     for (Index p = 0; p < surface_.patchCount(); ++p)
@@ -54,8 +57,13 @@ class HierarchyBuilder {
                      beta = corner % 2 ? surface_.edgesU(p) : surface_.edgesV(p);
         for (int i = 0; i < 3; ++i)
           for (int j = 0; j < 3; ++j) {
-            const double r = kReach[i] * kReach[j] * (i == 0 ? 1 : i == 1 ? alpha : alpha * alpha) *
-                             (j == 0 ? 1 : j == 1 ? beta : beta * beta);
+            const double r = kReach[i] * kReach[j] *
+                             (i == 0   ? 1
+                              : i == 1 ? alpha
+                                       : alpha * alpha) *
+                             (j == 0   ? 1
+                              : j == 1 ? beta
+                                       : beta * beta);
             double& reach = reach_[surface_.cornerJet(p, corner, i, j).vector];
             reach = std::max(reach, r);
           }
@@ -75,7 +83,7 @@ class HierarchyBuilder {
   }
 
   struct Candidate {  // a site while it is being placed
-    Site site;
+    CodedSite site;
     Terms terms;
     bool alive = true, hub = false;
     Index image = -1;
@@ -347,8 +355,7 @@ class HierarchyBuilder {
     if (hubNodes_.empty()) {
       hubNodes_.resize(all_.size());
       for (std::size_t n = 0; n < w_.nodes.size(); ++n)
-        if (isSite(static_cast<Index>(n)))
-          hubNodes_[siteOf_[n]].push_back(static_cast<Index>(n));
+        if (isSite(static_cast<Index>(n))) hubNodes_[siteOf_[n]].push_back(static_cast<Index>(n));
     }
     for (const Index node : hubNodes_[s]) visit(node);
     return result;
@@ -370,7 +377,7 @@ class HierarchyBuilder {
     std::vector<Index> rank(all_.size());
     for (std::size_t k = 0; k < order_.size(); ++k) rank[order_[k]] = static_cast<Index>(k);
     for (const Index s : order_) {
-      Site site = all_[s].site;
+      CodedSite site = all_[s].site;
       site.parent = site.parent < 0 ? -1 : rank[site.parent];
       site.mirror = all_[s].image < 0 ? -1 : rank[all_[s].image];
       if (site.parent >= 0) out_.sites_[site.parent].leaf = false;
@@ -398,7 +405,7 @@ class HierarchyBuilder {
 
   void addDerivatives(int order) {
     for (std::size_t k = 0; k < out_.sites_.size(); ++k) {
-      const Site site = out_.sites_[k];
+      const CodedSite site = out_.sites_[k];
       for (Index v = site.first; v < site.first + site.count; ++v) {
         const StoredVector& s = surface_.stored(v);
         if (std::min(2, s.i + s.j) != order) continue;
@@ -414,7 +421,7 @@ class HierarchyBuilder {
 
   // The stored derivative of a node, or -1.
   Index derivative(Index node, int i, int j) const {
-    const Site& site = out_.sites_[siteOf_[node]];
+    const CodedSite& site = out_.sites_[siteOf_[node]];
     for (Index v = site.first; v < site.first + site.count; ++v)
       if (surface_.stored(v).i == i && surface_.stored(v).j == j) return v;
     return -1;
@@ -482,7 +489,7 @@ class HierarchyBuilder {
   }
   Index position(Index node, int) const { return out_.sites_[siteOf_[node]].first; }
 
-  void atCrossing(const Site& site, const StoredVector& s, Terms& terms) const {
+  void atCrossing(const CodedSite& site, const StoredVector& s, Terms& terms) const {
     const Index node = site.node;
     const std::array<std::array<Neighbour, 2>, 2> at{
         std::array{neighbour(node, 0), neighbour(node, 2)},
@@ -503,8 +510,7 @@ class HierarchyBuilder {
       for (int e = 0; e < 2; ++e) {
         if (!at[e].has) continue;
         const double h = at[e].distance, outward = e == 0 ? 1 : -1;
-        const double weight =
-            at[1 - e].has ? at[1 - e].distance / (h + at[1 - e].distance) : 1;
+        const double weight = at[1 - e].has ? at[1 - e].distance / (h + at[1 - e].distance) : 1;
         const double s = 2 * weight / (h * h);
         add(terms, at[e].value, s);
         terms.push_back({own, -s});
@@ -545,7 +551,8 @@ class HierarchyBuilder {
     std::array<Terms, 2> across;
     std::array<bool, 2> has{};
     for (int e = 0; e < 2; ++e)
-      has[e] = at[e].has && isSite(at[e].node) && slopeAcross(at[e], (d == 0) == (e == 0), across[e]);
+      has[e] =
+          at[e].has && isSite(at[e].node) && slopeAcross(at[e], (d == 0) == (e == 0), across[e]);
     if (has[0] && has[1]) {
       const double a = at[0].distance, b = at[1].distance, s = 1 / (a * b * (a + b));
       add(terms, across[0], b * b * s);
@@ -581,7 +588,7 @@ class HierarchyBuilder {
 
   // First derivatives at an irregular point: least squares over the slopes of its spokes, which are
   // combinations of A and B.
-  void atHub(const Site& site, const StoredVector& s, Terms& terms) const {
+  void atHub(const CodedSite& site, const StoredVector& s, Terms& terms) const {
     if (s.i + s.j != 1) return;
     double xx = 0, xy = 0, yy = 0;
     Terms x, y;
@@ -606,7 +613,7 @@ class HierarchyBuilder {
     add(terms, y, (s.i == 1 ? -xy : xx) / d);
   }
 
-  std::vector<std::pair<Index, int>> spokes(const Site& site) const {
+  std::vector<std::pair<Index, int>> spokes(const CodedSite& site) const {
     std::vector<std::pair<Index, int>> result;
     const Index point = w_.nodes[site.node].point;
     const auto visit = [&](Index node) {
@@ -617,8 +624,7 @@ class HierarchyBuilder {
     if (hubOfPoint_.empty()) {
       hubOfPoint_.resize(w_.points);
       for (std::size_t n = 0; n < w_.nodes.size(); ++n)
-        if (w_.nodes[n].point >= 0)
-          hubOfPoint_[w_.nodes[n].point].push_back(static_cast<Index>(n));
+        if (w_.nodes[n].point >= 0) hubOfPoint_[w_.nodes[n].point].push_back(static_cast<Index>(n));
     }
     for (const Index node : hubOfPoint_[point])
       if (c_.kinds[node] == NodeKind::irregular) visit(node);
@@ -630,9 +636,9 @@ class HierarchyBuilder {
   // Frames of mirrored nodes: their x axes are images of each other, or x is the image of y.
   void mirrorVectors() {
     out_.images_.resize(surface_.storedCount());
-    for (const Site& site : out_.sites_) {
+    for (const CodedSite& site : out_.sites_) {
       if (site.mirror < 0) continue;
-      const Site& other = out_.sites_[site.mirror];
+      const CodedSite& other = out_.sites_[site.mirror];
       for (Index v = site.first; v < site.first + site.count; ++v) {
         const StoredVector& s = surface_.stored(v);
         out_.images_[v] = imageOf(site, other, s.i, s.j);
@@ -640,7 +646,7 @@ class HierarchyBuilder {
     }
   }
 
-  Hierarchy::Image imageOf(const Site& site, const Site& other, int i, int j) const {
+  Hierarchy::Image imageOf(const CodedSite& site, const CodedSite& other, int i, int j) const {
     if (i == 0 && j == 0) return {other.first, 1};
     const auto& arms = c_.stars[site.node].arms;
     const HalfArc x = mirror_.halfArc[arms[0]];
@@ -669,7 +675,7 @@ class HierarchyBuilder {
     return {v, sign};
   }
 
-  Index vectorAt(const Site& site, int i, int j) const {
+  Index vectorAt(const CodedSite& site, int i, int j) const {
     for (Index v = site.first; v < site.first + site.count; ++v)
       if (surface_.stored(v).i == i && surface_.stored(v).j == j) return v;
     return -1;
@@ -684,7 +690,7 @@ class HierarchyBuilder {
   std::vector<Index> siteOf_;  // [nodes]
   std::vector<Link> links_;    // [half-arcs]
   std::vector<Index> order_;
-  std::vector<double> reach_;  // [vectors]
+  std::vector<double> reach_;             // [vectors]
   Index guessed_ = -1, guessedToo_ = -1;  // nodes that may not predict themselves or each other
   mutable std::vector<std::vector<Index>> hubNodes_, hubOfPoint_;
   std::vector<char> placed_;  // [sites] roots that have their place in the order
@@ -692,44 +698,6 @@ class HierarchyBuilder {
 
 Hierarchy::Hierarchy(const Surface& surface, const Mirror& mirror) {
   HierarchyBuilder(surface, mirror, *this).build();
-}
-
-Mirror spreadMirror(const Wireframe& w, const Connectivity& c,
-                    std::span<const std::array<HalfArc, 2>> seeds) {
-  // Halves are paired as they lie in space: half-arc h with the one that bounds the image of its
-  // patch, which runs the other way round. Walking on from h is walking back there.
-  Mirror m;
-  const std::size_t halves = 2 * w.arcs.size();
-  std::vector<HalfArc> bound(halves, -1);  // h ↦ the half-arc of the image patch on the same arc
-  std::vector<HalfArc> queue;
-  const auto pair = [&](HalfArc h, HalfArc g) {
-    if (h < 0 || g < 0 || bound[h] >= 0 || bound[g] >= 0) return;
-    const Arc &a = w.arcs[arcOf(h)], &b = w.arcs[arcOf(g)];
-    if (a.edges != b.edges || a.collapsed != b.collapsed) return;
-    if ((c.cornerAt[h] >= 0) != (c.cornerAt[c.next[g]] >= 0)) return;
-    bound[h] = g;
-    bound[g] = h;
-    queue.push_back(h);
-  };
-  for (const auto& [h, g] : seeds)
-    if (c.patchOf[h] >= 0 && c.patchOf[g] >= 0) pair(h, g);
-  for (std::size_t k = 0; k < queue.size(); ++k) {
-    const HalfArc h = queue[k], g = bound[h];
-    pair(c.next[h], c.prev[g]);
-    pair(c.prev[h], c.next[g]);
-    const HalfArc th = twin(h), tg = twin(g);
-    if (c.patchOf[th] >= 0 && c.patchOf[tg] >= 0) pair(th, tg);
-  }
-  m.halfArc.assign(halves, -1);
-  m.node.assign(w.nodes.size(), -1);
-  for (HalfArc h = 0; h < static_cast<HalfArc>(halves); ++h) {
-    if (bound[h] < 0) continue;
-    m.halfArc[h] = twin(bound[h]);
-    m.halfArc[twin(h)] = bound[h];
-    m.node[w.start(h)] = w.end(bound[h]);
-    m.node[w.end(h)] = w.start(bound[h]);
-  }
-  return m;
 }
 
 }  // namespace sweepface::codec

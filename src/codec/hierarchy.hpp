@@ -5,16 +5,12 @@
 
 #include "sweepface/surface.hpp"
 
+#include "codec/mirror.hpp"
+
 namespace sweepface::codec {
 
-/// The mirror image of a wireframe on itself, as far as it goes.
-struct Mirror {
-  std::vector<HalfArc> halfArc;  ///< [half-arcs] the one that runs the other way there, or -1
-  std::vector<Index> node;       ///< [nodes] or -1
-};
-
 /// The stored vectors of one node, or of all nodes at an irregular point.
-struct Site {
+struct CodedSite {
   Index node = -1;    ///< the first of them
   Index first = -1;   ///< its first stored vector: the position
   Index count = 0;    ///< of stored vectors
@@ -36,7 +32,7 @@ class Hierarchy {
   Hierarchy(const Surface& surface, const Mirror& mirror);
 
   /// Coarse to fine: parents come before children, mirror images one after the other.
-  const std::vector<Site>& sites() const { return sites_; }
+  const std::vector<CodedSite>& sites() const { return sites_; }
 
   struct Step {
     Index vector = -1;  ///< a stored one
@@ -59,14 +55,10 @@ class Hierarchy {
 
  private:
   friend class HierarchyBuilder;
-  std::vector<Site> sites_;
+  std::vector<CodedSite> sites_;
   std::vector<Step> steps_;
   std::vector<Term> terms_;
   std::vector<Image> images_;
 };
-
-/// Completes a mirror from pairs of half-arcs that mirror each other, one pair a component or more.
-Mirror spreadMirror(const Wireframe& wireframe, const Connectivity& connectivity,
-                    std::span<const std::array<HalfArc, 2>> seeds);
 
 }  // namespace sweepface::codec

@@ -140,7 +140,8 @@ std::uint32_t lineClass(const Wireframe& w, const Connectivity& c, Index node, i
   int arms = 0;
   for (std::size_t k = static_cast<std::size_t>(axis); k < star.arms.size() && k < 4; k += 2) {
     const Rail& rail = c.rails[star.arms[k]];
-    reach[arms++] = c.kinds[w.end(rail.last)] == NodeKind::hanging ? 2 * rail.edges - 1 : rail.edges;
+    reach[arms++] =
+        c.kinds[w.end(rail.last)] == NodeKind::hanging ? 2 * rail.edges - 1 : rail.edges;
   }
   const std::int64_t shorter = std::min(reach[0], reach[1]), longer = std::max(reach[0], reach[1]);
   const std::int64_t own = arms < 2 ? shorter + longer : shorter + std::min(longer, 3 * shorter);
@@ -165,8 +166,8 @@ class LoopCoder {
     taken_.assign(2 * arcs, 0);
     straight_.assign(nodes, 0);
     for (Index p = 0; p < static_cast<Index>(patches) && s_.ok(); ++p) codePatch(p);
-    if (s_.ok() && (unusedNode() < static_cast<Index>(nodes) ||
-                    unusedArc() < static_cast<Index>(arcs)))
+    if (s_.ok() &&
+        (unusedNode() < static_cast<Index>(nodes) || unusedArc() < static_cast<Index>(arcs)))
       s_.refuse("a node or an arc bounds no patch");
   }
 
@@ -217,7 +218,8 @@ class LoopCoder {
       while (head_ < queue_.size() && !isOpen(queue_[head_])) ++head_;
       if (head_ >= queue_.size()) return;
       const HalfArc h = queue_[head_];
-      if (!s_.bit(kBorder, degree(w_.start(h)), degree(w_.end(h)), kWrites<Coder> && bordersNothing(h)))
+      if (!s_.bit(kBorder, degree(w_.start(h)), degree(w_.end(h)),
+                  kWrites<Coder> && bordersNothing(h)))
         return;
       taken_[h] = 1;
     }
@@ -243,8 +245,7 @@ class LoopCoder {
     patch.sides[0] = static_cast<Index>(w_.loops.size());
     int side = 0;
     for (const Piece& piece : loop) {
-      for (; side < piece.side; ++side)
-        patch.sides[side + 1] = static_cast<Index>(w_.loops.size());
+      for (; side < piece.side; ++side) patch.sides[side + 1] = static_cast<Index>(w_.loops.size());
       w_.loops.push_back(piece.h);
     }
     patch.sides[4] = static_cast<Index>(w_.loops.size());
@@ -335,7 +336,8 @@ class LoopCoder {
   void codeNewArc(HalfArc h) {
     const Index expected = unusedArc();
     Index arc = kWrites<Coder> ? arcOf(h) : expected;
-    if (expected >= static_cast<Index>(w_.arcs.size())) return s_.refuse("there are more arcs than announced");
+    if (expected >= static_cast<Index>(w_.arcs.size()))
+      return s_.refuse("there are more arcs than announced");
     if (!s_.bit(kNewArc, 0, 0, arc == expected))
       arc = static_cast<Index>(
           s_.index(kNewArcIndex, static_cast<std::uint32_t>(w_.arcs.size()), arc));
@@ -361,7 +363,8 @@ class LoopCoder {
   bool codeCorner(const Asked& asked, int side, const std::array<std::int64_t, 4>& length,
                   std::uint32_t context, std::uint32_t more) {
     if (side < 2) return s_.bit(kCorner, context, more, asked.corner);
-    if (length[side] > length[side - 2]) s_.refuse("a patch has opposite sides of different length");
+    if (length[side] > length[side - 2])
+      s_.refuse("a patch has opposite sides of different length");
     return length[side] == length[side - 2];
   }
 
@@ -403,14 +406,16 @@ class LoopCoder {
   Index codeLength(Index edges, int side, const std::array<std::int64_t, 4>& length) {
     constexpr Index kLongest = 65535;
     const std::int64_t remaining = side < 2 ? 0 : length[side - 2] - length[side];
-    if (side >= 2 && s_.bit(kRemaining, static_cast<std::uint32_t>(std::min<std::int64_t>(remaining, 9)),
-                            side, edges == remaining))
+    if (side >= 2 &&
+        s_.bit(kRemaining, static_cast<std::uint32_t>(std::min<std::int64_t>(remaining, 9)), side,
+               edges == remaining))
       return checkedLength(remaining, kLongest);
-    const auto context = static_cast<std::uint32_t>(
-        side == 0 ? 0 : 1 + std::min<std::int64_t>(length[side - 1], 8));
-    return checkedLength(1 + std::int64_t{s_.number(kLength, context, side,
-                                                    static_cast<std::uint64_t>(std::max(0, edges - 1)))},
-                         kLongest);
+    const auto context =
+        static_cast<std::uint32_t>(side == 0 ? 0 : 1 + std::min<std::int64_t>(length[side - 1], 8));
+    return checkedLength(
+        1 + std::int64_t{s_.number(kLength, context, side,
+                                   static_cast<std::uint64_t>(std::max(0, edges - 1)))},
+        kLongest);
   }
   Index checkedLength(std::int64_t edges, Index longest) {
     if (edges >= 1 && edges <= longest) return static_cast<Index>(edges);
@@ -546,15 +551,16 @@ class WireframeCoder {
     same = s_.bit(kAsExpected, 0, 0, same);
     for (std::size_t n = 0; n < expected.size() && s_.ok(); ++n) {
       Index point = expected[n];
-      if (!same) point = expected[n] + s_.signedNumber(kPoint, 0, 0, std::int64_t{told(n)} - expected[n]);
+      if (!same)
+        point = expected[n] + s_.signedNumber(kPoint, 0, 0, std::int64_t{told(n)} - expected[n]);
       if (point < -1 || point >= static_cast<Index>(expected.size()))
         s_.refuse("a node stands at a point that does not exist");
       w_.nodes[n].point = point;
       w_.points = std::max(w_.points, point + 1);
     }
     for (const Arc& arc : w_.arcs)
-      if (arc.collapsed && (w_.nodes[arc.from].point < 0 ||
-                            w_.nodes[arc.from].point != w_.nodes[arc.to].point))
+      if (arc.collapsed &&
+          (w_.nodes[arc.from].point < 0 || w_.nodes[arc.from].point != w_.nodes[arc.to].point))
         s_.refuse("a collapsed arc joins two points");
     const auto extra = s_.number(kCounts, 1, 0, whole_ ? whole_->points - w_.points : 0);
     if (extra > expected.size()) return s_.refuse("there are more points than nodes");
@@ -576,7 +582,8 @@ class WireframeCoder {
       w_.arcs[a].ribbon = ribbon;
       most = std::max(most, ribbon);
     }
-    const auto extra = s_.number(kCounts, 2, 0, whole_ ? static_cast<Index>(whole_->ribbons.size()) - most - 1 : 0);
+    const auto extra = s_.number(
+        kCounts, 2, 0, whole_ ? static_cast<Index>(whole_->ribbons.size()) - most - 1 : 0);
     if (extra > expected.size()) return s_.refuse("there are more ribbons than arcs");
     if (s_.ok()) w_.ribbons.resize(static_cast<std::size_t>(most) + 1 + extra);
   }
@@ -584,7 +591,8 @@ class WireframeCoder {
   // A set that is closed downwards, component by component.
   void codeMasks() {
     const auto connectivity = Connectivity::make(w_);
-    if (!connectivity) return s_.refuse("the wireframe is unsound: " + connectivity.error().message);
+    if (!connectivity)
+      return s_.refuse("the wireframe is unsound: " + connectivity.error().message);
     for (Index n = 0; n < static_cast<Index>(w_.nodes.size()); ++n) {
       const std::uint32_t x = lineClass(w_, *connectivity, n, 0),
                           y = lineClass(w_, *connectivity, n, 1);

@@ -3,8 +3,9 @@
 #include <span>
 #include <vector>
 
-#include "mesh/grid_mesh.hpp"
 #include "sweepface/vec.hpp"
+
+#include "mesh/grid_mesh.hpp"
 
 namespace sweepface {
 
