@@ -46,6 +46,8 @@ struct Packing {
     friend bool operator==(const Pose&, const Pose&) = default;
   };
   std::vector<Pose> poses;  ///< the neutral, then the targets
+  /// Texture coordinates are held as multiples of 1 / 2^textureBits; 0: exactly.
+  int textureBits = 0;
   friend bool operator==(const Packing&, const Packing&) = default;
 };
 

@@ -11,6 +11,7 @@
 #include "codec/lattice.hpp"
 #include "codec/limits.hpp"
 #include "codec/names.hpp"
+#include "codec/source_coder.hpp"
 #include "codec/utf8.hpp"
 #include "codec/wire_version1.hpp"
 #include "codec/wireframe_coder.hpp"
@@ -98,7 +99,7 @@ class Decoder {
 
   void grid(Reader& in) {
     // A patch, an arc or a node takes a fraction of a bit at best.
-    const std::size_t most = std::min<std::size_t>(1 << 22, 64 * in.left() + 256);
+    const std::size_t most = within(kMostPatches, kPatchesAByte, kPatchesAnyway, in.left());
     decodeRest(in, [&](RangeDecoder&, Symbols<RangeDecoder>& symbols) {
       Wireframe wireframe = readWireframe(symbols, most, kMostGridVertices);
       const auto halves = static_cast<std::uint32_t>(2 * wireframe.arcs.size());
@@ -167,6 +168,41 @@ class Decoder {
     out.resize(stored_);
     lattice_->restore(poses[pose], stepOf(rig_.packing, pose), out);
     if (!std::ranges::all_of(out, isFinite)) symbols.refuse("a coordinate is not finite");
+  }
+
+  // What is told by the grid of the patches takes less than a bit each; its size is checked here.
+  const LevelOne* levelOne(Reader& in) {
+    if (quads_ > within(kMostQuads, kQuadsAByte, kQuadsAnyway, in.left())) {
+      in.refuse("the patches have too many vertices for so few bytes");
+      return nullptr;
+    }
+    if (!levelOne_) levelOne_.emplace(rig_.surface);
+    return &*levelOne_;
+  }
+
+  void walk(Reader& in) {
+    const LevelOne* grid = levelOne(in);
+    const std::size_t most = within(kMostQuads, kQuadsAByte, kQuadsAnyway, in.left());
+    if (grid)
+      decodeRest(in, [&](RangeDecoder&, Symbols<RangeDecoder>& symbols) {
+        readOrder(symbols, *grid, most, rig_.source);
+      });
+  }
+
+  void faces(Reader& in) {
+    const LevelOne* grid = levelOne(in);
+    const std::size_t most = within(kMostQuads, kQuadsAByte, kQuadsAnyway, in.left());
+    if (grid)
+      decodeRest(in, [&](RangeDecoder&, Symbols<RangeDecoder>& symbols) {
+        readFaces(symbols, *grid, most, rig_.source);
+      });
+  }
+
+  void texture(Reader& in) {
+    const std::size_t most = within(kMostQuads, kQuadsAByte, kQuadsAnyway, in.left());
+    decodeRest(in, [&](RangeDecoder&, Symbols<RangeDecoder>& symbols) {
+      readTexture(symbols, most, rig_.source.polygons, rig_.packing.textureBits);
+    });
   }
 
   void drift(Reader& in) {
@@ -337,6 +373,7 @@ class Decoder {
   std::set<std::string_view> names_;
   std::set<std::string> allNames_;
   std::optional<Lattice> lattice_;
+  std::optional<LevelOne> levelOne_;
   Wireframe wireframe_;
   Rig rig_;
 };
@@ -353,10 +390,10 @@ const Decoder::Handler Decoder::kHandlers1[] = {{&Decoder::head, true},
                                                 {&Decoder::quadCorners},
                                                 {&Decoder::end}};
 const Decoder::Handler Decoder::kHandlers2[] = {
-    {&Decoder::base, true}, {&Decoder::grid, true},  {&Decoder::names},
-    {&Decoder::rest, true}, {&Decoder::moves},       {&Decoder::loose},
-    {&Decoder::drift},      {&Decoder::sourceOrder}, {&Decoder::polygons},
-    {&Decoder::texcoords},  {&Decoder::quadCorners}, {&Decoder::end}};
+    {&Decoder::base, true},  {&Decoder::grid, true},  {&Decoder::names},    {&Decoder::rest, true},
+    {&Decoder::moves},       {&Decoder::loose},       {&Decoder::drift},    {&Decoder::walk},
+    {&Decoder::sourceOrder}, {&Decoder::faces},       {&Decoder::polygons}, {&Decoder::texture},
+    {&Decoder::texcoords},   {&Decoder::quadCorners}, {&Decoder::end}};
 
 }  // namespace
 }  // namespace codec

@@ -7,7 +7,10 @@
 #include "codec/chunks.hpp"
 #include "codec/faces.hpp"
 #include "codec/lattice.hpp"
+#include "codec/limits.hpp"
 #include "codec/names.hpp"
+#include "codec/source_coder.hpp"
+#include "codec/wire_version1.hpp"
 #include "codec/wireframe_coder.hpp"
 
 namespace sweepface {
@@ -136,13 +139,52 @@ std::string quadCorners(const SourceMesh& source) {
   return out.take();
 }
 
+template <typename Write>
+std::string ranged(Write write) {
+  RangeEncoder coder;
+  Symbols<RangeEncoder> out(coder);
+  write(out);
+  return coder.finish();
+}
+
+// By the grid of the patches, unless that is so large that a reader would not trust so few bytes.
+void writeSource(Writer& out, const Rig& rig, int textureBits) {
+  const SourceMesh& source = rig.source;
+  const Polygons& faces = source.polygons;
+  const std::size_t quads = gridQuads(rig.surface.wireframe());
+  const auto trusted = [&](const std::string& bytes) {
+    return quads <= within(kMostQuads, kQuadsAByte, kQuadsAnyway, bytes.size());
+  };
+  std::string order, polygonBytes;
+  bool byGrid = quads <= kMostQuads;
+  if (byGrid) {
+    const LevelOne grid(rig.surface);
+    order = ranged([&](auto& symbols) { writeOrder(symbols, grid, source); });
+    polygonBytes = ranged([&](auto& symbols) { writeFaces(symbols, grid, source); });
+    byGrid = trusted(order) && trusted(polygonBytes);
+  }
+  if (!source.gridVertex.empty())
+    byGrid ? writeChunk(out, "walk", order)
+           : writeChunk(out, "ordr", sourceOrder(source.gridVertex));
+  if (hasFaces(faces))
+    byGrid ? writeChunk(out, "face", polygonBytes) : writeChunk(out, "poly", polygons(faces));
+  if (!faces.texcoords.empty() || !faces.cornerTexcoords.empty()) {
+    if (textureBits > 0)
+      writeChunk(out, "text",
+                 ranged([&](auto& symbols) { writeTexture(symbols, faces, textureBits); }));
+    else
+      writeChunk(out, "texc", texcoords(faces));
+  }
+  if (!source.quadCorners.empty() && !(byGrid && hasFaces(faces)))
+    writeChunk(out, "quad", quadCorners(source));
+}
+
 }  // namespace
 }  // namespace codec
 
 std::string encode(const Rig& rig) {
   using namespace codec;
   const SourceMesh& source = rig.source;
-  const Polygons& faces = source.polygons;
   Writer out;
   writeHeader(out);
   const Packing packing = completed(rig);
@@ -158,11 +200,7 @@ std::string encode(const Rig& rig) {
     writeChunk(out, "loos", vectors(source.loose, Precision::exact));
     if (!rig.targets.empty()) writeChunk(out, "drif", drift(rig.targets));
   }
-  if (!source.gridVertex.empty()) writeChunk(out, "ordr", sourceOrder(source.gridVertex));
-  if (hasFaces(faces)) writeChunk(out, "poly", polygons(faces));
-  if (!faces.texcoords.empty() || !faces.cornerTexcoords.empty())
-    writeChunk(out, "texc", texcoords(faces));
-  if (!source.quadCorners.empty()) writeChunk(out, "quad", quadCorners(source));
+  writeSource(out, rig, packing.textureBits);
   writeChunk(out, "END ", {});
   return out.take();
 }

@@ -29,6 +29,8 @@ constexpr double kNeutralStep = 0.25, kTargetStep = 0.5;
 // The neutral spends this share of the tolerance, so that its poses have room.
 constexpr double kNeutralShare = 0.75;
 constexpr int kMostFiner = 8;
+// A quarter of a texel of a texture of 4096 x 4096.
+constexpr int kTextureBits = 14;
 
 // What one unit step of each coefficient does to the vertices: its column.
 struct Columns {
@@ -155,6 +157,7 @@ class PoseQuantiser {
     constexpr int kSweeps = 10;
     for (int sweep = 0; sweep < kSweeps; ++sweep) {
       Index changed = 0;
+      findWanted();
       for (std::size_t k = h_.steps().size(); k-- > 0;)
         for (int a = 0; a < 3; ++a) changed += improve(h_.steps()[k].vector, a);
       if (changed == 0) break;
@@ -163,6 +166,16 @@ class PoseQuantiser {
   }
 
  private:
+  // Coefficients that are zero may be wanted only where an error is well on its way to the bound.
+  void findWanted() {
+    constexpr float kOnItsWay = 0.3f;
+    wanted_.assign(q_->size(), 0);
+    for (Index u = 0; u < static_cast<Index>(error_[0].size()); ++u)
+      if (squareAt(u) > kOnItsWay)
+        for (Index r = columns_.rowStart[u]; r < columns_.rowStart[u + 1]; ++r)
+          wanted_[columns_.rowVector[r]] = 1;
+  }
+
   // Vertices that are still beyond the bound: whatever move helps most there, bits hardly counting.
   void repair() {
     beyond_ = 100 * kBeyond;
@@ -306,6 +319,7 @@ class PoseQuantiser {
       if (std::abs(before) > 1) tries[count++] = 0;
       tries[count++] = before + out;
     } else {
+      if (!wanted_[v] && (image.vector < 0 || !wanted_[image.vector])) return false;
       float g = gradient(v, a);
       if (image.vector >= 0) g += static_cast<float>(sign) * gradient(image.vector, a);
       if (std::abs(g) < 1) return false;
@@ -334,6 +348,7 @@ class PoseQuantiser {
   const Coefficients* expected_ = nullptr;
   std::array<std::vector<float>, 3> error_;
   std::vector<int> inSite_, inVector_;
+  std::vector<char> wanted_;  // [S]
   float beyond_ = kBeyond;
 };
 
@@ -349,6 +364,7 @@ class Quantiser {
     rig.packing = {};
     rig.packing.neutralStep = kNeutralStep * tolerance;
     rig.packing.targetStep = kTargetStep * tolerance;
+    rig.packing.textureBits = kTextureBits;
     const codec::MirrorSeeds seeds = codec::findMirror(rig.surface, rig.neutral);
     rig.packing.axis = seeds.axis;
     rig.packing.mirror = seeds.pairs;
