@@ -7,8 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "sweepface/io.hpp"
 #include "sweepface/result.hpp"
 #include "sweepface/rig.hpp"
+
+#include "output.hpp"
 
 namespace sweepface::cli {
 
@@ -60,6 +63,10 @@ CLI::Validator positiveNumber(double high = 0);
 // ---- Files ----
 
 Result<Rig> readFace(const std::string& path);
+
+/// The face that addMeshes() named.
+Result<RigSource> readMeshes(const std::string& neutral, const std::vector<std::string>& targets,
+                             ProgressBar& bar);
 
 /// Whether a file can be made at `output` without loss of an input, asked before the long work. A
 /// name that ends in one of `foreign` promises another kind of file.
