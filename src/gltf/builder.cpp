@@ -16,6 +16,9 @@ void align(std::string& bytes, std::size_t size) {
   bytes.resize((bytes.size() + size - 1) / size * size, '\0');
 }
 
+/// Elements of attributes begin at multiples of four bytes.
+std::size_t strideOf(std::size_t elementSize) { return (elementSize + 3) / 4 * 4; }
+
 const char* shapeOf(std::size_t width) {
   static constexpr std::array names{"", "SCALAR", "VEC2", "VEC3", "VEC4"};
   return width < names.size() ? names[width] : "MAT4";
@@ -94,7 +97,8 @@ void Builder::set(std::size_t index, const Column& column, Use use) {
   const std::size_t sparse =
       rows.size() * (column.elementSize() + sizeOf(typeOfIndices(column.count())));
   if (rows.empty()) return;  // an accessor without data is all zeros
-  if (sparse + sparseOverhead < column.bytes.size())
+  const std::size_t dense = column.count() * strideOf(column.elementSize());
+  if (sparse + sparseOverhead < dense)
     setSparse(accessor, column, rows);
   else
     setDense(accessor, column, use);
@@ -103,7 +107,7 @@ void Builder::set(std::size_t index, const Column& column, Use use) {
 void Builder::setDense(Json& accessor, const Column& column, Use use) {
   const bool perVertex = use == Use::vertices || use == Use::morphs;
   const std::size_t size = column.elementSize();
-  const std::size_t stride = perVertex ? (size + 3) / 4 * 4 : size;
+  const std::size_t stride = perVertex ? strideOf(size) : size;
   const int target = perVertex ? vertexBuffer : use == Use::indices ? indexBuffer : 0;
   if (stride == size) {
     accessor["bufferView"] = addView(column.bytes, 0, target);

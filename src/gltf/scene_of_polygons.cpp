@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <map>
 
+#include "gltf/bound_scene.hpp"
 #include "gltf/builder.hpp"
-#include "gltf/scene.hpp"
 #include "gltf/triangulate.hpp"
 
 namespace sweepface::gltf {
@@ -69,7 +69,7 @@ class SceneMaker {
   SceneMaker(const Rig& rig, const std::vector<Vec3>& positions)
       : rig_(rig), polygons_(rig.source.polygons), positions_(positions), splitter_(rig.source) {}
 
-  Result<Scene> make() {
+  Result<BoundScene> make() {
     cutFaces();
     if (triangles_.empty())
       return fail("The face has no polygon with three different corners to export.");
@@ -168,12 +168,12 @@ class SceneMaker {
   std::map<Index, std::vector<Index>> triangles_;  // by material: vertices
   std::vector<Index> faceMaterial_;
   Json attributes_, targets_ = Json::array();
-  Scene scene_;
+  BoundScene scene_;
 };
 
 }  // namespace
 
-Result<Scene> sceneOfPolygons(const Rig& rig, const std::vector<Vec3>& positions) {
+Result<BoundScene> sceneOfPolygons(const Rig& rig, const std::vector<Vec3>& positions) {
   return SceneMaker(rig, positions).make();
 }
 

@@ -7,7 +7,7 @@
 namespace sweepface::gltf {
 
 /// A glTF with the parts of a rig in it, and which of the rig's vertices and faces theirs are.
-struct Scene {
+struct BoundScene {
   Document document;
   Parts parts;
   std::vector<Index> targets;       ///< [parts.targets] the rig's target of each
@@ -17,10 +17,10 @@ struct Scene {
 };
 
 /// The scene that came with a rig. Fails where the two do not fit.
-Result<Scene> sceneOf(const Rig& rig);
+Result<BoundScene> sceneOf(const Rig& rig);
 
 /// A scene of one mesh made from a rig's polygons: a primitive for every material, the vertices in
 /// their order, more of them where texture coordinates differ. `positions` are the neutral's.
-Result<Scene> sceneOfPolygons(const Rig& rig, const std::vector<Vec3>& positions);
+Result<BoundScene> sceneOfPolygons(const Rig& rig, const std::vector<Vec3>& positions);
 
 }  // namespace sweepface::gltf
