@@ -9,7 +9,6 @@
 #include <unistd.h>
 
 #include "sweepface/codec.hpp"
-#include "sweepface/io.hpp"
 
 namespace sweepface::cli {
 namespace {
@@ -76,7 +75,9 @@ CLI::Option* addLod(CLI::App& app, int& lod, const std::string& description) {
 }
 
 void addMeshes(CLI::App& app, std::string& neutral, std::vector<std::string>& targets) {
-  app.add_option("NEUTRAL", neutral, "The face at rest, an .obj or .ply file")
+  app.add_option(
+         "NEUTRAL", neutral,
+         "The face at rest, an .obj or .ply file; or a face with its expressions, a .glb or .gltf")
       ->required()
       ->type_name("");
   app.add_option("TARGETS", targets,
@@ -124,6 +125,14 @@ Result<Rig> readFace(const std::string& path) {
 }
 
 bool isOfKind(const fs::path& path, std::string_view kind) { return extension(path) == kind; }
+
+Result<RigSource> readMeshes(const std::string& neutral, const std::vector<std::string>& targets,
+                             ProgressBar& bar) {
+  const std::vector<fs::path> paths(targets.begin(), targets.end());
+  return readSource(neutral, paths, [&](std::size_t done, std::size_t total) {
+    bar.show("reading", static_cast<double>(done) / static_cast<double>(total));
+  });
+}
 
 Result<void> checkOutput(const fs::path& output, const std::vector<std::string>& inputs,
                          std::initializer_list<std::string_view> foreign) {

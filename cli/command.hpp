@@ -7,8 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "sweepface/io.hpp"
 #include "sweepface/result.hpp"
 #include "sweepface/rig.hpp"
+
+#include "output.hpp"
 
 namespace sweepface::cli {
 
@@ -70,6 +73,10 @@ Result<Rig> readFace(const std::string& path);
 
 /// Whether a file's name ends like ".glb", in small or large letters.
 bool isOfKind(const std::filesystem::path& path, std::string_view kind);
+
+/// The face that addMeshes() named.
+Result<RigSource> readMeshes(const std::string& neutral, const std::vector<std::string>& targets,
+                             ProgressBar& bar);
 
 /// Whether a file can be made at `output` without loss of an input, asked before the long work. A
 /// name that ends in one of `foreign` promises another kind of file.

@@ -103,23 +103,6 @@ Result<void> checkVersion(const Json& json) {
 
 // ---- Extensions ----
 
-/// Extensions without which a file may be read: they do not change where vertices are.
-bool isHarmless(std::string_view name) {
-  constexpr std::array prefixes{"KHR_materials_", "KHR_lights_",  "EXT_lights_",
-                                "KHR_texture_",   "EXT_texture_", "MSFT_texture_",
-                                "KHR_xmp",        "KHR_audio",    "VRMC_"};
-  constexpr std::array names{"KHR_mesh_quantization",
-                             "EXT_meshopt_compression",
-                             "KHR_meshopt_compression",
-                             "KHR_animation_pointer",
-                             "KHR_node_visibility",
-                             "EXT_mesh_gpu_instancing",
-                             "MSFT_lod",
-                             "VRM"};
-  return std::ranges::any_of(prefixes, [&](auto prefix) { return name.starts_with(prefix); }) ||
-         std::ranges::find(names, name) != names.end();
-}
-
 Result<void> checkExtensions(const Json& json) {
   Members in(json, "the file");
   for (const Json& entry : in.array("extensionsRequired")) {
@@ -128,11 +111,8 @@ Result<void> checkExtensions(const Json& json) {
           "'extensionsRequired' is not a list of names; export the "
           "file again.");
     const std::string& name = entry.get_ref<const std::string&>();
-    if (name == "KHR_draco_mesh_compression")
-      return fail(
-          "it is compressed with Draco, which this program does not read; decode it with "
-          "`npx @gltf-transform/cli copy IN.glb OUT.glb`.");
-    if (!isHarmless(name))
+    if (name == "KHR_draco_mesh_compression") return fail(std::string(dracoRefusal));
+    if (!isHarmlessExtension(name))
       return fail(
           fmt::format("it requires the extension {}, which this program does not know; "
                       "export it without.",
@@ -184,6 +164,7 @@ class Loader {
     if (bytes.size() < length)
       in.refuse(fmt::format("it has {} of its {} bytes", bytes.size(), length));
     if (!in.ok()) return in.error();
+    document_.sourceBytes += in.has("uri") ? bytes.size() : 0;
     bytes.resize(length);
     total_ += length;
     if (total_ > io::maxFileBytes)
@@ -286,6 +267,22 @@ void forgetExtension(Json& json, std::string_view name) {
 
 }  // namespace
 
+bool isHarmlessExtension(std::string_view name) {
+  constexpr std::array prefixes{"KHR_materials_", "KHR_lights_",  "EXT_lights_",
+                                "KHR_texture_",   "EXT_texture_", "MSFT_texture_",
+                                "KHR_xmp",        "KHR_audio",    "VRMC_"};
+  constexpr std::array names{"KHR_mesh_quantization",
+                             "EXT_meshopt_compression",
+                             "KHR_meshopt_compression",
+                             "KHR_animation_pointer",
+                             "KHR_node_visibility",
+                             "EXT_mesh_gpu_instancing",
+                             "MSFT_lod",
+                             "VRM"};
+  return std::ranges::any_of(prefixes, [&](auto prefix) { return name.starts_with(prefix); }) ||
+         std::ranges::find(names, name) != names.end();
+}
+
 Result<Document> parseDocument(std::string_view bytes, const fs::path& folder) {
   if (bytes.size() > io::maxFileBytes)
     return fail("it is larger than 2 GiB; export only the face.");
@@ -304,6 +301,7 @@ Result<Document> parseDocument(std::string_view bytes, const fs::path& folder) {
   document.json = std::move(*json);
   for (const auto check : {checkVersion, checkExtensions, checkLists})
     if (auto ok = check(document.json); !ok) return std::unexpected(ok.error());
+  document.sourceBytes = bytes.size();
   if (auto ok = Loader(document, container, folder).load(); !ok) return std::unexpected(ok.error());
   for (const char* name : {"EXT_meshopt_compression", "KHR_meshopt_compression"})
     forgetExtension(document.json, name);

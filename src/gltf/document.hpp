@@ -23,6 +23,7 @@ struct Document {
   Json json;
   std::vector<std::string> buffers;
   std::vector<BufferView> views;  ///< as json tells; each lies within its buffer
+  std::size_t sourceBytes = 0;    ///< of the file and of those that it names
   std::vector<std::string> warnings;
 
   std::string_view bytesOf(std::size_t view) const {
@@ -35,6 +36,14 @@ struct Document {
 /// Reads a .glb or .gltf with its buffers. Other files are read from `folder` alone, and none if it
 /// is empty. Messages do not name the file.
 Result<Document> parseDocument(std::string_view bytes, const std::filesystem::path& folder);
+
+inline constexpr std::string_view dracoRefusal =
+    "it is compressed with Draco, which this program does not read; decode it with `npx "
+    "@gltf-transform/cli copy IN.glb OUT.glb`.";
+
+/// Whether it is known that an extension changes no vertex, and where it refers to buffer views: in
+/// members of that name alone.
+bool isHarmlessExtension(std::string_view name);
 
 /// A GLB of a JSON and the bytes of its first buffer.
 std::string formatContainer(const Json& json, std::string_view binary);

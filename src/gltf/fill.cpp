@@ -1,6 +1,7 @@
 #include "gltf/fill.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <tbb/parallel_for.h>
 
 namespace sweepface::gltf {
@@ -8,6 +9,8 @@ namespace {
 
 // So many targets are evaluated at once; more would only take more memory.
 constexpr std::size_t batch = 16;
+// Half of a float's last digit, as a share of the number.
+constexpr double halfDigit = 0x1p-24;
 // Lengths in a GLB have 32 bits, and the JSON must find room as well.
 constexpr std::size_t mostBytes = (std::size_t{1} << 32) - (std::size_t{1} << 24);
 
@@ -17,9 +20,10 @@ class Packer {
   Packer(const Affine& world, const Encoding& encoding, const std::vector<Index>& places)
       : world_(world), fromScene_(world.inverse()), encoding_(encoding), places_(places) {}
 
-  Column positions(const std::vector<Vec3>& points) const {
+  Column positions(const std::vector<Vec3>& points) {
     return packed([&](Index place) {
       const Vec3 p = fromScene_.point(points[place]);
+      largest_ = std::max({largest_, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
       return encoding_.quantized ? (p - encoding_.middle) * (1 / encoding_.half) : p;
     });
   }
@@ -37,7 +41,8 @@ class Packer {
     std::vector<Vec3> list = normalsOf(neutral);
     for (std::size_t v = 0; v < list.size(); ++v) {
       const Vec3 before = neutral[places_[v]], after = before + differences[places_[v]];
-      list[v] = after == before ? Vec3{} : normal(after) - list[v];
+      const Vec3 change = normal(after) - list[v];
+      list[v] = norm(change) <= halfDigit ? Vec3{} : change;
     }
     const auto isFraction = [](const Vec3& d) {
       return std::abs(d.x) <= 1 && std::abs(d.y) <= 1 && std::abs(d.z) <= 1;
@@ -74,6 +79,7 @@ class Packer {
   Affine fromScene_;
   const Encoding& encoding_;
   const std::vector<Index>& places_;
+  double largest_ = 0;  // coordinate of the neutral
 };
 
 class Filler {

@@ -126,6 +126,8 @@ class PartFinder {
     Primitive primitive;
     primitive.index = index;
     Members attributes(in.object("attributes"), place(mesh, index));
+    if (gltf::find(in.object("extensions"), "KHR_draco_mesh_compression"))
+      return fail(std::string(dracoRefusal));
     if (in.ok() && !attributes.has("POSITION")) in.refuse("it has triangles without POSITION");
     if (!in.ok()) return in.error();
     primitive.position =
