@@ -6,32 +6,12 @@
 
 #include "sweepface/clip.hpp"
 
+#include "io/json_text.hpp"
+
 namespace sweepface {
 namespace {
 
 using Json = nlohmann::json;
-
-/// The parser of nlohmann-json keeps a stack of its own, but its values are freed by recursion.
-bool isTooDeep(std::string_view text) {
-  int depth = 0;
-  bool inString = false;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const char c = text[i];
-    if (inString) {
-      if (c == '\\')
-        ++i;
-      else if (c == '"')
-        inString = false;
-    } else if (c == '"') {
-      inString = true;
-    } else if (c == '[' || c == '{') {
-      if (++depth > 64) return true;
-    } else if (c == ']' || c == '}') {
-      --depth;
-    }
-  }
-  return false;
-}
 
 const Json* member(const Json& object, std::string_view key) {
   if (!object.is_object()) return nullptr;
@@ -150,11 +130,9 @@ class ClipJsonReader {
 }  // namespace
 
 Result<Clip> parseClipJson(std::string_view text, std::string_view name) {
-  if (isTooDeep(text)) return fail(fmt::format("{} is nested too deeply for a clip.", name));
-  const Json json = Json::parse(text.begin(), text.end(), nullptr, false);
-  if (json.is_discarded())
-    return fail(fmt::format("{} is not JSON; was the file cut short?", name));
-  return ClipJsonReader(name).read(json);
+  const auto json = io::parseJson(text, name);
+  if (!json) return std::unexpected(json.error());
+  return ClipJsonReader(name).read(*json);
 }
 
 }  // namespace sweepface
