@@ -44,7 +44,7 @@ class RigReader {
 
  private:
   // Few bytes can claim much: targets without data, accessors that are used again and again.
-  static constexpr std::size_t vectorsPerByte = 32, alwaysAllowed = 1 << 20;
+  static constexpr std::size_t vectorsPerByte = 32, alwaysAllowed = 1 << 16;
   std::size_t mostVectors() const { return alwaysAllowed + vectorsPerByte * document_.sourceBytes; }
 
   Result<void> checkRoom() const {
