@@ -31,7 +31,7 @@ struct GlbOptions {
   /// Instead of a motion: a key a frame with straight lines between them. Its names are the rig's
   /// targets.
   const Clip* clip = nullptr;
-  std::string animationName;  ///< the law's, or "clip", if empty
+  std::string animationName{};  ///< the law's, or "clip", if empty
 };
 
 /// A GLB of the rig with its targets as morph targets, in the scene that came with it if it has
