@@ -2,162 +2,174 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
-#include <tuple>
+#include <optional>
 
-#include "mesh/weld.hpp"
+#include "mesh/face_edges.hpp"
 
 namespace sweepface {
 
 namespace {
 
-// Faces joined over the edges that exactly two of them share in opposite directions.
-struct FaceEdges {
-  std::vector<Index> face, next, previous, vertex;  // [C]; the edge of a corner leads to the next
-  std::vector<Index> twin;                          // [C] or -1
-};
+// What a quad must not exceed to be sound, in degrees. Artists' quads have corners that are not
+// quite convex.
+constexpr double smallestCorner = 0.5, largestCorner = 185, sharpestFold = 130;
 
-FaceEdges loops(const Polygons& polygons) {
-  FaceEdges edges;
-  const auto corners = static_cast<Index>(polygons.corners.size());
-  for (auto* list : {&edges.face, &edges.next, &edges.previous, &edges.vertex, &edges.twin})
-    list->resize(corners);
-  for (Index f = 0; f < polygons.faceCount(); ++f) {
-    const Index begin = polygons.faceStart[f], end = polygons.faceStart[f + 1];
-    for (Index c = begin; c < end; ++c) {
-      edges.face[c] = f;
-      edges.next[c] = c + 1 < end ? c + 1 : begin;
-      edges.previous[c] = c > begin ? c - 1 : end - 1;
+// Logarithms of odds, found by trial on three quad meshes cut in four ways and shuffled.
+constexpr double rightCorners = 2.25;  // of a quad of right angles
+constexpr double cornerCost = 3;       // of the worst corner, for each 90° off
+constexpr double foldCost = 6;         // for each 90° between the halves
+constexpr double valenceCost = 4;      // of each edge too many or too few at a vertex
+constexpr double bendCost = 3;         // of an edge loop, for each 90° at a vertex
+constexpr double loneCost = 4;         // of a triangle left
+constexpr int mostSpokes = 12;         // larger stars are poles, where anything goes
+
+class Finder {
+ public:
+  Finder(const MeshRig& rig, std::span<const Index> copies)
+      : faces_(rig.neutral.polygons),
+        positions_(rig.neutral.positions),
+        copies_(copies),
+        edges_(faceEdges(rig)),
+        pairAt_(edges_.twin.size(), -1) {}
+
+  QuadCandidates find() {
+    result_.problem.triangles = faces_.faceCount();
+    result_.problem.loneCost = loneCost;
+    const auto corners = static_cast<Index>(edges_.twin.size());
+    for (Index c = 0; c < corners; ++c)
+      if (edges_.twin[c] >= 0 && edges_.face[c] < edges_.face[edges_.twin[c]]) consider(c);
+    std::vector<char> seen(edges_.twin.size(), 0);
+    for (bool closed : {false, true})  // open stars begin where there is no face before
+      for (Index c = 0; c < corners; ++c)
+        if (!seen[c] && (closed || edges_.twin[c] < 0)) addStar(c, closed, seen);
+    return std::move(result_);
+  }
+
+ private:
+  void consider(Index c) {
+    const Index t = edges_.twin[c];
+    if (!alike(edges_.face[c], edges_.face[t]) || !sameCorner(c, edges_.next[t]) ||
+        !sameCorner(edges_.next[c], t))
+      return;
+    const auto score = shapeScore({c, edges_.previous[t], edges_.next[c], edges_.previous[c]});
+    if (!score) return;
+    pairAt_[c] = pairAt_[t] = static_cast<Index>(result_.corners.size());
+    result_.corners.push_back({c, t});
+    result_.problem.pairs.push_back({{edges_.face[c], edges_.face[t]}, *score});
+  }
+
+  bool alike(Index f, Index g) const {
+    const auto same = [&](const std::vector<Index>& list) {
+      return list.empty() || list[f] == list[g];
+    };
+    return faces_.faceSize(f) == 3 && faces_.faceSize(g) == 3 && same(faces_.faceMaterial) &&
+           same(faces_.faceGroup);
+  }
+
+  // Not so where a seam runs along the edge.
+  bool sameCorner(Index a, Index b) const {
+    const auto vertex = [&](Index c) {
+      return copies_.empty() ? faces_.corners[c] : copies_[faces_.corners[c]];
+    };
+    const auto texcoord = [&](Index c) -> std::optional<Vec2> {
+      const Index t = faces_.cornerTexcoords.empty() ? -1 : faces_.cornerTexcoords[c];
+      return t < 0 ? std::nullopt : std::optional(faces_.texcoords[t]);
+    };
+    return vertex(a) == vertex(b) && texcoord(a) == texcoord(b);
+  }
+
+  const Vec3& at(Index corner) const { return positions_[faces_.corners[corner]]; }
+
+  // Of the quad between four face corners, of which the first and third are on the diagonal;
+  // nothing if it would not be sound.
+  std::optional<double> shapeScore(const std::array<Index, 4>& quad) const {
+    for (int k = 0; k < 4; ++k)
+      for (int l = 0; l < k; ++l)
+        if (edges_.vertex[quad[k]] == edges_.vertex[quad[l]]) return {};
+    const auto p = [&](int k) { return at(quad[k % 4]); };
+    const Vec3 first = cross(p(2) - p(0), p(3) - p(0)), second = cross(p(1) - p(0), p(2) - p(0));
+    const Vec3 normal = normalized(first + second);
+    const double fold = angleDegrees(first, second);
+    if (!(dot(first, normal) > 0 && dot(second, normal) > 0 && fold <= sharpestFold)) return {};
+    double worst = 0;
+    for (int k = 0; k < 4; ++k) {
+      const double corner = angleAround(normal, p(k + 1) - p(k), p(k + 3) - p(k));
+      if (!(corner >= smallestCorner && corner <= largestCorner)) return {};
+      worst = std::max(worst, std::abs(corner - 90));
+    }
+    return rightCorners - cornerCost * worst / 90 - foldCost * fold / 90;
+  }
+
+  // Degrees from a to b; a clockwise turn of up to 90 is negative, more counts on from 180.
+  static double angleAround(const Vec3& axis, const Vec3& a, const Vec3& b) {
+    const double height = dot(cross(a, b), axis);
+    const double angle = angleDegrees({1, 0, 0}, {dot(a, b), height, 0});
+    return height >= 0 ? angle : angle > 90 ? 360 - angle : -angle;
+  }
+
+  void addStar(Index start, bool closed, std::vector<char>& seen) {
+    auto& problem = result_.problem;
+    PairingProblem::Star star;
+    star.firstSpoke = static_cast<Index>(problem.spokes.size());
+    star.firstChoice = static_cast<Index>(problem.choices.size());
+    std::vector<double> direction;  // of the spokes, in degrees, with the faces laid out flat
+    double turned = 0;
+    Index c = start;
+    do {
+      seen[c] = 1;
+      problem.spokes.push_back(pairAt_[c]);
+      direction.push_back(turned);
+      const Index last = edges_.previous[c];
+      turned += angleDegrees(at(edges_.next[c]) - at(c), at(last) - at(c));
+      c = edges_.twin[last];
+    } while (c >= 0 && c != start);
+    if (!closed) {
+      problem.spokes.push_back(-1);
+      direction.push_back(turned);
+    } else if (turned > 0) {
+      for (double& d : direction) d *= 360 / turned;
+    }
+    star.endSpoke = static_cast<Index>(problem.spokes.size());
+    if (direction.size() <= mostSpokes) addChoices(star, direction, turned, closed);
+    star.endChoice = static_cast<Index>(problem.choices.size());
+    problem.stars.push_back(star);
+  }
+
+  void addChoices(const PairingProblem::Star& star, const std::vector<double>& direction,
+                  double turned, bool closed) {
+    const auto size = direction.size();
+    unsigned possible = 0;
+    for (std::size_t k = 0; k < size; ++k)
+      if (result_.problem.spokes[star.firstSpoke + static_cast<Index>(k)] >= 0) possible |= 1u << k;
+    const int wanted = closed ? 4 : 1 + std::max(1, static_cast<int>(std::lround(turned / 90)));
+    std::vector<double> edges;
+    for (unsigned diagonals = 0; diagonals < 1u << size; ++diagonals) {
+      const unsigned following = diagonals >> 1 | (closed ? (diagonals & 1) << (size - 1) : 0);
+      if (diagonals & ~possible || diagonals & following) continue;
+      edges.clear();
+      for (std::size_t k = 0; k < size; ++k)
+        if (!(diagonals >> k & 1)) edges.push_back(direction[k]);
+      if (closed && edges.size() < 3 && diagonals != 0) continue;  // quads that share two edges
+      double score = -valenceCost * std::abs(static_cast<int>(edges.size()) - wanted);
+      if (closed && edges.size() == 4)
+        score -= bendCost / 90 *
+                 (std::abs(edges[2] - edges[0] - 180) + std::abs(edges[3] - edges[1] - 180));
+      result_.problem.choices.push_back({static_cast<std::uint16_t>(diagonals), score});
     }
   }
-  return edges;
-}
 
-std::vector<std::pair<Index, Index>> pairUp(FaceEdges& edges) {
-  struct Side {
-    Index low, high, corner;
-  };
-  std::vector<Side> sides;
-  edges.twin.assign(edges.vertex.size(), -1);
-  for (Index c = 0; c < static_cast<Index>(edges.vertex.size()); ++c) {
-    const Index a = edges.vertex[c], b = edges.vertex[edges.next[c]];
-    if (a != b) sides.push_back({std::min(a, b), std::max(a, b), c});
-  }
-  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-    return std::tie(a.low, a.high, a.corner) < std::tie(b.low, b.high, b.corner);
-  });
-  std::vector<std::pair<Index, Index>> cut;
-  for (std::size_t k = 0, end; k < sides.size(); k = end) {
-    end = k + 1;
-    while (end < sides.size() && sides[end].low == sides[k].low && sides[end].high == sides[k].high)
-      ++end;
-    const auto startsLow = [&](Index c) { return edges.vertex[c] == sides[k].low; };
-    if (end - k == 2 && startsLow(sides[k].corner) != startsLow(sides[k + 1].corner)) {
-      edges.twin[sides[k].corner] = sides[k + 1].corner;
-      edges.twin[sides[k + 1].corner] = sides[k].corner;
-    } else if (end - k > 1)
-      cut.emplace_back(sides[k].low, sides[k].high);
-  }
-  return cut;
-}
-
-FaceEdges faceEdges(const MeshRig& rig) {
-  FaceEdges edges = loops(rig.neutral.polygons);
-  for (auto first = weld(rig);;) {
-    for (std::size_t c = 0; c < edges.vertex.size(); ++c)
-      edges.vertex[c] = first[rig.neutral.polygons.corners[c]];
-    if (const auto cut = pairUp(edges); cut.empty() || !takeApart(first, cut)) return edges;
-  }
-}
-
-constexpr double degree = std::numbers::pi / 180;
-
-// -1 unsound
-double shapeScore(const std::array<Vec3, 4>& p) {
-  const Vec3 n = normalized(cross(p[2] - p[0], p[3] - p[1]));
-  if (n == Vec3{}) return -1e9;
-  double worst = 0;
-  for (int k = 0; k < 4; ++k) {
-    const Vec3 a = p[(k + 1) % 4] - p[k], b = p[(k + 3) % 4] - p[k];
-    double angle = std::atan2(dot(cross(a, b), n), dot(a, b)) / degree;
-    if (angle < -90) angle += 360;
-    if (angle <= 0.5 || angle > 185) return -1e9;
-    worst = std::max(worst, std::abs(angle - 90) / 90);
-  }
-  const Vec3 n1 = cross(p[1] - p[0], p[2] - p[0]), n2 = cross(p[2] - p[0], p[3] - p[0]);
-  if (dot(n1, n) <= 0 || dot(n2, n) <= 0) return -1e9;
-  const double fold = angleDegrees(n1, n2);
-  if (fold > 130) return -1e9;
-  return 6 * (0.75 - worst) - fold / 20;
-}
+  const Polygons& faces_;
+  const std::vector<Vec3>& positions_;
+  std::span<const Index> copies_;
+  FaceEdges edges_;
+  std::vector<Index> pairAt_;  // [C] the pair over the edge that begins at a corner, or -1
+  QuadCandidates result_;
+};
 
 }  // namespace
 
 QuadCandidates findQuadCandidates(const MeshRig& rig, std::span<const Index> copies) {
-  const Polygons& faces = rig.neutral.polygons;
-  const FaceEdges edges = faceEdges(rig);
-  QuadCandidates result;
-  const auto copy = [&](Index c) {
-    const Index v = faces.corners[c];
-    return copies.empty() ? v : copies[v];
-  };
-  const auto texcoord = [&](Index c) {
-    const Index t = faces.cornerTexcoords.empty() ? -1 : faces.cornerTexcoords[c];
-    return t < 0 ? Vec2{NAN, 0} : faces.texcoords[t];
-  };
-  const auto sameTexcoord = [&](Index a, Index b) {
-    const Vec2 s = texcoord(a), t = texcoord(b);
-    return (std::isnan(s.x) && std::isnan(t.x)) || s == t;
-  };
-  std::vector<Index> candidateAt(edges.twin.size(), -1);
-  for (Index c = 0; c < static_cast<Index>(edges.twin.size()); ++c) {
-    const Index t = edges.twin[c];
-    if (t < 0) continue;
-    const Index f = edges.face[c], g = edges.face[t];
-    if (f >= g || faces.faceSize(f) != 3 || faces.faceSize(g) != 3) continue;
-    if (!faces.faceMaterial.empty() && faces.faceMaterial[f] != faces.faceMaterial[g]) continue;
-    if (!faces.faceGroup.empty() && faces.faceGroup[f] != faces.faceGroup[g]) continue;
-    if (copy(c) != copy(edges.next[t]) || copy(edges.next[c]) != copy(t)) continue;
-    if (!sameTexcoord(c, edges.next[t]) || !sameTexcoord(edges.next[c], t)) continue;
-    const Index a = c, b = edges.previous[t], d = edges.next[c], e = edges.previous[c];
-    if (edges.vertex[b] == edges.vertex[e] || edges.vertex[b] == edges.vertex[a] ||
-        edges.vertex[b] == edges.vertex[d] || edges.vertex[e] == edges.vertex[a] ||
-        edges.vertex[e] == edges.vertex[d])
-      continue;
-    const auto at = [&](Index k) { return rig.neutral.positions[faces.corners[k]]; };
-    const double score = shapeScore({at(a), at(b), at(d), at(e)});
-    if (score < -1e8) continue;
-    candidateAt[c] = candidateAt[t] = static_cast<Index>(result.list.size());
-    result.list.push_back({{c, t}});
-    result.problem.pairs.push_back({{f, g}, score});
-  }
-  result.problem.triangles = faces.faceCount();
-  std::vector<char> seen(edges.twin.size(), 0);
-  const auto angleAt = [&](Index c) {
-    const auto at = [&](Index k) { return rig.neutral.positions[faces.corners[k]]; };
-    return angleDegrees(at(edges.next[c]) - at(c), at(edges.previous[c]) - at(c));
-  };
-  const auto walk = [&](Index start, bool closed) {
-    PairingProblem::Star star{static_cast<Index>(result.problem.spokes.size()), 0, closed, 4};
-    double angle = 0;
-    Index c = start;
-    do {
-      seen[c] = 1;
-      result.problem.spokes.push_back(candidateAt[c]);
-      angle += angleAt(c);
-      const Index in = edges.previous[c];
-      c = edges.twin[in];
-      if (c < 0) result.problem.spokes.push_back(-1);
-    } while (c >= 0 && c != start);
-    if (!closed) star.edges = 1 + std::max(1, static_cast<int>(std::lround(angle / 90)));
-    star.end = static_cast<Index>(result.problem.spokes.size());
-    result.problem.stars.push_back(star);
-  };
-  for (Index c = 0; c < static_cast<Index>(seen.size()); ++c)
-    if (!seen[c] && edges.twin[c] < 0) walk(c, false);
-  for (Index c = 0; c < static_cast<Index>(seen.size()); ++c)
-    if (!seen[c]) walk(c, true);
-  return result;
+  return Finder(rig, copies).find();
 }
 
 }  // namespace sweepface

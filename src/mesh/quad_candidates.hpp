@@ -1,4 +1,6 @@
 #pragma once
+
+#include <array>
 #include <span>
 #include <vector>
 
@@ -8,15 +10,15 @@
 
 namespace sweepface {
 
-/// Two triangles that would make a sound quad.
-struct QuadCandidate {
-  std::array<Index, 2> corners;  ///< where the shared edge begins, in the triangle that stands
-                                 ///< first and in the other
+/// Pairs of triangles that would make sound quads.
+struct QuadCandidates {
+  /// Judged by shapes and edge flow in the neutral; its triangles are the mesh's faces.
+  PairingProblem problem;
+  /// [pairs] the face corners at which the shared edge begins, in the order of the triangles.
+  std::vector<std::array<Index, 2>> corners;
 };
 
-struct QuadCandidates {
-  std::vector<QuadCandidate> list;
-  PairingProblem problem;  ///< pairs in the order of `list`; triangles are faces
-};
+/// `copies`: see recoverQuads. Of two triangles in a pair the first stands earlier in the mesh.
 QuadCandidates findQuadCandidates(const MeshRig& rig, std::span<const Index> copies);
+
 }  // namespace sweepface

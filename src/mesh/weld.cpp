@@ -25,9 +25,8 @@ std::uint64_t hashOf(const MeshRig& rig, std::size_t vertex) {
 std::vector<Index> weld(const MeshRig& rig) {
   const auto same = [&](Index a, Index b) {
     return rig.neutral.positions[a] == rig.neutral.positions[b] &&
-           std::all_of(rig.targets.begin(), rig.targets.end(), [&](const MeshTarget& t) {
-             return t.positions[a] == t.positions[b];
-           });
+           std::all_of(rig.targets.begin(), rig.targets.end(),
+                       [&](const MeshTarget& t) { return t.positions[a] == t.positions[b]; });
   };
   std::unordered_map<std::uint64_t, std::vector<Index>> seen;
   std::vector<Index> first(rig.neutral.positions.size());
