@@ -2,7 +2,7 @@
 include(CMakePackageConfigHelpers)
 
 # Headers of what converts; a runtime-only install goes without them.
-set(converting_headers mesh.hpp io.hpp layout.hpp fit.hpp measure.hpp)
+set(converting_headers mesh.hpp io.hpp gltf.hpp layout.hpp fit.hpp measure.hpp)
 
 set(installed_libraries sweepface_runtime)
 set(installed_archives -lsweepface_runtime)
@@ -15,7 +15,7 @@ if(SWEEPFACE_RUNTIME_ONLY)
 else()
   list(PREPEND installed_libraries sweepface_convert)
   list(PREPEND installed_archives -lsweepface_convert)
-  list(APPEND private_archives -ltbb -lfmt)
+  list(APPEND private_archives -ltbb -lfmt -lmeshoptimizer)
   install(TARGETS sweepface RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()
 

@@ -5,28 +5,19 @@
 #include <string_view>
 #include <vector>
 
-#include "sweepface/mesh.hpp"
+#include "sweepface/io.hpp"
 #include "sweepface/motion.hpp"
 #include "sweepface/result.hpp"
 #include "sweepface/rig.hpp"
 
 namespace sweepface {
 
-/// A rig as a glTF file holds it, and everything else that the file holds.
-struct GltfSource {
-  MeshRig
-      rig;  ///< in the scene's space; the vertices of all primitives of the rig, one after another
-  /// The file as a GLB without what the surface stands for: positions, normals and morph targets of
-  /// the rig's primitives are accessors without data.
-  std::string scene;
-  std::vector<std::string> warnings;  ///< what could not be carried, in sentences
-};
-
 /// The rig in a .glb or .gltf file: all primitives that have morph targets, or all there are where
-/// none has. Quads are recovered from triangles. Messages call the file `name`; buffers and images
-/// beside it are read from `folder` alone.
-Result<GltfSource> parseGltf(std::string_view bytes, std::string_view name,
-                             const std::filesystem::path& folder);
+/// none has; its vertices are those of the primitives, one after another, in the scene's space.
+/// Quads are recovered from triangles. Messages call the file `name`; buffers and images beside it
+/// are read from `folder` alone, and none if that is empty.
+Result<RigSource> parseGltf(std::string_view bytes, std::string_view name,
+                            const std::filesystem::path& folder);
 
 /// What formatGlb writes.
 struct GlbOptions {

@@ -1,0 +1,248 @@
+#include "gltf/mesh_rig.hpp"
+
+#include <algorithm>
+#include <array>
+#include <fmt/format.h>
+#include <map>
+
+#include "io/text.hpp"
+
+namespace sweepface::gltf {
+namespace {
+
+constexpr std::size_t listMode = 4, stripMode = 5;
+
+using Triangle = std::array<Index, 3>;
+
+/// The corners of triangle t, as numbers in the list of the primitive's indices.
+std::array<std::size_t, 3> cornersOf(std::size_t mode, std::size_t t) {
+  if (mode == listMode) return {3 * t, 3 * t + 1, 3 * t + 2};
+  // Every other triangle of a strip would look the other way.
+  if (mode == stripMode) return {t, t + 1 + t % 2, t + 2 - t % 2};
+  return {0, t + 1, t + 2};
+}
+
+/// Without those that name a vertex twice, which strips use to turn corners.
+std::vector<Triangle> trianglesOf(std::size_t mode, const std::vector<Index>& indices) {
+  const std::size_t count =
+      mode == listMode ? indices.size() / 3 : std::max<std::size_t>(indices.size(), 2) - 2;
+  std::vector<Triangle> triangles;
+  for (std::size_t t = 0; t < count; ++t) {
+    const auto [a, b, c] = cornersOf(mode, t);
+    const Triangle triangle{indices[a], indices[b], indices[c]};
+    if (triangle[0] != triangle[1] && triangle[1] != triangle[2] && triangle[2] != triangle[0])
+      triangles.push_back(triangle);
+  }
+  return triangles;
+}
+
+std::vector<Vec3> asVectors(const std::vector<double>& values) {
+  std::vector<Vec3> vectors(values.size() / 3);
+  for (std::size_t k = 0; k < vectors.size(); ++k)
+    vectors[k] = {values[3 * k], values[3 * k + 1], values[3 * k + 2]};
+  return vectors;
+}
+
+bool isUsable(const Vec3& p) { return io::isUsable(p.x) && io::isUsable(p.y) && io::isUsable(p.z); }
+
+class RigReader {
+ public:
+  RigReader(const Document& document, const Parts& parts)
+      : document_(document),
+        parts_(parts),
+        materials_(rig_.neutral.polygons.materials),
+        groups_(rig_.neutral.polygons.groups) {}
+
+  Result<MeshRig> read() {
+    if (auto ok = checkRoom(); !ok) return std::unexpected(ok.error());
+    for (const Run& run : parts_.runs)
+      if (auto ok = addNeutral(run); !ok) return std::unexpected(ok.error());
+    for (const std::string& name : parts_.targets)
+      rig_.targets.push_back({name, rig_.neutral.positions});
+    for (const Run& run : parts_.runs)
+      if (auto ok = addTargets(run); !ok) return std::unexpected(ok.error());
+    for (const Part& part : parts_.parts)
+      if (auto ok = addPart(part); !ok) return std::unexpected(ok.error());
+    if (rig_.neutral.polygons.faceCount() == 0)
+      return fail("all of its triangles name a vertex twice; export the file again.");
+    return std::move(rig_);
+  }
+
+ private:
+  // Few bytes can claim much: targets without data, accessors that are used again and again.
+  static constexpr std::size_t vectorsPerByte = 32, alwaysAllowed = 1 << 20;
+  std::size_t mostVectors() const { return alwaysAllowed + vectorsPerByte * document_.sourceBytes; }
+
+  Result<void> checkRoom() const {
+    const std::size_t shapes = parts_.targets.size() + 1;
+    if (parts_.vertexCount <= mostVectors() / shapes) return {};
+    return fail(
+        fmt::format("it claims {} morph targets of {} vertices in {} bytes, more than a file of "
+                    "this size can mean; export the file again.",
+                    parts_.targets.size(), parts_.vertexCount, document_.sourceBytes));
+  }
+
+  const RigMesh& meshOf(const Run& run) const { return parts_.meshes[run.rigMesh]; }
+
+  Result<std::vector<Vec3>> vectors(std::size_t index) const {
+    const auto accessor = accessorAt(document_, index);
+    if (!accessor) return std::unexpected(accessor.error());
+    const auto values = decode(document_, *accessor);
+    if (!values) return std::unexpected(values.error());
+    return asVectors(*values);
+  }
+
+  Result<void> addNeutral(const Run& run) {
+    const auto accessor = accessorAt(document_, run.position);
+    if (!accessor) return std::unexpected(accessor.error());
+    if (!accessor->view)
+      return fail(
+          fmt::format("accessor {}: the POSITION of a mesh has no data; export the file "
+                      "again.",
+                      run.position));
+    const auto positions = vectors(run.position);
+    if (!positions) return std::unexpected(positions.error());
+    for (const Vec3& p : *positions) {
+      rig_.neutral.positions.push_back(meshOf(run).world.point(p));
+      if (!isUsable(rig_.neutral.positions.back())) return tooLarge(run.position);
+    }
+    return {};
+  }
+
+  Result<void> addTargets(const Run& run) {
+    for (std::size_t t = 0; t < run.targets.size(); ++t) {
+      if (!run.targets[t]) continue;
+      const auto deltas = vectors(*run.targets[t]);
+      if (!deltas) return std::unexpected(deltas.error());
+      Vec3* const moved = &rig_.targets[meshOf(run).targets[t]].positions[run.first];
+      for (std::size_t v = 0; v < run.count; ++v) {
+        moved[v] += meshOf(run).world.direction((*deltas)[v]);
+        if (!isUsable(moved[v])) return tooLarge(*run.targets[t]);
+      }
+    }
+    return {};
+  }
+
+  static std::unexpected<Error> tooLarge(std::size_t accessor) {
+    return fail(
+        fmt::format("accessor {}: a vertex is too far away for a float in the scene; scale "
+                    "the model down and export it again.",
+                    accessor));
+  }
+
+  Result<void> addPart(const Part& part) {
+    const Json& primitive = primitiveOf(document_, parts_, part);
+    const Run& run = parts_.runs[part.run];
+    Members in(primitive, placeOf(document_, meshOf(run).mesh, part.primitive));
+    const auto indices = readIndices(in, run);
+    if (!indices) return std::unexpected(indices.error());
+    const auto triangles = trianglesOf(in.size("mode", listMode), *indices);
+    corners_ += indices->size();
+    if (corners_ > mostVectors())
+      in.refuse("the triangles of the file are more than its size can mean");
+    const auto texcoords = readTexcoords(in.object("attributes"));
+    if (!texcoords) return std::unexpected(texcoords.error());
+    const Index material = readMaterial(in);
+    if (!in.ok()) return in.error();
+    for (const Triangle& triangle : triangles) addFace(triangle, run, *texcoords);
+    const auto faces = static_cast<std::size_t>(rig_.neutral.polygons.faceCount());
+    rig_.neutral.polygons.faceMaterial.resize(faces, material);
+    rig_.neutral.polygons.faceGroup.resize(faces, groups_(meshName(run)));
+    return {};
+  }
+
+  /// The vertex of the run at each corner.
+  Result<std::vector<Index>> readIndices(Members& in, const Run& run) const {
+    std::vector<Index> indices;
+    const auto given = in.optionalIndex("indices", document_.list("accessors").size(), "accessors");
+    if (!in.ok()) return in.error();
+    if (!given) {
+      for (std::size_t v = 0; v < run.count; ++v) indices.push_back(static_cast<Index>(v));
+      return indices;
+    }
+    const auto accessor = accessorAt(document_, *given);
+    if (!accessor) return std::unexpected(accessor.error());
+    const bool whole = accessor->type == Component::uint8 || accessor->type == Component::uint16 ||
+                       accessor->type == Component::uint32;
+    if (accessor->components() != 1 || !whole || accessor->normalized || !accessor->view)
+      in.refuse(fmt::format("its indices, accessor {}, are not data of unsigned integers", *given));
+    if (!in.ok()) return in.error();
+    const auto values = decode(document_, *accessor);
+    if (!values) return std::unexpected(values.error());
+    const auto beyond = std::ranges::find_if(
+        *values, [&](double v) { return v >= static_cast<double>(run.count); });
+    if (beyond != values->end())
+      in.refuse(fmt::format("it refers to vertex {}, but has {}", *beyond, run.count));
+    if (!in.ok()) return in.error();
+    for (const double v : *values) indices.push_back(static_cast<Index>(v));
+    return indices;
+  }
+
+  /// The first texture coordinate of a part's vertices among all, or -1. Parts may share them.
+  Result<Index> readTexcoords(const Json& attributes) {
+    const Json* const number = find(attributes, "TEXCOORD_0");
+    if (!number) return -1;
+    const std::size_t index = *asIndex(*number, document_.list("accessors").size());
+    std::vector<Vec2>& all = rig_.neutral.polygons.texcoords;
+    const auto [known, isNew] = texcoords_.emplace(index, static_cast<Index>(all.size()));
+    if (!isNew) return known->second;
+    const auto accessor = accessorAt(document_, index);
+    if (!accessor) return std::unexpected(accessor.error());
+    if (accessor->rows != 2 || accessor->columns != 1)
+      return fail(
+          fmt::format("accessor {}: a TEXCOORD_0 is not of type VEC2; export the file "
+                      "again.",
+                      index));
+    const auto values = decode(document_, *accessor);
+    if (!values) return std::unexpected(values.error());
+    if (all.size() + values->size() / 2 > mostVectors())
+      return fail("it has more texture coordinates than its size can mean; export the file again.");
+    // The origin is at the upper left in glTF and at the lower left in OBJ.
+    for (std::size_t k = 0; k < values->size(); k += 2)
+      all.push_back({(*values)[k], 1 - (*values)[k + 1]});
+    return known->second;
+  }
+
+  Index readMaterial(Members& in) {
+    const Json& list = document_.list("materials");
+    const auto index = in.optionalIndex("material", list.size(), "materials");
+    if (!index) return -1;
+    const Json* const name = find(list[*index], "name");
+    if (name && name->is_string() && !name->get_ref<const std::string&>().empty())
+      return materials_(name->get_ref<const std::string&>());
+    return materials_(fmt::format("material_{}", *index));
+  }
+
+  std::string meshName(const Run& run) const {
+    const Json* const name = find(document_.list("meshes")[meshOf(run).mesh], "name");
+    return name && name->is_string() ? name->get<std::string>() : std::string();
+  }
+
+  void addFace(const Triangle& triangle, const Run& run, Index texcoords) {
+    Polygons& polygons = rig_.neutral.polygons;
+    // A mirrored mesh shows the side from which its corners go clockwise.
+    const bool mirrored = meshOf(run).world.mirrors();
+    for (const Index v : {triangle[0], triangle[mirrored ? 2 : 1], triangle[mirrored ? 1 : 2]}) {
+      polygons.corners.push_back(static_cast<Index>(run.first) + v);
+      polygons.cornerTexcoords.push_back(texcoords < 0 ? -1 : texcoords + v);
+    }
+    polygons.faceStart.push_back(static_cast<Index>(polygons.corners.size()));
+  }
+
+  const Document& document_;
+  const Parts& parts_;
+  MeshRig rig_;
+  io::NameIndex materials_, groups_;
+  std::size_t corners_ = 0;
+  std::map<std::size_t, Index> texcoords_;  // first of each accessor
+};
+
+}  // namespace
+
+Result<MeshRig> readMeshRig(const Document& document, const Parts& parts) {
+  auto rig = RigReader(document, parts).read();
+  if (rig && rig->neutral.polygons.texcoords.empty()) rig->neutral.polygons.cornerTexcoords.clear();
+  return rig;
+}
+
+}  // namespace sweepface::gltf
