@@ -1,35 +1,8 @@
-#include <cstdlib>
 #include <fmt/format.h>
 #include <functional>
-#include <new>
 
+#include "allocations.hpp"
 #include "gltf/glb.hpp"
-
-namespace {
-std::size_t allocated = 0, largestTotal = 0;
-
-/// In front of every block: its size.
-constexpr std::size_t kHead = 16;
-}  // namespace
-
-// Watched. Kept out of line, or GCC sees malloc meet delete and warns.
-[[gnu::noinline]] void* operator new(std::size_t size) {
-  auto* memory = static_cast<char*>(std::malloc(size + kHead));
-  if (!memory) std::abort();
-  *reinterpret_cast<std::size_t*>(memory) = size;
-  allocated += size;
-  largestTotal = std::max(largestTotal, allocated);
-  return memory + kHead;
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept {
-  if (!memory) return;
-  char* const block = static_cast<char*>(memory) - kHead;
-  allocated -= *reinterpret_cast<std::size_t*>(block);
-  std::free(block);
-}
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept {
-  operator delete(memory);
-}
 
 namespace sweepface {
 namespace {
@@ -38,12 +11,12 @@ using namespace sweepface::testing;
 
 /// What reading takes at its worst moment, beyond what is there.
 std::size_t memoryOf(const std::string& bytes, bool accepted = false) {
-  const std::size_t before = allocated;
-  largestTotal = before;
+  const std::size_t before = allocations.held;
+  allocations.most = before;
   const auto source = parseGltf(bytes, "face.glb", {});
   EXPECT_EQ(source.has_value(), accepted) << (source ? "" : source.error().message);
   EXPECT_TRUE(source || failsWith(source, {"face.glb: "}));
-  return largestTotal - before;
+  return allocations.most - before;
 }
 
 constexpr std::size_t kLittle = 200'000;
