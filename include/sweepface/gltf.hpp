@@ -24,7 +24,7 @@ struct GlbOptions {
   Index lod = 0;              ///< 0: the source's vertices in their order; N: every edge cut into N
   bool morphNormals = false;  ///< normals of the morph targets too
   bool quantize = false;      ///< KHR_mesh_quantization
-  Weights weights;            ///< at which the face is shown; empty: all 0
+  Weights weights{};          ///< at which the face is shown; empty: as its scene says, else all 0
   /// An animation of the weights, or null. Every law is held exactly by its keys.
   const Motion* motion = nullptr;
   int sampledKeys = 0;  ///< > 0: so many linear keys instead, for tools that ignore tangents

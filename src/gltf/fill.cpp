@@ -27,9 +27,13 @@ class Packer {
       return encoding_.quantized ? (p - encoding_.middle) * (1 / encoding_.half) : p;
     });
   }
+  /// What is lost when it is added to a float as large as the mesh counts as no difference.
   Column differences(const std::vector<Vec3>& vectors) const {
-    return packed(
-        [&](Index place) { return fromScene_.direction(vectors[place]) * (1 / encoding_.half); });
+    const double least = halfDigit * largest_;
+    return packed([&](Index place) {
+      const Vec3 d = fromScene_.direction(vectors[place]);
+      return norm(d) <= least ? Vec3{} : d * (1 / encoding_.half);
+    });
   }
   Column normals(const std::vector<Vec3>& directions) const {
     const auto [type, normalized] = numbers();

@@ -4,7 +4,7 @@
 #include "sweepface/gltf.hpp"
 
 #include "gltf/animation.hpp"
-//#include "gltf/binary.hpp"
+#include "gltf/binary.hpp"
 #include "gltf/fine_mesh.hpp"
 #include "gltf/quantize.hpp"
 #include "gltf/source_of_grid.hpp"
@@ -113,7 +113,8 @@ class GlbWriter {
     if (!buffers.is_array() || buffers.empty()) buffers = Json::array({Json::object()});
     buffers[0].erase("uri");
     buffers[0]["byteLength"] = document.buffers[0].size();
-//GATHER
+    if (options_.lod > 0)  // what the source's vertices had is needed no longer
+      document.buffers[0] = gatherBinary(document, std::vector<bool>(document.views.size(), false));
     constexpr std::size_t beyond = std::size_t{1} << 32;
     std::string bytes = formatContainer(document.json, document.buffers[0]);
     if (bytes.size() >= beyond)
