@@ -103,10 +103,6 @@ struct Connectivity {
   int opposite(Index node, int arm) const;
 };
 
-inline Rail followRail(const Wireframe&, const Connectivity& c, HalfArc first) {
-  return c.rails[first];
-}
-
 /// One term of a linear combination of vectors.
 struct Term {
   Index vector = -1;

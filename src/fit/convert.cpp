@@ -25,7 +25,6 @@ namespace {
 constexpr int kMostRounds = 60;
 // Predicted slopes overshoot where an edge is this many times as long as the next along its line.
 constexpr double kUneven = 3;
-constexpr JetMask kSlopes = kPosition | 1 << 1 | 1 << 3;
 // At the default tolerance of 0.02 % of the diagonal normals may be this far off, in degrees.
 constexpr double kNormalLimitAtDefault = 2.8;
 
@@ -64,7 +63,8 @@ class Converter {
     if (!(size > 0))
       return fail("all vertices of the neutral stand at one place; there is no surface to fit");
     const double tolerance = options_.tolerance > 0 ? options_.tolerance : 0.0002 * size;
-    limits_ = {tolerance, normalLimit(options_, tolerance, size)};
+    const double angle = normalLimit(options_, tolerance, size);
+    limits_ = {tolerance, angle, angle < 180};
 
     auto mesh = makeGridMesh(source_);
     if (!mesh) return std::unexpected(mesh.error());
@@ -72,7 +72,7 @@ class Converter {
     Layout layout(*mesh, source_.neutral.positions);
     for (Index v = 0; v < mesh->vertexCount(); ++v)
       data.uneven.push_back(layout.isUneven(v, source_.neutral.positions, kUneven));
-    if (limits_.angle >= 180) data.slopeWeight = 0.1;
+    if (!limits_.smooth) data.slopeWeight = 0.1;
     auto solution = fit(layout, data);
     if (!solution) return std::unexpected(solution.error());
     Conversion conversion{assemble(*mesh, *solution, data), mesh->warnings};
@@ -108,7 +108,7 @@ class Converter {
              within
                  ? 0.9
                  : 0.9 * std::min(1.0, std::pow(limits_.distance / errors.largestDistance, 0.5)));
-      const Index changed = refine(layout, *draft, data, errors, limits_);
+      const Index changed = refine(layout, *draft, data, errors, limits_, extra);
       if (within && changed == 0) {
         draft_ = std::move(*draft);
         return reshape(layout, data, *solution, errors);

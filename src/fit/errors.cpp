@@ -1,6 +1,7 @@
 #include "fit/errors.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <tbb/parallel_for.h>
 
@@ -9,6 +10,10 @@ namespace sweepface {
 namespace {
 
 using Evaluated = Eigen::Matrix<double, 1, Eigen::Dynamic>;
+
+Index faceVertex(const GridPatch& grid, Index i, Index j, int k) {
+  return grid.vertex(i + (k == 1 || k == 2), j + (k >= 2));
+}
 
 class PatchMeter {
  public:
@@ -46,22 +51,37 @@ class PatchMeter {
     return result;
   }
 
-  // Does the surface look the other way than a source face that is itself sound?
-  bool folds() const {
+  // The faces, as (i, j), against which a triangle of the level-4 surface looks the other way in a
+  // pose where the face is sound.
+  std::vector<std::pair<Index, Index>> folds() const {
+    std::vector<std::pair<Index, Index>> found;
     for (Index j = 0; j < grid_.n; ++j)
       for (Index i = 0; i < grid_.m; ++i)
-        for (const auto& [a, b] : {std::pair{0.2, 0.2}, {0.8, 0.2}, {0.2, 0.8}, {0.8, 0.8}}) {
-          const Evaluated u = at(i + a, j + b, 1, 0), v = at(i + a, j + b, 0, 1);
-          for (Index k = 0; k < data_.poses; ++k)
-            if (soundFace(i, j, k) && dot(cross(vec(u, k), vec(v, k)), faceNormal(i, j, k)) < 0)
-              return true;
-        }
-    return false;
+        if (foldsOver(i, j)) found.emplace_back(i, j);
+    return found;
   }
 
  private:
   static Vec3 vec(const Evaluated& row, Index pose) {
     return {row[3 * pose], row[3 * pose + 1], row[3 * pose + 2]};
+  }
+  bool foldsOver(Index i, Index j) const {
+    constexpr int kLevel = 4;
+    std::array<std::array<Evaluated, kLevel + 1>, kLevel + 1> x;
+    for (int b = 0; b <= kLevel; ++b)
+      for (int a = 0; a <= kLevel; ++a)
+        x[b][a] = at(i + a / double{kLevel}, j + b / double{kLevel}, 0, 0);
+    for (Index k = 0; k < data_.poses; ++k) {
+      if (!soundFace(i, j, k)) continue;
+      const Vec3 n = faceNormal(i, j, k);
+      for (int b = 0; b < kLevel; ++b)
+        for (int a = 0; a < kLevel; ++a) {
+          const Vec3 p = vec(x[b][a], k), q = vec(x[b][a + 1], k), r = vec(x[b + 1][a + 1], k),
+                     s = vec(x[b + 1][a], k);
+          if (dot(cross(q - p, r - p), n) < 0 || dot(cross(r - p, s - p), n) < 0) return true;
+        }
+    }
+    return false;
   }
   Evaluated at(double u, double v, int du, int dv) const {
     const auto w = surface_.weights({patch_, u, v}, du, dv);
@@ -83,21 +103,26 @@ class PatchMeter {
     };
     return same(i - 1, j) || same(i + 1, j) || same(i, j - 1) || same(i, j + 1);
   }
+  Index pointAt(Index i, Index j, int k) const { return mesh_.point[faceVertex(grid_, i, j, k)]; }
   Vec3 corner(Index i, Index j, int k, Index pose) const {
-    return data_.point(mesh_.point[grid_.vertex(i + (k == 1 || k == 2), j + (k >= 2))], pose);
+    return data_.point(pointAt(i, j, k), pose);
   }
   Vec3 faceNormal(Index i, Index j, Index pose) const {
     return cross(corner(i, j, 2, pose) - corner(i, j, 0, pose),
                  corner(i, j, 3, pose) - corner(i, j, 1, pose));
   }
+  // Says the face which way is out? See docs/error-metric.md on folds.
   bool soundFace(Index i, Index j, Index pose) const {
     const Vec3 n = faceNormal(i, j, pose);
+    double longest = 0;
     for (int k = 0; k < 4; ++k) {
       const Vec3 a = corner(i, j, (k + 1) % 4, pose) - corner(i, j, k, pose);
       const Vec3 b = corner(i, j, (k + 3) % 4, pose) - corner(i, j, k, pose);
-      if (dot(cross(a, b), n) <= 0.05 * dot(n, n)) return false;
+      longest = std::max(longest, norm(a));
+      if (dot(cross(a, b), n) <= 0.05 * dot(n, n) / 4) return false;
+      if (dot(data_.normal(pointAt(i, j, k), pose), n) < 0) return false;
     }
-    return true;
+    return norm(n) / 2 > data_.tolerance * longest;
   }
 
   const GridMesh& mesh_;
@@ -115,15 +140,21 @@ DraftErrors measureDraft(const Layout& layout, const Draft& draft, const SourceD
   const PoseMatrix settled = settleAll(draft.surface, solution);
   const Index patches = draft.surface.patchCount();
   std::vector<std::vector<PatchMeter::Vertex>> measured(patches);
+  std::vector<std::vector<std::pair<Index, Index>>> foldedFaces(patches);
   DraftErrors errors;
   errors.folded.assign(patches, 0);
   tbb::parallel_for(Index{0}, patches, [&](Index p) {
     const PatchMeter meter(layout, draft, data, p, settled);
     measured[p] = meter.vertices();
-    errors.folded[p] = meter.folds();
+    foldedFaces[p] = meter.folds();
+    errors.folded[p] = !foldedFaces[p].empty();
   });
 
   const Index vertices = layout.mesh().vertexCount();
+  errors.nearFold.assign(vertices, 0);
+  for (Index p = 0; p < patches; ++p)
+    for (const auto& [i, j] : foldedFaces[p])
+      for (int k = 0; k < 4; ++k) errors.nearFold[faceVertex(draft.patches[p], i, j, k)] = 1;
   errors.distance.assign(vertices, 0);
   errors.angle.assign(vertices, 0);
   double squares = 0, count = 0;

@@ -10,7 +10,8 @@ namespace sweepface {
 struct DraftErrors {
   std::vector<double> distance;  ///< [vertices] of the grid mesh, model units
   std::vector<double> angle;     ///< [vertices] between surface and source normals, degrees
-  std::vector<char> folded;  ///< [patches] the surface turns over against a source face somewhere
+  std::vector<char> folded;    ///< [patches] the surface turns over against a source face somewhere
+  std::vector<char> nearFold;  ///< [vertices] corners of those source faces
   double largestDistance = 0;
   double rmsAngle = 0;
   double weightedSquares = 0;  ///< of all distances, as the fit counts them

@@ -140,8 +140,8 @@ class Facets {
     }
     return rise[0] + rise[1] + rim;
   }
-  // A face that is folded, or thinner than its vertices may move, says nothing about which way is
-  // out.
+  // A face that is folded, thinner than its vertices may move, or turned against the source's own
+  // normal at a corner says nothing about which way is out.
   bool isSound(Index face) const {
     const Vec3 n = normal(face);
     const Index begin = polygons_.faceStart[face], size = polygons_.faceSize(face);
@@ -151,6 +151,7 @@ class Facets {
       longest = std::max(longest, norm(next));
       const Vec3 corner = cross(next, at(begin + (k + size - 1) % size) - p);
       if (dot(corner, n) <= 0.05 * dot(n, n) / size) return false;
+      if (dot(normalAt(begin + k), n) < 0) return false;
     }
     return norm(n) / 2 > tolerance_ * longest;
   }

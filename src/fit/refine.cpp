@@ -134,7 +134,7 @@ bool splitPatch(Layout& layout, const GridPatch& grid, const SourceData& data) {
 }  // namespace
 
 Index refine(Layout& layout, const Draft& draft, SourceData& data, const DraftErrors& errors,
-             const Limits& limits) {
+             const Limits& limits, ExtraJets& extra) {
   const GridMesh& mesh = layout.mesh();
   const auto excess = [&](Index v) {
     return std::max(errors.distance[v] / limits.distance, errors.angle[v] / limits.angle);
@@ -142,8 +142,7 @@ Index refine(Layout& layout, const Draft& draft, SourceData& data, const DraftEr
   // A patch that is nearly within the limits may get there without more points if what is wrong at
   // its worst vertices counts more (Lawson's way from least squares to least maximum). That costs
   // smoothness: where normals matter it is tried less.
-  const bool smooth = limits.angle < 180;
-  const double nearly = smooth ? 1.5 : 3, most = smooth ? 4 : 64;
+  const double nearly = limits.smooth ? 1.5 : 3, most = limits.smooth ? 4 : 64;
   const auto emphasize = [&](const GridPatch& grid) {
     bool any = false;
     const auto raise = [&](double& emphasis) {
@@ -165,6 +164,7 @@ Index refine(Layout& layout, const Draft& draft, SourceData& data, const DraftEr
   }
   std::sort(bad.begin(), bad.end());
   Index changed = 0;
+  bool unfolding = false;
   for (auto [worst, p] : bad) {
     const GridPatch& grid = draft.patches[p];
     if (!errors.folded[p] && -worst < nearly && emphasize(grid)) {
@@ -173,6 +173,7 @@ Index refine(Layout& layout, const Draft& draft, SourceData& data, const DraftEr
     }
     if (splitPatch(layout, grid, data)) {
       ++changed;
+      unfolding |= errors.folded[p] != 0;
       continue;
     }
     // Too small to split: turn its T-nodes into crossings.
@@ -180,10 +181,15 @@ Index refine(Layout& layout, const Draft& draft, SourceData& data, const DraftEr
       if (layout.isNode(v) && !layout.isFull(v)) {
         layout.extend(v);
         ++changed;
+        unfolding |= errors.folded[p] != 0;
+      } else if (limits.smooth && errors.nearFold[v] && (extra[v] & kSlopes) != kSlopes) {
+        extra[v] |= kSlopes;
+        ++changed;
+        unfolding = true;
       }
   }
   const Index stalled = draft.surface.patchCount() / 500;
-  if (changed > stalled) return changed;
+  if (changed > stalled || unfolding) return changed;
   // Little is left to cut: let positions that are too far off count more than what surrounds them.
   for (Index v = 0; v < mesh.vertexCount(); ++v)
     if (errors.distance[v] > limits.distance) {

@@ -23,6 +23,7 @@ std::vector<Vec3> vertexNormals(const Polygons& polygons, std::span<const Vec3> 
 
 SourceData gatherSource(const MeshRig& rig, const GridMesh& mesh, double tolerance) {
   SourceData data;
+  data.tolerance = tolerance;
   const Index points = mesh.pointCount();
   data.poses = 1 + static_cast<Index>(rig.targets.size());
   data.points.resize(points, 3 * data.poses);

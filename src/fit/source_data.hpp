@@ -16,6 +16,7 @@ using PoseRow = Eigen::Matrix<double, 1, Eigen::Dynamic>;
 
 /// What is fitted: the source's points and normals in all poses, and how much each point counts.
 struct SourceData {
+  double tolerance = 0;
   Index poses = 0;                 ///< the neutral and all targets
   PoseMatrix points;               ///< [points × 3·poses]
   PoseMatrix normals;              ///< [points × 3·poses] unit vertex normals

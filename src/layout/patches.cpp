@@ -164,7 +164,7 @@ int determined(const Wireframe& w, const Connectivity& c, Index node, int axis) 
   double reach[2] = {0.5, 0.5};
   int arms = 0;
   for (std::size_t k = axis; k < star.arms.size() && k < 4; k += 2, ++arms) {
-    const Rail rail = followRail(w, c, star.arms[k]);
+    const Rail rail = c.rails[star.arms[k]];
     reach[arms] =
         c.kinds[w.end(rail.last)] == NodeKind::hanging ? rail.edges - 0.5 : rail.edges / 2.0;
   }

@@ -138,8 +138,8 @@ class JetBuilder {
   void hang(Index n) {
     const int host = hostArm(n);
     const Star& star = c_.stars[n];
-    const Rail ahead = followRail(w_, c_, star.arms[host]);
-    const Rail behind = followRail(w_, c_, star.arms[(host + 2) % 3]);
+    const Rail ahead = c_.rails[star.arms[host]];
+    const Rail behind = c_.rails[star.arms[(host + 2) % 3]];
     const Index endCorner = c_.cornerAt[c_.next[ahead.last]];
     const Index startCorner = c_.cornerAt[twin(behind.last)];
     const int length = ahead.edges + behind.edges;
@@ -181,7 +181,7 @@ class JetBuilder {
     for (int e = 0; e < 2; ++e) {
       const std::size_t arm = d + 2 * e;
       if (arm >= star.arms.size()) continue;
-      const Rail rail = followRail(w_, c_, star.arms[arm]);
+      const Rail rail = c_.rails[star.arms[arm]];
       result.has[e] = true;
       result.distance[e] = rail.edges;
       result.value[e] = acrossAtEnd(rail, other);
@@ -264,7 +264,7 @@ class JetBuilder {
         const HalfArc arm = c_.stars[n].arms[s];
         const Arc& arc = w_.arcs[arcOf(arm)];
         if (!arc.collapsed) {
-          logLength += std::log(followRail(w_, c_, arm).edges);
+          logLength += std::log(c_.rails[arm].edges);
           ++spokes;
         }
       }

@@ -37,7 +37,7 @@ JoinClass joinClass(const Surface& surface, Index arc) {
   if (c.patchOf[2 * arc] < 0 || c.patchOf[2 * arc + 1] < 0) return JoinClass::boundary;
   // A pole is smooth: its chart turns with the rays. Only a true irregular node breaks the line.
   for (HalfArc h : {2 * arc, 2 * arc + 1}) {
-    HalfArc end = followRail(w, c, h).last;
+    HalfArc end = c.rails[h].last;
     const Index node = w.end(end);
     if (c.kinds[node] != NodeKind::irregular) continue;
     const Star& star = c.stars[node];

@@ -25,8 +25,7 @@ std::vector<std::array<Index, 2>> basisKeys(const Wireframe& w, const Connectivi
       const int on = c.opposite(
           stem, static_cast<int>(std::find(arms.begin(), arms.end(), arm) - arms.begin()));
       if (on < 0) continue;
-      keys.push_back({w.arcs[arcOf(arm)].ribbon,
-                      followRail(w, c, arm).edges + followRail(w, c, arms[on]).edges});
+      keys.push_back({w.arcs[arcOf(arm)].ribbon, c.rails[arm].edges + c.rails[arms[on]].edges});
     }
   }
   return keys;
