@@ -1,4 +1,3 @@
-#include <tuple>
 #include <unordered_map>
 
 #include "gltf/fine_mesh.hpp"
@@ -43,11 +42,12 @@ class EdgeVertices {
 class Cutter {
  public:
   Cutter(const Rig& rig, const BoundScene& scene, const Tessellation& grid,
-         const std::vector<Vec3>& positions)
+         const std::vector<Vec3>& positions, const std::vector<Index>& same)
       : rig_(rig),
         scene_(scene),
         grid_(grid),
         positions_(positions),
+        same_(same),
         level_(grid.level()),
         cell_(static_cast<std::size_t>((level_ + 1) * (level_ + 1))) {
     mesh_.runs.resize(scene.parts.runs.size());
@@ -82,7 +82,7 @@ class Cutter {
     const Run& run = scene_.parts.runs[number];
     std::array<Index, 4> vertices{};
     for (int k = 0; k < 4; ++k) {
-      vertices[k] = scene_.cornerVertex[corners[k]] - static_cast<Index>(run.first);
+      vertices[k] = same_[scene_.cornerVertex[corners[k]]] - static_cast<Index>(run.first);
       if (vertices[k] < 0 || vertices[k] >= static_cast<Index>(run.count))
         return fail("A quad of the face belongs to two meshes of its scene; convert it again.");
     }
@@ -135,6 +135,7 @@ class Cutter {
   const BoundScene& scene_;
   const Tessellation& grid_;
   const std::vector<Vec3>& positions_;
+  const std::vector<Index>& same_;
   Index level_;
   std::vector<Corner> cell_;  // [(level + 1)²] of the quad at hand
   std::vector<Index> faceOfCorner_;
@@ -146,7 +147,9 @@ class Cutter {
 
 Result<FineMesh> cutFinely(const Rig& rig, const BoundScene& scene, const Tessellation& grid,
                            const std::vector<Vec3>& positions) {
-  return Cutter(rig, scene, grid, positions).cut();
+  const auto same = sameVertices(rig, scene);
+  if (!same) return std::unexpected(same.error());
+  return Cutter(rig, scene, grid, positions, *same).cut();
 }
 
 }  // namespace sweepface::gltf

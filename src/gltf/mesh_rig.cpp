@@ -43,9 +43,13 @@ class RigReader {
   }
 
  private:
-  // Few bytes can claim much: targets without data, accessors that are used again and again.
-  static constexpr std::size_t vectorsPerByte = 32, alwaysAllowed = 1 << 16;
+  // Few bytes can claim much: targets without data, accessors that are used again and again. Files
+  // that mean what they say stay below these, however well they are compressed.
+  static constexpr std::size_t vectorsPerByte = 32, elementsPerByte = 8, alwaysAllowed = 1 << 16;
   std::size_t mostVectors() const { return alwaysAllowed + vectorsPerByte * document_.sourceBytes; }
+  std::size_t mostElements() const {
+    return alwaysAllowed + elementsPerByte * document_.sourceBytes;
+  }
 
   Result<void> checkRoom() const {
     const std::size_t shapes = parts_.targets.size() + 1;
@@ -111,7 +115,7 @@ class RigReader {
     const auto found = trianglesOf(document_, parts_, part);
     if (!found) return std::unexpected(found.error());
     corners_ += found->named;
-    if (corners_ > mostVectors())
+    if (corners_ > mostElements())
       in.refuse("the triangles of the file are more than its size can mean");
     const auto texcoords = readTexcoords(in.object("attributes"));
     if (!texcoords) return std::unexpected(texcoords.error());
@@ -141,7 +145,7 @@ class RigReader {
                       index));
     const auto values = decode(document_, *accessor);
     if (!values) return std::unexpected(values.error());
-    if (all.size() + values->size() / 2 > mostVectors())
+    if (all.size() + values->size() / 2 > mostElements())
       return fail("it has more texture coordinates than its size can mean; export the file again.");
     // The origin is at the upper left in glTF and at the lower left in OBJ.
     for (std::size_t k = 0; k < values->size(); k += 2)

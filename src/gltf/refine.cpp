@@ -7,10 +7,6 @@
 namespace sweepface::gltf {
 namespace {
 
-/// What the surface itself gives, or what does not fit its new normals.
-bool isGeometry(std::string_view name) {
-  return name == "POSITION" || name == "NORMAL" || name == "TANGENT";
-}
 bool isSkin(std::string_view name) {
   return name.starts_with("JOINTS_") || name.starts_with("WEIGHTS_");
 }
