@@ -148,8 +148,8 @@ Result<void> checkArguments(const AnimateArguments& a, bool glb) {
 Result<int> runAnimate(const AnimateArguments& a) {
   const bool glb = isOfKind(a.output, ".glb");
   if (isOfKind(a.output, ".gltf"))
-    return fail(fmt::format("Cannot write {}: its name promises another kind of file (.gltf).",
-                            a.output));
+    return fail(
+        fmt::format("Cannot write {}: its name promises another kind of file (.gltf).", a.output));
   if (auto ok = checkArguments(a, glb); !ok) return std::unexpected(ok.error());
   const Result<Rig> rig = readFace(a.face);
   if (!rig) return std::unexpected(rig.error());
