@@ -105,6 +105,7 @@ Result<void> writeFrames(const AnimateArguments& a, const Rig& rig, const Perfor
 
 Result<void> animateMeshes(const AnimateArguments& a, const Rig& rig,
                            const Performance& performance) {
+  if (auto ok = checkLod(rig, a.lod); !ok) return ok;
   const std::vector<double> times = sampleTimes(a, performance);
   if (auto made = makeFolder(a.output); !made) return made;
   if (auto written = writeFrames(a, rig, performance, times); !written) return written;
@@ -146,7 +147,7 @@ Result<void> animateGlb(const AnimateArguments& a, const Rig& rig, const Perform
 
 /// Options that do not go with each other.
 Result<void> checkArguments(const AnimateArguments& a, bool glb) {
-  if (a.what.to.empty() && a.what.clip.empty())
+  if (!a.what.to && a.what.clip.empty())
     return fail("Say where to go with --to, or what to play with --clip.");
   if (!glb && (a.glb.any() || !a.keys.empty()))
     return fail(
@@ -169,8 +170,8 @@ Result<void> checkKeys(const AnimateArguments& a, const Performance& performance
 Result<int> runAnimate(const AnimateArguments& a) {
   const bool glb = isOfKind(a.output, ".glb");
   if (isOfKind(a.output, ".gltf"))
-    return fail(fmt::format("Cannot write {}: its name promises another kind of file (.gltf).",
-                            a.output));
+    return fail(
+        fmt::format("Cannot write {}: its name promises another kind of file (.gltf).", a.output));
   if (auto ok = checkArguments(a, glb); !ok) return std::unexpected(ok.error());
   const Result<Rig> rig = readFace(a.face);
   if (!rig) return std::unexpected(rig.error());

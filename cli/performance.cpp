@@ -41,7 +41,7 @@ Result<Performance> driven(const PerformanceArguments& a, const Drive& drive, co
 }
 
 Result<Performance> byLaw(const PerformanceArguments& a, const Rig& rig) {
-  const Result<Weights> from = parseWeights(rig, a.from), to = parseWeights(rig, a.to);
+  const Result<Weights> from = parseWeights(rig, a.from), to = parseWeights(rig, a.to.value_or(""));
   if (!from) return std::unexpected(from.error());
   if (!to) return std::unexpected(to.error());
   if (const auto drive = driveFromName(a.law);

@@ -75,8 +75,9 @@ class Animator {
       : scene_(scene), options_(options), builder_(builder) {}
 
   Result<void> run() {
-    animation_ = {
-        {"name", options_.animationName}, {"channels", Json::array()}, {"samplers", Json::array()}};
+    std::string name = options_.animationName;
+    if (name.empty()) name = options_.motion ? nameOf(options_.motion->law()) : "clip";
+    animation_ = {{"name", name}, {"channels", Json::array()}, {"samplers", Json::array()}};
     const Json& nodes = scene_.document.list("nodes");
     for (std::size_t n = 0; n < nodes.size(); ++n)
       if (auto ok = addNode(n, nodes[n]); !ok) return ok;

@@ -27,7 +27,8 @@ TEST_F(ToolGlb, HasAllTargets) {
   convertRig();
   const Outcome r = run("export face.sweep -o face.glb");
   ASSERT_EQ(r.code, 0) << r.err;
-  EXPECT_EQ(r.out, fmt::format("face.glb: 2 targets, {} bytes\n", contents(folder / "face.glb").size()));
+  EXPECT_EQ(r.out,
+            fmt::format("face.glb: 2 targets, {} bytes\n", contents(folder / "face.glb").size()));
   const Written file = glb("face.glb");
   EXPECT_EQ(file.json["meshes"][0]["extras"]["targetNames"], Json({"jawOpen", "smile"}));
   EXPECT_EQ(file.json["meshes"][0]["primitives"].size(), 2u);
@@ -40,7 +41,10 @@ TEST_F(ToolGlb, HasAllTargets) {
 
 TEST_F(ToolGlb, TakesTheOptionsOfExport) {
   convertRig();
-  ASSERT_EQ(run("export face.sweep -o a.GLB --quiet --weights smile=0.5 --lod 3 --quantize --morph-normals").code, 0);
+  ASSERT_EQ(run("export face.sweep -o a.GLB --quiet --weights smile=0.5 --lod 3 --quantize "
+                "--morph-normals")
+                .code,
+            0);
   const Written file = glb("a.GLB");
   EXPECT_EQ(file.json["meshes"][0]["weights"], Json({0.0, 0.5}));
   EXPECT_EQ(file.indices(0, 0).size() + file.indices(0, 1).size(), 3u * 2 * 30 * 9);
@@ -63,7 +67,8 @@ TEST_F(ToolGlb, GoesOnWithItsScene) {
 
 TEST_F(ToolGlb, Animates) {
   convertRig();
-  const Outcome r = run("animate face.sweep --to jawOpen=1 --law accelerate-brake --seconds 0.5 -o jaw.glb");
+  const Outcome r =
+      run("animate face.sweep --to jawOpen=1 --law accelerate-brake --seconds 0.5 -o jaw.glb");
   ASSERT_EQ(r.code, 0) << r.err;
   EXPECT_NE(r.out.find("jaw.glb: 0.5 s, accelerate-brake"), std::string::npos);
   const Json animation = glb("jaw.glb").json["animations"][0];
@@ -71,14 +76,20 @@ TEST_F(ToolGlb, Animates) {
   EXPECT_EQ(animation["samplers"][0]["interpolation"], "CUBICSPLINE");
   EXPECT_FALSE(std::filesystem::is_directory(folder / "jaw.glb"));
 
-  ASSERT_EQ(run("animate face.sweep --to jawOpen=1 --keys exact -o same.glb --law accelerate-brake --seconds 0.5").code, 0);
+  ASSERT_EQ(run("animate face.sweep --to jawOpen=1 --keys exact -o same.glb --law accelerate-brake "
+                "--seconds 0.5")
+                .code,
+            0);
   EXPECT_EQ(contents(folder / "same.glb"), contents(folder / "jaw.glb"));
 }
 
 TEST_F(ToolGlb, SamplesKeysOnRequest) {
   convertRig();
   for (const auto& [frames, count] : {std::pair{"", 31}, std::pair{" --frames 5", 5}}) {
-    ASSERT_EQ(run(std::string("animate face.sweep --to jawOpen=1 --keys sampled -o jaw.glb") + frames).code, 0);
+    ASSERT_EQ(
+        run(std::string("animate face.sweep --to jawOpen=1 --keys sampled -o jaw.glb") + frames)
+            .code,
+        0);
     const Written file = glb("jaw.glb");
     const Json& sampler = file.json["animations"][0]["samplers"][0];
     EXPECT_EQ(sampler["interpolation"], "LINEAR");
@@ -100,8 +111,10 @@ TEST_F(ToolGlb, RefusesOptionsThatDoNotGoTogether) {
   const std::string animate = "animate face.sweep --to smile=1 ";
   EXPECT_TRUE(fails(animate + "-o frames --keys exact", "are for .glb files"));
   EXPECT_TRUE(fails(animate + "-o frames --quantize", "are for .glb files"));
-  EXPECT_TRUE(fails(animate + "-o out.glb --frames 10", "leave --frames out or add --keys sampled"));
-  EXPECT_TRUE(fails(animate + "-o out.glb --keys exact --frames 10", "leave --frames out"));
+  EXPECT_TRUE(fails(animate + "-o out.glb --frames 10",
+                    "leave --frames and --fps out or add --keys sampled"));
+  EXPECT_TRUE(
+      fails(animate + "-o out.glb --keys exact --frames 10", "leave --frames and --fps out"));
   EXPECT_TRUE(fails(animate + "-o out.glb --keys some", "exact or sampled, not 'some'"));
   EXPECT_TRUE(fails(animate + "-o out.gltf", "another kind of file (.gltf)"));
   EXPECT_TRUE(fails(animate + "-o folder.glb", "it is a folder"));

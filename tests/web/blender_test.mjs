@@ -10,10 +10,6 @@ import { Glb, farthest } from './glb.mjs';
 import { inWork, run, sweepface, work } from './tool.mjs';
 
 const blender = process.env.SWEEPFACE_BLENDER;
-if (!existsSync(blender ?? '')) {
-  console.log('skipped: Blender is not installed (scripts/install-deps blender)');
-  process.exit(77);
-}
 const chromium = existsSync(process.env.SWEEPFACE_CHROMIUM ?? '');
 
 function blend(script, ...args) {
@@ -124,7 +120,7 @@ test('Blender shows the same face', () => {
   const empty = { ...a, data: a.data.map((_, k) => a.data[k % a.channels]) };
   assert.ok(difference(a, empty) > 0.2, 'there is a face in the picture');
   const share = difference(a, b, 16);
-  assert.ok(share < 0.01, `${share} of the picture differs`);
+  assert.ok(share < 0.002, `${share} of the picture differs`);
 });
 
 test('Blender plays sampled keys on the law', () => {
@@ -140,14 +136,16 @@ test('Blender plays sampled keys on the law', () => {
   }
 });
 
-test('the validator has nothing to say against any of it', async () => {
-  const ways = [['export'], ['export', '--lod', '2'], ['export', '--quantize'], ['export', '--morph-normals', '--quantize', '--lod', '2'],
+test('the validator has no more to say than against the source', async () => {
+  const complaints = async (file) => (await validator.validateBytes(new Uint8Array(readFileSync(file)))).issues.messages
+      .filter(({ severity }) => severity < 2).map(({ code, pointer }) => `${code} ${pointer}`);
+  const known = await complaints(source);
+  const ways = [['export'], ['export', '--lod', '3'], ['export', '--quantize'], ['export', '--morph-normals', '--quantize', '--lod', '2'],
                 ['animate', '--to', 'jawOpen=1,tilt=1', '--law', 'accelerate-brake']];
   for (const [command, ...options] of ways) {
     const file = inWork('way.glb');
     sweepface(command, sweep, '-o', file, '-q', ...options);
-    const { issues } = await validator.validateBytes(new Uint8Array(readFileSync(file)));
-    assert.equal(issues.numErrors + issues.numWarnings, 0, `${[command, ...options]}: ${JSON.stringify(issues.messages.slice(0, 3))}`);
+    assert.deepEqual((await complaints(file)).filter((c) => !known.includes(c)), [], [command, ...options].join(' '));
   }
 });
 
@@ -156,22 +154,24 @@ test('refined, it is bound and looks as before', () => {
   sweepface('export', sweep, '-o', file, '-q', '--lod', '2');
   look(source, weights, 'blender-source'), look(file, weights, 'blender-fine');
   const [a, b] = ['blender-source', 'blender-fine'].map((n) => pixels(readFileSync(inWork(`${n}.png`))));
-  const share = difference(a, b, 24);
-  assert.ok(share < 0.03, `${share} of the picture differs`);
+  const share = difference(a, b, 16);
+  assert.ok(share < 0.01, `${share} of the picture differs`);
 });
 
 test('three.js shows the same face', { skip: !chromium && 'Chromium is not installed' }, async () => {
-  const here = fileURLToPath(new URL('blender', import.meta.url)), pictures = [];
-  for (const [name, file] of [['three-source', 'source.glb'], ['three-again', 'again.glb']])
-    await withPage([here, work], `still.html?file=${file}&weights=${weights}`, async (page, said) => {
+  const here = fileURLToPath(new URL('blender', import.meta.url));
+  const picture = (name, file, at) =>
+    withPage([here, work], `still.html?file=${file}&weights=${at}`, async (page, said) => {
       await page.waitForFunction('document.body.dataset.shown');
       const png = await page.screenshot();
       if (process.env.SWEEPFACE_PICTURES) writeFileSync(`${process.env.SWEEPFACE_PICTURES}/${name}.png`, png);
       assert.deepEqual(said, []);
-      pictures.push(pixels(png));
+      return pixels(png);
     });
-  const [a, b] = pictures, empty = { ...a, data: a.data.map((_, k) => a.data[k % a.channels]) };
-  assert.ok(difference(a, empty) > 0.1, 'there is a face in the picture');
-  const share = difference(a, b, 16);
-  assert.ok(share < 0.01, `${share} of the picture differs`);
+  const theirs = await picture('three-source', 'source.glb', weights);
+  const ours = await picture('three-again', 'again.glb', weights);
+  const rest = await picture('three-rest', 'again.glb', 'jawOpen=0');
+  const share = difference(theirs, ours, 16), moved = difference(rest, ours, 16);
+  assert.ok(moved > 0.05, 'the weights show');
+  assert.ok(share < 0.002, `${share} of the picture differs`);
 });

@@ -1,13 +1,12 @@
 // The example page plays a face in a browser.
 import assert from 'node:assert/strict';
-import { existsSync, writeFileSync } from 'node:fs';
+import { writeFileSync } from 'node:fs';
 import { fileURLToPath } from 'node:url';
 import test from 'node:test';
 import { difference, pixels, withPage } from './browser.mjs';
 import { inWork, sampleFace, sweepface, work } from './tool.mjs';
 
 const example = fileURLToPath(new URL('../../examples/three', import.meta.url));
-const skip = !existsSync(process.env.SWEEPFACE_CHROMIUM ?? '') && 'Chromium is not installed';
 
 // Pictures for a person to look at, if they name a folder for them.
 function keep(name, png) {
@@ -15,7 +14,7 @@ function keep(name, png) {
 }
 
 for (const [name, options] of Object.entries({ exact: [], quantized: ['--quantize', '--lod', '2'] }))
-  test(`the example plays a face, ${name}`, { skip }, async () => {
+  test(`the example plays a face, ${name}`, async () => {
     sweepface('animate', sampleFace().sweep, '--to', 'jawOpen=1,browInnerUp=1', '--law', 'newton',
               '--seconds', '10', '-o', inWork(`${name}.glb`), '-q', ...options);
     await withPage([example, work], `?file=${name}.glb`, async (page, said) => {
@@ -33,7 +32,7 @@ for (const [name, options] of Object.entries({ exact: [], quantized: ['--quantiz
     });
   });
 
-test('the example says what is wrong with a file that is none', { skip }, async () => {
+test('the example says what is wrong with a file that is none', async () => {
   writeFileSync(inWork('broken.glb'), 'glTF');
   await withPage([example, work], '?file=broken.glb', async (page) => {
     await page.waitForFunction('document.querySelector("p").textContent');
