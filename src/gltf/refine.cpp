@@ -102,14 +102,14 @@ class Refiner {
   void rewrite(std::size_t number) {
     const Part& part = scene_.parts.parts[number];
     Json& primitive = primitiveOf(part);
-    const Json* const old = find(primitive, "indices");
-    const auto indices = old ? std::optional(old->get<std::size_t>()) : std::nullopt;
+    const auto indices = findIndex(primitive, "indices", scene_.document.list("accessors").size());
     primitive["indices"] = slots_.put(indices, packIndices(mesh_.triangles[number]), Use::indices);
     primitive.erase("mode");
     point(part.run, primitive["attributes"]);
     if (Json* const targets = find(primitive, "targets"))
       for (Json& target : *targets) point(part.run, target);
-    if (Json* const extensions = find(primitive, "extensions")) {
+    if (Json* const extensions = find(primitive, "extensions");
+        extensions && extensions->is_object()) {
       const Json before = *extensions;
       for (const auto& [name, value] : before.items())
         if (!survives(name)) extensions->erase(name);
