@@ -107,6 +107,7 @@ Result<void> writeFrames(const AnimateArguments& a, const MeshMaker& meshes, con
 }
 
 Result<void> animateMeshes(const AnimateArguments& a, const Rig& rig, const Motion& motion) {
+  if (auto ok = checkLod(rig, a.lod); !ok) return ok;
   if (auto made = makeFolder(a.output); !made) return made;
   if (auto written = writeFrames(a, MeshMaker(rig, a.lod), motion); !written) return written;
   if (!a.quiet)

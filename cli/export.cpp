@@ -35,6 +35,7 @@ void addOptions(CLI::App& app, ExportArguments& a) {
 }
 
 Result<void> writeObj(const ExportArguments& a, const Rig& rig, const Weights& weights) {
+  if (auto ok = checkLod(rig, a.lod); !ok) return ok;
   const MeshMaker meshes(rig, a.lod);
   if (auto written = writeFile(a.output, meshes.obj(weights)); !written) return written;
   if (!a.quiet) fmt::print("{}: {} faces\n", a.output, meshes.polygons().faceCount());

@@ -13,14 +13,20 @@ constexpr std::size_t word = 4;  // nothing in a glTF asks for a wider alignment
 std::size_t aligned(std::size_t bytes) { return (bytes + word - 1) / word * word; }
 
 /// Hands every "bufferView" in a JSON to `visit`.
-void eachReference(Json& json, const std::function<void(Json&)>& visit) {
+void eachReferenceIn(Json& json, const std::function<void(Json&)>& visit) {
   if (json.is_array())
-    for (Json& entry : json) eachReference(entry, visit);
+    for (Json& entry : json) eachReferenceIn(entry, visit);
   if (!json.is_object()) return;
   for (auto& [key, value] : json.items()) {
     if (key == "bufferView") visit(value);
-    eachReference(value, visit);
+    eachReferenceIn(value, visit);
   }
+}
+
+/// All of a glTF's, without what views may say of themselves: that keeps no view alive.
+void eachReference(Json& gltf, const std::function<void(Json&)>& visit) {
+  for (auto& [key, value] : gltf.items())
+    if (key != "bufferViews") eachReferenceIn(value, visit);
 }
 
 /// From `begin` up to `end`.
@@ -266,13 +272,11 @@ class Gatherer {
       kept.push_back(views_[v].fate == Fate::gone ? placeholder()
                                                   : rewritten((*old)[v], views_[v]));
     }
+    *old = std::move(kept);
     eachReference(document_.json, [&](Json& reference) {
       if (const auto view = viewOf(reference)) reference = numbers[*view];
     });
-    if (kept.empty())
-      document_.json.erase("bufferViews");
-    else
-      *find(document_.json, "bufferViews") = std::move(kept);
+    if (old->empty()) document_.json.erase("bufferViews");
   }
 
   static Json rewritten(Json json, const View& view) {
