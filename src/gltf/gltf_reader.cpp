@@ -2,6 +2,7 @@
 
 #include "gltf/mesh_rig.hpp"
 #include "gltf/scene.hpp"
+#include "mesh/quads.hpp"
 
 namespace sweepface {
 namespace {
@@ -13,6 +14,7 @@ Result<RigSource> readGltf(std::string_view bytes, const std::filesystem::path& 
   if (!parts) return std::unexpected(parts.error());
   auto rig = gltf::readMeshRig(*document, *parts);
   if (!rig) return std::unexpected(rig.error());
+  rig->neutral.polygons = recoverQuads(*rig).polygons;
   RigSource source{std::move(*rig), {}, document->warnings};
   auto scene = gltf::makeScene(std::move(*document), *parts, folder);
   if (!scene) return std::unexpected(scene.error());

@@ -142,7 +142,8 @@ Result<Column> mixed(const Document& document, const Accessor& attribute,
       }
       double sum = 0;
       for (int k = 0; k < 4; ++k) sum += shares[k] * value(mix.corners[k]);
-      result.push_back(sum);
+      // Rounding must not lead out of the fractions of one.
+      result.push_back(attribute.normalized ? std::clamp(sum, -1.0, 1.0) : sum);
     }
   }
   return pack(result, width, attribute.type, attribute.normalized);

@@ -176,6 +176,17 @@ TEST(LodWriter, KeepsTypesOfColors) {
   }
 }
 
+TEST(LodWriter, KeepsTheBrightestColor) {
+  Glb source = smallFace();
+  source.primitive()["attributes"]["COLOR_0"] = source.addAccessor(
+      source.addView(bytesOf(std::vector<std::uint16_t>(4 * 9, 65535)), 8), 5123, "VEC4", 9);
+  source.attribute("COLOR_0")["normalized"] = true;
+  for (Index lod = 2; lod <= 9; ++lod) {
+    const Written glb = write(converted(source, 0.001), {.lod = lod});
+    EXPECT_EQ(std::ranges::min(glb.stored(glb.attribute("COLOR_0"))), 65535) << lod;
+  }
+}
+
 TEST(LodWriter, GivesWholeNumbersOfTheNearestVertex) {
   Glb source = smallFace();
   std::vector<float> numbers{7, 7, 7, 8, 8, 8, 9, 9, 9};
