@@ -37,14 +37,12 @@ Keys exactKeys(const Motion& motion, const std::vector<std::size_t>& targets) {
   return keys;
 }
 
-Keys sampledKeys(const Motion& motion, const std::vector<std::size_t>& targets, int count) {
+Keys framesOf(const Clip& clip, const std::vector<std::size_t>& targets) {
   Keys keys;
-  for (int k = 0; k < count; ++k) {
-    const double time = motion.seconds() * (static_cast<double>(k) / (count - 1));
-    keys.times.push_back(time);
+  keys.times = clip.times;
+  for (std::size_t frame = 0; frame < clip.times.size(); ++frame)
     for (const std::size_t target : targets)
-      keys.values.push_back(motion.sample(target, time).position);
-  }
+      keys.values.push_back(clip.weights[frame * clip.names.size() + target]);
   return keys;
 }
 
@@ -73,12 +71,13 @@ bool areSingle(const std::vector<double>& values) {
 
 class Animator {
  public:
-  Animator(BoundScene& scene, const Motion& motion, int sampledKeys, Builder& builder)
-      : scene_(scene), motion_(motion), sampledKeys_(sampledKeys), builder_(builder) {}
+  Animator(BoundScene& scene, const GlbOptions& options, Builder& builder)
+      : scene_(scene), options_(options), builder_(builder) {}
 
   Result<void> run() {
-    animation_ = {
-        {"name", nameOf(motion_.law())}, {"channels", Json::array()}, {"samplers", Json::array()}};
+    std::string name = options_.animationName;
+    if (name.empty()) name = options_.motion ? nameOf(options_.motion->law()) : "clip";
+    animation_ = {{"name", name}, {"channels", Json::array()}, {"samplers", Json::array()}};
     const Json& nodes = scene_.document.list("nodes");
     for (std::size_t n = 0; n < nodes.size(); ++n)
       if (auto ok = addNode(n, nodes[n]); !ok) return ok;
@@ -109,8 +108,8 @@ class Animator {
     std::vector<std::size_t> targets;
     for (const std::size_t t : scene_.parts.meshes[mesh].targets)
       targets.push_back(static_cast<std::size_t>(scene_.targets[t]));
-    const Keys keys = sampledKeys_ > 1 ? sampledKeys(motion_, targets, sampledKeys_)
-                                       : exactKeys(motion_, targets);
+    const Keys keys =
+        options_.motion ? exactKeys(*options_.motion, targets) : framesOf(*options_.clip, targets);
     const std::vector<double> values = interleaved(keys);
     if (!areSingle(keys.times) || !increase(keys.times) || !areSingle(values))
       return fail(
@@ -128,8 +127,7 @@ class Animator {
   }
 
   BoundScene& scene_;
-  const Motion& motion_;
-  int sampledKeys_;
+  const GlbOptions& options_;
   Builder& builder_;
   Json animation_;
   std::optional<std::size_t> input_;             // the times, the same for all meshes
@@ -138,9 +136,8 @@ class Animator {
 
 }  // namespace
 
-Result<void> addAnimation(BoundScene& scene, const Motion& motion, int sampledKeys,
-                          Builder& builder) {
-  return Animator(scene, motion, sampledKeys, builder).run();
+Result<void> addAnimation(BoundScene& scene, const GlbOptions& options, Builder& builder) {
+  return Animator(scene, options, builder).run();
 }
 
 void setWeights(BoundScene& scene, const std::vector<double>& weights) {

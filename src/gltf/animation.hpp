@@ -1,17 +1,16 @@
 #pragma once
 
-#include "sweepface/motion.hpp"
+#include "sweepface/gltf.hpp"
 
 #include "gltf/bound_scene.hpp"
 #include "gltf/builder.hpp"
 
 namespace sweepface::gltf {
 
-/// Adds an animation of the weights, named after the law: with a channel for every node that shows
-/// a mesh with targets. Its keys hold the law exactly, as straight lines or parabolas between them;
-/// or there are `sampledKeys` > 1 with straight lines between them.
-Result<void> addAnimation(BoundScene& scene, const Motion& motion, int sampledKeys,
-                          Builder& builder);
+/// Adds the animation of the weights that the options ask for, with a channel for every node that
+/// shows a mesh with targets. The keys of a motion hold its law exactly, as straight lines or
+/// parabolas between them; between those of a clip are straight lines.
+Result<void> addAnimation(BoundScene& scene, const GlbOptions& options, Builder& builder);
 
 /// Shows the meshes at these weights [the rig's targets].
 void setWeights(BoundScene& scene, const std::vector<double>& weights);

@@ -23,8 +23,10 @@ Result<void> check(const Rig& rig, const GlbOptions& options) {
     return differ("expression", options.weights.size());
   if (options.motion && options.motion->size() != targets)
     return differ("motion", options.motion->size());
-  if (options.lod < 0 || options.sampledKeys < 0 || options.sampledKeys == 1)
-    return fail("A level of detail is 0 or more, and sampled keys are two or more.");
+  if (options.clip && options.clip->names.size() != targets)
+    return differ("clip", options.clip->names.size());
+  if (options.clip && options.clip->times.empty()) return fail("The clip has no frames.");
+  if (options.lod < 0) return fail("A level of detail is 0 or more.");
   for (const double weight : options.weights)
     if (!(std::abs(weight) <= std::numeric_limits<float>::max()))
       return fail("A weight is not a number that a glTF can hold.");
@@ -54,8 +56,8 @@ class GlbWriter {
     scene_ = std::move(*scene);
     Builder builder(scene_.document);
     if (auto ok = writeMeshes(builder); !ok) return std::unexpected(ok.error());
-    if (options_.motion)
-      if (auto ok = addAnimation(scene_, *options_.motion, options_.sampledKeys, builder); !ok)
+    if (options_.motion || options_.clip)
+      if (auto ok = addAnimation(scene_, options_, builder); !ok)
         return std::unexpected(ok.error());
     builder.finish();
     if (!builder.sound())

@@ -84,10 +84,25 @@ TEST_P(Laws, NeedTwoOrThreeKeys) {
   EXPECT_EQ(input["max"], Json::array({1.0}));
 }
 
+/// The motion as keys without tangents.
+Clip sampled(const Rig& rig, const Motion& motion, int keys) {
+  Clip clip;
+  for (const Target& target : rig.targets) clip.names.push_back(target.name);
+  Weights weights(motion.size());
+  for (int key = 0; key < keys; ++key) {
+    clip.times.push_back(motion.seconds() * key / (keys - 1));
+    motion.at(clip.times.back(), weights);
+    clip.weights.insert(clip.weights.end(), weights.begin(), weights.end());
+  }
+  return clip;
+}
+
 TEST_P(Laws, CanBeSampled) {
   const Rig rig = converted(withTargets(plane(4, 4), 2));
   const Motion motion = motionOf(rig, GetParam(), 0.7);
-  const Written glb = write(rig, {.motion = &motion, .sampledKeys = 8});
+  const Clip clip = sampled(rig, motion, 8);
+  const Written glb = write(rig, {.clip = &clip, .animationName = "eight"});
+  EXPECT_EQ(lastAnimation(glb)["name"], "eight");
   const Json& sampler = lastAnimation(glb)["samplers"][0];
   EXPECT_EQ(sampler["interpolation"], "LINEAR");
   EXPECT_EQ(glb.accessor(sampler["input"])["count"], 8);
@@ -158,7 +173,9 @@ TEST(AnimationWriter, LeavesOtherAnimationsAsTheyAre) {
 
 TEST(AnimationWriter, RefusesWhatCannotMove) {
   const auto refuses = [](const Rig& rig, const Motion& motion, int keys, std::string_view why) {
-    EXPECT_TRUE(failsWith(formatGlb(rig, {.motion = &motion, .sampledKeys = keys}), {why}));
+    const Clip clip = sampled(rig, motion, std::max(keys, 2));
+    const GlbOptions options = keys > 0 ? GlbOptions{.clip = &clip} : GlbOptions{.motion = &motion};
+    EXPECT_TRUE(failsWith(formatGlb(rig, options), {why}));
   };
   const Rig still = converted(MeshRig{plane(4, 4), {}}),
             rig = converted(withTargets(plane(4, 4), 1));
@@ -170,7 +187,9 @@ TEST(AnimationWriter, RefusesWhatCannotMove) {
   refuses(rig, motion(0, 1, 1e39), 0, "single precision");
   refuses(rig, motion(0, 1e39, 1), 0, "single precision");
   refuses(rig, motion(0, 1, 1e-44), 100, "single precision");
-  refuses(rig, motion(0, 1, 1), 1, "two or more");
+  const Clip empty{{"t0"}, {}, {}}, other;
+  EXPECT_TRUE(failsWith(formatGlb(rig, {.clip = &empty}), {"no frames"}));
+  EXPECT_TRUE(failsWith(formatGlb(rig, {.clip = &other}), {"clip has 0 weights"}));
   Rig unseen = converted(scene());
   Rig nowhere = rig;
   unseen.scene = [] {
