@@ -3,6 +3,7 @@
 #include <map>
 
 #include "gltf/fine_mesh.hpp"
+#include "gltf/same_vertices.hpp"
 
 namespace sweepface::gltf {
 namespace {
