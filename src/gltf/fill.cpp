@@ -11,8 +11,6 @@ namespace {
 constexpr std::size_t batch = 16;
 // Half of a float's last digit, as a share of the number.
 constexpr double halfDigit = 0x1p-24;
-// Lengths in a GLB have 32 bits, and the JSON must find room as well.
-constexpr std::size_t mostBytes = (std::size_t{1} << 32) - (std::size_t{1} << 24);
 
 /// From the space of the scene to what a run's accessors hold.
 class Packer {

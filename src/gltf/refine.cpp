@@ -70,6 +70,10 @@ class Refiner {
       if (!isNew) continue;
       auto column = mixed(scene_.document, *accessor, mesh_.runs[run].places);
       if (!column) return std::unexpected(column.error());
+      bytes_ += column->bytes.size();
+      if (bytes_ > mostBytes)
+        return fail("The face's attributes would need more than the 4 GiB of a GLB; choose a lower "
+                    "level of detail.");
       value->second.column = std::move(*column);
     }
     return {};
@@ -129,6 +133,7 @@ class Refiner {
   const FineMesh& mesh_;
   Slots& slots_;
   std::map<Place, Value> values_;
+  std::size_t bytes_ = 0;
 };
 
 }  // namespace
