@@ -128,6 +128,13 @@ std::optional<std::size_t> Members::optionalIndex(std::string_view key, std::siz
   return ok() ? std::optional(number) : std::nullopt;
 }
 
+double Members::number(std::string_view key, double absent) {
+  if (!has(key)) return absent;
+  const Json* const value = required(key);
+  if (value && !value->is_number()) refuse(quoted(key) + " is not a number");
+  return ok() ? value->get<double>() : absent;
+}
+
 bool Members::flag(std::string_view key) {
   if (!has(key)) return false;
   const Json* const value = required(key);

@@ -50,6 +50,7 @@ class Members {
   std::size_t index(std::string_view key, std::size_t count, std::string_view things);
   std::optional<std::size_t> optionalIndex(std::string_view key, std::size_t count,
                                            std::string_view things);
+  double number(std::string_view key, double absent);
   bool flag(std::string_view key);
   std::string_view text(std::string_view key);  ///< empty where absent
   const Json& object(std::string_view key);     ///< empty where absent

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <map>
 
+#include "gltf/texcoords.hpp"
 #include "gltf/triangles.hpp"
 #include "io/text.hpp"
 
@@ -117,7 +118,7 @@ class RigReader {
     corners_ += found->named;
     if (corners_ > mostElements())
       in.refuse("the triangles of the file are more than its size can mean");
-    const auto texcoords = readTexcoords(in.object("attributes"));
+    const auto texcoords = addTexcoords(primitive);
     if (!texcoords) return std::unexpected(texcoords.error());
     const Index material = readMaterial(in);
     if (!in.ok()) return in.error();
@@ -129,27 +130,19 @@ class RigReader {
   }
 
   /// The first texture coordinate of a part's vertices among all, or -1. Parts may share them.
-  Result<Index> readTexcoords(const Json& attributes) {
-    const Json* const number = find(attributes, "TEXCOORD_0");
+  Result<Index> addTexcoords(const Json& primitive) {
+    const Json* const number = find(primitive["attributes"], "TEXCOORD_0");
     if (!number) return -1;
-    const std::size_t index = *asIndex(*number, document_.list("accessors").size());
     std::vector<Vec2>& all = rig_.neutral.polygons.texcoords;
-    const auto [known, isNew] = texcoords_.emplace(index, static_cast<Index>(all.size()));
+    const Json* const material = find(primitive, "material");
+    const auto [known, isNew] =
+        texcoords_.emplace(std::pair(*number, material ? *material : Json()), all.size());
     if (!isNew) return known->second;
-    const auto accessor = accessorAt(document_, index);
-    if (!accessor) return std::unexpected(accessor.error());
-    if (accessor->rows != 2 || accessor->columns != 1)
-      return fail(
-          fmt::format("accessor {}: a TEXCOORD_0 is not of type VEC2; export the file "
-                      "again.",
-                      index));
-    const auto values = decode(document_, *accessor);
-    if (!values) return std::unexpected(values.error());
-    if (all.size() + values->size() / 2 > mostElements())
+    const auto texcoords = readTexcoords(document_, primitive);
+    if (!texcoords) return std::unexpected(texcoords.error());
+    if (all.size() + texcoords->size() > mostElements())
       return fail("it has more texture coordinates than its size can mean; export the file again.");
-    // The origin is at the upper left in glTF and at the lower left in OBJ.
-    for (std::size_t k = 0; k < values->size(); k += 2)
-      all.push_back({(*values)[k], 1 - (*values)[k + 1]});
+    all.insert(all.end(), texcoords->begin(), texcoords->end());
     return known->second;
   }
 
@@ -184,7 +177,7 @@ class RigReader {
   MeshRig rig_;
   io::NameIndex materials_, groups_;
   std::size_t corners_ = 0;
-  std::map<std::size_t, Index> texcoords_;  // first of each accessor
+  std::map<std::pair<Json, Json>, Index> texcoords_;  // first of each accessor and material
 };
 
 }  // namespace
