@@ -140,6 +140,7 @@ export class Sweepface {
   #shared;
   #face;
   #motion = 0;
+  #waits = 0;  // seconds until the last delayed motion sets out
   #memory;  // two arrays of vectors for the C interface and what they point to, then weights
 
   /** Use Sweepface.load. */
@@ -190,12 +191,14 @@ export class Sweepface {
 
   /** Sets the weights that are named and leaves the others; those in motion stop. */
   setWeights(weights) {
-    const {runtime} = this.#open(), {wasm} = runtime;
-    const all = this.#resolve(weights);
-    for (const [target, weight] of all) {
-      runtime.check(wasm.sweepface_face_set_weight(this.#face, target, weight));
-      if (this.#motion) runtime.check(wasm.sweepface_motion_move_to(this.#motion, target, weight, this.#drive('cut')));
-    }
+    const {runtime, names} = this.#open(), {wasm} = runtime, at = this.#memory.weights;
+    const named = this.#resolve(weights), all = runtime.doubles(at, names.length);
+    all.set(runtime.doubles(wasm.sweepface_face_weights(this.#face), names.length));
+    for (const [target, weight] of named) all[target] = weight;
+    runtime.check(wasm.sweepface_face_set_weights(this.#face, at, names.length));
+    if (!this.#motion) return;
+    const cut = this.#drive('cut');
+    for (const [target, weight] of named) runtime.check(wasm.sweepface_motion_move_to(this.#motion, target, weight, cut));
   }
 
   /** All weights to 0, at once. */
@@ -220,6 +223,7 @@ export class Sweepface {
     const {runtime} = this.#open();
     const all = this.#resolve(goals), at = this.#drive(drive), motion = this.#moving();
     for (const [target, goal] of all) runtime.check(runtime.wasm.sweepface_motion_move_to(motion, target, goal, at));
+    this.#waits = Math.max(this.#waits, drive.delay ?? 0);
   }
 
   /** A blow: adds to the velocity of a weight (per second), which drag (per second) takes away. */
@@ -228,13 +232,18 @@ export class Sweepface {
     runtime.check(runtime.wasm.sweepface_motion_push(this.#moving(), target, velocityChange, drag));
   }
 
-  /** Lets time pass for the weights in motion. */
+  /** Lets time pass for the weights in motion; says whether anything goes on moving. */
   advance(seconds) {
-    const {runtime, names} = this.#open(), {wasm} = runtime;
-    if (!this.#motion) return;
+    const {runtime, names} = this.#open(), {wasm} = runtime, {weights} = this.#memory, count = names.length;
+    if (!this.#motion) return false;
+    const still = 1e-6, before = runtime.doubles(wasm.sweepface_face_weights(this.#face), count).slice();
     wasm.sweepface_motion_advance(this.#motion, seconds);
-    runtime.check(wasm.sweepface_motion_positions(this.#motion, this.#memory.weights, names.length));
-    runtime.check(wasm.sweepface_face_set_weights(this.#face, this.#memory.weights, names.length));
+    this.#waits -= Math.max(seconds, 0);
+    runtime.check(wasm.sweepface_motion_velocities(this.#motion, weights, count));
+    const fast = runtime.doubles(weights, count).some((velocity) => Math.abs(velocity) > still);
+    runtime.check(wasm.sweepface_motion_positions(this.#motion, weights, count));
+    runtime.check(wasm.sweepface_face_set_weights(this.#face, weights, count));
+    return fast || this.#waits > 0 || runtime.doubles(weights, count).some((w, k) => Math.abs(w - before[k]) > still);
   }
 
   /** Frees the face; it can no longer be used. Memory is given back with the last face of a file. */
@@ -259,8 +268,9 @@ export class Sweepface {
   /** Targets and numbers; nothing is set before all are known. */
   #resolve(byName) {
     return Object.entries(byName).map(([name, value]) => {
-      if (typeof value !== 'number') throw new TypeError(`The weight of '${name}' must be a number.`);
-      return [this.#shared.target(name), value];
+      const target = this.#shared.target(name);
+      if (!Number.isFinite(value)) throw new TypeError(`The weight of '${name}' must be a finite number, not ${value}.`);
+      return [target, value];
     });
   }
 

@@ -43,10 +43,15 @@ export class SweepfaceMesh extends Mesh {
     this.#moving = true;
   }
 
+  push(name, velocityChange, drag) {
+    this.face.push(name, velocityChange, drag);
+    this.#moving = true;
+  }
+
   /** Call it once a frame with the seconds since the last; costs nothing where nothing moves. */
   update(seconds = 0) {
     if (this.#moving && seconds > 0) {
-      this.face.advance(seconds);
+      this.#moving = this.face.advance(seconds);
       this.#stale = true;
     }
     if (!this.#stale) return;

@@ -16,8 +16,8 @@ constexpr std::size_t kTight = 3 * sizeof(float);
 
 bool isWeight(double w) { return std::abs(w) <= SWEEPFACE_MOST_WEIGHT; }  // false for NaN
 
-sweepface_status refuseWeight(std::size_t target) {
-  return refuse("The weight of target " + std::to_string(target) + " must lie within " +
+sweepface_status refuseWeight(const sweepface_face& face, std::size_t target) {
+  return refuse("The weight of '" + face.mesh->rig->targets[target].name + "' must lie within " +
                 std::to_string(static_cast<int>(SWEEPFACE_MOST_WEIGHT)) + " of 0.");
 }
 
@@ -55,7 +55,7 @@ void sweepface_face_free(sweepface_face* face) { delete face; }
 sweepface_status sweepface_face_set_weight(sweepface_face* face, uint32_t target, double weight) {
   if (!face) return refuse("Setting a weight needs a face.");
   if (target >= face->weights.size()) return noSuch("target", target, face->weights.size());
-  if (!isWeight(weight)) return refuseWeight(target);
+  if (!isWeight(weight)) return refuseWeight(*face, target);
   face->weights[target] = weight;
   return SWEEPFACE_OK;
 }
@@ -67,7 +67,7 @@ sweepface_status sweepface_face_set_weights(sweepface_face* face, const double* 
     return refuse("There are " + std::to_string(count) + " weights for " +
                   std::to_string(face->weights.size()) + " targets.");
   for (size_t k = 0; k < count; ++k)
-    if (!isWeight(weights[k])) return refuseWeight(k);
+    if (!isWeight(weights[k])) return refuseWeight(*face, k);
   std::copy_n(weights, count, face->weights.begin());
   return SWEEPFACE_OK;
 }
