@@ -21,7 +21,7 @@ endif()
 
 install(TARGETS ${installed_libraries} EXPORT sweepfaceTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/sweepface DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
-        FILES_MATCHING PATTERN *.hpp ${skipped_headers})
+        FILES_MATCHING PATTERN *.hpp PATTERN *.h ${skipped_headers})
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 # find_package(sweepface): targets sweepface::runtime and, unless built without, sweepface::convert.
