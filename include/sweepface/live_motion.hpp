@@ -1,0 +1,81 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "sweepface/trajectory.hpp"
+
+namespace sweepface {
+
+/// How a weight goes from where it stands, with the velocity it has, to a goal.
+struct Drive {
+  enum class Kind {
+    cut,              ///< is there at once: follows exactly
+    newton,           ///< a constant force, arriving at speed
+    linearForce,      ///< a force linear in time, arriving at rest
+    accelerateBrake,  ///< one constant force, then another, arriving at rest
+    spring,           ///< pulled by a spring
+    bounce,           ///< a constant force, then bounces
+  };
+  Kind kind = Kind::spring;
+  double seconds = 0.3;      ///< until it arrives: newton, linearForce, accelerateBrake, bounce
+  double turn = 0.5;         ///< accelerateBrake: when the second force takes over, as a fraction
+  Spring spring;             ///< spring
+  double restitution = 0.4;  ///< bounce
+  double delay = 0;          ///< seconds before it sets out
+};
+
+/// "cut", "newton", "linear-force", "accelerate-brake", "spring" or "bounce" with its defaults; the
+/// error lists them.
+Result<Drive> driveFromName(std::string_view name);
+std::string_view nameOf(Drive::Kind kind) noexcept;
+
+/// The trajectory of a drive without its delay. A cut keeps no velocity.
+Result<Trajectory> trajectoryOf(const Drive& drive, Start start, double goal);
+
+/// K weights in motion that take new goals at any instant and go on from where they are without a
+/// jump in position or velocity (but for cuts). Every path is a closed form of the clock, so what
+/// is seen does not depend on the frame rate. Nothing allocates after `make`, but the texts of
+/// errors.
+class MotionState {
+ public:
+  /// Refuses weights that are not finite.
+  static Result<MotionState> make(std::span<const double> weights);
+
+  std::size_t size() const noexcept { return coordinates_.size(); }
+  double now() const noexcept { return now_; }  ///< seconds since `make`
+
+  /// Lets time pass. Negative or not a number: none passes.
+  void advance(double seconds) noexcept;
+
+  /// Sends a weight to a goal; what it did before ends when the drive sets out. On an error
+  /// nothing changes.
+  Result<void> moveTo(std::size_t weight, double goal, const Drive& drive = {});
+  /// The same for all weights [K].
+  Result<void> moveTo(std::span<const double> goals, const Drive& drive = {});
+  /// A blow: adds to a weight's velocity, which drag (per second) then takes away.
+  Result<void> push(std::size_t weight, double velocityChange, double drag);
+
+  /// Where a weight stands; rest at 0 for one that there is not.
+  Kinematics sample(std::size_t weight) const noexcept;
+  /// All weights or velocities, as many as `out` takes.
+  void positions(std::span<double> out) const noexcept;
+  void velocities(std::span<double> out) const noexcept;
+
+ private:
+  // What a weight does now and what it does from `switchAt` on.
+  struct Coordinate {
+    Trajectory now, next;
+    double began = 0, switchAt = 0;
+    Kinematics at(double time) const noexcept;
+  };
+  Result<Trajectory> prepare(std::size_t weight, double goal, const Drive& drive) const;
+  void take(std::size_t weight, const Trajectory& next, double delay) noexcept;
+
+  std::vector<Coordinate> coordinates_;
+  double now_ = 0;
+};
+
+}  // namespace sweepface

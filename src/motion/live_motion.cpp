@@ -1,0 +1,148 @@
+#include "sweepface/live_motion.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+namespace sweepface {
+namespace {
+
+struct Name {
+  Drive::Kind kind;
+  std::string_view text;
+};
+
+constexpr std::array kNames{Name{Drive::Kind::cut, "cut"},
+                            Name{Drive::Kind::newton, "newton"},
+                            Name{Drive::Kind::linearForce, "linear-force"},
+                            Name{Drive::Kind::accelerateBrake, "accelerate-brake"},
+                            Name{Drive::Kind::spring, "spring"},
+                            Name{Drive::Kind::bounce, "bounce"}};
+
+Result<void> checkIndex(std::size_t weight, std::size_t count) {
+  if (weight < count) return {};
+  return fail("There is no weight " + std::to_string(weight) + "; there are " +
+              std::to_string(count) + ".");
+}
+
+}  // namespace
+
+Result<Drive> driveFromName(std::string_view name) {
+  std::string names;
+  for (const Name& n : kNames) {
+    if (name == n.text) return Drive{.kind = n.kind, .spring = {}};
+    if (!names.empty()) names += ", ";
+    names += n.text;
+  }
+  return fail("There is no way to move called \"" + std::string(name) + "\"; there are " + names +
+              ".");
+}
+
+std::string_view nameOf(Drive::Kind kind) noexcept {
+  const auto found = std::ranges::find(kNames, kind, &Name::kind);
+  return found == kNames.end() ? "" : found->text;
+}
+
+Result<Trajectory> trajectoryOf(const Drive& drive, Start start, double goal) {
+  switch (drive.kind) {
+    case Drive::Kind::newton:
+      return Trajectory::constantForce(start, goal, drive.seconds);
+    case Drive::Kind::linearForce:
+      return Trajectory::linearForce(start, goal, drive.seconds);
+    case Drive::Kind::accelerateBrake:
+      return Trajectory::twoForces(start, goal, drive.seconds, drive.turn);
+    case Drive::Kind::spring:
+      return Trajectory::spring(start, goal, drive.spring);
+    case Drive::Kind::bounce:
+      return Trajectory::bounce(start, goal, drive.seconds, drive.restitution);
+    case Drive::Kind::cut:
+      break;
+  }
+  if (!std::isfinite(goal)) return fail("A motion needs finite numbers.");
+  return Trajectory(goal);
+}
+
+Kinematics MotionState::Coordinate::at(double time) const noexcept {
+  return time < switchAt ? now.at(time - began) : next.at(time - switchAt);
+}
+
+Result<MotionState> MotionState::make(std::span<const double> weights) {
+  MotionState state;
+  for (std::size_t k = 0; k < weights.size(); ++k) {
+    if (!std::isfinite(weights[k]))
+      return fail("Weight " + std::to_string(k) + " of the motion is not a finite number.");
+    state.coordinates_.push_back({Trajectory(weights[k]), Trajectory(weights[k]), 0, 0});
+  }
+  return state;
+}
+
+void MotionState::advance(double seconds) noexcept {
+  if (seconds > 0) now_ += seconds;
+}
+
+Result<Trajectory> MotionState::prepare(std::size_t weight, double goal, const Drive& drive) const {
+  if (auto ok = checkIndex(weight, size()); !ok) return std::unexpected(ok.error());
+  if (!(std::isfinite(drive.delay) && drive.delay >= 0))
+    return fail("The delay of a motion must be at least 0 seconds.");
+  // Where it will stand when the drive sets out.
+  const Coordinate& coordinate = coordinates_[weight];
+  const double start = now_ + drive.delay;
+  const Kinematics from = now_ < coordinate.switchAt ? coordinate.now.at(start - coordinate.began)
+                                                     : coordinate.at(start);
+  return trajectoryOf(drive, {from.position, from.velocity}, goal);
+}
+
+void MotionState::take(std::size_t weight, const Trajectory& next, double delay) noexcept {
+  // A drive that still waits is replaced; one that has set out is what goes on until the switch.
+  Coordinate& coordinate = coordinates_[weight];
+  if (now_ >= coordinate.switchAt) {
+    coordinate.now = coordinate.next;
+    coordinate.began = coordinate.switchAt;
+  }
+  coordinate.next = next;
+  coordinate.switchAt = now_ + delay;
+}
+
+Result<void> MotionState::moveTo(std::size_t weight, double goal, const Drive& drive) {
+  const Result<Trajectory> next = prepare(weight, goal, drive);
+  if (!next) return std::unexpected(next.error());
+  take(weight, *next, drive.delay);
+  return {};
+}
+
+Result<void> MotionState::moveTo(std::span<const double> goals, const Drive& drive) {
+  if (goals.size() != size())
+    return fail("There are " + std::to_string(goals.size()) + " goals for " +
+                std::to_string(size()) + " weights; give one each.");
+  // All are prepared before the first sets out, so that an error leaves everything as it was.
+  for (std::size_t k = 0; k < size(); ++k)
+    if (const auto next = prepare(k, goals[k], drive); !next) return std::unexpected(next.error());
+  for (std::size_t k = 0; k < size(); ++k) take(k, *prepare(k, goals[k], drive), drive.delay);
+  return {};
+}
+
+Result<void> MotionState::push(std::size_t weight, double velocityChange, double drag) {
+  if (auto ok = checkIndex(weight, size()); !ok) return ok;
+  const Kinematics from = sample(weight);
+  const auto next = Trajectory::impulse({from.position, from.velocity}, velocityChange, drag);
+  if (!next) return std::unexpected(next.error());
+  take(weight, *next, 0);
+  return {};
+}
+
+Kinematics MotionState::sample(std::size_t weight) const noexcept {
+  return weight < size() ? coordinates_[weight].at(now_) : Kinematics{};
+}
+
+void MotionState::positions(std::span<double> out) const noexcept {
+  const std::size_t count = std::min(size(), out.size());
+  for (std::size_t k = 0; k < count; ++k) out[k] = sample(k).position;
+}
+
+void MotionState::velocities(std::span<double> out) const noexcept {
+  const std::size_t count = std::min(size(), out.size());
+  for (std::size_t k = 0; k < count; ++k) out[k] = sample(k).velocity;
+}
+
+}  // namespace sweepface

@@ -1,0 +1,132 @@
+#include "sweepface/live_motion.hpp"
+
+#include <array>
+#include <cmath>
+#include <gtest/gtest.h>
+#include <limits>
+#include <random>
+#include <vector>
+
+namespace sweepface {
+namespace {
+
+constexpr std::array kKinds{Drive::Kind::newton, Drive::Kind::linearForce,
+                            Drive::Kind::accelerateBrake, Drive::Kind::spring, Drive::Kind::bounce};
+
+MotionState still(std::size_t count) { return *MotionState::make(std::vector<double>(count, 0.0)); }
+
+Drive drive(Drive::Kind kind, double seconds = 0.4) {
+  return {.kind = kind, .seconds = seconds, .spring = {}};
+}
+
+TEST(MotionState, InterruptedAtAnyMomentItDoesNotJump) {
+  std::mt19937 engine(3);
+  std::uniform_real_distribution unit(0.0, 1.0);
+  MotionState state = still(1);
+  for (int i = 0; i < 10'000; ++i) {
+    state.advance(unit(engine));
+    const Kinematics before = state.sample(0);
+    Drive next = drive(kKinds[engine() % kKinds.size()], 0.1 + unit(engine));
+    next.spring = {0.5 + 3 * unit(engine), 2 * unit(engine)};
+    next.delay = i % 3 == 0 ? 0.3 * unit(engine) : 0;
+    ASSERT_TRUE(state.moveTo(0, unit(engine), next));
+    const Kinematics after = state.sample(0);
+    ASSERT_NEAR(after.position, before.position, 1e-12 * (1 + std::abs(before.position))) << i;
+    ASSERT_NEAR(after.velocity, before.velocity, 1e-12 * (1 + std::abs(before.velocity))) << i;
+  }
+}
+
+TEST(MotionState, ADelayedDriveSetsOutWithoutAJump) {
+  MotionState state = still(1);
+  ASSERT_TRUE(state.moveTo(0, 1, drive(Drive::Kind::spring)));
+  state.advance(0.05);
+  Drive late = drive(Drive::Kind::linearForce);
+  late.delay = 0.1;
+  ASSERT_TRUE(state.moveTo(0, 0, late));
+  state.advance(0.1 - 1e-12);
+  const Kinematics before = state.sample(0);
+  state.advance(2e-12);
+  const Kinematics after = state.sample(0);
+  EXPECT_NEAR(before.position, after.position, 1e-9);
+  EXPECT_NEAR(before.velocity, after.velocity, 1e-9);
+  state.advance(1);
+  EXPECT_EQ(state.sample(0).position, 0);
+}
+
+TEST(MotionState, TheFrameRateDoesNotMatter) {
+  for (const Drive::Kind kind : kKinds) {
+    MotionState coarse = still(1), fine = still(1);
+    ASSERT_TRUE(coarse.moveTo(0, 1, drive(kind)));
+    ASSERT_TRUE(fine.moveTo(0, 1, drive(kind)));
+    coarse.advance(0.1);
+    for (int i = 0; i < 100; ++i) fine.advance(0.001);
+    EXPECT_NEAR(coarse.sample(0).position, fine.sample(0).position, 1e-13) << nameOf(kind);
+    EXPECT_NEAR(coarse.sample(0).velocity, fine.sample(0).velocity, 1e-12) << nameOf(kind);
+  }
+}
+
+TEST(MotionState, EveryWeightHasItsOwnDrive) {
+  MotionState state = still(3);
+  ASSERT_TRUE(state.moveTo(0, 1, drive(Drive::Kind::newton, 1)));
+  ASSERT_TRUE(state.moveTo(1, 1, drive(Drive::Kind::cut)));
+  state.advance(0.5);
+  std::array<double, 3> x{}, v{};
+  state.positions(x);
+  state.velocities(v);
+  EXPECT_EQ(x[0], 0.25);
+  EXPECT_EQ(v[0], 1);
+  EXPECT_EQ(x[1], 1);
+  EXPECT_EQ(v[1], 0);
+  EXPECT_EQ(x[2], 0);
+}
+
+TEST(MotionState, AllWeightsGoTogether) {
+  MotionState state = still(2);
+  const std::array goals{1.0, -1.0};
+  ASSERT_TRUE(state.moveTo(goals, drive(Drive::Kind::accelerateBrake, 1)));
+  state.advance(0.5);
+  EXPECT_NEAR(state.sample(0).position, 0.5, 1e-15);
+  EXPECT_NEAR(state.sample(1).position, -0.5, 1e-15);
+}
+
+TEST(MotionState, ABlowAddsVelocity) {
+  MotionState state = still(1);
+  ASSERT_TRUE(state.push(0, 2, 4));
+  EXPECT_EQ(state.sample(0).velocity, 2);
+  state.advance(100);
+  EXPECT_NEAR(state.sample(0).position, 0.5, 1e-12);
+}
+
+TEST(MotionState, TimeNeverRunsBackwards) {
+  MotionState state = still(1);
+  state.advance(1);
+  state.advance(-5);
+  state.advance(std::numeric_limits<double>::quiet_NaN());
+  EXPECT_EQ(state.now(), 1);
+}
+
+TEST(MotionState, RefusesWithoutChange) {
+  MotionState state = still(2);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(state.moveTo(2, 1));
+  EXPECT_FALSE(state.moveTo(0, nan));
+  EXPECT_FALSE(state.moveTo(0, nan, drive(Drive::Kind::cut)));
+  Drive late = drive(Drive::Kind::spring);
+  late.delay = -1;
+  EXPECT_FALSE(state.moveTo(0, 1, late));
+  EXPECT_FALSE(state.moveTo(std::array{1.0}));
+  EXPECT_FALSE(state.moveTo(std::array{1.0, nan}));
+  EXPECT_FALSE(state.push(5, 1, 1));
+  EXPECT_FALSE(MotionState::make(std::array{nan}));
+  state.advance(1);
+  EXPECT_EQ(state.sample(0).position, 0);
+  EXPECT_EQ(state.sample(7).position, 0);
+}
+
+TEST(Drive, NamesGoBothWays) {
+  for (const Drive::Kind kind : kKinds) EXPECT_EQ(driveFromName(nameOf(kind))->kind, kind);
+  EXPECT_NE(driveFromName("jump").error().message.find("accelerate-brake"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace sweepface
