@@ -45,12 +45,9 @@ class RigReader {
 
  private:
   // Few bytes can claim much: targets without data, accessors that are used again and again. Files
-  // that mean what they say stay below these, however well they are compressed.
-  static constexpr std::size_t vectorsPerByte = 32, elementsPerByte = 8, alwaysAllowed = 1 << 16;
+  // that mean what they say stay below this, however well they are compressed.
+  static constexpr std::size_t vectorsPerByte = 32, alwaysAllowed = 1 << 16;
   std::size_t mostVectors() const { return alwaysAllowed + vectorsPerByte * document_.sourceBytes; }
-  std::size_t mostElements() const {
-    return alwaysAllowed + elementsPerByte * document_.sourceBytes;
-  }
 
   Result<void> checkRoom() const {
     const std::size_t shapes = parts_.targets.size() + 1;
@@ -116,7 +113,7 @@ class RigReader {
     const auto found = trianglesOf(document_, parts_, part);
     if (!found) return std::unexpected(found.error());
     corners_ += found->named;
-    if (corners_ > mostElements())
+    if (corners_ > document_.mostElements())
       in.refuse("the triangles of the file are more than its size can mean");
     const auto texcoords = addTexcoords(primitive);
     if (!texcoords) return std::unexpected(texcoords.error());
@@ -140,7 +137,7 @@ class RigReader {
     if (!isNew) return known->second;
     const auto texcoords = readTexcoords(document_, primitive);
     if (!texcoords) return std::unexpected(texcoords.error());
-    if (all.size() + texcoords->size() > mostElements())
+    if (all.size() + texcoords->size() > document_.mostElements())
       return fail("it has more texture coordinates than its size can mean; export the file again.");
     all.insert(all.end(), texcoords->begin(), texcoords->end());
     return known->second;
