@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <set>
 
 #include "gltf/glb.hpp"
@@ -197,30 +196,6 @@ TEST(GltfReader, TextureCoordinatesHaveTheirOriginBelow) {
     const Vec2 t = polygons.texcoords[polygons.cornerTexcoords[c]];
     EXPECT_EQ(t, (Vec2{p.x / 2, 1 - p.y / 2}));
   }
-}
-
-TEST(GltfReader, TextureCoordinatesGoThroughTheTransformOfTheBaseColour) {
-  Glb glb = smallFace();
-  Json& texture = glb.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"];
-  texture = {{"index", 0}};
-  texture["extensions"]["KHR_texture_transform"] = {
-      {"offset", {0.5, 0.25}}, {"scale", {2, 4}}, {"rotation", std::numbers::pi / 2}};
-  const auto first = [](const Glb& face, std::size_t corner) {
-    const Polygons polygons = read(face).rig.neutral.polygons;
-    return polygons.texcoords[polygons.cornerTexcoords[corner]];
-  };
-  // A quarter turn takes (u, v) to (v, -u).
-  const Vec3 p = sheetPositions()[read(glb).rig.neutral.polygons.corners[2]];
-  EXPECT_NEAR(first(glb, 2).x, 0.5 + 4 * p.y / 2, 1e-12);
-  EXPECT_NEAR(first(glb, 2).y, 1 - (0.25 - 2 * p.x / 2), 1e-12);
-
-  Json& transform = texture["extensions"]["KHR_texture_transform"];
-  transform["texCoord"] = 1;
-  EXPECT_EQ(first(glb, 2), (Vec2{p.x / 2, 1 - p.y / 2}));
-  transform["rotation"] = "none";
-  EXPECT_TRUE(refused(glb, {"material 0: 'rotation' is not a number"}));
-  transform = {{"scale", {1e308, 1e308}}, {"offset", {1e308, 1}}};
-  EXPECT_TRUE(refused(glb, {"a TEXCOORD_0 is not finite where its texture is"}));
 }
 
 TEST(GltfReader, PartsMayLackTextureCoordinates) {
