@@ -65,11 +65,14 @@ int decimalDigits(const std::vector<V>& vectors) {
   for (const V& v : vectors)
     for (const double x : components(v))
       while (digits < kPowersOfTen.size() && !isDecimal(x, kPowersOfTen[digits])) ++digits;
-  const bool found = digits < kPowersOfTen.size() && std::ranges::all_of(vectors, [&](const V& v) {
-                       return std::ranges::all_of(components(v), [&](double x) {
-                         return isDecimal(x, kPowersOfTen[digits]);
-                       });
-                     });
+  const bool found = digits < kPowersOfTen.size() &&
+                     std::ranges::all_of(
+                         vectors,
+                         [&](const V& v) {
+                           return std::ranges::all_of(components(v), [&](double x) {
+                             return isDecimal(x, kPowersOfTen[digits]);
+                           });
+                         });
   return found ? static_cast<int>(digits) : -1;
 }
 

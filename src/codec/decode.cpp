@@ -50,7 +50,7 @@ class Decoder {
   }
 
   Result<void> readChunk(const Chunk& chunk) {
-    static constexpr void (Decoder::*read[kKinds.size()])(Reader&) = {
+    static constexpr void (Decoder::* read[kKinds.size()])(Reader&) = {
         &Decoder::head,      &Decoder::wireframe,   &Decoder::shapes,      &Decoder::neutral,
         &Decoder::target,    &Decoder::loose,       &Decoder::sourceOrder, &Decoder::polygons,
         &Decoder::texcoords, &Decoder::quadCorners, &Decoder::scene,       &Decoder::end};

@@ -211,7 +211,8 @@ TEST_F(Faces, RefuseWhatIsNotAWeightAndChangeNothing) {
                            std::numeric_limits<double>::infinity(), 1.01 * SWEEPFACE_MOST_WEIGHT}) {
     EXPECT_TRUE(refuses(sweepface_face_set_weight(face, 1, bad), "The weight of 'wink"));
     const double weights[] = {0.1, 0.2, bad};
-    EXPECT_TRUE(refuses(sweepface_face_set_weights(face, weights, 3), "The weight of 'rest' must lie within 1000000"));
+    EXPECT_TRUE(refuses(sweepface_face_set_weights(face, weights, 3),
+                        "The weight of 'rest' must lie within 1000000"));
   }
   EXPECT_TRUE(refuses(sweepface_face_set_weight(face, 3, 0), "no target 3; there are 3"));
   EXPECT_TRUE(refuses(sweepface_face_set_weights(face, good, 4), "4 weights for 3 targets"));
