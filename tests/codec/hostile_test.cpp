@@ -1,22 +1,8 @@
-#include <cstdlib>
 #include <gtest/gtest.h>
-#include <new>
 
+#include "allocations.hpp"
 #include "codec/files.hpp"
 #include "codec/rigs.hpp"
-
-namespace {
-std::size_t largestAllocation = 0;
-}
-
-// Watched. Kept out of line, or GCC sees malloc meet delete and warns.
-[[gnu::noinline]] void* operator new(std::size_t size) {
-  largestAllocation = std::max(largestAllocation, size);
-  if (void* memory = std::malloc(size ? size : 1)) return memory;
-  std::abort();
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
 namespace sweepface {
 namespace {
@@ -32,10 +18,10 @@ void expectRefusedInLittleMemory(const std::string& bytes, std::string_view code
                                             out.number(kMany);
                                             out.raw("some more");
                                           }));
-  largestAllocation = 0;
+  allocations.largest = 0;
   const auto rig = decode(changed, "a.sweep");
   EXPECT_FALSE(rig) << code;
-  EXPECT_LT(largestAllocation, 100'000u) << code;
+  EXPECT_LT(allocations.largest, 100'000u) << code;
 }
 
 TEST(Hostile, CountsAreRefusedBeforeRoomIsMadeForThem) {
@@ -57,9 +43,9 @@ TEST(Hostile, CountsAreRefusedBeforeRoomIsMadeForThem) {
 TEST(Hostile, LengthsOfChunksBeyondTheFileAreRefused) {
   std::string bytes = encode(makeRig(onePatch(1, 1)));
   for (int k = 12; k < 16; ++k) bytes[k] = '\xFF';
-  largestAllocation = 0;
+  allocations.largest = 0;
   EXPECT_FALSE(decode(bytes, "a.sweep"));
-  EXPECT_LT(largestAllocation, 10'000u);
+  EXPECT_LT(allocations.largest, 10'000u);
 }
 
 TEST(Hostile, NumbersMustBeShortAndSmall) {
