@@ -2,7 +2,7 @@
 
 #include "gltf/fine_mesh.hpp"
 #include "gltf/same_vertices.hpp"
-#include "gltf/triangulate.hpp"
+#include "eval/triangulate.hpp"
 
 namespace sweepface::gltf {
 namespace {

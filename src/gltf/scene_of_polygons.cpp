@@ -3,7 +3,7 @@
 
 #include "gltf/bound_scene.hpp"
 #include "gltf/builder.hpp"
-#include "gltf/triangulate.hpp"
+#include "eval/triangulate.hpp"
 
 namespace sweepface::gltf {
 namespace {

@@ -5,6 +5,8 @@
 
 #include "sweepface/result.hpp"
 
+#include "ode/power.hpp"
+
 // Which parameters are refused, and what the refusal says.
 namespace sweepface::ode {
 
@@ -19,8 +21,8 @@ inline std::string number(double x) {
 }
 
 /// A parameter divided by the leading one, for u in [0,1] instead of lengths.
-inline Result<double> scaled(double parameter, double leading, double length, int power) {
-  const double value = parameter / leading * std::pow(length, power);
+inline Result<double> scaled(double parameter, double leading, double length, int exponent) {
+  const double value = parameter / leading * ode::power(length, exponent);
   if (!(length > 0)) return fail("The length of a sweep must be a positive number.");
   if (std::isfinite(value) && std::isfinite(leading) && std::isfinite(length)) return value;
   return fail("The shape parameters and the length must be finite, also after scaling.");

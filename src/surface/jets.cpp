@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "ode/power.hpp"
 #include "surface/basis_table.hpp"
 #include "surface/chart.hpp"
 #include "surface/terms.hpp"
@@ -12,7 +13,7 @@ namespace sweepface {
 
 namespace {
 
-using Row = std::vector<Term>;
+using Row = TermRow;
 
 int comp(int i, int j) { return 3 * i + j; }
 double signOf(int power) { return power % 2 ? -1 : 1; }
@@ -34,6 +35,31 @@ Turned turned(int quarter, int i, int j) {
       return {comp(j, i), signOf(i)};
   }
 }
+
+// Which derived vectors need a derived vector, in ascending order.
+class Dependents {
+ public:
+  Dependents(const std::vector<Row>& rows, const std::vector<char>& isStored)
+      : starts_(rows.size() + 1, 0) {
+    const auto eachNeed = [&](const auto& use) {
+      for (std::size_t v = 0; v < rows.size(); ++v)
+        for (const Term& t : rows[v])
+          if (!isStored[v] && !isStored[t.vector]) use(t.vector, static_cast<Index>(v));
+    };
+    eachNeed([&](Index needed, Index) { ++starts_[needed + 1]; });
+    for (std::size_t v = 0; v < rows.size(); ++v) starts_[v + 1] += starts_[v];
+    all_.resize(starts_.back());
+    std::vector<Index> next(starts_.begin(), starts_.end() - 1);
+    eachNeed([&](Index needed, Index v) { all_[next[needed]++] = v; });
+  }
+
+  std::span<const Index> of(Index vector) const {
+    return {all_.data() + starts_[vector], all_.data() + starts_[vector + 1]};
+  }
+
+ private:
+  std::vector<Index> starts_, all_;
+};
 
 }  // namespace
 
@@ -75,6 +101,7 @@ class JetBuilder {
   }
 
   void number() {
+    rows_.reserve(9 * w_.nodes.size());
     base_.assign(nodeCount(), -1);
     hubs_.resize(w_.points);
     armBase_.assign(nodeCount(), -1);
@@ -149,7 +176,7 @@ class JetBuilder {
       for (int j = 0; j < 3; ++j) {
         Row& row = rows_[base_[n] + comp(i, j)];
         for (int a = 0; a < 3; ++a) {
-          const double scale = std::pow(length, a - i);
+          const double scale = ode::power(length, a - i);
           addTo(row, cornerJet(startCorner, a, j), value[a] * scale);
           addTo(row, cornerJet(endCorner, j, a), value[3 + a] * scale * signOf(a));
         }
@@ -368,7 +395,6 @@ class JetBuilder {
   Result<JetTable> order(std::vector<Index>* circle) {
     const std::size_t count = rows_.size();
     std::vector<Index> place(count, -1), waitsFor(count, 0);
-    std::vector<std::vector<Index>> dependents(count);
     JetTable table;
     for (std::size_t v = 0; v < count; ++v) {
       if (isStored_[v]) {
@@ -376,13 +402,10 @@ class JetBuilder {
         table.stored.push_back({owners_[v].node, owners_[v].i, owners_[v].j});
         continue;
       }
-      merge(rows_[v]);
-      for (const Term& t : rows_[v])
-        if (!isStored_[t.vector]) {
-          ++waitsFor[v];
-          dependents[t.vector].push_back(static_cast<Index>(v));
-        }
+      rows_[v].merge();
+      for (const Term& t : rows_[v]) waitsFor[v] += !isStored_[t.vector];
     }
+    const Dependents dependents(rows_, isStored_);
     std::vector<Index> ready;
     for (std::size_t v = 0; v < count; ++v)
       if (!isStored_[v] && waitsFor[v] == 0) ready.push_back(static_cast<Index>(v));
@@ -391,7 +414,7 @@ class JetBuilder {
       place[v] = static_cast<Index>(table.stored.size() + k);
       for (const Term& t : rows_[v]) table.terms.push_back({place[t.vector], t.factor});
       table.rowStart.push_back(static_cast<Index>(table.terms.size()));
-      for (Index d : dependents[v])
+      for (Index d : dependents.of(v))
         if (--waitsFor[d] == 0) ready.push_back(d);
     }
     if (table.stored.size() + ready.size() < count) return circular(place, circle);
@@ -428,11 +451,6 @@ class JetBuilder {
       v = unmet(v, place);
     } while (v != first);
     return owners_[v].node;
-  }
-
-  static void merge(Row& row) {
-    mergeTerms(row);
-    std::erase_if(row, [](const Term& t) { return t.factor == 0; });
   }
 
   void fillCorners(JetTable& table, const std::vector<Index>& place) const {

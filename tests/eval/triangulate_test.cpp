@@ -1,4 +1,4 @@
-#include "gltf/triangulate.hpp"
+#include "eval/triangulate.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <numbers>
 #include <set>
 
-namespace sweepface::gltf {
+namespace sweepface {
 namespace {
 
 double signedArea(std::span<const Vec3> polygon, const Triangle& t) {
@@ -82,4 +82,4 @@ TEST(Triangulate, LeavesATriangleAsItIs) {
 }
 
 }  // namespace
-}  // namespace sweepface::gltf
+}  // namespace sweepface
