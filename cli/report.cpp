@@ -10,8 +10,6 @@
 namespace sweepface::cli {
 namespace {
 
-namespace fs = std::filesystem;
-
 struct ReportArguments {
   std::string face, neutral, output, weights;
   std::vector<std::string> targets, regions;
@@ -50,7 +48,7 @@ void addOptions(CLI::App& app, ReportArguments& a) {
 
 Result<ReportOptions> optionsOf(const ReportArguments& a, const Rig& rig, std::size_t bytes) {
   ReportOptions options;
-  options.name = fs::path(a.face).filename().string();
+  options.name = std::filesystem::path(a.face).filename().string();
   options.bytes = bytes;
   if (!a.weights.empty()) {
     const Result<Weights> weights = parseWeights(rig, a.weights);
@@ -72,20 +70,17 @@ Result<std::string> reportOf(const ReportArguments& a) {
   Result<ReportOptions> options = optionsOf(a, *rig, bytes->size());
   if (!options) return std::unexpected(options.error());
   ProgressBar bar(a.quiet);
-  const std::vector<fs::path> targets(a.targets.begin(), a.targets.end());
-  const Result<MeshRig> source =
-      readRig(a.neutral, targets, [&](std::size_t done, std::size_t total) {
-        bar.show("reading", static_cast<double>(done) / static_cast<double>(total));
-      });
+  const Result<RigSource> source = readMeshes(a.neutral, a.targets, bar);
   if (!source) return std::unexpected(source.error());
   options->progress = [&](std::string_view what, double done) { bar.show(what, done); };
-  return makeReport(*rig, *source, *options);
+  return makeReport(*rig, source->rig, *options);
 }
 
 Result<int> runReport(const ReportArguments& a) {
   std::vector<std::string> inputs = a.targets;
   inputs.insert(inputs.end(), {a.neutral, a.face});
-  if (auto ok = checkOutput(a.output, inputs, {".obj", ".ply", ".sweep", ".png", ".pdf"}); !ok)
+  if (auto ok = checkOutput(a.output, inputs, {".obj", ".ply", ".glb", ".gltf", ".sweep", ".png"});
+      !ok)
     return std::unexpected(ok.error());
   const Result<std::string> page = reportOf(a);
   if (!page) return std::unexpected(page.error());

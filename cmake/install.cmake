@@ -2,7 +2,7 @@
 include(CMakePackageConfigHelpers)
 
 # Headers of what converts; a runtime-only install goes without them.
-set(converting_headers mesh.hpp io.hpp layout.hpp fit.hpp measure.hpp picture.hpp report.hpp)
+set(converting_headers mesh.hpp io.hpp gltf.hpp layout.hpp fit.hpp measure.hpp picture.hpp report.hpp)
 
 set(installed_libraries sweepface_runtime)
 set(installed_archives -lsweepface_runtime)
@@ -15,13 +15,13 @@ if(SWEEPFACE_RUNTIME_ONLY)
 else()
   list(PREPEND installed_libraries sweepface_picture sweepface_convert)
   list(PREPEND installed_archives -lsweepface_picture -lsweepface_convert)
-  list(APPEND private_archives -lembree3 -ltbb -lfmt)
+  list(APPEND private_archives -lembree3 -ltbb -lfmt -lmeshoptimizer)
   install(TARGETS sweepface RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()
 
 install(TARGETS ${installed_libraries} EXPORT sweepfaceTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/sweepface DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
-        FILES_MATCHING PATTERN *.hpp ${skipped_headers})
+        FILES_MATCHING PATTERN *.hpp PATTERN *.h ${skipped_headers})
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 # find_package(sweepface): targets sweepface::runtime and, unless built without, sweepface::convert and

@@ -30,6 +30,7 @@ class Tessellation {
   void positions(std::span<const Vec3> vectors, std::span<Vec3> out) const;
   std::vector<Vec3> positions(std::span<const Vec3> vectors) const;
   /// The surface's own unit normals [vertexCount].
+  void normals(std::span<const Vec3> vectors, std::span<Vec3> out) const;
   std::vector<Vec3> normals(std::span<const Vec3> vectors) const;
 
  private:

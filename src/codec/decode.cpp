@@ -53,7 +53,7 @@ class Decoder {
     static constexpr void (Decoder::*read[kKinds.size()])(Reader&) = {
         &Decoder::head,      &Decoder::wireframe,   &Decoder::shapes,      &Decoder::neutral,
         &Decoder::target,    &Decoder::loose,       &Decoder::sourceOrder, &Decoder::polygons,
-        &Decoder::texcoords, &Decoder::quadCorners, &Decoder::end};
+        &Decoder::texcoords, &Decoder::quadCorners, &Decoder::scene,       &Decoder::end};
     Reader in(chunk.payload, chunk.offset);
     (this->*read[chunk.rank])(in);
     if (in.left() > 0) in.refuse("the chunk goes on after its last value");
@@ -203,6 +203,8 @@ class Decoder {
       rig_.source.quadCorners.insert(rig_.source.quadCorners.end(), quad.begin(), quad.end());
     }
   }
+
+  void scene(Reader& in) { rig_.scene = in.text(); }
 
   void end(Reader& in) {
     if (rig_.source.loose.size() != looseCount_) in.refuse("the loose vertices are missing");

@@ -154,6 +154,12 @@ std::string quadCorners(const SourceMesh& source) {
   return out.take();
 }
 
+std::string scene(std::string_view glb) {
+  Writer out;
+  out.text(glb);
+  return out.take();
+}
+
 }  // namespace
 }  // namespace codec
 
@@ -174,6 +180,7 @@ std::string encode(const Rig& rig) {
   if (!faces.texcoords.empty() || !faces.cornerTexcoords.empty())
     writeChunk(out, "texc", texcoords(faces));
   if (!source.quadCorners.empty()) writeChunk(out, "quad", quadCorners(source));
+  if (!rig.scene.empty()) writeChunk(out, "scen", scene(rig.scene));
   writeChunk(out, "END ", {});
   return out.take();
 }

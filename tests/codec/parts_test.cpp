@@ -29,12 +29,12 @@ TEST(Parts, SumToTheFile) {
 }
 
 TEST(Parts, HaveTheNamesOfWhatTheyHold) {
-  const auto parts = partsOf(encode(dressed(makeRig(onePatch(1, 1)))));
+  const auto parts = partsOf(encode(withScene(dressed(makeRig(onePatch(1, 1))))));
   for (const char* name :
        {"container", "wireframe", "shape parameters", "neutral", "targets", "loose vertices",
-        "source order", "polygons", "texture coordinates", "quad corners"})
+        "source order", "polygons", "texture coordinates", "quad corners", "scene"})
     EXPECT_TRUE(parts.contains(name)) << name;
-  EXPECT_EQ(parts.size(), 10u);
+  EXPECT_EQ(parts.size(), 11u);
   EXPECT_EQ(partsOf(encode(makeRig(onePatch(1, 1)))).contains("loose vertices"), false);
 }
 
