@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <filesystem>
 #include <fmt/format.h>
 #include <iterator>
 #include <optional>
@@ -14,8 +13,6 @@
 
 namespace sweepface::cli {
 namespace {
-
-namespace fs = std::filesystem;
 
 struct RenderArguments {
   std::string face, output, weights, views = "front", style = "shaded", size, from, to;
@@ -138,17 +135,12 @@ class Renderer {
 
   // ---- Beside the original ----
 
-  Result<MeshRig> readOriginal() {
-    const std::vector<fs::path> targets(a_.compare.begin() + 1, a_.compare.end());
-    return readRig(a_.compare.front(), targets, [&](std::size_t done, std::size_t total) {
-      bar_.show("reading", static_cast<double>(done) / static_cast<double>(total));
-    });
-  }
-
   Result<Image> comparison(const Weights& weights) {
-    const Result<MeshRig> source = readOriginal();
-    if (!source) return std::unexpected(source.error());
-    const Result<std::vector<Vec3>> positions = originalPositions(rig_, *source, weights);
+    const std::vector<std::string> targets(a_.compare.begin() + 1, a_.compare.end());
+    const Result<RigSource> read = readMeshes(a_.compare.front(), targets, bar_);
+    if (!read) return std::unexpected(read.error());
+    const MeshRig& source = read->rig;
+    const Result<std::vector<Vec3>> positions = originalPositions(rig_, source, weights);
     if (!positions) return std::unexpected(positions.error());
     const bool heat = style_ == Style::error || style_ == Style::angle;
     const bool keyed = heat || style_ == Style::wireframe || style_ == Style::joins;
@@ -173,7 +165,7 @@ class Renderer {
     }
     if (style_ == Style::error)
       map.title +=
-          fmt::format(" ({:.2g} % of the diagonal)", 100 * map.worst / diagonal(source->neutral));
+          fmt::format(" ({:.2g} % of the diagonal)", 100 * map.worst / diagonal(source.neutral));
     if (heat)
       page_->addScale(map.top, map.title);
     else if (keyed)
@@ -280,7 +272,8 @@ Result<int> runRender(const RenderArguments& a) {
     return fail("Pictures on the way to an expression have one view; give a single one.");
   std::vector<std::string> inputs = a.compare;
   inputs.push_back(a.face);
-  if (auto ok = checkOutput(a.output, inputs, {".obj", ".ply", ".sweep", ".jpg"}); !ok)
+  if (auto ok = checkOutput(a.output, inputs, {".obj", ".ply", ".glb", ".gltf", ".sweep", ".jpg"});
+      !ok)
     return std::unexpected(ok.error());
   const Result<Rig> rig = readFace(a.face);
   if (!rig) return std::unexpected(rig.error());

@@ -262,9 +262,10 @@ class FaceScenes {
   /// Any style but error and angle.
   Scene scene(std::span<const double> weights, Style style) const;
   /// The face coloured by its error or angle (the style) against the positions of its source's
-  /// vertices. The scale of errors ends at the rig's tolerance, unless they go beyond.
-  HeatMap heatMap(std::span<const double> weights, std::span<const Vec3> original,
-                  Style style) const;
+  /// vertices. The scale of errors ends at the rig's tolerance, unless they go beyond or `top` says
+  /// where.
+  HeatMap heatMap(std::span<const double> weights, std::span<const Vec3> original, Style style,
+                  double top = 0) const;
   /// How far the face is from the positions of its source's vertices.
   VertexErrors errors(std::span<const double> weights, std::span<const Vec3> original) const;
   /// The source's own polygons with other positions.

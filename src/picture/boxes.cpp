@@ -40,7 +40,7 @@ Box boxAround(std::span<const Vec3> points, const Camera& camera, PictureSize si
 void drawBoxes(Image& image, std::span<const Box> boxes) {
   constexpr std::array<Colour, 4> colours{
       {{0.16f, 0.62f, 0.33f}, {0.15f, 0.40f, 0.82f}, {0.90f, 0.49f, 0.13f}, {0.55f, 0.30f, 0.70f}}};
-  const double line = std::max(0.004 * image.height, 1.0);
+  const double line = std::max(0.005 * image.height, 1.5);
   for (std::size_t k = 0; k < boxes.size(); ++k)
     drawRectangle(image, boxes[k].x * image.width, boxes[k].y * image.height,
                   boxes[k].width * image.width, boxes[k].height * image.height, line,

@@ -197,13 +197,13 @@ std::vector<Colour> FaceScenes::heatColours(std::span<const double> values, doub
 }
 
 HeatMap FaceScenes::heatMap(std::span<const double> weights, std::span<const Vec3> original,
-                            Style style) const {
+                            Style style, double top) const {
   VertexErrors errors = this->errors(weights, original);
   const bool angles = style == Style::angle;
   const std::vector<double>& values = angles ? errors.angles : errors.distances;
   const auto worst = std::ranges::max_element(values);
   HeatMap map{scene(weights, style), 0, worst == values.end() ? 0 : *worst, {}};
-  map.top = angles ? scaleEnd(values) : std::max(map.worst, rig_.tolerance);
+  map.top = top > 0 ? top : angles ? scaleEnd(values) : std::max(map.worst, rig_.tolerance);
   map.title =
       angles ? fmt::format("angle between the normals in degrees, {:.3g} at worst", map.worst)
              : fmt::format("distance from the original in its units, {:.3g} at worst", map.worst);
