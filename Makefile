@@ -26,15 +26,21 @@ demo: deps
 	$(MAKE) build
 	scripts/demo
 
-test: deps
+# The npm packages of the tests with other people's tools; without a network these are skipped.
+tests/web/node_modules/.package-lock.json: tests/web/package-lock.json
+	scripts/install-deps web
+	npm ci --prefix tests/web --no-audit --no-fund && touch $@ || \
+	  echo 'The npm packages could not be installed: the tests that need them are skipped.'
+
+test: deps tests/web/node_modules/.package-lock.json
 	cmake --preset release
 	cmake --build $(BUILD)
 	ctest --preset release --label-exclude '^long$$'
 	@if [ -z "$$SWEEPFACE_DATA" ]; then \
 	  echo 'SWEEPFACE_DATA is not set: the tests on real faces were skipped.'; fi
 
-test-long:
-	scripts/install-deps clang
+test-long: tests/web/node_modules/.package-lock.json
+	scripts/install-deps clang blender
 	cmake --preset release
 	cmake --build $(BUILD)
 	ctest --preset release --label-regex '^long$$'

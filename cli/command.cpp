@@ -92,6 +92,13 @@ void addThreads(CLI::App& app, int& threads) {
       ->type_name("N");
 }
 
+void addGlb(CLI::App& app, GlbArguments& glb) {
+  app.add_flag("--morph-normals", glb.morphNormals,
+               "For .glb: normals of the morph targets too; larger, and better shaded");
+  app.add_flag("--quantize", glb.quantize,
+               "For .glb: 16 bits a coordinate (KHR_mesh_quantization); about half as large");
+}
+
 CLI::Validator wholeNumber(int low, int high) {
   const auto check = [=](const std::string& text) -> std::string {
     int number = 0;
@@ -117,6 +124,8 @@ Result<Rig> readFace(const std::string& path) {
   return decode(*bytes, path);
 }
 
+bool isOfKind(const fs::path& path, std::string_view kind) { return extension(path) == kind; }
+
 Result<RigSource> readMeshes(const std::string& neutral, const std::vector<std::string>& targets,
                              ProgressBar& bar) {
   const std::vector<fs::path> paths(targets.begin(), targets.end());
@@ -135,7 +144,7 @@ Result<void> checkOutput(const fs::path& output, const std::vector<std::string>&
     if (fs::equivalent(output, input, ignored))
       return cannot("it is what is read; choose another name");
   for (const std::string_view kind : foreign)
-    if (extension(output) == kind)
+    if (isOfKind(output, kind))
       return cannot(fmt::format("its name promises another kind of file ({})", kind));
   if (!output.has_filename() || fs::is_directory(output, ignored))
     return cannot("it is a folder; name a file");

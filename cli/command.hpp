@@ -56,6 +56,13 @@ CLI::Option* addLod(CLI::App& app, int& lod, const std::string& description);
 void addMeshes(CLI::App& app, std::string& neutral, std::vector<std::string>& targets);
 void addThreads(CLI::App& app, int& threads);
 
+/// What only .glb files can have.
+struct GlbArguments {
+  bool morphNormals = false, quantize = false;
+  bool any() const { return morphNormals || quantize; }
+};
+void addGlb(CLI::App& app, GlbArguments& glb);
+
 CLI::Validator wholeNumber(int low, int high);
 /// A finite number > 0, and at most `high` if that is given.
 CLI::Validator positiveNumber(double high = 0);
@@ -63,6 +70,9 @@ CLI::Validator positiveNumber(double high = 0);
 // ---- Files ----
 
 Result<Rig> readFace(const std::string& path);
+
+/// Whether a file's name ends like ".glb", in small or large letters.
+bool isOfKind(const std::filesystem::path& path, std::string_view kind);
 
 /// The face that addMeshes() named.
 Result<RigSource> readMeshes(const std::string& neutral, const std::vector<std::string>& targets,

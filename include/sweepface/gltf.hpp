@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "sweepface/clip.hpp"
 #include "sweepface/io.hpp"
 #include "sweepface/motion.hpp"
 #include "sweepface/result.hpp"
@@ -24,10 +25,13 @@ struct GlbOptions {
   Index lod = 0;              ///< 0: the source's vertices in their order; N: every edge cut into N
   bool morphNormals = false;  ///< normals of the morph targets too
   bool quantize = false;      ///< KHR_mesh_quantization
-  Weights weights;            ///< at which the face is shown; empty: all 0
+  Weights weights{};          ///< at which the face is shown; empty: as its scene says, else all 0
   /// An animation of the weights, or null. Every law is held exactly by its keys.
   const Motion* motion = nullptr;
-  int sampledKeys = 0;  ///< > 0: so many linear keys instead, for tools that ignore tangents
+  /// Instead of a motion: a key a frame with straight lines between them. Its names are the rig's
+  /// targets.
+  const Clip* clip = nullptr;
+  std::string animationName{};  ///< the law's, or "clip", if empty
 };
 
 /// A GLB of the rig with its targets as morph targets, in the scene that came with it if it has

@@ -313,7 +313,8 @@ Result<Document> parseDocument(std::string_view bytes, const fs::path& folder) {
 }
 
 std::string formatContainer(const Json& json, std::string_view binary) {
-  std::string text = json.dump();
+  // Names that are no UTF-8 lose the bytes that make them so.
+  std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
   text.resize((text.size() + 3) / 4 * 4, ' ');
   const std::size_t padded = (binary.size() + 3) / 4 * 4;
   std::string bytes(magic);

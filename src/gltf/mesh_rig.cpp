@@ -1,41 +1,16 @@
 #include "gltf/mesh_rig.hpp"
 
 #include <algorithm>
-#include <array>
 #include <fmt/format.h>
 #include <map>
 
+#include "gltf/limits.hpp"
 #include "gltf/texcoords.hpp"
+#include "gltf/triangles.hpp"
 #include "io/text.hpp"
 
 namespace sweepface::gltf {
 namespace {
-
-constexpr std::size_t listMode = 4, stripMode = 5;
-
-using Triangle = std::array<Index, 3>;
-
-/// The corners of triangle t, as numbers in the list of the primitive's indices.
-std::array<std::size_t, 3> cornersOf(std::size_t mode, std::size_t t) {
-  if (mode == listMode) return {3 * t, 3 * t + 1, 3 * t + 2};
-  // Every other triangle of a strip would look the other way.
-  if (mode == stripMode) return {t, t + 1 + t % 2, t + 2 - t % 2};
-  return {0, t + 1, t + 2};
-}
-
-/// Without those that name a vertex twice, which strips use to turn corners.
-std::vector<Triangle> trianglesOf(std::size_t mode, const std::vector<Index>& indices) {
-  const std::size_t count =
-      mode == listMode ? indices.size() / 3 : std::max<std::size_t>(indices.size(), 2) - 2;
-  std::vector<Triangle> triangles;
-  for (std::size_t t = 0; t < count; ++t) {
-    const auto [a, b, c] = cornersOf(mode, t);
-    const Triangle triangle{indices[a], indices[b], indices[c]};
-    if (triangle[0] != triangle[1] && triangle[1] != triangle[2] && triangle[2] != triangle[0])
-      triangles.push_back(triangle);
-  }
-  return triangles;
-}
 
 std::vector<Vec3> asVectors(const std::vector<double>& values) {
   std::vector<Vec3> vectors(values.size() / 3);
@@ -70,17 +45,9 @@ class RigReader {
   }
 
  private:
-  // Few bytes can claim much: targets without data, accessors that are used again and again. Files
-  // that mean what they say stay below these, however well they are compressed.
-  static constexpr std::size_t vectorsPerByte = 32, elementsPerByte = 8, alwaysAllowed = 1 << 16;
-  std::size_t mostVectors() const { return alwaysAllowed + vectorsPerByte * document_.sourceBytes; }
-  std::size_t mostElements() const {
-    return alwaysAllowed + elementsPerByte * document_.sourceBytes;
-  }
-
   Result<void> checkRoom() const {
     const std::size_t shapes = parts_.targets.size() + 1;
-    if (parts_.vertexCount <= mostVectors() / shapes) return {};
+    if (parts_.vertexCount <= mostVectors(document_) / shapes) return {};
     return fail(
         fmt::format("it claims {} morph targets of {} vertices in {} bytes, more than a file of "
                     "this size can mean; export the file again.",
@@ -139,48 +106,20 @@ class RigReader {
     const Json& primitive = primitiveOf(document_, parts_, part);
     const Run& run = parts_.runs[part.run];
     Members in(primitive, placeOf(document_, meshOf(run).mesh, part.primitive));
-    const auto indices = readIndices(in, run);
-    if (!indices) return std::unexpected(indices.error());
-    const auto triangles = trianglesOf(in.size("mode", listMode), *indices);
-    corners_ += indices->size();
-    if (corners_ > mostElements())
+    const auto found = trianglesOf(document_, parts_, part);
+    if (!found) return std::unexpected(found.error());
+    corners_ += found->named;
+    if (corners_ > mostElements(document_))
       in.refuse("the triangles of the file are more than its size can mean");
     const auto texcoords = addTexcoords(primitive);
     if (!texcoords) return std::unexpected(texcoords.error());
     const Index material = readMaterial(in);
     if (!in.ok()) return in.error();
-    for (const Triangle& triangle : triangles) addFace(triangle, run, *texcoords);
+    for (const Triangle& triangle : found->triangles) addFace(triangle, run, *texcoords);
     const auto faces = static_cast<std::size_t>(rig_.neutral.polygons.faceCount());
     rig_.neutral.polygons.faceMaterial.resize(faces, material);
     rig_.neutral.polygons.faceGroup.resize(faces, groups_(meshName(run)));
     return {};
-  }
-
-  /// The vertex of the run at each corner.
-  Result<std::vector<Index>> readIndices(Members& in, const Run& run) const {
-    std::vector<Index> indices;
-    const auto given = in.optionalIndex("indices", document_.list("accessors").size(), "accessors");
-    if (!in.ok()) return in.error();
-    if (!given) {
-      for (std::size_t v = 0; v < run.count; ++v) indices.push_back(static_cast<Index>(v));
-      return indices;
-    }
-    const auto accessor = accessorAt(document_, *given);
-    if (!accessor) return std::unexpected(accessor.error());
-    const bool whole = accessor->type == Component::uint8 || accessor->type == Component::uint16 ||
-                       accessor->type == Component::uint32;
-    if (accessor->components() != 1 || !whole || accessor->normalized || !accessor->view)
-      in.refuse(fmt::format("its indices, accessor {}, are not data of unsigned integers", *given));
-    if (!in.ok()) return in.error();
-    const auto values = decode(document_, *accessor);
-    if (!values) return std::unexpected(values.error());
-    const auto beyond = std::ranges::find_if(
-        *values, [&](double v) { return v >= static_cast<double>(run.count); });
-    if (beyond != values->end())
-      in.refuse(fmt::format("it refers to vertex {}, but has {}", *beyond, run.count));
-    if (!in.ok()) return in.error();
-    for (const double v : *values) indices.push_back(static_cast<Index>(v));
-    return indices;
   }
 
   /// The first texture coordinate of a part's vertices among all, or -1. Parts may share them.
@@ -194,7 +133,7 @@ class RigReader {
     if (!isNew) return known->second;
     const auto texcoords = readTexcoords(document_, primitive);
     if (!texcoords) return std::unexpected(texcoords.error());
-    if (all.size() + texcoords->size() > mostElements())
+    if (all.size() + texcoords->size() > mostElements(document_))
       return fail("it has more texture coordinates than its size can mean; export the file again.");
     all.insert(all.end(), texcoords->begin(), texcoords->end());
     return known->second;

@@ -7,6 +7,7 @@
 #include <set>
 #include <tuple>
 
+#include "gltf/accessor_uses.hpp"
 #include "gltf/binary.hpp"
 #include "gltf/resources.hpp"
 #include "io/text.hpp"
@@ -16,67 +17,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// ---- What else refers to accessors ----
-
-/// The accessors that something other than POSITION, NORMAL and TANGENT of the parts uses.
-class OtherUses {
- public:
-  OtherUses(const Document& document, const Parts& parts)
-      : count_(document.list("accessors").size()), used_(count_) {
-    std::set<const Json*> ofParts;
-    for (const Part& part : parts.parts) ofParts.insert(&primitiveOf(document, parts, part));
-    for (const Json& mesh : document.list("meshes"))
-      for (const Json& primitive : listOf(mesh, "primitives"))
-        addPrimitive(primitive, ofParts.contains(&primitive));
-    for (const Json& skin : document.list("skins")) addMember(skin, "inverseBindMatrices");
-    for (const Json& animation : document.list("animations"))
-      for (const Json& sampler : listOf(animation, "samplers")) {
-        addMember(sampler, "input");
-        addMember(sampler, "output");
-      }
-    for (const Json& node : document.list("nodes")) addInstances(node);
-  }
-
-  bool has(std::size_t accessor) const { return used_[accessor]; }
-
- private:
-  void add(const Json& reference) {
-    if (const auto index = asIndex(reference, count_)) used_[*index] = true;
-  }
-  void addMember(const Json& object, std::string_view key) {
-    if (const Json* const reference = find(object, key)) add(*reference);
-  }
-  void addAttributes(const Json& attributes, bool ofPart) {
-    if (!attributes.is_object()) return;
-    for (const auto& [name, reference] : attributes.items())
-      if (!ofPart || (name != "POSITION" && name != "NORMAL" && name != "TANGENT")) add(reference);
-  }
-  void addPrimitive(const Json& primitive, bool ofPart) {
-    addMember(primitive, "indices");
-    if (const Json* const attributes = find(primitive, "attributes"))
-      addAttributes(*attributes, ofPart);
-    for (const Json& target : listOf(primitive, "targets")) addAttributes(target, ofPart);
-  }
-  void addInstances(const Json& node) {
-    const Json* const extensions = find(node, "extensions");
-    const Json* const instances =
-        extensions ? find(*extensions, "EXT_mesh_gpu_instancing") : nullptr;
-    const Json* const attributes = instances ? find(*instances, "attributes") : nullptr;
-    if (attributes) addAttributes(*attributes, false);
-  }
-
-  std::size_t count_;
-  std::vector<bool> used_;
-};
-
 // ---- Taking out what the rig stands for ----
+
+/// Whether a part keeps an attribute as it is.
+bool isKept(std::string_view attribute) {
+  return attribute != "POSITION" && attribute != "NORMAL" && attribute != "TANGENT";
+}
 
 class Emptier {
  public:
   Emptier(Document& document, const Parts& parts)
       : document_(document),
         parts_(parts),
-        others_(document, parts),
+        others_(usedAccessors(document, parts, isKept)),
         touched_(document.views.size()) {}
 
   void run() {
@@ -88,7 +41,7 @@ class Emptier {
           emptyAttributes((*targets)[t], part.run, t + 1);
     }
     for (std::size_t accessor : tangents_)
-      if (!others_.has(accessor) && !claimed_.contains(accessor)) empty(accessor);
+      if (!others_[accessor] && !claimed_.contains(accessor)) empty(accessor);
   }
 
   const std::vector<bool>& touched() const { return touched_; }
@@ -120,7 +73,7 @@ class Emptier {
     const auto known = claims_.find(use);
     if (known != claims_.end()) return known->second;
     std::size_t accessor = std::get<0>(use);
-    if (others_.has(accessor) || !claimed_.insert(accessor).second) {
+    if (others_[accessor] || !claimed_.insert(accessor).second) {
       Json copy = accessors()[accessor];
       accessor = accessors().size();
       accessors().push_back(std::move(copy));
@@ -150,7 +103,7 @@ class Emptier {
 
   Document& document_;
   const Parts& parts_;
-  OtherUses others_;
+  std::vector<bool> others_;  // accessors that something else uses
   std::vector<bool> touched_;
   std::map<Use, std::size_t> claims_;
   std::set<std::size_t> claimed_, tangents_;

@@ -229,6 +229,21 @@ TEST(Refusal, isASentenceOfWhatIsWrong) {
   EXPECT_EQ(refusal(faceless), "the mesh has no face with an area; nothing can be converted");
 }
 
+TEST(Refusal, ofNamesThatFilesCannotHold) {
+  const auto named = [](std::string_view first, std::string_view second) {
+    MeshRig rig = withTargets(plane(4, 4));
+    rig.targets[0].name = first, rig.targets[1].name = second;
+    return refusal(rig);
+  };
+  EXPECT_EQ(named("r\xC3\xA9sum\xC3\xA9", "\"quoted\""), "");
+  EXPECT_EQ(named("a", "sm\xEFle"),
+            "the name of the target 'sm?le' has control characters or is not UTF-8; rename it");
+  EXPECT_EQ(named("a\nb", "b"),
+            "the name of the target 'a?b' has control characters or is not UTF-8; rename it");
+  EXPECT_EQ(named("a", ""), "a target has no name; name it");
+  EXPECT_EQ(named("a", "a"), "two targets are named 'a'; rename one of them");
+}
+
 TEST(Refusal, ofAToleranceBelowTheFilesPrecision) {
   ConvertOptions options;
   options.tolerance = 1e-12;

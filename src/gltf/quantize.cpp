@@ -1,0 +1,254 @@
+// Positions are 16-bit shares of a cube, p = middle + half · share. For a mesh without a skin a
+// node undoes this by its scale and translation: its own node where that has nothing else to do,
+// else a new one below it. A skin ignores nodes; its inverse bind matrices undo it.
+#include "gltf/quantize.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <map>
+#include <set>
+
+namespace sweepface::gltf {
+namespace {
+
+constexpr const char* extensionName = "KHR_mesh_quantization";
+
+double largestOf(const Vec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
+
+struct Box {
+  Vec3 low{INFINITY, INFINITY, INFINITY}, high{-INFINITY, -INFINITY, -INFINITY};
+  void include(const Vec3& p) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+};
+
+/// A number that single precision holds, as renderers will.
+double single(double value) { return static_cast<double>(static_cast<float>(value)); }
+
+/// A bit larger, so that what is rounded stays inside.
+double roomy(double half) { return half > 0 ? single(half * (1 + 1e-6)) : 1; }
+
+}  // namespace
+
+std::vector<Encoding> chooseEncodings(const BoundScene& scene, const Shapes& shapes,
+                                      const Places& places) {
+  const Parts& parts = scene.parts;
+  std::vector<Box> boxes(parts.meshes.size());
+  std::vector<Affine> fromScene;
+  for (const RigMesh& mesh : parts.meshes) fromScene.push_back(mesh.world.inverse());
+  const auto eachPlace = [&](auto act) {
+    for (std::size_t r = 0; r < places.size(); ++r)
+      for (const Index place : places[r]) act(parts.runs[r].rigMesh, place);
+  };
+  eachPlace([&](std::size_t mesh, Index place) {
+    boxes[mesh].include(fromScene[mesh].point(shapes.neutral().positions[place]));
+  });
+  std::vector<double> half(parts.meshes.size(), 0.0);
+  for (std::size_t m = 0; m < half.size(); ++m)
+    half[m] = 0.5 * largestOf(boxes[m].high - boxes[m].low);
+  for (const Index target : scene.targets) {
+    const std::vector<Vec3> moves = shapes.target(target, false).positions;
+    eachPlace([&](std::size_t mesh, Index place) {
+      half[mesh] = std::max(half[mesh], largestOf(fromScene[mesh].direction(moves[place])));
+    });
+  }
+  std::vector<Encoding> encodings;
+  for (std::size_t m = 0; m < half.size(); ++m) {
+    const Vec3 c = 0.5 * (boxes[m].low + boxes[m].high);
+    const Vec3 middle{single(c.x), single(c.y), single(c.z)};
+    // Rounding the middle moves the cube by a little.
+    encodings.push_back({true, middle, roomy(half[m] + largestOf(c - middle))});
+  }
+  return encodings;
+}
+
+namespace {
+
+/// Extensions that do not refer to nodes, so that a mesh may go to another one.
+bool ignoresNodes(std::string_view extension) {
+  constexpr std::array prefixes{"KHR_materials_", "KHR_texture_", "EXT_texture_",
+                                "KHR_lights_",    "KHR_mesh_",    "KHR_xmp"};
+  return std::ranges::any_of(prefixes,
+                             [&](const char* prefix) { return extension.starts_with(prefix); });
+}
+
+class Undoer {
+ public:
+  Undoer(BoundScene& scene, const std::vector<Encoding>& encodings, Builder& builder)
+      : scene_(scene), json_(scene.document.json), encodings_(encodings), builder_(builder) {}
+
+  Result<void> run() {
+    for (std::size_t m = 0; m < encodings_.size(); ++m)
+      if (auto ok = checkPrimitives(m); !ok) return ok;
+    const std::size_t count = scene_.document.list("nodes").size();
+    for (std::size_t n = 0; n < count; ++n)
+      if (auto ok = visit(n); !ok) return ok;
+    addExtension("extensionsUsed");
+    addExtension("extensionsRequired");
+    return {};
+  }
+
+ private:
+  std::unexpected<Error> cannot(std::string_view why) const {
+    return fail(fmt::format("The face cannot be quantized: {}; export it without.", why));
+  }
+
+  /// What else the mesh holds would be enlarged with it.
+  Result<void> checkPrimitives(std::size_t rigMesh) const {
+    const std::size_t mesh = scene_.parts.meshes[rigMesh].mesh;
+    const auto own = std::ranges::count_if(scene_.parts.parts, [&](const Part& part) {
+      return scene_.parts.runs[part.run].rigMesh == rigMesh;
+    });
+    const Json& primitives = listOf(scene_.document.list("meshes")[mesh], "primitives");
+    if (static_cast<std::size_t>(own) == primitives.size()) return {};
+    return cannot(fmt::format("its mesh {} has points, lines or triangles besides it", mesh));
+  }
+
+  const Encoding* encodingOf(const Json& node) const {
+    const Json* const mesh = find(node, "mesh");
+    for (std::size_t m = 0; mesh && m < encodings_.size(); ++m)
+      if (asIndex(*mesh, scene_.parts.meshes[m].mesh + 1) == scene_.parts.meshes[m].mesh)
+        return &encodings_[m];
+    return nullptr;
+  }
+
+  Result<void> visit(std::size_t number) {
+    Json& node = json_["nodes"][number];
+    const Encoding* const encoding = encodingOf(node);
+    if (!encoding) return {};
+    if (find(node, "skin")) return rebind(node, *encoding);
+    if (isPlain(node, number)) {
+      scale(node, *encoding);
+      return {};
+    }
+    return moveBelow(number, *encoding);
+  }
+
+  static void scale(Json& node, const Encoding& e) {
+    node["translation"] = {e.middle.x, e.middle.y, e.middle.z};
+    node["scale"] = {e.half, e.half, e.half};
+  }
+
+  bool isPlain(const Json& node, std::size_t number) const {
+    constexpr std::array kept{"name", "mesh", "weights", "extras"};
+    for (const auto& [key, value] : node.items())
+      if (std::ranges::find(kept, key) == kept.end()) return false;
+    bool moved = false;
+    for (const Json& animation : scene_.document.list("animations"))
+      for (const Json& channel : listOf(animation, "channels"))
+        if (const Json* const target = find(channel, "target"))
+          moved = moved || (isNode(*target, number) && (*target)["path"] != "weights");
+    return !moved && !pointersMayReach();
+  }
+
+  static bool isNode(const Json& target, std::size_t number) {
+    const Json* const node = find(target, "node");
+    return node && asIndex(*node, number + 1) == number;
+  }
+  bool pointersMayReach() const { return uses("KHR_animation_pointer"); }
+  bool uses(std::string_view extension) const {
+    return std::ranges::any_of(scene_.document.list("extensionsUsed"),
+                               [&](const Json& name) { return name == extension; });
+  }
+
+  /// Hangs the mesh on a node of its own, below the one that had it.
+  Result<void> moveBelow(std::size_t number, const Encoding& encoding) {
+    for (const Json& name : scene_.document.list("extensionsUsed"))
+      if (!name.is_string() || !ignoresNodes(name.get_ref<const std::string&>()))
+        return cannot(
+            fmt::format("its node {} is more than a place, and the extension {} may need "
+                        "it as it is",
+                        number, name.is_string() ? name.get<std::string>() : "?"));
+    Json child = Json::object();
+    Json& node = json_["nodes"][number];
+    if (const Json* const name = find(node, "name")) child["name"] = *name;
+    for (const char* key : {"mesh", "weights"})
+      if (const Json* const value = find(node, key)) {
+        child[key] = *value;
+        node.erase(key);
+      }
+    scale(child, encoding);
+    const std::size_t below = json_["nodes"].size();
+    node["children"].push_back(below);
+    json_["nodes"].push_back(std::move(child));
+    if (Json* const animations = find(json_, "animations"))
+      for (Json& animation : *animations) redirect(animation, number, below);
+    return {};
+  }
+
+  /// Animated weights go with the mesh.
+  static void redirect(Json& animation, std::size_t from, std::size_t to) {
+    Json* const channels = find(animation, "channels");
+    if (!channels || !channels->is_array()) return;
+    for (Json& channel : *channels)
+      if (Json* const target = find(channel, "target"))
+        if (isNode(*target, from) && (*target)["path"] == "weights") (*target)["node"] = to;
+  }
+
+  /// Gives a node a skin whose matrices undo the encoding first.
+  Result<void> rebind(Json& node, const Encoding& encoding) {
+    const auto skin = asIndex(node["skin"], scene_.document.list("skins").size());
+    if (!skin) return cannot("a skin of its scene is not in the file");
+    const auto [known, isNew] = skins_.try_emplace(std::pair{*skin, &encoding}, 0);
+    if (isNew) {
+      auto made = boundAgain(*skin, encoding);
+      if (!made) return std::unexpected(made.error());
+      known->second = *made;
+    }
+    node["skin"] = known->second;
+    return {};
+  }
+
+  Result<std::size_t> boundAgain(std::size_t number, const Encoding& e) {
+    Json skin = json_["skins"][number];
+    const std::size_t joints = listOf(skin, "joints").size();
+    std::vector<double> matrices;
+    if (const Json* const given = find(skin, "inverseBindMatrices")) {
+      const auto index = asIndex(*given, scene_.document.list("accessors").size());
+      if (!index) return cannot("a skin of its scene has no matrices");
+      const auto accessor = accessorAt(scene_.document, *index);
+      if (!accessor) return std::unexpected(accessor.error());
+      if (accessor->components() != 16) return cannot("a skin of its scene has no matrices");
+      auto values = decode(scene_.document, *accessor);
+      if (!values) return std::unexpected(values.error());
+      matrices = std::move(*values);
+    } else {
+      for (std::size_t k = 0; k < 16 * joints; ++k) matrices.push_back(k % 16 % 5 == 0);
+    }
+    for (std::size_t m = 0; m + 16 <= matrices.size(); m += 16) enlarge(&matrices[m], e);
+    skin["inverseBindMatrices"] = builder_.add(pack(matrices, 16), Use::other);
+    json_["skins"].push_back(std::move(skin));
+    return json_["skins"].size() - 1;
+  }
+
+  /// A matrix, column after column, times scaling and moving into the cube.
+  static void enlarge(double* matrix, const Encoding& e) {
+    for (int row = 0; row < 4; ++row) {
+      matrix[12 + row] +=
+          matrix[row] * e.middle.x + matrix[4 + row] * e.middle.y + matrix[8 + row] * e.middle.z;
+      for (int column = 0; column < 3; ++column) matrix[4 * column + row] *= e.half;
+    }
+  }
+
+  void addExtension(const char* list) {
+    Json& names = json_[list];
+    if (!names.is_array()) names = Json::array();
+    if (std::ranges::find(names, extensionName) == names.end()) names.push_back(extensionName);
+  }
+
+  BoundScene& scene_;
+  Json& json_;
+  const std::vector<Encoding>& encodings_;
+  Builder& builder_;
+  std::map<std::pair<std::size_t, const Encoding*>, std::size_t> skins_;
+};
+
+}  // namespace
+
+Result<void> undoEncodings(BoundScene& scene, const std::vector<Encoding>& encodings,
+                           Builder& builder) {
+  return Undoer(scene, encodings, builder).run();
+}
+
+}  // namespace sweepface::gltf
