@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <set>
 
@@ -177,6 +178,40 @@ TEST(GltfReader, IndicesMustBeWholeNumbersOfVertices) {
   refusedWith("type", "VEC3");
   glb.accessor(number).erase("bufferView");
   EXPECT_TRUE(refused(glb, {"are not data of unsigned integers"}));
+}
+
+// ---- Quads ----
+
+/// The sheet with vertices of its own for every triangle, and a colour and a normal for each.
+Glb soup(const std::function<float(std::size_t triangle, Vec3 at)>& colour) {
+  std::vector<Vec3> positions, normals;
+  std::vector<float> colours;
+  for (const std::uint16_t v : sheetIndices()) {
+    const std::size_t triangle = positions.size() / 3;
+    positions.push_back(sheetPositions()[v]);
+    normals.push_back(triangle % 2 ? Vec3{0, 0, 1} : Vec3{0, 1, 0});
+    for (int k = 0; k < 3; ++k) colours.push_back(colour(triangle, positions.back()));
+  }
+  Glb glb = points(positions);
+  Json& attributes = glb.primitive()["attributes"];
+  attributes["NORMAL"] = glb.addVectors(normals);
+  const std::size_t view = glb.addView(bytesOf(colours));
+  attributes["COLOR_0"] = glb.addAccessor(view, 5126, "VEC3", positions.size());
+  return glb;
+}
+Index faceCount(const Glb& glb) { return read(glb).rig.neutral.polygons.faceCount(); }
+
+TEST(GltfReader, TrianglesOfDoubledVerticesMakeQuads) {
+  EXPECT_EQ(faceCount(soup([](std::size_t, Vec3) { return 0.5f; })), 4);
+  EXPECT_EQ(faceCount(soup([](std::size_t, Vec3 p) { return static_cast<float>(p.x); })), 4);
+}
+
+TEST(GltfReader, TrianglesMakeNoQuadsAcrossSeams) {
+  EXPECT_EQ(faceCount(soup([](std::size_t t, Vec3) { return static_cast<float>(t); })), 8);
+}
+
+TEST(GltfReader, ColoursThatAreDamagedDoubleVertices) {
+  EXPECT_EQ(faceCount(soup([](std::size_t, Vec3) { return NAN; })), 8);
 }
 
 // ---- What hangs on faces ----
