@@ -78,9 +78,10 @@ class Animator {
     std::string name = options_.animationName;
     if (name.empty()) name = options_.motion ? nameOf(options_.motion->law()) : "clip";
     animation_ = {{"name", name}, {"channels", Json::array()}, {"samplers", Json::array()}};
-    const Json& nodes = scene_.document.list("nodes");
-    for (std::size_t n = 0; n < nodes.size(); ++n)
-      if (auto ok = addNode(n, nodes[n]); !ok) return ok;
+    const std::vector<Index> shown = shownMeshes(scene_);
+    for (std::size_t n = 0; n < shown.size(); ++n)
+      if (shown[n] >= 0)
+        if (auto ok = addNode(n, shown[n]); !ok) return ok;
     if (animation_["channels"].empty())
       return fail("The face has no target in its scene that an animation could move.");
     Json& animations = scene_.document.json["animations"];
@@ -90,20 +91,16 @@ class Animator {
   }
 
  private:
-  Result<void> addNode(std::size_t number, const Json& node) {
-    const Json* const shown = find(node, "mesh");
-    for (std::size_t m = 0; shown && m < scene_.parts.meshes.size(); ++m) {
-      const RigMesh& mesh = scene_.parts.meshes[m];
-      if (mesh.targets.empty() || asIndex(*shown, mesh.mesh + 1) != mesh.mesh) continue;
-      const auto sampler = samplerOf(m);
-      if (!sampler) return std::unexpected(sampler.error());
-      animation_["channels"].push_back(
-          {{"sampler", *sampler}, {"target", {{"node", number}, {"path", "weights"}}}});
-    }
+  Result<void> addNode(std::size_t node, Index mesh) {
+    if (scene_.parts.meshes[mesh].targets.empty()) return {};
+    const auto sampler = samplerOf(mesh);
+    if (!sampler) return std::unexpected(sampler.error());
+    animation_["channels"].push_back(
+        {{"sampler", *sampler}, {"target", {{"node", node}, {"path", "weights"}}}});
     return {};
   }
 
-  Result<std::size_t> samplerOf(std::size_t mesh) {
+  Result<std::size_t> samplerOf(Index mesh) {
     if (const auto known = samplers_.find(mesh); known != samplers_.end()) return known->second;
     std::vector<std::size_t> targets;
     for (const std::size_t t : scene_.parts.meshes[mesh].targets)
@@ -130,8 +127,8 @@ class Animator {
   const GlbOptions& options_;
   Builder& builder_;
   Json animation_;
-  std::optional<std::size_t> input_;             // the times, the same for all meshes
-  std::map<std::size_t, std::size_t> samplers_;  // of rig meshes
+  std::optional<std::size_t> input_;       // the times, the same for all meshes
+  std::map<Index, std::size_t> samplers_;  // of meshes
 };
 
 }  // namespace
@@ -147,13 +144,12 @@ void setWeights(BoundScene& scene, const std::vector<double>& weights) {
     Json list = Json::array();
     for (const std::size_t t : mesh.targets) list.push_back(weights[scene.targets[t]]);
     json["meshes"][mesh.mesh]["weights"] = std::move(list);
-    // A node's weights would count instead of its mesh's.
-    if (Json* const nodes = find(json, "nodes"))
-      for (Json& node : *nodes)
-        if (const Json* const shown = find(node, "mesh");
-            shown && asIndex(*shown, mesh.mesh + 1) == mesh.mesh)
-          node.erase("weights");
   }
+  // A node's weights would count instead of its mesh's.
+  const std::vector<Index> shown = shownMeshes(scene);
+  for (std::size_t n = 0; n < shown.size(); ++n)
+    if (shown[n] >= 0 && !scene.parts.meshes[shown[n]].targets.empty())
+      json["nodes"][n].erase("weights");
 }
 
 }  // namespace sweepface::gltf

@@ -42,7 +42,7 @@ class FaceFinder {
     if (!found) return std::unexpected(found.error());
     // Parts that share indices could take very long.
     named_ += found->named;
-    if (named_ > 64 * scene_.document.sourceBytes + polygons_.corners.size())
+    if (named_ > scene_.document.mostElements())
       return doesNotFit("it has far more triangles");
     const auto first = static_cast<Index>(scene_.parts.runs[scene_.parts.parts[part].run].first);
     for (Triangle t : found->triangles) {
@@ -84,21 +84,34 @@ class FaceFinder {
 
 /// The rig's target of each of the scene's, and the other way round none is left over.
 Result<std::vector<Index>> matchTargets(const Rig& rig, const std::vector<std::string>& names) {
+  std::map<std::string_view, Index> numbers;
+  for (std::size_t k = 0; k < rig.targets.size(); ++k)
+    numbers.emplace(rig.targets[k].name, static_cast<Index>(k));
   std::vector<Index> targets;
-  std::vector<bool> known(rig.targets.size());
   for (const std::string& name : names) {
-    const Index target = rig.find(name);
-    if (target < 0) return doesNotFit(fmt::format("only the latter has the target '{}'", name));
-    targets.push_back(target);
-    known[target] = true;
+    const auto number = numbers.find(name);
+    if (number == numbers.end())
+      return doesNotFit(fmt::format("only the latter has the target '{}'", name));
+    targets.push_back(number->second);
+    numbers.erase(number);
   }
-  const auto missing = std::ranges::find(known, false);
-  if (missing == known.end()) return targets;
-  return doesNotFit(fmt::format("only the former has the target '{}'",
-                                rig.targets[missing - known.begin()].name));
+  if (numbers.empty()) return targets;
+  return doesNotFit(fmt::format("only the former has the target '{}'", numbers.begin()->first));
 }
 
 }  // namespace
+
+std::vector<Index> shownMeshes(const BoundScene& scene) {
+  std::vector<Index> rigMesh(scene.document.list("meshes").size(), -1);
+  for (std::size_t m = 0; m < scene.parts.meshes.size(); ++m)
+    rigMesh[scene.parts.meshes[m].mesh] = static_cast<Index>(m);
+  std::vector<Index> shown;
+  for (const Json& node : scene.document.list("nodes")) {
+    const auto mesh = findIndex(node, "mesh", rigMesh.size());
+    shown.push_back(mesh ? rigMesh[*mesh] : -1);
+  }
+  return shown;
+}
 
 Result<BoundScene> sceneOf(const Rig& rig) {
   auto document = parseDocument(rig.scene, {});

@@ -16,6 +16,9 @@ struct BoundScene {
   std::vector<Index> facePart;      ///< [faces] in parts.parts
 };
 
+/// [nodes] the mesh of the parts that each node shows, in parts.meshes, or -1.
+std::vector<Index> shownMeshes(const BoundScene& scene);
+
 /// The scene that came with a rig. Fails where the two do not fit.
 Result<BoundScene> sceneOf(const Rig& rig);
 

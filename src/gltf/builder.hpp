@@ -8,6 +8,9 @@
 
 namespace sweepface::gltf {
 
+/// Lengths in a GLB have 32 bits, and the JSON must find room as well.
+inline constexpr std::size_t mostBytes = (std::size_t{1} << 32) - (std::size_t{1} << 24);
+
 /// What the values of an accessor are there for.
 enum class Use {
   vertices,  ///< an attribute

@@ -1,6 +1,7 @@
 #include <unordered_map>
 
 #include "gltf/fine_mesh.hpp"
+#include "gltf/same_vertices.hpp"
 #include "gltf/triangulate.hpp"
 
 namespace sweepface::gltf {
@@ -147,7 +148,9 @@ class Cutter {
 
 Result<FineMesh> cutFinely(const Rig& rig, const BoundScene& scene, const Tessellation& grid,
                            const std::vector<Vec3>& positions) {
-  const auto same = sameVertices(rig, scene);
+  std::vector<Index> places;
+  for (const Index v : scene.vertices) places.push_back(rig.source.gridVertex[v]);
+  const auto same = sameVertices(scene.document, scene.parts, places);
   if (!same) return std::unexpected(same.error());
   return Cutter(rig, scene, grid, positions, *same).cut();
 }

@@ -30,6 +30,9 @@ struct Document {
     const BufferView& v = views[view];
     return std::string_view(buffers[v.buffer]).substr(v.offset, v.length);
   }
+  /// Corners, or elements of attributes, that files of this size can mean. Few bytes can claim more
+  /// by using the same data again and again.
+  std::size_t mostElements() const { return (1 << 16) + 8 * sourceBytes; }
   const Json& list(std::string_view key) const { return listOf(json, key); }
 };
 

@@ -11,8 +11,6 @@ namespace {
 constexpr std::size_t batch = 16;
 // Half of a float's last digit, as a share of the number.
 constexpr double halfDigit = 0x1p-24;
-// Lengths in a GLB have 32 bits, and the JSON must find room as well.
-constexpr std::size_t mostBytes = (std::size_t{1} << 32) - (std::size_t{1} << 24);
 
 /// From the space of the scene to what a run's accessors hold.
 class Packer {
@@ -94,7 +92,9 @@ class Filler {
         shapes_(shapes),
         morphNormals_(morphNormals),
         builder_(builder),
-        slots_(slots) {
+        slots_(slots),
+        accessors_(scene.document.list("accessors").size()),
+        morphsOf_(scene.parts.targets.size()) {
     const Parts& parts = scene.parts;
     for (std::size_t r = 0; r < parts.runs.size(); ++r) {
       const std::size_t mesh = parts.runs[r].rigMesh;
@@ -102,6 +102,7 @@ class Filler {
       partsOfRun_.emplace_back();
     }
     for (const Part& part : parts.parts) partsOfRun_[part.run].push_back(part);
+    for (std::size_t r = 0; r < parts.runs.size(); ++r) noteMorphs(r);
   }
 
   Result<void> fill() {
@@ -135,11 +136,6 @@ class Filler {
     return [target](Json& primitive) -> Json& { return primitive["targets"][target]; };
   }
 
-  static std::optional<std::size_t> numberIn(const Json& object, std::string_view key) {
-    const Json* const number = find(object, key);
-    return number ? std::optional(number->get<std::size_t>()) : std::nullopt;
-  }
-
   /// Gives the parts of a run the same values for an attribute: all parts, or those that have it.
   template <typename Holder>
   void set(std::size_t run, Holder holderOf, const char* attribute, bool all, const Column& column,
@@ -148,7 +144,7 @@ class Filler {
     for (const Part& part : partsOfRun_[run]) {
       Json& holder = holderOf(primitiveOf(part));
       if (!all && !find(holder, attribute)) continue;
-      if (!filled) filled = slots_.put(numberIn(holder, attribute), column, use);
+      if (!filled) filled = slots_.put(findIndex(holder, attribute, accessors_), column, use);
       holder[attribute] = *filled;
     }
   }
@@ -173,26 +169,22 @@ class Filler {
   }
 
   Result<void> fillTargets(std::size_t first, std::size_t end) {
-    std::vector<std::vector<Morph>> morphs(end - first);
-    for (std::size_t k = first; k < end; ++k) morphs[k - first] = morphsOf(k);
-    tbb::parallel_for(first, end, [&](std::size_t k) { evaluate(k, morphs[k - first]); });
-    for (const std::vector<Morph>& list : morphs)
-      for (const Morph& morph : list) write(morph);
+    tbb::parallel_for(first, end, [&](std::size_t k) { evaluate(k, morphsOf_[k]); });
+    for (std::size_t k = first; k < end; ++k) {
+      for (const Morph& morph : morphsOf_[k]) write(morph);
+      morphsOf_[k].clear();
+    }
     return checkSize();
   }
 
-  /// The runs that have a target, and whether it has normals there.
-  std::vector<Morph> morphsOf(std::size_t target) {
-    std::vector<Morph> list;
-    for (std::size_t r = 0; r < packers_.size(); ++r) {
-      const auto& targets = scene_.parts.meshes[scene_.parts.runs[r].rigMesh].targets;
-      for (std::size_t t = 0; t < targets.size(); ++t) {
-        if (targets[t] != target) continue;
-        list.push_back({r, t, {}, {}});
-        if (morphNormals(r) || anyHas(r, inTarget(t), "NORMAL")) list.back().normals.emplace();
-      }
+  /// The targets that a run has, and whether they have normals there.
+  void noteMorphs(std::size_t run) {
+    const auto& targets = scene_.parts.meshes[scene_.parts.runs[run].rigMesh].targets;
+    for (std::size_t t = 0; t < targets.size(); ++t) {
+      Morph& morph = morphsOf_[targets[t]].emplace_back();
+      morph.run = run, morph.target = t;
+      if (morphNormals(run) || anyHas(run, inTarget(t), "NORMAL")) morph.normals.emplace();
     }
-    return list;
   }
 
   void evaluate(std::size_t target, std::vector<Morph>& morphs) const {
@@ -219,8 +211,10 @@ class Filler {
   bool morphNormals_;
   Builder& builder_;
   Slots& slots_;
+  std::size_t accessors_;                      // before any were added
   std::vector<Packer> packers_;                // [runs]
   std::vector<std::vector<Part>> partsOfRun_;  // [runs]
+  std::vector<std::vector<Morph>> morphsOf_;   // [targets of the scene]
 };
 
 }  // namespace

@@ -20,15 +20,6 @@ struct FineMesh {
   std::vector<std::vector<Index>> triangles;  ///< [parts.parts] vertices of their run
 };
 
-/// Attributes that the surface gives itself, or that would not fit its normals.
-inline bool isGeometry(std::string_view attribute) {
-  return attribute == "POSITION" || attribute == "NORMAL" || attribute == "TANGENT";
-}
-
-/// For every vertex of a scene the first one of its run at the same place that agrees with it in
-/// all other attributes: authors double vertices for the sake of normals.
-Result<std::vector<Index>> sameVertices(const Rig& rig, const BoundScene& scene);
-
 /// Cuts every quad of the source as the tessellation does. Vertices are shared within a run unless
 /// the source's attributes differ there. `positions` are those of the tessellation.
 Result<FineMesh> cutFinely(const Rig& rig, const BoundScene& scene, const Tessellation& grid,

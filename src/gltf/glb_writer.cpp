@@ -13,6 +13,14 @@ namespace sweepface {
 namespace gltf {
 namespace {
 
+Result<void> check(const Clip& clip) {
+  if (clip.times.empty()) return fail("The clip has no frames.");
+  if (clip.weights.size() != clip.times.size() * clip.names.size())
+    return fail("The clip has not as many weights as it has frames times names.");
+  if (!(clip.times.front() >= 0)) return fail("The clip starts before 0, where glTF knows no time.");
+  return {};
+}
+
 Result<void> check(const Rig& rig, const GlbOptions& options) {
   const std::size_t targets = rig.targets.size();
   const auto differ = [&](std::string_view what, std::size_t count) {
@@ -25,7 +33,8 @@ Result<void> check(const Rig& rig, const GlbOptions& options) {
     return differ("motion", options.motion->size());
   if (options.clip && options.clip->names.size() != targets)
     return differ("clip", options.clip->names.size());
-  if (options.clip && options.clip->times.empty()) return fail("The clip has no frames.");
+  if (options.clip)
+    if (auto ok = check(*options.clip); !ok) return ok;
   if (options.lod < 0) return fail("A level of detail is 0 or more.");
   for (const double weight : options.weights)
     if (!(std::abs(weight) <= std::numeric_limits<float>::max()))

@@ -1,7 +1,7 @@
 #include "sweepface/gltf.hpp"
 
-#include "gltf/copies.hpp"
 #include "gltf/mesh_rig.hpp"
+#include "gltf/same_vertices.hpp"
 #include "gltf/scene.hpp"
 #include "mesh/quads.hpp"
 #include "mesh/weld.hpp"
@@ -16,8 +16,9 @@ Result<RigSource> readGltf(std::string_view bytes, const std::filesystem::path& 
   if (!parts) return std::unexpected(parts.error());
   auto rig = gltf::readMeshRig(*document, *parts);
   if (!rig) return std::unexpected(rig.error());
-  const std::vector<Index> copies = gltf::copiesOf(*document, *parts, weld(*rig));
-  rig->neutral.polygons = recoverQuads(*rig, copies).polygons;
+  const auto same = gltf::sameVertices(*document, *parts, weld(*rig));
+  if (!same) return std::unexpected(same.error());
+  rig->neutral.polygons = recoverQuads(*rig, *same).polygons;
   RigSource source{std::move(*rig), {}, document->warnings};
   auto scene = gltf::makeScene(std::move(*document), *parts, folder);
   if (!scene) return std::unexpected(scene.error());

@@ -87,6 +87,11 @@ std::optional<std::size_t> asIndex(const Json& value, std::size_t count) {
   return index && *index < count ? index : std::nullopt;
 }
 
+std::optional<std::size_t> findIndex(const Json& object, std::string_view key, std::size_t count) {
+  const Json* const value = find(object, key);
+  return value ? asIndex(*value, count) : std::nullopt;
+}
+
 Members::Members(const Json& object, std::string place)
     : object_(object), place_(std::move(place)) {
   if (!object.is_object()) refuse("it is not an object");

@@ -81,5 +81,7 @@ class Members {
 
 /// The value as an index below `count`, or nothing where it is none.
 std::optional<std::size_t> asIndex(const Json& value, std::size_t count);
+/// The same of the member of an object.
+std::optional<std::size_t> findIndex(const Json& object, std::string_view key, std::size_t count);
 
 }  // namespace sweepface::gltf

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <map>
-#include <set>
 
 namespace sweepface::gltf {
 namespace {
@@ -79,11 +78,13 @@ class Undoer {
       : scene_(scene), json_(scene.document.json), encodings_(encodings), builder_(builder) {}
 
   Result<void> run() {
-    for (std::size_t m = 0; m < encodings_.size(); ++m)
-      if (auto ok = checkPrimitives(m); !ok) return ok;
-    const std::size_t count = scene_.document.list("nodes").size();
-    for (std::size_t n = 0; n < count; ++n)
-      if (auto ok = visit(n); !ok) return ok;
+    if (auto ok = checkPrimitives(); !ok) return ok;
+    noteAnimations();
+    const std::vector<Index> shown = shownMeshes(scene_);
+    for (std::size_t n = 0; n < shown.size(); ++n)
+      if (shown[n] >= 0)
+        if (auto ok = visit(n, encodings_[shown[n]]); !ok) return ok;
+    redirectWeights();
     addExtension("extensionsUsed");
     addExtension("extensionsRequired");
     return {};
@@ -94,35 +95,56 @@ class Undoer {
     return fail(fmt::format("The face cannot be quantized: {}; export it without.", why));
   }
 
-  /// What else the mesh holds would be enlarged with it.
-  Result<void> checkPrimitives(std::size_t rigMesh) const {
-    const std::size_t mesh = scene_.parts.meshes[rigMesh].mesh;
-    const auto own = std::ranges::count_if(scene_.parts.parts, [&](const Part& part) {
-      return scene_.parts.runs[part.run].rigMesh == rigMesh;
-    });
-    const Json& primitives = listOf(scene_.document.list("meshes")[mesh], "primitives");
-    if (static_cast<std::size_t>(own) == primitives.size()) return {};
-    return cannot(fmt::format("its mesh {} has points, lines or triangles besides it", mesh));
-  }
-
-  const Encoding* encodingOf(const Json& node) const {
-    const Json* const mesh = find(node, "mesh");
-    for (std::size_t m = 0; mesh && m < encodings_.size(); ++m)
-      if (asIndex(*mesh, scene_.parts.meshes[m].mesh + 1) == scene_.parts.meshes[m].mesh)
-        return &encodings_[m];
-    return nullptr;
-  }
-
-  Result<void> visit(std::size_t number) {
-    Json& node = json_["nodes"][number];
-    const Encoding* const encoding = encodingOf(node);
-    if (!encoding) return {};
-    if (find(node, "skin")) return rebind(node, *encoding);
-    if (isPlain(node, number)) {
-      scale(node, *encoding);
-      return {};
+  /// What else a mesh holds would be enlarged with it.
+  Result<void> checkPrimitives() const {
+    std::vector<std::size_t> own(encodings_.size());
+    for (const Part& part : scene_.parts.parts) ++own[scene_.parts.runs[part.run].rigMesh];
+    for (std::size_t m = 0; m < own.size(); ++m) {
+      const std::size_t mesh = scene_.parts.meshes[m].mesh;
+      if (own[m] != listOf(scene_.document.list("meshes")[mesh], "primitives").size())
+        return cannot(fmt::format("its mesh {} has points, lines or triangles besides it", mesh));
     }
-    return moveBelow(number, *encoding);
+    return {};
+  }
+
+  template <typename Act>
+  void eachChannelTarget(Act act) {
+    Json* const animations = find(json_, "animations");
+    for (std::size_t a = 0; animations && a < animations->size(); ++a) {
+      Json* const channels = find((*animations)[a], "channels");
+      for (std::size_t c = 0; channels && channels->is_array() && c < channels->size(); ++c)
+        if (Json* const target = find((*channels)[c], "target")) act(*target);
+    }
+  }
+  static bool isOfWeights(const Json& target) {
+    const Json* const path = find(target, "path");
+    return path && *path == "weights";
+  }
+
+  /// Nodes that animations move.
+  void noteAnimations() {
+    moved_.resize(scene_.document.list("nodes").size());
+    eachChannelTarget([&](const Json& target) {
+      const auto node = findIndex(target, "node", moved_.size());
+      if (node && !isOfWeights(target)) moved_[*node] = true;
+    });
+  }
+
+  /// Animated weights go with their meshes.
+  void redirectWeights() {
+    eachChannelTarget([&](Json& target) {
+      const auto node = findIndex(target, "node", moved_.size());
+      const auto below = node && isOfWeights(target) ? below_.find(*node) : below_.end();
+      if (below != below_.end()) target["node"] = below->second;
+    });
+  }
+
+  Result<void> visit(std::size_t number, const Encoding& encoding) {
+    Json& node = json_["nodes"][number];
+    if (find(node, "skin")) return rebind(node, encoding);
+    if (!isPlain(node, number)) return moveBelow(number, encoding);
+    scale(node, encoding);
+    return {};
   }
 
   static void scale(Json& node, const Encoding& e) {
@@ -134,19 +156,8 @@ class Undoer {
     constexpr std::array kept{"name", "mesh", "weights", "extras"};
     for (const auto& [key, value] : node.items())
       if (std::ranges::find(kept, key) == kept.end()) return false;
-    bool moved = false;
-    for (const Json& animation : scene_.document.list("animations"))
-      for (const Json& channel : listOf(animation, "channels"))
-        if (const Json* const target = find(channel, "target"))
-          moved = moved || (isNode(*target, number) && (*target)["path"] != "weights");
-    return !moved && !pointersMayReach();
+    return !moved_[number] && !uses("KHR_animation_pointer");
   }
-
-  static bool isNode(const Json& target, std::size_t number) {
-    const Json* const node = find(target, "node");
-    return node && asIndex(*node, number + 1) == number;
-  }
-  bool pointersMayReach() const { return uses("KHR_animation_pointer"); }
   bool uses(std::string_view extension) const {
     return std::ranges::any_of(scene_.document.list("extensionsUsed"),
                                [&](const Json& name) { return name == extension; });
@@ -172,23 +183,13 @@ class Undoer {
     const std::size_t below = json_["nodes"].size();
     node["children"].push_back(below);
     json_["nodes"].push_back(std::move(child));
-    if (Json* const animations = find(json_, "animations"))
-      for (Json& animation : *animations) redirect(animation, number, below);
+    below_[number] = below;
     return {};
-  }
-
-  /// Animated weights go with the mesh.
-  static void redirect(Json& animation, std::size_t from, std::size_t to) {
-    Json* const channels = find(animation, "channels");
-    if (!channels || !channels->is_array()) return;
-    for (Json& channel : *channels)
-      if (Json* const target = find(channel, "target"))
-        if (isNode(*target, from) && (*target)["path"] == "weights") (*target)["node"] = to;
   }
 
   /// Gives a node a skin whose matrices undo the encoding first.
   Result<void> rebind(Json& node, const Encoding& encoding) {
-    const auto skin = asIndex(node["skin"], scene_.document.list("skins").size());
+    const auto skin = findIndex(node, "skin", scene_.document.list("skins").size());
     if (!skin) return cannot("a skin of its scene is not in the file");
     const auto [known, isNew] = skins_.try_emplace(std::pair{*skin, &encoding}, 0);
     if (isNew) {
@@ -204,8 +205,9 @@ class Undoer {
     Json skin = json_["skins"][number];
     const std::size_t joints = listOf(skin, "joints").size();
     std::vector<double> matrices;
-    if (const Json* const given = find(skin, "inverseBindMatrices")) {
-      const auto index = asIndex(*given, scene_.document.list("accessors").size());
+    if (find(skin, "inverseBindMatrices")) {
+      const auto index =
+          findIndex(skin, "inverseBindMatrices", scene_.document.list("accessors").size());
       if (!index) return cannot("a skin of its scene has no matrices");
       const auto accessor = accessorAt(scene_.document, *index);
       if (!accessor) return std::unexpected(accessor.error());
@@ -241,6 +243,8 @@ class Undoer {
   Json& json_;
   const std::vector<Encoding>& encodings_;
   Builder& builder_;
+  std::vector<bool> moved_;                   // [nodes]
+  std::map<std::size_t, std::size_t> below_;  // the new node that has a node's mesh
   std::map<std::pair<std::size_t, const Encoding*>, std::size_t> skins_;
 };
 

@@ -3,6 +3,7 @@
 #include <map>
 
 #include "gltf/fine_mesh.hpp"
+#include "gltf/same_vertices.hpp"
 
 namespace sweepface::gltf {
 namespace {
@@ -69,6 +70,10 @@ class Refiner {
       if (!isNew) continue;
       auto column = mixed(scene_.document, *accessor, mesh_.runs[run].places);
       if (!column) return std::unexpected(column.error());
+      bytes_ += column->bytes.size();
+      if (bytes_ > mostBytes)
+        return fail("The face's attributes would need more than the 4 GiB of a GLB; choose a lower "
+                    "level of detail.");
       value->second.column = std::move(*column);
     }
     return {};
@@ -102,14 +107,14 @@ class Refiner {
   void rewrite(std::size_t number) {
     const Part& part = scene_.parts.parts[number];
     Json& primitive = primitiveOf(part);
-    const Json* const old = find(primitive, "indices");
-    const auto indices = old ? std::optional(old->get<std::size_t>()) : std::nullopt;
+    const auto indices = findIndex(primitive, "indices", scene_.document.list("accessors").size());
     primitive["indices"] = slots_.put(indices, packIndices(mesh_.triangles[number]), Use::indices);
     primitive.erase("mode");
     point(part.run, primitive["attributes"]);
     if (Json* const targets = find(primitive, "targets"))
       for (Json& target : *targets) point(part.run, target);
-    if (Json* const extensions = find(primitive, "extensions")) {
+    if (Json* const extensions = find(primitive, "extensions");
+        extensions && extensions->is_object()) {
       const Json before = *extensions;
       for (const auto& [name, value] : before.items())
         if (!survives(name)) extensions->erase(name);
@@ -128,6 +133,7 @@ class Refiner {
   const FineMesh& mesh_;
   Slots& slots_;
   std::map<Place, Value> values_;
+  std::size_t bytes_ = 0;
 };
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "gltf/glb.hpp"
+#include "gltf/mesh_rig.hpp"
 
 namespace sweepface {
 namespace {
@@ -23,6 +24,13 @@ std::vector<std::vector<Index>> facesOf(const Polygons& polygons) {
   return faces;
 }
 using Faces = std::vector<std::vector<Index>>;
+
+/// The faces of a file before triangles are joined.
+Faces trianglesOf(const Glb& glb) {
+  const gltf::Document document = gltf::parseDocument(glb.bytes(), {}).value();
+  const gltf::Parts parts = gltf::findParts(document).value();
+  return facesOf(gltf::readMeshRig(document, parts).value().neutral.polygons);
+}
 
 void expectNear(const std::vector<Vec3>& found, const std::vector<Vec3>& expected,
                 double within = 1e-12) {
@@ -128,11 +136,11 @@ TEST(GltfReader, NormalisedPositionsGoFromMinusOneToOne) {
 
 TEST(GltfReader, ReadsListsStripsAndFans) {
   const auto facesWith = [](int mode, int count) {
-    return facesOf(read(points(zigzag(count), {{"mode", mode}})).rig.neutral.polygons);
+    return trianglesOf(points(zigzag(count), {{"mode", mode}}));
   };
   EXPECT_EQ(facesWith(4, 6), (Faces{{0, 1, 2}, {3, 4, 5}}));
-  EXPECT_EQ(facesWith(4, 8), (Faces{{0, 1, 2}, {3, 4, 5}}));     // what is left over is nothing
-  EXPECT_EQ(facesWith(5, 5), (Faces{{0, 1, 2}, {1, 3, 4, 2}}));  // two of them are a quad
+  EXPECT_EQ(facesWith(4, 8), (Faces{{0, 1, 2}, {3, 4, 5}}));  // what is left over is nothing
+  EXPECT_EQ(facesWith(5, 5), (Faces{{0, 1, 2}, {1, 3, 2}, {2, 3, 4}}));
   EXPECT_EQ(facesWith(6, 5), (Faces{{0, 1, 2}, {0, 2, 3}, {0, 3, 4}}));
 }
 
@@ -151,9 +159,9 @@ TEST(GltfReader, ReadsIndicesOfEveryWidth) {
     const std::vector<decltype(width)> indices{0, 1, 2, 1, 3, 2};
     const std::size_t view = glb.addView(bytesOf(indices));
     glb.primitive()["indices"] = glb.addAccessor(view, component, "SCALAR", 6);
-    return facesOf(read(glb).rig.neutral.polygons);
+    return trianglesOf(glb);
   };
-  const Faces expected{{0, 1, 3, 2}};
+  const Faces expected{{0, 1, 2}, {1, 3, 2}};
   EXPECT_EQ(facesWith(std::uint8_t{}, 5121), expected);
   EXPECT_EQ(facesWith(std::uint16_t{}, 5123), expected);
   EXPECT_EQ(facesWith(std::uint32_t{}, 5125), expected);
@@ -210,8 +218,8 @@ TEST(GltfReader, TrianglesMakeNoQuadsAcrossSeams) {
   EXPECT_EQ(faceCount(soup([](std::size_t t, Vec3) { return static_cast<float>(t); })), 8);
 }
 
-TEST(GltfReader, ColoursThatAreDamagedDoubleVertices) {
-  EXPECT_EQ(faceCount(soup([](std::size_t, Vec3) { return NAN; })), 8);
+TEST(GltfReader, AttributesThatAreNotFiniteAreRefused) {
+  EXPECT_TRUE(refused(soup([](std::size_t, Vec3) { return NAN; }), {"element 0 is not finite"}));
 }
 
 // ---- What hangs on faces ----
@@ -273,12 +281,6 @@ TEST(GltfReader, TextureCoordinatesMustBePairs) {
   EXPECT_TRUE(refused(glb, {"accessor 0: a TEXCOORD_0 is not of type VEC2"}));
 }
 
-std::vector<Index> runsOf(std::vector<Index> ofFaces) {
-  const auto repeated = std::ranges::unique(ofFaces);
-  ofFaces.erase(repeated.begin(), repeated.end());
-  return ofFaces;
-}
-
 TEST(GltfReader, FacesHaveTheNamesOfMaterialsAndMeshes) {
   Glb glb = smallFace();
   glb.add("materials", Json::object());
@@ -291,8 +293,52 @@ TEST(GltfReader, FacesHaveTheNamesOfMaterialsAndMeshes) {
   const Polygons polygons = read(glb).rig.neutral.polygons;
   EXPECT_EQ(polygons.materials, (std::vector<std::string>{"skin", "material_1"}));
   EXPECT_EQ(polygons.groups, (std::vector<std::string>{"head"}));
-  EXPECT_EQ(runsOf(polygons.faceMaterial), (std::vector<Index>{0, 1, -1}));
-  EXPECT_EQ(runsOf(polygons.faceGroup), (std::vector<Index>{0, -1}));
+  std::set<std::pair<Index, Index>> pairs;
+  for (std::size_t f = 0; f < polygons.faceMaterial.size(); ++f)
+    pairs.emplace(polygons.faceMaterial[f], polygons.faceGroup[f]);
+  EXPECT_EQ(pairs, (std::set<std::pair<Index, Index>>{{0, 0}, {1, 0}, {-1, -1}}));
+}
+
+// ---- Quads ----
+
+TEST(GltfReader, JoinsTrianglesToQuads) {
+  const Polygons polygons = read(smallFace()).rig.neutral.polygons;
+  EXPECT_EQ(facesOf(polygons), (Faces{{0, 1, 4, 3}, {1, 2, 5, 4}, {3, 4, 7, 6}, {4, 5, 8, 7}}));
+  EXPECT_EQ(polygons.faceMaterial, (std::vector<Index>{0, 0, 0, 0}));
+  EXPECT_EQ(polygons.cornerTexcoords.size(), 16u);
+}
+
+/// The small face with a vertex of its own for every corner of every triangle, and `names` besides
+/// positions.
+Glb loneTriangles(const std::vector<std::pair<const char*, std::vector<Vec2>>>& attributes) {
+  Glb glb;
+  std::vector<Vec3> positions, deltas, normals;
+  for (const std::uint16_t v : sheetIndices()) {
+    positions.push_back(sheetPositions()[v]);
+    deltas.push_back(openDeltas()[v]);
+    normals.push_back(normalized({1.0 * static_cast<double>(positions.size()), 1, 5}));
+  }
+  Json primitive = {
+      {"attributes",
+       {{"POSITION", glb.addVectors(positions)}, {"NORMAL", glb.addVectors(normals)}}},
+      {"targets", Json::array({Json::object({{"POSITION", glb.addVectors(deltas)}})})}};
+  for (const auto& [name, values] : attributes)
+    primitive["attributes"][name] = glb.addTexcoords(values);
+  glb.add("meshes", {{"primitives", Json::array({std::move(primitive)})}});
+  return glb;
+}
+
+TEST(GltfReader, JoinsTrianglesWhoseVerticesDifferInNormalsOnly) {
+  std::vector<Vec2> places;
+  for (const std::uint16_t v : sheetIndices())
+    places.push_back({sheetPositions()[v].x, sheetPositions()[v].y});
+  const auto faceCount = [](const Glb& glb) { return read(glb).rig.neutral.polygons.faceCount(); };
+  EXPECT_EQ(faceCount(loneTriangles({})), 4);
+  EXPECT_EQ(faceCount(loneTriangles({{"TEXCOORD_0", places}, {"TEXCOORD_1", places}})), 4);
+  std::vector<Vec2> torn = places;
+  for (std::size_t k = 0; k < 3; ++k) torn[k].x += 7;  // the first triangle
+  EXPECT_EQ(faceCount(loneTriangles({{"TEXCOORD_0", torn}})), 5);
+  EXPECT_EQ(faceCount(loneTriangles({{"TEXCOORD_0", places}, {"TEXCOORD_1", torn}})), 5);
 }
 
 // ---- Places ----

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <iterator>
 #include <set>
 
 #include "faces.hpp"
@@ -51,14 +52,34 @@ void expectSameFace(const Both& both, std::size_t vertices) {
   EXPECT_EQ(names.size(), 57u);
 }
 
+/// The quads of a mesh, as sorted vertices.
+std::set<std::vector<Index>> quadsOf(const MeshRig& rig) {
+  std::set<std::vector<Index>> quads;
+  for (std::vector<Index> face : loopsOf(rig.neutral.polygons)) {
+    std::ranges::sort(face);
+    if (face.size() == 4) quads.insert(face);
+  }
+  return quads;
+}
+
 TEST(RealFace, AHeadOfDenseTargetsIsThatOfItsObjFiles) {
   SKIP_WITHOUT_REAL_FACES();
-  expectSameFace(readBoth("head.glb", "head"), 11248);
+  const Both both = readBoth("head.glb", "head");
+  expectSameFace(both, 11248);
+  EXPECT_EQ(quadsOf(both.fromGlb), quadsOf(both.fromObj));
+  EXPECT_EQ(both.fromGlb.neutral.polygons.faceCount(), 11144);
 }
 
 TEST(RealFace, AWholeFaceOfSparseTargetsIsThatOfItsObjFiles) {
   SKIP_WITHOUT_REAL_FACES();
-  expectSameFace(readBoth("full_sparse.glb", "."), 26719);
+  const Both both = readBoth("full_sparse.glb", ".");
+  expectSameFace(both, 26719);
+  // All quads but three that are folded too far; some of the 548 triangles become quads besides.
+  const auto quads = quadsOf(both.fromObj), found = quadsOf(both.fromGlb);
+  std::vector<std::vector<Index>> missing;
+  std::ranges::set_difference(quads, found, std::back_inserter(missing));
+  EXPECT_LE(missing.size(), 3u);
+  EXPECT_LE(found.size(), quads.size() + 548 / 2);
 }
 
 }  // namespace

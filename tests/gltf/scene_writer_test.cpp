@@ -1,4 +1,5 @@
 // GLB files of faces that came with a scene.
+#include <functional>
 #include <set>
 
 #include "gltf/written.hpp"
@@ -328,6 +329,53 @@ TEST(SceneWriter, AnswersAnyDamagedScene) {
         rig, {.lod = round % 3, .morphNormals = round % 2 == 1, .quantize = round % 5 == 0});
     EXPECT_TRUE(bytes || failsWith(bytes, {"."}));
   }
+}
+
+/// Everything in a JSON, as functions that find it.
+void eachPlace(Json& json, const std::function<void(Json&)>& visit) {
+  visit(json);
+  if (!json.is_structured()) return;
+  for (auto& [key, value] : json.items()) eachPlace(value, visit);
+}
+
+TEST(SceneWriter, AnswersAnySceneWithOneWrongValue) {
+  Glb source = richFace();
+  source.json["nodes"][0]["children"] = {1};
+  source.primitive()["extensions"]["KHR_materials_variants"] = Json::object();
+  Rig rig = converted(source);
+  const Motion motion =
+      *Motion::make(std::vector{0.0, 0.0}, std::vector{1.0, 1.0}, TimeLaw::newton, 1);
+  const std::vector<GlbOptions> options{{.morphNormals = true, .motion = &motion},
+                                        {.lod = 2, .weights = {1, 0}},
+                                        {.lod = 2, .quantize = true, .motion = &motion},
+                                        {.quantize = true, .weights = {1, 0}}};
+  const Written scene(rig.scene);
+  const std::vector<Json> wrong{nullptr,
+                                -1,
+                                7,
+                                1e9,
+                                1.5,
+                                "text",
+                                true,
+                                Json::array(),
+                                Json::object(),
+                                Json::array({nullptr})};
+  Json json = scene.json;
+  std::vector<Json*> places;
+  eachPlace(json, [&](Json& place) { places.push_back(&place); });
+  std::size_t accepted = 0, refusedOnes = 0;
+  for (std::size_t k = 0; k < places.size(); ++k)
+    for (std::size_t w = 0; w < wrong.size(); ++w) {
+      Json before = wrong[w];
+      std::swap(*places[k], before);
+      rig.scene = gltf::formatContainer(json, scene.binary);
+      std::swap(*places[k], before);
+      const auto bytes = formatGlb(rig, options[(k + w) % options.size()]);
+      EXPECT_TRUE(bytes || failsWith(bytes, {"."}));
+      ++(bytes ? accepted : refusedOnes);
+    }
+  EXPECT_GT(accepted, 100u);
+  EXPECT_GT(refusedOnes, 100u);
 }
 
 }  // namespace

@@ -1,10 +1,11 @@
 // three.js loads the files, finds every target by its name, and plays them on the laws of motion.
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
+import path from 'node:path';
 import test from 'node:test';
 import * as THREE from 'three';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
-import { inWork, objPositions, sampleFace, sweepface, targetNames } from './tool.mjs';
+import { inWork, objPositions, realFaces, sampleFace, sweepface, targetNames } from './tool.mjs';
 
 async function load(file) {
   const bytes = readFileSync(file);
@@ -123,4 +124,22 @@ test('sampled keys meet the law where they stand', async () => {
     mixer.setTime(k / 10);
     for (const mesh of morphing(gltf)) assert.ok(Math.abs(weight(mesh, 'jawOpen') - (k / 10) ** 2) < 1e-6);
   }
+});
+
+const skip = !process.env.SWEEPFACE_LONG ? 'runs in the long tests' : !realFaces && 'SWEEPFACE_DATA is not set';
+test('a real head has all its targets and moves by them', { skip }, async () => {
+  const sweep = inWork('head.sweep'), file = inWork('head.glb');
+  sweepface('convert', path.join(realFaces, 'ictface', 'glb', 'head.glb'), '-o', sweep, '--tolerance', '0.05', '-q');
+  sweepface('animate', sweep, '--to', 'jawOpen=1', '--law', 'newton', '-o', file, '-q');
+  const gltf = await load(file), [mesh] = morphing(gltf);
+  assert.equal(Object.keys(mesh.morphTargetDictionary).length, 57);
+  assert.equal(mesh.geometry.attributes.position.count, 11248);
+  const mixer = new THREE.AnimationMixer(gltf.scene);
+  mixer.clipAction(gltf.animations[0]).play();
+  mixer.setTime(0.7);
+  assert.ok(Math.abs(weight(mesh, 'jawOpen') - 0.49) < 2e-7);
+  const seen = places([mesh], 1e-5), obj = inWork('head.obj');
+  sweepface('export', sweep, '-o', obj, '--weights', 'jawOpen=0.49', '-q');
+  const expected = objPositions(obj);
+  for (let k = 0; k < expected.length; k += 3) assert.ok(isNear(seen, 1e-5, expected.slice(k, k + 3)), `vertex ${k / 3}`);
 });
