@@ -29,6 +29,7 @@ Command addMeasure(CLI::App& tool);
 Command addExport(CLI::App& tool);
 Command addAnimate(CLI::App& tool);
 Command addWireframe(CLI::App& tool);
+Command addRender(CLI::App& tool);
 
 /// Help that breaks long descriptions into lines.
 class HelpFormatter : public CLI::Formatter {

@@ -44,6 +44,9 @@ struct Rig {
   Index find(std::string_view name) const;
 };
 
+/// The target of a name; the error says which there are.
+Result<Index> findTarget(const Rig& rig, std::string_view name);
+
 /// A weight for every target.
 using Weights = std::vector<double>;
 
@@ -56,6 +59,7 @@ Result<Weights> parseWeights(const Rig& rig, std::string_view text);
 void blend(const Rig& rig, std::span<const double> weights, std::span<Vec3> vectors);
 std::vector<Vec3> blend(const Rig& rig, std::span<const double> weights);
 /// The loose vertices under the same weights.
+void blendLoose(const Rig& rig, std::span<const double> weights, std::span<Vec3> loose);
 std::vector<Vec3> blendLoose(const Rig& rig, std::span<const double> weights);
 
 }  // namespace sweepface

@@ -227,6 +227,18 @@ struct JoinReport {
   double normalJump = 0;   ///< largest angle between the normals, degrees
 };
 
+/// Joins summed up.
+struct JoinSummary {
+  std::size_t count = 0;
+  double length = 0;
+  double positionGap = 0, firstJump = 0, secondJump = 0, normalJump = 0;  ///< largest ones
+  double normalSquares = 0;  ///< of the angles, times length
+
+  void add(const JoinReport& join);
+  /// Of each arc's largest angle, by length.
+  double normalRms() const;
+};
+
 /// The class of an arc by the nodes at its ends.
 JoinClass joinClass(const Surface& surface, Index arc);
 /// Both sides of every arc compared at `samples` points along it.

@@ -42,8 +42,7 @@ class FaceFinder {
     if (!found) return std::unexpected(found.error());
     // Parts that share indices could take very long.
     named_ += found->named;
-    if (named_ > scene_.document.mostElements())
-      return doesNotFit("it has far more triangles");
+    if (named_ > scene_.document.mostElements()) return doesNotFit("it has far more triangles");
     const auto first = static_cast<Index>(scene_.parts.runs[scene_.parts.parts[part].run].first);
     for (Triangle t : found->triangles) {
       for (Index& v : t) v += first;

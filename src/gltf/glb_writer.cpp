@@ -17,7 +17,8 @@ Result<void> check(const Clip& clip) {
   if (clip.times.empty()) return fail("The clip has no frames.");
   if (clip.weights.size() != clip.times.size() * clip.names.size())
     return fail("The clip has not as many weights as it has frames times names.");
-  if (!(clip.times.front() >= 0)) return fail("The clip starts before 0, where glTF knows no time.");
+  if (!(clip.times.front() >= 0))
+    return fail("The clip starts before 0, where glTF knows no time.");
   return {};
 }
 

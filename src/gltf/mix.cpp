@@ -90,7 +90,9 @@ void roundTogether(std::vector<Influence>& influences, double one) {
     lost.push_back(scaled - down);
     i.weight = down;
   }
-  std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return lost[a] > lost[b]; });
+  std::ranges::sort(order, [&](std::size_t a, std::size_t b) {
+    return lost[a] != lost[b] ? lost[a] > lost[b] : a < b;
+  });
   for (std::size_t k = 0; k < static_cast<std::size_t>(std::lround(left)); ++k)
     influences[order[k]].weight += 1;
   for (Influence& i : influences) {

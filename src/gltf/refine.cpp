@@ -72,8 +72,9 @@ class Refiner {
       if (!column) return std::unexpected(column.error());
       bytes_ += column->bytes.size();
       if (bytes_ > mostBytes)
-        return fail("The face's attributes would need more than the 4 GiB of a GLB; choose a lower "
-                    "level of detail.");
+        return fail(
+            "The face's attributes would need more than the 4 GiB of a GLB; choose a lower "
+            "level of detail.");
       value->second.column = std::move(*column);
     }
     return {};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <set>
 
 namespace sweepface::gltf {
@@ -34,6 +35,13 @@ void divide(std::vector<Index>& alike, const std::vector<double>& values) {
   }
 }
 
+/// For files that use the same data as attributes again and again: comparing them takes too long.
+std::vector<Index> nothingJoined(std::size_t vertices) {
+  std::vector<Index> same(vertices);
+  std::iota(same.begin(), same.end(), 0);
+  return same;
+}
+
 }  // namespace
 
 Result<std::vector<Index>> sameVertices(const Document& document, const Parts& parts,
@@ -50,16 +58,14 @@ Result<std::vector<Index>> sameVertices(const Document& document, const Parts& p
       if (!accessor) return std::unexpected(accessor.error());
       if (!accessor->hasData()) continue;
       elements += accessor->count;
-      if (elements > document.mostElements())
-        return fail("it has more attributes than its size can mean; export the file again.");
+      if (elements > document.mostElements()) return nothingJoined(parts.vertexCount);
       const auto values = decode(document, *accessor);
       if (!values) return std::unexpected(values.error());
       divide(alike, *values);
     }
     std::map<Index, Index> first;
     for (std::size_t v = 0; v < run.count; ++v)
-      same.push_back(
-          first.try_emplace(alike[v], static_cast<Index>(run.first + v)).first->second);
+      same.push_back(first.try_emplace(alike[v], static_cast<Index>(run.first + v)).first->second);
   }
   return same;
 }

@@ -31,6 +31,18 @@ CrossJet crossJet(const Surface& surface, std::span<const Vec3> vectors, HalfArc
 
 }  // namespace
 
+void JoinSummary::add(const JoinReport& join) {
+  ++count;
+  length += join.length;
+  positionGap = std::max(positionGap, join.positionGap);
+  firstJump = std::max(firstJump, join.firstJump);
+  secondJump = std::max(secondJump, join.secondJump);
+  normalJump = std::max(normalJump, join.normalJump);
+  normalSquares += join.length * join.normalJump * join.normalJump;
+}
+
+double JoinSummary::normalRms() const { return length > 0 ? std::sqrt(normalSquares / length) : 0; }
+
 JoinClass joinClass(const Surface& surface, Index arc) {
   const auto& c = surface.connectivity();
   const auto& w = surface.wireframe();

@@ -53,7 +53,7 @@ test('a face packed with -cz is refused with advice', () => {
   const file = inWork('face.glb'), packed = inWork('packed.glb');
   sweepface('export', sampleFace().sweep, '-o', file, '-q');
   pack(file, packed, ['-cz']);
-  assert.throws(() => sweepface('convert', packed, '-o', inWork('none.sweep')), /version 1 of meshopt.*version 0/);
+  assert.throws(() => sweepface('convert', packed, '-o', inWork('none.sweep')), /version 1 of meshopt/);
 });
 
 const real = { head: { quads: 11140, triangles: 8, ways }, full_sparse: { quads: 25400, triangles: 548, ways: [['-cc'], ['-noq']] } };

@@ -28,7 +28,7 @@ let sample;
 export function sampleFace() {
   if (sample) return sample;
   const folder = inWork('sample');
-  run(process.env.SWEEPFACE_SAMPLE, folder);
+  run(process.env.SWEEPFACE_SAMPLE_MAKER, folder);
   sample = { sweep: inWork('sample.sweep'), tolerance: 0.05, neutral: path.join(folder, 'neutral.obj'),
              expressions: path.join(folder, 'expressions') };
   sweepface('convert', sample.neutral, sample.expressions, '-o', sample.sweep,
