@@ -2,6 +2,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <initializer_list>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "sweepface/timeline.hpp"
@@ -34,12 +35,13 @@ class TimelineReader {
     const auto events = json_.find("events");
     if (events == json_.end() || !events->is_array() || events->empty())
       return failAt("'events'", "must be a list of at least one event");
+    std::multimap<double, TimelineEvent> inOrder;  // events of one time stay as they stand
     for (std::size_t k = 0; k < events->size(); ++k) {
       auto event = readEvent((*events)[k], fmt::format("events[{}]", k));
       if (!event) return std::unexpected(event.error());
-      timeline.events.push_back(std::move(*event));
+      inOrder.emplace(event->time, std::move(*event));
     }
-    std::ranges::stable_sort(timeline.events, {}, &TimelineEvent::time);
+    for (auto& [time, event] : inOrder) timeline.events.push_back(std::move(event));
     if (timeline.events.back().time > timeline.seconds)
       return failAt("'events'", "hold one that is later than 'seconds'");
     return timeline;

@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <numbers>
 #include <set>
 
 #include "gltf/glb.hpp"
@@ -186,6 +188,40 @@ TEST(GltfReader, IndicesMustBeWholeNumbersOfVertices) {
   EXPECT_TRUE(refused(glb, {"are not data of unsigned integers"}));
 }
 
+// ---- Quads ----
+
+/// The sheet with vertices of its own for every triangle, and a colour and a normal for each.
+Glb soup(const std::function<float(std::size_t triangle, Vec3 at)>& colour) {
+  std::vector<Vec3> positions, normals;
+  std::vector<float> colours;
+  for (const std::uint16_t v : sheetIndices()) {
+    const std::size_t triangle = positions.size() / 3;
+    positions.push_back(sheetPositions()[v]);
+    normals.push_back(triangle % 2 ? Vec3{0, 0, 1} : Vec3{0, 1, 0});
+    for (int k = 0; k < 3; ++k) colours.push_back(colour(triangle, positions.back()));
+  }
+  Glb glb = points(positions);
+  Json& attributes = glb.primitive()["attributes"];
+  attributes["NORMAL"] = glb.addVectors(normals);
+  const std::size_t view = glb.addView(bytesOf(colours));
+  attributes["COLOR_0"] = glb.addAccessor(view, 5126, "VEC3", positions.size());
+  return glb;
+}
+Index faceCount(const Glb& glb) { return read(glb).rig.neutral.polygons.faceCount(); }
+
+TEST(GltfReader, TrianglesOfDoubledVerticesMakeQuads) {
+  EXPECT_EQ(faceCount(soup([](std::size_t, Vec3) { return 0.5f; })), 4);
+  EXPECT_EQ(faceCount(soup([](std::size_t, Vec3 p) { return static_cast<float>(p.x); })), 4);
+}
+
+TEST(GltfReader, TrianglesMakeNoQuadsAcrossSeams) {
+  EXPECT_EQ(faceCount(soup([](std::size_t t, Vec3) { return static_cast<float>(t); })), 8);
+}
+
+TEST(GltfReader, AttributesThatAreNotFiniteAreRefused) {
+  EXPECT_TRUE(refused(soup([](std::size_t, Vec3) { return NAN; }), {"element 0 is not finite"}));
+}
+
 // ---- What hangs on faces ----
 
 TEST(GltfReader, TextureCoordinatesHaveTheirOriginBelow) {
@@ -196,6 +232,30 @@ TEST(GltfReader, TextureCoordinatesHaveTheirOriginBelow) {
     const Vec2 t = polygons.texcoords[polygons.cornerTexcoords[c]];
     EXPECT_EQ(t, (Vec2{p.x / 2, 1 - p.y / 2}));
   }
+}
+
+TEST(GltfReader, TextureCoordinatesGoThroughTheTransformOfTheBaseColour) {
+  Glb glb = smallFace();
+  Json& texture = glb.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"];
+  texture = {{"index", 0}};
+  texture["extensions"]["KHR_texture_transform"] = {
+      {"offset", {0.5, 0.25}}, {"scale", {2, 4}}, {"rotation", std::numbers::pi / 2}};
+  const auto first = [](const Glb& face, std::size_t corner) {
+    const Polygons polygons = read(face).rig.neutral.polygons;
+    return polygons.texcoords[polygons.cornerTexcoords[corner]];
+  };
+  // A quarter turn takes (u, v) to (v, -u).
+  const Vec3 p = sheetPositions()[read(glb).rig.neutral.polygons.corners[2]];
+  EXPECT_NEAR(first(glb, 2).x, 0.5 + 4 * p.y / 2, 1e-12);
+  EXPECT_NEAR(first(glb, 2).y, 1 - (0.25 - 2 * p.x / 2), 1e-12);
+
+  Json& transform = texture["extensions"]["KHR_texture_transform"];
+  transform["texCoord"] = 1;
+  EXPECT_EQ(first(glb, 2), (Vec2{p.x / 2, 1 - p.y / 2}));
+  transform["rotation"] = "none";
+  EXPECT_TRUE(refused(glb, {"material 0: 'rotation' is not a number"}));
+  transform = {{"scale", {1e308, 1e308}}, {"offset", {1e308, 1}}};
+  EXPECT_TRUE(refused(glb, {"a TEXCOORD_0 is not finite where its texture is"}));
 }
 
 TEST(GltfReader, PartsMayLackTextureCoordinates) {
