@@ -26,6 +26,7 @@ Command addMeasure(CLI::App& tool);
 Command addExport(CLI::App& tool);
 Command addAnimate(CLI::App& tool);
 Command addWireframe(CLI::App& tool);
+Command addBuild(CLI::App& tool);
 
 /// Help that breaks long descriptions into lines.
 class HelpFormatter : public CLI::Formatter {
@@ -58,6 +59,9 @@ CLI::Validator wholeNumber(int low, int high);
 CLI::Validator positiveNumber(double high = 0);
 
 // ---- Files ----
+
+/// The extension of a path, in small letters.
+std::string extension(const std::filesystem::path& path);
 
 Result<Rig> readFace(const std::string& path);
 

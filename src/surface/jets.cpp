@@ -17,11 +17,8 @@ using Row = std::vector<Term>;
 int comp(int i, int j) { return 3 * i + j; }
 double signOf(int power) { return power % 2 ? -1 : 1; }
 
-// ∂α^i ∂β^j of a jet known in axes (x, y) that are turned by `quarter` right angles from (α, β).
-struct Turned {
-  int component;
-  double sign;
-};
+}  // namespace
+
 Turned turned(int quarter, int i, int j) {
   switch (quarter) {
     case 0:
@@ -34,8 +31,6 @@ Turned turned(int quarter, int i, int j) {
       return {comp(j, i), signOf(i)};
   }
 }
-
-}  // namespace
 
 // Numbers all vectors first, so that rows may refer to each other in any order, then writes the
 // rows and puts them into an order in which each needs only earlier ones.

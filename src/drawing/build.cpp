@@ -1,0 +1,327 @@
+// From a drawing to a model: the jets that nobody gave are found from the curves.
+#include <algorithm>
+#include <fmt/format.h>
+#include <limits>
+
+#include "sweepface/eval.hpp"
+
+#include "drawing/bend.hpp"
+#include "drawing/frames.hpp"
+#include "drawing/grid_source.hpp"
+#include "drawing/weave.hpp"
+#include "drawing/wishes.hpp"
+#include "drawing/words.hpp"
+#include "surface/jets.hpp"
+
+namespace sweepface {
+
+namespace drawing {
+namespace {
+
+// As for conversion: a share of the diagonal of the bounding box.
+constexpr double kDefaultTolerance = 0.0002;
+
+class Builder {
+ public:
+  Builder(const Drawing& drawing, Woven woven)
+      : d_(drawing), woven_(std::move(woven)), w_(woven_.wireframe) {}
+
+  Result<Built> build() {
+    for (const auto step : {&Builder::chooseStored, &Builder::makeSurfaces, &Builder::placeNodes,
+                            &Builder::addExpressions, &Builder::bend, &Builder::assemble})
+      if (auto ok = (this->*step)(); !ok) return std::unexpected(ok.error());
+    return std::move(built_);
+  }
+
+ private:
+  Index nodeCount() const { return static_cast<Index>(w_.nodes.size()); }
+  NodeKind kind(Index n) const { return woven_.connectivity.kinds[n]; }
+
+  std::unexpected<Error> refuse(const TextPlace& place, const std::string& what) const {
+    return failAt(d_, place, what);
+  }
+
+  // A crossing stores what its jet gives, or all there is where the curves must say it.
+  Result<void> chooseStored() {
+    axes_.resize(w_.nodes.size());
+    for (Index n = 0; n < nodeCount(); ++n) {
+      if (kind(n) != NodeKind::crossing) continue;
+      if (!d_.nodes[n].jet) {
+        w_.nodes[n].stored = kWholeJet;
+        continue;
+      }
+      if (auto ok = orient(n); !ok) return ok;
+      for (int k = 1; k < 9; ++k)
+        if (d_.nodes[n].jet->vectors[k])
+          w_.nodes[n].stored |= static_cast<JetMask>(1 << axes_[n][k].component);
+      if (!isClosed(w_.nodes[n].stored))
+        return refuse(d_.nodes[n].place,
+                      fmt::format("the jet of node '{}' has a derivative without those before it: "
+                                  "xx needs x, xy needs x and y",
+                                  d_.nodes[n].name));
+    }
+    return {};
+  }
+
+  Result<void> orient(Index n) {
+    const std::string& along = d_.nodes[n].jet->along;
+    const HalfArc arm = woven_.halfArc(along);
+    const auto quarter = arm < 0 ? std::nullopt : quarterTo(woven_.connectivity, n, arm);
+    if (!quarter) return leavesNot(n);
+    for (int k = 0; k < 9; ++k) axes_[n][k] = turned(*quarter, k / 3, k % 3);
+    return {};
+  }
+  std::unexpected<Error> leavesNot(Index n) const {
+    return refuse(d_.nodes[n].place,
+                  fmt::format("the jet of node '{}' runs along '{}', which is no curve that leaves "
+                              "it; a '-' stands before a curve that arrives",
+                              d_.nodes[n].name, d_.nodes[n].jet->along));
+  }
+
+  static bool isClosed(JetMask mask) {
+    for (int k = 1; k < 9; ++k)
+      if (mask >> k & 1)
+        if ((k >= 3 && !(mask >> (k - 3) & 1)) || (k % 3 > 0 && !(mask >> (k - 1) & 1)))
+          return false;
+    return true;
+  }
+
+  // The jets are those of plain ribbons: shape parameters then bend what has been drawn.
+  Result<void> makeSurfaces() {
+    auto surface = Surface::make(w_);
+    if (!surface) return failNamed(d_, w_, surface.error().message);
+    built_.rig.surface = std::move(*surface);
+    Wireframe plain = w_;
+    std::ranges::fill(plain.ribbons, Shape{});
+    surface = Surface::make(std::move(plain));
+    if (!surface) return failNamed(d_, w_, surface.error().message);
+    plain_ = std::move(*surface);
+    jets_.emplace(plain_);
+    known_.assign(plain_.storedCount(), false);
+    poses_.assign(1 + d_.expressions.size(), Pose(plain_.storedCount()));
+    return {};
+  }
+
+  void set(std::size_t pose, Index node, int component, const Vec3& value) {
+    const Index v = jets_->at(node, component);
+    poses_[pose][v] = value;
+    known_[v] = true;
+  }
+
+  Result<void> placeNodes() {
+    for (Index n = 0; n < nodeCount(); ++n) {
+      if (kind(n) == NodeKind::hanging) continue;
+      const Drawing::Node& node = d_.nodes[n];
+      set(0, n, 0, node.at ? *node.at : *d_.nodes[woven_.nodes.at(node.with)].at);
+      if (!node.jet) continue;
+      if (auto ok = kind(n) == NodeKind::crossing ? setCrossing(n) : setIrregular(n); !ok)
+        return ok;
+    }
+    return {};
+  }
+
+  Result<void> setCrossing(Index n) {
+    for (int k = 1; k < 9; ++k)
+      if (const auto& v = d_.nodes[n].jet->vectors[k])
+        set(0, n, axes_[n][k].component, axes_[n][k].sign * *v);
+    return {};
+  }
+
+  static constexpr std::array<int, 5> kSecondOrder{1, 2, 3, 4, 6};
+
+  Result<void> setIrregular(Index n) {
+    const auto& given = d_.nodes[n].jet->vectors;
+    for (int k = 1; k < 9; ++k) {
+      const bool needed = std::ranges::count(kSecondOrder, k) > 0;
+      if (needed != given[k].has_value())
+        return refuse(d_.nodes[n].place,
+                      fmt::format("other than four patches meet at node '{}', so its jet has x, y, "
+                                  "xx, xy and yy, all of them",
+                                  d_.nodes[n].name));
+    }
+    const auto angle = angleAt(n);
+    if (!angle) return leavesNot(n);
+    Jet jet{};
+    for (int k : kSecondOrder) jet[k] = *given[k];
+    jet = turnedJet(jet, *angle);
+    for (int k : kSecondOrder) set(0, n, k, jet[k]);
+    return {};
+  }
+
+  // Where the x axis of an irregular node's jet lies in the chart; nothing if its curve leaves none
+  // of the nodes at the point.
+  std::optional<double> angleAt(Index n) const {
+    const HalfArc arm = woven_.halfArc(d_.nodes[n].jet->along);
+    if (arm < 0 || w_.arcs[arcOf(arm)].collapsed) return std::nullopt;
+    if (jets_->home(w_.start(arm)) != jets_->home(n)) return std::nullopt;
+    return chartAngle(plain_, *jets_, n, arm);
+  }
+
+  Result<void> addExpressions() {
+    for (std::size_t e = 0; e < d_.expressions.size(); ++e) {
+      auto offsets = offsetsOf(d_, woven_, d_.expressions[e]);
+      if (!offsets) return std::unexpected(offsets.error());
+      shareMoves(*offsets);
+      for (Index n = 0; n < nodeCount(); ++n)
+        if (offsets->nodes[n] && kind(n) != NodeKind::hanging) set(1 + e, n, 0, *offsets->nodes[n]);
+      for (const Drawing::Move& move : d_.expressions[e].moves)
+        if (auto ok = moveJet(1 + e, move); !ok) return ok;
+      offsets_.push_back(std::move(*offsets));
+    }
+    return {};
+  }
+
+  // Nodes at one point move together.
+  void shareMoves(Offsets& offsets) const {
+    for (Index n = 0; n < nodeCount(); ++n) {
+      if (d_.nodes[n].with.empty() || d_.nodes[n].at) continue;
+      auto &own = offsets.nodes[n], &host = offsets.nodes[woven_.nodes.at(d_.nodes[n].with)];
+      if (own && !host) host = own;
+    }
+    for (Index n = 0; n < nodeCount(); ++n)
+      if (!d_.nodes[n].with.empty() && !offsets.nodes[n])
+        offsets.nodes[n] = offsets.nodes[woven_.nodes.at(d_.nodes[n].with)];
+  }
+
+  Result<void> moveJet(std::size_t pose, const Drawing::Move& move) {
+    if (move.jet.empty()) return {};
+    const Index n = woven_.nodes.at(move.name);
+    const auto& jet = d_.nodes[n].jet;
+    Jet offsets{};
+    for (const auto& [k, offset] : move.jet) {
+      if (!jet || !jet->vectors[k])
+        return refuse(move.place, fmt::format("node '{}' has no jet with '{}' that could move",
+                                              move.name, kJetWords[static_cast<std::size_t>(k)]));
+      offsets[k] = offset;
+    }
+    if (kind(n) == NodeKind::crossing) {
+      for (const auto& [k, offset] : move.jet)
+        set(pose, n, axes_[n][k].component, axes_[n][k].sign * offset);
+      return {};
+    }
+    offsets = turnedJet(offsets, *angleAt(n));
+    for (int k : kSecondOrder) set(pose, n, k, offsets[k]);
+    return {};
+  }
+
+  Result<void> bend() {
+    auto drawn = gatherWishes(d_, woven_, plain_, offsets_);
+    if (!drawn) return std::unexpected(drawn.error());
+    if (auto ok = bendLeast(plain_, known_, drawn->wishes, poses_); !ok)
+      return refuse({}, ok.error().message);
+    for (const Pose& pose : poses_)
+      for (const Vec3& v : pose)
+        for (const double x : {v.x, v.y, v.z})
+          if (!(std::abs(x) <= std::numeric_limits<float>::max()))
+            return refuse({}, "a vector of the model is beyond what a float can hold");
+    return measureMiss(*drawn);
+  }
+
+  Result<void> measureMiss(const DrawnWishes& drawn) {
+    std::vector<Vec3> vectors(plain_.vectorCount());
+    plain_.settle(poses_[0], vectors);
+    for (std::size_t k = 0; k < drawn.wishes.sums.size(); ++k) {
+      Vec3 place;
+      for (const Term& t : drawn.wishes.sums[k]) place += t.factor * vectors[t.vector];
+      const double miss = norm(place - drawn.wishes.places[0][k]);
+      if (miss <= built_.largestMiss) continue;
+      built_.largestMiss = miss;
+      built_.missed = d_.curves[drawn.curves[k]].name;
+    }
+    if (d_.tolerance == 0 || built_.largestMiss <= d_.tolerance) return {};
+    const Drawing::Curve& curve = d_.curves[woven_.curves.at(built_.missed)];
+    return refuse(curve.place,
+                  fmt::format("curve '{}' passes {:.3g} from one of its points, or from one beside "
+                              "it, and the tolerance is {:.3g}; put a node between",
+                              curve.name, built_.largestMiss, d_.tolerance));
+  }
+
+  Result<void> assemble() {
+    Rig& rig = built_.rig;
+    rig.neutral = std::move(poses_[0]);
+    for (std::size_t e = 0; e < d_.expressions.size(); ++e)
+      rig.targets.push_back({d_.expressions[e].name, std::move(poses_[1 + e]), {}});
+    rig.source = gridSource(rig.surface);
+    rig.tolerance = d_.tolerance > 0 ? d_.tolerance : defaultTolerance();
+    nameThings();
+    return {};
+  }
+
+  double defaultTolerance() const {
+    const auto first = std::ranges::find_if(d_.nodes, [](const auto& n) { return bool(n.at); });
+    Vec3 low = *first->at, high = low;
+    for (const Drawing::Node& node : d_.nodes) {
+      const Vec3 p = node.at.value_or(low);
+      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    }
+    return std::max(built_.largestMiss, kDefaultTolerance * norm(high - low));
+  }
+
+  // Names that are what a thing without one is called anyway are not kept.
+  void nameThings() {
+    Names& names = built_.rig.names;
+    names.units = d_.units;
+    keep(Thing::node, d_.nodes, names.nodes);
+    keep(Thing::curve, d_.curves, names.curves);
+    keep(Thing::patch, d_.patches, names.patches);
+    keep(Thing::ribbon, d_.ribbons, names.ribbons);
+    if (!names.ribbons.empty()) names.ribbons.resize(w_.ribbons.size());
+  }
+  template <typename Things>
+  void keep(Thing kind, const Things& things, std::vector<std::string>& names) const {
+    std::vector<std::string> own;
+    bool any = false;
+    for (const auto& thing : things) {
+      const auto index = static_cast<Index>(own.size());
+      const bool plain = thing.name == built_.rig.nameOf(kind, index);
+      own.push_back(plain ? "" : thing.name);
+      any |= !own.back().empty();
+    }
+    if (any) names = std::move(own);
+  }
+
+  const Drawing& d_;
+  Woven woven_;
+  Wireframe& w_;
+  std::vector<std::array<Turned, 9>>
+      axes_;  // [nodes] where a crossing stores its jet's derivatives
+  Surface plain_;
+  std::optional<StoredJets> jets_;
+  std::vector<bool> known_;       // [storedCount]
+  std::vector<Pose> poses_;       // the neutral, then what every expression adds
+  std::vector<Offsets> offsets_;  // [expressions]
+  Built built_;
+};
+
+}  // namespace
+}  // namespace drawing
+
+Result<Built> build(const Drawing& d) {
+  auto woven = drawing::weave(d);
+  if (!woven) return std::unexpected(woven.error());
+  return drawing::Builder(d, std::move(*woven)).build();
+}
+
+Result<void> adoptSource(Rig& rig, const Rig& like) {
+  Wireframe own = rig.surface.wireframe(), other = like.surface.wireframe();
+  own.ribbons = other.ribbons = {};
+  for (Wireframe* w : {&own, &other}) {
+    for (Node& node : w->nodes) node.stored = kPosition;
+    for (Arc& arc : w->arcs) arc.ribbon = 0;
+  }
+  if (own != other)
+    return fail(
+        "The curves or patches are others than those of the file whose source is to be "
+        "kept; build without it.");
+  rig.source = like.source;
+  rig.scene = like.scene;
+  for (Target& target : rig.targets) {
+    const Index same = like.find(target.name);
+    target.looseDifference = same >= 0 ? like.targets[same].looseDifference
+                                       : std::vector<Vec3>(like.source.loose.size());
+  }
+  return {};
+}
+
+}  // namespace sweepface
