@@ -27,6 +27,7 @@ Command addExport(CLI::App& tool);
 Command addAnimate(CLI::App& tool);
 Command addWireframe(CLI::App& tool);
 Command addBuild(CLI::App& tool);
+Command addEdit(CLI::App& tool);
 
 /// Help that breaks long descriptions into lines.
 class HelpFormatter : public CLI::Formatter {

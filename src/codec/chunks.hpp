@@ -22,7 +22,7 @@ struct Kind {
 
 /// The registry: in the order in which chunks stand in a file. A code never changes its meaning.
 /// One that begins with a capital is required: who does not know it must refuse the file.
-inline constexpr std::array<Kind, 11> kKinds{{{"HEAD", "container"},
+inline constexpr std::array<Kind, 12> kKinds{{{"HEAD", "container"},
                                               {"WIRE", "wireframe"},
                                               {"SHAP", "shape parameters"},
                                               {"NEUT", "neutral"},
@@ -32,6 +32,7 @@ inline constexpr std::array<Kind, 11> kKinds{{{"HEAD", "container"},
                                               {"poly", "polygons"},
                                               {"texc", "texture coordinates"},
                                               {"quad", "quad corners"},
+                                              {"name", "names"},
                                               {"END ", "container"}}};
 
 /// Place of a code in the registry, or -1.

@@ -5,6 +5,7 @@
 #include "codec/blocks.hpp"
 #include "codec/chunks.hpp"
 #include "codec/faces.hpp"
+#include "codec/names.hpp"
 #include "codec/utf8.hpp"
 #include "codec/wire.hpp"
 
@@ -50,10 +51,10 @@ class Decoder {
   }
 
   Result<void> readChunk(const Chunk& chunk) {
-    static constexpr void (Decoder::*read[kKinds.size()])(Reader&) = {
+    static constexpr void (Decoder::* read[kKinds.size()])(Reader&) = {
         &Decoder::head,      &Decoder::wireframe,   &Decoder::shapes,      &Decoder::neutral,
         &Decoder::target,    &Decoder::loose,       &Decoder::sourceOrder, &Decoder::polygons,
-        &Decoder::texcoords, &Decoder::quadCorners, &Decoder::end};
+        &Decoder::texcoords, &Decoder::quadCorners, &Decoder::names,       &Decoder::end};
     Reader in(chunk.payload, chunk.offset);
     (this->*read[chunk.rank])(in);
     if (in.left() > 0) in.refuse("the chunk goes on after its last value");
@@ -203,6 +204,8 @@ class Decoder {
       rig_.source.quadCorners.insert(rig_.source.quadCorners.end(), quad.begin(), quad.end());
     }
   }
+
+  void names(Reader& in) { rig_.names = readNames(in, rig_.surface.wireframe()); }
 
   void end(Reader& in) {
     if (rig_.source.loose.size() != looseCount_) in.refuse("the loose vertices are missing");

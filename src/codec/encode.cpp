@@ -6,6 +6,7 @@
 #include "codec/blocks.hpp"
 #include "codec/chunks.hpp"
 #include "codec/faces.hpp"
+#include "codec/names.hpp"
 
 namespace sweepface {
 
@@ -154,6 +155,12 @@ std::string quadCorners(const SourceMesh& source) {
   return out.take();
 }
 
+std::string names(const Names& names) {
+  Writer out;
+  writeNames(out, names);
+  return out.take();
+}
+
 }  // namespace
 }  // namespace codec
 
@@ -174,6 +181,7 @@ std::string encode(const Rig& rig) {
   if (!faces.texcoords.empty() || !faces.cornerTexcoords.empty())
     writeChunk(out, "texc", texcoords(faces));
   if (!source.quadCorners.empty()) writeChunk(out, "quad", quadCorners(source));
+  if (hasNames(rig.names)) writeChunk(out, "name", names(rig.names));
   writeChunk(out, "END ", {});
   return out.take();
 }

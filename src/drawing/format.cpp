@@ -1,5 +1,5 @@
 // The text of a drawing: one thing a line, so that people find it and tools compare it.
-#include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <iterator>
 
@@ -127,10 +127,13 @@ class Formatter {
 
   void ribbon(const Drawing::Ribbon& r) {
     append("{{\"name\": {}", quoted(r.name));
-    const Shape plain;
-    if (r.shape.rho != plain.rho) append(", \"rho\": {}", r.shape.rho);
-    if (r.shape.eta != plain.eta) append(", \"eta\": {}", r.shape.eta);
-    if (r.shape.lambda != plain.lambda) append(", \"lambda\": {}", r.shape.lambda);
+    const auto parameter = [&](const char* word, double value, double usual) {
+      const bool said = value != usual || std::signbit(value);
+      if (said) append(", \"{}\": {}", word, value);
+    };
+    parameter("rho", r.shape.rho, 1);
+    parameter("eta", r.shape.eta, 0);
+    parameter("lambda", r.shape.lambda, 0);
     append("}}");
   }
 
