@@ -35,7 +35,7 @@ void addOptions(CLI::App& app, CheckArguments& a) {
 // relative to the largest one.
 constexpr double kLargestGap = 1e-12, kLargestJump = 1e-9;
 constexpr int kSamples = 5;
-constexpr std::array kClassNames{"boundary", "C2", "spoke"};
+constexpr std::array kClassNames{"boundary", "C2", "spoke", "crease"};
 
 /// A face to look at.
 struct Pose {
@@ -162,7 +162,7 @@ class Checker {
   const Rig& rig_;
   std::vector<Pose> poses_;
   double size_ = 1;
-  std::array<ClassReport, 3> classes_;
+  std::array<ClassReport, kClassNames.size()> classes_;
   std::vector<std::string> problems_;
 };
 

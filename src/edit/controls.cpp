@@ -108,8 +108,8 @@ class ControlMover {
     rig_.surface.settle(stored, vectors);
     const StoredJets jets(rig_.surface);
     for (Index v = 0; v < surface.storedCount(); ++v) {
-      const auto [node, i, j] = surface.stored(v);
-      Index source = jets.at(node, 3 * i + j);
+      const auto [node, i, j, fan] = surface.stored(v);
+      Index source = jets.at(node, 3 * i + j, fan);
       if (source < 0) source = predicted(node, i, j);
       result.push_back(vectors[source]);
     }

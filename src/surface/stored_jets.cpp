@@ -1,5 +1,7 @@
 #include "surface/stored_jets.hpp"
 
+#include <algorithm>
+
 namespace sweepface {
 
 StoredJets::StoredJets(const Surface& surface) {
@@ -13,10 +15,15 @@ StoredJets::StoredJets(const Surface& surface) {
     if (home < 0) home = n;
     home_[n] = home;
   }
-  at_.assign(9 * w.nodes.size(), -1);
+  Index fans = 0;
+  for (const auto& own : surface.connectivity().fans) {
+    start_.push_back(fans);
+    fans += std::max<Index>(1, static_cast<Index>(own.size()));
+  }
+  at_.assign(9 * static_cast<std::size_t>(fans), -1);
   for (Index v = 0; v < surface.storedCount(); ++v) {
-    const StoredVector& stored = surface.stored(v);
-    at_[9 * stored.node + 3 * stored.i + stored.j] = v;
+    const auto& [node, i, j, fan] = surface.stored(v);
+    at_[9 * (start_[node] + fan) + 3 * i + j] = v;
   }
 }
 
