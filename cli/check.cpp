@@ -186,6 +186,7 @@ nlohmann::ordered_json Checker::report(const std::string& file) const {
           {"fullNodes", nodes(NodeKind::crossing)},
           {"irregularNodes", nodes(NodeKind::irregular)},
           {"hangingNodes", nodes(NodeKind::hanging)},
+          {"creasedNodes", nodes(NodeKind::creased)},
           {"ribbons", rig_.surface.wireframe().ribbons.size()},
           {"joins", joins}};
 }
@@ -194,8 +195,9 @@ void Checker::print(const std::string& file) const {
   fmt::print("{}: {}\n", file, problems_.empty() ? "sound" : "broken");
   fmt::print("  {} poses: the neutral, {} targets{}\n", poses_.size(), rig_.targets.size(),
              rig_.targets.empty() ? "" : " and a mixture of all");
-  fmt::print("  nodes: {} full, {} irregular, {} hanging (T-nodes)\n", nodes(NodeKind::crossing),
-             nodes(NodeKind::irregular), nodes(NodeKind::hanging));
+  fmt::print("  nodes: {} full, {} irregular, {} hanging (T-nodes){}\n", nodes(NodeKind::crossing),
+             nodes(NodeKind::irregular), nodes(NodeKind::hanging),
+             nodes(NodeKind::creased) ? fmt::format(", {} creased", nodes(NodeKind::creased)) : "");
   fmt::print("  ribbons: {}, all with shape parameters that the equation allows\n",
              rig_.surface.wireframe().ribbons.size());
   fmt::print("\n  {:<9} {:>7} {:>11} {:>7}   {:>9} {:>9} {:>9} {:>9} {:>9}\n", "joins", "count",

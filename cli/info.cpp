@@ -46,6 +46,7 @@ nlohmann::ordered_json describe(const InfoArguments& a, const Rig& rig, std::siz
       {"fullNodes", kinds(NodeKind::crossing)},
       {"irregularNodes", kinds(NodeKind::irregular)},
       {"hangingNodes", kinds(NodeKind::hanging)},
+      {"creasedNodes", kinds(NodeKind::creased)},
       {"arcs", w.arcs.size()},
       {"vectors", surface.storedCount()},
       {"ribbons", w.ribbons.size()},
@@ -68,8 +69,9 @@ void printText(const nlohmann::ordered_json& r) {
   fmt::print("{}\n", r["file"].get<std::string>());
   fmt::print("  source     {} vertices\n", number("vertices"));
   fmt::print("  patches    {} over {} quads\n", number("patches"), number("quads"));
-  fmt::print("  nodes      {}: {} full, {} irregular, {} hanging\n", number("nodes"),
-             number("fullNodes"), number("irregularNodes"), number("hangingNodes"));
+  fmt::print("  nodes      {}: {} full, {} irregular, {} hanging{}\n", number("nodes"),
+             number("fullNodes"), number("irregularNodes"), number("hangingNodes"),
+             number("creasedNodes") ? fmt::format(", {} creased", number("creasedNodes")) : "");
   fmt::print("  arcs       {}\n", number("arcs"));
   fmt::print("  vectors    {} stored\n", number("vectors"));
   fmt::print("  ribbons    {}, {} with shape parameters\n", number("ribbons"),
@@ -111,7 +113,7 @@ nlohmann::ordered_json list(const Rig& rig) {
                               {"to", rig.nameOf(Thing::node, w.arcs[a].to)},
                               {"edges", w.arcs[a].edges},
                               {"ribbon", rig.nameOf(Thing::ribbon, w.arcs[a].ribbon)}});
-  constexpr std::array kinds{"full", "irregular", "hanging"};
+  constexpr std::array kinds{"full", "irregular", "hanging", "creased"};
   for (std::size_t n = 0; n < w.nodes.size(); ++n)
     list["nodes"].push_back(
         {{"name", rig.nameOf(Thing::node, static_cast<Index>(n))},

@@ -30,7 +30,7 @@ struct Drawing {
     std::string name;
     std::optional<Vec3> at;  ///< missing where the node stands on the side of a patch
     std::string with;        ///< the node at whose point it stands, if not at its own
-    std::optional<Jet> jet;  ///< missing: found from the curves around
+    std::vector<Jet> jets;   ///< one, or one a fan between creases; none: found from the curves
     TextPlace place;
   };
   struct Curve {
@@ -67,8 +67,9 @@ struct Drawing {
   struct Move {
     std::string name;
     Vec3 by;
-    std::vector<std::pair<int, Vec3>> jet;  ///< of a node with a jet: by index as in Jet
-    std::vector<Vec3> points;               ///< of a curve: one for each of its points, on top
+    /// Of a node with jets, in their order: derivatives by index as in Jet.
+    std::vector<std::vector<std::pair<int, Vec3>>> jets;
+    std::vector<Vec3> points;  ///< of a curve: one for each of its points, on top
     TextPlace place;
   };
   struct Expression {

@@ -22,8 +22,9 @@ struct Kind {
 
 /// The registry: in the order in which chunks stand in a file. A code never changes its meaning.
 /// One that begins with a capital is required: who does not know it must refuse the file.
-inline constexpr std::array<Kind, 12> kKinds{{{"HEAD", "container"},
+inline constexpr std::array<Kind, 13> kKinds{{{"HEAD", "container"},
                                               {"WIRE", "wireframe"},
+                                              {"CREA", "wireframe"},
                                               {"SHAP", "shape parameters"},
                                               {"NEUT", "neutral"},
                                               {"TARG", "targets"},

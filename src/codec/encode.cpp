@@ -66,6 +66,20 @@ std::string wireframe(const Wireframe& w) {
   return out.take();
 }
 
+bool hasCreases(const Wireframe& w) { return std::ranges::count(w.arcs, true, &Arc::crease) > 0; }
+
+std::string creases(const Wireframe& w) {
+  Writer out;
+  out.number(static_cast<std::uint64_t>(std::ranges::count(w.arcs, true, &Arc::crease)));
+  Index last = -1;
+  for (Index a = 0; a < static_cast<Index>(w.arcs.size()); ++a) {
+    if (!w.arcs[a].crease) continue;
+    out.signedNumber(a - last);
+    last = a;
+  }
+  return out.take();
+}
+
 std::string shapes(const std::vector<Shape>& ribbons) {
   Writer out;
   out.number(ribbons.size());
@@ -172,6 +186,8 @@ std::string encode(const Rig& rig) {
   writeHeader(out);
   writeChunk(out, "HEAD", head(rig));
   writeChunk(out, "WIRE", wireframe(rig.surface.wireframe()));
+  if (hasCreases(rig.surface.wireframe()))
+    writeChunk(out, "CREA", creases(rig.surface.wireframe()));
   writeChunk(out, "SHAP", shapes(rig.surface.wireframe().ribbons));
   writeChunk(out, "NEUT", vectors(rig.neutral, Precision::single));
   for (const Target& t : rig.targets) writeChunk(out, "TARG", target(t));

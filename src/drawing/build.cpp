@@ -45,15 +45,19 @@ class Builder {
   Result<void> chooseStored() {
     axes_.resize(w_.nodes.size());
     for (Index n = 0; n < nodeCount(); ++n) {
+      if (auto ok = checkJets(n); !ok) return ok;
       if (kind(n) != NodeKind::crossing) continue;
-      if (!d_.nodes[n].jet) {
+      if (d_.nodes[n].jets.empty()) {
         w_.nodes[n].stored = kWholeJet;
         continue;
       }
-      if (auto ok = orient(n); !ok) return ok;
-      for (int k = 1; k < 9; ++k)
-        if (d_.nodes[n].jet->vectors[k])
+      const auto quarter = placeInStar(woven_.connectivity, n, armOf(d_.nodes[n].jets[0]));
+      if (!quarter) return leavesNot(n, 0);
+      for (int k = 0; k < 9; ++k) {
+        axes_[n][k] = turned(*quarter, k / 3, k % 3);
+        if (k > 0 && d_.nodes[n].jets[0].vectors[k])
           w_.nodes[n].stored |= static_cast<JetMask>(1 << axes_[n][k].component);
+      }
       if (!isClosed(w_.nodes[n].stored))
         return refuse(d_.nodes[n].place,
                       fmt::format("the jet of node '{}' has a derivative without those before it: "
@@ -63,19 +67,23 @@ class Builder {
     return {};
   }
 
-  Result<void> orient(Index n) {
-    const std::string& along = d_.nodes[n].jet->along;
-    const HalfArc arm = woven_.halfArc(along);
-    const auto quarter = arm < 0 ? std::nullopt : quarterTo(woven_.connectivity, n, arm);
-    if (!quarter) return leavesNot(n);
-    for (int k = 0; k < 9; ++k) axes_[n][k] = turned(*quarter, k / 3, k % 3);
-    return {};
-  }
-  std::unexpected<Error> leavesNot(Index n) const {
+  Result<void> checkJets(Index n) const {
+    const auto given = d_.nodes[n].jets.size();
+    const auto fans = std::max<std::size_t>(1, woven_.connectivity.fans[n].size());
+    if (given == 0 || given == fans) return {};
     return refuse(d_.nodes[n].place,
-                  fmt::format("the jet of node '{}' runs along '{}', which is no curve that leaves "
-                              "it; a '-' stands before a curve that arrives",
-                              d_.nodes[n].name, d_.nodes[n].jet->along));
+                  fmt::format("node '{}' has {} jets and needs {}; only creases that meet cut a "
+                              "node into parts with a jet each",
+                              d_.nodes[n].name, given, fans));
+  }
+
+  HalfArc armOf(const Drawing::Jet& jet) const { return woven_.halfArc(jet.along); }
+
+  std::unexpected<Error> leavesNot(Index n, std::size_t jet) const {
+    return refuse(d_.nodes[n].place,
+                  fmt::format("a jet of node '{}' runs along '{}', which is no curve that leaves "
+                              "it so; a '-' stands before a curve that arrives",
+                              d_.nodes[n].name, d_.nodes[n].jets[jet].along));
   }
 
   static bool isClosed(JetMask mask) {
@@ -102,8 +110,8 @@ class Builder {
     return {};
   }
 
-  void set(std::size_t pose, Index node, int component, const Vec3& value) {
-    const Index v = jets_->at(node, component);
+  void set(std::size_t pose, Index node, int component, const Vec3& value, int fan = 0) {
+    const Index v = jets_->at(node, component, fan);
     poses_[pose][v] = value;
     known_[v] = true;
   }
@@ -113,47 +121,81 @@ class Builder {
       if (kind(n) == NodeKind::hanging) continue;
       const Drawing::Node& node = d_.nodes[n];
       set(0, n, 0, node.at ? *node.at : *d_.nodes[woven_.nodes.at(node.with)].at);
-      if (!node.jet) continue;
-      if (auto ok = kind(n) == NodeKind::crossing ? setCrossing(n) : setIrregular(n); !ok)
-        return ok;
+      for (std::size_t f = 0; f < node.jets.size(); ++f) {
+        if (auto ok = checkComplete(n, f); !ok) return ok;
+        if (auto ok = setJet(0, n, f, node.jets[f].vectors); !ok) return ok;
+      }
     }
     return {};
   }
 
-  Result<void> setCrossing(Index n) {
-    for (int k = 1; k < 9; ++k)
-      if (const auto& v = d_.nodes[n].jet->vectors[k])
-        set(0, n, axes_[n][k].component, axes_[n][k].sign * *v);
-    return {};
-  }
+  using Derivatives = std::array<std::optional<Vec3>, 9>;
 
-  static constexpr std::array<int, 5> kSecondOrder{1, 2, 3, 4, 6};
-
-  Result<void> setIrregular(Index n) {
-    const auto& given = d_.nodes[n].jet->vectors;
+  // Where nothing is predicted a jet has all its vectors.
+  Result<void> checkComplete(Index n, std::size_t f) const {
+    if (kind(n) == NodeKind::crossing) return {};
+    const Drawing::Node& node = d_.nodes[n];
+    const auto fan = fanOf(n, f);
+    if (!fan) return leavesNot(n, f);
+    std::string needed, unknown;
     for (int k = 1; k < 9; ++k) {
-      const bool needed = std::ranges::count(kSecondOrder, k) > 0;
-      if (needed != given[k].has_value())
-        return refuse(d_.nodes[n].place,
-                      fmt::format("other than four patches meet at node '{}', so its jet has x, y, "
-                                  "xx, xy and yy, all of them",
-                                  d_.nodes[n].name));
+      const std::string word = fmt::format(" {}", kJetWords[static_cast<std::size_t>(k)]);
+      const bool stored = jets_->at(n, k, *fan) >= 0;
+      if (stored && !node.jets[f].vectors[k]) needed += word;
+      if (!stored && kind(n) == NodeKind::irregular && node.jets[f].vectors[k]) unknown += word;
     }
+    if (!needed.empty())
+      return refuse(node.place, fmt::format("the jet of node '{}' along '{}' lacks{}", node.name,
+                                            node.jets[f].along, needed));
+    if (!unknown.empty())
+      return refuse(
+          node.place,
+          fmt::format("other than four patches meet at node '{}', so that its jet has no{}",
+                      node.name, unknown));
+    return {};
+  }
+
+  // The fan of a creased node that a jet is of; 0 elsewhere. Nothing if its curve begins none.
+  std::optional<int> fanOf(Index n, std::size_t f) const {
+    if (kind(n) != NodeKind::creased) return 0;
+    const auto place = placeInStar(woven_.connectivity, n, armOf(d_.nodes[n].jets[f]));
+    const auto& fans = woven_.connectivity.fans[n];
+    const int arms = static_cast<int>(woven_.connectivity.stars[n].arms.size());
+    for (std::size_t k = 0; place && k < fans.size(); ++k)
+      if (fans[k].first % arms == *place) return static_cast<int>(k);
+    return std::nullopt;
+  }
+
+  Result<void> setJet(std::size_t pose, Index n, std::size_t f, const Derivatives& given) {
+    if (kind(n) == NodeKind::irregular) return setIrregular(pose, n, given);
+    const int fan = fanOf(n, f).value_or(0);
+    for (int k = 1; k < 9; ++k) {
+      const Turned axis = kind(n) == NodeKind::crossing ? axes_[n][k] : Turned{k, 1};
+      if (given[k] && jets_->at(n, axis.component, fan) >= 0)
+        set(pose, n, axis.component, axis.sign * *given[k], fan);
+    }
+    return {};
+  }
+
+  Result<void> setIrregular(std::size_t pose, Index n, const Derivatives& given) {
     const auto angle = angleAt(n);
-    if (!angle) return leavesNot(n);
+    if (!angle) return leavesNot(n, 0);
     Jet jet{};
-    for (int k : kSecondOrder) jet[k] = *given[k];
+    for (int k = 1; k < 9; ++k) jet[k] = given[k].value_or(Vec3{});
     jet = turnedJet(jet, *angle);
-    for (int k : kSecondOrder) set(0, n, k, jet[k]);
+    for (int k = 1; k < 9; ++k)
+      if (jets_->at(n, k) >= 0) set(pose, n, k, jet[k]);
     return {};
   }
 
   // Where the x axis of an irregular node's jet lies in the chart; nothing if its curve leaves none
   // of the nodes at the point.
   std::optional<double> angleAt(Index n) const {
-    const HalfArc arm = woven_.halfArc(d_.nodes[n].jet->along);
+    const HalfArc arm = armOf(d_.nodes[n].jets[0]);
     if (arm < 0 || w_.arcs[arcOf(arm)].collapsed) return std::nullopt;
-    if (jets_->home(w_.start(arm)) != jets_->home(n)) return std::nullopt;
+    const Index start = w_.start(arm);
+    if (kind(start) != NodeKind::irregular || jets_->home(start) != jets_->home(n))
+      return std::nullopt;
     return chartAngle(plain_, *jets_, n, arm);
   }
 
@@ -165,7 +207,7 @@ class Builder {
       for (Index n = 0; n < nodeCount(); ++n)
         if (offsets->nodes[n] && kind(n) != NodeKind::hanging) set(1 + e, n, 0, *offsets->nodes[n]);
       for (const Drawing::Move& move : d_.expressions[e].moves)
-        if (auto ok = moveJet(1 + e, move); !ok) return ok;
+        if (auto ok = moveJets(1 + e, move); !ok) return ok;
       offsets_.push_back(std::move(*offsets));
     }
     return {};
@@ -183,24 +225,23 @@ class Builder {
         offsets.nodes[n] = offsets.nodes[woven_.nodes.at(d_.nodes[n].with)];
   }
 
-  Result<void> moveJet(std::size_t pose, const Drawing::Move& move) {
-    if (move.jet.empty()) return {};
+  Result<void> moveJets(std::size_t pose, const Drawing::Move& move) {
+    if (move.jets.empty()) return {};
     const Index n = woven_.nodes.at(move.name);
-    const auto& jet = d_.nodes[n].jet;
-    Jet offsets{};
-    for (const auto& [k, offset] : move.jet) {
-      if (!jet || !jet->vectors[k])
-        return refuse(move.place, fmt::format("node '{}' has no jet with '{}' that could move",
-                                              move.name, kJetWords[static_cast<std::size_t>(k)]));
-      offsets[k] = offset;
+    const auto& jets = d_.nodes[n].jets;
+    if (move.jets.size() != jets.size())
+      return refuse(move.place, fmt::format("node '{}' has {} jets and {} move", move.name,
+                                            jets.size(), move.jets.size()));
+    for (std::size_t f = 0; f < jets.size(); ++f) {
+      Derivatives offsets;
+      for (const auto& [k, offset] : move.jets[f]) {
+        if (!jets[f].vectors[k])
+          return refuse(move.place, fmt::format("the jet of node '{}' has no '{}' that could move",
+                                                move.name, kJetWords[static_cast<std::size_t>(k)]));
+        offsets[k] = offset;
+      }
+      if (auto ok = setJet(pose, n, f, offsets); !ok) return ok;
     }
-    if (kind(n) == NodeKind::crossing) {
-      for (const auto& [k, offset] : move.jet)
-        set(pose, n, axes_[n][k].component, axes_[n][k].sign * offset);
-      return {};
-    }
-    offsets = turnedJet(offsets, *angleAt(n));
-    for (int k : kSecondOrder) set(pose, n, k, offsets[k]);
     return {};
   }
 

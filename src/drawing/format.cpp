@@ -1,4 +1,5 @@
 // The text of a drawing: one thing a line, so that people find it and tools compare it.
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <iterator>
@@ -77,16 +78,27 @@ class Formatter {
       vector(*n.at);
     }
     if (!n.with.empty()) append(", \"with\": {}", quoted(n.with));
-    if (n.jet) {
-      append(", \"jet\": {{\"along\": {}", quoted(n.jet->along));
-      for (std::size_t k = 1; k < kJetWords.size(); ++k)
-        if (const auto& derivative = n.jet->vectors[k]) {
-          append(", \"{}\": ", kJetWords[k]);
-          vector(*derivative);
-        }
-      append("}}");
+    if (n.jets.size() == 1) {
+      append(", \"jet\": ");
+      jet(n.jets[0]);
     }
+    for (std::size_t f = 0; f < n.jets.size() && n.jets.size() > 1; ++f) {
+      append("{}", f == 0 ? ", \"jets\": [" : ", ");
+      jet(n.jets[f]);
+    }
+    if (n.jets.size() > 1) append("]");
     append("}}");
+  }
+
+  void jet(const Drawing::Jet& j) {
+    append("{{\"along\": {}", quoted(j.along));
+    for (std::size_t k = 1; k < kJetWords.size(); ++k)
+      if (j.vectors[k]) derivative(static_cast<int>(k), *j.vectors[k]);
+    append("}}");
+  }
+  void derivative(int k, const Vec3& value) {
+    append(", \"{}\": ", kJetWords[static_cast<std::size_t>(k)]);
+    vector(value);
   }
 
   void curve(const Drawing::Curve& c) {
@@ -149,15 +161,28 @@ class Formatter {
   }
 
   void move(const Drawing::Move& m) {
-    if (m.jet.empty() && m.points.empty()) return vector(m.by);
+    const bool onlyBy = std::ranges::all_of(m.jets, [](const auto& jet) { return jet.empty(); });
+    if (onlyBy && m.points.empty()) return vector(m.by);
     append("{{\"by\": ");
     vector(m.by);
-    for (const auto& [k, offset] : m.jet) {
-      append(", \"{}\": ", kJetWords[static_cast<std::size_t>(k)]);
-      vector(offset);
-    }
+    if (m.jets.size() == 1)
+      for (const auto& [k, offset] : m.jets[0]) derivative(k, offset);
+    if (m.jets.size() > 1) moveJets(m);
     if (!m.points.empty()) vectors("points", m.points);
     append("}}");
+  }
+  void moveJets(const Drawing::Move& m) {
+    append(", \"jets\": [");
+    for (std::size_t f = 0; f < m.jets.size(); ++f) {
+      append("{}{{", f > 0 ? ", " : "");
+      for (std::size_t k = 0; k < m.jets[f].size(); ++k) {
+        append("{}\"{}\": ", k > 0 ? ", " : "",
+               kJetWords[static_cast<std::size_t>(m.jets[f][k].first)]);
+        vector(m.jets[f][k].second);
+      }
+      append("}}");
+    }
+    append("]");
   }
 
   std::string text_;

@@ -5,7 +5,7 @@
 
 namespace sweepface::drawing {
 
-std::optional<int> quarterTo(const Connectivity& connectivity, Index node, HalfArc arm) {
+std::optional<int> placeInStar(const Connectivity& connectivity, Index node, HalfArc arm) {
   const auto& arms = connectivity.stars[node].arms;
   const auto found = std::ranges::find(arms, arm);
   if (found == arms.end()) return std::nullopt;

@@ -10,9 +10,8 @@ namespace sweepface::drawing {
 /// Derivatives of a node by index 3i + j, index 0 its place.
 using Jet = std::array<Vec3, 9>;
 
-/// At a crossing: by how many right angles the surface's axes are turned against those whose x
-/// leaves along `arm`; nothing if `arm` does not leave the node.
-std::optional<int> quarterTo(const Connectivity& connectivity, Index node, HalfArc arm);
+/// The place of an arm in a node's star; nothing if it does not leave the node.
+std::optional<int> placeInStar(const Connectivity& connectivity, Index node, HalfArc arm);
 
 /// At an irregular node: the angle at which an arm that is not collapsed leaves in the chart.
 double chartAngle(const Surface& surface, const StoredJets& jets, Index node, HalfArc arm);

@@ -50,7 +50,7 @@ class Mover {
 
   Result<void> moveCurve(const Drawing::Move& move, Index curve) {
     const Drawing::Curve& drawn = d_.curves[curve];
-    if (!move.jet.empty())
+    if (!move.jets.empty())
       return failAt(d_, move.place, fmt::format("'{}' is a curve and has no jet", move.name));
     if (!move.points.empty() && move.points.size() != drawn.points.size())
       return failAt(d_, move.place,

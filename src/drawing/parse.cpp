@@ -137,10 +137,13 @@ class DrawingReader {
   void node() {
     Drawing::Node node;
     node.place = in_.place();
-    members("a node", {{"name", [&] { node.name = name("the name of a node"); }, true},
-                       {"at", [&] { node.at = vector("the place of a node"); }},
-                       {"with", [&] { node.with = reference("the node it stands with"); }},
-                       {"jet", [&] { node.jet = jet(); }}});
+    members(
+        "a node",
+        {{"name", [&] { node.name = name("the name of a node"); }, true},
+         {"at", [&] { node.at = vector("the place of a node"); }},
+         {"with", [&] { node.with = reference("the node it stands with"); }},
+         {"jet", [&] { node.jets.push_back(jet()); }},
+         {"jets", [&] { in_.array("the jets of a node", [&] { node.jets.push_back(jet()); }); }}});
     drawing_.nodes.push_back(std::move(node));
   }
 
@@ -256,13 +259,28 @@ class DrawingReader {
   }
 
   void moveParts(Drawing::Move& move) {
+    std::vector<std::pair<int, Vec3>> jet;
     std::vector<Member> known{{"by", [&] { move.by = vector("an offset"); }},
-                              {"points", [&] { move.points = vectors("the offsets of points"); }}};
-    for (std::size_t k = 1; k < kJetWords.size(); ++k)
-      known.push_back({kJetWords[k], [this, &move, k] {
-                         move.jet.emplace_back(static_cast<int>(k), vector("an offset"));
-                       }});
+                              {"points", [&] { move.points = vectors("the offsets of points"); }},
+                              {"jets", [&] { moveJets(move); }}};
+    addJetMembers(known, jet);
     members("a move", known);
+    if (!jet.empty()) move.jets.insert(move.jets.begin(), std::move(jet));
+  }
+
+  void moveJets(Drawing::Move& move) {
+    in_.array("the offsets of jets", [&] {
+      std::vector<Member> known;
+      addJetMembers(known, move.jets.emplace_back());
+      members("the offsets of a jet", known);
+    });
+  }
+
+  void addJetMembers(std::vector<Member>& known, std::vector<std::pair<int, Vec3>>& jet) {
+    for (std::size_t k = 1; k < kJetWords.size(); ++k)
+      known.push_back({kJetWords[k], [this, &jet, k] {
+                         jet.emplace_back(static_cast<int>(k), vector("an offset"));
+                       }});
   }
 
   JsonReader in_;

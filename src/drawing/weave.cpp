@@ -186,7 +186,7 @@ class Weaver {
     for (std::size_t n = 0; n < w_.nodes.size(); ++n) {
       const Drawing::Node& node = d_.nodes[n];
       if (!used[n]) return refuse(node.place, fmt::format("node '{}' is on no curve", node.name));
-      if (stands[n] && (node.jet || !node.with.empty()))
+      if (stands[n] && (!node.jets.empty() || !node.with.empty()))
         return refuse(node.place,
                       fmt::format("node '{}' stands on the side of a patch, whose curve has its "
                                   "derivatives; leave out 'jet' and 'with'",
@@ -218,7 +218,7 @@ class Weaver {
     for (const Drawing::Curve& curve : d_.curves) {
       const Drawing::Node &from = d_.nodes[find(woven_.nodes, curve.from)],
                           &to = d_.nodes[find(woven_.nodes, curve.to)];
-      const bool drawn = !curve.points.empty() || !from.jet || !to.jet;
+      const bool drawn = !curve.points.empty() || from.jets.empty() || to.jets.empty();
       if (curve.collapsed || !drawn || !placeOf(from) || !placeOf(to)) continue;
       Vec3 last = *placeOf(from);
       std::size_t number = 0;
@@ -252,8 +252,32 @@ class Weaver {
   }
 
   Result<void> addCreases() {
-    for (const Drawing::Crease& crease : d_.creases)
-      return refuse(crease.place, "creases are not known yet");
+    for (const Drawing::Crease& crease : d_.creases) {
+      const Index a = find(woven_.curves, crease.curve);
+      if (a < 0)
+        return refuse(crease.place, fmt::format("the crease '{}' is no curve", crease.curve));
+      if (usedBy_[2 * a] < 0 || usedBy_[2 * a + 1] < 0)
+        return refuse(crease.place, fmt::format("the crease '{}' bounds one patch only; a crease "
+                                                "lies between two",
+                                                crease.curve));
+      if (w_.arcs[a].crease)
+        return refuse(crease.place, fmt::format("the crease '{}' is given twice", crease.curve));
+      w_.arcs[a].crease = true;
+    }
+    return {};
+  }
+
+  // A crease that cuts neither end's star would not be one.
+  Result<void> checkCreases() {
+    for (const Drawing::Crease& crease : d_.creases) {
+      const Arc& arc = w_.arcs[find(woven_.curves, crease.curve)];
+      const auto& kinds = woven_.connectivity.kinds;
+      if (kinds[arc.from] != NodeKind::creased && kinds[arc.to] != NodeKind::creased)
+        return refuse(crease.place,
+                      fmt::format("the crease '{}' ends inside the surface at both ends, where it "
+                                  "is smooth; a crease goes on to another one or to a boundary",
+                                  crease.curve));
+    }
     return {};
   }
 

@@ -4,6 +4,8 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <array>
+#include <map>
+#include <set>
 
 #include "sweepface/edit.hpp"
 
@@ -34,8 +36,9 @@ class ControlMover {
     edit::Affected affected(rig_.surface);
     auto& pose = target < 0 ? rig_.neutral : rig_.targets[target].difference;
     for (const CornerChange& end : ends_) change(end, pose, affected);
+    const StoredJets jets(rig_.surface);
     for (Index node : rewritten_)
-      for (int k = 1; k < 9; ++k) affected.addVector(StoredJets(rig_.surface).at(node, k));
+      for (int k = 1; k < 9; ++k) affected.addVector(jets.at(node, k));
     return std::pair(std::move(rig_), affected.patches());
   }
 
@@ -123,8 +126,7 @@ class ControlMover {
 
   void change(const CornerChange& end, std::vector<Vec3>& pose, edit::Affected& affected) const {
     const Index node = connectivity().cornerNode[end.corner];
-    if (connectivity().kinds[node] == NodeKind::irregular)
-      return changeChart(end, node, pose, affected);
+    if (connectivity().kinds[node] != NodeKind::crossing) return solve(end, pose, affected);
     for (int order = 1; order <= 2; ++order) {
       const JetRef ref = rig_.surface.cornerJet(end.corner / 4, end.corner % 4,
                                                 end.byAlpha ? order : 0, end.byAlpha ? 0 : order);
@@ -133,31 +135,47 @@ class ControlMover {
     }
   }
 
-  // The five vectors of the chart's surface that give the corner the derivatives wanted.
-  void changeChart(const CornerChange& end, Index node, std::vector<Vec3>& pose,
-                   edit::Affected& affected) const {
+  // Where a corner's derivatives are sums of what is stored: the smallest change that gives those
+  // across what they want and leaves the others up to the second order alone.
+  void solve(const CornerChange& end, std::vector<Vec3>& pose, edit::Affected& affected) const {
     constexpr std::array<std::array<int, 2>, 5> orders{{{1, 0}, {0, 1}, {2, 0}, {1, 1}, {0, 2}}};
-    constexpr std::array<int, 5> components{3, 1, 6, 4, 2};
-    const StoredJets jets(rig_.surface);
-    Eigen::Matrix<double, 5, 5> composed = Eigen::Matrix<double, 5, 5>::Zero();
-    Eigen::Matrix<double, 5, 3> wanted = Eigen::Matrix<double, 5, 3>::Zero();
-    for (int r = 0; r < 5; ++r) {
+    std::array<std::map<Index, double>, 5> sums;
+    std::set<Index> stored;
+    for (std::size_t r = 0; r < 5; ++r) {
       const auto [i, j] = orders[r];
       const JetRef ref = rig_.surface.cornerJet(end.corner / 4, end.corner % 4, i, j);
-      for (const Term& t : rig_.surface.derivation(ref.vector))
-        for (int k = 0; k < 5; ++k)
-          if (t.vector == jets.at(node, components[k])) composed(r, k) = ref.sign * t.factor;
+      expand(ref.vector, ref.sign, sums[r]);
+      for (const auto& [v, factor] : sums[r]) stored.insert(v);
+    }
+    const std::vector<Index> unknowns(stored.begin(), stored.end());
+    Eigen::MatrixXd composed = Eigen::MatrixXd::Zero(5, static_cast<Index>(unknowns.size()));
+    Eigen::MatrixXd wanted = Eigen::MatrixXd::Zero(5, 3);
+    for (int r = 0; r < 5; ++r) {
+      for (std::size_t k = 0; k < unknowns.size(); ++k)
+        if (const auto term = sums[r].find(unknowns[k]); term != sums[r].end())
+          composed(r, static_cast<Index>(k)) = term->second;
+      const auto [i, j] = orders[r];
       const int across = end.byAlpha ? i : j, along = end.byAlpha ? j : i;
       if (along > 0) continue;
       const Vec3& d = across == 1 ? first_ : second_;
       wanted.row(r) << d.x, d.y, d.z;
     }
-    const Eigen::Matrix<double, 5, 3> moved = composed.colPivHouseholderQr().solve(wanted);
-    for (int k = 0; k < 5; ++k) {
-      const Index v = jets.at(node, components[k]);
-      pose[v] += {moved(k, 0), moved(k, 1), moved(k, 2)};
-      affected.addVector(v);
+    const Eigen::MatrixXd moved = composed.completeOrthogonalDecomposition().solve(wanted);
+    const double rounding = 1e-13 * moved.cwiseAbs().maxCoeff();
+    for (std::size_t k = 0; k < unknowns.size(); ++k) {
+      const auto row = moved.row(static_cast<Index>(k));
+      if (row.cwiseAbs().maxCoeff() <= rounding) continue;
+      pose[unknowns[k]] += {row[0], row[1], row[2]};
+      affected.addVector(unknowns[k]);
     }
+  }
+
+  void expand(Index vector, double factor, std::map<Index, double>& sum) const {
+    if (vector < rig_.surface.storedCount()) {
+      sum[vector] += factor;
+      return;
+    }
+    for (const Term& t : rig_.surface.derivation(vector)) expand(t.vector, factor * t.factor, sum);
   }
 
   Rig rig_;
