@@ -15,9 +15,10 @@ class Weaver {
   explicit Weaver(const Drawing& drawing) : d_(drawing), w_(woven_.wireframe) {}
 
   Result<Woven> weave() {
-    for (const auto step : {&Weaver::nameThings, &Weaver::addNodes, &Weaver::addCurves,
-                            &Weaver::addPatches, &Weaver::checkUse, &Weaver::checkPlaces,
-                            &Weaver::setEdges, &Weaver::connect, &Weaver::addCreases})
+    for (const auto step :
+         {&Weaver::nameThings, &Weaver::addNodes, &Weaver::addCurves, &Weaver::addPatches,
+          &Weaver::checkUse, &Weaver::checkPlaces, &Weaver::addCreases, &Weaver::setEdges,
+          &Weaver::connect, &Weaver::checkCreases})
       if (auto ok = (this->*step)(); !ok) return std::unexpected(ok.error());
     return std::move(woven_);
   }
