@@ -34,8 +34,9 @@ void printSummary(const BuildArguments& a, const Built& built, std::size_t bytes
   fmt::print("{}: {} patches, {} points, {} targets, {} bytes\n", a.output,
              rig.surface.patchCount(), rig.surface.storedCount(), rig.targets.size(), bytes);
   if (!built.missed.empty())
-    fmt::print("curves pass within {:.4g} of their points; the furthest is '{}'\n",
-               built.largestMiss, built.missed);
+    fmt::print("curves pass within {:.4g} of their points; the furthest is '{}'{}\n",
+               built.largestMiss, built.missed,
+               built.missedIn.empty() ? "" : fmt::format(" in '{}'", built.missedIn));
 }
 
 Result<int> runBuild(const BuildArguments& a) {

@@ -99,8 +99,9 @@ std::string formatDrawing(const Drawing& drawing);
 /// A model made from a drawing.
 struct Built {
   Rig rig;
-  double largestMiss = 0;  ///< how far a curve passes from the points it is drawn by
+  double largestMiss = 0;  ///< how far a curve passes from the points it is drawn by, in any pose
   std::string missed;      ///< the curve that does, or empty
+  std::string missedIn;    ///< the expression in which it does, or empty for the neutral
 };
 
 /// Makes the model. Its source mesh is the surface's own grid: every curve cut into its edges.

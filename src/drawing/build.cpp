@@ -259,22 +259,37 @@ class Builder {
   }
 
   Result<void> measureMiss(const DrawnWishes& drawn) {
-    std::vector<Vec3> vectors(plain_.vectorCount());
-    plain_.settle(poses_[0], vectors);
-    for (std::size_t k = 0; k < drawn.wishes.sums.size(); ++k) {
-      Vec3 place;
-      for (const Term& t : drawn.wishes.sums[k]) place += t.factor * vectors[t.vector];
-      const double miss = norm(place - drawn.wishes.places[0][k]);
-      if (miss <= built_.largestMiss) continue;
-      built_.largestMiss = miss;
-      built_.missed = d_.curves[drawn.curves[k]].name;
+    std::vector<Vec3> neutral;
+    for (std::size_t pose = 0; pose < poses_.size(); ++pose) {
+      std::vector<Vec3> misses = missesOf(drawn.wishes, pose);
+      if (pose == 0) neutral = misses;
+      for (std::size_t k = 0; k < misses.size(); ++k) {
+        const double miss = norm(pose == 0 ? misses[k] : neutral[k] + misses[k]);
+        if (miss <= built_.largestMiss) continue;
+        built_.largestMiss = miss;
+        built_.missed = d_.curves[drawn.curves[k]].name;
+        built_.missedIn = pose == 0 ? "" : d_.expressions[pose - 1].name;
+      }
     }
     if (d_.tolerance == 0 || built_.largestMiss <= d_.tolerance) return {};
     const Drawing::Curve& curve = d_.curves[woven_.curves.at(built_.missed)];
+    const std::string in = built_.missedIn.empty() ? "" : fmt::format(" in '{}'", built_.missedIn);
     return refuse(curve.place,
                   fmt::format("curve '{}' passes {:.3g} from one of its points, or from one beside "
-                              "it, and the tolerance is {:.3g}; put a node between",
-                              curve.name, built_.largestMiss, d_.tolerance));
+                              "it,{} and the tolerance is {:.3g}; put a node between",
+                              curve.name, built_.largestMiss, in, d_.tolerance));
+  }
+
+  // How far what came out is from the wishes: for an expression, what it adds from what it should.
+  std::vector<Vec3> missesOf(const Wishes& wishes, std::size_t pose) const {
+    std::vector<Vec3> vectors(plain_.vectorCount()), misses;
+    plain_.settle(poses_[pose], vectors);
+    for (std::size_t k = 0; k < wishes.sums.size(); ++k) {
+      Vec3 miss = -wishes.places[pose][k];
+      for (const Term& t : wishes.sums[k]) miss += t.factor * vectors[t.vector];
+      misses.push_back(miss);
+    }
+    return misses;
   }
 
   Result<void> assemble() {

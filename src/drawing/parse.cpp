@@ -21,6 +21,7 @@ class DrawingReader {
     drawing_.source = source;
     members("the drawing",
             {{"format", [&] { format(); }, true},
+             {"$schema", [&] { in_.text("a text in quotes"); }},
              {"units", [&] { drawing_.units = text("the units"); }},
              {"tolerance", [&] { tolerance(); }},
              {"nodes", [&] { list("the nodes", [&] { node(); }); }, true},
