@@ -120,7 +120,7 @@ class Builder {
     for (Index n = 0; n < nodeCount(); ++n) {
       if (kind(n) == NodeKind::hanging) continue;
       const Drawing::Node& node = d_.nodes[n];
-      set(0, n, 0, node.at ? *node.at : *d_.nodes[woven_.nodes.at(node.with)].at);
+      set(0, n, 0, *woven_.placeOf(d_, n));
       for (std::size_t f = 0; f < node.jets.size(); ++f) {
         if (auto ok = checkComplete(n, f); !ok) return ok;
         if (auto ok = setJet(0, n, f, node.jets[f].vectors); !ok) return ok;

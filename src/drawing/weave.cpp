@@ -210,18 +210,19 @@ class Weaver {
   // Points that say where a curve runs must differ from their neighbours on it.
   Result<void> checkPlaces() {
     double size = 0;
-    const Drawing::Node* first = nullptr;
+    const Drawing::Node* reference = nullptr;
     for (const Drawing::Node& node : d_.nodes) {
       if (!node.at) continue;
-      if (!first) first = &node;
-      size = std::max(size, norm(*node.at - *first->at));
+      if (!reference) reference = &node;
+      size = std::max(size, norm(*node.at - *reference->at));
     }
     for (const Drawing::Curve& curve : d_.curves) {
-      const Drawing::Node &from = d_.nodes[find(woven_.nodes, curve.from)],
-                          &to = d_.nodes[find(woven_.nodes, curve.to)];
+      const Index start = find(woven_.nodes, curve.from), end = find(woven_.nodes, curve.to);
+      const Drawing::Node &from = d_.nodes[start], &to = d_.nodes[end];
+      const auto first = woven_.placeOf(d_, start), second = woven_.placeOf(d_, end);
       const bool drawn = !curve.points.empty() || from.jets.empty() || to.jets.empty();
-      if (curve.collapsed || !drawn || !placeOf(from) || !placeOf(to)) continue;
-      Vec3 last = *placeOf(from);
+      if (curve.collapsed || !drawn || !first || !second) continue;
+      Vec3 last = *first;
       std::size_t number = 0;
       for (const Vec3& point : curve.points) {
         ++number;
@@ -231,18 +232,14 @@ class Weaver {
                                     number, curve.name));
         last = point;
       }
-      if (norm(*placeOf(to) - last) <= 1e-9 * size)
+      if (norm(*second - last) <= 1e-9 * size)
         return refuse(curve.place, fmt::format("the last point of curve '{}' coincides with the "
                                                "one before it; a curve needs a length",
                                                curve.name));
     }
     return {};
   }
-  std::optional<Vec3> placeOf(const Drawing::Node& node) const {
-    return node.at || node.with.empty() ? node.at : d_.nodes[find(woven_.nodes, node.with)].at;
-  }
-
-  Result<void> setEdges() { return chooseEdges(d_, w_); }
+  Result<void> setEdges() { return chooseEdges(d_, woven_); }
 
   Result<void> connect() {
     w_.ribbons = {{}};  // one for all, only to connect
@@ -294,6 +291,11 @@ HalfArc Woven::halfArc(std::string_view reference) const {
   const bool backwards = reference.starts_with('-');
   const auto found = curves.find(reference.substr(backwards));
   return found == curves.end() ? -1 : 2 * found->second + backwards;
+}
+
+std::optional<Vec3> Woven::placeOf(const Drawing& drawing, Index node) const {
+  const Drawing::Node& drawn = drawing.nodes[node];
+  return drawn.at || drawn.with.empty() ? drawn.at : drawing.nodes[nodes.at(drawn.with)].at;
 }
 
 Result<Woven> weave(const Drawing& drawing) { return Weaver(drawing).weave(); }

@@ -24,15 +24,17 @@ struct Woven {
 
   /// A curve by its name, from its end where a '-' stands before it; -1 if there is none.
   HalfArc halfArc(std::string_view reference) const;
+  /// Where a node is drawn: at its own place or with another; nothing for a T-node without one.
+  std::optional<Vec3> placeOf(const Drawing& drawing, Index node) const;
 };
 
 /// Looks up all names and checks that the curves meet and the patches have four sides.
 Result<Woven> weave(const Drawing& drawing);
 
-/// Gives every curve whose number of edges is not said the one that its patches require, or
-/// kDefaultEdges.
-Result<void> chooseEdges(const Drawing& drawing, Wireframe& wireframe);
-inline constexpr Index kDefaultEdges = 8;
+/// Gives every curve whose number of edges is not said the one that its patches require; else one
+/// in proportion to its length, kUsualEdges for a curve of mean length where no curve says any.
+Result<void> chooseEdges(const Drawing& drawing, Woven& woven);
+inline constexpr double kUsualEdges = 8;
 /// Quads that the patches may have together.
 inline constexpr std::int64_t kMostQuads = 1'000'000;
 

@@ -69,7 +69,7 @@ class WishGatherer {
     const Drawing::Curve& curve = d_.curves[c];
     for (const Index node : {w_.arcs[c].from, w_.arcs[c].to}) {
       const Drawing::Node& end = d_.nodes[node];
-      const auto& at = end.with.empty() ? end.at : d_.nodes[woven_.nodes.at(end.with)].at;
+      const auto at = woven_.placeOf(d_, node);
       if (!at)
         return failAt(d_, end.place,
                       fmt::format("node '{}' needs 'at', since curve '{}' is drawn by points",

@@ -126,12 +126,25 @@ TEST(WhatNobodySays, bendsLeast) {
 
 TEST(Edges, areThoseOfTheOppositeSide) {
   Json drawing = square();
+  drawing["curves"][0]["edges"] = 8;
   drawing["curves"][3]["edges"] = 3;
   const Rig rig = made(drawing);
   EXPECT_EQ(rig.surface.edgesU(0), 8);
   EXPECT_EQ(rig.surface.edgesV(0), 3);
   EXPECT_EQ(rig.source.polygons.faceCount(), 24);
   EXPECT_EQ(rig.source.gridVertex.size(), 9u * 4u);
+}
+
+TEST(Edges, areAsManyAsACurveIsLong) {
+  Json drawing = square();
+  drawing["nodes"][2]["at"] = {4, 12, 0};
+  drawing["nodes"][3]["at"] = {0, 12, 0};
+  Rig rig = made(drawing);
+  EXPECT_EQ(rig.surface.edgesU(0), 4);
+  EXPECT_EQ(rig.surface.edgesV(0), 12);
+  drawing["curves"][0]["edges"] = 8;  // two a unit
+  rig = made(drawing);
+  EXPECT_EQ(rig.surface.edgesV(0), 24);
 }
 
 /// The square with a second row of two patches on top: e stands on dc.
@@ -168,7 +181,8 @@ TEST(TNodes, arePassedNearWhereTheyAreDrawn) {
 
 TEST(TNodes, chooseEdgesThatFitBothSides) {
   const Rig rig = made(withTNode());
-  EXPECT_EQ(rig.surface.edgesU(0), 16);
+  EXPECT_EQ(rig.surface.edgesU(0), rig.surface.edgesU(1) + rig.surface.edgesU(2));
+  EXPECT_LT(norm(middleOf(rig, "de", 1) - Vec3{4.0 / 3, 4, 0}), 0.1);
 }
 
 TEST(Rings, mayBeOnePatchAndOneCurve) {
@@ -186,7 +200,8 @@ TEST(Rings, mayBeOnePatchAndOneCurve) {
   EXPECT_EQ(rig.surface.connectivity().kinds, std::vector<NodeKind>(2, NodeKind::crossing));
   EXPECT_LT(largestRadiusError(rig, 0, 2), 0.2);  // one quintic is no good circle
   for (const JoinReport& join : examineJoins(rig.surface, neutralPose(rig))) EXPECT_LT(join.secondJump, 1e-12);
-  EXPECT_EQ(rig.source.polygons.faceCount(), 64);
+  EXPECT_EQ(rig.source.polygons.faceCount(), rig.surface.edgesU(0) * rig.surface.edgesV(0));
+  EXPECT_GE(rig.surface.edgesV(0), 3);
 }
 
 /// A cone of three slices whose tip is three nodes at one point.
@@ -221,7 +236,7 @@ TEST(Tips, areNodesAtOnePointWithCollapsedCurvesBetween) {
   const Polygons& faces = rig.source.polygons;
   int triangles = 0;
   for (Index f = 0; f < faces.faceCount(); ++f) triangles += faces.faceSize(f) == 3;
-  EXPECT_EQ(triangles, 3 * 8);
+  EXPECT_EQ(triangles, 3 * rig.surface.wireframe().arcs[rig.find(Thing::curve, "arc0").value()].edges);
   for (const JoinReport& join : examineJoins(rig.surface, neutralPose(rig))) EXPECT_LT(join.positionGap, 1e-12);
 }
 
