@@ -2,11 +2,12 @@
 BUILD := build/release
 FUZZ_SECONDS ?= 60
 
-.PHONY: help deps build demo test test-long bench fuzz format clean
+.PHONY: help deps build demo web test test-long bench fuzz format clean
 
 help:
 	@echo 'make build      build the tool, build/release/sweepface'
 	@echo 'make demo       install what is missing, build, and show the tool on a sample face'
+	@echo 'make web        build the page in web/ and what it shows'
 	@echo 'make test       install what is missing, build everything, run the tests'
 	@echo 'make test-long  the long tests, and all others under sanitizers and with clang'
 	@echo 'make bench      build and run the benchmarks'
@@ -26,15 +27,32 @@ demo: deps
 	$(MAKE) build
 	scripts/demo
 
-test: deps
+# The WebAssembly module, three.js and a sample face, beside the page.
+web:
+	scripts/install-deps wasm web
+	cmake --preset release
+	cmake --build $(BUILD) --target sweepface sample_face
+	cmake --workflow --preset wasm
+	web/test/install-packages
+	$(BUILD)/examples/sample_face $(BUILD)/sample
+	$(BUILD)/sweepface convert $(BUILD)/sample/neutral.obj $(BUILD)/sample/expressions --tolerance 0.02 -o web/sample.sweep
+	@echo 'Now: python3 -m http.server --directory web, and open http://localhost:8000/'
+
+# The npm packages of the tests with other people's tools; without a network these are skipped.
+tests/web/node_modules/.package-lock.json: tests/web/package-lock.json
+	scripts/install-deps wasm web
+	npm ci --prefix tests/web --no-audit --no-fund && touch $@ || \
+	  echo 'The npm packages could not be installed: the tests that need them are skipped.'
+
+test: deps tests/web/node_modules/.package-lock.json
 	cmake --preset release
 	cmake --build $(BUILD)
 	ctest --preset release --label-exclude '^long$$'
 	@if [ -z "$$SWEEPFACE_DATA" ]; then \
 	  echo 'SWEEPFACE_DATA is not set: the tests on real faces were skipped.'; fi
 
-test-long:
-	scripts/install-deps clang
+test-long: tests/web/node_modules/.package-lock.json
+	scripts/install-deps clang blender
 	cmake --preset release
 	cmake --build $(BUILD)
 	ctest --preset release --label-regex '^long$$'

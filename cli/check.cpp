@@ -35,7 +35,7 @@ void addOptions(CLI::App& app, CheckArguments& a) {
 // relative to the largest one.
 constexpr double kLargestGap = 1e-12, kLargestJump = 1e-9;
 constexpr int kSamples = 5;
-constexpr std::array kClassNames{"boundary", "C2", "spoke"};
+constexpr std::array kClassNames{"boundary", "C2", "spoke", "crease"};
 
 /// A face to look at.
 struct Pose {
@@ -55,26 +55,6 @@ std::vector<Pose> posesOf(const Rig& rig) {
   poses.push_back({"a mixture of all targets", mixture});
   return poses;
 }
-
-/// All joins of a class: lengths in the neutral, the rest over every pose.
-struct ClassReport {
-  std::size_t count = 0;
-  double length = 0;
-  double gap = 0;  ///< relative to the model's size
-  double first = 0, second = 0, normal = 0;
-  double normalSquares = 0, weight = 0;  ///< of the angles, by length
-
-  double normalRms() const { return weight > 0 ? std::sqrt(normalSquares / weight) : 0; }
-
-  void add(const JoinReport& join, double size) {
-    gap = std::max(gap, join.positionGap / size);
-    first = std::max(first, join.firstJump);
-    second = std::max(second, join.secondJump);
-    normal = std::max(normal, join.normalJump);
-    normalSquares += join.length * join.normalJump * join.normalJump;
-    weight += join.length;
-  }
-};
 
 struct PoseJoins {
   bool finite = true;
@@ -105,11 +85,8 @@ class Checker {
       bar.show("checking", static_cast<double>(++done) / static_cast<double>(poses_.size()));
     });
     for (std::size_t k = 0; k < looks.size(); ++k) judge(poses_[k].name, looks[k]);
-    for (const JoinReport& join : looks[0].joins) {
-      ClassReport& c = classes_[static_cast<std::size_t>(join.joinClass)];
-      ++c.count;
-      c.length += join.length;
-    }
+    for (const JoinReport& join : looks[0].joins)
+      neutral_[static_cast<std::size_t>(join.joinClass)].add(join);
   }
 
   const std::vector<std::string>& problems() const { return problems_; }
@@ -122,7 +99,7 @@ class Checker {
     Joint gap, first, second;
     for (std::size_t a = 0; a < look.joins.size(); ++a) {
       const JoinReport& join = look.joins[a];
-      classes_[static_cast<std::size_t>(join.joinClass)].add(join, size_);
+      all_[static_cast<std::size_t>(join.joinClass)].add(join);
       gap.see(a, join.positionGap / size_);
       if (join.joinClass != JoinClass::c2) continue;
       first.see(a, join.firstJump);
@@ -155,28 +132,30 @@ class Checker {
   }
   double totalLength() const {
     double sum = 0;
-    for (const ClassReport& c : classes_) sum += c.length;
+    for (const JoinSummary& c : neutral_) sum += c.length;
     return sum > 0 ? sum : 1;
   }
 
   const Rig& rig_;
   std::vector<Pose> poses_;
   double size_ = 1;
-  std::array<ClassReport, 3> classes_;
+  std::array<JoinSummary, kClassNames.size()> neutral_, all_;  // in the neutral and in all poses
   std::vector<std::string> problems_;
 };
 
 nlohmann::ordered_json Checker::report(const std::string& file) const {
   nlohmann::ordered_json joins;
-  for (std::size_t k = 0; k < classes_.size(); ++k) {
-    const ClassReport& c = classes_[k];
+  for (std::size_t k = 0; k < all_.size(); ++k) {
+    const JoinSummary &rest = neutral_[k], &c = all_[k];
     auto& join = joins[kClassNames[k]];
-    join = {{"count", c.count}, {"length", c.length}, {"lengthShare", c.length / totalLength()}};
+    join = {{"count", rest.count},
+            {"length", rest.length},
+            {"lengthShare", rest.length / totalLength()}};
     if (static_cast<JoinClass>(k) == JoinClass::boundary) continue;
-    join.update({{"positionGap", c.gap},
-                 {"firstJump", c.first},
-                 {"secondJump", c.second},
-                 {"normalJumpMax", c.normal},
+    join.update({{"positionGap", c.positionGap / size_},
+                 {"firstJump", c.firstJump},
+                 {"secondJump", c.secondJump},
+                 {"normalJumpMax", c.normalJump},
                  {"normalJumpRms", c.normalRms()}});
   }
   return {{"file", file},
@@ -186,6 +165,7 @@ nlohmann::ordered_json Checker::report(const std::string& file) const {
           {"fullNodes", nodes(NodeKind::crossing)},
           {"irregularNodes", nodes(NodeKind::irregular)},
           {"hangingNodes", nodes(NodeKind::hanging)},
+          {"creasedNodes", nodes(NodeKind::creased)},
           {"ribbons", rig_.surface.wireframe().ribbons.size()},
           {"joins", joins}};
 }
@@ -194,19 +174,20 @@ void Checker::print(const std::string& file) const {
   fmt::print("{}: {}\n", file, problems_.empty() ? "sound" : "broken");
   fmt::print("  {} poses: the neutral, {} targets{}\n", poses_.size(), rig_.targets.size(),
              rig_.targets.empty() ? "" : " and a mixture of all");
-  fmt::print("  nodes: {} full, {} irregular, {} hanging (T-nodes)\n", nodes(NodeKind::crossing),
-             nodes(NodeKind::irregular), nodes(NodeKind::hanging));
+  fmt::print("  nodes: {} full, {} irregular, {} hanging (T-nodes){}\n", nodes(NodeKind::crossing),
+             nodes(NodeKind::irregular), nodes(NodeKind::hanging),
+             nodes(NodeKind::creased) ? fmt::format(", {} creased", nodes(NodeKind::creased)) : "");
   fmt::print("  ribbons: {}, all with shape parameters that the equation allows\n",
              rig_.surface.wireframe().ribbons.size());
   fmt::print("\n  {:<9} {:>7} {:>11} {:>7}   {:>9} {:>9} {:>9} {:>9} {:>9}\n", "joins", "count",
              "length", "share", "gap", "1st jump", "2nd jump", "max angle", "RMS angle");
-  for (std::size_t k = 0; k < classes_.size(); ++k) {
-    const ClassReport& c = classes_[k];
-    fmt::print("  {:<9} {:>7} {:>11.4f} {:>5.1f} %", kClassNames[k], c.count, c.length,
-               100 * c.length / totalLength());
+  for (std::size_t k = 0; k < all_.size(); ++k) {
+    const JoinSummary &rest = neutral_[k], &c = all_[k];
+    fmt::print("  {:<9} {:>7} {:>11.4f} {:>5.1f} %", kClassNames[k], rest.count, rest.length,
+               100 * rest.length / totalLength());
     if (static_cast<JoinClass>(k) != JoinClass::boundary)
-      fmt::print("   {:>9.1e} {:>9.1e} {:>9.1e} {:>7.2g} ° {:>7.2g} °", c.gap, c.first, c.second,
-                 c.normal, c.normalRms());
+      fmt::print("   {:>9.1e} {:>9.1e} {:>9.1e} {:>7.2g} ° {:>7.2g} °", c.positionGap / size_,
+                 c.firstJump, c.secondJump, c.normalJump, c.normalRms());
     fmt::print("\n");
   }
 }

@@ -9,7 +9,6 @@
 #include <unistd.h>
 
 #include "sweepface/codec.hpp"
-#include "sweepface/io.hpp"
 
 namespace sweepface::cli {
 namespace {
@@ -24,14 +23,14 @@ bool parse(const std::string& text, Number& number) {
   return error == std::errc{} && stop == end && std::isfinite(static_cast<double>(number));
 }
 
+}  // namespace
+
 std::string extension(const fs::path& path) {
   std::string text = path.extension().string();
   std::ranges::transform(text, text.begin(),
                          [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return text;
 }
-
-}  // namespace
 
 std::string HelpFormatter::make_option_desc(const CLI::Option* option) const {
   constexpr std::size_t width = 68;
@@ -76,7 +75,9 @@ CLI::Option* addLod(CLI::App& app, int& lod, const std::string& description) {
 }
 
 void addMeshes(CLI::App& app, std::string& neutral, std::vector<std::string>& targets) {
-  app.add_option("NEUTRAL", neutral, "The face at rest, an .obj or .ply file")
+  app.add_option(
+         "NEUTRAL", neutral,
+         "The face at rest, an .obj or .ply file; or a face with its expressions, a .glb or .gltf")
       ->required()
       ->type_name("");
   app.add_option("TARGETS", targets,
@@ -89,6 +90,13 @@ void addThreads(CLI::App& app, int& threads) {
   app.add_option("--threads", threads, "How many threads may work; all cores if not given")
       ->check(wholeNumber(1, 1024))
       ->type_name("N");
+}
+
+void addGlb(CLI::App& app, GlbArguments& glb) {
+  app.add_flag("--morph-normals", glb.morphNormals,
+               "For .glb: normals of the morph targets too; larger, and better shaded");
+  app.add_flag("--quantize", glb.quantize,
+               "For .glb: 16 bits a coordinate (KHR_mesh_quantization); about half as large");
 }
 
 CLI::Validator wholeNumber(int low, int high) {
@@ -116,6 +124,16 @@ Result<Rig> readFace(const std::string& path) {
   return decode(*bytes, path);
 }
 
+bool isOfKind(const fs::path& path, std::string_view kind) { return extension(path) == kind; }
+
+Result<RigSource> readMeshes(const std::string& neutral, const std::vector<std::string>& targets,
+                             ProgressBar& bar) {
+  const std::vector<fs::path> paths(targets.begin(), targets.end());
+  return readSource(neutral, paths, [&](std::size_t done, std::size_t total) {
+    bar.show("reading", static_cast<double>(done) / static_cast<double>(total));
+  });
+}
+
 Result<void> checkOutput(const fs::path& output, const std::vector<std::string>& inputs,
                          std::initializer_list<std::string_view> foreign) {
   const auto cannot = [&](std::string_view why) {
@@ -126,7 +144,7 @@ Result<void> checkOutput(const fs::path& output, const std::vector<std::string>&
     if (fs::equivalent(output, input, ignored))
       return cannot("it is what is read; choose another name");
   for (const std::string_view kind : foreign)
-    if (extension(output) == kind)
+    if (isOfKind(output, kind))
       return cannot(fmt::format("its name promises another kind of file ({})", kind));
   if (!output.has_filename() || fs::is_directory(output, ignored))
     return cannot("it is a folder; name a file");

@@ -7,8 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "sweepface/io.hpp"
 #include "sweepface/result.hpp"
 #include "sweepface/rig.hpp"
+
+#include "output.hpp"
 
 namespace sweepface::cli {
 
@@ -26,6 +29,10 @@ Command addMeasure(CLI::App& tool);
 Command addExport(CLI::App& tool);
 Command addAnimate(CLI::App& tool);
 Command addWireframe(CLI::App& tool);
+Command addRender(CLI::App& tool);
+Command addReport(CLI::App& tool);
+Command addBuild(CLI::App& tool);
+Command addEdit(CLI::App& tool);
 
 /// Help that breaks long descriptions into lines.
 class HelpFormatter : public CLI::Formatter {
@@ -53,6 +60,13 @@ CLI::Option* addLod(CLI::App& app, int& lod, const std::string& description);
 void addMeshes(CLI::App& app, std::string& neutral, std::vector<std::string>& targets);
 void addThreads(CLI::App& app, int& threads);
 
+/// What only .glb files can have.
+struct GlbArguments {
+  bool morphNormals = false, quantize = false;
+  bool any() const { return morphNormals || quantize; }
+};
+void addGlb(CLI::App& app, GlbArguments& glb);
+
 CLI::Validator wholeNumber(int low, int high);
 /// A finite number > 0, and at most `high` if that is given.
 CLI::Validator positiveNumber(double high = 0);
@@ -60,6 +74,13 @@ CLI::Validator positiveNumber(double high = 0);
 // ---- Files ----
 
 Result<Rig> readFace(const std::string& path);
+
+/// Whether a file's name ends like ".glb", in small or large letters.
+bool isOfKind(const std::filesystem::path& path, std::string_view kind);
+
+/// The face that addMeshes() named.
+Result<RigSource> readMeshes(const std::string& neutral, const std::vector<std::string>& targets,
+                             ProgressBar& bar);
 
 /// Whether a file can be made at `output` without loss of an input, asked before the long work. A
 /// name that ends in one of `foreign` promises another kind of file.

@@ -25,7 +25,7 @@ struct ConvertArguments {
   std::vector<std::string> targets;
   double tolerance = 0, normalLimit = 0;
   int threads = 0;
-  bool noShapes = false, quiet = false, json = false;
+  bool noShapes = false, bare = false, quiet = false, json = false;
 };
 
 void addOptions(CLI::App& app, ConvertArguments& a) {
@@ -44,12 +44,16 @@ void addOptions(CLI::App& app, ConvertArguments& a) {
   addThreads(app, a.threads);
   app.add_flag("--no-shapes", a.noShapes,
                "Do not look for shape parameters: quicker, a bit larger");
+  app.add_flag("--bare", a.bare,
+               "Leave out what a .glb or .gltf holds besides the face: materials, textures, skins, "
+               "other meshes ...");
   addQuiet(app, a.quiet);
   addJson(app, a.json);
   app.footer(
       "\nThe file is written only if every vertex of the neutral and of every expression is "
       "within the tolerance.\n\nExample:\n"
-      "  sweepface convert head.obj expressions/ -o head.sweep --tolerance 0.05");
+      "  sweepface convert head.obj expressions/ -o head.sweep --tolerance 0.05\n"
+      "  sweepface convert head.glb -o head.sweep");
 }
 
 // ---- Interruption ----
@@ -60,10 +64,10 @@ constexpr int kInterrupted = 130;
 
 /// The first Ctrl-C asks the work to stop, a second one ends the program.
 void catchInterrupts() {
-  struct sigaction action {};
+  struct sigaction action{};
   action.sa_handler = [](int) { interrupted = true; };
   action.sa_flags = static_cast<int>(SA_RESETHAND);
-  struct sigaction before {};
+  struct sigaction before{};
   sigaction(SIGINT, nullptr, &before);
   if (before.sa_handler != SIG_IGN) sigaction(SIGINT, &action, nullptr);
 }
@@ -178,13 +182,6 @@ void printText(const Summary& s) {
 
 // ---- The command ----
 
-Result<MeshRig> readSource(const ConvertArguments& a, ProgressBar& bar) {
-  const std::vector<fs::path> targets(a.targets.begin(), a.targets.end());
-  return readRig(a.neutral, targets, [&](std::size_t done, std::size_t total) {
-    bar.show("reading", static_cast<double>(done) / static_cast<double>(total));
-  });
-}
-
 ConvertOptions optionsOf(const ConvertArguments& a, ProgressBar& bar) {
   ConvertOptions options;
   options.tolerance = a.tolerance;
@@ -198,24 +195,27 @@ ConvertOptions optionsOf(const ConvertArguments& a, ProgressBar& bar) {
 Result<int> convertAndWrite(const ConvertArguments& a) {
   const auto start = std::chrono::steady_clock::now();
   std::optional<ProgressBar> bar(std::in_place, a.quiet);
-  const Result<MeshRig> source = readSource(a, *bar);
+  Result<RigSource> source = readMeshes(a.neutral, a.targets, *bar);
   if (!source) return std::unexpected(source.error());
   if (interrupted) return kInterrupted;
-  const Result<Conversion> conversion = convert(*source, optionsOf(a, *bar));
+  Result<Conversion> conversion = convert(source->rig, optionsOf(a, *bar));
   if (!conversion) return std::unexpected(conversion.error());
+  if (!a.bare) conversion->rig.scene = std::move(source->scene);
   bar->show("verifying", 1);
   const std::string bytes = encode(conversion->rig);
-  const Result<Worst> worst = verify(bytes, a.output, *source, conversion->rig.tolerance);
+  const Result<Worst> worst = verify(bytes, a.output, source->rig, conversion->rig.tolerance);
   if (!worst) return std::unexpected(worst.error());
   if (interrupted) return kInterrupted;
   if (auto written = writeAndReadBack(a.output, bytes); !written)
     return std::unexpected(written.error());
   bar.reset();
 
-  for (const std::string& warning : conversion->warnings) printWarning(warning);
+  std::vector<std::string>& warnings = conversion->warnings;
+  if (!a.bare) warnings.insert(warnings.begin(), source->warnings.begin(), source->warnings.end());
+  for (const std::string& warning : warnings) printWarning(warning);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   const Summary summary{
-      a, *conversion, *worst, source->neutral.positions.size(), bytes.size(), seconds.count()};
+      a, *conversion, *worst, source->rig.neutral.positions.size(), bytes.size(), seconds.count()};
   if (a.json)
     printJson(toJson(summary));
   else if (!a.quiet)
@@ -226,7 +226,7 @@ Result<int> convertAndWrite(const ConvertArguments& a) {
 Result<int> runConvert(const ConvertArguments& a) {
   std::vector<std::string> inputs = a.targets;
   inputs.push_back(a.neutral);
-  if (auto ok = checkOutput(a.output, inputs, {".obj", ".ply"}); !ok)
+  if (auto ok = checkOutput(a.output, inputs, {".obj", ".ply", ".glb", ".gltf"}); !ok)
     return std::unexpected(ok.error());
   std::optional<tbb::global_control> limit;
   if (a.threads > 0)

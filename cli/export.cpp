@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "sweepface/gltf.hpp"
 #include "sweepface/io.hpp"
 
 #include "command.hpp"
@@ -12,41 +13,70 @@ struct ExportArguments {
   std::string face, output, weights;
   int lod = 0;
   bool sourceOrder = false, quiet = false;
+  GlbArguments glb;
 };
 
 void addOptions(CLI::App& app, ExportArguments& a) {
   addFace(app, a.face);
-  addOutput(app, a.output, "The .obj file to write");
+  addOutput(app, a.output,
+            "The file to write: .obj for one expression, .glb for the face with all its targets");
   addWeights(app, a.weights);
   CLI::Option* lod =
       addLod(app, a.lod, "Write a finer mesh: every edge of the source cut into N, 1 to 64");
   app.add_flag("--source-order", a.sourceOrder,
                "Write the source's own vertices and polygons in their order (this is the default)")
       ->excludes(lod);
+  addGlb(app, a.glb);
   addQuiet(app, a.quiet);
   app.footer(
       "\nExamples:\n  sweepface export face.sweep -o smile.obj --weights smile=0.8,jawOpen=0.2\n"
-      "  sweepface export face.sweep -o smooth.obj --lod 4");
+      "  sweepface export face.sweep -o smooth.obj --lod 4\n"
+      "  sweepface export face.sweep -o face.glb --quantize");
+}
+
+Result<void> writeObj(const ExportArguments& a, const Rig& rig, const Weights& weights) {
+  if (auto ok = checkLod(rig, a.lod); !ok) return ok;
+  const MeshMaker meshes(rig, a.lod);
+  if (auto written = writeFile(a.output, meshes.obj(weights)); !written) return written;
+  if (!a.quiet) fmt::print("{}: {} faces\n", a.output, meshes.polygons().faceCount());
+  return {};
+}
+
+Result<void> writeGlb(const ExportArguments& a, const Rig& rig, const Weights& weights) {
+  GlbOptions options;
+  options.lod = a.lod;
+  options.morphNormals = a.glb.morphNormals;
+  options.quantize = a.glb.quantize;
+  if (!a.weights.empty()) options.weights = weights;
+  const Result<std::string> bytes = formatGlb(rig, options);
+  if (!bytes) return std::unexpected(bytes.error());
+  if (auto written = writeFile(a.output, *bytes); !written) return written;
+  if (!a.quiet)
+    fmt::print("{}: {} targets, {} bytes\n", a.output, rig.targets.size(), bytes->size());
+  return {};
 }
 
 Result<int> runExport(const ExportArguments& a) {
+  const bool glb = isOfKind(a.output, ".glb");
+  if (a.glb.any() && !glb)
+    return fail("--morph-normals and --quantize are for .glb files; name the output so.");
   const Result<Rig> rig = readFace(a.face);
   if (!rig) return std::unexpected(rig.error());
   const Result<Weights> weights = parseWeights(*rig, a.weights);
   if (!weights) return std::unexpected(weights.error());
-  if (auto ok = checkOutput(a.output, {a.face}, {".ply", ".sweep"}); !ok)
+  if (auto ok = checkOutput(a.output, {a.face}, {".ply", ".sweep", ".gltf"}); !ok)
     return std::unexpected(ok.error());
-  const MeshMaker meshes(*rig, a.lod);
-  if (auto written = writeFile(a.output, meshes.obj(*weights)); !written)
-    return std::unexpected(written.error());
-  if (!a.quiet) fmt::print("{}: {} faces\n", a.output, meshes.polygons().faceCount());
+  const Result<void> written = (glb ? writeGlb : writeObj)(a, *rig, *weights);
+  if (!written) return std::unexpected(written.error());
   return 0;
 }
 
 }  // namespace
 
 Command addExport(CLI::App& tool) {
-  return makeCommand(tool, "export", "Write an expression as a mesh (.obj)", runExport);
+  return makeCommand(tool, "export",
+                     "Write an expression as a mesh (.obj), or the face with its targets (.glb)",
+                     runExport);
 }
 
 }  // namespace sweepface::cli

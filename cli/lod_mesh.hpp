@@ -129,6 +129,13 @@ class LodPolygons {
   Polygons result_;
 };
 
+/// A file may lack what tells where the source's polygons are on the surface.
+inline Result<void> checkLod(const Rig& rig, Index lod) {
+  if (lod == 0 || !rig.source.quadCorners.empty()) return {};
+  return fail(
+      "The face does not tell of its source's polygons, which --lod cuts; convert it again.");
+}
+
 /// The meshes of a rig, all over the same polygons: the source's own at lod 0, else a tessellation.
 class MeshMaker {
  public:

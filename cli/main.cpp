@@ -41,7 +41,8 @@ int run(int argc, char** argv) {
       "\nStart with:\n  sweepface convert neutral.obj expressions/ -o face.sweep\n"
       "  sweepface COMMAND --help tells more about a command.");
   std::vector<Command> commands;
-  for (auto add : {addConvert, addInfo, addCheck, addMeasure, addExport, addAnimate, addWireframe})
+  for (auto add : {addConvert, addInfo, addCheck, addMeasure, addExport, addAnimate, addWireframe,
+                   addRender, addReport, addBuild, addEdit})
     commands.push_back(add(tool));
 
   try {

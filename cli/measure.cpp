@@ -5,8 +5,6 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "sweepface/io.hpp"
-
 #include "command.hpp"
 #include "output.hpp"
 
@@ -89,20 +87,15 @@ nlohmann::ordered_json toJson(const MeasureArguments& a, const Rig& rig, const M
   return report;
 }
 
-Result<MeshRig> readSource(const MeasureArguments& a) {
-  ProgressBar bar(a.quiet);
-  const std::vector<std::filesystem::path> targets(a.targets.begin(), a.targets.end());
-  return readRig(a.neutral, targets, [&](std::size_t done, std::size_t total) {
-    bar.show("reading", static_cast<double>(done) / static_cast<double>(total));
-  });
-}
-
 Result<int> runMeasure(const MeasureArguments& a) {
   const Result<Rig> rig = readFace(a.face);
   if (!rig) return std::unexpected(rig.error());
-  const Result<MeshRig> source = readSource(a);
+  const Result<RigSource> source = [&] {
+    ProgressBar bar(a.quiet);
+    return readMeshes(a.neutral, a.targets, bar);
+  }();
   if (!source) return std::unexpected(source.error());
-  const Result<Measurement> measurement = measure(*rig, *source, a.options);
+  const Result<Measurement> measurement = measure(*rig, source->rig, a.options);
   if (!measurement) return std::unexpected(measurement.error());
   if (a.json)
     printJson(toJson(a, *rig, *measurement));

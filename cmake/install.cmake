@@ -2,7 +2,8 @@
 include(CMakePackageConfigHelpers)
 
 # Headers of what converts; a runtime-only install goes without them.
-set(converting_headers mesh.hpp io.hpp layout.hpp fit.hpp measure.hpp)
+set(converting_headers mesh.hpp io.hpp gltf.hpp layout.hpp fit.hpp measure.hpp drawing.hpp edit.hpp
+    picture.hpp report.hpp)
 
 set(installed_libraries sweepface_runtime)
 set(installed_archives -lsweepface_runtime)
@@ -13,18 +14,19 @@ if(SWEEPFACE_RUNTIME_ONLY)
     list(APPEND skipped_headers PATTERN ${header} EXCLUDE)
   endforeach()
 else()
-  list(PREPEND installed_libraries sweepface_convert)
-  list(PREPEND installed_archives -lsweepface_convert)
-  list(APPEND private_archives -ltbb -lfmt)
+  list(PREPEND installed_libraries sweepface_picture sweepface_convert)
+  list(PREPEND installed_archives -lsweepface_picture -lsweepface_convert)
+  list(APPEND private_archives -lembree3 -ltbb -lfmt -lmeshoptimizer)
   install(TARGETS sweepface RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()
 
 install(TARGETS ${installed_libraries} EXPORT sweepfaceTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/sweepface DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
-        FILES_MATCHING PATTERN *.hpp ${skipped_headers})
+        FILES_MATCHING PATTERN *.hpp PATTERN *.h ${skipped_headers})
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
-# find_package(sweepface): targets sweepface::runtime and, unless built without, sweepface::convert.
+# find_package(sweepface): targets sweepface::runtime and, unless built without, sweepface::convert and
+# sweepface::picture.
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/sweepface)
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/sweepfaceConfig.cmake.in
   ${PROJECT_BINARY_DIR}/sweepfaceConfig.cmake INSTALL_DESTINATION ${package_dir})

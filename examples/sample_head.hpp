@@ -52,7 +52,7 @@ constexpr auto sections = std::to_array<Section>({
 });
 
 /// Catmull-Rom interpolation of one number of the sections.
-inline double profile(double Section::*number, double down) {
+inline double profile(double Section::* number, double down) {
   const int k = std::clamp(static_cast<int>(down / 10), 0, static_cast<int>(sections.size()) - 4);
   const double t = down / 10 - k, a = sections[k].*number, b = sections[k + 1].*number;
   const double c = sections[k + 2].*number, d = sections[k + 3].*number;
@@ -64,7 +64,7 @@ inline Vec3 loft(const Site& site) {
   const double s = std::sin(site.around * degree), c = std::cos(site.around * degree);
   const double front = (1 + c) / 2, down = site.down;
   const double narrowing = 1 - square(front) * (0.05 + 0.13 * smoothstep(80, 140, down));
-  const auto slant = [&](double Section::*fore, double Section::*rear) {
+  const auto slant = [&](double Section::* fore, double Section::* rear) {
     return std::lerp(profile(rear, down), profile(fore, down), front);
   };
   return {profile(&Section::halfWidth, down) * s * narrowing,

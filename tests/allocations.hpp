@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdlib>
+#include <malloc.h>
 #include <new>
 
 // Watches every allocation of the test program that includes this, in one of its files.
@@ -12,6 +13,8 @@ namespace sweepface::testing {
 struct Allocations {
   std::size_t count = 0;
   std::size_t largest = 0;  ///< bytes
+  std::size_t held = 0;     ///< bytes that are not given back yet
+  std::size_t most = 0;     ///< bytes held at any time
 };
 inline Allocations allocations;
 
@@ -35,9 +38,17 @@ inline constexpr bool watchesAllocations = true;
   auto& seen = sweepface::testing::allocations;
   ++seen.count;
   seen.largest = std::max(seen.largest, size);
-  if (void* memory = std::malloc(size ? size : 1)) return memory;
-  std::abort();
+  void* const memory = std::malloc(size ? size : 1);
+  if (!memory) std::abort();
+  seen.held += malloc_usable_size(memory);
+  seen.most = std::max(seen.most, seen.held);
+  return memory;
 }
-[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory) noexcept {
+  sweepface::testing::allocations.held -= malloc_usable_size(memory);
+  std::free(memory);
+}
+[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept {
+  operator delete(memory);
+}
 #endif

@@ -131,7 +131,8 @@ inline PolygonMesh uvSphere(Index around = 16, Index rings = 8, double radius = 
   for (Index j = 1; j < rings; ++j)
     for (Index i = 0; i < around; ++i) {
       const double a = turn(1.0 * i / around), b = std::numbers::pi * (1.0 * j / rings - 0.5);
-      mesh.positions.push_back(radius * Vec3{std::cos(a) * std::cos(b), std::sin(a) * std::cos(b), std::sin(b)});
+      mesh.positions.push_back(
+          radius * Vec3{std::cos(a) * std::cos(b), std::sin(a) * std::cos(b), std::sin(b)});
     }
   const auto south = static_cast<Index>(mesh.positions.size()), north = south + 1;
   mesh.positions.push_back({0, 0, -radius});
@@ -153,9 +154,8 @@ inline PolygonMesh lShape() {
 
 /// A plane with a rectangular hole: four concave corners.
 inline PolygonMesh windowed() {
-  return only(plane(10, 9), [](const Vec3& p) {
-    return !(p.x > 3.5 && p.x < 6.5 && p.y > 3.5 && p.y < 5.5);
-  });
+  return only(plane(10, 9),
+              [](const Vec3& p) { return !(p.x > 3.5 && p.x < 6.5 && p.y > 3.5 && p.y < 5.5); });
 }
 
 /// A plane one of whose rows has a face of `corners` (3 or 5) corners, above which there is one
@@ -206,7 +206,8 @@ inline PolygonMesh pinwheel(Index valence, Index n = 4) {
   for (Index s = 0; s < valence; ++s)
     for (Index i = 0; i < n; ++i)
       for (Index j = 0; j < n; ++j)
-        addFace(mesh, {vertex(s, i, j), vertex(s, i + 1, j), vertex(s, i + 1, j + 1), vertex(s, i, j + 1)});
+        addFace(mesh, {vertex(s, i, j), vertex(s, i + 1, j), vertex(s, i + 1, j + 1),
+                       vertex(s, i, j + 1)});
   return mesh;
 }
 
@@ -236,7 +237,8 @@ inline MeshRig withTargets(PolygonMesh mesh, int targets = 2, double size = 10) 
   return rig;
 }
 
-/// The same vertices with faces missing, cut, turned over or sewn together, another way for every seed.
+/// The same vertices with faces missing, cut, turned over or sewn together, another way for every
+/// seed.
 inline PolygonMesh damaged(const PolygonMesh& mesh, unsigned seed) {
   std::mt19937 random(seed);
   const auto any = [&](std::size_t count) { return static_cast<std::size_t>(random() % count); };
@@ -322,9 +324,9 @@ inline std::vector<Loop> weldedLoops(const MeshRig& rig) {
 }
 
 struct Topology {
-  int euler = 0;           ///< V − E + F
+  int euler = 0;  ///< V − E + F
   int boundaryLoops = 0;
-  int overfullEdges = 0;   ///< shared by more than two faces, or by two of the same direction
+  int overfullEdges = 0;  ///< shared by more than two faces, or by two of the same direction
   std::size_t vertices = 0;
   friend bool operator==(const Topology&, const Topology&) = default;
   friend void PrintTo(const Topology& t, std::ostream* out) {
@@ -376,7 +378,7 @@ inline std::string realFaces() {
   return folder ? folder : "";
 }
 
-#define SKIP_WITHOUT_REAL_FACES()        \
+#define SKIP_WITHOUT_REAL_FACES()              \
   if (sweepface::testing::realFaces().empty()) \
   GTEST_SKIP() << "SWEEPFACE_DATA does not name a folder of real faces"
 

@@ -30,6 +30,7 @@ class Tessellation {
   void positions(std::span<const Vec3> vectors, std::span<Vec3> out) const;
   std::vector<Vec3> positions(std::span<const Vec3> vectors) const;
   /// The surface's own unit normals [vertexCount].
+  void normals(std::span<const Vec3> vectors, std::span<Vec3> out) const;
   std::vector<Vec3> normals(std::span<const Vec3> vectors) const;
 
  private:
@@ -49,6 +50,25 @@ class Tessellation {
   std::vector<Surface::ArcWeights> arcWeights_;  // [onArcs_]
   std::vector<Surface::Weights> patchWeights_;   // [vertexCount - onArcs_]
 };
+
+/// A line through points of a CurveNetwork.
+struct Curve {
+  HalfArc along = -1;         ///< the arc it is or lies beside, as seen from the patch on its left
+  std::vector<Index> points;  ///< in the arc's own direction or, on its other side, against it
+};
+
+/// The curves that carry a pose, as lines. Beside every boundary curve lie two control curves in
+/// each patch, at 1/10 and at 1/4 of the way across: the parabola from the boundary through them
+/// has the surface's first and second derivative there.
+struct CurveNetwork {
+  std::vector<Vec3> points;     ///< model units
+  std::vector<Index> nodes;     ///< points where boundary curves meet; they share them
+  std::vector<Curve> boundary;  ///< one an arc that is not collapsed
+  std::vector<Curve> control;   ///< two a half-arc with a patch
+};
+
+/// The curves of a settled pose with `perEdge` ≥ 1 points on every source edge.
+CurveNetwork curveNetwork(const Surface& surface, std::span<const Vec3> vectors, Index perEdge);
 
 /// Vertices in the source's own order [V] and their normals.
 std::vector<Vec3> sourcePositions(const Rig& rig, const Tessellation& level1,

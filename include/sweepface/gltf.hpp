@@ -5,38 +5,33 @@
 #include <string_view>
 #include <vector>
 
-#include "sweepface/mesh.hpp"
+#include "sweepface/clip.hpp"
+#include "sweepface/io.hpp"
 #include "sweepface/motion.hpp"
 #include "sweepface/result.hpp"
 #include "sweepface/rig.hpp"
 
 namespace sweepface {
 
-/// A rig as a glTF file holds it, and everything else that the file holds.
-struct GltfSource {
-  MeshRig
-      rig;  ///< in the scene's space; the vertices of all primitives of the rig, one after another
-  /// The file as a GLB without what the surface stands for: positions, normals and morph targets of
-  /// the rig's primitives are accessors without data.
-  std::string scene;
-  std::vector<std::string> warnings;  ///< what could not be carried, in sentences
-};
-
 /// The rig in a .glb or .gltf file: all primitives that have morph targets, or all there are where
-/// none has. Quads are recovered from triangles. Messages call the file `name`; buffers and images
-/// beside it are read from `folder` alone.
-Result<GltfSource> parseGltf(std::string_view bytes, std::string_view name,
-                             const std::filesystem::path& folder);
+/// none has; its vertices are those of the primitives, one after another, in the scene's space.
+/// Quads are recovered from triangles. Messages call the file `name`; buffers and images beside it
+/// are read from `folder` alone, and none if that is empty.
+Result<RigSource> parseGltf(std::string_view bytes, std::string_view name,
+                            const std::filesystem::path& folder);
 
 /// What formatGlb writes.
 struct GlbOptions {
   Index lod = 0;              ///< 0: the source's vertices in their order; N: every edge cut into N
   bool morphNormals = false;  ///< normals of the morph targets too
   bool quantize = false;      ///< KHR_mesh_quantization
-  Weights weights;            ///< at which the face is shown; empty: all 0
+  Weights weights{};          ///< at which the face is shown; empty: as its scene says, else all 0
   /// An animation of the weights, or null. Every law is held exactly by its keys.
   const Motion* motion = nullptr;
-  int sampledKeys = 0;  ///< > 0: so many linear keys instead, for tools that ignore tangents
+  /// Instead of a motion: a key a frame with straight lines between them. Its names are the rig's
+  /// targets.
+  const Clip* clip = nullptr;
+  std::string animationName{};  ///< the law's, or "clip", if empty
 };
 
 /// A GLB of the rig with its targets as morph targets, in the scene that came with it if it has

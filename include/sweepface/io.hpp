@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "sweepface/mesh.hpp"
 #include "sweepface/result.hpp"
@@ -30,6 +31,19 @@ using ReadProgress = std::function<void(std::size_t done, std::size_t total)>;
 Result<MeshRig> readRig(const std::filesystem::path& neutral,
                         std::span<const std::filesystem::path> targets,
                         const ReadProgress& progress = {});
+
+/// A rig as files hold it, and what else they hold.
+struct RigSource {
+  MeshRig rig;
+  /// A GLB of what the file holds besides the rig (docs/glb.md); empty for files without a scene.
+  std::string scene;
+  std::vector<std::string> warnings;  ///< what could not be carried over, in sentences
+};
+
+/// The same from any files: a .glb or .gltf alone, which holds its targets, or as readRig does.
+Result<RigSource> readSource(const std::filesystem::path& neutral,
+                             std::span<const std::filesystem::path> targets,
+                             const ReadProgress& progress = {});
 
 /// What formatObj writes.
 struct ObjOutput {

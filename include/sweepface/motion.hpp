@@ -74,7 +74,7 @@ class Motion {
  private:
   Motion() = default;
   MotionSample sampleAt(std::size_t weight, const Progress& done) const noexcept;
-  void write(double MotionSample::*what, double time, std::span<double> out) const noexcept;
+  void write(double MotionSample::* what, double time, std::span<double> out) const noexcept;
 
   std::vector<double> from_, to_;  // [K]
   TimeLaw law_ = TimeLaw::linear;

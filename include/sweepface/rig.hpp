@@ -32,9 +32,9 @@ struct SourceMesh {
 
 /// How a file holds the vectors of a rig (docs/file-format.md): as whole multiples of steps, each
 /// beyond what its neighbours and mirror images predict. The fit chooses it and `decode` tells what
-/// it found; `encode` chooses where nothing is chosen.
+/// it found. Vectors that are none, and all where there are no steps, are held as they are.
 struct Packing {
-  double neutralStep = 0, targetStep = 0;  ///< model units; 0: not chosen
+  double neutralStep = 0, targetStep = 0;  ///< model units; 0: no steps
   int axis = 0;                            ///< 0, 1, 2: the mirror lies across x, y, z
   /// Half-arcs that mirror each other, each with its patch on the left; one pair for every part of
   /// the wireframe that has a mirror image.
@@ -51,6 +51,17 @@ struct Packing {
   friend bool operator==(const Packing&, const Packing&) = default;
 };
 
+/// What a drawing calls its things (docs/wire-format.md): a name each, empty for those without one,
+/// or no list at all where nothing has a name.
+struct Names {
+  std::string units;  ///< of all coordinates, e.g. cm; empty where nobody said
+  std::vector<std::string> nodes, curves, patches, ribbons;
+  friend bool operator==(const Names&, const Names&) = default;
+};
+
+/// What has a name, or is called by a letter and its number: n5, c12, p0, r3.
+enum class Thing { node, curve, patch, ribbon };
+
 /// A neutral model and its targets over one wireframe.
 struct Rig {
   Surface surface;
@@ -61,12 +72,21 @@ struct Rig {
   /// A GLB of what the source's scene held besides the rig (docs/glb.md), or empty. Opaque to what
   /// plays.
   std::string scene;
+  Names names{};
 
   Packing packing;
 
   /// Index of a target by its name, or -1.
   Index find(std::string_view name) const;
+  /// The name of a thing, or its letter and number.
+  std::string nameOf(Thing thing, Index index) const;
+  /// A thing by its name, by its letter and number, or by its number alone. The error says what
+  /// there is.
+  Result<Index> find(Thing thing, std::string_view name) const;
 };
+
+/// The target of a name; the error says which there are.
+Result<Index> findTarget(const Rig& rig, std::string_view name);
 
 /// A weight for every target.
 using Weights = std::vector<double>;
@@ -80,6 +100,7 @@ Result<Weights> parseWeights(const Rig& rig, std::string_view text);
 void blend(const Rig& rig, std::span<const double> weights, std::span<Vec3> vectors);
 std::vector<Vec3> blend(const Rig& rig, std::span<const double> weights);
 /// The loose vertices under the same weights.
+void blendLoose(const Rig& rig, std::span<const double> weights, std::span<Vec3> loose);
 std::vector<Vec3> blendLoose(const Rig& rig, std::span<const double> weights);
 
 }  // namespace sweepface

@@ -24,8 +24,9 @@ struct Kind {
 /// The registry: in the order in which chunks stand in a file of each version. A code never changes
 /// its meaning. One that begins with a capital is required: who does not know it must refuse the
 /// file.
-inline constexpr std::array<Kind, 11> kKinds1{{{"HEAD", "container"},
+inline constexpr std::array<Kind, 14> kKinds1{{{"HEAD", "container"},
                                                {"WIRE", "wireframe"},
+                                               {"CREA", "wireframe"},
                                                {"SHAP", "shape parameters"},
                                                {"NEUT", "neutral"},
                                                {"TARG", "targets"},
@@ -34,12 +35,15 @@ inline constexpr std::array<Kind, 11> kKinds1{{{"HEAD", "container"},
                                                {"poly", "polygons"},
                                                {"texc", "texture coordinates"},
                                                {"quad", "quad corners"},
+                                               {"scen", "scene"},
+                                               {"name", "names"},
                                                {"END ", "container"}}};
-inline constexpr std::array<Kind, 15> kKinds2{{{"BASE", "container"},
+inline constexpr std::array<Kind, 18> kKinds2{{{"BASE", "container"},
                                                {"GRID", "wireframe"},
-                                               {"NAME", "names"},
+                                               {"TNAM", "names"},
                                                {"REST", "neutral"},
                                                {"MOVE", "targets"},
+                                               {"EXAC", "exact vectors"},
                                                {"loos", "loose vertices"},
                                                {"drif", "loose vertices"},
                                                {"walk", "source order"},
@@ -49,6 +53,8 @@ inline constexpr std::array<Kind, 15> kKinds2{{{"BASE", "container"},
                                                {"text", "texture coordinates"},
                                                {"texc", "texture coordinates"},
                                                {"quad", "quad corners"},
+                                               {"scen", "scene"},
+                                               {"name", "names"},
                                                {"END ", "container"}}};
 
 /// The kinds of a version.

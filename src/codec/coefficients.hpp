@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdlib>
 #include <vector>
 
@@ -40,7 +41,10 @@ template <typename Coder>
 class CoefficientCoder {
  public:
   CoefficientCoder(const Hierarchy& hierarchy, Coder& coder, int axis)
-      : h_(hierarchy), axis_(axis), model_(coder, kSlots, kSets, kInputs) {
+      : h_(hierarchy),
+        axis_(axis),
+        mask_(slotsFor(hierarchy.steps().size()) - 1),
+        model_(coder, mask_ + 1, kSets, kInputs) {
     const std::size_t sites = h_.sites().size();
     active_.resize(sites);
     below_.resize(sites);
@@ -86,9 +90,12 @@ class CoefficientCoder {
   }
 
  private:
-  static constexpr std::size_t kSlots = std::size_t{1} << 18;
+  // Enough that contexts hardly ever share one, and no more than a small rig needs.
+  static std::uint32_t slotsFor(std::size_t vectors) {
+    return static_cast<std::uint32_t>(
+        std::bit_ceil(std::clamp<std::size_t>(32 * vectors, 1 << 10, 1 << 18)));
+  }
   static constexpr int kInputs = 6, kPhases = 6, kSets = 512;
-  static constexpr std::uint32_t kMask = kSlots - 1;
 
   enum BitKind { kAny, kBelow, kVector, kZero, kSign, kMore };
 
@@ -133,7 +140,7 @@ class CoefficientCoder {
   }
   bool bit(BitKind kind, int sub, bool value, std::array<std::uint32_t, kInputs> contexts) {
     for (int k = 0; k < kInputs; ++k)
-      contexts[k] = hash(contexts[k] * kInputs + k, kind * 64 + sub) & kMask;
+      contexts[k] = hash(contexts[k] * kInputs + k, kind * 64 + sub) & mask_;
     return model_.code(value, contexts, (phase_ * 6 + kind) * 8 + std::min(sub, 7));
   }
 
@@ -268,6 +275,7 @@ class CoefficientCoder {
 
   const Hierarchy& h_;
   int axis_;
+  std::uint32_t mask_;  // of slots
   Model<Coder> model_;
   std::uint32_t phase_ = 0;
   std::vector<char> active_, below_;  // [sites]

@@ -1,16 +1,14 @@
 #include <algorithm>
-#include <span>
+#include <bit>
 
 #include "sweepface/codec.hpp"
 
 #include "codec/blocks.hpp"
 #include "codec/chunks.hpp"
-#include "codec/faces.hpp"
+#include "codec/encoding.hpp"
 #include "codec/lattice.hpp"
-#include "codec/limits.hpp"
 #include "codec/names.hpp"
-#include "codec/source_coder.hpp"
-#include "codec/wire_version1.hpp"
+#include "codec/pose_form.hpp"
 #include "codec/wireframe_coder.hpp"
 
 namespace sweepface {
@@ -29,44 +27,104 @@ std::string base(const Rig& rig, const Packing& packing) {
 }
 
 std::string grid(const Wireframe& wireframe, const Packing& packing) {
-  RangeEncoder coder;
-  Symbols<RangeEncoder> out(coder);
-  writeWireframe(out, wireframe);
-  const auto halves = static_cast<std::uint32_t>(2 * wireframe.arcs.size());
-  out.index(kMirrorAxis, 3, static_cast<std::uint32_t>(packing.axis));
-  out.number(kMirrorCount, 0, 0, packing.mirror.size());
-  for (const auto& pair : packing.mirror)
-    for (const HalfArc h : pair) out.index(kMirrorArc, halves, static_cast<std::uint32_t>(h));
-  return coder.finish();
+  return ranged([&](auto& out) {
+    writeWireframe(out, wireframe);
+    const auto halves = static_cast<std::uint32_t>(2 * wireframe.arcs.size());
+    out.index(kMirrorAxis, 3, static_cast<std::uint32_t>(packing.axis));
+    out.number(kMirrorCount, 0, 0, packing.mirror.size());
+    for (const auto& pair : packing.mirror)
+      for (const HalfArc h : pair) out.index(kMirrorArc, halves, static_cast<std::uint32_t>(h));
+  });
 }
 
-std::string names(const std::vector<Target>& targets) {
-  RangeEncoder coder;
-  Symbols<RangeEncoder> out(coder);
-  for (const Target& target : targets) codeName(out, target.name);
-  return coder.finish();
+std::string targetNames(const std::vector<Target>& targets) {
+  return ranged([&](auto& out) {
+    for (const Target& target : targets) codeName(out, target.name);
+  });
 }
+
+const std::vector<Vec3>& vectorsOf(const Rig& rig, Index pose) {
+  return pose == 0 ? rig.neutral : rig.targets[pose - 1].difference;
+}
+
+bool isSame(const Vec3& a, const Vec3& b) {
+  const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x); };
+  return bits(a.x) == bits(b.x) && bits(a.y) == bits(b.y) && bits(a.z) == bits(b.z);
+}
+
+// The coefficients of all poses and the vectors that they do not give.
+struct Poses {
+  std::vector<Coefficients> coefficients;
+  std::vector<std::vector<Index>> exact;
+
+  Poses(const Rig& rig, const Packing& packing, const Lattice& lattice) {
+    for (Index pose = 0; pose < static_cast<Index>(packing.poses.size()); ++pose) {
+      const std::vector<Vec3>& vectors = vectorsOf(rig, pose);
+      const double step = stepOf(packing, pose);
+      Coefficients q(vectors.size());
+      if (step > 0) q = lattice.round(vectors, step);
+      std::vector<Index> other = differing(vectors, q, lattice, step);
+      // Where hardly anything is a multiple of the steps these only cost.
+      if (step > 0 && 2 * other.size() > vectors.size()) {
+        q.assign(vectors.size(), Steps3{});
+        other = differing(vectors, q, lattice, step);
+      }
+      coefficients.push_back(std::move(q));
+      exact.push_back(std::move(other));
+    }
+  }
+
+ private:
+  static std::vector<Index> differing(const std::vector<Vec3>& vectors, const Coefficients& q,
+                                      const Lattice& lattice, double step) {
+    std::vector<Vec3> restored(vectors.size());
+    lattice.restore(q, step, restored);
+    std::vector<Index> result;
+    for (Index v = 0; v < static_cast<Index>(vectors.size()); ++v)
+      if (!isSame(vectors[v], restored[v])) result.push_back(v);
+    return result;
+  }
+};
 
 // Poses from `first` up to `end`, 0 the neutral.
-std::string poses(const Rig& rig, const Packing& packing, const Lattice& lattice, Index first,
-                  Index end) {
+std::string writePoses(Poses& poses, const Packing& packing, const Lattice& lattice, Index first,
+                       Index end) {
   RangeEncoder coder;
   Symbols<RangeEncoder> out(coder);
   CoefficientCoder<RangeEncoder> vectors(lattice.hierarchy(), coder, lattice.axis());
-  std::vector<Coefficients> all(end);
   for (Index pose = first; pose < end; ++pose) {
     Packing::Pose form = packing.poses[pose];
     codePose(out, form, pose);
-    all[pose] = lattice.round(pose == 0 ? rig.neutral : rig.targets[pose - 1].difference,
-                              stepOf(packing, pose));
-    vectors.code(all[pose], symmetryOf(form, pose), partnerOf(packing, all, pose), pose == 0);
+    vectors.code(poses.coefficients[pose], symmetryOf(form, pose),
+                 partnerOf(packing, poses.coefficients, pose), pose == 0);
   }
   return coder.finish();
 }
 
-std::string vectors(const std::vector<Vec3>& vectors, Precision precision) {
+std::string exactVectors(const Rig& rig, const Poses& poses) {
   Writer out;
-  writeVectors(out, vectors, precision);
+  Index before = -1;
+  for (Index pose = 0; pose < static_cast<Index>(poses.exact.size()); ++pose) {
+    const std::vector<Index>& places = poses.exact[pose];
+    if (places.empty()) continue;
+    out.number(static_cast<std::uint64_t>(pose - before - 1));
+    before = pose;
+    out.number(places.size());
+    Index last = -1;
+    std::vector<Vec3> values;
+    for (const Index v : places) {
+      out.signedNumber(v - last - 1);
+      last = v;
+      values.push_back(vectorsOf(rig, pose)[v]);
+    }
+    writeVectors(out, values, Precision::exact);
+  }
+  return out.take();
+}
+
+std::string looseVertices(const std::vector<Vec3>& loose) {
+  Writer out;
+  writeVectors(out, loose, Precision::exact);
   return out.take();
 }
 
@@ -76,107 +134,16 @@ std::string drift(const std::vector<Target>& targets) {
   return out.take();
 }
 
-std::string sourceOrder(const std::vector<Index>& gridVertex) {
+std::string scene(std::string_view glb) {
   Writer out;
-  out.number(gridVertex.size());
-  Index last = -1;
-  for (Index v : gridVertex) {
-    out.signedNumber(v - std::int64_t{last} - 1);
-    last = v;
-  }
+  out.text(glb);
   return out.take();
 }
 
-bool hasFaces(const Polygons& polygons) {
-  return polygons.faceCount() > 0 || !polygons.materials.empty() || !polygons.groups.empty() ||
-         !polygons.materialFiles.empty();
-}
-
-std::string polygons(const Polygons& polygons) {
+std::string thingNames(const Names& names) {
   Writer out;
-  std::vector<Index> sizes;
-  for (Index f = 0; f < polygons.faceCount(); ++f) sizes.push_back(polygons.faceSize(f));
-  writeRuns(out, sizes);
-  Index last = 0;
-  for (Index v : polygons.corners) {
-    out.signedNumber(v - std::int64_t{last});
-    last = v;
-  }
-  writeTexts(out, polygons.materials);
-  writeRuns(out, polygons.faceMaterial);
-  writeTexts(out, polygons.groups);
-  writeRuns(out, polygons.faceGroup);
-  writeTexts(out, polygons.materialFiles);
+  writeNames(out, names);
   return out.take();
-}
-
-std::string texcoords(const Polygons& polygons) {
-  Writer out;
-  out.number(polygons.texcoords.size());
-  writeVectors(out, polygons.texcoords, Precision::exact);
-  out.byte(!polygons.cornerTexcoords.empty());
-  Index last = -1;
-  for (Index t : polygons.cornerTexcoords) {
-    out.signedNumber(t - std::int64_t{last});
-    last = t;
-  }
-  return out.take();
-}
-
-// A quad that goes once around a face of four corners is told by its first one alone.
-std::string quadCorners(const SourceMesh& source) {
-  Writer out;
-  Index last = 0;
-  for (std::size_t q = 0; q + 4 <= source.quadCorners.size(); q += 4) {
-    const Index* corner = &source.quadCorners[q];
-    const std::int64_t step = corner[0] - std::int64_t{last};
-    const bool whole =
-        std::ranges::equal(aroundQuad(source.polygons, corner[0]), std::span(corner, 4));
-    out.signedNumber(2 * step + !whole);
-    for (int k = 1; k < 4 && !whole; ++k) out.signedNumber(corner[k] - std::int64_t{corner[k - 1]});
-    last = corner[0];
-  }
-  return out.take();
-}
-
-template <typename Write>
-std::string ranged(Write write) {
-  RangeEncoder coder;
-  Symbols<RangeEncoder> out(coder);
-  write(out);
-  return coder.finish();
-}
-
-// By the grid of the patches, unless that is so large that a reader would not trust so few bytes.
-void writeSource(Writer& out, const Rig& rig, int textureBits) {
-  const SourceMesh& source = rig.source;
-  const Polygons& faces = source.polygons;
-  const std::size_t quads = gridQuads(rig.surface.wireframe());
-  const auto trusted = [&](const std::string& bytes) {
-    return quads <= within(kMostQuads, kQuadsAByte, kQuadsAnyway, bytes.size());
-  };
-  std::string order, polygonBytes;
-  bool byGrid = quads <= kMostQuads;
-  if (byGrid) {
-    const LevelOne grid(rig.surface);
-    order = ranged([&](auto& symbols) { writeOrder(symbols, grid, source); });
-    polygonBytes = ranged([&](auto& symbols) { writeFaces(symbols, grid, source); });
-    byGrid = trusted(order) && trusted(polygonBytes);
-  }
-  if (!source.gridVertex.empty())
-    byGrid ? writeChunk(out, "walk", order)
-           : writeChunk(out, "ordr", sourceOrder(source.gridVertex));
-  if (hasFaces(faces))
-    byGrid ? writeChunk(out, "face", polygonBytes) : writeChunk(out, "poly", polygons(faces));
-  if (!faces.texcoords.empty() || !faces.cornerTexcoords.empty()) {
-    if (textureBits > 0)
-      writeChunk(out, "text",
-                 ranged([&](auto& symbols) { writeTexture(symbols, faces, textureBits); }));
-    else
-      writeChunk(out, "texc", texcoords(faces));
-  }
-  if (!source.quadCorners.empty() && !(byGrid && hasFaces(faces)))
-    writeChunk(out, "quad", quadCorners(source));
 }
 
 }  // namespace
@@ -184,23 +151,26 @@ void writeSource(Writer& out, const Rig& rig, int textureBits) {
 
 std::string encode(const Rig& rig) {
   using namespace codec;
-  const SourceMesh& source = rig.source;
   Writer out;
   writeHeader(out);
-  const Packing packing = completed(rig);
+  const Packing packing = sound(rig);
   const Lattice lattice(rig.surface, packing);
+  Poses poses(rig, packing, lattice);
+  const auto count = static_cast<Index>(packing.poses.size());
   writeChunk(out, "BASE", base(rig, packing));
   writeChunk(out, "GRID", grid(rig.surface.wireframe(), packing));
-  if (!rig.targets.empty()) writeChunk(out, "NAME", names(rig.targets));
-  writeChunk(out, "REST", poses(rig, packing, lattice, 0, 1));
-  if (!rig.targets.empty())
-    writeChunk(out, "MOVE",
-               poses(rig, packing, lattice, 1, static_cast<Index>(rig.targets.size()) + 1));
-  if (!source.loose.empty()) {
-    writeChunk(out, "loos", vectors(source.loose, Precision::exact));
-    if (!rig.targets.empty()) writeChunk(out, "drif", drift(rig.targets));
+  if (count > 1) writeChunk(out, "TNAM", targetNames(rig.targets));
+  writeChunk(out, "REST", writePoses(poses, packing, lattice, 0, 1));
+  if (count > 1) writeChunk(out, "MOVE", writePoses(poses, packing, lattice, 1, count));
+  if (const std::string exact = exactVectors(rig, poses); !exact.empty())
+    writeChunk(out, "EXAC", exact);
+  if (!rig.source.loose.empty()) {
+    writeChunk(out, "loos", looseVertices(rig.source.loose));
+    if (count > 1) writeChunk(out, "drif", drift(rig.targets));
   }
   writeSource(out, rig, packing.textureBits);
+  if (!rig.scene.empty()) writeChunk(out, "scen", scene(rig.scene));
+  if (hasNames(rig.names)) writeChunk(out, "name", thingNames(rig.names));
   writeChunk(out, "END ", {});
   return out.take();
 }

@@ -109,7 +109,8 @@ class HierarchyBuilder {
       if (c_.kinds[n] == NodeKind::irregular) siteOf_[n] = ofPoint[w_.nodes[n].point];
     for (Candidate& c : all_) {
       const Index image = mirror_.node[c.site.node];
-      c.image = image < 0 ? -1 : siteOf_[image];
+      const bool creased = c_.kinds[c.site.node] == NodeKind::creased;
+      c.image = image < 0 || creased ? -1 : siteOf_[image];
     }
     // A mirror is one only if it leads back.
     for (std::size_t s = 0; s < all_.size(); ++s) {
@@ -249,7 +250,7 @@ class HierarchyBuilder {
 
   // Only nodes that stand on lines through them can be taken out.
   bool isRemovable(const Candidate& c) const {
-    if (!c.alive || c.hub) return false;
+    if (!c.alive || c_.kinds[c.site.node] != NodeKind::crossing) return false;
     const Star& star = c_.stars[c.site.node];
     return star.closed ? star.arms.size() == 4 : star.sectors.size() == 2;
   }
@@ -412,7 +413,7 @@ class HierarchyBuilder {
         Terms terms;
         if (c_.kinds[site.node] == NodeKind::irregular)
           atHub(site, s, terms);
-        else
+        else if (c_.kinds[site.node] == NodeKind::crossing)
           atCrossing(site, s, terms);
         addStep(v, terms);
       }

@@ -109,22 +109,15 @@ void chooseImages(const Rig& rig, const Lattice& lattice, Packing& packing) {
   }
 }
 
-Packing completed(const Rig& rig) {
+Packing sound(const Rig& rig) {
   Packing packing = rig.packing;
-  const double tolerance = rig.tolerance > 0 ? rig.tolerance : 1e-4;
-  const bool fresh = packing.poses.empty();
-  if (!(packing.neutralStep > 0)) packing.neutralStep = tolerance / 4;
-  if (!(packing.targetStep > 0)) packing.targetStep = tolerance / 2;
-  if (fresh) {
-    const MirrorSeeds seeds = findMirror(rig.surface, rig.neutral);
-    packing.axis = seeds.axis;
-    packing.mirror = seeds.pairs;
-    chooseImages(rig, Lattice(rig.surface, packing), packing);
-  }
+  if (!(packing.neutralStep > 0) || !(packing.targetStep > 0))
+    packing.neutralStep = packing.targetStep = 0;
+  packing.axis = std::clamp(packing.axis, 0, 2);
   packing.poses.resize(rig.targets.size() + 1);
   for (Index pose = 0; pose < static_cast<Index>(packing.poses.size()); ++pose) {
     auto& [finer, image] = packing.poses[pose];
-    finer = std::clamp(finer, 0, 40);
+    finer = std::clamp(finer, 0, kMostFiner);
     if (image > pose || image < 0 || (image == 0 && pose > 0)) image = -1;
   }
   return packing;

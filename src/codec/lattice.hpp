@@ -39,9 +39,10 @@ inline double stepOf(const Packing& packing, Index pose) {
   return std::ldexp(pose == 0 ? packing.neutralStep : packing.targetStep, -finer);
 }
 
-/// Finishes a packing: steps from the tolerance where there are none, the mirror where no pose has
-/// been described yet, and for each pose the image that it is nearest to.
-Packing completed(const Rig& rig);
+inline constexpr int kMostFiner = 40;
+
+/// A rig's packing as a file can hold it, with a form for every pose.
+Packing sound(const Rig& rig);
 
 /// For each pose the mirror image that leaves least to be told: none, its own, or that of the
 /// target whose name says the other side.

@@ -73,7 +73,7 @@ class Symbols {
   }
 
  private:
-  static constexpr std::size_t kSlots = std::size_t{1} << 16, kSets = 64;
+  static constexpr std::size_t kSlots = std::size_t{1} << 14, kSets = 64;
 
   static std::uint32_t slot(std::uint32_t tag, std::uint32_t context, std::uint32_t input) {
     std::uint32_t x = (context * 3 + input) * 0x9e3779b1u + tag * 0x85ebca6bu;

@@ -40,7 +40,9 @@ enum Tag : std::uint32_t {
   kShapeSize = 31,
   kShapeLength = 33,
   kShapeRaw = 35,
-  kBorder = 36
+  kBorder = 36,
+  kHasCreases = 37,
+  kCrease = 38
 };
 
 class Sets {
@@ -504,6 +506,7 @@ class WireframeCoder {
     codeTurns(loops.bases);
     codePoints();
     codeRibbons();
+    codeCreases();
     if (s_.ok()) codeMasks();
     if (s_.ok()) codeShapes();
     return std::move(w_);
@@ -586,6 +589,15 @@ class WireframeCoder {
         kCounts, 2, 0, whole_ ? static_cast<Index>(whole_->ribbons.size()) - most - 1 : 0);
     if (extra > expected.size()) return s_.refuse("there are more ribbons than arcs");
     if (s_.ok()) w_.ribbons.resize(static_cast<std::size_t>(most) + 1 + extra);
+  }
+
+  void codeCreases() {
+    const bool any =
+        whole_ && std::ranges::find(whole_->arcs, true, &Arc::crease) != whole_->arcs.end();
+    if (!s_.bit(kHasCreases, 0, 0, any)) return;
+    bool last = false;
+    for (std::size_t a = 0; a < w_.arcs.size() && s_.ok(); ++a)
+      w_.arcs[a].crease = last = s_.bit(kCrease, last, 0, whole_ && whole_->arcs[a].crease);
   }
 
   // A set that is closed downwards, component by component.

@@ -105,9 +105,13 @@ std::vector<Vec3> Tessellation::positions(std::span<const Vec3> vectors) const {
   return out;
 }
 
+void Tessellation::normals(std::span<const Vec3> vectors, std::span<Vec3> out) const {
+  for (Index v = 0; v < vertexCount(); ++v) out[v] = surface_->normal(vectors, sites_[v]);
+}
+
 std::vector<Vec3> Tessellation::normals(std::span<const Vec3> vectors) const {
   std::vector<Vec3> out(vertexCount());
-  for (Index v = 0; v < vertexCount(); ++v) out[v] = surface_->normal(vectors, sites_[v]);
+  normals(vectors, out);
   return out;
 }
 

@@ -1,9 +1,11 @@
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "sweepface/eval.hpp"
 #include "sweepface/fit.hpp"
 
+#include "codec/utf8.hpp"
 #include "fit/quantise.hpp"
 #include "fit/refine.hpp"
 #include "fit/shapes.hpp"
@@ -54,6 +56,27 @@ Solution asStored(const Solution& solution) {
   return rounded;
 }
 
+/// A name as far as it can be shown.
+std::string printable(std::string name) {
+  for (char& c : name)
+    if (c < ' ' || c > '~') c = '?';
+  return "'" + name + "'";
+}
+
+/// Files tell targets apart by their names, which are UTF-8.
+Result<void> checkNames(const std::vector<MeshTarget>& targets) {
+  std::set<std::string_view> names;
+  for (const MeshTarget& target : targets) {
+    if (target.name.empty()) return fail("a target has no name; name it");
+    if (!codec::isUtf8(target.name))
+      return fail("the name of the target " + printable(target.name) +
+                  " has control characters or is not UTF-8; rename it");
+    if (!names.insert(target.name).second)
+      return fail("two targets are named " + printable(target.name) + "; rename one of them");
+  }
+  return {};
+}
+
 class Converter {
  public:
   Converter(const MeshRig& source, const ConvertOptions& options)
@@ -62,6 +85,7 @@ class Converter {
   Result<Conversion> run() {
     if (source_.neutral.positions.empty())
       return fail("the neutral has no vertices; there is no surface to fit");
+    if (auto ok = checkNames(source_.targets); !ok) return std::unexpected(ok.error());
     const double size = diagonal(source_.neutral);
     if (!(size > 0))
       return fail("all vertices of the neutral stand at one place; there is no surface to fit");
@@ -81,8 +105,8 @@ class Converter {
     Conversion conversion{assemble(*mesh, *solution, data), mesh->warnings};
     conversion.rig.tolerance = tolerance;
     report("packing", 0.95);
-    if (auto ok = quantise(conversion.rig, source_, tolerance,
-                           [&](double) { return !cancelled(); });
+    if (auto ok =
+            quantise(conversion.rig, source_, tolerance, [&](double) { return !cancelled(); });
         !ok)
       return std::unexpected(ok.error());
     report("done", 1);

@@ -8,7 +8,7 @@
 
 #include "sweepface/eval.hpp"
 
-#include "fit/source_data.hpp"
+#include "fit/vertex_normals.hpp"
 
 namespace sweepface {
 

@@ -4,23 +4,6 @@
 
 namespace sweepface {
 
-std::vector<Vec3> vertexNormals(const Polygons& polygons, std::span<const Vec3> positions,
-                                const std::vector<Index>& pointOf, Index pointCount) {
-  std::vector<Vec3> normals(pointCount);
-  for (Index f = 0; f < polygons.faceCount(); ++f) {
-    const Index begin = polygons.faceStart[f], size = polygons.faceSize(f);
-    for (Index k = 0; k < size; ++k) {
-      const Index v = polygons.corners[begin + k];
-      const Vec3& p = positions[v];
-      const Vec3 next = positions[polygons.corners[begin + (k + 1) % size]] - p;
-      const Vec3 last = positions[polygons.corners[begin + (k + size - 1) % size]] - p;
-      if (pointOf[v] >= 0) normals[pointOf[v]] += cross(next, last);
-    }
-  }
-  for (Vec3& n : normals) n = normalized(n);
-  return normals;
-}
-
 SourceData gatherSource(const MeshRig& rig, const GridMesh& mesh, double tolerance) {
   SourceData data;
   data.tolerance = tolerance;

@@ -5,6 +5,7 @@
 
 #include "sweepface/mesh.hpp"
 
+#include "fit/vertex_normals.hpp"
 #include "layout/layout.hpp"
 #include "mesh/grid_mesh.hpp"
 
@@ -36,12 +37,5 @@ struct SourceData {
 };
 
 SourceData gatherSource(const MeshRig& rig, const GridMesh& mesh, double tolerance);
-
-/// The vertex normals of one pose [V]: the sum of edge × edge over a vertex's face corners. On a
-/// regular grid this is the cross product of the central differences, so a smooth surface through
-/// the vertices has it too; weighting by angle or by whole faces differs from it by degrees on
-/// uneven meshes.
-std::vector<Vec3> vertexNormals(const Polygons& polygons, std::span<const Vec3> positions,
-                                const std::vector<Index>& pointOf, Index pointCount);
 
 }  // namespace sweepface

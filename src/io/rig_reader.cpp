@@ -5,6 +5,7 @@
 #include <system_error>
 #include <tbb/parallel_for.h>
 
+#include "sweepface/gltf.hpp"
 #include "sweepface/io.hpp"
 
 #include "io/target_shape.hpp"
@@ -28,7 +29,17 @@ bool isMesh(const fs::path& path) {
   return kind == ".obj" || kind == ".ply";
 }
 
+bool isGltf(const fs::path& path) {
+  const std::string kind = extension(path);
+  return kind == ".glb" || kind == ".gltf";
+}
+
 std::unexpected<Error> unknownKind(const fs::path& path) {
+  if (isGltf(path))
+    return fail(
+        fmt::format("{} cannot be read as one mesh of several; it holds a face and its "
+                    "expressions, so name it alone.",
+                    path.string()));
   return fail(fmt::format("{} is neither an .obj nor a .ply file; export the mesh as one of them.",
                           path.string()));
 }
@@ -146,6 +157,22 @@ Result<MeshRig> readRig(const fs::path& neutralPath, std::span<const fs::path> t
     rig.targets.push_back({std::move((*names)[i]), std::move(*read[i])});
   }
   return rig;
+}
+
+Result<RigSource> readSource(const fs::path& neutral, std::span<const fs::path> targets,
+                             const ReadProgress& progress) {
+  if (!isGltf(neutral)) {
+    auto rig = readRig(neutral, targets, progress);
+    if (!rig) return std::unexpected(rig.error());
+    return RigSource{std::move(*rig), {}, {}};
+  }
+  if (!targets.empty())
+    return fail(fmt::format("{} holds a face and its expressions; name it without {}.",
+                            neutral.string(), targets[0].string()));
+  const Result<std::string> bytes = readFile(neutral);
+  if (!bytes) return std::unexpected(bytes.error());
+  return parseGltf(*bytes, neutral.string(),
+                   neutral.has_parent_path() ? neutral.parent_path() : fs::path("."));
 }
 
 }  // namespace sweepface

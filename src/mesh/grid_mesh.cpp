@@ -1,42 +1,14 @@
 #include "mesh/grid_mesh.hpp"
 
 #include <algorithm>
-#include <bit>
-#include <map>
-#include <numeric>
-#include <unordered_map>
+#include <tuple>
 
 #include "mesh/union_find.hpp"
+#include "mesh/weld.hpp"
 
 namespace sweepface {
 
 namespace {
-
-// The first vertex that stands at the same place in the neutral and in every target.
-std::vector<Index> weld(const MeshRig& rig) {
-  const auto& positions = rig.neutral.positions;
-  struct Hash {
-    std::size_t operator()(const Vec3& p) const {
-      std::size_t h = 0;
-      for (double c : {p.x, p.y, p.z})
-        h = (h ^ std::bit_cast<std::uint64_t>(c + 0.0)) * 0x9e3779b97f4a7c15ull, h ^= h >> 29;
-      return h;
-    }
-  };
-  const auto same = [&](Index a, Index b) {
-    return std::all_of(rig.targets.begin(), rig.targets.end(),
-                       [&](const MeshTarget& t) { return t.positions[a] == t.positions[b]; });
-  };
-  std::unordered_map<Vec3, std::vector<Index>, Hash> seen;
-  std::vector<Index> first(positions.size());
-  for (Index v = 0; v < static_cast<Index>(positions.size()); ++v) {
-    auto& here = seen[positions[v]];
-    const auto match = std::find_if(here.begin(), here.end(), [&](Index w) { return same(v, w); });
-    first[v] = match == here.end() ? v : *match;
-    if (match == here.end()) here.push_back(v);
-  }
-  return first;
-}
 
 // A face corner with the welded vertex it stands at.
 struct Corner {
@@ -212,21 +184,6 @@ Result<GridMesh> build(const MeshRig& rig, const std::vector<Index>& first,
         plural(cutter.dropped, "face has", "faces have") +
         " fewer than three different corners and no surface; the source order keeps them.");
   return mesh;
-}
-
-// Separate sheets that merely touch must not be welded: they would meet in edges of three and more
-// faces. Takes apart what was welded at the ends of such edges; false if there was nothing to take
-// apart.
-bool takeApart(std::vector<Index>& first, const std::vector<std::pair<Index, Index>>& cut) {
-  std::vector<char> apart(first.size(), 0);
-  for (auto [a, b] : cut) apart[a] = apart[b] = 1;
-  bool any = false;
-  for (std::size_t v = 0; v < first.size(); ++v)
-    if (first[v] != static_cast<Index>(v) && apart[first[v]]) {
-      first[v] = static_cast<Index>(v);
-      any = true;
-    }
-  return any;
 }
 
 }  // namespace

@@ -108,7 +108,7 @@ MotionSample Motion::sample(std::size_t weight, double time) const noexcept {
   return sampleAt(weight, progress(law_, time / seconds_));
 }
 
-void Motion::write(double MotionSample::*what, double time, std::span<double> out) const noexcept {
+void Motion::write(double MotionSample::* what, double time, std::span<double> out) const noexcept {
   const Progress done = progress(law_, time / seconds_);
   const std::size_t count = std::min(size(), out.size());
   for (std::size_t k = 0; k < count; ++k) out[k] = sampleAt(k, done).*what;

@@ -77,7 +77,7 @@ Kinematics path::Bounces::at(double t) const noexcept {
   const double left = 1 - since * (1 - e) / first;  // eⁿ⁻¹ of the bounce, smoothly
   if (!(left > 0)) return {goal, 0, 0};
   const double n = std::floor(std::log(left) / std::log(e));
-  const double power = std::pow(e, n), began = first * (1 - power) / (1 - e);
+  const double power = std::exp(n * std::log(e)), began = first * (1 - power) / (1 - e);
   const double s = std::fmin(std::fmax(since - began, 0), first * power), up = -e * power * speed;
   return {goal + s * (up + s * fall.a / 2), up + s * fall.a, fall.a};
 }

@@ -1,5 +1,6 @@
 #include "sweepface/rig.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
@@ -23,6 +24,11 @@ std::string listNames(const Rig& rig) {
 
 }  // namespace
 
+Result<Index> findTarget(const Rig& rig, std::string_view name) {
+  if (const Index target = rig.find(name); target >= 0) return target;
+  return fail("there is no target named '" + std::string(name) + "'; " + listNames(rig));
+}
+
 Result<Weights> parseWeights(const Rig& rig, std::string_view text) {
   Weights weights(rig.targets.size(), 0.0);
   while (!text.empty()) {
@@ -32,9 +38,8 @@ Result<Weights> parseWeights(const Rig& rig, std::string_view text) {
     if (item.empty()) continue;
     const auto equals = item.rfind('=');
     const std::string_view name = item.substr(0, equals);
-    const Index target = rig.find(name);
-    if (target < 0)
-      return fail("there is no target named '" + std::string(name) + "'; " + listNames(rig));
+    const Result<Index> target = findTarget(rig, name);
+    if (!target) return std::unexpected(target.error());
     double value = 1;
     if (equals != std::string_view::npos) {
       const std::string digits(item.substr(equals + 1));
@@ -46,7 +51,7 @@ Result<Weights> parseWeights(const Rig& rig, std::string_view text) {
         return fail("the weight of '" + std::string(name) + "' must be a finite number, not '" +
                     digits + "'");
     }
-    weights[target] = value;
+    weights[*target] = value;
   }
   return weights;
 }
@@ -68,11 +73,16 @@ std::vector<Vec3> blend(const Rig& rig, std::span<const double> weights) {
   return vectors;
 }
 
-std::vector<Vec3> blendLoose(const Rig& rig, std::span<const double> weights) {
-  std::vector<Vec3> loose = rig.source.loose;
+void blendLoose(const Rig& rig, std::span<const double> weights, std::span<Vec3> loose) {
+  std::ranges::copy(rig.source.loose, loose.begin());
   for (std::size_t k = 0; k < rig.targets.size() && k < weights.size(); ++k)
     for (std::size_t v = 0; v < loose.size(); ++v)
       loose[v] += weights[k] * rig.targets[k].looseDifference[v];
+}
+
+std::vector<Vec3> blendLoose(const Rig& rig, std::span<const double> weights) {
+  std::vector<Vec3> loose(rig.source.loose.size());
+  blendLoose(rig, weights, loose);
   return loose;
 }
 

@@ -8,7 +8,8 @@
 
 namespace sweepface {
 
-/// The basis of every ribbon at every length that occurs, each solved once.
+/// The basis of every ribbon at every length that occurs. Ribbons of the same shape share theirs,
+/// and each is solved once.
 class BasisTable {
  public:
   /// Fails where a ribbon's shape parameters are refused at one of its lengths.
@@ -19,7 +20,11 @@ class BasisTable {
   const SweepBasis& operator[](Index basis) const { return bases_[basis]; }
 
  private:
-  std::vector<std::array<Index, 2>> keys_;  // sorted
+  using Key = std::array<Index, 2>;  // shape and length
+  Key keyOf(Index ribbon, Index edges) const { return {shapes_[ribbon], edges}; }
+
+  std::vector<Index> shapes_;  // [ribbons] the first ribbon of the same shape
+  std::vector<Key> keys_;      // sorted
   std::vector<SweepBasis> bases_;
 };
 

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "ode/power.hpp"
+
 namespace sweepface {
 
 namespace {
@@ -51,7 +53,7 @@ PlaneJet characteristicCorner(double start, double angle, double scale) {
       Complex sum = 0;
       for (int a = 0; a < 3; ++a)
         for (int b = 0; b < 3; ++b) sum += kParabola[i][a] * kParabola[j][b] * ring.at[a][b];
-      jet[3 * i + j] = sum * turn * std::pow(scale, 1 - i - j);
+      jet[3 * i + j] = sum * turn * ode::power(scale, 1 - i - j);
     }
   return jet;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ode/power.hpp"
 #include "surface/basis_table.hpp"
 #include "surface/jets.hpp"
 
@@ -142,7 +143,7 @@ Surface::Weights Surface::weights(const Site& site, const PatchBasis& basis, int
   const Frame& f = frames_[site.patch];
   const auto scaled = [](const SweepBasis& g, double t, Index edges, int order) {
     auto values = g.at(t / edges, order);
-    const double h = edges, unit = order == 0 ? 1 : order == 1 ? 1 / h : std::pow(h, -order);
+    const double h = edges, unit = ode::power(h, -order);
     for (int k = 0; k < 6; ++k) values[k] *= unit * (k % 3 == 0 ? 1 : k % 3 == 1 ? h : h * h);
     return values;
   };

@@ -1,6 +1,7 @@
 #include <map>
 #include <set>
 
+#include "sweepface/codec.hpp"
 #include "sweepface/fit.hpp"
 
 #include "../cli/lod_mesh.hpp"
@@ -154,6 +155,19 @@ TEST_F(Export, LeavesTheOldFileWhereItFails) {
   EXPECT_TRUE(fails("export face.sweep -o out.obj --lod 2 --source-order", "--lod", 2));
   EXPECT_EQ(contents(folder / "out.obj"), "old");
   EXPECT_EQ(contents(folder / "face.sweep"), face);
+}
+
+TEST_F(Export, NeedsPolygonsForFinerMeshes) {
+  convertRig();
+  auto rig = decode(contents(folder / "face.sweep"), "face.sweep");
+  ASSERT_TRUE(rig.has_value());
+  rig->source.quadCorners.clear();
+  folder.file("bare.sweep", encode(*rig));
+  EXPECT_TRUE(
+      fails("export bare.sweep -o out.obj --lod 2", "does not tell of its source's polygons"));
+  EXPECT_TRUE(fails("animate bare.sweep --to smile=1 -o frames --lod 2", "convert it again"));
+  EXPECT_EQ(run("export bare.sweep -o out.obj").code, 0);
+  EXPECT_EQ(run("export bare.sweep -o out.glb --lod 2").code, 0) << "polygons of the surface";
 }
 
 /// The points and lines of an OBJ text, by group.

@@ -154,6 +154,12 @@ inline Rig dressed(Rig rig) {
   return rig;
 }
 
+/// What a scene is does not matter here.
+inline Rig withScene(Rig rig) {
+  rig.scene = std::string("glTF\0\x02 anything", 15);
+  return rig;
+}
+
 /// Small rigs of every sort.
 inline std::vector<Rig> someRigs() {
   return {makeRig(onePatch(1, 1)),
@@ -164,7 +170,9 @@ inline std::vector<Rig> someRigs() {
           makeRig(fan(4)),
           dressed(makeRig(onePatch(2, 3))),
           dressed(makeRig(twoPatches())),
-          dressed(makeRig(slice()))};
+          dressed(makeRig(slice())),
+          withScene(makeRig(onePatch(1, 1))),
+          withScene(dressed(makeRig(onePatch(2, 3))))};
 }
 
 inline void expectEqual(const Polygons& a, const Polygons& b) {
@@ -184,6 +192,8 @@ inline void expectEqual(const Rig& a, const Rig& b) {
   EXPECT_EQ(a.neutral, b.neutral);
   EXPECT_EQ(a.targets, b.targets);
   EXPECT_EQ(a.tolerance, b.tolerance);
+  EXPECT_EQ(a.scene, b.scene);
+  EXPECT_EQ(a.names, b.names);
   EXPECT_EQ(a.source.gridVertex, b.source.gridVertex);
   EXPECT_EQ(a.source.loose, b.source.loose);
   EXPECT_EQ(a.source.quadCorners, b.source.quadCorners);

@@ -60,8 +60,10 @@ TEST_P(EveryLevel, takesVerticesOnArcsFromTheArcBitForBit) {
         for (Index k = 1; k < level * arc.edges; ++k) {
           if (arc.collapsed) continue;
           const Index a = step + k;
-          const Index v = s == 0 ? t.vertex(p, a, 0) : s == 1 ? t.vertex(p, m, a)
-                        : s == 2 ? t.vertex(p, m - a, n) : t.vertex(p, 0, n - a);
+          const Index v = s == 0   ? t.vertex(p, a, 0)
+                          : s == 1 ? t.vertex(p, m, a)
+                          : s == 2 ? t.vertex(p, m - a, n)
+                                   : t.vertex(p, 0, n - a);
           const double along = static_cast<double>(h & 1 ? level * arc.edges - k : k) / level;
           EXPECT_EQ(positions[v], surface.pointOnArc(pose, arcOf(h), along));
         }
@@ -90,8 +92,9 @@ TEST_P(EveryLevel, everyPatchPassesThroughItsVertices) {
   for (Index p = 0; p < surface.patchCount(); ++p)
     for (Index j = 0; j <= level * surface.edgesV(p); ++j)
       for (Index i = 0; i <= level * surface.edgesU(p); ++i)
-        EXPECT_LT(norm(surface.evaluate(pose, {p, 0.5 * i, 0.5 * j}) - positions[t.vertex(p, i, j)]),
-                  1e-12 * largest(pose));
+        EXPECT_LT(
+            norm(surface.evaluate(pose, {p, 0.5 * i, 0.5 * j}) - positions[t.vertex(p, i, j)]),
+            1e-12 * largest(pose));
 }
 
 TEST_P(EveryLevel, aFinerLevelKeepsTheCoarserVertices) {
@@ -124,8 +127,8 @@ TEST(Tessellation, numbersFacesPatchByPatchInRows) {
   for (Index p = 0; p < 2; ++p)
     for (Index j = 0; j < 2 * surface.edgesV(p); ++j)
       for (Index i = 0; i < 2 * surface.edgesU(p); ++i)
-        EXPECT_EQ(faces[face++], (std::array{t.vertex(p, i, j), t.vertex(p, i + 1, j), t.vertex(p, i + 1, j + 1),
-                                             t.vertex(p, i, j + 1)}));
+        EXPECT_EQ(faces[face++], (std::array{t.vertex(p, i, j), t.vertex(p, i + 1, j),
+                                             t.vertex(p, i + 1, j + 1), t.vertex(p, i, j + 1)}));
   EXPECT_EQ(face, faces.size());
 }
 

@@ -1,12 +1,11 @@
-#include "sweepface/fit.hpp"
-
 #include <tbb/global_control.h>
-
 #include <thread>
 
-#include "faces.hpp"
 #include "sweepface/codec.hpp"
 #include "sweepface/eval.hpp"
+#include "sweepface/fit.hpp"
+
+#include "faces.hpp"
 
 namespace sweepface {
 namespace {
@@ -21,10 +20,12 @@ double worstDistance(const Rig& rig, const MeshRig& source) {
   for (std::size_t pose = 0; pose <= source.targets.size(); ++pose) {
     Weights weights(source.targets.size(), 0);
     if (pose > 0) weights[pose - 1] = 1;
-    const auto& expected = pose == 0 ? source.neutral.positions : source.targets[pose - 1].positions;
+    const auto& expected =
+        pose == 0 ? source.neutral.positions : source.targets[pose - 1].positions;
     const auto positions = sourcePositions(rig, level1, blend(rig, weights), weights);
     if (positions.size() != expected.size()) return 1e300;
-    for (std::size_t v = 0; v < positions.size(); ++v) worst = std::max(worst, norm(positions[v] - expected[v]));
+    for (std::size_t v = 0; v < positions.size(); ++v)
+      worst = std::max(worst, norm(positions[v] - expected[v]));
   }
   return worst;
 }
@@ -133,7 +134,8 @@ TEST_P(Units, doNotMatter) {
     const auto conversion = convert(source);
     ASSERT_TRUE(conversion) << conversion.error().message;
     EXPECT_LE(worstDistance(conversion->rig, source), 0.0002 * diagonal(source.neutral));
-    EXPECT_EQ(conversion->rig.surface.patchCount(), convert(everyFace()[k].rig)->rig.surface.patchCount());
+    EXPECT_EQ(conversion->rig.surface.patchCount(),
+              convert(everyFace()[k].rig)->rig.surface.patchCount());
   }
 }
 
@@ -146,10 +148,10 @@ TEST(Convert, meetsItsToleranceFarFromTheOrigin) {
 
 TEST(Convert, copesWithASourceThatIsNoSurface) {
   PolygonMesh mesh = plane(6, 6);
-  mesh.positions[24] = mesh.positions[25];   // a quad becomes a triangle
+  mesh.positions[24] = mesh.positions[25];  // a quad becomes a triangle
   mesh.positions.push_back({3, 3, 9});
-  addFace(mesh, {10, 11, 49});               // a fin: three faces at an edge
-  addFace(mesh, {0, 1, 1});                  // no surface
+  addFace(mesh, {10, 11, 49});  // a fin: three faces at an edge
+  addFace(mesh, {0, 1, 1});     // no surface
   const MeshRig source = withTargets(mesh);
   const auto conversion = convert(source);
   ASSERT_TRUE(conversion) << conversion.error().message;
@@ -162,7 +164,8 @@ TEST(Convert, givesLooseVerticesBackExactly) {
   const Vec3 lonely{1.0 / 3, 1e-7, -123.456789};
   source.neutral.positions.insert(source.neutral.positions.begin() + 3, lonely);
   for (Index& c : source.neutral.polygons.corners) c += c >= 3;
-  for (MeshTarget& t : source.targets) t.positions.insert(t.positions.begin() + 3, lonely + Vec3{0.5, 0, 0.25});
+  for (MeshTarget& t : source.targets)
+    t.positions.insert(t.positions.begin() + 3, lonely + Vec3{0.5, 0, 0.25});
   ConvertOptions options;
   options.tolerance = 0.01;
   const auto conversion = convert(source, options);
@@ -180,7 +183,8 @@ TEST(Convert, ofASingleFaceWorks) {
     Loop face;
     for (Index k = 0; k < corners; ++k) {
       face.push_back(k);
-      mesh.positions.push_back({std::cos(turn(1.0 * k / corners)), std::sin(turn(1.0 * k / corners)), 0});
+      mesh.positions.push_back(
+          {std::cos(turn(1.0 * k / corners)), std::sin(turn(1.0 * k / corners)), 0});
     }
     addFace(mesh, face);
     const MeshRig source = withTargets(mesh, 1, 2);
@@ -223,10 +227,26 @@ TEST(Cancel, isHeardBetweenRounds) {
 TEST(Refusal, isASentenceOfWhatIsWrong) {
   MeshRig flat = withTargets(plane(2, 2), 0);
   for (Vec3& p : flat.neutral.positions) p = {1, 2, 3};
-  EXPECT_EQ(refusal(flat), "all vertices of the neutral stand at one place; there is no surface to fit");
+  EXPECT_EQ(refusal(flat),
+            "all vertices of the neutral stand at one place; there is no surface to fit");
   MeshRig faceless;
   faceless.neutral.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   EXPECT_EQ(refusal(faceless), "the mesh has no face with an area; nothing can be converted");
+}
+
+TEST(Refusal, ofNamesThatFilesCannotHold) {
+  const auto named = [](std::string_view first, std::string_view second) {
+    MeshRig rig = withTargets(plane(4, 4));
+    rig.targets[0].name = first, rig.targets[1].name = second;
+    return refusal(rig);
+  };
+  EXPECT_EQ(named("r\xC3\xA9sum\xC3\xA9", "\"quoted\""), "");
+  EXPECT_EQ(named("a", "sm\xEFle"),
+            "the name of the target 'sm?le' has control characters or is not UTF-8; rename it");
+  EXPECT_EQ(named("a\nb", "b"),
+            "the name of the target 'a?b' has control characters or is not UTF-8; rename it");
+  EXPECT_EQ(named("a", ""), "a target has no name; name it");
+  EXPECT_EQ(named("a", "a"), "two targets are named 'a'; rename one of them");
 }
 
 TEST(Refusal, ofAToleranceBelowTheFilesPrecision) {
@@ -236,7 +256,9 @@ TEST(Refusal, ofAToleranceBelowTheFilesPrecision) {
             "the tolerance could not be met everywhere; allow a larger one");
 }
 
-TEST(Diagonal, spansTheBoundingBox) { EXPECT_DOUBLE_EQ(diagonal(grid(3, 4, [](double x, double y) { return Vec3{x, y, 0}; })), 5); }
+TEST(Diagonal, spansTheBoundingBox) {
+  EXPECT_DOUBLE_EQ(diagonal(grid(3, 4, [](double x, double y) { return Vec3{x, y, 0}; })), 5);
+}
 
 }  // namespace
 }  // namespace sweepface

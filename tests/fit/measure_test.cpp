@@ -1,8 +1,9 @@
 #include "sweepface/measure.hpp"
 
-#include "faces.hpp"
 #include "sweepface/eval.hpp"
 #include "sweepface/fit.hpp"
+
+#include "faces.hpp"
 
 namespace sweepface {
 namespace {
@@ -39,7 +40,8 @@ TEST_P(EveryMeasure, findsNoDistanceToTheRigsOwnExport) {
   ASSERT_EQ(m->shapes.size(), 3u);
   for (const PoseErrors& e : m->shapes) EXPECT_EQ(e.distanceMax, 0) << e.name;
   ASSERT_EQ(m->mixtures.size(), 10u);
-  for (const PoseErrors& e : m->mixtures) EXPECT_LT(e.distanceMax, 1e-12 * diagonal(GetParam().rig.neutral)) << e.name;
+  for (const PoseErrors& e : m->mixtures)
+    EXPECT_LT(e.distanceMax, 1e-12 * diagonal(GetParam().rig.neutral)) << e.name;
   EXPECT_EQ(m->worst.distanceRms, 0);
 }
 
@@ -51,7 +53,8 @@ TEST_P(EveryMeasure, showsAKnownDisplacementAsThatDistance) {
   ASSERT_TRUE(m) << m.error().message;
   EXPECT_EQ(m->shapes[0].distanceMax, 0);
   EXPECT_EQ(m->shapes[1].distanceMax, 0);
-  for (double d : {m->shapes[2].distanceMax, m->shapes[2].distance999, m->shapes[2].distanceRms, m->worst.distanceMax})
+  for (double d : {m->shapes[2].distanceMax, m->shapes[2].distance999, m->shapes[2].distanceRms,
+                   m->worst.distanceMax})
     EXPECT_NEAR(d, 1.3, 1e-12);
   EXPECT_NEAR(m->worst.distanceRms, 1.3 / std::sqrt(3), 1e-12);
 }
@@ -69,7 +72,8 @@ TEST(Measure, findsNoAngleOnAPlane) {
 TEST(Measure, showsAKnownTiltAsThatAngle) {
   const auto tilted = [](double degrees) {
     const double a = degrees * std::numbers::pi / 180;
-    return grid(6, 5, [=](double x, double y) { return Vec3{x, y * std::cos(a), y * std::sin(a)}; });
+    return grid(6, 5,
+                [=](double x, double y) { return Vec3{x, y * std::cos(a), y * std::sin(a)}; });
   };
   const MeshRig flat{tilted(0), {}}, raised{tilted(5), {}};
   const auto m = measure(rigOf(flat), raised);
@@ -141,7 +145,8 @@ TEST(Measure, refusesWhatDoesNotBelongTogether) {
   EXPECT_EQ(measure(rig, renamed).error().message,
             "the model has no target named 'frown'; give the targets it was converted from");
   EXPECT_EQ(measure(rig, withTargets(plane(3, 3))).error().message,
-            "the neutral has 16 vertices, the model was made from 99; give the mesh it was converted from");
+            "the neutral has 16 vertices, the model was made from 99; give the mesh it was "
+            "converted from");
 }
 
 }  // namespace

@@ -1,10 +1,11 @@
 #include <tbb/global_control.h>
 
-#include "faces.hpp"
 #include "sweepface/codec.hpp"
 #include "sweepface/fit.hpp"
 #include "sweepface/io.hpp"
 #include "sweepface/measure.hpp"
+
+#include "faces.hpp"
 
 namespace sweepface {
 namespace {

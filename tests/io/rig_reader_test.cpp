@@ -135,7 +135,8 @@ TEST(MeshReader, TellsFormatsByExtension) {
   const TemporaryFolder folder;
   EXPECT_TRUE(readMesh(folder.file("a.Obj", triangle)).has_value());
   EXPECT_TRUE(readMesh(folder.file("a.PLY", trianglePly)).has_value());
-  EXPECT_TRUE(failsWith(readMesh(folder.file("a.glb", "x")), {"a.glb", "neither"}));
+  EXPECT_TRUE(failsWith(readMesh(folder.file("a.stl", "x")), {"a.stl", "neither"}));
+  EXPECT_TRUE(failsWith(readMesh(folder.file("a.glb", "x")), {"a.glb", "name it alone"}));
   EXPECT_TRUE(failsWith(readMesh(folder.file("b.ply", triangle)), {"b.ply", "'ply'"}));
   EXPECT_TRUE(failsWith(readMesh(folder / "none.obj"), {"none.obj", "no such file"}));
 }

@@ -103,7 +103,9 @@ TEST_P(EveryLayout, coversEveryQuadWhateverIsDamaged) {
   }
 }
 
-std::size_t patchCount(PolygonMesh mesh) { return Laid(MeshRig{std::move(mesh), {}}).patches().size(); }
+std::size_t patchCount(PolygonMesh mesh) {
+  return Laid(MeshRig{std::move(mesh), {}}).patches().size();
+}
 
 TEST(Layout, ofAPlaneIsOnePatch) { EXPECT_EQ(patchCount(plane()), 1u); }
 TEST(Layout, opensARing) { EXPECT_EQ(patchCount(cylinder()), 1u); }

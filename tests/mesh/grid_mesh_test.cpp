@@ -12,7 +12,8 @@ GridMesh gridOf(PolygonMesh mesh) { return gridOf(MeshRig{std::move(mesh), {}});
 
 Index openSides(const GridMesh& mesh) {
   Index count = 0;
-  for (std::size_t h = 0; h < mesh.twin.size(); ++h) count += mesh.twin[h] < 0 && !mesh.collapsed[h];
+  for (std::size_t h = 0; h < mesh.twin.size(); ++h)
+    count += mesh.twin[h] < 0 && !mesh.collapsed[h];
   return count;
 }
 
@@ -60,7 +61,8 @@ TEST(Welding, joinsVerticesThatStandTogetherInEveryPose) {
 
 TEST(Welding, leavesVerticesApartThatOneTargetParts) {
   MeshRig seam = withTargets(cylinder(12, 4, true));
-  for (std::size_t v = 0; v < seam.neutral.positions.size(); v += 13) seam.targets[1].positions[v].x += 1;
+  for (std::size_t v = 0; v < seam.neutral.positions.size(); v += 13)
+    seam.targets[1].positions[v].x += 1;
   EXPECT_EQ(gridOf(seam).pointCount(), 13 * 5);
   EXPECT_EQ(openSides(gridOf(seam)), 2 * 12 + 2 * 4);
 }
@@ -79,7 +81,8 @@ TEST(Cutting, turnsAPolygonIntoQuadsAndAtMostOneTriangle) {
     Loop face;
     for (Index k = 0; k < corners; ++k) {
       face.push_back(k);
-      mesh.positions.push_back({std::cos(turn(1.0 * k / corners)), std::sin(turn(1.0 * k / corners)), 0});
+      mesh.positions.push_back(
+          {std::cos(turn(1.0 * k / corners)), std::sin(turn(1.0 * k / corners)), 0});
     }
     addFace(mesh, face);
     const GridMesh result = gridOf(mesh);
@@ -112,7 +115,8 @@ TEST(Damage, aFaceOfTwoCornersHasNoSurfaceAndIsReported) {
   const GridMesh result = gridOf(mesh);
   EXPECT_EQ(result.quads.size(), 9u);
   ASSERT_EQ(result.warnings.size(), 1u);
-  EXPECT_TRUE(result.warnings[0].starts_with("2 faces have fewer than three")) << result.warnings[0];
+  EXPECT_TRUE(result.warnings[0].starts_with("2 faces have fewer than three"))
+      << result.warnings[0];
 }
 
 TEST(Damage, aRepeatedCornerIsCountedOnce) {
@@ -139,7 +143,8 @@ TEST(Damage, edgesOfThreeFacesAreCutAndReported) {
   EXPECT_EQ(result.quads.size(), 17u);
   EXPECT_EQ(openSides(result), 16 + 3 + 2);
   ASSERT_EQ(result.warnings.size(), 1u);
-  EXPECT_TRUE(result.warnings[0].starts_with("1 edge joins more than two faces")) << result.warnings[0];
+  EXPECT_TRUE(result.warnings[0].starts_with("1 edge joins more than two faces"))
+      << result.warnings[0];
 }
 
 TEST(Damage, aFaceTurnedOverIsCutOutAndReported) {

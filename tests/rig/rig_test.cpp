@@ -35,7 +35,8 @@ TEST(WeightText, takesTheLastEqualsSign) {
 TEST(WeightText, refusesWhatItDoesNotKnowAndSaysWhatThereIs) {
   EXPECT_EQ(refusal(named(), "jawopen=1"),
             "there is no target named 'jawopen'; its targets are jawOpen, a=b, rest");
-  EXPECT_EQ(refusal(named(), "jawOpen=1, rest=1"), "there is no target named ' rest'; its targets are jawOpen, a=b, rest");
+  EXPECT_EQ(refusal(named(), "jawOpen=1, rest=1"),
+            "there is no target named ' rest'; its targets are jawOpen, a=b, rest");
   Rig none = named();
   none.targets.clear();
   EXPECT_EQ(refusal(none, "x"), "there is no target named 'x'; this face has no targets");
@@ -83,8 +84,10 @@ TEST_P(Blend, commutesWithEvaluation) {
   const Rig r = rig();
   const Site site{0, 0.4 * r.surface.edgesU(0), 0.7 * r.surface.edgesV(0)};
   const auto at = [&](const Weights& w) { return r.surface.evaluate(blend(r, w), site); };
-  const Vec3 neutral = at({0, 0, 0}), open = at({1, 0, 0}) - neutral, wink = at({0, 1, 0}) - neutral;
-  EXPECT_LT(norm(at({0.3, 1.6, 0}) - (neutral + 0.3 * open + 1.6 * wink)), 1e-12 * (1 + norm(neutral)));
+  const Vec3 neutral = at({0, 0, 0}), open = at({1, 0, 0}) - neutral,
+             wink = at({0, 1, 0}) - neutral;
+  EXPECT_LT(norm(at({0.3, 1.6, 0}) - (neutral + 0.3 * open + 1.6 * wink)),
+            1e-12 * (1 + norm(neutral)));
 }
 
 TEST(BlendLoose, movesLooseVerticesByTheSameWeights) {

@@ -13,7 +13,8 @@ void expectNear(Complex a, Complex b) { EXPECT_LT(std::abs(a - b), 1e-12) << a <
 TEST(CharacteristicMap, isTheIdentityOnAValenceOfFour) {
   for (double scale : {1.0, 2.5}) {
     const PlaneJet jet = characteristicCorner(0, turn(0.25), scale);
-    for (std::size_t k = 0; k < 9; ++k) expectNear(jet[k], k == 3 ? Complex(1) : k == 1 ? Complex(0, 1) : Complex(0));
+    for (std::size_t k = 0; k < 9; ++k)
+      expectNear(jet[k], k == 3 ? Complex(1) : k == 1 ? Complex(0, 1) : Complex(0));
     const auto spoke = characteristicSpoke(0, turn(0.25), scale);
     expectNear(spoke[0], 1);
     expectNear(spoke[1], 0);
@@ -25,7 +26,8 @@ INSTANTIATE_TEST_SUITE_P(CharacteristicMap, Valence, ::testing::Values(3, 4, 5, 
 
 TEST_P(Valence, turnsFromSectorToSector) {
   const double step = turn(1.0 / GetParam());
-  const PlaneJet first = characteristicCorner(0, step, 1.5), second = characteristicCorner(step, step, 1.5);
+  const PlaneJet first = characteristicCorner(0, step, 1.5),
+                 second = characteristicCorner(step, step, 1.5);
   for (std::size_t k = 0; k < 9; ++k) expectNear(second[k], std::polar(1.0, step) * first[k]);
 }
 
@@ -64,7 +66,8 @@ void expectAffineStar(const Surface& surface, Index node) {
   const Vec3 a = along(0), b = (along(1) - std::cos(step) * a) * (1 / std::sin(step));
   for (std::size_t k = 2; k < star.arms.size(); ++k) {
     const double angle = step * static_cast<double>(k);
-    EXPECT_LT(norm(along(k) - std::cos(angle) * a - std::sin(angle) * b), 1e-12 * largest(pose)) << "arm " << k;
+    EXPECT_LT(norm(along(k) - std::cos(angle) * a - std::sin(angle) * b), 1e-12 * largest(pose))
+        << "arm " << k;
   }
 }
 
@@ -74,7 +77,8 @@ TEST(Spokes, leaveAnIrregularNodeAsAnAffineStar) {
     int seen = 0;
     for (Index n = 0; n < static_cast<Index>(surface.wireframe().nodes.size()); ++n) {
       const Star& star = surface.connectivity().stars[n];
-      const bool pole = std::ranges::any_of(star.arms, [&](HalfArc h) { return surface.wireframe().arcs[arcOf(h)].collapsed; });
+      const bool pole = std::ranges::any_of(
+          star.arms, [&](HalfArc h) { return surface.wireframe().arcs[arcOf(h)].collapsed; });
       if (surface.connectivity().kinds[n] != NodeKind::irregular || !star.closed || pole) continue;
       ++seen;
       expectAffineStar(surface, n);

@@ -18,7 +18,8 @@ TEST(Joins, areC2ForAnyPoseOfAnyLayout) {
       if (join.joinClass != JoinClass::c2) continue;
       ++smooth;
       const Arc& arc = surface.wireframe().arcs[a];
-      for (Index node : {arc.from, arc.to}) onTNodes += surface.connectivity().kinds[node] == NodeKind::hanging;
+      for (Index node : {arc.from, arc.to})
+        onTNodes += surface.connectivity().kinds[node] == NodeKind::hanging;
       EXPECT_LE(join.firstJump, 1e-9) << "arc " << a;
       EXPECT_LE(join.secondJump, 1e-9) << "arc " << a;
     }
@@ -29,7 +30,8 @@ TEST(Joins, areC2ForAnyPoseOfAnyLayout) {
 
 TEST(Joins, knowTheirClass) {
   const Surface two = Surface::make(twoPatches()).value();
-  for (Index a = 0; a < 7; ++a) EXPECT_EQ(joinClass(two, a), a == 5 ? JoinClass::c2 : JoinClass::boundary);
+  for (Index a = 0; a < 7; ++a)
+    EXPECT_EQ(joinClass(two, a), a == 5 ? JoinClass::c2 : JoinClass::boundary);
   const Surface cube = surfaceOf(MeshRig{cubeSphere(2), {}});
   for (Index a = 0; a < 12; ++a) EXPECT_EQ(joinClass(cube, a), JoinClass::spoke);
 }

@@ -5,8 +5,10 @@ namespace {
 
 using namespace sweepface::testing;
 
-bool same(const Surface& a, const std::vector<Vec3>& x, const Surface& b, const std::vector<Vec3>& y, Index patch) {
-  return std::ranges::all_of(sitesOf(a, patch), [&](const Site& s) { return a.evaluate(x, s) == b.evaluate(y, s); });
+bool same(const Surface& a, const std::vector<Vec3>& x, const Surface& b,
+          const std::vector<Vec3>& y, Index patch) {
+  return std::ranges::all_of(sitesOf(a, patch),
+                             [&](const Site& s) { return a.evaluate(x, s) == b.evaluate(y, s); });
 }
 
 // A chart's factors that should cancel leave traces of rounding, which own but move nothing.
@@ -43,7 +45,8 @@ std::set<Index> patchesOn(const Surface& surface, Index ribbon) {
   return result;
 }
 
-std::set<Index> changedByRibbon(const Surface& surface, const std::vector<Vec3>& pose, Index ribbon) {
+std::set<Index> changedByRibbon(const Surface& surface, const std::vector<Vec3>& pose,
+                                Index ribbon) {
   Wireframe edited = surface.wireframe();
   edited.ribbons[ribbon] = {1, -2, 0.5};
   const Surface other = Surface::make(edited).value();

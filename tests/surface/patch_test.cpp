@@ -27,7 +27,8 @@ struct CornerAxes {
   bool alphaIsU;
   double alphaSign, betaSign;
 };
-constexpr CornerAxes corners[4] = {{0, 0, true, 1, 1}, {1, 0, false, 1, -1}, {1, 1, true, -1, -1}, {0, 1, false, -1, 1}};
+constexpr CornerAxes corners[4] = {
+    {0, 0, true, 1, 1}, {1, 0, false, 1, -1}, {1, 1, true, -1, -1}, {0, 1, false, -1, 1}};
 
 TEST(Patch, reproducesPolynomialsOfDegreeFive) {
   Wireframe w = onePatch(3, 2);
@@ -41,19 +42,21 @@ TEST(Patch, reproducesPolynomialsOfDegreeFive) {
         const CornerAxes& c = corners[k];
         const JetRef ref = surface.cornerJet(0, k, i, j);
         const double sign = ref.sign * std::pow(c.alphaSign, i) * std::pow(c.betaSign, j);
-        pose[ref.vector] = sign * polynomial.at(3 * c.u, 2 * c.v, c.alphaIsU ? i : j, c.alphaIsU ? j : i);
+        pose[ref.vector] =
+            sign * polynomial.at(3 * c.u, 2 * c.v, c.alphaIsU ? i : j, c.alphaIsU ? j : i);
       }
   for (const Site& s : sitesOf(surface, 0))
     for (int du = 0; du < 4; ++du)
       for (int dv = 0; dv < 4; ++dv) {
         const Vec3 expected = polynomial.at(s.u, s.v, du, dv);
-        EXPECT_LT(norm(surface.evaluate(pose, s, du, dv) - expected), 1e-10 * (1 + norm(polynomial.at(3, 2, du, dv))))
+        EXPECT_LT(norm(surface.evaluate(pose, s, du, dv) - expected),
+                  1e-10 * (1 + norm(polynomial.at(3, 2, du, dv))))
             << s.u << ", " << s.v << " order " << du << ", " << dv;
       }
 }
 
-// φ = x^k (1 − x²)⁴ vanishes at ±1 with three derivatives: integrated by parts against it, the sixth
-// derivative of S becomes the second.
+// φ = x^k (1 − x²)⁴ vanishes at ±1 with three derivatives: integrated by parts against it, the
+// sixth derivative of S becomes the second.
 class TestFunction {
  public:
   explicit TestFunction(std::size_t k) : coefficients_(k + 9, 0) {
@@ -73,8 +76,8 @@ class TestFunction {
 
 class SweepingEquation : public ::testing::TestWithParam<Shape> {};
 INSTANTIATE_TEST_SUITE_P(Patch, SweepingEquation,
-                         ::testing::Values(Shape{1, 0, 0}, Shape{1, -0.5, 0.25}, Shape{2, -9, 4}, Shape{1, 0, 3},
-                                           Shape{1, -20, 0}, Shape{3, -1, 1e-9}));
+                         ::testing::Values(Shape{1, 0, 0}, Shape{1, -0.5, 0.25}, Shape{2, -9, 4},
+                                           Shape{1, 0, 3}, Shape{1, -20, 0}, Shape{3, -1, 1e-9}));
 
 TEST_P(SweepingEquation, holdsAlongEverySweep) {
   const auto [rho, eta, lambda] = GetParam();
@@ -88,12 +91,17 @@ TEST_P(SweepingEquation, holdsAlongEverySweep) {
       constexpr int steps = 4000;
       Vec3 residual, largest;
       for (int s = 0; s <= steps; ++s) {  // Simpson
-        const double x = 2.0 * s / steps - 1, weight = (s == 0 || s == steps ? 1 : s % 2 ? 4 : 2) / (1.5 * steps);
+        const double x = 2.0 * s / steps - 1, weight = (s == 0 || s == steps ? 1
+                                                        : s % 2              ? 4
+                                                                             : 2) /
+                                                       (1.5 * steps);
         const Vec3 second = surface.evaluate(pose, {0, 1.5 * (x + 1), v}, 2, 0);
-        const double f4 = phi.at(x, 4) / std::pow(1.5, 4), f2 = phi.at(x, 2) / std::pow(1.5, 2), f0 = phi.at(x, 0);
+        const double f4 = phi.at(x, 4) / std::pow(1.5, 4), f2 = phi.at(x, 2) / std::pow(1.5, 2),
+                     f0 = phi.at(x, 0);
         residual += weight * (rho * f4 + eta * f2 + lambda * f0) * second;
         const Vec3 size{std::abs(second.x), std::abs(second.y), std::abs(second.z)};
-        largest += weight * (rho * std::abs(f4) + std::abs(eta * f2) + lambda * std::abs(f0)) * size;
+        largest +=
+            weight * (rho * std::abs(f4) + std::abs(eta * f2) + lambda * std::abs(f0)) * size;
       }
       EXPECT_LT(norm(residual), 1e-8 * norm(largest));
     }
@@ -113,8 +121,9 @@ TEST(Derivatives, areThoseOfThePoints) {
         (alongU ? before.u : before.v) -= h;
         (alongU ? after.u : after.v) += h;
         const int lowU = du - alongU, lowV = dv - !alongU;
-        const Vec3 difference =
-            (surface.evaluate(pose, after, lowU, lowV) - surface.evaluate(pose, before, lowU, lowV)) * (0.5 / h);
+        const Vec3 difference = (surface.evaluate(pose, after, lowU, lowV) -
+                                 surface.evaluate(pose, before, lowU, lowV)) *
+                                (0.5 / h);
         EXPECT_LT(norm(surface.evaluate(pose, at, du, dv) - difference), 1e-5 * size) << du << dv;
       }
     }
@@ -157,7 +166,8 @@ TEST(Arcs, arePointsOfBothTheirPatches) {
         for (HalfArc h : {2 * a, 2 * a + 1})
           if (surface.connectivity().patchOf[h] >= 0) {
             const Site site = surface.siteOnArc(h, h & 1 ? w.arcs[a].edges - t : t);
-            EXPECT_LT(norm(surface.evaluate(pose, site) - point), 1e-12 * largest(pose)) << "arc " << a;
+            EXPECT_LT(norm(surface.evaluate(pose, site) - point), 1e-12 * largest(pose))
+                << "arc " << a;
           }
       }
   }
@@ -167,11 +177,13 @@ TEST(Linearity, aBlendOfPosesIsTheBlendOfTheirPoints) {
   for (const auto& [name, surface] : everySurface()) {
     const auto a = anyPose(surface), b = anyPose(surface, 1000), c = anyPose(surface, 2000);
     std::vector<Vec3> mixed(surface.vectorCount());
-    for (Index v = 0; v < surface.storedCount(); ++v) mixed[v] = 0.3 * a[v] + 1.7 * b[v] - 0.4 * c[v];
+    for (Index v = 0; v < surface.storedCount(); ++v)
+      mixed[v] = 0.3 * a[v] + 1.7 * b[v] - 0.4 * c[v];
     surface.settle({mixed.data(), static_cast<std::size_t>(surface.storedCount())}, mixed);
     for (Index p = 0; p < surface.patchCount(); ++p)
       for (const Site& s : sitesOf(surface, p)) {
-        const Vec3 expected = 0.3 * surface.evaluate(a, s) + 1.7 * surface.evaluate(b, s) - 0.4 * surface.evaluate(c, s);
+        const Vec3 expected = 0.3 * surface.evaluate(a, s) + 1.7 * surface.evaluate(b, s) -
+                              0.4 * surface.evaluate(c, s);
         EXPECT_LT(norm(surface.evaluate(mixed, s) - expected), 1e-12 * largest(mixed)) << name;
       }
   }

@@ -9,7 +9,8 @@
 // Surfaces over the layouts of meshes, and poses that nothing smooths.
 namespace sweepface::testing {
 
-/// The surface over a layout. Where derivations run in a circle, nodes store their jets or lines run on.
+/// The surface over a layout. Where derivations run in a circle, nodes store their jets or lines
+/// run on.
 inline Surface surfaceOf(Layout& layout) {
   std::set<Index> whole;
   while (true) {
@@ -74,7 +75,8 @@ inline std::vector<std::pair<std::string, Surface>> everySurface() {
     list.emplace_back("made by hand " + std::to_string(list.size()), rig.surface);
   for (const Face& face : everyFace())
     for (int splits : {0, 12})
-      list.emplace_back(std::string(face.name) + (splits ? " split" : ""), surfaceOf(face.rig, splits));
+      list.emplace_back(std::string(face.name) + (splits ? " split" : ""),
+                        surfaceOf(face.rig, splits));
   return list;
 }
 

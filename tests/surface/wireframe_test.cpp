@@ -101,7 +101,8 @@ auto with(Wireframe w, Change change) {
 const Broken broken[] = {
     {"openLoop", with(onePatch(2, 2), [](Wireframe& w) { w.loops[2] = 4; }),
      "patch 0 is not a closed loop of arcs"},
-    {"arcTwice", with(twoPatches(), [](Wireframe& w) { std::copy_n(w.loops.begin(), 4, w.loops.begin() + 4); }),
+    {"arcTwice",
+     with(twoPatches(), [](Wireframe& w) { std::copy_n(w.loops.begin(), 4, w.loops.begin() + 4); }),
      "arc 0 is used twice in the same direction"},
     {"differentLengths", with(onePatch(2, 2), [](Wireframe& w) { w.arcs[2].edges = 3; }),
      "patch 0 has opposite sides of different length"},
@@ -111,15 +112,18 @@ const Broken broken[] = {
      "arc 3 ends at a node that does not exist"},
     {"lonelyNode", with(onePatch(2, 2), [](Wireframe& w) { w.nodes.push_back({0, kPosition}); }),
      "node 4 belongs to no patch"},
-    {"noLength", with(onePatch(2, 2), [](Wireframe& w) { w.arcs[0].edges = 0; }), "arc 0 has no length"},
+    {"noLength", with(onePatch(2, 2), [](Wireframe& w) { w.arcs[0].edges = 0; }),
+     "arc 0 has no length"},
     {"noRibbon", with(onePatch(2, 2), [](Wireframe& w) { w.arcs[2].ribbon = 2; }),
      "arc 2 belongs to a ribbon that does not exist"},
     {"noPoint", with(onePatch(2, 2), [](Wireframe& w) { w.nodes[2].point = 4; }),
      "node 2 stands at a point that does not exist"},
-    {"pointless", with(onePatch(2, 2), [](Wireframe& w) { w.nodes[2].point = -1; }), "node 2 needs a point of its own"},
+    {"pointless", with(onePatch(2, 2), [](Wireframe& w) { w.nodes[2].point = -1; }),
+     "node 2 needs a point of its own"},
     {"pointOnTNode", with(tee(), [](Wireframe& w) { w.nodes[3].point = 0; }),
      "node 3 hangs on an arc and must not have a point"},
-    {"noSide", with(onePatch(2, 2), [](Wireframe& w) { w.patches[0].sides[2] = 1; }), "patch 0 lacks a side"},
+    {"noSide", with(onePatch(2, 2), [](Wireframe& w) { w.patches[0].sides[2] = 1; }),
+     "patch 0 lacks a side"},
     {"noArc", with(onePatch(2, 2), [](Wireframe& w) { w.loops[1] = 8; }),
      "a patch is bounded by an arc that does not exist"},
     {"halfT",
@@ -153,7 +157,9 @@ const Broken broken[] = {
      "a side of patch 0 changes its ribbon half-way"},
     {"twoRibbons", with(onePatch(2, 2), [](Wireframe& w) { w.arcs[2].ribbon = 1; }),
      "patch 0 sweeps along sides of two ribbons"},
-    {"refusedShape", with(onePatch(2, 2), [](Wireframe& w) { w.ribbons[0] = {1, 80.7836 / 4, 1.0 / 16}; }), "ribbon 0: "},
+    {"refusedShape",
+     with(onePatch(2, 2), [](Wireframe& w) { w.ribbons[0] = {1, 80.7836 / 4, 1.0 / 16}; }),
+     "ribbon 0: "},
     {"noShape", with(onePatch(2, 2), [](Wireframe& w) { w.ribbons[1] = {0, 0, 0}; }), "ribbon 1: "},
 };
 
@@ -179,10 +185,12 @@ Wireframe whirl() {
     w.arcs.push_back(arc(a, b, edges, ribbon));
     return static_cast<HalfArc>(2 * w.arcs.size() - 2);
   };
-  const HalfArc s01 = add(0, 1, 2, 0), s12 = add(1, 2, 1, 0), s23 = add(2, 3, 2, 0), s34 = add(3, 4, 1, 0),
-                s45 = add(4, 5, 2, 0), s56 = add(5, 6, 1, 0), s67 = add(6, 7, 2, 0), s70 = add(7, 0, 1, 0);
-  const HalfArc r1 = add(1, 8, 1, 0), q1 = add(8, 9, 1, 0), r3 = add(3, 9, 1, 0), q3 = add(9, 10, 1, 0),
-                r5 = add(5, 10, 1, 0), q5 = add(10, 11, 1, 0), r7 = add(7, 11, 1, 0), q7 = add(11, 8, 1, 0);
+  const HalfArc s01 = add(0, 1, 2, 0), s12 = add(1, 2, 1, 0), s23 = add(2, 3, 2, 0),
+                s34 = add(3, 4, 1, 0), s45 = add(4, 5, 2, 0), s56 = add(5, 6, 1, 0),
+                s67 = add(6, 7, 2, 0), s70 = add(7, 0, 1, 0);
+  const HalfArc r1 = add(1, 8, 1, 0), q1 = add(8, 9, 1, 0), r3 = add(3, 9, 1, 0),
+                q3 = add(9, 10, 1, 0), r5 = add(5, 10, 1, 0), q5 = add(10, 11, 1, 0),
+                r7 = add(7, 11, 1, 0), q7 = add(11, 8, 1, 0);
   const auto patch = [&](std::initializer_list<std::initializer_list<HalfArc>> sides) {
     Patch p;
     int s = 0;
@@ -208,7 +216,8 @@ TEST(Circles, areRefusedAndNameANodeThatBreaksThem) {
     std::vector<Index> circle;
     const auto surface = Surface::make(w, &circle);
     ASSERT_FALSE(surface);
-    EXPECT_TRUE(surface.error().message.ends_with("are derived from themselves; let it store its own"))
+    EXPECT_TRUE(
+        surface.error().message.ends_with("are derived from themselves; let it store its own"))
         << surface.error().message;
     ASSERT_FALSE(circle.empty());
     for (Index node : circle) {

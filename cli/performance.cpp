@@ -1,0 +1,182 @@
+#include "performance.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <memory>
+
+#include "sweepface/filter.hpp"
+#include "sweepface/io.hpp"
+#include "sweepface/live_motion.hpp"
+#include "sweepface/timeline.hpp"
+
+namespace sweepface::cli {
+namespace {
+
+// ---- From one expression to another ----
+
+Drive driveOf(const PerformanceArguments& a, Drive drive) {
+  drive.seconds = a.seconds;
+  drive.spring = {a.frequency, a.damping};
+  drive.restitution = a.restitution;
+  return drive;
+}
+
+/// Laws that are not exact in two or three keys: a trajectory for every weight.
+Result<Performance> driven(const PerformanceArguments& a, const Drive& drive, const Weights& from,
+                           const Weights& to) {
+  const auto paths = std::make_shared<std::vector<Trajectory>>();
+  for (std::size_t k = 0; k < from.size(); ++k) {
+    const auto path = trajectoryOf(drive, {from[k], 0}, to[k]);
+    if (!path) return std::unexpected(path.error());
+    paths->push_back(*path);
+  }
+  Performance performance;
+  performance.name = a.law;
+  performance.seconds = a.seconds;
+  performance.at = [paths](double time, std::span<double> weights) {
+    for (std::size_t k = 0; k < weights.size(); ++k) weights[k] = (*paths)[k].at(time).position;
+  };
+  return performance;
+}
+
+Result<Performance> byLaw(const PerformanceArguments& a, const Rig& rig) {
+  const Result<Weights> from = parseWeights(rig, a.from), to = parseWeights(rig, a.to.value_or(""));
+  if (!from) return std::unexpected(from.error());
+  if (!to) return std::unexpected(to.error());
+  if (const auto drive = driveFromName(a.law);
+      drive && drive->kind != Drive::Kind::cut && !timeLawFromName(a.law))
+    return driven(a, driveOf(a, *drive), *from, *to);
+  const Result<TimeLaw> law = timeLawFromName(a.law);
+  if (!law)
+    return fail(
+        fmt::format("There is no law '{}'; there are linear, newton, brake, "
+                    "accelerate-brake, linear-force, spring and bounce.",
+                    a.law));
+  auto motion = Motion::make(*from, *to, *law, a.seconds);
+  if (!motion) return std::unexpected(motion.error());
+  Performance performance;
+  performance.name = a.law;
+  performance.seconds = a.seconds;
+  performance.at = [motion = *motion](double time, std::span<double> weights) {
+    motion.at(time, weights);
+  };
+  performance.motion = std::move(*motion);
+  return performance;
+}
+
+// ---- Clips ----
+
+/// Timelines are baked so finely that frames between theirs are as good as exact.
+constexpr double kTimelineRate = 240;
+
+Result<Clip> readClip(const PerformanceArguments& a) {
+  const Result<std::string> text = readFile(a.clip);
+  if (!text) return std::unexpected(text.error());
+  if (isOfKind(a.clip, ".csv")) return parseLiveLinkCsv(*text, a.clip, a.clipRate);
+  if (!isOfKind(a.clip, ".json"))
+    return fail(fmt::format("{} is neither a .csv nor a .json clip.", a.clip));
+  if (text->find("\"events\"") == std::string::npos) return parseClipJson(*text, a.clip);
+  const Result<Timeline> timeline = parseTimeline(*text, a.clip);
+  if (!timeline) return std::unexpected(timeline.error());
+  return bake(*timeline, kTimelineRate);
+}
+
+std::vector<std::string> notesOn(const ClipMatch& match, const Clip& clip,
+                                 const std::string& file) {
+  std::vector<std::string> notes;
+  if (!match.unmatched.empty())
+    notes.push_back(fmt::format("{}: {} of {} names drive no target of the face: {}.", file,
+                                match.unmatched.size(), clip.names.size(),
+                                fmt::join(match.unmatched, ", ")));
+  if (!match.undriven.empty())
+    notes.push_back(
+        fmt::format("{}: nothing drives the targets {}.", file, fmt::join(match.undriven, ", ")));
+  return notes;
+}
+
+Result<Performance> byClip(const PerformanceArguments& a, const Rig& rig) {
+  Result<Clip> clip = readClip(a);
+  if (!clip) return std::unexpected(clip.error());
+  if (a.smooth) smooth(*clip);
+  std::vector<std::string> targets;
+  for (const Target& target : rig.targets) targets.push_back(target.name);
+  ClipMatch match = matchClip(*clip, targets);
+  if (match.undriven.size() == targets.size())
+    return fail(
+        fmt::format("{}: none of its {} names is a target of the face; `sweepface info` "
+                    "lists the targets.",
+                    a.clip, clip->names.size()));
+  Performance performance;
+  performance.name = std::filesystem::path(a.clip).stem().string();
+  performance.seconds = clip->seconds();
+  performance.notes = notesOn(match, *clip, a.clip);
+  for (const double time : clip->times)
+    performance.frameTimes.push_back(time - clip->times.front());
+  performance.at = [clip = std::move(*clip), match = std::move(match)](double time,
+                                                                       std::span<double> weights) {
+    std::vector<double> own(clip.names.size());
+    clip.at(time, own);
+    match.spread(own, weights);
+  };
+  return performance;
+}
+
+}  // namespace
+
+void addPerformance(CLI::App& app, PerformanceArguments& a) {
+  app.add_option("--from", a.from, "The expression to start from; the neutral if not given")
+      ->type_name("NAME=W,...");
+  app.add_option("--to", a.to, "The expression to end with, e.g. jawOpen=1,mouthSmile=0.5")
+      ->type_name("NAME=W,...");
+  app.add_option("--law", a.law,
+                 "How it moves: newton (a constant force from rest), brake (a constant force to "
+                 "rest), accelerate-brake or linear-force (from rest to rest), spring, bounce, or "
+                 "linear (constant speed)")
+      ->capture_default_str()
+      ->type_name("LAW");
+  app.add_option("--seconds", a.seconds, "How long it takes; for a spring, how long it is shown")
+      ->check(positiveNumber())
+      ->capture_default_str()
+      ->type_name("S");
+  app.add_option("--frequency", a.frequency, "Of a spring: swings a second without damping")
+      ->check(positiveNumber())
+      ->capture_default_str()
+      ->type_name("HZ");
+  app.add_option("--damping", a.damping, "Of a spring: below 1 overshoots, above 1 creeps")
+      ->check(positiveNumber())
+      ->capture_default_str()
+      ->type_name("Z");
+  app.add_option("--restitution", a.restitution, "Of a bounce: the part of the speed that is left")
+      ->check(positiveNumber(1))
+      ->capture_default_str()
+      ->type_name("E");
+  app.add_option("--clip", a.clip,
+                 "Play this instead: a .csv of Live Link Face, a .json of Audio2Face or MediaPipe, "
+                 "or a timeline (.json)")
+      ->excludes("--to")
+      ->excludes("--from")
+      ->type_name("FILE");
+  app.add_option("--clip-fps", a.clipRate, "Frames a second in the timecodes of a .csv")
+      ->check(positiveNumber(1000))
+      ->capture_default_str()
+      ->type_name("N");
+  app.add_flag("--smooth", a.smooth, "Take a tracker's noise out of the clip")->needs("--clip");
+}
+
+Result<Performance> makePerformance(const PerformanceArguments& a, const Rig& rig) {
+  return a.clip.empty() ? byLaw(a, rig) : byClip(a, rig);
+}
+
+Clip sample(const Performance& performance, const Rig& rig, std::vector<double> times) {
+  Clip clip;
+  for (const Target& target : rig.targets) clip.names.push_back(target.name);
+  clip.times = std::move(times);
+  clip.weights.resize(clip.times.size() * clip.names.size());
+  for (std::size_t f = 0; f < clip.times.size(); ++f)
+    performance.at(clip.times[f],
+                   std::span(clip.weights).subspan(f * clip.names.size(), clip.names.size()));
+  return clip;
+}
+
+}  // namespace sweepface::cli

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "sweepface/clip.hpp"
+#include "sweepface/motion.hpp"
+
+#include "command.hpp"
+
+namespace sweepface::cli {
+
+/// What `animate` is told to play.
+struct PerformanceArguments {
+  std::string from, law = "newton", clip;
+  std::optional<std::string> to;
+  double seconds = 1, frequency = 2, damping = 1, restitution = 0.4, clipRate = 60;
+  bool smooth = false;
+};
+void addPerformance(CLI::App& app, PerformanceArguments& a);
+
+/// Weights of a rig's targets over time.
+struct Performance {
+  std::string name;
+  double seconds = 0;
+  std::function<void(double time, std::span<double> weights)> at;
+  std::optional<Motion> motion;    ///< where keys can hold it exactly
+  std::vector<double> frameTimes;  ///< a clip's own frames, from 0
+  std::vector<std::string> notes;  ///< what the user should know, in sentences
+};
+Result<Performance> makePerformance(const PerformanceArguments& a, const Rig& rig);
+
+/// The performance at these times, with a weight for every target.
+Clip sample(const Performance& performance, const Rig& rig, std::vector<double> times);
+
+}  // namespace sweepface::cli

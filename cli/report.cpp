@@ -1,0 +1,99 @@
+#include "sweepface/report.hpp"
+
+#include <fmt/format.h>
+
+#include "sweepface/io.hpp"
+
+#include "command.hpp"
+#include "output.hpp"
+
+namespace sweepface::cli {
+namespace {
+
+struct ReportArguments {
+  std::string face, neutral, output, weights;
+  std::vector<std::string> targets, regions;
+  std::vector<double> tolerances;
+  bool noTolerances = false, quiet = false;
+};
+
+void addOptions(CLI::App& app, ReportArguments& a) {
+  addFace(app, a.face);
+  addMeshes(app, a.neutral, a.targets);
+  addOutput(app, a.output, "The .html file to write");
+  app.add_option("--weights", a.weights,
+                 "The expression shown beside the neutral; the target that moves furthest if not "
+                 "given")
+      ->type_name("NAME=W,...");
+  CLI::Option* tolerances =
+      app.add_option("--tolerances", a.tolerances,
+                     "Convert again with these, for the plot of error against points; 2, 4 and 8 "
+                     "times the face's own if not given")
+          ->delimiter(',')
+          ->check(positiveNumber())
+          ->type_name("T,...");
+  app.add_flag("--no-tolerances", a.noTolerances, "Do not convert again: much quicker")
+      ->excludes(tolerances);
+  app.add_option("--box", a.regions,
+                 "Draw a box round what the targets move whose names contain NAME; mouth and eye "
+                 "if not given")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->type_name("NAME");
+  addQuiet(app, a.quiet);
+  app.footer(
+      "\nWrites a page with pictures, tables and plots that needs nothing else to be read.\n\n"
+      "Example:\n  sweepface report face.sweep neutral.obj expressions/ -o report.html");
+}
+
+Result<ReportOptions> optionsOf(const ReportArguments& a, const Rig& rig, std::size_t bytes) {
+  ReportOptions options;
+  options.name = std::filesystem::path(a.face).filename().string();
+  options.bytes = bytes;
+  if (!a.weights.empty()) {
+    const Result<Weights> weights = parseWeights(rig, a.weights);
+    if (!weights) return std::unexpected(weights.error());
+    options.expression = *weights;
+  }
+  if (!a.regions.empty()) options.regions = a.regions;
+  options.tolerances = a.tolerances;
+  if (a.tolerances.empty() && !a.noTolerances && rig.tolerance > 0)
+    for (const double times : {2, 4, 8}) options.tolerances.push_back(times * rig.tolerance);
+  return options;
+}
+
+Result<std::string> reportOf(const ReportArguments& a) {
+  const Result<std::string> bytes = readFile(a.face);
+  if (!bytes) return std::unexpected(bytes.error());
+  const Result<Rig> rig = readFace(a.face);
+  if (!rig) return std::unexpected(rig.error());
+  Result<ReportOptions> options = optionsOf(a, *rig, bytes->size());
+  if (!options) return std::unexpected(options.error());
+  ProgressBar bar(a.quiet);
+  const Result<RigSource> source = readMeshes(a.neutral, a.targets, bar);
+  if (!source) return std::unexpected(source.error());
+  options->progress = [&](std::string_view what, double done) { bar.show(what, done); };
+  return makeReport(*rig, source->rig, *options);
+}
+
+Result<int> runReport(const ReportArguments& a) {
+  std::vector<std::string> inputs = a.targets;
+  inputs.insert(inputs.end(), {a.neutral, a.face});
+  if (auto ok = checkOutput(a.output, inputs, {".obj", ".ply", ".glb", ".gltf", ".sweep", ".png"});
+      !ok)
+    return std::unexpected(ok.error());
+  const Result<std::string> page = reportOf(a);
+  if (!page) return std::unexpected(page.error());
+  if (auto written = writeFile(a.output, *page); !written) return std::unexpected(written.error());
+  if (!a.quiet) fmt::print("{}: {} bytes\n", a.output, page->size());
+  return 0;
+}
+
+}  // namespace
+
+Command addReport(CLI::App& tool) {
+  return makeCommand(tool, "report", "Write a page of pictures, tables and plots (.html)",
+                     runReport);
+}
+
+}  // namespace sweepface::cli

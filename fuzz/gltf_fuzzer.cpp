@@ -1,0 +1,63 @@
+#include <cstring>
+
+#include "sweepface/gltf.hpp"
+
+#include "gltf/scene.hpp"
+#include "gltf_mutator.hpp"
+#include "mesh_properties.hpp"
+
+namespace {
+
+using namespace sweepface;
+using fuzzing::require;
+
+/// Every target has a name of its own and a finite place for every vertex.
+void requireTargets(const MeshRig& rig) {
+  std::vector<std::string> names;
+  for (const MeshTarget& target : rig.targets) {
+    require(!target.name.empty());
+    names.push_back(target.name);
+    require(target.positions.size() == rig.neutral.positions.size());
+    for (const Vec3& position : target.positions) require(isFinite(position));
+  }
+  std::ranges::sort(names);
+  require(std::ranges::adjacent_find(names) == names.end());
+}
+
+/// The scene has the same parts as its source, and is its own scene.
+void requireScene(const RigSource& source) {
+  auto scene = gltf::parseDocument(source.scene, {});
+  require(scene.has_value());
+  const auto parts = gltf::findParts(*scene);
+  require(parts.has_value());
+  require(parts->vertexCount == source.rig.neutral.positions.size());
+  require(parts->targets.size() == source.rig.targets.size());
+  const auto again = gltf::makeScene(std::move(*scene), *parts, {});
+  require(again.has_value() && again->glb == source.scene);
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const auto source = parseGltf(fuzzing::asText(data, size), "input.glb", {});
+  if (!source) {
+    const std::string& message = source.error().message;
+    require(message.starts_with("input.glb: ") && message.ends_with('.'));
+    return 0;
+  }
+  fuzzing::requireWhole(source->rig.neutral);
+  requireTargets(source->rig);
+  requireScene(*source);
+  return 0;
+}
+
+extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size,
+                                               std::size_t maxSize, unsigned seed) {
+  auto pieces = fuzzing::takeApart(fuzzing::asText(data, size));
+  if (!pieces || seed % 16 == 0) return LLVMFuzzerMutate(data, size, maxSize);
+  fuzzing::Mutator(seed).mutate(*pieces);
+  const std::string bytes = gltf::formatContainer(pieces->json, pieces->binary);
+  if (bytes.size() > maxSize) return LLVMFuzzerMutate(data, size, maxSize);
+  std::memcpy(data, bytes.data(), bytes.size());
+  return bytes.size();
+}

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sweepface/result.hpp"
+#include "sweepface/vec.hpp"
+
+namespace sweepface {
+
+/// Weights over time, as a tracker or an animator gives them.
+struct Clip {
+  std::vector<std::string> names;  ///< [N] as they stand in the source
+  std::vector<double> times;       ///< [F] seconds, increasing
+  std::vector<double> weights;     ///< [F × N]
+
+  double seconds() const { return times.empty() ? 0 : times.back() - times.front(); }
+  /// The weights at `seconds` after the first frame, straight between frames and held at the ends:
+  /// writes min(N, out.size()) values.
+  void at(double seconds, std::span<double> out) const noexcept;
+};
+
+/// Which target each name of a clip drives. Names match if they are equal but for case, '_', '-', '
+/// ' and whether a side is spelt out (eyeBlinkLeft, EyeBlink_L). A name without a side drives both
+/// sides where there is no target of its own (browInnerUp: browInnerUp_L and browInnerUp_R).
+struct ClipMatch {
+  std::vector<std::vector<Index>> targets;  ///< [N] the targets each name drives
+  std::vector<std::string> unmatched;       ///< names of the clip that drive nothing
+  std::vector<std::string> undriven;        ///< targets that nothing drives
+
+  /// A clip's weights [N] as weights of the targets; those that nothing drives stay 0. Where two
+  /// names drive one target, the larger weight counts.
+  void spread(std::span<const double> from, std::span<double> to) const noexcept;
+};
+ClipMatch matchClip(const Clip& clip, std::span<const std::string> targets);
+
+/// A capture of the Live Link Face app: a CSV with a timecode, a count and a column a shape, found
+/// by their headings. `framesPerSecond` is what its timecodes count in.
+Result<Clip> parseLiveLinkCsv(std::string_view text, std::string_view name,
+                              double framesPerSecond = 60);
+
+/// A JSON of Audio2Face (`exportFps`, `facsNames`, `weightMat`) or of MediaPipe's face landmarker
+/// (frames with a timestamp in milliseconds and `categories` of names and scores).
+Result<Clip> parseClipJson(std::string_view text, std::string_view name);
+
+}  // namespace sweepface

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "sweepface/clip.hpp"
+
+namespace sweepface {
+
+/// How the one-euro filter trades noise for lag.
+struct OneEuro {
+  double cutoff = 1;       ///< hertz, at rest: lower removes more noise
+  double speedGain = 2;    ///< hertz per unit of speed: higher follows quick moves more closely
+  double speedCutoff = 1;  ///< hertz, of the speed's own filter
+};
+
+/// Takes the noise of a tracker out of K weights: heavily where they rest, hardly where they move.
+/// After G. Casiez, N. Roussel, D. Vogel, "1 € Filter: A Simple Speed-based Low-pass Filter for
+/// Noisy Input in Interactive Systems", CHI 2012.
+class OneEuroFilter {
+ public:
+  explicit OneEuroFilter(std::size_t count, const OneEuro& settings = {});
+
+  /// Replaces the weights [K] of a frame by filtered ones, `seconds` after the last one. The first
+  /// frame, and one after no or unknown time, passes as it is. Allocates nothing.
+  void apply(double seconds, std::span<double> weights) noexcept;
+
+ private:
+  OneEuro settings_;
+  std::vector<double> values_, speeds_;
+  bool begun_ = false;
+};
+
+/// All frames of a clip, filtered.
+void smooth(Clip& clip, const OneEuro& settings = {});
+
+}  // namespace sweepface

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sweepface/mesh.hpp"
+#include "sweepface/result.hpp"
+#include "sweepface/rig.hpp"
+
+namespace sweepface {
+
+struct ReportOptions {
+  std::string name;       ///< of the face's file, as the report calls it
+  std::size_t bytes = 0;  ///< of that file
+  /// The expression beside the neutral, which the motion leads to; empty: the target that moves
+  /// furthest.
+  Weights expression;
+  /// The face is converted again with each, for the plot of error against points.
+  std::vector<double> tolerances;
+  /// Boxes are drawn round what the targets move whose names contain one of these.
+  std::vector<std::string> regions{"mouth", "eye"};
+  /// Called now and then with what is going on and how far all of it is, 0 to 1.
+  std::function<void(std::string_view what, double done)> progress;
+};
+
+/// A page of HTML about a rig and the meshes it was made from: pictures, tables and plots, with
+/// nothing to load from elsewhere. Fails with a sentence where the two do not belong together.
+Result<std::string> makeReport(const Rig& rig, const MeshRig& source, const ReportOptions& options);
+
+}  // namespace sweepface

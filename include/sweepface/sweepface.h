@@ -1,0 +1,188 @@
+/* Plays .sweep faces from C, or from whatever can call C. See docs/c-interface.md.
+ *
+ * A rig is what a file holds; a mesh is its surface at one level of detail; a face is one set of
+ * weights on a mesh; a motion moves weights. What is made from something keeps it alive: handles
+ * may be freed in any order, and NULL may be freed. Rigs and meshes never change and may be read by
+ * any number of threads; a face or a motion belongs to one thread at a time.
+ *
+ * A function that can fail returns a status; sweepface_message() then has one sentence about it,
+ * and what was to be written is untouched. Others answer 0 or NULL where there is nothing. Where
+ * memory runs out the program ends. */
+#ifndef SWEEPFACE_SWEEPFACE_H
+#define SWEEPFACE_SWEEPFACE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+/* The version of this header. Functions are only added while the major number stays (from 1.0 on;
+ * before, while the minor number stays). */
+#define SWEEPFACE_VERSION_MAJOR 0
+#define SWEEPFACE_VERSION_MINOR 1
+#define SWEEPFACE_VERSION_PATCH 0
+
+#if defined(__GNUC__)
+#define SWEEPFACE_API __attribute__((visibility("default")))
+#else
+#define SWEEPFACE_API
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct sweepface_rig sweepface_rig;
+typedef struct sweepface_mesh sweepface_mesh;
+typedef struct sweepface_face sweepface_face;
+typedef struct sweepface_motion sweepface_motion;
+
+typedef int32_t sweepface_status;
+enum {
+  SWEEPFACE_OK = 0,
+  SWEEPFACE_BAD_DATA = 1,    /* bytes that are no sound .sweep file */
+  SWEEPFACE_BAD_ARGUMENT = 2 /* something asked for that there is not, or a number out of range */
+};
+
+/* The version of the library: major * 10000 + minor * 100 + patch. */
+SWEEPFACE_API uint32_t sweepface_version(void);
+
+/* Why the last failing call on this thread failed: one sentence in UTF-8, valid until the next
+ * fails. Empty if none has. */
+SWEEPFACE_API const char* sweepface_message(void);
+
+/* ---- Rigs ---- */
+
+/* Reads a .sweep file from memory, which may be reused afterwards. Any bytes are safe. `name` is
+ * what messages call it; NULL: "The face". */
+SWEEPFACE_API sweepface_status sweepface_rig_load(const void* bytes, size_t size, const char* name,
+                                                  sweepface_rig** rig);
+SWEEPFACE_API void sweepface_rig_free(sweepface_rig* rig);
+
+/* The expressions; names are UTF-8 and belong to the rig. */
+SWEEPFACE_API uint32_t sweepface_rig_target_count(const sweepface_rig* rig);
+SWEEPFACE_API const char* sweepface_rig_target_name(const sweepface_rig* rig, uint32_t target);
+/* The target of a name; where there is none, the message says which there are. */
+SWEEPFACE_API sweepface_status sweepface_rig_find_target(const sweepface_rig* rig, const char* name,
+                                                         uint32_t* target);
+
+/* How far any source vertex may be off in any expression, in model units. */
+SWEEPFACE_API double sweepface_rig_tolerance(const sweepface_rig* rig);
+
+/* ---- Meshes ---- */
+
+/* The finest level of detail. */
+#define SWEEPFACE_MOST_LOD 64
+
+/* The surface at a level of detail: 0 for the source's own vertices and polygons, N for every edge
+ * of the source cut into N. */
+SWEEPFACE_API sweepface_status sweepface_mesh_create(const sweepface_rig* rig, uint32_t lod,
+                                                     sweepface_mesh** mesh);
+SWEEPFACE_API void sweepface_mesh_free(sweepface_mesh* mesh);
+
+/* Vertices are points first (lod 0: the source's vertices in their order) and then copies of points
+ * that have several texture coordinates. */
+SWEEPFACE_API uint32_t sweepface_mesh_point_count(const sweepface_mesh* mesh);
+SWEEPFACE_API uint32_t sweepface_mesh_vertex_count(const sweepface_mesh* mesh);
+
+/* [triangles x 3] vertices, counter-clockwise seen from outside; those of a material together. */
+SWEEPFACE_API uint32_t sweepface_mesh_triangle_count(const sweepface_mesh* mesh);
+SWEEPFACE_API const uint32_t* sweepface_mesh_triangles(const sweepface_mesh* mesh);
+
+/* [vertices x 2] u to the right and v upwards, or NULL if the source had none. */
+SWEEPFACE_API const float* sweepface_mesh_texcoords(const sweepface_mesh* mesh);
+
+/* Triangles of one material. */
+typedef struct sweepface_part {
+  const char* material; /* UTF-8; "" if the source named none. Belongs to the mesh. */
+  uint32_t first_triangle;
+  uint32_t triangle_count;
+} sweepface_part;
+
+SWEEPFACE_API uint32_t sweepface_mesh_part_count(const sweepface_mesh* mesh);
+SWEEPFACE_API sweepface_status sweepface_mesh_part(const sweepface_mesh* mesh, uint32_t part,
+                                                   sweepface_part* out);
+
+/* ---- Faces ---- */
+
+/* All weights are 0: the neutral. */
+SWEEPFACE_API sweepface_status sweepface_face_create(const sweepface_mesh* mesh,
+                                                     sweepface_face** face);
+SWEEPFACE_API void sweepface_face_free(sweepface_face* face);
+
+/* Weights are numbers between -SWEEPFACE_MOST_WEIGHT and it; 0 is without, 1 is all of it. */
+#define SWEEPFACE_MOST_WEIGHT 1e6
+
+SWEEPFACE_API sweepface_status sweepface_face_set_weight(sweepface_face* face, uint32_t target,
+                                                         double weight);
+/* The first `count` weights. */
+SWEEPFACE_API sweepface_status sweepface_face_set_weights(sweepface_face* face,
+                                                          const double* weights, size_t count);
+/* [targets] the weights as they are; the face's own memory. */
+SWEEPFACE_API const double* sweepface_face_weights(const sweepface_face* face);
+
+/* Where to write an array of three floats a vertex. */
+typedef struct sweepface_vectors {
+  float* data;   /* NULL: not wanted */
+  size_t stride; /* bytes from one vertex to the next; 0: 12, one behind the other */
+} sweepface_vectors;
+
+/* Positions in model units and unit normals of the first `count` vertices under the face's weights.
+ * Allocates nothing. Seen through floats, the points of a mesh are free of cracks. */
+SWEEPFACE_API sweepface_status sweepface_face_evaluate(sweepface_face* face, size_t count,
+                                                       sweepface_vectors positions,
+                                                       sweepface_vectors normals);
+
+/* ---- Motions ---- */
+
+/* How a weight goes from where it stands, with the velocity it has, to a goal (docs/motion.md). */
+typedef int32_t sweepface_drive_kind;
+enum {
+  SWEEPFACE_CUT = 0,              /* is there at once */
+  SWEEPFACE_NEWTON = 1,           /* a constant force, arriving at speed */
+  SWEEPFACE_LINEAR_FORCE = 2,     /* a force linear in time, arriving at rest */
+  SWEEPFACE_ACCELERATE_BRAKE = 3, /* one constant force, then another, arriving at rest */
+  SWEEPFACE_SPRING = 4,           /* pulled by a spring with a damper */
+  SWEEPFACE_BOUNCE = 5            /* a constant force, then bounces */
+};
+
+typedef struct sweepface_drive {
+  sweepface_drive_kind kind;
+  double delay;       /* seconds before it sets out */
+  double seconds;     /* until it arrives; not for CUT and SPRING */
+  double turn;        /* ACCELERATE_BRAKE: when the second force takes over, as a fraction */
+  double frequency;   /* SPRING: oscillations a second if there were no damper */
+  double damping;     /* SPRING: below 1 it overshoots, above it creeps */
+  double restitution; /* BOUNCE: the share of the speed that is left, in [0, 1) */
+} sweepface_drive;
+
+/* A drive with the usual numbers; of an unknown kind: a spring. */
+SWEEPFACE_API sweepface_drive sweepface_drive_of(sweepface_drive_kind kind);
+
+/* `count` weights at rest. Afterwards nothing allocates. */
+SWEEPFACE_API sweepface_status sweepface_motion_create(const double* weights, size_t count,
+                                                       sweepface_motion** motion);
+SWEEPFACE_API void sweepface_motion_free(sweepface_motion* motion);
+
+/* Lets time pass; negative or not a number: none. */
+SWEEPFACE_API void sweepface_motion_advance(sweepface_motion* motion, double seconds);
+
+/* Sends one weight or all of them to goals. `drive` may be NULL: a critically damped spring. */
+SWEEPFACE_API sweepface_status sweepface_motion_move_to(sweepface_motion* motion, uint32_t weight,
+                                                        double goal, const sweepface_drive* drive);
+SWEEPFACE_API sweepface_status sweepface_motion_move_all(sweepface_motion* motion,
+                                                         const double* goals, size_t count,
+                                                         const sweepface_drive* drive);
+/* A blow: adds to a weight's velocity (per second), which drag (per second) then takes away. */
+SWEEPFACE_API sweepface_status sweepface_motion_push(sweepface_motion* motion, uint32_t weight,
+                                                     double velocity_change, double drag);
+
+/* The first `count` weights or velocities. */
+SWEEPFACE_API sweepface_status sweepface_motion_positions(const sweepface_motion* motion,
+                                                          double* out, size_t count);
+SWEEPFACE_API sweepface_status sweepface_motion_velocities(const sweepface_motion* motion,
+                                                           double* out, size_t count);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

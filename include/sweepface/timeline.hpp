@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "sweepface/clip.hpp"
+#include "sweepface/live_motion.hpp"
+
+namespace sweepface {
+
+/// At a time, some weights set out for new goals.
+struct TimelineEvent {
+  double time = 0;                                    ///< seconds
+  std::vector<std::pair<std::string, double>> goals;  ///< weights by name
+  bool others = false;                                ///< all other weights go to 0
+  Drive drive;
+};
+
+/// What an animator writes down: events in the order of their times.
+struct Timeline {
+  double seconds = 0;  ///< how long it lasts
+  int loops = 1;       ///< how often it is played, each time from where the last one left off
+  std::vector<TimelineEvent> events;
+};
+
+/// A timeline in its JSON form (docs/clips.md).
+Result<Timeline> parseTimeline(std::string_view text, std::string_view name);
+
+/// The timeline as a clip of `framesPerSecond`, from rest at 0: both ends included.
+Result<Clip> bake(const Timeline& timeline, double framesPerSecond);
+
+}  // namespace sweepface

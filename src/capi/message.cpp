@@ -1,0 +1,34 @@
+#include "capi/message.hpp"
+
+namespace sweepface::capi {
+
+namespace {
+thread_local std::string lastMessage;
+}
+
+sweepface_status refuse(sweepface_status status, std::string message) {
+  lastMessage = std::move(message);
+  return status;
+}
+
+sweepface_status noSuch(const char* what, std::size_t index, std::size_t count) {
+  return refuse("There is no " + std::string(what) + " " + std::to_string(index) + "; there are " +
+                std::to_string(count) + ", counted from 0.");
+}
+
+std::string sentence(std::string message) {
+  if (!message.empty() && message[0] >= 'a' && message[0] <= 'z') message[0] += 'A' - 'a';
+  return std::move(message) + ".";
+}
+
+sweepface_status statusOf(Result<void> result) {
+  return result ? SWEEPFACE_OK : refuse(std::move(result.error().message));
+}
+
+}  // namespace sweepface::capi
+
+uint32_t sweepface_version(void) {
+  return SWEEPFACE_VERSION_MAJOR * 10000 + SWEEPFACE_VERSION_MINOR * 100 + SWEEPFACE_VERSION_PATCH;
+}
+
+const char* sweepface_message(void) { return sweepface::capi::lastMessage.c_str(); }

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+
+#include "sweepface/result.hpp"
+#include "sweepface/sweepface.h"
+
+namespace sweepface::capi {
+
+/// Keeps the sentence for sweepface_message() and gives the status back.
+sweepface_status refuse(sweepface_status status, std::string message);
+inline sweepface_status refuse(std::string message) {
+  return refuse(SWEEPFACE_BAD_ARGUMENT, std::move(message));
+}
+
+/// The sentence about something that `count` there are of, and `index` is not one.
+sweepface_status noSuch(const char* what, std::size_t index, std::size_t count);
+
+/// Begun with a capital and ended with a period.
+std::string sentence(std::string message);
+
+/// The status of a result without a value.
+sweepface_status statusOf(Result<void> result);
+
+}  // namespace sweepface::capi

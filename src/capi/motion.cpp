@@ -1,0 +1,105 @@
+#include <string>
+
+#include "capi/handles.hpp"
+#include "capi/message.hpp"
+
+using namespace sweepface;
+using namespace sweepface::capi;
+
+namespace {
+
+Result<Drive> driveOf(const sweepface_drive* drive) {
+  if (!drive) return Drive{};
+  if (drive->kind < SWEEPFACE_CUT || drive->kind > SWEEPFACE_BOUNCE)
+    return fail("There is no drive of kind " + std::to_string(drive->kind) + "; kinds are 0 to " +
+                std::to_string(SWEEPFACE_BOUNCE) + ".");
+  Drive result;
+  result.kind = static_cast<Drive::Kind>(drive->kind);
+  result.seconds = drive->seconds;
+  result.turn = drive->turn;
+  result.spring = {drive->frequency, drive->damping};
+  result.restitution = drive->restitution;
+  result.delay = drive->delay;
+  return result;
+}
+
+static_assert(static_cast<int>(Drive::Kind::cut) == SWEEPFACE_CUT &&
+              static_cast<int>(Drive::Kind::newton) == SWEEPFACE_NEWTON &&
+              static_cast<int>(Drive::Kind::linearForce) == SWEEPFACE_LINEAR_FORCE &&
+              static_cast<int>(Drive::Kind::accelerateBrake) == SWEEPFACE_ACCELERATE_BRAKE &&
+              static_cast<int>(Drive::Kind::spring) == SWEEPFACE_SPRING &&
+              static_cast<int>(Drive::Kind::bounce) == SWEEPFACE_BOUNCE);
+
+sweepface_status checkCount(const sweepface_motion* motion, const double* out, size_t count) {
+  if (!motion || (!out && count > 0)) return refuse("Reading a motion needs one and a place.");
+  if (count > motion->state.size())
+    return refuse("The motion has only " + std::to_string(motion->state.size()) + " weights, not " +
+                  std::to_string(count) + ".");
+  return SWEEPFACE_OK;
+}
+
+}  // namespace
+
+sweepface_drive sweepface_drive_of(sweepface_drive_kind kind) {
+  const Drive usual;
+  const bool known = kind >= SWEEPFACE_CUT && kind <= SWEEPFACE_BOUNCE;
+  return {.kind = known ? kind : SWEEPFACE_SPRING,
+          .delay = usual.delay,
+          .seconds = usual.seconds,
+          .turn = usual.turn,
+          .frequency = usual.spring.frequency,
+          .damping = usual.spring.damping,
+          .restitution = usual.restitution};
+}
+
+sweepface_status sweepface_motion_create(const double* weights, size_t count,
+                                         sweepface_motion** motion) {
+  if (!motion || (!weights && count > 0))
+    return refuse("Making a motion needs weights and a place for it.");
+  Result<MotionState> state = MotionState::make({weights, count});
+  if (!state) return refuse(std::move(state.error().message));
+  *motion = new sweepface_motion{std::move(*state)};
+  return SWEEPFACE_OK;
+}
+
+void sweepface_motion_free(sweepface_motion* motion) { delete motion; }
+
+void sweepface_motion_advance(sweepface_motion* motion, double seconds) {
+  if (motion) motion->state.advance(seconds);
+}
+
+sweepface_status sweepface_motion_move_to(sweepface_motion* motion, uint32_t weight, double goal,
+                                          const sweepface_drive* drive) {
+  if (!motion) return refuse("Moving a weight needs a motion.");
+  const Result<Drive> how = driveOf(drive);
+  if (!how) return refuse(how.error().message);
+  return statusOf(motion->state.moveTo(weight, goal, *how));
+}
+
+sweepface_status sweepface_motion_move_all(sweepface_motion* motion, const double* goals,
+                                           size_t count, const sweepface_drive* drive) {
+  if (!motion || (!goals && count > 0)) return refuse("Moving weights needs a motion and goals.");
+  const Result<Drive> how = driveOf(drive);
+  if (!how) return refuse(how.error().message);
+  return statusOf(motion->state.moveTo({goals, count}, *how));
+}
+
+sweepface_status sweepface_motion_push(sweepface_motion* motion, uint32_t weight,
+                                       double velocity_change, double drag) {
+  if (!motion) return refuse("Pushing a weight needs a motion.");
+  return statusOf(motion->state.push(weight, velocity_change, drag));
+}
+
+sweepface_status sweepface_motion_positions(const sweepface_motion* motion, double* out,
+                                            size_t count) {
+  if (const auto status = checkCount(motion, out, count)) return status;
+  motion->state.positions({out, count});
+  return SWEEPFACE_OK;
+}
+
+sweepface_status sweepface_motion_velocities(const sweepface_motion* motion, double* out,
+                                             size_t count) {
+  if (const auto status = checkCount(motion, out, count)) return status;
+  motion->state.velocities({out, count});
+  return SWEEPFACE_OK;
+}

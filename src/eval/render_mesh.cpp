@@ -1,0 +1,194 @@
+#include "sweepface/render_mesh.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "eval/triangulate.hpp"
+
+namespace sweepface {
+namespace {
+
+/// Collects triangles and tells vertices apart by point and texture coordinate. The first texture
+/// coordinate that comes up at a point stays with it; others get vertices behind all points.
+class Builder {
+ public:
+  Builder(std::vector<Vec3> neutral, const Polygons& source)
+      : neutral_(std::move(neutral)),
+        texcoords_(neutral_.size()),
+        textured_(neutral_.size(), false),
+        next_(neutral_.size(), -1),
+        trianglesOf_(source.materials.size() + 1) {
+    mesh_.points = static_cast<Index>(neutral_.size());
+  }
+
+  Index vertex(Index point) const { return point; }
+  Index vertex(Index point, const Vec2& texcoord) {
+    Index last = point;
+    for (Index v = point; v >= 0; v = next_[v]) {
+      if (!textured_[v]) {
+        textured_[v] = true;
+        texcoords_[v] = texcoord;
+      }
+      if (texcoords_[v] == texcoord) return v;
+      last = v;
+    }
+    return next_[last] = addCopy(point, texcoord);
+  }
+
+  void addTriangle(Index material, Index a, Index b, Index c) {
+    if (pointOf(a) == pointOf(b) || pointOf(b) == pointOf(c) || pointOf(c) == pointOf(a)) return;
+    for (const Index v : {a, b, c})
+      trianglesOf_[material + 1].push_back(static_cast<std::uint32_t>(v));
+  }
+
+  void addQuad(Index material, const std::array<Index, 4>& v) {
+    const auto length = [&](int a, int b) { return norm(place(v[a]) - place(v[b])); };
+    const int first = length(1, 3) < length(0, 2) ? 1 : 0;
+    addTriangle(material, v[first], v[first + 1], v[first + 2]);
+    addTriangle(material, v[first], v[first + 2], v[(first + 3) % 4]);
+  }
+
+  void addPolygon(Index material, std::span<const Index> vertices) {
+    corners_.clear();
+    for (const Index v : vertices) corners_.push_back(place(v));
+    for (const Triangle& t : triangulate(corners_))
+      addTriangle(material, vertices[t[0]], vertices[t[1]], vertices[t[2]]);
+  }
+
+  RenderMesh take() {
+    for (Index k = 0; k < static_cast<Index>(trianglesOf_.size()); ++k) {
+      const auto& part = trianglesOf_[k];
+      if (part.empty()) continue;
+      mesh_.parts.push_back({k - 1, static_cast<std::uint32_t>(mesh_.triangles.size() / 3),
+                             static_cast<std::uint32_t>(part.size() / 3)});
+      mesh_.triangles.insert(mesh_.triangles.end(), part.begin(), part.end());
+    }
+    if (std::ranges::count(textured_, true) > 0)
+      for (const Vec2& t : texcoords_) {
+        mesh_.texcoords.push_back(static_cast<float>(t.x));
+        mesh_.texcoords.push_back(static_cast<float>(t.y));
+      }
+    return std::move(mesh_);
+  }
+
+ private:
+  Index pointOf(Index vertex) const {
+    return vertex < mesh_.points ? vertex : mesh_.copies[vertex - mesh_.points];
+  }
+  const Vec3& place(Index vertex) const { return neutral_[pointOf(vertex)]; }
+
+  Index addCopy(Index point, const Vec2& texcoord) {
+    mesh_.copies.push_back(point);
+    texcoords_.push_back(texcoord);
+    textured_.push_back(true);
+    next_.push_back(-1);
+    return mesh_.vertexCount() - 1;
+  }
+
+  RenderMesh mesh_;
+  std::vector<Vec3> neutral_;    // [points]
+  std::vector<Vec2> texcoords_;  // [vertices]
+  std::vector<bool> textured_;   // [vertices] whether it has one of its own
+  std::vector<Index> next_;      // [vertices] another one of the same point, or -1
+  std::vector<std::vector<std::uint32_t>> trianglesOf_;  // by material + 1
+  std::vector<Vec3> corners_;
+};
+
+}  // namespace
+
+RenderMesh renderSource(const Rig& rig, const Tessellation& grid) {
+  const Polygons& faces = rig.source.polygons;
+  Builder builder(sourcePositions(rig, grid, blend(rig, {}), {}), faces);
+  std::vector<Index> vertices;
+  for (Index face = 0; face < faces.faceCount(); ++face) {
+    vertices.clear();
+    for (Index c = faces.faceStart[face]; c < faces.faceStart[face + 1]; ++c) {
+      const Index t = faces.cornerTexcoords.empty() ? -1 : faces.cornerTexcoords[c];
+      vertices.push_back(t < 0 ? builder.vertex(faces.corners[c])
+                               : builder.vertex(faces.corners[c], faces.texcoords[t]));
+    }
+    const Index material = faces.faceMaterial.empty() ? -1 : faces.faceMaterial[face];
+    if (vertices.size() == 3)
+      builder.addTriangle(material, vertices[0], vertices[1], vertices[2]);
+    else
+      builder.addPolygon(material, vertices);
+  }
+  return builder.take();
+}
+
+namespace {
+
+// The same number from either end.
+Vec2 between(const Vec2& a, const Vec2& b, Index step, Index level) {
+  if (std::pair(b.x, b.y) < std::pair(a.x, a.y)) return between(b, a, level - step, level);
+  const double t = static_cast<double>(step) / level;
+  return {std::lerp(a.x, b.x, t), std::lerp(a.y, b.y, t)};
+}
+
+/// What hangs on the quads of level 1.
+class Quads {
+ public:
+  explicit Quads(const Rig& rig, std::size_t count)
+      : faces_(rig.source.polygons), corners_(rig.source.quadCorners) {
+    if (corners_.size() != 4 * count) return;  // a file may come without them
+    known_ = true;
+    for (Index face = 0; face < faces_.faceCount(); ++face)
+      faceOfCorner_.insert(faceOfCorner_.end(), faces_.faceSize(face), face);
+  }
+
+  Index material(std::size_t quad) const {
+    if (!known_ || faces_.faceMaterial.empty()) return -1;
+    return faces_.faceMaterial[faceOfCorner_[corners_[4 * quad]]];
+  }
+
+  bool isTextured(std::size_t quad) const {
+    if (!known_ || faces_.cornerTexcoords.empty()) return false;
+    return std::ranges::all_of(std::span(corners_).subspan(4 * quad, 4),
+                               [&](Index c) { return faces_.cornerTexcoords[c] >= 0; });
+  }
+
+  /// (i, j) steps of `level` from the first corner of a textured quad.
+  Vec2 texcoord(std::size_t quad, Index i, Index j, Index level) const {
+    const auto at = [&](int k) {
+      return faces_.texcoords[faces_.cornerTexcoords[corners_[4 * quad + k]]];
+    };
+    if (i == 0) return between(at(0), at(3), j, level);
+    if (i == level) return between(at(1), at(2), j, level);
+    return between(between(at(0), at(1), i, level), between(at(3), at(2), i, level), j, level);
+  }
+
+ private:
+  const Polygons& faces_;
+  const std::vector<Index>& corners_;
+  std::vector<Index> faceOfCorner_;
+  bool known_ = false;
+};
+
+}  // namespace
+
+RenderMesh renderGrid(const Rig& rig, const Tessellation& grid) {
+  const Surface& surface = rig.surface;
+  const Index level = grid.level();
+  const auto faces = grid.faces();
+  Builder builder(grid.positions(blend(rig, {})), rig.source.polygons);
+  const Quads quads(rig, faces.size() / (std::size_t(level) * level));
+  std::size_t face = 0, first = 0;
+  for (Index p = 0; p < surface.patchCount(); ++p) {
+    const Index m = surface.edgesU(p), n = surface.edgesV(p);
+    for (Index j = 0; j < level * n; ++j)
+      for (Index i = 0; i < level * m; ++i) {
+        const std::size_t quad = first + std::size_t(j / level) * m + i / level;
+        std::array<Index, 4> vertices = faces[face++];
+        if (quads.isTextured(quad))
+          for (int k = 0; k < 4; ++k)
+            vertices[k] = builder.vertex(
+                vertices[k],
+                quads.texcoord(quad, i % level + (k == 1 || k == 2), j % level + (k >= 2), level));
+        builder.addQuad(quads.material(quad), vertices);
+      }
+    first += std::size_t(m) * n;
+  }
+  return builder.take();
+}
+
+}  // namespace sweepface

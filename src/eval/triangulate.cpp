@@ -1,0 +1,97 @@
+// Ear clipping (Meisters 1975), seen along the polygon's mean normal.
+#include "eval/triangulate.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+namespace sweepface {
+namespace {
+
+// Cutting takes time with the third power of the corners; larger polygons become fans.
+constexpr std::size_t kMostCorners = 64;
+
+Vec3 meanNormal(std::span<const Vec3> polygon) {
+  Vec3 sum;
+  for (std::size_t k = 1; k + 1 < polygon.size(); ++k)
+    sum += cross(polygon[k] - polygon[0], polygon[k + 1] - polygon[0]);
+  return sum;
+}
+
+class EarCutter {
+ public:
+  explicit EarCutter(std::span<const Vec3> polygon)
+      : polygon_(polygon), normal_(meanNormal(polygon)), left_(polygon.size()) {
+    std::iota(left_.begin(), left_.end(), 0);
+  }
+
+  std::vector<Triangle> cut() {
+    std::vector<Triangle> triangles;
+    while (left_.size() > 3) {
+      const std::size_t ear = bestEar();
+      triangles.push_back(corner(ear));
+      left_.erase(left_.begin() + static_cast<std::ptrdiff_t>(ear));
+    }
+    triangles.push_back(corner(1));
+    return triangles;
+  }
+
+ private:
+  Triangle corner(std::size_t k) const {
+    const std::size_t n = left_.size();
+    return {left_[(k + n - 1) % n], left_[k], left_[(k + 1) % n]};
+  }
+
+  /// Twice the area of a triangle along the mean normal, in no particular unit.
+  double area(Index a, Index b, Index c) const {
+    return dot(cross(polygon_[b] - polygon_[a], polygon_[c] - polygon_[a]), normal_);
+  }
+
+  bool isEar(const Triangle& t) const {
+    if (!(area(t[0], t[1], t[2]) > 0)) return false;
+    const auto isCorner = [&](Index p) {
+      return std::ranges::any_of(t, [&](Index c) { return polygon_[c] == polygon_[p]; });
+    };
+    for (const Index p : left_) {
+      if (isCorner(p)) continue;
+      if (area(t[0], t[1], p) >= 0 && area(t[1], t[2], p) >= 0 && area(t[2], t[0], p) >= 0)
+        return false;
+    }
+    return true;
+  }
+
+  /// The ear with the shortest cut; any corner counts where a twisted polygon has no ear.
+  std::size_t bestEar() const {
+    std::size_t best = 0;
+    double shortest = std::numeric_limits<double>::infinity();
+    bool found = false;
+    for (std::size_t k = 0; k < left_.size(); ++k) {
+      const Triangle t = corner(k);
+      const bool ear = isEar(t);
+      const double length = norm(polygon_[t[2]] - polygon_[t[0]]);
+      if (ear < found || (ear == found && !(length < shortest))) continue;
+      best = k, shortest = length, found = ear;
+    }
+    return best;
+  }
+
+  std::span<const Vec3> polygon_;
+  Vec3 normal_;
+  std::vector<Index> left_;
+};
+
+std::vector<Triangle> fan(Index corners) {
+  std::vector<Triangle> triangles;
+  for (Index k = 1; k + 1 < corners; ++k) triangles.push_back({0, k, k + 1});
+  return triangles;
+}
+
+}  // namespace
+
+std::vector<Triangle> triangulate(std::span<const Vec3> polygon) {
+  if (polygon.size() < 4 || polygon.size() > kMostCorners)
+    return fan(static_cast<Index>(polygon.size()));
+  return EarCutter(polygon).cut();
+}
+
+}  // namespace sweepface

@@ -1,0 +1,263 @@
+#include "gltf/accessor.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace sweepface::gltf {
+namespace {
+
+struct Shape {
+  std::string_view name;
+  std::size_t rows, columns;
+};
+constexpr std::array<Shape, 7> shapes{{{"SCALAR", 1, 1},
+                                       {"VEC2", 2, 1},
+                                       {"VEC3", 3, 1},
+                                       {"VEC4", 4, 1},
+                                       {"MAT2", 2, 2},
+                                       {"MAT3", 3, 3},
+                                       {"MAT4", 4, 4}}};
+
+std::optional<Component> componentOf(std::size_t number) {
+  switch (number) {
+    case 5120:
+    case 5121:
+    case 5122:
+    case 5123:
+    case 5125:
+    case 5126:
+      return static_cast<Component>(number);
+    default:
+      return std::nullopt;
+  }
+}
+
+template <typename T>
+T littleEndian(const char* bytes) {
+  T value = 0;
+  for (std::size_t k = 0; k < sizeof(T); ++k)
+    value = static_cast<T>(value | static_cast<T>(static_cast<unsigned char>(bytes[k])) << (8 * k));
+  return value;
+}
+
+double component(Component type, const char* bytes) {
+  switch (type) {
+    case Component::int8:
+      return static_cast<std::int8_t>(*bytes);
+    case Component::uint8:
+      return static_cast<std::uint8_t>(*bytes);
+    case Component::int16:
+      return static_cast<std::int16_t>(littleEndian<std::uint16_t>(bytes));
+    case Component::uint16:
+      return littleEndian<std::uint16_t>(bytes);
+    case Component::uint32:
+      return littleEndian<std::uint32_t>(bytes);
+    case Component::float32:
+      return std::bit_cast<float>(littleEndian<std::uint32_t>(bytes));
+  }
+  return 0;
+}
+
+/// What 1 is stored as; 1 for floats.
+double one(Component type) {
+  switch (type) {
+    case Component::int8:
+      return 127;
+    case Component::uint8:
+      return 255;
+    case Component::int16:
+      return 32767;
+    case Component::uint16:
+      return 65535;
+    case Component::uint32:
+      return 4294967295.0;
+    case Component::float32:
+      return 1;
+  }
+  return 1;
+}
+
+/// Whether `count` elements lie within a view of `length` bytes; sizes are below 2^53.
+bool fits(std::size_t offset, std::size_t count, std::size_t stride, std::size_t size,
+          std::size_t length) {
+  return offset + (count - 1) * stride + size <= length;
+}
+
+Component readType(Members& in) {
+  const std::size_t number = in.size("componentType");
+  const auto type = componentOf(number);
+  if (in.ok() && !type) in.refuse(fmt::format("the componentType {} is unknown", number));
+  return type.value_or(Component::float32);
+}
+
+void readShape(Members& in, Accessor& accessor) {
+  const std::string_view name = in.text("type");
+  const auto shape = std::ranges::find(shapes, name, &Shape::name);
+  if (shape == shapes.end()) return in.refuse("its 'type' is missing or unknown");
+  accessor.rows = shape->rows, accessor.columns = shape->columns;
+}
+
+void checkView(Members& in, const Document& document, const Accessor& accessor) {
+  if (!in.ok() || !accessor.view) return;
+  const BufferView& view = document.views[*accessor.view];
+  const std::size_t size = accessor.elementSize(), stride = view.stride ? view.stride : size;
+  if (accessor.count > 1 && stride < size)
+    return in.refuse(
+        fmt::format("its elements of {} bytes overlap in buffer view {}, whose "
+                    "byteStride is {}",
+                    size, *accessor.view, stride));
+  if (!fits(accessor.offset, accessor.count, stride, size, view.length))
+    in.refuse(fmt::format("its {} elements reach beyond the {} bytes of buffer view {}",
+                          accessor.count, view.length, *accessor.view));
+}
+
+/// A view that holds `count` values of `size` bytes one after the other.
+struct Packed {
+  std::size_t view = 0, offset = 0;
+};
+Packed readPacked(Members& in, const Document& document, std::size_t count, std::size_t size) {
+  const Packed packed{in.index("bufferView", document.views.size(), "buffer views"),
+                      in.size("byteOffset", 0)};
+  if (in.ok() && !fits(packed.offset, count, size, size, document.views[packed.view].length))
+    in.refuse(fmt::format("its {} values reach beyond the {} bytes of buffer view {}", count,
+                          document.views[packed.view].length, packed.view));
+  return packed;
+}
+
+Result<Accessor::Sparse> readSparse(const Json& json, const Document& document,
+                                    const Accessor& accessor) {
+  Accessor::Sparse sparse;
+  Members in(json, fmt::format("accessor {}, sparse", accessor.index));
+  sparse.count = in.size("count");
+  if (in.ok() && (sparse.count == 0 || sparse.count > accessor.count))
+    in.refuse(fmt::format("its count {} is not from 1 to {}", sparse.count, accessor.count));
+  Members indices(in.object("indices"), in.place() + " indices");
+  Members values(in.object("values"), in.place() + " values");
+  if (!in.ok()) return in.error();
+
+  sparse.indexType = readType(indices);
+  const bool whole = sparse.indexType == Component::uint8 ||
+                     sparse.indexType == Component::uint16 || sparse.indexType == Component::uint32;
+  if (!whole) indices.refuse("their componentType is not one of unsigned integers");
+  const Packed where = readPacked(indices, document, sparse.count, sizeOf(sparse.indexType));
+  if (!indices.ok()) return indices.error();
+  const Packed what = readPacked(values, document, sparse.count, accessor.elementSize());
+  if (!values.ok()) return values.error();
+  sparse.indexView = where.view, sparse.indexOffset = where.offset;
+  sparse.valueView = what.view, sparse.valueOffset = what.offset;
+  return sparse;
+}
+
+/// Reads elements into values.
+class Elements {
+ public:
+  explicit Elements(const Accessor& accessor) : accessor_(accessor), one_(one(accessor.type)) {}
+
+  void read(const char* bytes, double* values) const {
+    const std::size_t size = sizeOf(accessor_.type);
+    for (std::size_t c = 0; c < accessor_.columns; ++c)
+      for (std::size_t r = 0; r < accessor_.rows; ++r)
+        *values++ = value(component(accessor_.type, bytes + c * accessor_.columnSize() + r * size));
+  }
+
+ private:
+  double value(double stored) const {
+    return accessor_.normalized ? std::max(stored / one_, -1.0) : stored;
+  }
+
+  const Accessor& accessor_;
+  double one_;
+};
+
+void readDense(const Document& document, const Accessor& accessor, std::vector<double>& values) {
+  const Elements elements(accessor);
+  const std::string_view bytes = document.bytesOf(*accessor.view);
+  const std::size_t given = document.views[*accessor.view].stride;
+  const std::size_t stride = given ? given : accessor.elementSize();
+  for (std::size_t k = 0; k < accessor.count; ++k)
+    elements.read(&bytes[accessor.offset + k * stride], &values[k * accessor.components()]);
+}
+
+Result<void> overwrite(const Document& document, const Accessor& accessor,
+                       std::vector<double>& values) {
+  const Accessor::Sparse& sparse = *accessor.sparse;
+  const Elements elements(accessor);
+  const char* where = &document.bytesOf(sparse.indexView)[sparse.indexOffset];
+  const char* what = &document.bytesOf(sparse.valueView)[sparse.valueOffset];
+  double last = -1;
+  for (std::size_t k = 0; k < sparse.count; ++k) {
+    const double index = component(sparse.indexType, where);
+    if (index <= last || index >= static_cast<double>(accessor.count))
+      return fail(fmt::format(
+          "accessor {}, sparse indices: number {} is {}, but they must increase and stay below "
+          "{}; export the file again.",
+          accessor.index, k, index, accessor.count));
+    elements.read(what, &values[static_cast<std::size_t>(index) * accessor.components()]);
+    where += sizeOf(sparse.indexType);
+    what += accessor.elementSize();
+    last = index;
+  }
+  return {};
+}
+
+}  // namespace
+
+std::size_t sizeOf(Component component) {
+  switch (component) {
+    case Component::int8:
+    case Component::uint8:
+      return 1;
+    case Component::int16:
+    case Component::uint16:
+      return 2;
+    case Component::uint32:
+    case Component::float32:
+      return 4;
+  }
+  return 4;
+}
+
+std::size_t Accessor::columnSize() const {
+  const std::size_t size = sizeOf(type) * rows;
+  return columns > 1 ? (size + 3) / 4 * 4 : size;
+}
+
+Result<Accessor> accessorAt(const Document& document, std::size_t index) {
+  const Json& json = document.list("accessors")[index];
+  Accessor accessor;
+  accessor.index = index;
+  Members in(json, fmt::format("accessor {}", index));
+  accessor.type = readType(in);
+  readShape(in, accessor);
+  accessor.normalized = in.flag("normalized") && accessor.type != Component::float32;
+  accessor.count = in.size("count");
+  if (accessor.count == 0) in.refuse("its count is 0");
+  accessor.offset = in.size("byteOffset", 0);
+  accessor.view = in.optionalIndex("bufferView", document.views.size(), "buffer views");
+  checkView(in, document, accessor);
+  const Json& sparse = in.object("sparse");
+  if (!in.ok()) return in.error();
+  if (in.has("sparse")) {
+    const auto read = readSparse(sparse, document, accessor);
+    if (!read) return std::unexpected(read.error());
+    accessor.sparse = *read;
+  }
+  return accessor;
+}
+
+Result<std::vector<double>> decode(const Document& document, const Accessor& accessor) {
+  std::vector<double> values(accessor.count * accessor.components());
+  if (accessor.view) readDense(document, accessor, values);
+  if (accessor.sparse)
+    if (auto ok = overwrite(document, accessor, values); !ok) return std::unexpected(ok.error());
+  const auto bad = std::ranges::find_if_not(values, [](double x) { return std::isfinite(x); });
+  if (bad == values.end()) return values;
+  return fail(fmt::format("accessor {}: element {} is not finite; export the file again.",
+                          accessor.index,
+                          static_cast<std::size_t>(bad - values.begin()) / accessor.components()));
+}
+
+}  // namespace sweepface::gltf

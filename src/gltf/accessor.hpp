@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "gltf/document.hpp"
+
+namespace sweepface::gltf {
+
+enum class Component {
+  int8 = 5120,
+  uint8 = 5121,
+  int16 = 5122,
+  uint16 = 5123,
+  uint32 = 5125,
+  float32 = 5126
+};
+
+/// Bytes of a component.
+std::size_t sizeOf(Component component);
+
+/// An accessor whose data lie within their buffer views.
+struct Accessor {
+  struct Sparse {
+    std::size_t count = 0;
+    Component indexType = Component::uint8;
+    std::size_t indexView = 0, indexOffset = 0, valueView = 0, valueOffset = 0;
+  };
+
+  std::size_t index = 0;            ///< in the list of accessors
+  std::optional<std::size_t> view;  ///< none: zeros
+  std::size_t offset = 0, count = 0;
+  Component type = Component::float32;
+  std::size_t rows = 1, columns = 1;
+  bool normalized = false;
+  std::optional<Sparse> sparse;
+
+  std::size_t components() const { return rows * columns; }
+  /// Bytes from a column to the next: those of small matrices begin at multiples of four.
+  std::size_t columnSize() const;
+  std::size_t elementSize() const { return columnSize() * columns; }
+  bool hasData() const { return view || sparse; }
+};
+
+/// The accessor of a number that is in the list. Memory for its values is the caller's worry:
+/// without data the count is only a claim.
+Result<Accessor> accessorAt(const Document& document, std::size_t index);
+
+/// All values, component after component, normalised where the accessor says so. All are finite.
+Result<std::vector<double>> decode(const Document& document, const Accessor& accessor);
+
+}  // namespace sweepface::gltf

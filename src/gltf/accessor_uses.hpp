@@ -1,0 +1,19 @@
+#pragma once
+
+#include <functional>
+#include <string_view>
+#include <vector>
+
+#include "gltf/parts.hpp"
+
+namespace sweepface::gltf {
+
+/// Whether the use of an accessor in a part counts: by the attribute's name, or "indices".
+using CountsInParts = std::function<bool(std::string_view)>;
+
+/// [accessors] those that something uses. Attributes and indices of parts count if asked for,
+/// everything else always does.
+std::vector<bool> usedAccessors(const Document& document, const Parts& parts,
+                                const CountsInParts& counts);
+
+}  // namespace sweepface::gltf

@@ -1,0 +1,155 @@
+#include "gltf/animation.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+
+namespace sweepface::gltf {
+namespace {
+
+/// Times, and at each of them the weights; with tangents in a cubic spline.
+struct Keys {
+  bool cubic = false;
+  std::vector<double> times;            ///< [keys]
+  std::vector<double> in, values, out;  ///< [keys × targets]
+};
+
+double single(double value) { return static_cast<double>(static_cast<float>(value)); }
+
+/// A law as a cubic Hermite spline: a parabola between two keys is one with the right speeds.
+Keys exactKeys(const Motion& motion, const std::vector<std::size_t>& targets) {
+  const bool turns = motion.law() == TimeLaw::accelerateBrake;
+  const std::vector<double> shares = turns ? std::vector{0.0, 0.5, 1.0} : std::vector{0.0, 1.0};
+  Keys keys;
+  keys.cubic = motion.law() != TimeLaw::linear;
+  for (const double share : shares) {
+    // Players multiply speeds with the times that they read.
+    const double seconds = single(motion.seconds());
+    keys.times.push_back(share * seconds);
+    const Progress done = progress(motion.law(), share);
+    for (const std::size_t target : targets) {
+      const double way = motion.to()[target] - motion.from()[target];
+      keys.values.push_back(motion.sample(target, share * motion.seconds()).position);
+      keys.in.push_back(way * done.velocity / seconds);
+    }
+  }
+  keys.out = keys.in;
+  return keys;
+}
+
+Keys framesOf(const Clip& clip, const std::vector<std::size_t>& targets) {
+  Keys keys;
+  keys.times = clip.times;
+  for (std::size_t frame = 0; frame < clip.times.size(); ++frame)
+    for (const std::size_t target : targets)
+      keys.values.push_back(clip.weights[frame * clip.names.size() + target]);
+  return keys;
+}
+
+/// What is before the first and after the last key does not count, but must be a number.
+std::vector<double> interleaved(const Keys& keys) {
+  if (!keys.cubic) return keys.values;
+  std::vector<double> all;
+  const std::size_t width = keys.values.size() / keys.times.size();
+  for (std::size_t k = 0; k < keys.times.size(); ++k)
+    for (const auto* list : {&keys.in, &keys.values, &keys.out})
+      for (std::size_t t = 0; t < width; ++t) all.push_back((*list)[k * width + t]);
+  return all;
+}
+
+bool increase(const std::vector<double>& times) {
+  for (std::size_t k = 1; k < times.size(); ++k)
+    if (!(static_cast<float>(times[k]) > static_cast<float>(times[k - 1]))) return false;
+  return true;
+}
+
+bool areSingle(const std::vector<double>& values) {
+  return std::ranges::all_of(values, [](double value) {
+    return std::abs(value) <= static_cast<double>(std::numeric_limits<float>::max());
+  });
+}
+
+class Animator {
+ public:
+  Animator(BoundScene& scene, const GlbOptions& options, Builder& builder)
+      : scene_(scene), options_(options), builder_(builder) {}
+
+  Result<void> run() {
+    std::string name = options_.animationName;
+    if (name.empty()) name = options_.motion ? nameOf(options_.motion->law()) : "clip";
+    animation_ = {{"name", name}, {"channels", Json::array()}, {"samplers", Json::array()}};
+    const std::vector<Index> shown = shownMeshes(scene_);
+    for (std::size_t n = 0; n < shown.size(); ++n)
+      if (shown[n] >= 0)
+        if (auto ok = addNode(n, shown[n]); !ok) return ok;
+    if (animation_["channels"].empty())
+      return fail("The face has no target in its scene that an animation could move.");
+    Json& animations = scene_.document.json["animations"];
+    if (!animations.is_array()) animations = Json::array();
+    animations.push_back(std::move(animation_));
+    return {};
+  }
+
+ private:
+  Result<void> addNode(std::size_t node, Index mesh) {
+    if (scene_.parts.meshes[mesh].targets.empty()) return {};
+    const auto sampler = samplerOf(mesh);
+    if (!sampler) return std::unexpected(sampler.error());
+    animation_["channels"].push_back(
+        {{"sampler", *sampler}, {"target", {{"node", node}, {"path", "weights"}}}});
+    return {};
+  }
+
+  Result<std::size_t> samplerOf(Index mesh) {
+    if (const auto known = samplers_.find(mesh); known != samplers_.end()) return known->second;
+    std::vector<std::size_t> targets;
+    for (const std::size_t t : scene_.parts.meshes[mesh].targets)
+      targets.push_back(static_cast<std::size_t>(scene_.targets[t]));
+    const Keys keys =
+        options_.motion ? exactKeys(*options_.motion, targets) : framesOf(*options_.clip, targets);
+    const std::vector<double> values = interleaved(keys);
+    if (!areSingle(keys.times) || !increase(keys.times) || !areSingle(values))
+      return fail(
+          "The motion is too fast, too slow or too wide for the single precision of glTF; give it "
+          "other seconds or weights.");
+    if (!input_) {
+      Column times = pack(keys.times, 1);
+      times.bounded = true;
+      input_ = builder_.add(times, Use::other);
+    }
+    animation_["samplers"].push_back({{"input", *input_},
+                                      {"interpolation", keys.cubic ? "CUBICSPLINE" : "LINEAR"},
+                                      {"output", builder_.add(pack(values, 1), Use::other)}});
+    return samplers_[mesh] = animation_["samplers"].size() - 1;
+  }
+
+  BoundScene& scene_;
+  const GlbOptions& options_;
+  Builder& builder_;
+  Json animation_;
+  std::optional<std::size_t> input_;       // the times, the same for all meshes
+  std::map<Index, std::size_t> samplers_;  // of meshes
+};
+
+}  // namespace
+
+Result<void> addAnimation(BoundScene& scene, const GlbOptions& options, Builder& builder) {
+  return Animator(scene, options, builder).run();
+}
+
+void setWeights(BoundScene& scene, const std::vector<double>& weights) {
+  Json& json = scene.document.json;
+  for (const RigMesh& mesh : scene.parts.meshes) {
+    if (mesh.targets.empty()) continue;
+    Json list = Json::array();
+    for (const std::size_t t : mesh.targets) list.push_back(weights[scene.targets[t]]);
+    json["meshes"][mesh.mesh]["weights"] = std::move(list);
+  }
+  // A node's weights would count instead of its mesh's.
+  const std::vector<Index> shown = shownMeshes(scene);
+  for (std::size_t n = 0; n < shown.size(); ++n)
+    if (shown[n] >= 0 && !scene.parts.meshes[shown[n]].targets.empty())
+      json["nodes"][n].erase("weights");
+}
+
+}  // namespace sweepface::gltf

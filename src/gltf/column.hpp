@@ -1,0 +1,36 @@
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "sweepface/vec.hpp"
+
+#include "gltf/accessor.hpp"
+
+namespace sweepface::gltf {
+
+/// Values for an accessor, element after element without gaps, little-endian.
+struct Column {
+  std::string bytes;
+  Component type = Component::float32;
+  std::size_t width = 1;  ///< components of an element: 1 to 4, or 16
+  bool normalized = false;
+  bool bounded = false;  ///< min and max are to be written, as positions must have them
+  bool sound = true;     ///< every value could be held
+
+  std::size_t elementSize() const { return width * sizeOf(type); }
+  std::size_t count() const { return bytes.size() / elementSize(); }
+  /// The component's number as it is stored.
+  double stored(std::size_t component) const;
+};
+
+/// Numbers as a type holds them, whole ones rounded. A zero has no sign.
+Column pack(std::span<const double> values, std::size_t width, Component type = Component::float32,
+            bool normalized = false);
+Column pack(std::span<const Vec3> values, Component type = Component::float32,
+            bool normalized = false);
+Column pack(std::span<const Vec2> values);
+/// Vertices of triangles, in the smallest type that every graphics interface has.
+Column packIndices(std::span<const Index> vertices);
+
+}  // namespace sweepface::gltf

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "gltf/bound_scene.hpp"
+#include "gltf/shapes.hpp"
+#include "gltf/slots.hpp"
+
+namespace sweepface::gltf {
+
+/// How a mesh holds its vertices: as floats, or as 16-bit shares of a cube.
+struct Encoding {
+  bool quantized = false;
+  Vec3 middle;      ///< of the cube, in the mesh's space
+  double half = 1;  ///< of its edge; differences are shares of it too
+};
+
+/// The places of vertices [runs][vertices] among those of the shapes.
+using Places = std::vector<std::vector<Index>>;
+
+/// Gives the parts of a scene their positions, normals and morph targets. With `morphNormals` every
+/// target has normals, else those that had them. Fails where the file outgrows a GLB.
+Result<void> fill(BoundScene& scene, const Shapes& shapes, const Places& places,
+                  const std::vector<Encoding>& encodings, bool morphNormals, Builder& builder,
+                  Slots& slots);
+
+}  // namespace sweepface::gltf

@@ -1,0 +1,160 @@
+#include <fmt/format.h>
+#include <numeric>
+
+#include "sweepface/gltf.hpp"
+
+#include "gltf/animation.hpp"
+#include "gltf/binary.hpp"
+#include "gltf/fine_mesh.hpp"
+#include "gltf/quantize.hpp"
+#include "gltf/source_of_grid.hpp"
+
+namespace sweepface {
+namespace gltf {
+namespace {
+
+Result<void> check(const Clip& clip) {
+  if (clip.times.empty()) return fail("The clip has no frames.");
+  if (clip.weights.size() != clip.times.size() * clip.names.size())
+    return fail("The clip has not as many weights as it has frames times names.");
+  if (!(clip.times.front() >= 0))
+    return fail("The clip starts before 0, where glTF knows no time.");
+  return {};
+}
+
+Result<void> check(const Rig& rig, const GlbOptions& options) {
+  const std::size_t targets = rig.targets.size();
+  const auto differ = [&](std::string_view what, std::size_t count) {
+    return fail(
+        fmt::format("The {} has {} weights, but the face {} targets.", what, count, targets));
+  };
+  if (!options.weights.empty() && options.weights.size() != targets)
+    return differ("expression", options.weights.size());
+  if (options.motion && options.motion->size() != targets)
+    return differ("motion", options.motion->size());
+  if (options.clip && options.clip->names.size() != targets)
+    return differ("clip", options.clip->names.size());
+  if (options.clip)
+    if (auto ok = check(*options.clip); !ok) return ok;
+  if (options.lod < 0) return fail("A level of detail is 0 or more.");
+  for (const double weight : options.weights)
+    if (!(std::abs(weight) <= std::numeric_limits<float>::max()))
+      return fail("A weight is not a number that a glTF can hold.");
+  return {};
+}
+
+/// Whether so many vertices of positions and normals alone would outgrow a GLB.
+Result<void> checkLod(const Surface& surface, Index lod) {
+  double quads = 0;
+  for (Index p = 0; p < surface.patchCount(); ++p)
+    quads += 1.0 * surface.edgesU(p) * surface.edgesV(p);
+  if (24 * quads * lod * lod < 4e9) return {};
+  return fail("The face would need more than the 4 GiB of a GLB; choose a lower level of detail.");
+}
+
+class GlbWriter {
+ public:
+  GlbWriter(const Rig& rig, const GlbOptions& options)
+      : rig_(rig),
+        options_(options),
+        grid_(rig.surface, std::max(options.lod, 1)),
+        shapes_(rig, grid_) {}
+
+  Result<std::string> write() {
+    auto scene = rig_.scene.empty() ? makeScene() : sceneOf(rig_);
+    if (!scene) return std::unexpected(scene.error());
+    scene_ = std::move(*scene);
+    Builder builder(scene_.document);
+    if (auto ok = writeMeshes(builder); !ok) return std::unexpected(ok.error());
+    if (options_.motion || options_.clip)
+      if (auto ok = addAnimation(scene_, options_, builder); !ok)
+        return std::unexpected(ok.error());
+    builder.finish();
+    if (!builder.sound())
+      return fail("The face has numbers that are too large for the single precision of glTF.");
+    return finish();
+  }
+
+ private:
+  /// A face that came without a scene gets one.
+  Result<BoundScene> makeScene() const {
+    if (options_.lod == 0) {
+      std::vector<Vec3> positions;
+      for (Index v = 0; v < static_cast<Index>(rig_.source.gridVertex.size()); ++v)
+        positions.push_back(shapes_.neutral().positions[shapes_.placeOf(v)]);
+      return sceneOfPolygons(rig_, positions);
+    }
+    const std::vector<Vec3> vectors = blend(rig_, {});
+    return sceneOfPolygons(rig_, sourcePositions(rig_, Tessellation(rig_.surface, 1), vectors, {}));
+  }
+
+  Result<void> writeMeshes(Builder& builder) {
+    Slots slots(scene_.document, scene_.parts, builder);
+    const auto places = placeVertices(slots);
+    if (!places) return std::unexpected(places.error());
+    std::vector<Encoding> encodings(scene_.parts.meshes.size());
+    if (options_.quantize) {
+      encodings = chooseEncodings(scene_, shapes_, *places);
+      if (auto ok = undoEncodings(scene_, encodings, builder); !ok) return ok;
+    }
+    if (!options_.weights.empty()) setWeights(scene_, options_.weights);
+    return fill(scene_, shapes_, *places, encodings, options_.morphNormals, builder, slots);
+  }
+
+  Result<Places> placeVertices(Slots& slots) {
+    Places places;
+    if (options_.lod == 0) {
+      for (const Run& run : scene_.parts.runs) {
+        std::vector<Index>& list = places.emplace_back();
+        for (std::size_t v = run.first; v < run.first + run.count; ++v)
+          list.push_back(shapes_.placeOf(scene_.vertices[v]));
+      }
+      return places;
+    }
+    auto mesh = cutFinely(rig_, scene_, grid_, shapes_.neutral().positions);
+    if (!mesh) return std::unexpected(mesh.error());
+    if (auto ok = refine(scene_, *mesh, slots); !ok) return std::unexpected(ok.error());
+    for (FineMesh::Run& run : mesh->runs) places.push_back(std::move(run.gridVertex));
+    return places;
+  }
+
+  Result<std::string> finish() {
+    Document& document = scene_.document;
+    document.json["asset"]["generator"] = "sweepface " SWEEPFACE_VERSION;
+    Json& buffers = document.json["buffers"];
+    if (!buffers.is_array() || buffers.empty()) buffers = Json::array({Json::object()});
+    buffers[0].erase("uri");
+    buffers[0]["byteLength"] = document.buffers[0].size();
+    if (options_.lod > 0)  // what the source's vertices had is needed no longer
+      document.buffers[0] = gatherBinary(document, std::vector<bool>(document.views.size(), false));
+    constexpr std::size_t beyond = std::size_t{1} << 32;
+    std::string bytes = formatContainer(document.json, document.buffers[0]);
+    if (bytes.size() >= beyond)
+      return fail(
+          "The file would be larger than the 4 GiB of a GLB; choose a lower level of detail.");
+    return bytes;
+  }
+
+  const Rig& rig_;
+  const GlbOptions& options_;
+  Tessellation grid_;
+  Shapes shapes_;
+  BoundScene scene_;
+};
+
+}  // namespace
+}  // namespace gltf
+
+Result<std::string> formatGlb(const Rig& rig, const GlbOptions& options) {
+  if (auto ok = gltf::check(rig, options); !ok) return std::unexpected(ok.error());
+  if (auto ok = gltf::checkLod(rig.surface, options.lod); !ok) return std::unexpected(ok.error());
+  const bool unknownFaces =
+      rig.source.polygons.faceCount() == 0 || (options.lod > 0 && rig.source.quadCorners.empty());
+  if (!unknownFaces) return gltf::GlbWriter(rig, options).write();
+  Rig whole = rig;
+  whole.source = gltf::sourceOfGrid(rig);
+  whole.scene.clear();
+  return gltf::GlbWriter(whole, options).write();
+}
+
+}  // namespace sweepface

@@ -1,0 +1,39 @@
+#include "sweepface/gltf.hpp"
+
+#include "gltf/mesh_rig.hpp"
+#include "gltf/same_vertices.hpp"
+#include "gltf/scene.hpp"
+#include "mesh/quads.hpp"
+#include "mesh/weld.hpp"
+
+namespace sweepface {
+namespace {
+
+Result<RigSource> readGltf(std::string_view bytes, const std::filesystem::path& folder) {
+  auto document = gltf::parseDocument(bytes, folder);
+  if (!document) return std::unexpected(document.error());
+  const auto parts = gltf::findParts(*document);
+  if (!parts) return std::unexpected(parts.error());
+  auto rig = gltf::readMeshRig(*document, *parts);
+  if (!rig) return std::unexpected(rig.error());
+  const auto same = gltf::sameVertices(*document, *parts, weld(*rig));
+  if (!same) return std::unexpected(same.error());
+  rig->neutral.polygons = recoverQuads(*rig, *same).polygons;
+  RigSource source{std::move(*rig), {}, document->warnings};
+  auto scene = gltf::makeScene(std::move(*document), *parts, folder);
+  if (!scene) return std::unexpected(scene.error());
+  source.scene = std::move(scene->glb);
+  source.warnings.insert(source.warnings.end(), scene->warnings.begin(), scene->warnings.end());
+  return source;
+}
+
+}  // namespace
+
+Result<RigSource> parseGltf(std::string_view bytes, std::string_view name,
+                            const std::filesystem::path& folder) {
+  auto source = readGltf(bytes, folder);
+  if (source) return source;
+  return fail(std::string(name) + ": " + source.error().message);
+}
+
+}  // namespace sweepface

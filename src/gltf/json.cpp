@@ -1,0 +1,171 @@
+#include "gltf/json.hpp"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <vector>
+
+namespace sweepface::gltf {
+namespace {
+
+// Members are found one after the other, so that an object of very many would take very long.
+constexpr std::size_t deepest = 128, mostMembers = 4096;
+
+/// Follows the nesting of a text that may or may not be JSON.
+class Nesting {
+ public:
+  Result<void> check(std::string_view text) {
+    for (std::size_t k = 0; k < text.size(); ++k) {
+      if (inString_) {
+        if (text[k] == '\\')
+          ++k;
+        else if (text[k] == '"')
+          inString_ = false;
+        continue;
+      }
+      if (auto ok = see(text[k]); !ok) return ok;
+    }
+    return {};
+  }
+
+ private:
+  Result<void> see(char c) {
+    if (c == '"') inString_ = true;
+    if (c == '[' || c == '{') {
+      if (members_.size() == deepest)
+        return fail(fmt::format("its JSON is nested deeper than {} levels; export the file again.",
+                                deepest));
+      members_.push_back(0);
+    }
+    if ((c == ']' || c == '}') && !members_.empty()) members_.pop_back();
+    if (c == ':' && !members_.empty() && ++members_.back() > mostMembers)
+      return fail(
+          fmt::format("its JSON has an object of more than {} members; export the file "
+                      "again.",
+                      mostMembers));
+    return {};
+  }
+
+  bool inString_ = false;
+  std::vector<std::size_t> members_;  // of each object around
+};
+
+const Json& emptyArray() {
+  static const Json empty = Json::array();
+  return empty;
+}
+const Json& emptyObject() {
+  static const Json empty = Json::object();
+  return empty;
+}
+
+/// A whole number below 2^53, however it is written.
+std::optional<std::size_t> asSize(const Json& value) {
+  constexpr double beyond = 9007199254740992.0;
+  if (!value.is_number()) return std::nullopt;
+  const double number = value.get<double>();
+  if (!(number >= 0 && number < beyond) || number != std::floor(number)) return std::nullopt;
+  return static_cast<std::size_t>(number);
+}
+
+}  // namespace
+
+Result<Json> parseJson(std::string_view text) {
+  if (auto ok = Nesting().check(text); !ok) return std::unexpected(ok.error());
+  Json json = Json::parse(text, nullptr, false);
+  if (json.is_discarded()) return fail("its JSON is not valid; export the file again.");
+  if (!json.is_object()) return fail("its JSON is not an object; export the file again.");
+  return json;
+}
+
+const Json& listOf(const Json& gltf, std::string_view key) {
+  const Json* const list = find(gltf, key);
+  return list && list->is_array() ? *list : emptyArray();
+}
+
+std::optional<std::size_t> asIndex(const Json& value, std::size_t count) {
+  const auto index = asSize(value);
+  return index && *index < count ? index : std::nullopt;
+}
+
+std::optional<std::size_t> findIndex(const Json& object, std::string_view key, std::size_t count) {
+  const Json* const value = find(object, key);
+  return value ? asIndex(*value, count) : std::nullopt;
+}
+
+Members::Members(const Json& object, std::string place)
+    : object_(object), place_(std::move(place)) {
+  if (!object.is_object()) refuse("it is not an object");
+}
+
+void Members::refuse(std::string_view fault, std::string_view advice) {
+  if (ok()) problem_ = fmt::format("{}: {}; {}.", place_, fault, advice);
+}
+
+const Json* Members::required(std::string_view key) {
+  const Json* const value = find(object_, key);
+  if (!value) refuse(quoted(key) + " is missing");
+  return ok() ? value : nullptr;
+}
+
+std::size_t Members::size(std::string_view key) {
+  const Json* const value = required(key);
+  if (!value) return 0;
+  const auto number = asSize(*value);
+  if (!number) refuse(quoted(key) + " is not a whole number");
+  return number.value_or(0);
+}
+
+std::size_t Members::size(std::string_view key, std::size_t absent) {
+  return has(key) ? size(key) : absent;
+}
+
+std::size_t Members::index(std::string_view key, std::size_t count, std::string_view things) {
+  const std::size_t number = size(key);
+  if (ok() && number >= count)
+    refuse(fmt::format("'{}' is {}, but the file has {} {}", key, number, count, things));
+  return ok() ? number : 0;
+}
+
+std::optional<std::size_t> Members::optionalIndex(std::string_view key, std::size_t count,
+                                                  std::string_view things) {
+  if (!has(key)) return std::nullopt;
+  const std::size_t number = index(key, count, things);
+  return ok() ? std::optional(number) : std::nullopt;
+}
+
+double Members::number(std::string_view key, double absent) {
+  if (!has(key)) return absent;
+  const Json* const value = required(key);
+  if (value && !value->is_number()) refuse(quoted(key) + " is not a number");
+  return ok() ? value->get<double>() : absent;
+}
+
+bool Members::flag(std::string_view key) {
+  if (!has(key)) return false;
+  const Json* const value = required(key);
+  if (value && !value->is_boolean()) refuse(quoted(key) + " is neither true nor false");
+  return ok() && value->get<bool>();
+}
+
+std::string_view Members::text(std::string_view key) {
+  if (!has(key)) return {};
+  const Json* const value = required(key);
+  if (value && !value->is_string()) refuse(quoted(key) + " is not a text");
+  return ok() ? std::string_view(value->get_ref<const std::string&>()) : std::string_view();
+}
+
+const Json& Members::object(std::string_view key) {
+  if (!has(key)) return emptyObject();
+  const Json* const value = required(key);
+  if (value && !value->is_object()) refuse(quoted(key) + " is not an object");
+  return ok() ? *value : emptyObject();
+}
+
+const Json& Members::array(std::string_view key) {
+  if (!has(key)) return emptyArray();
+  const Json* const value = required(key);
+  if (value && !value->is_array()) refuse(quoted(key) + " is not a list");
+  return ok() ? *value : emptyArray();
+}
+
+}  // namespace sweepface::gltf

@@ -1,0 +1,188 @@
+#include "gltf/mesh_rig.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <map>
+
+#include "gltf/texcoords.hpp"
+#include "gltf/triangles.hpp"
+#include "io/text.hpp"
+
+namespace sweepface::gltf {
+namespace {
+
+std::vector<Vec3> asVectors(const std::vector<double>& values) {
+  std::vector<Vec3> vectors(values.size() / 3);
+  for (std::size_t k = 0; k < vectors.size(); ++k)
+    vectors[k] = {values[3 * k], values[3 * k + 1], values[3 * k + 2]};
+  return vectors;
+}
+
+bool isUsable(const Vec3& p) { return io::isUsable(p.x) && io::isUsable(p.y) && io::isUsable(p.z); }
+
+class RigReader {
+ public:
+  RigReader(const Document& document, const Parts& parts)
+      : document_(document),
+        parts_(parts),
+        materials_(rig_.neutral.polygons.materials),
+        groups_(rig_.neutral.polygons.groups) {}
+
+  Result<MeshRig> read() {
+    if (auto ok = checkRoom(); !ok) return std::unexpected(ok.error());
+    for (const Run& run : parts_.runs)
+      if (auto ok = addNeutral(run); !ok) return std::unexpected(ok.error());
+    for (const std::string& name : parts_.targets)
+      rig_.targets.push_back({name, rig_.neutral.positions});
+    for (const Run& run : parts_.runs)
+      if (auto ok = addTargets(run); !ok) return std::unexpected(ok.error());
+    for (const Part& part : parts_.parts)
+      if (auto ok = addPart(part); !ok) return std::unexpected(ok.error());
+    if (rig_.neutral.polygons.faceCount() == 0)
+      return fail("all of its triangles name a vertex twice; export the file again.");
+    return std::move(rig_);
+  }
+
+ private:
+  // Few bytes can claim much: targets without data, accessors that are used again and again. Files
+  // that mean what they say stay below this, however well they are compressed.
+  static constexpr std::size_t vectorsPerByte = 32, alwaysAllowed = 1 << 16;
+  std::size_t mostVectors() const { return alwaysAllowed + vectorsPerByte * document_.sourceBytes; }
+
+  Result<void> checkRoom() const {
+    const std::size_t shapes = parts_.targets.size() + 1;
+    if (parts_.vertexCount <= mostVectors() / shapes) return {};
+    return fail(
+        fmt::format("it claims {} morph targets of {} vertices in {} bytes, more than a file of "
+                    "this size can mean; export the file again.",
+                    parts_.targets.size(), parts_.vertexCount, document_.sourceBytes));
+  }
+
+  const RigMesh& meshOf(const Run& run) const { return parts_.meshes[run.rigMesh]; }
+
+  Result<std::vector<Vec3>> vectors(std::size_t index) const {
+    const auto accessor = accessorAt(document_, index);
+    if (!accessor) return std::unexpected(accessor.error());
+    const auto values = decode(document_, *accessor);
+    if (!values) return std::unexpected(values.error());
+    return asVectors(*values);
+  }
+
+  Result<void> addNeutral(const Run& run) {
+    const auto accessor = accessorAt(document_, run.position);
+    if (!accessor) return std::unexpected(accessor.error());
+    if (!accessor->view)
+      return fail(
+          fmt::format("accessor {}: the POSITION of a mesh has no data; export the file "
+                      "again.",
+                      run.position));
+    const auto positions = vectors(run.position);
+    if (!positions) return std::unexpected(positions.error());
+    for (const Vec3& p : *positions) {
+      rig_.neutral.positions.push_back(meshOf(run).world.point(p));
+      if (!isUsable(rig_.neutral.positions.back())) return tooLarge(run.position);
+    }
+    return {};
+  }
+
+  Result<void> addTargets(const Run& run) {
+    for (std::size_t t = 0; t < run.targets.size(); ++t) {
+      if (!run.targets[t]) continue;
+      const auto deltas = vectors(*run.targets[t]);
+      if (!deltas) return std::unexpected(deltas.error());
+      Vec3* const moved = &rig_.targets[meshOf(run).targets[t]].positions[run.first];
+      for (std::size_t v = 0; v < run.count; ++v) {
+        moved[v] += meshOf(run).world.direction((*deltas)[v]);
+        if (!isUsable(moved[v])) return tooLarge(*run.targets[t]);
+      }
+    }
+    return {};
+  }
+
+  static std::unexpected<Error> tooLarge(std::size_t accessor) {
+    return fail(
+        fmt::format("accessor {}: a vertex is too far away for a float in the scene; scale "
+                    "the model down and export it again.",
+                    accessor));
+  }
+
+  Result<void> addPart(const Part& part) {
+    const Json& primitive = primitiveOf(document_, parts_, part);
+    const Run& run = parts_.runs[part.run];
+    Members in(primitive, placeOf(document_, meshOf(run).mesh, part.primitive));
+    const auto found = trianglesOf(document_, parts_, part);
+    if (!found) return std::unexpected(found.error());
+    corners_ += found->named;
+    if (corners_ > document_.mostElements())
+      in.refuse("the triangles of the file are more than its size can mean");
+    const auto texcoords = addTexcoords(primitive);
+    if (!texcoords) return std::unexpected(texcoords.error());
+    const Index material = readMaterial(in);
+    if (!in.ok()) return in.error();
+    for (const Triangle& triangle : found->triangles) addFace(triangle, run, *texcoords);
+    const auto faces = static_cast<std::size_t>(rig_.neutral.polygons.faceCount());
+    rig_.neutral.polygons.faceMaterial.resize(faces, material);
+    rig_.neutral.polygons.faceGroup.resize(faces, groups_(meshName(run)));
+    return {};
+  }
+
+  /// The first texture coordinate of a part's vertices among all, or -1. Parts may share them.
+  Result<Index> addTexcoords(const Json& primitive) {
+    const Json* const number = find(primitive["attributes"], "TEXCOORD_0");
+    if (!number) return -1;
+    std::vector<Vec2>& all = rig_.neutral.polygons.texcoords;
+    const Json* const material = find(primitive, "material");
+    const auto [known, isNew] =
+        texcoords_.emplace(std::pair(*number, material ? *material : Json()), all.size());
+    if (!isNew) return known->second;
+    const auto texcoords = readTexcoords(document_, primitive);
+    if (!texcoords) return std::unexpected(texcoords.error());
+    if (all.size() + texcoords->size() > document_.mostElements())
+      return fail("it has more texture coordinates than its size can mean; export the file again.");
+    all.insert(all.end(), texcoords->begin(), texcoords->end());
+    return known->second;
+  }
+
+  Index readMaterial(Members& in) {
+    const Json& list = document_.list("materials");
+    const auto index = in.optionalIndex("material", list.size(), "materials");
+    if (!index) return -1;
+    const Json* const name = find(list[*index], "name");
+    if (name && name->is_string() && !name->get_ref<const std::string&>().empty())
+      return materials_(name->get_ref<const std::string&>());
+    return materials_(fmt::format("material_{}", *index));
+  }
+
+  std::string meshName(const Run& run) const {
+    const Json* const name = find(document_.list("meshes")[meshOf(run).mesh], "name");
+    return name && name->is_string() ? name->get<std::string>() : std::string();
+  }
+
+  void addFace(const Triangle& triangle, const Run& run, Index texcoords) {
+    Polygons& polygons = rig_.neutral.polygons;
+    // A mirrored mesh shows the side from which its corners go clockwise.
+    const bool mirrored = meshOf(run).world.mirrors();
+    for (const Index v : {triangle[0], triangle[mirrored ? 2 : 1], triangle[mirrored ? 1 : 2]}) {
+      polygons.corners.push_back(static_cast<Index>(run.first) + v);
+      polygons.cornerTexcoords.push_back(texcoords < 0 ? -1 : texcoords + v);
+    }
+    polygons.faceStart.push_back(static_cast<Index>(polygons.corners.size()));
+  }
+
+  const Document& document_;
+  const Parts& parts_;
+  MeshRig rig_;
+  io::NameIndex materials_, groups_;
+  std::size_t corners_ = 0;
+  std::map<std::pair<Json, Json>, Index> texcoords_;  // first of each accessor and material
+};
+
+}  // namespace
+
+Result<MeshRig> readMeshRig(const Document& document, const Parts& parts) {
+  auto rig = RigReader(document, parts).read();
+  if (rig && rig->neutral.polygons.texcoords.empty()) rig->neutral.polygons.cornerTexcoords.clear();
+  return rig;
+}
+
+}  // namespace sweepface::gltf

@@ -1,0 +1,243 @@
+#include "gltf/parts.hpp"
+
+#include <fmt/format.h>
+#include <map>
+#include <set>
+
+#include "codec/utf8.hpp"
+#include "gltf/nodes.hpp"
+#include "io/text.hpp"
+
+namespace sweepface::gltf {
+namespace {
+
+constexpr std::size_t trianglesMode = 4, fanMode = 6;
+
+std::string meshPlace(const Document& document, std::size_t mesh) {
+  const Json* const name = find(document.list("meshes")[mesh], "name");
+  if (!name || !name->is_string()) return fmt::format("mesh {}", mesh);
+  return fmt::format("mesh {} {}", mesh, io::inQuotes(name->get_ref<const std::string&>()));
+}
+
+/// How the first node that shows each mesh places it. A skin ignores where its node is.
+Result<std::vector<Affine>> placements(const Document& document) {
+  const Json& nodes = document.list("nodes");
+  const std::size_t count = document.list("meshes").size();
+  const auto world = worldMatrices(document);
+  if (!world) return std::unexpected(world.error());
+  std::vector<Affine> placed(count);
+  std::vector<bool> seen(count);
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    Members in(nodes[n], fmt::format("node {}", n));
+    const auto mesh = in.optionalIndex("mesh", count, "meshes");
+    if (!in.ok()) return in.error();
+    if (!mesh || seen[*mesh]) continue;
+    seen[*mesh] = true;
+    if (!in.has("skin")) placed[*mesh] = (*world)[n];
+  }
+  return placed;
+}
+
+/// What a primitive says, checked.
+struct Primitive {
+  std::size_t index = 0, count = 0, position = 0;
+  std::vector<std::optional<std::size_t>> targets;
+};
+
+class PartFinder {
+ public:
+  explicit PartFinder(const Document& document)
+      : document_(document), meshes_(document.list("meshes")) {}
+
+  Result<Parts> find() {
+    const auto placed = placements(document_);
+    if (!placed) return std::unexpected(placed.error());
+    const auto morphing = anyTargets();
+    if (!morphing) return std::unexpected(morphing.error());
+    for (std::size_t m = 0; m < meshes_.size(); ++m)
+      if (auto ok = addMesh(m, (*placed)[m], *morphing); !ok) return std::unexpected(ok.error());
+    if (parts_.parts.empty())
+      return fail("it has no triangles; export the meshes of the face with the file.");
+    return std::move(parts_);
+  }
+
+ private:
+  std::string place(std::size_t mesh, std::size_t primitive) const {
+    return placeOf(document_, mesh, primitive);
+  }
+
+  /// The primitives of a mesh that are triangles, with targets if those are asked for.
+  Result<std::vector<std::size_t>> triangles(std::size_t mesh, bool morphing) const {
+    std::vector<std::size_t> found;
+    Members in(meshes_[mesh], meshPlace(document_, mesh));
+    const Json& primitives = in.array("primitives");
+    if (!in.ok()) return in.error();
+    for (std::size_t p = 0; p < primitives.size(); ++p) {
+      Members primitive(primitives[p], place(mesh, p));
+      const std::size_t mode = primitive.size("mode", trianglesMode);
+      const bool targets = !primitive.array("targets").empty();
+      if (!primitive.ok()) return primitive.error();
+      if (mode >= trianglesMode && mode <= fanMode && (targets || !morphing)) found.push_back(p);
+    }
+    return found;
+  }
+
+  /// Whether any triangles have morph targets.
+  Result<bool> anyTargets() const {
+    for (std::size_t m = 0; m < meshes_.size(); ++m) {
+      const auto found = triangles(m, true);
+      if (!found) return std::unexpected(found.error());
+      if (!found->empty()) return true;
+    }
+    return false;
+  }
+
+  Result<void> addMesh(std::size_t mesh, const Affine& world, bool morphing) {
+    const auto found = triangles(mesh, morphing);
+    if (!found) return std::unexpected(found.error());
+    if (found->empty()) return {};
+    if (!world.isFinite() || world.isSingular())
+      return fail(
+          fmt::format("{}: its node flattens it or has no finite matrix; apply its "
+                      "transform and export the file again.",
+                      meshPlace(document_, mesh)));
+    std::vector<Primitive> primitives;
+    for (std::size_t p : *found) {
+      auto primitive = readPrimitive(mesh, p);
+      if (!primitive) return std::unexpected(primitive.error());
+      if (!primitives.empty() && primitive->targets.size() != primitives[0].targets.size())
+        return fail(
+            fmt::format("{}: it has {} morph targets, but the mesh's first one {}; export "
+                        "the file again.",
+                        place(mesh, p), primitive->targets.size(), primitives[0].targets.size()));
+      primitives.push_back(std::move(*primitive));
+    }
+    auto names = nameTargets(mesh, primitives[0]);
+    if (!names) return std::unexpected(names.error());
+    parts_.meshes.push_back({mesh, std::move(*names), world});
+    addRuns(primitives);
+    if (parts_.vertexCount <= io::maxFileBytes) return {};
+    return fail("it has more vertices than an index can count; export only the face.");
+  }
+
+  Result<Primitive> readPrimitive(std::size_t mesh, std::size_t index) const {
+    const Json& json = meshes_[mesh]["primitives"][index];
+    Members in(json, place(mesh, index));
+    Primitive primitive;
+    primitive.index = index;
+    Members attributes(in.object("attributes"), place(mesh, index));
+    if (gltf::find(in.object("extensions"), "KHR_draco_mesh_compression"))
+      return fail(std::string(dracoRefusal));
+    if (in.ok() && !attributes.has("POSITION")) in.refuse("it has triangles without POSITION");
+    if (!in.ok()) return in.error();
+    primitive.position =
+        attributes.index("POSITION", document_.list("accessors").size(), "accessors");
+    if (!attributes.ok()) return attributes.error();
+    const auto position = accessorAt(document_, primitive.position);
+    if (!position) return std::unexpected(position.error());
+    primitive.count = position->count;
+    if (auto ok = checkAttributes(in.object("attributes"), primitive, place(mesh, index)); !ok)
+      return std::unexpected(ok.error());
+
+    const Json& targets = in.array("targets");
+    for (std::size_t t = 0; t < targets.size(); ++t) {
+      const std::string where = fmt::format("{}, target {}", place(mesh, index), t);
+      if (auto ok = checkAttributes(targets[t], primitive, where); !ok)
+        return std::unexpected(ok.error());
+      const Json* const moved = gltf::find(targets[t], "POSITION");
+      primitive.targets.push_back(moved ? asIndex(*moved, document_.list("accessors").size())
+                                        : std::nullopt);
+    }
+    return primitive;
+  }
+
+  /// Every attribute has one element a vertex.
+  Result<void> checkAttributes(const Json& attributes, const Primitive& primitive,
+                               const std::string& where) const {
+    Members in(attributes, where);
+    if (!in.ok()) return in.error();
+    for (const auto& [name, number] : attributes.items()) {
+      const auto index = asIndex(number, document_.list("accessors").size());
+      if (!index) in.refuse(fmt::format("its {} is none of the accessors", io::inQuotes(name)));
+      if (!in.ok()) return in.error();
+      const auto accessor = accessorAt(document_, *index);
+      if (!accessor) return std::unexpected(accessor.error());
+      if (accessor->count != primitive.count)
+        in.refuse(fmt::format("its {} has {} elements, but POSITION {}", io::inQuotes(name),
+                              accessor->count, primitive.count));
+      const bool vector = accessor->rows == 3 && accessor->columns == 1;
+      if ((name == "POSITION" || name == "NORMAL") && !vector)
+        in.refuse(fmt::format("its {} is not of type VEC3", name));
+      if (!in.ok()) return in.error();
+    }
+    return {};
+  }
+
+  /// Names of a mesh's targets: in its extras, as is the custom, or in those of its primitives.
+  std::vector<std::string> namesOf(std::size_t mesh, const Primitive& primitive) const {
+    const Json* given = nullptr;
+    for (const Json* holder : {&meshes_[mesh], &meshes_[mesh]["primitives"][primitive.index]})
+      if (const Json* extras = gltf::find(*holder, "extras"); extras && !given)
+        if (const Json* list = gltf::find(*extras, "targetNames"); list && list->is_array())
+          given = list;
+    std::vector<std::string> names;
+    for (std::size_t t = 0; t < primitive.targets.size(); ++t) {
+      const bool named = given && t < given->size() && (*given)[t].is_string();
+      std::string name = named ? (*given)[t].get<std::string>() : std::string();
+      names.push_back(io::trimmed(name).empty() ? fmt::format("target_{}", t) : std::move(name));
+    }
+    return names;
+  }
+
+  Result<std::vector<std::size_t>> nameTargets(std::size_t mesh, const Primitive& primitive) {
+    std::set<std::string> own;
+    std::vector<std::size_t> targets;
+    for (const std::string& name : namesOf(mesh, primitive)) {
+      if (!own.insert(name).second)
+        return fail(fmt::format("{}: two of its morph targets are named {}; rename one of them.",
+                                meshPlace(document_, mesh), io::inQuotes(name)));
+      if (!codec::isUtf8(name))
+        return fail(
+            fmt::format("{}: the name {} of a morph target has control characters; rename "
+                        "it.",
+                        meshPlace(document_, mesh), io::inQuotes(name)));
+      const auto [known, isNew] = numbers_.emplace(name, parts_.targets.size());
+      if (isNew) parts_.targets.push_back(name);
+      targets.push_back(known->second);
+    }
+    return targets;
+  }
+
+  void addRuns(const std::vector<Primitive>& primitives) {
+    std::map<std::pair<std::size_t, std::vector<std::optional<std::size_t>>>, std::size_t> known;
+    for (const Primitive& p : primitives) {
+      const auto [run, isNew] = known.emplace(std::pair(p.position, p.targets), parts_.runs.size());
+      if (isNew) {
+        parts_.runs.push_back(
+            {parts_.meshes.size() - 1, parts_.vertexCount, p.count, p.position, p.targets});
+        parts_.vertexCount += p.count;
+      }
+      parts_.parts.push_back({run->second, p.index});
+    }
+  }
+
+  const Document& document_;
+  const Json& meshes_;
+  Parts parts_;
+  std::map<std::string, std::size_t> numbers_;  // of target names
+};
+
+}  // namespace
+
+std::string placeOf(const Document& document, std::size_t mesh, std::size_t primitive) {
+  return fmt::format("{}, primitive {}", meshPlace(document, mesh), primitive);
+}
+
+const Json& primitiveOf(const Document& document, const Parts& parts, const Part& part) {
+  const std::size_t mesh = parts.meshes[parts.runs[part.run].rigMesh].mesh;
+  return document.list("meshes")[mesh]["primitives"][part.primitive];
+}
+
+Result<Parts> findParts(const Document& document) { return PartFinder(document).find(); }
+
+}  // namespace sweepface::gltf

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gltf/accessor.hpp"
+#include "gltf/affine.hpp"
+#include "gltf/document.hpp"
+
+namespace sweepface::gltf {
+
+/// A mesh that has primitives of the rig.
+struct RigMesh {
+  std::size_t mesh = 0;              ///< in the list of meshes
+  std::vector<std::size_t> targets;  ///< [its targets] the rig's target of the same name
+  Affine world;                      ///< how its first node places it in the scene
+};
+
+/// Vertices that primitives of one mesh share: those that agree in the accessors of POSITION and of
+/// every target's POSITION.
+struct Run {
+  std::size_t rigMesh = 0;                          ///< in Parts::meshes
+  std::size_t first = 0, count = 0;                 ///< its vertices among the rig's
+  std::size_t position = 0;                         ///< accessor
+  std::vector<std::optional<std::size_t>> targets;  ///< [the mesh's targets] accessor, if any
+};
+
+/// A primitive of the rig: triangles, as a list, a strip or a fan.
+struct Part {
+  std::size_t run = 0;        ///< in Parts::runs
+  std::size_t primitive = 0;  ///< in the list of its mesh
+};
+
+/// What of a glTF makes the rig (docs/glb.md): every triangle primitive with morph targets, or all
+/// triangle primitives where none has. Found the same way in a source and in the scene made of it.
+struct Parts {
+  std::vector<RigMesh> meshes;
+  std::vector<Run> runs;
+  std::vector<Part> parts;           ///< in the order of meshes and primitives
+  std::vector<std::string> targets;  ///< names, in order of first appearance
+  std::size_t vertexCount = 0;
+};
+
+/// All attributes of a part and of its targets are accessors with as many elements as the part has
+/// vertices, POSITIONs are VEC3, and every world matrix can be inverted. Accessors may lack data.
+Result<Parts> findParts(const Document& document);
+
+/// The JSON of a part's primitive.
+const Json& primitiveOf(const Document& document, const Parts& parts, const Part& part);
+/// "mesh 0 'head', primitive 1", for messages.
+std::string placeOf(const Document& document, std::size_t mesh, std::size_t primitive);
+
+}  // namespace sweepface::gltf

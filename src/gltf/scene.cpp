@@ -1,0 +1,235 @@
+#include "gltf/scene.hpp"
+
+#include <algorithm>
+#include <array>
+#include <fmt/format.h>
+#include <map>
+#include <set>
+#include <tuple>
+
+#include "gltf/accessor_uses.hpp"
+#include "gltf/binary.hpp"
+#include "gltf/resources.hpp"
+#include "io/text.hpp"
+
+namespace sweepface::gltf {
+namespace {
+
+namespace fs = std::filesystem;
+
+// ---- Taking out what the rig stands for ----
+
+/// Whether a part keeps an attribute as it is.
+bool isKept(std::string_view attribute) {
+  return attribute != "POSITION" && attribute != "NORMAL" && attribute != "TANGENT";
+}
+
+class Emptier {
+ public:
+  Emptier(Document& document, const Parts& parts)
+      : document_(document),
+        parts_(parts),
+        others_(usedAccessors(document, parts, isKept)),
+        touched_(document.views.size()) {}
+
+  void run() {
+    for (const Part& part : parts_.parts) {
+      Json& primitive = document_.json["meshes"][meshOf(part)]["primitives"][part.primitive];
+      emptyAttributes(primitive["attributes"], part.run, 0);
+      if (Json* const targets = find(primitive, "targets"))
+        for (std::size_t t = 0; t < targets->size(); ++t)
+          emptyAttributes((*targets)[t], part.run, t + 1);
+    }
+    for (std::size_t accessor : tangents_)
+      if (!others_[accessor] && !claimed_.contains(accessor)) empty(accessor);
+  }
+
+  const std::vector<bool>& touched() const { return touched_; }
+
+ private:
+  std::size_t meshOf(const Part& part) const {
+    return parts_.meshes[parts_.runs[part.run].rigMesh].mesh;
+  }
+
+  /// `shape` is 0 for the base and 1 + k for target k.
+  void emptyAttributes(Json& attributes, std::size_t run, std::size_t shape) {
+    for (const char* name : {"POSITION", "NORMAL"})
+      if (Json* const reference = find(attributes, name)) {
+        const auto accessor = *asIndex(*reference, accessors().size());
+        *reference = claim({accessor, run, shape, name});
+      }
+    if (const Json* const reference = find(attributes, "TANGENT")) {
+      tangents_.insert(*asIndex(*reference, accessors().size()));
+      attributes.erase("TANGENT");
+    }
+  }
+
+  /// An accessor and what it is for.
+  using Use = std::tuple<std::size_t, std::size_t, std::size_t, std::string_view>;
+
+  /// The emptied accessor that serves this use alone: the same one, or a new one where it serves
+  /// others as well.
+  std::size_t claim(const Use& use) {
+    const auto known = claims_.find(use);
+    if (known != claims_.end()) return known->second;
+    std::size_t accessor = std::get<0>(use);
+    if (others_[accessor] || !claimed_.insert(accessor).second) {
+      Json copy = accessors()[accessor];
+      accessor = accessors().size();
+      accessors().push_back(std::move(copy));
+    }
+    empty(accessor);
+    if (std::get<3>(use) == "POSITION")
+      for (const char* bound : {"min", "max"}) accessors()[accessor][bound] = {0, 0, 0};
+    return claims_[use] = accessor;
+  }
+
+  void empty(std::size_t accessor) {
+    Json& json = accessors()[accessor];
+    touch(json);
+    if (const Json* const sparse = find(json, "sparse"))
+      for (const char* part : {"indices", "values"}) touch((*sparse)[part]);
+    json["componentType"] = 5126;
+    for (const char* key : {"bufferView", "byteOffset", "sparse", "normalized", "min", "max"})
+      json.erase(key);
+  }
+
+  void touch(const Json& holder) {
+    if (const Json* const view = find(holder, "bufferView"))
+      touched_[*asIndex(*view, touched_.size())] = true;
+  }
+
+  Json& accessors() { return document_.json["accessors"]; }
+
+  Document& document_;
+  const Parts& parts_;
+  std::vector<bool> others_;  // accessors that something else uses
+  std::vector<bool> touched_;
+  std::map<Use, std::size_t> claims_;
+  std::set<std::size_t> claimed_, tangents_;
+};
+
+// ---- Images ----
+
+std::string kindOf(std::string_view bytes) {
+  struct Kind {
+    std::string_view start, type;
+  };
+  constexpr std::array<Kind, 4> kinds{{{"\x89PNG\r\n", "image/png"},
+                                       {"\xFF\xD8\xFF", "image/jpeg"},
+                                       {"\xABKTX 20\xBB", "image/ktx2"},
+                                       {"DDS ", "image/vnd-ms.dds"}}};
+  for (const Kind& kind : kinds)
+    if (bytes.starts_with(kind.start)) return std::string(kind.type);
+  if (bytes.starts_with("RIFF") && bytes.substr(0, 12).ends_with("WEBP")) return "image/webp";
+  return {};
+}
+
+/// Moves images that are stored elsewhere into the document.
+class ImageEmbedder {
+ public:
+  ImageEmbedder(Document& document, const fs::path& folder, std::vector<std::string>& warnings)
+      : document_(document), folder_(folder), warnings_(warnings) {}
+
+  void run() {
+    Json* const images = find(document_.json, "images");
+    for (std::size_t k = 0; images && k < images->size(); ++k) {
+      Json& image = (*images)[k];
+      const Json* const uri = find(image, "uri");
+      if (!uri || !uri->is_string()) continue;
+      const Embedded& embedded = embedOnce(uri->get_ref<const std::string&>());
+      if (!embedded.problem.empty()) {
+        warnings_.push_back(
+            fmt::format("Image {} stays a reference to a file, which may be missing "
+                        "where the face is written: {}",
+                        k, embedded.problem));
+        continue;
+      }
+      image.erase("uri");
+      image["bufferView"] = embedded.view;
+      if (!find(image, "mimeType")) image["mimeType"] = embedded.mimeType;
+    }
+  }
+
+ private:
+  struct Embedded {
+    std::size_t view = 0;
+    std::string mimeType, problem;
+  };
+
+  const Embedded& embedOnce(const std::string& uri) {
+    const auto [known, isNew] = embedded_.try_emplace(uri);
+    if (isNew) known->second = embed(uri);
+    return known->second;
+  }
+
+  Embedded embed(const std::string& uri) {
+    auto fetched = fetch(uri, folder_);
+    if (!fetched) return {0, {}, fetched.error().message};
+    const std::string kind = kindOf(fetched->bytes);
+    const std::string type = kind.empty() ? fetched->mimeType : kind;
+    if (fetched->bytes.empty() || type.empty())
+      return {0, {}, fmt::format("the file {} is no image of a known kind.", io::inQuotes(uri))};
+    const std::size_t size = fetched->bytes.size(), buffer = document_.buffers.size();
+    document_.views.push_back({buffer, 0, size, 0});
+    document_.buffers.push_back(std::move(fetched->bytes));
+    document_.json["buffers"].push_back({{"byteLength", size}});
+    document_.json["bufferViews"].push_back({{"buffer", buffer}, {"byteLength", size}});
+    return {document_.views.size() - 1, type, {}};
+  }
+
+  Document& document_;
+  const fs::path& folder_;
+  std::vector<std::string>& warnings_;
+  std::map<std::string, Embedded> embedded_;
+};
+
+// ---- Warnings ----
+
+bool hasNormalMap(const Json& material) {
+  const auto isNormalMap = [](const std::string& key) {
+    return key == "normalTexture" || key.ends_with("NormalTexture");
+  };
+  for (const auto& [key, value] : material.items()) {
+    if (isNormalMap(key)) return true;
+    if (key != "extensions" || !value.is_object()) continue;
+    for (const Json& extension : value)
+      if (extension.is_object())
+        for (const auto& [inner, unused] : extension.items())
+          if (isNormalMap(inner)) return true;
+  }
+  return false;
+}
+
+/// Whether a normal map of a part counts on tangents of the file.
+bool losesTangents(const Document& document, const Parts& parts) {
+  const Json& materials = document.list("materials");
+  return std::ranges::any_of(parts.parts, [&](const Part& part) {
+    const Json& primitive = primitiveOf(document, parts, part);
+    const Json* const reference = find(primitive, "material");
+    const auto material = reference ? asIndex(*reference, materials.size()) : std::nullopt;
+    return material && find(primitive["attributes"], "TANGENT") &&
+           hasNormalMap(materials[*material]);
+  });
+}
+
+}  // namespace
+
+Result<Scene> makeScene(Document document, const Parts& parts, const fs::path& folder) {
+  Scene scene;
+  if (losesTangents(document, parts))
+    scene.warnings.push_back(
+        "The tangents of the face are not carried over, since the surface has other normals; "
+        "programs compute them for its normal maps.");
+  Emptier emptier(document, parts);
+  emptier.run();
+  std::vector<bool> touched = emptier.touched();
+  ImageEmbedder(document, folder, scene.warnings).run();
+  touched.resize(document.views.size());
+  const std::string binary = gatherBinary(document, touched);
+  scene.glb = formatContainer(document.json, binary);
+  if (scene.glb.size() <= io::maxFileBytes) return scene;
+  return fail("what it holds besides the face is larger than 2 GiB; export only the face.");
+}
+
+}  // namespace sweepface::gltf

@@ -1,0 +1,50 @@
+#include "gltf/shapes.hpp"
+
+namespace sweepface::gltf {
+namespace {
+
+const Vec3 up{0, 0, 1};
+
+void appendAll(std::vector<Vec3>& list, const std::vector<Vec3>& more) {
+  list.insert(list.end(), more.begin(), more.end());
+}
+
+}  // namespace
+
+Shapes::Shapes(const Rig& rig, const Tessellation& grid) : rig_(rig), grid_(grid) {
+  const std::vector<Vec3> vectors = blend(rig, {});
+  neutral_ = {grid.positions(vectors), normals(vectors)};
+  appendAll(neutral_.positions, rig.source.loose);
+}
+
+Index Shapes::placeOf(Index sourceVertex) const {
+  const Index g = rig_.source.gridVertex[sourceVertex];
+  return g >= 0 ? g : grid_.vertexCount() - 1 - g;
+}
+
+ShapeAt Shapes::target(Index target, bool withNormals) const {
+  // Evaluating is linear, so that the difference of the vectors gives that of the vertices, and
+  // zeros stay zeros.
+  const Target& t = rig_.targets[target];
+  std::vector<Vec3> difference(rig_.surface.vectorCount());
+  rig_.surface.settle(t.difference, difference);
+  ShapeAt result{grid_.positions(difference), {}};
+  appendAll(result.positions, t.looseDifference);
+  if (!withNormals) return result;
+
+  Weights weights(rig_.targets.size(), 0.0);
+  weights[target] = 1;
+  result.normals = normals(blend(rig_, weights));
+  for (std::size_t v = 0; v < result.normals.size(); ++v) result.normals[v] -= neutral_.normals[v];
+  return result;
+}
+
+std::vector<Vec3> Shapes::normals(std::span<const Vec3> vectors) const {
+  std::vector<Vec3> list = grid_.normals(vectors);
+  list.resize(list.size() + rig_.source.loose.size(), up);
+  for (Vec3& n : list)
+    if (!isFinite(n) || n == Vec3{}) n = up;
+  return list;
+}
+
+}  // namespace sweepface::gltf

@@ -1,0 +1,138 @@
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "sweepface/clip.hpp"
+
+#include "io/json_text.hpp"
+
+namespace sweepface {
+namespace {
+
+using Json = nlohmann::json;
+
+const Json* member(const Json& object, std::string_view key) {
+  if (!object.is_object()) return nullptr;
+  const auto found = object.find(key);
+  return found == object.end() ? nullptr : &*found;
+}
+
+class ClipJsonReader {
+ public:
+  explicit ClipJsonReader(std::string_view name) : name_(name) {}
+
+  Result<Clip> read(const Json& json) {
+    if (member(json, "weightMat")) return readAudio2Face(json);
+    const Json* frames = json.is_array() ? &json : member(json, "frames");
+    if (frames && frames->is_array()) return readMediaPipe(*frames);
+    return failFile(
+        "is neither of Audio2Face ('facsNames' and 'weightMat') nor of MediaPipe (a list of frames "
+        "with 'categories')");
+  }
+
+ private:
+  std::unexpected<Error> failFile(std::string_view what) const {
+    return fail(fmt::format("{} {}.", name_, what));
+  }
+
+  // ---- Audio2Face: a matrix of frames × names ----
+
+  Result<Clip> readAudio2Face(const Json& json) {
+    const Json* fps = member(json, "exportFps");
+    if (!fps || !fps->is_number() || !(fps->get<double>() > 0))
+      return failFile("has no 'exportFps' greater than 0");
+    const Json* names = member(json, "facsNames");
+    if (!names || !names->is_array() || names->empty()) return failFile("has no list 'facsNames'");
+    for (const Json& shape : *names) {
+      if (!shape.is_string()) return failFile("has a value in 'facsNames' that is not a name");
+      clip_.names.push_back(shape.get<std::string>());
+    }
+    const Json& rows = json["weightMat"];
+    if (!rows.is_array() || rows.empty()) return failFile("has no frames in 'weightMat'");
+    for (std::size_t f = 0; f < rows.size(); ++f) {
+      clip_.times.push_back(static_cast<double>(f) / fps->get<double>());
+      if (auto ok = readRow(rows[f], f); !ok) return std::unexpected(ok.error());
+    }
+    return std::move(clip_);
+  }
+  Result<void> readRow(const Json& row, std::size_t frame) {
+    if (!row.is_array() || row.size() != clip_.names.size())
+      return failFile(fmt::format("has not {} numbers in weightMat[{}], one for every name",
+                                  clip_.names.size(), frame));
+    for (const Json& weight : row) {
+      if (!weight.is_number() || !std::isfinite(weight.get<double>()))
+        return failFile(fmt::format("has a value that is not a number in weightMat[{}]", frame));
+      clip_.weights.push_back(weight.get<double>());
+    }
+    return {};
+  }
+
+  // ---- MediaPipe: every frame names its scores ----
+
+  Result<Clip> readMediaPipe(const Json& frames) {
+    if (frames.empty()) return failFile("has no frames");
+    std::vector<std::map<std::string, double>> scores(frames.size());
+    for (std::size_t f = 0; f < frames.size(); ++f)
+      if (auto ok = readFrame(frames[f], f, scores[f]); !ok) return std::unexpected(ok.error());
+    for (const auto& frame : scores)
+      for (const auto& [shape, score] : frame)
+        if (shape != "_neutral" && std::ranges::find(clip_.names, shape) == clip_.names.end())
+          clip_.names.push_back(shape);
+    if (clip_.names.empty()) return failFile("has no scores in its frames");
+    for (const auto& frame : scores)
+      for (const std::string& shape : clip_.names) {
+        const auto found = frame.find(shape);
+        clip_.weights.push_back(found == frame.end() ? 0 : found->second);
+      }
+    return std::move(clip_);
+  }
+  Result<void> readFrame(const Json& frame, std::size_t f, std::map<std::string, double>& scores) {
+    const Json* time = nullptr;
+    for (const char* key : {"timestampMs", "timestamp_ms", "timestamp"})
+      if (!time) time = member(frame, key);
+    if (!time || !time->is_number())
+      return failFile(fmt::format("has no 'timestampMs' in frame {}", f));
+    const double seconds = time->get<double>() / 1000;
+    if (!std::isfinite(seconds) || (!clip_.times.empty() && seconds <= clip_.times.back()))
+      return failFile(fmt::format("has a time in frame {} that is not after the one before", f));
+    clip_.times.push_back(seconds);
+    const Json* categories = categoriesOf(frame);
+    if (!categories || !categories->is_array())
+      return failFile(fmt::format("has no 'categories' in frame {}", f));
+    for (const Json& category : *categories) {
+      const Json* shape = member(category, "categoryName");
+      if (!shape) shape = member(category, "category_name");
+      const Json* score = member(category, "score");
+      if (!shape || !shape->is_string() || !score || !score->is_number() ||
+          !std::isfinite(score->get<double>()))
+        return failFile(
+            fmt::format("has a category without 'categoryName' and 'score' in frame {}", f));
+      scores[shape->get<std::string>()] = score->get<double>();
+    }
+    return {};
+  }
+  // Beside the time, or within the first of the faces found. A frame without a face has none.
+  static const Json* categoriesOf(const Json& frame) {
+    static const Json none = Json::array();
+    if (const Json* direct = member(frame, "categories")) return direct;
+    for (const char* key : {"faceBlendshapes", "face_blendshapes"})
+      if (const Json* faces = member(frame, key); faces && faces->is_array())
+        return faces->empty() ? &none : member((*faces)[0], "categories");
+    return nullptr;
+  }
+
+  std::string_view name_;
+  Clip clip_;
+};
+
+}  // namespace
+
+Result<Clip> parseClipJson(std::string_view text, std::string_view name) {
+  const auto json = io::parseJson(text, name);
+  if (!json) return std::unexpected(json.error());
+  return ClipJsonReader(name).read(*json);
+}
+
+}  // namespace sweepface

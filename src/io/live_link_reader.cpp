@@ -1,0 +1,143 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+
+#include "sweepface/clip.hpp"
+
+#include "io/text.hpp"
+
+namespace sweepface {
+namespace {
+
+using io::inQuotes, io::toNumber, io::trimmed;
+
+std::vector<std::string_view> cells(std::string_view line) {
+  std::vector<std::string_view> found;
+  while (true) {
+    const std::size_t comma = line.find(',');
+    found.push_back(trimmed(line.substr(0, comma)));
+    if (comma == std::string_view::npos) return found;
+    line.remove_prefix(comma + 1);
+  }
+}
+
+bool sameLetters(std::string_view a, std::string_view b) {
+  const auto small = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; };
+  return std::ranges::equal(a, b, {}, small, small);
+}
+
+class LiveLinkReader {
+ public:
+  LiveLinkReader(std::string_view text, std::string_view name, double framesPerSecond)
+      : lines_(text, '\n'), name_(name), framesPerSecond_(framesPerSecond) {}
+
+  Result<Clip> read() {
+    if (auto ok = readHeadings(); !ok) return std::unexpected(ok.error());
+    while (lines_.next())
+      if (!trimmed(lines_.line()).empty())
+        if (auto ok = readRow(); !ok) return std::unexpected(ok.error());
+    if (clip_.times.empty()) return failFile("has headings but no frames; record again");
+    return std::move(clip_);
+  }
+
+ private:
+  std::unexpected<Error> failFile(std::string_view what) const {
+    return fail(fmt::format("{} {}.", name_, what));
+  }
+  std::unexpected<Error> failLine(std::string_view what) const {
+    return fail(fmt::format("{} line {}: {}.", name_, lines_.number(), what));
+  }
+
+  Result<void> readHeadings() {
+    do
+      if (!lines_.next()) return failFile("is empty; record again");
+    while (trimmed(lines_.line()).empty());
+    std::string_view line = lines_.line();
+    if (line.starts_with("\xef\xbb\xbf")) line.remove_prefix(3);
+    const auto headings = cells(line);
+    columns_ = headings.size();
+    for (std::size_t c = 0; c < columns_; ++c)
+      if (auto ok = readHeading(headings[c], c); !ok) return ok;
+    if (timeColumn_ >= columns_)
+      return failLine("there is no column 'Timecode'; is this a Live Link Face recording?");
+    if (clip_.names.empty()) return failLine("there is no column of a shape");
+    return {};
+  }
+  Result<void> readHeading(std::string_view heading, std::size_t column) {
+    if (sameLetters(heading, "Timecode"))
+      timeColumn_ = column;
+    else if (heading.empty())
+      return failLine(fmt::format("column {} has no heading", column + 1));
+    else if (!sameLetters(heading, "BlendShapeCount")) {
+      if (std::ranges::find(clip_.names, heading) != clip_.names.end())
+        return failLine(fmt::format("there are two columns {}", inQuotes(heading)));
+      clip_.names.emplace_back(heading);
+      shapeColumns_.push_back(column);
+    }
+    return {};
+  }
+
+  Result<void> readRow() {
+    const auto row = cells(lines_.line());
+    if (row.size() != columns_)
+      return failLine(fmt::format("there are {} values under {} headings; was the file cut short?",
+                                  row.size(), columns_));
+    const Result<double> time = timecode(row[timeColumn_]);
+    if (!time) return std::unexpected(time.error());
+    if (!clip_.times.empty() && *time <= clip_.times.back())
+      return failLine(
+          fmt::format("the timecode {} is not after the one before; sort the rows by time",
+                      inQuotes(row[timeColumn_])));
+    clip_.times.push_back(*time);
+    for (const std::size_t c : shapeColumns_) {
+      const auto value = toNumber<double>(row[c]);
+      if (!value || !std::isfinite(*value))
+        return failLine(
+            fmt::format("{} in column {} is not a finite number", inQuotes(row[c]), c + 1));
+      clip_.weights.push_back(*value);
+    }
+    return {};
+  }
+
+  // HH:MM:SS:FF.fff, the last in frames; or plain seconds.
+  Result<double> timecode(std::string_view text) const {
+    if (const auto seconds = toNumber<double>(text); seconds && std::isfinite(*seconds))
+      return *seconds;
+    std::array<double, 4> parts{};
+    std::string_view rest = text;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const std::size_t colon = k < 3 ? rest.find(':') : rest.size();
+      const auto part = colon == std::string_view::npos ? std::optional<double>{}
+                                                        : toNumber<double>(rest.substr(0, colon));
+      if (!part || !(*part >= 0) || *part > 1e6)
+        return failLine(fmt::format("{} is not a timecode like 12:59:59:23.500", inQuotes(text)));
+      parts[k] = *part;
+      if (k < 3) rest.remove_prefix(colon + 1);
+    }
+    if (parts[3] >= framesPerSecond_)
+      return failLine(
+          fmt::format("the timecode {} counts more than {} frames a second; give the "
+                      "recording's own rate",
+                      inQuotes(text), framesPerSecond_));
+    return (parts[0] * 60 + parts[1]) * 60 + parts[2] + parts[3] / framesPerSecond_;
+  }
+
+  io::LineCursor lines_;
+  std::string_view name_;
+  double framesPerSecond_;
+  std::size_t columns_ = 0, timeColumn_ = static_cast<std::size_t>(-1);
+  std::vector<std::size_t> shapeColumns_;
+  Clip clip_;
+};
+
+}  // namespace
+
+Result<Clip> parseLiveLinkCsv(std::string_view text, std::string_view name,
+                              double framesPerSecond) {
+  if (!(std::isfinite(framesPerSecond) && framesPerSecond > 0))
+    return fail("The frames per second of a recording must be greater than 0.");
+  return LiveLinkReader(text, name, framesPerSecond).read();
+}
+
+}  // namespace sweepface

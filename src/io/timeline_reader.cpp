@@ -1,0 +1,147 @@
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <initializer_list>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "sweepface/timeline.hpp"
+
+#include "io/json_text.hpp"
+
+namespace sweepface {
+namespace {
+
+using Json = nlohmann::json;
+
+class TimelineReader {
+ public:
+  TimelineReader(std::string_view name, const Json& json) : name_(name), json_(json) {}
+
+  Result<Timeline> read() {
+    if (!json_.is_object()) return failAt("the file", "is not an object");
+    if (auto ok = knows(json_, "the file", {"seconds", "loops", "poses", "events"}); !ok)
+      return std::unexpected(ok.error());
+    Timeline timeline;
+    double loops = 1;
+    if (auto ok = number(json_, "the file", "seconds", timeline.seconds, true); !ok)
+      return std::unexpected(ok.error());
+    if (auto ok = number(json_, "the file", "loops", loops, false); !ok)
+      return std::unexpected(ok.error());
+    if (!(timeline.seconds > 0)) return failAt("'seconds'", "must be greater than 0");
+    if (!(loops >= 1 && loops <= 10'000 && loops == std::floor(loops)))
+      return failAt("'loops'", "must be a whole number from 1 to 10000");
+    timeline.loops = static_cast<int>(loops);
+    const auto events = json_.find("events");
+    if (events == json_.end() || !events->is_array() || events->empty())
+      return failAt("'events'", "must be a list of at least one event");
+    std::multimap<double, TimelineEvent> inOrder;  // events of one time stay as they stand
+    for (std::size_t k = 0; k < events->size(); ++k) {
+      auto event = readEvent((*events)[k], fmt::format("events[{}]", k));
+      if (!event) return std::unexpected(event.error());
+      inOrder.emplace(event->time, std::move(*event));
+    }
+    for (auto& [time, event] : inOrder) timeline.events.push_back(std::move(event));
+    if (timeline.events.back().time > timeline.seconds)
+      return failAt("'events'", "hold one that is later than 'seconds'");
+    return timeline;
+  }
+
+ private:
+  std::unexpected<Error> failAt(std::string_view place, std::string_view what) const {
+    return fail(fmt::format("{}: {} {}.", name_, place, what));
+  }
+
+  Result<void> knows(const Json& object, std::string_view place,
+                     std::initializer_list<std::string_view> keys) const {
+    for (const auto& [key, value] : object.items())
+      if (std::ranges::find(keys, key) == keys.end())
+        return failAt(place, fmt::format("has an unknown key '{}'", key));
+    return {};
+  }
+
+  Result<void> number(const Json& object, std::string_view place, const char* key, double& value,
+                      bool required) const {
+    const auto found = object.find(key);
+    if (found == object.end()) {
+      if (required) return failAt(place, fmt::format("has no '{}'", key));
+      return {};
+    }
+    if (!found->is_number() || !std::isfinite(found->get<double>()))
+      return failAt(place, fmt::format("has a '{}' that is not a number", key));
+    value = found->get<double>();
+    return {};
+  }
+
+  Result<TimelineEvent> readEvent(const Json& json, const std::string& place) const {
+    if (!json.is_object()) return failAt(place, "is not an object");
+    if (auto ok = knows(json, place,
+                        {"at", "to", "only", "drive", "seconds", "turn", "frequency", "damping",
+                         "restitution", "delay"});
+        !ok)
+      return std::unexpected(ok.error());
+    TimelineEvent event;
+    if (const auto drive = json.find("drive"); drive != json.end()) {
+      if (!drive->is_string()) return failAt(place, "has a 'drive' that is not a name");
+      const Result<Drive> named = driveFromName(drive->get<std::string>());
+      if (!named) return fail(fmt::format("{}: {}: {}", name_, place, named.error().message));
+      event.drive = *named;
+    }
+    const std::initializer_list<std::pair<const char*, double*>> numbers{
+        {"at", &event.time},
+        {"seconds", &event.drive.seconds},
+        {"turn", &event.drive.turn},
+        {"frequency", &event.drive.spring.frequency},
+        {"damping", &event.drive.spring.damping},
+        {"restitution", &event.drive.restitution},
+        {"delay", &event.drive.delay}};
+    for (const auto& [key, value] : numbers)
+      if (auto ok = number(json, place, key, *value, key == std::string_view("at")); !ok)
+        return std::unexpected(ok.error());
+    if (event.time < 0) return failAt(place, "is before 0");
+    // A drive that could not even set out from rest is refused here, where its place is known.
+    if (const auto path = trajectoryOf(event.drive, {}, 1); !path || event.drive.delay < 0)
+      return failAt(place,
+                    path ? "has a negative 'delay'" : ("cannot be: " + path.error().message));
+    event.others = json.contains("only");
+    if (event.others == json.contains("to"))
+      return failAt(place, "needs one of 'to' and 'only', the weights to go to");
+    if (auto ok = readGoals(json[event.others ? "only" : "to"], place, event.goals); !ok)
+      return std::unexpected(ok.error());
+    return event;
+  }
+
+  /// Weights by name, or the name of a pose that has them.
+  Result<void> readGoals(const Json& json, const std::string& place,
+                         std::vector<std::pair<std::string, double>>& goals) const {
+    if (json.is_string()) {
+      const auto poses = json_.find("poses");
+      const std::string pose = json.get<std::string>();
+      if (poses == json_.end() || !poses->is_object() || !poses->contains(pose))
+        return failAt(place, fmt::format("goes to a pose '{}' that 'poses' does not have", pose));
+      if (!(*poses)[pose].is_object())
+        return failAt(fmt::format("pose '{}'", pose), "is not an object of weights");
+      return readGoals((*poses)[pose], fmt::format("pose '{}'", pose), goals);
+    }
+    if (!json.is_object()) return failAt(place, "goes neither to weights nor to a pose");
+    for (const auto& [name, weight] : json.items()) {
+      if (!weight.is_number() || !std::isfinite(weight.get<double>()))
+        return failAt(place, fmt::format("has a weight '{}' that is not a number", name));
+      goals.emplace_back(name, weight.get<double>());
+    }
+    return {};
+  }
+
+  std::string_view name_;
+  const Json& json_;
+};
+
+}  // namespace
+
+Result<Timeline> parseTimeline(std::string_view text, std::string_view name) {
+  const auto json = io::parseJson(text, name);
+  if (!json) return std::unexpected(json.error());
+  return TimelineReader(name, *json).read();
+}
+
+}  // namespace sweepface

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <span>
+
+#include "sweepface/mesh.hpp"
+
+namespace sweepface {
+
+/// The faces of a mesh after its triangles were joined to quads.
+struct RecoveredQuads {
+  Polygons polygons;    ///< faces between the same vertices; a quad stands where its first triangle
+                        ///< stood
+  Index recovered = 0;  ///< quads made, of two triangles each
+  Index triangles = 0;  ///< triangles that are left
+};
+
+/// Joins pairs of triangles to the quads they were cut from, judged by the neutral. Quads and
+/// larger polygons stay as they are.
+///
+/// `copies` names for every vertex the first that carries the same attributes at the same place
+/// in all poses, so that an edge between copies is no seam; if empty, every vertex is its own.
+RecoveredQuads recoverQuads(const MeshRig& rig, std::span<const Index> copies = {});
+
+}  // namespace sweepface

@@ -1,0 +1,88 @@
+#include "sweepface/clip.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace sweepface {
+namespace {
+
+/// A name without what spellings differ in: small letters, and a side as a final _l or _r.
+std::string plain(std::string_view name) {
+  std::string text;
+  for (const char c : name)
+    if (c != '_' && c != '-' && c != ' ')
+      text += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  const auto shorten = [&](std::string_view side) {
+    if (text.size() <= side.size() || !text.ends_with(side)) return false;
+    text.resize(text.size() - side.size());
+    return text += {'_', side[0]}, true;
+  };
+  if (shorten("left") || shorten("right")) return text;
+  // A single letter is a side only where the name sets it apart: jawL, jaw_L, but not "curl".
+  if (name.size() < 2 || text.size() < 2) return text;
+  const char last = name.back(), before = name[name.size() - 2];
+  const bool apart = before == '_' || before == '-' || before == ' ' ||
+                     ((last == 'L' || last == 'R') && before >= 'a' && before <= 'z');
+  if (apart && (last == 'L' || last == 'R' || last == 'l' || last == 'r')) {
+    text.pop_back();
+    text += {'_', last == 'L' || last == 'l' ? 'l' : 'r'};
+  }
+  return text;
+}
+
+}  // namespace
+
+void Clip::at(double seconds, std::span<double> out) const noexcept {
+  const std::size_t n = names.size(), count = std::min(n, out.size());
+  if (times.empty() || n == 0) {
+    std::ranges::fill(out.first(count), 0.0);
+    return;
+  }
+  const double time = times.front() + (seconds > 0 ? seconds : 0);
+  const auto next = std::ranges::upper_bound(times, time);
+  const auto later = static_cast<std::size_t>(
+      std::min(next - times.begin(), static_cast<std::ptrdiff_t>(times.size()) - 1));
+  const std::size_t earlier = later == 0 ? 0 : later - 1;
+  const double length = times[later] - times[earlier];
+  const double s = length > 0 ? std::clamp((time - times[earlier]) / length, 0.0, 1.0) : 1;
+  for (std::size_t k = 0; k < count; ++k)
+    out[k] = std::lerp(weights[earlier * n + k], weights[later * n + k], s);
+}
+
+ClipMatch matchClip(const Clip& clip, std::span<const std::string> targets) {
+  std::map<std::string, Index> byName, byPlain;
+  for (std::size_t t = 0; t < targets.size(); ++t) {
+    byName.emplace(targets[t], static_cast<Index>(t));
+    byPlain.emplace(plain(targets[t]), static_cast<Index>(t));
+  }
+  ClipMatch match;
+  std::vector<bool> driven(targets.size(), false);
+  for (const std::string& name : clip.names) {
+    std::vector<Index> found;
+    const std::string key = plain(name);
+    if (const auto exact = byName.find(name); exact != byName.end())
+      found = {exact->second};
+    else if (const auto same = byPlain.find(key); same != byPlain.end())
+      found = {same->second};
+    else
+      for (const char* side : {"_l", "_r"})
+        if (const auto half = byPlain.find(key + side); half != byPlain.end())
+          found.push_back(half->second);
+    for (const Index t : found) driven[t] = true;
+    if (found.empty()) match.unmatched.push_back(name);
+    match.targets.push_back(std::move(found));
+  }
+  for (std::size_t t = 0; t < targets.size(); ++t)
+    if (!driven[t]) match.undriven.push_back(targets[t]);
+  return match;
+}
+
+void ClipMatch::spread(std::span<const double> from, std::span<double> to) const noexcept {
+  std::ranges::fill(to, 0.0);
+  for (std::size_t k = 0; k < std::min(from.size(), targets.size()); ++k)
+    for (const Index t : targets[k])
+      if (static_cast<std::size_t>(t) < to.size()) to[t] = std::max(to[t], from[k]);
+}
+
+}  // namespace sweepface

@@ -1,0 +1,309 @@
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <fmt/format.h>
+#include <map>
+
+#include "sweepface/picture.hpp"
+
+#include "fit/vertex_normals.hpp"
+#include "picture/materials.hpp"
+#include "picture/styles.hpp"
+
+namespace sweepface {
+namespace {
+
+constexpr Colour kClay{0.90f, 0.875f, 0.85f};
+constexpr Colour kLabel{0.15f, 0.15f, 0.17f};
+
+/// The end of a scale that all but the thousandth largest values are on: a number whose quarters
+/// are easy to read.
+double scaleEnd(std::vector<double> values) {
+  if (values.empty()) return 1;
+  const auto k = static_cast<std::ptrdiff_t>(0.999 * static_cast<double>(values.size() - 1));
+  std::ranges::nth_element(values, values.begin() + k);
+  if (!(values[k] > 0)) return 1;
+  const double decade = std::pow(10, std::floor(std::log10(values[k])));
+  for (const double nice : {1.0, 1.2, 1.6, 2.0, 2.4, 3.0, 4.0, 6.0, 8.0})
+    if (nice * decade >= values[k]) return nice * decade;
+  return 10 * decade;
+}
+
+/// Original meshes are cut into at least so many triangles, so that light is known all over them.
+constexpr std::size_t kTrianglesLit = 50'000;
+
+std::string lowered(std::string_view text) {
+  std::string lower(text);
+  std::ranges::transform(lower, lower.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return lower;
+}
+
+/// The face of each of the source's quads, patch by patch.
+std::vector<Index> faceOfQuads(const SourceMesh& source) {
+  std::vector<Index> faceOfCorner;
+  for (Index f = 0; f < source.polygons.faceCount(); ++f)
+    faceOfCorner.insert(faceOfCorner.end(), source.polygons.faceSize(f), f);
+  std::vector<Index> faces;
+  for (std::size_t k = 0; k < source.quadCorners.size(); k += 4)
+    faces.push_back(faceOfCorner[source.quadCorners[k]]);
+  return faces;
+}
+
+/// Triangles of a scene with the colours of the faces they are part of; clear ones are left out.
+void addMaterials(Scene& scene, const std::vector<std::optional<Colour>>& colours,
+                  const std::vector<Index>& faceOfTriangle) {
+  std::vector<std::array<Index, 3>> kept;
+  for (std::size_t t = 0; t < scene.triangles.size(); ++t)
+    if (const auto& colour = colours[faceOfTriangle[t]]) {
+      kept.push_back(scene.triangles[t]);
+      scene.triangleColours.push_back(*colour);
+    }
+  scene.triangles = std::move(kept);
+}
+
+/// The same flat triangles, each cut into four: so that light is known in more places.
+void refine(Scene& scene) {
+  std::map<std::pair<Index, Index>, Index> middles;
+  const auto middle = [&](Index a, Index b) {
+    const auto [place, isNew] =
+        middles.try_emplace(std::minmax(a, b), static_cast<Index>(scene.positions.size()));
+    if (isNew) {
+      scene.positions.push_back(0.5 * (scene.positions[a] + scene.positions[b]));
+      scene.normals.push_back(normalized(scene.normals[a] + scene.normals[b]));
+    }
+    return place->second;
+  };
+  std::vector<std::array<Index, 3>> triangles;
+  std::vector<Colour> colours;
+  for (std::size_t t = 0; t < scene.triangles.size(); ++t) {
+    const auto [a, b, c] = scene.triangles[t];
+    const Index ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
+    for (const auto& part : {std::array{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}}) {
+      triangles.push_back(part);
+      colours.push_back(scene.triangleColours[t]);
+    }
+  }
+  scene.triangles = std::move(triangles);
+  scene.triangleColours = std::move(colours);
+}
+
+}  // namespace
+
+Index lodFor(const Surface& surface, Style style, PictureSize size) {
+  // Shading hides corners that are a few pixels long; reflections show them.
+  const double pixels = style == Style::zebra ? 1.5 : 6;
+  double quads = 0;
+  for (Index p = 0; p < surface.patchCount(); ++p)
+    quads += 1.0 * surface.edgesU(p) * surface.edgesV(p);
+  const double shown = 0.35 * size.width * size.height / pixels;
+  return std::clamp(static_cast<Index>(std::lround(std::sqrt(shown / std::max(quads, 1.0)))), 1,
+                    16);
+}
+
+FaceScenes::FaceScenes(const Rig& rig, Index lod)
+    : rig_(rig), grid_(rig.surface, lod), source_(rig.surface, 1) {
+  const std::vector<std::array<Index, 4>> faces = grid_.faces();
+  const Index level = grid_.level();
+  std::size_t face = 0;
+  Index quad = 0;
+  const auto add = [&](Index a, Index b, Index c, Index patch, Index inQuad) {
+    if (a == b || b == c || c == a) return;
+    triangles_.push_back({a, b, c});
+    patchOf_.push_back(patch);
+    quadOf_.push_back(inQuad);
+  };
+  for (Index p = 0; p < rig.surface.patchCount(); ++p) {
+    const Index m = rig.surface.edgesU(p), n = rig.surface.edgesV(p);
+    for (Index j = 0; j < level * n; ++j)
+      for (Index i = 0; i < level * m; ++i) {
+        const auto& [a, b, c, d] = faces[face++];
+        const Index inQuad = quad + j / level * m + i / level;
+        add(a, b, c, p, inQuad);
+        add(a, c, d, p, inQuad);
+      }
+    quad += m * n;
+  }
+}
+
+std::vector<Vec3> FaceScenes::points(std::span<const double> weights) const {
+  return source_.positions(blend(rig_, weights));
+}
+
+Scene FaceScenes::scene(std::span<const double> weights, Style style) const {
+  const std::vector<Vec3> vectors = blend(rig_, weights);
+  Scene scene;
+  scene.positions = grid_.positions(vectors);
+  scene.normals = grid_.normals(vectors);
+  scene.triangles = triangles_;
+  scene.colour = kClay;
+  scene.finish = Finish::matte;
+  switch (style) {
+    case Style::shaded: {
+      std::vector<Index> faceOfTriangle;
+      const std::vector<Index> faces = faceOfQuads(rig_.source);
+      for (const Index q : quadOf_) faceOfTriangle.push_back(faces[q]);
+      addMaterials(scene, faceColours(rig_.source.polygons), faceOfTriangle);
+      scene.finish = Finish::skin;
+      break;
+    }
+    case Style::patches: {
+      const std::vector<Colour> tints = patchTints(rig_.surface);
+      for (const Index p : patchOf_) scene.triangleColours.push_back(tints[p]);
+      break;
+    }
+    case Style::wireframe:
+      scene.strokes = wireStrokes(rig_.surface, vectors);
+      break;
+    case Style::joins:
+      scene.strokes = joinStrokes(rig_.surface, vectors);
+      break;
+    case Style::normals:
+      for (const Vec3& n : scene.normals)
+        scene.vertexColours.push_back({static_cast<float>(0.5 + 0.5 * n.x),
+                                       static_cast<float>(0.5 + 0.5 * n.y),
+                                       static_cast<float>(0.5 + 0.5 * n.z)});
+      scene.finish = Finish::flat;
+      break;
+    case Style::zebra:
+      scene.finish = Finish::zebra;
+      break;
+    case Style::error:
+    case Style::angle:
+      break;  // heatMap
+  }
+  return scene;
+}
+
+std::vector<Colour> FaceScenes::heatColours(std::span<const double> values, double top) const {
+  std::vector<Colour> colours(grid_.vertexCount());
+  const Index level = grid_.level();
+  for (Index p = 0; p < rig_.surface.patchCount(); ++p) {
+    const Index m = rig_.surface.edgesU(p), n = rig_.surface.edgesV(p);
+    for (Index j = 0; j <= level * n; ++j)
+      for (Index i = 0; i <= level * m; ++i) {
+        const Index column = std::min(i / level, m - 1), row = std::min(j / level, n - 1);
+        const double s = static_cast<double>(i) / level - column;
+        const double t = static_cast<double>(j) / level - row;
+        const auto at = [&](Index di, Index dj) {
+          return values[source_.vertex(p, column + di, row + dj)];
+        };
+        const double value =
+            std::lerp(std::lerp(at(0, 0), at(1, 0), s), std::lerp(at(0, 1), at(1, 1), s), t);
+        colours[grid_.vertex(p, i, j)] = heatColour(top > 0 ? value / top : 0);
+      }
+  }
+  return colours;
+}
+
+HeatMap FaceScenes::heatMap(std::span<const double> weights, std::span<const Vec3> original,
+                            Style style, double top) const {
+  VertexErrors errors = this->errors(weights, original);
+  const bool angles = style == Style::angle;
+  const std::vector<double>& values = angles ? errors.angles : errors.distances;
+  const auto worst = std::ranges::max_element(values);
+  HeatMap map{scene(weights, style), 0, worst == values.end() ? 0 : *worst, {}};
+  map.top = top > 0 ? top : angles ? scaleEnd(values) : std::max(map.worst, rig_.tolerance);
+  map.title =
+      angles ? fmt::format("angle between the normals in degrees, {:.3g} at worst", map.worst)
+             : fmt::format("distance from the original in its units, {:.3g} at worst", map.worst);
+  map.scene.vertexColours = heatColours(values, map.top);
+  if (worst != values.end())
+    map.scene.labels.push_back(
+        {points(weights)[worst - values.begin()], fmt::format("{:.3g}", map.worst), kLabel});
+  return map;
+}
+
+VertexErrors FaceScenes::errors(std::span<const double> weights,
+                                std::span<const Vec3> original) const {
+  const SourceMesh& source = rig_.source;
+  const std::vector<Vec3> vectors = blend(rig_, weights);
+  const std::vector<Vec3> places = source_.positions(vectors), normals = source_.normals(vectors);
+  const std::vector<Vec3> expected =
+      vertexNormals(source.polygons, original, source.gridVertex, source_.vertexCount());
+  VertexErrors errors;
+  errors.distances.assign(places.size(), 0);
+  for (std::size_t v = 0; v < original.size(); ++v)
+    if (const Index g = source.gridVertex[v]; g >= 0)
+      errors.distances[g] = std::max(errors.distances[g], norm(places[g] - original[v]));
+  for (std::size_t g = 0; g < places.size(); ++g)
+    errors.angles.push_back(norm(expected[g]) > 0 ? angleDegrees(normals[g], expected[g]) : 0);
+  return errors;
+}
+
+Scene FaceScenes::original(std::span<const Vec3> positions) const {
+  const SourceMesh& source = rig_.source;
+  const Polygons& polygons = source.polygons;
+  Scene scene;
+  scene.positions.resize(source_.vertexCount());
+  for (std::size_t v = 0; v < positions.size(); ++v)
+    if (const Index g = source.gridVertex[v]; g >= 0) scene.positions[g] = positions[v];
+  scene.normals = vertexNormals(polygons, positions, source.gridVertex, source_.vertexCount());
+  std::vector<Index> faceOfTriangle;
+  for (Index f = 0; f < polygons.faceCount(); ++f) {
+    const auto corner = [&](Index k) {
+      return source.gridVertex[polygons.corners[polygons.faceStart[f] + k]];
+    };
+    for (Index k = 1; k + 1 < polygons.faceSize(f); ++k) {
+      scene.triangles.push_back({corner(0), corner(k), corner(k + 1)});
+      faceOfTriangle.push_back(f);
+    }
+  }
+  addMaterials(scene, faceColours(polygons), faceOfTriangle);
+  while (!scene.triangles.empty() && scene.triangles.size() < kTrianglesLit) refine(scene);
+  return scene;
+}
+
+Result<std::vector<Index>> FaceScenes::region(std::string_view name) const {
+  constexpr double share = 0.5;  // of the largest way that a vertex goes
+  const std::vector<Vec3> rest = points(Weights(rig_.targets.size(), 0.0));
+  std::vector<Index> moved;
+  for (std::size_t k = 0; k < rig_.targets.size(); ++k) {
+    if (lowered(rig_.targets[k].name).find(lowered(name)) == std::string::npos) continue;
+    Weights weights(rig_.targets.size(), 0.0);
+    weights[k] = 1;
+    const std::vector<Vec3> pose = points(weights);
+    double furthest = 0;
+    for (std::size_t v = 0; v < rest.size(); ++v)
+      furthest = std::max(furthest, norm(pose[v] - rest[v]));
+    for (std::size_t v = 0; v < rest.size(); ++v)
+      if (furthest > 0 && norm(pose[v] - rest[v]) >= share * furthest)
+        moved.push_back(static_cast<Index>(v));
+  }
+  if (!moved.empty()) return moved;
+  return fail(fmt::format("No target whose name contains '{}' moves anything.", name));
+}
+
+std::vector<Key> FaceScenes::legend(Style style) const {
+  if (style == Style::wireframe) return wireLegend();
+  if (style == Style::joins) return joinLegend(rig_.surface);
+  return {};
+}
+
+Result<std::vector<Vec3>> originalPositions(const Rig& rig, const MeshRig& source,
+                                            std::span<const double> weights) {
+  const std::size_t vertices = rig.source.gridVertex.size();
+  if (source.neutral.positions.size() != vertices)
+    return fail(
+        fmt::format("The neutral has {} vertices, but the face was made from {}; give the mesh it "
+                    "was converted from.",
+                    source.neutral.positions.size(), vertices));
+  std::vector<Vec3> positions = source.neutral.positions;
+  for (std::size_t k = 0; k < weights.size(); ++k) {
+    if (weights[k] == 0) continue;
+    const auto target = std::ranges::find(source.targets, rig.targets[k].name, &MeshTarget::name);
+    if (target == source.targets.end())
+      return fail(
+          fmt::format("There is no mesh of '{}' to compare with; give the targets that the face "
+                      "was converted from.",
+                      rig.targets[k].name));
+    if (target->positions.size() != vertices)
+      return fail(fmt::format("The mesh of '{}' has {} vertices, but the neutral has {}.",
+                              target->name, target->positions.size(), vertices));
+    for (std::size_t v = 0; v < vertices; ++v)
+      positions[v] += weights[k] * (target->positions[v] - source.neutral.positions[v]);
+  }
+  return positions;
+}
+
+}  // namespace sweepface

@@ -1,0 +1,159 @@
+#include "picture/occlusion.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <embree3/rtcore.h>
+#include <limits>
+#include <numbers>
+#include <tbb/parallel_for.h>
+
+namespace sweepface {
+namespace {
+
+constexpr int kSkyDirections = 192, kLampDirections = 24;
+
+struct Box {
+  Vec3 low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
+
+  explicit Box(std::span<const Vec3> points) {
+    for (const Vec3& p : points) {
+      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    }
+    if (points.empty()) low = high = {};
+  }
+};
+
+/// Directions spread evenly over the sphere (a Fibonacci lattice).
+std::vector<Vec3> sphere(int count) {
+  std::vector<Vec3> directions;
+  for (int k = 0; k < count; ++k) {
+    const double y = 1 - (2.0 * k + 1) / count, r = std::sqrt(1 - y * y);
+    const double turn = 2 * std::numbers::pi * (2 - std::numbers::phi) * k;
+    directions.push_back({r * std::cos(turn), y, r * std::sin(turn)});
+  }
+  return directions;
+}
+
+/// Directions spread evenly over a disc around one (Vogel's spiral).
+std::vector<Vec3> disc(int count, const Vec3& centre, double radius) {
+  const Vec3 beside = std::abs(centre.y) < 0.9 ? Vec3{0, 1, 0} : Vec3{1, 0, 0};
+  const Vec3 x = normalized(cross(beside, centre)), y = cross(centre, x);
+  std::vector<Vec3> directions;
+  for (int k = 0; k < count; ++k) {
+    const double r = std::tan(radius) * std::sqrt((k + 0.5) / count);
+    const double turn = 2 * std::numbers::pi * (2 - std::numbers::phi) * k;
+    directions.push_back(normalized(centre + r * std::cos(turn) * x + r * std::sin(turn) * y));
+  }
+  return directions;
+}
+
+/// What arrives at a vertex of the light from some directions.
+struct Arrival {
+  double all = 0, arrived = 0;
+  int above = 0;  ///< how many of the directions are above the vertex's horizon
+};
+
+/// Asks for every vertex how much arrives and stores what `answer` makes of it.
+std::vector<float> exposure(const Obstacles& obstacles, std::span<const Vec3> positions,
+                            std::span<const Vec3> normals, const std::vector<Vec3>& directions,
+                            auto brightness, auto answer) {
+  const double near = 1e-3 * obstacles.size(), far = 2 * obstacles.size();
+  std::vector<float> result(positions.size());
+  tbb::parallel_for(std::size_t{0}, positions.size(), [&](std::size_t v) {
+    Arrival light;
+    for (const Vec3& d : directions) {
+      const double slope = dot(normals[v], d);
+      if (slope <= 0) continue;
+      ++light.above;
+      light.all += slope * brightness(d);
+      if (!obstacles.blocks(positions[v], d, near, far)) light.arrived += slope * brightness(d);
+    }
+    result[v] = static_cast<float>(answer(v, light));
+  });
+  return result;
+}
+
+}  // namespace
+
+void Obstacles::Release::operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+void Obstacles::Release::operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+
+Result<Obstacles> Obstacles::make(std::span<const Vec3> positions,
+                                  std::span<const std::array<Index, 3>> triangles) {
+  const auto noMemory = [] { return fail("There is not enough memory for the picture."); };
+  Obstacles o;
+  const Box box(positions);
+  o.centre_ = 0.5 * (box.low + box.high);
+  if (const double size = norm(box.high - box.low); size > 0) o.size_ = size;
+
+  o.device_.reset(rtcNewDevice(nullptr));
+  if (!o.device_) return noMemory();
+  o.scene_.reset(rtcNewScene(o.device_.get()));
+  if (!o.scene_) return noMemory();
+  // Whether a ray meets a box is then never decided by rounding.
+  rtcSetSceneFlags(o.scene_.get(), RTC_SCENE_FLAG_ROBUST);
+  const std::unique_ptr<RTCGeometryTy, decltype(&rtcReleaseGeometry)> geometry(
+      rtcNewGeometry(o.device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE), rtcReleaseGeometry);
+  if (!geometry) return noMemory();
+  auto* const vertices = static_cast<float*>(
+      rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                              3 * sizeof(float), positions.size()));
+  auto* const corners = static_cast<unsigned*>(
+      rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                              3 * sizeof(unsigned), triangles.size()));
+  if ((!vertices && !positions.empty()) || (!corners && !triangles.empty())) return noMemory();
+  for (std::size_t v = 0; v < positions.size(); ++v) {
+    const Vec3 p = (positions[v] - o.centre_) * (1 / o.size_);
+    vertices[3 * v] = static_cast<float>(p.x);
+    vertices[3 * v + 1] = static_cast<float>(p.y);
+    vertices[3 * v + 2] = static_cast<float>(p.z);
+  }
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    for (int k = 0; k < 3; ++k) corners[3 * t + k] = static_cast<unsigned>(triangles[t][k]);
+  rtcCommitGeometry(geometry.get());
+  rtcAttachGeometry(o.scene_.get(), geometry.get());
+  rtcCommitScene(o.scene_.get());
+  if (rtcGetDeviceError(o.device_.get()) != RTC_ERROR_NONE) return noMemory();
+  return o;
+}
+
+bool Obstacles::blocks(const Vec3& origin, const Vec3& direction, double near, double far) const {
+  const Vec3 p = (origin - centre_) * (1 / size_);
+  RTCRay ray{};
+  ray.org_x = static_cast<float>(p.x);
+  ray.org_y = static_cast<float>(p.y);
+  ray.org_z = static_cast<float>(p.z);
+  ray.dir_x = static_cast<float>(direction.x);
+  ray.dir_y = static_cast<float>(direction.y);
+  ray.dir_z = static_cast<float>(direction.z);
+  ray.tnear = static_cast<float>(near / size_);
+  ray.tfar = static_cast<float>(far / size_);
+  ray.mask = ~0u;
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcOccluded1(scene_.get(), &context, &ray);
+  return ray.tfar < 0;
+}
+
+std::vector<float> skyExposure(const Obstacles& obstacles, std::span<const Vec3> positions,
+                               std::span<const Vec3> normals) {
+  // Brighter above than below, where the light comes back from the ground.
+  const auto brightness = [](const Vec3& direction) { return 0.65 + 0.35 * direction.y; };
+  return exposure(obstacles, positions, normals, sphere(kSkyDirections), brightness,
+                  [](std::size_t, const Arrival& a) { return a.all > 0 ? a.arrived / a.all : 1; });
+}
+
+std::vector<float> lampExposure(const Obstacles& obstacles, std::span<const Vec3> positions,
+                                std::span<const Vec3> normals, const Vec3& towards, double radius,
+                                std::span<const float> sky) {
+  return exposure(
+      obstacles, positions, normals, disc(kLampDirections, towards, radius),
+      [](const Vec3&) { return 1.0; },
+      [&](std::size_t v, const Arrival& a) {
+        const double above = static_cast<double>(a.above) / kLampDirections;
+        return (1 - above) * sky[v] + (a.all > 0 ? above * a.arrived / a.all : 0);
+      });
+}
+
+}  // namespace sweepface

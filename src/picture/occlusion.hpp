@@ -1,0 +1,50 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "sweepface/result.hpp"
+#include "sweepface/vec.hpp"
+
+struct RTCDeviceTy;
+struct RTCSceneTy;
+
+namespace sweepface {
+
+/// Triangles in the way of rays. Whether one is hit does not depend on the number of threads.
+class Obstacles {
+ public:
+  static Result<Obstacles> make(std::span<const Vec3> positions,
+                                std::span<const std::array<Index, 3>> triangles);
+
+  /// Whether something lies on the way from `near` to `far` along a unit direction; lengths in
+  /// model units.
+  bool blocks(const Vec3& origin, const Vec3& direction, double near, double far) const;
+  /// Length of the bounding box's diagonal, model units.
+  double size() const { return size_; }
+
+ private:
+  struct Release {
+    void operator()(RTCDeviceTy* device) const;
+    void operator()(RTCSceneTy* scene) const;
+  };
+  Obstacles() = default;
+  std::unique_ptr<RTCDeviceTy, Release> device_;
+  std::unique_ptr<RTCSceneTy, Release> scene_;
+  Vec3 centre_;
+  double size_ = 1;
+};
+
+/// The share of the sky's light that reaches each vertex [V], from fixed directions all over it.
+std::vector<float> skyExposure(const Obstacles& obstacles, std::span<const Vec3> positions,
+                               std::span<const Vec3> normals);
+
+/// The same of a lamp that is seen under an angle of `radius` around a unit direction. What of the
+/// lamp is behind a vertex's own horizon counts like the sky there.
+std::vector<float> lampExposure(const Obstacles& obstacles, std::span<const Vec3> positions,
+                                std::span<const Vec3> normals, const Vec3& towards, double radius,
+                                std::span<const float> sky);
+
+}  // namespace sweepface

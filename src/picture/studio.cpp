@@ -1,0 +1,275 @@
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include "sweepface/picture.hpp"
+
+#include "picture/colour.hpp"
+#include "picture/mask.hpp"
+#include "picture/occlusion.hpp"
+#include "picture/raster.hpp"
+#include "picture/shading.hpp"
+
+namespace sweepface {
+namespace {
+
+/// One value for each of `count` things, or none.
+Result<void> checkColours(const std::vector<Colour>& colours, std::size_t count,
+                          std::string_view things) {
+  if (colours.empty() || colours.size() == count) return {};
+  return fail(fmt::format("The scene has {} colours for its {} {}; give one for each.",
+                          colours.size(), count, things));
+}
+
+Result<void> checkScene(const Scene& scene) {
+  const std::size_t vertices = scene.positions.size();
+  if (scene.normals.size() != vertices)
+    return fail(
+        fmt::format("The scene has {} positions, but {} normals.", vertices, scene.normals.size()));
+  if (auto ok = checkColours(scene.vertexColours, vertices, "vertices"); !ok) return ok;
+  if (auto ok = checkColours(scene.triangleColours, scene.triangles.size(), "triangles"); !ok)
+    return ok;
+  for (std::size_t t = 0; t < scene.triangles.size(); ++t)
+    for (const Index v : scene.triangles[t])
+      if (v < 0 || static_cast<std::size_t>(v) >= vertices)
+        return fail(fmt::format("Triangle {} of the scene has the vertex {}, but there are {}.", t,
+                                v, vertices));
+  for (std::size_t v = 0; v < vertices; ++v)
+    if (!isFinite(scene.positions[v]) || !isFinite(scene.normals[v]))
+      return fail(fmt::format("Vertex {} of the scene is not finite.", v));
+  for (const Stroke& stroke : scene.strokes)
+    if (!std::ranges::all_of(stroke.points, [](const Vec3& p) { return isFinite(p); }))
+      return fail("A line of the scene has a point that is not finite.");
+  for (const Label& label : scene.labels)
+    if (!isFinite(label.at)) return fail("A label of the scene is at a point that is not finite.");
+  return {};
+}
+
+template <typename Value>
+Value between(const std::vector<Value>& values, const std::array<Index, 3>& at,
+              const std::array<double, 3>& w) {
+  return w[0] * values[at[0]] + w[1] * values[at[1]] + w[2] * values[at[2]];
+}
+
+double between(const std::vector<float>& values, const std::array<Index, 3>& at,
+               const std::array<double, 3>& w) {
+  return w[0] * values[at[0]] + w[1] * values[at[1]] + w[2] * values[at[2]];
+}
+
+std::vector<Light> toLights(const std::vector<Colour>& colours) {
+  std::vector<Light> lights;
+  for (const Colour& c : colours) lights.push_back(toLight(c));
+  return lights;
+}
+
+}  // namespace
+
+struct StudioParts {
+  Scene scene;
+  Obstacles obstacles;
+  Light colour;
+  std::vector<Light> vertexColours, triangleColours;
+  std::vector<float> sky;  // [V], or empty where the finish has no shadows
+
+  Light colourAt(Index triangle, const std::array<double, 3>& weights) const {
+    if (!triangleColours.empty()) return triangleColours[triangle];
+    if (!vertexColours.empty()) return between(vertexColours, scene.triangles[triangle], weights);
+    return colour;
+  }
+};
+
+namespace {
+
+/// A picture in the making.
+class Photograph {
+ public:
+  Photograph(const StudioParts& studio, const Camera& camera, PictureSize size)
+      : studio_(studio),
+        scene_(studio.scene),
+        camera_(camera),
+        size_(size),
+        lamps_(camera),
+        raster_(scene_, camera, size) {
+    if (!studio.sky.empty())
+      lamp_ = lampExposure(studio.obstacles, scene_.positions, scene_.normals, lamps_.key,
+                           kKeyRadius, studio.sky);
+  }
+
+  Image take() const {
+    Image image = Image::filled(size_, scene_.background);
+    tbb::parallel_for(Index{0}, raster_.tileCount(), [&](Index tile) { develop(tile, image); });
+    drawStrokes(image);
+    drawLabels(image);
+    return image;
+  }
+
+ private:
+  void develop(Index tile, Image& image) const {
+    std::vector<Hit> hits;
+    raster_.look(tile, hits);
+    const Light background = toLight(scene_.background);
+    const Index left = raster_.tileX(tile), top = raster_.tileY(tile);
+    for (Index y = top; y < std::min(top + kTile, size_.height); ++y)
+      for (Index x = left; x < std::min(left + kTile, size_.width); ++x) {
+        const Hit* const hit = &hits[((y - top) * kTile + x - left) * kSamples];
+        Light sum;
+        bool empty = true;
+        for (int s = 0; s < kSamples; ++s) {
+          const auto& [dx, dy] = kSamplePlaces[s];
+          sum += hit[s].triangle < 0 ? background : lightAt(hit[s].triangle, x + dx, y + dy);
+          empty = empty && hit[s].triangle < 0;
+        }
+        if (!empty) setPixel(image, x, y, toColour(sum * (1.0 / kSamples)));
+      }
+  }
+
+  static void setPixel(Image& image, Index x, Index y, const Colour& c) {
+    std::uint8_t* const p = &image.rgb[3 * (static_cast<std::size_t>(y) * image.width + x)];
+    p[0] = toByte(c.r), p[1] = toByte(c.g), p[2] = toByte(c.b);
+  }
+
+  Light lightAt(Index triangle, double x, double y) const {
+    const Raster::Place place = raster_.placeIn(triangle, x, y);
+    const auto& corners = scene_.triangles[triangle];
+    SurfacePoint p;
+    p.colour = studio_.colourAt(triangle, place.weights);
+    p.front = place.front;
+    p.normal = normalized(between(scene_.normals, corners, place.weights));
+    if (!p.front) p.normal = -p.normal;
+    p.toEye = normalized(camera_.eye - between(scene_.positions, corners, place.weights));
+    if (!studio_.sky.empty()) {
+      p.sky = between(studio_.sky, corners, place.weights);
+      p.lamp = between(lamp_, corners, place.weights);
+    }
+    return shade(scene_.finish, p, lamps_);
+  }
+
+  /// Whether nothing is between a point and the eye. The first bit of the way does not count: lines
+  /// lie on the surface, whose triangles cut its corners.
+  bool sees(const Vec3& p) const {
+    const double slack = 0.0025 * studio_.obstacles.size();
+    const Vec3 way = camera_.eye - p;
+    const double distance = norm(way);
+    return distance <= slack || !studio_.obstacles.blocks(p, way * (1 / distance), slack, distance);
+  }
+
+  Vec2 placeOf(const Vec3& p) const {
+    const Vec3 seen = camera_.project(p, size_);
+    return {seen.x, seen.y};
+  }
+
+  void drawStrokes(Image& image) const {
+    const auto& strokes = scene_.strokes;
+    // Neighbours that look alike share a mask: where they meet no joint shows.
+    for (std::size_t first = 0; first < strokes.size();) {
+      std::size_t last = first;
+      while (last < strokes.size() && strokes[last].colour == strokes[first].colour) ++last;
+      std::vector<std::vector<Vec2>> lines(last - first);
+      tbb::parallel_for(first, last, [&](std::size_t k) { lines[k - first] = seen(strokes[k]); });
+      Mask mask(image);
+      for (std::size_t k = first; k < last; ++k)
+        for (std::size_t p = 0; p + 1 < lines[k - first].size(); p += 2)
+          mask.addLine(lines[k - first][p], lines[k - first][p + 1],
+                       strokes[k].width * size_.height / 1000);
+      mask.paint(image, strokes[first].colour);
+      first = last;
+    }
+  }
+
+  /// What of a stroke is seen: pairs of ends.
+  std::vector<Vec2> seen(const Stroke& stroke) const {
+    std::vector<Vec2> ends;
+    for (std::size_t k = 1; k < stroke.points.size(); ++k)
+      addSeen(stroke.points[k - 1], stroke.points[k], ends);
+    return ends;
+  }
+
+  /// Asks every few pixels, and then for the very place where the line goes behind something.
+  void addSeen(const Vec3& from, const Vec3& to, std::vector<Vec2>& ends) const {
+    constexpr double step = 5;
+    const Vec2 a = placeOf(from), b = placeOf(to);
+    const double length = std::hypot(b.x - a.x, b.y - a.y);
+    if (!(length < 10.0 * size_.width * size_.height)) return;  // it passes the eye
+    const int pieces = std::max(1, static_cast<int>(std::ceil(length / step)));
+    const auto at = [&](int k) { return from + (static_cast<double>(k) / pieces) * (to - from); };
+    bool visible = sees(from);
+    for (int k = 1; k <= pieces; ++k) {
+      const bool was = visible;
+      visible = sees(at(k));
+      if (!visible && !was) continue;
+      ends.push_back(placeOf(was ? at(k - 1) : lastSeen(at(k), at(k - 1))));
+      ends.push_back(placeOf(visible ? at(k) : lastSeen(at(k - 1), at(k))));
+    }
+  }
+
+  /// How far one sees from a visible point towards a hidden one.
+  Vec3 lastSeen(Vec3 visible, Vec3 hidden) const {
+    for (int k = 0; k < 6; ++k) {
+      const Vec3 middle = 0.5 * (visible + hidden);
+      (sees(middle) ? visible : hidden) = middle;
+    }
+    return visible;
+  }
+
+  void drawLabels(Image& image) const {
+    const double unit = size_.height / 1000.0, height = std::max(14 * unit, 8.0);
+    for (const Label& label : scene_.labels) {
+      if (!sees(label.at)) continue;
+      const Vec2 p = placeOf(label.at);
+      const double width = textWidth(label.text, height);
+      const bool left = p.x + 2 * height + width > size_.width;
+      const double side = left ? -1 : 1;
+      const Vec2 corner{p.x + side * 1.6 * height, p.y - 1.6 * height};
+      drawLine(image, std::array{p, corner}, std::max(2 * unit, 1.0), label.colour);
+      drawLine(image, std::array{p}, std::max(8 * unit, 4.0), label.colour);
+      drawText(image, label.text, corner.x + side * 0.4 * height, corner.y + 0.2 * height, height,
+               label.colour, left ? Align::right : Align::left);
+    }
+  }
+
+  const StudioParts& studio_;
+  const Scene& scene_;
+  const Camera& camera_;
+  PictureSize size_;
+  Lamps lamps_;
+  Raster raster_;
+  std::vector<float> lamp_;  // [V]
+};
+
+}  // namespace
+
+Studio::Studio(std::unique_ptr<StudioParts> parts) : parts_(std::move(parts)) {}
+Studio::Studio(Studio&&) noexcept = default;
+Studio& Studio::operator=(Studio&&) noexcept = default;
+Studio::~Studio() = default;
+
+Result<Studio> Studio::make(Scene scene) {
+  if (auto ok = checkScene(scene); !ok) return std::unexpected(ok.error());
+  auto obstacles = Obstacles::make(scene.positions, scene.triangles);
+  if (!obstacles) return std::unexpected(obstacles.error());
+  auto parts = std::make_unique<StudioParts>(
+      StudioParts{std::move(scene), std::move(*obstacles), {}, {}, {}, {}});
+  const Scene& s = parts->scene;
+  parts->colour = toLight(s.colour);
+  parts->vertexColours = toLights(s.vertexColours);
+  parts->triangleColours = toLights(s.triangleColours);
+  if (s.finish == Finish::skin || s.finish == Finish::matte)
+    parts->sky = skyExposure(parts->obstacles, s.positions, s.normals);
+  return Studio(std::move(parts));
+}
+
+const Scene& Studio::scene() const { return parts_->scene; }
+
+Result<Image> Studio::shoot(const Camera& camera, PictureSize size) const {
+  if (auto ok = checkSize(size); !ok) return std::unexpected(ok.error());
+  return Photograph(*parts_, camera, size).take();
+}
+
+Result<Image> render(Scene scene, const Camera& camera, PictureSize size) {
+  const Result<Studio> studio = Studio::make(std::move(scene));
+  if (!studio) return std::unexpected(studio.error());
+  return studio->shoot(camera, size);
+}
+
+}  // namespace sweepface

@@ -1,0 +1,89 @@
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "sweepface/measure.hpp"
+#include "sweepface/picture.hpp"
+#include "sweepface/report.hpp"
+
+#include "report/words.hpp"
+
+namespace sweepface {
+
+/// Writes a report section by section. The sections are in files of their own.
+class ReportMaker {
+ public:
+  ReportMaker(const Rig& rig, const MeshRig& source, const ReportOptions& options);
+
+  Result<std::string> make();
+
+ private:
+  /// Figures in a row, until one goes wrong.
+  struct Figures {
+    std::string html;
+    std::optional<Error> error;
+    void add(Result<std::string> figure);
+  };
+  /// What a conversion with another tolerance came to.
+  struct Trial {
+    double tolerance = 0;
+    Index points = 0, patches = 0;
+    double rms = 0;
+    std::size_t bytes = 0;
+  };
+
+  // report.cpp
+  Result<void> prepare();
+  std::string head() const;
+  Result<std::string> sizes();
+  void show(std::string_view what) const;
+  std::size_t vertices() const { return source_.neutral.positions.size(); }
+  Index points() const { return rig_.surface.storedCount(); }
+  /// Of the neutral's and all targets' positions in single precision.
+  std::size_t sourceBytes() const { return 12 * vertices() * (1 + source_.targets.size()); }
+  /// "jawOpen=0.5, smile=1".
+  std::string mixture() const;
+  /// The target's name, or a word where it is a mixture.
+  std::string expressionName() const;
+
+  // picture_sections.cpp
+  void frame();
+  Result<std::string> picture(Scene scene, const Camera& camera, std::string_view caption,
+                              PictureSize size = kPanel, std::span<const Box> boxes = {});
+  Result<std::string> comparison();
+  Result<std::string> network();
+  Result<std::string> continuity();
+  std::string joinTable() const;
+  void sumUpJoins();
+  double shareOf(JoinClass c) const;
+
+  // error_sections.cpp
+  Result<std::string> errors();
+  std::string errorPlot() const;
+  std::string errorTable() const;
+  Result<std::string> tolerances();
+  Result<Trial> tryTolerance(double tolerance);
+  double rmsOf(const Rig& rig) const;
+
+  // motion_sections.cpp
+  Result<std::string> shapes();
+  Result<std::string> motion();
+  Result<std::string> strips();
+  std::vector<Box> measuringBoxes() const;
+  std::string motionPlots() const;
+
+  const Rig& rig_;
+  const MeshRig& source_;
+  const ReportOptions& options_;
+  Weights rest_, expression_;
+  bool moves_;
+  FaceScenes scenes_;
+  std::vector<Vec3> moved_;  // the source under the expression
+  Measurement measured_;
+  std::array<JoinSummary, kJoinClasses> restJoins_, movedJoins_;  // by class
+  Camera front_, threeQuarter_;
+  double work_ = 1, done_ = 0;
+};
+
+}  // namespace sweepface

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sweepface/vec.hpp"
+
+// Plots as inline SVG.
+namespace sweepface {
+
+struct Series {
+  std::string name, colour;
+  std::vector<Vec2> points;
+  bool dots = false;  ///< marks the points
+  bool dashed = false;
+};
+
+struct Axis {
+  std::string title;
+  bool logarithmic = false;  ///< what is not positive is left out then
+};
+
+/// Curves over a common axis.
+std::string linePlot(const std::string& title, const Axis& x, const Axis& y,
+                     std::vector<Series> series);
+
+/// A row for each name with a mark for each series: points[k].x is its value in row k. The values
+/// start at 0; a vertical line marks `limit` if that is positive.
+std::string rowPlot(const std::string& title, const std::string& axis,
+                    const std::vector<std::string>& names, const std::vector<Series>& series,
+                    double limit);
+
+/// Numbers that are easy to read, from no more than the smallest value to no less than the largest.
+std::vector<double> niceTicks(double low, double high, bool logarithmic);
+
+}  // namespace sweepface

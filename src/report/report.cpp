@@ -1,0 +1,149 @@
+#include "sweepface/report.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+#include "sweepface/fit.hpp"
+
+#include "report/maker.hpp"
+
+namespace sweepface {
+namespace {
+
+/// The target that moves the most of the mesh furthest.
+Weights strongest(const MeshRig& source, const Rig& rig) {
+  const std::vector<Vec3>& rest = source.neutral.positions;
+  Weights weights(rig.targets.size(), 0.0);
+  double most = 0;
+  Index best = -1;
+  for (const MeshTarget& target : source.targets) {
+    double sum = 0;
+    for (std::size_t v = 0; v < std::min(rest.size(), target.positions.size()); ++v) {
+      const Vec3 way = target.positions[v] - rest[v];
+      sum += dot(way, way);
+    }
+    if (sum > most) most = sum, best = rig.find(target.name);
+  }
+  if (best >= 0) weights[best] = 1;
+  return weights;
+}
+
+}  // namespace
+
+ReportMaker::ReportMaker(const Rig& rig, const MeshRig& source, const ReportOptions& options)
+    : rig_(rig),
+      source_(source),
+      options_(options),
+      rest_(rig.targets.size(), 0.0),
+      expression_(options.expression.empty() ? strongest(source, rig) : options.expression),
+      moves_(expression_ != rest_),
+      scenes_(rig, lodFor(rig.surface, Style::shaded, kPanel)) {
+  // A picture counts one, so does a shape that is converted; one that is measured counts two.
+  const auto targets = static_cast<double>(source.targets.size());
+  work_ = 30 + 2 * targets + static_cast<double>(options.tolerances.size()) * (targets + 3);
+}
+
+Result<std::string> ReportMaker::make() {
+  if (auto ready = prepare(); !ready) return std::unexpected(ready.error());
+  std::string body = head();
+  for (auto part : {&ReportMaker::comparison, &ReportMaker::sizes, &ReportMaker::network,
+                    &ReportMaker::errors, &ReportMaker::continuity, &ReportMaker::tolerances,
+                    &ReportMaker::shapes, &ReportMaker::motion}) {
+    const Result<std::string> text = (this->*part)();
+    if (!text) return std::unexpected(text.error());
+    body += *text;
+  }
+  return html::page("Sweepface report: " + options_.name, body);
+}
+
+/// What several sections need.
+Result<void> ReportMaker::prepare() {
+  Result<std::vector<Vec3>> moved = originalPositions(rig_, source_, expression_);
+  if (!moved) return std::unexpected(moved.error());
+  moved_ = std::move(*moved);
+  show("measuring");
+  Result<Measurement> measured = measure(rig_, source_, {.mixtures = 5, .seed = 1});
+  if (!measured) return std::unexpected(measured.error());
+  measured_ = std::move(*measured);
+  done_ += 2 * static_cast<double>(source_.targets.size());
+  sumUpJoins();
+  frame();
+  return {};
+}
+
+void ReportMaker::show(std::string_view what) const {
+  if (options_.progress) options_.progress(what, std::min(done_ / work_, 1.0));
+}
+
+std::string ReportMaker::mixture() const {
+  std::string text;
+  for (std::size_t k = 0; k < expression_.size(); ++k) {
+    if (expression_[k] == 0) continue;
+    if (!text.empty()) text += ", ";
+    text += rig_.targets[k].name;
+    if (expression_[k] != 1) text += fmt::format("={:.3g}", expression_[k]);
+  }
+  return text;
+}
+
+std::string ReportMaker::expressionName() const {
+  const auto active = std::ranges::count_if(expression_, [](double w) { return w != 0; });
+  return active == 1 ? mixture() : "expression";
+}
+
+std::string ReportMaker::head() const {
+  const auto fact = [](const std::string& value, const std::string& what) {
+    return fmt::format("<div><b>{}</b><span>{}</span></div>\n", html::escaped(value),
+                       html::escaped(what));
+  };
+  std::string html = fmt::format("<h1>{}</h1>\n", html::escaped(options_.name));
+  html += fmt::format(
+      "<p class=\"lead\">A face of {} vertices and {} expressions as {} ODE sweeping patches, "
+      "compared with the meshes it was made from.</p>\n<div class=\"facts\">\n",
+      count(vertices()), source_.targets.size(), count(rig_.surface.patchCount()));
+  html += fact(percent(points() / static_cast<double>(vertices())),
+               "of the vertices, as points on curves");
+  html += fact(number(measured_.worst.distanceMax),
+               fmt::format("largest distance of a vertex, of {} allowed; the diagonal is {}",
+                           number(rig_.tolerance), number(diagonal(source_.neutral))));
+  html += fact(fmt::format("{:.2g}°", measured_.worst.angleRms), "RMS angle between the normals");
+  html += fact(percent(shareOf(JoinClass::c2)), "of the curves' length are C² joins");
+  html += fact(
+      percent(static_cast<double>(options_.bytes) / static_cast<double>(sourceBytes())),
+      fmt::format("of the meshes' bytes: {} of {}", count(options_.bytes), count(sourceBytes())));
+  return html + "</div>\n";
+}
+
+Result<std::string> ReportMaker::sizes() {
+  html::Table table({"", "original", "recreated", "reduction"});
+  const auto reduction = [](double from, double to) { return percent(1 - to / from); };
+  const auto line = [&](const std::string& what, std::size_t from, std::size_t to) {
+    table.add({what, count(from), count(to),
+               reduction(static_cast<double>(from), static_cast<double>(to))});
+  };
+  const auto stored = static_cast<std::size_t>(points());
+  const auto faces = static_cast<std::size_t>(source_.neutral.polygons.faceCount());
+  const auto patches = static_cast<std::size_t>(rig_.surface.patchCount());
+  const std::string name = expressionName();
+  line("Vertices → points, neutral", vertices(), stored);
+  if (moves_) line("Vertices → points, " + name, vertices(), stored);
+  line("Polygons → patches, neutral", faces, patches);
+  if (moves_) line("Polygons → patches, " + name, faces, patches);
+  line("Bytes, neutral and all expressions", sourceBytes(), options_.bytes);
+  return section("Size",
+                 "As in Table I of the paper. Points are the vectors that a shape stores on its "
+                 "boundary and control curves; an expression stores as many as the neutral. The "
+                 "original's bytes are its positions in single precision, without polygons; the "
+                 "recreated face's are those of the whole file.") +
+         table.html();
+}
+
+Result<std::string> makeReport(const Rig& rig, const MeshRig& source,
+                               const ReportOptions& options) {
+  if (!options.expression.empty() && options.expression.size() != rig.targets.size())
+    return fail(fmt::format("The expression has {} weights, but the face has {} targets.",
+                            options.expression.size(), rig.targets.size()));
+  return ReportMaker(rig, source, options).make();
+}
+
+}  // namespace sweepface

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cmath>
+#include <fmt/format.h>
+#include <string>
+
+#include "sweepface/picture.hpp"
+
+#include "report/html.hpp"
+
+// What the sections of a report have in common.
+namespace sweepface {
+
+inline constexpr PictureSize kPanel{520, 650};
+inline constexpr const char *kBlue = "#1a6aa8", *kRed = "#d63f29", *kGrey = "#8a8e96",
+                            *kGreen = "#2a9d55";
+
+/// With commas between thousands.
+inline std::string count(std::size_t n) {
+  std::string digits = std::to_string(n);
+  for (std::size_t k = digits.size(); k > 3; k -= 3) digits.insert(k - 3, ",");
+  return digits;
+}
+inline std::string count(Index n) { return count(static_cast<std::size_t>(n)); }
+
+inline std::string number(double x) { return fmt::format("{:.3g}", x); }
+
+/// With a true minus where it is negative.
+inline std::string percent(double share) {
+  return fmt::format("{}{:.1f} %", share < 0 ? "−" : "", 100 * std::abs(share));
+}
+
+inline std::string section(std::string_view title, std::string_view text) {
+  return fmt::format("<h2>{}</h2>\n<p>{}</p>\n", html::escaped(title), html::escaped(text));
+}
+
+/// Figures or plots beside each other: "pair", "four" or "plots".
+inline std::string row(const std::string& figures, std::string_view kind = "pair") {
+  return fmt::format("<div class=\"row {}\">{}</div>\n", kind, figures);
+}
+
+}  // namespace sweepface

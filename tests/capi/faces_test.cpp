@@ -1,0 +1,295 @@
+#include <cstdlib>
+#include <limits>
+#include <new>
+#include <thread>
+
+#include "sweepface/sweepface.h"
+
+#include "codec/rigs.hpp"
+
+namespace {
+std::size_t allocations = 0;
+}
+
+// Counted. Kept out of line, or GCC sees malloc meet delete and warns.
+[[gnu::noinline]] void* operator new(std::size_t size) {
+  ++allocations;
+  if (void* memory = std::malloc(size ? size : 1)) return memory;
+  std::abort();
+}
+[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+
+namespace sweepface {
+namespace {
+
+using namespace testing;
+
+constexpr sweepface_vectors kUnwanted{nullptr, 0};
+
+/// A face with loose vertices, seams and three targets: open, "wink é" and rest.
+class Faces : public ::testing::Test {
+ protected:
+  Faces() : rig(dressed(makeRig(tee()))) {
+    const std::string bytes = encode(rig);
+    EXPECT_EQ(sweepface_rig_load(bytes.data(), bytes.size(), "tee", &handle), SWEEPFACE_OK);
+  }
+  ~Faces() override {
+    sweepface_face_free(face);
+    sweepface_mesh_free(mesh);
+    sweepface_rig_free(handle);
+  }
+
+  void make(uint32_t lod) {
+    ASSERT_EQ(sweepface_mesh_create(handle, lod, &mesh), SWEEPFACE_OK) << sweepface_message();
+    ASSERT_EQ(sweepface_face_create(mesh, &face), SWEEPFACE_OK);
+  }
+
+  /// The call failed, and the message says this.
+  static ::testing::AssertionResult refuses(sweepface_status status, std::string_view part,
+                                            sweepface_status expected = SWEEPFACE_BAD_ARGUMENT) {
+    const std::string_view message = sweepface_message();
+    if (status != expected) return ::testing::AssertionFailure() << "it answered " << status;
+    if (message.find(part) == std::string_view::npos || !message.ends_with('.'))
+      return ::testing::AssertionFailure() << message;
+    return ::testing::AssertionSuccess();
+  }
+
+  std::vector<float> evaluate(bool normals = false) {
+    std::vector<float> out(3 * sweepface_mesh_vertex_count(mesh));
+    const sweepface_vectors to{out.data(), 0};
+    EXPECT_EQ(sweepface_face_evaluate(face, out.size() / 3, normals ? kUnwanted : to,
+                                      normals ? to : kUnwanted),
+              SWEEPFACE_OK);
+    return out;
+  }
+
+  Rig rig;
+  sweepface_rig* handle = nullptr;
+  sweepface_mesh* mesh = nullptr;
+  sweepface_face* face = nullptr;
+};
+
+void expectNear(const std::vector<Vec3>& expected, const std::vector<float>& found) {
+  ASSERT_LE(3 * expected.size(), found.size());
+  for (std::size_t v = 0; v < expected.size(); ++v) {
+    EXPECT_EQ(static_cast<float>(expected[v].x), found[3 * v]);
+    EXPECT_EQ(static_cast<float>(expected[v].y), found[3 * v + 1]);
+    EXPECT_EQ(static_cast<float>(expected[v].z), found[3 * v + 2]);
+  }
+}
+
+TEST_F(Faces, HaveTheRigsTargets) {
+  ASSERT_EQ(sweepface_rig_target_count(handle), 3u);
+  EXPECT_STREQ(sweepface_rig_target_name(handle, 1), "wink \xC3\xA9");
+  EXPECT_EQ(sweepface_rig_target_name(handle, 3), nullptr);
+  uint32_t target = 9;
+  EXPECT_EQ(sweepface_rig_find_target(handle, "rest", &target), SWEEPFACE_OK);
+  EXPECT_EQ(target, 2u);
+  EXPECT_TRUE(refuses(sweepface_rig_find_target(handle, "frown", &target),
+                      "There is no target named 'frown'; its targets are open, wink"));
+  EXPECT_EQ(target, 2u);
+  EXPECT_EQ(sweepface_rig_tolerance(handle), rig.tolerance);
+}
+
+TEST_F(Faces, AreTheLibrarysOwnInTheSourcesOrder) {
+  make(0);
+  const Tessellation grid(rig.surface, 1);
+  const double weights[] = {0.5, -0.25, 1};
+  ASSERT_EQ(sweepface_face_set_weights(face, weights, 3), SWEEPFACE_OK);
+  const auto vectors = blend(rig, weights);
+  EXPECT_EQ(sweepface_mesh_point_count(mesh), rig.source.gridVertex.size());
+  expectNear(sourcePositions(rig, grid, vectors, weights), evaluate());
+  expectNear(sourceNormals(rig, grid, vectors), evaluate(true));
+}
+
+TEST_F(Faces, AreTheLibrarysOwnAtAnyLevel) {
+  make(3);
+  const Tessellation grid(rig.surface, 3);
+  ASSERT_EQ(sweepface_face_set_weight(face, 1, 0.75), SWEEPFACE_OK);
+  const auto vectors = blend(rig, Weights{0, 0.75, 0});
+  EXPECT_EQ(sweepface_mesh_point_count(mesh), static_cast<uint32_t>(grid.vertexCount()));
+  expectNear(grid.positions(vectors), evaluate());
+  expectNear(grid.normals(vectors), evaluate(true));
+}
+
+TEST_F(Faces, RepeatPointsAtSeams) {
+  make(0);
+  const uint32_t points = sweepface_mesh_point_count(mesh);
+  const uint32_t vertices = sweepface_mesh_vertex_count(mesh);
+  ASSERT_GT(vertices, points);
+  const auto positions = evaluate();
+  for (uint32_t v = points; v < vertices; ++v) {
+    bool repeats = false;
+    for (uint32_t p = 0; p < points; ++p)
+      repeats |= std::equal(&positions[3 * v], &positions[3 * v] + 3, &positions[3 * p]);
+    EXPECT_TRUE(repeats) << v;
+  }
+}
+
+TEST_F(Faces, FillBuffersOfAnyStride) {
+  make(0);
+  const auto positions = evaluate(), normals = evaluate(true);
+  const std::size_t count = positions.size() / 3;
+  struct Vertex {
+    float position[3], normal[3], untouched;
+  };
+  std::vector<Vertex> mixed(count + 1, {{7, 7, 7}, {7, 7, 7}, 7});
+  ASSERT_EQ(sweepface_face_evaluate(face, count, {mixed[0].position, sizeof(Vertex)},
+                                    {mixed[0].normal, sizeof(Vertex)}),
+            SWEEPFACE_OK);
+  for (std::size_t v = 0; v < count; ++v) {
+    EXPECT_TRUE(std::equal(mixed[v].position, mixed[v].position + 3, &positions[3 * v]));
+    EXPECT_TRUE(std::equal(mixed[v].normal, mixed[v].normal + 3, &normals[3 * v]));
+    EXPECT_EQ(mixed[v].untouched, 7);
+  }
+  EXPECT_EQ(mixed[count].position[0], 7);
+}
+
+TEST_F(Faces, FillNoMoreVerticesThanAskedFor) {
+  make(0);
+  const auto all = evaluate();
+  std::vector<float> some(9, 7);
+  ASSERT_EQ(sweepface_face_evaluate(face, 2, {some.data(), 0}, kUnwanted), SWEEPFACE_OK);
+  EXPECT_TRUE(std::equal(some.begin(), some.begin() + 6, all.begin()));
+  EXPECT_EQ(some[6], 7);
+}
+
+TEST_F(Faces, EvaluateWithoutAllocating) {
+  make(2);
+  std::vector<float> out(3 * sweepface_mesh_vertex_count(mesh)), normals(out.size());
+  const double weights[] = {0.1, 0.2, 0.3};
+  const std::size_t before = allocations;
+  EXPECT_EQ(sweepface_face_set_weights(face, weights, 3), SWEEPFACE_OK);
+  EXPECT_EQ(sweepface_face_set_weight(face, 0, 0.5), SWEEPFACE_OK);
+  EXPECT_EQ(sweepface_face_evaluate(face, out.size() / 3, {out.data(), 0}, {normals.data(), 0}),
+            SWEEPFACE_OK);
+  EXPECT_EQ(allocations, before);
+  sweepface_face* another = nullptr;
+  EXPECT_EQ(sweepface_face_create(mesh, &another), SWEEPFACE_OK);
+  EXPECT_GT(allocations, before);  // the counter counts
+  sweepface_face_free(another);
+}
+
+TEST_F(Faces, KeepAliveWhatTheyAreMadeOf) {
+  make(0);
+  const auto before = evaluate();
+  const uint32_t count = sweepface_mesh_vertex_count(mesh);
+  sweepface_rig_free(std::exchange(handle, nullptr));
+  EXPECT_EQ(evaluate(), before);
+  sweepface_mesh_free(std::exchange(mesh, nullptr));
+  std::vector<float> after(before.size());
+  EXPECT_EQ(sweepface_face_evaluate(face, count, {after.data(), 0}, kUnwanted), SWEEPFACE_OK);
+  EXPECT_EQ(after, before);
+}
+
+TEST_F(Faces, OfOneMeshHaveWeightsOfTheirOwn) {
+  make(0);
+  const auto neutral = evaluate();
+  sweepface_face* other = nullptr;
+  ASSERT_EQ(sweepface_face_create(mesh, &other), SWEEPFACE_OK);
+  ASSERT_EQ(sweepface_face_set_weight(other, 0, 1), SWEEPFACE_OK);
+  EXPECT_EQ(sweepface_face_weights(other)[0], 1);
+  EXPECT_EQ(sweepface_face_weights(face)[0], 0);
+  EXPECT_EQ(evaluate(), neutral);
+  sweepface_face_free(other);
+}
+
+TEST_F(Faces, StayFiniteAtTheLargestWeights) {
+  make(0);
+  const double weights[] = {SWEEPFACE_MOST_WEIGHT, -SWEEPFACE_MOST_WEIGHT, SWEEPFACE_MOST_WEIGHT};
+  ASSERT_EQ(sweepface_face_set_weights(face, weights, 3), SWEEPFACE_OK);
+  for (const bool normals : {false, true})
+    for (const float x : evaluate(normals)) EXPECT_TRUE(std::isfinite(x));
+}
+
+TEST_F(Faces, RefuseWhatIsNotAWeightAndChangeNothing) {
+  make(0);
+  const double good[] = {0.5, 0.5, 0.5};
+  ASSERT_EQ(sweepface_face_set_weights(face, good, 3), SWEEPFACE_OK);
+  for (const double bad : {std::numeric_limits<double>::quiet_NaN(),
+                           std::numeric_limits<double>::infinity(), 1.01 * SWEEPFACE_MOST_WEIGHT}) {
+    EXPECT_TRUE(refuses(sweepface_face_set_weight(face, 1, bad), "The weight of 'wink"));
+    const double weights[] = {0.1, 0.2, bad};
+    EXPECT_TRUE(refuses(sweepface_face_set_weights(face, weights, 3),
+                        "The weight of 'rest' must lie within 1000000"));
+  }
+  EXPECT_TRUE(refuses(sweepface_face_set_weight(face, 3, 0), "no target 3; there are 3"));
+  EXPECT_TRUE(refuses(sweepface_face_set_weights(face, good, 4), "4 weights for 3 targets"));
+  for (int k = 0; k < 3; ++k) EXPECT_EQ(sweepface_face_weights(face)[k], 0.5);
+}
+
+TEST_F(Faces, RefuseBuffersThatCannotBeMeant) {
+  make(0);
+  std::vector<float> out(3 * sweepface_mesh_vertex_count(mesh));
+  const std::size_t count = out.size() / 3;
+  EXPECT_TRUE(refuses(sweepface_face_evaluate(face, count + 1, {out.data(), 0}, kUnwanted),
+                      "There are only"));
+  EXPECT_TRUE(refuses(sweepface_face_evaluate(face, count, {out.data(), 11}, kUnwanted), "stride"));
+  EXPECT_TRUE(refuses(sweepface_face_evaluate(face, count, kUnwanted, {out.data(), 4}), "stride"));
+}
+
+TEST_F(Faces, RefuseLevelsThatThereAreNot) {
+  EXPECT_TRUE(refuses(sweepface_mesh_create(handle, 65, &mesh), "must be 0 to 64, not 65"));
+  EXPECT_EQ(mesh, nullptr);
+}
+
+TEST_F(Faces, WithoutASourceHaveOnlyTheSurfacesLevels) {
+  rig.source = {};
+  for (Target& target : rig.targets) target.looseDifference.clear();
+  const std::string bytes = encode(rig);
+  sweepface_rig* bare = nullptr;
+  ASSERT_EQ(sweepface_rig_load(bytes.data(), bytes.size(), nullptr, &bare), SWEEPFACE_OK);
+  EXPECT_TRUE(refuses(sweepface_mesh_create(bare, 0, &mesh), "ask for level of detail 1"));
+  EXPECT_EQ(sweepface_mesh_create(bare, 1, &mesh), SWEEPFACE_OK);
+  EXPECT_EQ(sweepface_mesh_texcoords(mesh), nullptr);
+  EXPECT_GT(sweepface_mesh_triangle_count(mesh), 0u);
+  sweepface_rig_free(bare);
+}
+
+TEST_F(Faces, RefuseBytesThatAreNoFace) {
+  const std::string bytes = encode(rig);
+  sweepface_rig* bad = nullptr;
+  for (std::size_t size = 0; size < bytes.size(); size += 13)
+    EXPECT_TRUE(refuses(sweepface_rig_load(bytes.data(), size, "short.sweep", &bad), "short.sweep",
+                        SWEEPFACE_BAD_DATA));
+  EXPECT_TRUE(
+      refuses(sweepface_rig_load("hello", 5, nullptr, &bad), "The face", SWEEPFACE_BAD_DATA));
+  EXPECT_EQ(bad, nullptr);
+}
+
+TEST_F(Faces, AnswerNullWithoutAnything) {
+  uint32_t number = 0;
+  float data[3];
+  sweepface_part part;
+  EXPECT_TRUE(refuses(sweepface_rig_load(nullptr, 5, nullptr, &handle), "needs bytes"));
+  EXPECT_TRUE(refuses(sweepface_rig_find_target(nullptr, "a", &number), "needs a rig"));
+  EXPECT_TRUE(refuses(sweepface_mesh_create(nullptr, 0, &mesh), "needs a rig"));
+  EXPECT_TRUE(refuses(sweepface_mesh_part(nullptr, 0, &part), "needs a mesh"));
+  EXPECT_TRUE(refuses(sweepface_face_create(nullptr, &face), "needs a mesh"));
+  EXPECT_TRUE(refuses(sweepface_face_set_weight(nullptr, 0, 0), "needs a face"));
+  EXPECT_TRUE(refuses(sweepface_face_evaluate(nullptr, 1, {data, 0}, kUnwanted), "needs a face"));
+  EXPECT_EQ(sweepface_rig_target_count(nullptr), 0u);
+  EXPECT_EQ(sweepface_mesh_vertex_count(nullptr), 0u);
+  EXPECT_EQ(sweepface_mesh_triangles(nullptr), nullptr);
+  EXPECT_EQ(sweepface_face_weights(nullptr), nullptr);
+  sweepface_rig_free(nullptr);
+  sweepface_mesh_free(nullptr);
+  sweepface_face_free(nullptr);
+  sweepface_motion_free(nullptr);
+}
+
+TEST_F(Faces, KeepMessagesToTheThread) {
+  make(0);
+  EXPECT_NE(sweepface_face_set_weight(face, 17, 0), SWEEPFACE_OK);
+  std::thread([] { EXPECT_STREQ(sweepface_message(), ""); }).join();
+  EXPECT_NE(std::string(sweepface_message()).find("17"), std::string::npos);
+}
+
+TEST(Version, IsTheHeaders) {
+  EXPECT_EQ(sweepface_version(), SWEEPFACE_VERSION_MAJOR * 10000u + SWEEPFACE_VERSION_MINOR * 100 +
+                                     SWEEPFACE_VERSION_PATCH);
+}
+
+}  // namespace
+}  // namespace sweepface

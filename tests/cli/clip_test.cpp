@@ -1,0 +1,86 @@
+#include <fstream>
+
+#include "cli/tool.hpp"
+
+namespace sweepface {
+namespace {
+
+using namespace testing;
+
+class PlayClip : public Tool {
+ protected:
+  void write(const std::string& name, const std::string& text) {
+    std::ofstream(folder / name) << text;
+  }
+  std::vector<Vec3> frame(int number) {
+    return mesh(fmt::format("frames/frame_{:04}.obj", number)).positions;
+  }
+  std::vector<Vec3> exported(const std::string& weights) {
+    EXPECT_EQ(run("export face.sweep -o out.obj --weights '" + weights + "'").code, 0);
+    return mesh("out.obj").positions;
+  }
+};
+
+TEST_F(PlayClip, PlaysACaptureByName) {
+  convertRig();
+  write("take.csv",
+        "Timecode,BlendShapeCount,JawOpen,headYaw\n1:0:0:0,2,0,9\n1:0:0:30,2,1,9\n1:0:1:0,2,0,9\n");
+  const Outcome r = run("animate face.sweep --clip take.csv --fps 4 -o frames");
+  ASSERT_EQ(r.code, 0) << r.err;
+  EXPECT_NE(r.err.find("drive no target of the face: headYaw"), std::string::npos) << r.err;
+  EXPECT_NE(r.err.find("nothing drives the targets smile"), std::string::npos) << r.err;
+  EXPECT_EQ(frame(2), exported("jawOpen=1"));
+  EXPECT_EQ(frame(1), exported("jawOpen=0.5"));
+  EXPECT_EQ(frame(4), exported(""));
+  EXPECT_FALSE(std::filesystem::exists(folder / "frames/frame_0005.obj"));
+}
+
+TEST_F(PlayClip, PlaysATimeline) {
+  convertRig();
+  write("scene.json", R"({"seconds": 2, "events": [
+    {"at": 0, "to": {"jawOpen": 1}, "drive": "newton", "seconds": 1},
+    {"at": 1, "only": {"smile": 1}, "drive": "cut"}]})");
+  ASSERT_EQ(run("animate face.sweep --clip scene.json --frames 5 --quiet -o frames").code, 0);
+  EXPECT_EQ(frame(1), exported("jawOpen=0.25"));
+  EXPECT_EQ(frame(4), exported("smile=1"));
+}
+
+TEST_F(PlayClip, GivesAGlbAKeyAFrame) {
+  convertRig();
+  write("take.csv", "Timecode,JawOpen\n0,0\n0.1,1\n0.3,0.5\n");
+  ASSERT_EQ(run("animate face.sweep --clip take.csv -o take.glb").code, 0);
+  const std::string glb = contents(folder / "take.glb");
+  EXPECT_NE(glb.find(R"("name":"take")"), std::string::npos);
+  EXPECT_NE(glb.find(R"("interpolation":"LINEAR")"), std::string::npos);
+}
+
+TEST_F(PlayClip, SpringsSwingIntoTheirGoal) {
+  convertRig();
+  ASSERT_EQ(run("animate face.sweep --to jawOpen=1 --law spring --frequency 1 --damping 0.2 "
+                "--seconds 0.5 --frames 2 -o frames")
+                .code,
+            0);
+  const auto from = exported(""), to = exported("jawOpen=1"), found = frame(1);
+  EXPECT_GT(norm(found.back() - from.back()), 1.2 * norm(to.back() - from.back()));
+}
+
+TEST_F(PlayClip, RefusesWhatCannotBe) {
+  convertRig();
+  write("take.csv", "Timecode,JawOpen\n0,0\n0,1\n");
+  write("head.csv", "Timecode,headYaw\n0,0\n");
+  write("take.txt", "");
+  const std::string command = "animate face.sweep -o frames ";
+  EXPECT_TRUE(fails(command + "--clip none.csv", "there is no such file"));
+  EXPECT_TRUE(fails(command + "--clip take.csv", "take.csv line 3: the timecode '0' is not after"));
+  EXPECT_TRUE(fails(command + "--clip head.csv", "none of its 1 names is a target"));
+  EXPECT_TRUE(fails(command + "--clip take.txt", "neither a .csv nor a .json"));
+  EXPECT_TRUE(fails(command + "--clip take.csv --to smile=1", "excludes", 2));
+  EXPECT_TRUE(fails(command + "--to smile=1 --smooth", "--clip", 2));
+  EXPECT_TRUE(fails(command, "Say where to go"));
+  EXPECT_TRUE(fails("animate face.sweep --to smile=1 --law spring --keys exact -o a.glb",
+                    "Keys cannot hold spring exactly"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "frames"));
+}
+
+}  // namespace
+}  // namespace sweepface

@@ -1,0 +1,129 @@
+#include "cli/tool.hpp"
+#include "gltf/written.hpp"
+
+namespace sweepface {
+namespace {
+
+using namespace testing;
+
+/// The small face with a hat on.
+Glb headAndHat() {
+  Glb glb = smallFace();
+  glb.json["nodes"][0]["children"] = {1};
+  glb.add("nodes", {{"name", "hat"}, {"translation", {0, 1, 0}}});
+  return glb;
+}
+
+class ToolGlb : public Tool {
+ protected:
+  Written glb(std::string_view name) { return Written(contents(folder / name)); }
+  std::vector<Vec3> exported(const std::string& weights) {
+    EXPECT_EQ(run("export face.sweep -o out.obj --weights '" + weights + "'").code, 0);
+    return mesh("out.obj").positions;
+  }
+};
+
+TEST_F(ToolGlb, HasAllTargets) {
+  convertRig();
+  const Outcome r = run("export face.sweep -o face.glb");
+  ASSERT_EQ(r.code, 0) << r.err;
+  EXPECT_EQ(r.out,
+            fmt::format("face.glb: 2 targets, {} bytes\n", contents(folder / "face.glb").size()));
+  const Written file = glb("face.glb");
+  EXPECT_EQ(file.json["meshes"][0]["extras"]["targetNames"], Json({"jawOpen", "smile"}));
+  EXPECT_EQ(file.json["meshes"][0]["primitives"].size(), 2u);
+  const std::vector<Vec3> neutral = file.vectors(file.attribute("POSITION"));
+  expectNear(neutral, exported(""), 1e-6);
+  std::vector<Vec3> smile = file.vectors(file.morph(1));
+  for (std::size_t v = 0; v < smile.size(); ++v) smile[v] += neutral[v];
+  expectNear(smile, exported("smile=1"), 1e-6);
+}
+
+TEST_F(ToolGlb, TakesTheOptionsOfExport) {
+  convertRig();
+  ASSERT_EQ(run("export face.sweep -o a.GLB --quiet --weights smile=0.5 --lod 3 --quantize "
+                "--morph-normals")
+                .code,
+            0);
+  const Written file = glb("a.GLB");
+  EXPECT_EQ(file.json["meshes"][0]["weights"], Json({0.0, 0.5}));
+  EXPECT_EQ(file.indices(0, 0).size() + file.indices(0, 1).size(), 3u * 2 * 30 * 9);
+  EXPECT_TRUE(file.primitive()["targets"][0].contains("NORMAL"));
+  EXPECT_EQ(file.json["extensionsUsed"], Json::array({"KHR_mesh_quantization"}));
+  ASSERT_EQ(run("export face.sweep -o b.glb --source-order").code, 0);
+  ASSERT_EQ(run("export face.sweep -o c.glb").code, 0);
+  EXPECT_EQ(contents(folder / "b.glb"), contents(folder / "c.glb"));
+}
+
+TEST_F(ToolGlb, GoesOnWithItsScene) {
+  folder.file("face.glb", headAndHat().bytes());
+  ASSERT_EQ(run("convert face.glb -o face.sweep --tolerance 0.05").code, 0);
+  ASSERT_EQ(run("export face.sweep -o out.glb").code, 0);
+  EXPECT_EQ(glb("out.glb").json["nodes"], headAndHat().json["nodes"]);
+  ASSERT_EQ(run("convert face.glb -o bare.sweep --tolerance 0.05 --bare").code, 0);
+  ASSERT_EQ(run("export bare.sweep -o out.glb").code, 0);
+  EXPECT_EQ(glb("out.glb").json["nodes"].size(), 1u);
+}
+
+TEST_F(ToolGlb, Animates) {
+  convertRig();
+  const Outcome r =
+      run("animate face.sweep --to jawOpen=1 --law accelerate-brake --seconds 0.5 -o jaw.glb");
+  ASSERT_EQ(r.code, 0) << r.err;
+  EXPECT_NE(r.out.find("jaw.glb: 0.5 s, accelerate-brake"), std::string::npos);
+  const Json animation = glb("jaw.glb").json["animations"][0];
+  EXPECT_EQ(animation["name"], "accelerate-brake");
+  EXPECT_EQ(animation["samplers"][0]["interpolation"], "CUBICSPLINE");
+  EXPECT_FALSE(std::filesystem::is_directory(folder / "jaw.glb"));
+
+  ASSERT_EQ(run("animate face.sweep --to jawOpen=1 --keys exact -o same.glb --law accelerate-brake "
+                "--seconds 0.5")
+                .code,
+            0);
+  EXPECT_EQ(contents(folder / "same.glb"), contents(folder / "jaw.glb"));
+}
+
+TEST_F(ToolGlb, SamplesKeysOnRequest) {
+  convertRig();
+  for (const auto& [frames, count] : {std::pair{"", 31}, std::pair{" --frames 5", 5}}) {
+    ASSERT_EQ(
+        run(std::string("animate face.sweep --to jawOpen=1 --keys sampled -o jaw.glb") + frames)
+            .code,
+        0);
+    const Written file = glb("jaw.glb");
+    const Json& sampler = file.json["animations"][0]["samplers"][0];
+    EXPECT_EQ(sampler["interpolation"], "LINEAR");
+    EXPECT_EQ(file.accessor(sampler["input"])["count"], count);
+  }
+}
+
+TEST_F(ToolGlb, RefusesOptionsThatDoNotGoTogether) {
+  convertRig();
+  folder.file("out.glb", "old");
+  folder.file("folder.glb/file", "");
+  EXPECT_TRUE(fails("export face.sweep -o out.obj --quantize", "are for .glb files"));
+  EXPECT_TRUE(fails("export face.sweep -o out.obj --morph-normals", "are for .glb files"));
+  EXPECT_TRUE(fails("export face.sweep -o out.gltf", "another kind of file (.gltf)"));
+  EXPECT_TRUE(fails("export face.sweep -o folder.glb", "it is a folder"));
+  EXPECT_TRUE(fails("export face.sweep -o out.glb --weights frown=1", "no target named 'frown'"));
+  EXPECT_TRUE(fails("export face.sweep -o out.glb --weights smile=1e39", "a glTF can hold"));
+  EXPECT_TRUE(fails("export face.sweep -o out.glb --lod 2 --source-order", "--lod", 2));
+  const std::string animate = "animate face.sweep --to smile=1 ";
+  EXPECT_TRUE(fails(animate + "-o frames --keys exact", "are for .glb files"));
+  EXPECT_TRUE(fails(animate + "-o frames --quantize", "are for .glb files"));
+  EXPECT_TRUE(fails(animate + "-o out.glb --frames 10",
+                    "leave --frames and --fps out or add --keys sampled"));
+  EXPECT_TRUE(
+      fails(animate + "-o out.glb --keys exact --frames 10", "leave --frames and --fps out"));
+  EXPECT_TRUE(fails(animate + "-o out.glb --keys some", "exact or sampled, not 'some'"));
+  EXPECT_TRUE(fails(animate + "-o out.gltf", "another kind of file (.gltf)"));
+  EXPECT_TRUE(fails(animate + "-o folder.glb", "it is a folder"));
+  EXPECT_TRUE(fails(animate + "-o out.glb --seconds 1e-44", "single precision"));
+  EXPECT_TRUE(fails("animate face.sweep --to '' -o no/out.glb", "there is no folder no"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "frames"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "out.gltf"));
+  EXPECT_EQ(contents(folder / "out.glb"), "old");
+}
+
+}  // namespace
+}  // namespace sweepface

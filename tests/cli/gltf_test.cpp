@@ -1,0 +1,85 @@
+#include <nlohmann/json.hpp>
+
+#include "cli/tool.hpp"
+#include "gltf/glb.hpp"
+
+namespace sweepface {
+namespace {
+
+using namespace testing;
+
+class GltfSource : public Tool {
+ protected:
+  void SetUp() override { folder.file("face.glb", smallFace().bytes()); }
+  nlohmann::json report(const std::string& arguments) {
+    const Outcome r = run(arguments + " --json");
+    EXPECT_EQ(r.code, 0) << r.err;
+    return r.code == 0 ? nlohmann::json::parse(r.out) : nlohmann::json();
+  }
+};
+
+TEST_F(GltfSource, BecomesAFaceWithItsTargets) {
+  EXPECT_EQ(report("convert face.glb -o face.sweep --tolerance 0.001")["targets"], 2);
+  EXPECT_EQ(report("info face.sweep")["targets"], (std::vector<std::string>{"open", "wink"}));
+  const auto measured = report("measure face.sweep face.glb");
+  ASSERT_EQ(measured["shapes"].size(), 3u);
+  EXPECT_LE(measured["worst"]["distanceMax"], 0.001);
+  ASSERT_EQ(run("export face.sweep -o open.obj --weights open=1").code, 0);
+  std::vector<Vec3> open = sheetPositions();
+  for (std::size_t v = 0; v < open.size(); ++v) open[v] += openDeltas()[v];
+  EXPECT_LE(largestDistance(mesh("open.obj").positions, open), 0.001);
+}
+
+TEST_F(GltfSource, ItsSceneIsKeptUnlessTheFaceIsToBeBare) {
+  report("convert face.glb -o face.sweep --tolerance 0.1");
+  report("convert face.glb -o bare.sweep --tolerance 0.1 --bare");
+  const auto whole = report("info face.sweep"), bare = report("info bare.sweep");
+  const std::string scene = parse(smallFace())->scene;
+  EXPECT_EQ(whole["parts"]["scene"], scene.size() + 2);
+  EXPECT_FALSE(bare["parts"].contains("scene"));
+  EXPECT_NE(contents(folder / "face.sweep").find(scene), std::string::npos);
+  EXPECT_EQ(whole["bytes"], bare["bytes"].get<std::size_t>() + scene.size() + 2 + 12);
+}
+
+TEST_F(GltfSource, MayHaveItsBufferBesideIt) {
+  folder.file("sub/face.gltf", smallFace().text("face.bin"));
+  EXPECT_TRUE(fails("convert sub/face.gltf -o face.sweep", "sub/face.gltf: buffer 0: the file "));
+  folder.file("sub/face.bin", smallFace().binary);
+  EXPECT_EQ(report("convert sub/face.gltf -o face.sweep --tolerance 0.1")["targets"], 2);
+  folder.file("face.GLTF", smallFace().text("face.bin"));
+  folder.file("face.bin", smallFace().binary);
+  EXPECT_EQ(report("convert face.GLTF -o face.sweep --tolerance 0.1")["targets"], 2);
+}
+
+TEST_F(GltfSource, WarnsOfWhatIsNotCarriedOver) {
+  Glb glb = smallFace();
+  glb.json["images"] = {{{"uri", "missing.png"}}};
+  folder.file("face.glb", glb.bytes());
+  const Outcome r = run("convert face.glb -o face.sweep --tolerance 0.1 -q");
+  EXPECT_EQ(r.code, 0);
+  EXPECT_TRUE(r.err.starts_with("sweepface: warning: Image 0 stays a reference")) << r.err;
+  EXPECT_EQ(run("convert face.glb -o face.sweep --tolerance 0.1 -q --bare").err, "");
+}
+
+TEST_F(GltfSource, StandsAlone) {
+  makeRig();
+  EXPECT_TRUE(fails("convert face.glb targets -o face.sweep",
+                    "face.glb holds a face and its expressions; name it without targets."));
+  EXPECT_TRUE(fails("measure face.glb face.glb", "face.glb does not begin with SWEEPFC"));
+  EXPECT_TRUE(fails("convert neutral.obj face.glb -o face.sweep",
+                    "face.glb cannot be read as one mesh of several"));
+}
+
+TEST_F(GltfSource, IsNotOverwritten) {
+  EXPECT_TRUE(fails("convert face.glb -o face.glb", "it is what is read"));
+  EXPECT_TRUE(fails("convert face.glb -o other.glb", "another kind of file (.glb)"));
+  EXPECT_TRUE(fails("convert face.glb -o other.gltf", "another kind of file (.gltf)"));
+}
+
+TEST_F(GltfSource, ThatIsBrokenIsNamed) {
+  folder.file("face.glb", smallFace().bytes().substr(0, 100));
+  EXPECT_TRUE(fails("convert face.glb -o face.sweep", "face.glb: its header says"));
+}
+
+}  // namespace
+}  // namespace sweepface

@@ -1,0 +1,68 @@
+#include <fmt/format.h>
+
+#include "cli/tool.hpp"
+
+namespace sweepface {
+namespace {
+
+using namespace testing;
+using Page = Tool;
+
+TEST_F(Page, IsWrittenWhole) {
+  convertRig();
+  const Outcome r = run("report face.sweep neutral.obj targets -o report.html --no-tolerances");
+  ASSERT_EQ(r.code, 0) << r.err;
+  const std::string html = contents(folder / "report.html");
+  EXPECT_TRUE(html.starts_with("<!DOCTYPE html>"));
+  EXPECT_TRUE(html.ends_with("</html>\n"));
+  EXPECT_NE(html.find("<h1>face.sweep</h1>"), std::string::npos);
+  EXPECT_NE(html.find("jawOpen"), std::string::npos);
+  EXPECT_EQ(r.out, fmt::format("report.html: {} bytes\n", html.size()));
+}
+
+/// A browser has nothing to complain about.
+TEST_F(Page, OpensInABrowser) {
+  if (std::system("command -v chromium >/dev/null") != 0) GTEST_SKIP() << "there is no chromium";
+  convertRig();
+  ASSERT_EQ(run("report face.sweep neutral.obj targets -o report.html --no-tolerances -q").code, 0);
+  const std::string here = (folder / "").string();
+  const std::string command = fmt::format(
+      "timeout 120 chromium --headless --no-sandbox --disable-gpu --enable-logging=stderr "
+      "--user-data-dir='{0}profile' --dump-dom 'file://{0}report.html' >'{0}dom' 2>'{0}log'",
+      here);
+  ASSERT_EQ(std::system(command.c_str()), 0) << contents(folder / "log");
+  EXPECT_NE(contents(folder / "dom").find("Linear and Newton"), std::string::npos);
+  EXPECT_EQ(contents(folder / "log").find("CONSOLE"), std::string::npos)
+      << contents(folder / "log");
+}
+
+TEST_F(Page, FollowsItsOptions) {
+  convertRig();
+  const Outcome r =
+      run("report face.sweep neutral.obj targets -o report.html --tolerances 0.05 "
+          "--weights smile=0.25 --box jaw");
+  ASSERT_EQ(r.code, 0) << r.err;
+  const std::string html = contents(folder / "report.html");
+  EXPECT_NE(html.find("The expression is smile=0.25."), std::string::npos);
+  EXPECT_NE(html.find("<td>0.05</td>"), std::string::npos);
+}
+
+TEST_F(Page, SaysWhatIsWrong) {
+  convertRig();
+  folder.file("report.html", "old");
+  folder.file("other.obj", cube(2));
+  EXPECT_TRUE(fails("report face.sweep other.obj -o report.html --no-tolerances", "26 vertices"));
+  EXPECT_TRUE(
+      fails("report face.sweep neutral.obj targets -o report.html --weights frown=1", "frown"));
+  EXPECT_TRUE(fails("report face.sweep neutral.obj targets -o report.png", "another kind of file"));
+  EXPECT_TRUE(
+      fails("report face.sweep neutral.obj targets -o no/report.html", "there is no folder no"));
+  EXPECT_TRUE(
+      fails("report face.sweep neutral.obj -o report.html --tolerances 0", "--tolerances", 2));
+  EXPECT_TRUE(fails("report face.sweep neutral.obj -o report.html --tolerances 1 --no-tolerances",
+                    "--tolerances", 2));
+  EXPECT_EQ(contents(folder / "report.html"), "old");
+}
+
+}  // namespace
+}  // namespace sweepface

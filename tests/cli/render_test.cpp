@@ -1,0 +1,114 @@
+#include <fmt/format.h>
+
+#include "cli/tool.hpp"
+
+namespace sweepface {
+namespace {
+
+using namespace testing;
+using Render = Tool;
+
+/// Width and height of a PNG file, as its header says.
+std::pair<unsigned, unsigned> sizeOf(const std::string& png) {
+  if (png.size() < 33 || !png.starts_with("\x89PNG\r\n\x1a\n")) return {0, 0};
+  const auto number = [&](std::size_t at) {
+    unsigned value = 0;
+    for (std::size_t k = at; k < at + 4; ++k)
+      value = value << 8 | static_cast<unsigned char>(png[k]);
+    return value;
+  };
+  return {number(16), number(20)};
+}
+
+TEST_F(Render, MakesEveryStyle) {
+  convertRig();
+  std::map<std::string, std::string> pictures;
+  for (const std::string style : {"shaded", "patches", "wireframe", "joins", "normals", "zebra"}) {
+    const Outcome r = run("render face.sweep -o out.png --size 200x240 --style " + style);
+    ASSERT_EQ(r.code, 0) << r.err;
+    EXPECT_NE(r.out.find("out.png: 200 × 240 pixels"), std::string::npos) << r.out;
+    const std::string png = contents(folder / "out.png");
+    EXPECT_EQ(sizeOf(png), (std::pair{200u, 240u}));
+    for (const auto& [other, bytes] : pictures) EXPECT_NE(bytes, png) << style << " and " << other;
+    pictures[style] = png;
+  }
+}
+
+TEST_F(Render, FollowsWeightsViewAndLod) {
+  convertRig();
+  const auto rendered = [&](const std::string& more) {
+    EXPECT_EQ(run("render face.sweep -o out.png --size 100x100 -q " + more).code, 0) << more;
+    return contents(folder / "out.png");
+  };
+  const std::string plain = rendered("");
+  EXPECT_EQ(rendered("--view front --weights smile=0"), plain);
+  EXPECT_NE(rendered("--weights smile=1"), plain);
+  EXPECT_NE(rendered("--view side"), plain);
+  EXPECT_NE(rendered("--lod 1"), rendered("--lod 8"));
+  EXPECT_EQ(rendered("--view 0,0"), plain);
+  EXPECT_EQ(rendered("--view -360,0").empty(), false);
+}
+
+TEST_F(Render, PutsViewsBesideEachOther) {
+  convertRig();
+  ASSERT_EQ(run("render face.sweep -o out.png --views front,side,-30,10").code, 0);
+  const auto [width, height] = sizeOf(contents(folder / "out.png"));
+  EXPECT_EQ(width, 3u * 640u);
+  EXPECT_GT(height, 800u) << "captions below them";
+}
+
+TEST_F(Render, ComparesWithTheMeshes) {
+  convertRig();
+  for (const std::string style : {"shaded", "error", "angle", "joins"}) {
+    const Outcome r =
+        run("render face.sweep -o out.png --size 400x300 --weights smile=0.5 --style " + style +
+            " --compare neutral.obj targets");
+    ASSERT_EQ(r.code, 0) << r.err;
+  }
+  ASSERT_EQ(run("render face.sweep -o out.png --size 400x400 --views front,side --style error "
+                "--compare neutral.obj")
+                .code,
+            0);
+  EXPECT_TRUE(fails("render face.sweep -o out.png --style error", "--compare"));
+  EXPECT_TRUE(fails("render face.sweep -o out.png --weights smile=1 --compare neutral.obj",
+                    "no mesh of 'smile'"));
+  folder.file("other.obj", cube(2));
+  EXPECT_TRUE(fails("render face.sweep -o out.png --compare other.obj", "26 vertices"));
+}
+
+TEST_F(Render, ShowsTheWayToAnExpression) {
+  convertRig();
+  const Outcome r =
+      run("render face.sweep -o out.png --size 600x300 --to jawOpen=1 --frames 4 "
+          "--law linear,newton --box jaw --box 0.1,0.1,0.5,0.5");
+  ASSERT_EQ(r.code, 0) << r.err;
+  EXPECT_EQ(sizeOf(contents(folder / "out.png")), (std::pair{600u, 300u}));
+  EXPECT_TRUE(fails("render face.sweep -o out.png --to jawOpen=1 --box ear", "'ear'"));
+  EXPECT_TRUE(fails("render face.sweep -o out.png --to jawOpen=1 --box 1,2,3", "no box"));
+  EXPECT_TRUE(fails("render face.sweep -o out.png --to jawOpen=1 --law up", "up"));
+  EXPECT_TRUE(fails("render face.sweep -o out.png --to jawOpen=1 --views front,side", "one view"));
+  EXPECT_TRUE(fails("render face.sweep -o out.png --frames 4", "--to", 2));
+  EXPECT_TRUE(fails("render face.sweep -o out.png --to jawOpen=1 --frames 1", "--frames", 2));
+  EXPECT_TRUE(
+      fails("render face.sweep -o out.png --to jawOpen=1 --compare neutral.obj", "--to", 2));
+}
+
+TEST_F(Render, SaysWhatIsWrong) {
+  convertRig();
+  folder.file("out.png", "old");
+  EXPECT_TRUE(fails("render face.sweep -o out.png --style shiny", "no style 'shiny'"));
+  EXPECT_TRUE(fails("render face.sweep -o out.png --view above", "no view 'above'"));
+  EXPECT_TRUE(fails("render face.sweep -o out.png --size 0x0", "cannot be made"));
+  EXPECT_TRUE(fails("render face.sweep -o out.png --size 100000x100000", "cannot be made"));
+  EXPECT_TRUE(fails("render face.sweep -o out.png --size large", "no size"));
+  EXPECT_TRUE(fails("render face.sweep -o out.png --size 64x64 --views front,side,back,front,side",
+                    "no room"));
+  EXPECT_TRUE(fails("render face.sweep -o out.png --weights frown=1", "frown"));
+  EXPECT_TRUE(fails("render face.sweep -o out.obj", "another kind of file"));
+  EXPECT_TRUE(fails("render face.sweep -o no/out.png", "there is no folder no"));
+  EXPECT_TRUE(fails("render neutral.obj -o out.png", "neutral.obj"));
+  EXPECT_EQ(contents(folder / "out.png"), "old");
+}
+
+}  // namespace
+}  // namespace sweepface

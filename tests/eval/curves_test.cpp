@@ -1,0 +1,61 @@
+#include <algorithm>
+#include <set>
+
+#include "sweepface/eval.hpp"
+#include "sweepface/ode.hpp"
+
+#include "surface/surfaces.hpp"
+
+namespace sweepface {
+namespace {
+
+using namespace testing;
+
+class Curves : public ::testing::TestWithParam<Face> {};
+INSTANTIATE_TEST_SUITE_P(, Curves, eachFace(), faceName);
+
+TEST_P(Curves, StartAndEndAtNodes) {
+  const Surface surface = surfaceOf(GetParam().rig, 3);
+  const CurveNetwork net = curveNetwork(surface, anyPose(surface), 3);
+  const std::set<Index> nodes(net.nodes.begin(), net.nodes.end());
+  EXPECT_EQ(nodes.size(), net.nodes.size());
+  const auto& arcs = surface.wireframe().arcs;
+  EXPECT_EQ(static_cast<std::ptrdiff_t>(net.boundary.size()),
+            std::ranges::count(arcs, false, &Arc::collapsed));
+  for (const Curve& curve : net.boundary) {
+    EXPECT_EQ(static_cast<Index>(curve.points.size()), 3 * arcs[arcOf(curve.along)].edges + 1);
+    EXPECT_TRUE(nodes.contains(curve.points.front()));
+    EXPECT_TRUE(nodes.contains(curve.points.back()));
+  }
+}
+
+/// Two control curves and the boundary between them say what the derivatives across are.
+TEST_P(Curves, HoldTheDerivativesAcross) {
+  const Surface surface = surfaceOf(GetParam().rig, 3);
+  const std::vector<Vec3> vectors = anyPose(surface);
+  const CurveNetwork net = curveNetwork(surface, vectors, 2);
+  for (std::size_t k = 0; k < net.control.size(); k += 2) {
+    const Curve &second = net.control[k], &third = net.control[k + 1];
+    ASSERT_EQ(second.along, third.along);
+    const Site site = surface.siteOnArc(second.along, 0.5);
+    const auto across =
+        derivativesFromControls(surface.evaluate(vectors, site), net.points[second.points[1]],
+                                net.points[third.points[1]], {0.1, 0.25});
+    ASSERT_TRUE(across.has_value());
+    // Across is along u or along v, whichever the arc is not; over the whole patch, not an edge.
+    const auto differsBy = [&](bool alongV) {
+      const double length = alongV ? surface.edgesV(site.patch) : surface.edgesU(site.patch);
+      const auto derivative = [&](int order) {
+        return surface.evaluate(vectors, site, alongV ? 0 : order, alongV ? order : 0);
+      };
+      const Vec3 first = length * derivative(1), d2 = length * length * derivative(2);
+      return (std::min(norm(across->first - first), norm(across->first + first)) +
+              norm(across->second - d2)) /
+             (1 + norm(first) + norm(d2));
+    };
+    EXPECT_LE(std::min(differsBy(false), differsBy(true)), 1e-10);
+  }
+}
+
+}  // namespace
+}  // namespace sweepface

@@ -1,0 +1,204 @@
+#include "sweepface/render_mesh.hpp"
+
+#include <numeric>
+
+#include "surface/surfaces.hpp"
+
+namespace sweepface {
+namespace {
+
+using namespace sweepface::testing;
+
+Index pointOf(const RenderMesh& mesh, std::uint32_t vertex) {
+  const auto v = static_cast<Index>(vertex);
+  return v < mesh.points ? v : mesh.copies[v - mesh.points];
+}
+
+/// The triangles as loops of points.
+std::vector<Loop> trianglesOf(const RenderMesh& mesh) {
+  std::vector<Loop> loops;
+  for (std::size_t k = 0; k < mesh.triangles.size(); k += 3) {
+    loops.emplace_back();
+    for (int c = 0; c < 3; ++c) loops.back().push_back(pointOf(mesh, mesh.triangles[k + c]));
+  }
+  return loops;
+}
+
+double areaOf(const std::vector<Loop>& triangles, const std::vector<Vec3>& places) {
+  double area = 0;
+  for (const Loop& t : triangles)
+    area += 0.5 * norm(cross(places[t[1]] - places[t[0]], places[t[2]] - places[t[0]]));
+  return area;
+}
+
+std::vector<Vec3> neutralOf(const Rig& rig, const Tessellation& grid) {
+  return sourcePositions(rig, grid, blend(rig, {}), {});
+}
+
+class EveryFace : public ::testing::TestWithParam<Face> {};
+INSTANTIATE_TEST_SUITE_P(RenderMesh, EveryFace, eachFace(), faceName);
+
+TEST_P(EveryFace, HasTheTessellationsShapeAtAnyLevel) {
+  Rig rig;
+  rig.surface = surfaceOf(GetParam().rig, 6);
+  rig.neutral = anyPose(rig.surface);
+  rig.neutral.resize(rig.surface.storedCount());
+  for (Index level : {1, 2, 3}) {
+    const Tessellation grid(rig.surface, level);
+    const RenderMesh mesh = renderGrid(rig, grid);
+    std::vector<Loop> faces;
+    for (const auto& f : grid.faces()) faces.emplace_back(f.begin(), f.end());
+    const Topology expected = topologyOf(faces), found = topologyOf(trianglesOf(mesh));
+    EXPECT_EQ(found.vertices, expected.vertices);
+    EXPECT_EQ(found.euler, expected.euler);
+    EXPECT_EQ(found.boundaryLoops, expected.boundaryLoops);
+    EXPECT_EQ(found.overfullEdges, 0);
+    EXPECT_TRUE(mesh.copies.empty());
+    EXPECT_TRUE(mesh.texcoords.empty());
+  }
+}
+
+/// A sheet of 2 × 2 unit quads in the plane, as a rig whose surface is that sheet.
+Rig sheet() {
+  Rig rig;
+  rig.surface = Surface::make(onePatch(2, 2)).value();
+  rig.neutral.resize(rig.surface.storedCount());
+  const Vec3 corners[4] = {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}};
+  for (Index v = 0; v < rig.surface.storedCount(); ++v) {
+    const StoredVector& s = rig.surface.stored(v);
+    if (s.i == 0 && s.j == 0) rig.neutral[v] = corners[s.node];
+    if (s.i + s.j == 1) {
+      // Slopes along the sheet's sides; a node's own axes are its first arms.
+      const auto& arms = rig.surface.connectivity().stars[s.node].arms;
+      const HalfArc arm = arms[s.i == 1 ? 0 : 1];
+      const Vec3 way = corners[rig.surface.wireframe().end(arm)] - corners[s.node];
+      rig.neutral[v] = 0.5 * way;
+    }
+  }
+  rig.source = makeSource(rig.surface);
+  std::iota(rig.source.quadCorners.begin(), rig.source.quadCorners.end(), 0);
+  return rig;
+}
+
+TEST(RenderMesh, CutsTheSourcesPolygonsIntoTrianglesOfTheSameArea) {
+  const Rig rig = sheet();
+  const Tessellation grid(rig.surface, 1);
+  const RenderMesh mesh = renderSource(rig, grid);
+  EXPECT_EQ(mesh.points, 9);
+  EXPECT_EQ(mesh.triangles.size(), 3u * 8);
+  const auto places = neutralOf(rig, grid);
+  EXPECT_NEAR(areaOf(trianglesOf(mesh), places), 4, 1e-12);
+  for (const Loop& t : trianglesOf(mesh))  // counter-clockwise
+    EXPECT_GT(cross(places[t[1]] - places[t[0]], places[t[2]] - places[t[0]]).z, 0);
+}
+
+TEST(RenderMesh, CutsConcavePolygonsInside) {
+  Rig rig = sheet();
+  const Tessellation grid(rig.surface, 1);
+  const auto places = neutralOf(rig, grid);
+  // All but one quad as a single polygon of seven corners, three quads of area.
+  const auto at = [&](double x, double y) {
+    return static_cast<Index>(
+        std::ranges::find_if(places,
+                             [&](const Vec3& p) { return norm(p - Vec3{x, y, 0}) < 1e-9; }) -
+        places.begin());
+  };
+  Polygons& faces = rig.source.polygons = {};
+  faces.corners = {at(0, 0), at(2, 0), at(2, 1), at(1, 1), at(1, 2), at(0, 2), at(0, 1)};
+  faces.faceStart = {0, 7};
+  const RenderMesh mesh = renderSource(rig, grid);
+  EXPECT_EQ(mesh.triangles.size(), 3u * 5);
+  EXPECT_NEAR(areaOf(trianglesOf(mesh), places), 3, 1e-12);
+}
+
+TEST(RenderMesh, CutsQuadsWhereTheyAreShorter) {
+  Rig rig = sheet();
+  for (Index v = 0; v < rig.surface.storedCount(); ++v)  // shear: diagonals differ
+    rig.neutral[v].x += 0.5 * rig.neutral[v].y;
+  const Tessellation grid(rig.surface, 1);
+  const auto longest = [](const RenderMesh& mesh, const std::vector<Vec3>& places) {
+    double length = 0;
+    for (const Loop& t : trianglesOf(mesh))
+      for (int k = 0; k < 3; ++k)
+        length = std::max(length, norm(places[t[k]] - places[t[(k + 1) % 3]]));
+    return length;
+  };
+  EXPECT_LT(longest(renderSource(rig, grid), neutralOf(rig, grid)), 1.2);  // not sqrt(13) / 2
+  EXPECT_LT(longest(renderGrid(rig, grid), grid.positions(blend(rig, {}))), 1.2);
+}
+
+/// Texture coordinates that are the vertices' places, with a seam along x = 1.
+void texture(Rig& rig) {
+  const Tessellation grid(rig.surface, 1);
+  const auto places = neutralOf(rig, grid);
+  Polygons& faces = rig.source.polygons;
+  for (Index f = 0; f < faces.faceCount(); ++f) {
+    double middle = 0;
+    for (Index c = faces.faceStart[f]; c < faces.faceStart[f + 1]; ++c)
+      middle += places[faces.corners[c]].x / faces.faceSize(f);
+    for (Index c = faces.faceStart[f]; c < faces.faceStart[f + 1]; ++c) {
+      faces.cornerTexcoords.push_back(static_cast<Index>(faces.texcoords.size()));
+      const Vec3& p = places[faces.corners[c]];
+      faces.texcoords.push_back({p.x + (middle > 1 ? 10 : 0), p.y});
+    }
+  }
+}
+
+TEST(RenderMesh, RepeatsPointsOnlyAlongSeams) {
+  Rig rig = sheet();
+  texture(rig);
+  for (Index level : {0, 1, 3}) {
+    const Tessellation grid(rig.surface, std::max(level, 1));
+    const RenderMesh mesh = level == 0 ? renderSource(rig, grid) : renderGrid(rig, grid);
+    const auto points = level == 0 ? neutralOf(rig, grid) : grid.positions(blend(rig, {}));
+    EXPECT_EQ(static_cast<Index>(mesh.copies.size()), 2 * grid.level() + 1) << level;
+    ASSERT_EQ(static_cast<Index>(mesh.texcoords.size()), 2 * mesh.vertexCount());
+    for (std::size_t k = 0; k < mesh.triangles.size(); k += 3) {
+      const auto vertex = [&](int c) { return mesh.triangles[k + c]; };
+      double middle = 0;
+      for (int c = 0; c < 3; ++c) middle += points[pointOf(mesh, vertex(c))].x / 3;
+      for (int c = 0; c < 3; ++c) {
+        const Vec3& p = points[pointOf(mesh, vertex(c))];
+        EXPECT_NEAR(mesh.texcoords[2 * vertex(c)], p.x + (middle > 1 ? 10 : 0), 1e-6);
+        EXPECT_NEAR(mesh.texcoords[2 * vertex(c) + 1], p.y, 1e-6);
+      }
+    }
+  }
+}
+
+TEST(RenderMesh, KeepsTheTrianglesOfAMaterialTogether) {
+  Rig rig = sheet();
+  rig.source.polygons.materials = {"skin", "lips"};
+  rig.source.polygons.faceMaterial = {1, -1, 1, 0};
+  for (Index level : {0, 1, 2}) {
+    const Tessellation grid(rig.surface, std::max(level, 1));
+    const RenderMesh mesh = level == 0 ? renderSource(rig, grid) : renderGrid(rig, grid);
+    const auto each = static_cast<std::uint32_t>(2 * grid.level() * grid.level());
+    const std::vector<RenderMesh::Part> expected{
+        {-1, 0, each}, {0, each, each}, {1, 2 * each, 2 * each}};
+    EXPECT_EQ(mesh.parts, expected);
+  }
+}
+
+TEST(RenderMesh, LeavesOutTrianglesWithoutThreePoints) {
+  const Rig rig = makeRig(fan(4));  // its patches are triangles with a collapsed side
+  const Tessellation grid(rig.surface, 1);
+  for (const RenderMesh& mesh : {renderSource(rig, grid), renderGrid(rig, grid)})
+    for (const Loop& t : trianglesOf(mesh)) {
+      EXPECT_NE(t[0], t[1]);
+      EXPECT_NE(t[1], t[2]);
+      EXPECT_NE(t[2], t[0]);
+    }
+}
+
+TEST(RenderMesh, OfAFileWithoutPolygonsHasNoTriangles) {
+  Rig rig = sheet();
+  rig.source.polygons = {};
+  rig.source.quadCorners.clear();
+  const Tessellation grid(rig.surface, 1);
+  EXPECT_TRUE(renderSource(rig, grid).triangles.empty());
+  EXPECT_EQ(renderGrid(rig, grid).triangles.size(), 3u * 8);
+}
+
+}  // namespace
+}  // namespace sweepface

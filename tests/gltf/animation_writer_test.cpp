@@ -1,0 +1,205 @@
+#include <random>
+
+#include "gltf/written.hpp"
+
+namespace sweepface {
+namespace {
+
+using namespace testing;
+
+/// The values of a sampler at a time (glTF 2.0, appendix C).
+std::vector<double> evaluate(const Written& glb, const Json& animation, std::size_t sampler,
+                             double time) {
+  const Json& s = animation["samplers"][sampler];
+  const std::vector<double> times = glb.numbers(s["input"].get<std::size_t>());
+  const std::vector<double> output = glb.numbers(s["output"].get<std::size_t>());
+  const bool cubic = s["interpolation"] == "CUBICSPLINE";
+  const std::size_t width = output.size() / times.size() / (cubic ? 3 : 1);
+  time = std::clamp(time, times.front(), times.back());
+  std::size_t k = 0;
+  while (k + 2 < times.size() && times[k + 1] < time) ++k;
+  const double td = times[k + 1] - times[k], t = (time - times[k]) / td;
+  std::vector<double> values;
+  for (std::size_t w = 0; w < width; ++w) {
+    if (!cubic) {
+      values.push_back(std::lerp(output[k * width + w], output[(k + 1) * width + w], t));
+      continue;
+    }
+    const double v0 = output[(3 * k + 1) * width + w], b0 = output[(3 * k + 2) * width + w];
+    const double a1 = output[(3 * k + 3) * width + w], v1 = output[(3 * k + 4) * width + w];
+    const double t2 = t * t, t3 = t2 * t;
+    values.push_back((2 * t3 - 3 * t2 + 1) * v0 + td * (t3 - 2 * t2 + t) * b0 +
+                     (-2 * t3 + 3 * t2) * v1 + td * (t3 - t2) * a1);
+  }
+  return values;
+}
+
+Motion motionOf(const Rig& rig, TimeLaw law, double seconds = 1) {
+  Weights from(rig.targets.size()), to(rig.targets.size());
+  for (std::size_t k = 0; k < from.size(); ++k) {
+    from[k] = 0.3 * static_cast<double>(k) - 0.2;
+    to[k] = 1 - 0.7 * static_cast<double>(k);
+  }
+  return Motion::make(from, to, law, seconds).value();
+}
+
+const Json& lastAnimation(const Written& glb) { return glb.json["animations"].back(); }
+
+class Laws : public ::testing::TestWithParam<TimeLaw> {};
+INSTANTIATE_TEST_SUITE_P(AnimationWriter, Laws, ::testing::ValuesIn(timeLaws), [](const auto& law) {
+  std::string name(nameOf(law.param));
+  std::erase(name, '-');
+  return name;
+});
+
+TEST_P(Laws, HoldAtAnyTime) {
+  const Rig rig = converted(withTargets(plane(4, 4), 3));
+  for (const double seconds : {0.3, 1.0, 1234.5678}) {
+    const Motion motion = motionOf(rig, GetParam(), seconds);
+    const Written glb = write(rig, {.motion = &motion});
+    const Json& animation = lastAnimation(glb);
+    EXPECT_EQ(animation["name"], nameOf(GetParam()));
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> share(-0.1, 1.1);
+    for (int round = 0; round < 200; ++round) {
+      const double time = share(random) * seconds;
+      Weights expected(3);
+      motion.at(time, expected);
+      const std::vector<double> found = evaluate(glb, animation, 0, time);
+      ASSERT_EQ(found.size(), 3u);
+      for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(found[k], expected[k], 5e-7);
+    }
+  }
+}
+
+TEST_P(Laws, NeedTwoOrThreeKeys) {
+  const Rig rig = converted(withTargets(plane(4, 4), 1));
+  const Motion motion = motionOf(rig, GetParam());
+  const Written glb = write(rig, {.motion = &motion});
+  const Json& sampler = lastAnimation(glb)["samplers"][0];
+  EXPECT_EQ(sampler["interpolation"], GetParam() == TimeLaw::linear ? "LINEAR" : "CUBICSPLINE");
+  const Json& input = glb.accessor(sampler["input"]);
+  EXPECT_EQ(input["count"], GetParam() == TimeLaw::accelerateBrake ? 3 : 2);
+  EXPECT_EQ(input["min"], Json::array({0.0}));
+  EXPECT_EQ(input["max"], Json::array({1.0}));
+}
+
+/// The motion as keys without tangents.
+Clip sampled(const Rig& rig, const Motion& motion, int keys) {
+  Clip clip;
+  for (const Target& target : rig.targets) clip.names.push_back(target.name);
+  Weights weights(motion.size());
+  for (int key = 0; key < keys; ++key) {
+    clip.times.push_back(motion.seconds() * key / (keys - 1));
+    motion.at(clip.times.back(), weights);
+    clip.weights.insert(clip.weights.end(), weights.begin(), weights.end());
+  }
+  return clip;
+}
+
+TEST_P(Laws, CanBeSampled) {
+  const Rig rig = converted(withTargets(plane(4, 4), 2));
+  const Motion motion = motionOf(rig, GetParam(), 0.7);
+  const Clip clip = sampled(rig, motion, 8);
+  const Written glb = write(rig, {.clip = &clip, .animationName = "eight"});
+  EXPECT_EQ(lastAnimation(glb)["name"], "eight");
+  const Json& sampler = lastAnimation(glb)["samplers"][0];
+  EXPECT_EQ(sampler["interpolation"], "LINEAR");
+  EXPECT_EQ(glb.accessor(sampler["input"])["count"], 8);
+  for (int key = 0; key < 8; ++key) {
+    const double time = 0.1 * key;
+    Weights expected(2);
+    motion.at(time, expected);
+    const std::vector<double> found = evaluate(glb, lastAnimation(glb), 0, time);
+    for (std::size_t k = 0; k < 2; ++k) EXPECT_NEAR(found[k], expected[k], 1e-6);
+  }
+}
+
+/// A head with "open" and "wink" shown by two nodes, an eye with "open" alone, and a mesh without
+/// targets.
+Glb scene() {
+  Glb glb = smallFace();
+  Json eye = glb.json["meshes"][0], still = eye;
+  eye["primitives"][0]["targets"].erase(1);
+  eye["extras"]["targetNames"] = Json::array({"open"});
+  still["primitives"][0].erase("targets");
+  still.erase("extras");
+  glb.json["meshes"].push_back(eye);
+  glb.json["meshes"].push_back(still);
+  for (const int mesh : {0, 1, 2}) glb.add("nodes", {{"mesh", mesh}});
+  return glb;
+}
+
+TEST(AnimationWriter, MovesEveryNodeThatShowsTargets) {
+  const Rig rig = converted(scene());
+  const Motion motion = motionOf(rig, TimeLaw::brake);
+  const Written glb = write(rig, {.motion = &motion});
+  const Json& animation = lastAnimation(glb);
+  ASSERT_EQ(animation["channels"].size(), 3u);
+  Weights expected(2);
+  motion.at(0.4, expected);
+  const std::size_t open = rig.find("open"), wink = rig.find("wink");
+  for (const Json& channel : animation["channels"]) {
+    EXPECT_EQ(channel["target"]["path"], "weights");
+    const std::size_t node = channel["target"]["node"], mesh = glb.json["nodes"][node]["mesh"];
+    const std::vector<double> found = evaluate(glb, animation, channel["sampler"], 0.4);
+    ASSERT_EQ(found.size(), mesh == 0 ? 2u : 1u);
+    EXPECT_NEAR(found[0], expected[open], 1e-6);
+    if (mesh == 0) {
+      EXPECT_NEAR(found[1], expected[wink], 1e-6);
+    }
+  }
+}
+
+TEST(AnimationWriter, LeavesOtherAnimationsAsTheyAre) {
+  Glb source = scene();
+  const std::size_t input =
+      source.addAccessor(source.addView(bytesOf(std::vector<float>{0, 2})), 5126, "SCALAR", 2);
+  const std::size_t output = source.addAccessor(
+      source.addView(bytesOf(std::vector<float>{0, 0, 1, 1})), 5126, "SCALAR", 4);
+  const Json blink{
+      {"name", "blink"},
+      {"samplers", Json::array({{{"input", input}, {"output", output}}})},
+      {"channels",
+       Json::array({{{"sampler", 0}, {"target", {{"node", 0}, {"path", "weights"}}}}})}};
+  source.add("animations", blink);
+  const Rig rig = converted(source);
+  const Motion motion = motionOf(rig, TimeLaw::newton);
+  const Written glb = write(rig, {.motion = &motion});
+  ASSERT_EQ(glb.json["animations"].size(), 2u);
+  EXPECT_EQ(glb.json["animations"][0], blink);
+  EXPECT_EQ(glb.json["animations"][1]["name"], "newton");
+}
+
+TEST(AnimationWriter, RefusesWhatCannotMove) {
+  const auto refuses = [](const Rig& rig, const Motion& motion, int keys, std::string_view why) {
+    const Clip clip = sampled(rig, motion, std::max(keys, 2));
+    const GlbOptions options = keys > 0 ? GlbOptions{.clip = &clip} : GlbOptions{.motion = &motion};
+    EXPECT_TRUE(failsWith(formatGlb(rig, options), {why}));
+  };
+  const Rig still = converted(MeshRig{plane(4, 4), {}}),
+            rig = converted(withTargets(plane(4, 4), 1));
+  refuses(still, *Motion::make({}, {}, TimeLaw::newton, 1), 0, "no target");
+  const auto motion = [](double from, double to, double seconds) {
+    return *Motion::make(std::vector{from}, std::vector{to}, TimeLaw::newton, seconds);
+  };
+  refuses(rig, motion(0, 1, 1e-44), 0, "single precision");
+  refuses(rig, motion(0, 1, 1e39), 0, "single precision");
+  refuses(rig, motion(0, 1e39, 1), 0, "single precision");
+  refuses(rig, motion(0, 1, 1e-44), 100, "single precision");
+  const Clip empty{{"t0"}, {}, {}}, other;
+  EXPECT_TRUE(failsWith(formatGlb(rig, {.clip = &empty}), {"no frames"}));
+  EXPECT_TRUE(failsWith(formatGlb(rig, {.clip = &other}), {"clip has 0 weights"}));
+  Rig unseen = converted(scene());
+  Rig nowhere = rig;
+  unseen.scene = [] {
+    Glb glb = scene();
+    glb.json.erase("nodes");
+    return read(glb).scene;
+  }();
+  const Motion both = motionOf(unseen, TimeLaw::newton);
+  refuses(unseen, both, 0, "no target in its scene");
+}
+
+}  // namespace
+}  // namespace sweepface

@@ -1,0 +1,337 @@
+// GLB files finer than their source.
+#include <map>
+#include <set>
+
+#include "gltf/mix.hpp"
+#include "gltf/written.hpp"
+
+namespace sweepface {
+namespace {
+
+using namespace testing;
+
+/// The triangles of all primitives of a mesh, by places: vertices at one place are one.
+std::vector<Loop> weldedTriangles(const Written& glb, std::size_t mesh = 0) {
+  std::map<std::array<double, 3>, Index> places;
+  std::vector<Loop> triangles;
+  for (std::size_t p = 0; p < glb.json["meshes"][mesh]["primitives"].size(); ++p) {
+    const std::vector<Vec3> positions = glb.vectors(glb.attribute("POSITION", mesh, p));
+    const std::vector<Index> indices = glb.indices(mesh, p);
+    for (std::size_t k = 0; k < indices.size(); k += 3) {
+      Loop& triangle = triangles.emplace_back();
+      for (std::size_t c = 0; c < 3; ++c) {
+        const Vec3& at = positions[indices[k + c]];
+        triangle.push_back(places.try_emplace({at.x, at.y, at.z}, static_cast<Index>(places.size()))
+                               .first->second);
+      }
+    }
+  }
+  return triangles;
+}
+
+class FinerFaces : public ::testing::TestWithParam<Face> {};
+INSTANTIATE_TEST_SUITE_P(LodWriter, FinerFaces, eachFace(), faceName);
+
+TEST_P(FinerFaces, HaveTheSourcesTopologyWithoutCracks) {
+  const Rig rig = converted(GetParam().rig, 0.2);
+  const Topology source = topologyOf(weldedLoops(GetParam().rig));
+  for (const Index lod : {1, 2, 5}) {
+    Topology fine = topologyOf(weldedTriangles(write(rig, {.lod = lod})));
+    fine.vertices = source.vertices;
+    EXPECT_EQ(fine, source) << "level " << lod;
+  }
+}
+
+TEST_P(FinerFaces, LieOnTheSurface) {
+  const Rig rig = converted(GetParam().rig, 0.2);
+  const Tessellation grid(rig.surface, 3);
+  const auto pack = [](const Vec3& p) {
+    return std::array{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+  };
+  for (std::size_t k = 0; k < rig.targets.size(); ++k) {
+    const std::vector<Vec3> neutral = grid.positions(blend(rig, {}));
+    const std::vector<Vec3> moved = grid.positions(blend(rig, oneTarget(rig, k)));
+    std::map<std::array<float, 3>, Vec3> target;
+    for (std::size_t v = 0; v < neutral.size(); ++v) target[pack(neutral[v])] = moved[v];
+    const Written glb = write(rig, {.lod = 3});
+    const std::vector<Vec3> positions = glb.vectors(glb.attribute("POSITION"));
+    const std::vector<Vec3> deltas = glb.vectors(glb.morph(k));
+    EXPECT_EQ(positions.size(), neutral.size());
+    for (std::size_t v = 0; v < positions.size(); ++v) {
+      const auto found = target.find(pack(positions[v]));
+      ASSERT_NE(found, target.end());
+      EXPECT_LE(norm(positions[v] + deltas[v] - found->second), 1e-6 * largest(moved));
+    }
+  }
+}
+
+// ---- Attributes ----
+// All are mixed alike, so that one which tells where a vertex was in the source is the measure of
+// the others: they are linear in it wherever they are so in the source.
+
+void addPlaces(Glb& glb) {
+  std::vector<Vec2> places;
+  for (const Vec3& p : sheetPositions()) places.push_back({p.x, p.y});
+  const std::size_t accessor = glb.addTexcoords(places);
+  for (Json& primitive : glb.json["meshes"][0]["primitives"])
+    primitive["attributes"]["TEXCOORD_1"] = accessor;
+}
+
+std::vector<Vec2> placesIn(const Written& glb, std::size_t primitive = 0) {
+  const std::vector<double> values = glb.numbers(glb.attribute("TEXCOORD_1", 0, primitive));
+  std::vector<Vec2> places;
+  for (std::size_t k = 0; k < values.size(); k += 2) places.push_back({values[k], values[k + 1]});
+  return places;
+}
+
+/// The small face with a cut texture: its two halves are primitives of one run.
+Glb cutFace() {
+  Glb glb = smallFace();
+  Json left = glb.primitive(), right = left;
+  std::vector<std::uint16_t> indices = sheetIndices(), first, second;
+  for (std::size_t k = 0; k < indices.size(); ++k)
+    (k / 6 % 2 == 0 ? first : second).push_back(indices[k]);
+  left["indices"] = glb.addIndices(first);
+  right["indices"] = glb.addIndices(second);
+  right["material"] = glb.add("materials", {{"name", "lips"}});
+  std::vector<Vec2> texcoords;
+  for (const Vec3& p : sheetPositions()) texcoords.push_back({p.y / 4 + 0.5, p.x / 4});
+  right["attributes"]["TEXCOORD_0"] = glb.addTexcoords(texcoords);
+  glb.json["meshes"][0]["primitives"] = Json::array({left, right});
+  addPlaces(glb);
+  return glb;
+}
+
+TEST(LodWriter, MixesTextureCoordinatesWithinQuads) {
+  const Rig rig = converted(cutFace(), 0.001);
+  const Written glb = write(rig, {.lod = 4});
+  for (std::size_t p = 0; p < 2; ++p) {
+    const std::vector<Vec2> at = placesIn(glb, p);
+    const std::vector<Vec3> surface = glb.vectors(glb.attribute("POSITION", 0, p));
+    const std::vector<double> t = glb.numbers(glb.attribute("TEXCOORD_0", 0, p));
+    const std::vector<Index> indices = glb.indices(0, p);
+    EXPECT_GE(indices.size(), 3u * 2 * 2 * 16);
+    for (const Index v : indices) {
+      EXPECT_TRUE(p == 0 ? at[v].x <= 1 : at[v].x >= 1);
+      EXPECT_NEAR(t[2 * v], p == 0 ? at[v].x / 2 : at[v].y / 4 + 0.5, 1e-6);
+      EXPECT_NEAR(t[2 * v + 1], p == 0 ? at[v].y / 2 : at[v].x / 4, 1e-6);
+      EXPECT_NEAR(at[v].x, surface[v].x, 0.2);
+      EXPECT_NEAR(at[v].y, surface[v].y, 0.2);
+    }
+  }
+}
+
+TEST(LodWriter, SharesVerticesBetweenPrimitives) {
+  const Written glb = write(converted(cutFace()), {.lod = 4});
+  EXPECT_EQ(glb.attribute("POSITION", 0, 0), glb.attribute("POSITION", 0, 1));
+  EXPECT_EQ(topologyOf(weldedTriangles(glb)).boundaryLoops, 1);
+  for (std::size_t p = 0; p < 2; ++p)
+    EXPECT_EQ(glb.primitive(0, p)["material"], p) << "materials stay with their triangles";
+}
+
+/// Exporters double vertices for flat shading; the surface is smooth.
+TEST(LodWriter, JoinsVerticesThatDifferInNormalsOnly) {
+  Glb source = smallFace();
+  std::vector<Vec3> positions, open, normals;
+  std::vector<std::uint16_t> indices;
+  for (const std::uint16_t v : sheetIndices()) {
+    indices.push_back(static_cast<std::uint16_t>(positions.size()));
+    positions.push_back(sheetPositions()[v]);
+    open.push_back(openDeltas()[v]);
+    normals.push_back(normalized({1.0 * static_cast<double>(positions.size()), 1, 5}));
+  }
+  const Json attributes{{"POSITION", source.addVectors(positions)},
+                        {"NORMAL", source.addVectors(normals)}};
+  source.primitive() = {
+      {"attributes", attributes},
+      {"indices", source.addIndices(indices)},
+      {"targets", Json::array({Json::object({{"POSITION", source.addVectors(open)}})})}};
+  const Written glb = write(converted(source), {.lod = 4});
+  EXPECT_EQ(glb.vectors(glb.attribute("POSITION")).size(),
+            static_cast<std::size_t>(Tessellation(converted(source).surface, 4).vertexCount()));
+}
+
+TEST(LodWriter, KeepsTypesOfColors) {
+  Glb source = smallFace();
+  std::vector<std::uint8_t> colors;
+  for (const Vec3& p : sheetPositions())
+    for (const double x : {100 * p.x, 100 * p.y, 50.0})
+      colors.push_back(static_cast<std::uint8_t>(x));
+  for (std::size_t v = 9; v-- > 0;) colors.insert(colors.begin() + 3 * v + 3, 0);  // padding
+  source.primitive()["attributes"]["COLOR_0"] =
+      source.addAccessor(source.addView(bytesOf(colors), 4), 5121, "VEC3", 9);
+  source.attribute("COLOR_0")["normalized"] = true;
+  addPlaces(source);
+  const Written glb = write(converted(source, 0.001), {.lod = 4});
+  const std::size_t color = glb.attribute("COLOR_0");
+  EXPECT_EQ(glb.accessor(color)["componentType"], 5121);
+  EXPECT_EQ(glb.accessor(color)["type"], "VEC3");
+  EXPECT_EQ(glb.accessor(color)["normalized"], true);
+  const std::vector<double> c = glb.stored(color);
+  const std::vector<Vec2> at = placesIn(glb);
+  for (std::size_t v = 0; v < at.size(); ++v) {
+    EXPECT_NEAR(c[3 * v], 100 * at[v].x, 0.501);
+    EXPECT_NEAR(c[3 * v + 1], 100 * at[v].y, 0.501);
+    EXPECT_EQ(c[3 * v + 2], 50);
+  }
+}
+
+TEST(LodWriter, KeepsTheBrightestColor) {
+  Glb source = smallFace();
+  source.primitive()["attributes"]["COLOR_0"] = source.addAccessor(
+      source.addView(bytesOf(std::vector<std::uint16_t>(4 * 9, 65535)), 8), 5123, "VEC4", 9);
+  source.attribute("COLOR_0")["normalized"] = true;
+  for (Index lod = 2; lod <= 9; ++lod) {
+    const Written glb = write(converted(source, 0.001), {.lod = lod});
+    EXPECT_EQ(std::ranges::min(glb.stored(glb.attribute("COLOR_0"))), 65535) << lod;
+  }
+}
+
+TEST(LodWriter, GivesWholeNumbersOfTheNearestVertex) {
+  Glb source = smallFace();
+  std::vector<float> numbers{7, 7, 7, 8, 8, 8, 9, 9, 9};
+  source.primitive()["attributes"]["_WARMTH"] =
+      source.addAccessor(source.addView(bytesOf(numbers)), 5126, "SCALAR", 9);
+  std::vector<std::uint8_t> kinds;
+  for (int v = 0; v < 9; ++v)
+    kinds.insert(kinds.end(), {static_cast<std::uint8_t>(10 * (v / 3)), 0, 0, 0});
+  source.primitive()["attributes"]["_KIND"] =
+      source.addAccessor(source.addView(bytesOf(kinds), 4), 5121, "SCALAR", 9);
+  addPlaces(source);
+  const Written glb = write(converted(source, 0.001), {.lod = 4});
+  const std::vector<Vec2> at = placesIn(glb);
+  const std::vector<double> warmth = glb.numbers(glb.attribute("_WARMTH"));
+  const std::vector<double> kind = glb.numbers(glb.attribute("_KIND"));
+  for (std::size_t v = 0; v < at.size(); ++v) {
+    EXPECT_NEAR(warmth[v], 7 + at[v].y, 1e-6);
+    EXPECT_EQ(std::fmod(kind[v], 10), 0) << "nothing in between";
+    EXPECT_LT(std::abs(kind[v] / 10 - at[v].y), 0.76);
+  }
+}
+
+TEST(LodWriter, LeavesOutWhatCountsOnTheOldVertices) {
+  Glb source = smallFace();
+  source.primitive()["extensions"] = {{"TEST_outline", {{"indices", 3}}},
+                                      {"KHR_materials_variants", {{"mappings", Json::array()}}}};
+  source.json["extensionsUsed"] = {"TEST_outline", "KHR_materials_variants"};
+  source.primitive()["mode"] = 4;
+  const Written glb = write(converted(source), {.lod = 2});
+  EXPECT_FALSE(glb.primitive()["extensions"].contains("TEST_outline"));
+  EXPECT_TRUE(glb.primitive()["extensions"].contains("KHR_materials_variants"));
+  EXPECT_FALSE(glb.primitive().contains("mode"));
+}
+
+TEST(LodWriter, DropsTheBytesOfTheSource) {
+  Glb source = smallFace();
+  const Rig rig = converted(source);
+  const Written fine = write(rig, {.lod = 1});
+  std::size_t used = 0;
+  for (const Json& view : fine.json["bufferViews"]) used += view["byteLength"].get<std::size_t>();
+  EXPECT_LE(fine.binary.size(), used + 3 * fine.json["bufferViews"].size());
+  std::set<std::size_t> named;
+  for (const Json& accessor : fine.json["accessors"])
+    if (accessor.contains("bufferView")) named.insert(accessor["bufferView"].get<std::size_t>());
+  for (const Json& accessor : fine.json["accessors"])
+    if (accessor.contains("sparse"))
+      for (const char* part : {"indices", "values"})
+        named.insert(accessor["sparse"][part]["bufferView"].get<std::size_t>());
+  EXPECT_EQ(named.size(), fine.json["bufferViews"].size()) << "every view is of use";
+}
+
+// ---- Skins ----
+
+/// The small face, every vertex tied to the joint of its own number, and to a common one.
+Glb skinnedFace(int component) {
+  Glb glb = smallFace();
+  std::vector<std::uint8_t> joints;
+  std::vector<double> weights;
+  for (int v = 0; v < 9; ++v) {
+    for (const int j : {v, 9, 0, 0}) joints.push_back(static_cast<std::uint8_t>(j));
+    for (const double w : {0.6, 0.4, 0.0, 0.0}) weights.push_back(w);
+  }
+  Json& attributes = glb.primitive()["attributes"];
+  attributes["JOINTS_0"] = glb.addAccessor(glb.addView(bytesOf(joints)), 5121, "VEC4", 9);
+  std::string bytes;
+  if (component == 5126) bytes = bytesOf(std::vector<float>(weights.begin(), weights.end()));
+  if (component == 5121) {
+    std::vector<std::uint8_t> whole;
+    for (const double w : weights) whole.push_back(static_cast<std::uint8_t>(std::lround(255 * w)));
+    bytes = bytesOf(whole);
+  }
+  attributes["WEIGHTS_0"] = glb.addAccessor(glb.addView(bytes), component, "VEC4", 9);
+  if (component != 5126) glb.attribute("WEIGHTS_0")["normalized"] = true;
+  Json list = Json::array();
+  for (int k = 0; k < 10; ++k) list.push_back(glb.add("nodes", {{"name", "joint"}}));
+  glb.add("skins", {{"joints", list}});
+  glb.json["nodes"][0]["skin"] = 0;
+  addPlaces(glb);
+  return glb;
+}
+
+TEST(LodWriter, TiesNewVerticesToTheJointsOfTheirCorners) {
+  for (const int component : {5126, 5121}) {
+    const Written glb = write(converted(skinnedFace(component), 0.001), {.lod = 3});
+    const auto joints = glb.stored(glb.attribute("JOINTS_0"));
+    const auto weights = glb.numbers(glb.attribute("WEIGHTS_0"));
+    const auto shares = glb.stored(glb.attribute("WEIGHTS_0"));
+    const std::vector<Vec2> at = placesIn(glb);
+    EXPECT_EQ(glb.accessor(glb.attribute("WEIGHTS_0"))["componentType"], component);
+    ASSERT_EQ(joints.size(), 4 * at.size());
+    for (std::size_t v = 0; v < at.size(); ++v) {
+      double sum = 0, whole = 0, x = 0, y = 0, own = 0;
+      std::set<double> known;
+      for (std::size_t k = 4 * v; k < 4 * v + 4; ++k) {
+        sum += weights[k], whole += shares[k];
+        if (weights[k] == 0) {
+          EXPECT_EQ(joints[k], 0);
+          continue;
+        }
+        EXPECT_TRUE(known.insert(joints[k]).second) << "a joint comes twice";
+        if (joints[k] == 9) continue;
+        x += weights[k] * std::fmod(joints[k], 3), y += weights[k] * std::floor(joints[k] / 3);
+        own += weights[k];
+      }
+      EXPECT_NEAR(sum, 1, 1e-6);
+      EXPECT_NEAR(whole, component == 5121 ? 255 : 1, 1e-6);
+      EXPECT_LE(known.size(), 4u);
+      // Two corners of a quad and the common joint are among the strongest four; on edges of the
+      // source, where no corner is lost, the joints' mean is the place itself.
+      const auto isEdge = [](double c) { return c == std::round(c); };
+      if (isEdge(at[v].x) || isEdge(at[v].y)) {
+        EXPECT_NEAR(x / own, at[v].x, 0.01);
+        EXPECT_NEAR(y / own, at[v].y, 0.01);
+      }
+    }
+  }
+}
+
+TEST(LodWriter, KeepsTheJointsOfVerticesAsTheyWere) {
+  const Written source(skinnedFace(5126).bytes());
+  const Written glb = write(converted(skinnedFace(5126), 0.001), {.lod = 1});
+  std::multiset<std::vector<double>> before, after;
+  for (const auto& [from, into] : {std::pair{&source, &before}, std::pair{&glb, &after}}) {
+    const auto joints = from->stored(from->attribute("JOINTS_0"));
+    const auto weights = from->stored(from->attribute("WEIGHTS_0"));
+    for (std::size_t v = 0; v < joints.size(); v += 4)
+      into->insert(
+          {joints[v], joints[v + 1], joints[v + 2], joints[v + 3], weights[v], weights[v + 1]});
+  }
+  EXPECT_EQ(after, before);
+}
+
+// ---- Mixtures ----
+
+TEST(Mix, IsTheSameFromBothEndsOfAnEdge) {
+  for (Index step = 0; step <= 5; ++step) {
+    const gltf::Mix a = gltf::Mix::between(3, 8, step, 5),
+                    b = gltf::Mix::between(8, 3, 5 - step, 5);
+    EXPECT_EQ(a.corners, b.corners);
+    EXPECT_EQ(a.weights(), b.weights());
+  }
+  EXPECT_TRUE(gltf::Mix::between(3, 8, 5, 5).isVertex());
+  EXPECT_EQ(gltf::Mix::between(3, 8, 5, 5).corners[0], 8);
+  EXPECT_EQ(gltf::Mix::between(4, 4, 2, 5).weights()[0], 1);
+}
+
+}  // namespace
+}  // namespace sweepface

@@ -1,0 +1,338 @@
+#include "gltf/scene.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+#include "gltf/accessor.hpp"
+#include "gltf/glb.hpp"
+
+namespace sweepface {
+namespace {
+
+using namespace sweepface::testing;
+
+gltf::Document parsed(const std::string& bytes) {
+  auto document = gltf::parseDocument(bytes, {});
+  if (!document) ADD_FAILURE() << document.error().message;
+  return document ? std::move(*document) : gltf::Document{};
+}
+gltf::Document sceneOf(const Glb& glb) { return parsed(read(glb).scene); }
+
+std::vector<double> valuesOf(const gltf::Document& document, const Json& accessor) {
+  const auto found = gltf::accessorAt(document, accessor.get<std::size_t>());
+  if (!found) ADD_FAILURE() << found.error().message;
+  return found ? gltf::decode(document, *found).value() : std::vector<double>{};
+}
+bool hasData(const gltf::Document& document, const Json& accessor) {
+  return gltf::accessorAt(document, accessor.get<std::size_t>())->hasData();
+}
+const Json& primitiveOf(const gltf::Document& document, std::size_t mesh = 0) {
+  return document.json["meshes"][mesh]["primitives"][0];
+}
+
+/// A mesh without targets that is no part of a face that has some.
+std::size_t addHair(Glb& glb) {
+  std::vector<Vec3> positions;
+  for (int k = 0; k < 9; ++k) positions.push_back({1.0 * k, 2.0 * k, 3.0 * (k % 3)});
+  return glb.add(
+      "meshes",
+      {{"name", "hair"},
+       {"primitives",
+        {{{"attributes",
+           {{"POSITION", glb.addVectors(positions)}, {"NORMAL", glb.addVectors(positions)}}}}}}});
+}
+
+// ---- What the rig stands for goes ----
+
+TEST(Scene, LosesTheDataOfTheFace) {
+  const gltf::Document scene = sceneOf(smallFace());
+  const Json& primitive = primitiveOf(scene);
+  EXPECT_FALSE(hasData(scene, primitive["attributes"]["POSITION"]));
+  EXPECT_FALSE(hasData(scene, primitive["attributes"]["NORMAL"]));
+  EXPECT_FALSE(hasData(scene, primitive["targets"][0]["POSITION"]));
+  EXPECT_FALSE(hasData(scene, primitive["targets"][1]["POSITION"]));
+  // Texture coordinates and indices are what is left.
+  EXPECT_EQ(scene.buffers[0].size(), 9 * 8 + 24 * 2u);
+  EXPECT_EQ(scene.views.size(), 2u);
+}
+
+TEST(Scene, EmptiedAccessorsStayWithTheirCounts) {
+  Glb glb = smallFace();
+  Json& normal = glb.attribute("NORMAL");
+  normal["name"] = "normals";
+  normal["min"] = {0, 0, 1};
+  const gltf::Document scene = sceneOf(glb);
+  EXPECT_EQ(scene.json["accessors"][0], Json::object({{"componentType", 5126},
+                                                      {"type", "VEC3"},
+                                                      {"count", 9},
+                                                      {"min", {0, 0, 0}},
+                                                      {"max", {0, 0, 0}}}));
+  EXPECT_EQ(
+      scene.json["accessors"][1],
+      Json::object({{"componentType", 5126}, {"type", "VEC3"}, {"count", 9}, {"name", "normals"}}));
+}
+
+TEST(Scene, HasTheSamePartsAsItsSource) {
+  Glb glb = smallFace();
+  addHair(glb);
+  glb.json["nodes"][0]["scale"] = {1, 2, 3};
+  const gltf::Document source = parsed(glb.bytes()), scene = sceneOf(glb);
+  const auto before = gltf::findParts(source), after = gltf::findParts(scene);
+  ASSERT_TRUE(after) << after.error().message;
+  ASSERT_EQ(after->runs.size(), before->runs.size());
+  EXPECT_EQ(after->vertexCount, before->vertexCount);
+  EXPECT_EQ(after->targets, before->targets);
+  EXPECT_EQ(after->meshes[0].world, before->meshes[0].world);
+  EXPECT_EQ(after->runs[0].position, before->runs[0].position);
+  EXPECT_EQ(after->runs[0].targets, before->runs[0].targets);
+}
+
+TEST(Scene, TangentsGoAndAreMissedByNormalMapsAlone) {
+  Glb glb = smallFace();
+  glb.primitive()["attributes"]["TANGENT"] =
+      glb.addAccessor(glb.addView(std::string(9 * 16, '\1')), 5126, "VEC4", 9);
+  glb.primitive()["targets"][0]["TANGENT"] = glb.addVectors(openDeltas());
+  RigSource source = read(glb);
+  EXPECT_TRUE(source.warnings.empty());
+  const gltf::Document scene = parsed(source.scene);
+  EXPECT_FALSE(primitiveOf(scene)["attributes"].contains("TANGENT"));
+  EXPECT_FALSE(primitiveOf(scene)["targets"][0].contains("TANGENT"));
+  EXPECT_EQ(scene.buffers[0].size(), 9 * 8 + 24 * 2u);
+  EXPECT_EQ(scene.json["accessors"].size(), glb.json["accessors"].size());
+
+  glb.json["materials"][0]["normalTexture"] = {{"index", 0}};
+  source = read(glb);
+  ASSERT_EQ(source.warnings.size(), 1u);
+  EXPECT_NE(source.warnings[0].find("tangents"), std::string::npos);
+}
+
+// ---- Everything else stays ----
+
+TEST(Scene, KeepsTextureCoordinatesAndIndices) {
+  const Glb glb = smallFace();
+  const gltf::Document source = parsed(glb.bytes()), scene = sceneOf(glb);
+  const auto indices = sheetIndices();
+  EXPECT_EQ(valuesOf(scene, primitiveOf(scene)["indices"]),
+            std::vector<double>(indices.begin(), indices.end()));
+  EXPECT_EQ(valuesOf(scene, primitiveOf(scene)["attributes"]["TEXCOORD_0"]),
+            valuesOf(source, primitiveOf(source)["attributes"]["TEXCOORD_0"]));
+}
+
+TEST(Scene, KeepsWhatIsUnknown) {
+  Glb glb = smallFace();
+  glb.json["extensionsUsed"] = {"EXT_hair"};
+  glb.json["extensions"] = {{"EXT_hair", {{"z", 1.5}, {"a", {1, 2, Json()}}, {"name", "\u00e9"}}}};
+  glb.json["extras"] = {{"b", true}, {"a", -0.1}, {"n", 18446744073709551615u}};
+  glb.json["nodes"][0]["extensions"] = {{"EXT_hair", {{"strands", 3}}}};
+  glb.json["cameras"] = {{{"type", "perspective"}}};
+  glb.json["animations"] = {{{"channels", Json::array()}, {"samplers", Json::array()}}};
+  glb.json["skins"] = {{{"joints", {0}}}};
+  glb.json["scene"] = 0;
+  const gltf::Document scene = sceneOf(glb);
+  for (const char* key : {"extensionsUsed", "extensions", "extras", "nodes", "cameras",
+                          "animations", "skins", "scene", "materials", "asset"})
+    EXPECT_EQ(scene.json[key].dump(), glb.json[key].dump()) << key;
+}
+
+TEST(Scene, KeepsOtherMeshes) {
+  Glb glb = smallFace();
+  const std::size_t hair = addHair(glb);
+  const gltf::Document source = parsed(glb.bytes()), scene = sceneOf(glb);
+  for (const char* name : {"POSITION", "NORMAL"})
+    EXPECT_EQ(valuesOf(scene, primitiveOf(scene, hair)["attributes"][name]),
+              valuesOf(source, primitiveOf(source, hair)["attributes"][name]));
+}
+
+TEST(Scene, KeepsAccessorsThatOthersUseToo) {
+  Glb glb = smallFace();
+  Json lines = {{"mode", 1}, {"attributes", {{"POSITION", 0}}}};
+  glb.json["meshes"][0]["primitives"].push_back(lines);
+  const gltf::Document source = parsed(glb.bytes()), scene = sceneOf(glb);
+  const Json& kept = scene.json["meshes"][0]["primitives"][1]["attributes"]["POSITION"];
+  EXPECT_EQ(kept, 0);
+  EXPECT_EQ(valuesOf(scene, kept), valuesOf(source, 0));
+  const Json& emptied = primitiveOf(scene)["attributes"]["POSITION"];
+  EXPECT_EQ(emptied, glb.json["accessors"].size());
+  EXPECT_FALSE(hasData(scene, emptied));
+}
+
+TEST(Scene, NoTwoShapesOrRunsShareAnEmptiedAccessor) {
+  Glb glb = smallFace();
+  const Json open = glb.primitive()["targets"][0]["POSITION"];
+  glb.primitive()["targets"][1]["POSITION"] = open;
+  Json again = glb.primitive();
+  again["targets"][0] = Json::object();
+  glb.json["meshes"][0]["primitives"].push_back(again);
+  glb.add("meshes", {{"primitives", Json::array({glb.primitive()})}});
+  const gltf::Document scene = sceneOf(glb);
+  const auto parts = gltf::findParts(scene);
+  ASSERT_TRUE(parts) << parts.error().message;
+  ASSERT_EQ(parts->runs.size(), 3u);
+  std::vector<std::size_t> seen;
+  for (const gltf::Run& run : parts->runs) {
+    seen.push_back(run.position);
+    for (const auto& target : run.targets)
+      if (target) seen.push_back(*target);
+  }
+  std::ranges::sort(seen);
+  EXPECT_EQ(std::ranges::adjacent_find(seen), seen.end());
+  EXPECT_EQ(seen.size(), 8u);
+}
+
+// ---- Bytes ----
+
+/// Position, normal and texture coordinates in one view, vertex by vertex.
+Glb interleavedFace() {
+  Glb glb = smallFace();
+  std::vector<float> values;
+  for (const Vec3& p : sheetPositions())
+    for (const double x : {p.x, p.y, p.z, 0.0, 0.0, 1.0, p.x / 2, p.y / 2})
+      values.push_back(static_cast<float>(x));
+  const std::size_t view = glb.addView(bytesOf(values), 32);
+  for (const auto& [name, offset] :
+       {std::pair{"POSITION", 0}, {"NORMAL", 12}, {"TEXCOORD_0", 24}}) {
+    Json& accessor = glb.attribute(name);
+    accessor["bufferView"] = view;
+    accessor["byteOffset"] = offset;
+  }
+  return glb;
+}
+
+TEST(Scene, LosesTheDataOfTheFaceFromBetweenOthers) {
+  const gltf::Document source = parsed(smallFace().bytes()), scene = sceneOf(interleavedFace());
+  EXPECT_EQ(valuesOf(scene, primitiveOf(scene)["attributes"]["TEXCOORD_0"]),
+            valuesOf(source, primitiveOf(source)["attributes"]["TEXCOORD_0"]));
+  EXPECT_EQ(scene.buffers[0].size(), 9 * 8 + 24 * 2u);
+  EXPECT_EQ(scene.views.size(), 2u);
+}
+
+TEST(Scene, LosesTheDataOfTheFaceFromBesideOthers) {
+  // The face and the hair, one after the other in one view.
+  Glb glb = smallFace();
+  const std::size_t hair = addHair(glb);
+  std::string bytes = floatsOf(sheetPositions());
+  const std::size_t offset = bytes.size();
+  std::vector<Vec3> strands;
+  for (int k = 0; k < 9; ++k) strands.push_back({0.5 * k, 1, 2});
+  bytes += floatsOf(strands) + floatsOf(openDeltas());
+  for (const std::size_t stride : {0, 12}) {
+    const std::size_t view = glb.addView(bytes, stride);
+    glb.attribute("POSITION")["bufferView"] = view;
+    glb.attribute("POSITION", hair)["bufferView"] = view;
+    glb.attribute("POSITION", hair)["byteOffset"] = offset;
+    const gltf::Document source = parsed(glb.bytes()), scene = sceneOf(glb);
+    EXPECT_EQ(valuesOf(scene, primitiveOf(scene, hair)["attributes"]["POSITION"]),
+              valuesOf(source, primitiveOf(source, hair)["attributes"]["POSITION"]));
+    EXPECT_EQ(scene.buffers[0].size(), 9 * 8 + 24 * 2 + 2 * 9 * 12u);
+  }
+}
+
+TEST(Scene, BytesThatViewsShareAreStoredOnce) {
+  Glb glb = smallFace();
+  const Json texcoords = glb.attribute("TEXCOORD_0");
+  const Json view = glb.json["bufferViews"][texcoords["bufferView"].get<std::size_t>()];
+  for (int k = 1; k < 50; ++k) {
+    Json copy = texcoords;
+    copy["bufferView"] = glb.add("bufferViews", view);
+    glb.primitive()["attributes"][fmt::format("TEXCOORD_{}", k)] = glb.add("accessors", copy);
+  }
+  EXPECT_EQ(sceneOf(glb).buffers[0].size(), 9 * 8 + 24 * 2u);
+}
+
+TEST(Scene, UnknownExtensionsKeepTheNumbersOfTheirViews) {
+  Glb glb = smallFace();
+  const std::size_t secret = glb.addView("secret bytes");
+  glb.json["extensionsUsed"] = {"EXT_hair"};
+  glb.json["extensions"]["EXT_hair"] = {{"strandsView", secret}, {"bufferView", secret}};
+  const gltf::Document scene = sceneOf(glb);
+  EXPECT_EQ(scene.views.size(), glb.json["bufferViews"].size());
+  EXPECT_EQ(scene.bytesOf(secret), "secret bytes");
+  EXPECT_EQ(scene.json["extensions"].dump(), glb.json["extensions"].dump());
+  EXPECT_EQ(scene.bytesOf(0).size(), 1u);
+}
+
+TEST(Scene, KnownExtensionsFollowTheirViews) {
+  Glb glb = smallFace();
+  const std::size_t secret = glb.addView("secret bytes");
+  glb.json["extensionsUsed"] = {"KHR_audio_emitter"};
+  glb.json["extensions"]["KHR_audio_emitter"] = {{"audio", {{{"bufferView", secret}}}}};
+  const gltf::Document scene = sceneOf(glb);
+  EXPECT_EQ(scene.views.size(), 3u);
+  const Json& audio = scene.json["extensions"]["KHR_audio_emitter"]["audio"][0];
+  EXPECT_EQ(scene.bytesOf(audio["bufferView"].get<std::size_t>()), "secret bytes");
+}
+
+TEST(Scene, OfAFaceAloneHasNoBytes) {
+  Glb glb;
+  glb.add(
+      "meshes",
+      {{"primitives",
+        {{{"attributes", {{"POSITION", glb.addVectors({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}})}}}}}}});
+  const std::string bytes = read(glb).scene;
+  const gltf::Document scene = parsed(bytes);
+  for (const char* key : {"buffers", "bufferViews"}) EXPECT_FALSE(scene.json.contains(key)) << key;
+  EXPECT_TRUE(gltf::findParts(scene));
+}
+
+// ---- Images ----
+
+class Images : public ::testing::Test {
+ protected:
+  static constexpr std::string_view png = "\x89PNG\r\n\x1A\nimage";
+
+  gltf::Document sceneWith(const Json& image) {
+    Glb glb = smallFace();
+    glb.json["images"] = Json::array({image, image});
+    auto source = parseGltf(glb.bytes(), "face.glb", folder / "home");
+    if (!source) ADD_FAILURE() << source.error().message;
+    warnings = source->warnings;
+    return parsed(source->scene);
+  }
+  void SetUp() override {
+    folder.file("home/skin.png", png);
+    folder.file("home/notes.txt", "no image");
+    folder.file("secret.png", png);
+  }
+  TemporaryFolder folder;
+  std::vector<std::string> warnings;
+};
+
+TEST_F(Images, BesideTheFileAreEmbeddedOnce) {
+  const gltf::Document scene = sceneWith({{"uri", "skin.png"}, {"name", "skin"}});
+  for (const Json& image : scene.list("images")) {
+    EXPECT_EQ(image["name"], "skin");
+    EXPECT_FALSE(image.contains("uri"));
+    EXPECT_EQ(image["mimeType"], "image/png");
+    EXPECT_EQ(image["bufferView"], scene.views.size() - 1);
+    EXPECT_EQ(scene.bytesOf(image["bufferView"].get<std::size_t>()), png);
+  }
+  EXPECT_TRUE(warnings.empty());
+}
+
+TEST_F(Images, InDataUrisAreEmbedded) {
+  const gltf::Document scene = sceneWith({{"uri", "data:image/x-hair;base64,aGVsbG8="}});
+  EXPECT_EQ(scene.list("images")[0]["mimeType"], "image/x-hair");
+  EXPECT_EQ(scene.bytesOf(scene.views.size() - 1), "hello");
+}
+
+TEST_F(Images, InTheFileStay) {
+  Glb glb = smallFace();
+  glb.json["images"] = {{{"bufferView", glb.addView(png)}, {"mimeType", "image/png"}}};
+  const gltf::Document scene = sceneOf(glb);
+  EXPECT_EQ(scene.bytesOf(scene.list("images")[0]["bufferView"].get<std::size_t>()), png);
+}
+
+TEST_F(Images, ThatCannotBeReadStayReferencesWithAWarning) {
+  for (const std::string& uri : std::initializer_list<std::string>{
+           "../secret.png", "nothing.png", "notes.txt", "https://example.org/skin.png",
+           (folder / "secret.png").string()}) {
+    const gltf::Document scene = sceneWith({{"uri", uri}});
+    EXPECT_EQ(scene.list("images")[0]["uri"], uri);
+    ASSERT_EQ(warnings.size(), 2u);
+    EXPECT_NE(warnings[0].find("Image 0 stays a reference"), std::string::npos) << warnings[0];
+    EXPECT_TRUE(warnings[0].ends_with('.'));
+  }
+}
+
+}  // namespace
+}  // namespace sweepface

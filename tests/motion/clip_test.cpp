@@ -1,0 +1,66 @@
+#include "sweepface/clip.hpp"
+
+#include <array>
+#include <gtest/gtest.h>
+
+namespace sweepface {
+namespace {
+
+Clip ramp() { return {{"jawOpen"}, {10, 11, 13}, {0, 1, 0}}; }
+
+double at(const Clip& clip, double seconds) {
+  std::array<double, 1> out{};
+  clip.at(seconds, out);
+  return out[0];
+}
+
+TEST(Clip, RunsStraightBetweenFramesAndHoldsItsEnds) {
+  EXPECT_EQ(ramp().seconds(), 3);
+  EXPECT_EQ(at(ramp(), -1), 0);
+  EXPECT_EQ(at(ramp(), 0.25), 0.25);
+  EXPECT_EQ(at(ramp(), 1), 1);
+  EXPECT_EQ(at(ramp(), 2), 0.5);
+  EXPECT_EQ(at(ramp(), 9), 0);
+}
+
+TEST(Clip, WithoutFramesIsZero) { EXPECT_EQ(at(Clip{{"a"}, {}, {}}, 1), 0); }
+
+std::vector<std::vector<Index>> matched(std::vector<std::string> names,
+                                        const std::vector<std::string>& targets) {
+  return matchClip({std::move(names), {}, {}}, targets).targets;
+}
+
+TEST(ClipMatch, SpellingsOfOneShapeAreTheSame) {
+  const std::vector<std::string> targets{"eyeBlink_L", "eyeBlink_R", "jawOpen", "mouthLeft"};
+  EXPECT_EQ(matched({"EyeBlinkLeft", "eye_blink_right", "JawOpen", "mouthLeft"}, targets),
+            (std::vector<std::vector<Index>>{{0}, {1}, {2}, {3}}));
+  EXPECT_EQ(matched({"eyeBlink_R", "eyeBlinkL", "eye-blink-r"}, targets),
+            (std::vector<std::vector<Index>>{{1}, {0}, {1}}));
+}
+
+TEST(ClipMatch, ANameWithoutASideDrivesBoth) {
+  EXPECT_EQ(matched({"browInnerUp"}, {"browInnerUp_L", "jawOpen", "browInnerUp_R"}),
+            (std::vector<std::vector<Index>>{{0, 2}}));
+}
+
+TEST(ClipMatch, AFinalLetterIsNotASide) {
+  EXPECT_EQ(matched({"curl"}, {"cur_L"}), (std::vector<std::vector<Index>>{{}}));
+}
+
+TEST(ClipMatch, SaysWhatDrivesNothingAndWhatNothingDrives) {
+  const ClipMatch match =
+      matchClip({{"jawOpen", "headYaw"}, {}, {}}, std::vector<std::string>{"jawOpen", "smile"});
+  EXPECT_EQ(match.unmatched, std::vector<std::string>{"headYaw"});
+  EXPECT_EQ(match.undriven, std::vector<std::string>{"smile"});
+}
+
+TEST(ClipMatch, SpreadsWeightsOverTargets) {
+  const std::vector<std::string> targets{"up_L", "up_R", "jaw"};
+  const ClipMatch match = matchClip({{"up", "upLeft"}, {}, {}}, targets);
+  std::array<double, 3> to{9, 9, 9};
+  match.spread(std::array{0.3, 0.7}, to);
+  EXPECT_EQ(to, (std::array{0.7, 0.3, 0.0}));
+}
+
+}  // namespace
+}  // namespace sweepface

@@ -1,0 +1,106 @@
+#include "sweepface/timeline.hpp"
+
+#include <gtest/gtest.h>
+#include <string>
+
+namespace sweepface {
+namespace {
+
+double weight(const Clip& clip, double seconds, std::string_view name) {
+  std::vector<double> all(clip.names.size());
+  clip.at(seconds, all);
+  for (std::size_t k = 0; k < all.size(); ++k)
+    if (clip.names[k] == name) return all[k];
+  ADD_FAILURE() << "no weight " << name;
+  return 0;
+}
+
+Clip baked(std::string_view text, double framesPerSecond = 100) {
+  const auto timeline = parseTimeline(text, "line.json");
+  if (!timeline) {
+    ADD_FAILURE() << timeline.error().message;
+    return {};
+  }
+  const auto clip = bake(*timeline, framesPerSecond);
+  EXPECT_TRUE(clip);
+  return clip.value_or(Clip{});
+}
+
+TEST(Timeline, EventsSetOutAtTheirTimes) {
+  const Clip clip = baked(R"({"seconds": 3, "events": [
+    {"at": 1.5, "to": {"smile": 1}, "drive": "newton", "seconds": 1},
+    {"at": 0, "to": {"jawOpen": 0.5}, "drive": "accelerate-brake", "seconds": 1}]})");
+  EXPECT_EQ(clip.times.size(), 301u);
+  EXPECT_NEAR(weight(clip, 0.5, "jawOpen"), 0.25, 1e-12);
+  EXPECT_EQ(weight(clip, 1, "smile"), 0);
+  EXPECT_NEAR(weight(clip, 2, "smile"), 0.25, 1e-12);
+  EXPECT_EQ(weight(clip, 3, "smile"), 1);
+  EXPECT_EQ(weight(clip, 3, "jawOpen"), 0.5);
+}
+
+TEST(Timeline, EventsBetweenFramesAreNotRounded) {
+  const std::string text =
+      R"({"seconds": 1, "events": [{"at": 0.333, "to": {"a": 1}, "drive": "newton"}]})";
+  EXPECT_NEAR(weight(baked(text, 10), 0.4, "a"), weight(baked(text, 1000), 0.4, "a"), 1e-12);
+}
+
+TEST(Timeline, OnlySendsEverythingElseToRest) {
+  const Clip clip = baked(R"({"seconds": 2,
+    "poses": {"grin": {"smile": 1}, "gape": {"jawOpen": 1}},
+    "events": [{"at": 0, "to": "grin", "drive": "cut"},
+               {"at": 1, "only": "gape", "drive": "cut"}]})");
+  EXPECT_EQ(weight(clip, 0.5, "smile"), 1);
+  EXPECT_EQ(weight(clip, 1.5, "smile"), 0);
+  EXPECT_EQ(weight(clip, 1.5, "jawOpen"), 1);
+}
+
+TEST(Timeline, LoopsGoOnFromWhereTheyAre) {
+  const Clip clip = baked(R"({"seconds": 1, "loops": 3, "events": [
+    {"at": 0, "to": {"a": 1}, "drive": "cut"}, {"at": 0.5, "to": {"a": 0}, "drive": "cut"}]})");
+  EXPECT_EQ(clip.seconds(), 3);
+  EXPECT_EQ(weight(clip, 2.25, "a"), 1);
+  EXPECT_EQ(weight(clip, 2.75, "a"), 0);
+}
+
+void expectError(std::string_view text, std::string_view part) {
+  const auto timeline = parseTimeline(text, "line.json");
+  ASSERT_FALSE(timeline) << text;
+  EXPECT_NE(timeline.error().message.find(part), std::string::npos) << timeline.error().message;
+}
+
+TEST(Timeline, SaysWhatIsWrongAndWhere) {
+  expectError("", "is not JSON");
+  expectError("[]", "is not an object");
+  expectError(R"({"events": []})", "has no 'seconds'");
+  expectError(R"({"seconds": 0, "events": [1]})", "'seconds' must be greater than 0");
+  expectError(R"({"seconds": 1})", "'events' must be a list");
+  expectError(R"({"seconds": 1, "loops": 1.5, "events": [1]})", "'loops'");
+  expectError(R"({"seconds": 1, "evnts": []})", "unknown key 'evnts'");
+  const auto event = [](std::string inside) {
+    return R"({"seconds": 1, "poses": {"p": {"a": 1}, "q": 1}, "events": [)" + inside + "]}";
+  };
+  expectError(event("1"), "events[0] is not an object");
+  expectError(event(R"({"to": {}})"), "events[0] has no 'at'");
+  expectError(event(R"({"at": 0})"), "one of 'to' and 'only'");
+  expectError(event(R"({"at": 0, "to": {}, "only": {}})"), "one of 'to' and 'only'");
+  expectError(event(R"({"at": 0, "to": "nobody"})"), "a pose 'nobody'");
+  expectError(event(R"({"at": 0, "to": "q"})"), "pose 'q' is not an object");
+  expectError(event(R"({"at": 0, "to": {"a": "b"}})"), "a weight 'a' that is not a number");
+  expectError(event(R"({"at": 0, "to": "p", "drive": "jump"})"), "accelerate-brake");
+  expectError(event(R"({"at": 0, "to": "p", "speed": 3})"), "unknown key 'speed'");
+  expectError(event(R"({"at": 0, "to": "p", "delay": -1})"), "'delay'");
+  expectError(event(R"({"at": 0, "to": "p", "drive": "newton", "seconds": 0})"),
+              "events[0] cannot");
+  expectError(event(R"({"at": -1, "to": "p"})"), "before 0");
+  expectError(event(R"({"at": 2, "to": "p"})"), "later than 'seconds'");
+}
+
+TEST(Timeline, BakingRefusesTooManyFrames) {
+  const auto timeline = parseTimeline(R"({"seconds": 1, "events": [{"at": 0, "to": {}}]})", "t");
+  ASSERT_TRUE(timeline);
+  EXPECT_FALSE(bake(*timeline, 0));
+  EXPECT_FALSE(bake(*timeline, 1e9));
+}
+
+}  // namespace
+}  // namespace sweepface

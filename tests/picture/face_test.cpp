@@ -1,0 +1,242 @@
+#include <fmt/format.h>
+
+#include "io/temporary_folder.hpp"
+#include "picture/materials.hpp"
+#include "picture/scenes.hpp"
+#include "picture/styles.hpp"
+#include "surface/surfaces.hpp"
+
+namespace sweepface {
+namespace {
+
+using namespace testing;
+
+class Tints : public ::testing::TestWithParam<Face> {};
+INSTANTIATE_TEST_SUITE_P(, Tints, eachFace(), faceName);
+
+TEST_P(Tints, TellNeighboursApart) {
+  const Surface surface = surfaceOf(GetParam().rig, 12);
+  const std::vector<Colour> tints = patchTints(surface);
+  ASSERT_EQ(static_cast<Index>(tints.size()), surface.patchCount());
+  const auto& patchOf = surface.connectivity().patchOf;
+  for (Index h = 0; h < static_cast<Index>(patchOf.size()); h += 2)
+    if (const Index a = patchOf[h], b = patchOf[h + 1]; a >= 0 && b >= 0 && a != b) {
+      EXPECT_FALSE(tints[a] == tints[b]) << "patches " << a << " and " << b;
+    }
+}
+
+/// A hill with two targets, and its conversion.
+struct Hill {
+  MeshRig source = withTargets(plane(12, 10));
+  Rig rig = converted(source, 0.05);
+  Weights rest = Weights(2, 0.0);
+};
+
+TEST(FaceScenes, HaveAColourForEveryPatch) {
+  const Hill hill;
+  const Scene scene = FaceScenes(hill.rig, 2).scene(hill.rest, Style::patches);
+  EXPECT_EQ(scene.triangles.size(), 12u * 10u * 4u * 2u);
+  EXPECT_EQ(scene.triangleColours.size(), scene.triangles.size());
+}
+
+TEST(FaceScenes, ShowThePose) {
+  const Hill hill;
+  const FaceScenes scenes(hill.rig, 1);
+  const Weights posed{1, 0};
+  const auto places = scenes.scene(posed, Style::shaded).positions;
+  const auto expected = Tessellation(hill.rig.surface, 1).positions(blend(hill.rig, posed));
+  EXPECT_EQ(places, expected);
+  EXPECT_EQ(places, scenes.points(posed));
+}
+
+TEST(FaceScenes, DrawEveryCurve) {
+  const Hill hill;
+  const auto vectors = blend(hill.rig, hill.rest);
+  const CurveNetwork net = curveNetwork(hill.rig.surface, vectors, 1);
+  const Scene wires = FaceScenes(hill.rig, 1).scene(hill.rest, Style::wireframe);
+  EXPECT_EQ(wires.strokes.size(), net.boundary.size() + net.control.size());
+  const FaceScenes scenes(hill.rig, 1);
+  const Scene joins = scenes.scene(hill.rest, Style::joins);
+  EXPECT_EQ(joins.strokes.size(), net.boundary.size());
+  // Every stroke has a colour of the legend, whose texts count them.
+  for (const Key& key : scenes.legend(Style::joins)) {
+    const auto drawn = std::ranges::count(joins.strokes, key.colour, &Stroke::colour);
+    EXPECT_NE(key.text.find(fmt::format("({})", drawn)), std::string::npos) << key.text;
+  }
+  EXPECT_EQ(scenes.legend(Style::wireframe).size(), 2u);
+  EXPECT_TRUE(scenes.legend(Style::shaded).empty());
+}
+
+TEST(FaceScenes, FindWhatATargetMoves) {
+  MeshRig source{plane(12, 10), {}};
+  const auto raised = [&](double x, double y) {
+    std::vector<Vec3> p = source.neutral.positions;
+    for (Vec3& v : p) v.z += std::exp(-0.5 * ((v.x - x) * (v.x - x) + (v.y - y) * (v.y - y)));
+    return p;
+  };
+  source.targets = {{"mouthOpen", raised(2, 2)}, {"eyeBlink_L", raised(9, 8)}};
+  const Rig rig = converted(source);
+  const FaceScenes scenes(rig, 1);
+  const auto rest = scenes.points(Weights(2, 0.0));
+  const auto mouth = scenes.region("MOUTH");
+  ASSERT_TRUE(mouth.has_value());
+  EXPECT_GE(mouth->size(), 3u);
+  for (const Index v : *mouth) EXPECT_LE(norm(rest[v] - Vec3{2, 2, rest[v].z}), 1.5);
+  EXPECT_TRUE(failsWith(scenes.region("ear"), {"'ear'"}));
+}
+
+TEST(FaceScenes, GetFinerWithThePicture) {
+  const Hill hill;
+  const Index small = lodFor(hill.rig.surface, Style::shaded, {100, 100});
+  const Index large = lodFor(hill.rig.surface, Style::shaded, {800, 1000});
+  EXPECT_GE(small, 1);
+  EXPECT_GT(large, small);
+  EXPECT_LE(lodFor(hill.rig.surface, Style::zebra, {16384, 4096}), 16);
+}
+
+// ---- The original ----
+
+TEST(Originals, AreBlendsOfTheMeshes) {
+  const Hill hill;
+  const Weights weights{0.25, 0.5};
+  const auto positions = originalPositions(hill.rig, hill.source, weights);
+  ASSERT_TRUE(positions.has_value());
+  for (std::size_t v = 0; v < positions->size(); ++v) {
+    const Vec3 &n = hill.source.neutral.positions[v], a = hill.source.targets[0].positions[v],
+               b = hill.source.targets[1].positions[v];
+    EXPECT_LE(norm((*positions)[v] - (n + 0.25 * (a - n) + 0.5 * (b - n))), 1e-12);
+  }
+}
+
+TEST(Originals, MustBelongToTheFace) {
+  const Hill hill;
+  const MeshRig other{plane(3, 3), {}};
+  EXPECT_TRUE(failsWith(originalPositions(hill.rig, other, hill.rest), {"16 vertices", "143"}));
+  const MeshRig bare{hill.source.neutral, {}};
+  EXPECT_TRUE(originalPositions(hill.rig, bare, hill.rest).has_value());
+  EXPECT_TRUE(failsWith(originalPositions(hill.rig, bare, Weights{0, 1}), {"'target2'"}));
+}
+
+TEST(Originals, AreShownAsTheyAre) {
+  const Hill hill;
+  const Scene scene = FaceScenes(hill.rig, 1).original(hill.source.neutral.positions);
+  EXPECT_GE(scene.triangles.size(), 50'000u) << "fine enough to light";
+  // On the facets, and counter-clockwise like them.
+  const std::array<Index, 3>& t = scene.triangles[scene.triangles.size() / 2];
+  const Vec3 n = cross(scene.positions[t[1]] - scene.positions[t[0]],
+                       scene.positions[t[2]] - scene.positions[t[0]]);
+  EXPECT_GT(dot(n, scene.normals[t[0]]), 0);
+  double top = -1e9;
+  for (const Vec3& p : scene.positions) top = std::max(top, p.z);
+  double sourceTop = -1e9;
+  for (const Vec3& p : hill.source.neutral.positions) sourceTop = std::max(sourceTop, p.z);
+  EXPECT_EQ(top, sourceTop);
+}
+
+// ---- Heat maps ----
+
+TEST(HeatMaps, GetDarkerWithTheError) {
+  for (int k = 0; k < 64; ++k)
+    EXPECT_GT(brightness(heatColour(k / 64.0)), brightness(heatColour((k + 1) / 64.0))) << k;
+  EXPECT_EQ(heatColour(-1), heatColour(0));
+  EXPECT_EQ(heatColour(7), heatColour(1));
+  EXPECT_EQ(heatColour(std::nan("")), heatColour(0));
+}
+
+TEST(HeatMaps, ColourEachVertexByItsError) {
+  const Hill hill;
+  std::vector<Vec3> original = hill.source.neutral.positions;
+  const Index moved = 70;
+  original[moved].z += 0.4;
+  const FaceScenes scenes(hill.rig, 1);
+  const HeatMap map = scenes.heatMap(hill.rest, original, Style::error);
+  const Index grid = hill.rig.source.gridVertex[moved];
+  const auto places = scenes.points(hill.rest);
+  EXPECT_NEAR(map.worst, norm(places[grid] - original[moved]), 1e-12);
+  EXPECT_EQ(map.top, map.worst) << "beyond the tolerance";
+  EXPECT_EQ(map.scene.vertexColours[grid], heatColour(1));
+  for (std::size_t v = 0; v < original.size(); ++v) {
+    const Index g = hill.rig.source.gridVertex[v];
+    const double share = norm(places[g] - original[v]) / map.top;
+    EXPECT_TRUE(near(map.scene.vertexColours[g], heatColour(share), 0.01));
+  }
+  ASSERT_EQ(map.scene.labels.size(), 1u);
+  EXPECT_EQ(map.scene.labels[0].at, places[grid]);
+
+  // And so in the picture.
+  Scene scene = map.scene;
+  scene.finish = Finish::flat;
+  scene.labels.clear();
+  const PictureSize size{400, 400};
+  const Camera camera = frameCamera(places, {}, size);
+  const Vec3 at = camera.project(places[grid], size);
+  const Image image = picture(scene, camera, size);
+  const auto x = static_cast<Index>(at.x), y = static_cast<Index>(at.y);
+  EXPECT_TRUE(near(image.at(x, y), heatColour(1), 40));
+  EXPECT_TRUE(near(image.at(x + 80, y), heatColour(0), 40));
+}
+
+TEST(HeatMaps, EndAtTheTolerance) {
+  const Hill hill;
+  const HeatMap map =
+      FaceScenes(hill.rig, 2).heatMap(hill.rest, hill.source.neutral.positions, Style::error);
+  EXPECT_EQ(map.top, 0.05);
+  EXPECT_LE(map.worst, 0.05);
+  EXPECT_NE(map.title.find(fmt::format("{:.3g} at worst", map.worst)), std::string::npos);
+}
+
+TEST(HeatMaps, ShowAnglesOfNormals) {
+  const Hill hill;
+  // The same hill, tilted by ten degrees: every normal is off by as much.
+  std::vector<Vec3> original = hill.source.neutral.positions;
+  const double a = turn(10.0 / 360);
+  for (Vec3& p : original)
+    p = {std::cos(a) * p.x + std::sin(a) * p.z, p.y, std::cos(a) * p.z - std::sin(a) * p.x};
+  const FaceScenes scenes(hill.rig, 1);
+  const VertexErrors errors = scenes.errors(hill.rest, original);
+  EXPECT_NEAR(std::ranges::max(errors.angles), 10, 4);
+  const HeatMap map = scenes.heatMap(hill.rest, original, Style::angle);
+  EXPECT_GE(map.top, 8);
+  EXPECT_LE(map.top, 16);
+  EXPECT_NE(map.title.find("degrees"), std::string::npos);
+}
+
+// ---- Styles and materials ----
+
+TEST(Styles, HaveNames) {
+  for (const Style style : styles) {
+    EXPECT_EQ(styleFromName(nameOf(style)).value(), style);
+  }
+  EXPECT_TRUE(failsWith(styleFromName("shiny"), {"'shiny'", "zebra"}));
+}
+
+TEST(Materials, AreToldByTheirNames) {
+  const auto skin = materialColour("M_Face");
+  ASSERT_TRUE(skin.has_value());
+  EXPECT_EQ(materialColour("anything"), skin);
+  EXPECT_NE(materialColour("M_Teeth"), skin);
+  EXPECT_NE(materialColour("Lips"), skin);
+  EXPECT_FALSE(materialColour("LacrimalFluid").has_value());
+  Polygons polygons;
+  polygons.faceStart = {0, 4, 8, 12};
+  polygons.materials = {"skin", "Cornea"};
+  polygons.faceMaterial = {0, 1, -1};
+  const auto colours = faceColours(polygons);
+  EXPECT_EQ(colours[0], skin);
+  EXPECT_FALSE(colours[1].has_value());
+  EXPECT_EQ(colours[2], skin);
+}
+
+TEST(Materials, LeaveClearFacesOut) {
+  MeshRig source{plane(12, 10), {}};
+  source.neutral.polygons.materials = {"skin", "tears"};
+  source.neutral.polygons.faceMaterial.assign(120, 0);
+  std::fill_n(source.neutral.polygons.faceMaterial.begin(), 30, 1);
+  const Rig rig = converted(source);
+  const FaceScenes scenes(rig, 2);
+  EXPECT_EQ(scenes.scene({}, Style::shaded).triangles.size(), 90u * 8u);
+  EXPECT_EQ(scenes.scene({}, Style::patches).triangles.size(), 120u * 8u);
+}
+
+}  // namespace
+}  // namespace sweepface

@@ -1,0 +1,224 @@
+#include "sweepface/report.hpp"
+
+#include <fmt/format.h>
+
+#include "io/temporary_folder.hpp"
+#include "picture/scenes.hpp"
+#include "report/html.hpp"
+#include "report/plot.hpp"
+#include "report/shape_study.hpp"
+
+namespace sweepface {
+namespace {
+
+using namespace testing;
+
+/// Whether every tag that opens closes, in order; images, links and the like do not close.
+::testing::AssertionResult isWellFormed(std::string_view html) {
+  std::vector<std::string_view> open;
+  for (std::size_t at = html.find('<'); at != html.npos; at = html.find('<', at + 1)) {
+    const std::size_t end = html.find('>', at);
+    if (end == html.npos) return ::testing::AssertionFailure() << "a tag does not end";
+    const std::string_view tag = html.substr(at + 1, end - at - 1);
+    if (tag.starts_with('!') || tag.ends_with('/') || tag.starts_with("meta") ||
+        tag.starts_with("link") || tag.starts_with("img"))
+      continue;
+    if (!tag.starts_with('/')) {
+      open.push_back(tag.substr(0, tag.find_first_of(" \n")));
+      continue;
+    }
+    if (open.empty() || open.back() != tag.substr(1))
+      return ::testing::AssertionFailure()
+             << "</" << tag.substr(1) << "> where " << (open.empty() ? "nothing" : open.back())
+             << " is open";
+    open.pop_back();
+  }
+  if (!open.empty()) return ::testing::AssertionFailure() << open.back() << " stays open";
+  return ::testing::AssertionSuccess();
+}
+
+std::size_t countOf(std::string_view text, std::string_view part) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(part); at != text.npos; at = text.find(part, at + 1)) ++count;
+  return count;
+}
+
+/// A page without the bytes of its pictures, in which any letters may follow each other.
+std::string withoutPictures(std::string page) {
+  constexpr std::string_view start = "base64,";
+  for (std::size_t at = page.find(start); at != page.npos; at = page.find(start, at + 1))
+    page.erase(at + start.size(), page.find('"', at) - at - start.size());
+  return page;
+}
+
+// ---- Pieces ----
+
+TEST(Html, EscapesTexts) {
+  EXPECT_EQ(html::escaped("<b>&\"x\""), "&lt;b&gt;&amp;&quot;x&quot;");
+  html::Table table({"a<b", "n"});
+  table.add({"<script>", "1"}, true);
+  EXPECT_EQ(table.html().find("<script>"), std::string::npos);
+  EXPECT_TRUE(isWellFormed(table.html()));
+  EXPECT_TRUE(isWellFormed(html::page("</title>", "<p>x</p>")));
+}
+
+TEST(Html, WritesBase64) {  // RFC 4648, section 10
+  EXPECT_EQ(html::base64(""), "");
+  EXPECT_EQ(html::base64("f"), "Zg==");
+  EXPECT_EQ(html::base64("fo"), "Zm8=");
+  EXPECT_EQ(html::base64("foo"), "Zm9v");
+  EXPECT_EQ(html::base64("foobar"), "Zm9vYmFy");
+  EXPECT_EQ(html::base64("\xff\xfe"), "//4=");
+}
+
+TEST(Html, ShowsTheScaleOfHeatMaps) {
+  const std::string scale = html::scale(0.02, "distance");
+  EXPECT_NE(scale.find(html::hex(heatColour(0))), std::string::npos);
+  EXPECT_NE(scale.find(html::hex(heatColour(1))), std::string::npos);
+  EXPECT_NE(scale.find(">0.015<"), std::string::npos);
+}
+
+TEST(Ticks, CoverTheValuesWithReadableNumbers) {
+  EXPECT_EQ(niceTicks(0, 30, false), (std::vector<double>{0, 5, 10, 15, 20, 25, 30}));
+  EXPECT_EQ(niceTicks(600, 4000, true), (std::vector<double>{500, 1000, 2000, 5000}));
+  for (const auto& [low, high] :
+       {std::pair{0.0, 0.0199}, {-3.2, 7.7}, {1e-9, 3e-9}, {5.0, 5.0}, {0.0, 0.0}}) {
+    const std::vector<double> ticks = niceTicks(low, high, false);
+    ASSERT_GE(ticks.size(), 2u);
+    EXPECT_LE(ticks.size(), 10u);
+    EXPECT_LE(ticks.front(), low + 1e-12);
+    EXPECT_GE(ticks.back(), high - 1e-12);
+    EXPECT_TRUE(std::ranges::is_sorted(ticks));
+  }
+  for (const bool logarithmic : {false, true})
+    for (const double odd : {std::nan(""), HUGE_VAL, -HUGE_VAL})
+      EXPECT_GE(niceTicks(odd, 1, logarithmic).size() + niceTicks(1, odd, logarithmic).size(), 4u);
+}
+
+TEST(Plots, PutPointsWhereTheyBelong) {
+  const Series rising{"rising", "#123456", {{0, 0}, {5, 50}, {10, 100}}, true};
+  const std::string svg = linePlot("t", {"x"}, {"y"}, {rising});
+  EXPECT_TRUE(isWellFormed(svg));
+  // The legend's dot, then the three points: from the lower left to the upper right corner.
+  EXPECT_EQ(countOf(svg, "<circle"), 4u);
+  EXPECT_NE(svg.find("points=\"62.0,278.0 262.0,165.0 462.0,52.0 \""), std::string::npos) << svg;
+}
+
+TEST(Plots, LeaveOutWhatHasNoLogarithm) {
+  const Series some{"some", "#123456", {{10, 0}, {100, 1}, {1000, 10}}};
+  const std::string svg = linePlot("t", {"x", true}, {"y", true}, {some});
+  EXPECT_EQ(svg.find("inf"), std::string::npos);
+  EXPECT_EQ(svg.find("nan"), std::string::npos);
+  EXPECT_EQ(linePlot("t", {"x", true}, {"y", true}, {{"none", "#123456", {{0, 0}}}}), "");
+}
+
+TEST(Plots, HaveARowForEachName) {
+  const std::vector<std::string> names{"jaw<Open", std::string(80, 'w'), "smile"};
+  const std::string svg =
+      rowPlot("t", "x", names, {{"max", "#123456", {{1, 0}, {2, 0}, {3, 0}}, true}}, 2.5);
+  EXPECT_TRUE(isWellFormed(svg));
+  EXPECT_NE(svg.find("jaw&lt;Open"), std::string::npos);
+  EXPECT_EQ(countOf(svg, "<circle"), 4u);
+}
+
+// ---- What shape parameters do ----
+
+TEST(ShapeStudies, PullTheSweepTowardsItsChord) {
+  const Rig rig = converted(withTargets(plane(12, 10)), 0.05);
+  const auto vectors = blend(rig, Weights(2, 0.0));
+  const ShapeStudy study = studyShapes(rig.surface, vectors);
+  ASSERT_EQ(study.shapes.size(), 4u);
+  EXPECT_EQ(study.shapes[0].moved, 0);
+  const auto height = [&](std::size_t k) {
+    double sum = 0;
+    for (const Vec2& p : study.shapes[k].profile) sum += std::abs(p.y);
+    return sum;
+  };
+  EXPECT_LT(height(3), 0.5 * height(0)) << "a strong lambda is a straight line";
+  EXPECT_LT(height(3), height(2));
+  for (const ShapedPatch& s : study.shapes) {
+    EXPECT_NEAR(s.profile.front().y, 0, 1e-9) << "the boundary curves stay";
+    EXPECT_NEAR(s.profile.back().y, 0, 1e-9);
+    // The corners too.
+    const auto& first = study.shapes[0].scene.positions;
+    EXPECT_LE(norm(s.scene.positions.front() - first.front()), 1e-9);
+    EXPECT_LE(norm(s.scene.positions.back() - first.back()), 1e-9);
+  }
+  // Without parameters it is the surface itself where that has none.
+  const Surface& surface = rig.surface;
+  const std::vector<Shape> none(surface.wireframe().ribbons.size());
+  if (surface.wireframe().ribbons == none) {
+    const Site middle{study.patch, 0.5 * surface.edgesU(study.patch),
+                      0.5 * surface.edgesV(study.patch)};
+    const Vec3 expected = surface.evaluate(vectors, middle);
+    EXPECT_LE(norm(study.shapes[0].scene.positions[20 * 41 + 20] - expected), 1e-9);
+  }
+}
+
+// ---- The whole ----
+
+/// A hill with targets of nasty names.
+MeshRig hill() {
+  MeshRig source = withTargets(plane(12, 10));
+  source.targets[0].name = "<script>alert(1)</script>";
+  source.targets[1].name = "mouth & \"eye\"";
+  return source;
+}
+
+TEST(Report, TellsAllAboutAFace) {
+  const MeshRig source = hill();
+  const Rig rig = converted(source, 0.05);
+  ReportOptions options;
+  options.name = "a&b.sweep";
+  options.bytes = 4321;
+  options.tolerances = {0.1};
+  double last = 0;
+  options.progress = [&](std::string_view, double done) {
+    EXPECT_GE(done, last);
+    EXPECT_LE(done, 1);
+    last = done;
+  };
+  const auto report = makeReport(rig, source, options);
+  ASSERT_TRUE(report.has_value()) << report.error().message;
+  EXPECT_TRUE(isWellFormed(*report));
+  EXPECT_EQ(report->find("<script"), std::string::npos);
+  EXPECT_NE(report->find("&lt;script&gt;alert(1)&lt;/script&gt;"), std::string::npos);
+  for (const std::string_view title :
+       {"Original and recreated", "Size", "Wireframe", "Errors", "Continuity",
+        "Error against points", "Shape parameters", "Linear and Newton"})
+    EXPECT_NE(report->find(fmt::format("<h2>{}</h2>", title)), std::string::npos) << title;
+  // Nothing is loaded from elsewhere: the only address is the name of SVG.
+  EXPECT_EQ(countOf(*report, "http"), countOf(*report, "xmlns=\"http://www.w3.org/2000/svg\""));
+  EXPECT_EQ(countOf(*report, "src="), countOf(*report, "src=\"data:image/png;base64,"));
+  // 4 to compare, 2 of the wireframe, 4 heat maps, 2 of continuity, 4 shapes, 12 key frames.
+  EXPECT_EQ(countOf(*report, "<img "), 28u);
+  EXPECT_EQ(countOf(*report, "<img "), countOf(*report, " alt=\""));
+  EXPECT_EQ(countOf(*report, "<svg "), 5u);
+  const std::string words = withoutPictures(*report);
+  EXPECT_EQ(countOf(words, "nan") + countOf(words, "inf,"), 0u);
+  EXPECT_NE(report->find(fmt::format("<td>143</td><td>{}</td>", rig.surface.storedCount())),
+            std::string::npos);
+  EXPECT_NE(report->find("<td>4,321</td>"), std::string::npos);
+}
+
+TEST(Report, DoesWithoutTargetsAndTolerances) {
+  const MeshRig source{plane(12, 10), {}};
+  const auto report = makeReport(converted(source, 0.05), source, {});
+  ASSERT_TRUE(report.has_value()) << report.error().message;
+  EXPECT_TRUE(isWellFormed(*report));
+  EXPECT_EQ(report->find("Error against points"), std::string::npos);
+  EXPECT_EQ(report->find("Linear and Newton"), std::string::npos);
+  EXPECT_NE(report->find("Shape parameters"), std::string::npos);
+}
+
+TEST(Report, FailsWhereFaceAndMeshesDoNotBelongTogether) {
+  const MeshRig source = hill();
+  const Rig rig = converted(source, 0.05);
+  EXPECT_TRUE(failsWith(makeReport(rig, {plane(3, 3), {}}, {}), {"16 vertices"}));
+  ReportOptions options;
+  options.expression = {1, 2, 3};
+  EXPECT_TRUE(failsWith(makeReport(rig, source, options), {"3 weights", "2 targets"}));
+}
+
+}  // namespace
+}  // namespace sweepface

@@ -1,0 +1,251 @@
+// The page: shows a .sweep face and lets its expressions be tried.
+import {BackSide, Box3, Color, DirectionalLight, HemisphereLight, LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial,
+        MeshStandardMaterial, PerspectiveCamera, Scene, Vector3, WebGLRenderer, WireframeGeometry} from 'three';
+import {OrbitControls} from 'three/addons/controls/OrbitControls.js';
+import {Sweepface} from 'sweepface';
+import {SweepfaceMesh} from 'sweepface/three';
+
+const at = (id) => document.getElementById(id);
+const view = at('view'), stage = at('stage'), message = at('message');
+
+const renderer = new WebGLRenderer({canvas: view, antialias: true, alpha: true});
+renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+const scene = new Scene(), camera = new PerspectiveCamera(26, 1, 0.1, 1000);
+const controls = new OrbitControls(camera, view);
+controls.enableDamping = true;
+controls.enablePan = false;
+
+// A large soft light, a key from the upper left and a rim from behind; they stay with the viewer.
+const key = new DirectionalLight(0xfff1e2, 2.4), rim = new DirectionalLight(0xbfd4ff, 1.6);
+key.position.set(-1, 1.2, 1.6);
+rim.position.set(1.4, 0.6, -1.5);
+scene.add(new HemisphereLight(0xffffff, 0x8a7668, 1.3), camera);
+camera.add(key, key.target, rim, rim.target);
+
+/** What is seen of a head's inside, through eyes and mouth. */
+const inside = new MeshBasicMaterial({color: 0x2b1a14, side: BackSide});
+
+/** A colour for a material, by what its name says. */
+function colourOf(name) {
+  const known = [[/lip|mouth|tongue|gum/i, 0xb8675c], [/teeth|tooth/i, 0xf0e8d8], [/lash|brow|hair|beard/i, 0x3a2a22],
+                 [/eye|sclera|cornea/i, 0xf4f1ee]];
+  return new Color(known.find(([pattern]) => pattern.test(name))?.[1] ?? 0xd9a688);
+}
+
+let bytes, mesh, lines;  // the file, the face on show and, if wanted, its edges
+let loading = 0;         // milliseconds from the bytes to the first frame
+
+/** Shows a file, or says why it cannot be. */
+async function show(buffer, name, keepView = false) {
+  try {
+    const began = performance.now();
+    const face = await Sweepface.load(buffer, {name, lod: Number(at('lod').value)});
+    const weights = mesh && keepView ? mesh.face.weights : {};
+    remove();
+    bytes = buffer;
+    mesh = new SweepfaceMesh(face, face.parts.map(({material}) =>
+      new MeshStandardMaterial({name: material, color: colourOf(material), roughness: 0.62})));
+    mesh.add(new Mesh(mesh.geometry, inside));
+    mesh.setWeights(weights);
+    scene.add(mesh);
+    if (!keepView) look();
+    message.textContent = '';
+    message.className = '';
+    tellName(name);
+    buildSliders();
+    drawLines();
+    draw(0);
+    loading = performance.now() - began;
+    tellFigures();
+  } catch (error) {
+    message.textContent = error.message;
+    message.className = 'error';
+  }
+}
+
+function tellName(name) {
+  document.title = `${name} · Sweepface`;
+  stage.dataset.face = name;
+}
+
+function remove() {
+  if (!mesh) return;
+  scene.remove(mesh);
+  mesh.dispose();
+  mesh = undefined;
+}
+
+/** The camera in front of the face, at a distance from which all of it is seen. */
+function look() {
+  const box = new Box3().setFromBufferAttribute(mesh.geometry.attributes.position);
+  const size = box.getSize(new Vector3()), middle = box.getCenter(new Vector3());
+  const reach = Math.max(size.y, size.x / camera.aspect) / 2 / Math.tan(camera.fov / 2 * Math.PI / 180);
+  const distance = 1.15 * reach + size.z / 2;
+  controls.target.copy(middle);
+  camera.position.copy(middle).add(new Vector3(0.25, 0.06, 1).setLength(distance));
+  camera.near = distance / 100;
+  camera.far = 10 * distance;
+  camera.updateProjectionMatrix();
+  controls.minDistance = distance / 6;
+  controls.maxDistance = 3 * distance;
+  controls.update();
+}
+
+/** The edges of the triangles, drawn over the face. */
+function drawLines() {
+  lines?.removeFromParent();
+  lines?.geometry.dispose();
+  lines = undefined;
+  if (!at('lines').checked || !mesh) return;
+  lines = new LineSegments(new WireframeGeometry(mesh.geometry), new LineBasicMaterial({color: 0x5a2c14, transparent: true, opacity: 0.35}));
+  mesh.add(lines);
+}
+
+/** Lines have vertices of their own, two an edge. */
+function followLines() {
+  lines.geometry.dispose();
+  lines.geometry = new WireframeGeometry(mesh.geometry);
+}
+
+const sliders = new Map();  // by name: the input and what shows its number
+
+function buildSliders() {
+  sliders.clear();
+  at('sliders').replaceChildren(...mesh.face.names.map((name) => {
+    const row = document.createElement('label'), text = document.createElement('span');
+    const number = document.createElement('output'), input = document.createElement('input');
+    row.className = 'slider';
+    text.textContent = name;
+    Object.assign(input, {type: 'range', min: 0, max: 1, step: 0.01, name});
+    input.addEventListener('input', () => {
+      mesh.setWeights({[name]: input.valueAsNumber});
+      number.value = input.valueAsNumber.toFixed(2);
+      wake();
+    });
+    row.append(text, number, input);
+    sliders.set(name, {row, input, number});
+    return row;
+  }));
+  followWeights();
+  filterSliders();
+}
+
+function followWeights() {
+  for (const [name, weight] of Object.entries(mesh.face.weights)) {
+    const {input, number} = sliders.get(name);
+    if (document.activeElement !== input || number.value === '') input.value = weight;
+    number.value = weight.toFixed(2);
+  }
+}
+
+function filterSliders() {
+  const wanted = at('filter').value.trim().toLowerCase();
+  for (const [name, {row}] of sliders) row.hidden = !name.toLowerCase().includes(wanted);
+}
+
+function surprise() {
+  const names = mesh.face.names, chosen = names.filter(() => Math.random() < 3 / names.length);
+  const goals = Object.fromEntries(names.map((name) => [name, 0]));
+  for (const name of chosen.length ? chosen : names.slice(0, 1)) goals[name] = 0.5 + Math.random() / 2;
+  mesh.moveTo(goals, {kind: 'spring', frequency: 1.8, damping: 0.6});
+  wake();
+}
+
+const megabytes = (size) => `${(size / 1e6).toFixed(size < 1e6 ? 2 : 1)} MB`;
+const figures = {};  // smoothed milliseconds
+
+function tellFigures() {
+  const rows = {
+    'file': megabytes(bytes.byteLength), 'vertices': mesh.face.vertexCount.toLocaleString('en'),
+    'loaded in': `${loading.toFixed(0)} ms`, 'evaluation': `${(figures.evaluation ?? 0).toFixed(2)} ms`,
+    'frame': `${(figures.frame ?? 0).toFixed(1)} ms`, 'memory': megabytes(mesh.face.memoryBytes),
+  };
+  at('figures').replaceChildren(...Object.entries(rows).flatMap(([name, value]) => {
+    const term = document.createElement('dt'), text = document.createElement('dd');
+    term.textContent = name;
+    text.textContent = value;
+    return [term, text];
+  }));
+}
+
+function average(name, value) {
+  figures[name] = figures[name] === undefined ? value : 0.9 * figures[name] + 0.1 * value;
+}
+
+function resize() {
+  const {clientWidth, clientHeight} = stage;
+  renderer.setSize(clientWidth, clientHeight, false);
+  camera.aspect = clientWidth / Math.max(clientHeight, 1);
+  camera.updateProjectionMatrix();
+  wake();
+}
+
+function draw(seconds) {
+  const began = performance.now(), version = mesh?.geometry.attributes.position.version;
+  mesh?.update(seconds);
+  if (mesh && mesh.geometry.attributes.position.version !== version) {
+    average('evaluation', performance.now() - began);
+    if (lines) followLines();
+    followWeights();
+    wake();
+  }
+  if (controls.update()) wake();
+  renderer.render(scene, camera);
+  average('frame', performance.now() - began);
+}
+
+// Frames are drawn as long as something moves, and a little longer.
+let awakeUntil = 0, last = 0, told = 0, running = false;
+function wake() {
+  awakeUntil = performance.now() + 500;
+  if (running) return;
+  running = true;
+  last = performance.now();
+  requestAnimationFrame(frame);
+}
+
+function frame(now) {
+  draw(Math.min(Math.max(now - last, 0) / 1000, 0.1));
+  last = now;
+  if (mesh && now - told > 250) {
+    tellFigures();
+    told = now;
+  }
+  running = now < awakeUntil;
+  if (running) requestAnimationFrame(frame);
+}
+
+async function open(file) {
+  if (file) await show(await file.arrayBuffer(), file.name);
+}
+
+at('file').addEventListener('change', (event) => open(event.target.files[0]));
+at('filter').addEventListener('input', filterSliders);
+at('surprise').addEventListener('click', () => mesh && surprise());
+at('rest').addEventListener('click', () => {
+  if (mesh) mesh.moveTo(Object.fromEntries(mesh.face.names.map((name) => [name, 0])));
+  wake();
+});
+at('lod').addEventListener('change', () => bytes && show(bytes, stage.dataset.face, true));
+at('lines').addEventListener('change', () => {
+  drawLines();
+  wake();
+});
+controls.addEventListener('change', wake);
+new ResizeObserver(resize).observe(stage);
+
+for (const type of ['dragover', 'dragleave', 'drop'])
+  addEventListener(type, (event) => {
+    event.preventDefault();
+    document.body.classList.toggle('dropping', type === 'dragover');
+    if (type === 'drop') open(event.dataTransfer.files[0]);
+  });
+
+resize();
+const start = new URLSearchParams(location.search).get('face') ?? 'sample.sweep';
+const response = await fetch(start).catch(() => undefined);
+if (response?.ok) await show(await response.arrayBuffer(), start.split('/').pop());
+else message.textContent = 'Drop a .sweep file here, or open one.';
+
+/** For the console. */
+globalThis.sweepface = {get mesh() { return mesh; }, get loading() { return loading; }, show};

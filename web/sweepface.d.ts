@@ -1,0 +1,88 @@
+/** Weights or goals by the names of expressions. */
+export type Weights = Record<string, number>;
+
+/** How a weight goes from where it stands, with the velocity it has, to a goal. */
+export type DriveKind = 'cut' | 'newton' | 'linear-force' | 'accelerate-brake' | 'spring' | 'bounce';
+
+export interface Drive {
+  /** 'spring' unless given. */
+  kind?: DriveKind;
+  /** Seconds before it sets out. */
+  delay?: number;
+  /** Seconds until it arrives; not for 'cut' and 'spring'. */
+  seconds?: number;
+  /** 'accelerate-brake': when the second force takes over, as a fraction. */
+  turn?: number;
+  /** 'spring': oscillations a second if there were no damper. */
+  frequency?: number;
+  /** 'spring': below 1 it overshoots, above it creeps. */
+  damping?: number;
+  /** 'bounce': the share of the speed that is left, in [0, 1). */
+  restitution?: number;
+}
+
+/** Where the WebAssembly module is, if not beside sweepface.js. */
+export type ModuleSource = string | URL | BufferSource | WebAssembly.Module;
+
+export interface LoadOptions {
+  /** 0: the source's own vertices; N: every edge of the source cut into N, up to 64. */
+  lod?: number;
+  /** What messages call the face. */
+  name?: string;
+  wasm?: ModuleSource;
+}
+
+/** Triangles of one material, as a range of `triangles`. */
+export interface Part {
+  /** Its name in the source; '' if it had none. */
+  material: string;
+  start: number;
+  count: number;
+}
+
+/** A face that follows its weights. */
+export class Sweepface {
+  private constructor();
+
+  /** Reads a .sweep file. Rejects with the library's own sentence about what is wrong. */
+  static load(bytes: BufferSource, options?: LoadOptions): Promise<Sweepface>;
+
+  /** Another face of the same file, at rest; the two share everything but their weights. */
+  clone(): Sweepface;
+
+  /** The expressions. */
+  readonly names: string[];
+  readonly lod: number;
+  /** How far any source vertex may be off in any expression, in model units. */
+  readonly tolerance: number;
+  /** Vertices up to here are the source's (or, from lod 1 on, the surface's); others repeat one of them. */
+  readonly pointCount: number;
+  readonly vertexCount: number;
+  /** [triangles × 3] vertices, counter-clockwise seen from outside; a new array every time. */
+  readonly triangles: Uint32Array<ArrayBuffer>;
+  /** [vertices × 2] u to the right and v upwards, or null; a new array every time. */
+  readonly texcoords: Float32Array<ArrayBuffer> | null;
+  readonly parts: Part[];
+  /** Bytes of WebAssembly memory that the file and all its faces hold. */
+  readonly memoryBytes: number;
+
+  /** The weights as they are. */
+  readonly weights: Weights;
+  /** Sets the weights that are named, at once; the others stay. */
+  setWeights(weights: Weights): void;
+  /** All weights to 0, at once. */
+  reset(): void;
+
+  /** Sends weights to goals from where they stand; `advance` moves them. */
+  moveTo(goals: Weights, drive?: DriveKind | Drive): void;
+  /** A blow: adds to the velocity of a weight (per second), which drag (per second, 8 unless given) takes away. */
+  push(name: string, velocityChange: number, drag?: number): void;
+  /** Lets seconds pass for the weights in motion; says whether anything goes on moving. */
+  advance(seconds: number): boolean;
+
+  /** Writes three floats a vertex: positions in model units, unit normals. Either may be null. */
+  evaluate(positions: Float32Array | null, normals?: Float32Array | null): void;
+
+  /** Frees the face; it can no longer be used. Memory is given back with the last face of a file. */
+  dispose(): void;
+}

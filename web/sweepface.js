@@ -1,0 +1,299 @@
+// Plays .sweep faces in browsers and in Node. What is called here is the C interface
+// (include/sweepface/sweepface.h), compiled to WebAssembly.
+
+/** How a weight may go to a goal, in the order of the C interface. */
+const DRIVES = ['cut', 'newton', 'linear-force', 'accelerate-brake', 'spring', 'bounce'];
+/** The numbers of a drive, in the order of the C struct. */
+const DRIVE_NUMBERS = ['delay', 'seconds', 'turn', 'frequency', 'damping', 'restitution'];
+
+const encoder = new TextEncoder(), decoder = new TextDecoder();
+
+/** The bytes behind a URL; Node's fetch does not read files. */
+async function readUrl(url) {
+  if (url.protocol === 'file:' && globalThis.process?.versions?.node) {
+    const files = 'node:fs/promises';  // in a variable, so that no bundler looks for it
+    return (await import(/* @vite-ignore */ /* webpackIgnore: true */ files)).readFile(url);
+  }
+  const response = await fetch(url);
+  if (!response.ok) throw new Error(`Could not load ${url}: the server answered ${response.status}.`);
+  return response.arrayBuffer();
+}
+
+let usual;  // the module beside this file, compiled once
+function compile(wasm) {
+  if (wasm instanceof WebAssembly.Module) return wasm;
+  if (wasm instanceof ArrayBuffer || ArrayBuffer.isView(wasm)) return WebAssembly.compile(wasm);
+  if (wasm) return readUrl(new URL(wasm, globalThis.location?.href)).then(WebAssembly.compile);
+  usual ??= readUrl(new URL('./sweepface.wasm', import.meta.url)).then(WebAssembly.compile).catch((error) => {
+    usual = undefined;
+    throw error;
+  });
+  return usual;
+}
+
+/** One instance of the module: a file and the faces made from it. Its memory goes with it. */
+class Runtime {
+  constructor(module) {
+    this.wasm = new WebAssembly.Instance(module).exports;
+    this.wasm._initialize();
+    this.users = 0;
+  }
+
+  // Memory moves when it grows, so views are made where they are used.
+  bytes(at, length) { return new Uint8Array(this.wasm.memory.buffer, at, length); }
+  words(at, length) { return new Uint32Array(this.wasm.memory.buffer, at, length); }
+  ints(at, length) { return new Int32Array(this.wasm.memory.buffer, at, length); }
+  floats(at, length) { return new Float32Array(this.wasm.memory.buffer, at, length); }
+  doubles(at, length) { return new Float64Array(this.wasm.memory.buffer, at, length); }
+
+  text(at) {
+    const memory = new Uint8Array(this.wasm.memory.buffer);
+    return decoder.decode(memory.subarray(at, memory.indexOf(0, at)));
+  }
+
+  allocate(size) {
+    const at = this.wasm.malloc(Math.max(size, 8));
+    if (at === 0) throw new WebAssembly.RuntimeError('out of memory');
+    return at;
+  }
+
+  /** Calls `use` with the address of a copy of the bytes. */
+  lend(bytes, use) {
+    const at = this.allocate(bytes.length);
+    try {
+      this.bytes(at, bytes.length).set(bytes);
+      return use(at);
+    } finally {
+      this.wasm.free(at);
+    }
+  }
+
+  lendText(text, use) { return this.lend(encoder.encode(text + '\0'), use); }
+
+  check(status) {
+    if (status !== 0) throw new Error(this.text(this.wasm.sweepface_message()));
+  }
+
+  /** What a function with a trailing out-parameter of 32 bits writes there. */
+  get(name, ...parameters) {
+    return this.lend(new Uint8Array(4), (out) => {
+      this.check(this.wasm[name](...parameters, out));
+      return this.words(out, 1)[0];
+    });
+  }
+
+  loadRig(bytes, name) {
+    return this.lend(bytes, (at) => this.lendText(name, (text) => this.get('sweepface_rig_load', at, bytes.length, text)));
+  }
+}
+
+/** Runs what may need more memory than there is: the module then stops for good. */
+function withinMemory(run) {
+  try {
+    return run();
+  } catch (error) {
+    if (!(error instanceof WebAssembly.RuntimeError)) throw error;
+    throw new Error('There is not enough memory for the face.', {cause: error});
+  }
+}
+
+/** What all faces of one file at one level of detail share. */
+class Shared {
+  constructor(module, bytes, name, lod) {
+    const runtime = this.runtime = new Runtime(module), {wasm} = runtime;
+    this.rig = runtime.loadRig(bytes, name);
+    this.mesh = runtime.get('sweepface_mesh_create', this.rig, lod);
+    this.names = Array.from({length: wasm.sweepface_rig_target_count(this.rig)},
+                            (_, k) => runtime.text(wasm.sweepface_rig_target_name(this.rig, k)));
+    this.indexOf = new Map(this.names.map((text, k) => [text, k]));
+    this.vertexCount = wasm.sweepface_mesh_vertex_count(this.mesh);
+    this.lod = lod;
+  }
+
+  target(name) {
+    const index = this.indexOf.get(name);
+    if (index !== undefined) return index;
+    return this.runtime.lendText(name, (text) => this.runtime.get('sweepface_rig_find_target', this.rig, text));
+  }
+
+  triangles() {
+    const {wasm} = this.runtime;
+    return this.runtime.words(wasm.sweepface_mesh_triangles(this.mesh), 3 * wasm.sweepface_mesh_triangle_count(this.mesh)).slice();
+  }
+
+  texcoords() {
+    const at = this.runtime.wasm.sweepface_mesh_texcoords(this.mesh);
+    return at === 0 ? null : this.runtime.floats(at, 2 * this.vertexCount).slice();
+  }
+
+  parts() {
+    const {runtime} = this;
+    return Array.from({length: runtime.wasm.sweepface_mesh_part_count(this.mesh)}, (_, k) => runtime.lend(new Uint8Array(12), (out) => {
+      runtime.check(runtime.wasm.sweepface_mesh_part(this.mesh, k, out));
+      const [material, first, count] = runtime.words(out, 3);
+      return {material: runtime.text(material), start: 3 * first, count: 3 * count};
+    }));
+  }
+}
+
+export class Sweepface {
+  #shared;
+  #face;
+  #motion = 0;
+  #waits = 0;  // seconds until the last delayed motion sets out
+  #memory;  // two arrays of vectors for the C interface and what they point to, then weights
+
+  /** Use Sweepface.load. */
+  constructor(shared) {
+    if (!(shared instanceof Shared)) throw new TypeError('Faces are made by Sweepface.load.');
+    const {runtime, names, vertexCount} = shared;
+    this.#shared = shared;
+    this.#face = runtime.get('sweepface_face_create', shared.mesh);
+    const size = {vectors: 12 * vertexCount, weights: 8 * names.length};
+    const positions = runtime.allocate(2 * size.vectors), normals = positions + size.vectors;
+    const weights = runtime.allocate(size.weights + 8), drive = runtime.allocate(56), vectors = runtime.allocate(16);
+    this.#memory = {positions, normals, weights, drive, vectors};
+    ++runtime.users;
+  }
+
+  static async load(bytes, {lod = 0, name = 'The face', wasm} = {}) {
+    if (!(bytes instanceof ArrayBuffer || ArrayBuffer.isView(bytes)))
+      throw new TypeError('Sweepface.load needs the bytes of a .sweep file: an ArrayBuffer or a typed array.');
+    if (!Number.isInteger(lod) || lod < 0) throw new RangeError('The level of detail must be a whole number from 0 on.');
+    const view = ArrayBuffer.isView(bytes) ? new Uint8Array(bytes.buffer, bytes.byteOffset, bytes.byteLength) : new Uint8Array(bytes);
+    const module = await compile(wasm);
+    return withinMemory(() => new Sweepface(new Shared(module, view, String(name), lod)));
+  }
+
+  /** Another face of the same file, at rest; the two share everything but their weights. */
+  clone() {
+    const shared = this.#open();
+    return withinMemory(() => new Sweepface(shared));
+  }
+
+  get names() { return [...this.#open().names]; }
+  get lod() { return this.#open().lod; }
+  get tolerance() { return this.#open().runtime.wasm.sweepface_rig_tolerance(this.#shared.rig); }
+  get pointCount() { return this.#open().runtime.wasm.sweepface_mesh_point_count(this.#shared.mesh); }
+  get vertexCount() { return this.#open().vertexCount; }
+  get triangles() { return this.#open().triangles(); }
+  get texcoords() { return this.#open().texcoords(); }
+  get parts() { return this.#open().parts(); }
+  /** Bytes of WebAssembly memory that the file and all its faces hold. */
+  get memoryBytes() { return this.#open().runtime.wasm.memory.buffer.byteLength; }
+
+  /** The weights by name. */
+  get weights() {
+    const {runtime, names} = this.#open();
+    const values = runtime.doubles(runtime.wasm.sweepface_face_weights(this.#face), names.length);
+    return Object.fromEntries(names.map((name, k) => [name, values[k]]));
+  }
+
+  /** Sets the weights that are named and leaves the others; those in motion stop. */
+  setWeights(weights) {
+    const {runtime, names} = this.#open(), {wasm} = runtime, at = this.#memory.weights;
+    const named = this.#resolve(weights), all = runtime.doubles(at, names.length);
+    all.set(runtime.doubles(wasm.sweepface_face_weights(this.#face), names.length));
+    for (const [target, weight] of named) all[target] = weight;
+    runtime.check(wasm.sweepface_face_set_weights(this.#face, at, names.length));
+    if (!this.#motion) return;
+    const cut = this.#drive('cut');
+    for (const [target, weight] of named) runtime.check(wasm.sweepface_motion_move_to(this.#motion, target, weight, cut));
+  }
+
+  /** All weights to 0, at once. */
+  reset() {
+    this.setWeights(Object.fromEntries(this.#open().names.map((name) => [name, 0])));
+  }
+
+  /** Writes positions and normals, three floats a vertex; either may be null. */
+  evaluate(positions, normals = null) {
+    const {runtime, vertexCount} = this.#open(), memory = this.#memory;
+    for (const out of [positions, normals])
+      if (out && !(out.length >= 3 * vertexCount))
+        throw new RangeError(`There must be room for ${vertexCount} vertices: ${3 * vertexCount} numbers, not ${out.length}.`);
+    runtime.words(memory.vectors, 4).set([positions ? memory.positions : 0, 0, normals ? memory.normals : 0, 0]);
+    runtime.check(runtime.wasm.sweepface_face_evaluate(this.#face, vertexCount, memory.vectors, memory.vectors + 8));
+    positions?.set(runtime.floats(memory.positions, 3 * vertexCount));
+    normals?.set(runtime.floats(memory.normals, 3 * vertexCount));
+  }
+
+  /** Sends weights to goals from where they stand; `advance` moves them. */
+  moveTo(goals, drive = {}) {
+    const {runtime} = this.#open();
+    const all = this.#resolve(goals), at = this.#drive(drive), motion = this.#moving();
+    for (const [target, goal] of all) runtime.check(runtime.wasm.sweepface_motion_move_to(motion, target, goal, at));
+    this.#waits = Math.max(this.#waits, drive.delay ?? 0);
+  }
+
+  /** A blow: adds to the velocity of a weight (per second), which drag (per second) takes away. */
+  push(name, velocityChange, drag = 8) {
+    const {runtime} = this.#open(), target = this.#shared.target(name);
+    runtime.check(runtime.wasm.sweepface_motion_push(this.#moving(), target, velocityChange, drag));
+  }
+
+  /** Lets time pass for the weights in motion; says whether anything goes on moving. */
+  advance(seconds) {
+    const {runtime, names} = this.#open(), {wasm} = runtime, {weights} = this.#memory, count = names.length;
+    if (!this.#motion) return false;
+    const still = 1e-6, before = runtime.doubles(wasm.sweepface_face_weights(this.#face), count).slice();
+    wasm.sweepface_motion_advance(this.#motion, seconds);
+    this.#waits -= Math.max(seconds, 0);
+    runtime.check(wasm.sweepface_motion_velocities(this.#motion, weights, count));
+    const fast = runtime.doubles(weights, count).some((velocity) => Math.abs(velocity) > still);
+    runtime.check(wasm.sweepface_motion_positions(this.#motion, weights, count));
+    runtime.check(wasm.sweepface_face_set_weights(this.#face, weights, count));
+    return fast || this.#waits > 0 || runtime.doubles(weights, count).some((w, k) => Math.abs(w - before[k]) > still);
+  }
+
+  /** Frees the face; it can no longer be used. Memory is given back with the last face of a file. */
+  dispose() {
+    if (!this.#shared) return;
+    const {runtime, mesh, rig} = this.#shared, {wasm} = runtime;
+    wasm.sweepface_motion_free(this.#motion);
+    wasm.sweepface_face_free(this.#face);
+    for (const key of ['positions', 'weights', 'drive', 'vectors']) wasm.free(this.#memory[key]);
+    if (--runtime.users === 0) {
+      wasm.sweepface_mesh_free(mesh);
+      wasm.sweepface_rig_free(rig);
+    }
+    this.#shared = undefined;
+  }
+
+  #open() {
+    if (!this.#shared) throw new Error('The face was disposed of.');
+    return this.#shared;
+  }
+
+  /** Targets and numbers; nothing is set before all are known. */
+  #resolve(byName) {
+    return Object.entries(byName).map(([name, value]) => {
+      const target = this.#shared.target(name);
+      if (!Number.isFinite(value)) throw new TypeError(`The weight of '${name}' must be a finite number, not ${value}.`);
+      return [target, value];
+    });
+  }
+
+  #moving() {
+    const {runtime, names} = this.#shared;
+    const weights = runtime.wasm.sweepface_face_weights(this.#face);
+    return this.#motion ||= withinMemory(() => runtime.get('sweepface_motion_create', weights, names.length));
+  }
+
+  /** The C struct of a drive: its name, or its name and numbers. */
+  #drive(drive) {
+    const {runtime} = this.#shared, at = this.#memory.drive;
+    const given = typeof drive === 'string' ? {kind: drive} : drive;
+    const kind = DRIVES.indexOf(given.kind ?? 'spring');
+    if (kind < 0) throw new Error(`There is no drive '${given.kind}'; there are ${DRIVES.join(', ')}.`);
+    runtime.wasm.sweepface_drive_of(at, kind);
+    const numbers = runtime.doubles(at + 8, DRIVE_NUMBERS.length);
+    for (const key of Object.keys(given)) {
+      if (key === 'kind') continue;
+      const place = DRIVE_NUMBERS.indexOf(key);
+      if (place < 0) throw new Error(`A drive has no '${key}'; it has kind, ${DRIVE_NUMBERS.join(', ')}.`);
+      numbers[place] = given[key];
+    }
+    return at;
+  }
+}

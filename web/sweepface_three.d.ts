@@ -1,0 +1,27 @@
+import type {BufferGeometry, Loader, LoadingManager, Material, Mesh} from 'three';
+import type {Drive, DriveKind, LoadOptions, Sweepface, Weights} from './sweepface.js';
+
+/** A face in a scene. Weights are set at any time; `update` brings the geometry up to date. */
+export class SweepfaceMesh extends Mesh<BufferGeometry, Material | Material[]> {
+  /** Materials: one a part of the face; plain ones, named as in the source, unless given. */
+  constructor(face: Sweepface, materials?: Material | Material[]);
+  readonly face: Sweepface;
+
+  /** Sets the weights that are named, at once; the others stay. */
+  setWeights(weights: Weights): void;
+  /** Sends weights to goals from where they stand; `update` moves them. */
+  moveTo(goals: Weights, drive?: DriveKind | Drive): void;
+  /** A blow: adds to the velocity of a weight (per second), which drag (per second) takes away. */
+  push(name: string, velocityChange: number, drag?: number): void;
+  /** Call it once a frame with the seconds since the last; costs nothing where nothing moves. */
+  update(seconds?: number): void;
+  /** Frees geometry, materials and the face. */
+  dispose(): void;
+}
+
+/** Loads .sweep files, as three.js's own loaders do. */
+export class SweepfaceLoader extends Loader<SweepfaceMesh> {
+  constructor(manager?: LoadingManager, options?: LoadOptions);
+  options: LoadOptions;
+  parseAsync(bytes: BufferSource, options?: LoadOptions): Promise<SweepfaceMesh>;
+}

@@ -1,0 +1,166 @@
+import assert from 'node:assert/strict';
+import {readFileSync} from 'node:fs';
+import {basename} from 'node:path';
+import test from 'node:test';
+import {Sweepface} from '../sweepface.js';
+import {difference, everyFile, exported, sample, someWeights} from './native.js';
+
+const load = (options, file = sample) => Sweepface.load(readFileSync(file), options);
+function evaluate(face) {
+  const positions = new Float32Array(3 * face.vertexCount), normals = new Float32Array(3 * face.vertexCount);
+  face.evaluate(positions, normals);
+  return {positions, normals};
+}
+
+// The module does the operations of the native library in the same order and without contraction, so that
+// positions are the same bit for bit where the surface is polynomial. Elsewhere sine and exponential come from
+// another C library; what is left of their last bit is at most one float.
+for (const file of everyFile())
+  for (const lod of [0, 2])
+    test(`${basename(file)} at lod ${lod} is the native tool's to the last float`, async () => {
+      const face = await load({lod}, file), weights = someWeights(face.names);
+      face.setWeights(weights);
+      const {positions, normals} = evaluate(face), native = exported(file, weights, lod);
+      assert.equal(native.positions.length, 3 * face.pointCount);
+      assert.equal(native.normals.length, 3 * face.pointCount);
+      const found = difference(native.positions, positions);
+      assert.ok(found.most <= 1, `positions differ by up to ${found.most} floats`);
+      assert.ok(found.count <= positions.length / 1000, `${found.count} of ${positions.length} numbers differ`);
+      for (let k = 0; k < native.normals.length; ++k) assert.ok(Math.abs(native.normals[k] - normals[k]) < 1e-6);
+      face.dispose();
+    });
+
+test('weights are set by name, and others stay', async () => {
+  const face = await load();
+  face.setWeights({jawOpen: 0.7});
+  face.setWeights({browInnerUp: 0.25});
+  assert.equal(face.weights.jawOpen, 0.7);
+  assert.equal(face.weights.browInnerUp, 0.25);
+  assert.deepEqual(Object.keys(face.weights), face.names);
+  face.reset();
+  assert.ok(Object.values(face.weights).every((weight) => weight === 0));
+});
+
+test('the mesh is ready for a graphics card', async () => {
+  const face = await load(), {triangles, texcoords, parts, vertexCount} = face;
+  assert.ok(vertexCount > face.pointCount);  // the seam down the back
+  assert.ok(triangles.every((vertex) => vertex < vertexCount));
+  assert.equal(texcoords.length, 2 * vertexCount);
+  assert.deepEqual(parts.map(({material}) => material).sort(), ['lips', 'skin']);
+  assert.equal(parts[0].start, 0);
+  assert.equal(parts[1].start, parts[0].count);
+  assert.equal(parts[1].start + parts[1].count, triangles.length);
+  assert.equal(triangles.length, 3 * 2 * 3272);
+});
+
+test('what there is not is refused with the library\'s sentence, and nothing changes', async () => {
+  const face = await load();
+  assert.throws(() => face.setWeights({jawOpen: 1, jawOpn: 1}),
+                {message: /^There is no target named 'jawOpn'; its targets are browInnerUp, .*\.$/});
+  assert.throws(() => face.setWeights({jawOpen: 1, browInnerUp: 1e9}),
+                {message: 'The weight of \'browInnerUp\' must lie within 1000000 of 0.'});
+  assert.throws(() => face.setWeights({jawOpen: NaN}), {message: /'jawOpen' must be a finite number, not NaN/});
+  assert.throws(() => face.moveTo({jawOpen: 1}, 'jump'), {message: /no drive 'jump'; there are cut, newton/});
+  assert.throws(() => face.moveTo({jawOpen: 1}, {speed: 1}), {message: /has no 'speed'; it has kind, delay/});
+  assert.throws(() => face.moveTo({jawOpen: 1}, {kind: 'newton', seconds: 0}), {message: /\.$/});
+  assert.throws(() => face.evaluate(new Float32Array(6)), {message: /There must be room for \d+ vertices/});
+  assert.equal(face.weights.jawOpen, 0);
+});
+
+test('bytes that are no face are refused with the library\'s sentence', async () => {
+  const bytes = readFileSync(sample);
+  await assert.rejects(Sweepface.load(new TextEncoder().encode('<!doctype html>'), {name: 'face.sweep'}),
+                       {message: 'face.sweep does not begin with SWEEPFC; check that it is a .sweep file.'});
+  await assert.rejects(Sweepface.load(bytes.subarray(0, bytes.length / 2)), {message: /^The face, byte \d+: the file ends/});
+  await assert.rejects(Sweepface.load('face.sweep'), {message: /needs the bytes of a .sweep file/});
+  await assert.rejects(load({lod: 65}), {message: /must be 0 to 64, not 65/});
+  await assert.rejects(load({lod: 0.5}), {message: /whole number/});
+  for (let k = 0; k < bytes.length; k += 9973) {
+    const damaged = Uint8Array.from(bytes);
+    damaged[k] ^= 0x55;
+    await assert.rejects(Sweepface.load(damaged), {message: /^The face.*\.$/});
+  }
+});
+
+test('weights move by springs and are interrupted without a jump', async () => {
+  const face = await load();
+  face.moveTo({jawOpen: 1}, {kind: 'spring', frequency: 2, damping: 0.3});
+  const seen = [];
+  for (let k = 0; k < 240; ++k) {
+    if (k === 20) face.moveTo({jawOpen: 0.2});
+    face.advance(1 / 120);
+    seen.push(face.weights.jawOpen);
+  }
+  assert.ok(Math.max(...seen) > 0.8);
+  assert.ok(Math.abs(seen.at(-1) - 0.2) < 1e-4);
+  const steps = seen.slice(1).map((weight, k) => Math.abs(weight - seen[k]));
+  assert.ok(Math.max(...steps) < 0.1);
+});
+
+test('a motion says when it is over', async () => {
+  const face = await load();
+  assert.equal(face.advance(0.1), false);
+  face.moveTo({jawOpen: 1}, {kind: 'accelerate-brake', seconds: 0.5, delay: 0.3});
+  assert.equal(face.advance(0.2), true);   // it waits
+  assert.equal(face.weights.jawOpen, 0);
+  assert.equal(face.advance(0.35), true);  // it is halfway
+  assert.ok(Math.abs(face.weights.jawOpen - 0.5) < 1e-9);
+  face.advance(0.3);
+  assert.equal(face.advance(0.1), false);
+  assert.equal(face.weights.jawOpen, 1);
+});
+
+test('setting a weight ends its motion, and its alone', async () => {
+  const face = await load();
+  face.moveTo({jawOpen: 1, browInnerUp: 1});
+  face.advance(0.05);
+  face.setWeights({jawOpen: 0.1});
+  face.advance(0.5);
+  assert.equal(face.weights.jawOpen, 0.1);
+  assert.ok(face.weights.browInnerUp > 0.9);
+});
+
+test('a blow moves a weight until drag stops it', async () => {
+  const face = await load();
+  face.push('jawOpen', 2, 4);
+  face.advance(5);
+  assert.ok(Math.abs(face.weights.jawOpen - 0.5) < 1e-6);
+});
+
+test('faces of one file share it and are disposed of one by one', async () => {
+  const face = await load(), twin = face.clone();
+  twin.setWeights({jawOpen: 1});
+  assert.equal(face.weights.jawOpen, 0);
+  const {positions} = evaluate(twin);
+  face.dispose();
+  face.dispose();
+  assert.throws(() => face.evaluate(null), {message: 'The face was disposed of.'});
+  assert.throws(() => face.names, {message: 'The face was disposed of.'});
+  assert.deepEqual(evaluate(twin).positions, positions);
+  twin.dispose();
+  assert.throws(() => twin.clone(), {message: 'The face was disposed of.'});
+});
+
+test('memory does not grow by making and disposing of faces, nor by evaluating', async () => {
+  const face = await load({lod: 1});
+  const positions = new Float32Array(3 * face.vertexCount);
+  face.clone().dispose();
+  const before = face.memoryBytes;
+  for (let k = 0; k < 200; ++k) {
+    const twin = face.clone();
+    twin.moveTo({jawOpen: 1});
+    twin.evaluate(positions);
+    twin.dispose();
+  }
+  assert.equal(face.memoryBytes, before);
+});
+
+test('a face that needs more memory than there is is refused', async () => {
+  await assert.rejects(load({lod: 60}), {message: /^There is not enough memory for the face\.$|too many vertices/});
+});
+
+test('the module may come from elsewhere', async () => {
+  const code = readFileSync(new URL('../sweepface.wasm', import.meta.url));
+  for (const wasm of [code, await WebAssembly.compile(code), new URL('../sweepface.wasm', import.meta.url)])
+    assert.equal((await load({wasm})).names.length, 8);
+});

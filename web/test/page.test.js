@@ -1,0 +1,155 @@
+import assert from 'node:assert/strict';
+import {createReadStream, existsSync, readFileSync} from 'node:fs';
+import {createServer} from 'node:http';
+import {extname, join} from 'node:path';
+import {fileURLToPath} from 'node:url';
+import test, {after, before, describe} from 'node:test';
+import {Sweepface} from '../sweepface.js';
+import {sample} from './native.js';
+
+const folder = fileURLToPath(new URL('..', import.meta.url));
+const executablePath = process.env.SWEEPFACE_CHROMIUM ?? '/usr/bin/chromium';
+const {chromium} = await import('playwright-core').catch(() => ({}));
+const skip = !chromium ? 'playwright-core is not installed; try npm ci' : !existsSync(executablePath) ? `there is no ${executablePath}` : false;
+
+const types = {'.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.wasm': 'application/wasm'};
+
+/** Serves the folder as it is, and the sample face under its usual name. */
+function serve() {
+  const server = createServer((request, response) => {
+    const path = new URL(request.url, 'http://localhost').pathname;
+    const file = path === '/sample.sweep' ? sample : join(folder, path === '/' ? 'index.html' : path);
+    if (!existsSync(file)) return response.writeHead(404).end();
+    response.writeHead(200, {'content-type': types[extname(file)] ?? 'application/octet-stream'});
+    createReadStream(file).pipe(response);
+  });
+  return new Promise((resolve) => server.listen(0, 'localhost', () => resolve(server)));
+}
+
+describe('the page', {skip, timeout: 240_000}, () => {
+  let server, browser, page;
+  const complaints = [];
+
+  before(async () => {
+    server = await serve();
+    browser = await chromium.launch({executablePath, args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader']});
+  });
+  after(async () => {
+    await browser?.close();
+    server?.close();
+  });
+
+  async function visit(viewport) {
+    await page?.close();
+    page = await browser.newPage({viewport});
+    page.on('console', (message) => ['error', 'warning'].includes(message.type()) && complaints.push(message.text()));
+    page.on('pageerror', (error) => complaints.push(error.message));
+    await page.goto(`http://localhost:${server.address().port}/`);
+    await page.waitForFunction(() => globalThis.sweepface?.mesh, undefined, {timeout: 60_000});
+    await page.addStyleTag({content: '#figures { visibility: hidden }'});  // its numbers change by themselves
+    await page.waitForTimeout(800);                                        // until nothing moves
+  }
+
+  const positions = () => page.evaluate(() => [...globalThis.sweepface.mesh.geometry.attributes.position.array]);
+  const weight = (name) => page.evaluate((name) => globalThis.sweepface.mesh.face.weights[name], name);
+  const picture = async () => (await page.locator('#view').screenshot()).toString('base64');
+
+  /** The share of pixels that two pictures differ in. */
+  const changed = (a, b) => page.evaluate(async (pictures) => {
+    const [first, second] = await Promise.all(pictures.map(async (picture) => {
+      const bitmap = await createImageBitmap(await (await fetch(`data:image/png;base64,${picture}`)).blob());
+      const context = new OffscreenCanvas(bitmap.width, bitmap.height).getContext('2d');
+      context.drawImage(bitmap, 0, 0);
+      return new Uint32Array(context.getImageData(0, 0, bitmap.width, bitmap.height).data.buffer);
+    }));
+    return first.reduce((count, pixel, k) => count + (pixel !== second[k]), 0) / first.length;
+  }, [a, b]);
+
+  async function slide(name, value) {
+    await page.locator(`input[name="${name}"]`).fill(String(value));
+    await page.waitForTimeout(800);
+  }
+
+  test('shows the sample face, and its picture changes when a slider moves', async () => {
+    await visit({width: 1000, height: 700});
+    const neutral = await picture();
+    assert.equal(await changed(neutral, await picture()), 0);
+    await slide('jawOpen', 1);
+    assert.equal(await weight('jawOpen'), 1);
+    assert.ok(await changed(neutral, await picture()) > 0.01);
+    await slide('jawOpen', 0);
+    assert.ok(await changed(neutral, await picture()) < 0.001);
+  });
+
+  test('has the positions that Node has', async () => {
+    await slide('jawOpen', 0.6);
+    await slide('mouthSmileLeft', 1);
+    const face = await Sweepface.load(readFileSync(sample)), expected = new Float32Array(3 * face.vertexCount);
+    face.setWeights({jawOpen: 0.6, mouthSmileLeft: 1});
+    face.evaluate(expected);
+    assert.deepEqual(await positions(), [...expected]);
+  });
+
+  test('turns when it is dragged', async () => {
+    const neutral = await picture();
+    await page.mouse.move(300, 300);
+    await page.mouse.down();
+    await page.mouse.move(420, 320, {steps: 4});
+    await page.mouse.up();
+    await page.waitForTimeout(1000);
+    assert.ok(await changed(neutral, await picture()) > 0.05);
+  });
+
+  test('relaxes by a spring, and sliders follow', async () => {
+    await page.locator('#rest').click();
+    await page.waitForFunction(() => globalThis.sweepface.mesh.face.weights.jawOpen < 0.001, undefined, {timeout: 20_000});
+    assert.ok(await page.locator('input[name="jawOpen"]').inputValue() < 0.05);
+  });
+
+  test('surprises', async () => {
+    await page.locator('#surprise').click();
+    await page.waitForFunction(() => Object.values(globalThis.sweepface.mesh.face.weights).some((w) => w > 0.4), undefined, {timeout: 20_000});
+  });
+
+  test('shows finer levels with the same weights', async () => {
+    await page.locator('#rest').click();
+    await slide('jawOpen', 0.5);
+    const vertices = (await positions()).length;
+    await page.locator('#lod').selectOption('2');
+    await page.waitForFunction((vertices) => globalThis.sweepface.mesh.geometry.attributes.position.array.length > 3 * vertices, vertices);
+    assert.equal(await weight('jawOpen'), 0.5);
+    await page.locator('#lines').check();
+    await page.waitForTimeout(300);
+    await page.locator('#lines').uncheck();
+  });
+
+  test('finds expressions by a part of their name', async () => {
+    await page.locator('#filter').fill('SMILE');
+    assert.deepEqual(await page.locator('.slider:not([hidden]) span').allTextContents(), ['mouthSmileLeft', 'mouthSmileRight']);
+    await page.locator('#filter').fill('');
+  });
+
+  test('opens a file, and says why another is none', async () => {
+    const open = (name, buffer) => page.locator('#file').setInputFiles({name, mimeType: 'application/octet-stream', buffer});
+    await open('holiday.sweep', Buffer.from('GIF89a'));
+    await page.waitForSelector('#message.error');
+    assert.equal(await page.locator('#message').textContent(), 'holiday.sweep does not begin with SWEEPFC; check that it is a .sweep file.');
+    await open('again.sweep', readFileSync(sample));
+    await page.waitForFunction(() => document.title.startsWith('again.sweep'));
+    assert.equal(await page.locator('#message').textContent(), '');
+  });
+
+  test('fits a phone', async () => {
+    await visit({width: 390, height: 844});
+    const wide = await page.evaluate(() => document.documentElement.scrollWidth);
+    assert.ok(wide <= 390);
+    for (const id of ['#view', '#surprise', 'input[name="jawOpen"]']) assert.ok(await page.locator(id).isVisible());
+    const neutral = await picture();
+    await slide('mouthPucker', 1);
+    assert.ok(await changed(neutral, await picture()) > 0.001);
+  });
+
+  test('has complained about nothing', () => {
+    assert.deepEqual(complaints, []);
+  });
+});

@@ -1,0 +1,32 @@
+// Compiles if the types say what the package offers. Never run.
+import {Scene} from 'three';
+import {Sweepface, type Drive, type Part} from 'sweepface';
+import {SweepfaceLoader, SweepfaceMesh} from 'sweepface/three';
+
+export async function useFace(bytes: ArrayBuffer): Promise<void> {
+  const face: Sweepface = await Sweepface.load(bytes, {lod: 2, name: 'face.sweep', wasm: new URL('https://example.org/a.wasm')});
+  const positions = new Float32Array(3 * face.vertexCount), parts: Part[] = face.parts;
+  face.setWeights({jawOpen: 0.7});
+  const drive: Drive = {kind: 'spring', frequency: 3, damping: 0.5, delay: 0.1};
+  face.moveTo({jawOpen: 0}, drive);
+  face.moveTo({jawOpen: 0}, 'accelerate-brake');
+  face.push('jawOpen', 2);
+  const moving: boolean = face.advance(1 / 60);
+  face.evaluate(positions);
+  face.evaluate(null, positions);
+  console.log(face.names[0], face.weights.jawOpen, parts[0].material, face.texcoords?.length, face.memoryBytes, moving);
+  // @ts-expect-error There is no such drive.
+  face.moveTo({jawOpen: 0}, 'jump');
+  // @ts-expect-error Faces are made by load.
+  new Sweepface();
+  face.clone().dispose();
+}
+
+export async function useThree(scene: Scene): Promise<void> {
+  const mesh: SweepfaceMesh = await new SweepfaceLoader(undefined, {lod: 1}).loadAsync('face.sweep');
+  scene.add(mesh);
+  mesh.setWeights({jawOpen: 0.7});
+  mesh.moveTo({jawOpen: 0}, 'spring');
+  mesh.update(1 / 60);
+  mesh.dispose();
+}
