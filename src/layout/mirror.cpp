@@ -98,7 +98,20 @@ Corners pointsOf(const GridMesh& mesh, Index quad) {
   return points;
 }
 
-// Leaves a component its mirror only if all of it has one.
+// Vertices where other than four quads meet, and those on the boundary.
+std::vector<char> irregularVertices(const GridMesh& mesh) {
+  std::vector<int> quads(mesh.vertexCount(), 0);
+  for (const auto& quad : mesh.quads)
+    for (const Index v : quad) ++quads[v];
+  std::vector<char> irregular;
+  for (const int count : quads) irregular.push_back(count != 4);
+  for (HalfEdge h = 0; h < static_cast<HalfEdge>(mesh.twin.size()); ++h)
+    if (mesh.twin[h] < 0) irregular[mesh.from(h)] = irregular[mesh.to(h)] = 1;
+  return irregular;
+}
+
+// Leaves a component its mirror only if all of it has one, and if it is no torus: lines across that
+// are cut on both sides meet nowhere.
 void keepWholeComponents(const GridMesh& mesh, std::vector<HalfEdge>& mirror) {
   UnionFind components(static_cast<Index>(mesh.quads.size()));
   for (HalfEdge h = 0; h < static_cast<HalfEdge>(mirror.size()); ++h) {
@@ -110,8 +123,13 @@ void keepWholeComponents(const GridMesh& mesh, std::vector<HalfEdge>& mirror) {
   for (HalfEdge h = 0; h < static_cast<HalfEdge>(mirror.size()); ++h)
     if (mirror[h] < 0 || mirror[mirror[h]] != h || mesh.twin[mirror[h]] != twinOf(h))
       broken[components.find(h >> 2)] = 1;
+  const std::vector<char> irregular = irregularVertices(mesh);
+  std::vector<char> anchored(mesh.quads.size(), 0);
+  for (Index q = 0; q < static_cast<Index>(mesh.quads.size()); ++q)
+    for (const Index v : mesh.quads[q])
+      if (irregular[v]) anchored[components.find(q)] = 1;
   for (HalfEdge h = 0; h < static_cast<HalfEdge>(mirror.size()); ++h)
-    if (broken[components.find(h >> 2)]) mirror[h] = -1;
+    if (broken[components.find(h >> 2)] || !anchored[components.find(h >> 2)]) mirror[h] = -1;
 }
 
 }  // namespace
