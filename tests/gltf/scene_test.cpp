@@ -366,5 +366,15 @@ TEST(Scene, WhatIsPassedOnNamesViewsThatExist) {
   expectRefused(glb, "images 0: its bufferView does not exist");
 }
 
+TEST(Scene, NamesThatLookLikeReferencesAreNone) {
+  Glb glb = smallFace();
+  const std::size_t last = glb.json["accessors"].size() - 1;
+  glb.json["meshes"][0]["primitives"][0]["attributes"]["bufferView"] = last;
+  glb.json["meshes"][0]["extras"]["bufferView"] = 1;
+  const gltf::Document scene = sceneOf(glb);
+  EXPECT_EQ(primitiveOf(scene)["attributes"]["bufferView"], last);
+  EXPECT_EQ(scene.json["meshes"][0]["extras"]["bufferView"], 1);
+}
+
 }  // namespace
 }  // namespace sweepface
