@@ -19,7 +19,7 @@ class NameReader {
  private:
   Index find(std::string_view name) const {
     const auto found = std::ranges::find(names_, name);
-    return found == names_.end() ? -1 : static_cast<Index>(found - names_.begin());
+    return name.empty() || found == names_.end() ? -1 : static_cast<Index>(found - names_.begin());
   }
 
   /// The leader's name, perhaps a separator, and two digits: per cent of its weight.
