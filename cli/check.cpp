@@ -35,7 +35,7 @@ void addOptions(CLI::App& app, CheckArguments& a) {
 // relative to the largest one.
 constexpr double kLargestGap = 1e-12, kLargestJump = 1e-9;
 constexpr int kSamples = 5;
-constexpr std::array kClassNames{"boundary", "C2", "spoke"};
+constexpr std::array kClassNames{"boundary", "C2", "spoke", "crease"};
 
 /// A face to look at.
 struct Pose {
@@ -139,7 +139,7 @@ class Checker {
   const Rig& rig_;
   std::vector<Pose> poses_;
   double size_ = 1;
-  std::array<JoinSummary, 3> neutral_, all_;  // by class, in the neutral and in all poses
+  std::array<JoinSummary, kClassNames.size()> neutral_, all_;  // in the neutral and in all poses
   std::vector<std::string> problems_;
 };
 
@@ -165,6 +165,7 @@ nlohmann::ordered_json Checker::report(const std::string& file) const {
           {"fullNodes", nodes(NodeKind::crossing)},
           {"irregularNodes", nodes(NodeKind::irregular)},
           {"hangingNodes", nodes(NodeKind::hanging)},
+          {"creasedNodes", nodes(NodeKind::creased)},
           {"ribbons", rig_.surface.wireframe().ribbons.size()},
           {"joins", joins}};
 }
@@ -173,8 +174,9 @@ void Checker::print(const std::string& file) const {
   fmt::print("{}: {}\n", file, problems_.empty() ? "sound" : "broken");
   fmt::print("  {} poses: the neutral, {} targets{}\n", poses_.size(), rig_.targets.size(),
              rig_.targets.empty() ? "" : " and a mixture of all");
-  fmt::print("  nodes: {} full, {} irregular, {} hanging (T-nodes)\n", nodes(NodeKind::crossing),
-             nodes(NodeKind::irregular), nodes(NodeKind::hanging));
+  fmt::print("  nodes: {} full, {} irregular, {} hanging (T-nodes){}\n", nodes(NodeKind::crossing),
+             nodes(NodeKind::irregular), nodes(NodeKind::hanging),
+             nodes(NodeKind::creased) ? fmt::format(", {} creased", nodes(NodeKind::creased)) : "");
   fmt::print("  ribbons: {}, all with shape parameters that the equation allows\n",
              rig_.surface.wireframe().ribbons.size());
   fmt::print("\n  {:<9} {:>7} {:>11} {:>7}   {:>9} {:>9} {:>9} {:>9} {:>9}\n", "joins", "count",

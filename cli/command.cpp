@@ -23,14 +23,14 @@ bool parse(const std::string& text, Number& number) {
   return error == std::errc{} && stop == end && std::isfinite(static_cast<double>(number));
 }
 
+}  // namespace
+
 std::string extension(const fs::path& path) {
   std::string text = path.extension().string();
   std::ranges::transform(text, text.begin(),
                          [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return text;
 }
-
-}  // namespace
 
 std::string HelpFormatter::make_option_desc(const CLI::Option* option) const {
   constexpr std::size_t width = 68;

@@ -31,6 +31,8 @@ Command addAnimate(CLI::App& tool);
 Command addWireframe(CLI::App& tool);
 Command addRender(CLI::App& tool);
 Command addReport(CLI::App& tool);
+Command addBuild(CLI::App& tool);
+Command addEdit(CLI::App& tool);
 
 /// Help that breaks long descriptions into lines.
 class HelpFormatter : public CLI::Formatter {

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -13,14 +14,16 @@ namespace {
 
 struct InfoArguments {
   std::string face;
-  bool quiet = false, json = false;
+  bool list = false, quiet = false, json = false;
 };
 
 void addOptions(CLI::App& app, InfoArguments& a) {
   addFace(app, a.face);
+  app.add_flag("--list", a.list,
+               "List ribbons, patches, curves and nodes by the names that `sweepface edit` takes");
   addQuiet(app, a.quiet);
   addJson(app, a.json);
-  app.footer("\nExample:\n  sweepface info face.sweep");
+  app.footer("\nExamples:\n  sweepface info face.sweep\n  sweepface info face.sweep --list");
 }
 
 nlohmann::ordered_json describe(const InfoArguments& a, const Rig& rig, std::size_t bytes,
@@ -43,6 +46,7 @@ nlohmann::ordered_json describe(const InfoArguments& a, const Rig& rig, std::siz
       {"fullNodes", kinds(NodeKind::crossing)},
       {"irregularNodes", kinds(NodeKind::irregular)},
       {"hangingNodes", kinds(NodeKind::hanging)},
+      {"creasedNodes", kinds(NodeKind::creased)},
       {"arcs", w.arcs.size()},
       {"vectors", surface.storedCount()},
       {"ribbons", w.ribbons.size()},
@@ -65,8 +69,9 @@ void printText(const nlohmann::ordered_json& r) {
   fmt::print("{}\n", r["file"].get<std::string>());
   fmt::print("  source     {} vertices\n", number("vertices"));
   fmt::print("  patches    {} over {} quads\n", number("patches"), number("quads"));
-  fmt::print("  nodes      {}: {} full, {} irregular, {} hanging\n", number("nodes"),
-             number("fullNodes"), number("irregularNodes"), number("hangingNodes"));
+  fmt::print("  nodes      {}: {} full, {} irregular, {} hanging{}\n", number("nodes"),
+             number("fullNodes"), number("irregularNodes"), number("hangingNodes"),
+             number("creasedNodes") ? fmt::format(", {} creased", number("creasedNodes")) : "");
   fmt::print("  arcs       {}\n", number("arcs"));
   fmt::print("  vectors    {} stored\n", number("vectors"));
   fmt::print("  ribbons    {}, {} with shape parameters\n", number("ribbons"),
@@ -79,6 +84,61 @@ void printText(const nlohmann::ordered_json& r) {
     fmt::print("    {:<22} {:>10}\n", part, bytes.get<std::size_t>());
 }
 
+/// Everything that has a name, with what it is made of.
+nlohmann::ordered_json list(const Rig& rig) {
+  const Wireframe& w = rig.surface.wireframe();
+  nlohmann::ordered_json list{{"ribbons", nlohmann::ordered_json::array()},
+                              {"patches", nlohmann::ordered_json::array()},
+                              {"curves", nlohmann::ordered_json::array()},
+                              {"nodes", nlohmann::ordered_json::array()}};
+  const auto reference = [&](HalfArc h) {
+    return (h & 1 ? "-" : "") + rig.nameOf(Thing::curve, arcOf(h));
+  };
+  for (std::size_t r = 0; r < w.ribbons.size(); ++r)
+    list["ribbons"].push_back({{"name", rig.nameOf(Thing::ribbon, static_cast<Index>(r))},
+                               {"rho", w.ribbons[r].rho},
+                               {"eta", w.ribbons[r].eta},
+                               {"lambda", w.ribbons[r].lambda}});
+  for (Index p = 0; p < rig.surface.patchCount(); ++p) {
+    auto& patch = list["patches"].emplace_back();
+    patch = {{"name", rig.nameOf(Thing::patch, p)}, {"sides", nlohmann::ordered_json::array()}};
+    for (int s = 0; s < 4; ++s) {
+      auto& side = patch["sides"].emplace_back(nlohmann::ordered_json::array());
+      for (HalfArc h : w.side(p, s)) side.push_back(reference(h));
+    }
+  }
+  for (std::size_t a = 0; a < w.arcs.size(); ++a)
+    list["curves"].push_back({{"name", rig.nameOf(Thing::curve, static_cast<Index>(a))},
+                              {"from", rig.nameOf(Thing::node, w.arcs[a].from)},
+                              {"to", rig.nameOf(Thing::node, w.arcs[a].to)},
+                              {"edges", w.arcs[a].edges},
+                              {"ribbon", rig.nameOf(Thing::ribbon, w.arcs[a].ribbon)}});
+  constexpr std::array kinds{"full", "irregular", "hanging", "creased"};
+  for (std::size_t n = 0; n < w.nodes.size(); ++n)
+    list["nodes"].push_back(
+        {{"name", rig.nameOf(Thing::node, static_cast<Index>(n))},
+         {"kind", kinds[static_cast<std::size_t>(rig.surface.connectivity().kinds[n])]}});
+  return list;
+}
+
+void printList(const nlohmann::ordered_json& list) {
+  const auto text = [](const nlohmann::ordered_json& value) { return value.get<std::string>(); };
+  for (const auto& r : list["ribbons"])
+    fmt::print("  ribbon {}: rho {}, eta {}, lambda {}\n", text(r["name"]), r["rho"].get<double>(),
+               r["eta"].get<double>(), r["lambda"].get<double>());
+  for (const auto& p : list["patches"]) {
+    fmt::print("  patch {}:", text(p["name"]));
+    for (const auto& side : p["sides"])
+      fmt::print(" {}", fmt::join(side.get<std::vector<std::string>>(), " + "));
+    fmt::print("\n");
+  }
+  for (const auto& c : list["curves"])
+    fmt::print("  curve {}: from {} to {}, {} edges, ribbon {}\n", text(c["name"]), text(c["from"]),
+               text(c["to"]), c["edges"].get<Index>(), text(c["ribbon"]));
+  for (const auto& n : list["nodes"])
+    fmt::print("  node {}: {}\n", text(n["name"]), text(n["kind"]));
+}
+
 Result<int> runInfo(const InfoArguments& a) {
   const Result<std::string> bytes = readFile(a.face);
   if (!bytes) return std::unexpected(bytes.error());
@@ -86,11 +146,13 @@ Result<int> runInfo(const InfoArguments& a) {
   if (!rig) return std::unexpected(rig.error());
   const Result<std::vector<FilePart>> parts = fileParts(*bytes, a.face);
   if (!parts) return std::unexpected(parts.error());
-  const nlohmann::ordered_json report = describe(a, *rig, bytes->size(), *parts);
+  nlohmann::ordered_json report = describe(a, *rig, bytes->size(), *parts);
+  if (a.list) report["list"] = list(*rig);
   if (a.json)
     printJson(report);
   else if (!a.quiet)
     printText(report);
+  if (a.list && !a.json && !a.quiet) printList(report["list"]);
   return 0;
 }
 

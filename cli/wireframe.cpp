@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <iterator>
 
+#include "sweepface/drawing.hpp"
 #include "sweepface/eval.hpp"
 #include "sweepface/io.hpp"
 
@@ -17,7 +18,9 @@ struct WireframeArguments {
 
 void addOptions(CLI::App& app, WireframeArguments& a) {
   addFace(app, a.face);
-  addOutput(app, a.output, "The .obj file to write");
+  addOutput(app, a.output,
+            "The file to write: lines (.obj), or the wireframe as a text that `sweepface build` "
+            "reads (.json)");
   addWeights(app, a.weights);
   addLod(app, a.lod, "Points on a curve for every edge of the source, 1 to 64")
       ->capture_default_str();
@@ -25,7 +28,8 @@ void addOptions(CLI::App& app, WireframeArguments& a) {
   app.footer(
       "\nThe file has the groups nodes, boundary_curves and control_curves: beside every "
       "boundary curve,\nin each patch, two curves at 1/10 and 1/4 of the way across.\n\n"
-      "Example:\n  sweepface wireframe face.sweep -o wire.obj --weights jawOpen=1");
+      "Examples:\n  sweepface wireframe face.sweep -o wire.obj --weights jawOpen=1\n"
+      "  sweepface wireframe face.sweep -o face.wire.json");
 }
 
 /// A network as points and lines of an OBJ text.
@@ -49,6 +53,20 @@ std::string objLines(const CurveNetwork& net) {
   return text;
 }
 
+/// All of a face as a text: the neutral, its expressions, names and shape parameters.
+Result<int> writeDrawing(const WireframeArguments& a, const Rig& rig) {
+  if (!a.weights.empty())
+    return fail("A .json file holds the neutral and all expressions; --weights is for .obj.");
+  const Drawing drawing = draw(rig);
+  if (auto written = writeFile(a.output, formatDrawing(drawing)); !written)
+    return std::unexpected(written.error());
+  if (!a.quiet)
+    fmt::print("{}: {} nodes, {} curves, {} patches, {} expressions\n", a.output,
+               drawing.nodes.size(), drawing.curves.size(), drawing.patches.size(),
+               drawing.expressions.size());
+  return 0;
+}
+
 Result<int> runWireframe(const WireframeArguments& a) {
   const Result<Rig> rig = readFace(a.face);
   if (!rig) return std::unexpected(rig.error());
@@ -56,6 +74,7 @@ Result<int> runWireframe(const WireframeArguments& a) {
   if (!weights) return std::unexpected(weights.error());
   if (auto ok = checkOutput(a.output, {a.face}, {".ply", ".sweep"}); !ok)
     return std::unexpected(ok.error());
+  if (isOfKind(a.output, ".json")) return writeDrawing(a, *rig);
   const CurveNetwork net = curveNetwork(rig->surface, blend(*rig, *weights), a.lod);
   if (auto written = writeFile(a.output, objLines(net)); !written)
     return std::unexpected(written.error());
@@ -68,7 +87,8 @@ Result<int> runWireframe(const WireframeArguments& a) {
 }  // namespace
 
 Command addWireframe(CLI::App& tool) {
-  return makeCommand(tool, "wireframe", "Write the network of curves as lines (.obj)",
+  return makeCommand(tool, "wireframe",
+                     "Write the network of curves as lines (.obj) or as a text to edit (.json)",
                      runWireframe);
 }
 

@@ -29,6 +29,17 @@ struct SourceMesh {
   std::vector<Index> quadCorners;
 };
 
+/// What a drawing calls its things (docs/wire-format.md): a name each, empty for those without one,
+/// or no list at all where nothing has a name.
+struct Names {
+  std::string units;  ///< of all coordinates, e.g. cm; empty where nobody said
+  std::vector<std::string> nodes, curves, patches, ribbons;
+  friend bool operator==(const Names&, const Names&) = default;
+};
+
+/// What has a name, or is called by a letter and its number: n5, c12, p0, r3.
+enum class Thing { node, curve, patch, ribbon };
+
 /// A neutral model and its targets over one wireframe.
 struct Rig {
   Surface surface;
@@ -39,9 +50,15 @@ struct Rig {
   /// A GLB of what the source's scene held besides the rig (docs/glb.md), or empty. Opaque to what
   /// plays.
   std::string scene;
+  Names names{};
 
   /// Index of a target by its name, or -1.
   Index find(std::string_view name) const;
+  /// The name of a thing, or its letter and number.
+  std::string nameOf(Thing thing, Index index) const;
+  /// A thing by its name, by its letter and number, or by its number alone. The error says what
+  /// there is.
+  Result<Index> find(Thing thing, std::string_view name) const;
 };
 
 /// The target of a name; the error says which there are.

@@ -23,6 +23,7 @@ struct Arc {
   Index edges = 1;           ///< its length: the number of source edges it runs along
   Index ribbon = 0;          ///< whose shape parameters govern it
   bool collapsed = false;    ///< all of it is one point (the pole of a fan of triangles)
+  bool crease = false;       ///< the patches on both sides share nothing but the curve
   friend bool operator==(const Arc&, const Arc&) = default;
 };
 
@@ -77,7 +78,20 @@ inline constexpr Index kStraight = -1;
 enum class NodeKind {
   crossing,   ///< a full jet in its own frame: four patches, or one or two at a boundary
   irregular,  ///< a second-order jet in the characteristic chart of its valence
-  hanging     ///< a T-node: derived from the arc it stands on
+  hanging,    ///< a T-node: derived from the arc it stands on
+  creased     ///< creases cut its star into fans, each with a jet of its own
+};
+
+/// Consecutive sectors of a star between creases or boundaries, smooth among themselves. An arm
+/// between two fans has the derivatives that the first of them gives it.
+struct Fan {
+  int first = 0;            ///< arm; the fan's own x axis leaves along it
+  int sectors = 0;          ///< counter-clockwise of it
+  bool regular = true;      ///< every sector a right angle: one jet of nine vectors
+  double step = 0;          ///< else: of the chart of its second-order jet, by sector
+  bool firstGiven = false;  ///< an earlier fan gives the derivatives along the first arm
+  bool lastGiven = false;   ///< and those along the last
+  friend bool operator==(const Fan&, const Fan&) = default;
 };
 
 /// A straight run of arcs up to the next node that does not merely hang on it.
@@ -90,12 +104,13 @@ struct Rail {
 struct Connectivity {
   std::vector<Index> patchOf;   ///< [half-arcs] the patch on the left, or -1
   std::vector<Index> cornerAt;  ///< [half-arcs] 4·patch + corner if a side starts with it, or -1
-  std::vector<HalfArc> next, prev;  ///< [half-arcs] in the loop of the patch on the left
-  std::vector<Star> stars;          ///< [nodes]
-  std::vector<NodeKind> kinds;      ///< [nodes]
-  std::vector<Index> cornerSector;  ///< [4·patches] sector of the corner in its node's star
-  std::vector<Index> cornerNode;    ///< [4·patches]
-  std::vector<Rail> rails;          ///< [half-arcs] the rest of the rail from each on
+  std::vector<HalfArc> next, prev;     ///< [half-arcs] in the loop of the patch on the left
+  std::vector<Star> stars;             ///< [nodes]
+  std::vector<NodeKind> kinds;         ///< [nodes]
+  std::vector<Index> cornerSector;     ///< [4·patches] sector of the corner in its node's star
+  std::vector<Index> cornerNode;       ///< [4·patches]
+  std::vector<Rail> rails;             ///< [half-arcs] the rest of the rail from each on
+  std::vector<std::vector<Fan>> fans;  ///< [nodes] of those that are creased
 
   /// Fails with the place where the loops do not form a surface.
   static Result<Connectivity> make(const Wireframe& wireframe);
@@ -119,6 +134,7 @@ struct JetRef {
 struct StoredVector {
   Index node = -1;
   int i = 0, j = 0;  ///< ∂x^i ∂y^j in the node's frame
+  int fan = 0;       ///< whose frame it is, at a creased node
 };
 
 /// Where the surface is asked for: (u, v) in source edges from the patch's first corner.
@@ -215,8 +231,10 @@ class Surface {
 enum class JoinClass {
   boundary,  ///< one patch only
   c2,        ///< position, first and second cross derivatives agree along the whole arc
-  spoke      ///< ends at an irregular node: C² at both ends in the node's chart, C⁰ between
+  spoke,     ///< ends at an irregular node: C² at both ends in the node's chart, C⁰ between
+  crease     ///< declared: C⁰
 };
+inline constexpr std::size_t kJoinClasses = 4;
 
 struct JoinReport {
   JoinClass joinClass = JoinClass::boundary;

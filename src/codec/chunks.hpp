@@ -22,8 +22,9 @@ struct Kind {
 
 /// The registry: in the order in which chunks stand in a file. A code never changes its meaning.
 /// One that begins with a capital is required: who does not know it must refuse the file.
-inline constexpr std::array<Kind, 12> kKinds{{{"HEAD", "container"},
+inline constexpr std::array<Kind, 14> kKinds{{{"HEAD", "container"},
                                               {"WIRE", "wireframe"},
+                                              {"CREA", "wireframe"},
                                               {"SHAP", "shape parameters"},
                                               {"NEUT", "neutral"},
                                               {"TARG", "targets"},
@@ -33,6 +34,7 @@ inline constexpr std::array<Kind, 12> kKinds{{{"HEAD", "container"},
                                               {"texc", "texture coordinates"},
                                               {"quad", "quad corners"},
                                               {"scen", "scene"},
+                                              {"name", "names"},
                                               {"END ", "container"}}};
 
 /// Place of a code in the registry, or -1.

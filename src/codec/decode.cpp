@@ -5,6 +5,7 @@
 #include "codec/blocks.hpp"
 #include "codec/chunks.hpp"
 #include "codec/faces.hpp"
+#include "codec/names.hpp"
 #include "codec/utf8.hpp"
 #include "codec/wire.hpp"
 
@@ -37,12 +38,13 @@ class Decoder {
 
   // Chunks come in the order of the registry, targets as many as the head says.
   Result<void> admit(const Chunk& chunk) {
-    static constexpr int kTarget = 4, kRequired = 4;
+    static constexpr int kCreases = 2, kTarget = 5, kRequired = 5;
     if (chunk.rank < rank_ || (chunk.rank == rank_ && chunk.rank != kTarget))
       return failAt(chunk, chunk.offset, "it comes twice or out of its order");
-    if (chunk.rank > rank_ + 1 && rank_ + 1 < kRequired)
+    const int due = rank_ + 1 == kCreases && chunk.rank != kCreases ? kCreases + 1 : rank_ + 1;
+    if (chunk.rank > due && due < kRequired)
       return failAt(chunk, chunk.offset,
-                    "chunk '" + std::string(kKinds[rank_ + 1].code) + "' is missing before it");
+                    "chunk '" + std::string(kKinds[due].code) + "' is missing before it");
     if (chunk.rank > kTarget && rig_.targets.size() < targets_)
       return failAt(chunk, chunk.offset, "targets are missing before it");
     rank_ = chunk.rank;
@@ -51,9 +53,10 @@ class Decoder {
 
   Result<void> readChunk(const Chunk& chunk) {
     static constexpr void (Decoder::* read[kKinds.size()])(Reader&) = {
-        &Decoder::head,      &Decoder::wireframe,   &Decoder::shapes,      &Decoder::neutral,
-        &Decoder::target,    &Decoder::loose,       &Decoder::sourceOrder, &Decoder::polygons,
-        &Decoder::texcoords, &Decoder::quadCorners, &Decoder::scene,       &Decoder::end};
+        &Decoder::head,     &Decoder::wireframe, &Decoder::creases,     &Decoder::shapes,
+        &Decoder::neutral,  &Decoder::target,    &Decoder::loose,       &Decoder::sourceOrder,
+        &Decoder::polygons, &Decoder::texcoords, &Decoder::quadCorners, &Decoder::scene,
+        &Decoder::names,    &Decoder::end};
     Reader in(chunk.payload, chunk.offset);
     (this->*read[chunk.rank])(in);
     if (in.left() > 0) in.refuse("the chunk goes on after its last value");
@@ -70,6 +73,15 @@ class Decoder {
   }
 
   void wireframe(Reader& in) { wireframe_ = readWireframe(in); }
+
+  void creases(Reader& in) {
+    const auto arcs = static_cast<Index>(wireframe_.arcs.size());
+    Index last = -1;
+    for (std::size_t count = in.count(1, "creases"); count > 0 && in.ok(); --count) {
+      const Index arc = in.step(last, last + std::int64_t{1}, arcs, "crease");
+      if (in.ok()) wireframe_.arcs[last = arc].crease = true;
+    }
+  }
 
   void shapes(Reader& in) {
     const std::size_t count = in.size();
@@ -205,6 +217,7 @@ class Decoder {
   }
 
   void scene(Reader& in) { rig_.scene = in.text(); }
+  void names(Reader& in) { rig_.names = readNames(in, rig_.surface.wireframe()); }
 
   void end(Reader& in) {
     if (rig_.source.loose.size() != looseCount_) in.refuse("the loose vertices are missing");

@@ -6,6 +6,7 @@
 #include "codec/blocks.hpp"
 #include "codec/chunks.hpp"
 #include "codec/faces.hpp"
+#include "codec/names.hpp"
 
 namespace sweepface {
 
@@ -62,6 +63,20 @@ std::string wireframe(const Wireframe& w) {
   writeNodes(out, w);
   writeArcs(out, w);
   writePatches(out, w);
+  return out.take();
+}
+
+bool hasCreases(const Wireframe& w) { return std::ranges::count(w.arcs, true, &Arc::crease) > 0; }
+
+std::string creases(const Wireframe& w) {
+  Writer out;
+  out.number(static_cast<std::uint64_t>(std::ranges::count(w.arcs, true, &Arc::crease)));
+  Index last = -1;
+  for (Index a = 0; a < static_cast<Index>(w.arcs.size()); ++a) {
+    if (!w.arcs[a].crease) continue;
+    out.signedNumber(a - last);
+    last = a;
+  }
   return out.take();
 }
 
@@ -160,6 +175,12 @@ std::string scene(std::string_view glb) {
   return out.take();
 }
 
+std::string names(const Names& names) {
+  Writer out;
+  writeNames(out, names);
+  return out.take();
+}
+
 }  // namespace
 }  // namespace codec
 
@@ -171,6 +192,8 @@ std::string encode(const Rig& rig) {
   writeHeader(out);
   writeChunk(out, "HEAD", head(rig));
   writeChunk(out, "WIRE", wireframe(rig.surface.wireframe()));
+  if (hasCreases(rig.surface.wireframe()))
+    writeChunk(out, "CREA", creases(rig.surface.wireframe()));
   writeChunk(out, "SHAP", shapes(rig.surface.wireframe().ribbons));
   writeChunk(out, "NEUT", vectors(rig.neutral, Precision::single));
   for (const Target& t : rig.targets) writeChunk(out, "TARG", target(t));
@@ -181,6 +204,7 @@ std::string encode(const Rig& rig) {
     writeChunk(out, "texc", texcoords(faces));
   if (!source.quadCorners.empty()) writeChunk(out, "quad", quadCorners(source));
   if (!rig.scene.empty()) writeChunk(out, "scen", scene(rig.scene));
+  if (hasNames(rig.names)) writeChunk(out, "name", names(rig.names));
   writeChunk(out, "END ", {});
   return out.take();
 }

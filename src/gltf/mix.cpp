@@ -82,11 +82,11 @@ class Influences {
 void roundTogether(std::vector<Influence>& influences, double one) {
   std::vector<std::size_t> order(influences.size());
   std::iota(order.begin(), order.end(), 0);
-  double left = 0, total = 0;
+  double left = 0;
   std::vector<double> lost;
   for (Influence& i : influences) {
     const double scaled = i.weight * one, down = std::floor(scaled);
-    total += scaled, left += scaled - down;
+    left += scaled - down;
     lost.push_back(scaled - down);
     i.weight = down;
   }

@@ -23,9 +23,13 @@ constexpr std::array<std::pair<std::string_view, Style>, styles.size()> kStyleNa
 constexpr Colour kBoundaryCurve{0.07f, 0.20f, 0.42f}, kControlCurve{0.90f, 0.45f, 0.20f};
 
 /// By JoinClass.
-constexpr std::array<Colour, 3> kJoinColours{
-    {{0.20f, 0.20f, 0.22f}, {0.10f, 0.42f, 0.66f}, {0.84f, 0.25f, 0.16f}}};
-constexpr std::array<std::string_view, 3> kJoinNames{"boundary", "C² join", "spoke"};
+constexpr std::array<Colour, kJoinClasses> kJoinColours{
+    {{0.20f, 0.20f, 0.22f}, {0.10f, 0.42f, 0.66f}, {0.84f, 0.25f, 0.16f}, {0.91f, 0.60f, 0.10f}}};
+constexpr std::array<std::string_view, kJoinClasses> kJoinNames{"boundary", "C² join", "spoke",
+                                                                "crease"};
+// The thin ones first: what is drawn later lies on top.
+constexpr std::array kJoinOrder{JoinClass::c2, JoinClass::boundary, JoinClass::spoke,
+                                JoinClass::crease};
 
 constexpr Index kPointsPerEdge = 4;
 
@@ -125,11 +129,12 @@ std::vector<Stroke> joinStrokes(const Surface& surface, std::span<const Vec3> ve
   const CurveNetwork net = curveNetwork(surface, vectors, kPointsPerEdge);
   const double fine = fineness(net.boundary.size());
   std::vector<Stroke> strokes;
-  for (const JoinClass drawn : {JoinClass::c2, JoinClass::boundary, JoinClass::spoke})
+  for (const JoinClass drawn : kJoinOrder)
     for (const Curve& c : net.boundary)
       if (joinClass(surface, arcOf(c.along)) == drawn)
-        strokes.push_back(strokeOf(net, c, kJoinColours[static_cast<std::size_t>(drawn)],
-                                   (drawn == JoinClass::spoke ? 3 : 2) * fine));
+        strokes.push_back(
+            strokeOf(net, c, kJoinColours[static_cast<std::size_t>(drawn)],
+                     (drawn == JoinClass::spoke || drawn == JoinClass::crease ? 3 : 2) * fine));
   return strokes;
 }
 
@@ -138,13 +143,14 @@ std::vector<Key> wireLegend() {
 }
 
 std::vector<Key> joinLegend(const Surface& surface) {
-  std::array<int, 3> count{};
+  std::array<int, kJoinClasses> count{};
   for (Index arc = 0; arc < static_cast<Index>(surface.wireframe().arcs.size()); ++arc)
     ++count[static_cast<std::size_t>(joinClass(surface, arc))];
   std::vector<Key> keys;
-  for (const JoinClass c : {JoinClass::c2, JoinClass::spoke, JoinClass::boundary}) {
+  for (const JoinClass c : kJoinOrder) {
     const auto k = static_cast<std::size_t>(c);
-    keys.push_back({kJoinColours[k], fmt::format("{} ({})", kJoinNames[k], count[k])});
+    if (count[k] > 0)
+      keys.push_back({kJoinColours[k], fmt::format("{} ({})", kJoinNames[k], count[k])});
   }
   return keys;
 }

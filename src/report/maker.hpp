@@ -81,7 +81,7 @@ class ReportMaker {
   FaceScenes scenes_;
   std::vector<Vec3> moved_;  // the source under the expression
   Measurement measured_;
-  std::array<JoinSummary, 3> restJoins_, movedJoins_;  // by class
+  std::array<JoinSummary, kJoinClasses> restJoins_, movedJoins_;  // by class
   Camera front_, threeQuarter_;
   double work_ = 1, done_ = 0;
 };

@@ -109,9 +109,11 @@ Result<std::string> ReportMaker::continuity() {
 std::string ReportMaker::joinTable() const {
   html::Table table({"join", "curves", "length", "share", "gap", "1st derivative", "2nd derivative",
                      "angle max", "RMS"});
-  constexpr std::array<std::string_view, 3> names{"boundary", "C²", "spoke"};
-  for (const JoinClass c : {JoinClass::c2, JoinClass::spoke, JoinClass::boundary}) {
+  constexpr std::array<std::string_view, kJoinClasses> names{"boundary", "C²", "spoke", "crease"};
+  for (const JoinClass c :
+       {JoinClass::c2, JoinClass::spoke, JoinClass::crease, JoinClass::boundary}) {
     const auto k = static_cast<std::size_t>(c);
+    if (restJoins_[k].count == 0) continue;
     const JoinSummary &r = restJoins_[k], &m = movedJoins_[k];
     std::vector<std::string> cells{std::string(names[k]), count(r.count),
                                    fmt::format("{:.4g}", r.length), percent(shareOf(c))};

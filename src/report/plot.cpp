@@ -57,6 +57,12 @@ std::string dot(double x, double y, std::string_view colour, double radius = 3.5
 
 std::string_view dashes(const Series& s) { return s.dashed ? " stroke-dasharray=\"5 4\"" : ""; }
 
+/// Of a text in UTF-8, where bytes 10xxxxxx go on with a letter.
+double letters(std::string_view text) {
+  return static_cast<double>(
+      std::ranges::count_if(text, [](char c) { return (c & 0xc0) != 0x80; }));
+}
+
 /// At most so many letters.
 std::string shortened(const std::string& name, std::size_t most) {
   if (name.size() <= most) return name;
@@ -78,7 +84,7 @@ std::string keysOf(const std::vector<Series>& series, double x, double y) {
                   : line(x, y - 4, x + 20, y - 4, s.colour,
                          fmt::format(" stroke-width=\"2\"{}", dashes(s)));
     svg += text(x + 26, y, "start", s.name, kInk);
-    x += 44 + 7.2 * static_cast<double>(s.name.size());
+    x += 40 + 6.8 * letters(s.name);
   }
   return svg;
 }
@@ -118,7 +124,7 @@ std::vector<double> niceTicks(double low, double high, bool logarithmic) {
 
 std::string linePlot(const std::string& title, const Axis& x, const Axis& y,
                      std::vector<Series> series) {
-  constexpr double width = 480, height = 330, left = 62, right = 462, top = 52, bottom = 278;
+  constexpr double width = 490, height = 330, left = 62, right = 462, top = 52, bottom = 278;
   for (Series& s : series)
     std::erase_if(s.points, [&](const Vec2& p) {
       return (x.logarithmic && !(p.x > 0)) || (y.logarithmic && !(p.y > 0));

@@ -12,13 +12,12 @@ namespace {
 
 // The first ribbon of the same shape, for each.
 std::vector<Index> findShapes(const std::vector<Shape>& ribbons) {
-  const auto numbers = [&](Index r) {
-    return std::tie(ribbons[r].rho, ribbons[r].eta, ribbons[r].lambda);
+  const auto key = [&](Index r) {
+    return std::make_tuple(ribbons[r].rho, ribbons[r].eta, ribbons[r].lambda, r);
   };
   std::vector<Index> order(ribbons.size()), first(ribbons.size());
   std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](Index a, Index b) { return numbers(a) < numbers(b); });
+  std::sort(order.begin(), order.end(), [&](Index a, Index b) { return key(a) < key(b); });
   for (std::size_t k = 0; k < order.size(); ++k) {
     const bool same = k > 0 && ribbons[order[k]] == ribbons[order[k - 1]];
     first[order[k]] = same ? first[order[k - 1]] : order[k];

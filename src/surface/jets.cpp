@@ -18,11 +18,8 @@ using Row = TermRow;
 int comp(int i, int j) { return 3 * i + j; }
 double signOf(int power) { return power % 2 ? -1 : 1; }
 
-// ∂α^i ∂β^j of a jet known in axes (x, y) that are turned by `quarter` right angles from (α, β).
-struct Turned {
-  int component;
-  double sign;
-};
+}  // namespace
+
 Turned turned(int quarter, int i, int j) {
   switch (quarter) {
     case 0:
@@ -35,6 +32,8 @@ Turned turned(int quarter, int i, int j) {
       return {comp(j, i), signOf(i)};
   }
 }
+
+namespace {
 
 // Which derived vectors need a derived vector, in ascending order.
 class Dependents {
@@ -78,6 +77,8 @@ class JetBuilder {
     }
     for (const Hub& hub : hubs_)
       if (hub.first >= 0) chart(hub);
+    for (Index n = 0; n < nodeCount(); ++n)
+      if (c_.kinds[n] == NodeKind::creased) foldFans(n);
     return order(circle);
   }
 
@@ -87,10 +88,12 @@ class JetBuilder {
     Index first = -1;          // of its six vectors: p, A, B and the second derivatives C, D, E
     std::vector<Index> nodes;  // in the order of the ring; several only around collapsed arcs
   };
-  struct Owner {
-    Index node = -1;
-    int i = 0, j = 0;
-  };
+  using Owner = StoredVector;
+  // The vectors A, B, C, D, E of F(x, y) = p + A x + B y + ½(C x² + 2 D x y + E y²).
+  using Quadratic = std::array<Index, 5>;
+  static Quadratic quadratic(const Hub& hub) {
+    return {hub.first + 1, hub.first + 2, hub.first + 3, hub.first + 4, hub.first + 5};
+  }
 
   Index nodeCount() const { return static_cast<Index>(w_.nodes.size()); }
   Index add(Owner owner, bool stored) {
@@ -105,10 +108,15 @@ class JetBuilder {
     base_.assign(nodeCount(), -1);
     hubs_.resize(w_.points);
     armBase_.assign(nodeCount(), -1);
+    fanBase_.assign(nodeCount(), -1);
     mixedBase_.assign(4 * w_.patches.size(), -1);
     for (Index n = 0; n < nodeCount(); ++n) {
       if (c_.kinds[n] == NodeKind::irregular) {
         numberIrregular(n);
+        continue;
+      }
+      if (c_.kinds[n] == NodeKind::creased) {
+        numberCreased(n);
         continue;
       }
       const bool crossing = c_.kinds[n] == NodeKind::crossing;
@@ -126,6 +134,11 @@ class JetBuilder {
       for (auto [i, j] : kOrders) add({n, i, j}, true);
     }
     hub.nodes.push_back(n);
+    numberArms(n);
+  }
+
+  // Nodes without axes of their own have vectors by arm and by corner.
+  void numberArms(Index n) {
     const Star& star = c_.stars[n];
     armBase_[n] = static_cast<Index>(rows_.size());
     for (std::size_t k = 0; k < 2 * star.arms.size(); ++k) add({n, 0, 0}, false);
@@ -135,13 +148,32 @@ class JetBuilder {
     }
   }
 
+  void numberCreased(Index n) {
+    base_[n] = add({n, 0, 0}, true);
+    fanBase_[n] = static_cast<Index>(rows_.size());
+    const auto& fans = c_.fans[n];
+    for (int f = 0; f < static_cast<int>(fans.size()); ++f)
+      for (int k = 1; k < 9; ++k) add({n, k / 3, k % 3, f}, fanStores(fans[f], k));
+    numberArms(n);
+  }
+
+  // What a fan has of its own: what its neighbours do not give, up to the second order in a chart.
+  static bool fanStores(const Fan& fan, int k) {
+    if (!fan.regular && (k == 5 || k >= 7)) return false;
+    if (fan.firstGiven && (k == 3 || k == 6)) return false;
+    const bool lastIsY = fan.regular ? fan.sectors == 1 : std::abs(std::sin(opening(fan))) > 1e-9;
+    return !(fan.lastGiven && lastIsY && (k == 1 || k == 2));
+  }
+  static double opening(const Fan& fan) { return fan.step * fan.sectors; }
+
   // ∂α^i ∂β^j at a corner.
   JetRef cornerJet(Index corner, int i, int j) const {
     const Index n = c_.cornerNode[corner];
     const int sector = c_.cornerSector[corner];
     const Star& star = c_.stars[n];
-    if (c_.kinds[n] == NodeKind::irregular) {
-      if (i == 0 && j == 0) return {hubs_[w_.nodes[n].point].first, 1};
+    if (c_.kinds[n] == NodeKind::irregular || c_.kinds[n] == NodeKind::creased) {
+      const bool creased = c_.kinds[n] == NodeKind::creased;
+      if (i == 0 && j == 0) return {creased ? base_[n] : hubs_[w_.nodes[n].point].first, 1};
       const int arms = static_cast<int>(star.arms.size());
       if (j == 0) return {armBase_[n] + 2 * sector + i - 1, 1};
       if (i == 0) return {armBase_[n] + 2 * ((sector + 1) % arms) + j - 1, 1};
@@ -345,7 +377,7 @@ class JetBuilder {
         jet = characteristicCorner(angle, step, scale);
       if (!first) writeSpoke(hub, n, s, angle, step, scale, first || second);
       for (int k = 0; k < 4; ++k)
-        compose(rows_[mixedBase_[star.sectors[s]] + k], hub, jet, 1 + k / 2, 1 + k % 2);
+        compose(rows_[mixedBase_[star.sectors[s]] + k], quadratic(hub), jet, 1 + k / 2, 1 + k % 2);
       if (!first && !second) angle += step;
     }
     if (star.closed) return angle;
@@ -359,15 +391,22 @@ class JetBuilder {
     ray = ray || (arm > 0 && collapsedArm(n, arm - 1));
     const auto d = ray ? std::array<std::complex<double>, 2>{std::polar(1.0, angle), 0}
                        : characteristicSpoke(angle, step, scale);
+    composeArm(n, arm, quadratic(hub), d);
+  }
+
+  void composeArm(Index n, std::size_t arm, const Quadratic& f,
+                  const std::array<std::complex<double>, 2>& d) {
     PlaneJet along{};
     along[comp(1, 0)] = d[0];
     along[comp(2, 0)] = d[1];
-    compose(rows_[armBase_[n] + 2 * static_cast<Index>(arm)], hub, along, 1, 0);
-    compose(rows_[armBase_[n] + 2 * static_cast<Index>(arm) + 1], hub, along, 2, 0);
+    for (int i = 1; i <= 2; ++i) compose(rows_[armVector(n, arm, i)], f, along, i, 0);
+  }
+  Index armVector(Index n, std::size_t arm, int i) const {
+    return armBase_[n] + 2 * static_cast<Index>(arm % c_.stars[n].arms.size()) + i - 1;
   }
 
   // ∂α^i ∂β^j of F(φ(α, β)) by Leibniz' rule.
-  static void compose(Row& row, const Hub& hub, const PlaneJet& jet, int i, int j) {
+  static void compose(Row& row, const Quadratic& f, const PlaneJet& jet, int i, int j) {
     constexpr double kBinomial[3][3] = {{1, 0, 0}, {1, 1, 0}, {1, 2, 1}};
     double xx = 0, xy = 0, yy = 0;
     for (int a = 0; a <= i; ++a)
@@ -381,7 +420,91 @@ class JetBuilder {
     const auto d = jet[comp(i, j)];
     const double factors[5] = {d.real(), d.imag(), xx / 2, xy, yy / 2};
     for (int k = 0; k < 5; ++k)  // what is rounding only must not tie patches together
-      if (std::abs(factors[k]) > 1e-14) addTo(row, JetRef{hub.first + 1 + k, 1}, factors[k]);
+      if (std::abs(factors[k]) > 1e-14) addTo(row, JetRef{f[k], 1}, factors[k]);
+  }
+
+  // A creased node: every fan has its jet, and takes from the fans before it what they share.
+  void foldFans(Index n) {
+    const auto& arms = c_.stars[n].arms;
+    double logLength = 0;
+    for (HalfArc arm : arms) logLength += std::log(c_.rails[arm].edges);
+    const double scale =
+        std::max(1.0, 0.25 * std::exp(logLength / static_cast<double>(arms.size())));
+    for (std::size_t f = 0; f < c_.fans[n].size(); ++f)
+      c_.fans[n][f].regular ? foldRegular(n, f) : foldChart(n, f, scale);
+  }
+
+  Index fanVector(Index n, std::size_t fan, int i, int j) const {
+    return fanBase_[n] + 8 * static_cast<Index>(fan) + comp(i, j) - 1;
+  }
+
+  // One jet in axes that turn with the sectors.
+  void foldRegular(Index n, std::size_t f) {
+    const Fan& fan = c_.fans[n][f];
+    const auto own = [&](int quarter, int i, int j) {
+      const Turned t = turned(quarter, i, j);
+      return JetRef{fanVector(n, f, t.component / 3, t.component % 3), t.sign};
+    };
+    for (int i = 1; i <= 2; ++i) {
+      if (fan.firstGiven)
+        addTo(rows_[fanVector(n, f, i, 0)], JetRef{armVector(n, fan.first, i), 1}, 1);
+      if (fan.lastGiven && fan.sectors == 1)
+        addTo(rows_[fanVector(n, f, 0, i)], JetRef{armVector(n, fan.first + 1, i), 1}, 1);
+    }
+    for (int k = 0; k <= fan.sectors; ++k) {
+      const bool given = k == 0 ? fan.firstGiven : k == fan.sectors && fan.lastGiven;
+      for (int i = 1; i <= 2 && !given; ++i)
+        addTo(rows_[armVector(n, fan.first + k, i)], own(k, i, 0), 1);
+      for (int m = 0; m < 4 && k < fan.sectors; ++m)
+        addTo(rows_[mixedBase_[sector(n, fan.first + k)] + m], own(k, 1 + m / 2, 1 + m % 2), 1);
+    }
+  }
+  Index sector(Index n, int k) const {
+    const auto& sectors = c_.stars[n].sectors;
+    return sectors[static_cast<std::size_t>(k) % sectors.size()];
+  }
+
+  // A second-order jet in a chart of the fan, as around an irregular point.
+  void foldChart(Index n, std::size_t f, double scale) {
+    const Fan& fan = c_.fans[n][f];
+    const Quadratic own{fanVector(n, f, 1, 0), fanVector(n, f, 0, 1), fanVector(n, f, 2, 0),
+                        fanVector(n, f, 1, 1), fanVector(n, f, 0, 2)};
+    solveGiven(n, f, scale);
+    for (int k = 0; k <= fan.sectors; ++k) {
+      const double angle = k * fan.step;
+      const bool given = k == 0 ? fan.firstGiven : k == fan.sectors && fan.lastGiven;
+      if (!given) composeArm(n, fan.first + k, own, characteristicSpoke(angle, fan.step, scale));
+      if (k == fan.sectors) break;
+      const PlaneJet jet = characteristicCorner(angle, fan.step, scale);
+      for (int m = 0; m < 4; ++m)
+        compose(rows_[mixedBase_[sector(n, fan.first + k)] + m], own, jet, 1 + m / 2, 1 + m % 2);
+    }
+  }
+
+  // A, C from the derivatives s A, s² C + t A along the first arm; B, E from those along the last
+  // at its angle, unless it runs straight on from the first.
+  void solveGiven(Index n, std::size_t f, double scale) {
+    const Fan& fan = c_.fans[n][f];
+    const auto spoke = characteristicSpoke(0, fan.step, scale);
+    const double s = spoke[0].real(), t = spoke[1].real();
+    const auto own = [&](int i, int j) { return JetRef{fanVector(n, f, i, j), 1}; };
+    const auto row = [&](int i, int j) -> Row& { return rows_[fanVector(n, f, i, j)]; };
+    if (fan.firstGiven) {
+      addTo(row(1, 0), JetRef{armVector(n, fan.first, 1), 1}, 1 / s);
+      addTo(row(2, 0), JetRef{armVector(n, fan.first, 2), 1}, 1 / (s * s));
+      addTo(row(2, 0), own(1, 0), -t / (s * s));
+    }
+    const double c = std::cos(opening(fan)), d = std::sin(opening(fan));
+    if (!fan.lastGiven || std::abs(d) <= 1e-9) return;
+    const std::size_t last = fan.first + fan.sectors;
+    addTo(row(0, 1), JetRef{armVector(n, last, 1), 1}, 1 / (s * d));
+    addTo(row(0, 1), own(1, 0), -c / d);
+    const double e = 1 / (s * s * d * d);
+    addTo(row(0, 2), JetRef{armVector(n, last, 2), 1}, e);
+    addTo(row(0, 2), own(2, 0), -c * c / (d * d));
+    addTo(row(0, 2), own(1, 1), -2 * c / d);
+    addTo(row(0, 2), own(1, 0), -t * c * e);
+    addTo(row(0, 2), own(0, 1), -t * d * e);
   }
 
   static void addTo(Row& row, JetRef ref, double factor) {
@@ -399,7 +522,7 @@ class JetBuilder {
     for (std::size_t v = 0; v < count; ++v) {
       if (isStored_[v]) {
         place[v] = static_cast<Index>(table.stored.size());
-        table.stored.push_back({owners_[v].node, owners_[v].i, owners_[v].j});
+        table.stored.push_back(owners_[v]);
         continue;
       }
       rows_[v].merge();
@@ -472,6 +595,7 @@ class JetBuilder {
   std::vector<Index> base_;       // [nodes] first of nine vectors of a crossing or a T-node
   std::vector<Index> armBase_;    // [nodes] first of two vectors an arm of an irregular node
   std::vector<Index> mixedBase_;  // [corners] first of four mixed vectors at an irregular node
+  std::vector<Index> fanBase_;    // [nodes] first of eight vectors a fan of a creased node
   std::vector<Hub> hubs_;         // [points]
 };
 

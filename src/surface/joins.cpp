@@ -2,6 +2,8 @@
 
 #include "sweepface/surface.hpp"
 
+#include "surface/creases.hpp"
+
 namespace sweepface {
 
 namespace {
@@ -43,14 +45,32 @@ void JoinSummary::add(const JoinReport& join) {
 
 double JoinSummary::normalRms() const { return length > 0 ? std::sqrt(normalSquares / length) : 0; }
 
+namespace {
+
+// Whether the two sectors beside an arm of a creased node share one jet.
+bool isInsideRegularFan(const Connectivity& c, Index node, HalfArc arm) {
+  const auto& arms = c.stars[node].arms;
+  const auto count = static_cast<int>(arms.size());
+  const int place = static_cast<int>(std::find(arms.begin(), arms.end(), arm) - arms.begin());
+  return std::ranges::any_of(c.fans[node], [&](const Fan& fan) {
+    const int k = (place - fan.first + count) % count;
+    return fan.regular && k > 0 && k < fan.sectors;
+  });
+}
+
+}  // namespace
+
 JoinClass joinClass(const Surface& surface, Index arc) {
   const auto& c = surface.connectivity();
   const auto& w = surface.wireframe();
   if (c.patchOf[2 * arc] < 0 || c.patchOf[2 * arc + 1] < 0) return JoinClass::boundary;
+  if (w.arcs[arc].crease) return JoinClass::crease;
   // A pole is smooth: its chart turns with the rays. Only a true irregular node breaks the line.
   for (HalfArc h : {2 * arc, 2 * arc + 1}) {
     HalfArc end = c.rails[h].last;
     const Index node = w.end(end);
+    if (c.kinds[node] == NodeKind::creased && !isInsideRegularFan(c, node, twin(end)))
+      return JoinClass::spoke;
     if (c.kinds[node] != NodeKind::irregular) continue;
     const Star& star = c.stars[node];
     const bool rib = !star.closed && star.sectors.size() == 2 &&

@@ -2,6 +2,8 @@
 
 #include "sweepface/surface.hpp"
 
+#include "surface/creases.hpp"
+
 namespace sweepface {
 
 Index Wireframe::sideEdges(Index patch, int s) const {
@@ -25,6 +27,8 @@ Result<void> checkIndices(const Wireframe& w) {
     if (arc.from < 0 || arc.from >= nodes || arc.to < 0 || arc.to >= nodes)
       return fail(name("arc", id) + " ends at a node that does not exist");
     if (arc.edges < 1) return fail(name("arc", id) + " has no length");
+    if (arc.collapsed && arc.crease)
+      return fail(name("arc", id) + " is one point and cannot be a crease");
     if (arc.ribbon < 0 || arc.ribbon >= static_cast<Index>(w.ribbons.size()))
       return fail(name("arc", id) + " belongs to a ribbon that does not exist");
   }
@@ -97,16 +101,26 @@ int quarterTurns(const Star& star) {
   return turns;
 }
 
-Result<NodeKind> kindOf(const Wireframe& w, Index node, const Star& star) {
+// The two arcs beside the side that a T-node stands on are pieces of it.
+bool hangsOnCrease(const Wireframe& w, const Star& star) {
+  const auto host = std::find(star.sectors.begin(), star.sectors.end(), kStraight);
+  const std::size_t k = host - star.sectors.begin();
+  return w.arcs[arcOf(star.arms[k])].crease || w.arcs[arcOf(star.arms[(k + 1) % 3])].crease;
+}
+
+Result<NodeKind> kindOf(const Wireframe& w, Index node, const Star& star, bool isCreased) {
   const auto straight = std::count(star.sectors.begin(), star.sectors.end(), kStraight);
   const bool atPole = std::any_of(star.arms.begin(), star.arms.end(),
                                   [&](HalfArc h) { return w.arcs[arcOf(h)].collapsed; });
   if (straight > 0) {
     if (straight > 1 || !star.closed || star.arms.size() != 3)
       return fail(name("node", node) + " stands on the side of a patch but is no T of three arcs");
+    if (hangsOnCrease(w, star))
+      return fail(name("node", node) + " hangs on a crease; run its arc on, or end the crease");
     return NodeKind::hanging;
   }
   if (atPole) return NodeKind::irregular;
+  if (isCreased) return NodeKind::creased;
   const int turns = quarterTurns(star);
   return (star.closed ? turns == 4 : turns <= 2) ? NodeKind::crossing : NodeKind::irregular;
 }
@@ -152,12 +166,14 @@ Result<Connectivity> Connectivity::make(const Wireframe& w) {
   for (HalfArc h : w.loops) leaving[w.start(h)].push_back(h);
   c.stars.resize(w.nodes.size());
   c.kinds.resize(w.nodes.size());
+  c.fans.resize(w.nodes.size());
   c.cornerSector.assign(4 * w.patches.size(), -1);
   c.cornerNode.assign(4 * w.patches.size(), -1);
   for (Index n = 0; n < static_cast<Index>(w.nodes.size()); ++n) {
     auto star = starAt(c, n, leaving[n]);
     if (!star) return std::unexpected(star.error());
-    auto kind = kindOf(w, n, *star);
+    c.fans[n] = fansOf(w, c, *star);
+    auto kind = kindOf(w, n, *star, !c.fans[n].empty());
     if (!kind) return std::unexpected(kind.error());
     if ((*kind == NodeKind::hanging) != (w.nodes[n].point < 0))
       return fail(name("node", n) + (w.nodes[n].point < 0
@@ -168,6 +184,7 @@ Result<Connectivity> Connectivity::make(const Wireframe& w) {
         c.cornerSector[star->sectors[s]] = static_cast<Index>(s);
         c.cornerNode[star->sectors[s]] = n;
       }
+    if (*kind != NodeKind::creased) c.fans[n].clear();
     c.stars[n] = std::move(*star);
     c.kinds[n] = *kind;
   }
@@ -179,7 +196,7 @@ int Connectivity::opposite(Index node, int arm) const {
   const Star& star = stars[node];
   const int arms = static_cast<int>(star.arms.size());
   const int sectors = static_cast<int>(star.sectors.size());
-  if (kinds[node] == NodeKind::irregular) return -1;
+  if (kinds[node] == NodeKind::irregular || kinds[node] == NodeKind::creased) return -1;
   if (!star.closed) return sectors == 2 && arm != 1 ? 2 - arm : -1;
   int turns = 0;
   for (int k = 0; k < arms; ++k) {

@@ -43,6 +43,14 @@ std::size_t countOf(std::string_view text, std::string_view part) {
   return count;
 }
 
+/// A page without the bytes of its pictures, in which any letters may follow each other.
+std::string withoutPictures(std::string page) {
+  constexpr std::string_view start = "base64,";
+  for (std::size_t at = page.find(start); at != page.npos; at = page.find(start, at + 1))
+    page.erase(at + start.size(), page.find('"', at) - at - start.size());
+  return page;
+}
+
 // ---- Pieces ----
 
 TEST(Html, EscapesTexts) {
@@ -186,7 +194,8 @@ TEST(Report, TellsAllAboutAFace) {
   EXPECT_EQ(countOf(*report, "<img "), 28u);
   EXPECT_EQ(countOf(*report, "<img "), countOf(*report, " alt=\""));
   EXPECT_EQ(countOf(*report, "<svg "), 5u);
-  EXPECT_EQ(countOf(*report, "nan") + countOf(*report, "inf,"), 0u);
+  const std::string words = withoutPictures(*report);
+  EXPECT_EQ(countOf(words, "nan") + countOf(words, "inf,"), 0u);
   EXPECT_NE(report->find(fmt::format("<td>143</td><td>{}</td>", rig.surface.storedCount())),
             std::string::npos);
   EXPECT_NE(report->find("<td>4,321</td>"), std::string::npos);

@@ -1,0 +1,71 @@
+#include <fmt/format.h>
+
+#include "sweepface/codec.hpp"
+#include "sweepface/drawing.hpp"
+#include "sweepface/io.hpp"
+
+#include "command.hpp"
+
+namespace sweepface::cli {
+namespace {
+
+struct BuildArguments {
+  std::string drawing, output, source;
+  bool quiet = false;
+};
+
+void addOptions(CLI::App& app, BuildArguments& a) {
+  app.add_option("DRAWING", a.drawing, "The wireframe, a .wire.json file (docs/wire-format.md)")
+      ->required()
+      ->type_name("");
+  addOutput(app, a.output, "The .sweep file to write");
+  app.add_option("--source", a.source,
+                 "Keep the source mesh of this .sweep file, whose wireframe `sweepface wireframe` "
+                 "wrote; else the source is the surface's own grid")
+      ->type_name("FACE");
+  addQuiet(app, a.quiet);
+  app.footer(
+      "\nExamples:\n  sweepface build vase.wire.json -o vase.sweep\n"
+      "  sweepface wireframe face.sweep -o face.wire.json   # the way back");
+}
+
+void printSummary(const BuildArguments& a, const Built& built, std::size_t bytes) {
+  const Rig& rig = built.rig;
+  fmt::print("{}: {} patches, {} points, {} targets, {} bytes\n", a.output,
+             rig.surface.patchCount(), rig.surface.storedCount(), rig.targets.size(), bytes);
+  if (!built.missed.empty())
+    fmt::print("curves pass within {:.4g} of their points; the furthest is '{}'{}\n",
+               built.largestMiss, built.missed,
+               built.missedIn.empty() ? "" : fmt::format(" in '{}'", built.missedIn));
+}
+
+Result<int> runBuild(const BuildArguments& a) {
+  std::vector<std::string> inputs{a.drawing};
+  if (!a.source.empty()) inputs.push_back(a.source);
+  if (auto ok = checkOutput(a.output, inputs, {".obj", ".ply", ".json", ".glb", ".gltf"}); !ok)
+    return std::unexpected(ok.error());
+  const Result<std::string> text = readFile(a.drawing);
+  if (!text) return std::unexpected(text.error());
+  const Result<Drawing> drawing = parseDrawing(*text, a.drawing);
+  if (!drawing) return std::unexpected(drawing.error());
+  Result<Built> built = build(*drawing);
+  if (!built) return std::unexpected(built.error());
+  if (!a.source.empty()) {
+    const Result<Rig> like = readFace(a.source);
+    if (!like) return std::unexpected(like.error());
+    if (auto ok = adoptSource(built->rig, *like); !ok) return std::unexpected(ok.error());
+  }
+  const std::string bytes = encode(built->rig);
+  if (auto written = writeFile(a.output, bytes); !written) return std::unexpected(written.error());
+  if (!a.quiet) printSummary(a, *built, bytes.size());
+  return 0;
+}
+
+}  // namespace
+
+Command addBuild(CLI::App& tool) {
+  return makeCommand(tool, "build", "Turn a wireframe drawn as text (.wire.json) into a face",
+                     runBuild);
+}
+
+}  // namespace sweepface::cli

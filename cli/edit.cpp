@@ -1,0 +1,202 @@
+#include "sweepface/edit.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fmt/format.h>
+#include <map>
+#include <optional>
+#include <set>
+
+#include "sweepface/codec.hpp"
+#include "sweepface/io.hpp"
+
+#include "command.hpp"
+
+namespace sweepface::cli {
+namespace {
+
+struct EditArguments {
+  std::string face, output, ribbon, target;
+  std::optional<double> rho, eta, lambda;
+  std::vector<std::pair<std::string, std::string>> moves;
+  std::vector<std::tuple<std::string, std::string, std::string, std::string>> controls;
+  bool quiet = false;
+};
+
+void addOptions(CLI::App& app, EditArguments& a) {
+  addFace(app, a.face);
+  addOutput(app, a.output, "The .sweep file to write");
+  CLI::Option* ribbon = app.add_option("--ribbon", a.ribbon,
+                                       "The ribbon that gets other shape parameters, by name or "
+                                       "number as `sweepface info --list` shows them")
+                            ->type_name("RIBBON");
+  app.add_option("--rho", a.rho, "Its rho; as it was if not given")->needs(ribbon)->type_name("X");
+  app.add_option("--eta", a.eta, "Its eta, per edge squared")->needs(ribbon)->type_name("X");
+  app.add_option("--lambda", a.lambda, "Its lambda, per edge to the fourth")
+      ->needs(ribbon)
+      ->type_name("X");
+  app.add_option("--move", a.moves,
+                 "Move a curve with its ends, or a node; may be given several times")
+      ->type_name("NAME DX,DY,DZ");
+  app.add_option("--control", a.controls,
+                 "Move the second or third control curve beside a curve in a patch: those at 1/10 "
+                 "and 1/4 of the way across, as `sweepface wireframe` draws them; may be given "
+                 "several times")
+      ->type_name("CURVE PATCH second|third DX,DY,DZ");
+  app.add_option("--target", a.target,
+                 "Move what an expression adds, instead of the neutral with all its expressions")
+      ->type_name("NAME");
+  addQuiet(app, a.quiet);
+  app.footer(
+      "\nExamples:\n  sweepface edit vase.sweep --ribbon belly --eta -200 -o tight.sweep\n"
+      "  sweepface edit face.sweep --move c12 0,0.1,0 --control c12 p3 second 0,0,0.05 -o "
+      "other.sweep\n\nOnly the patches that own what is edited change. The file's tolerance "
+      "speaks of the meshes it was\nconverted from, not of the edits.");
+}
+
+Result<Vec3> parseOffset(const std::string& text) {
+  double values[3]{};
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  for (int k = 0; k < 3; ++k) {
+    const auto [stop, error] = std::from_chars(at, end, values[k]);
+    const bool ends = k < 2 ? stop != end && *stop == ',' : stop == end;
+    if (error != std::errc{} || !ends || !(std::abs(values[k]) < 1e30))
+      return fail(fmt::format("An offset must be three numbers like 0,0.1,-2, not '{}'.", text));
+    at = stop + (k < 2);
+  }
+  return Vec3{values[0], values[1], values[2]};
+}
+
+/// Edits a rig and remembers what changed.
+class Editor {
+ public:
+  explicit Editor(Rig rig) : rig_(std::move(rig)) {}
+
+  Result<void> edit(const EditArguments& a) {
+    if (!a.target.empty() && (target_ = rig_.find(a.target)) < 0)
+      return fail(fmt::format("There is no expression named '{}'.", a.target));
+    if (!a.ribbon.empty())
+      if (auto ok = reshape(a); !ok) return ok;
+    if (auto ok = move(a); !ok) return ok;
+    for (const auto& [curve, patch, which, offset] : a.controls)
+      if (auto ok = moveControl(curve, patch, which, offset); !ok) return ok;
+    return {};
+  }
+
+  const Rig& rig() const { return rig_; }
+  const std::set<Index>& changed() const { return changed_; }
+
+ private:
+  Result<void> remember(const Result<Patches>& patches) {
+    if (!patches) return std::unexpected(patches.error());
+    changed_.insert(patches->begin(), patches->end());
+    return {};
+  }
+
+  Result<void> reshape(const EditArguments& a) {
+    const Result<Index> ribbon = rig_.find(Thing::ribbon, a.ribbon);
+    if (!ribbon) return std::unexpected(ribbon.error());
+    Shape shape = rig_.surface.wireframe().ribbons[*ribbon];
+    shape = {a.rho.value_or(shape.rho), a.eta.value_or(shape.eta), a.lambda.value_or(shape.lambda)};
+    return remember(setShape(rig_, *ribbon, shape));
+  }
+
+  // A node that two curves share moves once; one that is named itself goes where that says.
+  Result<void> move(const EditArguments& a) {
+    std::map<Index, Vec3> own, taken;
+    for (const auto& [name, text] : a.moves) {
+      const Result<Vec3> by = parseOffset(text);
+      if (!by) return std::unexpected(by.error());
+      if (auto ok = gather(name, *by, own, taken); !ok) return ok;
+    }
+    taken.merge(own);  // keeps what is in `taken`
+    for (const auto& [node, by] : own) taken[node] = by;
+    std::vector<NodeMove> moves;
+    for (const auto& [node, by] : taken) moves.push_back({node, by});
+    return remember(moveNodes(rig_, moves, target_));
+  }
+
+  Result<void> gather(const std::string& name, const Vec3& by, std::map<Index, Vec3>& own,
+                      std::map<Index, Vec3>& taken) const {
+    const bool isNode =
+        !isNamed(Thing::curve, name) && (isNamed(Thing::node, name) || name.starts_with('n'));
+    const Result<Index> thing = rig_.find(isNode ? Thing::node : Thing::curve, name);
+    if (!thing) return std::unexpected(thing.error());
+    if (isNode) {
+      own[*thing] = by;
+      return {};
+    }
+    const auto ends = endsOf(rig_, *thing);
+    if (!ends) return std::unexpected(ends.error());
+    for (Index node : *ends)
+      if (const auto [place, isNew] = taken.try_emplace(node, by); !isNew && place->second != by)
+        return fail(
+            fmt::format("Two curves take node '{}' to different places; move the node "
+                        "itself as well.",
+                        rig_.nameOf(Thing::node, node)));
+    return {};
+  }
+
+  bool isNamed(Thing thing, const std::string& name) const {
+    const auto& names = thing == Thing::node ? rig_.names.nodes : rig_.names.curves;
+    return std::ranges::find(names, name) != names.end();
+  }
+
+  Result<void> moveControl(const std::string& curve, const std::string& patch,
+                           const std::string& which, const std::string& offset) {
+    const Result<Index> c = rig_.find(Thing::curve, curve), p = rig_.find(Thing::patch, patch);
+    if (!c) return std::unexpected(c.error());
+    if (!p) return std::unexpected(p.error());
+    const Result<Vec3> by = parseOffset(offset);
+    if (!by) return std::unexpected(by.error());
+    if (which != "second" && which != "third")
+      return fail(fmt::format("A control curve is the 'second' or the 'third', not '{}'.", which));
+    const ControlMove move{*c, *p, which == "second" ? *by : Vec3{},
+                           which == "third" ? *by : Vec3{}};
+    return remember(moveControls(rig_, move, target_));
+  }
+
+  Rig rig_;
+  Index target_ = -1;
+  std::set<Index> changed_;
+};
+
+void printSummary(const EditArguments& a, const Editor& editor) {
+  constexpr std::size_t most = 12;
+  std::vector<std::string> names;
+  for (Index patch : editor.changed()) {
+    if (names.size() == most) break;
+    names.push_back(editor.rig().nameOf(Thing::patch, patch));
+  }
+  fmt::print("{}: {} of {} patches changed{}{}{}\n", a.output, editor.changed().size(),
+             editor.rig().surface.patchCount(), names.empty() ? "" : ": ", fmt::join(names, ", "),
+             editor.changed().size() > most ? ", ..." : "");
+}
+
+Result<int> runEdit(const EditArguments& a) {
+  if (auto ok = checkOutput(a.output, {}, {".obj", ".ply", ".json", ".glb", ".gltf"}); !ok)
+    return std::unexpected(ok.error());
+  if (a.ribbon.empty() && a.moves.empty() && a.controls.empty())
+    return fail("There is nothing to edit; give --ribbon, --move or --control.");
+  if (!a.ribbon.empty() && !a.rho && !a.eta && !a.lambda)
+    return fail("The ribbon needs --rho, --eta or --lambda.");
+  Result<Rig> rig = readFace(a.face);
+  if (!rig) return std::unexpected(rig.error());
+  Editor editor(std::move(*rig));
+  if (auto ok = editor.edit(a); !ok) return std::unexpected(ok.error());
+  if (auto written = writeFile(a.output, encode(editor.rig())); !written)
+    return std::unexpected(written.error());
+  if (!a.quiet) printSummary(a, editor);
+  return 0;
+}
+
+}  // namespace
+
+Command addEdit(CLI::App& tool) {
+  return makeCommand(tool, "edit",
+                     "Change shape parameters, move curves and control curves of a face", runEdit);
+}
+
+}  // namespace sweepface::cli

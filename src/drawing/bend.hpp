@@ -1,0 +1,24 @@
+#pragma once
+
+#include <vector>
+
+#include "sweepface/surface.hpp"
+
+namespace sweepface::drawing {
+
+/// The stored vectors of a pose [storedCount].
+using Pose = std::vector<Vec3>;
+
+/// Places that sums of a surface's vectors should take, in every pose.
+struct Wishes {
+  std::vector<std::vector<Term>> sums;
+  std::vector<std::vector<Vec3>> places;  ///< [poses][sums]
+};
+
+/// Finds the stored vectors that are not `known` [storedCount]: by least squares the wishes come
+/// true, and where they say nothing the surface bends least. `poses` have the known ones and
+/// receive the others; the result is linear in the known vectors and the wishes.
+Result<void> bendLeast(const Surface& surface, const std::vector<bool>& known, const Wishes& wishes,
+                       std::vector<Pose>& poses);
+
+}  // namespace sweepface::drawing

@@ -1,0 +1,383 @@
+// From a drawing to a model: the jets that nobody gave are found from the curves.
+#include <algorithm>
+#include <fmt/format.h>
+#include <limits>
+
+#include "sweepface/eval.hpp"
+
+#include "drawing/bend.hpp"
+#include "drawing/frames.hpp"
+#include "drawing/grid_source.hpp"
+#include "drawing/weave.hpp"
+#include "drawing/wishes.hpp"
+#include "drawing/words.hpp"
+#include "surface/jets.hpp"
+
+namespace sweepface {
+
+namespace drawing {
+namespace {
+
+// As for conversion: a share of the diagonal of the bounding box.
+constexpr double kDefaultTolerance = 0.0002;
+
+class Builder {
+ public:
+  Builder(const Drawing& drawing, Woven woven)
+      : d_(drawing), woven_(std::move(woven)), w_(woven_.wireframe) {}
+
+  Result<Built> build() {
+    for (const auto step : {&Builder::chooseStored, &Builder::makeSurfaces, &Builder::placeNodes,
+                            &Builder::addExpressions, &Builder::bend, &Builder::assemble})
+      if (auto ok = (this->*step)(); !ok) return std::unexpected(ok.error());
+    return std::move(built_);
+  }
+
+ private:
+  Index nodeCount() const { return static_cast<Index>(w_.nodes.size()); }
+  NodeKind kind(Index n) const { return woven_.connectivity.kinds[n]; }
+
+  std::unexpected<Error> refuse(const TextPlace& place, const std::string& what) const {
+    return failAt(d_, place, what);
+  }
+
+  // A crossing stores what its jet gives, or all there is where the curves must say it.
+  Result<void> chooseStored() {
+    axes_.resize(w_.nodes.size());
+    for (Index n = 0; n < nodeCount(); ++n) {
+      if (auto ok = checkJets(n); !ok) return ok;
+      if (kind(n) != NodeKind::crossing) continue;
+      if (d_.nodes[n].jets.empty()) {
+        w_.nodes[n].stored = kWholeJet;
+        continue;
+      }
+      const auto quarter = placeInStar(woven_.connectivity, n, armOf(d_.nodes[n].jets[0]));
+      if (!quarter) return leavesNot(n, 0);
+      for (int k = 0; k < 9; ++k) {
+        axes_[n][k] = turned(*quarter, k / 3, k % 3);
+        if (k > 0 && d_.nodes[n].jets[0].vectors[k])
+          w_.nodes[n].stored |= static_cast<JetMask>(1 << axes_[n][k].component);
+      }
+      if (!isClosed(w_.nodes[n].stored))
+        return refuse(d_.nodes[n].place,
+                      fmt::format("the jet of node '{}' has a derivative without those before it: "
+                                  "xx needs x, xy needs x and y",
+                                  d_.nodes[n].name));
+    }
+    return {};
+  }
+
+  Result<void> checkJets(Index n) const {
+    const auto given = d_.nodes[n].jets.size();
+    const auto fans = std::max<std::size_t>(1, woven_.connectivity.fans[n].size());
+    if (given == 0 || given == fans) return {};
+    return refuse(d_.nodes[n].place,
+                  fmt::format("node '{}' has {} jets and needs {}; only creases that meet cut a "
+                              "node into parts with a jet each",
+                              d_.nodes[n].name, given, fans));
+  }
+
+  HalfArc armOf(const Drawing::Jet& jet) const { return woven_.halfArc(jet.along); }
+
+  std::unexpected<Error> leavesNot(Index n, std::size_t jet) const {
+    return refuse(d_.nodes[n].place,
+                  fmt::format("a jet of node '{}' runs along '{}', which is no curve that leaves "
+                              "it so; a '-' stands before a curve that arrives",
+                              d_.nodes[n].name, d_.nodes[n].jets[jet].along));
+  }
+
+  static bool isClosed(JetMask mask) {
+    for (int k = 1; k < 9; ++k)
+      if (mask >> k & 1)
+        if ((k >= 3 && !(mask >> (k - 3) & 1)) || (k % 3 > 0 && !(mask >> (k - 1) & 1)))
+          return false;
+    return true;
+  }
+
+  // The jets are those of plain ribbons: shape parameters then bend what has been drawn.
+  Result<void> makeSurfaces() {
+    auto surface = Surface::make(w_);
+    if (!surface) return failNamed(d_, w_, surface.error().message);
+    built_.rig.surface = std::move(*surface);
+    Wireframe plain = w_;
+    std::ranges::fill(plain.ribbons, Shape{});
+    surface = Surface::make(std::move(plain));
+    if (!surface) return failNamed(d_, w_, surface.error().message);
+    plain_ = std::move(*surface);
+    jets_.emplace(plain_);
+    known_.assign(plain_.storedCount(), false);
+    poses_.assign(1 + d_.expressions.size(), Pose(plain_.storedCount()));
+    return {};
+  }
+
+  void set(std::size_t pose, Index node, int component, const Vec3& value, int fan = 0) {
+    const Index v = jets_->at(node, component, fan);
+    poses_[pose][v] = value;
+    known_[v] = true;
+  }
+
+  Result<void> placeNodes() {
+    for (Index n = 0; n < nodeCount(); ++n) {
+      if (kind(n) == NodeKind::hanging) continue;
+      const Drawing::Node& node = d_.nodes[n];
+      set(0, n, 0, *woven_.placeOf(d_, n));
+      for (std::size_t f = 0; f < node.jets.size(); ++f) {
+        if (auto ok = checkComplete(n, f); !ok) return ok;
+        if (auto ok = setJet(0, n, f, node.jets[f].vectors); !ok) return ok;
+      }
+    }
+    return {};
+  }
+
+  using Derivatives = std::array<std::optional<Vec3>, 9>;
+
+  // Where nothing is predicted a jet has all its vectors.
+  Result<void> checkComplete(Index n, std::size_t f) const {
+    if (kind(n) == NodeKind::crossing) return {};
+    const Drawing::Node& node = d_.nodes[n];
+    const auto fan = fanOf(n, f);
+    if (!fan) return leavesNot(n, f);
+    std::string needed, unknown;
+    for (int k = 1; k < 9; ++k) {
+      const std::string word = fmt::format(" {}", kJetWords[static_cast<std::size_t>(k)]);
+      const bool stored = jets_->at(n, k, *fan) >= 0;
+      if (stored && !node.jets[f].vectors[k]) needed += word;
+      if (!stored && kind(n) == NodeKind::irregular && node.jets[f].vectors[k]) unknown += word;
+    }
+    if (!needed.empty())
+      return refuse(node.place, fmt::format("the jet of node '{}' along '{}' lacks{}", node.name,
+                                            node.jets[f].along, needed));
+    if (!unknown.empty())
+      return refuse(
+          node.place,
+          fmt::format("other than four patches meet at node '{}', so that its jet has no{}",
+                      node.name, unknown));
+    return {};
+  }
+
+  // The fan of a creased node that a jet is of; 0 elsewhere. Nothing if its curve begins none.
+  std::optional<int> fanOf(Index n, std::size_t f) const {
+    if (kind(n) != NodeKind::creased) return 0;
+    const auto place = placeInStar(woven_.connectivity, n, armOf(d_.nodes[n].jets[f]));
+    const auto& fans = woven_.connectivity.fans[n];
+    const int arms = static_cast<int>(woven_.connectivity.stars[n].arms.size());
+    for (std::size_t k = 0; place && k < fans.size(); ++k)
+      if (fans[k].first % arms == *place) return static_cast<int>(k);
+    return std::nullopt;
+  }
+
+  Result<void> setJet(std::size_t pose, Index n, std::size_t f, const Derivatives& given) {
+    if (kind(n) == NodeKind::irregular) return setIrregular(pose, n, given);
+    const int fan = fanOf(n, f).value_or(0);
+    for (int k = 1; k < 9; ++k) {
+      const Turned axis = kind(n) == NodeKind::crossing ? axes_[n][k] : Turned{k, 1};
+      if (given[k] && jets_->at(n, axis.component, fan) >= 0)
+        set(pose, n, axis.component, axis.sign * *given[k], fan);
+    }
+    return {};
+  }
+
+  Result<void> setIrregular(std::size_t pose, Index n, const Derivatives& given) {
+    const auto angle = angleAt(n);
+    if (!angle) return leavesNot(n, 0);
+    Jet jet{};
+    for (int k = 1; k < 9; ++k) jet[k] = given[k].value_or(Vec3{});
+    jet = turnedJet(jet, *angle);
+    for (int k = 1; k < 9; ++k)
+      if (jets_->at(n, k) >= 0) set(pose, n, k, jet[k]);
+    return {};
+  }
+
+  // Where the x axis of an irregular node's jet lies in the chart; nothing if its curve leaves none
+  // of the nodes at the point.
+  std::optional<double> angleAt(Index n) const {
+    const HalfArc arm = armOf(d_.nodes[n].jets[0]);
+    if (arm < 0 || w_.arcs[arcOf(arm)].collapsed) return std::nullopt;
+    const Index start = w_.start(arm);
+    if (kind(start) != NodeKind::irregular || jets_->home(start) != jets_->home(n))
+      return std::nullopt;
+    return chartAngle(plain_, *jets_, n, arm);
+  }
+
+  Result<void> addExpressions() {
+    for (std::size_t e = 0; e < d_.expressions.size(); ++e) {
+      auto offsets = offsetsOf(d_, woven_, d_.expressions[e]);
+      if (!offsets) return std::unexpected(offsets.error());
+      shareMoves(*offsets);
+      for (Index n = 0; n < nodeCount(); ++n)
+        if (offsets->nodes[n] && kind(n) != NodeKind::hanging) set(1 + e, n, 0, *offsets->nodes[n]);
+      for (const Drawing::Move& move : d_.expressions[e].moves)
+        if (auto ok = moveJets(1 + e, move); !ok) return ok;
+      offsets_.push_back(std::move(*offsets));
+    }
+    return {};
+  }
+
+  // Nodes at one point move together.
+  void shareMoves(Offsets& offsets) const {
+    for (Index n = 0; n < nodeCount(); ++n) {
+      if (d_.nodes[n].with.empty() || d_.nodes[n].at) continue;
+      auto &own = offsets.nodes[n], &host = offsets.nodes[woven_.nodes.at(d_.nodes[n].with)];
+      if (own && !host) host = own;
+    }
+    for (Index n = 0; n < nodeCount(); ++n)
+      if (!d_.nodes[n].with.empty() && !offsets.nodes[n])
+        offsets.nodes[n] = offsets.nodes[woven_.nodes.at(d_.nodes[n].with)];
+  }
+
+  Result<void> moveJets(std::size_t pose, const Drawing::Move& move) {
+    if (move.jets.empty()) return {};
+    const Index n = woven_.nodes.at(move.name);
+    const auto& jets = d_.nodes[n].jets;
+    if (move.jets.size() != jets.size())
+      return refuse(move.place, fmt::format("node '{}' has {} jets and {} move", move.name,
+                                            jets.size(), move.jets.size()));
+    for (std::size_t f = 0; f < jets.size(); ++f) {
+      Derivatives offsets;
+      for (const auto& [k, offset] : move.jets[f]) {
+        if (!jets[f].vectors[k])
+          return refuse(move.place, fmt::format("the jet of node '{}' has no '{}' that could move",
+                                                move.name, kJetWords[static_cast<std::size_t>(k)]));
+        offsets[k] = offset;
+      }
+      if (auto ok = setJet(pose, n, f, offsets); !ok) return ok;
+    }
+    return {};
+  }
+
+  Result<void> bend() {
+    auto drawn = gatherWishes(d_, woven_, plain_, offsets_);
+    if (!drawn) return std::unexpected(drawn.error());
+    if (auto ok = bendLeast(plain_, known_, drawn->wishes, poses_); !ok)
+      return refuse({}, ok.error().message);
+    for (const Pose& pose : poses_)
+      for (const Vec3& v : pose)
+        for (const double x : {v.x, v.y, v.z})
+          if (!(std::abs(x) <= std::numeric_limits<float>::max()))
+            return refuse({}, "a vector of the model is beyond what a float can hold");
+    return measureMiss(*drawn);
+  }
+
+  Result<void> measureMiss(const DrawnWishes& drawn) {
+    std::vector<Vec3> neutral;
+    for (std::size_t pose = 0; pose < poses_.size(); ++pose) {
+      std::vector<Vec3> misses = missesOf(drawn.wishes, pose);
+      if (pose == 0) neutral = misses;
+      for (std::size_t k = 0; k < misses.size(); ++k) {
+        const double miss = norm(pose == 0 ? misses[k] : neutral[k] + misses[k]);
+        if (miss <= built_.largestMiss) continue;
+        built_.largestMiss = miss;
+        built_.missed = d_.curves[drawn.curves[k]].name;
+        built_.missedIn = pose == 0 ? "" : d_.expressions[pose - 1].name;
+      }
+    }
+    if (d_.tolerance == 0 || built_.largestMiss <= d_.tolerance) return {};
+    const Drawing::Curve& curve = d_.curves[woven_.curves.at(built_.missed)];
+    const std::string in = built_.missedIn.empty() ? "" : fmt::format(" in '{}'", built_.missedIn);
+    return refuse(curve.place,
+                  fmt::format("curve '{}' passes {:.3g} from one of its points, or from one beside "
+                              "it,{} and the tolerance is {:.3g}; put a node between",
+                              curve.name, built_.largestMiss, in, d_.tolerance));
+  }
+
+  // How far what came out is from the wishes: for an expression, what it adds from what it should.
+  std::vector<Vec3> missesOf(const Wishes& wishes, std::size_t pose) const {
+    std::vector<Vec3> vectors(plain_.vectorCount()), misses;
+    plain_.settle(poses_[pose], vectors);
+    for (std::size_t k = 0; k < wishes.sums.size(); ++k) {
+      Vec3 miss = -wishes.places[pose][k];
+      for (const Term& t : wishes.sums[k]) miss += t.factor * vectors[t.vector];
+      misses.push_back(miss);
+    }
+    return misses;
+  }
+
+  Result<void> assemble() {
+    Rig& rig = built_.rig;
+    rig.neutral = std::move(poses_[0]);
+    for (std::size_t e = 0; e < d_.expressions.size(); ++e)
+      rig.targets.push_back({d_.expressions[e].name, std::move(poses_[1 + e]), {}});
+    rig.source = gridSource(rig.surface);
+    rig.tolerance = d_.tolerance > 0 ? d_.tolerance : defaultTolerance();
+    nameThings();
+    return {};
+  }
+
+  double defaultTolerance() const {
+    const auto first = std::ranges::find_if(d_.nodes, [](const auto& n) { return bool(n.at); });
+    Vec3 low = *first->at, high = low;
+    for (const Drawing::Node& node : d_.nodes) {
+      const Vec3 p = node.at.value_or(low);
+      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    }
+    return std::max(built_.largestMiss, kDefaultTolerance * norm(high - low));
+  }
+
+  // Names that are what a thing without one is called anyway are not kept.
+  void nameThings() {
+    Names& names = built_.rig.names;
+    names.units = d_.units;
+    keep(Thing::node, d_.nodes, names.nodes);
+    keep(Thing::curve, d_.curves, names.curves);
+    keep(Thing::patch, d_.patches, names.patches);
+    keep(Thing::ribbon, d_.ribbons, names.ribbons);
+    if (!names.ribbons.empty()) names.ribbons.resize(w_.ribbons.size());
+  }
+  template <typename Things>
+  void keep(Thing kind, const Things& things, std::vector<std::string>& names) const {
+    std::vector<std::string> own;
+    bool any = false;
+    for (const auto& thing : things) {
+      const auto index = static_cast<Index>(own.size());
+      const bool plain = thing.name == built_.rig.nameOf(kind, index);
+      own.push_back(plain ? "" : thing.name);
+      any |= !own.back().empty();
+    }
+    if (any) names = std::move(own);
+  }
+
+  const Drawing& d_;
+  Woven woven_;
+  Wireframe& w_;
+  std::vector<std::array<Turned, 9>>
+      axes_;  // [nodes] where a crossing stores its jet's derivatives
+  Surface plain_;
+  std::optional<StoredJets> jets_;
+  std::vector<bool> known_;       // [storedCount]
+  std::vector<Pose> poses_;       // the neutral, then what every expression adds
+  std::vector<Offsets> offsets_;  // [expressions]
+  Built built_;
+};
+
+}  // namespace
+}  // namespace drawing
+
+Result<Built> build(const Drawing& d) {
+  auto woven = drawing::weave(d);
+  if (!woven) return std::unexpected(woven.error());
+  return drawing::Builder(d, std::move(*woven)).build();
+}
+
+Result<void> adoptSource(Rig& rig, const Rig& like) {
+  Wireframe own = rig.surface.wireframe(), other = like.surface.wireframe();
+  own.ribbons = other.ribbons = {};
+  for (Wireframe* w : {&own, &other}) {
+    for (Node& node : w->nodes) node.stored = kPosition;
+    for (Arc& arc : w->arcs) arc.ribbon = 0;
+  }
+  if (own != other)
+    return fail(
+        "The curves or patches are others than those of the file whose source is to be "
+        "kept; build without it.");
+  rig.source = like.source;
+  rig.scene = like.scene;
+  for (Target& target : rig.targets) {
+    const Index same = like.find(target.name);
+    target.looseDifference = same >= 0 ? like.targets[same].looseDifference
+                                       : std::vector<Vec3>(like.source.loose.size());
+  }
+  return {};
+}
+
+}  // namespace sweepface

@@ -1,0 +1,74 @@
+// Sentences about places in a drawing.
+#include <array>
+#include <cctype>
+#include <fmt/format.h>
+
+#include "drawing/weave.hpp"
+
+namespace sweepface::drawing {
+
+namespace {
+
+struct Spoken {
+  std::string name;
+  TextPlace place;
+};
+
+// What the surface calls `word` and a number, as the drawing calls it; without a name if it means
+// something else.
+Spoken spoken(const Drawing& d, const Wireframe& w, std::string_view word, std::size_t number) {
+  if (word == "node" && number < d.nodes.size())
+    return {fmt::format("node '{}'", d.nodes[number].name), d.nodes[number].place};
+  if (word == "T-node" && number < d.nodes.size())
+    return {fmt::format("node '{}'", d.nodes[number].name), d.nodes[number].place};
+  if (word == "arc" && number < d.curves.size())
+    return {fmt::format("curve '{}'", d.curves[number].name), d.curves[number].place};
+  if (word == "patch" && number < d.patches.size())
+    return {fmt::format("patch '{}'", d.patches[number].name), d.patches[number].place};
+  if (word == "ribbon" && number < d.ribbons.size())
+    return {fmt::format("ribbon '{}'", d.ribbons[number].name), d.ribbons[number].place};
+  // A ribbon that the drawing does not name: it is known by its first curve.
+  if (word == "ribbon")
+    for (std::size_t a = 0; a < w.arcs.size() && a < d.curves.size(); ++a)
+      if (w.arcs[a].ribbon == static_cast<Index>(number))
+        return {fmt::format("the ribbon of curve '{}'", d.curves[a].name), d.curves[a].place};
+  return {};
+}
+
+std::string withoutPeriod(std::string message) {
+  if (message.ends_with('.')) message.pop_back();
+  return message;
+}
+
+}  // namespace
+
+std::unexpected<Error> failAt(const Drawing& d, const TextPlace& place, const std::string& what) {
+  const std::string source = d.source.empty() ? "The drawing" : d.source;
+  if (place.line == 0) return fail(fmt::format("{}: {}.", source, what));
+  return fail(fmt::format("{}, line {}, column {}: {}.", source, place.line, place.column, what));
+}
+
+std::unexpected<Error> failNamed(const Drawing& d, const Wireframe& w, const std::string& message) {
+  std::string text;
+  TextPlace first;
+  for (std::size_t at = 0; at < message.size();) {
+    const std::size_t end = std::min(message.find(' ', at), message.size());
+    const std::string_view word(message.data() + at, end - at);
+    std::size_t digits = end + 1, number = 0;
+    while (digits < message.size() && std::isdigit(static_cast<unsigned char>(message[digits])) &&
+           digits < end + 10)
+      number = 10 * number + static_cast<std::size_t>(message[digits++] - '0');
+    const Spoken thing = digits > end + 1 ? spoken(d, w, word, number) : Spoken{};
+    if (thing.name.empty()) {
+      text.append(message, at, end + 1 - at);
+      at = end + 1;
+      continue;
+    }
+    if (first.line == 0) first = thing.place;
+    text += thing.name;
+    at = digits;
+  }
+  return failAt(d, first, withoutPeriod(text));
+}
+
+}  // namespace sweepface::drawing

@@ -1,0 +1,198 @@
+// Moving the control curves beside a boundary curve. With both moved by constants, the derivatives
+// across change by constants all along the curve: at its ends by just these, and mixed ones not at
+// all, since the basis reproduces constants.
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <map>
+#include <set>
+
+#include "sweepface/edit.hpp"
+
+#include "edit/affected.hpp"
+#include "surface/jets.hpp"
+#include "surface/stored_jets.hpp"
+
+namespace sweepface {
+
+namespace {
+
+/// The change at one end of the curve: the derivatives across are those by α at the corner where
+/// the curve arrives, by β where it leaves.
+struct CornerChange {
+  Index corner = -1;
+  bool byAlpha = false;
+};
+
+class ControlMover {
+ public:
+  ControlMover(const Rig& rig, const ControlMove& move) : rig_(rig), move_(move) {}
+
+  /// The rig with the change, and what it reaches.
+  Result<std::pair<Rig, Patches>> run(Index target) {
+    if (auto ok = findEnds(); !ok) return std::unexpected(ok.error());
+    if (auto ok = findDerivatives(); !ok) return std::unexpected(ok.error());
+    if (auto ok = storeWholeJets(); !ok) return std::unexpected(ok.error());
+    edit::Affected affected(rig_.surface);
+    auto& pose = target < 0 ? rig_.neutral : rig_.targets[target].difference;
+    for (const CornerChange& end : ends_) change(end, pose, affected);
+    const StoredJets jets(rig_.surface);
+    for (Index node : rewritten_)
+      for (int k = 1; k < 9; ++k) affected.addVector(jets.at(node, k));
+    return std::pair(std::move(rig_), affected.patches());
+  }
+
+ private:
+  const Connectivity& connectivity() const { return rig_.surface.connectivity(); }
+  std::string curveName() const { return "'" + rig_.nameOf(Thing::curve, move_.curve) + "'"; }
+  std::string patchName() const { return "'" + rig_.nameOf(Thing::patch, move_.patch) + "'"; }
+
+  Result<void> findEnds() {
+    const Connectivity& c = connectivity();
+    const HalfArc forward = 2 * move_.curve;
+    half_ = c.patchOf[forward] == move_.patch ? forward : twin(forward);
+    if (c.patchOf[half_] != move_.patch)
+      return fail("Curve " + curveName() + " does not bound patch " + patchName() + ".");
+    if (rig_.surface.wireframe().arcs[move_.curve].collapsed)
+      return fail("Curve " + curveName() + " is one point; nothing runs beside it.");
+    if (auto ends = endsOf(rig_, move_.curve); !ends) return std::unexpected(ends.error());
+    const HalfArc first = twin(c.rails[twin(half_)].last), last = c.rails[half_].last;
+    for (const CornerChange& end :
+         {CornerChange{c.cornerAt[first], false}, CornerChange{c.cornerAt[c.next[last]], true}})
+      if (!isTip(end.corner)) ends_.push_back(end);
+    return {};
+  }
+
+  bool isTip(Index corner) const {
+    const Star& star = connectivity().stars[connectivity().cornerNode[corner]];
+    const std::size_t sector = connectivity().cornerSector[corner];
+    const auto collapsed = [&](std::size_t arm) {
+      return rig_.surface.wireframe().arcs[arcOf(star.arms[arm % star.arms.size()])].collapsed;
+    };
+    return collapsed(sector) || collapsed(sector + 1);
+  }
+
+  // By how much the derivatives across change, per source edge.
+  Result<void> findDerivatives() {
+    const auto side = [&](int s) {
+      const auto arcs = rig_.surface.wireframe().side(move_.patch, s);
+      return std::ranges::count(arcs, half_) > 0;
+    };
+    const double edges =
+        side(0) || side(2) ? rig_.surface.edgesV(move_.patch) : rig_.surface.edgesU(move_.patch);
+    const auto across = derivativesFromControls({}, move_.second, move_.third, kControlSpacing);
+    if (!across) return std::unexpected(across.error());
+    first_ = across->first * (1 / edges);
+    second_ = across->second * (1 / (edges * edges));
+    return {};
+  }
+
+  // What the nodes at the ends predict they store from now on, so that it can be changed.
+  Result<void> storeWholeJets() {
+    Wireframe wireframe = rig_.surface.wireframe();
+    for (const CornerChange& end : ends_) {
+      const Index node = connectivity().cornerNode[end.corner];
+      if (connectivity().kinds[node] != NodeKind::crossing) continue;
+      if (wireframe.nodes[node].stored != kWholeJet) rewritten_.push_back(node);
+      wireframe.nodes[node].stored = kWholeJet;
+    }
+    if (rewritten_.empty()) return {};
+    auto surface = Surface::make(std::move(wireframe));
+    if (!surface) return std::unexpected(surface.error());
+    rig_.neutral = restored(*surface, rig_.neutral);
+    for (Target& target : rig_.targets) target.difference = restored(*surface, target.difference);
+    rig_.surface = std::move(*surface);
+    return {};
+  }
+
+  // The stored vectors of a pose for a surface that stores more of the same.
+  std::vector<Vec3> restored(const Surface& surface, const std::vector<Vec3>& stored) const {
+    std::vector<Vec3> vectors(rig_.surface.vectorCount()), result;
+    rig_.surface.settle(stored, vectors);
+    const StoredJets jets(rig_.surface);
+    for (Index v = 0; v < surface.storedCount(); ++v) {
+      const auto [node, i, j, fan] = surface.stored(v);
+      Index source = jets.at(node, 3 * i + j, fan);
+      if (source < 0) source = predicted(node, i, j);
+      result.push_back(vectors[source]);
+    }
+    return result;
+  }
+  // A crossing's own axes are those of the corner in its first sector.
+  Index predicted(Index node, int i, int j) const {
+    const Index corner = connectivity().stars[node].sectors[0];
+    return rig_.surface.cornerJet(corner / 4, corner % 4, i, j).vector;
+  }
+
+  void change(const CornerChange& end, std::vector<Vec3>& pose, edit::Affected& affected) const {
+    const Index node = connectivity().cornerNode[end.corner];
+    if (connectivity().kinds[node] != NodeKind::crossing) return solve(end, pose, affected);
+    for (int order = 1; order <= 2; ++order) {
+      const JetRef ref = rig_.surface.cornerJet(end.corner / 4, end.corner % 4,
+                                                end.byAlpha ? order : 0, end.byAlpha ? 0 : order);
+      pose[ref.vector] += ref.sign * (order == 1 ? first_ : second_);
+      affected.addVector(ref.vector);
+    }
+  }
+
+  // Where a corner's derivatives are sums of what is stored: the smallest change that gives those
+  // across what they want and leaves the others up to the second order alone.
+  void solve(const CornerChange& end, std::vector<Vec3>& pose, edit::Affected& affected) const {
+    constexpr std::array<std::array<int, 2>, 5> orders{{{1, 0}, {0, 1}, {2, 0}, {1, 1}, {0, 2}}};
+    std::array<std::map<Index, double>, 5> sums;
+    std::set<Index> stored;
+    for (std::size_t r = 0; r < 5; ++r) {
+      const auto [i, j] = orders[r];
+      const JetRef ref = rig_.surface.cornerJet(end.corner / 4, end.corner % 4, i, j);
+      expand(ref.vector, ref.sign, sums[r]);
+      for (const auto& [v, factor] : sums[r]) stored.insert(v);
+    }
+    const std::vector<Index> unknowns(stored.begin(), stored.end());
+    Eigen::MatrixXd composed = Eigen::MatrixXd::Zero(5, static_cast<Index>(unknowns.size()));
+    Eigen::MatrixXd wanted = Eigen::MatrixXd::Zero(5, 3);
+    for (int r = 0; r < 5; ++r) {
+      for (std::size_t k = 0; k < unknowns.size(); ++k)
+        if (const auto term = sums[r].find(unknowns[k]); term != sums[r].end())
+          composed(r, static_cast<Index>(k)) = term->second;
+      const auto [i, j] = orders[r];
+      const int across = end.byAlpha ? i : j, along = end.byAlpha ? j : i;
+      if (along > 0) continue;
+      const Vec3& d = across == 1 ? first_ : second_;
+      wanted.row(r) << d.x, d.y, d.z;
+    }
+    const Eigen::MatrixXd moved = composed.completeOrthogonalDecomposition().solve(wanted);
+    const double rounding = 1e-13 * moved.cwiseAbs().maxCoeff();
+    for (std::size_t k = 0; k < unknowns.size(); ++k) {
+      const auto row = moved.row(static_cast<Index>(k));
+      if (row.cwiseAbs().maxCoeff() <= rounding) continue;
+      pose[unknowns[k]] += {row[0], row[1], row[2]};
+      affected.addVector(unknowns[k]);
+    }
+  }
+
+  void expand(Index vector, double factor, std::map<Index, double>& sum) const {
+    if (vector < rig_.surface.storedCount()) {
+      sum[vector] += factor;
+      return;
+    }
+    for (const Term& t : rig_.surface.derivation(vector)) expand(t.vector, factor * t.factor, sum);
+  }
+
+  Rig rig_;
+  ControlMove move_;
+  HalfArc half_ = -1;
+  std::vector<CornerChange> ends_;
+  Vec3 first_, second_;
+  std::vector<Index> rewritten_;
+};
+
+}  // namespace
+
+Result<Patches> moveControls(Rig& rig, const ControlMove& move, Index target) {
+  auto moved = ControlMover(rig, move).run(target);
+  if (!moved) return std::unexpected(moved.error());
+  rig = std::move(moved->first);
+  return std::move(moved->second);
+}
+
+}  // namespace sweepface

@@ -1,0 +1,68 @@
+#include "surface/creases.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace sweepface {
+
+bool isCrease(const Wireframe& w, const Connectivity& c, Index arc) {
+  return w.arcs[arc].crease && c.patchOf[2 * arc] >= 0 && c.patchOf[2 * arc + 1] >= 0;
+}
+
+namespace {
+
+constexpr double kRightAngle = std::numbers::pi / 2;
+
+// Opens a fan by an angle. A single sector joins any two arms.
+void open(Fan& fan, double angle) {
+  fan.step = angle / fan.sectors;
+  fan.regular = fan.sectors == 1 || std::abs(fan.step - kRightAngle) < 1e-9;
+}
+
+// The fans of an open star go from boundary to boundary: each gets its first arm from the one
+// before it and is otherwise like a node on a boundary.
+void chain(std::vector<Fan>& fans) {
+  for (std::size_t k = 0; k < fans.size(); ++k) {
+    open(fans[k], fans[k].sectors <= 2 ? kRightAngle * fans[k].sectors : std::numbers::pi);
+    fans[k].firstGiven = k > 0;
+  }
+}
+
+// Around a closed star the last fan must meet the first. One with a single sector can join any two
+// arms, so it comes last. Otherwise two fans meet along a straight line, or more share the turn.
+void close(std::vector<Fan>& fans, int sectors) {
+  const auto single = std::ranges::find(fans, 1, &Fan::sectors);
+  const bool joins = single != fans.end();
+  if (joins) std::ranges::rotate(fans, single + 1);
+  const auto count = static_cast<double>(fans.size());
+  for (std::size_t k = 0; k < fans.size(); ++k) {
+    Fan& fan = fans[k];
+    open(fan, joins ? 2 * std::numbers::pi * fan.sectors / sectors : 2 * std::numbers::pi / count);
+    fan.firstGiven = k > 0;
+  }
+  fans.back().lastGiven = true;
+}
+
+}  // namespace
+
+std::vector<Fan> fansOf(const Wireframe& w, const Connectivity& c, const Star& star) {
+  const int arms = static_cast<int>(star.arms.size()),
+            sectors = static_cast<int>(star.sectors.size());
+  std::vector<int> cuts;
+  for (int k = 0; k < arms; ++k)
+    if (isCrease(w, c, arcOf(star.arms[k]))) cuts.push_back(k);
+  if (cuts.size() < (star.closed ? 2u : 1u)) return {};
+  if (!star.closed) cuts.insert(cuts.begin(), 0);
+  cuts.push_back(star.closed ? cuts.front() + arms : sectors);
+  std::vector<Fan> fans;
+  for (std::size_t k = 0; k + 1 < cuts.size(); ++k)
+    fans.push_back({cuts[k], cuts[k + 1] - cuts[k]});
+  if (star.closed)
+    close(fans, sectors);
+  else
+    chain(fans);
+  return fans;
+}
+
+}  // namespace sweepface

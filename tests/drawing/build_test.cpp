@@ -1,0 +1,360 @@
+#include "drawing/drawings.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sweepface {
+namespace {
+
+using namespace sweepface::testing;
+
+double radius(const Vec3& p) { return std::hypot(p.x, p.z); }
+
+double largestRadiusError(const Rig& rig, double height, double wanted) {
+  const Tessellation grid(rig.surface, 4);
+  double worst = 0;
+  const auto positions = grid.positions(neutralPose(rig));
+  for (const Vec3& p : positions)
+    if (std::abs(p.y - height) < 0.05) worst = std::max(worst, std::abs(radius(p) - wanted));
+  return worst;
+}
+
+TEST(Vase, ofTheDocumentationIsBuilt) {
+  const auto built = buildText(vaseText());
+  ASSERT_TRUE(built) << built.error().message;
+  EXPECT_EQ(built->rig.surface.patchCount(), 2);
+  EXPECT_EQ(built->rig.names.units, "cm");
+  EXPECT_LT(built->largestMiss, 0.02);
+  EXPECT_TRUE(built->missed.starts_with("foot")) << built->missed;
+}
+
+TEST(Vase, isRound) {
+  const Rig rig = made(vase());
+  EXPECT_LT(largestRadiusError(rig, 0, 2), 0.04);
+  EXPECT_LT(largestRadiusError(rig, 10, 2.5), 0.04);
+  EXPECT_LT(largestRadiusError(rig, 2, 3.2), 0.1);   // the belly
+  EXPECT_LT(largestRadiusError(rig, 8, 1.68), 0.1);  // the neck
+}
+
+TEST(Vase, isSmoothAlongItsSeams) {
+  const Rig rig = made(vase());
+  int smooth = 0;
+  for (const JoinReport& join : examineJoins(rig.surface, neutralPose(rig))) {
+    if (join.joinClass == JoinClass::boundary) continue;
+    ++smooth;
+    EXPECT_EQ(join.joinClass, JoinClass::c2);
+    EXPECT_LT(join.secondJump, 1e-12);
+  }
+  EXPECT_EQ(smooth, 2);
+}
+
+TEST(Vase, hasItsExpression) {
+  const Rig rig = made(vase());
+  ASSERT_EQ(rig.targets.size(), 1u);
+  EXPECT_EQ(rig.targets[0].name, "taller");
+  for (double t : {0.0, 0.3, 1.0}) {
+    EXPECT_NEAR(middleOf(rig, "rim right", t, {1}).y, 11, 1e-5);
+    EXPECT_NEAR(middleOf(rig, "rim right", t, {0.5}).y, 10.5, 1e-5);
+    EXPECT_NEAR(middleOf(rig, "foot left", t, {1}).y, 0, 1e-5);
+  }
+}
+
+// The third control curve reaches further into a patch than the second.
+TEST(Controls, giveTheSurfaceItsDerivativesAcross) {
+  Json drawing = square();
+  drawing["curves"][1]["edges"] = 5;  // the way from ab to dc
+  drawing["curves"][0]["points"] = {{1, 0, 0}, {2, 0, 0}, {3, 0, 0}};
+  Json control{{"beside", "ab"}, {"in", "square"}, {"spacing", {0.1, 0.3}}};
+  for (int x = 0; x <= 4; ++x) {
+    control["second"].push_back({x, 0.5, 0.1});
+    control["third"].push_back({x, 1.4, 0.6});
+  }
+  drawing["controls"] = {control};
+  const Rig rig = made(drawing);
+  const auto expected = derivativesFromControls({}, {0, 0.5, 0.1}, {0, 1.4, 0.6}, {0.1, 0.3}).value();
+  for (double u : {0.0, 2.0, 5.0, 8.0}) {
+    const auto pose = neutralPose(rig);
+    const Vec3 first = rig.surface.evaluate(pose, {0, u, 0}, 0, 1) * 5.0;
+    const Vec3 second = rig.surface.evaluate(pose, {0, u, 0}, 0, 2) * 25.0;
+    EXPECT_LT(norm(first - expected.first), 1e-4);
+    EXPECT_LT(norm(second - expected.second), 1e-3);
+  }
+}
+
+TEST(Controls, standWhereTheirMeanDistancesSay) {
+  Json spaced = vase();
+  for (Json& control : spaced["controls"]) {
+    const bool foot = control["beside"].get<std::string>().starts_with("foot");
+    // The seams are straight: |(0, 10, 0.5)|. A step out of the foot is |(0, 1, 1)|, then |(0, 1, 0.6)|.
+    const double length = std::hypot(10, 0.5);
+    const double first = foot ? std::hypot(1, 1) : std::hypot(1, 0.7), second = foot ? std::hypot(1, 0.6) : std::hypot(1, 0.2);
+    control["spacing"] = {first / length, (first + second) / length};
+  }
+  const Rig a = made(vase()), b = made(spaced);
+  for (Index v = 0; v < a.surface.storedCount(); ++v) EXPECT_LT(norm(a.neutral[v] - b.neutral[v]), 2e-3);
+}
+
+TEST(Points, areWhereTheCurveGoes) {
+  Json drawing = square();
+  drawing["curves"][0]["points"] = {{1, 0, 0.5}, {2, 0, 0.7}, {3, 0, 0.5}};
+  const auto built = buildJson(drawing);
+  ASSERT_TRUE(built);
+  EXPECT_LT(built->largestMiss, 1e-5);
+  EXPECT_LT(norm(middleOf(built->rig, "ab", 0.5) - Vec3{2, 0, 0.7}), 1e-5);
+}
+
+TEST(Points, tooManyForACurveAreMissedAndTheMissIsTold) {
+  Json drawing = square();
+  for (int k = 1; k < 20; ++k) drawing["curves"][2]["points"].push_back({0.2 * k, 4, k % 2 ? 0.3 : -0.3});
+  const auto built = buildJson(drawing);
+  ASSERT_TRUE(built);
+  EXPECT_GT(built->largestMiss, 0.2);
+  EXPECT_LT(built->largestMiss, 0.5);
+  EXPECT_EQ(built->missed, "dc");
+  EXPECT_EQ(built->rig.tolerance, built->largestMiss);
+  drawing["tolerance"] = 0.1;
+  EXPECT_NE(buildJson(drawing).error().message.find("curve 'dc' passes"), std::string::npos);
+}
+
+TEST(WhatNobodySays, bendsLeast) {
+  const Rig rig = made(square());
+  for (double u : {0.5, 3.0, 7.5})
+    for (double v : {1.0, 4.5}) {
+      EXPECT_LT(norm(rig.surface.evaluate(neutralPose(rig), {0, u, v}) - Vec3{u / 2, v / 2, 0}), 1e-9);
+    }
+}
+
+TEST(Edges, areThoseOfTheOppositeSide) {
+  Json drawing = square();
+  drawing["curves"][0]["edges"] = 8;
+  drawing["curves"][3]["edges"] = 3;
+  const Rig rig = made(drawing);
+  EXPECT_EQ(rig.surface.edgesU(0), 8);
+  EXPECT_EQ(rig.surface.edgesV(0), 3);
+  EXPECT_EQ(rig.source.polygons.faceCount(), 24);
+  EXPECT_EQ(rig.source.gridVertex.size(), 9u * 4u);
+}
+
+TEST(Edges, areAsManyAsACurveIsLong) {
+  Json drawing = square();
+  drawing["nodes"][2]["at"] = {4, 12, 0};
+  drawing["nodes"][3]["at"] = {0, 12, 0};
+  Rig rig = made(drawing);
+  EXPECT_EQ(rig.surface.edgesU(0), 4);
+  EXPECT_EQ(rig.surface.edgesV(0), 12);
+  drawing["curves"][0]["edges"] = 8;  // two a unit
+  rig = made(drawing);
+  EXPECT_EQ(rig.surface.edgesV(0), 24);
+}
+
+/// The square with a second row of two patches on top: e stands on dc.
+Json withTNode() {
+  Json drawing = square();
+  drawing["nodes"].push_back({{"name", "e"}});
+  for (const auto& [name, x] : {std::pair{"f", 0.0}, {"g", 4.0 / 3}, {"h", 4.0}})
+    drawing["nodes"].push_back({{"name", name}, {"at", {x, 8, 0}}});
+  drawing["curves"].erase(2);
+  for (const auto& [from, to] : {std::pair{"d", "e"}, {"e", "c"}, {"f", "g"}, {"g", "h"}, {"d", "f"}, {"e", "g"}, {"c", "h"}})
+    drawing["curves"].push_back({{"name", std::string(from) + to}, {"from", from}, {"to", to}});
+  drawing["patches"] = Json::parse(R"([{"sides": ["ab", "bc", ["-ec", "-de"], "da"]},
+      {"sides": ["de", "eg", "-fg", "-df"]}, {"sides": ["ec", "ch", "-gh", "-eg"]}])");
+  return drawing;
+}
+
+TEST(TNodes, standOnTheSidesTheyDivide) {
+  Json drawing = withTNode();
+  drawing["curves"][0]["edges"] = 6;
+  drawing["curves"][3]["edges"] = 2;  // de
+  const Rig rig = made(drawing);
+  EXPECT_EQ(rig.surface.connectivity().kinds[4], NodeKind::hanging);
+  EXPECT_EQ(rig.surface.wireframe().arcs[4].edges, 4);
+  EXPECT_LT(norm(middleOf(rig, "de", 1) - Vec3{4.0 / 3, 4, 0}), 1e-9);
+  for (const JoinReport& join : examineJoins(rig.surface, neutralPose(rig))) EXPECT_LT(join.positionGap, 1e-12);
+}
+
+TEST(TNodes, arePassedNearWhereTheyAreDrawn) {
+  Json drawing = withTNode();
+  drawing["nodes"][4]["at"] = {2, 4.5, 0.3};
+  const Rig rig = made(drawing);
+  EXPECT_LT(norm(middleOf(rig, "de", 1) - Vec3{2, 4.5, 0.3}), 1e-5);
+}
+
+TEST(TNodes, chooseEdgesThatFitBothSides) {
+  const Rig rig = made(withTNode());
+  EXPECT_EQ(rig.surface.edgesU(0), rig.surface.edgesU(1) + rig.surface.edgesU(2));
+  EXPECT_LT(norm(middleOf(rig, "de", 1) - Vec3{4.0 / 3, 4, 0}), 0.1);
+}
+
+TEST(Rings, mayBeOnePatchAndOneCurve) {
+  Json drawing = Json::parse(R"({"format": "sweepface wireframe 1",
+    "nodes": [{"name": "low", "at": [2, 0, 0]}, {"name": "high", "at": [2, 5, 0]}],
+    "curves": [{"name": "foot", "from": "low", "to": "low"}, {"name": "rim", "from": "high", "to": "high"},
+               {"name": "seam", "from": "low", "to": "high"}],
+    "patches": [{"name": "tube", "sides": ["seam", "-rim", "-seam", "foot"]}]})");
+  for (int ring : {0, 1})
+    for (int k = 1; k < 8; ++k) {
+      const double a = 2 * M_PI * k / 8;
+      drawing["curves"][ring]["points"].push_back({2 * std::cos(a), 5.0 * ring, -2 * std::sin(a)});
+    }
+  const Rig rig = made(drawing);
+  EXPECT_EQ(rig.surface.connectivity().kinds, std::vector<NodeKind>(2, NodeKind::crossing));
+  EXPECT_LT(largestRadiusError(rig, 0, 2), 0.2);  // one quintic is no good circle
+  for (const JoinReport& join : examineJoins(rig.surface, neutralPose(rig))) EXPECT_LT(join.secondJump, 1e-12);
+  EXPECT_EQ(rig.source.polygons.faceCount(), rig.surface.edgesU(0) * rig.surface.edgesV(0));
+  EXPECT_GE(rig.surface.edgesV(0), 3);
+}
+
+/// A cone of three slices whose tip is three nodes at one point.
+Json cone() {
+  Json drawing = Json::parse(R"({"format": "sweepface wireframe 1", "nodes": [], "curves": [], "patches": []})");
+  for (int k = 0; k < 3; ++k) {
+    const std::string n = std::to_string(k), next = std::to_string((k + 1) % 3);
+    const double a = 2 * M_PI * k / 3, b = 2 * M_PI * (k + 0.5) / 3;
+    Json tip{{"name", "tip" + n}};
+    if (k == 0) tip["at"] = {0, 3, 0};
+    if (k > 0) tip["with"] = "tip0";
+    drawing["nodes"].push_back(tip);
+    drawing["nodes"].push_back({{"name", "base" + n}, {"at", {std::cos(a), 0, -std::sin(a)}}});
+    drawing["curves"].push_back({{"name", "turn" + n}, {"from", "tip" + n}, {"to", "tip" + next}, {"collapsed", true}});
+    drawing["curves"].push_back({{"name", "ray" + n}, {"from", "tip" + n}, {"to", "base" + n}});
+    drawing["curves"].push_back({{"name", "arc" + n}, {"from", "base" + n}, {"to", "base" + next},
+                                 {"points", {{std::cos(b), 0, -std::sin(b)}}}});
+    drawing["patches"].push_back({{"name", "slice" + n}, {"sides", {"-ray" + n, "-turn" + n, "ray" + next, "-arc" + n}}});
+  }
+  for (Json& patch : drawing["patches"]) {  // counter-clockwise
+    const std::string n = patch["name"].get<std::string>().substr(5), next = std::to_string((std::stoi(n) + 1) % 3);
+    patch["sides"] = {"ray" + n, "arc" + n, "-ray" + next, "-turn" + n};
+  }
+  return drawing;
+}
+
+TEST(Tips, areNodesAtOnePointWithCollapsedCurvesBetween) {
+  const Rig rig = made(cone());
+  EXPECT_EQ(std::ranges::count(rig.surface.connectivity().kinds, NodeKind::irregular), 3);
+  for (int k = 0; k < 3; ++k)
+    EXPECT_LT(norm(middleOf(rig, "ray" + std::to_string(k), 0) - Vec3{0, 3, 0}), 1e-12);
+  const Polygons& faces = rig.source.polygons;
+  int triangles = 0;
+  for (Index f = 0; f < faces.faceCount(); ++f) triangles += faces.faceSize(f) == 3;
+  EXPECT_EQ(triangles, 3 * rig.surface.wireframe().arcs[rig.find(Thing::curve, "arc0").value()].edges);
+  for (const JoinReport& join : examineJoins(rig.surface, neutralPose(rig))) EXPECT_LT(join.positionGap, 1e-12);
+}
+
+TEST(Tips, moveAsOne) {
+  Json drawing = cone();
+  drawing["expressions"] = Json::parse(R"([{"name": "up", "moves": {"tip0": [0, 1, 0]}}, {"name": "too", "moves": {"tip2": [0, 1, 0]}}])");
+  const Rig rig = made(drawing);
+  EXPECT_EQ(rig.targets[0].difference, rig.targets[1].difference);
+  EXPECT_LT(norm(middleOf(rig, "ray1", 0, {1, 0}) - Vec3{0, 4, 0}), 1e-12);
+}
+
+TEST(Creases, areSharpWhereTheyAreDeclared) {
+  Json drawing = vase();
+  drawing["creases"] = {"seam front", "seam back"};
+  for (Json& control : drawing["controls"])  // each half bulges by itself
+    for (const char* which : {"second", "third"})
+      for (Json& p : control[which]) p[0] = 1.5 * p[0].get<double>() + (control["in"] == "right" ? 0.5 : -0.5);
+  const Rig rig = made(drawing);
+  EXPECT_EQ(rig.surface.connectivity().kinds, std::vector<NodeKind>(4, NodeKind::creased));
+  const auto joins = examineJoins(rig.surface, neutralPose(rig));
+  for (const char* seam : {"seam front", "seam back"}) {
+    const JoinReport& join = joins[rig.find(Thing::curve, seam).value()];
+    EXPECT_EQ(join.joinClass, JoinClass::crease);
+    EXPECT_LT(join.positionGap, 1e-12);
+    EXPECT_GT(join.normalJump, 10);
+  }
+}
+
+TEST(Ribbons, pullAtWhatIsDrawn) {
+  Json drawing = vase();
+  const Rig plain = made(drawing);
+  drawing["ribbons"][0]["eta"] = -1;
+  const Rig tight = made(drawing);
+  EXPECT_EQ(plain.neutral, tight.neutral);
+  const Index seam = plain.find(Thing::curve, "seam front").value();
+  EXPECT_EQ(tight.surface.wireframe().ribbons[tight.surface.wireframe().arcs[seam].ribbon], (Shape{1, -1, 0}));
+  EXPECT_GT(norm(middleOf(plain, "seam front", 0.4) - middleOf(tight, "seam front", 0.4)), 0.05);
+}
+
+TEST(Ribbons, reachAllCurvesAlongASweepAndNoOthers) {
+  const Rig rig = made(vase());
+  const auto ribbon = [&](const char* curve) {
+    return rig.surface.wireframe().arcs[rig.find(Thing::curve, curve).value()].ribbon;
+  };
+  EXPECT_EQ(ribbon("seam back"), 0);
+  std::set<Index> others;
+  for (const char* curve : {"foot right", "foot left", "rim right", "rim left"}) others.insert(ribbon(curve));
+  EXPECT_EQ(others.size(), 4u);
+  EXPECT_FALSE(others.contains(0));
+  EXPECT_EQ(rig.nameOf(Thing::ribbon, 0), "body");
+}
+
+TEST(Expressions, moveSinglePointsOnTop) {
+  Json drawing = square();
+  drawing["curves"][0]["points"] = {{1, 0, 0.5}, {2, 0, 0.7}, {3, 0, 0.5}};
+  drawing["expressions"] = Json::parse(R"([
+      {"name": "bulge", "moves": {"ab": {"points": [[0, 0, 0.3], [0, 0, 0.5], [0, 0, 0.3]]}}},
+      {"name": "more", "moves": {"ab": {"by": [0, 0, 2], "points": [[0, 0, 0.3], [0, 0, 0.5], [0, 0, 0.3]]}}}])");
+  const Rig rig = made(drawing);
+  EXPECT_LT(norm(middleOf(rig, "ab", 0.5, {1, 0}) - Vec3{2, 0, 1.2}), 1e-4);
+  EXPECT_LT(norm(middleOf(rig, "ab", 0.5, {0, 1}) - Vec3{2, 0, 3.2}), 1e-4);
+  EXPECT_LT(norm(middleOf(rig, "ab", 0, {1, 0})), 1e-12);
+  EXPECT_LT(norm(middleOf(rig, "ab", 0, {0, 1}) - Vec3{0, 0, 2}), 1e-12);
+}
+
+TEST(Expressions, thatMissTheirPointsAreTold) {
+  Json drawing = vase();
+  drawing["expressions"][0]["moves"] = Json::parse(R"({"rim right": {"points": [[0, 0, 0], [1, 0, 0], [0, 0, 0]]}})");
+  const auto built = buildJson(drawing);
+  ASSERT_TRUE(built);
+  EXPECT_GT(built->largestMiss, 0.3);
+  EXPECT_EQ(built->missedIn, "taller");
+}
+
+TEST(Expressions, areLinear) {
+  Json one = vase(), two = vase();
+  two["expressions"][0]["moves"] = {{"rim right", {0, 2, 0}}, {"rim left", {0, 2, 0}}};
+  const Rig a = made(one), b = made(two);
+  for (Index v = 0; v < a.surface.storedCount(); ++v)
+    EXPECT_LT(norm(2.0 * a.targets[0].difference[v] - b.targets[0].difference[v]), 1e-9);
+}
+
+TEST(Expressions, letANodeGoItsOwnWay) {
+  Json drawing = vase();
+  drawing["expressions"][0]["moves"]["rim front"] = {0, 3, 0};
+  const Rig rig = made(drawing);
+  EXPECT_NEAR(middleOf(rig, "rim right", 0, {1}).y, 13, 1e-9);
+  EXPECT_NEAR(middleOf(rig, "rim right", 1, {1}).y, 11, 1e-9);
+}
+
+// The order of the file's lists numbers things; it shapes nothing.
+TEST(Order, ofPatchesDoesNotTurnAnyJet) {
+  Json drawing = Json::parse(formatDrawing(draw(made(vase()))));
+  const Rig before = made(drawing);
+  std::swap(drawing["patches"][0], drawing["patches"][1]);
+  std::swap(drawing["nodes"][0], drawing["nodes"][2]);
+  const Rig after = made(drawing);
+  for (double u : {0.0, 3.0, 9.0})
+    for (double v : {0.0, 2.5, 8.0}) {
+      EXPECT_LT(norm(before.surface.evaluate(neutralPose(before), {0, u, v}) -
+                     after.surface.evaluate(neutralPose(after), {1, u, v})), 1e-12);
+    }
+}
+
+TEST(Order, ofPatchesDoesNotTurnAnyChart) {
+  for (Json drawing : {Json::parse(formatDrawing(draw(made(cone()))))}) {
+    const Rig before = made(drawing);
+    std::ranges::rotate(drawing["patches"], drawing["patches"].begin() + 1);
+    std::ranges::rotate(drawing["curves"], drawing["curves"].begin() + 4);
+    const Rig after = made(drawing);
+    for (double u : {0.0, 3.0, 7.0})
+      for (double v : {0.0, 2.5, 8.0})
+        for (Index p = 0; p < 3; ++p) {
+          EXPECT_LT(norm(before.surface.evaluate(neutralPose(before), {(p + 1) % 3, u, v}) -
+                         after.surface.evaluate(neutralPose(after), {p, u, v})), 1e-12);
+        }
+  }
+}
+
+}  // namespace
+}  // namespace sweepface
