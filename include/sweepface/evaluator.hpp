@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "sweepface/rig.hpp"
+#include "sweepface/eval.hpp"
 
 namespace sweepface {
 
@@ -33,6 +33,9 @@ class Evaluator {
  public:
   /// Takes a few milliseconds for a face. Fails where options and rig do not fit.
   static Result<Evaluator> make(const Rig& rig, const EvaluatorOptions& options = {});
+  /// The same where a tessellation of that level (level 0: 1) is at hand.
+  static Result<Evaluator> make(const Rig& rig, const Tessellation& grid,
+                                const EvaluatorOptions& options);
 
   Index vertexCount() const;
   Index weightCount() const;  ///< R · K

@@ -7,8 +7,6 @@
 #include <string>
 #include <tuple>
 
-#include "sweepface/eval.hpp"
-
 #include "eval/clusters.hpp"
 #include "eval/row_differences.hpp"
 #include "eval/tile_packer.hpp"
@@ -34,10 +32,10 @@ double diagonal(std::span<const Vec3> points) {
 
 class Compiler {
  public:
-  Compiler(const Rig& rig, const EvaluatorOptions& options)
+  Compiler(const Rig& rig, const Tessellation& grid, const EvaluatorOptions& options)
       : rig_(rig),
         options_(options),
-        grid_(rig.surface, std::max<Index>(1, options.level)),
+        grid_(grid),
         neutral_(blend(rig, {})),
         gridPositions_(grid_.positions(neutral_)),
         differences_(rig, options.influences) {}
@@ -154,7 +152,7 @@ class Compiler {
 
   const Rig& rig_;
   const EvaluatorOptions& options_;
-  Tessellation grid_;
+  const Tessellation& grid_;
   std::vector<Vec3> neutral_;        // settled
   std::vector<Vec3> gridPositions_;  // of the neutral
   std::vector<Vec3> positions_;      // [vertices] of the neutral
@@ -198,8 +196,16 @@ Result<void> check(const Rig& rig, const EvaluatorOptions& options) {
 
 Result<Evaluator> Evaluator::make(const Rig& rig, const EvaluatorOptions& options) {
   if (auto ok = check(rig, options); !ok) return std::unexpected(ok.error());
+  return make(rig, Tessellation(rig.surface, std::max<Index>(1, options.level)), options);
+}
+
+Result<Evaluator> Evaluator::make(const Rig& rig, const Tessellation& grid,
+                                  const EvaluatorOptions& options) {
+  if (auto ok = check(rig, options); !ok) return std::unexpected(ok.error());
+  if (grid.level() != std::max<Index>(1, options.level))
+    return fail("The tessellation of an evaluator must be of its level.");
   Evaluator made;
-  made.tables_ = std::make_shared<const EvaluatorTables>(Compiler(rig, options).compile());
+  made.tables_ = std::make_shared<const EvaluatorTables>(Compiler(rig, grid, options).compile());
   return made;
 }
 

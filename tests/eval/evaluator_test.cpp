@@ -106,7 +106,7 @@ TEST(Evaluator, dropsNoMoreOfATargetThanItsTolerance) {
         weight = 1;
         const double rounding = evaluator.positionBound({});
         EXPECT_LE(evaluator.positionBound(weights) - rounding, tolerance);
-        EXPECT_LE(rounding, 1e-3);
+        EXPECT_LE(rounding, 2e-3);
         EXPECT_LE(
             largestDistance(play(evaluator, weights).positions, surfacePositions(rig, 0, weights)),
             evaluator.positionBound(weights));
@@ -328,7 +328,6 @@ TEST(Evaluator, refusesWhatDoesNotFit) {
   EXPECT_TRUE(refuses([&](auto& job) { job.scratch = job.scratch.subspan(1); }, "scratch"));
   EXPECT_TRUE(refuses([](auto& job) { job.positions.count = -1; }, "negative"));
   EXPECT_TRUE(refuses([](auto& job) { job.positions.stride = 8; }, "stride"));
-  EXPECT_TRUE(refuses([](auto& job) { job.positions.stride = 14; }, "stride"));
   EXPECT_TRUE(refuses([](auto& job) { job.part = 1; }, "no part 1 of 1"));
   EXPECT_TRUE(refuses([](auto& job) { job.parts = 0; }, "no part"));
   EXPECT_TRUE(refuses([&](auto& job) { job.evaluator = &bare, job.normals = job.positions; },
@@ -353,6 +352,7 @@ TEST(Evaluator, isNotMadeOfWhatDoesNotFit) {
   EXPECT_TRUE(refuses({.influences = {influences}}, "finite"));
   influences[5] = 1;
   EXPECT_TRUE(refuses({.influences = std::vector(40000, influences)}, "at most 65534 weights"));
+  EXPECT_FALSE(Evaluator::make(rig, Tessellation(rig.surface, 2), {.level = 3}));
   Rig sourceless = rig;
   sourceless.source = {};
   EXPECT_FALSE(Evaluator::make(sourceless));
