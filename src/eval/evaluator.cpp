@@ -52,8 +52,8 @@ class Compiler {
       if (options_.normals) addDerivatives(vertices);
     }
     roundPositions();
-    tables_.positions.shrink();
-    tables_.derivatives.shrink();
+    tables_.positions.finish();
+    tables_.derivatives.finish();
     return std::move(tables_);
   }
 

@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <cstring>
-#include <numeric>
 
 namespace sweepface {
 namespace {
@@ -108,8 +107,10 @@ class Packer {
         integers_(integers),
         modesOf_(found.modesOf),
         order_(found.modesOf.size()) {
-    std::iota(order_.begin(), order_.end(), 0);
-    std::ranges::stable_sort(order_, std::ranges::greater{}, [&](int k) { return modesOf_[k]; });
+    for (std::size_t k = 0; k < order_.size(); ++k)  // those with most modes first
+      order_[k] = (kMostRows - modesOf_[k]) << 16 | static_cast<int>(k);
+    std::ranges::sort(order_);
+    for (int& k : order_) k &= 0xffff;
     while (!order_.empty() && modesOf_[order_.back()] == 0) order_.pop_back();
   }
 
@@ -199,7 +200,7 @@ class Packer {
   const TileSource& source_;
   const Integers& integers_;
   const std::vector<int>& modesOf_;
-  std::vector<int> order_;  // of targets, those with most modes first
+  std::vector<int> order_;  // of targets
 };
 
 }  // namespace

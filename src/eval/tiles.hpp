@@ -73,33 +73,27 @@ inline Tile tileAt(const std::byte* record) {
           reinterpret_cast<const std::uint32_t*>(record + head->verticesAt)};
 }
 
-/// Records one after the other, each beginning with a cache line.
+/// Records one after the other, each beginning with a cache line once the table is finished.
 class TileTable {
  public:
   explicit TileTable(int groups = 0) : groups_(groups) {}
+  TileTable(TileTable&&) = default;
 
   int groups() const { return groups_; }  ///< of 16 rows in a tile
   Index tileCount() const { return static_cast<Index>(starts_.size()); }
-  const std::byte* record(Index tile) const { return lines_[starts_[tile]].bytes.data(); }
-  std::size_t bytes() const { return sizeof(Line) * lines_.size(); }
+  const std::byte* record(Index tile) const { return memory_.data() + first_ + starts_[tile]; }
+  std::size_t bytes() const { return size_; }
   int mostPairs() const { return mostPairs_; }
 
   /// Room for one more record, all zero.
-  std::byte* add(std::size_t bytes, int pairs) {
-    starts_.push_back(lines_.size());
-    lines_.resize(lines_.size() + roundUp64(bytes) / sizeof(Line));
-    mostPairs_ = std::max(mostPairs_, pairs);
-    return lines_[starts_.back()].bytes.data();
-  }
-  void shrink() { lines_.shrink_to_fit(); }
+  std::byte* add(std::size_t bytes, int pairs);
+  void finish();
 
  private:
-  struct alignas(64) Line {
-    std::array<std::byte, 64> bytes{};
-  };
   int groups_;
   int mostPairs_ = 0;
-  std::vector<Line> lines_;
+  std::vector<std::byte> memory_;
+  std::size_t first_ = 0, size_ = 0;  // bytes before and of the records
   std::vector<std::size_t> starts_;
 };
 
