@@ -83,6 +83,41 @@ HWY_INLINE Short broadcast(const void* pair) {
   return hn::BitCast(kShorts, hn::Set(kInts, bits));
 }
 
+/// The weights of a tile's targets, two by two.
+class TileWeights {
+ public:
+  HWY_INLINE explicit TileWeights(const FrameWeights& frame) : frame_(frame) {
+#if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
+    few_ = frame.count <= 64;
+    if (few_) {
+      low_ = _mm512_loadu_si512(frame.shorts);
+      high_ = _mm512_loadu_si512(frame.shorts + 32);
+    }
+#endif
+  }
+
+  HWY_INLINE const std::uint32_t* of(const Tile& tile) const {
+#if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
+    if (few_) {  // all of them lie in two registers
+      for (int p = 0; p < tile.head->pairs; p += kGroup)
+        _mm512_storeu_si512(frame_.pairs + p,
+                            _mm512_permutex2var_epi16(
+                                low_, _mm512_loadu_si512(tile.targets + 2 * p), high_));
+      return frame_.pairs;
+    }
+#endif
+    pairWeights(tile, frame_);
+    return frame_.pairs;
+  }
+
+ private:
+  const FrameWeights& frame_;
+#if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
+  bool few_;
+  __m512i low_, high_;
+#endif
+};
+
 HWY_INLINE void blend(const Tile& tile, const std::uint32_t* pairs, std::int16_t* c) {
   const std::int16_t* from = tile.coefficients;
   for (int b = 0; b < tile.head->blocks; ++b, c += kGroup) {
@@ -166,12 +201,27 @@ HWY_INLINE Vectors unit(const Vectors& a) {
   return {hn::Mul(a.x, r), hn::Mul(a.y, r), hn::Mul(a.z, r)};
 }
 
-/// Where the vectors of a tile wait to be written, four floats each.
+/// Where the vectors of a tile wait to be written, four floats each. Every four lanes of three
+/// registers become four vectors, so that in a register's share of the memory vector 4j + i stands
+/// at place kRows · i + j.
 struct Waiting {
+  static constexpr int kRows = kLanes / 4;
   HWY_ALIGN float xyz[4 * kTileVertices];
 
   HWY_INLINE void put(int k, const Vectors& a) {
-    hn::StoreInterleaved4(a.x, a.y, a.z, hn::Zero(kFloats), kFloats, xyz + 4 * k);
+    const hn::Repartition<double, Floats> doubles;
+    const auto join = [&](int i, Float xy, Float zz) HWY_ATTR {
+      const auto p = hn::BitCast(doubles, xy), q = hn::BitCast(doubles, zz);
+      float* const to = xyz + 4 * (k + kRows * i);
+      hn::Store(hn::BitCast(kFloats, hn::InterleaveLower(doubles, p, q)), kFloats, to);
+      hn::Store(hn::BitCast(kFloats, hn::InterleaveUpper(doubles, p, q)), kFloats, to + kLanes);
+    };
+    join(0, hn::InterleaveLower(kFloats, a.x, a.y), hn::InterleaveLower(kFloats, a.z, a.z));
+    join(2, hn::InterleaveUpper(kFloats, a.x, a.y), hn::InterleaveUpper(kFloats, a.z, a.z));
+  }
+
+  HWY_INLINE const float* at(int k) const {
+    return xyz + 4 * (k / kLanes * kLanes + k % 4 * kRows + k % kLanes / 4);
   }
 };
 
@@ -187,53 +237,77 @@ HWY_INLINE void write3(const float* from, char* to) {
 HWY_INLINE void write(const Tile& tile, bool all, const Waiting& from, const VectorsOut& out) {
   if (all && out.stride == 12 && tile.head->vertices == kTileVertices) {
     char* const to = reinterpret_cast<char*>(out.data);
-    for (int k = 0; k < kTileVertices; ++k)
-      write3(from.xyz + 4 * k, to + std::size_t(12) * tile.vertices[k]);
+    const std::uint32_t* vertex = tile.vertices;
+    const float* xyz = from.xyz;
+    for (int first = 0; first < kTileVertices; first += kLanes, xyz += 4 * kLanes)
+      for (int j = 0; j < Waiting::kRows; ++j, vertex += 4)
+        for (int i = 0; i < 4; ++i)
+          write3(xyz + 4 * (Waiting::kRows * i + j), to + std::size_t(12) * vertex[i]);
     return;
   }
   for (int k = 0; k < tile.head->vertices; ++k)
     if (tile.vertices[k] < static_cast<std::uint32_t>(out.count))
-      write3(from.xyz + 4 * k, vectorAt(out, tile.vertices[k]));
+      write3(from.at(k), vectorAt(out, tile.vertices[k]));
+}
+
+}  // namespace
+
+namespace {
+
+/// A tile on its way. One tile's sums wait for each other; while they do, the next tile's go ahead.
+struct Stage {
+  Tile tile;
+  HWY_ALIGN std::int16_t c[kMostBlocks * kGroup];
+
+  HWY_INLINE void begin(const std::byte* record, const TileWeights& weights) {
+    tile = tileAt(record);
+    blend(tile, weights.of(tile), c);
+  }
+};
+
+/// Calls `finish` with every tile, when the next has begun.
+template <typename Finish>
+HWY_INLINE void eachTile(const TileRange& tiles, const FrameWeights& frame, const Finish& finish) {
+  if (tiles.first >= tiles.last) return;
+  const TileWeights weights(frame);
+  Stage stages[2];
+  stages[0].begin(tiles.table.record(tiles.first), weights);
+  for (Index t = tiles.first; t < tiles.last; ++t) {
+    const int now = (t - tiles.first) % 2;
+    if (t + 1 < tiles.last) stages[1 - now].begin(tiles.table.record(t + 1), weights);
+    finish(stages[now], hn::Set(kFloats, stages[now].tile.head->scale * frame.factor));
+  }
 }
 
 }  // namespace
 
 void evaluatePositions(const TileRange& tiles, const FrameWeights& frame, const VectorsOut& out,
                        bool all) {
-  HWY_ALIGN std::int16_t c[kMostBlocks * kGroup];
   Waiting waiting;
-  for (Index t = tiles.first; t < tiles.last; ++t) {
-    const Tile tile = tileAt(tiles.table.record(t));
-    pairWeights(tile, frame);
-    blend(tile, frame.pairs, c);
-    const Float scale = hn::Set(kFloats, tile.head->scale * frame.factor);
+  eachTile(tiles, frame, [&](const Stage& stage, Float scale) HWY_ATTR {
     for (int part = 0; part < kParts; ++part) {
-      const Combined rows = combine(tile, c, {0, part}, {1, part}, scale);
+      const Combined rows = combine(stage.tile, stage.c, {0, part}, {1, part}, scale);
       waiting.put(kLanes * part, rows.first);
       waiting.put(kGroup + kLanes * part, rows.second);
     }
-    write(tile, all, waiting, out);
-  }
+    write(stage.tile, all, waiting, out);
+  });
 }
 
 void evaluateNormals(const TileRange& tiles, const FrameWeights& frame, const VectorsOut& normals,
                      const VectorsOut& tangents, bool all) {
-  HWY_ALIGN std::int16_t c[kMostBlocks * kGroup];
   Waiting waitingNormals, waitingTangents;
-  for (Index t = tiles.first; t < tiles.last; ++t) {
-    const Tile tile = tileAt(tiles.table.record(t));
-    pairWeights(tile, frame);
-    blend(tile, frame.pairs, c);
-    const Float scale = hn::Set(kFloats, tile.head->scale * frame.factor);
+  eachTile(tiles, frame, [&](const Stage& stage, Float scale) HWY_ATTR {
     for (int part = 0; part < 2 * kParts; ++part) {
       const int group = part / kParts, inGroup = part % kParts;
-      const Combined rows = combine(tile, c, {group, inGroup}, {group + 2, inGroup}, scale);
+      const Combined rows =
+          combine(stage.tile, stage.c, {group, inGroup}, {group + 2, inGroup}, scale);
       waitingNormals.put(kLanes * part, unit(cross(rows.first, rows.second)));
       if (tangents.data) waitingTangents.put(kLanes * part, unit(rows.first));
     }
-    if (normals.data) write(tile, all, waitingNormals, normals);
-    if (tangents.data) write(tile, all, waitingTangents, tangents);
-  }
+    if (normals.data) write(stage.tile, all, waitingNormals, normals);
+    if (tangents.data) write(stage.tile, all, waitingTangents, tangents);
+  });
 }
 
 #endif
