@@ -11,6 +11,10 @@ std::size_t weightBytes(const EvaluatorTables& tables) {
   return sizeof(std::int16_t) * roundUp64(static_cast<std::size_t>(tables.weights) + 1);
 }
 
+std::size_t pairsRoom(const EvaluatorTables& tables) {
+  return roundUp64(std::max(tables.positions.mostPairs(), tables.derivatives.mostPairs()));
+}
+
 constexpr double kMostFactor = 1e9;  // beyond, positions end at what single precision bears
 
 /// Weights in units of 2⁻¹⁴, and what they were divided by.
@@ -42,9 +46,8 @@ Result<void> checkOut(const VectorsOut& out, const char* what) {
 }  // namespace
 
 std::size_t Evaluator::scratchBytes() const {
-  const int pairs = std::max(tables_->positions.mostPairs(), tables_->derivatives.mostPairs());
   constexpr std::size_t toBeginWithALine = 64;
-  return toBeginWithALine + weightBytes(*tables_) + sizeof(std::uint32_t) * roundUp64(pairs);
+  return toBeginWithALine + weightBytes(*tables_) + 3 * sizeof(std::uint32_t) * pairsRoom(*tables_);
 }
 
 Result<void> Evaluation::validate() const {
@@ -74,7 +77,7 @@ void Evaluation::run() const {
   auto* const shorts = reinterpret_cast<std::int16_t*>(memory);
   auto* const pairs = reinterpret_cast<std::uint32_t*>(memory + weightBytes(tables));
   const float factor = quantise(weights, {shorts, weightBytes(tables) / sizeof(std::int16_t)});
-  const FrameWeights frame{shorts, pairs, factor, tables.weights + 1};
+  const FrameWeights frame{shorts, pairs, pairsRoom(tables), factor, tables.weights + 1};
   if (positions.data)
     evaluatePositions(share(tables.positions, part, parts), frame, positions, tables.vertices);
   if (normals.data || tangents.data)

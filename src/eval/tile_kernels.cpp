@@ -96,18 +96,16 @@ class TileWeights {
 #endif
   }
 
-  HWY_INLINE const std::uint32_t* of(const Tile& tile) const {
+  HWY_INLINE void choose(const Tile& tile, std::uint32_t* pairs) const {
 #if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
     if (few_) {  // all of them lie in two registers
       for (int p = 0; p < tile.head->pairs; p += kGroup)
-        _mm512_storeu_si512(frame_.pairs + p,
-                            _mm512_permutex2var_epi16(
-                                low_, _mm512_loadu_si512(tile.targets + 2 * p), high_));
-      return frame_.pairs;
+        _mm512_storeu_si512(pairs + p, _mm512_permutex2var_epi16(
+                                           low_, _mm512_loadu_si512(tile.targets + 2 * p), high_));
+      return;
     }
 #endif
-    pairWeights(tile, frame_);
-    return frame_.pairs;
+    pairWeights(tile, frame_, pairs);
   }
 
  private:
@@ -254,28 +252,31 @@ HWY_INLINE void write(const Tile& tile, bool all, const Waiting& from, const Vec
 
 namespace {
 
-/// A tile on its way. One tile's sums wait for each other; while they do, the next tile's go ahead.
+/// A tile on its way.
 struct Stage {
   Tile tile;
+  std::uint32_t* pairs;
   HWY_ALIGN std::int16_t c[kMostBlocks * kGroup];
-
-  HWY_INLINE void begin(const std::byte* record, const TileWeights& weights) {
-    tile = tileAt(record);
-    blend(tile, weights.of(tile), c);
-  }
 };
 
-/// Calls `finish` with every tile, when the next has begun.
+/// Calls `finish` with every tile. Each step waits for the one before; so while a tile is finished
+/// the next one is blended and the weights of the one after that are chosen.
 template <typename Finish>
 HWY_INLINE void eachTile(const TileRange& tiles, const FrameWeights& frame, const Finish& finish) {
-  if (tiles.first >= tiles.last) return;
   const TileWeights weights(frame);
-  Stage stages[2];
-  stages[0].begin(tiles.table.record(tiles.first), weights);
-  for (Index t = tiles.first; t < tiles.last; ++t) {
-    const int now = (t - tiles.first) % 2;
-    if (t + 1 < tiles.last) stages[1 - now].begin(tiles.table.record(t + 1), weights);
-    finish(stages[now], hn::Set(kFloats, stages[now].tile.head->scale * frame.factor));
+  Stage stages[3];
+  for (int s = 0; s < 3; ++s) stages[s].pairs = frame.pairs + s * frame.pairsRoom;
+  const Index count = tiles.last - tiles.first;
+  int now = 0;  // the stage of tile k - 2
+  for (Index k = 0; k < count + 2; ++k) {
+    Stage &oldest = stages[now], &middle = stages[(now + 1) % 3], &newest = stages[(now + 2) % 3];
+    if (k < count) {
+      newest.tile = tileAt(tiles.table.record(tiles.first + k));
+      weights.choose(newest.tile, newest.pairs);
+    }
+    if (k >= 1 && k <= count) blend(middle.tile, middle.pairs, middle.c);
+    if (k >= 2) finish(oldest, hn::Set(kFloats, oldest.tile.head->scale * frame.factor));
+    now = (now + 1) % 3;
   }
 }
 
