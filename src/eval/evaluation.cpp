@@ -47,7 +47,7 @@ Result<void> checkOut(const VectorsOut& out, const char* what) {
 
 std::size_t Evaluator::scratchBytes() const {
   constexpr std::size_t toBeginWithALine = 64;
-  return toBeginWithALine + weightBytes(*tables_) + 3 * sizeof(std::uint32_t) * pairsRoom(*tables_);
+  return toBeginWithALine + weightBytes(*tables_) + 4 * sizeof(std::uint32_t) * pairsRoom(*tables_);
 }
 
 Result<void> Evaluation::validate() const {

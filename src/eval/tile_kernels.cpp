@@ -257,26 +257,28 @@ struct Stage {
   Tile tile;
   std::uint32_t* pairs;
   HWY_ALIGN std::int16_t c[kMostBlocks * kGroup];
+  Waiting first, second;
 };
 
-/// Calls `finish` with every tile. Each step waits for the one before; so while a tile is finished
-/// the next one is blended and the weights of the one after that are chosen.
-template <typename Finish>
-HWY_INLINE void eachTile(const TileRange& tiles, const FrameWeights& frame, const Finish& finish) {
+/// Calls `combine` and `write` with every tile. Each step waits for the one before; so four tiles are
+/// on their way at once, each a step behind the next.
+template <typename Combine, typename Write>
+HWY_INLINE void eachTile(const TileRange& tiles, const FrameWeights& frame, const Combine& combine,
+                         const Write& write) {
   const TileWeights weights(frame);
-  Stage stages[3];
-  for (int s = 0; s < 3; ++s) stages[s].pairs = frame.pairs + s * frame.pairsRoom;
+  Stage stages[4];
+  for (int s = 0; s < 4; ++s) stages[s].pairs = frame.pairs + s * frame.pairsRoom;
   const Index count = tiles.last - tiles.first;
-  int now = 0;  // the stage of tile k - 2
-  for (Index k = 0; k < count + 2; ++k) {
-    Stage &oldest = stages[now], &middle = stages[(now + 1) % 3], &newest = stages[(now + 2) % 3];
+  const auto at = [&](Index k) -> Stage& { return stages[k & 3]; };
+  for (Index k = 0; k < count + 3; ++k) {
     if (k < count) {
-      newest.tile = tileAt(tiles.table.record(tiles.first + k));
-      weights.choose(newest.tile, newest.pairs);
+      at(k).tile = tileAt(tiles.table.record(tiles.first + k));
+      weights.choose(at(k).tile, at(k).pairs);
     }
-    if (k >= 1 && k <= count) blend(middle.tile, middle.pairs, middle.c);
-    if (k >= 2) finish(oldest, hn::Set(kFloats, oldest.tile.head->scale * frame.factor));
-    now = (now + 1) % 3;
+    if (k >= 1 && k < count + 1) blend(at(k - 1).tile, at(k - 1).pairs, at(k - 1).c);
+    if (k >= 2 && k < count + 2)
+      combine(at(k - 2), hn::Set(kFloats, at(k - 2).tile.head->scale * frame.factor));
+    if (k >= 3) write(at(k - 3));
   }
 }
 
@@ -284,30 +286,31 @@ HWY_INLINE void eachTile(const TileRange& tiles, const FrameWeights& frame, cons
 
 void evaluatePositions(const TileRange& tiles, const FrameWeights& frame, const VectorsOut& out,
                        bool all) {
-  Waiting waiting;
-  eachTile(tiles, frame, [&](const Stage& stage, Float scale) HWY_ATTR {
+  const auto combineTile = [](Stage& stage, Float scale) HWY_ATTR {
     for (int part = 0; part < kParts; ++part) {
       const Combined rows = combine(stage.tile, stage.c, {0, part}, {1, part}, scale);
-      waiting.put(kLanes * part, rows.first);
-      waiting.put(kGroup + kLanes * part, rows.second);
+      stage.first.put(kLanes * part, rows.first);
+      stage.first.put(kGroup + kLanes * part, rows.second);
     }
-    write(stage.tile, all, waiting, out);
-  });
+  };
+  eachTile(tiles, frame, combineTile,
+           [&](const Stage& stage) HWY_ATTR { write(stage.tile, all, stage.first, out); });
 }
 
 void evaluateNormals(const TileRange& tiles, const FrameWeights& frame, const VectorsOut& normals,
                      const VectorsOut& tangents, bool all) {
-  Waiting waitingNormals, waitingTangents;
-  eachTile(tiles, frame, [&](const Stage& stage, Float scale) HWY_ATTR {
+  const auto combineTile = [&](Stage& stage, Float scale) HWY_ATTR {
     for (int part = 0; part < 2 * kParts; ++part) {
       const int group = part / kParts, inGroup = part % kParts;
       const Combined rows =
           combine(stage.tile, stage.c, {group, inGroup}, {group + 2, inGroup}, scale);
-      waitingNormals.put(kLanes * part, unit(cross(rows.first, rows.second)));
-      if (tangents.data) waitingTangents.put(kLanes * part, unit(rows.first));
+      stage.first.put(kLanes * part, unit(cross(rows.first, rows.second)));
+      if (tangents.data) stage.second.put(kLanes * part, unit(rows.first));
     }
-    if (normals.data) write(stage.tile, all, waitingNormals, normals);
-    if (tangents.data) write(stage.tile, all, waitingTangents, tangents);
+  };
+  eachTile(tiles, frame, combineTile, [&](const Stage& stage) HWY_ATTR {
+    if (normals.data) write(stage.tile, all, stage.first, normals);
+    if (tangents.data) write(stage.tile, all, stage.second, tangents);
   });
 }
 

@@ -11,7 +11,7 @@ namespace sweepface {
 /// The weights of a frame. What follows the last weight is 0.
 struct FrameWeights {
   const std::int16_t* shorts;  ///< [roundUp64(W + 1)]
-  std::uint32_t* pairs;        ///< [3 × pairsRoom] scratch
+  std::uint32_t* pairs;        ///< [4 × pairsRoom] scratch
   std::size_t pairsRoom;       ///< roundUp64(most pairs of a tile)
   float factor;                ///< what weights were divided by to lie within [-1, 1]
   Index count;                 ///< W + 1

@@ -365,7 +365,7 @@ Played playWith(const Evaluator& evaluator, const Positions& positions, const No
   const EvaluatorTables& tables = evaluator.tables();
   std::mt19937 random(1);
   std::vector<std::int16_t> weights(roundUp64(tables.weights + 1));
-  std::vector<std::uint32_t> pairs(3 * 4096);
+  std::vector<std::uint32_t> pairs(4 * 4096);
   for (Index k = 0; k < tables.weights; ++k)
     weights[k] = static_cast<std::int16_t>(static_cast<int>(random() % 32769) - 16384);
   const FrameWeights frame{weights.data(), pairs.data(), 4096, 1.25f, tables.weights + 1};
