@@ -6,22 +6,25 @@
 namespace sweepface {
 namespace {
 
+/// Whole vectors are read and written.
 std::size_t weightBytes(const EvaluatorTables& tables) {
-  return roundUp64(sizeof(std::uint32_t) * (tables.weights + 1));
+  return sizeof(std::int16_t) * roundUp64(static_cast<std::size_t>(tables.weights) + 1);
+}
+
+std::size_t pairsRoom(const EvaluatorTables& tables) {
+  return roundUp64(std::max(tables.positions.mostPairs(), tables.derivatives.mostPairs()));
 }
 
 constexpr double kMostFactor = 1e9;  // beyond, positions end at what single precision bears
 
 /// Weights in units of 2⁻¹⁴, and what they were divided by.
-float quantise(std::span<const double> weights, std::span<std::uint32_t> out) {
+float quantise(std::span<const double> weights, std::span<std::int16_t> out) {
   double most = 1;
   for (const double w : weights) most = std::max(most, std::abs(w));
   const double scale = kWeightUnit / most;
-  std::size_t k = 0;
-  for (; k < weights.size(); ++k)
-    out[k] =
-        static_cast<std::uint16_t>(static_cast<std::int32_t>(std::floor(weights[k] * scale + 0.5)));
-  for (; k < out.size(); ++k) out[k] = 0;
+  for (std::size_t k = 0; k < weights.size(); ++k)
+    out[k] = static_cast<std::int16_t>(std::floor(weights[k] * scale + 0.5));
+  std::ranges::fill(out.subspan(weights.size()), std::int16_t(0));
   return static_cast<float>(std::min(most, kMostFactor));
 }
 
@@ -43,8 +46,8 @@ Result<void> checkOut(const VectorsOut& out, const char* what) {
 }  // namespace
 
 std::size_t Evaluator::scratchBytes() const {
-  const int pairs = std::max(tables_->positions.mostPairs(), tables_->derivatives.mostPairs());
-  return 64 + weightBytes(*tables_) + sizeof(std::uint32_t) * pairs;  // 64 to begin with a line
+  constexpr std::size_t toBeginWithALine = 64;
+  return toBeginWithALine + weightBytes(*tables_) + 4 * sizeof(std::uint32_t) * pairsRoom(*tables_);
 }
 
 Result<void> Evaluation::validate() const {
@@ -71,10 +74,10 @@ void Evaluation::run() const {
   const EvaluatorTables& tables = evaluator->tables();
   const auto address = reinterpret_cast<std::uintptr_t>(scratch.data());
   std::byte* const memory = scratch.data() + (64 - address % 64) % 64;
-  auto* const table = reinterpret_cast<std::uint32_t*>(memory);
+  auto* const shorts = reinterpret_cast<std::int16_t*>(memory);
   auto* const pairs = reinterpret_cast<std::uint32_t*>(memory + weightBytes(tables));
-  const float factor = quantise(weights, {table, static_cast<std::size_t>(tables.weights) + 1});
-  const FrameWeights frame{table, pairs, factor};
+  const float factor = quantise(weights, {shorts, weightBytes(tables) / sizeof(std::int16_t)});
+  const FrameWeights frame{shorts, pairs, pairsRoom(tables), factor, tables.weights + 1};
   if (positions.data)
     evaluatePositions(share(tables.positions, part, parts), frame, positions, tables.vertices);
   if (normals.data || tangents.data)

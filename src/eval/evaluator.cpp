@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <string>
-#include <tuple>
 
 #include "eval/clusters.hpp"
 #include "eval/row_differences.hpp"
@@ -46,11 +45,8 @@ class Compiler {
     tables_.weights = differences_.columns();
     tables_.positionErrors.ofTarget.assign(tables_.weights, 0.0);
     tables_.derivativeErrors.ofTarget.assign(tables_.weights, 0.0);
-    const double tolerance = usedTolerance();
-    for (const auto& vertices : cluster(positions_, kTileVertices)) {
-      addPositions(vertices, tolerance);
-      if (options_.normals) addDerivatives(vertices);
-    }
+    tolerance_ = usedTolerance();
+    for (const auto& vertices : cluster(positions_, kTileVertices)) addTile(vertices);
     roundPositions();
     tables_.positions.finish();
     tables_.derivatives.finish();
@@ -83,15 +79,31 @@ class Compiler {
     tables_.derivativeErrors.rounding += std::ldexp(1.0, -21);
   }
 
-  void addPositions(std::span<const Index> vertices, double tolerance) {
-    TileSource tile{{vertices.begin(), vertices.end()}, {}, {}, {}, tolerance};
-    tile.neutral.resize(kTileVertices);
-    std::vector<Row> rows(kTileVertices);
+  void addTile(std::span<const Index> vertices) {
+    const int derivatives = options_.normals ? kMostRows : 0;
+    std::vector<std::array<float, 3>> neutral(kTileVertices + derivatives);
+    std::vector<Row> rows(neutral.size());
     for (std::size_t k = 0; k < vertices.size(); ++k) {
-      tile.neutral[k] = toFloats(positions_[vertices[k]]);
-      rows[k] = positionRow(gridVertex(vertices[k]));
+      const Index g = gridVertex(vertices[k]);
+      neutral[k] = toFloats(positions_[vertices[k]]);
+      rows[k] = positionRow(g);
+      if (options_.normals)
+        addDerivatives(g, &neutral[kTileVertices + k], &rows[kTileVertices + k]);
     }
-    pack(tile, rows, tables_.positions, tables_.positionErrors);
+    TileSource tile;
+    tile.vertices.assign(vertices.begin(), vertices.end());
+    const Differences all = differences_.of(rows, tile.targets);
+    const auto pack = [&](int first, int count, double unit, TileTable& table,
+                          TableErrors& errors) {
+      tile.neutral.assign(neutral.begin() + first, neutral.begin() + first + count);
+      tile.unit = unit;
+      tile.differences = inUnits(all, first, count, unit);
+      packTile(tile, table, errors);
+    };
+    pack(0, kTileVertices, tolerance_, tables_.positions, tables_.positionErrors);
+    if (options_.normals)
+      pack(kTileVertices, kMostRows, options_.derivativeTolerance, tables_.derivatives,
+           tables_.derivativeErrors);
   }
 
   Row positionRow(Index g) const {
@@ -106,43 +118,60 @@ class Compiler {
     return row;
   }
 
-  void addDerivatives(std::span<const Index> vertices) {
-    TileSource tile{{vertices.begin(), vertices.end()}, {}, {}, {}, options_.derivativeTolerance};
-    tile.neutral.resize(kMostRows);
-    std::vector<Row> rows(kMostRows);
-    for (std::size_t k = 0; k < vertices.size(); ++k)
-      for (const int d : {0, 1}) {
-        const std::size_t row = k + static_cast<std::size_t>(d) * kTileVertices;
-        std::tie(tile.neutral[row], rows[row]) = derivative(gridVertex(vertices[k]), d);
-      }
-    pack(tile, rows, tables_.derivatives, tables_.derivativeErrors);
-  }
+  struct Derivative {
+    Vec3 neutral;
+    Surface::Weights weights;
+  };
+  using Derivatives = std::array<Derivative, 2>;  // ∂u, ∂v
 
-  /// ∂u (d = 0) or ∂v of a vertex in units of its neutral length. Loose vertices look along z.
-  std::pair<std::array<float, 3>, Row> derivative(Index g, int d) const {
-    if (g < 0) return {toFloats({d == 0 ? 1.0 : 0, d == 1 ? 1.0 : 0, 0}), {}};
-    const Site site = regularSite(grid_.site(g));
-    const Vec3 whole = rig_.surface.evaluate(neutral_, site, 1 - d, d);
-    const double length = norm(whole), scale = length > 0 ? 1 / length : 1;
-    Row row;
-    const Surface::Weights w = rig_.surface.weights(site, 1 - d, d);
-    for (std::size_t t = 0; t < w.vectors.size(); ++t)
-      if (w.factors[t] != 0) row.terms.push_back({w.vectors[t], scale * w.factors[t]});
-    return {toFloats(scale * whole), std::move(row)};
+  Derivatives derivatives(const Site& site) const {
+    Derivatives both;
+    for (int d = 0; d < 2; ++d) {
+      both[d].weights = rig_.surface.weights(site, 1 - d, d);
+      const auto& [vectors, factors] = both[d].weights;
+      for (std::size_t t = 0; t < vectors.size(); ++t)
+        both[d].neutral += factors[t] * neutral_[vectors[t]];
+    }
+    return both;
   }
 
   /// Where the neutral has no normal, at a collapsed side, a little inside the patch.
-  Site regularSite(const Site& site) const {
-    const Surface& s = rig_.surface;
-    const Vec3 u = s.evaluate(neutral_, site, 1, 0), v = s.evaluate(neutral_, site, 0, 1);
-    if (norm(cross(u, v)) > 1e-9 * norm(u) * norm(v) && norm(u) > 0 && norm(v) > 0) return site;
-    const double m = s.edgesU(site.patch), n = s.edgesV(site.patch);
-    return {site.patch, site.u + (m * 0.5 - site.u) * 1e-3, site.v + (n * 0.5 - site.v) * 1e-3};
+  Derivatives regularDerivatives(const Site& site) const {
+    const Derivatives here = derivatives(site);
+    const Vec3 &u = here[0].neutral, &v = here[1].neutral;
+    if (norm(cross(u, v)) > 1e-9 * norm(u) * norm(v) && norm(u) > 0 && norm(v) > 0) return here;
+    const double m = rig_.surface.edgesU(site.patch), n = rig_.surface.edgesV(site.patch);
+    return derivatives(
+        {site.patch, site.u + (m * 0.5 - site.u) * 1e-3, site.v + (n * 0.5 - site.v) * 1e-3});
   }
 
-  void pack(TileSource& tile, std::span<const Row> rows, TileTable& table, TableErrors& errors) {
-    tile.differences = differences_.of(rows, tile.unit, tile.targets);
-    const auto found = packTile(tile, static_cast<std::uint16_t>(tables_.weights), table);
+  /// ∂u and ∂v of a vertex in units of their neutral lengths. Loose vertices look along z.
+  void addDerivatives(Index g, std::array<float, 3>* neutral, Row* rows) const {
+    if (g < 0) {
+      neutral[0] = {1, 0, 0}, neutral[kTileVertices] = {0, 1, 0};
+      return;
+    }
+    const Derivatives both = regularDerivatives(grid_.site(g));
+    for (const auto& [whole, weights] : both) {
+      const double length = norm(whole), scale = length > 0 ? 1 / length : 1;
+      *neutral = toFloats(scale * whole);
+      for (std::size_t t = 0; t < weights.vectors.size(); ++t)
+        if (weights.factors[t] != 0)
+          rows->terms.push_back({weights.vectors[t], scale * weights.factors[t]});
+      neutral += kTileVertices, rows += kTileVertices;
+    }
+  }
+
+  static Differences inUnits(const Differences& all, int first, int rows, double unit) {
+    constexpr float most = 1e15f;  // squares of it stay finite
+    Differences out{rows, all.targets, {all.row(first), all.row(first + rows)}};
+    const double scale = 1 / unit;
+    for (float& x : out.values) x = std::clamp(static_cast<float>(x * scale), -most, most);
+    return out;
+  }
+
+  void packTile(const TileSource& tile, TileTable& table, TableErrors& errors) const {
+    const auto found = sweepface::packTile(tile, static_cast<std::uint16_t>(tables_.weights), table);
     errors.rounding = std::max(errors.rounding, found.rounding * tile.unit);
     for (std::size_t k = 0; k < tile.targets.size(); ++k) {
       double& worst = errors.ofTarget[tile.targets[k]];
@@ -157,6 +186,7 @@ class Compiler {
   std::vector<Vec3> gridPositions_;  // of the neutral
   std::vector<Vec3> positions_;      // [vertices] of the neutral
   RowDifferences differences_;
+  double tolerance_ = 0;
   EvaluatorTables tables_;
 };
 

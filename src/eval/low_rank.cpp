@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <span>
 
 namespace sweepface {
@@ -41,57 +42,66 @@ class Deflation {
  public:
   Deflation(Differences& left, float tolerance)
       : left_(left),
+        targets_(left.targets),
         squared_(tolerance * tolerance),
-        mode_(left.rows),
-        coefficients_(left.columns()),
-        squares_(left.columns()),
-        unfinished_(left.targets, true) {
+        unfinished_(left.targets),
+        mode_(left.rows) {
     found_.modesOf.assign(left.targets, 0);
+    std::iota(unfinished_.begin(), unfinished_.end(), 0);
   }
 
   LowRank run() {
     while (found_.modes < left_.rows) {
-      const int worst = finishTargets();
-      if (worst < 0 || !findMode(worst)) break;
+      measure();
+      letGo();
+      if (unfinished_.empty() || !findMode(worstColumn())) break;
       takeMode();
     }
     return std::move(found_);
   }
 
  private:
-  /// Lets go of targets that are near enough; the column with the largest remainder, or -1.
-  int finishTargets() {
-    std::fill(squares_.begin(), squares_.end(), 0.0f);
+  /// Squares of what is left: summed over rows, and the largest of a row.
+  void measure() {
+    sums_.assign(left_.columns(), 0.0f);
     most_.assign(left_.targets, 0.0f);
     for (int r = 0; r < left_.rows; ++r) {
       const float* row = left_.row(r);
-      for (int c = 0; c < left_.columns(); ++c) squares_[c] += row[c] * row[c];
+      for (int c = 0; c < left_.columns(); ++c) sums_[c] += row[c] * row[c];
       for (int k = 0; k < left_.targets; ++k) {
         const float* x = row + 3 * k;
         most_[k] = std::max(most_[k], x[0] * x[0] + x[1] * x[1] + x[2] * x[2]);
       }
     }
-    int worst = -1;
-    for (int k = 0; k < left_.targets; ++k) {
-      if (!unfinished_[k]) continue;
-      if (most_[k] <= squared_) {
-        finish(k);
-        continue;
-      }
-      for (int c = 3 * k; c < 3 * k + 3; ++c)
-        if (worst < 0 || squares_[c] > squares_[worst]) worst = c;
-    }
-    return worst;
   }
 
-  void finish(int target) {
-    unfinished_[target] = false;
-    found_.modesOf[target] = found_.modes;
-    for (int r = 0; r < left_.rows; ++r) std::fill_n(left_.row(r) + 3 * target, 3, 0.0f);
+  /// Takes out the columns of targets that are near enough.
+  void letGo() {
+    kept_.clear();
+    for (int k = 0; k < left_.targets; ++k)
+      if (most_[k] > squared_) kept_.push_back(k);
+    const int before = left_.columns();
+    if (3 * static_cast<int>(kept_.size()) == before) return;
+    float* to = left_.values.data();
+    for (int r = 0; r < left_.rows; ++r) {
+      const float* row = left_.values.data() + static_cast<std::size_t>(r) * before;
+      for (const int k : kept_) to = std::copy_n(row + 3 * k, 3, to);
+    }
+    for (std::size_t i = 0; i < kept_.size(); ++i) {
+      unfinished_[i] = unfinished_[kept_[i]];
+      std::copy_n(sums_.begin() + 3 * kept_[i], 3, sums_.begin() + 3 * i);
+    }
+    unfinished_.resize(kept_.size());
+    left_.targets = static_cast<int>(kept_.size());
+  }
+
+  int worstColumn() const {
+    return static_cast<int>(std::max_element(sums_.begin(), sums_.begin() + left_.columns()) -
+                            sums_.begin());
   }
 
   void project() {
-    std::fill(coefficients_.begin(), coefficients_.end(), 0.0f);
+    coefficients_.assign(left_.columns(), 0.0f);
     for (int r = 0; r < left_.rows; ++r)
       addScaled(mode_[r], left_.row(r), left_.columns(), coefficients_.data());
   }
@@ -113,18 +123,22 @@ class Deflation {
     for (int r = 0; r < left_.rows; ++r)
       addScaled(-mode_[r], coefficients_.data(), left_.columns(), left_.row(r));
     found_.basis.insert(found_.basis.end(), mode_.begin(), mode_.end());
-    found_.coefficients.insert(found_.coefficients.end(), coefficients_.begin(),
-                               coefficients_.end());
+    const std::size_t first = found_.coefficients.size();
+    found_.coefficients.resize(first + 3 * static_cast<std::size_t>(targets_));
     ++found_.modes;
-    for (int k = 0; k < left_.targets; ++k)
-      if (unfinished_[k]) found_.modesOf[k] = found_.modes;
+    for (std::size_t i = 0; i < unfinished_.size(); ++i) {
+      found_.modesOf[unfinished_[i]] = found_.modes;
+      std::copy_n(coefficients_.begin() + 3 * i, 3,
+                  found_.coefficients.begin() + first + 3 * unfinished_[i]);
+    }
   }
 
-  Differences& left_;
+  Differences& left_;  // of the targets that are not finished
+  int targets_;
   float squared_;
   LowRank found_;
-  std::vector<float> mode_, coefficients_, squares_, most_;
-  std::vector<char> unfinished_;
+  std::vector<int> unfinished_, kept_;
+  std::vector<float> mode_, coefficients_, sums_, most_;
 };
 
 }  // namespace

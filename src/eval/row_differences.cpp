@@ -6,16 +6,16 @@
 namespace sweepface {
 namespace {
 
-constexpr double kMostDifference = 1e15;  // in units; squares of it stay finite
+constexpr double kMostDifference = 1e30;
 
 float clamped(double x) {
   return static_cast<float>(std::clamp(x, -kMostDifference, kMostDifference));
 }
 
-void write(const Vec3& difference, double unit, float* to) {
-  to[0] = clamped(difference.x / unit);
-  to[1] = clamped(difference.y / unit);
-  to[2] = clamped(difference.z / unit);
+void write(const Vec3& difference, float* to) {
+  to[0] = clamped(difference.x);
+  to[1] = clamped(difference.y);
+  to[2] = clamped(difference.z);
 }
 
 }  // namespace
@@ -76,14 +76,14 @@ std::vector<std::uint16_t> RowDifferences::findMoving(std::span<const Row> rows)
   return moving;
 }
 
-void RowDifferences::settle(std::span<const std::uint16_t> moving, double unit) {
+void RowDifferences::settle(std::span<const std::uint16_t> moving) {
   const std::size_t width = 3 * moving.size();
   settled_.assign(width * needed_.size(), 0.0f);
   for (std::size_t k = 0; k < needed_.size(); ++k) {
     float* const out = settled_.data() + width * k;
     if (needed_[k] < rig_.surface.storedCount()) {
       for (std::size_t c = 0; c < moving.size(); ++c)
-        write(stored(needed_[k], moving[c]), unit, out + 3 * c);
+        write(stored(needed_[k], moving[c]), out + 3 * c);
       continue;
     }
     for (const Term& t : rig_.surface.derivation(needed_[k])) {
@@ -94,18 +94,17 @@ void RowDifferences::settle(std::span<const std::uint16_t> moving, double unit) 
   }
 }
 
-Differences RowDifferences::of(std::span<const Row> rows, double unit,
-                               std::vector<std::uint16_t>& moving) {
+Differences RowDifferences::of(std::span<const Row> rows, std::vector<std::uint16_t>& moving) {
   collect(rows);
   moving = findMoving(rows);
-  settle(moving, unit);
+  settle(moving);
   Differences out{static_cast<int>(rows.size()), static_cast<int>(moving.size()), {}};
   const std::size_t width = 3 * moving.size();
   out.values.assign(width * rows.size(), 0.0f);
   for (std::size_t r = 0; r < rows.size(); ++r) {
     float* const to = out.row(static_cast<int>(r));
     for (std::size_t c = 0; rows[r].loose >= 0 && c < moving.size(); ++c)
-      write(ofLoose(rows[r].loose, moving[c]), unit, to + 3 * c);
+      write(ofLoose(rows[r].loose, moving[c]), to + 3 * c);
     for (const Term& t : rows[r].terms) {
       const float* const from = settled_.data() + width * placeOf_[t.vector];
       const float factor = static_cast<float>(t.factor);

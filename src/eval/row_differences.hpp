@@ -24,14 +24,14 @@ class RowDifferences {
   RowDifferences(const Rig& rig, std::span<const std::vector<float>> influences);
 
   Index columns() const { return columns_; }
-  /// The columns that move any of the rows, and the differences of the rows in units of `unit`.
+  /// The columns that move any of the rows, and the differences of the rows in model units.
   /// Differences beyond what single precision bears end there.
-  Differences of(std::span<const Row> rows, double unit, std::vector<std::uint16_t>& moving);
+  Differences of(std::span<const Row> rows, std::vector<std::uint16_t>& moving);
 
  private:
   void collect(std::span<const Row> rows);
   std::vector<std::uint16_t> findMoving(std::span<const Row> rows) const;
-  void settle(std::span<const std::uint16_t> moving, double unit);
+  void settle(std::span<const std::uint16_t> moving);
   Vec3 stored(Index vector, Index column) const;
   Vec3 ofLoose(Index loose, Index column) const;
 

@@ -83,6 +83,39 @@ HWY_INLINE Short broadcast(const void* pair) {
   return hn::BitCast(kShorts, hn::Set(kInts, bits));
 }
 
+/// The weights of a tile's targets, two by two.
+class TileWeights {
+ public:
+  HWY_INLINE explicit TileWeights(const FrameWeights& frame) : frame_(frame) {
+#if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
+    few_ = frame.count <= 64;
+    if (few_) {
+      low_ = _mm512_loadu_si512(frame.shorts);
+      high_ = _mm512_loadu_si512(frame.shorts + 32);
+    }
+#endif
+  }
+
+  HWY_INLINE void choose(const Tile& tile, std::uint32_t* pairs) const {
+#if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
+    if (few_) {  // all of them lie in two registers
+      for (int p = 0; p < tile.head->pairs; p += kGroup)
+        _mm512_storeu_si512(pairs + p, _mm512_permutex2var_epi16(
+                                           low_, _mm512_loadu_si512(tile.targets + 2 * p), high_));
+      return;
+    }
+#endif
+    pairWeights(tile, frame_, pairs);
+  }
+
+ private:
+  const FrameWeights& frame_;
+#if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
+  bool few_;
+  __m512i low_, high_;
+#endif
+};
+
 HWY_INLINE void blend(const Tile& tile, const std::uint32_t* pairs, std::int16_t* c) {
   const std::int16_t* from = tile.coefficients;
   for (int b = 0; b < tile.head->blocks; ++b, c += kGroup) {
@@ -166,12 +199,27 @@ HWY_INLINE Vectors unit(const Vectors& a) {
   return {hn::Mul(a.x, r), hn::Mul(a.y, r), hn::Mul(a.z, r)};
 }
 
-/// Where the vectors of a tile wait to be written, four floats each.
+/// Where the vectors of a tile wait to be written, four floats each. Every four lanes of three
+/// registers become four vectors, so that in a register's share of the memory vector 4j + i stands
+/// at place kRows · i + j.
 struct Waiting {
+  static constexpr int kRows = kLanes / 4;
   HWY_ALIGN float xyz[4 * kTileVertices];
 
   HWY_INLINE void put(int k, const Vectors& a) {
-    hn::StoreInterleaved4(a.x, a.y, a.z, hn::Zero(kFloats), kFloats, xyz + 4 * k);
+    const hn::Repartition<double, Floats> doubles;
+    const auto join = [&](int i, Float xy, Float zz) HWY_ATTR {
+      const auto p = hn::BitCast(doubles, xy), q = hn::BitCast(doubles, zz);
+      float* const to = xyz + 4 * (k + kRows * i);
+      hn::Store(hn::BitCast(kFloats, hn::InterleaveLower(doubles, p, q)), kFloats, to);
+      hn::Store(hn::BitCast(kFloats, hn::InterleaveUpper(doubles, p, q)), kFloats, to + kLanes);
+    };
+    join(0, hn::InterleaveLower(kFloats, a.x, a.y), hn::InterleaveLower(kFloats, a.z, a.z));
+    join(2, hn::InterleaveUpper(kFloats, a.x, a.y), hn::InterleaveUpper(kFloats, a.z, a.z));
+  }
+
+  HWY_INLINE const float* at(int k) const {
+    return xyz + 4 * (k / kLanes * kLanes + k % 4 * kRows + k % kLanes / 4);
   }
 };
 
@@ -187,53 +235,83 @@ HWY_INLINE void write3(const float* from, char* to) {
 HWY_INLINE void write(const Tile& tile, bool all, const Waiting& from, const VectorsOut& out) {
   if (all && out.stride == 12 && tile.head->vertices == kTileVertices) {
     char* const to = reinterpret_cast<char*>(out.data);
-    for (int k = 0; k < kTileVertices; ++k)
-      write3(from.xyz + 4 * k, to + std::size_t(12) * tile.vertices[k]);
+    const std::uint32_t* vertex = tile.vertices;
+    const float* xyz = from.xyz;
+    for (int first = 0; first < kTileVertices; first += kLanes, xyz += 4 * kLanes)
+      for (int j = 0; j < Waiting::kRows; ++j, vertex += 4)
+        for (int i = 0; i < 4; ++i)
+          write3(xyz + 4 * (Waiting::kRows * i + j), to + std::size_t(12) * vertex[i]);
     return;
   }
   for (int k = 0; k < tile.head->vertices; ++k)
     if (tile.vertices[k] < static_cast<std::uint32_t>(out.count))
-      write3(from.xyz + 4 * k, vectorAt(out, tile.vertices[k]));
+      write3(from.at(k), vectorAt(out, tile.vertices[k]));
+}
+
+}  // namespace
+
+namespace {
+
+/// A tile on its way.
+struct Stage {
+  Tile tile;
+  std::uint32_t* pairs;
+  HWY_ALIGN std::int16_t c[kMostBlocks * kGroup];
+  Waiting first, second;
+};
+
+/// Calls `combine` and `write` with every tile. Each step waits for the one before; so four tiles are
+/// on their way at once, each a step behind the next.
+template <typename Combine, typename Write>
+HWY_INLINE void eachTile(const TileRange& tiles, const FrameWeights& frame, const Combine& combine,
+                         const Write& write) {
+  const TileWeights weights(frame);
+  Stage stages[4];
+  for (int s = 0; s < 4; ++s) stages[s].pairs = frame.pairs + s * frame.pairsRoom;
+  const Index count = tiles.last - tiles.first;
+  const auto at = [&](Index k) -> Stage& { return stages[k & 3]; };
+  for (Index k = 0; k < count + 3; ++k) {
+    if (k < count) {
+      at(k).tile = tileAt(tiles.table.record(tiles.first + k));
+      weights.choose(at(k).tile, at(k).pairs);
+    }
+    if (k >= 1 && k < count + 1) blend(at(k - 1).tile, at(k - 1).pairs, at(k - 1).c);
+    if (k >= 2 && k < count + 2)
+      combine(at(k - 2), hn::Set(kFloats, at(k - 2).tile.head->scale * frame.factor));
+    if (k >= 3) write(at(k - 3));
+  }
 }
 
 }  // namespace
 
 void evaluatePositions(const TileRange& tiles, const FrameWeights& frame, const VectorsOut& out,
                        bool all) {
-  HWY_ALIGN std::int16_t c[kMostBlocks * kGroup];
-  Waiting waiting;
-  for (Index t = tiles.first; t < tiles.last; ++t) {
-    const Tile tile = tileAt(tiles.table.record(t));
-    pairWeights(tile, frame);
-    blend(tile, frame.pairs, c);
-    const Float scale = hn::Set(kFloats, tile.head->scale * frame.factor);
+  const auto combineTile = [](Stage& stage, Float scale) HWY_ATTR {
     for (int part = 0; part < kParts; ++part) {
-      const Combined rows = combine(tile, c, {0, part}, {1, part}, scale);
-      waiting.put(kLanes * part, rows.first);
-      waiting.put(kGroup + kLanes * part, rows.second);
+      const Combined rows = combine(stage.tile, stage.c, {0, part}, {1, part}, scale);
+      stage.first.put(kLanes * part, rows.first);
+      stage.first.put(kGroup + kLanes * part, rows.second);
     }
-    write(tile, all, waiting, out);
-  }
+  };
+  eachTile(tiles, frame, combineTile,
+           [&](const Stage& stage) HWY_ATTR { write(stage.tile, all, stage.first, out); });
 }
 
 void evaluateNormals(const TileRange& tiles, const FrameWeights& frame, const VectorsOut& normals,
                      const VectorsOut& tangents, bool all) {
-  HWY_ALIGN std::int16_t c[kMostBlocks * kGroup];
-  Waiting waitingNormals, waitingTangents;
-  for (Index t = tiles.first; t < tiles.last; ++t) {
-    const Tile tile = tileAt(tiles.table.record(t));
-    pairWeights(tile, frame);
-    blend(tile, frame.pairs, c);
-    const Float scale = hn::Set(kFloats, tile.head->scale * frame.factor);
+  const auto combineTile = [&](Stage& stage, Float scale) HWY_ATTR {
     for (int part = 0; part < 2 * kParts; ++part) {
       const int group = part / kParts, inGroup = part % kParts;
-      const Combined rows = combine(tile, c, {group, inGroup}, {group + 2, inGroup}, scale);
-      waitingNormals.put(kLanes * part, unit(cross(rows.first, rows.second)));
-      if (tangents.data) waitingTangents.put(kLanes * part, unit(rows.first));
+      const Combined rows =
+          combine(stage.tile, stage.c, {group, inGroup}, {group + 2, inGroup}, scale);
+      stage.first.put(kLanes * part, unit(cross(rows.first, rows.second)));
+      if (tangents.data) stage.second.put(kLanes * part, unit(rows.first));
     }
-    if (normals.data) write(tile, all, waitingNormals, normals);
-    if (tangents.data) write(tile, all, waitingTangents, tangents);
-  }
+  };
+  eachTile(tiles, frame, combineTile, [&](const Stage& stage) HWY_ATTR {
+    if (normals.data) write(stage.tile, all, stage.first, normals);
+    if (tangents.data) write(stage.tile, all, stage.second, tangents);
+  });
 }
 
 #endif

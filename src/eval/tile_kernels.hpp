@@ -8,11 +8,13 @@
 // set. All give the same bits.
 namespace sweepface {
 
-/// The weights of a frame.
+/// The weights of a frame. What follows the last weight is 0.
 struct FrameWeights {
-  const std::uint32_t* weights;  ///< [W + 1] int16 in the low half; the last is 0
-  std::uint32_t* pairs;          ///< [most pairs of a tile] scratch
-  float factor;                  ///< what weights were divided by to lie within [-1, 1]
+  const std::int16_t* shorts;  ///< [roundUp64(W + 1)]
+  std::uint32_t* pairs;        ///< [4 × pairsRoom] scratch
+  std::size_t pairsRoom;       ///< roundUp64(most pairs of a tile)
+  float factor;                ///< what weights were divided by to lie within [-1, 1]
+  Index count;                 ///< W + 1
 };
 
 /// A range of the tiles of a table.
@@ -34,10 +36,12 @@ void evaluateNormals(const TileRange& tiles, const FrameWeights& frame, const Ve
                      const VectorsOut& tangents, Index vertices);
 
 /// Weights of a tile's targets side by side, as the dot products of 16-bit integers want them.
-inline void pairWeights(const Tile& tile, const FrameWeights& frame) {
+inline void pairWeights(const Tile& tile, const FrameWeights& frame, std::uint32_t* pairs) {
+  const auto weight = [&](int k) {
+    return static_cast<std::uint32_t>(static_cast<std::uint16_t>(frame.shorts[tile.targets[k]]));
+  };
   for (int p = 0; p < tile.head->pairs; ++p)
-    frame.pairs[p] = frame.weights[tile.targets[2 * p]] | frame.weights[tile.targets[2 * p + 1]]
-                                                              << 16;
+    pairs[p] = weight(2 * p) | weight(2 * p + 1) << 16;
 }
 
 inline char* vectorAt(const VectorsOut& out, std::uint32_t vertex) {

@@ -28,7 +28,7 @@ void blend(const Tile& tile, const std::uint32_t* pairs, std::int16_t* c) {
 
 /// All rows of a tile under the frame's weights.
 void combine(const Tile& tile, int groups, const FrameWeights& frame, Vectors& out) {
-  pairWeights(tile, frame);
+  pairWeights(tile, frame, frame.pairs);
   std::array<std::int16_t, kMostBlocks * kGroup> c;
   blend(tile, frame.pairs, c.data());
   const float scale = tile.head->scale * frame.factor;

@@ -65,12 +65,13 @@ Integers toIntegers(const LowRank& found, int rows, int targets) {
 /// at weight 1.
 std::vector<double> measure(const Integers& integers, const Differences& wanted) {
   std::vector<double> worst(wanted.targets);
-  std::vector<double> sums(wanted.columns());
+  std::vector<float> sums(wanted.columns());  // errors of single precision are far below the unit
   const double scale = integers.scale * kWeightUnit / 65536;
   for (int r = 0; r < wanted.rows; ++r) {
-    std::ranges::fill(sums, 0.0);
+    std::ranges::fill(sums, 0.0f);
     for (int m = 0; m < integers.modes; ++m) {
-      const double b = scale * integers.basis[std::size_t(m) * wanted.rows + r];
+      const float b =
+          static_cast<float>(scale * integers.basis[std::size_t(m) * wanted.rows + r]);
       const std::int16_t* from = integers.coefficients.data() + std::size_t(m) * sums.size();
       for (std::size_t c = 0; c < sums.size(); ++c) sums[c] += b * from[c];
     }

@@ -46,7 +46,7 @@ struct TileHead {
   std::uint16_t pairs = 0;
   std::uint16_t modePairs = 0;
   std::uint16_t blocks = 0;
-  std::array<std::uint16_t, kMostBlocks> blockPairs{};
+  std::array<std::uint16_t, kMostBlocks> blockPairs{};  ///< falling; 0 behind the last block
   std::array<std::uint16_t, 4> unused{};
 };
 static_assert(sizeof(TileHead) == 64);

@@ -364,11 +364,11 @@ template <typename Positions, typename Normals>
 Played playWith(const Evaluator& evaluator, const Positions& positions, const Normals& normals) {
   const EvaluatorTables& tables = evaluator.tables();
   std::mt19937 random(1);
-  std::vector<std::uint32_t> weights, pairs(65536);
+  std::vector<std::int16_t> weights(roundUp64(tables.weights + 1));
+  std::vector<std::uint32_t> pairs(4 * 4096);
   for (Index k = 0; k < tables.weights; ++k)
-    weights.push_back(static_cast<std::uint16_t>(static_cast<int>(random() % 32769) - 16384));
-  weights.push_back(0);
-  const FrameWeights frame{weights.data(), pairs.data(), 1.25f};
+    weights[k] = static_cast<std::int16_t>(static_cast<int>(random() % 32769) - 16384);
+  const FrameWeights frame{weights.data(), pairs.data(), 4096, 1.25f, tables.weights + 1};
   const std::size_t floats = 3 * static_cast<std::size_t>(tables.vertices);
   Played out{std::vector<float>(floats), std::vector<float>(floats), std::vector<float>(floats)};
   const VectorsOut to[3] = {{out.positions.data(), tables.vertices},
