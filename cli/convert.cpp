@@ -225,8 +225,17 @@ Result<int> convertAndWrite(const ConvertArguments& a) {
   if (interrupted) return kInterrupted;
   const Result<Strip> parts = a.strip.empty() ? Strip{} : parseStrip(a.strip);
   if (!parts) return std::unexpected(parts.error());
+  // The scene comes with a frame and its length.
+  constexpr std::size_t kMostAround = 32;
+  const bool hasScene = !a.bare && !parts->scene && !source->scene.empty();
+  const std::size_t around = hasScene ? source->scene.size() + kMostAround : 0;
+  if (a.maxBytes > 0 && around >= a.maxBytes)
+    return fail(
+        fmt::format("What {} holds besides the face takes {} bytes; leave it out with "
+                    "--bare, or allow more.",
+                    a.neutral, source->scene.size()));
   Result<Conversion> conversion =
-      a.maxBytes > 0 ? convertToBytes(source->rig, optionsOf(a, *bar), a.maxBytes, *parts)
+      a.maxBytes > 0 ? convertToBytes(source->rig, optionsOf(a, *bar), a.maxBytes - around, *parts)
                      : convert(source->rig, optionsOf(a, *bar));
   if (!conversion) return std::unexpected(conversion.error());
   if (!a.bare) conversion->rig.scene = std::move(source->scene);

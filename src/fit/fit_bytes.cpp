@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 
 #include "sweepface/codec.hpp"
@@ -9,7 +10,7 @@ namespace sweepface {
 
 namespace {
 
-constexpr int kMostTries = 10, kMostHalvings = 4;
+constexpr int kMostTries = 12, kMostHalvings = 4;
 constexpr double kCloseEnough = 0.98;  // of the bytes
 
 struct Try {
@@ -29,10 +30,13 @@ Result<Conversion> convertToBytes(const MeshRig& source, ConvertOptions options,
   int halvings = 0;
   for (int attempt = 0; attempt < kMostTries && halvings <= kMostHalvings; ++attempt) {
     auto conversion = convert(source, options);
-    if (!conversion) return conversion;
-    if (auto stripped = strip(conversion->rig, left); !stripped)
-      return std::unexpected(stripped.error());
-    const Try now{options.tolerance, encode(conversion->rig).size()};
+    if (!conversion && !best) return conversion;
+    Try now{options.tolerance, SIZE_MAX};  // what cannot be met is too fine as well
+    if (conversion) {
+      Rig rig = conversion->rig;
+      if (auto stripped = strip(rig, left); !stripped) return std::unexpected(stripped.error());
+      now.bytes = encode(rig).size();
+    }
     if (now.bytes <= mostBytes) {
       fits = now;
       best = std::move(*conversion);
@@ -45,8 +49,9 @@ Result<Conversion> convertToBytes(const MeshRig& source, ConvertOptions options,
       options.tolerance = std::sqrt(fits.tolerance * tooLarge.tolerance);
     } else {
       const double ratio = static_cast<double>(now.bytes) / static_cast<double>(mostBytes);
-      const double factor = std::pow(ratio, 1.25) * (ratio > 1 ? 1.1 : 0.9);
-      options.tolerance *= std::clamp(factor, 0.125, 8.0);
+      const double factor = std::pow(ratio, 1.25);
+      options.tolerance *=
+          ratio > 1 ? std::clamp(factor, 2.0, 8.0) : std::clamp(factor, 0.125, 0.5);
     }
   }
   if (best) return std::move(*best);
