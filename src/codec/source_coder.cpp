@@ -35,7 +35,8 @@ enum Tag : std::uint32_t {
   kTexture = 30,
   kBits = 32,
   kResidual = 34,
-  kUsesCorner = 36
+  kUsesCorner = 36,
+  kOwnOrder = 37
 };
 
 /// Items that are visited one after the other, most of them beside one that was visited not long
@@ -172,14 +173,6 @@ class Places {
  public:
   Places(const LevelOne& grid, const std::vector<Index>& order)
       : start_(grid.vertexCount() + 1, 0) {
-    if (order.empty()) {  // the grid's own
-      for (Index v = 0; v < grid.vertexCount(); ++v) {
-        start_[v + 1] = v + 1;
-        list_.push_back(v);
-      }
-      vertices_ = grid.vertexCount();
-      return;
-    }
     vertices_ = static_cast<Index>(order.size());
     for (const Index g : order)
       if (g >= 0) ++start_[g + 1];
@@ -218,6 +211,7 @@ class FaceCoder {
     }
     const std::size_t count = codeCount(s_, 1, static_cast<std::size_t>(faces_.faceCount()), most_);
     if constexpr (!kWrites<Coder>) source_.quadCorners.assign(4 * grid_.quads().size(), -1);
+    source_.ownOrder = s_.bit(kOwnOrder, 0, 0, source_.ownOrder);
     const bool hasQuads = s_.bit(kUsesCorner, 0, 0, !source_.quadCorners.empty());
     if (!hasQuads) source_.quadCorners.clear();
     for (std::size_t f = 0; f < count && s_.ok(); ++f) codeFace(static_cast<Index>(f));
