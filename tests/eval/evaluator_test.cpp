@@ -205,6 +205,18 @@ TEST(Evaluator, givesTheSameInParts) {
     EXPECT_EQ(play(evaluator, weights, parts), play(evaluator, weights));
 }
 
+TEST(Evaluator, givesTheSameFromAColdCache) {
+  const auto evaluator = Evaluator::make(largeRig()).value();
+  const auto weights = anyWeights(evaluator, 1);
+  const Index count = evaluator.vertexCount();
+  std::vector<float> positions(3 * count);
+  std::vector<std::byte> scratch(evaluator.scratchBytes());
+  Evaluation job{&evaluator, weights, scratch, {positions.data(), count}, {}, {}};
+  job.cold = true;
+  job.run();
+  EXPECT_EQ(positions, play(evaluator, weights).positions);
+}
+
 TEST(Evaluator, mayBeUsedByManyThreads) {
   const auto evaluator = Evaluator::make(largeRig()).value();
   std::vector<Played> played(4);
