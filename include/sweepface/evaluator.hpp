@@ -19,7 +19,7 @@ struct EvaluatorOptions {
   /// the rig's own tolerance, but no less than a hundred-thousandth of the neutral's diagonal.
   double tolerance = 0;
   /// The same for the surface's first derivatives, as a share of their neutral length.
-  double derivativeTolerance = 0.01;
+  double derivativeTolerance = 0.02;
   /// Influences of regions [R][storedCount]: target k of region r adds weight[r·K + k] ·
   /// influence[r][v] · difference to stored vector v, the same seen from every patch. Empty: one
   /// region that is everywhere.
