@@ -25,7 +25,7 @@ enum class Symmetry {
 
 /// The same in steps that are 2^finer times smaller, or larger where `finer` is negative.
 inline Coefficients inFinerSteps(Coefficients q, int finer) {
-  constexpr std::int64_t kMost = 1 << 28;
+  constexpr std::int64_t kMost = 1 << 26;
   for (Steps3& v : q)
     for (std::int32_t& x : v) {
       const std::int64_t y =

@@ -36,7 +36,8 @@ enum Tag : std::uint32_t {
   kBits = 32,
   kResidual = 34,
   kUsesCorner = 36,
-  kOwnOrder = 37
+  kOwnOrder = 37,
+  kNext = 38
 };
 
 /// Items that are visited one after the other, most of them beside one that was visited not long
@@ -50,6 +51,11 @@ class Walk {
 
   Index next(Index item) {
     Index found = -1;
+    const bool follows = far_ < static_cast<Index>(neighbours_.size()) && !visited_[far_];
+    if (follows && s_.bit(kNext, last_ == kFollows, 0, kWrites<Coder> && item == far_)) {
+      last_ = kFollows;
+      return visit(far_);
+    }
     const bool near = !trail_.empty() && s_.bit(kNear, last_, 0, kWrites<Coder> && isNear(item));
     if (near) {
       const std::uint32_t place =
@@ -67,11 +73,7 @@ class Walk {
       last_ = 15;
     }
     if (s_.ok() && visited_[found]) s_.refuse("a vertex or a face comes twice");
-    if (!s_.ok()) return 0;
-    far_ = found + 1;
-    visited_[found] = 1;
-    trail_.push_back(found);
-    return found;
+    return s_.ok() ? visit(found) : 0;
   }
   bool visited(Index item) const {
     return item < static_cast<Index>(visited_.size()) && visited_[item];
@@ -79,6 +81,14 @@ class Walk {
 
  private:
   static constexpr std::size_t kTrail = 64;
+  static constexpr std::uint32_t kFollows = 16;  // as a last step: to the next in number
+
+  Index visit(Index item) {
+    far_ = item + 1;
+    visited_[item] = 1;
+    trail_.push_back(item);
+    return item;
+  }
 
   // Calls `use` with every unvisited neighbour of what was visited last, until it answers true.
   template <typename Use>

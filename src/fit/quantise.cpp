@@ -155,10 +155,11 @@ class ColumnBuilder {
 // How far off the two tangents at each vertex are, as shares of their lengths.
 struct Slopes {
   struct Tangent {
-    std::array<float, 3> error{};
-    float lean = 0;                 // the part along the normal: an angle in radians
+    std::array<float, 3> error{};   // the neutral's included
+    float lean = 0;                 // this pose's own part along the normal: an angle in radians
     std::array<float, 3> normal{};  // of the surface
     float perLength = 0;
+    float strain() const { return error[0] * error[0] + error[1] * error[1] + error[2] * error[2]; }
   };
   std::vector<std::array<Tangent, 2>> at;  // [vertices]
 };
@@ -210,7 +211,7 @@ class PoseQuantiser {
     constexpr float kOnItsWay = 0.3f, kTilted = 0.3f;
     wanted_.assign(q_->size(), 0);
     for (Index u = 0; u < static_cast<Index>(error_[0].size()); ++u)
-      if (squareAt(u) > kOnItsWay || slopeWeight_ * tilt(u) > kTilted)
+      if (squareAt(u) > kOnItsWay || tilt(u) > kTilted)
         for (Index r = columns_.rowStart[u]; r < columns_.rowStart[u + 1]; ++r)
           wanted_[columns_.rowVector[r]] = 1;
   }
@@ -319,20 +320,22 @@ class PoseQuantiser {
             error_[2][u] * error_[2][u]) *
            perSquare_;
   }
-  // Angles count in full, what stays in the surface only where it would turn the surface over.
-  static constexpr float kStretch = 0.015f;
+  // A tangent that is off by about half of its length may turn the surface over.
+  static constexpr float kMostStrain = 0.2f, kOverturn = 40;
+  static float overturn(float strain) {
+    return strain > kMostStrain ? kOverturn * (strain - kMostStrain) : 0;
+  }
   float tilt(Index u) const {
     float sum = 0;
     for (const Slopes::Tangent& t : slopes_.at[u])
-      sum += t.lean * t.lean + kStretch * (t.error[0] * t.error[0] + t.error[1] * t.error[1] +
-                                           t.error[2] * t.error[2]);
+      sum += slopeWeight_ * t.lean * t.lean + overturn(t.strain());
     return sum;
   }
   // How much the penalty grows when a coefficient grows by d steps.
   float growth(Index v, int a, float steps) const {
     const float x = steps * step_;
     const float* own = error_[a].data();
-    float sum = 0, tilted = 0;
+    float sum = 0, tilted = 0, over = 0;
     for (Index p = columns_.start[v]; p < columns_.start[v + 1]; ++p) {
       const Index u = columns_.vertex[p];
       const auto& weight = columns_.weight[p];
@@ -341,23 +344,27 @@ class PoseQuantiser {
       for (int side = 0; side < 2; ++side) {
         const Slopes::Tangent& t = slopes_.at[u][side];
         const float change = x * weight[1 + side] * t.perLength, turn = change * t.normal[a];
-        tilted += (2 * t.lean + turn) * turn + kStretch * (2 * t.error[a] + change) * change;
+        tilted += (2 * t.lean + turn) * turn;
+        const float strain = t.strain();
+        over += overturn(strain + (2 * t.error[a] + change) * change) - overturn(strain);
       }
     }
-    return sum + slopeWeight_ * tilted;
+    return sum + slopeWeight_ * tilted + over;
   }
   float gradient(Index v, int a) const {
-    float sum = 0, tilted = 0;
+    float sum = 0, tilted = 0, over = 0;
     for (Index p = columns_.start[v]; p < columns_.start[v + 1]; ++p) {
       const Index u = columns_.vertex[p];
       const auto& weight = columns_.weight[p];
       sum += slope(squareAt(u)) * error_[a][u] * weight[0];
       for (int side = 0; side < 2; ++side) {
         const Slopes::Tangent& t = slopes_.at[u][side];
-        tilted += weight[1 + side] * t.perLength * (t.lean * t.normal[a] + kStretch * t.error[a]);
+        const float change = weight[1 + side] * t.perLength;
+        tilted += change * t.lean * t.normal[a];
+        if (t.strain() > kMostStrain) over += change * t.error[a];
       }
     }
-    return 2 * (sum * perSquare_ + slopeWeight_ * tilted) * step_;
+    return 2 * (sum * perSquare_ + slopeWeight_ * tilted + kOverturn * over) * step_;
   }
   void move(Index v, int a, std::int32_t d) {
     (*q_)[v][a] += d;
@@ -469,6 +476,9 @@ class Quantiser {
       if (settle(0, share * tolerance_)) break;
     if (!settled_) return failed(0);
     neutralErrors_ = errorsOf(0, poses_[0]);
+    neutralOff_ = rig_.neutral;
+    for (std::size_t v = 0; v < neutralOff_.size(); ++v) neutralOff_[v] -= fittedNeutral_[v];
+    neutralOff_ = settled(std::move(neutralOff_));
     // Images first: what is compared with them needs them.
     std::vector<char> done(poses, 0);
     std::atomic<Index> bad = -1, count = 0;
@@ -526,12 +536,14 @@ class Quantiser {
     return (pose == 0 ? kNeutralBits : kTargetBits) / (limit * limit);
   }
 
+  std::vector<Vec3> settled(std::vector<Vec3> stored) const {
+    const std::size_t count = stored.size();
+    stored.resize(rig_.surface.vectorCount());
+    rig_.surface.settle(std::span(stored).first(count), stored);
+    return stored;
+  }
+
   Slopes slopesOf(Index pose, const Coefficients& q, const std::vector<Vec3>& fitted) const {
-    const auto settled = [&](std::vector<Vec3> vectors) {
-      vectors.resize(rig_.surface.vectorCount());
-      rig_.surface.settle(std::span(vectors).first(q.size()), vectors);
-      return vectors;
-    };
     std::vector<Vec3> off(q.size()), form = fitted;
     lattice_->restore(q, codec::stepOf(rig_.packing, pose), off);
     for (std::size_t v = 0; v < q.size(); ++v) off[v] -= fitted[v];
@@ -547,14 +559,16 @@ class Quantiser {
                                         rig_.surface.evaluate(form, site, 0, 1)};
       const Vec3 across = cross(tangent[0], tangent[1]);
       const double area = norm(across), product = norm(tangent[0]) * norm(tangent[1]);
-      if (!known_[v] || !(area > 0.05 * product)) continue;  // a pole, or nothing that has a side
+      if (!known_[v] || !(area > 0.02 * product)) continue;  // a pole, or nothing that has a side
       const Vec3 n = across * (1 / area);
       for (int d = 0; d < 2; ++d) {
         const double perLength = 1 / norm(tangent[d]);
-        const Vec3 error = perLength * rig_.surface.evaluate(off, site, d == 0, d == 1);
+        const Vec3 own = perLength * rig_.surface.evaluate(off, site, d == 0, d == 1);
+        Vec3 error = own;
+        if (pose > 0) error += perLength * rig_.surface.evaluate(neutralOff_, site, d == 0, d == 1);
         slopes.at[v][d] = {
             {static_cast<float>(error.x), static_cast<float>(error.y), static_cast<float>(error.z)},
-            static_cast<float>(dot(n, error)),
+            static_cast<float>(dot(n, own)),
             {static_cast<float>(n.x), static_cast<float>(n.y), static_cast<float>(n.z)},
             static_cast<float>(perLength)};
       }
@@ -633,6 +647,7 @@ class Quantiser {
   std::vector<std::vector<Vec3>> goals_;  // [poses][vertices] the neutral, then differences
   std::vector<char> known_;               // [vertices] that a source vertex stands for
   std::vector<Vec3> neutralErrors_, fittedNeutral_;
+  std::vector<Vec3> neutralOff_;  // settled: how far the neutral is off the fit
   bool settled_ = false;
 };
 

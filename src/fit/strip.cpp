@@ -36,13 +36,14 @@ std::vector<Place> placesOf(const SourceMesh& source) {
 
 void reorderFaces(SourceMesh& source) {
   const Polygons old = source.polygons;
+  const std::vector<Place> places = placesOf(source);
   Polygons& faces = source.polygons;
   std::vector<Index> newCorner(old.corners.size());
   faces.faceStart = {0};
   faces.corners.clear();
   faces.cornerTexcoords.clear();
   std::size_t place = 0;
-  for (const Place& p : placesOf(source)) {
+  for (const Place& p : places) {
     const Index size = old.faceSize(p.face);
     for (Index k = 0; k < size; ++k) {
       const Index corner = old.faceStart[p.face] + (p.first + k) % size;
