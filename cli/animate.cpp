@@ -9,6 +9,7 @@
 #include "sweepface/io.hpp"
 
 #include "command.hpp"
+#include "following.hpp"
 #include "lod_mesh.hpp"
 #include "output.hpp"
 #include "performance.hpp"
@@ -21,6 +22,7 @@ namespace fs = std::filesystem;
 struct AnimateArguments {
   std::string face, output, keys;
   PerformanceArguments what;
+  FollowingArguments following;
   double framesPerSecond = 0;
   int frames = 0, lod = 0;
   bool quiet = false;
@@ -33,6 +35,7 @@ void addOptions(CLI::App& app, AnimateArguments& a) {
             "A folder for frame_0000.obj, frame_0001.obj ..., made if it is not there; or a .glb "
             "file for the face with an animation of its targets");
   addPerformance(app, a.what);
+  addFollowing(app, a.following);
   app.add_option("--frames", a.frames,
                  "How many meshes or sampled keys, the first and the last included; 31 if neither "
                  "this nor --fps is given")
@@ -173,10 +176,13 @@ Result<int> runAnimate(const AnimateArguments& a) {
     return fail(
         fmt::format("Cannot write {}: its name promises another kind of file (.gltf).", a.output));
   if (auto ok = checkArguments(a, glb); !ok) return std::unexpected(ok.error());
-  const Result<Rig> rig = readFace(a.face);
+  Result<Rig> rig = readFace(a.face);
   if (!rig) return std::unexpected(rig.error());
-  const Result<Performance> performance = makePerformance(a.what, *rig);
+  Result<Performance> performance = makePerformance(a.what, *rig);
   if (!performance) return std::unexpected(performance.error());
+  const std::size_t set = rig->targets.size();
+  Followers followers = follow(a.following, *rig);
+  *performance = withFollowers(std::move(*performance), std::move(followers), set);
   if (glb)
     if (auto ok = checkKeys(a, *performance); !ok) return std::unexpected(ok.error());
   const Result<void> written = (glb ? animateGlb : animateMeshes)(a, *rig, *performance);

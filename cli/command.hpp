@@ -31,6 +31,7 @@ Command addAnimate(CLI::App& tool);
 Command addWireframe(CLI::App& tool);
 Command addRender(CLI::App& tool);
 Command addReport(CLI::App& tool);
+Command addPlot(CLI::App& tool);
 Command addBuild(CLI::App& tool);
 Command addEdit(CLI::App& tool);
 

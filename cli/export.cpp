@@ -4,6 +4,7 @@
 #include "sweepface/io.hpp"
 
 #include "command.hpp"
+#include "following.hpp"
 #include "lod_mesh.hpp"
 
 namespace sweepface::cli {
@@ -13,6 +14,7 @@ struct ExportArguments {
   std::string face, output, weights;
   int lod = 0;
   bool sourceOrder = false, quiet = false;
+  FollowingArguments following;
   GlbArguments glb;
 };
 
@@ -26,6 +28,7 @@ void addOptions(CLI::App& app, ExportArguments& a) {
   app.add_flag("--source-order", a.sourceOrder,
                "Write the source's own vertices and polygons in their order (this is the default)")
       ->excludes(lod);
+  addFollowing(app, a.following);
   addGlb(app, a.glb);
   addQuiet(app, a.quiet);
   app.footer(
@@ -60,12 +63,14 @@ Result<int> runExport(const ExportArguments& a) {
   const bool glb = isOfKind(a.output, ".glb");
   if (a.glb.any() && !glb)
     return fail("--morph-normals and --quantize are for .glb files; name the output so.");
-  const Result<Rig> rig = readFace(a.face);
+  Result<Rig> rig = readFace(a.face);
   if (!rig) return std::unexpected(rig.error());
-  const Result<Weights> weights = parseWeights(*rig, a.weights);
+  Result<Weights> weights = parseWeights(*rig, a.weights);
   if (!weights) return std::unexpected(weights.error());
   if (auto ok = checkOutput(a.output, {a.face}, {".ply", ".sweep", ".gltf"}); !ok)
     return std::unexpected(ok.error());
+  const Followers followers = follow(a.following, *rig);
+  *weights = withFollowers(std::move(*weights), followers, *rig);
   const Result<void> written = (glb ? writeGlb : writeObj)(a, *rig, *weights);
   if (!written) return std::unexpected(written.error());
   return 0;

@@ -37,6 +37,9 @@ Result<Performance> driven(const PerformanceArguments& a, const Drive& drive, co
   performance.at = [paths](double time, std::span<double> weights) {
     for (std::size_t k = 0; k < weights.size(); ++k) weights[k] = (*paths)[k].at(time).position;
   };
+  performance.kinematicsAt = [paths](double time, std::span<Kinematics> weights) {
+    for (std::size_t k = 0; k < weights.size(); ++k) weights[k] = (*paths)[k].at(time);
+  };
   return performance;
 }
 
@@ -61,6 +64,12 @@ Result<Performance> byLaw(const PerformanceArguments& a, const Rig& rig) {
   performance.at = [motion = *motion](double time, std::span<double> weights) {
     motion.at(time, weights);
   };
+  performance.kinematicsAt = [motion = *motion](double time, std::span<Kinematics> weights) {
+    for (std::size_t k = 0; k < weights.size(); ++k) {
+      const MotionSample sample = motion.sample(k, time);
+      weights[k] = {sample.position, sample.velocity, sample.force};
+    }
+  };
   performance.motion = std::move(*motion);
   return performance;
 }
@@ -80,6 +89,21 @@ Result<Clip> readClip(const PerformanceArguments& a) {
   const Result<Timeline> timeline = parseTimeline(*text, a.clip);
   if (!timeline) return std::unexpected(timeline.error());
   return bake(*timeline, kTimelineRate);
+}
+
+/// Central differences over the time of a frame at 60 frames a second.
+std::function<void(double, std::span<Kinematics>)> differences(
+    const std::function<void(double, std::span<double>)>& at) {
+  return [at](double time, std::span<Kinematics> weights) {
+    constexpr double h = 1 / 60.0;
+    std::vector<double> before(weights.size()), now(before), after(before);
+    at(time - h, before);
+    at(time, now);
+    at(time + h, after);
+    for (std::size_t k = 0; k < weights.size(); ++k)
+      weights[k] = {now[k], (after[k] - before[k]) / (2 * h),
+                    (after[k] - 2 * now[k] + before[k]) / (h * h)};
+  };
 }
 
 std::vector<std::string> notesOn(const ClipMatch& match, const Clip& clip,
@@ -119,6 +143,7 @@ Result<Performance> byClip(const PerformanceArguments& a, const Rig& rig) {
     clip.at(time, own);
     match.spread(own, weights);
   };
+  performance.kinematicsAt = differences(performance.at);
   return performance;
 }
 

@@ -5,6 +5,7 @@
 
 #include "sweepface/clip.hpp"
 #include "sweepface/motion.hpp"
+#include "sweepface/trajectory.hpp"
 
 #include "command.hpp"
 
@@ -24,6 +25,9 @@ struct Performance {
   std::string name;
   double seconds = 0;
   std::function<void(double time, std::span<double> weights)> at;
+  /// The same with velocities and accelerations, per second: exact for laws, of a clip by
+  /// differences.
+  std::function<void(double time, std::span<Kinematics> weights)> kinematicsAt;
   std::optional<Motion> motion;    ///< where keys can hold it exactly
   std::vector<double> frameTimes;  ///< a clip's own frames, from 0
   std::vector<std::string> notes;  ///< what the user should know, in sentences

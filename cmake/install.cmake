@@ -3,11 +3,16 @@ include(CMakePackageConfigHelpers)
 
 # Headers of what converts; a runtime-only install goes without them.
 set(converting_headers mesh.hpp io.hpp gltf.hpp layout.hpp fit.hpp measure.hpp drawing.hpp edit.hpp
-    picture.hpp report.hpp)
+    picture.hpp report.hpp plot.hpp)
 
 set(installed_libraries sweepface_runtime)
 set(installed_archives -lsweepface_runtime)
 set(private_archives)
+set(SWEEPFACE_NEEDS_HIGHWAY OFF)
+if(SWEEPFACE_SIMD AND NOT CMAKE_SYSTEM_NAME STREQUAL "WASI")
+  set(SWEEPFACE_NEEDS_HIGHWAY ON)
+  list(APPEND installed_archives -lhwy)
+endif()
 set(skipped_headers)
 if(SWEEPFACE_RUNTIME_ONLY)
   foreach(header IN LISTS converting_headers)

@@ -7,7 +7,7 @@
 
 #include "codec/chunks.hpp"
 #include "codec/crc.hpp"
-#include "codec/wire.hpp"
+#include "codec/wire_version1.hpp"
 
 namespace {
 
@@ -76,8 +76,9 @@ void playWireframe(std::string_view payload) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string bytes = repaired({reinterpret_cast<const char*>(data), size});
   if (const auto chunks = codec::readChunks(bytes, "input.sweep"))
-    for (const auto& chunk : *chunks)
-      if (chunk.rank == codec::rankOf("WIRE")) playWireframe(chunk.payload);
+    for (const auto& chunk : chunks->list)
+      if (chunks->version == 1 && chunk.rank == codec::rankOf("WIRE", 1))
+        playWireframe(chunk.payload);
   const auto rig = decode(bytes, "input.sweep");
   const auto parts = fileParts(bytes, "input.sweep");
   if (!rig) {

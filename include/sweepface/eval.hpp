@@ -26,6 +26,14 @@ class Tessellation {
   /// two neighbours are equal where a side is collapsed.
   std::vector<std::array<Index, 4>> faces() const;
 
+  /// What a vertex is made of: the six vectors of its arc or the 36 of its patch, and their
+  /// weights. They are the same in every pose.
+  struct Terms {
+    std::span<const Index> vectors;
+    std::span<const double> factors;
+  };
+  Terms terms(Index vertex) const;
+
   /// Positions of all vertices [vertexCount] of a settled pose. Linear in `vectors`.
   void positions(std::span<const Vec3> vectors, std::span<Vec3> out) const;
   std::vector<Vec3> positions(std::span<const Vec3> vectors) const;
@@ -44,9 +52,7 @@ class Tessellation {
   std::vector<Index> arcVertex_;    // [arcs] first interior vertex
   std::vector<Index> patchVertex_;  // [patches] first interior vertex
   std::vector<Site> sites_;
-  Index onArcs_ = 0;  // vertices of nodes and arcs come first
-  // Weights of every vertex: of the six vectors of its arc, or of the 36 of its patch. They are the
-  // same in every pose.
+  Index onArcs_ = 0;                             // vertices of nodes and arcs come first
   std::vector<Surface::ArcWeights> arcWeights_;  // [onArcs_]
   std::vector<Surface::Weights> patchWeights_;   // [vertexCount - onArcs_]
 };

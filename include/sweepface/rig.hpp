@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <span>
 #include <string>
 #include <string_view>
@@ -29,6 +30,27 @@ struct SourceMesh {
   std::vector<Index> quadCorners;
 };
 
+/// How a file holds the vectors of a rig (docs/file-format.md): as whole multiples of steps, each
+/// beyond what its neighbours and mirror images predict. The fit chooses it and `decode` tells what
+/// it found. Vectors that are none, and all where there are no steps, are held as they are.
+struct Packing {
+  double neutralStep = 0, targetStep = 0;  ///< model units; 0: no steps
+  int axis = 0;                            ///< 0, 1, 2: the mirror lies across x, y, z
+  /// Half-arcs that mirror each other, each with its patch on the left; one pair for every part of
+  /// the wireframe that has a mirror image.
+  std::vector<std::array<HalfArc, 2>> mirror;
+  struct Pose {
+    int finer = 0;     ///< its step is divided by 2^finer
+    Index image = -1;  ///< the pose whose mirror image it is compared with, itself or an earlier
+                       ///< one; -1: with none
+    friend bool operator==(const Pose&, const Pose&) = default;
+  };
+  std::vector<Pose> poses;  ///< the neutral, then the targets
+  /// Texture coordinates are held as multiples of 1 / 2^textureBits; 0: exactly.
+  int textureBits = 0;
+  friend bool operator==(const Packing&, const Packing&) = default;
+};
+
 /// What a drawing calls its things (docs/wire-format.md): a name each, empty for those without one,
 /// or no list at all where nothing has a name.
 struct Names {
@@ -51,6 +73,8 @@ struct Rig {
   /// plays.
   std::string scene;
   Names names{};
+
+  Packing packing;
 
   /// Index of a target by its name, or -1.
   Index find(std::string_view name) const;

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <limits>
 #include <string>
 
 #include "capi/handles.hpp"
@@ -21,32 +20,30 @@ sweepface_status refuseWeight(const sweepface_face& face, std::size_t target) {
                 std::to_string(static_cast<int>(SWEEPFACE_MOST_WEIGHT)) + " of 0.");
 }
 
-// Positions beyond single precision end where it does.
-float toFloat(double x) {
-  constexpr double most = std::numeric_limits<float>::max();
-  return static_cast<float>(std::clamp(x, -most, most));
-}
-
 bool fits(const sweepface_vectors& out) { return out.stride == 0 || out.stride >= kTight; }
 
-void write(const sweepface_face& face, std::size_t count, const sweepface_vectors& out) {
-  char* to = reinterpret_cast<char*>(out.data);
+VectorsOut pointsOf(const Mesh& mesh, const sweepface_vectors& out, std::size_t count) {
+  const auto points = std::min(count, static_cast<std::size_t>(mesh.render.points));
+  return {out.data, static_cast<Index>(points), out.stride ? out.stride : kTight};
+}
+
+// Vertices behind the points repeat them.
+void repeatPoints(const Mesh& mesh, const sweepface_vectors& out, std::size_t count) {
+  if (!out.data) return;
+  char* const first = reinterpret_cast<char*>(out.data);
   const std::size_t stride = out.stride ? out.stride : kTight;
-  for (std::size_t v = 0; v < count; ++v, to += stride) {
-    const Vec3& p = face.places[face.mesh->placeOf[v]];
-    const float floats[3] = {toFloat(p.x), toFloat(p.y), toFloat(p.z)};
-    std::memcpy(to, floats, kTight);
-  }
+  for (std::size_t v = mesh.render.points; v < count; ++v)
+    std::memcpy(first + stride * v, first + stride * mesh.render.copies[v - mesh.render.points],
+                kTight);
 }
 
 }  // namespace
 
 sweepface_status sweepface_face_create(const sweepface_mesh* mesh, sweepface_face** face) {
   if (!mesh || !face) return refuse("Making a face needs a mesh and a place for it.");
-  const Rig& rig = *mesh->mesh->rig;
-  *face = new sweepface_face{
-      mesh->mesh, Weights(rig.targets.size(), 0.0), std::vector<Vec3>(rig.surface.vectorCount()),
-      std::vector<Vec3>(mesh->mesh->grid.vertexCount() + rig.source.loose.size())};
+  const Mesh& made = *mesh->mesh;
+  *face = new sweepface_face{mesh->mesh, Weights(made.rig->targets.size(), 0.0),
+                             std::vector<std::byte>(made.evaluator.scratchBytes())};
   return SWEEPFACE_OK;
 }
 
@@ -76,27 +73,28 @@ const double* sweepface_face_weights(const sweepface_face* face) {
   return face ? face->weights.data() : nullptr;
 }
 
+double sweepface_face_error(const sweepface_face* face) {
+  return face ? face->mesh->evaluator.positionBound(face->weights) : 0;
+}
+
 sweepface_status sweepface_face_evaluate(sweepface_face* face, size_t count,
                                          sweepface_vectors positions, sweepface_vectors normals) {
   if (!face) return refuse("Evaluating needs a face.");
   const Mesh& mesh = *face->mesh;
-  if (count > mesh.placeOf.size())
-    return refuse("There are only " + std::to_string(mesh.placeOf.size()) + " vertices, not " +
+  const auto vertices = static_cast<std::size_t>(mesh.render.vertexCount());
+  if (count > vertices)
+    return refuse("There are only " + std::to_string(vertices) + " vertices, not " +
                   std::to_string(count) + ".");
   if (!fits(positions) || !fits(normals))
     return refuse("A stride must be 0 or at least 12 bytes: three floats.");
-  blend(*mesh.rig, face->weights, face->vectors);
-  const std::span<Vec3> places(face->places);
-  const std::span<Vec3> loose = places.subspan(mesh.grid.vertexCount());
-  if (positions.data) {
-    mesh.grid.positions(face->vectors, places);
-    blendLoose(*mesh.rig, face->weights, loose);
-    write(*face, count, positions);
-  }
-  if (normals.data) {
-    mesh.grid.normals(face->vectors, places);
-    std::ranges::fill(loose, Vec3{0, 0, 1});
-    write(*face, count, normals);
-  }
+  Evaluation job;
+  job.evaluator = &mesh.evaluator;
+  job.weights = face->weights;
+  job.scratch = face->scratch;
+  job.positions = pointsOf(mesh, positions, count);
+  job.normals = pointsOf(mesh, normals, count);
+  job.run();
+  repeatPoints(mesh, positions, count);
+  repeatPoints(mesh, normals, count);
   return SWEEPFACE_OK;
 }

@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "sweepface/evaluator.hpp"
 #include "sweepface/live_motion.hpp"
 #include "sweepface/render_mesh.hpp"
 #include "sweepface/sweepface.h"
@@ -18,9 +19,8 @@ namespace sweepface::capi {
 
 struct Mesh {
   std::shared_ptr<const Rig> rig;
-  Tessellation grid;
+  Evaluator evaluator;
   RenderMesh render;
-  std::vector<Index> placeOf;  // [vertices] in the grid's vertices and then the loose ones
 };
 
 }  // namespace sweepface::capi
@@ -32,8 +32,7 @@ struct sweepface_mesh {
 struct sweepface_face {
   std::shared_ptr<const sweepface::capi::Mesh> mesh;
   sweepface::Weights weights;
-  std::vector<sweepface::Vec3> vectors;  // a settled pose
-  std::vector<sweepface::Vec3> places;   // [grid's vertices and loose ones]
+  std::vector<std::byte> scratch;
 };
 
 struct sweepface_motion {

@@ -8,19 +8,6 @@ using namespace sweepface::capi;
 
 namespace {
 
-std::vector<Index> findPlaces(const Mesh& mesh, bool sourceOrder) {
-  const auto placeOfPoint = [&](Index point) {
-    if (!sourceOrder) return point;
-    const Index g = mesh.rig->source.gridVertex[point];
-    return g >= 0 ? g : mesh.grid.vertexCount() - 1 - g;
-  };
-  std::vector<Index> places;
-  places.reserve(mesh.render.vertexCount());
-  for (Index v = 0; v < mesh.render.points; ++v) places.push_back(placeOfPoint(v));
-  for (const Index point : mesh.render.copies) places.push_back(placeOfPoint(point));
-  return places;
-}
-
 // How many vertices a level has is asked before anyone makes room for them.
 constexpr double kMostVertices = 1 << 24;
 
@@ -45,11 +32,14 @@ sweepface_status sweepface_mesh_create(const sweepface_rig* rig, uint32_t lod,
   if (gridVertices(rig->rig->surface, level) > kMostVertices)
     return refuse("The face has too many vertices at level of detail " + std::to_string(lod) +
                   "; ask for a lower one.");
-  auto made =
-      std::make_shared<Mesh>(Mesh{rig->rig, Tessellation(rig->rig->surface, level), {}, {}});
-  made->render =
-      lod == 0 ? renderSource(*made->rig, made->grid) : renderGrid(*made->rig, made->grid);
-  made->placeOf = findPlaces(*made, lod == 0);
+  const Tessellation grid(rig->rig->surface, level);
+  EvaluatorOptions options;
+  options.level = static_cast<Index>(lod);
+  auto evaluator = Evaluator::make(*rig->rig, grid, options);
+  if (!evaluator) return refuse(std::move(evaluator.error().message));
+  auto made = std::make_shared<Mesh>(
+      Mesh{rig->rig, std::move(*evaluator),
+           lod == 0 ? renderSource(*rig->rig, grid) : renderGrid(*rig->rig, grid)});
   *mesh = new sweepface_mesh{std::move(made)};
   return SWEEPFACE_OK;
 }

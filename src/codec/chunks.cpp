@@ -7,9 +7,10 @@
 
 namespace sweepface::codec {
 
-int rankOf(std::string_view code) {
-  const auto found = std::ranges::find(kKinds, code, &Kind::code);
-  return found == kKinds.end() ? -1 : static_cast<int>(found - kKinds.begin());
+int rankOf(std::string_view code, int version) {
+  const auto kinds = kindsOf(version);
+  const auto found = std::ranges::find(kinds, code, &Kind::code);
+  return found == kinds.end() ? -1 : static_cast<int>(found - kinds.begin());
 }
 
 void writeHeader(Writer& out) {
@@ -42,14 +43,14 @@ class ChunkReader {
  public:
   ChunkReader(std::string_view bytes, std::string_view name) : bytes_(bytes), name_(name) {}
 
-  Result<std::vector<Chunk>> read() {
+  Result<Chunks> read() {
     if (auto ok = readHeader(); !ok) return std::unexpected(ok.error());
-    std::vector<Chunk> chunks;
+    Chunks chunks{version_, {}};
     do {
       auto chunk = readChunk();
       if (!chunk) return std::unexpected(chunk.error());
-      chunks.push_back(*chunk);
-    } while (chunks.back().rank != rankOf("END "));
+      chunks.list.push_back(*chunk);
+    } while (chunks.list.back().rank != rankOf("END ", version_));
     if (at_ < bytes_.size()) return failHere("the file goes on after its last chunk");
     return chunks;
   }
@@ -67,10 +68,10 @@ class ChunkReader {
                   "; check that it is a .sweep file.");
     at_ = kMagic.size();
     if (bytes_.size() < kHeaderSize) return failHere("the file ends before its version");
-    const int version = static_cast<unsigned char>(bytes_[at_]);
-    if (version != kVersion)
-      return fail(name_ + " is of version " + std::to_string(version) + " and this program reads " +
-                  std::to_string(kVersion) +
+    version_ = static_cast<unsigned char>(bytes_[at_]);
+    if (version_ < 1 || version_ > kVersion)
+      return fail(name_ + " is of version " + std::to_string(version_) +
+                  " and this program reads versions 1 to " + std::to_string(kVersion) +
                   "; get a program that fits or convert the source again.");
     at_ = kHeaderSize;
     return {};
@@ -84,7 +85,8 @@ class ChunkReader {
                         sum = fixed32(bytes_.substr(at_ + 8));
     const std::string quoted = "chunk '" + std::string(code) + "'";
     if (size > bytes_.size() - at_ - kFrameSize) return failHere("the file ends within " + quoted);
-    const Chunk chunk{rankOf(code), bytes_.substr(at_ + kFrameSize, size), at_ + kFrameSize};
+    const Chunk chunk{rankOf(code, version_), bytes_.substr(at_ + kFrameSize, size),
+                      at_ + kFrameSize};
     if (crc32(chunk.payload, crc32(code)) != sum)
       return failHere("the checksum of " + quoted + " does not match");
     if (chunk.rank < 0 && !isOptional(code))
@@ -97,11 +99,12 @@ class ChunkReader {
   std::string_view bytes_;
   std::string name_;
   std::size_t at_ = 0;
+  int version_ = 0;
 };
 
 }  // namespace
 
-Result<std::vector<Chunk>> readChunks(std::string_view bytes, std::string_view name) {
+Result<Chunks> readChunks(std::string_view bytes, std::string_view name) {
   return ChunkReader(bytes, name).read();
 }
 

@@ -1,171 +1,136 @@
 #include <algorithm>
-#include <span>
+#include <bit>
 
 #include "sweepface/codec.hpp"
 
 #include "codec/blocks.hpp"
 #include "codec/chunks.hpp"
-#include "codec/faces.hpp"
+#include "codec/encoding.hpp"
+#include "codec/lattice.hpp"
 #include "codec/names.hpp"
+#include "codec/pose_form.hpp"
+#include "codec/wireframe_coder.hpp"
 
 namespace sweepface {
 
 namespace codec {
 namespace {
 
-std::string head(const Rig& rig) {
+std::string base(const Rig& rig, const Packing& packing) {
   Writer out;
   out.f64(rig.tolerance);
-  out.number(rig.neutral.size());
+  out.f64(packing.neutralStep);
+  out.f64(packing.targetStep);
   out.number(rig.targets.size());
   out.number(rig.source.loose.size());
   return out.take();
 }
 
-void writeNodes(Writer& out, const Wireframe& w) {
-  out.number(w.nodes.size());
-  Index point = -1;
-  for (const Node& node : w.nodes) {
-    out.signedNumber(node.point - std::int64_t{point});
-    out.number(node.stored);
-    point = node.point;
-  }
+std::string grid(const Wireframe& wireframe, const Packing& packing) {
+  return ranged([&](auto& out) {
+    writeWireframe(out, wireframe);
+    const auto halves = static_cast<std::uint32_t>(2 * wireframe.arcs.size());
+    out.index(kMirrorAxis, 3, static_cast<std::uint32_t>(packing.axis));
+    out.number(kMirrorCount, 0, 0, packing.mirror.size());
+    for (const auto& pair : packing.mirror)
+      for (const HalfArc h : pair) out.index(kMirrorArc, halves, static_cast<std::uint32_t>(h));
+  });
 }
 
-void writeArcs(Writer& out, const Wireframe& w) {
-  out.number(w.arcs.size());
-  Index from = 0, ribbon = 0;
-  for (const Arc& arc : w.arcs) {
-    out.signedNumber(arc.from - std::int64_t{from});
-    out.signedNumber(arc.to - std::int64_t{arc.from});
-    out.number(2 * static_cast<std::uint64_t>(arc.edges) + arc.collapsed);
-    out.signedNumber(arc.ribbon - std::int64_t{ribbon});
-    from = arc.from, ribbon = arc.ribbon;
-  }
+std::string targetNames(const std::vector<Target>& targets) {
+  return ranged([&](auto& out) {
+    for (const Target& target : targets) codeName(out, target.name);
+  });
 }
 
-void writePatches(Writer& out, const Wireframe& w) {
-  out.number(w.patches.size());
-  HalfArc last = 0;
-  for (Index p = 0; p < static_cast<Index>(w.patches.size()); ++p)
-    for (int s = 0; s < 4; ++s) {
-      out.number(w.side(p, s).size());
-      for (HalfArc h : w.side(p, s)) {
-        out.signedNumber(h - std::int64_t{last});
-        last = h;
+const std::vector<Vec3>& vectorsOf(const Rig& rig, Index pose) {
+  return pose == 0 ? rig.neutral : rig.targets[pose - 1].difference;
+}
+
+bool isSame(const Vec3& a, const Vec3& b) {
+  const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x); };
+  return bits(a.x) == bits(b.x) && bits(a.y) == bits(b.y) && bits(a.z) == bits(b.z);
+}
+
+// The coefficients of all poses and the vectors that they do not give.
+struct Poses {
+  std::vector<Coefficients> coefficients;
+  std::vector<std::vector<Index>> exact;
+
+  Poses(const Rig& rig, const Packing& packing, const Lattice& lattice) {
+    for (Index pose = 0; pose < static_cast<Index>(packing.poses.size()); ++pose) {
+      const std::vector<Vec3>& vectors = vectorsOf(rig, pose);
+      const double step = stepOf(packing, pose);
+      Coefficients q(vectors.size());
+      if (step > 0) q = lattice.round(vectors, step);
+      std::vector<Index> other = differing(vectors, q, lattice, step);
+      // Where hardly anything is a multiple of the steps these only cost.
+      if (step > 0 && 2 * other.size() > vectors.size()) {
+        q.assign(vectors.size(), Steps3{});
+        other = differing(vectors, q, lattice, step);
       }
+      coefficients.push_back(std::move(q));
+      exact.push_back(std::move(other));
     }
+  }
+
+ private:
+  static std::vector<Index> differing(const std::vector<Vec3>& vectors, const Coefficients& q,
+                                      const Lattice& lattice, double step) {
+    std::vector<Vec3> restored(vectors.size());
+    lattice.restore(q, step, restored);
+    std::vector<Index> result;
+    for (Index v = 0; v < static_cast<Index>(vectors.size()); ++v)
+      if (!isSame(vectors[v], restored[v])) result.push_back(v);
+    return result;
+  }
+};
+
+// Poses from `first` up to `end`, 0 the neutral.
+std::string writePoses(Poses& poses, const Packing& packing, const Lattice& lattice, Index first,
+                       Index end) {
+  RangeEncoder coder;
+  Symbols<RangeEncoder> out(coder);
+  CoefficientCoder<RangeEncoder> vectors(lattice.hierarchy(), coder, lattice.axis());
+  for (Index pose = first; pose < end; ++pose) {
+    Packing::Pose form = packing.poses[pose];
+    codePose(out, form, pose);
+    vectors.code(poses.coefficients[pose], symmetryOf(form, pose),
+                 partnerOf(packing, poses.coefficients, pose), pose == 0);
+  }
+  return coder.finish();
 }
 
-std::string wireframe(const Wireframe& w) {
+std::string exactVectors(const Rig& rig, const Poses& poses) {
   Writer out;
-  out.number(static_cast<std::uint64_t>(w.points));
-  writeNodes(out, w);
-  writeArcs(out, w);
-  writePatches(out, w);
-  return out.take();
-}
-
-bool hasCreases(const Wireframe& w) { return std::ranges::count(w.arcs, true, &Arc::crease) > 0; }
-
-std::string creases(const Wireframe& w) {
-  Writer out;
-  out.number(static_cast<std::uint64_t>(std::ranges::count(w.arcs, true, &Arc::crease)));
-  Index last = -1;
-  for (Index a = 0; a < static_cast<Index>(w.arcs.size()); ++a) {
-    if (!w.arcs[a].crease) continue;
-    out.signedNumber(a - last);
-    last = a;
+  Index before = -1;
+  for (Index pose = 0; pose < static_cast<Index>(poses.exact.size()); ++pose) {
+    const std::vector<Index>& places = poses.exact[pose];
+    if (places.empty()) continue;
+    out.number(static_cast<std::uint64_t>(pose - before - 1));
+    before = pose;
+    out.number(places.size());
+    Index last = -1;
+    std::vector<Vec3> values;
+    for (const Index v : places) {
+      out.signedNumber(v - last - 1);
+      last = v;
+      values.push_back(vectorsOf(rig, pose)[v]);
+    }
+    writeVectors(out, values, Precision::exact);
   }
   return out.take();
 }
 
-std::string shapes(const std::vector<Shape>& ribbons) {
+std::string looseVertices(const std::vector<Vec3>& loose) {
   Writer out;
-  out.number(ribbons.size());
-  std::vector<bool> chosen;
-  for (const Shape& shape : ribbons) chosen.push_back(shape != Shape{});
-  writeMask(out, chosen);
-  for (const Shape& shape : ribbons)
-    if (shape != Shape{})
-      for (const double x : {shape.rho, shape.eta, shape.lambda}) out.f64(x);
+  writeVectors(out, loose, Precision::exact);
   return out.take();
 }
 
-std::string vectors(const std::vector<Vec3>& vectors, Precision precision) {
+std::string drift(const std::vector<Target>& targets) {
   Writer out;
-  writeVectors(out, vectors, precision);
-  return out.take();
-}
-
-std::string target(const Target& target) {
-  Writer out;
-  out.text(target.name);
-  writeVectors(out, target.difference, Precision::single);
-  writeVectors(out, target.looseDifference, Precision::exact);
-  return out.take();
-}
-
-std::string sourceOrder(const std::vector<Index>& gridVertex) {
-  Writer out;
-  out.number(gridVertex.size());
-  Index last = -1;
-  for (Index v : gridVertex) {
-    out.signedNumber(v - std::int64_t{last} - 1);
-    last = v;
-  }
-  return out.take();
-}
-
-bool hasFaces(const Polygons& polygons) {
-  return polygons.faceCount() > 0 || !polygons.materials.empty() || !polygons.groups.empty() ||
-         !polygons.materialFiles.empty();
-}
-
-std::string polygons(const Polygons& polygons) {
-  Writer out;
-  std::vector<Index> sizes;
-  for (Index f = 0; f < polygons.faceCount(); ++f) sizes.push_back(polygons.faceSize(f));
-  writeRuns(out, sizes);
-  Index last = 0;
-  for (Index v : polygons.corners) {
-    out.signedNumber(v - std::int64_t{last});
-    last = v;
-  }
-  writeTexts(out, polygons.materials);
-  writeRuns(out, polygons.faceMaterial);
-  writeTexts(out, polygons.groups);
-  writeRuns(out, polygons.faceGroup);
-  writeTexts(out, polygons.materialFiles);
-  return out.take();
-}
-
-std::string texcoords(const Polygons& polygons) {
-  Writer out;
-  out.number(polygons.texcoords.size());
-  writeVectors(out, polygons.texcoords, Precision::exact);
-  out.byte(!polygons.cornerTexcoords.empty());
-  Index last = -1;
-  for (Index t : polygons.cornerTexcoords) {
-    out.signedNumber(t - std::int64_t{last});
-    last = t;
-  }
-  return out.take();
-}
-
-// A quad that goes once around a face of four corners is told by its first one alone.
-std::string quadCorners(const SourceMesh& source) {
-  Writer out;
-  Index last = 0;
-  for (std::size_t q = 0; q + 4 <= source.quadCorners.size(); q += 4) {
-    const Index* corner = &source.quadCorners[q];
-    const std::int64_t step = corner[0] - std::int64_t{last};
-    const bool whole =
-        std::ranges::equal(aroundQuad(source.polygons, corner[0]), std::span(corner, 4));
-    out.signedNumber(2 * step + !whole);
-    for (int k = 1; k < 4 && !whole; ++k) out.signedNumber(corner[k] - std::int64_t{corner[k - 1]});
-    last = corner[0];
-  }
+  for (const Target& target : targets) writeVectors(out, target.looseDifference, Precision::exact);
   return out.take();
 }
 
@@ -175,7 +140,7 @@ std::string scene(std::string_view glb) {
   return out.take();
 }
 
-std::string names(const Names& names) {
+std::string thingNames(const Names& names) {
   Writer out;
   writeNames(out, names);
   return out.take();
@@ -186,25 +151,26 @@ std::string names(const Names& names) {
 
 std::string encode(const Rig& rig) {
   using namespace codec;
-  const SourceMesh& source = rig.source;
-  const Polygons& faces = source.polygons;
   Writer out;
   writeHeader(out);
-  writeChunk(out, "HEAD", head(rig));
-  writeChunk(out, "WIRE", wireframe(rig.surface.wireframe()));
-  if (hasCreases(rig.surface.wireframe()))
-    writeChunk(out, "CREA", creases(rig.surface.wireframe()));
-  writeChunk(out, "SHAP", shapes(rig.surface.wireframe().ribbons));
-  writeChunk(out, "NEUT", vectors(rig.neutral, Precision::single));
-  for (const Target& t : rig.targets) writeChunk(out, "TARG", target(t));
-  if (!source.loose.empty()) writeChunk(out, "loos", vectors(source.loose, Precision::exact));
-  if (!source.gridVertex.empty()) writeChunk(out, "ordr", sourceOrder(source.gridVertex));
-  if (hasFaces(faces)) writeChunk(out, "poly", polygons(faces));
-  if (!faces.texcoords.empty() || !faces.cornerTexcoords.empty())
-    writeChunk(out, "texc", texcoords(faces));
-  if (!source.quadCorners.empty()) writeChunk(out, "quad", quadCorners(source));
+  const Packing packing = sound(rig);
+  const Lattice lattice(rig.surface, packing);
+  Poses poses(rig, packing, lattice);
+  const auto count = static_cast<Index>(packing.poses.size());
+  writeChunk(out, "BASE", base(rig, packing));
+  writeChunk(out, "GRID", grid(rig.surface.wireframe(), packing));
+  if (count > 1) writeChunk(out, "TNAM", targetNames(rig.targets));
+  writeChunk(out, "REST", writePoses(poses, packing, lattice, 0, 1));
+  if (count > 1) writeChunk(out, "MOVE", writePoses(poses, packing, lattice, 1, count));
+  if (const std::string exact = exactVectors(rig, poses); !exact.empty())
+    writeChunk(out, "EXAC", exact);
+  if (!rig.source.loose.empty()) {
+    writeChunk(out, "loos", looseVertices(rig.source.loose));
+    if (count > 1) writeChunk(out, "drif", drift(rig.targets));
+  }
+  writeSource(out, rig, packing.textureBits);
   if (!rig.scene.empty()) writeChunk(out, "scen", scene(rig.scene));
-  if (hasNames(rig.names)) writeChunk(out, "name", names(rig.names));
+  if (hasNames(rig.names)) writeChunk(out, "name", thingNames(rig.names));
   writeChunk(out, "END ", {});
   return out.take();
 }

@@ -15,9 +15,10 @@ Result<std::vector<FilePart>> fileParts(std::string_view bytes, std::string_view
     if (found == parts.end()) found = parts.insert(parts.end(), {std::string(part), 0});
     found->bytes += size;
   };
-  add("container", codec::kHeaderSize + chunks->size() * codec::kFrameSize);
-  for (const codec::Chunk& chunk : *chunks)
-    add(chunk.rank < 0 ? "unknown" : codec::kKinds[chunk.rank].part, chunk.payload.size());
+  add("container", codec::kHeaderSize + chunks->list.size() * codec::kFrameSize);
+  for (const codec::Chunk& chunk : chunks->list)
+    add(chunk.rank < 0 ? "unknown" : codec::kindsOf(chunks->version)[chunk.rank].part,
+        chunk.payload.size());
   return parts;
 }
 

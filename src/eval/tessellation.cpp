@@ -89,14 +89,19 @@ std::vector<std::array<Index, 4>> Tessellation::faces() const {
   return result;
 }
 
+Tessellation::Terms Tessellation::terms(Index vertex) const {
+  if (vertex < onArcs_) return {arcWeights_[vertex].vectors, arcWeights_[vertex].factors};
+  const Surface::Weights& w = patchWeights_[vertex - onArcs_];
+  return {w.vectors, w.factors};
+}
+
 void Tessellation::positions(std::span<const Vec3> vectors, std::span<Vec3> out) const {
-  const auto combine = [&](const auto& w) {
+  for (Index v = 0; v < vertexCount(); ++v) {
+    const Terms t = terms(v);
     Vec3 sum;
-    for (std::size_t k = 0; k < w.vectors.size(); ++k) sum += w.factors[k] * vectors[w.vectors[k]];
-    return sum;
-  };
-  for (Index v = 0; v < onArcs_; ++v) out[v] = combine(arcWeights_[v]);
-  for (Index v = onArcs_; v < vertexCount(); ++v) out[v] = combine(patchWeights_[v - onArcs_]);
+    for (std::size_t k = 0; k < t.vectors.size(); ++k) sum += t.factors[k] * vectors[t.vectors[k]];
+    out[v] = sum;
+  }
 }
 
 std::vector<Vec3> Tessellation::positions(std::span<const Vec3> vectors) const {

@@ -6,6 +6,7 @@
 #include "sweepface/fit.hpp"
 
 #include "codec/utf8.hpp"
+#include "fit/quantise.hpp"
 #include "fit/refine.hpp"
 #include "fit/shapes.hpp"
 #include "fit/source_data.hpp"
@@ -25,6 +26,8 @@ double diagonal(const PolygonMesh& mesh) {
 namespace {
 
 constexpr int kMostRounds = 60;
+// The fit's share of the tolerance; the rest is left to the file.
+constexpr double kFitShare = 0.7;
 // Predicted slopes overshoot where an edge is this many times as long as the next along its line.
 constexpr double kUneven = 3;
 // At the default tolerance of 0.02 % of the diagonal normals may be this far off, in degrees.
@@ -88,7 +91,7 @@ class Converter {
       return fail("all vertices of the neutral stand at one place; there is no surface to fit");
     const double tolerance = options_.tolerance > 0 ? options_.tolerance : 0.0002 * size;
     const double angle = normalLimit(options_, tolerance, size);
-    limits_ = {tolerance, angle, angle < 180};
+    limits_ = {kFitShare * tolerance, angle, angle < 180};
 
     auto mesh = makeGridMesh(source_);
     if (!mesh) return std::unexpected(mesh.error());
@@ -101,6 +104,11 @@ class Converter {
     if (!solution) return std::unexpected(solution.error());
     Conversion conversion{assemble(*mesh, *solution, data), mesh->warnings};
     conversion.rig.tolerance = tolerance;
+    report("packing", 0.95);
+    if (auto ok =
+            quantise(conversion.rig, source_, tolerance, [&](double) { return !cancelled(); });
+        !ok)
+      return std::unexpected(ok.error());
     report("done", 1);
     return conversion;
   }
@@ -117,7 +125,11 @@ class Converter {
   Result<Solution> fit(Layout& layout, SourceData& data) {
     ExtraJets extra(data.uneven.size(), 0);
     for (std::size_t v = 0; v < extra.size(); ++v)
-      if (data.uneven[v]) extra[v] = kSlopes;
+      if (data.uneven[v]) {
+        extra[v] = kSlopes;
+        const Index image = layout.image(static_cast<Index>(v));
+        if (image >= 0) extra[image] = kSlopes;
+      }
     int smoothing = 0;  // rounds since the promise holds, spent on normals
     for (int round = 0; round < kMostRounds; ++round) {
       if (cancelled()) return fail("the conversion was interrupted");
@@ -166,7 +178,8 @@ class Converter {
   }
 
   Rig assemble(const GridMesh& mesh, const Solution& solution, const SourceData& data) {
-    Rig rig{std::move(draft_.surface), {}, {}, {}, 0, {}};
+    Rig rig;
+    rig.surface = std::move(draft_.surface);
     const auto row = [&](Eigen::Index v, Index pose) {
       return SourceData::at(solution, static_cast<Index>(v), pose);
     };

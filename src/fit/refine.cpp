@@ -26,6 +26,7 @@ Result<Draft> makeDraft(Layout& layout, ExtraJets& extra) {
         } else {
           wireframe.nodes[n].stored = kWholeJet;
           extra[vertexOf[n]] = kWholeJet;
+          if (const Index image = layout.image(vertexOf[n]); image >= 0) extra[image] = kWholeJet;
         }
       }
       if (extended) break;

@@ -1,40 +1,35 @@
 #include "gltf/accessor_uses.hpp"
 
+#include <fmt/format.h>
 #include <set>
+
+#include "io/text.hpp"
 
 namespace sweepface::gltf {
 namespace {
 
-class Marker {
- public:
-  explicit Marker(std::size_t accessors) : used_(accessors) {}
+/// Called with every reference to an accessor; `attribute` is its name within a primitive, and
+/// `primitive` is null for what is not of a mesh.
+using Visit =
+    std::function<void(const Json& reference, std::string_view attribute, const Json* primitive)>;
 
-  void addMember(const Json& object, std::string_view key) {
-    if (const Json* const reference = find(object, key)) add(*reference);
-  }
-  void addAttributes(const Json& attributes, const CountsInParts& counts) {
-    if (!attributes.is_object()) return;
-    for (const auto& [name, reference] : attributes.items())
-      if (counts(name)) add(reference);
-  }
-  void addPrimitive(const Json& primitive, const CountsInParts& counts) {
-    if (counts("indices")) addMember(primitive, "indices");
-    if (const Json* const attributes = find(primitive, "attributes"))
-      addAttributes(*attributes, counts);
-    for (const Json& target : listOf(primitive, "targets")) addAttributes(target, counts);
-  }
+void visitMember(const Json& object, std::string_view key, const Json* primitive,
+                 const Visit& visit) {
+  if (const Json* const reference = find(object, key)) visit(*reference, key, primitive);
+}
 
-  std::vector<bool> take() { return std::move(used_); }
+void visitAttributes(const Json& attributes, const Json* primitive, const Visit& visit) {
+  if (!attributes.is_object()) return;
+  for (const auto& [name, reference] : attributes.items()) visit(reference, name, primitive);
+}
 
- private:
-  void add(const Json& reference) {
-    if (const auto index = asIndex(reference, used_.size())) used_[*index] = true;
-  }
-
-  std::vector<bool> used_;
-};
-
-bool always(std::string_view) { return true; }
+void visitPrimitive(const Json& primitive, const Visit& visit) {
+  visitMember(primitive, "indices", &primitive, visit);
+  if (const Json* const attributes = find(primitive, "attributes"))
+    visitAttributes(*attributes, &primitive, visit);
+  for (const Json& target : listOf(primitive, "targets"))
+    visitAttributes(target, &primitive, visit);
+}
 
 /// The attributes of many copies of a mesh.
 const Json* instancesOf(const Json& node) {
@@ -43,25 +38,43 @@ const Json* instancesOf(const Json& node) {
   return instances ? find(*instances, "attributes") : nullptr;
 }
 
+void visitAll(const Document& document, const Visit& visit) {
+  for (const Json& mesh : document.list("meshes"))
+    for (const Json& primitive : listOf(mesh, "primitives")) visitPrimitive(primitive, visit);
+  for (const Json& skin : document.list("skins"))
+    visitMember(skin, "inverseBindMatrices", nullptr, visit);
+  for (const Json& animation : document.list("animations"))
+    for (const Json& sampler : listOf(animation, "samplers"))
+      for (const char* key : {"input", "output"}) visitMember(sampler, key, nullptr, visit);
+  for (const Json& node : document.list("nodes"))
+    if (const Json* const attributes = instancesOf(node))
+      visitAttributes(*attributes, nullptr, visit);
+}
+
 }  // namespace
 
 std::vector<bool> usedAccessors(const Document& document, const Parts& parts,
                                 const CountsInParts& counts) {
   std::set<const Json*> ofParts;
   for (const Part& part : parts.parts) ofParts.insert(&primitiveOf(document, parts, part));
-  Marker marker(document.list("accessors").size());
-  for (const Json& mesh : document.list("meshes"))
-    for (const Json& primitive : listOf(mesh, "primitives"))
-      marker.addPrimitive(primitive, ofParts.contains(&primitive) ? counts : always);
-  for (const Json& skin : document.list("skins")) marker.addMember(skin, "inverseBindMatrices");
-  for (const Json& animation : document.list("animations"))
-    for (const Json& sampler : listOf(animation, "samplers")) {
-      marker.addMember(sampler, "input");
-      marker.addMember(sampler, "output");
-    }
-  for (const Json& node : document.list("nodes"))
-    if (const Json* const attributes = instancesOf(node)) marker.addAttributes(*attributes, always);
-  return marker.take();
+  std::vector<bool> used(document.list("accessors").size());
+  visitAll(document, [&](const Json& reference, std::string_view name, const Json* primitive) {
+    if (ofParts.contains(primitive) && !counts(name)) return;
+    if (const auto index = asIndex(reference, used.size())) used[*index] = true;
+  });
+  return used;
+}
+
+Result<void> checkAccessorUses(const Document& document) {
+  const std::size_t count = document.list("accessors").size();
+  Result<void> result;
+  visitAll(document, [&](const Json& reference, std::string_view name, const Json*) {
+    if (result && !asIndex(reference, count))
+      result = fail(fmt::format(
+          "{} names an accessor that does not exist (there are {}); export the glTF again.",
+          io::inQuotes(name), count));
+  });
+  return result;
 }
 
 }  // namespace sweepface::gltf

@@ -16,4 +16,8 @@ using CountsInParts = std::function<bool(std::string_view)>;
 std::vector<bool> usedAccessors(const Document& document, const Parts& parts,
                                 const CountsInParts& counts);
 
+/// Whether everything that uses an accessor names one that exists: else it would come to name one
+/// that is added.
+Result<void> checkAccessorUses(const Document& document);
+
 }  // namespace sweepface::gltf

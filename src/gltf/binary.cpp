@@ -12,6 +12,11 @@ constexpr std::size_t word = 4;  // nothing in a glTF asks for a wider alignment
 
 std::size_t aligned(std::size_t bytes) { return (bytes + word - 1) / word * word; }
 
+/// Whether the keys below this one are names of a file's own: attributes, or what users put there.
+bool holdsNames(std::string_view key) {
+  return key == "attributes" || key == "targets" || key == "extras";
+}
+
 /// Hands every "bufferView" in a JSON to `visit`.
 void eachReferenceIn(Json& json, const std::function<void(Json&)>& visit) {
   if (json.is_array())
@@ -19,7 +24,7 @@ void eachReferenceIn(Json& json, const std::function<void(Json&)>& visit) {
   if (!json.is_object()) return;
   for (auto& [key, value] : json.items()) {
     if (key == "bufferView") visit(value);
-    eachReferenceIn(value, visit);
+    if (!holdsNames(key)) eachReferenceIn(value, visit);
   }
 }
 

@@ -1,8 +1,8 @@
 #include <unordered_map>
 
+#include "eval/triangulate.hpp"
 #include "gltf/fine_mesh.hpp"
 #include "gltf/same_vertices.hpp"
-#include "eval/triangulate.hpp"
 
 namespace sweepface::gltf {
 namespace {

@@ -213,9 +213,25 @@ bool losesTangents(const Document& document, const Parts& parts) {
   });
 }
 
+/// What the rig does not use is passed on unread, but what it names must exist: else it would come
+/// to name what is added.
+Result<void> checkReferences(const Document& document) {
+  for (const char* list : {"images", "accessors"}) {
+    const Json& holders = document.list(list);
+    for (std::size_t k = 0; k < holders.size(); ++k)
+      if (const Json* const view = find(holders[k], "bufferView"))
+        if (!asIndex(*view, document.views.size()))
+          return fail(fmt::format(
+              "{} {}: its bufferView does not exist (there are {}); export the glTF again.", list,
+              k, document.views.size()));
+  }
+  return checkAccessorUses(document);
+}
+
 }  // namespace
 
 Result<Scene> makeScene(Document document, const Parts& parts, const fs::path& folder) {
+  if (auto ok = checkReferences(document); !ok) return std::unexpected(ok.error());
   Scene scene;
   if (losesTangents(document, parts))
     scene.warnings.push_back(

@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <map>
 
+#include "eval/triangulate.hpp"
 #include "gltf/bound_scene.hpp"
 #include "gltf/builder.hpp"
-#include "eval/triangulate.hpp"
 
 namespace sweepface::gltf {
 namespace {

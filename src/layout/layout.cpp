@@ -4,10 +4,12 @@
 #include <queue>
 #include <tuple>
 
+#include "layout/mirror.hpp"
+
 namespace sweepface {
 
 Layout::Layout(const GridMesh& mesh, std::span<const Vec3> positions)
-    : mesh_(mesh), mark_(mesh.twin.size(), 0) {
+    : mesh_(mesh), mirror_(findMirror(mesh, positions)), mark_(mesh.twin.size(), 0) {
   buildRings();
   for (HalfEdge h = 0; h < static_cast<HalfEdge>(mesh_.twin.size()); ++h)
     if (mesh_.twin[h] < 0) setMark(h);
@@ -102,8 +104,16 @@ bool Layout::isUneven(Index v, std::span<const Vec3> positions, double ratio) co
 }
 
 void Layout::setMark(HalfEdge h) {
-  mark_[h] = 1;
-  if (mesh_.twin[h] >= 0) mark_[mesh_.twin[h]] = 1;
+  for (const HalfEdge side : {h, mirror_[h]}) {
+    if (side < 0) continue;
+    mark_[side] = 1;
+    if (mesh_.twin[side] >= 0) mark_[mesh_.twin[side]] = 1;
+  }
+}
+
+Index Layout::image(Index vertex) const {
+  const HalfEdge mirrored = mirror_[sectors(vertex)[0]];
+  return mirrored < 0 ? -1 : mesh_.to(mirrored);
 }
 
 void Layout::trace(Index vertex, int k) {

@@ -30,6 +30,8 @@ class Layout {
   Result<std::vector<GridPatch>> patches() const;
   /// The wireframe of the marks, patch by patch in the order of `patches`, which are turned so that
   /// ribbons stay short. Masks store as much as the vertices around a node can determine.
+  /// Patches, nodes and arcs are numbered as they come when patch is glued to patch, which files
+  /// hold for nothing.
   Wireframe wireframe(std::vector<GridPatch>& patches) const;
   /// The mesh vertex of each node of the latest wireframe.
   const std::vector<Index>& nodeVertices() const { return nodeVertices_; }
@@ -40,6 +42,9 @@ class Layout {
   void split(const GridPatch& patch, bool alongV, Index i);
   /// Runs the line that ends at a T-vertex on through the patch it stands at.
   void extend(Index vertex);
+
+  /// The mirror image of a vertex, or -1. Whatever is marked is marked on both sides.
+  Index image(Index vertex) const;
 
   bool isNode(Index vertex) const;
   /// Irregular vertices, crossings and boundary vertices where a line ends; not T-vertices.
@@ -70,11 +75,15 @@ class Layout {
   bool marked(Index vertex, int k) const { return mark_[arm(vertex, k)]; }
   int marks(Index vertex) const;
   void setMark(HalfEdge h);
+  /// Patches in the order in which each is glued to those before it, turned so that side 0 is the
+  /// one that has waited longest.
+  std::vector<GridPatch> glued(std::vector<GridPatch> patches) const;
   void buildRings();
   void traceFromIrregular(std::span<const Vec3> positions);
   void cutRings();
 
   const GridMesh& mesh_;
+  std::vector<HalfEdge> mirror_;  // [half-edges] of the image quad on the image edge, or -1
   std::vector<char> mark_;        // [half-edges], the same on both sides of an edge
   std::vector<Index> ringStart_;  // [vertices + 1]
   std::vector<HalfEdge> ring_;    // half-edges leaving each vertex, counter-clockwise

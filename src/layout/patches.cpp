@@ -135,7 +135,7 @@ void chooseSweeps(Wireframe& w, std::vector<GridPatch>& patches, const Connectiv
     const auto cost = [&](int s) {
       return first(s) == first(s + 2) ? 0 : size[first(s)] + size[first(s + 2)];
     };
-    const bool turn = std::pair(cost(1), patches[p].m) < std::pair(cost(0), patches[p].n);
+    const bool turn = cost(1) < cost(0);
     join(first(turn ? 1 : 0), first(turn ? 3 : 2));
     if (!turn) continue;
     auto& sides = w.patches[p].sides;
@@ -178,12 +178,56 @@ int determined(const Wireframe& w, const Connectivity& c, Index node, int axis) 
 
 }  // namespace
 
+std::vector<GridPatch> Layout::glued(std::vector<GridPatch> patches) const {
+  std::vector<Index> patchAt(mark_.size(), -1);  // of the half-edges along its sides
+  std::vector<std::array<HalfEdge, 4>> first(patches.size());
+  std::vector<std::vector<HalfEdge>> border(patches.size());
+  for (Index p = 0; p < static_cast<Index>(patches.size()); ++p)
+    for (int s = 0; s < 4; ++s) {
+      const auto side = sideOf(patches[p], s);
+      first[p][s] = side.front();
+      for (const HalfEdge h : side) patchAt[h] = p;
+      border[p].insert(border[p].end(), side.begin(), side.end());
+    }
+  std::vector<char> placed(patches.size(), 0);
+  std::vector<std::size_t> waiting(mark_.size(), SIZE_MAX);  // since when an open edge waits
+  std::vector<GridPatch> result;
+  std::vector<HalfEdge> queue;
+  const auto place = [&](Index p) {
+    int base = 0;
+    for (int s = 1; s < 4; ++s)
+      if (waiting[first[p][s]] < waiting[first[p][base]]) base = s;
+    placed[p] = 1;
+    GridPatch patch = std::move(patches[p]);
+    for (int k = 0; k < base; ++k) patch = turned(patch);
+    // In the order of the loop, which begins with side `base`.
+    const std::size_t size = border[p].size();
+    const auto begin = std::ranges::find(border[p], first[p][base]) - border[p].begin();
+    for (std::size_t k = 0; k < size; ++k) {
+      const HalfEdge other = mesh_.twin[border[p][(static_cast<std::size_t>(begin) + k) % size]];
+      if (other < 0 || placed[patchAt[other]]) continue;
+      waiting[other] = queue.size();
+      queue.push_back(other);
+    }
+    result.push_back(std::move(patch));
+  };
+  std::size_t head = 0;
+  for (Index p = 0; p < static_cast<Index>(patches.size()); ++p) {
+    if (placed[p]) continue;
+    place(p);
+    for (; head < queue.size(); ++head)
+      if (const Index next = patchAt[queue[head]]; !placed[next]) place(next);
+  }
+  return result;
+}
+
 Wireframe Layout::wireframe(std::vector<GridPatch>& patches) const {
+  patches = glued(std::move(patches));
   Wireframe w;
   std::vector<Index> nodeOf(mesh_.vertexCount(), -1), pointOf(mesh_.pointCount(), -1);
   nodeVertices_.clear();
-  for (Index v = 0; v < mesh_.vertexCount(); ++v) {
-    if (!isNode(v)) continue;
+  const auto number = [&](Index v) {
+    if (nodeOf[v] >= 0 || !isNode(v)) return;
     nodeOf[v] = static_cast<Index>(w.nodes.size());
     Index point = -1;
     if (isFull(v)) {
@@ -193,7 +237,10 @@ Wireframe Layout::wireframe(std::vector<GridPatch>& patches) const {
     }
     w.nodes.push_back({point, kPosition});
     nodeVertices_.push_back(v);
-  }
+  };
+  for (const GridPatch& p : patches)
+    for (int s = 0; s < 4; ++s)
+      for (const HalfEdge h : sideOf(p, s)) number(mesh_.from(h));
   ArcBuilder arcs{mesh_, nodeOf, w, std::vector<HalfArc>(mark_.size(), -1)};
   for (const GridPatch& p : patches) {
     Patch patch;

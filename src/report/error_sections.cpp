@@ -8,7 +8,7 @@
 #include "sweepface/fit.hpp"
 
 #include "report/maker.hpp"
-#include "report/plot.hpp"
+#include "sweepface/plot.hpp"
 
 namespace sweepface {
 

@@ -6,7 +6,7 @@
 #include "sweepface/motion.hpp"
 
 #include "report/maker.hpp"
-#include "report/plot.hpp"
+#include "sweepface/plot.hpp"
 #include "report/shape_study.hpp"
 
 namespace sweepface {

@@ -1,4 +1,4 @@
-#include "report/plot.hpp"
+#include "sweepface/plot.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -57,6 +57,12 @@ std::string dot(double x, double y, std::string_view colour, double radius = 3.5
 
 std::string_view dashes(const Series& s) { return s.dashed ? " stroke-dasharray=\"5 4\"" : ""; }
 
+/// Of a text in UTF-8, where bytes 10xxxxxx go on with a letter.
+double letters(std::string_view text) {
+  return static_cast<double>(
+      std::ranges::count_if(text, [](char c) { return (c & 0xc0) != 0x80; }));
+}
+
 /// At most so many letters.
 std::string shortened(const std::string& name, std::size_t most) {
   if (name.size() <= most) return name;
@@ -71,16 +77,21 @@ std::string number(double value) {
                                                          : fmt::format("{:.4g}", value);
 }
 
-std::string keysOf(const std::vector<Series>& series, double x, double y) {
-  std::string svg;
+double widthOf(const Series& key) { return 40 + 6.8 * letters(key.name); }
+
+/// The keys of a plot in lines from `x` to `right`, the first at `y`; returns where the last is.
+double addKeys(std::string& svg, const std::vector<Series>& series, double x, double y,
+               double right) {
+  const double left = x;
   for (const Series& s : series) {
+    if (x > left && x + widthOf(s) > right) x = left, y += 18;
     svg += s.dots ? dot(x + 10, y - 4, s.colour)
                   : line(x, y - 4, x + 20, y - 4, s.colour,
                          fmt::format(" stroke-width=\"2\"{}", dashes(s)));
     svg += text(x + 26, y, "start", s.name, kInk);
-    x += 44 + 7.2 * static_cast<double>(s.name.size());
+    x += widthOf(s);
   }
-  return svg;
+  return y;
 }
 
 std::string framed(double width, double height, const std::string& title, const std::string& body) {
@@ -118,16 +129,16 @@ std::vector<double> niceTicks(double low, double high, bool logarithmic) {
 
 std::string linePlot(const std::string& title, const Axis& x, const Axis& y,
                      std::vector<Series> series) {
-  constexpr double width = 480, height = 330, left = 62, right = 462, top = 52, bottom = 278;
+  constexpr double width = 490, height = 330, left = 62, right = 462, bottom = 278;
   for (Series& s : series)
     std::erase_if(s.points, [&](const Vec2& p) {
       return (x.logarithmic && !(p.x > 0)) || (y.logarithmic && !(p.y > 0));
     });
   if (std::ranges::all_of(series, [](const Series& s) { return s.points.empty(); })) return {};
+  std::string svg = text(left, 18, "start", title, kInk, " font-weight=\"600\"");
+  const double top = addKeys(svg, series, left, 39, width) + 13;
   const Scale across = scaleOf(series, &Vec2::x, x, left, right);
   const Scale up = scaleOf(series, &Vec2::y, y, bottom, top);
-  std::string svg = text(left, 18, "start", title, kInk, " font-weight=\"600\"");
-  svg += keysOf(series, left, 39);
   for (const double tick : up.ticks) {
     svg += line(left, up.at(tick), right, up.at(tick), kGrid);
     svg += text(left - 8, up.at(tick) + 4, "end", number(tick));
@@ -153,6 +164,21 @@ std::string linePlot(const std::string& title, const Axis& x, const Axis& y,
   return framed(width, height, title, svg);
 }
 
+std::string plotSheet(const std::vector<std::string>& plots) {
+  constexpr int width = 490, height = 330, gap = 20;
+  const int rows = (static_cast<int>(plots.size()) + 1) / 2;
+  std::string svg = fmt::format(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" "
+      "height=\"{1}\" font-family=\"system-ui, sans-serif\" font-size=\"13\">\n"
+      "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n",
+      2 * width + 3 * gap, rows * (height + gap) + gap);
+  for (std::size_t k = 0; k < plots.size(); ++k)
+    svg += fmt::format("<svg x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" {}",
+                       gap + (k % 2) * (width + gap), gap + (k / 2) * (height + gap), width, height,
+                       plots[k].substr(std::string_view("<svg ").size()));
+  return svg + "</svg>\n";
+}
+
 std::string rowPlot(const std::string& title, const std::string& axis,
                     const std::vector<std::string>& names, const std::vector<Series>& series,
                     double limit) {
@@ -167,7 +193,7 @@ std::string rowPlot(const std::string& title, const std::string& axis,
     for (const Vec2& p : s.points) high = std::max(high, p.x);
   const Scale across{niceTicks(0, high, false), false, left, right};
   std::string svg = text(0, 18, "start", title, kInk, " font-weight=\"600\"");
-  svg += keysOf(series, 0, 42);
+  addKeys(svg, series, 0, 42, right);
   for (const double tick : across.ticks) {
     svg += line(across.at(tick), top, across.at(tick), bottom, kGrid);
     svg += text(across.at(tick), bottom + 18, "middle", number(tick));

@@ -13,24 +13,30 @@ struct FileChunk {
   std::string code, payload;
 };
 
-inline std::vector<FileChunk> takeApart(const std::string& bytes) {
-  std::vector<FileChunk> chunks;
+/// The chunks of a file, and what stands before them.
+struct TakenApart : std::vector<FileChunk> {
+  std::string header;
+};
+
+inline TakenApart takeApart(const std::string& bytes) {
+  TakenApart chunks;
+  chunks.header = bytes.substr(0, codec::kHeaderSize);
   const auto whole = codec::readChunks(bytes, "whole.sweep").value();
-  for (const codec::Chunk& chunk : whole)
+  for (const codec::Chunk& chunk : whole.list)
     chunks.push_back(
         {bytes.substr(chunk.offset - codec::kFrameSize, 4), std::string(chunk.payload)});
   return chunks;
 }
 
 /// With checksums that match.
-inline std::string putTogether(const std::vector<FileChunk>& chunks) {
+inline std::string putTogether(const TakenApart& chunks) {
   codec::Writer out;
-  codec::writeHeader(out);
+  out.raw(chunks.header);
   for (const FileChunk& chunk : chunks) codec::writeChunk(out, chunk.code, chunk.payload);
   return out.take();
 }
 
-inline FileChunk& chunkOf(std::vector<FileChunk>& chunks, std::string_view code) {
+inline FileChunk& chunkOf(TakenApart& chunks, std::string_view code) {
   for (FileChunk& chunk : chunks)
     if (chunk.code == code) return chunk;
   ADD_FAILURE() << "no chunk " << code;

@@ -3,6 +3,7 @@
 #include "allocations.hpp"
 #include "codec/files.hpp"
 #include "codec/rigs.hpp"
+#include "codec/version1.hpp"
 
 namespace sweepface {
 namespace {
@@ -25,7 +26,7 @@ void expectRefusedInLittleMemory(const std::string& bytes, std::string_view code
 }
 
 TEST(Hostile, CountsAreRefusedBeforeRoomIsMadeForThem) {
-  const std::string bytes = encode(dressed(makeRig(onePatch(1, 1))));
+  const std::string bytes = encodeVersion1(dressed(makeRig(onePatch(1, 1))));
   const auto nothing = [](codec::Writer&) {};
   for (const char* code : {"WIRE", "SHAP", "TARG", "ordr", "poly", "texc", "quad"})
     expectRefusedInLittleMemory(bytes, code, nothing);
@@ -41,7 +42,7 @@ TEST(Hostile, CountsAreRefusedBeforeRoomIsMadeForThem) {
 }
 
 TEST(Hostile, LengthsOfChunksBeyondTheFileAreRefused) {
-  std::string bytes = encode(makeRig(onePatch(1, 1)));
+  std::string bytes = encodeVersion1(makeRig(onePatch(1, 1)));
   for (int k = 12; k < 16; ++k) bytes[k] = '\xFF';
   allocations.largest = 0;
   EXPECT_FALSE(decode(bytes, "a.sweep"));
@@ -49,7 +50,7 @@ TEST(Hostile, LengthsOfChunksBeyondTheFileAreRefused) {
 }
 
 TEST(Hostile, NumbersMustBeShortAndSmall) {
-  const std::string bytes = encode(makeRig(onePatch(1, 1)));
+  const std::string bytes = encodeVersion1(makeRig(onePatch(1, 1)));
   const auto message = [&](std::string_view number) {
     return decode(withPayload(bytes, "ordr", std::string(number)), "a.sweep").error().message;
   };
@@ -61,12 +62,12 @@ std::string refusalOf(Wireframe wireframe) {
   Rig rig;
   rig.surface = Surface::make(std::move(wireframe)).value();
   rig.neutral.resize(rig.surface.storedCount());
-  const auto back = decode(encode(rig), "a.sweep");
+  const auto back = decode(encodeVersion1(rig), "a.sweep");
   return back ? "" : back.error().message;
 }
 
 TEST(Hostile, DecimalsMustStayExact) {
-  const std::string bytes = encode(dressed(makeRig(onePatch(1, 1))));
+  const std::string bytes = encodeVersion1(dressed(makeRig(onePatch(1, 1))));
   const auto decimals = [&](unsigned digits, std::int64_t value) {
     const auto payload = payloadOf([&](codec::Writer& out) {
       out.number(1), out.byte(4), out.byte(digits);
@@ -101,7 +102,7 @@ TEST(Hostile, WireframesThatCannotBeEvaluatedAreRefused) {
 }
 
 TEST(Hostile, WhatTheSurfaceRefusesIsPassedOn) {
-  auto chunks = takeApart(encode(makeRig(onePatch(1, 1))));
+  auto chunks = takeApart(encodeVersion1(makeRig(onePatch(1, 1))));
   // The last byte is a step from half-arc to half-arc.
   std::string& wire = chunkOf(chunks, "WIRE").payload;
   wire.back() = 4;

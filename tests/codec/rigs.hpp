@@ -193,6 +193,7 @@ inline void expectEqual(const Rig& a, const Rig& b) {
   EXPECT_EQ(a.targets, b.targets);
   EXPECT_EQ(a.tolerance, b.tolerance);
   EXPECT_EQ(a.scene, b.scene);
+  EXPECT_EQ(a.names, b.names);
   EXPECT_EQ(a.source.gridVertex, b.source.gridVertex);
   EXPECT_EQ(a.source.loose, b.source.loose);
   EXPECT_EQ(a.source.quadCorners, b.source.quadCorners);

@@ -5,7 +5,7 @@
 #include "io/temporary_folder.hpp"
 #include "picture/scenes.hpp"
 #include "report/html.hpp"
-#include "report/plot.hpp"
+#include "sweepface/plot.hpp"
 #include "report/shape_study.hpp"
 
 namespace sweepface {

@@ -16,6 +16,16 @@ export function everyFile() {
   return [sample, ...readdirSync(corpus).filter((name) => name.endsWith('.sweep')).map((name) => join(corpus, name))];
 }
 
+const frame = process.env.SWEEPFACE_FRAME ?? here('../../build/release/web/test/web_frame');
+
+/** Positions and normals of an expression as the native C interface plays them, and how far off they may be. */
+export function played(file, weights, lod) {
+  const bytes = execFileSync(frame, [file, lod, ...Object.values(weights)], {maxBuffer: 1 << 28});
+  const floats = new Float32Array(bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.length));
+  const half = (floats.length - 1) / 2;
+  return {positions: floats.subarray(0, half), normals: floats.subarray(half, 2 * half), error: floats[2 * half]};
+}
+
 /** Positions and normals of an expression in double precision, as the tool exports them. */
 export function exported(file, weights, lod) {
   const folder = mkdtempSync(join(tmpdir(), 'sweepface-'));
@@ -39,19 +49,12 @@ export function someWeights(names) {
   return Object.fromEntries(names.map((name, k) => [name, ((7 * k + 3) % 11) / 10 - 0.2]));
 }
 
-/** A float as an integer that grows by one from float to float. */
-function place(x) {
-  const bits = new Int32Array(new Float32Array([x]).buffer)[0];
-  return bits < 0 ? -(bits & 0x7fffffff) : bits;
-}
-
-/** By how many floats two arrays differ at most, and how many numbers differ. */
-export function difference(doubles, floats) {
+/** The largest difference between two arrays, and how many numbers differ. */
+export function difference(a, b) {
   let most = 0, count = 0;
-  doubles.forEach((x, k) => {
-    const steps = Math.abs(place(Math.fround(x)) - place(floats[k]));
-    most = Math.max(most, steps);
-    count += steps > 0;
+  a.forEach((x, k) => {
+    most = Math.max(most, Math.abs(x - b[k]));
+    count += x !== b[k];
   });
   return {most, count};
 }

@@ -30,6 +30,9 @@ std::string rowPlot(const std::string& title, const std::string& axis,
                     const std::vector<std::string>& names, const std::vector<Series>& series,
                     double limit);
 
+/// Plots of linePlot() two by two, as a file of its own.
+std::string plotSheet(const std::vector<std::string>& plots);
+
 /// Numbers that are easy to read, from no more than the smallest value to no less than the largest.
 std::vector<double> niceTicks(double low, double high, bool logarithmic);
 

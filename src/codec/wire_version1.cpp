@@ -1,4 +1,4 @@
-#include "codec/wire.hpp"
+#include "codec/wire_version1.hpp"
 
 #include <algorithm>
 

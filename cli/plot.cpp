@@ -1,0 +1,195 @@
+#include "sweepface/plot.hpp"
+
+#include <cmath>
+#include <fmt/format.h>
+
+#include "sweepface/eval.hpp"
+#include "sweepface/io.hpp"
+#include "sweepface/trajectory.hpp"
+
+#include "command.hpp"
+#include "performance.hpp"
+
+namespace sweepface::cli {
+namespace {
+
+constexpr int kSamples = 241;
+
+struct PlotArguments {
+  std::string face, output;
+  PerformanceArguments what;
+  std::vector<std::string> laws, weights;
+  std::vector<int> vertices;
+  double mass = 1;
+  bool quiet = false;
+};
+
+void addOptions(CLI::App& app, PlotArguments& a) {
+  addFace(app, a.face);
+  addOutput(app, a.output, "The .svg file to write");
+  addPerformance(app, a.what);
+  app.add_option("--laws", a.laws, "Several laws in one plot, instead of --law")
+      ->delimiter(',')
+      ->excludes("--law")
+      ->excludes("--clip")
+      ->type_name("LAW,...");
+  app.add_option("--weight", a.weights,
+                 "Targets whose weight is shown; the first that moves if nothing is named")
+      ->delimiter(',')
+      ->type_name("NAME,...");
+  app.add_option("--vertex", a.vertices,
+                 "Vertices of the source, counted from 0, whose way is shown")
+      ->delimiter(',')
+      ->type_name("N,...");
+  app.add_option("--mass", a.mass, "What the force is in units of")
+      ->check(positiveNumber())
+      ->capture_default_str()
+      ->type_name("M");
+  addQuiet(app, a.quiet);
+  app.footer(
+      "\nPosition, velocity, acceleration and force over time. A vertex is shown by its distance "
+      "from where it\nstarts and by the lengths of the others.\n\nExamples:\n"
+      "  sweepface plot face.sweep --to jawOpen=1 --laws linear,newton,spring -o laws.svg\n"
+      "  sweepface plot face.sweep --clip take.csv --weight jawOpen,eyeBlinkLeft -o take.svg");
+}
+
+// ---- What is shown ----
+
+/// A weight, or a vertex.
+struct Subject {
+  std::string name;
+  std::vector<Vec3> differences;  ///< [targets] what a weight of 1 adds to its place
+
+  /// A number for it, of a motion of all weights.
+  double measure(std::span<const double> weights) const {
+    Vec3 sum;
+    for (std::size_t k = 0; k < differences.size(); ++k) sum += weights[k] * differences[k];
+    return isWeight ? sum.x : norm(sum);
+  }
+  bool isWeight = true;
+};
+
+Subject weightOf(const Rig& rig, Index target) {
+  Subject subject{rig.targets[target].name, std::vector<Vec3>(rig.targets.size())};
+  subject.differences[target] = {1, 0, 0};
+  return subject;
+}
+
+Subject vertexOf(const Rig& rig, Index vertex) {
+  Subject subject{fmt::format("vertex {}", vertex), {}, false};
+  const Tessellation grid(rig.surface, 1);
+  const auto placeUnder = [&](const Weights& weights) {
+    return sourcePositions(rig, grid, blend(rig, weights), weights)[vertex];
+  };
+  Weights weights(rig.targets.size());
+  const Vec3 rest = placeUnder(weights);
+  for (double& w : weights) {
+    w = 1;
+    subject.differences.push_back(placeUnder(weights) - rest);
+    w = 0;
+  }
+  return subject;
+}
+
+Result<std::vector<Subject>> subjectsOf(const PlotArguments& a, const Rig& rig,
+                                        const Performance& performance) {
+  std::vector<Subject> subjects;
+  for (const std::string& name : a.weights) {
+    const Result<Index> target = findTarget(rig, name);
+    if (!target) return std::unexpected(target.error());
+    subjects.push_back(weightOf(rig, *target));
+  }
+  const auto count = static_cast<int>(rig.source.gridVertex.size());
+  for (const int vertex : a.vertices) {
+    if (vertex < 0 || vertex >= count)
+      return fail(
+          fmt::format("There is no vertex {}; the face has {}, counted from 0.", vertex, count));
+    subjects.push_back(vertexOf(rig, vertex));
+  }
+  if (!subjects.empty()) return subjects;
+  std::vector<double> first(rig.targets.size()), later(rig.targets.size());
+  performance.at(0, first);
+  for (int k = 1; k < kSamples; ++k) {
+    performance.at(performance.seconds * k / (kSamples - 1), later);
+    for (std::size_t t = 0; t < first.size(); ++t)
+      if (later[t] != first[t]) return std::vector{weightOf(rig, static_cast<Index>(t))};
+  }
+  return fail("Nothing moves; name a target with --weight.");
+}
+
+// ---- Curves ----
+
+/// Position, velocity, acceleration and force.
+using Curves = std::array<std::vector<Series>, 4>;
+
+void addCurves(Curves& curves, const Performance& performance, const Subject& subject,
+               const std::string& name, double mass) {
+  static constexpr std::array colours{"#8a8e96", "#1a6aa8", "#d63f29", "#2a9d55",
+                                      "#b8860b", "#7b4fa3", "#1b9aaa", "#e07a9a"};
+  const std::size_t place = curves[0].size();
+  for (auto& panel : curves) panel.push_back({name, colours[place % colours.size()], {}});
+  const std::size_t count = subject.differences.size();
+  std::vector<Kinematics> now(count);
+  std::vector<double> start(count), values(count);
+  performance.at(0, start);
+  for (int k = 0; k < kSamples; ++k) {
+    const double time = performance.seconds * k / (kSamples - 1);
+    performance.kinematicsAt(time, now);
+    const auto add = [&](std::size_t panel, auto value) {
+      for (std::size_t t = 0; t < count; ++t) values[t] = value(t);
+      curves[panel][place].points.push_back({time, subject.measure(values)});
+    };
+    add(0, [&](std::size_t t) { return now[t].position - (subject.isWeight ? 0 : start[t]); });
+    add(1, [&](std::size_t t) { return now[t].velocity; });
+    add(2, [&](std::size_t t) { return now[t].acceleration; });
+    add(3, [&](std::size_t t) { return mass * now[t].acceleration; });
+  }
+}
+
+Result<Curves> curvesOf(const PlotArguments& a, const Rig& rig) {
+  const std::vector<std::string> laws = a.laws.empty() ? std::vector{a.what.law} : a.laws;
+  Curves curves;
+  for (const std::string& law : laws) {
+    PerformanceArguments what = a.what;
+    what.law = law;
+    const Result<Performance> performance = makePerformance(what, rig);
+    if (!performance) return std::unexpected(performance.error());
+    const auto subjects = subjectsOf(a, rig, *performance);
+    if (!subjects) return std::unexpected(subjects.error());
+    for (const Subject& subject : *subjects)
+      addCurves(curves, *performance, subject,
+                laws.size() == 1        ? subject.name
+                : subjects->size() == 1 ? law
+                                        : law + ", " + subject.name,
+                a.mass);
+  }
+  return curves;
+}
+
+Result<int> runPlot(const PlotArguments& a) {
+  if (!a.what.to && a.what.clip.empty())
+    return fail("Say where to go with --to, or what to play with --clip.");
+  if (!isOfKind(a.output, ".svg"))
+    return fail(fmt::format("{} is not named .svg, which is what is written.", a.output));
+  const Result<Rig> rig = readFace(a.face);
+  if (!rig) return std::unexpected(rig.error());
+  if (auto ok = checkOutput(a.output, {a.face}, {}); !ok) return std::unexpected(ok.error());
+  const Result<Curves> curves = curvesOf(a, *rig);
+  if (!curves) return std::unexpected(curves.error());
+  const std::string svg =
+      plotSheet({linePlot("Position", {"seconds"}, {"way"}, (*curves)[0]),
+                 linePlot("Velocity", {"seconds"}, {"per second"}, (*curves)[1]),
+                 linePlot("Acceleration", {"seconds"}, {"per second²"}, (*curves)[2]),
+                 linePlot("Force", {"seconds"}, {"mass × per second²"}, (*curves)[3])});
+  if (auto written = writeFile(a.output, svg); !written) return std::unexpected(written.error());
+  if (!a.quiet) fmt::print("{}: {} curves\n", a.output, (*curves)[0].size());
+  return 0;
+}
+
+}  // namespace
+
+Command addPlot(CLI::App& tool) {
+  return makeCommand(tool, "plot", "Plot how weights and vertices move (.svg)", runPlot);
+}
+
+}  // namespace sweepface::cli

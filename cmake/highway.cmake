@@ -1,0 +1,18 @@
+# Highway: vector instructions, chosen when the program runs. Only src/eval/tile_kernels.cpp uses it.
+set(kernels ${PROJECT_SOURCE_DIR}/src/eval/tile_kernels.cpp)
+if(NOT SWEEPFACE_SIMD)
+  set_property(SOURCE ${kernels} APPEND PROPERTY COMPILE_DEFINITIONS SWEEPFACE_PLAIN_KERNELS)
+elseif(CMAKE_SYSTEM_NAME STREQUAL "WASI")
+  # WebAssembly has one set of vector instructions, which needs Highway's headers only. They lie
+  # among headers of the system, which must not be seen.
+  find_path(HIGHWAY_INCLUDE hwy/highway.h PATHS /usr/include NO_CMAKE_FIND_ROOT_PATH REQUIRED)
+  file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/highway)
+  file(CREATE_LINK ${HIGHWAY_INCLUDE}/hwy ${PROJECT_BINARY_DIR}/highway/hwy SYMBOLIC)
+  target_include_directories(sweepface_runtime SYSTEM PRIVATE ${PROJECT_BINARY_DIR}/highway)
+  # What runs every frame, and most of what loading a face takes, is built for speed.
+  set_property(SOURCE ${kernels} ${PROJECT_SOURCE_DIR}/src/eval/low_rank.cpp
+    ${PROJECT_SOURCE_DIR}/src/eval/row_differences.cpp APPEND PROPERTY COMPILE_OPTIONS -O3)
+else()
+  find_package(hwy 1 REQUIRED)
+  target_link_libraries(sweepface_runtime PRIVATE hwy::hwy)
+endif()

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "sweepface/eval.hpp"
+
+namespace sweepface {
+
+struct EvaluatorTables;
+
+/// What an Evaluator is made for.
+struct EvaluatorOptions {
+  Index level = 0;      ///< 0: the source's vertices in their order; N: Tessellation(surface, N)
+  bool normals = true;  ///< whether normals and tangents can be asked for
+  /// How far a target of weight 1 may take a vertex from the surface, in model units. 0: a tenth of
+  /// the rig's own tolerance, but no less than a hundred-thousandth of the neutral's diagonal.
+  double tolerance = 0;
+  /// The same for the surface's first derivatives, as a share of their neutral length.
+  double derivativeTolerance = 0.01;
+  /// Influences of regions [R][storedCount]: target k of region r adds weight[r·K + k] ·
+  /// influence[r][v] · difference to stored vector v, the same seen from every patch. Empty: one
+  /// region that is everywhere.
+  std::vector<std::vector<float>> influences = {};
+};
+
+/// A rig made ready to be played: a linear map from weights to vertices and derivatives in tables
+/// small enough for the cache (docs/evaluation.md). Never changes: any number of threads may use
+/// it. Copies share the tables.
+class Evaluator {
+ public:
+  /// Takes a few milliseconds for a face. Fails where options and rig do not fit.
+  static Result<Evaluator> make(const Rig& rig, const EvaluatorOptions& options = {});
+  /// The same where a tessellation of that level (level 0: 1) is at hand.
+  static Result<Evaluator> make(const Rig& rig, const Tessellation& grid,
+                                const EvaluatorOptions& options);
+
+  Index vertexCount() const;
+  Index weightCount() const;  ///< R · K
+  bool hasNormals() const;
+  /// Bytes of memory a job needs for itself.
+  std::size_t scratchBytes() const;
+  /// Bytes that are read to evaluate positions, and normals on top.
+  std::size_t positionBytes() const;
+  std::size_t normalBytes() const;
+  /// How far any vertex may be from the surface under these weights, in model units: what was
+  /// dropped of each target, as measured when the tables were made, and rounding.
+  double positionBound(std::span<const double> weights) const;
+  /// The same for a derivative, as a share of its neutral length.
+  double derivativeBound(std::span<const double> weights) const;
+
+  const EvaluatorTables& tables() const { return *tables_; }
+
+ private:
+  std::shared_ptr<const EvaluatorTables> tables_;
+};
+
+/// Three floats every `stride` bytes; no data: not wanted.
+struct VectorsOut {
+  float* data = nullptr;
+  Index count = 0;  ///< room for so many; vertices beyond are left out
+  std::size_t stride = 3 * sizeof(float);
+};
+
+/// One frame of one face. Owns nothing and allocates nothing; several may run at once on the same
+/// evaluator if each has its own scratch memory and its own outputs.
+struct Evaluation {
+  const Evaluator* evaluator = nullptr;
+  std::span<const double> weights;  ///< [R × K], finite; missing ones are 0
+  std::span<std::byte> scratch;     ///< [scratchBytes], uninitialised
+  VectorsOut positions;             ///< model units
+  VectorsOut normals;               ///< outward, unit length; zero where a pose has none
+  VectorsOut tangents;              ///< unit length, along the sweep of each vertex' patch
+  Index part = 0, parts = 1;        ///< only this part of the vertices
+
+  Result<void> validate() const;
+  /// What validate() refuses must not be run.
+  void run() const;
+};
+
+}  // namespace sweepface

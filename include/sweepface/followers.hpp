@@ -1,0 +1,56 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sweepface/rig.hpp"
+
+namespace sweepface {
+
+/// A target whose weight nobody sets: it follows from the weights of others.
+struct Follower {
+  enum class Kind {
+    product,    ///< the product of its leaders' weights: a corrective or combination target
+    inBetween,  ///< the whole expression of its one leader at the weight `at`, which it replaces
+    arc         ///< 4w(1 − w) of its one leader's weight w: half-way points moved onto an arc
+  };
+  Kind kind = Kind::product;
+  Index target = -1;
+  std::vector<Index> leaders;
+  double at = 0.5;  ///< of an in-between, in (0, 1)
+  friend bool operator==(const Follower&, const Follower&) = default;
+};
+
+/// The followers of a rig. Weights go in as they were set and come out as `blend` takes them.
+class Followers {
+ public:
+  Followers() = default;
+  explicit Followers(std::vector<Follower> followers);
+
+  /// What the names of targets say: `A_B` follows the product of the targets A and B (and so on for
+  /// more), `A_50`, `A50` or `A.50` is the in-between of A at 0.5.
+  static std::vector<Follower> named(std::span<const std::string> targets);
+
+  bool empty() const noexcept { return products_.empty() && chains_.empty() && arcs_.empty(); }
+  std::span<const Follower> products() const noexcept { return products_; }
+  std::span<const Follower> arcs() const noexcept { return arcs_; }
+
+  /// Replaces the weights [K] of all followers, and of leaders that hand over to in-betweens.
+  /// Products and arcs go by the weights as they were set. Allocates nothing.
+  void apply(std::span<double> weights) const noexcept;
+
+ private:
+  /// A leader and its in-betweens, by ascending weight.
+  struct Chain {
+    Index leader = -1;
+    std::vector<Follower> stops;
+  };
+  static void handOver(const Chain& chain, std::span<double> weights) noexcept;
+
+  std::vector<Follower> products_, arcs_;
+  std::vector<Chain> chains_;
+};
+
+}  // namespace sweepface

@@ -1,0 +1,122 @@
+#include <algorithm>
+
+#include "codec/blocks.hpp"
+#include "codec/decoding.hpp"
+#include "codec/faces.hpp"
+#include "codec/names.hpp"
+
+namespace sweepface::codec {
+
+namespace {
+
+// One vertex a point, one a T-node, and those within arcs and patches.
+std::int64_t gridVertices(const Surface& surface) {
+  const Wireframe& w = surface.wireframe();
+  std::vector<bool> seen(w.points);
+  std::int64_t count = 0;
+  for (const Node& node : w.nodes) {
+    count += node.point < 0 || !seen[node.point];
+    if (node.point >= 0) seen[node.point] = true;
+  }
+  for (const Arc& arc : w.arcs) count += arc.collapsed ? 0 : arc.edges - 1;
+  for (Index p = 0; p < surface.patchCount(); ++p)
+    count += (surface.edgesU(p) - std::int64_t{1}) * (surface.edgesV(p) - 1);
+  return count;
+}
+
+// Every corner takes a byte of what follows, so that many faces need many bytes.
+void readFaceSizes(Reader& in, Polygons& faces) {
+  const std::size_t most = in.left();
+  const auto sizes = readRuns(in, 3, INT32_MAX, most, "size of a face");
+  std::int64_t corners = 0;
+  for (Index size : sizes) {
+    corners += size;
+    if (corners > static_cast<std::int64_t>(most))
+      return in.refuse("the faces have too many corners");
+    faces.faceStart.push_back(static_cast<Index>(corners));
+  }
+}
+
+std::vector<Index> readFaceNames(Reader& in, const Polygons& faces,
+                                 const std::vector<std::string>& names) {
+  const auto count = static_cast<std::size_t>(faces.faceCount());
+  auto chosen = readRuns(in, -1, static_cast<Index>(names.size()), count, "name of a face");
+  if (!chosen.empty() && chosen.size() != count) in.refuse("some faces have no name");
+  return chosen;
+}
+
+}  // namespace
+
+void readLoose(Decoding& d, Reader& in) {
+  d.rig.source.loose = readVectors<Vec3>(in, d.loose, Precision::exact);
+}
+
+void readSourceOrder(Decoding& d, Reader& in) {
+  auto& order = d.rig.source.gridVertex;
+  order.resize(in.count(1, "vertices"));
+  const std::int64_t low = -static_cast<std::int64_t>(d.rig.source.loose.size());
+  const std::int64_t high = gridVertices(d.rig.surface);
+  Index last = -1;
+  for (Index& v : order) v = last = in.step(last + 1, low, high, "vertex");
+}
+
+void readPolygons(Decoding& d, Reader& in) {
+  Polygons& faces = d.rig.source.polygons;
+  readFaceSizes(in, faces);
+  const auto vertices = static_cast<Index>(d.rig.source.gridVertex.size());
+  faces.corners.resize(in.ok() ? faces.faceStart.back() : 0);
+  Index last = 0;
+  for (Index& v : faces.corners) v = last = in.step(last, 0, vertices, "vertex");
+  faces.materials = readTexts(in, "materials");
+  faces.faceMaterial = readFaceNames(in, faces, faces.materials);
+  faces.groups = readTexts(in, "groups");
+  faces.faceGroup = readFaceNames(in, faces, faces.groups);
+  faces.materialFiles = readTexts(in, "material files");
+}
+
+void readTexcoords(Decoding& d, Reader& in) {
+  Polygons& faces = d.rig.source.polygons;
+  const std::size_t count = in.size();
+  faces.texcoords = readVectors<Vec2>(in, count, Precision::exact);
+  if (in.number(0, 2, "flag") == 0) return;
+  if (faces.corners.size() > in.left()) in.refuse("texture coordinates of corners are missing");
+  if (!in.ok()) return;
+  faces.cornerTexcoords.resize(faces.corners.size());
+  Index last = -1;
+  for (Index& t : faces.cornerTexcoords)
+    t = last = in.step(last, -1, static_cast<Index>(faces.texcoords.size()), "texture coordinate");
+}
+
+void readQuadCorners(Decoding& d, Reader& in) {
+  if (d.quads > in.left()) return in.refuse("corners of quads are missing");
+  const Polygons& faces = d.rig.source.polygons;
+  const auto corners = static_cast<Index>(faces.corners.size());
+  Index first = 0;
+  for (std::size_t q = 0; q < d.quads && in.ok(); ++q) {
+    const std::int64_t told = in.signedNumber();
+    std::array<Index, 4> quad = aroundQuad(faces, -1);
+    const std::int64_t moved = first + (told >> 1);
+    if (moved < 0 || moved >= corners) return in.refuse("a corner is out of range");
+    quad[0] = first = static_cast<Index>(moved);
+    if (told & 1)
+      for (int k = 1; k < 4; ++k) quad[k] = in.step(quad[k - 1], 0, corners, "corner");
+    else
+      quad = aroundQuad(faces, first);
+    if (quad[3] < 0) return in.refuse("a quad goes around a face that has not four corners");
+    d.rig.source.quadCorners.insert(d.rig.source.quadCorners.end(), quad.begin(), quad.end());
+  }
+}
+
+void readScene(Decoding& d, Reader& in) { d.rig.scene = in.text(); }
+void readThingNames(Decoding& d, Reader& in) {
+  d.rig.names = readNames(in, d.rig.surface.wireframe());
+}
+
+void readEnd(Decoding& d, Reader& in) {
+  if (d.rig.targets.size() < d.targets) in.refuse("targets are missing");
+  for (const Target& target : d.rig.targets)
+    if (target.difference.size() != d.stored) in.refuse("the targets' vectors are missing");
+  if (d.rig.source.loose.size() != d.loose) in.refuse("the loose vertices are missing");
+}
+
+}  // namespace sweepface::codec

@@ -1,0 +1,165 @@
+#include <algorithm>
+#include <cmath>
+
+#include "codec/blocks.hpp"
+#include "codec/decoding.hpp"
+#include "codec/limits.hpp"
+#include "codec/pose_form.hpp"
+#include "codec/source_coder.hpp"
+#include "codec/wire_version1.hpp"
+#include "codec/wireframe_coder.hpp"
+
+namespace sweepface::codec {
+
+namespace {
+
+void readBase(Decoding& d, Reader& in) {
+  d.rig.tolerance = in.f64();
+  if (d.rig.tolerance < 0) in.refuse("the tolerance is negative");
+  Packing& packing = d.rig.packing;
+  packing.neutralStep = in.f64();
+  packing.targetStep = in.f64();
+  if (packing.neutralStep < 0 || packing.targetStep < 0) in.refuse("a step is negative");
+  d.targets = in.size();
+  d.loose = in.size();
+}
+
+// All that follows of a chunk, through a range decoder.
+template <typename Read>
+void decodeRest(Reader& in, Read read) {
+  const std::string_view payload = in.raw(in.left());
+  if (payload.ends_with('\0')) in.refuse("the chunk goes on after its last value");
+  RangeDecoder coder(payload);
+  Symbols<RangeDecoder> symbols(coder);
+  if (in.ok()) read(coder, symbols);
+  if (!symbols.ok()) in.refuse(symbols.problem());
+  if (!coder.exhausted()) in.refuse("the chunk goes on after its last value");
+}
+
+void readMirror(Symbols<RangeDecoder>& symbols, std::size_t arcs, Packing& packing) {
+  const auto halves = static_cast<std::uint32_t>(2 * arcs);
+  packing.axis = static_cast<int>(symbols.index(kMirrorAxis, 3, 0));
+  packing.mirror.resize(std::min<std::size_t>(symbols.number(kMirrorCount, 0, 0, 0), halves));
+  for (auto& pair : packing.mirror)
+    for (HalfArc& h : pair) h = static_cast<HalfArc>(symbols.index(kMirrorArc, halves, 0));
+}
+
+void readGrid(Decoding& d, Reader& in) {
+  // A patch, an arc or a node takes a fraction of a bit at best.
+  const std::size_t most = within(kMostPatches, kPatchesAByte, kPatchesAnyway, in.left());
+  decodeRest(in, [&](RangeDecoder&, Symbols<RangeDecoder>& symbols) {
+    d.wireframe = readWireframe(symbols, most, kMostGridVertices);
+    readMirror(symbols, d.wireframe.arcs.size(), d.rig.packing);
+  });
+  if (!in.ok()) return;
+  d.makeSurface(in);
+  if (!in.ok()) return;
+  // What is still costs nothing, so that memory is limited here.
+  if (d.targets + 1 > kMostVectors / std::max<std::size_t>(1, d.stored) ||
+      (d.targets + 1) * d.stored > kVectorsAByte * d.fileSize + kVectorsAnyway)
+    return in.refuse("there are more targets than the file can hold");
+  d.lattice.emplace(d.rig.surface, d.rig.packing);
+}
+
+void readTargetNames(Decoding& d, Reader& in) {
+  decodeRest(in, [&](RangeDecoder&, Symbols<RangeDecoder>& symbols) {
+    for (std::size_t k = 0; k < d.targets && symbols.ok() && in.ok(); ++k)
+      d.addTarget(in, codeName(symbols, ""));
+  });
+}
+
+void readPose(Decoding& d, Symbols<RangeDecoder>& symbols, CoefficientCoder<RangeDecoder>& vectors,
+              std::vector<Coefficients>& poses, Index pose, std::vector<Vec3>& out) {
+  Packing::Pose& form = d.rig.packing.poses[pose];
+  codePose(symbols, form, pose);
+  if (!symbols.ok()) return;
+  poses[pose].resize(d.stored);
+  vectors.code(poses[pose], symmetryOf(form, pose), partnerOf(d.rig.packing, poses, pose),
+               pose == 0);
+  out.resize(d.stored);
+  d.lattice->restore(poses[pose], stepOf(d.rig.packing, pose), out);
+  if (!std::ranges::all_of(out, isFinite)) symbols.refuse("a coordinate is not finite");
+}
+
+void readRest(Decoding& d, Reader& in) {
+  decodeRest(in, [&](RangeDecoder& coder, Symbols<RangeDecoder>& symbols) {
+    d.rig.packing.poses.resize(1);
+    CoefficientCoder<RangeDecoder> vectors(d.lattice->hierarchy(), coder, d.lattice->axis());
+    std::vector<Coefficients> poses(1);
+    readPose(d, symbols, vectors, poses, 0, d.rig.neutral);
+  });
+}
+
+void readMoves(Decoding& d, Reader& in) {
+  if (d.rig.targets.size() < d.targets) return in.refuse("the targets have no names");
+  decodeRest(in, [&](RangeDecoder& coder, Symbols<RangeDecoder>& symbols) {
+    d.rig.packing.poses.resize(d.targets + 1);
+    CoefficientCoder<RangeDecoder> vectors(d.lattice->hierarchy(), coder, d.lattice->axis());
+    std::vector<Coefficients> poses(d.targets + 1);
+    for (std::size_t k = 0; k < d.targets && symbols.ok(); ++k)
+      readPose(d, symbols, vectors, poses, static_cast<Index>(k) + 1, d.rig.targets[k].difference);
+  });
+  for (Target& target : d.rig.targets) target.looseDifference.resize(d.loose);
+}
+
+// Vectors that are not whole multiples of steps: by pose, as they are.
+void readExact(Decoding& d, Reader& in) {
+  std::int64_t pose = -1;
+  while (in.left() > 0) {
+    pose += 1 + static_cast<std::int64_t>(in.size());
+    if (pose > static_cast<std::int64_t>(d.rig.targets.size()))
+      return in.refuse("there are more poses than announced");
+    std::vector<Vec3>& vectors =
+        pose == 0 ? d.rig.neutral : d.rig.targets[static_cast<std::size_t>(pose - 1)].difference;
+    std::vector<Index> places(in.count(1, "vectors"));
+    Index last = -1;
+    for (Index& v : places)
+      v = last = in.step(last + 1, 0, static_cast<Index>(vectors.size()), "vector");
+    const std::vector<Vec3> values = readVectors<Vec3>(in, places.size(), Precision::exact);
+    if (!in.ok()) return;
+    for (std::size_t k = 0; k < places.size(); ++k) vectors[places[k]] = values[k];
+  }
+}
+
+void readDrift(Decoding& d, Reader& in) {
+  for (Target& target : d.rig.targets)
+    target.looseDifference = readVectors<Vec3>(in, d.loose, Precision::exact);
+  if (d.rig.source.loose.empty()) in.refuse("there are no loose vertices that could move");
+}
+
+std::size_t mostQuads(const Reader& in) {
+  return within(kMostQuads, kQuadsAByte, kQuadsAnyway, in.left());
+}
+
+// What is told by the grid of the patches takes less than a bit each; its size is checked here.
+template <typename Read>
+void readByGrid(Decoding& d, Reader& in, Read read) {
+  const std::size_t most = mostQuads(in);
+  if (d.quads > most) return in.refuse("the patches have too many vertices for so few bytes");
+  if (!d.levelOne) d.levelOne.emplace(d.rig.surface);
+  decodeRest(in, [&](RangeDecoder&, Symbols<RangeDecoder>& symbols) {
+    read(symbols, *d.levelOne, most, d.rig.source);
+  });
+}
+void readWalk(Decoding& d, Reader& in) { readByGrid(d, in, readOrder); }
+void readGridFaces(Decoding& d, Reader& in) { readByGrid(d, in, readFaces); }
+
+void readTextureSteps(Decoding& d, Reader& in) {
+  const std::size_t most = mostQuads(in);
+  decodeRest(in, [&](RangeDecoder&, Symbols<RangeDecoder>& symbols) {
+    readTexture(symbols, most, d.rig.source.polygons, d.rig.packing.textureBits);
+  });
+}
+
+}  // namespace
+
+std::span<const ChunkHandler> version2() {
+  static constexpr ChunkHandler kReaders[] = {
+      {readBase, true}, {readGrid, true}, {readTargetNames},  {readRest, true}, {readMoves},
+      {readExact},      {readLoose},      {readDrift},        {readWalk},       {readSourceOrder},
+      {readGridFaces},  {readPolygons},   {readTextureSteps}, {readTexcoords},  {readQuadCorners},
+      {readScene},      {readThingNames}, {readEnd}};
+  return kReaders;
+}
+
+}  // namespace sweepface::codec

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+
+#include "sweepface/rig.hpp"
+
+#include "codec/lattice.hpp"
+#include "codec/level_one.hpp"
+#include "codec/reader.hpp"
+
+namespace sweepface::codec {
+
+/// A rig while its chunks are read, and what they have announced.
+struct Decoding {
+  std::size_t fileSize = 0;
+  std::size_t stored = 0, targets = 0, loose = 0;  ///< vectors, targets and loose vertices
+  std::size_t quads = 0;                           ///< of the grid at level 1
+  Wireframe wireframe;                             ///< until the surface is made of it
+  std::optional<Lattice> lattice;
+  std::optional<LevelOne> levelOne;
+  std::set<std::string> targetNames;
+  Rig rig;
+
+  /// Of the wireframe; says how many vectors it stores.
+  void makeSurface(Reader& in);
+  /// A name that is UTF-8 and that no target before has; complains through `in`.
+  void addTarget(Reader& in, std::string_view name);
+};
+
+/// How the chunks of a kind are read; the kinds of a version in the order of its registry.
+struct ChunkHandler {
+  void (*read)(Decoding&, Reader&);
+  bool required = false, repeated = false;
+};
+std::span<const ChunkHandler> version1();
+std::span<const ChunkHandler> version2();
+
+/// Chunks that both versions have.
+void readLoose(Decoding& d, Reader& in);
+void readSourceOrder(Decoding& d, Reader& in);
+void readPolygons(Decoding& d, Reader& in);
+void readTexcoords(Decoding& d, Reader& in);
+void readQuadCorners(Decoding& d, Reader& in);
+void readScene(Decoding& d, Reader& in);
+void readThingNames(Decoding& d, Reader& in);
+void readEnd(Decoding& d, Reader& in);
+
+}  // namespace sweepface::codec

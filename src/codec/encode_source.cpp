@@ -1,0 +1,113 @@
+#include <algorithm>
+#include <span>
+
+#include "codec/blocks.hpp"
+#include "codec/chunks.hpp"
+#include "codec/encoding.hpp"
+#include "codec/faces.hpp"
+#include "codec/limits.hpp"
+#include "codec/source_coder.hpp"
+#include "codec/wire_version1.hpp"
+
+namespace sweepface::codec {
+
+namespace {
+
+std::string sourceOrder(const std::vector<Index>& gridVertex) {
+  Writer out;
+  out.number(gridVertex.size());
+  Index last = -1;
+  for (Index v : gridVertex) {
+    out.signedNumber(v - std::int64_t{last} - 1);
+    last = v;
+  }
+  return out.take();
+}
+
+bool hasFaces(const Polygons& polygons) {
+  return polygons.faceCount() > 0 || !polygons.materials.empty() || !polygons.groups.empty() ||
+         !polygons.materialFiles.empty();
+}
+
+std::string polygons(const Polygons& polygons) {
+  Writer out;
+  std::vector<Index> sizes;
+  for (Index f = 0; f < polygons.faceCount(); ++f) sizes.push_back(polygons.faceSize(f));
+  writeRuns(out, sizes);
+  Index last = 0;
+  for (Index v : polygons.corners) {
+    out.signedNumber(v - std::int64_t{last});
+    last = v;
+  }
+  writeTexts(out, polygons.materials);
+  writeRuns(out, polygons.faceMaterial);
+  writeTexts(out, polygons.groups);
+  writeRuns(out, polygons.faceGroup);
+  writeTexts(out, polygons.materialFiles);
+  return out.take();
+}
+
+std::string texcoords(const Polygons& polygons) {
+  Writer out;
+  out.number(polygons.texcoords.size());
+  writeVectors(out, polygons.texcoords, Precision::exact);
+  out.byte(!polygons.cornerTexcoords.empty());
+  Index last = -1;
+  for (Index t : polygons.cornerTexcoords) {
+    out.signedNumber(t - std::int64_t{last});
+    last = t;
+  }
+  return out.take();
+}
+
+// A quad that goes once around a face of four corners is told by its first one alone.
+std::string quadCorners(const SourceMesh& source) {
+  Writer out;
+  Index last = 0;
+  for (std::size_t q = 0; q + 4 <= source.quadCorners.size(); q += 4) {
+    const Index* corner = &source.quadCorners[q];
+    const std::int64_t step = corner[0] - std::int64_t{last};
+    const bool whole =
+        std::ranges::equal(aroundQuad(source.polygons, corner[0]), std::span(corner, 4));
+    out.signedNumber(2 * step + !whole);
+    for (int k = 1; k < 4 && !whole; ++k) out.signedNumber(corner[k] - std::int64_t{corner[k - 1]});
+    last = corner[0];
+  }
+  return out.take();
+}
+
+}  // namespace
+
+// By the grid of the patches, unless that is so large that a reader would not trust so few bytes.
+void writeSource(Writer& out, const Rig& rig, int textureBits) {
+  const SourceMesh& source = rig.source;
+  const Polygons& faces = source.polygons;
+  const std::size_t quads = gridQuads(rig.surface.wireframe());
+  const auto trusted = [&](const std::string& bytes) {
+    return quads <= within(kMostQuads, kQuadsAByte, kQuadsAnyway, bytes.size());
+  };
+  std::string order, polygonBytes;
+  bool byGrid = quads <= kMostQuads;
+  if (byGrid) {
+    const LevelOne grid(rig.surface);
+    order = ranged([&](auto& symbols) { writeOrder(symbols, grid, source); });
+    polygonBytes = ranged([&](auto& symbols) { writeFaces(symbols, grid, source); });
+    byGrid = trusted(order) && trusted(polygonBytes);
+  }
+  if (!source.gridVertex.empty())
+    byGrid ? writeChunk(out, "walk", order)
+           : writeChunk(out, "ordr", sourceOrder(source.gridVertex));
+  if (hasFaces(faces))
+    byGrid ? writeChunk(out, "face", polygonBytes) : writeChunk(out, "poly", polygons(faces));
+  if (!faces.texcoords.empty() || !faces.cornerTexcoords.empty()) {
+    if (textureBits > 0)
+      writeChunk(out, "text",
+                 ranged([&](auto& symbols) { writeTexture(symbols, faces, textureBits); }));
+    else
+      writeChunk(out, "texc", texcoords(faces));
+  }
+  if (!source.quadCorners.empty() && !(byGrid && hasFaces(faces)))
+    writeChunk(out, "quad", quadCorners(source));
+}
+
+}  // namespace sweepface::codec

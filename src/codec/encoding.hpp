@@ -1,0 +1,22 @@
+#pragma once
+
+#include "sweepface/rig.hpp"
+
+#include "codec/symbols.hpp"
+#include "codec/writer.hpp"
+
+namespace sweepface::codec {
+
+/// The bytes that `write` makes through a range coder.
+template <typename Write>
+std::string ranged(Write write) {
+  RangeEncoder coder;
+  Symbols<RangeEncoder> out(coder);
+  write(out);
+  return coder.finish();
+}
+
+/// The chunks of the source: its order, faces, texture coordinates and corners of quads.
+void writeSource(Writer& out, const Rig& rig, int textureBits);
+
+}  // namespace sweepface::codec

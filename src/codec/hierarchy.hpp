@@ -1,0 +1,64 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "sweepface/surface.hpp"
+
+#include "codec/mirror.hpp"
+
+namespace sweepface::codec {
+
+/// The stored vectors of one node, or of all nodes at an irregular point.
+struct CodedSite {
+  Index node = -1;    ///< the first of them
+  Index first = -1;   ///< its first stored vector: the position
+  Index count = 0;    ///< of stored vectors
+  Index parent = -1;  ///< the nearest of the sites it is predicted from; -1 for a root
+  Index mirror = -1;  ///< its mirror image, itself on the middle line; -1 where there is none
+  Index span = 0;     ///< distance of the sites on both sides that predict it, 0 for a root
+  bool leaf = true;   ///< nobody's parent
+};
+
+/// The stored vectors of a surface from coarse to fine, and how each follows from those before it.
+/// Depends on the wireframe alone; reader and writer build the same.
+///
+/// Nodes are taken out of their lines one by one, those with the nearest neighbours first, until
+/// none is left between two others; each is predicted from what then stands beside it, by the cubic
+/// through four neighbours of a line. First and second derivatives follow from positions by the
+/// rules of the surface for derivatives that are not stored.
+class Hierarchy {
+ public:
+  Hierarchy(const Surface& surface, const Mirror& mirror);
+
+  /// Coarse to fine: parents come before children, mirror images one after the other.
+  const std::vector<CodedSite>& sites() const { return sites_; }
+
+  struct Step {
+    Index vector = -1;  ///< a stored one
+    Index site = -1;
+    Index terms = 0, termsEnd = 0;
+    double reach = 1;  ///< what one unit of the vector moves the surface by
+  };
+  /// [S] in the order of reconstruction.
+  const std::vector<Step>& steps() const { return steps_; }
+  std::span<const Term> terms(const Step& step) const {
+    return {terms_.data() + step.terms, terms_.data() + step.termsEnd};
+  }
+
+  /// The stored vector that mirrors one, and the sign with which it does; -1 where there is none.
+  struct Image {
+    Index vector = -1;
+    int sign = 1;
+  };
+  const std::vector<Image>& images() const { return images_; }
+
+ private:
+  friend class HierarchyBuilder;
+  std::vector<CodedSite> sites_;
+  std::vector<Step> steps_;
+  std::vector<Term> terms_;
+  std::vector<Image> images_;
+};
+
+}  // namespace sweepface::codec

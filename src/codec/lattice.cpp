@@ -1,0 +1,126 @@
+#include "codec/lattice.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sweepface::codec {
+
+namespace {
+
+// Far beyond any face, and sums of a few still fit.
+constexpr double kMostSteps = 1 << 27;
+
+std::int32_t nearest(double steps) {
+  if (!(steps == steps)) return 0;
+  return static_cast<std::int32_t>(std::lround(std::clamp(steps, -kMostSteps, kMostSteps)));
+}
+
+Vec3 predict(const Hierarchy& hierarchy, const Hierarchy::Step& step, std::span<const Vec3> known) {
+  Vec3 sum;
+  for (const Term& t : hierarchy.terms(step)) sum += t.factor * known[t.vector];
+  return sum;
+}
+
+Vec3 scaled(const Steps3& steps, double unit) {
+  return {steps[0] * unit, steps[1] * unit, steps[2] * unit};
+}
+
+}  // namespace
+
+Coefficients Lattice::round(std::span<const Vec3> vectors, double step) const {
+  Coefficients coefficients(vectors.size());
+  std::vector<Vec3> known(vectors.size());
+  for (const Hierarchy::Step& s : hierarchy_.steps()) {
+    const double unit = step / s.reach;
+    const Vec3 expected = predict(hierarchy_, s, known), rest = vectors[s.vector] - expected;
+    coefficients[s.vector] = {nearest(rest.x / unit), nearest(rest.y / unit),
+                              nearest(rest.z / unit)};
+    known[s.vector] = expected + scaled(coefficients[s.vector], unit);
+  }
+  return coefficients;
+}
+
+void Lattice::restore(const Coefficients& coefficients, double step,
+                      std::span<Vec3> vectors) const {
+  for (const Hierarchy::Step& s : hierarchy_.steps())
+    vectors[s.vector] =
+        predict(hierarchy_, s, vectors) + scaled(coefficients[s.vector], step / s.reach);
+}
+
+Coefficients Lattice::image(const Coefficients& coefficients) const {
+  Coefficients image(coefficients.size());
+  for (std::size_t v = 0; v < image.size(); ++v) {
+    const Hierarchy::Image& from = hierarchy_.images()[v];
+    if (from.vector < 0) continue;
+    for (int k = 0; k < 3; ++k)
+      image[v][k] = (k == axis_ ? -from.sign : from.sign) * coefficients[from.vector][k];
+  }
+  return image;
+}
+
+namespace {
+
+// "Left" for "Right", "_L" for "_R", and the other way round; the same name if it says no side.
+std::string otherSide(std::string name) {
+  constexpr std::array<std::array<std::string_view, 2>, 3> kSides{
+      {{"Left", "Right"}, {"left", "right"}, {"LEFT", "RIGHT"}}};
+  for (const auto& sides : kSides)
+    for (int k = 0; k < 2; ++k)
+      if (const auto at = name.find(sides[k]); at != std::string::npos)
+        return name.replace(at, sides[k].size(), sides[1 - k]);
+  const std::size_t size = name.size();
+  if (size < 2 || std::string_view("_.- ").find(name[size - 2]) == std::string_view::npos)
+    return name;
+  constexpr std::string_view kLetters = "LRlr", kOthers = "RLrl";
+  if (const auto letter = kLetters.find(name.back()); letter != std::string_view::npos)
+    name.back() = kOthers[letter];
+  return name;
+}
+
+double size(const Coefficients& a, const Coefficients& b) {
+  double sum = 0;
+  for (std::size_t v = 0; v < a.size(); ++v)
+    for (int k = 0; k < 3; ++k) sum += std::log2(1.0 + std::abs(a[v][k] - b[v][k]));
+  return sum;
+}
+
+}  // namespace
+
+void chooseImages(const Rig& rig, const Lattice& lattice, Packing& packing) {
+  const auto poses = static_cast<Index>(rig.targets.size()) + 1;
+  packing.poses.resize(poses);
+  if (packing.mirror.empty()) return;
+  const auto coefficients = [&](Index pose) {
+    return lattice.round(pose == 0 ? rig.neutral : rig.targets[pose - 1].difference,
+                         pose == 0 ? packing.neutralStep : packing.targetStep);
+  };
+  for (Index pose = 0; pose < poses; ++pose) {
+    const Coefficients own = coefficients(pose);
+    double least = 0.9 * size(own, Coefficients(own.size()));
+    Index& image = packing.poses[pose].image;
+    image = -1;
+    // Its own image tells the second half only.
+    if (const double s = 0.5 * least + 0.5 * size(own, lattice.image(own)); s < least)
+      least = s, image = pose;
+    if (pose == 0) continue;
+    const Index other = rig.find(otherSide(rig.targets[pose - 1].name)) + 1;
+    if (other < 1 || other >= pose) continue;
+    if (size(own, lattice.image(coefficients(other))) < least) image = other;
+  }
+}
+
+Packing sound(const Rig& rig) {
+  Packing packing = rig.packing;
+  if (!(packing.neutralStep > 0) || !(packing.targetStep > 0))
+    packing.neutralStep = packing.targetStep = 0;
+  packing.axis = std::clamp(packing.axis, 0, 2);
+  packing.poses.resize(rig.targets.size() + 1);
+  for (Index pose = 0; pose < static_cast<Index>(packing.poses.size()); ++pose) {
+    auto& [finer, image] = packing.poses[pose];
+    finer = std::clamp(finer, 0, kMostFiner);
+    if (image > pose || image < 0 || (image == 0 && pose > 0)) image = -1;
+  }
+  return packing;
+}
+
+}  // namespace sweepface::codec

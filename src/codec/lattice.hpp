@@ -1,0 +1,51 @@
+#pragma once
+
+#include <span>
+
+#include "sweepface/rig.hpp"
+
+#include "codec/coefficients.hpp"
+
+namespace sweepface::codec {
+
+/// What a file can hold of a pose: whole multiples of a step for every stored vector, smaller for
+/// those that move the surface further, beyond what the hierarchy predicts.
+class Lattice {
+ public:
+  explicit Lattice(const Surface& surface, const Packing& packing)
+      : hierarchy_(surface,
+                   spreadMirror(surface.wireframe(), surface.connectivity(), packing.mirror)),
+        axis_(packing.axis) {}
+
+  const Hierarchy& hierarchy() const { return hierarchy_; }
+  int axis() const { return axis_; }
+
+  /// The nearest multiples, each beyond the prediction from the nearest ones before it.
+  Coefficients round(std::span<const Vec3> vectors, double step) const;
+  /// The vectors of coefficients [S].
+  void restore(const Coefficients& coefficients, double step, std::span<Vec3> vectors) const;
+
+  /// The coefficients of the mirror image; zero for vectors that have none.
+  Coefficients image(const Coefficients& coefficients) const;
+
+ private:
+  Hierarchy hierarchy_;
+  int axis_;
+};
+
+/// The step of a pose, 0 the neutral.
+inline double stepOf(const Packing& packing, Index pose) {
+  const int finer = pose < static_cast<Index>(packing.poses.size()) ? packing.poses[pose].finer : 0;
+  return std::ldexp(pose == 0 ? packing.neutralStep : packing.targetStep, -finer);
+}
+
+inline constexpr int kMostFiner = 40;
+
+/// A rig's packing as a file can hold it, with a form for every pose.
+Packing sound(const Rig& rig);
+
+/// For each pose the mirror image that leaves least to be told: none, its own, or that of the
+/// target whose name says the other side.
+void chooseImages(const Rig& rig, const Lattice& lattice, Packing& packing);
+
+}  // namespace sweepface::codec

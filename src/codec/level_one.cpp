@@ -1,0 +1,135 @@
+#include "codec/level_one.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <unordered_map>
+
+namespace sweepface::codec {
+
+namespace {
+
+class Numbering {
+ public:
+  explicit Numbering(const Surface& surface) : surface_(surface), w_(surface.wireframe()) {
+    std::vector<Index> ofPoint(w_.points, -1);
+    for (const Node& node : w_.nodes) {
+      Index vertex = node.point >= 0 ? ofPoint[node.point] : -1;
+      if (vertex < 0) vertex = count_++;
+      if (node.point >= 0) ofPoint[node.point] = vertex;
+      node_.push_back(vertex);
+    }
+    for (const Arc& arc : w_.arcs) {
+      arc_.push_back(count_);
+      if (!arc.collapsed) count_ += arc.edges - 1;
+    }
+    for (Index p = 0; p < surface.patchCount(); ++p) {
+      patch_.push_back(count_);
+      count_ += (surface.edgesU(p) - 1) * (surface.edgesV(p) - 1);
+    }
+  }
+
+  Index count() const { return count_; }
+
+  // All vertices of a patch in rows of constant v.
+  std::vector<Index> grid(Index p) const {
+    const Index m = surface_.edgesU(p), n = surface_.edgesV(p);
+    std::vector<Index> grid((m + 1) * (n + 1));
+    Index inner = patch_[p];
+    for (Index j = 1; j < n; ++j)
+      for (Index i = 1; i < m; ++i) grid[j * (m + 1) + i] = inner++;
+    const std::array<std::vector<Index>, 4> sides{side(p, 0), side(p, 1), side(p, 2), side(p, 3)};
+    for (Index i = 0; i <= m; ++i) {
+      grid[i] = sides[0][i];
+      grid[n * (m + 1) + m - i] = sides[2][i];
+    }
+    for (Index j = 0; j <= n; ++j) {
+      grid[j * (m + 1) + m] = sides[1][j];
+      grid[(n - j) * (m + 1)] = sides[3][j];
+    }
+    return grid;
+  }
+
+ private:
+  std::vector<Index> side(Index p, int s) const {
+    std::vector<Index> vertices;
+    for (const HalfArc h : w_.side(p, s)) {
+      const Arc& arc = w_.arcs[arcOf(h)];
+      vertices.push_back(node_[w_.start(h)]);
+      for (Index step = 1; step < arc.edges; ++step)
+        vertices.push_back(arc.collapsed ? vertices.back()
+                                         : arc_[arcOf(h)] + (h & 1 ? arc.edges - step : step) - 1);
+    }
+    vertices.push_back(node_[w_.end(w_.side(p, s).back())]);
+    return vertices;
+  }
+
+  const Surface& surface_;
+  const Wireframe& w_;
+  Index count_ = 0;
+  std::vector<Index> node_, arc_, patch_;
+};
+
+std::uint64_t edgeKey(Index from, Index to) {
+  return std::uint64_t{static_cast<std::uint32_t>(from)} << 32 | static_cast<std::uint32_t>(to);
+}
+
+}  // namespace
+
+LevelOne::LevelOne(const Surface& surface) {
+  const Numbering numbering(surface);
+  vertices_ = numbering.count();
+  for (Index p = 0; p < surface.patchCount(); ++p) {
+    const Index m = surface.edgesU(p), n = surface.edgesV(p);
+    const std::vector<Index> grid = numbering.grid(p);
+    for (Index j = 0; j < n; ++j)
+      for (Index i = 0; i < m; ++i) {
+        const Index* at = &grid[j * (m + 1) + i];
+        quads_.push_back({at[0], at[1], at[m + 2], at[m + 1]});
+      }
+  }
+}
+
+std::vector<std::vector<Index>> LevelOne::quadNeighbours() const {
+  std::unordered_map<std::uint64_t, Index> quadOf;
+  quadOf.reserve(4 * quads_.size());
+  for (std::size_t q = 0; q < quads_.size(); ++q)
+    for (int k = 0; k < 4; ++k)
+      quadOf.emplace(edgeKey(quads_[q][k], quads_[q][(k + 1) % 4]), static_cast<Index>(q));
+  std::vector<std::vector<Index>> neighbours(quads_.size());
+  for (std::size_t q = 0; q < quads_.size(); ++q)
+    for (int k = 0; k < 4; ++k) {
+      const auto found = quadOf.find(edgeKey(quads_[q][(k + 1) % 4], quads_[q][k]));
+      neighbours[q].push_back(found == quadOf.end() ? -1 : found->second);
+    }
+  return neighbours;
+}
+
+std::vector<std::vector<Index>> LevelOne::vertexNeighbours() const {
+  // Around a vertex counter-clockwise: from each quad's next corner to its last one.
+  std::vector<std::vector<std::array<Index, 2>>> corners(vertices_);
+  for (const auto& quad : quads_)
+    for (int k = 0; k < 4; ++k) corners[quad[k]].push_back({quad[(k + 1) % 4], quad[(k + 3) % 4]});
+  std::vector<std::vector<Index>> neighbours(vertices_);
+  for (Index v = 0; v < vertices_; ++v) {
+    auto& fan = corners[v];
+    const auto leads = [&](Index to) {
+      return std::ranges::find(fan, to, [](const auto& c) { return c[1]; });
+    };
+    // From the corner that no other leads to, where there is one.
+    while (!fan.empty()) {
+      auto at = std::ranges::find_if(fan, [&](const auto& c) { return leads(c[0]) == fan.end(); });
+      if (at == fan.end()) at = fan.begin();
+      while (at != fan.end()) {
+        const std::array<Index, 2> corner = *at;
+        fan.erase(at);
+        for (const Index u : corner)
+          if (u != v && std::ranges::find(neighbours[v], u) == neighbours[v].end())
+            neighbours[v].push_back(u);
+        at = std::ranges::find(fan, corner[1], [](const auto& c) { return c[0]; });
+      }
+    }
+  }
+  return neighbours;
+}
+
+}  // namespace sweepface::codec

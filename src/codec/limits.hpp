@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstddef>
+
+namespace sweepface::codec {
+
+/// Vectors of all poses that a file may ask for: still ones take no bytes.
+inline constexpr std::size_t kMostVectors = std::size_t{1} << 25, kVectorsAByte = 1024,
+                             kVectorsAnyway = std::size_t{1} << 20;
+
+/// Nodes, arcs and patches that a wireframe may have.
+inline constexpr std::size_t kMostPatches = std::size_t{1} << 19, kPatchesAByte = 64,
+                             kPatchesAnyway = 4096;
+
+/// Quads of the grid at level 1 that the source's order and faces may be told by.
+inline constexpr std::size_t kMostQuads = std::size_t{1} << 22, kQuadsAByte = 1024,
+                             kQuadsAnyway = 65536;
+
+constexpr std::size_t within(std::size_t most, std::size_t eachByte, std::size_t anyway,
+                             std::size_t bytes) {
+  return bytes > (most - anyway) / eachByte ? most : eachByte * bytes + anyway;
+}
+
+}  // namespace sweepface::codec

@@ -1,0 +1,159 @@
+#include "codec/mirror.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace sweepface::codec {
+
+namespace {
+
+class MirrorSpreader {
+ public:
+  MirrorSpreader(const Wireframe& w, const Connectivity& c)
+      : w_(w), c_(c), bound_(2 * w.arcs.size(), -1) {}
+
+  /// Pairs two half-arcs and all that follows; the number of half-arcs that have an image now and
+  /// had none before.
+  std::size_t spread(HalfArc h, HalfArc g) {
+    queue_.clear();
+    pair(h, g);
+    for (std::size_t k = 0; k < queue_.size(); ++k) {
+      const HalfArc here = queue_[k], there = bound_[here];
+      pair(c_.next[here], c_.prev[there]);
+      pair(c_.prev[here], c_.next[there]);
+      pair(twin(here), twin(there));
+    }
+    return queue_.size();
+  }
+  void undo() {
+    for (const HalfArc h : queue_) {
+      bound_[bound_[h]] = -1;
+      bound_[h] = -1;
+    }
+  }
+  bool isBound(HalfArc h) const { return bound_[h] >= 0; }
+
+  Mirror mirror() const {
+    Mirror m;
+    m.halfArc.assign(bound_.size(), -1);
+    m.node.assign(w_.nodes.size(), -1);
+    for (HalfArc h = 0; h < static_cast<HalfArc>(bound_.size()); ++h) {
+      if (bound_[h] < 0) continue;
+      m.halfArc[h] = twin(bound_[h]);
+      m.halfArc[twin(h)] = bound_[h];
+      m.node[w_.start(h)] = w_.end(bound_[h]);
+      m.node[w_.end(h)] = w_.start(bound_[h]);
+    }
+    return m;
+  }
+
+ private:
+  void pair(HalfArc h, HalfArc g) {
+    if (c_.patchOf[h] < 0 || c_.patchOf[g] < 0 || bound_[h] >= 0 || bound_[g] >= 0) return;
+    const Arc &a = w_.arcs[arcOf(h)], &b = w_.arcs[arcOf(g)];
+    if (a.edges != b.edges || a.collapsed != b.collapsed) return;
+    if ((c_.cornerAt[h] >= 0) != (c_.cornerAt[c_.next[g]] >= 0)) return;
+    bound_[h] = g;
+    bound_[g] = h;
+    queue_.push_back(h);
+  }
+
+  const Wireframe& w_;
+  const Connectivity& c_;
+  std::vector<HalfArc> bound_;  // [half-arcs] the one that bounds the image patch there
+  std::vector<HalfArc> queue_;
+};
+
+double coordinate(const Vec3& p, int axis) { return axis == 0 ? p.x : axis == 1 ? p.y : p.z; }
+
+std::vector<Vec3> nodePositions(const Surface& surface, std::span<const Vec3> neutral) {
+  const Wireframe& w = surface.wireframe();
+  std::vector<Vec3> vectors(surface.vectorCount()), positions(w.nodes.size());
+  surface.settle(neutral, vectors);
+  for (HalfArc h = 0; h < static_cast<HalfArc>(2 * w.arcs.size()); ++h)
+    positions[w.start(h)] =
+        surface.pointOnArc(vectors, arcOf(h), h & 1 ? w.arcs[arcOf(h)].edges : 0);
+  return positions;
+}
+
+// The nearest node to the image of each across the middle of one axis, no further than `reach`.
+std::vector<Index> imagesAcross(const std::vector<Vec3>& positions, int axis, double twice,
+                                double reach) {
+  const int other = (axis + 1) % 3;
+  std::vector<Index> sorted(positions.size());
+  for (std::size_t n = 0; n < sorted.size(); ++n) sorted[n] = static_cast<Index>(n);
+  const auto key = [&](Index n) { return coordinate(positions[n], other); };
+  std::ranges::sort(sorted, {}, key);
+  std::vector<Index> images;
+  for (const Vec3& p : positions) {
+    Vec3 image = p;
+    (axis == 0 ? image.x : axis == 1 ? image.y : image.z) = twice - coordinate(p, axis);
+    Index nearest = -1;
+    double least = reach;
+    for (auto at = std::ranges::lower_bound(sorted, coordinate(p, other) - reach, {}, key);
+         at != sorted.end() && key(*at) <= coordinate(p, other) + reach; ++at)
+      if (const double d = norm(positions[*at] - image); d < least) least = d, nearest = *at;
+    images.push_back(nearest);
+  }
+  return images;
+}
+
+}  // namespace
+
+Mirror spreadMirror(const Wireframe& w, const Connectivity& c,
+                    std::span<const std::array<HalfArc, 2>> seeds) {
+  MirrorSpreader spreader(w, c);
+  const auto halves = static_cast<HalfArc>(2 * w.arcs.size());
+  for (const auto& [h, g] : seeds)
+    if (h >= 0 && g >= 0 && h < halves && g < halves) spreader.spread(h, g);
+  return spreader.mirror();
+}
+
+MirrorSeeds findMirror(const Surface& surface, std::span<const Vec3> neutral) {
+  const Wireframe& w = surface.wireframe();
+  const std::vector<Vec3> positions = nodePositions(surface, neutral);
+  MirrorSeeds seeds;
+  if (positions.empty()) return seeds;
+  Vec3 low = positions[0], high = positions[0];
+  for (const Vec3& p : positions) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  constexpr double kNear = 2e-3;  // of the diagonal
+  const double reach = kNear * norm(high - low);
+  if (!(reach > 0) || !std::isfinite(reach)) return seeds;
+  std::vector<Index> best;
+  auto found = static_cast<std::ptrdiff_t>(positions.size() / 2);
+  for (int axis = 0; axis < 3; ++axis) {
+    auto images =
+        imagesAcross(positions, axis, coordinate(low, axis) + coordinate(high, axis), reach);
+    const auto count = std::ranges::count_if(images, [](Index n) { return n >= 0; });
+    if (count <= found) continue;
+    found = count;
+    seeds.axis = axis;
+    best = std::move(images);
+  }
+  if (best.empty()) return seeds;
+
+  const Connectivity& c = surface.connectivity();
+  std::map<std::array<Index, 2>, HalfArc> between;
+  for (HalfArc h = 0; h < static_cast<HalfArc>(c.patchOf.size()); ++h)
+    if (c.patchOf[h] >= 0) between[{w.start(h), w.end(h)}] = h;
+  constexpr std::size_t kMostSeeds = 64, kWorthwhile = 16;  // half-arcs for the bytes of a pair
+  MirrorSpreader spreader(w, c);
+  for (HalfArc h = 0; h < static_cast<HalfArc>(c.patchOf.size()); ++h) {
+    if (c.patchOf[h] < 0 || spreader.isBound(h)) continue;
+    const auto image = between.find({best[w.end(h)], best[w.start(h)]});
+    if (image == between.end()) continue;
+    if (spreader.spread(h, image->second) < kWorthwhile) {
+      spreader.undo();
+      continue;
+    }
+    seeds.pairs.push_back({h, image->second});
+    if (seeds.pairs.size() == kMostSeeds) break;
+  }
+  return seeds;
+}
+
+}  // namespace sweepface::codec

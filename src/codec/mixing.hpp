@@ -1,0 +1,102 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+// Probabilities of bits from several contexts at once, mixed in the logistic domain by weights that
+// learn (Mahoney, Adaptive Weighing of Context Models for Lossless Data Compression, 2005).
+// Integers only: every machine sees the same probabilities.
+namespace sweepface::codec {
+
+/// 65536 / (1 + e^(-x / 256)) for x in [-3072, 3072], by straight pieces.
+inline std::int32_t squash(std::int32_t x) {
+  static constexpr std::array<std::int32_t, 50> kAt{
+      1,     1,     1,     2,     3,     5,     8,     13,    22,    36,    60,    98,    162,
+      267,   439,   720,   1179,  1921,  3108,  4971,  7812,  11955, 17625, 24743, 32768, 40793,
+      47911, 53581, 57724, 60565, 62428, 63615, 64357, 64816, 65097, 65269, 65374, 65438, 65476,
+      65500, 65514, 65523, 65528, 65531, 65533, 65534, 65535, 65535, 65535, 65535};
+  if (x <= -3072) return kAt[0];
+  if (x >= 3072) return kAt[48];
+  const std::int32_t place = x + 3072, left = place >> 7, rest = place & 127;
+  return kAt[left] + (((kAt[left + 1] - kAt[left]) * rest + 64) >> 7);
+}
+
+/// The inverse of squash for probabilities in 4096ths: the least x with squash(x) / 16 >= p.
+inline const std::array<std::int16_t, 4096>& stretchTable() {
+  static const std::array<std::int16_t, 4096> table = [] {
+    std::array<std::int16_t, 4096> t{};
+    std::int32_t p = 0;
+    for (std::int32_t x = -3072; x <= 3072; ++x)
+      for (const std::int32_t reached = squash(x) >> 4; p <= reached && p < 4096; ++p)
+        t[p] = static_cast<std::int16_t>(x);
+    for (; p < 4096; ++p) t[p] = 3072;
+    return t;
+  }();
+  return table;
+}
+
+/// What one context knows about the next bit: its probability in 65536ths and how often it was
+/// asked.
+struct Slot {
+  std::uint16_t one = 32768, seen = 0;
+};
+
+/// Codes bits through `Coder`, a RangeEncoder or a RangeDecoder, with the slots of several contexts
+/// and a set of weights chosen by one more.
+template <typename Coder>
+class Model {
+ public:
+  static constexpr int kMostInputs = 8;
+
+  Model(Coder& coder, std::size_t slots, std::size_t sets, int inputs)
+      : coder_(&coder), slots_(slots), inputs_(inputs) {
+    weights_.assign(sets * static_cast<std::size_t>(inputs), (1 << 16) * 2 / (inputs + 1));
+  }
+
+  /// `contexts` has a slot for each input.
+  bool code(bool bit, std::span<const std::uint32_t> contexts, std::uint32_t set) {
+    std::int32_t stretched[kMostInputs];
+    std::int32_t* weight = &weights_[set * static_cast<std::size_t>(inputs_)];
+    std::int64_t sum = 0;
+    for (int k = 0; k < inputs_; ++k) {
+      const Slot& slot = slots_[contexts[k]];
+      stretched[k] = stretchTable()[slot.one >> 4] * kTrust[slot.seen] / 16;
+      sum += std::int64_t{stretched[k]} * weight[k];
+    }
+    std::int32_t x = static_cast<std::int32_t>(sum >> 16);
+    x = x < -3071 ? -3071 : x > 3071 ? 3071 : x;
+    const std::int32_t one = squash(x);
+    bit = coder_->code(bit, static_cast<std::uint32_t>(one));
+    const std::int32_t error = ((bit << 16) - one) * kRate / 16;
+    for (int k = 0; k < inputs_; ++k) {
+      weight[k] += static_cast<std::int32_t>((std::int64_t{stretched[k]} * error + 0x8000) >> 16);
+      learn(slots_[contexts[k]], bit);
+    }
+    return bit;
+  }
+
+ private:
+  // The more a context has seen, the more it is trusted and the slower it moves.
+  static constexpr int kMostSeen = 60, kRate = 6;
+  static constexpr std::array<std::int32_t, 64> kTrust = [] {
+    std::array<std::int32_t, 64> t{};
+    for (int n = 0; n < 64; ++n) t[n] = 16 * n / (n + 1) + (n > 0 ? 4 : 0);
+    return t;
+  }();
+
+  static void learn(Slot& slot, bool bit) {
+    const std::int32_t target = bit ? 65535 : 0;
+    const std::int32_t step = (target - slot.one) * 2 / (2 * slot.seen + 3);
+    slot.one = static_cast<std::uint16_t>(slot.one + step);
+    if (slot.seen < kMostSeen) ++slot.seen;
+  }
+
+  Coder* coder_;
+  std::vector<Slot> slots_;
+  std::vector<std::int32_t> weights_;
+  int inputs_;
+};
+
+}  // namespace sweepface::codec

@@ -1,0 +1,90 @@
+#pragma once
+
+#include <bit>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <type_traits>
+
+#include "codec/mixing.hpp"
+#include "codec/range_coder.hpp"
+
+namespace sweepface::codec {
+
+/// Whether a coder writes: what it is given counts, else it answers.
+template <typename Coder>
+inline constexpr bool kWrites = std::is_same_v<Coder, RangeEncoder>;
+
+/// Bits and whole numbers of a payload through adaptive contexts. `tag` says what is coded, `a` and
+/// `b` what it may depend on. A reader that meets what cannot be stops answering: see ok().
+template <typename Coder>
+class Symbols {
+ public:
+  explicit Symbols(Coder& coder) : model_(coder, kSlots, kSets, 3) {}
+
+  bool bit(std::uint32_t tag, std::uint32_t a, std::uint32_t b, bool value) {
+    return model_.code(value, {{slot(tag, 1, 0), slot(tag, a + 2, 1), slot(tag, a * 521 + b, 2)}},
+                       tag % kSets);
+  }
+
+  /// Below 2^32, by the length in bits (unary) and then the bits (Elias 1975).
+  std::uint32_t number(std::uint32_t tag, std::uint32_t a, std::uint32_t b, std::uint64_t value) {
+    const int length = static_cast<int>(std::bit_width(value + 1));
+    int n = 1;
+    while (n < 33 && bit(tag, a * 64 + n, b, length > n)) ++n;
+    std::uint64_t result = 1;
+    for (int k = n - 1; k-- > 0;) {
+      const std::uint32_t high = static_cast<std::uint32_t>(result < 16 ? result : 0);
+      const bool one = (value + 1) >> k & 1;
+      result = result << 1 | bit(tag + 1, a * 64 + n, high * 32 + k, one);
+    }
+    return static_cast<std::uint32_t>(result - 1);
+  }
+
+  /// 0, -1, 1, -2, 2 ... stand for 0, 1, 2, 3, 4 ...
+  std::int32_t signedNumber(std::uint32_t tag, std::uint32_t a, std::uint32_t b,
+                            std::int64_t value) {
+    const std::uint64_t folded =
+        static_cast<std::uint64_t>(value) << 1 ^ static_cast<std::uint64_t>(value >> 63);
+    const std::uint32_t n = number(tag, a, b, folded);
+    return static_cast<std::int32_t>(n >> 1) ^ -static_cast<std::int32_t>(n & 1);
+  }
+
+  /// One of `count`, all alike.
+  std::uint32_t index(std::uint32_t tag, std::uint32_t count, std::uint32_t value) {
+    std::uint32_t result = 0;
+    const int length = static_cast<int>(std::bit_width(count > 0 ? count - 1 : 0u));
+    for (int k = length; k-- > 0;) result = result << 1 | bit(tag, k, 0, value >> k & 1);
+    if (result >= count) refuse("an index is out of range");
+    return ok() ? result : 0;
+  }
+
+  /// Eight bytes as they are.
+  std::uint64_t raw(std::uint32_t tag, std::uint64_t value) {
+    std::uint64_t result = 0;
+    for (int k = 64; k-- > 0;) result = result << 1 | bit(tag, k, 0, value >> k & 1);
+    return result;
+  }
+
+  bool ok() const { return problem_.empty(); }
+  const std::string& problem() const { return problem_; }
+  void refuse(std::string_view problem) {
+    if (ok()) problem_ = problem;
+  }
+
+ private:
+  static constexpr std::size_t kSlots = std::size_t{1} << 14, kSets = 64;
+
+  static std::uint32_t slot(std::uint32_t tag, std::uint32_t context, std::uint32_t input) {
+    std::uint32_t x = (context * 3 + input) * 0x9e3779b1u + tag * 0x85ebca6bu;
+    x ^= x >> 15;
+    x *= 0x2c1b3c6du;
+    x ^= x >> 13;
+    return x & (kSlots - 1);
+  }
+
+  Model<Coder> model_;
+  std::string problem_;
+};
+
+}  // namespace sweepface::codec

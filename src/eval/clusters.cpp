@@ -1,0 +1,63 @@
+#include "eval/clusters.hpp"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+
+namespace sweepface {
+namespace {
+
+double coordinate(const Vec3& p, int axis) { return axis == 0 ? p.x : axis == 1 ? p.y : p.z; }
+
+class Halving {
+ public:
+  Halving(std::span<const Vec3> points, Index size) : points_(points), size_(size) {
+    std::vector<Index> all(points.size());
+    std::iota(all.begin(), all.end(), 0);
+    halve(all);
+  }
+
+  std::vector<std::vector<Index>> take() { return std::move(clusters_); }
+
+ private:
+  int longestAxis(std::span<const Index> part) const {
+    std::array<double, 3> extents{};
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto [low, high] =
+          std::ranges::minmax(part, {}, [&](Index v) { return coordinate(points_[v], axis); });
+      extents[axis] = coordinate(points_[high], axis) - coordinate(points_[low], axis);
+    }
+    return static_cast<int>(std::ranges::max_element(extents) - extents.begin());
+  }
+
+  void halve(std::span<Index> part) {
+    if (part.empty()) return;
+    const auto count = static_cast<Index>(part.size());
+    if (count <= size_) {
+      std::ranges::sort(part);  // writing goes upwards
+      clusters_.emplace_back(part.begin(), part.end());
+      return;
+    }
+    const int axis = longestAxis(part);
+    const Index groups = (count + size_ - 1) / size_, first = groups / 2 * size_;
+    const auto before = [&](Index a, Index b) {
+      const double x = coordinate(points_[a], axis), y = coordinate(points_[b], axis);
+      return x < y || (x == y && a < b);
+    };
+    std::nth_element(part.begin(), part.begin() + first, part.end(), before);
+    halve(part.first(first));
+    halve(part.subspan(first));
+  }
+
+  std::span<const Vec3> points_;
+  Index size_;
+  std::vector<std::vector<Index>> clusters_;
+};
+
+}  // namespace
+
+std::vector<std::vector<Index>> cluster(std::span<const Vec3> points, Index size) {
+  return Halving(points, size).take();
+}
+
+}  // namespace sweepface

@@ -1,0 +1,88 @@
+#include <cmath>
+#include <string>
+
+#include "eval/tile_kernels.hpp"
+
+namespace sweepface {
+namespace {
+
+/// Whole vectors are read and written.
+std::size_t weightBytes(const EvaluatorTables& tables) {
+  return sizeof(std::int16_t) * roundUp64(static_cast<std::size_t>(tables.weights) + 1);
+}
+
+std::size_t pairsRoom(const EvaluatorTables& tables) {
+  return roundUp64(std::max(tables.positions.mostPairs(), tables.derivatives.mostPairs()));
+}
+
+constexpr double kMostFactor = 1e9;  // beyond, positions end at what single precision bears
+
+/// Weights in units of 2⁻¹⁴, and what they were divided by.
+float quantise(std::span<const double> weights, std::span<std::int16_t> out) {
+  double most = 1;
+  for (const double w : weights) most = std::max(most, std::abs(w));
+  const double scale = kWeightUnit / most;
+  for (std::size_t k = 0; k < weights.size(); ++k)
+    out[k] = static_cast<std::int16_t>(std::floor(weights[k] * scale + 0.5));
+  std::ranges::fill(out.subspan(weights.size()), std::int16_t(0));
+  return static_cast<float>(std::min(most, kMostFactor));
+}
+
+TileRange share(const TileTable& table, Index part, Index parts) {
+  const auto cut = [&](std::int64_t p) {
+    return static_cast<Index>(table.tileCount() * p / parts);
+  };
+  return {table, cut(part), cut(part + std::int64_t(1))};
+}
+
+Result<void> checkOut(const VectorsOut& out, const char* what) {
+  if (!out.data) return {};
+  if (out.count < 0) return fail("The number of " + std::string(what) + " must not be negative.");
+  if (out.stride < 3 * sizeof(float))
+    return fail("The stride of " + std::string(what) + " must be at least 12 bytes.");
+  return {};
+}
+
+}  // namespace
+
+std::size_t Evaluator::scratchBytes() const {
+  constexpr std::size_t toBeginWithALine = 64;
+  return toBeginWithALine + weightBytes(*tables_) + 4 * sizeof(std::uint32_t) * pairsRoom(*tables_);
+}
+
+Result<void> Evaluation::validate() const {
+  if (!evaluator) return fail("An evaluation needs an evaluator.");
+  if (weights.size() > static_cast<std::size_t>(evaluator->weightCount()))
+    return fail("There are " + std::to_string(weights.size()) + " weights for " +
+                std::to_string(evaluator->weightCount()) + " targets.");
+  for (std::size_t k = 0; k < weights.size(); ++k)
+    if (!std::isfinite(weights[k])) return fail("Weight " + std::to_string(k) + " is not finite.");
+  if (scratch.size() < evaluator->scratchBytes())
+    return fail("An evaluation needs " + std::to_string(evaluator->scratchBytes()) +
+                " bytes of scratch memory, not " + std::to_string(scratch.size()) + ".");
+  if (parts < 1 || part < 0 || part >= parts)
+    return fail("There is no part " + std::to_string(part) + " of " + std::to_string(parts) + ".");
+  if ((normals.data || tangents.data) && !evaluator->hasNormals() && evaluator->vertexCount() > 0)
+    return fail("The evaluator was made without normals.");
+  for (const auto& [out, what] :
+       {std::pair(&positions, "positions"), {&normals, "normals"}, {&tangents, "tangents"}})
+    if (auto ok = checkOut(*out, what); !ok) return ok;
+  return {};
+}
+
+void Evaluation::run() const {
+  const EvaluatorTables& tables = evaluator->tables();
+  const auto address = reinterpret_cast<std::uintptr_t>(scratch.data());
+  std::byte* const memory = scratch.data() + (64 - address % 64) % 64;
+  auto* const shorts = reinterpret_cast<std::int16_t*>(memory);
+  auto* const pairs = reinterpret_cast<std::uint32_t*>(memory + weightBytes(tables));
+  const float factor = quantise(weights, {shorts, weightBytes(tables) / sizeof(std::int16_t)});
+  const FrameWeights frame{shorts, pairs, pairsRoom(tables), factor, tables.weights + 1};
+  if (positions.data)
+    evaluatePositions(share(tables.positions, part, parts), frame, positions, tables.vertices);
+  if (normals.data || tangents.data)
+    evaluateNormals(share(tables.derivatives, part, parts), frame, normals, tangents,
+                    tables.vertices);
+}
+
+}  // namespace sweepface

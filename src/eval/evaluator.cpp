@@ -1,0 +1,254 @@
+// Compiles a rig into the tables of src/eval/tiles.hpp, tile by tile.
+#include "sweepface/evaluator.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "eval/clusters.hpp"
+#include "eval/row_differences.hpp"
+#include "eval/tile_packer.hpp"
+
+namespace sweepface {
+namespace {
+
+float toFloat(double x) {
+  constexpr double most = std::numeric_limits<float>::max() / 4;  // room for what targets add
+  return static_cast<float>(std::clamp(x, -most, most));
+}
+std::array<float, 3> toFloats(const Vec3& p) { return {toFloat(p.x), toFloat(p.y), toFloat(p.z)}; }
+
+double diagonal(std::span<const Vec3> points) {
+  if (points.empty()) return 0;
+  Vec3 low = points[0], high = points[0];
+  for (const Vec3& p : points) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  return norm(high - low);
+}
+
+class Compiler {
+ public:
+  Compiler(const Rig& rig, const Tessellation& grid, const EvaluatorOptions& options)
+      : rig_(rig),
+        options_(options),
+        grid_(grid),
+        neutral_(blend(rig, {})),
+        gridPositions_(grid_.positions(neutral_)),
+        differences_(rig, options.influences) {}
+
+  EvaluatorTables compile() {
+    placeVertices();
+    tables_.vertices = static_cast<Index>(positions_.size());
+    tables_.weights = differences_.columns();
+    tables_.positionErrors.ofTarget.assign(tables_.weights, 0.0);
+    tables_.derivativeErrors.ofTarget.assign(tables_.weights, 0.0);
+    tolerance_ = usedTolerance();
+    for (const auto& vertices : cluster(positions_, kTileVertices)) addTile(vertices);
+    roundPositions();
+    tables_.positions.finish();
+    tables_.derivatives.finish();
+    return std::move(tables_);
+  }
+
+ private:
+  /// A vertex of the grid, or -1 - k: loose vertex k.
+  Index gridVertex(Index v) const { return options_.level == 0 ? rig_.source.gridVertex[v] : v; }
+
+  void placeVertices() {
+    const std::size_t count =
+        options_.level == 0 ? rig_.source.gridVertex.size() : gridPositions_.size();
+    for (Index v = 0; v < static_cast<Index>(count); ++v) {
+      const Index g = gridVertex(v);
+      positions_.push_back(g >= 0 ? gridPositions_[g] : rig_.source.loose[-1 - g]);
+    }
+  }
+
+  double usedTolerance() const {
+    if (options_.tolerance > 0) return options_.tolerance;
+    return std::max({0.1 * rig_.tolerance, 1e-5 * diagonal(gridPositions_), 1e-30});
+  }
+
+  /// Single precision: what a coordinate of the neutral may be off.
+  void roundPositions() {
+    double largest = 0;
+    for (const Vec3& p : positions_) largest = std::max(largest, norm(p));
+    tables_.positionErrors.rounding += std::ldexp(largest, -21);
+    tables_.derivativeErrors.rounding += std::ldexp(1.0, -21);
+  }
+
+  void addTile(std::span<const Index> vertices) {
+    const int derivatives = options_.normals ? kMostRows : 0;
+    std::vector<std::array<float, 3>> neutral(kTileVertices + derivatives);
+    std::vector<Row> rows(neutral.size());
+    for (std::size_t k = 0; k < vertices.size(); ++k) {
+      const Index g = gridVertex(vertices[k]);
+      neutral[k] = toFloats(positions_[vertices[k]]);
+      rows[k] = positionRow(g);
+      if (options_.normals)
+        addDerivatives(g, &neutral[kTileVertices + k], &rows[kTileVertices + k]);
+    }
+    TileSource tile;
+    tile.vertices.assign(vertices.begin(), vertices.end());
+    const Differences all = differences_.of(rows, tile.targets);
+    const auto pack = [&](int first, int count, double unit, TileTable& table,
+                          TableErrors& errors) {
+      tile.neutral.assign(neutral.begin() + first, neutral.begin() + first + count);
+      tile.unit = unit;
+      tile.differences = inUnits(all, first, count, unit);
+      packTile(tile, table, errors);
+    };
+    pack(0, kTileVertices, tolerance_, tables_.positions, tables_.positionErrors);
+    if (options_.normals)
+      pack(kTileVertices, kMostRows, options_.derivativeTolerance, tables_.derivatives,
+           tables_.derivativeErrors);
+  }
+
+  Row positionRow(Index g) const {
+    Row row;
+    if (g < 0) {
+      row.loose = -1 - g;
+      return row;
+    }
+    const auto [vectors, factors] = grid_.terms(g);
+    for (std::size_t t = 0; t < vectors.size(); ++t)
+      if (factors[t] != 0) row.terms.push_back({vectors[t], factors[t]});
+    return row;
+  }
+
+  struct Derivative {
+    Vec3 neutral;
+    Surface::Weights weights;
+  };
+  using Derivatives = std::array<Derivative, 2>;  // ∂u, ∂v
+
+  Derivatives derivatives(const Site& site) const {
+    Derivatives both;
+    for (int d = 0; d < 2; ++d) {
+      both[d].weights = rig_.surface.weights(site, 1 - d, d);
+      const auto& [vectors, factors] = both[d].weights;
+      for (std::size_t t = 0; t < vectors.size(); ++t)
+        both[d].neutral += factors[t] * neutral_[vectors[t]];
+    }
+    return both;
+  }
+
+  /// Where the neutral has no normal, at a collapsed side, a little inside the patch.
+  Derivatives regularDerivatives(const Site& site) const {
+    const Derivatives here = derivatives(site);
+    const Vec3 &u = here[0].neutral, &v = here[1].neutral;
+    if (norm(cross(u, v)) > 1e-9 * norm(u) * norm(v) && norm(u) > 0 && norm(v) > 0) return here;
+    const double m = rig_.surface.edgesU(site.patch), n = rig_.surface.edgesV(site.patch);
+    return derivatives(
+        {site.patch, site.u + (m * 0.5 - site.u) * 1e-3, site.v + (n * 0.5 - site.v) * 1e-3});
+  }
+
+  /// ∂u and ∂v of a vertex in units of their neutral lengths. Loose vertices look along z.
+  void addDerivatives(Index g, std::array<float, 3>* neutral, Row* rows) const {
+    if (g < 0) {
+      neutral[0] = {1, 0, 0}, neutral[kTileVertices] = {0, 1, 0};
+      return;
+    }
+    const Derivatives both = regularDerivatives(grid_.site(g));
+    for (const auto& [whole, weights] : both) {
+      const double length = norm(whole), scale = length > 0 ? 1 / length : 1;
+      *neutral = toFloats(scale * whole);
+      for (std::size_t t = 0; t < weights.vectors.size(); ++t)
+        if (weights.factors[t] != 0)
+          rows->terms.push_back({weights.vectors[t], scale * weights.factors[t]});
+      neutral += kTileVertices, rows += kTileVertices;
+    }
+  }
+
+  static Differences inUnits(const Differences& all, int first, int rows, double unit) {
+    constexpr float most = 1e15f;  // squares of it stay finite
+    Differences out{rows, all.targets, {all.row(first), all.row(first + rows)}};
+    const double scale = 1 / unit;
+    for (float& x : out.values) x = std::clamp(static_cast<float>(x * scale), -most, most);
+    return out;
+  }
+
+  void packTile(const TileSource& tile, TileTable& table, TableErrors& errors) const {
+    const auto found = sweepface::packTile(tile, static_cast<std::uint16_t>(tables_.weights), table);
+    errors.rounding = std::max(errors.rounding, found.rounding * tile.unit);
+    for (std::size_t k = 0; k < tile.targets.size(); ++k) {
+      double& worst = errors.ofTarget[tile.targets[k]];
+      worst = std::max(worst, found.ofTarget[k] * tile.unit);
+    }
+  }
+
+  const Rig& rig_;
+  const EvaluatorOptions& options_;
+  const Tessellation& grid_;
+  std::vector<Vec3> neutral_;        // settled
+  std::vector<Vec3> gridPositions_;  // of the neutral
+  std::vector<Vec3> positions_;      // [vertices] of the neutral
+  RowDifferences differences_;
+  double tolerance_ = 0;
+  EvaluatorTables tables_;
+};
+
+double bound(const TableErrors& errors, std::span<const double> weights) {
+  double sum = 0, most = 1;
+  for (std::size_t k = 0; k < std::min(weights.size(), errors.ofTarget.size()); ++k) {
+    sum += std::abs(weights[k]) * errors.ofTarget[k];
+    most = std::max(most, std::abs(weights[k]));
+  }
+  return sum + most * errors.rounding;
+}
+
+bool isShare(double x) { return x >= 0 && std::isfinite(x); }
+
+Result<void> check(const Rig& rig, const EvaluatorOptions& options) {
+  if (options.level < 0) return fail("The level of an evaluator must be 0 or more.");
+  if (options.level == 0 && rig.source.gridVertex.empty())
+    return fail("The face came without its source's vertices; ask for level 1.");
+  if (!isShare(options.tolerance) ||
+      !(isShare(options.derivativeTolerance) && options.derivativeTolerance > 0))
+    return fail("The tolerances of an evaluator must be positive.");
+  const auto stored = static_cast<std::size_t>(rig.surface.storedCount());
+  for (const auto& region : options.influences) {
+    if (region.size() != stored)
+      return fail("A region has " + std::to_string(region.size()) + " influences for " +
+                  std::to_string(stored) + " stored vectors.");
+    if (!std::ranges::all_of(region, [](float x) { return std::isfinite(x); }))
+      return fail("The influences of a region must be finite.");
+  }
+  constexpr std::size_t most = 65534;
+  if (rig.targets.size() * std::max<std::size_t>(1, options.influences.size()) > most)
+    return fail("An evaluator takes at most " + std::to_string(most) + " weights.");
+  return {};
+}
+
+}  // namespace
+
+Result<Evaluator> Evaluator::make(const Rig& rig, const EvaluatorOptions& options) {
+  if (auto ok = check(rig, options); !ok) return std::unexpected(ok.error());
+  return make(rig, Tessellation(rig.surface, std::max<Index>(1, options.level)), options);
+}
+
+Result<Evaluator> Evaluator::make(const Rig& rig, const Tessellation& grid,
+                                  const EvaluatorOptions& options) {
+  if (auto ok = check(rig, options); !ok) return std::unexpected(ok.error());
+  if (grid.level() != std::max<Index>(1, options.level))
+    return fail("The tessellation of an evaluator must be of its level.");
+  Evaluator made;
+  made.tables_ = std::make_shared<const EvaluatorTables>(Compiler(rig, grid, options).compile());
+  return made;
+}
+
+Index Evaluator::vertexCount() const { return tables_->vertices; }
+Index Evaluator::weightCount() const { return tables_->weights; }
+bool Evaluator::hasNormals() const { return tables_->derivatives.tileCount() > 0; }
+std::size_t Evaluator::positionBytes() const { return tables_->positions.bytes(); }
+std::size_t Evaluator::normalBytes() const { return tables_->derivatives.bytes(); }
+double Evaluator::positionBound(std::span<const double> weights) const {
+  return bound(tables_->positionErrors, weights);
+}
+double Evaluator::derivativeBound(std::span<const double> weights) const {
+  return bound(tables_->derivativeErrors, weights);
+}
+
+}  // namespace sweepface

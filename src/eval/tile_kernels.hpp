@@ -1,0 +1,56 @@
+#pragma once
+
+#include "sweepface/evaluator.hpp"
+
+#include "eval/tiles.hpp"
+
+// What evaluates tiles: one plain version that says what is right, and one for every instruction
+// set. All give the same bits.
+namespace sweepface {
+
+/// The weights of a frame. What follows the last weight is 0.
+struct FrameWeights {
+  const std::int16_t* shorts;  ///< [roundUp64(W + 1)]
+  std::uint32_t* pairs;        ///< [4 × pairsRoom] scratch
+  std::size_t pairsRoom;       ///< roundUp64(most pairs of a tile)
+  float factor;                ///< what weights were divided by to lie within [-1, 1]
+  Index count;                 ///< W + 1
+};
+
+/// A range of the tiles of a table.
+struct TileRange {
+  const TileTable& table;
+  Index first, last;
+};
+
+namespace plain {
+void evaluatePositions(const TileRange& tiles, const FrameWeights& frame, const VectorsOut& out);
+void evaluateNormals(const TileRange& tiles, const FrameWeights& frame, const VectorsOut& normals,
+                     const VectorsOut& tangents);
+}  // namespace plain
+
+/// `vertices`: of the whole evaluator.
+void evaluatePositions(const TileRange& tiles, const FrameWeights& frame, const VectorsOut& out,
+                       Index vertices);
+void evaluateNormals(const TileRange& tiles, const FrameWeights& frame, const VectorsOut& normals,
+                     const VectorsOut& tangents, Index vertices);
+
+/// Weights of a tile's targets side by side, as the dot products of 16-bit integers want them.
+inline void pairWeights(const Tile& tile, const FrameWeights& frame, std::uint32_t* pairs) {
+  const auto weight = [&](int k) {
+    return static_cast<std::uint32_t>(static_cast<std::uint16_t>(frame.shorts[tile.targets[k]]));
+  };
+  for (int p = 0; p < tile.head->pairs; ++p)
+    pairs[p] = weight(2 * p) | weight(2 * p + 1) << 16;
+}
+
+inline char* vectorAt(const VectorsOut& out, std::uint32_t vertex) {
+  return reinterpret_cast<char*>(out.data) + std::size_t(vertex) * out.stride;
+}
+
+/// The inverse square root by Newton's method from a first guess (Lomont 2003), so that it is the
+/// same everywhere; better than 3·10⁻⁷. Finite for 0.
+inline constexpr std::int32_t kInverseRootGuess = 0x5f375a86;
+inline constexpr int kInverseRootSteps = 3;
+
+}  // namespace sweepface

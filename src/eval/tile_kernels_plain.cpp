@@ -1,0 +1,90 @@
+// What the kernels compute, without regard to speed.
+#include <bit>
+#include <cstring>
+
+#include "eval/tile_kernels.hpp"
+
+namespace sweepface::plain {
+namespace {
+
+using Vectors = std::array<std::array<float, 3>, kMostRows>;
+
+std::int16_t half(std::uint32_t pair, int side) {
+  return static_cast<std::int16_t>(pair >> (16 * side) & 0xffff);
+}
+
+/// The modes' coefficients c_m under the frame's weights, in the order of the blocks.
+void blend(const Tile& tile, const std::uint32_t* pairs, std::int16_t* c) {
+  const std::int16_t* from = tile.coefficients;
+  for (int b = 0; b < tile.head->blocks; ++b) {
+    std::array<std::int32_t, kGroup> sums{};
+    for (int p = 0; p < tile.head->blockPairs[b]; ++p)
+      for (int lane = 0; lane < kGroup; ++lane)
+        for (int side = 0; side < 2; ++side) sums[lane] += *from++ * half(pairs[p], side);
+    for (int lane = 0; lane < kGroup; ++lane)
+      *c++ = static_cast<std::int16_t>(std::clamp((sums[lane] + (1 << 15)) >> 16, -32768, 32767));
+  }
+}
+
+/// All rows of a tile under the frame's weights.
+void combine(const Tile& tile, int groups, const FrameWeights& frame, Vectors& out) {
+  pairWeights(tile, frame, frame.pairs);
+  std::array<std::int16_t, kMostBlocks * kGroup> c;
+  blend(tile, frame.pairs, c.data());
+  const float scale = tile.head->scale * frame.factor;
+  for (int row = 0; row < kGroup * groups; ++row)
+    for (int axis = 0; axis < 3; ++axis) {
+      const int g = row / kGroup, lane = row % kGroup;
+      const std::int16_t* basis = tile.basis + (g * tile.head->modePairs * kGroup + lane) * 2;
+      std::int32_t sum = 0;
+      for (int p = 0; p < tile.head->modePairs; ++p)
+        for (int h = 0; h < 2; ++h) sum += basis[2 * kGroup * p + h] * c[6 * p + 2 * axis + h];
+      out[row][axis] =
+          tile.neutral[(3 * g + axis) * kGroup + lane] + static_cast<float>(sum) * scale;
+    }
+}
+
+float inverseRoot(float x) {
+  float y = std::bit_cast<float>(kInverseRootGuess - (std::bit_cast<std::int32_t>(x) >> 1));
+  for (int step = 0; step < kInverseRootSteps; ++step) y = y * (1.5f - (0.5f * x * y) * y);
+  return y;
+}
+
+std::array<float, 3> unit(const std::array<float, 3>& a) {
+  const float r = inverseRoot((a[0] * a[0] + a[1] * a[1]) + a[2] * a[2]);
+  return {a[0] * r, a[1] * r, a[2] * r};
+}
+
+void write(const Tile& tile, int k, const std::array<float, 3>& vector, const VectorsOut& out) {
+  if (out.data && tile.vertices[k] < static_cast<std::uint32_t>(out.count))
+    std::memcpy(vectorAt(out, tile.vertices[k]), vector.data(), sizeof(vector));
+}
+
+}  // namespace
+
+void evaluatePositions(const TileRange& tiles, const FrameWeights& frame, const VectorsOut& out) {
+  Vectors rows;
+  for (Index t = tiles.first; t < tiles.last; ++t) {
+    const Tile tile = tileAt(tiles.table.record(t));
+    combine(tile, 2, frame, rows);
+    for (int k = 0; k < tile.head->vertices; ++k) write(tile, k, rows[k], out);
+  }
+}
+
+void evaluateNormals(const TileRange& tiles, const FrameWeights& frame, const VectorsOut& normals,
+                     const VectorsOut& tangents) {
+  Vectors rows;
+  for (Index t = tiles.first; t < tiles.last; ++t) {
+    const Tile tile = tileAt(tiles.table.record(t));
+    combine(tile, 4, frame, rows);
+    for (int k = 0; k < tile.head->vertices; ++k) {
+      const auto &u = rows[k], &v = rows[k + kTileVertices];
+      write(tile, k,
+            unit({u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]}),
+            normals);
+      write(tile, k, unit(u), tangents);
+    }
+  }
+}
+
+}  // namespace sweepface::plain

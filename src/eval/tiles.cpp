@@ -1,0 +1,23 @@
+#include "eval/tiles.hpp"
+
+#include <algorithm>
+
+namespace sweepface {
+
+std::byte* TileTable::add(std::size_t bytes, int pairs) {
+  starts_.push_back(size_);
+  size_ += roundUp64(bytes);
+  memory_.resize(size_);
+  mostPairs_ = std::max(mostPairs_, pairs);
+  return memory_.data() + starts_.back();
+}
+
+void TileTable::finish() {
+  constexpr std::size_t line = 64;
+  std::vector<std::byte> aligned(size_ + line);
+  first_ = (line - reinterpret_cast<std::uintptr_t>(aligned.data()) % line) % line;
+  std::ranges::copy(memory_, aligned.begin() + static_cast<std::ptrdiff_t>(first_));
+  memory_ = std::move(aligned);
+}
+
+}  // namespace sweepface

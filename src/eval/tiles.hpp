@@ -1,0 +1,114 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "sweepface/vec.hpp"
+
+// The tables of an Evaluator. Rows (positions or derivatives of vertices) are cut into tiles of 32
+// vertices that are near each other. In a tile the rows of all poses are combinations of a few
+// modes:
+//
+//   row(v) = neutral(v) + scale · Σ_m basis(v, m) · c_m,   c_m = Σ_k weight_k · coefficient(m, k)
+//
+// Basis, coefficients and weights are 16-bit integers and their sums exact in 32 bits, so that
+// every instruction set gives the same bits.
+namespace sweepface {
+
+inline constexpr int kTileVertices = 32;
+inline constexpr int kGroup = 16;  // rows or coefficients that are handled together
+inline constexpr int kMostRows = 64;
+inline constexpr int kMostBlocks = 3 * kMostRows / kGroup;
+
+// Weights within [-1, 1] in units of 2⁻¹⁴. Coefficients of a mode's component add up to no more
+// than kMostSum over all targets, so that their weighted sum fits 32 bits; after a shift by 16 bits
+// that sum is c_m. The basis of a row adds up to no more than kMostBasis over all modes.
+inline constexpr int kWeightUnit = 1 << 14;
+inline constexpr double kMostSum = 131000, kMostBasis = 65000, kMostShort = 32767;
+
+/// The head of a tile's record, which goes on with
+///   targets       [pairs × 2] uint16, padded to 64 bytes
+///   coefficients  [blocks][blockPairs][16 × 2] int16: block b holds coefficients 16b … 16b + 15
+///                 for two targets side by side; coefficient 6p + 2c + h is component c of mode
+///                 2p + h
+///   basis         [groups][modePairs][16 × 2] int16: two modes side by side
+///   neutral       [groups][3][16] float
+///   vertices      [32] uint32: where they go
+struct TileHead {
+  std::uint32_t bytes = 0;  ///< of the whole record
+  float scale = 0;
+  std::uint32_t coefficientsAt = 0, basisAt = 0, neutralAt = 0, verticesAt = 0;  ///< in the record
+  std::uint16_t vertices = 0;
+  std::uint16_t pairs = 0;
+  std::uint16_t modePairs = 0;
+  std::uint16_t blocks = 0;
+  std::array<std::uint16_t, kMostBlocks> blockPairs{};  ///< falling; 0 behind the last block
+  std::array<std::uint16_t, 4> unused{};
+};
+static_assert(sizeof(TileHead) == 64);
+
+/// A tile's record taken apart.
+struct Tile {
+  const TileHead* head = nullptr;
+  const std::uint16_t* targets = nullptr;
+  const std::int16_t* coefficients = nullptr;
+  const std::int16_t* basis = nullptr;
+  const float* neutral = nullptr;
+  const std::uint32_t* vertices = nullptr;
+};
+
+inline std::size_t roundUp64(std::size_t bytes) { return (bytes + 63) / 64 * 64; }
+
+inline Tile tileAt(const std::byte* record) {
+  const auto* head = reinterpret_cast<const TileHead*>(record);
+  return {head,
+          reinterpret_cast<const std::uint16_t*>(record + sizeof(TileHead)),
+          reinterpret_cast<const std::int16_t*>(record + head->coefficientsAt),
+          reinterpret_cast<const std::int16_t*>(record + head->basisAt),
+          reinterpret_cast<const float*>(record + head->neutralAt),
+          reinterpret_cast<const std::uint32_t*>(record + head->verticesAt)};
+}
+
+/// Records one after the other, each beginning with a cache line once the table is finished.
+class TileTable {
+ public:
+  explicit TileTable(int groups = 0) : groups_(groups) {}
+  TileTable(TileTable&&) = default;
+
+  int groups() const { return groups_; }  ///< of 16 rows in a tile
+  Index tileCount() const { return static_cast<Index>(starts_.size()); }
+  const std::byte* record(Index tile) const { return memory_.data() + first_ + starts_[tile]; }
+  std::size_t bytes() const { return size_; }
+  int mostPairs() const { return mostPairs_; }
+
+  /// Room for one more record, all zero.
+  std::byte* add(std::size_t bytes, int pairs);
+  void finish();
+
+ private:
+  int groups_;
+  int mostPairs_ = 0;
+  std::vector<std::byte> memory_;
+  std::size_t first_ = 0, size_ = 0;  // bytes before and of the records
+  std::vector<std::size_t> starts_;
+};
+
+/// How far what the tables say may be from what they stand for.
+struct TableErrors {
+  std::vector<double> ofTarget;  ///< [weights] at weight 1
+  double rounding = 0;           ///< on top, for weights within [-1, 1]
+};
+
+/// What an Evaluator holds.
+struct EvaluatorTables {
+  Index vertices = 0, weights = 0;
+  TileTable positions{2};
+  TileTable derivatives{4};  ///< 32 rows ∂u and 32 rows ∂v a tile
+  TableErrors positionErrors, derivativeErrors;
+};
+
+}  // namespace sweepface

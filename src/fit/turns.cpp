@@ -1,0 +1,254 @@
+#include <Eigen/Dense>
+#include <algorithm>
+#include <numbers>
+#include <numeric>
+#include <optional>
+
+#include "sweepface/arcs.hpp"
+#include "sweepface/eval.hpp"
+
+namespace sweepface {
+namespace {
+
+using Vector = Eigen::Vector3d;
+using Matrix = Eigen::Matrix3d;
+
+Vector toEigen(const Vec3& p) { return {p.x, p.y, p.z}; }
+Vec3 fromEigen(const Vector& p) { return {p.x(), p.y(), p.z()}; }
+
+// When a target is taken for a turn. Lids of the ICT face have 0.05, 40° and 12°, its jaw 0.08, 25°
+// and 5°; a smile has 0.15, a pucker 0.4.
+constexpr double kMoves = 0.02;      // a point moves: this share of the largest way
+constexpr double kRadial = 0.15;     // RMS change of distance from the axis, of the RMS way
+constexpr double kSmallestTurn = 3;  // degrees
+constexpr double kSpread = 0.45;     // standard deviation of the angles, of their mean
+constexpr double kRigid = 0.01;      // RMS of what a rigid motion leaves, of the RMS way
+constexpr double kRound = 0.05;      // RMS distance from a sphere, of its radius
+constexpr double kOffCentre = 0.5;   // between an axis and a ball's centre, of the ball's radius
+
+/// A point of the neutral and where it goes.
+struct Way {
+  Vector from, to;
+};
+
+double squares(std::span<const Way> ways) {
+  double sum = 0;
+  for (const Way& w : ways) sum += (w.to - w.from).squaredNorm();
+  return sum;
+}
+
+// ---- Axes ----
+
+/// A line that all points stay at their distance from, as near as can be. |to − c| = |from − c| is
+/// linear in c: d · c = ½(|to|² − |from|²) with d = to − from. Along the axis no c is better than
+/// another, so it is the direction that the ways have least of. Those that go far count most.
+struct Axis {
+  Vector pivot, direction;
+};
+
+std::optional<Axis> fitAxis(std::span<const Way> ways) {
+  Matrix m = Matrix::Zero();
+  Vector right = Vector::Zero(), centre = Vector::Zero();
+  double weights = 0;
+  for (const Way& w : ways) {
+    const Vector d = w.to - w.from;
+    const double weight = d.squaredNorm();
+    m += weight * d * d.transpose();
+    right += weight * d * (0.5 * (w.to.squaredNorm() - w.from.squaredNorm()));
+    centre += weight * w.from;
+    weights += weight;
+  }
+  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(m);
+  if (!(eigen.eigenvalues()[1] > 1e-6 * eigen.eigenvalues()[2])) return {};  // all go one way
+  Axis axis{Vector::Zero(), eigen.eigenvectors().col(0)};
+  for (int k : {1, 2}) {
+    const Vector v = eigen.eigenvectors().col(k);
+    axis.pivot += v * (v.dot(right) / eigen.eigenvalues()[k]);
+  }
+  axis.pivot += axis.direction * axis.direction.dot(centre / weights);
+  return axis;
+}
+
+/// Whether points turn about an axis, and all by about as much.
+bool isTurn(std::span<const Way> ways, const Axis& axis) {
+  double weights = 0, angles = 0, angleSquares = 0, radial = 0, all = 0;
+  for (const Way& w : ways) {
+    const auto arm = [&](const Vector& p) -> Vector {
+      const Vector q = p - axis.pivot;
+      return q - axis.direction * axis.direction.dot(q);
+    };
+    const Vector a = arm(w.from), b = arm(w.to);
+    const double weight = (w.to - w.from).squaredNorm();
+    const double angle =
+        std::atan2(a.cross(b).dot(axis.direction), a.dot(b)) * 180 / std::numbers::pi;
+    weights += weight;
+    angles += weight * angle;
+    angleSquares += weight * angle * angle;
+    radial += weight * std::pow(b.norm() - a.norm(), 2);
+    all += weight * weight;
+  }
+  const double mean = angles / weights;
+  const double spread = std::sqrt(std::max(0.0, angleSquares / weights - mean * mean));
+  return std::abs(mean) >= kSmallestTurn && spread <= kSpread * std::abs(mean) &&
+         radial <= kRadial * kRadial * all;
+}
+
+// ---- Parts ----
+
+/// Points that hang together.
+using Part = std::vector<Index>;
+
+std::vector<Part> partsOf(const Tessellation& grid) {
+  std::vector<Index> parent(grid.vertexCount());
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto root = [&](Index v) {
+    while (parent[v] != v) v = parent[v] = parent[parent[v]];
+    return v;
+  };
+  for (const auto& face : grid.faces())
+    for (int k = 1; k < 4; ++k) parent[root(face[k])] = root(face[0]);
+  std::vector<Part> parts(parent.size());
+  for (Index v = 0; v < grid.vertexCount(); ++v) parts[root(v)].push_back(v);
+  std::erase_if(parts, [](const Part& part) { return part.empty(); });
+  return parts;
+}
+
+/// What the best rigid motion leaves of the ways (Kabsch 1976).
+bool isRigid(std::span<const Way> ways) {
+  Vector from = Vector::Zero(), to = Vector::Zero();
+  for (const Way& w : ways) from += w.from, to += w.to;
+  from /= static_cast<double>(ways.size()), to /= static_cast<double>(ways.size());
+  Matrix covariance = Matrix::Zero();
+  for (const Way& w : ways) covariance += (w.to - to) * (w.from - from).transpose();
+  const Eigen::JacobiSVD<Matrix> svd(covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Matrix sign = Matrix::Identity();
+  sign(2, 2) = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1;
+  const Matrix rotation = svd.matrixU() * sign * svd.matrixV().transpose();
+  double left = 0;
+  for (const Way& w : ways) left += (w.to - to - rotation * (w.from - from)).squaredNorm();
+  return left <= kRigid * kRigid * squares(ways);
+}
+
+struct Ball {
+  Vector centre;
+  double radius = 0;
+};
+
+/// |p|² = 2 c · p + (r² − |c|²) is linear in c and in what is in brackets.
+std::optional<Ball> ballOf(std::span<const Vector> points) {
+  if (points.size() < 50) return {};
+  Eigen::Matrix4d m = Eigen::Matrix4d::Zero();
+  Eigen::Vector4d right = Eigen::Vector4d::Zero();
+  const Vector origin = points[0];
+  for (const Vector& point : points) {
+    const Vector p = point - origin;
+    const Eigen::Vector4d row(2 * p.x(), 2 * p.y(), 2 * p.z(), 1);
+    m += row * row.transpose();
+    right += row * p.squaredNorm();
+  }
+  const Eigen::Vector4d x = m.ldlt().solve(right);
+  Ball ball{x.head<3>() + origin, std::sqrt(std::max(0.0, x[3] + x.head<3>().squaredNorm()))};
+  double squares = 0;
+  Eigen::AlignedBox3d box;
+  for (const Vector& p : points) {
+    squares += std::pow((p - ball.centre).norm() - ball.radius, 2);
+    box.extend(p);
+  }
+  const double rms = std::sqrt(squares / static_cast<double>(points.size()));
+  // A lens is round as well, but it is not most of a ball.
+  if (!(rms <= kRound * ball.radius) || !(box.sizes().minCoeff() > 1.5 * ball.radius)) return {};
+  return ball;
+}
+
+// ---- Targets ----
+
+class TurnFinder {
+ public:
+  explicit TurnFinder(const Rig& rig) : rig_(rig), grid_(rig.surface, 1), parts_(partsOf(grid_)) {
+    neutral_ = pointsOf({});
+    for (const Part& part : parts_) {
+      std::vector<Vector> points;
+      for (const Index v : part) points.push_back(neutral_[v]);
+      if (const auto ball = ballOf(points)) balls_.push_back(*ball);
+    }
+  }
+
+  std::optional<Turn> find(Index target) const {
+    const std::vector<Way> ways = waysThatTell(target);
+    const auto axis = ways.size() < 3 ? std::nullopt : fitAxis(ways);
+    if (!axis || !isTurn(ways, *axis)) return {};
+    if (const Ball* const ball = ballOn(*axis, ways))
+      return Turn{target, fromEigen(ball->centre), {}};
+    return Turn{target, fromEigen(axis->pivot), fromEigen(axis->direction)};
+  }
+
+ private:
+  std::vector<Vector> pointsOf(std::span<const double> weights) const {
+    std::vector<Vector> points;
+    for (const Vec3& p : grid_.positions(blend(rig_, weights))) points.push_back(toEigen(p));
+    return points;
+  }
+
+  /// Of parts that move rigidly, such as teeth, if there are any; else of all points that move.
+  std::vector<Way> waysThatTell(Index target) const {
+    std::vector<double> weights(rig_.targets.size());
+    weights[target] = 1;
+    const std::vector<Vector> moved = pointsOf(weights);
+    double longest = 0;
+    for (std::size_t v = 0; v < moved.size(); ++v)
+      longest = std::max(longest, (moved[v] - neutral_[v]).norm());
+    std::vector<Way> all, rigid;
+    if (!(longest > rig_.tolerance)) return all;
+    for (const Part& part : parts_) {
+      std::vector<Way> ways;
+      for (const Index v : part)
+        if ((moved[v] - neutral_[v]).norm() > kMoves * longest)
+          ways.push_back({neutral_[v], moved[v]});
+      all.insert(all.end(), ways.begin(), ways.end());
+      if (2 * ways.size() > part.size() && ways.size() >= 4 && turnsRigidly(ways))
+        rigid.insert(rigid.end(), ways.begin(), ways.end());
+    }
+    return rigid.empty() ? all : rigid;
+  }
+
+  static bool turnsRigidly(std::span<const Way> ways) {
+    if (!isRigid(ways)) return false;
+    const auto axis = fitAxis(ways);
+    return axis && isTurn(ways, *axis);
+  }
+
+  /// A ball that the axis runs through and the points move around.
+  const Ball* ballOn(const Axis& axis, std::span<const Way> ways) const {
+    Vector middle = Vector::Zero();
+    for (const Way& w : ways) middle += w.from;
+    middle /= static_cast<double>(ways.size());
+    const auto distance = [&](const Ball& ball) {
+      return (ball.centre - axis.pivot).cross(axis.direction).norm();
+    };
+    const Ball* nearest = nullptr;
+    for (const Ball& ball : balls_)
+      if (distance(ball) < kOffCentre * ball.radius &&
+          (middle - ball.centre).norm() < 1.5 * ball.radius &&
+          (!nearest || distance(ball) < distance(*nearest)))
+        nearest = &ball;
+    return nearest;
+  }
+
+  const Rig& rig_;
+  Tessellation grid_;
+  std::vector<Part> parts_;
+  std::vector<Vector> neutral_;
+  std::vector<Ball> balls_;
+};
+
+}  // namespace
+
+std::vector<Turn> findTurns(const Rig& rig) {
+  const TurnFinder finder(rig);
+  std::vector<Turn> turns;
+  for (Index k = 0; k < static_cast<Index>(rig.targets.size()); ++k)
+    if (const auto turn = finder.find(k)) turns.push_back(*turn);
+  return turns;
+}
+
+}  // namespace sweepface

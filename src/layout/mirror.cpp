@@ -1,0 +1,163 @@
+#include "layout/mirror.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <tuple>
+#include <unordered_map>
+
+#include "mesh/union_find.hpp"
+
+namespace sweepface {
+
+namespace {
+
+double& coordinate(Vec3& p, int axis) { return axis == 0 ? p.x : axis == 1 ? p.y : p.z; }
+
+// Points in cells, for the nearest one within the size of a cell.
+class PointGrid {
+ public:
+  PointGrid(const std::vector<Vec3>& points, double cell) : points_(points), cell_(cell) {
+    for (std::size_t p = 0; p < points.size(); ++p)
+      cells_[keyOf(points[p])].push_back(static_cast<Index>(p));
+  }
+
+  Index nearest(const Vec3& place) const {
+    Index found = -1;
+    double least = cell_;
+    const auto [x, y, z] = keyOf(place);
+    for (int i = -1; i <= 1; ++i)
+      for (int j = -1; j <= 1; ++j)
+        for (int k = -1; k <= 1; ++k)
+          if (const auto cell = cells_.find({x + i, y + j, z + k}); cell != cells_.end())
+            for (const Index p : cell->second)
+              if (const double d = norm(points_[p] - place); d < least) {
+                least = d;
+                found = p;
+              }
+    return found;
+  }
+
+ private:
+  using Key = std::array<std::int64_t, 3>;
+  struct Hash {
+    std::size_t operator()(const Key& key) const {
+      std::uint64_t h = 0;
+      for (const std::int64_t k : key) h = (h ^ static_cast<std::uint64_t>(k)) * 0x9e3779b97f4a7c15;
+      return static_cast<std::size_t>(h ^ h >> 32);
+    }
+  };
+  Key keyOf(const Vec3& p) const {
+    return {std::llround(p.x / cell_), std::llround(p.y / cell_), std::llround(p.z / cell_)};
+  }
+
+  const std::vector<Vec3>& points_;
+  double cell_;
+  std::unordered_map<Key, std::vector<Index>, Hash> cells_;
+};
+
+// The image of each point across the best of the three planes; empty if most points have none.
+std::vector<Index> imagesOfPoints(const GridMesh& mesh, std::span<const Vec3> positions) {
+  std::vector<Vec3> points;
+  for (const Index v : mesh.source) points.push_back(positions[v]);
+  Vec3 low = points[0], high = points[0];
+  for (Vec3 p : points)
+    for (int axis = 0; axis < 3; ++axis) {
+      coordinate(low, axis) = std::min(coordinate(low, axis), coordinate(p, axis));
+      coordinate(high, axis) = std::max(coordinate(high, axis), coordinate(p, axis));
+    }
+  constexpr double kNear = 1e-3;  // of the diagonal
+  const double cell = kNear * norm(high - low);
+  if (!(cell > 0) || !std::isfinite(cell)) return {};
+  const PointGrid grid(points, cell);
+  std::vector<Index> best;
+  std::ptrdiff_t found = static_cast<std::ptrdiff_t>(points.size()) / 2;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double twice = coordinate(low, axis) + coordinate(high, axis);
+    std::vector<Index> images;
+    for (Vec3 p : points) {
+      coordinate(p, axis) = twice - coordinate(p, axis);
+      images.push_back(grid.nearest(p));
+    }
+    for (std::size_t p = 0; p < images.size(); ++p)
+      if (images[p] >= 0 && images[images[p]] != static_cast<Index>(p)) images[p] = -1;
+    const auto count = std::ranges::count_if(images, [](Index i) { return i >= 0; });
+    if (count <= found) continue;
+    found = count;
+    best = std::move(images);
+  }
+  return best;
+}
+
+using Corners = std::array<Index, 4>;
+
+Corners pointsOf(const GridMesh& mesh, Index quad) {
+  Corners points;
+  for (int k = 0; k < 4; ++k) points[k] = mesh.point[mesh.quads[quad][k]];
+  return points;
+}
+
+// Vertices where other than four quads meet, and those on the boundary.
+std::vector<char> irregularVertices(const GridMesh& mesh) {
+  std::vector<int> quads(mesh.vertexCount(), 0);
+  for (const auto& quad : mesh.quads)
+    for (const Index v : quad) ++quads[v];
+  std::vector<char> irregular;
+  for (const int count : quads) irregular.push_back(count != 4);
+  for (HalfEdge h = 0; h < static_cast<HalfEdge>(mesh.twin.size()); ++h)
+    if (mesh.twin[h] < 0) irregular[mesh.from(h)] = irregular[mesh.to(h)] = 1;
+  return irregular;
+}
+
+// Leaves a component its mirror only if all of it has one, and if it is no torus: lines across that
+// are cut on both sides meet nowhere.
+void keepWholeComponents(const GridMesh& mesh, std::vector<HalfEdge>& mirror) {
+  UnionFind components(static_cast<Index>(mesh.quads.size()));
+  for (HalfEdge h = 0; h < static_cast<HalfEdge>(mirror.size()); ++h) {
+    if (mesh.twin[h] >= 0) components.join(h >> 2, mesh.twin[h] >> 2);
+    if (mirror[h] >= 0) components.join(h >> 2, mirror[h] >> 2);
+  }
+  std::vector<char> broken(mesh.quads.size(), 0);
+  const auto twinOf = [&](HalfEdge h) { return mesh.twin[h] < 0 ? -1 : mirror[mesh.twin[h]]; };
+  for (HalfEdge h = 0; h < static_cast<HalfEdge>(mirror.size()); ++h)
+    if (mirror[h] < 0 || mirror[mirror[h]] != h || mesh.twin[mirror[h]] != twinOf(h))
+      broken[components.find(h >> 2)] = 1;
+  const std::vector<char> irregular = irregularVertices(mesh);
+  std::vector<char> anchored(mesh.quads.size(), 0);
+  for (Index q = 0; q < static_cast<Index>(mesh.quads.size()); ++q)
+    for (const Index v : mesh.quads[q])
+      if (irregular[v]) anchored[components.find(q)] = 1;
+  for (HalfEdge h = 0; h < static_cast<HalfEdge>(mirror.size()); ++h)
+    if (broken[components.find(h >> 2)] || !anchored[components.find(h >> 2)]) mirror[h] = -1;
+}
+
+}  // namespace
+
+std::vector<HalfEdge> findMirror(const GridMesh& mesh, std::span<const Vec3> positions) {
+  std::vector<HalfEdge> mirror(mesh.twin.size(), -1);
+  const std::vector<Index> image = imagesOfPoints(mesh, positions);
+  if (image.empty()) return mirror;
+  std::map<Corners, Index> quadAt;
+  for (Index q = 0; q < static_cast<Index>(mesh.quads.size()); ++q) {
+    Corners key = pointsOf(mesh, q);
+    std::ranges::sort(key);
+    quadAt.emplace(key, q);
+  }
+  for (Index q = 0; q < static_cast<Index>(mesh.quads.size()); ++q) {
+    Corners key = pointsOf(mesh, q);
+    for (Index& p : key) p = image[p];
+    std::ranges::sort(key);
+    const auto found = quadAt.find(key);
+    if (key[0] < 0 || found == quadAt.end()) continue;
+    const Corners here = pointsOf(mesh, q), there = pointsOf(mesh, found->second);
+    for (int k = 0; k < 4; ++k)
+      for (int other = 0; other < 4; ++other)
+        if (image[here[k]] == there[(other + 1) % 4] && image[here[(k + 1) % 4]] == there[other])
+          mirror[4 * q + k] = 4 * found->second + other;
+  }
+  keepWholeComponents(mesh, mirror);
+  return mirror;
+}
+
+}  // namespace sweepface

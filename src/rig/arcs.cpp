@@ -1,0 +1,167 @@
+#include "sweepface/arcs.hpp"
+
+#include <algorithm>
+
+#include "rig/taylor.hpp"
+
+namespace sweepface {
+namespace {
+
+using Taylor3 = std::array<Taylor, 3>;
+
+Taylor dot(const Taylor3& a, const Taylor3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+/// From the pivot, without what runs along the axis.
+Taylor3 armOf(const Turn& turn, Taylor3 p) {
+  const std::array pivot{turn.pivot.x, turn.pivot.y, turn.pivot.z};
+  const std::array axis{turn.axis.x, turn.axis.y, turn.axis.z};
+  for (int k = 0; k < 3; ++k) p[k] = p[k] + -pivot[k];
+  const Taylor along = p[0] * axis[0] + p[1] * axis[1] + p[2] * axis[2];
+  for (int k = 0; k < 3; ++k) p[k] = p[k] - along * axis[k];
+  return p;
+}
+
+/// 0 up to `low`, 1 from `high` on, and twice continuously differentiable between.
+Taylor faded(const Taylor& x, double low, double high) {
+  if (!(x.value() > low)) return {};
+  Taylor t = (x + -low) * (1 / (high - low));
+  if (t.value() >= 1) return Taylor{} + 1;
+  return t * t * t * (t * (t * 6 + -15.0) + 10);
+}
+
+/// The bulge and its derivatives: the middle of both arms, drawn out to their mean length. Beside
+/// the axis directions mean nothing, and half a turn has no middle: there it fades.
+Taylor3 bulgeOf(const Turn& turn, const Taylor3& from, const Taylor3& to) {
+  const Taylor3 a = armOf(turn, from), b = armOf(turn, to);
+  Taylor3 middle;
+  for (int k = 0; k < 3; ++k) middle[k] = (a[k] + b[k]) * 0.5;
+  const Taylor aa = dot(a, a), bb = dot(b, b), mm = dot(middle, middle);
+  constexpr double nothing = 1e-12;
+  if (!(std::min(aa.value(), bb.value()) > nothing * std::max(aa.value(), bb.value()))) return {};
+  if (!(mm.value() > nothing * aa.value())) return {};
+  const Taylor mean = (sqrt(aa) + sqrt(bb)) * 0.5, length = sqrt(mm);
+  // The cosine of half the angle is 1/2 for a third of a full turn.
+  const Taylor weight = faded(length * inverse(mean), 0.5, 0.9);
+  const Taylor stretch = (mean * inverse(length) + -1.0) * weight;
+  for (Taylor& m : middle) m = m * stretch;
+  return middle;
+}
+
+/// The stored vectors of the bulge of one target, from the jets of both poses at every node.
+class BulgeMaker {
+ public:
+  BulgeMaker(const Rig& rig, std::span<const Vec3> from)
+      : surface_(rig.surface), from_(from), small_(1e-3 * rig.tolerance) {}
+
+  std::vector<Vec3> make(const Turn& turn, std::span<const Vec3> to) {
+    to_ = to;
+    bulge_.assign(surface_.storedCount(), {});
+    done_.assign(surface_.storedCount(), false);
+    for (Index patch = 0; patch < surface_.patchCount(); ++patch)
+      for (int corner = 0; corner < 4; ++corner) atCorner(turn, patch, corner);
+    atCharts(turn);
+    return std::move(bulge_);
+  }
+
+ private:
+  static double component(const Vec3& v, int k) { return k == 0 ? v.x : k == 1 ? v.y : v.z; }
+  static Vec3 derivative(const Taylor3& t, int i, int j) {
+    return {t[0].derivative(i, j), t[1].derivative(i, j), t[2].derivative(i, j)};
+  }
+
+  void set(Index stored, const Vec3& value) {
+    done_[stored] = true;
+    if (norm(value) > small_) bulge_[stored] = value;
+  }
+
+  /// Nodes whose jet a corner shows, turned by right angles.
+  void atCorner(const Turn& turn, Index patch, int corner) {
+    std::array<JetRef, 9> refs;
+    bool isNew = false;
+    for (int k = 0; k < 9; ++k) {
+      refs[k] = surface_.cornerJet(patch, corner, k / 3, k % 3);
+      isNew |= refs[k].vector < surface_.storedCount() && !done_[refs[k].vector];
+    }
+    const auto kind = surface_.connectivity().kinds[nodeAt(patch, corner)];
+    if (!isNew || kind == NodeKind::irregular) return;
+    Taylor3 from, to;
+    for (int k = 0; k < 9; ++k)
+      for (int axis = 0; axis < 3; ++axis) {
+        from[axis].setDerivative(k / 3, k % 3,
+                                 refs[k].sign * component(from_[refs[k].vector], axis));
+        to[axis].setDerivative(k / 3, k % 3, refs[k].sign * component(to_[refs[k].vector], axis));
+      }
+    const Taylor3 bulge = bulgeOf(turn, from, to);
+    for (int k = 0; k < 9; ++k)
+      if (refs[k].vector < surface_.storedCount())
+        set(refs[k].vector, refs[k].sign * derivative(bulge, k / 3, k % 3));
+  }
+
+  /// Nodes with a second-order jet in a chart: all of it is stored.
+  void atCharts(const Turn& turn) {
+    for (Index v = 0; v < surface_.storedCount();) {
+      const Index first = v, node = surface_.stored(v).node;
+      while (v < surface_.storedCount() && surface_.stored(v).node == node) ++v;
+      if (surface_.connectivity().kinds[node] != NodeKind::irregular) continue;
+      Taylor3 from, to;
+      eachOf(first, v, [&](Index k, int i, int j) {
+        for (int axis = 0; axis < 3; ++axis) {
+          from[axis].setDerivative(i, j, component(from_[k], axis));
+          to[axis].setDerivative(i, j, component(to_[k], axis));
+        }
+      });
+      const Taylor3 bulge = bulgeOf(turn, from, to);
+      eachOf(first, v, [&](Index k, int i, int j) { set(k, derivative(bulge, i, j)); });
+    }
+  }
+  void eachOf(Index first, Index last, auto visit) const {
+    for (Index k = first; k < last; ++k) visit(k, surface_.stored(k).i, surface_.stored(k).j);
+  }
+
+  Index nodeAt(Index patch, int corner) const {
+    return surface_.connectivity().cornerNode[4 * patch + corner];
+  }
+
+  const Surface& surface_;
+  std::span<const Vec3> from_, to_;
+  double small_;
+  std::vector<Vec3> bulge_;
+  std::vector<bool> done_;
+};
+
+Taylor3 constant(const Vec3& p) {
+  Taylor3 t;
+  t[0].c[0] = p.x, t[1].c[0] = p.y, t[2].c[0] = p.z;
+  return t;
+}
+
+}  // namespace
+
+Vec3 bulge(const Turn& turn, const Vec3& from, const Vec3& to) {
+  const Taylor3 b = bulgeOf(turn, constant(from), constant(to));
+  return {b[0].value(), b[1].value(), b[2].value()};
+}
+
+std::string arcName(std::string_view target) { return std::string(target) + ".arc"; }
+
+std::vector<Follower> addArcs(Rig& rig, std::span<const Turn> turns) {
+  const std::size_t count = rig.targets.size();
+  const std::vector<Vec3> neutral = blend(rig, {});
+  BulgeMaker maker(rig, neutral);
+  std::vector<Follower> followers;
+  for (const Turn& turn : turns) {
+    std::vector<double> weights(count);
+    weights[turn.target] = 1;
+    const Target& target = rig.targets[turn.target];
+    Target arc{arcName(target.name), maker.make(turn, blend(rig, weights)), {}};
+    for (std::size_t v = 0; v < rig.source.loose.size(); ++v)
+      arc.looseDifference.push_back(
+          bulge(turn, rig.source.loose[v], rig.source.loose[v] + target.looseDifference[v]));
+    followers.push_back(
+        {Follower::Kind::arc, static_cast<Index>(rig.targets.size()), {turn.target}, 0});
+    rig.targets.push_back(std::move(arc));
+  }
+  return followers;
+}
+
+}  // namespace sweepface

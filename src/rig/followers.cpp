@@ -1,0 +1,117 @@
+#include "sweepface/followers.hpp"
+
+#include <algorithm>
+#include <optional>
+
+namespace sweepface {
+namespace {
+
+/// Finds what the names of targets say of each other.
+class NameReader {
+ public:
+  explicit NameReader(std::span<const std::string> names) : names_(names) {}
+
+  std::optional<Follower> read(Index target) const {
+    if (auto follower = readInBetween(target)) return follower;
+    return readProduct(target);
+  }
+
+ private:
+  Index find(std::string_view name) const {
+    const auto found = std::ranges::find(names_, name);
+    return name.empty() || found == names_.end() ? -1 : static_cast<Index>(found - names_.begin());
+  }
+
+  /// The leader's name, perhaps a separator, and two digits: per cent of its weight.
+  std::optional<Follower> readInBetween(Index target) const {
+    std::string_view name = names_[target];
+    const auto isDigit = [](char c) { return c >= '0' && c <= '9'; };
+    if (name.size() < 3 || !isDigit(name.back()) || !isDigit(name[name.size() - 2])) return {};
+    const int percent = 10 * (name[name.size() - 2] - '0') + name.back() - '0';
+    name.remove_suffix(2);
+    Index leader = find(name);
+    if (leader < 0 && (name.back() == '_' || name.back() == '.'))
+      leader = find(name.substr(0, name.size() - 1));
+    if (leader < 0 || percent == 0) return {};
+    return Follower{Follower::Kind::inBetween, target, {leader}, percent / 100.0};
+  }
+
+  std::optional<Follower> readProduct(Index target) const {
+    Follower follower{Follower::Kind::product, target, {}, 0};
+    if (!split(names_[target], target, follower.leaders) || follower.leaders.size() < 2) return {};
+    return follower;
+  }
+
+  /// Splits a name into names of other targets, the shortest first: `eyeBlink_L_jawOpen` is made of
+  /// `eyeBlink_L` and `jawOpen`, and `A_B_C` of A, B and C even where there is an `A_B`.
+  bool split(std::string_view name, Index target, std::vector<Index>& leaders) const {
+    for (auto end = name.find('_');; end = name.find('_', end + 1)) {
+      const Index leader = find(name.substr(0, end));
+      if (leader >= 0 && leader != target && std::ranges::find(leaders, leader) == leaders.end()) {
+        leaders.push_back(leader);
+        if (end == name.npos || split(name.substr(end + 1), target, leaders)) return true;
+        leaders.pop_back();
+      }
+      if (end == name.npos) return false;
+    }
+  }
+
+  std::span<const std::string> names_;
+};
+
+}  // namespace
+
+std::vector<Follower> Followers::named(std::span<const std::string> targets) {
+  const NameReader reader(targets);
+  std::vector<Follower> followers;
+  for (Index k = 0; k < static_cast<Index>(targets.size()); ++k)
+    if (auto follower = reader.read(k)) followers.push_back(std::move(*follower));
+  return followers;
+}
+
+Followers::Followers(std::vector<Follower> followers) {
+  std::ranges::stable_sort(followers, {}, &Follower::at);
+  for (Follower& follower : followers) {
+    if (follower.kind == Follower::Kind::product)
+      products_.push_back(std::move(follower));
+    else if (follower.kind == Follower::Kind::arc)
+      arcs_.push_back(std::move(follower));
+    else {
+      auto chain = std::ranges::find(chains_, follower.leaders[0], &Chain::leader);
+      if (chain == chains_.end()) chain = chains_.insert(chain, {follower.leaders[0], {}});
+      chain->stops.push_back(std::move(follower));
+    }
+  }
+}
+
+void Followers::apply(std::span<double> weights) const noexcept {
+  for (const Follower& follower : products_) {
+    double product = 1;
+    for (const Index leader : follower.leaders) product *= weights[leader];
+    weights[follower.target] = product;
+  }
+  for (const Follower& follower : arcs_) {
+    const double w = weights[follower.leaders[0]];
+    weights[follower.target] = 4 * w * (1 - w);
+  }
+  for (const Chain& chain : chains_) handOver(chain, weights);
+}
+
+// Linear between neighbouring stops, of which the neutral and the leader itself are the outermost;
+// beyond them the first and the last piece go on.
+void Followers::handOver(const Chain& chain, std::span<double> weights) noexcept {
+  const double w = weights[chain.leader];
+  const std::size_t count = chain.stops.size();
+  const auto at = [&](std::size_t k) { return k < count ? chain.stops[k].at : 1.0; };
+  const auto targetOf = [&](std::size_t k) {
+    return k < count ? chain.stops[k].target : chain.leader;
+  };
+  for (std::size_t k = 0; k <= count; ++k) weights[targetOf(k)] = 0;
+  std::size_t above = 0;
+  while (above < count && at(above) < w) ++above;
+  const double low = above ? at(above - 1) : 0, share = (w - low) / (at(above) - low);
+  weights[targetOf(above)] = share;
+  if (above > 0) weights[targetOf(above - 1)] = 1 - share;
+}
+
+}  // namespace sweepface

@@ -1,0 +1,86 @@
+#include <numbers>
+
+#include "cli/tool.hpp"
+
+namespace sweepface {
+namespace {
+
+using namespace testing;
+
+class Following : public Tool {
+ protected:
+  void SetUp() override {
+    Tool::SetUp();
+    std::filesystem::create_directory(folder / "turns");
+  }
+  /// A face `face.sweep` whose expressions are the neutral, changed by `places`.
+  void convertWith(const std::map<std::string, std::function<Vec3(const Vec3&)>>& expressions) {
+    EXPECT_TRUE(writeFile(folder / "neutral.obj", sheet()));
+    for (const auto& [name, place] : expressions)
+      EXPECT_TRUE(writeFile(folder / "turns" / (name + ".obj"), sheet(place)));
+    const Outcome r = run("convert neutral.obj turns -o face.sweep --tolerance 0.001 --quiet");
+    ASSERT_EQ(r.code, 0) << r.err;
+  }
+  std::vector<Vec3> exported(const std::string& options) {
+    const Outcome r = run("export face.sweep -o out.obj " + options);
+    EXPECT_EQ(r.code, 0) << r.err;
+    return mesh("out.obj").positions;
+  }
+};
+
+constexpr double kHinge = -30;
+
+Vec3 turnedAboutX(const Vec3& p, double degrees) {
+  const double a = degrees * std::numbers::pi / 180, z = p.z - kHinge;
+  return {p.x, std::cos(a) * p.y - std::sin(a) * z, kHinge + std::sin(a) * p.y + std::cos(a) * z};
+}
+
+double furthest(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
+  double worst = 0;
+  for (std::size_t v = 0; v < a.size(); ++v) worst = std::max(worst, norm(a[v] - b[v]));
+  return worst;
+}
+
+TEST_F(Following, ArcsTurnWhatTurns) {
+  convertWith({{"jawOpen", [](const Vec3& p) { return turnedAboutX(p, 30); }}});
+  std::vector<Vec3> half = exported("");
+  for (Vec3& p : half) p = turnedAboutX(p, 15);
+  EXPECT_LE(furthest(exported("--weights jawOpen=0.5 --arcs on"), half), 0.01);
+  EXPECT_GE(furthest(exported("--weights jawOpen=0.5 --arcs off"), half), 0.5);
+  EXPECT_EQ(exported("--weights jawOpen=1 --arcs on"), exported("--weights jawOpen=1"));
+}
+
+TEST_F(Following, AnimationsTakeArcsAlong) {
+  convertWith({{"jawOpen", [](const Vec3& p) { return turnedAboutX(p, 30); }}});
+  ASSERT_EQ(
+      run("animate face.sweep --to jawOpen=1 --law linear --frames 3 --arcs on -o frames").code, 0);
+  EXPECT_EQ(mesh("frames/frame_0001.obj").positions, exported("--weights jawOpen=0.5 --arcs on"));
+  ASSERT_EQ(run("animate face.sweep --to jawOpen=1 --arcs on -o jaw.glb").code, 0);
+  const std::string glb = contents(folder / "jaw.glb");
+  EXPECT_NE(glb.find(R"("targetNames":["jawOpen","jawOpen.arc"])"), std::string::npos);
+  const Outcome r = run("animate face.sweep --to jawOpen=1 --arcs on --keys exact -o jaw.glb");
+  EXPECT_EQ(r.code, 1);
+  EXPECT_NE(r.err.find("cannot hold newton exactly"), std::string::npos) << r.err;
+}
+
+TEST_F(Following, CombinedTargetsFollow) {
+  const auto along = [](Vec3 by) { return [by](const Vec3& p) { return p + by; }; };
+  convertWith({{"A", along({1, 0, 0})},
+               {"B", along({0, 1, 0})},
+               {"A_B", along({0, 0, 4})},
+               {"B_50", along({0, 2, 0})}});
+  const std::vector<Vec3> rest = exported("");
+  const auto shift = [&](const std::string& options) { return exported(options)[7] - rest[7]; };
+  EXPECT_LE(norm(shift("--weights A=0.5,B=1 --combine") - Vec3{0.5, 1, 2}), 0.01);
+  EXPECT_LE(norm(shift("--weights B=0.5 --combine") - Vec3{0, 2, 0}), 0.01);
+  EXPECT_LE(norm(shift("--weights A=0.5,B=1") - Vec3{0.5, 1, 0}), 0.01);
+}
+
+TEST_F(Following, ArcsAreOnOrOff) {
+  const Outcome r = run("export face.sweep -o out.obj --arcs maybe");
+  EXPECT_NE(r.code, 0);
+  EXPECT_NE(r.err.find("--arcs"), std::string::npos) << r.err;
+}
+
+}  // namespace
+}  // namespace sweepface

@@ -1,0 +1,63 @@
+#include "cli/tool.hpp"
+
+namespace sweepface {
+namespace {
+
+using namespace testing;
+
+class Plot : public Tool {
+ protected:
+  std::string plotted(const std::string& options) {
+    const Outcome r = run("plot face.sweep -o plot.svg " + options);
+    EXPECT_EQ(r.code, 0) << r.err;
+    return contents(folder / "plot.svg");
+  }
+};
+
+std::size_t countOf(const std::string& text, const std::string& part) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(part); at != text.npos; at = text.find(part, at + 1)) ++count;
+  return count;
+}
+
+TEST_F(Plot, ShowsFourPanelsWithACurveForEveryLaw) {
+  convertRig();
+  const std::string svg = plotted("--to jawOpen=1 --laws linear,newton,spring");
+  for (const char* panel : {"Position", "Velocity", "Acceleration", "Force"})
+    EXPECT_EQ(countOf(svg, ">" + std::string(panel) + "</text>"), 1u) << panel;
+  EXPECT_EQ(countOf(svg, "<polyline"), 12u);
+  EXPECT_EQ(countOf(svg, ">spring</text>"), 4u);
+  EXPECT_EQ(countOf(svg, "nan"), 0u);
+}
+
+TEST_F(Plot, ShowsWeightsAndVertices) {
+  convertRig();
+  const std::string svg = plotted("--to jawOpen=1,smile=0.5 --weight jawOpen,smile --vertex 3,12");
+  for (const char* name : {"jawOpen", "smile", "vertex 3", "vertex 12"})
+    EXPECT_EQ(countOf(svg, ">" + std::string(name) + "</text>"), 4u) << name;
+}
+
+TEST_F(Plot, ClipsAreShownByDifferences) {
+  convertRig();
+  std::ofstream(folder / "take.csv") << "Timecode,JawOpen\n0,0\n0.5,1\n1,0\n";
+  EXPECT_EQ(countOf(plotted("--clip take.csv"), "<polyline"), 4u);
+}
+
+TEST_F(Plot, SaysWhatIsWrong) {
+  convertRig();
+  const auto refused = [&](const std::string& options, const std::string& words) {
+    const Outcome r = run("plot face.sweep " + options);
+    EXPECT_EQ(r.code, 1) << options;
+    EXPECT_NE(r.err.find(words), std::string::npos) << r.err;
+    EXPECT_FALSE(std::filesystem::exists(folder / "plot.svg"));
+  };
+  refused("-o plot.svg", "Say where to go");
+  refused("-o plot.png --to jawOpen=1", "not named .svg");
+  refused("-o plot.svg --to jawOpen=1 --vertex 42", "There is no vertex 42; the face has 42");
+  refused("-o plot.svg --to jawOpen=1 --weight frown", "frown");
+  refused("-o plot.svg --to jawOpen=1 --laws magic", "There is no law 'magic'");
+  refused("-o plot.svg --to jawOpen=0", "Nothing moves");
+}
+
+}  // namespace
+}  // namespace sweepface

@@ -1,0 +1,432 @@
+#include "sweepface/evaluator.hpp"
+
+#include <cstring>
+#include <random>
+#include <thread>
+
+#include "sweepface/codec.hpp"
+#include "sweepface/fit.hpp"
+#include "sweepface/io.hpp"
+
+#include "allocations.hpp"
+#include "codec/rigs.hpp"
+#include "eval/tile_kernels.hpp"
+#include "faces.hpp"
+
+#ifdef SWEEPFACE_SIMD
+#include <hwy/targets.h>
+#endif
+
+namespace sweepface {
+namespace {
+
+using namespace sweepface::testing;
+
+/// Rigs made by hand, and faces of every sort as they come from the converter.
+const std::vector<Rig>& everyRig() {
+  static const std::vector<Rig> rigs = [] {
+    std::vector<Rig> list = someRigs();
+    for (const Face& face : everyFace()) list.push_back(convert(face.rig).value().rig);
+    return list;
+  }();
+  return rigs;
+}
+
+std::vector<double> anyWeights(const Evaluator& evaluator, unsigned seed, double size = 1) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> uniform(-size, size);
+  std::vector<double> weights(evaluator.weightCount());
+  for (double& w : weights) w = uniform(random);
+  return weights;
+}
+
+struct Played {
+  std::vector<float> positions, normals, tangents;
+  friend bool operator==(const Played&, const Played&) = default;
+};
+
+Played play(const Evaluator& evaluator, const std::vector<double>& weights, Index parts = 1) {
+  const Index count = evaluator.vertexCount();
+  Played out;
+  out.positions.resize(3 * count);
+  if (evaluator.hasNormals()) out.normals.resize(3 * count), out.tangents.resize(3 * count);
+  std::vector<std::byte> scratch(evaluator.scratchBytes());
+  for (Index part = 0; part < parts; ++part) {
+    const Evaluation job{&evaluator,
+                         weights,
+                         scratch,
+                         {out.positions.data(), count},
+                         {out.normals.data(), count},
+                         {out.tangents.data(), count},
+                         part,
+                         parts};
+    EXPECT_TRUE(job.validate());
+    job.run();
+  }
+  return out;
+}
+
+Vec3 vectorOf(const std::vector<float>& floats, std::size_t v) {
+  return {floats[3 * v], floats[3 * v + 1], floats[3 * v + 2]};
+}
+
+std::vector<Vec3> surfacePositions(const Rig& rig, Index level,
+                                   const std::vector<double>& weights) {
+  const Tessellation grid(rig.surface, std::max<Index>(1, level));
+  const auto vectors = blend(rig, weights);
+  return level == 0 ? sourcePositions(rig, grid, vectors, weights) : grid.positions(vectors);
+}
+
+double largestDistance(const std::vector<float>& floats, const std::vector<Vec3>& wanted) {
+  double most = 0;
+  for (std::size_t v = 0; v < wanted.size(); ++v)
+    most = std::max(most, norm(vectorOf(floats, v) - wanted[v]));
+  return most;
+}
+
+TEST(Evaluator, staysWithinItsBoundOfTheSurfaceAtAnyWeights) {
+  for (const Rig& rig : everyRig())
+    for (const Index level : {0, 1, 3})
+      for (const double size : {0.1, 1.0, 20.0}) {
+        const auto evaluator = Evaluator::make(rig, {.level = level}).value();
+        const auto weights = anyWeights(evaluator, 7, size);
+        const auto wanted = surfacePositions(rig, level, weights);
+        ASSERT_EQ(evaluator.vertexCount(), static_cast<Index>(wanted.size()));
+        EXPECT_LE(largestDistance(play(evaluator, weights).positions, wanted),
+                  evaluator.positionBound(weights));
+      }
+}
+
+TEST(Evaluator, dropsNoMoreOfATargetThanItsTolerance) {
+  for (const Rig& rig : everyRig())
+    for (const double tolerance : {1e-3, 1e-2}) {
+      const auto evaluator = Evaluator::make(rig, {.tolerance = tolerance}).value();
+      std::vector<double> weights(evaluator.weightCount());
+      for (double& weight : weights) {
+        weight = 1;
+        const double rounding = evaluator.positionBound({});
+        EXPECT_LE(evaluator.positionBound(weights) - rounding, tolerance);
+        EXPECT_LE(rounding, 2e-3);
+        EXPECT_LE(
+            largestDistance(play(evaluator, weights).positions, surfacePositions(rig, 0, weights)),
+            evaluator.positionBound(weights));
+        weight = 0;
+      }
+    }
+}
+
+TEST(Evaluator, playsTheNeutralInSinglePrecision) {
+  for (const Rig& rig : everyRig()) {
+    const auto evaluator = Evaluator::make(rig).value();
+    const auto wanted = surfacePositions(rig, 0, {});
+    const auto played = play(evaluator, {});
+    for (std::size_t v = 0; v < wanted.size(); ++v)
+      EXPECT_EQ(vectorOf(played.positions, v),
+                (Vec3{static_cast<float>(wanted[v].x), static_cast<float>(wanted[v].y),
+                      static_cast<float>(wanted[v].z)}));
+  }
+}
+
+/// sin of the angle that two derivatives of length 1, each off by `error`, may turn a normal whose
+/// own length is `sine`.
+double mostTurn(double error, double sine) { return error * (2 + error) / sine; }
+
+TEST(Evaluator, hasTheSurfacesOwnNormals) {
+  for (const Face& face : everyFace()) {
+    const Rig rig = convert(face.rig).value().rig;
+    for (const Index level : {0, 2}) {
+      const auto evaluator =
+          Evaluator::make(rig, {.level = level, .derivativeTolerance = 1e-3}).value();
+      const auto weights = anyWeights(evaluator, 3, 0.5);
+      const Tessellation grid(rig.surface, std::max<Index>(1, level));
+      const auto vectors = blend(rig, weights);
+      const auto wanted = level == 0 ? sourceNormals(rig, grid, vectors) : grid.normals(vectors);
+      const auto played = play(evaluator, weights);
+      double squares = 0;
+      for (std::size_t v = 0; v < wanted.size(); ++v) {
+        const Vec3 n = vectorOf(played.normals, v);
+        EXPECT_NEAR(norm(n), 1, 1e-6);
+        EXPECT_NEAR(norm(vectorOf(played.tangents, v)), 1, 1e-6);
+        EXPECT_NEAR(dot(n, vectorOf(played.tangents, v)), 0, 1e-5);
+        EXPECT_LE(norm(n - wanted[v]), mostTurn(evaluator.derivativeBound(weights), 0.05))
+            << face.name << " vertex " << v;
+        squares += std::pow(angleDegrees(n, wanted[v]), 2);
+      }
+      EXPECT_LE(std::sqrt(squares / static_cast<double>(wanted.size())), 0.2) << face.name;
+    }
+  }
+}
+
+TEST(Evaluator, playsLooseVerticesWhichLookAlongZ) {
+  const Rig rig = dressed(makeRig(onePatch(2, 3)));
+  const auto evaluator = Evaluator::make(rig).value();
+  const std::size_t last = rig.source.gridVertex.size() - 1;
+  const auto played = play(evaluator, {0.5, 1, 0});
+  EXPECT_LE(norm(vectorOf(played.positions, last) - Vec3{4.75, 5, 6}), 1e-3);
+  EXPECT_LE(norm(vectorOf(played.normals, last) - Vec3{0, 0, 1}), 1e-6);
+}
+
+TEST(Evaluator, blendsEachRegionByItsOwnWeights) {
+  for (const Rig& rig : everyRig()) {
+    const auto stored = static_cast<std::size_t>(rig.surface.storedCount());
+    const std::size_t targets = rig.targets.size();
+    std::vector<float> left(stored), right(stored);
+    for (std::size_t v = 0; v < stored; ++v)
+      left[v] = v % 3 == 0 ? 0.0f : v % 3 == 1 ? 0.25f : 1.0f, right[v] = 1 - left[v];
+    const auto evaluator = Evaluator::make(rig, {.influences = {left, right}}).value();
+    ASSERT_EQ(evaluator.weightCount(), static_cast<Index>(2 * targets));
+    const auto weights = anyWeights(evaluator, 5);
+    std::vector<Vec3> vectors(rig.surface.vectorCount());
+    for (std::size_t v = 0; v < stored; ++v) {
+      vectors[v] = rig.neutral[v];
+      for (std::size_t k = 0; k < targets; ++k)
+        vectors[v] +=
+            (weights[k] * left[v] + weights[targets + k] * right[v]) * rig.targets[k].difference[v];
+    }
+    rig.surface.settle({vectors.data(), stored}, vectors);
+    auto ofFirst = weights;
+    ofFirst.resize(targets);
+    EXPECT_LE(largestDistance(play(evaluator, weights).positions,
+                              sourcePositions(rig, Tessellation(rig.surface, 1), vectors, ofFirst)),
+              evaluator.positionBound(weights));
+  }
+}
+
+/// A face of enough tiles to go round.
+const Rig& largeRig() {
+  static const Rig rig = convert(withTargets(cubeSphere(12), 7)).value().rig;
+  return rig;
+}
+
+TEST(Evaluator, givesTheSameInParts) {
+  const auto evaluator = Evaluator::make(largeRig()).value();
+  const auto weights = anyWeights(evaluator, 1);
+  for (const Index parts : {2, 3, 7, 1000})
+    EXPECT_EQ(play(evaluator, weights, parts), play(evaluator, weights));
+}
+
+TEST(Evaluator, mayBeUsedByManyThreads) {
+  const auto evaluator = Evaluator::make(largeRig()).value();
+  std::vector<Played> played(4);
+  {
+    std::vector<std::jthread> threads;
+    for (unsigned t = 0; t < 4; ++t)
+      threads.emplace_back([&, t] {
+        for (int k = 0; k < 20; ++k) played[t] = play(evaluator, anyWeights(evaluator, t));
+      });
+  }
+  for (unsigned t = 0; t < 4; ++t) EXPECT_EQ(played[t], play(evaluator, anyWeights(evaluator, t)));
+}
+
+TEST(Evaluator, letsThreadsShareOneFrame) {
+  const auto evaluator = Evaluator::make(largeRig()).value();
+  const auto weights = anyWeights(evaluator, 1);
+  const Index count = evaluator.vertexCount();
+  std::vector<float> positions(3 * count);
+  {
+    std::vector<std::jthread> threads;
+    for (Index t = 0; t < 4; ++t)
+      threads.emplace_back([&, t] {
+        std::vector<std::byte> scratch(evaluator.scratchBytes());
+        Evaluation{&evaluator, weights, scratch, {positions.data(), count}, {}, {}, t, 4}.run();
+      });
+  }
+  EXPECT_EQ(positions, play(evaluator, weights).positions);
+}
+
+TEST(Evaluator, writesAtAnyStrideAndNothingBesides) {
+  const auto evaluator = Evaluator::make(largeRig()).value();
+  const auto weights = anyWeights(evaluator, 2);
+  const auto tight = play(evaluator, weights);
+  std::vector<std::byte> scratch(evaluator.scratchBytes());
+  constexpr float kUntouched = 12345;
+  const Index all = evaluator.vertexCount();
+  for (const std::size_t floats : {3, 4, 5, 8})
+    for (const Index count : {0, 1, 15, 16, 17, 31, 32, 33, all - 1, all, all + 1}) {
+      std::vector<float> out(floats * all, kUntouched), normals = out;
+      Evaluation{&evaluator,
+                 weights,
+                 scratch,
+                 {out.data(), count, 4 * floats},
+                 {normals.data(), count, 4 * floats},
+                 {}}
+          .run();
+      for (Index v = 0; v < all; ++v)
+        for (std::size_t c = 0; c < floats; ++c) {
+          const bool written = v < count && c < 3;
+          EXPECT_EQ(out[floats * v + c], written ? tight.positions[3 * v + c] : kUntouched);
+          EXPECT_EQ(normals[floats * v + c], written ? tight.normals[3 * v + c] : kUntouched);
+        }
+    }
+}
+
+TEST(Evaluator, fillsExactlyItsVertices) {
+  // One vertex more or fewer than tiles and vectors hold; the sanitizer watches the ends.
+  for (const Index n : {1, 2, 3, 4, 5, 6, 7, 10, 11}) {
+    const Rig rig = convert(withTargets(plane(n, 2))).value().rig;
+    for (const Index level : {1, 2}) {
+      const auto evaluator = Evaluator::make(rig, {.level = level}).value();
+      const auto weights = anyWeights(evaluator, 4);
+      EXPECT_LE(largestDistance(play(evaluator, weights).positions,
+                                surfacePositions(rig, level, weights)),
+                evaluator.positionBound(weights));
+    }
+  }
+}
+
+TEST(Evaluator, countsMissingWeightsAsZero) {
+  const auto evaluator = Evaluator::make(largeRig()).value();
+  auto weights = anyWeights(evaluator, 2);
+  std::fill(weights.begin() + 3, weights.end(), 0.0);
+  EXPECT_EQ(play(evaluator, {weights.begin(), weights.begin() + 3}), play(evaluator, weights));
+}
+
+TEST(Evaluator, staysFiniteAtHugeNumbers) {
+  Rig rig = makeRig(twoPatches());
+  for (Vec3& v : rig.neutral) v *= 1e300;
+  for (Target& target : rig.targets)
+    for (Vec3& v : target.difference) v *= 1e299;
+  const auto evaluator = Evaluator::make(rig).value();
+  for (const double size : {1.0, 1e6, 1e300})
+    for (const float x : play(evaluator, anyWeights(evaluator, 1, size)).positions)
+      EXPECT_TRUE(std::isfinite(x));
+}
+
+TEST(Evaluator, allocatesNothingWhenRun) {
+  if (!watchesAllocations) GTEST_SKIP();
+  const auto evaluator = Evaluator::make(largeRig()).value();
+  const auto weights = anyWeights(evaluator, 1);
+  const Index count = evaluator.vertexCount();
+  std::vector<float> positions(3 * count), normals(3 * count);
+  std::vector<std::byte> scratch(evaluator.scratchBytes());
+  const Evaluation job{
+      &evaluator, weights, scratch, {positions.data(), count}, {normals.data(), count}, {}};
+  const std::size_t before = allocations.count;
+  EXPECT_TRUE(job.validate());
+  job.run();
+  EXPECT_EQ(allocations.count, before);
+}
+
+TEST(Evaluator, refusesWhatDoesNotFit) {
+  const Rig rig = makeRig(onePatch(3, 2));
+  const auto evaluator = Evaluator::make(rig).value();
+  const auto bare = Evaluator::make(rig, {.normals = false}).value();
+  const Index count = evaluator.vertexCount();
+  std::vector<std::byte> scratch(evaluator.scratchBytes());
+  std::vector<float> out(3 * count);
+  std::vector<double> weights(3), tooMany(4);
+  const Evaluation good{&evaluator, weights, scratch, {out.data(), count}, {}, {}};
+  EXPECT_TRUE(good.validate());
+  const auto refuses = [&](auto change, const char* why) {
+    Evaluation job = good;
+    change(job);
+    const auto result = job.validate();
+    return !result && result.error().message.find(why) != std::string::npos;
+  };
+  EXPECT_TRUE(refuses([](auto& job) { job.evaluator = nullptr; }, "evaluator"));
+  EXPECT_TRUE(refuses([&](auto& job) { job.weights = tooMany; }, "4 weights for 3 targets"));
+  EXPECT_TRUE(refuses([&](auto& job) { job.scratch = job.scratch.subspan(1); }, "scratch"));
+  EXPECT_TRUE(refuses([](auto& job) { job.positions.count = -1; }, "negative"));
+  EXPECT_TRUE(refuses([](auto& job) { job.positions.stride = 8; }, "stride"));
+  EXPECT_TRUE(refuses([](auto& job) { job.part = 1; }, "no part 1 of 1"));
+  EXPECT_TRUE(refuses([](auto& job) { job.parts = 0; }, "no part"));
+  EXPECT_TRUE(refuses([&](auto& job) { job.evaluator = &bare, job.normals = job.positions; },
+                      "without normals"));
+  weights[1] = std::nan("");
+  EXPECT_TRUE(refuses([](auto&) {}, "Weight 1 is not finite"));
+}
+
+TEST(Evaluator, isNotMadeOfWhatDoesNotFit) {
+  const Rig rig = makeRig(onePatch(3, 2));
+  const auto refuses = [&](const EvaluatorOptions& options, const char* why) {
+    const auto made = Evaluator::make(rig, options);
+    return !made && made.error().message.find(why) != std::string::npos;
+  };
+  EXPECT_TRUE(refuses({.level = -1}, "level"));
+  EXPECT_TRUE(refuses({.tolerance = -1}, "tolerances"));
+  EXPECT_TRUE(refuses({.tolerance = std::nan("")}, "tolerances"));
+  EXPECT_TRUE(refuses({.derivativeTolerance = 0}, "tolerances"));
+  EXPECT_TRUE(refuses({.influences = {{1, 1}}}, "2 influences for"));
+  std::vector<float> influences(rig.surface.storedCount(), 1.0f);
+  influences[5] = std::nanf("");
+  EXPECT_TRUE(refuses({.influences = {influences}}, "finite"));
+  influences[5] = 1;
+  EXPECT_TRUE(refuses({.influences = std::vector(40000, influences)}, "at most 65534 weights"));
+  EXPECT_FALSE(Evaluator::make(rig, Tessellation(rig.surface, 2), {.level = 3}));
+  Rig sourceless = rig;
+  sourceless.source = {};
+  EXPECT_FALSE(Evaluator::make(sourceless));
+  EXPECT_TRUE(Evaluator::make(sourceless, {.level = 1}));
+}
+
+/// Positions, normals and tangents straight from the kernels.
+template <typename Positions, typename Normals>
+Played playWith(const Evaluator& evaluator, const Positions& positions, const Normals& normals) {
+  const EvaluatorTables& tables = evaluator.tables();
+  std::mt19937 random(1);
+  std::vector<std::int16_t> weights(roundUp64(tables.weights + 1));
+  std::vector<std::uint32_t> pairs(4 * 4096);
+  for (Index k = 0; k < tables.weights; ++k)
+    weights[k] = static_cast<std::int16_t>(static_cast<int>(random() % 32769) - 16384);
+  const FrameWeights frame{weights.data(), pairs.data(), 4096, 1.25f, tables.weights + 1};
+  const std::size_t floats = 3 * static_cast<std::size_t>(tables.vertices);
+  Played out{std::vector<float>(floats), std::vector<float>(floats), std::vector<float>(floats)};
+  const VectorsOut to[3] = {{out.positions.data(), tables.vertices},
+                            {out.normals.data(), tables.vertices},
+                            {out.tangents.data(), tables.vertices}};
+  positions(TileRange{tables.positions, 0, tables.positions.tileCount()}, frame, to[0]);
+  normals(TileRange{tables.derivatives, 0, tables.derivatives.tileCount()}, frame, to[1], to[2]);
+  return out;
+}
+
+bool sameBits(const std::vector<float>& a, const std::vector<float>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), 4 * a.size()) == 0;
+}
+
+TEST(Kernels, giveTheSameBitsOnEveryInstructionSet) {
+  for (const Rig& rig : everyRig()) {
+    const auto evaluator = Evaluator::make(rig).value();
+    const Index all = evaluator.vertexCount();
+    const Played right = playWith(evaluator, plain::evaluatePositions, plain::evaluateNormals);
+    const auto check = [&] {
+      const Played fast = playWith(
+          evaluator,
+          [&](const TileRange& tiles, const FrameWeights& frame, const VectorsOut& out) {
+            evaluatePositions(tiles, frame, out, all);
+          },
+          [&](const TileRange& tiles, const FrameWeights& frame, const VectorsOut& normals,
+              const VectorsOut& tangents) {
+            evaluateNormals(tiles, frame, normals, tangents, all);
+          });
+      EXPECT_TRUE(sameBits(fast.positions, right.positions));
+      EXPECT_TRUE(sameBits(fast.normals, right.normals));
+      EXPECT_TRUE(sameBits(fast.tangents, right.tangents));
+    };
+#ifdef SWEEPFACE_SIMD
+    for (std::int64_t left = hwy::SupportedTargets(); left != 0; left &= left - 1) {
+      hwy::SetSupportedTargetsForTest(left & -left);
+      check();
+    }
+    hwy::SetSupportedTargetsForTest(0);
+#endif
+    check();
+  }
+}
+
+TEST(Evaluator, playsARealHead) {
+  SKIP_WITHOUT_REAL_FACES();
+  const std::string folder = realFaces() + "/ictface/head/";
+  const std::filesystem::path expressions[] = {folder + "expressions"};
+  const auto source = readRig(folder + "neutral.obj", expressions).value();
+  ConvertOptions options;
+  options.tolerance = 0.02;
+  const Rig rig = convert(source, options).value().rig;
+  const auto evaluator = Evaluator::make(rig).value();
+  const auto weights = anyWeights(evaluator, 1);
+  EXPECT_LE(largestDistance(play(evaluator, weights).positions, surfacePositions(rig, 0, weights)),
+            evaluator.positionBound(weights));
+  EXPECT_LE(evaluator.positionBytes(), std::size_t(1) << 20);
+}
+
+}  // namespace
+}  // namespace sweepface

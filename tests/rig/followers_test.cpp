@@ -1,0 +1,89 @@
+#include "sweepface/followers.hpp"
+
+#include <gtest/gtest.h>
+
+#include "allocations.hpp"
+
+namespace sweepface {
+namespace {
+
+using Kind = Follower::Kind;
+
+std::vector<double> applied(const std::vector<Follower>& followers, std::vector<double> weights) {
+  Followers(followers).apply(weights);
+  return weights;
+}
+
+// ---- Names ----
+
+TEST(FollowerNames, joinedNamesAreProducts) {
+  const std::vector<std::string> names{"jawOpen", "eyeBlink_L", "eyeBlink_L_jawOpen", "smile"};
+  EXPECT_EQ(Followers::named(names), (std::vector<Follower>{{Kind::product, 2, {1, 0}, 0}}));
+}
+
+TEST(FollowerNames, productsOfMoreAreOfTheSimplest) {
+  const std::vector<std::string> names{"A", "B", "C", "A_B", "A_B_C"};
+  EXPECT_EQ(Followers::named(names), (std::vector<Follower>{{Kind::product, 3, {0, 1}, 0},
+                                                            {Kind::product, 4, {0, 1, 2}, 0}}));
+}
+
+TEST(FollowerNames, numbersAreInBetweens) {
+  const std::vector<std::string> names{"blink_L", "blink_L_50", "blink_L25", "blink_L.75"};
+  EXPECT_EQ(Followers::named(names), (std::vector<Follower>{{Kind::inBetween, 1, {0}, 0.5},
+                                                            {Kind::inBetween, 2, {0}, 0.25},
+                                                            {Kind::inBetween, 3, {0}, 0.75}}));
+}
+
+TEST(FollowerNames, otherNamesSayNothing) {
+  const std::vector<std::string> names{"eye_L",  "eye",     "viseme10", "jaw_", "_jaw", "jaw",
+                                       "eye_00", "jaw_jaw", "",         "_",    "50",   "eye_1"};
+  EXPECT_TRUE(Followers::named(names).empty());
+}
+
+// ---- Weights ----
+
+TEST(Followers, productsMultiply) {
+  const std::vector<Follower> followers{{Kind::product, 3, {0, 1, 2}, 0}};
+  EXPECT_EQ(applied(followers, {0.5, 0.5, 1, 7}), (std::vector<double>{0.5, 0.5, 1, 0.25}));
+  EXPECT_EQ(applied(followers, {0.5, 0, 1, 7}), (std::vector<double>{0.5, 0, 1, 0}));
+}
+
+TEST(Followers, arcsAreFullHalfWay) {
+  const std::vector<Follower> followers{{Kind::arc, 1, {0}, 0}};
+  for (const auto& [w, expected] : {std::pair{0.0, 0.0}, {0.5, 1.0}, {1.0, 0.0}, {0.25, 0.75}})
+    EXPECT_EQ(applied(followers, {w, 9}), (std::vector<double>{w, expected}));
+}
+
+TEST(Followers, inBetweensHandOver) {
+  const std::vector<Follower> followers{{Kind::inBetween, 2, {0}, 0.75},
+                                        {Kind::inBetween, 1, {0}, 0.25}};
+  const auto at = [&](double w) { return applied(followers, {w, 9, 9}); };
+  EXPECT_EQ(at(0), (std::vector<double>{0, 0, 0}));
+  EXPECT_EQ(at(0.25), (std::vector<double>{0, 1, 0}));
+  EXPECT_EQ(at(0.5), (std::vector<double>{0, 0.5, 0.5}));
+  EXPECT_EQ(at(0.75), (std::vector<double>{0, 0, 1}));
+  EXPECT_EQ(at(0.875), (std::vector<double>{0.5, 0, 0.5}));
+  EXPECT_EQ(at(1), (std::vector<double>{1, 0, 0}));
+  // Beyond its ends the way goes on as it went.
+  EXPECT_EQ(at(-0.25), (std::vector<double>{0, -1, 0}));
+  EXPECT_EQ(at(1.25), (std::vector<double>{2, 0, -1}));
+}
+
+TEST(Followers, productsGoByTheWeightsThatWereSet) {
+  const std::vector<Follower> followers{{Kind::inBetween, 1, {0}, 0.5},
+                                        {Kind::product, 3, {0, 2}, 0}};
+  EXPECT_EQ(applied(followers, {0.5, 0, 1, 0}), (std::vector<double>{0, 1, 1, 0.5}));
+}
+
+TEST(Followers, allocateNothing) {
+  if (!testing::watchesAllocations) GTEST_SKIP() << "allocations cannot be watched here";
+  const Followers followers(
+      {{Kind::inBetween, 1, {0}, 0.5}, {Kind::product, 3, {0, 2}, 0}, {Kind::arc, 4, {2}, 0}});
+  std::vector<double> weights{0.25, 0, 0.5, 0, 0};
+  const std::size_t before = testing::allocations.count;
+  followers.apply(weights);
+  EXPECT_EQ(testing::allocations.count, before);
+}
+
+}  // namespace
+}  // namespace sweepface
