@@ -12,34 +12,13 @@
 #include "sweepface/gltf.hpp"
 #include "sweepface/io.hpp"
 
-#include "sample_face/ear.hpp"
-#include "sample_face/expressions.hpp"
-#include "sample_face/eye.hpp"
-#include "sample_face/head.hpp"
-#include "sample_face/mouth.hpp"
+#include "sample_face/face.hpp"
 #include "sample_face/texture.hpp"
 
 namespace {
 
 using namespace sweepface;
 namespace fs = std::filesystem;
-
-constexpr double kEdge = 0.45;  ///< of the source mesh, in cm
-
-Drawing drawFace() {
-  sample::Sketch sketch;
-  sample::Head head = sample::drawHead(sketch);
-  sample::drawNeck(sketch, head);
-  sample::drawEar(sketch, head);
-  sample::drawNostril(sketch, head);
-  sample::drawLids(sketch, head);
-  sample::drawEyeball(sketch);
-  sample::drawMouth(sketch, head);
-  sample::drawTeeth(sketch);
-  Drawing drawing = sketch.drawing(kEdge);
-  sample::addExpressions(drawing, sketch);
-  return drawing;
-}
 
 /// The source mesh of an expression.
 std::string objText(const Rig& rig, const Tessellation& grid, const Weights& weights) {
@@ -63,7 +42,7 @@ Result<void> writeMeshes(const fs::path& folder, const Rig& rig) {
 Result<void> writeAll(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder / "expressions", error);
-  const Drawing drawing = drawFace();
+  const Drawing drawing = sample::drawFace();
   Result<Built> built = build(drawing);
   if (!built) return std::unexpected(built.error());
   Rig& rig = built->rig;

@@ -35,7 +35,8 @@ inline Vec3 earPoint(const EarRing& ring, double angle) {
 
 inline void drawEar(Sketch& sketch, const Head& head) {
   for (int k = 0; k < kEarPlaces; ++k)
-    sketch.pass(head.ear[k], head.ear[(k + 1) % kEarPlaces], earRoot(earAngle(k + .5)));
+    sketch.pass(head.ear[k], head.ear[(k + 1) % kEarPlaces], earRoot(earAngle(k + .5)),
+                {Part::ear, -1, k, true});
   Line outer = head.ear;
   for (int r = 0; r < static_cast<int>(earRings.size()); ++r) {
     const auto point = [&](double place) {
@@ -46,7 +47,7 @@ inline void drawEar(Sketch& sketch, const Head& head) {
     for (int k = 0; k < kEarPlaces; ++k)
       line.push_back(sketch.add(point(k), {Part::ear, r, k}, fmt::format("ear {}.{}", r, k)));
     for (int k = 0; k < kEarPlaces; ++k)
-      sketch.pass(line[k], line[(k + 1) % kEarPlaces], point(k + .5));
+      sketch.pass(line[k], line[(k + 1) % kEarPlaces], point(k + .5), {Part::ear, r, k, true});
     sketch.ring(outer, line, "skin");
     outer = line;
   }

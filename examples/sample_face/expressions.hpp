@@ -44,8 +44,7 @@ inline Vec3 moveLids(const Spot& s, double upper, double lower) {
   const LidLine edge = closedBy(upper, lower);
   LidLine fold = lidFold;
   for (int k = 0; k < kLidPlaces; ++k) fold[k].y += .25 * (edge[k].y - lidEdge[k].y);
-  const auto [part, ring, place] = s.mark;
-  return lidPoint(ring, place, edge, fold) - lidPoint(ring, place, lidEdge, lidFold);
+  return lidPoint(s.mark, edge, fold) - lidPoint(s.mark, lidEdge, lidFold);
 }
 
 /// The eyeball turns; angles in degrees.
@@ -212,17 +211,26 @@ inline Vec3 moved(const Spot& spot, Motion motion, int of, int side) {
   return by;
 }
 
+constexpr double kStill = .002;  ///< cm that count as no motion
+
 inline void addExpression(Drawing& d, const Sketch& sketch, std::string name, Motion motion,
                           int of) {
   Drawing::Expression expression{std::move(name), {}, {}};
+  const auto add = [&](std::string what, const Vec3& by, std::vector<Vec3> points) {
+    Drawing::Move move;
+    move.name = std::move(what), move.by = by, move.points = std::move(points);
+    expression.moves.push_back(std::move(move));
+  };
   for (Index i = 0; i < static_cast<Index>(sketch.spots().size()); ++i)
     for (const int side : {1, -1}) {
       if (side < 0 && sketch.inMiddle(i)) continue;
       const Vec3 by = rounded(moved(sketch.spot(i), motion, of, side));
-      if (norm(by) < .002) continue;
-      Drawing::Move move;
-      move.name = sketch.nodeName(i, side), move.by = by;
-      expression.moves.push_back(std::move(move));
+      if (norm(by) >= kStill) add(sketch.nodeName(i, side), by, {});
+    }
+  for (const auto& [ends, spot] : sketch.passes())
+    for (const int side : {1, -1}) {
+      const Vec3 by = rounded(moved(spot, motion, of, side));
+      if (norm(by) >= kStill) add(sketch.curveName(ends.first, ends.second, side), {}, {by});
     }
   d.expressions.push_back(std::move(expression));
 }

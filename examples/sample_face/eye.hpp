@@ -50,32 +50,38 @@ inline Vec2 mix(Vec2 a, Vec2 b, double t) {
   return {std::lerp(a.x, b.x, t), std::lerp(a.y, b.y, t)};
 }
 
+/// A point of a line, or smoothly between two of them.
+inline Vec2 at(const LidLine& line, const Mark& mark) {
+  const auto p = [&](int k) { return line[(mark.place + k + kLidPlaces) % kLidPlaces]; };
+  return mark.after ? mix(mix(p(0), p(1), .5), mix(p(-1), p(2), .5), -.125) : p(0);
+}
+
 /// The rings of the lids, from the fold inwards.
 constexpr int kLidRings = 5;
-inline Vec3 lidPoint(int ring, int place, const LidLine& edge, const LidLine& fold) {
-  const Vec2 e = edge[place], f = fold[place];
-  switch (ring) {
+inline Vec3 lidPoint(const Mark& mark, const LidLine& edge, const LidLine& fold) {
+  const Vec2 e = at(edge, mark), f = at(fold, mark);
+  const bool corner = mark.place % 5 == 0;
+  const double outwards = corner && !mark.after ? 0 : mark.place < 5 ? .05 : -.05;
+  switch (mark.ring) {
     case 0:
-      return overBall(f, ballRadius + (place > 5 ? .22 : .26));
+      return overBall(f, ballRadius + (mark.place > 5 ? .22 : .26));
     case 1:
-      return overBall(mix(e, f, .5), ballRadius + .2);
+      return overBall(mix(e, f, corner && !mark.after ? (mark.place == 0 ? .6 : .4) : .5),
+                      ballRadius + .2);
     case 2:
       return overBall(e, ballRadius + .15);
     case 3:
-      return overBall({.98 * e.x, e.y + (place % 5 == 0 ? 0
-                                         : place < 5    ? .04
-                                                        : -.04)},
-                      ballRadius + .03);
-    default:  // behind the lid; at the corners down to the eyeball, which leaves no gap
-      if (place % 5 == 0) return overBall({.96 * e.x, .96 * e.y}, ballRadius - .1);
-      return overBall(mix(mix(e, lidEdge[place], .5), f, .7), ballRadius + .03);
+      return overBall({.98 * e.x, e.y + outwards}, ballRadius + .03);
+    default:  // behind the lid; at the corners down to the eyeball
+      if (corner) return overBall({.96 * e.x, .96 * e.y}, ballRadius - .1);
+      return overBall(mix(mix(e, lidEdge[mark.place], .5), f, .7), ballRadius + .03);
   }
 }
 
 /// Lids that have come `upper` and `lower` of the way to where they meet.
 inline LidLine closedBy(double upper, double lower) {
   LidLine line = lidEdge;
-  constexpr std::array<double, 5> share{0, .2, .18, .25, .4};  // of the way up from the lower lid
+  constexpr std::array<double, 5> share{0, .14, .18, .25, .4};  // of the way up from the lower lid
   for (int k = 1; k <= 4; ++k) {
     const Vec2 meet = mix(lidEdge[kLidPlaces - k], lidEdge[k], share[k]);
     const Vec2 middle{(lidEdge[k].x + lidEdge[kLidPlaces - k].x) / 2, meet.y};
@@ -91,9 +97,16 @@ inline void drawLids(Sketch& sketch, const Head& head) {
              r[eye][6], r[underEye][6], r[underEye][5], r[underEye][4], r[underEye][3]};
   for (int ring = 0; ring < kLidRings; ++ring) {
     Line line;
-    for (int k = 0; k < kLidPlaces; ++k)
-      line.push_back(sketch.add(lidPoint(ring, k, lidEdge, lidFold), {Part::lid, ring, k},
-                                fmt::format("lid {}.{}", ring, k)));
+    for (int k = 0; k < kLidPlaces; ++k) {
+      const Mark mark{Part::lid, ring, k};
+      line.push_back(
+          sketch.add(lidPoint(mark, lidEdge, lidFold), mark, fmt::format("lid {}.{}", ring, k)));
+    }
+    // Where the lids meet, their edges have to meet everywhere.
+    for (int k = 0; k < kLidPlaces && (ring == 2 || ring == 3); ++k) {
+      const Mark mark{Part::lid, ring, k, true};
+      sketch.pass(line[k], line[(k + 1) % kLidPlaces], lidPoint(mark, lidEdge, lidFold), mark);
+    }
     sketch.ring(outer, line, "skin");
     outer = line;
   }

@@ -35,6 +35,7 @@ enum class Part { head, lid, ball, lips, bag, upperTeeth, lowerTeeth, nostril, e
 struct Mark {
   Part part;
   int ring, place;
+  bool after = false;  ///< half-way to the next place
 };
 
 /// A node of the left half, or of the middle.
@@ -55,9 +56,10 @@ class Sketch {
   }
 
   /// The curve between two spots passes here on its way.
-  void pass(Index from, Index to, const Vec3& point) {
-    passes_[{std::min(from, to), std::max(from, to)}] = rounded(point);
+  void pass(Index from, Index to, const Vec3& point, Mark mark) {
+    passes_[std::minmax(from, to)] = {rounded(point), mark};
   }
+  const std::map<std::pair<Index, Index>, Spot>& passes() const { return passes_; }
 
   const Spot& spot(Index i) const { return spots_[i]; }
   const std::vector<Spot>& spots() const { return spots_; }
@@ -66,6 +68,11 @@ class Sketch {
   /// The name of a spot's node on the left (side 1) or on the right (side -1).
   std::string nodeName(Index i, int side) const {
     return inMiddle(i) ? names_[i] : (side > 0 ? "left " : "right ") + names_[i];
+  }
+
+  /// The curve between two spots, of which `from` was drawn first.
+  std::string curveName(Index from, Index to, int side) const {
+    return nodeName(from, side) + " - " + nodeName(to, side);
   }
 
   /// A patch and its mirror image, by its corners counter-clockwise as seen from outside.
@@ -126,19 +133,16 @@ class Sketch {
 
   // The curve between two nodes, perhaps backwards; drawn when it is first needed.
   std::string curve(Drawing& d, Index a, Index b, int side) const {
-    const std::string from = nodeName(a, side), to = nodeName(b, side);
-    const std::string there = from + " - " + to, back = to + " - " + from;
-    for (const Drawing::Curve& c : d.curves) {
-      if (c.name == there) return there;
-      if (c.name == back) return "-" + back;
+    const auto [from, to] = std::pair{std::min(a, b), std::max(a, b)};
+    const std::string name = curveName(from, to, side);
+    if (std::ranges::find(d.curves, name, &Drawing::Curve::name) == d.curves.end()) {
+      Drawing::Curve curve;
+      curve.name = name, curve.from = nodeName(from, side), curve.to = nodeName(to, side);
+      if (const auto pass = passes_.find({from, to}); pass != passes_.end())
+        curve.points.push_back(side > 0 ? pass->second.at : mirrored(pass->second.at));
+      d.curves.push_back(std::move(curve));
     }
-    Drawing::Curve curve;
-    curve.name = there, curve.from = from, curve.to = to;
-    const auto pass = passes_.find({std::min(a, b), std::max(a, b)});
-    if (pass != passes_.end())
-      curve.points.push_back(side > 0 ? pass->second : mirrored(pass->second));
-    d.curves.push_back(std::move(curve));
-    return there;
+    return a < b ? name : "-" + name;
   }
 
   // One curve says how long edges are; the others follow it.
@@ -155,7 +159,7 @@ class Sketch {
   std::vector<Spot> spots_;
   std::vector<std::string> names_;
   std::vector<Corners> patches_;
-  std::map<std::pair<Index, Index>, Vec3> passes_;
+  std::map<std::pair<Index, Index>, Spot> passes_;
 };
 
 }  // namespace sample
