@@ -31,11 +31,11 @@ demo: deps
 web:
 	scripts/install-deps wasm web
 	cmake --preset release
-	cmake --build $(BUILD) --target sweepface sample_face
+	cmake --build $(BUILD) --target sample_face
 	cmake --workflow --preset wasm
 	web/test/install-packages
 	$(BUILD)/examples/sample_face $(BUILD)/sample
-	$(BUILD)/sweepface convert $(BUILD)/sample/neutral.obj $(BUILD)/sample/expressions --tolerance 0.02 -o web/sample.sweep
+	cp $(BUILD)/sample/sample.sweep web/
 	@echo 'Now: python3 -m http.server --directory web, and open http://localhost:8000/'
 
 # The npm packages of the tests with other people's tools; without a network these are skipped.
@@ -64,7 +64,8 @@ bench:
 	scripts/install-deps bench
 	cmake --preset bench
 	cmake --build build/bench
-	scripts/bench build/bench
+	FACE="$(FACE)" NEUTRAL="$(NEUTRAL)" TARGETS="$(TARGETS)" TOLERANCE="$(TOLERANCE)" scripts/bench build/bench \
+	  --benchmark_repetitions=5 --benchmark_enable_random_interleaving=true
 
 fuzz:
 	scripts/install-deps clang

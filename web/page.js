@@ -28,7 +28,7 @@ const inside = new MeshBasicMaterial({color: 0x2b1a14, side: BackSide});
 /** A colour for a material, by what its name says. */
 function colourOf(name) {
   const known = [[/lip|mouth|tongue|gum/i, 0xb8675c], [/teeth|tooth/i, 0xf0e8d8], [/lash|brow|hair|beard/i, 0x3a2a22],
-                 [/eye|sclera|cornea/i, 0xf4f1ee]];
+                 [/iris/i, 0x61757f], [/pupil/i, 0x1f1c1c], [/nostril/i, 0x734539], [/eye|sclera|cornea/i, 0xf4f1ee]];
   return new Color(known.find(([pattern]) => pattern.test(name))?.[1] ?? 0xd9a688);
 }
 

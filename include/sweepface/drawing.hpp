@@ -52,6 +52,7 @@ struct Drawing {
   struct Patch {
     std::string name;
     std::vector<std::vector<std::string>> sides;  ///< four chains of curves; "-name" backwards
+    std::string material;                         ///< of the source's faces; empty: none
     TextPlace place;
   };
   struct Ribbon {

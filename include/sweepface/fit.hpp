@@ -19,8 +19,12 @@ struct ConvertOptions {
   /// Refine also where the surface's normal is further than this from the source's vertex normal,
   /// degrees; 0: in proportion to the tolerance (docs/fitting.md); 180: never.
   double normalLimit = 0;
-  /// What is written is at most this far off the source's vertex normals, degrees, root mean square
-  /// over all vertices of all poses; 0: whatever the limit above brings.
+  /// Spend the tolerance on the size of the file: vectors become small whole numbers, of which most
+  /// are zero, and the wireframe is its own mirror image where the face is (docs/file-format.md).
+  /// Slower, and normals are worse.
+  bool pack = false;
+  /// Where it packs: what is written is at most this far off the source's vertex normals, degrees,
+  /// root mean square over all vertices of all poses; 0: whatever the limit above brings.
   double normalTolerance = 0;
   /// Try shape parameters on every ribbon and keep what lowers the error.
   bool chooseShapes = true;
@@ -43,7 +47,7 @@ double diagonal(const PolygonMesh& mesh);
 Result<Conversion> convert(const MeshRig& source, const ConvertOptions& options = {});
 
 /// Looks for the smallest tolerance whose file, without the parts of `left`, takes at most
-/// `mostBytes`: several conversions, the first at `options.tolerance`.
+/// `mostBytes`, packed: several conversions, the first at `options.tolerance`.
 Result<Conversion> convertToBytes(const MeshRig& source, ConvertOptions options,
                                   std::size_t mostBytes, const Strip& left = {});
 

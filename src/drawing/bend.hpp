@@ -15,10 +15,17 @@ struct Wishes {
   std::vector<std::vector<Vec3>> places;  ///< [poses][sums]
 };
 
+/// How long and how wide a patch is drawn, in mean lengths of curves.
+struct PatchSize {
+  double u = 0, v = 0;
+};
+
 /// Finds the stored vectors that are not `known` [storedCount]: by least squares the wishes come
 /// true, and where they say nothing the surface bends least. `poses` have the known ones and
-/// receive the others; the result is linear in the known vectors and the wishes.
-Result<void> bendLeast(const Surface& surface, const std::vector<bool>& known, const Wishes& wishes,
+/// receive the others; the result is linear in the known vectors and the wishes. `sizes`
+/// [patches].
+Result<void> bendLeast(const Surface& surface, const std::vector<PatchSize>& sizes,
+                       const std::vector<bool>& known, const Wishes& wishes,
                        std::vector<Pose>& poses);
 
 }  // namespace sweepface::drawing

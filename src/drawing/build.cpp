@@ -20,6 +20,8 @@ namespace {
 
 // As for conversion: a share of the diagonal of the bounding box.
 constexpr double kDefaultTolerance = 0.0002;
+// An expression's derivatives below this share of the diagonal are none.
+constexpr double kTrace = 1e-5;
 
 class Builder {
  public:
@@ -248,14 +250,24 @@ class Builder {
   Result<void> bend() {
     auto drawn = gatherWishes(d_, woven_, plain_, offsets_);
     if (!drawn) return std::unexpected(drawn.error());
-    if (auto ok = bendLeast(plain_, known_, drawn->wishes, poses_); !ok)
+    if (auto ok = bendLeast(plain_, patchSizes(d_, woven_), known_, drawn->wishes, poses_); !ok)
       return refuse({}, ok.error().message);
+    forgetTraces();
     for (const Pose& pose : poses_)
       for (const Vec3& v : pose)
         for (const double x : {v.x, v.y, v.z})
           if (!(std::abs(x) <= std::numeric_limits<float>::max()))
             return refuse({}, "a vector of the model is beyond what a float can hold");
     return measureMiss(*drawn);
+  }
+
+  // Bending dies away along the curves and is never nothing. What moves nobody visibly is not kept:
+  // it would make every expression as large as the neutral.
+  void forgetTraces() {
+    const double trace = kTrace * diagonal();
+    for (std::size_t pose = 1; pose < poses_.size(); ++pose)
+      for (std::size_t v = 0; v < known_.size(); ++v)
+        if (!known_[v] && norm(poses_[pose][v]) < trace) poses_[pose][v] = {};
   }
 
   Result<void> measureMiss(const DrawnWishes& drawn) {
@@ -297,13 +309,17 @@ class Builder {
     rig.neutral = std::move(poses_[0]);
     for (std::size_t e = 0; e < d_.expressions.size(); ++e)
       rig.targets.push_back({d_.expressions[e].name, std::move(poses_[1 + e]), {}});
-    rig.source = gridSource(rig.surface);
+    rig.source = gridSource(rig.surface, d_);
     rig.tolerance = d_.tolerance > 0 ? d_.tolerance : defaultTolerance();
     nameThings();
     return {};
   }
 
   double defaultTolerance() const {
+    return std::max(built_.largestMiss, kDefaultTolerance * diagonal());
+  }
+
+  double diagonal() const {
     const auto first = std::ranges::find_if(d_.nodes, [](const auto& n) { return bool(n.at); });
     Vec3 low = *first->at, high = low;
     for (const Drawing::Node& node : d_.nodes) {
@@ -311,7 +327,7 @@ class Builder {
       low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
       high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
     }
-    return std::max(built_.largestMiss, kDefaultTolerance * norm(high - low));
+    return norm(high - low);
   }
 
   // Names that are what a thing without one is called anyway are not kept.

@@ -1,5 +1,7 @@
 // The drawing of a model: everything that is stored, by names.
 #include <algorithm>
+#include <set>
+#include <span>
 
 #include "sweepface/drawing.hpp"
 
@@ -111,7 +113,25 @@ class Drawer {
       auto& side = patch.sides.emplace_back();
       for (HalfArc h : w_.side(p, s)) side.push_back(reference(h));
     }
+    patch.material = materialOf(p);
     drawing_.patches.push_back(std::move(patch));
+  }
+
+  // What all source faces on a patch are made of; empty where they differ. Patches come in order.
+  std::string materialOf(Index p) {
+    const Polygons& faces = rig_.source.polygons;
+    const auto quads = static_cast<std::size_t>(s_.edgesU(p) * s_.edgesV(p));
+    const std::span corners =
+        std::span(rig_.source.quadCorners).subspan(4 * quadsDrawn_, 4 * quads);
+    quadsDrawn_ += quads;
+    if (faces.faceMaterial.empty()) return {};
+    std::set<Index> materials;
+    for (Index corner : corners) {
+      const auto next = std::ranges::upper_bound(faces.faceStart, corner);
+      materials.insert(faces.faceMaterial[next - faces.faceStart.begin() - 1]);
+    }
+    const bool one = materials.size() == 1 && *materials.begin() >= 0;
+    return one ? faces.materials[*materials.begin()] : std::string();
   }
 
   void drawExpression(const Target& target) {
@@ -148,6 +168,7 @@ class Drawer {
   StoredJets jets_;
   std::vector<std::vector<Index>> nodesAt_;  // [points]
   std::vector<Vec3> neutral_;                // settled
+  std::size_t quadsDrawn_ = 0;
   Drawing drawing_;
 };
 

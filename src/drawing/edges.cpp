@@ -4,7 +4,6 @@
 #include <cmath>
 #include <deque>
 #include <fmt/format.h>
-#include <utility>
 
 #include "drawing/weave.hpp"
 #include "mesh/union_find.hpp"
@@ -78,7 +77,7 @@ class EdgeChooser {
     lengths_.resize(w_.arcs.size());
     Mean all, told;
     for (Index a = 0; a < arcCount(); ++a) {
-      const double length = lengthOf(a);
+      const double length = woven_.lengthOf(d_, a);
       if (!(length > 0)) continue;
       lengths_[like_.find(a)].add(length, 1);
       all.add(length, 1);
@@ -92,16 +91,6 @@ class EdgeChooser {
     void add(double x, double weight) { sum += x, count += weight; }
     double value() const { return count > 0 ? sum / count : 0; }
   };
-
-  // By its chords; 0 where it is not known.
-  double lengthOf(Index a) const {
-    const auto from = woven_.placeOf(d_, w_.arcs[a].from), to = woven_.placeOf(d_, w_.arcs[a].to);
-    if (!from || !to || w_.arcs[a].collapsed) return 0;
-    double length = 0;
-    Vec3 last = *from;
-    for (const Vec3& p : d_.curves[a].points) length += norm(p - std::exchange(last, p));
-    return length + norm(*to - last);
-  }
 
   Index usualEdges(Index a) {
     const Mean& length = lengths_[like_.find(a)];

@@ -127,7 +127,9 @@ class Formatter {
       if (s > 0) append(", ");
       side(p.sides[s]);
     }
-    append("]}}");
+    append("]");
+    if (!p.material.empty()) append(", \"material\": {}", quoted(p.material));
+    append("}}");
   }
 
   void side(const std::vector<std::string>& curves) {

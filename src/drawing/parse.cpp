@@ -206,7 +206,8 @@ class DrawingReader {
     Drawing::Patch patch;
     patch.place = in_.place();
     members("a patch", {{"name", [&] { patch.name = name("the name of a patch"); }},
-                        {"sides", [&] { patch.sides = sides(); }, true}});
+                        {"sides", [&] { patch.sides = sides(); }, true},
+                        {"material", [&] { patch.material = text("the material of a patch"); }}});
     drawing_.patches.push_back(std::move(patch));
   }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <utility>
 
 #include "mesh/union_find.hpp"
 
@@ -291,6 +292,16 @@ HalfArc Woven::halfArc(std::string_view reference) const {
   const bool backwards = reference.starts_with('-');
   const auto found = curves.find(reference.substr(backwards));
   return found == curves.end() ? -1 : 2 * found->second + backwards;
+}
+
+double Woven::lengthOf(const Drawing& drawing, Index curve) const {
+  const Arc& arc = wireframe.arcs[curve];
+  const auto from = placeOf(drawing, arc.from), to = placeOf(drawing, arc.to);
+  if (!from || !to || arc.collapsed) return 0;
+  double length = 0;
+  Vec3 last = *from;
+  for (const Vec3& p : drawing.curves[curve].points) length += norm(p - std::exchange(last, p));
+  return length + norm(*to - last);
 }
 
 std::optional<Vec3> Woven::placeOf(const Drawing& drawing, Index node) const {

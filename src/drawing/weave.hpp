@@ -6,6 +6,8 @@
 
 #include "sweepface/drawing.hpp"
 
+#include "drawing/bend.hpp"
+
 namespace sweepface::drawing {
 
 /// A sentence about a place in a drawing.
@@ -26,6 +28,8 @@ struct Woven {
   HalfArc halfArc(std::string_view reference) const;
   /// Where a node is drawn: at its own place or with another; nothing for a T-node without one.
   std::optional<Vec3> placeOf(const Drawing& drawing, Index node) const;
+  /// The length of a curve by its chords; 0 where it is not known.
+  double lengthOf(const Drawing& drawing, Index curve) const;
 };
 
 /// Looks up all names and checks that the curves meet and the patches have four sides.
@@ -41,5 +45,8 @@ inline constexpr std::int64_t kMostQuads = 1'000'000;
 /// Gives every curve its ribbon: the one it names, else that of the curves beside which it sweeps,
 /// else one of their own.
 Result<void> chooseRibbons(const Drawing& drawing, Woven& woven);
+
+/// The sizes of all patches, by the chords of their sides.
+std::vector<PatchSize> patchSizes(const Drawing& drawing, const Woven& woven);
 
 }  // namespace sweepface::drawing

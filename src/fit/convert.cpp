@@ -27,7 +27,7 @@ double diagonal(const PolygonMesh& mesh) {
 namespace {
 
 constexpr int kMostRounds = 60;
-// The fit's share of the tolerance; the rest is left to the file.
+// The fit's share of the tolerance where the rest is left to packing.
 constexpr double kFitShare = 0.7;
 // Predicted slopes overshoot where an edge is this many times as long as the next along its line.
 constexpr double kUneven = 3;
@@ -99,12 +99,12 @@ class Converter {
       return fail("all vertices of the neutral stand at one place; there is no surface to fit");
     const double tolerance = options_.tolerance > 0 ? options_.tolerance : 0.0002 * size;
     const double angle = normalLimit(options_, tolerance, size);
-    limits_ = {kFitShare * tolerance, angle, angle < 180};
+    limits_ = {(options_.pack ? kFitShare : 1) * tolerance, angle, angle < 180};
 
     auto mesh = makeGridMesh(source_);
     if (!mesh) return std::unexpected(mesh.error());
     SourceData data = gatherSource(source_, *mesh, tolerance);
-    Layout layout(*mesh, source_.neutral.positions);
+    Layout layout(*mesh, source_.neutral.positions, options_.pack);
     for (Index v = 0; v < mesh->vertexCount(); ++v)
       data.uneven.push_back(layout.isUneven(v, source_.neutral.positions, kUneven));
     if (!limits_.smooth) data.slopeWeight = 0.1;
@@ -112,9 +112,11 @@ class Converter {
     if (!solution) return std::unexpected(solution.error());
     Conversion conversion{assemble(*mesh, *solution, data), mesh->warnings};
     conversion.rig.tolerance = tolerance;
-    report("packing", 0.95);
-    if (auto ok = pack(conversion.rig, tolerance, kAngleShare * angle); !ok)
-      return std::unexpected(ok.error());
+    if (options_.pack) {
+      report("packing", 0.95);
+      if (auto ok = pack(conversion.rig, tolerance, kAngleShare * angle); !ok)
+        return std::unexpected(ok.error());
+    }
     report("done", 1);
     return conversion;
   }

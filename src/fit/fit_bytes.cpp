@@ -24,6 +24,7 @@ struct Try {
 // is too large and one fits, then between them.
 Result<Conversion> convertToBytes(const MeshRig& source, ConvertOptions options,
                                   std::size_t mostBytes, const Strip& left) {
+  options.pack = true;
   std::optional<Conversion> best;
   Try fits, tooLarge;
   if (!(options.tolerance > 0)) options.tolerance = 0.0005 * diagonal(source.neutral);

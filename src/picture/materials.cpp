@@ -8,7 +8,8 @@ namespace {
 
 constexpr Colour kSkin{0.86f, 0.715f, 0.63f}, kLips{0.76f, 0.50f, 0.46f},
     kTeeth{0.93f, 0.90f, 0.84f}, kGums{0.74f, 0.45f, 0.43f}, kWhite{0.93f, 0.92f, 0.90f},
-    kIris{0.38f, 0.46f, 0.50f}, kPupil{0.12f, 0.11f, 0.11f}, kHair{0.25f, 0.19f, 0.16f};
+    kIris{0.38f, 0.46f, 0.50f}, kPupil{0.12f, 0.11f, 0.11f}, kHair{0.25f, 0.19f, 0.16f},
+    kHollow{0.45f, 0.27f, 0.23f};
 
 struct Look {
   std::string_view word;
@@ -17,10 +18,11 @@ struct Look {
 
 // The first word that a name contains decides.
 constexpr Look kLooks[] = {
-    {"occlusion", {}}, {"lacrimal", {}},  {"tear", {}},       {"cornea", {}},      {"fluid", {}},
-    {"eyeblend", {}},  {"lash", {}},      {"eyebrow", kHair}, {"hair", kHair},     {"beard", kHair},
-    {"teeth", kTeeth}, {"tooth", kTeeth}, {"gum", kGums},     {"tongue", kGums},   {"lip", kLips},
-    {"iris", kIris},   {"pupil", kPupil}, {"sclera", kWhite}, {"eyeball", kWhite},
+    {"occlusion", {}}, {"lacrimal", {}},   {"tear", {}},        {"cornea", {}},
+    {"fluid", {}},     {"eyeblend", {}},   {"lash", {}},        {"eyebrow", kHair},
+    {"hair", kHair},   {"beard", kHair},   {"teeth", kTeeth},   {"tooth", kTeeth},
+    {"gum", kGums},    {"tongue", kGums},  {"lip", kLips},      {"iris", kIris},
+    {"pupil", kPupil}, {"sclera", kWhite}, {"eyeball", kWhite}, {"nostril", kHollow},
 };
 
 }  // namespace

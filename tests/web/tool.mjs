@@ -24,15 +24,13 @@ export function run(program, ...args) {
 export const sweepface = (...args) => run(process.env.SWEEPFACE_TOOL, ...args);
 
 let sample;
-/** The project's sample face as a .sweep file, and the meshes it was made from. */
+/** The project's sample face as a .sweep file, and its meshes. */
 export function sampleFace() {
   if (sample) return sample;
   const folder = inWork('sample');
   run(process.env.SWEEPFACE_SAMPLE_MAKER, folder);
-  sample = { sweep: inWork('sample.sweep'), tolerance: 0.05, neutral: path.join(folder, 'neutral.obj'),
+  sample = { sweep: path.join(folder, 'sample.sweep'), tolerance: 0.05, neutral: path.join(folder, 'neutral.obj'),
              expressions: path.join(folder, 'expressions') };
-  sweepface('convert', sample.neutral, sample.expressions, '-o', sample.sweep,
-            '--tolerance', String(sample.tolerance), '-q');
   return sample;
 }
 

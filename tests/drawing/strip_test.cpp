@@ -1,0 +1,86 @@
+// Drawings of patches in a row, in which what is far away and what is narrow shows.
+#include <cmath>
+
+#include "drawing/drawings.hpp"
+
+namespace sweepface::testing {
+namespace {
+
+/// A band of patches along x, one unit wide, with edges a quarter long; z at each place.
+Json strip(const std::vector<Vec2>& places) {
+  Json drawing = {{"format", "sweepface wireframe 1"},
+                  {"nodes", Json::array()},
+                  {"curves", Json::array()},
+                  {"patches", Json::array()}};
+  const auto curve = [&](const std::string& from, const std::string& to) -> Json& {
+    drawing["curves"].push_back({{"name", from + to}, {"from", from}, {"to", to}});
+    return drawing["curves"].back();
+  };
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    const std::string name = std::to_string(k), a = "a" + name, b = "b" + name;
+    drawing["nodes"].push_back({{"name", a}, {"at", {places[k].x, 0, places[k].y}}});
+    drawing["nodes"].push_back({{"name", b}, {"at", {places[k].x, 1, places[k].y}}});
+    curve(a, b)["edges"] = 4;
+    if (k == 0) continue;
+    const std::string before = std::to_string(k - 1), c = "a" + before, d = "b" + before;
+    curve(c, a);
+    curve(d, b);
+    drawing["patches"].push_back({{"sides", {c + a, a + b, "-" + d + b, "-" + c + d}}});
+  }
+  return drawing;
+}
+
+// Four points of an arc, the middle two close together: the narrow patch between them must not take
+// the bend of the wide ones beside it.
+TEST(WhatNobodySays, spreadsABendOverNarrowAndWidePatches) {
+  const auto onArc = [](double degrees) {
+    const double angle = degrees * 3.14159265358979 / 180;
+    return Vec2{10 * std::sin(angle), 10 * std::cos(angle)};
+  };
+  const Rig rig = made(strip(
+      {onArc(-60), onArc(-40), onArc(-20), onArc(-4), onArc(4), onArc(20), onArc(40), onArc(60)}));
+  const double edges = rig.surface.edgesU(3);
+  const auto pose = neutralPose(rig);
+  const Vec3 first = rig.surface.evaluate(pose, {3, edges / 2, 2}, 1, 0);
+  const Vec3 second = rig.surface.evaluate(pose, {3, edges / 2, 2}, 2, 0);
+  const double curvature = norm(cross(first, second)) / std::pow(norm(first), 3);
+  EXPECT_LT(curvature, 0.2);  // 0.1 on the arc
+}
+
+TEST(Expressions, leaveNoTracesFarAway) {
+  std::vector<Vec2> places;
+  for (int k = 0; k <= 30; ++k) places.push_back({static_cast<double>(k), 0});
+  Json drawing = strip(places);
+  drawing["expressions"] =
+      Json::parse(R"([{"name": "lift", "moves": {"a0": [0, 0, 1], "b0": [0, 0, 1]}}])");
+  const Rig rig = made(drawing);
+  const auto rest = neutralPose(rig), lifted = blend(rig, Weights{1});
+  EXPECT_GT(norm(rig.surface.evaluate(lifted, {1, 2, 2}) - rig.surface.evaluate(rest, {1, 2, 2})),
+            0.01);
+  EXPECT_EQ(rig.surface.evaluate(lifted, {25, 2, 2}), rig.surface.evaluate(rest, {25, 2, 2}));
+}
+
+TEST(Materials, areThoseOfTheFacesOnAPatch) {
+  Json drawing = strip({{0, 0}, {1, 0}, {2, 0}, {3, 0}});
+  drawing["patches"][0]["material"] = "clay";
+  drawing["patches"][2]["material"] = "glass";
+  const Rig rig = made(drawing);
+  const Polygons& faces = rig.source.polygons;
+  EXPECT_EQ(faces.materials, (std::vector<std::string>{"clay", "glass"}));
+  ASSERT_EQ(faces.faceMaterial.size(), static_cast<std::size_t>(faces.faceCount()));
+  EXPECT_EQ(faces.faceMaterial.front(), 0);
+  EXPECT_EQ(faces.faceMaterial[faces.faceCount() / 2], -1);
+  EXPECT_EQ(faces.faceMaterial.back(), 1);
+  const auto again = parseDrawing(formatDrawing(draw(rig)), "again");
+  ASSERT_TRUE(again);
+  EXPECT_EQ(again->patches[0].material, "clay");
+  EXPECT_EQ(again->patches[1].material, "");
+  EXPECT_EQ(again->patches[2].material, "glass");
+}
+
+TEST(Materials, areNoneWhereNobodyNamesOne) {
+  EXPECT_TRUE(made(square()).source.polygons.faceMaterial.empty());
+}
+
+}  // namespace
+}  // namespace sweepface::testing
