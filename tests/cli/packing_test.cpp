@@ -10,9 +10,9 @@ using Pack = Tool;
 
 TEST_F(Pack, LeavesPartsOut) {
   makeRig();
-  ASSERT_EQ(run("convert neutral.obj targets -o face.sweep --tolerance 0.01").code, 0);
+  ASSERT_EQ(run("convert neutral.obj targets -o face.sweep --tolerance 0.01 --pack").code, 0);
   const Outcome r =
-      run("convert neutral.obj targets -o bare.sweep --tolerance 0.01 --strip order,uv");
+      run("convert neutral.obj targets -o bare.sweep --tolerance 0.01 --pack --strip order,uv");
   ASSERT_EQ(r.code, 0) << r.err;
   const auto whole = nlohmann::json::parse(run("info face.sweep --json").out),
              bare = nlohmann::json::parse(run("info bare.sweep --json").out);
@@ -62,7 +62,9 @@ TEST_F(Pack, FindsTheToleranceThatFitsIntoSoManyBytes) {
 TEST_F(Pack, BringsNormalsWithinATolerance) {
   makeRig();
   const auto rms = [&](const std::string& options) {
-    EXPECT_EQ(run("convert neutral.obj targets -o face.sweep --tolerance 0.05 " + options).code, 0);
+    EXPECT_EQ(
+        run("convert neutral.obj targets -o face.sweep --tolerance 0.05 --pack " + options).code,
+        0);
     const auto report = nlohmann::json::parse(
         run("measure face.sweep neutral.obj targets --mixtures 0 --json").out);
     double squares = 0;

@@ -77,6 +77,7 @@ void expectBounds(unsigned first, unsigned count) {
   for (unsigned seed = first; seed < first + count; ++seed) {
     const MeshRig source = anyRig(seed);
     ConvertOptions options;
+    options.pack = true;
     options.tolerance = diagonal(source.neutral) * std::pow(10, -2.0 - seed % 3);
     const auto conversion = convert(source, options);
     ASSERT_TRUE(conversion) << seed << ": " << conversion.error().message;
