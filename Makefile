@@ -64,7 +64,8 @@ bench:
 	scripts/install-deps bench
 	cmake --preset bench
 	cmake --build build/bench
-	scripts/bench build/bench
+	FACE="$(FACE)" NEUTRAL="$(NEUTRAL)" TARGETS="$(TARGETS)" TOLERANCE="$(TOLERANCE)" scripts/bench build/bench \
+	  --benchmark_repetitions=5 --benchmark_enable_random_interleaving=true
 
 fuzz:
 	scripts/install-deps clang

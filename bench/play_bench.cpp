@@ -64,16 +64,17 @@ struct Player {
   std::function<void(const Weights&, float*)> play;
 };
 
-Player evaluatorPlayer(const Evaluator& evaluator, bool normals) {
+Player evaluatorPlayer(const Evaluator& evaluator, bool normals, bool cold = false) {
   auto scratch = std::make_shared<std::vector<std::byte>>(evaluator.scratchBytes());
   const Index count = evaluator.vertexCount();
   return {"evaluator", evaluator.positionBytes() + (normals ? evaluator.normalBytes() : 0),
-          [evaluator, scratch, count, normals](const Weights& weights, float* out) {
+          [evaluator, scratch, count, normals, cold](const Weights& weights, float* out) {
             Evaluation job;
             job.evaluator = &evaluator;
             job.weights = weights;
             job.scratch = *scratch;
             job.positions = {out, count};
+            job.cold = cold;
             if (normals) job.normals = {out + 3 * std::size_t(count), count};
             job.run();
           }};
@@ -187,7 +188,7 @@ bool registerPlayers() {
   addWarm("ten", plain, Active::ten);
   addWarm("normals", evaluatorPlayer(evaluator, true), Active::all);
   add("cold/evaluator", [](benchmark::State& state) {
-    playCold(state, [] { return evaluatorPlayer(makeEvaluator(false), false); });
+    playCold(state, [] { return evaluatorPlayer(makeEvaluator(false), false, true); });
   });
   addPeers(false);
   addPeers(true);

@@ -65,6 +65,10 @@ Result<int> runExport(const ExportArguments& a) {
     return fail("--morph-normals and --quantize are for .glb files; name the output so.");
   Result<Rig> rig = readFace(a.face);
   if (!rig) return std::unexpected(rig.error());
+  if (a.sourceOrder && !rig->source.ownOrder)
+    return fail(a.face +
+                " has no source order, it was left out; leave --source-order out, or convert the "
+                "source again without --strip order.");
   Result<Weights> weights = parseWeights(*rig, a.weights);
   if (!weights) return std::unexpected(weights.error());
   if (auto ok = checkOutput(a.output, {a.face}, {".ply", ".sweep", ".gltf"}); !ok)

@@ -5,6 +5,7 @@
 
 #include "sweepface/codec.hpp"
 #include "sweepface/io.hpp"
+#include "sweepface/strip.hpp"
 
 #include "command.hpp"
 #include "output.hpp"
@@ -24,6 +25,11 @@ void addOptions(CLI::App& app, InfoArguments& a) {
   addQuiet(app, a.quiet);
   addJson(app, a.json);
   app.footer("\nExamples:\n  sweepface info face.sweep\n  sweepface info face.sweep --list");
+}
+
+/// What the file would take without the source's order and texture coordinates.
+std::size_t bareBytes(Rig rig) {
+  return strip(rig, {.order = true, .uv = true}) ? encode(rig).size() : 0;
 }
 
 nlohmann::ordered_json describe(const InfoArguments& a, const Rig& rig, std::size_t bytes,
@@ -55,6 +61,7 @@ nlohmann::ordered_json describe(const InfoArguments& a, const Rig& rig, std::siz
       {"tolerance", rig.tolerance},
       {"targets", names},
       {"bytes", bytes},
+      {"bareBytes", bareBytes(rig)},
       {"parts", nlohmann::ordered_json::object()}};
   for (const FilePart& part : parts) {
     auto& cost = report["parts"][part.name];
@@ -79,7 +86,8 @@ void printText(const nlohmann::ordered_json& r) {
   fmt::print("  tolerance  {:.6g}\n", r["tolerance"].get<double>());
   fmt::print("  targets    {}{}{}\n", names.size(), names.empty() ? "" : ": ",
              fmt::join(names, ", "));
-  fmt::print("  bytes      {}\n", number("bytes"));
+  fmt::print("  bytes      {}, {} without the source's order and texture coordinates\n",
+             number("bytes"), number("bareBytes"));
   for (const auto& [part, bytes] : r["parts"].items())
     fmt::print("    {:<22} {:>10}\n", part, bytes.get<std::size_t>());
 }

@@ -19,7 +19,7 @@ struct EvaluatorOptions {
   /// the rig's own tolerance, but no less than a hundred-thousandth of the neutral's diagonal.
   double tolerance = 0;
   /// The same for the surface's first derivatives, as a share of their neutral length.
-  double derivativeTolerance = 0.01;
+  double derivativeTolerance = 0.02;
   /// Influences of regions [R][storedCount]: target k of region r adds weight[r·K + k] ·
   /// influence[r][v] · difference to stored vector v, the same seen from every patch. Empty: one
   /// region that is everywhere.
@@ -74,6 +74,10 @@ struct Evaluation {
   VectorsOut normals;               ///< outward, unit length; zero where a pose has none
   VectorsOut tangents;              ///< unit length, along the sweep of each vertex' patch
   Index part = 0, parts = 1;        ///< only this part of the vertices
+  /// Whether the tables are likely to have left the cache since the last frame, as where many rigs
+  /// take turns. They are then fetched ahead, which takes a third of the time; where they are still
+  /// there, it takes a tenth longer.
+  bool cold = false;
 
   Result<void> validate() const;
   /// What validate() refuses must not be run.

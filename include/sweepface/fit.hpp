@@ -8,6 +8,7 @@
 
 #include "sweepface/mesh.hpp"
 #include "sweepface/rig.hpp"
+#include "sweepface/strip.hpp"
 
 namespace sweepface {
 
@@ -18,6 +19,13 @@ struct ConvertOptions {
   /// Refine also where the surface's normal is further than this from the source's vertex normal,
   /// degrees; 0: in proportion to the tolerance (docs/fitting.md); 180: never.
   double normalLimit = 0;
+  /// Spend the tolerance on the size of the file: vectors become small whole numbers, of which most
+  /// are zero, and the wireframe is its own mirror image where the face is (docs/file-format.md).
+  /// Slower, and normals are worse.
+  bool pack = false;
+  /// Where it packs: what is written is at most this far off the source's vertex normals, degrees,
+  /// root mean square over all vertices of all poses; 0: whatever the limit above brings.
+  double normalTolerance = 0;
   /// Try shape parameters on every ribbon and keep what lowers the error.
   bool chooseShapes = true;
   /// Called now and then with what is going on and how far it is, 0 to 1.
@@ -37,5 +45,10 @@ double diagonal(const PolygonMesh& mesh);
 /// Turns a mesh rig into a rig of ODE sweeping surfaces. Uses all cores that the calling TBB arena
 /// allows; the result does not depend on how many. Fails if the tolerance cannot be met.
 Result<Conversion> convert(const MeshRig& source, const ConvertOptions& options = {});
+
+/// Looks for the smallest tolerance whose file, without the parts of `left`, takes at most
+/// `mostBytes`, packed: several conversions, the first at `options.tolerance`.
+Result<Conversion> convertToBytes(const MeshRig& source, ConvertOptions options,
+                                  std::size_t mostBytes, const Strip& left = {});
 
 }  // namespace sweepface

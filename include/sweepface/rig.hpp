@@ -22,7 +22,8 @@ struct Target {
 /// How the model answers in the source's own vertex order.
 struct SourceMesh {
   std::vector<Index>
-      gridVertex;  ///< [V] vertex of the tessellation at level 1, or -1 - k: loose vertex k
+      gridVertex;        ///< [V] vertex of the tessellation at level 1, or -1 - k: loose vertex k
+  bool ownOrder = true;  ///< false: the source's order was left out, `gridVertex` counts up
   std::vector<Vec3> loose;  ///< vertices of no face, kept as they are
   Polygons polygons;
   /// [grid quads × 4] face corner of the source at each corner of the patches' quads, patch by

@@ -25,7 +25,7 @@ enum class Symmetry {
 
 /// The same in steps that are 2^finer times smaller, or larger where `finer` is negative.
 inline Coefficients inFinerSteps(Coefficients q, int finer) {
-  constexpr std::int64_t kMost = 1 << 28;
+  constexpr std::int64_t kMost = 1 << 26;
   for (Steps3& v : q)
     for (std::int32_t& x : v) {
       const std::int64_t y =
@@ -95,6 +95,7 @@ class CoefficientCoder {
     return static_cast<std::uint32_t>(
         std::bit_ceil(std::clamp<std::size_t>(32 * vectors, 1 << 10, 1 << 18)));
   }
+  static constexpr std::uint32_t kMostBits = 28;
   static constexpr int kInputs = 6, kPhases = 6, kSets = 512;
 
   enum BitKind { kAny, kBelow, kVector, kZero, kSign, kMore };
@@ -146,7 +147,7 @@ class CoefficientCoder {
 
   static std::uint32_t bucket(std::int32_t x) {
     x = std::abs(x);
-    return x < 3 ? x : x < 6 ? 3 : x < 12 ? 4 : 5;
+    return x < 3 ? x : x < 5 ? 3 : x < 9 ? 4 : x < 17 ? 5 : x < 40 ? 6 : 7;
   }
 
   void codeSite(Index s) {
@@ -206,13 +207,14 @@ class CoefficientCoder {
 
   void codeVector(Index s, Index k, Index v, std::uint32_t level) {
     Steps3& r = residual_[v];
-    std::array<std::int32_t, 3> around{};
+    Steps3 around{};
     if (k == 0)
       for (const Term& t : parents(s))
         for (int a = 0; a < 3; ++a)
           if (const std::int32_t beside = residual_[t.vector][a];
               std::abs(beside) > std::abs(around[a]))
             around[a] = beside;
+    if (k > 0) around = residual_[h_.sites()[s].first];
     const std::uint32_t p = phase_, order = k == 0 ? 0 : k < 3 ? 1 : 2;
     std::uint32_t pattern = 0;
     for (int a = 0; a < 3; ++a) {
@@ -234,7 +236,9 @@ class CoefficientCoder {
                        {place * 4 + lean, (static_cast<std::uint32_t>(v) * 4 + a) * 8 + p, place,
                         (place * 4 + lean) * 8 + level, place * 16 + pattern,
                         (place * 8 + level) * 16 + pattern});
-        size = magnitude(static_cast<std::uint32_t>(std::abs(r[a])), place, by, level, v * 4 + a);
+        const std::uint32_t others = ((order * 3 + a) * 8 + largest(r, a)) * 8 + largest(around, 3);
+        size = magnitude(static_cast<std::uint32_t>(std::abs(r[a])), place, by, level, v * 4 + a,
+                         others);
         r[a] = negative ? -static_cast<std::int32_t>(size) : static_cast<std::int32_t>(size);
         pattern = pattern * 4 + (size > 1 ? 2 : 1);
       } else {
@@ -244,33 +248,35 @@ class CoefficientCoder {
     }
   }
 
-  // At least 1: unary, from 17 on with as many bits as it needs (Elias's gamma code).
+  // The bucket of the largest of the first `count` values.
+  static std::uint32_t largest(const Steps3& values, int count) {
+    std::int32_t most = 0;
+    for (int k = 0; k < count; ++k) most = std::max(most, std::abs(values[k]));
+    return bucket(most);
+  }
+
+  // At least 1: its length in bits (unary) and then the bits (Elias 1975).
   std::uint32_t magnitude(std::uint32_t size, std::uint32_t place, std::uint32_t by,
-                          std::uint32_t level, std::uint32_t v) {
-    constexpr std::uint32_t kUnary = 17;
+                          std::uint32_t level, std::uint32_t v, std::uint32_t others) {
     std::uint32_t n = 1;
-    while (n < kUnary) {
+    while (n < kMostBits) {
       const bool more =
-          bit(kMore, static_cast<int>(std::min(n, 8u)), size > n,
+          bit(kMore, static_cast<int>(std::min(n, 8u)), size >> n != 0,
               {place * 32 + n, (place * 8 + by) * 32 + n, (place * 8 + level) * 32 + n, v * 32 + n,
-               level * 32 + n, (by * 8 + level) * 32 + n});
-      if (!more) return n;
+               others * 32 + n, (by * 8 + level) * 32 + n});
+      if (!more) break;
       ++n;
     }
-    const std::uint32_t rest = size - kUnary + 1;
-    std::uint32_t bits = 0;
-    while (bits < 24) {
-      const bool more = bit(kMore, 9, rest >> (bits + 1) != 0,
-                            {bits, place * 32 + bits, level * 32 + bits, bits, bits, bits});
-      if (!more) break;
-      ++bits;
-    }
     std::uint32_t value = 1;
-    for (std::uint32_t b = bits; b-- > 0;) {
-      const bool one = bit(kMore, 10, rest >> b & 1, {b, b, b, b, b, b});
+    for (std::uint32_t b = n - 1; b-- > 0;) {
+      const std::uint32_t top = n - 1 - b, known = top < 4 ? value : 16 + top;
+      const bool one = bit(
+          kMore, 9 + std::min(top, 3u), size >> b & 1,
+          {(known * 32 + n) * 64 + place, (known * 32 + n) * 8 + by, (known * 32 + n) * 8 + level,
+           known * 32 + n, (known * 32 + n) * 2048 + others, top});
       value = value << 1 | static_cast<std::uint32_t>(one);
     }
-    return value + kUnary - 1;
+    return value;
   }
 
   const Hierarchy& h_;

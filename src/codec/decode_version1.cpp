@@ -57,12 +57,12 @@ void readTarget(Decoding& d, Reader& in) {
 
 std::span<const ChunkHandler> version1() {
   static constexpr ChunkHandler kReaders[] = {{readHead, true},    {readWire, true},
-                                             {readCreases},       {readShapes, true},
-                                             {readNeutral, true}, {readTarget, false, true},
-                                             {readLoose},         {readSourceOrder},
-                                             {readPolygons},      {readTexcoords},
-                                             {readQuadCorners},   {readScene},
-                                             {readThingNames},    {readEnd}};
+                                              {readCreases},       {readShapes, true},
+                                              {readNeutral, true}, {readTarget, false, true},
+                                              {readLoose},         {readSourceOrder},
+                                              {readPolygons},      {readTexcoords},
+                                              {readQuadCorners},   {readScene},
+                                              {readThingNames},    {readEnd}};
   return kReaders;
 }
 

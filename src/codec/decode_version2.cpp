@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "codec/blocks.hpp"
 #include "codec/decoding.hpp"
@@ -142,7 +143,17 @@ void readByGrid(Decoding& d, Reader& in, Read read) {
   });
 }
 void readWalk(Decoding& d, Reader& in) { readByGrid(d, in, readOrder); }
-void readGridFaces(Decoding& d, Reader& in) { readByGrid(d, in, readFaces); }
+
+// Without an order the vertices are those of the grid.
+void readGridFaces(Decoding& d, Reader& in) {
+  readByGrid(d, in, [](auto& symbols, const LevelOne& grid, std::size_t most, SourceMesh& source) {
+    if (source.gridVertex.empty()) {
+      source.gridVertex.resize(static_cast<std::size_t>(grid.vertexCount()));
+      std::iota(source.gridVertex.begin(), source.gridVertex.end(), 0);
+    }
+    readFaces(symbols, grid, most, source);
+  });
+}
 
 void readTextureSteps(Decoding& d, Reader& in) {
   const std::size_t most = mostQuads(in);

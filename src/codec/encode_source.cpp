@@ -76,6 +76,15 @@ std::string quadCorners(const SourceMesh& source) {
   return out.take();
 }
 
+// Whether the vertices are those of the grid in its order.
+bool countsUp(const LevelOne& grid, const SourceMesh& source) {
+  const auto& order = source.gridVertex;
+  if (static_cast<Index>(order.size()) != grid.vertexCount()) return false;
+  for (Index v = 0; v < grid.vertexCount(); ++v)
+    if (order[v] != v) return false;
+  return true;
+}
+
 }  // namespace
 
 // By the grid of the patches, unless that is so large that a reader would not trust so few bytes.
@@ -87,14 +96,15 @@ void writeSource(Writer& out, const Rig& rig, int textureBits) {
     return quads <= within(kMostQuads, kQuadsAByte, kQuadsAnyway, bytes.size());
   };
   std::string order, polygonBytes;
-  bool byGrid = quads <= kMostQuads;
+  bool byGrid = quads <= kMostQuads, ownOrder = !source.gridVertex.empty();
   if (byGrid) {
     const LevelOne grid(rig.surface);
     order = ranged([&](auto& symbols) { writeOrder(symbols, grid, source); });
     polygonBytes = ranged([&](auto& symbols) { writeFaces(symbols, grid, source); });
     byGrid = trusted(order) && trusted(polygonBytes);
+    if (byGrid && hasFaces(faces) && countsUp(grid, source)) ownOrder = false;
   }
-  if (!source.gridVertex.empty())
+  if (ownOrder)
     byGrid ? writeChunk(out, "walk", order)
            : writeChunk(out, "ordr", sourceOrder(source.gridVertex));
   if (hasFaces(faces))

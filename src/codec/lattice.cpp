@@ -8,7 +8,7 @@ namespace sweepface::codec {
 namespace {
 
 // Far beyond any face, and sums of a few still fit.
-constexpr double kMostSteps = 1 << 27;
+constexpr double kMostSteps = 1 << 26;
 
 std::int32_t nearest(double steps) {
   if (!(steps == steps)) return 0;

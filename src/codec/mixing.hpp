@@ -52,7 +52,7 @@ class Model {
 
   Model(Coder& coder, std::size_t slots, std::size_t sets, int inputs)
       : coder_(&coder), slots_(slots), inputs_(inputs) {
-    weights_.assign(sets * static_cast<std::size_t>(inputs), (1 << 16) * 2 / (inputs + 1));
+    weights_.assign(sets * static_cast<std::size_t>(inputs), (1 << 15) * 3 / (inputs + 1));
   }
 
   /// `contexts` has a slot for each input.
@@ -79,7 +79,7 @@ class Model {
 
  private:
   // The more a context has seen, the more it is trusted and the slower it moves.
-  static constexpr int kMostSeen = 60, kRate = 6;
+  static constexpr int kMostSeen = 30, kRate = 14;
   static constexpr std::array<std::int32_t, 64> kTrust = [] {
     std::array<std::int32_t, 64> t{};
     for (int n = 0; n < 64; ++n) t[n] = 16 * n / (n + 1) + (n > 0 ? 4 : 0);

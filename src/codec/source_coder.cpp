@@ -35,7 +35,9 @@ enum Tag : std::uint32_t {
   kTexture = 30,
   kBits = 32,
   kResidual = 34,
-  kUsesCorner = 36
+  kUsesCorner = 36,
+  kOwnOrder = 37,
+  kNext = 38
 };
 
 /// Items that are visited one after the other, most of them beside one that was visited not long
@@ -49,6 +51,11 @@ class Walk {
 
   Index next(Index item) {
     Index found = -1;
+    const bool follows = far_ < static_cast<Index>(neighbours_.size()) && !visited_[far_];
+    if (follows && s_.bit(kNext, last_ == kFollows, 0, kWrites<Coder> && item == far_)) {
+      last_ = kFollows;
+      return visit(far_);
+    }
     const bool near = !trail_.empty() && s_.bit(kNear, last_, 0, kWrites<Coder> && isNear(item));
     if (near) {
       const std::uint32_t place =
@@ -66,11 +73,7 @@ class Walk {
       last_ = 15;
     }
     if (s_.ok() && visited_[found]) s_.refuse("a vertex or a face comes twice");
-    if (!s_.ok()) return 0;
-    far_ = found + 1;
-    visited_[found] = 1;
-    trail_.push_back(found);
-    return found;
+    return s_.ok() ? visit(found) : 0;
   }
   bool visited(Index item) const {
     return item < static_cast<Index>(visited_.size()) && visited_[item];
@@ -78,6 +81,14 @@ class Walk {
 
  private:
   static constexpr std::size_t kTrail = 64;
+  static constexpr std::uint32_t kFollows = 16;  // as a last step: to the next in number
+
+  Index visit(Index item) {
+    far_ = item + 1;
+    visited_[item] = 1;
+    trail_.push_back(item);
+    return item;
+  }
 
   // Calls `use` with every unvisited neighbour of what was visited last, until it answers true.
   template <typename Use>
@@ -172,14 +183,6 @@ class Places {
  public:
   Places(const LevelOne& grid, const std::vector<Index>& order)
       : start_(grid.vertexCount() + 1, 0) {
-    if (order.empty()) {  // the grid's own
-      for (Index v = 0; v < grid.vertexCount(); ++v) {
-        start_[v + 1] = v + 1;
-        list_.push_back(v);
-      }
-      vertices_ = grid.vertexCount();
-      return;
-    }
     vertices_ = static_cast<Index>(order.size());
     for (const Index g : order)
       if (g >= 0) ++start_[g + 1];
@@ -218,6 +221,7 @@ class FaceCoder {
     }
     const std::size_t count = codeCount(s_, 1, static_cast<std::size_t>(faces_.faceCount()), most_);
     if constexpr (!kWrites<Coder>) source_.quadCorners.assign(4 * grid_.quads().size(), -1);
+    source_.ownOrder = s_.bit(kOwnOrder, 0, 0, source_.ownOrder);
     const bool hasQuads = s_.bit(kUsesCorner, 0, 0, !source_.quadCorners.empty());
     if (!hasQuads) source_.quadCorners.clear();
     for (std::size_t f = 0; f < count && s_.ok(); ++f) codeFace(static_cast<Index>(f));

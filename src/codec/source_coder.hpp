@@ -14,8 +14,7 @@ void writeOrder(Symbols<RangeEncoder>& out, const LevelOne& grid, const SourceMe
 void readOrder(Symbols<RangeDecoder>& in, const LevelOne& grid, std::size_t most,
                SourceMesh& source);
 
-/// Faces, their corners, the corners of the grid's quads, materials and groups. Without an order
-/// the corners are vertices of the grid itself.
+/// Faces, their corners, the corners of the grid's quads, materials and groups. The order is known.
 void writeFaces(Symbols<RangeEncoder>& out, const LevelOne& grid, const SourceMesh& source);
 void readFaces(Symbols<RangeDecoder>& in, const LevelOne& grid, std::size_t most,
                SourceMesh& source);

@@ -77,7 +77,7 @@ void Evaluation::run() const {
   auto* const shorts = reinterpret_cast<std::int16_t*>(memory);
   auto* const pairs = reinterpret_cast<std::uint32_t*>(memory + weightBytes(tables));
   const float factor = quantise(weights, {shorts, weightBytes(tables) / sizeof(std::int16_t)});
-  const FrameWeights frame{shorts, pairs, pairsRoom(tables), factor, tables.weights + 1};
+  const FrameWeights frame{shorts, pairs, pairsRoom(tables), factor, tables.weights + 1, cold};
   if (positions.data)
     evaluatePositions(share(tables.positions, part, parts), frame, positions, tables.vertices);
   if (normals.data || tangents.data)

@@ -171,7 +171,8 @@ class Compiler {
   }
 
   void packTile(const TileSource& tile, TileTable& table, TableErrors& errors) const {
-    const auto found = sweepface::packTile(tile, static_cast<std::uint16_t>(tables_.weights), table);
+    const auto found =
+        sweepface::packTile(tile, static_cast<std::uint16_t>(tables_.weights), table);
     errors.rounding = std::max(errors.rounding, found.rounding * tile.unit);
     for (std::size_t k = 0; k < tile.targets.size(); ++k) {
       double& worst = errors.ofTarget[tile.targets[k]];

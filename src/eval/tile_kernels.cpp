@@ -19,14 +19,15 @@ void evaluateNormals(const TileRange& tiles, const FrameWeights& frame, const Ve
 
 #else
 
-#include <cstring>
-
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "eval/tile_kernels.cpp"
 #define HWY_WANT_AVX3_DL  // dot products in one instruction
 #define HWY_DISABLED_TARGETS (HWY_SVE | HWY_SVE2 | HWY_SVE_256 | HWY_SVE2_128 | HWY_RVV)
+#include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
+
+#include "eval/tile_steps-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace sweepface {
@@ -45,213 +46,6 @@ void evaluateNormals(const TileRange& tiles, const FrameWeights& frame, const Ve
 #else
 namespace {
 
-namespace hn = hwy::HWY_NAMESPACE;
-using Ints = hn::CappedTag<std::int32_t, kGroup>;
-using Shorts = hn::Repartition<std::int16_t, Ints>;
-using Halves = hn::Rebind<std::int16_t, Ints>;
-using Floats = hn::Rebind<float, Ints>;
-using Int = hn::Vec<Ints>;
-using Short = hn::Vec<Shorts>;
-using Float = hn::Vec<Floats>;
-constexpr Ints kInts;
-constexpr Shorts kShorts;
-constexpr Halves kHalves;
-constexpr Floats kFloats;
-constexpr int kLanes = static_cast<int>(hn::MaxLanes(kInts));
-constexpr int kParts = kGroup / kLanes;  // vectors in a group
-
-/// A sum of products of 16-bit integers, two by two. Where an instruction adds up other products
-/// than neighbouring ones, the rest is kept beside until the end.
-struct Sum {
-  Int low, high;
-
-  HWY_INLINE Sum() : low(hn::Zero(kInts)), high(hn::Zero(kInts)) {}
-  HWY_INLINE void add(Short a, Short b) {
-#if HWY_TARGET == HWY_AVX3_DL
-    // Highway 1.0 compiles for avxvnni here, without the intrinsic for 512 bits.
-    asm("vpdpwssd %2, %1, %0" : "+v"(low.raw) : "v"(a.raw), "v"(b.raw));
-#else
-    low = hn::ReorderWidenMulAccumulate(kInts, a, b, low, high);
-#endif
-  }
-  HWY_INLINE Int total() const { return hn::RearrangeToOddPlusEven(low, high); }
-};
-
-HWY_INLINE Short broadcast(const void* pair) {
-  std::int32_t bits;
-  std::memcpy(&bits, pair, sizeof(bits));
-  return hn::BitCast(kShorts, hn::Set(kInts, bits));
-}
-
-/// The weights of a tile's targets, two by two.
-class TileWeights {
- public:
-  HWY_INLINE explicit TileWeights(const FrameWeights& frame) : frame_(frame) {
-#if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
-    few_ = frame.count <= 64;
-    if (few_) {
-      low_ = _mm512_loadu_si512(frame.shorts);
-      high_ = _mm512_loadu_si512(frame.shorts + 32);
-    }
-#endif
-  }
-
-  HWY_INLINE void choose(const Tile& tile, std::uint32_t* pairs) const {
-#if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
-    if (few_) {  // all of them lie in two registers
-      for (int p = 0; p < tile.head->pairs; p += kGroup)
-        _mm512_storeu_si512(pairs + p, _mm512_permutex2var_epi16(
-                                           low_, _mm512_loadu_si512(tile.targets + 2 * p), high_));
-      return;
-    }
-#endif
-    pairWeights(tile, frame_, pairs);
-  }
-
- private:
-  const FrameWeights& frame_;
-#if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
-  bool few_;
-  __m512i low_, high_;
-#endif
-};
-
-HWY_INLINE void blend(const Tile& tile, const std::uint32_t* pairs, std::int16_t* c) {
-  const std::int16_t* from = tile.coefficients;
-  for (int b = 0; b < tile.head->blocks; ++b, c += kGroup) {
-    Sum sums[kParts], others[kParts];  // two chains of sums, or each would wait for the one before
-    const auto add = [&](Sum* to, int p) HWY_ATTR {
-      const Short weights = broadcast(pairs + p);
-      for (int s = 0; s < kParts; ++s, from += 2 * kLanes)
-        to[s].add(hn::Load(kShorts, from), weights);
-    };
-    const int count = tile.head->blockPairs[b];
-    for (int p = 0; p + 1 < count; p += 2) add(sums, p), add(others, p + 1);
-    if (count % 2 == 1) add(sums, count - 1);
-    for (int s = 0; s < kParts; ++s) {
-      const Int sum = hn::Add(sums[s].total(), others[s].total());
-      const Int rounded = hn::Add(sum, hn::Set(kInts, 1 << 15));
-      hn::Store(hn::DemoteTo(kHalves, hn::ShiftRight<16>(rounded)), kHalves, c + kLanes * s);
-    }
-  }
-}
-
-/// As many vectors as fit, a register for each coordinate.
-struct Vectors {
-  Float x, y, z;
-};
-
-struct Combined {
-  Vectors first, second;
-};
-
-/// Two registers of rows at once: lanes from `part` on of groups a and b.
-struct Place {
-  int group, part;
-};
-
-HWY_INLINE Vectors finish(const Tile& tile, Place at, Float scale, const Sum& x, const Sum& y,
-                          const Sum& z) {
-  const float* neutral = tile.neutral + 3 * kGroup * at.group + kLanes * at.part;
-  const auto one = [&](const Sum& sum, int axis) HWY_ATTR {
-    return hn::Add(hn::Load(kFloats, neutral + kGroup * axis),
-                   hn::Mul(hn::ConvertTo(kFloats, sum.total()), scale));
-  };
-  return {one(x, 0), one(y, 1), one(z, 2)};
-}
-
-HWY_INLINE Combined combine(const Tile& tile, const std::int16_t* c, Place a, Place b,
-                            Float scale) {
-  const int modePairs = tile.head->modePairs;
-  const auto basisOf = [&](Place at) {
-    return tile.basis + 2 * (kGroup * modePairs * at.group + kLanes * at.part);
-  };
-  const std::int16_t *basisA = basisOf(a), *basisB = basisOf(b);
-  Sum xA, yA, zA, xB, yB, zB;
-  for (int p = 0; p < modePairs; ++p, c += 6, basisA += 2 * kGroup, basisB += 2 * kGroup) {
-    const Short rowsA = hn::Load(kShorts, basisA), rowsB = hn::Load(kShorts, basisB);
-    const Short x = broadcast(c), y = broadcast(c + 2), z = broadcast(c + 4);
-    xA.add(rowsA, x), yA.add(rowsA, y), zA.add(rowsA, z);
-    xB.add(rowsB, x), yB.add(rowsB, y), zB.add(rowsB, z);
-  }
-  return {finish(tile, a, scale, xA, yA, zA), finish(tile, b, scale, xB, yB, zB)};
-}
-
-HWY_INLINE Vectors cross(const Vectors& a, const Vectors& b) {
-  const auto minor = [](Float p, Float q, Float r, Float s)
-                         HWY_ATTR { return hn::Sub(hn::Mul(p, q), hn::Mul(r, s)); };
-  return {minor(a.y, b.z, a.z, b.y), minor(a.z, b.x, a.x, b.z), minor(a.x, b.y, a.y, b.x)};
-}
-
-HWY_INLINE Float inverseRoot(Float x) {
-  const Int bits = hn::BitCast(kInts, x);
-  Float y =
-      hn::BitCast(kFloats, hn::Sub(hn::Set(kInts, kInverseRootGuess), hn::ShiftRight<1>(bits)));
-  const Float half = hn::Mul(hn::Set(kFloats, 0.5f), x);
-  for (int step = 0; step < kInverseRootSteps; ++step)
-    y = hn::Mul(y, hn::Sub(hn::Set(kFloats, 1.5f), hn::Mul(hn::Mul(half, y), y)));
-  return y;
-}
-
-HWY_INLINE Vectors unit(const Vectors& a) {
-  const Float squared = hn::Add(hn::Add(hn::Mul(a.x, a.x), hn::Mul(a.y, a.y)), hn::Mul(a.z, a.z));
-  const Float r = inverseRoot(squared);
-  return {hn::Mul(a.x, r), hn::Mul(a.y, r), hn::Mul(a.z, r)};
-}
-
-/// Where the vectors of a tile wait to be written, four floats each. Every four lanes of three
-/// registers become four vectors, so that in a register's share of the memory vector 4j + i stands
-/// at place kRows · i + j.
-struct Waiting {
-  static constexpr int kRows = kLanes / 4;
-  HWY_ALIGN float xyz[4 * kTileVertices];
-
-  HWY_INLINE void put(int k, const Vectors& a) {
-    const hn::Repartition<double, Floats> doubles;
-    const auto join = [&](int i, Float xy, Float zz) HWY_ATTR {
-      const auto p = hn::BitCast(doubles, xy), q = hn::BitCast(doubles, zz);
-      float* const to = xyz + 4 * (k + kRows * i);
-      hn::Store(hn::BitCast(kFloats, hn::InterleaveLower(doubles, p, q)), kFloats, to);
-      hn::Store(hn::BitCast(kFloats, hn::InterleaveUpper(doubles, p, q)), kFloats, to + kLanes);
-    };
-    join(0, hn::InterleaveLower(kFloats, a.x, a.y), hn::InterleaveLower(kFloats, a.z, a.z));
-    join(2, hn::InterleaveUpper(kFloats, a.x, a.y), hn::InterleaveUpper(kFloats, a.z, a.z));
-  }
-
-  HWY_INLINE const float* at(int k) const {
-    return xyz + 4 * (k / kLanes * kLanes + k % 4 * kRows + k % kLanes / 4);
-  }
-};
-
-HWY_INLINE void write3(const float* from, char* to) {
-#if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
-  _mm_mask_storeu_ps(to, 7, _mm_load_ps(from));
-#else
-  std::memcpy(to, from, 8);
-  std::memcpy(to + 8, from + 2, 4);
-#endif
-}
-
-HWY_INLINE void write(const Tile& tile, bool all, const Waiting& from, const VectorsOut& out) {
-  if (all && out.stride == 12 && tile.head->vertices == kTileVertices) {
-    char* const to = reinterpret_cast<char*>(out.data);
-    const std::uint32_t* vertex = tile.vertices;
-    const float* xyz = from.xyz;
-    for (int first = 0; first < kTileVertices; first += kLanes, xyz += 4 * kLanes)
-      for (int j = 0; j < Waiting::kRows; ++j, vertex += 4)
-        for (int i = 0; i < 4; ++i)
-          write3(xyz + 4 * (Waiting::kRows * i + j), to + std::size_t(12) * vertex[i]);
-    return;
-  }
-  for (int k = 0; k < tile.head->vertices; ++k)
-    if (tile.vertices[k] < static_cast<std::uint32_t>(out.count))
-      write3(from.at(k), vectorAt(out, tile.vertices[k]));
-}
-
-}  // namespace
-
-namespace {
-
 /// A tile on its way.
 struct Stage {
   Tile tile;
@@ -260,8 +54,15 @@ struct Stage {
   Waiting first, second;
 };
 
-/// Calls `combine` and `write` with every tile. Each step waits for the one before; so four tiles are
-/// on their way at once, each a step behind the next.
+/// Asks for a tile's record before its turn comes.
+HWY_INLINE void prefetch(const TileTable& table, Index tile) {
+  if (tile + 1 >= table.tileCount()) return;
+  const std::byte* const end = table.record(tile + 1);
+  for (const std::byte* line = table.record(tile); line < end; line += 64) hwy::Prefetch(line);
+}
+
+/// Calls `combine` and `write` with every tile. Each step waits for the one before; so four tiles
+/// are on their way at once, each a step behind the next.
 template <typename Combine, typename Write>
 HWY_INLINE void eachTile(const TileRange& tiles, const FrameWeights& frame, const Combine& combine,
                          const Write& write) {
@@ -272,6 +73,7 @@ HWY_INLINE void eachTile(const TileRange& tiles, const FrameWeights& frame, cons
   const auto at = [&](Index k) -> Stage& { return stages[k & 3]; };
   for (Index k = 0; k < count + 3; ++k) {
     if (k < count) {
+      if (frame.cold) prefetch(tiles.table, tiles.first + k + 1);
       at(k).tile = tileAt(tiles.table.record(tiles.first + k));
       weights.choose(at(k).tile, at(k).pairs);
     }

@@ -70,8 +70,7 @@ std::vector<double> measure(const Integers& integers, const Differences& wanted)
   for (int r = 0; r < wanted.rows; ++r) {
     std::ranges::fill(sums, 0.0f);
     for (int m = 0; m < integers.modes; ++m) {
-      const float b =
-          static_cast<float>(scale * integers.basis[std::size_t(m) * wanted.rows + r]);
+      const float b = static_cast<float>(scale * integers.basis[std::size_t(m) * wanted.rows + r]);
       const std::int16_t* from = integers.coefficients.data() + std::size_t(m) * sums.size();
       for (std::size_t c = 0; c < sums.size(); ++c) sums[c] += b * from[c];
     }

@@ -6,6 +6,7 @@
 #include "sweepface/fit.hpp"
 
 #include "codec/utf8.hpp"
+#include "fit/normal_error.hpp"
 #include "fit/quantise.hpp"
 #include "fit/refine.hpp"
 #include "fit/shapes.hpp"
@@ -26,16 +27,23 @@ double diagonal(const PolygonMesh& mesh) {
 namespace {
 
 constexpr int kMostRounds = 60;
-// The fit's share of the tolerance; the rest is left to the file.
+// The fit's share of the tolerance where the rest is left to packing.
 constexpr double kFitShare = 0.7;
 // Predicted slopes overshoot where an edge is this many times as long as the next along its line.
 constexpr double kUneven = 3;
 // At the default tolerance of 0.02 % of the diagonal normals may be this far off, in degrees.
 constexpr double kNormalLimitAtDefault = 2.8;
 
+// What packing aims at, of the limit.
+constexpr double kAngleShare = 0.2;
+// The limit that leads to normals within a tolerance, root mean square.
+constexpr double kLimitForTolerance = 2.5;
+
 double normalLimit(const ConvertOptions& options, double tolerance, double size) {
   if (options.normalLimit > 0) return options.normalLimit;
-  return std::clamp(kNormalLimitAtDefault * tolerance / (0.0002 * size), 2.0, 60.0);
+  const double usual = std::clamp(kNormalLimitAtDefault * tolerance / (0.0002 * size), 2.0, 60.0);
+  return options.normalTolerance > 0 ? std::min(usual, kLimitForTolerance * options.normalTolerance)
+                                     : usual;
 }
 
 // Files hold single precision. What is verified is what will be read back.
@@ -91,12 +99,12 @@ class Converter {
       return fail("all vertices of the neutral stand at one place; there is no surface to fit");
     const double tolerance = options_.tolerance > 0 ? options_.tolerance : 0.0002 * size;
     const double angle = normalLimit(options_, tolerance, size);
-    limits_ = {kFitShare * tolerance, angle, angle < 180};
+    limits_ = {(options_.pack ? kFitShare : 1) * tolerance, angle, angle < 180};
 
     auto mesh = makeGridMesh(source_);
     if (!mesh) return std::unexpected(mesh.error());
     SourceData data = gatherSource(source_, *mesh, tolerance);
-    Layout layout(*mesh, source_.neutral.positions);
+    Layout layout(*mesh, source_.neutral.positions, options_.pack);
     for (Index v = 0; v < mesh->vertexCount(); ++v)
       data.uneven.push_back(layout.isUneven(v, source_.neutral.positions, kUneven));
     if (!limits_.smooth) data.slopeWeight = 0.1;
@@ -104,11 +112,11 @@ class Converter {
     if (!solution) return std::unexpected(solution.error());
     Conversion conversion{assemble(*mesh, *solution, data), mesh->warnings};
     conversion.rig.tolerance = tolerance;
-    report("packing", 0.95);
-    if (auto ok =
-            quantise(conversion.rig, source_, tolerance, [&](double) { return !cancelled(); });
-        !ok)
-      return std::unexpected(ok.error());
+    if (options_.pack) {
+      report("packing", 0.95);
+      if (auto ok = pack(conversion.rig, tolerance, kAngleShare * angle); !ok)
+        return std::unexpected(ok.error());
+    }
     report("done", 1);
     return conversion;
   }
@@ -118,6 +126,24 @@ class Converter {
   void report(std::string_view what, double done) {
     done_ = std::max(done_, done);
     if (options_.progress) options_.progress(what, done_);
+  }
+
+  // Aims at smaller angles until they are as small as they must be.
+  Result<void> pack(Rig& rig, double tolerance, double angle) {
+    const auto proceed = [&](double) { return !cancelled(); };
+    if (!(options_.normalTolerance > 0)) return quantise(rig, source_, tolerance, angle, proceed);
+    const Rig fitted = rig;
+    constexpr int kTries = 8;
+    for (int attempt = 0; attempt < kTries; ++attempt) {
+      rig = fitted;
+      if (auto ok = quantise(rig, source_, tolerance, angle, proceed); !ok) return ok;
+      const double found = normalRms(rig, source_);
+      if (found <= options_.normalTolerance) return {};
+      angle *= std::clamp(0.8 * options_.normalTolerance / found, 0.2, 0.8);
+    }
+    return fail(
+        "the normals could not be brought so near to the mesh's; allow more degrees, or ask "
+        "for a smaller tolerance");
   }
 
   // Solve, measure, refine, until every vertex is within the limits. The limit on distance is a

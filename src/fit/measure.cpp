@@ -334,6 +334,10 @@ Weights randomWeights(const Rig& rig, const MeshRig& source, std::mt19937& rando
 }  // namespace
 
 Result<Measurement> measure(const Rig& rig, const MeshRig& source, const MeasureOptions& options) {
+  if (!rig.source.ownOrder)
+    return fail(
+        "the face has no source order, it was left out, so that nobody knows which vertex is "
+        "which; convert the source again without --strip order");
   const auto shapes = matchShapes(rig, source);
   if (!shapes) return std::unexpected(shapes.error());
   const Meter meter(rig);

@@ -4,6 +4,7 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <tbb/parallel_for.h>
 
@@ -28,6 +29,8 @@ namespace {
 constexpr double kNeutralStep = 0.25, kTargetStep = 0.5;
 // The neutral spends this share of the tolerance, so that its poses have room.
 constexpr double kNeutralShare = 0.75;
+// What a tangent that leans by the angle aimed at counts, in bits.
+constexpr double kNeutralBits = 1, kTargetBits = 0.3;
 constexpr int kMostFiner = 8;
 // A quarter of a texel of a texture of 4096 x 4096.
 constexpr int kTextureBits = 14;
@@ -36,7 +39,8 @@ constexpr int kTextureBits = 14;
 struct Columns {
   std::vector<Index> start;  // [S + 1]
   std::vector<Index> vertex;
-  std::vector<float> weight;  // for a step of 1
+  // For a step of 1: how it moves the vertex, and how it turns the tangents there.
+  std::vector<std::array<float, 3>> weight;
   // The same the other way round: the coefficients that move a vertex.
   std::vector<Index> rowStart;  // [vertices + 1]
   std::vector<Index> rowVector;
@@ -62,27 +66,27 @@ class ColumnBuilder {
 
   Columns build() const {
     const Index vertices = grid_.vertexCount();
-    std::vector<std::vector<Term>> rows(vertices);
+    std::vector<std::vector<Entry>> rows(vertices);
     tbb::parallel_for(tbb::blocked_range<Index>(0, vertices),
                       [&](const tbb::blocked_range<Index>& range) {
-                        std::vector<double> sum(surface_.storedCount(), 0);
+                        std::vector<Sums> sum(surface_.storedCount());
                         for (Index v = range.begin(); v != range.end(); ++v)
                           rows[v] = coefficientRow(v, sum);
                       });
     Columns columns;
     columns.start.assign(surface_.storedCount() + 1, 0);
     for (const auto& row : rows)
-      for (const Term& t : row) ++columns.start[t.vector + 1];
+      for (const Entry& e : row) ++columns.start[e.vector + 1];
     for (Index v = 0; v < surface_.storedCount(); ++v) columns.start[v + 1] += columns.start[v];
     columns.vertex.resize(columns.start.back());
     columns.weight.resize(columns.start.back());
     columns.rowStart.push_back(0);
     std::vector<Index> at = columns.start;
     for (Index v = 0; v < vertices; ++v) {
-      for (const Term& t : rows[v]) {
-        columns.vertex[at[t.vector]] = v;
-        columns.weight[at[t.vector]++] = static_cast<float>(t.factor);
-        columns.rowVector.push_back(t.vector);
+      for (const Entry& e : rows[v]) {
+        columns.vertex[at[e.vector]] = v;
+        columns.weight[at[e.vector]++] = e.weight;
+        columns.rowVector.push_back(e.vector);
       }
       columns.rowStart.push_back(static_cast<Index>(columns.rowVector.size()));
     }
@@ -90,34 +94,53 @@ class ColumnBuilder {
   }
 
  private:
+  struct Entry {
+    Index vector = -1;
+    std::array<float, 3> weight{};
+  };
+  using Sums = std::array<double, 3>;  // position, tangents along u and v
+
   // From the finest to the coarsest, what a vector counts goes on to what predicts it. `sum` is
   // zero before and after.
-  std::vector<Term> coefficientRow(Index vertex, std::vector<double>& sum) const {
+  std::vector<Entry> coefficientRow(Index vertex, std::vector<Sums>& sum) const {
     constexpr double kNothing = 1e-4;  // of a step: verified anyway
     std::vector<Index> heap;
-    const auto add = [&](Index vector, double factor) {
-      if (sum[vector] == 0) {
+    const auto add = [&](Index vector, const Sums& more, double factor) {
+      Sums& own = sum[vector];
+      if (own == Sums{}) {
         heap.push_back(stepOf_[vector]);
         std::ranges::push_heap(heap);
       }
-      sum[vector] += factor;
+      for (int k = 0; k < 3; ++k) own[k] += factor * more[k];
     };
-    const auto weights = surface_.weights(grid_.site(vertex));
-    for (int k = 0; k < 36; ++k)
-      if (weights.factors[k] != 0)
-        for (const Term& t : expanded_[weights.vectors[k]])
-          add(t.vector, t.factor * weights.factors[k]);
-    std::vector<Term> row;
+    for (int part = 0; part < 3; ++part) {
+      const auto weights = surface_.weights(grid_.site(vertex), part == 1, part == 2);
+      Sums unit{};
+      unit[part] = 1;
+      for (int k = 0; k < 36; ++k)
+        if (weights.factors[k] != 0)
+          for (const Term& t : expanded_[weights.vectors[k]])
+            add(t.vector, unit, t.factor * weights.factors[k]);
+    }
+    std::vector<Entry> row;
+    Index last = -1;
     while (!heap.empty()) {
       std::ranges::pop_heap(heap);
-      const Hierarchy::Step& step = hierarchy_.steps()[heap.back()];
+      const Index top = heap.back();
       heap.pop_back();
-      const double factor = sum[step.vector];
-      sum[step.vector] = 0;
-      if (std::abs(factor) < 1e-12) continue;
-      for (const Term& t : hierarchy_.terms(step)) add(t.vector, factor * t.factor);
-      if (const double weight = factor / step.reach; std::abs(weight) > kNothing)
-        row.push_back({step.vector, weight});
+      if (top == last) continue;  // sums that had cancelled come twice
+      last = top;
+      const Hierarchy::Step& step = hierarchy_.steps()[top];
+      const Sums factors = sum[step.vector];
+      sum[step.vector] = {};
+      const double most =
+          std::max({std::abs(factors[0]), std::abs(factors[1]), std::abs(factors[2])});
+      if (most < 1e-12) continue;
+      for (const Term& t : hierarchy_.terms(step)) add(t.vector, factors, t.factor);
+      if (most / step.reach <= kNothing) continue;
+      Entry entry{step.vector, {}};
+      for (int k = 0; k < 3; ++k) entry.weight[k] = static_cast<float>(factors[k] / step.reach);
+      row.push_back(entry);
     }
     return row;
   }
@@ -129,24 +152,39 @@ class ColumnBuilder {
   std::vector<Index> stepOf_;
 };
 
+// How far off the two tangents at each vertex are, as shares of their lengths.
+struct Slopes {
+  struct Tangent {
+    std::array<float, 3> error{};   // the neutral's included
+    float lean = 0;                 // this pose's own part along the normal: an angle in radians
+    std::array<float, 3> normal{};  // of the surface
+    float perLength = 0;
+    float strain() const { return error[0] * error[0] + error[1] * error[1] + error[2] * error[2]; }
+  };
+  std::vector<std::array<Tangent, 2>> at;  // [vertices]
+};
+
 // One pose: looks for coefficients that cost few bits, vertex errors staying within a bound.
 // Coordinate descent on  bits + penalty(errors), one coefficient after the other.
 class PoseQuantiser {
  public:
   PoseQuantiser(const Lattice& lattice, const Columns& columns, const std::vector<Index>& siteOf,
-                double step, double bound, Symmetry symmetry)
+                double step, double bound, double slopeWeight, Symmetry symmetry)
       : h_(lattice.hierarchy()),
         columns_(columns),
         siteOf_(siteOf),
         axis_(lattice.axis()),
         step_(static_cast<float>(step)),
         perSquare_(static_cast<float>(1 / (bound * bound))),
+        slopeWeight_(static_cast<float>(slopeWeight)),
         symmetry_(symmetry) {}
 
   /// Improves `q`, whose vertices are off by `errors`; `expected` is what an image predicts.
-  void run(Coefficients& q, const std::vector<Vec3>& errors, const Coefficients& expected) {
+  void run(Coefficients& q, const std::vector<Vec3>& errors, const Slopes& slopes,
+           const Coefficients& expected) {
     q_ = &q;
     expected_ = &expected;
+    slopes_ = slopes;
     for (auto& e : error_) e.resize(errors.size());
     for (std::size_t v = 0; v < errors.size(); ++v) {
       error_[0][v] = static_cast<float>(errors[v].x);
@@ -155,7 +193,8 @@ class PoseQuantiser {
     }
     count();
     constexpr int kSweeps = 10;
-    for (int sweep = 0; sweep < kSweeps; ++sweep) {
+    touched_.assign(errors.size(), 0);
+    for (sweep_ = 0; sweep_ < kSweeps; ++sweep_) {
       Index changed = 0;
       findWanted();
       for (std::size_t k = h_.steps().size(); k-- > 0;)
@@ -166,12 +205,13 @@ class PoseQuantiser {
   }
 
  private:
-  // Coefficients that are zero may be wanted only where an error is well on its way to the bound.
+  // Coefficients that are zero may be wanted only where an error is well on its way to the bound or
+  // the surface is tilted.
   void findWanted() {
-    constexpr float kOnItsWay = 0.3f;
+    constexpr float kOnItsWay = 0.3f, kTilted = 0.3f;
     wanted_.assign(q_->size(), 0);
     for (Index u = 0; u < static_cast<Index>(error_[0].size()); ++u)
-      if (squareAt(u) > kOnItsWay)
+      if (squareAt(u) > kOnItsWay || tilt(u) > kTilted)
         for (Index r = columns_.rowStart[u]; r < columns_.rowStart[u + 1]; ++r)
           wanted_[columns_.rowVector[r]] = 1;
   }
@@ -280,36 +320,81 @@ class PoseQuantiser {
             error_[2][u] * error_[2][u]) *
            perSquare_;
   }
-  // How much the penalty grows when a coefficient grows by d steps.
-  float growth(Index v, int a, float d) const {
-    const float x = d * step_;
-    const float* own = error_[a].data();
+  // A tangent that is off by about half of its length may turn the surface over.
+  static constexpr float kMostStrain = 0.2f, kOverturn = 40;
+  static float overturn(float strain) {
+    return strain > kMostStrain ? kOverturn * (strain - kMostStrain) : 0;
+  }
+  float tilt(Index u) const {
     float sum = 0;
-    for (Index p = columns_.start[v]; p < columns_.start[v + 1]; ++p) {
-      const Index u = columns_.vertex[p];
-      const float square = squareAt(u), change = x * columns_.weight[p];
-      sum += penalty(square + (2 * own[u] + change) * change * perSquare_) - penalty(square);
-    }
+    for (const Slopes::Tangent& t : slopes_.at[u])
+      sum += slopeWeight_ * t.lean * t.lean + overturn(t.strain());
     return sum;
   }
-  float gradient(Index v, int a) const {
-    float sum = 0;
+  // How much the penalty grows when a coefficient grows by d steps.
+  float growth(Index v, int a, float steps) const {
+    const float x = steps * step_;
+    const float* own = error_[a].data();
+    float sum = 0, tilted = 0, over = 0;
     for (Index p = columns_.start[v]; p < columns_.start[v + 1]; ++p) {
       const Index u = columns_.vertex[p];
-      sum += slope(squareAt(u)) * error_[a][u] * columns_.weight[p];
+      const auto& weight = columns_.weight[p];
+      const float square = squareAt(u), shift = x * weight[0];
+      sum += penalty(square + (2 * own[u] + shift) * shift * perSquare_) - penalty(square);
+      for (int side = 0; side < 2; ++side) {
+        const Slopes::Tangent& t = slopes_.at[u][side];
+        const float change = x * weight[1 + side] * t.perLength, turn = change * t.normal[a];
+        tilted += (2 * t.lean + turn) * turn;
+        const float strain = t.strain();
+        over += overturn(strain + (2 * t.error[a] + change) * change) - overturn(strain);
+      }
     }
-    return 2 * sum * perSquare_ * step_;
+    return sum + slopeWeight_ * tilted + over;
+  }
+  float gradient(Index v, int a) const {
+    float sum = 0, tilted = 0, over = 0;
+    for (Index p = columns_.start[v]; p < columns_.start[v + 1]; ++p) {
+      const Index u = columns_.vertex[p];
+      const auto& weight = columns_.weight[p];
+      sum += slope(squareAt(u)) * error_[a][u] * weight[0];
+      for (int side = 0; side < 2; ++side) {
+        const Slopes::Tangent& t = slopes_.at[u][side];
+        const float change = weight[1 + side] * t.perLength;
+        tilted += change * t.lean * t.normal[a];
+        if (t.strain() > kMostStrain) over += change * t.error[a];
+      }
+    }
+    return 2 * (sum * perSquare_ + slopeWeight_ * tilted + kOverturn * over) * step_;
   }
   void move(Index v, int a, std::int32_t d) {
     (*q_)[v][a] += d;
     const float x = static_cast<float>(d) * step_;
+    for (Index p = columns_.start[v]; p < columns_.start[v + 1]; ++p) {
+      const Index u = columns_.vertex[p];
+      const auto& weight = columns_.weight[p];
+      error_[a][u] += x * weight[0];
+      touched_[u] = sweep_;
+      for (int side = 0; side < 2; ++side) {
+        Slopes::Tangent& t = slopes_.at[u][side];
+        const float change = x * weight[1 + side] * t.perLength;
+        t.error[a] += change;
+        t.lean += change * t.normal[a];
+      }
+    }
+  }
+
+  // Whether anything that a coefficient moves has moved in this sweep or the last.
+  bool isTouched(Index v) const {
+    if (sweep_ == 0) return true;
     for (Index p = columns_.start[v]; p < columns_.start[v + 1]; ++p)
-      error_[a][columns_.vertex[p]] += x * columns_.weight[p];
+      if (touched_[columns_.vertex[p]] >= sweep_ - 1) return true;
+    return false;
   }
 
   bool improve(Index v, int a) {
     const Hierarchy::Image image = follower(v);
     const int sign = signFor(image, a);
+    if (!isTouched(v) && (image.vector < 0 || !isTouched(image.vector))) return false;
     const std::int32_t before = (*q_)[v][a] - expected(v, a);
     std::array<std::int32_t, 3> tries{};
     int count = 0;
@@ -342,23 +427,27 @@ class PoseQuantiser {
   const Columns& columns_;
   const std::vector<Index>& siteOf_;
   int axis_;
-  float step_, perSquare_;
+  float step_, perSquare_, slopeWeight_;
   Symmetry symmetry_;
+  Slopes slopes_;
   Coefficients* q_ = nullptr;
   const Coefficients* expected_ = nullptr;
   std::array<std::vector<float>, 3> error_;
   std::vector<int> inSite_, inVector_;
   std::vector<char> wanted_;  // [S]
+  std::vector<int> touched_;  // [vertices] the sweep in which it moved last
+  int sweep_ = 0;
   float beyond_ = kBeyond;
 };
 
 class Quantiser {
  public:
-  Quantiser(Rig& rig, const MeshRig& source, double tolerance,
+  Quantiser(Rig& rig, const MeshRig& source, double tolerance, double angle,
             const std::function<bool(double)>& proceed)
       : rig_(rig),
         source_(source),
         tolerance_(tolerance),
+        angle_(angle),
         proceed_(proceed),
         grid_(rig.surface, 1) {
     rig.packing = {};
@@ -379,6 +468,7 @@ class Quantiser {
   Result<void> run() {
     const auto poses = static_cast<Index>(rig_.packing.poses.size());
     poses_.resize(poses);
+    fittedNeutral_ = rig_.neutral;
     gather();
     neutralErrors_.assign(grid_.vertexCount(), Vec3{});
     // The neutral may spend more where the fit needs more.
@@ -386,6 +476,9 @@ class Quantiser {
       if (settle(0, share * tolerance_)) break;
     if (!settled_) return failed(0);
     neutralErrors_ = errorsOf(0, poses_[0]);
+    neutralOff_ = rig_.neutral;
+    for (std::size_t v = 0; v < neutralOff_.size(); ++v) neutralOff_[v] -= fittedNeutral_[v];
+    neutralOff_ = settled(std::move(neutralOff_));
     // Images first: what is compared with them needs them.
     std::vector<char> done(poses, 0);
     std::atomic<Index> bad = -1, count = 0;
@@ -437,6 +530,52 @@ class Quantiser {
     }
     return errors;
   }
+  // The neutral's errors are in every pose, those of a target only where it moves.
+  double slopeWeight(Index pose) const {
+    const double limit = angle_ * std::numbers::pi / 180;
+    return (pose == 0 ? kNeutralBits : kTargetBits) / (limit * limit);
+  }
+
+  std::vector<Vec3> settled(std::vector<Vec3> stored) const {
+    const std::size_t count = stored.size();
+    stored.resize(rig_.surface.vectorCount());
+    rig_.surface.settle(std::span(stored).first(count), stored);
+    return stored;
+  }
+
+  Slopes slopesOf(Index pose, const Coefficients& q, const std::vector<Vec3>& fitted) const {
+    std::vector<Vec3> off(q.size()), form = fitted;
+    lattice_->restore(q, codec::stepOf(rig_.packing, pose), off);
+    for (std::size_t v = 0; v < q.size(); ++v) off[v] -= fitted[v];
+    if (pose > 0)
+      for (std::size_t v = 0; v < q.size(); ++v) form[v] += fittedNeutral_[v];
+    off = settled(std::move(off));
+    form = settled(std::move(form));
+    Slopes slopes;
+    slopes.at.resize(grid_.vertexCount());
+    for (Index v = 0; v < grid_.vertexCount(); ++v) {
+      const Site site = grid_.site(v);
+      const std::array<Vec3, 2> tangent{rig_.surface.evaluate(form, site, 1, 0),
+                                        rig_.surface.evaluate(form, site, 0, 1)};
+      const Vec3 across = cross(tangent[0], tangent[1]);
+      const double area = norm(across), product = norm(tangent[0]) * norm(tangent[1]);
+      if (!known_[v] || !(area > 0.02 * product)) continue;  // a pole, or nothing that has a side
+      const Vec3 n = across * (1 / area);
+      for (int d = 0; d < 2; ++d) {
+        const double perLength = 1 / norm(tangent[d]);
+        const Vec3 own = perLength * rig_.surface.evaluate(off, site, d == 0, d == 1);
+        Vec3 error = own;
+        if (pose > 0) error += perLength * rig_.surface.evaluate(neutralOff_, site, d == 0, d == 1);
+        slopes.at[v][d] = {
+            {static_cast<float>(error.x), static_cast<float>(error.y), static_cast<float>(error.z)},
+            static_cast<float>(dot(n, own)),
+            {static_cast<float>(n.x), static_cast<float>(n.y), static_cast<float>(n.z)},
+            static_cast<float>(perLength)};
+      }
+    }
+    return slopes;
+  }
+
   static double largest(const std::vector<Vec3>& errors) {
     double most = 0;
     for (const Vec3& e : errors) most = std::max(most, norm(e));
@@ -451,21 +590,23 @@ class Quantiser {
                               : form.image == pose ? Symmetry::self
                                                    : Symmetry::partner;
     const std::vector<Vec3> fitted = vectorsOf(pose);
+    // From its image, then from itself, then in ever finer steps.
     bool met = false;
-    for (form.finer = 0; form.finer <= kMostFiner && !met; ++form.finer) {
+    const int first = symmetry == Symmetry::none ? 0 : -1;
+    for (int attempt = first; attempt <= kMostFiner && !met; ++attempt) {
+      form.finer = std::max(0, attempt);
       const double step = codec::stepOf(rig_.packing, pose);
       Coefficients expected;
       if (symmetry == Symmetry::partner)
         expected = lattice_->image(codec::inFinerSteps(
             poses_[form.image], form.finer - rig_.packing.poses[form.image].finer));
       Coefficients q = lattice_->round(fitted, step);
-      if (form.finer < 3) symmetrise(q, symmetry, expected);
-      PoseQuantiser quantiser(*lattice_, columns_, siteOf_, step, 0.995 * bound, symmetry);
-      quantiser.run(q, errorsOf(pose, q), expected);
+      if (attempt < 0) symmetrise(q, symmetry, expected);
+      PoseQuantiser quantiser(*lattice_, columns_, siteOf_, step, 0.995 * bound, slopeWeight(pose),
+                              symmetry);
+      quantiser.run(q, errorsOf(pose, q), slopesOf(pose, q, fitted), expected);
       met = largest(errorsOf(pose, q)) <= bound;
-      if (!met && form.finer < kMostFiner) continue;
-      poses_[pose] = std::move(q);
-      break;
+      if (met) poses_[pose] = std::move(q);
     }
     if (!met) return false;
     if (pose == 0) settled_ = true;
@@ -496,7 +637,7 @@ class Quantiser {
 
   Rig& rig_;
   const MeshRig& source_;
-  double tolerance_;
+  double tolerance_, angle_;
   const std::function<bool(double)>& proceed_;
   Tessellation grid_;
   std::optional<Lattice> lattice_;
@@ -505,15 +646,16 @@ class Quantiser {
   std::vector<Coefficients> poses_;
   std::vector<std::vector<Vec3>> goals_;  // [poses][vertices] the neutral, then differences
   std::vector<char> known_;               // [vertices] that a source vertex stands for
-  std::vector<Vec3> neutralErrors_;
+  std::vector<Vec3> neutralErrors_, fittedNeutral_;
+  std::vector<Vec3> neutralOff_;  // settled: how far the neutral is off the fit
   bool settled_ = false;
 };
 
 }  // namespace
 
-Result<void> quantise(Rig& rig, const MeshRig& source, double tolerance,
+Result<void> quantise(Rig& rig, const MeshRig& source, double tolerance, double angle,
                       const std::function<bool(double)>& proceed) {
-  return Quantiser(rig, source, tolerance, proceed).run();
+  return Quantiser(rig, source, tolerance, angle, proceed).run();
 }
 
 }  // namespace sweepface

@@ -8,8 +8,11 @@
 
 namespace sweepface {
 
-Layout::Layout(const GridMesh& mesh, std::span<const Vec3> positions)
-    : mesh_(mesh), mirror_(findMirror(mesh, positions)), mark_(mesh.twin.size(), 0) {
+Layout::Layout(const GridMesh& mesh, std::span<const Vec3> positions, bool symmetric)
+    : mesh_(mesh),
+      mirror_(symmetric ? findMirror(mesh, positions)
+                        : std::vector<HalfEdge>(mesh.twin.size(), -1)),
+      mark_(mesh.twin.size(), 0) {
   buildRings();
   for (HalfEdge h = 0; h < static_cast<HalfEdge>(mesh_.twin.size()); ++h)
     if (mesh_.twin[h] < 0) setMark(h);

@@ -23,7 +23,8 @@ class Layout {
  public:
   /// Marks the boundary and traces edge loops from every irregular vertex until they meet (the
   /// motorcycle graph of Eppstein et al. 2008, with chord lengths for time), then cuts rings open.
-  Layout(const GridMesh& mesh, std::span<const Vec3> positions);
+  /// Lines are traced alike on both sides of a mesh that is its own mirror image where `symmetric`.
+  Layout(const GridMesh& mesh, std::span<const Vec3> positions, bool symmetric = false);
 
   const GridMesh& mesh() const { return mesh_; }
   /// Reads the patches off the marks. Fails if a region is not four-sided.

@@ -22,11 +22,26 @@ namespace {
 
 using namespace sweepface::testing;
 
-/// Rigs made by hand, and faces of every sort as they come from the converter.
+/// Faces as they come from the converter: smooth, with poles and irregular vertices, in two parts.
+const std::vector<Rig>& convertedRigs() {
+  static const std::vector<Rig> rigs = [] {
+    ConvertOptions options;
+    options.tolerance = 0.05;
+    options.chooseShapes = false;
+    std::vector<Rig> list;
+    for (const MeshRig& mesh : {withTargets(plane()), withTargets(cubeSphere(4)),
+                                withTargets(uvSphere(8, 6)), withTargets(pinwheel(5, 3))})
+      list.push_back(convert(mesh, options).value().rig);
+    return list;
+  }();
+  return rigs;
+}
+
+/// These and rigs made by hand.
 const std::vector<Rig>& everyRig() {
   static const std::vector<Rig> rigs = [] {
     std::vector<Rig> list = someRigs();
-    for (const Face& face : everyFace()) list.push_back(convert(face.rig).value().rig);
+    list.insert(list.end(), convertedRigs().begin(), convertedRigs().end());
     return list;
   }();
   return rigs;
@@ -132,8 +147,7 @@ TEST(Evaluator, playsTheNeutralInSinglePrecision) {
 double mostTurn(double error, double sine) { return error * (2 + error) / sine; }
 
 TEST(Evaluator, hasTheSurfacesOwnNormals) {
-  for (const Face& face : everyFace()) {
-    const Rig rig = convert(face.rig).value().rig;
+  for (const Rig& rig : convertedRigs()) {
     for (const Index level : {0, 2}) {
       const auto evaluator =
           Evaluator::make(rig, {.level = level, .derivativeTolerance = 1e-3}).value();
@@ -145,14 +159,13 @@ TEST(Evaluator, hasTheSurfacesOwnNormals) {
       double squares = 0;
       for (std::size_t v = 0; v < wanted.size(); ++v) {
         const Vec3 n = vectorOf(played.normals, v);
-        EXPECT_NEAR(norm(n), 1, 1e-6);
-        EXPECT_NEAR(norm(vectorOf(played.tangents, v)), 1, 1e-6);
+        EXPECT_NEAR(norm(n), 1, 1e-5);
+        EXPECT_NEAR(norm(vectorOf(played.tangents, v)), 1, 1e-5);
         EXPECT_NEAR(dot(n, vectorOf(played.tangents, v)), 0, 1e-5);
-        EXPECT_LE(norm(n - wanted[v]), mostTurn(evaluator.derivativeBound(weights), 0.05))
-            << face.name << " vertex " << v;
+        EXPECT_LE(norm(n - wanted[v]), mostTurn(evaluator.derivativeBound(weights), 0.05)) << v;
         squares += std::pow(angleDegrees(n, wanted[v]), 2);
       }
-      EXPECT_LE(std::sqrt(squares / static_cast<double>(wanted.size())), 0.2) << face.name;
+      EXPECT_LE(std::sqrt(squares / static_cast<double>(wanted.size())), 0.2);
     }
   }
 }
@@ -163,7 +176,7 @@ TEST(Evaluator, playsLooseVerticesWhichLookAlongZ) {
   const std::size_t last = rig.source.gridVertex.size() - 1;
   const auto played = play(evaluator, {0.5, 1, 0});
   EXPECT_LE(norm(vectorOf(played.positions, last) - Vec3{4.75, 5, 6}), 1e-3);
-  EXPECT_LE(norm(vectorOf(played.normals, last) - Vec3{0, 0, 1}), 1e-6);
+  EXPECT_LE(norm(vectorOf(played.normals, last) - Vec3{0, 0, 1}), 1e-5);
 }
 
 TEST(Evaluator, blendsEachRegionByItsOwnWeights) {
@@ -194,7 +207,7 @@ TEST(Evaluator, blendsEachRegionByItsOwnWeights) {
 
 /// A face of enough tiles to go round.
 const Rig& largeRig() {
-  static const Rig rig = convert(withTargets(cubeSphere(12), 7)).value().rig;
+  static const Rig rig = makeRig(onePatch(17, 13));
   return rig;
 }
 
@@ -203,6 +216,18 @@ TEST(Evaluator, givesTheSameInParts) {
   const auto weights = anyWeights(evaluator, 1);
   for (const Index parts : {2, 3, 7, 1000})
     EXPECT_EQ(play(evaluator, weights, parts), play(evaluator, weights));
+}
+
+TEST(Evaluator, givesTheSameFromAColdCache) {
+  const auto evaluator = Evaluator::make(largeRig()).value();
+  const auto weights = anyWeights(evaluator, 1);
+  const Index count = evaluator.vertexCount();
+  std::vector<float> positions(3 * count);
+  std::vector<std::byte> scratch(evaluator.scratchBytes());
+  Evaluation job{&evaluator, weights, scratch, {positions.data(), count}, {}, {}};
+  job.cold = true;
+  job.run();
+  EXPECT_EQ(positions, play(evaluator, weights).positions);
 }
 
 TEST(Evaluator, mayBeUsedByManyThreads) {
@@ -263,7 +288,7 @@ TEST(Evaluator, writesAtAnyStrideAndNothingBesides) {
 TEST(Evaluator, fillsExactlyItsVertices) {
   // One vertex more or fewer than tiles and vectors hold; the sanitizer watches the ends.
   for (const Index n : {1, 2, 3, 4, 5, 6, 7, 10, 11}) {
-    const Rig rig = convert(withTargets(plane(n, 2))).value().rig;
+    const Rig rig = makeRig(onePatch(n, 2));
     for (const Index level : {1, 2}) {
       const auto evaluator = Evaluator::make(rig, {.level = level}).value();
       const auto weights = anyWeights(evaluator, 4);
@@ -413,7 +438,7 @@ TEST(Kernels, giveTheSameBitsOnEveryInstructionSet) {
   }
 }
 
-TEST(Evaluator, playsARealHead) {
+TEST(LongEvaluator, playsARealHead) {
   SKIP_WITHOUT_REAL_FACES();
   const std::string folder = realFaces() + "/ictface/head/";
   const std::filesystem::path expressions[] = {folder + "expressions"};

@@ -1,7 +1,7 @@
 import assert from 'node:assert/strict';
 import {readFileSync} from 'node:fs';
 import test from 'node:test';
-import {exported, sample} from './native.js';
+import {difference, played, sample} from './native.js';
 
 const three = await import('three').catch(() => undefined);
 const options = {skip: three ? false : 'three is not installed; try npm ci'};
@@ -19,8 +19,8 @@ test('a mesh follows its weights when it is updated', options, async () => {
   mesh.update();
   assert.ok(position.version > version);
   assert.ok(normal.version > 0);
-  const native = exported(sample, {jawOpen: 0.7}, 0).positions;
-  native.forEach((x, k) => assert.ok(Math.abs(Math.fround(x) - position.array[k]) <= 1e-6));
+  const native = played(sample, mesh.face.weights, 0);
+  assert.ok(difference(native.positions, position.array).most <= native.error);
 });
 
 test('an update costs nothing where nothing moves', options, async () => {
@@ -58,7 +58,7 @@ test('normals are of unit length and point outwards', options, async () => {
   let outward = 0;
   for (let v = 0; v < position.count; ++v) {
     n.fromBufferAttribute(normal, v);
-    assert.ok(Math.abs(n.length() - 1) < 1e-6);
+    assert.ok(Math.abs(n.length() - 1) < 1e-5);
     outward += n.dot(p.fromBufferAttribute(position, v).sub(centre)) > 0;
   }
   assert.ok(outward > 0.9 * position.count);

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "sweepface/rig.hpp"
+
+namespace sweepface {
+
+/// What a file can do without.
+struct Strip {
+  bool order = false;   ///< the source's order of vertices and faces
+  bool uv = false;      ///< texture coordinates
+  bool groups = false;  ///< groups, materials and their files
+  bool scene = false;   ///< what the source's scene held besides the face
+};
+
+/// Parses "uv,order". The error names what there is.
+Result<Strip> parseStrip(std::string_view text);
+
+/// Leaves parts out. Without the source's order, vertices are those of the tessellation at level 1
+/// in its order (vertices of no face are gone), and faces come as the patches' quads do. Fails
+/// where a face has a corner that is on no patch.
+Result<void> strip(Rig& rig, const Strip& parts);
+
+}  // namespace sweepface

@@ -1,0 +1,58 @@
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "sweepface/codec.hpp"
+#include "sweepface/fit.hpp"
+
+namespace sweepface {
+
+namespace {
+
+constexpr int kMostTries = 10, kMostHalvings = 4;
+constexpr double kCloseEnough = 0.98;  // of the bytes
+
+struct Try {
+  double tolerance = 0;
+  std::size_t bytes = 0;
+};
+
+}  // namespace
+
+// Bytes fall as the tolerance grows, about as its power -0.8: from the first try outwards until one
+// is too large and one fits, then between them.
+Result<Conversion> convertToBytes(const MeshRig& source, ConvertOptions options,
+                                  std::size_t mostBytes, const Strip& left) {
+  options.pack = true;
+  std::optional<Conversion> best;
+  Try fits, tooLarge;
+  if (!(options.tolerance > 0)) options.tolerance = 0.0005 * diagonal(source.neutral);
+  int halvings = 0;
+  for (int attempt = 0; attempt < kMostTries && halvings <= kMostHalvings; ++attempt) {
+    auto conversion = convert(source, options);
+    if (!conversion) return conversion;
+    if (auto stripped = strip(conversion->rig, left); !stripped)
+      return std::unexpected(stripped.error());
+    const Try now{options.tolerance, encode(conversion->rig).size()};
+    if (now.bytes <= mostBytes) {
+      fits = now;
+      best = std::move(*conversion);
+      if (static_cast<double>(now.bytes) > kCloseEnough * static_cast<double>(mostBytes)) break;
+    } else {
+      tooLarge = now;
+    }
+    if (fits.bytes > 0 && tooLarge.bytes > 0) {
+      ++halvings;
+      options.tolerance = std::sqrt(fits.tolerance * tooLarge.tolerance);
+    } else {
+      const double ratio = static_cast<double>(now.bytes) / static_cast<double>(mostBytes);
+      const double factor = std::pow(ratio, 1.25) * (ratio > 1 ? 1.1 : 0.9);
+      options.tolerance *= std::clamp(factor, 0.125, 8.0);
+    }
+  }
+  if (best) return std::move(*best);
+  return fail("the face does not fit into " + std::to_string(mostBytes) +
+              " bytes at any tolerance tried; allow more or strip parts");
+}
+
+}  // namespace sweepface

@@ -1,0 +1,115 @@
+#include "sweepface/strip.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <ranges>
+
+#include "sweepface/eval.hpp"
+
+namespace sweepface {
+
+namespace {
+
+// Where each face goes and which of its corners comes first: as the first quad that it is part of
+// says.
+struct Place {
+  std::size_t quad = SIZE_MAX;
+  Index face = 0, first = 0;
+};
+
+std::vector<Place> placesOf(const SourceMesh& source) {
+  const Polygons& faces = source.polygons;
+  std::vector<Place> places(faces.faceCount());
+  std::vector<Index> faceOf;
+  for (Index f = 0; f < faces.faceCount(); ++f) {
+    places[f].face = f;
+    faceOf.insert(faceOf.end(), faces.faceSize(f), f);
+  }
+  for (std::size_t q = 0; 4 * q + 3 < source.quadCorners.size(); ++q) {
+    const Index corner = source.quadCorners[4 * q];
+    Place& place = places[faceOf[corner]];
+    if (place.quad == SIZE_MAX) place = {q, place.face, corner - faces.faceStart[faceOf[corner]]};
+  }
+  std::ranges::stable_sort(places, {}, &Place::quad);
+  return places;
+}
+
+void reorderFaces(SourceMesh& source) {
+  const Polygons old = source.polygons;
+  const std::vector<Place> places = placesOf(source);
+  Polygons& faces = source.polygons;
+  std::vector<Index> newCorner(old.corners.size());
+  faces.faceStart = {0};
+  faces.corners.clear();
+  faces.cornerTexcoords.clear();
+  std::size_t place = 0;
+  for (const Place& p : places) {
+    const Index size = old.faceSize(p.face);
+    for (Index k = 0; k < size; ++k) {
+      const Index corner = old.faceStart[p.face] + (p.first + k) % size;
+      newCorner[corner] = static_cast<Index>(faces.corners.size());
+      faces.corners.push_back(source.gridVertex[old.corners[corner]]);
+      if (!old.cornerTexcoords.empty())
+        faces.cornerTexcoords.push_back(old.cornerTexcoords[corner]);
+    }
+    faces.faceStart.push_back(static_cast<Index>(faces.corners.size()));
+    if (!old.faceMaterial.empty()) faces.faceMaterial[place] = old.faceMaterial[p.face];
+    if (!old.faceGroup.empty()) faces.faceGroup[place] = old.faceGroup[p.face];
+    ++place;
+  }
+  for (Index& corner : source.quadCorners) corner = newCorner[corner];
+}
+
+Result<void> stripOrder(Rig& rig) {
+  SourceMesh& source = rig.source;
+  for (const Index v : source.polygons.corners)
+    if (source.gridVertex[v] < 0)
+      return fail("a face has a corner that is on no patch; keep the order");
+  reorderFaces(source);
+  source.gridVertex.resize(Tessellation(rig.surface, 1).vertexCount());
+  std::iota(source.gridVertex.begin(), source.gridVertex.end(), 0);
+  source.ownOrder = false;
+  source.loose.clear();
+  for (Target& target : rig.targets) target.looseDifference.clear();
+  return {};
+}
+
+}  // namespace
+
+Result<Strip> parseStrip(std::string_view text) {
+  Strip parts;
+  for (const auto word : text | std::views::split(',')) {
+    const std::string_view name(word.begin(), word.end());
+    if (name == "order")
+      parts.order = true;
+    else if (name == "uv")
+      parts.uv = true;
+    else if (name == "groups")
+      parts.groups = true;
+    else if (name == "scene")
+      parts.scene = true;
+    else
+      return fail("There is no part '" + std::string(name) +
+                  "' to leave out; name some of order, uv, groups and scene, with commas between.");
+  }
+  return parts;
+}
+
+Result<void> strip(Rig& rig, const Strip& parts) {
+  Polygons& faces = rig.source.polygons;
+  if (parts.uv) {
+    faces.texcoords.clear();
+    faces.cornerTexcoords.clear();
+  }
+  if (parts.groups) {
+    faces.materials.clear();
+    faces.faceMaterial.clear();
+    faces.groups.clear();
+    faces.faceGroup.clear();
+    faces.materialFiles.clear();
+  }
+  if (parts.scene) rig.scene.clear();
+  return parts.order ? stripOrder(rig) : Result<void>{};
+}
+
+}  // namespace sweepface

@@ -1,0 +1,81 @@
+#include <nlohmann/json.hpp>
+
+#include "cli/tool.hpp"
+
+namespace sweepface {
+namespace {
+
+using namespace testing;
+using Pack = Tool;
+
+TEST_F(Pack, LeavesPartsOut) {
+  makeRig();
+  ASSERT_EQ(run("convert neutral.obj targets -o face.sweep --tolerance 0.01").code, 0);
+  const Outcome r =
+      run("convert neutral.obj targets -o bare.sweep --tolerance 0.01 --strip order,uv");
+  ASSERT_EQ(r.code, 0) << r.err;
+  const auto whole = nlohmann::json::parse(run("info face.sweep --json").out),
+             bare = nlohmann::json::parse(run("info bare.sweep --json").out);
+  EXPECT_TRUE(whole["parts"].contains("source order"));
+  EXPECT_FALSE(bare["parts"].contains("source order"));
+  EXPECT_FALSE(bare["parts"].contains("texture coordinates"));
+  EXPECT_EQ(bare["bytes"], whole["bareBytes"]);
+  EXPECT_LT(bare["bytes"], whole["bytes"]);
+}
+
+TEST_F(Pack, WithoutItsOrderAFaceStillExportsButSaysSo) {
+  makeRig();
+  ASSERT_EQ(run("convert neutral.obj targets -o bare.sweep --tolerance 0.01 --strip order").code,
+            0);
+  EXPECT_EQ(run("export bare.sweep -o out.obj").code, 0);
+  EXPECT_EQ(mesh("out.obj").positions.size(), mesh("neutral.obj").positions.size());
+  const Outcome r = run("export bare.sweep -o ordered.obj --source-order");
+  EXPECT_EQ(r.code, 1);
+  EXPECT_NE(r.err.find("has no source order"), std::string::npos) << r.err;
+  const Outcome m = run("measure bare.sweep neutral.obj targets");
+  EXPECT_EQ(m.code, 1);
+  EXPECT_NE(m.err.find("no source order"), std::string::npos) << m.err;
+}
+
+TEST_F(Pack, SaysWhichPartsThereAre) {
+  makeRig();
+  const Outcome r = run("convert neutral.obj -o bare.sweep --strip hair");
+  EXPECT_NE(r.code, 0);
+  EXPECT_NE(r.err.find("order, uv, groups and scene"), std::string::npos) << r.err;
+}
+
+TEST_F(Pack, FindsTheToleranceThatFitsIntoSoManyBytes) {
+  makeRig();
+  double before = 1e300;
+  for (const int most : {900, 1500, 3000}) {
+    const Outcome r =
+        run(fmt::format("convert neutral.obj targets -o face.sweep --json --max-bytes {}", most));
+    ASSERT_EQ(r.code, 0) << r.err;
+    const auto report = nlohmann::json::parse(r.out);
+    EXPECT_LE(report["bytes"], most);
+    EXPECT_LE(report["worstDistance"], report["tolerance"]);
+    EXPECT_LE(report["tolerance"], before);
+    before = report["tolerance"];
+  }
+  const Outcome r = run("convert neutral.obj targets -o face.sweep --max-bytes 100");
+  EXPECT_EQ(r.code, 1);
+  EXPECT_NE(r.err.find("does not fit into 100 bytes"), std::string::npos) << r.err;
+}
+
+TEST_F(Pack, BringsNormalsWithinATolerance) {
+  makeRig();
+  const auto rms = [&](const std::string& options) {
+    EXPECT_EQ(run("convert neutral.obj targets -o face.sweep --tolerance 0.05 " + options).code, 0);
+    const auto report = nlohmann::json::parse(
+        run("measure face.sweep neutral.obj targets --mixtures 0 --json").out);
+    double squares = 0;
+    for (const auto& shape : report["shapes"])
+      squares += std::pow(shape["angleRms"].get<double>(), 2);
+    return std::sqrt(squares / static_cast<double>(report["shapes"].size()));
+  };
+  const double usual = rms("");
+  EXPECT_LE(rms(fmt::format("--normal-tolerance {}", 0.7 * usual)), 0.71 * usual);
+}
+
+}  // namespace
+}  // namespace sweepface

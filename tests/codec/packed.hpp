@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cmath>
+
+#include "codec/lattice.hpp"
+#include "codec/rigs.hpp"
+
+namespace sweepface::testing {
+
+/// The rig with its vectors and texture coordinates rounded to steps that a file holds.
+inline Rig packed(Rig rig) {
+  rig.packing.neutralStep = 0.01;
+  rig.packing.targetStep = 0.02;
+  rig.packing.textureBits = 12;
+  rig.packing.poses.resize(rig.targets.size() + 1);
+  const codec::Lattice lattice(rig.surface, rig.packing);
+  for (Index pose = 0; pose < static_cast<Index>(rig.packing.poses.size()); ++pose) {
+    std::vector<Vec3>& vectors = pose == 0 ? rig.neutral : rig.targets[pose - 1].difference;
+    const double step = codec::stepOf(rig.packing, pose);
+    lattice.restore(lattice.round(vectors, step), step, vectors);
+  }
+  for (Vec2& t : rig.source.polygons.texcoords)
+    t = {std::round(t.x * 4096) / 4096, std::round(t.y * 4096) / 4096};
+  return rig;
+}
+
+/// A rig with something of everything that files hold.
+inline Rig everything() {
+  Wireframe wireframe = twoPatches();
+  for (Arc& arc : wireframe.arcs) arc.edges = 2;
+  wireframe.nodes[4].stored = 1 | 1 << 1 | 1 << 3;
+  wireframe.ribbons[1] = {1, -3.0 / 4, 5.0 / 16};
+  Rig rig = withScene(dressed(makeRig(wireframe)));
+  rig.packing.mirror = {{0, 2}};
+  rig.packing.poses = {{0, 0}, {1, -1}, {0, 1}, {0, 3}};
+  rig.names = {"cm", {}, {"brow", "", "", "", "", "", ""}, {}, {}};
+  rig = packed(std::move(rig));
+  rig.targets[1].difference[2].x = 1.0 / 3;  // no multiple of any step
+  return rig;
+}
+
+}  // namespace sweepface::testing

@@ -1,0 +1,213 @@
+#include <gtest/gtest.h>
+#include <random>
+
+#include "codec/files.hpp"
+#include "codec/lattice.hpp"
+#include "codec/rigs.hpp"
+
+namespace sweepface {
+namespace {
+
+using namespace sweepface::testing;
+using codec::Coefficients;
+using codec::Hierarchy;
+using codec::Lattice;
+using codec::stepOf;
+
+Wireframe creased() {
+  Wireframe w = twoPatches();
+  w.arcs[5].crease = true;
+  return w;
+}
+
+/// Wireframes of every sort: grids large and small, T-nodes, poles, creases.
+std::vector<Wireframe> someWireframes() {
+  return {onePatch(1, 1), onePatch(7, 4), twoPatches(), slice(), tee(), fan(3), fan(6), creased()};
+}
+
+std::vector<Surface> someSurfaces() {
+  std::vector<Surface> surfaces;
+  for (Wireframe& w : someWireframes()) surfaces.push_back(Surface::make(std::move(w)).value());
+  return surfaces;
+}
+
+Coefficients anyCoefficients(std::size_t count, unsigned seed) {
+  std::mt19937 random(seed);
+  Coefficients q(count);
+  for (auto& v : q)
+    for (auto& x : v) {
+      const auto r = static_cast<std::int32_t>(random() >> 8);
+      x = r % 3 == 0 ? 0 : r % 7 == 0 ? r % 200001 - 100000 : r % 9 - 4;
+    }
+  return q;
+}
+
+Packing someSteps() {
+  Packing packing;
+  packing.neutralStep = 0.01;
+  packing.targetStep = 0.02;
+  return packing;
+}
+
+TEST(Hierarchy, HasOneStepForEveryVectorOverThoseBefore) {
+  for (const Surface& surface : someSurfaces()) {
+    const Lattice lattice(surface, {});
+    std::vector<char> known(surface.storedCount(), 0);
+    for (const Hierarchy::Step& step : lattice.hierarchy().steps()) {
+      for (const Term& t : lattice.hierarchy().terms(step)) EXPECT_TRUE(known[t.vector]);
+      EXPECT_FALSE(known[step.vector]);
+      known[step.vector] = 1;
+      EXPECT_GT(step.reach, 0);
+    }
+    EXPECT_EQ(std::ranges::count(known, 1), surface.storedCount());
+  }
+}
+
+// What is constant is predicted by itself.
+TEST(Hierarchy, PredictionsAddUpToOneForPositionsAndToNothingForDerivatives) {
+  for (const Surface& surface : someSurfaces()) {
+    const Lattice lattice(surface, {});
+    for (const Hierarchy::Step& step : lattice.hierarchy().steps()) {
+      const StoredVector& s = surface.stored(step.vector);
+      double sum = 0;
+      bool any = false;
+      for (const Term& t : lattice.hierarchy().terms(step)) {
+        any = true;
+        const StoredVector& from = surface.stored(t.vector);
+        if (from.i + from.j == 0) sum += t.factor;
+      }
+      EXPECT_NEAR(sum, any && s.i + s.j == 0 ? 1 : 0, 1e-12);
+    }
+  }
+}
+
+TEST(Lattice, RoundsWhatItRestoresToTheSameCoefficients) {
+  for (const Surface& surface : someSurfaces()) {
+    const Lattice lattice(surface, {});
+    const Coefficients q = anyCoefficients(surface.storedCount(), 3);
+    std::vector<Vec3> vectors(q.size());
+    lattice.restore(q, 0.01, vectors);
+    EXPECT_EQ(lattice.round(vectors, 0.01), q);
+  }
+}
+
+TEST(Lattice, IsNeverMoreThanHalfAStepOff) {
+  for (const Surface& surface : someSurfaces()) {
+    const Lattice lattice(surface, {});
+    std::vector<Vec3> vectors, restored(surface.storedCount());
+    for (Index v = 0; v < surface.storedCount(); ++v) vectors.push_back(anyVector(v));
+    lattice.restore(lattice.round(vectors, 0.25), 0.25, restored);
+    for (const Hierarchy::Step& step : lattice.hierarchy().steps()) {
+      const Vec3 off = restored[step.vector] - vectors[step.vector];
+      for (const double x : {off.x, off.y, off.z})
+        EXPECT_LE(std::abs(x), 0.125 / step.reach + 1e-12);
+    }
+  }
+}
+
+/// A rig all of whose vectors are whole multiples of its steps.
+Rig packed(Wireframe wireframe, unsigned seed = 1) {
+  Rig rig = makeRig(std::move(wireframe));
+  rig.packing = someSteps();
+  rig.packing.poses = {{0, -1}, {0, -1}, {2, -1}, {0, -1}};
+  const Lattice lattice(rig.surface, rig.packing);
+  const std::size_t count = rig.neutral.size();
+  lattice.restore(anyCoefficients(count, seed), stepOf(rig.packing, 0), rig.neutral);
+  for (Index k = 1; k <= 3; ++k)
+    lattice.restore(k == 3 ? Coefficients(count) : anyCoefficients(count, seed + k),
+                    stepOf(rig.packing, k), rig.targets[k - 1].difference);
+  return rig;
+}
+
+bool hasChunk(const std::string& bytes, std::string_view code) {
+  for (const FileChunk& chunk : takeApart(bytes))
+    if (chunk.code == code) return true;
+  return false;
+}
+
+TEST(Packing, VectorsOnTheLatticeComeBackBitForBitWithoutBeingHeldAsTheyAre) {
+  for (const Wireframe& w : someWireframes()) {
+    const Rig rig = packed(w);
+    const std::string bytes = encode(rig);
+    const auto back = decode(bytes, "a.sweep");
+    ASSERT_TRUE(back) << back.error().message;
+    expectEqual(*back, rig);
+    EXPECT_EQ(back->packing, rig.packing);
+    EXPECT_FALSE(hasChunk(bytes, "EXAC"));
+    EXPECT_EQ(encode(*back), bytes);
+  }
+}
+
+TEST(Packing, WhatLeavesTheLatticeIsHeldExactlyAndTheRestStays) {
+  Rig rig = packed(onePatch(7, 4));
+  const std::size_t before = encode(rig).size();
+  rig.neutral[5] = {1.0 / 3, -0.0, 1e-300};
+  rig.targets[1].difference[7].y += 1e-9;
+  const std::string bytes = encode(rig);
+  EXPECT_TRUE(hasChunk(bytes, "EXAC"));
+  EXPECT_LE(bytes.size(), before + 150);
+  const Rig back = decode(bytes, "a.sweep").value();
+  expectEqual(back, rig);
+  EXPECT_TRUE(std::signbit(back.neutral[5].y));
+  EXPECT_EQ(encode(back), bytes);
+}
+
+TEST(Packing, FormsThatCannotBeAreMadeSound) {
+  Rig rig = packed(tee());
+  rig.packing.poses = {{-3, 7}, {99, 0}, {0, 2}};
+  rig.packing.axis = 9;
+  const std::string bytes = encode(rig);
+  const auto back = decode(bytes, "a.sweep");
+  ASSERT_TRUE(back) << back.error().message;
+  expectEqual(*back, rig);
+  EXPECT_EQ(encode(*back), bytes);
+}
+
+// Two patches side by side, mirrored at the arc between them.
+TEST(Packing, AMirroredHalfCostsHardlyAnything) {
+  Wireframe w = twoPatches();
+  for (Arc& arc : w.arcs) arc.edges = 2;
+  Rig rig = makeRig(w);
+  rig.targets.clear();
+  rig.packing = someSteps();
+  rig.packing.mirror = {{0, 2}};  // 0 to 1 and 2 to 1, each with its patch on the left
+  const Lattice lattice(rig.surface, rig.packing);
+  Coefficients q = anyCoefficients(rig.neutral.size(), 5);
+  const auto& images = lattice.hierarchy().images();
+  for (std::size_t v = 0; v < q.size(); ++v) {
+    ASSERT_GE(images[v].vector, 0);
+    const int sign = images[v].sign;
+    for (int a = 0; a < 3; ++a) {
+      const int turned = a == 0 ? -sign : sign;
+      if (images[v].vector == static_cast<Index>(v) && turned < 0) q[v][a] = 0;
+      if (images[v].vector > static_cast<Index>(v)) q[images[v].vector][a] = turned * q[v][a];
+    }
+  }
+  lattice.restore(q, 0.01, rig.neutral);
+  rig.packing.poses = {{0, 0}};
+  const std::size_t mirrored = encode(rig).size();
+  expectEqual(decode(encode(rig), "a.sweep").value(), rig);
+  rig.packing.poses = {{0, -1}};
+  EXPECT_LT(mirrored, encode(rig).size());
+}
+
+TEST(Packing, AWireframeInAnyNumberingComesBackAsItIs) {
+  std::mt19937 random(11);
+  for (const Wireframe& w : someWireframes()) {
+    Wireframe other = w;
+    std::vector<Index> arcs(w.arcs.size());
+    for (std::size_t k = 0; k < arcs.size(); ++k) arcs[k] = static_cast<Index>(k);
+    std::ranges::shuffle(arcs, random);
+    for (std::size_t k = 0; k < arcs.size(); ++k) other.arcs[arcs[k]] = w.arcs[k];
+    for (HalfArc& h : other.loops) h = 2 * arcs[arcOf(h)] + (h & 1);
+    Rig rig;
+    rig.surface = Surface::make(other).value();
+    rig.neutral.resize(rig.surface.storedCount());
+    const auto back = decode(encode(rig), "a.sweep");
+    ASSERT_TRUE(back) << back.error().message;
+    EXPECT_EQ(back->surface.wireframe(), other);
+  }
+}
+
+}  // namespace
+}  // namespace sweepface

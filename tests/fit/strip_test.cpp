@@ -1,0 +1,103 @@
+#include "sweepface/strip.hpp"
+
+#include <gtest/gtest.h>
+
+#include "sweepface/codec.hpp"
+#include "sweepface/eval.hpp"
+#include "sweepface/fit.hpp"
+
+#include "faces.hpp"
+
+namespace sweepface {
+namespace {
+
+using namespace sweepface::testing;
+
+class EveryStrip : public ::testing::TestWithParam<Face> {};
+INSTANTIATE_TEST_SUITE_P(Strip, EveryStrip, eachFace(), faceName);
+
+/// The corners of all faces as points, each face from its least corner on, in any order of faces.
+std::vector<std::vector<std::array<double, 3>>> facesInSpace(const Rig& rig) {
+  const Tessellation grid(rig.surface, 1);
+  const Weights still(rig.targets.size(), 0.0);
+  const auto positions = sourcePositions(rig, grid, blend(rig, still), still);
+  std::vector<std::vector<std::array<double, 3>>> faces;
+  const Polygons& p = rig.source.polygons;
+  for (Index f = 0; f < p.faceCount(); ++f) {
+    std::vector<std::array<double, 3>> face;
+    for (Index c = p.faceStart[f]; c < p.faceStart[f + 1]; ++c) {
+      const Vec3& x = positions[p.corners[c]];
+      face.push_back({x.x, x.y, x.z});
+    }
+    std::ranges::rotate(face, std::ranges::min_element(face));
+    faces.push_back(face);
+  }
+  std::ranges::sort(faces);
+  return faces;
+}
+
+TEST_P(EveryStrip, WithoutItsOrderTheFaceIsTheSameAndItsPolygonsCostHardlyAnything) {
+  const Rig rig = convert(GetParam().rig).value().rig;
+  Rig bare = rig;
+  ASSERT_TRUE(strip(bare, {.order = true}));
+  const Rig back = decode(encode(bare), "face").value();
+  EXPECT_FALSE(back.source.ownOrder);
+  EXPECT_TRUE(rig.source.ownOrder);
+  EXPECT_EQ(facesInSpace(back), facesInSpace(rig));
+  EXPECT_EQ(encode(back), encode(bare));
+  std::size_t order = 0, polygons = 0;
+  const auto parts = fileParts(encode(bare), "face").value();
+  for (const FilePart& part : parts)
+    (part.name == "polygons" ? polygons : order) += part.name == "source order" ? part.bytes
+                                                    : part.name == "polygons"   ? part.bytes
+                                                                                : 0;
+  EXPECT_EQ(order, 0u);
+  const auto faces = static_cast<std::size_t>(rig.source.polygons.faceCount());
+  EXPECT_LE(polygons, 40 + faces / 4);
+}
+
+TEST(Strip, LeavesOutWhatItIsAskedTo) {
+  Rig rig = convert(withTargets(plane())).value().rig;
+  Polygons& faces = rig.source.polygons;
+  faces.texcoords = {{0, 0}};
+  faces.cornerTexcoords.assign(faces.corners.size(), 0);
+  faces.materials = {"skin"};
+  faces.faceMaterial.assign(faces.faceCount(), 0);
+  rig.scene = "scene";
+  Rig bare = rig;
+  ASSERT_TRUE(strip(bare, parseStrip("uv,groups,scene").value()));
+  EXPECT_TRUE(bare.source.polygons.texcoords.empty());
+  EXPECT_TRUE(bare.source.polygons.cornerTexcoords.empty());
+  EXPECT_TRUE(bare.source.polygons.materials.empty());
+  EXPECT_TRUE(bare.scene.empty());
+  EXPECT_EQ(bare.source.gridVertex, rig.source.gridVertex);
+}
+
+TEST(Strip, KeepsMaterialsAndTextureCoordinatesWithTheirFaces) {
+  Rig rig = convert(withTargets(plane())).value().rig;
+  Polygons& faces = rig.source.polygons;
+  faces.materials = {"a", "b"};
+  for (Index f = 0; f < faces.faceCount(); ++f) faces.faceMaterial.push_back(f % 2);
+  for (std::size_t c = 0; c < faces.corners.size(); ++c) {
+    faces.texcoords.push_back({static_cast<double>(rig.source.gridVertex[faces.corners[c]]), 0});
+    faces.cornerTexcoords.push_back(static_cast<Index>(c));
+  }
+  Rig bare = rig;
+  ASSERT_TRUE(strip(bare, {.order = true}));
+  const Polygons& after = bare.source.polygons;
+  for (std::size_t c = 0; c < after.corners.size(); ++c)
+    EXPECT_EQ(after.texcoords[after.cornerTexcoords[c]].x, after.corners[c]);
+  EXPECT_EQ(std::ranges::count(after.faceMaterial, 1), std::ranges::count(faces.faceMaterial, 1));
+}
+
+TEST(Strip, NamesOnlyPartsThatThereAre) {
+  EXPECT_TRUE(parseStrip("order,uv,groups,scene"));
+  for (const char* text : {"hair", "uv,", "uv order", "UV"}) {
+    const auto parts = parseStrip(text);
+    ASSERT_FALSE(parts) << text;
+    EXPECT_NE(parts.error().message.find("order, uv, groups and scene"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace sweepface
