@@ -6,9 +6,9 @@
 
 #include "sweepface/codec.hpp"
 #include "sweepface/fit.hpp"
+#include "sweepface/plot.hpp"
 
 #include "report/maker.hpp"
-#include "sweepface/plot.hpp"
 
 namespace sweepface {
 

@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 
 #include "sweepface/motion.hpp"
+#include "sweepface/plot.hpp"
 
 #include "report/maker.hpp"
-#include "sweepface/plot.hpp"
 #include "report/shape_study.hpp"
 
 namespace sweepface {

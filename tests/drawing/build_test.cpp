@@ -1,7 +1,7 @@
-#include "drawing/drawings.hpp"
-
 #include <algorithm>
 #include <cmath>
+
+#include "drawing/drawings.hpp"
 
 namespace sweepface {
 namespace {
@@ -71,7 +71,8 @@ TEST(Controls, giveTheSurfaceItsDerivativesAcross) {
   }
   drawing["controls"] = {control};
   const Rig rig = made(drawing);
-  const auto expected = derivativesFromControls({}, {0, 0.5, 0.1}, {0, 1.4, 0.6}, {0.1, 0.3}).value();
+  const auto expected =
+      derivativesFromControls({}, {0, 0.5, 0.1}, {0, 1.4, 0.6}, {0.1, 0.3}).value();
   for (double u : {0.0, 2.0, 5.0, 8.0}) {
     const auto pose = neutralPose(rig);
     const Vec3 first = rig.surface.evaluate(pose, {0, u, 0}, 0, 1) * 5.0;
@@ -85,13 +86,16 @@ TEST(Controls, standWhereTheirMeanDistancesSay) {
   Json spaced = vase();
   for (Json& control : spaced["controls"]) {
     const bool foot = control["beside"].get<std::string>().starts_with("foot");
-    // The seams are straight: |(0, 10, 0.5)|. A step out of the foot is |(0, 1, 1)|, then |(0, 1, 0.6)|.
+    // The seams are straight: |(0, 10, 0.5)|. A step out of the foot is |(0, 1, 1)|, then |(0, 1,
+    // 0.6)|.
     const double length = std::hypot(10, 0.5);
-    const double first = foot ? std::hypot(1, 1) : std::hypot(1, 0.7), second = foot ? std::hypot(1, 0.6) : std::hypot(1, 0.2);
+    const double first = foot ? std::hypot(1, 1) : std::hypot(1, 0.7),
+                 second = foot ? std::hypot(1, 0.6) : std::hypot(1, 0.2);
     control["spacing"] = {first / length, (first + second) / length};
   }
   const Rig a = made(vase()), b = made(spaced);
-  for (Index v = 0; v < a.surface.storedCount(); ++v) EXPECT_LT(norm(a.neutral[v] - b.neutral[v]), 2e-3);
+  for (Index v = 0; v < a.surface.storedCount(); ++v)
+    EXPECT_LT(norm(a.neutral[v] - b.neutral[v]), 2e-3);
 }
 
 TEST(Points, areWhereTheCurveGoes) {
@@ -105,7 +109,8 @@ TEST(Points, areWhereTheCurveGoes) {
 
 TEST(Points, tooManyForACurveAreMissedAndTheMissIsTold) {
   Json drawing = square();
-  for (int k = 1; k < 20; ++k) drawing["curves"][2]["points"].push_back({0.2 * k, 4, k % 2 ? 0.3 : -0.3});
+  for (int k = 1; k < 20; ++k)
+    drawing["curves"][2]["points"].push_back({0.2 * k, 4, k % 2 ? 0.3 : -0.3});
   const auto built = buildJson(drawing);
   ASSERT_TRUE(built);
   EXPECT_GT(built->largestMiss, 0.2);
@@ -120,7 +125,8 @@ TEST(WhatNobodySays, bendsLeast) {
   const Rig rig = made(square());
   for (double u : {0.5, 3.0, 7.5})
     for (double v : {1.0, 4.5}) {
-      EXPECT_LT(norm(rig.surface.evaluate(neutralPose(rig), {0, u, v}) - Vec3{u / 2, v / 2, 0}), 1e-9);
+      EXPECT_LT(norm(rig.surface.evaluate(neutralPose(rig), {0, u, v}) - Vec3{u / 2, v / 2, 0}),
+                1e-9);
     }
 }
 
@@ -154,7 +160,13 @@ Json withTNode() {
   for (const auto& [name, x] : {std::pair{"f", 0.0}, {"g", 4.0 / 3}, {"h", 4.0}})
     drawing["nodes"].push_back({{"name", name}, {"at", {x, 8, 0}}});
   drawing["curves"].erase(2);
-  for (const auto& [from, to] : {std::pair{"d", "e"}, {"e", "c"}, {"f", "g"}, {"g", "h"}, {"d", "f"}, {"e", "g"}, {"c", "h"}})
+  for (const auto& [from, to] : {std::pair{"d", "e"},
+                                 {"e", "c"},
+                                 {"f", "g"},
+                                 {"g", "h"},
+                                 {"d", "f"},
+                                 {"e", "g"},
+                                 {"c", "h"}})
     drawing["curves"].push_back({{"name", std::string(from) + to}, {"from", from}, {"to", to}});
   drawing["patches"] = Json::parse(R"([{"sides": ["ab", "bc", ["-ec", "-de"], "da"]},
       {"sides": ["de", "eg", "-fg", "-df"]}, {"sides": ["ec", "ch", "-gh", "-eg"]}])");
@@ -169,7 +181,8 @@ TEST(TNodes, standOnTheSidesTheyDivide) {
   EXPECT_EQ(rig.surface.connectivity().kinds[4], NodeKind::hanging);
   EXPECT_EQ(rig.surface.wireframe().arcs[4].edges, 4);
   EXPECT_LT(norm(middleOf(rig, "de", 1) - Vec3{4.0 / 3, 4, 0}), 1e-9);
-  for (const JoinReport& join : examineJoins(rig.surface, neutralPose(rig))) EXPECT_LT(join.positionGap, 1e-12);
+  for (const JoinReport& join : examineJoins(rig.surface, neutralPose(rig)))
+    EXPECT_LT(join.positionGap, 1e-12);
 }
 
 TEST(TNodes, arePassedNearWhereTheyAreDrawn) {
@@ -199,14 +212,16 @@ TEST(Rings, mayBeOnePatchAndOneCurve) {
   const Rig rig = made(drawing);
   EXPECT_EQ(rig.surface.connectivity().kinds, std::vector<NodeKind>(2, NodeKind::crossing));
   EXPECT_LT(largestRadiusError(rig, 0, 2), 0.2);  // one quintic is no good circle
-  for (const JoinReport& join : examineJoins(rig.surface, neutralPose(rig))) EXPECT_LT(join.secondJump, 1e-12);
+  for (const JoinReport& join : examineJoins(rig.surface, neutralPose(rig)))
+    EXPECT_LT(join.secondJump, 1e-12);
   EXPECT_EQ(rig.source.polygons.faceCount(), rig.surface.edgesU(0) * rig.surface.edgesV(0));
   EXPECT_GE(rig.surface.edgesV(0), 3);
 }
 
 /// A cone of three slices whose tip is three nodes at one point.
 Json cone() {
-  Json drawing = Json::parse(R"({"format": "sweepface wireframe 1", "nodes": [], "curves": [], "patches": []})");
+  Json drawing = Json::parse(
+      R"({"format": "sweepface wireframe 1", "nodes": [], "curves": [], "patches": []})");
   for (int k = 0; k < 3; ++k) {
     const std::string n = std::to_string(k), next = std::to_string((k + 1) % 3);
     const double a = 2 * M_PI * k / 3, b = 2 * M_PI * (k + 0.5) / 3;
@@ -215,14 +230,19 @@ Json cone() {
     if (k > 0) tip["with"] = "tip0";
     drawing["nodes"].push_back(tip);
     drawing["nodes"].push_back({{"name", "base" + n}, {"at", {std::cos(a), 0, -std::sin(a)}}});
-    drawing["curves"].push_back({{"name", "turn" + n}, {"from", "tip" + n}, {"to", "tip" + next}, {"collapsed", true}});
+    drawing["curves"].push_back(
+        {{"name", "turn" + n}, {"from", "tip" + n}, {"to", "tip" + next}, {"collapsed", true}});
     drawing["curves"].push_back({{"name", "ray" + n}, {"from", "tip" + n}, {"to", "base" + n}});
-    drawing["curves"].push_back({{"name", "arc" + n}, {"from", "base" + n}, {"to", "base" + next},
+    drawing["curves"].push_back({{"name", "arc" + n},
+                                 {"from", "base" + n},
+                                 {"to", "base" + next},
                                  {"points", {{std::cos(b), 0, -std::sin(b)}}}});
-    drawing["patches"].push_back({{"name", "slice" + n}, {"sides", {"-ray" + n, "-turn" + n, "ray" + next, "-arc" + n}}});
+    drawing["patches"].push_back(
+        {{"name", "slice" + n}, {"sides", {"-ray" + n, "-turn" + n, "ray" + next, "-arc" + n}}});
   }
   for (Json& patch : drawing["patches"]) {  // counter-clockwise
-    const std::string n = patch["name"].get<std::string>().substr(5), next = std::to_string((std::stoi(n) + 1) % 3);
+    const std::string n = patch["name"].get<std::string>().substr(5),
+                      next = std::to_string((std::stoi(n) + 1) % 3);
     patch["sides"] = {"ray" + n, "arc" + n, "-ray" + next, "-turn" + n};
   }
   return drawing;
@@ -236,13 +256,16 @@ TEST(Tips, areNodesAtOnePointWithCollapsedCurvesBetween) {
   const Polygons& faces = rig.source.polygons;
   int triangles = 0;
   for (Index f = 0; f < faces.faceCount(); ++f) triangles += faces.faceSize(f) == 3;
-  EXPECT_EQ(triangles, 3 * rig.surface.wireframe().arcs[rig.find(Thing::curve, "arc0").value()].edges);
-  for (const JoinReport& join : examineJoins(rig.surface, neutralPose(rig))) EXPECT_LT(join.positionGap, 1e-12);
+  EXPECT_EQ(triangles,
+            3 * rig.surface.wireframe().arcs[rig.find(Thing::curve, "arc0").value()].edges);
+  for (const JoinReport& join : examineJoins(rig.surface, neutralPose(rig)))
+    EXPECT_LT(join.positionGap, 1e-12);
 }
 
 TEST(Tips, moveAsOne) {
   Json drawing = cone();
-  drawing["expressions"] = Json::parse(R"([{"name": "up", "moves": {"tip0": [0, 1, 0]}}, {"name": "too", "moves": {"tip2": [0, 1, 0]}}])");
+  drawing["expressions"] = Json::parse(
+      R"([{"name": "up", "moves": {"tip0": [0, 1, 0]}}, {"name": "too", "moves": {"tip2": [0, 1, 0]}}])");
   const Rig rig = made(drawing);
   EXPECT_EQ(rig.targets[0].difference, rig.targets[1].difference);
   EXPECT_LT(norm(middleOf(rig, "ray1", 0, {1, 0}) - Vec3{0, 4, 0}), 1e-12);
@@ -253,7 +276,8 @@ TEST(Creases, areSharpWhereTheyAreDeclared) {
   drawing["creases"] = {"seam front", "seam back"};
   for (Json& control : drawing["controls"])  // each half bulges by itself
     for (const char* which : {"second", "third"})
-      for (Json& p : control[which]) p[0] = 1.5 * p[0].get<double>() + (control["in"] == "right" ? 0.5 : -0.5);
+      for (Json& p : control[which])
+        p[0] = 1.5 * p[0].get<double>() + (control["in"] == "right" ? 0.5 : -0.5);
   const Rig rig = made(drawing);
   EXPECT_EQ(rig.surface.connectivity().kinds, std::vector<NodeKind>(4, NodeKind::creased));
   const auto joins = examineJoins(rig.surface, neutralPose(rig));
@@ -272,7 +296,8 @@ TEST(Ribbons, pullAtWhatIsDrawn) {
   const Rig tight = made(drawing);
   EXPECT_EQ(plain.neutral, tight.neutral);
   const Index seam = plain.find(Thing::curve, "seam front").value();
-  EXPECT_EQ(tight.surface.wireframe().ribbons[tight.surface.wireframe().arcs[seam].ribbon], (Shape{1, -1, 0}));
+  EXPECT_EQ(tight.surface.wireframe().ribbons[tight.surface.wireframe().arcs[seam].ribbon],
+            (Shape{1, -1, 0}));
   EXPECT_GT(norm(middleOf(plain, "seam front", 0.4) - middleOf(tight, "seam front", 0.4)), 0.05);
 }
 
@@ -283,7 +308,8 @@ TEST(Ribbons, reachAllCurvesAlongASweepAndNoOthers) {
   };
   EXPECT_EQ(ribbon("seam back"), 0);
   std::set<Index> others;
-  for (const char* curve : {"foot right", "foot left", "rim right", "rim left"}) others.insert(ribbon(curve));
+  for (const char* curve : {"foot right", "foot left", "rim right", "rim left"})
+    others.insert(ribbon(curve));
   EXPECT_EQ(others.size(), 4u);
   EXPECT_FALSE(others.contains(0));
   EXPECT_EQ(rig.nameOf(Thing::ribbon, 0), "body");
@@ -304,7 +330,8 @@ TEST(Expressions, moveSinglePointsOnTop) {
 
 TEST(Expressions, thatMissTheirPointsAreTold) {
   Json drawing = vase();
-  drawing["expressions"][0]["moves"] = Json::parse(R"({"rim right": {"points": [[0, 0, 0], [1, 0, 0], [0, 0, 0]]}})");
+  drawing["expressions"][0]["moves"] =
+      Json::parse(R"({"rim right": {"points": [[0, 0, 0], [1, 0, 0], [0, 0, 0]]}})");
   const auto built = buildJson(drawing);
   ASSERT_TRUE(built);
   EXPECT_GT(built->largestMiss, 0.3);
@@ -337,7 +364,8 @@ TEST(Order, ofPatchesDoesNotTurnAnyJet) {
   for (double u : {0.0, 3.0, 9.0})
     for (double v : {0.0, 2.5, 8.0}) {
       EXPECT_LT(norm(before.surface.evaluate(neutralPose(before), {0, u, v}) -
-                     after.surface.evaluate(neutralPose(after), {1, u, v})), 1e-12);
+                     after.surface.evaluate(neutralPose(after), {1, u, v})),
+                1e-12);
     }
 }
 
@@ -351,7 +379,8 @@ TEST(Order, ofPatchesDoesNotTurnAnyChart) {
       for (double v : {0.0, 2.5, 8.0})
         for (Index p = 0; p < 3; ++p) {
           EXPECT_LT(norm(before.surface.evaluate(neutralPose(before), {(p + 1) % 3, u, v}) -
-                         after.surface.evaluate(neutralPose(after), {p, u, v})), 1e-12);
+                         after.surface.evaluate(neutralPose(after), {p, u, v})),
+                    1e-12);
         }
   }
 }

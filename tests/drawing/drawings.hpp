@@ -55,7 +55,9 @@ inline Json square() {
   })");
 }
 
-inline std::vector<Vec3> neutralPose(const Rig& rig) { return blend(rig, Weights(rig.targets.size())); }
+inline std::vector<Vec3> neutralPose(const Rig& rig) {
+  return blend(rig, Weights(rig.targets.size()));
+}
 
 inline Vec3 middleOf(const Rig& rig, const std::string& curve, double share,
                      const std::vector<double>& weights = {}) {

@@ -32,8 +32,9 @@ TEST(JsonNumbers, areTheNearestDoubles) {
 }
 
 TEST(JsonNumbers, areRefusedInAnyOtherForm) {
-  for (const char* text : {"", "+1", ".5", "1.", "01", "-", "1e", "1e+", "0x10", "nan", "NaN", "Infinity",
-                           "-inf", "1e999", "-1e400", "1..2", "1,2", "--1", "1 2", "\"1\"", "1a", "true"}) {
+  for (const char* text : {"",     "+1",  ".5",  "1.",       "01",   "-",     "1e",     "1e+",
+                           "0x10", "nan", "NaN", "Infinity", "-inf", "1e999", "-1e400", "1..2",
+                           "1,2",  "--1", "1 2", "\"1\"",    "1a",   "true"}) {
     JsonReader in(text);
     in.number("a number");
     in.finish();
@@ -50,8 +51,9 @@ TEST(JsonTexts, haveTheEscapesOfJson) {
 }
 
 TEST(JsonTexts, areRefusedWhereTheyAreNone) {
-  for (const char* text : {"\"open", "\"a\nb\"", R"("\x")", R"("\u12")", R"("\u12g4")", R"("\ud800")", R"("\udc00")",
-                           R"("\ud83dA")", R"("\ud83d\u0041")", "\"\\", "\"\\u", "\"\\ud83d\\u", "'a'", "a", ""}) {
+  for (const char* text :
+       {"\"open", "\"a\nb\"", R"("\x")", R"("\u12")", R"("\u12g4")", R"("\ud800")", R"("\udc00")",
+        R"("\ud83dA")", R"("\ud83d\u0041")", "\"\\", "\"\\u", "\"\\ud83d\\u", "'a'", "a", ""}) {
     JsonReader in(text);
     in.text("a text");
     in.finish();
@@ -83,7 +85,8 @@ TEST(JsonObjects, haveEveryMemberOnce) {
 }
 
 TEST(JsonLists, visitEveryElement) {
-  for (const auto& [text, count] : std::vector<std::pair<std::string, int>>{{"[]", 0}, {"[ 1 ]", 1}, {"[1,2 , 3]", 3}}) {
+  for (const auto& [text, count] :
+       std::vector<std::pair<std::string, int>>{{"[]", 0}, {"[ 1 ]", 1}, {"[1,2 , 3]", 3}}) {
     JsonReader in(text);
     int seen = 0;
     in.array("a list", [&] { EXPECT_EQ(in.number("a number"), ++seen); });

@@ -2,10 +2,11 @@
 
 #include <fmt/format.h>
 
+#include "sweepface/plot.hpp"
+
 #include "io/temporary_folder.hpp"
 #include "picture/scenes.hpp"
 #include "report/html.hpp"
-#include "sweepface/plot.hpp"
 #include "report/shape_study.hpp"
 
 namespace sweepface {

@@ -19,7 +19,8 @@ Wireframe wheel(Index valence, const std::set<Index>& creases) {
   }
   for (Index k = 0; k < valence; ++k) {
     w.patches.push_back({{4 * k, 4 * k + 1, 4 * k + 2, 4 * k + 3, 4 * k + 4}});
-    for (HalfArc h : {6 * k, 6 * k + 2, 6 * k + 4, 6 * ((k + 1) % valence) + 1}) w.loops.push_back(h);
+    for (HalfArc h : {6 * k, 6 * k + 2, 6 * k + 4, 6 * ((k + 1) % valence) + 1})
+      w.loops.push_back(h);
   }
   w.ribbons = {{}};
   return w;
@@ -44,7 +45,9 @@ struct Case {
   friend void PrintTo(const Case& c, std::ostream* out) {
     *out << (c.closed ? "closed " : "open ") << c.valence << " with " << c.creases.size();
   }
-  Surface make() const { return Surface::make(closed ? wheel(valence, creases) : halfWheel(valence, creases)).value(); }
+  Surface make() const {
+    return Surface::make(closed ? wheel(valence, creases) : halfWheel(valence, creases)).value();
+  }
 };
 
 class Creases : public ::testing::TestWithParam<Case> {};
@@ -59,7 +62,8 @@ INSTANTIATE_TEST_SUITE_P(
                       Case{false, 3, {1}}, Case{false, 4, {2}}, Case{false, 5, {2}},
                       Case{false, 6, {1, 4}}, Case{false, 6, {3}}, Case{false, 3, {1, 2}}));
 
-// Whatever is stored: nothing gapes, what is no crease stays as smooth as it was, and creases break.
+// Whatever is stored: nothing gapes, what is no crease stays as smooth as it was, and creases
+// break.
 TEST_P(Creases, breakTheNormalAndNothingElse) {
   const Case c = GetParam();
   const Surface surface = c.make();
@@ -90,7 +94,8 @@ TEST_P(Creases, leaveEveryFanSmoothAtTheNode) {
   for (const Fan& fan : c.fans[0]) {
     std::vector<Vec3> normals;
     for (int k = 0; k < fan.sectors; ++k) {
-      const Index corner = star.sectors[static_cast<std::size_t>(fan.first + k) % star.sectors.size()];
+      const Index corner =
+          star.sectors[static_cast<std::size_t>(fan.first + k) % star.sectors.size()];
       const auto along = [&](int i, int j) {
         const JetRef ref = surface.cornerJet(corner / 4, corner % 4, i, j);
         return ref.sign * pose[ref.vector];
@@ -141,7 +146,8 @@ TEST(CreaseEnds, areSmooth) {
 TEST(CreaseEnds, mayNotLieAlongATNode) {
   Wireframe w = tee();
   w.arcs[1].crease = true;
-  EXPECT_EQ(Surface::make(w).error().message, "node 3 hangs on a crease; run its arc on, or end the crease");
+  EXPECT_EQ(Surface::make(w).error().message,
+            "node 3 hangs on a crease; run its arc on, or end the crease");
   w.arcs[1].crease = false;
   w.arcs[8].crease = true;  // the stem may be one
   EXPECT_TRUE(Surface::make(w));
