@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 #include <ranges>
+#include <utility>
 
 #include "sweepface/eval.hpp"
 
@@ -30,7 +31,7 @@ std::vector<Place> placesOf(const SourceMesh& source) {
     Place& place = places[faceOf[corner]];
     if (place.quad == SIZE_MAX) place = {q, place.face, corner - faces.faceStart[faceOf[corner]]};
   }
-  std::ranges::stable_sort(places, {}, &Place::quad);
+  std::ranges::sort(places, {}, [](const Place& p) { return std::pair(p.quad, p.face); });
   return places;
 }
 

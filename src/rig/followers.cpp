@@ -70,7 +70,9 @@ std::vector<Follower> Followers::named(std::span<const std::string> targets) {
 }
 
 Followers::Followers(std::vector<Follower> followers) {
-  std::ranges::stable_sort(followers, {}, &Follower::at);
+  std::ranges::sort(followers, [](const Follower& a, const Follower& b) {
+    return a.at != b.at ? a.at < b.at : a.target < b.target;
+  });
   for (Follower& follower : followers) {
     if (follower.kind == Follower::Kind::product)
       products_.push_back(std::move(follower));

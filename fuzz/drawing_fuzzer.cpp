@@ -1,0 +1,25 @@
+#include "sweepface/drawing.hpp"
+
+#include "mesh_properties.hpp"
+
+// Reads a wireframe text and, where it is small, builds it: what comes out is finite.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace sweepface;
+  using fuzzing::require;
+  const auto drawing = parseDrawing(fuzzing::asText(data, size), "input.json");
+  if (!drawing) {
+    const std::string& message = drawing.error().message;
+    require(message.starts_with("input.json: ") && message.ends_with('.'));
+    return 0;
+  }
+  long edges = 0;
+  for (const auto& curve : drawing->curves) edges += curve.edges;
+  constexpr std::size_t kFew = 20;
+  if (drawing->curves.size() > kFew || edges > 100) return 0;
+  const auto built = build(*drawing);
+  if (!built) return 0;
+  for (const Vec3& v : built->rig.neutral) require(isFinite(v));
+  for (const Target& target : built->rig.targets)
+    for (const Vec3& v : target.difference) require(isFinite(v));
+  return 0;
+}
