@@ -1,7 +1,8 @@
 #include "sweepface/plot.hpp"
 
-#include <cmath>
+#include <algorithm>
 #include <fmt/format.h>
+#include <iterator>
 
 #include "sweepface/eval.hpp"
 #include "sweepface/io.hpp"
@@ -75,20 +76,22 @@ Subject weightOf(const Rig& rig, Index target) {
   return subject;
 }
 
-Subject vertexOf(const Rig& rig, Index vertex) {
-  Subject subject{fmt::format("vertex {}", vertex), {}, false};
+std::vector<Subject> verticesOf(const Rig& rig, const std::vector<int>& vertices) {
+  std::vector<Subject> subjects;
+  for (const int v : vertices) subjects.push_back({fmt::format("vertex {}", v), {}, false});
+  if (subjects.empty()) return subjects;
   const Tessellation grid(rig.surface, 1);
-  const auto placeUnder = [&](const Weights& weights) {
-    return sourcePositions(rig, grid, blend(rig, weights), weights)[vertex];
-  };
   Weights weights(rig.targets.size());
-  const Vec3 rest = placeUnder(weights);
+  const auto places = [&] { return sourcePositions(rig, grid, blend(rig, weights), weights); };
+  const std::vector<Vec3> rest = places();
   for (double& w : weights) {
     w = 1;
-    subject.differences.push_back(placeUnder(weights) - rest);
+    const std::vector<Vec3> moved = places();
     w = 0;
+    for (std::size_t k = 0; k < vertices.size(); ++k)
+      subjects[k].differences.push_back(moved[vertices[k]] - rest[vertices[k]]);
   }
-  return subject;
+  return subjects;
 }
 
 Result<std::vector<Subject>> subjectsOf(const PlotArguments& a, const Rig& rig,
@@ -100,12 +103,11 @@ Result<std::vector<Subject>> subjectsOf(const PlotArguments& a, const Rig& rig,
     subjects.push_back(weightOf(rig, *target));
   }
   const auto count = static_cast<int>(rig.source.gridVertex.size());
-  for (const int vertex : a.vertices) {
+  for (const int vertex : a.vertices)
     if (vertex < 0 || vertex >= count)
       return fail(
           fmt::format("There is no vertex {}; the face has {}, counted from 0.", vertex, count));
-    subjects.push_back(vertexOf(rig, vertex));
-  }
+  std::ranges::move(verticesOf(rig, a.vertices), std::back_inserter(subjects));
   if (!subjects.empty()) return subjects;
   std::vector<double> first(rig.targets.size()), later(rig.targets.size());
   performance.at(0, first);
@@ -148,21 +150,24 @@ void addCurves(Curves& curves, const Performance& performance, const Subject& su
 
 Result<Curves> curvesOf(const PlotArguments& a, const Rig& rig) {
   const std::vector<std::string> laws = a.laws.empty() ? std::vector{a.what.law} : a.laws;
-  Curves curves;
+  std::vector<Performance> performances;
   for (const std::string& law : laws) {
     PerformanceArguments what = a.what;
     what.law = law;
-    const Result<Performance> performance = makePerformance(what, rig);
+    Result<Performance> performance = makePerformance(what, rig);
     if (!performance) return std::unexpected(performance.error());
-    const auto subjects = subjectsOf(a, rig, *performance);
-    if (!subjects) return std::unexpected(subjects.error());
-    for (const Subject& subject : *subjects)
-      addCurves(curves, *performance, subject,
-                laws.size() == 1        ? subject.name
-                : subjects->size() == 1 ? law
-                                        : law + ", " + subject.name,
-                a.mass);
+    performances.push_back(std::move(*performance));
   }
+  const auto subjects = subjectsOf(a, rig, performances.front());
+  if (!subjects) return std::unexpected(subjects.error());
+  Curves curves;
+  for (std::size_t k = 0; k < laws.size(); ++k)
+    for (const Subject& subject : *subjects)
+      addCurves(curves, performances[k], subject,
+                laws.size() == 1        ? subject.name
+                : subjects->size() == 1 ? laws[k]
+                                        : laws[k] + ", " + subject.name,
+                a.mass);
   return curves;
 }
 

@@ -34,8 +34,6 @@ class Followers {
   static std::vector<Follower> named(std::span<const std::string> targets);
 
   bool empty() const noexcept { return products_.empty() && chains_.empty() && arcs_.empty(); }
-  std::span<const Follower> products() const noexcept { return products_; }
-  std::span<const Follower> arcs() const noexcept { return arcs_; }
 
   /// Replaces the weights [K] of all followers, and of leaders that hand over to in-betweens.
   /// Products and arcs go by the weights as they were set. Allocates nothing.

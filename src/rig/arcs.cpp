@@ -142,7 +142,18 @@ Vec3 bulge(const Turn& turn, const Vec3& from, const Vec3& to) {
   return {b[0].value(), b[1].value(), b[2].value()};
 }
 
-std::string arcName(std::string_view target) { return std::string(target) + ".arc"; }
+namespace {
+
+constexpr std::string_view kArc = ".arc";
+
+/// Whether a target is the arc of another.
+bool isArc(const Rig& rig, std::string_view name) {
+  return name.ends_with(kArc) && rig.find(name.substr(0, name.size() - kArc.size())) >= 0;
+}
+
+}  // namespace
+
+std::string arcName(std::string_view target) { return std::string(target).append(kArc); }
 
 std::vector<Follower> addArcs(Rig& rig, std::span<const Turn> turns) {
   const std::size_t count = rig.targets.size();
@@ -153,6 +164,11 @@ std::vector<Follower> addArcs(Rig& rig, std::span<const Turn> turns) {
     std::vector<double> weights(count);
     weights[turn.target] = 1;
     const Target& target = rig.targets[turn.target];
+    if (isArc(rig, target.name)) continue;
+    if (const Index known = rig.find(arcName(target.name)); known >= 0) {
+      followers.push_back({Follower::Kind::arc, known, {turn.target}, 0});
+      continue;
+    }
     Target arc{arcName(target.name), maker.make(turn, blend(rig, weights)), {}};
     for (std::size_t v = 0; v < rig.source.loose.size(); ++v)
       arc.looseDifference.push_back(

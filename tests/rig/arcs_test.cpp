@@ -134,5 +134,14 @@ TEST(Arcs, changeNothingAtTheEnds) {
   }
 }
 
+TEST(Arcs, areNotAddedTwice) {
+  Rig rig = turning({-20, -30, 0}, 30);
+  const std::vector<Turn> turns{{0, {-20, -30, 0}, {0, 0, 1}}, {1, {-20, -30, 0}, {0, 0, 1}}};
+  const auto first = addArcs(rig, std::span(turns).first(1));
+  // The arc itself may look like a turn when such a face comes back.
+  EXPECT_EQ(addArcs(rig, turns), first);
+  EXPECT_EQ(rig.targets.size(), 2u);
+}
+
 }  // namespace
 }  // namespace sweepface
