@@ -4,50 +4,34 @@
 #include <fmt/format.h>
 #include <vector>
 
+#include "io/json_text.hpp"
+
 namespace sweepface::gltf {
 namespace {
 
 // Members are found one after the other, so that an object of very many would take very long.
 constexpr std::size_t deepest = 128, mostMembers = 4096;
 
-/// Follows the nesting of a text that may or may not be JSON.
-class Nesting {
- public:
-  Result<void> check(std::string_view text) {
-    for (std::size_t k = 0; k < text.size(); ++k) {
-      if (inString_) {
-        if (text[k] == '\\')
-          ++k;
-        else if (text[k] == '"')
-          inString_ = false;
-        continue;
-      }
-      if (auto ok = see(text[k]); !ok) return ok;
-    }
-    return {};
-  }
-
- private:
-  Result<void> see(char c) {
-    if (c == '"') inString_ = true;
-    if (c == '[' || c == '{') {
-      if (members_.size() == deepest)
-        return fail(fmt::format("its JSON is nested deeper than {} levels; export the file again.",
-                                deepest));
-      members_.push_back(0);
-    }
-    if ((c == ']' || c == '}') && !members_.empty()) members_.pop_back();
-    if (c == ':' && !members_.empty() && ++members_.back() > mostMembers)
-      return fail(
-          fmt::format("its JSON has an object of more than {} members; export the file "
-                      "again.",
-                      mostMembers));
-    return {};
-  }
-
-  bool inString_ = false;
-  std::vector<std::size_t> members_;  // of each object around
-};
+/// Whether a text that may or may not be JSON would keep its parser busy.
+Result<void> checkNesting(std::string_view text) {
+  std::vector<std::size_t> members;  // of each object around
+  Result<void> result;
+  io::scanJson(text, [&](char c) {
+    if ((c == '[' || c == '{') && members.size() == deepest)
+      result = fail(
+          fmt::format("its JSON is nested deeper than {} levels; export the file again.", deepest));
+    else if (c == '[' || c == '{')
+      members.push_back(0);
+    if ((c == ']' || c == '}') && !members.empty()) members.pop_back();
+    if (c == ':' && !members.empty() && ++members.back() > mostMembers)
+      result =
+          fail(fmt::format("its JSON has an object of more than {} members; export the file "
+                           "again.",
+                           mostMembers));
+    return result.has_value();
+  });
+  return result;
+}
 
 const Json& emptyArray() {
   static const Json empty = Json::array();
@@ -70,7 +54,7 @@ std::optional<std::size_t> asSize(const Json& value) {
 }  // namespace
 
 Result<Json> parseJson(std::string_view text) {
-  if (auto ok = Nesting().check(text); !ok) return std::unexpected(ok.error());
+  if (auto ok = checkNesting(text); !ok) return std::unexpected(ok.error());
   Json json = Json::parse(text, nullptr, false);
   if (json.is_discarded()) return fail("its JSON is not valid; export the file again.");
   if (!json.is_object()) return fail("its JSON is not an object; export the file again.");

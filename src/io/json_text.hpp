@@ -8,9 +8,10 @@
 
 namespace sweepface::io {
 
-/// The parser of nlohmann-json keeps a stack of its own, but its values are freed by recursion.
-inline bool isTooDeep(std::string_view text, int most) {
-  int depth = 0;
+/// Hands every character of a JSON text that is in no string to `see`, and the quote that opens
+/// one, until that answers false.
+template <typename See>
+void scanJson(std::string_view text, See see) {
   bool inString = false;
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char c = text[i];
@@ -19,15 +20,22 @@ inline bool isTooDeep(std::string_view text, int most) {
         ++i;
       else if (c == '"')
         inString = false;
-    } else if (c == '"') {
-      inString = true;
-    } else if (c == '[' || c == '{') {
-      if (++depth > most) return true;
-    } else if (c == ']' || c == '}') {
-      --depth;
+      continue;
     }
+    inString = c == '"';
+    if (!see(c)) return;
   }
-  return false;
+}
+
+/// The parser of nlohmann-json keeps a stack of its own, but its values are freed by recursion.
+inline bool isTooDeep(std::string_view text, int most) {
+  int depth = 0;
+  scanJson(text, [&](char c) {
+    if (c == '[' || c == '{') ++depth;
+    if (c == ']' || c == '}') --depth;
+    return depth <= most;
+  });
+  return depth > most;
 }
 
 /// The JSON in a small text file; messages call it `name`.
