@@ -25,13 +25,6 @@ bool parse(const std::string& text, Number& number) {
 
 }  // namespace
 
-std::string extension(const fs::path& path) {
-  std::string text = path.extension().string();
-  std::ranges::transform(text, text.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
 std::string HelpFormatter::make_option_desc(const CLI::Option* option) const {
   constexpr std::size_t width = 68;
   std::string text = CLI::Formatter::make_option_desc(option);
@@ -124,7 +117,7 @@ Result<Rig> readFace(const std::string& path) {
   return decode(*bytes, path);
 }
 
-bool isOfKind(const fs::path& path, std::string_view kind) { return extension(path) == kind; }
+bool isOfKind(const fs::path& path, std::string_view kind) { return extensionOf(path) == kind; }
 
 Result<RigSource> readMeshes(const std::string& neutral, const std::vector<std::string>& targets,
                              ProgressBar& bar) {

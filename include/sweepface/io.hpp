@@ -58,6 +58,9 @@ std::string formatObj(const ObjOutput& output);
 /// All bytes of a file.
 Result<std::string> readFile(const std::filesystem::path& path);
 
+/// The extension of a path with its dot, in small letters.
+std::string extensionOf(const std::filesystem::path& path);
+
 /// Writes beside `path` and renames, so that the file is either whole or as it was.
 Result<void> writeFile(const std::filesystem::path& path, std::string_view bytes);
 

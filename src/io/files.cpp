@@ -117,6 +117,13 @@ Result<std::string> readFile(const fs::path& path) {
   return bytes;
 }
 
+std::string extensionOf(const fs::path& path) {
+  std::string text = path.extension().string();
+  for (char& c : text)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return text;
+}
+
 Result<void> writeFile(const fs::path& path, std::string_view bytes) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);

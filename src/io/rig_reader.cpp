@@ -17,20 +17,13 @@ namespace {
 namespace fs = std::filesystem;
 using Paths = std::vector<fs::path>;
 
-std::string extension(const fs::path& path) {
-  std::string text = path.extension().string();
-  for (char& c : text)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return text;
-}
-
 bool isMesh(const fs::path& path) {
-  const std::string kind = extension(path);
+  const std::string kind = extensionOf(path);
   return kind == ".obj" || kind == ".ply";
 }
 
 bool isGltf(const fs::path& path) {
-  const std::string kind = extension(path);
+  const std::string kind = extensionOf(path);
   return kind == ".glb" || kind == ".gltf";
 }
 
@@ -105,7 +98,7 @@ Result<std::vector<Vec3>> readTarget(const fs::path& path, const fs::path& neutr
   if (!isMesh(path)) return unknownKind(path);
   const Result<std::string> bytes = readFile(path);
   if (!bytes) return std::unexpected(bytes.error());
-  const auto parse = extension(path) == ".obj" ? io::parseObjTarget : io::parsePlyTarget;
+  const auto parse = extensionOf(path) == ".obj" ? io::parseObjTarget : io::parsePlyTarget;
   Result<io::TargetShape> shape = parse(*bytes, path.string());
   if (!shape) return std::unexpected(shape.error());
 
@@ -128,7 +121,7 @@ Result<PolygonMesh> readMesh(const fs::path& path) {
   if (!isMesh(path)) return unknownKind(path);
   const Result<std::string> bytes = readFile(path);
   if (!bytes) return std::unexpected(bytes.error());
-  const auto parse = extension(path) == ".obj" ? parseObj : parsePly;
+  const auto parse = extensionOf(path) == ".obj" ? parseObj : parsePly;
   return parse(*bytes, path.string());
 }
 

@@ -1,4 +1,5 @@
 #include "cli/tool.hpp"
+#include "count_of.hpp"
 
 namespace sweepface {
 namespace {
@@ -13,12 +14,6 @@ class Plot : public Tool {
     return contents(folder / "plot.svg");
   }
 };
-
-std::size_t countOf(const std::string& text, const std::string& part) {
-  std::size_t count = 0;
-  for (std::size_t at = text.find(part); at != text.npos; at = text.find(part, at + 1)) ++count;
-  return count;
-}
 
 TEST_F(Plot, ShowsFourPanelsWithACurveForEveryLaw) {
   convertRig();

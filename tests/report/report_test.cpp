@@ -4,6 +4,7 @@
 
 #include "sweepface/plot.hpp"
 
+#include "count_of.hpp"
 #include "io/temporary_folder.hpp"
 #include "picture/scenes.hpp"
 #include "report/html.hpp"
@@ -36,12 +37,6 @@ using namespace testing;
   }
   if (!open.empty()) return ::testing::AssertionFailure() << open.back() << " stays open";
   return ::testing::AssertionSuccess();
-}
-
-std::size_t countOf(std::string_view text, std::string_view part) {
-  std::size_t count = 0;
-  for (std::size_t at = text.find(part); at != text.npos; at = text.find(part, at + 1)) ++count;
-  return count;
 }
 
 /// A page without the bytes of its pictures, in which any letters may follow each other.
