@@ -8,7 +8,7 @@ set(CMAKE_AR llvm-ar-19)
 set(CMAKE_RANLIB llvm-ranlib-19)
 set(CMAKE_C_COMPILER_TARGET wasm32-wasi)
 set(CMAKE_CXX_COMPILER_TARGET wasm32-wasi)
-set(CMAKE_CXX_FLAGS_INIT "-stdlib=libc++ -msimd128")
-# Loading counts more than speed.
-set(CMAKE_CXX_FLAGS_RELEASE "-Oz -flto -DNDEBUG" CACHE STRING "")
+set(CMAKE_CXX_FLAGS_INIT "-stdlib=libc++ -msimd128 -mbulk-memory -mnontrapping-fptoint -msign-ext")
+# Loading counts more than speed. Whatever has SIMD has the other extensions as well.
+set(CMAKE_CXX_FLAGS_RELEASE "-Oz -flto -fno-vectorize -fno-slp-vectorize -DNDEBUG" CACHE STRING "")
 set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)

@@ -13,8 +13,10 @@ struct EvaluatorTables;
 
 /// What an Evaluator is made for.
 struct EvaluatorOptions {
-  Index level = 0;      ///< 0: the source's vertices in their order; N: Tessellation(surface, N)
-  bool normals = true;  ///< whether normals and tangents can be asked for
+  Index level = 0;        ///< 0: the source's vertices in their order; N: Tessellation(surface, N)
+  bool normals = true;    ///< whether normals and tangents can be asked for
+  bool positions = true;  ///< whether positions can
+  bool targets = true;    ///< whether weights move anything; without, only the neutral can be had
   /// How far a target of weight 1 may take a vertex from the surface, in model units. 0: a tenth of
   /// the rig's own tolerance, but no less than a hundred-thousandth of the neutral's diagonal.
   double tolerance = 0;

@@ -16,8 +16,8 @@ constexpr std::size_t kTight = 3 * sizeof(float);
 bool isWeight(double w) { return std::abs(w) <= SWEEPFACE_MOST_WEIGHT; }  // false for NaN
 
 sweepface_status refuseWeight(const sweepface_face& face, std::size_t target) {
-  return refuse("The weight of '" + face.mesh->rig->targets[target].name + "' must lie within " +
-                std::to_string(static_cast<int>(SWEEPFACE_MOST_WEIGHT)) + " of 0.");
+  return refuse("The weight of '", face.mesh->rig->targets[target].name, "' must lie within ",
+                static_cast<int>(SWEEPFACE_MOST_WEIGHT), " of 0.");
 }
 
 bool fits(const sweepface_vectors& out) { return out.stride == 0 || out.stride >= kTight; }
@@ -61,8 +61,7 @@ sweepface_status sweepface_face_set_weights(sweepface_face* face, const double* 
                                             size_t count) {
   if (!face || (!weights && count > 0)) return refuse("Setting weights needs a face and weights.");
   if (count > face->weights.size())
-    return refuse("There are " + std::to_string(count) + " weights for " +
-                  std::to_string(face->weights.size()) + " targets.");
+    return refuse("There are ", count, " weights for ", face->weights.size(), " targets.");
   for (size_t k = 0; k < count; ++k)
     if (!isWeight(weights[k])) return refuseWeight(*face, k);
   std::copy_n(weights, count, face->weights.begin());
@@ -82,9 +81,7 @@ sweepface_status sweepface_face_evaluate(sweepface_face* face, size_t count,
   if (!face) return refuse("Evaluating needs a face.");
   const Mesh& mesh = *face->mesh;
   const auto vertices = static_cast<std::size_t>(mesh.render.vertexCount());
-  if (count > vertices)
-    return refuse("There are only " + std::to_string(vertices) + " vertices, not " +
-                  std::to_string(count) + ".");
+  if (count > vertices) return refuse("There are only ", vertices, " vertices, not ", count, ".");
   if (!fits(positions) || !fits(normals))
     return refuse("A stride must be 0 or at least 12 bytes: three floats.");
   Evaluation job;

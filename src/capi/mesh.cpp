@@ -24,13 +24,12 @@ sweepface_status sweepface_mesh_create(const sweepface_rig* rig, uint32_t lod,
                                        sweepface_mesh** mesh) {
   if (!rig || !mesh) return refuse("Making a mesh needs a rig and a place for it.");
   if (lod > SWEEPFACE_MOST_LOD)
-    return refuse("The level of detail must be 0 to " + std::to_string(SWEEPFACE_MOST_LOD) +
-                  ", not " + std::to_string(lod) + ".");
+    return refuse("The level of detail must be 0 to ", SWEEPFACE_MOST_LOD, ", not ", lod, ".");
   if (lod == 0 && rig->rig->source.gridVertex.empty())
     return refuse("The face came without its source's vertices; ask for level of detail 1.");
   const Index level = lod == 0 ? 1 : static_cast<Index>(lod);
   if (gridVertices(rig->rig->surface, level) > kMostVertices)
-    return refuse("The face has too many vertices at level of detail " + std::to_string(lod) +
+    return refuse("The face has too many vertices at level of detail ", lod,
                   "; ask for a lower one.");
   const Tessellation grid(rig->rig->surface, level);
   EvaluatorOptions options;

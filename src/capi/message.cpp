@@ -11,9 +11,10 @@ sweepface_status refuse(sweepface_status status, std::string message) {
   return status;
 }
 
+sweepface_status refuseWith(std::initializer_list<TextPart> parts) { return refuse(joined(parts)); }
+
 sweepface_status noSuch(const char* what, std::size_t index, std::size_t count) {
-  return refuse("There is no " + std::string(what) + " " + std::to_string(index) + "; there are " +
-                std::to_string(count) + ", counted from 0.");
+  return refuse("There is no ", what, " ", index, "; there are ", count, ", counted from 0.");
 }
 
 std::string sentence(std::string message) {

@@ -12,6 +12,11 @@ sweepface_status refuse(sweepface_status status, std::string message);
 inline sweepface_status refuse(std::string message) {
   return refuse(SWEEPFACE_BAD_ARGUMENT, std::move(message));
 }
+sweepface_status refuseWith(std::initializer_list<TextPart> parts);
+template <typename... Parts>
+sweepface_status refuse(const char* first, const Parts&... rest) {
+  return refuseWith({TextPart(first), TextPart(rest)...});
+}
 
 /// The sentence about something that `count` there are of, and `index` is not one.
 sweepface_status noSuch(const char* what, std::size_t index, std::size_t count);

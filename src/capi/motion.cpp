@@ -11,8 +11,8 @@ namespace {
 Result<Drive> driveOf(const sweepface_drive* drive) {
   if (!drive) return Drive{};
   if (drive->kind < SWEEPFACE_CUT || drive->kind > SWEEPFACE_BOUNCE)
-    return fail("There is no drive of kind " + std::to_string(drive->kind) + "; kinds are 0 to " +
-                std::to_string(SWEEPFACE_BOUNCE) + ".");
+    return fail("There is no drive of kind ", drive->kind, "; kinds are 0 to ",
+                int(SWEEPFACE_BOUNCE), ".");
   Drive result;
   result.kind = static_cast<Drive::Kind>(drive->kind);
   result.seconds = drive->seconds;
@@ -33,8 +33,7 @@ static_assert(static_cast<int>(Drive::Kind::cut) == SWEEPFACE_CUT &&
 sweepface_status checkCount(const sweepface_motion* motion, const double* out, size_t count) {
   if (!motion || (!out && count > 0)) return refuse("Reading a motion needs one and a place.");
   if (count > motion->state.size())
-    return refuse("The motion has only " + std::to_string(motion->state.size()) + " weights, not " +
-                  std::to_string(count) + ".");
+    return refuse("The motion has only ", motion->state.size(), " weights, not ", count, ".");
   return SWEEPFACE_OK;
 }
 

@@ -6,7 +6,8 @@
 namespace sweepface::codec {
 
 void Reader::refuse(std::string_view problem) {
-  if (ok()) problem_ = problem;
+  if (ok_) problem_ = problem;
+  ok_ = false;
 }
 
 std::string_view Reader::raw(std::size_t size) {

@@ -14,7 +14,7 @@ class Reader {
  public:
   Reader(std::string_view bytes, std::size_t offset) : bytes_(bytes), offset_(offset) {}
 
-  bool ok() const { return problem_.empty(); }
+  bool ok() const { return ok_; }
   const std::string& problem() const { return problem_; }
   /// Where in the file the failure is, or the next byte.
   std::size_t place() const { return offset_ + at_; }
@@ -46,6 +46,7 @@ class Reader {
 
   std::string_view bytes_;
   std::size_t offset_, at_ = 0;
+  bool ok_ = true;
   std::string problem_;
 };
 

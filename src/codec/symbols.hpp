@@ -66,10 +66,11 @@ class Symbols {
     return result;
   }
 
-  bool ok() const { return problem_.empty(); }
+  bool ok() const { return ok_; }
   const std::string& problem() const { return problem_; }
   void refuse(std::string_view problem) {
-    if (ok()) problem_ = problem;
+    if (ok_) problem_ = problem;
+    ok_ = false;
   }
 
  private:
@@ -84,6 +85,7 @@ class Symbols {
   }
 
   Model<Coder> model_;
+  bool ok_ = true;
   std::string problem_;
 };
 

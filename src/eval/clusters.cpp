@@ -4,6 +4,8 @@
 #include <array>
 #include <numeric>
 
+#include "surface/sorting.hpp"
+
 namespace sweepface {
 namespace {
 
@@ -34,7 +36,7 @@ class Halving {
     if (part.empty()) return;
     const auto count = static_cast<Index>(part.size());
     if (count <= size_) {
-      std::ranges::sort(part);  // writing goes upwards
+      sortSmall(part);  // writing goes upwards
       clusters_.emplace_back(part.begin(), part.end());
       return;
     }

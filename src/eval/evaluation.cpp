@@ -12,7 +12,7 @@ std::size_t weightBytes(const EvaluatorTables& tables) {
 }
 
 std::size_t pairsRoom(const EvaluatorTables& tables) {
-  return roundUp64(std::max(tables.positions.mostPairs(), tables.derivatives.mostPairs()));
+  return roundUp64((static_cast<std::size_t>(tables.weights) + 1) / 2);
 }
 
 constexpr double kMostFactor = 1e9;  // beyond, positions end at what single precision bears
@@ -37,9 +37,9 @@ TileRange share(const TileTable& table, Index part, Index parts) {
 
 Result<void> checkOut(const VectorsOut& out, const char* what) {
   if (!out.data) return {};
-  if (out.count < 0) return fail("The number of " + std::string(what) + " must not be negative.");
+  if (out.count < 0) return fail("The number of ", what, " must not be negative.");
   if (out.stride < 3 * sizeof(float))
-    return fail("The stride of " + std::string(what) + " must be at least 12 bytes.");
+    return fail("The stride of ", what, " must be at least 12 bytes.");
   return {};
 }
 
@@ -53,15 +53,15 @@ std::size_t Evaluator::scratchBytes() const {
 Result<void> Evaluation::validate() const {
   if (!evaluator) return fail("An evaluation needs an evaluator.");
   if (weights.size() > static_cast<std::size_t>(evaluator->weightCount()))
-    return fail("There are " + std::to_string(weights.size()) + " weights for " +
-                std::to_string(evaluator->weightCount()) + " targets.");
+    return fail("There are ", weights.size(), " weights for ", evaluator->weightCount(),
+                " targets.");
   for (std::size_t k = 0; k < weights.size(); ++k)
-    if (!std::isfinite(weights[k])) return fail("Weight " + std::to_string(k) + " is not finite.");
+    if (!std::isfinite(weights[k])) return fail("Weight ", k, " is not finite.");
   if (scratch.size() < evaluator->scratchBytes())
-    return fail("An evaluation needs " + std::to_string(evaluator->scratchBytes()) +
-                " bytes of scratch memory, not " + std::to_string(scratch.size()) + ".");
+    return fail("An evaluation needs ", evaluator->scratchBytes(), " bytes of scratch memory, not ",
+                scratch.size(), ".");
   if (parts < 1 || part < 0 || part >= parts)
-    return fail("There is no part " + std::to_string(part) + " of " + std::to_string(parts) + ".");
+    return fail("There is no part ", part, " of ", parts, ".");
   if ((normals.data || tangents.data) && !evaluator->hasNormals() && evaluator->vertexCount() > 0)
     return fail("The evaluator was made without normals.");
   for (const auto& [out, what] :

@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 
 #include "eval/clusters.hpp"
 #include "eval/row_differences.hpp"
 #include "eval/tile_packer.hpp"
+#include "eval/tiles.hpp"
 
 namespace sweepface {
 namespace {
@@ -36,13 +38,15 @@ class Compiler {
         options_(options),
         grid_(grid),
         neutral_(blend(rig, {})),
-        gridPositions_(grid_.positions(neutral_)),
-        differences_(rig, options.influences) {}
+        gridPositions_(grid_.positions(neutral_)) {
+    if (options.targets) differences_.emplace(rig, options.influences);
+  }
 
   EvaluatorTables compile() {
     placeVertices();
     tables_.vertices = static_cast<Index>(positions_.size());
-    tables_.weights = differences_.columns();
+    tables_.weights = static_cast<Index>(rig_.targets.size() *
+                                         std::max<std::size_t>(1, options_.influences.size()));
     tables_.positionErrors.ofTarget.assign(tables_.weights, 0.0);
     tables_.derivativeErrors.ofTarget.assign(tables_.weights, 0.0);
     tolerance_ = usedTolerance();
@@ -80,42 +84,41 @@ class Compiler {
   }
 
   void addTile(std::span<const Index> vertices) {
-    const int derivatives = options_.normals ? kMostRows : 0;
-    std::vector<std::array<float, 3>> neutral(kTileVertices + derivatives);
-    std::vector<Row> rows(neutral.size());
-    for (std::size_t k = 0; k < vertices.size(); ++k) {
-      const Index g = gridVertex(vertices[k]);
-      neutral[k] = toFloats(positions_[vertices[k]]);
-      rows[k] = positionRow(g);
-      if (options_.normals)
-        addDerivatives(g, &neutral[kTileVertices + k], &rows[kTileVertices + k]);
-    }
     TileSource tile;
     tile.vertices.assign(vertices.begin(), vertices.end());
-    const Differences all = differences_.of(rows, tile.targets);
-    const auto pack = [&](int first, int count, double unit, TileTable& table,
-                          TableErrors& errors) {
-      tile.neutral.assign(neutral.begin() + first, neutral.begin() + first + count);
-      tile.unit = unit;
-      tile.differences = inUnits(all, first, count, unit);
-      packTile(tile, table, errors);
-    };
-    pack(0, kTileVertices, tolerance_, tables_.positions, tables_.positionErrors);
-    if (options_.normals)
-      pack(kTileVertices, kMostRows, options_.derivativeTolerance, tables_.derivatives,
-           tables_.derivativeErrors);
+    if (options_.positions) addPositions(vertices, tile);
+    if (options_.normals) addDerivatives(vertices, tile);
   }
 
-  Row positionRow(Index g) const {
-    Row row;
-    if (g < 0) {
-      row.loose = -1 - g;
-      return row;
+  void addPositions(std::span<const Index> vertices, TileSource& tile) {
+    tile.neutral.assign(kTileVertices, {});
+    rows_.assign(kTileVertices, {});
+    for (std::size_t k = 0; k < vertices.size(); ++k) {
+      const Index g = gridVertex(vertices[k]);
+      tile.neutral[k] = toFloats(positions_[vertices[k]]);
+      if (g < 0) {
+        rows_[k].loose = -1 - g;
+        continue;
+      }
+      const auto [vectors, factors] = grid_.terms(g);
+      rows_[k] = {vectors, factors};
     }
-    const auto [vectors, factors] = grid_.terms(g);
-    for (std::size_t t = 0; t < vectors.size(); ++t)
-      if (factors[t] != 0) row.terms.push_back({vectors[t], factors[t]});
-    return row;
+    pack(tile, tolerance_, tables_.positions, tables_.positionErrors);
+  }
+
+  void pack(TileSource& tile, double unit, TileTable& table, TableErrors& errors) {
+    tile.unit = unit;
+    tile.targets.clear();
+    if (options_.targets)
+      differences_->of(rows_, 1 / unit, tile.targets, tile.differences);
+    else
+      tile.differences.reshape(static_cast<int>(rows_.size()), 0);
+    const auto found = packTile(tile, static_cast<std::uint16_t>(tables_.weights), table);
+    errors.rounding = std::max(errors.rounding, found.rounding * tile.unit);
+    for (std::size_t k = 0; k < tile.targets.size(); ++k) {
+      double& worst = errors.ofTarget[tile.targets[k]];
+      worst = std::max(worst, found.ofTarget[k] * tile.unit);
+    }
   }
 
   struct Derivative {
@@ -145,39 +148,26 @@ class Compiler {
         {site.patch, site.u + (m * 0.5 - site.u) * 1e-3, site.v + (n * 0.5 - site.v) * 1e-3});
   }
 
-  /// ∂u and ∂v of a vertex in units of their neutral lengths. Loose vertices look along z.
-  void addDerivatives(Index g, std::array<float, 3>* neutral, Row* rows) const {
-    if (g < 0) {
-      neutral[0] = {1, 0, 0}, neutral[kTileVertices] = {0, 1, 0};
-      return;
+  /// ∂u and ∂v of vertices in units of their neutral lengths. Loose vertices look along z.
+  void addDerivatives(std::span<const Index> vertices, TileSource& tile) {
+    tile.neutral.assign(kMostRows, {});
+    rows_.assign(kMostRows, {});
+    derivatives_.resize(vertices.size());
+    for (std::size_t k = 0; k < vertices.size(); ++k) {
+      const Index g = gridVertex(vertices[k]);
+      if (g < 0) {
+        tile.neutral[k] = {1, 0, 0}, tile.neutral[kTileVertices + k] = {0, 1, 0};
+        continue;
+      }
+      derivatives_[k] = regularDerivatives(grid_.site(g));
+      for (int d = 0; d < 2; ++d) {
+        const auto& [whole, weights] = derivatives_[k][d];
+        const double length = norm(whole), scale = length > 0 ? 1 / length : 1;
+        tile.neutral[d * kTileVertices + k] = toFloats(scale * whole);
+        rows_[d * kTileVertices + k] = {weights.vectors, weights.factors, scale};
+      }
     }
-    const Derivatives both = regularDerivatives(grid_.site(g));
-    for (const auto& [whole, weights] : both) {
-      const double length = norm(whole), scale = length > 0 ? 1 / length : 1;
-      *neutral = toFloats(scale * whole);
-      for (std::size_t t = 0; t < weights.vectors.size(); ++t)
-        if (weights.factors[t] != 0)
-          rows->terms.push_back({weights.vectors[t], scale * weights.factors[t]});
-      neutral += kTileVertices, rows += kTileVertices;
-    }
-  }
-
-  static Differences inUnits(const Differences& all, int first, int rows, double unit) {
-    constexpr float most = 1e15f;  // squares of it stay finite
-    Differences out{rows, all.targets, {all.row(first), all.row(first + rows)}};
-    const double scale = 1 / unit;
-    for (float& x : out.values) x = std::clamp(static_cast<float>(x * scale), -most, most);
-    return out;
-  }
-
-  void packTile(const TileSource& tile, TileTable& table, TableErrors& errors) const {
-    const auto found =
-        sweepface::packTile(tile, static_cast<std::uint16_t>(tables_.weights), table);
-    errors.rounding = std::max(errors.rounding, found.rounding * tile.unit);
-    for (std::size_t k = 0; k < tile.targets.size(); ++k) {
-      double& worst = errors.ofTarget[tile.targets[k]];
-      worst = std::max(worst, found.ofTarget[k] * tile.unit);
-    }
+    pack(tile, options_.derivativeTolerance, tables_.derivatives, tables_.derivativeErrors);
   }
 
   const Rig& rig_;
@@ -186,7 +176,9 @@ class Compiler {
   std::vector<Vec3> neutral_;        // settled
   std::vector<Vec3> gridPositions_;  // of the neutral
   std::vector<Vec3> positions_;      // [vertices] of the neutral
-  RowDifferences differences_;
+  std::optional<RowDifferences> differences_;
+  std::vector<Row> rows_;                 // of a tile
+  std::vector<Derivatives> derivatives_;  // of a tile's vertices
   double tolerance_ = 0;
   EvaluatorTables tables_;
 };
@@ -212,14 +204,13 @@ Result<void> check(const Rig& rig, const EvaluatorOptions& options) {
   const auto stored = static_cast<std::size_t>(rig.surface.storedCount());
   for (const auto& region : options.influences) {
     if (region.size() != stored)
-      return fail("A region has " + std::to_string(region.size()) + " influences for " +
-                  std::to_string(stored) + " stored vectors.");
+      return fail("A region has ", region.size(), " influences for ", stored, " stored vectors.");
     if (!std::ranges::all_of(region, [](float x) { return std::isfinite(x); }))
       return fail("The influences of a region must be finite.");
   }
   constexpr std::size_t most = 65534;
   if (rig.targets.size() * std::max<std::size_t>(1, options.influences.size()) > most)
-    return fail("An evaluator takes at most " + std::to_string(most) + " weights.");
+    return fail("An evaluator takes at most ", most, " weights.");
   return {};
 }
 

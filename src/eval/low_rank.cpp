@@ -1,58 +1,33 @@
 // A truncated singular value decomposition by deflation: one mode after the other is found by power
 // iteration and taken away from what is left. A target whose remainder is small enough everywhere
 // takes no further part, so that later modes serve those that still need them.
-//
-// Sums are taken in a fixed order: the tables are the same on every machine.
 #include "eval/low_rank.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <span>
 
 namespace sweepface {
 namespace {
 
-constexpr int kPowerSteps = 1, kPartialSums = 16;
-
-float dot(const float* a, const float* b, int count) {
-  float sums[kPartialSums] = {};
-  int k = 0;
-  for (; k + kPartialSums <= count; k += kPartialSums)
-    for (int s = 0; s < kPartialSums; ++s) sums[s] += a[k + s] * b[k + s];
-  for (; k < count; ++k) sums[k % kPartialSums] += a[k] * b[k];
-  for (int half = kPartialSums / 2; half > 0; half /= 2)
-    for (int s = 0; s < half; ++s) sums[s] += sums[s + half];
-  return sums[0];
-}
-
-void addScaled(float factor, const float* from, int count, float* to) {
-  for (int k = 0; k < count; ++k) to[k] += factor * from[k];
-}
-
-bool normalise(std::span<float> vector) {
-  const float squared = dot(vector.data(), vector.data(), static_cast<int>(vector.size()));
-  if (!(squared > 1e-30f)) return false;
-  const float scale = 1 / std::sqrt(squared);
-  for (float& x : vector) x *= scale;
-  return true;
-}
-
 class Deflation {
  public:
-  Deflation(Differences& left, float tolerance)
+  Deflation(Planes& left, float tolerance)
       : left_(left),
-        targets_(left.targets),
+        lane_(left.lane),
         squared_(tolerance * tolerance),
         unfinished_(left.targets),
-        mode_(left.rows) {
+        mode_(left.rows),
+        coefficients_(left.width()),
+        sums_(left.width()),
+        most_(left.lane) {
     found_.modesOf.assign(left.targets, 0);
     std::iota(unfinished_.begin(), unfinished_.end(), 0);
   }
 
   LowRank run() {
     while (found_.modes < left_.rows) {
-      measure();
+      measureSquares(left_, sums_.data(), most_.data());
       letGo();
       if (unfinished_.empty() || !findMode(worstColumn())) break;
       takeMode();
@@ -61,18 +36,13 @@ class Deflation {
   }
 
  private:
-  /// Squares of what is left: summed over rows, and the largest of a row.
-  void measure() {
-    sums_.assign(left_.columns(), 0.0f);
-    most_.assign(left_.targets, 0.0f);
-    for (int r = 0; r < left_.rows; ++r) {
-      const float* row = left_.row(r);
-      for (int c = 0; c < left_.columns(); ++c) sums_[c] += row[c] * row[c];
-      for (int k = 0; k < left_.targets; ++k) {
-        const float* x = row + 3 * k;
-        most_[k] = std::max(most_[k], x[0] * x[0] + x[1] * x[1] + x[2] * x[2]);
-      }
-    }
+  bool normalise() {
+    float squared = 0;
+    for (const float x : mode_) squared += x * x;
+    if (!(squared > 1e-30f)) return false;
+    const float scale = 1 / std::sqrt(squared);
+    for (float& x : mode_) x *= scale;
+    return true;
   }
 
   /// Takes out the columns of targets that are near enough.
@@ -80,61 +50,58 @@ class Deflation {
     kept_.clear();
     for (int k = 0; k < left_.targets; ++k)
       if (most_[k] > squared_) kept_.push_back(k);
-    const int before = left_.columns();
-    if (3 * static_cast<int>(kept_.size()) == before) return;
+    const auto count = static_cast<int>(kept_.size());
+    if (count == left_.targets) return;
+    const int before = left_.lane, width = left_.width();
+    left_.targets = count;
+    left_.lane = Planes::laneOf(count);
     float* to = left_.values.data();
-    for (int r = 0; r < left_.rows; ++r) {
-      const float* row = left_.values.data() + static_cast<std::size_t>(r) * before;
-      for (const int k : kept_) to = std::copy_n(row + 3 * k, 3, to);
-    }
-    for (std::size_t i = 0; i < kept_.size(); ++i) {
-      unfinished_[i] = unfinished_[kept_[i]];
-      std::copy_n(sums_.begin() + 3 * kept_[i], 3, sums_.begin() + 3 * i);
-    }
+    for (int r = 0; r < left_.rows; ++r)
+      to = keepColumns(left_.values.data() + static_cast<std::size_t>(r) * width, before, to);
+    keepColumns(sums_.data(), before, sums_.data());
+    for (int i = 0; i < count; ++i) unfinished_[i] = unfinished_[kept_[i]];
     unfinished_.resize(kept_.size());
-    left_.targets = static_cast<int>(kept_.size());
+  }
+
+  float* keepColumns(const float* from, int before, float* to) const {
+    for (int axis = 0; axis < 3; ++axis, from += before) {
+      for (const int k : kept_) *to++ = from[k];
+      for (int k = left_.targets; k < left_.lane; ++k) *to++ = 0;
+    }
+    return to;
   }
 
   int worstColumn() const {
-    return static_cast<int>(std::max_element(sums_.begin(), sums_.begin() + left_.columns()) -
+    return static_cast<int>(std::max_element(sums_.begin(), sums_.begin() + left_.width()) -
                             sums_.begin());
-  }
-
-  void project() {
-    coefficients_.assign(left_.columns(), 0.0f);
-    for (int r = 0; r < left_.rows; ++r)
-      addScaled(mode_[r], left_.row(r), left_.columns(), coefficients_.data());
   }
 
   bool findMode(int column) {
     for (int r = 0; r < left_.rows; ++r) mode_[r] = left_.row(r)[column];
-    if (!normalise(mode_)) return false;
-    for (int step = 0; step < kPowerSteps; ++step) {
-      project();
-      for (int r = 0; r < left_.rows; ++r)
-        mode_[r] = dot(left_.row(r), coefficients_.data(), left_.columns());
-      if (!normalise(mode_)) return false;
-    }
-    project();
+    if (!normalise()) return false;
+    project(left_, mode_.data(), coefficients_.data());
+    dotRows(left_, coefficients_.data(), mode_.data());  // one step is enough
+    if (!normalise()) return false;
+    project(left_, mode_.data(), coefficients_.data());
     return true;
   }
 
   void takeMode() {
-    for (int r = 0; r < left_.rows; ++r)
-      addScaled(-mode_[r], coefficients_.data(), left_.columns(), left_.row(r));
+    takeAway(left_, mode_.data(), coefficients_.data());
     found_.basis.insert(found_.basis.end(), mode_.begin(), mode_.end());
     const std::size_t first = found_.coefficients.size();
-    found_.coefficients.resize(first + 3 * static_cast<std::size_t>(targets_));
+    found_.coefficients.resize(first + 3 * static_cast<std::size_t>(lane_));
     ++found_.modes;
     for (std::size_t i = 0; i < unfinished_.size(); ++i) {
       found_.modesOf[unfinished_[i]] = found_.modes;
-      std::copy_n(coefficients_.begin() + 3 * i, 3,
-                  found_.coefficients.begin() + first + 3 * unfinished_[i]);
+      for (int axis = 0; axis < 3; ++axis)
+        found_.coefficients[first + axis * lane_ + unfinished_[i]] =
+            coefficients_[axis * left_.lane + i];
     }
   }
 
-  Differences& left_;  // of the targets that are not finished
-  int targets_;
+  Planes& left_;  // of the targets that are not finished
+  int lane_;
   float squared_;
   LowRank found_;
   std::vector<int> unfinished_, kept_;
@@ -143,7 +110,7 @@ class Deflation {
 
 }  // namespace
 
-LowRank factorise(Differences differences, float tolerance) {
+LowRank factorise(Planes differences, float tolerance) {
   return Deflation(differences, tolerance).run();
 }
 

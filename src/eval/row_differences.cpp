@@ -7,111 +7,140 @@ namespace sweepface {
 namespace {
 
 constexpr double kMostDifference = 1e30;
+constexpr float kMostScaled = 1e15f;  // squares of it stay finite
 
 float clamped(double x) {
   return static_cast<float>(std::clamp(x, -kMostDifference, kMostDifference));
-}
-
-void write(const Vec3& difference, float* to) {
-  to[0] = clamped(difference.x);
-  to[1] = clamped(difference.y);
-  to[2] = clamped(difference.z);
 }
 
 }  // namespace
 
 RowDifferences::RowDifferences(const Rig& rig, std::span<const std::vector<float>> influences)
     : rig_(rig),
-      influences_(influences),
       targets_(static_cast<Index>(rig.targets.size())),
       columns_(targets_ * static_cast<Index>(std::max<std::size_t>(1, influences.size()))),
-      words_((columns_ + 63) / 64),
-      moves_(words_ * rig.surface.storedCount()),
-      placeOf_(rig.surface.vectorCount(), -1) {
-  for (Index c = 0; c < columns_; ++c)
-    for (Index v = 0; v < rig.surface.storedCount(); ++v)
-      if (stored(v, c) != Vec3{}) moves_[words_ * v + c / 64] |= std::uint64_t(1) << c % 64;
+      isNeeded_((static_cast<std::size_t>(rig.surface.vectorCount()) + 63) / 64),
+      placeOf_(rig.surface.vectorCount()),
+      columnAt_(columns_, -1) {
+  listMoves(influences);
 }
 
-Vec3 RowDifferences::stored(Index vector, Index column) const {
-  const Vec3& difference = rig_.targets[column % targets_].difference[vector];
-  return influences_.empty() ? difference : influences_[column / targets_][vector] * difference;
+// Counted first, so that all lie in one piece.
+void RowDifferences::listMoves(std::span<const std::vector<float>> influences) {
+  const auto stored = static_cast<std::size_t>(rig_.surface.storedCount());
+  const auto influence = [&](Index column, std::size_t v) {
+    return influences.empty() ? 1.0f : influences[column / targets_][v];
+  };
+  firstMove_.assign(stored + 1, 0);
+  const auto each = [&](const auto& use) {
+    for (Index c = 0; c < columns_; ++c) {
+      const std::vector<Vec3>& difference = rig_.targets[c % targets_].difference;
+      for (std::size_t v = 0; v < stored; ++v)
+        if (difference[v] != Vec3{} && influence(c, v) != 0) use(c, v, difference[v]);
+    }
+  };
+  each([&](Index, std::size_t v, const Vec3&) { ++firstMove_[v + 1]; });
+  for (std::size_t v = 0; v < stored; ++v) firstMove_[v + 1] += firstMove_[v];
+  moves_.resize(firstMove_.back());
+  std::vector<std::size_t> next(firstMove_.begin(), firstMove_.end() - 1);
+  each([&](Index c, std::size_t v, const Vec3& difference) {
+    const Vec3 d = influences.empty() ? difference : influence(c, v) * difference;
+    moves_[next[v]++] = {static_cast<std::uint32_t>(c), clamped(d.x), clamped(d.y), clamped(d.z)};
+  });
 }
 
 Vec3 RowDifferences::ofLoose(Index loose, Index column) const {
   return column < targets_ ? rig_.targets[column].looseDifference[loose] : Vec3{};
 }
 
-void RowDifferences::collect(std::span<const Row> rows) {
-  for (const Index v : needed_) placeOf_[v] = -1;
-  needed_.clear();
-  const auto need = [&](Index v) {
-    if (placeOf_[v] >= 0) return;
-    placeOf_[v] = 0;
-    needed_.push_back(v);
-  };
-  for (const Row& row : rows)
-    for (const Term& t : row.terms) need(t.vector);
-  const Index storedCount = rig_.surface.storedCount();
-  for (std::size_t k = 0; k < needed_.size(); ++k)
-    if (needed_[k] >= storedCount)
-      for (const Term& t : rig_.surface.derivation(needed_[k])) need(t.vector);
-  std::ranges::sort(needed_);
-  for (std::size_t k = 0; k < needed_.size(); ++k) placeOf_[needed_[k]] = static_cast<Index>(k);
+void RowDifferences::need(Index vector) {
+  std::uint64_t& word = isNeeded_[static_cast<std::size_t>(vector) / 64];
+  const std::uint64_t bit = std::uint64_t(1) << vector % 64;
+  if (word & bit) return;
+  word |= bit;
+  stack_.push_back(vector);
 }
 
-std::vector<std::uint16_t> RowDifferences::findMoving(std::span<const Row> rows) const {
-  std::vector<std::uint64_t> any(words_);
+// Vectors are derived from those before them, so that ascending is the order to settle them in.
+void RowDifferences::collect(std::span<const Row> rows) {
+  const Index storedCount = rig_.surface.storedCount();
+  for (const Row& row : rows)
+    for (std::size_t t = 0; t < row.vectors.size(); ++t)
+      if (row.factors[t] != 0) need(row.vectors[t]);
+  while (!stack_.empty()) {
+    const Index vector = stack_.back();
+    stack_.pop_back();
+    if (vector >= storedCount)
+      for (const Term& term : rig_.surface.derivation(vector)) need(term.vector);
+  }
+  needed_.clear();
+  for (std::size_t w = 0; w < isNeeded_.size(); ++w)
+    for (std::uint64_t bits = std::exchange(isNeeded_[w], 0); bits != 0; bits &= bits - 1) {
+      const auto vector = static_cast<Index>(64 * w + std::countr_zero(bits));
+      placeOf_[vector] = static_cast<Index>(needed_.size());
+      needed_.push_back(vector);
+    }
+}
+
+void RowDifferences::findMoving(std::span<const Row> rows, std::vector<std::uint16_t>& moving) {
+  std::ranges::fill(columnAt_, -1);
   for (const Index v : needed_) {
     if (v >= rig_.surface.storedCount()) break;
-    for (std::size_t w = 0; w < words_; ++w) any[w] |= moves_[words_ * v + w];
+    for (std::size_t k = firstMove_[v]; k < firstMove_[v + 1]; ++k) columnAt_[moves_[k].column] = 0;
   }
   for (const Row& row : rows)
     for (Index c = 0; row.loose >= 0 && c < columns_; ++c)
-      if (ofLoose(row.loose, c) != Vec3{}) any[c / 64] |= std::uint64_t(1) << c % 64;
-  std::vector<std::uint16_t> moving;
-  for (std::size_t w = 0; w < words_; ++w)
-    for (std::uint64_t bits = any[w]; bits != 0; bits &= bits - 1)
-      moving.push_back(static_cast<std::uint16_t>(64 * w + std::countr_zero(bits)));
-  return moving;
+      if (ofLoose(row.loose, c) != Vec3{}) columnAt_[c] = 0;
+  moving.clear();
+  for (Index c = 0; c < columns_; ++c) {
+    if (columnAt_[c] < 0) continue;
+    columnAt_[c] = static_cast<int>(moving.size());
+    moving.push_back(static_cast<std::uint16_t>(c));
+  }
 }
 
-void RowDifferences::settle(std::span<const std::uint16_t> moving) {
-  const std::size_t width = 3 * moving.size();
-  settled_.assign(width * needed_.size(), 0.0f);
+void RowDifferences::settle() {
+  const int lane = settled_.lane;
   for (std::size_t k = 0; k < needed_.size(); ++k) {
-    float* const out = settled_.data() + width * k;
-    if (needed_[k] < rig_.surface.storedCount()) {
-      for (std::size_t c = 0; c < moving.size(); ++c)
-        write(stored(needed_[k], moving[c]), out + 3 * c);
+    const Index vector = needed_[k];
+    float* const out = settled_.row(static_cast<int>(k));
+    if (vector < rig_.surface.storedCount()) {
+      for (std::size_t m = firstMove_[vector]; m < firstMove_[vector + 1]; ++m) {
+        const Move& move = moves_[m];
+        float* const to = out + columnAt_[move.column];
+        to[0] = move.x, to[lane] = move.y, to[2 * lane] = move.z;
+      }
       continue;
     }
-    for (const Term& t : rig_.surface.derivation(needed_[k])) {
-      const float* const from = settled_.data() + width * placeOf_[t.vector];
-      const float factor = static_cast<float>(t.factor);
-      for (std::size_t c = 0; c < width; ++c) out[c] += factor * from[c];
-    }
+    terms_.clear();
+    for (const Term& term : rig_.surface.derivation(vector))
+      terms_.push_back({static_cast<float>(term.factor), settled_.row(placeOf_[term.vector])});
+    sumRows(terms_, settled_.width(), out);
   }
 }
 
-Differences RowDifferences::of(std::span<const Row> rows, std::vector<std::uint16_t>& moving) {
+void RowDifferences::of(std::span<const Row> rows, double scale, std::vector<std::uint16_t>& moving,
+                        Planes& out) {
   collect(rows);
-  moving = findMoving(rows);
-  settle(moving);
-  Differences out{static_cast<int>(rows.size()), static_cast<int>(moving.size()), {}};
-  const std::size_t width = 3 * moving.size();
-  out.values.assign(width * rows.size(), 0.0f);
+  findMoving(rows, moving);
+  settled_.reshape(static_cast<int>(needed_.size()), static_cast<int>(moving.size()));
+  settle();
+  out.reshape(static_cast<int>(rows.size()), static_cast<int>(moving.size()));
   for (std::size_t r = 0; r < rows.size(); ++r) {
+    const Row& row = rows[r];
     float* const to = out.row(static_cast<int>(r));
-    for (std::size_t c = 0; rows[r].loose >= 0 && c < moving.size(); ++c)
-      write(ofLoose(rows[r].loose, moving[c]), to + 3 * c);
-    for (const Term& t : rows[r].terms) {
-      const float* const from = settled_.data() + width * placeOf_[t.vector];
-      const float factor = static_cast<float>(t.factor);
-      for (std::size_t c = 0; c < width; ++c) to[c] += factor * from[c];
+    terms_.clear();
+    for (std::size_t t = 0; t < row.vectors.size(); ++t)
+      if (row.factors[t] != 0)
+        terms_.push_back({static_cast<float>(row.factors[t] * row.scale * scale),
+                          settled_.row(placeOf_[row.vectors[t]])});
+    sumRows(terms_, out.width(), to);
+    for (std::size_t c = 0; row.loose >= 0 && c < moving.size(); ++c) {
+      const Vec3 d = scale * ofLoose(row.loose, moving[c]);
+      to[c] = clamped(d.x), to[out.lane + c] = clamped(d.y), to[2 * out.lane + c] = clamped(d.z);
     }
   }
-  return out;
+  for (float& x : out.values) x = std::clamp(x, -kMostScaled, kMostScaled);
 }
 
 }  // namespace sweepface

@@ -1,17 +1,20 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
 #include "sweepface/rig.hpp"
 
-#include "eval/low_rank.hpp"
+#include "eval/planes.hpp"
 
 namespace sweepface {
 
-/// A row as a sum over the vectors of a settled pose; or a vertex of no face.
+/// A row as a sum over the vectors of a settled pose, or a vertex of no face.
 struct Row {
-  std::vector<Term> terms;
+  std::span<const Index> vectors;
+  std::span<const double> factors;
+  double scale = 1;  ///< of all factors
   Index loose = -1;
 };
 
@@ -24,25 +27,35 @@ class RowDifferences {
   RowDifferences(const Rig& rig, std::span<const std::vector<float>> influences);
 
   Index columns() const { return columns_; }
-  /// The columns that move any of the rows, and the differences of the rows in model units.
-  /// Differences beyond what single precision bears end there.
-  Differences of(std::span<const Row> rows, std::vector<std::uint16_t>& moving);
+  /// The columns that move any of the rows, and the differences of the rows times `scale`, within
+  /// ±`most`.
+  void of(std::span<const Row> rows, double scale, std::vector<std::uint16_t>& moving, Planes& out);
 
  private:
+  struct Move {
+    std::uint32_t column;
+    float x, y, z;
+  };
+
+  void listMoves(std::span<const std::vector<float>> influences);
   void collect(std::span<const Row> rows);
-  std::vector<std::uint16_t> findMoving(std::span<const Row> rows) const;
-  void settle(std::span<const std::uint16_t> moving);
-  Vec3 stored(Index vector, Index column) const;
+  void need(Index vector);
+  void findMoving(std::span<const Row> rows, std::vector<std::uint16_t>& moving);
+  void settle();
   Vec3 ofLoose(Index loose, Index column) const;
 
   const Rig& rig_;
-  std::span<const std::vector<float>> influences_;
   Index targets_, columns_;
-  std::size_t words_;
-  std::vector<std::uint64_t> moves_;  // [stored][words] bit set: which columns move a stored vector
-  std::vector<Index> needed_;         // vectors the rows are made of, directly or not, ascending
-  std::vector<Index> placeOf_;        // [vectors] in needed_, or -1
-  std::vector<float> settled_;        // [needed_][moving × 3]
+  std::vector<std::size_t> firstMove_;  // [stored + 1]
+  std::vector<Move> moves_;             // of each stored vector
+  // Of the rows at hand:
+  std::vector<Index> needed_;            // vectors the rows are made of, directly or not, ascending
+  std::vector<std::uint64_t> isNeeded_;  // [vectors] a bit for each
+  std::vector<Index> stack_;
+  std::vector<Index> placeOf_;  // [vectors] in needed_, where it is needed
+  std::vector<int> columnAt_;   // [columns] among those that move, or -1
+  std::vector<Scaled> terms_;
+  Planes settled_;  // [needed_]
 };
 
 }  // namespace sweepface

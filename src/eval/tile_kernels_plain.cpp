@@ -13,14 +13,24 @@ std::int16_t half(std::uint32_t pair, int side) {
   return static_cast<std::int16_t>(pair >> (16 * side) & 0xffff);
 }
 
+/// The next number: all of its bits, or the upper half.
+std::int16_t take(const std::byte*& from, bool isWide) {
+  if (!isWide) return static_cast<std::int16_t>(static_cast<std::int8_t>(*from++) * kNarrow);
+  std::int16_t x;
+  std::memcpy(&x, from, sizeof(x));
+  from += sizeof(x);
+  return x;
+}
+
 /// The modes' coefficients c_m under the frame's weights, in the order of the blocks.
 void blend(const Tile& tile, const std::uint32_t* pairs, std::int16_t* c) {
-  const std::int16_t* from = tile.coefficients;
+  const std::byte* from = tile.coefficients;
   for (int b = 0; b < tile.head->blocks; ++b) {
     std::array<std::int32_t, kGroup> sums{};
     for (int p = 0; p < tile.head->blockPairs[b]; ++p)
       for (int lane = 0; lane < kGroup; ++lane)
-        for (int side = 0; side < 2; ++side) sums[lane] += *from++ * half(pairs[p], side);
+        for (int side = 0; side < 2; ++side)
+          sums[lane] += take(from, b < tile.head->wideBlocks) * half(pairs[p], side);
     for (int lane = 0; lane < kGroup; ++lane)
       *c++ = static_cast<std::int16_t>(std::clamp((sums[lane] + (1 << 15)) >> 16, -32768, 32767));
   }
@@ -32,16 +42,20 @@ void combine(const Tile& tile, int groups, const FrameWeights& frame, Vectors& o
   std::array<std::int16_t, kMostBlocks * kGroup> c;
   blend(tile, frame.pairs, c.data());
   const float scale = tile.head->scale * frame.factor;
-  for (int row = 0; row < kGroup * groups; ++row)
-    for (int axis = 0; axis < 3; ++axis) {
-      const int g = row / kGroup, lane = row % kGroup;
-      const std::int16_t* basis = tile.basis + (g * tile.head->modePairs * kGroup + lane) * 2;
-      std::int32_t sum = 0;
-      for (int p = 0; p < tile.head->modePairs; ++p)
-        for (int h = 0; h < 2; ++h) sum += basis[2 * kGroup * p + h] * c[6 * p + 2 * axis + h];
-      out[row][axis] =
-          tile.neutral[(3 * g + axis) * kGroup + lane] + static_cast<float>(sum) * scale;
-    }
+  const std::byte* basis = tile.basis;
+  for (int g = 0; g < groups; ++g) {
+    std::array<std::array<std::int32_t, 3>, kGroup> sums{};
+    for (int p = 0; p < tile.head->modePairs; ++p)
+      for (int lane = 0; lane < kGroup; ++lane)
+        for (int h = 0; h < 2; ++h) {
+          const std::int16_t x = take(basis, p < tile.head->wideModePairs);
+          for (int axis = 0; axis < 3; ++axis) sums[lane][axis] += x * c[6 * p + 2 * axis + h];
+        }
+    for (int lane = 0; lane < kGroup; ++lane)
+      for (int axis = 0; axis < 3; ++axis)
+        out[kGroup * g + lane][axis] = tile.neutral[(3 * g + axis) * kGroup + lane] +
+                                       static_cast<float>(sums[lane][axis]) * scale;
+  }
 }
 
 float inverseRoot(float x) {

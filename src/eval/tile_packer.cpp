@@ -3,155 +3,175 @@
 #include <cmath>
 #include <cstring>
 
+#include "eval/low_rank.hpp"
+#include "surface/sorting.hpp"
+
 namespace sweepface {
 namespace {
 
 constexpr double kMostScale = 1e19;  // times 2³¹ and large weights it stays finite
 
+/// How many modes keep 16 bits of their coefficients and of their basis.
+struct Wide {
+  int coefficients, basis;
+};
+
 /// Modes in the integers of the tables.
 struct Integers {
-  int modes = 0, targets = 0;
-  std::vector<std::int16_t> coefficients;  // [modes][targets × 3]
+  int modes = 0, rows = 0, lane = 0;
+  std::vector<std::int16_t> coefficients;  // [modes][3 × lane]
   std::vector<std::int16_t> basis;         // [modes][rows]
   double scale = 0;                        // of basis · c
 };
 
-std::int16_t toShort(double x) {
-  return static_cast<std::int16_t>(std::clamp(std::floor(x + 0.5), -kMostShort, kMostShort));
+/// To whole multiples of 1 or of 256.
+std::int16_t toShort(double x, bool wide) {
+  const int step = wide ? 1 : kNarrow;
+  const double most = std::floor(kMostShort / step);
+  return static_cast<std::int16_t>(step * std::clamp(std::floor(x / step + 0.5), -most, most));
 }
 
 /// The unit of a mode's coefficients: the smallest with which neither one of them nor the sum of a
 /// component over all targets overflows.
-double coefficientUnit(std::span<const float> coefficients, int targets) {
-  double most = 0, sums[3] = {};
-  for (std::size_t i = 0; i < coefficients.size(); ++i) {
-    const double size = std::abs(double(coefficients[i]));
-    most = std::max(most, size);
-    sums[i % 3] += size;
+double coefficientUnit(const float* coefficients, int lane, int targets, bool wide) {
+  double most = 0, largest = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    double sum = 0;
+    for (int k = 0; k < targets; ++k) {
+      const double size = std::abs(double(coefficients[axis * lane + k]));
+      most = std::max(most, size);
+      sum += size;
+    }
+    largest = std::max(largest, sum);
   }
-  const double sum = std::max({sums[0], sums[1], sums[2]});
-  return std::max({most / kMostShort, sum / (kMostSum - targets), 1e-30});
+  const double room = wide ? 1 : kNarrow / 2;  // for rounding
+  return std::max({most / (kMostShort - room), largest / (kMostSum - room * targets), 1e-30});
 }
 
-Integers toIntegers(const LowRank& found, int rows, int targets) {
-  Integers out{found.modes, targets, {}, {}, 0};
-  const int columns = 3 * targets;
+/// With too many targets, rounding to 8 bits could overflow.
+bool allowsNarrow(int targets) { return targets * kNarrow < kMostSum / 2; }
+
+Integers toIntegers(const LowRank& found, const Planes& wanted, Wide wide) {
+  const int rows = wanted.rows, width = wanted.width();
+  Integers out;
+  out.modes = found.modes, out.rows = rows, out.lane = wanted.lane;
+  out.coefficients.resize(std::size_t(found.modes) * width);
+  out.basis.resize(std::size_t(found.modes) * rows);
   std::vector<double> stepOf(found.modes);  // what 1 of c_m is
+  std::vector<double> sums(rows);
+  double most = 0;
   for (int m = 0; m < found.modes; ++m) {
-    const std::span<const float> coefficients(found.coefficients.data() + std::size_t(m) * columns,
-                                              columns);
-    const double unit = coefficientUnit(coefficients, targets);
+    const float* const from = found.coefficients.data() + std::size_t(m) * width;
+    const bool isWide = m < wide.coefficients;
+    const double unit = coefficientUnit(from, wanted.lane, wanted.targets, isWide);
     stepOf[m] = unit * 65536 / kWeightUnit;
-    for (const float x : coefficients) out.coefficients.push_back(toShort(x / unit));
-  }
-  double sum = 0, most = 0;
-  for (int r = 0; r < rows; ++r) {
-    double ofRow = 0;
-    for (int m = 0; m < found.modes; ++m) {
+    std::int16_t* const to = out.coefficients.data() + std::size_t(m) * width;
+    for (int c = 0; c < width; ++c) to[c] = toShort(from[c] / unit, isWide);
+    for (int r = 0; r < rows; ++r) {
       const double size = std::abs(found.basis[std::size_t(m) * rows + r]) * stepOf[m];
-      ofRow += size;
+      sums[r] += size;
       most = std::max(most, size);
     }
-    sum = std::max(sum, ofRow);
   }
-  out.scale = std::max({sum / (kMostBasis - found.modes), most / kMostShort, 1e-30});
+  const double sum = rows > 0 ? std::ranges::max(sums) : 0;
+  const int narrow = std::max(0, found.modes - wide.basis);
+  const double rounding = found.modes + narrow * (kNarrow / 2);
+  out.scale = std::max({sum / (kMostBasis - rounding), most / (kMostShort - kNarrow / 2), 1e-30});
   for (int m = 0; m < found.modes; ++m)
-    for (int r = 0; r < rows; ++r)
-      out.basis.push_back(toShort(found.basis[std::size_t(m) * rows + r] * stepOf[m] / out.scale));
+    for (int r = 0; r < rows; ++r) {
+      const std::size_t at = std::size_t(m) * rows + r;
+      out.basis[at] = toShort(found.basis[at] * stepOf[m] / out.scale, m < wide.basis);
+    }
   return out;
 }
 
 /// The largest distance over all rows between the integers and what they stand for, for each target
-/// at weight 1.
-std::vector<double> measure(const Integers& integers, const Differences& wanted) {
-  std::vector<double> worst(wanted.targets);
-  std::vector<float> sums(wanted.columns());  // errors of single precision are far below the unit
+/// at weight 1. Errors of single precision are far below the unit.
+std::vector<double> measure(const Integers& integers, const Planes& wanted) {
   const double scale = integers.scale * kWeightUnit / 65536;
-  for (int r = 0; r < wanted.rows; ++r) {
-    std::ranges::fill(sums, 0.0f);
-    for (int m = 0; m < integers.modes; ++m) {
-      const float b = static_cast<float>(scale * integers.basis[std::size_t(m) * wanted.rows + r]);
-      const std::int16_t* from = integers.coefficients.data() + std::size_t(m) * sums.size();
-      for (std::size_t c = 0; c < sums.size(); ++c) sums[c] += b * from[c];
-    }
-    for (int k = 0; k < wanted.targets; ++k) {
-      double squared = 0;
-      for (int c = 3 * k; c < 3 * k + 3; ++c) {
-        const double off = sums[c] - wanted.row(r)[c];
-        squared += off * off;
-      }
-      worst[k] = std::max(worst[k], squared);
-    }
-  }
-  for (double& x : worst) x = std::sqrt(x);
+  std::vector<float> basis(integers.basis.size()), squares(wanted.lane);
+  for (std::size_t k = 0; k < basis.size(); ++k)
+    basis[k] = static_cast<float>(scale * integers.basis[k]);
+  const std::vector<float> coefficients(integers.coefficients.begin(), integers.coefficients.end());
+  measureRest(wanted, basis, coefficients.data(), squares.data());
+  std::vector<double> worst(wanted.targets);
+  for (int k = 0; k < wanted.targets; ++k) worst[k] = std::sqrt(double(squares[k]));
   return worst;
 }
 
 /// Each c_m is off by 1/2 from rounding it and by 1 from rounding weights, as coefficients add up
 /// to no more than 2¹⁷; single precision adds less than a hundredth of that.
-double roundingOf(const Integers& integers, int rows) {
+double roundingOf(const Integers& integers) {
   double most = 0;
-  for (int r = 0; r < rows; ++r) {
+  for (int r = 0; r < integers.rows; ++r) {
     double sum = 0;
     for (int m = 0; m < integers.modes; ++m)
-      sum += std::abs(integers.basis[std::size_t(m) * rows + r]);
+      sum += std::abs(integers.basis[std::size_t(m) * integers.rows + r]);
     most = std::max(most, sum);
   }
   return 1.01 * std::sqrt(3.0) * 1.5 * integers.scale * most;
 }
 
+constexpr int pairsOf(int count) { return (count + 1) / 2; }
+/// The block that coefficients of a mode begin in.
+constexpr int blockOf(int mode) { return 6 * (mode / 2) / kGroup; }
+/// The first mode of which a block has a coefficient.
+constexpr int firstModeOf(int block) { return kGroup * block / 6 * 2; }
+
 class Packer {
  public:
-  Packer(const TileSource& source, const LowRank& found, const Integers& integers)
+  Packer(const TileSource& source, const LowRank& found, const Integers& integers, Wide wide)
       : source_(source),
         integers_(integers),
         modesOf_(found.modesOf),
+        wide_(wide),
         order_(found.modesOf.size()) {
     for (std::size_t k = 0; k < order_.size(); ++k)  // those with most modes first
       order_[k] = (kMostRows - modesOf_[k]) << 16 | static_cast<int>(k);
-    std::ranges::sort(order_);
+    sortSmall(std::span(order_));
     for (int& k : order_) k &= 0xffff;
     while (!order_.empty() && modesOf_[order_.back()] == 0) order_.pop_back();
   }
 
   void write(std::uint16_t nobody, TileTable& table) {
-    TileHead head = makeHead(table.groups());
+    const TileHead head = makeHead(table.groups());
     std::byte* const record = table.add(head.bytes, head.pairs);
     std::memcpy(record, &head, sizeof(head));
-    const Tile tile = tileAt(record);
-    writeTargets(const_cast<std::uint16_t*>(tile.targets), nobody);
-    writeCoefficients(head, const_cast<std::int16_t*>(tile.coefficients));
-    writeBasis(table.groups(), const_cast<std::int16_t*>(tile.basis));
-    writeNeutral(const_cast<float*>(tile.neutral));
-    std::ranges::copy(source_.vertices, const_cast<std::uint32_t*>(tile.vertices));
+    writeTargets(reinterpret_cast<std::uint16_t*>(record + sizeof(head)), nobody);
+    writeCoefficients(head, record + head.coefficientsAt);
+    writeBasis(head, table.groups(), record + head.basisAt);
+    writeNeutral(reinterpret_cast<float*>(record + head.neutralAt));
+    std::ranges::copy(source_.vertices, reinterpret_cast<std::uint32_t*>(record + head.verticesAt));
   }
 
  private:
-  int modePairs() const { return (integers_.modes + 1) / 2; }
-  int pairs() const { return static_cast<int>(order_.size() + 1) / 2; }
+  int pairs() const { return pairsOf(static_cast<int>(order_.size())); }
 
   TileHead makeHead(int groups) const {
     TileHead head;
     head.scale = static_cast<float>(std::min(integers_.scale * source_.unit, kMostScale));
     head.vertices = static_cast<std::uint16_t>(source_.vertices.size());
     head.pairs = static_cast<std::uint16_t>(pairs());
-    head.modePairs = static_cast<std::uint16_t>(modePairs());
-    head.blocks = static_cast<std::uint16_t>((6 * modePairs() + kGroup - 1) / kGroup);
-    std::size_t units = 0;
+    head.modePairs = static_cast<std::uint16_t>(pairsOf(integers_.modes));
+    head.wideModePairs =
+        static_cast<std::uint16_t>(std::min<int>(pairsOf(wide_.basis), head.modePairs));
+    head.blocks = static_cast<std::uint16_t>((6 * head.modePairs + kGroup - 1) / kGroup);
+    std::size_t coefficients = 0;
     for (int b = 0; b < head.blocks; ++b) {
-      const int firstMode = kGroup * b / 6 * 2;
       const auto users =
-          std::ranges::count_if(order_, [&](int k) { return modesOf_[k] > firstMode; });
-      head.blockPairs[b] = static_cast<std::uint16_t>((users + 1) / 2);
-      units += head.blockPairs[b];
+          std::ranges::count_if(order_, [&](int k) { return modesOf_[k] > firstModeOf(b); });
+      head.blockPairs[b] = static_cast<std::uint16_t>(pairsOf(static_cast<int>(users)));
+      const bool isWide = firstModeOf(b) < wide_.coefficients;
+      head.wideBlocks = static_cast<std::uint16_t>(head.wideBlocks + isWide);
+      coefficients += (isWide ? 4 : 2) * kGroup * std::size_t(head.blockPairs[b]);
     }
     std::size_t at = sizeof(head);
     const auto place = [&](std::size_t bytes) {
       return static_cast<std::uint32_t>(std::exchange(at, at + bytes));
     };
-    place(roundUp64(4 * head.pairs));
-    head.coefficientsAt = place(64 * units);
-    head.basisAt = place(std::size_t(64) * groups * head.modePairs);
+    place(roundUp32(4 * head.pairs));
+    head.coefficientsAt = place(coefficients);
+    head.basisAt = place(basisBytes(head) * groups);
     head.neutralAt = place(std::size_t(192) * groups);
     head.verticesAt = place(4 * kTileVertices);
     head.bytes = place(0);
@@ -163,32 +183,40 @@ class Packer {
       out[i] = i < static_cast<int>(order_.size()) ? source_.targets[order_[i]] : nobody;
   }
 
-  std::int16_t coefficient(int mode, int place, int component) const {
-    if (mode >= integers_.modes || place >= static_cast<int>(order_.size())) return 0;
-    const int k = order_[place];
-    if (mode >= modesOf_[k]) return 0;
-    return integers_.coefficients[std::size_t(mode) * 3 * integers_.targets + 3 * k + component];
+  /// A number with all of its bits, or with the upper half.
+  static void put(std::byte*& out, std::int16_t x, bool isWide) {
+    *out = static_cast<std::byte>((isWide ? x : x / kNarrow) & 0xff);
+    ++out;
+    if (isWide) *out++ = static_cast<std::byte>(x >> 8 & 0xff);
   }
 
-  void writeCoefficients(const TileHead& head, std::int16_t* out) const {
-    for (int b = 0; b < head.blocks; ++b)
+  void writeCoefficients(const TileHead& head, std::byte* out) const {
+    const int users = static_cast<int>(order_.size());
+    for (int b = 0; b < head.blocks; ++b) {
+      const bool isWide = b < head.wideBlocks;
       for (int p = 0; p < head.blockPairs[b]; ++p)
-        for (int lane = 0; lane < kGroup; ++lane)
-          for (int side = 0; side < 2; ++side) {
-            const int i = kGroup * b + lane;
-            *out++ = coefficient(i / 6 * 2 + i % 2, 2 * p + side, i % 6 / 2);
+        for (int i = kGroup * b; i < kGroup * (b + 1); ++i)
+          for (int place = 2 * p; place < 2 * p + 2; ++place) {
+            const int mode = i / 6 * 2 + i % 2, axis = i % 6 / 2;
+            const bool has = place < users && mode < modesOf_[order_[place]];
+            put(out,
+                has ? integers_.coefficients[std::size_t(3 * mode + axis) * integers_.lane +
+                                             order_[place]]
+                    : std::int16_t(0),
+                isWide);
           }
+    }
   }
 
-  void writeBasis(int groups, std::int16_t* out) const {
-    const int rows = source_.differences.rows;
+  void writeBasis(const TileHead& head, int groups, std::byte* out) const {
     for (int g = 0; g < groups; ++g)
-      for (int p = 0; p < modePairs(); ++p)
-        for (int lane = 0; lane < kGroup; ++lane)
-          for (int mode = 2 * p; mode < 2 * p + 2; ++mode) {
-            const int row = kGroup * g + lane;
-            *out++ = mode < integers_.modes ? integers_.basis[std::size_t(mode) * rows + row] : 0;
-          }
+      for (int p = 0; p < head.modePairs; ++p)
+        for (int row = kGroup * g; row < kGroup * (g + 1); ++row)
+          for (int mode = 2 * p; mode < 2 * p + 2; ++mode)
+            put(out,
+                mode < integers_.modes ? integers_.basis[std::size_t(mode) * integers_.rows + row]
+                                       : std::int16_t(0),
+                p < head.wideModePairs);
   }
 
   void writeNeutral(float* out) const {
@@ -200,25 +228,38 @@ class Packer {
   const TileSource& source_;
   const Integers& integers_;
   const std::vector<int>& modesOf_;
+  Wide wide_;
   std::vector<int> order_;  // of targets
 };
+
+bool isEnough(const std::vector<double>& errors) {
+  return std::ranges::all_of(errors, [](double e) { return e <= 1; });
+}
 
 }  // namespace
 
 PackedErrors packTile(const TileSource& source, std::uint16_t nobody, TileTable& table) {
   // Rounding the modes takes its share; where that is too much, more modes make up for it.
+  const Planes& wanted = source.differences;
   PackedErrors errors;
   LowRank found;
   Integers integers;
+  Wide wide{};
   double share = 0.95;
   for (int attempt = 0; attempt < 4; ++attempt, share *= 0.6) {
-    found = factorise(source.differences, static_cast<float>(share));
-    integers = toIntegers(found, source.differences.rows, source.differences.targets);
-    errors.ofTarget = measure(integers, source.differences);
-    if (std::ranges::all_of(errors.ofTarget, [](double e) { return e <= 1; })) break;
+    found = factorise(wanted, static_cast<float>(share));
+    // As many bits as the first block of coefficients needs, then as all may have.
+    for (const int first : {firstModeOf(1), kMostRows}) {
+      wide = {first, first == kMostRows ? kMostRows : 4};
+      if (first != kMostRows && !allowsNarrow(wanted.targets)) continue;
+      integers = toIntegers(found, wanted, wide);
+      errors.ofTarget = measure(integers, wanted);
+      if (isEnough(errors.ofTarget)) break;
+    }
+    if (isEnough(errors.ofTarget)) break;
   }
-  errors.rounding = roundingOf(integers, source.differences.rows);
-  Packer(source, found, integers).write(nobody, table);
+  errors.rounding = roundingOf(integers);
+  Packer(source, found, integers, wide).write(nobody, table);
   return errors;
 }
 

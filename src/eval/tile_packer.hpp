@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "eval/low_rank.hpp"
+#include "eval/planes.hpp"
 #include "eval/tiles.hpp"
 
 namespace sweepface {
@@ -12,7 +12,7 @@ struct TileSource {
   std::vector<std::uint32_t> vertices;        ///< where its vertices go
   std::vector<std::uint16_t> targets;         ///< weights that move it
   std::vector<std::array<float, 3>> neutral;  ///< [rows]
-  Differences differences;                    ///< [rows × targets], in units of `unit`
+  Planes differences;                         ///< [rows × targets], in units of `unit`
   double unit = 1;                            ///< what differences of 1 are
 };
 

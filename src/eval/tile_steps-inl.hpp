@@ -22,6 +22,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Ints = hn::CappedTag<std::int32_t, kGroup>;
 using Shorts = hn::Repartition<std::int16_t, Ints>;
 using Halves = hn::Rebind<std::int16_t, Ints>;
+using Bytes = hn::Rebind<std::int8_t, Shorts>;
 using Floats = hn::Rebind<float, Ints>;
 using Int = hn::Vec<Ints>;
 using Short = hn::Vec<Shorts>;
@@ -29,6 +30,7 @@ using Float = hn::Vec<Floats>;
 constexpr Ints kInts;
 constexpr Shorts kShorts;
 constexpr Halves kHalves;
+constexpr Bytes kBytes;
 constexpr Floats kFloats;
 constexpr int kLanes = static_cast<int>(hn::MaxLanes(kInts));
 constexpr int kParts = kGroup / kLanes;  // vectors in a group
@@ -89,24 +91,39 @@ class TileWeights {
 #endif
 };
 
-HWY_INLINE void blend(const Tile& tile, const std::uint32_t* pairs, std::int16_t* c) {
-  const std::int16_t* from = tile.coefficients;
-  for (int b = 0; b < tile.head->blocks; ++b, c += kGroup) {
-    Sum sums[kParts], others[kParts];  // two chains of sums, or each would wait for the one before
-    const auto add = [&](Sum* to, int p) HWY_ATTR {
-      const Short weights = broadcast(pairs + p);
-      for (int s = 0; s < kParts; ++s, from += 2 * kLanes)
-        to[s].add(hn::Load(kShorts, from), weights);
-    };
-    const int count = tile.head->blockPairs[b];
-    for (int p = 0; p + 1 < count; p += 2) add(sums, p), add(others, p + 1);
-    if (count % 2 == 1) add(sums, count - 1);
-    for (int s = 0; s < kParts; ++s) {
-      const Int sum = hn::Add(sums[s].total(), others[s].total());
-      const Int rounded = hn::Add(sum, hn::Set(kInts, 1 << 15));
-      hn::Store(hn::DemoteTo(kHalves, hn::ShiftRight<16>(rounded)), kHalves, c + kLanes * s);
-    }
+/// Numbers of 16 bits, or of 8.
+HWY_INLINE Short load(const std::int16_t* from) { return hn::LoadU(kShorts, from); }
+HWY_INLINE Short load(const std::int8_t* from) {
+  return hn::PromoteTo(kShorts, hn::LoadU(kBytes, from));
+}
+
+/// The sums of a block, in units of 2^shift.
+template <int shift, typename Number>
+HWY_INLINE const Number* blendBlock(const Number* from, int count, const std::uint32_t* pairs,
+                                    std::int16_t* c) {
+  Sum sums[kParts], others[kParts];  // two chains of sums, or each would wait for the one before
+  const auto add = [&](Sum* to, int p) HWY_ATTR {
+    const Short weights = broadcast(pairs + p);
+    for (int s = 0; s < kParts; ++s, from += 2 * kLanes) to[s].add(load(from), weights);
+  };
+  for (int p = 0; p + 1 < count; p += 2) add(sums, p), add(others, p + 1);
+  if (count % 2 == 1) add(sums, count - 1);
+  for (int s = 0; s < kParts; ++s) {
+    const Int sum = hn::Add(sums[s].total(), others[s].total());
+    const Int rounded = hn::Add(sum, hn::Set(kInts, 1 << (shift - 1)));
+    hn::Store(hn::DemoteTo(kHalves, hn::ShiftRight<shift>(rounded)), kHalves, c + kLanes * s);
   }
+  return from;
+}
+
+HWY_INLINE void blend(const Tile& tile, const std::uint32_t* pairs, std::int16_t* c) {
+  const auto* wide = reinterpret_cast<const std::int16_t*>(tile.coefficients);
+  int b = 0;
+  for (; b < tile.head->wideBlocks; ++b, c += kGroup)
+    wide = blendBlock<16>(wide, tile.head->blockPairs[b], pairs, c);
+  const auto* narrow = reinterpret_cast<const std::int8_t*>(wide);
+  for (; b < tile.head->blocks; ++b, c += kGroup)
+    narrow = blendBlock<8>(narrow, tile.head->blockPairs[b], pairs, c);
 }
 
 /// As many vectors as fit, a register for each coordinate.
@@ -135,18 +152,29 @@ HWY_INLINE Vectors finish(const Tile& tile, Place at, Float scale, const Sum& x,
 
 HWY_INLINE Combined combine(const Tile& tile, const std::int16_t* c, Place a, Place b,
                             Float scale) {
-  const int modePairs = tile.head->modePairs;
-  const auto basisOf = [&](Place at) {
-    return tile.basis + 2 * (kGroup * modePairs * at.group + kLanes * at.part);
-  };
-  const std::int16_t *basisA = basisOf(a), *basisB = basisOf(b);
+  const int wide = tile.head->wideModePairs, narrow = tile.head->modePairs - wide;
+  const std::size_t ofGroup = basisBytes(*tile.head);
   Sum xA, yA, zA, xB, yB, zB;
-  for (int p = 0; p < modePairs; ++p, c += 6, basisA += 2 * kGroup, basisB += 2 * kGroup) {
-    const Short rowsA = hn::Load(kShorts, basisA), rowsB = hn::Load(kShorts, basisB);
+  const auto add = [&](Short rowsA, Short rowsB) HWY_ATTR {
     const Short x = broadcast(c), y = broadcast(c + 2), z = broadcast(c + 4);
     xA.add(rowsA, x), yA.add(rowsA, y), zA.add(rowsA, z);
     xB.add(rowsB, x), yB.add(rowsB, y), zB.add(rowsB, z);
-  }
+    c += 6;
+  };
+  const auto wideOf = [&](Place at) {
+    return reinterpret_cast<const std::int16_t*>(tile.basis + ofGroup * at.group) +
+           2 * kLanes * at.part;
+  };
+  const std::int16_t *wideA = wideOf(a), *wideB = wideOf(b);
+  for (int p = 0; p < wide; ++p, wideA += 2 * kGroup, wideB += 2 * kGroup)
+    add(load(wideA), load(wideB));
+  const auto narrowOf = [&](Place at) {
+    return reinterpret_cast<const std::int8_t*>(tile.basis + ofGroup * at.group) +
+           4 * kGroup * wide + 2 * kLanes * at.part;
+  };
+  const std::int8_t *narrowA = narrowOf(a), *narrowB = narrowOf(b);
+  for (int p = 0; p < narrow; ++p, narrowA += 2 * kGroup, narrowB += 2 * kGroup)
+    add(hn::ShiftLeft<8>(load(narrowA)), hn::ShiftLeft<8>(load(narrowB)));
   return {finish(tile, a, scale, xA, yA, zA), finish(tile, b, scale, xB, yB, zB)};
 }
 

@@ -13,8 +13,8 @@ std::byte* TileTable::add(std::size_t bytes, int pairs) {
 }
 
 void TileTable::finish() {
-  constexpr std::size_t line = 64;
-  std::vector<std::byte> aligned(size_ + line);
+  constexpr std::size_t line = 64, behind = 64;  // whole registers are read
+  std::vector<std::byte> aligned(size_ + line + behind);
   first_ = (line - reinterpret_cast<std::uintptr_t>(aligned.data()) % line) % line;
   std::ranges::copy(memory_, aligned.begin() + static_cast<std::ptrdiff_t>(first_));
   memory_ = std::move(aligned);

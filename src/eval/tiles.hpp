@@ -16,7 +16,8 @@
 //   row(v) = neutral(v) + scale · Σ_m basis(v, m) · c_m,   c_m = Σ_k weight_k · coefficient(m, k)
 //
 // Basis, coefficients and weights are 16-bit integers and their sums exact in 32 bits, so that
-// every instruction set gives the same bits.
+// every instruction set gives the same bits. Of later modes, which add little, only the upper 8
+// bits are kept where that is enough.
 namespace sweepface {
 
 inline constexpr int kTileVertices = 32;
@@ -29,13 +30,15 @@ inline constexpr int kMostBlocks = 3 * kMostRows / kGroup;
 // that sum is c_m. The basis of a row adds up to no more than kMostBasis over all modes.
 inline constexpr int kWeightUnit = 1 << 14;
 inline constexpr double kMostSum = 131000, kMostBasis = 65000, kMostShort = 32767;
+inline constexpr int kNarrow = 256;  // what 8 bits are multiples of
 
 /// The head of a tile's record, which goes on with
-///   targets       [pairs × 2] uint16, padded to 64 bytes
-///   coefficients  [blocks][blockPairs][16 × 2] int16: block b holds coefficients 16b … 16b + 15
-///                 for two targets side by side; coefficient 6p + 2c + h is component c of mode
-///                 2p + h
-///   basis         [groups][modePairs][16 × 2] int16: two modes side by side
+///   targets       [pairs × 2] uint16
+///   coefficients  [blocks][blockPairs][16 × 2] int16, from wideBlocks on int8 · 256: block b holds
+///                 coefficients 16b … 16b + 15 for two targets side by side; coefficient
+///                 6p + 2c + h is component c of mode 2p + h
+///   basis         [groups][modePairs][16 × 2] int16, from wideModePairs on int8 · 256: two modes
+///                 side by side
 ///   neutral       [groups][3][16] float
 ///   vertices      [32] uint32: where they go
 struct TileHead {
@@ -47,28 +50,35 @@ struct TileHead {
   std::uint16_t modePairs = 0;
   std::uint16_t blocks = 0;
   std::array<std::uint16_t, kMostBlocks> blockPairs{};  ///< falling; 0 behind the last block
-  std::array<std::uint16_t, 4> unused{};
+  std::uint16_t wideModePairs = 0, wideBlocks = 0;      ///< the first, with 16 bits
+  std::array<std::uint16_t, 2> unused{};
 };
 static_assert(sizeof(TileHead) == 64);
+
+/// Bytes of a group's basis.
+inline std::size_t basisBytes(const TileHead& head) {
+  return 2 * kGroup * (std::size_t(head.modePairs) + head.wideModePairs);
+}
 
 /// A tile's record taken apart.
 struct Tile {
   const TileHead* head = nullptr;
   const std::uint16_t* targets = nullptr;
-  const std::int16_t* coefficients = nullptr;
-  const std::int16_t* basis = nullptr;
+  const std::byte* coefficients = nullptr;
+  const std::byte* basis = nullptr;
   const float* neutral = nullptr;
   const std::uint32_t* vertices = nullptr;
 };
 
+constexpr std::size_t roundUp32(std::size_t bytes) { return (bytes + 31) / 32 * 32; }
 inline std::size_t roundUp64(std::size_t bytes) { return (bytes + 63) / 64 * 64; }
 
 inline Tile tileAt(const std::byte* record) {
   const auto* head = reinterpret_cast<const TileHead*>(record);
   return {head,
           reinterpret_cast<const std::uint16_t*>(record + sizeof(TileHead)),
-          reinterpret_cast<const std::int16_t*>(record + head->coefficientsAt),
-          reinterpret_cast<const std::int16_t*>(record + head->basisAt),
+          record + head->coefficientsAt,
+          record + head->basisAt,
           reinterpret_cast<const float*>(record + head->neutralAt),
           reinterpret_cast<const std::uint32_t*>(record + head->verticesAt)};
 }

@@ -22,8 +22,7 @@ constexpr std::array kNames{Name{Drive::Kind::cut, "cut"},
 
 Result<void> checkIndex(std::size_t weight, std::size_t count) {
   if (weight < count) return {};
-  return fail("There is no weight " + std::to_string(weight) + "; there are " +
-              std::to_string(count) + ".");
+  return fail("There is no weight ", weight, "; there are ", count, ".");
 }
 
 }  // namespace
@@ -35,8 +34,7 @@ Result<Drive> driveFromName(std::string_view name) {
     if (!names.empty()) names += ", ";
     names += n.text;
   }
-  return fail("There is no way to move called \"" + std::string(name) + "\"; there are " + names +
-              ".");
+  return fail("There is no way to move called \"", name, "\"; there are ", names, ".");
 }
 
 std::string_view nameOf(Drive::Kind kind) noexcept {
@@ -71,7 +69,7 @@ Result<MotionState> MotionState::make(std::span<const double> weights) {
   MotionState state;
   for (std::size_t k = 0; k < weights.size(); ++k) {
     if (!std::isfinite(weights[k]))
-      return fail("Weight " + std::to_string(k) + " of the motion is not a finite number.");
+      return fail("Weight ", k, " of the motion is not a finite number.");
     state.coordinates_.push_back({Trajectory(weights[k]), Trajectory(weights[k]), 0, 0});
   }
   return state;
@@ -113,8 +111,7 @@ Result<void> MotionState::moveTo(std::size_t weight, double goal, const Drive& d
 
 Result<void> MotionState::moveTo(std::span<const double> goals, const Drive& drive) {
   if (goals.size() != size())
-    return fail("There are " + std::to_string(goals.size()) + " goals for " +
-                std::to_string(size()) + " weights; give one each.");
+    return fail("There are ", goals.size(), " goals for ", size(), " weights; give one each.");
   // All are prepared before the first sets out, so that an error leaves everything as it was.
   for (std::size_t k = 0; k < size(); ++k)
     if (const auto next = prepare(k, goals[k], drive); !next) return std::unexpected(next.error());

@@ -5,6 +5,8 @@
 #include <limits>
 #include <numbers>
 
+#include "ode/elementary.hpp"
+
 namespace sweepface {
 namespace {
 
@@ -51,17 +53,18 @@ Kinematics path::Swing::at(double t) const noexcept {
   const double w = std::sqrt(std::abs(difference)), angle = w * t;
   double c, s;
   if (angle < 1e-8) {
-    c = std::exp(-sigma * t);
+    c = ode::exponential(-sigma * t);
     s = c * t;
   } else if (difference > 0) {
-    c = std::exp(-sigma * t) * std::cos(angle);
-    s = std::exp(-sigma * t) * std::sin(angle) / w;
+    const auto [sine, cosine] = ode::sineCosine(angle);
+    c = ode::exponential(-sigma * t) * cosine;
+    s = ode::exponential(-sigma * t) * sine / w;
   } else {
     // σ − w loses its digits when w is nearly σ; ω² / (σ + w) does not.
-    const double slow = std::exp(-omega * omega / (sigma + w) * t);
-    const double shrink = std::exp(-2 * angle);
+    const double slow = ode::exponential(-omega * omega / (sigma + w) * t);
+    const double shrink = ode::exponential(-2 * angle);
     c = slow * (1 + shrink) / 2;
-    s = slow * -std::expm1(-2 * angle) / (2 * w);
+    s = slow * -ode::exponentialLess1(-2 * angle) / (2 * w);
   }
   const double y = x - goal, pull = omega * omega;
   const double position = c * y + s * (v + sigma * y),
@@ -76,15 +79,16 @@ Kinematics path::Bounces::at(double t) const noexcept {
   const double e = restitution, first = 2 * e * speed / fall.a, since = t - end;
   const double left = 1 - since * (1 - e) / first;  // eⁿ⁻¹ of the bounce, smoothly
   if (!(left > 0)) return {goal, 0, 0};
-  const double n = std::floor(std::log(left) / std::log(e));
-  const double power = std::exp(n * std::log(e)), began = first * (1 - power) / (1 - e);
+  const double n = std::floor(ode::logarithm(left) / ode::logarithm(e));
+  const double power = ode::exponential(n * ode::logarithm(e)),
+               began = first * (1 - power) / (1 - e);
   const double s = std::fmin(std::fmax(since - began, 0), first * power), up = -e * power * speed;
   return {goal + s * (up + s * fall.a / 2), up + s * fall.a, fall.a};
 }
 
 Kinematics path::Coasting::at(double t) const noexcept {
-  const double way = drag > 0 ? -std::expm1(-drag * t) / drag : t;
-  const double velocity = drag > 0 ? v * std::exp(-drag * t) : v;
+  const double way = drag > 0 ? -ode::exponentialLess1(-drag * t) / drag : t;
+  const double velocity = drag > 0 ? v * ode::exponential(-drag * t) : v;
   return {x + v * way, velocity, -drag * velocity};
 }
 
@@ -92,8 +96,9 @@ Kinematics path::Coasting::at(double t) const noexcept {
 Kinematics path::Driven::periodic(double t) const noexcept {
   Kinematics sum;
   for (std::size_t k = 0; k < count; ++k) {
-    const double w = static_cast<double>(k + 1) * omega, half = std::sin(w * t / 2);
-    const double sine = std::sin(w * t), cosine = std::cos(w * t), risen = 2 * half * half / w;
+    const double w = static_cast<double>(k + 1) * omega, half = ode::sineCosine(w * t / 2).sine;
+    const auto [sine, cosine] = ode::sineCosine(w * t);
+    const double risen = 2 * half * half / w;
     const Harmonic& h = harmonics[k];
     sum.position += h.cosine * risen / w + h.sine * (t - sine / w) / w;
     sum.velocity += h.cosine * sine / w + h.sine * risen;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ode/elementary.hpp"
+
 namespace sweepface::ode {
 namespace {
 
@@ -22,12 +24,12 @@ Wave wave(double s, double tail, double u) {
   const double r = std::sqrt(std::abs(s));
   if (s < 0) {
     // The phase to more digits than a double has: resonance would multiply its error.
-    const double phase = r * t, rest = std::fma(r, t, -phase) + tail * t;
-    const double sine = std::sin(phase), cosine = std::cos(phase);
+    const double phase = r * t, rest = productPlus(r, t, -phase) + tail * t;
+    const auto [sine, cosine] = sineCosine(phase);
     return {cosine - rest * sine, (sine + rest * cosine) / r};
   }
   const double end = std::min(u, 1 - u);
-  const double decay = 0.5 * std::exp(-r * end), rest = std::expm1(-r * (1 - 2 * end));
+  const double decay = 0.5 * exponential(-r * end), rest = exponentialLess1(-r * (1 - 2 * end));
   return {decay * (2 + rest), std::copysign(decay * rest / r, t)};
 }
 
@@ -77,7 +79,7 @@ Exact sum(double a, double b) {
 double rootTail(Exact s) {
   if (!(s.value < 0)) return 0;
   const double r = std::sqrt(-s.value);
-  return (std::fma(-r, r, -s.value) - s.tail) / (2 * r);
+  return (productPlus(-r, r, -s.value) - s.tail) / (2 * r);
 }
 
 Roots withTails(RootCase kind, Exact first, Exact second) {
@@ -87,7 +89,7 @@ Roots withTails(RootCase kind, Exact first, Exact second) {
 // r = p + q and p - q for b >= 0, where p^2 and q^2 are real; this is the one with +-sqrt(b).
 Exact closeSquare(double a, double b, double sign) {
   const double root = std::sqrt(b);
-  const double rootRest = root > 0 ? std::fma(-root, root, b) / (2 * root) : 0;
+  const double rootRest = root > 0 ? productPlus(-root, root, b) / (2 * root) : 0;
   const auto [large, small] = sum(-a / 2, sign * root);
   const auto [value, tail] = sum(large, small + sign * rootRest);  // `large` may have cancelled
   return {value / 2, tail / 2};
@@ -97,10 +99,10 @@ Exact closeSquare(double a, double b, double sign) {
 Roots apartRoots(double a, double b, double s1) {
   const auto [other, otherTail] = sum(s1, a);
   const double product = s1 * other;
-  const double residual = (product + b) + std::fma(s1, other, -product) + s1 * otherTail;
+  const double residual = (product + b) + productPlus(s1, other, -product) + s1 * otherTail;
   const double tail1 = -residual / (s1 + other);
   const double s2 = b / s1;  // their difference would cancel
-  const double tail2 = (std::fma(-s2, s1, b) - s2 * tail1) / s1;
+  const double tail2 = (productPlus(-s2, s1, b) - s2 * tail1) / s1;
   return withTails(RootCase::Apart, {s1, tail1}, {s2, tail2});
 }
 

@@ -45,14 +45,14 @@ Result<Basis> accepted(const Basis& basis, double root, bool isSafe, const std::
     if (!std::isfinite(g)) return fail("The shape parameters are too large, or meet a resonance.");
   if (isSafe) return basis;
   if (root > largestRoot)
-    return fail("The solutions oscillate too fast to be checked: use " + safe +
-                ", or smaller parameters or a shorter length (roots near " + number(root) +
-                ", at most " + number(largestRoot) + ").");
+    return fail("The solutions oscillate too fast to be checked: use ", safe,
+                ", or smaller parameters or a shorter length (roots near ", number(root),
+                ", at most ", number(largestRoot), ").");
   const double largest = largestOnGrid(basis);
   if (largest <= largestValue) return basis;
-  return fail("The shape parameters are close to a resonance: use " + safe +
-              ", or other parameters (a basis function reaches " + number(largest) + ", at most " +
-              number(largestValue) + ").");
+  return fail("The shape parameters are close to a resonance: use ", safe,
+              ", or other parameters (a basis function reaches ", number(largest), ", at most ",
+              number(largestValue), ").");
 }
 
 }  // namespace sweepface::ode

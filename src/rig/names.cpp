@@ -62,7 +62,7 @@ Result<Index> Rig::find(Thing thing, std::string_view name) const {
   const std::string_view digits = name.starts_with(kind.letter) ? name.substr(1) : name;
   if (const Index index = toIndex(digits, size); index >= 0) return index;
   const std::string word = kind.word;
-  return fail("There is no " + word + " named '" + std::string(name) + "'; " +
+  return fail("There is no ", word, " named '", name, "'; ",
               (size == 0 ? "this face has none."
                          : "there are " + std::to_string(size) + ", '" + nameOf(thing, 0) +
                                "' to '" + nameOf(thing, static_cast<Index>(size) - 1) +

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <numeric>
+#include <span>
 #include <string>
 #include <tuple>
-#include <unordered_set>
+
+#include "surface/sorting.hpp"
 
 namespace sweepface {
 
@@ -17,7 +19,7 @@ std::vector<Index> findShapes(const std::vector<Shape>& ribbons) {
   };
   std::vector<Index> order(ribbons.size()), first(ribbons.size());
   std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(), [&](Index a, Index b) { return key(a) < key(b); });
+  sortSmall(std::span(order), [&](Index a, Index b) { return key(a) < key(b); });
   for (std::size_t k = 0; k < order.size(); ++k) {
     const bool same = k > 0 && ribbons[order[k]] == ribbons[order[k - 1]];
     first[order[k]] = same ? first[order[k - 1]] : order[k];
@@ -31,16 +33,13 @@ Result<BasisTable> BasisTable::make(const std::vector<Shape>& ribbons,
                                     std::vector<std::array<Index, 2>> ribbonsAndEdges) {
   BasisTable table;
   table.shapes_ = findShapes(ribbons);
-  std::unordered_set<std::uint64_t> seen;
-  for (auto [ribbon, edges] : ribbonsAndEdges) {
-    const Key key = table.keyOf(ribbon, edges);
-    if (seen.insert(std::uint64_t(key[0]) << 32 | std::uint32_t(edges)).second)
-      table.keys_.push_back(key);
-  }
-  std::sort(table.keys_.begin(), table.keys_.end());
+  for (auto& [ribbon, edges] : ribbonsAndEdges) ribbon = table.shapes_[ribbon];
+  sortSmall(std::span(ribbonsAndEdges));
+  const auto repeated = std::ranges::unique(ribbonsAndEdges);
+  table.keys_.assign(ribbonsAndEdges.begin(), repeated.begin());
   for (auto [ribbon, edges] : table.keys_) {
     auto basis = SweepBasis::make(ribbons[ribbon], edges);
-    if (!basis) return fail("ribbon " + std::to_string(ribbon) + ": " + basis.error().message);
+    if (!basis) return fail("ribbon ", ribbon, ": ", basis.error().message);
     table.bases_.push_back(*basis);
   }
   return table;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "ode/elementary.hpp"
 #include "ode/power.hpp"
 
 namespace sweepface {
@@ -18,9 +19,9 @@ struct RingPoints {
 // The subdominant eigenvector of Catmull–Clark subdivision with rotation by `angle` from sector to
 // sector: each new point of the second ring is λ times the old one it falls on.
 RingPoints characteristicRings(double angle) {
-  const double c = std::cos(angle);
+  const double c = ode::sineCosine(angle).cosine;
   const double lambda = (c + 5 + std::sqrt((c + 9) * (c + 1))) / 16;
-  const Complex w = std::polar(1.0, angle), back = std::conj(w);
+  const Complex w = onCircle(angle), back = std::conj(w);
   const Complex face = (1.0 + w) / (4 * lambda - 1);
 
   // The second ring: e = (2,0) by the vertex rule, f = (2,1) and g = (1,2) by the edge rule.
@@ -44,9 +45,14 @@ constexpr double kParabola[3][3] = {{1, 0, 0}, {-1.5, 2, -0.5}, {1, -2, 1}};
 
 }  // namespace
 
+std::complex<double> onCircle(double angle) {
+  const auto [sine, cosine] = ode::sineCosine(angle);
+  return {cosine, sine};
+}
+
 PlaneJet characteristicCorner(double start, double angle, double scale) {
   const RingPoints ring = characteristicRings(angle);
-  const Complex turn = std::polar(1.0, start);
+  const Complex turn = onCircle(start);
   PlaneJet jet{};
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) {
@@ -60,12 +66,12 @@ PlaneJet characteristicCorner(double start, double angle, double scale) {
 
 std::array<Complex, 2> characteristicSpoke(double direction, double angle, double scale) {
   const double reach = characteristicRings(angle).at[2][0].real();
-  const Complex unit = std::polar(1.0, direction);
+  const Complex unit = onCircle(direction);
   return {unit * (2 - reach / 2), unit * ((reach - 2) / scale)};
 }
 
 PlaneJet collapsedCorner(double ray, double turn, bool collapsedFirst) {
-  const Complex unit = std::polar(1.0, ray), rate{0, turn};
+  const Complex unit = onCircle(ray), rate{0, turn};
   PlaneJet jet{};
   const int step = collapsedFirst ? 3 : 1, out = collapsedFirst ? 1 : 3;
   jet[out] = unit;

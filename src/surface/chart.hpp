@@ -8,6 +8,8 @@ namespace sweepface {
 /// Derivatives ∂α^i ∂β^j, i, j ≤ 2, at index 3i + j, of a map of a patch corner into the plane.
 using PlaneJet = std::array<std::complex<double>, 9>;
 
+std::complex<double> onCircle(double angle);
+
 /// The corner of a regular grid mapped into the plane around an irregular point: the characteristic
 /// map of Catmull–Clark subdivision (Reif 1995; Stam 1998) for sectors of `angle`, its first spoke
 /// at `start`. The map is self-similar, so it has no derivatives of its own at the centre; it is

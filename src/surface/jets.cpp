@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "ode/elementary.hpp"
 #include "ode/power.hpp"
 #include "surface/basis_table.hpp"
 #include "surface/chart.hpp"
@@ -161,7 +162,8 @@ class JetBuilder {
   static bool fanStores(const Fan& fan, int k) {
     if (!fan.regular && (k == 5 || k >= 7)) return false;
     if (fan.firstGiven && (k == 3 || k == 6)) return false;
-    const bool lastIsY = fan.regular ? fan.sectors == 1 : std::abs(std::sin(opening(fan))) > 1e-9;
+    const bool lastIsY =
+        fan.regular ? fan.sectors == 1 : std::abs(ode::sineCosine(opening(fan)).sine) > 1e-9;
     return !(fan.lastGiven && lastIsY && (k == 1 || k == 2));
   }
   static double opening(const Fan& fan) { return fan.step * fan.sectors; }
@@ -323,7 +325,7 @@ class JetBuilder {
         const HalfArc arm = c_.stars[n].arms[s];
         const Arc& arc = w_.arcs[arcOf(arm)];
         if (!arc.collapsed) {
-          logLength += std::log(c_.rails[arm].edges);
+          logLength += ode::logarithm(c_.rails[arm].edges);
           ++spokes;
         }
       }
@@ -335,7 +337,7 @@ class JetBuilder {
     }
     const bool open = !c_.stars[ring[0]].closed && !collapsedArm(ring[0], 0);
     const double step = (open ? 1 : 2) * std::numbers::pi / steps;
-    const double scale = std::max(1.0, 0.25 * std::exp(logLength / std::max(1, spokes)));
+    const double scale = std::max(1.0, 0.25 * ode::exponential(logLength / std::max(1, spokes)));
     double angle = 0;
     for (Index n : ring) angle = chartNode(hub, n, angle, step, scale);
   }
@@ -389,7 +391,7 @@ class JetBuilder {
   void writeSpoke(const Hub& hub, Index n, std::size_t arm, double angle, double step, double scale,
                   bool ray) {
     ray = ray || (arm > 0 && collapsedArm(n, arm - 1));
-    const auto d = ray ? std::array<std::complex<double>, 2>{std::polar(1.0, angle), 0}
+    const auto d = ray ? std::array<std::complex<double>, 2>{onCircle(angle), 0}
                        : characteristicSpoke(angle, step, scale);
     composeArm(n, arm, quadratic(hub), d);
   }
@@ -427,9 +429,9 @@ class JetBuilder {
   void foldFans(Index n) {
     const auto& arms = c_.stars[n].arms;
     double logLength = 0;
-    for (HalfArc arm : arms) logLength += std::log(c_.rails[arm].edges);
+    for (HalfArc arm : arms) logLength += ode::logarithm(c_.rails[arm].edges);
     const double scale =
-        std::max(1.0, 0.25 * std::exp(logLength / static_cast<double>(arms.size())));
+        std::max(1.0, 0.25 * ode::exponential(logLength / static_cast<double>(arms.size())));
     for (std::size_t f = 0; f < c_.fans[n].size(); ++f)
       c_.fans[n][f].regular ? foldRegular(n, f) : foldChart(n, f, scale);
   }
@@ -494,7 +496,7 @@ class JetBuilder {
       addTo(row(2, 0), JetRef{armVector(n, fan.first, 2), 1}, 1 / (s * s));
       addTo(row(2, 0), own(1, 0), -t / (s * s));
     }
-    const double c = std::cos(opening(fan)), d = std::sin(opening(fan));
+    const auto [d, c] = ode::sineCosine(opening(fan));
     if (!fan.lastGiven || std::abs(d) <= 1e-9) return;
     const std::size_t last = fan.first + fan.sectors;
     addTo(row(0, 1), JetRef{armVector(n, last, 1), 1}, 1 / (s * d));
@@ -559,7 +561,7 @@ class JetBuilder {
       if (place[v] < 0 && seenFrom[v] == start) found.push_back(breaker(v, place));
     }
     if (circle) *circle = found;
-    return fail("the derivatives at node " + std::to_string(found.front()) +
+    return fail("the derivatives at node ", found.front(),
                 " are derived from themselves; let it store its own");
   }
   Index unmet(Index v, const std::vector<Index>& place) const {

@@ -39,9 +39,9 @@ Result<void> checkRibbons(const Wireframe& w, const Connectivity& c) {
     for (int s = 0; s < 4; ++s)
       for (HalfArc h : w.side(p, s))
         if (ribbon(h) != ribbon(w.side(p, s)[0]))
-          return fail("a side of patch " + std::to_string(p) + " changes its ribbon half-way");
+          return fail("a side of patch ", p, " changes its ribbon half-way");
     if (ribbon(w.side(p, 0)[0]) != ribbon(w.side(p, 2)[0]))
-      return fail("patch " + std::to_string(p) + " sweeps along sides of two ribbons");
+      return fail("patch ", p, " sweeps along sides of two ribbons");
   }
   for (std::size_t n = 0; n < w.nodes.size(); ++n) {
     if (c.kinds[n] != NodeKind::hanging) continue;
@@ -49,7 +49,7 @@ Result<void> checkRibbons(const Wireframe& w, const Connectivity& c) {
     for (int k = 0; k < 3; ++k) {
       const int on = c.opposite(static_cast<Index>(n), k);
       if (on >= 0 && w.arcs[arcOf(arms[k])].ribbon != w.arcs[arcOf(arms[on])].ribbon)
-        return fail("the ribbon changes at T-node " + std::to_string(n));
+        return fail("the ribbon changes at T-node ", n);
     }
   }
   return {};

@@ -14,10 +14,6 @@ Index Wireframe::sideEdges(Index patch, int s) const {
 
 namespace {
 
-std::string name(const char* what, Index index) {
-  return std::string(what) + " " + std::to_string(index);
-}
-
 Result<void> checkIndices(const Wireframe& w) {
   const auto nodes = static_cast<Index>(w.nodes.size());
   const auto halves = static_cast<Index>(2 * w.arcs.size());
@@ -25,22 +21,22 @@ Result<void> checkIndices(const Wireframe& w) {
     const Arc& arc = w.arcs[a];
     const auto id = static_cast<Index>(a);
     if (arc.from < 0 || arc.from >= nodes || arc.to < 0 || arc.to >= nodes)
-      return fail(name("arc", id) + " ends at a node that does not exist");
-    if (arc.edges < 1) return fail(name("arc", id) + " has no length");
+      return fail("arc ", id, " ends at a node that does not exist");
+    if (arc.edges < 1) return fail("arc ", id, " has no length");
     if (arc.collapsed && arc.crease)
-      return fail(name("arc", id) + " is one point and cannot be a crease");
+      return fail("arc ", id, " is one point and cannot be a crease");
     if (arc.ribbon < 0 || arc.ribbon >= static_cast<Index>(w.ribbons.size()))
-      return fail(name("arc", id) + " belongs to a ribbon that does not exist");
+      return fail("arc ", id, " belongs to a ribbon that does not exist");
   }
   for (std::size_t n = 0; n < w.nodes.size(); ++n)
     if (w.nodes[n].point < -1 || w.nodes[n].point >= w.points)
-      return fail(name("node", static_cast<Index>(n)) + " stands at a point that does not exist");
+      return fail("node ", n, " stands at a point that does not exist");
   for (std::size_t p = 0; p < w.patches.size(); ++p) {
     const auto& sides = w.patches[p].sides;
     for (int s = 0; s < 4; ++s)
       if (sides[s] < 0 || sides[s + 1] <= sides[s] ||
           sides[s + 1] > static_cast<Index>(w.loops.size()))
-        return fail(name("patch", static_cast<Index>(p)) + " lacks a side");
+        return fail("patch ", p, " lacks a side");
   }
   for (HalfArc h : w.loops)
     if (h < 0 || h >= halves) return fail("a patch is bounded by an arc that does not exist");
@@ -59,9 +55,8 @@ Result<void> linkLoops(const Wireframe& w, Connectivity& c) {
     const Index begin = sides[0], size = sides[4] - begin;
     for (Index k = 0; k < size; ++k) {
       const HalfArc h = w.loops[begin + k], g = w.loops[begin + (k + 1) % size];
-      if (c.patchOf[h] >= 0)
-        return fail(name("arc", arcOf(h)) + " is used twice in the same direction");
-      if (w.end(h) != w.start(g)) return fail(name("patch", p) + " is not a closed loop of arcs");
+      if (c.patchOf[h] >= 0) return fail("arc ", arcOf(h), " is used twice in the same direction");
+      if (w.end(h) != w.start(g)) return fail("patch ", p, " is not a closed loop of arcs");
       c.patchOf[h] = p;
       c.next[h] = g;
       c.prev[g] = h;
@@ -69,7 +64,7 @@ Result<void> linkLoops(const Wireframe& w, Connectivity& c) {
     for (int s = 0; s < 4; ++s) c.cornerAt[w.loops[sides[s]]] = 4 * p + s;
     for (int s = 0; s < 2; ++s)
       if (w.sideEdges(p, s) != w.sideEdges(p, s + 2))
-        return fail(name("patch", p) + " has opposite sides of different length");
+        return fail("patch ", p, " has opposite sides of different length");
   }
   return {};
 }
@@ -77,7 +72,7 @@ Result<void> linkLoops(const Wireframe& w, Connectivity& c) {
 // The arms of a node, counter-clockwise, from one of the half-arcs that leave it.
 Result<Star> starAt(const Connectivity& c, Index node, const std::vector<HalfArc>& leaving) {
   Star star;
-  if (leaving.empty()) return fail(name("node", node) + " belongs to no patch");
+  if (leaving.empty()) return fail("node ", node, " belongs to no patch");
   HalfArc first = leaving[0];
   for (HalfArc h : leaving)
     if (c.patchOf[twin(h)] < 0) first = h;
@@ -90,8 +85,7 @@ Result<Star> starAt(const Connectivity& c, Index node, const std::vector<HalfArc
   star.closed = h == first;
   if (!star.closed) star.arms.push_back(h);
   if (star.sectors.size() != leaving.size())
-    return fail(name("node", node) +
-                " joins patches that only touch there; give each its own node");
+    return fail("node ", node, " joins patches that only touch there; give each its own node");
   return star;
 }
 
@@ -114,9 +108,9 @@ Result<NodeKind> kindOf(const Wireframe& w, Index node, const Star& star, bool i
                                   [&](HalfArc h) { return w.arcs[arcOf(h)].collapsed; });
   if (straight > 0) {
     if (straight > 1 || !star.closed || star.arms.size() != 3)
-      return fail(name("node", node) + " stands on the side of a patch but is no T of three arcs");
+      return fail("node ", node, " stands on the side of a patch but is no T of three arcs");
     if (hangsOnCrease(w, star))
-      return fail(name("node", node) + " hangs on a crease; run its arc on, or end the crease");
+      return fail("node ", node, " hangs on a crease; run its arc on, or end the crease");
     return NodeKind::hanging;
   }
   if (atPole) return NodeKind::irregular;
@@ -150,8 +144,7 @@ Result<void> followRails(const Wireframe& w, Connectivity& c) {
   }
   for (std::size_t h = 0; h < c.rails.size(); ++h)
     if (c.rails[h].last < 0)
-      return fail(name("arc", arcOf(static_cast<HalfArc>(h))) +
-                  " lies on a ring of T-nodes; cut it at a node");
+      return fail("arc ", h / 2, " lies on a ring of T-nodes; cut it at a node");
   return {};
 }
 
@@ -176,9 +169,9 @@ Result<Connectivity> Connectivity::make(const Wireframe& w) {
     auto kind = kindOf(w, n, *star, !c.fans[n].empty());
     if (!kind) return std::unexpected(kind.error());
     if ((*kind == NodeKind::hanging) != (w.nodes[n].point < 0))
-      return fail(name("node", n) + (w.nodes[n].point < 0
-                                         ? " needs a point of its own"
-                                         : " hangs on an arc and must not have a point"));
+      return fail("node ", n,
+                  (w.nodes[n].point < 0 ? " needs a point of its own"
+                                        : " hangs on an arc and must not have a point"));
     for (std::size_t s = 0; s < star->sectors.size(); ++s)
       if (star->sectors[s] != kStraight) {
         c.cornerSector[star->sectors[s]] = static_cast<Index>(s);

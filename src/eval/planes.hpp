@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace sweepface {
+
+/// Vectors of a few rows for some targets, a plane for each coordinate: [rows][3][lane], where lane
+/// is the number of targets rounded up to what a register holds; what is beyond them is 0.
+struct Planes {
+  int rows = 0, targets = 0, lane = 0;
+  std::vector<float> values;
+
+  Planes() = default;
+  Planes(int rowCount, int targetCount) { reshape(rowCount, targetCount); }
+
+  /// All zero.
+  void reshape(int rowCount, int targetCount) {
+    rows = rowCount, targets = targetCount, lane = laneOf(targetCount);
+    values.assign(static_cast<std::size_t>(rows) * width(), 0.0f);
+  }
+  int width() const { return 3 * lane; }
+  float* row(int r) { return values.data() + static_cast<std::size_t>(r) * width(); }
+  const float* row(int r) const { return values.data() + static_cast<std::size_t>(r) * width(); }
+
+  static int laneOf(int targets) { return (targets + 7) / 8 * 8; }
+};
+
+// Loops over planes, by far most of what making an Evaluator takes. Rows are multiples of 8 long,
+// and sums are taken in the same order on every machine.
+
+struct Scaled {
+  float factor;
+  const float* row;
+};
+/// out = Σ factor · row
+void sumRows(std::span<const Scaled> terms, int width, float* out);
+/// out = Σ_r factors[r] · row r
+void project(const Planes& planes, const float* factors, float* out);
+/// out[r] = row r · vector
+void dotRows(const Planes& planes, const float* vector, float* out);
+/// Takes factors[r] · vector away from each row r.
+void takeAway(Planes& planes, const float* factors, const float* vector);
+/// The squares of columns added up over the rows [3 × lane], and the largest square of a target's
+/// vector in a row [lane].
+void measureSquares(const Planes& planes, float* sums, float* largest);
+/// The largest square of a target's vector in a row of `wanted` − Σ_m basis[m][r] · coefficients[m]
+/// [lane]; `coefficients` is [modes][3 × lane].
+void measureRest(const Planes& wanted, std::span<const float> basis, const float* coefficients,
+                 float* largest);
+
+}  // namespace sweepface
