@@ -17,11 +17,11 @@ struct EvaluatorOptions {
   bool normals = true;    ///< whether normals and tangents can be asked for
   bool positions = true;  ///< whether positions can
   bool targets = true;    ///< whether weights move anything; without, only the neutral can be had
-  /// How far a target of weight 1 may take a vertex from the surface, in model units. 0: a tenth of
+  /// How far a target of weight 1 may take a vertex from the surface, in model units. 0: three tenths of
   /// the rig's own tolerance, but no less than a hundred-thousandth of the neutral's diagonal.
   double tolerance = 0;
   /// The same for the surface's first derivatives, as a share of their neutral length.
-  double derivativeTolerance = 0.02;
+  double derivativeTolerance = 0.03;
   /// Influences of regions [R][storedCount]: target k of region r adds weight[r·K + k] ·
   /// influence[r][v] · difference to stored vector v, the same seen from every patch. Empty: one
   /// region that is everywhere.

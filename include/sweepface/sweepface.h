@@ -120,7 +120,7 @@ SWEEPFACE_API sweepface_status sweepface_face_set_weights(sweepface_face* face,
 SWEEPFACE_API const double* sweepface_face_weights(const sweepface_face* face);
 
 /* How far any vertex may be from the exact surface under the weights as they are, in model units:
- * a tenth of the rig's tolerance for every target of weight 1, and rounding. */
+ * three tenths of the rig's tolerance for every target of weight 1, and rounding. */
 SWEEPFACE_API double sweepface_face_error(const sweepface_face* face);
 
 /* Where to write an array of three floats a vertex. */

@@ -72,7 +72,7 @@ class Compiler {
 
   double usedTolerance() const {
     if (options_.tolerance > 0) return options_.tolerance;
-    return std::max({0.1 * rig_.tolerance, 1e-5 * diagonal(gridPositions_), 1e-30});
+    return std::max({0.3 * rig_.tolerance, 1e-5 * diagonal(gridPositions_), 1e-30});
   }
 
   /// Single precision: what a coordinate of the neutral may be off.
@@ -103,6 +103,7 @@ class Compiler {
       const auto [vectors, factors] = grid_.terms(g);
       rows_[k] = {vectors, factors};
     }
+    std::fill(tile.neutral.begin() + std::ssize(vertices), tile.neutral.end(), tile.neutral[0]);
     pack(tile, tolerance_, tables_.positions, tables_.positionErrors);
   }
 
@@ -167,6 +168,9 @@ class Compiler {
         rows_[d * kTileVertices + k] = {weights.vectors, weights.factors, scale};
       }
     }
+    for (const int first : {0, kTileVertices})
+      std::fill(tile.neutral.begin() + first + std::ssize(vertices),
+                tile.neutral.begin() + first + kTileVertices, tile.neutral[first]);
     pack(tile, options_.derivativeTolerance, tables_.derivatives, tables_.derivativeErrors);
   }
 

@@ -51,6 +51,7 @@ struct Stage {
   Tile tile;
   std::uint32_t* pairs;
   HWY_ALIGN std::int16_t c[kMostBlocks * kGroup];
+  Places places;
   Waiting first, second;
 };
 
@@ -76,6 +77,7 @@ HWY_INLINE void eachTile(const TileRange& tiles, const FrameWeights& frame, cons
       if (frame.cold) prefetch(tiles.table, tiles.first + k + 1);
       at(k).tile = tileAt(tiles.table.record(tiles.first + k));
       weights.choose(at(k).tile, at(k).pairs);
+      at(k).places.take(at(k).tile);
     }
     if (k >= 1 && k < count + 1) blend(at(k - 1).tile, at(k - 1).pairs, at(k - 1).c);
     if (k >= 2 && k < count + 2)
@@ -95,8 +97,9 @@ void evaluatePositions(const TileRange& tiles, const FrameWeights& frame, const 
       stage.first.put(kGroup + kLanes * part, rows.second);
     }
   };
-  eachTile(tiles, frame, combineTile,
-           [&](const Stage& stage) HWY_ATTR { write(stage.tile, all, stage.first, out); });
+  eachTile(tiles, frame, combineTile, [&](const Stage& stage) HWY_ATTR {
+    write(stage.tile, stage.places, all, stage.first, out);
+  });
 }
 
 void evaluateNormals(const TileRange& tiles, const FrameWeights& frame, const VectorsOut& normals,
@@ -111,8 +114,8 @@ void evaluateNormals(const TileRange& tiles, const FrameWeights& frame, const Ve
     }
   };
   eachTile(tiles, frame, combineTile, [&](const Stage& stage) HWY_ATTR {
-    if (normals.data) write(stage.tile, all, stage.first, normals);
-    if (tangents.data) write(stage.tile, all, stage.second, tangents);
+    if (normals.data) write(stage.tile, stage.places, all, stage.first, normals);
+    if (tangents.data) write(stage.tile, stage.places, all, stage.second, tangents);
   });
 }
 

@@ -13,9 +13,9 @@ std::int16_t half(std::uint32_t pair, int side) {
   return static_cast<std::int16_t>(pair >> (16 * side) & 0xffff);
 }
 
-/// The next number: all of its bits, or the upper half.
+/// The next number, of 16 or of 8 bits.
 std::int16_t take(const std::byte*& from, bool isWide) {
-  if (!isWide) return static_cast<std::int16_t>(static_cast<std::int8_t>(*from++) * kNarrow);
+  if (!isWide) return static_cast<std::int8_t>(*from++);
   std::int16_t x;
   std::memcpy(&x, from, sizeof(x));
   from += sizeof(x);
@@ -24,16 +24,27 @@ std::int16_t take(const std::byte*& from, bool isWide) {
 
 /// The modes' coefficients c_m under the frame's weights, in the order of the blocks.
 void blend(const Tile& tile, const std::uint32_t* pairs, std::int16_t* c) {
+  const TileHead& head = *tile.head;
   const std::byte* from = tile.coefficients;
-  for (int b = 0; b < tile.head->blocks; ++b) {
+  for (int b = 0; b < head.blocks; ++b) {
     std::array<std::int32_t, kGroup> sums{};
-    for (int p = 0; p < tile.head->blockPairs[b]; ++p)
+    const auto [wide, narrow] = tile.pairs[b];
+    for (int p = 0; p < wide + narrow; ++p)
       for (int lane = 0; lane < kGroup; ++lane)
-        for (int side = 0; side < 2; ++side)
-          sums[lane] += take(from, b < tile.head->wideBlocks) * half(pairs[p], side);
+        for (int side = 0; side < 2; ++side) {
+          const bool isWide = p < wide;
+          const std::int32_t weight = half(pairs[isWide ? p : head.widePairs + p - wide], side);
+          sums[lane] +=
+              take(from, isWide) * (1 << (isWide ? 0 : tile.shifts[kGroup * b + lane])) * weight;
+        }
     for (int lane = 0; lane < kGroup; ++lane)
       *c++ = static_cast<std::int16_t>(std::clamp((sums[lane] + (1 << 15)) >> 16, -32768, 32767));
   }
+}
+
+float neutral(const Tile& tile, int group, int axis, int lane) {
+  const float steps = tile.neutral[(3 * group + axis) * kGroup + lane];
+  return tile.head->origin[axis] + steps * tile.head->step;
 }
 
 /// All rows of a tile under the frame's weights.
@@ -48,13 +59,14 @@ void combine(const Tile& tile, int groups, const FrameWeights& frame, Vectors& o
     for (int p = 0; p < tile.head->modePairs; ++p)
       for (int lane = 0; lane < kGroup; ++lane)
         for (int h = 0; h < 2; ++h) {
-          const std::int16_t x = take(basis, p < tile.head->wideModePairs);
+          const bool isWide = p < tile.head->wideModePairs;
+          const int x = take(basis, isWide) * (1 << (isWide ? 0 : kBasisShift));
           for (int axis = 0; axis < 3; ++axis) sums[lane][axis] += x * c[6 * p + 2 * axis + h];
         }
     for (int lane = 0; lane < kGroup; ++lane)
       for (int axis = 0; axis < 3; ++axis)
-        out[kGroup * g + lane][axis] = tile.neutral[(3 * g + axis) * kGroup + lane] +
-                                       static_cast<float>(sums[lane][axis]) * scale;
+        out[kGroup * g + lane][axis] =
+            neutral(tile, g, axis, lane) + static_cast<float>(sums[lane][axis]) * scale;
   }
 }
 
@@ -70,8 +82,9 @@ std::array<float, 3> unit(const std::array<float, 3>& a) {
 }
 
 void write(const Tile& tile, int k, const std::array<float, 3>& vector, const VectorsOut& out) {
-  if (out.data && tile.vertices[k] < static_cast<std::uint32_t>(out.count))
-    std::memcpy(vectorAt(out, tile.vertices[k]), vector.data(), sizeof(vector));
+  const std::uint32_t vertex = vertexOf(tile, k);
+  if (out.data && vertex < static_cast<std::uint32_t>(out.count))
+    std::memcpy(vectorAt(out, vertex), vector.data(), sizeof(vector));
 }
 
 }  // namespace

@@ -23,6 +23,7 @@ using Ints = hn::CappedTag<std::int32_t, kGroup>;
 using Shorts = hn::Repartition<std::int16_t, Ints>;
 using Halves = hn::Rebind<std::int16_t, Ints>;
 using Bytes = hn::Rebind<std::int8_t, Shorts>;
+using Small = hn::Rebind<std::uint8_t, Ints>;
 using Floats = hn::Rebind<float, Ints>;
 using Int = hn::Vec<Ints>;
 using Short = hn::Vec<Shorts>;
@@ -31,6 +32,7 @@ constexpr Ints kInts;
 constexpr Shorts kShorts;
 constexpr Halves kHalves;
 constexpr Bytes kBytes;
+constexpr Small kSmall;
 constexpr Floats kFloats;
 constexpr int kLanes = static_cast<int>(hn::MaxLanes(kInts));
 constexpr int kParts = kGroup / kLanes;  // vectors in a group
@@ -97,33 +99,35 @@ HWY_INLINE Short load(const std::int8_t* from) {
   return hn::PromoteTo(kShorts, hn::LoadU(kBytes, from));
 }
 
-/// The sums of a block, in units of 2^shift.
-template <int shift, typename Number>
-HWY_INLINE const Number* blendBlock(const Number* from, int count, const std::uint32_t* pairs,
-                                    std::int16_t* c) {
-  Sum sums[kParts], others[kParts];  // two chains of sums, or each would wait for the one before
-  const auto add = [&](Sum* to, int p) HWY_ATTR {
+/// The coefficients of some pairs of targets times their weights, added up.
+template <typename Number>
+HWY_INLINE const Number* addPairs(const Number* from, int count, const std::uint32_t* pairs,
+                                  Sum* sums) {
+  for (int p = 0; p < count; ++p) {
     const Short weights = broadcast(pairs + p);
-    for (int s = 0; s < kParts; ++s, from += 2 * kLanes) to[s].add(load(from), weights);
-  };
-  for (int p = 0; p + 1 < count; p += 2) add(sums, p), add(others, p + 1);
-  if (count % 2 == 1) add(sums, count - 1);
-  for (int s = 0; s < kParts; ++s) {
-    const Int sum = hn::Add(sums[s].total(), others[s].total());
-    const Int rounded = hn::Add(sum, hn::Set(kInts, 1 << (shift - 1)));
-    hn::Store(hn::DemoteTo(kHalves, hn::ShiftRight<shift>(rounded)), kHalves, c + kLanes * s);
+    for (int s = 0; s < kParts; ++s, from += 2 * kLanes) sums[s].add(load(from), weights);
   }
   return from;
 }
 
 HWY_INLINE void blend(const Tile& tile, const std::uint32_t* pairs, std::int16_t* c) {
-  const auto* wide = reinterpret_cast<const std::int16_t*>(tile.coefficients);
-  int b = 0;
-  for (; b < tile.head->wideBlocks; ++b, c += kGroup)
-    wide = blendBlock<16>(wide, tile.head->blockPairs[b], pairs, c);
-  const auto* narrow = reinterpret_cast<const std::int8_t*>(wide);
-  for (; b < tile.head->blocks; ++b, c += kGroup)
-    narrow = blendBlock<8>(narrow, tile.head->blockPairs[b], pairs, c);
+  const TileHead& head = *tile.head;
+  const std::byte* from = tile.coefficients;
+  for (int b = 0; b < head.blocks; ++b, c += kGroup) {
+    Sum wide[kParts], narrow[kParts];
+    const auto* const rest =
+        addPairs(reinterpret_cast<const std::int16_t*>(from), tile.pairs[b].wide, pairs, wide);
+    from = reinterpret_cast<const std::byte*>(addPairs(reinterpret_cast<const std::int8_t*>(rest),
+                                                       tile.pairs[b].narrow, pairs + head.widePairs,
+                                                       narrow));
+    for (int s = 0; s < kParts; ++s) {
+      const Int shifts =
+          hn::PromoteTo(kInts, hn::LoadU(kSmall, tile.shifts + kGroup * b + kLanes * s));
+      const Int sum = hn::Add(wide[s].total(), hn::Shl(narrow[s].total(), shifts));
+      const Int rounded = hn::Add(sum, hn::Set(kInts, 1 << 15));
+      hn::Store(hn::DemoteTo(kHalves, hn::ShiftRight<16>(rounded)), kHalves, c + kLanes * s);
+    }
+  }
 }
 
 /// As many vectors as fit, a register for each coordinate.
@@ -142,10 +146,13 @@ struct Place {
 
 HWY_INLINE Vectors finish(const Tile& tile, Place at, Float scale, const Sum& x, const Sum& y,
                           const Sum& z) {
-  const float* neutral = tile.neutral + 3 * kGroup * at.group + kLanes * at.part;
+  const std::int16_t* neutral = tile.neutral + 3 * kGroup * at.group + kLanes * at.part;
+  const Float step = hn::Set(kFloats, tile.head->step);
   const auto one = [&](const Sum& sum, int axis) HWY_ATTR {
-    return hn::Add(hn::Load(kFloats, neutral + kGroup * axis),
-                   hn::Mul(hn::ConvertTo(kFloats, sum.total()), scale));
+    const Int steps = hn::PromoteTo(kInts, hn::LoadU(kHalves, neutral + kGroup * axis));
+    const Float whole = hn::Add(hn::Set(kFloats, tile.head->origin[axis]),
+                                hn::Mul(hn::ConvertTo(kFloats, steps), step));
+    return hn::Add(whole, hn::Mul(hn::ConvertTo(kFloats, sum.total()), scale));
   };
   return {one(x, 0), one(y, 1), one(z, 2)};
 }
@@ -174,7 +181,7 @@ HWY_INLINE Combined combine(const Tile& tile, const std::int16_t* c, Place a, Pl
   };
   const std::int8_t *narrowA = narrowOf(a), *narrowB = narrowOf(b);
   for (int p = 0; p < narrow; ++p, narrowA += 2 * kGroup, narrowB += 2 * kGroup)
-    add(hn::ShiftLeft<8>(load(narrowA)), hn::ShiftLeft<8>(load(narrowB)));
+    add(hn::ShiftLeft<kBasisShift>(load(narrowA)), hn::ShiftLeft<kBasisShift>(load(narrowB)));
   return {finish(tile, a, scale, xA, yA, zA), finish(tile, b, scale, xB, yB, zB)};
 }
 
@@ -233,10 +240,28 @@ HWY_INLINE void write3(const float* from, char* to) {
 #endif
 }
 
-HWY_INLINE void write(const Tile& tile, bool all, const Waiting& from, const VectorsOut& out) {
+/// Where the vertices of a tile go.
+struct Places {
+  HWY_ALIGN std::uint32_t of[kTileVertices];
+
+  HWY_INLINE void take(const Tile& tile) {
+    const hn::Repartition<std::uint32_t, Ints> words;
+    const hn::Rebind<std::uint16_t, Ints> shorts;
+    const auto* const wide = reinterpret_cast<const std::uint32_t*>(tile.vertices);
+    const auto* const narrow = reinterpret_cast<const std::uint16_t*>(tile.vertices);
+    for (int k = 0; k < kTileVertices; k += kLanes)
+      hn::Store(tile.head->wideVertices
+                    ? hn::LoadU(words, wide + k)
+                    : hn::BitCast(words, hn::PromoteTo(kInts, hn::LoadU(shorts, narrow + k))),
+                words, of + k);
+  }
+};
+
+HWY_INLINE void write(const Tile& tile, const Places& places, bool all, const Waiting& from,
+                      const VectorsOut& out) {
   if (all && out.stride == 12 && tile.head->vertices == kTileVertices) {
     char* const to = reinterpret_cast<char*>(out.data);
-    const std::uint32_t* vertex = tile.vertices;
+    const std::uint32_t* vertex = places.of;
     const float* xyz = from.xyz;
     for (int first = 0; first < kTileVertices; first += kLanes, xyz += 4 * kLanes)
       for (int j = 0; j < Waiting::kRows; ++j, vertex += 4)
@@ -245,8 +270,8 @@ HWY_INLINE void write(const Tile& tile, bool all, const Waiting& from, const Vec
     return;
   }
   for (int k = 0; k < tile.head->vertices; ++k)
-    if (tile.vertices[k] < static_cast<std::uint32_t>(out.count))
-      write3(from.at(k), vectorAt(out, tile.vertices[k]));
+    if (places.of[k] < static_cast<std::uint32_t>(out.count))
+      write3(from.at(k), vectorAt(out, places.of[k]));
 }
 
 }  // namespace

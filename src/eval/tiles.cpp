@@ -6,7 +6,7 @@ namespace sweepface {
 
 std::byte* TileTable::add(std::size_t bytes, int pairs) {
   starts_.push_back(size_);
-  size_ += roundUp64(bytes);
+  size_ += roundUp32(bytes);
   memory_.resize(size_);
   mostPairs_ = std::max(mostPairs_, pairs);
   return memory_.data() + starts_.back();

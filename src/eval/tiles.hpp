@@ -16,8 +16,8 @@
 //   row(v) = neutral(v) + scale · Σ_m basis(v, m) · c_m,   c_m = Σ_k weight_k · coefficient(m, k)
 //
 // Basis, coefficients and weights are 16-bit integers and their sums exact in 32 bits, so that
-// every instruction set gives the same bits. Of later modes, which add little, only the upper 8
-// bits are kept where that is enough.
+// every instruction set gives the same bits. Where that is enough, targets that move a tile little
+// have coefficients of 8 bits, and so has the basis of later modes, which add little.
 namespace sweepface {
 
 inline constexpr int kTileVertices = 32;
@@ -30,30 +30,42 @@ inline constexpr int kMostBlocks = 3 * kMostRows / kGroup;
 // that sum is c_m. The basis of a row adds up to no more than kMostBasis over all modes.
 inline constexpr int kWeightUnit = 1 << 14;
 inline constexpr double kMostSum = 131000, kMostBasis = 65000, kMostShort = 32767;
-inline constexpr int kNarrow = 256;  // what 8 bits are multiples of
+inline constexpr int kMostShift = 12;  // of coefficients of 8 bits
+inline constexpr int kBasisShift = 8;  // of a basis of 8 bits
 
 /// The head of a tile's record, which goes on with
-///   targets       [pairs × 2] uint16
-///   coefficients  [blocks][blockPairs][16 × 2] int16, from wideBlocks on int8 · 256: block b holds
-///                 coefficients 16b … 16b + 15 for two targets side by side; coefficient
-///                 6p + 2c + h is component c of mode 2p + h
-///   basis         [groups][modePairs][16 × 2] int16, from wideModePairs on int8 · 256: two modes
-///                 side by side
-///   neutral       [groups][3][16] float
-///   vertices      [32] uint32: where they go
+///   pairs         [blocks] BlockPairs
+///   shifts        [blocks][16] uint8: of coefficients of 8 bits
+///   targets       [2 × pairs] uint16, those of 16 bits first
+///   coefficients  [blocks]: block b holds coefficients 16b … 16b + 15 for two targets side by
+///   side,
+///                 [wide][16 × 2] int16 and then [narrow][16 × 2] int8 · 2^shift;
+///                 coefficient 6p + 2c + h is component c of mode 2p + h
+///   basis         [groups][modePairs][16 × 2] int16, from wideModePairs on int8 in units of 2⁸:
+///   two
+///                 modes side by side
+///   neutral       [groups][3][16] int16 · step + origin
+///   vertices      [32] uint16 or uint32: where they go
 struct TileHead {
   std::uint32_t bytes = 0;  ///< of the whole record
   float scale = 0;
-  std::uint32_t coefficientsAt = 0, basisAt = 0, neutralAt = 0, verticesAt = 0;  ///< in the record
-  std::uint16_t vertices = 0;
-  std::uint16_t pairs = 0;
-  std::uint16_t modePairs = 0;
-  std::uint16_t blocks = 0;
-  std::array<std::uint16_t, kMostBlocks> blockPairs{};  ///< falling; 0 behind the last block
-  std::uint16_t wideModePairs = 0, wideBlocks = 0;      ///< the first, with 16 bits
-  std::array<std::uint16_t, 2> unused{};
+  std::uint32_t coefficientsAt = 0, basisAt = 0, neutralAt = 0;  ///< in the record
+  std::uint16_t pairs = 0, widePairs = 0;                        ///< of targets
+  std::uint8_t vertices = 0, groups = 0;
+  std::uint8_t modePairs = 0, wideModePairs = 0;
+  std::uint8_t blocks = 0, wideVertices = 0;  ///< whether those are uint32
+  std::array<std::uint8_t, 2> unused{};
+  float step = 0;
+  std::array<float, 3> origin{};
 };
-static_assert(sizeof(TileHead) == 64);
+static_assert(sizeof(TileHead) == 48);
+
+/// The pairs of targets that have coefficients in a block: the first of the wide and of the narrow.
+struct BlockPairs {
+  std::uint16_t wide = 0, narrow = 0;
+};
+
+inline constexpr std::size_t kNeutralBytes = 6 * kGroup;  // of a group
 
 /// Bytes of a group's basis.
 inline std::size_t basisBytes(const TileHead& head) {
@@ -63,24 +75,35 @@ inline std::size_t basisBytes(const TileHead& head) {
 /// A tile's record taken apart.
 struct Tile {
   const TileHead* head = nullptr;
+  const BlockPairs* pairs = nullptr;
+  const std::uint8_t* shifts = nullptr;
   const std::uint16_t* targets = nullptr;
   const std::byte* coefficients = nullptr;
   const std::byte* basis = nullptr;
-  const float* neutral = nullptr;
-  const std::uint32_t* vertices = nullptr;
+  const std::int16_t* neutral = nullptr;
+  const std::byte* vertices = nullptr;
 };
+
+inline std::uint32_t vertexOf(const Tile& tile, int k) {
+  if (tile.head->wideVertices) return reinterpret_cast<const std::uint32_t*>(tile.vertices)[k];
+  return reinterpret_cast<const std::uint16_t*>(tile.vertices)[k];
+}
 
 constexpr std::size_t roundUp32(std::size_t bytes) { return (bytes + 31) / 32 * 32; }
 inline std::size_t roundUp64(std::size_t bytes) { return (bytes + 63) / 64 * 64; }
 
 inline Tile tileAt(const std::byte* record) {
   const auto* head = reinterpret_cast<const TileHead*>(record);
+  const auto* pairs = reinterpret_cast<const BlockPairs*>(head + 1);
+  const auto* shifts = reinterpret_cast<const std::uint8_t*>(pairs + head->blocks);
   return {head,
-          reinterpret_cast<const std::uint16_t*>(record + sizeof(TileHead)),
+          pairs,
+          shifts,
+          reinterpret_cast<const std::uint16_t*>(shifts + kGroup * head->blocks),
           record + head->coefficientsAt,
           record + head->basisAt,
-          reinterpret_cast<const float*>(record + head->neutralAt),
-          reinterpret_cast<const std::uint32_t*>(record + head->verticesAt)};
+          reinterpret_cast<const std::int16_t*>(record + head->neutralAt),
+          record + head->neutralAt + kNeutralBytes * head->groups};
 }
 
 /// Records one after the other, each beginning with a cache line once the table is finished.

@@ -97,8 +97,8 @@ TEST_F(Faces, AreTheLibrarysOwnInTheSourcesOrder) {
   const auto vectors = blend(rig, weights);
   EXPECT_EQ(sweepface_mesh_point_count(mesh), rig.source.gridVertex.size());
   expectNear(sourcePositions(rig, grid, vectors, weights), evaluate(), sweepface_face_error(face));
-  EXPECT_LE(sweepface_face_error(face), 0.2 * rig.tolerance);
-  expectNear(sourceNormals(rig, grid, vectors), evaluate(true), 0.05);
+  EXPECT_LE(sweepface_face_error(face), 0.6 * rig.tolerance);
+  expectNear(sourceNormals(rig, grid, vectors), evaluate(true), 0.08);
 }
 
 TEST_F(Faces, AreTheLibrarysOwnAtAnyLevel) {
@@ -108,7 +108,7 @@ TEST_F(Faces, AreTheLibrarysOwnAtAnyLevel) {
   const auto vectors = blend(rig, Weights{0, 0.75, 0});
   EXPECT_EQ(sweepface_mesh_point_count(mesh), static_cast<uint32_t>(grid.vertexCount()));
   expectNear(grid.positions(vectors), evaluate(), sweepface_face_error(face));
-  expectNear(grid.normals(vectors), evaluate(true), 0.05);
+  expectNear(grid.normals(vectors), evaluate(true), 0.08);
 }
 
 TEST_F(Faces, RepeatPointsAtSeams) {

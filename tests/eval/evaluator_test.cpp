@@ -130,16 +130,13 @@ TEST(Evaluator, dropsNoMoreOfATargetThanItsTolerance) {
     }
 }
 
-TEST(Evaluator, playsTheNeutralInSinglePrecision) {
+TEST(Evaluator, playsTheNeutralTo16Bits) {
   for (const Rig& rig : everyRig()) {
     const auto evaluator = Evaluator::make(rig).value();
     const auto wanted = surfacePositions(rig, 0, {});
-    const auto played = play(evaluator, {});
-    for (std::size_t v = 0; v < wanted.size(); ++v)
-      EXPECT_EQ(vectorOf(played.positions, v),
-                (Vec3{static_cast<float>(wanted[v].x), static_cast<float>(wanted[v].y),
-                      static_cast<float>(wanted[v].z)}));
-  }
+double largest = 0;
+    for (const Vec3& p : wanted) largest = std::max(largest, norm(p));
+    EXPECT_LE(largestDistance(play(evaluator, {}).positions, wanted), largest / (1 << 15));  }
 }
 
 /// sin of the angle that two derivatives of length 1, each off by `error`, may turn a normal whose
@@ -176,7 +173,7 @@ TEST(Evaluator, playsLooseVerticesWhichLookAlongZ) {
   const std::size_t last = rig.source.gridVertex.size() - 1;
   const auto played = play(evaluator, {0.5, 1, 0});
   EXPECT_LE(norm(vectorOf(played.positions, last) - Vec3{4.75, 5, 6}), 1e-3);
-  EXPECT_LE(norm(vectorOf(played.normals, last) - Vec3{0, 0, 1}), 1e-5);
+  EXPECT_LE(norm(vectorOf(played.normals, last) - Vec3{0, 0, 1}), 1e-4);
 }
 
 TEST(Evaluator, blendsEachRegionByItsOwnWeights) {
