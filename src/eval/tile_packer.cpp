@@ -314,7 +314,7 @@ bool isEnough(const std::vector<double>& errors) {
 PackedErrors packTile(const TileSource& source, std::uint16_t nobody, TileTable& table) {
   // Rounding the modes takes its share; where that is too much, more modes make up for it.
   constexpr Forms kForms[] = {
-      {1.4, 4}, {1.0, 6}, {1.0, kMostRows}, {0.5, kMostRows}, {}};  // the smallest first
+      {1.4, 4}, {1.0, kMostRows}, {0.5, kMostRows}, {}};  // the smallest first
   const Planes& wanted = source.differences;
   PackedErrors errors;
   LowRank found;

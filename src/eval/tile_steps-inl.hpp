@@ -51,6 +51,8 @@ struct Sum {
     low = hn::ReorderWidenMulAccumulate(kInts, a, b, low, high);
 #endif
   }
+  /// The pair is the same in all lanes.
+  HWY_INLINE void addPair(Short a, const void* pair);
   HWY_INLINE Int total() const { return hn::RearrangeToOddPlusEven(low, high); }
 };
 
@@ -58,6 +60,16 @@ HWY_INLINE Short broadcast(const void* pair) {
   std::int32_t bits;
   std::memcpy(&bits, pair, sizeof(bits));
   return hn::BitCast(kShorts, hn::Set(kInts, bits));
+}
+
+HWY_INLINE void Sum::addPair(Short a, const void* pair) {
+#if HWY_TARGET == HWY_AVX3_DL
+  asm("vpdpwssd %2%{1to16%}, %1, %0"
+      : "+v"(low.raw)
+      : "v"(a.raw), "m"(*static_cast<const std::int32_t*>(pair)));
+#else
+  add(a, broadcast(pair));
+#endif
 }
 
 /// The weights of a tile's targets, two by two.
@@ -104,8 +116,7 @@ template <typename Number>
 HWY_INLINE const Number* addPairs(const Number* from, int count, const std::uint32_t* pairs,
                                   Sum* sums) {
   for (int p = 0; p < count; ++p) {
-    const Short weights = broadcast(pairs + p);
-    for (int s = 0; s < kParts; ++s, from += 2 * kLanes) sums[s].add(load(from), weights);
+    for (int s = 0; s < kParts; ++s, from += 2 * kLanes) sums[s].addPair(load(from), pairs + p);
   }
   return from;
 }
@@ -157,32 +168,47 @@ HWY_INLINE Vectors finish(const Tile& tile, Place at, Float scale, const Sum& x,
   return {one(x, 0), one(y, 1), one(z, 2)};
 }
 
+/// The sums of two registers of rows.
+struct Sums {
+  Sum xA, yA, zA, xB, yB, zB;
+  HWY_INLINE Sums() {}
+};
+
+HWY_INLINE Short loadRows(const std::int16_t* from) { return load(from); }
+HWY_INLINE Short loadRows(const std::int8_t* from) {
+  return hn::ShiftLeft<kBasisShift>(load(from));
+}
+
+/// Adds pairs of modes, the first at c and at rows a and b. Sums go in and out by value: they stay
+/// in registers.
+template <typename Number>
+HWY_INLINE Sums addModes(Sums sums, const std::int16_t* c, const Number* a, const Number* b,
+                         int pairs) {
+  for (int p = 0; p < pairs; ++p, c += 6, a += 2 * kGroup, b += 2 * kGroup) {
+    const Short rowsA = loadRows(a), rowsB = loadRows(b);
+    const Short x = broadcast(c), y = broadcast(c + 2), z = broadcast(c + 4);
+    sums.xA.add(rowsA, x), sums.yA.add(rowsA, y), sums.zA.add(rowsA, z);
+    sums.xB.add(rowsB, x), sums.yB.add(rowsB, y), sums.zB.add(rowsB, z);
+  }
+  return sums;
+}
+
 HWY_INLINE Combined combine(const Tile& tile, const std::int16_t* c, Place a, Place b,
                             Float scale) {
-  const int wide = tile.head->wideModePairs, narrow = tile.head->modePairs - wide;
+  const int wide = tile.head->wideModePairs;
   const std::size_t ofGroup = basisBytes(*tile.head);
-  Sum xA, yA, zA, xB, yB, zB;
-  const auto add = [&](Short rowsA, Short rowsB) HWY_ATTR {
-    const Short x = broadcast(c), y = broadcast(c + 2), z = broadcast(c + 4);
-    xA.add(rowsA, x), yA.add(rowsA, y), zA.add(rowsA, z);
-    xB.add(rowsB, x), yB.add(rowsB, y), zB.add(rowsB, z);
-    c += 6;
-  };
   const auto wideOf = [&](Place at) {
     return reinterpret_cast<const std::int16_t*>(tile.basis + ofGroup * at.group) +
            2 * kLanes * at.part;
   };
-  const std::int16_t *wideA = wideOf(a), *wideB = wideOf(b);
-  for (int p = 0; p < wide; ++p, wideA += 2 * kGroup, wideB += 2 * kGroup)
-    add(load(wideA), load(wideB));
   const auto narrowOf = [&](Place at) {
     return reinterpret_cast<const std::int8_t*>(tile.basis + ofGroup * at.group) +
            4 * kGroup * wide + 2 * kLanes * at.part;
   };
-  const std::int8_t *narrowA = narrowOf(a), *narrowB = narrowOf(b);
-  for (int p = 0; p < narrow; ++p, narrowA += 2 * kGroup, narrowB += 2 * kGroup)
-    add(hn::ShiftLeft<kBasisShift>(load(narrowA)), hn::ShiftLeft<kBasisShift>(load(narrowB)));
-  return {finish(tile, a, scale, xA, yA, zA), finish(tile, b, scale, xB, yB, zB)};
+  Sums sums = addModes(Sums(), c, wideOf(a), wideOf(b), wide);
+  sums = addModes(sums, c + 6 * wide, narrowOf(a), narrowOf(b), tile.head->modePairs - wide);
+  return {finish(tile, a, scale, sums.xA, sums.yA, sums.zA),
+          finish(tile, b, scale, sums.xB, sums.yB, sums.zB)};
 }
 
 HWY_INLINE Vectors cross(const Vectors& a, const Vectors& b) {

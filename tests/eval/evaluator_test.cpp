@@ -134,9 +134,10 @@ TEST(Evaluator, playsTheNeutralTo16Bits) {
   for (const Rig& rig : everyRig()) {
     const auto evaluator = Evaluator::make(rig).value();
     const auto wanted = surfacePositions(rig, 0, {});
-double largest = 0;
+    double largest = 0;
     for (const Vec3& p : wanted) largest = std::max(largest, norm(p));
-    EXPECT_LE(largestDistance(play(evaluator, {}).positions, wanted), largest / (1 << 15));  }
+    EXPECT_LE(largestDistance(play(evaluator, {}).positions, wanted), largest / (1 << 15));
+  }
 }
 
 /// sin of the angle that two derivatives of length 1, each off by `error`, may turn a normal whose
