@@ -10,8 +10,9 @@ elseif(CMAKE_SYSTEM_NAME STREQUAL "WASI")
   file(CREATE_LINK ${HIGHWAY_INCLUDE}/hwy ${PROJECT_BINARY_DIR}/highway/hwy SYMBOLIC)
   target_include_directories(sweepface_runtime SYSTEM PRIVATE ${PROJECT_BINARY_DIR}/highway)
   # What runs every frame, and most of what loading a face takes, is built for speed.
-  set_property(SOURCE ${kernels} ${PROJECT_SOURCE_DIR}/src/eval/low_rank.cpp
-    ${PROJECT_SOURCE_DIR}/src/eval/row_differences.cpp APPEND PROPERTY COMPILE_OPTIONS -O3)
+  set_property(SOURCE ${kernels} APPEND PROPERTY COMPILE_OPTIONS -O2)
+  set_property(SOURCE ${PROJECT_SOURCE_DIR}/src/eval/planes.cpp APPEND PROPERTY COMPILE_OPTIONS
+    -O2 -fvectorize -fslp-vectorize)
 else()
   find_package(hwy 1 REQUIRED)
   target_link_libraries(sweepface_runtime PRIVATE hwy::hwy)

@@ -82,6 +82,8 @@ export class Sweepface {
 
   /** Writes three floats a vertex: positions in model units, unit normals. Either may be null. */
   evaluate(positions: Float32Array | null, normals?: Float32Array | null): void;
+  /** Makes ready to move, which else happens when a weight first leaves 0 and takes a few frames. */
+  prepare(): void;
 
   /** Frees the face; it can no longer be used. Memory is given back with the last face of a file. */
   dispose(): void;

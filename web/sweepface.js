@@ -213,9 +213,15 @@ export class Sweepface {
       if (out && !(out.length >= 3 * vertexCount))
         throw new RangeError(`There must be room for ${vertexCount} vertices: ${3 * vertexCount} numbers, not ${out.length}.`);
     runtime.words(memory.vectors, 4).set([positions ? memory.positions : 0, 0, normals ? memory.normals : 0, 0]);
-    runtime.check(runtime.wasm.sweepface_face_evaluate(this.#face, vertexCount, memory.vectors, memory.vectors + 8));
+    runtime.check(runtime.wasm.sweepface_face_update(this.#face, vertexCount, memory.vectors, memory.vectors + 8));
     positions?.set(runtime.floats(memory.positions, 3 * vertexCount));
     normals?.set(runtime.floats(memory.normals, 3 * vertexCount));
+  }
+
+  /** Makes ready to move, which else happens when a weight first leaves 0 and takes a few frames. */
+  prepare() {
+    const {runtime} = this.#open();
+    withinMemory(() => runtime.check(runtime.wasm.sweepface_mesh_prepare(this.#shared.mesh, 1)));
   }
 
   /** Sends weights to goals from where they stand; `advance` moves them. */

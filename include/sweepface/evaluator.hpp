@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -17,8 +18,9 @@ struct EvaluatorOptions {
   bool normals = true;    ///< whether normals and tangents can be asked for
   bool positions = true;  ///< whether positions can
   bool targets = true;    ///< whether weights move anything; without, only the neutral can be had
-  /// How far a target of weight 1 may take a vertex from the surface, in model units. 0: three tenths of
-  /// the rig's own tolerance, but no less than a hundred-thousandth of the neutral's diagonal.
+  /// How far a target of weight 1 may take a vertex from the surface, in model units. 0: three
+  /// tenths of the rig's own tolerance, but no less than a hundred-thousandth of the neutral's
+  /// diagonal.
   double tolerance = 0;
   /// The same for the surface's first derivatives, as a share of their neutral length.
   double derivativeTolerance = 0.03;
@@ -76,6 +78,9 @@ struct Evaluation {
   VectorsOut normals;               ///< outward, unit length; zero where a pose has none
   VectorsOut tangents;              ///< unit length, along the sweep of each vertex' patch
   Index part = 0, parts = 1;        ///< only this part of the vertices
+  /// Where the outputs hold what an evaluation with these weights wrote, only vertices that other
+  /// weights move are written again, with the same result. Not used: all are written.
+  std::optional<std::span<const double>> previous = {};
   /// Whether the tables are likely to have left the cache since the last frame, as where many rigs
   /// take turns. They are then fetched ahead, which takes a third of the time; where they are still
   /// there, it takes a tenth longer.

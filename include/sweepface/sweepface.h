@@ -78,6 +78,10 @@ SWEEPFACE_API sweepface_status sweepface_mesh_create(const sweepface_rig* rig, u
                                                      sweepface_mesh** mesh);
 SWEEPFACE_API void sweepface_mesh_free(sweepface_mesh* mesh);
 
+/* Makes what moves the mesh, and with `normals` what moves its normals, now rather than when a face
+ * with a weight other than 0 is first evaluated: that takes as long as a few frames. */
+SWEEPFACE_API sweepface_status sweepface_mesh_prepare(const sweepface_mesh* mesh, int32_t normals);
+
 /* Vertices are points first (lod 0: the source's vertices in their order) and then copies of points
  * that have several texture coordinates. */
 SWEEPFACE_API uint32_t sweepface_mesh_point_count(const sweepface_mesh* mesh);
@@ -130,10 +134,17 @@ typedef struct sweepface_vectors {
 } sweepface_vectors;
 
 /* Positions in model units and unit normals of the first `count` vertices under the face's weights.
- * Allocates nothing. Seen through floats, the points of a mesh are free of cracks. */
+ * Allocates nothing once the mesh is prepared. Seen through floats, the points of a mesh are free of
+ * cracks. */
 SWEEPFACE_API sweepface_status sweepface_face_evaluate(sweepface_face* face, size_t count,
                                                        sweepface_vectors positions,
                                                        sweepface_vectors normals);
+/* The same, with the same result, where each output still holds what the last call for this face
+ * wrote there: only what weights have moved since is written again. An output in another place, of
+ * another stride or count is written in full. */
+SWEEPFACE_API sweepface_status sweepface_face_update(sweepface_face* face, size_t count,
+                                                     sweepface_vectors positions,
+                                                     sweepface_vectors normals);
 
 /* ---- Motions ---- */
 

@@ -22,6 +22,10 @@ sweepface_status refuseWeight(const sweepface_face& face, std::size_t target) {
 
 bool fits(const sweepface_vectors& out) { return out.stride == 0 || out.stride >= kTight; }
 
+bool isNeutral(const sweepface_face& face) {
+  return std::ranges::all_of(face.weights, [](double w) { return w == 0; });
+}
+
 VectorsOut pointsOf(const Mesh& mesh, const sweepface_vectors& out, std::size_t count) {
   const auto points = std::min(count, static_cast<std::size_t>(mesh.render.points));
   return {out.data, static_cast<Index>(points), out.stride ? out.stride : kTight};
@@ -42,8 +46,12 @@ void repeatPoints(const Mesh& mesh, const sweepface_vectors& out, std::size_t co
 sweepface_status sweepface_face_create(const sweepface_mesh* mesh, sweepface_face** face) {
   if (!mesh || !face) return refuse("Making a face needs a mesh and a place for it.");
   const Mesh& made = *mesh->mesh;
-  *face = new sweepface_face{mesh->mesh, Weights(made.rig->targets.size(), 0.0),
-                             std::vector<std::byte>(made.evaluator.scratchBytes())};
+  const Weights rest(made.rig->targets.size(), 0.0);
+  *face = new sweepface_face{mesh->mesh,
+                             rest,
+                             std::vector<std::byte>(made.neutral.scratchBytes()),
+                             {.weights = rest},
+                             {.weights = rest}};
   return SWEEPFACE_OK;
 }
 
@@ -73,25 +81,63 @@ const double* sweepface_face_weights(const sweepface_face* face) {
 }
 
 double sweepface_face_error(const sweepface_face* face) {
-  return face ? face->mesh->evaluator.positionBound(face->weights) : 0;
+  if (!face) return 0;
+  const Mesh& mesh = *face->mesh;
+  return (isNeutral(*face) ? mesh.neutral : mesh.positions()).positionBound(face->weights);
 }
 
-sweepface_status sweepface_face_evaluate(sweepface_face* face, size_t count,
-                                         sweepface_vectors positions, sweepface_vectors normals) {
+namespace {
+
+sweepface_status checkOutputs(const sweepface_face* face, std::size_t count,
+                              const sweepface_vectors& positions,
+                              const sweepface_vectors& normals) {
   if (!face) return refuse("Evaluating needs a face.");
-  const Mesh& mesh = *face->mesh;
-  const auto vertices = static_cast<std::size_t>(mesh.render.vertexCount());
+  const auto vertices = static_cast<std::size_t>(face->mesh->render.vertexCount());
   if (count > vertices) return refuse("There are only ", vertices, " vertices, not ", count, ".");
   if (!fits(positions) || !fits(normals))
     return refuse("A stride must be 0 or at least 12 bytes: three floats.");
+  return SWEEPFACE_OK;
+}
+
+enum class What { positions, normals };
+
+void evaluate(sweepface_face& face, What what, const sweepface_vectors& to, std::size_t count,
+              bool onlyChanges) {
+  if (!to.data) return;
+  const Mesh& mesh = *face.mesh;
+  const bool ofPositions = what == What::positions;
+  auto& written = ofPositions ? face.positions : face.normals;
+  const bool isThere =
+      written.data == to.data && written.stride == to.stride && written.count == count;
   Evaluation job;
-  job.evaluator = &mesh.evaluator;
-  job.weights = face->weights;
-  job.scratch = face->scratch;
-  job.positions = pointsOf(mesh, positions, count);
-  job.normals = pointsOf(mesh, normals, count);
+  job.evaluator = isNeutral(face) ? &mesh.neutral
+                  : ofPositions   ? &mesh.positions()
+                                  : &mesh.normals();
+  // The neutral's tables have no targets that could tell what differs.
+  if (onlyChanges && isThere && !isNeutral(face)) job.previous = written.weights;
+  job.weights = face.weights;
+  job.scratch = face.scratch;
+  (ofPositions ? job.positions : job.normals) = pointsOf(mesh, to, count);
   job.run();
-  repeatPoints(mesh, positions, count);
-  repeatPoints(mesh, normals, count);
+  repeatPoints(mesh, to, count);
+  written.data = to.data, written.stride = to.stride, written.count = count;
+  std::ranges::copy(face.weights, written.weights.begin());
+}
+
+}  // namespace
+
+sweepface_status sweepface_face_evaluate(sweepface_face* face, size_t count,
+                                         sweepface_vectors positions, sweepface_vectors normals) {
+  if (const auto status = checkOutputs(face, count, positions, normals)) return status;
+  evaluate(*face, What::positions, positions, count, false);
+  evaluate(*face, What::normals, normals, count, false);
+  return SWEEPFACE_OK;
+}
+
+sweepface_status sweepface_face_update(sweepface_face* face, size_t count,
+                                       sweepface_vectors positions, sweepface_vectors normals) {
+  if (const auto status = checkOutputs(face, count, positions, normals)) return status;
+  evaluate(*face, What::positions, positions, count, true);
+  evaluate(*face, What::normals, normals, count, true);
   return SWEEPFACE_OK;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <mutex>
 #include <vector>
 
 #include "sweepface/evaluator.hpp"
@@ -17,10 +18,32 @@ struct sweepface_rig {
 
 namespace sweepface::capi {
 
+/// Tables are made when they are first asked for: until then a face shows its neutral.
+class LazyEvaluator {
+ public:
+  const Evaluator& get(const Rig& rig, const EvaluatorOptions& options) const {
+    std::call_once(once_, [&] { made_ = *Evaluator::make(rig, options); });
+    return made_;
+  }
+
+ private:
+  mutable std::once_flag once_;
+  mutable Evaluator made_;
+};
+
 struct Mesh {
   std::shared_ptr<const Rig> rig;
-  Evaluator evaluator;
+  Index lod;
+  Evaluator neutral;  // with the same options the others cannot fail
   RenderMesh render;
+  LazyEvaluator lazyPositions = {}, lazyNormals = {};
+
+  const Evaluator& positions() const {
+    return lazyPositions.get(*rig, {.level = lod, .normals = false});
+  }
+  const Evaluator& normals() const {
+    return lazyNormals.get(*rig, {.level = lod, .positions = false});
+  }
 };
 
 }  // namespace sweepface::capi
@@ -33,6 +56,14 @@ struct sweepface_face {
   std::shared_ptr<const sweepface::capi::Mesh> mesh;
   sweepface::Weights weights;
   std::vector<std::byte> scratch;
+
+  /// What an output holds, and where.
+  struct Written {
+    float* data = nullptr;
+    std::size_t stride = 0, count = 0;
+    sweepface::Weights weights;
+  };
+  Written positions, normals;
 };
 
 struct sweepface_motion {

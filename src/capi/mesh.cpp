@@ -34,12 +34,20 @@ sweepface_status sweepface_mesh_create(const sweepface_rig* rig, uint32_t lod,
   const Tessellation grid(rig->rig->surface, level);
   EvaluatorOptions options;
   options.level = static_cast<Index>(lod);
-  auto evaluator = Evaluator::make(*rig->rig, grid, options);
-  if (!evaluator) return refuse(std::move(evaluator.error().message));
+  options.targets = false;
+  auto neutral = Evaluator::make(*rig->rig, grid, options);
+  if (!neutral) return refuse(std::move(neutral.error().message));
   auto made = std::make_shared<Mesh>(
-      Mesh{rig->rig, std::move(*evaluator),
-           lod == 0 ? renderSource(*rig->rig, grid) : renderGrid(*rig->rig, grid)});
+      rig->rig, options.level, std::move(*neutral),
+      lod == 0 ? renderSource(*rig->rig, grid) : renderGrid(*rig->rig, grid));
   *mesh = new sweepface_mesh{std::move(made)};
+  return SWEEPFACE_OK;
+}
+
+sweepface_status sweepface_mesh_prepare(const sweepface_mesh* mesh, int32_t normals) {
+  if (!mesh) return refuse("Preparing needs a mesh.");
+  mesh->mesh->positions();
+  if (normals) mesh->mesh->normals();
   return SWEEPFACE_OK;
 }
 

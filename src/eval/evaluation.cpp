@@ -32,7 +32,44 @@ TileRange share(const TileTable& table, Index part, Index parts) {
   const auto cut = [&](std::int64_t p) {
     return static_cast<Index>(table.tileCount() * p / parts);
   };
-  return {table, cut(part), cut(part + std::int64_t(1))};
+  const Index first = cut(part);
+  return {table, first, cut(part + std::int64_t(1)) - first};
+}
+
+std::size_t mostTiles(const EvaluatorTables& tables) {
+  return static_cast<std::size_t>(
+      std::max(tables.positions.tileCount(), tables.derivatives.tileCount()));
+}
+
+/// What a frame needs, in the order of the scratch memory.
+struct Scratch {
+  std::span<std::int16_t> weights, before;  // in units of 2⁻¹⁴
+  std::uint32_t* pairs;
+  Index* listed;  // tiles
+
+  Scratch(const EvaluatorTables& tables, std::byte* memory) {
+    const std::size_t count = weightBytes(tables) / sizeof(std::int16_t);
+    weights = {reinterpret_cast<std::int16_t*>(memory), count};
+    before = {weights.data() + count, count};
+    pairs = reinterpret_cast<std::uint32_t*>(before.data() + count);
+    listed = reinterpret_cast<Index*>(pairs + 4 * pairsRoom(tables));
+  }
+  static std::size_t bytes(const EvaluatorTables& tables) {
+    return 2 * weightBytes(tables) + 16 * pairsRoom(tables) + sizeof(Index) * mostTiles(tables);
+  }
+};
+
+/// The tiles with a target whose weight is another than before.
+TileRange changed(const TileRange& all, const Scratch& scratch) {
+  Index count = 0;
+  for (Index k = 0; k < all.count; ++k) {
+    const Tile tile = tileAt(all.table.record(all[k]));
+    const std::span targets(tile.targets, 2 * std::size_t(tile.head->pairs));
+    const bool differs = std::ranges::any_of(
+        targets, [&](auto target) { return scratch.weights[target] != scratch.before[target]; });
+    if (differs) scratch.listed[count++] = all[k];
+  }
+  return {all.table, 0, count, scratch.listed};
 }
 
 Result<void> checkOut(const VectorsOut& out, const char* what) {
@@ -47,7 +84,7 @@ Result<void> checkOut(const VectorsOut& out, const char* what) {
 
 std::size_t Evaluator::scratchBytes() const {
   constexpr std::size_t toBeginWithALine = 64;
-  return toBeginWithALine + weightBytes(*tables_) + 4 * sizeof(std::uint32_t) * pairsRoom(*tables_);
+  return toBeginWithALine + Scratch::bytes(*tables_);
 }
 
 Result<void> Evaluation::validate() const {
@@ -55,8 +92,12 @@ Result<void> Evaluation::validate() const {
   if (weights.size() > static_cast<std::size_t>(evaluator->weightCount()))
     return fail("There are ", weights.size(), " weights for ", evaluator->weightCount(),
                 " targets.");
-  for (std::size_t k = 0; k < weights.size(); ++k)
-    if (!std::isfinite(weights[k])) return fail("Weight ", k, " is not finite.");
+  if (previous && previous->size() > static_cast<std::size_t>(evaluator->weightCount()))
+    return fail("There are ", previous->size(), " previous weights for ", evaluator->weightCount(),
+                " targets.");
+  for (const auto& given : {weights, previous.value_or(weights)})
+    for (std::size_t k = 0; k < given.size(); ++k)
+      if (!std::isfinite(given[k])) return fail("Weight ", k, " is not finite.");
   if (scratch.size() < evaluator->scratchBytes())
     return fail("An evaluation needs ", evaluator->scratchBytes(), " bytes of scratch memory, not ",
                 scratch.size(), ".");
@@ -73,16 +114,19 @@ Result<void> Evaluation::validate() const {
 void Evaluation::run() const {
   const EvaluatorTables& tables = evaluator->tables();
   const auto address = reinterpret_cast<std::uintptr_t>(scratch.data());
-  std::byte* const memory = scratch.data() + (64 - address % 64) % 64;
-  auto* const shorts = reinterpret_cast<std::int16_t*>(memory);
-  auto* const pairs = reinterpret_cast<std::uint32_t*>(memory + weightBytes(tables));
-  const float factor = quantise(weights, {shorts, weightBytes(tables) / sizeof(std::int16_t)});
-  const FrameWeights frame{shorts, pairs, pairsRoom(tables), factor, tables.weights + 1, cold};
+  const Scratch memory(tables, scratch.data() + (64 - address % 64) % 64);
+  const float factor = quantise(weights, memory.weights);
+  const bool isPart = previous && quantise(*previous, memory.before) == factor;
+  const FrameWeights frame{memory.weights.data(), memory.pairs, pairsRoom(tables), factor,
+                           tables.weights + 1,    cold};
+  const auto tilesOf = [&](const TileTable& table) {
+    const TileRange all = share(table, part, parts);
+    return isPart ? changed(all, memory) : all;
+  };
   if (positions.data)
-    evaluatePositions(share(tables.positions, part, parts), frame, positions, tables.vertices);
+    evaluatePositions(tilesOf(tables.positions), frame, positions, tables.vertices);
   if (normals.data || tangents.data)
-    evaluateNormals(share(tables.derivatives, part, parts), frame, normals, tangents,
-                    tables.vertices);
+    evaluateNormals(tilesOf(tables.derivatives), frame, normals, tangents, tables.vertices);
 }
 
 }  // namespace sweepface

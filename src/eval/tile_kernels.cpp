@@ -57,9 +57,9 @@ struct Stage {
 
 /// Asks for a tile's record before its turn comes.
 HWY_INLINE void prefetch(const TileTable& table, Index tile) {
-  if (tile + 1 >= table.tileCount()) return;
-  const std::byte* const end = table.record(tile + 1);
-  for (const std::byte* line = table.record(tile); line < end; line += 64) hwy::Prefetch(line);
+  const std::byte* const record = table.record(tile);
+  const std::byte* const end = tile + 1 < table.tileCount() ? table.record(tile + 1) : record;
+  for (const std::byte* line = record; line < end; line += 64) hwy::Prefetch(line);
 }
 
 /// Calls `combine` and `write` with every tile. Each step waits for the one before; so four tiles
@@ -70,12 +70,12 @@ HWY_INLINE void eachTile(const TileRange& tiles, const FrameWeights& frame, cons
   const TileWeights weights(frame);
   Stage stages[4];
   for (int s = 0; s < 4; ++s) stages[s].pairs = frame.pairs + s * frame.pairsRoom;
-  const Index count = tiles.last - tiles.first;
+  const Index count = tiles.count;
   const auto at = [&](Index k) -> Stage& { return stages[k & 3]; };
   for (Index k = 0; k < count + 3; ++k) {
     if (k < count) {
-      if (frame.cold) prefetch(tiles.table, tiles.first + k + 1);
-      at(k).tile = tileAt(tiles.table.record(tiles.first + k));
+      if (frame.cold && k + 1 < count) prefetch(tiles.table, tiles[k + 1]);
+      at(k).tile = tileAt(tiles.table.record(tiles[k]));
       weights.choose(at(k).tile, at(k).pairs);
       at(k).places.take(at(k).tile);
     }

@@ -18,10 +18,13 @@ struct FrameWeights {
   bool cold = false;           ///< whether to fetch tables ahead
 };
 
-/// A range of the tiles of a table.
+/// Some tiles of a table: `count` from `first` on, or those that are listed.
 struct TileRange {
   const TileTable& table;
-  Index first, last;
+  Index first, count;
+  const Index* listed = nullptr;
+
+  Index operator[](Index k) const { return listed ? listed[k] : first + k; }
 };
 
 namespace plain {

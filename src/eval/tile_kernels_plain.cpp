@@ -91,8 +91,8 @@ void write(const Tile& tile, int k, const std::array<float, 3>& vector, const Ve
 
 void evaluatePositions(const TileRange& tiles, const FrameWeights& frame, const VectorsOut& out) {
   Vectors rows;
-  for (Index t = tiles.first; t < tiles.last; ++t) {
-    const Tile tile = tileAt(tiles.table.record(t));
+  for (Index t = 0; t < tiles.count; ++t) {
+    const Tile tile = tileAt(tiles.table.record(tiles[t]));
     combine(tile, 2, frame, rows);
     for (int k = 0; k < tile.head->vertices; ++k) write(tile, k, rows[k], out);
   }
@@ -101,8 +101,8 @@ void evaluatePositions(const TileRange& tiles, const FrameWeights& frame, const 
 void evaluateNormals(const TileRange& tiles, const FrameWeights& frame, const VectorsOut& normals,
                      const VectorsOut& tangents) {
   Vectors rows;
-  for (Index t = tiles.first; t < tiles.last; ++t) {
-    const Tile tile = tileAt(tiles.table.record(t));
+  for (Index t = 0; t < tiles.count; ++t) {
+    const Tile tile = tileAt(tiles.table.record(tiles[t]));
     combine(tile, 4, frame, rows);
     for (int k = 0; k < tile.head->vertices; ++k) {
       const auto &u = rows[k], &v = rows[k + kTileVertices];

@@ -157,6 +157,7 @@ TEST_F(Faces, EvaluateWithoutAllocating) {
   make(2);
   std::vector<float> out(3 * sweepface_mesh_vertex_count(mesh)), normals(out.size());
   const double weights[] = {0.1, 0.2, 0.3};
+  EXPECT_EQ(sweepface_mesh_prepare(mesh, 1), SWEEPFACE_OK);
   const std::size_t before = allocations;
   EXPECT_EQ(sweepface_face_set_weights(face, weights, 3), SWEEPFACE_OK);
   EXPECT_EQ(sweepface_face_set_weight(face, 0, 0.5), SWEEPFACE_OK);
@@ -167,6 +168,39 @@ TEST_F(Faces, EvaluateWithoutAllocating) {
   EXPECT_EQ(sweepface_face_create(mesh, &another), SWEEPFACE_OK);
   EXPECT_GT(allocations, before);  // the counter counts
   sweepface_face_free(another);
+}
+
+TEST_F(Faces, AreUpdatedToWhatAWholeEvaluationWrites) {
+  make(2);
+  const std::size_t count = sweepface_mesh_vertex_count(mesh);
+  std::vector<float> positions(3 * count), normals(3 * count);
+  const double poses[][3] = {{0, 0, 0},      {0.5, 0, 0}, {0.5, 0, 0.25},
+                             {0.5, 2, 0.25}, {0, 0, 0},   {0, 1, 0}};
+  for (const auto& weights : poses) {
+    ASSERT_EQ(sweepface_face_set_weights(face, weights, 3), SWEEPFACE_OK);
+    ASSERT_EQ(sweepface_face_update(face, count, {positions.data(), 0}, {normals.data(), 0}),
+              SWEEPFACE_OK);
+    sweepface_face* whole = nullptr;
+    ASSERT_EQ(sweepface_face_create(mesh, &whole), SWEEPFACE_OK);
+    std::swap(whole, face);
+    ASSERT_EQ(sweepface_face_set_weights(face, weights, 3), SWEEPFACE_OK);
+    EXPECT_EQ(positions, evaluate());
+    EXPECT_EQ(normals, evaluate(true));
+    std::swap(whole, face);
+    sweepface_face_free(whole);
+  }
+}
+
+TEST_F(Faces, AreWrittenInFullWhereTheyHaveNotBeenBefore) {
+  make(0);
+  ASSERT_EQ(sweepface_face_set_weight(face, 0, 0.5), SWEEPFACE_OK);
+  const std::size_t count = sweepface_mesh_vertex_count(mesh);
+  const std::vector<float> all = evaluate();
+  std::vector<float> first(3 * count), second(3 * count);
+  for (auto* out : {&first, &second}) {
+    ASSERT_EQ(sweepface_face_update(face, count, {out->data(), 0}, kUnwanted), SWEEPFACE_OK);
+    EXPECT_EQ(*out, all);
+  }
 }
 
 TEST_F(Faces, KeepAliveWhatTheyAreMadeOf) {

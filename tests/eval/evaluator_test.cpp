@@ -168,6 +168,47 @@ TEST(Evaluator, hasTheSurfacesOwnNormals) {
   }
 }
 
+// Buffers that hold a frame, with marks where the next one must not write.
+TEST(Evaluator, writesOnlyWhatOtherWeightsMoveAndTheSameAsAWholeFrame) {
+  for (const Rig& rig : everyRig())
+    for (const double size : {1.0, 3.0}) {
+      const auto evaluator = Evaluator::make(rig, {.level = 2}).value();
+      const Index count = evaluator.vertexCount();
+      const auto first = anyWeights(evaluator, 3, size);
+      for (std::size_t k = 0; k <= first.size(); ++k) {
+        auto second = first;
+        if (k < first.size()) second[k] = 0.5 * second[k] + 0.1;
+        Played shown = play(evaluator, first);
+        std::vector<std::byte> scratch(evaluator.scratchBytes());
+        Evaluation job{&evaluator,
+                       second,
+                       scratch,
+                       {shown.positions.data(), count},
+                       {shown.normals.data(), count},
+                       {shown.tangents.data(), count}};
+        job.previous = first;
+        ASSERT_TRUE(job.validate());
+        job.run();
+        EXPECT_EQ(shown, play(evaluator, second));
+      }
+    }
+}
+
+TEST(Evaluator, leavesAloneWhatNoOtherWeightMoves) {
+  const Rig rig = dressed(makeRig(onePatch(2, 3)));
+  const auto evaluator = Evaluator::make(rig).value();
+  const auto weights = anyWeights(evaluator, 3);
+  std::vector<float> marks(3 * evaluator.vertexCount(), 7.0f);
+  std::vector<std::byte> scratch(evaluator.scratchBytes());
+  Evaluation job{&evaluator, weights, scratch, {marks.data(), evaluator.vertexCount()}, {}, {}};
+  job.previous = weights;
+  job.run();
+  EXPECT_EQ(marks, std::vector<float>(marks.size(), 7.0f));
+  const std::vector<double> tooMany(weights.size() + 1);
+  job.previous = tooMany;
+  EXPECT_FALSE(job.validate());
+}
+
 TEST(Evaluator, playsLooseVerticesWhichLookAlongZ) {
   const Rig rig = dressed(makeRig(onePatch(2, 3)));
   const auto evaluator = Evaluator::make(rig).value();
