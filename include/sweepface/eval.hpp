@@ -7,6 +7,49 @@
 
 namespace sweepface {
 
+/// How finely a surface is cut: into how many segments every arc, and how many columns and rows
+/// every patch inside. An arc has the same for both its patches, so that they meet without a crack
+/// and without a T-junction, however different they are.
+struct Density {
+  std::vector<Index> arcs;                    ///< [arcs] at least 1
+  std::vector<std::array<Index, 2>> patches;  ///< [patches] at least 1; no fewer than their sides
+};
+
+/// What a level of detail may cost or must reach.
+struct Budget {
+  enum class Kind {
+    edgeLength,  ///< no arc has a segment longer than this, in model units
+    error,       ///< no segment is further than this from its arc, in model units
+    vertices     ///< as near to the surface as so many vertices allow
+  };
+  Kind kind = Kind::vertices;
+  double value = 0;
+};
+/// What is seen as `pixels` at a distance: a Budget's error for a camera with a vertical field of
+/// view in radians and a picture of so many pixels.
+double errorOnScreen(double pixels, double distance, double fieldOfView, double height);
+
+/// The density for a budget, measured on a settled pose; the same for the same pose everywhere.
+/// Fails where the face has more corners than vertices are allowed.
+Result<Density> densityFor(const Surface& surface, std::span<const Vec3> vectors,
+                           const Budget& budget);
+
+/// A coordinate in source edges: whole + step / of, 0 ≤ step < of.
+struct Place {
+  Index whole = 0, step = 0, of = 1;
+  double value() const { return whole + static_cast<double>(step) / of; }
+};
+
+/// The triangles of one patch.
+struct PatchMesh {
+  struct Point {
+    Index vertex = -1;
+    Place u, v;
+  };
+  std::vector<Point> points;
+  std::vector<std::array<Index, 3>> triangles;  ///< of points, counter-clockwise
+};
+
 /// The surface as a mesh of quads: every arc cut into `level` times its source edge count. A vertex
 /// on an arc is computed once, from the arc, and shared by index, so that no level has a crack.
 ///
@@ -15,7 +58,10 @@ namespace sweepface {
 class Tessellation {
  public:
   Tessellation(const Surface& surface, Index level);
+  /// With a density of its own for every arc and patch; has triangles and no faces.
+  Tessellation(const Surface& surface, Density density);
 
+  /// 0 where there is a density instead.
   Index level() const { return level_; }
   Index vertexCount() const { return static_cast<Index>(sites_.size()); }
   /// The vertex at column i ≤ level·edgesU and row j ≤ level·edgesV of a patch.
@@ -25,6 +71,11 @@ class Tessellation {
   /// Faces [F], patch by patch in rows of constant v: four vertices, counter-clockwise from (i, j);
   /// two neighbours are equal where a side is collapsed.
   std::vector<std::array<Index, 4>> faces() const;
+
+  /// The same as triangles, for any density: the grid inside a patch is stitched to its sides.
+  PatchMesh patchMesh(Index patch) const;
+  /// Triangles of all patches in turn [T]; those with two equal vertices are left out.
+  std::vector<std::array<Index, 3>> triangles() const;
 
   /// What a vertex is made of: the six vectors of its arc or the 36 of its patch, and their
   /// weights. They are the same in every pose.
@@ -43,11 +94,15 @@ class Tessellation {
 
  private:
   Index sideVertex(Index patch, int side, Index steps) const;
+  std::vector<PatchMesh::Point> sidePoints(Index patch, int side) const;
+  void placeAll();
+  bool separateEdges();
   void placeArcs();
   void placePatches();
 
   const Surface* surface_;
   Index level_;
+  Density density_;
   std::vector<Index> nodeVertex_;   // [nodes]
   std::vector<Index> arcVertex_;    // [arcs] first interior vertex
   std::vector<Index> patchVertex_;  // [patches] first interior vertex

@@ -37,7 +37,8 @@ class Evaluator {
  public:
   /// Takes a few milliseconds for a face. Fails where options and rig do not fit.
   static Result<Evaluator> make(const Rig& rig, const EvaluatorOptions& options = {});
-  /// The same where a tessellation of that level (level 0: 1) is at hand.
+  /// The same where a tessellation of that level (level 0: 1) is at hand; or one with a density,
+  /// whose vertices are then played.
   static Result<Evaluator> make(const Rig& rig, const Tessellation& grid,
                                 const EvaluatorOptions& options);
 

@@ -59,11 +59,12 @@ class Compiler {
 
  private:
   /// A vertex of the grid, or -1 - k: loose vertex k.
-  Index gridVertex(Index v) const { return options_.level == 0 ? rig_.source.gridVertex[v] : v; }
+  Index gridVertex(Index v) const { return inSourceOrder() ? rig_.source.gridVertex[v] : v; }
+  bool inSourceOrder() const { return options_.level == 0 && grid_.level() > 0; }
 
   void placeVertices() {
     const std::size_t count =
-        options_.level == 0 ? rig_.source.gridVertex.size() : gridPositions_.size();
+        inSourceOrder() ? rig_.source.gridVertex.size() : gridPositions_.size();
     for (Index v = 0; v < static_cast<Index>(count); ++v) {
       const Index g = gridVertex(v);
       positions_.push_back(g >= 0 ? gridPositions_[g] : rig_.source.loose[-1 - g]);
@@ -228,7 +229,7 @@ Result<Evaluator> Evaluator::make(const Rig& rig, const EvaluatorOptions& option
 Result<Evaluator> Evaluator::make(const Rig& rig, const Tessellation& grid,
                                   const EvaluatorOptions& options) {
   if (auto ok = check(rig, options); !ok) return std::unexpected(ok.error());
-  if (grid.level() != std::max<Index>(1, options.level))
+  if (grid.level() != 0 && grid.level() != std::max<Index>(1, options.level))
     return fail("The tessellation of an evaluator must be of its level.");
   Evaluator made;
   made.tables_ = std::make_shared<const EvaluatorTables>(Compiler(rig, grid, options).compile());

@@ -2,10 +2,43 @@
 
 #include "sweepface/eval.hpp"
 
+#include "eval/stitching.hpp"
+
 namespace sweepface {
 
+namespace {
+
+Density densityOf(const Surface& surface, Index level) {
+  Density density;
+  for (const Arc& arc : surface.wireframe().arcs) density.arcs.push_back(level * arc.edges);
+  for (Index p = 0; p < surface.patchCount(); ++p)
+    density.patches.push_back({level * surface.edgesU(p), level * surface.edgesV(p)});
+  return density;
+}
+
+}  // namespace
+
 Tessellation::Tessellation(const Surface& surface, Index level)
-    : surface_(&surface), level_(level) {
+    : surface_(&surface), level_(level), density_(densityOf(surface, level)) {
+  placeArcs();
+  onArcs_ = vertexCount();
+  placePatches();
+}
+
+Tessellation::Tessellation(const Surface& surface, Density density)
+    : surface_(&surface), level_(0), density_(std::move(density)) {
+  refineToShape(surface, density_);
+  constexpr int kMostRounds = 4;
+  for (int round = 0; round < kMostRounds; ++round) {
+    placeAll();
+    if (!separateEdges()) return;
+  }
+  placeAll();
+}
+
+void Tessellation::placeAll() {
+  for (auto* list : {&nodeVertex_, &arcVertex_, &patchVertex_}) list->clear();
+  sites_.clear(), arcWeights_.clear(), patchWeights_.clear();
   placeArcs();
   onArcs_ = vertexCount();
   placePatches();
@@ -18,7 +51,9 @@ void Tessellation::placeArcs() {
   std::vector<Index> ofPoint(w.points, -1);
   const auto add = [&](Index arc, Index step) {
     const HalfArc h = c.patchOf[2 * arc] >= 0 ? 2 * arc : 2 * arc + 1;
-    const double t = static_cast<double>(step) / level_;
+    const double t = level_ > 0
+                         ? static_cast<double>(step) / level_
+                         : static_cast<double>(step) * w.arcs[arc].edges / density_.arcs[arc];
     sites_.push_back(surface_->siteOnArc(h, h & 1 ? w.arcs[arc].edges - t : t));
     arcWeights_.push_back(surface_->arcWeights(arc, t));
     return vertexCount() - 1;
@@ -33,22 +68,27 @@ void Tessellation::placeArcs() {
     const auto open = std::find_if(arms.begin(), arms.end(),
                                    [&](HalfArc h) { return !w.arcs[arcOf(h)].collapsed; });
     const HalfArc arm = open == arms.end() ? arms[0] : *open;
-    nodeVertex_[n] = add(arcOf(arm), arm & 1 ? level_ * w.arcs[arcOf(arm)].edges : 0);
+    nodeVertex_[n] = add(arcOf(arm), arm & 1 ? density_.arcs[arcOf(arm)] : 0);
     if (point >= 0) ofPoint[point] = nodeVertex_[n];
   }
   for (Index a = 0; a < static_cast<Index>(w.arcs.size()); ++a) {
     arcVertex_.push_back(vertexCount());
     if (w.arcs[a].collapsed) continue;
-    for (Index step = 1; step < level_ * w.arcs[a].edges; ++step) add(a, step);
+    for (Index step = 1; step < density_.arcs[a]; ++step) add(a, step);
   }
 }
 
 void Tessellation::placePatches() {
   for (Index p = 0; p < surface_->patchCount(); ++p) {
     patchVertex_.push_back(vertexCount());
-    for (Index j = 1; j < level_ * surface_->edgesV(p); ++j)
-      for (Index i = 1; i < level_ * surface_->edgesU(p); ++i) {
-        sites_.push_back({p, static_cast<double>(i) / level_, static_cast<double>(j) / level_});
+    const auto [columns, rows] = density_.patches[p];
+    for (Index j = 1; j < rows; ++j)
+      for (Index i = 1; i < columns; ++i) {
+        const auto at = [&](Index k, Index of, Index edges) {
+          return level_ > 0 ? static_cast<double>(k) / level_ : static_cast<double>(k) * edges / of;
+        };
+        sites_.push_back(
+            {p, at(i, columns, surface_->edgesU(p)), at(j, rows, surface_->edgesV(p))});
         patchWeights_.push_back(surface_->weights(sites_.back()));
       }
   }
@@ -58,7 +98,7 @@ Index Tessellation::sideVertex(Index patch, int side, Index steps) const {
   const Wireframe& w = surface_->wireframe();
   for (HalfArc h : w.side(patch, side)) {
     const Arc& arc = w.arcs[arcOf(h)];
-    const Index length = level_ * arc.edges;
+    const Index length = density_.arcs[arcOf(h)];
     if (steps == 0 || (arc.collapsed && steps <= length)) return nodeVertex_[w.start(h)];
     if (steps < length) return arcVertex_[arcOf(h)] + (h & 1 ? length - steps : steps) - 1;
     steps -= length;
@@ -67,7 +107,7 @@ Index Tessellation::sideVertex(Index patch, int side, Index steps) const {
 }
 
 Index Tessellation::vertex(Index patch, Index i, Index j) const {
-  const Index m = level_ * surface_->edgesU(patch), n = level_ * surface_->edgesV(patch);
+  const auto [m, n] = density_.patches[patch];
   if (j == 0) return sideVertex(patch, 0, i);
   if (i == m) return sideVertex(patch, 1, j);
   if (j == n) return sideVertex(patch, 2, m - i);
