@@ -57,6 +57,19 @@ Evaluator makeEvaluator(bool normals, Index level = 0) {
   return std::move(*made);
 }
 
+/// As near to the surface as half the source's vertices allow.
+Evaluator makeHalf() {
+  const double vertices = static_cast<double>(face().source.gridVertex.size()) / 2;
+  const auto density =
+      densityFor(face().surface, blend(face(), {}), {Budget::Kind::vertices, vertices});
+  if (!density) {
+    fmt::print(stderr, "sweepface_bench: {}\n", density.error().message);
+    std::exit(1);
+  }
+  const Tessellation grid(face().surface, *density);
+  return std::move(*Evaluator::make(face(), grid, {.level = 1}));
+}
+
 /// Something that turns weights into vertices.
 struct Player {
   std::string name;
@@ -187,6 +200,13 @@ bool registerPlayers() {
   addWarm("all", plain, Active::all);
   addWarm("ten", plain, Active::ten);
   addWarm("normals", evaluatorPlayer(evaluator, true), Active::all);
+  if (!face().source.gridVertex.empty()) {
+    static const Evaluator half = makeHalf();
+    fmt::print("half: {} vertices, {} bytes, {} more with normals\n", half.vertexCount(),
+               half.positionBytes(), half.normalBytes());
+    addWarm("half", evaluatorPlayer(half, false), Active::all);
+    addWarm("halfNormals", evaluatorPlayer(half, true), Active::all);
+  }
   add("cold/evaluator", [](benchmark::State& state) {
     playCold(state, [] { return evaluatorPlayer(makeEvaluator(false), false, true); });
   });

@@ -3,6 +3,7 @@
 #include "sweepface/gltf.hpp"
 #include "sweepface/io.hpp"
 
+#include "budget_mesh.hpp"
 #include "command.hpp"
 #include "following.hpp"
 #include "lod_mesh.hpp"
@@ -13,6 +14,7 @@ namespace {
 struct ExportArguments {
   std::string face, output, weights;
   int lod = 0;
+  double edgeLength = 0, error = 0, vertices = 0;  // 0: not given
   bool sourceOrder = false, quiet = false;
   FollowingArguments following;
   GlbArguments glb;
@@ -28,16 +30,44 @@ void addOptions(CLI::App& app, ExportArguments& a) {
   app.add_flag("--source-order", a.sourceOrder,
                "Write the source's own vertices and polygons in their order (this is the default)")
       ->excludes(lod);
+  const auto addBudget = [&](const std::string& name, double& value, const std::string& what) {
+    return app.add_option(name, value, what)->check(CLI::PositiveNumber)->excludes(lod);
+  };
+  CLI::Option* vertices =
+      addBudget("--vertices", a.vertices, "Write the best mesh of at most so many vertices (.obj)");
+  CLI::Option* error = addBudget(
+      "--error", a.error, "Write a mesh whose edges are nowhere further from their curves (.obj)");
+  addBudget("--edge-length", a.edgeLength, "Write a mesh without longer edges along curves (.obj)")
+      ->excludes(vertices)
+      ->excludes(error);
+  error->excludes(vertices);
   addFollowing(app, a.following);
   addGlb(app, a.glb);
   addQuiet(app, a.quiet);
   app.footer(
       "\nExamples:\n  sweepface export face.sweep -o smile.obj --weights smile=0.8,jawOpen=0.2\n"
       "  sweepface export face.sweep -o smooth.obj --lod 4\n"
+      "  sweepface export face.sweep -o far.obj --vertices 5000\n"
       "  sweepface export face.sweep -o face.glb --quantize");
 }
 
+Budget budgetOf(const ExportArguments& a) {
+  if (a.vertices > 0) return {Budget::Kind::vertices, a.vertices};
+  if (a.error > 0) return {Budget::Kind::error, a.error};
+  return {Budget::Kind::edgeLength, a.edgeLength};
+}
+
+Result<void> writeWithin(const ExportArguments& a, const Rig& rig, const Weights& weights) {
+  const auto mesh = meshWithin(rig, budgetOf(a), weights);
+  if (!mesh) return std::unexpected(mesh.error());
+  if (auto written = writeFile(a.output, mesh->obj); !written) return written;
+  if (!a.quiet)
+    fmt::print("{}: {} vertices, {} triangles\n", a.output, mesh->vertices, mesh->triangles);
+  return {};
+}
+
 Result<void> writeObj(const ExportArguments& a, const Rig& rig, const Weights& weights) {
+  if (budgetOf(a).value > 0) return writeWithin(a, rig, weights);
   if (auto ok = checkLod(rig, a.lod); !ok) return ok;
   const MeshMaker meshes(rig, a.lod);
   if (auto written = writeFile(a.output, meshes.obj(weights)); !written) return written;
@@ -63,6 +93,9 @@ Result<int> runExport(const ExportArguments& a) {
   const bool glb = isOfKind(a.output, ".glb");
   if (a.glb.any() && !glb)
     return fail("--morph-normals and --quantize are for .glb files; name the output so.");
+  if (glb && budgetOf(a).value > 0)
+    return fail(
+        "A budget of vertices, error or edge length is for .obj files; name the output so.");
   Result<Rig> rig = readFace(a.face);
   if (!rig) return std::unexpected(rig.error());
   if (a.sourceOrder && !rig->source.ownOrder)

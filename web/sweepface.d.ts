@@ -27,6 +27,11 @@ export type ModuleSource = string | URL | BufferSource | WebAssembly.Module;
 export interface LoadOptions {
   /** 0: the source's own vertices; N: every edge of the source cut into N, up to 64. */
   lod?: number;
+  /** Instead of `lod`, as fine as one of these asks: no curve has a segment longer than `edgeLength` or is further
+   * than `error` from its segments (both in model units), or the best with so many points. */
+  edgeLength?: number;
+  error?: number;
+  vertices?: number;
   /** What messages call the face. */
   name?: string;
   wasm?: ModuleSource;

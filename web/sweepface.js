@@ -6,6 +6,9 @@ const DRIVES = ['cut', 'newton', 'linear-force', 'accelerate-brake', 'spring', '
 /** The numbers of a drive, in the order of the C struct. */
 const DRIVE_NUMBERS = ['delay', 'seconds', 'turn', 'frequency', 'damping', 'restitution'];
 
+/** What a level of detail may be asked for by, in the order of the C interface. */
+const BUDGETS = ['edgeLength', 'error', 'vertices'];
+
 const encoder = new TextEncoder(), decoder = new TextDecoder();
 
 /** The bytes behind a URL; Node's fetch does not read files. */
@@ -99,10 +102,10 @@ function withinMemory(run) {
 
 /** What all faces of one file at one level of detail share. */
 class Shared {
-  constructor(module, bytes, name, lod) {
+  constructor(module, bytes, name, lod, budget) {
     const runtime = this.runtime = new Runtime(module), {wasm} = runtime;
     this.rig = runtime.loadRig(bytes, name);
-    this.mesh = runtime.get('sweepface_mesh_create', this.rig, lod);
+    this.mesh = budget ? runtime.get('sweepface_mesh_create_within', this.rig, ...budget) : runtime.get('sweepface_mesh_create', this.rig, lod);
     this.names = Array.from({length: wasm.sweepface_rig_target_count(this.rig)},
                             (_, k) => runtime.text(wasm.sweepface_rig_target_name(this.rig, k)));
     this.indexOf = new Map(this.names.map((text, k) => [text, k]));
@@ -156,13 +159,14 @@ export class Sweepface {
     ++runtime.users;
   }
 
-  static async load(bytes, {lod = 0, name = 'The face', wasm} = {}) {
+  static async load(bytes, {lod = 0, name = 'The face', wasm, ...rest} = {}) {
     if (!(bytes instanceof ArrayBuffer || ArrayBuffer.isView(bytes)))
       throw new TypeError('Sweepface.load needs the bytes of a .sweep file: an ArrayBuffer or a typed array.');
     if (!Number.isInteger(lod) || lod < 0) throw new RangeError('The level of detail must be a whole number from 0 on.');
     const view = ArrayBuffer.isView(bytes) ? new Uint8Array(bytes.buffer, bytes.byteOffset, bytes.byteLength) : new Uint8Array(bytes);
+    const [budget] = BUDGETS.flatMap((kind, k) => (kind in rest ? [[k, Number(rest[kind])]] : []));
     const module = await compile(wasm);
-    return withinMemory(() => new Sweepface(new Shared(module, view, String(name), lod)));
+    return withinMemory(() => new Sweepface(new Shared(module, view, String(name), lod, budget)));
   }
 
   /** Another face of the same file, at rest; the two share everything but their weights. */

@@ -29,5 +29,8 @@ struct RenderMesh {
 RenderMesh renderSource(const Rig& rig, const Tessellation& grid);
 /// The quads of any tessellation of the rig, likewise.
 RenderMesh renderGrid(const Rig& rig, const Tessellation& grid);
+/// The triangles of a tessellation with a density; a triangle has the material of the quad in its
+/// middle.
+RenderMesh renderDensity(const Rig& rig, const Tessellation& grid);
 
 }  // namespace sweepface

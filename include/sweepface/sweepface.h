@@ -76,6 +76,19 @@ SWEEPFACE_API double sweepface_rig_tolerance(const sweepface_rig* rig);
  * of the source cut into N. */
 SWEEPFACE_API sweepface_status sweepface_mesh_create(const sweepface_rig* rig, uint32_t lod,
                                                      sweepface_mesh** mesh);
+/* What a level of detail may cost or must reach, in the neutral. */
+typedef int32_t sweepface_budget;
+enum {
+  SWEEPFACE_EDGE_LENGTH = 0, /* no curve has a segment longer than this, in model units */
+  SWEEPFACE_ERROR = 1,       /* no segment is further than this from its curve, in model units */
+  SWEEPFACE_VERTICES = 2     /* as near to the surface as so many points allow */
+};
+
+/* The surface as fine as a budget asks, curve by curve: without a crack, and with the same points in
+ * the same order every time. A pixel is 2 * distance * tan(field of view / 2) / height in size. */
+SWEEPFACE_API sweepface_status sweepface_mesh_create_within(const sweepface_rig* rig,
+                                                            sweepface_budget budget, double value,
+                                                            sweepface_mesh** mesh);
 SWEEPFACE_API void sweepface_mesh_free(sweepface_mesh* mesh);
 
 /* Makes what moves the mesh, and with `normals` what moves its normals, now rather than when a face

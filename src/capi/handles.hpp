@@ -21,8 +21,9 @@ namespace sweepface::capi {
 /// Tables are made when they are first asked for: until then a face shows its neutral.
 class LazyEvaluator {
  public:
-  const Evaluator& get(const Rig& rig, const EvaluatorOptions& options) const {
-    std::call_once(once_, [&] { made_ = *Evaluator::make(rig, options); });
+  const Evaluator& get(const Rig& rig, const Tessellation& grid,
+                       const EvaluatorOptions& options) const {
+    std::call_once(once_, [&] { made_ = *Evaluator::make(rig, grid, options); });
     return made_;
   }
 
@@ -34,15 +35,16 @@ class LazyEvaluator {
 struct Mesh {
   std::shared_ptr<const Rig> rig;
   Index lod;
+  Tessellation grid;
   Evaluator neutral;  // with the same options the others cannot fail
   RenderMesh render;
   LazyEvaluator lazyPositions = {}, lazyNormals = {};
 
   const Evaluator& positions() const {
-    return lazyPositions.get(*rig, {.level = lod, .normals = false});
+    return lazyPositions.get(*rig, grid, {.level = lod, .normals = false});
   }
   const Evaluator& normals() const {
-    return lazyNormals.get(*rig, {.level = lod, .positions = false});
+    return lazyNormals.get(*rig, grid, {.level = lod, .positions = false});
   }
 };
 

@@ -18,6 +18,22 @@ double gridVertices(const Surface& surface, double level) {
   return count;
 }
 
+sweepface_status makeMesh(const sweepface_rig& rig, Index lod, Tessellation grid,
+                          sweepface_mesh** mesh) {
+  auto neutral = Evaluator::make(*rig.rig, grid, {.level = lod, .targets = false});
+  if (!neutral) return refuse(std::move(neutral.error().message));
+  RenderMesh render = lod == 0            ? renderSource(*rig.rig, grid)
+                      : grid.level() == 0 ? renderDensity(*rig.rig, grid)
+                                          : renderGrid(*rig.rig, grid);
+  *mesh = new sweepface_mesh{std::make_shared<Mesh>(rig.rig, lod, std::move(grid),
+                                                    std::move(*neutral), std::move(render))};
+  return SWEEPFACE_OK;
+}
+
+static_assert(static_cast<int>(Budget::Kind::edgeLength) == SWEEPFACE_EDGE_LENGTH &&
+              static_cast<int>(Budget::Kind::error) == SWEEPFACE_ERROR &&
+              static_cast<int>(Budget::Kind::vertices) == SWEEPFACE_VERTICES);
+
 }  // namespace
 
 sweepface_status sweepface_mesh_create(const sweepface_rig* rig, uint32_t lod,
@@ -31,17 +47,25 @@ sweepface_status sweepface_mesh_create(const sweepface_rig* rig, uint32_t lod,
   if (gridVertices(rig->rig->surface, level) > kMostVertices)
     return refuse("The face has too many vertices at level of detail ", lod,
                   "; ask for a lower one.");
-  const Tessellation grid(rig->rig->surface, level);
-  EvaluatorOptions options;
-  options.level = static_cast<Index>(lod);
-  options.targets = false;
-  auto neutral = Evaluator::make(*rig->rig, grid, options);
-  if (!neutral) return refuse(std::move(neutral.error().message));
-  auto made = std::make_shared<Mesh>(
-      rig->rig, options.level, std::move(*neutral),
-      lod == 0 ? renderSource(*rig->rig, grid) : renderGrid(*rig->rig, grid));
-  *mesh = new sweepface_mesh{std::move(made)};
-  return SWEEPFACE_OK;
+  return makeMesh(*rig, static_cast<Index>(lod), Tessellation(rig->rig->surface, level), mesh);
+}
+
+sweepface_status sweepface_mesh_create_within(const sweepface_rig* rig, sweepface_budget budget,
+                                              double value, sweepface_mesh** mesh) {
+  if (!rig || !mesh) return refuse("Making a mesh needs a rig and a place for it.");
+  if (budget < SWEEPFACE_EDGE_LENGTH || budget > SWEEPFACE_VERTICES)
+    return refuse("There is no budget of kind ", budget, "; kinds are 0 to ",
+                  int(SWEEPFACE_VERTICES), ".");
+  if (budget == SWEEPFACE_VERTICES && value > kMostVertices)
+    return refuse("The face has too many vertices within this budget; ask for fewer.");
+  const auto density = densityFor(rig->rig->surface, blend(*rig->rig, {}),
+                                  {static_cast<Budget::Kind>(budget), value});
+  if (!density) return refuse(std::string(density.error().message));
+  double vertices = 0;
+  for (const auto& [columns, rows] : density->patches) vertices += double(columns) * rows;
+  if (vertices > kMostVertices)
+    return refuse("The face has too many vertices within this budget; ask for fewer.");
+  return makeMesh(*rig, 1, Tessellation(rig->rig->surface, *density), mesh);
 }
 
 sweepface_status sweepface_mesh_prepare(const sweepface_mesh* mesh, int32_t normals) {

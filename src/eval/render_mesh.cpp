@@ -147,14 +147,14 @@ class Quads {
                                [&](Index c) { return faces_.cornerTexcoords[c] >= 0; });
   }
 
-  /// (i, j) steps of `level` from the first corner of a textured quad.
-  Vec2 texcoord(std::size_t quad, Index i, Index j, Index level) const {
+  /// i steps of m and j of n from the first corner of a textured quad.
+  Vec2 texcoord(std::size_t quad, Index i, Index m, Index j, Index n) const {
     const auto at = [&](int k) {
       return faces_.texcoords[faces_.cornerTexcoords[corners_[4 * quad + k]]];
     };
-    if (i == 0) return between(at(0), at(3), j, level);
-    if (i == level) return between(at(1), at(2), j, level);
-    return between(between(at(0), at(1), i, level), between(at(3), at(2), i, level), j, level);
+    if (i == 0) return between(at(0), at(3), j, n);
+    if (i == m) return between(at(1), at(2), j, n);
+    return between(between(at(0), at(1), i, m), between(at(3), at(2), i, m), j, n);
   }
 
  private:
@@ -181,11 +181,60 @@ RenderMesh renderGrid(const Rig& rig, const Tessellation& grid) {
         std::array<Index, 4> vertices = faces[face++];
         if (quads.isTextured(quad))
           for (int k = 0; k < 4; ++k)
-            vertices[k] = builder.vertex(
-                vertices[k],
-                quads.texcoord(quad, i % level + (k == 1 || k == 2), j % level + (k >= 2), level));
+            vertices[k] =
+                builder.vertex(vertices[k], quads.texcoord(quad, i % level + (k == 1 || k == 2),
+                                                           level, j % level + (k >= 2), level));
         builder.addQuad(quads.material(quad), vertices);
       }
+    first += std::size_t(m) * n;
+  }
+  return builder.take();
+}
+
+namespace {
+
+/// The edge of the source that a coordinate lies on, seen from a triangle's middle, and how far on
+/// it.
+struct OnEdge {
+  Index edge, step;
+};
+OnEdge seenFrom(double middle, const Place& p, Index edges) {
+  const bool isBehind = p.step == 0 && (p.whole == edges || middle < p.whole) && p.whole > 0;
+  return isBehind ? OnEdge{p.whole - 1, p.of} : OnEdge{p.whole, p.step};
+}
+
+}  // namespace
+
+// A triangle's texture coordinates are those of the quads on its own side of a seam.
+RenderMesh renderDensity(const Rig& rig, const Tessellation& grid) {
+  const Surface& surface = rig.surface;
+  Builder builder(grid.positions(blend(rig, {})), rig.source.polygons);
+  std::size_t count = 0, first = 0;
+  for (Index p = 0; p < surface.patchCount(); ++p)
+    count += std::size_t(surface.edgesU(p)) * surface.edgesV(p);
+  const Quads quads(rig, count);
+  for (Index p = 0; p < surface.patchCount(); ++p) {
+    const Index m = surface.edgesU(p), n = surface.edgesV(p);
+    const PatchMesh mesh = grid.patchMesh(p);
+    for (const auto& triangle : mesh.triangles) {
+      double u = 0, v = 0;
+      for (const Index k : triangle)
+        u += mesh.points[k].u.value() / 3, v += mesh.points[k].v.value() / 3;
+      const auto quadOf = [&](Index i, Index j) { return first + std::size_t(j) * m + i; };
+      const std::size_t middle =
+          quadOf(std::min(static_cast<Index>(u), m - 1), std::min(static_cast<Index>(v), n - 1));
+      std::array<Index, 3> corners{};
+      for (int k = 0; k < 3; ++k) {
+        const auto& point = mesh.points[triangle[k]];
+        const OnEdge onU = seenFrom(u, point.u, m), onV = seenFrom(v, point.v, n);
+        const std::size_t quad = quadOf(onU.edge, onV.edge);
+        corners[k] = quads.isTextured(quad)
+                         ? builder.vertex(point.vertex, quads.texcoord(quad, onU.step, point.u.of,
+                                                                       onV.step, point.v.of))
+                         : builder.vertex(point.vertex);
+      }
+      builder.addTriangle(quads.material(middle), corners[0], corners[1], corners[2]);
+    }
     first += std::size_t(m) * n;
   }
   return builder.take();

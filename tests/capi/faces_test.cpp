@@ -203,6 +203,36 @@ TEST_F(Faces, AreWrittenInFullWhereTheyHaveNotBeenBefore) {
   }
 }
 
+TEST_F(Faces, AreAsFineAsABudgetAsks) {
+  make(0);
+  for (const uint32_t most : {40u, 400u}) {
+    sweepface_mesh* within = nullptr;
+    ASSERT_EQ(sweepface_mesh_create_within(handle, SWEEPFACE_VERTICES, most, &within), SWEEPFACE_OK)
+        << sweepface_message();
+    EXPECT_LE(sweepface_mesh_point_count(within), most);
+    EXPECT_GT(sweepface_mesh_point_count(within), most / 3);
+    sweepface_face* played = nullptr;
+    ASSERT_EQ(sweepface_face_create(within, &played), SWEEPFACE_OK);
+    ASSERT_EQ(sweepface_face_set_weight(played, 0, 0.5), SWEEPFACE_OK);
+    const size_t count = sweepface_mesh_vertex_count(within);
+    std::vector<float> positions(3 * count), normals(3 * count);
+    ASSERT_EQ(sweepface_face_evaluate(played, count, {positions.data(), 0}, {normals.data(), 0}),
+              SWEEPFACE_OK);
+    const auto density = densityFor(rig.surface, blend(rig, {}),
+                                    {Budget::Kind::vertices, static_cast<double>(most)});
+    const Tessellation grid(rig.surface, density.value());
+    const double weights[] = {0.5};
+    expectNear(grid.positions(blend(rig, weights)), positions, sweepface_face_error(played));
+    sweepface_face_free(played);
+    sweepface_mesh_free(within);
+  }
+  sweepface_mesh* none = nullptr;
+  EXPECT_TRUE(refuses(sweepface_mesh_create_within(handle, 3, 1, &none), "no budget of kind 3"));
+  EXPECT_TRUE(refuses(sweepface_mesh_create_within(handle, SWEEPFACE_ERROR, -1, &none), "greater"));
+  EXPECT_TRUE(
+      refuses(sweepface_mesh_create_within(handle, SWEEPFACE_VERTICES, 1e12, &none), "too many"));
+}
+
 TEST_F(Faces, KeepAliveWhatTheyAreMadeOf) {
   make(0);
   const auto before = evaluate();

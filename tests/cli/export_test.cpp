@@ -46,6 +46,24 @@ TEST_F(Export, BlendsLinearly) {
   }
 }
 
+TEST_F(Export, WritesAMeshWithinABudget) {
+  convertRig();
+  std::size_t before = 0;
+  for (const int most : {60, 500}) {
+    ASSERT_EQ(run("export face.sweep -o out.obj --vertices " + std::to_string(most)).code, 0);
+    const PolygonMesh out = mesh("out.obj");
+    EXPECT_LE(out.positions.size(), static_cast<std::size_t>(most));
+    EXPECT_GT(out.positions.size(), before);
+    EXPECT_FALSE(out.polygons.cornerTexcoords.empty());
+    before = out.positions.size();
+  }
+  EXPECT_EQ(run("export face.sweep -o out.obj --error 0.01").code, 0);
+  EXPECT_EQ(run("export face.sweep -o out.obj --edge-length 0.5").code, 0);
+  EXPECT_NE(run("export face.sweep -o out.obj --vertices 2").code, 0);
+  EXPECT_NE(run("export face.sweep -o out.glb --vertices 500").code, 0);
+  EXPECT_NE(run("export face.sweep -o out.obj --vertices 500 --lod 2").code, 0);
+}
+
 TEST_F(Export, KeepsLooseVertices) {
   folder.file("neutral.obj", sheet() + "v 9 9 9\n");
   ASSERT_EQ(run("convert neutral.obj -o face.sweep --tolerance 0.01").code, 0);
