@@ -166,9 +166,9 @@ void addWarm(const std::string& group, const Player& player, Active active) {
 }
 
 /// Kernels that are compared: with every difference above a hundredth of a millimetre (where the
-/// tolerance is a fifth), and with what the evaluator drops dropped as well.
+/// tolerance is 0.153), and with what the evaluator drops dropped as well.
 void addPeers(bool equalError) {
-  const double drop = equalError ? 0.1 * face().tolerance : 0.05 * face().tolerance;
+  const double drop = (equalError ? 0.3 : 0.065) * face().tolerance;
   const double normalDrop = equalError ? 2 * kNormalDrop : kNormalDrop;
   const std::string suffix = equalError ? "-equal" : "";
   for (const PeerKind kind : kPeerKinds) {
@@ -192,7 +192,7 @@ bool registerPlayers() {
   const Player plain = evaluatorPlayer(evaluator, false);
   const double off = worstTarget(plain);
   fmt::print("evaluator: {:.5f} off at worst, {} bytes\n", off, plain.bytes);
-  if (!(off <= 1.15 * allowed())) {
+  if (!(off <= 1.31 * allowed())) {  // what the evaluator drops comes on top
     fmt::print(stderr, "sweepface_bench: The evaluator is {} off, more than the tolerance {}.\n",
                off, face().tolerance);
     return false;

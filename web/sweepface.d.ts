@@ -87,6 +87,12 @@ export class Sweepface {
 
   /** Writes three floats a vertex: positions in model units, unit normals. Either may be null. */
   evaluate(positions: Float32Array | null, normals?: Float32Array | null): void;
+  /** What a vertex shader evaluates the face from: docs/evaluation.md. */
+  shaderTables(tangents?: boolean): {basis: Int16Array; places: Uint32Array; neutral: Float32Array; modes: number};
+  /** Writes what changes every frame for it, four floats a mode. */
+  shaderModes(out: Float32Array, tangents?: boolean): void;
+  /** For vertices behind the points, the point that each repeats. */
+  readonly copies: Uint32Array;
   /** Makes ready to move, which else happens when a weight first leaves 0 and takes a few frames. */
   prepare(): void;
 

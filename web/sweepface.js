@@ -124,6 +124,12 @@ class Shared {
     return this.runtime.words(wasm.sweepface_mesh_triangles(this.mesh), 3 * wasm.sweepface_mesh_triangle_count(this.mesh)).slice();
   }
 
+  copies() {
+    const {wasm} = this.runtime, points = wasm.sweepface_mesh_point_count(this.mesh);
+    const at = wasm.sweepface_mesh_copies(this.mesh);
+    return at === 0 ? new Uint32Array() : this.runtime.words(at, this.vertexCount - points).slice();
+  }
+
   texcoords() {
     const at = this.runtime.wasm.sweepface_mesh_texcoords(this.mesh);
     return at === 0 ? null : this.runtime.floats(at, 2 * this.vertexCount).slice();
@@ -221,6 +227,33 @@ export class Sweepface {
     positions?.set(runtime.floats(memory.positions, 3 * vertexCount));
     normals?.set(runtime.floats(memory.normals, 3 * vertexCount));
   }
+
+  /** What a vertex shader evaluates the face from, instead of `evaluate`: see shaderModes. */
+  shaderTables(tangents = false) {
+    const {runtime} = this.#open(), {wasm} = runtime, points = this.pointCount, rows = tangents ? 2 : 1;
+    return withinMemory(() => runtime.lend(new Uint8Array(20), (out) => {
+      runtime.check(wasm.sweepface_mesh_shader_tables(this.#shared.mesh, tangents ? 1 : 0, out));
+      const [basis, places, neutral, texels, modes] = runtime.words(out, 5);
+      return {
+        basis: new Int16Array(wasm.memory.buffer, basis, 4 * texels).slice(),
+        places: runtime.words(places, 2 * points).slice(),
+        neutral: runtime.floats(neutral, 3 * points * rows).slice(),
+        modes
+      };
+    }));
+  }
+
+  /** Writes what changes every frame, four floats a mode. */
+  shaderModes(out, tangents = false) {
+    const {runtime} = this.#open();
+    runtime.lend(new Uint8Array(4 * out.length), (at) => {
+      runtime.check(runtime.wasm.sweepface_face_modes(this.#face, tangents ? 1 : 0, at, out.length / 4));
+      out.set(runtime.floats(at, out.length));
+    });
+  }
+
+  /** For vertices behind the points, the point that each repeats. */
+  get copies() { return this.#open().copies(); }
 
   /** Makes ready to move, which else happens when a weight first leaves 0 and takes a few frames. */
   prepare() {

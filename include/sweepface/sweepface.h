@@ -100,6 +100,9 @@ SWEEPFACE_API sweepface_status sweepface_mesh_prepare(const sweepface_mesh* mesh
 SWEEPFACE_API uint32_t sweepface_mesh_point_count(const sweepface_mesh* mesh);
 SWEEPFACE_API uint32_t sweepface_mesh_vertex_count(const sweepface_mesh* mesh);
 
+/* [vertices - points] the point that each of the other vertices repeats, or NULL. */
+SWEEPFACE_API const uint32_t* sweepface_mesh_copies(const sweepface_mesh* mesh);
+
 /* [triangles x 3] vertices, counter-clockwise seen from outside; those of a material together. */
 SWEEPFACE_API uint32_t sweepface_mesh_triangle_count(const sweepface_mesh* mesh);
 SWEEPFACE_API const uint32_t* sweepface_mesh_triangles(const sweepface_mesh* mesh);
@@ -158,6 +161,27 @@ SWEEPFACE_API sweepface_status sweepface_face_evaluate(sweepface_face* face, siz
 SWEEPFACE_API sweepface_status sweepface_face_update(sweepface_face* face, size_t count,
                                                      sweepface_vectors positions,
                                                      sweepface_vectors normals);
+
+/* ---- Shaders ---- */
+
+/* A mesh as a vertex shader evaluates it (docs/evaluation.md). Row r of point p is
+ *   neutral[p][r] + sum over t < texels, k < 4 of basis[first + r * texels + t][k] * modes[at + 4 * t + k]
+ * where places[p] is first, then at * 64 + texels. Positions have one row a point, tangents two:
+ * along the sweep and across, whose cross product points outward. Belongs to the mesh. */
+typedef struct sweepface_shader_tables {
+  const int16_t* basis;    /* [texel_count x 4] */
+  const uint32_t* places;  /* [points x 2] */
+  const float* neutral;    /* [points x rows x 3] */
+  uint32_t texel_count;
+  uint32_t mode_count;
+} sweepface_shader_tables;
+
+SWEEPFACE_API sweepface_status sweepface_mesh_shader_tables(const sweepface_mesh* mesh,
+                                                            int32_t tangents,
+                                                            sweepface_shader_tables* out);
+/* What changes every frame: [count x 4], the fourth number 0; `count` is the table's mode_count. */
+SWEEPFACE_API sweepface_status sweepface_face_modes(sweepface_face* face, int32_t tangents,
+                                                    float* out, size_t count);
 
 /* ---- Motions ---- */
 

@@ -9,6 +9,8 @@
 #include "sweepface/render_mesh.hpp"
 #include "sweepface/sweepface.h"
 
+#include "eval/shader_tables.hpp"
+
 // What the handles of the C interface stand for. Rigs and meshes are shared by what is made from
 // them.
 
@@ -39,6 +41,16 @@ struct Mesh {
   Evaluator neutral;  // with the same options the others cannot fail
   RenderMesh render;
   LazyEvaluator lazyPositions = {}, lazyNormals = {};
+
+  mutable std::once_flag shaderOnce = {};
+  mutable ShaderTables shaderPositions = {}, shaderTangents = {};
+
+  void makeShaderTables() const {
+    std::call_once(shaderOnce, [&] {
+      shaderPositions = shaderTables(positions().tables().positions, render.points);
+      shaderTangents = shaderTables(normals().tables().derivatives, render.points);
+    });
+  }
 
   const Evaluator& positions() const {
     return lazyPositions.get(*rig, grid, {.level = lod, .normals = false});

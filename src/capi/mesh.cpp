@@ -85,6 +85,11 @@ uint32_t sweepface_mesh_vertex_count(const sweepface_mesh* mesh) {
   return mesh ? static_cast<uint32_t>(mesh->mesh->render.vertexCount()) : 0;
 }
 
+const uint32_t* sweepface_mesh_copies(const sweepface_mesh* mesh) {
+  if (!mesh || mesh->mesh->render.copies.empty()) return nullptr;
+  return reinterpret_cast<const uint32_t*>(mesh->mesh->render.copies.data());
+}
+
 uint32_t sweepface_mesh_triangle_count(const sweepface_mesh* mesh) {
   return mesh ? static_cast<uint32_t>(mesh->mesh->render.triangles.size() / 3) : 0;
 }

@@ -2,7 +2,6 @@
 // are from them. Inside a patch the lines through its middle say the same.
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 #include "eval/stitching.hpp"
 

@@ -111,14 +111,28 @@ Result<void> Evaluation::validate() const {
   return {};
 }
 
+namespace {
+
+Scratch scratchOf(const EvaluatorTables& tables, std::span<std::byte> scratch) {
+  const auto address = reinterpret_cast<std::uintptr_t>(scratch.data());
+  return Scratch(tables, scratch.data() + (64 - address % 64) % 64);
+}
+
+}  // namespace
+
+FrameWeights frameWeights(const EvaluatorTables& tables, std::span<const double> weights,
+                          std::span<std::byte> scratch) {
+  const Scratch memory = scratchOf(tables, scratch);
+  const float factor = quantise(weights, memory.weights);
+  return {memory.weights.data(), memory.pairs, pairsRoom(tables), factor, tables.weights + 1};
+}
+
 void Evaluation::run() const {
   const EvaluatorTables& tables = evaluator->tables();
-  const auto address = reinterpret_cast<std::uintptr_t>(scratch.data());
-  const Scratch memory(tables, scratch.data() + (64 - address % 64) % 64);
-  const float factor = quantise(weights, memory.weights);
-  const bool isPart = previous && quantise(*previous, memory.before) == factor;
-  const FrameWeights frame{memory.weights.data(), memory.pairs, pairsRoom(tables), factor,
-                           tables.weights + 1,    cold};
+  const Scratch memory = scratchOf(tables, scratch);
+  FrameWeights frame = frameWeights(tables, weights, scratch);
+  frame.cold = cold;
+  const bool isPart = previous && quantise(*previous, memory.before) == frame.factor;
   const auto tilesOf = [&](const TileTable& table) {
     const TileRange all = share(table, part, parts);
     return isPart ? changed(all, memory) : all;

@@ -27,7 +27,13 @@ struct TileRange {
   Index operator[](Index k) const { return listed ? listed[k] : first + k; }
 };
 
+/// The weights of a frame in the scratch memory of an evaluation.
+FrameWeights frameWeights(const EvaluatorTables& tables, std::span<const double> weights,
+                          std::span<std::byte> scratch);
+
 namespace plain {
+/// The modes' coefficients of a tile under the frame's weights, in the order of its blocks.
+void blendTile(const Tile& tile, const FrameWeights& frame, std::int16_t* c);
 void evaluatePositions(const TileRange& tiles, const FrameWeights& frame, const VectorsOut& out);
 void evaluateNormals(const TileRange& tiles, const FrameWeights& frame, const VectorsOut& normals,
                      const VectorsOut& tangents);

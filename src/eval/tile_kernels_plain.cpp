@@ -49,9 +49,8 @@ float neutral(const Tile& tile, int group, int axis, int lane) {
 
 /// All rows of a tile under the frame's weights.
 void combine(const Tile& tile, int groups, const FrameWeights& frame, Vectors& out) {
-  pairWeights(tile, frame, frame.pairs);
   std::array<std::int16_t, kMostBlocks * kGroup> c;
-  blend(tile, frame.pairs, c.data());
+  blendTile(tile, frame, c.data());
   const float scale = tile.head->scale * frame.factor;
   const std::byte* basis = tile.basis;
   for (int g = 0; g < groups; ++g) {
@@ -88,6 +87,11 @@ void write(const Tile& tile, int k, const std::array<float, 3>& vector, const Ve
 }
 
 }  // namespace
+
+void blendTile(const Tile& tile, const FrameWeights& frame, std::int16_t* c) {
+  pairWeights(tile, frame, frame.pairs);
+  blend(tile, frame.pairs, c);
+}
 
 void evaluatePositions(const TileRange& tiles, const FrameWeights& frame, const VectorsOut& out) {
   Vectors rows;

@@ -30,3 +30,13 @@ export async function useThree(scene: Scene): Promise<void> {
   mesh.update(1 / 60);
   mesh.dispose();
 }
+
+import {SWEEPFACE_GLSL, SweepfaceGpuMesh} from '../sweepface_gpu.js';
+
+export async function onTheCard(bytes: ArrayBuffer): Promise<number> {
+  const mesh = new SweepfaceGpuMesh(await Sweepface.load(bytes, {vertices: 5000}));
+  mesh.face.prepare();
+  mesh.setWeights({jawOpen: 0.5});
+  mesh.update(1 / 60);
+  return mesh.textureBytes + mesh.frameBytes + SWEEPFACE_GLSL.length;
+}

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "sweepface/evaluator.hpp"
+
+#include "eval/tiles.hpp"
+
+namespace sweepface {
+
+/// The tables of an Evaluator as a vertex shader wants them. Every tile has its modes side by side
+/// in one texture, four for every texel of a row of its basis in the other:
+///
+///   row = neutral + Σ_t Σ_k basis[first + t][k] · modes[modesAt + 4 t + k]
+struct ShaderTables {
+  std::vector<std::int16_t> basis;    ///< [texels × 4]
+  std::vector<std::uint32_t> places;  ///< [vertices × 2] first; modesAt · 64 + texels of a row
+  std::vector<float> neutral;         ///< [vertices × rows × 3]
+  Index rows = 1;                     ///< of a vertex, one behind the other: 1, or ∂u and ∂v
+  Index modes = 0;                    ///< texels of the other texture
+};
+
+ShaderTables shaderTables(const TileTable& table, Index vertices);
+
+/// The modes under these weights [modes × 4], the fourth number 0. Allocates nothing; `scratch` is
+/// that of an evaluation.
+void blendModes(const EvaluatorTables& tables, const TileTable& table,
+                std::span<const double> weights, std::span<std::byte> scratch,
+                std::span<float> out);
+
+}  // namespace sweepface
