@@ -7,6 +7,7 @@
 #include <cmath>
 #include <deque>
 #include <fmt/format.h>
+#include <optional>
 #include <random>
 
 #include "sweepface/evaluator.hpp"
@@ -57,15 +58,12 @@ Evaluator makeEvaluator(bool normals, Index level = 0) {
   return std::move(*made);
 }
 
-/// As near to the surface as half the source's vertices allow.
-Evaluator makeHalf() {
+/// As near to the surface as half the source's vertices allow; a face may have more corners.
+std::optional<Evaluator> makeHalf() {
   const double vertices = static_cast<double>(face().source.gridVertex.size()) / 2;
   const auto density =
       densityFor(face().surface, blend(face(), {}), {Budget::Kind::vertices, vertices});
-  if (!density) {
-    fmt::print(stderr, "sweepface_bench: {}\n", density.error().message);
-    std::exit(1);
-  }
+  if (!density) return {};
   const Tessellation grid(face().surface, *density);
   return std::move(*Evaluator::make(face(), grid, {.level = 1}));
 }
@@ -201,11 +199,13 @@ bool registerPlayers() {
   addWarm("ten", plain, Active::ten);
   addWarm("normals", evaluatorPlayer(evaluator, true), Active::all);
   if (!face().source.gridVertex.empty()) {
-    static const Evaluator half = makeHalf();
-    fmt::print("half: {} vertices, {} bytes, {} more with normals\n", half.vertexCount(),
-               half.positionBytes(), half.normalBytes());
-    addWarm("half", evaluatorPlayer(half, false), Active::all);
-    addWarm("halfNormals", evaluatorPlayer(half, true), Active::all);
+    static const std::optional<Evaluator> half = makeHalf();
+    if (half) {
+      fmt::print("half: {} vertices, {} bytes, {} more with normals\n", half->vertexCount(),
+                 half->positionBytes(), half->normalBytes());
+      addWarm("half", evaluatorPlayer(*half, false), Active::all);
+      addWarm("halfNormals", evaluatorPlayer(*half, true), Active::all);
+    }
   }
   add("cold/evaluator", [](benchmark::State& state) {
     playCold(state, [] { return evaluatorPlayer(makeEvaluator(false), false, true); });

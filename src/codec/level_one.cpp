@@ -1,8 +1,8 @@
 #include "codec/level_one.hpp"
 
 #include <algorithm>
-#include <cstdint>
-#include <unordered_map>
+
+#include "codec/edge_map.hpp"
 
 namespace sweepface::codec {
 
@@ -69,10 +69,6 @@ class Numbering {
   std::vector<Index> node_, arc_, patch_;
 };
 
-std::uint64_t edgeKey(Index from, Index to) {
-  return std::uint64_t{static_cast<std::uint32_t>(from)} << 32 | static_cast<std::uint32_t>(to);
-}
-
 }  // namespace
 
 LevelOne::LevelOne(const Surface& surface) {
@@ -90,16 +86,15 @@ LevelOne::LevelOne(const Surface& surface) {
 }
 
 std::vector<std::vector<Index>> LevelOne::quadNeighbours() const {
-  std::unordered_map<std::uint64_t, Index> quadOf;
-  quadOf.reserve(4 * quads_.size());
+  EdgeMap<Index> quadOf(4 * quads_.size());
   for (std::size_t q = 0; q < quads_.size(); ++q)
     for (int k = 0; k < 4; ++k)
-      quadOf.emplace(edgeKey(quads_[q][k], quads_[q][(k + 1) % 4]), static_cast<Index>(q));
+      quadOf.add(quads_[q][k], quads_[q][(k + 1) % 4], static_cast<Index>(q));
   std::vector<std::vector<Index>> neighbours(quads_.size());
   for (std::size_t q = 0; q < quads_.size(); ++q)
     for (int k = 0; k < 4; ++k) {
-      const auto found = quadOf.find(edgeKey(quads_[q][(k + 1) % 4], quads_[q][k]));
-      neighbours[q].push_back(found == quadOf.end() ? -1 : found->second);
+      const Index* const found = quadOf.find(quads_[q][(k + 1) % 4], quads_[q][k]);
+      neighbours[q].push_back(found ? *found : -1);
     }
   return neighbours;
 }
