@@ -93,7 +93,7 @@ void measureSquares(const Planes& planes, float* sums, float* largest) {
 
 SWEEPFACE_CLONES
 void measureRest(const Planes& wanted, std::span<const float> basis, const float* coefficients,
-                 float* largest) {
+                 float enough, float* largest) {
   const int lane = wanted.lane, width = wanted.width(), rows = wanted.rows;
   const int modes = static_cast<int>(basis.size()) / rows;
   for (int c = 0; c < lane; c += kWide) {
@@ -114,6 +114,7 @@ void measureRest(const Planes& wanted, std::span<const float> basis, const float
       for (int s = 0; s < kWide; ++s) most[s] = squares[s] > most[s] ? squares[s] : most[s];
     }
     for (int s = 0; s < kWide; ++s) largest[c + s] = most[s];
+    if (*std::max_element(most, most + kWide) > enough) return;
   }
 }
 

@@ -46,8 +46,8 @@ void takeAway(Planes& planes, const float* factors, const float* vector);
 /// vector in a row [lane].
 void measureSquares(const Planes& planes, float* sums, float* largest);
 /// The largest square of a target's vector in a row of `wanted` − Σ_m basis[m][r] · coefficients[m]
-/// [lane]; `coefficients` is [modes][3 × lane].
+/// [lane]; `coefficients` is [modes][3 × lane]. Beyond `enough` the others are left as they are.
 void measureRest(const Planes& wanted, std::span<const float> basis, const float* coefficients,
-                 float* largest);
+                 float enough, float* largest);
 
 }  // namespace sweepface

@@ -120,13 +120,14 @@ Integers toIntegers(const LowRank& found, const Planes& wanted, Forms forms) {
 
 /// The largest distance over all rows between the integers and what they stand for, for each target
 /// at weight 1. Errors of single precision are far below the unit.
-std::vector<double> measure(const Integers& integers, const Planes& wanted) {
+std::vector<double> measure(const Integers& integers, const Planes& wanted, double enough) {
   const double scale = integers.scale * kWeightUnit / 65536;
   std::vector<float> basis(integers.basis.size()), squares(wanted.lane);
   for (std::size_t k = 0; k < basis.size(); ++k)
     basis[k] = static_cast<float>(scale * integers.basis[k]);
   const std::vector<float> coefficients(integers.coefficients.begin(), integers.coefficients.end());
-  measureRest(wanted, basis, coefficients.data(), squares.data());
+  measureRest(wanted, basis, coefficients.data(), static_cast<float>(enough * enough),
+              squares.data());
   std::vector<double> worst(wanted.targets);
   for (int k = 0; k < wanted.targets; ++k) worst[k] = std::sqrt(double(squares[k]));
   return worst;
@@ -326,7 +327,8 @@ PackedErrors packTile(const TileSource& source, std::uint16_t nobody, TileTable&
     for (const Forms& forms : kForms) {
       used = forms;
       integers = toIntegers(found, wanted, used);
-      errors.ofTarget = measure(integers, wanted);
+      const bool isLast = forms.step == 0;
+      errors.ofTarget = measure(integers, wanted, isLast ? kMostScale : 1);
       if (isEnough(errors.ofTarget)) break;
     }
     if (!isEnough(errors.ofTarget) && attempt < 3) errors.ofTarget.clear();
