@@ -9,10 +9,9 @@
 #include "sweepface/io.hpp"
 
 #include "command.hpp"
-#include "following.hpp"
 #include "lod_mesh.hpp"
 #include "output.hpp"
-#include "performance.hpp"
+#include "regions.hpp"
 
 namespace sweepface::cli {
 namespace {
@@ -22,6 +21,7 @@ namespace fs = std::filesystem;
 struct AnimateArguments {
   std::string face, output, keys;
   PerformanceArguments what;
+  RegionArguments regions;
   FollowingArguments following;
   double framesPerSecond = 0;
   int frames = 0, lod = 0;
@@ -35,6 +35,7 @@ void addOptions(CLI::App& app, AnimateArguments& a) {
             "A folder for frame_0000.obj, frame_0001.obj ..., made if it is not there; or a .glb "
             "file for the face with an animation of its targets");
   addPerformance(app, a.what);
+  addRegions(app, a.regions);
   addFollowing(app, a.following);
   app.add_option("--frames", a.frames,
                  "How many meshes or sampled keys, the first and the last included; 31 if neither "
@@ -178,11 +179,8 @@ Result<int> runAnimate(const AnimateArguments& a) {
   if (auto ok = checkArguments(a, glb); !ok) return std::unexpected(ok.error());
   Result<Rig> rig = readFace(a.face);
   if (!rig) return std::unexpected(rig.error());
-  Result<Performance> performance = makePerformance(a.what, *rig);
+  const Result<Performance> performance = perform(a.what, a.regions, a.following, *rig);
   if (!performance) return std::unexpected(performance.error());
-  const std::size_t set = rig->targets.size();
-  Followers followers = follow(a.following, *rig);
-  *performance = withFollowers(std::move(*performance), std::move(followers), set);
   if (glb)
     if (auto ok = checkKeys(a, *performance); !ok) return std::unexpected(ok.error());
   const Result<void> written = (glb ? animateGlb : animateMeshes)(a, *rig, *performance);

@@ -25,6 +25,7 @@ Drive driveOf(const PerformanceArguments& a, Drive drive) {
 /// Laws that are not exact in two or three keys: a trajectory for every weight.
 Result<Performance> driven(const PerformanceArguments& a, const Drive& drive, const Weights& from,
                            const Weights& to) {
+  const double delay = drive.delay;
   const auto paths = std::make_shared<std::vector<Trajectory>>();
   for (std::size_t k = 0; k < from.size(); ++k) {
     const auto path = trajectoryOf(drive, {from[k], 0}, to[k]);
@@ -33,44 +34,47 @@ Result<Performance> driven(const PerformanceArguments& a, const Drive& drive, co
   }
   Performance performance;
   performance.name = a.law;
-  performance.seconds = a.seconds;
-  performance.at = [paths](double time, std::span<double> weights) {
-    for (std::size_t k = 0; k < weights.size(); ++k) weights[k] = (*paths)[k].at(time).position;
+  performance.seconds = delay + (drive.kind == Drive::Kind::spring ? a.seconds : drive.seconds);
+  performance.at = [paths, delay](double time, std::span<double> weights) {
+    for (std::size_t k = 0; k < weights.size(); ++k)
+      weights[k] = (*paths)[k].at(time - delay).position;
   };
-  performance.kinematicsAt = [paths](double time, std::span<Kinematics> weights) {
-    for (std::size_t k = 0; k < weights.size(); ++k) weights[k] = (*paths)[k].at(time);
+  performance.kinematicsAt = [paths, delay](double time, std::span<Kinematics> weights) {
+    for (std::size_t k = 0; k < weights.size(); ++k) weights[k] = (*paths)[k].at(time - delay);
   };
   return performance;
 }
 
-Result<Performance> byLaw(const PerformanceArguments& a, const Rig& rig) {
+Result<Performance> byLaw(const PerformanceArguments& a, const Rig& rig, const Matter& matter) {
   const Result<Weights> from = parseWeights(rig, a.from), to = parseWeights(rig, a.to.value_or(""));
   if (!from) return std::unexpected(from.error());
   if (!to) return std::unexpected(to.error());
   if (const auto drive = driveFromName(a.law);
       drive && drive->kind != Drive::Kind::cut && !timeLawFromName(a.law))
-    return driven(a, driveOf(a, *drive), *from, *to);
+    return driven(a, inMatter(driveOf(a, *drive), matter), *from, *to);
   const Result<TimeLaw> law = timeLawFromName(a.law);
   if (!law)
     return fail(
         fmt::format("There is no law '{}'; there are linear, newton, brake, "
                     "accelerate-brake, linear-force, spring and bounce.",
                     a.law));
-  auto motion = Motion::make(*from, *to, *law, a.seconds);
+  const Drive timed = inMatter({.seconds = a.seconds, .spring = {}}, matter);
+  auto motion = Motion::make(*from, *to, *law, timed.seconds);
   if (!motion) return std::unexpected(motion.error());
   Performance performance;
   performance.name = a.law;
-  performance.seconds = a.seconds;
-  performance.at = [motion = *motion](double time, std::span<double> weights) {
-    motion.at(time, weights);
+  performance.seconds = timed.delay + timed.seconds;
+  performance.at = [motion = *motion, delay = timed.delay](double time, std::span<double> weights) {
+    motion.at(time - delay, weights);
   };
-  performance.kinematicsAt = [motion = *motion](double time, std::span<Kinematics> weights) {
+  performance.kinematicsAt = [motion = *motion, delay = timed.delay](
+                                 double time, std::span<Kinematics> weights) {
     for (std::size_t k = 0; k < weights.size(); ++k) {
-      const MotionSample sample = motion.sample(k, time);
+      const MotionSample sample = motion.sample(k, time - delay);
       weights[k] = {sample.position, sample.velocity, sample.force};
     }
   };
-  performance.motion = std::move(*motion);
+  if (timed.delay == 0) performance.motion = std::move(*motion);
   return performance;
 }
 
@@ -79,31 +83,21 @@ Result<Performance> byLaw(const PerformanceArguments& a, const Rig& rig) {
 /// Timelines are baked so finely that frames between theirs are as good as exact.
 constexpr double kTimelineRate = 240;
 
-Result<Clip> readClip(const PerformanceArguments& a) {
+Result<Clip> readClip(const PerformanceArguments& a, const Region& region) {
   const Result<std::string> text = readFile(a.clip);
   if (!text) return std::unexpected(text.error());
-  if (isOfKind(a.clip, ".csv")) return parseLiveLinkCsv(*text, a.clip, a.clipRate);
-  if (!isOfKind(a.clip, ".json"))
+  const bool isJson = isOfKind(a.clip, ".json");
+  if (isJson && text->find("\"events\"") != std::string::npos) {
+    const Result<Timeline> timeline = parseTimeline(*text, a.clip);
+    if (!timeline) return std::unexpected(timeline.error());
+    return bake(*timeline, kTimelineRate, region.name, region.matter);
+  }
+  if (!isJson && !isOfKind(a.clip, ".csv"))
     return fail(fmt::format("{} is neither a .csv nor a .json clip.", a.clip));
-  if (text->find("\"events\"") == std::string::npos) return parseClipJson(*text, a.clip);
-  const Result<Timeline> timeline = parseTimeline(*text, a.clip);
-  if (!timeline) return std::unexpected(timeline.error());
-  return bake(*timeline, kTimelineRate);
-}
-
-/// Central differences over the time of a frame at 60 frames a second.
-std::function<void(double, std::span<Kinematics>)> differences(
-    const std::function<void(double, std::span<double>)>& at) {
-  return [at](double time, std::span<Kinematics> weights) {
-    constexpr double h = 1 / 60.0;
-    std::vector<double> before(weights.size()), now(before), after(before);
-    at(time - h, before);
-    at(time, now);
-    at(time + h, after);
-    for (std::size_t k = 0; k < weights.size(); ++k)
-      weights[k] = {now[k], (after[k] - before[k]) / (2 * h),
-                    (after[k] - 2 * now[k] + before[k]) / (h * h)};
-  };
+  auto clip = isJson ? parseClipJson(*text, a.clip) : parseLiveLinkCsv(*text, a.clip, a.clipRate);
+  if (!clip) return clip;
+  if (a.smooth) smooth(*clip);
+  return inMatter(*clip, region.matter, {a.frequency, a.damping});
 }
 
 std::vector<std::string> notesOn(const ClipMatch& match, const Clip& clip,
@@ -119,10 +113,9 @@ std::vector<std::string> notesOn(const ClipMatch& match, const Clip& clip,
   return notes;
 }
 
-Result<Performance> byClip(const PerformanceArguments& a, const Rig& rig) {
-  Result<Clip> clip = readClip(a);
+Result<Performance> byClip(const PerformanceArguments& a, const Rig& rig, const Region& region) {
+  Result<Clip> clip = readClip(a, region);
   if (!clip) return std::unexpected(clip.error());
-  if (a.smooth) smooth(*clip);
   std::vector<std::string> targets;
   for (const Target& target : rig.targets) targets.push_back(target.name);
   ClipMatch match = matchClip(*clip, targets);
@@ -143,11 +136,25 @@ Result<Performance> byClip(const PerformanceArguments& a, const Rig& rig) {
     clip.at(time, own);
     match.spread(own, weights);
   };
-  performance.kinematicsAt = differences(performance.at);
+  performance.kinematicsAt = byDifferences(performance.at);
   return performance;
 }
 
 }  // namespace
+
+std::function<void(double, std::span<Kinematics>)> byDifferences(
+    const std::function<void(double, std::span<double>)>& at) {
+  return [at](double time, std::span<Kinematics> weights) {
+    constexpr double h = 1 / 60.0;
+    std::vector<double> before(weights.size()), now(before), after(before);
+    at(time - h, before);
+    at(time, now);
+    at(time + h, after);
+    for (std::size_t k = 0; k < weights.size(); ++k)
+      weights[k] = {now[k], (after[k] - before[k]) / (2 * h),
+                    (after[k] - 2 * now[k] + before[k]) / (h * h)};
+  };
+}
 
 void addPerformance(CLI::App& app, PerformanceArguments& a) {
   app.add_option("--from", a.from, "The expression to start from; the neutral if not given")
@@ -164,7 +171,10 @@ void addPerformance(CLI::App& app, PerformanceArguments& a) {
       ->check(positiveNumber())
       ->capture_default_str()
       ->type_name("S");
-  app.add_option("--frequency", a.frequency, "Of a spring: swings a second without damping")
+  app.add_option(
+         "--frequency", a.frequency,
+         "Of a spring: swings a second without damping; with --clip, of those on which heavy "
+         "regions hang")
       ->check(positiveNumber())
       ->capture_default_str()
       ->type_name("HZ");
@@ -189,8 +199,9 @@ void addPerformance(CLI::App& app, PerformanceArguments& a) {
   app.add_flag("--smooth", a.smooth, "Take a tracker's noise out of the clip")->needs("--clip");
 }
 
-Result<Performance> makePerformance(const PerformanceArguments& a, const Rig& rig) {
-  return a.clip.empty() ? byLaw(a, rig) : byClip(a, rig);
+Result<Performance> makePerformance(const PerformanceArguments& a, const Rig& rig,
+                                    const Region& region) {
+  return a.clip.empty() ? byLaw(a, rig, region.matter) : byClip(a, rig, region);
 }
 
 Clip sample(const Performance& performance, const Rig& rig, std::vector<double> times) {

@@ -5,6 +5,7 @@
 
 #include "sweepface/clip.hpp"
 #include "sweepface/motion.hpp"
+#include "sweepface/regions.hpp"
 #include "sweepface/trajectory.hpp"
 
 #include "command.hpp"
@@ -32,7 +33,13 @@ struct Performance {
   std::vector<double> frameTimes;  ///< a clip's own frames, from 0
   std::vector<std::string> notes;  ///< what the user should know, in sentences
 };
-Result<Performance> makePerformance(const PerformanceArguments& a, const Rig& rig);
+/// By the matter of a region, and without what a timeline means for others.
+Result<Performance> makePerformance(const PerformanceArguments& a, const Rig& rig,
+                                    const Region& region = {});
+
+/// Velocities and accelerations by central differences over a frame at 60 frames a second.
+std::function<void(double, std::span<Kinematics>)> byDifferences(
+    const std::function<void(double, std::span<double>)>& at);
 
 /// The performance at these times, with a weight for every target.
 Clip sample(const Performance& performance, const Rig& rig, std::vector<double> times);

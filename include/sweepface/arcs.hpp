@@ -28,10 +28,10 @@ Vec3 bulge(const Turn& turn, const Vec3& from, const Vec3& to);
 /// A name for the target that bends the way of another into an arc.
 std::string arcName(std::string_view target);
 
-/// Adds a target with the bulge for every turn, named by arcName(), to the end of a rig. One of that
-/// name that is there already, as in a face made from a GLB with arcs, serves instead, and is no turn
-/// itself. Returns their followers. With those, a weight w goes along x₀ + wΔ + 4w(1 − w)B: where it would go
-/// without at 0 and 1, on the arc at ½.
+/// Adds a target with the bulge for every turn, named by arcName(), to the end of a rig. One of
+/// that name that is there already, as in a face made from a GLB with arcs, serves instead, and is
+/// no turn itself. Returns their followers. With those, a weight w goes along x₀ + wΔ + 4w(1 − w)B:
+/// where it would go without at 0 and 1, on the arc at ½.
 std::vector<Follower> addArcs(Rig& rig, std::span<const Turn> turns);
 
 }  // namespace sweepface

@@ -53,6 +53,8 @@ class MotionState {
   /// Sends a weight to a goal; what it did before ends when the drive sets out. On an error
   /// nothing changes.
   Result<void> moveTo(std::size_t weight, double goal, const Drive& drive = {});
+  /// Whether that would be an error.
+  Result<void> check(std::size_t weight, double goal, const Drive& drive) const;
   /// The same for all weights [K].
   Result<void> moveTo(std::span<const double> goals, const Drive& drive = {});
   /// A blow: adds to a weight's velocity, which drag (per second) then takes away.

@@ -104,6 +104,11 @@ void MotionState::take(std::size_t weight, const Trajectory& next, double delay)
   coordinate.switchAt = now_ + delay;
 }
 
+Result<void> MotionState::check(std::size_t weight, double goal, const Drive& drive) const {
+  if (const auto next = prepare(weight, goal, drive); !next) return std::unexpected(next.error());
+  return {};
+}
+
 Result<void> MotionState::moveTo(std::size_t weight, double goal, const Drive& drive) {
   const Result<Trajectory> next = prepare(weight, goal, drive);
   if (!next) return std::unexpected(next.error());
@@ -117,7 +122,7 @@ Result<void> MotionState::moveTo(std::span<const double> goals, const Drive& dri
                 std::to_string(size()) + " weights; give one each.");
   // All are prepared before the first sets out, so that an error leaves everything as it was.
   for (std::size_t k = 0; k < size(); ++k)
-    if (const auto next = prepare(k, goals[k], drive); !next) return std::unexpected(next.error());
+    if (auto ok = check(k, goals[k], drive); !ok) return ok;
   for (std::size_t k = 0; k < size(); ++k) take(k, *prepare(k, goals[k], drive), drive.delay);
   return {};
 }
