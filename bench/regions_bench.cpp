@@ -1,8 +1,9 @@
 // What regions cost: a frame of their motion and of their blend, beside the plain ones.
-#include <array>
+#include <algorithm>
 #include <benchmark/benchmark.h>
 #include <cstdlib>
 #include <fmt/format.h>
+#include <functional>
 #include <vector>
 
 #include "sweepface/evaluator.hpp"
@@ -22,29 +23,60 @@ T orEnd(Result<T> result) {
   std::exit(1);
 }
 
-/// Eight bands across the face, from its lowest node to the farthest.
-std::vector<Region> bands() {
+/// Places of the nodes.
+std::vector<Vec3> nodes() {
   const Rig& rig = face();
-  Brush brush;
   const std::vector<Vec3> vectors = blend(rig, {});
-  Vec3 low = rig.surface.pointOnArc(vectors, 0, 0), high = low;
-  for (Index a = 0; a < static_cast<Index>(rig.surface.wireframe().arcs.size()); ++a) {
-    const Vec3 p = rig.surface.pointOnArc(vectors, a, 0);
-    if (p.y < low.y) low = p;
-    if (p.y > high.y) high = p;
+  std::vector<Vec3> places(rig.surface.wireframe().nodes.size());
+  for (Index a = 0; a < static_cast<Index>(rig.surface.wireframe().arcs.size()); ++a)
+    places[rig.surface.wireframe().arcs[a].from] = rig.surface.pointOnArc(vectors, a, 0);
+  return places;
+}
+
+std::vector<Region> divided(std::vector<std::vector<double>> shares) {
+  std::vector<Region> regions;
+  for (auto& painted : shares)
+    regions.push_back({fmt::format("region{}", regions.size()),
+                       {1.0 + static_cast<double>(regions.size()), 1, 0},
+                       std::move(painted)});
+  return orEnd(dividedFace(face(), std::move(regions)));
+}
+
+/// Seven round regions far from each other, a third of each fading, and the rest.
+std::vector<Region> islands() {
+  const std::vector<Vec3> places = nodes();
+  std::vector<double> nearest(places.size(), 1e30);
+  std::vector<Vec3> centres{places[0]};
+  const auto farthest = [&] {
+    for (std::size_t n = 0; n < places.size(); ++n)
+      nearest[n] = std::min(nearest[n], norm(places[n] - centres.back()));
+    return static_cast<std::size_t>(std::ranges::max_element(nearest) - nearest.begin());
+  };
+  while (centres.size() < kRegions - 1) centres.push_back(places[farthest()]);
+  const double reach = nearest[farthest()] / 2;
+  std::vector<std::vector<double>> shares;
+  for (const Vec3& centre : centres) {
+    Brush brush;
+    brush.points = {centre};
+    brush.alongSurface = false;
+    brush.whole = 2 * reach / 3, brush.fade = reach / 3;
+    shares.push_back(orEnd(paint(face(), brush)));
   }
+  return divided(std::move(shares));
+}
+
+/// Eight bands across the face that fade into each other everywhere: as bad as it gets.
+std::vector<Region> bands() {
+  const std::vector<Vec3> places = nodes();
+  const auto [low, high] = std::ranges::minmax(places, {}, &Vec3::y);
+  Brush brush;
   brush.points = {low};
   brush.fade = norm(high - low);
   brush.alongSurface = false;
-  std::vector<Region> regions;
-  for (auto& shares : orEnd(paintBands(rig, brush, kRegions)))
-    regions.push_back({fmt::format("band{}", regions.size()),
-                       {1.0 + static_cast<double>(regions.size()), 1, 0},
-                       std::move(shares)});
-  return orEnd(dividedFace(rig, std::move(regions)));
+  return divided(orEnd(paintBands(face(), brush, kRegions)));
 }
 
-/// Springs under all weights of all regions, on their way.
+/// Springs under all weights of all regions, with new goals every four seconds.
 void moveRegions(benchmark::State& state, std::size_t count) {
   std::vector<Matter> matters(count);
   for (std::size_t r = 0; r < count; ++r) matters[r].mass = 1 + 0.5 * static_cast<double>(r);
@@ -53,7 +85,7 @@ void moveRegions(benchmark::State& state, std::size_t count) {
   Weights weights(count * goals.size());
   int frame = 0;
   for (auto _ : state) {
-    if (frame++ % 64 == 0 && !motion.moveTo(goals)) return state.SkipWithError("a goal");
+    if (frame++ % 256 == 0 && !motion.moveTo(goals)) return state.SkipWithError("a goal");
     motion.advance(1 / 60.0);
     motion.positions(weights);
     benchmark::DoNotOptimize(weights.data());
@@ -85,20 +117,19 @@ void evaluate(benchmark::State& state, const std::vector<Region>& regions, bool 
       static_cast<double>(evaluator.positionBytes() + (normals ? evaluator.normalBytes() : 0));
 }
 
+void add(const std::string& name, std::function<void(benchmark::State&)> run) {
+  benchmark::RegisterBenchmark(name.c_str(), std::move(run))->Unit(benchmark::kMicrosecond);
+}
+
 const bool registered = [] {
   for (const std::size_t count : {1, kRegions})
-    benchmark::RegisterBenchmark(fmt::format("regions-motion/{}", count).c_str(),
-                                 [=](benchmark::State& state) { moveRegions(state, count); })
-        ->Unit(benchmark::kMicrosecond);
-  for (const bool normals : {false, true})
-    for (const bool regional : {false, true})
-      benchmark::RegisterBenchmark(
-          fmt::format("regions-{}/{}", normals ? "normals" : "positions", regional ? kRegions : 1)
-              .c_str(),
-          [=](benchmark::State& state) {
-            evaluate(state, regional ? bands() : std::vector<Region>{}, normals);
-          })
-          ->Unit(benchmark::kMicrosecond);
+    add(fmt::format("regions-motion/{}", count), [=](auto& state) { moveRegions(state, count); });
+  for (const bool normals : {false, true}) {
+    const std::string group = normals ? "regions-normals/" : "regions-positions/";
+    add(group + "none", [=](auto& state) { evaluate(state, {}, normals); });
+    add(group + "islands", [=](auto& state) { evaluate(state, islands(), normals); });
+    add(group + "bands", [=](auto& state) { evaluate(state, bands(), normals); });
+  }
   return true;
 }();
 
