@@ -34,9 +34,19 @@ void printSummary(const BuildArguments& a, const Built& built, std::size_t bytes
   fmt::print("{}: {} patches, {} points, {} targets, {} bytes\n", a.output,
              rig.surface.patchCount(), rig.surface.storedCount(), rig.targets.size(), bytes);
   if (!built.missed.empty())
-    fmt::print("curves pass within {:.4g} of their points; the furthest is '{}'{}\n",
+    fmt::print("curves pass within {:.4g} of their points; the furthest is {}{}\n",
                built.largestMiss, built.missed,
                built.missedIn.empty() ? "" : fmt::format(" in '{}'", built.missedIn));
+}
+
+// A point that is far off is most often one out of order, or a control of another patch.
+void warnOfMisses(const BuildArguments& a, const Built& built) {
+  constexpr double kFar = 0.01;
+  if (built.largestMiss <= kFar * built.diagonal) return;
+  printWarning(fmt::format(
+      "{}: {} misses one of its points by {:.3g}. Are its points in the order of the curve, with "
+      "enough nodes between?",
+      a.drawing, built.missed, built.largestMiss));
 }
 
 Result<int> runBuild(const BuildArguments& a) {
@@ -57,6 +67,7 @@ Result<int> runBuild(const BuildArguments& a) {
   }
   const std::string bytes = encode(built->rig);
   if (auto written = writeFile(a.output, bytes); !written) return std::unexpected(written.error());
+  if (drawing->tolerance == 0) warnOfMisses(a, *built);
   if (!a.quiet) printSummary(a, *built, bytes.size());
   return 0;
 }

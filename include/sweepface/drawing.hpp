@@ -101,7 +101,8 @@ std::string formatDrawing(const Drawing& drawing);
 struct Built {
   Rig rig;
   double largestMiss = 0;  ///< how far a curve passes from the points it is drawn by, in any pose
-  std::string missed;      ///< the curve that does, or empty
+  std::string missed;      ///< what does, e.g. "curve 'rim'", or empty
+  double diagonal = 0;     ///< of the box around the drawing's nodes
   std::string missedIn;    ///< the expression in which it does, or empty for the neutral
 };
 

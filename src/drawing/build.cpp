@@ -8,6 +8,7 @@
 #include "drawing/bend.hpp"
 #include "drawing/frames.hpp"
 #include "drawing/grid_source.hpp"
+#include "drawing/misses.hpp"
 #include "drawing/weave.hpp"
 #include "drawing/wishes.hpp"
 #include "drawing/words.hpp"
@@ -271,41 +272,22 @@ class Builder {
   }
 
   Result<void> measureMiss(const DrawnWishes& drawn) {
-    std::vector<Vec3> neutral;
-    for (std::size_t pose = 0; pose < poses_.size(); ++pose) {
-      std::vector<Vec3> misses = missesOf(drawn.wishes, pose);
-      if (pose == 0) neutral = misses;
-      for (std::size_t k = 0; k < misses.size(); ++k) {
-        const double miss = norm(pose == 0 ? misses[k] : neutral[k] + misses[k]);
-        if (miss <= built_.largestMiss) continue;
-        built_.largestMiss = miss;
-        built_.missed = d_.curves[drawn.curves[k]].name;
-        built_.missedIn = pose == 0 ? "" : d_.expressions[pose - 1].name;
-      }
-    }
-    if (d_.tolerance == 0 || built_.largestMiss <= d_.tolerance) return {};
-    const Drawing::Curve& curve = d_.curves[woven_.curves.at(built_.missed)];
+    const Miss miss = largestMiss(drawn, plain_, poses_);
+    if (miss.wish < 0) return {};
+    built_.largestMiss = miss.by;
+    built_.missed = nameOf(d_, drawn, miss.wish);
+    built_.missedIn = miss.pose == 0 ? "" : d_.expressions[miss.pose - 1].name;
+    if (d_.tolerance == 0 || miss.by <= d_.tolerance) return {};
     const std::string in = built_.missedIn.empty() ? "" : fmt::format(" in '{}'", built_.missedIn);
-    return refuse(curve.place,
-                  fmt::format("curve '{}' passes {:.3g} from one of its points, or from one beside "
-                              "it,{} and the tolerance is {:.3g}; put a node between",
-                              curve.name, built_.largestMiss, in, d_.tolerance));
-  }
-
-  // How far what came out is from the wishes: for an expression, what it adds from what it should.
-  std::vector<Vec3> missesOf(const Wishes& wishes, std::size_t pose) const {
-    std::vector<Vec3> vectors(plain_.vectorCount()), misses;
-    plain_.settle(poses_[pose], vectors);
-    for (std::size_t k = 0; k < wishes.sums.size(); ++k) {
-      Vec3 miss = -wishes.places[pose][k];
-      for (const Term& t : wishes.sums[k]) miss += t.factor * vectors[t.vector];
-      misses.push_back(miss);
-    }
-    return misses;
+    return refuse(placeOf(d_, drawn, miss.wish),
+                  fmt::format("{} misses a point by {:.3g}{} and the tolerance is {:.3g}; put a "
+                              "node between, or another point",
+                              built_.missed, miss.by, in, d_.tolerance));
   }
 
   Result<void> assemble() {
     Rig& rig = built_.rig;
+    built_.diagonal = diagonal();
     rig.neutral = std::move(poses_[0]);
     for (std::size_t e = 0; e < d_.expressions.size(); ++e)
       rig.targets.push_back({d_.expressions[e].name, std::move(poses_[1 + e]), {}});

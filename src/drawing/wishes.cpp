@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <set>
 
 namespace sweepface::drawing {
 
@@ -28,10 +29,12 @@ class WishGatherer {
   }
 
  private:
-  void add(Index curve, std::vector<Term> sum, const Vec3& place) {
+  void add(Index curve, std::vector<Term> sum, const Vec3& place,
+           const Drawing::Control* control = nullptr) {
     result_.wishes.sums.push_back(std::move(sum));
     result_.wishes.places[0].push_back(place);
     result_.curves.push_back(curve);
+    result_.controls.push_back(control);
   }
   void addOffset(std::size_t expression, const Vec3& offset) {
     result_.wishes.places[1 + expression].push_back(offset);
@@ -120,6 +123,9 @@ class WishGatherer {
     if (patchOf[h] != p)
       return refuse(
           fmt::format("curve '{}' does not bound patch '{}'", control.beside, control.in));
+    if (!controlled_.insert(h).second)
+      return refuse(fmt::format("curve '{}' has control curves in patch '{}' already",
+                                control.beside, control.in));
     if (w_.arcs[c].collapsed)
       return refuse(fmt::format("curve '{}' is one point; nothing runs beside it", control.beside));
     const auto line = polyline(c);
@@ -175,7 +181,7 @@ class WishGatherer {
           for (Term t : termsOf(s_.weights(site, way.alongV ? 0 : order, way.alongV ? order : 0)))
             sum.push_back({t.vector, factor * t.factor});
         }
-        add(c, std::move(sum), points[k]);
+        add(c, std::move(sum), points[k], &control);
         for (std::size_t e = 0; e < e_.size(); ++e) addOffset(e, controlOffset(e, c, k, at));
       }
     }
@@ -193,6 +199,7 @@ class WishGatherer {
   const Wireframe& w_;
   const Surface& s_;
   const std::vector<Offsets>& e_;
+  std::set<HalfArc> controlled_;
   DrawnWishes result_;
 };
 

@@ -19,10 +19,11 @@ struct Offsets {
 Result<Offsets> offsetsOf(const Drawing& drawing, const Woven& woven,
                           const Drawing::Expression& expression);
 
-/// What a drawing says of its curves, and which curve each wish is of.
+/// What a drawing says of its curves, and which curve or control each wish is of.
 struct DrawnWishes {
   Wishes wishes;
-  std::vector<Index> curves;  ///< [wishes]
+  std::vector<Index> curves;                      ///< [wishes]
+  std::vector<const Drawing::Control*> controls;  ///< [wishes] or null
 };
 
 /// The points of curves, of control curves and of nodes on sides, for the neutral and for every

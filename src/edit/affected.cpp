@@ -18,13 +18,12 @@ void Affected::addRibbon(Index ribbon) {
   for (Index n = 0; n < static_cast<Index>(c.kinds.size()); ++n) {
     if (c.kinds[n] != NodeKind::hanging) continue;
     const Star& star = c.stars[n];
-    const bool stands = std::ranges::any_of(star.arms, [&](HalfArc h) {
-      const auto arm = static_cast<int>(&h - star.arms.data());
-      return c.opposite(n, arm) >= 0 && ribbonOf(h) == ribbon;
-    });
+    bool stands = false;
+    for (int arm = 0; arm < std::ssize(star.arms); ++arm)
+      stands = stands || (c.opposite(n, arm) >= 0 && ribbonOf(star.arms[arm]) == ribbon);
+    if (!stands) continue;
     for (Index corner : star.sectors)
-      if (stands && corner != kStraight)
-        eachCornerVector(corner, [&](Index v) { vectors_[v] = true; });
+      if (corner != kStraight) eachCornerVector(corner, [&](Index v) { vectors_[v] = true; });
   }
 }
 

@@ -25,7 +25,7 @@ TEST(Vase, ofTheDocumentationIsBuilt) {
   EXPECT_EQ(built->rig.surface.patchCount(), 2);
   EXPECT_EQ(built->rig.names.units, "cm");
   EXPECT_LT(built->largestMiss, 0.02);
-  EXPECT_TRUE(built->missed.starts_with("foot")) << built->missed;
+  EXPECT_TRUE(built->missed.starts_with("the control of 'foot")) << built->missed;
 }
 
 TEST(Vase, isRound) {
@@ -82,6 +82,23 @@ TEST(Controls, giveTheSurfaceItsDerivativesAcross) {
   }
 }
 
+TEST(Controls, standOncePerCurveAndPatch) {
+  Json drawing = vase();
+  drawing["controls"].push_back(drawing["controls"][1]);
+  EXPECT_NE(buildJson(drawing).error().message.find(
+                "curve 'foot left' has control curves in patch 'left' already"),
+            std::string::npos);
+}
+
+TEST(Controls, outOfOrderAreNamedAsWhatIsMissed) {
+  Json drawing = vase();
+  std::ranges::reverse(drawing["controls"][2]["second"]);
+  const auto built = buildJson(drawing);
+  ASSERT_TRUE(built);
+  EXPECT_EQ(built->missed, "the control of 'rim right' in 'right'");
+  EXPECT_GT(built->largestMiss, 0.1 * built->diagonal);
+}
+
 TEST(Controls, standWhereTheirMeanDistancesSay) {
   Json spaced = vase();
   for (Json& control : spaced["controls"]) {
@@ -115,10 +132,10 @@ TEST(Points, tooManyForACurveAreMissedAndTheMissIsTold) {
   ASSERT_TRUE(built);
   EXPECT_GT(built->largestMiss, 0.2);
   EXPECT_LT(built->largestMiss, 0.5);
-  EXPECT_EQ(built->missed, "dc");
+  EXPECT_EQ(built->missed, "curve 'dc'");
   EXPECT_EQ(built->rig.tolerance, built->largestMiss);
   drawing["tolerance"] = 0.1;
-  EXPECT_NE(buildJson(drawing).error().message.find("curve 'dc' passes"), std::string::npos);
+  EXPECT_NE(buildJson(drawing).error().message.find("curve 'dc' misses"), std::string::npos);
 }
 
 TEST(WhatNobodySays, bendsLeast) {

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "drawing/wishes.hpp"
+
+namespace sweepface::drawing {
+
+/// The wish that a pose misses furthest; none where all are met to the last bit.
+struct Miss {
+  double by = 0;
+  Index wish = -1;
+  std::size_t pose = 0;  ///< 0: the neutral, 1 + e: expression e
+};
+Miss largestMiss(const DrawnWishes& drawn, const Surface& surface, const std::vector<Pose>& poses);
+
+/// What a wish is of: "curve 'rim'", "the control of 'rim' in 'lip'".
+std::string nameOf(const Drawing& drawing, const DrawnWishes& drawn, Index wish);
+TextPlace placeOf(const Drawing& drawing, const DrawnWishes& drawn, Index wish);
+
+}  // namespace sweepface::drawing

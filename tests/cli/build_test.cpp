@@ -1,0 +1,71 @@
+#include "sweepface/codec.hpp"
+
+#include "cli/tool.hpp"
+#include "drawing/drawings.hpp"
+
+namespace sweepface {
+namespace {
+
+using namespace sweepface::testing;
+
+class Build : public Tool {
+ protected:
+  Rig face(const std::string& name) {
+    auto rig = decode(contents(folder / name), name);
+    EXPECT_TRUE(rig) << (rig ? "" : rig.error().message);
+    return rig ? std::move(*rig) : Rig{};
+  }
+};
+
+TEST_F(Build, MakesTheVaseOfTheDocumentation) {
+  folder.file("vase.wire.json", vaseText());
+  const Outcome r = run("build vase.wire.json -o vase.sweep");
+  EXPECT_EQ(r.code, 0) << r.err;
+  EXPECT_TRUE(r.err.empty()) << r.err;
+  EXPECT_TRUE(r.out.starts_with("vase.sweep: 2 patches, 36 points, 1 targets, ")) << r.out;
+  EXPECT_NE(document("wire-format.md").find("    " + r.out.substr(0, r.out.find('\n'))),
+            std::string::npos)
+      << "the page shows other words than " << r.out;
+  EXPECT_EQ(face("vase.sweep").targets[0].name, "taller");
+}
+
+TEST_F(Build, WarnsOfPointsThatAreFarFromTheirCurve) {
+  Json drawing = vase();
+  std::ranges::reverse(drawing["controls"][2]["second"]);
+  folder.file("vase.wire.json", drawing.dump());
+  const Outcome r = run("build vase.wire.json -o vase.sweep --quiet");
+  EXPECT_EQ(r.code, 0);
+  EXPECT_NE(r.err.find("the control of 'rim right' in 'right' misses one of its points by"),
+            std::string::npos)
+      << r.err;
+}
+
+TEST_F(Build, GivesBackWhatWireframeWrote) {
+  convertRig();
+  ASSERT_EQ(run("wireframe face.sweep -o face.wire.json").code, 0);
+  ASSERT_EQ(run("build face.wire.json -o again.sweep").code, 0);
+  const Rig a = face("face.sweep"), b = face("again.sweep");
+  ASSERT_EQ(a.surface.wireframe().patches.size(), b.surface.wireframe().patches.size());
+  ASSERT_EQ(a.targets.size(), b.targets.size());
+  const double diagonal = 9;  // of the sheet
+  for (std::size_t t = 0; t < a.targets.size(); ++t) {
+    Weights weights(a.targets.size());
+    weights[t] = 1;
+    const auto x = blend(a, weights), y = blend(b, weights);
+    for (Index p = 0; p < a.surface.patchCount(); ++p)
+      for (double share : {0.0, 0.37, 1.0}) {
+        const Site site{p, share * a.surface.edgesU(p), 0.6 * a.surface.edgesV(p)};
+        EXPECT_LT(norm(a.surface.evaluate(x, site) - b.surface.evaluate(y, site)), 1e-9 * diagonal);
+      }
+  }
+}
+
+TEST_F(Build, SaysWhereAFileIsWrongAndWritesNothing) {
+  folder.file("vase.wire.json", "{\n  \"format\": \"sweepface wireframe 1\",\n  \"nodez\": []\n}");
+  EXPECT_TRUE(fails("build vase.wire.json -o vase.sweep", "vase.wire.json, line 3"));
+  EXPECT_TRUE(fails("build none.wire.json -o vase.sweep", "none.wire.json"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "vase.sweep"));
+}
+
+}  // namespace
+}  // namespace sweepface

@@ -1,0 +1,60 @@
+#include "cli/tool.hpp"
+
+namespace sweepface {
+namespace {
+
+using namespace sweepface::testing;
+
+class Edit : public Tool {
+ protected:
+  void SetUp() override {
+    const Outcome built = run(
+        fmt::format("build '{}/examples/sheet.wire.json' -o sheet.sweep", SWEEPFACE_SOURCE_DIR));
+    ASSERT_EQ(built.code, 0) << built.err;
+  }
+};
+
+TEST_F(Edit, OfARibbonSaysWhichPatchesChanged) {
+  const Outcome r = run("edit sheet.sweep --ribbon middle --eta -100 -o tight.sweep");
+  EXPECT_EQ(r.code, 0) << r.err;
+  EXPECT_EQ(r.out, "tight.sweep: 3 of 9 patches changed: a1 b2, b1 c2, c1 d2\n");
+  EXPECT_NE(run("info tight.sweep --list").out.find("ribbon middle: rho 1, eta -100, lambda 0.01"),
+            std::string::npos);
+}
+
+TEST_F(Edit, TakesSeveralCurvesAndControlsAtOnce) {
+  const Outcome r =
+      run("edit sheet.sweep --move b1-c1 0,0.2,0 --move b1 0,0.3,0 --control b1-c1 'b1 c2' second "
+          "0,0.1,0 --control c1-d1 'c1 d2' third 0,0.1,0 -o other.sweep");
+  EXPECT_EQ(r.code, 0) << r.err;
+  ASSERT_EQ(run("export sheet.sweep -o a.obj").code, 0);
+  ASSERT_EQ(run("export other.sweep -o b.obj").code, 0);
+  const auto before = mesh("a.obj").positions, after = mesh("b.obj").positions;
+  std::set<double> heights;  // of the nodes: one goes where it is told itself
+  for (std::size_t v = 0; v < before.size(); ++v)
+    if (norm(before[v] - Vec3{1, before[v].y, 1}) < 1e-9 ||
+        norm(before[v] - Vec3{2, before[v].y, 1}) < 1e-9)
+      heights.insert(std::round((after[v].y - before[v].y) * 1e6) / 1e6);
+  EXPECT_EQ(heights, (std::set<double>{0.2, 0.3}));
+}
+
+TEST_F(Edit, RefusesWhatItCannotDo) {
+  const std::string out = " -o other.sweep";
+  EXPECT_TRUE(fails("edit sheet.sweep" + out, "nothing to edit"));
+  EXPECT_TRUE(fails("edit sheet.sweep --ribbon middle" + out, "needs --rho, --eta or --lambda"));
+  EXPECT_TRUE(fails("edit sheet.sweep --ribbon belly --eta 1" + out, "'belly'"));
+  EXPECT_TRUE(
+      fails("edit sheet.sweep --ribbon middle --eta 1.26224375 --lambda 0.000244140625" + out,
+            "cannot have these parameters"));
+  EXPECT_TRUE(fails("edit sheet.sweep --move z9 0,0,1" + out, "'z9'"));
+  EXPECT_TRUE(fails("edit sheet.sweep --move b1 0,0" + out, "three numbers"));
+  EXPECT_TRUE(fails("edit sheet.sweep --move b1 0,0,nan" + out, "three numbers"));
+  EXPECT_TRUE(fails("edit sheet.sweep --control b1-c1 'b1 c2' first 0,0,1" + out, "'first'"));
+  EXPECT_TRUE(fails("edit sheet.sweep --move b1 0,0,1 --target smile" + out, "'smile'"));
+  EXPECT_TRUE(
+      fails("edit sheet.sweep --move a1-b1 0,0,1 --move b1-c1 0,0,2" + out, "different places"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "other.sweep"));
+}
+
+}  // namespace
+}  // namespace sweepface

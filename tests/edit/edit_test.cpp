@@ -1,0 +1,187 @@
+#include "sweepface/edit.hpp"
+
+#include "drawing/drawings.hpp"
+#include "surface/surfaces.hpp"
+
+namespace sweepface {
+namespace {
+
+using namespace sweepface::testing;
+
+Rig sheet() {
+  std::ifstream file(std::string(SWEEPFACE_SOURCE_DIR) + "/examples/sheet.wire.json");
+  return made(Json::parse(file));
+}
+
+/// Any surface as a rig, with a target.
+Rig rigOf(const Surface& surface) {
+  Rig rig;
+  rig.surface = surface;
+  const auto stored = [&](Index from) {
+    auto pose = anyPose(surface, from);
+    pose.resize(static_cast<std::size_t>(surface.storedCount()));
+    return pose;
+  };
+  rig.neutral = stored(0);
+  rig.targets = {{"other", stored(7), {}}};
+  return rig;
+}
+
+std::vector<Vec3> poseOf(const Rig& rig) { return blend(rig, Weights(rig.targets.size(), 0.75)); }
+
+/// The largest way that a place of each patch moved; 0 only where all bits are the same.
+std::vector<double> moved(const Rig& before, const Rig& after) {
+  const auto x = poseOf(before), y = poseOf(after);
+  std::vector<double> result(static_cast<std::size_t>(before.surface.patchCount()));
+  for (Index p = 0; p < before.surface.patchCount(); ++p)
+    for (const Site& site : sitesOf(before.surface, p)) {
+      const Vec3 a = before.surface.evaluate(x, site), b = after.surface.evaluate(y, site);
+      if (!(a == b))
+        result[p] = std::max({result[p], norm(b - a), std::numeric_limits<double>::min()});
+    }
+  return result;
+}
+
+::testing::AssertionResult movesOnly(const Patches& changed, const Rig& before, const Rig& after) {
+  const auto by = moved(before, after);
+  for (Index p = 0; p < before.surface.patchCount(); ++p)
+    if (by[p] > 0 && !std::ranges::binary_search(changed, p))
+      return ::testing::AssertionFailure() << "patch " << p << " moved by " << by[p];
+  return ::testing::AssertionSuccess();
+}
+
+std::set<std::string> names(const Rig& rig, const Patches& patches) {
+  std::set<std::string> result;
+  for (Index p : patches) result.insert(rig.nameOf(Thing::patch, p));
+  return result;
+}
+
+const std::set<std::string> kMiddleRow{"a1 b2", "b1 c2", "c1 d2"};
+
+TEST(ShapeParameters, AThousandTimesAsLargeChangeTheirRibbonVisiblyAndNothingElse) {
+  const Rig before = sheet();
+  const Index ribbon = before.find(Thing::ribbon, "middle").value();
+  const Shape shape = before.surface.wireframe().ribbons[ribbon];
+  ASSERT_EQ(shape, (Shape{1, -0.1, 0.01}));
+  for (const Shape& other : {Shape{1, -100, 0.01}, Shape{1, -0.1, 10}}) {
+    Rig after = before;
+    const auto changed = setShape(after, ribbon, other);
+    ASSERT_TRUE(changed);
+    EXPECT_EQ(names(after, *changed), kMiddleRow);
+    EXPECT_TRUE(movesOnly(*changed, before, after));
+    for (Index p : *changed) EXPECT_GT(moved(before, after)[p], 0.05);  // of 3 × 3
+  }
+}
+
+TEST(ShapeParameters, BesideAResonanceAreRefusedAndChangeNothing) {
+  Rig rig = sheet();
+  const Wireframe before = rig.surface.wireframe();
+  const Index ribbon = rig.find(Thing::ribbon, "middle").value();
+  const auto refused = setShape(rig, ribbon, {1, 80.7836 / 64, 1.0 / 4096});  // sides of 8 edges
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("Ribbon 'middle' cannot have these parameters"),
+            std::string::npos);
+  EXPECT_EQ(rig.surface.wireframe().ribbons, before.ribbons);
+}
+
+TEST(ControlCurves, MoveByWhatIsAskedAndTheSurfaceBendsBesideThem) {
+  const Rig before = sheet();
+  Rig after = before;
+  const Index curve = before.find(Thing::curve, "b1-c1").value(),
+              patch = before.find(Thing::patch, "b1 c2").value();
+  const ControlMove move{curve, patch, {0.02, 0.15, 0}, {0, 0.45, -0.1}};
+  const auto changed = moveControls(after, move);
+  ASSERT_TRUE(changed);
+  EXPECT_TRUE(movesOnly(*changed, before, after));
+  EXPECT_EQ(names(after, *changed),
+            (std::set<std::string>{"a0 b1", "b0 c1", "c0 d1", "a1 b2", "b1 c2", "c1 d2"}));
+  EXPECT_GT(moved(before, after)[patch], 0.1);
+
+  // The curve itself stays; the controls beside it are the parabola of the derivatives across.
+  const auto x = poseOf(before), y = poseOf(after);
+  const double edges = 8;
+  for (double along : {0.0, 2.5, 8.0}) {
+    const Site site{patch, 0, along};  // the patch sweeps away from the curve
+    EXPECT_LT(norm(after.surface.evaluate(y, site) - before.surface.evaluate(x, site)), 1e-12);
+    for (const auto& [share, by] : {std::pair(kControlSpacing.u2, move.second),
+                                    std::pair(kControlSpacing.u3, move.third)}) {
+      Vec3 offset;
+      const double h = share * edges;
+      for (int order = 1; order <= 2; ++order) {
+        const Vec3 change =
+            after.surface.evaluate(y, site, order, 0) - before.surface.evaluate(x, site, order, 0);
+        offset += change * (order == 1 ? h : h * h / 2);
+      }
+      EXPECT_LT(norm(offset - by), 1e-9) << along << ' ' << share;
+    }
+  }
+}
+
+TEST(ControlCurves, OfAnotherPatchOrWithoutLengthAreRefused) {
+  Rig rig = sheet();
+  const auto refused = moveControls(rig, {rig.find(Thing::curve, "a0-b0").value(),
+                                          rig.find(Thing::patch, "b1 c2").value(),
+                                          {0, 1, 0},
+                                          {0, 2, 0}});
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().message, "Curve 'a0-b0' does not bound patch 'b1 c2'.");
+}
+
+TEST(Nodes, TakeWhatMeetsThereAlong) {
+  const Rig before = sheet();
+  Rig after = before;
+  const NodeMove move{before.find(Thing::node, "b1").value(), {0, 0.3, 0}};
+  const auto changed = moveNodes(after, std::array{move});
+  ASSERT_TRUE(changed);
+  EXPECT_EQ(names(after, *changed), (std::set<std::string>{"a0 b1", "b0 c1", "a1 b2", "b1 c2"}));
+  EXPECT_TRUE(movesOnly(*changed, before, after));
+  EXPECT_GT(moved(before, after)[changed->front()], 0.1);
+}
+
+TEST(Nodes, OfATargetMoveInItAlone) {
+  const auto [name, surface] = everySurface().front();
+  const Rig before = rigOf(surface);
+  Rig after = before;
+  ASSERT_TRUE(moveNodes(after, std::array{NodeMove{0, {1, 2, 3}}}, 0));
+  EXPECT_EQ(after.neutral, before.neutral);
+  EXPECT_NE(after.targets[0].difference, before.targets[0].difference);
+}
+
+// Whatever the wireframe: T-nodes, irregular nodes, creases, collapsed sides.
+TEST(EveryEdit, TellsAllPatchesThatItMoves) {
+  int edits = 0, refused = 0;
+  for (const auto& [name, surface] : everySurface()) {
+    SCOPED_TRACE(name);
+    const Rig before = rigOf(surface);
+    const auto expectLocal = [&](const Result<Patches>& changed, const Rig& after) {
+      ++edits;
+      if (!changed) {
+        ++refused;
+        EXPECT_EQ(after.neutral, before.neutral);
+        return;
+      }
+      EXPECT_TRUE(movesOnly(*changed, before, after));
+    };
+    const auto step = [](std::size_t count) { return static_cast<Index>(1 + count / 8); };
+    const Wireframe& w = surface.wireframe();
+    for (Index r = 0; r < std::ssize(w.ribbons); r += step(w.ribbons.size())) {
+      Rig after = before;
+      expectLocal(setShape(after, r, {1, -3, 0.5}), after);
+    }
+    for (Index n = 0; n < std::ssize(w.nodes); n += step(w.nodes.size())) {
+      Rig after = before;
+      expectLocal(moveNodes(after, std::array{NodeMove{n, {0.5, -1, 2}}}), after);
+    }
+    for (HalfArc h = 0; h < 2 * std::ssize(w.arcs); h += step(2 * w.arcs.size())) {
+      const Index patch = surface.connectivity().patchOf[h];
+      if (patch < 0) continue;
+      Rig after = before;
+      expectLocal(moveControls(after, {arcOf(h), patch, {0.1, 0, 0}, {0, 0.2, 0}}), after);
+    }
+  }
+  EXPECT_GT(edits, 100);
+  EXPECT_LT(refused, edits / 2);
+}
+
+}  // namespace
+}  // namespace sweepface
