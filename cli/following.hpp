@@ -11,6 +11,7 @@ namespace sweepface::cli {
 struct FollowingArguments {
   std::string arcs = "off";
   bool combine = false;
+  bool any() const { return arcs == "on" || combine; }
 };
 void addFollowing(CLI::App& app, FollowingArguments& a);
 

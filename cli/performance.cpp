@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "sweepface/filter.hpp"
+#include "sweepface/gltf.hpp"
 #include "sweepface/io.hpp"
 #include "sweepface/live_motion.hpp"
 #include "sweepface/timeline.hpp"
@@ -92,9 +93,13 @@ Result<Clip> readClip(const PerformanceArguments& a, const Region& region) {
     if (!timeline) return std::unexpected(timeline.error());
     return bake(*timeline, kTimelineRate, region.name, region.matter);
   }
-  if (!isJson && !isOfKind(a.clip, ".csv"))
-    return fail(fmt::format("{} is neither a .csv nor a .json clip.", a.clip));
-  auto clip = isJson ? parseClipJson(*text, a.clip) : parseLiveLinkCsv(*text, a.clip, a.clipRate);
+  const bool isGltf = isOfKind(a.clip, ".glb") || isOfKind(a.clip, ".gltf");
+  if (!isJson && !isGltf && !isOfKind(a.clip, ".csv"))
+    return fail(fmt::format("{} is neither a .csv, a .json nor a .glb clip.", a.clip));
+  auto clip = isJson   ? parseClipJson(*text, a.clip)
+              : isGltf ? parseGltfClip(*text, a.clip, std::filesystem::path(a.clip).parent_path(),
+                                       a.animation)
+                       : parseLiveLinkCsv(*text, a.clip, a.clipRate);
   if (!clip) return clip;
   if (a.smooth) smooth(*clip);
   return inMatter(*clip, region.matter, {a.frequency, a.damping});
@@ -188,10 +193,14 @@ void addPerformance(CLI::App& app, PerformanceArguments& a) {
       ->type_name("E");
   app.add_option("--clip", a.clip,
                  "Play this instead: a .csv of Live Link Face, a .json of Audio2Face or MediaPipe, "
-                 "or a timeline (.json)")
+                 "a timeline (.json), or the weights of an animation in a .glb")
       ->excludes("--to")
       ->excludes("--from")
       ->type_name("FILE");
+  app.add_option("--animation", a.animation,
+                 "Which animation of a .glb; the first with weights if not given")
+      ->needs("--clip")
+      ->type_name("NAME");
   app.add_option("--clip-fps", a.clipRate, "Frames a second in the timecodes of a .csv")
       ->check(positiveNumber(1000))
       ->capture_default_str()

@@ -14,7 +14,7 @@ namespace sweepface::cli {
 
 /// What `animate` is told to play.
 struct PerformanceArguments {
-  std::string from, law = "newton", clip;
+  std::string from, law = "newton", clip, animation;
   std::optional<std::string> to;
   double seconds = 1, frequency = 2, damping = 1, restitution = 0.4, clipRate = 60;
   bool smooth = false;
