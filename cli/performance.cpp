@@ -135,10 +135,18 @@ Result<Performance> byClip(const PerformanceArguments& a, const Rig& rig, const 
   performance.notes = notesOn(match, *clip, a.clip);
   for (const double time : clip->times)
     performance.frameTimes.push_back(time - clip->times.front());
-  performance.at = [clip = std::move(*clip), match = std::move(match)](double time,
-                                                                       std::span<double> weights) {
-    std::vector<double> own(clip.names.size());
-    clip.at(time, own);
+  const auto shared = std::make_shared<const Clip>(std::move(*clip));
+  const ClipAngles angles(*shared);
+  performance.hasHead = angles.head(), performance.hasEyes = angles.eyes();
+  if (performance.hasHead || performance.hasEyes)
+    performance.pose = [shared, angles](double time) {
+      std::vector<double> own(shared->names.size());
+      shared->at(time, own);
+      return angles.of(own);
+    };
+  performance.at = [shared, match = std::move(match)](double time, std::span<double> weights) {
+    std::vector<double> own(shared->names.size());
+    shared->at(time, own);
     match.spread(own, weights);
   };
   performance.kinematicsAt = byDifferences(performance.at);

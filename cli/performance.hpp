@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "sweepface/clip.hpp"
+#include "sweepface/head.hpp"
 #include "sweepface/motion.hpp"
 #include "sweepface/regions.hpp"
 #include "sweepface/trajectory.hpp"
@@ -31,6 +32,9 @@ struct Performance {
   std::function<void(double time, std::span<Kinematics> weights)> kinematicsAt;
   std::optional<Motion> motion;    ///< where keys can hold it exactly
   std::vector<double> frameTimes;  ///< a clip's own frames, from 0
+  /// Null unless a clip tells how head or eyes stand.
+  std::function<HeadPose(double time)> pose;
+  bool hasHead = false, hasEyes = false;
   std::vector<std::string> notes;  ///< what the user should know, in sentences
 };
 /// By the matter of a region, and without what a timeline means for others.

@@ -109,10 +109,10 @@ Result<Performance> perform(const PerformanceArguments& what, const RegionArgume
     if (!performance) return std::unexpected(performance.error());
     parts.performances.push_back(std::move(*performance));
   }
-  const std::size_t set = rig.targets.size();
-  const Followers followers = follow(following, rig);
+  const Result<Following> followed = follow(following, rig);
+  if (!followed) return std::unexpected(followed.error());
   for (Performance& performance : parts.performances)
-    performance = withFollowers(std::move(performance), followers, set);
+    performance = withFollowing(std::move(performance), *followed);
   if (parts.performances.size() == 1) return std::move(parts.performances.front());
   parts.count = rig.targets.size();
   const auto uneven = parts.uneven(parts.performances.front().frameTimes);
