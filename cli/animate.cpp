@@ -24,6 +24,7 @@ struct AnimateArguments {
   RegionArguments regions;
   FollowingArguments following;
   double framesPerSecond = 0;
+  std::string head = "off", pivot;
   double keyTolerance = 0.002;
   int frames = 0, lod = 0;
   bool quiet = false;
@@ -61,6 +62,13 @@ void addOptions(CLI::App& app, AnimateArguments& a) {
       ->check(positiveNumber(1))
       ->capture_default_str()
       ->type_name("W");
+  app.add_option("--head", a.head, "on: the whole model turns by the head's angles in a capture")
+      ->check(CLI::IsMember({"on", "off"}))
+      ->capture_default_str()
+      ->type_name("on|off");
+  app.add_option("--pivot", a.pivot,
+                 "What the head turns about, as X,Y,Z; the middle of the model if not given")
+      ->type_name("X,Y,Z");
   addLod(app, a.lod, "Write finer meshes: every edge of the source cut into N, 1 to 64");
   addGlb(app, a.glb);
   addQuiet(app, a.quiet);
@@ -84,6 +92,44 @@ std::vector<double> sampleTimes(const AnimateArguments& a, const Performance& pe
   return times;
 }
 
+// ---- The head ----
+
+Result<Vec3> pivotOf(const AnimateArguments& a, const Rig& rig) {
+  if (a.pivot.empty()) {
+    const Tessellation grid(rig.surface, 1);
+    Vec3 low, high;
+    bool isFirst = true;
+    for (const Vec3& p : grid.positions(blend(rig, {}))) {
+      if (std::exchange(isFirst, false)) low = high = p;
+      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    }
+    return 0.5 * (low + high);
+  }
+  const std::vector<std::string> parts = CLI::detail::split(a.pivot, ',');
+  std::array<double, 3> p{};
+  bool whole = parts.size() == 3;
+  for (std::size_t k = 0; whole && k < 3; ++k)
+    whole = CLI::detail::lexical_cast(parts[k], p[k]) && std::isfinite(p[k]);
+  if (whole) return Vec3{p[0], p[1], p[2]};
+  return fail(fmt::format("--pivot is a point like 0,1.5,-2, not '{}'.", a.pivot));
+}
+
+/// How the head turns at these times, if that is wanted.
+Result<std::optional<HeadTrack>> headTrack(const AnimateArguments& a, const Rig& rig,
+                                           const Performance& performance,
+                                           const std::vector<double>& times) {
+  if (a.head != "on") return std::nullopt;
+  if (!performance.hasHead)
+    return fail(fmt::format("{} has no angles of the head; leave --head out.", performance.name));
+  const auto pivot = pivotOf(a, rig);
+  if (!pivot) return std::unexpected(pivot.error());
+  HeadTrack track{times, {}, *pivot};
+  for (const double time : times)
+    track.rotations.push_back(quaternionOf(performance.pose(time).head));
+  return track;
+}
+
 // ---- Meshes ----
 
 Result<void> makeFolder(const fs::path& folder) {
@@ -96,7 +142,7 @@ Result<void> makeFolder(const fs::path& folder) {
 
 /// Writes the frames in parallel; the answer is that of the first one that failed.
 Result<void> writeFrames(const AnimateArguments& a, const Rig& rig, const Performance& performance,
-                         const std::vector<double>& times) {
+                         const std::vector<double>& times, const std::optional<HeadTrack>& head) {
   const MeshMaker meshes(rig, a.lod);
   ProgressBar bar(a.quiet);
   std::atomic<std::size_t> done = 0;
@@ -107,8 +153,9 @@ Result<void> writeFrames(const AnimateArguments& a, const Rig& rig, const Perfor
     if (failed) return;
     Weights weights(rig.targets.size());
     performance.at(times[frame], weights);
-    const Result<void> written =
-        writeFile(fs::path(a.output) / fmt::format("frame_{:04}.obj", frame), meshes.obj(weights));
+    const Result<void> written = writeFile(
+        fs::path(a.output) / fmt::format("frame_{:04}.obj", frame),
+        head ? meshes.obj(weights, head->rotations[frame], head->pivot) : meshes.obj(weights));
     bar.show("writing", static_cast<double>(++done) / static_cast<double>(times.size()));
     if (written) return;
     const std::scoped_lock lock(reporting);
@@ -121,8 +168,10 @@ Result<void> animateMeshes(const AnimateArguments& a, const Rig& rig,
                            const Performance& performance) {
   if (auto ok = checkLod(rig, a.lod); !ok) return ok;
   const std::vector<double> times = sampleTimes(a, performance);
+  const auto head = headTrack(a, rig, performance, times);
+  if (!head) return std::unexpected(head.error());
   if (auto made = makeFolder(a.output); !made) return made;
-  if (auto written = writeFrames(a, rig, performance, times); !written) return written;
+  if (auto written = writeFrames(a, rig, performance, times, *head); !written) return written;
   if (!a.quiet)
     fmt::print("{}: {} frames of {:.6g} s, {}\n", a.output, times.size(), performance.seconds,
                performance.name);
@@ -167,6 +216,9 @@ Result<void> animateGlb(const AnimateArguments& a, const Rig& rig, const Perform
     options.clip = &clip;
     if (keys == "few") options.keyTolerance = a.keyTolerance;
   }
+  const auto head = headTrack(a, rig, performance, clip.times);
+  if (!head) return std::unexpected(head.error());
+  if (*head) options.head = &**head;
   const Result<std::string> bytes = formatGlb(rig, options);
   if (!bytes) return std::unexpected(bytes.error());
   if (auto written = writeFile(a.output, *bytes); !written) return written;
@@ -184,8 +236,9 @@ Result<void> animateCsv(const AnimateArguments& a, const Rig& rig, const Perform
       !performance.frameTimes.empty() && !a.namesFrames() && isOfKind(a.what.clip, ".csv");
   AnimateArguments asked = a;
   if (!own && !a.namesFrames()) asked.framesPerSecond = a.what.clipRate;
-  const Clip clip =
+  Clip clip =
       sample(performance, rig, own ? performance.frameTimes : sampleTimes(asked, performance));
+  if (performance.pose) addAngles(clip, performance.pose);
   const Result<std::string> text = formatLiveLinkCsv(clip, a.what.clipRate);
   if (!text) return std::unexpected(text.error());
   if (auto written = writeFile(a.output, *text); !written) return written;

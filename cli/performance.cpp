@@ -232,4 +232,20 @@ Clip sample(const Performance& performance, const Rig& rig, std::vector<double> 
   return clip;
 }
 
+void addAngles(Clip& clip, const std::function<HeadPose(double time)>& pose) {
+  const std::size_t before = clip.names.size();
+  for (const char* part : {"Head", "LeftEye", "RightEye"})
+    for (const char* angle : {"Yaw", "Pitch", "Roll"})
+      clip.names.push_back(std::string(part) + angle);
+  std::vector<double> weights;
+  for (std::size_t f = 0; f < clip.times.size(); ++f) {
+    const auto row = clip.weights.begin() + static_cast<std::ptrdiff_t>(f * before);
+    weights.insert(weights.end(), row, row + static_cast<std::ptrdiff_t>(before));
+    const HeadPose stands = pose(clip.times[f]);
+    for (const Angles& a : {stands.head, stands.leftEye, stands.rightEye})
+      weights.insert(weights.end(), {a.yaw, a.pitch, a.roll});
+  }
+  clip.weights = std::move(weights);
+}
+
 }  // namespace sweepface::cli

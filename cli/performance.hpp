@@ -48,4 +48,7 @@ std::function<void(double, std::span<Kinematics>)> byDifferences(
 /// The performance at these times, with a weight for every target.
 Clip sample(const Performance& performance, const Rig& rig, std::vector<double> times);
 
+/// Columns of the angles, as captures have them.
+void addAngles(Clip& clip, const std::function<HeadPose(double time)>& pose);
+
 }  // namespace sweepface::cli

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sweepface/clip.hpp"
+#include "sweepface/head.hpp"
 #include "sweepface/io.hpp"
 #include "sweepface/motion.hpp"
 #include "sweepface/result.hpp"
@@ -25,6 +26,13 @@ Result<RigSource> parseGltf(std::string_view bytes, std::string_view name,
 Result<Clip> parseGltfClip(std::string_view bytes, std::string_view name,
                            const std::filesystem::path& folder, std::string_view animation = {});
 
+/// How a whole model turns about a point.
+struct HeadTrack {
+  std::vector<double> times;          ///< [F] seconds, increasing
+  std::vector<Quaternion> rotations;  ///< [F]
+  Vec3 pivot;
+};
+
 /// What formatGlb writes.
 struct GlbOptions {
   Index lod = 0;              ///< 0: the source's vertices in their order; N: every edge cut into N
@@ -38,6 +46,8 @@ struct GlbOptions {
   const Clip* clip = nullptr;
   /// Greater than 0: the clip in as few keys with tangents as keep its weights so near.
   double keyTolerance = 0;
+  /// Beside a motion or a clip: how the model turns.
+  const HeadTrack* head = nullptr;
   std::string animationName{};  ///< the law's, or "clip", if empty
 };
 

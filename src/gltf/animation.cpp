@@ -6,6 +6,8 @@
 
 #include "sweepface/keys.hpp"
 
+#include "gltf/head_track.hpp"
+
 namespace sweepface::gltf {
 namespace {
 
@@ -103,6 +105,8 @@ class Animator {
     if (name.empty()) name = options_.motion ? nameOf(options_.motion->law()) : "clip";
     if (options_.clip && options_.keyTolerance > 0)
       few_ = fewestKeys(*options_.clip, options_.keyTolerance);
+    // A key with tangents is as large as three without.
+    if (few_ && 3 * few_->times.size() > options_.clip->times.size()) few_.reset();
     animation_ = {{"name", name}, {"channels", Json::array()}, {"samplers", Json::array()}};
     const std::vector<Index> shown = shownMeshes(scene_);
     for (std::size_t n = 0; n < shown.size(); ++n)
@@ -110,6 +114,8 @@ class Animator {
         if (auto ok = addNode(n, shown[n]); !ok) return ok;
     if (animation_["channels"].empty())
       return fail("The face has no target in its scene that an animation could move.");
+    if (options_.head)
+      if (auto ok = addHead(); !ok) return ok;
     Json& animations = scene_.document.json["animations"];
     if (!animations.is_array()) animations = Json::array();
     animations.push_back(std::move(animation_));
@@ -124,6 +130,20 @@ class Animator {
     animation_["channels"].push_back(
         {{"sampler", *sampler}, {"target", {{"node", node}, {"path", "weights"}}}});
     return {};
+  }
+
+  Result<void> addHead() {
+    std::vector<double> rotations;
+    for (const Quaternion& q : options_.head->rotations)
+      rotations.insert(rotations.end(), q.begin(), q.end());
+    const Vec3& pivot = options_.head->pivot;
+    if (!areSingle(options_.head->times) || !increase(options_.head->times) ||
+        !areSingle(rotations) || !areSingle({pivot.x, pivot.y, pivot.z}) ||
+        rotations.size() != 4 * options_.head->times.size() || rotations.empty())
+      return fail("The head's rotation needs one for each of its increasing times.");
+    constexpr double kRadians = 0.001;
+    return addHeadTrack(scene_.document, *options_.head, options_.keyTolerance > 0 ? kRadians : 0,
+                        animation_, builder_);
   }
 
   Result<std::size_t> samplerOf(Index mesh) {
