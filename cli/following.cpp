@@ -49,7 +49,7 @@ Result<Following> follow(const FollowingArguments& a, Rig& rig) {
     followers = Followers::named(names);
   }
   // Eyeballs tell what lids turn about, so turns are found while they still move by the targets.
-  const auto turns = a.arcs == "on" ? findTurns(rig) : std::vector<Turn>{};
+  const auto turns = a.arcs == "on" ? turnsOf(rig) : std::vector<Turn>{};
   if (a.eyes == "on") {
     const std::vector<Eye> eyes = findEyes(rig);
     if (eyes.empty())

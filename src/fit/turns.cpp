@@ -199,4 +199,6 @@ std::vector<Turn> findTurns(const Rig& rig) {
   return turns;
 }
 
+std::vector<Turn> turnsOf(const Rig& rig) { return rig.turns.empty() ? findTurns(rig) : rig.turns; }
+
 }  // namespace sweepface

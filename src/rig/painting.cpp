@@ -83,11 +83,13 @@ class Painter {
     if (rig_.source.quadCorners.empty() || polygons.faceCount() == 0)
       return fail("The face does not tell of its source's materials and groups; paint by points.");
     std::vector<bool> within(polygons.faceCount(), false);
-    for (const std::string& part : brush_.parts)
-      if (!mark(part, polygons.materials, polygons.faceMaterial, within) &
-          !mark(part, polygons.groups, polygons.faceGroup, within))
+    for (const std::string& part : brush_.parts) {
+      const bool isMaterial = mark(part, polygons.materials, polygons.faceMaterial, within);
+      const bool isGroup = mark(part, polygons.groups, polygons.faceGroup, within);
+      if (!isMaterial && !isGroup)
         return fail("The source has no material or group named '" + part + "'; it has " +
                     listOf(polygons) + ".");
+    }
     shareCorners(within);
     return {};
   }
