@@ -55,7 +55,7 @@ inline constexpr std::array<Kind, 19> kKinds2{{{"BASE", "container"},
                                                {"quad", "quad corners"},
                                                {"scen", "scene"},
                                                {"name", "names"},
-                                               {"turn", "arcs"},
+                                               {"turn", "turns"},
                                                {"END ", "container"}}};
 
 /// The kinds of a version.
