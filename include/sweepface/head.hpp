@@ -56,18 +56,20 @@ struct Eye {
 /// converts.
 std::vector<Eye> findEyes(const Rig& rig);
 
-/// Turns eyes rigidly, by five targets each that hold the turned ball exactly: with a rotation of θ
-/// about an axis (a, b, 0), the ball stands at
+/// Turns eyes rigidly, by targets that hold the turned ball exactly: with a rotation of θ about an
+/// axis (a, b, 0), the ball stands at
 ///
 ///   p + sin θ (a X p + b Y p) + (1 − cos θ) (a² X² p + b² Y² p + ab (XY + YX) p)
 ///
 /// where X and Y are the cross products with the x and y axes. Axes in the plane across the view
-/// are all that eyes use (Listing's law).
+/// are all that eyes use (Listing's law). Terms whose factors may be below 0 have a target for
+/// either sign, since some programs stop weights at 0.
 class EyeTurns {
  public:
   EyeTurns() = default;
 
-  /// Adds the targets to a rig, named eyeLeft.x, .y, .xx, .yy and .xy. Targets named like ARKit's
+  /// Adds the targets to a rig, named eyeLeft.down, .up, .left, .right, .xx, .yy, .xy
+  /// and .yx. Targets named like ARKit's
   /// eyeLook shapes turn the eyes from now on: by as much as they did so far, then without moving
   /// the ball along a straight line any longer, or by half a radian if they did not.
   static EyeTurns addTo(Rig& rig, std::span<const Eye> eyes);
@@ -85,7 +87,7 @@ class EyeTurns {
     double x = 0, y = 0;  // rotation vector at weight 1
   };
   struct Turning {
-    Index first = -1;  // of five targets
+    Index first = -1;  // of its targets
     bool left = true;
     std::vector<Look> looks;
   };

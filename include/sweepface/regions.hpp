@@ -64,12 +64,13 @@ void blend(const Rig& rig, std::span<const Region> regions, std::span<const doub
            std::span<Vec3> vectors);
 
 /// Parts of targets as targets of their own, for programs that know no regions. The weight of a
-/// whole target is that of the first region; that of a part tells how far its region is ahead.
+/// whole target is the smallest of all its regions; that of a part tells how far its region is
+/// ahead. So no weight is below 0 if none was: some programs stop there.
 class RegionalTargets {
  public:
   RegionalTargets() = default;
   /// Adds the parts of `targets`, named by partName(), to the end of a rig with K targets: one for
-  /// every region but the first that holds a part that moves.
+  /// every region that holds a part that moves, if there are several.
   static RegionalTargets addTo(Rig& rig, std::span<const Region> regions,
                                std::span<const Index> targets);
 
@@ -77,12 +78,13 @@ class RegionalTargets {
   void spread(std::span<const double> ofRegions, std::span<double> out) const noexcept;
 
  private:
-  struct Part {
-    Index target = -1;
-    std::size_t region = 0;
+  /// A target and the regions that move some of it; their parts stand together.
+  struct Split {
+    Index target = -1, firstPart = -1;
+    std::vector<std::size_t> regions;
   };
   std::size_t count_ = 0;  // K
-  std::vector<Part> parts_;
+  std::vector<Split> splits_;
 };
 
 /// "jawOpen@cheeks".

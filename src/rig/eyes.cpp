@@ -11,8 +11,25 @@ constexpr double kUsualLook = 0.5;  // radians at weight 1, where a target turns
 Vec3 acrossX(const Vec3& v) { return cross({1, 0, 0}, v); }
 Vec3 acrossY(const Vec3& v) { return cross({0, 1, 0}, v); }
 
-/// Factors of the five targets for a rotation vector (x, y, 0).
-std::array<double, 5> factorsOf(double x, double y) {
+constexpr std::size_t kTerms = 5, kTargets = 8;
+
+/// A target: a term of the rotation, with a sign.
+struct TurnTarget {
+  std::string_view name;
+  std::size_t term;
+  double sign;
+};
+constexpr std::array<TurnTarget, kTargets> kTurnTargets{{{".down", 0, 1},
+                                                         {".up", 0, -1},
+                                                         {".left", 1, 1},
+                                                         {".right", 1, -1},
+                                                         {".xx", 2, 1},
+                                                         {".yy", 3, 1},
+                                                         {".xy", 4, 1},
+                                                         {".yx", 4, -1}}};
+
+/// Factors of the terms for a rotation vector (x, y, 0).
+std::array<double, kTerms> factorsOf(double x, double y) {
   const double angle = std::hypot(x, y);
   // sin θ / θ and (1 − cos θ) / θ², both smooth at 0.
   const double half = std::sin(angle / 2);
@@ -21,7 +38,7 @@ std::array<double, 5> factorsOf(double x, double y) {
   return {s * x, s * y, c * x * x, c * y * y, c * x * y};
 }
 
-std::array<Vec3, 5> termsOf(const Vec3& arm) {
+std::array<Vec3, kTerms> termsOf(const Vec3& arm) {
   const Vec3 x = acrossX(arm), y = acrossY(arm);
   return {x, y, acrossX(x), acrossY(y), acrossX(y) + acrossY(x)};
 }
@@ -38,7 +55,7 @@ Vec3 added(const Rig& rig, const Eye& eye, Index stored, double x, double y) {
   const auto terms = termsOf(armOf(rig, eye, stored));
   const auto factors = factorsOf(x, y);
   Vec3 sum;
-  for (std::size_t k = 0; k < 5; ++k) sum += factors[k] * terms[k];
+  for (std::size_t k = 0; k < kTerms; ++k) sum += factors[k] * terms[k];
   return sum;
 }
 
@@ -139,11 +156,11 @@ EyeTurns EyeTurns::addTo(Rig& rig, std::span<const Eye> eyes) {
     turning.left = eye.centre.x >= 0;
     addLooks(rig, eye, turning);
     turning.first = static_cast<Index>(rig.targets.size());
-    for (std::size_t k = 0; k < 5; ++k) {
-      constexpr std::array<std::string_view, 5> terms{".x", ".y", ".xx", ".yy", ".xy"};
-      Target target{eye.name + std::string(terms[k]), std::vector<Vec3>(rig.neutral.size()),
+    for (const auto& [name, term, sign] : kTurnTargets) {
+      Target target{eye.name + std::string(name), std::vector<Vec3>(rig.neutral.size()),
                     std::vector<Vec3>(rig.source.loose.size())};
-      for (const Index v : eye.stored) target.difference[v] = termsOf(armOf(rig, eye, v))[k];
+      for (const Index v : eye.stored)
+        target.difference[v] = sign * termsOf(armOf(rig, eye, v))[term];
       while (rig.find(target.name) >= 0) target.name += '_';
       rig.targets.push_back(std::move(target));
     }
@@ -179,9 +196,9 @@ void EyeTurns::addLooks(Rig& rig, const Eye& eye, Turning& turning) {
 
 void EyeTurns::set(const Turning& eye, double x, double y, std::span<double> weights) noexcept {
   const auto factors = factorsOf(x, y);
-  for (std::size_t k = 0; k < factors.size(); ++k)
+  for (std::size_t k = 0; k < kTargets; ++k)
     if (const auto t = static_cast<std::size_t>(eye.first) + k; t < weights.size())
-      weights[t] = factors[k];
+      weights[t] = std::max(0.0, kTurnTargets[k].sign * factors[kTurnTargets[k].term]);
 }
 
 void EyeTurns::apply(std::span<double> weights) const noexcept {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace sweepface {
 namespace {
@@ -113,16 +114,19 @@ std::string partName(std::string_view target, std::string_view region) {
 namespace {
 
 /// The part of a target that a region holds; vertices of no face belong to the first.
-Target partOf(const Rig& rig, const Target& whole, const Region& region) {
-  Target part{partName(whole.name, region.name), whole.difference,
-              std::vector<Vec3>(whole.looseDifference.size())};
+Target partOf(const Rig& rig, const Target& whole, const Region& region, bool isFirst) {
+  Target part{partName(whole.name, region.name), whole.difference, whole.looseDifference};
   for (std::size_t v = 0; v < part.difference.size(); ++v)
     part.difference[v] *= region.shares[rig.surface.stored(static_cast<Index>(v)).node];
+  if (!isFirst) std::ranges::fill(part.looseDifference, Vec3{});
   return part;
 }
 
-bool moves(const Target& target) {
-  return std::ranges::any_of(target.difference, [](const Vec3& d) { return d != Vec3{}; });
+/// By more than nobody could see.
+bool moves(const Target& target, double tolerance) {
+  const auto isMore = [&](const Vec3& d) { return norm(d) > 1e-3 * tolerance; };
+  return std::ranges::any_of(target.difference, isMore) ||
+         std::ranges::any_of(target.looseDifference, isMore);
 }
 
 }  // namespace
@@ -131,23 +135,36 @@ RegionalTargets RegionalTargets::addTo(Rig& rig, std::span<const Region> regions
                                        std::span<const Index> targets) {
   RegionalTargets made;
   made.count_ = rig.targets.size();
-  for (const Index target : targets)
-    for (std::size_t r = 1; r < regions.size(); ++r) {
-      Target part = partOf(rig, rig.targets[target], regions[r]);
-      if (!moves(part)) continue;
+  for (const Index target : targets) {
+    Split split{target, static_cast<Index>(rig.targets.size()), {}};
+    std::vector<Target> parts;
+    for (std::size_t r = 0; r < regions.size(); ++r) {
+      Target part = partOf(rig, rig.targets[target], regions[r], r == 0);
+      if (!moves(part, rig.tolerance)) continue;
       while (rig.find(part.name) >= 0) part.name += '_';
-      rig.targets.push_back(std::move(part));
-      made.parts_.push_back({target, r});
+      parts.push_back(std::move(part));
+      split.regions.push_back(r);
     }
+    if (parts.size() > 1) std::ranges::move(parts, std::back_inserter(rig.targets));
+    if (!parts.empty()) made.splits_.push_back(std::move(split));
+  }
   return made;
 }
 
 void RegionalTargets::spread(std::span<const double> ofRegions,
                              std::span<double> out) const noexcept {
   std::ranges::copy(ofRegions.first(std::min(count_, out.size())), out.begin());
-  for (std::size_t p = 0; p < parts_.size() && count_ + p < out.size(); ++p) {
-    const auto target = static_cast<std::size_t>(parts_[p].target);
-    out[count_ + p] = ofRegions[parts_[p].region * count_ + target] - ofRegions[target];
+  for (const Split& split : splits_) {
+    const auto weight = [&](std::size_t region) {
+      return ofRegions[region * count_ + static_cast<std::size_t>(split.target)];
+    };
+    double least = weight(split.regions.front());
+    for (const std::size_t region : split.regions) least = std::min(least, weight(region));
+    if (static_cast<std::size_t>(split.target) < out.size()) out[split.target] = least;
+    const std::size_t parts = split.regions.size() > 1 ? split.regions.size() : 0;
+    for (std::size_t p = 0; p < parts; ++p)
+      if (const auto place = static_cast<std::size_t>(split.firstPart) + p; place < out.size())
+        out[place] = weight(split.regions[p]) - least;
   }
 }
 

@@ -56,7 +56,7 @@ TEST_F(RegionsOnTheFace, AGlbHoldsPartsByName) {
       run("animate face.sweep --to jawOpen=1 --law spring --regions heavy.json -o face.glb");
   ASSERT_EQ(r.code, 0) << r.err;
   const std::string glb = contents(folder / "face.glb");
-  EXPECT_NE(glb.find(R"("jawOpen","smile","jawOpen@side")"), std::string::npos);
+  EXPECT_NE(glb.find(R"("jawOpen","smile","jawOpen@rest","jawOpen@side")"), std::string::npos);
 }
 
 TEST_F(RegionsOnTheFace, GoIntoTheSceneThatTheFaceCameFrom) {
@@ -67,8 +67,9 @@ TEST_F(RegionsOnTheFace, GoIntoTheSceneThatTheFaceCameFrom) {
   const Outcome r =
       run("animate again.sweep --to jawOpen=1 --law spring --regions heavy.json -o face.glb");
   ASSERT_EQ(r.code, 0) << r.err;
-  EXPECT_NE(contents(folder / "face.glb").find(R"("jawOpen","smile","jawOpen@side")"),
-            std::string::npos);
+  EXPECT_NE(
+      contents(folder / "face.glb").find(R"("jawOpen","smile","jawOpen@rest","jawOpen@side")"),
+      std::string::npos);
   EXPECT_EQ(run("convert face.glb -o third.sweep --tolerance 0.01").code, 0);
 }
 

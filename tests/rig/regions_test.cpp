@@ -319,12 +319,14 @@ TEST(Regions, PartsOfTargetsAddUpToTheSamePose) {
     const std::size_t count = rig.targets.size();
     const auto targets = RegionalTargets::addTo(rig, regions, std::vector<Index>{0, 1});
     EXPECT_GE(rig.find(partName(rig.targets[0].name, "a")), 0);
-    EXPECT_LT(rig.find(partName(rig.targets[0].name, "rest")), 0);
+    EXPECT_GE(rig.find(partName(rig.targets[0].name, "rest")), 0);
     const auto weights = anyWeights(regions.size() * count);
     std::vector<double> all(rig.targets.size());
     targets.spread(weights, all);
     const auto a = blend(rig, all), b = blended(*original, regions, weights);
     for (std::size_t v = 0; v < a.size(); ++v) EXPECT_LE(norm(a[v] - b[v]), 1e-12);
+    // No part is behind: some programs stop at 0.
+    for (std::size_t k = count; k < all.size(); ++k) EXPECT_GE(all[k], 0);
     // By itself a whole target is what it was.
     EXPECT_EQ(rig.targets[0], original->targets[0]);
   }
