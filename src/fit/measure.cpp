@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <random>
 #include <tbb/parallel_for.h>
 
 #include "sweepface/eval.hpp"
 
+#include "fit/facets.hpp"
 #include "fit/vertex_normals.hpp"
 
 namespace sweepface {
@@ -15,170 +15,6 @@ namespace sweepface {
 namespace {
 
 constexpr Index kLevel = 4;  // of the tessellation that is compared with the facets
-
-// The distance from p to the triangle abc (Ericson, Real-Time Collision Detection, 5.1.5).
-double distanceToTriangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
-  const Vec3 ab = b - a, ac = c - a, ap = p - a;
-  const double d1 = dot(ab, ap), d2 = dot(ac, ap);
-  if (d1 <= 0 && d2 <= 0) return norm(ap);
-  const Vec3 bp = p - b;
-  const double d3 = dot(ab, bp), d4 = dot(ac, bp);
-  if (d3 >= 0 && d4 <= d3) return norm(bp);
-  const double vc = d1 * d4 - d3 * d2;
-  if (vc <= 0 && d1 >= 0 && d3 <= 0) return norm(ap - ab * (d1 - d3 > 0 ? d1 / (d1 - d3) : 0));
-  const Vec3 cp = p - c;
-  const double d5 = dot(ab, cp), d6 = dot(ac, cp);
-  if (d6 >= 0 && d5 <= d6) return norm(cp);
-  const double vb = d5 * d2 - d1 * d6;
-  if (vb <= 0 && d2 >= 0 && d6 <= 0) return norm(ap - ac * (d2 - d6 > 0 ? d2 / (d2 - d6) : 0));
-  const double va = d3 * d6 - d5 * d4;
-  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) {
-    const double sum = d4 - d3 + d5 - d6;
-    return norm(bp - (c - b) * (sum > 0 ? (d4 - d3) / sum : 0));
-  }
-  const double sum = va + vb + vc;
-  return norm(p - (a + ab * (vb / sum) + ac * (vc / sum)));
-}
-
-// Which source face each grid quad belongs to, and which faces lie round it.
-struct FaceMap {
-  std::vector<Index> faceOfQuad;
-  std::vector<std::vector<Index>> around;  // [F] faces that share a vertex, itself first
-  std::map<std::pair<Index, Index>, std::pair<Index, Index>>
-      rims;  // boundary edge → corners before and after
-
-  FaceMap(const SourceMesh& source) {
-    const Polygons& p = source.polygons;
-    std::vector<Index> faceOfCorner(p.corners.size());
-    std::vector<std::vector<Index>> facesAt(source.gridVertex.size());
-    for (Index f = 0; f < p.faceCount(); ++f)
-      for (Index c = p.faceStart[f]; c < p.faceStart[f + 1]; ++c) {
-        faceOfCorner[c] = f;
-        facesAt[p.corners[c]].push_back(f);
-      }
-    for (std::size_t q = 0; q < source.quadCorners.size(); q += 4)
-      faceOfQuad.push_back(faceOfCorner[source.quadCorners[q]]);
-    around.resize(p.faceCount());
-    for (Index f = 0; f < p.faceCount(); ++f) {
-      std::vector<Index>& list = around[f];
-      for (Index c = p.faceStart[f]; c < p.faceStart[f + 1]; ++c)
-        list.insert(list.end(), facesAt[p.corners[c]].begin(), facesAt[p.corners[c]].end());
-      std::sort(list.begin(), list.end());
-      list.erase(std::unique(list.begin(), list.end()), list.end());
-      std::iter_swap(list.begin(), std::find(list.begin(), list.end(), f));
-    }
-    findRims(source);
-  }
-
- private:
-  // The edges that one face alone has, each with the vertices before and after it along the
-  // boundary.
-  void findRims(const SourceMesh& source) {
-    const Polygons& p = source.polygons;
-    std::map<std::pair<Index, Index>, std::pair<Index, Index>> edges;  // welded ends → corners
-    for (Index f = 0; f < p.faceCount(); ++f)
-      for (Index k = 0; k < p.faceSize(f); ++k) {
-        const Index a = p.faceStart[f] + k, b = p.faceStart[f] + (k + 1) % p.faceSize(f);
-        edges[{source.gridVertex[p.corners[a]], source.gridVertex[p.corners[b]]}] = {a, b};
-      }
-    std::map<Index, Index> before, after;
-    for (const auto& [ends, corners] : edges)
-      if (!edges.contains({ends.second, ends.first})) {
-        after[ends.first] = corners.second;
-        before[ends.second] = corners.first;
-      }
-    for (const auto& [ends, corners] : edges)
-      if (!edges.contains({ends.second, ends.first}) && before.contains(ends.first) &&
-          after.contains(ends.second))
-        rims[{corners.first, corners.second}] = {before[ends.first], after[ends.second]};
-  }
-};
-
-// The facets of one pose of the source.
-class Facets {
- public:
-  Facets(const SourceMesh& source, const FaceMap& map, std::span<const Vec3> positions,
-         std::span<const Vec3> gridNormals, double tolerance)
-      : polygons_(source.polygons),
-        gridVertex_(source.gridVertex),
-        map_(map),
-        positions_(positions),
-        gridNormals_(gridNormals),
-        tolerance_(tolerance) {}
-
-  double distance(const Vec3& p, Index face) const {
-    double best = 1e300;
-    for (Index f : map_.around[face]) best = std::min(best, distanceToFace(p, f));
-    return best;
-  }
-  // Twice the vector area.
-  Vec3 normal(Index face) const {
-    Vec3 sum;
-    const Index begin = polygons_.faceStart[face], size = polygons_.faceSize(face);
-    for (Index k = 1; k + 1 < size; ++k)
-      sum += cross(at(begin + k) - at(begin), at(begin + k + 1) - at(begin));
-    return sum;
-  }
-  // How far a smooth surface with the source's vertex normals rises above the flat face: an edge
-  // whose end normals differ by a small angle is the chord of an arc that rises by length · angle /
-  // 8, and a face bulges by the sum of its two directions. A boundary edge rises within the surface
-  // as well: by an eighth of the second difference of the boundary's vertices.
-  double sag(Index face) const {
-    const Index begin = polygons_.faceStart[face], size = polygons_.faceSize(face);
-    double rise[2] = {0, 0};
-    for (Index k = 0; k < size; ++k) {
-      const Index a = begin + k, b = begin + (k + 1) % size;
-      rise[k % 2] =
-          std::max(rise[k % 2], std::abs(dot(normalAt(b) - normalAt(a), at(b) - at(a))) / 8);
-    }
-    double rim = 0;
-    for (Index k = 0; k < size; ++k) {
-      const Index a = begin + k, b = begin + (k + 1) % size;
-      if (const auto it = map_.rims.find({a, b}); it != map_.rims.end())
-        rim = std::max({rim, norm(at(it->second.first) - 2 * at(a) + at(b)) / 8,
-                        norm(at(a) - 2 * at(b) + at(it->second.second)) / 8});
-    }
-    return rise[0] + rise[1] + rim;
-  }
-  // A face that is folded, thinner than its vertices may move, or turned against the source's own
-  // normal at a corner says nothing about which way is out.
-  bool isSound(Index face) const {
-    const Vec3 n = normal(face);
-    const Index begin = polygons_.faceStart[face], size = polygons_.faceSize(face);
-    double longest = 0;
-    for (Index k = 0; k < size; ++k) {
-      const Vec3 p = at(begin + k), next = at(begin + (k + 1) % size) - p;
-      longest = std::max(longest, norm(next));
-      const Vec3 corner = cross(next, at(begin + (k + size - 1) % size) - p);
-      if (dot(corner, n) <= 0.05 * dot(n, n) / size) return false;
-      if (dot(normalAt(begin + k), n) < 0) return false;
-    }
-    return norm(n) / 2 > tolerance_ * longest;
-  }
-
- private:
-  Vec3 at(Index corner) const { return positions_[polygons_.corners[corner]]; }
-  Vec3 normalAt(Index corner) const {
-    const Index g = gridVertex_[polygons_.corners[corner]];
-    return g >= 0 ? gridNormals_[g] : Vec3{};
-  }
-  double distanceToFace(const Vec3& p, Index f) const {
-    double best = 1e300;
-    const Index begin = polygons_.faceStart[f], size = polygons_.faceSize(f);
-    for (Index k = 1; k + 1 < size; ++k)
-      best = std::min(best, distanceToTriangle(p, at(begin), at(begin + k), at(begin + k + 1)));
-    if (size == 4)  // both diagonals are as good
-      best = std::min({best, distanceToTriangle(p, at(begin + 1), at(begin + 2), at(begin + 3)),
-                       distanceToTriangle(p, at(begin + 1), at(begin + 3), at(begin))});
-    return best;
-  }
-
-  const Polygons& polygons_;
-  const std::vector<Index>& gridVertex_;
-  const FaceMap& map_;
-  std::span<const Vec3> positions_, gridNormals_;
-  double tolerance_;
-};
 
 struct PoseSamples {
   PoseErrors errors;
@@ -252,24 +88,13 @@ class Meter {
       for (Index j = 0; j < kLevel * n; ++j)
         for (Index i = 0; i < kLevel * m; ++i, ++face) {
           const Index sourceFace = map_.faceOfQuad[quad + (j / kLevel) * m + i / kLevel];
-          s.errors.folds += folds(fineFaces_[face], positions, facets, sourceFace);
+          s.errors.folds += facets.folds(fineFaces_[face], positions, sourceFace);
         }
       for (Index j = 0; j < n; ++j)
         for (Index i = 0; i < m; ++i)
           compareFacet(s.errors, p, i, j, positions, facets, map_.faceOfQuad[quad + j * m + i]);
       quad += static_cast<std::size_t>(m) * n;
     }
-  }
-
-  static Index folds(const std::array<Index, 4>& q, const std::vector<Vec3>& x,
-                     const Facets& facets, Index face) {
-    const Vec3 n = facets.normal(face);
-    Index count = 0;
-    for (const auto& [a, b, c] : {std::array{q[0], q[1], q[2]}, {q[0], q[2], q[3]}}) {
-      const Vec3 t = cross(x[b] - x[a], x[c] - x[a]);
-      if (dot(t, n) < 0 && facets.isSound(face)) ++count;
-    }
-    return count;
   }
 
   void compareFacet(PoseErrors& e, Index patch, Index i, Index j,

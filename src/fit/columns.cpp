@@ -1,0 +1,128 @@
+#include "fit/columns.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <tbb/parallel_for.h>
+
+#include "surface/terms.hpp"
+
+namespace sweepface {
+
+using codec::Hierarchy;
+
+namespace {
+
+// Every vertex of level 1 as a combination of coefficients, taken apart by coefficient.
+class ColumnBuilder {
+ public:
+  ColumnBuilder(const Surface& surface, const Tessellation& grid, const Hierarchy& hierarchy)
+      : surface_(surface), grid_(grid), hierarchy_(hierarchy) {
+    expanded_.resize(surface.vectorCount());
+    for (Index v = 0; v < surface.storedCount(); ++v) expanded_[v] = {{v, 1}};
+    for (Index v = surface.storedCount(); v < surface.vectorCount(); ++v) {
+      for (const Term& t : surface.derivation(v))
+        for (const Term& s : expanded_[t.vector])
+          expanded_[v].push_back({s.vector, s.factor * t.factor});
+      mergeTerms(expanded_[v]);
+    }
+    stepOf_.resize(surface.storedCount());
+    for (std::size_t k = 0; k < hierarchy.steps().size(); ++k)
+      stepOf_[hierarchy.steps()[k].vector] = static_cast<Index>(k);
+  }
+
+  Columns build() const {
+    const Index vertices = grid_.vertexCount();
+    std::vector<std::vector<Entry>> rows(vertices);
+    tbb::parallel_for(tbb::blocked_range<Index>(0, vertices),
+                      [&](const tbb::blocked_range<Index>& range) {
+                        std::vector<Sums> sum(surface_.storedCount());
+                        for (Index v = range.begin(); v != range.end(); ++v)
+                          rows[v] = coefficientRow(v, sum);
+                      });
+    Columns columns;
+    columns.start.assign(surface_.storedCount() + 1, 0);
+    for (const auto& row : rows)
+      for (const Entry& e : row) ++columns.start[e.vector + 1];
+    for (Index v = 0; v < surface_.storedCount(); ++v) columns.start[v + 1] += columns.start[v];
+    columns.vertex.resize(columns.start.back());
+    columns.weight.resize(columns.start.back());
+    columns.rowStart.push_back(0);
+    std::vector<Index> at = columns.start;
+    for (Index v = 0; v < vertices; ++v) {
+      for (const Entry& e : rows[v]) {
+        columns.vertex[at[e.vector]] = v;
+        columns.weight[at[e.vector]++] = e.weight;
+        columns.rowVector.push_back(e.vector);
+        columns.rowWeight.push_back(e.weight[0]);
+      }
+      columns.rowStart.push_back(static_cast<Index>(columns.rowVector.size()));
+    }
+    return columns;
+  }
+
+ private:
+  struct Entry {
+    Index vector = -1;
+    std::array<float, 3> weight{};
+  };
+  using Sums = std::array<double, 3>;  // position, tangents along u and v
+
+  // From the finest to the coarsest, what a vector counts goes on to what predicts it. `sum` is
+  // zero before and after.
+  std::vector<Entry> coefficientRow(Index vertex, std::vector<Sums>& sum) const {
+    constexpr double kNothing = 1e-4;  // of a step: verified anyway
+    std::vector<Index> heap;
+    const auto add = [&](Index vector, const Sums& more, double factor) {
+      Sums& own = sum[vector];
+      if (own == Sums{}) {
+        heap.push_back(stepOf_[vector]);
+        std::ranges::push_heap(heap);
+      }
+      for (int k = 0; k < 3; ++k) own[k] += factor * more[k];
+    };
+    for (int part = 0; part < 3; ++part) {
+      const auto weights = surface_.weights(grid_.site(vertex), part == 1, part == 2);
+      Sums unit{};
+      unit[part] = 1;
+      for (int k = 0; k < 36; ++k)
+        if (weights.factors[k] != 0)
+          for (const Term& t : expanded_[weights.vectors[k]])
+            add(t.vector, unit, t.factor * weights.factors[k]);
+    }
+    std::vector<Entry> row;
+    Index last = -1;
+    while (!heap.empty()) {
+      std::ranges::pop_heap(heap);
+      const Index top = heap.back();
+      heap.pop_back();
+      if (top == last) continue;  // sums that had cancelled come twice
+      last = top;
+      const Hierarchy::Step& step = hierarchy_.steps()[top];
+      const Sums factors = sum[step.vector];
+      sum[step.vector] = {};
+      const double most =
+          std::max({std::abs(factors[0]), std::abs(factors[1]), std::abs(factors[2])});
+      if (most < 1e-12) continue;
+      for (const Term& t : hierarchy_.terms(step)) add(t.vector, factors, t.factor);
+      if (most / step.reach <= kNothing) continue;
+      Entry entry{step.vector, {}};
+      for (int k = 0; k < 3; ++k) entry.weight[k] = static_cast<float>(factors[k] / step.reach);
+      row.push_back(entry);
+    }
+    return row;
+  }
+
+  const Surface& surface_;
+  const Tessellation& grid_;
+  const Hierarchy& hierarchy_;
+  std::vector<std::vector<Term>> expanded_;
+  std::vector<Index> stepOf_;
+};
+
+}  // namespace
+
+Columns columnsOf(const Surface& surface, const Tessellation& grid, const Hierarchy& hierarchy) {
+  return ColumnBuilder(surface, grid, hierarchy).build();
+}
+
+}  // namespace sweepface

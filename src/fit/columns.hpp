@@ -1,0 +1,31 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "sweepface/eval.hpp"
+
+#include "codec/hierarchy.hpp"
+
+namespace sweepface {
+
+/// What a step of each coefficient does to the vertices of level 1, as sparse columns and rows.
+struct Columns {
+  std::vector<Index> start;  ///< [S + 1]
+  std::vector<Index> vertex;
+  /// For a step of 1: how it moves the vertex, and how it turns the tangents along u and v there.
+  std::vector<std::array<float, 3>> weight;
+  /// The same the other way round: the coefficients that move a vertex, and how far.
+  std::vector<Index> rowStart;  ///< [vertices + 1]
+  std::vector<Index> rowVector;
+  std::vector<float> rowWeight;
+
+  Index length(Index vector) const { return start[vector + 1] - start[vector]; }
+};
+
+/// Uses all cores; memory and time grow with the number of coefficients that move a vertex, about
+/// 150 each.
+Columns columnsOf(const Surface& surface, const Tessellation& grid,
+                  const codec::Hierarchy& hierarchy);
+
+}  // namespace sweepface

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <array>
+#include <map>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "sweepface/rig.hpp"
+
+namespace sweepface {
+
+/// Which source face each quad of the tessellation at level 1 belongs to, and which faces lie round
+/// it.
+struct FaceMap {
+  std::vector<Index> faceOfQuad;
+  std::vector<std::vector<Index>> around;  ///< [F] faces that share a vertex, itself first
+  std::map<std::pair<Index, Index>, std::pair<Index, Index>>
+      rims;  ///< boundary edge → corners before and after
+
+  explicit FaceMap(const SourceMesh& source);
+
+ private:
+  void findRims(const SourceMesh& source);
+};
+
+/// The facets of one pose of the source.
+class Facets {
+ public:
+  Facets(const SourceMesh& source, const FaceMap& map, std::span<const Vec3> positions,
+         std::span<const Vec3> gridNormals, double tolerance)
+      : polygons_(source.polygons),
+        gridVertex_(source.gridVertex),
+        map_(map),
+        positions_(positions),
+        gridNormals_(gridNormals),
+        tolerance_(tolerance) {}
+
+  /// From a point to the nearest of a face and those round it.
+  double distance(const Vec3& p, Index face) const;
+  /// Twice the vector area.
+  Vec3 normal(Index face) const;
+  /// How far a smooth surface with the source's vertex normals rises above the flat face.
+  double sag(Index face) const;
+  /// How many triangles of a small quad look the other way than the face that it lies on; 0 where
+  /// that does not say which way is out (docs/error-metric.md).
+  int folds(const std::array<Index, 4>& quad, std::span<const Vec3> positions, Index face) const;
+
+ private:
+  bool isSound(Index face) const;
+  double distanceToFace(const Vec3& p, Index f) const;
+  Vec3 at(Index corner) const { return positions_[polygons_.corners[corner]]; }
+  Vec3 normalAt(Index corner) const {
+    const Index g = gridVertex_[polygons_.corners[corner]];
+    return g >= 0 ? gridNormals_[g] : Vec3{};
+  }
+
+  const Polygons& polygons_;
+  const std::vector<Index>& gridVertex_;
+  const FaceMap& map_;
+  std::span<const Vec3> positions_, gridNormals_;
+  double tolerance_;
+};
+
+}  // namespace sweepface

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "codec/lattice.hpp"
+#include "fit/columns.hpp"
+
+namespace sweepface {
+
+/// How far off the two tangents at each vertex are, as shares of their lengths.
+struct Slopes {
+  struct Tangent {
+    std::array<float, 3> error{};   ///< the neutral's included
+    float lean = 0;                 ///< along the normal: an angle in radians
+    std::array<float, 3> normal{};  ///< of the surface
+    float perLength = 0;
+    float strain() const { return error[0] * error[0] + error[1] * error[1] + error[2] * error[2]; }
+  };
+  std::vector<std::array<Tangent, 2>> at;  ///< [vertices]
+  float weight = 0;                        ///< what the square of a lean counts, in bits
+};
+
+/// What is asked of one pose.
+struct PoseTask {
+  double step = 0;
+  codec::Symmetry symmetry = codec::Symmetry::none;
+  codec::Coefficients expected;  ///< what an image predicts, for Symmetry::partner
+  std::vector<Vec3> errors;      ///< [vertices] how far off the pose is to begin with
+  std::vector<float> bounds;     ///< [vertices] how far off it may be
+  Slopes slopes;
+  std::vector<char> frozen;  ///< [S] or empty: stays unless a bound is passed
+};
+
+/// Looks for coefficients that cost few bits while vertex errors stay within their bounds:
+/// coordinate descent on  bits + penalty(errors), one coefficient after the other, from those
+/// given. Whether they do stay within is for the caller to check.
+void quantisePose(const codec::Lattice& lattice, const Columns& columns, PoseTask task,
+                  codec::Coefficients& q);
+
+}  // namespace sweepface
