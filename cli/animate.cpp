@@ -9,6 +9,7 @@
 #include "sweepface/io.hpp"
 
 #include "command.hpp"
+#include "head.hpp"
 #include "lod_mesh.hpp"
 #include "output.hpp"
 #include "regions.hpp"
@@ -23,8 +24,8 @@ struct AnimateArguments {
   PerformanceArguments what;
   RegionArguments regions;
   FollowingArguments following;
+  HeadArguments head;
   double framesPerSecond = 0;
-  std::string head = "off", pivot;
   double keyTolerance = 0.002;
   int frames = 0, lod = 0;
   bool quiet = false;
@@ -62,13 +63,7 @@ void addOptions(CLI::App& app, AnimateArguments& a) {
       ->check(positiveNumber(1))
       ->capture_default_str()
       ->type_name("W");
-  app.add_option("--head", a.head, "on: the whole model turns by the head's angles in a capture")
-      ->check(CLI::IsMember({"on", "off"}))
-      ->capture_default_str()
-      ->type_name("on|off");
-  app.add_option("--pivot", a.pivot,
-                 "What the head turns about, as X,Y,Z; the middle of the model if not given")
-      ->type_name("X,Y,Z");
+  addHead(app, a.head);
   addLod(app, a.lod, "Write finer meshes: every edge of the source cut into N, 1 to 64");
   addGlb(app, a.glb);
   addQuiet(app, a.quiet);
@@ -90,44 +85,6 @@ std::vector<double> sampleTimes(const AnimateArguments& a, const Performance& pe
   for (int k = 0; k <= last; ++k)
     times.push_back(rate > 0 ? k / rate : performance.seconds * (static_cast<double>(k) / last));
   return times;
-}
-
-// ---- The head ----
-
-Result<Vec3> pivotOf(const AnimateArguments& a, const Rig& rig) {
-  if (a.pivot.empty()) {
-    const Tessellation grid(rig.surface, 1);
-    Vec3 low, high;
-    bool isFirst = true;
-    for (const Vec3& p : grid.positions(blend(rig, {}))) {
-      if (std::exchange(isFirst, false)) low = high = p;
-      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-    }
-    return 0.5 * (low + high);
-  }
-  const std::vector<std::string> parts = CLI::detail::split(a.pivot, ',');
-  std::array<double, 3> p{};
-  bool whole = parts.size() == 3;
-  for (std::size_t k = 0; whole && k < 3; ++k)
-    whole = CLI::detail::lexical_cast(parts[k], p[k]) && std::isfinite(p[k]);
-  if (whole) return Vec3{p[0], p[1], p[2]};
-  return fail(fmt::format("--pivot is a point like 0,1.5,-2, not '{}'.", a.pivot));
-}
-
-/// How the head turns at these times, if that is wanted.
-Result<std::optional<HeadTrack>> headTrack(const AnimateArguments& a, const Rig& rig,
-                                           const Performance& performance,
-                                           const std::vector<double>& times) {
-  if (a.head != "on") return std::nullopt;
-  if (!performance.hasHead)
-    return fail(fmt::format("{} has no angles of the head; leave --head out.", performance.name));
-  const auto pivot = pivotOf(a, rig);
-  if (!pivot) return std::unexpected(pivot.error());
-  HeadTrack track{times, {}, *pivot};
-  for (const double time : times)
-    track.rotations.push_back(quaternionOf(performance.pose(time).head));
-  return track;
 }
 
 // ---- Meshes ----
@@ -168,7 +125,7 @@ Result<void> animateMeshes(const AnimateArguments& a, const Rig& rig,
                            const Performance& performance) {
   if (auto ok = checkLod(rig, a.lod); !ok) return ok;
   const std::vector<double> times = sampleTimes(a, performance);
-  const auto head = headTrack(a, rig, performance, times);
+  const auto head = headTrack(a.head, rig, performance, times);
   if (!head) return std::unexpected(head.error());
   if (auto made = makeFolder(a.output); !made) return made;
   if (auto written = writeFrames(a, rig, performance, times, *head); !written) return written;
@@ -216,7 +173,7 @@ Result<void> animateGlb(const AnimateArguments& a, const Rig& rig, const Perform
     options.clip = &clip;
     if (keys == "few") options.keyTolerance = a.keyTolerance;
   }
-  const auto head = headTrack(a, rig, performance, clip.times);
+  const auto head = headTrack(a.head, rig, performance, clip.times);
   if (!head) return std::unexpected(head.error());
   if (*head) options.head = &**head;
   const Result<std::string> bytes = formatGlb(rig, options);

@@ -3,11 +3,11 @@
 // connexion with graphs", 1959).
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
-#include <queue>
 
 #include "sweepface/regions.hpp"
+
+#include "rig/shortest_ways.hpp"
 
 namespace sweepface {
 namespace {
@@ -209,7 +209,7 @@ class Painter {
   }
 
   void spread() {
-    std::vector<std::vector<std::pair<Index, double>>> ways(places_.size());
+    std::vector<Ways> ways(places_.size());
     const auto link = [&](Index a, Index b, double length) {
       ways[a].emplace_back(b, length);
       ways[b].emplace_back(a, length);
@@ -218,18 +218,7 @@ class Painter {
       link(wireframe_.arcs[a].from, wireframe_.arcs[a].to, lengthOf(a));
     for (Index n = 0; n < static_cast<Index>(places_.size()); ++n)
       if (keeperOf(n) != n) link(n, keeperOf(n), 0);
-    using Step = std::pair<double, Index>;
-    std::priority_queue<Step, std::vector<Step>, std::greater<>> next;
-    for (Index n = 0; n < static_cast<Index>(places_.size()); ++n)
-      if (distances_[n] < kFar) next.emplace(distances_[n], n);
-    while (!next.empty()) {
-      const auto [distance, node] = next.top();
-      next.pop();
-      if (distance > distances_[node]) continue;
-      for (const auto& [other, length] : ways[node])
-        if (distance + length < distances_[other])
-          next.emplace(distances_[other] = distance + length, other);
-    }
+    shortestWays(ways, distances_);
   }
 
   const Rig& rig_;
