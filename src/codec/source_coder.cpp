@@ -158,16 +158,17 @@ void codeOrder(Symbols<Coder>& s, const LevelOne& grid, std::vector<Index>& orde
   Index nextLoose = 0, before = 0;
   for (Index& v : order) {
     if (s.bit(kLoose, 0, 0, v < 0)) {
-      const Index k =
-          nextLoose + s.signedNumber(kLooseIndex, 0, 0, -1 - std::int64_t{v} - nextLoose);
-      if (k < 0 || k >= loose) s.refuse("a loose vertex is out of range");
-      nextLoose = k + 1;
-      v = -1 - k;
+      const std::int64_t k = nextLoose + std::int64_t{s.signedNumber(
+                                             kLooseIndex, 0, 0, -1 - std::int64_t{v} - nextLoose)};
+      if (k < 0 || k >= loose) return s.refuse("a loose vertex is out of range");
+      nextLoose = static_cast<Index>(k) + 1;
+      v = -nextLoose;
     } else if (s.bit(kStays, 0, 0, kWrites<Coder> && v >= 0 && walk.visited(v))) {
       // Somewhere it has been before: seams have several vertices at one place.
-      v = before + s.signedNumber(kFar, 1, 0, std::int64_t{v} - before);
-      if (v < 0 || v >= grid.vertexCount()) s.refuse("a vertex is out of range");
-      before = v;
+      const std::int64_t there =
+          before + std::int64_t{s.signedNumber(kFar, 1, 0, std::int64_t{v} - before)};
+      if (there < 0 || there >= grid.vertexCount()) return s.refuse("a vertex is out of range");
+      v = before = static_cast<Index>(there);
     } else {
       v = walk.next(v);
       before = v;
@@ -340,9 +341,11 @@ class FaceCoder {
     for (Index& name : chosen) {
       if (!s_.ok()) return;
       if (!s_.bit(kSameName, what, 0, name == last)) {
-        last += s_.signedNumber(kName, what, 0, std::int64_t{name} - last);
-        if (last < -1 || last >= static_cast<Index>(names.size()))
+        const std::int64_t there =
+            last + std::int64_t{s_.signedNumber(kName, what, 0, std::int64_t{name} - last)};
+        if (there < -1 || there >= static_cast<std::int64_t>(names.size()))
           return s_.refuse("the name of a face is out of range");
+        last = static_cast<Index>(there);
       }
       name = last;
     }
@@ -436,7 +439,9 @@ class TextureCoder {
     if (s_.bit(kFresh, had >= -1, 0, t == next_)) {
       t = next_;
     } else {
-      t = next_ + s_.signedNumber(kTexture, 0, 0, std::int64_t{t} - next_);
+      const std::int64_t there =
+          next_ + std::int64_t{s_.signedNumber(kTexture, 0, 0, std::int64_t{t} - next_)};
+      t = static_cast<Index>(std::clamp<std::int64_t>(there, -2, std::int64_t{1} << 30));
     }
     if (t < -1 || t >= static_cast<Index>(known_.size())) {
       s_.refuse("a texture coordinate is out of range");
