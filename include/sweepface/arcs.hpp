@@ -8,17 +8,11 @@
 
 namespace sweepface {
 
-/// What an expression turns about: lids about an eyeball, a jaw about its hinge.
-struct Turn {
-  Index target = -1;
-  Vec3 pivot;
-  Vec3 axis;  ///< unit, through the pivot; zero where points stay at their distance from the pivot
-  friend bool operator==(const Turn&, const Turn&) = default;
-};
-
 /// The turns of those targets that are turns, from the model alone (docs/arcs.md). Of the library
 /// that converts.
 std::vector<Turn> findTurns(const Rig& rig);
+/// Those that the rig knows, or else those that are found.
+std::vector<Turn> turnsOf(const Rig& rig);
 
 /// Where a point is half-way on the arc from `from` to `to`, minus where it is half-way on the
 /// straight line; zero where no arc is meant: beside the axis, and for more than two thirds of half
@@ -28,10 +22,10 @@ Vec3 bulge(const Turn& turn, const Vec3& from, const Vec3& to);
 /// A name for the target that bends the way of another into an arc.
 std::string arcName(std::string_view target);
 
-/// Adds a target with the bulge for every turn, named by arcName(), to the end of a rig. One of that
-/// name that is there already, as in a face made from a GLB with arcs, serves instead, and is no turn
-/// itself. Returns their followers. With those, a weight w goes along x₀ + wΔ + 4w(1 − w)B: where it would go
-/// without at 0 and 1, on the arc at ½.
+/// Adds a target with the bulge for every turn, named by arcName(), to the end of a rig. One of
+/// that name that is there already, as in a face made from a GLB with arcs, serves instead, and is
+/// no turn itself. Returns their followers. With those, a weight w goes along x₀ + wΔ + 4w(1 − w)B:
+/// where it would go without at 0 and 1, on the arc at ½.
 std::vector<Follower> addArcs(Rig& rig, std::span<const Turn> turns);
 
 }  // namespace sweepface

@@ -37,12 +37,23 @@ void repeatPoints(const Mesh& mesh, const sweepface_vectors& out, std::size_t co
                 kTight);
 }
 
+const Weights& follow(sweepface_face& face) {
+  if (face.mesh->followers.empty()) return face.weights;
+  std::ranges::fill(face.followed, 0.0);
+  std::ranges::copy(face.weights, face.followed.begin());
+  face.mesh->followers.apply(face.followed);
+  // Products of large weights are beyond what an evaluation takes.
+  for (double& w : face.followed) w = std::clamp(w, -SWEEPFACE_MOST_WEIGHT, SWEEPFACE_MOST_WEIGHT);
+  return face.followed;
+}
+
 }  // namespace
 
 sweepface_status sweepface_face_create(const sweepface_mesh* mesh, sweepface_face** face) {
   if (!mesh || !face) return refuse("Making a face needs a mesh and a place for it.");
   const Mesh& made = *mesh->mesh;
-  *face = new sweepface_face{mesh->mesh, Weights(made.rig->targets.size(), 0.0),
+  *face = new sweepface_face{mesh->mesh, Weights(made.shown, 0.0),
+                             Weights(made.rig->targets.size(), 0.0),
                              std::vector<std::byte>(made.evaluator.scratchBytes())};
   return SWEEPFACE_OK;
 }
@@ -74,7 +85,11 @@ const double* sweepface_face_weights(const sweepface_face* face) {
 }
 
 double sweepface_face_error(const sweepface_face* face) {
-  return face ? face->mesh->evaluator.positionBound(face->weights) : 0;
+  if (!face) return 0;
+  Weights weights = face->weights;
+  weights.resize(face->mesh->rig->targets.size());
+  face->mesh->followers.apply(weights);
+  return face->mesh->evaluator.positionBound(weights);
 }
 
 sweepface_status sweepface_face_evaluate(sweepface_face* face, size_t count,
@@ -89,7 +104,7 @@ sweepface_status sweepface_face_evaluate(sweepface_face* face, size_t count,
     return refuse("A stride must be 0 or at least 12 bytes: three floats.");
   Evaluation job;
   job.evaluator = &mesh.evaluator;
-  job.weights = face->weights;
+  job.weights = follow(*face);
   job.scratch = face->scratch;
   job.positions = pointsOf(mesh, positions, count);
   job.normals = pointsOf(mesh, normals, count);

@@ -38,7 +38,7 @@ sweepface_status sweepface_mesh_create(const sweepface_rig* rig, uint32_t lod,
   auto evaluator = Evaluator::make(*rig->rig, grid, options);
   if (!evaluator) return refuse(std::move(evaluator.error().message));
   auto made = std::make_shared<Mesh>(
-      Mesh{rig->rig, std::move(*evaluator),
+      Mesh{rig->rig, rig->followers, rig->shown, std::move(*evaluator),
            lod == 0 ? renderSource(*rig->rig, grid) : renderGrid(*rig->rig, grid)});
   *mesh = new sweepface_mesh{std::move(made)};
   return SWEEPFACE_OK;

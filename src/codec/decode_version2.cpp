@@ -7,6 +7,7 @@
 #include "codec/limits.hpp"
 #include "codec/pose_form.hpp"
 #include "codec/source_coder.hpp"
+#include "codec/turns.hpp"
 #include "codec/wire_version1.hpp"
 #include "codec/wireframe_coder.hpp"
 
@@ -167,6 +168,8 @@ void readTextureSteps(Decoding& d, Reader& in) {
   });
 }
 
+void readTargetTurns(Decoding& d, Reader& in) { d.rig.turns = readTurns(in, d.rig.targets.size()); }
+
 }  // namespace
 
 std::span<const ChunkHandler> version2() {
@@ -174,7 +177,7 @@ std::span<const ChunkHandler> version2() {
       {readBase, true}, {readGrid, true}, {readTargetNames},  {readRest, true}, {readMoves},
       {readExact},      {readLoose},      {readDrift},        {readWalk},       {readSourceOrder},
       {readGridFaces},  {readPolygons},   {readTextureSteps}, {readTexcoords},  {readQuadCorners},
-      {readScene},      {readThingNames}, {readEnd}};
+      {readScene},      {readThingNames}, {readTargetTurns},  {readEnd}};
   return kReaders;
 }
 

@@ -15,16 +15,17 @@ void codeOrder(Symbols<Coder>& s, const LevelOne& grid, std::vector<Index>& orde
   Index nextLoose = 0, before = 0;
   for (Index& v : order) {
     if (s.bit(kLoose, 0, 0, v < 0)) {
-      const Index k =
-          nextLoose + s.signedNumber(kLooseIndex, 0, 0, -1 - std::int64_t{v} - nextLoose);
-      if (k < 0 || k >= loose) s.refuse("a loose vertex is out of range");
-      nextLoose = k + 1;
-      v = -1 - k;
+      const std::int64_t k = nextLoose + std::int64_t{s.signedNumber(
+                                             kLooseIndex, 0, 0, -1 - std::int64_t{v} - nextLoose)};
+      if (k < 0 || k >= loose) return s.refuse("a loose vertex is out of range");
+      nextLoose = static_cast<Index>(k) + 1;
+      v = -nextLoose;
     } else if (s.bit(kStays, 0, 0, kWrites<Coder> && v >= 0 && walk.visited(v))) {
       // Somewhere it has been before: seams have several vertices at one place.
-      v = before + s.signedNumber(kFar, 1, 0, std::int64_t{v} - before);
-      if (v < 0 || v >= grid.vertexCount()) s.refuse("a vertex is out of range");
-      before = v;
+      const std::int64_t there =
+          before + std::int64_t{s.signedNumber(kFar, 1, 0, std::int64_t{v} - before)};
+      if (there < 0 || there >= grid.vertexCount()) return s.refuse("a vertex is out of range");
+      v = before = static_cast<Index>(there);
     } else {
       v = walk.next(v);
       before = v;

@@ -74,7 +74,9 @@ class TextureCoder {
     if (s_.bit(kFresh, had >= -1, 0, t == next_)) {
       t = next_;
     } else {
-      t = next_ + s_.signedNumber(kTexture, 0, 0, std::int64_t{t} - next_);
+      const std::int64_t there =
+          next_ + std::int64_t{s_.signedNumber(kTexture, 0, 0, std::int64_t{t} - next_)};
+      t = static_cast<Index>(std::clamp<std::int64_t>(there, -2, std::int64_t{1} << 30));
     }
     if (t < -1 || t >= static_cast<Index>(known_.size())) {
       s_.refuse("a texture coordinate is out of range");
@@ -86,10 +88,9 @@ class TextureCoder {
 
   // From face to face across the edges that they share in the texture.
   void codeByFaces() {
-    std::unordered_map<std::uint64_t, Side> sides;
+    EdgeMap<Side> sides(p_.corners.size());
     for (Index f = 0; f < p_.faceCount(); ++f)
-      for (Index k = 0; k < p_.faceSize(f); ++k)
-        sides.emplace(keyOf(at(f, k), at(f, k + 1)), Side{f, k});
+      for (Index k = 0; k < p_.faceSize(f); ++k) sides.add(at(f, k), at(f, k + 1), Side{f, k});
     std::vector<char> reached(p_.faceCount(), 0);
     std::vector<Entry> queue;
     for (Index seed = 0; seed < p_.faceCount() && s_.ok(); ++seed) {
@@ -100,10 +101,10 @@ class TextureCoder {
         const Entry entry = queue[head];
         codeFace(entry);
         for (Index k = 0; k < p_.faceSize(entry.face); ++k) {
-          const auto other = sides.find(keyOf(at(entry.face, k + 1), at(entry.face, k)));
-          if (other == sides.end() || reached[other->second.face]) continue;
-          reached[other->second.face] = 1;
-          queue.push_back({other->second.face, other->second.corner, {entry.face, k}});
+          const Side* const other = sides.find(at(entry.face, k + 1), at(entry.face, k));
+          if (!other || reached[other->face]) continue;
+          reached[other->face] = 1;
+          queue.push_back({other->face, other->corner, {entry.face, k}});
         }
       }
     }
@@ -120,9 +121,6 @@ class TextureCoder {
   Index at(Index face, Index k) const {
     const Index size = p_.faceSize(face);
     return p_.cornerTexcoords[p_.faceStart[face] + (k % size + size) % size];
-  }
-  static std::uint64_t keyOf(Index from, Index to) {
-    return std::uint64_t{static_cast<std::uint32_t>(from)} << 32 | static_cast<std::uint32_t>(to);
   }
   bool knows(Index t) const { return t >= 0 && known_[t]; }
   Whole beyond(Index a, Index b, Index c) const {  // the fourth corner of a parallelogram

@@ -145,6 +145,7 @@ class Packer {
       head.blockPairs[b] = static_cast<std::uint16_t>((users + 1) / 2);
       units += head.blockPairs[b];
     }
+    head.windows = windows();
     std::size_t at = sizeof(head);
     const auto place = [&](std::size_t bytes) {
       return static_cast<std::uint32_t>(std::exchange(at, at + bytes));
@@ -156,6 +157,16 @@ class Packer {
     head.verticesAt = place(4 * kTileVertices);
     head.bytes = place(0);
     return head;
+  }
+
+  std::uint64_t windows() const {
+    std::uint64_t mask = 0;
+    for (const int k : order_) {
+      const int window = source_.targets[k] / 64;
+      if (window >= 64) return 0;
+      mask |= std::uint64_t(1) << window;
+    }
+    return mask;
   }
 
   void writeTargets(std::uint16_t* out, std::uint16_t nobody) const {

@@ -47,7 +47,7 @@ struct TileHead {
   std::uint16_t modePairs = 0;
   std::uint16_t blocks = 0;
   std::array<std::uint16_t, kMostBlocks> blockPairs{};  ///< falling; 0 behind the last block
-  std::array<std::uint16_t, 4> unused{};
+  std::uint64_t windows = 0;  ///< bit k: a target is one of 64k ... 64k + 63; 0 where one is beyond
 };
 static_assert(sizeof(TileHead) == 64);
 
