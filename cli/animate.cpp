@@ -9,10 +9,10 @@
 #include "sweepface/io.hpp"
 
 #include "command.hpp"
-#include "following.hpp"
+#include "head.hpp"
 #include "lod_mesh.hpp"
 #include "output.hpp"
-#include "performance.hpp"
+#include "regions.hpp"
 
 namespace sweepface::cli {
 namespace {
@@ -22,19 +22,26 @@ namespace fs = std::filesystem;
 struct AnimateArguments {
   std::string face, output, keys;
   PerformanceArguments what;
+  RegionArguments regions;
   FollowingArguments following;
+  HeadArguments head;
   double framesPerSecond = 0;
+  double keyTolerance = 0.002;
   int frames = 0, lod = 0;
   bool quiet = false;
   GlbArguments glb;
+
+  bool namesFrames() const { return frames > 0 || framesPerSecond > 0; }
 };
 
 void addOptions(CLI::App& app, AnimateArguments& a) {
   addFace(app, a.face);
   addOutput(app, a.output,
             "A folder for frame_0000.obj, frame_0001.obj ..., made if it is not there; or a .glb "
-            "file for the face with an animation of its targets");
+            "file for the face with an animation of its targets; or a .csv of the weights, as Live "
+            "Link Face records them");
   addPerformance(app, a.what);
+  addRegions(app, a.regions);
   addFollowing(app, a.following);
   app.add_option("--frames", a.frames,
                  "How many meshes or sampled keys, the first and the last included; 31 if neither "
@@ -47,9 +54,16 @@ void addOptions(CLI::App& app, AnimateArguments& a) {
       ->type_name("N");
   app.add_option("--keys", a.keys,
                  "For .glb: exact (two or three keys with tangents hold the law exactly; the "
-                 "default where the law can be held so) or sampled (keys without, for programs "
-                 "that ignore tangents)")
+                 "default where the law can be held so), few (as few keys with tangents as keep "
+                 "--key-tolerance; the default otherwise) or sampled (a key a frame without, for "
+                 "programs that ignore tangents; the default with --frames or --fps)")
       ->type_name("KIND");
+  app.add_option("--key-tolerance", a.keyTolerance,
+                 "How far few keys may take a weight from what is played")
+      ->check(positiveNumber(1))
+      ->capture_default_str()
+      ->type_name("W");
+  addHead(app, a.head);
   addLod(app, a.lod, "Write finer meshes: every edge of the source cut into N, 1 to 64");
   addGlb(app, a.glb);
   addQuiet(app, a.quiet);
@@ -85,7 +99,7 @@ Result<void> makeFolder(const fs::path& folder) {
 
 /// Writes the frames in parallel; the answer is that of the first one that failed.
 Result<void> writeFrames(const AnimateArguments& a, const Rig& rig, const Performance& performance,
-                         const std::vector<double>& times) {
+                         const std::vector<double>& times, const std::optional<HeadTrack>& head) {
   const MeshMaker meshes(rig, a.lod);
   ProgressBar bar(a.quiet);
   std::atomic<std::size_t> done = 0;
@@ -96,8 +110,9 @@ Result<void> writeFrames(const AnimateArguments& a, const Rig& rig, const Perfor
     if (failed) return;
     Weights weights(rig.targets.size());
     performance.at(times[frame], weights);
-    const Result<void> written =
-        writeFile(fs::path(a.output) / fmt::format("frame_{:04}.obj", frame), meshes.obj(weights));
+    const Result<void> written = writeFile(
+        fs::path(a.output) / fmt::format("frame_{:04}.obj", frame),
+        head ? meshes.obj(weights, head->rotations[frame], head->pivot) : meshes.obj(weights));
     bar.show("writing", static_cast<double>(++done) / static_cast<double>(times.size()));
     if (written) return;
     const std::scoped_lock lock(reporting);
@@ -110,8 +125,10 @@ Result<void> animateMeshes(const AnimateArguments& a, const Rig& rig,
                            const Performance& performance) {
   if (auto ok = checkLod(rig, a.lod); !ok) return ok;
   const std::vector<double> times = sampleTimes(a, performance);
+  const auto head = headTrack(a.head, rig, performance, times);
+  if (!head) return std::unexpected(head.error());
   if (auto made = makeFolder(a.output); !made) return made;
-  if (auto written = writeFrames(a, rig, performance, times); !written) return written;
+  if (auto written = writeFrames(a, rig, performance, times, *head); !written) return written;
   if (!a.quiet)
     fmt::print("{}: {} frames of {:.6g} s, {}\n", a.output, times.size(), performance.seconds,
                performance.name);
@@ -120,6 +137,22 @@ Result<void> animateMeshes(const AnimateArguments& a, const Rig& rig,
 
 // ---- GLB ----
 
+/// Times that miss nothing: a clip's own frames, or so many that straight lines between them do.
+std::vector<double> everyTime(const Performance& performance) {
+  if (!performance.frameTimes.empty()) return performance.frameTimes;
+  constexpr double kRate = 480;
+  const double last = std::max(8.0, std::ceil(std::min(performance.seconds * kRate, 1e6)));
+  std::vector<double> times;
+  for (double k = 0; k <= last; ++k) times.push_back(performance.seconds * (k / last));
+  return times;
+}
+
+/// Which kind of keys --keys means, or nobody did.
+std::string keysOf(const AnimateArguments& a, const Performance& performance) {
+  if (!a.keys.empty()) return a.keys;
+  return a.namesFrames() ? "sampled" : performance.motion ? "exact" : "few";
+}
+
 Result<void> animateGlb(const AnimateArguments& a, const Rig& rig, const Performance& performance) {
   if (auto ok = checkOutput(a.output, {a.face}, {}); !ok) return ok;
   GlbOptions options;
@@ -127,22 +160,48 @@ Result<void> animateGlb(const AnimateArguments& a, const Rig& rig, const Perform
   options.morphNormals = a.glb.morphNormals;
   options.quantize = a.glb.quantize;
   options.animationName = performance.name;
+  const std::string keys = keysOf(a, performance);
   Clip clip;
-  if (performance.motion && a.keys != "sampled") {
+  if (keys == "exact") {
     options.motion = &*performance.motion;
   } else {
-    const bool asRecorded =
-        !performance.frameTimes.empty() && a.frames == 0 && a.framesPerSecond == 0;
-    clip =
-        sample(performance, rig, asRecorded ? performance.frameTimes : sampleTimes(a, performance));
+    const bool own = keys == "sampled" && !performance.frameTimes.empty() && !a.namesFrames();
+    clip = sample(performance, rig,
+                  keys == "few" ? everyTime(performance)
+                  : own         ? performance.frameTimes
+                                : sampleTimes(a, performance));
     options.clip = &clip;
+    if (keys == "few") options.keyTolerance = a.keyTolerance;
   }
+  const auto head = headTrack(a.head, rig, performance, clip.times);
+  if (!head) return std::unexpected(head.error());
+  if (*head) options.head = &**head;
   const Result<std::string> bytes = formatGlb(rig, options);
   if (!bytes) return std::unexpected(bytes.error());
   if (auto written = writeFile(a.output, *bytes); !written) return written;
   if (!a.quiet)
     fmt::print("{}: {:.6g} s, {}, {} bytes\n", a.output, performance.seconds, performance.name,
                bytes->size());
+  return {};
+}
+
+// ---- A recording ----
+
+Result<void> animateCsv(const AnimateArguments& a, const Rig& rig, const Performance& performance) {
+  if (auto ok = checkOutput(a.output, {a.face, a.what.clip}, {}); !ok) return ok;
+  const bool own =
+      !performance.frameTimes.empty() && !a.namesFrames() && isOfKind(a.what.clip, ".csv");
+  AnimateArguments asked = a;
+  if (!own && !a.namesFrames()) asked.framesPerSecond = a.what.clipRate;
+  Clip clip =
+      sample(performance, rig, own ? performance.frameTimes : sampleTimes(asked, performance));
+  if (performance.pose) addAngles(clip, performance.pose);
+  const Result<std::string> text = formatLiveLinkCsv(clip, a.what.clipRate);
+  if (!text) return std::unexpected(text.error());
+  if (auto written = writeFile(a.output, *text); !written) return written;
+  if (!a.quiet)
+    fmt::print("{}: {} frames of {:.6g} s, {}\n", a.output, clip.times.size(), performance.seconds,
+               performance.name);
   return {};
 }
 
@@ -156,8 +215,12 @@ Result<void> checkArguments(const AnimateArguments& a, bool glb) {
     return fail(
         "--keys, --morph-normals and --quantize are for .glb files; name the output so or leave "
         "them out.");
-  if (!a.keys.empty() && a.keys != "exact" && a.keys != "sampled")
-    return fail(fmt::format("--keys is exact or sampled, not '{}'.", a.keys));
+  if (!a.keys.empty() && a.keys != "exact" && a.keys != "few" && a.keys != "sampled")
+    return fail(fmt::format("--keys is exact, few or sampled, not '{}'.", a.keys));
+  if (isOfKind(a.output, ".csv") && (!a.regions.file.empty() || a.following.any() || a.lod > 0))
+    return fail(
+        "A .csv holds the weights as they were set; leave --regions, --arcs, --combine and --lod "
+        "out.");
   return {};
 }
 
@@ -165,8 +228,9 @@ Result<void> checkArguments(const AnimateArguments& a, bool glb) {
 Result<void> checkKeys(const AnimateArguments& a, const Performance& performance) {
   if (a.keys == "exact" && !performance.motion)
     return fail(fmt::format("Keys cannot hold {} exactly; leave --keys out.", performance.name));
-  if (performance.motion && a.keys != "sampled" && (a.frames > 0 || a.framesPerSecond > 0))
-    return fail("A .glb file has no frames; leave --frames and --fps out or add --keys sampled.");
+  if (a.namesFrames() && (a.keys == "exact" || a.keys == "few"))
+    return fail(
+        fmt::format("Keys that are {} have no frames; leave --frames and --fps out.", a.keys));
   return {};
 }
 
@@ -178,14 +242,14 @@ Result<int> runAnimate(const AnimateArguments& a) {
   if (auto ok = checkArguments(a, glb); !ok) return std::unexpected(ok.error());
   Result<Rig> rig = readFace(a.face);
   if (!rig) return std::unexpected(rig.error());
-  Result<Performance> performance = makePerformance(a.what, *rig);
+  const Result<Performance> performance = perform(a.what, a.regions, a.following, *rig);
   if (!performance) return std::unexpected(performance.error());
-  const std::size_t set = rig->targets.size();
-  Followers followers = follow(a.following, *rig);
-  *performance = withFollowers(std::move(*performance), std::move(followers), set);
   if (glb)
     if (auto ok = checkKeys(a, *performance); !ok) return std::unexpected(ok.error());
-  const Result<void> written = (glb ? animateGlb : animateMeshes)(a, *rig, *performance);
+  const bool csv = isOfKind(a.output, ".csv");
+  const Result<void> written = (glb   ? animateGlb
+                                : csv ? animateCsv
+                                      : animateMeshes)(a, *rig, *performance);
   if (!written) return std::unexpected(written.error());
   if (!a.quiet)
     for (const std::string& note : performance->notes) printWarning(note);
@@ -196,8 +260,8 @@ Result<int> runAnimate(const AnimateArguments& a) {
 
 Command addAnimate(CLI::App& tool) {
   return makeCommand(tool, "animate",
-                     "Move between expressions, or play a clip: every frame as a mesh, or an "
-                     "animation (.glb)",
+                     "Move between expressions, or play a clip: every frame as a mesh, an "
+                     "animation (.glb) or a recording (.csv)",
                      runAnimate);
 }
 

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "sweepface/arcs.hpp"
 #include "sweepface/codec.hpp"
 #include "sweepface/drawing.hpp"
 #include "sweepface/io.hpp"
@@ -11,7 +12,7 @@ namespace {
 
 struct BuildArguments {
   std::string drawing, output, source;
-  bool quiet = false;
+  bool arcs = false, quiet = false;
 };
 
 void addOptions(CLI::App& app, BuildArguments& a) {
@@ -23,6 +24,8 @@ void addOptions(CLI::App& app, BuildArguments& a) {
                  "Keep the source mesh of this .sweep file, whose wireframe `sweepface wireframe` "
                  "wrote; else the source is the surface's own grid")
       ->type_name("FACE");
+  app.add_flag("--arcs", a.arcs,
+               "Note in the file what expressions turn about, for programs that play it");
   addQuiet(app, a.quiet);
   app.footer(
       "\nExamples:\n  sweepface build vase.wire.json -o vase.sweep\n"
@@ -65,6 +68,7 @@ Result<int> runBuild(const BuildArguments& a) {
     if (!like) return std::unexpected(like.error());
     if (auto ok = adoptSource(built->rig, *like); !ok) return std::unexpected(ok.error());
   }
+  if (a.arcs) built->rig.turns = findTurns(built->rig);
   const std::string bytes = encode(built->rig);
   if (auto written = writeFile(a.output, bytes); !written) return std::unexpected(written.error());
   if (drawing->tolerance == 0) warnOfMisses(a, *built);

@@ -32,6 +32,7 @@ Command addWireframe(CLI::App& tool);
 Command addRender(CLI::App& tool);
 Command addReport(CLI::App& tool);
 Command addPlot(CLI::App& tool);
+Command addLaws(CLI::App& tool);
 Command addBuild(CLI::App& tool);
 Command addEdit(CLI::App& tool);
 

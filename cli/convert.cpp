@@ -7,6 +7,7 @@
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 
+#include "sweepface/arcs.hpp"
 #include "sweepface/codec.hpp"
 #include "sweepface/eval.hpp"
 #include "sweepface/fit.hpp"
@@ -28,7 +29,7 @@ struct ConvertArguments {
   double tolerance = 0, normalLimit = 0, normalTolerance = 0;
   std::size_t maxBytes = 0;
   int threads = 0;
-  bool pack = false, noShapes = false, bare = false, quiet = false, json = false;
+  bool pack = false, arcs = false, noShapes = false, bare = false, quiet = false, json = false;
 };
 
 void addOptions(CLI::App& app, ConvertArguments& a) {
@@ -64,6 +65,10 @@ void addOptions(CLI::App& app, ConvertArguments& a) {
          "conversions")
       ->check(CLI::PositiveNumber)
       ->type_name("N");
+  app.add_flag(
+      "--arcs", a.arcs,
+      "Note in the file what expressions turn about, the jaw about its hinge and lids about "
+      "the eyeball, for programs that play it (some 25 bytes each)");
   addThreads(app, a.threads);
   app.add_flag("--no-shapes", a.noShapes,
                "Do not look for shape parameters: quicker, a bit larger");
@@ -233,9 +238,10 @@ Result<int> convertAndWrite(const ConvertArguments& a) {
   const Result<Strip> parts = a.strip.empty() ? Strip{} : parseStrip(a.strip);
   if (!parts) return std::unexpected(parts.error());
   // The scene comes with a frame and its length.
-  constexpr std::size_t kMostAround = 32;
+  constexpr std::size_t kMostAround = 32, kMostTurn = 29;
   const bool hasScene = !a.bare && !parts->scene && !source->scene.empty();
-  const std::size_t around = hasScene ? source->scene.size() + kMostAround : 0;
+  const std::size_t around = (hasScene ? source->scene.size() + kMostAround : 0) +
+                             (a.arcs ? kMostAround + kMostTurn * source->rig.targets.size() : 0);
   if (a.maxBytes > 0 && around >= a.maxBytes)
     return fail(
         fmt::format("What {} holds besides the face takes {} bytes; leave it out with "
@@ -249,6 +255,7 @@ Result<int> convertAndWrite(const ConvertArguments& a) {
   bar->show("verifying", 1);
   Rig stripped = conversion->rig;
   if (auto ok = strip(stripped, *parts); !ok) return std::unexpected(ok.error());
+  if (a.arcs) stripped.turns = findTurns(conversion->rig);
   const std::string bytes = encode(stripped);
   const Result<Worst> worst = verify(bytes, a.output, source->rig, conversion->rig);
   if (!worst) return std::unexpected(worst.error());

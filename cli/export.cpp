@@ -106,8 +106,10 @@ Result<int> runExport(const ExportArguments& a) {
   if (!weights) return std::unexpected(weights.error());
   if (auto ok = checkOutput(a.output, {a.face}, {".ply", ".sweep", ".gltf"}); !ok)
     return std::unexpected(ok.error());
-  const Followers followers = follow(a.following, *rig);
-  *weights = withFollowers(std::move(*weights), followers, *rig);
+  const Result<Following> following = follow(a.following, *rig);
+  if (!following) return std::unexpected(following.error());
+  weights->resize(rig->targets.size());
+  following->apply(*weights);
   const Result<void> written = (glb ? writeGlb : writeObj)(a, *rig, *weights);
   if (!written) return std::unexpected(written.error());
   return 0;

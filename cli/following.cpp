@@ -12,40 +12,66 @@ void addFollowing(CLI::App& app, FollowingArguments& a) {
       ->check(CLI::IsMember({"on", "off"}))
       ->capture_default_str()
       ->type_name("on|off");
+  app.add_option("--eyes", a.eyes,
+                 "on: eyeballs turn rigidly about their centres, by the eyeLook weights or the "
+                 "angles of a capture")
+      ->check(CLI::IsMember({"on", "off"}))
+      ->capture_default_str()
+      ->type_name("on|off");
   app.add_flag("--combine", a.combine,
                "Targets named A_B follow the product of the weights of A and B, and those named "
                "A_50 stand in for A at 0.5");
+  app.add_option(
+         "--limits", a.limits,
+         "What weights may be, e.g. 0:1 for all, or 0:1,jawOpen=0:0.8; what is beyond stops "
+         "there")
+      ->type_name("LOW:HIGH,...");
 }
 
-Followers follow(const FollowingArguments& a, Rig& rig) {
+void Following::apply(std::span<double> weights, const HeadPose* pose) const {
+  limits.apply(weights);
+  pose ? eyes.apply(*pose, weights) : eyes.apply(weights);
+  followers.apply(weights);
+}
+
+Result<Following> follow(const FollowingArguments& a, Rig& rig) {
+  Following following;
+  following.count = rig.targets.size();
+  if (!a.limits.empty()) {
+    auto limits = Limits::parse(rig, a.limits);
+    if (!limits) return fail("--limits: " + limits.error().message + ".");
+    following.limits = std::move(*limits);
+  }
   std::vector<Follower> followers;
   if (a.combine) {
     std::vector<std::string> names;
     for (const Target& target : rig.targets) names.push_back(target.name);
     followers = Followers::named(names);
   }
-  if (a.arcs == "on") {
-    const std::vector<Follower> arcs = addArcs(rig, findTurns(rig));
-    followers.insert(followers.end(), arcs.begin(), arcs.end());
+  // Eyeballs tell what lids turn about, so turns are found while they still move by the targets.
+  const auto turns = a.arcs == "on" ? turnsOf(rig) : std::vector<Turn>{};
+  if (a.eyes == "on") {
+    const std::vector<Eye> eyes = findEyes(rig);
+    if (eyes.empty())
+      return fail("The face has no two eyeballs that could turn; leave --eyes out.");
+    following.eyes = EyeTurns::addTo(rig, eyes);
   }
-  return Followers(std::move(followers));
+  const std::vector<Follower> arcs = addArcs(rig, turns);
+  followers.insert(followers.end(), arcs.begin(), arcs.end());
+  following.followers = Followers(std::move(followers));
+  return following;
 }
 
-Performance withFollowers(Performance performance, Followers followers, std::size_t count) {
-  if (followers.empty()) return performance;
+Performance withFollowing(Performance performance, const Following& following) {
+  if (following.empty()) return performance;
   performance.motion.reset();  // keys would not hold it exactly
-  performance.at = [at = std::move(performance.at), followers = std::move(followers), count](
-                       double time, std::span<double> weights) {
-    at(time, weights.first(count));
-    followers.apply(weights);
+  performance.at = [at = std::move(performance.at), following, pose = performance.pose,
+                    byAngles = performance.hasEyes](double time, std::span<double> weights) {
+    at(time, weights.first(following.count));
+    const HeadPose stands = byAngles ? pose(time) : HeadPose{};
+    following.apply(weights, byAngles ? &stands : nullptr);
   };
   return performance;
-}
-
-Weights withFollowers(Weights weights, const Followers& followers, const Rig& rig) {
-  weights.resize(rig.targets.size());
-  followers.apply(weights);
-  return weights;
 }
 
 }  // namespace sweepface::cli

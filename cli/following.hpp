@@ -1,26 +1,38 @@
 #pragma once
 
 #include "sweepface/followers.hpp"
+#include "sweepface/head.hpp"
+#include "sweepface/limits.hpp"
 
 #include "command.hpp"
 #include "performance.hpp"
 
 namespace sweepface::cli {
 
-/// Which weights follow from those that are set.
+/// What happens to weights after they were set.
 struct FollowingArguments {
-  std::string arcs = "off";
+  std::string arcs = "off", eyes = "off", limits;
   bool combine = false;
+  bool any() const { return arcs == "on" || eyes == "on" || combine; }
 };
 void addFollowing(CLI::App& app, FollowingArguments& a);
 
-/// The followers that were asked for; arcs are added to the targets of the rig.
-Followers follow(const FollowingArguments& a, Rig& rig);
+/// Limits, and weights that follow from those that are set.
+struct Following {
+  Limits limits;
+  Followers followers;
+  EyeTurns eyes;
+  std::size_t count = 0;  ///< weights that are set, the first ones
 
-/// A performance whose weights, of the first `count` targets, take followers along.
-Performance withFollowers(Performance performance, Followers followers, std::size_t count);
+  bool empty() const { return limits.empty() && followers.empty() && eyes.empty(); }
+  /// Of all targets. Where the eyes' angles are known, they count instead of eyeLook weights.
+  void apply(std::span<double> weights, const HeadPose* pose = nullptr) const;
+};
 
-/// The same for the weights of one expression.
-Weights withFollowers(Weights weights, const Followers& followers, const Rig& rig);
+/// What was asked for; arcs and turning eyes are added to the targets of the rig.
+Result<Following> follow(const FollowingArguments& a, Rig& rig);
+
+/// A performance whose weights take followers along.
+Performance withFollowing(Performance performance, const Following& following);
 
 }  // namespace sweepface::cli

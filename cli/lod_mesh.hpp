@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "sweepface/eval.hpp"
+#include "sweepface/head.hpp"
 #include "sweepface/io.hpp"
 #include "sweepface/rig.hpp"
 
@@ -154,14 +155,23 @@ class MeshMaker {
 
   /// The expression as an OBJ text, with the surface's own normals.
   std::string obj(std::span<const double> weights) const {
-    const std::vector<Vec3> vectors = blend(rig_, weights);
-    const std::vector<Vec3> places = positions(vectors, weights);
-    const std::vector<Vec3> normals =
-        lod_ == 0 ? sourceNormals(rig_, grid_, vectors) : grid_.normals(vectors);
+    const auto [places, normals] = shape(weights);
+    return formatObj({places, normals, polygons_});
+  }
+  /// The same turned about a point.
+  std::string obj(std::span<const double> weights, const Quaternion& by, const Vec3& pivot) const {
+    auto [places, normals] = shape(weights);
+    for (Vec3& p : places) p = pivot + turned(by, p - pivot);
+    for (Vec3& n : normals) n = turned(by, n);
     return formatObj({places, normals, polygons_});
   }
 
  private:
+  std::pair<std::vector<Vec3>, std::vector<Vec3>> shape(std::span<const double> weights) const {
+    const std::vector<Vec3> vectors = blend(rig_, weights);
+    return {positions(vectors, weights),
+            lod_ == 0 ? sourceNormals(rig_, grid_, vectors) : grid_.normals(vectors)};
+  }
   std::vector<Vec3> positions(std::span<const Vec3> vectors,
                               std::span<const double> weights) const {
     return lod_ == 0 ? sourcePositions(rig_, grid_, vectors, weights) : grid_.positions(vectors);

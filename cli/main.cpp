@@ -42,7 +42,7 @@ int run(int argc, char** argv) {
       "  sweepface COMMAND --help tells more about a command.");
   std::vector<Command> commands;
   for (auto add : {addConvert, addInfo, addCheck, addMeasure, addExport, addAnimate, addWireframe,
-                   addRender, addReport, addPlot, addBuild, addEdit})
+                   addRender, addReport, addPlot, addLaws, addBuild, addEdit})
     commands.push_back(add(tool));
 
   try {

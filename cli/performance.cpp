@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "sweepface/filter.hpp"
+#include "sweepface/gltf.hpp"
 #include "sweepface/io.hpp"
 #include "sweepface/live_motion.hpp"
 #include "sweepface/timeline.hpp"
@@ -25,6 +26,7 @@ Drive driveOf(const PerformanceArguments& a, Drive drive) {
 /// Laws that are not exact in two or three keys: a trajectory for every weight.
 Result<Performance> driven(const PerformanceArguments& a, const Drive& drive, const Weights& from,
                            const Weights& to) {
+  const double delay = drive.delay;
   const auto paths = std::make_shared<std::vector<Trajectory>>();
   for (std::size_t k = 0; k < from.size(); ++k) {
     const auto path = trajectoryOf(drive, {from[k], 0}, to[k]);
@@ -33,44 +35,47 @@ Result<Performance> driven(const PerformanceArguments& a, const Drive& drive, co
   }
   Performance performance;
   performance.name = a.law;
-  performance.seconds = a.seconds;
-  performance.at = [paths](double time, std::span<double> weights) {
-    for (std::size_t k = 0; k < weights.size(); ++k) weights[k] = (*paths)[k].at(time).position;
+  performance.seconds = delay + (drive.kind == Drive::Kind::spring ? a.seconds : drive.seconds);
+  performance.at = [paths, delay](double time, std::span<double> weights) {
+    for (std::size_t k = 0; k < weights.size(); ++k)
+      weights[k] = (*paths)[k].at(time - delay).position;
   };
-  performance.kinematicsAt = [paths](double time, std::span<Kinematics> weights) {
-    for (std::size_t k = 0; k < weights.size(); ++k) weights[k] = (*paths)[k].at(time);
+  performance.kinematicsAt = [paths, delay](double time, std::span<Kinematics> weights) {
+    for (std::size_t k = 0; k < weights.size(); ++k) weights[k] = (*paths)[k].at(time - delay);
   };
   return performance;
 }
 
-Result<Performance> byLaw(const PerformanceArguments& a, const Rig& rig) {
+Result<Performance> byLaw(const PerformanceArguments& a, const Rig& rig, const Matter& matter) {
   const Result<Weights> from = parseWeights(rig, a.from), to = parseWeights(rig, a.to.value_or(""));
   if (!from) return std::unexpected(from.error());
   if (!to) return std::unexpected(to.error());
   if (const auto drive = driveFromName(a.law);
       drive && drive->kind != Drive::Kind::cut && !timeLawFromName(a.law))
-    return driven(a, driveOf(a, *drive), *from, *to);
+    return driven(a, inMatter(driveOf(a, *drive), matter), *from, *to);
   const Result<TimeLaw> law = timeLawFromName(a.law);
   if (!law)
     return fail(
         fmt::format("There is no law '{}'; there are linear, newton, brake, "
                     "accelerate-brake, linear-force, spring and bounce.",
                     a.law));
-  auto motion = Motion::make(*from, *to, *law, a.seconds);
+  const Drive timed = inMatter({.seconds = a.seconds, .spring = {}}, matter);
+  auto motion = Motion::make(*from, *to, *law, timed.seconds);
   if (!motion) return std::unexpected(motion.error());
   Performance performance;
   performance.name = a.law;
-  performance.seconds = a.seconds;
-  performance.at = [motion = *motion](double time, std::span<double> weights) {
-    motion.at(time, weights);
+  performance.seconds = timed.delay + timed.seconds;
+  performance.at = [motion = *motion, delay = timed.delay](double time, std::span<double> weights) {
+    motion.at(time - delay, weights);
   };
-  performance.kinematicsAt = [motion = *motion](double time, std::span<Kinematics> weights) {
+  performance.kinematicsAt = [motion = *motion, delay = timed.delay](
+                                 double time, std::span<Kinematics> weights) {
     for (std::size_t k = 0; k < weights.size(); ++k) {
-      const MotionSample sample = motion.sample(k, time);
+      const MotionSample sample = motion.sample(k, time - delay);
       weights[k] = {sample.position, sample.velocity, sample.force};
     }
   };
-  performance.motion = std::move(*motion);
+  if (timed.delay == 0) performance.motion = std::move(*motion);
   return performance;
 }
 
@@ -79,31 +84,25 @@ Result<Performance> byLaw(const PerformanceArguments& a, const Rig& rig) {
 /// Timelines are baked so finely that frames between theirs are as good as exact.
 constexpr double kTimelineRate = 240;
 
-Result<Clip> readClip(const PerformanceArguments& a) {
+Result<Clip> readClip(const PerformanceArguments& a, const Region& region) {
   const Result<std::string> text = readFile(a.clip);
   if (!text) return std::unexpected(text.error());
-  if (isOfKind(a.clip, ".csv")) return parseLiveLinkCsv(*text, a.clip, a.clipRate);
-  if (!isOfKind(a.clip, ".json"))
-    return fail(fmt::format("{} is neither a .csv nor a .json clip.", a.clip));
-  if (text->find("\"events\"") == std::string::npos) return parseClipJson(*text, a.clip);
-  const Result<Timeline> timeline = parseTimeline(*text, a.clip);
-  if (!timeline) return std::unexpected(timeline.error());
-  return bake(*timeline, kTimelineRate);
-}
-
-/// Central differences over the time of a frame at 60 frames a second.
-std::function<void(double, std::span<Kinematics>)> differences(
-    const std::function<void(double, std::span<double>)>& at) {
-  return [at](double time, std::span<Kinematics> weights) {
-    constexpr double h = 1 / 60.0;
-    std::vector<double> before(weights.size()), now(before), after(before);
-    at(time - h, before);
-    at(time, now);
-    at(time + h, after);
-    for (std::size_t k = 0; k < weights.size(); ++k)
-      weights[k] = {now[k], (after[k] - before[k]) / (2 * h),
-                    (after[k] - 2 * now[k] + before[k]) / (h * h)};
-  };
+  const bool isJson = isOfKind(a.clip, ".json");
+  if (isJson && text->find("\"events\"") != std::string::npos) {
+    const Result<Timeline> timeline = parseTimeline(*text, a.clip);
+    if (!timeline) return std::unexpected(timeline.error());
+    return bake(*timeline, kTimelineRate, region.name, region.matter);
+  }
+  const bool isGltf = isOfKind(a.clip, ".glb") || isOfKind(a.clip, ".gltf");
+  if (!isJson && !isGltf && !isOfKind(a.clip, ".csv"))
+    return fail(fmt::format("{} is neither a .csv, a .json nor a .glb clip.", a.clip));
+  auto clip = isJson   ? parseClipJson(*text, a.clip)
+              : isGltf ? parseGltfClip(*text, a.clip, std::filesystem::path(a.clip).parent_path(),
+                                       a.animation)
+                       : parseLiveLinkCsv(*text, a.clip, a.clipRate);
+  if (!clip) return clip;
+  if (a.smooth) smooth(*clip);
+  return inMatter(*clip, region.matter, {a.frequency, a.damping});
 }
 
 std::vector<std::string> notesOn(const ClipMatch& match, const Clip& clip,
@@ -119,10 +118,9 @@ std::vector<std::string> notesOn(const ClipMatch& match, const Clip& clip,
   return notes;
 }
 
-Result<Performance> byClip(const PerformanceArguments& a, const Rig& rig) {
-  Result<Clip> clip = readClip(a);
+Result<Performance> byClip(const PerformanceArguments& a, const Rig& rig, const Region& region) {
+  Result<Clip> clip = readClip(a, region);
   if (!clip) return std::unexpected(clip.error());
-  if (a.smooth) smooth(*clip);
   std::vector<std::string> targets;
   for (const Target& target : rig.targets) targets.push_back(target.name);
   ClipMatch match = matchClip(*clip, targets);
@@ -137,17 +135,39 @@ Result<Performance> byClip(const PerformanceArguments& a, const Rig& rig) {
   performance.notes = notesOn(match, *clip, a.clip);
   for (const double time : clip->times)
     performance.frameTimes.push_back(time - clip->times.front());
-  performance.at = [clip = std::move(*clip), match = std::move(match)](double time,
-                                                                       std::span<double> weights) {
-    std::vector<double> own(clip.names.size());
-    clip.at(time, own);
+  const auto shared = std::make_shared<const Clip>(std::move(*clip));
+  const ClipAngles angles(*shared);
+  performance.hasHead = angles.head(), performance.hasEyes = angles.eyes();
+  if (performance.hasHead || performance.hasEyes)
+    performance.pose = [shared, angles](double time) {
+      std::vector<double> own(shared->names.size());
+      shared->at(time, own);
+      return angles.of(own);
+    };
+  performance.at = [shared, match = std::move(match)](double time, std::span<double> weights) {
+    std::vector<double> own(shared->names.size());
+    shared->at(time, own);
     match.spread(own, weights);
   };
-  performance.kinematicsAt = differences(performance.at);
+  performance.kinematicsAt = byDifferences(performance.at);
   return performance;
 }
 
 }  // namespace
+
+std::function<void(double, std::span<Kinematics>)> byDifferences(
+    const std::function<void(double, std::span<double>)>& at) {
+  return [at](double time, std::span<Kinematics> weights) {
+    constexpr double h = 1 / 60.0;
+    std::vector<double> before(weights.size()), now(before), after(before);
+    at(time - h, before);
+    at(time, now);
+    at(time + h, after);
+    for (std::size_t k = 0; k < weights.size(); ++k)
+      weights[k] = {now[k], (after[k] - before[k]) / (2 * h),
+                    (after[k] - 2 * now[k] + before[k]) / (h * h)};
+  };
+}
 
 void addPerformance(CLI::App& app, PerformanceArguments& a) {
   app.add_option("--from", a.from, "The expression to start from; the neutral if not given")
@@ -164,7 +184,10 @@ void addPerformance(CLI::App& app, PerformanceArguments& a) {
       ->check(positiveNumber())
       ->capture_default_str()
       ->type_name("S");
-  app.add_option("--frequency", a.frequency, "Of a spring: swings a second without damping")
+  app.add_option(
+         "--frequency", a.frequency,
+         "Of a spring: swings a second without damping; with --clip, of those on which heavy "
+         "regions hang")
       ->check(positiveNumber())
       ->capture_default_str()
       ->type_name("HZ");
@@ -178,10 +201,14 @@ void addPerformance(CLI::App& app, PerformanceArguments& a) {
       ->type_name("E");
   app.add_option("--clip", a.clip,
                  "Play this instead: a .csv of Live Link Face, a .json of Audio2Face or MediaPipe, "
-                 "or a timeline (.json)")
+                 "a timeline (.json), or the weights of an animation in a .glb")
       ->excludes("--to")
       ->excludes("--from")
       ->type_name("FILE");
+  app.add_option("--animation", a.animation,
+                 "Which animation of a .glb; the first with weights if not given")
+      ->needs("--clip")
+      ->type_name("NAME");
   app.add_option("--clip-fps", a.clipRate, "Frames a second in the timecodes of a .csv")
       ->check(positiveNumber(1000))
       ->capture_default_str()
@@ -189,8 +216,9 @@ void addPerformance(CLI::App& app, PerformanceArguments& a) {
   app.add_flag("--smooth", a.smooth, "Take a tracker's noise out of the clip")->needs("--clip");
 }
 
-Result<Performance> makePerformance(const PerformanceArguments& a, const Rig& rig) {
-  return a.clip.empty() ? byLaw(a, rig) : byClip(a, rig);
+Result<Performance> makePerformance(const PerformanceArguments& a, const Rig& rig,
+                                    const Region& region) {
+  return a.clip.empty() ? byLaw(a, rig, region.matter) : byClip(a, rig, region);
 }
 
 Clip sample(const Performance& performance, const Rig& rig, std::vector<double> times) {
@@ -202,6 +230,22 @@ Clip sample(const Performance& performance, const Rig& rig, std::vector<double> 
     performance.at(clip.times[f],
                    std::span(clip.weights).subspan(f * clip.names.size(), clip.names.size()));
   return clip;
+}
+
+void addAngles(Clip& clip, const std::function<HeadPose(double time)>& pose) {
+  const std::size_t before = clip.names.size();
+  for (const char* part : {"Head", "LeftEye", "RightEye"})
+    for (const char* angle : {"Yaw", "Pitch", "Roll"})
+      clip.names.push_back(std::string(part) + angle);
+  std::vector<double> weights;
+  for (std::size_t f = 0; f < clip.times.size(); ++f) {
+    const auto row = clip.weights.begin() + static_cast<std::ptrdiff_t>(f * before);
+    weights.insert(weights.end(), row, row + static_cast<std::ptrdiff_t>(before));
+    const HeadPose stands = pose(clip.times[f]);
+    for (const Angles& a : {stands.head, stands.leftEye, stands.rightEye})
+      weights.insert(weights.end(), {a.yaw, a.pitch, a.roll});
+  }
+  clip.weights = std::move(weights);
 }
 
 }  // namespace sweepface::cli

@@ -4,7 +4,9 @@
 #include <optional>
 
 #include "sweepface/clip.hpp"
+#include "sweepface/head.hpp"
 #include "sweepface/motion.hpp"
+#include "sweepface/regions.hpp"
 #include "sweepface/trajectory.hpp"
 
 #include "command.hpp"
@@ -13,7 +15,7 @@ namespace sweepface::cli {
 
 /// What `animate` is told to play.
 struct PerformanceArguments {
-  std::string from, law = "newton", clip;
+  std::string from, law = "newton", clip, animation;
   std::optional<std::string> to;
   double seconds = 1, frequency = 2, damping = 1, restitution = 0.4, clipRate = 60;
   bool smooth = false;
@@ -30,11 +32,23 @@ struct Performance {
   std::function<void(double time, std::span<Kinematics> weights)> kinematicsAt;
   std::optional<Motion> motion;    ///< where keys can hold it exactly
   std::vector<double> frameTimes;  ///< a clip's own frames, from 0
+  /// Null unless a clip tells how head or eyes stand.
+  std::function<HeadPose(double time)> pose;
+  bool hasHead = false, hasEyes = false;
   std::vector<std::string> notes;  ///< what the user should know, in sentences
 };
-Result<Performance> makePerformance(const PerformanceArguments& a, const Rig& rig);
+/// By the matter of a region, and without what a timeline means for others.
+Result<Performance> makePerformance(const PerformanceArguments& a, const Rig& rig,
+                                    const Region& region = {});
+
+/// Velocities and accelerations by central differences over a frame at 60 frames a second.
+std::function<void(double, std::span<Kinematics>)> byDifferences(
+    const std::function<void(double, std::span<double>)>& at);
 
 /// The performance at these times, with a weight for every target.
 Clip sample(const Performance& performance, const Rig& rig, std::vector<double> times);
+
+/// Columns of the angles, as captures have them.
+void addAngles(Clip& clip, const std::function<HeadPose(double time)>& pose);
 
 }  // namespace sweepface::cli

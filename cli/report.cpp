@@ -20,6 +20,7 @@ struct ReportArguments {
 void addOptions(CLI::App& app, ReportArguments& a) {
   addFace(app, a.face);
   addMeshes(app, a.neutral, a.targets);
+  app.get_option("NEUTRAL")->required(false);
   addOutput(app, a.output, "The .html file to write");
   app.add_option("--weights", a.weights,
                  "The expression shown beside the neutral; the target that moves furthest if not "
@@ -42,8 +43,11 @@ void addOptions(CLI::App& app, ReportArguments& a) {
       ->type_name("NAME");
   addQuiet(app, a.quiet);
   app.footer(
-      "\nWrites a page with pictures, tables and plots that needs nothing else to be read.\n\n"
-      "Example:\n  sweepface report face.sweep neutral.obj expressions/ -o report.html");
+      "\nWrites a page with pictures, tables and plots that needs nothing else to be read. Without "
+      "meshes to compare\nwith it shows how the face moves.\n\n"
+      "Examples:\n  sweepface report face.sweep neutral.obj expressions/ -o report.html\n"
+      "  sweepface report face.sweep --weights jawOpen=0.6,mouthSmileLeft=1,mouthSmileRight=1 -o "
+      "laugh.html");
 }
 
 Result<ReportOptions> optionsOf(const ReportArguments& a, const Rig& rig, std::size_t bytes) {
@@ -70,15 +74,17 @@ Result<std::string> reportOf(const ReportArguments& a) {
   Result<ReportOptions> options = optionsOf(a, *rig, bytes->size());
   if (!options) return std::unexpected(options.error());
   ProgressBar bar(a.quiet);
+  options->progress = [&](std::string_view what, double done) { bar.show(what, done); };
+  if (a.neutral.empty()) return makeMotionReport(*rig, *options);
   const Result<RigSource> source = readMeshes(a.neutral, a.targets, bar);
   if (!source) return std::unexpected(source.error());
-  options->progress = [&](std::string_view what, double done) { bar.show(what, done); };
   return makeReport(*rig, source->rig, *options);
 }
 
 Result<int> runReport(const ReportArguments& a) {
   std::vector<std::string> inputs = a.targets;
-  inputs.insert(inputs.end(), {a.neutral, a.face});
+  inputs.push_back(a.face);
+  if (!a.neutral.empty()) inputs.push_back(a.neutral);
   if (auto ok = checkOutput(a.output, inputs, {".obj", ".ply", ".glb", ".gltf", ".sweep", ".png"});
       !ok)
     return std::unexpected(ok.error());

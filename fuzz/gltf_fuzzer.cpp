@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cmath>
 #include <cstring>
 
 #include "sweepface/gltf.hpp"
@@ -38,7 +40,18 @@ void requireScene(const RigSource& source) {
 
 }  // namespace
 
+void requireSound(const sweepface::Result<sweepface::Clip>& clip) {
+  if (!clip) {
+    const std::string& message = clip.error().message;
+    return require(message.starts_with("input.glb: ") && message.ends_with('.'));
+  }
+  require(!clip->times.empty() && std::ranges::is_sorted(clip->times));
+  require(clip->weights.size() == clip->times.size() * clip->names.size());
+  for (const double weight : clip->weights) require(std::isfinite(weight));
+}
+
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  requireSound(parseGltfClip(fuzzing::asText(data, size), "input.glb", {}));
   const auto source = parseGltf(fuzzing::asText(data, size), "input.glb", {});
   if (!source) {
     const std::string& message = source.error().message;

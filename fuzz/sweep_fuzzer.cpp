@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <cstdlib>
 
+#include "sweepface/arcs.hpp"
 #include "sweepface/codec.hpp"
 #include "sweepface/eval.hpp"
 
@@ -89,12 +90,18 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   for (const FilePart& part : parts.value()) sum += part.bytes;
   require(sum == bytes.size());
   play(*rig);
+  if (!rig->turns.empty()) {
+    Rig turning = *rig;
+    addArcs(turning, turning.turns);
+    play(turning);
+  }
 
   // Encoded once more, the file stays as it is.
   const std::string again = encode(*rig);
   const auto back = decode(again, "again.sweep");
   require(back.has_value());
   require(back->neutral == rig->neutral && back->targets == rig->targets);
+  require(back->turns == rig->turns);
   require(encode(*back) == again);
   return 0;
 }

@@ -34,6 +34,10 @@ export interface LoadOptions {
   vertices?: number;
   /** What messages call the face. */
   name?: string;
+  /** Targets that turn, the jaw and lids, go on arcs, if the file tells about what they turn. */
+  arcs?: boolean;
+  /** `A_B` goes by the product of A and B, `A_50` stands in for A at 0.5. */
+  combine?: boolean;
   wasm?: ModuleSource;
 }
 
@@ -60,6 +64,8 @@ export class Sweepface {
   readonly lod: number;
   /** How far any source vertex may be off in any expression, in model units. */
   readonly tolerance: number;
+  /** How many targets turn about something that the file tells: what `arcs` is for. */
+  readonly turnCount: number;
   /** Vertices up to here are the source's (or, from lod 1 on, the surface's); others repeat one of them. */
   readonly pointCount: number;
   readonly vertexCount: number;

@@ -102,9 +102,11 @@ function withinMemory(run) {
 
 /** What all faces of one file at one level of detail share. */
 class Shared {
-  constructor(module, bytes, name, lod, budget) {
+  constructor(module, bytes, name, lod, follow, budget) {
     const runtime = this.runtime = new Runtime(module), {wasm} = runtime;
     this.rig = runtime.loadRig(bytes, name);
+    runtime.check(wasm.sweepface_rig_follow(this.rig, follow));
+    this.turnCount = wasm.sweepface_rig_turn_count(this.rig);
     this.mesh = budget ? runtime.get('sweepface_mesh_create_within', this.rig, ...budget) : runtime.get('sweepface_mesh_create', this.rig, lod);
     this.names = Array.from({length: wasm.sweepface_rig_target_count(this.rig)},
                             (_, k) => runtime.text(wasm.sweepface_rig_target_name(this.rig, k)));
@@ -165,14 +167,14 @@ export class Sweepface {
     ++runtime.users;
   }
 
-  static async load(bytes, {lod = 0, name = 'The face', wasm, ...rest} = {}) {
+  static async load(bytes, {lod = 0, name = 'The face', arcs = false, combine = false, wasm, ...rest} = {}) {
     if (!(bytes instanceof ArrayBuffer || ArrayBuffer.isView(bytes)))
       throw new TypeError('Sweepface.load needs the bytes of a .sweep file: an ArrayBuffer or a typed array.');
     if (!Number.isInteger(lod) || lod < 0) throw new RangeError('The level of detail must be a whole number from 0 on.');
     const view = ArrayBuffer.isView(bytes) ? new Uint8Array(bytes.buffer, bytes.byteOffset, bytes.byteLength) : new Uint8Array(bytes);
     const [budget] = BUDGETS.flatMap((kind, k) => (kind in rest ? [[k, Number(rest[kind])]] : []));
     const module = await compile(wasm);
-    return withinMemory(() => new Sweepface(new Shared(module, view, String(name), lod, budget)));
+    return withinMemory(() => new Sweepface(new Shared(module, view, String(name), lod, (arcs ? 1 : 0) + (combine ? 2 : 0), budget)));
   }
 
   /** Another face of the same file, at rest; the two share everything but their weights. */
@@ -184,6 +186,7 @@ export class Sweepface {
   get names() { return [...this.#open().names]; }
   get lod() { return this.#open().lod; }
   get tolerance() { return this.#open().runtime.wasm.sweepface_rig_tolerance(this.#shared.rig); }
+  get turnCount() { return this.#open().turnCount; }
   get pointCount() { return this.#open().runtime.wasm.sweepface_mesh_point_count(this.#shared.mesh); }
   get vertexCount() { return this.#open().vertexCount; }
   get triangles() { return this.#open().triangles(); }

@@ -8,17 +8,11 @@
 
 namespace sweepface {
 
-/// What an expression turns about: lids about an eyeball, a jaw about its hinge.
-struct Turn {
-  Index target = -1;
-  Vec3 pivot;
-  Vec3 axis;  ///< unit, through the pivot; zero where points stay at their distance from the pivot
-  friend bool operator==(const Turn&, const Turn&) = default;
-};
-
 /// The turns of those targets that are turns, from the model alone (docs/arcs.md). Of the library
 /// that converts.
 std::vector<Turn> findTurns(const Rig& rig);
+/// Those that the rig knows, or else those that are found.
+std::vector<Turn> turnsOf(const Rig& rig);
 
 /// Where a point is half-way on the arc from `from` to `to`, minus where it is half-way on the
 /// straight line; zero where no arc is meant: beside the axis, and for more than two thirds of half

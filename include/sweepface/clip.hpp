@@ -41,6 +41,11 @@ ClipMatch matchClip(const Clip& clip, std::span<const std::string> targets);
 Result<Clip> parseLiveLinkCsv(std::string_view text, std::string_view name,
                               double framesPerSecond = 60);
 
+/// The same from a clip: first the 52 shapes of ARKit and nine angles, as the app has them, then
+/// whatever else the clip names. Shapes go by matchClip(), what drives none is 0. Refuses times
+/// that are not from 0 up to a day, or nearer to each other than a timecode tells apart.
+Result<std::string> formatLiveLinkCsv(const Clip& clip, double framesPerSecond = 60);
+
 /// A JSON of Audio2Face (`exportFps`, `facsNames`, `weightMat`) or of MediaPipe's face landmarker
 /// (frames with a timestamp in milliseconds and `categories` of names and scores).
 Result<Clip> parseClipJson(std::string_view text, std::string_view name);

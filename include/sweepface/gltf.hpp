@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sweepface/clip.hpp"
+#include "sweepface/head.hpp"
 #include "sweepface/io.hpp"
 #include "sweepface/motion.hpp"
 #include "sweepface/result.hpp"
@@ -20,6 +21,18 @@ namespace sweepface {
 Result<RigSource> parseGltf(std::string_view bytes, std::string_view name,
                             const std::filesystem::path& folder);
 
+/// The weights of morph targets in an animation: the first that has any, or the one of that name.
+/// A frame for every key; curves are cut into straight lines of a 120th of a second.
+Result<Clip> parseGltfClip(std::string_view bytes, std::string_view name,
+                           const std::filesystem::path& folder, std::string_view animation = {});
+
+/// How a whole model turns about a point.
+struct HeadTrack {
+  std::vector<double> times;          ///< [F] seconds, increasing
+  std::vector<Quaternion> rotations;  ///< [F]
+  Vec3 pivot;
+};
+
 /// What formatGlb writes.
 struct GlbOptions {
   Index lod = 0;              ///< 0: the source's vertices in their order; N: every edge cut into N
@@ -31,6 +44,10 @@ struct GlbOptions {
   /// Instead of a motion: a key a frame with straight lines between them. Its names are the rig's
   /// targets.
   const Clip* clip = nullptr;
+  /// Greater than 0: the clip in as few keys with tangents as keep its weights so near.
+  double keyTolerance = 0;
+  /// Beside a motion or a clip: how the model turns.
+  const HeadTrack* head = nullptr;
   std::string animationName{};  ///< the law's, or "clip", if empty
 };
 

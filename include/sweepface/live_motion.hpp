@@ -53,6 +53,8 @@ class MotionState {
   /// Sends a weight to a goal; what it did before ends when the drive sets out. On an error
   /// nothing changes.
   Result<void> moveTo(std::size_t weight, double goal, const Drive& drive = {});
+  /// Whether that would be an error.
+  Result<void> check(std::size_t weight, double goal, const Drive& drive) const;
   /// The same for all weights [K].
   Result<void> moveTo(std::span<const double> goals, const Drive& drive = {});
   /// A blow: adds to a weight's velocity, which drag (per second) then takes away.
@@ -74,8 +76,19 @@ class MotionState {
   Result<Trajectory> prepare(std::size_t weight, double goal, const Drive& drive) const;
   void take(std::size_t weight, const Trajectory& next, double delay) noexcept;
 
+  // Springs that pull now, by themselves: they are what most frames are made of, and those that
+  // set out together decay together.
+  struct Pulled {
+    path::Swing swing{};
+    double began = 0;
+    bool now = false;
+  };
+  void notePull(std::size_t weight) noexcept;
+
   std::vector<Coordinate> coordinates_;
+  std::vector<Pulled> pulled_;  // [K]
   double now_ = 0;
+  double nextSwitch_ = 0;  // the first time at which a drive that waits sets out
 };
 
 }  // namespace sweepface

@@ -29,4 +29,8 @@ struct ReportOptions {
 /// nothing to load from elsewhere. Fails with a sentence where the two do not belong together.
 Result<std::string> makeReport(const Rig& rig, const MeshRig& source, const ReportOptions& options);
 
+/// The part of it that needs no meshes: linear interpolation beside Newton's law in 31 key frames,
+/// with measuring boxes and plots, and every law as a moving picture.
+Result<std::string> makeMotionReport(const Rig& rig, const ReportOptions& options);
+
 }  // namespace sweepface

@@ -19,6 +19,14 @@ struct Target {
   friend bool operator==(const Target&, const Target&) = default;
 };
 
+/// What an expression turns about: lids about an eyeball, a jaw about its hinge (docs/arcs.md).
+struct Turn {
+  Index target = -1;
+  Vec3 pivot;
+  Vec3 axis;  ///< unit, through the pivot; zero where points stay at their distance from the pivot
+  friend bool operator==(const Turn&, const Turn&) = default;
+};
+
 /// How the model answers in the source's own vertex order.
 struct SourceMesh {
   std::vector<Index>
@@ -76,6 +84,10 @@ struct Rig {
   Names names{};
 
   Packing packing;
+
+  /// What its targets turn about, by ascending target, each at most once; empty where nobody has
+  /// looked. Files hold them in single precision.
+  std::vector<Turn> turns{};
 
   /// Index of a target by its name, or -1.
   Index find(std::string_view name) const;

@@ -64,6 +64,18 @@ SWEEPFACE_API const char* sweepface_rig_target_name(const sweepface_rig* rig, ui
 SWEEPFACE_API sweepface_status sweepface_rig_find_target(const sweepface_rig* rig, const char* name,
                                                          uint32_t* target);
 
+/* How many targets turn about something that the file tells: the jaw about its hinge, lids about
+ * the eyeball. */
+SWEEPFACE_API uint32_t sweepface_rig_turn_count(const sweepface_rig* rig);
+
+/* Weights that follow from those that are set (docs/arcs.md), for meshes made from now on. */
+enum {
+  SWEEPFACE_ARCS = 1,   /* targets that turn go on arcs instead of straight lines */
+  SWEEPFACE_COMBINE = 2 /* A_B goes by the product of A and B, A_50 stands in for A at 0.5 */
+};
+/* `what` is a sum of the above; 0: none, as after loading. */
+SWEEPFACE_API sweepface_status sweepface_rig_follow(sweepface_rig* rig, uint32_t what);
+
 /* How far any source vertex may be off in any expression, in model units. */
 SWEEPFACE_API double sweepface_rig_tolerance(const sweepface_rig* rig);
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "sweepface/clip.hpp"
-#include "sweepface/live_motion.hpp"
+#include "sweepface/regional_motion.hpp"
 
 namespace sweepface {
 
@@ -15,6 +15,7 @@ struct TimelineEvent {
   double time = 0;                                    ///< seconds
   std::vector<std::pair<std::string, double>> goals;  ///< weights by name
   bool others = false;                                ///< all other weights go to 0
+  std::string region;                                 ///< only there; empty: everywhere
   Drive drive;
 };
 
@@ -30,5 +31,8 @@ Result<Timeline> parseTimeline(std::string_view text, std::string_view name);
 
 /// The timeline as a clip of `framesPerSecond`, from rest at 0: both ends included.
 Result<Clip> bake(const Timeline& timeline, double framesPerSecond);
+/// The same in one region: without what is meant for others, and by its own matter.
+Result<Clip> bake(const Timeline& timeline, double framesPerSecond, std::string_view region,
+                  const Matter& matter);
 
 }  // namespace sweepface

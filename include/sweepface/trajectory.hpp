@@ -54,6 +54,15 @@ struct Pieces {
 struct Swing {
   double goal, x, v, sigma, omega;
   Kinematics at(double t) const noexcept;
+  // What position and velocity at the start have become: the same for all alike springs.
+  struct Decay {
+    double c, s;
+  };
+  Decay decay(double t) const noexcept;
+  double position(const Decay& d) const noexcept {
+    const double y = x - goal;
+    return goal + (d.c * y + d.s * (v + sigma * y));
+  }
 };
 struct Bounces {
   Cubic fall;
@@ -107,6 +116,9 @@ class Trajectory {
                                           std::span<const Harmonic> harmonics);
 
   Kinematics at(double time) const noexcept;
+
+  /// Null unless a spring pulls.
+  const path::Swing* swing() const noexcept { return std::get_if<path::Swing>(&path_); }
 
  private:
   using Path = std::variant<path::Pieces, path::Swing, path::Bounces, path::Coasting, path::Driven>;

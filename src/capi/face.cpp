@@ -22,8 +22,8 @@ sweepface_status refuseWeight(const sweepface_face& face, std::size_t target) {
 
 bool fits(const sweepface_vectors& out) { return out.stride == 0 || out.stride >= kTight; }
 
-bool isNeutral(const sweepface_face& face) {
-  return std::ranges::all_of(face.weights, [](double w) { return w == 0; });
+bool isNeutral(const Weights& weights) {
+  return std::ranges::all_of(weights, [](double w) { return w == 0; });
 }
 
 VectorsOut pointsOf(const Mesh& mesh, const sweepface_vectors& out, std::size_t count) {
@@ -43,11 +43,22 @@ void repeatPoints(const Mesh& mesh, const sweepface_vectors& out, std::size_t co
 
 }  // namespace
 
+const Weights& sweepface::capi::follow(sweepface_face& face) {
+  if (face.mesh->followers.empty()) return face.weights;
+  std::ranges::fill(face.followed, 0.0);
+  std::ranges::copy(face.weights, face.followed.begin());
+  face.mesh->followers.apply(face.followed);
+  // Products of large weights are beyond what an evaluation takes.
+  for (double& w : face.followed) w = std::clamp(w, -SWEEPFACE_MOST_WEIGHT, SWEEPFACE_MOST_WEIGHT);
+  return face.followed;
+}
+
 sweepface_status sweepface_face_create(const sweepface_mesh* mesh, sweepface_face** face) {
   if (!mesh || !face) return refuse("Making a face needs a mesh and a place for it.");
   const Mesh& made = *mesh->mesh;
   const Weights rest(made.rig->targets.size(), 0.0);
   *face = new sweepface_face{mesh->mesh,
+                             Weights(made.shown, 0.0),
                              rest,
                              std::vector<std::byte>(made.neutral.scratchBytes()),
                              {.weights = rest},
@@ -83,7 +94,10 @@ const double* sweepface_face_weights(const sweepface_face* face) {
 double sweepface_face_error(const sweepface_face* face) {
   if (!face) return 0;
   const Mesh& mesh = *face->mesh;
-  return (isNeutral(*face) ? mesh.neutral : mesh.positions()).positionBound(face->weights);
+  Weights weights = face->weights;
+  weights.resize(mesh.rig->targets.size());
+  mesh.followers.apply(weights);
+  return (isNeutral(weights) ? mesh.neutral : mesh.positions()).positionBound(weights);
 }
 
 namespace {
@@ -109,19 +123,20 @@ void evaluate(sweepface_face& face, What what, const sweepface_vectors& to, std:
   auto& written = ofPositions ? face.positions : face.normals;
   const bool isThere =
       written.data == to.data && written.stride == to.stride && written.count == count;
+  const Weights& weights = follow(face);
   Evaluation job;
-  job.evaluator = isNeutral(face) ? &mesh.neutral
-                  : ofPositions   ? &mesh.positions()
-                                  : &mesh.normals();
+  job.evaluator = isNeutral(weights) ? &mesh.neutral
+                  : ofPositions      ? &mesh.positions()
+                                     : &mesh.normals();
   // The neutral's tables have no targets that could tell what differs.
-  if (onlyChanges && isThere && !isNeutral(face)) job.previous = written.weights;
-  job.weights = face.weights;
+  if (onlyChanges && isThere && !isNeutral(weights)) job.previous = written.weights;
+  job.weights = weights;
   job.scratch = face.scratch;
   (ofPositions ? job.positions : job.normals) = pointsOf(mesh, to, count);
   job.run();
   repeatPoints(mesh, to, count);
   written.data = to.data, written.stride = to.stride, written.count = count;
-  std::ranges::copy(face.weights, written.weights.begin());
+  std::ranges::copy(weights, written.weights.begin());
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "sweepface/evaluator.hpp"
+#include "sweepface/followers.hpp"
 #include "sweepface/live_motion.hpp"
 #include "sweepface/render_mesh.hpp"
 #include "sweepface/sweepface.h"
@@ -16,6 +17,8 @@
 
 struct sweepface_rig {
   std::shared_ptr<const sweepface::Rig> rig;
+  sweepface::Followers followers;  // of its targets; those that were added for them are not shown
+  std::size_t shown = 0;           // targets, the first ones
 };
 
 namespace sweepface::capi {
@@ -36,6 +39,8 @@ class LazyEvaluator {
 
 struct Mesh {
   std::shared_ptr<const Rig> rig;
+  Followers followers;
+  std::size_t shown;
   Index lod;
   Tessellation grid;
   Evaluator neutral;  // with the same options the others cannot fail
@@ -68,7 +73,8 @@ struct sweepface_mesh {
 
 struct sweepface_face {
   std::shared_ptr<const sweepface::capi::Mesh> mesh;
-  sweepface::Weights weights;
+  sweepface::Weights weights;   // [shown] as they were set
+  sweepface::Weights followed;  // [targets] with followers
   std::vector<std::byte> scratch;
 
   /// What an output holds, and where.
@@ -79,6 +85,11 @@ struct sweepface_face {
   };
   Written positions, normals;
 };
+
+namespace sweepface::capi {
+/// The face's weights with what follows them.
+const Weights& follow(sweepface_face& face);
+}  // namespace sweepface::capi
 
 struct sweepface_motion {
   sweepface::MotionState state;

@@ -25,8 +25,9 @@ sweepface_status makeMesh(const sweepface_rig& rig, Index lod, Tessellation grid
   RenderMesh render = lod == 0            ? renderSource(*rig.rig, grid)
                       : grid.level() == 0 ? renderDensity(*rig.rig, grid)
                                           : renderGrid(*rig.rig, grid);
-  *mesh = new sweepface_mesh{std::make_shared<Mesh>(rig.rig, lod, std::move(grid),
-                                                    std::move(*neutral), std::move(render))};
+  *mesh = new sweepface_mesh{std::make_shared<Mesh>(rig.rig, rig.followers, rig.shown, lod,
+                                                    std::move(grid), std::move(*neutral),
+                                                    std::move(render))};
   return SWEEPFACE_OK;
 }
 

@@ -1,5 +1,6 @@
 #include <string_view>
 
+#include "sweepface/arcs.hpp"
 #include "sweepface/codec.hpp"
 
 #include "capi/handles.hpp"
@@ -13,14 +14,15 @@ sweepface_status sweepface_rig_load(const void* bytes, size_t size, const char* 
   if (!rig || (!bytes && size > 0)) return refuse("Loading a rig needs bytes and a place for it.");
   Result<Rig> decoded = decode({static_cast<const char*>(bytes), size}, name ? name : "The face");
   if (!decoded) return refuse(SWEEPFACE_BAD_DATA, std::move(decoded.error().message));
-  *rig = new sweepface_rig{std::make_shared<const Rig>(std::move(*decoded))};
+  const std::size_t targets = decoded->targets.size();
+  *rig = new sweepface_rig{std::make_shared<const Rig>(std::move(*decoded)), {}, targets};
   return SWEEPFACE_OK;
 }
 
 void sweepface_rig_free(sweepface_rig* rig) { delete rig; }
 
 uint32_t sweepface_rig_target_count(const sweepface_rig* rig) {
-  return rig ? static_cast<uint32_t>(rig->rig->targets.size()) : 0;
+  return rig ? static_cast<uint32_t>(rig->shown) : 0;
 }
 
 const char* sweepface_rig_target_name(const sweepface_rig* rig, uint32_t target) {
@@ -32,8 +34,35 @@ sweepface_status sweepface_rig_find_target(const sweepface_rig* rig, const char*
                                            uint32_t* target) {
   if (!rig || !name || !target) return refuse("Finding a target needs a rig, a name and a place.");
   Result<Index> found = findTarget(*rig->rig, name);
+  if (found && static_cast<std::size_t>(*found) >= rig->shown)
+    found = fail(std::string("there is no target named '") + name + "'");
   if (!found) return refuse(sentence(std::move(found.error().message)));
   *target = static_cast<uint32_t>(*found);
+  return SWEEPFACE_OK;
+}
+
+uint32_t sweepface_rig_turn_count(const sweepface_rig* rig) {
+  return rig ? static_cast<uint32_t>(rig->rig->turns.size()) : 0;
+}
+
+sweepface_status sweepface_rig_follow(sweepface_rig* rig, uint32_t what) {
+  if (!rig) return refuse("Following weights need a rig.");
+  if ((what & ~uint32_t{SWEEPFACE_ARCS | SWEEPFACE_COMBINE}) != 0)
+    return refuse("Weights follow by SWEEPFACE_ARCS, SWEEPFACE_COMBINE or both.");
+  auto made = std::make_shared<Rig>(*rig->rig);
+  made->targets.resize(rig->shown);
+  std::vector<Follower> followers;
+  if (what & SWEEPFACE_COMBINE) {
+    std::vector<std::string> names;
+    for (const Target& target : made->targets) names.push_back(target.name);
+    followers = Followers::named(names);
+  }
+  if (what & SWEEPFACE_ARCS) {
+    const std::vector<Follower> arcs = addArcs(*made, made->turns);
+    followers.insert(followers.end(), arcs.begin(), arcs.end());
+  }
+  rig->followers = Followers(std::move(followers));
+  rig->rig = std::move(made);
   return SWEEPFACE_OK;
 }
 

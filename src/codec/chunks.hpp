@@ -38,7 +38,7 @@ inline constexpr std::array<Kind, 14> kKinds1{{{"HEAD", "container"},
                                                {"scen", "scene"},
                                                {"name", "names"},
                                                {"END ", "container"}}};
-inline constexpr std::array<Kind, 18> kKinds2{{{"BASE", "container"},
+inline constexpr std::array<Kind, 19> kKinds2{{{"BASE", "container"},
                                                {"GRID", "wireframe"},
                                                {"TNAM", "names"},
                                                {"REST", "neutral"},
@@ -55,6 +55,7 @@ inline constexpr std::array<Kind, 18> kKinds2{{{"BASE", "container"},
                                                {"quad", "quad corners"},
                                                {"scen", "scene"},
                                                {"name", "names"},
+                                               {"turn", "turns"},
                                                {"END ", "container"}}};
 
 /// The kinds of a version.

@@ -9,6 +9,7 @@
 #include "codec/lattice.hpp"
 #include "codec/names.hpp"
 #include "codec/pose_form.hpp"
+#include "codec/turns.hpp"
 #include "codec/wireframe_coder.hpp"
 
 namespace sweepface {
@@ -146,6 +147,12 @@ std::string thingNames(const Names& names) {
   return out.take();
 }
 
+std::string turnList(const std::vector<Turn>& turns) {
+  Writer out;
+  writeTurns(out, turns);
+  return out.take();
+}
+
 }  // namespace
 }  // namespace codec
 
@@ -171,6 +178,7 @@ std::string encode(const Rig& rig) {
   writeSource(out, rig, packing.textureBits);
   if (!rig.scene.empty()) writeChunk(out, "scen", scene(rig.scene));
   if (hasNames(rig.names)) writeChunk(out, "name", thingNames(rig.names));
+  if (const auto turns = storedTurns(rig); !turns.empty()) writeChunk(out, "turn", turnList(turns));
   writeChunk(out, "END ", {});
   return out.take();
 }

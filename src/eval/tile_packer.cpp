@@ -195,6 +195,7 @@ class Packer {
     head.groups = static_cast<std::uint8_t>(groups);
     head.wideVertices = std::ranges::any_of(source_.vertices, [](auto v) { return v > 0xffff; });
     boxNeutral(head);
+    head.windows = windows();
     head.widePairs = static_cast<std::uint16_t>(pairsOf(std::ssize(wide_)));
     head.pairs = static_cast<std::uint16_t>(head.widePairs + pairsOf(std::ssize(narrow_)));
     head.modePairs = static_cast<std::uint8_t>(modePairs());
@@ -215,6 +216,17 @@ class Packer {
     place((head.wideVertices ? 4 : 2) * kTileVertices);
     head.bytes = place(0);
     return head;
+  }
+
+  std::uint64_t windows() const {
+    std::uint64_t mask = 0;
+    for (const auto* list : {&wide_, &narrow_})
+      for (const int k : *list) {
+        const int window = source_.targets[k] / 64;
+        if (window >= 64) return 0;
+        mask |= std::uint64_t(1) << window;
+      }
+    return mask;
   }
 
   void boxNeutral(TileHead& head) const {

@@ -93,11 +93,33 @@ class TileWeights {
                                            low_, _mm512_loadu_si512(tile.targets + 2 * p), high_));
       return;
     }
+    if (tile.head->windows != 0) return chooseByWindows(tile, pairs);
 #endif
     pairWeights(tile, frame_, pairs);
   }
 
  private:
+#if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
+  /// Among many weights those of a tile lie in a few runs of 64, two registers each.
+  HWY_INLINE void chooseByWindows(const Tile& tile, std::uint32_t* pairs) const {
+    for (int p = 0; p < tile.head->pairs; p += kGroup) {
+      const __m512i targets = _mm512_loadu_si512(tile.targets + 2 * p);
+      const __m512i window = _mm512_srli_epi16(targets, 6);
+      __m512i chosen = _mm512_setzero_si512();
+      for (std::uint64_t left = tile.head->windows; left != 0; left &= left - 1) {
+        const int w = __builtin_ctzll(left);
+        const std::int16_t* const shorts = frame_.shorts + 64 * w;
+        const __m512i found = _mm512_permutex2var_epi16(_mm512_loadu_si512(shorts), targets,
+                                                        _mm512_loadu_si512(shorts + 32));
+        const __mmask32 here =
+            _mm512_cmpeq_epi16_mask(window, _mm512_set1_epi16(static_cast<short>(w)));
+        chosen = _mm512_mask_mov_epi16(chosen, here, found);
+      }
+      _mm512_storeu_si512(pairs + p, chosen);
+    }
+  }
+#endif
+
   const FrameWeights& frame_;
 #if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
   bool few_;

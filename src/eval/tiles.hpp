@@ -57,8 +57,9 @@ struct TileHead {
   std::array<std::uint8_t, 2> unused{};
   float step = 0;
   std::array<float, 3> origin{};
+  std::uint64_t windows = 0;  ///< bit k: a target is one of 64k ... 64k + 63; 0 where one is beyond
 };
-static_assert(sizeof(TileHead) == 48);
+static_assert(sizeof(TileHead) == 56);
 
 /// The pairs of targets that have coefficients in a block: the first of the wide and of the narrow.
 struct BlockPairs {

@@ -1,11 +1,11 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <numbers>
-#include <numeric>
 #include <optional>
 
 #include "sweepface/arcs.hpp"
-#include "sweepface/eval.hpp"
+
+#include "fit/balls.hpp"
 
 namespace sweepface {
 namespace {
@@ -23,7 +23,6 @@ constexpr double kRadial = 0.15;     // RMS change of distance from the axis, of
 constexpr double kSmallestTurn = 3;  // degrees
 constexpr double kSpread = 0.45;     // standard deviation of the angles, of their mean
 constexpr double kRigid = 0.01;      // RMS of what a rigid motion leaves, of the RMS way
-constexpr double kRound = 0.05;      // RMS distance from a sphere, of its radius
 constexpr double kOffCentre = 0.5;   // between an axis and a ball's centre, of the ball's radius
 
 /// A point of the neutral and where it goes.
@@ -93,26 +92,6 @@ bool isTurn(std::span<const Way> ways, const Axis& axis) {
          radial <= kRadial * kRadial * all;
 }
 
-// ---- Parts ----
-
-/// Points that hang together.
-using Part = std::vector<Index>;
-
-std::vector<Part> partsOf(const Tessellation& grid) {
-  std::vector<Index> parent(grid.vertexCount());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](Index v) {
-    while (parent[v] != v) v = parent[v] = parent[parent[v]];
-    return v;
-  };
-  for (const auto& face : grid.faces())
-    for (int k = 1; k < 4; ++k) parent[root(face[k])] = root(face[0]);
-  std::vector<Part> parts(parent.size());
-  for (Index v = 0; v < grid.vertexCount(); ++v) parts[root(v)].push_back(v);
-  std::erase_if(parts, [](const Part& part) { return part.empty(); });
-  return parts;
-}
-
 /// What the best rigid motion leaves of the ways (Kabsch 1976).
 bool isRigid(std::span<const Way> ways) {
   Vector from = Vector::Zero(), to = Vector::Zero();
@@ -127,37 +106,6 @@ bool isRigid(std::span<const Way> ways) {
   double left = 0;
   for (const Way& w : ways) left += (w.to - to - rotation * (w.from - from)).squaredNorm();
   return left <= kRigid * kRigid * squares(ways);
-}
-
-struct Ball {
-  Vector centre;
-  double radius = 0;
-};
-
-/// |p|² = 2 c · p + (r² − |c|²) is linear in c and in what is in brackets.
-std::optional<Ball> ballOf(std::span<const Vector> points) {
-  if (points.size() < 50) return {};
-  Eigen::Matrix4d m = Eigen::Matrix4d::Zero();
-  Eigen::Vector4d right = Eigen::Vector4d::Zero();
-  const Vector origin = points[0];
-  for (const Vector& point : points) {
-    const Vector p = point - origin;
-    const Eigen::Vector4d row(2 * p.x(), 2 * p.y(), 2 * p.z(), 1);
-    m += row * row.transpose();
-    right += row * p.squaredNorm();
-  }
-  const Eigen::Vector4d x = m.ldlt().solve(right);
-  Ball ball{x.head<3>() + origin, std::sqrt(std::max(0.0, x[3] + x.head<3>().squaredNorm()))};
-  double squares = 0;
-  Eigen::AlignedBox3d box;
-  for (const Vector& p : points) {
-    squares += std::pow((p - ball.centre).norm() - ball.radius, 2);
-    box.extend(p);
-  }
-  const double rms = std::sqrt(squares / static_cast<double>(points.size()));
-  // A lens is round as well, but it is not most of a ball.
-  if (!(rms <= kRound * ball.radius) || !(box.sizes().minCoeff() > 1.5 * ball.radius)) return {};
-  return ball;
 }
 
 // ---- Targets ----
@@ -250,5 +198,7 @@ std::vector<Turn> findTurns(const Rig& rig) {
     if (const auto turn = finder.find(k)) turns.push_back(*turn);
   return turns;
 }
+
+std::vector<Turn> turnsOf(const Rig& rig) { return rig.turns.empty() ? findTurns(rig) : rig.turns; }
 
 }  // namespace sweepface

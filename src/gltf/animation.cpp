@@ -4,6 +4,10 @@
 #include <limits>
 #include <map>
 
+#include "sweepface/keys.hpp"
+
+#include "gltf/head_track.hpp"
+
 namespace sweepface::gltf {
 namespace {
 
@@ -46,6 +50,28 @@ Keys framesOf(const Clip& clip, const std::vector<std::size_t>& targets) {
   return keys;
 }
 
+/// The columns of some targets.
+Keys columnsOf(const CubicKeys& all, const std::vector<std::size_t>& targets) {
+  Keys keys;
+  keys.cubic = true;
+  for (const double time : all.times) keys.times.push_back(single(time));
+  for (std::size_t k = 0; k < all.times.size(); ++k) {
+    // Players multiply slopes with the times that they read.
+    const auto stretch = [&](std::size_t a, std::size_t b) {
+      return (all.times[b] - all.times[a]) / (keys.times[b] - keys.times[a]);
+    };
+    const double before = k > 0 ? stretch(k - 1, k) : 1,
+                 after = k + 1 < all.times.size() ? stretch(k, k + 1) : 1;
+    for (const std::size_t target : targets) {
+      const std::size_t place = k * all.names.size() + target;
+      keys.in.push_back(before * all.in[place]);
+      keys.values.push_back(all.values[place]);
+      keys.out.push_back(after * all.out[place]);
+    }
+  }
+  return keys;
+}
+
 /// What is before the first and after the last key does not count, but must be a number.
 std::vector<double> interleaved(const Keys& keys) {
   if (!keys.cubic) return keys.values;
@@ -77,6 +103,10 @@ class Animator {
   Result<void> run() {
     std::string name = options_.animationName;
     if (name.empty()) name = options_.motion ? nameOf(options_.motion->law()) : "clip";
+    if (options_.clip && options_.keyTolerance > 0)
+      few_ = fewestKeys(*options_.clip, options_.keyTolerance);
+    // A key with tangents is as large as three without.
+    if (few_ && 3 * few_->times.size() > options_.clip->times.size()) few_.reset();
     animation_ = {{"name", name}, {"channels", Json::array()}, {"samplers", Json::array()}};
     const std::vector<Index> shown = shownMeshes(scene_);
     for (std::size_t n = 0; n < shown.size(); ++n)
@@ -84,6 +114,8 @@ class Animator {
         if (auto ok = addNode(n, shown[n]); !ok) return ok;
     if (animation_["channels"].empty())
       return fail("The face has no target in its scene that an animation could move.");
+    if (options_.head)
+      if (auto ok = addHead(); !ok) return ok;
     Json& animations = scene_.document.json["animations"];
     if (!animations.is_array()) animations = Json::array();
     animations.push_back(std::move(animation_));
@@ -100,13 +132,28 @@ class Animator {
     return {};
   }
 
+  Result<void> addHead() {
+    std::vector<double> rotations;
+    for (const Quaternion& q : options_.head->rotations)
+      rotations.insert(rotations.end(), q.begin(), q.end());
+    const Vec3& pivot = options_.head->pivot;
+    if (!areSingle(options_.head->times) || !increase(options_.head->times) ||
+        !areSingle(rotations) || !areSingle({pivot.x, pivot.y, pivot.z}) ||
+        rotations.size() != 4 * options_.head->times.size() || rotations.empty())
+      return fail("The head's rotation needs one for each of its increasing times.");
+    constexpr double kRadians = 0.001;
+    return addHeadTrack(scene_.document, *options_.head, options_.keyTolerance > 0 ? kRadians : 0,
+                        animation_, builder_);
+  }
+
   Result<std::size_t> samplerOf(Index mesh) {
     if (const auto known = samplers_.find(mesh); known != samplers_.end()) return known->second;
     std::vector<std::size_t> targets;
     for (const std::size_t t : scene_.parts.meshes[mesh].targets)
       targets.push_back(static_cast<std::size_t>(scene_.targets[t]));
-    const Keys keys =
-        options_.motion ? exactKeys(*options_.motion, targets) : framesOf(*options_.clip, targets);
+    const Keys keys = options_.motion ? exactKeys(*options_.motion, targets)
+                      : few_          ? columnsOf(*few_, targets)
+                                      : framesOf(*options_.clip, targets);
     const std::vector<double> values = interleaved(keys);
     if (!areSingle(keys.times) || !increase(keys.times) || !areSingle(values))
       return fail(
@@ -127,6 +174,7 @@ class Animator {
   const GlbOptions& options_;
   Builder& builder_;
   Json animation_;
+  std::optional<CubicKeys> few_;           // of a clip, if wanted
   std::optional<std::size_t> input_;       // the times, the same for all meshes
   std::map<Index, std::size_t> samplers_;  // of meshes
 };

@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 #include <map>
 #include <numeric>
+#include <set>
 
+#include "gltf/more_targets.hpp"
 #include "gltf/triangles.hpp"
 
 namespace sweepface::gltf {
@@ -81,7 +83,16 @@ class FaceFinder {
   std::size_t named_ = 0;
 };
 
-/// The rig's target of each of the scene's, and the other way round none is left over.
+/// Targets of the rig that its scene came without.
+std::vector<std::string> newTargets(const Rig& rig, const std::vector<std::string>& known) {
+  const std::set<std::string_view> names(known.begin(), known.end());
+  std::vector<std::string> more;
+  for (const Target& target : rig.targets)
+    if (!names.contains(target.name)) more.push_back(target.name);
+  return more;
+}
+
+/// The rig's target of each of the scene's.
 Result<std::vector<Index>> matchTargets(const Rig& rig, const std::vector<std::string>& names) {
   std::map<std::string_view, Index> numbers;
   for (std::size_t k = 0; k < rig.targets.size(); ++k)
@@ -94,8 +105,7 @@ Result<std::vector<Index>> matchTargets(const Rig& rig, const std::vector<std::s
     targets.push_back(number->second);
     numbers.erase(number);
   }
-  if (numbers.empty()) return targets;
-  return doesNotFit(fmt::format("only the former has the target '{}'", numbers.begin()->first));
+  return targets;
 }
 
 }  // namespace
@@ -117,10 +127,15 @@ Result<BoundScene> sceneOf(const Rig& rig) {
   if (!document) return doesNotFit(document.error().message);
   auto parts = findParts(*document);
   if (!parts) return doesNotFit(parts.error().message);
+  if (document->buffers.size() > 1) return doesNotFit("it has several buffers");
+  if (const auto more = newTargets(rig, parts->targets); !more.empty()) {
+    if (auto ok = addTargets(*document, *parts, more); !ok) return doesNotFit(ok.error().message);
+    parts = findParts(*document);
+    if (!parts) return doesNotFit(parts.error().message);
+  }
   const std::size_t vertices = rig.source.gridVertex.size();
   if (parts->vertexCount != vertices)
     return doesNotFit(fmt::format("they have {} and {} vertices", vertices, parts->vertexCount));
-  if (document->buffers.size() > 1) return doesNotFit("it has several buffers");
   BoundScene scene{
       std::move(*document), std::move(*parts), {}, {}, rig.source.polygons.corners, {}};
   auto targets = matchTargets(rig, scene.parts.targets);

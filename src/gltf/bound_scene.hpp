@@ -19,7 +19,8 @@ struct BoundScene {
 /// [nodes] the mesh of the parts that each node shows, in parts.meshes, or -1.
 std::vector<Index> shownMeshes(const BoundScene& scene);
 
-/// The scene that came with a rig. Fails where the two do not fit.
+/// The scene that came with a rig, with room for targets that are new. Fails where the two do not
+/// fit.
 Result<BoundScene> sceneOf(const Rig& rig);
 
 /// A scene of one mesh made from a rig's polygons: a primitive for every material, the vertices in

@@ -36,6 +36,8 @@ Result<void> check(const Rig& rig, const GlbOptions& options) {
     return differ("clip", options.clip->names.size());
   if (options.clip)
     if (auto ok = check(*options.clip); !ok) return ok;
+  if (!(options.keyTolerance >= 0 && options.keyTolerance < 1e9))
+    return fail("The tolerance of keys is a number from 0.");
   if (options.lod < 0) return fail("A level of detail is 0 or more.");
   for (const double weight : options.weights)
     if (!(std::abs(weight) <= std::numeric_limits<float>::max()))

@@ -60,7 +60,7 @@ class LiveLinkReader {
     for (std::size_t c = 0; c < columns_; ++c)
       if (auto ok = readHeading(headings[c], c); !ok) return ok;
     if (timeColumn_ >= columns_)
-      return failLine("there is no column 'Timecode'; is this a Live Link Face recording?");
+      return failLine("there is no column 'Timecode'; this may be no recording of Live Link Face");
     if (clip_.names.empty()) return failLine("there is no column of a shape");
     return {};
   }
@@ -81,7 +81,7 @@ class LiveLinkReader {
   Result<void> readRow() {
     const auto row = cells(lines_.line());
     if (row.size() != columns_)
-      return failLine(fmt::format("there are {} values under {} headings; was the file cut short?",
+      return failLine(fmt::format("there are {} values under {} headings; the file may be cut short",
                                   row.size(), columns_));
     const Result<double> time = timecode(row[timeColumn_]);
     if (!time) return std::unexpected(time.error());

@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <initializer_list>
@@ -7,6 +6,7 @@
 
 #include "sweepface/timeline.hpp"
 
+#include "io/json_fields.hpp"
 #include "io/json_text.hpp"
 
 namespace sweepface {
@@ -19,15 +19,14 @@ class TimelineReader {
   TimelineReader(std::string_view name, const Json& json) : name_(name), json_(json) {}
 
   Result<Timeline> read() {
-    if (!json_.is_object()) return failAt("the file", "is not an object");
-    if (auto ok = knows(json_, "the file", {"seconds", "loops", "poses", "events"}); !ok)
+    const io::JsonFields file = fields(json_, "the file");
+    if (auto ok = file.isObject({"seconds", "loops", "poses", "events", "regions"}); !ok)
       return std::unexpected(ok.error());
     Timeline timeline;
     double loops = 1;
-    if (auto ok = number(json_, "the file", "seconds", timeline.seconds, true); !ok)
+    if (auto ok = file.number("seconds", timeline.seconds, true); !ok)
       return std::unexpected(ok.error());
-    if (auto ok = number(json_, "the file", "loops", loops, false); !ok)
-      return std::unexpected(ok.error());
+    if (auto ok = file.number("loops", loops); !ok) return std::unexpected(ok.error());
     if (!(timeline.seconds > 0)) return failAt("'seconds'", "must be greater than 0");
     if (!(loops >= 1 && loops <= 10'000 && loops == std::floor(loops)))
       return failAt("'loops'", "must be a whole number from 1 to 10000");
@@ -48,45 +47,26 @@ class TimelineReader {
   }
 
  private:
+  io::JsonFields fields(const Json& object, std::string place) const {
+    return {name_, object, std::move(place)};
+  }
   std::unexpected<Error> failAt(std::string_view place, std::string_view what) const {
-    return fail(fmt::format("{}: {} {}.", name_, place, what));
-  }
-
-  Result<void> knows(const Json& object, std::string_view place,
-                     std::initializer_list<std::string_view> keys) const {
-    for (const auto& [key, value] : object.items())
-      if (std::ranges::find(keys, key) == keys.end())
-        return failAt(place, fmt::format("has an unknown key '{}'", key));
-    return {};
-  }
-
-  Result<void> number(const Json& object, std::string_view place, const char* key, double& value,
-                      bool required) const {
-    const auto found = object.find(key);
-    if (found == object.end()) {
-      if (required) return failAt(place, fmt::format("has no '{}'", key));
-      return {};
-    }
-    if (!found->is_number() || !std::isfinite(found->get<double>()))
-      return failAt(place, fmt::format("has a '{}' that is not a number", key));
-    value = found->get<double>();
-    return {};
+    return fields(json_, {}).failAt(place, what);
   }
 
   Result<TimelineEvent> readEvent(const Json& json, const std::string& place) const {
-    if (!json.is_object()) return failAt(place, "is not an object");
-    if (auto ok = knows(json, place,
-                        {"at", "to", "only", "drive", "seconds", "turn", "frequency", "damping",
-                         "restitution", "delay"});
+    const io::JsonFields at = fields(json, place);
+    if (auto ok = at.isObject({"at", "to", "only", "drive", "seconds", "turn", "frequency",
+                               "damping", "restitution", "delay", "region"});
         !ok)
       return std::unexpected(ok.error());
     TimelineEvent event;
-    if (const auto drive = json.find("drive"); drive != json.end()) {
-      if (!drive->is_string()) return failAt(place, "has a 'drive' that is not a name");
-      const Result<Drive> named = driveFromName(drive->get<std::string>());
-      if (!named) return fail(fmt::format("{}: {}: {}", name_, place, named.error().message));
-      event.drive = *named;
-    }
+    std::string drive(nameOf(event.drive.kind));
+    if (auto ok = at.text("drive", drive); !ok) return std::unexpected(ok.error());
+    if (auto ok = at.text("region", event.region); !ok) return std::unexpected(ok.error());
+    const Result<Drive> named = driveFromName(drive);
+    if (!named) return at.pass(named.error());
+    event.drive = *named;
     const std::initializer_list<std::pair<const char*, double*>> numbers{
         {"at", &event.time},
         {"seconds", &event.drive.seconds},
@@ -96,7 +76,7 @@ class TimelineReader {
         {"restitution", &event.drive.restitution},
         {"delay", &event.drive.delay}};
     for (const auto& [key, value] : numbers)
-      if (auto ok = number(json, place, key, *value, key == std::string_view("at")); !ok)
+      if (auto ok = at.number(key, *value, key == std::string_view("at")); !ok)
         return std::unexpected(ok.error());
     if (event.time < 0) return failAt(place, "is before 0");
     // A drive that could not even set out from rest is refused here, where its place is known.

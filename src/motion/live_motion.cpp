@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <string>
 
 namespace sweepface {
@@ -19,6 +20,8 @@ constexpr std::array kNames{Name{Drive::Kind::cut, "cut"},
                             Name{Drive::Kind::accelerateBrake, "accelerate-brake"},
                             Name{Drive::Kind::spring, "spring"},
                             Name{Drive::Kind::bounce, "bounce"}};
+
+constexpr double kNever = std::numeric_limits<double>::infinity();
 
 Result<void> checkIndex(std::size_t weight, std::size_t count) {
   if (weight < count) return {};
@@ -72,11 +75,26 @@ Result<MotionState> MotionState::make(std::span<const double> weights) {
       return fail("Weight ", k, " of the motion is not a finite number.");
     state.coordinates_.push_back({Trajectory(weights[k]), Trajectory(weights[k]), 0, 0});
   }
+  state.pulled_.resize(weights.size());
+  state.nextSwitch_ = kNever;
   return state;
 }
 
 void MotionState::advance(double seconds) noexcept {
   if (seconds > 0) now_ += seconds;
+  if (now_ < nextSwitch_) return;
+  nextSwitch_ = kNever;
+  for (std::size_t k = 0; k < size(); ++k) notePull(k);
+}
+
+void MotionState::notePull(std::size_t weight) noexcept {
+  const Coordinate& coordinate = coordinates_[weight];
+  const bool waits = now_ < coordinate.switchAt;
+  if (waits) nextSwitch_ = std::min(nextSwitch_, coordinate.switchAt);
+  const Trajectory& trajectory = waits ? coordinate.now : coordinate.next;
+  const path::Swing* const swing = trajectory.swing();
+  pulled_[weight].now = swing != nullptr;
+  if (swing) pulled_[weight] = {*swing, waits ? coordinate.began : coordinate.switchAt, true};
 }
 
 Result<Trajectory> MotionState::prepare(std::size_t weight, double goal, const Drive& drive) const {
@@ -100,6 +118,12 @@ void MotionState::take(std::size_t weight, const Trajectory& next, double delay)
   }
   coordinate.next = next;
   coordinate.switchAt = now_ + delay;
+  notePull(weight);
+}
+
+Result<void> MotionState::check(std::size_t weight, double goal, const Drive& drive) const {
+  if (const auto next = prepare(weight, goal, drive); !next) return std::unexpected(next.error());
+  return {};
 }
 
 Result<void> MotionState::moveTo(std::size_t weight, double goal, const Drive& drive) {
@@ -114,7 +138,7 @@ Result<void> MotionState::moveTo(std::span<const double> goals, const Drive& dri
     return fail("There are ", goals.size(), " goals for ", size(), " weights; give one each.");
   // All are prepared before the first sets out, so that an error leaves everything as it was.
   for (std::size_t k = 0; k < size(); ++k)
-    if (const auto next = prepare(k, goals[k], drive); !next) return std::unexpected(next.error());
+    if (auto ok = check(k, goals[k], drive); !ok) return ok;
   for (std::size_t k = 0; k < size(); ++k) take(k, *prepare(k, goals[k], drive), drive.delay);
   return {};
 }
@@ -134,7 +158,21 @@ Kinematics MotionState::sample(std::size_t weight) const noexcept {
 
 void MotionState::positions(std::span<double> out) const noexcept {
   const std::size_t count = std::min(size(), out.size());
-  for (std::size_t k = 0; k < count; ++k) out[k] = sample(k).position;
+  path::Swing::Decay decay{};
+  double sigma = -1, omega = -1, since = -1;
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto& [swing, began, now] = pulled_[k];
+    const double time = now_ - began;
+    if (!now || !(time >= 0)) {
+      out[k] = sample(k).position;
+      continue;
+    }
+    if (swing.sigma != sigma || swing.omega != omega || time != since) {
+      sigma = swing.sigma, omega = swing.omega, since = time;
+      decay = swing.decay(time);
+    }
+    out[k] = swing.position(decay);
+  }
 }
 
 void MotionState::velocities(std::span<double> out) const noexcept {

@@ -10,22 +10,29 @@ std::size_t indexOf(const std::vector<std::string>& names, std::string_view name
   return static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
 }
 
-Result<void> play(const TimelineEvent& event, const Clip& clip, MotionState& state) {
+Result<void> play(const TimelineEvent& event, const Clip& clip, const Matter& matter,
+                  MotionState& state) {
+  const Drive drive = inMatter(event.drive, matter);
   std::vector<bool> named(clip.names.size(), false);
   for (const auto& [name, goal] : event.goals) {
     const std::size_t k = indexOf(clip.names, name);
     named[k] = true;
-    if (auto ok = state.moveTo(k, goal, event.drive); !ok) return ok;
+    if (auto ok = state.moveTo(k, goal, drive); !ok) return ok;
   }
   for (std::size_t k = 0; event.others && k < named.size(); ++k)
     if (!named[k])
-      if (auto ok = state.moveTo(k, 0, event.drive); !ok) return ok;
+      if (auto ok = state.moveTo(k, 0, drive); !ok) return ok;
   return {};
 }
 
 }  // namespace
 
 Result<Clip> bake(const Timeline& timeline, double framesPerSecond) {
+  return bake(timeline, framesPerSecond, {}, {});
+}
+
+Result<Clip> bake(const Timeline& timeline, double framesPerSecond, std::string_view region,
+                  const Matter& matter) {
   const double frames = std::round(timeline.seconds * timeline.loops * framesPerSecond);
   if (!(framesPerSecond > 0) || !(frames >= 1 && frames <= 1e6))
     return fail("A timeline is baked into 1 to 1,000,000 frames; change its length or the rate.");
@@ -51,7 +58,9 @@ Result<Clip> bake(const Timeline& timeline, double framesPerSecond) {
       const double start = event.time + loop * timeline.seconds;
       if (start > time) break;
       state->advance(start - state->now());
-      if (auto ok = play(event, clip, *state); !ok) return std::unexpected(ok.error());
+      const bool here = event.region.empty() || event.region == region;
+      if (auto ok = here ? play(event, clip, matter, *state) : Result<void>{}; !ok)
+        return std::unexpected(ok.error());
       ++next;
     }
     state->advance(time - state->now());

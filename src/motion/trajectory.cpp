@@ -48,7 +48,7 @@ Kinematics path::Pieces::at(double t) const noexcept {
 
 // With y = x − goal, y = E C y₀ + E S (v₀ + σ y₀), where E = e^(−σt) and C, S are cos(wt) and
 // sin(wt)/w, or cosh and sinh/w beyond critical damping; w² = |ω² − σ²|.
-Kinematics path::Swing::at(double t) const noexcept {
+path::Swing::Decay path::Swing::decay(double t) const noexcept {
   const double difference = (omega - sigma) * (omega + sigma);
   const double w = std::sqrt(std::abs(difference)), angle = w * t;
   double c, s;
@@ -66,6 +66,11 @@ Kinematics path::Swing::at(double t) const noexcept {
     c = slow * (1 + shrink) / 2;
     s = slow * -ode::exponentialLess1(-2 * angle) / (2 * w);
   }
+  return {c, s};
+}
+
+Kinematics path::Swing::at(double t) const noexcept {
+  const auto [c, s] = decay(t);
   const double y = x - goal, pull = omega * omega;
   const double position = c * y + s * (v + sigma * y),
                velocity = c * v - s * (sigma * v + pull * y);

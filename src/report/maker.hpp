@@ -66,12 +66,9 @@ class ReportMaker {
   Result<Trial> tryTolerance(double tolerance);
   double rmsOf(const Rig& rig) const;
 
-  // motion_sections.cpp
+  // shape_section.cpp
   Result<std::string> shapes();
   Result<std::string> motion();
-  Result<std::string> strips();
-  std::vector<Box> measuringBoxes() const;
-  std::string motionPlots() const;
 
   const Rig& rig_;
   const MeshRig& source_;

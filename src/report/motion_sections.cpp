@@ -1,64 +1,107 @@
+#include "report/motion_sections.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
 
+#include "sweepface/laws.hpp"
 #include "sweepface/motion.hpp"
 #include "sweepface/plot.hpp"
 
-#include "report/maker.hpp"
-#include "report/shape_study.hpp"
+#include "report/words.hpp"
 
 namespace sweepface {
 namespace {
 
-constexpr PictureSize kFrame{232, 290}, kPatch{360, 270};
+constexpr PictureSize kFrame{232, 290}, kSprite{150, 188};
 constexpr int kKeyFrames = 31, kShownFrames = 6;
+constexpr std::array kPaperLaws{TimeLaw::linear, TimeLaw::newton};
 
-/// -10000 as "−10,000".
-std::string parameter(double x) {
-  return (x < 0 ? "−" : "") + count(static_cast<std::size_t>(std::abs(x)));
-}
+// The moving pictures show the nearest of these poses.
+constexpr int kPoses = 25;
+constexpr double kFurthest = 1.5;
+constexpr double kSeconds = 2.5, kRate = 24;
 
 double shareOfTime(int frame) { return static_cast<double>(frame) / (kKeyFrames - 1); }
 
-}  // namespace
-
-// ---- Shape parameters ----
-
-Result<std::string> ReportMaker::shapes() {
-  const ShapeStudy study = studyShapes(rig_.surface, blend(rig_, rest_));
-  if (study.shapes.empty()) return "";
-  const Camera camera = frameCamera(study.shapes.front().scene.positions, study.view, kPatch, 0.08);
-  Figures figures;
-  std::vector<Series> profiles;
-  constexpr std::array colours{kGrey, kBlue, kGreen, kRed};
-  for (std::size_t k = 0; k < study.shapes.size(); ++k) {
-    const ShapedPatch& s = study.shapes[k];
-    const bool plain = k == 0;
-    std::string name = fmt::format("η = {}, λ = {}", parameter(s.eta), parameter(s.lambda));
-    if (!plain) name += fmt::format(": moves by up to {}", number(s.moved));
-    figures.add(picture(s.scene, camera, name, kPatch));
-    profiles.push_back({fmt::format("{} / {}", parameter(s.eta), parameter(s.lambda)),
-                        colours[k % colours.size()], s.profile, false, plain});
-  }
-  if (figures.error) return std::unexpected(*figures.error);
-  return section(
-             "Shape parameters",
-             fmt::format("Patch {} under ρS⁽⁶⁾ + ηS⁽⁴⁾ + λS″ = 0 with ρ = 1 and several η and λ, "
-                         "measured over the whole sweep. Its two boundary curves stay with their "
-                         "first and second derivatives. In between, −η draws it towards a cubic "
-                         "and λ towards a straight line, like a strip under tension. The plot "
-                         "shows the height of the sweep's middle line above its chord, by η / λ.",
-                         study.patch)) +
-         row(figures.html, "four") +
-         linePlot("Profile of the sweep", {"way along the sweep"}, {"height"}, profiles);
+Weights scaled(Weights weights, double by) {
+  for (double& w : weights) w *= by;
+  return weights;
 }
 
-// ---- Motion ----
+int poseAt(double position) {
+  const double pose = std::round(position / kFurthest * (kPoses - 1));
+  return static_cast<int>(std::clamp(pose, 0.0, kPoses - 1.0));
+}
 
-Result<std::string> ReportMaker::motion() {
-  if (!moves_) return "";
+/// The poses of a law, one after the other, as an animation of a style sheet.
+std::string moves(std::size_t number, const Trajectory& path) {
+  const int frames = static_cast<int>(kSeconds * kRate);
+  std::string steps;
+  int before = -1;
+  for (int k = 0; k < frames; ++k) {
+    const int pose = poseAt(path.at(k / kRate).position);
+    if (pose == before) continue;
+    steps += fmt::format("{:.2f}%{{background-position:-{}px 0}}", 100.0 * k / frames,
+                         pose * kSprite.width);
+    before = pose;
+  }
+  return fmt::format("@keyframes law{}{{{}}}\n", number, steps);
+}
+
+}  // namespace
+
+std::string mixtureOf(const Rig& rig, const Weights& weights) {
+  std::string text;
+  for (std::size_t k = 0; k < weights.size(); ++k) {
+    if (weights[k] == 0) continue;
+    if (!text.empty()) text += ", ";
+    text += rig.targets[k].name;
+    if (weights[k] != 1) text += fmt::format("={:.3g}", weights[k]);
+  }
+  return text;
+}
+
+Weights strongestOf(const Rig& rig) {
+  Weights weights(rig.targets.size(), 0.0);
+  double most = 0;
+  std::size_t best = weights.size();
+  for (std::size_t k = 0; k < weights.size(); ++k) {
+    double sum = 0;
+    for (Index v = 0; v < rig.surface.storedCount(); ++v)
+      if (rig.surface.stored(v).i == 0 && rig.surface.stored(v).j == 0)
+        sum += dot(rig.targets[k].difference[v], rig.targets[k].difference[v]);
+    if (sum > most) most = sum, best = k;
+  }
+  if (best < weights.size()) weights[best] = 1;
+  return weights;
+}
+
+MotionSections::MotionSections(const Rig& rig, const FaceScenes& scenes, const Weights& expression,
+                               const Camera& front, std::span<const std::string> regions,
+                               std::function<void()> drawn)
+    : rig_(rig),
+      scenes_(scenes),
+      expression_(expression),
+      front_(front),
+      regions_(regions),
+      drawn_(std::move(drawn)),
+      fine_(rig, lodFor(rig.surface, Style::shaded, kFrame)),
+      rest_(rig.targets.size(), 0.0) {}
+
+int MotionSections::pictures() {
+  return static_cast<int>(kPaperLaws.size()) * kShownFrames + kPoses;
+}
+
+Result<Image> MotionSections::picture(double way, PictureSize size) const {
+  if (drawn_) drawn_();
+  return render(fine_.scene(scaled(expression_, way), Style::shaded), front_, size);
+}
+
+// ---- The paper's experiment ----
+
+Result<std::string> MotionSections::experiment() const {
   const Result<std::string> frames = strips();
   if (!frames) return std::unexpected(frames.error());
   return section("Linear and Newton",
@@ -68,36 +111,35 @@ Result<std::string> ReportMaker::motion() {
                              "Newton's second law a constant force accelerates the face from "
                              "rest: its velocity grows evenly. The plots follow the point of the "
                              "face that goes furthest.",
-                             mixture(), kKeyFrames)) +
-         *frames + motionPlots();
+                             mixtureOf(rig_, expression_), kKeyFrames)) +
+         *frames + plots();
 }
 
-Result<std::string> ReportMaker::strips() {
-  constexpr std::array laws{TimeLaw::linear, TimeLaw::newton};
-  const FaceScenes scenes(rig_, lodFor(rig_.surface, Style::shaded, kFrame));
+Result<std::string> MotionSections::strips() const {
   const std::vector<Box> boxes = measuringBoxes();
   std::string times;
   for (int k = 0; k < kShownFrames; ++k) {
     const int frame = k * (kKeyFrames - 1) / (kShownFrames - 1);
-    Figures column;
-    for (const TimeLaw law : laws) {
-      Weights weights = expression_;
+    std::string column;
+    for (const TimeLaw law : kPaperLaws) {
       const double way = progress(law, shareOfTime(frame)).position;
-      for (double& w : weights) w *= way;
-      column.add(picture(scenes.scene(weights, Style::shaded), front_,
-                         fmt::format("{}, frame {}: {:.0f} %", nameOf(law), frame, 100 * way),
-                         kFrame, boxes));
+      Result<Image> image = picture(way, kFrame);
+      if (!image) return std::unexpected(image.error());
+      drawBoxes(*image, boxes);
+      const auto figure = html::figure(
+          *image, fmt::format("{}, frame {}: {:.0f} %", nameOf(law), frame, 100 * way));
+      if (!figure) return figure;
+      column += *figure;
     }
-    if (column.error) return std::unexpected(*column.error);
-    times += "<div>" + column.html + "</div>\n";
+    times += "<div>" + column + "</div>\n";
   }
   return fmt::format("<div class=\"times\">{}</div>\n", times);
 }
 
-std::vector<Box> ReportMaker::measuringBoxes() const {
+std::vector<Box> MotionSections::measuringBoxes() const {
   std::vector<Box> boxes;
   const std::vector<Vec3> from = scenes_.points(rest_), to = scenes_.points(expression_);
-  for (const std::string& name : options_.regions) {
+  for (const std::string& name : regions_) {
     const auto region = scenes_.region(name);
     if (!region) continue;  // this rig has none
     std::vector<Vec3> places;
@@ -110,21 +152,19 @@ std::vector<Box> ReportMaker::measuringBoxes() const {
   return boxes;
 }
 
-std::string ReportMaker::motionPlots() const {
+std::string MotionSections::plots() const {
   const std::vector<Vec3> from = scenes_.points(rest_), to = scenes_.points(expression_);
   std::size_t furthest = 0;
   for (std::size_t v = 0; v < from.size(); ++v)
     if (norm(to[v] - from[v]) > norm(to[furthest] - from[furthest])) furthest = v;
   std::vector<Series> ways, velocities;
-  for (const TimeLaw law : {TimeLaw::linear, TimeLaw::newton}) {
+  for (const TimeLaw law : kPaperLaws) {
     const bool linear = law == TimeLaw::linear;
     Series way{std::string(nameOf(law)), linear ? kGrey : kBlue, {}, true};
     Series velocity = way;
     for (int frame = 0; frame < kKeyFrames; ++frame) {
-      Weights weights = expression_;
-      const double s = shareOfTime(frame);
-      for (double& w : weights) w *= progress(law, s).position;
-      const double gone = norm(scenes_.points(weights)[furthest] - from[furthest]);
+      const double s = progress(law, shareOfTime(frame)).position;
+      const double gone = norm(scenes_.points(scaled(expression_, s))[furthest] - from[furthest]);
       if (frame > 0) velocity.points.push_back({frame - 0.5, gone - way.points.back().y});
       way.points.push_back({1.0 * frame, gone});
     }
@@ -134,6 +174,45 @@ std::string ReportMaker::motionPlots() const {
   return row(linePlot("Position", {"key frame"}, {"way gone"}, ways) +
                  linePlot("Velocity", {"key frame"}, {"way between two frames"}, velocities),
              "plots");
+}
+
+// ---- Every law ----
+
+Result<std::string> MotionSections::everyLaw() const {
+  const Result<std::string> sheet = sprites();
+  if (!sheet) return sheet;
+  std::string style = fmt::format(
+      ".law{{display:inline-block;width:{}px;margin:0 8px 12px 0;vertical-align:top}}"
+      ".law i{{display:block;width:{}px;height:{}px;background:url(data:image/png;base64,{}) 0 0;"
+      "animation:{}s step-end infinite}}\n",
+      kSprite.width, kSprite.width, kSprite.height, *sheet, kSeconds);
+  std::string cells;
+  const std::vector<ShownLaw> laws = sweepface::everyLaw();
+  for (std::size_t k = 0; k < laws.size(); ++k) {
+    style += moves(k, laws[k].path);
+    cells += fmt::format(
+        "<div class=\"law\"><i style=\"animation-name:law{}\"></i><b>{}</b><br/>{}</div>\n", k,
+        html::escaped(laws[k].name), html::escaped(laws[k].use));
+  }
+  return section("Every law",
+                 fmt::format("The same way to {} by every law, in a second, again and again; the "
+                             "spring and the bounce take longer. Below, position, velocity and "
+                             "force over time.",
+                             mixtureOf(rig_, expression_))) +
+         fmt::format("<style>{}</style>\n<div>{}</div>\n{}", style, cells, lawSheet());
+}
+
+/// All poses in a row, as a PNG in base 64.
+Result<std::string> MotionSections::sprites() const {
+  Image sheet = Image::filled({kPoses * kSprite.width, kSprite.height}, {1, 1, 1});
+  for (int k = 0; k < kPoses; ++k) {
+    const Result<Image> pose = picture(kFurthest * k / (kPoses - 1), kSprite);
+    if (!pose) return std::unexpected(pose.error());
+    paste(sheet, *pose, k * kSprite.width, 0);
+  }
+  const Result<std::string> png = encodePng(sheet);
+  if (!png) return png;
+  return html::base64(*png);
 }
 
 }  // namespace sweepface

@@ -6,6 +6,7 @@
 #include "sweepface/fit.hpp"
 
 #include "report/maker.hpp"
+#include "report/motion_sections.hpp"
 
 namespace sweepface {
 namespace {
@@ -40,7 +41,8 @@ ReportMaker::ReportMaker(const Rig& rig, const MeshRig& source, const ReportOpti
       scenes_(rig, lodFor(rig.surface, Style::shaded, kPanel)) {
   // A picture counts one, so does a shape that is converted; one that is measured counts two.
   const auto targets = static_cast<double>(source.targets.size());
-  work_ = 30 + 2 * targets + static_cast<double>(options.tolerances.size()) * (targets + 3);
+  work_ = 18 + MotionSections::pictures() + 2 * targets +
+          static_cast<double>(options.tolerances.size()) * (targets + 3);
 }
 
 Result<std::string> ReportMaker::make() {
@@ -75,15 +77,19 @@ void ReportMaker::show(std::string_view what) const {
   if (options_.progress) options_.progress(what, std::min(done_ / work_, 1.0));
 }
 
-std::string ReportMaker::mixture() const {
-  std::string text;
-  for (std::size_t k = 0; k < expression_.size(); ++k) {
-    if (expression_[k] == 0) continue;
-    if (!text.empty()) text += ", ";
-    text += rig_.targets[k].name;
-    if (expression_[k] != 1) text += fmt::format("={:.3g}", expression_[k]);
-  }
-  return text;
+std::string ReportMaker::mixture() const { return mixtureOf(rig_, expression_); }
+
+Result<std::string> ReportMaker::motion() {
+  if (!moves_) return "";
+  const MotionSections sections(rig_, scenes_, expression_, front_, options_.regions, [this] {
+    show("rendering");
+    done_ += 1;
+  });
+  const auto experiment = sections.experiment();
+  if (!experiment) return experiment;
+  const auto laws = sections.everyLaw();
+  if (!laws) return laws;
+  return *experiment + *laws;
 }
 
 std::string ReportMaker::expressionName() const {
@@ -144,6 +150,32 @@ Result<std::string> makeReport(const Rig& rig, const MeshRig& source,
     return fail(fmt::format("The expression has {} weights, but the face has {} targets.",
                             options.expression.size(), rig.targets.size()));
   return ReportMaker(rig, source, options).make();
+}
+
+Result<std::string> makeMotionReport(const Rig& rig, const ReportOptions& options) {
+  if (!options.expression.empty() && options.expression.size() != rig.targets.size())
+    return fail(fmt::format("The expression has {} weights, but the face has {} targets.",
+                            options.expression.size(), rig.targets.size()));
+  const Weights rest(rig.targets.size(), 0.0);
+  const Weights expression = options.expression.empty() ? strongestOf(rig) : options.expression;
+  if (expression == rest)
+    return fail("The face does not move; name an expression to which it should.");
+  const FaceScenes scenes(rig, lodFor(rig.surface, Style::shaded, kPanel));
+  std::vector<Vec3> all = scenes.points(rest);
+  std::ranges::copy(scenes.points(expression), std::back_inserter(all));
+  const Camera front = frameCameras(all, std::array{View{0, 0}}, kPanel)[0];
+  int done = 0;
+  const MotionSections sections(rig, scenes, expression, front, options.regions, [&] {
+    if (options.progress)
+      options.progress("rendering", static_cast<double>(done++) / MotionSections::pictures());
+  });
+  const auto experiment = sections.experiment();
+  if (!experiment) return experiment;
+  const auto laws = sections.everyLaw();
+  if (!laws) return laws;
+  return html::page(
+      "Sweepface motion: " + options.name,
+      fmt::format("<h1>{}</h1>\n", html::escaped(options.name)) + *experiment + *laws);
 }
 
 }  // namespace sweepface

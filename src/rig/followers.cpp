@@ -37,6 +37,9 @@ class NameReader {
   }
 
   std::optional<Follower> readProduct(Index target) const {
+    // The ways to split a name double with every underscore.
+    constexpr int kMostUnderscores = 12;
+    if (std::ranges::count(names_[target], '_') > kMostUnderscores) return {};
     Follower follower{Follower::Kind::product, target, {}, 0};
     if (!split(names_[target], target, follower.leaders) || follower.leaders.size() < 2) return {};
     return follower;

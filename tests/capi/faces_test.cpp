@@ -3,6 +3,7 @@
 #include <new>
 #include <thread>
 
+#include "sweepface/arcs.hpp"
 #include "sweepface/sweepface.h"
 
 #include "codec/rigs.hpp"
@@ -99,6 +100,53 @@ TEST_F(Faces, AreTheLibrarysOwnInTheSourcesOrder) {
   expectNear(sourcePositions(rig, grid, vectors, weights), evaluate(), sweepface_face_error(face));
   EXPECT_LE(sweepface_face_error(face), 0.6 * rig.tolerance);
   expectNear(sourceNormals(rig, grid, vectors), evaluate(true), 0.08);
+}
+
+TEST(FacesThatFollow, GoOnArcsAndCombine) {
+  Rig rig = withTurns(dressed(makeRig(tee())));
+  rig.targets[1].name = "rest_open";  // goes by the product of both
+  rig.turns = {{0, {3, 4, 5}, {0, 0, 1}}};
+  const std::string bytes = encode(rig);
+  rig = decode(bytes, "tee").value();
+  sweepface_rig* handle = nullptr;
+  ASSERT_EQ(sweepface_rig_load(bytes.data(), bytes.size(), "tee", &handle), SWEEPFACE_OK);
+  EXPECT_EQ(sweepface_rig_turn_count(handle), 1u);
+  const std::vector<std::string> names{"open", "rest_open", "rest"};
+  const double weights[] = {0.5, 0.3, 0.25};
+  for (const uint32_t what : {0u, 1u, 2u, 3u, 0u}) {  // arcs, combine, both
+    Rig all = rig;
+    std::vector<Follower> followers;
+    if (what & SWEEPFACE_COMBINE) followers = Followers::named(names);
+    if (what & SWEEPFACE_ARCS)
+      for (const Follower& arc : addArcs(all, all.turns)) followers.push_back(arc);
+    Weights expected(weights, weights + 3);
+    expected.resize(all.targets.size());
+    Followers(followers).apply(expected);
+    EXPECT_EQ(all.targets.size(), what & SWEEPFACE_ARCS ? 4u : 3u);
+
+    ASSERT_EQ(sweepface_rig_follow(handle, what), SWEEPFACE_OK);
+    EXPECT_EQ(sweepface_rig_target_count(handle), 3u);
+    EXPECT_EQ(sweepface_rig_target_name(handle, 3), nullptr);
+    uint32_t target = 9;
+    EXPECT_NE(sweepface_rig_find_target(handle, "open.arc", &target), SWEEPFACE_OK);
+    sweepface_mesh* mesh = nullptr;
+    sweepface_face* face = nullptr;
+    ASSERT_EQ(sweepface_mesh_create(handle, 1, &mesh), SWEEPFACE_OK);
+    ASSERT_EQ(sweepface_face_create(mesh, &face), SWEEPFACE_OK);
+    ASSERT_EQ(sweepface_face_set_weights(face, weights, 3), SWEEPFACE_OK);
+    EXPECT_EQ(sweepface_face_weights(face)[1], 0.3);  // as it was set
+    std::vector<float> out(3 * sweepface_mesh_vertex_count(mesh));
+    ASSERT_EQ(sweepface_face_evaluate(face, out.size() / 3, {out.data(), 0}, kUnwanted),
+              SWEEPFACE_OK);
+    expectNear(Tessellation(all.surface, 1).positions(blend(all, expected)), out,
+               sweepface_face_error(face));
+    sweepface_face_free(face);
+    sweepface_mesh_free(mesh);
+  }
+  EXPECT_EQ(sweepface_rig_follow(handle, 4), SWEEPFACE_BAD_ARGUMENT);
+  EXPECT_EQ(sweepface_rig_follow(nullptr, 1), SWEEPFACE_BAD_ARGUMENT);
+  EXPECT_EQ(sweepface_rig_turn_count(nullptr), 0u);
+  sweepface_rig_free(handle);
 }
 
 TEST_F(Faces, AreTheLibrarysOwnAtAnyLevel) {

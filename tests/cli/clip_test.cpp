@@ -1,4 +1,8 @@
+#include "sweepface/clip.hpp"
+
 #include <fstream>
+
+#include "sweepface/gltf.hpp"
 
 #include "cli/tool.hpp"
 
@@ -45,13 +49,66 @@ TEST_F(PlayClip, PlaysATimeline) {
   EXPECT_EQ(frame(4), exported("smile=1"));
 }
 
-TEST_F(PlayClip, GivesAGlbAKeyAFrame) {
+TEST_F(PlayClip, GivesAGlbAKeyAFrameOnRequest) {
   convertRig();
   write("take.csv", "Timecode,JawOpen\n0,0\n0.1,1\n0.3,0.5\n");
-  ASSERT_EQ(run("animate face.sweep --clip take.csv -o take.glb").code, 0);
+  ASSERT_EQ(run("animate face.sweep --clip take.csv --keys sampled -o take.glb").code, 0);
   const std::string glb = contents(folder / "take.glb");
   EXPECT_NE(glb.find(R"("name":"take")"), std::string::npos);
   EXPECT_NE(glb.find(R"("interpolation":"LINEAR")"), std::string::npos);
+}
+
+/// A capture of a mouth that opens and shuts, with a tracker's jitter.
+std::string capture(int seconds) {
+  std::string text = "Timecode,BlendShapeCount,JawOpen,Smile\n";
+  for (int f = 0; f < 60 * seconds; ++f)
+    text += fmt::format("01:00:{:02}:{:02}.000,61,{},{}\n", f / 60, f % 60,
+                        0.5 - 0.5 * std::cos(f * 0.05) + 1e-4 * std::sin(97.0 * f),
+                        0.4 + 0.4 * std::sin(f * 0.021));
+  return text;
+}
+
+TEST_F(PlayClip, FewKeysHoldACapture) {
+  convertRig();
+  write("take.csv", capture(20));
+  ASSERT_EQ(run("animate face.sweep --clip take.csv -o few.glb").code, 0);
+  ASSERT_EQ(run("animate face.sweep --clip take.csv --keys sampled -o all.glb").code, 0);
+  const auto clipOf = [&](const char* file) {
+    return *parseGltfClip(contents(folder / file), file, {});
+  };
+  const Clip few = clipOf("few.glb"), all = clipOf("all.glb");
+  ASSERT_EQ(all.times.size(), 1200u);
+  std::vector<double> weights(2);
+  for (std::size_t f = 0; f < all.times.size(); ++f) {
+    few.at(all.times[f], weights);
+    for (std::size_t k : {0, 1}) EXPECT_NEAR(weights[k], all.weights[2 * f + k], 0.0022);
+  }
+  const std::string glb = contents(folder / "few.glb");
+  EXPECT_NE(glb.find(R"("interpolation":"CUBICSPLINE")"), std::string::npos);
+  EXPECT_LT(glb.size() + 10'000, contents(folder / "all.glb").size());
+}
+
+TEST_F(PlayClip, PlaysAnAnimationOfAGlb) {
+  convertRig();
+  ASSERT_EQ(run("animate face.sweep --to jawOpen=1,smile=0.5 --law newton -o move.glb").code, 0);
+  ASSERT_EQ(run("animate face.sweep --clip move.glb --frames 3 -o frames").code, 0);
+  EXPECT_LE(largestDistance(frame(1), exported("jawOpen=0.25,smile=0.125")), 1e-4);
+  EXPECT_LE(largestDistance(frame(2), exported("jawOpen=1,smile=0.5")), 1e-6);
+  EXPECT_TRUE(fails("animate face.sweep --clip move.glb --animation walk -o frames", "'walk'"));
+}
+
+TEST_F(PlayClip, RecordsWhatItPlays) {
+  convertRig();
+  write("take.csv", capture(2));
+  ASSERT_EQ(run("animate face.sweep --clip take.csv -o again.csv").code, 0);
+  ASSERT_EQ(run("animate face.sweep --clip again.csv -o third.csv").code, 0);
+  EXPECT_EQ(contents(folder / "again.csv"), contents(folder / "third.csv"));
+  const auto clip = parseLiveLinkCsv(contents(folder / "again.csv"), "again.csv");
+  ASSERT_TRUE(clip) << clip.error().message;
+  EXPECT_EQ(clip->times.size(), 120u);
+  ASSERT_EQ(run("animate face.sweep --to smile=1 --law spring -o spring.csv").code, 0);
+  EXPECT_EQ(parseLiveLinkCsv(contents(folder / "spring.csv"), "s.csv")->times.size(), 61u);
+  EXPECT_TRUE(fails("animate face.sweep --to smile=1 --arcs on -o a.csv", "leave --regions"));
 }
 
 TEST_F(PlayClip, SpringsSwingIntoTheirGoal) {
@@ -73,7 +130,7 @@ TEST_F(PlayClip, RefusesWhatCannotBe) {
   EXPECT_TRUE(fails(command + "--clip none.csv", "there is no such file"));
   EXPECT_TRUE(fails(command + "--clip take.csv", "take.csv line 3: the timecode '0' is not after"));
   EXPECT_TRUE(fails(command + "--clip head.csv", "none of its 1 names is a target"));
-  EXPECT_TRUE(fails(command + "--clip take.txt", "neither a .csv nor a .json"));
+  EXPECT_TRUE(fails(command + "--clip take.txt", "neither a .csv, a .json nor a .glb"));
   EXPECT_TRUE(fails(command + "--clip take.csv --to smile=1", "excludes", 2));
   EXPECT_TRUE(fails(command + "--to smile=1 --smooth", "--clip", 2));
   EXPECT_TRUE(fails(command, "Say where to go"));

@@ -82,5 +82,20 @@ TEST_F(Following, ArcsAreOnOrOff) {
   EXPECT_NE(r.err.find("--arcs"), std::string::npos) << r.err;
 }
 
+TEST_F(Following, TheFileMayTellWhatTurns) {
+  convertWith({{"jawOpen", [](const Vec3& p) { return turnedAboutX(p, 20); }}});
+  const auto found = exported("--weights jawOpen=0.5 --arcs on");
+  EXPECT_EQ(run("info face.sweep").out.find("turns"), std::string::npos);
+  ASSERT_EQ(run("convert neutral.obj turns -o face.sweep --tolerance 0.001 --arcs").code, 0);
+  EXPECT_NE(run("info face.sweep").out.find("turns"), std::string::npos);
+  const auto told = exported("--weights jawOpen=0.5 --arcs on");
+  EXPECT_LE(furthest(found, told), 1e-4);
+  EXPECT_GT(furthest(told, exported("--weights jawOpen=0.5")), 0.1);
+  // Plain files of the same face are smaller by what it takes to tell.
+  const std::size_t size = contents(folder / "face.sweep").size();
+  ASSERT_EQ(run("convert neutral.obj turns -o plain.sweep --tolerance 0.001").code, 0);
+  EXPECT_LE(size - contents(folder / "plain.sweep").size(), 12 + 1 + 25u);
+}
+
 }  // namespace
 }  // namespace sweepface

@@ -54,5 +54,18 @@ TEST_F(Plot, SaysWhatIsWrong) {
   refused("-o plot.svg --to jawOpen=0", "Nothing moves");
 }
 
+TEST_F(Plot, LawsNeedNoFace) {
+  ASSERT_EQ(run("laws -o laws.svg").code, 0);
+  EXPECT_TRUE(contents(folder / "laws.svg").starts_with("<svg "));
+  EXPECT_TRUE(fails("laws -o laws.png", "name it so"));
+}
+
+TEST_F(Plot, ThePapersExperimentIsOneCommand) {
+  convertRig();
+  const Outcome r = run("report face.sweep --weights jawOpen=0.5,smile=1 -o laugh.html");
+  ASSERT_EQ(r.code, 0) << r.err;
+  EXPECT_NE(contents(folder / "laugh.html").find("newton, frame 30: 100 %"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace sweepface

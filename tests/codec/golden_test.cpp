@@ -69,5 +69,14 @@ TEST(Golden, OfVersion2IsWrittenByteForByte) {
   EXPECT_EQ(encode(decode(goldenVersion2(), "golden.sweep").value()), goldenVersion2());
 }
 
+// What turns is told by a chunk that older programs skip: all before and behind it is as it was.
+TEST(Golden, TurnsAreOneChunkMore) {
+  const std::string with = encode(withTurns(everything())), without = encode(everything());
+  const std::size_t end = without.rfind("END ");
+  EXPECT_EQ(with.substr(0, end), without.substr(0, end));
+  EXPECT_EQ(with.substr(end, 4), "turn");
+  EXPECT_EQ(with.size(), without.size() + 12 + 1 + 2 * (1 + 12) + 12);
+}
+
 }  // namespace
 }  // namespace sweepface

@@ -160,6 +160,12 @@ inline Rig withScene(Rig rig) {
   return rig;
 }
 
+/// Two of its targets turn, one about an axis and one about a ball.
+inline Rig withTurns(Rig rig) {
+  rig.turns = {{0, {1, -2, 0.5}, {0, 0.6000000238418579, 0.800000011920929}}, {1, {0, 4, 8}, {}}};
+  return rig;
+}
+
 /// Small rigs of every sort.
 inline std::vector<Rig> someRigs() {
   return {makeRig(onePatch(1, 1)),
@@ -172,7 +178,8 @@ inline std::vector<Rig> someRigs() {
           dressed(makeRig(twoPatches())),
           dressed(makeRig(slice())),
           withScene(makeRig(onePatch(1, 1))),
-          withScene(dressed(makeRig(onePatch(2, 3))))};
+          withScene(dressed(makeRig(onePatch(2, 3)))),
+          withTurns(dressed(makeRig(onePatch(2, 3))))};
 }
 
 inline void expectEqual(const Polygons& a, const Polygons& b) {
@@ -194,6 +201,7 @@ inline void expectEqual(const Rig& a, const Rig& b) {
   EXPECT_EQ(a.tolerance, b.tolerance);
   EXPECT_EQ(a.scene, b.scene);
   EXPECT_EQ(a.names, b.names);
+  EXPECT_EQ(a.turns, b.turns);
   EXPECT_EQ(a.source.gridVertex, b.source.gridVertex);
   EXPECT_EQ(a.source.loose, b.source.loose);
   EXPECT_EQ(a.source.quadCorners, b.source.quadCorners);

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "sweepface/eval.hpp"
+#include "sweepface/head.hpp"
 
 #include "../../examples/sample_face/face.hpp"
 
@@ -170,6 +171,53 @@ TEST(SampleFace, isItsOwnMirrorImage) {
     EXPECT_LT(norm(left - Vec3{-right.x, right.y, right.z}), 1e-9) << name;
   }
   EXPECT_GT(pairs, 500);
+}
+
+// Its eyeLook targets turn the balls themselves: by 22° to 26°, along straight lines.
+TEST(SampleFace, turnsItsEyesRigidlyAndAsFarAsBefore) {
+  Rig rig = face();
+  const auto eyes = findEyes(rig);
+  ASSERT_EQ(eyes.size(), 2u);
+  const EyeTurns turns = EyeTurns::addTo(rig, eyes);
+  const Tessellation grid(rig.surface, 1);
+  std::vector<bool> isEye(rig.surface.wireframe().nodes.size(), false);
+  for (const Eye& eye : eyes)
+    for (const Index v : eye.stored) isEye[rig.surface.stored(v).node] = true;
+  std::vector<Index> ball;  // vertices of the left one
+  for (Index v = 0; v < grid.vertexCount(); ++v) {
+    const Site& site = grid.site(v);
+    const Index node = rig.surface.connectivity().cornerNode[4 * site.patch];
+    const Eye& left = eyes[0].name == "eyeLeft" ? eyes[0] : eyes[1];
+    const Vec3 place = rig.surface.evaluate(blend(rig, {}), site);
+    if (isEye[node] && norm(place - left.centre) < 1.1 * left.radius) ball.push_back(v);
+  }
+  ASSERT_GT(ball.size(), 50u);
+  const auto shown = [&](const Rig& r, const Weights& weights) {
+    return grid.positions(blend(r, weights));
+  };
+  const auto rest = shown(face(), {});
+  for (const char* name : {"eyeLookDownLeft", "eyeLookUpLeft", "eyeLookInLeft", "eyeLookOutLeft"})
+    for (const double w : {0.25, 0.5, 1.0}) {
+      Weights weights = only({name});
+      for (double& x : weights) x *= w;
+      const auto before = shown(face(), weights);
+      weights.resize(rig.targets.size());
+      turns.apply(weights);
+      const auto now = shown(rig, weights);
+      double stretch = 0, straight = 0;
+      for (const Index a : ball)
+        for (const Index b : ball) {
+          const double length = norm(rest[a] - rest[b]);
+          stretch = std::max(stretch, std::abs(norm(now[a] - now[b]) - length));
+          straight = std::max(straight, std::abs(norm(before[a] - before[b]) - length));
+        }
+      EXPECT_LE(stretch, 0.006) << name << " at " << w;  // its own end is off by as much
+      if (w < 1) {
+        EXPECT_GT(straight, 5 * stretch) << name << " at " << w;
+      }
+      for (std::size_t v = 0; w == 1 && v < now.size(); ++v)
+        EXPECT_LE(norm(now[v] - before[v]), 1e-9) << name;
+    }
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include "sweepface/fit.hpp"
 #include "sweepface/io.hpp"
 #include "sweepface/measure.hpp"
+#include "sweepface/strip.hpp"
 
 #include "faces.hpp"
 
@@ -75,6 +76,29 @@ TEST(RealFaceLong, aHeadAndItsExpressionsStayWithinTheirTolerance) {
     if (k > 0) weights[k - 1] = 1;
     EXPECT_LE(largestSecondJump(conversion->rig, weights), 1e-9);
   }
+}
+
+// What packing may spend is the tolerance, not the surface between the vertices.
+TEST(RealFaceLong, aPackedHeadIsSmallAndFoldsNowhere) {
+  SKIP_WITHOUT_REAL_FACES();
+  const auto source = head(true);
+  ASSERT_TRUE(source) << source.error().message;
+  ConvertOptions options;
+  options.tolerance = 0.02;
+  options.pack = true;
+  auto conversion = convert(*source, options);
+  ASSERT_TRUE(conversion) << conversion.error().message;
+  const auto read = decode(encode(conversion->rig), "head");
+  ASSERT_TRUE(read) << read.error().message;
+  const auto m = measure(*read, *source);
+  ASSERT_TRUE(m) << m.error().message;
+  EXPECT_LE(m->worst.distanceMax, options.tolerance);
+  EXPECT_LE(m->worst.angleRms, 1.6);
+  EXPECT_EQ(m->worst.folds, 0);
+  EXPECT_LE(read->surface.storedCount(), 0.75 * 11248);
+  EXPECT_LE(encode(*read).size(), 65536u);
+  ASSERT_TRUE(strip(conversion->rig, {true, true, false, false}));
+  EXPECT_LE(encode(conversion->rig).size(), 32000u);
 }
 
 }  // namespace

@@ -310,10 +310,43 @@ TEST(SceneWriter, RefusesAnotherFacesScene) {
   rig.scene = scene;
   rig.targets[1].name = "frown";
   refuses("only the latter has the target 'wink'");
-  rig.targets[1].name = "wink";
+}
+
+/// The rig with a target that its scene came without.
+Rig withFrown(Rig rig) {
   rig.targets.push_back(rig.targets[1]);
   rig.targets.back().name = "frown";
-  refuses("only the former has the target 'frown'");
+  for (Vec3& d : rig.targets.back().difference) d *= -0.5;
+  return rig;
+}
+
+TEST(SceneWriter, MakesRoomForNewTargets) {
+  Glb source = richFace();
+  const std::vector<float> times{0, 1}, moves{0.1f, 0.2f, 0.3f, 0.4f};
+  const std::size_t input = source.addAccessor(source.addView(bytesOf(times)), 5126, "SCALAR", 2);
+  const std::size_t output = source.addAccessor(source.addView(bytesOf(moves)), 5126, "SCALAR", 4);
+  source.add("animations",
+             {{"samplers", Json::array({{{"input", input}, {"output", output}}})},
+              {"channels",
+               Json::array({{{"sampler", 0}, {"target", {{"node", 0}, {"path", "weights"}}}}})}});
+  for (const Index lod : {0, 2}) {
+    const Written glb = write(withFrown(converted(source)), {.lod = lod});
+    const Json& mesh = glb.json["meshes"][0];
+    EXPECT_EQ(mesh["extras"]["targetNames"], Json::array({"open", "wink", "frown"}));
+    EXPECT_EQ(mesh["weights"].size(), 3u);
+    const Json& targets = mesh["primitives"][0]["targets"];
+    ASSERT_EQ(targets.size(), 3u);
+    const auto wink = glb.vectors(targets[1]["POSITION"]),
+               frown = glb.vectors(targets[2]["POSITION"]);
+    for (std::size_t v = 0; v < wink.size(); ++v) EXPECT_LE(norm(frown[v] - wink[v] * -0.5), 1e-6);
+    // What moved by weights before still does.
+    const Json& animation = glb.json["animations"][1];
+    const std::size_t sampler = animation["channels"][0]["sampler"];
+    const auto widened = glb.numbers(animation["samplers"][sampler]["output"]);
+    ASSERT_EQ(widened.size(), 6u);
+    EXPECT_EQ(widened[2], 0);
+    EXPECT_NEAR(widened[4], 0.4, 1e-7);
+  }
 }
 
 TEST(SceneWriter, AnswersAnyDamagedScene) {
@@ -342,7 +375,7 @@ TEST(SceneWriter, AnswersAnySceneWithOneWrongValue) {
   Glb source = richFace();
   source.json["nodes"][0]["children"] = {1};
   source.primitive()["extensions"]["KHR_materials_variants"] = Json::object();
-  Rig rig = converted(source);
+  Rig rig = converted(source), wider = withFrown(rig);
   const Motion motion =
       *Motion::make(std::vector{0.0, 0.0}, std::vector{1.0, 1.0}, TimeLaw::newton, 1);
   const std::vector<GlbOptions> options{{.morphNormals = true, .motion = &motion},
@@ -370,6 +403,8 @@ TEST(SceneWriter, AnswersAnySceneWithOneWrongValue) {
       std::swap(*places[k], before);
       rig.scene = gltf::formatContainer(json, scene.binary);
       std::swap(*places[k], before);
+      wider.scene = rig.scene;
+      EXPECT_TRUE(formatGlb(wider, {}) || failsWith(formatGlb(wider, {}), {"."}));
       const auto bytes = formatGlb(rig, options[(k + w) % options.size()]);
       EXPECT_TRUE(bytes || failsWith(bytes, {"."}));
       ++(bytes ? accepted : refusedOnes);

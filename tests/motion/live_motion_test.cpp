@@ -128,5 +128,31 @@ TEST(Drive, NamesGoBothWays) {
   EXPECT_NE(driveFromName("jump").error().message.find("accelerate-brake"), std::string::npos);
 }
 
+// Springs are kept apart for speed; what is read of them must be the same, to the bit.
+TEST(MotionState, AllAtOnceIsEachAlone) {
+  auto state = MotionState::make(std::vector<double>(5, 0.0));
+  ASSERT_TRUE(state);
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  std::vector<double> all(5);
+  for (int k = 0; k < 5000; ++k) {
+    Drive drive;
+    drive.kind = static_cast<Drive::Kind>(random() % 6);
+    drive.delay = random() % 3 == 0 ? 0.1 * uniform(random) : 0;
+    drive.spring = {1 + uniform(random), random() % 2 == 0 ? 1 : uniform(random)};
+    if (random() % 4 == 0) {
+      ASSERT_TRUE(state->moveTo(std::vector<double>(5, uniform(random)), drive));
+    } else {
+      ASSERT_TRUE(state->moveTo(random() % 5, uniform(random), drive));
+    }
+    if (random() % 9 == 0) {
+      ASSERT_TRUE(state->push(random() % 5, uniform(random), 3));
+    }
+    state->advance(random() % 2 == 0 ? 0.1 * uniform(random) : 0);
+    state->positions(all);
+    for (std::size_t w = 0; w < all.size(); ++w) EXPECT_EQ(all[w], state->sample(w).position);
+  }
+}
+
 }  // namespace
 }  // namespace sweepface

@@ -181,7 +181,7 @@ TEST(Report, TellsAllAboutAFace) {
   EXPECT_NE(report->find("&lt;script&gt;alert(1)&lt;/script&gt;"), std::string::npos);
   for (const std::string_view title :
        {"Original and recreated", "Size", "Wireframe", "Errors", "Continuity",
-        "Error against points", "Shape parameters", "Linear and Newton"})
+        "Error against points", "Shape parameters", "Linear and Newton", "Every law"})
     EXPECT_NE(report->find(fmt::format("<h2>{}</h2>", title)), std::string::npos) << title;
   // Nothing is loaded from elsewhere: the only address is the name of SVG.
   EXPECT_EQ(countOf(*report, "http"), countOf(*report, "xmlns=\"http://www.w3.org/2000/svg\""));
@@ -189,12 +189,42 @@ TEST(Report, TellsAllAboutAFace) {
   // 4 to compare, 2 of the wireframe, 4 heat maps, 2 of continuity, 4 shapes, 12 key frames.
   EXPECT_EQ(countOf(*report, "<img "), 28u);
   EXPECT_EQ(countOf(*report, "<img "), countOf(*report, " alt=\""));
-  EXPECT_EQ(countOf(*report, "<svg "), 5u);
+  EXPECT_EQ(countOf(*report, "<svg "), 6u);
   const std::string words = withoutPictures(*report);
   EXPECT_EQ(countOf(words, "nan") + countOf(words, "inf,"), 0u);
   EXPECT_NE(report->find(fmt::format("<td>143</td><td>{}</td>", rig.surface.storedCount())),
             std::string::npos);
   EXPECT_NE(report->find("<td>4,321</td>"), std::string::npos);
+}
+
+TEST(MotionReport, ShowsThePapersExperimentAndEveryLaw) {
+  const MeshRig mesh = withTargets(plane(4, 4), 2);
+  ConvertOptions convertOptions;
+  convertOptions.tolerance = 0.01;
+  const Rig rig = convert(mesh, convertOptions).value().rig;
+  ReportOptions options;
+  options.name = "face.sweep";
+  options.expression = {1, 0.5};
+  int pictures = 0;
+  options.progress = [&](std::string_view, double done) {
+    EXPECT_TRUE(done >= 0 && done <= 1);
+    ++pictures;
+  };
+  const auto page = makeMotionReport(rig, options);
+  ASSERT_TRUE(page) << page.error().message;
+  EXPECT_EQ(countOf(*page, "<figure>"), 12u);  // two laws, six frames each
+  EXPECT_NE(page->find("newton, frame 12: 16 %"), std::string::npos);
+  EXPECT_NE(page->find("linear, frame 12: 40 %"), std::string::npos);
+  EXPECT_EQ(countOf(*page, "@keyframes law"), 10u);
+  EXPECT_EQ(countOf(*page, "class=\"law\""), 10u);
+  EXPECT_EQ(countOf(*page, ">Velocity</text>"), 1u);
+  EXPECT_GT(pictures, 30);
+  options.expression = {0, 0};
+  EXPECT_FALSE(makeMotionReport(rig, options));
+  options.expression = {1};
+  EXPECT_FALSE(makeMotionReport(rig, options));
+  options.expression.clear();  // the target that moves furthest
+  EXPECT_TRUE(makeMotionReport(rig, options));
 }
 
 TEST(Report, DoesWithoutTargetsAndTolerances) {

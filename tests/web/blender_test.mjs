@@ -7,7 +7,8 @@ import { fileURLToPath } from 'node:url';
 import validator from 'gltf-validator';
 import { difference, pixels, withPage } from './browser.mjs';
 import { Glb, farthest } from './glb.mjs';
-import { inWork, run, sweepface, work } from './tool.mjs';
+import { capture, recorded } from './capture.mjs';
+import { inWork, run, sampleFace, sweepface, work } from './tool.mjs';
 
 const blender = process.env.SWEEPFACE_BLENDER;
 const chromium = existsSync(process.env.SWEEPFACE_CHROMIUM ?? '');
@@ -134,6 +135,24 @@ test('Blender plays sampled keys on the law', () => {
     frames.forEach((values, k) => assert.ok(Math.abs(values[keys.indexOf(target)] - end * (k / 24) ** 2) < 1e-5,
                                             `${name} at ${k}`));
   }
+});
+
+test('Blender plays a capture by name, and parts of regions', () => {
+  const face = sampleFace().sweep, file = inWork('take.glb'), regions = inWork('regions.json');
+  writeFileSync(regions, JSON.stringify({regions: [{name: 'chin', points: [[0, -9, 9]], over: 'space', whole: 2, fade: 5, delay: 0.25}]}));
+  sweepface('animate', face, '--clip', capture('take.csv', 4), '--regions', regions, '--keys', 'sampled', '--fps', '24',
+            '--head', 'on', '-o', file, '-q');
+  const [mesh] = Object.values(look(file));
+  assert.ok(mesh.frames.length >= 95);
+  let most = 0;
+  mesh.frames.slice(0, 95).forEach((values, k) => {
+    const t = k / 24, value = (name) => values[mesh.keys.indexOf(name)];
+    const rest = recorded('JawOpen', t), chin = recorded('JawOpen', Math.max(t - 0.25, 0)), least = Math.min(rest, chin);
+    for (const [name, expected] of [['jawOpen', least], ['jawOpen@rest', rest - least], ['jawOpen@chin', chin - least]])
+      assert.ok(Math.abs(value(name) - expected) < 4e-3, `${name} at ${t}: ${value(name)}, not ${expected}`);
+    most = Math.max(most, value('jawOpen@chin'));
+  });
+  assert.ok(most > 0.05);
 });
 
 test('the validator has no more to say than against the source', async () => {

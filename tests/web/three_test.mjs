@@ -1,10 +1,11 @@
 // three.js loads the files, finds every target by its name, and plays them on the laws of motion.
 import assert from 'node:assert/strict';
-import { readFileSync } from 'node:fs';
+import { readFileSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
 import test from 'node:test';
 import * as THREE from 'three';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
+import { capture, recorded } from './capture.mjs';
 import { inWork, objPositions, realFaces, sampleFace, sweepface, targetNames } from './tool.mjs';
 
 async function load(file) {
@@ -124,6 +125,59 @@ test('sampled keys meet the law where they stand', async () => {
     mixer.setTime(k / 10);
     for (const mesh of morphing(gltf)) assert.ok(Math.abs(weight(mesh, 'jawOpen') - (k / 10) ** 2) < 1e-6);
   }
+});
+
+/** Plays the first animation of a file and hands a function that goes to a time to `use`. */
+async function playing(file, use) {
+  const gltf = await load(file), mixer = new THREE.AnimationMixer(gltf.scene);
+  const action = mixer.clipAction(gltf.animations[0]);
+  action.setLoop(THREE.LoopOnce);
+  action.clampWhenFinished = true;
+  action.play();
+  return use(gltf, (seconds) => mixer.setTime(seconds));
+}
+
+test('a capture of a minute is played by name, eyes and head too', async () => {
+  const file = write('take.glb', 'animate', '--clip', capture('take.csv'), '--eyes', 'on', '--head', 'on');
+  await playing(file, (gltf, goTo) => {
+    assert.ok(Math.abs(gltf.animations[0].duration - 3599 / 60) < 1e-4);
+    const head = gltf.scene.getObjectByName('head');
+    for (let k = 0; k <= 100; ++k) {
+      const t = k / 100 * 59.9;
+      goTo(t);
+      for (const mesh of morphing(gltf)) {
+        for (const [target, column] of [['jawOpen', 'JawOpen'], ['mouthSmileLeft', 'MouthSmileLeft'],
+                                        ['eyeBlinkRight', 'EyeBlinkRight'], ['browInnerUp', 'BrowInnerUp']])
+          assert.ok(Math.abs(weight(mesh, target) - recorded(column, t)) < 0.004, `${target} at ${t}`);
+        // sin θ · a of the rotation that looks where the angles do
+        const yaw = recorded('LeftEyeYaw', t), pitch = recorded('LeftEyePitch', t);
+        const aside = weight(mesh, 'eyeLeft.left') - weight(mesh, 'eyeLeft.right');
+        assert.ok(Math.abs(aside - Math.sin(yaw) * Math.cos(pitch)) < 0.006, `the left eye at ${t}`);
+      }
+      const expected = new THREE.Quaternion().setFromEuler(new THREE.Euler(
+          recorded('HeadPitch', t), recorded('HeadYaw', t), recorded('HeadRoll', t), 'YXZ'));
+      assert.ok(head.quaternion.angleTo(expected) < 0.003, `the head at ${t}`);
+    }
+  });
+});
+
+test('regions are parts of targets that lag behind', async () => {
+  const regions = inWork('regions.json');
+  writeFileSync(regions, JSON.stringify({regions: [{name: 'chin', points: [[0, -9, 9]], over: 'space', whole: 2, fade: 5, mass: 4}]}));
+  const file = write('regions.glb', 'animate', '--to', 'jawOpen=1', '--law', 'newton', '--regions', regions);
+  await playing(file, (gltf, goTo) => {
+    assert.ok(Math.abs(gltf.animations[0].duration - 2) < 1e-6);  // twice as long for four times the mass
+    for (let k = 0; k <= 40; ++k) {
+      const t = k / 20, rest = Math.min(t, 1) ** 2, chin = (t / 2) ** 2;
+      goTo(t);
+      for (const mesh of morphing(gltf)) {
+        // The whole goes as far as the slower one, and the rest is ahead.
+        assert.ok(Math.abs(weight(mesh, 'jawOpen') - chin) < 0.003, `at ${t}`);
+        assert.ok(Math.abs(weight(mesh, 'jawOpen@rest') - (rest - chin)) < 0.005, `at ${t}`);
+        assert.ok(Math.abs(weight(mesh, 'jawOpen@chin')) < 0.003, `at ${t}`);
+      }
+    }
+  });
 });
 
 const skip = !process.env.SWEEPFACE_LONG ? 'runs in the long tests' : !realFaces && 'SWEEPFACE_DATA is not set';

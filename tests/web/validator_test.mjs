@@ -1,9 +1,10 @@
 // Khronos' own validator has nothing to say against the files.
 import assert from 'node:assert/strict';
-import { readFileSync } from 'node:fs';
+import { readFileSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
 import test from 'node:test';
 import validator from 'gltf-validator';
+import { capture } from './capture.mjs';
 import { inWork, realFaces, sampleFace, sweepface } from './tool.mjs';
 
 async function assertValid(file) {
@@ -28,6 +29,15 @@ const ways = {
   'moving between expressions, refined, quantized':
     ['animate', '--from', 'browInnerUp=1', ...moving, '--seconds', '2.5', '--lod', '2', '--quantize'],
 };
+
+const regions = inWork('regions.json');
+writeFileSync(regions, JSON.stringify({regions: [{name: 'chin', points: [[0, -9, 9]], fade: 7, mass: 3}]}));
+Object.assign(ways, {
+  'moving by a spring in few keys': ['animate', ...moving, '--law', 'spring'],
+  'moving by regions, on arcs': ['animate', ...moving, '--law', 'spring', '--regions', regions, '--arcs', 'on'],
+  'playing a capture with eyes and head':
+    ['animate', '--clip', capture('take.csv', 3), '--eyes', 'on', '--head', 'on', '--quantize'],
+});
 
 for (const [name, [command, ...options]] of Object.entries(ways))
   test(`the sample face ${name} is valid`, async () => {

@@ -3,7 +3,7 @@ import {readFileSync} from 'node:fs';
 import {basename} from 'node:path';
 import test from 'node:test';
 import {Sweepface} from '../sweepface.js';
-import {difference, everyFile, exported, played, sample, someWeights} from './native.js';
+import {difference, everyFile, exported, played, sample, someWeights, withArcs} from './native.js';
 
 const load = (options, file = sample) => Sweepface.load(readFileSync(file), options);
 function evaluate(face) {
@@ -39,6 +39,24 @@ test('weights are set by name, and others stay', async () => {
   assert.deepEqual(Object.keys(face.weights), face.names);
   face.reset();
   assert.ok(Object.values(face.weights).every((weight) => weight === 0));
+});
+
+test('what turns goes on arcs, if the file tells', async () => {
+  const file = withArcs(), plain = await load({}, file), arcs = await load({arcs: true}, file);
+  assert.ok(plain.turnCount > 0);
+  assert.equal((await load({arcs: true})).turnCount, 0);
+  assert.deepEqual(arcs.names, plain.names);
+  const weights = {jawOpen: 0.5};
+  for (const [face, options] of [[plain, []], [arcs, ['--arcs', 'on']]]) {
+    face.setWeights(weights);
+    const exact = exported(file, weights, 0, options);
+    assert.ok(difference(exact.positions, evaluate(face).positions).most <= 0.01);
+  }
+  assert.ok(difference(evaluate(plain).positions, evaluate(arcs).positions).most > 0.03);
+  weights.jawOpen = 1;  // where both end alike
+  plain.setWeights(weights);
+  arcs.setWeights(weights);
+  assert.ok(difference(evaluate(plain).positions, evaluate(arcs).positions).most < 1e-3);
 });
 
 test('the mesh is ready for a graphics card', async () => {

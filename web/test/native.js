@@ -27,11 +27,11 @@ export function played(file, weights, lod) {
 }
 
 /** Positions and normals of an expression in double precision, as the tool exports them. */
-export function exported(file, weights, lod) {
+export function exported(file, weights, lod, options = []) {
   const folder = mkdtempSync(join(tmpdir(), 'sweepface-'));
   try {
     const out = join(folder, 'out.obj'), list = Object.entries(weights).map(([name, weight]) => `${name}=${weight}`);
-    execFileSync(tool, ['export', file, '-o', out, '--quiet', '--weights', list.join(','), ...(lod ? ['--lod', lod] : [])]);
+    execFileSync(tool, ['export', file, '-o', out, '--quiet', '--weights', list.join(','), ...(lod ? ['--lod', lod] : []), ...options]);
     const positions = [], normals = [];
     for (const line of readFileSync(out, 'utf8').split('\n')) {
       const [keyword, ...numbers] = line.split(' ');
@@ -42,6 +42,16 @@ export function exported(file, weights, lod) {
   } finally {
     rmSync(folder, {recursive: true});
   }
+}
+
+/** The sample face with what its targets turn about. */
+export function withArcs() {
+  const folder = mkdtempSync(join(tmpdir(), 'sweepface-'));
+  process.on('exit', () => rmSync(folder, {recursive: true}));
+  const drawing = join(folder, 'sample.wire.json'), file = join(folder, 'arcs.sweep');
+  execFileSync(tool, ['wireframe', sample, '-o', drawing, '--quiet']);
+  execFileSync(tool, ['build', drawing, '--source', sample, '--arcs', '-o', file, '--quiet']);
+  return file;
 }
 
 /** A weight for every expression, none like another. */

@@ -1,0 +1,60 @@
+#include "head.hpp"
+
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+#include <utility>
+
+#include "sweepface/eval.hpp"
+
+namespace sweepface::cli {
+namespace {
+
+Result<Vec3> pivotOf(const HeadArguments& a, const Rig& rig) {
+  if (a.pivot.empty()) {
+    const Tessellation grid(rig.surface, 1);
+    Vec3 low, high;
+    bool isFirst = true;
+    for (const Vec3& p : grid.positions(blend(rig, {}))) {
+      if (std::exchange(isFirst, false)) low = high = p;
+      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    }
+    return 0.5 * (low + high);
+  }
+  const std::vector<std::string> parts = CLI::detail::split(a.pivot, ',');
+  std::array<double, 3> p{};
+  bool whole = parts.size() == 3;
+  for (std::size_t k = 0; whole && k < 3; ++k)
+    whole = CLI::detail::lexical_cast(parts[k], p[k]) && std::isfinite(p[k]);
+  if (whole) return Vec3{p[0], p[1], p[2]};
+  return fail(fmt::format("--pivot is a point like 0,1.5,-2, not '{}'.", a.pivot));
+}
+
+}  // namespace
+
+void addHead(CLI::App& app, HeadArguments& a) {
+  app.add_option("--head", a.turns, "on: the whole model turns by the head's angles in a capture")
+      ->check(CLI::IsMember({"on", "off"}))
+      ->capture_default_str()
+      ->type_name("on|off");
+  app.add_option("--pivot", a.pivot,
+                 "What the head turns about, as X,Y,Z; the middle of the model if not given")
+      ->type_name("X,Y,Z");
+}
+
+Result<std::optional<HeadTrack>> headTrack(const HeadArguments& a, const Rig& rig,
+                                           const Performance& performance,
+                                           const std::vector<double>& times) {
+  if (a.turns != "on") return std::nullopt;
+  if (!performance.hasHead)
+    return fail(fmt::format("{} has no angles of the head; leave --head out.", performance.name));
+  const auto pivot = pivotOf(a, rig);
+  if (!pivot) return std::unexpected(pivot.error());
+  HeadTrack track{times, {}, *pivot};
+  for (const double time : times)
+    track.rotations.push_back(quaternionOf(performance.pose(time).head));
+  return track;
+}
+
+}  // namespace sweepface::cli

@@ -1,0 +1,122 @@
+#include "regions.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <memory>
+
+#include "sweepface/io.hpp"
+#include "sweepface/region_file.hpp"
+#include "sweepface/timeline.hpp"
+
+namespace sweepface::cli {
+namespace {
+
+/// Those of --regions or else of the timeline that is played; without either the whole face.
+Result<std::vector<Region>> readRegions(const PerformanceArguments& what, const RegionArguments& a,
+                                        const Rig& rig) {
+  const bool own = a.file.empty() && isOfKind(what.clip, ".json");
+  const std::string& file = own ? what.clip : a.file;
+  if (file.empty()) return dividedFace(rig, {});
+  const Result<std::string> text = readFile(file);
+  if (!text) return std::unexpected(text.error());
+  const auto painted = parseRegions(*text, file);
+  if (!painted) return std::unexpected(painted.error());
+  if (painted->empty() && !own)
+    return fail(fmt::format("{} has no 'regions'; see docs/regions.md.", file));
+  auto regions = paintRegions(rig, *painted);
+  if (!regions) return fail(fmt::format("{}: {}", file, regions.error().message));
+  return regions;
+}
+
+/// Whether the timeline speaks of regions that there are not.
+Result<void> checkNames(const std::string& file, const std::vector<Region>& regions) {
+  if (!isOfKind(file, ".json")) return {};
+  const Result<std::string> text = readFile(file);
+  if (!text || text->find("\"region\"") == std::string::npos) return {};
+  const auto timeline = parseTimeline(*text, file);
+  if (!timeline) return {};  // reported when it is played
+  for (const TimelineEvent& event : timeline->events)
+    if (!event.region.empty() &&
+        std::ranges::find(regions, event.region, &Region::name) == regions.end())
+      return fail(
+          fmt::format("{}: an event is for a region '{}' that there is not.", file, event.region));
+  return {};
+}
+
+/// Everything that regions do: a performance each, of K weights.
+struct Parts {
+  std::vector<Performance> performances;  // [R]
+  std::size_t count = 0;                  // K
+
+  void at(double time, std::span<double> weights) const {
+    for (std::size_t r = 0; r < performances.size(); ++r)
+      performances[r].at(time, weights.subspan(r * count, count));
+  }
+
+  /// The targets whose weights are not always the same everywhere.
+  std::vector<Index> uneven(std::vector<double> times) const {
+    constexpr int kLooks = 240;
+    for (int k = 0; k <= kLooks; ++k) times.push_back(seconds() * k / kLooks);
+    std::vector<bool> differs(count, false);
+    std::vector<double> weights(count * performances.size());
+    for (const double time : times) {
+      at(time, weights);
+      for (std::size_t k = count; k < weights.size(); ++k)
+        if (weights[k] != weights[k % count]) differs[k % count] = true;
+    }
+    std::vector<Index> targets;
+    for (std::size_t k = 0; k < count; ++k)
+      if (differs[k]) targets.push_back(static_cast<Index>(k));
+    return targets;
+  }
+
+  double seconds() const {
+    return std::ranges::max(performances, {}, &Performance::seconds).seconds;
+  }
+};
+
+Performance together(Parts parts, const RegionalTargets& targets) {
+  Performance whole = parts.performances.front();
+  whole.seconds = parts.seconds();
+  whole.motion.reset();  // keys would not hold it exactly
+  const auto shared = std::make_shared<const Parts>(std::move(parts));
+  whole.at = [shared, targets](double time, std::span<double> weights) {
+    std::vector<double> ofRegions(shared->count * shared->performances.size());
+    shared->at(time, ofRegions);
+    targets.spread(ofRegions, weights);
+  };
+  whole.kinematicsAt = byDifferences(whole.at);
+  return whole;
+}
+
+}  // namespace
+
+void addRegions(CLI::App& app, RegionArguments& a) {
+  app.add_option("--regions", a.file,
+                 "A .json with 'regions': parts of the face that are heavier, stiffer or later "
+                 "than the rest; a timeline may have its own")
+      ->type_name("FILE");
+}
+
+Result<Performance> perform(const PerformanceArguments& what, const RegionArguments& a,
+                            const FollowingArguments& following, Rig& rig) {
+  const auto regions = readRegions(what, a, rig);
+  if (!regions) return std::unexpected(regions.error());
+  if (auto ok = checkNames(what.clip, *regions); !ok) return std::unexpected(ok.error());
+  Parts parts;
+  for (const Region& region : *regions) {
+    auto performance = makePerformance(what, rig, region);
+    if (!performance) return std::unexpected(performance.error());
+    parts.performances.push_back(std::move(*performance));
+  }
+  const Result<Following> followed = follow(following, rig);
+  if (!followed) return std::unexpected(followed.error());
+  for (Performance& performance : parts.performances)
+    performance = withFollowing(std::move(performance), *followed);
+  if (parts.performances.size() == 1) return std::move(parts.performances.front());
+  parts.count = rig.targets.size();
+  const auto uneven = parts.uneven(parts.performances.front().frameTimes);
+  return together(std::move(parts), RegionalTargets::addTo(rig, *regions, uneven));
+}
+
+}  // namespace sweepface::cli

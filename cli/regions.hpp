@@ -1,0 +1,21 @@
+#pragma once
+
+#include "sweepface/regions.hpp"
+
+#include "following.hpp"
+#include "performance.hpp"
+
+namespace sweepface::cli {
+
+/// Parts of the face that move in their own way.
+struct RegionArguments {
+  std::string file;
+};
+void addRegions(CLI::App& app, RegionArguments& a);
+
+/// What is played, with its regions and followers: their targets are added to the rig, and the
+/// performance has a weight for each of them.
+Result<Performance> perform(const PerformanceArguments& what, const RegionArguments& regions,
+                            const FollowingArguments& following, Rig& rig);
+
+}  // namespace sweepface::cli

@@ -1,0 +1,100 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "sweepface/clip.hpp"
+#include "sweepface/rig.hpp"
+
+namespace sweepface {
+
+// Faces look along +z, +y is up and +x their own left (docs/eyes.md).
+
+/// Angles in radians, right-handed: yaw about y (positive: to the face's left), pitch about x
+/// (down), roll about z (to its right). They turn by Ry · Rx · Rz.
+struct Angles {
+  double yaw = 0, pitch = 0, roll = 0;
+  friend bool operator==(const Angles&, const Angles&) = default;
+};
+
+/// x, y, z, w of a unit quaternion.
+using Quaternion = std::array<double, 4>;
+Quaternion quaternionOf(const Angles& angles);
+Vec3 turned(const Quaternion& by, const Vec3& v);
+
+/// How head and eyes stand.
+struct HeadPose {
+  Angles head, leftEye, rightEye;
+  friend bool operator==(const HeadPose&, const HeadPose&) = default;
+};
+
+/// Where a clip has the angles of Live Link Face: HeadYaw, LeftEyePitch and so on.
+class ClipAngles {
+ public:
+  explicit ClipAngles(const Clip& clip);
+  bool head() const { return has(0); }
+  bool eyes() const { return has(3) || has(6); }
+  /// The pose of a frame's weights [N]; what the clip lacks is 0.
+  HeadPose of(std::span<const double> weights) const noexcept;
+
+ private:
+  bool has(std::size_t first) const;
+  std::array<std::ptrdiff_t, 9> columns_;  // or -1
+};
+
+/// An eyeball: stored vectors that turn together about a centre.
+struct Eye {
+  std::string name;  ///< eyeLeft, eyeRight
+  Vec3 centre;       ///< of the ball, model units
+  double radius = 0;
+  std::vector<Index> stored;
+};
+
+/// The eyeballs: the two largest balls of a face and whatever lies in them. Of the library that
+/// converts.
+std::vector<Eye> findEyes(const Rig& rig);
+
+/// Turns eyes rigidly, by targets that hold the turned ball exactly: with a rotation of θ about an
+/// axis (a, b, 0), the ball stands at
+///
+///   p + sin θ (a X p + b Y p) + (1 − cos θ) (a² X² p + b² Y² p + ab (XY + YX) p)
+///
+/// where X and Y are the cross products with the x and y axes. Axes in the plane across the view
+/// are all that eyes use (Listing's law). Terms whose factors may be below 0 have a target for
+/// either sign, since some programs stop weights at 0.
+class EyeTurns {
+ public:
+  EyeTurns() = default;
+
+  /// Adds the targets to a rig, named eyeLeft.down, .up, .left, .right, .xx, .yy, .xy
+  /// and .yx. Targets named like ARKit's
+  /// eyeLook shapes turn the eyes from now on: by as much as they did so far, then without moving
+  /// the ball along a straight line any longer, or by half a radian if they did not.
+  static EyeTurns addTo(Rig& rig, std::span<const Eye> eyes);
+
+  bool empty() const noexcept { return eyes_.empty(); }
+
+  /// Sets the weights [K] of the turns from those of the eyeLook targets.
+  void apply(std::span<double> weights) const noexcept;
+  /// Sets them from angles instead, as a tracker gives them; roll does not count.
+  void apply(const HeadPose& pose, std::span<double> weights) const noexcept;
+
+ private:
+  struct Look {
+    Index target = -1;
+    double x = 0, y = 0;  // rotation vector at weight 1
+  };
+  struct Turning {
+    Index first = -1;  // of its targets
+    bool left = true;
+    std::vector<Look> looks;
+  };
+  static void set(const Turning& eye, double x, double y, std::span<double> weights) noexcept;
+  static void addLooks(Rig& rig, const Eye& eye, Turning& turning);
+
+  std::vector<Turning> eyes_;
+};
+
+}  // namespace sweepface

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "sweepface/clip.hpp"
+#include "sweepface/live_motion.hpp"
+#include "sweepface/regions.hpp"
+
+namespace sweepface {
+
+/// What a drive becomes in a part of a face. The pull is that of the rest times the stiffness, and
+/// m q″ = f: everything takes √(mass / stiffness) times as long, and a spring's damping, whose
+/// damper stays the same, is divided by √(mass · stiffness).
+Drive inMatter(Drive drive, const Matter& matter);
+
+/// What a clip becomes there. The recorded face has the mass 1 already; what is beyond that hangs
+/// on the recorded weights by a spring and a damper, follows late and swings on. The frames stay;
+/// between them the path is exact however many there are.
+Clip inMatter(const Clip& clip, const Matter& matter, const Spring& hold = {});
+
+/// R regions × K weights in motion: a goal sends a weight off everywhere, and each region moves by
+/// its own matter. One region of matter 1 is a MotionState, bit for bit.
+class RegionalMotion {
+ public:
+  /// All regions start from the same weights [K]. Refuses what MotionState or check() refuse.
+  static Result<RegionalMotion> make(std::span<const double> weights,
+                                     std::span<const Matter> matters);
+
+  std::size_t regionCount() const noexcept { return states_.size(); }
+  std::size_t size() const noexcept { return states_.front().size(); }  ///< K
+
+  void advance(double seconds) noexcept;
+
+  /// On an error nothing changes.
+  Result<void> moveTo(std::size_t weight, double goal, const Drive& drive = {});
+  Result<void> moveTo(std::span<const double> goals, const Drive& drive = {});
+  /// Only in one region.
+  Result<void> moveTo(std::size_t region, std::size_t weight, double goal, const Drive& drive);
+  /// A blow, which a heavy region feels less.
+  Result<void> push(std::size_t weight, double velocityChange, double drag);
+
+  Kinematics sample(std::size_t region, std::size_t weight) const noexcept;
+  /// All weights [R × K], as an Evaluation of the same regions takes them.
+  void positions(std::span<double> out) const noexcept;
+
+ private:
+  std::vector<Matter> matters_;
+  std::vector<MotionState> states_;  // [R]
+};
+
+}  // namespace sweepface

@@ -1,0 +1,206 @@
+// The weights that an animation of a glTF gives to morph targets, as a clip.
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <map>
+
+#include "sweepface/gltf.hpp"
+#include "sweepface/keys.hpp"
+
+#include "gltf/accessor.hpp"
+#include "gltf/parts.hpp"
+#include "io/text.hpp"
+
+namespace sweepface {
+namespace gltf {
+namespace {
+
+/// Curves between keys become straight lines between so many places a second, at the least.
+constexpr double kCurveRate = 120;
+constexpr double kMostFrames = 1'000'000;
+
+/// One channel: the weights of a mesh.
+struct Track {
+  std::vector<std::string> names;
+  std::string interpolation;
+  std::vector<double> times, values;  // a row, or three with tangents, of names a key
+  CubicKeys cubic;                    // where it is one
+
+  void at(double time, std::span<double> out) const {
+    if (interpolation == "CUBICSPLINE") return cubic.at(time, out);
+    const auto after =
+        static_cast<std::size_t>(std::ranges::upper_bound(times, time) - times.begin());
+    const std::size_t last = times.size() - 1, n = names.size();
+    const std::size_t from = after == 0 ? 0 : after - 1, to = std::min(after, last);
+    const bool holds = from == to || interpolation == "STEP";
+    const double s = holds ? 0 : (time - times[from]) / (times[to] - times[from]);
+    for (std::size_t k = 0; k < n; ++k)
+      out[k] = std::lerp(values[from * n + k], values[to * n + k], s);
+  }
+};
+
+class ClipReader {
+ public:
+  ClipReader(const Document& document, const Parts& parts) : document_(document), parts_(parts) {}
+
+  Result<Clip> read(std::string_view wanted) {
+    const Json& animations = document_.list("animations");
+    for (std::size_t a = 0; a < animations.size(); ++a) {
+      Members in(animations[a], fmt::format("animation {}", a));
+      const std::string_view name = in.text("name");
+      if (!in.ok()) return in.error();
+      if (!wanted.empty() && name != wanted) continue;
+      if (auto ok = readAnimation(in); !ok) return std::unexpected(ok.error());
+      if (!tracks_.empty()) return clipOf();
+    }
+    if (wanted.empty()) return fail("it has no animation of morph targets.");
+    return fail(
+        fmt::format("it has no animation of morph targets named {}.", io::inQuotes(wanted)));
+  }
+
+ private:
+  Result<void> readAnimation(Members& in) {
+    const Json &channels = in.array("channels"), &samplers = in.array("samplers");
+    if (!in.ok()) return in.error();
+    for (std::size_t c = 0; c < channels.size(); ++c) {
+      Members channel(channels[c], fmt::format("{}, channel {}", in.place(), c));
+      Members target(channel.object("target"), channel.place());
+      const bool weights = target.text("path") == "weights";
+      const std::size_t sampler = channel.index("sampler", samplers.size(), "samplers");
+      const auto node = target.optionalIndex("node", document_.list("nodes").size(), "nodes");
+      if (!channel.ok()) return channel.error();
+      if (!target.ok()) return target.error();
+      if (!weights || !node) continue;
+      const RigMesh* const mesh = meshOf(*node);
+      if (!mesh) continue;
+      if (auto ok = readTrack(*mesh, samplers[sampler],
+                              fmt::format("{}, sampler {}", in.place(), sampler));
+          !ok)
+        return ok;
+    }
+    return {};
+  }
+
+  const RigMesh* meshOf(std::size_t node) const {
+    const auto mesh =
+        findIndex(document_.list("nodes")[node], "mesh", document_.list("meshes").size());
+    const auto found = std::ranges::find_if(
+        parts_.meshes, [&](const RigMesh& m) { return mesh && m.mesh == *mesh; });
+    return found == parts_.meshes.end() || found->targets.empty() ? nullptr : &*found;
+  }
+
+  Result<std::vector<double>> numbers(std::size_t index) const {
+    const auto accessor = accessorAt(document_, index);
+    if (!accessor) return std::unexpected(accessor.error());
+    if (!accessor->hasData() && accessor->count > document_.mostElements())
+      return fail(fmt::format("accessor {}: it has more elements than the file can hold.", index));
+    return decode(document_, *accessor);
+  }
+
+  Result<void> readTrack(const RigMesh& mesh, const Json& json, std::string place) {
+    Members in(json, std::move(place));
+    const std::size_t accessors = document_.list("accessors").size();
+    const std::size_t input = in.index("input", accessors, "accessors"),
+                      output = in.index("output", accessors, "accessors");
+    Track track;
+    track.interpolation = in.has("interpolation") ? in.text("interpolation") : "LINEAR";
+    const bool cubic = track.interpolation == "CUBICSPLINE";
+    if (!cubic && track.interpolation != "LINEAR" && track.interpolation != "STEP")
+      in.refuse("its interpolation is unknown");
+    if (!in.ok()) return in.error();
+    auto times = numbers(input), values = numbers(output);
+    if (!times) return std::unexpected(times.error());
+    if (!values) return std::unexpected(values.error());
+    for (const std::size_t t : mesh.targets) track.names.push_back(parts_.targets[t]);
+    if (times->empty() || values->size() != times->size() * track.names.size() * (cubic ? 3 : 1))
+      in.refuse(fmt::format("it has {} values for {} keys of {} targets", values->size(),
+                            times->size(), track.names.size()));
+    if (std::ranges::adjacent_find(*times, std::greater_equal()) != times->end())
+      in.refuse("its times do not increase");
+    if (!in.ok()) return in.error();
+    track.times = std::move(*times), track.values = std::move(*values);
+    if (cubic) track.cubic = keysOf(track);
+    tracks_.push_back(std::move(track));
+    return {};
+  }
+
+  static CubicKeys keysOf(const Track& track) {
+    CubicKeys keys{track.names, track.times, {}, {}, {}};
+    const std::size_t n = track.names.size();
+    for (std::size_t k = 0; k < track.times.size(); ++k)
+      for (std::size_t row = 0; row < 3; ++row) {
+        auto& list = row == 0 ? keys.in : row == 1 ? keys.values : keys.out;
+        const auto from = track.values.begin() + static_cast<std::ptrdiff_t>((3 * k + row) * n);
+        list.insert(list.end(), from, from + static_cast<std::ptrdiff_t>(n));
+      }
+    return keys;
+  }
+
+  /// All keys; more on curves, and just before what holds changes.
+  Result<std::vector<double>> frames() const {
+    std::vector<double> times;
+    for (const Track& track : tracks_)
+      for (std::size_t k = 0; k < track.times.size(); ++k) {
+        times.push_back(track.times[k]);
+        if (k + 1 == track.times.size()) break;
+        const double span = track.times[k + 1] - track.times[k];
+        if (track.interpolation == "STEP") times.push_back(track.times[k + 1] - 1e-3 * span);
+        const double pieces = std::ceil(span * kCurveRate);
+        if (!(static_cast<double>(times.size()) + pieces <= kMostFrames))
+          return fail("its animation is too long for a clip.");
+        for (double p = 1; track.interpolation == "CUBICSPLINE" && p < pieces; ++p)
+          times.push_back(track.times[k] + span * p / pieces);
+      }
+    std::ranges::sort(times);
+    const auto same = [](double a, double b) { return b - a < 1e-9; };
+    times.erase(std::unique(times.begin(), times.end(), same), times.end());
+    return times;
+  }
+
+  /// Where several meshes have a target, the first one's weight counts.
+  Result<Clip> clipOf() const {
+    auto times = frames();
+    if (!times) return std::unexpected(times.error());
+    Clip clip;
+    clip.times = std::move(*times);
+    std::vector<std::pair<const Track*, std::size_t>> sources;
+    for (const Track& track : tracks_)
+      for (std::size_t k = 0; k < track.names.size(); ++k)
+        if (std::ranges::find(clip.names, track.names[k]) == clip.names.end()) {
+          clip.names.push_back(track.names[k]);
+          sources.emplace_back(&track, k);
+        }
+    std::map<const Track*, std::vector<double>> now;
+    for (const Track& track : tracks_) now[&track].resize(track.names.size());
+    for (const double time : clip.times) {
+      for (auto& [track, weights] : now) track->at(time, weights);
+      for (const auto& [track, k] : sources) clip.weights.push_back(now[track][k]);
+    }
+    return clip;
+  }
+
+  const Document& document_;
+  const Parts& parts_;
+  std::vector<Track> tracks_;
+};
+
+Result<Clip> readClip(std::string_view bytes, const std::filesystem::path& folder,
+                      std::string_view animation) {
+  const auto document = parseDocument(bytes, folder);
+  if (!document) return std::unexpected(document.error());
+  const auto parts = findParts(*document);
+  if (!parts) return std::unexpected(parts.error());
+  return ClipReader(*document, *parts).read(animation);
+}
+
+}  // namespace
+}  // namespace gltf
+
+Result<Clip> parseGltfClip(std::string_view bytes, std::string_view name,
+                           const std::filesystem::path& folder, std::string_view animation) {
+  auto clip = gltf::readClip(bytes, folder, animation);
+  if (clip) return clip;
+  return fail(std::string(name) + ": " + clip.error().message);
+}
+
+}  // namespace sweepface

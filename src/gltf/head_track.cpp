@@ -1,0 +1,92 @@
+#include "gltf/head_track.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sweepface::gltf {
+namespace {
+
+double dot(const Quaternion& a, const Quaternion& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
+}
+
+/// Along the great circle, as players interpolate rotations (glTF 2.0, appendix C.4).
+Quaternion between(const Quaternion& a, const Quaternion& b, double s) {
+  const double cosine = std::clamp(dot(a, b), -1.0, 1.0), angle = std::acos(cosine);
+  const double sine = std::sin(angle);
+  const double p = sine > 1e-9 ? std::sin((1 - s) * angle) / sine : 1 - s;
+  const double q = sine > 1e-9 ? std::sin(s * angle) / sine : s;
+  Quaternion result;
+  for (std::size_t k = 0; k < 4; ++k) result[k] = p * a[k] + q * b[k];
+  return result;
+}
+
+/// Radians from one rotation to another.
+double angleBetween(const Quaternion& a, const Quaternion& b) {
+  double square = 0;
+  for (std::size_t k = 0; k < 4; ++k) square += (a[k] - b[k]) * (a[k] - b[k]);
+  return 4 * std::asin(std::min(1.0, std::sqrt(square) / 2));
+}
+
+/// Half of all quaternions say the same as the others: neighbours take the shorter way.
+std::vector<Quaternion> untwisted(std::vector<Quaternion> rotations) {
+  for (std::size_t k = 1; k < rotations.size(); ++k)
+    if (dot(rotations[k - 1], rotations[k]) < 0)
+      for (double& x : rotations[k]) x = -x;
+  return rotations;
+}
+
+/// Frames that do as keys: each piece goes as far as all frames on it stay within the tolerance.
+std::vector<std::size_t> keysOf(const HeadTrack& track, const std::vector<Quaternion>& rotations,
+                                double tolerance) {
+  std::vector<std::size_t> keys{0};
+  const auto isNear = [&](std::size_t from, std::size_t to) {
+    for (std::size_t f = from + 1; f < to; ++f) {
+      const double s = (track.times[f] - track.times[from]) / (track.times[to] - track.times[from]);
+      if (angleBetween(rotations[f], between(rotations[from], rotations[to], s)) > tolerance)
+        return false;
+    }
+    return true;
+  };
+  for (std::size_t from = 0; from + 1 < rotations.size();) {
+    std::size_t to = from + 1;
+    while (to + 1 < rotations.size() && to - from < 1000 && isNear(from, to + 1)) ++to;
+    keys.push_back(from = to);
+  }
+  return keys;
+}
+
+}  // namespace
+
+Result<void> addHeadTrack(Document& document, const HeadTrack& track, double tolerance,
+                          Json& animation, Builder& builder) {
+  Json& json = document.json;
+  if (document.list("scenes").size() != 1 || !find(json["scenes"][0], "nodes"))
+    return fail("The face's file has not just one scene, so it is not clear what its head holds.");
+  Json& nodes = json["nodes"];
+  const std::size_t head = nodes.size();
+  const auto place = [](const Vec3& p) { return Json::array({p.x, p.y, p.z}); };
+  nodes.push_back({{"name", "head"},
+                   {"translation", place(track.pivot)},
+                   {"children", Json::array({head + 1})}});
+  nodes.push_back({{"name", "head.contents"},
+                   {"translation", place(-track.pivot)},
+                   {"children", json["scenes"][0]["nodes"]}});
+  json["scenes"][0]["nodes"] = Json::array({head});
+  const std::vector<Quaternion> rotations = untwisted(track.rotations);
+  std::vector<double> times, values;
+  for (const std::size_t key : keysOf(track, rotations, tolerance)) {
+    times.push_back(track.times[key]);
+    values.insert(values.end(), rotations[key].begin(), rotations[key].end());
+  }
+  Column input = pack(times, 1);
+  input.bounded = true;
+  animation["channels"].push_back({{"sampler", animation["samplers"].size()},
+                                   {"target", {{"node", head}, {"path", "rotation"}}}});
+  animation["samplers"].push_back({{"input", builder.add(input, Use::other)},
+                                   {"interpolation", "LINEAR"},
+                                   {"output", builder.add(pack(values, 4), Use::other)}});
+  return {};
+}
+
+}  // namespace sweepface::gltf

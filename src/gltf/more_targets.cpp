@@ -1,0 +1,135 @@
+#include "gltf/more_targets.hpp"
+
+#include <map>
+#include <set>
+
+#include "gltf/builder.hpp"
+
+namespace sweepface::gltf {
+namespace {
+
+class TargetAdder {
+ public:
+  TargetAdder(Document& document, const Parts& parts, const std::vector<std::string>& names)
+      : document_(document), json_(document.json), parts_(parts), names_(names) {}
+
+  Result<void> add() {
+    for (const RigMesh& mesh : parts_.meshes) {
+      if (mesh.targets.empty() && !parts_.targets.empty()) continue;
+      meshes_[mesh.mesh] = mesh.targets.size();
+      name(mesh);
+    }
+    for (const Part& part : parts_.parts) widen(part);
+    for (const auto& [mesh, before] : meshes_) widenWeights(json_["meshes"][mesh], before);
+    if (json_.contains("nodes"))
+      for (Json& node : json_["nodes"])
+        if (const auto mesh = meshOf(node); mesh && node.contains("weights"))
+          widenWeights(node, meshes_[*mesh]);
+    return widenAnimations();
+  }
+
+ private:
+  std::optional<std::size_t> meshOf(const Json& node) const {
+    const auto mesh = findIndex(node, "mesh", document_.list("meshes").size());
+    return mesh && meshes_.contains(*mesh) ? mesh : std::nullopt;
+  }
+
+  void name(const RigMesh& mesh) {
+    Json list = Json::array();
+    for (const std::size_t t : mesh.targets) list.push_back(parts_.targets[t]);
+    for (const std::string& name : names_) list.push_back(name);
+    Json& extras = json_["meshes"][mesh.mesh]["extras"];
+    if (!extras.is_object()) extras = Json::object();
+    extras["targetNames"] = std::move(list);
+  }
+
+  /// Primitives that shared their vertices go on doing so.
+  void widen(const Part& part) {
+    const Run& run = parts_.runs[part.run];
+    const std::size_t mesh = parts_.meshes[run.rigMesh].mesh;
+    if (!meshes_.contains(mesh)) return;
+    Json& targets = json_["meshes"][mesh]["primitives"][part.primitive]["targets"];
+    if (!targets.is_array()) targets = Json::array();
+    for (std::size_t k = 0; k < names_.size(); ++k) {
+      const auto [hollow, isNew] = hollows_.try_emplace({part.run, k});
+      if (isNew) {
+        Json& accessors = json_["accessors"];
+        hollow->second = accessors.size();
+        accessors.push_back({{"componentType", static_cast<int>(Component::float32)},
+                             {"count", run.count},
+                             {"type", "VEC3"}});
+      }
+      targets.push_back({{"POSITION", hollow->second}});
+    }
+  }
+
+  void widenWeights(Json& holder, std::size_t before) const {
+    Json& weights = holder["weights"];
+    if (!weights.is_array()) weights = Json::array();
+    while (weights.size() < before + names_.size()) weights.push_back(0.0);
+  }
+
+  Result<void> widenAnimations() {
+    if (!json_.contains("animations")) return {};
+    Builder builder(document_);
+    for (Json& animation : json_["animations"])
+      if (isList(animation, "channels") && isList(animation, "samplers"))
+        for (Json& channel : animation["channels"])
+          if (auto ok = widenChannel(animation["samplers"], channel, builder); !ok) return ok;
+    builder.finish();
+    return {};
+  }
+
+  static bool isList(const Json& holder, const char* key) {
+    const Json* const list = find(holder, key);
+    return list && list->is_array();
+  }
+
+  Result<void> widenChannel(Json& samplers, Json& channel, Builder& builder) {
+    const Json* const target = find(channel, "target");
+    const Json* const path = target ? find(*target, "path") : nullptr;
+    if (!path || *path != "weights") return {};
+    const auto node = findIndex(*target, "node", document_.list("nodes").size());
+    const auto mesh = node ? meshOf(document_.list("nodes")[*node]) : std::nullopt;
+    const auto sampler = findIndex(channel, "sampler", samplers.size());
+    if (!mesh || !sampler || !samplers[*sampler].is_object()) return {};
+    // A sampler of another node's keeps its width.
+    Json wide = samplers[*sampler];
+    const auto output = findIndex(wide, "output", document_.list("accessors").size());
+    if (!output) return {};
+    const auto accessor = accessorAt(document_, *output);
+    if (!accessor) return std::unexpected(accessor.error());
+    const auto values = decode(document_, *accessor);
+    if (!values) return std::unexpected(values.error());
+    wide["output"] = builder.add(pack(widened(*values, meshes_[*mesh]), 1), Use::other);
+    channel["sampler"] = samplers.size();
+    samplers.push_back(std::move(wide));
+    return {};
+  }
+
+  std::vector<double> widened(const std::vector<double>& values, std::size_t before) const {
+    std::vector<double> wide;
+    for (std::size_t k = 0; before > 0 && k + before <= values.size(); k += before) {
+      wide.insert(wide.end(), values.begin() + static_cast<std::ptrdiff_t>(k),
+                  values.begin() + static_cast<std::ptrdiff_t>(k + before));
+      wide.insert(wide.end(), names_.size(), 0.0);
+    }
+    return wide;
+  }
+
+  Document& document_;
+  Json& json_;
+  const Parts& parts_;
+  const std::vector<std::string>& names_;
+  std::map<std::size_t, std::size_t> meshes_;  // and how many targets they had
+  std::map<std::pair<std::size_t, std::size_t>, std::size_t> hollows_;  // by run and name
+};
+
+}  // namespace
+
+Result<void> addTargets(Document& document, const Parts& parts,
+                        const std::vector<std::string>& names) {
+  return TargetAdder(document, parts, names).add();
+}
+
+}  // namespace sweepface::gltf

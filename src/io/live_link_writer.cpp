@@ -1,0 +1,154 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+
+#include "sweepface/clip.hpp"
+
+namespace sweepface {
+namespace {
+
+/// The columns of the Live Link Face app in their order: ARKit's shapes, then angles in radians.
+constexpr std::array<std::string_view, 61> kColumns{"EyeBlinkLeft",
+                                                    "EyeLookDownLeft",
+                                                    "EyeLookInLeft",
+                                                    "EyeLookOutLeft",
+                                                    "EyeLookUpLeft",
+                                                    "EyeSquintLeft",
+                                                    "EyeWideLeft",
+                                                    "EyeBlinkRight",
+                                                    "EyeLookDownRight",
+                                                    "EyeLookInRight",
+                                                    "EyeLookOutRight",
+                                                    "EyeLookUpRight",
+                                                    "EyeSquintRight",
+                                                    "EyeWideRight",
+                                                    "JawForward",
+                                                    "JawRight",
+                                                    "JawLeft",
+                                                    "JawOpen",
+                                                    "MouthClose",
+                                                    "MouthFunnel",
+                                                    "MouthPucker",
+                                                    "MouthRight",
+                                                    "MouthLeft",
+                                                    "MouthSmileLeft",
+                                                    "MouthSmileRight",
+                                                    "MouthFrownLeft",
+                                                    "MouthFrownRight",
+                                                    "MouthDimpleLeft",
+                                                    "MouthDimpleRight",
+                                                    "MouthStretchLeft",
+                                                    "MouthStretchRight",
+                                                    "MouthRollLower",
+                                                    "MouthRollUpper",
+                                                    "MouthShrugLower",
+                                                    "MouthShrugUpper",
+                                                    "MouthPressLeft",
+                                                    "MouthPressRight",
+                                                    "MouthLowerDownLeft",
+                                                    "MouthLowerDownRight",
+                                                    "MouthUpperUpLeft",
+                                                    "MouthUpperUpRight",
+                                                    "BrowDownLeft",
+                                                    "BrowDownRight",
+                                                    "BrowInnerUp",
+                                                    "BrowOuterUpLeft",
+                                                    "BrowOuterUpRight",
+                                                    "CheekPuff",
+                                                    "CheekSquintLeft",
+                                                    "CheekSquintRight",
+                                                    "NoseSneerLeft",
+                                                    "NoseSneerRight",
+                                                    "TongueOut",
+                                                    "HeadYaw",
+                                                    "HeadPitch",
+                                                    "HeadRoll",
+                                                    "LeftEyeYaw",
+                                                    "LeftEyePitch",
+                                                    "LeftEyeRoll",
+                                                    "RightEyeYaw",
+                                                    "RightEyePitch",
+                                                    "RightEyeRoll"};
+
+/// A column and the weights of the clip that it shows, the largest of them.
+struct Column {
+  std::string heading;
+  std::vector<std::size_t> sources;
+};
+
+std::vector<Column> columnsOf(const Clip& clip) {
+  Clip app;
+  for (const std::string_view name : kColumns) app.names.emplace_back(name);
+  const ClipMatch match = matchClip(app, clip.names);
+  std::vector<Column> columns;
+  std::vector<bool> shown(clip.names.size(), false);
+  for (std::size_t k = 0; k < kColumns.size(); ++k) {
+    Column& column = columns.emplace_back(app.names[k]);
+    for (const Index source : match.targets[k]) {
+      column.sources.push_back(static_cast<std::size_t>(source));
+      shown[source] = true;
+    }
+  }
+  for (std::size_t k = 0; k < clip.names.size(); ++k)
+    if (!shown[k]) columns.push_back({clip.names[k], {k}});
+  return columns;
+}
+
+Result<void> check(const Clip& clip, const std::vector<Column>& columns, double framesPerSecond) {
+  if (!(std::isfinite(framesPerSecond) && framesPerSecond > 0))
+    return fail("The frames per second of a recording must be greater than 0.");
+  if (clip.times.empty()) return fail("The clip has no frames.");
+  if (!(clip.times.front() >= 0 && clip.times.back() < 86400))
+    return fail("The times of a recording lie within a day.");
+  for (const Column& column : columns)
+    if (column.heading.empty() || column.heading.find_first_of(",\r\n") != std::string::npos)
+      return fail(fmt::format("'{}' cannot be the heading of a column.", column.heading));
+  return {};
+}
+
+/// HH:MM:SS:FF.fff, rounded to a thousandth of a frame.
+struct Timecode {
+  double seconds, frames;
+
+  Timecode(double time, double framesPerSecond)
+      : seconds(std::floor(time)),
+        frames(std::round((time - seconds) * framesPerSecond * 1000) / 1000) {
+    if (frames >= framesPerSecond) ++seconds, frames = 0;
+  }
+  bool isAfter(const Timecode& other) const {
+    return seconds != other.seconds ? seconds > other.seconds : frames > other.frames;
+  }
+  std::string text() const {
+    const auto count = static_cast<int>(seconds);
+    return fmt::format("{:02}:{:02}:{:02}:{:06.3f}", count / 3600, count / 60 % 60, count % 60,
+                       frames);
+  }
+};
+
+}  // namespace
+
+Result<std::string> formatLiveLinkCsv(const Clip& clip, double framesPerSecond) {
+  const std::vector<Column> columns = columnsOf(clip);
+  if (auto ok = check(clip, columns, framesPerSecond); !ok) return std::unexpected(ok.error());
+  std::string text = "Timecode,BlendShapeCount";
+  for (const Column& column : columns) text += "," + column.heading;
+  for (std::size_t f = 0; f < clip.times.size(); ++f) {
+    const Timecode time(clip.times[f], framesPerSecond);
+    if (f > 0 && !time.isAfter({clip.times[f - 1], framesPerSecond}))
+      return fail(
+          fmt::format("Frames {} and {} of the clip are too near to each other for a "
+                      "timecode; give a rate.",
+                      f - 1, f));
+    text += fmt::format("\n{},{}", time.text(), columns.size());
+    for (const Column& column : columns) {
+      double value = column.sources.empty() ? 0 : -HUGE_VAL;
+      for (const std::size_t k : column.sources)
+        value = std::max(value, clip.weights[f * clip.names.size() + k]);
+      text += fmt::format(",{}", value == 0 ? 0.0 : value);
+    }
+  }
+  return text += "\n";
+}
+
+}  // namespace sweepface

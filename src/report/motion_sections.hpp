@@ -1,0 +1,52 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "sweepface/picture.hpp"
+
+namespace sweepface {
+
+/// What a report shows of a face on its way from the neutral to an expression.
+class MotionSections {
+ public:
+  /// Everything must outlive the sections. Boxes are drawn round what the targets move whose names
+  /// contain one of `regions`; `drawn` is called for every picture.
+  MotionSections(const Rig& rig, const FaceScenes& scenes, const Weights& expression,
+                 const Camera& front, std::span<const std::string> regions,
+                 std::function<void()> drawn);
+
+  /// How many pictures there are.
+  static int pictures();
+
+  /// The paper's experiment: linear interpolation beside Newton's law in key frames, with measuring
+  /// boxes and plots.
+  Result<std::string> experiment() const;
+  /// Every law side by side: curves, and the face itself, moving.
+  Result<std::string> everyLaw() const;
+
+ private:
+  Result<Image> picture(double way, PictureSize size) const;
+  Result<std::string> strips() const;
+  std::vector<Box> measuringBoxes() const;
+  std::string plots() const;
+  std::string mixture() const;
+  Result<std::string> sprites() const;
+
+  const Rig& rig_;
+  const FaceScenes& scenes_;
+  const Weights& expression_;
+  const Camera& front_;
+  std::span<const std::string> regions_;
+  std::function<void()> drawn_;
+  FaceScenes fine_;
+  Weights rest_;
+};
+
+/// "jawOpen=0.5, smile=1".
+std::string mixtureOf(const Rig& rig, const Weights& weights);
+/// The target whose stored vectors' places move furthest in all; none moves: all 0.
+Weights strongestOf(const Rig& rig);
+
+}  // namespace sweepface

@@ -1,0 +1,225 @@
+#include <algorithm>
+#include <cmath>
+
+#include "sweepface/head.hpp"
+
+namespace sweepface {
+namespace {
+
+constexpr double kUsualLook = 0.5;  // radians at weight 1, where a target turns no eye itself
+
+Vec3 acrossX(const Vec3& v) { return cross({1, 0, 0}, v); }
+Vec3 acrossY(const Vec3& v) { return cross({0, 1, 0}, v); }
+
+constexpr std::size_t kTerms = 5, kTargets = 8;
+
+/// A target: a term of the rotation, with a sign.
+struct TurnTarget {
+  std::string_view name;
+  std::size_t term;
+  double sign;
+};
+constexpr std::array<TurnTarget, kTargets> kTurnTargets{{{".down", 0, 1},
+                                                         {".up", 0, -1},
+                                                         {".left", 1, 1},
+                                                         {".right", 1, -1},
+                                                         {".xx", 2, 1},
+                                                         {".yy", 3, 1},
+                                                         {".xy", 4, 1},
+                                                         {".yx", 4, -1}}};
+
+/// Factors of the terms for a rotation vector (x, y, 0).
+std::array<double, kTerms> factorsOf(double x, double y) {
+  const double angle = std::hypot(x, y);
+  // sin θ / θ and (1 − cos θ) / θ², both smooth at 0.
+  const double half = std::sin(angle / 2);
+  const double s = angle > 1e-8 ? std::sin(angle) / angle : 1;
+  const double c = angle > 1e-8 ? 2 * half * half / (angle * angle) : 0.5;
+  return {s * x, s * y, c * x * x, c * y * y, c * x * y};
+}
+
+std::array<Vec3, kTerms> termsOf(const Vec3& arm) {
+  const Vec3 x = acrossX(arm), y = acrossY(arm);
+  return {x, y, acrossX(x), acrossY(y), acrossX(y) + acrossY(x)};
+}
+
+/// From the centre, for what is a place; directions as they are.
+Vec3 armOf(const Rig& rig, const Eye& eye, Index stored) {
+  const StoredVector& what = rig.surface.stored(stored);
+  const bool isPlace = what.i == 0 && what.j == 0;
+  return isPlace ? rig.neutral[stored] - eye.centre : rig.neutral[stored];
+}
+
+/// What turning by (x, y, 0) adds to a stored vector.
+Vec3 added(const Rig& rig, const Eye& eye, Index stored, double x, double y) {
+  const auto terms = termsOf(armOf(rig, eye, stored));
+  const auto factors = factorsOf(x, y);
+  Vec3 sum;
+  for (std::size_t k = 0; k < kTerms; ++k) sum += factors[k] * terms[k];
+  return sum;
+}
+
+/// The rotation vector that a target turns an eye by: by Newton's method from the infinitesimal
+/// one, on the sum of squares over the places. Both zero if it does not move it.
+struct Fit {
+  double x = 0, y = 0;
+  double moves = 0, left = 0;  // sums of squares: of the ways, and of what the turn leaves
+};
+
+double squaresLeft(const Rig& rig, const Eye& eye, const Target& target, double x, double y) {
+  double sum = 0;
+  for (const Index v : eye.stored)
+    if (rig.surface.stored(v).i == 0 && rig.surface.stored(v).j == 0) {
+      const Vec3 d = target.difference[v] - added(rig, eye, v, x, y);
+      sum += dot(d, d);
+    }
+  return sum;
+}
+
+Fit fitTurn(const Rig& rig, const Eye& eye, const Target& target) {
+  Fit fit;
+  fit.moves = fit.left = squaresLeft(rig, eye, target, 0, 0);
+  if (!(fit.moves > 0)) return fit;
+  // Gauss-Newton with differences: two unknowns and a smooth function.
+  constexpr double h = 1e-5;
+  for (int round = 0; round < 20; ++round) {
+    double xx = 0, xy = 0, yy = 0, rx = 0, ry = 0;
+    for (const Index v : eye.stored) {
+      if (rig.surface.stored(v).i != 0 || rig.surface.stored(v).j != 0) continue;
+      const Vec3 here = added(rig, eye, v, fit.x, fit.y);
+      const Vec3 dx = (1 / h) * (added(rig, eye, v, fit.x + h, fit.y) - here);
+      const Vec3 dy = (1 / h) * (added(rig, eye, v, fit.x, fit.y + h) - here);
+      const Vec3 left = target.difference[v] - here;
+      xx += dot(dx, dx), xy += dot(dx, dy), yy += dot(dy, dy);
+      rx += dot(dx, left), ry += dot(dy, left);
+    }
+    const double determinant = xx * yy - xy * xy;
+    if (!(determinant > 0)) break;
+    const double x = (rx * yy - ry * xy) / determinant, y = (ry * xx - rx * xy) / determinant;
+    fit.x += x, fit.y += y;
+    if (std::hypot(x, y) < 1e-12) break;
+  }
+  fit.left = squaresLeft(rig, eye, target, fit.x, fit.y);
+  return fit;
+}
+
+}  // namespace
+
+Quaternion quaternionOf(const Angles& angles) {
+  const double cy = std::cos(angles.yaw / 2), sy = std::sin(angles.yaw / 2);
+  const double cp = std::cos(angles.pitch / 2), sp = std::sin(angles.pitch / 2);
+  const double cr = std::cos(angles.roll / 2), sr = std::sin(angles.roll / 2);
+  return {cy * sp * cr + sy * cp * sr, sy * cp * cr - cy * sp * sr, cy * cp * sr - sy * sp * cr,
+          cy * cp * cr + sy * sp * sr};
+}
+
+Vec3 turned(const Quaternion& by, const Vec3& v) {
+  const Vec3 axis{by[0], by[1], by[2]};
+  const Vec3 t = 2 * cross(axis, v);
+  return v + by[3] * t + cross(axis, t);
+}
+
+// ---- Clips ----
+
+ClipAngles::ClipAngles(const Clip& clip) {
+  static const std::array<std::string, 9> names{"HeadYaw",     "HeadPitch",     "HeadRoll",
+                                                "LeftEyeYaw",  "LeftEyePitch",  "LeftEyeRoll",
+                                                "RightEyeYaw", "RightEyePitch", "RightEyeRoll"};
+  columns_.fill(-1);
+  const ClipMatch match = matchClip(clip, names);
+  for (std::size_t k = 0; k < match.targets.size(); ++k)
+    for (const Index angle : match.targets[k]) columns_[angle] = static_cast<std::ptrdiff_t>(k);
+}
+
+bool ClipAngles::has(std::size_t first) const {
+  return columns_[first] >= 0 || columns_[first + 1] >= 0 || columns_[first + 2] >= 0;
+}
+
+HeadPose ClipAngles::of(std::span<const double> weights) const noexcept {
+  const auto angles = [&](std::size_t first) {
+    std::array<double, 3> three{};
+    for (std::size_t k = 0; k < 3; ++k)
+      if (const auto c = columns_[first + k];
+          c >= 0 && static_cast<std::size_t>(c) < weights.size())
+        three[k] = weights[static_cast<std::size_t>(c)];
+    return Angles{three[0], three[1], three[2]};
+  };
+  return {angles(0), angles(3), angles(6)};
+}
+
+// ---- Eyes ----
+
+EyeTurns EyeTurns::addTo(Rig& rig, std::span<const Eye> eyes) {
+  EyeTurns turns;
+  for (const Eye& eye : eyes) {
+    Turning turning;
+    turning.left = eye.centre.x >= 0;
+    addLooks(rig, eye, turning);
+    turning.first = static_cast<Index>(rig.targets.size());
+    for (const auto& [name, term, sign] : kTurnTargets) {
+      Target target{eye.name + std::string(name), std::vector<Vec3>(rig.neutral.size()),
+                    std::vector<Vec3>(rig.source.loose.size())};
+      for (const Index v : eye.stored)
+        target.difference[v] = sign * termsOf(armOf(rig, eye, v))[term];
+      while (rig.find(target.name) >= 0) target.name += '_';
+      rig.targets.push_back(std::move(target));
+    }
+    turns.eyes_.push_back(std::move(turning));
+  }
+  return turns;
+}
+
+void EyeTurns::addLooks(Rig& rig, const Eye& eye, Turning& turning) {
+  const double outwards = turning.left ? 1 : -1;
+  const std::string side = turning.left ? "Left" : "Right";
+  const Clip shapes{
+      {"eyeLookDown" + side, "eyeLookUp" + side, "eyeLookOut" + side, "eyeLookIn" + side}, {}, {}};
+  const std::array<std::array<double, 2>, 4> usual{
+      {{1, 0}, {-1, 0}, {0, outwards}, {0, -outwards}}};
+  std::vector<std::string> names;
+  for (const Target& target : rig.targets) names.push_back(target.name);
+  const ClipMatch match = matchClip(shapes, names);
+  for (std::size_t k = 0; k < usual.size(); ++k)
+    for (const Index index : match.targets[k]) {
+      Target& target = rig.targets[index];
+      const Fit fit = fitTurn(rig, eye, target);
+      constexpr double kMoves = 1e-3, kRigid = 0.1;  // of the radius, and of the way
+      const double count = static_cast<double>(eye.stored.size());
+      if (!(fit.moves > count * std::pow(kMoves * eye.radius, 2) / 9)) {
+        turning.looks.push_back({index, kUsualLook * usual[k][0], kUsualLook * usual[k][1]});
+      } else if (fit.left <= kRigid * kRigid * fit.moves) {
+        turning.looks.push_back({index, fit.x, fit.y});
+        for (const Index v : eye.stored) target.difference[v] -= added(rig, eye, v, fit.x, fit.y);
+      }
+    }
+}
+
+void EyeTurns::set(const Turning& eye, double x, double y, std::span<double> weights) noexcept {
+  const auto factors = factorsOf(x, y);
+  for (std::size_t k = 0; k < kTargets; ++k)
+    if (const auto t = static_cast<std::size_t>(eye.first) + k; t < weights.size())
+      weights[t] = std::max(0.0, kTurnTargets[k].sign * factors[kTurnTargets[k].term]);
+}
+
+void EyeTurns::apply(std::span<double> weights) const noexcept {
+  for (const Turning& eye : eyes_) {
+    double x = 0, y = 0;
+    for (const Look& look : eye.looks)
+      if (const auto t = static_cast<std::size_t>(look.target); t < weights.size())
+        x += weights[t] * look.x, y += weights[t] * look.y;
+    set(eye, x, y, weights);
+  }
+}
+
+void EyeTurns::apply(const HeadPose& pose, std::span<double> weights) const noexcept {
+  for (const Turning& eye : eyes_) {
+    const Angles& angles = eye.left ? pose.leftEye : pose.rightEye;
+    // The rotation across the view that looks the same way.
+    const Vec3 view = turned(quaternionOf({angles.yaw, angles.pitch, 0}), {0, 0, 1});
+    const double across = std::hypot(view.x, view.y), angle = std::atan2(across, view.z);
+    const double scale = across > 1e-12 ? angle / across : 1;
+    set(eye, -view.y * scale, view.x * scale, weights);
+  }
+}
+
+}  // namespace sweepface

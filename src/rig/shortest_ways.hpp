@@ -1,0 +1,33 @@
+#pragma once
+
+#include <functional>
+#include <limits>
+#include <queue>
+#include <utility>
+#include <vector>
+
+#include "sweepface/vec.hpp"
+
+namespace sweepface {
+
+/// Where one can go from a node, and how far that is.
+using Ways = std::vector<std::pair<Index, double>>;
+
+/// Completes distances [nodes] from those that are not infinite (E. W. Dijkstra, "A note on two
+/// problems in connexion with graphs", 1959).
+inline void shortestWays(const std::vector<Ways>& ways, std::vector<double>& distances) {
+  using Step = std::pair<double, Index>;
+  std::priority_queue<Step, std::vector<Step>, std::greater<>> next;
+  for (Index n = 0; n < static_cast<Index>(distances.size()); ++n)
+    if (distances[n] < std::numeric_limits<double>::infinity()) next.emplace(distances[n], n);
+  while (!next.empty()) {
+    const auto [distance, node] = next.top();
+    next.pop();
+    if (distance > distances[node]) continue;
+    for (const auto& [other, length] : ways[node])
+      if (distance + length < distances[other])
+        next.emplace(distances[other] = distance + length, other);
+  }
+}
+
+}  // namespace sweepface

@@ -1,0 +1,98 @@
+#include "sweepface/head.hpp"
+
+#include "sweepface/gltf.hpp"
+
+#include "cli/tool.hpp"
+#include "gltf/document.hpp"
+
+namespace sweepface {
+namespace {
+
+using namespace testing;
+
+class HeadAndEyes : public Tool {
+ protected:
+  /// A capture in which the head turns to its left by half a radian, and the jaw opens.
+  void capture() {
+    std::string text = "Timecode,BlendShapeCount,JawOpen,HeadYaw,HeadPitch,HeadRoll\n";
+    for (int f = 0; f <= 30; ++f)
+      text += fmt::format("00:00:00:{:02},3,{},{},0,0\n", f, f / 30.0, f / 60.0);
+    folder.file("take.csv", text);
+  }
+  static gltf::Json jsonOf(const std::string& glb) {
+    return gltf::parseDocument(glb, {}).value().json;
+  }
+};
+
+TEST_F(HeadAndEyes, TheHeadTurnsInMeshes) {
+  convertRig();
+  capture();
+  ASSERT_EQ(
+      run("animate face.sweep --clip take.csv --head on --pivot 1,2,3 --frames 3 -o turned").code,
+      0);
+  ASSERT_EQ(run("animate face.sweep --clip take.csv --frames 3 -o still").code, 0);
+  for (int f = 0; f < 3; ++f) {
+    const auto still = mesh(fmt::format("still/frame_{:04}.obj", f)).positions,
+               now = mesh(fmt::format("turned/frame_{:04}.obj", f)).positions;
+    const Vec3 pivot{1, 2, 3};
+    for (std::size_t v = 0; v < still.size(); ++v)
+      EXPECT_LE(norm(now[v] - (pivot + turned(quaternionOf({0.25 * f, 0, 0}), still[v] - pivot))),
+                1e-12);
+  }
+}
+
+TEST_F(HeadAndEyes, TheHeadIsANodeOfAGlb) {
+  convertRig();
+  capture();
+  const Outcome r = run("animate face.sweep --clip take.csv --head on --pivot 1,2,3 -o take.glb");
+  ASSERT_EQ(r.code, 0) << r.err;
+  const gltf::Json json = jsonOf(contents(folder / "take.glb"));
+  const std::size_t head = json["scenes"][0]["nodes"][0];
+  EXPECT_EQ(json["nodes"][head]["name"], "head");
+  EXPECT_EQ(json["nodes"][head]["translation"], gltf::Json::array({1.0, 2.0, 3.0}));
+  const std::size_t contents = json["nodes"][head]["children"][0];
+  EXPECT_EQ(json["nodes"][contents]["translation"], gltf::Json::array({-1.0, -2.0, -3.0}));
+  EXPECT_EQ(json["nodes"][contents]["children"], gltf::Json::array({0}));
+  const gltf::Json& channels = json["animations"][0]["channels"];
+  ASSERT_EQ(channels.size(), 2u);
+  EXPECT_EQ(channels[1]["target"]["path"], "rotation");
+  EXPECT_EQ(channels[1]["target"]["node"], head);
+}
+
+TEST_F(HeadAndEyes, AnglesGoIntoRecordings) {
+  convertRig();
+  capture();
+  ASSERT_EQ(run("animate face.sweep --clip take.csv -o again.csv").code, 0);
+  const auto clip = parseLiveLinkCsv(contents(folder / "again.csv"), "again.csv");
+  ASSERT_TRUE(clip);
+  std::vector<double> weights(clip->names.size());
+  clip->at(0.5, weights);
+  EXPECT_NEAR(ClipAngles(*clip).of(weights).head.yaw, 0.5, 1e-12);
+}
+
+TEST_F(HeadAndEyes, SayWhatIsMissing) {
+  convertRig();
+  capture();
+  folder.file("plain.csv", "Timecode,JawOpen\n0,0\n1,1\n");
+  EXPECT_TRUE(
+      fails("animate face.sweep --clip plain.csv --head on -o a.glb", "no angles of the head"));
+  EXPECT_TRUE(
+      fails("animate face.sweep --to jawOpen=1 --head on -o a.glb", "no angles of the head"));
+  EXPECT_TRUE(
+      fails("animate face.sweep --clip take.csv --head on --pivot 1,2 -o a.glb", "--pivot"));
+  EXPECT_TRUE(fails("animate face.sweep --clip take.csv --eyes on -o a.glb", "no two eyeballs"));
+  EXPECT_TRUE(fails("export face.sweep --limits 2 -o a.obj", "--limits: limits are like"));
+}
+
+TEST_F(HeadAndEyes, LimitsStopWeights) {
+  convertRig();
+  ASSERT_EQ(
+      run("export face.sweep --weights jawOpen=1.5,smile=-1 --limits 0:1,jawOpen=0:0.5 -o a.obj")
+          .code,
+      0);
+  ASSERT_EQ(run("export face.sweep --weights jawOpen=0.5 -o b.obj").code, 0);
+  EXPECT_EQ(mesh("a.obj").positions, mesh("b.obj").positions);
+}
+
+}  // namespace
+}  // namespace sweepface

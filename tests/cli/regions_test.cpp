@@ -1,0 +1,109 @@
+#include "cli/tool.hpp"
+
+namespace sweepface {
+namespace {
+
+using namespace testing;
+
+class RegionsOnTheFace : public Tool {
+ protected:
+  /// The side x > 4 of the sheet is heavy.
+  void heavySide(const std::string& more = "") {
+    folder.file("heavy.json",
+                R"({"regions": [{"name": "side", "line": [[6, 0, 0], [6, 6, 0]], "whole": 1,
+                "fade": 2, "over": "space", "mass": 4)" +
+                    more + "}]}");
+  }
+  std::vector<Vec3> frame(int number) {
+    return mesh(fmt::format("frames/frame_{:04}.obj", number)).positions;
+  }
+  static double way(const std::vector<Vec3>& from, const std::vector<Vec3>& to, std::size_t v) {
+    return norm(to[v] - from[v]);
+  }
+};
+
+TEST_F(RegionsOnTheFace, AHeavySideTakesLonger) {
+  convertRig();
+  heavySide();
+  const Outcome r = run(
+      "animate face.sweep --to jawOpen=1 --law newton --regions heavy.json --frames 21 -o frames");
+  ASSERT_EQ(r.code, 0) << r.err;
+  ASSERT_EQ(run("export face.sweep --weights jawOpen=1 -o open.obj").code, 0);
+  const auto first = frame(0), open = mesh("open.obj").positions;
+  EXPECT_NE(r.out.find("2 s"), std::string::npos) << r.out;  // √4 times as long
+  EXPECT_EQ(frame(20), open);
+  // After half of the two seconds the light side has arrived, the heavy one has gone a quarter.
+  const auto half = frame(10);
+  const std::size_t left = 1, right = 6;  // x = 1 and x = 6 in the first row
+  EXPECT_NEAR(way(first, half, left), way(first, open, left), 1e-9);
+  EXPECT_NEAR(way(first, half, right), way(first, open, right) / 4, 1e-9);
+}
+
+TEST_F(RegionsOnTheFace, WithoutADifferenceNothingChanges) {
+  convertRig();
+  folder.file("same.json", R"({"regions": [{"name": "side", "points": [[6, 0, 0]], "fade": 3}]})");
+  ASSERT_EQ(run("animate face.sweep --to jawOpen=1 --law spring -o plain.glb").code, 0);
+  ASSERT_EQ(
+      run("animate face.sweep --to jawOpen=1 --law spring --regions same.json -o same.glb").code,
+      0);
+  EXPECT_EQ(contents(folder / "plain.glb"), contents(folder / "same.glb"));
+}
+
+TEST_F(RegionsOnTheFace, AGlbHoldsPartsByName) {
+  convertRig();
+  heavySide();
+  const Outcome r =
+      run("animate face.sweep --to jawOpen=1 --law spring --regions heavy.json -o face.glb");
+  ASSERT_EQ(r.code, 0) << r.err;
+  const std::string glb = contents(folder / "face.glb");
+  EXPECT_NE(glb.find(R"("jawOpen","smile","jawOpen@rest","jawOpen@side")"), std::string::npos);
+}
+
+TEST_F(RegionsOnTheFace, GoIntoTheSceneThatTheFaceCameFrom) {
+  convertRig();
+  heavySide();
+  ASSERT_EQ(run("export face.sweep -o source.glb").code, 0);
+  ASSERT_EQ(run("convert source.glb -o again.sweep --tolerance 0.01").code, 0);
+  const Outcome r =
+      run("animate again.sweep --to jawOpen=1 --law spring --regions heavy.json -o face.glb");
+  ASSERT_EQ(r.code, 0) << r.err;
+  EXPECT_NE(
+      contents(folder / "face.glb").find(R"("jawOpen","smile","jawOpen@rest","jawOpen@side")"),
+      std::string::npos);
+  EXPECT_EQ(run("convert face.glb -o third.sweep --tolerance 0.01").code, 0);
+}
+
+TEST_F(RegionsOnTheFace, ComeWithTheTimeline) {
+  convertRig();
+  folder.file("line.json", R"({"seconds": 1,
+    "regions": [{"name": "side", "line": [[6, 0, 0], [6, 6, 0]], "whole": 1, "fade": 2,
+                 "over": "space", "delay": 0.5}],
+    "events": [{"at": 0, "to": {"jawOpen": 1}, "drive": "cut"},
+               {"at": 0.75, "to": {"smile": 1}, "drive": "cut", "region": "rest"}]})");
+  const Outcome r = run("animate face.sweep --clip line.json --fps 8 -o frames");
+  ASSERT_EQ(r.code, 0) << r.err;
+  ASSERT_EQ(run("export face.sweep --weights jawOpen=1 -o open.obj").code, 0);
+  ASSERT_EQ(run("export face.sweep -o rest.obj").code, 0);
+  const auto open = mesh("open.obj").positions, rest = mesh("rest.obj").positions;
+  EXPECT_LE(norm(frame(2)[1] - open[1]), 1e-9);
+  EXPECT_LE(norm(frame(2)[6] - rest[6]), 1e-9);
+  EXPECT_LE(norm(frame(5)[6] - open[6]), 1e-9);
+  EXPECT_GT(norm(frame(8)[1] - open[1]), 0.01);  // smiles
+  EXPECT_LE(norm(frame(8)[6] - open[6]), 1e-9);
+}
+
+TEST_F(RegionsOnTheFace, SayWhatIsWrong) {
+  convertRig();
+  const std::string command = "animate face.sweep --to smile=1 -o out.glb --regions ";
+  EXPECT_TRUE(fails(command + "none.json", "none.json"));
+  folder.file("empty.json", "{}");
+  EXPECT_TRUE(fails(command + "empty.json", "no 'regions'"));
+  folder.file("part.json", R"({"regions": [{"name": "a", "parts": ["nose"]}]})");
+  EXPECT_TRUE(fails(command + "part.json", "no material or group named 'nose'; it has lips, skin"));
+  folder.file("line.json", R"({"seconds": 1, "events": [
+    {"at": 0, "to": {"smile": 1}, "region": "nose"}]})");
+  EXPECT_TRUE(fails("animate face.sweep -o out.glb --clip line.json", "a region 'nose'"));
+}
+
+}  // namespace
+}  // namespace sweepface

@@ -1,0 +1,216 @@
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <numbers>
+
+#include "sweepface/eval.hpp"
+#include "sweepface/fit.hpp"
+#include "sweepface/head.hpp"
+#include "sweepface/io.hpp"
+
+#include "faces.hpp"
+
+namespace sweepface {
+namespace {
+
+using namespace sweepface::testing;
+
+constexpr double kRadius = 1.5;
+const Vec3 kLeft{3, 4, -1}, kRight{-3, 4, -1};
+
+/// Skin, a left and a right eyeball with a smaller ball in the left one; the eyeLook targets that
+/// are asked for turn the left ball by 0.4.
+MeshRig faceWithEyes(bool looks) {
+  PolygonMesh mesh = plane();
+  const auto skin = mesh.positions.size();
+  mesh = joined(mesh, cubeSphere(6, kRadius), kLeft);
+  const auto leftEnd = mesh.positions.size();
+  mesh = joined(mesh, cubeSphere(6, kRadius), kRight);
+  const auto rightEnd = mesh.positions.size();
+  mesh = joined(mesh, cubeSphere(3, 0.8), kLeft + Vec3{0, 0, 0.2});
+  MeshRig rig = withTargets(mesh, 1);
+  std::vector<Vec3> looking = mesh.positions;
+  const Quaternion by = quaternionOf({0, 0.4, 0});
+  for (std::size_t v = skin; looks && v < looking.size(); ++v)
+    if (v < leftEnd || v >= rightEnd) looking[v] = kLeft + turned(by, looking[v] - kLeft);
+  for (std::size_t v = 0; v < skin; ++v) looking[v].z += 0.2 * std::sin(looking[v].x);
+  rig.targets.push_back({"eyeLookDown_L", looking});
+  return rig;
+}
+
+Rig converted(const MeshRig& mesh) {
+  ConvertOptions options;
+  options.tolerance = 0.005;
+  return convert(mesh, options).value().rig;
+}
+
+std::vector<Vec3> shown(const Rig& rig, const std::vector<double>& weights) {
+  return sourcePositions(rig, Tessellation(rig.surface, 1), blend(rig, weights), weights);
+}
+
+/// How much the distances between the vertices [first, last) differ from those at rest.
+double stretch(const std::vector<Vec3>& rest, const std::vector<Vec3>& now, std::size_t first,
+               std::size_t last, std::size_t step = 1) {
+  double most = 0;
+  for (std::size_t a = first; a < last; a += step)
+    for (std::size_t b = a + step; b < last; b += step)
+      most = std::max(most, std::abs(norm(rest[a] - rest[b]) - norm(now[a] - now[b])));
+  return most;
+}
+
+const Eye* named(const std::vector<Eye>& eyes, std::string_view name) {
+  const auto found = std::ranges::find(eyes, name, &Eye::name);
+  return found == eyes.end() ? nullptr : &*found;
+}
+
+TEST(Eyes, AreTheTwoBallsAndWhatIsInThem) {
+  const MeshRig mesh = faceWithEyes(false);
+  const Rig rig = converted(mesh);
+  const auto eyes = findEyes(rig);
+  ASSERT_EQ(eyes.size(), 2u);
+  const Eye *left = named(eyes, "eyeLeft"), *right = named(eyes, "eyeRight");
+  ASSERT_TRUE(left && right);
+  EXPECT_LE(norm(left->centre - kLeft), 0.01);
+  EXPECT_LE(norm(right->centre - kRight), 0.01);
+  EXPECT_NEAR(left->radius, kRadius, 0.012);
+  EXPECT_GT(left->stored.size(), right->stored.size());  // the ball inside
+}
+
+TEST(Eyes, WithoutABallThereAreNone) {
+  EXPECT_TRUE(findEyes(converted(withTargets(plane()))).empty());
+  EXPECT_TRUE(findEyes(converted(withTargets(uvSphere()))).empty() ||
+              findEyes(converted(withTargets(uvSphere()))).size() == 1);
+}
+
+TEST(EyeTurns, AreRigidAtEveryWeightAndOnlyThere) {
+  const MeshRig mesh = faceWithEyes(false);
+  const Rig plain = converted(mesh);
+  Rig rig = plain;
+  const EyeTurns turns = EyeTurns::addTo(rig, findEyes(rig));
+  const auto rest = shown(plain, {});
+  const std::size_t skin = 99;
+  for (int k = 0; k <= 20; ++k) {
+    std::vector<double> weights(rig.targets.size());
+    weights[rig.find("eyeLookDown_L")] = k / 20.0;
+    turns.apply(weights);
+    const auto now = shown(rig, weights);
+    EXPECT_LE(stretch(rest, now, skin, skin + 218), 1e-12);
+    // By half a radian at weight 1, downwards.
+    double way = 0;
+    for (std::size_t v = skin; v < skin + 218; ++v) way = std::max(way, norm(now[v] - rest[v]));
+    EXPECT_NEAR(way, 2 * kRadius * std::sin(0.25 * k / 20.0), 0.01);
+    // Everything else does as it did.
+    const auto before = shown(plain, {0, k / 20.0});
+    for (std::size_t v = 0; v < skin; ++v) EXPECT_EQ(now[v], before[v]);
+  }
+}
+
+TEST(EyeTurns, GoAsFarAsTheTargetWent) {
+  const Rig plain = converted(faceWithEyes(true));
+  Rig rig = plain;
+  const EyeTurns turns = EyeTurns::addTo(rig, findEyes(rig));
+  const auto rest = shown(plain, {});
+  const std::size_t skin = 99, end = skin + 218;
+  double sagged = 0;
+  for (int k = 0; k <= 20; ++k) {
+    const double w = k / 20.0;
+    std::vector<double> weights(rig.targets.size());
+    weights[rig.find("eyeLookDown_L")] = w;
+    turns.apply(weights);
+    const auto now = shown(rig, weights), straight = shown(plain, {0, w});
+    const Quaternion by = quaternionOf({0, 0.4 * w, 0});
+    for (std::size_t v = skin; v < end; ++v) {
+      EXPECT_LE(norm(now[v] - (kLeft + turned(by, rest[v] - kLeft))), 0.012);
+      sagged = std::max(sagged, norm(rest[v] - kLeft) - norm(straight[v] - kLeft));
+      if (k == 20) {
+        EXPECT_LE(norm(now[v] - straight[v]), 1e-9);
+      }
+    }
+  }
+  EXPECT_GT(sagged, 0.02);  // what the straight way loses
+}
+
+TEST(EyeTurns, LookWhereTheAnglesSay) {
+  Rig rig = converted(faceWithEyes(false));
+  const auto rest = shown(rig, {});
+  const EyeTurns turns = EyeTurns::addTo(rig, findEyes(rig));
+  const std::size_t skin = 99;
+  // The front of the left eye.
+  std::size_t front = skin;
+  for (std::size_t v = skin; v < skin + 218; ++v)
+    if (rest[v].z > rest[front].z) front = v;
+  for (const auto& [yaw, pitch] :
+       {std::pair{0.5, 0.0}, {-0.3, 0.0}, {0.0, 0.4}, {0.3, -0.6}, {0.0, 0.0}}) {
+    std::vector<double> weights(rig.targets.size());
+    turns.apply(HeadPose{{}, {yaw, pitch, 0.7}, {}}, weights);
+    const auto now = shown(rig, weights);
+    const Vec3 before = normalized(rest[front] - kLeft), after = normalized(now[front] - kLeft);
+    const Vec3 view = turned(quaternionOf({yaw, pitch, 0}), {0, 0, 1});
+    EXPECT_NEAR(angleDegrees(before, after), angleDegrees({0, 0, 1}, view),
+                angleDegrees(before, {0, 0, 1}) + 0.01);
+    EXPECT_LE(angleDegrees(after, view), angleDegrees(before, {0, 0, 1}) + 0.01);
+    EXPECT_LE(stretch(rest, now, skin, skin + 218), 1e-12);
+  }
+}
+
+TEST(HeadAngles, TurnAsTheyAreDefined) {
+  const auto look = [](const Angles& a, const Vec3& v) { return turned(quaternionOf(a), v); };
+  constexpr double quarter = std::numbers::pi / 2;
+  EXPECT_LE(norm(look({quarter, 0, 0}, {0, 0, 1}) - Vec3{1, 0, 0}), 1e-15);   // to its left
+  EXPECT_LE(norm(look({0, quarter, 0}, {0, 0, 1}) - Vec3{0, -1, 0}), 1e-15);  // down
+  EXPECT_LE(norm(look({0, 0, quarter}, {1, 0, 0}) - Vec3{0, 1, 0}), 1e-15);
+  const Angles all{0.3, -0.5, 0.8};
+  const Vec3 v{1, 2, 3};
+  EXPECT_LE(norm(look(all, v) - look({0.3, 0, 0}, look({0, -0.5, 0}, look({0, 0, 0.8}, v)))),
+            1e-14);
+}
+
+TEST(HeadAngles, AreFoundByTheirHeadings) {
+  const Clip clip{{"jawOpen", "headYaw", "RightEyePitch"}, {0}, {0.1, 0.2, 0.3}};
+  const ClipAngles angles(clip);
+  EXPECT_TRUE(angles.head() && angles.eyes());
+  EXPECT_EQ(angles.of(clip.weights), (HeadPose{{0.2, 0, 0}, {}, {0, 0.3, 0}}));
+  const ClipAngles none(Clip{{"jawOpen"}, {}, {}});
+  EXPECT_FALSE(none.head() || none.eyes());
+}
+
+TEST(EyesLong, OfTheRealFaceTurnRigidly) {
+  SKIP_WITHOUT_REAL_FACES();
+  const std::filesystem::path folder = std::filesystem::path(realFaces()) / "ictface";
+  std::vector<std::filesystem::path> targets;
+  for (const char* name : {"eyeLookDown_L", "eyeLookOut_L", "eyeLookIn_R", "eyeLookUp_R"})
+    targets.push_back(folder / "expressions" / (std::string(name) + ".obj"));
+  ConvertOptions options;
+  options.tolerance = 0.02;
+  const Rig plain = convert(readRig(folder / "neutral.obj", targets).value(), options).value().rig;
+  Rig rig = plain;
+  const auto eyes = findEyes(rig);
+  ASSERT_EQ(eyes.size(), 2u);
+  for (const Eye& eye : eyes) {
+    fmt::print("{}: centre {:.3f} {:.3f} {:.3f}, radius {:.3f}, {} stored vectors\n", eye.name,
+               eye.centre.x, eye.centre.y, eye.centre.z, eye.radius, eye.stored.size());
+    EXPECT_LE(norm(eye.centre - Vec3{eye.centre.x > 0 ? 3.117 : -3.117, 3.602, 7.983}), 0.1);
+  }
+  const EyeTurns turns = EyeTurns::addTo(rig, eyes);
+  const auto rest = shown(plain, {});
+  // Source vertices of sclera and iris, left and right.
+  constexpr std::array<std::size_t, 3> borders{21451, 23021, 24591};
+  double most = 0;
+  for (int k = 1; k <= 20; ++k) {
+    std::vector<double> weights(rig.targets.size());
+    for (std::size_t t = 0; t < plain.targets.size(); ++t) weights[t] = k / 20.0;
+    turns.apply(weights);
+    const auto now = shown(rig, weights);
+    for (std::size_t e = 0; e < 2; ++e) {
+      most = std::max(most, stretch(rest, now, borders[e], borders[e + 1], 23));
+      EXPECT_GT(norm(now[borders[e]] - rest[borders[e]]) +
+                    norm(now[borders[e] + 300] - rest[borders[e] + 300]),
+                0.001);
+    }
+  }
+  fmt::print("distances within an eye change by {:.2e}\n", most);
+  EXPECT_LE(most, 1e-12);
+}
+
+}  // namespace
+}  // namespace sweepface

@@ -1,0 +1,109 @@
+#include <cmath>
+
+#include "sweepface/keys.hpp"
+#include "sweepface/trajectory.hpp"
+
+#include "gltf/written.hpp"
+
+namespace sweepface {
+namespace {
+
+using namespace testing;
+
+/// The small face ("open", "wink") with an animation of its weights.
+Glb moving(std::string_view interpolation, const std::vector<float>& times,
+           const std::vector<float>& values) {
+  Glb glb = smallFace();
+  const std::size_t input =
+      glb.addAccessor(glb.addView(bytesOf(times)), 5126, "SCALAR", times.size());
+  const std::size_t output =
+      glb.addAccessor(glb.addView(bytesOf(values)), 5126, "SCALAR", values.size());
+  glb.add(
+      "animations",
+      {{"name", "take"},
+       {"samplers",
+        Json::array({{{"input", input}, {"output", output}, {"interpolation", interpolation}}})},
+       {"channels",
+        Json::array({{{"sampler", 0}, {"target", {{"node", 0}, {"path", "weights"}}}}})}});
+  return glb;
+}
+
+Result<Clip> clipOf(const Glb& glb, std::string_view animation = {}) {
+  return parseGltfClip(glb.bytes(), "move.glb", {}, animation);
+}
+
+double weight(const Clip& clip, double seconds, std::size_t k) {
+  std::vector<double> all(clip.names.size());
+  clip.at(seconds, all);
+  return all[k];
+}
+
+TEST(GltfClip, StraightLinesKeepTheirKeys) {
+  const auto clip = clipOf(moving("LINEAR", {1, 2, 4}, {0, 0.5f, 1, 0.25f, 0, 0.75f}));
+  ASSERT_TRUE(clip) << clip.error().message;
+  EXPECT_EQ(clip->names, (std::vector<std::string>{"open", "wink"}));
+  EXPECT_EQ(clip->times, (std::vector<double>{1, 2, 4}));
+  EXPECT_EQ(clip->weights, (std::vector<double>{0, 0.5, 1, 0.25, 0, 0.75}));
+}
+
+TEST(GltfClip, CurvesAreFollowed) {
+  const auto clip =
+      clipOf(moving("CUBICSPLINE", {0, 2}, {0, 0, 0, 1, 0.5f, 0, /**/ 1, 0, 1, 1, 0, 0}));
+  ASSERT_TRUE(clip) << clip.error().message;
+  for (double t = 0; t <= 2; t += 0.01) {
+    EXPECT_NEAR(weight(*clip, t, 0),
+                0.25 * t * t * (3 - t) + (0.5 * t * (1 - t / 2) * (1 - t / 2)) +
+                    (t * t / 4) * (t / 2 - 1) * 2,
+                2e-4);
+    EXPECT_NEAR(weight(*clip, t, 1), 1, 1e-6);
+  }
+}
+
+TEST(GltfClip, StepsHold) {
+  const auto clip = clipOf(moving("STEP", {0, 1, 2}, {0, 0, 1, 0, 0, 0}));
+  ASSERT_TRUE(clip) << clip.error().message;
+  EXPECT_EQ(weight(*clip, 0.99, 0), 0);
+  EXPECT_EQ(weight(*clip, 1, 0), 1);
+  EXPECT_EQ(weight(*clip, 1.99, 0), 1);
+  EXPECT_EQ(weight(*clip, 2, 0), 0);
+}
+
+TEST(GltfClip, WhatIsWrittenIsReadAgain) {
+  const Rig rig = converted(withTargets(plane(4, 4), 2));
+  const auto spring = Trajectory::spring({}, 1, {2, 0.3});
+  Clip clip{{rig.targets[0].name, rig.targets[1].name}, {}, {}};
+  for (int f = 0; f <= 720; ++f) {
+    clip.times.push_back(f / 240.0);
+    clip.weights.push_back(spring->at(f / 240.0).position);
+    clip.weights.push_back(f < 360 ? 0 : 0.5);
+  }
+  const auto bytes = formatGlb(rig, {.clip = &clip, .keyTolerance = 1e-3, .animationName = "s"});
+  ASSERT_TRUE(bytes);
+  const auto again = parseGltfClip(*bytes, "move.glb", {}, "s");
+  ASSERT_TRUE(again) << again.error().message;
+  for (double t = 0; t <= 3; t += 1 / 240.0)
+    for (const std::size_t k : {0, 1}) EXPECT_NEAR(weight(*again, t, k), weight(clip, t, k), 2e-3);
+  const Written glb(*bytes);
+  const Json& sampler = glb.json["animations"][0]["samplers"][0];
+  EXPECT_EQ(sampler["interpolation"], "CUBICSPLINE");
+  EXPECT_LT(glb.accessor(sampler["input"])["count"], 40);
+}
+
+TEST(GltfClip, SaysWhatIsWrong) {
+  const auto fails = [](const Glb& glb, std::string_view why, std::string_view animation = {}) {
+    return failsWith(clipOf(glb, animation), {"move.glb", why});
+  };
+  EXPECT_TRUE(fails(smallFace(), "no animation of morph targets"));
+  EXPECT_TRUE(fails(moving("LINEAR", {0, 1}, {0, 0, 1, 1}), "named 'walk'", "walk"));
+  EXPECT_TRUE(fails(moving("LINEAR", {1, 1}, {0, 0, 1, 1}), "do not increase"));
+  EXPECT_TRUE(fails(moving("LINEAR", {0, 1}, {0, 0, 1}), "3 values for 2 keys of 2 targets"));
+  EXPECT_TRUE(fails(moving("CUBICSPLINE", {0, 1}, {0, 0, 1, 1}), "4 values"));
+  EXPECT_TRUE(fails(moving("SPLINE", {0, 1}, {0, 0, 1, 1}), "interpolation"));
+  Glb glb = moving("LINEAR", {0, 1}, {0, 0, 1, 1});
+  glb.json["animations"][0]["samplers"][0]["input"] = 99;
+  EXPECT_TRUE(fails(glb, "'input' is 99"));
+  EXPECT_TRUE(failsWith(parseGltfClip("glTF", "move.glb", {}), {"move.glb"}));
+}
+
+}  // namespace
+}  // namespace sweepface

@@ -1,0 +1,77 @@
+#include <cmath>
+#include <gtest/gtest.h>
+#include <random>
+
+#include "sweepface/clip.hpp"
+
+namespace sweepface {
+namespace {
+
+/// A minute of everything that the app records, and a shape that it does not know.
+Clip take(double framesPerSecond = 60) {
+  const auto empty = formatLiveLinkCsv({{"jawOpen"}, {0}, {0}});
+  Clip clip = *parseLiveLinkCsv(*empty, "empty.csv");
+  clip.names.push_back("cheekRaiser");
+  clip.times.clear(), clip.weights.clear();
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> uniform(-0.1, 1);
+  for (int f = 0; f < 60 * framesPerSecond; ++f) {
+    clip.times.push_back(3725 + f / framesPerSecond);
+    for (std::size_t k = 0; k < clip.names.size(); ++k) clip.weights.push_back(uniform(random));
+  }
+  return clip;
+}
+
+TEST(LiveLinkWriter, WhatItWritesIsReadAgain) {
+  for (const double rate : {24.0, 29.97, 60.0}) {
+    const Clip clip = take(rate);
+    const auto text = formatLiveLinkCsv(clip, rate);
+    ASSERT_TRUE(text) << text.error().message;
+    const auto again = parseLiveLinkCsv(*text, "take.csv", rate);
+    ASSERT_TRUE(again) << again.error().message;
+    EXPECT_EQ(again->names, clip.names);
+    EXPECT_EQ(again->weights, clip.weights);
+    ASSERT_EQ(again->times.size(), clip.times.size());
+    for (std::size_t f = 0; f < clip.times.size(); ++f)
+      EXPECT_NEAR(again->times[f], clip.times[f], 0.6e-3 / rate);
+    EXPECT_EQ(*formatLiveLinkCsv(*again, rate), *text);
+  }
+}
+
+TEST(LiveLinkWriter, ColumnsAreTheAppsOwn) {
+  const auto text = formatLiveLinkCsv(
+      {{"browInnerUp_L", "browInnerUp_R", "eyeBlink_R", "cheekRaiser"}, {0}, {0.25, 0.5, 1, 0.75}});
+  ASSERT_TRUE(text);
+  EXPECT_TRUE(text->starts_with("Timecode,BlendShapeCount,EyeBlinkLeft,EyeLookDownLeft,"));
+  const auto clip = parseLiveLinkCsv(*text, "take.csv");
+  ASSERT_TRUE(clip);
+  EXPECT_EQ(clip->names.size(), 62u);
+  const auto weight = [&](std::string_view name) {
+    for (std::size_t k = 0; k < clip->names.size(); ++k)
+      if (clip->names[k] == name) return clip->weights[k];
+    return std::nan("");
+  };
+  EXPECT_EQ(weight("BrowInnerUp"), 0.5);  // both sides
+  EXPECT_EQ(weight("EyeBlinkRight"), 1);
+  EXPECT_EQ(weight("EyeBlinkLeft"), 0);
+  EXPECT_EQ(weight("HeadYaw"), 0);
+  EXPECT_EQ(weight("cheekRaiser"), 0.75);
+}
+
+TEST(LiveLinkWriter, RefusesWhatTimecodesCannotTell) {
+  const auto refuses = [](std::vector<double> times, double rate = 60,
+                          std::string name = "jawOpen") {
+    const std::vector<double> weights(times.size(), 0.5);
+    return !formatLiveLinkCsv({{name}, times, weights}, rate);
+  };
+  EXPECT_FALSE(refuses({0, 86399.9}));
+  EXPECT_TRUE(refuses({}));
+  EXPECT_TRUE(refuses({-1}));
+  EXPECT_TRUE(refuses({86400}));
+  EXPECT_TRUE(refuses({1, 1 + 1e-7}));
+  EXPECT_TRUE(refuses({0}, 0));
+  EXPECT_TRUE(refuses({0}, 60, "a,b"));
+}
+
+}  // namespace
+}  // namespace sweepface

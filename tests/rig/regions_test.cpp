@@ -1,0 +1,336 @@
+#include "sweepface/regions.hpp"
+
+#include <random>
+
+#include "sweepface/eval.hpp"
+#include "sweepface/evaluator.hpp"
+#include "sweepface/fit.hpp"
+
+#include "codec/rigs.hpp"
+#include "faces.hpp"
+
+namespace sweepface {
+namespace {
+
+using namespace sweepface::testing;
+
+/// A converted face with two expressions.
+Rig converted(const PolygonMesh& mesh) {
+  ConvertOptions options;
+  options.tolerance = 0.01;
+  auto made = convert(withTargets(mesh), options);
+  EXPECT_TRUE(made) << (made ? "" : made.error().message);
+  return made->rig;
+}
+const Rig& hill() {
+  static const Rig rig = converted(plane());
+  return rig;
+}
+const Rig& ball() {
+  static const Rig rig = converted(cubeSphere());
+  return rig;
+}
+
+std::vector<Vec3> nodePlaces(const Rig& rig) {
+  const auto vectors = blend(rig, {});
+  std::vector<Vec3> places(rig.surface.wireframe().nodes.size());
+  for (Index a = 0; a < static_cast<Index>(rig.surface.wireframe().arcs.size()); ++a) {
+    const Arc& arc = rig.surface.wireframe().arcs[a];
+    places[arc.from] = rig.surface.pointOnArc(vectors, a, 0);
+    places[arc.to] = rig.surface.pointOnArc(vectors, a, arc.edges);
+  }
+  return places;
+}
+
+Brush around(const Vec3& point, double whole, double fade, bool alongSurface) {
+  Brush brush;
+  brush.points = {point};
+  brush.whole = whole, brush.fade = fade, brush.alongSurface = alongSurface;
+  return brush;
+}
+
+std::vector<double> painted(const Rig& rig, const Brush& brush) {
+  const auto shares = paint(rig, brush);
+  EXPECT_TRUE(shares) << (shares ? "" : shares.error().message);
+  return shares.value_or(std::vector<double>(rig.surface.wireframe().nodes.size()));
+}
+
+/// Three overlapping regions and the rest.
+std::vector<Region> someRegions(const Rig& rig) {
+  const auto places = nodePlaces(rig);
+  const auto regions =
+      dividedFace(rig, {{"a", {}, painted(rig, around(places.front(), 1, 6, false))},
+                        {"b", {}, painted(rig, around(places.back(), 1, 6, false))},
+                        {"c", {}, painted(rig, around(places[places.size() / 2], 2, 3, false))}});
+  EXPECT_TRUE(regions);
+  return *regions;
+}
+
+std::vector<double> anyWeights(std::size_t count) {
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> uniform(-0.3, 1);
+  std::vector<double> weights(count);
+  for (double& w : weights) w = uniform(random);
+  return weights;
+}
+
+std::vector<Vec3> blended(const Rig& rig, std::span<const Region> regions,
+                          std::span<const double> weights) {
+  std::vector<Vec3> vectors(rig.surface.vectorCount());
+  blend(rig, regions, weights, vectors);
+  return vectors;
+}
+
+// ---- Painting ----
+
+TEST(Regions, FadeWithTheDistanceFromAPoint) {
+  const auto places = nodePlaces(hill());
+  const auto shares = painted(hill(), around(places[0], 2, 4, false));
+  for (std::size_t n = 0; n < places.size(); ++n) {
+    const double t = (norm(places[n] - places[0]) - 2) / 4;
+    const double expected = t <= 0 ? 1
+                            : t >= 1
+                                ? 0
+                                : 1 - 10 * t * t * t + 15 * std::pow(t, 4) - 6 * std::pow(t, 5);
+    EXPECT_NEAR(shares[n], expected, 1e-12) << n;
+  }
+}
+
+TEST(Regions, FadeWithTheDistanceFromALine) {
+  Brush brush = around({}, 1, 2, false);
+  brush.points.clear();
+  brush.line = {{-100, 0, 0}, {100, 0, 0}};
+  const auto places = nodePlaces(ball());
+  const auto shares = painted(ball(), brush);
+  for (std::size_t n = 0; n < places.size(); ++n) {
+    const double distance = std::hypot(places[n].y, places[n].z);
+    if (distance < 1) {
+      EXPECT_EQ(shares[n], 1);
+    }
+    if (distance > 3) {
+      EXPECT_EQ(shares[n], 0);
+    }
+    if (distance > 1.01 && distance < 2.99) {
+      EXPECT_TRUE(shares[n] > 0 && shares[n] < 1);
+    }
+  }
+}
+
+// Through the middle of a ball its far side is 8 away, around it 12.6 and more.
+TEST(Regions, WaysAlongTheSurfaceAreLonger) {
+  const auto places = nodePlaces(ball());
+  const Vec3 pole{0, 0, 4};
+  const auto straight = painted(ball(), around(pole, 9, 0, false));
+  const auto along = painted(ball(), around(pole, 9, 0, true));
+  int differ = 0;
+  for (std::size_t n = 0; n < places.size(); ++n) {
+    EXPECT_EQ(straight[n], 1);
+    if (places[n].z < -3.5) {
+      EXPECT_EQ(along[n], 0);
+    }
+    if (places[n].z > 0) {
+      EXPECT_EQ(along[n], 1);
+    }
+    differ += along[n] != straight[n];
+  }
+  EXPECT_GT(differ, 0);
+}
+
+TEST(Regions, MaterialsAndGroupsArePainted) {
+  PolygonMesh mesh = cubeSphere(8);
+  Polygons& faces = mesh.polygons;
+  faces.materials = {"left", "right"};
+  for (Index f = 0; f < faces.faceCount(); ++f) {
+    double x = 0;
+    for (Index c = faces.faceStart[f]; c < faces.faceStart[f + 1]; ++c)
+      x += mesh.positions[faces.corners[c]].x;
+    faces.faceMaterial.push_back(x < 0 ? 0 : 1);
+  }
+  const Rig rig = converted(mesh);
+  Brush brush;
+  brush.parts = {"left"};
+  const auto places = nodePlaces(rig);
+  const auto shares = painted(rig, brush);
+  brush.fade = 6;
+  const auto soft = painted(rig, brush);
+  int inside = 0, between = 0;
+  for (std::size_t n = 0; n < places.size(); ++n) {
+    if (places[n].x < -1) {
+      EXPECT_EQ(shares[n], 1);
+      ++inside;
+    }
+    if (places[n].x > 1) {
+      EXPECT_EQ(shares[n], 0);
+    }
+    EXPECT_GE(soft[n], shares[n]);
+    between += soft[n] > 0 && soft[n] < 1;
+  }
+  EXPECT_GT(inside, 0);
+  EXPECT_GT(between, 0);
+  brush.parts = {"middle"};
+  const auto none = paint(rig, brush);
+  ASSERT_FALSE(none);
+  EXPECT_NE(none.error().message.find("'middle'; it has left, right"), std::string::npos);
+}
+
+TEST(Regions, NodesHaveTheSharesTheyAreGiven) {
+  Brush brush = around(nodePlaces(hill())[0], 100, 0, false);
+  brush.nodes = {{"n1", 0.25}, {"2", 0}};
+  const auto shares = painted(hill(), brush);
+  EXPECT_EQ(shares[0], 1);
+  EXPECT_EQ(shares[1], 0.25);
+  EXPECT_EQ(shares[2], 0);
+  brush.nodes = {{"n1", 1.5}};
+  EXPECT_FALSE(paint(hill(), brush));
+  brush.nodes = {{"nobody", 1}};
+  EXPECT_FALSE(paint(hill(), brush));
+}
+
+TEST(Regions, BandsFollowEachOther) {
+  const auto places = nodePlaces(hill());
+  const auto bands = paintBands(hill(), around(places[0], 0, 12, false), 5);
+  ASSERT_TRUE(bands);
+  for (std::size_t n = 0; n < places.size(); ++n) {
+    double sum = 0, middle = 0;
+    for (std::size_t b = 0; b < 5; ++b) {
+      sum += (*bands)[b][n];
+      middle += static_cast<double>(b) * (*bands)[b][n];
+    }
+    EXPECT_NEAR(sum, 1, 1e-12);
+    EXPECT_NEAR(middle, std::min(4.0, norm(places[n] - places[0]) / 3), 0.5);
+  }
+  EXPECT_EQ((*bands)[0][0], 1);
+  EXPECT_FALSE(paintBands(hill(), around(places[0], 1, 0, false), 5));
+}
+
+// ---- Shares ----
+
+TEST(Regions, SharesSumToOne) {
+  for (const Rig* rig : {&hill(), &ball()}) {
+    const auto regions = someRegions(*rig);
+    ASSERT_EQ(regions.size(), 4u);
+    EXPECT_EQ(regions[0].name, "rest");
+    const auto influences = influencesOf(rig->surface, regions);
+    ASSERT_EQ(influences.size(), 4u);
+    for (Index v = 0; v < rig->surface.storedCount(); ++v) {
+      double sum = 0;
+      for (const auto& region : influences) {
+        EXPECT_TRUE(region[v] >= 0 && region[v] <= 1);
+        sum += region[v];
+      }
+      EXPECT_NEAR(sum, 1, 1e-7);
+    }
+  }
+}
+
+TEST(Regions, WithNothingLeftThereIsNoRest) {
+  const std::size_t nodes = hill().surface.wireframe().nodes.size();
+  const auto regions =
+      dividedFace(hill(), {{"a", {}, std::vector(nodes, 1.0)}, {"b", {}, std::vector(nodes, 0.5)}});
+  ASSERT_TRUE(regions);
+  ASSERT_EQ(regions->size(), 2u);
+  EXPECT_NEAR((*regions)[1].shares[0], 1.0 / 3, 1e-15);
+}
+
+TEST(Regions, RefuseWhatCannotBe) {
+  const std::size_t nodes = hill().surface.wireframe().nodes.size();
+  const std::vector<double> all(nodes, 1.0);
+  const auto refuses = [&](std::vector<Region> regions) { return !dividedFace(hill(), regions); };
+  EXPECT_TRUE(refuses({{"", {}, all}}));
+  EXPECT_TRUE(refuses({{"a", {}, all}, {"a", {}, all}}));
+  EXPECT_TRUE(refuses({{"a", {}, {1}}}));
+  EXPECT_TRUE(refuses({{"a", {}, std::vector(nodes, 1.5)}}));
+  EXPECT_TRUE(refuses({{"a", {}, std::vector(nodes, std::nan(""))}}));
+  EXPECT_TRUE(refuses({{"a", {0, 1, 0}, all}}));
+  EXPECT_TRUE(refuses({{"a", {1, 1, -1}, all}}));
+}
+
+// ---- Blending ----
+
+TEST(Regions, OneRegionChangesNoBit) {
+  const Rig& rig = hill();
+  const auto regions = dividedFace(rig, {});
+  ASSERT_TRUE(regions);
+  EXPECT_TRUE(influencesOf(rig.surface, *regions).empty());
+  const auto weights = anyWeights(rig.targets.size());
+  EXPECT_EQ(blended(rig, *regions, weights), blend(rig, weights));
+}
+
+TEST(Regions, EqualWeightsAreThePlainBlend) {
+  for (const Rig* rig : {&hill(), &ball()}) {
+    const auto regions = someRegions(*rig);
+    const auto plain = anyWeights(rig->targets.size());
+    std::vector<double> weights;
+    for (std::size_t r = 0; r < regions.size(); ++r)
+      weights.insert(weights.end(), plain.begin(), plain.end());
+    const auto a = blended(*rig, regions, weights), b = blend(*rig, plain);
+    for (std::size_t v = 0; v < a.size(); ++v) EXPECT_LE(norm(a[v] - b[v]), 1e-13);
+  }
+}
+
+TEST(Regions, JoinsStayC2AndClosed) {
+  for (const Rig* rig : {&hill(), &ball()}) {
+    const auto regions = someRegions(*rig);
+    const auto vectors = blended(*rig, regions, anyWeights(regions.size() * rig->targets.size()));
+    int smooth = 0;
+    for (const JoinReport& join : examineJoins(rig->surface, vectors)) {
+      EXPECT_LE(join.positionGap, 1e-12);
+      if (join.joinClass != JoinClass::c2) continue;
+      ++smooth;
+      EXPECT_LE(join.firstJump, 1e-12);
+      EXPECT_LE(join.secondJump, 1e-12);
+    }
+    EXPECT_GT(smooth, 0);
+  }
+}
+
+TEST(Regions, AnEvaluatorBlendsThemAlike) {
+  for (const Rig* rig : {&hill(), &ball()}) {
+    const auto regions = someRegions(*rig);
+    EvaluatorOptions options;
+    options.influences = influencesOf(rig->surface, regions);
+    const auto evaluator = Evaluator::make(*rig, options);
+    ASSERT_TRUE(evaluator);
+    const auto weights = anyWeights(regions.size() * rig->targets.size());
+    std::vector<float> positions(3 * evaluator->vertexCount());
+    std::vector<std::byte> scratch(evaluator->scratchBytes());
+    Evaluation frame;
+    frame.evaluator = &*evaluator;
+    frame.weights = weights;
+    frame.scratch = scratch;
+    frame.positions = {positions.data(), evaluator->vertexCount()};
+    ASSERT_TRUE(frame.validate());
+    frame.run();
+    const auto exact = sourcePositions(*rig, Tessellation(rig->surface, 1),
+                                       blended(*rig, regions, weights), weights);
+    for (std::size_t v = 0; v < exact.size(); ++v) {
+      const Vec3 found{positions[3 * v], positions[3 * v + 1], positions[3 * v + 2]};
+      EXPECT_LE(norm(found - exact[v]), evaluator->positionBound(weights));
+    }
+  }
+}
+
+// ---- Parts as targets ----
+
+TEST(Regions, PartsOfTargetsAddUpToTheSamePose) {
+  for (const Rig* original : {&hill(), &ball()}) {
+    Rig rig = *original;
+    const auto regions = someRegions(rig);
+    const std::size_t count = rig.targets.size();
+    const auto targets = RegionalTargets::addTo(rig, regions, std::vector<Index>{0, 1});
+    EXPECT_GE(rig.find(partName(rig.targets[0].name, "a")), 0);
+    EXPECT_GE(rig.find(partName(rig.targets[0].name, "rest")), 0);
+    const auto weights = anyWeights(regions.size() * count);
+    std::vector<double> all(rig.targets.size());
+    targets.spread(weights, all);
+    const auto a = blend(rig, all), b = blended(*original, regions, weights);
+    for (std::size_t v = 0; v < a.size(); ++v) EXPECT_LE(norm(a[v] - b[v]), 1e-12);
+    // No part is behind: some programs stop at 0.
+    for (std::size_t k = count; k < all.size(); ++k) EXPECT_GE(all[k], 0);
+    // By itself a whole target is what it was.
+    EXPECT_EQ(rig.targets[0], original->targets[0]);
+  }
+}
+
+}  // namespace
+}  // namespace sweepface
