@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,9 +13,15 @@ namespace sweepface {
 /// Vectors are held in single precision.
 std::string encode(const Rig& rig);
 
+/// What reading a file may take. What is still takes hardly any bytes, so that a small file may ask
+/// for much memory.
+struct DecodeLimits {
+  std::size_t memory = std::size_t{2} << 30;  ///< bytes, about: of the rig and of its reading
+};
+
 /// Reads a .sweep file; `name` is what messages call it. Whatever the bytes, the answer is a sound
-/// rig or an error: memory stays in proportion to the bytes given.
-Result<Rig> decode(std::string_view bytes, std::string_view name);
+/// rig or an error: memory stays in proportion to the bytes given, and below the limit.
+Result<Rig> decode(std::string_view bytes, std::string_view name, const DecodeLimits& limits = {});
 
 /// What a part of a file costs.
 struct FilePart {

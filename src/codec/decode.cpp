@@ -4,6 +4,7 @@
 
 #include "codec/chunks.hpp"
 #include "codec/decoding.hpp"
+#include "codec/limits.hpp"
 #include "codec/utf8.hpp"
 #include "codec/wire_version1.hpp"
 
@@ -11,8 +12,20 @@ namespace sweepface {
 
 namespace codec {
 
+constexpr std::string_view kTooLarge = "it needs more memory than it is allowed";
+
+bool Decoding::afford(Reader& in, std::size_t count, std::size_t bytesEach) {
+  if (count > memory / bytesEach) {
+    in.refuse(kTooLarge);
+    return false;
+  }
+  memory -= count * bytesEach;
+  return true;
+}
+
 void Decoding::makeSurface(Reader& in) {
   quads = gridQuads(wireframe);
+  if (!afford(in, wireframe.patches.size(), kBytesAPatch)) return;
   auto surface = Surface::make(std::move(wireframe));
   if (!surface) return in.refuse("the wireframe is unsound: " + surface.error().message);
   rig.surface = std::move(*surface);
@@ -30,8 +43,9 @@ namespace {
 
 class Decoder {
  public:
-  Decoder(std::string_view bytes, std::string_view name) : name_(name) {
+  Decoder(std::string_view bytes, std::string_view name, const DecodeLimits& limits) : name_(name) {
     decoding_.fileSize = bytes.size();
+    decoding_.memory = limits.memory;
   }
 
   Result<Rig> run(const Chunks& chunks) {
@@ -49,7 +63,9 @@ class Decoder {
   std::unexpected<Error> failAt(const Chunk& chunk, std::size_t byte,
                                 const std::string& what) const {
     return fail(name_ + ", chunk '" + std::string(kinds_[chunk.rank].code) + "', byte " +
-                std::to_string(byte) + ": " + what + "; convert the source again.");
+                std::to_string(byte) + ": " + what +
+                (what.find("memory") != what.npos ? "; allow more, or do not open it."
+                                                  : "; convert the source again."));
   }
 
   // Chunks come in the order of the registry; targets of version 1 as many as the head says.
@@ -86,10 +102,10 @@ class Decoder {
 }  // namespace
 }  // namespace codec
 
-Result<Rig> decode(std::string_view bytes, std::string_view name) {
+Result<Rig> decode(std::string_view bytes, std::string_view name, const DecodeLimits& limits) {
   const auto chunks = codec::readChunks(bytes, name);
   if (!chunks) return std::unexpected(chunks.error());
-  return codec::Decoder(bytes, name).run(*chunks);
+  return codec::Decoder(bytes, name, limits).run(*chunks);
 }
 
 }  // namespace sweepface

@@ -1,5 +1,6 @@
 #include "codec/blocks.hpp"
 #include "codec/decoding.hpp"
+#include "codec/limits.hpp"
 #include "codec/wire_version1.hpp"
 
 namespace sweepface::codec {
@@ -36,6 +37,7 @@ void readShapes(Decoding& d, Reader& in) {
   if (!in.ok()) return;
   const std::size_t announced = d.stored;
   d.makeSurface(in);
+  if (in.ok()) d.afford(in, (d.targets + 1) * d.stored, kBytesAVector);
   if (in.ok() && d.stored != announced)
     in.refuse("the wireframe stores " + std::to_string(d.stored) + " vectors and the file " +
               std::to_string(announced));

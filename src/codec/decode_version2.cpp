@@ -48,7 +48,8 @@ void readMirror(Symbols<RangeDecoder>& symbols, std::size_t arcs, Packing& packi
 
 void readGrid(Decoding& d, Reader& in) {
   // A patch, an arc or a node takes a fraction of a bit at best.
-  const std::size_t most = within(kMostPatches, kPatchesAByte, kPatchesAnyway, in.left());
+  const std::size_t most = std::min(d.memory / kBytesAPatch,
+                                    within(kMostPatches, kPatchesAByte, kPatchesAnyway, in.left()));
   decodeRest(in, [&](RangeDecoder&, Symbols<RangeDecoder>& symbols) {
     d.wireframe = readWireframe(symbols, most, kMostGridVertices);
     readMirror(symbols, d.wireframe.arcs.size(), d.rig.packing);
@@ -60,6 +61,7 @@ void readGrid(Decoding& d, Reader& in) {
   if (d.targets + 1 > kMostVectors / std::max<std::size_t>(1, d.stored) ||
       (d.targets + 1) * d.stored > kVectorsAByte * d.fileSize + kVectorsAnyway)
     return in.refuse("there are more targets than the file can hold");
+  if (!d.afford(in, (d.targets + 1) * d.stored, kBytesAVector)) return;
   d.lattice.emplace(d.rig.surface, d.rig.packing);
 }
 
@@ -138,7 +140,10 @@ template <typename Read>
 void readByGrid(Decoding& d, Reader& in, Read read) {
   const std::size_t most = mostQuads(in);
   if (d.quads > most) return in.refuse("the patches have too many vertices for so few bytes");
-  if (!d.levelOne) d.levelOne.emplace(d.rig.surface);
+  if (!d.levelOne) {
+    if (!d.afford(in, d.quads, kBytesAQuad)) return;
+    d.levelOne.emplace(d.rig.surface);
+  }
   decodeRest(in, [&](RangeDecoder&, Symbols<RangeDecoder>& symbols) {
     read(symbols, *d.levelOne, most, d.rig.source);
   });

@@ -16,6 +16,7 @@ namespace sweepface::codec {
 /// A rig while its chunks are read, and what they have announced.
 struct Decoding {
   std::size_t fileSize = 0;
+  std::size_t memory = 0;                          ///< that may still be taken
   std::size_t stored = 0, targets = 0, loose = 0;  ///< vectors, targets and loose vertices
   std::size_t quads = 0;                           ///< of the grid at level 1
   Wireframe wireframe;                             ///< until the surface is made of it
@@ -24,6 +25,8 @@ struct Decoding {
   std::set<std::string> targetNames;
   Rig rig;
 
+  /// Whether so many more bytes may be taken; complains through `in` if not.
+  bool afford(Reader& in, std::size_t count, std::size_t bytesEach);
   /// Of the wireframe; says how many vectors it stores.
   void makeSurface(Reader& in);
   /// A name that is UTF-8 and that no target before has; complains through `in`.

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "codec/derivative_rules.hpp"
+
 namespace sweepface::codec {
 
 namespace {
@@ -39,9 +41,10 @@ class HierarchyBuilder {
     takeOut();
     orderRoots();
     arrange();
-    addDerivatives(1);
-    addDerivatives(2);
-    mirrorVectors();
+    const DerivativeRules rules(surface_, out_.sites_, siteOf_);
+    addDerivatives(rules, 1);
+    addDerivatives(rules, 2);
+    out_.images_ = imagesOf(surface_, mirror_, out_.sites_);
   }
 
  private:
@@ -128,14 +131,6 @@ class HierarchyBuilder {
   bool isGuessed(Index node) const { return node == guessed_ || node == guessedToo_; }
   Index position(Index node) const { return all_[siteOf_[node]].site.first; }
 
-  HalfArc oppositeOf(HalfArc h) const {
-    const Index node = w_.start(h);
-    const auto& arms = c_.stars[node].arms;
-    const auto arm = std::ranges::find(arms, h) - arms.begin();
-    const int on = c_.opposite(node, static_cast<int>(arm));
-    return on < 0 ? -1 : arms[on];
-  }
-
   // The first living site or T-node along a line.
   Link walk(HalfArc h) const {
     if (h < 0) return {};
@@ -143,7 +138,7 @@ class HierarchyBuilder {
     for (std::size_t steps = 0; steps < w_.arcs.size(); ++steps) {
       const Index node = w_.start(link.back);
       if (!isSite(node) || all_[siteOf_[node]].alive) return link;
-      const HalfArc on = oppositeOf(link.back);
+      const HalfArc on = oppositeOf(w_, c_, link.back);
       if (on < 0) return {};
       link = {links_[on].back, link.distance + links_[on].distance};
     }
@@ -154,16 +149,12 @@ class HierarchyBuilder {
   Link beyond(const Link& link) const {
     const Index node = w_.start(link.back);
     if (!isSite(node) || all_[siteOf_[node]].hub) return {};
-    const HalfArc on = oppositeOf(link.back);
+    const HalfArc on = oppositeOf(w_, c_, link.back);
     if (on < 0) return {};
     Link next = walk(on);
     if (next.back < 0 || !isSite(w_.start(next.back))) return {};
     next.distance += link.distance;
     return next;
-  }
-
-  static void add(Terms& terms, const Terms& more, double factor) {
-    for (const Term& t : more) terms.push_back({t.vector, factor * t.factor});
   }
 
   // The position of a site, or of a T-node by what stands on the line it hangs on.
@@ -203,7 +194,7 @@ class HierarchyBuilder {
       double factor = 1;
       for (int other = 0; other < count; ++other)
         if (other != k) factor *= at[other] / (at[other] - at[k]);
-      add(terms, value[k], factor);
+      addTerms(terms, value[k], factor);
     }
     return true;
   }
@@ -244,7 +235,7 @@ class HierarchyBuilder {
         g.span = g.span == 0 ? span[line] : std::min(g.span, span[line]);
       }
     for (int line = 0; line < lines; ++line)
-      if (span[line] > 0) add(g.terms, terms[line], weight[line] / sum);
+      if (span[line] > 0) addTerms(g.terms, terms[line], weight[line] / sum);
     return g;
   }
 
@@ -309,6 +300,9 @@ class HierarchyBuilder {
   // What is left is predicted from its neighbours among what is left, in the order in which it is
   // reached from the first; mirror images together.
   void orderRoots() {
+    nodesOf_.resize(all_.size());
+    for (std::size_t n = 0; n < w_.nodes.size(); ++n)
+      if (isSite(static_cast<Index>(n))) nodesOf_[siteOf_[n]].push_back(static_cast<Index>(n));
     std::vector<Index> roots;
     std::vector<char> reached(all_.size(), 0);
     placed_.assign(all_.size(), 0);
@@ -353,12 +347,7 @@ class HierarchyBuilder {
       visit(all_[s].site.node);
       return result;
     }
-    if (hubNodes_.empty()) {
-      hubNodes_.resize(all_.size());
-      for (std::size_t n = 0; n < w_.nodes.size(); ++n)
-        if (isSite(static_cast<Index>(n))) hubNodes_[siteOf_[n]].push_back(static_cast<Index>(n));
-    }
-    for (const Index node : hubNodes_[s]) visit(node);
+    for (const Index node : nodesOf_[s]) visit(node);
     return result;
   }
 
@@ -387,7 +376,6 @@ class HierarchyBuilder {
     }
     for (Index& s : siteOf_)
       if (s >= 0) s = rank[s];
-    for (Candidate& c : all_) c.alive = true;  // from now on all positions are known
   }
 
   void addStep(Index vector, const Terms& terms) {
@@ -402,284 +390,11 @@ class HierarchyBuilder {
     out_.steps_.push_back(step);
   }
 
-  // ---- Derivatives ----
-
-  void addDerivatives(int order) {
-    for (std::size_t k = 0; k < out_.sites_.size(); ++k) {
-      const CodedSite site = out_.sites_[k];
-      for (Index v = site.first; v < site.first + site.count; ++v) {
-        const StoredVector& s = surface_.stored(v);
-        if (std::min(2, s.i + s.j) != order) continue;
-        Terms terms;
-        if (c_.kinds[site.node] == NodeKind::irregular)
-          atHub(site, s, terms);
-        else if (c_.kinds[site.node] == NodeKind::crossing)
-          atCrossing(site, s, terms);
-        addStep(v, terms);
-      }
-    }
-  }
-
-  // The stored derivative of a node, or -1.
-  Index derivative(Index node, int i, int j) const {
-    const CodedSite& site = out_.sites_[siteOf_[node]];
-    for (Index v = site.first; v < site.first + site.count; ++v)
-      if (surface_.stored(v).i == i && surface_.stored(v).j == j) return v;
-    return -1;
-  }
-
-  struct Neighbour {
-    bool has = false;
-    double distance = 0;
-    Index node = -1;
-    HalfArc back = -1;
-    Terms value;
-  };
-  Neighbour neighbour(Index node, int arm) const {
-    Neighbour n;
-    const Star& star = c_.stars[node];
-    if (arm >= static_cast<int>(star.arms.size())) return n;
-    const Rail& rail = c_.rails[star.arms[arm]];
-    n.distance = rail.edges;
-    n.back = twin(rail.last);
-    n.node = w_.start(n.back);
-    n.has = placeAll(n.node, n.value);
-    return n;
-  }
-  // As place(), with all sites known.
-  bool placeAll(Index node, Terms& terms) const {
-    if (isSite(node)) {
-      terms.push_back({out_.sites_[siteOf_[node]].first, 1});
-      return true;
-    }
-    const Star& star = c_.stars[node];
-    const auto straight = std::ranges::find(star.sectors, kStraight) - star.sectors.begin();
-    const Rail &a = c_.rails[star.arms[(straight + 1) % 3]], &b = c_.rails[star.arms[straight]];
-    const Index to = w_.end(a.last), from = w_.end(b.last);
-    if (!isSite(to) || !isSite(from)) return false;
-    const double length = a.edges + b.edges;
-    // Hermite's cubic where both ends know their slopes along the line, else a straight one.
-    const double t = b.edges / length;
-    Terms slopeTo, slopeFrom;
-    if (slope(to, twin(a.last), slopeTo) && slope(from, twin(b.last), slopeFrom)) {
-      const double s = 1 - t;
-      terms.push_back({out_.sites_[siteOf_[from]].first, s * s * (1 + 2 * t)});
-      terms.push_back({out_.sites_[siteOf_[to]].first, t * t * (1 + 2 * s)});
-      add(terms, slopeFrom, t * s * s * length);
-      add(terms, slopeTo, s * t * t * length);
-    } else {
-      terms.push_back({out_.sites_[siteOf_[from]].first, 1 - t});
-      terms.push_back({out_.sites_[siteOf_[to]].first, t});
-    }
-    return true;
-  }
-
-  // The slope along a half-arc that leaves a node: by the parabola through the node and its
-  // neighbours, both sites.
-  bool slope(Index node, HalfArc h, Terms& terms) const {
-    if (c_.kinds[node] != NodeKind::crossing) return false;
-    const HalfArc back = oppositeOf(h);
-    if (back < 0) return false;
-    const Rail &ahead = c_.rails[h], &behind = c_.rails[back];
-    if (!isSite(w_.end(ahead.last)) || !isSite(w_.end(behind.last))) return false;
-    const double a = ahead.edges, b = behind.edges, s = 1 / (a * b * (a + b));
-    terms.push_back({position(w_.end(ahead.last), 0), b * b * s});
-    terms.push_back({position(w_.end(behind.last), 0), -a * a * s});
-    terms.push_back({position(node, 0), (a * a - b * b) * s});
-    return true;
-  }
-  Index position(Index node, int) const { return out_.sites_[siteOf_[node]].first; }
-
-  void atCrossing(const CodedSite& site, const StoredVector& s, Terms& terms) const {
-    const Index node = site.node;
-    const std::array<std::array<Neighbour, 2>, 2> at{
-        std::array{neighbour(node, 0), neighbour(node, 2)},
-        std::array{neighbour(node, 1), neighbour(node, 3)}};
-    const int d = s.i > 0 ? 0 : 1;
-    if (s.i + s.j == 1)
-      along(at[d], site.first, -1, 1, terms);
-    else if (s.i == 1 && s.j == 1)
-      mixed(node, at, terms);
-    else if (std::max(s.i, s.j) == 2 && std::min(s.i, s.j) == 0)
-      along(at[d], site.first, derivative(node, d == 0, d == 1), 2, terms);
-  }
-
-  // Derivative 1 or 2 of the polynomial through the neighbours on a line and what the node knows.
-  void along(const std::array<Neighbour, 2>& at, Index own, Index slope, int order,
-             Terms& terms) const {
-    if (slope >= 0) {
-      for (int e = 0; e < 2; ++e) {
-        if (!at[e].has) continue;
-        const double h = at[e].distance, outward = e == 0 ? 1 : -1;
-        const double weight = at[1 - e].has ? at[1 - e].distance / (h + at[1 - e].distance) : 1;
-        const double s = 2 * weight / (h * h);
-        add(terms, at[e].value, s);
-        terms.push_back({own, -s});
-        terms.push_back({slope, -outward * h * s});
-      }
-      return;
-    }
-    if (!at[0].has || !at[1].has) {
-      if (order == 1)
-        for (int e = 0; e < 2; ++e)
-          if (at[e].has) {
-            const double s = (e == 0 ? 1 : -1) / at[e].distance;
-            add(terms, at[e].value, s);
-            terms.push_back({own, -s});
-          }
-      return;
-    }
-    const double a = at[0].distance, b = at[1].distance;
-    const double s = (order == 1 ? 1 : 2) / (a * b * (a + b));
-    add(terms, at[0].value, order == 1 ? b * b * s : b * s);
-    add(terms, at[1].value, order == 1 ? -a * a * s : a * s);
-    terms.push_back({own, order == 1 ? (a * a - b * b) * s : -(a + b) * s});
-  }
-
-  // ∂x∂y: how the slope along x changes from neighbour to neighbour along y, and the other way
-  // round; the mean where both are known.
-  void mixed(Index node, const std::array<std::array<Neighbour, 2>, 2>& at, Terms& terms) const {
-    std::array<Terms, 2> change;
-    int known = 0;
-    for (int d = 0; d < 2; ++d) known += changeAcross(node, at[1 - d], d, change[d]);
-    for (const Terms& t : change) add(terms, t, 1.0 / std::max(1, known));
-  }
-
-  // How the slope along axis d changes along the other one.
-  bool changeAcross(Index node, const std::array<Neighbour, 2>& at, int d, Terms& terms) const {
-    const Index own = derivative(node, d == 0, d == 1);
-    if (own < 0) return false;
-    std::array<Terms, 2> across;
-    std::array<bool, 2> has{};
-    for (int e = 0; e < 2; ++e)
-      has[e] =
-          at[e].has && isSite(at[e].node) && slopeAcross(at[e], (d == 0) == (e == 0), across[e]);
-    if (has[0] && has[1]) {
-      const double a = at[0].distance, b = at[1].distance, s = 1 / (a * b * (a + b));
-      add(terms, across[0], b * b * s);
-      add(terms, across[1], -a * a * s);
-      terms.push_back({own, (a * a - b * b) * s});
-      return true;
-    }
-    for (int e = 0; e < 2; ++e)
-      if (has[e]) {
-        const double s = (e == 0 ? 1 : -1) / at[e].distance;
-        add(terms, across[e], s);
-        terms.push_back({own, -s});
-        return true;
-      }
-    return false;
-  }
-
-  // The slope at a neighbour to the right of travel, or to the left of it.
-  bool slopeAcross(const Neighbour& n, bool right, Terms& terms) const {
-    if (c_.kinds[n.node] != NodeKind::crossing || !c_.stars[n.node].closed) return false;
-    const auto& arms = c_.stars[n.node].arms;
-    if (arms.size() != 4) return false;
-    const auto back = std::ranges::find(arms, n.back) - arms.begin();
-    // `back` points against travel; the arm after it, counter-clockwise, points to the right.
-    const int arm = static_cast<int>(back + (right ? 1 : 3)) % 4;
-    const Index stored = derivative(n.node, arm % 2 == 0, arm % 2 == 1);
-    if (stored >= 0) {
-      terms.push_back({stored, arm < 2 ? 1.0 : -1.0});
-      return true;
-    }
-    return slope(n.node, arms[arm], terms);
-  }
-
-  // First derivatives at an irregular point: least squares over the slopes of its spokes, which are
-  // combinations of A and B.
-  void atHub(const CodedSite& site, const StoredVector& s, Terms& terms) const {
-    if (s.i + s.j != 1) return;
-    double xx = 0, xy = 0, yy = 0;
-    Terms x, y;
-    for (const auto& [node, arm] : spokes(site)) {
-      const HalfArc h = c_.stars[node].arms[arm];
-      const Neighbour n = neighbour(node, arm);
-      if (!n.has) continue;
-      double a = 0, b = 0;
-      for (const Term& t : surface_.derivation(surface_.alongJet(h, 1).vector)) {
-        const double rounded = std::round(t.factor * 1048576) / 1048576;
-        if (t.vector == site.first + 1) a = rounded;
-        if (t.vector == site.first + 2) b = rounded;
-      }
-      xx += a * a, xy += a * b, yy += b * b;
-      const double out = 1 / n.distance;
-      add(x, n.value, a * out), x.push_back({site.first, -a * out});
-      add(y, n.value, b * out), y.push_back({site.first, -b * out});
-    }
-    const double d = xx * yy - xy * xy;
-    if (!(d > 1e-3)) return;
-    add(terms, x, (s.i == 1 ? yy : -xy) / d);
-    add(terms, y, (s.i == 1 ? -xy : xx) / d);
-  }
-
-  std::vector<std::pair<Index, int>> spokes(const CodedSite& site) const {
-    std::vector<std::pair<Index, int>> result;
-    const Index point = w_.nodes[site.node].point;
-    const auto visit = [&](Index node) {
-      const auto& arms = c_.stars[node].arms;
-      for (int arm = 0; arm < static_cast<int>(arms.size()); ++arm)
-        if (!w_.arcs[arcOf(arms[arm])].collapsed) result.emplace_back(node, arm);
-    };
-    if (hubOfPoint_.empty()) {
-      hubOfPoint_.resize(w_.points);
-      for (std::size_t n = 0; n < w_.nodes.size(); ++n)
-        if (w_.nodes[n].point >= 0) hubOfPoint_[w_.nodes[n].point].push_back(static_cast<Index>(n));
-    }
-    for (const Index node : hubOfPoint_[point])
-      if (c_.kinds[node] == NodeKind::irregular) visit(node);
-    return result;
-  }
-
-  // ---- Mirror ----
-
-  // Frames of mirrored nodes: their x axes are images of each other, or x is the image of y.
-  void mirrorVectors() {
-    out_.images_.resize(surface_.storedCount());
-    for (const CodedSite& site : out_.sites_) {
-      if (site.mirror < 0) continue;
-      const CodedSite& other = out_.sites_[site.mirror];
-      for (Index v = site.first; v < site.first + site.count; ++v) {
-        const StoredVector& s = surface_.stored(v);
-        out_.images_[v] = imageOf(site, other, s.i, s.j);
-      }
-    }
-  }
-
-  Hierarchy::Image imageOf(const CodedSite& site, const CodedSite& other, int i, int j) const {
-    if (i == 0 && j == 0) return {other.first, 1};
-    const auto& arms = c_.stars[site.node].arms;
-    const HalfArc x = mirror_.halfArc[arms[0]];
-    const Index node = mirror_.node[site.node];
-    if (x < 0) return {};
-    const auto& there = c_.stars[node].arms;
-    const auto arm = std::ranges::find(there, x) - there.begin();
-    if (arm == static_cast<std::ptrdiff_t>(there.size())) return {};
-    if (c_.kinds[site.node] == NodeKind::irregular) {
-      // The chart turns with the first spoke: an image only where that is the image of the other's.
-      if (arm != 0 || !c_.stars[site.node].closed) return {};
-      const Index k = vectorAt(other, i, j);
-      return {k, j % 2 ? -1 : 1};
-    }
-    // x becomes the direction of arm `arm` there, y the one a quarter turn clockwise from it.
-    const auto axis = [&](std::ptrdiff_t a) {
-      a = (a % 4 + 4) % 4;
-      return std::pair<int, int>(static_cast<int>(a % 2), a < 2 ? 1 : -1);
-    };
-    const auto [xAxis, xSign] = axis(arm);
-    const int yAxis = 1 - xAxis;
-    const int ySign = axis(arm + 3).second;
-    const int sign = (i % 2 ? xSign : 1) * (j % 2 ? ySign : 1);
-    const Index v = vectorAt(other, xAxis == 0 ? i : j, xAxis == 0 ? j : i);
-    (void)yAxis;
-    return {v, sign};
-  }
-
-  Index vectorAt(const CodedSite& site, int i, int j) const {
-    for (Index v = site.first; v < site.first + site.count; ++v)
-      if (surface_.stored(v).i == i && surface_.stored(v).j == j) return v;
-    return -1;
+  void addDerivatives(const DerivativeRules& rules, int order) {
+    for (const CodedSite& site : out_.sites_)
+      for (Index v = site.first; v < site.first + site.count; ++v)
+        if (const StoredVector& s = surface_.stored(v); std::min(2, s.i + s.j) == order)
+          addStep(v, rules.predict(site, s));
   }
 
   const Surface& surface_;
@@ -691,10 +406,10 @@ class HierarchyBuilder {
   std::vector<Index> siteOf_;  // [nodes]
   std::vector<Link> links_;    // [half-arcs]
   std::vector<Index> order_;
-  std::vector<double> reach_;             // [vectors]
-  Index guessed_ = -1, guessedToo_ = -1;  // nodes that may not predict themselves or each other
-  mutable std::vector<std::vector<Index>> hubNodes_, hubOfPoint_;
-  std::vector<char> placed_;  // [sites] roots that have their place in the order
+  std::vector<double> reach_;                // [vectors]
+  Index guessed_ = -1, guessedToo_ = -1;     // nodes that may not predict themselves or each other
+  std::vector<std::vector<Index>> nodesOf_;  // [sites] of which one may be several
+  std::vector<char> placed_;                 // [sites] roots that have their place in the order
 };
 
 Hierarchy::Hierarchy(const Surface& surface, const Mirror& mirror) {

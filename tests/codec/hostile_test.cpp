@@ -2,6 +2,7 @@
 
 #include "allocations.hpp"
 #include "codec/files.hpp"
+#include "codec/packed.hpp"
 #include "codec/rigs.hpp"
 #include "codec/version1.hpp"
 
@@ -47,6 +48,33 @@ TEST(Hostile, LengthsOfChunksBeyondTheFileAreRefused) {
   allocations.largest = 0;
   EXPECT_FALSE(decode(bytes, "a.sweep"));
   EXPECT_LT(allocations.largest, 10'000u);
+}
+
+// The least limit under which a file is read.
+std::size_t memoryFor(const std::string& bytes) {
+  std::size_t little = 1, enough = std::size_t{1} << 32;
+  while (enough > little + little / 16) {
+    const std::size_t middle = (little + enough) / 2;
+    (decode(bytes, "a.sweep", {middle}) ? enough : little) = middle;
+  }
+  return enough;
+}
+
+TEST(Hostile, WhatIsReadTakesNoMoreMemoryThanItIsAllowed) {
+  constexpr std::size_t kAnyway = 1 << 20;  // tables that do not grow with the file
+  for (const Rig& rig : {packed(makeRig(fan(5))), packed(everything()), dressed(makeRig(tee()))}) {
+    for (const std::string& bytes : {encode(rig), encodeVersion1(rig)}) {
+      const std::size_t limit = memoryFor(bytes);
+      allocations.most = allocations.held;
+      const std::size_t before = allocations.held;
+      EXPECT_TRUE(decode(bytes, "a.sweep", {limit}));
+      EXPECT_LT(allocations.most - before, limit + kAnyway);
+      const auto refused = decode(bytes, "a.sweep", {limit / 2});
+      ASSERT_FALSE(refused);
+      EXPECT_NE(refused.error().message.find("memory"), std::string::npos)
+          << refused.error().message;
+    }
+  }
 }
 
 TEST(Hostile, NumbersMustBeShortAndSmall) {

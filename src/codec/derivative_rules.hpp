@@ -1,0 +1,78 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "codec/hierarchy.hpp"
+
+namespace sweepface::codec {
+
+using Terms = std::vector<Term>;
+
+inline void addTerms(Terms& terms, std::span<const Term> more, double factor) {
+  for (const Term& t : more) terms.push_back({t.vector, factor * t.factor});
+}
+
+/// The half-arc that leads straight on where one leaves a node, on its other side; -1 if none does.
+HalfArc oppositeOf(const Wireframe& w, const Connectivity& c, HalfArc h);
+
+/// How stored derivatives follow from positions and from derivatives before them, by the rules of
+/// the surface for those that are not stored (docs/file-format.md, Order).
+class DerivativeRules {
+ public:
+  /// `sites` in coding order, `siteOf` [nodes] the site of a node or -1.
+  DerivativeRules(const Surface& surface, const std::vector<CodedSite>& sites,
+                  const std::vector<Index>& siteOf);
+
+  /// What predicts a stored derivative of a site; nothing where it is expected to be zero.
+  Terms predict(const CodedSite& site, const StoredVector& s) const;
+
+ private:
+  // The stored derivative of a node, or -1.
+  Index derivative(Index node, int i, int j) const;
+  bool isSite(Index node) const { return siteOf_[node] >= 0; }
+  struct Neighbour {
+    bool has = false;
+    double distance = 0;
+    Index node = -1;
+    HalfArc back = -1;
+    Terms value;
+  };
+  Neighbour neighbour(Index node, int arm) const;
+  // The position of a site, or of a T-node by what stands on the line it hangs on.
+  bool placeAll(Index node, Terms& terms) const;
+  // The slope along a half-arc that leaves a node: by the parabola through the node and its
+  // neighbours, both sites.
+  bool slope(Index node, HalfArc h, Terms& terms) const;
+  Index position(Index node) const { return sites_[siteOf_[node]].first; }
+  void atCrossing(const CodedSite& site, const StoredVector& s, Terms& terms) const;
+  // Derivative 1 or 2 of the polynomial through the neighbours on a line and what the node knows.
+  void along(const std::array<Neighbour, 2>& at, Index own, Index slope, int order,
+             Terms& terms) const;
+  // ∂x∂y: how the slope along x changes from neighbour to neighbour along y, and the other way
+  // round; the mean where both are known.
+  void mixed(Index node, const std::array<std::array<Neighbour, 2>, 2>& at, Terms& terms) const;
+  // How the slope along axis d changes along the other one.
+  bool changeAcross(Index node, const std::array<Neighbour, 2>& at, int d, Terms& terms) const;
+  // The slope at a neighbour to the right of travel, or to the left of it.
+  bool slopeAcross(const Neighbour& n, bool right, Terms& terms) const;
+  // First derivatives at an irregular point: least squares over the slopes of its spokes, which are
+  // combinations of A and B.
+  void atHub(const CodedSite& site, const StoredVector& s, Terms& terms) const;
+  std::vector<std::pair<Index, int>> spokes(const CodedSite& site) const;
+
+  const Surface& surface_;
+  const Wireframe& w_;
+  const Connectivity& c_;
+  const std::vector<CodedSite>& sites_;
+  const std::vector<Index>& siteOf_;
+  std::vector<std::vector<Index>> nodesAt_;  // [points]
+};
+
+/// The stored vector that mirrors each [S], and how.
+std::vector<Hierarchy::Image> imagesOf(const Surface& surface, const Mirror& mirror,
+                                       const std::vector<CodedSite>& sites);
+
+}  // namespace sweepface::codec

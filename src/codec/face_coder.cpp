@@ -1,0 +1,243 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <unordered_map>
+
+#include "codec/faces.hpp"
+#include "codec/source_coder.hpp"
+#include "codec/walk.hpp"
+
+namespace sweepface::codec {
+
+namespace {
+
+enum Tag : std::uint32_t {
+  kPlain = 11,
+  kRotation = 12,
+  kWhich = 13,
+  kSize = 15,
+  kCorner = 17,
+  kQuadCorner = 19,
+  kSameName = 21,
+  kName = 22,
+  kText = 26,
+  kUsesCorner = 36,
+  kOwnOrder = 37
+};
+
+// The source's vertices at each vertex of the grid.
+class Places {
+ public:
+  Places(const LevelOne& grid, const std::vector<Index>& order)
+      : start_(grid.vertexCount() + 1, 0) {
+    vertices_ = static_cast<Index>(order.size());
+    for (const Index g : order)
+      if (g >= 0) ++start_[g + 1];
+    for (std::size_t g = 1; g < start_.size(); ++g) start_[g] += start_[g - 1];
+    list_.resize(start_.back());
+    std::vector<Index> at = start_;
+    for (Index v = 0; v < vertices_; ++v)
+      if (order[v] >= 0) list_[at[order[v]]++] = v;
+  }
+  std::span<const Index> at(Index gridVertex) const {
+    return {list_.data() + start_[gridVertex], list_.data() + start_[gridVertex + 1]};
+  }
+  Index vertices() const { return vertices_; }
+
+ private:
+  std::vector<Index> start_, list_;
+  Index vertices_ = 0;
+};
+
+template <typename Coder>
+class FaceCoder {
+ public:
+  FaceCoder(Symbols<Coder>& symbols, const LevelOne& grid, SourceMesh& source, std::size_t most)
+      : s_(symbols),
+        grid_(grid),
+        source_(source),
+        faces_(source.polygons),
+        places_(grid, source.gridVertex),
+        most_(most),
+        walk_(symbols, grid.quadNeighbours()) {}
+
+  void run() {
+    if constexpr (kWrites<Coder>) {
+      if (source_.quadCorners.size() != 4 * grid_.quads().size()) source_.quadCorners.clear();
+      findPlain();
+    }
+    const std::size_t count = codeCount(s_, 1, static_cast<std::size_t>(faces_.faceCount()), most_);
+    if constexpr (!kWrites<Coder>) source_.quadCorners.assign(4 * grid_.quads().size(), -1);
+    source_.ownOrder = s_.bit(kOwnOrder, 0, 0, source_.ownOrder);
+    const bool hasQuads = s_.bit(kUsesCorner, 0, 0, !source_.quadCorners.empty());
+    if (!hasQuads) source_.quadCorners.clear();
+    for (std::size_t f = 0; f < count && s_.ok(); ++f) codeFace(static_cast<Index>(f));
+    if (hasQuads && s_.ok()) codeOtherQuads();
+    codeNames(faces_.materials, faces_.faceMaterial, count, 0);
+    codeNames(faces_.groups, faces_.faceGroup, count, 1);
+    codeTexts(faces_.materialFiles);
+  }
+
+ private:
+  static constexpr Index kNone = -1;
+
+  // A plain face goes around one quad of the grid, and the quad around it.
+  void findPlain() {
+    plainQuad_.assign(faces_.faceCount(), kNone);
+    if (source_.quadCorners.empty()) return;
+    std::vector<Index> faceOf;
+    for (Index f = 0; f < faces_.faceCount(); ++f)
+      faceOf.insert(faceOf.end(), faces_.faceSize(f), f);
+    const auto corners = static_cast<Index>(faceOf.size());
+    for (std::size_t q = 0; q < grid_.quads().size(); ++q) {
+      const Index* told = &source_.quadCorners[4 * q];
+      if (told[0] < 0 || told[0] >= corners) continue;
+      const std::array<Index, 4> around = aroundQuad(faces_, told[0]);
+      if (around[3] < 0 || !std::equal(around.begin(), around.end(), told)) continue;
+      bool there = true;
+      for (int k = 0; k < 4; ++k)
+        there &= whichAt(grid_.quads()[q][k], faces_.corners[told[k]]) >= 0;
+      if (there && plainQuad_[faceOf[told[0]]] == kNone)
+        plainQuad_[faceOf[told[0]]] = static_cast<Index>(q);
+    }
+  }
+  Index whichAt(Index gridVertex, Index vertex) const {
+    const auto here = places_.at(gridVertex);
+    const auto found = std::ranges::find(here, vertex);
+    return found == here.end() ? -1 : static_cast<Index>(found - here.begin());
+  }
+
+  void codeFace(Index f) {
+    const Index first = faces_.faceStart[f];
+    if (!s_.bit(kPlain, wasPlain_, 0, kWrites<Coder> && plainQuad_[f] != kNone)) {
+      wasPlain_ = false;
+      codeOddFace(f, first);
+      return;
+    }
+    wasPlain_ = true;
+    const Index q = walk_.next(kWrites<Coder> ? plainQuad_[f] : 0);
+    if (source_.quadCorners.empty()) s_.refuse("a face goes around a quad of none");
+    if (!s_.ok()) return;
+    // The face's first corner is the quad's corner `turn`.
+    std::uint32_t turn = 0;
+    if constexpr (kWrites<Coder>)
+      while (source_.quadCorners[4 * q + turn] != first) ++turn;
+    const std::uint32_t half = s_.bit(kRotation, turn_, 0, turn >> 1);
+    turn = 2 * half + s_.bit(kRotation, 4 + turn_, half, turn & 1);
+    turn_ = turn;
+    for (std::uint32_t k = 0; k < 4; ++k) {
+      const std::uint32_t at = (turn + k) % 4;
+      const Index place = grid_.quads()[q][at];
+      const auto here = places_.at(place);
+      if (here.empty()) return s_.refuse("a face has a corner where the source has no vertex");
+      std::size_t which = 0;
+      if (here.size() > 1)
+        which =
+            s_.number(kWhich, 0, 0, kWrites<Coder> ? whichAt(place, faces_.corners[first + k]) : 0);
+      if (which >= here.size()) return s_.refuse("a vertex is out of range");
+      if constexpr (!kWrites<Coder>) {
+        source_.quadCorners[4 * q + at] = static_cast<Index>(faces_.corners.size());
+        faces_.corners.push_back(here[which]);
+      }
+      last_ = here[which];
+    }
+    if constexpr (!kWrites<Coder>)
+      faces_.faceStart.push_back(static_cast<Index>(faces_.corners.size()));
+  }
+
+  void codeOddFace(Index f, Index first) {
+    const std::uint32_t size =
+        3 + s_.number(kSize, 0, 0, kWrites<Coder> ? faces_.faceSize(f) - 3 : 0);
+    total_ += size;
+    if (total_ > most_) return s_.refuse("the faces have too many corners");
+    for (std::uint32_t k = 0; k < size && s_.ok(); ++k) {
+      const std::int64_t vertex =
+          std::int64_t{last_} +
+          s_.signedNumber(kCorner, std::min(k, 4u), 0,
+                          kWrites<Coder> ? std::int64_t{faces_.corners[first + k]} - last_ : 0);
+      if (vertex < 0 || vertex >= places_.vertices()) return s_.refuse("a vertex is out of range");
+      last_ = static_cast<Index>(vertex);
+      if constexpr (!kWrites<Coder>) faces_.corners.push_back(last_);
+    }
+    if constexpr (!kWrites<Coder>)
+      faces_.faceStart.push_back(static_cast<Index>(faces_.corners.size()));
+  }
+
+  // Quads that no plain face goes around.
+  void codeOtherQuads() {
+    std::int64_t last = 0;
+    const auto corners = static_cast<std::int64_t>(faces_.corners.size());
+    for (std::size_t q = 0; q < grid_.quads().size(); ++q) {
+      if (walk_.visited(static_cast<Index>(q))) continue;
+      for (int k = 0; k < 4; ++k) {
+        const std::int64_t told = kWrites<Coder> ? source_.quadCorners[4 * q + k] : 0;
+        last += s_.signedNumber(kQuadCorner, k, 0, told - last);
+        if (last < 0 || last >= corners) return s_.refuse("a corner is out of range");
+        if constexpr (!kWrites<Coder>) source_.quadCorners[4 * q + k] = static_cast<Index>(last);
+      }
+    }
+  }
+
+  void codeNames(std::vector<std::string>& names, std::vector<Index>& chosen, std::size_t faces,
+                 std::uint32_t what) {
+    codeTexts(names);
+    if (!s_.bit(kSameName, 8 + what, 0, !chosen.empty())) return;
+    chosen.resize(faces);
+    Index last = -1;
+    for (Index& name : chosen) {
+      if (!s_.ok()) return;
+      if (!s_.bit(kSameName, what, 0, name == last)) {
+        const std::int64_t there =
+            last + std::int64_t{s_.signedNumber(kName, what, 0, std::int64_t{name} - last)};
+        if (there < -1 || there >= static_cast<std::int64_t>(names.size()))
+          return s_.refuse("the name of a face is out of range");
+        last = static_cast<Index>(there);
+      }
+      name = last;
+    }
+  }
+
+  void codeTexts(std::vector<std::string>& texts) {
+    texts.resize(codeCount(s_, 2, texts.size(), most_));
+    for (std::string& text : texts) {
+      const std::size_t size = codeCount(s_, 3, text.size(), most_);
+      if (!s_.ok()) return;
+      text.resize(size);
+      std::uint32_t before = 0;
+      for (char& c : text) {
+        std::uint32_t known = 1;
+        for (int b = 8; b-- > 0;)
+          known = known << 1 | s_.bit(kText, known * 256 + (before & 255), before >> 8 & 0xffff,
+                                      static_cast<unsigned char>(c) >> b & 1);
+        c = static_cast<char>(known & 255);
+        before = before << 8 | (known & 255);
+      }
+      most_ -= std::min(most_, size);
+    }
+  }
+
+  Symbols<Coder>& s_;
+  const LevelOne& grid_;
+  SourceMesh& source_;
+  Polygons& faces_;
+  Places places_;
+  std::size_t most_, total_ = 0;
+  Walk<Coder> walk_;
+  std::vector<Index> plainQuad_;  // [faces] of a writer
+  bool wasPlain_ = true;
+  std::uint32_t turn_ = 0;
+  Index last_ = 0;
+};
+
+}  // namespace
+
+void writeFaces(Symbols<RangeEncoder>& out, const LevelOne& grid, const SourceMesh& source) {
+  SourceMesh copy = source;
+  FaceCoder<RangeEncoder>(out, grid, copy, SIZE_MAX).run();
+}
+void readFaces(Symbols<RangeDecoder>& in, const LevelOne& grid, std::size_t most,
+               SourceMesh& source) {
+  FaceCoder<RangeDecoder>(in, grid, source, most).run();
+}
+
+}  // namespace sweepface::codec

@@ -1,0 +1,191 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <unordered_map>
+
+#include "codec/faces.hpp"
+#include "codec/source_coder.hpp"
+#include "codec/walk.hpp"
+
+namespace sweepface::codec {
+
+namespace {
+
+enum Tag : std::uint32_t {
+  kHasTexture = 27,
+  kFresh = 28,
+  kKnown = 29,
+  kTexture = 30,
+  kBits = 32,
+  kResidual = 34
+};
+
+// Beyond any texture that repeats, and far from where whole numbers end.
+constexpr std::int32_t kMostTexture = 1 << 26;
+
+template <typename Coder>
+class TextureCoder {
+ public:
+  TextureCoder(Symbols<Coder>& symbols, Polygons& polygons, std::size_t most, int bits)
+      : s_(symbols), p_(polygons), most_(most), bits_(bits) {}
+
+  int run() {
+    bits_ = static_cast<int>(s_.number(kBits, 0, 0, static_cast<std::uint64_t>(bits_)));
+    if (bits_ < 1 || bits_ > 24) s_.refuse("texture coordinates have too many bits");
+    if (!s_.ok()) return bits_;
+    const std::size_t count = codeCount(s_, 4, p_.texcoords.size(), most_);
+    if constexpr (kWrites<Coder>) {
+      for (const Vec2& t : p_.texcoords) whole_.push_back({wholeOf(t.x), wholeOf(t.y)});
+    } else {
+      whole_.resize(count);
+    }
+    known_.assign(count, 0);
+    const bool used = s_.bit(kHasTexture, 0, 0, !p_.cornerTexcoords.empty());
+    if (used) codeIndices();
+    if (used && s_.ok()) codeByFaces();
+    for (std::size_t t = 0; t < count && s_.ok(); ++t)
+      if (!known_[t]) codeValue(static_cast<Index>(t), last_, 3);
+    if constexpr (!kWrites<Coder>) {
+      const double step = std::ldexp(1.0, -bits_);
+      for (const auto& [x, y] : whole_) p_.texcoords.push_back({x * step, y * step});
+    }
+    return bits_;
+  }
+
+ private:
+  using Whole = std::array<std::int32_t, 2>;
+
+  std::int32_t wholeOf(double x) const {
+    return static_cast<std::int32_t>(
+        std::llround(std::clamp<double>(std::ldexp(x, bits_), -kMostTexture, kMostTexture)));
+  }
+
+  void codeIndices() {
+    p_.cornerTexcoords.resize(p_.corners.size(), -1);
+    for (std::size_t c = 0; c < p_.corners.size() && s_.ok(); ++c)
+      p_.cornerTexcoords[c] = codeIndex(p_.corners[c], p_.cornerTexcoords[c]);
+  }
+
+  // The next new one, the one this vertex had last, or any.
+  Index codeIndex(Index vertex, Index t) {
+    if (vertex >= static_cast<Index>(ofVertex_.size())) ofVertex_.resize(vertex + 1, -2);
+    Index& had = ofVertex_[vertex];
+    if (had >= -1 && s_.bit(kKnown, 0, 0, t == had)) return had;
+    if (s_.bit(kFresh, had >= -1, 0, t == next_)) {
+      t = next_;
+    } else {
+      const std::int64_t there =
+          next_ + std::int64_t{s_.signedNumber(kTexture, 0, 0, std::int64_t{t} - next_)};
+      t = static_cast<Index>(std::clamp<std::int64_t>(there, -2, std::int64_t{1} << 30));
+    }
+    if (t < -1 || t >= static_cast<Index>(known_.size())) {
+      s_.refuse("a texture coordinate is out of range");
+      return -1;
+    }
+    next_ = std::max(next_, t + 1);
+    return had = t;
+  }
+
+  // From face to face across the edges that they share in the texture.
+  void codeByFaces() {
+    std::unordered_map<std::uint64_t, Side> sides;
+    for (Index f = 0; f < p_.faceCount(); ++f)
+      for (Index k = 0; k < p_.faceSize(f); ++k)
+        sides.emplace(keyOf(at(f, k), at(f, k + 1)), Side{f, k});
+    std::vector<char> reached(p_.faceCount(), 0);
+    std::vector<Entry> queue;
+    for (Index seed = 0; seed < p_.faceCount() && s_.ok(); ++seed) {
+      if (reached[seed]) continue;
+      reached[seed] = 1;
+      queue.assign(1, {seed, 0, {}});
+      for (std::size_t head = 0; head < queue.size() && s_.ok(); ++head) {
+        const Entry entry = queue[head];
+        codeFace(entry);
+        for (Index k = 0; k < p_.faceSize(entry.face); ++k) {
+          const auto other = sides.find(keyOf(at(entry.face, k + 1), at(entry.face, k)));
+          if (other == sides.end() || reached[other->second.face]) continue;
+          reached[other->second.face] = 1;
+          queue.push_back({other->second.face, other->second.corner, {entry.face, k}});
+        }
+      }
+    }
+  }
+
+  struct Side {
+    Index face = -1, corner = 0;  // from this corner to the next
+  };
+  struct Entry {
+    Index face, corner;  // entered across the side from this corner
+    Side from;           // the same side as the face before has it
+  };
+
+  Index at(Index face, Index k) const {
+    const Index size = p_.faceSize(face);
+    return p_.cornerTexcoords[p_.faceStart[face] + (k % size + size) % size];
+  }
+  static std::uint64_t keyOf(Index from, Index to) {
+    return std::uint64_t{static_cast<std::uint32_t>(from)} << 32 | static_cast<std::uint32_t>(to);
+  }
+  bool knows(Index t) const { return t >= 0 && known_[t]; }
+  Whole beyond(Index a, Index b, Index c) const {  // the fourth corner of a parallelogram
+    return {whole_[a][0] + whole_[c][0] - whole_[b][0], whole_[a][1] + whole_[c][1] - whole_[b][1]};
+  }
+
+  void codeFace(const Entry& entry) {
+    const Index f = entry.face, size = p_.faceSize(f);
+    for (Index j = 0; j < size && s_.ok(); ++j) {
+      const Index k = entry.corner + j, t = at(f, k);
+      if (t < 0) continue;
+      if (!known_[t]) {
+        const Index before = at(f, k - 1), across = at(f, k + 2), after = at(f, k + 1);
+        if (size == 4 && knows(before) && knows(across) && knows(after))
+          codeValue(t, beyond(before, across, after), 0);
+        else if (const Index back = cornerBefore(entry.from);
+                 j == 2 && knows(before) && knows(back))
+          codeValue(t, beyond(before, back, before), 1);  // as far on as the face before is long
+        else
+          codeValue(t, knows(before) ? whole_[before] : last_, 2);
+      }
+      last_ = whole_[t];
+    }
+  }
+  // What comes before the shared side in the face it was entered from: the side's other end there
+  // is where the next corner continues.
+  Index cornerBefore(const Side& side) const {
+    return side.face < 0 ? -1 : at(side.face, side.corner - 1);
+  }
+
+  void codeValue(Index t, const Whole& guess, std::uint32_t how) {
+    for (int a = 0; a < 2; ++a) {
+      const std::int64_t value =
+          std::int64_t{guess[a]} +
+          s_.signedNumber(kResidual, how * 2 + a, 0, std::int64_t{whole_[t][a]} - guess[a]);
+      if (std::abs(value) > kMostTexture) s_.refuse("a texture coordinate is out of range");
+      whole_[t][a] = s_.ok() ? static_cast<std::int32_t>(value) : 0;
+    }
+    known_[t] = 1;
+    last_ = whole_[t];
+  }
+
+  Symbols<Coder>& s_;
+  Polygons& p_;
+  std::size_t most_;
+  int bits_;
+  std::vector<Whole> whole_;
+  std::vector<char> known_;
+  std::vector<Index> ofVertex_;
+  Index next_ = 0;
+  Whole last_{};
+};
+
+}  // namespace
+
+void writeTexture(Symbols<RangeEncoder>& out, const Polygons& polygons, int bits) {
+  Polygons copy = polygons;
+  TextureCoder<RangeEncoder>(out, copy, SIZE_MAX, bits).run();
+}
+void readTexture(Symbols<RangeDecoder>& in, std::size_t most, Polygons& polygons, int& bits) {
+  bits = TextureCoder<RangeDecoder>(in, polygons, most, 0).run();
+}
+
+}  // namespace sweepface::codec

@@ -1,0 +1,128 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "sweepface/vec.hpp"
+
+#include "codec/symbols.hpp"
+
+namespace sweepface::codec {
+
+// What the coders of the source's parts share. Their tags are one list, since the parts were coded
+// by one model once: numbers stay what they are.
+enum SharedTag : std::uint32_t { kCount = 0, kNear = 3, kSteps = 4, kFar = 6, kNext = 38 };
+
+/// Items that are visited one after the other, most of them beside one that was visited not long
+/// ago: told by their place among the neighbours of those, the latest first and there straight on
+/// first.
+template <typename Coder>
+class Walk {
+ public:
+  Walk(Symbols<Coder>& symbols, std::vector<std::vector<Index>> neighbours)
+      : s_(symbols), neighbours_(std::move(neighbours)), visited_(neighbours_.size(), 0) {}
+
+  Index next(Index item) {
+    Index found = -1;
+    const bool follows = far_ < static_cast<Index>(neighbours_.size()) && !visited_[far_];
+    if (follows && s_.bit(kNext, last_ == kFollows, 0, kWrites<Coder> && item == far_)) {
+      last_ = kFollows;
+      return visit(far_);
+    }
+    const bool near = !trail_.empty() && s_.bit(kNear, last_, 0, kWrites<Coder> && isNear(item));
+    if (near) {
+      const std::uint32_t place =
+          s_.number(kSteps, std::min(last_, 15u), 0, kWrites<Coder> ? placeOf(item) : 0);
+      found = at(place);
+      last_ = place < 14 ? place : 14;
+      if (found < 0) s_.refuse("a step leads nowhere");
+    } else {
+      const std::int64_t step = s_.signedNumber(kFar, 0, 0, std::int64_t{item} - far_);
+      const std::int64_t there = far_ + step;
+      if (there < 0 || there >= static_cast<std::int64_t>(neighbours_.size()))
+        s_.refuse("a vertex or a face is out of range");
+      else
+        found = static_cast<Index>(there);
+      last_ = 15;
+    }
+    if (s_.ok() && visited_[found]) s_.refuse("a vertex or a face comes twice");
+    return s_.ok() ? visit(found) : 0;
+  }
+  bool visited(Index item) const {
+    return item < static_cast<Index>(visited_.size()) && visited_[item];
+  }
+
+ private:
+  static constexpr std::size_t kTrail = 64;
+  static constexpr std::uint32_t kFollows = 16;  // as a last step: to the next in number
+
+  Index visit(Index item) {
+    far_ = item + 1;
+    visited_[item] = 1;
+    trail_.push_back(item);
+    return item;
+  }
+
+  // Calls `use` with every unvisited neighbour of what was visited last, until it answers true.
+  template <typename Use>
+  void candidates(Use use) const {
+    const std::size_t end = trail_.size() > kTrail ? trail_.size() - kTrail : 0;
+    for (std::size_t k = trail_.size(); k-- > end;) {
+      const auto& around = neighbours_[trail_[k]];
+      const std::size_t size = around.size();
+      std::size_t ahead = 0;
+      if (k > 0) {
+        const auto back = std::ranges::find(around, trail_[k - 1]);
+        if (back != around.end())
+          ahead = static_cast<std::size_t>(back - around.begin()) + size / 2;
+      }
+      for (std::size_t j = 0; j < size; ++j) {
+        const Index item = around[(ahead + j) % size];
+        if (item >= 0 && !visited_[item] && use(item)) return;
+      }
+    }
+  }
+  bool isNear(Index item) const {
+    bool found = false;
+    candidates([&](Index candidate) { return found = candidate == item; });
+    return found;
+  }
+  std::uint32_t placeOf(Index item) const {
+    std::uint32_t place = 0;
+    candidates([&](Index candidate) {
+      if (candidate == item) return true;
+      ++place;
+      return false;
+    });
+    return place;
+  }
+  Index at(std::uint32_t place) const {
+    Index found = -1;
+    candidates([&](Index candidate) {
+      if (place-- > 0) return false;
+      found = candidate;
+      return true;
+    });
+    return found;
+  }
+
+  Symbols<Coder>& s_;
+  std::vector<std::vector<Index>> neighbours_;
+  std::vector<char> visited_;
+  std::vector<Index> trail_;
+  std::uint32_t last_ = 15;
+  Index far_ = 0;
+};
+
+/// A count of entries, of which there may be so many.
+template <typename Coder>
+std::size_t codeCount(Symbols<Coder>& s, std::uint32_t what, std::size_t count, std::size_t most) {
+  const std::size_t n = s.number(kCount, what, 0, count);
+  if (n > most) s.refuse("there are more entries than the chunk can hold");
+  return s.ok() ? n : 0;
+}
+
+}  // namespace sweepface::codec
