@@ -81,8 +81,9 @@ class LiveLinkReader {
   Result<void> readRow() {
     const auto row = cells(lines_.line());
     if (row.size() != columns_)
-      return failLine(fmt::format("there are {} values under {} headings; the file may be cut short",
-                                  row.size(), columns_));
+      return failLine(
+          fmt::format("there are {} values under {} headings; the file may be cut short",
+                      row.size(), columns_));
     const Result<double> time = timecode(row[timeColumn_]);
     if (!time) return std::unexpected(time.error());
     if (!clip_.times.empty() && *time <= clip_.times.back())

@@ -103,8 +103,8 @@ TEST(ControlCurves, MoveByWhatIsAskedAndTheSurfaceBendsBesideThem) {
   for (double along : {0.0, 2.5, 8.0}) {
     const Site site{patch, 0, along};  // the patch sweeps away from the curve
     EXPECT_LT(norm(after.surface.evaluate(y, site) - before.surface.evaluate(x, site)), 1e-12);
-    for (const auto& [share, by] : {std::pair(kControlSpacing.u2, move.second),
-                                    std::pair(kControlSpacing.u3, move.third)}) {
+    for (const auto& [share, by] :
+         {std::pair(kControlSpacing.u2, move.second), std::pair(kControlSpacing.u3, move.third)}) {
       Vec3 offset;
       const double h = share * edges;
       for (int order = 1; order <= 2; ++order) {
