@@ -101,12 +101,24 @@ std::string framed(double width, double height, const std::string& title, const 
       width, height, html::escaped(title), body);
 }
 
+// Powers of ten, seven intervals at most.
+std::vector<double> decadeTicks(double low, double high) {
+  const int first = static_cast<int>(std::floor(std::log10(low) + 1e-9)),
+            last = static_cast<int>(std::ceil(std::log10(high) - 1e-9)),
+            step = (last - first + 6) / 7;
+  std::vector<double> ticks;
+  for (int decade = first; decade < last + step; decade += step)
+    ticks.push_back(std::pow(10, decade));
+  return ticks;
+}
+
 }  // namespace
 
 std::vector<double> niceTicks(double low, double high, bool logarithmic) {
   std::vector<double> ticks;
   if (logarithmic) {
     if (!(low > 0) || !(high >= low) || !std::isfinite(high)) return {1, 10};
+    if (high > 1e3 * low) return decadeTicks(low, high);
     for (int decade = static_cast<int>(std::floor(std::log10(low)));; ++decade)
       for (const double step : {1.0, 2.0, 5.0}) {
         const double tick = step * std::pow(10, decade);

@@ -77,6 +77,11 @@ TEST(Html, ShowsTheScaleOfHeatMaps) {
 TEST(Ticks, CoverTheValuesWithReadableNumbers) {
   EXPECT_EQ(niceTicks(0, 30, false), (std::vector<double>{0, 5, 10, 15, 20, 25, 30}));
   EXPECT_EQ(niceTicks(600, 4000, true), (std::vector<double>{500, 1000, 2000, 5000}));
+  EXPECT_EQ(niceTicks(2, 9e3, true), (std::vector<double>{1, 10, 100, 1000, 10000}));
+  const std::vector<double> wide = niceTicks(3e-17, 0.06, true);
+  EXPECT_LE(wide.size(), 8u);
+  EXPECT_LE(wide.front(), 3e-17);
+  EXPECT_GE(wide.back(), 0.06);
   for (const auto& [low, high] :
        {std::pair{0.0, 0.0199}, {-3.2, 7.7}, {1e-9, 3e-9}, {5.0, 5.0}, {0.0, 0.0}}) {
     const std::vector<double> ticks = niceTicks(low, high, false);
