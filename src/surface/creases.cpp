@@ -30,11 +30,16 @@ void chain(std::vector<Fan>& fans) {
 }
 
 // Around a closed star the last fan must meet the first. One with a single sector can join any two
-// arms, so it comes last. Otherwise two fans meet along a straight line, or more share the turn.
+// arms, so it comes last. Otherwise two fans meet along a straight line, or more share the turn. Of
+// two the regular one gives the line: in the other's chart its halves bend differently, which would
+// cut the regular one in two.
 void close(std::vector<Fan>& fans, int sectors) {
   const auto single = std::ranges::find(fans, 1, &Fan::sectors);
   const bool joins = single != fans.end();
-  if (joins) std::ranges::rotate(fans, single + 1);
+  if (joins)
+    std::ranges::rotate(fans, single + 1);
+  else if (fans.size() == 2 && fans[0].sectors != 2)
+    std::ranges::rotate(fans, fans.begin() + 1);
   const auto count = static_cast<double>(fans.size());
   for (std::size_t k = 0; k < fans.size(); ++k) {
     Fan& fan = fans[k];
