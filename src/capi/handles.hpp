@@ -16,7 +16,7 @@
 // them.
 
 struct sweepface_rig {
-  std::shared_ptr<const sweepface::Rig> rig;
+  std::shared_ptr<sweepface::Rig> rig;  // only read once there are meshes
   sweepface::Followers followers;  // of its targets; those that were added for them are not shown
   std::size_t shown = 0;           // targets, the first ones
 };

@@ -3,6 +3,8 @@
 #include <bit>
 #include <cmath>
 
+#include "sweepface/result.hpp"
+
 namespace sweepface::codec {
 
 void Reader::refuse(std::string_view problem) {
@@ -73,8 +75,7 @@ std::string_view Reader::text() { return raw(count(1, "letters")); }
 std::size_t Reader::count(std::size_t leastBytes, std::string_view what) {
   const std::uint64_t entries = number();
   if (entries <= left() / leastBytes) return static_cast<std::size_t>(entries);
-  refuse("there are said to be " + std::to_string(entries) + " " + std::string(what) +
-         ", more than the chunk can hold");
+  refuse(joined({"there are said to be ", entries, " ", what, ", more than the chunk can hold"}));
   return 0;
 }
 
@@ -89,7 +90,7 @@ Index Reader::step(Index previous, std::int64_t low, std::int64_t high, std::str
 Index Reader::checked(std::int64_t value, std::int64_t low, std::int64_t high,
                       std::string_view what) {
   if (ok() && value >= low && value < high) return static_cast<Index>(value);
-  refuse(std::string(what) + " " + std::to_string(value) + " is out of range");
+  refuse(joined({what, " ", value, " is out of range"}));
   return static_cast<Index>(low);
 }
 

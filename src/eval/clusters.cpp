@@ -46,9 +46,31 @@ class Halving {
       const double x = coordinate(points_[a], axis), y = coordinate(points_[b], axis);
       return x < y || (x == y && a < b);
     };
-    std::nth_element(part.begin(), part.begin() + first, part.end(), before);
+    divide(part, first, before);
     halve(part.first(first));
     halve(part.subspan(first));
+  }
+
+  // Puts the `first` items that come before all others in front of them (Hoare, Algorithm 65: find,
+  // 1961). Not std::nth_element, which is four times as long.
+  template <typename Before>
+  static void divide(std::span<Index> items, Index first, const Before& before) {
+    Index low = 0, high = static_cast<Index>(items.size()) - 1;
+    while (low < high) {
+      const Index middle = items[low + (high - low) / 2];
+      Index i = low, j = high;
+      while (i <= j) {
+        while (before(items[i], middle)) ++i;
+        while (before(middle, items[j])) --j;
+        if (i <= j) std::swap(items[i++], items[j--]);
+      }
+      if (first <= j)
+        high = j;
+      else if (first >= i)
+        low = i;
+      else
+        return;
+    }
   }
 
   std::span<const Vec3> points_;
