@@ -44,7 +44,7 @@ class CoefficientCoder {
       : h_(hierarchy),
         axis_(axis),
         mask_(slotsFor(hierarchy.steps().size()) - 1),
-        model_(coder, mask_ + 1, kSets, kInputs) {
+        model_(coder, mask_ + 1, kSets) {
     const std::size_t sites = h_.sites().size();
     active_.resize(sites);
     below_.resize(sites);
@@ -282,7 +282,7 @@ class CoefficientCoder {
   const Hierarchy& h_;
   int axis_;
   std::uint32_t mask_;  // of slots
-  Model<Coder> model_;
+  Model<Coder, kInputs> model_;
   std::uint32_t phase_ = 0;
   std::vector<char> active_, below_;  // [sites]
   std::vector<Index> history_;        // [sites] poses in which it was active
