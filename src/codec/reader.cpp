@@ -2,6 +2,7 @@
 
 #include <bit>
 #include <cmath>
+#include <cstring>
 
 #include "sweepface/result.hpp"
 
@@ -26,22 +27,24 @@ unsigned Reader::byte() {
   return taken.empty() ? 0 : static_cast<unsigned char>(taken[0]);
 }
 
-std::uint64_t Reader::fixed(std::size_t size) {
-  std::uint64_t value = 0;
-  const std::string_view taken = raw(size);
-  for (std::size_t k = 0; k < taken.size(); ++k)
-    value |= std::uint64_t{static_cast<unsigned char>(taken[k])} << (8 * k);
+// The lowest byte first.
+template <typename Number>
+Number Reader::fixed() {
+  static_assert(std::endian::native == std::endian::little);
+  Number value = 0;
+  if (const std::string_view taken = raw(sizeof value); !taken.empty())
+    std::memcpy(&value, taken.data(), sizeof value);
   return value;
 }
 
 double Reader::f32() {
-  const float value = std::bit_cast<float>(static_cast<std::uint32_t>(fixed(4)));
+  const float value = fixed<float>();
   if (!std::isfinite(value)) refuse("a coordinate is not finite");
   return ok() ? value : 0;
 }
 
 double Reader::f64() {
-  const double value = std::bit_cast<double>(fixed(8));
+  const double value = fixed<double>();
   if (!std::isfinite(value)) refuse("a value is not finite");
   return ok() ? value : 0;
 }
