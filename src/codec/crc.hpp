@@ -6,28 +6,26 @@
 
 namespace sweepface::codec {
 
-/// Entry [k][b]: what a byte b makes of the sum k bytes later. Made when first asked for, as a
-/// browser would load its 8 KB.
-inline const std::array<std::array<std::uint32_t, 256>, 8>& crcTables() {
-  static const auto tables = [] {
-    std::array<std::array<std::uint32_t, 256>, 8> t{};
-    for (std::uint32_t b = 0; b < 256; ++b) {
-      std::uint32_t c = b;
-      for (int bit = 0; bit < 8; ++bit) c = (c & 1 ? 0xEDB88320u : 0) ^ (c >> 1);
-      t[0][b] = c;
-    }
-    for (std::size_t k = 1; k < 8; ++k)
-      for (std::size_t b = 0; b < 256; ++b) t[k][b] = t[0][t[k - 1][b] & 255] ^ (t[k - 1][b] >> 8);
-    return t;
-  }();
-  return tables;
+/// Entry [k][b]: what a byte b makes of the sum k bytes later. Not constexpr: made when first asked
+/// for, as a browser would load its 8 KB.
+using CrcTables = std::array<std::array<std::uint32_t, 256>, 8>;
+inline CrcTables makeCrcTables() {
+  CrcTables t{};
+  for (std::uint32_t b = 0; b < 256; ++b) {
+    std::uint32_t c = b;
+    for (int bit = 0; bit < 8; ++bit) c = (c & 1 ? 0xEDB88320u : 0) ^ (c >> 1);
+    t[0][b] = c;
+  }
+  for (std::size_t k = 1; k < 8; ++k)
+    for (std::size_t b = 0; b < 256; ++b) t[k][b] = t[0][t[k - 1][b] & 255] ^ (t[k - 1][b] >> 8);
+  return t;
 }
 
 /// The CRC-32 of zip and PNG (polynomial 0xEDB88320), eight bytes at a time (Kounavis and Berry, A
 /// Systematic Approach to Building High Performance Software-based CRC Generators, 2005). `before`
 /// is the sum of the bytes that precede.
 inline std::uint32_t crc32(std::string_view bytes, std::uint32_t before = 0) {
-  const auto& t = crcTables();
+  static const CrcTables t = makeCrcTables();
   const auto at = [&](std::size_t k) {
     return std::uint32_t{static_cast<unsigned char>(bytes[k])};
   };

@@ -23,16 +23,19 @@ inline std::int32_t squash(std::int32_t x) {
 }
 
 /// The inverse of squash for probabilities in 4096ths: the least x with squash(x) / 16 >= p.
-inline const std::array<std::int16_t, 4096>& stretchTable() {
-  static const std::array<std::int16_t, 4096> table = [] {
-    std::array<std::int16_t, 4096> t{};
-    std::int32_t p = 0;
-    for (std::int32_t x = -3072; x <= 3072; ++x)
-      for (const std::int32_t reached = squash(x) >> 4; p <= reached && p < 4096; ++p)
-        t[p] = static_cast<std::int16_t>(x);
-    for (; p < 4096; ++p) t[p] = 3072;
-    return t;
-  }();
+/// Not constexpr: made when first asked for, as a browser would load its 8 KB.
+using StretchTable = std::array<std::int16_t, 4096>;
+inline StretchTable makeStretchTable() {
+  StretchTable t{};
+  std::int32_t p = 0;
+  for (std::int32_t x = -3072; x <= 3072; ++x)
+    for (const std::int32_t reached = squash(x) >> 4; p <= reached && p < 4096; ++p)
+      t[p] = static_cast<std::int16_t>(x);
+  for (; p < 4096; ++p) t[p] = 3072;
+  return t;
+}
+inline const StretchTable& stretchTable() {
+  static const StretchTable table = makeStretchTable();
   return table;
 }
 
