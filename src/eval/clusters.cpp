@@ -23,13 +23,14 @@ class Halving {
 
  private:
   int longestAxis(std::span<const Index> part) const {
-    std::array<double, 3> extents{};
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto [low, high] =
-          std::ranges::minmax(part, {}, [&](Index v) { return coordinate(points_[v], axis); });
-      extents[axis] = coordinate(points_[high], axis) - coordinate(points_[low], axis);
+    Vec3 low = points_[part[0]], high = low;
+    for (const Index v : part) {
+      const Vec3& p = points_[v];
+      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
     }
-    return static_cast<int>(std::ranges::max_element(extents) - extents.begin());
+    const Vec3 size = high - low;
+    return size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
   }
 
   void halve(std::span<Index> part) {
