@@ -55,6 +55,7 @@ class CoefficientCoder {
         positionStep_[step.site] = static_cast<Index>(k);
   }
 
+  /// What is read comes to a `q` of zeros.
   void code(Coefficients& q, Symmetry symmetry, const Coefficients& partner, bool neutral) {
     const auto& sites = h_.sites();
     residual_.assign(q.size(), Steps3{});
@@ -75,11 +76,9 @@ class CoefficientCoder {
       phase_ = neutral ? 0 : symmetry == Symmetry::partner ? 3 : 1;
       if (symmetry == Symmetry::self && site.mirror >= 0 && site.mirror < s)
         phase_ += neutral ? 4 : 1;
-      if (site.parent < 0 || below_[site.parent])
-        codeSite(s);
-      else if (!writing)
-        active_[s] = below_[s] = 0;
-      if (writing) continue;
+      const bool coded = site.parent < 0 || below_[site.parent];
+      if (coded) codeSite(s);
+      if (writing || (!coded && symmetry == Symmetry::none)) continue;
       // Fill in what the image predicts; later sites of this pose may be images of this one.
       for (Index v = site.first; v < site.first + site.count; ++v) {
         if (symmetry == Symmetry::self && site.mirror >= 0 && site.mirror < s) image(q, v);

@@ -10,7 +10,7 @@
 namespace sweepface::codec {
 
 /// 65536 / (1 + e^(-x / 256)) for x in [-3072, 3072], by straight pieces.
-inline std::int32_t squash(std::int32_t x) {
+[[gnu::always_inline]] inline std::int32_t squash(std::int32_t x) {
   static constexpr std::array<std::int32_t, 50> kAt{
       1,     1,     1,     2,     3,     5,     8,     13,    22,    36,    60,    98,    162,
       267,   439,   720,   1179,  1921,  3108,  4971,  7812,  11955, 17625, 24743, 32768, 40793,
