@@ -13,6 +13,7 @@ namespace sweepface::codec {
 
 /// A vector in steps.
 using Steps3 = std::array<std::int32_t, 3>;
+inline bool isMoved(const Steps3& v) { return (v[0] | v[1] | v[2]) != 0; }
 /// The stored vectors of a pose [S] as multiples of their steps beyond their predictions.
 using Coefficients = std::vector<Steps3>;
 
@@ -124,7 +125,7 @@ class CoefficientCoder {
     for (std::size_t s = 0; s < sites.size(); ++s) {
       active_[s] = 0;
       for (Index v = sites[s].first; v < sites[s].first + sites[s].count; ++v)
-        active_[s] |= residual_[v] != Steps3{};
+        active_[s] |= isMoved(residual_[v]);
       below_[s] = 0;
     }
     for (std::size_t s = sites.size(); s-- > 0;)
@@ -159,7 +160,7 @@ class CoefficientCoder {
                                                   : 5;
     const std::uint32_t parent = site.parent < 0 ? 2 : active_[site.parent];
     std::uint32_t near = 0;
-    for (const Term& t : parents(s)) near += residual_[t.vector] != Steps3{};
+    for (const Term& t : parents(s)) near += isMoved(residual_[t.vector]);
     near = std::min(near, 4u);
     const std::uint32_t past = std::min<std::uint32_t>(history_[s], 6);
     const std::uint32_t mirrored =
@@ -189,7 +190,7 @@ class CoefficientCoder {
     std::uint32_t before = 0;
     for (Index k = 0; k < site.count; ++k) {
       const Index v = site.first + k;
-      bool moved = residual_[v] != Steps3{};
+      bool moved = isMoved(residual_[v]);
       if (k + 1 == site.count && before == 0) {
         moved = true;
       } else {

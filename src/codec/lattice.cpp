@@ -48,7 +48,7 @@ bool Lattice::restore(const Coefficients& coefficients, double step,
   bool finite = true;
   for (const Hierarchy::Step& s : hierarchy_.steps()) {
     const Steps3& own = coefficients[s.vector];
-    char moved = own != Steps3{};
+    char moved = isMoved(own);
     for (const Term& t : hierarchy_.terms(s)) moved |= moves[t.vector];
     Vec3& vector = vectors[s.vector];
     vector = {};
