@@ -53,8 +53,8 @@ TEST(Hierarchy, HasOneStepForEveryVectorOverThoseBefore) {
   for (const Surface& surface : someSurfaces()) {
     const Lattice lattice(surface, {});
     std::vector<char> known(surface.storedCount(), 0);
-    for (const Hierarchy::Step& step : lattice.hierarchy().steps()) {
-      for (const Term& t : lattice.hierarchy().terms(step)) EXPECT_TRUE(known[t.vector]);
+    for (const Prediction::Step& step : lattice.prediction(0).steps) {
+      for (const Term& t : lattice.prediction(0).of(step)) EXPECT_TRUE(known[t.vector]);
       EXPECT_FALSE(known[step.vector]);
       known[step.vector] = 1;
       EXPECT_GT(step.reach, 0);
@@ -67,11 +67,11 @@ TEST(Hierarchy, HasOneStepForEveryVectorOverThoseBefore) {
 TEST(Hierarchy, PredictionsAddUpToOneForPositionsAndToNothingForDerivatives) {
   for (const Surface& surface : someSurfaces()) {
     const Lattice lattice(surface, {});
-    for (const Hierarchy::Step& step : lattice.hierarchy().steps()) {
+    for (const Prediction::Step& step : lattice.prediction(0).steps) {
       const StoredVector& s = surface.stored(step.vector);
       double sum = 0;
       bool any = false;
-      for (const Term& t : lattice.hierarchy().terms(step)) {
+      for (const Term& t : lattice.prediction(0).of(step)) {
         any = true;
         const StoredVector& from = surface.stored(t.vector);
         if (from.i + from.j == 0) sum += t.factor;
@@ -86,8 +86,8 @@ TEST(Lattice, RoundsWhatItRestoresToTheSameCoefficients) {
     const Lattice lattice(surface, {});
     const Coefficients q = anyCoefficients(surface.storedCount(), 3);
     std::vector<Vec3> vectors(q.size());
-    lattice.restore(q, 0.01, vectors);
-    EXPECT_EQ(lattice.round(vectors, 0.01), q);
+    lattice.restore(0, q, 0.01, vectors);
+    EXPECT_EQ(lattice.round(0, vectors, 0.01), q);
   }
 }
 
@@ -96,8 +96,8 @@ TEST(Lattice, IsNeverMoreThanHalfAStepOff) {
     const Lattice lattice(surface, {});
     std::vector<Vec3> vectors, restored(surface.storedCount());
     for (Index v = 0; v < surface.storedCount(); ++v) vectors.push_back(anyVector(v));
-    lattice.restore(lattice.round(vectors, 0.25), 0.25, restored);
-    for (const Hierarchy::Step& step : lattice.hierarchy().steps()) {
+    lattice.restore(0, lattice.round(0, vectors, 0.25), 0.25, restored);
+    for (const Prediction::Step& step : lattice.prediction(0).steps) {
       const Vec3 off = restored[step.vector] - vectors[step.vector];
       for (const double x : {off.x, off.y, off.z})
         EXPECT_LE(std::abs(x), 0.125 / step.reach + 1e-12);
@@ -183,7 +183,7 @@ TEST(Packing, AMirroredHalfCostsHardlyAnything) {
       if (images[v].vector > static_cast<Index>(v)) q[images[v].vector][a] = turned * q[v][a];
     }
   }
-  lattice.restore(q, 0.01, rig.neutral);
+  lattice.restore(0, q, 0.01, rig.neutral);
   rig.packing.poses = {{0, 0}};
   const std::size_t mirrored = encode(rig).size();
   expectEqual(decode(encode(rig), "a.sweep").value(), rig);
