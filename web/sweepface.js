@@ -11,23 +11,24 @@ const BUDGETS = ['edgeLength', 'error', 'vertices'];
 
 const encoder = new TextEncoder(), decoder = new TextDecoder();
 
-/** The bytes behind a URL; Node's fetch does not read files. */
-async function readUrl(url) {
+/** The module behind a URL. Browsers keep what they make of one that they compile while it comes; Node's fetch does not read files. */
+async function compileUrl(url) {
   if (url.protocol === 'file:' && globalThis.process?.versions?.node) {
     const files = 'node:fs/promises';  // in a variable, so that no bundler looks for it
-    return (await import(/* @vite-ignore */ /* webpackIgnore: true */ files)).readFile(url);
+    return WebAssembly.compile(await (await import(/* @vite-ignore */ /* webpackIgnore: true */ files)).readFile(url));
   }
   const response = await fetch(url);
   if (!response.ok) throw new Error(`Could not load ${url}: the server answered ${response.status}.`);
-  return response.arrayBuffer();
+  const isKnown = response.headers.get('content-type')?.startsWith('application/wasm');  // else it may not be compiled while it comes
+  return isKnown && WebAssembly.compileStreaming ? WebAssembly.compileStreaming(response) : WebAssembly.compile(await response.arrayBuffer());
 }
 
 let usual;  // the module beside this file, compiled once
 function compile(wasm) {
   if (wasm instanceof WebAssembly.Module) return wasm;
   if (wasm instanceof ArrayBuffer || ArrayBuffer.isView(wasm)) return WebAssembly.compile(wasm);
-  if (wasm) return readUrl(new URL(wasm, globalThis.location?.href)).then(WebAssembly.compile);
-  usual ??= readUrl(new URL('./sweepface.wasm', import.meta.url)).then(WebAssembly.compile).catch((error) => {
+  if (wasm) return compileUrl(new URL(wasm, globalThis.location?.href));
+  usual ??= compileUrl(new URL('./sweepface.wasm', import.meta.url)).catch((error) => {
     usual = undefined;
     throw error;
   });
