@@ -76,16 +76,24 @@ std::vector<Region> bands() {
   return divided(orEnd(paintBands(face(), brush, kRegions)));
 }
 
-/// Springs under all weights of all regions, with new goals every four seconds.
-void moveRegions(benchmark::State& state, std::size_t count) {
+enum class Goals { together, oneByOne };
+
+/// Springs under all weights of all regions: with new goals for all every four seconds, or for one
+/// weight every frame.
+void moveRegions(benchmark::State& state, std::size_t count, Goals goals) {
   std::vector<Matter> matters(count);
   for (std::size_t r = 0; r < count; ++r) matters[r].mass = 1 + 0.5 * static_cast<double>(r);
   auto motion = orEnd(RegionalMotion::make(Weights(face().targets.size(), 0.0), matters));
-  const Weights goals = someWeights(Active::all);
-  Weights weights(count * goals.size());
-  int frame = 0;
+  Weights wanted = someWeights(Active::all);
+  Weights weights(count * wanted.size());
+  std::size_t frame = 0;
   for (auto _ : state) {
-    if (frame++ % 256 == 0 && !motion.moveTo(goals)) return state.SkipWithError("a goal");
+    if (goals == Goals::oneByOne) {
+      const std::size_t k = frame++ % wanted.size();
+      if (!motion.moveTo(k, wanted[k] = 1 - wanted[k])) return state.SkipWithError("a goal");
+    } else if (frame++ % 256 == 0 && !motion.moveTo(wanted)) {
+      return state.SkipWithError("a goal");
+    }
     motion.advance(1 / 60.0);
     motion.positions(weights);
     benchmark::DoNotOptimize(weights.data());
@@ -122,8 +130,12 @@ void add(const std::string& name, std::function<void(benchmark::State&)> run) {
 }
 
 const bool registered = [] {
-  for (const std::size_t count : {1, kRegions})
-    add(fmt::format("regions-motion/{}", count), [=](auto& state) { moveRegions(state, count); });
+  for (const std::size_t count : {1, kRegions}) {
+    add(fmt::format("regions-motion/{}", count),
+        [=](auto& state) { moveRegions(state, count, Goals::together); });
+    add(fmt::format("regions-motion/{}-one-by-one", count),
+        [=](auto& state) { moveRegions(state, count, Goals::oneByOne); });
+  }
   for (const bool normals : {false, true}) {
     const std::string group = normals ? "regions-normals/" : "regions-positions/";
     add(group + "none", [=](auto& state) { evaluate(state, {}, normals); });
