@@ -65,7 +65,7 @@ std::vector<Region> islands() {
   return divided(std::move(shares));
 }
 
-/// Eight bands across the face that fade into each other everywhere: as bad as it gets.
+/// Eight bands across the face that fade into each other everywhere.
 std::vector<Region> bands() {
   const std::vector<Vec3> places = nodes();
   const auto [low, high] = std::ranges::minmax(places, {}, &Vec3::y);
@@ -74,6 +74,14 @@ std::vector<Region> bands() {
   brush.fade = norm(high - low);
   brush.alongSurface = false;
   return divided(orEnd(paintBands(face(), brush, kRegions)));
+}
+
+/// Every node of another region than its neighbours: nobody's face, but as bad as it gets.
+std::vector<Region> patchwork() {
+  const std::size_t count = nodes().size();
+  std::vector<std::vector<double>> shares(kRegions, std::vector<double>(count));
+  for (std::size_t n = 0; n < count; ++n) shares[n * 5 % kRegions][n] = 1;
+  return divided(std::move(shares));
 }
 
 enum class Goals { together, oneByOne };
@@ -141,6 +149,7 @@ const bool registered = [] {
     add(group + "none", [=](auto& state) { evaluate(state, {}, normals); });
     add(group + "islands", [=](auto& state) { evaluate(state, islands(), normals); });
     add(group + "bands", [=](auto& state) { evaluate(state, bands(), normals); });
+    add(group + "patchwork", [=](auto& state) { evaluate(state, patchwork(), normals); });
   }
   return true;
 }();
