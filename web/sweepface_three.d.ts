@@ -8,9 +8,9 @@ export class SweepfaceMesh extends Mesh<BufferGeometry, Material | Material[]> {
   readonly face: Sweepface;
 
   /** Sets the weights that are named, at once; the others stay. */
-  setWeights(weights: Weights): void;
+  setWeights(weights: Weights, region?: string): void;
   /** Sends weights to goals from where they stand; `update` moves them. */
-  moveTo(goals: Weights, drive?: DriveKind | Drive): void;
+  moveTo(goals: Weights, drive?: DriveKind | Drive, region?: string): void;
   /** A blow: adds to the velocity of a weight (per second), which drag (per second) takes away. */
   push(name: string, velocityChange: number, drag?: number): void;
   /** Call it once a frame with the seconds since the last; costs nothing where nothing moves. */

@@ -1,24 +1,38 @@
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <mutex>
 #include <vector>
 
 #include "sweepface/evaluator.hpp"
 #include "sweepface/followers.hpp"
-#include "sweepface/live_motion.hpp"
+#include "sweepface/regional_motion.hpp"
 #include "sweepface/render_mesh.hpp"
-#include "sweepface/sweepface.h"
+#include "sweepface/sweepface_regions.h"
 
 #include "eval/shader_tables.hpp"
 
 // What the handles of the C interface stand for. Rigs and meshes are shared by what is made from
 // them.
 
+namespace sweepface::capi {
+
+/// The regions of a face; none: one that is everywhere.
+struct Division {
+  std::vector<std::string> names;
+  std::vector<std::vector<float>> influences;
+
+  std::size_t count() const { return std::max<std::size_t>(1, names.size()); }
+};
+
+}  // namespace sweepface::capi
+
 struct sweepface_rig {
   std::shared_ptr<const sweepface::Rig> rig;
   sweepface::Followers followers;  // of its targets; those that were added for them are not shown
   std::size_t shown = 0;           // targets, the first ones
+  std::shared_ptr<const sweepface::capi::Division> division;
 };
 
 namespace sweepface::capi {
@@ -41,6 +55,7 @@ struct Mesh {
   std::shared_ptr<const Rig> rig;
   Followers followers;
   std::size_t shown;
+  std::shared_ptr<const Division> division;
   Index lod;
   Tessellation grid;
   Evaluator neutral;  // with the same options the others cannot fail
@@ -58,10 +73,12 @@ struct Mesh {
   }
 
   const Evaluator& positions() const {
-    return lazyPositions.get(*rig, grid, {.level = lod, .normals = false});
+    return lazyPositions.get(*rig, grid,
+                             {.level = lod, .normals = false, .influences = division->influences});
   }
   const Evaluator& normals() const {
-    return lazyNormals.get(*rig, grid, {.level = lod, .positions = false});
+    return lazyNormals.get(*rig, grid,
+                           {.level = lod, .positions = false, .influences = division->influences});
   }
 };
 
@@ -73,8 +90,8 @@ struct sweepface_mesh {
 
 struct sweepface_face {
   std::shared_ptr<const sweepface::capi::Mesh> mesh;
-  sweepface::Weights weights;   // [shown] as they were set
-  sweepface::Weights followed;  // [targets] with followers
+  sweepface::Weights weights;   // [regions × shown] as they were set
+  sweepface::Weights followed;  // [regions × targets] with followers
   std::vector<std::byte> scratch;
 
   /// What an output holds, and where.
@@ -92,5 +109,5 @@ const Weights& follow(sweepface_face& face);
 }  // namespace sweepface::capi
 
 struct sweepface_motion {
-  sweepface::MotionState state;
+  sweepface::RegionalMotion state;
 };

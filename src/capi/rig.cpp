@@ -15,7 +15,10 @@ sweepface_status sweepface_rig_load(const void* bytes, size_t size, const char* 
   Result<Rig> decoded = decode({static_cast<const char*>(bytes), size}, name ? name : "The face");
   if (!decoded) return refuse(SWEEPFACE_BAD_DATA, std::move(decoded.error().message));
   const std::size_t targets = decoded->targets.size();
-  *rig = new sweepface_rig{std::make_shared<const Rig>(std::move(*decoded)), {}, targets};
+  *rig = new sweepface_rig{std::make_shared<const Rig>(std::move(*decoded)),
+                           {},
+                           targets,
+                           std::make_shared<const Division>()};
   return SWEEPFACE_OK;
 }
 
