@@ -45,13 +45,14 @@ void repeatPoints(const Mesh& mesh, const sweepface_vectors& out, std::size_t co
 
 const Weights& sweepface::capi::follow(sweepface_face& face) {
   const Mesh& mesh = *face.mesh;
-  if (mesh.followers.empty()) return face.weights;
+  if (mesh.followers.empty() && !mesh.eyes) return face.weights;
   const std::size_t targets = mesh.rig->targets.size();
   std::ranges::fill(face.followed, 0.0);
   for (std::size_t r = 0; r < mesh.division->count(); ++r) {
     const std::span region = std::span(face.followed).subspan(r * targets, targets);
     std::copy_n(face.weights.data() + r * mesh.shown, mesh.shown, region.begin());
     mesh.followers.apply(region);
+    if (mesh.eyes) mesh.eyes->apply(face.looks ? &*face.looks : nullptr, region);
   }
   // Products of large weights are beyond what an evaluation takes.
   for (double& w : face.followed) w = std::clamp(w, -SWEEPFACE_MOST_WEIGHT, SWEEPFACE_MOST_WEIGHT);
@@ -119,7 +120,7 @@ const double* sweepface_face_weights(const sweepface_face* face) {
 double sweepface_face_error(const sweepface_face* face) {
   if (!face) return 0;
   const Mesh& mesh = *face->mesh;
-  sweepface_face copy{face->mesh, face->weights, face->followed, {}, {}, {}};
+  sweepface_face copy{face->mesh, face->weights, face->followed, {}, {}, {}, face->looks};
   const Weights& weights = follow(copy);
   return (isNeutral(weights) ? mesh.neutral : mesh.positions()).positionBound(weights);
 }

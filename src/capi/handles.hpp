@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <vector>
 
 #include "sweepface/evaluator.hpp"
 #include "sweepface/followers.hpp"
+#include "sweepface/head.hpp"
 #include "sweepface/regional_motion.hpp"
 #include "sweepface/render_mesh.hpp"
 #include "sweepface/sweepface_regions.h"
@@ -22,17 +24,26 @@ namespace sweepface::capi {
 struct Division {
   std::vector<std::string> names;
   std::vector<std::vector<float>> influences;
+  std::vector<Matter> matters;  // where they are known
 
   std::size_t count() const { return std::max<std::size_t>(1, names.size()); }
+};
+
+/// Sets the weights of what turns eyes. Behind an interface, as most faces do without.
+struct EyeTurner {
+  virtual ~EyeTurner() = default;
+  virtual void apply(const HeadPose* pose, std::span<double> weights) const = 0;
 };
 
 }  // namespace sweepface::capi
 
 struct sweepface_rig {
   std::shared_ptr<const sweepface::Rig> rig;
+  std::shared_ptr<const sweepface::Rig> loaded;  // without what is added for what follows
   sweepface::Followers followers;  // of its targets; those that were added for them are not shown
   std::size_t shown = 0;           // targets, the first ones
   std::shared_ptr<const sweepface::capi::Division> division;
+  std::shared_ptr<const sweepface::capi::EyeTurner> eyes = nullptr;  // where they turn
 };
 
 namespace sweepface::capi {
@@ -56,6 +67,7 @@ struct Mesh {
   Followers followers;
   std::size_t shown;
   std::shared_ptr<const Division> division;
+  std::shared_ptr<const EyeTurner> eyes;
   Index lod;
   Tessellation grid;
   Evaluator neutral;  // with the same options the others cannot fail
@@ -101,6 +113,7 @@ struct sweepface_face {
     sweepface::Weights weights;
   };
   Written positions, normals;
+  std::optional<sweepface::HeadPose> looks = {};
 };
 
 namespace sweepface::capi {

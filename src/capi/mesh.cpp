@@ -27,8 +27,8 @@ sweepface_status makeMesh(const sweepface_rig& rig, Index lod, Tessellation grid
                       : grid.level() == 0 ? renderDensity(*rig.rig, grid)
                                           : renderGrid(*rig.rig, grid);
   *mesh = new sweepface_mesh{std::make_shared<Mesh>(rig.rig, rig.followers, rig.shown, rig.division,
-                                                    lod, std::move(grid), std::move(*neutral),
-                                                    std::move(render))};
+                                                    rig.eyes, lod, std::move(grid),
+                                                    std::move(*neutral), std::move(render))};
   return SWEEPFACE_OK;
 }
 

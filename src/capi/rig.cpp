@@ -15,10 +15,8 @@ sweepface_status sweepface_rig_load(const void* bytes, size_t size, const char* 
   Result<Rig> decoded = decode({static_cast<const char*>(bytes), size}, name ? name : "The face");
   if (!decoded) return refuse(SWEEPFACE_BAD_DATA, std::move(decoded.error().message));
   const std::size_t targets = decoded->targets.size();
-  *rig = new sweepface_rig{std::make_shared<const Rig>(std::move(*decoded)),
-                           {},
-                           targets,
-                           std::make_shared<const Division>()};
+  const auto loaded = std::make_shared<const Rig>(std::move(*decoded));
+  *rig = new sweepface_rig{loaded, loaded, {}, targets, std::make_shared<const Division>()};
   return SWEEPFACE_OK;
 }
 
@@ -52,8 +50,7 @@ sweepface_status sweepface_rig_follow(sweepface_rig* rig, uint32_t what) {
   if (!rig) return refuse("Following weights need a rig.");
   if ((what & ~uint32_t{SWEEPFACE_ARCS | SWEEPFACE_COMBINE}) != 0)
     return refuse("Weights follow by SWEEPFACE_ARCS, SWEEPFACE_COMBINE or both.");
-  auto made = std::make_shared<Rig>(*rig->rig);
-  made->targets.resize(rig->shown);
+  auto made = std::make_shared<Rig>(*rig->loaded);
   std::vector<Follower> followers;
   if (what & SWEEPFACE_COMBINE) {
     std::vector<std::string> names;
@@ -65,6 +62,7 @@ sweepface_status sweepface_rig_follow(sweepface_rig* rig, uint32_t what) {
     followers.insert(followers.end(), arcs.begin(), arcs.end());
   }
   rig->followers = Followers(std::move(followers));
+  rig->eyes = nullptr;
   rig->rig = std::move(made);
   return SWEEPFACE_OK;
 }
