@@ -8,12 +8,15 @@ export const SWEEPFACE_GLSL: string;
 export class SweepfaceGpuMesh extends Mesh {
   constructor(face: Sweepface, materials?: Material | Material[]);
   readonly face: Sweepface;
+  readonly names: string[];
   /** Bytes of textures on the graphics card, and of them those that change every frame. */
   readonly textureBytes: number;
   readonly frameBytes: number;
   setWeights(weights: Weights, region?: string): void;
   moveTo(goals: Weights, drive?: DriveKind | Drive, region?: string): void;
   push(name: string, velocityChange: number, drag?: number): void;
+  /** Lets seconds pass without showing it; says whether anything goes on moving. */
+  advance(seconds: number): boolean;
   /** Call it once a frame with the seconds since the last; costs nothing where nothing moves. */
   update(seconds?: number): void;
   dispose(): void;

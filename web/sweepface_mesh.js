@@ -16,6 +16,8 @@ export class FaceMesh extends Mesh {
     this.face = face;
   }
 
+  get names() { return this.face.names; }
+
   setWeights(weights, region) {
     this.face.setWeights(weights, region);
     this.#stale = true;
@@ -31,12 +33,15 @@ export class FaceMesh extends Mesh {
     this.#moving = true;
   }
 
+  /** Lets time pass without showing it; says whether anything goes on moving. */
+  advance(seconds) {
+    this.#stale = true;
+    return this.#moving = this.face.advance(seconds);
+  }
+
   /** Call it once a frame with the seconds since the last; costs nothing where nothing moves. */
   update(seconds = 0) {
-    if (this.#moving && seconds > 0) {
-      this.#moving = this.face.advance(seconds);
-      this.#stale = true;
-    }
+    if (this.#moving && seconds > 0) this.advance(seconds);
     if (this.#stale) this.show();
     this.#stale = false;
   }

@@ -6,6 +6,7 @@ export class SweepfaceMesh extends Mesh<BufferGeometry, Material | Material[]> {
   /** Materials: one a part of the face; plain ones, named as in the source, unless given. */
   constructor(face: Sweepface, materials?: Material | Material[]);
   readonly face: Sweepface;
+  readonly names: string[];
 
   /** Sets the weights that are named, at once; the others stay. */
   setWeights(weights: Weights, region?: string): void;
@@ -13,6 +14,8 @@ export class SweepfaceMesh extends Mesh<BufferGeometry, Material | Material[]> {
   moveTo(goals: Weights, drive?: DriveKind | Drive, region?: string): void;
   /** A blow: adds to the velocity of a weight (per second), which drag (per second) takes away. */
   push(name: string, velocityChange: number, drag?: number): void;
+  /** Lets seconds pass without showing it; says whether anything goes on moving. */
+  advance(seconds: number): boolean;
   /** Call it once a frame with the seconds since the last; costs nothing where nothing moves. */
   update(seconds?: number): void;
   /** Frees geometry, materials and the face. */

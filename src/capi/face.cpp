@@ -51,8 +51,8 @@ const Weights& sweepface::capi::follow(sweepface_face& face) {
   for (std::size_t r = 0; r < mesh.division->count(); ++r) {
     const std::span region = std::span(face.followed).subspan(r * targets, targets);
     std::copy_n(face.weights.data() + r * mesh.shown, mesh.shown, region.begin());
-    mesh.followers.apply(region);
     if (mesh.eyes) mesh.eyes->apply(face.looks ? &*face.looks : nullptr, region);
+    mesh.followers.apply(region);
   }
   // Products of large weights are beyond what an evaluation takes.
   for (double& w : face.followed) w = std::clamp(w, -SWEEPFACE_MOST_WEIGHT, SWEEPFACE_MOST_WEIGHT);
