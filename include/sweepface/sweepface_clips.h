@@ -1,9 +1,9 @@
-/* Clips, eyes and heads for faces (docs/clips.md, docs/eyes.md). Of the library that converts, since
- * they read other programs' files: link sweepface::convert. What sweepface.h says holds here as
- * well. */
+/* Clips for faces (docs/clips.md). Of the library that converts, since they are other programs'
+ * files: link sweepface::convert. What sweepface.h says holds here as well. */
 #ifndef SWEEPFACE_SWEEPFACE_CLIPS_H
 #define SWEEPFACE_SWEEPFACE_CLIPS_H
 
+#include "sweepface/sweepface_head.h"
 #include "sweepface/sweepface_regions.h"
 
 #ifdef __cplusplus
@@ -62,31 +62,12 @@ SWEEPFACE_API sweepface_status sweepface_clip_weights(const sweepface_clip* clip
 
 /* ---- Eyes and head ---- */
 
-/* Angles in radians, right-handed: yaw about y, positive to the face's left, pitch about x, down,
- * and roll about z, to its right. */
-typedef struct sweepface_angles {
-  double yaw, pitch, roll;
-} sweepface_angles;
-
-typedef struct sweepface_pose {
-  sweepface_angles head, left_eye, right_eye;
-} sweepface_pose;
-
 /* Whether a clip has any angles of the head, and of the eyes. */
 SWEEPFACE_API int32_t sweepface_clip_has_head(const sweepface_clip* clip);
 SWEEPFACE_API int32_t sweepface_clip_has_eyes(const sweepface_clip* clip);
 /* All angles at a time; what the clip lacks is 0. */
 SWEEPFACE_API sweepface_status sweepface_clip_pose(const sweepface_clip* clip, double seconds,
                                                    sweepface_pose* pose);
-/* x, y, z and w of the quaternion that turns the model so: by Ry * Rx * Rz. */
-SWEEPFACE_API void sweepface_rotation(const sweepface_angles* angles, double quaternion[4]);
-
-/* From now on eyeballs turn rigidly about their centres, in meshes made from now on; call
- * sweepface_rig_follow before, which ends it. Writes how many there are, which may be none. */
-SWEEPFACE_API sweepface_status sweepface_rig_turn_eyes(sweepface_rig* rig, uint32_t* eyes);
-/* How the eyes stand; NULL, as at the start: by the weights of eyeLook targets. */
-SWEEPFACE_API sweepface_status sweepface_face_look(sweepface_face* face,
-                                                   const sweepface_pose* pose);
 
 #ifdef __cplusplus
 }

@@ -109,19 +109,7 @@ const char* nameAt(const std::vector<std::string>& names, uint32_t index) {
   return index < names.size() ? names[index].c_str() : nullptr;
 }
 
-// ---- Eyes ----
-
-struct Turner final : EyeTurner {
-  EyeTurns turns;
-  void apply(const HeadPose* pose, std::span<double> weights) const override {
-    pose ? turns.apply(*pose, weights) : turns.apply(weights);
-  }
-};
-
-Angles anglesOf(const sweepface_angles& a) { return {a.yaw, a.pitch, a.roll}; }
 sweepface_angles anglesOf(const Angles& a) { return {a.yaw, a.pitch, a.roll}; }
-
-bool isFinite(const sweepface_angles& a) { return std::isfinite(a.yaw + a.pitch + a.roll); }
 
 }  // namespace
 
@@ -210,36 +198,5 @@ sweepface_status sweepface_clip_pose(const sweepface_clip* clip, double seconds,
   clip->ofRegions.front().at(seconds, own);
   const HeadPose found = clip->angles.of(own);
   *pose = {anglesOf(found.head), anglesOf(found.leftEye), anglesOf(found.rightEye)};
-  return SWEEPFACE_OK;
-}
-
-void sweepface_rotation(const sweepface_angles* angles, double quaternion[4]) {
-  if (!angles || !quaternion) return;
-  std::ranges::copy(quaternionOf(anglesOf(*angles)), quaternion);
-}
-
-sweepface_status sweepface_rig_turn_eyes(sweepface_rig* rig, uint32_t* eyes) {
-  if (!rig || !eyes) return refuse("Turning eyes needs a rig and a place for their number.");
-  if (rig->eyes) return refuse("The eyes turn already; sweepface_rig_follow ends it.");
-  auto made = std::make_shared<Rig>(*rig->rig);
-  const std::vector<Eye> found = findEyes(*made);
-  auto turner = std::make_shared<Turner>();
-  turner->turns = EyeTurns::addTo(*made, found);
-  *eyes = static_cast<uint32_t>(found.size());
-  if (found.empty()) return SWEEPFACE_OK;
-  rig->rig = std::move(made);
-  rig->eyes = std::move(turner);
-  return SWEEPFACE_OK;
-}
-
-sweepface_status sweepface_face_look(sweepface_face* face, const sweepface_pose* pose) {
-  if (!face) return refuse("Looking needs a face.");
-  if (!pose) {
-    face->looks.reset();
-    return SWEEPFACE_OK;
-  }
-  if (!isFinite(pose->left_eye) || !isFinite(pose->right_eye))
-    return refuse("The angles of eyes must be finite numbers.");
-  face->looks = {anglesOf(pose->head), anglesOf(pose->left_eye), anglesOf(pose->right_eye)};
   return SWEEPFACE_OK;
 }
