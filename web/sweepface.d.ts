@@ -49,6 +49,12 @@ export interface Region {
   bands?: number;
 }
 
+/** Radians: yaw to the face's left, pitch down. */
+export interface Look {
+  yaw?: number;
+  pitch?: number;
+}
+
 export interface LoadOptions {
   /** 0: the source's own vertices; N: every edge of the source cut into N, up to 64. */
   lod?: number;
@@ -63,7 +69,9 @@ export interface LoadOptions {
   arcs?: boolean;
   /** `A_B` goes by the product of A and B, `A_50` stands in for A at 0.5. */
   combine?: boolean;
-  /** Divides the face; loads sweepface_regions.wasm instead of sweepface.wasm. */
+  /** Eyeballs turn rigidly about their centres; loads sweepface_full.wasm instead of sweepface.wasm. */
+  eyes?: boolean;
+  /** Divides the face; loads sweepface_full.wasm instead of sweepface.wasm. */
   regions?: Region[];
   wasm?: ModuleSource;
 }
@@ -120,6 +128,11 @@ export class Sweepface {
   push(name: string, velocityChange: number, drag?: number): void;
   /** Lets seconds pass for the weights in motion; says whether anything goes on moving. */
   advance(seconds: number): boolean;
+
+  /** How many eyeballs turn: with the option `eyes`, as many as the face has. */
+  readonly eyeCount: number;
+  /** How the eyes stand; null, as at the start: by the weights of eyeLook targets. */
+  look(pose: {leftEye?: Look; rightEye?: Look} | null): void;
 
   /** Writes three floats a vertex: positions in model units, unit normals. Either may be null. */
   evaluate(positions: Float32Array | null, normals?: Float32Array | null): void;

@@ -22,10 +22,10 @@ async function readUrl(url) {
   return response.arrayBuffer();
 }
 
-/** The modules beside this file: the usual one, and the one that knows regions. */
+/** The modules beside this file: the usual one, and the one that knows regions and eyes as well. */
 const MODULES = {
   usual: () => new URL('./sweepface.wasm', import.meta.url),
-  regions: () => new URL('./sweepface_regions.wasm', import.meta.url)
+  full: () => new URL('./sweepface_full.wasm', import.meta.url)
 };
 
 const compiled = {};  // each once
@@ -108,10 +108,11 @@ function withinMemory(run) {
 
 /** What all faces of one file at one level of detail share. */
 class Shared {
-  constructor(module, bytes, name, lod, follow, budget, divide) {
+  constructor(module, bytes, name, lod, follow, budget, eyes, divide) {
     const runtime = this.runtime = new Runtime(module), {wasm} = runtime;
     this.rig = runtime.loadRig(bytes, name);
     runtime.check(wasm.sweepface_rig_follow(this.rig, follow));
+    this.eyeCount = eyes ? runtime.get('sweepface_rig_turn_eyes', this.rig) : 0;
     this.regions = divide ? divide(runtime, this.rig) : null;  // with their matter
     this.turnCount = wasm.sweepface_rig_turn_count(this.rig);
     this.mesh = budget ? runtime.get('sweepface_mesh_create_within', this.rig, ...budget) : runtime.get('sweepface_mesh_create', this.rig, lod);
@@ -180,15 +181,15 @@ export class Sweepface {
     ++runtime.users;
   }
 
-  static async load(bytes, {lod = 0, name = 'The face', arcs = false, combine = false, regions, wasm, ...rest} = {}) {
+  static async load(bytes, {lod = 0, name = 'The face', arcs = false, combine = false, eyes = false, regions, wasm, ...rest} = {}) {
     if (!(bytes instanceof ArrayBuffer || ArrayBuffer.isView(bytes)))
       throw new TypeError('Sweepface.load needs the bytes of a .sweep file: an ArrayBuffer or a typed array.');
     if (!Number.isInteger(lod) || lod < 0) throw new RangeError('The level of detail must be a whole number from 0 on.');
     const view = ArrayBuffer.isView(bytes) ? new Uint8Array(bytes.buffer, bytes.byteOffset, bytes.byteLength) : new Uint8Array(bytes);
     const [budget] = BUDGETS.flatMap((kind, k) => (kind in rest ? [[k, Number(rest[kind])]] : []));
-    const module = await compile(wasm, regions ? 'regions' : 'usual');
+    const module = await compile(wasm, regions || eyes ? 'full' : 'usual');
     const divide = regions && (await import('./sweepface_regions.js')).divider(regions);
-    return withinMemory(() => new Sweepface(new Shared(module, view, String(name), lod, (arcs ? 1 : 0) + (combine ? 2 : 0), budget, divide)));
+    return withinMemory(() => new Sweepface(new Shared(module, view, String(name), lod, (arcs ? 1 : 0) + (combine ? 2 : 0), budget, eyes, divide)));
   }
 
   /** Another face of the same file, at rest; the two share everything but their weights. */
@@ -256,6 +257,19 @@ export class Sweepface {
   /** All weights to 0, at once. */
   reset() {
     this.setWeights(Object.fromEntries(this.#open().names.map((name) => [name, 0])));
+  }
+
+  /** How many eyeballs turn. */
+  get eyeCount() { return this.#open().eyeCount; }
+
+  /** How the eyes stand, {leftEye: {yaw, pitch}, rightEye: {yaw, pitch}} in radians; null: by the eyeLook weights. */
+  look(pose) {
+    const {runtime, eyeCount} = this.#open();
+    if (eyeCount === 0) throw new Error('The face has no eyes that turn; load it with the option eyes, if it has any.');
+    const angles = ({yaw = 0, pitch = 0} = {}) => [yaw, pitch, 0];
+    if (!pose) return runtime.check(runtime.wasm.sweepface_face_look(this.#face, 0));
+    const numbers = new Float64Array([0, 0, 0, ...angles(pose.leftEye), ...angles(pose.rightEye)]);
+    runtime.lend(new Uint8Array(numbers.buffer), (at) => runtime.check(runtime.wasm.sweepface_face_look(this.#face, at)));
   }
 
   /** Writes positions and normals, three floats a vertex; either may be null. */

@@ -1,7 +1,7 @@
 import type {Drive, Region, Sweepface, Weights} from './sweepface.js';
 
-/** A face, or a mesh of sweepface/three or sweepface/gpu without what only a mesh has. */
-type Playable = Pick<Sweepface, 'names' | 'setWeights' | 'moveTo' | 'advance'>;
+/** A face, or a mesh of sweepface/three or sweepface/gpu. */
+type Playable = Pick<Sweepface, 'names' | 'eyeCount' | 'setWeights' | 'moveTo' | 'advance' | 'look'>;
 
 /** Which target each name of a clip drives. */
 export interface Match {
@@ -49,7 +49,7 @@ export class ClipPlayer {
   readonly clip: Clip;
   readonly match: Match;
   readonly seconds: number;
-  /** Sets the weights of a time; returns the angles of the head in radians, if the clip has them. */
+  /** Sets the weights of a time, and turns eyes if the clip has their angles; returns the angles of the head in radians, if the clip has them. */
   seek(seconds: number): {yaw: number; pitch: number; roll: number} | null;
 }
 

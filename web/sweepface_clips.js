@@ -228,7 +228,7 @@ export class ClipPlayer {
   get seconds() { return this.clip.seconds; }
 
   /**
-   * Sets the weights that the clip drives, and returns the angles of the head, {yaw, pitch, roll} in radians, or null
+   * Sets the weights that the clip drives, turns eyes if it has their angles, and returns the angles of the head, {yaw, pitch, roll} in radians, or null
    * where the clip has none: for three.js `head.rotation.set(pitch, yaw, roll, 'YXZ')`. Where two names drive a target
    * the larger weight counts.
    */
@@ -238,8 +238,17 @@ export class ClipPlayer {
       for (const target of targets) weights[names[target]] = Math.max(weights[names[target]] ?? 0, values[k]);
     });
     this.face.setWeights(weights);
-    const [yaw, pitch, roll] = this.#angles.map((k) => (k < 0 ? 0 : values[k]));
-    return this.#angles[0] < 0 ? null : {yaw, pitch, roll};
+    const angles = [0, 3, 6].map((first) => this.#anglesAt(values, first));
+    if (this.face.eyeCount > 0 && (angles[1] || angles[2])) this.face.look({leftEye: angles[1] ?? {}, rightEye: angles[2] ?? {}});
+    return angles[0];
+  }
+
+  /** Yaw, pitch and roll from a column on, or null where the clip has none of them. */
+  #anglesAt(values, first) {
+    const columns = this.#angles.slice(first, first + 3);
+    if (columns.every((k) => k < 0)) return null;
+    const [yaw, pitch, roll] = columns.map((k) => (k < 0 ? 0 : values[k]));
+    return {yaw, pitch, roll};
   }
 }
 

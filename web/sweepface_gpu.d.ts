@@ -1,5 +1,5 @@
 import type {Material, Mesh} from 'three';
-import type {Drive, DriveKind, Sweepface, Weights} from './sweepface.js';
+import type {Drive, DriveKind, Look, Sweepface, Weights} from './sweepface.js';
 
 /** GLSL ES 3: `vec3 sweepfaceRow(vec3 neutral, uvec2 place, int row, isampler2D basis, sampler2D modes)`. */
 export const SWEEPFACE_GLSL: string;
@@ -9,6 +9,9 @@ export class SweepfaceGpuMesh extends Mesh {
   constructor(face: Sweepface, materials?: Material | Material[]);
   readonly face: Sweepface;
   readonly names: string[];
+  readonly eyeCount: number;
+  /** How the eyes stand; null: by the weights of eyeLook targets. */
+  look(pose: {leftEye?: Look; rightEye?: Look} | null): void;
   /** Bytes of textures on the graphics card, and of them those that change every frame. */
   readonly textureBytes: number;
   readonly frameBytes: number;

@@ -17,6 +17,12 @@ export class FaceMesh extends Mesh {
   }
 
   get names() { return this.face.names; }
+  get eyeCount() { return this.face.eyeCount; }
+
+  look(pose) {
+    this.face.look(pose);
+    this.#stale = true;
+  }
 
   setWeights(weights, region) {
     this.face.setWeights(weights, region);

@@ -1,5 +1,5 @@
 import type {BufferGeometry, Loader, LoadingManager, Material, Mesh} from 'three';
-import type {Drive, DriveKind, LoadOptions, Sweepface, Weights} from './sweepface.js';
+import type {Drive, DriveKind, LoadOptions, Look, Sweepface, Weights} from './sweepface.js';
 
 /** A face in a scene. Weights are set at any time; `update` brings the geometry up to date. */
 export class SweepfaceMesh extends Mesh<BufferGeometry, Material | Material[]> {
@@ -7,6 +7,9 @@ export class SweepfaceMesh extends Mesh<BufferGeometry, Material | Material[]> {
   constructor(face: Sweepface, materials?: Material | Material[]);
   readonly face: Sweepface;
   readonly names: string[];
+  readonly eyeCount: number;
+  /** How the eyes stand; null: by the weights of eyeLook targets. */
+  look(pose: {leftEye?: Look; rightEye?: Look} | null): void;
 
   /** Sets the weights that are named, at once; the others stay. */
   setWeights(weights: Weights, region?: string): void;

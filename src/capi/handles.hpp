@@ -29,10 +29,11 @@ struct Division {
   std::size_t count() const { return std::max<std::size_t>(1, names.size()); }
 };
 
-/// Sets the weights of what turns eyes. Behind an interface, as most faces do without.
+/// Sets the weights of what turns eyes; by itself nothing. Behind an interface, as most faces do
+/// without. Not abstract: that would bring the C++ library's words about it to the browser.
 struct EyeTurner {
   virtual ~EyeTurner() = default;
-  virtual void apply(const HeadPose* pose, std::span<double> weights) const = 0;
+  virtual void apply(const HeadPose*, std::span<double>) const {}
 };
 
 }  // namespace sweepface::capi
