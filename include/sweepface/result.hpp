@@ -37,6 +37,18 @@ struct TextPart {
   TextPart(const T& x) : text(x) {}
 };
 
+/// Appends a whole number: one function for all types, where the standard library has one for each.
+[[gnu::noinline]] inline void appendNumber(std::string& sentence, long long number) {
+  char digits[20];
+  char* first = digits + 20;
+  auto rest = static_cast<unsigned long long>(number);
+  if (number < 0) rest = 0 - rest;
+  do *--first = static_cast<char>('0' + rest % 10);
+  while (rest /= 10);
+  if (number < 0) *--first = '-';
+  sentence.append(first, digits + 20);
+}
+
 /// The parts one after the other.
 [[gnu::noinline]] inline std::string joined(std::initializer_list<TextPart> parts) {
   std::string sentence;
@@ -44,7 +56,7 @@ struct TextPart {
     if (part.text.data())
       sentence += part.text;
     else
-      sentence += std::to_string(part.number);
+      appendNumber(sentence, part.number);
   return sentence;
 }
 

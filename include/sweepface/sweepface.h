@@ -68,7 +68,8 @@ SWEEPFACE_API sweepface_status sweepface_rig_find_target(const sweepface_rig* ri
  * the eyeball. */
 SWEEPFACE_API uint32_t sweepface_rig_turn_count(const sweepface_rig* rig);
 
-/* Weights that follow from those that are set (docs/arcs.md), for meshes made from now on. */
+/* Weights that follow from those that are set (docs/arcs.md), in all meshes of the rig: it is said
+ * while there are none. */
 enum {
   SWEEPFACE_ARCS = 1,   /* targets that turn go on arcs instead of straight lines */
   SWEEPFACE_COMBINE = 2 /* A_B goes by the product of A and B, A_50 stands in for A at 0.5 */
@@ -96,8 +97,9 @@ enum {
   SWEEPFACE_VERTICES = 2     /* as near to the surface as so many points allow */
 };
 
-/* The surface as fine as a budget asks, curve by curve: without a crack, and with the same points in
- * the same order every time. A pixel is 2 * distance * tan(field of view / 2) / height in size. */
+/* The surface as fine as a budget asks, curve by curve: without a crack, and with the same points
+ * in the same order every time. A pixel is 2 * distance * tan(field of view / 2) / height in size.
+ */
 SWEEPFACE_API sweepface_status sweepface_mesh_create_within(const sweepface_rig* rig,
                                                             sweepface_budget budget, double value,
                                                             sweepface_mesh** mesh);
@@ -163,8 +165,8 @@ typedef struct sweepface_vectors {
 } sweepface_vectors;
 
 /* Positions in model units and unit normals of the first `count` vertices under the face's weights.
- * Allocates nothing once the mesh is prepared. Seen through floats, the points of a mesh are free of
- * cracks. */
+ * Allocates nothing once the mesh is prepared. Seen through floats, the points of a mesh are free
+ * of cracks. */
 SWEEPFACE_API sweepface_status sweepface_face_evaluate(sweepface_face* face, size_t count,
                                                        sweepface_vectors positions,
                                                        sweepface_vectors normals);
@@ -178,13 +180,13 @@ SWEEPFACE_API sweepface_status sweepface_face_update(sweepface_face* face, size_
 /* ---- Shaders ---- */
 
 /* A mesh as a vertex shader evaluates it (docs/evaluation.md). Row r of point p is
- *   neutral[p][r] + sum over t < texels, k < 4 of basis[first + r * texels + t][k] * modes[at + 4 * t + k]
- * where places[p] is first, then at * 64 + texels. Positions have one row a point, tangents two:
- * along the sweep and across, whose cross product points outward. Belongs to the mesh. */
+ *   neutral[p][r] + sum over t < texels, k < 4 of basis[first + r * texels + t][k] * modes[at + 4 *
+ * t + k] where places[p] is first, then at * 64 + texels. Positions have one row a point, tangents
+ * two: along the sweep and across, whose cross product points outward. Belongs to the mesh. */
 typedef struct sweepface_shader_tables {
-  const int16_t* basis;    /* [texel_count x 4] */
-  const uint32_t* places;  /* [points x 2] */
-  const float* neutral;    /* [points x rows x 3] */
+  const int16_t* basis;   /* [texel_count x 4] */
+  const uint32_t* places; /* [points x 2] */
+  const float* neutral;   /* [points x rows x 3] */
   uint32_t texel_count;
   uint32_t mode_count;
 } sweepface_shader_tables;

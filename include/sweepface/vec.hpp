@@ -17,27 +17,29 @@ struct Vec2 {
 struct Vec3 {
   double x = 0, y = 0, z = 0;
 
-  Vec3& operator+=(const Vec3& b) {
+  [[gnu::always_inline]] Vec3& operator+=(const Vec3& b) {
     x += b.x, y += b.y, z += b.z;
     return *this;
   }
-  Vec3& operator-=(const Vec3& b) {
+  [[gnu::always_inline]] Vec3& operator-=(const Vec3& b) {
     x -= b.x, y -= b.y, z -= b.z;
     return *this;
   }
-  Vec3& operator*=(double s) {
+  [[gnu::always_inline]] Vec3& operator*=(double s) {
     x *= s, y *= s, z *= s;
     return *this;
   }
   friend bool operator==(const Vec3&, const Vec3&) = default;
 };
 
-inline Vec3 operator+(Vec3 a, const Vec3& b) { return a += b; }
-inline Vec3 operator-(Vec3 a, const Vec3& b) { return a -= b; }
-inline Vec3 operator-(const Vec3& a) { return {-a.x, -a.y, -a.z}; }
-inline Vec3 operator*(Vec3 a, double s) { return a *= s; }
-inline Vec3 operator*(double s, Vec3 a) { return a *= s; }
-inline double dot(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+[[gnu::always_inline]] inline Vec3 operator+(Vec3 a, const Vec3& b) { return a += b; }
+[[gnu::always_inline]] inline Vec3 operator-(Vec3 a, const Vec3& b) { return a -= b; }
+[[gnu::always_inline]] inline Vec3 operator-(const Vec3& a) { return {-a.x, -a.y, -a.z}; }
+[[gnu::always_inline]] inline Vec3 operator*(Vec3 a, double s) { return a *= s; }
+[[gnu::always_inline]] inline Vec3 operator*(double s, Vec3 a) { return a *= s; }
+[[gnu::always_inline]] inline double dot(const Vec3& a, const Vec3& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
 inline Vec3 cross(const Vec3& a, const Vec3& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }

@@ -39,8 +39,7 @@ struct EyeTurner {
 }  // namespace sweepface::capi
 
 struct sweepface_rig {
-  std::shared_ptr<const sweepface::Rig> rig;
-  std::shared_ptr<const sweepface::Rig> loaded;  // without what is added for what follows
+  std::shared_ptr<sweepface::Rig> rig;  // only read once there are meshes
   sweepface::Followers followers;  // of its targets; those that were added for them are not shown
   std::size_t shown = 0;           // targets, the first ones
   std::shared_ptr<const sweepface::capi::Division> division;

@@ -31,14 +31,14 @@ void sweepface_rotation(const sweepface_angles* angles, double quaternion[4]) {
 
 sweepface_status sweepface_rig_turn_eyes(sweepface_rig* rig, uint32_t* eyes) {
   if (!rig || !eyes) return refuse("Turning eyes needs a rig and a place for their number.");
-  if (rig->eyes) return refuse("The eyes turn already; sweepface_rig_follow ends it.");
+  if (rig->eyes) return refuse("The eyes turn already.");
+  if (rig->rig.use_count() > 1)
+    return refuse("Eyes must turn before a rig has meshes; free them, or load it again.");
   const std::vector<Eye> found = findEyes(*rig->rig);
   *eyes = static_cast<uint32_t>(found.size());
   if (found.empty()) return SWEEPFACE_OK;
-  auto made = std::make_shared<Rig>(*rig->rig);
   auto turner = std::make_shared<Turner>();
-  turner->turns = EyeTurns::addTo(*made, found);
-  rig->rig = std::move(made);
+  turner->turns = EyeTurns::addTo(*rig->rig, found);
   rig->eyes = std::move(turner);
   return SWEEPFACE_OK;
 }

@@ -15,8 +15,8 @@ sweepface_status sweepface_rig_load(const void* bytes, size_t size, const char* 
   Result<Rig> decoded = decode({static_cast<const char*>(bytes), size}, name ? name : "The face");
   if (!decoded) return refuse(SWEEPFACE_BAD_DATA, std::move(decoded.error().message));
   const std::size_t targets = decoded->targets.size();
-  const auto loaded = std::make_shared<const Rig>(std::move(*decoded));
-  *rig = new sweepface_rig{loaded, loaded, {}, targets, std::make_shared<const Division>()};
+  *rig = new sweepface_rig{
+      std::make_shared<Rig>(std::move(*decoded)), {}, targets, std::make_shared<const Division>()};
   return SWEEPFACE_OK;
 }
 
@@ -50,20 +50,23 @@ sweepface_status sweepface_rig_follow(sweepface_rig* rig, uint32_t what) {
   if (!rig) return refuse("Following weights need a rig.");
   if ((what & ~uint32_t{SWEEPFACE_ARCS | SWEEPFACE_COMBINE}) != 0)
     return refuse("Weights follow by SWEEPFACE_ARCS, SWEEPFACE_COMBINE or both.");
-  auto made = std::make_shared<Rig>(*rig->loaded);
+  if (rig->rig.use_count() > 1)
+    return refuse(
+        "What follows must be said before a rig has meshes; free them, or load it again.");
+  if (rig->eyes) return refuse("What follows must be said before eyes turn; load the rig again.");
+  Rig& made = *rig->rig;
+  made.targets.resize(rig->shown);
   std::vector<Follower> followers;
   if (what & SWEEPFACE_COMBINE) {
     std::vector<std::string> names;
-    for (const Target& target : made->targets) names.push_back(target.name);
+    for (const Target& target : made.targets) names.push_back(target.name);
     followers = Followers::named(names);
   }
   if (what & SWEEPFACE_ARCS) {
-    const std::vector<Follower> arcs = addArcs(*made, made->turns);
+    const std::vector<Follower> arcs = addArcs(made, made.turns);
     followers.insert(followers.end(), arcs.begin(), arcs.end());
   }
   rig->followers = Followers(std::move(followers));
-  rig->eyes = nullptr;
-  rig->rig = std::move(made);
   return SWEEPFACE_OK;
 }
 

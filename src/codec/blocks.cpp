@@ -37,8 +37,8 @@ bool isZero(double x, bool isDouble) {
 }
 
 template <typename V>
-std::vector<bool> findNonZero(const std::vector<V>& vectors, bool isDouble) {
-  std::vector<bool> mask;
+std::vector<char> findNonZero(const std::vector<V>& vectors, bool isDouble) {
+  std::vector<char> mask;
   for (const V& v : vectors)
     mask.push_back(
         !std::ranges::all_of(components(v), [&](double x) { return isZero(x, isDouble); }));
@@ -115,20 +115,20 @@ std::size_t maskBytes(std::size_t count) { return count / 8 + (count % 8 != 0); 
 
 }  // namespace
 
-void writeMask(Writer& out, const std::vector<bool>& mask) {
+void writeMask(Writer& out, const std::vector<char>& mask) {
   for (std::size_t k = 0; k < mask.size(); k += 8) {
     unsigned bits = 0;
     for (std::size_t bit = 0; bit < std::min<std::size_t>(8, mask.size() - k); ++bit)
-      bits |= unsigned{mask[k + bit]} << bit;
+      bits |= static_cast<unsigned>(mask[k + bit]) << bit;
     out.byte(bits);
   }
 }
 
-std::vector<bool> readMask(Reader& in, std::size_t count) {
+std::vector<char> readMask(Reader& in, std::size_t count) {
   const std::string_view bytes = in.raw(maskBytes(count));
   if (!in.ok()) return {};
-  const auto bit = [&](std::size_t k) { return bytes[k / 8] >> (k % 8) & 1; };
-  std::vector<bool> mask(count);
+  const auto bit = [&](std::size_t k) { return static_cast<char>(bytes[k / 8] >> (k % 8) & 1); };
+  std::vector<char> mask(count);
   for (std::size_t k = 0; k < count; ++k) mask[k] = bit(k);
   for (std::size_t k = count; k < 8 * bytes.size(); ++k)
     if (bit(k)) in.refuse("a mask has bits beyond its end");
@@ -140,7 +140,7 @@ void writeVectors(Writer& out, const std::vector<V>& vectors, Precision precisio
   const bool isDouble = precision == Precision::exact && !fitFloats(vectors);
   if (const int digits = isDouble ? decimalDigits(vectors) : -1; digits >= 0)
     return writeDecimals(out, vectors, digits);
-  const std::vector<bool> mask = findNonZero(vectors, isDouble);
+  const std::vector<char> mask = findNonZero(vectors, isDouble);
   const std::size_t size = components(V{}).size() * (isDouble ? 8 : 4);
   const auto zeros = static_cast<std::size_t>(std::ranges::count(mask, false));
   const bool masked = maskBytes(vectors.size()) < zeros * size;
@@ -158,7 +158,7 @@ std::vector<V> readVectors(Reader& in, std::size_t count, Precision precision) {
   if (form == kDecimal && precision == Precision::exact) return readDecimals<V>(in, count);
   if (form > (precision == Precision::exact ? kMasked | kDouble : kMasked))
     in.refuse("vectors are held in a form this program does not know");
-  std::vector<bool> mask;
+  std::vector<char> mask;
   if (form & kMasked) mask = readMask(in, count);
   auto value = components(V{});
   const std::size_t held = mask.empty() ? count : std::ranges::count(mask, true);

@@ -21,8 +21,8 @@ template <typename V>
 std::vector<V> readVectors(Reader& in, std::size_t count, Precision precision);
 
 /// Bit k of byte k / 8.
-void writeMask(Writer& out, const std::vector<bool>& mask);
-std::vector<bool> readMask(Reader& in, std::size_t count);
+void writeMask(Writer& out, const std::vector<char>& mask);
+std::vector<char> readMask(Reader& in, std::size_t count);
 
 /// Values that rarely change: each with how often it comes in a row.
 void writeRuns(Writer& out, const std::vector<Index>& values);

@@ -57,22 +57,21 @@ class ChunkReader {
 
  private:
   std::unexpected<Error> failHere(const std::string& what) const {
-    return fail(name_ + ", byte " + std::to_string(at_) + ": " + what +
-                "; copy the file again or convert the source again.");
+    return failWith(
+        {name_, ", byte ", at_, ": ", what, "; copy the file again or convert the source again."});
   }
 
   Result<void> readHeader() {
-    if (bytes_.empty()) return fail(name_ + " is empty; convert the source again.");
+    if (bytes_.empty()) return failWith({name_, " is empty; convert the source again."});
     if (!bytes_.starts_with(kMagic))
-      return fail(name_ + " does not begin with " + std::string(kMagic) +
-                  "; check that it is a .sweep file.");
+      return failWith(
+          {name_, " does not begin with ", kMagic, "; check that it is a .sweep file."});
     at_ = kMagic.size();
     if (bytes_.size() < kHeaderSize) return failHere("the file ends before its version");
     version_ = static_cast<unsigned char>(bytes_[at_]);
     if (version_ < 1 || version_ > kVersion)
-      return fail(name_ + " is of version " + std::to_string(version_) +
-                  " and this program reads versions 1 to " + std::to_string(kVersion) +
-                  "; get a program that fits or convert the source again.");
+      return failWith({name_, " is of version ", version_, " and this program reads versions 1 to ",
+                       kVersion, "; get a program that fits or convert the source again."});
     at_ = kHeaderSize;
     return {};
   }
@@ -83,15 +82,15 @@ class ChunkReader {
     if (!isCode(code)) return failHere("there is no chunk where one must begin");
     const std::uint32_t size = fixed32(bytes_.substr(at_ + 4)),
                         sum = fixed32(bytes_.substr(at_ + 8));
-    const std::string quoted = "chunk '" + std::string(code) + "'";
+    const std::string quoted = joined({"chunk '", code, "'"});
     if (size > bytes_.size() - at_ - kFrameSize) return failHere("the file ends within " + quoted);
     const Chunk chunk{rankOf(code, version_), bytes_.substr(at_ + kFrameSize, size),
                       at_ + kFrameSize};
     if (crc32(chunk.payload, crc32(code)) != sum)
       return failHere("the checksum of " + quoted + " does not match");
     if (chunk.rank < 0 && !isOptional(code))
-      return fail(name_ + ", byte " + std::to_string(at_) + ": " + quoted +
-                  " is required and unknown to this program; get a newer one.");
+      return failWith({name_, ", byte ", at_, ": ", quoted,
+                       " is required and unknown to this program; get a newer one."});
     at_ = chunk.offset + size;
     return chunk;
   }

@@ -13,6 +13,7 @@ namespace sweepface::codec {
 
 /// A vector in steps.
 using Steps3 = std::array<std::int32_t, 3>;
+inline bool isMoved(const Steps3& v) { return (v[0] | v[1] | v[2]) != 0; }
 /// The stored vectors of a pose [S] as multiples of their steps beyond their predictions.
 using Coefficients = std::vector<Steps3>;
 
@@ -44,7 +45,7 @@ class CoefficientCoder {
       : h_(hierarchy),
         axis_(axis),
         mask_(slotsFor(hierarchy.steps().size()) - 1),
-        model_(coder, mask_ + 1, kSets, kInputs) {
+        model_(coder, mask_ + 1, kSets) {
     const std::size_t sites = h_.sites().size();
     active_.resize(sites);
     below_.resize(sites);
@@ -55,6 +56,7 @@ class CoefficientCoder {
         positionStep_[step.site] = static_cast<Index>(k);
   }
 
+  /// What is read comes to a `q` of zeros.
   void code(Coefficients& q, Symmetry symmetry, const Coefficients& partner, bool neutral) {
     const auto& sites = h_.sites();
     residual_.assign(q.size(), Steps3{});
@@ -75,11 +77,9 @@ class CoefficientCoder {
       phase_ = neutral ? 0 : symmetry == Symmetry::partner ? 3 : 1;
       if (symmetry == Symmetry::self && site.mirror >= 0 && site.mirror < s)
         phase_ += neutral ? 4 : 1;
-      if (site.parent < 0 || below_[site.parent])
-        codeSite(s);
-      else if (!writing)
-        active_[s] = below_[s] = 0;
-      if (writing) continue;
+      const bool coded = site.parent < 0 || below_[site.parent];
+      if (coded) codeSite(s);
+      if (writing || (!coded && symmetry == Symmetry::none)) continue;
       // Fill in what the image predicts; later sites of this pose may be images of this one.
       for (Index v = site.first; v < site.first + site.count; ++v) {
         if (symmetry == Symmetry::self && site.mirror >= 0 && site.mirror < s) image(q, v);
@@ -125,7 +125,7 @@ class CoefficientCoder {
     for (std::size_t s = 0; s < sites.size(); ++s) {
       active_[s] = 0;
       for (Index v = sites[s].first; v < sites[s].first + sites[s].count; ++v)
-        active_[s] |= residual_[v] != Steps3{};
+        active_[s] |= isMoved(residual_[v]);
       below_[s] = 0;
     }
     for (std::size_t s = sites.size(); s-- > 0;)
@@ -160,7 +160,7 @@ class CoefficientCoder {
                                                   : 5;
     const std::uint32_t parent = site.parent < 0 ? 2 : active_[site.parent];
     std::uint32_t near = 0;
-    for (const Term& t : parents(s)) near += residual_[t.vector] != Steps3{};
+    for (const Term& t : parents(s)) near += isMoved(residual_[t.vector]);
     near = std::min(near, 4u);
     const std::uint32_t past = std::min<std::uint32_t>(history_[s], 6);
     const std::uint32_t mirrored =
@@ -190,7 +190,7 @@ class CoefficientCoder {
     std::uint32_t before = 0;
     for (Index k = 0; k < site.count; ++k) {
       const Index v = site.first + k;
-      bool moved = residual_[v] != Steps3{};
+      bool moved = isMoved(residual_[v]);
       if (k + 1 == site.count && before == 0) {
         moved = true;
       } else {
@@ -282,7 +282,7 @@ class CoefficientCoder {
   const Hierarchy& h_;
   int axis_;
   std::uint32_t mask_;  // of slots
-  Model<Coder> model_;
+  Model<Coder, kInputs> model_;
   std::uint32_t phase_ = 0;
   std::vector<char> active_, below_;  // [sites]
   std::vector<Index> history_;        // [sites] poses in which it was active

@@ -35,7 +35,7 @@ void Decoding::makeSurface(Reader& in) {
 void Decoding::addTarget(Reader& in, std::string_view name) {
   if (name.empty() || !isUtf8(name)) in.refuse("the target's name is empty or not UTF-8");
   if (!targetNames.insert(std::string(name)).second)
-    in.refuse("there are two targets named '" + std::string(name) + "'");
+    in.refuse(joined({"there are two targets named '", name, "'"}));
   rig.targets.push_back({std::string(name), {}, {}});
 }
 
@@ -62,10 +62,9 @@ class Decoder {
  private:
   std::unexpected<Error> failAt(const Chunk& chunk, std::size_t byte,
                                 const std::string& what) const {
-    return fail(name_ + ", chunk '" + std::string(kinds_[chunk.rank].code) + "', byte " +
-                std::to_string(byte) + ": " + what +
-                (what.find("memory") != what.npos ? "; allow more, or do not open it."
-                                                  : "; convert the source again."));
+    return failWith({name_, ", chunk '", kinds_[chunk.rank].code, "', byte ", byte, ": ", what,
+                     what.find("memory") != what.npos ? "; allow more, or do not open it."
+                                                      : "; convert the source again."});
   }
 
   // Chunks come in the order of the registry; targets of version 1 as many as the head says.
@@ -75,7 +74,7 @@ class Decoder {
     for (int rank = rank_ + 1; rank < chunk.rank; ++rank)
       if (readers_[rank].required)
         return failAt(chunk, chunk.offset,
-                      "chunk '" + std::string(kinds_[rank].code) + "' is missing before it");
+                      joined({"chunk '", kinds_[rank].code, "' is missing before it"}));
     const auto repeated = std::ranges::find(readers_, true, &ChunkHandler::repeated);
     if (repeated - readers_.begin() < chunk.rank && repeated != readers_.end() &&
         decoding_.rig.targets.size() < decoding_.targets)

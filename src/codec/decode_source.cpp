@@ -12,7 +12,7 @@ namespace {
 // One vertex a point, one a T-node, and those within arcs and patches.
 std::int64_t gridVertices(const Surface& surface) {
   const Wireframe& w = surface.wireframe();
-  std::vector<bool> seen(w.points);
+  std::vector<char> seen(w.points);
   std::int64_t count = 0;
   for (const Node& node : w.nodes) {
     count += node.point < 0 || !seen[node.point];

@@ -31,7 +31,7 @@ void readShapes(Decoding& d, Reader& in) {
   if (count / 8 > in.left()) in.refuse("there are more ribbons than the chunk can hold");
   if (!in.ok()) return;
   d.wireframe.ribbons.resize(count);
-  const std::vector<bool> chosen = readMask(in, count);
+  const std::vector<char> chosen = readMask(in, count);
   for (std::size_t r = 0; r < count && in.ok(); ++r)
     if (chosen[r]) d.wireframe.ribbons[r] = {in.f64(), in.f64(), in.f64()};
   if (!in.ok()) return;
@@ -39,8 +39,7 @@ void readShapes(Decoding& d, Reader& in) {
   d.makeSurface(in);
   if (in.ok()) d.afford(in, (d.targets + 1) * d.stored, kBytesAVector);
   if (in.ok() && d.stored != announced)
-    in.refuse("the wireframe stores " + std::to_string(d.stored) + " vectors and the file " +
-              std::to_string(announced));
+    in.refuse(joined({"the wireframe stores ", d.stored, " vectors and the file ", announced}));
 }
 
 void readNeutral(Decoding& d, Reader& in) {

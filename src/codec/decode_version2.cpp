@@ -81,8 +81,8 @@ void readPose(Decoding& d, Symbols<RangeDecoder>& symbols, CoefficientCoder<Rang
   vectors.code(poses[pose], symmetryOf(form, pose), partnerOf(d.rig.packing, poses, pose),
                pose == 0);
   out.resize(d.stored);
-  d.lattice->restore(poses[pose], stepOf(d.rig.packing, pose), out);
-  if (!std::ranges::all_of(out, isFinite)) symbols.refuse("a coordinate is not finite");
+  if (!d.lattice->restore(poses[pose], stepOf(d.rig.packing, pose), out))
+    symbols.refuse("a coordinate is not finite");
 }
 
 void readRest(Decoding& d, Reader& in) {

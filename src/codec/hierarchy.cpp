@@ -36,8 +36,11 @@ class HierarchyBuilder {
     measureReach();
     gatherSites();
     links_.resize(2 * w_.arcs.size());
-    for (HalfArc h = 0; h < static_cast<HalfArc>(links_.size()); ++h)
+    opposite_.resize(2 * w_.arcs.size());
+    for (HalfArc h = 0; h < static_cast<HalfArc>(links_.size()); ++h) {
       links_[h] = {twin(c_.rails[h].last), c_.rails[h].edges};
+      opposite_[h] = oppositeOf(w_, c_, h);
+    }
     takeOut();
     orderRoots();
     arrange();
@@ -90,6 +93,7 @@ class HierarchyBuilder {
     Terms terms;
     bool alive = true, hub = false;
     Index image = -1;
+    Index atLeast = 0;  // its span cannot be less
   };
 
   void gatherSites() {
@@ -131,14 +135,15 @@ class HierarchyBuilder {
   bool isGuessed(Index node) const { return node == guessed_ || node == guessedToo_; }
   Index position(Index node) const { return all_[siteOf_[node]].site.first; }
 
-  // The first living site or T-node along a line.
-  Link walk(HalfArc h) const {
+  // The first living site or T-node along a line. What is dead stays dead: the next walk begins
+  // where this one ends.
+  Link walk(HalfArc h) {
     if (h < 0) return {};
     Link link = links_[h];
     for (std::size_t steps = 0; steps < w_.arcs.size(); ++steps) {
       const Index node = w_.start(link.back);
-      if (!isSite(node) || all_[siteOf_[node]].alive) return link;
-      const HalfArc on = oppositeOf(w_, c_, link.back);
+      if (!isSite(node) || all_[siteOf_[node]].alive) return links_[h] = link;
+      const HalfArc on = opposite_[link.back];
       if (on < 0) return {};
       link = {links_[on].back, link.distance + links_[on].distance};
     }
@@ -146,10 +151,10 @@ class HierarchyBuilder {
   }
 
   // One more site beyond a living one, on the same line.
-  Link beyond(const Link& link) const {
+  Link beyond(const Link& link) {
     const Index node = w_.start(link.back);
     if (!isSite(node) || all_[siteOf_[node]].hub) return {};
-    const HalfArc on = oppositeOf(w_, c_, link.back);
+    const HalfArc on = opposite_[link.back];
     if (on < 0) return {};
     Link next = walk(on);
     if (next.back < 0 || !isSite(w_.start(next.back))) return {};
@@ -158,7 +163,7 @@ class HierarchyBuilder {
   }
 
   // The position of a site, or of a T-node by what stands on the line it hangs on.
-  bool place(Index node, Terms& terms, int depth = 0) const {
+  bool place(Index node, Terms& terms, int depth = 0) {
     if (isSite(node)) {
       terms.push_back({position(node), 1});
       return all_[siteOf_[node]].alive;
@@ -171,32 +176,43 @@ class HierarchyBuilder {
   }
 
   // Interpolates at the place from which two half-arcs leave along a line, from one or two sites on
-  // both sides.
-  bool between(HalfArc ahead, HalfArc behind, Terms& terms, Index& span, int depth = 0) const {
+  // both sides: appends the terms of each site, and then multiplies them by its factor.
+  bool between(HalfArc ahead, HalfArc behind, Terms& terms, Index& span, int depth = 0) {
     std::array<double, 4> at;
-    std::array<Terms, 4> value;
+    std::array<std::size_t, 5> first;  // of the terms of each site
     int count = 0;
+    const std::size_t before = terms.size();
+    const auto add = [&](const Link& link, int sign) {
+      first[count] = terms.size();
+      at[count++] = sign * link.distance;
+      if (place(w_.start(link.back), terms, depth)) return true;
+      terms.resize(before);
+      return false;
+    };
     const std::array<Link, 2> near{walk(ahead), walk(behind)};
     for (const Link& link : near)
       if (link.back < 0 || isGuessed(w_.start(link.back))) return false;
     span = near[0].distance + near[1].distance;
     for (int side = 0; side < 2; ++side) {
       const int sign = side == 0 ? 1 : -1;
-      if (!place(w_.start(near[side].back), value[count], depth)) return false;
-      at[count++] = sign * near[side].distance;
+      if (!add(near[side], sign)) return false;
       const Link far = beyond(near[side]);
       if (far.back < 0 || isGuessed(w_.start(far.back))) continue;
       if (far.distance > 3 * near[side].distance + 2 * span) continue;
-      if (!place(w_.start(far.back), value[count], depth)) return false;
-      at[count++] = sign * far.distance;
+      if (!add(far, sign)) return false;
     }
+    first[count] = terms.size();
     for (int k = 0; k < count; ++k) {
       double factor = 1;
       for (int other = 0; other < count; ++other)
         if (other != k) factor *= at[other] / (at[other] - at[k]);
-      addTerms(terms, value[k], factor);
+      scale(terms, first[k], first[k + 1], factor);
     }
     return true;
+  }
+
+  static void scale(Terms& terms, std::size_t first, std::size_t end, double factor) {
+    for (std::size_t k = first; k < end; ++k) terms[k].factor *= factor;
   }
 
   // How a crossing follows from what stands beside it on its lines: those that are shorter count
@@ -211,12 +227,14 @@ class HierarchyBuilder {
     guessed_ = candidate.site.node;
     guessedToo_ = candidate.image < 0 ? guessed_ : all_[candidate.image].site.node;
     const Star& star = c_.stars[candidate.site.node];
-    std::array<Terms, 2> terms;
+    std::array<std::size_t, 3> first{};  // of the terms of each line
     std::array<Index, 2> span{};
-    const int lines = star.closed ? 2 : star.sectors.size() == 2 ? 1 : 0;
+    const int lines = linesThrough(star);
     for (int line = 0; line < lines; ++line) {
       const HalfArc ahead = star.arms[line], behind = star.arms[line + 2];
-      if (!between(ahead, behind, terms[line], span[line])) {
+      const bool found = between(ahead, behind, g.terms, span[line]);
+      first[line + 1] = g.terms.size();
+      if (!found) {
         span[line] = 0;
         continue;
       }
@@ -235,8 +253,27 @@ class HierarchyBuilder {
         g.span = g.span == 0 ? span[line] : std::min(g.span, span[line]);
       }
     for (int line = 0; line < lines; ++line)
-      if (span[line] > 0) addTerms(g.terms, terms[line], weight[line] / sum);
+      if (span[line] > 0) scale(g.terms, first[line], first[line + 1], weight[line] / sum);
     return g;
+  }
+
+  static int linesThrough(const Star& star) {
+    return star.closed ? 2 : star.sectors.size() == 2 ? 1 : 0;
+  }
+
+  // Whether the nearest neighbours on no line are near enough for a guess. They only ever move
+  // away.
+  bool isTooWide(Candidate& c, Index most) {
+    if (c.atLeast > most) return true;
+    const Star& star = c_.stars[c.site.node];
+    Index least = INT32_MAX;
+    for (int line = 0; line < linesThrough(star); ++line) {
+      const Link ahead = walk(star.arms[line]), behind = walk(star.arms[line + 2]);
+      if (ahead.back >= 0 && behind.back >= 0)
+        least = std::min(least, ahead.distance + behind.distance);
+    }
+    c.atLeast = least;
+    return least > most;
   }
 
   // Only nodes that stand on lines through them can be taken out.
@@ -265,6 +302,7 @@ class HierarchyBuilder {
   bool takeOut(Index s, Index most, std::vector<char>& blocked) {
     const Index image = all_[s].image;
     if (blocked[s] || !isRemovable(all_[s]) || (image >= 0 && image < s)) return false;
+    if (isTooWide(all_[s], most)) return false;
     const Guess own = guess(all_[s]);
     if (own.span == 0 || own.span > most) return false;
     if (image < 0 || image == s) {
@@ -332,7 +370,7 @@ class HierarchyBuilder {
     order_.insert(order_.begin(), roots.begin(), roots.end());
   }
 
-  std::vector<std::array<Index, 2>> around(Index s) const {
+  std::vector<std::array<Index, 2>> around(Index s) {
     std::vector<std::array<Index, 2>> result;
     const auto visit = [&](Index node) {
       for (const HalfArc arm : c_.stars[node].arms) {
@@ -403,8 +441,9 @@ class HierarchyBuilder {
   const Mirror& mirror_;
   Hierarchy& out_;
   std::vector<Candidate> all_;
-  std::vector<Index> siteOf_;  // [nodes]
-  std::vector<Link> links_;    // [half-arcs]
+  std::vector<Index> siteOf_;      // [nodes]
+  std::vector<Link> links_;        // [half-arcs]
+  std::vector<HalfArc> opposite_;  // [half-arcs] that go straight on, behind where one begins
   std::vector<Index> order_;
   std::vector<double> reach_;                // [vectors]
   Index guessed_ = -1, guessedToo_ = -1;     // nodes that may not predict themselves or each other

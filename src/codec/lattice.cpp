@@ -40,11 +40,24 @@ Coefficients Lattice::round(std::span<const Vec3> vectors, double step) const {
   return coefficients;
 }
 
-void Lattice::restore(const Coefficients& coefficients, double step,
+// Most of a face rests in most poses: what has no coefficient and is predicted from what rests is
+// at rest, too.
+bool Lattice::restore(const Coefficients& coefficients, double step,
                       std::span<Vec3> vectors) const {
-  for (const Hierarchy::Step& s : hierarchy_.steps())
-    vectors[s.vector] =
-        predict(hierarchy_, s, vectors) + scaled(coefficients[s.vector], step / s.reach);
+  std::vector<char> moves(vectors.size(), 0);
+  bool finite = true;
+  for (const Hierarchy::Step& s : hierarchy_.steps()) {
+    const Steps3& own = coefficients[s.vector];
+    char moved = isMoved(own);
+    for (const Term& t : hierarchy_.terms(s)) moved |= moves[t.vector];
+    Vec3& vector = vectors[s.vector];
+    vector = {};
+    if (!moved) continue;
+    moves[s.vector] = 1;
+    vector = predict(hierarchy_, s, vectors) + scaled(own, step / s.reach);
+    finite &= isFinite(vector);
+  }
+  return finite;
 }
 
 Coefficients Lattice::image(const Coefficients& coefficients) const {

@@ -22,8 +22,8 @@ class Lattice {
 
   /// The nearest multiples, each beyond the prediction from the nearest ones before it.
   Coefficients round(std::span<const Vec3> vectors, double step) const;
-  /// The vectors of coefficients [S].
-  void restore(const Coefficients& coefficients, double step, std::span<Vec3> vectors) const;
+  /// The vectors of coefficients [S]; false if one is not finite.
+  bool restore(const Coefficients& coefficients, double step, std::span<Vec3> vectors) const;
 
   /// The coefficients of the mirror image; zero for vectors that have none.
   Coefficients image(const Coefficients& coefficients) const;

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 // Probabilities of bits from several contexts at once, mixed in the logistic domain by weights that
@@ -11,7 +10,7 @@
 namespace sweepface::codec {
 
 /// 65536 / (1 + e^(-x / 256)) for x in [-3072, 3072], by straight pieces.
-inline std::int32_t squash(std::int32_t x) {
+[[gnu::always_inline]] inline std::int32_t squash(std::int32_t x) {
   static constexpr std::array<std::int32_t, 50> kAt{
       1,     1,     1,     2,     3,     5,     8,     13,    22,    36,    60,    98,    162,
       267,   439,   720,   1179,  1921,  3108,  4971,  7812,  11955, 17625, 24743, 32768, 40793,
@@ -24,16 +23,19 @@ inline std::int32_t squash(std::int32_t x) {
 }
 
 /// The inverse of squash for probabilities in 4096ths: the least x with squash(x) / 16 >= p.
-inline const std::array<std::int16_t, 4096>& stretchTable() {
-  static const std::array<std::int16_t, 4096> table = [] {
-    std::array<std::int16_t, 4096> t{};
-    std::int32_t p = 0;
-    for (std::int32_t x = -3072; x <= 3072; ++x)
-      for (const std::int32_t reached = squash(x) >> 4; p <= reached && p < 4096; ++p)
-        t[p] = static_cast<std::int16_t>(x);
-    for (; p < 4096; ++p) t[p] = 3072;
-    return t;
-  }();
+/// Not constexpr: made when first asked for, as a browser would load its 8 KB.
+using StretchTable = std::array<std::int16_t, 4096>;
+inline StretchTable makeStretchTable() {
+  StretchTable t{};
+  std::int32_t p = 0;
+  for (std::int32_t x = -3072; x <= 3072; ++x)
+    for (const std::int32_t reached = squash(x) >> 4; p <= reached && p < 4096; ++p)
+      t[p] = static_cast<std::int16_t>(x);
+  for (; p < 4096; ++p) t[p] = 3072;
+  return t;
+}
+inline const StretchTable& stretchTable() {
+  static const StretchTable table = makeStretchTable();
   return table;
 }
 
@@ -45,24 +47,22 @@ struct Slot {
 
 /// Codes bits through `Coder`, a RangeEncoder or a RangeDecoder, with the slots of several contexts
 /// and a set of weights chosen by one more.
-template <typename Coder>
+template <typename Coder, int kInputs>
 class Model {
  public:
-  static constexpr int kMostInputs = 8;
-
-  Model(Coder& coder, std::size_t slots, std::size_t sets, int inputs)
-      : coder_(&coder), slots_(slots), inputs_(inputs) {
-    weights_.assign(sets * static_cast<std::size_t>(inputs), (1 << 15) * 3 / (inputs + 1));
+  Model(Coder& coder, std::size_t slots, std::size_t sets)
+      : coder_(&coder), stretch_(stretchTable().data()), slots_(slots) {
+    weights_.assign(sets * kInputs, (1 << 15) * 3 / (kInputs + 1));
   }
 
-  /// `contexts` has a slot for each input.
-  bool code(bool bit, std::span<const std::uint32_t> contexts, std::uint32_t set) {
-    std::int32_t stretched[kMostInputs];
-    std::int32_t* weight = &weights_[set * static_cast<std::size_t>(inputs_)];
+  /// `contexts` are a slot for each input.
+  bool code(bool bit, const std::array<std::uint32_t, kInputs>& contexts, std::uint32_t set) {
+    std::int32_t stretched[kInputs];
+    std::int32_t* weight = &weights_[std::size_t{set} * kInputs];
     std::int64_t sum = 0;
-    for (int k = 0; k < inputs_; ++k) {
+    for (int k = 0; k < kInputs; ++k) {
       const Slot& slot = slots_[contexts[k]];
-      stretched[k] = stretchTable()[slot.one >> 4] * kTrust[slot.seen] / 16;
+      stretched[k] = stretch_[slot.one >> 4] * kTrust[slot.seen] / 16;
       sum += std::int64_t{stretched[k]} * weight[k];
     }
     std::int32_t x = static_cast<std::int32_t>(sum >> 16);
@@ -70,7 +70,7 @@ class Model {
     const std::int32_t one = squash(x);
     bit = coder_->code(bit, static_cast<std::uint32_t>(one));
     const std::int32_t error = ((bit << 16) - one) * kRate / 16;
-    for (int k = 0; k < inputs_; ++k) {
+    for (int k = 0; k < kInputs; ++k) {
       weight[k] += static_cast<std::int32_t>((std::int64_t{stretched[k]} * error + 0x8000) >> 16);
       learn(slots_[contexts[k]], bit);
     }
@@ -86,17 +86,26 @@ class Model {
     return t;
   }();
 
+  // 2^32 / (2 n + 3), rounded up: what is below 2^17 times it, without the lower 32 bits, is the
+  // quotient.
+  static constexpr std::array<std::uint32_t, kMostSeen + 1> kShare = [] {
+    std::array<std::uint32_t, kMostSeen + 1> t{};
+    for (std::uint32_t n = 0; n <= kMostSeen; ++n) t[n] = 0xffffffffu / (2 * n + 3) + 1;
+    return t;
+  }();
+
   static void learn(Slot& slot, bool bit) {
-    const std::int32_t target = bit ? 65535 : 0;
-    const std::int32_t step = (target - slot.one) * 2 / (2 * slot.seen + 3);
-    slot.one = static_cast<std::uint16_t>(slot.one + step);
+    const std::uint32_t way = bit ? 65535u - slot.one : slot.one;
+    const auto step =
+        static_cast<std::uint32_t>((std::uint64_t{2 * way} * kShare[slot.seen]) >> 32);
+    slot.one = static_cast<std::uint16_t>(bit ? slot.one + step : slot.one - step);
     if (slot.seen < kMostSeen) ++slot.seen;
   }
 
   Coder* coder_;
+  const std::int16_t* stretch_;
   std::vector<Slot> slots_;
   std::vector<std::int32_t> weights_;
-  int inputs_;
 };
 
 }  // namespace sweepface::codec

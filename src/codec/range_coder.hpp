@@ -49,7 +49,7 @@ class RangeDecoder {
     for (int k = 0; k < 4; ++k) number_ = number_ << 8 | next();
   }
 
-  bool code(bool, std::uint32_t one) {
+  [[gnu::always_inline]] bool code(bool, std::uint32_t one) {
     const std::uint32_t middle = low_ + RangeEncoder::split(low_, high_, one);
     const bool bit = number_ <= middle;
     (bit ? high_ : low_) = bit ? middle : middle + 1;

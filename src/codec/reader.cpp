@@ -2,6 +2,9 @@
 
 #include <bit>
 #include <cmath>
+#include <cstring>
+
+#include "sweepface/result.hpp"
 
 namespace sweepface::codec {
 
@@ -24,22 +27,24 @@ unsigned Reader::byte() {
   return taken.empty() ? 0 : static_cast<unsigned char>(taken[0]);
 }
 
-std::uint64_t Reader::fixed(std::size_t size) {
-  std::uint64_t value = 0;
-  const std::string_view taken = raw(size);
-  for (std::size_t k = 0; k < taken.size(); ++k)
-    value |= std::uint64_t{static_cast<unsigned char>(taken[k])} << (8 * k);
+// The lowest byte first.
+template <typename Number>
+Number Reader::fixed() {
+  static_assert(std::endian::native == std::endian::little);
+  Number value = 0;
+  if (const std::string_view taken = raw(sizeof value); !taken.empty())
+    std::memcpy(&value, taken.data(), sizeof value);
   return value;
 }
 
 double Reader::f32() {
-  const float value = std::bit_cast<float>(static_cast<std::uint32_t>(fixed(4)));
+  const float value = fixed<float>();
   if (!std::isfinite(value)) refuse("a coordinate is not finite");
   return ok() ? value : 0;
 }
 
 double Reader::f64() {
-  const double value = std::bit_cast<double>(fixed(8));
+  const double value = fixed<double>();
   if (!std::isfinite(value)) refuse("a value is not finite");
   return ok() ? value : 0;
 }
@@ -73,8 +78,7 @@ std::string_view Reader::text() { return raw(count(1, "letters")); }
 std::size_t Reader::count(std::size_t leastBytes, std::string_view what) {
   const std::uint64_t entries = number();
   if (entries <= left() / leastBytes) return static_cast<std::size_t>(entries);
-  refuse("there are said to be " + std::to_string(entries) + " " + std::string(what) +
-         ", more than the chunk can hold");
+  refuse(joined({"there are said to be ", entries, " ", what, ", more than the chunk can hold"}));
   return 0;
 }
 
@@ -89,7 +93,7 @@ Index Reader::step(Index previous, std::int64_t low, std::int64_t high, std::str
 Index Reader::checked(std::int64_t value, std::int64_t low, std::int64_t high,
                       std::string_view what) {
   if (ok() && value >= low && value < high) return static_cast<Index>(value);
-  refuse(std::string(what) + " " + std::to_string(value) + " is out of range");
+  refuse(joined({what, " ", value, " is out of range"}));
   return static_cast<Index>(low);
 }
 

@@ -41,7 +41,8 @@ class Reader {
   Index step(Index previous, std::int64_t low, std::int64_t high, std::string_view what);
 
  private:
-  std::uint64_t fixed(std::size_t size);
+  template <typename Number>
+  Number fixed();
   Index checked(std::int64_t value, std::int64_t low, std::int64_t high, std::string_view what);
 
   std::string_view bytes_;

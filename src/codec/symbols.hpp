@@ -20,7 +20,7 @@ inline constexpr bool kWrites = std::is_same_v<Coder, RangeEncoder>;
 template <typename Coder>
 class Symbols {
  public:
-  explicit Symbols(Coder& coder) : model_(coder, kSlots, kSets, 3) {}
+  explicit Symbols(Coder& coder) : model_(coder, kSlots, kSets) {}
 
   bool bit(std::uint32_t tag, std::uint32_t a, std::uint32_t b, bool value) {
     return model_.code(value, {{slot(tag, 1, 0), slot(tag, a + 2, 1), slot(tag, a * 521 + b, 2)}},
@@ -84,7 +84,7 @@ class Symbols {
     return x & (kSlots - 1);
   }
 
-  Model<Coder> model_;
+  Model<Coder, 3> model_;
   bool ok_ = true;
   std::string problem_;
 };

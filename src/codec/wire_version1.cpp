@@ -91,9 +91,9 @@ bool isSmallEnough(const Wireframe& w) {
 }
 
 bool allArcsBound(const Wireframe& w) {
-  std::vector<bool> bounds(w.arcs.size());
-  for (HalfArc h : w.loops) bounds[arcOf(h)] = true;
-  return std::ranges::find(bounds, false) == bounds.end();
+  std::vector<char> bounds(w.arcs.size());
+  for (HalfArc h : w.loops) bounds[arcOf(h)] = 1;
+  return std::ranges::find(bounds, 0) == bounds.end();
 }
 
 }  // namespace

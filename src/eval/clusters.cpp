@@ -23,13 +23,14 @@ class Halving {
 
  private:
   int longestAxis(std::span<const Index> part) const {
-    std::array<double, 3> extents{};
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto [low, high] =
-          std::ranges::minmax(part, {}, [&](Index v) { return coordinate(points_[v], axis); });
-      extents[axis] = coordinate(points_[high], axis) - coordinate(points_[low], axis);
+    Vec3 low = points_[part[0]], high = low;
+    for (const Index v : part) {
+      const Vec3& p = points_[v];
+      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
     }
-    return static_cast<int>(std::ranges::max_element(extents) - extents.begin());
+    const Vec3 size = high - low;
+    return size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
   }
 
   void halve(std::span<Index> part) {
@@ -46,9 +47,31 @@ class Halving {
       const double x = coordinate(points_[a], axis), y = coordinate(points_[b], axis);
       return x < y || (x == y && a < b);
     };
-    std::nth_element(part.begin(), part.begin() + first, part.end(), before);
+    divide(part, first, before);
     halve(part.first(first));
     halve(part.subspan(first));
+  }
+
+  // Puts the `first` items that come before all others in front of them (Hoare, Algorithm 65: find,
+  // 1961). Not std::nth_element, which is four times as long.
+  template <typename Before>
+  static void divide(std::span<Index> items, Index first, const Before& before) {
+    Index low = 0, high = static_cast<Index>(items.size()) - 1;
+    while (low < high) {
+      const Index middle = items[low + (high - low) / 2];
+      Index i = low, j = high;
+      while (i <= j) {
+        while (before(items[i], middle)) ++i;
+        while (before(middle, items[j])) --j;
+        if (i <= j) std::swap(items[i++], items[j--]);
+      }
+      if (first <= j)
+        high = j;
+      else if (first >= i)
+        low = i;
+      else
+        return;
+    }
   }
 
   std::span<const Vec3> points_;

@@ -88,7 +88,7 @@ class Builder {
   RenderMesh mesh_;
   std::vector<Vec3> neutral_;    // [points]
   std::vector<Vec2> texcoords_;  // [vertices]
-  std::vector<bool> textured_;   // [vertices] whether it has one of its own
+  std::vector<char> textured_;   // [vertices] whether it has one of its own
   std::vector<Index> next_;      // [vertices] another one of the same point, or -1
   std::vector<std::vector<std::uint32_t>> trianglesOf_;  // by material + 1
   std::vector<Vec3> corners_;

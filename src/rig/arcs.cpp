@@ -126,7 +126,7 @@ class BulgeMaker {
   std::span<const Vec3> from_, to_;
   double small_;
   std::vector<Vec3> bulge_;
-  std::vector<bool> done_;
+  std::vector<char> done_;
 };
 
 Taylor3 constant(const Vec3& p) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <optional>
 
+#include "surface/sorting.hpp"
+
 namespace sweepface {
 namespace {
 
@@ -73,7 +75,7 @@ std::vector<Follower> Followers::named(std::span<const std::string> targets) {
 }
 
 Followers::Followers(std::vector<Follower> followers) {
-  std::ranges::sort(followers, [](const Follower& a, const Follower& b) {
+  sortSmall(std::span(followers), [](const Follower& a, const Follower& b) {
     return a.at != b.at ? a.at < b.at : a.target < b.target;
   });
   for (Follower& follower : followers) {

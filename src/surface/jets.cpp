@@ -104,8 +104,20 @@ class JetBuilder {
     return static_cast<Index>(rows_.size()) - 1;
   }
 
+  // No fewer than there will be: growing would move all rows.
+  std::size_t mostVectors() const {
+    std::size_t count = 9 * w_.nodes.size();
+    for (Index n = 0; n < nodeCount(); ++n)
+      if (c_.kinds[n] == NodeKind::irregular || c_.kinds[n] == NodeKind::creased)
+        count +=
+            8 * c_.fans[n].size() + 2 * c_.stars[n].arms.size() + 4 * c_.stars[n].sectors.size();
+    return count;
+  }
+
   void number() {
-    rows_.reserve(9 * w_.nodes.size());
+    rows_.reserve(mostVectors());
+    owners_.reserve(rows_.capacity());
+    isStored_.reserve(rows_.capacity());
     base_.assign(nodeCount(), -1);
     hubs_.resize(w_.points);
     armBase_.assign(nodeCount(), -1);

@@ -24,6 +24,17 @@ inline void mergeTerms(std::vector<Term>& terms) {
 /// A sum of a few terms, held where it stands; only long ones take memory of their own.
 class TermRow {
  public:
+  TermRow() {}
+  TermRow(TermRow&& other) noexcept : many_(std::move(other.many_)), size_(other.size_) {
+    if (size_ <= few_.size()) std::copy_n(other.few_.begin(), size_, few_.begin());
+  }
+  TermRow& operator=(TermRow&& other) noexcept {
+    many_ = std::move(other.many_);
+    size_ = other.size_;
+    if (size_ <= few_.size()) std::copy_n(other.few_.begin(), size_, few_.begin());
+    return *this;
+  }
+
   void push_back(const Term& term) {
     if (size_ < few_.size()) {
       few_[size_++] = term;
@@ -64,7 +75,9 @@ class TermRow {
     }
   }
 
-  std::array<Term, 6> few_;
+  union {  // most rows of a surface never hold any: nothing is written where nothing is
+    std::array<Term, 6> few_;
+  };
   std::vector<Term> many_;  // all of them, once they are more
   std::size_t size_ = 0;
 };

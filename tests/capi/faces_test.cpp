@@ -132,6 +132,7 @@ TEST(FacesThatFollow, GoOnArcsAndCombine) {
     sweepface_mesh* mesh = nullptr;
     sweepface_face* face = nullptr;
     ASSERT_EQ(sweepface_mesh_create(handle, 1, &mesh), SWEEPFACE_OK);
+    EXPECT_EQ(sweepface_rig_follow(handle, 0), SWEEPFACE_BAD_ARGUMENT);  // its meshes would change
     ASSERT_EQ(sweepface_face_create(mesh, &face), SWEEPFACE_OK);
     ASSERT_EQ(sweepface_face_set_weights(face, weights, 3), SWEEPFACE_OK);
     EXPECT_EQ(sweepface_face_weights(face)[1], 0.3);  // as it was set
