@@ -10,7 +10,7 @@ namespace {
 
 using namespace sweepface::testing;
 using codec::Coefficients;
-using codec::Hierarchy;
+using codec::Prediction;
 using codec::Lattice;
 using codec::stepOf;
 
@@ -110,11 +110,12 @@ Rig packed(Wireframe wireframe, unsigned seed = 1) {
   Rig rig = makeRig(std::move(wireframe));
   rig.packing = someSteps();
   rig.packing.poses = {{0, -1}, {0, -1}, {2, -1}, {0, -1}};
-  const Lattice lattice(rig.surface, rig.packing);
+  Lattice lattice(rig.surface, rig.packing);
   const std::size_t count = rig.neutral.size();
-  lattice.restore(anyCoefficients(count, seed), stepOf(rig.packing, 0), rig.neutral);
+  lattice.restore(0, anyCoefficients(count, seed), stepOf(rig.packing, 0), rig.neutral);
+  lattice.learn(rig.surface, rig.neutral, stepOf(rig.packing, 0));
   for (Index k = 1; k <= 3; ++k)
-    lattice.restore(k == 3 ? Coefficients(count) : anyCoefficients(count, seed + k),
+    lattice.restore(k, k == 3 ? Coefficients(count) : anyCoefficients(count, seed + k),
                     stepOf(rig.packing, k), rig.targets[k - 1].difference);
   return rig;
 }
@@ -141,6 +142,7 @@ TEST(Packing, VectorsOnTheLatticeComeBackBitForBitWithoutBeingHeldAsTheyAre) {
 TEST(Packing, WhatLeavesTheLatticeIsHeldExactlyAndTheRestStays) {
   Rig rig = packed(onePatch(7, 4));
   const std::size_t before = encode(rig).size();
+  rig.packing.rest = rig.neutral;
   rig.neutral[5] = {1.0 / 3, -0.0, 1e-300};
   rig.targets[1].difference[7].y += 1e-9;
   const std::string bytes = encode(rig);
