@@ -361,7 +361,7 @@ class HierarchyBuilder {
     reached_.clear();
     queue_.assign(1, {0, all_[s].site.node});
     Index last = 0;
-    while (!queue_.empty()) {
+    while (!queue_.empty() && reached_.size() < kMostReached) {
       std::ranges::pop_heap(queue_, std::greater{});
       const auto [distance, node] = queue_.back();
       queue_.pop_back();
@@ -375,14 +375,17 @@ class HierarchyBuilder {
         if (result.size() == Hierarchy::kMostNear) break;
       }
       if (site >= 0)
-        for (const Index at : nodesOf_[site]) goOn(at, distance);
+        for (std::size_t k = 0; k < std::min(nodesOf_[site].size(), kMostReached); ++k)
+          goOn(nodesOf_[site][k], distance);
       else
         goOn(node, distance);
     }
     return result;
   }
   void goOn(Index node, Index distance) {
+    constexpr std::size_t kMostQueued = 1024;
     for (const HalfArc arm : c_.stars[node].arms) {
+      if (queue_.size() >= kMostQueued) return;
       if (w_.arcs[arcOf(arm)].collapsed) continue;
       const Link link = walk(arm);
       if (link.back < 0) continue;
