@@ -11,15 +11,16 @@ const BUDGETS = ['edgeLength', 'error', 'vertices'];
 
 const encoder = new TextEncoder(), decoder = new TextDecoder();
 
-/** The bytes behind a URL; Node's fetch does not read files. */
-async function readUrl(url) {
+/** The module behind a URL. Browsers keep what they make of one that they compile while it comes; Node's fetch does not read files. */
+async function compileUrl(url) {
   if (url.protocol === 'file:' && globalThis.process?.versions?.node) {
     const files = 'node:fs/promises';  // in a variable, so that no bundler looks for it
-    return (await import(/* @vite-ignore */ /* webpackIgnore: true */ files)).readFile(url);
+    return WebAssembly.compile(await (await import(/* @vite-ignore */ /* webpackIgnore: true */ files)).readFile(url));
   }
   const response = await fetch(url);
   if (!response.ok) throw new Error(`Could not load ${url}: the server answered ${response.status}.`);
-  return response.arrayBuffer();
+  const isKnown = response.headers.get('content-type')?.startsWith('application/wasm');  // else it may not be compiled while it comes
+  return isKnown && WebAssembly.compileStreaming ? WebAssembly.compileStreaming(response) : WebAssembly.compile(await response.arrayBuffer());
 }
 
 /** The modules beside this file: the usual one, and the one that knows regions and eyes as well. */
@@ -32,8 +33,8 @@ const compiled = {};  // each once
 function compile(wasm, kind) {
   if (wasm instanceof WebAssembly.Module) return wasm;
   if (wasm instanceof ArrayBuffer || ArrayBuffer.isView(wasm)) return WebAssembly.compile(wasm);
-  if (wasm) return readUrl(new URL(wasm, globalThis.location?.href)).then(WebAssembly.compile);
-  compiled[kind] ??= readUrl(MODULES[kind]()).then(WebAssembly.compile).catch((error) => {
+  if (wasm) return compileUrl(new URL(wasm, globalThis.location?.href));
+  compiled[kind] ??= compileUrl(MODULES[kind]()).catch((error) => {
     delete compiled[kind];
     throw error;
   });

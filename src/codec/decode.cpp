@@ -34,8 +34,6 @@ void Decoding::makeSurface(Reader& in) {
 
 void Decoding::addTarget(Reader& in, std::string_view name) {
   if (name.empty() || !isUtf8(name)) in.refuse("the target's name is empty or not UTF-8");
-  if (!targetNames.insert(std::string(name)).second)
-    in.refuse(joined({"there are two targets named '", name, "'"}));
   rig.targets.push_back({std::string(name), {}, {}});
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <set>
 #include <span>
 #include <string>
 
@@ -22,14 +21,13 @@ struct Decoding {
   Wireframe wireframe;                             ///< until the surface is made of it
   std::optional<Lattice> lattice;
   std::optional<LevelOne> levelOne;
-  std::set<std::string> targetNames;
   Rig rig;
 
   /// Whether so many more bytes may be taken; complains through `in` if not.
   bool afford(Reader& in, std::size_t count, std::size_t bytesEach);
   /// Of the wireframe; says how many vectors it stores.
   void makeSurface(Reader& in);
-  /// A name that is UTF-8 and that no target before has; complains through `in`.
+  /// A name that is UTF-8; complains through `in`. That none comes twice is looked at in the end.
   void addTarget(Reader& in, std::string_view name);
 };
 

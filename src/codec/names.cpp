@@ -1,9 +1,13 @@
 #include "codec/names.hpp"
 
-#include <set>
+#include <algorithm>
+#include <span>
+
+#include "sweepface/result.hpp"
 
 #include "codec/blocks.hpp"
 #include "codec/utf8.hpp"
+#include "surface/sorting.hpp"
 
 namespace sweepface::codec {
 
@@ -12,16 +16,20 @@ namespace {
 std::vector<std::string> readList(Reader& in, std::size_t things) {
   std::vector<std::string> names = readTexts(in, "names");
   if (!names.empty() && names.size() != things) in.refuse("there are too many or too few names");
-  std::set<std::string_view> seen;
-  for (const std::string& name : names) {
+  for (const std::string& name : names)
     if (!isUtf8(name)) in.refuse("a name is not UTF-8");
-    if (!name.empty() && !seen.insert(name).second)
-      in.refuse("there are two things named '" + name + "'");
-  }
+  refuseTwins(in, {names.begin(), names.end()}, "things");
   return names;
 }
 
 }  // namespace
+
+void refuseTwins(Reader& in, std::vector<std::string_view> names, std::string_view what) {
+  sortSmall(std::span(names));
+  const auto twin = std::ranges::adjacent_find(
+      names, [](std::string_view a, std::string_view b) { return a == b && !a.empty(); });
+  if (twin != names.end()) in.refuse(joined({"there are two ", what, " named '", *twin, "'"}));
+}
 
 bool hasNames(const Names& names) { return names != Names{}; }
 

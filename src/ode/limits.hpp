@@ -17,7 +17,7 @@ constexpr int gridSteps = 1024;
 
 // Not by snprintf: it would be a tenth of what a browser has to load.
 inline std::string number(double x) {
-  return x < 1e9 ? std::to_string(std::lround(x)) : "more than 1000000000";
+  return x < 1e9 ? joined({std::lround(x)}) : "more than 1000000000";
 }
 
 /// A parameter divided by the leading one, for u in [0,1] instead of lengths.

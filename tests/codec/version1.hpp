@@ -90,7 +90,7 @@ inline std::string creases(const Wireframe& w) {
 inline std::string shapes(const std::vector<Shape>& ribbons) {
   Writer out;
   out.number(ribbons.size());
-  std::vector<bool> chosen;
+  std::vector<char> chosen;
   for (const Shape& shape : ribbons) chosen.push_back(shape != Shape{});
   writeMask(out, chosen);
   for (const Shape& shape : ribbons)
