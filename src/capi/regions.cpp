@@ -8,8 +8,12 @@ using namespace sweepface::capi;
 
 namespace {
 
+std::string text(const char* from) { return from ? from : ""; }
+
 std::vector<std::string> texts(const char* const* from, std::size_t count) {
-  return {from, from + (from ? count : 0)};
+  std::vector<std::string> found;
+  for (std::size_t k = 0; from && k < count; ++k) found.push_back(text(from[k]));
+  return found;
 }
 
 std::vector<Vec3> places(const double* from, std::size_t count) {
@@ -69,7 +73,7 @@ sweepface_status sweepface_rig_divide(sweepface_rig* rig, const char* const* nam
   const std::size_t nodes = sweepface_rig_node_count(rig);
   std::vector<Region> painted;
   for (size_t r = 0; r < count; ++r)
-    painted.push_back({names[r], {}, {shares + r * nodes, shares + (r + 1) * nodes}});
+    painted.push_back({text(names[r]), {}, {shares + r * nodes, shares + (r + 1) * nodes}});
   const auto regions = dividedFace(*rig->rig, std::move(painted));
   if (!regions) return refuse(regions.error().message);
   auto division = std::make_shared<Division>();

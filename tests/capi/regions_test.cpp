@@ -172,6 +172,11 @@ TEST_F(DividedFaces, RefuseAndChangeNothing) {
   const std::vector<double> halves(16, 0.5);
   EXPECT_TRUE(refuses(sweepface_rig_divide(handle, names, halves.data(), 2), "named 'a'"));
   EXPECT_TRUE(refuses(sweepface_rig_divide(handle, names, nullptr, 2), "needs a rig, and names"));
+  const char* const nameless[] = {nullptr};
+  EXPECT_TRUE(refuses(sweepface_rig_divide(handle, nameless, halves.data(), 1), "has no name"));
+  brush = {};
+  brush.curves = nameless, brush.curve_count = 1;
+  EXPECT_TRUE(refuses(paintWith(brush, 1, painted.size()), "."));
   EXPECT_EQ(sweepface_rig_region_count(handle), 1U);
   const double rest[] = {0};
   const sweepface_matter heavy{1e9, 1, 0};
