@@ -65,7 +65,7 @@ std::vector<Region> islands() {
   return divided(std::move(shares));
 }
 
-/// Eight bands across the face that fade into each other everywhere: as bad as it gets.
+/// Eight bands across the face that fade into each other everywhere.
 std::vector<Region> bands() {
   const std::vector<Vec3> places = nodes();
   const auto [low, high] = std::ranges::minmax(places, {}, &Vec3::y);
@@ -76,16 +76,32 @@ std::vector<Region> bands() {
   return divided(orEnd(paintBands(face(), brush, kRegions)));
 }
 
-/// Springs under all weights of all regions, with new goals every four seconds.
-void moveRegions(benchmark::State& state, std::size_t count) {
+/// Every node of another region than its neighbours: nobody's face, but as bad as it gets.
+std::vector<Region> patchwork() {
+  const std::size_t count = nodes().size();
+  std::vector<std::vector<double>> shares(kRegions, std::vector<double>(count));
+  for (std::size_t n = 0; n < count; ++n) shares[n * 5 % kRegions][n] = 1;
+  return divided(std::move(shares));
+}
+
+enum class Goals { together, oneByOne };
+
+/// Springs under all weights of all regions: with new goals for all every four seconds, or for one
+/// weight every frame.
+void moveRegions(benchmark::State& state, std::size_t count, Goals goals) {
   std::vector<Matter> matters(count);
   for (std::size_t r = 0; r < count; ++r) matters[r].mass = 1 + 0.5 * static_cast<double>(r);
   auto motion = orEnd(RegionalMotion::make(Weights(face().targets.size(), 0.0), matters));
-  const Weights goals = someWeights(Active::all);
-  Weights weights(count * goals.size());
-  int frame = 0;
+  Weights wanted = someWeights(Active::all);
+  Weights weights(count * wanted.size());
+  std::size_t frame = 0;
   for (auto _ : state) {
-    if (frame++ % 256 == 0 && !motion.moveTo(goals)) return state.SkipWithError("a goal");
+    if (goals == Goals::oneByOne) {
+      const std::size_t k = frame++ % wanted.size();
+      if (!motion.moveTo(k, wanted[k] = 1 - wanted[k])) return state.SkipWithError("a goal");
+    } else if (frame++ % 256 == 0 && !motion.moveTo(wanted)) {
+      return state.SkipWithError("a goal");
+    }
     motion.advance(1 / 60.0);
     motion.positions(weights);
     benchmark::DoNotOptimize(weights.data());
@@ -122,13 +138,18 @@ void add(const std::string& name, std::function<void(benchmark::State&)> run) {
 }
 
 const bool registered = [] {
-  for (const std::size_t count : {1, kRegions})
-    add(fmt::format("regions-motion/{}", count), [=](auto& state) { moveRegions(state, count); });
+  for (const std::size_t count : {1, kRegions}) {
+    add(fmt::format("regions-motion/{}", count),
+        [=](auto& state) { moveRegions(state, count, Goals::together); });
+    add(fmt::format("regions-motion/{}-one-by-one", count),
+        [=](auto& state) { moveRegions(state, count, Goals::oneByOne); });
+  }
   for (const bool normals : {false, true}) {
     const std::string group = normals ? "regions-normals/" : "regions-positions/";
     add(group + "none", [=](auto& state) { evaluate(state, {}, normals); });
     add(group + "islands", [=](auto& state) { evaluate(state, islands(), normals); });
     add(group + "bands", [=](auto& state) { evaluate(state, bands(), normals); });
+    add(group + "patchwork", [=](auto& state) { evaluate(state, patchwork(), normals); });
   }
   return true;
 }();

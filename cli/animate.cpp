@@ -251,8 +251,7 @@ Result<int> runAnimate(const AnimateArguments& a) {
                                 : csv ? animateCsv
                                       : animateMeshes)(a, *rig, *performance);
   if (!written) return std::unexpected(written.error());
-  if (!a.quiet)
-    for (const std::string& note : performance->notes) printWarning(note);
+  for (const std::string& note : performance->notes) printWarning(note);
   return 0;
 }
 

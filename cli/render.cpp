@@ -9,14 +9,16 @@
 #include "sweepface/picture.hpp"
 
 #include "command.hpp"
+#include "following.hpp"
 #include "output.hpp"
 
 namespace sweepface::cli {
 namespace {
 
 struct RenderArguments {
-  std::string face, output, weights, views = "front", style = "shaded", size, from, to;
+  std::string face, output, weights, views = "front", style = "shaded", size, from, to, close;
   std::vector<std::string> compare, laws, boxes;
+  FollowingArguments following;
   int lod = 0, frames = 5;
   bool quiet = false;
 };
@@ -32,10 +34,14 @@ void addOptions(CLI::App& app, RenderArguments& a) {
       ->type_name("VIEW,...");
   app.add_option("--style", a.style,
                  "What is shown: shaded, patches, wireframe, joins, normals, zebra; with --compare "
-                 "also error and angle")
+                 "also error and angle, or with --arcs, --eyes or --combine, what they change")
       ->capture_default_str()
       ->type_name("STYLE");
   app.add_option("--size", a.size, "Of the whole picture, in pixels")->type_name("WxH");
+  app.add_option("--close", a.close,
+                 "Show nothing but what the targets move whose names contain NAME")
+      ->type_name("NAME");
+  addFollowing(app, a.following);
   addLod(app, a.lod, "Cut every edge of the source into N; by the size if not given");
   app.add_option(
          "--compare", a.compare,
@@ -75,17 +81,28 @@ void addOptions(CLI::App& app, RenderArguments& a) {
       "  sweepface render face.sweep -o strip.png --to jawOpen=1 --law linear,newton --box jaw");
 }
 
+bool isHeat(Style style) { return style == Style::error || style == Style::angle; }
+
 /// The command: a page of pictures of one rig.
 class Renderer {
  public:
-  Renderer(const RenderArguments& a, const Rig& rig, Style style, std::vector<View> views)
-      : a_(a), rig_(rig), style_(style), views_(std::move(views)), bar_(a.quiet) {}
+  Renderer(const RenderArguments& a, const Rig& rig, const Following& following, Style style,
+           std::vector<View> views)
+      : a_(a),
+        rig_(rig),
+        following_(following),
+        style_(style),
+        views_(std::move(views)),
+        bar_(a.quiet) {}
 
   Result<Image> make() {
     if (!a_.to.empty()) return strips();
-    const Result<Weights> weights = parseWeights(rig_, a_.weights);
+    Result<Weights> weights = parseWeights(rig_, a_.weights);
     if (!weights) return std::unexpected(weights.error());
-    return a_.compare.empty() ? portraits(*weights) : comparison(*weights);
+    const Weights plain = *weights;
+    following_.apply(*weights);
+    if (!a_.compare.empty()) return comparison(*weights);
+    return isHeat(style_) ? followed(plain, *weights) : portraits(*weights);
   }
 
  private:
@@ -106,6 +123,17 @@ class Renderer {
     return {};
   }
 
+  /// What a picture has to show of an expression.
+  Result<std::vector<Vec3>> shown(std::span<const double> weights) const {
+    std::vector<Vec3> points = scenes_->points(weights);
+    if (a_.close.empty()) return points;
+    const Result<std::vector<Index>> region = scenes_->region(a_.close);
+    if (!region) return std::unexpected(region.error());
+    std::vector<Vec3> near;
+    for (const Index v : *region) near.push_back(points[v]);
+    return near;
+  }
+
   Index viewCount() const { return static_cast<Index>(views_.size()); }
 
   Result<Image> portraits(const Weights& weights) {
@@ -116,7 +144,9 @@ class Renderer {
       return std::unexpected(ok.error());
     const Result<Studio> studio = Studio::make(scenes_->scene(weights, style_));
     if (!studio) return std::unexpected(studio.error());
-    const auto cameras = frameCameras(scenes_->points(weights), views_, page_->panel());
+    const auto points = shown(weights);
+    if (!points) return std::unexpected(points.error());
+    const auto cameras = frameCameras(*points, views_, page_->panel());
     for (Index k = 0; k < viewCount(); ++k)
       if (auto ok = shoot(*studio, cameras[k], k, 0, plan.captions ? nameOf(views_[k]) : ""); !ok)
         return std::unexpected(ok.error());
@@ -139,33 +169,58 @@ class Renderer {
     const std::vector<std::string> targets(a_.compare.begin() + 1, a_.compare.end());
     const Result<RigSource> read = readMeshes(a_.compare.front(), targets, bar_);
     if (!read) return std::unexpected(read.error());
-    const MeshRig& source = read->rig;
-    const Result<std::vector<Vec3>> positions = originalPositions(rig_, source, weights);
+    const Result<std::vector<Vec3>> positions = originalPositions(rig_, read->rig, weights);
     if (!positions) return std::unexpected(positions.error());
-    const bool heat = style_ == Style::error || style_ == Style::angle;
+    return beside({"original", *positions, diagonal(read->rig.neutral)}, "recreated", weights);
+  }
+
+  /// What arcs and the like change of the plain blend.
+  Result<Image> followed(const Weights& plain, const Weights& weights) {
+    const Tessellation grid(rig_.surface, 1);
+    const auto places = [&](const Weights& w) {
+      return sourcePositions(rig_, grid, blend(rig_, w), w);
+    };
+    PolygonMesh rest;
+    rest.positions = places({});
+    return beside({"straight", places(plain), diagonal(rest)},
+                  a_.following.arcs == "on" ? "on arcs" : "followed", weights);
+  }
+
+  /// What the face is compared with.
+  struct Original {
+    std::string name;
+    std::vector<Vec3> positions;
+    double diagonal;
+  };
+
+  Result<Image> beside(const Original& original, const std::string& name, const Weights& weights) {
+    const bool heat = isHeat(style_);
     const bool keyed = heat || style_ == Style::wireframe || style_ == Style::joins;
     const bool oneView = viewCount() == 1;
     const Page::Plan plan{oneView ? 2 : viewCount(), oneView ? 1 : 2, true, keyed};
     if (auto ok = layOut(plan, {640, 800}); !ok) return std::unexpected(ok.error());
 
-    HeatMap map = heat ? scenes_->heatMap(weights, *positions, style_)
+    HeatMap map = heat ? scenes_->heatMap(weights, original.positions, style_)
                        : HeatMap{scenes_->scene(weights, style_), 0, 0, {}};
-    const auto cameras = frameCameras(scenes_->points(weights), views_, page_->panel());
-    const Result<Studio> first = Studio::make(scenes_->original(*positions));
+    const auto points = shown(weights);
+    if (!points) return std::unexpected(points.error());
+    const auto cameras = frameCameras(*points, views_, page_->panel());
+    const Result<Studio> first = Studio::make(scenes_->original(original.positions));
     if (!first) return std::unexpected(first.error());
     const Result<Studio> second = Studio::make(std::move(map.scene));
     if (!second) return std::unexpected(second.error());
     for (Index k = 0; k < viewCount(); ++k) {
       const std::string view = oneView ? "" : ", " + nameOf(views_[k]);
       const Index column = oneView ? 1 : k, row = oneView ? 0 : 1;
-      if (auto ok = shoot(*first, cameras[k], k, 0, "original" + view); !ok)
+      if (auto ok = shoot(*first, cameras[k], k, 0, original.name + view); !ok)
         return std::unexpected(ok.error());
-      if (auto ok = shoot(*second, cameras[k], column, row, "recreated" + view); !ok)
+      if (auto ok = shoot(*second, cameras[k], column, row, name + view); !ok)
         return std::unexpected(ok.error());
     }
+    if (style_ == Style::error && a_.compare.empty())
+      map.title = fmt::format("distance from the straight blend, {:.3g} at worst", map.worst);
     if (style_ == Style::error)
-      map.title +=
-          fmt::format(" ({:.2g} % of the diagonal)", 100 * map.worst / diagonal(source.neutral));
+      map.title += fmt::format(" ({:.2g} % of the diagonal)", 100 * map.worst / original.diagonal);
     if (heat)
       page_->addScale(map.top, map.title);
     else if (keyed)
@@ -181,9 +236,11 @@ class Renderer {
     const auto rows = static_cast<Index>(motions->size());
     if (auto ok = layOut({a_.frames, rows, true, false}, {384, 480}); !ok)
       return std::unexpected(ok.error());
-    std::vector<Vec3> points = scenes_->points(motions->front().from());
-    std::ranges::copy(scenes_->points(motions->front().to()), std::back_inserter(points));
-    const Camera camera = frameCamera(points, views_.front(), page_->panel());
+    auto points = shown(motions->front().from());
+    const auto end = shown(motions->front().to());
+    if (!points || !end) return std::unexpected((points ? end : points).error());
+    std::ranges::copy(*end, std::back_inserter(*points));
+    const Camera camera = frameCamera(*points, views_.front(), page_->panel());
     const auto boxes = makeBoxes(camera, motions->front());
     if (!boxes) return std::unexpected(boxes.error());
     for (Index row = 0; row < rows; ++row)
@@ -213,6 +270,7 @@ class Renderer {
     const double time = static_cast<double>(column) / (a_.frames - 1);
     Weights weights(motion.size());
     motion.at(time, weights);
+    following_.apply(weights);
     const Result<Studio> studio = Studio::make(scenes_->scene(weights, style_));
     if (!studio) return std::unexpected(studio.error());
     Result<Image> image = studio->shoot(camera, page_->panel());
@@ -250,6 +308,7 @@ class Renderer {
 
   const RenderArguments& a_;
   const Rig& rig_;
+  const Following& following_;
   Style style_;
   std::vector<View> views_;
   ProgressBar bar_;
@@ -263,7 +322,7 @@ Result<int> runRender(const RenderArguments& a) {
   if (!style) return std::unexpected(style.error());
   const Result<std::vector<View>> views = parseViews(a.views);
   if (!views) return std::unexpected(views.error());
-  if ((style == Style::error || style == Style::angle) && a.compare.empty())
+  if (isHeat(*style) && a.compare.empty() && !a.following.any())
     return fail(
         fmt::format("The style {} needs meshes to compare with; give --compare NEUTRAL "
                     "[TARGET...].",
@@ -275,9 +334,13 @@ Result<int> runRender(const RenderArguments& a) {
   if (auto ok = checkOutput(a.output, inputs, {".obj", ".ply", ".glb", ".gltf", ".sweep", ".jpg"});
       !ok)
     return std::unexpected(ok.error());
-  const Result<Rig> rig = readFace(a.face);
+  if (!a.compare.empty() && a.following.any())
+    return fail("Meshes know neither arcs nor eyes; leave --compare out, or the others.");
+  Result<Rig> rig = readFace(a.face);
   if (!rig) return std::unexpected(rig.error());
-  const Result<Image> image = Renderer(a, *rig, *style, *views).make();
+  const Result<Following> following = follow(a.following, *rig);
+  if (!following) return std::unexpected(following.error());
+  const Result<Image> image = Renderer(a, *rig, *following, *style, *views).make();
   if (!image) return std::unexpected(image.error());
   const Result<std::string> png = encodePng(*image);
   if (!png) return std::unexpected(png.error());

@@ -3,7 +3,7 @@ include(CMakePackageConfigHelpers)
 
 # Headers of what converts; a runtime-only install goes without them.
 set(converting_headers mesh.hpp io.hpp gltf.hpp layout.hpp fit.hpp measure.hpp drawing.hpp edit.hpp
-    picture.hpp report.hpp plot.hpp)
+    picture.hpp report.hpp plot.hpp sweepface_clips.h)
 
 set(installed_libraries sweepface_runtime)
 set(installed_archives -lsweepface_runtime)

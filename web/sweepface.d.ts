@@ -24,6 +24,37 @@ export interface Drive {
 /** Where the WebAssembly module is, if not beside sweepface.js. */
 export type ModuleSource = string | URL | BufferSource | WebAssembly.Module;
 
+/** A part of the face that is heavier or stiffer than the rest or sets out later: docs/regions.md. */
+export interface Region {
+  name: string;
+  /** How heavy and how stiff it is; the rest is 1. */
+  mass?: number;
+  stiffness?: number;
+  /** Seconds by which it sets out later. */
+  delay?: number;
+  /** Materials and groups of the source, by name. */
+  parts?: string[];
+  /** Places, each by itself, or joined by a line; model units. */
+  points?: [number, number, number][];
+  line?: [number, number, number][];
+  /** Curves of the wireframe, and shares of single nodes, by name or number. */
+  curves?: string[];
+  nodes?: Record<string, number>;
+  /** All of it up to this distance, and from there less and less over so much more. */
+  whole?: number;
+  fade?: number;
+  /** 'surface' unless given: distances along the neutral's curves, or straight through the air. */
+  over?: 'surface' | 'space';
+  /** Cuts what fades into so many regions name1, name2 ..., delayed in equal steps up to `delay`. */
+  bands?: number;
+}
+
+/** Radians: yaw to the face's left, pitch down. */
+export interface Look {
+  yaw?: number;
+  pitch?: number;
+}
+
 export interface LoadOptions {
   /** 0: the source's own vertices; N: every edge of the source cut into N, up to 64. */
   lod?: number;
@@ -38,6 +69,10 @@ export interface LoadOptions {
   arcs?: boolean;
   /** `A_B` goes by the product of A and B, `A_50` stands in for A at 0.5. */
   combine?: boolean;
+  /** Eyeballs turn rigidly about their centres; loads sweepface_full.wasm instead of sweepface.wasm. */
+  eyes?: boolean;
+  /** Divides the face; loads sweepface_full.wasm instead of sweepface.wasm. */
+  regions?: Region[];
   wasm?: ModuleSource;
 }
 
@@ -77,19 +112,27 @@ export class Sweepface {
   /** Bytes of WebAssembly memory that the file and all its faces hold. */
   readonly memoryBytes: number;
 
-  /** The weights as they are. */
+  /** The regions, 'rest' first; none where the face is of one piece. */
+  readonly regions: string[];
+  /** The weights as they are; of several regions, those of the first. */
   readonly weights: Weights;
-  /** Sets the weights that are named, at once; the others stay. */
-  setWeights(weights: Weights): void;
+  weightsIn(region: string): Weights;
+  /** Sets the weights that are named, at once, everywhere or in one region; the others stay. */
+  setWeights(weights: Weights, region?: string): void;
   /** All weights to 0, at once. */
   reset(): void;
 
-  /** Sends weights to goals from where they stand; `advance` moves them. */
-  moveTo(goals: Weights, drive?: DriveKind | Drive): void;
+  /** Sends weights to goals from where they stand, everywhere or in one region; `advance` moves them. */
+  moveTo(goals: Weights, drive?: DriveKind | Drive, region?: string): void;
   /** A blow: adds to the velocity of a weight (per second), which drag (per second, 8 unless given) takes away. */
   push(name: string, velocityChange: number, drag?: number): void;
   /** Lets seconds pass for the weights in motion; says whether anything goes on moving. */
   advance(seconds: number): boolean;
+
+  /** How many eyeballs turn: with the option `eyes`, as many as the face has. */
+  readonly eyeCount: number;
+  /** How the eyes stand; null, as at the start: by the weights of eyeLook targets. */
+  look(pose: {leftEye?: Look; rightEye?: Look} | null): void;
 
   /** Writes three floats a vertex: positions in model units, unit normals. Either may be null. */
   evaluate(positions: Float32Array | null, normals?: Float32Array | null): void;

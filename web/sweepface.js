@@ -23,16 +23,22 @@ async function compileUrl(url) {
   return isKnown && WebAssembly.compileStreaming ? WebAssembly.compileStreaming(response) : WebAssembly.compile(await response.arrayBuffer());
 }
 
-let usual;  // the module beside this file, compiled once
-function compile(wasm) {
+/** The modules beside this file: the usual one, and the one that knows regions and eyes as well. */
+const MODULES = {
+  usual: () => new URL('./sweepface.wasm', import.meta.url),
+  full: () => new URL('./sweepface_full.wasm', import.meta.url)
+};
+
+const compiled = {};  // each once
+function compile(wasm, kind) {
   if (wasm instanceof WebAssembly.Module) return wasm;
   if (wasm instanceof ArrayBuffer || ArrayBuffer.isView(wasm)) return WebAssembly.compile(wasm);
   if (wasm) return compileUrl(new URL(wasm, globalThis.location?.href));
-  usual ??= compileUrl(new URL('./sweepface.wasm', import.meta.url)).catch((error) => {
-    usual = undefined;
+  compiled[kind] ??= compileUrl(MODULES[kind]()).catch((error) => {
+    delete compiled[kind];
     throw error;
   });
-  return usual;
+  return compiled[kind];
 }
 
 /** One instance of the module: a file and the faces made from it. Its memory goes with it. */
@@ -103,10 +109,12 @@ function withinMemory(run) {
 
 /** What all faces of one file at one level of detail share. */
 class Shared {
-  constructor(module, bytes, name, lod, follow, budget) {
+  constructor(module, bytes, name, lod, follow, budget, eyes, divide) {
     const runtime = this.runtime = new Runtime(module), {wasm} = runtime;
     this.rig = runtime.loadRig(bytes, name);
     runtime.check(wasm.sweepface_rig_follow(this.rig, follow));
+    this.eyeCount = eyes ? runtime.get('sweepface_rig_turn_eyes', this.rig) : 0;
+    this.regions = divide ? divide(runtime, this.rig) : null;  // with their matter
     this.turnCount = wasm.sweepface_rig_turn_count(this.rig);
     this.mesh = budget ? runtime.get('sweepface_mesh_create_within', this.rig, ...budget) : runtime.get('sweepface_mesh_create', this.rig, lod);
     this.names = Array.from({length: wasm.sweepface_rig_target_count(this.rig)},
@@ -120,6 +128,12 @@ class Shared {
     const index = this.indexOf.get(name);
     if (index !== undefined) return index;
     return this.runtime.lendText(name, (text) => this.runtime.get('sweepface_rig_find_target', this.rig, text));
+  }
+
+  region(name) {
+    const index = this.regions?.findIndex((region) => region.name === name) ?? -1;
+    if (index >= 0) return index;
+    throw new Error(`There is no region named '${name}'; there are ${this.regions?.map((region) => region.name).join(', ') ?? 'none'}.`);
   }
 
   triangles() {
@@ -161,21 +175,22 @@ export class Sweepface {
     const {runtime, names, vertexCount} = shared;
     this.#shared = shared;
     this.#face = runtime.get('sweepface_face_create', shared.mesh);
-    const size = {vectors: 12 * vertexCount, weights: 8 * names.length};
+    const size = {vectors: 12 * vertexCount, weights: 8 * names.length * (shared.regions?.length ?? 1)};
     const positions = runtime.allocate(2 * size.vectors), normals = positions + size.vectors;
     const weights = runtime.allocate(size.weights + 8), drive = runtime.allocate(56), vectors = runtime.allocate(16);
     this.#memory = {positions, normals, weights, drive, vectors};
     ++runtime.users;
   }
 
-  static async load(bytes, {lod = 0, name = 'The face', arcs = false, combine = false, wasm, ...rest} = {}) {
+  static async load(bytes, {lod = 0, name = 'The face', arcs = false, combine = false, eyes = false, regions, wasm, ...rest} = {}) {
     if (!(bytes instanceof ArrayBuffer || ArrayBuffer.isView(bytes)))
       throw new TypeError('Sweepface.load needs the bytes of a .sweep file: an ArrayBuffer or a typed array.');
     if (!Number.isInteger(lod) || lod < 0) throw new RangeError('The level of detail must be a whole number from 0 on.');
     const view = ArrayBuffer.isView(bytes) ? new Uint8Array(bytes.buffer, bytes.byteOffset, bytes.byteLength) : new Uint8Array(bytes);
     const [budget] = BUDGETS.flatMap((kind, k) => (kind in rest ? [[k, Number(rest[kind])]] : []));
-    const module = await compile(wasm);
-    return withinMemory(() => new Sweepface(new Shared(module, view, String(name), lod, (arcs ? 1 : 0) + (combine ? 2 : 0), budget)));
+    const module = await compile(wasm, regions || eyes ? 'full' : 'usual');
+    const divide = regions && (await import('./sweepface_regions.js')).divider(regions);
+    return withinMemory(() => new Sweepface(new Shared(module, view, String(name), lod, (arcs ? 1 : 0) + (combine ? 2 : 0), budget, eyes, divide)));
   }
 
   /** Another face of the same file, at rest; the two share everything but their weights. */
@@ -196,28 +211,66 @@ export class Sweepface {
   /** Bytes of WebAssembly memory that the file and all its faces hold. */
   get memoryBytes() { return this.#open().runtime.wasm.memory.buffer.byteLength; }
 
-  /** The weights by name. */
-  get weights() {
-    const {runtime, names} = this.#open();
-    const values = runtime.doubles(runtime.wasm.sweepface_face_weights(this.#face), names.length);
+  /** The regions, in the order in which they have weights; none where the face is of one piece. */
+  get regions() { return this.#open().regions?.map(({name}) => name) ?? []; }
+
+  /** The weights by name; of several regions, those of the first. */
+  get weights() { return this.#weightsOf(0); }
+  weightsIn(region) { return this.#weightsOf(this.#open().region(region)); }
+
+  #weightsOf(region) {
+    const {runtime, names} = this.#open(), count = names.length;
+    const values = runtime.doubles(runtime.wasm.sweepface_face_weights(this.#face), count * (region + 1)).subarray(count * region);
     return Object.fromEntries(names.map((name, k) => [name, values[k]]));
   }
 
-  /** Sets the weights that are named and leaves the others; those in motion stop. */
-  setWeights(weights) {
-    const {runtime, names} = this.#open(), {wasm} = runtime, at = this.#memory.weights;
-    const named = this.#resolve(weights), all = runtime.doubles(at, names.length);
-    all.set(runtime.doubles(wasm.sweepface_face_weights(this.#face), names.length));
-    for (const [target, weight] of named) all[target] = weight;
-    runtime.check(wasm.sweepface_face_set_weights(this.#face, at, names.length));
+  /** Sets the weights that are named, everywhere or in a region, and leaves the others; those in motion stop. */
+  setWeights(weights, region) {
+    const shared = this.#open(), {runtime, names} = shared, {wasm} = runtime, count = names.length;
+    const named = this.#resolve(weights), all = this.#copyWeights();
+    const places = region !== undefined ? [shared.region(region)] : Array.from(shared.regions ?? [0], (_, r) => r);
+    for (const r of places)
+      for (const [target, weight] of named) all[count * r + target] = weight;
+    this.#takeWeights();
     if (!this.#motion) return;
-    const cut = this.#drive('cut');
-    for (const [target, weight] of named) runtime.check(wasm.sweepface_motion_move_to(this.#motion, target, weight, cut));
+    const cut = shared.regions ? 0 : this.#drive('cut');
+    for (const r of places)
+      for (const [target, weight] of named)
+        runtime.check(shared.regions ? wasm.sweepface_motion_put_in(this.#motion, r, target, weight)
+                                     : wasm.sweepface_motion_move_to(this.#motion, target, weight, cut));
+  }
+
+  /** The weights of all regions as they are, in memory of the module. */
+  #copyWeights() {
+    const {runtime, names, regions} = this.#shared, count = names.length * (regions?.length ?? 1);
+    const all = runtime.doubles(this.#memory.weights, count);
+    all.set(runtime.doubles(runtime.wasm.sweepface_face_weights(this.#face), count));
+    return all;
+  }
+
+  /** Makes what is there the face's weights. */
+  #takeWeights() {
+    const {runtime, names, regions} = this.#shared, {wasm} = runtime, at = this.#memory.weights, count = names.length;
+    if (!regions) return runtime.check(wasm.sweepface_face_set_weights(this.#face, at, count));
+    for (let r = 0; r < regions.length; ++r) runtime.check(wasm.sweepface_face_set_region_weights(this.#face, r, at + 8 * count * r, count));
   }
 
   /** All weights to 0, at once. */
   reset() {
     this.setWeights(Object.fromEntries(this.#open().names.map((name) => [name, 0])));
+  }
+
+  /** How many eyeballs turn. */
+  get eyeCount() { return this.#open().eyeCount; }
+
+  /** How the eyes stand, {leftEye: {yaw, pitch}, rightEye: {yaw, pitch}} in radians; null: by the eyeLook weights. */
+  look(pose) {
+    const {runtime, eyeCount} = this.#open();
+    if (eyeCount === 0) throw new Error('The face has no eyes that turn; load it with the option eyes, if it has any.');
+    const angles = ({yaw = 0, pitch = 0} = {}) => [yaw, pitch, 0];
+    if (!pose) return runtime.check(runtime.wasm.sweepface_face_look(this.#face, 0));
+    const numbers = new Float64Array([0, 0, 0, ...angles(pose.leftEye), ...angles(pose.rightEye)]);
+    runtime.lend(new Uint8Array(numbers.buffer), (at) => runtime.check(runtime.wasm.sweepface_face_look(this.#face, at)));
   }
 
   /** Writes positions and normals, three floats a vertex; either may be null. */
@@ -265,12 +318,15 @@ export class Sweepface {
     withinMemory(() => runtime.check(runtime.wasm.sweepface_mesh_prepare(this.#shared.mesh, 1)));
   }
 
-  /** Sends weights to goals from where they stand; `advance` moves them. */
-  moveTo(goals, drive = {}) {
-    const {runtime} = this.#open();
+  /** Sends weights to goals from where they stand, everywhere or in a region; `advance` moves them. */
+  moveTo(goals, drive = {}, region) {
+    const shared = this.#open(), {runtime} = shared, {wasm} = runtime;
+    const place = region === undefined ? -1 : shared.region(region);
     const all = this.#resolve(goals), at = this.#drive(drive), motion = this.#moving();
-    for (const [target, goal] of all) runtime.check(runtime.wasm.sweepface_motion_move_to(motion, target, goal, at));
-    this.#waits = Math.max(this.#waits, drive.delay ?? 0);
+    for (const [target, goal] of all)
+      runtime.check(place < 0 ? wasm.sweepface_motion_move_to(motion, target, goal, at) : wasm.sweepface_motion_move_in(motion, place, target, goal, at));
+    const latest = Math.max(0, ...(shared.regions ?? []).map(({delay}) => delay));
+    this.#waits = Math.max(this.#waits, (drive.delay ?? 0) + latest);
   }
 
   /** A blow: adds to the velocity of a weight (per second), which drag (per second) takes away. */
@@ -281,16 +337,17 @@ export class Sweepface {
 
   /** Lets time pass for the weights in motion; says whether anything goes on moving. */
   advance(seconds) {
-    const {runtime, names} = this.#open(), {wasm} = runtime, {weights} = this.#memory, count = names.length;
+    const {runtime, names, regions} = this.#open(), {wasm} = runtime, {weights} = this.#memory;
     if (!this.#motion) return false;
-    const still = 1e-6, before = runtime.doubles(wasm.sweepface_face_weights(this.#face), count).slice();
+    const still = 1e-6, count = names.length * (regions?.length ?? 1), before = this.#copyWeights().slice();
+    const waits = this.#waits > 0;  // what sets out just now has no velocity yet
     wasm.sweepface_motion_advance(this.#motion, seconds);
     this.#waits -= Math.max(seconds, 0);
     runtime.check(wasm.sweepface_motion_velocities(this.#motion, weights, count));
     const fast = runtime.doubles(weights, count).some((velocity) => Math.abs(velocity) > still);
     runtime.check(wasm.sweepface_motion_positions(this.#motion, weights, count));
-    runtime.check(wasm.sweepface_face_set_weights(this.#face, weights, count));
-    return fast || this.#waits > 0 || runtime.doubles(weights, count).some((w, k) => Math.abs(w - before[k]) > still);
+    this.#takeWeights();
+    return fast || waits || runtime.doubles(weights, count).some((w, k) => Math.abs(w - before[k]) > still);
   }
 
   /** Frees the face; it can no longer be used. Memory is given back with the last face of a file. */
@@ -322,9 +379,21 @@ export class Sweepface {
   }
 
   #moving() {
-    const {runtime, names} = this.#shared;
-    const weights = runtime.wasm.sweepface_face_weights(this.#face);
-    return this.#motion ||= withinMemory(() => runtime.get('sweepface_motion_create', weights, names.length));
+    return this.#motion ||= withinMemory(() => this.#makeMotion());
+  }
+
+  #makeMotion() {
+    const {runtime, names, regions} = this.#shared, {wasm} = runtime, count = names.length;
+    const weights = wasm.sweepface_face_weights(this.#face);
+    if (!regions) return runtime.get('sweepface_motion_create', weights, count);
+    const matters = new Float64Array(regions.flatMap(({mass, stiffness, delay}) => [mass, stiffness, delay]));
+    const motion = runtime.lend(new Uint8Array(matters.buffer),
+                                (at) => runtime.get('sweepface_motion_create_regions', weights, count, at, regions.length));
+    regions.forEach((_, r) => names.forEach((name, k) => {
+      const weight = runtime.doubles(wasm.sweepface_face_weights(this.#face) + 8 * count * r, count)[k];
+      runtime.check(wasm.sweepface_motion_put_in(motion, r, k, weight));
+    }));
+    return motion;
   }
 
   /** The C struct of a drive: its name, or its name and numbers. */

@@ -1,7 +1,7 @@
 // .sweep faces that a vertex shader evaluates: a mesh for three.js, and the shader for others. Only the modes of
 // the weights, some tens of kilobytes, go to the graphics card every frame (docs/evaluation.md).
-import {BufferAttribute, BufferGeometry, DataTexture, DoubleSide, FloatType, Mesh, MeshStandardMaterial, NearestFilter, RGBAFormat,
-        RGBAIntegerFormat, ShortType} from 'three';
+import {BufferAttribute, BufferGeometry, DataTexture, FloatType, NearestFilter, RGBAFormat, RGBAIntegerFormat, ShortType} from 'three';
+import {FaceMesh} from './sweepface_mesh.js';
 
 /** GLSL ES 3: a row of a face, from its neutral, its place and the two textures. */
 export const SWEEPFACE_GLSL = `
@@ -70,9 +70,7 @@ function spread(face, perPoint, size, from = 0, stride = size) {
 }
 
 /** A face in a scene that follows its weights without its vertices leaving the graphics card. */
-export class SweepfaceGpuMesh extends Mesh {
-  #stale = true;
-  #moving = false;
+export class SweepfaceGpuMesh extends FaceMesh {
   #tables;
 
   constructor(face, materials) {
@@ -86,8 +84,7 @@ export class SweepfaceGpuMesh extends Mesh {
     const texcoords = face.texcoords;
     if (texcoords) geometry.setAttribute('uv', new BufferAttribute(texcoords, 2));
     face.parts.forEach(({start, count}, k) => geometry.addGroup(start, count, k));
-    super(geometry, materials ?? face.parts.map(({material}) => new MeshStandardMaterial({name: material, roughness: 0.7, side: DoubleSide})));
-    this.face = face;
+    super(face, geometry, materials);
     this.frustumCulled = false;  // bounds are those of the neutral
     this.#tables = [positions, tangents];
     for (const material of [this.material].flat()) this.#patch(material);
@@ -120,31 +117,12 @@ export class SweepfaceGpuMesh extends Mesh {
   get textureBytes() { return this.#tables.reduce((sum, {bytes}) => sum + bytes, 0); }
   get frameBytes() { return this.#tables.reduce((sum, {modes}) => sum + modes.image.data.byteLength, 0); }
 
-  setWeights(weights) {
-    this.face.setWeights(weights);
-    this.#stale = true;
-  }
-
-  moveTo(goals, drive) {
-    this.face.moveTo(goals, drive);
-    this.#moving = true;
-  }
-
-  /** Call it once a frame with the seconds since the last; costs nothing where nothing moves. */
-  update(seconds = 0) {
-    if (this.#moving && seconds > 0) {
-      this.#moving = this.face.advance(seconds);
-      this.#stale = true;
-    }
-    if (!this.#stale) return;
+  show() {
     for (const tables of this.#tables) tables.update(this.face);
-    this.#stale = false;
   }
 
   dispose() {
-    this.geometry.dispose();
     for (const tables of this.#tables) tables.dispose();
-    for (const material of [this.material].flat()) material.dispose();
-    this.face.dispose();
+    super.dispose();
   }
 }

@@ -1,6 +1,7 @@
 // .sweep faces for three.js: a loader, and a mesh whose geometry follows the weights.
-import {BufferAttribute, BufferGeometry, DoubleSide, DynamicDrawUsage, FileLoader, Loader, Mesh, MeshStandardMaterial} from 'three';
+import {BufferAttribute, BufferGeometry, DynamicDrawUsage, FileLoader, Loader} from 'three';
 import {Sweepface} from './sweepface.js';
+import {FaceMesh} from './sweepface_mesh.js';
 
 function attribute(length, size) {
   return new BufferAttribute(new Float32Array(length * size), size).setUsage(DynamicDrawUsage);
@@ -17,56 +18,19 @@ function geometryOf(face) {
   return geometry;
 }
 
-/** Plain materials, named as in the source. Mouths and lashes are seen from both sides. */
-function materialsOf(face) {
-  return face.parts.map(({material}) => new MeshStandardMaterial({name: material, roughness: 0.7, side: DoubleSide}));
-}
-
 /** A face in a scene. Weights are set at any time; `update` brings the geometry up to date. */
-export class SweepfaceMesh extends Mesh {
-  #stale = true;
-  #moving = false;
-
-  constructor(face, materials = materialsOf(face)) {
-    super(geometryOf(face), materials);
-    this.face = face;
+export class SweepfaceMesh extends FaceMesh {
+  constructor(face, materials) {
+    super(face, geometryOf(face), materials);
     this.update();
   }
 
-  setWeights(weights) {
-    this.face.setWeights(weights);
-    this.#stale = true;
-  }
-
-  moveTo(goals, drive) {
-    this.face.moveTo(goals, drive);
-    this.#moving = true;
-  }
-
-  push(name, velocityChange, drag) {
-    this.face.push(name, velocityChange, drag);
-    this.#moving = true;
-  }
-
-  /** Call it once a frame with the seconds since the last; costs nothing where nothing moves. */
-  update(seconds = 0) {
-    if (this.#moving && seconds > 0) {
-      this.#moving = this.face.advance(seconds);
-      this.#stale = true;
-    }
-    if (!this.#stale) return;
+  show() {
     const {position, normal} = this.geometry.attributes;
     this.face.evaluate(position.array, normal.array);
     position.needsUpdate = normal.needsUpdate = true;
     this.geometry.boundingBox = null;
     this.geometry.computeBoundingSphere();
-    this.#stale = false;
-  }
-
-  dispose() {
-    this.geometry.dispose();
-    for (const material of [this.material].flat()) material.dispose();
-    this.face.dispose();
   }
 }
 

@@ -52,8 +52,7 @@ struct Eye {
   std::vector<Index> stored;
 };
 
-/// The eyeballs: the two largest balls of a face and whatever lies in them. Of the library that
-/// converts.
+/// The eyeballs: the two largest balls of a face and whatever lies in them.
 std::vector<Eye> findEyes(const Rig& rig);
 
 /// Turns eyes rigidly, by targets that hold the turned ball exactly: with a rotation of θ about an

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "sweepface/spring_bank.hpp"
 #include "sweepface/trajectory.hpp"
 
 namespace sweepface {
@@ -76,17 +77,11 @@ class MotionState {
   Result<Trajectory> prepare(std::size_t weight, double goal, const Drive& drive) const;
   void take(std::size_t weight, const Trajectory& next, double delay) noexcept;
 
-  // Springs that pull now, by themselves: they are what most frames are made of, and those that
-  // set out together decay together.
-  struct Pulled {
-    path::Swing swing{};
-    double began = 0;
-    bool now = false;
-  };
   void notePull(std::size_t weight) noexcept;
+  Kinematics at(std::size_t weight, double time) const noexcept;
 
   std::vector<Coordinate> coordinates_;
-  std::vector<Pulled> pulled_;  // [K]
+  SpringBank springs_;  // those that pull now: what most frames are made of
   double now_ = 0;
   double nextSwitch_ = 0;  // the first time at which a drive that waits sets out
 };

@@ -37,14 +37,19 @@ class RegionalMotion {
   Result<void> moveTo(std::span<const double> goals, const Drive& drive = {});
   /// Only in one region.
   Result<void> moveTo(std::size_t region, std::size_t weight, double goal, const Drive& drive);
+  /// At once, whatever the matter.
+  Result<void> put(std::size_t region, std::size_t weight, double value);
   /// A blow, which a heavy region feels less.
   Result<void> push(std::size_t weight, double velocityChange, double drag);
 
   Kinematics sample(std::size_t region, std::size_t weight) const noexcept;
   /// All weights [R × K], as an Evaluation of the same regions takes them.
   void positions(std::span<double> out) const noexcept;
+  void velocities(std::span<double> out) const noexcept;
 
  private:
+  Result<void> checkRegion(std::size_t region) const;
+
   std::vector<Matter> matters_;
   std::vector<MotionState> states_;  // [R]
 };

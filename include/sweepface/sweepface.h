@@ -150,7 +150,8 @@ SWEEPFACE_API sweepface_status sweepface_face_set_weight(sweepface_face* face, u
 /* The first `count` weights. */
 SWEEPFACE_API sweepface_status sweepface_face_set_weights(sweepface_face* face,
                                                           const double* weights, size_t count);
-/* [targets] the weights as they are; the face's own memory. */
+/* [targets] the weights as they are; the face's own memory. Where the face is divided into regions
+ * (sweepface_regions.h): [regions x targets]. */
 SWEEPFACE_API const double* sweepface_face_weights(const sweepface_face* face);
 
 /* How far any vertex may be from the exact surface under the weights as they are, in model units:

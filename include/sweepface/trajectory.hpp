@@ -59,9 +59,12 @@ struct Swing {
     double c, s;
   };
   Decay decay(double t) const noexcept;
-  double position(const Decay& d) const noexcept {
-    const double y = x - goal;
-    return goal + (d.c * y + d.s * (v + sigma * y));
+  // What a way from the goal and a velocity have become by then.
+  Kinematics wayAfter(const Decay& d, const Start& y) const noexcept {
+    const double pull = omega * omega;
+    const double way = d.c * y.position + d.s * (y.velocity + sigma * y.position);
+    const double speed = d.c * y.velocity - d.s * (sigma * y.velocity + pull * y.position);
+    return {way, speed, -2 * sigma * speed - pull * way};
   }
 };
 struct Bounces {

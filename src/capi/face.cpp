@@ -44,10 +44,16 @@ void repeatPoints(const Mesh& mesh, const sweepface_vectors& out, std::size_t co
 }  // namespace
 
 const Weights& sweepface::capi::follow(sweepface_face& face) {
-  if (face.mesh->followers.empty()) return face.weights;
+  const Mesh& mesh = *face.mesh;
+  if (mesh.followers.empty() && !mesh.eyes) return face.weights;
+  const std::size_t targets = mesh.rig->targets.size();
   std::ranges::fill(face.followed, 0.0);
-  std::ranges::copy(face.weights, face.followed.begin());
-  face.mesh->followers.apply(face.followed);
+  for (std::size_t r = 0; r < mesh.division->count(); ++r) {
+    const std::span region = std::span(face.followed).subspan(r * targets, targets);
+    std::copy_n(face.weights.data() + r * mesh.shown, mesh.shown, region.begin());
+    if (mesh.eyes) mesh.eyes->apply(face.looks ? &*face.looks : nullptr, region);
+    mesh.followers.apply(region);
+  }
   // Products of large weights are beyond what an evaluation takes.
   for (double& w : face.followed) w = std::clamp(w, -SWEEPFACE_MOST_WEIGHT, SWEEPFACE_MOST_WEIGHT);
   return face.followed;
@@ -56,9 +62,9 @@ const Weights& sweepface::capi::follow(sweepface_face& face) {
 sweepface_status sweepface_face_create(const sweepface_mesh* mesh, sweepface_face** face) {
   if (!mesh || !face) return refuse("Making a face needs a mesh and a place for it.");
   const Mesh& made = *mesh->mesh;
-  const Weights rest(made.rig->targets.size(), 0.0);
+  const Weights rest(made.division->count() * made.rig->targets.size(), 0.0);
   *face = new sweepface_face{mesh->mesh,
-                             Weights(made.shown, 0.0),
+                             Weights(made.division->count() * made.shown, 0.0),
                              rest,
                              std::vector<std::byte>(made.neutral.scratchBytes()),
                              {.weights = rest},
@@ -70,20 +76,40 @@ void sweepface_face_free(sweepface_face* face) { delete face; }
 
 sweepface_status sweepface_face_set_weight(sweepface_face* face, uint32_t target, double weight) {
   if (!face) return refuse("Setting a weight needs a face.");
-  if (target >= face->weights.size()) return noSuch("target", target, face->weights.size());
+  const std::size_t count = face->mesh->shown;
+  if (target >= count) return noSuch("target", target, count);
   if (!isWeight(weight)) return refuseWeight(*face, target);
-  face->weights[target] = weight;
+  for (std::size_t k = target; k < face->weights.size(); k += count) face->weights[k] = weight;
   return SWEEPFACE_OK;
 }
 
-sweepface_status sweepface_face_set_weights(sweepface_face* face, const double* weights,
-                                            size_t count) {
+namespace {
+
+sweepface_status checkWeights(const sweepface_face* face, const double* weights, size_t count) {
   if (!face || (!weights && count > 0)) return refuse("Setting weights needs a face and weights.");
-  if (count > face->weights.size())
-    return refuse("There are ", count, " weights for ", face->weights.size(), " targets.");
+  if (count > face->mesh->shown)
+    return refuse("There are ", count, " weights for ", face->mesh->shown, " targets.");
   for (size_t k = 0; k < count; ++k)
     if (!isWeight(weights[k])) return refuseWeight(*face, k);
-  std::copy_n(weights, count, face->weights.begin());
+  return SWEEPFACE_OK;
+}
+
+}  // namespace
+
+sweepface_status sweepface_face_set_weights(sweepface_face* face, const double* weights,
+                                            size_t count) {
+  if (const auto status = checkWeights(face, weights, count)) return status;
+  for (std::size_t r = 0; r < face->mesh->division->count(); ++r)
+    std::copy_n(weights, count, face->weights.data() + r * face->mesh->shown);
+  return SWEEPFACE_OK;
+}
+
+sweepface_status sweepface_face_set_region_weights(sweepface_face* face, uint32_t region,
+                                                   const double* weights, size_t count) {
+  if (const auto status = checkWeights(face, weights, count)) return status;
+  const std::size_t regions = face->mesh->division->count();
+  if (region >= regions) return noSuch("region", region, regions);
+  std::copy_n(weights, count, face->weights.data() + region * face->mesh->shown);
   return SWEEPFACE_OK;
 }
 
@@ -94,9 +120,8 @@ const double* sweepface_face_weights(const sweepface_face* face) {
 double sweepface_face_error(const sweepface_face* face) {
   if (!face) return 0;
   const Mesh& mesh = *face->mesh;
-  Weights weights = face->weights;
-  weights.resize(mesh.rig->targets.size());
-  mesh.followers.apply(weights);
+  sweepface_face copy{face->mesh, face->weights, face->followed, {}, {}, {}, face->looks};
+  const Weights& weights = follow(copy);
   return (isNeutral(weights) ? mesh.neutral : mesh.positions()).positionBound(weights);
 }
 
@@ -115,8 +140,8 @@ sweepface_status checkOutputs(const sweepface_face* face, std::size_t count,
 
 enum class What { positions, normals };
 
-void evaluate(sweepface_face& face, What what, const sweepface_vectors& to, std::size_t count,
-              bool onlyChanges) {
+void write(sweepface_face& face, What what, const sweepface_vectors& to, std::size_t count,
+           bool onlyChanges) {
   if (!to.data) return;
   const Mesh& mesh = *face.mesh;
   const bool ofPositions = what == What::positions;
@@ -139,20 +164,23 @@ void evaluate(sweepface_face& face, What what, const sweepface_vectors& to, std:
   std::ranges::copy(weights, written.weights.begin());
 }
 
+sweepface_status evaluate(sweepface_face* face, std::size_t count,
+                          const sweepface_vectors& positions, const sweepface_vectors& normals,
+                          bool onlyChanges) {
+  if (const auto status = checkOutputs(face, count, positions, normals)) return status;
+  write(*face, What::positions, positions, count, onlyChanges);
+  write(*face, What::normals, normals, count, onlyChanges);
+  return SWEEPFACE_OK;
+}
+
 }  // namespace
 
 sweepface_status sweepface_face_evaluate(sweepface_face* face, size_t count,
                                          sweepface_vectors positions, sweepface_vectors normals) {
-  if (const auto status = checkOutputs(face, count, positions, normals)) return status;
-  evaluate(*face, What::positions, positions, count, false);
-  evaluate(*face, What::normals, normals, count, false);
-  return SWEEPFACE_OK;
+  return evaluate(face, count, positions, normals, false);
 }
 
 sweepface_status sweepface_face_update(sweepface_face* face, size_t count,
                                        sweepface_vectors positions, sweepface_vectors normals) {
-  if (const auto status = checkOutputs(face, count, positions, normals)) return status;
-  evaluate(*face, What::positions, positions, count, true);
-  evaluate(*face, What::normals, normals, count, true);
-  return SWEEPFACE_OK;
+  return evaluate(face, count, positions, normals, true);
 }

@@ -1,24 +1,49 @@
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <vector>
 
 #include "sweepface/evaluator.hpp"
 #include "sweepface/followers.hpp"
-#include "sweepface/live_motion.hpp"
+#include "sweepface/head.hpp"
+#include "sweepface/regional_motion.hpp"
 #include "sweepface/render_mesh.hpp"
-#include "sweepface/sweepface.h"
+#include "sweepface/sweepface_regions.h"
 
 #include "eval/shader_tables.hpp"
 
 // What the handles of the C interface stand for. Rigs and meshes are shared by what is made from
 // them.
 
+namespace sweepface::capi {
+
+/// The regions of a face; none: one that is everywhere.
+struct Division {
+  std::vector<std::string> names;
+  std::vector<std::vector<float>> influences;
+  std::vector<Matter> matters;  // where they are known
+
+  std::size_t count() const { return std::max<std::size_t>(1, names.size()); }
+};
+
+/// Sets the weights of what turns eyes; by itself nothing. Behind an interface, as most faces do
+/// without. Not abstract: that would bring the C++ library's words about it to the browser.
+struct EyeTurner {
+  virtual ~EyeTurner() = default;
+  virtual void apply(const HeadPose*, std::span<double>) const {}
+};
+
+}  // namespace sweepface::capi
+
 struct sweepface_rig {
   std::shared_ptr<sweepface::Rig> rig;  // only read once there are meshes
   sweepface::Followers followers;  // of its targets; those that were added for them are not shown
   std::size_t shown = 0;           // targets, the first ones
+  std::shared_ptr<const sweepface::capi::Division> division;
+  std::shared_ptr<const sweepface::capi::EyeTurner> eyes = nullptr;  // where they turn
 };
 
 namespace sweepface::capi {
@@ -41,6 +66,8 @@ struct Mesh {
   std::shared_ptr<const Rig> rig;
   Followers followers;
   std::size_t shown;
+  std::shared_ptr<const Division> division;
+  std::shared_ptr<const EyeTurner> eyes;
   Index lod;
   Tessellation grid;
   Evaluator neutral;  // with the same options the others cannot fail
@@ -58,10 +85,12 @@ struct Mesh {
   }
 
   const Evaluator& positions() const {
-    return lazyPositions.get(*rig, grid, {.level = lod, .normals = false});
+    return lazyPositions.get(*rig, grid,
+                             {.level = lod, .normals = false, .influences = division->influences});
   }
   const Evaluator& normals() const {
-    return lazyNormals.get(*rig, grid, {.level = lod, .positions = false});
+    return lazyNormals.get(*rig, grid,
+                           {.level = lod, .positions = false, .influences = division->influences});
   }
 };
 
@@ -73,8 +102,8 @@ struct sweepface_mesh {
 
 struct sweepface_face {
   std::shared_ptr<const sweepface::capi::Mesh> mesh;
-  sweepface::Weights weights;   // [shown] as they were set
-  sweepface::Weights followed;  // [targets] with followers
+  sweepface::Weights weights;   // [regions × shown] as they were set
+  sweepface::Weights followed;  // [regions × targets] with followers
   std::vector<std::byte> scratch;
 
   /// What an output holds, and where.
@@ -84,6 +113,7 @@ struct sweepface_face {
     sweepface::Weights weights;
   };
   Written positions, normals;
+  std::optional<sweepface::HeadPose> looks = {};
 };
 
 namespace sweepface::capi {
@@ -92,5 +122,5 @@ const Weights& follow(sweepface_face& face);
 }  // namespace sweepface::capi
 
 struct sweepface_motion {
-  sweepface::MotionState state;
+  sweepface::RegionalMotion state;
 };

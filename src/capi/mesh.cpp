@@ -20,14 +20,15 @@ double gridVertices(const Surface& surface, double level) {
 
 sweepface_status makeMesh(const sweepface_rig& rig, Index lod, Tessellation grid,
                           sweepface_mesh** mesh) {
-  auto neutral = Evaluator::make(*rig.rig, grid, {.level = lod, .targets = false});
+  auto neutral = Evaluator::make(
+      *rig.rig, grid, {.level = lod, .targets = false, .influences = rig.division->influences});
   if (!neutral) return refuse(std::move(neutral.error().message));
   RenderMesh render = lod == 0            ? renderSource(*rig.rig, grid)
                       : grid.level() == 0 ? renderDensity(*rig.rig, grid)
                                           : renderGrid(*rig.rig, grid);
-  *mesh = new sweepface_mesh{std::make_shared<Mesh>(rig.rig, rig.followers, rig.shown, lod,
-                                                    std::move(grid), std::move(*neutral),
-                                                    std::move(render))};
+  *mesh = new sweepface_mesh{std::make_shared<Mesh>(rig.rig, rig.followers, rig.shown, rig.division,
+                                                    rig.eyes, lod, std::move(grid),
+                                                    std::move(*neutral), std::move(render))};
   return SWEEPFACE_OK;
 }
 

@@ -32,8 +32,8 @@ static_assert(static_cast<int>(Drive::Kind::cut) == SWEEPFACE_CUT &&
 
 sweepface_status checkCount(const sweepface_motion* motion, const double* out, size_t count) {
   if (!motion || (!out && count > 0)) return refuse("Reading a motion needs one and a place.");
-  if (count > motion->state.size())
-    return refuse("The motion has only ", motion->state.size(), " weights, not ", count, ".");
+  const std::size_t weights = motion->state.regionCount() * motion->state.size();
+  if (count > weights) return refuse("The motion has only ", weights, " weights, not ", count, ".");
   return SWEEPFACE_OK;
 }
 
@@ -53,9 +53,20 @@ sweepface_drive sweepface_drive_of(sweepface_drive_kind kind) {
 
 sweepface_status sweepface_motion_create(const double* weights, size_t count,
                                          sweepface_motion** motion) {
-  if (!motion || (!weights && count > 0))
+  constexpr sweepface_matter plain{1, 1, 0};
+  return sweepface_motion_create_regions(weights, count, &plain, 1, motion);
+}
+
+sweepface_status sweepface_motion_create_regions(const double* weights, size_t count,
+                                                 const sweepface_matter* matters, size_t regions,
+                                                 sweepface_motion** motion) {
+  if (!motion || (!weights && count > 0) || (!matters && regions > 0))
     return refuse("Making a motion needs weights and a place for it.");
-  Result<MotionState> state = MotionState::make({weights, count});
+  if (regions > kMostRegions) return refuse("A motion has 1 to ", kMostRegions, " regions.");
+  std::vector<Matter> given;
+  for (size_t r = 0; r < regions; ++r)
+    given.push_back({matters[r].mass, matters[r].stiffness, matters[r].delay});
+  Result<RegionalMotion> state = RegionalMotion::make({weights, count}, given);
   if (!state) return refuse(std::move(state.error().message));
   *motion = new sweepface_motion{std::move(*state)};
   return SWEEPFACE_OK;
@@ -81,6 +92,21 @@ sweepface_status sweepface_motion_move_all(sweepface_motion* motion, const doubl
   const Result<Drive> how = driveOf(drive);
   if (!how) return refuse(how.error().message);
   return statusOf(motion->state.moveTo({goals, count}, *how));
+}
+
+sweepface_status sweepface_motion_move_in(sweepface_motion* motion, uint32_t region,
+                                          uint32_t weight, double goal,
+                                          const sweepface_drive* drive) {
+  if (!motion) return refuse("Moving a weight needs a motion.");
+  const Result<Drive> how = driveOf(drive);
+  if (!how) return refuse(how.error().message);
+  return statusOf(motion->state.moveTo(region, weight, goal, *how));
+}
+
+sweepface_status sweepface_motion_put_in(sweepface_motion* motion, uint32_t region, uint32_t weight,
+                                         double value) {
+  if (!motion) return refuse("Moving a weight needs a motion.");
+  return statusOf(motion->state.put(region, weight, value));
 }
 
 sweepface_status sweepface_motion_push(sweepface_motion* motion, uint32_t weight,

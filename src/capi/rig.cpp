@@ -15,7 +15,8 @@ sweepface_status sweepface_rig_load(const void* bytes, size_t size, const char* 
   Result<Rig> decoded = decode({static_cast<const char*>(bytes), size}, name ? name : "The face");
   if (!decoded) return refuse(SWEEPFACE_BAD_DATA, std::move(decoded.error().message));
   const std::size_t targets = decoded->targets.size();
-  *rig = new sweepface_rig{std::make_shared<Rig>(std::move(*decoded)), {}, targets};
+  *rig = new sweepface_rig{
+      std::make_shared<Rig>(std::move(*decoded)), {}, targets, std::make_shared<const Division>()};
   return SWEEPFACE_OK;
 }
 
@@ -52,6 +53,7 @@ sweepface_status sweepface_rig_follow(sweepface_rig* rig, uint32_t what) {
   if (rig->rig.use_count() > 1)
     return refuse(
         "What follows must be said before a rig has meshes; free them, or load it again.");
+  if (rig->eyes) return refuse("What follows must be said before eyes turn; load the rig again.");
   Rig& made = *rig->rig;
   made.targets.resize(rig->shown);
   std::vector<Follower> followers;

@@ -17,13 +17,23 @@ std::size_t pairsRoom(const EvaluatorTables& tables) {
 
 constexpr double kMostFactor = 1e9;  // beyond, positions end at what single precision bears
 
+/// The largest size of a weight, but at least 1: four at a time, as a maximum waits for the one
+/// before.
+double largest(std::span<const double> weights) {
+  double most[4] = {1, 1, 1, 1};
+  std::size_t k = 0;
+  for (; k + 4 <= weights.size(); k += 4)
+    for (std::size_t i = 0; i < 4; ++i) most[i] = std::max(most[i], std::abs(weights[k + i]));
+  for (; k < weights.size(); ++k) most[0] = std::max(most[0], std::abs(weights[k]));
+  return std::max({most[0], most[1], most[2], most[3]});
+}
+
 /// Weights in units of 2⁻¹⁴, and what they were divided by.
 float quantise(std::span<const double> weights, std::span<std::int16_t> out) {
-  double most = 1;
-  for (const double w : weights) most = std::max(most, std::abs(w));
-  const double scale = kWeightUnit / most;
+  constexpr int kUp = 1 << 15;  // what is above 0 is rounded by cutting it off
+  const double most = largest(weights), scale = kWeightUnit / most;
   for (std::size_t k = 0; k < weights.size(); ++k)
-    out[k] = static_cast<std::int16_t>(std::floor(weights[k] * scale + 0.5));
+    out[k] = static_cast<std::int16_t>(static_cast<int>(weights[k] * scale + (kUp + 0.5)) - kUp);
   std::ranges::fill(out.subspan(weights.size()), std::int16_t(0));
   return static_cast<float>(std::min(most, kMostFactor));
 }

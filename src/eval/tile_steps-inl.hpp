@@ -100,21 +100,36 @@ class TileWeights {
 
  private:
 #if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
-  /// Among many weights those of a tile lie in a few runs of 64, two registers each.
+  /// A run of 64 weights, in two registers.
+  struct Window {
+    __m512i number, low, high;
+
+    HWY_INLINE Window(const std::int16_t* shorts, std::uint64_t windows) {
+      const auto w = _tzcnt_u64(windows) & 63;  // of no windows at all: one that does no harm
+      number = _mm512_set1_epi16(static_cast<short>(w));
+      low = _mm512_loadu_si512(shorts + 64 * w);
+      high = _mm512_loadu_si512(shorts + 64 * w + 32);
+    }
+    /// Weights of targets in this window, and what was `chosen` before of others.
+    HWY_INLINE __m512i choose(__m512i targets, __m512i chosen) const {
+      const __mmask32 here = _mm512_cmpeq_epi16_mask(_mm512_srli_epi16(targets, 6), number);
+      return _mm512_mask_mov_epi16(chosen, here, _mm512_permutex2var_epi16(low, targets, high));
+    }
+  };
+
+  /// Among many weights those of a tile lie in a few windows: four at a time, as how many there are
+  /// cannot be foreseen.
   HWY_INLINE void chooseByWindows(const Tile& tile, std::uint32_t* pairs) const {
+    const std::uint64_t first = tile.head->windows, second = first & (first - 1),
+                        third = second & (second - 1), fourth = third & (third - 1);
+    const Window a(frame_.shorts, first), b(frame_.shorts, second), c(frame_.shorts, third),
+        d(frame_.shorts, fourth);
     for (int p = 0; p < tile.head->pairs; p += kGroup) {
       const __m512i targets = _mm512_loadu_si512(tile.targets + 2 * p);
-      const __m512i window = _mm512_srli_epi16(targets, 6);
-      __m512i chosen = _mm512_setzero_si512();
-      for (std::uint64_t left = tile.head->windows; left != 0; left &= left - 1) {
-        const int w = __builtin_ctzll(left);
-        const std::int16_t* const shorts = frame_.shorts + 64 * w;
-        const __m512i found = _mm512_permutex2var_epi16(_mm512_loadu_si512(shorts), targets,
-                                                        _mm512_loadu_si512(shorts + 32));
-        const __mmask32 here =
-            _mm512_cmpeq_epi16_mask(window, _mm512_set1_epi16(static_cast<short>(w)));
-        chosen = _mm512_mask_mov_epi16(chosen, here, found);
-      }
+      __m512i chosen = _mm512_permutex2var_epi16(a.low, targets, a.high);
+      chosen = d.choose(targets, c.choose(targets, b.choose(targets, chosen)));
+      for (std::uint64_t left = fourth & (fourth - 1); left != 0; left &= left - 1)
+        chosen = Window(frame_.shorts, left).choose(targets, chosen);
       _mm512_storeu_si512(pairs + p, chosen);
     }
   }

@@ -5,7 +5,7 @@
 
 #include "sweepface/arcs.hpp"
 
-#include "fit/balls.hpp"
+#include "eval/balls.hpp"
 
 namespace sweepface {
 namespace {
@@ -115,8 +115,8 @@ class TurnFinder {
   explicit TurnFinder(const Rig& rig) : rig_(rig), grid_(rig.surface, 1), parts_(partsOf(grid_)) {
     neutral_ = pointsOf({});
     for (const Part& part : parts_) {
-      std::vector<Vector> points;
-      for (const Index v : part) points.push_back(neutral_[v]);
+      std::vector<Vec3> points;
+      for (const Index v : part) points.push_back(fromEigen(neutral_[v]));
       if (const auto ball = ballOf(points)) balls_.push_back(*ball);
     }
   }
@@ -125,8 +125,7 @@ class TurnFinder {
     const std::vector<Way> ways = waysThatTell(target);
     const auto axis = ways.size() < 3 ? std::nullopt : fitAxis(ways);
     if (!axis || !isTurn(ways, *axis)) return {};
-    if (const Ball* const ball = ballOn(*axis, ways))
-      return Turn{target, fromEigen(ball->centre), {}};
+    if (const Ball* const ball = ballOn(*axis, ways)) return Turn{target, ball->centre, {}};
     return Turn{target, fromEigen(axis->pivot), fromEigen(axis->direction)};
   }
 
@@ -171,12 +170,12 @@ class TurnFinder {
     for (const Way& w : ways) middle += w.from;
     middle /= static_cast<double>(ways.size());
     const auto distance = [&](const Ball& ball) {
-      return (ball.centre - axis.pivot).cross(axis.direction).norm();
+      return (toEigen(ball.centre) - axis.pivot).cross(axis.direction).norm();
     };
     const Ball* nearest = nullptr;
     for (const Ball& ball : balls_)
       if (distance(ball) < kOffCentre * ball.radius &&
-          (middle - ball.centre).norm() < 1.5 * ball.radius &&
+          (middle - toEigen(ball.centre)).norm() < 1.5 * ball.radius &&
           (!nearest || distance(ball) < distance(*nearest)))
         nearest = &ball;
     return nearest;

@@ -75,16 +75,18 @@ Result<MotionState> MotionState::make(std::span<const double> weights) {
       return fail("Weight ", k, " of the motion is not a finite number.");
     state.coordinates_.push_back({Trajectory(weights[k]), Trajectory(weights[k]), 0, 0});
   }
-  state.pulled_.resize(weights.size());
+  state.springs_ = SpringBank(weights.size());
   state.nextSwitch_ = kNever;
   return state;
 }
 
 void MotionState::advance(double seconds) noexcept {
+  const double before = now_;
   if (seconds > 0) now_ += seconds;
   if (now_ < nextSwitch_) return;
   nextSwitch_ = kNever;
-  for (std::size_t k = 0; k < size(); ++k) notePull(k);
+  for (std::size_t k = 0; k < size(); ++k)
+    if (coordinates_[k].switchAt > before) notePull(k);
 }
 
 void MotionState::notePull(std::size_t weight) noexcept {
@@ -93,8 +95,14 @@ void MotionState::notePull(std::size_t weight) noexcept {
   if (waits) nextSwitch_ = std::min(nextSwitch_, coordinate.switchAt);
   const Trajectory& trajectory = waits ? coordinate.now : coordinate.next;
   const path::Swing* const swing = trajectory.swing();
-  pulled_[weight].now = swing != nullptr;
-  if (swing) pulled_[weight] = {*swing, waits ? coordinate.began : coordinate.switchAt, true};
+  if (swing)
+    springs_.pull(weight, *swing, waits ? coordinate.began : coordinate.switchAt);
+  else
+    springs_.release(weight);
+}
+
+Kinematics MotionState::at(std::size_t weight, double time) const noexcept {
+  return springs_.pulls(weight) ? springs_.at(weight, time) : coordinates_[weight].at(time);
 }
 
 Result<Trajectory> MotionState::prepare(std::size_t weight, double goal, const Drive& drive) const {
@@ -104,8 +112,9 @@ Result<Trajectory> MotionState::prepare(std::size_t weight, double goal, const D
   // Where it will stand when the drive sets out.
   const Coordinate& coordinate = coordinates_[weight];
   const double start = now_ + drive.delay;
-  const Kinematics from = now_ < coordinate.switchAt ? coordinate.now.at(start - coordinate.began)
-                                                     : coordinate.at(start);
+  const Kinematics from = now_ < coordinate.switchAt && !springs_.pulls(weight)
+                              ? coordinate.now.at(start - coordinate.began)
+                              : at(weight, start);
   return trajectoryOf(drive, {from.position, from.velocity}, goal);
 }
 
@@ -153,31 +162,23 @@ Result<void> MotionState::push(std::size_t weight, double velocityChange, double
 }
 
 Kinematics MotionState::sample(std::size_t weight) const noexcept {
-  return weight < size() ? coordinates_[weight].at(now_) : Kinematics{};
+  return weight < size() ? at(weight, now_) : Kinematics{};
 }
 
 void MotionState::positions(std::span<double> out) const noexcept {
   const std::size_t count = std::min(size(), out.size());
-  path::Swing::Decay decay{};
-  double sigma = -1, omega = -1, since = -1;
-  for (std::size_t k = 0; k < count; ++k) {
-    const auto& [swing, began, now] = pulled_[k];
-    const double time = now_ - began;
-    if (!now || !(time >= 0)) {
-      out[k] = sample(k).position;
-      continue;
-    }
-    if (swing.sigma != sigma || swing.omega != omega || time != since) {
-      sigma = swing.sigma, omega = swing.omega, since = time;
-      decay = swing.decay(time);
-    }
-    out[k] = swing.position(decay);
-  }
+  springs_.positions(now_, out);
+  if (springs_.pullsAll()) return;
+  for (std::size_t k = 0; k < count; ++k)
+    if (!springs_.pulls(k)) out[k] = coordinates_[k].at(now_).position;
 }
 
 void MotionState::velocities(std::span<double> out) const noexcept {
   const std::size_t count = std::min(size(), out.size());
-  for (std::size_t k = 0; k < count; ++k) out[k] = sample(k).velocity;
+  springs_.velocities(now_, out);
+  if (springs_.pullsAll()) return;
+  for (std::size_t k = 0; k < count; ++k)
+    if (!springs_.pulls(k)) out[k] = coordinates_[k].at(now_).velocity;
 }
 
 }  // namespace sweepface

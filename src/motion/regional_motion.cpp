@@ -82,7 +82,7 @@ Clip inMatter(const Clip& clip, const Matter& matter, const Spring& hold) {
 Result<RegionalMotion> RegionalMotion::make(std::span<const double> weights,
                                             std::span<const Matter> matters) {
   if (matters.empty() || matters.size() > kMostRegions)
-    return fail("A motion has 1 to " + std::to_string(kMostRegions) + " regions.");
+    return fail("A motion has 1 to ", kMostRegions, " regions.");
   RegionalMotion motion;
   for (const Matter& matter : matters) {
     if (auto ok = check(matter); !ok) return std::unexpected(ok.error());
@@ -117,12 +117,20 @@ Result<void> RegionalMotion::moveTo(std::span<const double> goals, const Drive& 
   return {};
 }
 
+Result<void> RegionalMotion::checkRegion(std::size_t region) const {
+  if (region < states_.size()) return {};
+  return fail("There is no region ", region, "; there are ", states_.size(), ".");
+}
+
 Result<void> RegionalMotion::moveTo(std::size_t region, std::size_t weight, double goal,
                                     const Drive& drive) {
-  if (region >= states_.size())
-    return fail("There is no region " + std::to_string(region) + "; there are " +
-                std::to_string(states_.size()) + ".");
+  if (auto ok = checkRegion(region); !ok) return ok;
   return states_[region].moveTo(weight, goal, inMatter(drive, matters_[region]));
+}
+
+Result<void> RegionalMotion::put(std::size_t region, std::size_t weight, double value) {
+  if (auto ok = checkRegion(region); !ok) return ok;
+  return states_[region].moveTo(weight, value, {.kind = Drive::Kind::cut, .spring = {}});
 }
 
 Result<void> RegionalMotion::push(std::size_t weight, double velocityChange, double drag) {
@@ -141,6 +149,11 @@ Kinematics RegionalMotion::sample(std::size_t region, std::size_t weight) const 
 void RegionalMotion::positions(std::span<double> out) const noexcept {
   for (std::size_t r = 0; r < states_.size(); ++r)
     states_[r].positions(out.subspan(std::min(out.size(), r * size())));
+}
+
+void RegionalMotion::velocities(std::span<double> out) const noexcept {
+  for (std::size_t r = 0; r < states_.size(); ++r)
+    states_[r].velocities(out.subspan(std::min(out.size(), r * size())));
 }
 
 }  // namespace sweepface

@@ -57,8 +57,9 @@ path::Swing::Decay path::Swing::decay(double t) const noexcept {
     s = c * t;
   } else if (difference > 0) {
     const auto [sine, cosine] = ode::sineCosine(angle);
-    c = ode::exponential(-sigma * t) * cosine;
-    s = ode::exponential(-sigma * t) * sine / w;
+    const double shrink = ode::exponential(-sigma * t);
+    c = shrink * cosine;
+    s = shrink * sine / w;
   } else {
     // σ − w loses its digits when w is nearly σ; ω² / (σ + w) does not.
     const double slow = ode::exponential(-omega * omega / (sigma + w) * t);
@@ -70,11 +71,8 @@ path::Swing::Decay path::Swing::decay(double t) const noexcept {
 }
 
 Kinematics path::Swing::at(double t) const noexcept {
-  const auto [c, s] = decay(t);
-  const double y = x - goal, pull = omega * omega;
-  const double position = c * y + s * (v + sigma * y),
-               velocity = c * v - s * (sigma * v + pull * y);
-  return {goal + position, velocity, -2 * sigma * velocity - pull * position};
+  const Kinematics way = wayAfter(decay(t), {x - goal, v});
+  return {goal + way.position, way.velocity, way.acceleration};
 }
 
 // Bounce n leaves the goal with speed eⁿ v and lasts 2 eⁿ v / a: the times form a geometric series.

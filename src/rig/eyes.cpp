@@ -122,9 +122,9 @@ Vec3 turned(const Quaternion& by, const Vec3& v) {
 // ---- Clips ----
 
 ClipAngles::ClipAngles(const Clip& clip) {
-  static const std::array<std::string, 9> names{"HeadYaw",     "HeadPitch",     "HeadRoll",
-                                                "LeftEyeYaw",  "LeftEyePitch",  "LeftEyeRoll",
-                                                "RightEyeYaw", "RightEyePitch", "RightEyeRoll"};
+  const std::array<std::string, 9> names{"HeadYaw",     "HeadPitch",     "HeadRoll",
+                                         "LeftEyeYaw",  "LeftEyePitch",  "LeftEyeRoll",
+                                         "RightEyeYaw", "RightEyePitch", "RightEyeRoll"};
   columns_.fill(-1);
   const ClipMatch match = matchClip(clip, names);
   for (std::size_t k = 0; k < match.targets.size(); ++k)

@@ -49,6 +49,15 @@ TEST_F(PlayClip, PlaysATimeline) {
   EXPECT_EQ(frame(4), exported("smile=1"));
 }
 
+TEST_F(PlayClip, SaysWhatMatchesNothingEvenWhenQuiet) {
+  convertRig();
+  write("take.csv", "Timecode,JawOpen,Beard\n0,0,1\n0.1,1,1\n");
+  const Outcome r = run("animate face.sweep --clip take.csv --quiet -o take.glb");
+  EXPECT_EQ(r.code, 0);
+  EXPECT_EQ(r.out, "");
+  EXPECT_NE(r.err.find("1 of 2 names drive no target of the face: Beard."), std::string::npos);
+}
+
 TEST_F(PlayClip, GivesAGlbAKeyAFrameOnRequest) {
   convertRig();
   write("take.csv", "Timecode,JawOpen\n0,0\n0.1,1\n0.3,0.5\n");

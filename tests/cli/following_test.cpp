@@ -97,5 +97,22 @@ TEST_F(Following, TheFileMayTellWhatTurns) {
   EXPECT_LE(size - contents(folder / "plain.sweep").size(), 12 + 1 + 25u);
 }
 
+TEST_F(Following, PicturesGoOnArcsAndShowWhatTheyChange) {
+  convertWith({{"jawOpen", [](const Vec3& p) { return turnedAboutX(p, 30); }}});
+  const auto picture = [&](const std::string& options) {
+    const Outcome r = run("render face.sweep -o out.png --view side --size 160x120 " + options);
+    EXPECT_EQ(r.code, 0) << r.err;
+    return contents(folder / "out.png");
+  };
+  EXPECT_NE(picture("--weights jawOpen=0.5"), picture("--weights jawOpen=0.5 --arcs on"));
+  EXPECT_EQ(picture("--weights jawOpen=1"), picture("--weights jawOpen=1 --arcs on"));
+  EXPECT_NE(picture("--to jawOpen=1"), picture("--to jawOpen=1 --arcs on"));
+  EXPECT_NE(picture("--weights jawOpen=0.5 --arcs on --style error"),
+            picture("--weights jawOpen=1 --arcs on --style error"));
+  const Outcome both = run("render face.sweep -o out.png --arcs on --compare neutral.obj");
+  EXPECT_EQ(both.code, 1);
+  EXPECT_NE(both.err.find("leave --compare out"), std::string::npos) << both.err;
+}
+
 }  // namespace
 }  // namespace sweepface

@@ -49,6 +49,19 @@ TEST_F(Render, FollowsWeightsViewAndLod) {
   EXPECT_EQ(rendered("--view -360,0").empty(), false);
 }
 
+TEST_F(Render, GoesClose) {
+  convertRig();
+  const auto rendered = [&](const std::string& more) {
+    EXPECT_EQ(run("render face.sweep -o out.png --size 100x100 -q " + more).code, 0) << more;
+    return contents(folder / "out.png");
+  };
+  EXPECT_NE(rendered("--close smile"), rendered(""));
+  EXPECT_NE(rendered("--close smile --to smile=1"), rendered("--to smile=1"));
+  const Outcome r = run("render face.sweep -o out.png --close beard");
+  EXPECT_EQ(r.code, 1);
+  EXPECT_NE(r.err.find("beard"), std::string::npos) << r.err;
+}
+
 TEST_F(Render, PutsViewsBesideEachOther) {
   convertRig();
   ASSERT_EQ(run("render face.sweep -o out.png --views front,side,-30,10").code, 0);

@@ -447,33 +447,54 @@ bool sameBits(const std::vector<float>& a, const std::vector<float>& b) {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), 4 * a.size()) == 0;
 }
 
-TEST(Kernels, giveTheSameBitsOnEveryInstructionSet) {
-  for (const Rig& rig : everyRig()) {
-    const auto evaluator = Evaluator::make(rig).value();
-    const Index all = evaluator.vertexCount();
-    const Played right = playWith(evaluator, plain::evaluatePositions, plain::evaluateNormals);
-    const auto check = [&] {
-      const Played fast = playWith(
-          evaluator,
-          [&](const TileRange& tiles, const FrameWeights& frame, const VectorsOut& out) {
-            evaluatePositions(tiles, frame, out, all);
-          },
-          [&](const TileRange& tiles, const FrameWeights& frame, const VectorsOut& normals,
-              const VectorsOut& tangents) {
-            evaluateNormals(tiles, frame, normals, tangents, all);
-          });
-      EXPECT_TRUE(sameBits(fast.positions, right.positions));
-      EXPECT_TRUE(sameBits(fast.normals, right.normals));
-      EXPECT_TRUE(sameBits(fast.tangents, right.tangents));
-    };
+/// On every instruction set what the plain kernels say.
+void expectSameBits(const Evaluator& evaluator) {
+  const Index all = evaluator.vertexCount();
+  const Played right = playWith(evaluator, plain::evaluatePositions, plain::evaluateNormals);
+  const auto check = [&] {
+    const Played fast = playWith(
+        evaluator,
+        [&](const TileRange& tiles, const FrameWeights& frame, const VectorsOut& out) {
+          evaluatePositions(tiles, frame, out, all);
+        },
+        [&](const TileRange& tiles, const FrameWeights& frame, const VectorsOut& normals,
+            const VectorsOut& tangents) { evaluateNormals(tiles, frame, normals, tangents, all); });
+    EXPECT_TRUE(sameBits(fast.positions, right.positions));
+    EXPECT_TRUE(sameBits(fast.normals, right.normals));
+    EXPECT_TRUE(sameBits(fast.tangents, right.tangents));
+  };
 #ifdef SWEEPFACE_SIMD
-    for (std::int64_t left = hwy::SupportedTargets(); left != 0; left &= left - 1) {
-      hwy::SetSupportedTargetsForTest(left & -left);
-      check();
-    }
-    hwy::SetSupportedTargetsForTest(0);
-#endif
+  for (std::int64_t left = hwy::SupportedTargets(); left != 0; left &= left - 1) {
+    hwy::SetSupportedTargetsForTest(left & -left);
     check();
+  }
+  hwy::SetSupportedTargetsForTest(0);
+#endif
+  check();
+}
+
+TEST(Kernels, giveTheSameBitsOnEveryInstructionSet) {
+  for (const Rig& rig : everyRig()) expectSameBits(Evaluator::make(rig).value());
+}
+
+// Weights are looked up in runs of 64: none, a few, more than are looked at together, too many.
+TEST(Kernels, giveTheSameBitsForAnyNumberOfRegions) {
+  const Rig& rig = convertedRigs().front();
+  const std::size_t stored = static_cast<std::size_t>(rig.surface.storedCount()),
+                    targets = rig.targets.size();
+  std::mt19937 random(4);
+  std::uniform_real_distribution<float> uniform(0.1f, 1);
+  for (const std::size_t weights : {60, 130, 256, 500, 4200}) {
+    EvaluatorOptions options;
+    options.tolerance = 1e-4;
+    options.influences.resize(weights / targets + 1, std::vector<float>(stored));
+    for (auto& region : options.influences)
+      std::ranges::generate(region, [&] { return uniform(random); });
+    expectSameBits(Evaluator::make(rig, options).value());
+    for (std::size_t r = 0; r < options.influences.size(); ++r)  // each somewhere else
+      for (std::size_t v = 0; v < stored; ++v)
+        if (v * options.influences.size() / stored != r) options.influences[r][v] = 0;
+    expectSameBits(Evaluator::make(rig, options).value());
   }
 }
 

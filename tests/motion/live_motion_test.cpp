@@ -128,7 +128,7 @@ TEST(Drive, NamesGoBothWays) {
   EXPECT_NE(driveFromName("jump").error().message.find("accelerate-brake"), std::string::npos);
 }
 
-// Springs are kept apart for speed; what is read of them must be the same, to the bit.
+// Springs are read together for speed; what is read of them must be the same, to the bit.
 TEST(MotionState, AllAtOnceIsEachAlone) {
   auto state = MotionState::make(std::vector<double>(5, 0.0));
   ASSERT_TRUE(state);
@@ -151,6 +151,31 @@ TEST(MotionState, AllAtOnceIsEachAlone) {
     state->advance(random() % 2 == 0 ? 0.1 * uniform(random) : 0);
     state->positions(all);
     for (std::size_t w = 0; w < all.size(); ++w) EXPECT_EQ(all[w], state->sample(w).position);
+  }
+}
+
+// Springs that begin again where another sets out share what follows; time must not notice.
+TEST(MotionState, HoweverTimeIsCutSpringsAreInTheSamePlace) {
+  std::mt19937 random(17);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  constexpr std::size_t kWeights = 6;
+  MotionState whole = still(kWeights), cut = still(kWeights);
+  for (int i = 0; i < 2000; ++i) {
+    Drive next = drive(Drive::Kind::spring);
+    next.spring = {random() % 2 == 0 ? 2.0 : 3.0, random() % 2 == 0 ? 1 : 0.4};
+    next.delay = random() % 3 == 0 ? 0.2 * uniform(random) : 0;
+    const std::size_t weight = random() % kWeights;
+    const double goal = uniform(random), seconds = 0.1 * uniform(random);
+    ASSERT_TRUE(whole.moveTo(weight, goal, next));
+    ASSERT_TRUE(cut.moveTo(weight, goal, next));
+    whole.advance(seconds);
+    const double middle = seconds * uniform(random);
+    cut.advance(middle);
+    cut.advance(seconds - middle);
+    for (std::size_t k = 0; k < kWeights; ++k) {
+      ASSERT_NEAR(whole.sample(k).position, cut.sample(k).position, 1e-12) << i;
+      ASSERT_NEAR(whole.sample(k).velocity, cut.sample(k).velocity, 1e-11) << i;
+    }
   }
 }
 

@@ -69,3 +69,17 @@ test('a disposed mesh gives its face back', options, async () => {
   mesh.dispose();
   assert.throws(() => mesh.face.names, {message: 'The face was disposed of.'});
 });
+
+test('clips and timelines play on a mesh as well', options, async () => {
+  const {ClipPlayer, readClip, readTimeline, TimelinePlayer} = await import('../sweepface_clips.js');
+  const mesh = await load(), {position} = mesh.geometry.attributes, player = new ClipPlayer(mesh, readClip('Timecode,JawOpen\n0,0\n1,1'));
+  player.seek(0.5);
+  mesh.update();
+  assert.equal(mesh.face.weights.jawOpen, 0.5);
+  const {version} = position;
+  const scene = new TimelinePlayer(mesh, readTimeline('{"seconds": 1, "events": [{"at": 0.1, "to": {"jawOpen": 0}, "drive": "cut"}]}'));
+  assert.equal(scene.advance(0.2), true);
+  mesh.update();
+  assert.equal(mesh.face.weights.jawOpen, 0);
+  assert.ok(position.version > version);
+});

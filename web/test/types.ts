@@ -40,3 +40,16 @@ export async function onTheCard(bytes: ArrayBuffer): Promise<number> {
   mesh.update(1 / 60);
   return mesh.textureBytes + mesh.frameBytes + SWEEPFACE_GLSL.length;
 }
+
+import {type Clip, ClipPlayer, readClip, readTimeline, TimelinePlayer} from 'sweepface/clips';
+
+export async function useClips(bytes: ArrayBuffer, csv: string): Promise<void> {
+  const timeline = readTimeline(csv), clip: Clip = readClip(csv, {framesPerSecond: 30}).smooth();
+  const face = await Sweepface.load(bytes, {regions: timeline.regions ?? [{name: 'cheeks', points: [[1, 2, 3]], fade: 3, over: 'space', mass: 4}], eyes: true});
+  if (face.eyeCount > 0) face.look({leftEye: {yaw: 0.1}});
+  face.look(null);
+  const player = new ClipPlayer(face, clip), head = player.seek(0.5);
+  face.moveTo({jawOpen: 1}, {seconds: 1}, face.regions[0]);
+  face.setWeights(face.weightsIn('cheeks'), 'cheeks');
+  console.log(player.match.unmatched, head?.yaw, new TimelinePlayer(face, timeline).advance(0.1));
+}

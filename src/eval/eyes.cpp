@@ -1,13 +1,12 @@
 #include <algorithm>
+#include <functional>
 
 #include "sweepface/head.hpp"
 
-#include "fit/balls.hpp"
+#include "eval/balls.hpp"
 
 namespace sweepface {
 namespace {
-
-using Vector = Eigen::Vector3d;
 
 constexpr double kSameCentre = 0.3;  // between balls of one eye, of the radius
 constexpr double kInside = 0.99;     // what lies in a ball, of its radius
@@ -23,9 +22,8 @@ class EyeFinder {
   explicit EyeFinder(const Rig& rig) : rig_(rig), grid_(rig.surface, 1), parts_(partsOf(grid_)) {
     const std::vector<Vec3> positions = grid_.positions(blend(rig, {}));
     for (const Part& part : parts_) {
-      std::vector<Vector>& points = points_.emplace_back();
-      for (const Index v : part)
-        points.emplace_back(positions[v].x, positions[v].y, positions[v].z);
+      std::vector<Vec3>& points = points_.emplace_back();
+      for (const Index v : part) points.push_back(positions[v]);
     }
   }
 
@@ -51,7 +49,7 @@ class EyeFinder {
     std::ranges::sort(found, std::greater(), [](const Eyeball& e) { return e.ball.radius; });
     for (Eyeball& next : found) {
       const auto same = std::ranges::find_if(eyeballs_, [&](const Eyeball& known) {
-        return (known.ball.centre - next.ball.centre).norm() < kSameCentre * known.ball.radius;
+        return norm(known.ball.centre - next.ball.centre) < kSameCentre * known.ball.radius;
       });
       if (same == eyeballs_.end())
         eyeballs_.push_back(std::move(next));
@@ -64,15 +62,15 @@ class EyeFinder {
     for (std::size_t p = 0; p < parts_.size(); ++p)
       for (Eyeball& eye : eyeballs_)
         if (std::ranges::find(eye.parts, p) == eye.parts.end() &&
-            std::ranges::all_of(points_[p], [&](const Vector& point) {
-              return (point - eye.ball.centre).norm() < kInside * eye.ball.radius;
+            std::ranges::all_of(points_[p], [&](const Vec3& point) {
+              return norm(point - eye.ball.centre) < kInside * eye.ball.radius;
             }))
           eye.parts.push_back(p);
   }
 
   Eye eyeOf(const Eyeball& eyeball) const {
-    const Vector& c = eyeball.ball.centre;
-    Eye eye{c.x() >= 0 ? "eyeLeft" : "eyeRight", {c.x(), c.y(), c.z()}, eyeball.ball.radius, {}};
+    const Vec3& c = eyeball.ball.centre;
+    Eye eye{c.x >= 0 ? "eyeLeft" : "eyeRight", c, eyeball.ball.radius, {}};
     std::vector<bool> isOurs(grid_.vertexCount(), false);
     for (const std::size_t p : eyeball.parts)
       for (const Index v : parts_[p]) isOurs[v] = true;
@@ -89,7 +87,7 @@ class EyeFinder {
   const Rig& rig_;
   Tessellation grid_;
   std::vector<Part> parts_;
-  std::vector<std::vector<Vector>> points_;  // [parts]
+  std::vector<std::vector<Vec3>> points_;  // [parts]
   std::vector<Eyeball> eyeballs_;
 };
 

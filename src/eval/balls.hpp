@@ -1,6 +1,5 @@
 #pragma once
 
-#include <Eigen/Dense>
 #include <optional>
 #include <span>
 #include <vector>
@@ -14,11 +13,11 @@ using Part = std::vector<Index>;
 std::vector<Part> partsOf(const Tessellation& grid);
 
 struct Ball {
-  Eigen::Vector3d centre;
+  Vec3 centre;
   double radius = 0;
 };
 
 /// The ball that points lie on, if they are most of one.
-std::optional<Ball> ballOf(std::span<const Eigen::Vector3d> points);
+std::optional<Ball> ballOf(std::span<const Vec3> points);
 
 }  // namespace sweepface

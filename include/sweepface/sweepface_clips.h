@@ -1,0 +1,76 @@
+/* Clips for faces (docs/clips.md). Of the library that converts, since they are other programs'
+ * files: link sweepface::convert. What sweepface.h says holds here as well. */
+#ifndef SWEEPFACE_SWEEPFACE_CLIPS_H
+#define SWEEPFACE_SWEEPFACE_CLIPS_H
+
+#include "sweepface/sweepface_head.h"
+#include "sweepface/sweepface_regions.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- Regions as text ---- */
+
+/* Divides the face by the `regions` of a JSON text, which may be a timeline (docs/regions.md), for
+ * meshes made from now on. Without any the face is of one piece. `name` is what messages call the
+ * text; NULL: "The text". */
+SWEEPFACE_API sweepface_status sweepface_rig_divide_by(sweepface_rig* rig, const void* text,
+                                                       size_t size, const char* name);
+/* How a region moves; as it said there, or else {1, 1, 0}. */
+SWEEPFACE_API sweepface_status sweepface_rig_region_matter(const sweepface_rig* rig,
+                                                           uint32_t region,
+                                                           sweepface_matter* matter);
+
+/* ---- Clips ---- */
+
+/* Weights over time for the targets of a rig. Never changes but by sweepface_clip_smooth: any number
+ * of threads may read it. */
+typedef struct sweepface_clip sweepface_clip;
+
+/* How a clip is read. */
+typedef struct sweepface_clip_options {
+  double frames_per_second; /* of the timecodes of a CSV */
+  int32_t smooth;           /* takes a tracker's noise out, by the one-euro filter */
+  double frequency;         /* of the spring on which heavy regions hang, */
+  double damping;           /* and its damping */
+} sweepface_clip_options;
+
+/* The usual numbers. */
+SWEEPFACE_API sweepface_clip_options sweepface_clip_usual_options(void);
+
+/* Reads a clip from memory, which may be reused afterwards: a CSV of Live Link Face, a JSON of
+ * MediaPipe or Audio2Face, a timeline (JSON) or the first animation of a .glb that has weights; told
+ * apart by what they hold. Names are matched with the rig's targets; none that matches is an error.
+ * `options` may be NULL; `name` is what messages call it, NULL: "The clip". */
+SWEEPFACE_API sweepface_status sweepface_clip_read(const sweepface_rig* rig, const void* bytes,
+                                                   size_t size, const char* name,
+                                                   const sweepface_clip_options* options,
+                                                   sweepface_clip** clip);
+SWEEPFACE_API void sweepface_clip_free(sweepface_clip* clip);
+
+SWEEPFACE_API double sweepface_clip_seconds(const sweepface_clip* clip);
+/* Names of the clip that drive no target, and targets that nothing drives, counted from 0; NULL
+ * where there are no more. They belong to the clip. Angles of the head and the eyes are neither. */
+SWEEPFACE_API const char* sweepface_clip_unmatched(const sweepface_clip* clip, uint32_t index);
+SWEEPFACE_API const char* sweepface_clip_undriven(const sweepface_clip* clip, uint32_t index);
+
+/* The weights at so many seconds after the first frame, straight between frames and held at the
+ * ends: `count` of [regions x targets], of the regions that the rig had when the clip was read. */
+SWEEPFACE_API sweepface_status sweepface_clip_weights(const sweepface_clip* clip, double seconds,
+                                                      double* out, size_t count);
+
+/* ---- Eyes and head ---- */
+
+/* Whether a clip has any angles of the head, and of the eyes. */
+SWEEPFACE_API int32_t sweepface_clip_has_head(const sweepface_clip* clip);
+SWEEPFACE_API int32_t sweepface_clip_has_eyes(const sweepface_clip* clip);
+/* All angles at a time; what the clip lacks is 0. */
+SWEEPFACE_API sweepface_status sweepface_clip_pose(const sweepface_clip* clip, double seconds,
+                                                   sweepface_pose* pose);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,36 @@
+/* Eyes and heads that turn (docs/eyes.md). What sweepface.h says holds here as well. */
+#ifndef SWEEPFACE_SWEEPFACE_HEAD_H
+#define SWEEPFACE_SWEEPFACE_HEAD_H
+
+#include "sweepface/sweepface.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Angles in radians, right-handed: yaw about y, positive to the face's left, pitch about x, down,
+ * and roll about z, to its right. */
+typedef struct sweepface_angles {
+  double yaw, pitch, roll;
+} sweepface_angles;
+
+typedef struct sweepface_pose {
+  sweepface_angles head, left_eye, right_eye;
+} sweepface_pose;
+
+/* x, y, z and w of the quaternion that turns the model so: by Ry * Rx * Rz. */
+SWEEPFACE_API void sweepface_rotation(const sweepface_angles* angles, double quaternion[4]);
+
+/* From now on eyeballs turn rigidly about their centres. To be said before the rig has meshes, after
+ * sweepface_rig_follow. Writes how many there are, which may be none. */
+SWEEPFACE_API sweepface_status sweepface_rig_turn_eyes(sweepface_rig* rig, uint32_t* eyes);
+/* How the eyes stand, whatever the head does; NULL, as at the start: by the weights of eyeLook
+ * targets. */
+SWEEPFACE_API sweepface_status sweepface_face_look(sweepface_face* face,
+                                                   const sweepface_pose* pose);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

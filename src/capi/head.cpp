@@ -1,0 +1,53 @@
+#include "sweepface/head.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sweepface/sweepface_head.h"
+
+#include "capi/handles.hpp"
+#include "capi/message.hpp"
+
+using namespace sweepface;
+using namespace sweepface::capi;
+
+namespace {
+
+struct Turner final : EyeTurner {
+  EyeTurns turns;
+  void apply(const HeadPose* pose, std::span<double> weights) const override {
+    pose ? turns.apply(*pose, weights) : turns.apply(weights);
+  }
+};
+
+Angles anglesOf(const sweepface_angles& a) { return {a.yaw, a.pitch, a.roll}; }
+bool isFinite(const sweepface_angles& a) { return std::isfinite(a.yaw + a.pitch + a.roll); }
+
+}  // namespace
+
+void sweepface_rotation(const sweepface_angles* angles, double quaternion[4]) {
+  if (angles && quaternion) std::ranges::copy(quaternionOf(anglesOf(*angles)), quaternion);
+}
+
+sweepface_status sweepface_rig_turn_eyes(sweepface_rig* rig, uint32_t* eyes) {
+  if (!rig || !eyes) return refuse("Turning eyes needs a rig and a place for their number.");
+  if (rig->eyes) return refuse("The eyes turn already.");
+  if (rig->rig.use_count() > 1)
+    return refuse("Eyes must turn before a rig has meshes; free them, or load it again.");
+  const std::vector<Eye> found = findEyes(*rig->rig);
+  *eyes = static_cast<uint32_t>(found.size());
+  if (found.empty()) return SWEEPFACE_OK;
+  auto turner = std::make_shared<Turner>();
+  turner->turns = EyeTurns::addTo(*rig->rig, found);
+  rig->eyes = std::move(turner);
+  return SWEEPFACE_OK;
+}
+
+sweepface_status sweepface_face_look(sweepface_face* face, const sweepface_pose* pose) {
+  if (!face) return refuse("Looking needs a face.");
+  if (pose && (!isFinite(pose->left_eye) || !isFinite(pose->right_eye)))
+    return refuse("The angles of eyes must be finite numbers.");
+  face->looks.reset();
+  if (pose) face->looks = {{}, anglesOf(pose->left_eye), anglesOf(pose->right_eye)};
+  return SWEEPFACE_OK;
+}

@@ -1,0 +1,202 @@
+// The part of the C interface that reads other programs' files (sweepface_clips.h). Only here does
+// it link what converts.
+#include <algorithm>
+
+#include "sweepface/filter.hpp"
+#include "sweepface/gltf.hpp"
+#include "sweepface/region_file.hpp"
+#include "sweepface/sweepface_clips.h"
+#include "sweepface/timeline.hpp"
+
+#include "capi/handles.hpp"
+#include "capi/message.hpp"
+#include "io/text.hpp"
+
+using namespace sweepface;
+using namespace sweepface::capi;
+
+struct sweepface_clip {
+  std::vector<Clip> ofRegions;  // [R]
+  ClipMatch match;
+  ClipAngles angles;
+  std::size_t targets;
+};
+
+namespace {
+
+// ---- Regions ----
+
+std::shared_ptr<const Division> divisionOf(const Rig& rig, const std::vector<Region>& regions) {
+  auto division = std::make_shared<Division>();
+  for (const Region& region : regions) {
+    division->names.push_back(region.name);
+    division->matters.push_back(region.matter);
+  }
+  division->influences = influencesOf(rig.surface, regions);
+  return division;
+}
+
+Matter matterOf(const Division& division, std::size_t region) {
+  return region < division.matters.size() ? division.matters[region] : Matter{};
+}
+
+std::string_view nameOf(const Division& division, std::size_t region) {
+  return region < division.names.size() ? division.names[region] : std::string_view();
+}
+
+// ---- Clips ----
+
+/// Timelines are baked so finely that frames between theirs are as good as exact.
+constexpr double kTimelineRate = 240;
+
+enum class Kind { csv, capture, timeline, gltf };
+
+Kind kindOf(std::string_view bytes) {
+  if (bytes.starts_with("glTF")) return Kind::gltf;
+  const std::string_view text = io::trimmed(bytes);
+  if (!text.starts_with('{') && !text.starts_with('[')) return Kind::csv;
+  return text.find("\"events\"") == std::string_view::npos ? Kind::capture : Kind::timeline;
+}
+
+Result<Clip> readCapture(Kind kind, std::string_view bytes, const char* name,
+                         const sweepface_clip_options& options) {
+  auto clip = kind == Kind::gltf      ? parseGltfClip(bytes, name, {}, "")
+              : kind == Kind::capture ? parseClipJson(bytes, name)
+                                      : parseLiveLinkCsv(bytes, name, options.frames_per_second);
+  if (clip && options.smooth) smooth(*clip);
+  return clip;
+}
+
+/// The clip as every region of the rig plays it.
+Result<std::vector<Clip>> readForRegions(const Division& division, std::string_view bytes,
+                                         const char* name, const sweepface_clip_options& options) {
+  const Kind kind = kindOf(bytes);
+  std::vector<Clip> clips;
+  if (kind != Kind::timeline) {
+    const auto capture = readCapture(kind, bytes, name, options);
+    if (!capture) return std::unexpected(capture.error());
+    for (std::size_t r = 0; r < division.count(); ++r)
+      clips.push_back(
+          inMatter(*capture, matterOf(division, r), {options.frequency, options.damping}));
+    return clips;
+  }
+  const auto timeline = parseTimeline(bytes, name);
+  if (!timeline) return std::unexpected(timeline.error());
+  for (const TimelineEvent& event : timeline->events)
+    if (!event.region.empty() &&
+        std::ranges::find(division.names, event.region) == division.names.end())
+      return fail(name, ": an event is for a region '", event.region, "' that there is not.");
+  for (std::size_t r = 0; r < division.count(); ++r) {
+    auto clip = bake(*timeline, kTimelineRate, nameOf(division, r), matterOf(division, r));
+    if (!clip) return std::unexpected(clip.error());
+    clips.push_back(std::move(*clip));
+  }
+  return clips;
+}
+
+std::vector<std::string> shownTargets(const sweepface_rig& rig) {
+  std::vector<std::string> names;
+  for (std::size_t t = 0; t < rig.shown; ++t) names.push_back(rig.rig->targets[t].name);
+  return names;
+}
+
+bool isAngle(const std::string& name) {
+  const ClipAngles angles(Clip{{name}, {}, {}});
+  return angles.head() || angles.eyes();
+}
+
+const char* nameAt(const std::vector<std::string>& names, uint32_t index) {
+  return index < names.size() ? names[index].c_str() : nullptr;
+}
+
+sweepface_angles anglesOf(const Angles& a) { return {a.yaw, a.pitch, a.roll}; }
+
+}  // namespace
+
+sweepface_status sweepface_rig_divide_by(sweepface_rig* rig, const void* text, size_t size,
+                                         const char* name) {
+  if (!rig || (!text && size > 0)) return refuse("Dividing a face needs a rig and a text.");
+  const char* const called = name ? name : "The text";
+  const auto painted = parseRegions({static_cast<const char*>(text), size}, called);
+  if (!painted) return refuse(SWEEPFACE_BAD_DATA, painted.error().message);
+  if (painted->empty()) return sweepface_rig_divide(rig, nullptr, nullptr, 0);
+  const auto regions = paintRegions(*rig->rig, *painted);
+  if (!regions) return refuse(called, ": ", regions.error().message);
+  rig->division = divisionOf(*rig->rig, *regions);
+  return SWEEPFACE_OK;
+}
+
+sweepface_status sweepface_rig_region_matter(const sweepface_rig* rig, uint32_t region,
+                                             sweepface_matter* matter) {
+  if (!rig || !matter) return refuse("A region's matter needs a rig and a place for it.");
+  if (region >= rig->division->count()) return noSuch("region", region, rig->division->count());
+  const Matter found = matterOf(*rig->division, region);
+  *matter = {found.mass, found.stiffness, found.delay};
+  return SWEEPFACE_OK;
+}
+
+sweepface_clip_options sweepface_clip_usual_options(void) {
+  const Spring hold;
+  return {60, 0, hold.frequency, hold.damping};
+}
+
+sweepface_status sweepface_clip_read(const sweepface_rig* rig, const void* bytes, size_t size,
+                                     const char* name, const sweepface_clip_options* options,
+                                     sweepface_clip** clip) {
+  if (!rig || !clip || (!bytes && size > 0))
+    return refuse("Reading a clip needs a rig, bytes and a place for it.");
+  const char* const called = name ? name : "The clip";
+  auto clips = readForRegions(*rig->division, {static_cast<const char*>(bytes), size}, called,
+                              options ? *options : sweepface_clip_usual_options());
+  if (!clips) return refuse(SWEEPFACE_BAD_DATA, std::move(clips.error().message));
+  ClipMatch match = matchClip(clips->front(), shownTargets(*rig));
+  if (match.undriven.size() == rig->shown)
+    return refuse(SWEEPFACE_BAD_DATA, std::string(called) + ": none of its " +
+                                          std::to_string(clips->front().names.size()) +
+                                          " names is a target of the face.");
+  std::erase_if(match.unmatched, isAngle);
+  const ClipAngles angles(clips->front());
+  *clip = new sweepface_clip{std::move(*clips), std::move(match), angles, rig->shown};
+  return SWEEPFACE_OK;
+}
+
+void sweepface_clip_free(sweepface_clip* clip) { delete clip; }
+
+double sweepface_clip_seconds(const sweepface_clip* clip) {
+  return clip ? clip->ofRegions.front().seconds() : 0;
+}
+
+const char* sweepface_clip_unmatched(const sweepface_clip* clip, uint32_t index) {
+  return clip ? nameAt(clip->match.unmatched, index) : nullptr;
+}
+
+const char* sweepface_clip_undriven(const sweepface_clip* clip, uint32_t index) {
+  return clip ? nameAt(clip->match.undriven, index) : nullptr;
+}
+
+sweepface_status sweepface_clip_weights(const sweepface_clip* clip, double seconds, double* out,
+                                        size_t count) {
+  if (!clip || (!out && count > 0)) return refuse("Reading a clip needs one and a place.");
+  const std::size_t all = clip->ofRegions.size() * clip->targets;
+  if (count > all) return refuse("The clip has only ", all, " weights, not ", count, ".");
+  std::vector<double> own(clip->ofRegions.front().names.size()), weights(clip->targets);
+  for (std::size_t r = 0, first = 0; first < count; ++r, first += clip->targets) {
+    clip->ofRegions[r].at(seconds, own);
+    clip->match.spread(own, weights);
+    std::copy_n(weights.begin(), std::min(clip->targets, count - first), out + first);
+  }
+  return SWEEPFACE_OK;
+}
+
+int32_t sweepface_clip_has_head(const sweepface_clip* clip) { return clip && clip->angles.head(); }
+int32_t sweepface_clip_has_eyes(const sweepface_clip* clip) { return clip && clip->angles.eyes(); }
+
+sweepface_status sweepface_clip_pose(const sweepface_clip* clip, double seconds,
+                                     sweepface_pose* pose) {
+  if (!clip || !pose) return refuse("A pose needs a clip and a place for it.");
+  std::vector<double> own(clip->ofRegions.front().names.size());
+  clip->ofRegions.front().at(seconds, own);
+  const HeadPose found = clip->angles.of(own);
+  *pose = {anglesOf(found.head), anglesOf(found.leftEye), anglesOf(found.rightEye)};
+  return SWEEPFACE_OK;
+}

@@ -1,0 +1,162 @@
+#include <algorithm>
+#include <cmath>
+#include <gtest/gtest.h>
+
+#include "sweepface/clip.hpp"
+#include "sweepface/filter.hpp"
+#include "sweepface/head.hpp"
+#include "sweepface/sweepface_clips.h"
+#include "sweepface/timeline.hpp"
+
+#include "codec/rigs.hpp"
+
+namespace sweepface {
+namespace {
+
+using namespace testing;
+
+constexpr std::string_view kCsv =
+    "Timecode,BlendshapeCount,Open,Rest,TongueOut,HeadYaw,HeadPitch,HeadRoll,LeftEyeYaw\n"
+    "00:00:00:00.0,52,0,1,0.5,0.1,0.2,0.3,0.4\n"
+    "00:00:00:30.0,52,1,0.5,0.5,0.3,0.2,0.1,0\n"
+    "00:00:01:00.0,52,0.2,0,0.5,0,0,0,0\n";
+constexpr std::string_view kTimeline = R"({
+  "seconds": 2,
+  "events": [{"at": 0, "to": {"open": 1}, "drive": "accelerate-brake", "seconds": 1},
+             {"at": 0.5, "to": {"rest": 1}, "region": "part"}],
+  "regions": [{"name": "part", "nodes": {"0": 1, "2": 0.25}, "mass": 4, "delay": 0.25}]
+})";
+
+/// A face with the targets open, "wink é" and rest.
+class Clips : public ::testing::Test {
+ protected:
+  Clips() : rig(dressed(makeRig(tee()))) {
+    const std::string bytes = encode(rig);
+    EXPECT_EQ(sweepface_rig_load(bytes.data(), bytes.size(), "tee", &handle), SWEEPFACE_OK);
+  }
+  ~Clips() override {
+    sweepface_clip_free(clip);
+    sweepface_rig_free(handle);
+  }
+
+  sweepface_status read(std::string_view text, const sweepface_clip_options* options = nullptr) {
+    sweepface_clip_free(std::exchange(clip, nullptr));
+    return sweepface_clip_read(handle, text.data(), text.size(), "take", options, &clip);
+  }
+  std::vector<double> at(double seconds, std::size_t count = 3) {
+    std::vector<double> weights(count);
+    EXPECT_EQ(sweepface_clip_weights(clip, seconds, weights.data(), count), SWEEPFACE_OK);
+    return weights;
+  }
+  bool refuses(std::string_view text, std::string_view part) {
+    return read(text) == SWEEPFACE_BAD_DATA && clip == nullptr &&
+           std::string_view(sweepface_message()).find(part) != std::string_view::npos;
+  }
+
+  Rig rig;
+  sweepface_rig* handle = nullptr;
+  sweepface_clip* clip = nullptr;
+};
+
+TEST_F(Clips, GiveTheWeightsOfATime) {
+  ASSERT_EQ(read(kCsv), SWEEPFACE_OK) << sweepface_message();
+  EXPECT_EQ(sweepface_clip_seconds(clip), 1);
+  EXPECT_EQ(at(-1), (std::vector{0.0, 0.0, 1.0}));
+  EXPECT_EQ(at(0.25), (std::vector{0.5, 0.0, 0.75}));
+  EXPECT_EQ(at(9), (std::vector{0.2, 0.0, 0.0}));
+  EXPECT_EQ(at(0.5, 1), (std::vector{1.0}));
+}
+
+TEST_F(Clips, TellWhatMatchesNothing) {
+  ASSERT_EQ(read(kCsv), SWEEPFACE_OK);
+  EXPECT_STREQ(sweepface_clip_unmatched(clip, 0), "TongueOut");
+  EXPECT_EQ(sweepface_clip_unmatched(clip, 1), nullptr);
+  EXPECT_STREQ(sweepface_clip_undriven(clip, 0), "wink \xC3\xA9");
+  EXPECT_EQ(sweepface_clip_undriven(clip, 1), nullptr);
+}
+
+TEST_F(Clips, AreOfManyKinds) {
+  ASSERT_EQ(read(R"({"exportFps": 2, "facsNames": ["open"], "weightMat": [[0], [1]]})"),
+            SWEEPFACE_OK);
+  EXPECT_EQ(at(0.25)[0], 0.5);
+  ASSERT_EQ(read(R"( [{"timestampMs": 0, "categories": [{"categoryName": "Open", "score": 0.5}]},
+                      {"timestampMs": 500, "categories": []}])"),
+            SWEEPFACE_OK);
+  EXPECT_EQ(at(0.25)[0], 0.25);
+  EXPECT_TRUE(refuses("glTF\x02", "take"));
+}
+
+TEST_F(Clips, LoseTheirNoise) {
+  sweepface_clip_options options = sweepface_clip_usual_options();
+  options.smooth = 1;
+  ASSERT_EQ(read(kCsv, &options), SWEEPFACE_OK);
+  Clip same = *parseLiveLinkCsv(kCsv, "take");
+  smooth(same);
+  EXPECT_EQ(at(0.5)[0], same.weights[same.names.size()]);
+  options.frames_per_second = 0;
+  EXPECT_EQ(read(kCsv, &options), SWEEPFACE_BAD_DATA);
+}
+
+TEST_F(Clips, OfTimelinesGoByTheirRegions) {
+  EXPECT_TRUE(refuses(kTimeline, "an event is for a region 'part' that there is not"));
+  ASSERT_EQ(sweepface_rig_divide_by(handle, kTimeline.data(), kTimeline.size(), "scene"),
+            SWEEPFACE_OK)
+      << sweepface_message();
+  ASSERT_EQ(sweepface_rig_region_count(handle), 2U);
+  EXPECT_STREQ(sweepface_rig_region_name(handle, 1), "part");
+  sweepface_matter matter{};
+  ASSERT_EQ(sweepface_rig_region_matter(handle, 1, &matter), SWEEPFACE_OK);
+  EXPECT_EQ(matter.mass, 4);
+  EXPECT_EQ(matter.delay, 0.25);
+  ASSERT_EQ(read(kTimeline), SWEEPFACE_OK) << sweepface_message();
+  const auto timeline = *parseTimeline(kTimeline, "take");
+  const Clip rest = *bake(timeline, 240, "rest", {}),
+             part = *bake(timeline, 240, "part", {4, 1, 0.25});
+  for (const double time : {0.1, 0.5, 1.3, 2.0}) {
+    const std::vector<double> weights = at(time, 6);
+    std::vector<double> a(2), b(2);
+    rest.at(time, a), part.at(time, b);
+    EXPECT_EQ(weights, (std::vector{a[0], 0.0, a[1], b[0], 0.0, b[1]}));
+  }
+  EXPECT_EQ(at(2, 6)[2], 0);
+  EXPECT_GT(at(2, 6)[5], 0.5);
+  ASSERT_EQ(sweepface_rig_divide_by(handle, "{}", 2, nullptr), SWEEPFACE_OK);
+  EXPECT_EQ(sweepface_rig_region_count(handle), 1U);
+}
+
+TEST_F(Clips, HaveThePoseOfTheHead) {
+  ASSERT_EQ(read(kCsv), SWEEPFACE_OK);
+  EXPECT_TRUE(sweepface_clip_has_head(clip));
+  EXPECT_TRUE(sweepface_clip_has_eyes(clip));
+  sweepface_pose pose{};
+  ASSERT_EQ(sweepface_clip_pose(clip, 0, &pose), SWEEPFACE_OK);
+  EXPECT_EQ(pose.head.yaw, 0.1);
+  EXPECT_EQ(pose.head.roll, 0.3);
+  EXPECT_EQ(pose.left_eye.yaw, 0.4);
+  EXPECT_EQ(pose.right_eye.yaw, 0);
+  double found[4];
+  sweepface_rotation(&pose.head, found);
+  EXPECT_TRUE(std::ranges::equal(found, quaternionOf({0.1, 0.2, 0.3})));
+}
+
+TEST_F(Clips, AreRefusedWithASentence) {
+  EXPECT_TRUE(refuses("", "take is empty"));
+  EXPECT_TRUE(refuses("Timecode,Open\n0,x\n", "take line 2: 'x' in column 2"));
+  EXPECT_TRUE(refuses("{", "is not JSON"));
+  EXPECT_TRUE(refuses("Timecode,Beard\n0,1\n", "none of its 1 names is a target"));
+  double room[4];
+  EXPECT_EQ(sweepface_clip_weights(nullptr, 0, room, 1), SWEEPFACE_BAD_ARGUMENT);
+  ASSERT_EQ(read(kCsv), SWEEPFACE_OK);
+  EXPECT_EQ(sweepface_clip_weights(clip, 0, room, 4), SWEEPFACE_BAD_ARGUMENT);
+  EXPECT_EQ(sweepface_rig_divide_by(handle, "[", 1, nullptr), SWEEPFACE_BAD_DATA);
+  const std::string_view nowhere = R"({"regions": [{"name": "a", "parts": ["beard"]}]})";
+  EXPECT_EQ(sweepface_rig_divide_by(handle, nowhere.data(), nowhere.size(), "r.json"),
+            SWEEPFACE_BAD_ARGUMENT);
+  EXPECT_NE(std::string_view(sweepface_message()).find("r.json: "), std::string_view::npos);
+  EXPECT_EQ(sweepface_rig_region_count(handle), 1U);
+  sweepface_matter matter{};
+  EXPECT_EQ(sweepface_rig_region_matter(handle, 1, &matter), SWEEPFACE_BAD_ARGUMENT);
+}
+
+}  // namespace
+}  // namespace sweepface

@@ -1,0 +1,85 @@
+import type {Drive, Region, Sweepface, Weights} from './sweepface.js';
+
+/** A face, or a mesh of sweepface/three or sweepface/gpu. */
+type Playable = Pick<Sweepface, 'names' | 'eyeCount' | 'setWeights' | 'moveTo' | 'advance' | 'look'>;
+
+/** Which target each name of a clip drives. */
+export interface Match {
+  /** [names] indices of the targets. */
+  targets: number[][];
+  /** Names of the clip that drive nothing. */
+  unmatched: string[];
+  /** Targets that nothing drives. */
+  undriven: string[];
+}
+export function matchNames(names: string[], targets: string[]): Match;
+
+/** How the one-euro filter trades noise for lag, in hertz. */
+export interface OneEuro {
+  /** At rest: lower removes more noise. 1 unless given. */
+  cutoff?: number;
+  /** Per unit of speed: higher follows quick moves more closely. 2 unless given. */
+  speedGain?: number;
+  /** Of the speed's own filter. 1 unless given. */
+  speedCutoff?: number;
+}
+
+/** Weights over time. */
+export class Clip {
+  constructor(names: string[], times: Float64Array, weights: Float64Array);
+  readonly names: string[];
+  /** [frames] seconds, increasing. */
+  readonly times: Float64Array;
+  /** [frames × names] */
+  readonly weights: Float64Array;
+  readonly seconds: number;
+  /** The weights at so many seconds after the first frame, straight between frames and held at the ends. */
+  at(seconds: number, out?: Float64Array): Float64Array;
+  /** The clip without the noise of a tracker. */
+  smooth(settings?: OneEuro): Clip;
+}
+
+/** A capture: a CSV of Live Link Face, or a JSON of Audio2Face or MediaPipe. Throws a sentence about what is wrong. */
+export function readClip(source: string | BufferSource, options?: {name?: string; framesPerSecond?: number}): Clip;
+
+/** Plays a clip on a face. */
+export class ClipPlayer {
+  constructor(face: Playable, clip: Clip);
+  readonly face: Playable;
+  readonly clip: Clip;
+  readonly match: Match;
+  readonly seconds: number;
+  /** Sets the weights of a time, and turns eyes if the clip has their angles; returns the angles of the head in radians, if the clip has them. */
+  seek(seconds: number): {yaw: number; pitch: number; roll: number} | null;
+}
+
+export interface TimelineEvent {
+  at: number;
+  goals: Weights;
+  /** Whether all other weights of the timeline go to 0. */
+  others: boolean;
+  drive: Drive;
+  region?: string;
+}
+
+export interface Timeline {
+  seconds: number;
+  loops: number;
+  events: TimelineEvent[];
+  /** For the options of Sweepface.load. */
+  regions?: Region[];
+}
+
+/** A timeline from its JSON (docs/clips.md). Throws a sentence about what is wrong. */
+export function readTimeline(source: string | BufferSource, options?: {name?: string}): Timeline;
+
+/** Plays a timeline on a face. */
+export class TimelinePlayer {
+  constructor(face: Playable, timeline: Timeline);
+  readonly face: Playable;
+  readonly timeline: Timeline;
+  readonly match: Match;
+  readonly seconds: number;
+  /** Lets seconds pass; says whether anything is still to come or moves. */
+  advance(seconds: number): boolean;
+}

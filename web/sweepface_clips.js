@@ -1,0 +1,343 @@
+// Clips for faces: captures of Live Link Face (CSV), MediaPipe and Audio2Face (JSON) and timelines, as docs/clips.md
+// describes them. They are read the way the library in C++ reads them, in plain JavaScript, which parses text and JSON
+// by itself: nothing else is fetched.
+
+const decoder = new TextDecoder();
+
+function textOf(source) {
+  if (typeof source === 'string') return source;
+  if (source instanceof ArrayBuffer || ArrayBuffer.isView(source)) return decoder.decode(source);
+  throw new TypeError('A clip is read from text or bytes.');
+}
+
+/** A number that nothing stands beside, or NaN. */
+function numberIn(text) {
+  return /^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i.test(text) ? Number(text) : NaN;
+}
+
+const isNumber = (value) => typeof value === 'number' && Number.isFinite(value);
+const isObject = (value) => typeof value === 'object' && value !== null && !Array.isArray(value);
+
+function parseJson(text, name) {
+  try {
+    return JSON.parse(text);
+  } catch (error) {
+    throw new Error(`${name} is not JSON; was the file cut short?`, {cause: error});
+  }
+}
+
+// ---- Names ----
+
+/** A name without what spellings differ in: small letters, and a side as a final _l or _r. */
+function plain(name) {
+  const text = name.replace(/[_\- ]/g, '').toLowerCase();
+  for (const side of ['left', 'right'])
+    if (text.length > side.length && text.endsWith(side)) return `${text.slice(0, -side.length)}_${side[0]}`;
+  // A single letter is a side only where the name sets it apart: jawL, jaw_L, but not "curl".
+  const isApart = /([_\- ][LRlr]|[a-z][LR])$/.test(name);
+  return isApart && text.length > 1 ? `${text.slice(0, -1)}_${text.at(-1)}` : text;
+}
+
+/**
+ * Which target each name of a clip drives: `targets` [names] of indices, `unmatched` names of the clip that drive
+ * nothing, `undriven` targets that nothing drives.
+ */
+export function matchNames(names, targets) {
+  const byName = new Map(), byPlain = new Map(), driven = new Set();
+  targets.forEach((target, k) => {
+    if (!byName.has(target)) byName.set(target, k);
+    if (!byPlain.has(plain(target))) byPlain.set(plain(target), k);
+  });
+  const found = names.map((name) => {
+    const key = plain(name), one = byName.get(name) ?? byPlain.get(key);
+    const all = one !== undefined ? [one] : ['_l', '_r'].map((side) => byPlain.get(key + side)).filter((k) => k !== undefined);
+    for (const k of all) driven.add(k);
+    return all;
+  });
+  return {
+    targets: found,
+    unmatched: names.filter((_, k) => found[k].length === 0),
+    undriven: targets.filter((_, k) => !driven.has(k))
+  };
+}
+
+// ---- Clips ----
+
+/** Weights over time: `names` [N], `times` [F] in seconds, `weights` [F x N]. */
+export class Clip {
+  constructor(names, times, weights) {
+    this.names = names;
+    this.times = times;
+    this.weights = weights;
+  }
+
+  get seconds() { return this.times.length === 0 ? 0 : this.times.at(-1) - this.times[0]; }
+
+  /** The weights [N] at so many seconds after the first frame, straight between frames and held at the ends. */
+  at(seconds, out = new Float64Array(this.names.length)) {
+    const {times, weights} = this, n = this.names.length, time = times[0] + Math.max(seconds, 0);
+    let low = 0, high = times.length;  // the first frame after the time
+    while (low < high) {
+      const middle = (low + high) >> 1;
+      if (times[middle] <= time) low = middle + 1;
+      else high = middle;
+    }
+    const later = Math.min(low, times.length - 1), earlier = Math.max(later - 1, 0), length = times[later] - times[earlier];
+    const s = length > 0 ? Math.min(Math.max((time - times[earlier]) / length, 0), 1) : 1;
+    for (let k = 0; k < n; ++k) {
+      const from = weights[earlier * n + k], to = weights[later * n + k];
+      out[k] = s === 1 ? to : from + s * (to - from);
+    }
+    return out;
+  }
+
+  /** The clip without the noise of a tracker, by the one-euro filter: heavily where weights rest, hardly where they move. */
+  smooth({cutoff = 1, speedGain = 2, speedCutoff = 1} = {}) {
+    const n = this.names.length, weights = this.weights.slice(), speeds = new Float64Array(n);
+    const share = (hertz, seconds) => 1 - 1 / (2 * Math.PI * hertz * seconds + 1);
+    for (let f = 1; f < this.times.length; ++f) {
+      const seconds = this.times[f] - this.times[f - 1];
+      for (let k = 0; k < n; ++k) {
+        const before = weights[(f - 1) * n + k], now = weights[f * n + k];
+        speeds[k] += ((now - before) / seconds - speeds[k]) * share(speedCutoff, seconds);
+        weights[f * n + k] = before + (now - before) * share(cutoff + speedGain * Math.abs(speeds[k]), seconds);
+      }
+    }
+    return new Clip(this.names, this.times, weights);
+  }
+}
+
+function readLiveLink(text, name, framesPerSecond) {
+  const lines = text.replace(/^\uFEFF/, '').split('\n').map((line, k) => ({number: k + 1, cells: line.split(',').map((cell) => cell.trim())}));
+  const filled = lines.filter(({cells}) => cells.length > 1 || cells[0] !== '');
+  if (filled.length === 0) throw new Error(`${name} is empty; record again.`);
+  const fail = (line, what) => new Error(`${name} line ${line.number}: ${what}.`);
+  const [headings, ...rows] = filled, names = [], columns = [];
+  let timeColumn = -1;
+  headings.cells.forEach((heading, c) => {
+    if (heading.toLowerCase() === 'timecode') timeColumn = c;
+    else if (heading === '') throw fail(headings, `column ${c + 1} has no heading`);
+    else if (heading.toLowerCase() !== 'blendshapecount') {
+      if (names.includes(heading)) throw fail(headings, `there are two columns '${heading}'`);
+      names.push(heading);
+      columns.push(c);
+    }
+  });
+  if (timeColumn < 0) throw fail(headings, 'there is no column \'Timecode\'; this may be no recording of Live Link Face');
+  if (names.length === 0) throw fail(headings, 'there is no column of a shape');
+  if (rows.length === 0) throw new Error(`${name} has headings but no frames; record again.`);
+
+  const times = new Float64Array(rows.length), weights = new Float64Array(rows.length * names.length);
+  rows.forEach((row, f) => {
+    const {cells} = row, timecode = cells[timeColumn];
+    if (cells.length !== headings.cells.length)
+      throw fail(row, `there are ${cells.length} values under ${headings.cells.length} headings; the file may be cut short`);
+    times[f] = secondsOf(timecode, framesPerSecond, (what) => fail(row, what));
+    if (f > 0 && times[f] <= times[f - 1]) throw fail(row, `the timecode '${timecode}' is not after the one before; sort the rows by time`);
+    columns.forEach((c, k) => {
+      const value = numberIn(cells[c]);
+      if (!Number.isFinite(value)) throw fail(row, `'${cells[c]}' in column ${c + 1} is not a finite number`);
+      weights[f * names.length + k] = value;
+    });
+  });
+  return new Clip(names, times, weights);
+}
+
+/** HH:MM:SS:FF.fff, the last in frames; or plain seconds. */
+function secondsOf(timecode, framesPerSecond, fail) {
+  const seconds = numberIn(timecode);
+  if (Number.isFinite(seconds)) return seconds;
+  const parts = timecode.split(':').map(numberIn);
+  if (parts.length !== 4 || !parts.every((part) => part >= 0 && part <= 1e6)) throw fail(`'${timecode}' is not a timecode like 12:59:59:23.500`);
+  if (parts[3] >= framesPerSecond)
+    throw fail(`the timecode '${timecode}' counts more than ${framesPerSecond} frames a second; give the recording's own rate`);
+  return (parts[0] * 60 + parts[1]) * 60 + parts[2] + parts[3] / framesPerSecond;
+}
+
+function readAudio2Face(json, fail) {
+  const {exportFps, facsNames: names, weightMat: rows} = json;
+  if (!isNumber(exportFps) || !(exportFps > 0)) throw fail('has no \'exportFps\' greater than 0');
+  if (!Array.isArray(names) || names.length === 0) throw fail('has no list \'facsNames\'');
+  if (!names.every((name) => typeof name === 'string')) throw fail('has a value in \'facsNames\' that is not a name');
+  if (!Array.isArray(rows) || rows.length === 0) throw fail('has no frames in \'weightMat\'');
+  rows.forEach((row, f) => {
+    if (!Array.isArray(row) || row.length !== names.length) throw fail(`has not ${names.length} numbers in weightMat[${f}], one for every name`);
+    if (!row.every(isNumber)) throw fail(`has a value that is not a number in weightMat[${f}]`);
+  });
+  return new Clip(names, Float64Array.from(rows, (_, f) => f / exportFps), Float64Array.from(rows.flat()));
+}
+
+function readMediaPipe(frames, fail) {
+  if (frames.length === 0) throw fail('has no frames');
+  const times = new Float64Array(frames.length), scores = frames.map((frame, f) => {
+    const time = frame?.timestampMs ?? frame?.timestamp_ms ?? frame?.timestamp;
+    if (typeof time !== 'number') throw fail(`has no 'timestampMs' in frame ${f}`);
+    times[f] = time / 1000;
+    if (!Number.isFinite(times[f]) || (f > 0 && times[f] <= times[f - 1])) throw fail(`has a time in frame ${f} that is not after the one before`);
+    return scoresOf(frame, f, fail);
+  });
+  const names = [...new Set(scores.flatMap((frame) => [...frame.keys()].sort()))].filter((shape) => shape !== '_neutral');
+  if (names.length === 0) throw fail('has no scores in its frames');
+  return new Clip(names, times, Float64Array.from(scores.flatMap((frame) => names.map((shape) => frame.get(shape) ?? 0))));
+}
+
+function scoresOf(frame, f, fail) {
+  // Beside the time, or within the first of the faces found. A frame without a face has none.
+  const faces = frame.faceBlendshapes ?? frame.face_blendshapes;
+  const categories = frame.categories ?? (faces?.length === 0 ? [] : faces?.[0]?.categories);
+  if (!Array.isArray(categories)) throw fail(`has no 'categories' in frame ${f}`);
+  return new Map(categories.map((category) => {
+    const shape = category?.categoryName ?? category?.category_name;
+    if (typeof shape !== 'string' || !isNumber(category.score)) throw fail(`has a category without 'categoryName' and 'score' in frame ${f}`);
+    return [shape, category.score];
+  }));
+}
+
+/**
+ * A capture, from its text or bytes: a CSV of Live Link Face, whose timecodes count in `framesPerSecond`, or a JSON of
+ * Audio2Face or MediaPipe. `name` is what messages call it.
+ */
+export function readClip(source, {name = 'The clip', framesPerSecond = 60} = {}) {
+  const text = textOf(source);
+  if (!(framesPerSecond > 0 && Number.isFinite(framesPerSecond))) throw new RangeError('The frames per second of a recording must be greater than 0.');
+  if (!/^\s*[{[]/.test(text)) return readLiveLink(text, name, framesPerSecond);
+  const json = parseJson(text, name), fail = (what) => new Error(`${name} ${what}.`);
+  if (isObject(json) && json.weightMat !== undefined) return readAudio2Face(json, fail);
+  const frames = Array.isArray(json) ? json : json.frames;
+  if (Array.isArray(frames)) return readMediaPipe(frames, fail);
+  throw fail('is neither of Audio2Face (\'facsNames\' and \'weightMat\') nor of MediaPipe (a list of frames with \'categories\')');
+}
+
+/** The angles of Live Link Face, in radians, in the order of the app. */
+const ANGLES = ['HeadYaw', 'HeadPitch', 'HeadRoll', 'LeftEyeYaw', 'LeftEyePitch', 'LeftEyeRoll', 'RightEyeYaw', 'RightEyePitch', 'RightEyeRoll'];
+
+/** Plays a clip on a face: `seek` sets the weights of a time. */
+export class ClipPlayer {
+  #angles;
+
+  constructor(face, clip) {
+    this.face = face;
+    this.clip = clip;
+    /** What drives what: see matchNames. */
+    this.match = matchNames(clip.names, face.names);
+    const lower = clip.names.map((name) => name.toLowerCase());
+    this.#angles = ANGLES.map((angle) => lower.indexOf(angle.toLowerCase()));
+    this.match.unmatched = this.match.unmatched.filter((name) => !this.#angles.includes(clip.names.indexOf(name)));
+  }
+
+  get seconds() { return this.clip.seconds; }
+
+  /**
+   * Sets the weights that the clip drives, turns eyes if it has their angles, and returns the angles of the head, {yaw, pitch, roll} in radians, or null
+   * where the clip has none: for three.js `head.rotation.set(pitch, yaw, roll, 'YXZ')`. Where two names drive a target
+   * the larger weight counts.
+   */
+  seek(seconds) {
+    const values = this.clip.at(seconds), names = this.face.names, weights = {};
+    this.match.targets.forEach((targets, k) => {
+      for (const target of targets) weights[names[target]] = Math.max(weights[names[target]] ?? 0, values[k]);
+    });
+    this.face.setWeights(weights);
+    const angles = [0, 3, 6].map((first) => this.#anglesAt(values, first));
+    if (this.face.eyeCount > 0 && (angles[1] || angles[2])) this.face.look({leftEye: angles[1] ?? {}, rightEye: angles[2] ?? {}});
+    return angles[0];
+  }
+
+  /** Yaw, pitch and roll from a column on, or null where the clip has none of them. */
+  #anglesAt(values, first) {
+    const columns = this.#angles.slice(first, first + 3);
+    if (columns.every((k) => k < 0)) return null;
+    const [yaw, pitch, roll] = columns.map((k) => (k < 0 ? 0 : values[k]));
+    return {yaw, pitch, roll};
+  }
+}
+
+// ---- Timelines ----
+
+const EVENT = ['at', 'to', 'only', 'drive', 'seconds', 'turn', 'frequency', 'damping', 'restitution', 'delay', 'region'];
+const DRIVES = ['cut', 'newton', 'linear-force', 'accelerate-brake', 'spring', 'bounce'];
+const DRIVE = ['seconds', 'turn', 'frequency', 'damping', 'restitution', 'delay'];
+const TIMELINE = ['seconds', 'loops', 'poses', 'events', 'regions'];
+
+/** A timeline from its JSON text or bytes: {seconds, loops, events, regions}; `regions` are for Sweepface.load. */
+export function readTimeline(source, {name = 'The timeline'} = {}) {
+  const json = parseJson(textOf(source), name);
+  const fail = (place, what) => new Error(`${name}: ${place} ${what}.`);
+  if (!isObject(json)) throw fail('the file', 'is not an object');
+  for (const key of Object.keys(json))
+    if (!TIMELINE.includes(key)) throw fail('the file', `has an unknown key '${key}'`);
+  const {seconds, loops = 1, poses = {}, events, regions} = json;
+  if (seconds === undefined) throw fail('the file', 'has no \'seconds\'');
+  for (const key of ['seconds', 'loops'])
+    if (key in json && !isNumber(json[key])) throw fail('the file', `has a '${key}' that is not a number`);
+  if (!(seconds > 0)) throw fail('\'seconds\'', 'must be greater than 0');
+  if (!Number.isInteger(loops) || loops < 1 || loops > 10000) throw fail('\'loops\'', 'must be a whole number from 1 to 10000');
+  if (!Array.isArray(events) || events.length === 0) throw fail('\'events\'', 'must be a list of at least one event');
+  const read = events.map((event, k) => readEvent(event, poses, (what) => fail(`events[${k}]`, what))).sort((a, b) => a.at - b.at);
+  if (read.at(-1).at > seconds) throw fail('\'events\'', 'hold one that is later than \'seconds\'');
+  return {seconds, loops, events: read, regions};
+}
+
+function readEvent(event, poses, fail) {
+  if (!isObject(event)) throw fail('is not an object');
+  for (const key of Object.keys(event))
+    if (!EVENT.includes(key)) throw fail(`has an unknown key '${key}'`);
+  if (!('at' in event)) throw fail('has no \'at\'');
+  for (const key of ['at', ...DRIVE])
+    if (key in event && !isNumber(event[key])) throw fail(`has a '${key}' that is not a number`);
+  for (const key of ['drive', 'region'])
+    if (key in event && typeof event[key] !== 'string') throw fail(`has a '${key}' that is not a text`);
+  if ('drive' in event && !DRIVES.includes(event.drive)) throw fail(`has a 'drive' '${event.drive}'; there are ${DRIVES.join(', ')}`);
+  if (event.at < 0) throw fail('is before 0');
+  if (event.delay < 0) throw fail('has a negative \'delay\'');
+  if (('to' in event) === ('only' in event)) throw fail('needs one of \'to\' and \'only\', the weights to go to');
+  const wanted = event.to ?? event.only, goals = typeof wanted === 'string' ? poses[wanted] : wanted;
+  if (goals === undefined) throw fail(`goes to a pose '${wanted}' that 'poses' does not have`);
+  if (!isObject(goals)) throw fail('goes neither to weights nor to a pose');
+  for (const [weight, goal] of Object.entries(goals))
+    if (!isNumber(goal)) throw fail(`has a weight '${weight}' that is not a number`);
+  const drive = {kind: event.drive ?? 'spring', ...Object.fromEntries(DRIVE.filter((key) => key in event).map((key) => [key, event[key]]))};
+  return {at: event.at, goals, others: 'only' in event, drive, region: event.region};
+}
+
+/** Plays a timeline on a face: `advance` lets time pass, and what sets out does so at its own instant. */
+export class TimelinePlayer {
+  #goals;
+  #now = 0;
+  #next = 0;  // of all events of all loops
+
+  constructor(face, timeline) {
+    this.face = face;
+    this.timeline = timeline;
+    const names = [...new Set(timeline.events.flatMap(({goals}) => Object.keys(goals)))];
+    /** What drives what: see matchNames. */
+    this.match = matchNames(names, face.names);
+    this.#goals = new Map(names.map((name, k) => [name, this.match.targets[k].map((target) => face.names[target])]));
+  }
+
+  get seconds() { return this.timeline.seconds * this.timeline.loops; }
+
+  /** Says whether anything is still to come or moves. */
+  advance(seconds) {
+    const {events, seconds: length, loops} = this.timeline, until = this.#now + Math.max(seconds, 0);
+    let moves = false;
+    for (; this.#next < loops * events.length; ++this.#next) {
+      const event = events[this.#next % events.length], start = event.at + Math.floor(this.#next / events.length) * length;
+      if (start > until) break;
+      this.face.advance(start - this.#now);
+      this.#now = start;
+      this.#play(event);
+      moves = true;
+    }
+    moves = this.face.advance(until - this.#now) || moves;
+    this.#now = until;
+    return moves || this.#now < this.seconds;
+  }
+
+  #play({goals, others, drive, region}) {
+    const all = others ? Object.fromEntries([...this.#goals.values()].flat().map((target) => [target, 0])) : {};
+    for (const [name, goal] of Object.entries(goals))
+      for (const target of this.#goals.get(name)) all[target] = goal;
+    this.face.moveTo(all, drive, region);
+  }
+}

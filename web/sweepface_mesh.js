@@ -1,0 +1,60 @@
+// What the meshes of sweepface/three and sweepface/gpu have in common.
+import {DoubleSide, Mesh, MeshStandardMaterial} from 'three';
+
+/** Plain materials, named as in the source. Mouths and lashes are seen from both sides. */
+function materialsOf(face) {
+  return face.parts.map(({material}) => new MeshStandardMaterial({name: material, roughness: 0.7, side: DoubleSide}));
+}
+
+/** A face in a scene. Weights are set at any time; `update` has `show` bring them to the screen. */
+export class FaceMesh extends Mesh {
+  #stale = true;
+  #moving = false;
+
+  constructor(face, geometry, materials = materialsOf(face)) {
+    super(geometry, materials);
+    this.face = face;
+  }
+
+  get names() { return this.face.names; }
+  get eyeCount() { return this.face.eyeCount; }
+
+  look(pose) {
+    this.face.look(pose);
+    this.#stale = true;
+  }
+
+  setWeights(weights, region) {
+    this.face.setWeights(weights, region);
+    this.#stale = true;
+  }
+
+  moveTo(goals, drive, region) {
+    this.face.moveTo(goals, drive, region);
+    this.#moving = true;
+  }
+
+  push(name, velocityChange, drag) {
+    this.face.push(name, velocityChange, drag);
+    this.#moving = true;
+  }
+
+  /** Lets time pass without showing it; says whether anything goes on moving. */
+  advance(seconds) {
+    this.#stale = true;
+    return this.#moving = this.face.advance(seconds);
+  }
+
+  /** Call it once a frame with the seconds since the last; costs nothing where nothing moves. */
+  update(seconds = 0) {
+    if (this.#moving && seconds > 0) this.advance(seconds);
+    if (this.#stale) this.show();
+    this.#stale = false;
+  }
+
+  dispose() {
+    this.geometry.dispose();
+    for (const material of [this.material].flat()) material.dispose();
+    this.face.dispose();
+  }
+}

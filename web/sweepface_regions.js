@@ -1,0 +1,94 @@
+// Regions of a face, painted by the C interface (include/sweepface/sweepface_regions.h, docs/regions.md). Loaded where a
+// face is divided only.
+
+const MATTER = {mass: 1, stiffness: 1, delay: 0};
+const PLACES = ['parts', 'points', 'line', 'curves', 'nodes'];
+const MEMBERS = ['name', ...Object.keys(MATTER), ...PLACES, 'whole', 'fade', 'over', 'bands'];
+
+/** Copies of arrays and texts in the memory of a module, freed together. */
+class Copies {
+  #runtime;
+  #at = [];
+
+  constructor(runtime) { this.#runtime = runtime; }
+
+  bytes(bytes) {
+    const at = this.#runtime.allocate(bytes.byteLength);
+    this.#at.push(at);
+    this.#runtime.bytes(at, bytes.byteLength).set(new Uint8Array(bytes.buffer, bytes.byteOffset, bytes.byteLength));
+    return at;
+  }
+  text(text) { return this.bytes(new TextEncoder().encode(text + '\0')); }
+  texts(list) { return this.bytes(new Uint32Array(list.map((text) => this.text(String(text))))); }
+  numbers(list) { return this.bytes(new Float64Array(list)); }
+
+  free() {
+    for (const at of this.#at) this.#runtime.wasm.free(at);
+  }
+}
+
+/** Refuses what is not as docs/regions.md says, before anything is painted. */
+function check(regions) {
+  if (!Array.isArray(regions)) throw new TypeError('Regions are a list of objects with a name each.');
+  for (const region of regions) {
+    if (typeof region?.name !== 'string') throw new TypeError('A region needs a name.');
+    const wrong = (what) => new TypeError(`Region '${region.name}' ${what}.`);
+    for (const key of Object.keys(region))
+      if (!MEMBERS.includes(key)) throw wrong(`has an unknown '${key}'; it has ${MEMBERS.join(', ')}`);
+    if (!PLACES.some((key) => key in region)) throw wrong(`says nowhere where it is; give it ${PLACES.join(', ')}`);
+    for (const key of ['points', 'line'])
+      if (!(region[key] ?? []).every((place) => place?.length === 3 && Array.from(place).every(Number.isFinite)))
+        throw wrong(`has '${key}' that are not like [[x, y, z]]`);
+    if (!['surface', 'space'].includes(region.over ?? 'surface')) throw wrong(`is over '${region.over}', which is neither surface nor space`);
+    const {bands = 1} = region;
+    if (!Number.isInteger(bands) || bands < 1) throw wrong(`has ${bands} bands, which is no whole number from 1 on`);
+  }
+}
+
+/** The C struct of a brush. */
+function brush(copies, {parts = [], points = [], line = [], curves = [], nodes = {}, whole = 0, fade = 0, over = 'surface'}) {
+  const struct = new DataView(new ArrayBuffer(72)), shares = Object.values(nodes);
+  const words = [copies.texts(parts), parts.length, copies.numbers(points.flatMap((p) => [...p])), points.length,
+                 copies.numbers(line.flatMap((p) => [...p])), line.length, copies.texts(curves), curves.length,
+                 copies.texts(Object.keys(nodes)), copies.numbers(shares), shares.length];
+  words.forEach((word, k) => struct.setUint32(4 * k, word, true));
+  struct.setFloat64(48, whole, true);
+  struct.setFloat64(56, fade, true);
+  struct.setInt32(64, over === 'space' ? 1 : 0, true);
+  return copies.bytes(struct);
+}
+
+/** Names, matters and shares of what a region paints: itself, or its bands. */
+function paint(runtime, rig, region) {
+  const {bands = 1} = region, copies = new Copies(runtime), {wasm} = runtime;
+  try {
+    const count = bands * wasm.sweepface_rig_node_count(rig), room = copies.numbers(new Float64Array(count));
+    runtime.check(wasm.sweepface_rig_paint(rig, brush(copies, region), bands, room, count));
+    const shares = runtime.doubles(room, count).slice();
+    return Array.from({length: bands}, (_, k) => {
+      const matter = Object.fromEntries(Object.entries(MATTER).map(([key, usual]) => [key, region[key] ?? usual]));
+      if (bands > 1) matter.delay *= k / (bands - 1);
+      return {...matter, name: bands > 1 ? `${region.name}${k + 1}` : region.name, shares: shares.subarray(k * count / bands, (k + 1) * count / bands)};
+    });
+  } finally {
+    copies.free();
+  }
+}
+
+/** What divides a rig into regions and tells them, the rest first. */
+export function divider(regions) {
+  check(regions);
+  return (runtime, rig) => {
+    const {wasm} = runtime, painted = regions.flatMap((region) => paint(runtime, rig, region)), copies = new Copies(runtime);
+    try {
+      const names = copies.texts(painted.map(({name}) => name)), shares = copies.numbers(painted.flatMap((region) => [...region.shares]));
+      runtime.check(wasm.sweepface_rig_divide(rig, names, shares, painted.length));
+    } finally {
+      copies.free();
+    }
+    return Array.from({length: wasm.sweepface_rig_region_count(rig)}, (_, r) => {
+      const at = wasm.sweepface_rig_region_name(rig, r), name = at ? runtime.text(at) : 'rest';
+      return {...MATTER, ...painted.find((region) => region.name === name), name};
+    });
+  };
+}

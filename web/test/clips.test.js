@@ -1,0 +1,136 @@
+import assert from 'node:assert/strict';
+import {execFileSync} from 'node:child_process';
+import {mkdtempSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
+import {tmpdir} from 'node:os';
+import {join} from 'node:path';
+import test from 'node:test';
+import {ClipPlayer, matchNames, readClip, readTimeline, TimelinePlayer} from '../sweepface_clips.js';
+import {Sweepface} from '../sweepface.js';
+import {sample, tool} from './native.js';
+
+/** What the tool makes of a clip: a recording of its frames, read again. */
+function played(file, text, options = []) {
+  const folder = mkdtempSync(join(tmpdir(), 'sweepface-'));
+  try {
+    writeFileSync(join(folder, file), text);
+    execFileSync(tool, ['animate', sample, '--clip', join(folder, file), '-o', join(folder, 'out.csv'), '--quiet', ...options], {stdio: 'pipe'});
+    return readClip(readFileSync(join(folder, 'out.csv')), {name: 'out.csv'});
+  } finally {
+    rmSync(folder, {recursive: true});
+  }
+}
+
+/** The tool's sentence about a clip. */
+function refusal(file, text) {
+  try {
+    played(file, text);
+  } catch (error) {
+    return String(error.stderr);
+  }
+  return 'It took it.';
+}
+
+const wave = (f, k) => Math.round(1e4 * (0.5 + 0.5 * Math.sin(0.2 * f * (k + 1)))) / 1e4;
+const shapes = ['JawOpen', 'eyeBlink_L', 'EyeBlinkRight', 'browInnerUp', 'tongueOut', 'HeadYaw', 'HeadPitch', 'HeadRoll'];
+const frames = Array.from({length: 40}, (_, f) => f);
+const csv = [['Timecode', 'BlendshapeCount', ...shapes].join(','),
+             ...frames.map((f) => [`00:00:0${Math.floor(f / 30)}:${String(2 * (f % 30)).padStart(2, '0')}.000`, 52, ...shapes.map((_, k) => wave(f, k))].join(','))].join('\r\n');
+const audio2Face = JSON.stringify({exportFps: 30, facsNames: shapes.slice(0, 4), weightMat: frames.map((f) => [0, 1, 2, 3].map((k) => wave(f, k)))});
+const mediaPipe = JSON.stringify(frames.map((f) => ({timestampMs: 33 * f + 5, faceBlendshapes: [{categories: shapes.slice(0, 4).map((categoryName, k) => ({categoryName, score: wave(f, k)}))}]})));
+
+for (const [title, file, text] of [['Live Link Face', 'take.csv', csv], ['Audio2Face', 'take.json', audio2Face], ['MediaPipe', 'take.json', mediaPipe]])
+  for (const smooth of [false, true])
+    test(`a capture of ${title}${smooth ? ', smoothed,' : ''} plays as the tool plays it`, async () => {
+      const face = await Sweepface.load(readFileSync(sample)), clip = readClip(text, {name: file});
+      const player = new ClipPlayer(face, smooth ? clip.smooth() : clip);
+      const native = played(file, text, ['--fps', '60', ...(smooth ? ['--smooth'] : [])]);
+      const names = native.names.map((name) => matchNames([name], face.names).targets[0].map((k) => face.names[k]));
+      assert.ok(native.times.length >= 60);
+      native.times.forEach((time, f) => {
+        player.seek(time - native.times[0]);
+        const {weights} = face;
+        names.forEach((targets, k) => {
+          for (const target of targets) assert.ok(Math.abs(weights[target] - native.weights[f * names.length + k]) < 1e-12, `${target} at ${time}`);
+        });
+      });
+      assert.ok(face.weights.jawOpen > 0);
+    });
+
+test('names are matched and reported', async () => {
+  const face = await Sweepface.load(readFileSync(sample)), player = new ClipPlayer(face, readClip(csv));
+  assert.deepEqual(player.match.unmatched, ['tongueOut'].filter((name) => !face.names.includes(name)));
+  assert.ok(player.match.undriven.length > 20);
+  const {targets} = matchNames(['browInnerUp', 'eye_blink-left', 'curl', 'jawL'], ['browInnerUp_L', 'browInnerUp_R', 'eyeBlinkLeft', 'cur_L', 'jawLeft']);
+  assert.deepEqual(targets, [[0, 1], [2], [], [4]]);
+});
+
+test('the head has the angles of the app', async () => {
+  const face = await Sweepface.load(readFileSync(sample)), clip = readClip(csv);
+  assert.deepEqual(new ClipPlayer(face, clip).seek(0.1), {yaw: clip.at(0.1)[5], pitch: clip.at(0.1)[6], roll: clip.at(0.1)[7]});
+  assert.equal(new ClipPlayer(face, readClip(audio2Face)).seek(0), null);
+});
+
+const timeline = {
+  seconds: 1.5, loops: 2, poses: {smile: {mouthSmileLeft: 1, mouthSmileRight: 1}},
+  events: [{at: 0.9, only: {}, drive: 'accelerate-brake', seconds: 0.5}, {at: 0.1, to: 'smile', drive: 'linear-force', seconds: 0.6},
+           {at: 0.3, to: {jawOpen: 0.6}, frequency: 3, damping: 0.5, delay: 0.05}]
+};
+
+test('a timeline plays as the tool plays it, whatever the frame rate', async () => {
+  const native = played('scene.json', JSON.stringify(timeline), ['--fps', '60']);
+  for (const steps of [1, 3]) {
+    const face = await Sweepface.load(readFileSync(sample)), player = new TimelinePlayer(face, readTimeline(JSON.stringify(timeline)));
+    assert.equal(new TimelinePlayer(face.clone(), readTimeline(JSON.stringify(timeline))).advance(2), true);
+    assert.equal(player.seconds, 3);
+    for (let f = 0; f < native.times.length; ++f) {
+      for (let k = 0; f > 0 && k < steps; ++k) player.advance((native.times[f] - native.times[f - 1]) / steps);
+      if (f === 0) player.advance(0);
+      for (const name of ['mouthSmileLeft', 'jawOpen']) {
+        const k = native.names.findIndex((shape) => shape.toLowerCase() === name.toLowerCase());
+        assert.ok(Math.abs(face.weights[name] - native.weights[f * native.names.length + k]) < 1e-9, `${name} at ${native.times[f]}`);
+      }
+    }
+    assert.equal(player.advance(0.1), false);
+  }
+});
+
+// The same words from either side.
+for (const [file, text, words] of [
+       ['a.csv', '', 'is empty; record again'],
+       ['a.csv', 'Time,JawOpen\n0,1', 'there is no column \'Timecode\''],
+       ['a.csv', 'Timecode,BlendshapeCount\n0,52', 'there is no column of a shape'],
+       ['a.csv', 'Timecode,JawOpen', 'has headings but no frames'],
+       ['a.csv', 'Timecode,JawOpen,JawOpen\n0,1,1', 'line 1: there are two columns \'JawOpen\''],
+       ['a.csv', 'Timecode,,JawOpen\n0,1,1', 'line 1: column 2 has no heading'],
+       ['a.csv', 'Timecode,JawOpen\n0,1\n1', 'line 3: there are 1 values under 2 headings'],
+       ['a.csv', 'Timecode,JawOpen\n\n0,1\n0,1', 'line 4: the timecode \'0\' is not after the one before'],
+       ['a.csv', 'Timecode,JawOpen\n0,nan', 'line 2: \'nan\' in column 2 is not a finite number'],
+       ['a.csv', 'Timecode,JawOpen\n0:0:1,1', '\'0:0:1\' is not a timecode'],
+       ['a.csv', 'Timecode,JawOpen\n0:0:1:75,1', 'counts more than 60 frames a second'],
+       ['a.json', '{', 'is not JSON'],
+       ['a.json', '{"frames": 1}', 'is neither of Audio2Face'],
+       ['a.json', '[]', 'has no frames'],
+       ['a.json', '[{"categories": []}]', 'has no \'timestampMs\' in frame 0'],
+       ['a.json', '[{"timestampMs": 0}]', 'has no \'categories\' in frame 0'],
+       ['a.json', '[{"timestampMs": 0, "categories": [{"score": 1}]}]', 'without \'categoryName\' and \'score\' in frame 0'],
+       ['a.json', '[{"timestampMs": 0, "categories": []}]', 'has no scores in its frames'],
+       ['a.json', '{"weightMat": [[1]], "facsNames": ["a"]}', 'has no \'exportFps\' greater than 0'],
+       ['a.json', '{"weightMat": [[1]], "exportFps": 30, "facsNames": []}', 'has no list \'facsNames\''],
+       ['a.json', '{"weightMat": [], "exportFps": 30, "facsNames": ["a"]}', 'has no frames in \'weightMat\''],
+       ['a.json', '{"weightMat": [[1, 2]], "exportFps": 30, "facsNames": ["a"]}', 'has not 1 numbers in weightMat[0]'],
+       ['a.json', '{"weightMat": [["x"]], "exportFps": 30, "facsNames": ["a"]}', 'is not a number in weightMat[0]'],
+       ['t.json', '{"events": []}', 'the file has no \'seconds\''],
+       ['t.json', '{"seconds": 1, "events": []}', '\'events\' must be a list of at least one event'],
+       ['t.json', '{"seconds": 0, "events": []}', '\'seconds\' must be greater than 0'],
+       ['t.json', '{"seconds": 1, "loops": 1.5, "events": []}', '\'loops\' must be a whole number from 1 to 10000'],
+       ['t.json', '{"seconds": 1, "speed": 1, "events": []}', 'the file has an unknown key \'speed\''],
+       ['t.json', '{"seconds": 1, "events": [{"to": {}}]}', 'events[0] has no \'at\''],
+       ['t.json', '{"seconds": 1, "events": [{"at": 2, "to": {}}]}', '\'events\' hold one that is later than \'seconds\''],
+       ['t.json', '{"seconds": 1, "events": [{"at": 0}]}', 'events[0] needs one of \'to\' and \'only\''],
+       ['t.json', '{"seconds": 1, "events": [{"at": 0, "to": "grin"}]}', 'goes to a pose \'grin\''],
+       ['t.json', '{"seconds": 1, "events": [{"at": 0, "to": {"jawOpen": "x"}}]}', 'has a weight \'jawOpen\' that is not a number']])
+  test(`${file} of ${JSON.stringify(text).slice(0, 60)} is refused in the tool's words`, () => {
+    const read = file === 't.json' ? readTimeline : readClip, native = refusal(file, text);
+    assert.ok(native.includes(words), native);
+    assert.throws(() => read(text, {name: file}), (error) => error.message.includes(words) && error.message.startsWith(file) && /[.?]$/.test(error.message));
+  });

@@ -1,0 +1,105 @@
+import assert from 'node:assert/strict';
+import {execFileSync} from 'node:child_process';
+import {mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
+import {tmpdir} from 'node:os';
+import {join} from 'node:path';
+import test from 'node:test';
+import {Sweepface} from '../sweepface.js';
+import {difference, sample, someWeights, tool} from './native.js';
+
+const bytes = readFileSync(sample);
+const load = (regions, options = {}) => Sweepface.load(bytes, {...options, regions});
+const positionsOf = (face) => {
+  const positions = new Float32Array(3 * face.vertexCount);
+  face.evaluate(positions);
+  return positions;
+};
+
+/** The upper half of the sample face, heavier and later than the rest. */
+const above = {name: 'above', points: [[0, 8, 9]], over: 'space', whole: 5, fade: 4, mass: 4, delay: 0.1};
+
+test('a face of one piece has no regions and does without their module', async () => {
+  const face = await Sweepface.load(bytes);
+  assert.deepEqual(face.regions, []);
+  assert.throws(() => face.moveTo({jawOpen: 1}, 'spring', 'above'), /no region named 'above'; there are none/);
+});
+
+test('regions that agree are the plain face', async () => {
+  const face = await load([above]), plain = await Sweepface.load(bytes), weights = someWeights(face.names);
+  assert.deepEqual(face.regions, ['rest', 'above']);
+  face.setWeights(weights);
+  plain.setWeights(weights);
+  assert.ok(difference(positionsOf(face), positionsOf(plain)).most <= 3 * face.tolerance);
+  assert.deepEqual(face.weightsIn('above'), plain.weights);
+});
+
+test('a weight of one region moves nothing outside it', async () => {
+  const face = await load([{name: 'mouth', parts: ['lips'], fade: 1}]), rest = positionsOf(face);
+  face.setWeights({jawOpen: 1}, 'mouth');
+  assert.equal(face.weights.jawOpen, 0);
+  assert.equal(face.weightsIn('mouth').jawOpen, 1);
+  const inside = difference(positionsOf(face), rest);
+  face.setWeights({jawOpen: 1});
+  const whole = difference(positionsOf(face), rest);
+  assert.ok(inside.count > 300);
+  assert.ok(inside.count < whole.count / 2, `${inside.count} of ${whole.count} numbers`);
+});
+
+// The tool moves the same regions in double precision.
+for (const [title, regions] of [['a painted region', [above]],
+                                ['bands', [{name: 'wave', points: [[0, 8, 9]], fade: 16, over: 'space', bands: 4, delay: 0.3}]]])
+  test(`${title} moves as the tool moves it`, async () => {
+    const folder = mkdtempSync(join(tmpdir(), 'sweepface-'));
+    try {
+      writeFileSync(join(folder, 'regions.json'), JSON.stringify({regions}));
+      execFileSync(tool, ['animate', sample, '--to', 'jawOpen=1,browInnerUp=1', '--law', 'spring', '--frequency', '2', '--damping', '0.5', '--seconds', '1',
+                          '--fps', '10', '--regions', join(folder, 'regions.json'), '-o', join(folder, 'frames'), '--quiet']);
+      const face = await load(regions);
+      face.moveTo({jawOpen: 1, browInnerUp: 1}, {kind: 'spring', frequency: 2, damping: 0.5});
+      const frames = readdirSync(join(folder, 'frames')).filter((name) => name.endsWith('.obj')).sort();
+      assert.ok(frames.length >= 10);
+      for (const frame of frames) {
+        const exact = readFileSync(join(folder, 'frames', frame), 'utf8').split('\n').filter((line) => line.startsWith('v ')).flatMap((line) => line.split(' ').slice(1).map(Number));
+        assert.ok(difference(exact, positionsOf(face)).most <= face.tolerance, frame);
+        face.advance(0.1);
+      }
+      assert.notEqual(face.weightsIn(face.regions.at(-1)).jawOpen, face.weights.jawOpen);
+      face.setWeights({jawOpen: 0.25});  // at once, however late a region is
+      face.advance(0.001);
+      for (const region of face.regions) assert.equal(face.weightsIn(region).jawOpen, 0.25);
+    } finally {
+      rmSync(folder, {recursive: true});
+    }
+  });
+
+test('a goal of one region is its own', async () => {
+  const face = await load([above]);
+  face.moveTo({jawOpen: 1}, {kind: 'accelerate-brake', seconds: 0.2}, 'above');
+  while (face.advance(0.05));
+  assert.equal(face.weights.jawOpen, 0);
+  assert.equal(face.weightsIn('above').jawOpen, 1);
+});
+
+test('regions go with arcs, a level of detail and clones', async () => {
+  const face = await load([above], {arcs: true, combine: true, lod: 1}), other = face.clone();
+  face.setWeights({browInnerUp: 1, jawOpen: 1}, 'above');
+  assert.deepEqual(other.regions, face.regions);
+  assert.equal(other.weightsIn('above').jawOpen, 0);
+  assert.ok(difference(positionsOf(face), positionsOf(other)).most > 0.01);
+});
+
+test('what is no region is refused with a sentence', async () => {
+  const refused = async (regions, sentence) => assert.rejects(load(regions), sentence);
+  await refused({}, /Regions are a list/);
+  await refused([{points: [[0, 0, 0]]}], /A region needs a name\./);
+  await refused([{...above, weight: 1}], /Region 'above' has an unknown 'weight'/);
+  await refused([{name: 'above'}], /says nowhere where it is/);
+  await refused([{...above, points: [[0, 0]]}], /not like \[\[x, y, z\]\]/);
+  await refused([{...above, over: 'land'}], /over 'land'/);
+  await refused([{...above, bands: 1.5}], /1\.5 bands/);
+  await refused([{...above, fade: -1}], /finite and at least 0/);
+  await refused([above, above], /Two regions are named 'above'/);
+  await refused([{name: 'x', parts: ['beard']}], /beard/);
+  const heavy = await load([{...above, mass: 1e9}]);
+  assert.throws(() => heavy.moveTo({jawOpen: 1}), /from 0\.0001 to 10000/);
+});
