@@ -55,6 +55,9 @@ struct Packing {
     friend bool operator==(const Pose&, const Pose&) = default;
   };
   std::vector<Pose> poses;  ///< the neutral, then the targets
+  /// [S] or empty: the neutral before an edit. What targets are counted from goes by it, so that an
+  /// edit of the neutral leaves their coefficients as they are.
+  std::vector<Vec3> rest;
   /// Texture coordinates are held as multiples of 1 / 2^textureBits; 0: exactly.
   int textureBits = 0;
   friend bool operator==(const Packing&, const Packing&) = default;

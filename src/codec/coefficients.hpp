@@ -44,15 +44,16 @@ class CoefficientCoder {
   CoefficientCoder(const Hierarchy& hierarchy, Coder& coder, int axis)
       : h_(hierarchy),
         axis_(axis),
-        mask_(slotsFor(hierarchy.steps().size()) - 1),
+        mask_(slotsFor(hierarchy.prediction().steps.size()) - 1),
         model_(coder, mask_ + 1, kSets) {
     const std::size_t sites = h_.sites().size();
     active_.resize(sites);
     below_.resize(sites);
     history_.assign(sites, 0);
     positionStep_.resize(sites);
-    for (std::size_t k = 0; k < h_.steps().size(); ++k)
-      if (const auto& step = h_.steps()[k]; step.vector == h_.sites()[step.site].first)
+    const auto& steps = h_.prediction().steps;
+    for (std::size_t k = 0; k < steps.size(); ++k)
+      if (const auto& step = steps[k]; step.vector == h_.sites()[step.site].first)
         positionStep_[step.site] = static_cast<Index>(k);
   }
 
@@ -102,7 +103,7 @@ class CoefficientCoder {
 
   // The sites whose positions predict a site's, by their positions.
   std::span<const Term> parents(Index site) const {
-    return h_.terms(h_.steps()[positionStep_[site]]);
+    return h_.prediction().of(h_.prediction().steps[positionStep_[site]]);
   }
 
   // The image of another pose's vector, negated along the mirror's axis.

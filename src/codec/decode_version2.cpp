@@ -81,7 +81,7 @@ void readPose(Decoding& d, Symbols<RangeDecoder>& symbols, CoefficientCoder<Rang
   vectors.code(poses[pose], symmetryOf(form, pose), partnerOf(d.rig.packing, poses, pose),
                pose == 0);
   out.resize(d.stored);
-  if (!d.lattice->restore(poses[pose], stepOf(d.rig.packing, pose), out))
+  if (!d.lattice->restore(pose, poses[pose], stepOf(d.rig.packing, pose), out))
     symbols.refuse("a coordinate is not finite");
 }
 
@@ -91,6 +91,7 @@ void readRest(Decoding& d, Reader& in) {
     CoefficientCoder<RangeDecoder> vectors(d.lattice->hierarchy(), coder, d.lattice->axis());
     std::vector<Coefficients> poses(1);
     readPose(d, symbols, vectors, poses, 0, d.rig.neutral);
+    if (symbols.ok()) d.lattice->learn(d.rig.surface, d.rig.neutral, stepOf(d.rig.packing, 0));
   });
 }
 
@@ -121,6 +122,7 @@ void readExact(Decoding& d, Reader& in) {
       v = last = in.step(last + 1, 0, static_cast<Index>(vectors.size()), "vector");
     const std::vector<Vec3> values = readVectors<Vec3>(in, places.size(), Precision::exact);
     if (!in.ok()) return;
+    if (pose == 0) d.rig.packing.rest = vectors;
     for (std::size_t k = 0; k < places.size(); ++k) vectors[places[k]] = values[k];
   }
 }

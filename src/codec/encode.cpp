@@ -58,33 +58,43 @@ struct Poses {
   std::vector<Coefficients> coefficients;
   std::vector<std::vector<Index>> exact;
 
-  Poses(const Rig& rig, const Packing& packing, const Lattice& lattice) {
+  // `lattice` learns the neutral.
+  Poses(const Rig& rig, const Packing& packing, Lattice& lattice) : packing_(packing) {
     for (Index pose = 0; pose < static_cast<Index>(packing.poses.size()); ++pose) {
-      const std::vector<Vec3>& vectors = vectorsOf(rig, pose);
-      const double step = stepOf(packing, pose);
-      Coefficients q(vectors.size());
-      if (step > 0) q = lattice.round(vectors, step);
-      std::vector<Index> other = differing(vectors, q, lattice, step);
-      // Where hardly anything is a multiple of the steps these only cost.
-      if (step > 0 && 2 * other.size() > vectors.size()) {
-        q.assign(vectors.size(), Steps3{});
-        other = differing(vectors, q, lattice, step);
-      }
-      coefficients.push_back(std::move(q));
-      exact.push_back(std::move(other));
+      const bool edited = pose == 0 && !packing.rest.empty();
+      Coded coded = code(pose, edited ? packing.rest : vectorsOf(rig, pose), lattice);
+      if (pose == 0) lattice.learn(rig.surface, coded.restored, stepOf(packing, 0));
+      exact.push_back(differing(vectorsOf(rig, pose), coded.restored));
+      coefficients.push_back(std::move(coded.q));
     }
   }
 
  private:
-  static std::vector<Index> differing(const std::vector<Vec3>& vectors, const Coefficients& q,
-                                      const Lattice& lattice, double step) {
-    std::vector<Vec3> restored(vectors.size());
-    lattice.restore(q, step, restored);
+  struct Coded {
+    Coefficients q;
+    std::vector<Vec3> restored;
+  };
+  Coded code(Index pose, const std::vector<Vec3>& vectors, const Lattice& lattice) const {
+    const double step = stepOf(packing_, pose);
+    Coded coded{Coefficients(vectors.size()), std::vector<Vec3>(vectors.size())};
+    if (!(step > 0)) return coded;
+    coded.q = lattice.round(pose, vectors, step);
+    lattice.restore(pose, coded.q, step, coded.restored);
+    // Where hardly anything is a multiple of the steps these only cost.
+    if (2 * differing(vectors, coded.restored).size() > vectors.size()) {
+      coded.q.assign(vectors.size(), Steps3{});
+      coded.restored.assign(vectors.size(), Vec3{});
+    }
+    return coded;
+  }
+  static std::vector<Index> differing(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
     std::vector<Index> result;
-    for (Index v = 0; v < static_cast<Index>(vectors.size()); ++v)
-      if (!isSame(vectors[v], restored[v])) result.push_back(v);
+    for (Index v = 0; v < static_cast<Index>(a.size()); ++v)
+      if (!isSame(a[v], b[v])) result.push_back(v);
     return result;
   }
+
+  const Packing& packing_;
 };
 
 // Poses from `first` up to `end`, 0 the neutral.
@@ -161,7 +171,7 @@ std::string encode(const Rig& rig) {
   Writer out;
   writeHeader(out);
   const Packing packing = sound(rig);
-  const Lattice lattice(rig.surface, packing);
+  Lattice lattice(rig.surface, packing);
   Poses poses(rig, packing, lattice);
   const auto count = static_cast<Index>(packing.poses.size());
   writeChunk(out, "BASE", base(rig, packing));

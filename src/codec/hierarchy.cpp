@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 
 #include "codec/derivative_rules.hpp"
 
@@ -79,6 +80,19 @@ class HierarchyBuilder {
         reach_[t.vector] = std::max(reach_[t.vector], std::abs(t.factor) * reach_[v]);
   }
 
+  // What many vertices follow is told more precisely: errors there would have to be made up for at
+  // all of them.
+  double finer(Index vector, Index span) const {
+    const StoredVector& s = surface_.stored(vector);
+    if (s.i + s.j > 0) return 3;
+    return span == 0    ? 2
+           : span <= 2  ? 1
+           : span <= 4  ? 1.25
+           : span <= 8  ? 1.5
+           : span <= 16 ? 1.9
+                        : 2.3;
+  }
+
   // Two values an octave: no rounding in the last digit can tip them.
   static double rounded(double reach) {
     if (!(reach > 1e-6)) return 1e-6;
@@ -94,6 +108,7 @@ class HierarchyBuilder {
     bool alive = true, hub = false;
     Index image = -1;
     Index atLeast = 0;  // its span cannot be less
+    std::vector<Index> near;
   };
 
   void gatherSites() {
@@ -119,6 +134,9 @@ class HierarchyBuilder {
       const bool creased = c_.kinds[c.site.node] == NodeKind::creased;
       c.image = image < 0 || creased ? -1 : siteOf_[image];
     }
+    nodesOf_.resize(all_.size());
+    for (std::size_t n = 0; n < w_.nodes.size(); ++n)
+      if (isSite(static_cast<Index>(n))) nodesOf_[siteOf_[n]].push_back(static_cast<Index>(n));
     // A mirror is one only if it leads back.
     for (std::size_t s = 0; s < all_.size(); ++s) {
       Index& image = all_[s].image;
@@ -306,12 +324,14 @@ class HierarchyBuilder {
     const Guess own = guess(all_[s]);
     if (own.span == 0 || own.span > most) return false;
     if (image < 0 || image == s) {
+      all_[s].near = nearest(s);
       remove(s, own, blocked);
       return true;
     }
     if (blocked[image] || !isRemovable(all_[image])) return false;
     const Guess other = guess(all_[image]);
     if (other.span != own.span) return false;
+    for (const Index either : {s, image}) all_[either].near = nearest(either);
     remove(image, other, blocked);
     remove(s, own, blocked);
     return true;
@@ -333,14 +353,49 @@ class HierarchyBuilder {
     order_.push_back(s);
   }
 
+  // The sites that are nearest along what is left of the lines, without the site's own image, so
+  // that both see the same (Dijkstra 1959).
+  std::vector<Index> nearest(Index s) {
+    constexpr std::size_t kEnough = 12;
+    std::vector<Index> result;
+    reached_.clear();
+    queue_.assign(1, {0, all_[s].site.node});
+    Index last = 0;
+    while (!queue_.empty()) {
+      std::ranges::pop_heap(queue_, std::greater{});
+      const auto [distance, node] = queue_.back();
+      queue_.pop_back();
+      const Index site = siteOf_[node], place = site >= 0 ? site : ~node;
+      if (std::ranges::find(reached_, place) != reached_.end()) continue;
+      reached_.push_back(place);
+      if (site >= 0 && site != s && site != all_[s].image) {
+        if (result.size() >= kEnough && distance > last) break;
+        result.push_back(site);
+        last = distance;
+        if (result.size() == Hierarchy::kMostNear) break;
+      }
+      if (site >= 0)
+        for (const Index at : nodesOf_[site]) goOn(at, distance);
+      else
+        goOn(node, distance);
+    }
+    return result;
+  }
+  void goOn(Index node, Index distance) {
+    for (const HalfArc arm : c_.stars[node].arms) {
+      if (w_.arcs[arcOf(arm)].collapsed) continue;
+      const Link link = walk(arm);
+      if (link.back < 0) continue;
+      queue_.push_back({distance + link.distance, w_.start(link.back)});
+      std::ranges::push_heap(queue_, std::greater{});
+    }
+  }
+
   Index siteOfVector(Index vector) const { return siteOf_[surface_.stored(vector).node]; }
 
   // What is left is predicted from its neighbours among what is left, in the order in which it is
   // reached from the first; mirror images together.
   void orderRoots() {
-    nodesOf_.resize(all_.size());
-    for (std::size_t n = 0; n < w_.nodes.size(); ++n)
-      if (isSite(static_cast<Index>(n))) nodesOf_[siteOf_[n]].push_back(static_cast<Index>(n));
     std::vector<Index> roots;
     std::vector<char> reached(all_.size(), 0);
     placed_.assign(all_.size(), 0);
@@ -381,10 +436,6 @@ class HierarchyBuilder {
         if (isSite(end) && siteOf_[end] != s) result.push_back({siteOf_[end], link.distance});
       }
     };
-    if (!all_[s].hub) {
-      visit(all_[s].site.node);
-      return result;
-    }
     for (const Index node : nodesOf_[s]) visit(node);
     return result;
   }
@@ -404,28 +455,31 @@ class HierarchyBuilder {
   void arrange() {
     std::vector<Index> rank(all_.size());
     for (std::size_t k = 0; k < order_.size(); ++k) rank[order_[k]] = static_cast<Index>(k);
+    for (Index& s : siteOf_)
+      if (s >= 0) s = rank[s];
     for (const Index s : order_) {
       CodedSite site = all_[s].site;
       site.parent = site.parent < 0 ? -1 : rank[site.parent];
       site.mirror = all_[s].image < 0 ? -1 : rank[all_[s].image];
       if (site.parent >= 0) out_.sites_[site.parent].leaf = false;
       out_.sites_.push_back(site);
+      out_.nearStart_.push_back(static_cast<Index>(out_.near_.size()));
+      for (const Index n : all_[s].near) out_.near_.push_back(rank[n]);
       addStep(site.first, all_[s].terms);
     }
-    for (Index& s : siteOf_)
-      if (s >= 0) s = rank[s];
+    out_.nearStart_.push_back(static_cast<Index>(out_.near_.size()));
   }
 
   void addStep(Index vector, const Terms& terms) {
-    Hierarchy::Step step;
+    Prediction::Step step;
     step.vector = vector;
     step.site = siteOf_[surface_.stored(vector).node];
-    step.terms = static_cast<Index>(out_.terms_.size());
+    step.terms = static_cast<Index>(out_.prediction_.terms.size());
     for (const Term& t : terms)
-      if (t.factor != 0) out_.terms_.push_back(t);
-    step.termsEnd = static_cast<Index>(out_.terms_.size());
-    step.reach = rounded(reach_[vector]);
-    out_.steps_.push_back(step);
+      if (t.factor != 0) out_.prediction_.terms.push_back(t);
+    step.termsEnd = static_cast<Index>(out_.prediction_.terms.size());
+    step.reach = rounded(reach_[vector] * finer(vector, out_.sites_[step.site].span));
+    out_.prediction_.steps.push_back(step);
   }
 
   void addDerivatives(const DerivativeRules& rules, int order) {
@@ -448,6 +502,8 @@ class HierarchyBuilder {
   std::vector<double> reach_;                // [vectors]
   Index guessed_ = -1, guessedToo_ = -1;     // nodes that may not predict themselves or each other
   std::vector<std::vector<Index>> nodesOf_;  // [sites] of which one may be several
+  std::vector<std::array<Index, 2>> queue_;  // of a search: distances and nodes
+  std::vector<Index> reached_;               // by a search
   std::vector<char> placed_;                 // [sites] roots that have their place in the order
 };
 

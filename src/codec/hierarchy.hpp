@@ -20,6 +20,22 @@ struct CodedSite {
   bool leaf = true;   ///< nobody's parent
 };
 
+/// How each stored vector follows from those before it.
+struct Prediction {
+  struct Step {
+    Index vector = -1;  ///< a stored one
+    Index site = -1;
+    Index terms = 0, termsEnd = 0;
+    double reach = 1;  ///< the steps of the vector are the pose's divided by this
+  };
+  std::vector<Step> steps;  ///< [S] in the order of reconstruction
+  std::vector<Term> terms;
+
+  std::span<const Term> of(const Step& step) const {
+    return {terms.data() + step.terms, terms.data() + step.termsEnd};
+  }
+};
+
 /// The stored vectors of a surface from coarse to fine, and how each follows from those before it.
 /// Depends on the wireframe alone; reader and writer build the same.
 ///
@@ -34,17 +50,15 @@ class Hierarchy {
   /// Coarse to fine: parents come before children, mirror images one after the other.
   const std::vector<CodedSite>& sites() const { return sites_; }
 
-  struct Step {
-    Index vector = -1;  ///< a stored one
-    Index site = -1;
-    Index terms = 0, termsEnd = 0;
-    double reach = 1;  ///< what one unit of the vector moves the surface by
-  };
-  /// [S] in the order of reconstruction.
-  const std::vector<Step>& steps() const { return steps_; }
-  std::span<const Term> terms(const Step& step) const {
-    return {terms_.data() + step.terms, terms_.data() + step.termsEnd};
+  /// What predicts the stored vectors of the neutral.
+  const Prediction& prediction() const { return prediction_; }
+
+  /// The sites before a site that were nearest to it, along what was left of the lines when it was
+  /// taken out; none for a root.
+  std::span<const Index> near(Index site) const {
+    return {near_.data() + nearStart_[site], near_.data() + nearStart_[site + 1]};
   }
+  static constexpr std::size_t kMostNear = 16;
 
   /// The stored vector that mirrors one, and the sign with which it does; -1 where there is none.
   struct Image {
@@ -56,9 +70,9 @@ class Hierarchy {
  private:
   friend class HierarchyBuilder;
   std::vector<CodedSite> sites_;
-  std::vector<Step> steps_;
-  std::vector<Term> terms_;
+  Prediction prediction_;
   std::vector<Image> images_;
+  std::vector<Index> nearStart_, near_;
 };
 
 }  // namespace sweepface::codec

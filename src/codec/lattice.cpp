@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "codec/kriging.hpp"
+
 namespace sweepface::codec {
 
 namespace {
@@ -15,9 +17,9 @@ std::int32_t nearest(double steps) {
   return static_cast<std::int32_t>(std::lround(std::clamp(steps, -kMostSteps, kMostSteps)));
 }
 
-Vec3 predict(const Hierarchy& hierarchy, const Hierarchy::Step& step, std::span<const Vec3> known) {
+Vec3 predict(std::span<const Term> terms, std::span<const Vec3> known) {
   Vec3 sum;
-  for (const Term& t : hierarchy.terms(step)) sum += t.factor * known[t.vector];
+  for (const Term& t : terms) sum += t.factor * known[t.vector];
   return sum;
 }
 
@@ -27,12 +29,18 @@ Vec3 scaled(const Steps3& steps, double unit) {
 
 }  // namespace
 
-Coefficients Lattice::round(std::span<const Vec3> vectors, double step) const {
+void Lattice::learn(const Surface& surface, std::span<const Vec3> neutral, double step) {
+  constexpr double kTurned = 20;  // steps
+  if (step > 0) moves_ = predictMoves(surface, hierarchy_, neutral, kTurned * step);
+}
+
+Coefficients Lattice::round(Index pose, std::span<const Vec3> vectors, double step) const {
+  const Prediction& prediction = this->prediction(pose);
   Coefficients coefficients(vectors.size());
   std::vector<Vec3> known(vectors.size());
-  for (const Hierarchy::Step& s : hierarchy_.steps()) {
+  for (const Prediction::Step& s : prediction.steps) {
     const double unit = step / s.reach;
-    const Vec3 expected = predict(hierarchy_, s, known), rest = vectors[s.vector] - expected;
+    const Vec3 expected = predict(prediction.of(s), known), rest = vectors[s.vector] - expected;
     coefficients[s.vector] = {nearest(rest.x / unit), nearest(rest.y / unit),
                               nearest(rest.z / unit)};
     known[s.vector] = expected + scaled(coefficients[s.vector], unit);
@@ -42,19 +50,20 @@ Coefficients Lattice::round(std::span<const Vec3> vectors, double step) const {
 
 // Most of a face rests in most poses: what has no coefficient and is predicted from what rests is
 // at rest, too.
-bool Lattice::restore(const Coefficients& coefficients, double step,
+bool Lattice::restore(Index pose, const Coefficients& coefficients, double step,
                       std::span<Vec3> vectors) const {
+  const Prediction& prediction = this->prediction(pose);
   std::vector<char> moves(vectors.size(), 0);
   bool finite = true;
-  for (const Hierarchy::Step& s : hierarchy_.steps()) {
+  for (const Prediction::Step& s : prediction.steps) {
     const Steps3& own = coefficients[s.vector];
     char moved = isMoved(own);
-    for (const Term& t : hierarchy_.terms(s)) moved |= moves[t.vector];
+    for (const Term& t : prediction.of(s)) moved |= moves[t.vector];
     Vec3& vector = vectors[s.vector];
     vector = {};
     if (!moved) continue;
     moves[s.vector] = 1;
-    vector = predict(hierarchy_, s, vectors) + scaled(own, step / s.reach);
+    vector = predict(prediction.of(s), vectors) + scaled(own, step / s.reach);
     finite &= isFinite(vector);
   }
   return finite;
@@ -104,7 +113,7 @@ void chooseImages(const Rig& rig, const Lattice& lattice, Packing& packing) {
   packing.poses.resize(poses);
   if (packing.mirror.empty()) return;
   const auto coefficients = [&](Index pose) {
-    return lattice.round(pose == 0 ? rig.neutral : rig.targets[pose - 1].difference,
+    return lattice.round(pose, pose == 0 ? rig.neutral : rig.targets[pose - 1].difference,
                          pose == 0 ? packing.neutralStep : packing.targetStep);
   };
   for (Index pose = 0; pose < poses; ++pose) {
@@ -127,6 +136,7 @@ Packing sound(const Rig& rig) {
   if (!(packing.neutralStep > 0) || !(packing.targetStep > 0))
     packing.neutralStep = packing.targetStep = 0;
   packing.axis = std::clamp(packing.axis, 0, 2);
+  if (packing.rest.size() != rig.neutral.size()) packing.rest.clear();
   packing.poses.resize(rig.targets.size() + 1);
   for (Index pose = 0; pose < static_cast<Index>(packing.poses.size()); ++pose) {
     auto& [finer, image] = packing.poses[pose];

@@ -20,16 +20,25 @@ class Lattice {
   const Hierarchy& hierarchy() const { return hierarchy_; }
   int axis() const { return axis_; }
 
+  /// From here on targets are predicted by where the neutral's stored vectors [S] are.
+  void learn(const Surface& surface, std::span<const Vec3> neutral, double step);
+  /// What predicts the vectors of a pose, 0 the neutral.
+  const Prediction& prediction(Index pose) const {
+    return pose == 0 || moves_.steps.empty() ? hierarchy_.prediction() : moves_;
+  }
+
   /// The nearest multiples, each beyond the prediction from the nearest ones before it.
-  Coefficients round(std::span<const Vec3> vectors, double step) const;
+  Coefficients round(Index pose, std::span<const Vec3> vectors, double step) const;
   /// The vectors of coefficients [S]; false if one is not finite.
-  bool restore(const Coefficients& coefficients, double step, std::span<Vec3> vectors) const;
+  bool restore(Index pose, const Coefficients& coefficients, double step,
+               std::span<Vec3> vectors) const;
 
   /// The coefficients of the mirror image; zero for vectors that have none.
   Coefficients image(const Coefficients& coefficients) const;
 
  private:
   Hierarchy hierarchy_;
+  Prediction moves_;  // of targets, once the neutral is known
   int axis_;
 };
 

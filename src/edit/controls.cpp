@@ -10,6 +10,7 @@
 #include "sweepface/edit.hpp"
 
 #include "edit/affected.hpp"
+#include "edit/rest.hpp"
 #include "surface/jets.hpp"
 #include "surface/stored_jets.hpp"
 
@@ -32,6 +33,7 @@ class ControlMover {
   Result<std::pair<Rig, Patches>> run(Index target) {
     if (auto ok = findEnds(); !ok) return std::unexpected(ok.error());
     if (auto ok = findDerivatives(); !ok) return std::unexpected(ok.error());
+    if (target < 0) edit::keepRest(rig_);
     if (auto ok = storeWholeJets(); !ok) return std::unexpected(ok.error());
     edit::Affected affected(rig_.surface);
     auto& pose = target < 0 ? rig_.neutral : rig_.targets[target].difference;
@@ -100,6 +102,7 @@ class ControlMover {
     auto surface = Surface::make(std::move(wireframe));
     if (!surface) return std::unexpected(surface.error());
     rig_.neutral = restored(*surface, rig_.neutral);
+    if (auto& rest = rig_.packing.rest; !rest.empty()) rest = restored(*surface, rest);
     for (Target& target : rig_.targets) target.difference = restored(*surface, target.difference);
     rig_.surface = std::move(*surface);
     return {};

@@ -1,6 +1,7 @@
 #include "sweepface/edit.hpp"
 
 #include "edit/affected.hpp"
+#include "edit/rest.hpp"
 #include "surface/stored_jets.hpp"
 
 namespace sweepface {
@@ -38,6 +39,7 @@ Result<Patches> moveNodes(Rig& rig, std::span<const NodeMove> moves, Index targe
     if (rig.surface.connectivity().kinds[move.node] == NodeKind::hanging)
       return fail("Node '" + rig.nameOf(Thing::node, move.node) +
                   "' stands on the side of a patch and goes with it; move the curve there.");
+  if (target < 0) edit::keepRest(rig);
   Affected affected(rig.surface);
   for (const NodeMove& move : moves) {
     const Index stored = jets.at(move.node, 0);

@@ -8,15 +8,15 @@
 
 namespace sweepface {
 
-using codec::Hierarchy;
+using codec::Prediction;
 
 namespace {
 
 // Every vertex of level 1 as a combination of coefficients, taken apart by coefficient.
 class ColumnBuilder {
  public:
-  ColumnBuilder(const Surface& surface, const Tessellation& grid, const Hierarchy& hierarchy)
-      : surface_(surface), grid_(grid), hierarchy_(hierarchy) {
+  ColumnBuilder(const Surface& surface, const Tessellation& grid, const Prediction& prediction)
+      : surface_(surface), grid_(grid), prediction_(prediction) {
     expanded_.resize(surface.vectorCount());
     for (Index v = 0; v < surface.storedCount(); ++v) expanded_[v] = {{v, 1}};
     for (Index v = surface.storedCount(); v < surface.vectorCount(); ++v) {
@@ -26,8 +26,8 @@ class ColumnBuilder {
       mergeTerms(expanded_[v]);
     }
     stepOf_.resize(surface.storedCount());
-    for (std::size_t k = 0; k < hierarchy.steps().size(); ++k)
-      stepOf_[hierarchy.steps()[k].vector] = static_cast<Index>(k);
+    for (std::size_t k = 0; k < prediction.steps.size(); ++k)
+      stepOf_[prediction.steps[k].vector] = static_cast<Index>(k);
   }
 
   Columns build() const {
@@ -97,13 +97,13 @@ class ColumnBuilder {
       heap.pop_back();
       if (top == last) continue;  // sums that had cancelled come twice
       last = top;
-      const Hierarchy::Step& step = hierarchy_.steps()[top];
+      const Prediction::Step& step = prediction_.steps[top];
       const Sums factors = sum[step.vector];
       sum[step.vector] = {};
       const double most =
           std::max({std::abs(factors[0]), std::abs(factors[1]), std::abs(factors[2])});
       if (most < 1e-12) continue;
-      for (const Term& t : hierarchy_.terms(step)) add(t.vector, factors, t.factor);
+      for (const Term& t : prediction_.of(step)) add(t.vector, factors, t.factor);
       if (most / step.reach <= kNothing) continue;
       Entry entry{step.vector, {}};
       for (int k = 0; k < 3; ++k) entry.weight[k] = static_cast<float>(factors[k] / step.reach);
@@ -114,15 +114,15 @@ class ColumnBuilder {
 
   const Surface& surface_;
   const Tessellation& grid_;
-  const Hierarchy& hierarchy_;
+  const Prediction& prediction_;
   std::vector<std::vector<Term>> expanded_;
   std::vector<Index> stepOf_;
 };
 
 }  // namespace
 
-Columns columnsOf(const Surface& surface, const Tessellation& grid, const Hierarchy& hierarchy) {
-  return ColumnBuilder(surface, grid, hierarchy).build();
+Columns columnsOf(const Surface& surface, const Tessellation& grid, const Prediction& prediction) {
+  return ColumnBuilder(surface, grid, prediction).build();
 }
 
 }  // namespace sweepface

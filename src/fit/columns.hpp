@@ -26,6 +26,6 @@ struct Columns {
 /// Uses all cores; memory and time grow with the number of coefficients that move a vertex, about
 /// 150 each.
 Columns columnsOf(const Surface& surface, const Tessellation& grid,
-                  const codec::Hierarchy& hierarchy);
+                  const codec::Prediction& prediction);
 
 }  // namespace sweepface

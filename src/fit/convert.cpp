@@ -29,6 +29,8 @@ namespace {
 constexpr int kMostRounds = 60;
 // The fit's share of the tolerance where the rest is left to packing.
 constexpr double kFitShare = 0.9;
+// What packing does to normals is more than a limit on the fit's could mend.
+constexpr double kNormalShare = 1.4;
 // Predicted slopes overshoot where an edge is this many times as long as the next along its line.
 constexpr double kUneven = 3;
 // At the default tolerance of 0.02 % of the diagonal normals may be this far off, in degrees.
@@ -99,7 +101,8 @@ class Converter {
       return fail("all vertices of the neutral stand at one place; there is no surface to fit");
     const double tolerance = options_.tolerance > 0 ? options_.tolerance : 0.0002 * size;
     const double angle = normalLimit(options_, tolerance, size);
-    limits_ = {(options_.pack ? kFitShare : 1) * tolerance, angle, angle < 180};
+    limits_ = {(options_.pack ? kFitShare : 1) * tolerance,
+               std::min(180.0, (options_.pack ? kNormalShare : 1) * angle), angle < 180};
 
     auto mesh = makeGridMesh(source_);
     if (!mesh) return std::unexpected(mesh.error());

@@ -10,6 +10,7 @@ using codec::CodedSite;
 using codec::Coefficients;
 using codec::Hierarchy;
 using codec::Lattice;
+using codec::Prediction;
 using codec::Symmetry;
 
 namespace {
@@ -18,6 +19,7 @@ class PoseQuantiser {
  public:
   PoseQuantiser(const Lattice& lattice, const Columns& columns, PoseTask task, Coefficients& q)
       : h_(lattice.hierarchy()),
+        steps_(h_.prediction().steps),
         columns_(columns),
         axis_(lattice.axis()),
         task_(std::move(task)),
@@ -25,7 +27,7 @@ class PoseQuantiser {
         q_(q),
         touched_(task_.errors.size(), 0) {
     siteOf_.resize(q.size());
-    for (const Hierarchy::Step& step : h_.steps()) siteOf_[step.vector] = step.site;
+    for (const Prediction::Step& step : steps_) siteOf_[step.vector] = step.site;
     for (int a = 0; a < 3; ++a)
       for (const Vec3& e : task_.errors)
         error_[a].push_back(static_cast<float>(a == 0 ? e.x : a == 1 ? e.y : e.z));
@@ -38,8 +40,8 @@ class PoseQuantiser {
     for (sweep_ = 0; sweep_ < kSweeps; ++sweep_) {
       Index changed = 0;
       findWanted();
-      for (std::size_t k = h_.steps().size(); k-- > 0;)
-        for (int a = 0; a < 3; ++a) changed += improve(h_.steps()[k].vector, a);
+      for (std::size_t k = steps_.size(); k-- > 0;)
+        for (int a = 0; a < 3; ++a) changed += improve(steps_[k].vector, a);
       if (changed == 0) break;
     }
     repair();
@@ -298,6 +300,7 @@ class PoseQuantiser {
   Index vertexCount() const { return static_cast<Index>(perSquare_.size()); }
 
   const Hierarchy& h_;
+  const std::vector<Prediction::Step>& steps_;
   const Columns& columns_;
   int axis_;
   PoseTask task_;

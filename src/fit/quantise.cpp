@@ -27,11 +27,11 @@ namespace {
 
 // Steps as shares of the tolerance. Small ones cost little: what counts is how many coefficients
 // are not zero.
-constexpr double kNeutralStep = 0.25, kTargetStep = 0.5;
+constexpr double kNeutralStep = 0.25, kTargetStep = 1;
 // The neutral spends this share of the tolerance, so that its poses have room.
-constexpr double kNeutralShare = 0.75;
+constexpr double kNeutralShare = 0.5;
 // What a tangent that leans by the angle aimed at counts, in bits.
-constexpr double kNeutralBits = 1, kTargetBits = 0.3;
+constexpr double kNeutralBits = 1, kTargetBits = 0.05;
 constexpr int kMostFiner = 8;
 // From this many halvings on a target starts where the fit has the pose, whatever that costs.
 constexpr int kFaithful = 2;
@@ -61,7 +61,7 @@ class Quantiser {
     rig.packing.mirror = seeds.pairs;
     lattice_.emplace(rig.surface, rig.packing);
     codec::chooseImages(rig, *lattice_, rig.packing);
-    columns_ = columnsOf(rig.surface, grid_, lattice_->hierarchy());
+    columns_ = columnsOf(rig.surface, grid_, lattice_->prediction(0));
     folds_.emplace(rig, grid_);
   }
 
@@ -72,6 +72,8 @@ class Quantiser {
     gather();
     neutralErrors_.assign(grid_.vertexCount(), Vec3{});
     if (!settle(0, neutralBounds())) return failed();
+    lattice_->learn(rig_.surface, rig_.neutral, codec::stepOf(rig_.packing, 0));
+    columns_ = columnsOf(rig_.surface, grid_, lattice_->prediction(1));
     neutralErrors_ = errorsOf(0, poses_[0]);
     neutralOff_ = rig_.neutral;
     for (std::size_t v = 0; v < neutralOff_.size(); ++v) neutralOff_[v] -= fittedNeutral_[v];
@@ -117,7 +119,7 @@ class Quantiser {
 
   std::vector<Vec3> errorsOf(Index pose, const Coefficients& q) const {
     std::vector<Vec3> vectors(rig_.surface.vectorCount());
-    lattice_->restore(q, codec::stepOf(rig_.packing, pose), vectors);
+    lattice_->restore(pose, q, codec::stepOf(rig_.packing, pose), vectors);
     rig_.surface.settle(std::span(vectors).first(q.size()), vectors);
     std::vector<Vec3> errors = grid_.positions(vectors);
     for (std::size_t v = 0; v < errors.size(); ++v) {
@@ -143,7 +145,7 @@ class Quantiser {
 
   Slopes slopesOf(Index pose, const Coefficients& q, const std::vector<Vec3>& fitted) const {
     std::vector<Vec3> off(q.size()), form = fitted;
-    lattice_->restore(q, codec::stepOf(rig_.packing, pose), off);
+    lattice_->restore(pose, q, codec::stepOf(rig_.packing, pose), off);
     for (std::size_t v = 0; v < q.size(); ++v) off[v] -= fitted[v];
     if (pose > 0)
       for (std::size_t v = 0; v < q.size(); ++v) form[v] += fittedNeutral_[v];
@@ -215,7 +217,7 @@ class Quantiser {
         task.expected = lattice_->image(codec::inFinerSteps(
             poses_[form.image], form.finer - rig_.packing.poses[form.image].finer));
       Coefficients q =
-          lattice_->round(attempt < kFaithful ? fitted : compensated(fitted), task.step);
+          lattice_->round(pose, attempt < kFaithful ? fitted : compensated(fitted), task.step);
       if (attempt < 0) symmetrise(q, symmetry, task.expected);
       if (!improve(pose, task, fitted, q)) continue;
       done = unfold(pose, task, fitted, q) || attempt >= kMostForFolds;
@@ -224,7 +226,7 @@ class Quantiser {
     }
     if (found < 0) return false;
     form.finer = found;
-    lattice_->restore(poses_[pose], codec::stepOf(rig_.packing, pose), vectorsOf(pose));
+    lattice_->restore(pose, poses_[pose], codec::stepOf(rig_.packing, pose), vectorsOf(pose));
     return true;
   }
 
@@ -248,18 +250,18 @@ class Quantiser {
     constexpr int kRounds = 4;
     const std::vector<Vec3> faithful = compensated(fitted);
     const std::size_t own = foldsOf(pose, faithful).size() * 9 / 8;  // a few more will do
-    std::vector<Index> corners = foldsOf(pose, restored(q, task.step));
+    std::vector<Index> corners = foldsOf(pose, restored(pose, q, task.step));
     std::size_t least = corners.size();
     task.frozen.assign(q.size(), 0);
     Coefficients trial = q;
     for (int round = 0; round < kRounds && corners.size() > own; ++round) {
-      std::vector<Vec3> vectors = restored(trial, task.step);
+      std::vector<Vec3> vectors = restored(pose, trial, task.step);
       for (const Index v : behind(corners)) task.frozen[v] = 1;
       for (std::size_t v = 0; v < vectors.size(); ++v)
         if (task.frozen[v]) vectors[v] = faithful[v];
-      trial = lattice_->round(vectors, task.step);
+      trial = lattice_->round(pose, vectors, task.step);
       const bool met = improve(pose, task, fitted, trial);
-      std::vector<Index> left = foldsOf(pose, restored(trial, task.step));
+      std::vector<Index> left = foldsOf(pose, restored(pose, trial, task.step));
       if (met && left.size() < least) least = left.size(), q = trial;
       corners = std::move(left);
     }
@@ -281,9 +283,9 @@ class Quantiser {
     return stored;
   }
 
-  std::vector<Vec3> restored(const Coefficients& q, double step) const {
+  std::vector<Vec3> restored(Index pose, const Coefficients& q, double step) const {
     std::vector<Vec3> vectors(q.size());
-    lattice_->restore(q, step, vectors);
+    lattice_->restore(pose, q, step, vectors);
     return vectors;
   }
 

@@ -13,11 +13,12 @@ inline Rig packed(Rig rig) {
   rig.packing.targetStep = 0.02;
   rig.packing.textureBits = 12;
   rig.packing.poses.resize(rig.targets.size() + 1);
-  const codec::Lattice lattice(rig.surface, rig.packing);
+  codec::Lattice lattice(rig.surface, rig.packing);
   for (Index pose = 0; pose < static_cast<Index>(rig.packing.poses.size()); ++pose) {
     std::vector<Vec3>& vectors = pose == 0 ? rig.neutral : rig.targets[pose - 1].difference;
     const double step = codec::stepOf(rig.packing, pose);
-    lattice.restore(lattice.round(vectors, step), step, vectors);
+    lattice.restore(pose, lattice.round(pose, vectors, step), step, vectors);
+    if (pose == 0) lattice.learn(rig.surface, vectors, step);
   }
   for (Vec2& t : rig.source.polygons.texcoords)
     t = {std::round(t.x * 4096) / 4096, std::round(t.y * 4096) / 4096};

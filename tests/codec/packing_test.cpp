@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 #include <random>
+#include <set>
+
+#include "sweepface/edit.hpp"
 
 #include "codec/files.hpp"
 #include "codec/lattice.hpp"
@@ -12,6 +15,7 @@ using namespace sweepface::testing;
 using codec::Coefficients;
 using codec::Hierarchy;
 using codec::Lattice;
+using codec::Prediction;
 using codec::stepOf;
 
 Wireframe creased() {
@@ -22,7 +26,8 @@ Wireframe creased() {
 
 /// Wireframes of every sort: grids large and small, T-nodes, poles, creases.
 std::vector<Wireframe> someWireframes() {
-  return {onePatch(1, 1), onePatch(7, 4), twoPatches(), slice(), tee(), fan(3), fan(6), creased()};
+  return {onePatch(1, 1), onePatch(7, 4), twoPatches(), slice(), tee(),
+          fan(3),         fan(6),         creased(),    sheet(8)};
 }
 
 std::vector<Surface> someSurfaces() {
@@ -53,8 +58,8 @@ TEST(Hierarchy, HasOneStepForEveryVectorOverThoseBefore) {
   for (const Surface& surface : someSurfaces()) {
     const Lattice lattice(surface, {});
     std::vector<char> known(surface.storedCount(), 0);
-    for (const Hierarchy::Step& step : lattice.hierarchy().steps()) {
-      for (const Term& t : lattice.hierarchy().terms(step)) EXPECT_TRUE(known[t.vector]);
+    for (const Prediction::Step& step : lattice.prediction(0).steps) {
+      for (const Term& t : lattice.prediction(0).of(step)) EXPECT_TRUE(known[t.vector]);
       EXPECT_FALSE(known[step.vector]);
       known[step.vector] = 1;
       EXPECT_GT(step.reach, 0);
@@ -63,22 +68,92 @@ TEST(Hierarchy, HasOneStepForEveryVectorOverThoseBefore) {
   }
 }
 
-// What is constant is predicted by itself.
-TEST(Hierarchy, PredictionsAddUpToOneForPositionsAndToNothingForDerivatives) {
+TEST(Hierarchy, KnowsTheSiteOfEveryVector) {
   for (const Surface& surface : someSurfaces()) {
     const Lattice lattice(surface, {});
-    for (const Hierarchy::Step& step : lattice.hierarchy().steps()) {
-      const StoredVector& s = surface.stored(step.vector);
-      double sum = 0;
-      bool any = false;
-      for (const Term& t : lattice.hierarchy().terms(step)) {
-        any = true;
-        const StoredVector& from = surface.stored(t.vector);
-        if (from.i + from.j == 0) sum += t.factor;
-      }
-      EXPECT_NEAR(sum, any && s.i + s.j == 0 ? 1 : 0, 1e-12);
+    const auto& sites = lattice.hierarchy().sites();
+    for (const Prediction::Step& step : lattice.prediction(0).steps) {
+      ASSERT_LT(step.site, static_cast<Index>(sites.size()));
+      EXPECT_GE(step.vector, sites[step.site].first);
+      EXPECT_LT(step.vector, sites[step.site].first + sites[step.site].count);
     }
   }
+}
+
+TEST(Hierarchy, TellsTheNearestSitesBeforeEachThatIsNoRoot) {
+  for (const Surface& surface : someSurfaces()) {
+    const Lattice lattice(surface, {});
+    const auto& sites = lattice.hierarchy().sites();
+    for (Index s = 0; s < static_cast<Index>(sites.size()); ++s) {
+      const auto near = lattice.hierarchy().near(s);
+      EXPECT_EQ(near.empty(), sites[s].span == 0);
+      EXPECT_LE(near.size(), Hierarchy::kMostNear);
+      EXPECT_EQ(std::set<Index>(near.begin(), near.end()).size(), near.size());
+      for (const Index other : near) {
+        EXPECT_LT(other, s);
+        EXPECT_NE(other, sites[s].mirror);
+      }
+    }
+  }
+}
+
+// What is constant is predicted by itself.
+void expectSumsOfOne(const Surface& surface, const Prediction& prediction) {
+  std::vector<char> known(surface.storedCount(), 0);
+  for (const Prediction::Step& step : prediction.steps) {
+    const StoredVector& s = surface.stored(step.vector);
+    double sum = 0;
+    for (const Term& t : prediction.of(step)) {
+      EXPECT_TRUE(known[t.vector]);
+      const StoredVector& from = surface.stored(t.vector);
+      if (from.i + from.j == 0) sum += t.factor;
+    }
+    known[step.vector] = 1;
+    EXPECT_NEAR(sum, !prediction.of(step).empty() && s.i + s.j == 0 ? 1 : 0, 1e-12);
+  }
+}
+
+TEST(Hierarchy, PredictionsAddUpToOneForPositionsAndToNothingForDerivatives) {
+  for (const Surface& surface : someSurfaces())
+    expectSumsOfOne(surface, Lattice(surface, {}).prediction(0));
+}
+
+TEST(PredictedMoves, AddUpToOneWhereverTheNeutralIs) {
+  for (const Surface& surface : someSurfaces())
+    for (const double size : {0.0, 1e-200, 1.0, 1e200}) {
+      Lattice lattice(surface, {});
+      std::vector<Vec3> neutral;
+      for (Index v = 0; v < surface.storedCount(); ++v) neutral.push_back(size * anyVector(v));
+      lattice.learn(surface, neutral, 0.01);
+      expectSumsOfOne(surface, lattice.prediction(1));
+    }
+}
+
+// A sheet whose nodes stand closer and closer together, and what a bump in space does to it.
+struct Bump {
+  Rig rig = makeRig(sheet(16));
+  std::vector<Vec3> neutral, move;
+
+  Bump() {
+    for (Index v = 0; v < rig.surface.storedCount(); ++v) {
+      const double x = std::pow(v % 17 / 16.0, 3), y = std::pow(v / 17 / 16.0, 3);
+      neutral.push_back({x, y, 0.3 * std::sin(3 * x)});
+      move.push_back({0, 0, std::exp(-4 * ((x - 0.4) * (x - 0.4) + (y - 0.5) * (y - 0.5)))});
+    }
+  }
+  double told(const Lattice& lattice) const {
+    double sum = 0;
+    for (const auto& q : lattice.round(1, move, 0.001)) sum += std::abs(q[2]);
+    return sum;
+  }
+};
+
+TEST(PredictedMoves, FollowWhatHappensInSpaceBetterThanLinesDo) {
+  const Bump bump;
+  Lattice lattice(bump.rig.surface, {});
+  const double byLines = bump.told(lattice);
+  lattice.learn(bump.rig.surface, bump.neutral, 0.001);
+  EXPECT_LT(bump.told(lattice), 0.85 * byLines);
 }
 
 TEST(Lattice, RoundsWhatItRestoresToTheSameCoefficients) {
@@ -86,8 +161,8 @@ TEST(Lattice, RoundsWhatItRestoresToTheSameCoefficients) {
     const Lattice lattice(surface, {});
     const Coefficients q = anyCoefficients(surface.storedCount(), 3);
     std::vector<Vec3> vectors(q.size());
-    lattice.restore(q, 0.01, vectors);
-    EXPECT_EQ(lattice.round(vectors, 0.01), q);
+    lattice.restore(0, q, 0.01, vectors);
+    EXPECT_EQ(lattice.round(0, vectors, 0.01), q);
   }
 }
 
@@ -96,8 +171,8 @@ TEST(Lattice, IsNeverMoreThanHalfAStepOff) {
     const Lattice lattice(surface, {});
     std::vector<Vec3> vectors, restored(surface.storedCount());
     for (Index v = 0; v < surface.storedCount(); ++v) vectors.push_back(anyVector(v));
-    lattice.restore(lattice.round(vectors, 0.25), 0.25, restored);
-    for (const Hierarchy::Step& step : lattice.hierarchy().steps()) {
+    lattice.restore(0, lattice.round(0, vectors, 0.25), 0.25, restored);
+    for (const Prediction::Step& step : lattice.prediction(0).steps) {
       const Vec3 off = restored[step.vector] - vectors[step.vector];
       for (const double x : {off.x, off.y, off.z})
         EXPECT_LE(std::abs(x), 0.125 / step.reach + 1e-12);
@@ -110,11 +185,12 @@ Rig packed(Wireframe wireframe, unsigned seed = 1) {
   Rig rig = makeRig(std::move(wireframe));
   rig.packing = someSteps();
   rig.packing.poses = {{0, -1}, {0, -1}, {2, -1}, {0, -1}};
-  const Lattice lattice(rig.surface, rig.packing);
+  Lattice lattice(rig.surface, rig.packing);
   const std::size_t count = rig.neutral.size();
-  lattice.restore(anyCoefficients(count, seed), stepOf(rig.packing, 0), rig.neutral);
+  lattice.restore(0, anyCoefficients(count, seed), stepOf(rig.packing, 0), rig.neutral);
+  lattice.learn(rig.surface, rig.neutral, stepOf(rig.packing, 0));
   for (Index k = 1; k <= 3; ++k)
-    lattice.restore(k == 3 ? Coefficients(count) : anyCoefficients(count, seed + k),
+    lattice.restore(k, k == 3 ? Coefficients(count) : anyCoefficients(count, seed + k),
                     stepOf(rig.packing, k), rig.targets[k - 1].difference);
   return rig;
 }
@@ -152,6 +228,18 @@ TEST(Packing, WhatLeavesTheLatticeIsHeldExactlyAndTheRestStays) {
   EXPECT_EQ(encode(back), bytes);
 }
 
+TEST(Packing, AnEditOfTheNeutralLeavesTargetsOnTheirSteps) {
+  Rig rig = packed(sheet(8));
+  const std::size_t before = encode(rig).size();
+  const NodeMove move{40, {0.123, 0, 0.1}};
+  ASSERT_TRUE(moveNodes(rig, std::span(&move, 1)));
+  const std::string bytes = encode(rig);
+  EXPECT_LE(bytes.size(), before + 60);
+  const Rig back = decode(bytes, "a.sweep").value();
+  expectEqual(back, rig);
+  EXPECT_EQ(encode(back), bytes);
+}
+
 TEST(Packing, FormsThatCannotBeAreMadeSound) {
   Rig rig = packed(tee());
   rig.packing.poses = {{-3, 7}, {99, 0}, {0, 2}};
@@ -183,7 +271,7 @@ TEST(Packing, AMirroredHalfCostsHardlyAnything) {
       if (images[v].vector > static_cast<Index>(v)) q[images[v].vector][a] = turned * q[v][a];
     }
   }
-  lattice.restore(q, 0.01, rig.neutral);
+  lattice.restore(0, q, 0.01, rig.neutral);
   rig.packing.poses = {{0, 0}};
   const std::size_t mirrored = encode(rig).size();
   expectEqual(decode(encode(rig), "a.sweep").value(), rig);

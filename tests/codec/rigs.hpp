@@ -42,6 +42,29 @@ inline Wireframe twoPatches() {
   return w;
 }
 
+/// n × n patches of one quad each.
+inline Wireframe sheet(Index n) {
+  Wireframe w;
+  const auto node = [n](Index x, Index y) { return y * (n + 1) + x; };
+  const auto right = [n](Index x, Index y) { return 2 * (y * n + x); };
+  const auto up = [n](Index x, Index y) { return 2 * (n * (n + 1) + y * (n + 1) + x); };
+  for (Index k = 0; k < (n + 1) * (n + 1); ++k) w.nodes.push_back({k, kPosition});
+  w.points = static_cast<Index>(w.nodes.size());
+  for (Index y = 0; y <= n; ++y)
+    for (Index x = 0; x < n; ++x) w.arcs.push_back(arc(node(x, y), node(x + 1, y), 1, 0));
+  for (Index y = 0; y < n; ++y)
+    for (Index x = 0; x <= n; ++x) w.arcs.push_back(arc(node(x, y), node(x, y + 1), 1, 1));
+  for (Index y = 0; y < n; ++y)
+    for (Index x = 0; x < n; ++x) {
+      const auto start = static_cast<Index>(w.loops.size());
+      w.patches.push_back({{start, start + 1, start + 2, start + 3, start + 4}});
+      for (HalfArc h : {right(x, y), up(x + 1, y), right(x, y + 1) + 1, up(x, y) + 1})
+        w.loops.push_back(h);
+    }
+  w.ribbons = {{}, {}};
+  return w;
+}
+
 /// A patch whose side 3 is collapsed: a slice of a fan.
 inline Wireframe slice() {
   Wireframe w = onePatch(3, 2);

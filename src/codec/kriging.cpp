@@ -1,0 +1,124 @@
+#include "codec/kriging.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstdlib>
+
+namespace sweepface::codec {
+
+namespace {
+
+// A place on the neutral and the way it faces.
+struct Stand {
+  Vec3 position, facing;
+};
+
+std::vector<Stand> standsOf(const Surface& surface, const Hierarchy& hierarchy,
+                            std::span<const Vec3> neutral) {
+  std::vector<Vec3> vectors(surface.vectorCount());
+  surface.settle(neutral, vectors);
+  std::vector<Vec3> facing(surface.storedCount());  // by the vector of the position
+  const auto jet = [&](Index patch, int corner, int i, int j) {
+    const JetRef ref = surface.cornerJet(patch, corner, i, j);
+    return ref.sign * vectors[ref.vector];
+  };
+  for (Index p = 0; p < surface.patchCount(); ++p)
+    for (int corner = 0; corner < 4; ++corner) {
+      const Index position = surface.cornerJet(p, corner, 0, 0).vector;
+      if (position < surface.storedCount())
+        facing[position] += cross(jet(p, corner, 1, 0), jet(p, corner, 0, 1));
+    }
+  std::vector<Stand> stands;
+  for (const CodedSite& site : hierarchy.sites()) {
+    const Vec3 n = facing[site.first];
+    const double length = norm(n);
+    stands.push_back({neutral[site.first], length > 0 ? n * (1 / length) : Vec3{}});
+  }
+  return stands;
+}
+
+static bool gLinear = false;
+// The power 1.5 of the distance.
+double apart(const Stand& a, const Stand& b, double turned) {
+  const Vec3 way = a.position - b.position, turn = a.facing - b.facing;
+  const double r = std::sqrt(dot(way, way) + turned * turned * dot(turn, turn));
+  return gLinear ? r : r * std::sqrt(r);
+}
+
+constexpr std::size_t kMost = Hierarchy::kMostNear;
+using Weights = std::array<double, kMost>;
+
+// Weights that sum to 1, by Cholesky's factors of what the differences from the place itself have
+// in common. False where they cannot be told.
+bool weigh(const Stand& own, std::span<const Stand> stands, std::span<const Index> near,
+           double turned, Weights& weights) {
+  const std::size_t n = near.size();
+  if (n == 0 || n > kMost) return false;
+  Weights away;
+  double mean = 0;
+  for (std::size_t k = 0; k < n; ++k) mean += away[k] = apart(own, stands[near[k]], turned);
+  mean /= static_cast<double>(n);
+  if (!(mean > 0) || !std::isfinite(mean)) return false;
+  constexpr double kRidge = 1e-6;
+  std::array<Weights, kMost> l;
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j <= i; ++j) {
+      double sum = i == j ? 2 * away[i] + kRidge * mean
+                          : away[i] + away[j] - apart(stands[near[i]], stands[near[j]], turned);
+      for (std::size_t k = 0; k < j; ++k) sum -= l[i][k] * l[j][k];
+      if (i > j)
+        l[i][j] = sum / l[j][j];
+      else if (sum > 0)
+        l[i][i] = std::sqrt(sum);
+      else
+        return false;
+    }
+  for (std::size_t i = 0; i < n; ++i) {
+    double sum = 1;
+    for (std::size_t k = 0; k < i; ++k) sum -= l[i][k] * weights[k];
+    weights[i] = sum / l[i][i];
+  }
+  double total = 0;
+  for (std::size_t i = n; i-- > 0;) {
+    for (std::size_t k = i + 1; k < n; ++k) weights[i] -= l[k][i] * weights[k];
+    total += weights[i] /= l[i][i];
+  }
+  // Rounded so that no last digit counts; the nearest makes up for it.
+  constexpr double kUnit = 65536, kLargest = 4;
+  double others = 0;
+  for (std::size_t i = n; i-- > 0;) {
+    weights[i] = std::round(weights[i] / total * kUnit) / kUnit;
+    if (!(std::abs(weights[i]) <= kLargest)) return false;
+    if (i > 0) others += weights[i];
+  }
+  weights[0] = 1 - others;
+  return true;
+}
+
+}  // namespace
+
+Prediction predictMoves(const Surface& surface, const Hierarchy& hierarchy,
+                        std::span<const Vec3> neutral, double turned) {
+  const std::vector<Stand> stands = standsOf(surface, hierarchy, neutral);
+  const Prediction& lines = hierarchy.prediction();
+  Prediction moves;
+  moves.steps.reserve(lines.steps.size());
+  moves.terms.reserve(2 * lines.terms.size());
+  Weights weights;
+  for (Prediction::Step step : lines.steps) {
+    const auto before = lines.of(step);
+    const auto near = hierarchy.near(step.site);
+    const bool isPosition = step.vector == hierarchy.sites()[step.site].first;
+    step.terms = static_cast<Index>(moves.terms.size());
+    if (isPosition && weigh(stands[step.site], stands, near, turned, weights))
+      for (std::size_t k = 0; k < near.size(); ++k)
+        moves.terms.push_back({hierarchy.sites()[near[k]].first, weights[k]});
+    else
+      moves.terms.insert(moves.terms.end(), before.begin(), before.end());
+    step.termsEnd = static_cast<Index>(moves.terms.size());
+    moves.steps.push_back(step);
+  }
+  return moves;
+}
+
+}  // namespace sweepface::codec
