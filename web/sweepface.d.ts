@@ -65,9 +65,10 @@ export interface LoadOptions {
   vertices?: number;
   /** What messages call the face. */
   name?: string;
-  /** Targets that turn, the jaw and lids, go on arcs, if the file tells about what they turn. */
+  /** Targets that turn, the jaw and lids, go on arcs, if the file tells about what they turn; loads sweepface_full.wasm
+   * instead of sweepface.wasm. */
   arcs?: boolean;
-  /** `A_B` goes by the product of A and B, `A_50` stands in for A at 0.5. */
+  /** `A_B` goes by the product of A and B, `A_50` stands in for A at 0.5; loads sweepface_full.wasm, too. */
   combine?: boolean;
   /** Eyeballs turn rigidly about their centres; loads sweepface_full.wasm instead of sweepface.wasm. */
   eyes?: boolean;

@@ -23,7 +23,7 @@ async function compileUrl(url) {
   return isKnown && WebAssembly.compileStreaming ? WebAssembly.compileStreaming(response) : WebAssembly.compile(await response.arrayBuffer());
 }
 
-/** The modules beside this file: the usual one, and the one that knows regions and eyes as well. */
+/** The modules beside this file: the usual one, and the one that knows arcs, combinations, regions and eyes as well. */
 const MODULES = {
   usual: () => new URL('./sweepface.wasm', import.meta.url),
   full: () => new URL('./sweepface_full.wasm', import.meta.url)
@@ -112,7 +112,7 @@ class Shared {
   constructor(module, bytes, name, lod, follow, budget, eyes, divide) {
     const runtime = this.runtime = new Runtime(module), {wasm} = runtime;
     this.rig = runtime.loadRig(bytes, name);
-    runtime.check(wasm.sweepface_rig_follow(this.rig, follow));
+    if (follow) runtime.check(wasm.sweepface_rig_follow(this.rig, follow));
     this.eyeCount = eyes ? runtime.get('sweepface_rig_turn_eyes', this.rig) : 0;
     this.regions = divide ? divide(runtime, this.rig) : null;  // with their matter
     this.turnCount = wasm.sweepface_rig_turn_count(this.rig);
@@ -188,7 +188,7 @@ export class Sweepface {
     if (!Number.isInteger(lod) || lod < 0) throw new RangeError('The level of detail must be a whole number from 0 on.');
     const view = ArrayBuffer.isView(bytes) ? new Uint8Array(bytes.buffer, bytes.byteOffset, bytes.byteLength) : new Uint8Array(bytes);
     const [budget] = BUDGETS.flatMap((kind, k) => (kind in rest ? [[k, Number(rest[kind])]] : []));
-    const module = await compile(wasm, regions || eyes ? 'full' : 'usual');
+    const module = await compile(wasm, arcs || combine || regions || eyes ? 'full' : 'usual');
     const divide = regions && (await import('./sweepface_regions.js')).divider(regions);
     return withinMemory(() => new Sweepface(new Shared(module, view, String(name), lod, (arcs ? 1 : 0) + (combine ? 2 : 0), budget, eyes, divide)));
   }

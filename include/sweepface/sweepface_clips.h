@@ -24,8 +24,8 @@ SWEEPFACE_API sweepface_status sweepface_rig_region_matter(const sweepface_rig* 
 
 /* ---- Clips ---- */
 
-/* Weights over time for the targets of a rig. Never changes but by sweepface_clip_smooth: any number
- * of threads may read it. */
+/* Weights over time for the targets of a rig. Never changes but by sweepface_clip_smooth: any
+ * number of threads may read it. */
 typedef struct sweepface_clip sweepface_clip;
 
 /* How a clip is read. */
@@ -40,9 +40,9 @@ typedef struct sweepface_clip_options {
 SWEEPFACE_API sweepface_clip_options sweepface_clip_usual_options(void);
 
 /* Reads a clip from memory, which may be reused afterwards: a CSV of Live Link Face, a JSON of
- * MediaPipe or Audio2Face, a timeline (JSON) or the first animation of a .glb that has weights; told
- * apart by what they hold. Names are matched with the rig's targets; none that matches is an error.
- * `options` may be NULL; `name` is what messages call it, NULL: "The clip". */
+ * MediaPipe or Audio2Face, a timeline (JSON) or the first animation of a .glb that has weights;
+ * told apart by what they hold. Names are matched with the rig's targets; none that matches is an
+ * error. `options` may be NULL; `name` is what messages call it, NULL: "The clip". */
 SWEEPFACE_API sweepface_status sweepface_clip_read(const sweepface_rig* rig, const void* bytes,
                                                    size_t size, const char* name,
                                                    const sweepface_clip_options* options,

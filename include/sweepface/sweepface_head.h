@@ -21,8 +21,8 @@ typedef struct sweepface_pose {
 /* x, y, z and w of the quaternion that turns the model so: by Ry * Rx * Rz. */
 SWEEPFACE_API void sweepface_rotation(const sweepface_angles* angles, double quaternion[4]);
 
-/* From now on eyeballs turn rigidly about their centres. To be said before the rig has meshes, after
- * sweepface_rig_follow. Writes how many there are, which may be none. */
+/* From now on eyeballs turn rigidly about their centres. To be said before the rig has meshes,
+ * after sweepface_rig_follow. Writes how many there are, which may be none. */
 SWEEPFACE_API sweepface_status sweepface_rig_turn_eyes(sweepface_rig* rig, uint32_t* eyes);
 /* How the eyes stand, whatever the head does; NULL, as at the start: by the weights of eyeLook
  * targets. */

@@ -64,8 +64,8 @@ typedef struct sweepface_matter {
   double delay;
 } sweepface_matter;
 
-/* Like sweepface_motion_create, for every region, [regions] matters: what moves a weight moves it in
- * all, each by its own matter. Positions and velocities are then [regions x count]. */
+/* Like sweepface_motion_create, for every region, [regions] matters: what moves a weight moves it
+ * in all, each by its own matter. Positions and velocities are then [regions x count]. */
 SWEEPFACE_API sweepface_status sweepface_motion_create_regions(const double* weights, size_t count,
                                                                const sweepface_matter* matters,
                                                                size_t regions,

@@ -354,7 +354,9 @@ class HierarchyBuilder {
   }
 
   // The sites that are nearest along what is left of the lines, without the site's own image, so
-  // that both see the same (Dijkstra 1959).
+  // that both see the same (Dijkstra 1959). However many T-nodes and spokes there are, the search
+  // is short.
+  static constexpr std::size_t kMostReached = 128, kMostQueued = 1024;
   std::vector<Index> nearest(Index s) {
     constexpr std::size_t kEnough = 12;
     std::vector<Index> result;
@@ -383,7 +385,6 @@ class HierarchyBuilder {
     return result;
   }
   void goOn(Index node, Index distance) {
-    constexpr std::size_t kMostQueued = 1024;
     for (const HalfArc arm : c_.stars[node].arms) {
       if (queue_.size() >= kMostQueued) return;
       if (w_.arcs[arcOf(arm)].collapsed) continue;
