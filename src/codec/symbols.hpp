@@ -42,12 +42,12 @@ class Symbols {
   }
 
   /// 0, -1, 1, -2, 2 ... stand for 0, 1, 2, 3, 4 ...
-  std::int32_t signedNumber(std::uint32_t tag, std::uint32_t a, std::uint32_t b,
+  std::int64_t signedNumber(std::uint32_t tag, std::uint32_t a, std::uint32_t b,
                             std::int64_t value) {
     const std::uint64_t folded =
         static_cast<std::uint64_t>(value) << 1 ^ static_cast<std::uint64_t>(value >> 63);
-    const std::uint32_t n = number(tag, a, b, folded);
-    return static_cast<std::int32_t>(n >> 1) ^ -static_cast<std::int32_t>(n & 1);
+    const std::int64_t n = number(tag, a, b, folded);
+    return n >> 1 ^ -(n & 1);
   }
 
   /// One of `count`, all alike.

@@ -104,13 +104,12 @@ class WireframeCoder {
     for (std::size_t n = 0; n < expected.size(); ++n) same &= told(n) == expected[n];
     same = s_.bit(kAsExpected, 0, 0, same);
     for (std::size_t n = 0; n < expected.size() && s_.ok(); ++n) {
-      Index point = expected[n];
-      if (!same)
-        point = expected[n] + s_.signedNumber(kPoint, 0, 0, std::int64_t{told(n)} - expected[n]);
+      std::int64_t point = expected[n];
+      if (!same) point += s_.signedNumber(kPoint, 0, 0, std::int64_t{told(n)} - expected[n]);
       if (point < -1 || point >= static_cast<Index>(expected.size()))
-        s_.refuse("a node stands at a point that does not exist");
-      w_.nodes[n].point = point;
-      w_.points = std::max(w_.points, point + 1);
+        return s_.refuse("a node stands at a point that does not exist");
+      w_.nodes[n].point = static_cast<Index>(point);
+      w_.points = std::max(w_.points, w_.nodes[n].point + 1);
     }
     for (const Arc& arc : w_.arcs)
       if (arc.collapsed &&
@@ -129,12 +128,12 @@ class WireframeCoder {
     same = s_.bit(kAsExpected, 1, 0, same);
     Index most = -1;
     for (std::size_t a = 0; a < expected.size() && s_.ok(); ++a) {
-      Index ribbon = expected[a];
+      std::int64_t ribbon = expected[a];
       if (!same) ribbon += s_.signedNumber(kRibbon, 0, 0, std::int64_t{told(a)} - expected[a]);
       if (ribbon < 0 || ribbon >= static_cast<Index>(expected.size()))
-        s_.refuse("an arc belongs to a ribbon that does not exist");
-      w_.arcs[a].ribbon = ribbon;
-      most = std::max(most, ribbon);
+        return s_.refuse("an arc belongs to a ribbon that does not exist");
+      w_.arcs[a].ribbon = static_cast<Index>(ribbon);
+      most = std::max(most, w_.arcs[a].ribbon);
     }
     const auto extra = s_.number(
         kCounts, 2, 0, whole_ ? static_cast<Index>(whole_->ribbons.size()) - most - 1 : 0);
