@@ -1,23 +1,19 @@
 import assert from 'node:assert/strict';
 import {execFileSync} from 'node:child_process';
-import {mkdtempSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
-import {tmpdir} from 'node:os';
+import {readFileSync, writeFileSync} from 'node:fs';
 import {join} from 'node:path';
 import test from 'node:test';
 import {ClipPlayer, matchNames, readClip, readTimeline, TimelinePlayer} from '../sweepface_clips.js';
 import {Sweepface} from '../sweepface.js';
-import {sample, tool} from './native.js';
+import {newFolder, sample, tool} from './native.js';
 
 /** What the tool makes of a clip: a recording of its frames, read again. */
 function played(file, text, options = []) {
-  const folder = mkdtempSync(join(tmpdir(), 'sweepface-'));
-  try {
-    writeFileSync(join(folder, file), text);
-    execFileSync(tool, ['animate', sample, '--clip', join(folder, file), '-o', join(folder, 'out.csv'), '--quiet', ...options], {stdio: 'pipe'});
-    return readClip(readFileSync(join(folder, 'out.csv')), {name: 'out.csv'});
-  } finally {
-    rmSync(folder, {recursive: true});
-  }
+  const folder = newFolder(), clip = join(folder, file), out = join(folder, 'out.csv');
+  writeFileSync(clip, text);
+  const parameters = ['animate', sample, '--clip', clip, '-o', out, '--quiet', ...options];
+  execFileSync(tool, parameters, {stdio: 'pipe'});
+  return readClip(readFileSync(out), {name: 'out.csv'});
 }
 
 /** The tool's sentence about a clip. */
