@@ -9,6 +9,9 @@ const DRIVE_NUMBERS = ['delay', 'seconds', 'turn', 'frequency', 'damping', 'rest
 /** What a level of detail may be asked for by, in the order of the C interface. */
 const BUDGETS = ['edgeLength', 'error', 'vertices'];
 
+/** What targets may follow, in the numbers of the C interface. */
+const FOLLOW = {arcs: 1, combine: 2};
+
 const encoder = new TextEncoder(), decoder = new TextDecoder();
 
 /** The module behind a URL. Browsers keep what they make of one that they compile while it comes; Node's fetch does not read files. */
@@ -109,17 +112,20 @@ function withinMemory(run) {
 
 /** What all faces of one file at one level of detail share. */
 class Shared {
-  constructor(module, bytes, name, lod, follow, budget, eyes, divide) {
+  constructor(module, bytes, {name, follow, eyes, divide, lod, budget}) {
     const runtime = this.runtime = new Runtime(module), {wasm} = runtime;
     this.rig = runtime.loadRig(bytes, name);
     if (follow) runtime.check(wasm.sweepface_rig_follow(this.rig, follow));
     this.eyeCount = eyes ? runtime.get('sweepface_rig_turn_eyes', this.rig) : 0;
-    this.regions = divide ? divide(runtime, this.rig) : null;  // with their matter
+    this.regions = divide ? divide(runtime, this.rig) : null;  // with their matter; null: of one piece
+    this.regionCount = this.regions?.length ?? 1;
     this.turnCount = wasm.sweepface_rig_turn_count(this.rig);
-    this.mesh = budget ? runtime.get('sweepface_mesh_create_within', this.rig, ...budget) : runtime.get('sweepface_mesh_create', this.rig, lod);
+    this.mesh = budget ? runtime.get('sweepface_mesh_create_within', this.rig, ...budget)
+                       : runtime.get('sweepface_mesh_create', this.rig, lod);
     this.names = Array.from({length: wasm.sweepface_rig_target_count(this.rig)},
                             (_, k) => runtime.text(wasm.sweepface_rig_target_name(this.rig, k)));
     this.indexOf = new Map(this.names.map((text, k) => [text, k]));
+    this.weightCount = this.names.length * this.regionCount;
     this.vertexCount = wasm.sweepface_mesh_vertex_count(this.mesh);
     this.lod = lod;
   }
@@ -133,7 +139,8 @@ class Shared {
   region(name) {
     const index = this.regions?.findIndex((region) => region.name === name) ?? -1;
     if (index >= 0) return index;
-    throw new Error(`There is no region named '${name}'; there are ${this.regions?.map((region) => region.name).join(', ') ?? 'none'}.`);
+    const names = this.regions?.map((region) => region.name).join(', ') ?? 'none';
+    throw new Error(`There is no region named '${name}'; there are ${names}.`);
   }
 
   triangles() {
@@ -167,17 +174,16 @@ export class Sweepface {
   #face;
   #motion = 0;
   #waits = 0;  // seconds until the last delayed motion sets out
-  #memory;  // two arrays of vectors for the C interface and what they point to, then weights
+  #memory;  // in the module: arrays of floats and of weights, and C structs: a drive and two vectors
 
   /** Use Sweepface.load. */
   constructor(shared) {
     if (!(shared instanceof Shared)) throw new TypeError('Faces are made by Sweepface.load.');
-    const {runtime, names, vertexCount} = shared;
+    const {runtime, vertexCount, weightCount} = shared;
     this.#shared = shared;
     this.#face = runtime.get('sweepface_face_create', shared.mesh);
-    const size = {vectors: 12 * vertexCount, weights: 8 * names.length * (shared.regions?.length ?? 1)};
-    const positions = runtime.allocate(2 * size.vectors), normals = positions + size.vectors;
-    const weights = runtime.allocate(size.weights + 8), drive = runtime.allocate(56), vectors = runtime.allocate(16);
+    const positions = runtime.allocate(24 * vertexCount), normals = positions + 12 * vertexCount;
+    const weights = runtime.allocate(8 * weightCount), drive = runtime.allocate(56), vectors = runtime.allocate(16);
     this.#memory = {positions, normals, weights, drive, vectors};
     ++runtime.users;
   }
@@ -190,7 +196,9 @@ export class Sweepface {
     const [budget] = BUDGETS.flatMap((kind, k) => (kind in rest ? [[k, Number(rest[kind])]] : []));
     const module = await compile(wasm, arcs || combine || regions || eyes ? 'full' : 'usual');
     const divide = regions && (await import('./sweepface_regions.js')).divider(regions);
-    return withinMemory(() => new Sweepface(new Shared(module, view, String(name), lod, (arcs ? 1 : 0) + (combine ? 2 : 0), budget, eyes, divide)));
+    const follow = (arcs ? FOLLOW.arcs : 0) + (combine ? FOLLOW.combine : 0);
+    const options = {name: String(name), follow, eyes, divide, lod, budget};
+    return withinMemory(() => new Sweepface(new Shared(module, view, options)));
   }
 
   /** Another face of the same file, at rest; the two share everything but their weights. */
@@ -219,8 +227,8 @@ export class Sweepface {
   weightsIn(region) { return this.#weightsOf(this.#open().region(region)); }
 
   #weightsOf(region) {
-    const {runtime, names} = this.#open(), count = names.length;
-    const values = runtime.doubles(runtime.wasm.sweepface_face_weights(this.#face), count * (region + 1)).subarray(count * region);
+    const {runtime, names} = this.#open(), all = runtime.wasm.sweepface_face_weights(this.#face);
+    const values = runtime.doubles(all + 8 * names.length * region, names.length);
     return Object.fromEntries(names.map((name, k) => [name, values[k]]));
   }
 
@@ -228,7 +236,8 @@ export class Sweepface {
   setWeights(weights, region) {
     const shared = this.#open(), {runtime, names} = shared, {wasm} = runtime, count = names.length;
     const named = this.#resolve(weights), all = this.#copyWeights();
-    const places = region !== undefined ? [shared.region(region)] : Array.from(shared.regions ?? [0], (_, r) => r);
+    const everywhere = Array.from({length: shared.regionCount}, (_, r) => r);
+    const places = region === undefined ? everywhere : [shared.region(region)];
     for (const r of places)
       for (const [target, weight] of named) all[count * r + target] = weight;
     this.#takeWeights();
@@ -242,9 +251,8 @@ export class Sweepface {
 
   /** The weights of all regions as they are, in memory of the module. */
   #copyWeights() {
-    const {runtime, names, regions} = this.#shared, count = names.length * (regions?.length ?? 1);
-    const all = runtime.doubles(this.#memory.weights, count);
-    all.set(runtime.doubles(runtime.wasm.sweepface_face_weights(this.#face), count));
+    const {runtime, weightCount} = this.#shared, all = runtime.doubles(this.#memory.weights, weightCount);
+    all.set(runtime.doubles(runtime.wasm.sweepface_face_weights(this.#face), weightCount));
     return all;
   }
 
@@ -252,7 +260,9 @@ export class Sweepface {
   #takeWeights() {
     const {runtime, names, regions} = this.#shared, {wasm} = runtime, at = this.#memory.weights, count = names.length;
     if (!regions) return runtime.check(wasm.sweepface_face_set_weights(this.#face, at, count));
-    for (let r = 0; r < regions.length; ++r) runtime.check(wasm.sweepface_face_set_region_weights(this.#face, r, at + 8 * count * r, count));
+    regions.forEach((_, r) => {
+      runtime.check(wasm.sweepface_face_set_region_weights(this.#face, r, at + 8 * count * r, count));
+    });
   }
 
   /** All weights to 0, at once. */
@@ -324,7 +334,8 @@ export class Sweepface {
     const place = region === undefined ? -1 : shared.region(region);
     const all = this.#resolve(goals), at = this.#drive(drive), motion = this.#moving();
     for (const [target, goal] of all)
-      runtime.check(place < 0 ? wasm.sweepface_motion_move_to(motion, target, goal, at) : wasm.sweepface_motion_move_in(motion, place, target, goal, at));
+      runtime.check(place < 0 ? wasm.sweepface_motion_move_to(motion, target, goal, at)
+                              : wasm.sweepface_motion_move_in(motion, place, target, goal, at));
     const latest = Math.max(0, ...(shared.regions ?? []).map(({delay}) => delay));
     this.#waits = Math.max(this.#waits, (drive.delay ?? 0) + latest);
   }
@@ -337,9 +348,9 @@ export class Sweepface {
 
   /** Lets time pass for the weights in motion; says whether anything goes on moving. */
   advance(seconds) {
-    const {runtime, names, regions} = this.#open(), {wasm} = runtime, {weights} = this.#memory;
+    const {runtime, weightCount: count} = this.#open(), {wasm} = runtime, {weights} = this.#memory;
     if (!this.#motion) return false;
-    const still = 1e-6, count = names.length * (regions?.length ?? 1), before = this.#copyWeights().slice();
+    const still = 1e-6, before = this.#copyWeights().slice();
     const waits = this.#waits > 0;  // what sets out just now has no velocity yet
     wasm.sweepface_motion_advance(this.#motion, seconds);
     this.#waits -= Math.max(seconds, 0);
@@ -389,10 +400,9 @@ export class Sweepface {
     const matters = new Float64Array(regions.flatMap(({mass, stiffness, delay}) => [mass, stiffness, delay]));
     const motion = runtime.lend(new Uint8Array(matters.buffer),
                                 (at) => runtime.get('sweepface_motion_create_regions', weights, count, at, regions.length));
-    regions.forEach((_, r) => names.forEach((name, k) => {
-      const weight = runtime.doubles(wasm.sweepface_face_weights(this.#face) + 8 * count * r, count)[k];
-      runtime.check(wasm.sweepface_motion_put_in(motion, r, k, weight));
-    }));
+    this.#copyWeights().slice().forEach((weight, k) => {
+      runtime.check(wasm.sweepface_motion_put_in(motion, Math.floor(k / count), k % count, weight));
+    });
     return motion;
   }
 
