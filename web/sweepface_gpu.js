@@ -1,5 +1,5 @@
-// .sweep faces that a vertex shader evaluates: a mesh for three.js, and the shader for others. Only the modes of
-// the weights, some tens of kilobytes, go to the graphics card every frame (docs/evaluation.md).
+// .sweep faces that a vertex shader evaluates: a mesh for three.js, and the shader for others. Every frame only the
+// modes of the weights go to the graphics card, about a tenth of a megabyte (docs/evaluation.md).
 import {BufferAttribute, DataTexture, FloatType, NearestFilter, RGBAFormat, RGBAIntegerFormat, ShortType} from 'three';
 import {FaceMesh, geometryOf} from './sweepface_mesh.js';
 
