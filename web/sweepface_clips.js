@@ -228,9 +228,9 @@ export class ClipPlayer {
   get seconds() { return this.clip.seconds; }
 
   /**
-   * Sets the weights that the clip drives, turns eyes if it has their angles, and returns the angles of the head, {yaw, pitch, roll} in radians, or null
-   * where the clip has none: for three.js `head.rotation.set(pitch, yaw, roll, 'YXZ')`. Where two names drive a target
-   * the larger weight counts.
+   * Sets the weights that the clip drives, turns eyes if it has their angles, and returns the angles of the head,
+   * {yaw, pitch, roll} in radians, or null where the clip has none: for three.js
+   * `head.rotation.set(pitch, yaw, roll, 'YXZ')`. Where two names drive a target the larger weight counts.
    */
   seek(seconds) {
     const values = this.clip.at(seconds), names = this.face.names, weights = {};
@@ -254,9 +254,9 @@ export class ClipPlayer {
 
 // ---- Timelines ----
 
-const EVENT = ['at', 'to', 'only', 'drive', 'seconds', 'turn', 'frequency', 'damping', 'restitution', 'delay', 'region'];
 const DRIVES = ['cut', 'newton', 'linear-force', 'accelerate-brake', 'spring', 'bounce'];
 const DRIVE = ['seconds', 'turn', 'frequency', 'damping', 'restitution', 'delay'];
+const EVENT = ['at', 'to', 'only', 'drive', 'region', ...DRIVE];
 const TIMELINE = ['seconds', 'loops', 'poses', 'events', 'regions'];
 
 /** A timeline from its JSON text or bytes: {seconds, loops, events, regions}; `regions` are for Sweepface.load. */

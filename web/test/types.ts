@@ -1,6 +1,8 @@
 // Compiles if the types say what the package offers. Never run.
 import {Scene} from 'three';
 import {Sweepface, type Drive, type Part} from 'sweepface';
+import {type Clip, ClipPlayer, readClip, readTimeline, TimelinePlayer} from 'sweepface/clips';
+import {SWEEPFACE_GLSL, SweepfaceGpuMesh} from 'sweepface/gpu';
 import {SweepfaceLoader, SweepfaceMesh} from 'sweepface/three';
 
 export async function useFace(bytes: ArrayBuffer): Promise<void> {
@@ -31,8 +33,6 @@ export async function useThree(scene: Scene): Promise<void> {
   mesh.dispose();
 }
 
-import {SWEEPFACE_GLSL, SweepfaceGpuMesh} from '../sweepface_gpu.js';
-
 export async function onTheCard(bytes: ArrayBuffer): Promise<number> {
   const mesh = new SweepfaceGpuMesh(await Sweepface.load(bytes, {vertices: 5000}));
   mesh.face.prepare();
@@ -40,8 +40,6 @@ export async function onTheCard(bytes: ArrayBuffer): Promise<number> {
   mesh.update(1 / 60);
   return mesh.textureBytes + mesh.frameBytes + SWEEPFACE_GLSL.length;
 }
-
-import {type Clip, ClipPlayer, readClip, readTimeline, TimelinePlayer} from 'sweepface/clips';
 
 export async function useClips(bytes: ArrayBuffer, csv: string): Promise<void> {
   const timeline = readTimeline(csv), clip: Clip = readClip(csv, {framesPerSecond: 30}).smooth();
