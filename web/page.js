@@ -1,6 +1,8 @@
 // The page: shows a .sweep face and lets its expressions be tried.
-import {BackSide, Box3, Color, DirectionalLight, HemisphereLight, LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial,
-        MeshStandardMaterial, PerspectiveCamera, Scene, Vector3, WebGLRenderer, WireframeGeometry} from 'three';
+import {
+  BackSide, Box3, Color, DirectionalLight, HemisphereLight, LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial,
+  MeshStandardMaterial, PerspectiveCamera, Scene, Vector3, WebGLRenderer, WireframeGeometry
+} from 'three';
 import {OrbitControls} from 'three/addons/controls/OrbitControls.js';
 import {Sweepface} from 'sweepface';
 import {SweepfaceMesh} from 'sweepface/three';
@@ -97,7 +99,8 @@ function drawLines() {
   lines?.geometry.dispose();
   lines = undefined;
   if (!at('lines').checked || !mesh) return;
-  lines = new LineSegments(new WireframeGeometry(mesh.geometry), new LineBasicMaterial({color: 0x5a2c14, transparent: true, opacity: 0.35}));
+  const material = new LineBasicMaterial({color: 0x5a2c14, transparent: true, opacity: 0.35});
+  lines = new LineSegments(new WireframeGeometry(mesh.geometry), material);
   mesh.add(lines);
 }
 

@@ -14,7 +14,10 @@ const FOLLOW = {arcs: 1, combine: 2};
 
 const encoder = new TextEncoder(), decoder = new TextDecoder();
 
-/** The module behind a URL. Browsers keep what they make of one that they compile while it comes; Node's fetch does not read files. */
+/**
+ * The module behind a URL. Browsers keep what they make of one that they compile while it comes; Node's fetch does not
+ * read files.
+ */
 async function compileUrl(url) {
   if (url.protocol === 'file:' && globalThis.process?.versions?.node) {
     const files = 'node:fs/promises';  // in a variable, so that no bundler looks for it
@@ -22,8 +25,9 @@ async function compileUrl(url) {
   }
   const response = await fetch(url);
   if (!response.ok) throw new Error(`Could not load ${url}: the server answered ${response.status}.`);
-  const isKnown = response.headers.get('content-type')?.startsWith('application/wasm');  // else it may not be compiled while it comes
-  return isKnown && WebAssembly.compileStreaming ? WebAssembly.compileStreaming(response) : WebAssembly.compile(await response.arrayBuffer());
+  const isKnown = response.headers.get('content-type')?.startsWith('application/wasm');
+  const mayStream = isKnown && WebAssembly.compileStreaming;
+  return mayStream ? WebAssembly.compileStreaming(response) : WebAssembly.compile(await response.arrayBuffer());
 }
 
 /** The modules beside this file: the usual one, and the one that knows arcs, combinations, regions and eyes as well. */
@@ -96,7 +100,9 @@ class Runtime {
   }
 
   loadRig(bytes, name) {
-    return this.lend(bytes, (at) => this.lendText(name, (text) => this.get('sweepface_rig_load', at, bytes.length, text)));
+    return this.lend(bytes, (at) => this.lendText(name, (text) => {
+      return this.get('sweepface_rig_load', at, bytes.length, text);
+    }));
   }
 }
 
@@ -144,8 +150,8 @@ class Shared {
   }
 
   triangles() {
-    const {wasm} = this.runtime;
-    return this.runtime.words(wasm.sweepface_mesh_triangles(this.mesh), 3 * wasm.sweepface_mesh_triangle_count(this.mesh)).slice();
+    const {wasm} = this.runtime, count = wasm.sweepface_mesh_triangle_count(this.mesh);
+    return this.runtime.words(wasm.sweepface_mesh_triangles(this.mesh), 3 * count).slice();
   }
 
   copies() {
@@ -160,9 +166,9 @@ class Shared {
   }
 
   parts() {
-    const {runtime} = this;
-    return Array.from({length: runtime.wasm.sweepface_mesh_part_count(this.mesh)}, (_, k) => runtime.lend(new Uint8Array(12), (out) => {
-      runtime.check(runtime.wasm.sweepface_mesh_part(this.mesh, k, out));
+    const {runtime} = this, {wasm} = runtime, length = wasm.sweepface_mesh_part_count(this.mesh);
+    return Array.from({length}, (_, k) => runtime.lend(new Uint8Array(12), (out) => {
+      runtime.check(wasm.sweepface_mesh_part(this.mesh, k, out));
       const [material, first, count] = runtime.words(out, 3);
       return {material: runtime.text(material), start: 3 * first, count: 3 * count};
     }));
@@ -188,11 +194,13 @@ export class Sweepface {
     ++runtime.users;
   }
 
-  static async load(bytes, {lod = 0, name = 'The face', arcs = false, combine = false, eyes = false, regions, wasm, ...rest} = {}) {
+  static async load(bytes, {lod = 0, name = 'The face', arcs, combine, eyes, regions, wasm, ...rest} = {}) {
     if (!(bytes instanceof ArrayBuffer || ArrayBuffer.isView(bytes)))
       throw new TypeError('Sweepface.load needs the bytes of a .sweep file: an ArrayBuffer or a typed array.');
-    if (!Number.isInteger(lod) || lod < 0) throw new RangeError('The level of detail must be a whole number from 0 on.');
-    const view = ArrayBuffer.isView(bytes) ? new Uint8Array(bytes.buffer, bytes.byteOffset, bytes.byteLength) : new Uint8Array(bytes);
+    if (!Number.isInteger(lod) || lod < 0)
+      throw new RangeError('The level of detail must be a whole number from 0 on.');
+    const view = ArrayBuffer.isView(bytes) ? new Uint8Array(bytes.buffer, bytes.byteOffset, bytes.byteLength)
+                                           : new Uint8Array(bytes);
     const [budget] = BUDGETS.flatMap((kind, k) => (kind in rest ? [[k, Number(rest[kind])]] : []));
     const module = await compile(wasm, arcs || combine || regions || eyes ? 'full' : 'usual');
     const divide = regions && (await import('./sweepface_regions.js')).divider(regions);
@@ -280,19 +288,22 @@ export class Sweepface {
     const angles = ({yaw = 0, pitch = 0} = {}) => [yaw, pitch, 0];
     if (!pose) return runtime.check(runtime.wasm.sweepface_face_look(this.#face, 0));
     const numbers = new Float64Array([0, 0, 0, ...angles(pose.leftEye), ...angles(pose.rightEye)]);
-    runtime.lend(new Uint8Array(numbers.buffer), (at) => runtime.check(runtime.wasm.sweepface_face_look(this.#face, at)));
+    runtime.lend(new Uint8Array(numbers.buffer), (at) => {
+      runtime.check(runtime.wasm.sweepface_face_look(this.#face, at));
+    });
   }
 
   /** Writes positions and normals, three floats a vertex; either may be null. */
   evaluate(positions, normals = null) {
     const {runtime, vertexCount} = this.#open(), memory = this.#memory;
+    const count = 3 * vertexCount;
     for (const out of [positions, normals])
-      if (out && !(out.length >= 3 * vertexCount))
-        throw new RangeError(`There must be room for ${vertexCount} vertices: ${3 * vertexCount} numbers, not ${out.length}.`);
+      if (out && !(out.length >= count))
+        throw new RangeError(`There must be room for ${vertexCount} vertices: ${count} numbers, not ${out.length}.`);
     runtime.words(memory.vectors, 4).set([positions ? memory.positions : 0, 0, normals ? memory.normals : 0, 0]);
     runtime.check(runtime.wasm.sweepface_face_update(this.#face, vertexCount, memory.vectors, memory.vectors + 8));
-    positions?.set(runtime.floats(memory.positions, 3 * vertexCount));
-    normals?.set(runtime.floats(memory.normals, 3 * vertexCount));
+    positions?.set(runtime.floats(memory.positions, count));
+    normals?.set(runtime.floats(memory.normals, count));
   }
 
   /** What a vertex shader evaluates the face from, instead of `evaluate`: see shaderModes. */
@@ -384,7 +395,8 @@ export class Sweepface {
   #resolve(byName) {
     return Object.entries(byName).map(([name, value]) => {
       const target = this.#shared.target(name);
-      if (!Number.isFinite(value)) throw new TypeError(`The weight of '${name}' must be a finite number, not ${value}.`);
+      if (!Number.isFinite(value))
+        throw new TypeError(`The weight of '${name}' must be a finite number, not ${value}.`);
       return [target, value];
     });
   }
@@ -398,8 +410,9 @@ export class Sweepface {
     const weights = wasm.sweepface_face_weights(this.#face);
     if (!regions) return runtime.get('sweepface_motion_create', weights, count);
     const matters = new Float64Array(regions.flatMap(({mass, stiffness, delay}) => [mass, stiffness, delay]));
-    const motion = runtime.lend(new Uint8Array(matters.buffer),
-                                (at) => runtime.get('sweepface_motion_create_regions', weights, count, at, regions.length));
+    const motion = runtime.lend(new Uint8Array(matters.buffer), (at) => {
+      return runtime.get('sweepface_motion_create_regions', weights, count, at, regions.length);
+    });
     this.#copyWeights().slice().forEach((weight, k) => {
       runtime.check(wasm.sweepface_motion_put_in(motion, Math.floor(k / count), k % count, weight));
     });

@@ -107,7 +107,8 @@ export class SweepfaceGpuMesh extends FaceMesh {
           vec3 objectNormal = normalize(cross(
             sweepfaceRow(normal, sweepTangentPlace, 0, sweepTangentBasis, sweepTangentModes),
             sweepfaceRow(sweepAcross, sweepTangentPlace, 1, sweepTangentBasis, sweepTangentModes)));`)
-        .replace('#include <begin_vertex>', 'vec3 transformed = sweepfaceRow(position, sweepPlace, 0, sweepBasis, sweepModes);');
+        .replace('#include <begin_vertex>', `
+          vec3 transformed = sweepfaceRow(position, sweepPlace, 0, sweepBasis, sweepModes);`);
     };
   }
 

@@ -49,12 +49,14 @@ async function onTheCard(tangents) {
   gl.useProgram(program);
   const width = 1024;
   const texture = (unit, name, numbers, internal, format, type) => {
-    const height = Math.max(1, Math.ceil(numbers.length / 4 / width)), data = new numbers.constructor(4 * width * height);
+    const height = Math.max(1, Math.ceil(numbers.length / 4 / width));
+    const data = new numbers.constructor(4 * width * height);
     data.set(numbers);
     gl.activeTexture(gl.TEXTURE0 + unit);
     gl.bindTexture(gl.TEXTURE_2D, gl.createTexture());
     gl.texImage2D(gl.TEXTURE_2D, 0, internal, width, height, 0, format, type, data);
-    for (const filter of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_2D, filter, gl.NEAREST);
+    for (const filter of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER])
+      gl.texParameteri(gl.TEXTURE_2D, filter, gl.NEAREST);
     gl.uniform1i(gl.getUniformLocation(program, name), unit);
   };
   const modes = new Float32Array(4 * tables.modes);
@@ -114,7 +116,8 @@ test('the vertex shader', options, (t) => withPage('blank.html', {files}, async 
           const [a, b] = [along, across].map((x) => x.subarray(3 * v, 3 * v + 3));
           const n = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
           const length = Math.hypot(...n);
-          for (let k = 0; k < 3 && length > 1e-3; ++k) turned = Math.max(turned, Math.abs(n[k] / length - normals[3 * v + k]));
+          for (let k = 0; k < 3 && length > 1e-3; ++k)
+            turned = Math.max(turned, Math.abs(n[k] / length - normals[3 * v + k]));
         }
       }
       return {most: most / size, turned, moved: moved / size};
@@ -168,7 +171,8 @@ test('the vertex shader', options, (t) => withPage('blank.html', {files}, async 
       };
       const differ = (a, b) => {  // the share of pixels that anyone would tell apart
         let count = 0;
-        for (let k = 0; k < a.length; k += 4) count += Math.max(...[0, 1, 2].map((c) => Math.abs(a[k + c] - b[k + c]))) > 24;
+        for (let k = 0; k < a.length; k += 4)
+          count += Math.max(...[0, 1, 2].map((c) => Math.abs(a[k + c] - b[k + c]))) > 24;
         return 4 * count / a.length;
       };
       const morph = morphs(), meshes = {onCpu, onGpu, morph}, result = {};
@@ -181,7 +185,8 @@ test('the vertex shader', options, (t) => withPage('blank.html', {files}, async 
       }
       morph.morphTargetInfluences = onCpu.face.names.map((name) => pose[name]);
       const second = Object.fromEntries(Object.entries(meshes).map(([name, mesh]) => [name, draw(mesh)]));
-      for (const name of Object.keys(meshes)) result[name] = {first: first[name].uploaded, everyFrame: second[name].uploaded};
+      for (const name of Object.keys(meshes))
+        result[name] = {first: first[name].uploaded, everyFrame: second[name].uploaded};
       result.moved = differ(first.onCpu.pixels, second.onCpu.pixels);
       result.atRest = differ(first.onCpu.pixels, first.onGpu.pixels);
       result.posed = differ(second.onCpu.pixels, second.onGpu.pixels);

@@ -29,8 +29,9 @@ test('the package holds what is needed, and an application can use it', () => {
   const [packed] = JSON.parse(run('npm', ['pack', '--json', '--pack-destination', scratch]));
   assert.deepEqual(packed.files.map(({path}) => path).sort(),
                    ['LICENSE', 'README.md', 'package.json', 'sweepface.d.ts', 'sweepface.js', 'sweepface.wasm',
-                    'sweepface_clips.d.ts', 'sweepface_clips.js', 'sweepface_full.wasm', 'sweepface_gpu.d.ts', 'sweepface_gpu.js',
-                    'sweepface_mesh.d.ts', 'sweepface_mesh.js', 'sweepface_regions.js', 'sweepface_three.d.ts', 'sweepface_three.js']);
+                    'sweepface_clips.d.ts', 'sweepface_clips.js', 'sweepface_full.wasm', 'sweepface_gpu.d.ts',
+                    'sweepface_gpu.js', 'sweepface_mesh.d.ts', 'sweepface_mesh.js', 'sweepface_regions.js',
+                    'sweepface_three.d.ts', 'sweepface_three.js']);
   mkdirSync(join(scratch, 'node_modules'));
   run('tar', ['xf', join(scratch, packed.filename)], scratch);
   symlinkSync(join(scratch, 'package'), join(scratch, 'node_modules', 'sweepface'));
@@ -44,14 +45,16 @@ test('the package holds what is needed, and an application can use it', () => {
 
 const tsc = join(folder, 'node_modules/.bin/tsc');
 test('the types say what there is', {skip: existsSync(tsc) ? false : 'typescript is not installed; try npm ci'}, () => {
-  run(tsc, ['--noEmit', '--strict', '--target', 'esnext', '--module', 'nodenext', '--lib', 'esnext,dom', '--skipLibCheck', 'test/types.ts']);
+  run(tsc, ['--noEmit', '--strict', '--target', 'esnext', '--module', 'nodenext', '--lib', 'esnext,dom',
+            '--skipLibCheck', 'test/types.ts']);
 });
 
 test('what the types declare is there', async () => {
   const {Sweepface} = await import('../sweepface.js');
   const text = readFileSync(join(folder, 'sweepface.d.ts'), 'utf8');
   const body = text.slice(text.indexOf('export class Sweepface'));
-  const declared = [...body.matchAll(/^  (?:static |readonly )?(\w+)[(:]/gm)].map(([, name]) => name).filter((name) => name !== 'constructor');
+  const declared = [...body.matchAll(/^  (?:static |readonly )?(\w+)[(:]/gm)].map(([, name]) => name)
+                       .filter((name) => name !== 'constructor');
   const there = [...Object.getOwnPropertyNames(Sweepface.prototype), ...Object.getOwnPropertyNames(Sweepface)]
                     .filter((name) => !['constructor', 'length', 'name', 'prototype'].includes(name));
   assert.deepEqual([...new Set(declared)].sort(), there.sort());

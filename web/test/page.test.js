@@ -10,8 +10,10 @@ const visit = {files: {'sample.sweep': bytes}, viewport: {width: 1000, height: 7
 
 const options = {skip, timeout: 240_000};
 test('the page', options, (t) => withPage('index.html', visit, async (page, complaints) => {
+  const until = (test, given) => page.waitForFunction(test, given, {timeout: 60_000});
+
   async function settle() {
-    await page.waitForFunction(() => globalThis.sweepface?.mesh, undefined, {timeout: 60_000});
+    await until(() => globalThis.sweepface?.mesh);
     await page.addStyleTag({content: '#figures { visibility: hidden }'});  // its numbers change by themselves
     await page.waitForTimeout(800);                                        // until nothing moves
   }
@@ -67,21 +69,21 @@ test('the page', options, (t) => withPage('index.html', visit, async (page, comp
 
   await t.test('relaxes by a spring, and sliders follow', async () => {
     await page.locator('#rest').click();
-    await page.waitForFunction(() => globalThis.sweepface.mesh.face.weights.jawOpen < 0.001, undefined, {timeout: 20_000});
+    await until(() => globalThis.sweepface.mesh.face.weights.jawOpen < 0.001);
     assert.ok(await page.locator('input[name="jawOpen"]').inputValue() < 0.05);
   });
 
   await t.test('surprises', async () => {
     await page.locator('#surprise').click();
-    await page.waitForFunction(() => Object.values(globalThis.sweepface.mesh.face.weights).some((w) => w > 0.4), undefined, {timeout: 20_000});
+    await until(() => Object.values(globalThis.sweepface.mesh.face.weights).some((weight) => weight > 0.4));
   });
 
   await t.test('shows finer levels with the same weights', async () => {
     await page.locator('#rest').click();
     await slide('jawOpen', 0.5);
-    const vertices = (await positions()).length;
+    const vertices = (await positions()).length / 3;
     await page.locator('#lod').selectOption('2');
-    await page.waitForFunction((vertices) => globalThis.sweepface.mesh.geometry.attributes.position.array.length > 3 * vertices, vertices);
+    await until((vertices) => globalThis.sweepface.mesh.face.vertexCount > 3 * vertices, vertices);
     assert.equal(await weight('jawOpen'), 0.5);
     await page.locator('#lines').check();
     await page.waitForTimeout(300);
@@ -90,17 +92,20 @@ test('the page', options, (t) => withPage('index.html', visit, async (page, comp
 
   await t.test('finds expressions by a part of their name', async () => {
     await page.locator('#filter').fill('SMILE');
-    assert.deepEqual(await page.locator('.slider:not([hidden]) span').allTextContents(), ['mouthSmileLeft', 'mouthSmileRight']);
+    const found = await page.locator('.slider:not([hidden]) span').allTextContents();
+    assert.deepEqual(found, ['mouthSmileLeft', 'mouthSmileRight']);
     await page.locator('#filter').fill('');
   });
 
   await t.test('opens a file, and says why another is none', async () => {
-    const open = (name, buffer) => page.locator('#file').setInputFiles({name, mimeType: 'application/octet-stream', buffer});
+    const mimeType = 'application/octet-stream';
+    const open = (name, buffer) => page.locator('#file').setInputFiles({name, mimeType, buffer});
     await open('holiday.sweep', Buffer.from('GIF89a'));
     await page.waitForSelector('#message.error');
-    assert.equal(await page.locator('#message').textContent(), 'holiday.sweep does not begin with SWEEPFC; check that it is a .sweep file.');
+    assert.equal(await page.locator('#message').textContent(),
+                 'holiday.sweep does not begin with SWEEPFC; check that it is a .sweep file.');
     await open('again.sweep', bytes);
-    await page.waitForFunction(() => document.title.startsWith('again.sweep'));
+    await until(() => document.title.startsWith('again.sweep'));
     assert.equal(await page.locator('#message').textContent(), '');
   });
 

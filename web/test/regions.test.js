@@ -40,8 +40,8 @@ test('a weight of one region moves nothing outside it', async () => {
 });
 
 // The tool moves the same regions in double precision.
-for (const [title, regions] of [['a painted region', [above]],
-                                ['bands', [{name: 'wave', points: [[0, 8, 9]], fade: 16, over: 'space', bands: 4, delay: 0.3}]]])
+const wave = {name: 'wave', points: [[0, 8, 9]], fade: 16, over: 'space', bands: 4, delay: 0.3};
+for (const [title, regions] of [['a painted region', [above]], ['bands', [wave]]])
   test(`${title} moves as the tool moves it`, async () => {
     const folder = newFolder(), file = join(folder, 'regions.json');
     writeFileSync(file, JSON.stringify({regions}));
