@@ -110,34 +110,51 @@ std::vector<char> irregularVertices(const GridMesh& mesh) {
   return irregular;
 }
 
-// Leaves a component its mirror only if all of it has one, and if it is no torus: lines across that
-// are cut on both sides meet nowhere.
-void keepWholeComponents(const GridMesh& mesh, std::vector<HalfEdge>& mirror) {
-  UnionFind components(static_cast<Index>(mesh.quads.size()));
-  for (HalfEdge h = 0; h < static_cast<HalfEdge>(mirror.size()); ++h) {
-    if (mesh.twin[h] >= 0) components.join(h >> 2, mesh.twin[h] >> 2);
-    if (mirror[h] >= 0) components.join(h >> 2, mirror[h] >> 2);
+// Walks a mesh and its image at once: on from one half-edge is back from the other.
+class MirrorWalk {
+ public:
+  explicit MirrorWalk(const GridMesh& mesh) : mesh_(mesh), mirror_(mesh.twin.size(), -1) {}
+
+  /// Pairs two half-edges and all that they are connected with; nothing if the two sides differ
+  /// anywhere, or if fewer than half of the pairs are `expected`.
+  bool spread(HalfEdge h, HalfEdge g, const std::vector<HalfEdge>& expected) {
+    paired_.clear();
+    bool same = pair(h, g);
+    for (std::size_t k = 0; k < paired_.size() && same; ++k) {
+      const HalfEdge here = paired_[k], there = mirror_[here];
+      const HalfEdge beyond = mesh_.twin[here], image = mesh_.twin[there];
+      same = pair(nextIn(here), prevIn(there)) && (beyond < 0) == (image < 0) &&
+             (beyond < 0 || pair(beyond, image));
+    }
+    const auto met =
+        std::ranges::count_if(paired_, [&](HalfEdge e) { return expected[e] == mirror_[e]; });
+    if (same && 2 * met >= std::ssize(paired_)) return true;
+    for (const HalfEdge e : paired_) {
+      mirror_[mirror_[e]] = -1;
+      mirror_[e] = -1;
+    }
+    return false;
   }
-  std::vector<char> broken(mesh.quads.size(), 0);
-  const auto twinOf = [&](HalfEdge h) { return mesh.twin[h] < 0 ? -1 : mirror[mesh.twin[h]]; };
-  for (HalfEdge h = 0; h < static_cast<HalfEdge>(mirror.size()); ++h)
-    if (mirror[h] < 0 || mirror[mirror[h]] != h || mesh.twin[mirror[h]] != twinOf(h))
-      broken[components.find(h >> 2)] = 1;
-  const std::vector<char> irregular = irregularVertices(mesh);
-  std::vector<char> anchored(mesh.quads.size(), 0);
-  for (Index q = 0; q < static_cast<Index>(mesh.quads.size()); ++q)
-    for (const Index v : mesh.quads[q])
-      if (irregular[v]) anchored[components.find(q)] = 1;
-  for (HalfEdge h = 0; h < static_cast<HalfEdge>(mirror.size()); ++h)
-    if (broken[components.find(h >> 2)] || !anchored[components.find(h >> 2)]) mirror[h] = -1;
-}
+  bool has(HalfEdge h) const { return mirror_[h] >= 0; }
+  std::vector<HalfEdge> take() { return std::move(mirror_); }
 
-}  // namespace
+ private:
+  bool pair(HalfEdge h, HalfEdge g) {
+    if (mirror_[h] >= 0 || mirror_[g] >= 0) return mirror_[h] == g;
+    if (mesh_.collapsed[h] != mesh_.collapsed[g]) return false;
+    mirror_[h] = g;
+    mirror_[g] = h;
+    paired_.push_back(h);
+    return true;
+  }
 
-std::vector<HalfEdge> findMirror(const GridMesh& mesh, std::span<const Vec3> positions) {
+  const GridMesh& mesh_;
+  std::vector<HalfEdge> mirror_, paired_;
+};
+
+// Half-edges of each quad and of the quad between the images of its corners.
+std::vector<HalfEdge> mirrorByPlaces(const GridMesh& mesh, const std::vector<Index>& image) {
   std::vector<HalfEdge> mirror(mesh.twin.size(), -1);
-  const std::vector<Index> image = imagesOfPoints(mesh, positions);
-  if (image.empty()) return mirror;
   std::map<Corners, Index> quadAt;
   for (Index q = 0; q < static_cast<Index>(mesh.quads.size()); ++q) {
     Corners key = pointsOf(mesh, q);
@@ -156,7 +173,45 @@ std::vector<HalfEdge> findMirror(const GridMesh& mesh, std::span<const Vec3> pos
         if (image[here[k]] == there[(other + 1) % 4] && image[here[(k + 1) % 4]] == there[other])
           mirror[4 * q + k] = 4 * found->second + other;
   }
-  keepWholeComponents(mesh, mirror);
+  return mirror;
+}
+
+// A torus has no vertices for lines to begin at: those across it that are cut on both sides meet
+// nowhere.
+void leaveOutTori(const GridMesh& mesh, std::vector<HalfEdge>& mirror) {
+  UnionFind components(static_cast<Index>(mesh.quads.size()));
+  for (HalfEdge h = 0; h < static_cast<HalfEdge>(mirror.size()); ++h) {
+    if (mesh.twin[h] >= 0) components.join(h >> 2, mesh.twin[h] >> 2);
+    if (mirror[h] >= 0) components.join(h >> 2, mirror[h] >> 2);
+  }
+  const std::vector<char> irregular = irregularVertices(mesh);
+  std::vector<char> anchored(mesh.quads.size(), 0);
+  for (Index q = 0; q < static_cast<Index>(mesh.quads.size()); ++q)
+    for (const Index v : mesh.quads[q])
+      if (irregular[v]) anchored[components.find(q)] = 1;
+  for (HalfEdge h = 0; h < static_cast<HalfEdge>(mirror.size()); ++h)
+    if (!anchored[components.find(h >> 2)]) mirror[h] = -1;
+}
+
+}  // namespace
+
+std::vector<HalfEdge> findMirror(const GridMesh& mesh, std::span<const Vec3> positions) {
+  const std::vector<Index> image = imagesOfPoints(mesh, positions);
+  MirrorWalk walk(mesh);
+  if (image.empty()) return walk.take();
+  const std::vector<HalfEdge> expected = mirrorByPlaces(mesh, image);
+  UnionFind components(static_cast<Index>(mesh.quads.size()));
+  for (HalfEdge h = 0; h < static_cast<HalfEdge>(expected.size()); ++h)
+    if (mesh.twin[h] >= 0) components.join(h >> 2, mesh.twin[h] >> 2);
+  constexpr int kMostTries = 8;  // where neighbours lie close together places may deceive
+  std::vector<int> tries(mesh.quads.size(), 0);
+  for (HalfEdge h = 0; h < static_cast<HalfEdge>(expected.size()); ++h) {
+    if (walk.has(h) || expected[h] < 0 || expected[expected[h]] != h) continue;
+    int& tried = tries[components.find(h >> 2)];
+    if (tried < kMostTries) tried += !walk.spread(h, expected[h], expected);
+  }
+  std::vector<HalfEdge> mirror = walk.take();
+  leaveOutTori(mesh, mirror);
   return mirror;
 }
 
