@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cstdlib>
+#include <span>
 #include <vector>
 
 #include "codec/hierarchy.hpp"
@@ -57,9 +58,12 @@ class CoefficientCoder {
         positionStep_[step.site] = static_cast<Index>(k);
   }
 
-  /// What is read comes to a `q` of zeros.
-  void code(Coefficients& q, Symmetry symmetry, const Coefficients& partner, bool neutral) {
+  /// What is read comes to a `q` of zeros. `like` tells what to expect: a pose that moves much the
+  /// same, or nothing.
+  void code(Coefficients& q, Symmetry symmetry, const Coefficients& partner,
+            const Coefficients& like, bool neutral) {
     const auto& sites = h_.sites();
+    lookAt(like, q.size());
     residual_.assign(q.size(), Steps3{});
     constexpr bool writing = kWrites<Coder>;
     expected_.assign(q.size(), Steps3{});
@@ -97,7 +101,7 @@ class CoefficientCoder {
         std::bit_ceil(std::clamp<std::size_t>(32 * vectors, 1 << 10, 1 << 18)));
   }
   static constexpr std::uint32_t kMostBits = 28;
-  static constexpr int kInputs = 6, kPhases = 6, kSets = 512;
+  static constexpr int kInputs = 7, kPhases = 6, kSets = 512;
 
   enum BitKind { kAny, kBelow, kVector, kZero, kSign, kMore };
 
@@ -119,6 +123,23 @@ class CoefficientCoder {
       if (site.mirror < 0 || (self && site.mirror >= s)) continue;
       for (Index v = site.first; v < site.first + site.count; ++v) image(from, v);
     }
+  }
+
+  void lookAt(const Coefficients& like, std::size_t vectors) {
+    const auto& sites = h_.sites();
+    like_ = like;
+    like_.resize(vectors);
+    likeSite_.assign(sites.size(), 0);
+    likeBelow_.assign(sites.size(), 0);
+    if (like.empty()) return;
+    for (std::size_t s = 0; s < sites.size(); ++s) {
+      const auto vectorsOfSite = std::span(like_).subspan(sites[s].first, sites[s].count);
+      const bool slopes = std::ranges::any_of(vectorsOfSite.subspan(1), isMoved);
+      likeSite_[s] = 1 + slopes + 2 * std::min(largest(vectorsOfSite[0], 3), 3u);
+    }
+    for (std::size_t s = sites.size(); s-- > 0;)
+      if (sites[s].parent >= 0 && (likeSite_[s] > 1 || likeBelow_[s]))
+        likeBelow_[sites[s].parent] = 1;
   }
 
   void markBelow() {
@@ -171,7 +192,8 @@ class CoefficientCoder {
     any = bit(kAny, site.leaf, any,
               {p * 64 + level * 8 + parent, (p * 8 + past) * 8 + near, (p * 8 + near) * 8 + level,
                static_cast<std::uint32_t>(s) * 8 + p, (p * 4 + mirrored) * 8 + near,
-               ((p * 8 + past) * 8 + level) * 8 + near});
+               ((p * 8 + past) * 8 + level) * 8 + near,
+               ((p * 16 + likeSite_[s]) * 8 + near) * 2 + likeBelow_[s]});
     active_[s] = any;
     if (any) codeVectors(s, level, near);
     if (!site.leaf) {
@@ -179,7 +201,8 @@ class CoefficientCoder {
       below = bit(kBelow, any, below,
                   {p * 64 + level * 8 + parent, (p * 8 + past) * 8 + near, (p * 8 + near) * 2 + any,
                    static_cast<std::uint32_t>(s) * 8 + p, (p * 4 + mirrored) * 2 + any,
-                   ((p * 8 + past) * 8 + level) * 2 + any});
+                   ((p * 8 + past) * 8 + level) * 2 + any,
+                   ((p * 16 + likeSite_[s]) * 2 + any) * 2 + likeBelow_[s]});
       below_[s] = below;
     } else {
       below_[s] = 0;
@@ -199,7 +222,8 @@ class CoefficientCoder {
         moved = bit(kVector, std::min<int>(k, 7), moved,
                     {(p * 64 + shape) * 64 + before, p * 64 + shape, (p * 8 + near) * 64 + shape,
                      static_cast<std::uint32_t>(v) * 8 + p, (p * 8 + level) * 64 + shape,
-                     (p * 8 + level) * 64 + before});
+                     (p * 8 + level) * 64 + before,
+                     ((p * 16 + likeSite_[s]) * 2 + isMoved(like_[v])) * 128 + shape});
       }
       before = before * 2 + moved;
       if (moved) codeVector(s, k, v, level);
@@ -221,25 +245,27 @@ class CoefficientCoder {
     for (int a = 0; a < 3; ++a) {
       bool moved = r[a] != 0;
       const std::uint32_t place = (p * 4 + order) * 4 + a;
-      const std::uint32_t by = bucket(around[a]);
+      const std::uint32_t by = bucket(around[a]), alike = bucket(like_[v][a]);
       if (a == 2 && pattern == 0)
         moved = true;
       else
-        moved = bit(kZero, order, moved,
-                    {place * 16 + pattern, place * 8 + by, place * 8 + level,
-                     (static_cast<std::uint32_t>(v) * 4 + a) * 8 + p,
-                     (place * 8 + by) * 16 + pattern, (place * 8 + level) * 16 + pattern});
+        moved =
+            bit(kZero, order, moved,
+                {place * 16 + pattern, place * 8 + by, place * 8 + level,
+                 (static_cast<std::uint32_t>(v) * 4 + a) * 8 + p, (place * 8 + by) * 16 + pattern,
+                 (place * 8 + level) * 16 + pattern, (place * 16 + likeSite_[s]) * 16 + alike});
       std::uint32_t size = 0;
       if (moved) {
         bool negative = r[a] < 0;
-        const std::uint32_t lean = around[a] < 0 ? 1 : around[a] > 0 ? 2 : 0;
-        negative = bit(kSign, order, negative,
-                       {place * 4 + lean, (static_cast<std::uint32_t>(v) * 4 + a) * 8 + p, place,
-                        (place * 4 + lean) * 8 + level, place * 16 + pattern,
-                        (place * 8 + level) * 16 + pattern});
+        const std::uint32_t lean = way(around[a]);
+        negative =
+            bit(kSign, order, negative,
+                {place * 4 + lean, (static_cast<std::uint32_t>(v) * 4 + a) * 8 + p, place,
+                 (place * 4 + lean) * 8 + level, place * 16 + pattern,
+                 (place * 8 + level) * 16 + pattern, (place * 4 + way(like_[v][a])) * 4 + lean});
         const std::uint32_t others = ((order * 3 + a) * 8 + largest(r, a)) * 8 + largest(around, 3);
         size = magnitude(static_cast<std::uint32_t>(std::abs(r[a])), place, by, level, v * 4 + a,
-                         others);
+                         others, alike);
         r[a] = negative ? -static_cast<std::int32_t>(size) : static_cast<std::int32_t>(size);
         pattern = pattern * 4 + (size > 1 ? 2 : 1);
       } else {
@@ -248,6 +274,8 @@ class CoefficientCoder {
       }
     }
   }
+
+  static std::uint32_t way(std::int32_t x) { return x < 0 ? 1 : x > 0 ? 2 : 0; }
 
   // The bucket of the largest of the first `count` values.
   static std::uint32_t largest(const Steps3& values, int count) {
@@ -258,13 +286,14 @@ class CoefficientCoder {
 
   // At least 1: its length in bits (unary) and then the bits (Elias 1975).
   std::uint32_t magnitude(std::uint32_t size, std::uint32_t place, std::uint32_t by,
-                          std::uint32_t level, std::uint32_t v, std::uint32_t others) {
+                          std::uint32_t level, std::uint32_t v, std::uint32_t others,
+                          std::uint32_t alike) {
     std::uint32_t n = 1;
     while (n < kMostBits) {
       const bool more =
           bit(kMore, static_cast<int>(std::min(n, 8u)), size >> n != 0,
               {place * 32 + n, (place * 8 + by) * 32 + n, (place * 8 + level) * 32 + n, v * 32 + n,
-               others * 32 + n, (by * 8 + level) * 32 + n});
+               others * 32 + n, (by * 8 + level) * 32 + n, (place * 8 + alike) * 32 + n});
       if (!more) break;
       ++n;
     }
@@ -274,7 +303,7 @@ class CoefficientCoder {
       const bool one = bit(
           kMore, 9 + std::min(top, 3u), size >> b & 1,
           {(known * 32 + n) * 64 + place, (known * 32 + n) * 8 + by, (known * 32 + n) * 8 + level,
-           known * 32 + n, (known * 32 + n) * 2048 + others, top});
+           known * 32 + n, (known * 32 + n) * 2048 + others, top, (known * 32 + n) * 8 + alike});
       value = value << 1 | static_cast<std::uint32_t>(one);
     }
     return value;
@@ -288,7 +317,8 @@ class CoefficientCoder {
   std::vector<char> active_, below_;  // [sites]
   std::vector<Index> history_;        // [sites] poses in which it was active
   std::vector<Index> positionStep_;   // [sites] the step of its position
-  Coefficients residual_, expected_;
+  Coefficients residual_, expected_, like_;
+  std::vector<std::uint32_t> likeSite_, likeBelow_;  // [sites]
 };
 
 }  // namespace sweepface::codec

@@ -7,6 +7,7 @@
 #include "codec/chunks.hpp"
 #include "codec/encoding.hpp"
 #include "codec/lattice.hpp"
+#include "codec/likeness.hpp"
 #include "codec/names.hpp"
 #include "codec/pose_form.hpp"
 #include "codec/turns.hpp"
@@ -104,11 +105,16 @@ std::string writePoses(Poses& poses, const Packing& packing, const Lattice& latt
   RangeEncoder coder;
   Symbols<RangeEncoder> out(coder);
   CoefficientCoder<RangeEncoder> vectors(lattice.hierarchy(), coder, lattice.axis());
+  const Likenesses likenesses(lattice, poses.coefficients);
   for (Index pose = first; pose < end; ++pose) {
     Packing::Pose form = packing.poses[pose];
     codePose(out, form, pose);
-    vectors.code(poses.coefficients[pose], symmetryOf(form, pose),
-                 partnerOf(packing, poses.coefficients, pose), pose == 0);
+    const Symmetry symmetry = symmetryOf(form, pose);
+    Likeness like =
+        symmetry == Symmetry::partner ? Likeness{form.image, true} : likenesses.of(pose);
+    if (symmetry != Symmetry::partner) codeLikeness(out, like, pose);
+    vectors.code(poses.coefficients[pose], symmetry, partnerOf(packing, poses.coefficients, pose),
+                 coefficientsOf(like, lattice, poses.coefficients), pose == 0);
   }
   return coder.finish();
 }

@@ -5,6 +5,7 @@
 #include "sweepface/rig.hpp"
 
 #include "codec/lattice.hpp"
+#include "codec/likeness.hpp"
 #include "codec/symbols.hpp"
 
 // Small things that stand between the large ones, the same for reader and writer.
@@ -19,7 +20,11 @@ enum RigTag : std::uint32_t {
   kFiner = 45,
   kHasImage = 47,
   kOwnImage = 48,
-  kImageOf = 49
+  kImageOf = 49,
+  kHasLike = 51,
+  kLikeBack = 52,
+  kLikeMirrored = 54,
+  kLikeNegated = 55
 };
 
 /// Bytes up to a zero, each by those before it.
@@ -51,6 +56,18 @@ inline Coefficients partnerOf(const Packing& packing, const std::vector<Coeffici
   const Packing::Pose& form = packing.poses[pose];
   if (form.image < 0 || form.image == pose) return {};
   return inFinerSteps(poses[form.image], form.finer - packing.poses[form.image].finer);
+}
+
+/// Only of a pose that is compared with no other one's image.
+template <typename Coder>
+void codeLikeness(Symbols<Coder>& symbols, Likeness& like, Index pose) {
+  if (pose < 2 || !symbols.bit(kHasLike, 0, 0, like.pose >= 0)) return;
+  const std::uint32_t back = symbols.number(
+      kLikeBack, 0, 0, static_cast<std::uint64_t>(std::max(0, pose - 1 - like.pose)));
+  if (back > static_cast<std::uint32_t>(pose - 2)) return symbols.refuse("a pose is like none");
+  like.pose = pose - 1 - static_cast<Index>(back);
+  like.mirrored = symbols.bit(kLikeMirrored, 0, 0, like.mirrored);
+  like.negated = symbols.bit(kLikeNegated, 0, 0, like.negated);
 }
 
 template <typename Coder>

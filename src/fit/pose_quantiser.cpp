@@ -27,7 +27,13 @@ class PoseQuantiser {
         q_(q),
         touched_(task_.errors.size(), 0) {
     siteOf_.resize(q.size());
-    for (const Prediction::Step& step : steps_) siteOf_[step.vector] = step.site;
+    positionStep_.resize(h_.sites().size());
+    for (std::size_t k = 0; k < steps_.size(); ++k) {
+      const auto& step = steps_[k];
+      siteOf_[step.vector] = step.site;
+      if (step.vector == h_.sites()[step.site].first)
+        positionStep_[step.site] = static_cast<Index>(k);
+    }
     for (int a = 0; a < 3; ++a)
       for (const Vec3& e : task_.errors)
         error_[a].push_back(static_cast<float>(a == 0 ? e.x : a == 1 ? e.y : e.z));
@@ -173,6 +179,16 @@ class PoseQuantiser {
         if (q_[v][a] != expected(v, a)) ++inSite_[siteOf_[v]], ++inVector_[v];
   }
 
+  // About how many bits a first coefficient in a site takes: the fewer, the more of what predicts
+  // the site moves.
+  double siteBits(Index site) const {
+    constexpr std::array<double, 5> kBits{8, 6, 5, 4.5, 4};
+    std::size_t moved = 0;
+    for (const Term& t : h_.prediction().of(steps_[positionStep_[site]]))
+      moved += inVector_[t.vector] > 0;
+    return kBits[std::min(moved, kBits.size() - 1)];
+  }
+
   // About how many bits a coefficient takes: a first one in a site or a vector also pays for
   // saying that there is one.
   static double magnitude(std::int32_t d) {
@@ -183,8 +199,8 @@ class PoseQuantiser {
     const bool had = before != 0, has = after != 0;
     double sum = magnitude(after) - magnitude(before);
     if (had == has) return sum;
-    const double opening =
-        0.6 + (inSite_[siteOf_[v]] - had == 0 ? 4.5 : 0) + (inVector_[v] - had == 0 ? 2.0 : 0);
+    const double opening = 0.6 + (inSite_[siteOf_[v]] - had == 0 ? siteBits(siteOf_[v]) : 0) +
+                           (inVector_[v] - had == 0 ? 3 : 0);
     return sum + (has ? opening : -opening);
   }
 
@@ -306,8 +322,9 @@ class PoseQuantiser {
   PoseTask task_;
   float step_;
   Coefficients& q_;
-  std::vector<Index> siteOf_;     // [S]
-  std::vector<float> perSquare_;  // [vertices] 1 / bound²
+  std::vector<Index> siteOf_;        // [S]
+  std::vector<Index> positionStep_;  // [sites] the step of its position
+  std::vector<float> perSquare_;     // [vertices] 1 / bound²
   std::array<std::vector<float>, 3> error_;
   std::vector<int> inSite_, inVector_;  // coefficients that are not zero
   std::vector<char> wanted_;            // [S]

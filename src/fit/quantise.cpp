@@ -203,12 +203,15 @@ class Quantiser {
                               : form.image == pose ? Symmetry::self
                                                    : Symmetry::partner;
     const std::vector<Vec3> fitted = vectorsOf(pose);
-    // From its image, then from itself, then in ever finer steps.
+    // From its image, then from itself, in ever finer steps: those of its partner to begin with.
     bool done = false;
     int found = -1;  // how fine the steps are of the coefficients that were found last
-    const int first = symmetry == Symmetry::none ? 0 : -1;
-    for (int attempt = first; attempt <= kMostFiner && !done; ++attempt) {
-      form.finer = std::max(0, attempt);
+    const bool symmetric = symmetry != Symmetry::none;
+    const int coarsest = symmetry == Symmetry::partner ? rig_.packing.poses[form.image].finer : 0;
+    for (int attempt = 0; !done; ++attempt) {
+      form.finer = coarsest + (symmetric ? attempt / 2 : attempt);
+      if (form.finer > kMostFiner) break;
+      const bool fromImage = symmetric && attempt % 2 == 0;
       PoseTask task;
       task.step = codec::stepOf(rig_.packing, pose);
       task.symmetry = symmetry;
@@ -217,10 +220,10 @@ class Quantiser {
         task.expected = lattice_->image(codec::inFinerSteps(
             poses_[form.image], form.finer - rig_.packing.poses[form.image].finer));
       Coefficients q =
-          lattice_->round(pose, attempt < kFaithful ? fitted : compensated(fitted), task.step);
-      if (attempt < 0) symmetrise(q, symmetry, task.expected);
+          lattice_->round(pose, form.finer < kFaithful ? fitted : compensated(fitted), task.step);
+      if (fromImage) symmetrise(q, symmetry, task.expected);
       if (!improve(pose, task, fitted, q)) continue;
-      done = unfold(pose, task, fitted, q) || attempt >= kMostForFolds;
+      done = unfold(pose, task, fitted, q) || form.finer >= kMostForFolds;
       poses_[pose] = std::move(q);
       found = form.finer;
     }
