@@ -81,6 +81,20 @@ class FaceCoder {
  private:
   static constexpr Index kNone = -1;
 
+  // The corners of a quad of the grid without those that stand where the one before them does: a
+  // quad with a side that is one point is a triangle.
+  struct Ring {
+    std::array<std::uint32_t, 4> at{};
+    std::uint32_t size = 0;
+  };
+  Ring ringOf(Index quad) const {
+    const std::array<Index, 4>& corners = grid_.quads()[quad];
+    Ring ring;
+    for (std::uint32_t k = 0; k < 4; ++k)
+      if (corners[k] != corners[(k + 3) % 4]) ring.at[ring.size++] = k;
+    return ring;
+  }
+
   // A plain face goes around one quad of the grid, and the quad around it.
   void findPlain() {
     plainQuad_.assign(faces_.faceCount(), kNone);
@@ -92,14 +106,24 @@ class FaceCoder {
     for (std::size_t q = 0; q < grid_.quads().size(); ++q) {
       const Index* told = &source_.quadCorners[4 * q];
       if (told[0] < 0 || told[0] >= corners) continue;
-      const std::array<Index, 4> around = aroundQuad(faces_, told[0]);
-      if (around[3] < 0 || !std::equal(around.begin(), around.end(), told)) continue;
-      bool there = true;
-      for (int k = 0; k < 4; ++k)
-        there &= whichAt(grid_.quads()[q][k], faces_.corners[told[k]]) >= 0;
-      if (there && plainQuad_[faceOf[told[0]]] == kNone)
-        plainQuad_[faceOf[told[0]]] = static_cast<Index>(q);
+      const Index f = faceOf[told[0]];
+      if (plainQuad_[f] == kNone && isAround(f, static_cast<Index>(q), told))
+        plainQuad_[f] = static_cast<Index>(q);
     }
+  }
+  bool isAround(Index f, Index quad, const Index* told) const {
+    const Ring ring = ringOf(quad);
+    const Index start = faces_.faceStart[f], size = faces_.faceSize(f);
+    if (size < 3 || size != static_cast<Index>(ring.size)) return false;
+    for (std::uint32_t i = 0; i < ring.size; ++i) {
+      const std::uint32_t at = ring.at[i], next = ring.at[(i + 1) % ring.size];
+      if (told[at] < start || told[next] != start + (told[at] - start + 1) % size ||
+          told[next] >= start + size ||
+          whichAt(grid_.quads()[quad][at], faces_.corners[told[at]]) < 0)
+        return false;
+      if (next != (at + 1) % 4 && told[(at + 1) % 4] != told[at]) return false;
+    }
+    return true;
   }
   Index whichAt(Index gridVertex, Index vertex) const {
     const auto here = places_.at(gridVertex);
@@ -118,15 +142,18 @@ class FaceCoder {
     const Index q = walk_.next(kWrites<Coder> ? plainQuad_[f] : 0);
     if (source_.quadCorners.empty()) s_.refuse("a face goes around a quad of none");
     if (!s_.ok()) return;
-    // The face's first corner is the quad's corner `turn`.
-    std::uint32_t turn = 0;
+    const Ring ring = ringOf(q);
+    if (ring.size < 3) return s_.refuse("a face goes around a line");
+    // The face's first corner is the ring's corner `turn`.
+    std::uint32_t turn = 0, &last = turn_[ring.size - 3];
     if constexpr (kWrites<Coder>)
-      while (source_.quadCorners[4 * q + turn] != first) ++turn;
-    const std::uint32_t half = s_.bit(kRotation, turn_, 0, turn >> 1);
-    turn = 2 * half + s_.bit(kRotation, 4 + turn_, half, turn & 1);
-    turn_ = turn;
-    for (std::uint32_t k = 0; k < 4; ++k) {
-      const std::uint32_t at = (turn + k) % 4;
+      while (source_.quadCorners[4 * q + ring.at[turn]] != first) ++turn;
+    const std::uint32_t half = s_.bit(kRotation, last + 8 * (4 - ring.size), 0, turn >> 1);
+    turn = 2 * half + s_.bit(kRotation, 4 + last + 8 * (4 - ring.size), half, turn & 1);
+    if (turn >= ring.size) return s_.refuse("a triangle has no fourth corner");
+    last = turn;
+    for (std::uint32_t k = 0; k < ring.size; ++k) {
+      const std::uint32_t at = ring.at[(turn + k) % ring.size];
       const Index place = grid_.quads()[q][at];
       const auto here = places_.at(place);
       if (here.empty()) return s_.refuse("a face has a corner where the source has no vertex");
@@ -136,7 +163,10 @@ class FaceCoder {
             s_.number(kWhich, 0, 0, kWrites<Coder> ? whichAt(place, faces_.corners[first + k]) : 0);
       if (which >= here.size()) return s_.refuse("a vertex is out of range");
       if constexpr (!kWrites<Coder>) {
-        source_.quadCorners[4 * q + at] = static_cast<Index>(faces_.corners.size());
+        const auto corner = static_cast<Index>(faces_.corners.size());
+        source_.quadCorners[4 * q + at] = corner;
+        if (ring.size == 3 && ring.at[(turn + k + 1) % 3] != (at + 1) % 4)
+          source_.quadCorners[4 * q + (at + 1) % 4] = corner;
         faces_.corners.push_back(here[which]);
       }
       last_ = here[which];
@@ -225,7 +255,7 @@ class FaceCoder {
   Walk<Coder> walk_;
   std::vector<Index> plainQuad_;  // [faces] of a writer
   bool wasPlain_ = true;
-  std::uint32_t turn_ = 0;
+  std::array<std::uint32_t, 2> turn_{};  // of the last triangle and quad
   Index last_ = 0;
 };
 
