@@ -42,27 +42,52 @@ std::string ReportMaker::errorPlot() const {
   Series worst{"max", kRed, {}, true}, most{"99.9 %", kBlue, {}, true}, rms{"RMS", kGrey, {}, true};
   for (const PoseErrors& e : measured_.shapes) {
     names.push_back(e.name);
-    worst.points.push_back({e.distanceMax, 0});
-    most.points.push_back({e.distance999, 0});
-    rms.points.push_back({e.distanceRms, 0});
+    worst.points.push_back({e.distance.max, 0});
+    most.points.push_back({e.distance.p999, 0});
+    rms.points.push_back({e.distance.rms, 0});
   }
   return rowPlot("Distance of each shape", "distance (dashed: allowed)", names, {rms, most, worst},
                  rig_.tolerance);
 }
 
 std::string ReportMaker::errorTable() const {
-  html::Table table({"shape", "distance max", "99.9 %", "RMS", "angle RMS", "99.9 %", "max",
+  html::Table table({"shape", "distance max", "99.9 %", "RMS", "angle RMS", "99 %", "99.9 %", "max",
                      "beyond the facets' sag", "folds"});
   const auto add = [&](const PoseErrors& e, bool strong) {
-    table.add({e.name, number(e.distanceMax), number(e.distance999), number(e.distanceRms),
-               fmt::format("{:.2f}°", e.angleRms), fmt::format("{:.1f}°", e.angle999),
-               fmt::format("{:.1f}°", e.angleMax), number(e.facetExcess), std::to_string(e.folds)},
+    table.add({e.name, number(e.distance.max), number(e.distance.p999), number(e.distance.rms),
+               fmt::format("{:.2f}°", e.angle.rms), fmt::format("{:.1f}°", e.angle.p99),
+               fmt::format("{:.1f}°", e.angle.p999), fmt::format("{:.1f}°", e.angle.max),
+               number(e.facetExcess), std::to_string(e.folds)},
               strong);
   };
   for (const PoseErrors& e : measured_.shapes) add(e, false);
   add(measured_.worst, true);
   for (const PoseErrors& e : measured_.mixtures) add(e, false);
   return table.html();
+}
+
+/// How wrong the ways of the vertices from the neutral are.
+Result<std::string> ReportMaker::displacements() {
+  const std::vector<double>& errors = measured_.displacements;
+  if (errors.empty()) return "";
+  Series within{"vertices within it", kBlue, {}}, allowed{"tolerance", kRed, {}, false, true};
+  for (int percent = 0; percent <= 100; ++percent)
+    within.points.push_back({errors[percent * (errors.size() - 1) / 100], 1.0 * percent});
+  if (rig_.tolerance > 0) allowed.points = {{rig_.tolerance, 0}, {rig_.tolerance, 100}};
+  html::Table table({"", "RMS", "99.9 %", "max"});
+  const auto add = [&](const std::string& what, const ErrorSummary& e) {
+    table.add({what, number(e.rms), number(e.p999), number(e.max)});
+  };
+  add("displacements", measured_.worst.displacement);
+  add("distances", measured_.worst.distance);
+  return section("Displacements",
+                 "How far the vertices' ways from the neutral to every expression at weight 1 are "
+                 "off the source's: of all vertices of all expressions, the share whose error is "
+                 "no larger. The table has the distances beside them.") +
+         row(linePlot("Errors of displacements", {"error of a displacement"},
+                      {"share of the vertices, %"}, {within, allowed}) +
+                 table.html(),
+             "plots");
 }
 
 // ---- Error against points ----
@@ -100,7 +125,7 @@ double ReportMaker::rmsOf(const Rig& rig) const {
 Result<std::string> ReportMaker::tolerances() {
   if (options_.tolerances.empty()) return "";
   std::vector<Trial> trials{{rig_.tolerance, points(), rig_.surface.patchCount(),
-                             measured_.worst.distanceRms, options_.bytes}};
+                             measured_.worst.distance.rms, options_.bytes}};
   for (const double tolerance : options_.tolerances) {
     const Result<Trial> trial = tryTolerance(tolerance);
     if (!trial) return std::unexpected(trial.error());

@@ -62,6 +62,7 @@ class ReportMaker {
   Result<std::string> errors();
   std::string errorPlot() const;
   std::string errorTable() const;
+  Result<std::string> displacements();
   Result<std::string> tolerances();
   Result<Trial> tryTolerance(double tolerance);
   double rmsOf(const Rig& rig) const;
