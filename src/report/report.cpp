@@ -7,6 +7,7 @@
 
 #include "report/maker.hpp"
 #include "report/motion_sections.hpp"
+#include "report/peers.hpp"
 
 namespace sweepface {
 namespace {
@@ -42,7 +43,8 @@ ReportMaker::ReportMaker(const Rig& rig, const MeshRig& source, const ReportOpti
   // A picture counts one, so does a shape that is converted; one that is measured counts two.
   const auto targets = static_cast<double>(source.targets.size());
   work_ = 18 + MotionSections::pictures() + 2 * targets +
-          static_cast<double>(options.tolerances.size()) * (targets + 3);
+          static_cast<double>(options.tolerances.size()) * (targets + 3) +
+          (options.tolerances.empty() ? 0 : kPeerSteps);
 }
 
 Result<std::string> ReportMaker::make() {
