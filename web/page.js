@@ -1,6 +1,8 @@
 // The page: shows a .sweep face and lets its expressions be tried.
-import {BackSide, Box3, Color, DirectionalLight, HemisphereLight, LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial,
-        MeshStandardMaterial, PerspectiveCamera, Scene, Vector3, WebGLRenderer, WireframeGeometry} from 'three';
+import {
+  BackSide, Box3, Color, DirectionalLight, HemisphereLight, LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial,
+  MeshStandardMaterial, PerspectiveCamera, Scene, Vector3, WebGLRenderer, WireframeGeometry
+} from 'three';
 import {OrbitControls} from 'three/addons/controls/OrbitControls.js';
 import {Sweepface} from 'sweepface';
 import {SweepfaceMesh} from 'sweepface/three';
@@ -22,8 +24,9 @@ rim.position.set(1.4, 0.6, -1.5);
 scene.add(new HemisphereLight(0xffffff, 0x8a7668, 1.3), camera);
 camera.add(key, key.target, rim, rim.target);
 
-/** What is seen of a head's inside, through eyes and mouth. */
+/** What is seen of a head's inside, through eyes and mouth; and its edges. */
 const inside = new MeshBasicMaterial({color: 0x2b1a14, side: BackSide});
+const ink = new LineBasicMaterial({color: 0x5a2c14, transparent: true, opacity: 0.35});
 
 /** A colour for a material, by what its name says. */
 function colourOf(name) {
@@ -48,7 +51,7 @@ async function show(buffer, name, keepView = false) {
     mesh.add(new Mesh(mesh.geometry, inside));
     mesh.setWeights(weights);
     scene.add(mesh);
-    if (!keepView) look();
+    if (!keepView) placeCamera();
     message.textContent = '';
     message.className = '';
     tellName(name);
@@ -76,7 +79,7 @@ function remove() {
 }
 
 /** The camera in front of the face, at a distance from which all of it is seen. */
-function look() {
+function placeCamera() {
   const box = new Box3().setFromBufferAttribute(mesh.geometry.attributes.position);
   const size = box.getSize(new Vector3()), middle = box.getCenter(new Vector3());
   const reach = Math.max(size.y, size.x / camera.aspect) / 2 / Math.tan(camera.fov / 2 * Math.PI / 180);
@@ -97,7 +100,7 @@ function drawLines() {
   lines?.geometry.dispose();
   lines = undefined;
   if (!at('lines').checked || !mesh) return;
-  lines = new LineSegments(new WireframeGeometry(mesh.geometry), new LineBasicMaterial({color: 0x5a2c14, transparent: true, opacity: 0.35}));
+  lines = new LineSegments(new WireframeGeometry(mesh.geometry), ink);
   mesh.add(lines);
 }
 

@@ -55,6 +55,7 @@ export interface Look {
   pitch?: number;
 }
 
+/** `arcs`, `combine`, `eyes` and `regions` load sweepface_full.wasm instead of sweepface.wasm. */
 export interface LoadOptions {
   /** 0: the source's own vertices; N: every edge of the source cut into N, up to 64. */
   lod?: number;
@@ -65,14 +66,13 @@ export interface LoadOptions {
   vertices?: number;
   /** What messages call the face. */
   name?: string;
-  /** Targets that turn, the jaw and lids, go on arcs, if the file tells about what they turn; loads sweepface_full.wasm
-   * instead of sweepface.wasm. */
+  /** Targets that turn, the jaw and lids, go on arcs, if the file tells about what they turn. */
   arcs?: boolean;
-  /** `A_B` goes by the product of A and B, `A_50` stands in for A at 0.5; loads sweepface_full.wasm, too. */
+  /** `A_B` goes by the product of A and B, `A_50` stands in for A at 0.5. */
   combine?: boolean;
-  /** Eyeballs turn rigidly about their centres; loads sweepface_full.wasm instead of sweepface.wasm. */
+  /** Eyeballs turn rigidly about their centres. */
   eyes?: boolean;
-  /** Divides the face; loads sweepface_full.wasm instead of sweepface.wasm. */
+  /** Divides the face. */
   regions?: Region[];
   wasm?: ModuleSource;
 }

@@ -9,9 +9,15 @@ const DRIVE_NUMBERS = ['delay', 'seconds', 'turn', 'frequency', 'damping', 'rest
 /** What a level of detail may be asked for by, in the order of the C interface. */
 const BUDGETS = ['edgeLength', 'error', 'vertices'];
 
+/** What targets may follow, in the numbers of the C interface. */
+const FOLLOW = {arcs: 1, combine: 2};
+
 const encoder = new TextEncoder(), decoder = new TextDecoder();
 
-/** The module behind a URL. Browsers keep what they make of one that they compile while it comes; Node's fetch does not read files. */
+/**
+ * The module behind a URL. Browsers keep what they make of one that they compile while it comes; Node's fetch does not
+ * read files.
+ */
 async function compileUrl(url) {
   if (url.protocol === 'file:' && globalThis.process?.versions?.node) {
     const files = 'node:fs/promises';  // in a variable, so that no bundler looks for it
@@ -19,8 +25,9 @@ async function compileUrl(url) {
   }
   const response = await fetch(url);
   if (!response.ok) throw new Error(`Could not load ${url}: the server answered ${response.status}.`);
-  const isKnown = response.headers.get('content-type')?.startsWith('application/wasm');  // else it may not be compiled while it comes
-  return isKnown && WebAssembly.compileStreaming ? WebAssembly.compileStreaming(response) : WebAssembly.compile(await response.arrayBuffer());
+  const isKnown = response.headers.get('content-type')?.startsWith('application/wasm');
+  const mayStream = isKnown && WebAssembly.compileStreaming;
+  return mayStream ? WebAssembly.compileStreaming(response) : WebAssembly.compile(await response.arrayBuffer());
 }
 
 /** The modules beside this file: the usual one, and the one that knows arcs, combinations, regions and eyes as well. */
@@ -93,7 +100,9 @@ class Runtime {
   }
 
   loadRig(bytes, name) {
-    return this.lend(bytes, (at) => this.lendText(name, (text) => this.get('sweepface_rig_load', at, bytes.length, text)));
+    return this.lend(bytes, (at) => this.lendText(name, (text) => {
+      return this.get('sweepface_rig_load', at, bytes.length, text);
+    }));
   }
 }
 
@@ -109,17 +118,20 @@ function withinMemory(run) {
 
 /** What all faces of one file at one level of detail share. */
 class Shared {
-  constructor(module, bytes, name, lod, follow, budget, eyes, divide) {
+  constructor(module, bytes, {name, follow, eyes, divide, lod, budget}) {
     const runtime = this.runtime = new Runtime(module), {wasm} = runtime;
     this.rig = runtime.loadRig(bytes, name);
     if (follow) runtime.check(wasm.sweepface_rig_follow(this.rig, follow));
     this.eyeCount = eyes ? runtime.get('sweepface_rig_turn_eyes', this.rig) : 0;
-    this.regions = divide ? divide(runtime, this.rig) : null;  // with their matter
+    this.regions = divide ? divide(runtime, this.rig) : null;  // with their matter; null: of one piece
+    this.regionCount = this.regions?.length ?? 1;
     this.turnCount = wasm.sweepface_rig_turn_count(this.rig);
-    this.mesh = budget ? runtime.get('sweepface_mesh_create_within', this.rig, ...budget) : runtime.get('sweepface_mesh_create', this.rig, lod);
+    this.mesh = budget ? runtime.get('sweepface_mesh_create_within', this.rig, ...budget)
+                       : runtime.get('sweepface_mesh_create', this.rig, lod);
     this.names = Array.from({length: wasm.sweepface_rig_target_count(this.rig)},
                             (_, k) => runtime.text(wasm.sweepface_rig_target_name(this.rig, k)));
     this.indexOf = new Map(this.names.map((text, k) => [text, k]));
+    this.weightCount = this.names.length * this.regionCount;
     this.vertexCount = wasm.sweepface_mesh_vertex_count(this.mesh);
     this.lod = lod;
   }
@@ -133,12 +145,13 @@ class Shared {
   region(name) {
     const index = this.regions?.findIndex((region) => region.name === name) ?? -1;
     if (index >= 0) return index;
-    throw new Error(`There is no region named '${name}'; there are ${this.regions?.map((region) => region.name).join(', ') ?? 'none'}.`);
+    const names = this.regions?.map((region) => region.name).join(', ') ?? 'none';
+    throw new Error(`There is no region named '${name}'; there are ${names}.`);
   }
 
   triangles() {
-    const {wasm} = this.runtime;
-    return this.runtime.words(wasm.sweepface_mesh_triangles(this.mesh), 3 * wasm.sweepface_mesh_triangle_count(this.mesh)).slice();
+    const {wasm} = this.runtime, count = wasm.sweepface_mesh_triangle_count(this.mesh);
+    return this.runtime.words(wasm.sweepface_mesh_triangles(this.mesh), 3 * count).slice();
   }
 
   copies() {
@@ -153,9 +166,9 @@ class Shared {
   }
 
   parts() {
-    const {runtime} = this;
-    return Array.from({length: runtime.wasm.sweepface_mesh_part_count(this.mesh)}, (_, k) => runtime.lend(new Uint8Array(12), (out) => {
-      runtime.check(runtime.wasm.sweepface_mesh_part(this.mesh, k, out));
+    const {runtime} = this, {wasm} = runtime, length = wasm.sweepface_mesh_part_count(this.mesh);
+    return Array.from({length}, (_, k) => runtime.lend(new Uint8Array(12), (out) => {
+      runtime.check(wasm.sweepface_mesh_part(this.mesh, k, out));
       const [material, first, count] = runtime.words(out, 3);
       return {material: runtime.text(material), start: 3 * first, count: 3 * count};
     }));
@@ -167,30 +180,33 @@ export class Sweepface {
   #face;
   #motion = 0;
   #waits = 0;  // seconds until the last delayed motion sets out
-  #memory;  // two arrays of vectors for the C interface and what they point to, then weights
+  #memory;  // in the module: arrays of floats and of weights, and C structs: a drive and two vectors
 
   /** Use Sweepface.load. */
   constructor(shared) {
     if (!(shared instanceof Shared)) throw new TypeError('Faces are made by Sweepface.load.');
-    const {runtime, names, vertexCount} = shared;
+    const {runtime, vertexCount, weightCount} = shared;
     this.#shared = shared;
     this.#face = runtime.get('sweepface_face_create', shared.mesh);
-    const size = {vectors: 12 * vertexCount, weights: 8 * names.length * (shared.regions?.length ?? 1)};
-    const positions = runtime.allocate(2 * size.vectors), normals = positions + size.vectors;
-    const weights = runtime.allocate(size.weights + 8), drive = runtime.allocate(56), vectors = runtime.allocate(16);
+    const positions = runtime.allocate(24 * vertexCount), normals = positions + 12 * vertexCount;
+    const weights = runtime.allocate(8 * weightCount), drive = runtime.allocate(56), vectors = runtime.allocate(16);
     this.#memory = {positions, normals, weights, drive, vectors};
     ++runtime.users;
   }
 
-  static async load(bytes, {lod = 0, name = 'The face', arcs = false, combine = false, eyes = false, regions, wasm, ...rest} = {}) {
+  static async load(bytes, {lod = 0, name = 'The face', arcs, combine, eyes, regions, wasm, ...rest} = {}) {
     if (!(bytes instanceof ArrayBuffer || ArrayBuffer.isView(bytes)))
       throw new TypeError('Sweepface.load needs the bytes of a .sweep file: an ArrayBuffer or a typed array.');
-    if (!Number.isInteger(lod) || lod < 0) throw new RangeError('The level of detail must be a whole number from 0 on.');
-    const view = ArrayBuffer.isView(bytes) ? new Uint8Array(bytes.buffer, bytes.byteOffset, bytes.byteLength) : new Uint8Array(bytes);
+    if (!Number.isInteger(lod) || lod < 0)
+      throw new RangeError('The level of detail must be a whole number from 0 on.');
+    const view = ArrayBuffer.isView(bytes) ? new Uint8Array(bytes.buffer, bytes.byteOffset, bytes.byteLength)
+                                           : new Uint8Array(bytes);
     const [budget] = BUDGETS.flatMap((kind, k) => (kind in rest ? [[k, Number(rest[kind])]] : []));
     const module = await compile(wasm, arcs || combine || regions || eyes ? 'full' : 'usual');
     const divide = regions && (await import('./sweepface_regions.js')).divider(regions);
-    return withinMemory(() => new Sweepface(new Shared(module, view, String(name), lod, (arcs ? 1 : 0) + (combine ? 2 : 0), budget, eyes, divide)));
+    const follow = (arcs ? FOLLOW.arcs : 0) + (combine ? FOLLOW.combine : 0);
+    const options = {name: String(name), follow, eyes, divide, lod, budget};
+    return withinMemory(() => new Sweepface(new Shared(module, view, options)));
   }
 
   /** Another face of the same file, at rest; the two share everything but their weights. */
@@ -219,8 +235,8 @@ export class Sweepface {
   weightsIn(region) { return this.#weightsOf(this.#open().region(region)); }
 
   #weightsOf(region) {
-    const {runtime, names} = this.#open(), count = names.length;
-    const values = runtime.doubles(runtime.wasm.sweepface_face_weights(this.#face), count * (region + 1)).subarray(count * region);
+    const {runtime, names} = this.#open(), all = runtime.wasm.sweepface_face_weights(this.#face);
+    const values = runtime.doubles(all + 8 * names.length * region, names.length);
     return Object.fromEntries(names.map((name, k) => [name, values[k]]));
   }
 
@@ -228,7 +244,8 @@ export class Sweepface {
   setWeights(weights, region) {
     const shared = this.#open(), {runtime, names} = shared, {wasm} = runtime, count = names.length;
     const named = this.#resolve(weights), all = this.#copyWeights();
-    const places = region !== undefined ? [shared.region(region)] : Array.from(shared.regions ?? [0], (_, r) => r);
+    const everywhere = Array.from({length: shared.regionCount}, (_, r) => r);
+    const places = region === undefined ? everywhere : [shared.region(region)];
     for (const r of places)
       for (const [target, weight] of named) all[count * r + target] = weight;
     this.#takeWeights();
@@ -242,9 +259,8 @@ export class Sweepface {
 
   /** The weights of all regions as they are, in memory of the module. */
   #copyWeights() {
-    const {runtime, names, regions} = this.#shared, count = names.length * (regions?.length ?? 1);
-    const all = runtime.doubles(this.#memory.weights, count);
-    all.set(runtime.doubles(runtime.wasm.sweepface_face_weights(this.#face), count));
+    const {runtime, weightCount} = this.#shared, all = runtime.doubles(this.#memory.weights, weightCount);
+    all.set(runtime.doubles(runtime.wasm.sweepface_face_weights(this.#face), weightCount));
     return all;
   }
 
@@ -252,7 +268,9 @@ export class Sweepface {
   #takeWeights() {
     const {runtime, names, regions} = this.#shared, {wasm} = runtime, at = this.#memory.weights, count = names.length;
     if (!regions) return runtime.check(wasm.sweepface_face_set_weights(this.#face, at, count));
-    for (let r = 0; r < regions.length; ++r) runtime.check(wasm.sweepface_face_set_region_weights(this.#face, r, at + 8 * count * r, count));
+    regions.forEach((_, r) => {
+      runtime.check(wasm.sweepface_face_set_region_weights(this.#face, r, at + 8 * count * r, count));
+    });
   }
 
   /** All weights to 0, at once. */
@@ -270,19 +288,22 @@ export class Sweepface {
     const angles = ({yaw = 0, pitch = 0} = {}) => [yaw, pitch, 0];
     if (!pose) return runtime.check(runtime.wasm.sweepface_face_look(this.#face, 0));
     const numbers = new Float64Array([0, 0, 0, ...angles(pose.leftEye), ...angles(pose.rightEye)]);
-    runtime.lend(new Uint8Array(numbers.buffer), (at) => runtime.check(runtime.wasm.sweepface_face_look(this.#face, at)));
+    runtime.lend(new Uint8Array(numbers.buffer), (at) => {
+      runtime.check(runtime.wasm.sweepface_face_look(this.#face, at));
+    });
   }
 
   /** Writes positions and normals, three floats a vertex; either may be null. */
   evaluate(positions, normals = null) {
     const {runtime, vertexCount} = this.#open(), memory = this.#memory;
+    const count = 3 * vertexCount;
     for (const out of [positions, normals])
-      if (out && !(out.length >= 3 * vertexCount))
-        throw new RangeError(`There must be room for ${vertexCount} vertices: ${3 * vertexCount} numbers, not ${out.length}.`);
+      if (out && !(out.length >= count))
+        throw new RangeError(`There must be room for ${vertexCount} vertices: ${count} numbers, not ${out.length}.`);
     runtime.words(memory.vectors, 4).set([positions ? memory.positions : 0, 0, normals ? memory.normals : 0, 0]);
     runtime.check(runtime.wasm.sweepface_face_update(this.#face, vertexCount, memory.vectors, memory.vectors + 8));
-    positions?.set(runtime.floats(memory.positions, 3 * vertexCount));
-    normals?.set(runtime.floats(memory.normals, 3 * vertexCount));
+    positions?.set(runtime.floats(memory.positions, count));
+    normals?.set(runtime.floats(memory.normals, count));
   }
 
   /** What a vertex shader evaluates the face from, instead of `evaluate`: see shaderModes. */
@@ -324,7 +345,8 @@ export class Sweepface {
     const place = region === undefined ? -1 : shared.region(region);
     const all = this.#resolve(goals), at = this.#drive(drive), motion = this.#moving();
     for (const [target, goal] of all)
-      runtime.check(place < 0 ? wasm.sweepface_motion_move_to(motion, target, goal, at) : wasm.sweepface_motion_move_in(motion, place, target, goal, at));
+      runtime.check(place < 0 ? wasm.sweepface_motion_move_to(motion, target, goal, at)
+                              : wasm.sweepface_motion_move_in(motion, place, target, goal, at));
     const latest = Math.max(0, ...(shared.regions ?? []).map(({delay}) => delay));
     this.#waits = Math.max(this.#waits, (drive.delay ?? 0) + latest);
   }
@@ -337,9 +359,9 @@ export class Sweepface {
 
   /** Lets time pass for the weights in motion; says whether anything goes on moving. */
   advance(seconds) {
-    const {runtime, names, regions} = this.#open(), {wasm} = runtime, {weights} = this.#memory;
+    const {runtime, weightCount: count} = this.#open(), {wasm} = runtime, {weights} = this.#memory;
     if (!this.#motion) return false;
-    const still = 1e-6, count = names.length * (regions?.length ?? 1), before = this.#copyWeights().slice();
+    const still = 1e-6, before = this.#copyWeights().slice();
     const waits = this.#waits > 0;  // what sets out just now has no velocity yet
     wasm.sweepface_motion_advance(this.#motion, seconds);
     this.#waits -= Math.max(seconds, 0);
@@ -373,7 +395,8 @@ export class Sweepface {
   #resolve(byName) {
     return Object.entries(byName).map(([name, value]) => {
       const target = this.#shared.target(name);
-      if (!Number.isFinite(value)) throw new TypeError(`The weight of '${name}' must be a finite number, not ${value}.`);
+      if (!Number.isFinite(value))
+        throw new TypeError(`The weight of '${name}' must be a finite number, not ${value}.`);
       return [target, value];
     });
   }
@@ -387,12 +410,12 @@ export class Sweepface {
     const weights = wasm.sweepface_face_weights(this.#face);
     if (!regions) return runtime.get('sweepface_motion_create', weights, count);
     const matters = new Float64Array(regions.flatMap(({mass, stiffness, delay}) => [mass, stiffness, delay]));
-    const motion = runtime.lend(new Uint8Array(matters.buffer),
-                                (at) => runtime.get('sweepface_motion_create_regions', weights, count, at, regions.length));
-    regions.forEach((_, r) => names.forEach((name, k) => {
-      const weight = runtime.doubles(wasm.sweepface_face_weights(this.#face) + 8 * count * r, count)[k];
-      runtime.check(wasm.sweepface_motion_put_in(motion, r, k, weight));
-    }));
+    const motion = runtime.lend(new Uint8Array(matters.buffer), (at) => {
+      return runtime.get('sweepface_motion_create_regions', weights, count, at, regions.length);
+    });
+    this.#copyWeights().slice().forEach((weight, k) => {
+      runtime.check(wasm.sweepface_motion_put_in(motion, Math.floor(k / count), k % count, weight));
+    });
     return motion;
   }
 

@@ -50,7 +50,8 @@ export function matchNames(names, targets) {
   });
   const found = names.map((name) => {
     const key = plain(name), one = byName.get(name) ?? byPlain.get(key);
-    const all = one !== undefined ? [one] : ['_l', '_r'].map((side) => byPlain.get(key + side)).filter((k) => k !== undefined);
+    const all = (one !== undefined ? [one] : ['_l', '_r'].map((side) => byPlain.get(key + side)))
+                    .filter((k) => k !== undefined);
     for (const k of all) driven.add(k);
     return all;
   });
@@ -82,7 +83,8 @@ export class Clip {
       if (times[middle] <= time) low = middle + 1;
       else high = middle;
     }
-    const later = Math.min(low, times.length - 1), earlier = Math.max(later - 1, 0), length = times[later] - times[earlier];
+    const later = Math.min(low, times.length - 1), earlier = Math.max(later - 1, 0);
+    const length = times[later] - times[earlier];
     const s = length > 0 ? Math.min(Math.max((time - times[earlier]) / length, 0), 1) : 1;
     for (let k = 0; k < n; ++k) {
       const from = weights[earlier * n + k], to = weights[later * n + k];
@@ -91,7 +93,7 @@ export class Clip {
     return out;
   }
 
-  /** The clip without the noise of a tracker, by the one-euro filter: heavily where weights rest, hardly where they move. */
+  /** Without the noise of a tracker, by the one-euro filter: heavily where weights rest, hardly where they move. */
   smooth({cutoff = 1, speedGain = 2, speedCutoff = 1} = {}) {
     const n = this.names.length, weights = this.weights.slice(), speeds = new Float64Array(n);
     const share = (hertz, seconds) => 1 - 1 / (2 * Math.PI * hertz * seconds + 1);
@@ -108,7 +110,8 @@ export class Clip {
 }
 
 function readLiveLink(text, name, framesPerSecond) {
-  const lines = text.replace(/^\uFEFF/, '').split('\n').map((line, k) => ({number: k + 1, cells: line.split(',').map((cell) => cell.trim())}));
+  const cellsOf = (line) => line.split(',').map((cell) => cell.trim());
+  const lines = text.replace(/^\uFEFF/, '').split('\n').map((line, k) => ({number: k + 1, cells: cellsOf(line)}));
   const filled = lines.filter(({cells}) => cells.length > 1 || cells[0] !== '');
   if (filled.length === 0) throw new Error(`${name} is empty; record again.`);
   const fail = (line, what) => new Error(`${name} line ${line.number}: ${what}.`);
@@ -123,17 +126,19 @@ function readLiveLink(text, name, framesPerSecond) {
       columns.push(c);
     }
   });
-  if (timeColumn < 0) throw fail(headings, 'there is no column \'Timecode\'; this may be no recording of Live Link Face');
+  if (timeColumn < 0)
+    throw fail(headings, 'there is no column \'Timecode\'; this may be no recording of Live Link Face');
   if (names.length === 0) throw fail(headings, 'there is no column of a shape');
   if (rows.length === 0) throw new Error(`${name} has headings but no frames; record again.`);
 
   const times = new Float64Array(rows.length), weights = new Float64Array(rows.length * names.length);
   rows.forEach((row, f) => {
-    const {cells} = row, timecode = cells[timeColumn];
-    if (cells.length !== headings.cells.length)
-      throw fail(row, `there are ${cells.length} values under ${headings.cells.length} headings; the file may be cut short`);
+    const {cells} = row, timecode = cells[timeColumn], expected = headings.cells.length;
+    if (cells.length !== expected)
+      throw fail(row, `there are ${cells.length} values under ${expected} headings; the file may be cut short`);
     times[f] = secondsOf(timecode, framesPerSecond, (what) => fail(row, what));
-    if (f > 0 && times[f] <= times[f - 1]) throw fail(row, `the timecode '${timecode}' is not after the one before; sort the rows by time`);
+    if (f > 0 && times[f] <= times[f - 1])
+      throw fail(row, `the timecode '${timecode}' is not after the one before; sort the rows by time`);
     columns.forEach((c, k) => {
       const value = numberIn(cells[c]);
       if (!Number.isFinite(value)) throw fail(row, `'${cells[c]}' in column ${c + 1} is not a finite number`);
@@ -148,9 +153,11 @@ function secondsOf(timecode, framesPerSecond, fail) {
   const seconds = numberIn(timecode);
   if (Number.isFinite(seconds)) return seconds;
   const parts = timecode.split(':').map(numberIn);
-  if (parts.length !== 4 || !parts.every((part) => part >= 0 && part <= 1e6)) throw fail(`'${timecode}' is not a timecode like 12:59:59:23.500`);
+  if (parts.length !== 4 || !parts.every((part) => part >= 0 && part <= 1e6))
+    throw fail(`'${timecode}' is not a timecode like 12:59:59:23.500`);
   if (parts[3] >= framesPerSecond)
-    throw fail(`the timecode '${timecode}' counts more than ${framesPerSecond} frames a second; give the recording's own rate`);
+    throw fail(`the timecode '${timecode}' counts more than ${framesPerSecond} frames a second; ` +
+               'give the recording\'s own rate');
   return (parts[0] * 60 + parts[1]) * 60 + parts[2] + parts[3] / framesPerSecond;
 }
 
@@ -161,7 +168,8 @@ function readAudio2Face(json, fail) {
   if (!names.every((name) => typeof name === 'string')) throw fail('has a value in \'facsNames\' that is not a name');
   if (!Array.isArray(rows) || rows.length === 0) throw fail('has no frames in \'weightMat\'');
   rows.forEach((row, f) => {
-    if (!Array.isArray(row) || row.length !== names.length) throw fail(`has not ${names.length} numbers in weightMat[${f}], one for every name`);
+    if (!Array.isArray(row) || row.length !== names.length)
+      throw fail(`has not ${names.length} numbers in weightMat[${f}], one for every name`);
     if (!row.every(isNumber)) throw fail(`has a value that is not a number in weightMat[${f}]`);
   });
   return new Clip(names, Float64Array.from(rows, (_, f) => f / exportFps), Float64Array.from(rows.flat()));
@@ -173,12 +181,15 @@ function readMediaPipe(frames, fail) {
     const time = frame?.timestampMs ?? frame?.timestamp_ms ?? frame?.timestamp;
     if (typeof time !== 'number') throw fail(`has no 'timestampMs' in frame ${f}`);
     times[f] = time / 1000;
-    if (!Number.isFinite(times[f]) || (f > 0 && times[f] <= times[f - 1])) throw fail(`has a time in frame ${f} that is not after the one before`);
+    if (!Number.isFinite(times[f]) || (f > 0 && times[f] <= times[f - 1]))
+      throw fail(`has a time in frame ${f} that is not after the one before`);
     return scoresOf(frame, f, fail);
   });
-  const names = [...new Set(scores.flatMap((frame) => [...frame.keys()].sort()))].filter((shape) => shape !== '_neutral');
+  const shapes = new Set(scores.flatMap((frame) => [...frame.keys()].sort()));
+  const names = [...shapes].filter((shape) => shape !== '_neutral');
   if (names.length === 0) throw fail('has no scores in its frames');
-  return new Clip(names, times, Float64Array.from(scores.flatMap((frame) => names.map((shape) => frame.get(shape) ?? 0))));
+  const weights = scores.flatMap((frame) => names.map((shape) => frame.get(shape) ?? 0));
+  return new Clip(names, times, Float64Array.from(weights));
 }
 
 function scoresOf(frame, f, fail) {
@@ -188,7 +199,8 @@ function scoresOf(frame, f, fail) {
   if (!Array.isArray(categories)) throw fail(`has no 'categories' in frame ${f}`);
   return new Map(categories.map((category) => {
     const shape = category?.categoryName ?? category?.category_name;
-    if (typeof shape !== 'string' || !isNumber(category.score)) throw fail(`has a category without 'categoryName' and 'score' in frame ${f}`);
+    if (typeof shape !== 'string' || !isNumber(category.score))
+      throw fail(`has a category without 'categoryName' and 'score' in frame ${f}`);
     return [shape, category.score];
   }));
 }
@@ -199,17 +211,19 @@ function scoresOf(frame, f, fail) {
  */
 export function readClip(source, {name = 'The clip', framesPerSecond = 60} = {}) {
   const text = textOf(source);
-  if (!(framesPerSecond > 0 && Number.isFinite(framesPerSecond))) throw new RangeError('The frames per second of a recording must be greater than 0.');
+  if (!(framesPerSecond > 0 && Number.isFinite(framesPerSecond)))
+    throw new RangeError('The frames per second of a recording must be greater than 0.');
   if (!/^\s*[{[]/.test(text)) return readLiveLink(text, name, framesPerSecond);
   const json = parseJson(text, name), fail = (what) => new Error(`${name} ${what}.`);
   if (isObject(json) && json.weightMat !== undefined) return readAudio2Face(json, fail);
   const frames = Array.isArray(json) ? json : json.frames;
   if (Array.isArray(frames)) return readMediaPipe(frames, fail);
-  throw fail('is neither of Audio2Face (\'facsNames\' and \'weightMat\') nor of MediaPipe (a list of frames with \'categories\')');
+  throw fail('is neither of Audio2Face (\'facsNames\' and \'weightMat\') nor of MediaPipe ' +
+             '(a list of frames with \'categories\')');
 }
 
 /** The angles of Live Link Face, in radians, in the order of the app. */
-const ANGLES = ['HeadYaw', 'HeadPitch', 'HeadRoll', 'LeftEyeYaw', 'LeftEyePitch', 'LeftEyeRoll', 'RightEyeYaw', 'RightEyePitch', 'RightEyeRoll'];
+const ANGLES = ['Head', 'LeftEye', 'RightEye'].flatMap((of) => ['Yaw', 'Pitch', 'Roll'].map((angle) => of + angle));
 
 /** Plays a clip on a face: `seek` sets the weights of a time. */
 export class ClipPlayer {
@@ -228,9 +242,9 @@ export class ClipPlayer {
   get seconds() { return this.clip.seconds; }
 
   /**
-   * Sets the weights that the clip drives, turns eyes if it has their angles, and returns the angles of the head, {yaw, pitch, roll} in radians, or null
-   * where the clip has none: for three.js `head.rotation.set(pitch, yaw, roll, 'YXZ')`. Where two names drive a target
-   * the larger weight counts.
+   * Sets the weights that the clip drives, turns eyes if it has their angles, and returns the angles of the head,
+   * {yaw, pitch, roll} in radians, or null where the clip has none: for three.js
+   * `head.rotation.set(pitch, yaw, roll, 'YXZ')`. Where two names drive a target the larger weight counts.
    */
   seek(seconds) {
     const values = this.clip.at(seconds), names = this.face.names, weights = {};
@@ -238,9 +252,10 @@ export class ClipPlayer {
       for (const target of targets) weights[names[target]] = Math.max(weights[names[target]] ?? 0, values[k]);
     });
     this.face.setWeights(weights);
-    const angles = [0, 3, 6].map((first) => this.#anglesAt(values, first));
-    if (this.face.eyeCount > 0 && (angles[1] || angles[2])) this.face.look({leftEye: angles[1] ?? {}, rightEye: angles[2] ?? {}});
-    return angles[0];
+    const [head, leftEye, rightEye] = [0, 3, 6].map((first) => this.#anglesAt(values, first));
+    if (this.face.eyeCount > 0 && (leftEye || rightEye))
+      this.face.look({leftEye: leftEye ?? {}, rightEye: rightEye ?? {}});
+    return head;
   }
 
   /** Yaw, pitch and roll from a column on, or null where the clip has none of them. */
@@ -254,9 +269,9 @@ export class ClipPlayer {
 
 // ---- Timelines ----
 
-const EVENT = ['at', 'to', 'only', 'drive', 'seconds', 'turn', 'frequency', 'damping', 'restitution', 'delay', 'region'];
 const DRIVES = ['cut', 'newton', 'linear-force', 'accelerate-brake', 'spring', 'bounce'];
 const DRIVE = ['seconds', 'turn', 'frequency', 'damping', 'restitution', 'delay'];
+const EVENT = ['at', 'to', 'only', 'drive', 'region', ...DRIVE];
 const TIMELINE = ['seconds', 'loops', 'poses', 'events', 'regions'];
 
 /** A timeline from its JSON text or bytes: {seconds, loops, events, regions}; `regions` are for Sweepface.load. */
@@ -271,9 +286,11 @@ export function readTimeline(source, {name = 'The timeline'} = {}) {
   for (const key of ['seconds', 'loops'])
     if (key in json && !isNumber(json[key])) throw fail('the file', `has a '${key}' that is not a number`);
   if (!(seconds > 0)) throw fail('\'seconds\'', 'must be greater than 0');
-  if (!Number.isInteger(loops) || loops < 1 || loops > 10000) throw fail('\'loops\'', 'must be a whole number from 1 to 10000');
+  if (!Number.isInteger(loops) || loops < 1 || loops > 10000)
+    throw fail('\'loops\'', 'must be a whole number from 1 to 10000');
   if (!Array.isArray(events) || events.length === 0) throw fail('\'events\'', 'must be a list of at least one event');
-  const read = events.map((event, k) => readEvent(event, poses, (what) => fail(`events[${k}]`, what))).sort((a, b) => a.at - b.at);
+  const read = events.map((event, k) => readEvent(event, poses, (what) => fail(`events[${k}]`, what)))
+                   .sort((a, b) => a.at - b.at);
   if (read.at(-1).at > seconds) throw fail('\'events\'', 'hold one that is later than \'seconds\'');
   return {seconds, loops, events: read, regions};
 }
@@ -287,7 +304,8 @@ function readEvent(event, poses, fail) {
     if (key in event && !isNumber(event[key])) throw fail(`has a '${key}' that is not a number`);
   for (const key of ['drive', 'region'])
     if (key in event && typeof event[key] !== 'string') throw fail(`has a '${key}' that is not a text`);
-  if ('drive' in event && !DRIVES.includes(event.drive)) throw fail(`has a 'drive' '${event.drive}'; there are ${DRIVES.join(', ')}`);
+  if ('drive' in event && !DRIVES.includes(event.drive))
+    throw fail(`has a 'drive' '${event.drive}'; there are ${DRIVES.join(', ')}`);
   if (event.at < 0) throw fail('is before 0');
   if (event.delay < 0) throw fail('has a negative \'delay\'');
   if (('to' in event) === ('only' in event)) throw fail('needs one of \'to\' and \'only\', the weights to go to');
@@ -296,7 +314,9 @@ function readEvent(event, poses, fail) {
   if (!isObject(goals)) throw fail('goes neither to weights nor to a pose');
   for (const [weight, goal] of Object.entries(goals))
     if (!isNumber(goal)) throw fail(`has a weight '${weight}' that is not a number`);
-  const drive = {kind: event.drive ?? 'spring', ...Object.fromEntries(DRIVE.filter((key) => key in event).map((key) => [key, event[key]]))};
+  const drive = {kind: event.drive ?? 'spring'};
+  for (const key of DRIVE)
+    if (key in event) drive[key] = event[key];
   return {at: event.at, goals, others: 'only' in event, drive, region: event.region};
 }
 
@@ -322,7 +342,8 @@ export class TimelinePlayer {
     const {events, seconds: length, loops} = this.timeline, until = this.#now + Math.max(seconds, 0);
     let moves = false;
     for (; this.#next < loops * events.length; ++this.#next) {
-      const event = events[this.#next % events.length], start = event.at + Math.floor(this.#next / events.length) * length;
+      const event = events[this.#next % events.length], loop = Math.floor(this.#next / events.length);
+      const start = event.at + loop * length;
       if (start > until) break;
       this.face.advance(start - this.#now);
       this.#now = start;

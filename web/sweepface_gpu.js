@@ -1,7 +1,7 @@
-// .sweep faces that a vertex shader evaluates: a mesh for three.js, and the shader for others. Only the modes of
-// the weights, some tens of kilobytes, go to the graphics card every frame (docs/evaluation.md).
-import {BufferAttribute, BufferGeometry, DataTexture, FloatType, NearestFilter, RGBAFormat, RGBAIntegerFormat, ShortType} from 'three';
-import {FaceMesh} from './sweepface_mesh.js';
+// .sweep faces that a vertex shader evaluates: a mesh for three.js, and the shader for others. Every frame only the
+// modes of the weights go to the graphics card, about a tenth of a megabyte (docs/evaluation.md).
+import {BufferAttribute, DataTexture, FloatType, NearestFilter, RGBAFormat, RGBAIntegerFormat, ShortType} from 'three';
+import {FaceMesh, geometryOf} from './sweepface_mesh.js';
 
 /** GLSL ES 3: a row of a face, from its neutral, its place and the two textures. */
 export const SWEEPFACE_GLSL = `
@@ -74,16 +74,14 @@ export class SweepfaceGpuMesh extends FaceMesh {
   #tables;
 
   constructor(face, materials) {
-    const positions = new Tables(face, false), tangents = new Tables(face, true), geometry = new BufferGeometry();
-    geometry.setIndex(new BufferAttribute(face.triangles, 1));
-    geometry.setAttribute('position', spread(face, positions.neutral, 3));
-    geometry.setAttribute('sweepPlace', spread(face, positions.places, 2));
-    geometry.setAttribute('sweepTangentPlace', spread(face, tangents.places, 2));
-    geometry.setAttribute('normal', spread(face, tangents.neutral, 3, 0, 6));  // along the sweep
-    geometry.setAttribute('sweepAcross', spread(face, tangents.neutral, 3, 3, 6));
-    const texcoords = face.texcoords;
-    if (texcoords) geometry.setAttribute('uv', new BufferAttribute(texcoords, 2));
-    face.parts.forEach(({start, count}, k) => geometry.addGroup(start, count, k));
+    const positions = new Tables(face, false), tangents = new Tables(face, true);
+    const geometry = geometryOf(face, {
+      position: spread(face, positions.neutral, 3),
+      sweepPlace: spread(face, positions.places, 2),
+      sweepTangentPlace: spread(face, tangents.places, 2),
+      normal: spread(face, tangents.neutral, 3, 0, 6),  // along the sweep
+      sweepAcross: spread(face, tangents.neutral, 3, 3, 6)
+    });
     super(face, geometry, materials);
     this.frustumCulled = false;  // bounds are those of the neutral
     this.#tables = [positions, tangents];
@@ -109,7 +107,8 @@ export class SweepfaceGpuMesh extends FaceMesh {
           vec3 objectNormal = normalize(cross(
             sweepfaceRow(normal, sweepTangentPlace, 0, sweepTangentBasis, sweepTangentModes),
             sweepfaceRow(sweepAcross, sweepTangentPlace, 1, sweepTangentBasis, sweepTangentModes)));`)
-        .replace('#include <begin_vertex>', 'vec3 transformed = sweepfaceRow(position, sweepPlace, 0, sweepBasis, sweepModes);');
+        .replace('#include <begin_vertex>', `
+          vec3 transformed = sweepfaceRow(position, sweepPlace, 0, sweepBasis, sweepModes);`);
     };
   }
 

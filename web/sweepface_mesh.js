@@ -1,9 +1,19 @@
 // What the meshes of sweepface/three and sweepface/gpu have in common.
-import {DoubleSide, Mesh, MeshStandardMaterial} from 'three';
+import {BufferAttribute, BufferGeometry, DoubleSide, Mesh, MeshStandardMaterial} from 'three';
 
 /** Plain materials, named as in the source. Mouths and lashes are seen from both sides. */
 function materialsOf(face) {
   return face.parts.map(({material}) => new MeshStandardMaterial({name: material, roughness: 0.7, side: DoubleSide}));
+}
+
+/** The triangles of a face, its texture coordinates and a group for each part, with attributes by name. */
+export function geometryOf(face, attributes) {
+  const geometry = new BufferGeometry(), {texcoords} = face;
+  geometry.setIndex(new BufferAttribute(face.triangles, 1));
+  for (const [name, attribute] of Object.entries(attributes)) geometry.setAttribute(name, attribute);
+  if (texcoords) geometry.setAttribute('uv', new BufferAttribute(texcoords, 2));
+  face.parts.forEach(({start, count}, k) => geometry.addGroup(start, count, k));
+  return geometry;
 }
 
 /** A face in a scene. Weights are set at any time; `update` has `show` bring them to the screen. */

@@ -1,5 +1,5 @@
-// Regions of a face, painted by the C interface (include/sweepface/sweepface_regions.h, docs/regions.md). Loaded where a
-// face is divided only.
+// Regions of a face (docs/regions.md), painted by the C interface (include/sweepface/sweepface_regions.h). Loaded only
+// where a face is divided.
 
 const MATTER = {mass: 1, stiffness: 1, delay: 0};
 const PLACES = ['parts', 'points', 'line', 'curves', 'nodes'];
@@ -39,14 +39,16 @@ function check(regions) {
     for (const key of ['points', 'line'])
       if (!(region[key] ?? []).every((place) => place?.length === 3 && Array.from(place).every(Number.isFinite)))
         throw wrong(`has '${key}' that are not like [[x, y, z]]`);
-    if (!['surface', 'space'].includes(region.over ?? 'surface')) throw wrong(`is over '${region.over}', which is neither surface nor space`);
+    if (!['surface', 'space'].includes(region.over ?? 'surface'))
+      throw wrong(`is over '${region.over}', which is neither surface nor space`);
     const {bands = 1} = region;
     if (!Number.isInteger(bands) || bands < 1) throw wrong(`has ${bands} bands, which is no whole number from 1 on`);
   }
 }
 
 /** The C struct of a brush. */
-function brush(copies, {parts = [], points = [], line = [], curves = [], nodes = {}, whole = 0, fade = 0, over = 'surface'}) {
+function brush(copies, region) {
+  const {parts = [], points = [], line = [], curves = [], nodes = {}, whole = 0, fade = 0, over} = region;
   const struct = new DataView(new ArrayBuffer(72)), shares = Object.values(nodes);
   const words = [copies.texts(parts), parts.length, copies.numbers(points.flatMap((p) => [...p])), points.length,
                  copies.numbers(line.flatMap((p) => [...p])), line.length, copies.texts(curves), curves.length,
@@ -62,13 +64,15 @@ function brush(copies, {parts = [], points = [], line = [], curves = [], nodes =
 function paint(runtime, rig, region) {
   const {bands = 1} = region, copies = new Copies(runtime), {wasm} = runtime;
   try {
-    const count = bands * wasm.sweepface_rig_node_count(rig), room = copies.numbers(new Float64Array(count));
+    const nodes = wasm.sweepface_rig_node_count(rig), count = bands * nodes;
+    const room = copies.numbers(new Float64Array(count));
     runtime.check(wasm.sweepface_rig_paint(rig, brush(copies, region), bands, room, count));
     const shares = runtime.doubles(room, count).slice();
     return Array.from({length: bands}, (_, k) => {
       const matter = Object.fromEntries(Object.entries(MATTER).map(([key, usual]) => [key, region[key] ?? usual]));
-      if (bands > 1) matter.delay *= k / (bands - 1);
-      return {...matter, name: bands > 1 ? `${region.name}${k + 1}` : region.name, shares: shares.subarray(k * count / bands, (k + 1) * count / bands)};
+      const own = shares.subarray(k * nodes, (k + 1) * nodes);
+      if (bands === 1) return {...matter, name: region.name, shares: own};
+      return {...matter, delay: matter.delay * (k / (bands - 1)), name: `${region.name}${k + 1}`, shares: own};
     });
   } finally {
     copies.free();
@@ -79,9 +83,11 @@ function paint(runtime, rig, region) {
 export function divider(regions) {
   check(regions);
   return (runtime, rig) => {
-    const {wasm} = runtime, painted = regions.flatMap((region) => paint(runtime, rig, region)), copies = new Copies(runtime);
+    const {wasm} = runtime, copies = new Copies(runtime);
+    const painted = regions.flatMap((region) => paint(runtime, rig, region));
     try {
-      const names = copies.texts(painted.map(({name}) => name)), shares = copies.numbers(painted.flatMap((region) => [...region.shares]));
+      const names = copies.texts(painted.map(({name}) => name));
+      const shares = copies.numbers(painted.flatMap((region) => [...region.shares]));
       runtime.check(wasm.sweepface_rig_divide(rig, names, shares, painted.length));
     } finally {
       copies.free();

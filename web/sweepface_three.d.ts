@@ -1,28 +1,10 @@
-import type {BufferGeometry, Loader, LoadingManager, Material, Mesh} from 'three';
-import type {Drive, DriveKind, LoadOptions, Look, Sweepface, Weights} from './sweepface.js';
+import type {Loader, LoadingManager, Material} from 'three';
+import type {LoadOptions, Sweepface} from './sweepface.js';
+import type {FaceMesh} from './sweepface_mesh.js';
 
-/** A face in a scene. Weights are set at any time; `update` brings the geometry up to date. */
-export class SweepfaceMesh extends Mesh<BufferGeometry, Material | Material[]> {
-  /** Materials: one a part of the face; plain ones, named as in the source, unless given. */
+/** A face in a scene whose geometry follows its weights. */
+export class SweepfaceMesh extends FaceMesh {
   constructor(face: Sweepface, materials?: Material | Material[]);
-  readonly face: Sweepface;
-  readonly names: string[];
-  readonly eyeCount: number;
-  /** How the eyes stand; null: by the weights of eyeLook targets. */
-  look(pose: {leftEye?: Look; rightEye?: Look} | null): void;
-
-  /** Sets the weights that are named, at once; the others stay. */
-  setWeights(weights: Weights, region?: string): void;
-  /** Sends weights to goals from where they stand; `update` moves them. */
-  moveTo(goals: Weights, drive?: DriveKind | Drive, region?: string): void;
-  /** A blow: adds to the velocity of a weight (per second), which drag (per second) takes away. */
-  push(name: string, velocityChange: number, drag?: number): void;
-  /** Lets seconds pass without showing it; says whether anything goes on moving. */
-  advance(seconds: number): boolean;
-  /** Call it once a frame with the seconds since the last; costs nothing where nothing moves. */
-  update(seconds?: number): void;
-  /** Frees geometry, materials and the face. */
-  dispose(): void;
 }
 
 /** Loads .sweep files, as three.js's own loaders do. */

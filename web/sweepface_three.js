@@ -1,27 +1,17 @@
 // .sweep faces for three.js: a loader, and a mesh whose geometry follows the weights.
-import {BufferAttribute, BufferGeometry, DynamicDrawUsage, FileLoader, Loader} from 'three';
+import {BufferAttribute, DynamicDrawUsage, FileLoader, Loader} from 'three';
 import {Sweepface} from './sweepface.js';
-import {FaceMesh} from './sweepface_mesh.js';
+import {FaceMesh, geometryOf} from './sweepface_mesh.js';
 
-function attribute(length, size) {
-  return new BufferAttribute(new Float32Array(length * size), size).setUsage(DynamicDrawUsage);
-}
-
-function geometryOf(face) {
-  const geometry = new BufferGeometry();
-  geometry.setIndex(new BufferAttribute(face.triangles, 1));
-  geometry.setAttribute('position', attribute(face.vertexCount, 3));
-  geometry.setAttribute('normal', attribute(face.vertexCount, 3));
-  const texcoords = face.texcoords;
-  if (texcoords) geometry.setAttribute('uv', new BufferAttribute(texcoords, 2));
-  face.parts.forEach(({start, count}, k) => geometry.addGroup(start, count, k));
-  return geometry;
+/** Room for three numbers a vertex that change every frame. */
+function vectors(face) {
+  return new BufferAttribute(new Float32Array(3 * face.vertexCount), 3).setUsage(DynamicDrawUsage);
 }
 
 /** A face in a scene. Weights are set at any time; `update` brings the geometry up to date. */
 export class SweepfaceMesh extends FaceMesh {
   constructor(face, materials) {
-    super(face, geometryOf(face), materials);
+    super(face, geometryOf(face, {position: vectors(face), normal: vectors(face)}), materials);
     this.update();
   }
 

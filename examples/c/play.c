@@ -1,37 +1,9 @@
 /* Moves one expression of a face by a spring and prints how the face follows.
  * Usage: play FACE.sweep EXPRESSION */
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 
-#include "sweepface/sweepface.h"
-
-static int fail(const char* message) {
-  fprintf(stderr, "play: %s\n", message);
-  return EXIT_FAILURE;
-}
-
-static int refused(void) { return fail(sweepface_message()); }
-
-/* The bytes of a file; the caller frees them. NULL if it cannot be read. */
-static char* read_file(const char* path, size_t* size) {
-  FILE* file = fopen(path, "rb");
-  if (!file) return NULL;
-  char* bytes = NULL;
-  *size = 0;
-  for (size_t room = 1 << 16; !feof(file) && !ferror(file); room *= 2) {
-    char* more = realloc(bytes, room);
-    if (!more) break;
-    bytes = more;
-    *size += fread(bytes + *size, 1, room - *size, file);
-  }
-  if (!feof(file)) {
-    free(bytes);
-    bytes = NULL;
-  }
-  fclose(file);
-  return bytes;
-}
+#define PROGRAM "play"
+#include "example.h"
 
 /* The farthest that a vertex stands from where it rested. */
 static double largest_distance(const float* a, const float* b, uint32_t vertices) {

@@ -24,10 +24,13 @@ namespace sweepface::capi {
 struct Division {
   std::vector<std::string> names;
   std::vector<std::vector<float>> influences;
-  std::vector<Matter> matters;  // where they are known
+  std::vector<Matter> matters;
 
   std::size_t count() const { return std::max<std::size_t>(1, names.size()); }
 };
+
+/// A face divided into these regions.
+std::shared_ptr<const Division> divisionOf(const Rig& rig, const std::vector<Region>& regions);
 
 /// Sets the weights of what turns eyes; by itself nothing. Behind an interface, as most faces do
 /// without. Not abstract: that would bring the C++ library's words about it to the browser.

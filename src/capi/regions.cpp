@@ -48,6 +48,17 @@ Result<std::vector<std::vector<double>>> paintAll(const Rig& rig, const Brush& b
 
 }  // namespace
 
+std::shared_ptr<const Division> capi::divisionOf(const Rig& rig,
+                                                 const std::vector<Region>& regions) {
+  auto division = std::make_shared<Division>();
+  for (const Region& region : regions) {
+    division->names.push_back(region.name);
+    division->matters.push_back(region.matter);
+  }
+  division->influences = influencesOf(rig.surface, regions);
+  return division;
+}
+
 uint32_t sweepface_rig_node_count(const sweepface_rig* rig) {
   return rig ? static_cast<uint32_t>(rig->rig->surface.wireframe().nodes.size()) : 0;
 }
@@ -70,17 +81,17 @@ sweepface_status sweepface_rig_divide(sweepface_rig* rig, const char* const* nam
   if (!rig || (count > 0 && (!names || !shares)))
     return refuse("Dividing a face needs a rig, and names and shares of its regions.");
   if (count >= kMostRegions) return refuse("A face has at most ", kMostRegions, " regions.");
+  if (count == 0) {
+    rig->division = std::make_shared<Division>();
+    return SWEEPFACE_OK;
+  }
   const std::size_t nodes = sweepface_rig_node_count(rig);
   std::vector<Region> painted;
   for (size_t r = 0; r < count; ++r)
     painted.push_back({text(names[r]), {}, {shares + r * nodes, shares + (r + 1) * nodes}});
   const auto regions = dividedFace(*rig->rig, std::move(painted));
   if (!regions) return refuse(regions.error().message);
-  auto division = std::make_shared<Division>();
-  if (count > 0)
-    for (const Region& region : *regions) division->names.push_back(region.name);
-  division->influences = influencesOf(rig->rig->surface, *regions);
-  rig->division = std::move(division);
+  rig->division = divisionOf(*rig->rig, *regions);
   return SWEEPFACE_OK;
 }
 

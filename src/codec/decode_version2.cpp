@@ -91,12 +91,12 @@ void readRest(Decoding& d, Reader& in) {
     CoefficientCoder<RangeDecoder> vectors(d.lattice->hierarchy(), coder, d.lattice->axis());
     std::vector<Coefficients> poses(1);
     readPose(d, symbols, vectors, poses, 0, d.rig.neutral);
-    if (symbols.ok()) d.lattice->learn(d.rig.surface, d.rig.neutral, stepOf(d.rig.packing, 0));
   });
 }
 
 void readMoves(Decoding& d, Reader& in) {
   if (d.rig.targets.size() < d.targets) return in.refuse("the targets have no names");
+  if (d.targets > 0) d.lattice->learn(d.rig.surface, d.rig.neutral, stepOf(d.rig.packing, 0));
   decodeRest(in, [&](RangeDecoder& coder, Symbols<RangeDecoder>& symbols) {
     d.rig.packing.poses.resize(d.targets + 1);
     CoefficientCoder<RangeDecoder> vectors(d.lattice->hierarchy(), coder, d.lattice->axis());

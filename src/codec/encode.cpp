@@ -63,7 +63,8 @@ struct Poses {
     for (Index pose = 0; pose < static_cast<Index>(packing.poses.size()); ++pose) {
       const bool edited = pose == 0 && !packing.rest.empty();
       Coded coded = code(pose, edited ? packing.rest : vectorsOf(rig, pose), lattice);
-      if (pose == 0) lattice.learn(rig.surface, coded.restored, stepOf(packing, 0));
+      if (pose == 0 && packing.poses.size() > 1)
+        lattice.learn(rig.surface, coded.restored, stepOf(packing, 0));
       exact.push_back(differing(vectorsOf(rig, pose), coded.restored));
       coefficients.push_back(std::move(coded.q));
     }

@@ -188,7 +188,7 @@ class FaceCoder {
       if (!s_.ok()) return;
       if (!s_.bit(kSameName, what, 0, name == last)) {
         const std::int64_t there =
-            last + std::int64_t{s_.signedNumber(kName, what, 0, std::int64_t{name} - last)};
+            last + s_.signedNumber(kName, what, 0, std::int64_t{name} - last);
         if (there < -1 || there >= static_cast<std::int64_t>(names.size()))
           return s_.refuse("the name of a face is out of range");
         last = static_cast<Index>(there);

@@ -26,11 +26,12 @@ constexpr double kReach[3] = {1, 0.16, 0.0173};
 
 class HierarchyBuilder {
  public:
-  HierarchyBuilder(const Surface& surface, const Mirror& mirror, Hierarchy& out)
+  HierarchyBuilder(const Surface& surface, const Mirror& mirror, bool seekNear, Hierarchy& out)
       : surface_(surface),
         w_(surface.wireframe()),
         c_(surface.connectivity()),
         mirror_(mirror),
+        seekNear_(seekNear),
         out_(out) {}
 
   void build() {
@@ -360,6 +361,7 @@ class HierarchyBuilder {
   std::vector<Index> nearest(Index s) {
     constexpr std::size_t kEnough = 12;
     std::vector<Index> result;
+    if (!seekNear_) return result;
     reached_.clear();
     queue_.assign(1, {0, all_[s].site.node});
     Index last = 0;
@@ -497,6 +499,7 @@ class HierarchyBuilder {
   const Wireframe& w_;
   const Connectivity& c_;
   const Mirror& mirror_;
+  const bool seekNear_;
   Hierarchy& out_;
   std::vector<Candidate> all_;
   std::vector<Index> siteOf_;      // [nodes]
@@ -511,8 +514,8 @@ class HierarchyBuilder {
   std::vector<char> placed_;                 // [sites] roots that have their place in the order
 };
 
-Hierarchy::Hierarchy(const Surface& surface, const Mirror& mirror) {
-  HierarchyBuilder(surface, mirror, *this).build();
+Hierarchy::Hierarchy(const Surface& surface, const Mirror& mirror, bool seekNear) {
+  HierarchyBuilder(surface, mirror, seekNear, *this).build();
 }
 
 }  // namespace sweepface::codec

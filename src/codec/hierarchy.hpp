@@ -45,7 +45,8 @@ struct Prediction {
 /// rules of the surface for derivatives that are not stored.
 class Hierarchy {
  public:
-  Hierarchy(const Surface& surface, const Mirror& mirror);
+  /// With `seekNear` it knows near(), which takes a while to find.
+  Hierarchy(const Surface& surface, const Mirror& mirror, bool seekNear);
 
   /// Coarse to fine: parents come before children, mirror images one after the other.
   const std::vector<CodedSite>& sites() const { return sites_; }
@@ -54,7 +55,7 @@ class Hierarchy {
   const Prediction& prediction() const { return prediction_; }
 
   /// The sites before a site that were nearest to it, along what was left of the lines when it was
-  /// taken out; none for a root.
+  /// taken out; none for a root, or where they were not sought.
   std::span<const Index> near(Index site) const {
     return {near_.data() + nearStart_[site], near_.data() + nearStart_[site + 1]};
   }

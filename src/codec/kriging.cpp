@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cmath>
-#include <cstdlib>
 
 namespace sweepface::codec {
 
@@ -37,12 +36,11 @@ std::vector<Stand> standsOf(const Surface& surface, const Hierarchy& hierarchy,
   return stands;
 }
 
-static bool gLinear = false;
 // The power 1.5 of the distance.
 double apart(const Stand& a, const Stand& b, double turned) {
   const Vec3 way = a.position - b.position, turn = a.facing - b.facing;
   const double r = std::sqrt(dot(way, way) + turned * turned * dot(turn, turn));
-  return gLinear ? r : r * std::sqrt(r);
+  return r * std::sqrt(r);
 }
 
 constexpr std::size_t kMost = Hierarchy::kMostNear;

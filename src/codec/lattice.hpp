@@ -14,7 +14,8 @@ class Lattice {
  public:
   explicit Lattice(const Surface& surface, const Packing& packing)
       : hierarchy_(surface,
-                   spreadMirror(surface.wireframe(), surface.connectivity(), packing.mirror)),
+                   spreadMirror(surface.wireframe(), surface.connectivity(), packing.mirror),
+                   packing.neutralStep > 0),
         axis_(packing.axis) {}
 
   const Hierarchy& hierarchy() const { return hierarchy_; }

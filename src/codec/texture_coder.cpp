@@ -74,8 +74,7 @@ class TextureCoder {
     if (s_.bit(kFresh, had >= -1, 0, t == next_)) {
       t = next_;
     } else {
-      const std::int64_t there =
-          next_ + std::int64_t{s_.signedNumber(kTexture, 0, 0, std::int64_t{t} - next_)};
+      const std::int64_t there = next_ + s_.signedNumber(kTexture, 0, 0, std::int64_t{t} - next_);
       t = static_cast<Index>(std::clamp<std::int64_t>(there, -2, std::int64_t{1} << 30));
     }
     if (t < -1 || t >= static_cast<Index>(known_.size())) {

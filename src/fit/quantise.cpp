@@ -25,8 +25,8 @@ using codec::Symmetry;
 
 namespace {
 
-// Steps as shares of the tolerance. Small ones cost little: what counts is how many coefficients
-// are not zero.
+// Steps, as shares of the tolerance, of vectors that few vertices follow; the hierarchy makes those
+// of others finer.
 constexpr double kNeutralStep = 0.25, kTargetStep = 1;
 // The neutral spends this share of the tolerance, so that its poses have room.
 constexpr double kNeutralShare = 0.5;

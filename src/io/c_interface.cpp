@@ -26,16 +26,6 @@ namespace {
 
 // ---- Regions ----
 
-std::shared_ptr<const Division> divisionOf(const Rig& rig, const std::vector<Region>& regions) {
-  auto division = std::make_shared<Division>();
-  for (const Region& region : regions) {
-    division->names.push_back(region.name);
-    division->matters.push_back(region.matter);
-  }
-  division->influences = influencesOf(rig.surface, regions);
-  return division;
-}
-
 Matter matterOf(const Division& division, std::size_t region) {
   return region < division.matters.size() ? division.matters[region] : Matter{};
 }

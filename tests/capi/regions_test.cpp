@@ -119,10 +119,19 @@ TEST_F(DividedFaces, HaveWeightsOfEachRegion) {
               sweepface_face_error(face));
 }
 
+TEST_F(DividedFaces, HaveNoRestWhereARegionCoversAll) {
+  const char* const name = "all";
+  const std::vector<double> ones(sweepface_rig_node_count(handle), 1);
+  ASSERT_EQ(sweepface_rig_divide(handle, &name, ones.data(), 1), SWEEPFACE_OK);
+  EXPECT_EQ(sweepface_rig_region_count(handle), 1U);
+  EXPECT_STREQ(sweepface_rig_region_name(handle, 0), "all");
+}
+
 TEST_F(DividedFaces, AreOfOnePieceAgainWhereMeshesAreMadeLater) {
   divide();
   ASSERT_EQ(sweepface_rig_divide(handle, nullptr, nullptr, 0), SWEEPFACE_OK);
   EXPECT_EQ(sweepface_rig_region_count(handle), 1U);
+  EXPECT_EQ(sweepface_rig_region_name(handle, 0), nullptr);
   const double one[] = {1};
   EXPECT_EQ(sweepface_face_set_region_weights(face, 1, one, 1), SWEEPFACE_OK);  // still divided
   sweepface_mesh_free(mesh);

@@ -82,7 +82,7 @@ TEST(Hierarchy, KnowsTheSiteOfEveryVector) {
 
 TEST(Hierarchy, TellsTheNearestSitesBeforeEachThatIsNoRoot) {
   for (const Surface& surface : someSurfaces()) {
-    const Lattice lattice(surface, {});
+    const Lattice lattice(surface, someSteps());
     const auto& sites = lattice.hierarchy().sites();
     for (Index s = 0; s < static_cast<Index>(sites.size()); ++s) {
       const auto near = lattice.hierarchy().near(s);
@@ -121,7 +121,7 @@ TEST(Hierarchy, PredictionsAddUpToOneForPositionsAndToNothingForDerivatives) {
 TEST(PredictedMoves, AddUpToOneWhereverTheNeutralIs) {
   for (const Surface& surface : someSurfaces())
     for (const double size : {0.0, 1e-200, 1.0, 1e200}) {
-      Lattice lattice(surface, {});
+      Lattice lattice(surface, someSteps());
       std::vector<Vec3> neutral;
       for (Index v = 0; v < surface.storedCount(); ++v) neutral.push_back(size * anyVector(v));
       lattice.learn(surface, neutral, 0.01);
@@ -150,7 +150,7 @@ struct Bump {
 
 TEST(PredictedMoves, FollowWhatHappensInSpaceBetterThanLinesDo) {
   const Bump bump;
-  Lattice lattice(bump.rig.surface, {});
+  Lattice lattice(bump.rig.surface, someSteps());
   const double byLines = bump.told(lattice);
   lattice.learn(bump.rig.surface, bump.neutral, 0.001);
   EXPECT_LT(bump.told(lattice), 0.85 * byLines);

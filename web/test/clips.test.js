@@ -1,23 +1,19 @@
 import assert from 'node:assert/strict';
 import {execFileSync} from 'node:child_process';
-import {mkdtempSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
-import {tmpdir} from 'node:os';
+import {readFileSync, writeFileSync} from 'node:fs';
 import {join} from 'node:path';
 import test from 'node:test';
 import {ClipPlayer, matchNames, readClip, readTimeline, TimelinePlayer} from '../sweepface_clips.js';
 import {Sweepface} from '../sweepface.js';
-import {sample, tool} from './native.js';
+import {newFolder, sample, tool} from './native.js';
 
 /** What the tool makes of a clip: a recording of its frames, read again. */
 function played(file, text, options = []) {
-  const folder = mkdtempSync(join(tmpdir(), 'sweepface-'));
-  try {
-    writeFileSync(join(folder, file), text);
-    execFileSync(tool, ['animate', sample, '--clip', join(folder, file), '-o', join(folder, 'out.csv'), '--quiet', ...options], {stdio: 'pipe'});
-    return readClip(readFileSync(join(folder, 'out.csv')), {name: 'out.csv'});
-  } finally {
-    rmSync(folder, {recursive: true});
-  }
+  const folder = newFolder(), clip = join(folder, file), out = join(folder, 'out.csv');
+  writeFileSync(clip, text);
+  const parameters = ['animate', sample, '--clip', clip, '-o', out, '--quiet', ...options];
+  execFileSync(tool, parameters, {stdio: 'pipe'});
+  return readClip(readFileSync(out), {name: 'out.csv'});
 }
 
 /** The tool's sentence about a clip. */
@@ -31,14 +27,24 @@ function refusal(file, text) {
 }
 
 const wave = (f, k) => Math.round(1e4 * (0.5 + 0.5 * Math.sin(0.2 * f * (k + 1)))) / 1e4;
-const shapes = ['JawOpen', 'eyeBlink_L', 'EyeBlinkRight', 'browInnerUp', 'tongueOut', 'HeadYaw', 'HeadPitch', 'HeadRoll'];
+const shapes = ['JawOpen', 'eyeBlink_L', 'EyeBlinkRight', 'browInnerUp', 'tongueOut',
+                'HeadYaw', 'HeadPitch', 'HeadRoll'];
 const frames = Array.from({length: 40}, (_, f) => f);
-const csv = [['Timecode', 'BlendshapeCount', ...shapes].join(','),
-             ...frames.map((f) => [`00:00:0${Math.floor(f / 30)}:${String(2 * (f % 30)).padStart(2, '0')}.000`, 52, ...shapes.map((_, k) => wave(f, k))].join(','))].join('\r\n');
-const audio2Face = JSON.stringify({exportFps: 30, facsNames: shapes.slice(0, 4), weightMat: frames.map((f) => [0, 1, 2, 3].map((k) => wave(f, k)))});
-const mediaPipe = JSON.stringify(frames.map((f) => ({timestampMs: 33 * f + 5, faceBlendshapes: [{categories: shapes.slice(0, 4).map((categoryName, k) => ({categoryName, score: wave(f, k)}))}]})));
+const timecode = (f) => `00:00:0${Math.floor(f / 30)}:${String(2 * (f % 30)).padStart(2, '0')}.000`;
+const row = (f) => [timecode(f), 52, ...shapes.map((_, k) => wave(f, k))];
+const rows = [['Timecode', 'BlendshapeCount', ...shapes], ...frames.map(row)];
+const csv = rows.map((cells) => cells.join(',')).join('\r\n');
+const few = shapes.slice(0, 4);
+const audio2Face = JSON.stringify({
+  exportFps: 30, facsNames: few, weightMat: frames.map((f) => few.map((_, k) => wave(f, k)))
+});
+const mediaPipe = JSON.stringify(frames.map((f) => ({
+  timestampMs: 33 * f + 5,
+  faceBlendshapes: [{categories: few.map((categoryName, k) => ({categoryName, score: wave(f, k)}))}]
+})));
 
-for (const [title, file, text] of [['Live Link Face', 'take.csv', csv], ['Audio2Face', 'take.json', audio2Face], ['MediaPipe', 'take.json', mediaPipe]])
+for (const [title, file, text] of [['Live Link Face', 'take.csv', csv], ['Audio2Face', 'take.json', audio2Face],
+                                   ['MediaPipe', 'take.json', mediaPipe]])
   for (const smooth of [false, true])
     test(`a capture of ${title}${smooth ? ', smoothed,' : ''} plays as the tool plays it`, async () => {
       const face = await Sweepface.load(readFileSync(sample)), clip = readClip(text, {name: file});
@@ -50,7 +56,8 @@ for (const [title, file, text] of [['Live Link Face', 'take.csv', csv], ['Audio2
         player.seek(time - native.times[0]);
         const {weights} = face;
         names.forEach((targets, k) => {
-          for (const target of targets) assert.ok(Math.abs(weights[target] - native.weights[f * names.length + k]) < 1e-12, `${target} at ${time}`);
+          const expected = native.weights[f * names.length + k];
+          for (const target of targets) assert.ok(Math.abs(weights[target] - expected) < 1e-12, `${target} at ${time}`);
         });
       });
       assert.ok(face.weights.jawOpen > 0);
@@ -60,34 +67,38 @@ test('names are matched and reported', async () => {
   const face = await Sweepface.load(readFileSync(sample)), player = new ClipPlayer(face, readClip(csv));
   assert.deepEqual(player.match.unmatched, ['tongueOut'].filter((name) => !face.names.includes(name)));
   assert.ok(player.match.undriven.length > 20);
-  const {targets} = matchNames(['browInnerUp', 'eye_blink-left', 'curl', 'jawL'], ['browInnerUp_L', 'browInnerUp_R', 'eyeBlinkLeft', 'cur_L', 'jawLeft']);
+  const {targets} = matchNames(['browInnerUp', 'eye_blink-left', 'curl', 'jawL'],
+                               ['browInnerUp_L', 'browInnerUp_R', 'eyeBlinkLeft', 'cur_L', 'jawLeft']);
   assert.deepEqual(targets, [[0, 1], [2], [], [4]]);
 });
 
 test('the head has the angles of the app', async () => {
   const face = await Sweepface.load(readFileSync(sample)), clip = readClip(csv);
-  assert.deepEqual(new ClipPlayer(face, clip).seek(0.1), {yaw: clip.at(0.1)[5], pitch: clip.at(0.1)[6], roll: clip.at(0.1)[7]});
+  const [yaw, pitch, roll] = clip.at(0.1).slice(5);
+  assert.deepEqual(new ClipPlayer(face, clip).seek(0.1), {yaw, pitch, roll});
   assert.equal(new ClipPlayer(face, readClip(audio2Face)).seek(0), null);
 });
 
 const timeline = {
   seconds: 1.5, loops: 2, poses: {smile: {mouthSmileLeft: 1, mouthSmileRight: 1}},
-  events: [{at: 0.9, only: {}, drive: 'accelerate-brake', seconds: 0.5}, {at: 0.1, to: 'smile', drive: 'linear-force', seconds: 0.6},
+  events: [{at: 0.9, only: {}, drive: 'accelerate-brake', seconds: 0.5},
+           {at: 0.1, to: 'smile', drive: 'linear-force', seconds: 0.6},
            {at: 0.3, to: {jawOpen: 0.6}, frequency: 3, damping: 0.5, delay: 0.05}]
 };
 
 test('a timeline plays as the tool plays it, whatever the frame rate', async () => {
-  const native = played('scene.json', JSON.stringify(timeline), ['--fps', '60']);
+  const text = JSON.stringify(timeline), native = played('scene.json', text, ['--fps', '60']);
   for (const steps of [1, 3]) {
-    const face = await Sweepface.load(readFileSync(sample)), player = new TimelinePlayer(face, readTimeline(JSON.stringify(timeline)));
-    assert.equal(new TimelinePlayer(face.clone(), readTimeline(JSON.stringify(timeline))).advance(2), true);
+    const face = await Sweepface.load(readFileSync(sample)), player = new TimelinePlayer(face, readTimeline(text));
+    assert.equal(new TimelinePlayer(face.clone(), readTimeline(text)).advance(2), true);
     assert.equal(player.seconds, 3);
     for (let f = 0; f < native.times.length; ++f) {
       for (let k = 0; f > 0 && k < steps; ++k) player.advance((native.times[f] - native.times[f - 1]) / steps);
       if (f === 0) player.advance(0);
       for (const name of ['mouthSmileLeft', 'jawOpen']) {
         const k = native.names.findIndex((shape) => shape.toLowerCase() === name.toLowerCase());
-        assert.ok(Math.abs(face.weights[name] - native.weights[f * native.names.length + k]) < 1e-9, `${name} at ${native.times[f]}`);
+        const expected = native.weights[f * native.names.length + k];
+        assert.ok(Math.abs(face.weights[name] - expected) < 1e-9, `${name} at ${native.times[f]}`);
       }
     }
     assert.equal(player.advance(0.1), false);
@@ -132,5 +143,7 @@ for (const [file, text, words] of [
   test(`${file} of ${JSON.stringify(text).slice(0, 60)} is refused in the tool's words`, () => {
     const read = file === 't.json' ? readTimeline : readClip, native = refusal(file, text);
     assert.ok(native.includes(words), native);
-    assert.throws(() => read(text, {name: file}), (error) => error.message.includes(words) && error.message.startsWith(file) && /[.?]$/.test(error.message));
+    assert.throws(() => read(text, {name: file}), ({message}) => {
+      return message.startsWith(file) && message.includes(words) && /[.?]$/.test(message);
+    });
   });

@@ -20,7 +20,8 @@ for (const file of everyFile())
     test(`${basename(file)} at lod ${lod} is what the native library plays`, async () => {
       const face = await load({lod}, file), weights = someWeights(face.names);
       face.setWeights(weights);
-      const {positions, normals} = evaluate(face), native = played(file, weights, lod), exact = exported(file, weights, lod);
+      const {positions, normals} = evaluate(face);
+      const native = played(file, weights, lod), exact = exported(file, weights, lod);
       assert.equal(native.positions.length, 3 * face.pointCount);
       const found = difference(native.positions, positions);
       assert.ok(found.most <= native.error, `positions differ by up to ${found.most}`);
@@ -93,7 +94,8 @@ test('bytes that are no face are refused with the library\'s sentence', async ()
   const bytes = readFileSync(sample);
   await assert.rejects(Sweepface.load(new TextEncoder().encode('<!doctype html>'), {name: 'face.sweep'}),
                        {message: 'face.sweep does not begin with SWEEPFC; check that it is a .sweep file.'});
-  await assert.rejects(Sweepface.load(bytes.subarray(0, bytes.length / 2)), {message: /^The face, byte \d+: the file ends/});
+  await assert.rejects(Sweepface.load(bytes.subarray(0, bytes.length / 2)),
+                       {message: /^The face, byte \d+: the file ends/});
   await assert.rejects(Sweepface.load('face.sweep'), {message: /needs the bytes of a .sweep file/});
   await assert.rejects(load({lod: 65}), {message: /must be 0 to 64, not 65/});
   await assert.rejects(load({lod: 0.5}), {message: /whole number/});

@@ -1,36 +1,16 @@
 import assert from 'node:assert/strict';
-import {createReadStream, existsSync} from 'node:fs';
-import {createServer} from 'node:http';
-import {extname, join} from 'node:path';
-import {fileURLToPath} from 'node:url';
-import test, {after, before, describe} from 'node:test';
+import {readFileSync} from 'node:fs';
+import test from 'node:test';
+import {blank, skip, withPage} from './browser.js';
 import {sample} from './native.js';
 
-const folder = fileURLToPath(new URL('..', import.meta.url));
-const executablePath = process.env.SWEEPFACE_CHROMIUM ?? '/usr/bin/chromium';
-const {chromium} = await import('playwright-core').catch(() => ({}));
-const skip = !chromium ? 'playwright-core is not installed; try npm ci' : !existsSync(executablePath) ? `there is no ${executablePath}` : false;
-
-const types = {'.html': 'text/html', '.js': 'text/javascript', '.wasm': 'application/wasm'};
-const blank = `<!doctype html><script type="importmap">
-  {"imports": {"three": "./node_modules/three/build/three.module.js", "sweepface": "./sweepface.js"}}</script>`;
-
-function serve() {
-  const server = createServer((request, response) => {
-    const path = new URL(request.url, 'http://localhost').pathname;
-    if (path === '/') return response.writeHead(200, {'content-type': 'text/html'}).end(blank);
-    const file = path === '/sample.sweep' ? process.env.SWEEPFACE_GPU_FACE ?? sample : join(folder, path);
-    if (!existsSync(file)) return response.writeHead(404).end();
-    response.writeHead(200, {'content-type': types[extname(file)] ?? 'application/octet-stream'});
-    createReadStream(file).pipe(response);
-  });
-  return new Promise((resolve) => server.listen(0, 'localhost', () => resolve(server)));
-}
+const face = readFileSync(process.env.SWEEPFACE_GPU_FACE ?? sample);
+const files = {'blank.html': blank, 'face.sweep': face};
 
 /** In the page: a face, weights for it, and what WebGL is given to upload. */
 async function prepare() {
   const {Sweepface} = await import('./sweepface.js');
-  const bytes = await (await fetch('./sample.sweep')).arrayBuffer();
+  const bytes = await (await fetch('./face.sweep')).arrayBuffer();
   globalThis.load = () => Sweepface.load(bytes.slice(0));
   const face = globalThis.face = await globalThis.load();
   globalThis.pose = Object.fromEntries(face.names.map((name, k) => [name, ((7 * k) % 10) / 20]));
@@ -69,12 +49,14 @@ async function onTheCard(tangents) {
   gl.useProgram(program);
   const width = 1024;
   const texture = (unit, name, numbers, internal, format, type) => {
-    const height = Math.max(1, Math.ceil(numbers.length / 4 / width)), data = new numbers.constructor(4 * width * height);
+    const height = Math.max(1, Math.ceil(numbers.length / 4 / width));
+    const data = new numbers.constructor(4 * width * height);
     data.set(numbers);
     gl.activeTexture(gl.TEXTURE0 + unit);
     gl.bindTexture(gl.TEXTURE_2D, gl.createTexture());
     gl.texImage2D(gl.TEXTURE_2D, 0, internal, width, height, 0, format, type, data);
-    for (const filter of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_2D, filter, gl.NEAREST);
+    for (const filter of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER])
+      gl.texParameteri(gl.TEXTURE_2D, filter, gl.NEAREST);
     gl.uniform1i(gl.getUniformLocation(program, name), unit);
   };
   const modes = new Float32Array(4 * tables.modes);
@@ -108,26 +90,12 @@ async function onTheCard(tangents) {
   return results;
 }
 
-describe('the vertex shader', {skip, timeout: 240_000}, () => {
-  let server, browser, page;
-  const complaints = [];
+const options = {skip, timeout: 240_000};
+test('the vertex shader', options, (t) => withPage('blank.html', {files}, async (page, complaints) => {
+  await page.evaluate(`globalThis.onTheCard = ${onTheCard}`);
+  await page.evaluate(prepare);
 
-  before(async () => {
-    server = await serve();
-    browser = await chromium.launch({executablePath, args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader']});
-    page = await browser.newPage();
-    page.on('console', (message) => message.type() === 'error' && !/favicon/.test(message.location().url) && complaints.push(message.text()));
-    page.on('pageerror', (error) => complaints.push(error.message));
-    await page.goto(`http://localhost:${server.address().port}/`);
-    await page.evaluate(`globalThis.onTheCard = ${onTheCard}`);
-    await page.evaluate(prepare);
-  });
-  after(async () => {
-    await browser?.close();
-    server?.close();
-  });
-
-  test('has the positions and the normals of the processor', async () => {
+  await t.test('has the positions and the normals of the processor', async () => {
     const found = await page.evaluate(async () => {
       const {face, pose, onTheCard} = globalThis, points = face.pointCount;
       const positions = new Float32Array(3 * face.vertexCount), normals = new Float32Array(3 * face.vertexCount);
@@ -148,7 +116,8 @@ describe('the vertex shader', {skip, timeout: 240_000}, () => {
           const [a, b] = [along, across].map((x) => x.subarray(3 * v, 3 * v + 3));
           const n = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
           const length = Math.hypot(...n);
-          for (let k = 0; k < 3 && length > 1e-3; ++k) turned = Math.max(turned, Math.abs(n[k] / length - normals[3 * v + k]));
+          for (let k = 0; k < 3 && length > 1e-3; ++k)
+            turned = Math.max(turned, Math.abs(n[k] / length - normals[3 * v + k]));
         }
       }
       return {most: most / size, turned, moved: moved / size};
@@ -158,7 +127,7 @@ describe('the vertex shader', {skip, timeout: 240_000}, () => {
     assert.ok(found.turned < 1e-4, `normals differ by ${found.turned}`);
   });
 
-  test('draws what the processor and morph targets draw, with less to upload', async () => {
+  await t.test('draws what the processor and morph targets draw, with less to upload', async () => {
     const found = await page.evaluate(async () => {
       const THREE = await import('three');
       const {SweepfaceMesh} = await import('./sweepface_three.js');
@@ -202,7 +171,8 @@ describe('the vertex shader', {skip, timeout: 240_000}, () => {
       };
       const differ = (a, b) => {  // the share of pixels that anyone would tell apart
         let count = 0;
-        for (let k = 0; k < a.length; k += 4) count += Math.max(...[0, 1, 2].map((c) => Math.abs(a[k + c] - b[k + c]))) > 24;
+        for (let k = 0; k < a.length; k += 4)
+          count += Math.max(...[0, 1, 2].map((c) => Math.abs(a[k + c] - b[k + c]))) > 24;
         return 4 * count / a.length;
       };
       const morph = morphs(), meshes = {onCpu, onGpu, morph}, result = {};
@@ -215,7 +185,8 @@ describe('the vertex shader', {skip, timeout: 240_000}, () => {
       }
       morph.morphTargetInfluences = onCpu.face.names.map((name) => pose[name]);
       const second = Object.fromEntries(Object.entries(meshes).map(([name, mesh]) => [name, draw(mesh)]));
-      for (const name of Object.keys(meshes)) result[name] = {first: first[name].uploaded, everyFrame: second[name].uploaded};
+      for (const name of Object.keys(meshes))
+        result[name] = {first: first[name].uploaded, everyFrame: second[name].uploaded};
       result.moved = differ(first.onCpu.pixels, second.onCpu.pixels);
       result.atRest = differ(first.onCpu.pixels, first.onGpu.pixels);
       result.posed = differ(second.onCpu.pixels, second.onGpu.pixels);
@@ -230,4 +201,4 @@ describe('the vertex shader', {skip, timeout: 240_000}, () => {
     assert.ok(found.onGpu.everyFrame < found.onCpu.everyFrame);
     assert.deepEqual(complaints, []);
   });
-});
+}));

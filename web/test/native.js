@@ -1,5 +1,5 @@
-// What the native tool says, to compare with. SWEEPFACE_TOOL and SWEEPFACE_SAMPLE may name another tool and another
-// sample face than those that `make web` makes.
+// Faces, and what the native tool makes of them, to compare with. SWEEPFACE_TOOL and SWEEPFACE_SAMPLE
+// may name another tool and another sample face than those that `make web` makes.
 import {execFileSync} from 'node:child_process';
 import {mkdtempSync, readdirSync, readFileSync, rmSync} from 'node:fs';
 import {tmpdir} from 'node:os';
@@ -10,6 +10,14 @@ const here = (path) => fileURLToPath(new URL(path, import.meta.url));
 export const tool = process.env.SWEEPFACE_TOOL ?? here('../../build/release/sweepface');
 export const sample = process.env.SWEEPFACE_SAMPLE ?? here('../sample.sweep');
 const corpus = here('../../fuzz/corpus/sweep');
+
+const scratch = mkdtempSync(join(tmpdir(), 'sweepface-'));
+process.on('exit', () => rmSync(scratch, {recursive: true}));
+
+/** A folder that goes when the test ends. */
+export function newFolder() {
+  return mkdtempSync(join(scratch, 'folder-'));
+}
 
 /** Every .sweep file to try: the sample face and small ones of every sort. */
 export function everyFile() {
@@ -26,32 +34,39 @@ export function played(file, weights, lod) {
   return {positions: floats.subarray(0, half), normals: floats.subarray(half, 2 * half), error: floats[2 * half]};
 }
 
+/** Positions and normals of an OBJ file, three numbers a vertex. */
+export function readObj(file) {
+  const positions = [], normals = [];
+  for (const line of readFileSync(file, 'utf8').split('\n')) {
+    const [keyword, ...numbers] = line.split(' ');
+    if (keyword === 'v') positions.push(...numbers.map(Number));
+    if (keyword === 'vn') normals.push(...numbers.map(Number));
+  }
+  return {positions, normals};
+}
+
 /** Positions and normals of an expression in double precision, as the tool exports them. */
 export function exported(file, weights, lod, options = []) {
-  const folder = mkdtempSync(join(tmpdir(), 'sweepface-'));
-  try {
-    const out = join(folder, 'out.obj'), list = Object.entries(weights).map(([name, weight]) => `${name}=${weight}`);
-    execFileSync(tool, ['export', file, '-o', out, '--quiet', '--weights', list.join(','), ...(lod ? ['--lod', lod] : []), ...options]);
-    const positions = [], normals = [];
-    for (const line of readFileSync(out, 'utf8').split('\n')) {
-      const [keyword, ...numbers] = line.split(' ');
-      if (keyword === 'v') positions.push(...numbers.map(Number));
-      if (keyword === 'vn') normals.push(...numbers.map(Number));
-    }
-    return {positions, normals};
-  } finally {
-    rmSync(folder, {recursive: true});
-  }
+  const out = join(newFolder(), 'out.obj');
+  const list = Object.entries(weights).map(([name, weight]) => `${name}=${weight}`).join(',');
+  const detail = lod ? ['--lod', lod] : [];
+  execFileSync(tool, ['export', file, '-o', out, '--quiet', '--weights', list, ...detail, ...options]);
+  return readObj(out);
 }
 
 /** The sample face with what its targets turn about. */
 export function withArcs() {
-  const folder = mkdtempSync(join(tmpdir(), 'sweepface-'));
-  process.on('exit', () => rmSync(folder, {recursive: true}));
-  const drawing = join(folder, 'sample.wire.json'), file = join(folder, 'arcs.sweep');
+  const folder = newFolder(), drawing = join(folder, 'sample.wire.json'), file = join(folder, 'arcs.sweep');
   execFileSync(tool, ['wireframe', sample, '-o', drawing, '--quiet']);
   execFileSync(tool, ['build', drawing, '--source', sample, '--arcs', '-o', file, '--quiet']);
   return file;
+}
+
+/** The vertices of a face as it is. */
+export function positionsOf(face) {
+  const positions = new Float32Array(3 * face.vertexCount);
+  face.evaluate(positions);
+  return positions;
 }
 
 /** A weight for every expression, none like another. */

@@ -1,12 +1,11 @@
 import assert from 'node:assert/strict';
 import {execFileSync} from 'node:child_process';
-import {existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, symlinkSync, writeFileSync} from 'node:fs';
-import {tmpdir} from 'node:os';
+import {existsSync, mkdirSync, readFileSync, symlinkSync, writeFileSync} from 'node:fs';
 import {join} from 'node:path';
 import {fileURLToPath} from 'node:url';
 import test from 'node:test';
 import {brotliCompressSync, constants} from 'node:zlib';
-import {sample} from './native.js';
+import {newFolder, sample} from './native.js';
 
 const folder = fileURLToPath(new URL('..', import.meta.url));
 const run = (command, parameters, cwd = folder) =>
@@ -26,37 +25,36 @@ test('the module asks for nothing', () => {
 });
 
 test('the package holds what is needed, and an application can use it', () => {
-  const scratch = mkdtempSync(join(tmpdir(), 'sweepface-package-'));
-  try {
-    const [packed] = JSON.parse(run('npm', ['pack', '--json', '--pack-destination', scratch]));
-    assert.deepEqual(packed.files.map(({path}) => path).sort(),
-                     ['LICENSE', 'README.md', 'package.json', 'sweepface.d.ts', 'sweepface.js', 'sweepface.wasm',
-                      'sweepface_clips.d.ts', 'sweepface_clips.js', 'sweepface_full.wasm', 'sweepface_gpu.d.ts', 'sweepface_gpu.js',
-                      'sweepface_mesh.js', 'sweepface_regions.js', 'sweepface_three.d.ts', 'sweepface_three.js']);
-    mkdirSync(join(scratch, 'node_modules'));
-    run('tar', ['xf', join(scratch, packed.filename)], scratch);
-    symlinkSync(join(scratch, 'package'), join(scratch, 'node_modules', 'sweepface'));
-    writeFileSync(join(scratch, 'app.mjs'), `
-      import {readFile} from 'node:fs/promises';
-      import {Sweepface} from 'sweepface';
-      const face = await Sweepface.load(await readFile(process.argv[2]));
-      console.log(face.names.length);`);
-    assert.equal(run(process.execPath, ['app.mjs', sample], scratch).trim(), '42');
-  } finally {
-    rmSync(scratch, {recursive: true});
-  }
+  const scratch = newFolder();
+  const [packed] = JSON.parse(run('npm', ['pack', '--json', '--pack-destination', scratch]));
+  assert.deepEqual(packed.files.map(({path}) => path).sort(),
+                   ['LICENSE', 'README.md', 'package.json', 'sweepface.d.ts', 'sweepface.js', 'sweepface.wasm',
+                    'sweepface_clips.d.ts', 'sweepface_clips.js', 'sweepface_full.wasm', 'sweepface_gpu.d.ts',
+                    'sweepface_gpu.js', 'sweepface_mesh.d.ts', 'sweepface_mesh.js', 'sweepface_regions.js',
+                    'sweepface_three.d.ts', 'sweepface_three.js']);
+  mkdirSync(join(scratch, 'node_modules'));
+  run('tar', ['xf', join(scratch, packed.filename)], scratch);
+  symlinkSync(join(scratch, 'package'), join(scratch, 'node_modules', 'sweepface'));
+  writeFileSync(join(scratch, 'app.mjs'), `
+    import {readFile} from 'node:fs/promises';
+    import {Sweepface} from 'sweepface';
+    const face = await Sweepface.load(await readFile(process.argv[2]));
+    console.log(face.names.length);`);
+  assert.equal(run(process.execPath, ['app.mjs', sample], scratch).trim(), '42');
 });
 
 const tsc = join(folder, 'node_modules/.bin/tsc');
 test('the types say what there is', {skip: existsSync(tsc) ? false : 'typescript is not installed; try npm ci'}, () => {
-  run(tsc, ['--noEmit', '--strict', '--target', 'esnext', '--module', 'nodenext', '--lib', 'esnext,dom', '--skipLibCheck', 'test/types.ts']);
+  run(tsc, ['--noEmit', '--strict', '--target', 'esnext', '--module', 'nodenext', '--lib', 'esnext,dom',
+            '--skipLibCheck', 'test/types.ts']);
 });
 
 test('what the types declare is there', async () => {
   const {Sweepface} = await import('../sweepface.js');
   const text = readFileSync(join(folder, 'sweepface.d.ts'), 'utf8');
   const body = text.slice(text.indexOf('export class Sweepface'));
-  const declared = [...body.matchAll(/^  (?:static |readonly )?(\w+)[(:]/gm)].map(([, name]) => name).filter((name) => name !== 'constructor');
+  const declared = [...body.matchAll(/^  (?:static |readonly )?(\w+)[(:]/gm)].map(([, name]) => name)
+                       .filter((name) => name !== 'constructor');
   const there = [...Object.getOwnPropertyNames(Sweepface.prototype), ...Object.getOwnPropertyNames(Sweepface)]
                     .filter((name) => !['constructor', 'length', 'name', 'prototype'].includes(name));
   assert.deepEqual([...new Set(declared)].sort(), there.sort());

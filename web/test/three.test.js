@@ -41,7 +41,8 @@ test('materials are plain, one a part, named as in the source', options, async (
   const mesh = await load();
   assert.deepEqual(mesh.material.map(({name}) => name), mesh.face.parts.map(({material}) => material));
   assert.ok(mesh.material.every((material) => material instanceof three.MeshStandardMaterial));
-  assert.deepEqual(mesh.geometry.groups, mesh.face.parts.map(({start, count}, materialIndex) => ({start, count, materialIndex})));
+  assert.deepEqual(mesh.geometry.groups,
+                   mesh.face.parts.map(({start, count}, materialIndex) => ({start, count, materialIndex})));
 });
 
 test('the geometry has texture coordinates and knows its size', options, async () => {
@@ -72,12 +73,14 @@ test('a disposed mesh gives its face back', options, async () => {
 
 test('clips and timelines play on a mesh as well', options, async () => {
   const {ClipPlayer, readClip, readTimeline, TimelinePlayer} = await import('../sweepface_clips.js');
-  const mesh = await load(), {position} = mesh.geometry.attributes, player = new ClipPlayer(mesh, readClip('Timecode,JawOpen\n0,0\n1,1'));
+  const mesh = await load(), {position} = mesh.geometry.attributes;
+  const player = new ClipPlayer(mesh, readClip('Timecode,JawOpen\n0,0\n1,1'));
   player.seek(0.5);
   mesh.update();
   assert.equal(mesh.face.weights.jawOpen, 0.5);
   const {version} = position;
-  const scene = new TimelinePlayer(mesh, readTimeline('{"seconds": 1, "events": [{"at": 0.1, "to": {"jawOpen": 0}, "drive": "cut"}]}'));
+  const events = [{at: 0.1, to: {jawOpen: 0}, drive: 'cut'}];
+  const scene = new TimelinePlayer(mesh, readTimeline(JSON.stringify({seconds: 1, events})));
   assert.equal(scene.advance(0.2), true);
   mesh.update();
   assert.equal(mesh.face.weights.jawOpen, 0);

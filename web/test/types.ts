@@ -1,10 +1,13 @@
 // Compiles if the types say what the package offers. Never run.
 import {Scene} from 'three';
-import {Sweepface, type Drive, type Part} from 'sweepface';
+import {Sweepface, type Drive, type Part, type Region} from 'sweepface';
+import {type Clip, ClipPlayer, readClip, readTimeline, TimelinePlayer} from 'sweepface/clips';
+import {SWEEPFACE_GLSL, SweepfaceGpuMesh} from 'sweepface/gpu';
 import {SweepfaceLoader, SweepfaceMesh} from 'sweepface/three';
 
 export async function useFace(bytes: ArrayBuffer): Promise<void> {
-  const face: Sweepface = await Sweepface.load(bytes, {lod: 2, name: 'face.sweep', wasm: new URL('https://example.org/a.wasm')});
+  const wasm = new URL('https://example.org/a.wasm');
+  const face: Sweepface = await Sweepface.load(bytes, {lod: 2, name: 'face.sweep', wasm});
   const positions = new Float32Array(3 * face.vertexCount), parts: Part[] = face.parts;
   face.setWeights({jawOpen: 0.7});
   const drive: Drive = {kind: 'spring', frequency: 3, damping: 0.5, delay: 0.1};
@@ -31,8 +34,6 @@ export async function useThree(scene: Scene): Promise<void> {
   mesh.dispose();
 }
 
-import {SWEEPFACE_GLSL, SweepfaceGpuMesh} from '../sweepface_gpu.js';
-
 export async function onTheCard(bytes: ArrayBuffer): Promise<number> {
   const mesh = new SweepfaceGpuMesh(await Sweepface.load(bytes, {vertices: 5000}));
   mesh.face.prepare();
@@ -41,11 +42,10 @@ export async function onTheCard(bytes: ArrayBuffer): Promise<number> {
   return mesh.textureBytes + mesh.frameBytes + SWEEPFACE_GLSL.length;
 }
 
-import {type Clip, ClipPlayer, readClip, readTimeline, TimelinePlayer} from 'sweepface/clips';
-
 export async function useClips(bytes: ArrayBuffer, csv: string): Promise<void> {
   const timeline = readTimeline(csv), clip: Clip = readClip(csv, {framesPerSecond: 30}).smooth();
-  const face = await Sweepface.load(bytes, {regions: timeline.regions ?? [{name: 'cheeks', points: [[1, 2, 3]], fade: 3, over: 'space', mass: 4}], eyes: true});
+  const cheeks: Region = {name: 'cheeks', points: [[1, 2, 3]], fade: 3, over: 'space', mass: 4};
+  const face = await Sweepface.load(bytes, {regions: timeline.regions ?? [cheeks], eyes: true});
   if (face.eyeCount > 0) face.look({leftEye: {yaw: 0.1}});
   face.look(null);
   const player = new ClipPlayer(face, clip), head = player.seek(0.5);

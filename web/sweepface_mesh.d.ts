@@ -1,0 +1,26 @@
+import type {BufferGeometry, Material, Mesh} from 'three';
+import type {Drive, DriveKind, Look, Sweepface, Weights} from './sweepface.js';
+
+/** A face in a scene. Weights are set at any time; `update` brings them to the screen. */
+export class FaceMesh extends Mesh {
+  /** Materials: one a part of the face; plain ones, named as in the source, unless given. */
+  protected constructor(face: Sweepface, geometry: BufferGeometry, materials?: Material | Material[]);
+  readonly face: Sweepface;
+  readonly names: string[];
+  readonly eyeCount: number;
+  /** How the eyes stand; null: by the weights of eyeLook targets. */
+  look(pose: {leftEye?: Look; rightEye?: Look} | null): void;
+
+  /** Sets the weights that are named, at once, everywhere or in one region; the others stay. */
+  setWeights(weights: Weights, region?: string): void;
+  /** Sends weights to goals from where they stand, everywhere or in one region; `update` moves them. */
+  moveTo(goals: Weights, drive?: DriveKind | Drive, region?: string): void;
+  /** A blow: adds to the velocity of a weight (per second), which drag (per second) takes away. */
+  push(name: string, velocityChange: number, drag?: number): void;
+  /** Lets seconds pass without showing it; says whether anything goes on moving. */
+  advance(seconds: number): boolean;
+  /** Call it once a frame with the seconds since the last; costs nothing where nothing moves. */
+  update(seconds?: number): void;
+  /** Frees geometry, materials and the face. */
+  dispose(): void;
+}

@@ -1,0 +1,57 @@
+// Pages of this package in headless Chromium.
+import {existsSync, readFileSync} from 'node:fs';
+import {createServer} from 'node:http';
+import {extname, join} from 'node:path';
+import {fileURLToPath} from 'node:url';
+
+const folder = fileURLToPath(new URL('..', import.meta.url));
+const executablePath = process.env.SWEEPFACE_CHROMIUM ?? '/usr/bin/chromium';
+const {chromium} = await import('playwright-core').catch(() => ({}));
+const launchOptions = {
+  executablePath, args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader']
+};
+const types = {
+  '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.wasm': 'application/wasm'
+};
+
+/** Why there is no browser, or false. */
+export const skip = !chromium ? 'playwright-core is not installed; try npm ci'
+                  : !existsSync(executablePath) && `there is no ${executablePath}`;
+
+/** An empty page, for scripts that import three.js and the package. */
+export const blank = `<!doctype html><link rel="icon" href="data:,"><script type="importmap">
+  {"imports": {"three": "./node_modules/three/build/three.module.js",
+               "sweepface/three": "./sweepface_three.js"}}</script>`;
+
+/** Serves web/ and, by their names, more files. */
+function serve(files) {
+  const server = createServer((request, response) => {
+    const name = new URL(request.url, 'http://localhost').pathname.slice(1);
+    const path = join(folder, name);
+    if (!(name in files) && !existsSync(path)) return response.writeHead(404).end();
+    response.setHeader('content-type', types[extname(name)] ?? 'application/octet-stream');
+    response.end(files[name] ?? readFileSync(path));
+  });
+  return new Promise((ready) => server.listen(0, 'localhost', () => ready(server)));
+}
+
+/**
+ * Opens a page of web/ or of `files`, texts and bytes by their names, in a new browser. Hands it to
+ * `use`, with the list of what it complains about.
+ */
+export async function withPage(name, {files, viewport}, use) {
+  if (skip) throw new Error(skip);
+  const browser = await chromium.launch(launchOptions), server = await serve(files);
+  try {
+    const page = await browser.newPage({viewport}), complaints = [];
+    page.on('console', (message) => {
+      if (['error', 'warning'].includes(message.type())) complaints.push(message.text());
+    });
+    page.on('pageerror', (error) => complaints.push(error.message));
+    await page.goto(`http://localhost:${server.address().port}/${name}`);
+    return await use(page, complaints);
+  } finally {
+    await browser.close();
+    server.close();
+  }
+}
