@@ -63,7 +63,7 @@ Result<std::string> ReportMaker::tolerances() {
     if (!trial) return std::unexpected(trial.error());
     trials.push_back(*trial);
   }
-  std::ranges::stable_sort(trials, std::greater{}, &Trial::tolerance);
+  std::ranges::sort(trials, std::greater{}, &Trial::tolerance);
   return errorOverPoints(trials) + errorOverBytes(trials);
 }
 
