@@ -34,23 +34,26 @@ void addOptions(CLI::App& app, MeasureArguments& a) {
   addJson(app, a.json);
   app.footer(
       "\nDistances are in the mesh's units, angles in degrees. The distance is that of the "
-      "vertices from the\nsurface, the facets' that of the surface from the flat faces, the "
-      "excess what of it the faces' own\ncoarseness does not explain. Folds are places where "
+      "vertices from the\nsurface, a displacement's error that of their way from the neutral, the "
+      "facets' distance that of the surface\nfrom the flat faces, the excess what of it the "
+      "faces' own coarseness does not explain. Folds are places where "
       "the surface looks the other way than the mesh.\n\n"
       "Example:\n  sweepface measure face.sweep neutral.obj expressions/");
 }
 
 void printHead(std::size_t width) {
-  fmt::print("{:<{}}  {:^29}  {:^23}  {:^19}\n", "", width, "distance", "angle", "facets");
-  fmt::print("{:<{}}  {:>9} {:>9} {:>9}  {:>7} {:>7} {:>7}  {:>9} {:>9} {:>6}\n", "shape", width,
-             "max", "99.9 %", "RMS", "RMS", "99.9 %", "max", "distance", "excess", "folds");
+  fmt::print("{:<{}}  {:^29}  {:^31}  {:^19}\n", "", width, "distance", "angle", "facets");
+  fmt::print("{:<{}}  {:>9} {:>9} {:>9}  {:>7} {:>7} {:>7} {:>7}  {:>9} {:>9} {:>6}\n", "shape",
+             width, "max", "99.9 %", "RMS", "RMS", "99 %", "99.9 %", "max", "distance", "excess",
+             "folds");
 }
 
 void printRow(std::string_view name, const PoseErrors& e, std::size_t width) {
   fmt::print(
-      "{:<{}}  {:>9.3g} {:>9.3g} {:>9.3g}  {:>7.3f} {:>7.3f} {:>7.3f}  {:>9.3g} {:>9.3g} {:>6}\n",
-      name, width, e.distanceMax, e.distance999, e.distanceRms, e.angleRms, e.angle999, e.angleMax,
-      e.facetDistance, e.facetExcess, e.folds);
+      "{:<{}}  {:>9.3g} {:>9.3g} {:>9.3g}  {:>7.3f} {:>7.3f} {:>7.3f} {:>7.3f}  {:>9.3g} {:>9.3g} "
+      "{:>6}\n",
+      name, width, e.distance.max, e.distance.p999, e.distance.rms, e.angle.rms, e.angle.p99,
+      e.angle.p999, e.angle.max, e.facetDistance, e.facetExcess, e.folds);
 }
 
 void printText(const Measurement& m) {
@@ -61,16 +64,24 @@ void printText(const Measurement& m) {
   for (const PoseErrors& e : m.shapes) printRow(e.name, e, width);
   printRow("worst", m.worst, width);
   for (const PoseErrors& e : m.mixtures) printRow(e.name, e, width);
+  const ErrorSummary& ways = m.worst.displacement;
+  if (m.shapes.size() > 1)
+    fmt::print("displacements of all targets: RMS {:.3g}, 99.9 % {:.3g}, max {:.3g}\n", ways.rms,
+               ways.p999, ways.max);
 }
 
 nlohmann::ordered_json toJson(const PoseErrors& e) {
   return {{"name", e.name},
-          {"distanceMax", e.distanceMax},
-          {"distance999", e.distance999},
-          {"distanceRms", e.distanceRms},
-          {"angleRms", e.angleRms},
-          {"angle999", e.angle999},
-          {"angleMax", e.angleMax},
+          {"distanceMax", e.distance.max},
+          {"distance999", e.distance.p999},
+          {"distanceRms", e.distance.rms},
+          {"displacementMax", e.displacement.max},
+          {"displacement999", e.displacement.p999},
+          {"displacementRms", e.displacement.rms},
+          {"angleRms", e.angle.rms},
+          {"angle99", e.angle.p99},
+          {"angle999", e.angle.p999},
+          {"angleMax", e.angle.max},
           {"facetDistance", e.facetDistance},
           {"facetExcess", e.facetExcess},
           {"folds", e.folds}};

@@ -11,7 +11,7 @@ namespace sweepface::cli {
 namespace {
 
 struct ReportArguments {
-  std::string face, neutral, output, weights;
+  std::string face, neutral, output, weights, gltfpack;
   std::vector<std::string> targets, regions;
   std::vector<double> tolerances;
   bool noTolerances = false, quiet = false;
@@ -28,13 +28,17 @@ void addOptions(CLI::App& app, ReportArguments& a) {
       ->type_name("NAME=W,...");
   CLI::Option* tolerances =
       app.add_option("--tolerances", a.tolerances,
-                     "Convert again with these, for the plot of error against points; 2, 4 and 8 "
-                     "times the face's own if not given")
+                     "Convert again with these, for the plots of error against points and bytes; "
+                     "2, 4 and 8 times the face's own if not given")
           ->delimiter(',')
           ->check(positiveNumber())
           ->type_name("T,...");
   app.add_flag("--no-tolerances", a.noTolerances, "Do not convert again: much quicker")
       ->excludes(tolerances);
+  app.add_option("--gltfpack", a.gltfpack,
+                 "The program that packs GLBs for the plot of error against bytes; the one on the "
+                 "PATH if not given")
+      ->type_name("PATH");
   app.add_option("--box", a.regions,
                  "Draw a box round what the targets move whose names contain NAME; mouth and eye "
                  "if not given")
@@ -60,6 +64,7 @@ Result<ReportOptions> optionsOf(const ReportArguments& a, const Rig& rig, std::s
     options.expression = *weights;
   }
   if (!a.regions.empty()) options.regions = a.regions;
+  if (!a.gltfpack.empty()) options.gltfpack = a.gltfpack;
   options.tolerances = a.tolerances;
   if (a.tolerances.empty() && !a.noTolerances && rig.tolerance > 0)
     for (const double times : {2, 4, 8}) options.tolerances.push_back(times * rig.tolerance);

@@ -55,4 +55,8 @@ struct GlbOptions {
 /// one.
 Result<std::string> formatGlb(const Rig& rig, const GlbOptions& options);
 
+/// A GLB of meshes as they are, in single precision, with their targets as morph targets and
+/// without normals. Every target has the neutral's vertices.
+Result<std::string> formatGlb(const MeshRig& meshes);
+
 }  // namespace sweepface

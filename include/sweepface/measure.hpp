@@ -8,26 +8,37 @@
 
 namespace sweepface {
 
+/// What many errors come to; zeros where there are none.
+struct ErrorSummary {
+  double rms = 0, p99 = 0, p999 = 0, max = 0;  ///< 99th and 99.9th percentile
+};
+ErrorSummary summaryOf(std::vector<double> errors);
+
 /// How far one pose of a rig is from the source (docs/error-metric.md). Lengths in model units,
 /// angles in degrees.
 struct PoseErrors {
   std::string name;
-  double distanceMax = 0, distance999 = 0, distanceRms = 0;  ///< at source vertices
-  double angleMax = 0, angle999 = 0, angleRms = 0;  ///< surface normal to source vertex normal
-  double facetDistance = 0;  ///< largest distance of the level-4 surface to the source's facets
-  double facetExcess = 0;    ///< the same beyond the facets' own sag
-  Index folds = 0;           ///< level-4 triangles that look the other way than their source facet
+  ErrorSummary distance;      ///< of source vertices from their points on the surface
+  ErrorSummary displacement;  ///< of their ways from the neutral; zeros for the neutral itself
+  ErrorSummary angle;         ///< surface normal to source vertex normal
+  double facetDistance = 0;   ///< largest distance of the level-4 surface to the source's facets
+  double facetExcess = 0;     ///< the same beyond the facets' own sag
+  Index folds = 0;            ///< level-4 triangles that look the other way than their source facet
 };
 
 struct Measurement {
   std::vector<PoseErrors> shapes;    ///< the neutral, then every target at weight 1
   std::vector<PoseErrors> mixtures;  ///< random weights, the same for the source's linear blend
-  PoseErrors worst;  ///< over all shapes: maxima; RMS and 99.9 % over all of them together
+  /// Over all shapes: maxima, and all else over all of them together; displacements over all
+  /// targets.
+  PoseErrors worst;
+  std::vector<double> displacements;  ///< [targets × V] errors of displacements, ascending
 };
 
 struct MeasureOptions {
   int mixtures = 10;
   unsigned seed = 1;
+  bool facets = true;  ///< also between vertices: facets and folds, which take most of the time
 };
 
 /// Compares a rig with the mesh rig it was made from: same vertices, and a shape for every target

@@ -17,8 +17,12 @@ struct ReportOptions {
   /// The expression beside the neutral, which the motion leads to; empty: the target that moves
   /// furthest.
   Weights expression;
-  /// The face is converted again with each, for the plot of error against points.
+  /// The face is converted again with each, packed, for the plots of error against points and
+  /// bytes.
   std::vector<double> tolerances;
+  /// The program that packs GLBs for the latter; looked for on the PATH unless it has a slash. The
+  /// page says where it is missing.
+  std::string gltfpack = "gltfpack";
   /// Boxes are drawn round what the targets move whose names contain one of these.
   std::vector<std::string> regions{"mouth", "eye"};
   /// Called now and then with what is going on and how far all of it is, 0 to 1.

@@ -18,35 +18,36 @@ constexpr Index kLevel = 4;  // of the tessellation that is compared with the fa
 
 struct PoseSamples {
   PoseErrors errors;
-  std::vector<double> distances, angles;
+  std::vector<Vec3> offsets;  // [V] from the source's vertices to their points on the surface
+  std::vector<double> distances, displacements, angles;
 };
 
-double quantile(std::vector<double>& values, double q) {
-  if (values.empty()) return 0;
-  const auto k = static_cast<std::size_t>(q * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(k), values.end());
-  return values[k];
-}
-
-double rms(const std::vector<double>& values) {
+/// Those of ascending errors.
+ErrorSummary summaryOfSorted(std::span<const double> errors) {
+  if (errors.empty()) return {};
+  const auto quantile = [&](double q) {
+    return errors[static_cast<std::size_t>(q * static_cast<double>(errors.size() - 1))];
+  };
   double sum = 0;
-  for (double v : values) sum += v * v;
-  return values.empty() ? 0 : std::sqrt(sum / static_cast<double>(values.size()));
+  for (const double e : errors) sum += e * e;
+  return {std::sqrt(sum / static_cast<double>(errors.size())), quantile(0.99), quantile(0.999),
+          errors.back()};
 }
 
-void summarize(PoseErrors& e, std::vector<double>& distances, std::vector<double>& angles) {
-  e.distanceRms = rms(distances);
-  e.distance999 = quantile(distances, 0.999);
-  e.distanceMax = distances.empty() ? 0 : *std::max_element(distances.begin(), distances.end());
-  e.angleRms = rms(angles);
-  e.angle999 = quantile(angles, 0.999);
-  e.angleMax = angles.empty() ? 0 : *std::max_element(angles.begin(), angles.end());
+/// What moves by d in the source moves by d + offset - offset of the neutral.
+void summarize(PoseSamples& s, std::span<const Vec3> neutralOffsets) {
+  for (std::size_t v = 0; v < s.offsets.size(); ++v)
+    s.displacements.push_back(norm(s.offsets[v] - neutralOffsets[v]));
+  s.errors.distance = summaryOf(s.distances);
+  s.errors.displacement = summaryOf(s.displacements);
+  s.errors.angle = summaryOf(s.angles);
 }
 
 class Meter {
  public:
-  explicit Meter(const Rig& rig)
-      : rig_(rig),
+  Meter(const Rig& rig, bool facets)
+      : facets_(facets),
+        rig_(rig),
         grid_(rig.surface, 1),
         fine_(rig.surface, kLevel),
         fineFaces_(fine_.faces()),
@@ -60,8 +61,8 @@ class Meter {
     const auto expected =
         vertexNormals(rig_.source.polygons, source, rig_.source.gridVertex, grid_.vertexCount());
     atVertices(s, weights, vectors, source, expected);
-    betweenVertices(s, vectors, Facets(rig_.source, map_, source, expected, rig_.tolerance));
-    summarize(s.errors, s.distances, s.angles);
+    if (facets_)
+      betweenVertices(s, vectors, Facets(rig_.source, map_, source, expected, rig_.tolerance));
     return s;
   }
 
@@ -72,7 +73,8 @@ class Meter {
     const auto normals = grid_.normals(vectors);
     std::vector<char> seen(grid_.vertexCount(), 0);
     for (std::size_t v = 0; v < positions.size(); ++v) {
-      s.distances.push_back(norm(positions[v] - source[v]));
+      s.offsets.push_back(positions[v] - source[v]);
+      s.distances.push_back(norm(s.offsets[v]));
       const Index g = rig_.source.gridVertex[v];
       if (g < 0 || seen[g] || norm(expected[g]) == 0) continue;
       seen[g] = 1;
@@ -109,6 +111,7 @@ class Meter {
       }
   }
 
+  bool facets_;
   const Rig& rig_;
   Tessellation grid_, fine_;
   std::vector<std::array<Index, 4>> fineFaces_;
@@ -156,7 +159,38 @@ Weights randomWeights(const Rig& rig, const MeshRig& source, std::mt19937& rando
   return weights;
 }
 
+/// Of the neutral and the targets after it.
+Measurement sumUp(std::vector<PoseSamples>& samples) {
+  Measurement result;
+  std::vector<double> distances, angles;
+  PoseErrors& worst = result.worst;
+  const auto append = [](std::vector<double>& all, const std::vector<double>& more) {
+    all.insert(all.end(), more.begin(), more.end());
+  };
+  for (PoseSamples& s : samples) {
+    summarize(s, samples[0].offsets);
+    append(distances, s.distances);
+    append(angles, s.angles);
+    if (&s != samples.data()) append(result.displacements, s.displacements);
+    worst.facetDistance = std::max(worst.facetDistance, s.errors.facetDistance);
+    worst.facetExcess = std::max(worst.facetExcess, s.errors.facetExcess);
+    worst.folds += s.errors.folds;
+    result.shapes.push_back(s.errors);
+  }
+  std::ranges::sort(result.displacements);
+  worst.distance = summaryOf(std::move(distances));
+  worst.displacement = summaryOfSorted(result.displacements);
+  worst.angle = summaryOf(std::move(angles));
+  worst.name = "all";
+  return result;
+}
+
 }  // namespace
+
+ErrorSummary summaryOf(std::vector<double> errors) {
+  std::ranges::sort(errors);
+  return summaryOfSorted(errors);
+}
 
 Result<Measurement> measure(const Rig& rig, const MeshRig& source, const MeasureOptions& options) {
   if (!rig.source.ownOrder)
@@ -165,37 +199,24 @@ Result<Measurement> measure(const Rig& rig, const MeshRig& source, const Measure
         "which; convert the source again without --strip order");
   const auto shapes = matchShapes(rig, source);
   if (!shapes) return std::unexpected(shapes.error());
-  const Meter meter(rig);
+  const Meter meter(rig, options.facets);
   std::vector<PoseSamples> samples(shapes->size());
   tbb::parallel_for(std::size_t{0}, samples.size(), [&](std::size_t k) {
     samples[k] = meter.measure(k == 0 ? "neutral" : source.targets[k - 1].name, (*shapes)[k].first,
                                *(*shapes)[k].second);
   });
 
-  Measurement result;
-  std::vector<double> distances, angles;
-  PoseErrors& worst = result.worst;
-  for (PoseSamples& s : samples) {
-    distances.insert(distances.end(), s.distances.begin(), s.distances.end());
-    angles.insert(angles.end(), s.angles.begin(), s.angles.end());
-    worst.facetDistance = std::max(worst.facetDistance, s.errors.facetDistance);
-    worst.facetExcess = std::max(worst.facetExcess, s.errors.facetExcess);
-    worst.folds += s.errors.folds;
-    result.shapes.push_back(std::move(s.errors));
-  }
-  summarize(worst, distances, angles);
-  worst.name = "all";
-
+  Measurement result = sumUp(samples);
   if (source.targets.empty()) return result;
   std::mt19937 random(options.seed);
   std::vector<Weights> mixtures;
   for (int k = 0; k < options.mixtures; ++k) mixtures.push_back(randomWeights(rig, source, random));
   result.mixtures.resize(mixtures.size());
   tbb::parallel_for(std::size_t{0}, mixtures.size(), [&](std::size_t k) {
-    result.mixtures[k] = meter
-                             .measure("mixture " + std::to_string(k + 1), mixtures[k],
-                                      blendSource(rig, source, mixtures[k]))
-                             .errors;
+    PoseSamples s = meter.measure("mixture " + std::to_string(k + 1), mixtures[k],
+                                  blendSource(rig, source, mixtures[k]));
+    summarize(s, samples[0].offsets);
+    result.mixtures[k] = std::move(s.errors);
   });
   return result;
 }

@@ -144,8 +144,29 @@ class GlbWriter {
   BoundScene scene_;
 };
 
+/// Meshes as a rig without a surface: all vertices are loose.
+Rig looseRig(const MeshRig& meshes) {
+  const std::vector<Vec3>& rest = meshes.neutral.positions;
+  Rig rig;
+  rig.source.polygons = meshes.neutral.polygons;
+  rig.source.loose = rest;
+  for (Index v = 0; v < static_cast<Index>(rest.size()); ++v)
+    rig.source.gridVertex.push_back(-1 - v);
+  for (const MeshTarget& target : meshes.targets) {
+    std::vector<Vec3>& ways = rig.targets.emplace_back(target.name).looseDifference;
+    for (std::size_t v = 0; v < rest.size(); ++v) ways.push_back(target.positions[v] - rest[v]);
+  }
+  return rig;
+}
+
 }  // namespace
 }  // namespace gltf
+
+Result<std::string> formatGlb(const MeshRig& meshes) {
+  const Rig rig = gltf::looseRig(meshes);
+  const GlbOptions options;
+  return gltf::GlbWriter(rig, options).write();
+}
 
 Result<std::string> formatGlb(const Rig& rig, const GlbOptions& options) {
   if (auto ok = gltf::check(rig, options); !ok) return std::unexpected(ok.error());

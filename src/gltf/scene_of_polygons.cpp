@@ -150,7 +150,9 @@ class SceneMaker {
                            {"type", "VEC3"}});
       return accessors.size() - 1;
     };
-    attributes_ = {{"POSITION", hollow()}, {"NORMAL", hollow()}};
+    attributes_ = {{"POSITION", hollow()}};
+    // Meshes alone have no surface whose normals could be told.
+    if (rig_.surface.patchCount() > 0) attributes_["NORMAL"] = hollow();
     if (splitter_.hasTexture()) {
       std::vector<Vec2> texcoords = splitter_.texcoords();
       for (Vec2& t : texcoords) t.y = 1 - t.y;  // glTF counts from the top

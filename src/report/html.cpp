@@ -32,7 +32,7 @@ figcaption { padding: 6px 12px 10px; color: var(--soft); font-size: .86rem; }
 .times figcaption { padding: 3px 6px 6px; font-size: .75rem; }
 .wide { overflow-x: auto; margin: 18px 0; }
 table { border-collapse: collapse; font-size: .88rem; font-variant-numeric: tabular-nums; }
-th, td { padding: 4px 12px; text-align: right; border-bottom: 1px solid var(--line); white-space: nowrap; }
+th, td { padding: 4px 10px; text-align: right; border-bottom: 1px solid var(--line); white-space: nowrap; }
 th:first-child, td:first-child { text-align: left; padding-left: 0; }
 thead th { border-bottom: 2px solid var(--ink); vertical-align: bottom; }
 tr.strong td { font-weight: 600; border-bottom: 2px solid var(--ink); }

@@ -25,12 +25,13 @@ class ReportMaker {
     std::optional<Error> error;
     void add(Result<std::string> figure);
   };
-  /// What a conversion with another tolerance came to.
+  /// What a conversion with a tolerance came to.
   struct Trial {
     double tolerance = 0;
     Index points = 0, patches = 0;
-    double rms = 0;
-    std::size_t bytes = 0;
+    PoseErrors errors;                     ///< over all shapes
+    std::size_t bytes = 0, bareBytes = 0;  ///< whole, and without order and uv
+    bool packed = false;
   };
 
   // report.cpp
@@ -62,9 +63,13 @@ class ReportMaker {
   Result<std::string> errors();
   std::string errorPlot() const;
   std::string errorTable() const;
+  Result<std::string> displacements();
+
+  // tolerance_sections.cpp
   Result<std::string> tolerances();
   Result<Trial> tryTolerance(double tolerance);
-  double rmsOf(const Rig& rig) const;
+  std::string errorOverPoints(const std::vector<Trial>& trials) const;
+  std::string errorOverBytes(const std::vector<Trial>& trials);
 
   // shape_section.cpp
   Result<std::string> shapes();

@@ -141,7 +141,7 @@ std::vector<double> niceTicks(double low, double high, bool logarithmic) {
 
 std::string linePlot(const std::string& title, const Axis& x, const Axis& y,
                      std::vector<Series> series) {
-  constexpr double width = 490, height = 330, left = 62, right = 462, bottom = 278;
+  constexpr double width = 490, height = 330, left = 70, right = 462, bottom = 278;
   for (Series& s : series)
     std::erase_if(s.points, [&](const Vec2& p) {
       return (x.logarithmic && !(p.x > 0)) || (y.logarithmic && !(p.y > 0));

@@ -7,6 +7,7 @@
 
 #include "report/maker.hpp"
 #include "report/motion_sections.hpp"
+#include "report/peers.hpp"
 
 namespace sweepface {
 namespace {
@@ -42,15 +43,16 @@ ReportMaker::ReportMaker(const Rig& rig, const MeshRig& source, const ReportOpti
   // A picture counts one, so does a shape that is converted; one that is measured counts two.
   const auto targets = static_cast<double>(source.targets.size());
   work_ = 18 + MotionSections::pictures() + 2 * targets +
-          static_cast<double>(options.tolerances.size()) * (targets + 3);
+          static_cast<double>(options.tolerances.size()) * (targets + 3) +
+          (options.tolerances.empty() ? 0 : kPeerSteps);
 }
 
 Result<std::string> ReportMaker::make() {
   if (auto ready = prepare(); !ready) return std::unexpected(ready.error());
   std::string body = head();
   for (auto part : {&ReportMaker::comparison, &ReportMaker::sizes, &ReportMaker::network,
-                    &ReportMaker::errors, &ReportMaker::continuity, &ReportMaker::tolerances,
-                    &ReportMaker::shapes, &ReportMaker::motion}) {
+                    &ReportMaker::errors, &ReportMaker::displacements, &ReportMaker::continuity,
+                    &ReportMaker::tolerances, &ReportMaker::shapes, &ReportMaker::motion}) {
     const Result<std::string> text = (this->*part)();
     if (!text) return std::unexpected(text.error());
     body += *text;
@@ -109,10 +111,10 @@ std::string ReportMaker::head() const {
       count(vertices()), source_.targets.size(), count(rig_.surface.patchCount()));
   html += fact(percent(points() / static_cast<double>(vertices())),
                "of the vertices, as points on curves");
-  html += fact(number(measured_.worst.distanceMax),
+  html += fact(number(measured_.worst.distance.max),
                fmt::format("largest distance of a vertex, of {} allowed; the diagonal is {}",
                            number(rig_.tolerance), number(diagonal(source_.neutral))));
-  html += fact(fmt::format("{:.2g}°", measured_.worst.angleRms), "RMS angle between the normals");
+  html += fact(fmt::format("{:.2g}°", measured_.worst.angle.rms), "RMS angle between the normals");
   html += fact(percent(shareOf(JoinClass::c2)), "of the curves' length are C² joins");
   html += fact(
       percent(static_cast<double>(options_.bytes) / static_cast<double>(sourceBytes())),

@@ -30,8 +30,13 @@ inline std::string percent(double share) {
   return fmt::format("{}{:.1f} %", share < 0 ? "−" : "", 100 * std::abs(share));
 }
 
+/// Nothing where there is no text.
+inline std::string paragraph(std::string_view text) {
+  return text.empty() ? "" : fmt::format("<p>{}</p>\n", html::escaped(text));
+}
+
 inline std::string section(std::string_view title, std::string_view text) {
-  return fmt::format("<h2>{}</h2>\n<p>{}</p>\n", html::escaped(title), html::escaped(text));
+  return fmt::format("<h2>{}</h2>\n{}", html::escaped(title), paragraph(text));
 }
 
 /// Figures or plots beside each other: "pair", "four" or "plots".

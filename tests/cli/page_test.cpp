@@ -40,11 +40,12 @@ TEST_F(Page, FollowsItsOptions) {
   convertRig();
   const Outcome r =
       run("report face.sweep neutral.obj targets -o report.html --tolerances 0.05 "
-          "--weights smile=0.25 --box jaw");
+          "--weights smile=0.25 --box jaw --gltfpack ./not-here");
   ASSERT_EQ(r.code, 0) << r.err;
   const std::string html = contents(folder / "report.html");
   EXPECT_NE(html.find("The expression is smile=0.25."), std::string::npos);
   EXPECT_NE(html.find("<td>0.05</td>"), std::string::npos);
+  EXPECT_NE(html.find("There is no program './not-here'"), std::string::npos);
 }
 
 TEST_F(Page, SaysWhatIsWrong) {

@@ -104,15 +104,22 @@ TEST_F(Measure, ComparesEveryShapeAndMixture) {
     EXPECT_LE(row["distanceMax"], 0.01);
     EXPECT_LE(row["distanceRms"], row["distanceMax"]);
     EXPECT_LE(row["distanceMax"], report["worst"]["distanceMax"]);
+    EXPECT_LE(row["displacementMax"], report["worst"]["displacementMax"]);
+    EXPECT_LE(row["displacement999"], row["displacementMax"]);
+    EXPECT_LE(row["angle99"], row["angle999"]);
   }
+  EXPECT_EQ(report["shapes"][0]["displacementMax"], 0);
+  EXPECT_GT(report["worst"]["displacementRms"], 0);
+  EXPECT_GT(report["worst"]["angle99"], 0);
 }
 
 TEST_F(Measure, PrintsARowAShape) {
   convertRig();
   const Outcome r = run("measure face.sweep neutral.obj targets --mixtures 2");
   ASSERT_EQ(r.code, 0) << r.err;
-  EXPECT_EQ(std::count(r.out.begin(), r.out.end(), '\n'), 2 + 3 + 1 + 2) << r.out;
-  for (const std::string name : {"\njawOpen ", "\nsmile ", "\nworst "})
+  EXPECT_EQ(std::count(r.out.begin(), r.out.end(), '\n'), 2 + 3 + 1 + 2 + 1) << r.out;
+  for (const std::string name :
+       {"\njawOpen ", "\nsmile ", "\nworst ", " 99 % ", "\ndisplacements "})
     EXPECT_NE(r.out.find(name), std::string::npos) << name << r.out;
 }
 

@@ -38,11 +38,11 @@ TEST_P(EveryMeasure, findsNoDistanceToTheRigsOwnExport) {
   const auto m = measure(rig, exported(rig, GetParam().rig));
   ASSERT_TRUE(m) << m.error().message;
   ASSERT_EQ(m->shapes.size(), 3u);
-  for (const PoseErrors& e : m->shapes) EXPECT_EQ(e.distanceMax, 0) << e.name;
+  for (const PoseErrors& e : m->shapes) EXPECT_EQ(e.distance.max, 0) << e.name;
   ASSERT_EQ(m->mixtures.size(), 10u);
   for (const PoseErrors& e : m->mixtures)
-    EXPECT_LT(e.distanceMax, 1e-12 * diagonal(GetParam().rig.neutral)) << e.name;
-  EXPECT_EQ(m->worst.distanceRms, 0);
+    EXPECT_LT(e.distance.max, 1e-12 * diagonal(GetParam().rig.neutral)) << e.name;
+  EXPECT_EQ(m->worst.distance.rms, 0);
 }
 
 TEST_P(EveryMeasure, showsAKnownDisplacementAsThatDistance) {
@@ -51,19 +51,50 @@ TEST_P(EveryMeasure, showsAKnownDisplacementAsThatDistance) {
   for (Vec3& p : source.targets[1].positions) p += {0.3, -0.4, 1.2};
   const auto m = measure(rig, source);
   ASSERT_TRUE(m) << m.error().message;
-  EXPECT_EQ(m->shapes[0].distanceMax, 0);
-  EXPECT_EQ(m->shapes[1].distanceMax, 0);
-  for (double d : {m->shapes[2].distanceMax, m->shapes[2].distance999, m->shapes[2].distanceRms,
-                   m->worst.distanceMax})
+  EXPECT_EQ(m->shapes[0].distance.max, 0);
+  EXPECT_EQ(m->shapes[1].distance.max, 0);
+  for (double d : {m->shapes[2].distance.max, m->shapes[2].distance.p999, m->shapes[2].distance.rms,
+                   m->worst.distance.max})
     EXPECT_NEAR(d, 1.3, 1e-12);
-  EXPECT_NEAR(m->worst.distanceRms, 1.3 / std::sqrt(3), 1e-12);
+  EXPECT_NEAR(m->worst.distance.rms, 1.3 / std::sqrt(3), 1e-12);
+}
+
+// Ways from the neutral are right wherever the whole face stands.
+TEST_P(EveryMeasure, findsNoErrorInDisplacementsOfAShiftedFace) {
+  const Rig rig = rigOf(GetParam().rig);
+  MeshRig source = exported(rig, GetParam().rig);
+  for (Vec3& p : source.neutral.positions) p += {0.3, -0.4, 1.2};
+  for (MeshTarget& t : source.targets)
+    for (Vec3& p : t.positions) p += {0.3, -0.4, 1.2};
+  const auto m = measure(rig, source);
+  ASSERT_TRUE(m) << m.error().message;
+  EXPECT_NEAR(m->worst.distance.rms, 1.3, 1e-12);
+  EXPECT_LT(m->worst.displacement.max, 1e-12);
+  for (const PoseErrors& e : m->mixtures) EXPECT_LT(e.displacement.max, 1e-12) << e.name;
+}
+
+TEST_P(EveryMeasure, showsAWrongNeutralInTheDisplacementsOfAllTargets) {
+  const Rig rig = rigOf(GetParam().rig);
+  MeshRig source = exported(rig, GetParam().rig);
+  for (Vec3& p : source.neutral.positions) p += {0.3, -0.4, 1.2};
+  for (Vec3& p : source.targets[1].positions) p += {0.3, -0.4, 0};
+  const auto m = measure(rig, source);
+  ASSERT_TRUE(m) << m.error().message;
+  EXPECT_EQ(m->shapes[0].displacement.max, 0);
+  EXPECT_EQ(m->shapes[1].distance.max, 0);
+  EXPECT_NEAR(m->shapes[1].displacement.p99, 1.3, 1e-12);
+  EXPECT_NEAR(m->shapes[2].displacement.rms, 1.2, 1e-12);
+  EXPECT_NEAR(m->worst.displacement.max, 1.3, 1e-12);
+  EXPECT_NEAR(m->worst.displacement.rms, std::sqrt((1.69 + 1.44) / 2), 1e-12);
+  EXPECT_EQ(m->displacements.size(), 2 * source.neutral.positions.size());
+  EXPECT_TRUE(std::ranges::is_sorted(m->displacements));
 }
 
 TEST(Measure, findsNoAngleOnAPlane) {
   const MeshRig flat{grid(6, 5, [](double x, double y) { return Vec3{x, y, 0}; }), {}};
   const auto m = measure(rigOf(flat), flat);
   ASSERT_TRUE(m) << m.error().message;
-  EXPECT_LT(m->worst.angleMax, 1e-6);
+  EXPECT_LT(m->worst.angle.max, 1e-6);
   EXPECT_LT(m->worst.facetDistance, 1e-6);
   EXPECT_EQ(m->worst.folds, 0);
   EXPECT_TRUE(m->mixtures.empty());
@@ -78,8 +109,8 @@ TEST(Measure, showsAKnownTiltAsThatAngle) {
   const MeshRig flat{tilted(0), {}}, raised{tilted(5), {}};
   const auto m = measure(rigOf(flat), raised);
   ASSERT_TRUE(m) << m.error().message;
-  EXPECT_NEAR(m->worst.angleMax, 5, 1e-4);
-  EXPECT_NEAR(m->worst.angleRms, 5, 1e-4);
+  EXPECT_NEAR(m->worst.angle.max, 5, 1e-4);
+  EXPECT_NEAR(m->worst.angle.rms, 5, 1e-4);
 }
 
 TEST(Measure, seesAnOutlierInTheMaximumOnly) {
@@ -89,9 +120,21 @@ TEST(Measure, seesAnOutlierInTheMaximumOnly) {
   moved.neutral.positions[1300].z += 1;
   const auto m = measure(rig, moved);
   ASSERT_TRUE(m) << m.error().message;
-  EXPECT_NEAR(m->worst.distanceMax, 1, 1e-12);
-  EXPECT_EQ(m->worst.distance999, 0);
-  EXPECT_NEAR(m->worst.distanceRms, 1 / std::sqrt(51.0 * 51), 1e-12);
+  EXPECT_NEAR(m->worst.distance.max, 1, 1e-12);
+  EXPECT_EQ(m->worst.distance.p999, 0);
+  EXPECT_EQ(m->worst.displacement.max, 0);  // there are no targets
+  EXPECT_NEAR(m->worst.distance.rms, 1 / std::sqrt(51.0 * 51), 1e-12);
+}
+
+TEST(Measure, sumsUpErrors) {
+  std::vector<double> errors;
+  for (int k = 1000; k >= 0; --k) errors.push_back(k);
+  const ErrorSummary s = summaryOf(errors);
+  EXPECT_EQ(s.p99, 990);
+  EXPECT_EQ(s.p999, 999);
+  EXPECT_EQ(s.max, 1000);
+  EXPECT_NEAR(s.rms, std::sqrt(1000 * 2001 / 6.0), 1e-9);
+  EXPECT_EQ(summaryOf({}).max, 0);
 }
 
 TEST(Measure, countsFolds) {
@@ -100,6 +143,17 @@ TEST(Measure, countsFolds) {
   EXPECT_EQ(measure(rig, source)->worst.folds, 0);
   for (Vec3& v : rig.neutral) v.x = -v.x;  // every triangle of level 4 looks the other way
   EXPECT_EQ(measure(rig, source)->worst.folds, 2 * 16 * 8 * 8);
+}
+
+TEST(Measure, leavesOutFacetsWhereNobodyAsks) {
+  const MeshRig source = withTargets(plane(8, 8));
+  const Rig rig = rigOf(source);
+  const Measurement all = measure(rig, source).value();
+  const Measurement some = measure(rig, source, {.facets = false}).value();
+  EXPECT_GT(all.worst.facetDistance, 0);
+  EXPECT_EQ(some.worst.facetDistance, 0);
+  EXPECT_EQ(some.worst.distance.max, all.worst.distance.max);
+  EXPECT_EQ(some.worst.angle.p99, all.worst.angle.p99);
 }
 
 TEST(Measure, countsAFoldBetweenVerticesThatFit) {
@@ -119,7 +173,7 @@ TEST(Measure, drawsTheSameMixturesFromTheSameSeed) {
   const auto rms = [&](unsigned seed) {
     std::vector<double> list;
     const Measurement m = measure(rig, source, {4, seed}).value();
-    for (const PoseErrors& e : m.mixtures) list.push_back(e.distanceRms);
+    for (const PoseErrors& e : m.mixtures) list.push_back(e.distance.rms);
     return list;
   };
   EXPECT_EQ(rms(3).size(), 4u);
@@ -132,7 +186,7 @@ TEST(Measure, findsTargetsByName) {
   const Rig rig = rigOf(source);
   source = exported(rig, source);
   std::swap(source.targets[0], source.targets[1]);
-  EXPECT_EQ(measure(rig, source)->worst.distanceMax, 0);
+  EXPECT_EQ(measure(rig, source)->worst.distance.max, 0);
   source.targets.pop_back();
   EXPECT_EQ(measure(rig, source)->shapes.size(), 2u);
 }

@@ -39,7 +39,7 @@ TEST(RealFaceLong, aNeutralHeadNeedsAFifthOfItsVertices) {
   const auto vertices = static_cast<double>(source->neutral.positions.size());
   EXPECT_EQ(vertices, 11248);
   EXPECT_LE(conversion->rig.surface.storedCount(), 0.2 * vertices);
-  EXPECT_LE(measure(conversion->rig, *source)->worst.distanceMax, options.tolerance);
+  EXPECT_LE(measure(conversion->rig, *source)->worst.distance.max, options.tolerance);
   EXPECT_LE(largestSecondJump(conversion->rig, {}), 1e-9);
 }
 
@@ -68,9 +68,9 @@ TEST(RealFaceLong, aHeadAndItsExpressionsStayWithinTheirTolerance) {
   ASSERT_TRUE(conversion) << conversion.error().message;
   const auto m = measure(conversion->rig, *source);
   ASSERT_TRUE(m) << m.error().message;
-  EXPECT_LE(m->worst.distanceMax, options.tolerance);
-  EXPECT_LE(m->worst.angleRms, 1);
-  EXPECT_LE(m->worst.angle999, 6);
+  EXPECT_LE(m->worst.distance.max, options.tolerance);
+  EXPECT_LE(m->worst.angle.rms, 1);
+  EXPECT_LE(m->worst.angle.p999, 6);
   for (std::size_t k = 0; k <= source->targets.size(); k += 8) {
     Weights weights(source->targets.size(), 0);
     if (k > 0) weights[k - 1] = 1;
@@ -92,8 +92,8 @@ TEST(RealFaceLong, aPackedHeadIsSmallAndFoldsNowhere) {
   ASSERT_TRUE(read) << read.error().message;
   const auto m = measure(*read, *source);
   ASSERT_TRUE(m) << m.error().message;
-  EXPECT_LE(m->worst.distanceMax, options.tolerance);
-  EXPECT_LE(m->worst.angleRms, 1.6);
+  EXPECT_LE(m->worst.distance.max, options.tolerance);
+  EXPECT_LE(m->worst.angle.rms, 1.6);
   EXPECT_EQ(m->worst.folds, 0);
   EXPECT_LE(read->surface.storedCount(), 0.71 * 11248);
   EXPECT_LE(encode(*read).size(), 58000u);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "sweepface/measure.hpp"
 #include "sweepface/plot.hpp"
 
 #include "count_of.hpp"
@@ -102,7 +103,7 @@ TEST(Plots, PutPointsWhereTheyBelong) {
   EXPECT_TRUE(isWellFormed(svg));
   // The legend's dot, then the three points: from the lower left to the upper right corner.
   EXPECT_EQ(countOf(svg, "<circle"), 4u);
-  EXPECT_NE(svg.find("points=\"62.0,278.0 262.0,165.0 462.0,52.0 \""), std::string::npos) << svg;
+  EXPECT_NE(svg.find("points=\"70.0,278.0 266.0,165.0 462.0,52.0 \""), std::string::npos) << svg;
 }
 
 TEST(Plots, LeaveOutWhatHasNoLogarithm) {
@@ -173,6 +174,7 @@ TEST(Report, TellsAllAboutAFace) {
   options.name = "a&b.sweep";
   options.bytes = 4321;
   options.tolerances = {0.1};
+  options.gltfpack = "./no<such";
   double last = 0;
   options.progress = [&](std::string_view, double done) {
     EXPECT_GE(done, last);
@@ -185,8 +187,9 @@ TEST(Report, TellsAllAboutAFace) {
   EXPECT_EQ(report->find("<script"), std::string::npos);
   EXPECT_NE(report->find("&lt;script&gt;alert(1)&lt;/script&gt;"), std::string::npos);
   for (const std::string_view title :
-       {"Original and recreated", "Size", "Wireframe", "Errors", "Continuity",
-        "Error against points", "Shape parameters", "Linear and Newton", "Every law"})
+       {"Original and recreated", "Size", "Wireframe", "Errors", "Displacements", "Continuity",
+        "Error against points", "Error against bytes", "Shape parameters", "Linear and Newton",
+        "Every law"})
     EXPECT_NE(report->find(fmt::format("<h2>{}</h2>", title)), std::string::npos) << title;
   // Nothing is loaded from elsewhere: the only address is the name of SVG.
   EXPECT_EQ(countOf(*report, "http"), countOf(*report, "xmlns=\"http://www.w3.org/2000/svg\""));
@@ -194,12 +197,16 @@ TEST(Report, TellsAllAboutAFace) {
   // 4 to compare, 2 of the wireframe, 4 heat maps, 2 of continuity, 4 shapes, 12 key frames.
   EXPECT_EQ(countOf(*report, "<img "), 28u);
   EXPECT_EQ(countOf(*report, "<img "), countOf(*report, " alt=\""));
-  EXPECT_EQ(countOf(*report, "<svg "), 6u);
+  EXPECT_EQ(countOf(*report, "<svg "), 9u);
   const std::string words = withoutPictures(*report);
   EXPECT_EQ(countOf(words, "nan") + countOf(words, "inf,"), 0u);
   EXPECT_NE(report->find(fmt::format("<td>143</td><td>{}</td>", rig.surface.storedCount())),
             std::string::npos);
   EXPECT_NE(report->find("<td>4,321</td>"), std::string::npos);
+  for (const std::string_view row :
+       {".sweep, not packed, 0.05</td><td>4,321<", ".sweep, 0.1<", "GLB, single"})
+    EXPECT_NE(report->find(fmt::format("<td>{}", row)), std::string::npos) << row;
+  EXPECT_NE(report->find("There is no program './no&lt;such"), std::string::npos);
 }
 
 TEST(MotionReport, ShowsThePapersExperimentAndEveryLaw) {
@@ -238,7 +245,9 @@ TEST(Report, DoesWithoutTargetsAndTolerances) {
   ASSERT_TRUE(report.has_value()) << report.error().message;
   EXPECT_TRUE(isWellFormed(*report));
   EXPECT_EQ(report->find("Error against points"), std::string::npos);
+  EXPECT_EQ(report->find("Error against bytes"), std::string::npos);
   EXPECT_EQ(report->find("Linear and Newton"), std::string::npos);
+  EXPECT_EQ(report->find("<h2>Displacements"), std::string::npos);
   EXPECT_NE(report->find("Shape parameters"), std::string::npos);
 }
 

@@ -1,0 +1,133 @@
+#include "report/peers.hpp"
+
+#include <algorithm>
+#include <array>
+#include <fmt/format.h>
+
+#include "sweepface/gltf.hpp"
+
+#include "report/program.hpp"
+
+namespace sweepface {
+namespace {
+
+constexpr std::array kBits{10, 12, 14};  // of positions; gltfpack's own choice is 14
+
+/// Coordinates of so many bits are no further off: gltfpack's grid has room for the neutral and
+/// for what all targets may add to it.
+double reachOf(const MeshRig& source, int bits) {
+  Vec3 low = source.neutral.positions[0], high = low;
+  const auto include = [&](const std::vector<Vec3>& positions) {
+    for (const Vec3& p : positions) {
+      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    }
+  };
+  include(source.neutral.positions);
+  for (const MeshTarget& target : source.targets) include(target.positions);
+  const Vec3 size = high - low;
+  return 2 * std::max({size.x, size.y, size.z}) / ((1 << bits) - 1);
+}
+
+Result<void> measureFile(PeerFile& file, std::string_view bytes, const MeshRig& source,
+                         double radius) {
+  file.bytes = bytes.size();
+  const Result<RigSource> decoded = parseGltf(bytes, "GLB", {});
+  if (!decoded) return std::unexpected(decoded.error());
+  const MeshRig& found = decoded->rig;
+  const auto places = counterparts(source, found, radius);
+  if (!places) return std::unexpected(places.error());
+  std::vector<double> distances, displacements;
+  std::vector<Vec3> neutral(places->size());
+  const auto add = [&](const std::vector<Vec3>& is, const std::vector<Vec3>& shouldBe, bool rest) {
+    for (std::size_t v = 0; v < neutral.size(); ++v) {
+      if ((*places)[v] < 0) continue;
+      const Vec3 offset = is[(*places)[v]] - shouldBe[v];
+      distances.push_back(norm(offset));
+      if (rest)
+        neutral[v] = offset;
+      else
+        displacements.push_back(norm(offset - neutral[v]));
+    }
+  };
+  add(found.neutral.positions, source.neutral.positions, true);
+  for (const MeshTarget& target : source.targets)
+    add(std::ranges::find(found.targets, target.name, &MeshTarget::name)->positions,
+        target.positions, false);
+  file.distance = summaryOf(std::move(distances));
+  file.displacement = summaryOf(std::move(displacements));
+  return {};
+}
+
+/// The bytes of a file after brotli, by whichever program has it; 0 if none.
+std::size_t brotliBytes(const std::string& file) {
+  const std::string out = file + ".br";
+  constexpr const char* script =
+      "const fs = require('fs'), [from, to] = process.argv.slice(1);"
+      "fs.writeFileSync(to, require('zlib').brotliCompressSync(fs.readFileSync(from)))";
+  if (run({"brotli", "-q", "11", "-f", "-o", out, file}) != Ran::well &&
+      run({"node", "-e", script, file, out}) != Ran::well)
+    return 0;
+  std::error_code none;
+  const auto size = std::filesystem::file_size(out, none);
+  return none ? 0 : size;
+}
+
+/// The source's GLB at so many bits, or why there is none.
+Result<PeerFile> packed(const std::string& gltfpack, const std::filesystem::path& folder,
+                        const MeshRig& source, int bits) {
+  PeerFile file{fmt::format("-vp {}", bits), 0, 0, {}, {}};
+  const std::string out = (folder / fmt::format("{}.glb", bits)).string();
+  // -kv keeps texture coordinates although no texture uses them.
+  switch (run({gltfpack, "-i", (folder / "face.glb").string(), "-o", out, "-cc", "-kv", "-vp",
+               std::to_string(bits)})) {
+    case Ran::missing:
+      return fail(fmt::format(
+          "There is no program '{}', so that GLBs packed by it are left out; install it with npm "
+          "install -g gltfpack, or say where it is with --gltfpack.",
+          gltfpack));
+    case Ran::badly:
+      return fail(fmt::format("'{}' failed, so that GLBs packed by it are left out.", gltfpack));
+    case Ran::well:
+      break;
+  }
+  const Result<std::string> bytes = readFile(out);
+  const auto measured = bytes ? measureFile(file, *bytes, source, reachOf(source, bits))
+                              : std::unexpected(bytes.error());
+  if (!measured)
+    return fail(
+        fmt::format("What '{}' packed is left out: {}", gltfpack, measured.error().message));
+  file.brotliBytes = brotliBytes(out);
+  return file;
+}
+
+}  // namespace
+
+Peers makePeers(const MeshRig& source, const std::string& gltfpack,
+                const std::function<void()>& step) {
+  Peers peers;
+  step();
+  const auto glb = formatGlb(source);
+  const auto measured = glb ? measureFile(peers.glb, *glb, source, reachOf(source, 16))
+                            : std::unexpected(glb.error());
+  const ScratchFolder folder;
+  const auto ready = measured ? writeFile(folder.path() / "face.glb", *glb) : measured;
+  if (!ready) {
+    peers.left = "The source as GLB is left out: " + ready.error().message;
+    return peers;
+  }
+  for (const int bits : kBits) {
+    step();
+    Result<PeerFile> file = packed(gltfpack, folder.path(), source, bits);
+    if (!file) {
+      peers.left = file.error().message;
+      return peers;
+    }
+    peers.packed.push_back(std::move(*file));
+  }
+  if (peers.packed[0].brotliBytes == 0)
+    peers.left = "Neither brotli nor Node is there, so that files packed by brotli are left out.";
+  return peers;
+}
+
+}  // namespace sweepface

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace sweepface {
+
+enum class Ran { well, badly, missing };
+
+/// Runs a program with its arguments, without a shell; what it prints is not shown. It is looked
+/// for on the PATH unless its name has a slash.
+Ran run(const std::vector<std::string>& words);
+
+/// A folder of its own that is gone with it; its path is empty where none can be made.
+class ScratchFolder {
+ public:
+  ScratchFolder();
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  ~ScratchFolder();
+
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace sweepface

@@ -1,0 +1,130 @@
+#include "report/peers.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <fmt/format.h>
+
+#include "sweepface/fit.hpp"
+#include "sweepface/report.hpp"
+
+#include "io/temporary_folder.hpp"
+#include "picture/scenes.hpp"
+
+namespace sweepface {
+namespace {
+
+using namespace testing;
+
+void nothing() {}
+
+/// A program for gltfpack that does what the script says with its input $2 and its output $4.
+std::string program(const TemporaryFolder& folder, const std::string& script) {
+  const auto path = folder.file("pack", "#!/bin/sh\n" + script + "\n");
+  std::filesystem::permissions(path, std::filesystem::perms::owner_all);
+  return path.string();
+}
+
+TEST(Counterparts, FindVerticesInAnyOrder) {
+  const MeshRig source = withTargets(plane(6, 5));
+  const auto shuffled = [&](std::vector<Vec3> list) {
+    std::ranges::reverse(list);
+    std::ranges::rotate(list, list.begin() + 7);
+    for (Vec3& p : list) p.y += 0.01;
+    return list;
+  };
+  MeshRig found = source;
+  found.neutral.positions = shuffled(found.neutral.positions);
+  for (MeshTarget& target : found.targets) target.positions = shuffled(target.positions);
+  const auto places = counterparts(source, found, 0.02);
+  ASSERT_TRUE(places) << places.error().message;
+  for (std::size_t v = 0; v < places->size(); ++v)
+    EXPECT_LT(norm(found.neutral.positions[(*places)[v]] - source.neutral.positions[v]), 0.011);
+  EXPECT_TRUE(failsWith(counterparts(source, found, 0.005), {"vertex 1 is missing"}));
+  found.targets.pop_back();
+  EXPECT_TRUE(failsWith(counterparts(source, found, 0.02), {"target", "is missing"}));
+}
+
+// Lips lie upon each other until they open.
+TEST(Counterparts, AreToldApartByTheirTargets) {
+  MeshRig source = withTargets(plane(2, 2), 1);
+  source.neutral.positions[4] = source.neutral.positions[0];
+  MeshRig found = source;
+  std::swap(found.targets[0].positions[0], found.targets[0].positions[4]);
+  const auto places = counterparts(source, found, 0.001);
+  ASSERT_TRUE(places) << places.error().message;
+  EXPECT_EQ((*places)[0], 4);
+  EXPECT_EQ((*places)[4], 0);
+  EXPECT_EQ((*places)[8], 8);
+}
+
+TEST(Counterparts, LeaveOutVerticesOfNoFace) {
+  MeshRig source = withTargets(plane(2, 2), 1);
+  const MeshRig found = source;
+  source.neutral.positions.push_back({9, 9, 9});
+  source.targets[0].positions.push_back({9, 9, 9});
+  const auto places = counterparts(source, found, 0.001);
+  ASSERT_TRUE(places) << places.error().message;
+  EXPECT_EQ(places->back(), -1);
+}
+
+TEST(Peers, AreMeasuredOnWhatTheyDecodeTo) {
+  const TemporaryFolder folder;
+  const MeshRig source = withTargets(plane(12, 10));
+  int steps = 0;
+  const Peers peers = makePeers(source, program(folder, "cp \"$2\" \"$4\""), [&] { ++steps; });
+  EXPECT_EQ(steps, kPeerSteps);
+  EXPECT_GT(peers.glb.bytes, 12 * 3 * source.neutral.positions.size());
+  EXPECT_GT(peers.glb.distance.max, 0);
+  EXPECT_LT(peers.glb.distance.max, 1e-6 * diagonal(source.neutral));
+  ASSERT_EQ(peers.packed.size(), 3u);
+  for (const PeerFile& file : peers.packed) {
+    EXPECT_EQ(file.bytes, peers.glb.bytes);
+    EXPECT_EQ(file.distance.max, peers.glb.distance.max);
+    EXPECT_EQ(file.displacement.rms, peers.glb.displacement.rms);
+    EXPECT_LT(file.brotliBytes, file.bytes);
+  }
+}
+
+TEST(Peers, SayInASentenceWhatIsLeftOut) {
+  const TemporaryFolder folder;
+  const MeshRig source = withTargets(plane(4, 4));
+  const auto left = [&](const std::string& gltfpack) {
+    const Peers peers = makePeers(source, gltfpack, nothing);
+    EXPECT_GT(peers.glb.bytes, 0u);
+    EXPECT_TRUE(peers.packed.empty());
+    return peers.left;
+  };
+  EXPECT_NE(left("./no-such-gltfpack").find("npm install -g gltfpack"), std::string::npos);
+  EXPECT_NE(left(program(folder, "exit 3")).find("failed"), std::string::npos);
+  EXPECT_NE(left(program(folder, "echo no GLB >\"$4\"")).find("is left out: "), std::string::npos);
+  EXPECT_NE(left(program(folder, "true")).find("is left out: "), std::string::npos);
+}
+
+TEST(Peers, LeaveNoFilesBehind) {
+  const TemporaryFolder folder;
+  const std::string before = std::filesystem::temp_directory_path().string();
+  setenv("TMPDIR", (folder / "").c_str(), 1);
+  makePeers(withTargets(plane(4, 4)), "/bin/false", nothing);
+  setenv("TMPDIR", before.c_str(), 1);
+  EXPECT_EQ(folder.fileCount(), 0u);
+}
+
+// The real one, where it is.
+TEST(Peers, ArePackedByGltfpack) {
+  const std::string gltfpack = SWEEPFACE_SOURCE_DIR "/tests/web/node_modules/.bin/gltfpack";
+  if (!std::filesystem::exists(gltfpack)) GTEST_SKIP() << "there is no gltfpack";
+  const MeshRig source = withTargets(plane(24, 20));
+  const Peers peers = makePeers(source, gltfpack, nothing);
+  ASSERT_EQ(peers.packed.size(), 3u) << peers.left;
+  double error = 1e300;
+  for (const PeerFile& file : peers.packed) {
+    EXPECT_LT(file.bytes, peers.glb.bytes);
+    EXPECT_LT(file.distance.max, 0.6 * error) << "every two bits make it finer";
+    EXPECT_GT(file.displacement.max, 0);
+    error = file.distance.max;
+  }
+  EXPECT_LT(error, 1e-3 * diagonal(source.neutral));
+}
+
+}  // namespace
+}  // namespace sweepface
