@@ -41,6 +41,7 @@ struct RigSource {
 };
 
 /// The same from any files: a .glb or .gltf alone, which holds its targets, or as readRig does.
+/// Where all faces are triangles, pairs of them become quads (docs/quads.md).
 Result<RigSource> readSource(const std::filesystem::path& neutral,
                              std::span<const std::filesystem::path> targets,
                              const ReadProgress& progress = {});

@@ -10,6 +10,7 @@
 
 #include "io/target_shape.hpp"
 #include "io/text.hpp"
+#include "mesh/quads.hpp"
 
 namespace sweepface {
 namespace {
@@ -152,11 +153,23 @@ Result<MeshRig> readRig(const fs::path& neutralPath, std::span<const fs::path> t
   return rig;
 }
 
+namespace {
+
+bool isCutToTriangles(const Polygons& polygons) {
+  for (Index f = 0; f < polygons.faceCount(); ++f)
+    if (polygons.faceSize(f) != 3) return false;
+  return polygons.faceCount() > 0;
+}
+
+}  // namespace
+
 Result<RigSource> readSource(const fs::path& neutral, std::span<const fs::path> targets,
                              const ReadProgress& progress) {
   if (!isGltf(neutral)) {
     auto rig = readRig(neutral, targets, progress);
     if (!rig) return std::unexpected(rig.error());
+    if (isCutToTriangles(rig->neutral.polygons))
+      rig->neutral.polygons = recoverQuads(*rig).polygons;
     return RigSource{std::move(*rig), {}, {}};
   }
   if (!targets.empty())

@@ -141,5 +141,17 @@ TEST(MeshReader, TellsFormatsByExtension) {
   EXPECT_TRUE(failsWith(readMesh(folder / "none.obj"), {"none.obj", "no such file"}));
 }
 
+// Two squares side by side, and the same cut into triangles.
+const std::string corners = "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 1 0\nv 1 1 0\nv 2 1 0\n";
+
+TEST_F(RigReader, JoinsTrianglesToQuadsWhereThereIsNothingElse) {
+  const auto facesOf = [&](const std::string& faces) {
+    const auto source = readSource(folder.file("face.obj", corners + faces), {});
+    return source ? source->rig.neutral.polygons.faceCount() : -1;
+  };
+  EXPECT_EQ(facesOf("f 1 2 5\nf 1 5 4\nf 2 3 6\nf 2 6 5\n"), 2);
+  EXPECT_EQ(facesOf("f 1 2 5 4\nf 2 3 6\nf 2 6 5\n"), 3) << "whoever has quads means them";
+}
+
 }  // namespace
 }  // namespace sweepface
