@@ -24,12 +24,12 @@ bool isNowhere(const std::vector<HalfEdge>& mirror) {
 // Wider than high, so that it is mirrored across x alone.
 PolygonMesh sheetAcross() {
   return grid(12, 5,
-              [](double x, double y) { return Vec3{8 * x - 4, 2 * y + x * (1 - x), y * y}; });
+              [](double i, double j) { return Vec3{i - 6, j + i * (12 - i) / 9, j * j / 9}; });
 }
 
 TEST(Mirror, PairsEveryHalfEdgeOfASheetAndOfTwoThatMirrorEachOther) {
   EXPECT_TRUE(isWhole(mirrorOf(sheetAcross())));
-  PolygonMesh right = grid(4, 5, [](double x, double y) { return Vec3{x, 2 * y, y * y + x}; });
+  PolygonMesh right = grid(4, 5, [](double i, double j) { return Vec3{i, j, (j * j + i) / 9}; });
   PolygonMesh left = right;
   for (Vec3& p : left.positions) p.x = -p.x;
   for (Index f = 0; f < left.polygons.faceCount(); ++f)
