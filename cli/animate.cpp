@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <mutex>
 #include <optional>
-#include <tbb/parallel_for.h>
 
 #include "sweepface/gltf.hpp"
 #include "sweepface/io.hpp"
@@ -12,6 +11,7 @@
 #include "head.hpp"
 #include "lod_mesh.hpp"
 #include "output.hpp"
+#include "parallel.hpp"
 #include "regions.hpp"
 
 namespace sweepface::cli {
@@ -106,7 +106,7 @@ Result<void> writeFrames(const AnimateArguments& a, const Rig& rig, const Perfor
   std::atomic<bool> failed = false;
   std::mutex reporting;
   Result<void> result;
-  tbb::parallel_for(std::size_t{0}, times.size(), [&](std::size_t frame) {
+  parallelFor(std::size_t{0}, times.size(), [&](std::size_t frame) {
     if (failed) return;
     Weights weights(rig.targets.size());
     performance.at(times[frame], weights);

@@ -5,13 +5,13 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <random>
-#include <tbb/parallel_for.h>
 
 #include "sweepface/eval.hpp"
 #include "sweepface/fit.hpp"
 
 #include "command.hpp"
 #include "output.hpp"
+#include "parallel.hpp"
 
 namespace sweepface::cli {
 namespace {
@@ -80,7 +80,7 @@ class Checker {
     ProgressBar bar(quiet);
     std::vector<PoseJoins> looks(poses_.size());
     std::atomic<std::size_t> done = 0;
-    tbb::parallel_for(std::size_t{0}, poses_.size(), [&](std::size_t k) {
+    parallelFor(std::size_t{0}, poses_.size(), [&](std::size_t k) {
       looks[k] = lookAt(rig_, poses_[k]);
       bar.show("checking", static_cast<double>(++done) / static_cast<double>(poses_.size()));
     });

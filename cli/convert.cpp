@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
 
 #include "sweepface/arcs.hpp"
 #include "sweepface/codec.hpp"
@@ -16,6 +15,7 @@
 
 #include "command.hpp"
 #include "output.hpp"
+#include "parallel.hpp"
 
 namespace sweepface::cli {
 namespace {
@@ -126,7 +126,7 @@ Worst worstOf(const Rig& rig, const Tessellation& grid, Index target,
 Worst compare(const Rig& rig, const MeshRig& source) {
   const Tessellation grid(rig.surface, 1);
   std::vector<Worst> each(rig.targets.size() + 1);
-  tbb::parallel_for(std::size_t{0}, each.size(), [&](std::size_t k) {
+  parallelFor(std::size_t{0}, each.size(), [&](std::size_t k) {
     each[k] = worstOf(rig, grid, static_cast<Index>(k) - 1,
                       k == 0 ? source.neutral.positions : source.targets[k - 1].positions);
   });

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tbb/parallel_for.h>
 
+#include "parallel/parallel.hpp"
 #include "surface/terms.hpp"
 
 namespace sweepface {
@@ -33,12 +33,10 @@ class ColumnBuilder {
   Columns build() const {
     const Index vertices = grid_.vertexCount();
     std::vector<std::vector<Entry>> rows(vertices);
-    tbb::parallel_for(tbb::blocked_range<Index>(0, vertices),
-                      [&](const tbb::blocked_range<Index>& range) {
-                        std::vector<Sums> sum(surface_.storedCount());
-                        for (Index v = range.begin(); v != range.end(); ++v)
-                          rows[v] = coefficientRow(v, sum);
-                      });
+    parallelRanges(vertices, [&](Index begin, Index end) {
+      std::vector<Sums> sum(surface_.storedCount());
+      for (Index v = begin; v != end; ++v) rows[v] = coefficientRow(v, sum);
+    });
     Columns columns;
     columns.start.assign(surface_.storedCount() + 1, 0);
     for (const auto& row : rows)

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <tbb/parallel_for.h>
+
+#include "parallel/parallel.hpp"
 
 namespace sweepface {
 
@@ -143,7 +144,7 @@ DraftErrors measureDraft(const Layout& layout, const Draft& draft, const SourceD
   std::vector<std::vector<std::pair<Index, Index>>> foldedFaces(patches);
   DraftErrors errors;
   errors.folded.assign(patches, 0);
-  tbb::parallel_for(Index{0}, patches, [&](Index p) {
+  parallelFor(Index{0}, patches, [&](Index p) {
     const PatchMeter meter(layout, draft, data, p, settled);
     measured[p] = meter.vertices();
     foldedFaces[p] = meter.folds();

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
-#include <tbb/parallel_for.h>
 
 #include "sweepface/eval.hpp"
 
 #include "fit/facets.hpp"
 #include "fit/vertex_normals.hpp"
+#include "parallel/parallel.hpp"
 
 namespace sweepface {
 
@@ -201,7 +201,7 @@ Result<Measurement> measure(const Rig& rig, const MeshRig& source, const Measure
   if (!shapes) return std::unexpected(shapes.error());
   const Meter meter(rig, options.facets);
   std::vector<PoseSamples> samples(shapes->size());
-  tbb::parallel_for(std::size_t{0}, samples.size(), [&](std::size_t k) {
+  parallelFor(std::size_t{0}, samples.size(), [&](std::size_t k) {
     samples[k] = meter.measure(k == 0 ? "neutral" : source.targets[k - 1].name, (*shapes)[k].first,
                                *(*shapes)[k].second);
   });
@@ -212,7 +212,7 @@ Result<Measurement> measure(const Rig& rig, const MeshRig& source, const Measure
   std::vector<Weights> mixtures;
   for (int k = 0; k < options.mixtures; ++k) mixtures.push_back(randomWeights(rig, source, random));
   result.mixtures.resize(mixtures.size());
-  tbb::parallel_for(std::size_t{0}, mixtures.size(), [&](std::size_t k) {
+  parallelFor(std::size_t{0}, mixtures.size(), [&](std::size_t k) {
     PoseSamples s = meter.measure("mixture " + std::to_string(k + 1), mixtures[k],
                                   blendSource(rig, source, mixtures[k]));
     summarize(s, samples[0].offsets);

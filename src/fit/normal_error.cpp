@@ -3,11 +3,11 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
-#include <tbb/parallel_for.h>
 
 #include "sweepface/eval.hpp"
 
 #include "fit/vertex_normals.hpp"
+#include "parallel/parallel.hpp"
 
 namespace sweepface {
 
@@ -34,7 +34,7 @@ double meanSquare(const Rig& rig, const Tessellation& grid, const Weights& weigh
 double normalRms(const Rig& rig, const MeshRig& source) {
   const Tessellation grid(rig.surface, 1);
   std::vector<double> squares(rig.targets.size() + 1);
-  tbb::parallel_for(std::size_t{0}, squares.size(), [&](std::size_t k) {
+  parallelFor(std::size_t{0}, squares.size(), [&](std::size_t k) {
     Weights weights(rig.targets.size(), 0.0);
     if (k > 0) weights[k - 1] = 1;
     squares[k] = meanSquare(rig, grid, weights,

@@ -7,7 +7,6 @@
 #include <numbers>
 #include <optional>
 #include <set>
-#include <tbb/parallel_for.h>
 
 #include "sweepface/eval.hpp"
 
@@ -15,6 +14,7 @@
 #include "fit/columns.hpp"
 #include "fit/folds.hpp"
 #include "fit/pose_quantiser.hpp"
+#include "parallel/parallel.hpp"
 
 namespace sweepface {
 
@@ -82,7 +82,7 @@ class Quantiser {
     const auto bound = static_cast<float>(kBound * tolerance_);
     std::atomic<Index> bad = -1, count = 0;
     for (const bool images : {true, false}) {
-      tbb::parallel_for(Index{1}, poses, [&](Index pose) {
+      parallelFor(Index{1}, poses, [&](Index pose) {
         const Index image = rig_.packing.poses[pose].image;
         if (images != (image < 0 || image == pose)) return;
         if (!proceed_(static_cast<double>(++count) / poses)) return;

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <memory>
-#include <tbb/parallel_for.h>
+
+#include "parallel/parallel.hpp"
 
 namespace sweepface {
 
@@ -63,7 +64,7 @@ class ShapeChooser {
     const PoseMatrix settled = settleAll(draft.surface, solution);
     const Index patches = surface_.patchCount();
     std::vector<std::unique_ptr<PatchForm>> forms(patches);
-    tbb::parallel_for(Index{0}, patches, [&](Index p) {
+    parallelFor(Index{0}, patches, [&](Index p) {
       forms[p] = std::make_unique<PatchForm>(layout, draft, data, p, settled);
     });
     forms_ = std::move(forms);

@@ -3,8 +3,8 @@
 #include <Eigen/Sparse>
 #include <algorithm>
 #include <cmath>
-#include <tbb/parallel_for.h>
 
+#include "parallel/parallel.hpp"
 #include "surface/terms.hpp"
 
 namespace sweepface {
@@ -259,7 +259,7 @@ Result<Solution> solveScaled(SparseMatrix& matrix, const PoseMatrix& rhs) {
   Solution solution(n, rhs.cols());
   constexpr Index kBlock = 12;
   const auto blocks = static_cast<Index>((rhs.cols() + kBlock - 1) / kBlock);
-  tbb::parallel_for(Index{0}, blocks, [&](Index b) {
+  parallelFor(Index{0}, blocks, [&](Index b) {
     const Index first = b * kBlock,
                 columns = std::min<Index>(kBlock, static_cast<Index>(rhs.cols()) - first);
     const Eigen::MatrixXd scaled = scale.asDiagonal() * rhs.middleCols(first, columns);
@@ -282,7 +282,7 @@ Result<Solution> solve(const Layout& layout, const Draft& draft, const SourceDat
   for (Index first = 0; first < draft.surface.patchCount(); first += kBatch) {
     const Index count = std::min(kBatch, draft.surface.patchCount() - first);
     std::vector<PatchEquations> batch(count);
-    tbb::parallel_for(Index{0}, count, [&](Index k) {
+    parallelFor(Index{0}, count, [&](Index k) {
       batch[k] = PatchAssembler(layout, draft, data, first + k, owner).assemble(expanded);
     });
     for (const PatchEquations& e : batch)

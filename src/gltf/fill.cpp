@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tbb/parallel_for.h>
+
+#include "parallel/parallel.hpp"
 
 namespace sweepface::gltf {
 namespace {
@@ -169,7 +170,7 @@ class Filler {
   }
 
   Result<void> fillTargets(std::size_t first, std::size_t end) {
-    tbb::parallel_for(first, end, [&](std::size_t k) { evaluate(k, morphsOf_[k]); });
+    parallelFor(first, end, [&](std::size_t k) { evaluate(k, morphsOf_[k]); });
     for (std::size_t k = first; k < end; ++k) {
       for (const Morph& morph : morphsOf_[k]) write(morph);
       morphsOf_[k].clear();

@@ -3,7 +3,6 @@
 #include <map>
 #include <mutex>
 #include <system_error>
-#include <tbb/parallel_for.h>
 
 #include "sweepface/gltf.hpp"
 #include "sweepface/io.hpp"
@@ -11,6 +10,7 @@
 #include "io/target_shape.hpp"
 #include "io/text.hpp"
 #include "mesh/quads.hpp"
+#include "parallel/parallel.hpp"
 
 namespace sweepface {
 namespace {
@@ -138,7 +138,7 @@ Result<MeshRig> readRig(const fs::path& neutralPath, std::span<const fs::path> t
   std::vector<Result<std::vector<Vec3>>> read(files->size());
   std::mutex reporting;
   std::size_t done = 0;
-  tbb::parallel_for(std::size_t{0}, files->size(), [&](std::size_t i) {
+  parallelFor(std::size_t{0}, files->size(), [&](std::size_t i) {
     read[i] = readTarget((*files)[i], neutralPath, *neutral);
     const std::scoped_lock lock(reporting);
     ++done;

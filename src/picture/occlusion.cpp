@@ -5,7 +5,8 @@
 #include <embree3/rtcore.h>
 #include <limits>
 #include <numbers>
-#include <tbb/parallel_for.h>
+
+#include "parallel/parallel.hpp"
 
 namespace sweepface {
 namespace {
@@ -60,7 +61,7 @@ std::vector<float> exposure(const Obstacles& obstacles, std::span<const Vec3> po
                             auto brightness, auto answer) {
   const double near = 1e-3 * obstacles.size(), far = 2 * obstacles.size();
   std::vector<float> result(positions.size());
-  tbb::parallel_for(std::size_t{0}, positions.size(), [&](std::size_t v) {
+  parallelFor(std::size_t{0}, positions.size(), [&](std::size_t v) {
     Arrival light;
     for (const Vec3& d : directions) {
       const double slope = dot(normals[v], d);

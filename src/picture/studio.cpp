@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include "sweepface/picture.hpp"
 
+#include "parallel/parallel.hpp"
 #include "picture/colour.hpp"
 #include "picture/mask.hpp"
 #include "picture/occlusion.hpp"
@@ -98,7 +98,7 @@ class Photograph {
 
   Image take() const {
     Image image = Image::filled(size_, scene_.background);
-    tbb::parallel_for(Index{0}, raster_.tileCount(), [&](Index tile) { develop(tile, image); });
+    parallelFor(Index{0}, raster_.tileCount(), [&](Index tile) { develop(tile, image); });
     drawStrokes(image);
     drawLabels(image);
     return image;
@@ -166,7 +166,7 @@ class Photograph {
       std::size_t last = first;
       while (last < strokes.size() && strokes[last].colour == strokes[first].colour) ++last;
       std::vector<std::vector<Vec2>> lines(last - first);
-      tbb::parallel_for(first, last, [&](std::size_t k) { lines[k - first] = seen(strokes[k]); });
+      parallelFor(first, last, [&](std::size_t k) { lines[k - first] = seen(strokes[k]); });
       Mask mask(image);
       for (std::size_t k = first; k < last; ++k)
         for (std::size_t p = 0; p + 1 < lines[k - first].size(); p += 2)
