@@ -362,16 +362,19 @@ class HierarchyBuilder {
     constexpr std::size_t kEnough = 12;
     std::vector<Index> result;
     if (!seekNear_) return result;
-    reached_.clear();
+    ++search_;
+    reachedBy_.resize(all_.size() + w_.nodes.size(), 0);
     queue_.assign(1, {0, all_[s].site.node});
     Index last = 0;
-    while (!queue_.empty() && reached_.size() < kMostReached) {
+    for (std::size_t reached = 0; !queue_.empty() && reached < kMostReached;) {
       std::ranges::pop_heap(queue_, std::greater{});
       const auto [distance, node] = queue_.back();
       queue_.pop_back();
-      const Index site = siteOf_[node], place = site >= 0 ? site : ~node;
-      if (std::ranges::find(reached_, place) != reached_.end()) continue;
-      reached_.push_back(place);
+      const Index site = siteOf_[node];
+      Index& by = reachedBy_[site >= 0 ? site : all_.size() + node];
+      if (by == search_) continue;
+      by = search_;
+      ++reached;
       if (site >= 0 && site != s && site != all_[s].image) {
         if (result.size() >= kEnough && distance > last) break;
         result.push_back(site);
@@ -510,8 +513,9 @@ class HierarchyBuilder {
   Index guessed_ = -1, guessedToo_ = -1;     // nodes that may not predict themselves or each other
   std::vector<std::vector<Index>> nodesOf_;  // [sites] of which one may be several
   std::vector<std::array<Index, 2>> queue_;  // of a search: distances and nodes
-  std::vector<Index> reached_;               // by a search
-  std::vector<char> placed_;                 // [sites] roots that have their place in the order
+  std::vector<Index> reachedBy_;             // [sites, then nodes] the last search that was there
+  Index search_ = 0;
+  std::vector<char> placed_;  // [sites] roots that have their place in the order
 };
 
 Hierarchy::Hierarchy(const Surface& surface, const Mirror& mirror, bool seekNear) {
