@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "codec/derivative_rules.hpp"
+#include "codec/reach.hpp"
 
 namespace sweepface::codec {
 
@@ -17,10 +18,6 @@ struct Link {
   HalfArc back = -1;
   Index distance = 0;
 };
-
-// How strongly derivatives of order 1 and 2 move a curve of length 1: the largest values of the
-// quintic Hermite polynomials.
-constexpr double kReach[3] = {1, 0.16, 0.0173};
 
 }  // namespace
 
@@ -35,7 +32,7 @@ class HierarchyBuilder {
         out_(out) {}
 
   void build() {
-    measureReach();
+    reach_ = reachOf(surface_);
     gatherSites();
     links_.resize(2 * w_.arcs.size());
     opposite_.resize(2 * w_.arcs.size());
@@ -55,32 +52,6 @@ class HierarchyBuilder {
  private:
   using Terms = std::vector<Term>;
 
-  // How far one unit of a vector moves the surface: what it does to the corners of patches, there
-  // by the largest values of the basis, and to what is derived from it.
-  void measureReach() {
-    reach_.assign(surface_.vectorCount(), 0);
-    for (Index p = 0; p < surface_.patchCount(); ++p)
-      for (int corner = 0; corner < 4; ++corner) {
-        const double alpha = corner % 2 ? surface_.edgesV(p) : surface_.edgesU(p),
-                     beta = corner % 2 ? surface_.edgesU(p) : surface_.edgesV(p);
-        for (int i = 0; i < 3; ++i)
-          for (int j = 0; j < 3; ++j) {
-            const double r = kReach[i] * kReach[j] *
-                             (i == 0   ? 1
-                              : i == 1 ? alpha
-                                       : alpha * alpha) *
-                             (j == 0   ? 1
-                              : j == 1 ? beta
-                                       : beta * beta);
-            double& reach = reach_[surface_.cornerJet(p, corner, i, j).vector];
-            reach = std::max(reach, r);
-          }
-      }
-    for (Index v = surface_.vectorCount(); v-- > surface_.storedCount();)
-      for (const Term& t : surface_.derivation(v))
-        reach_[t.vector] = std::max(reach_[t.vector], std::abs(t.factor) * reach_[v]);
-  }
-
   // What many vertices follow is told more precisely: errors there would have to be made up for at
   // all of them.
   double finer(Index vector, Index span) const {
@@ -92,15 +63,6 @@ class HierarchyBuilder {
            : span <= 8  ? 1.5
            : span <= 16 ? 1.9
                         : 2.3;
-  }
-
-  // Two values an octave: no rounding in the last digit can tip them.
-  static double rounded(double reach) {
-    if (!(reach > 1e-6)) return 1e-6;
-    int exponent = 0;
-    const double mantissa = std::frexp(std::min(reach, 1e12), &exponent);
-    const double step = mantissa < 0.5843 ? 0.5 : mantissa < 0.8217 ? 0.703125 : 1;
-    return std::ldexp(step, exponent);
   }
 
   struct Candidate {  // a site while it is being placed
@@ -487,7 +449,7 @@ class HierarchyBuilder {
     for (const Term& t : terms)
       if (t.factor != 0) out_.prediction_.terms.push_back(t);
     step.termsEnd = static_cast<Index>(out_.prediction_.terms.size());
-    step.reach = rounded(reach_[vector] * finer(vector, out_.sites_[step.site].span));
+    step.reach = roundedReach(reach_[vector] * finer(vector, out_.sites_[step.site].span));
     out_.prediction_.steps.push_back(step);
   }
 
