@@ -29,6 +29,7 @@ Likenesses::Likenesses(const Lattice& lattice, const std::vector<Coefficients>& 
 }
 
 Likeness Likenesses::of(Index pose) const {
+  constexpr Index kMostBack = 256;  // so that thousands of targets take no longer each
   const Bits& own = moved_[pose][0];
   const auto all = static_cast<double>(poses_[pose].size());
   double count = 0;
@@ -36,7 +37,7 @@ Likeness Likenesses::of(Index pose) const {
   constexpr double kWorthwhile = 32;  // bits
   double least = entropy(count, all) - kWorthwhile;
   Likeness best;
-  for (Index other = 1; other < pose; ++other)
+  for (Index other = std::max<Index>(1, pose - kMostBack); other < pose; ++other)
     for (const bool mirrored : {false, true}) {
       const Bits& its = moved_[other][mirrored];
       double moved = 0, both = 0;

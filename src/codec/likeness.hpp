@@ -13,9 +13,8 @@ struct Likeness {
   bool negated = false;   ///< moved the other way
 };
 
-/// The one of the targets before `pose` that says most about which of its vectors move: with the
-/// least entropy of that, given which of the other's do. Costs time in proportion to the square of
-/// the number of poses where all are asked for.
+/// The one of the 256 targets before `pose` that says most about which of its vectors move: with
+/// the least entropy of that, given which of the other's do.
 class Likenesses {
  public:
   Likenesses(const Lattice& lattice, const std::vector<Coefficients>& poses);
