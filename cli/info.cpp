@@ -27,11 +27,6 @@ void addOptions(CLI::App& app, InfoArguments& a) {
   app.footer("\nExamples:\n  sweepface info face.sweep\n  sweepface info face.sweep --list");
 }
 
-/// What the file would take without the source's order and texture coordinates.
-std::size_t bareBytes(Rig rig) {
-  return strip(rig, {.order = true, .uv = true}) ? encode(rig).size() : 0;
-}
-
 nlohmann::ordered_json describe(const InfoArguments& a, const Rig& rig, std::size_t bytes,
                                 const std::vector<FilePart>& parts) {
   const Surface& surface = rig.surface;

@@ -20,4 +20,8 @@ Result<Strip> parseStrip(std::string_view text);
 /// where a face has a corner that is on no patch.
 Result<void> strip(Rig& rig, const Strip& parts);
 
+/// What the file would take without the source's order and texture coordinates; 0 where they cannot
+/// be left out. Costs a copy of the rig and an encoding.
+std::size_t bareBytes(Rig rig);
+
 }  // namespace sweepface

@@ -5,6 +5,7 @@
 #include <ranges>
 #include <utility>
 
+#include "sweepface/codec.hpp"
 #include "sweepface/eval.hpp"
 
 namespace sweepface {
@@ -111,6 +112,10 @@ Result<void> strip(Rig& rig, const Strip& parts) {
   }
   if (parts.scene) rig.scene.clear();
   return parts.order ? stripOrder(rig) : Result<void>{};
+}
+
+std::size_t bareBytes(Rig rig) {
+  return strip(rig, {.order = true, .uv = true}) ? encode(rig).size() : 0;
 }
 
 }  // namespace sweepface

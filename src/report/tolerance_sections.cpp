@@ -4,6 +4,7 @@
 #include "sweepface/codec.hpp"
 #include "sweepface/fit.hpp"
 #include "sweepface/plot.hpp"
+#include "sweepface/strip.hpp"
 
 #include "report/maker.hpp"
 #include "report/peers.hpp"
@@ -11,11 +12,6 @@
 // What other tolerances, and other formats, make of the same meshes.
 namespace sweepface {
 namespace {
-
-/// Of a file without the source's order and texture coordinates; 0 where they cannot be left out.
-std::size_t bareBytes(Rig rig) {
-  return strip(rig, {.order = true, .uv = true}) ? encode(rig).size() : 0;
-}
 
 double kilobytes(std::size_t bytes) { return static_cast<double>(bytes) / 1000; }
 
