@@ -5,6 +5,7 @@
 #include <bit>
 #include <cstdlib>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "codec/hierarchy.hpp"
@@ -51,19 +52,14 @@ class CoefficientCoder {
     active_.resize(sites);
     below_.resize(sites);
     history_.assign(sites, 0);
-    positionStep_.resize(sites);
-    const auto& steps = h_.prediction().steps;
-    for (std::size_t k = 0; k < steps.size(); ++k)
-      if (const auto& step = steps[k]; step.vector == h_.sites()[step.site].first)
-        positionStep_[step.site] = static_cast<Index>(k);
   }
 
   /// What is read comes to a `q` of zeros. `like` tells what to expect: a pose that moves much the
   /// same, or nothing.
-  void code(Coefficients& q, Symmetry symmetry, const Coefficients& partner,
-            const Coefficients& like, bool neutral) {
+  void code(Coefficients& q, Symmetry symmetry, const Coefficients& partner, Coefficients like,
+            bool neutral) {
     const auto& sites = h_.sites();
-    lookAt(like, q.size());
+    lookAt(std::move(like), q.size());
     residual_.assign(q.size(), Steps3{});
     constexpr bool writing = kWrites<Coder>;
     expected_.assign(q.size(), Steps3{});
@@ -105,11 +101,6 @@ class CoefficientCoder {
 
   enum BitKind { kAny, kBelow, kVector, kZero, kSign, kMore };
 
-  // The sites whose positions predict a site's, by their positions.
-  std::span<const Term> parents(Index site) const {
-    return h_.prediction().of(h_.prediction().steps[positionStep_[site]]);
-  }
-
   // The image of another pose's vector, negated along the mirror's axis.
   void image(const Coefficients& from, Index v) {
     const Hierarchy::Image& i = h_.images()[v];
@@ -125,21 +116,28 @@ class CoefficientCoder {
     }
   }
 
-  void lookAt(const Coefficients& like, std::size_t vectors) {
+  void lookAt(Coefficients like, std::size_t vectors) {
     const auto& sites = h_.sites();
-    like_ = like;
+    const bool none = like.empty();
+    like_ = std::move(like);
     like_.resize(vectors);
     likeSite_.assign(sites.size(), 0);
     likeBelow_.assign(sites.size(), 0);
-    if (like.empty()) return;
+    if (none) return;
     for (std::size_t s = 0; s < sites.size(); ++s) {
       const auto vectorsOfSite = std::span(like_).subspan(sites[s].first, sites[s].count);
       const bool slopes = std::ranges::any_of(vectorsOfSite.subspan(1), isMoved);
       likeSite_[s] = 1 + slopes + 2 * std::min(largest(vectorsOfSite[0], 3), 3u);
     }
+    passUp(likeBelow_, [&](std::size_t s) { return likeSite_[s] > 1; });
+  }
+
+  // Marks every site with one below it that moves.
+  template <typename Moves>
+  void passUp(std::vector<char>& below, Moves moves) const {
+    const auto& sites = h_.sites();
     for (std::size_t s = sites.size(); s-- > 0;)
-      if (sites[s].parent >= 0 && (likeSite_[s] > 1 || likeBelow_[s]))
-        likeBelow_[sites[s].parent] = 1;
+      if (sites[s].parent >= 0 && (below[s] || moves(s))) below[sites[s].parent] = 1;
   }
 
   void markBelow() {
@@ -148,10 +146,9 @@ class CoefficientCoder {
       active_[s] = 0;
       for (Index v = sites[s].first; v < sites[s].first + sites[s].count; ++v)
         active_[s] |= isMoved(residual_[v]);
-      below_[s] = 0;
     }
-    for (std::size_t s = sites.size(); s-- > 0;)
-      if (sites[s].parent >= 0 && (active_[s] || below_[s])) below_[sites[s].parent] = 1;
+    below_.assign(sites.size(), 0);
+    passUp(below_, [&](std::size_t s) { return active_[s] != 0; });
   }
 
   static std::uint32_t hash(std::uint32_t a, std::uint32_t b) {
@@ -182,7 +179,7 @@ class CoefficientCoder {
                                                   : 5;
     const std::uint32_t parent = site.parent < 0 ? 2 : active_[site.parent];
     std::uint32_t near = 0;
-    for (const Term& t : parents(s)) near += isMoved(residual_[t.vector]);
+    for (const Term& t : h_.beside(s)) near += isMoved(residual_[t.vector]);
     near = std::min(near, 4u);
     const std::uint32_t past = std::min<std::uint32_t>(history_[s], 6);
     const std::uint32_t mirrored =
@@ -234,7 +231,7 @@ class CoefficientCoder {
     Steps3& r = residual_[v];
     Steps3 around{};
     if (k == 0)
-      for (const Term& t : parents(s))
+      for (const Term& t : h_.beside(s))
         for (int a = 0; a < 3; ++a)
           if (const std::int32_t beside = residual_[t.vector][a];
               std::abs(beside) > std::abs(around[a]))
@@ -316,9 +313,9 @@ class CoefficientCoder {
   std::uint32_t phase_ = 0;
   std::vector<char> active_, below_;  // [sites]
   std::vector<Index> history_;        // [sites] poses in which it was active
-  std::vector<Index> positionStep_;   // [sites] the step of its position
   Coefficients residual_, expected_, like_;
-  std::vector<std::uint32_t> likeSite_, likeBelow_;  // [sites]
+  std::vector<std::uint32_t> likeSite_;  // [sites]
+  std::vector<char> likeBelow_;          // [sites]
 };
 
 }  // namespace sweepface::codec

@@ -77,15 +77,11 @@ void readPose(Decoding& d, Symbols<RangeDecoder>& symbols, CoefficientCoder<Rang
   Packing::Pose& form = d.rig.packing.poses[pose];
   codePose(symbols, form, pose);
   if (!symbols.ok()) return;
-  const Symmetry symmetry = symmetryOf(form, pose);
   Likeness like;
-  if (symmetry == Symmetry::partner)
-    like = {form.image, true};
-  else
-    codeLikeness(symbols, like, pose);
+  codeLikeness(symbols, form, like, pose);
   if (!symbols.ok()) return;
   poses[pose].resize(d.stored);
-  vectors.code(poses[pose], symmetry, partnerOf(d.rig.packing, poses, pose),
+  vectors.code(poses[pose], symmetryOf(form, pose), partnerOf(d.rig.packing, poses, pose),
                coefficientsOf(like, *d.lattice, poses), pose == 0);
   out.resize(d.stored);
   if (!d.lattice->restore(pose, poses[pose], stepOf(d.rig.packing, pose), out))

@@ -100,20 +100,18 @@ struct Poses {
 };
 
 // Poses from `first` up to `end`, 0 the neutral.
-std::string writePoses(Poses& poses, const Packing& packing, const Lattice& lattice, Index first,
-                       Index end) {
+std::string writePoses(Poses& poses, const Packing& packing, const Lattice& lattice,
+                       const Likenesses& likenesses, Index first, Index end) {
   RangeEncoder coder;
   Symbols<RangeEncoder> out(coder);
   CoefficientCoder<RangeEncoder> vectors(lattice.hierarchy(), coder, lattice.axis());
-  const Likenesses likenesses(lattice, poses.coefficients);
   for (Index pose = first; pose < end; ++pose) {
     Packing::Pose form = packing.poses[pose];
     codePose(out, form, pose);
-    const Symmetry symmetry = symmetryOf(form, pose);
-    Likeness like =
-        symmetry == Symmetry::partner ? Likeness{form.image, true} : likenesses.of(pose);
-    if (symmetry != Symmetry::partner) codeLikeness(out, like, pose);
-    vectors.code(poses.coefficients[pose], symmetry, partnerOf(packing, poses.coefficients, pose),
+    Likeness like = likenesses.of(pose);
+    codeLikeness(out, form, like, pose);
+    vectors.code(poses.coefficients[pose], symmetryOf(form, pose),
+                 partnerOf(packing, poses.coefficients, pose),
                  coefficientsOf(like, lattice, poses.coefficients), pose == 0);
   }
   return coder.finish();
@@ -180,12 +178,13 @@ std::string encode(const Rig& rig) {
   const Packing packing = sound(rig);
   Lattice lattice(rig.surface, packing);
   Poses poses(rig, packing, lattice);
+  const Likenesses likenesses(lattice, poses.coefficients);
   const auto count = static_cast<Index>(packing.poses.size());
   writeChunk(out, "BASE", base(rig, packing));
   writeChunk(out, "GRID", grid(rig.surface.wireframe(), packing));
   if (count > 1) writeChunk(out, "TNAM", targetNames(rig.targets));
-  writeChunk(out, "REST", writePoses(poses, packing, lattice, 0, 1));
-  if (count > 1) writeChunk(out, "MOVE", writePoses(poses, packing, lattice, 1, count));
+  writeChunk(out, "REST", writePoses(poses, packing, lattice, likenesses, 0, 1));
+  if (count > 1) writeChunk(out, "MOVE", writePoses(poses, packing, lattice, likenesses, 1, count));
   if (const std::string exact = exactVectors(rig, poses); !exact.empty())
     writeChunk(out, "EXAC", exact);
   if (!rig.source.loose.empty()) {

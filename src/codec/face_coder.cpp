@@ -115,10 +115,11 @@ class FaceCoder {
     const Ring ring = ringOf(quad);
     const Index start = faces_.faceStart[f], size = faces_.faceSize(f);
     if (size < 3 || size != static_cast<Index>(ring.size)) return false;
+    const Index turn = told[ring.at[0]] - start;
+    if (turn < 0 || turn >= size) return false;
     for (std::uint32_t i = 0; i < ring.size; ++i) {
       const std::uint32_t at = ring.at[i], next = ring.at[(i + 1) % ring.size];
-      if (told[at] < start || told[next] != start + (told[at] - start + 1) % size ||
-          told[next] >= start + size ||
+      if (told[at] != start + (turn + static_cast<Index>(i)) % size ||
           whichAt(grid_.quads()[quad][at], faces_.corners[told[at]]) < 0)
         return false;
       if (next != (at + 1) % 4 && told[(at + 1) % 4] != told[at]) return false;

@@ -28,7 +28,7 @@ struct Prediction {
     Index terms = 0, termsEnd = 0;
     double reach = 1;  ///< the steps of the vector are the pose's divided by this
   };
-  std::vector<Step> steps;  ///< [S] in the order of reconstruction
+  std::vector<Step> steps;  ///< [S] in the order of reconstruction: positions first, site by site
   std::vector<Term> terms;
 
   std::span<const Term> of(const Step& step) const {
@@ -53,6 +53,9 @@ class Hierarchy {
 
   /// What predicts the stored vectors of the neutral.
   const Prediction& prediction() const { return prediction_; }
+
+  /// The positions that predict a site's.
+  std::span<const Term> beside(Index site) const { return prediction_.of(prediction_.steps[site]); }
 
   /// The sites before a site that were nearest to it, along what was left of the lines when it was
   /// taken out; none for a root, or where they were not sought.

@@ -58,9 +58,13 @@ inline Coefficients partnerOf(const Packing& packing, const std::vector<Coeffici
   return inFinerSteps(poses[form.image], form.finer - packing.poses[form.image].finer);
 }
 
-/// Only of a pose that is compared with no other one's image.
+/// What a pose is like: the image that it is compared with, or else what is told.
 template <typename Coder>
-void codeLikeness(Symbols<Coder>& symbols, Likeness& like, Index pose) {
+void codeLikeness(Symbols<Coder>& symbols, const Packing::Pose& form, Likeness& like, Index pose) {
+  if (symmetryOf(form, pose) == Symmetry::partner) {
+    like = {form.image, true, false};
+    return;
+  }
   if (pose < 2 || !symbols.bit(kHasLike, 0, 0, like.pose >= 0)) return;
   const std::uint32_t back = symbols.number(
       kLikeBack, 0, 0, static_cast<std::uint64_t>(std::max(0, pose - 1 - like.pose)));

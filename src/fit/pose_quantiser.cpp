@@ -27,13 +27,7 @@ class PoseQuantiser {
         q_(q),
         touched_(task_.errors.size(), 0) {
     siteOf_.resize(q.size());
-    positionStep_.resize(h_.sites().size());
-    for (std::size_t k = 0; k < steps_.size(); ++k) {
-      const auto& step = steps_[k];
-      siteOf_[step.vector] = step.site;
-      if (step.vector == h_.sites()[step.site].first)
-        positionStep_[step.site] = static_cast<Index>(k);
-    }
+    for (const Prediction::Step& step : steps_) siteOf_[step.vector] = step.site;
     for (int a = 0; a < 3; ++a)
       for (const Vec3& e : task_.errors)
         error_[a].push_back(static_cast<float>(a == 0 ? e.x : a == 1 ? e.y : e.z));
@@ -184,8 +178,7 @@ class PoseQuantiser {
   double siteBits(Index site) const {
     constexpr std::array<double, 5> kBits{8, 6, 5, 4.5, 4};
     std::size_t moved = 0;
-    for (const Term& t : h_.prediction().of(steps_[positionStep_[site]]))
-      moved += inVector_[t.vector] > 0;
+    for (const Term& t : h_.beside(site)) moved += inVector_[t.vector] > 0;
     return kBits[std::min(moved, kBits.size() - 1)];
   }
 
@@ -322,9 +315,8 @@ class PoseQuantiser {
   PoseTask task_;
   float step_;
   Coefficients& q_;
-  std::vector<Index> siteOf_;        // [S]
-  std::vector<Index> positionStep_;  // [sites] the step of its position
-  std::vector<float> perSquare_;     // [vertices] 1 / bound²
+  std::vector<Index> siteOf_;     // [S]
+  std::vector<float> perSquare_;  // [vertices] 1 / bound²
   std::array<std::vector<float>, 3> error_;
   std::vector<int> inSite_, inVector_;  // coefficients that are not zero
   std::vector<char> wanted_;            // [S]

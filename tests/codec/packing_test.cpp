@@ -77,6 +77,8 @@ TEST(Hierarchy, KnowsTheSiteOfEveryVector) {
       EXPECT_GE(step.vector, sites[step.site].first);
       EXPECT_LT(step.vector, sites[step.site].first + sites[step.site].count);
     }
+    for (std::size_t s = 0; s < sites.size(); ++s)
+      EXPECT_EQ(lattice.prediction(0).steps[s].vector, sites[s].first);
   }
 }
 
