@@ -161,8 +161,8 @@ std::string linePlot(const std::string& title, const Axis& x, const Axis& y,
   }
   svg += line(left, bottom, right, bottom, kSoft);
   svg += text(0.5 * (left + right), bottom + 42, "middle", x.title);
-  svg += text(16, 0.5 * (top + bottom), "middle", y.title, kSoft,
-              fmt::format(" transform=\"rotate(-90 16 {})\"", 0.5 * (top + bottom)));
+  svg += text(12, 0.5 * (top + bottom), "middle", y.title, kSoft,
+              fmt::format(" transform=\"rotate(-90 12 {})\"", 0.5 * (top + bottom)));
   for (const Series& s : series) {
     std::string points;
     for (const Vec2& p : s.points)
