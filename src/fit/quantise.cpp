@@ -199,9 +199,7 @@ class Quantiser {
   // bound cannot be met: in the end they are as good as the fit.
   bool settle(Index pose, const std::vector<float>& bounds) {
     Packing::Pose& form = rig_.packing.poses[pose];
-    const Symmetry symmetry = form.image < 0       ? Symmetry::none
-                              : form.image == pose ? Symmetry::self
-                                                   : Symmetry::partner;
+    const Symmetry symmetry = codec::symmetryOf(form, pose);
     const std::vector<Vec3> fitted = vectorsOf(pose);
     // From its image, then from itself, in ever finer steps: those of its partner to begin with.
     bool done = false;
@@ -216,9 +214,11 @@ class Quantiser {
       task.step = codec::stepOf(rig_.packing, pose);
       task.symmetry = symmetry;
       task.bounds = bounds;
-      if (symmetry == Symmetry::partner)
-        task.expected = lattice_->image(codec::inFinerSteps(
-            poses_[form.image], form.finer - rig_.packing.poses[form.image].finer));
+      if (symmetry == Symmetry::partner) {
+        task.expected.resize(fitted.size());
+        for (const codec::Moved& m : codec::partnerOf(rig_.packing, *lattice_, poses_, pose))
+          task.expected[m.vector] = m.steps;
+      }
       Coefficients q =
           lattice_->round(pose, form.finer < kFaithful ? fitted : compensated(fitted), task.step);
       if (fromImage) symmetrise(q, symmetry, task.expected);
