@@ -15,7 +15,6 @@ struct Slopes {
     float lean = 0;                 ///< along the normal: an angle in radians
     std::array<float, 3> normal{};  ///< of the surface
     float perLength = 0;
-    float strain() const { return error[0] * error[0] + error[1] * error[1] + error[2] * error[2]; }
   };
   std::vector<std::array<Tangent, 2>> at;  ///< [vertices]
   float weight = 0;                        ///< what the square of a lean counts, in bits
