@@ -46,12 +46,13 @@ PoseErrors::PoseErrors(const Columns& columns, const PoseTask& task)
               0,
               0,
               {}};
+    const float stress = task.stress.empty() ? 1 : task.stress[u];
     for (int side = 0; side < 2; ++side) {
       const Slopes::Tangent& t = task.slopes.at[u][side];
-      vertex.tangent[side] = {{t.error[0], t.error[1], t.error[2]},
+      vertex.tangent[side] = {{stress * t.error[0], stress * t.error[1], stress * t.error[2]},
                               {t.normal[0], t.normal[1], t.normal[2]},
-                              t.lean,
-                              t.perLength,
+                              stress * t.lean,
+                              stress * t.perLength,
                               0};
     }
     refresh(u);

@@ -28,7 +28,8 @@ struct PoseTask {
   std::vector<Vec3> errors;      ///< [vertices] how far off the pose is to begin with
   std::vector<float> bounds;     ///< [vertices] how far off it may be
   Slopes slopes;
-  std::vector<char> frozen;  ///< [S] or empty: stays unless a bound is passed
+  std::vector<float> stress;  ///< [vertices] or empty: times that tangents count there
+  std::vector<char> frozen;   ///< [S] or empty: stays unless a bound is passed
 };
 
 /// Looks for coefficients that cost few bits while vertex errors stay within their bounds:

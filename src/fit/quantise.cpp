@@ -247,26 +247,34 @@ class Quantiser {
     return within(errorsOf(pose, q));
   }
 
-  // Where the surface turned over it goes back to the fit, and stays there. Whether it does so no
-  // more than the fit.
+  // Where the surface turned over it goes back to the fit, and stays there; if that does not do,
+  // tangents count more there. Whether it turns over no more than the fit then.
   bool unfold(Index pose, PoseTask& task, const std::vector<Vec3>& fitted, Coefficients& q) {
     constexpr int kRounds = 4;
+    constexpr float kMore = 1.5f;
     const std::vector<Vec3> faithful = compensated(fitted);
     const std::size_t own = foldsOf(pose, faithful).size() * 9 / 8;  // a few more will do
-    std::vector<Index> corners = foldsOf(pose, restored(pose, q, task.step));
-    std::size_t least = corners.size();
-    task.frozen.assign(q.size(), 0);
-    Coefficients trial = q;
-    for (int round = 0; round < kRounds && corners.size() > own; ++round) {
-      std::vector<Vec3> vectors = restored(pose, trial, task.step);
-      for (const Index v : behind(corners)) task.frozen[v] = 1;
-      for (std::size_t v = 0; v < vectors.size(); ++v)
-        if (task.frozen[v]) vectors[v] = faithful[v];
-      trial = lattice_->round(pose, vectors, task.step);
-      const bool met = improve(pose, task, fitted, trial);
-      std::vector<Index> left = foldsOf(pose, restored(pose, trial, task.step));
-      if (met && left.size() < least) least = left.size(), q = trial;
-      corners = std::move(left);
+    const Coefficients first = q;
+    const std::vector<Index> folded = foldsOf(pose, restored(pose, q, task.step));
+    std::size_t least = folded.size();
+    task.stress.assign(grid_.vertexCount(), 1);
+    for (const bool stays : {true, false}) {
+      Coefficients trial = first;
+      std::vector<Index> corners = folded;
+      task.frozen.assign(stays ? q.size() : 0, 0);
+      for (int round = 0; round < kRounds && least > own; ++round) {
+        std::vector<Vec3> vectors = restored(pose, trial, task.step);
+        for (const Index v : behind(corners)) {
+          vectors[v] = faithful[v];
+          if (stays) task.frozen[v] = 1;
+        }
+        if (!stays)
+          for (const Index u : corners) task.stress[u] *= kMore;
+        trial = lattice_->round(pose, vectors, task.step);
+        const bool met = improve(pose, task, fitted, trial);
+        corners = foldsOf(pose, restored(pose, trial, task.step));
+        if (met && corners.size() < least) least = corners.size(), q = trial;
+      }
     }
     return least <= own;
   }
