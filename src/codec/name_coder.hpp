@@ -30,15 +30,10 @@ class NameCoder {
   }
 
   std::string code(std::string_view name) {
-    std::string result;
-    while (s_.ok()) {
-      const std::size_t k = result.size();
-      const char c = codeLetter(k < name.size() ? name[k] : '\0');
-      if (c == 0) break;
-      result += c;
+    const std::size_t begin = text_.size();
+    for (std::size_t k = 0; codeLetter(k < name.size() ? name[k] : '\0') != 0 && s_.ok(); ++k)
       if (k >= 4096) s_.refuse("a name is too long");
-    }
-    return result;
+    return {text_.begin() + static_cast<std::ptrdiff_t>(begin), text_.end() - 1};
   }
 
  private:
