@@ -104,7 +104,7 @@ class CoefficientCoder {
         std::bit_ceil(std::clamp<std::size_t>(32 * vectors, 1 << 10, 1 << 18)));
   }
   static constexpr std::uint32_t kMostBits = 28;
-  static constexpr int kInputs = 7, kPhases = 6, kSets = 512;
+  static constexpr int kInputs = 5, kPhases = 6, kSets = 512;
 
   enum BitKind { kAny, kBelow, kVector, kZero, kSign, kMore };
 
@@ -188,8 +188,12 @@ class CoefficientCoder {
   bool bit(BitKind kind, int sub, bool value, std::array<std::uint32_t, kInputs> contexts) {
     for (int k = 0; k < kInputs; ++k)
       contexts[k] = hash(contexts[k] * kInputs + k, kind * 64 + sub) & mask_;
-    return model_.code(value, contexts, (phase_ * 6 + kind) * 8 + std::min(sub, 7));
+    value = model_.code(value, contexts, (phase_ * 6 + kind) * 8 + std::min(sub, 7));
+    recent_ = recent_ << 4 ^ static_cast<std::uint32_t>(2 * (kind ^ sub) + value);
+    return value;
   }
+  // A context with the last three bits, of whatever kind.
+  std::uint32_t recently(std::uint32_t context) const { return context << 12 | (recent_ & 0xfff); }
 
   static std::uint32_t bucket(std::int32_t x) {
     x = std::abs(x);
@@ -214,18 +218,16 @@ class CoefficientCoder {
     const std::uint32_t p = phase_;
     bool any = active_[s];
     any = bit(kAny, site.leaf, any,
-              {p * 64 + level * 8 + parent, (p * 8 + past) * 8 + near, (p * 8 + near) * 8 + level,
-               static_cast<std::uint32_t>(s) * 8 + p, (p * 4 + mirrored) * 8 + near,
-               ((p * 8 + past) * 8 + level) * 8 + near,
+              {recently(p * 64 + level * 8 + parent), static_cast<std::uint32_t>(s) * 8 + p,
+               (p * 4 + mirrored) * 8 + near, ((p * 8 + past) * 8 + level) * 8 + near,
                ((p * 16 + likeSite_[s]) * 8 + near) * 2 + likeBelow_[s]});
     active_[s] = any;
-    if (any) codeVectors(s, level, near);
+    if (any) codeVectors(s, level);
     if (!site.leaf) {
       bool below = below_[s];
       below = bit(kBelow, any, below,
-                  {p * 64 + level * 8 + parent, (p * 8 + past) * 8 + near, (p * 8 + near) * 2 + any,
-                   static_cast<std::uint32_t>(s) * 8 + p, (p * 4 + mirrored) * 2 + any,
-                   ((p * 8 + past) * 8 + level) * 2 + any,
+                  {recently(p * 64 + level * 8 + parent), static_cast<std::uint32_t>(s) * 8 + p,
+                   (p * 4 + mirrored) * 2 + any, ((p * 8 + past) * 8 + level) * 2 + any,
                    ((p * 16 + likeSite_[s]) * 2 + any) * 2 + likeBelow_[s]});
       below_[s] = below;
     } else {
@@ -233,7 +235,7 @@ class CoefficientCoder {
     }
   }
 
-  void codeVectors(Index s, std::uint32_t level, std::uint32_t near) {
+  void codeVectors(Index s, std::uint32_t level) {
     const CodedSite& site = h_.sites()[s];
     std::uint32_t before = 0;
     for (Index k = 0; k < site.count; ++k) {
@@ -244,9 +246,8 @@ class CoefficientCoder {
       } else {
         const std::uint32_t p = phase_, shape = site.count * 8 + k;
         moved = bit(kVector, std::min<int>(k, 7), moved,
-                    {(p * 64 + shape) * 64 + before, p * 64 + shape, (p * 8 + near) * 64 + shape,
-                     static_cast<std::uint32_t>(v) * 8 + p, (p * 8 + level) * 64 + shape,
-                     (p * 8 + level) * 64 + before,
+                    {recently(0), (p * 64 + shape) * 64 + before,
+                     static_cast<std::uint32_t>(v) * 8 + p, (p * 8 + level) * 64 + before,
                      ((p * 16 + likeSite_[s]) * 2 + isMoved(like_[v])) * 128 + shape});
       }
       before = before * 2 + moved;
@@ -275,20 +276,18 @@ class CoefficientCoder {
       if (a == 2 && pattern == 0)
         moved = true;
       else
-        moved =
-            bit(kZero, order, moved,
-                {place * 16 + pattern, place * 8 + by, place * 8 + level,
-                 (static_cast<std::uint32_t>(v) * 4 + a) * 8 + p, (place * 8 + by) * 16 + pattern,
-                 (place * 8 + level) * 16 + pattern, (place * 16 + likeSite_[s]) * 16 + alike});
+        moved = bit(kZero, order, moved,
+                    {recently(0), place * 16 + pattern, place * 8 + by,
+                     (static_cast<std::uint32_t>(v) * 4 + a) * 8 + p,
+                     (place * 16 + likeSite_[s]) * 16 + alike});
       std::uint32_t size = 0;
       if (moved) {
         bool negative = r[a] < 0;
         const std::uint32_t lean = way(around[a]);
         negative =
             bit(kSign, order, negative,
-                {place * 4 + lean, (static_cast<std::uint32_t>(v) * 4 + a) * 8 + p, place,
-                 (place * 4 + lean) * 8 + level, place * 16 + pattern,
-                 (place * 8 + level) * 16 + pattern, (place * 4 + way(like_[v][a])) * 4 + lean});
+                {recently(0), place * 16 + pattern, (static_cast<std::uint32_t>(v) * 4 + a) * 8 + p,
+                 (place * 4 + lean) * 8 + level, (place * 4 + way(like_[v][a])) * 4 + lean});
         const std::uint32_t others = ((order * 3 + a) * 8 + largest(r, a)) * 8 + largest(around, 3);
         size = magnitude(static_cast<std::uint32_t>(std::abs(r[a])), place, by, level, v * 4 + a,
                          others, alike);
@@ -316,20 +315,18 @@ class CoefficientCoder {
                           std::uint32_t alike) {
     std::uint32_t n = 1;
     while (n < kMostBits) {
-      const bool more =
-          bit(kMore, static_cast<int>(std::min(n, 8u)), size >> n != 0,
-              {place * 32 + n, (place * 8 + by) * 32 + n, (place * 8 + level) * 32 + n, v * 32 + n,
-               others * 32 + n, (by * 8 + level) * 32 + n, (place * 8 + alike) * 32 + n});
+      const bool more = bit(kMore, static_cast<int>(std::min(n, 8u)), size >> n != 0,
+                            {recent_ & 0xffff, v * 32 + n, others * 32 + n,
+                             (by * 8 + level) * 32 + n, (place * 8 + alike) * 32 + n});
       if (!more) break;
       ++n;
     }
     std::uint32_t value = 1;
     for (std::uint32_t b = n - 1; b-- > 0;) {
       const std::uint32_t top = n - 1 - b, known = top < 4 ? value : 16 + top;
-      const bool one = bit(
-          kMore, 9 + std::min(top, 3u), size >> b & 1,
-          {(known * 32 + n) * 64 + place, (known * 32 + n) * 8 + by, (known * 32 + n) * 8 + level,
-           known * 32 + n, (known * 32 + n) * 2048 + others, top, (known * 32 + n) * 8 + alike});
+      const bool one = bit(kMore, 9 + std::min(top, 3u), size >> b & 1,
+                           {recently(0), (known * 32 + n) * 64 + place,
+                            (known * 32 + n) * 2048 + others, top, (known * 32 + n) * 8 + alike});
       value = value << 1 | static_cast<std::uint32_t>(one);
     }
     return value;
@@ -339,7 +336,7 @@ class CoefficientCoder {
   int axis_;
   std::uint32_t mask_;  // of slots
   Model<Coder, kInputs> model_;
-  std::uint32_t phase_ = 0;
+  std::uint32_t phase_ = 0, recent_ = 0;        // the last bits with their kinds, four each
   std::vector<Index> siteOf_;                   // [S]
   std::vector<char> active_, below_, mirrors_;  // [sites]
   std::vector<Index> history_;                  // [sites] poses in which it was active

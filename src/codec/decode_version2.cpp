@@ -5,6 +5,7 @@
 #include "codec/blocks.hpp"
 #include "codec/decoding.hpp"
 #include "codec/limits.hpp"
+#include "codec/name_coder.hpp"
 #include "codec/pose_form.hpp"
 #include "codec/source_coder.hpp"
 #include "codec/turns.hpp"
@@ -67,8 +68,11 @@ void readGrid(Decoding& d, Reader& in) {
 
 void readTargetNames(Decoding& d, Reader& in) {
   decodeRest(in, [&](RangeDecoder&, Symbols<RangeDecoder>& symbols) {
-    for (std::size_t k = 0; k < d.targets && symbols.ok() && in.ok(); ++k)
-      d.addTarget(in, codeName(symbols, ""));
+    NameCoder names(symbols);
+    for (std::size_t k = 0; k < d.targets && symbols.ok() && in.ok(); ++k) {
+      const std::string name = names.code("");
+      if (d.afford(in, name.size(), kBytesALetter)) d.addTarget(in, name);
+    }
   });
 }
 

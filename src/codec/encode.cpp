@@ -8,6 +8,7 @@
 #include "codec/encoding.hpp"
 #include "codec/lattice.hpp"
 #include "codec/likeness.hpp"
+#include "codec/name_coder.hpp"
 #include "codec/names.hpp"
 #include "codec/pose_form.hpp"
 #include "codec/turns.hpp"
@@ -41,7 +42,8 @@ std::string grid(const Wireframe& wireframe, const Packing& packing) {
 
 std::string targetNames(const std::vector<Target>& targets) {
   return ranged([&](auto& out) {
-    for (const Target& target : targets) codeName(out, target.name);
+    NameCoder names(out);
+    for (const Target& target : targets) names.code(target.name);
   });
 }
 

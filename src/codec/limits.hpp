@@ -17,8 +17,10 @@ inline constexpr std::size_t kMostQuads = std::size_t{1} << 22, kQuadsAByte = 10
                              kQuadsAnyway = 65536;
 
 /// What a patch of the wireframe with its nodes and arcs, a stored vector of a pose, and a quad at
-/// level 1 with its corners take while a file is read, in bytes, rounded up from measurements.
-inline constexpr std::size_t kBytesAPatch = 4000, kBytesAVector = 40, kBytesAQuad = 400;
+/// level 1 with its corners and a letter of a name take while a file is read, in bytes, rounded up
+/// from measurements.
+inline constexpr std::size_t kBytesAPatch = 4000, kBytesAVector = 40, kBytesAQuad = 400,
+                             kBytesALetter = 4;
 
 constexpr std::size_t within(std::size_t most, std::size_t eachByte, std::size_t anyway,
                              std::size_t bytes) {

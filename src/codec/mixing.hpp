@@ -52,7 +52,7 @@ class Model {
  public:
   Model(Coder& coder, std::size_t slots, std::size_t sets)
       : coder_(&coder), stretch_(stretchTable().data()), slots_(slots) {
-    weights_.assign(sets * kInputs, (1 << 15) * 3 / (kInputs + 1));
+    weights_.assign(sets * kInputs, (1 << 18) / 3 / (kInputs + 1));
   }
 
   /// `contexts` are a slot for each input.

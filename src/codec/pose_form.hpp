@@ -1,7 +1,5 @@
 #pragma once
 
-#include <string>
-
 #include "sweepface/rig.hpp"
 
 #include "codec/lattice.hpp"
@@ -16,7 +14,6 @@ enum RigTag : std::uint32_t {
   kMirrorAxis = 40,
   kMirrorCount = 41,
   kMirrorArc = 43,
-  kLetter = 44,
   kFiner = 45,
   kHasImage = 47,
   kOwnImage = 48,
@@ -26,25 +23,6 @@ enum RigTag : std::uint32_t {
   kLikeMirrored = 54,
   kLikeNegated = 55
 };
-
-/// Bytes up to a zero, each by those before it.
-template <typename Coder>
-std::string codeName(Symbols<Coder>& symbols, std::string_view name) {
-  std::string result;
-  std::uint32_t past = 0;
-  for (std::size_t k = 0; symbols.ok(); ++k) {
-    const std::uint32_t letter = k < name.size() ? static_cast<unsigned char>(name[k]) : 0;
-    std::uint32_t known = 1;
-    for (int b = 8; b-- > 0;)
-      known = known << 1 |
-              symbols.bit(kLetter, known * 256 + (past & 255), past >> 8 & 0xffff, letter >> b & 1);
-    if ((known & 255) == 0) break;
-    result += static_cast<char>(known & 255);
-    past = past << 8 | (known & 255);
-    if (result.size() > 4096) symbols.refuse("a name is too long");
-  }
-  return result;
-}
 
 /// What a pose is like: the image that it is compared with, or else what is told.
 template <typename Coder>

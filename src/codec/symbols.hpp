@@ -23,8 +23,12 @@ class Symbols {
   explicit Symbols(Coder& coder) : model_(coder, kSlots, kSets) {}
 
   bool bit(std::uint32_t tag, std::uint32_t a, std::uint32_t b, bool value) {
-    return model_.code(value, {{slot(tag, 1, 0), slot(tag, a + 2, 1), slot(tag, a * 521 + b, 2)}},
-                       tag % kSets);
+    value = model_.code(value,
+                        {{slot(tag, recent_, 0), slot(tag, a * 521 + (recent_ & 4095), 1),
+                          slot(tag, a * 521 + b, 2)}},
+                        tag % kSets);
+    recent_ = recent_ << 4 ^ (2 * tag + value);
+    return value;
   }
 
   /// Below 2^32, by the length in bits (unary) and then the bits (Elias 1975).
@@ -74,7 +78,7 @@ class Symbols {
   }
 
  private:
-  static constexpr std::size_t kSlots = std::size_t{1} << 14, kSets = 64;
+  static constexpr std::size_t kSlots = std::size_t{1} << 15, kSets = 64;
 
   static std::uint32_t slot(std::uint32_t tag, std::uint32_t context, std::uint32_t input) {
     std::uint32_t x = (context * 3 + input) * 0x9e3779b1u + tag * 0x85ebca6bu;
@@ -85,6 +89,7 @@ class Symbols {
   }
 
   Model<Coder, 3> model_;
+  std::uint32_t recent_ = 0;  // the last eight bits with their tags; the last three below 2^12
   bool ok_ = true;
   std::string problem_;
 };

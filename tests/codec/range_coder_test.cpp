@@ -82,6 +82,14 @@ TEST(Symbols, GiveBackNumbersOfAnySize) {
   EXPECT_TRUE(in.ok());
 }
 
+TEST(Symbols, LearnWhatFollowsWhat) {
+  RangeEncoder coder;
+  Symbols<RangeEncoder> out(coder);
+  const std::string_view pattern = "0110100";
+  for (std::size_t k = 0; k < 700; ++k) out.bit(1, 0, 0, pattern[k % pattern.size()] == '1');
+  EXPECT_LE(coder.finish().size(), 12u);  // 86 if every bit stood alone
+}
+
 TEST(Symbols, RefuseAnIndexOutOfRange) {
   RangeEncoder coder;
   Symbols<RangeEncoder> out(coder);
