@@ -154,7 +154,7 @@ class WireframeCoder {
   void codeMasks() {
     const auto connectivity = Connectivity::make(w_);
     if (!connectivity)
-      return s_.refuse("the wireframe is unsound: " + connectivity.error().message);
+      return s_.refuseWith({"the wireframe is unsound: ", connectivity.error().message});
     for (Index n = 0; n < static_cast<Index>(w_.nodes.size()); ++n) {
       const std::uint32_t x = lineClass(w_, *connectivity, n, 0),
                           y = lineClass(w_, *connectivity, n, 1);
