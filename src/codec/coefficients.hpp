@@ -19,6 +19,13 @@ inline bool isMoved(const Steps3& v) { return (v[0] | v[1] | v[2]) != 0; }
 /// The stored vectors of a pose [S] as multiples of their steps beyond their predictions.
 using Coefficients = std::vector<Steps3>;
 
+/// The vectors of a pose that are not zero, in ascending order.
+struct Moved {
+  Index vector;
+  Steps3 steps;
+};
+using Sparse = std::vector<Moved>;
+
 /// What the coefficients of a pose are compared with before they are coded.
 enum class Symmetry {
   none,    ///< with nothing
@@ -26,16 +33,22 @@ enum class Symmetry {
   partner  ///< with the mirror image of an earlier pose
 };
 
+/// What the mirror image of a vector says of it.
+inline Steps3 reflected(Steps3 v, int sign, int axis) {
+  for (int k = 0; k < 3; ++k)
+    if ((k == axis) == (sign > 0)) v[k] = -v[k];
+  return v;
+}
+
 /// The same in steps that are 2^finer times smaller, or larger where `finer` is negative.
-inline Coefficients inFinerSteps(Coefficients q, int finer) {
+inline Steps3 inFinerSteps(Steps3 v, int finer) {
   constexpr std::int64_t kMost = 1 << 26;
-  for (Steps3& v : q)
-    for (std::int32_t& x : v) {
-      const std::int64_t y =
-          finer >= 0 ? x * (std::int64_t{1} << std::min(finer, 30)) : x >> std::min(-finer, 30);
-      x = static_cast<std::int32_t>(std::clamp(y, -kMost, kMost));
-    }
-  return q;
+  for (std::int32_t& x : v) {
+    const std::int64_t y =
+        finer >= 0 ? x * (std::int64_t{1} << std::min(finer, 30)) : x >> std::min(-finer, 30);
+    x = static_cast<std::int32_t>(std::clamp(y, -kMost, kMost));
+  }
+  return v;
 }
 
 /// Codes the coefficients of one pose after the other, coarse to fine; learns as it goes. Reader
@@ -51,41 +64,35 @@ class CoefficientCoder {
     const std::size_t sites = h_.sites().size();
     active_.resize(sites);
     below_.resize(sites);
+    mirrors_.resize(sites);
+    likeSite_.resize(sites);
+    likeBelow_.resize(sites);
     history_.assign(sites, 0);
+    siteOf_.resize(hierarchy.prediction().steps.size());
+    for (std::size_t s = 0; s < sites; ++s)
+      std::fill_n(siteOf_.begin() + h_.sites()[s].first, h_.sites()[s].count,
+                  static_cast<Index>(s));
+    residual_.resize(siteOf_.size());
+    like_.resize(siteOf_.size());
   }
 
-  /// What is read comes to a `q` of zeros. `like` tells what to expect: a pose that moves much the
-  /// same, or nothing.
-  void code(Coefficients& q, Symmetry symmetry, const Coefficients& partner, Coefficients like,
-            bool neutral) {
+  /// What is read comes to a `q` of zeros. `expected` is what a partner's image predicts. `like`
+  /// tells what else to expect: a pose that moves much the same, or nothing.
+  void code(Coefficients& q, Symmetry symmetry, const Sparse& expected, Sparse like, bool neutral) {
+    lookAt(std::move(like));
+    if constexpr (kWrites<Coder>)
+      compare(q, symmetry, expected);
+    else
+      begin(q, expected);
     const auto& sites = h_.sites();
-    lookAt(std::move(like), q.size());
-    residual_.assign(q.size(), Steps3{});
-    constexpr bool writing = kWrites<Coder>;
-    expected_.assign(q.size(), Steps3{});
-    if (symmetry == Symmetry::partner) expect(partner, false);
-    if (writing) {
-      if (symmetry == Symmetry::self) expect(q, true);
-      for (std::size_t v = 0; v < q.size(); ++v)
-        for (int k = 0; k < 3; ++k) residual_[v][k] = q[v][k] - expected_[v][k];
-      markBelow();
-    } else {
-      std::fill(active_.begin(), active_.end(), 0);
-      std::fill(below_.begin(), below_.end(), 0);
-    }
     for (Index s = 0; s < static_cast<Index>(sites.size()); ++s) {
       const CodedSite& site = sites[s];
+      const bool follows = symmetry == Symmetry::self && site.mirror >= 0 && site.mirror < s;
       phase_ = neutral ? 0 : symmetry == Symmetry::partner ? 3 : 1;
-      if (symmetry == Symmetry::self && site.mirror >= 0 && site.mirror < s)
-        phase_ += neutral ? 4 : 1;
-      const bool coded = site.parent < 0 || below_[site.parent];
-      if (coded) codeSite(s);
-      if (writing || (!coded && symmetry == Symmetry::none)) continue;
-      // Fill in what the image predicts; later sites of this pose may be images of this one.
-      for (Index v = site.first; v < site.first + site.count; ++v) {
-        if (symmetry == Symmetry::self && site.mirror >= 0 && site.mirror < s) image(q, v);
-        for (int k = 0; k < 3; ++k) q[v][k] = residual_[v][k] + expected_[v][k];
-      }
+      if (follows) phase_ += neutral ? 4 : 1;
+      if (site.parent < 0 || below_[site.parent]) codeSite(s);
+      // Later sites of this pose may be images of this one.
+      if constexpr (!kWrites<Coder>) fillIn(q, s, follows);
     }
     for (std::size_t s = 0; s < sites.size(); ++s) history_[s] += active_[s];
   }
@@ -101,54 +108,74 @@ class CoefficientCoder {
 
   enum BitKind { kAny, kBelow, kVector, kZero, kSign, kMore };
 
-  // The image of another pose's vector, negated along the mirror's axis.
-  void image(const Coefficients& from, Index v) {
-    const Hierarchy::Image& i = h_.images()[v];
-    if (i.vector < 0) return;
-    for (int k = 0; k < 3; ++k)
-      expected_[v][k] = (k == axis_ ? -i.sign : i.sign) * from[i.vector][k];
-  }
-  void expect(const Coefficients& from, bool self) {
-    for (Index s = 0; s < static_cast<Index>(h_.sites().size()); ++s) {
-      const CodedSite& site = h_.sites()[s];
-      if (site.mirror < 0 || (self && site.mirror >= s)) continue;
-      for (Index v = site.first; v < site.first + site.count; ++v) image(from, v);
-    }
+  Steps3 imageAt(const Coefficients& q, Index v) const {
+    const Hierarchy::Image& image = h_.images()[v];
+    return image.vector < 0 ? Steps3{} : reflected(q[image.vector], image.sign, axis_);
   }
 
-  void lookAt(Coefficients like, std::size_t vectors) {
+  // What is coded: the difference from what images predict.
+  void compare(const Coefficients& q, Symmetry symmetry, const Sparse& expected) {
+    residual_ = q;
+    const auto subtract = [&](Index v, const Steps3& image) {
+      for (int k = 0; k < 3; ++k) residual_[v][k] -= image[k];
+    };
+    for (const Moved& m : expected) subtract(m.vector, m.steps);
     const auto& sites = h_.sites();
-    const bool none = like.empty();
-    like_ = std::move(like);
-    like_.resize(vectors);
-    likeSite_.assign(sites.size(), 0);
-    likeBelow_.assign(sites.size(), 0);
-    if (none) return;
-    for (std::size_t s = 0; s < sites.size(); ++s) {
-      const auto vectorsOfSite = std::span(like_).subspan(sites[s].first, sites[s].count);
-      const bool slopes = std::ranges::any_of(vectorsOfSite.subspan(1), isMoved);
-      likeSite_[s] = 1 + slopes + 2 * std::min(largest(vectorsOfSite[0], 3), 3u);
-    }
-    passUp(likeBelow_, [&](std::size_t s) { return likeSite_[s] > 1; });
-  }
-
-  // Marks every site with one below it that moves.
-  template <typename Moves>
-  void passUp(std::vector<char>& below, Moves moves) const {
-    const auto& sites = h_.sites();
-    for (std::size_t s = sites.size(); s-- > 0;)
-      if (sites[s].parent >= 0 && (below[s] || moves(s))) below[sites[s].parent] = 1;
-  }
-
-  void markBelow() {
-    const auto& sites = h_.sites();
-    for (std::size_t s = 0; s < sites.size(); ++s) {
+    for (Index s = 0; s < static_cast<Index>(sites.size()); ++s) {
+      const CodedSite& site = sites[s];
+      const bool follows = symmetry == Symmetry::self && site.mirror >= 0 && site.mirror < s;
       active_[s] = 0;
-      for (Index v = sites[s].first; v < sites[s].first + sites[s].count; ++v)
+      for (Index v = site.first; v < site.first + site.count; ++v) {
+        if (follows) subtract(v, imageAt(q, v));
         active_[s] |= isMoved(residual_[v]);
+      }
     }
-    below_.assign(sites.size(), 0);
-    passUp(below_, [&](std::size_t s) { return active_[s] != 0; });
+    std::ranges::fill(below_, 0);
+    for (std::size_t s = sites.size(); s-- > 0;)
+      if (active_[s]) passUp(below_, static_cast<Index>(s));
+  }
+
+  void begin(Coefficients& q, const Sparse& expected) {
+    for (const Index v : told_) residual_[v] = {};
+    told_.clear();
+    std::ranges::fill(active_, 0);
+    std::ranges::fill(below_, 0);
+    std::ranges::fill(mirrors_, 0);
+    for (const Moved& m : expected) q[m.vector] = m.steps;
+  }
+
+  // Adds what was read of a site to what its image says, where it `follows` that.
+  void fillIn(Coefficients& q, Index s, bool follows) {
+    const CodedSite& site = h_.sites()[s];
+    const bool mirrors = follows && mirrors_[site.mirror];
+    if (!mirrors && !active_[s]) return;
+    mirrors_[s] = 1;
+    for (Index v = site.first; v < site.first + site.count; ++v) {
+      if (mirrors) q[v] = imageAt(q, v);
+      for (int k = 0; k < 3; ++k) q[v][k] += residual_[v][k];
+    }
+  }
+
+  void lookAt(Sparse like) {
+    for (const Moved& m : likes_) like_[m.vector] = {};
+    likes_ = std::move(like);
+    std::ranges::fill(likeSite_, likes_.empty() ? 0 : 1);
+    std::ranges::fill(likeBelow_, 0);
+    for (const Moved& m : likes_) {
+      const Index s = siteOf_[m.vector];
+      like_[m.vector] = m.steps;
+      if (m.vector == h_.sites()[s].first)
+        likeSite_[s] += 2 * std::min(largest(m.steps, 3), 3u);
+      else
+        likeSite_[s] += likeSite_[s] & 1;  // slopes: once
+      passUp(likeBelow_, s);
+    }
+  }
+
+  // Marks what a site that moves is below.
+  void passUp(std::vector<char>& below, Index s) const {
+    const auto& sites = h_.sites();
+    for (Index up = sites[s].parent; up >= 0 && !below[up]; up = sites[up].parent) below[up] = 1;
   }
 
   static std::uint32_t hash(std::uint32_t a, std::uint32_t b) {
@@ -223,7 +250,9 @@ class CoefficientCoder {
                      ((p * 16 + likeSite_[s]) * 2 + isMoved(like_[v])) * 128 + shape});
       }
       before = before * 2 + moved;
-      if (moved) codeVector(s, k, v, level);
+      if (!moved) continue;
+      codeVector(s, k, v, level);
+      if constexpr (!kWrites<Coder>) told_.push_back(v);
     }
   }
 
@@ -311,9 +340,12 @@ class CoefficientCoder {
   std::uint32_t mask_;  // of slots
   Model<Coder, kInputs> model_;
   std::uint32_t phase_ = 0;
-  std::vector<char> active_, below_;  // [sites]
-  std::vector<Index> history_;        // [sites] poses in which it was active
-  Coefficients residual_, expected_, like_;
+  std::vector<Index> siteOf_;                   // [S]
+  std::vector<char> active_, below_, mirrors_;  // [sites]
+  std::vector<Index> history_;                  // [sites] poses in which it was active
+  Coefficients residual_, like_;                // [S]
+  std::vector<Index> told_;                     // of the residuals, those that were read
+  Sparse likes_;
   std::vector<std::uint32_t> likeSite_;  // [sites]
   std::vector<char> likeBelow_;          // [sites]
 };

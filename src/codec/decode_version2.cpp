@@ -81,8 +81,9 @@ void readPose(Decoding& d, Symbols<RangeDecoder>& symbols, CoefficientCoder<Rang
   codeLikeness(symbols, form, like, pose);
   if (!symbols.ok()) return;
   poses[pose].resize(d.stored);
-  vectors.code(poses[pose], symmetryOf(form, pose), partnerOf(d.rig.packing, poses, pose),
-               coefficientsOf(like, *d.lattice, poses), pose == 0);
+  vectors.code(poses[pose], symmetryOf(form, pose),
+               partnerOf(d.rig.packing, *d.lattice, poses, pose), movedIn(like, *d.lattice, poses),
+               pose == 0);
   out.resize(d.stored);
   if (!d.lattice->restore(pose, poses[pose], stepOf(d.rig.packing, pose), out))
     symbols.refuse("a coordinate is not finite");

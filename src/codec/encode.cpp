@@ -111,8 +111,8 @@ std::string writePoses(Poses& poses, const Packing& packing, const Lattice& latt
     Likeness like = likenesses.of(pose);
     codeLikeness(out, form, like, pose);
     vectors.code(poses.coefficients[pose], symmetryOf(form, pose),
-                 partnerOf(packing, poses.coefficients, pose),
-                 coefficientsOf(like, lattice, poses.coefficients), pose == 0);
+                 partnerOf(packing, lattice, poses.coefficients, pose),
+                 movedIn(like, lattice, poses.coefficients), pose == 0);
   }
   return coder.finish();
 }

@@ -65,6 +65,15 @@ class HierarchyBuilder {
                         : 2.3;
   }
 
+  // A node that a search will come to, the nearest first.
+  struct Waiting {
+    std::uint64_t key;
+    Waiting(Index distance, Index node) : key(static_cast<std::uint64_t>(distance) << 32 | node) {}
+    Index distance() const { return static_cast<Index>(key >> 32); }
+    Index node() const { return static_cast<Index>(key); }
+    bool operator>(const Waiting& other) const { return key > other.key; }
+  };
+
   struct Candidate {  // a site while it is being placed
     CodedSite site;
     Terms terms;
@@ -326,16 +335,15 @@ class HierarchyBuilder {
     if (!seekNear_) return result;
     ++search_;
     reachedBy_.resize(all_.size() + w_.nodes.size(), 0);
-    queue_.assign(1, {0, all_[s].site.node});
+    queue_.assign(1, Waiting(0, all_[s].site.node));
     Index last = 0;
     for (std::size_t reached = 0; !queue_.empty() && reached < kMostReached;) {
-      std::ranges::pop_heap(queue_, std::greater{});
-      const auto [distance, node] = queue_.back();
+      std::pop_heap(queue_.begin(), queue_.end(), std::greater{});
+      const Index distance = queue_.back().distance(), node = queue_.back().node();
       queue_.pop_back();
       const Index site = siteOf_[node];
-      Index& by = reachedBy_[site >= 0 ? site : all_.size() + node];
-      if (by == search_) continue;
-      by = search_;
+      if (reachedBy(node) == search_) continue;
+      reachedBy(node) = search_;
       ++reached;
       if (site >= 0 && site != s && site != all_[s].image) {
         if (result.size() >= kEnough && distance > last) break;
@@ -356,10 +364,14 @@ class HierarchyBuilder {
       if (queue_.size() >= kMostQueued) return;
       if (w_.arcs[arcOf(arm)].collapsed) continue;
       const Link link = walk(arm);
-      if (link.back < 0) continue;
-      queue_.push_back({distance + link.distance, w_.start(link.back)});
-      std::ranges::push_heap(queue_, std::greater{});
+      if (link.back < 0 || reachedBy(w_.start(link.back)) == search_) continue;
+      queue_.emplace_back(distance + link.distance, w_.start(link.back));
+      std::push_heap(queue_.begin(), queue_.end(), std::greater{});
     }
+  }
+  Index& reachedBy(Index node) {
+    const Index site = siteOf_[node];
+    return reachedBy_[site >= 0 ? site : all_.size() + node];
   }
 
   Index siteOfVector(Index vector) const { return siteOf_[surface_.stored(vector).node]; }
@@ -474,7 +486,7 @@ class HierarchyBuilder {
   std::vector<double> reach_;                // [vectors]
   Index guessed_ = -1, guessedToo_ = -1;     // nodes that may not predict themselves or each other
   std::vector<std::vector<Index>> nodesOf_;  // [sites] of which one may be several
-  std::vector<std::array<Index, 2>> queue_;  // of a search: distances and nodes
+  std::vector<Waiting> queue_;               // of a search, a heap
   std::vector<Index> reachedBy_;             // [sites, then nodes] the last search that was there
   Index search_ = 0;
   std::vector<char> placed_;  // [sites] roots that have their place in the order

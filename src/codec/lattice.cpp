@@ -48,22 +48,14 @@ Coefficients Lattice::round(Index pose, std::span<const Vec3> vectors, double st
   return coefficients;
 }
 
-// Most of a face rests in most poses: what has no coefficient and is predicted from what rests is
-// at rest, too.
 bool Lattice::restore(Index pose, const Coefficients& coefficients, double step,
                       std::span<Vec3> vectors) const {
   const Prediction& prediction = this->prediction(pose);
-  std::vector<char> moves(vectors.size(), 0);
   bool finite = true;
   for (const Prediction::Step& s : prediction.steps) {
-    const Steps3& own = coefficients[s.vector];
-    char moved = isMoved(own);
-    for (const Term& t : prediction.of(s)) moved |= moves[t.vector];
-    Vec3& vector = vectors[s.vector];
-    vector = {};
-    if (!moved) continue;
-    moves[s.vector] = 1;
-    vector = predict(prediction.of(s), vectors) + scaled(own, step / s.reach);
+    const Vec3 vector =
+        predict(prediction.of(s), vectors) + scaled(coefficients[s.vector], step / s.reach);
+    vectors[s.vector] = vector;
     finite &= isFinite(vector);
   }
   return finite;
@@ -71,13 +63,20 @@ bool Lattice::restore(Index pose, const Coefficients& coefficients, double step,
 
 Coefficients Lattice::image(const Coefficients& coefficients) const {
   Coefficients image(coefficients.size());
-  for (std::size_t v = 0; v < image.size(); ++v) {
-    const Hierarchy::Image& from = hierarchy_.images()[v];
-    if (from.vector < 0) continue;
-    for (int k = 0; k < 3; ++k)
-      image[v][k] = (k == axis_ ? -from.sign : from.sign) * coefficients[from.vector][k];
-  }
+  for (const Moved& m : moved(coefficients, true, 0)) image[m.vector] = m.steps;
   return image;
+}
+
+Sparse Lattice::moved(const Coefficients& coefficients, bool mirrored, int finer) const {
+  Sparse moved;
+  const auto& images = hierarchy_.images();
+  for (Index v = 0; v < static_cast<Index>(coefficients.size()); ++v) {
+    const Index from = mirrored ? images[v].vector : v;
+    if (from < 0 || !isMoved(coefficients[from])) continue;
+    const Steps3 steps = inFinerSteps(coefficients[from], finer);
+    moved.push_back({v, mirrored ? reflected(steps, images[v].sign, axis_) : steps});
+  }
+  return moved;
 }
 
 namespace {

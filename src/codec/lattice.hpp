@@ -37,6 +37,9 @@ class Lattice {
   /// The coefficients of the mirror image; zero for vectors that have none.
   Coefficients image(const Coefficients& coefficients) const;
 
+  /// What moves in coefficients or in their mirror image, in steps 2^finer times smaller.
+  Sparse moved(const Coefficients& coefficients, bool mirrored, int finer) const;
+
  private:
   Hierarchy hierarchy_;
   Prediction moves_;  // of targets, once the neutral is known
@@ -47,6 +50,18 @@ class Lattice {
 inline double stepOf(const Packing& packing, Index pose) {
   const int finer = pose < static_cast<Index>(packing.poses.size()) ? packing.poses[pose].finer : 0;
   return std::ldexp(pose == 0 ? packing.neutralStep : packing.targetStep, -finer);
+}
+
+inline Symmetry symmetryOf(const Packing::Pose& form, Index pose) {
+  return form.image < 0 ? Symmetry::none : form.image == pose ? Symmetry::self : Symmetry::partner;
+}
+
+/// The image that a pose is compared with, in its own steps; nothing but for Symmetry::partner.
+inline Sparse partnerOf(const Packing& packing, const Lattice& lattice,
+                        const std::vector<Coefficients>& poses, Index pose) {
+  const Packing::Pose& form = packing.poses[pose];
+  if (symmetryOf(form, pose) != Symmetry::partner) return {};
+  return lattice.moved(poses[form.image], true, form.finer - packing.poses[form.image].finer);
 }
 
 inline constexpr int kMostFiner = 40;

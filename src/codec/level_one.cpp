@@ -1,8 +1,7 @@
 #include "codec/level_one.hpp"
 
 #include <algorithm>
-
-#include "codec/edge_map.hpp"
+#include <numeric>
 
 namespace sweepface::codec {
 
@@ -85,44 +84,66 @@ LevelOne::LevelOne(const Surface& surface) {
   }
 }
 
-std::vector<std::vector<Index>> LevelOne::quadNeighbours() const {
-  EdgeMap<Index> quadOf(4 * quads_.size());
+Neighbours LevelOne::corners() const {
+  Neighbours corners;
+  corners.first.resize(vertices_ + 1);
+  corners.all.resize(4 * quads_.size());
+  for (const auto& quad : quads_)
+    for (const Index v : quad) ++corners.first[v + 1];
+  std::partial_sum(corners.first.begin(), corners.first.end(), corners.first.begin());
+  std::vector<Index> next(corners.first.begin(), corners.first.end() - 1);
   for (std::size_t q = 0; q < quads_.size(); ++q)
-    for (int k = 0; k < 4; ++k)
-      quadOf.add(quads_[q][k], quads_[q][(k + 1) % 4], static_cast<Index>(q));
-  std::vector<std::vector<Index>> neighbours(quads_.size());
-  for (std::size_t q = 0; q < quads_.size(); ++q)
+    for (std::size_t k = 0; k < 4; ++k)
+      corners.all[next[quads_[q][k]]++] = static_cast<Index>(4 * q + k);
+  return corners;
+}
+
+Neighbours LevelOne::quadNeighbours() const {
+  const Neighbours corners = this->corners();
+  Neighbours neighbours;
+  for (const auto& quad : quads_) {
     for (int k = 0; k < 4; ++k) {
-      const Index* const found = quadOf.find(quads_[q][(k + 1) % 4], quads_[q][k]);
-      neighbours[q].push_back(found ? *found : -1);
+      // The one that has the same side the other way round.
+      const auto at = corners.of(quad[(k + 1) % 4]);
+      const auto found = std::ranges::find_if(
+          at, [&](Index corner) { return quads_[corner / 4][(corner + 1) % 4] == quad[k]; });
+      neighbours.all.push_back(found == at.end() ? -1 : *found / 4);
     }
+    neighbours.first.push_back(static_cast<Index>(neighbours.all.size()));
+  }
   return neighbours;
 }
 
-std::vector<std::vector<Index>> LevelOne::vertexNeighbours() const {
+Neighbours LevelOne::vertexNeighbours() const {
   // Around a vertex counter-clockwise: from each quad's next corner to its last one.
-  std::vector<std::vector<std::array<Index, 2>>> corners(vertices_);
-  for (const auto& quad : quads_)
-    for (int k = 0; k < 4; ++k) corners[quad[k]].push_back({quad[(k + 1) % 4], quad[(k + 3) % 4]});
-  std::vector<std::vector<Index>> neighbours(vertices_);
+  const Neighbours corners = this->corners();
+  Neighbours neighbours;
+  std::vector<std::array<Index, 2>> fan;
   for (Index v = 0; v < vertices_; ++v) {
-    auto& fan = corners[v];
+    fan.clear();
+    for (const Index corner : corners.of(v))
+      fan.push_back({quads_[corner / 4][(corner + 1) % 4], quads_[corner / 4][(corner + 3) % 4]});
     const auto leads = [&](Index to) {
       return std::ranges::find(fan, to, [](const auto& c) { return c[1]; });
+    };
+    const auto own = static_cast<std::ptrdiff_t>(neighbours.all.size());
+    const auto add = [&](Index u) {
+      auto& all = neighbours.all;
+      if (u != v && std::find(all.begin() + own, all.end(), u) == all.end()) all.push_back(u);
     };
     // From the corner that no other leads to, where there is one.
     while (!fan.empty()) {
       auto at = std::ranges::find_if(fan, [&](const auto& c) { return leads(c[0]) == fan.end(); });
       if (at == fan.end()) at = fan.begin();
       while (at != fan.end()) {
-        const std::array<Index, 2> corner = *at;
+        const auto [from, to] = *at;
         fan.erase(at);
-        for (const Index u : corner)
-          if (u != v && std::ranges::find(neighbours[v], u) == neighbours[v].end())
-            neighbours[v].push_back(u);
-        at = std::ranges::find(fan, corner[1], [](const auto& c) { return c[0]; });
+        add(from);
+        add(to);
+        at = std::ranges::find(fan, to, [](const auto& c) { return c[0]; });
       }
     }
+    neighbours.first.push_back(static_cast<Index>(neighbours.all.size()));
   }
   return neighbours;
 }

@@ -1,11 +1,23 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "sweepface/surface.hpp"
 
 namespace sweepface::codec {
+
+/// What is beside each of many items, in one list.
+struct Neighbours {
+  std::vector<Index> first{0};  ///< [items + 1] where those of each begin
+  std::vector<Index> all;
+
+  std::size_t items() const { return first.size() - 1; }
+  std::span<const Index> of(Index item) const {
+    return {all.data() + first[item], all.data() + first[item + 1]};
+  }
+};
 
 /// The vertices and quads of the patches at level 1, without where they are. Vertices are numbered
 /// nodes first (one a point and one a T-node, in the order of nodes), then the inner ones of arcs
@@ -18,12 +30,15 @@ class LevelOne {
   /// Patch by patch in rows of constant v, counter-clockwise from (i, j).
   const std::vector<std::array<Index, 4>>& quads() const { return quads_; }
 
-  /// Vertices that share an edge with each, and quads that share one with each side of each, in
-  /// lists; a quad's by its sides, counter-clockwise, -1 at the boundary.
-  std::vector<std::vector<Index>> vertexNeighbours() const;
-  std::vector<std::vector<Index>> quadNeighbours() const;
+  /// Vertices that share an edge with each, and quads that share one with each side of each: a
+  /// quad's by its sides, counter-clockwise, -1 at the boundary.
+  Neighbours vertexNeighbours() const;
+  Neighbours quadNeighbours() const;
 
  private:
+  // The corners at each vertex, 4 * quad + k, in ascending order.
+  Neighbours corners() const;
+
   Index vertices_ = 0;
   std::vector<std::array<Index, 4>> quads_;
 };

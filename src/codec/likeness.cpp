@@ -49,23 +49,22 @@ Likeness Likenesses::of(Index pose) const {
       if (left < least) least = left, best = {other, mirrored, false};
     }
   if (best.pose < 0) return best;
-  const Coefficients like = coefficientsOf(best, lattice_, poses_);
   std::int64_t agreement = 0;
-  for (std::size_t v = 0; v < like.size(); ++v)
+  for (const Moved& m : movedIn(best, lattice_, poses_))
     for (int a = 0; a < 3; ++a)
-      agreement += std::clamp(like[v][a], -2, 2) * std::clamp(poses_[pose][v][a], -2, 2);
+      agreement += std::clamp(m.steps[a], -2, 2) * std::clamp(poses_[pose][m.vector][a], -2, 2);
   best.negated = agreement < 0;
   return best;
 }
 
-Coefficients coefficientsOf(const Likeness& like, const Lattice& lattice,
-                            const std::vector<Coefficients>& poses) {
+Sparse movedIn(const Likeness& like, const Lattice& lattice,
+               const std::vector<Coefficients>& poses) {
   if (like.pose < 0) return {};
-  Coefficients q = like.mirrored ? lattice.image(poses[like.pose]) : poses[like.pose];
+  Sparse moved = lattice.moved(poses[like.pose], like.mirrored, 0);
   if (like.negated)
-    for (Steps3& v : q)
-      for (std::int32_t& x : v) x = -x;
-  return q;
+    for (Moved& m : moved)
+      for (std::int32_t& x : m.steps) x = -x;
+  return moved;
 }
 
 }  // namespace sweepface::codec

@@ -27,8 +27,8 @@ class Likenesses {
   std::vector<std::array<Bits, 2>> moved_;  // [poses] by itself and in its image
 };
 
-/// The coefficients of a likeness, none where there is none.
-Coefficients coefficientsOf(const Likeness& like, const Lattice& lattice,
-                            const std::vector<Coefficients>& poses);
+/// What moves in a likeness, nothing where there is none.
+Sparse movedIn(const Likeness& like, const Lattice& lattice,
+               const std::vector<Coefficients>& poses);
 
 }  // namespace sweepface::codec

@@ -46,18 +46,6 @@ std::string codeName(Symbols<Coder>& symbols, std::string_view name) {
   return result;
 }
 
-inline Symmetry symmetryOf(const Packing::Pose& form, Index pose) {
-  return form.image < 0 ? Symmetry::none : form.image == pose ? Symmetry::self : Symmetry::partner;
-}
-
-/// The coefficients whose image a pose is compared with, in its own steps.
-inline Coefficients partnerOf(const Packing& packing, const std::vector<Coefficients>& poses,
-                              Index pose) {
-  const Packing::Pose& form = packing.poses[pose];
-  if (form.image < 0 || form.image == pose) return {};
-  return inFinerSteps(poses[form.image], form.finer - packing.poses[form.image].finer);
-}
-
 /// What a pose is like: the image that it is compared with, or else what is told.
 template <typename Coder>
 void codeLikeness(Symbols<Coder>& symbols, const Packing::Pose& form, Likeness& like, Index pose) {

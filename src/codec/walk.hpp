@@ -8,6 +8,7 @@
 
 #include "sweepface/vec.hpp"
 
+#include "codec/level_one.hpp"
 #include "codec/symbols.hpp"
 
 namespace sweepface::codec {
@@ -22,12 +23,12 @@ enum SharedTag : std::uint32_t { kCount = 0, kNear = 3, kSteps = 4, kFar = 6, kN
 template <typename Coder>
 class Walk {
  public:
-  Walk(Symbols<Coder>& symbols, std::vector<std::vector<Index>> neighbours)
-      : s_(symbols), neighbours_(std::move(neighbours)), visited_(neighbours_.size(), 0) {}
+  Walk(Symbols<Coder>& symbols, Neighbours neighbours)
+      : s_(symbols), neighbours_(std::move(neighbours)), visited_(neighbours_.items(), 0) {}
 
   Index next(Index item) {
     Index found = -1;
-    const bool follows = far_ < static_cast<Index>(neighbours_.size()) && !visited_[far_];
+    const bool follows = far_ < static_cast<Index>(neighbours_.items()) && !visited_[far_];
     if (follows && s_.bit(kNext, last_ == kFollows, 0, kWrites<Coder> && item == far_)) {
       last_ = kFollows;
       return visit(far_);
@@ -42,7 +43,7 @@ class Walk {
     } else {
       const std::int64_t step = s_.signedNumber(kFar, 0, 0, std::int64_t{item} - far_);
       const std::int64_t there = far_ + step;
-      if (there < 0 || there >= static_cast<std::int64_t>(neighbours_.size()))
+      if (there < 0 || there >= static_cast<std::int64_t>(neighbours_.items()))
         s_.refuse("a vertex or a face is out of range");
       else
         found = static_cast<Index>(there);
@@ -71,16 +72,17 @@ class Walk {
   void candidates(Use use) const {
     const std::size_t end = trail_.size() > kTrail ? trail_.size() - kTrail : 0;
     for (std::size_t k = trail_.size(); k-- > end;) {
-      const auto& around = neighbours_[trail_[k]];
+      const auto around = neighbours_.of(trail_[k]);
       const std::size_t size = around.size();
       std::size_t ahead = 0;
       if (k > 0) {
         const auto back = std::ranges::find(around, trail_[k - 1]);
         if (back != around.end())
-          ahead = static_cast<std::size_t>(back - around.begin()) + size / 2;
+          ahead = (static_cast<std::size_t>(back - around.begin()) + size / 2) % size;
       }
       for (std::size_t j = 0; j < size; ++j) {
-        const Index item = around[(ahead + j) % size];
+        if (ahead == size) ahead = 0;
+        const Index item = around[ahead++];
         if (item >= 0 && !visited_[item] && use(item)) return;
       }
     }
@@ -110,7 +112,7 @@ class Walk {
   }
 
   Symbols<Coder>& s_;
-  std::vector<std::vector<Index>> neighbours_;
+  Neighbours neighbours_;
   std::vector<char> visited_;
   std::vector<Index> trail_;
   std::uint32_t last_ = 15;

@@ -2,7 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <span>
 #include <tuple>
+
+#include "fit/pose_errors.hpp"
 
 namespace sweepface {
 
@@ -16,6 +20,8 @@ using codec::Symmetry;
 namespace {
 
 class PoseQuantiser {
+  using Four = PoseErrors::Four;
+
  public:
   PoseQuantiser(const Lattice& lattice, const Columns& columns, PoseTask task, Coefficients& q)
       : h_(lattice.hierarchy()),
@@ -23,15 +29,11 @@ class PoseQuantiser {
         columns_(columns),
         axis_(lattice.axis()),
         task_(std::move(task)),
-        step_(static_cast<float>(task_.step)),
+        errors_(columns, task_),
         q_(q),
         touched_(task_.errors.size(), 0) {
     siteOf_.resize(q.size());
     for (const Prediction::Step& step : steps_) siteOf_[step.vector] = step.site;
-    for (int a = 0; a < 3; ++a)
-      for (const Vec3& e : task_.errors)
-        error_[a].push_back(static_cast<float>(a == 0 ? e.x : a == 1 ? e.y : e.z));
-    for (const float bound : task_.bounds) perSquare_.push_back(1 / (bound * bound));
     count();
   }
 
@@ -40,8 +42,7 @@ class PoseQuantiser {
     for (sweep_ = 0; sweep_ < kSweeps; ++sweep_) {
       Index changed = 0;
       findWanted();
-      for (std::size_t k = steps_.size(); k-- > 0;)
-        for (int a = 0; a < 3; ++a) changed += improve(steps_[k].vector, a);
+      for (std::size_t k = steps_.size(); k-- > 0;) changed += improve(steps_[k].vector);
       if (changed == 0) break;
     }
     repair();
@@ -54,7 +55,7 @@ class PoseQuantiser {
     constexpr float kOnItsWay = 0.3f, kTilted = 0.3f;
     wanted_.assign(q_.size(), 0);
     for (Index u = 0; u < vertexCount(); ++u)
-      if (squareAt(u) > kOnItsWay || tilt(u) > kTilted)
+      if (errors_.square(u) > kOnItsWay || errors_.tilt(u) > kTilted)
         for (Index r = columns_.rowStart[u]; r < columns_.rowStart[u + 1]; ++r)
           wanted_[columns_.rowVector[r]] = 1;
   }
@@ -62,16 +63,16 @@ class PoseQuantiser {
   // Vertices that are still beyond their bounds: whatever move helps most there, bits hardly
   // counting. Given up where they are many or do not become fewer: other steps must do.
   void repair() {
-    beyond_ = 100 * kBeyond;
+    errors_.press(100);
     constexpr int kRounds = 40;
     Index most = vertexCount() / 50;
     for (int round = 0; round < kRounds; ++round) {
       Index bad = 0, changed = 0;
-      for (Index u = 0; u < vertexCount(); ++u) bad += squareAt(u) > 1;
+      for (Index u = 0; u < vertexCount(); ++u) bad += errors_.square(u) > 1;
       if (bad == 0 || bad > most) return;
       most = bad - 1 - bad / 8;
       for (Index u = 0; u < vertexCount(); ++u)
-        if (squareAt(u) > 1) changed += repairAt(u);
+        if (errors_.square(u) > 1) changed += repairAt(u);
       if (changed == 0) return;
     }
   }
@@ -84,9 +85,10 @@ class PoseQuantiser {
     for (const Move& m : moves_) {
       const std::int32_t before = q_[m.vector][m.axis] - expected(m.vector, m.axis);
       double cost = bits(m.vector, before, before + m.by) +
-                    growth(m.vector, m.axis, static_cast<float>(m.by));
+                    errors_.growth(m.vector, m.axis, static_cast<float>(m.by));
       if (const auto image = follower(m.vector); image.vector >= 0)
-        cost += growth(image.vector, m.axis, static_cast<float>(signFor(image, m.axis) * m.by));
+        cost +=
+            errors_.growth(image.vector, m.axis, static_cast<float>(signFor(image, m.axis) * m.by));
       if (cost < least) least = cost, best = &m;
     }
     if (best == nullptr) return false;
@@ -102,14 +104,15 @@ class PoseQuantiser {
   void gatherMoves(Index u) {
     constexpr std::size_t kMost = 24;
     constexpr float kWorthIt = 0.01f;
+    const auto step = static_cast<float>(task_.step);
     moves_.clear();
     for (Index r = columns_.rowStart[u]; r < columns_.rowStart[u + 1]; ++r) {
       const Index v = columns_.rowVector[r];
       const auto reaches = static_cast<float>(columns_.length(v));
       for (int a = 0; a < 3; ++a)
         for (const int by : {-2, -1, 1, 2}) {
-          const float shift = static_cast<float>(by) * step_ * columns_.rowWeight[r];
-          const float nearer = -(2 * error_[a][u] + shift) * shift * perSquare_[u];
+          const float nearer =
+              errors_.nearer(u, a, static_cast<float>(by) * step * columns_.rowWeight[r]);
           if (nearer > kWorthIt) moves_.push_back({nearer / (10 + reaches), v, a, by});
         }
     }
@@ -131,17 +134,6 @@ class PoseQuantiser {
     const int more = (before + d != 0) - (before != 0);
     inSite_[siteOf_[v]] += more;
     inVector_[v] += more;
-  }
-
-  // A penalty in bits: hardly any well within the bound, steep beyond it.
-  static constexpr float kInside = 2, kBeyond = 400;
-  float penalty(float square) const {
-    const float s2 = square * square;
-    return kInside * s2 * s2 * square + (square > 1 ? beyond_ * (square - 1) : 0);
-  }
-  float slope(float square) const {
-    const float s2 = square * square;
-    return 5 * kInside * s2 * s2 + (square > 1 ? beyond_ : 0);
   }
 
   // Which vector follows by itself when one changes, and the sign for a coordinate.
@@ -197,72 +189,11 @@ class PoseQuantiser {
     return sum + (has ? opening : -opening);
   }
 
-  float squareAt(Index u) const {
-    return (error_[0][u] * error_[0][u] + error_[1][u] * error_[1][u] +
-            error_[2][u] * error_[2][u]) *
-           perSquare_[u];
-  }
-  // A tangent that is off by about half of its length may turn the surface over.
-  static constexpr float kMostStrain = 0.2f, kTorn = 4, kOverturn = 40;
-  static float overturn(float strain) {
-    return strain > kMostStrain ? kOverturn * (std::min(strain, kTorn) - kMostStrain) : 0;
-  }
-  float tilt(Index u) const {
-    float sum = 0;
-    for (const Slopes::Tangent& t : task_.slopes.at[u])
-      sum += task_.slopes.weight * t.lean * t.lean + overturn(t.strain());
-    return sum;
-  }
-  // How much the penalty grows when a coefficient grows by d steps.
-  float growth(Index v, int a, float steps) const {
-    const float x = steps * step_;
-    const float* own = error_[a].data();
-    float sum = 0, tilted = 0, over = 0;
-    for (Index p = columns_.start[v]; p < columns_.start[v + 1]; ++p) {
-      const Index u = columns_.vertex[p];
-      const auto& weight = columns_.weight[p];
-      const float square = squareAt(u), shift = x * weight[0];
-      sum += penalty(square + (2 * own[u] + shift) * shift * perSquare_[u]) - penalty(square);
-      for (int side = 0; side < 2; ++side) {
-        const Slopes::Tangent& t = task_.slopes.at[u][side];
-        const float change = x * weight[1 + side] * t.perLength, turn = change * t.normal[a];
-        tilted += (2 * t.lean + turn) * turn;
-        const float strain = t.strain();
-        over += overturn(strain + (2 * t.error[a] + change) * change) - overturn(strain);
-      }
-    }
-    return sum + task_.slopes.weight * tilted + over;
-  }
-  float gradient(Index v, int a) const {
-    float sum = 0, tilted = 0, over = 0;
-    for (Index p = columns_.start[v]; p < columns_.start[v + 1]; ++p) {
-      const Index u = columns_.vertex[p];
-      const auto& weight = columns_.weight[p];
-      sum += slope(squareAt(u)) * error_[a][u] * weight[0] * perSquare_[u];
-      for (int side = 0; side < 2; ++side) {
-        const Slopes::Tangent& t = task_.slopes.at[u][side];
-        const float change = weight[1 + side] * t.perLength;
-        tilted += change * t.lean * t.normal[a];
-        if (const float s = t.strain(); s > kMostStrain && s < kTorn) over += change * t.error[a];
-      }
-    }
-    return 2 * (sum + task_.slopes.weight * tilted + kOverturn * over) * step_;
-  }
   void move(Index v, int a, std::int32_t d) {
     q_[v][a] += d;
-    const float x = static_cast<float>(d) * step_;
-    for (Index p = columns_.start[v]; p < columns_.start[v + 1]; ++p) {
-      const Index u = columns_.vertex[p];
-      const auto& weight = columns_.weight[p];
-      error_[a][u] += x * weight[0];
-      touched_[u] = sweep_;
-      for (int side = 0; side < 2; ++side) {
-        Slopes::Tangent& t = task_.slopes.at[u][side];
-        const float change = x * weight[1 + side] * t.perLength;
-        t.error[a] += change;
-        t.lean += change * t.normal[a];
-      }
-    }
+    errors_.move(v, a, static_cast<float>(d));
+    for (Index p = columns_.start[v]; p < columns_.start[v + 1]; ++p)
+      touched_[columns_.vertex[p]] = sweep_;
   }
 
   // Whether anything that a coefficient moves has moved in this sweep or the last.
@@ -273,57 +204,83 @@ class PoseQuantiser {
     return false;
   }
 
-  bool improve(Index v, int a) {
-    if (!task_.frozen.empty() && task_.frozen[v]) return false;
+  // How many coordinates of a coefficient change.
+  int improve(Index v) {
+    if (!task_.frozen.empty() && task_.frozen[v]) return 0;
     const Hierarchy::Image image = follower(v);
-    const int sign = signFor(image, a);
-    if (!isTouched(v) && (image.vector < 0 || !isTouched(image.vector))) return false;
-    const std::int32_t before = q_[v][a] - expected(v, a);
-    std::array<std::int32_t, 3> tries{};
-    int count = 0;
-    if (before != 0) {
-      const int out = before > 0 ? 1 : -1;
-      tries[count++] = before - out;
-      if (std::abs(before) > 1) tries[count++] = 0;
-      tries[count++] = before + out;
-    } else {
-      if (!wanted_[v] && (image.vector < 0 || !wanted_[image.vector])) return false;
-      float g = gradient(v, a);
-      if (image.vector >= 0) g += static_cast<float>(sign) * gradient(image.vector, a);
-      if (std::abs(g) < 1) return false;
-      tries[count++] = g > 0 ? -1 : 1;
+    if (!isTouched(v) && (image.vector < 0 || !isTouched(image.vector))) return 0;
+    int changed = 0;
+    std::optional<Four> gradient;  // as long as nothing changes
+    for (int a = 0; a < 3; ++a) {
+      const std::int32_t before = q_[v][a] - expected(v, a);
+      const std::int32_t best =
+          before != 0 ? better(v, a, image, before) : opened(v, a, image, gradient);
+      if (best == before) continue;
+      change(v, a, best - before);
+      gradient.reset();
+      ++changed;
     }
-    double least = -1e-3;
-    std::int32_t best = before;
-    for (int k = 0; k < count; ++k) {
-      const std::int32_t d = tries[k] - before;
-      double cost = bits(v, before, tries[k]) + growth(v, a, static_cast<float>(d));
-      if (image.vector >= 0) cost += growth(image.vector, a, static_cast<float>(sign * d));
-      if (cost < least) least = cost, best = tries[k];
-    }
-    if (best == before) return false;
-    change(v, a, best - before);
-    return true;
+    return changed;
   }
 
-  Index vertexCount() const { return static_cast<Index>(perSquare_.size()); }
+  // What a coordinate had better be that is not zero: nearer to it, zero, or further away.
+  std::int32_t better(Index v, int a, const Hierarchy::Image& image, std::int32_t before) const {
+    const int out = before > 0 ? 1 : -1;
+    std::array<std::int32_t, 3> tries{before - out, before + out};
+    int count = 2;
+    if (std::abs(before) > 1) tries = {before - out, 0, before + out}, count = 3;
+    return best(v, a, image, before, std::span(tries).first(count));
+  }
+
+  // The same of one that is zero.
+  std::int32_t opened(Index v, int a, const Hierarchy::Image& image,
+                      std::optional<Four>& gradient) const {
+    if (!wanted_[v] && (image.vector < 0 || !wanted_[image.vector])) return 0;
+    if (!gradient) {
+      gradient = errors_.gradient(v);
+      if (image.vector >= 0) {
+        const Four its = errors_.gradient(image.vector);
+        for (int k = 0; k < 3; ++k)
+          (*gradient)[k] += static_cast<float>(signFor(image, k)) * its[k];
+      }
+    }
+    // What is convex grows by no less than its slope says.
+    const float g = (*gradient)[a];
+    const std::int32_t towards = g > 0 ? -1 : 1;
+    if (std::abs(g) < bits(v, 0, towards)) return 0;
+    return best(v, a, image, 0, std::array{towards});
+  }
+
+  std::int32_t best(Index v, int a, const Hierarchy::Image& image, std::int32_t before,
+                    std::span<const std::int32_t> tries) const {
+    Four by = Four::Zero();
+    for (std::size_t k = 0; k < tries.size(); ++k) by[k] = static_cast<float>(tries[k] - before);
+    Four growth = errors_.growth(v, a, by);
+    if (image.vector >= 0)
+      growth += errors_.growth(image.vector, a, static_cast<float>(signFor(image, a)) * by);
+    double least = -1e-3;
+    std::int32_t best = before;
+    for (std::size_t k = 0; k < tries.size(); ++k)
+      if (const double cost = bits(v, before, tries[k]) + growth[k]; cost < least)
+        least = cost, best = tries[k];
+    return best;
+  }
+
+  Index vertexCount() const { return errors_.vertexCount(); }
 
   const Hierarchy& h_;
   const std::vector<Prediction::Step>& steps_;
   const Columns& columns_;
   int axis_;
   PoseTask task_;
-  float step_;
+  PoseErrors errors_;
   Coefficients& q_;
-  std::vector<Index> siteOf_;     // [S]
-  std::vector<float> perSquare_;  // [vertices] 1 / bound²
-  std::array<std::vector<float>, 3> error_;
+  std::vector<Index> siteOf_;           // [S]
   std::vector<int> inSite_, inVector_;  // coefficients that are not zero
   std::vector<char> wanted_;            // [S]
   std::vector<int> touched_;            // [vertices] the sweep in which it moved last
   std::vector<Move> moves_;
   int sweep_ = 0;
-  float beyond_ = kBeyond;
 };
 
 }  // namespace

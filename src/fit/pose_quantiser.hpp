@@ -15,7 +15,6 @@ struct Slopes {
     float lean = 0;                 ///< along the normal: an angle in radians
     std::array<float, 3> normal{};  ///< of the surface
     float perLength = 0;
-    float strain() const { return error[0] * error[0] + error[1] * error[1] + error[2] * error[2]; }
   };
   std::vector<std::array<Tangent, 2>> at;  ///< [vertices]
   float weight = 0;                        ///< what the square of a lean counts, in bits
@@ -29,7 +28,8 @@ struct PoseTask {
   std::vector<Vec3> errors;      ///< [vertices] how far off the pose is to begin with
   std::vector<float> bounds;     ///< [vertices] how far off it may be
   Slopes slopes;
-  std::vector<char> frozen;  ///< [S] or empty: stays unless a bound is passed
+  std::vector<float> stress;  ///< [vertices] or empty: times that tangents count there
+  std::vector<char> frozen;   ///< [S] or empty: stays unless a bound is passed
 };
 
 /// Looks for coefficients that cost few bits while vertex errors stay within their bounds:

@@ -199,9 +199,7 @@ class Quantiser {
   // bound cannot be met: in the end they are as good as the fit.
   bool settle(Index pose, const std::vector<float>& bounds) {
     Packing::Pose& form = rig_.packing.poses[pose];
-    const Symmetry symmetry = form.image < 0       ? Symmetry::none
-                              : form.image == pose ? Symmetry::self
-                                                   : Symmetry::partner;
+    const Symmetry symmetry = codec::symmetryOf(form, pose);
     const std::vector<Vec3> fitted = vectorsOf(pose);
     // From its image, then from itself, in ever finer steps: those of its partner to begin with.
     bool done = false;
@@ -216,9 +214,11 @@ class Quantiser {
       task.step = codec::stepOf(rig_.packing, pose);
       task.symmetry = symmetry;
       task.bounds = bounds;
-      if (symmetry == Symmetry::partner)
-        task.expected = lattice_->image(codec::inFinerSteps(
-            poses_[form.image], form.finer - rig_.packing.poses[form.image].finer));
+      if (symmetry == Symmetry::partner) {
+        task.expected.resize(fitted.size());
+        for (const codec::Moved& m : codec::partnerOf(rig_.packing, *lattice_, poses_, pose))
+          task.expected[m.vector] = m.steps;
+      }
       Coefficients q =
           lattice_->round(pose, form.finer < kFaithful ? fitted : compensated(fitted), task.step);
       if (fromImage) symmetrise(q, symmetry, task.expected);
@@ -247,26 +247,34 @@ class Quantiser {
     return within(errorsOf(pose, q));
   }
 
-  // Where the surface turned over it goes back to the fit, and stays there. Whether it does so no
-  // more than the fit.
+  // Where the surface turned over it goes back to the fit, and stays there; if that does not do,
+  // tangents count more there. Whether it turns over no more than the fit then.
   bool unfold(Index pose, PoseTask& task, const std::vector<Vec3>& fitted, Coefficients& q) {
     constexpr int kRounds = 4;
+    constexpr float kMore = 1.5f;
     const std::vector<Vec3> faithful = compensated(fitted);
     const std::size_t own = foldsOf(pose, faithful).size() * 9 / 8;  // a few more will do
-    std::vector<Index> corners = foldsOf(pose, restored(pose, q, task.step));
-    std::size_t least = corners.size();
-    task.frozen.assign(q.size(), 0);
-    Coefficients trial = q;
-    for (int round = 0; round < kRounds && corners.size() > own; ++round) {
-      std::vector<Vec3> vectors = restored(pose, trial, task.step);
-      for (const Index v : behind(corners)) task.frozen[v] = 1;
-      for (std::size_t v = 0; v < vectors.size(); ++v)
-        if (task.frozen[v]) vectors[v] = faithful[v];
-      trial = lattice_->round(pose, vectors, task.step);
-      const bool met = improve(pose, task, fitted, trial);
-      std::vector<Index> left = foldsOf(pose, restored(pose, trial, task.step));
-      if (met && left.size() < least) least = left.size(), q = trial;
-      corners = std::move(left);
+    const Coefficients first = q;
+    const std::vector<Index> folded = foldsOf(pose, restored(pose, q, task.step));
+    std::size_t least = folded.size();
+    task.stress.assign(grid_.vertexCount(), 1);
+    for (const bool stays : {true, false}) {
+      Coefficients trial = first;
+      std::vector<Index> corners = folded;
+      task.frozen.assign(stays ? q.size() : 0, 0);
+      for (int round = 0; round < kRounds && least > own; ++round) {
+        std::vector<Vec3> vectors = restored(pose, trial, task.step);
+        for (const Index v : behind(corners)) {
+          vectors[v] = faithful[v];
+          if (stays) task.frozen[v] = 1;
+        }
+        if (!stays)
+          for (const Index u : corners) task.stress[u] *= kMore;
+        trial = lattice_->round(pose, vectors, task.step);
+        const bool met = improve(pose, task, fitted, trial);
+        corners = foldsOf(pose, restored(pose, trial, task.step));
+        if (met && corners.size() < least) least = corners.size(), q = trial;
+      }
     }
     return least <= own;
   }

@@ -56,7 +56,9 @@ TEST_F(AFewPoses, MayMoveTheOtherWay) {
   const auto like = Likenesses(lattice, poses).of(2);
   EXPECT_EQ(like.pose, 1);
   EXPECT_TRUE(like.negated);
-  EXPECT_EQ(coefficientsOf(like, lattice, poses), poses[2]);
+  Coefficients expected(count);
+  for (const codec::Moved& m : movedIn(like, lattice, poses)) expected[m.vector] = m.steps;
+  EXPECT_EQ(expected, poses[2]);
 }
 
 // Eight targets, each moving what `where` says.
