@@ -18,9 +18,9 @@ inline constexpr std::size_t kFrameSize = 12;  // kind, length and checksum
 /// the other. A code never changes its meaning. One that begins with a capital is required: who
 /// does not know it must refuse the file.
 constexpr std::string_view codesOf(int version) {
-  return version == 1
-             ? "HEADWIRECREASHAPNEUTTARGloosordrpolytexcquadscennameEND "
-             : "BASEGRIDTNAMRESTMOVEEXACloosdrifwalkordrfacepolytexttexcquadscennameturnEND ";
+  using namespace std::string_view_literals;
+  return version == 1 ? "HEADWIRECREASHAPNEUTTARGloosordrpolytexcquadscennameEND "sv
+ : "BASEGRIDTNAMRESTMOVEEXACloosdrifwalkordrfacepolytexttexcquadscennameturnEND "sv;
 }
 constexpr std::string_view codeAt(int rank, int version) {
   return codesOf(version).substr(4 * static_cast<std::size_t>(rank), 4);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "sweepface/rig.hpp"
 
@@ -30,7 +31,7 @@ enum RigTag : std::uint32_t {
 /// Bytes up to a zero, each by those before it.
 template <typename Coder>
 std::string codeName(Symbols<Coder>& symbols, std::string_view name) {
-  std::string result;
+  std::vector<char> result;
   std::uint32_t past = 0;
   for (std::size_t k = 0; symbols.ok(); ++k) {
     const std::uint32_t letter = k < name.size() ? static_cast<unsigned char>(name[k]) : 0;
@@ -39,11 +40,11 @@ std::string codeName(Symbols<Coder>& symbols, std::string_view name) {
       known = known << 1 |
               symbols.bit(kLetter, known * 256 + (past & 255), past >> 8 & 0xffff, letter >> b & 1);
     if ((known & 255) == 0) break;
-    result += static_cast<char>(known & 255);
+    result.push_back(static_cast<char>(known & 255));
     past = past << 8 | (known & 255);
     if (result.size() > 4096) symbols.refuse("a name is too long");
   }
-  return result;
+  return {result.begin(), result.end()};
 }
 
 /// What a pose is like: the image that it is compared with, or else what is told.

@@ -1,11 +1,13 @@
 #include "sweepface/result.hpp"
 
+#include <vector>
+
 namespace sweepface {
 
 namespace {
 
 // One function for all types, where the standard library has one for each.
-void appendNumber(std::string& sentence, long long number) {
+void appendNumber(std::vector<char>& sentence, long long number) {
   char digits[20];
   char* first = digits + 20;
   auto rest = static_cast<unsigned long long>(number);
@@ -13,19 +15,19 @@ void appendNumber(std::string& sentence, long long number) {
   do *--first = static_cast<char>('0' + rest % 10);
   while (rest /= 10);
   if (number < 0) *--first = '-';
-  sentence.append(first, static_cast<std::size_t>(digits + 20 - first));
+  sentence.insert(sentence.end(), first, digits + 20);
 }
 
 }  // namespace
 
 std::string joined(std::initializer_list<TextPart> parts) {
-  std::string sentence;
+  std::vector<char> sentence;
   for (const TextPart& part : parts)
     if (part.text.data())
-      sentence.append(part.text.data(), part.text.size());
+      sentence.insert(sentence.end(), part.text.begin(), part.text.end());
     else
       appendNumber(sentence, part.number);
-  return sentence;
+  return {sentence.begin(), sentence.end()};
 }
 
 std::unexpected<Error> failCallWith(std::initializer_list<TextPart> parts) {
