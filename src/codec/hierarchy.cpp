@@ -3,23 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 
 #include "codec/derivative_rules.hpp"
+#include "codec/lines.hpp"
+#include "codec/near_sites.hpp"
 #include "codec/reach.hpp"
 
 namespace sweepface::codec {
-
-namespace {
-
-// Where a line leads from a half-arc: to the half-arc that comes back from the next node that is
-// still there.
-struct Link {
-  HalfArc back = -1;
-  Index distance = 0;
-};
-
-}  // namespace
 
 class HierarchyBuilder {
  public:
@@ -29,17 +19,13 @@ class HierarchyBuilder {
         c_(surface.connectivity()),
         mirror_(mirror),
         seekNear_(seekNear),
-        out_(out) {}
+        out_(out),
+        lines_(surface),
+        nearSites_(surface, lines_) {}
 
   void build() {
     reach_ = reachOf(surface_);
     gatherSites();
-    links_.resize(2 * w_.arcs.size());
-    opposite_.resize(2 * w_.arcs.size());
-    for (HalfArc h = 0; h < static_cast<HalfArc>(links_.size()); ++h) {
-      links_[h] = {twin(c_.rails[h].last), c_.rails[h].edges};
-      opposite_[h] = oppositeOf(w_, c_, h);
-    }
     takeOut();
     orderRoots();
     arrange();
@@ -51,6 +37,7 @@ class HierarchyBuilder {
 
  private:
   using Terms = std::vector<Term>;
+  using Link = Lines::Link;
 
   // What many vertices follow is told more precisely: errors there would have to be made up for at
   // all of them.
@@ -65,50 +52,29 @@ class HierarchyBuilder {
                         : 2.3;
   }
 
-  // A node that a search will come to, the nearest first.
-  struct Waiting {
-    std::uint64_t key;
-    Waiting(Index distance, Index node) : key(static_cast<std::uint64_t>(distance) << 32 | node) {}
-    Index distance() const { return static_cast<Index>(key >> 32); }
-    Index node() const { return static_cast<Index>(key); }
-    bool operator>(const Waiting& other) const { return key > other.key; }
-  };
-
   struct Candidate {  // a site while it is being placed
     CodedSite site;
     Terms terms;
-    bool alive = true, hub = false;
     Index image = -1;
     Index atLeast = 0;  // its span cannot be less
     std::vector<Index> near;
   };
 
   void gatherSites() {
-    siteOf_.assign(w_.nodes.size(), -1);
-    std::vector<Index> ofPoint(w_.points, -1);
     for (Index v = 0; v < surface_.storedCount(); ++v) {
       const StoredVector& s = surface_.stored(v);
       if (s.i == 0 && s.j == 0) {
-        Candidate c;
+        Candidate& c = all_.emplace_back();
         c.site.node = s.node;
         c.site.first = v;
-        c.hub = c_.kinds[s.node] == NodeKind::irregular;
-        siteOf_[s.node] = static_cast<Index>(all_.size());
-        if (c.hub) ofPoint[w_.nodes[s.node].point] = siteOf_[s.node];
-        all_.push_back(std::move(c));
       }
       ++all_.back().site.count;
     }
-    for (std::size_t n = 0; n < w_.nodes.size(); ++n)
-      if (c_.kinds[n] == NodeKind::irregular) siteOf_[n] = ofPoint[w_.nodes[n].point];
     for (Candidate& c : all_) {
       const Index image = mirror_.node[c.site.node];
       const bool creased = c_.kinds[c.site.node] == NodeKind::creased;
-      c.image = image < 0 || creased ? -1 : siteOf_[image];
+      c.image = image < 0 || creased ? -1 : lines_.siteOf(image);
     }
-    nodesOf_.resize(all_.size());
-    for (std::size_t n = 0; n < w_.nodes.size(); ++n)
-      if (isSite(static_cast<Index>(n))) nodesOf_[siteOf_[n]].push_back(static_cast<Index>(n));
     // A mirror is one only if it leads back.
     for (std::size_t s = 0; s < all_.size(); ++s) {
       Index& image = all_[s].image;
@@ -121,42 +87,14 @@ class HierarchyBuilder {
         all_[s].image = -1;
   }
 
-  bool isSite(Index node) const { return siteOf_[node] >= 0; }
   bool isGuessed(Index node) const { return node == guessed_ || node == guessedToo_; }
-  Index position(Index node) const { return all_[siteOf_[node]].site.first; }
-
-  // The first living site or T-node along a line. What is dead stays dead: the next walk begins
-  // where this one ends.
-  Link walk(HalfArc h) {
-    if (h < 0) return {};
-    Link link = links_[h];
-    for (std::size_t steps = 0; steps < w_.arcs.size(); ++steps) {
-      const Index node = w_.start(link.back);
-      if (!isSite(node) || all_[siteOf_[node]].alive) return links_[h] = link;
-      const HalfArc on = opposite_[link.back];
-      if (on < 0) return {};
-      link = {links_[on].back, link.distance + links_[on].distance};
-    }
-    return {};
-  }
-
-  // One more site beyond a living one, on the same line.
-  Link beyond(const Link& link) {
-    const Index node = w_.start(link.back);
-    if (!isSite(node) || all_[siteOf_[node]].hub) return {};
-    const HalfArc on = opposite_[link.back];
-    if (on < 0) return {};
-    Link next = walk(on);
-    if (next.back < 0 || !isSite(w_.start(next.back))) return {};
-    next.distance += link.distance;
-    return next;
-  }
+  Index position(Index node) const { return all_[lines_.siteOf(node)].site.first; }
 
   // The position of a site, or of a T-node by what stands on the line it hangs on.
   bool place(Index node, Terms& terms, int depth = 0) {
-    if (isSite(node)) {
+    if (lines_.isSite(node)) {
       terms.push_back({position(node), 1});
-      return all_[siteOf_[node]].alive;
+      return lines_.isLeft(lines_.siteOf(node));
     }
     if (depth > 3) return false;
     const Star& star = c_.stars[node];
@@ -179,14 +117,14 @@ class HierarchyBuilder {
       terms.resize(before);
       return false;
     };
-    const std::array<Link, 2> near{walk(ahead), walk(behind)};
+    const std::array<Link, 2> near{lines_.walk(ahead), lines_.walk(behind)};
     for (const Link& link : near)
       if (link.back < 0 || isGuessed(w_.start(link.back))) return false;
     span = near[0].distance + near[1].distance;
     for (int side = 0; side < 2; ++side) {
       const int sign = side == 0 ? 1 : -1;
       if (!add(near[side], sign)) return false;
-      const Link far = beyond(near[side]);
+      const Link far = lines_.beyond(near[side]);
       if (far.back < 0 || isGuessed(w_.start(far.back))) continue;
       if (far.distance > 3 * near[side].distance + 2 * span) continue;
       if (!add(far, sign)) return false;
@@ -229,9 +167,9 @@ class HierarchyBuilder {
         continue;
       }
       for (int side = 0; side < 2; ++side) {
-        const Link link = walk(side ? behind : ahead);
+        const Link link = lines_.walk(side ? behind : ahead);
         const Index node = w_.start(link.back);
-        if (isSite(node)) g.beside[2 * line + side] = siteOf_[node];
+        if (lines_.isSite(node)) g.beside[2 * line + side] = lines_.siteOf(node);
       }
     }
     double sum = 0;
@@ -258,7 +196,7 @@ class HierarchyBuilder {
     const Star& star = c_.stars[c.site.node];
     Index least = INT32_MAX;
     for (int line = 0; line < linesThrough(star); ++line) {
-      const Link ahead = walk(star.arms[line]), behind = walk(star.arms[line + 2]);
+      const Link ahead = lines_.walk(star.arms[line]), behind = lines_.walk(star.arms[line + 2]);
       if (ahead.back >= 0 && behind.back >= 0)
         least = std::min(least, ahead.distance + behind.distance);
     }
@@ -267,17 +205,16 @@ class HierarchyBuilder {
   }
 
   // Only nodes that stand on lines through them can be taken out.
-  bool isRemovable(const Candidate& c) const {
-    if (!c.alive || c_.kinds[c.site.node] != NodeKind::crossing) return false;
+  bool isRemovable(Index s) const {
+    const Candidate& c = all_[s];
+    if (!lines_.isLeft(s) || c_.kinds[c.site.node] != NodeKind::crossing) return false;
     const Star& star = c_.stars[c.site.node];
     return star.closed ? star.arms.size() == 4 : star.sectors.size() == 2;
   }
 
   void takeOut() {
     std::vector<char> blocked(all_.size(), 0);
-    Index longest = 2;
-    for (const Link& link : links_) longest = std::max(longest, link.distance);
-    longest = std::min<Index>(longest, 1 << 12) * 8;
+    const Index longest = std::clamp<Index>(lines_.longest(), 2, 1 << 12) * 8;
     for (Index most = 2; most <= longest; most += std::max<Index>(1, most / 3)) {
       bool any = true;
       while (any) {
@@ -291,19 +228,19 @@ class HierarchyBuilder {
 
   bool takeOut(Index s, Index most, std::vector<char>& blocked) {
     const Index image = all_[s].image;
-    if (blocked[s] || !isRemovable(all_[s]) || (image >= 0 && image < s)) return false;
+    if (blocked[s] || !isRemovable(s) || (image >= 0 && image < s)) return false;
     if (isTooWide(all_[s], most)) return false;
     const Guess own = guess(all_[s]);
     if (own.span == 0 || own.span > most) return false;
     if (image < 0 || image == s) {
-      all_[s].near = nearest(s);
+      seekNear(s);
       remove(s, own, blocked);
       return true;
     }
-    if (blocked[image] || !isRemovable(all_[image])) return false;
+    if (blocked[image] || !isRemovable(image)) return false;
     const Guess other = guess(all_[image]);
     if (other.span != own.span) return false;
-    for (const Index either : {s, image}) all_[either].near = nearest(either);
+    for (const Index either : {s, image}) seekNear(either);
     remove(image, other, blocked);
     remove(s, own, blocked);
     return true;
@@ -313,7 +250,7 @@ class HierarchyBuilder {
     Candidate& c = all_[s];
     c.terms = g.terms;
     c.site.span = g.span;
-    c.alive = false;
+    lines_.takeOut(s);
     for (const Index b : g.beside)
       if (b >= 0) blocked[b] = 1;
     double most = 0;  // the parent counts most
@@ -325,56 +262,11 @@ class HierarchyBuilder {
     order_.push_back(s);
   }
 
-  // The sites that are nearest along what is left of the lines, without the site's own image, so
-  // that both see the same (Dijkstra 1959). However many T-nodes and spokes there are, the search
-  // is short.
-  static constexpr std::size_t kMostReached = 128, kMostQueued = 1024;
-  std::vector<Index> nearest(Index s) {
-    constexpr std::size_t kEnough = 12;
-    std::vector<Index> result;
-    if (!seekNear_) return result;
-    ++search_;
-    reachedBy_.resize(all_.size() + w_.nodes.size(), 0);
-    queue_.assign(1, Waiting(0, all_[s].site.node));
-    Index last = 0;
-    for (std::size_t reached = 0; !queue_.empty() && reached < kMostReached;) {
-      std::pop_heap(queue_.begin(), queue_.end(), std::greater{});
-      const Index distance = queue_.back().distance(), node = queue_.back().node();
-      queue_.pop_back();
-      const Index site = siteOf_[node];
-      if (reachedBy(node) == search_) continue;
-      reachedBy(node) = search_;
-      ++reached;
-      if (site >= 0 && site != s && site != all_[s].image) {
-        if (result.size() >= kEnough && distance > last) break;
-        result.push_back(site);
-        last = distance;
-        if (result.size() == Hierarchy::kMostNear) break;
-      }
-      if (site >= 0)
-        for (std::size_t k = 0; k < std::min(nodesOf_[site].size(), kMostReached); ++k)
-          goOn(nodesOf_[site][k], distance);
-      else
-        goOn(node, distance);
-    }
-    return result;
-  }
-  void goOn(Index node, Index distance) {
-    for (const HalfArc arm : c_.stars[node].arms) {
-      if (queue_.size() >= kMostQueued) return;
-      if (w_.arcs[arcOf(arm)].collapsed) continue;
-      const Link link = walk(arm);
-      if (link.back < 0 || reachedBy(w_.start(link.back)) == search_) continue;
-      queue_.emplace_back(distance + link.distance, w_.start(link.back));
-      std::push_heap(queue_.begin(), queue_.end(), std::greater{});
-    }
-  }
-  Index& reachedBy(Index node) {
-    const Index site = siteOf_[node];
-    return reachedBy_[site >= 0 ? site : all_.size() + node];
+  void seekNear(Index s) {
+    if (seekNear_) all_[s].near = nearSites_.around(s, all_[s].image);
   }
 
-  Index siteOfVector(Index vector) const { return siteOf_[surface_.stored(vector).node]; }
+  Index siteOfVector(Index vector) const { return lines_.siteOf(surface_.stored(vector).node); }
 
   // What is left is predicted from its neighbours among what is left, in the order in which it is
   // reached from the first; mirror images together.
@@ -390,7 +282,7 @@ class HierarchyBuilder {
       queue.push_back(std::min(s, image));
     };
     for (Index s = 0; s < static_cast<Index>(all_.size()); ++s) {
-      if (!all_[s].alive) continue;
+      if (!lines_.isLeft(s)) continue;
       queue.clear();
       reach(s);
       for (std::size_t k = 0; k < queue.size(); ++k) {
@@ -413,13 +305,14 @@ class HierarchyBuilder {
     const auto visit = [&](Index node) {
       for (const HalfArc arm : c_.stars[node].arms) {
         if (w_.arcs[arcOf(arm)].collapsed) continue;
-        const Link link = walk(arm);
+        const Link link = lines_.walk(arm);
         if (link.back < 0) continue;
         const Index end = w_.start(link.back);
-        if (isSite(end) && siteOf_[end] != s) result.push_back({siteOf_[end], link.distance});
+        if (lines_.isSite(end) && lines_.siteOf(end) != s)
+          result.push_back({lines_.siteOf(end), link.distance});
       }
     };
-    for (const Index node : nodesOf_[s]) visit(node);
+    for (const Index node : lines_.nodesOf(s)) visit(node);
     return result;
   }
 
@@ -438,6 +331,7 @@ class HierarchyBuilder {
   void arrange() {
     std::vector<Index> rank(all_.size());
     for (std::size_t k = 0; k < order_.size(); ++k) rank[order_[k]] = static_cast<Index>(k);
+    siteOf_ = lines_.siteOf();
     for (Index& s : siteOf_)
       if (s >= 0) s = rank[s];
     for (const Index s : order_) {
@@ -478,18 +372,14 @@ class HierarchyBuilder {
   const Mirror& mirror_;
   const bool seekNear_;
   Hierarchy& out_;
-  std::vector<Candidate> all_;
-  std::vector<Index> siteOf_;      // [nodes]
-  std::vector<Link> links_;        // [half-arcs]
-  std::vector<HalfArc> opposite_;  // [half-arcs] that go straight on, behind where one begins
+  Lines lines_;
+  NearSites nearSites_;
+  std::vector<Candidate> all_;  // [sites] as the lines number them
+  std::vector<Index> siteOf_;   // [nodes] by the order of coding
   std::vector<Index> order_;
-  std::vector<double> reach_;                // [vectors]
-  Index guessed_ = -1, guessedToo_ = -1;     // nodes that may not predict themselves or each other
-  std::vector<std::vector<Index>> nodesOf_;  // [sites] of which one may be several
-  std::vector<Waiting> queue_;               // of a search, a heap
-  std::vector<Index> reachedBy_;             // [sites, then nodes] the last search that was there
-  Index search_ = 0;
-  std::vector<char> placed_;  // [sites] roots that have their place in the order
+  std::vector<double> reach_;             // [vectors]
+  Index guessed_ = -1, guessedToo_ = -1;  // nodes that may not predict themselves or each other
+  std::vector<char> placed_;              // [sites] roots that have their place in the order
 };
 
 Hierarchy::Hierarchy(const Surface& surface, const Mirror& mirror, bool seekNear) {

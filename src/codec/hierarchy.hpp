@@ -62,7 +62,6 @@ class Hierarchy {
   std::span<const Index> near(Index site) const {
     return {near_.data() + nearStart_[site], near_.data() + nearStart_[site + 1]};
   }
-  static constexpr std::size_t kMostNear = 16;
 
   /// The stored vector that mirrors one, and the sign with which it does; -1 where there is none.
   struct Image {

@@ -3,6 +3,8 @@
 #include <array>
 #include <cmath>
 
+#include "codec/near_sites.hpp"
+
 namespace sweepface::codec {
 
 namespace {
@@ -43,7 +45,7 @@ double apart(const Stand& a, const Stand& b, double turned) {
   return r * std::sqrt(r);
 }
 
-constexpr std::size_t kMost = Hierarchy::kMostNear;
+constexpr std::size_t kMost = NearSites::kMost;
 using Weights = std::array<double, kMost>;
 
 // Weights that sum to 1, by Cholesky's factors of what the differences from the place itself have

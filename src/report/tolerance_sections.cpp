@@ -71,13 +71,13 @@ std::string ReportMaker::errorOverPoints(const std::vector<Trial>& trials) const
     allowed.points.push_back({1.0 * t.points, t.tolerance});
     rms.points.push_back({1.0 * t.points, t.errors.distance.rms});
     table.add(
-        {number(t.tolerance), count(t.points), percent(t.points / static_cast<double>(vertices())),
-         count(t.patches), number(t.errors.distance.rms), count(t.bytes),
-         t.bareBytes > 0 ? count(t.bareBytes) : ""},
+        {number(t.tolerance) + (t.packed ? "" : ", not packed"), count(t.points),
+         percent(t.points / static_cast<double>(vertices())), count(t.patches),
+         number(t.errors.distance.rms), count(t.bytes), t.bareBytes > 0 ? count(t.bareBytes) : ""},
         t.tolerance == rig_.tolerance);
   }
   return section("Error against points",
-                 "The same meshes converted with other tolerances, packed; this file's is in "
+                 "The same meshes converted with other tolerances and packed; this file's is in "
                  "bold.") +
          linePlot("Distance over points", {"points", true}, {"distance", true}, {allowed, rms}) +
          table.html();

@@ -6,6 +6,7 @@
 
 #include "codec/files.hpp"
 #include "codec/lattice.hpp"
+#include "codec/near_sites.hpp"
 #include "codec/rigs.hpp"
 
 namespace sweepface {
@@ -15,6 +16,7 @@ using namespace sweepface::testing;
 using codec::Coefficients;
 using codec::Hierarchy;
 using codec::Lattice;
+using codec::NearSites;
 using codec::Prediction;
 using codec::stepOf;
 
@@ -89,7 +91,7 @@ TEST(Hierarchy, TellsTheNearestSitesBeforeEachThatIsNoRoot) {
     for (Index s = 0; s < static_cast<Index>(sites.size()); ++s) {
       const auto near = lattice.hierarchy().near(s);
       EXPECT_EQ(near.empty(), sites[s].span == 0);
-      EXPECT_LE(near.size(), Hierarchy::kMostNear);
+      EXPECT_LE(near.size(), NearSites::kMost);
       EXPECT_EQ(std::set<Index>(near.begin(), near.end()).size(), near.size());
       for (const Index other : near) {
         EXPECT_LT(other, s);
