@@ -19,8 +19,9 @@ inline constexpr std::size_t kFrameSize = 12;  // kind, length and checksum
 /// does not know it must refuse the file.
 constexpr std::string_view codesOf(int version) {
   using namespace std::string_view_literals;
-  return version == 1 ? "HEADWIRECREASHAPNEUTTARGloosordrpolytexcquadscennameEND "sv
- : "BASEGRIDTNAMRESTMOVEEXACloosdrifwalkordrfacepolytexttexcquadscennameturnEND "sv;
+  return version == 1
+             ? "HEADWIRECREASHAPNEUTTARGloosordrpolytexcquadscennameEND "sv
+             : "BASEGRIDTNAMRESTMOVEEXACloosdrifwalkordrfacepolytexttexcquadscennameturnEND "sv;
 }
 constexpr std::string_view codeAt(int rank, int version) {
   return codesOf(version).substr(4 * static_cast<std::size_t>(rank), 4);

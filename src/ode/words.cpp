@@ -1,6 +1,6 @@
-#include "sweepface/result.hpp"
-
 #include <vector>
+
+#include "sweepface/result.hpp"
 
 namespace sweepface {
 
