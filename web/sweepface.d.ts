@@ -55,7 +55,8 @@ export interface Look {
   pitch?: number;
 }
 
-/** `arcs`, `combine`, `eyes` and `regions` load sweepface_full.wasm instead of sweepface.wasm. */
+/** Files that are not packed, `edgeLength`, `error`, `vertices`, `arcs`, `combine`, `eyes` and `regions` load
+ * sweepface_full.wasm instead of sweepface.wasm. */
 export interface LoadOptions {
   /** 0: the source's own vertices; N: every edge of the source cut into N, up to 64. */
   lod?: number;

@@ -12,6 +12,12 @@ const BUDGETS = ['edgeLength', 'error', 'vertices'];
 /** What targets may follow, in the numbers of the C interface. */
 const FOLLOW = {arcs: 1, combine: 2};
 
+/** Chunks that hold things as they are, which takes a hundred times the bytes of a packed face. */
+const AS_THEY_ARE = ['EXAC', 'loos', 'drif', 'ordr', 'poly', 'texc', 'quad'];
+
+/** Where the usual module, which spares the words, is the only one that was given. */
+const UNSAID = 'sweepface.wasm cannot do that with this face; give sweepface_full.wasm, which can or says why.';
+
 const encoder = new TextEncoder(), decoder = new TextDecoder();
 
 /**
@@ -30,7 +36,7 @@ async function compileUrl(url) {
   return mayStream ? WebAssembly.compileStreaming(response) : WebAssembly.compile(await response.arrayBuffer());
 }
 
-/** The modules beside this file: the usual one, and the one that knows arcs, combinations, regions and eyes as well. */
+/** The modules beside this file: one for packed faces as they are, and one for all files with all there is. */
 const MODULES = {
   usual: () => new URL('./sweepface.wasm', import.meta.url),
   full: () => new URL('./sweepface_full.wasm', import.meta.url)
@@ -88,7 +94,7 @@ class Runtime {
   lendText(text, use) { return this.lend(encoder.encode(text + '\0'), use); }
 
   check(status) {
-    if (status !== 0) throw new Error(this.text(this.wasm.sweepface_message()));
+    if (status !== 0) throw new Error(this.text(this.wasm.sweepface_message()) || UNSAID);
   }
 
   /** What a function with a trailing out-parameter of 32 bits writes there. */
@@ -104,6 +110,15 @@ class Runtime {
       return this.get('sweepface_rig_load', at, bytes.length, text);
     }));
   }
+}
+
+/** Whether a file holds nothing but what the usual module reads. */
+function isPacked(bytes) {
+  const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
+  const kinds = [];
+  for (let at = 8; at + 8 <= bytes.length; at += 12 + view.getUint32(at + 4, true))
+    kinds.push(decoder.decode(bytes.subarray(at, at + 4)));
+  return bytes[7] === 2 && !kinds.some((kind) => AS_THEY_ARE.includes(kind));
 }
 
 /** Runs what may need more memory than there is: the module then stops for good. */
@@ -139,7 +154,8 @@ class Shared {
   target(name) {
     const index = this.indexOf.get(name);
     if (index !== undefined) return index;
-    return this.runtime.lendText(name, (text) => this.runtime.get('sweepface_rig_find_target', this.rig, text));
+    const known = this.names.length > 0 ? `its targets are ${this.names.join(', ')}` : 'this face has no targets';
+    throw new Error(`There is no target named '${name}'; ${known}.`);
   }
 
   region(name) {
@@ -202,11 +218,19 @@ export class Sweepface {
     const view = ArrayBuffer.isView(bytes) ? new Uint8Array(bytes.buffer, bytes.byteOffset, bytes.byteLength)
                                            : new Uint8Array(bytes);
     const [budget] = BUDGETS.flatMap((kind, k) => (kind in rest ? [[k, Number(rest[kind])]] : []));
-    const module = await compile(wasm, arcs || combine || regions || eyes ? 'full' : 'usual');
     const divide = regions && (await import('./sweepface_regions.js')).divider(regions);
     const follow = (arcs ? FOLLOW.arcs : 0) + (combine ? FOLLOW.combine : 0);
     const options = {name: String(name), follow, eyes, divide, lod, budget};
-    return withinMemory(() => new Sweepface(new Shared(module, view, options)));
+    const make = (module) => withinMemory(() => new Sweepface(new Shared(module, view, options)));
+    const isUsual = !follow && !eyes && !divide && !budget && isPacked(view);
+    if (wasm || !isUsual) return make(await compile(wasm, 'full'));
+    const usual = await compile(wasm, 'usual');
+    try {
+      return make(usual);
+    } catch (error) {
+      if (error.cause instanceof WebAssembly.RuntimeError) throw error;
+      return make(await compile(wasm, 'full'));  // which has the last word
+    }
   }
 
   /** Another face of the same file, at rest; the two share everything but their weights. */

@@ -32,44 +32,27 @@ struct TextPart {
   long long number = 0;
 
   template <std::integral T>
-  TextPart(T x) : number(static_cast<long long>(x)) {}
+  [[gnu::always_inline]] TextPart(T x) : number(static_cast<long long>(x)) {}
   template <std::convertible_to<std::string_view> T>
-  TextPart(const T& x) : text(x) {}
+  [[gnu::always_inline]] TextPart(const T& x) : text(x) {}
 };
 
-/// Appends a whole number: one function for all types, where the standard library has one for each.
-[[gnu::noinline]] inline void appendNumber(std::string& sentence, long long number) {
-  char digits[20];
-  char* first = digits + 20;
-  auto rest = static_cast<unsigned long long>(number);
-  if (number < 0) rest = 0 - rest;
-  do *--first = static_cast<char>('0' + rest % 10);
-  while (rest /= 10);
-  if (number < 0) *--first = '-';
-  sentence.append(first, digits + 20);
-}
-
 /// The parts one after the other.
-[[gnu::noinline]] inline std::string joined(std::initializer_list<TextPart> parts) {
-  std::string sentence;
-  for (const TextPart& part : parts)
-    if (part.text.data())
-      sentence += part.text;
-    else
-      appendNumber(sentence, part.number);
-  return sentence;
+std::string joined(std::initializer_list<TextPart> parts);
+
+/// Shorthand for a failed Result. A program that has no use for words may do without them: it links
+/// failWith() of its own (web/src/usual.cpp).
+std::unexpected<Error> failWith(std::initializer_list<TextPart> parts);
+template <typename... Parts>
+[[gnu::always_inline]] inline std::unexpected<Error> fail(const Parts&... parts) {
+  return failWith({TextPart(parts)...});
 }
 
-/// Shorthand for a failed Result.
-[[gnu::noinline]] inline std::unexpected<Error> fail(std::string message) {
-  return std::unexpected(Error(std::move(message)));
-}
-[[gnu::noinline]] inline std::unexpected<Error> failWith(std::initializer_list<TextPart> parts) {
-  return fail(joined(parts));
-}
+/// The same about what somebody asks for, not about what they have: every program says it.
+std::unexpected<Error> failCallWith(std::initializer_list<TextPart> parts);
 template <typename... Parts>
-std::unexpected<Error> fail(const char* first, const Parts&... rest) {
-  return failWith({TextPart(first), TextPart(rest)...});
+[[gnu::always_inline]] inline std::unexpected<Error> failCall(const Parts&... parts) {
+  return failCallWith({TextPart(parts)...});
 }
 
 }  // namespace sweepface

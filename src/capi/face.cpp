@@ -16,8 +16,8 @@ constexpr std::size_t kTight = 3 * sizeof(float);
 bool isWeight(double w) { return std::abs(w) <= SWEEPFACE_MOST_WEIGHT; }  // false for NaN
 
 sweepface_status refuseWeight(const sweepface_face& face, std::size_t target) {
-  return refuse("The weight of '", face.mesh->rig->targets[target].name, "' must lie within ",
-                static_cast<int>(SWEEPFACE_MOST_WEIGHT), " of 0.");
+  return refuseCall("The weight of '", face.mesh->rig->targets[target].name, "' must lie within ",
+                    static_cast<int>(SWEEPFACE_MOST_WEIGHT), " of 0.");
 }
 
 bool fits(const sweepface_vectors& out) { return out.stride == 0 || out.stride >= kTight; }
@@ -42,22 +42,6 @@ void repeatPoints(const Mesh& mesh, const sweepface_vectors& out, std::size_t co
 }
 
 }  // namespace
-
-const Weights& sweepface::capi::follow(sweepface_face& face) {
-  const Mesh& mesh = *face.mesh;
-  if (mesh.followers.empty() && !mesh.eyes) return face.weights;
-  const std::size_t targets = mesh.rig->targets.size();
-  std::ranges::fill(face.followed, 0.0);
-  for (std::size_t r = 0; r < mesh.division->count(); ++r) {
-    const std::span region = std::span(face.followed).subspan(r * targets, targets);
-    std::copy_n(face.weights.data() + r * mesh.shown, mesh.shown, region.begin());
-    if (mesh.eyes) mesh.eyes->apply(face.looks ? &*face.looks : nullptr, region);
-    mesh.followers.apply(region);
-  }
-  // Products of large weights are beyond what an evaluation takes.
-  for (double& w : face.followed) w = std::clamp(w, -SWEEPFACE_MOST_WEIGHT, SWEEPFACE_MOST_WEIGHT);
-  return face.followed;
-}
 
 sweepface_status sweepface_face_create(const sweepface_mesh* mesh, sweepface_face** face) {
   if (!mesh || !face) return refuse("Making a face needs a mesh and a place for it.");

@@ -18,6 +18,8 @@
 // What the handles of the C interface stand for. Rigs and meshes are shared by what is made from
 // them.
 
+struct sweepface_face;
+
 namespace sweepface::capi {
 
 /// The regions of a face; none: one that is everywhere.
@@ -32,21 +34,23 @@ struct Division {
 /// A face divided into these regions.
 std::shared_ptr<const Division> divisionOf(const Rig& rig, const std::vector<Region>& regions);
 
-/// Sets the weights of what turns eyes; by itself nothing. Behind an interface, as most faces do
-/// without. Not abstract: that would bring the C++ library's words about it to the browser.
-struct EyeTurner {
-  virtual ~EyeTurner() = default;
-  virtual void apply(const HeadPose*, std::span<double>) const {}
+/// What sets weights by others, where something does: most faces do without, and a module that has
+/// none of it does not bring it along.
+struct Following {
+  std::shared_ptr<const Followers> followers;  // of targets; those added for them are not shown
+  std::shared_ptr<const EyeTurns> eyes;        // where they turn
+  const Weights& (*apply)(const Following&, sweepface_face&) = nullptr;
 };
+/// All of it, for Following::apply.
+const Weights& followAll(const Following& following, sweepface_face& face);
 
 }  // namespace sweepface::capi
 
 struct sweepface_rig {
   std::shared_ptr<sweepface::Rig> rig;  // only read once there are meshes
-  sweepface::Followers followers;  // of its targets; those that were added for them are not shown
-  std::size_t shown = 0;           // targets, the first ones
+  std::size_t shown = 0;                // targets, the first ones
   std::shared_ptr<const sweepface::capi::Division> division;
-  std::shared_ptr<const sweepface::capi::EyeTurner> eyes = nullptr;  // where they turn
+  sweepface::capi::Following following = {};
 };
 
 namespace sweepface::capi {
@@ -67,10 +71,9 @@ class LazyEvaluator {
 
 struct Mesh {
   std::shared_ptr<const Rig> rig;
-  Followers followers;
   std::size_t shown;
   std::shared_ptr<const Division> division;
-  std::shared_ptr<const EyeTurner> eyes;
+  Following following;
   Index lod;
   Tessellation grid;
   Evaluator neutral;  // with the same options the others cannot fail
@@ -121,7 +124,10 @@ struct sweepface_face {
 
 namespace sweepface::capi {
 /// The face's weights with what follows them.
-const Weights& follow(sweepface_face& face);
+inline const Weights& follow(sweepface_face& face) {
+  const Following& following = face.mesh->following;
+  return following.apply ? following.apply(following, face) : face.weights;
+}
 }  // namespace sweepface::capi
 
 struct sweepface_motion {

@@ -13,13 +13,6 @@ using namespace sweepface::capi;
 
 namespace {
 
-struct Turner final : EyeTurner {
-  EyeTurns turns;
-  void apply(const HeadPose* pose, std::span<double> weights) const override {
-    pose ? turns.apply(*pose, weights) : turns.apply(weights);
-  }
-};
-
 Angles anglesOf(const sweepface_angles& a) { return {a.yaw, a.pitch, a.roll}; }
 bool isFinite(const sweepface_angles& a) { return std::isfinite(a.yaw + a.pitch + a.roll); }
 
@@ -31,15 +24,14 @@ void sweepface_rotation(const sweepface_angles* angles, double quaternion[4]) {
 
 sweepface_status sweepface_rig_turn_eyes(sweepface_rig* rig, uint32_t* eyes) {
   if (!rig || !eyes) return refuse("Turning eyes needs a rig and a place for their number.");
-  if (rig->eyes) return refuse("The eyes turn already.");
+  if (rig->following.eyes) return refuse("The eyes turn already.");
   if (rig->rig.use_count() > 1)
     return refuse("Eyes must turn before a rig has meshes; free them, or load it again.");
   const std::vector<Eye> found = findEyes(*rig->rig);
   *eyes = static_cast<uint32_t>(found.size());
   if (found.empty()) return SWEEPFACE_OK;
-  auto turner = std::make_shared<Turner>();
-  turner->turns = EyeTurns::addTo(*rig->rig, found);
-  rig->eyes = std::move(turner);
+  rig->following.eyes = std::make_shared<const EyeTurns>(EyeTurns::addTo(*rig->rig, found));
+  rig->following.apply = followAll;
   return SWEEPFACE_OK;
 }
 

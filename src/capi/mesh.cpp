@@ -19,16 +19,15 @@ double gridVertices(const Surface& surface, double level) {
 }
 
 sweepface_status makeMesh(const sweepface_rig& rig, Index lod, Tessellation grid,
+                          RenderMesh (*rendered)(const Rig&, const Tessellation&),
                           sweepface_mesh** mesh) {
   auto neutral = Evaluator::make(
       *rig.rig, grid, {.level = lod, .targets = false, .influences = rig.division->influences});
   if (!neutral) return refuse(std::move(neutral.error().message));
-  RenderMesh render = lod == 0            ? renderSource(*rig.rig, grid)
-                      : grid.level() == 0 ? renderDensity(*rig.rig, grid)
-                                          : renderGrid(*rig.rig, grid);
-  *mesh = new sweepface_mesh{std::make_shared<Mesh>(rig.rig, rig.followers, rig.shown, rig.division,
-                                                    rig.eyes, lod, std::move(grid),
-                                                    std::move(*neutral), std::move(render))};
+  RenderMesh render = rendered(*rig.rig, grid);
+  *mesh = new sweepface_mesh{std::make_shared<Mesh>(rig.rig, rig.shown, rig.division, rig.following,
+                                                    lod, std::move(grid), std::move(*neutral),
+                                                    std::move(render))};
   return SWEEPFACE_OK;
 }
 
@@ -49,7 +48,8 @@ sweepface_status sweepface_mesh_create(const sweepface_rig* rig, uint32_t lod,
   if (gridVertices(rig->rig->surface, level) > kMostVertices)
     return refuse("The face has too many vertices at level of detail ", lod,
                   "; ask for a lower one.");
-  return makeMesh(*rig, static_cast<Index>(lod), Tessellation(rig->rig->surface, level), mesh);
+  return makeMesh(*rig, static_cast<Index>(lod), Tessellation(rig->rig->surface, level),
+                  lod == 0 ? renderSource : renderGrid, mesh);
 }
 
 sweepface_status sweepface_mesh_create_within(const sweepface_rig* rig, sweepface_budget budget,
@@ -67,7 +67,7 @@ sweepface_status sweepface_mesh_create_within(const sweepface_rig* rig, sweepfac
   for (const auto& [columns, rows] : density->patches) vertices += double(columns) * rows;
   if (vertices > kMostVertices)
     return refuse("The face has too many vertices within this budget; ask for fewer.");
-  return makeMesh(*rig, 1, Tessellation(rig->rig->surface, *density), mesh);
+  return makeMesh(*rig, 1, Tessellation(rig->rig->surface, *density), renderDensity, mesh);
 }
 
 sweepface_status sweepface_mesh_prepare(const sweepface_mesh* mesh, int32_t normals) {

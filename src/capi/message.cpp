@@ -11,7 +11,9 @@ sweepface_status refuse(sweepface_status status, std::string message) {
   return status;
 }
 
-sweepface_status refuseWith(std::initializer_list<TextPart> parts) { return refuse(joined(parts)); }
+sweepface_status refuseCallWith(std::initializer_list<TextPart> parts) {
+  return refuse(joined(parts));
+}
 
 sweepface_status noSuch(const char* what, std::size_t index, std::size_t count) {
   return refuse("There is no ", what, " ", index, "; there are ", count, ", counted from 0.");

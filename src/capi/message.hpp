@@ -12,10 +12,17 @@ sweepface_status refuse(sweepface_status status, std::string message);
 inline sweepface_status refuse(std::string message) {
   return refuse(SWEEPFACE_BAD_ARGUMENT, std::move(message));
 }
+/// Not said by a module that is called by sweepface.js only (web/src/usual.cpp).
 sweepface_status refuseWith(std::initializer_list<TextPart> parts);
 template <typename... Parts>
-sweepface_status refuse(const char* first, const Parts&... rest) {
+[[gnu::always_inline]] inline sweepface_status refuse(const char* first, const Parts&... rest) {
   return refuseWith({TextPart(first), TextPart(rest)...});
+}
+/// Always said.
+sweepface_status refuseCallWith(std::initializer_list<TextPart> parts);
+template <typename... Parts>
+[[gnu::always_inline]] inline sweepface_status refuseCall(const Parts&... parts) {
+  return refuseCallWith({TextPart(parts)...});
 }
 
 /// The sentence about something that `count` there are of, and `index` is not one.

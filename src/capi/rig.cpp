@@ -15,8 +15,8 @@ sweepface_status sweepface_rig_load(const void* bytes, size_t size, const char* 
   Result<Rig> decoded = decode({static_cast<const char*>(bytes), size}, name ? name : "The face");
   if (!decoded) return refuse(SWEEPFACE_BAD_DATA, std::move(decoded.error().message));
   const std::size_t targets = decoded->targets.size();
-  *rig = new sweepface_rig{
-      std::make_shared<Rig>(std::move(*decoded)), {}, targets, std::make_shared<const Division>()};
+  *rig = new sweepface_rig{std::make_shared<Rig>(std::move(*decoded)), targets,
+                           std::make_shared<const Division>()};
   return SWEEPFACE_OK;
 }
 
@@ -36,7 +36,7 @@ sweepface_status sweepface_rig_find_target(const sweepface_rig* rig, const char*
   if (!rig || !name || !target) return refuse("Finding a target needs a rig, a name and a place.");
   Result<Index> found = findTarget(*rig->rig, name);
   if (found && static_cast<std::size_t>(*found) >= rig->shown)
-    found = fail(std::string("there is no target named '") + name + "'");
+    found = failCall("there is no target named '", std::string_view(name), "'");
   if (!found) return refuse(sentence(std::move(found.error().message)));
   *target = static_cast<uint32_t>(*found);
   return SWEEPFACE_OK;
@@ -53,7 +53,8 @@ sweepface_status sweepface_rig_follow(sweepface_rig* rig, uint32_t what) {
   if (rig->rig.use_count() > 1)
     return refuse(
         "What follows must be said before a rig has meshes; free them, or load it again.");
-  if (rig->eyes) return refuse("What follows must be said before eyes turn; load the rig again.");
+  if (rig->following.eyes)
+    return refuse("What follows must be said before eyes turn; load the rig again.");
   Rig& made = *rig->rig;
   made.targets.resize(rig->shown);
   std::vector<Follower> followers;
@@ -66,7 +67,11 @@ sweepface_status sweepface_rig_follow(sweepface_rig* rig, uint32_t what) {
     const std::vector<Follower> arcs = addArcs(made, made.turns);
     followers.insert(followers.end(), arcs.begin(), arcs.end());
   }
-  rig->followers = Followers(std::move(followers));
+  rig->following = {};
+  if (!followers.empty()) {
+    rig->following.followers = std::make_shared<const Followers>(std::move(followers));
+    rig->following.apply = followAll;
+  }
   return SWEEPFACE_OK;
 }
 

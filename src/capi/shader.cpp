@@ -21,7 +21,7 @@ sweepface_status sweepface_face_modes(sweepface_face* face, int32_t tangents, fl
   mesh.makeShaderTables();
   const auto modes =
       static_cast<size_t>((tangents ? mesh.shaderTangents : mesh.shaderPositions).modes);
-  if (count != modes) return refuse("There are ", modes, " modes, not ", count, ".");
+  if (count != modes) return refuseCall("There are ", modes, " modes, not ", count, ".");
   const EvaluatorTables& tables = (tangents ? mesh.normals() : mesh.positions()).tables();
   blendModes(tables, tangents ? tables.derivatives : tables.positions, follow(*face), face->scratch,
              {out, 4 * count});

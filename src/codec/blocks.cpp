@@ -190,8 +190,7 @@ void writeRuns(Writer& out, const std::vector<Index>& values) {
   }
 }
 
-std::vector<Index> readRuns(Reader& in, Index low, Index high, std::size_t most,
-                            std::string_view what) {
+std::vector<Index> readRuns(Reader& in, Index low, Index high, std::size_t most, const char* what) {
   std::vector<Index> values;
   for (std::size_t runs = in.count(2, "runs"); runs > 0 && in.ok(); --runs) {
     const Index value = in.step(0, low, high, what);
@@ -207,7 +206,7 @@ void writeTexts(Writer& out, const std::vector<std::string>& texts) {
   for (const std::string& text : texts) out.text(text);
 }
 
-std::vector<std::string> readTexts(Reader& in, std::string_view what) {
+std::vector<std::string> readTexts(Reader& in, const char* what) {
   std::vector<std::string> texts;
   for (std::size_t count = in.count(1, what); count > 0 && in.ok(); --count)
     texts.emplace_back(in.text());

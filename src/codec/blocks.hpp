@@ -27,10 +27,9 @@ std::vector<char> readMask(Reader& in, std::size_t count);
 /// Values that rarely change: each with how often it comes in a row.
 void writeRuns(Writer& out, const std::vector<Index>& values);
 /// Values within [low, high), at most `most` of them.
-std::vector<Index> readRuns(Reader& in, Index low, Index high, std::size_t most,
-                            std::string_view what);
+std::vector<Index> readRuns(Reader& in, Index low, Index high, std::size_t most, const char* what);
 
 void writeTexts(Writer& out, const std::vector<std::string>& texts);
-std::vector<std::string> readTexts(Reader& in, std::string_view what);
+std::vector<std::string> readTexts(Reader& in, const char* what);
 
 }  // namespace sweepface::codec

@@ -8,9 +8,10 @@
 namespace sweepface::codec {
 
 int rankOf(std::string_view code, int version) {
-  const auto kinds = kindsOf(version);
-  const auto found = std::ranges::find(kinds, code, &Kind::code);
-  return found == kinds.end() ? -1 : static_cast<int>(found - kinds.begin());
+  const std::string_view codes = codesOf(version);
+  for (std::size_t at = 0; at < codes.size(); at += 4)
+    if (codes.substr(at, 4) == code) return static_cast<int>(at / 4);
+  return -1;
 }
 
 void writeHeader(Writer& out) {
@@ -56,9 +57,10 @@ class ChunkReader {
   }
 
  private:
-  std::unexpected<Error> failHere(const std::string& what) const {
-    return failWith(
-        {name_, ", byte ", at_, ": ", what, "; copy the file again or convert the source again."});
+  template <typename... Parts>
+  [[gnu::always_inline]] std::unexpected<Error> failHere(const Parts&... what) const {
+    return fail(name_, ", byte ", at_, ": ", what...,
+                "; copy the file again or convert the source again.");
   }
 
   Result<void> readHeader() {
@@ -82,21 +84,21 @@ class ChunkReader {
     if (!isCode(code)) return failHere("there is no chunk where one must begin");
     const std::uint32_t size = fixed32(bytes_.substr(at_ + 4)),
                         sum = fixed32(bytes_.substr(at_ + 8));
-    const std::string quoted = joined({"chunk '", code, "'"});
-    if (size > bytes_.size() - at_ - kFrameSize) return failHere("the file ends within " + quoted);
+    if (size > bytes_.size() - at_ - kFrameSize)
+      return failHere("the file ends within chunk '", code, "'");
     const Chunk chunk{rankOf(code, version_), bytes_.substr(at_ + kFrameSize, size),
                       at_ + kFrameSize};
     if (crc32(chunk.payload, crc32(code)) != sum)
-      return failHere("the checksum of " + quoted + " does not match");
+      return failHere("the checksum of chunk '", code, "' does not match");
     if (chunk.rank < 0 && !isOptional(code))
-      return failWith({name_, ", byte ", at_, ": ", quoted,
-                       " is required and unknown to this program; get a newer one."});
+      return fail(name_, ", byte ", at_, ": chunk '", code,
+                  "' is required and unknown to this program; get a newer one.");
     at_ = chunk.offset + size;
     return chunk;
   }
 
   std::string_view bytes_;
-  std::string name_;
+  std::string_view name_;
   std::size_t at_ = 0;
   int version_ = 0;
 };

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <array>
-#include <span>
 #include <string_view>
 #include <vector>
 
@@ -16,51 +14,17 @@ inline constexpr int kVersion = 2;             // that is written
 inline constexpr std::size_t kHeaderSize = 8;  // magic and version
 inline constexpr std::size_t kFrameSize = 12;  // kind, length and checksum
 
-/// A kind of chunk and the part of a file it counts for.
-struct Kind {
-  std::string_view code, part;
-};
-
-/// The registry: in the order in which chunks stand in a file of each version. A code never changes
-/// its meaning. One that begins with a capital is required: who does not know it must refuse the
-/// file.
-inline constexpr std::array<Kind, 14> kKinds1{{{"HEAD", "container"},
-                                               {"WIRE", "wireframe"},
-                                               {"CREA", "wireframe"},
-                                               {"SHAP", "shape parameters"},
-                                               {"NEUT", "neutral"},
-                                               {"TARG", "targets"},
-                                               {"loos", "loose vertices"},
-                                               {"ordr", "source order"},
-                                               {"poly", "polygons"},
-                                               {"texc", "texture coordinates"},
-                                               {"quad", "quad corners"},
-                                               {"scen", "scene"},
-                                               {"name", "names"},
-                                               {"END ", "container"}}};
-inline constexpr std::array<Kind, 19> kKinds2{{{"BASE", "container"},
-                                               {"GRID", "wireframe"},
-                                               {"TNAM", "names"},
-                                               {"REST", "neutral"},
-                                               {"MOVE", "targets"},
-                                               {"EXAC", "exact vectors"},
-                                               {"loos", "loose vertices"},
-                                               {"drif", "loose vertices"},
-                                               {"walk", "source order"},
-                                               {"ordr", "source order"},
-                                               {"face", "polygons"},
-                                               {"poly", "polygons"},
-                                               {"text", "texture coordinates"},
-                                               {"texc", "texture coordinates"},
-                                               {"quad", "quad corners"},
-                                               {"scen", "scene"},
-                                               {"name", "names"},
-                                               {"turn", "turns"},
-                                               {"END ", "container"}}};
-
-/// The kinds of a version.
-constexpr std::span<const Kind> kindsOf(int version) {
-  return version == 1 ? std::span<const Kind>(kKinds1) : std::span<const Kind>(kKinds2);
+/// The registry: the codes of a version in the order in which chunks stand in a file, one behind
+/// the other. A code never changes its meaning. One that begins with a capital is required: who
+/// does not know it must refuse the file.
+constexpr std::string_view codesOf(int version) {
+  using namespace std::string_view_literals;
+  return version == 1
+             ? "HEADWIRECREASHAPNEUTTARGloosordrpolytexcquadscennameEND "sv
+             : "BASEGRIDTNAMRESTMOVEEXACloosdrifwalkordrfacepolytexttexcquadscennameturnEND "sv;
+}
+constexpr std::string_view codeAt(int rank, int version) {
+  return codesOf(version).substr(4 * static_cast<std::size_t>(rank), 4);
 }
 /// Place of a code among the kinds of a version, or -1.
 int rankOf(std::string_view code, int version = kVersion);

@@ -12,11 +12,9 @@ namespace sweepface {
 
 namespace codec {
 
-constexpr std::string_view kTooLarge = "it needs more memory than it is allowed";
-
 bool Decoding::afford(Reader& in, std::size_t count, std::size_t bytesEach) {
   if (count > memory / bytesEach) {
-    in.refuse(kTooLarge);
+    in.refuse("it needs more memory than it is allowed");
     return false;
   }
   memory -= count * bytesEach;
@@ -27,7 +25,7 @@ void Decoding::makeSurface(Reader& in) {
   quads = gridQuads(wireframe);
   if (!afford(in, wireframe.patches.size(), kBytesAPatch)) return;
   auto surface = Surface::make(std::move(wireframe));
-  if (!surface) return in.refuse("the wireframe is unsound: " + surface.error().message);
+  if (!surface) return in.refuseWith({"the wireframe is unsound: ", surface.error().message});
   rig.surface = std::move(*surface);
   stored = static_cast<std::size_t>(rig.surface.storedCount());
 }
@@ -47,8 +45,10 @@ class Decoder {
   }
 
   Result<Rig> run(const Chunks& chunks) {
-    kinds_ = kindsOf(chunks.version);
-    readers_ = chunks.version == 1 ? version1() : version2();
+    version_ = chunks.version;
+    readers_ = version_ == 1 ? version1() : version2();
+    if (readers_.empty())
+      return fail(name_, " is of version ", version_, ", which this program does not read.");
     for (const Chunk& chunk : chunks.list) {
       if (chunk.rank < 0) continue;
       if (auto ok = admit(chunk); !ok) return std::unexpected(ok.error());
@@ -58,25 +58,24 @@ class Decoder {
   }
 
  private:
-  std::unexpected<Error> failAt(const Chunk& chunk, std::size_t byte,
-                                const std::string& what) const {
-    return failWith({name_, ", chunk '", kinds_[chunk.rank].code, "', byte ", byte, ": ", what,
-                     what.find("memory") != what.npos ? "; allow more, or do not open it."
-                                                      : "; convert the source again."});
+  template <typename... Parts>
+  [[gnu::always_inline]] std::unexpected<Error> failAt(const Chunk& chunk, std::size_t byte,
+                                                       const Parts&... what) const {
+    return fail(name_, ", chunk '", codeAt(chunk.rank, version_), "', byte ", byte, ": ", what...);
   }
 
   // Chunks come in the order of the registry; targets of version 1 as many as the head says.
   Result<void> admit(const Chunk& chunk) {
     if (chunk.rank < rank_ || (chunk.rank == rank_ && !readers_[chunk.rank].repeated))
-      return failAt(chunk, chunk.offset, "it comes twice or out of its order");
+      return failAt(chunk, chunk.offset, "it comes twice or out of its order", kConvertAgain);
     for (int rank = rank_ + 1; rank < chunk.rank; ++rank)
       if (readers_[rank].required)
-        return failAt(chunk, chunk.offset,
-                      joined({"chunk '", kinds_[rank].code, "' is missing before it"}));
+        return failAt(chunk, chunk.offset, "chunk '", codeAt(rank, version_),
+                      "' is missing before it", kConvertAgain);
     const auto repeated = std::ranges::find(readers_, true, &ChunkHandler::repeated);
     if (repeated - readers_.begin() < chunk.rank && repeated != readers_.end() &&
         decoding_.rig.targets.size() < decoding_.targets)
-      return failAt(chunk, chunk.offset, "targets are missing before it");
+      return failAt(chunk, chunk.offset, "targets are missing before it", kConvertAgain);
     rank_ = chunk.rank;
     return {};
   }
@@ -85,12 +84,12 @@ class Decoder {
     Reader in(chunk.payload, chunk.offset);
     readers_[chunk.rank].read(decoding_, in);
     if (in.left() > 0) in.refuse("the chunk goes on after its last value");
-    if (!in.ok()) return failAt(chunk, in.place(), in.problem());
+    if (!in.ok()) return failAt(chunk, in.place(), in.problem(), in.advice());
     return {};
   }
 
-  std::string name_;
-  std::span<const Kind> kinds_;
+  std::string_view name_;
+  int version_ = 0;
   std::span<const ChunkHandler> readers_;
   int rank_ = -1;  // of the last chunk
   Decoding decoding_;

@@ -1,3 +1,4 @@
+// Chunks that hold things as they are. Packed faces do without them.
 #include <algorithm>
 
 #include "codec/blocks.hpp"
@@ -112,14 +113,30 @@ void readThingNames(Decoding& d, Reader& in) {
   d.rig.names = readNames(in, d.rig.surface.wireframe());
 }
 
-void readEnd(Decoding& d, Reader& in) {
-  std::vector<std::string_view> names;
-  for (const Target& target : d.rig.targets) names.push_back(target.name);
-  refuseTwins(in, std::move(names), "targets");
-  if (d.rig.targets.size() < d.targets) in.refuse("targets are missing");
-  for (const Target& target : d.rig.targets)
-    if (target.difference.size() != d.stored) in.refuse("the targets' vectors are missing");
-  if (d.rig.source.loose.size() != d.loose) in.refuse("the loose vertices are missing");
+// Vectors that are not whole multiples of steps: by pose, as they are.
+void readExact(Decoding& d, Reader& in) {
+  std::int64_t pose = -1;
+  while (in.left() > 0) {
+    pose += 1 + static_cast<std::int64_t>(in.size());
+    if (pose > static_cast<std::int64_t>(d.rig.targets.size()))
+      return in.refuse("there are more poses than announced");
+    std::vector<Vec3>& vectors =
+        pose == 0 ? d.rig.neutral : d.rig.targets[static_cast<std::size_t>(pose - 1)].difference;
+    std::vector<Index> places(in.count(1, "vectors"));
+    Index last = -1;
+    for (Index& v : places)
+      v = last = in.step(last + 1, 0, static_cast<Index>(vectors.size()), "vector");
+    const std::vector<Vec3> values = readVectors<Vec3>(in, places.size(), Precision::exact);
+    if (!in.ok()) return;
+    if (pose == 0) d.rig.packing.rest = vectors;
+    for (std::size_t k = 0; k < places.size(); ++k) vectors[places[k]] = values[k];
+  }
+}
+
+void readDrift(Decoding& d, Reader& in) {
+  for (Target& target : d.rig.targets)
+    target.looseDifference = readVectors<Vec3>(in, d.loose, Precision::exact);
+  if (d.rig.source.loose.empty()) in.refuse("there are no loose vertices that could move");
 }
 
 }  // namespace sweepface::codec

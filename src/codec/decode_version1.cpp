@@ -39,7 +39,7 @@ void readShapes(Decoding& d, Reader& in) {
   d.makeSurface(in);
   if (in.ok()) d.afford(in, (d.targets + 1) * d.stored, kBytesAVector);
   if (in.ok() && d.stored != announced)
-    in.refuse(joined({"the wireframe stores ", d.stored, " vectors and the file ", announced}));
+    in.refuseWith({"the wireframe stores ", d.stored, " vectors and the file ", announced});
 }
 
 void readNeutral(Decoding& d, Reader& in) {

@@ -36,10 +36,13 @@ struct ChunkHandler {
   void (*read)(Decoding&, Reader&);
   bool required = false, repeated = false;
 };
+/// None: this program does not read the version (web/src/usual.cpp).
 std::span<const ChunkHandler> version1();
 std::span<const ChunkHandler> version2();
 
-/// Chunks that both versions have.
+/// Chunks that hold things as they are; most are in both versions.
+void readExact(Decoding& d, Reader& in);
+void readDrift(Decoding& d, Reader& in);
 void readLoose(Decoding& d, Reader& in);
 void readSourceOrder(Decoding& d, Reader& in);
 void readPolygons(Decoding& d, Reader& in);
@@ -47,6 +50,7 @@ void readTexcoords(Decoding& d, Reader& in);
 void readQuadCorners(Decoding& d, Reader& in);
 void readScene(Decoding& d, Reader& in);
 void readThingNames(Decoding& d, Reader& in);
+
 void readEnd(Decoding& d, Reader& in);
 
 }  // namespace sweepface::codec

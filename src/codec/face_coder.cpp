@@ -233,7 +233,7 @@ class FaceCoder {
     for (std::string& text : texts) {
       const std::size_t size = codeCount(s_, 3, text.size(), most_);
       if (!s_.ok()) return;
-      text.resize(size);
+      if constexpr (!kWrites<Coder>) text = std::string(size, '\0');
       std::uint32_t before = 0;
       for (char& c : text) {
         std::uint32_t known = 1;

@@ -24,11 +24,11 @@ std::vector<std::string> readList(Reader& in, std::size_t things) {
 
 }  // namespace
 
-void refuseTwins(Reader& in, std::vector<std::string_view> names, std::string_view what) {
+void refuseTwins(Reader& in, std::vector<std::string_view> names, const char* what) {
   sortSmall(std::span(names));
   const auto twin = std::ranges::adjacent_find(
       names, [](std::string_view a, std::string_view b) { return a == b && !a.empty(); });
-  if (twin != names.end()) in.refuse(joined({"there are two ", what, " named '", *twin, "'"}));
+  if (twin != names.end()) in.refuseWith({"there are two ", what, " named '", *twin, "'"});
 }
 
 bool hasNames(const Names& names) { return names != Names{}; }

@@ -6,6 +6,46 @@
 
 namespace sweepface {
 
+namespace codec {
+namespace {
+
+/// The part of a file that chunks of a kind count for.
+struct KindPart {
+  std::string_view code, part;
+};
+constexpr KindPart kParts[] = {{"HEAD", "container"},
+                               {"WIRE", "wireframe"},
+                               {"CREA", "wireframe"},
+                               {"SHAP", "shape parameters"},
+                               {"NEUT", "neutral"},
+                               {"TARG", "targets"},
+                               {"BASE", "container"},
+                               {"GRID", "wireframe"},
+                               {"TNAM", "names"},
+                               {"REST", "neutral"},
+                               {"MOVE", "targets"},
+                               {"EXAC", "exact vectors"},
+                               {"loos", "loose vertices"},
+                               {"drif", "loose vertices"},
+                               {"walk", "source order"},
+                               {"ordr", "source order"},
+                               {"face", "polygons"},
+                               {"poly", "polygons"},
+                               {"text", "texture coordinates"},
+                               {"texc", "texture coordinates"},
+                               {"quad", "quad corners"},
+                               {"scen", "scene"},
+                               {"name", "names"},
+                               {"turn", "turns"},
+                               {"END ", "container"}};
+
+std::string_view partOf(std::string_view code) {
+  return std::ranges::find(kParts, code, &KindPart::code)->part;
+}
+
+}  // namespace
+}  // namespace codec
+
 Result<std::vector<FilePart>> fileParts(std::string_view bytes, std::string_view name) {
   const auto chunks = codec::readChunks(bytes, name);
   if (!chunks) return std::unexpected(chunks.error());
@@ -17,7 +57,7 @@ Result<std::vector<FilePart>> fileParts(std::string_view bytes, std::string_view
   };
   add("container", codec::kHeaderSize + chunks->list.size() * codec::kFrameSize);
   for (const codec::Chunk& chunk : chunks->list)
-    add(chunk.rank < 0 ? "unknown" : codec::kindsOf(chunks->version)[chunk.rank].part,
+    add(chunk.rank < 0 ? "unknown" : codec::partOf(codec::codeAt(chunk.rank, chunks->version)),
         chunk.payload.size());
   return parts;
 }

@@ -8,11 +8,6 @@
 
 namespace sweepface::codec {
 
-void Reader::refuse(std::string_view problem) {
-  if (ok_) problem_ = problem;
-  ok_ = false;
-}
-
 std::string_view Reader::raw(std::size_t size) {
   if (size > left()) {
     refuse("the chunk ends within a value");
@@ -75,25 +70,24 @@ std::int64_t Reader::signedNumber() {
 
 std::string_view Reader::text() { return raw(count(1, "letters")); }
 
-std::size_t Reader::count(std::size_t leastBytes, std::string_view what) {
+std::size_t Reader::count(std::size_t leastBytes, const char* what) {
   const std::uint64_t entries = number();
   if (entries <= left() / leastBytes) return static_cast<std::size_t>(entries);
-  refuse(joined({"there are said to be ", entries, " ", what, ", more than the chunk can hold"}));
+  refuseCount(what, static_cast<long long>(entries));
   return 0;
 }
 
-Index Reader::number(std::int64_t low, std::int64_t high, std::string_view what) {
+Index Reader::number(std::int64_t low, std::int64_t high, const char* what) {
   return checked(static_cast<std::int64_t>(number()), low, high, what);
 }
 
-Index Reader::step(Index previous, std::int64_t low, std::int64_t high, std::string_view what) {
+Index Reader::step(Index previous, std::int64_t low, std::int64_t high, const char* what) {
   return checked(previous + signedNumber(), low, high, what);
 }
 
-Index Reader::checked(std::int64_t value, std::int64_t low, std::int64_t high,
-                      std::string_view what) {
+Index Reader::checked(std::int64_t value, std::int64_t low, std::int64_t high, const char* what) {
   if (ok() && value >= low && value < high) return static_cast<Index>(value);
-  refuse(joined({what, " ", value, " is out of range"}));
+  refuseNumber(what, value);
   return static_cast<Index>(low);
 }
 

@@ -1,27 +1,23 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 #include <string_view>
 
 #include "sweepface/vec.hpp"
+
+#include "codec/refusal.hpp"
 
 namespace sweepface::codec {
 
 /// Takes values from a chunk's payload. The first failure sticks: from then on nothing is left and
 /// everything reads as zero, so that callers ask ok() only before they trust what they have read.
-class Reader {
+class Reader : public Refusal {
  public:
   Reader(std::string_view bytes, std::size_t offset) : bytes_(bytes), offset_(offset) {}
 
-  bool ok() const { return ok_; }
-  const std::string& problem() const { return problem_; }
   /// Where in the file the failure is, or the next byte.
   std::size_t place() const { return offset_ + at_; }
   std::size_t left() const { return ok() ? bytes_.size() - at_ : 0; }
-
-  /// Fails at the current place, unless something has failed before.
-  void refuse(std::string_view problem);
 
   unsigned byte();
   std::uint64_t number();  // below 2^56
@@ -34,21 +30,19 @@ class Reader {
 
   /// The number of entries that follow, each of at least `leastBytes`: more than there can be are
   /// refused before anyone makes room for them.
-  std::size_t count(std::size_t leastBytes, std::string_view what);
+  std::size_t count(std::size_t leastBytes, const char* what);
 
   /// A number, or a step from `previous`, within [low, high).
-  Index number(std::int64_t low, std::int64_t high, std::string_view what);
-  Index step(Index previous, std::int64_t low, std::int64_t high, std::string_view what);
+  Index number(std::int64_t low, std::int64_t high, const char* what);
+  Index step(Index previous, std::int64_t low, std::int64_t high, const char* what);
 
  private:
   template <typename Number>
   Number fixed();
-  Index checked(std::int64_t value, std::int64_t low, std::int64_t high, std::string_view what);
+  Index checked(std::int64_t value, std::int64_t low, std::int64_t high, const char* what);
 
   std::string_view bytes_;
   std::size_t offset_, at_ = 0;
-  bool ok_ = true;
-  std::string problem_;
 };
 
 }  // namespace sweepface::codec

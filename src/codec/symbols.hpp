@@ -2,12 +2,11 @@
 
 #include <bit>
 #include <cstdint>
-#include <string>
-#include <string_view>
 #include <type_traits>
 
 #include "codec/mixing.hpp"
 #include "codec/range_coder.hpp"
+#include "codec/refusal.hpp"
 
 namespace sweepface::codec {
 
@@ -18,7 +17,7 @@ inline constexpr bool kWrites = std::is_same_v<Coder, RangeEncoder>;
 /// Bits and whole numbers of a payload through adaptive contexts. `tag` says what is coded, `a` and
 /// `b` what it may depend on. A reader that meets what cannot be stops answering: see ok().
 template <typename Coder>
-class Symbols {
+class Symbols : public Refusal {
  public:
   explicit Symbols(Coder& coder) : model_(coder, kSlots, kSets) {}
 
@@ -70,13 +69,6 @@ class Symbols {
     return result;
   }
 
-  bool ok() const { return ok_; }
-  const std::string& problem() const { return problem_; }
-  void refuse(std::string_view problem) {
-    if (ok_) problem_ = problem;
-    ok_ = false;
-  }
-
  private:
   static constexpr std::size_t kSlots = std::size_t{1} << 15, kSets = 64;
 
@@ -90,8 +82,6 @@ class Symbols {
 
   Model<Coder, 3> model_;
   std::uint32_t recent_ = 0;  // the last eight bits with their tags; the last three below 2^12
-  bool ok_ = true;
-  std::string problem_;
 };
 
 }  // namespace sweepface::codec

@@ -34,7 +34,9 @@ void turn(Wireframe& w, Index patch, int base) {
   auto& sides = w.patches[patch].sides;
   const std::array<Index, 5> old = sides;
   const Index begin = old[0];
-  std::rotate(w.loops.begin() + begin, w.loops.begin() + old[base], w.loops.begin() + old[4]);
+  const std::vector<HalfArc> loop(w.loops.begin() + begin, w.loops.begin() + old[4]);
+  std::copy(loop.begin(), loop.begin() + (old[base] - begin),
+            std::copy(loop.begin() + (old[base] - begin), loop.end(), w.loops.begin() + begin));
   for (int s = 0; s < 4; ++s) {
     const int from = (base + s) % 4;
     sides[s + 1] = sides[s] + old[from + 1] - old[from];
@@ -154,7 +156,7 @@ class WireframeCoder {
   void codeMasks() {
     const auto connectivity = Connectivity::make(w_);
     if (!connectivity)
-      return s_.refuse("the wireframe is unsound: " + connectivity.error().message);
+      return s_.refuseWith({"the wireframe is unsound: ", connectivity.error().message});
     for (Index n = 0; n < static_cast<Index>(w_.nodes.size()); ++n) {
       const std::uint32_t x = lineClass(w_, *connectivity, n, 0),
                           y = lineClass(w_, *connectivity, n, 1);

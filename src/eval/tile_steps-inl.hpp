@@ -18,6 +18,13 @@ namespace HWY_NAMESPACE {
 #if HWY_TARGET != HWY_SCALAR
 namespace {
 
+// A browser loads every copy, so that there it is one of each step.
+#if HWY_TARGET == HWY_WASM
+#define SWEEPFACE_STEP HWY_NOINLINE
+#else
+#define SWEEPFACE_STEP HWY_INLINE
+#endif
+
 namespace hn = hwy::HWY_NAMESPACE;
 using Ints = hn::CappedTag<std::int32_t, kGroup>;
 using Shorts = hn::Repartition<std::int16_t, Ints>;
@@ -158,7 +165,7 @@ HWY_INLINE const Number* addPairs(const Number* from, int count, const std::uint
   return from;
 }
 
-HWY_INLINE void blend(const Tile& tile, const std::uint32_t* pairs, std::int16_t* c) {
+SWEEPFACE_STEP void blend(const Tile& tile, const std::uint32_t* pairs, std::int16_t* c) {
   const TileHead& head = *tile.head;
   const std::byte* from = tile.coefficients;
   for (int b = 0; b < head.blocks; ++b, c += kGroup) {
@@ -307,7 +314,7 @@ HWY_INLINE void write3(const float* from, char* to) {
 struct Places {
   HWY_ALIGN std::uint32_t of[kTileVertices];
 
-  HWY_INLINE void take(const Tile& tile) {
+  SWEEPFACE_STEP void take(const Tile& tile) {
     const hn::Repartition<std::uint32_t, Ints> words;
     const hn::Rebind<std::uint16_t, Ints> shorts;
     const auto* const wide = reinterpret_cast<const std::uint32_t*>(tile.vertices);
@@ -320,8 +327,8 @@ struct Places {
   }
 };
 
-HWY_INLINE void write(const Tile& tile, const Places& places, bool all, const Waiting& from,
-                      const VectorsOut& out) {
+SWEEPFACE_STEP void write(const Tile& tile, const Places& places, bool all, const Waiting& from,
+                          const VectorsOut& out) {
   if (all && out.stride == 12 && tile.head->vertices == kTileVertices) {
     char* const to = reinterpret_cast<char*>(out.data);
     const std::uint32_t* vertex = places.of;
@@ -337,6 +344,7 @@ HWY_INLINE void write(const Tile& tile, const Places& places, bool all, const Wa
       write3(from.at(k), vectorAt(out, places.of[k]));
 }
 
+#undef SWEEPFACE_STEP
 }  // namespace
 
 #endif

@@ -25,7 +25,7 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 
 Result<void> checkIndex(std::size_t weight, std::size_t count) {
   if (weight < count) return {};
-  return fail("There is no weight ", weight, "; there are ", count, ".");
+  return failCall("There is no weight ", weight, "; there are ", count, ".");
 }
 
 }  // namespace
@@ -37,7 +37,7 @@ Result<Drive> driveFromName(std::string_view name) {
     if (!names.empty()) names += ", ";
     names += n.text;
   }
-  return fail("There is no way to move called \"", name, "\"; there are ", names, ".");
+  return failCall("There is no way to move called \"", name, "\"; there are ", names, ".");
 }
 
 std::string_view nameOf(Drive::Kind kind) noexcept {
@@ -60,7 +60,7 @@ Result<Trajectory> trajectoryOf(const Drive& drive, Start start, double goal) {
     case Drive::Kind::cut:
       break;
   }
-  if (!std::isfinite(goal)) return fail("A motion needs finite numbers.");
+  if (!std::isfinite(goal)) return failCall("A motion needs finite numbers.");
   return Trajectory(goal);
 }
 
@@ -72,7 +72,7 @@ Result<MotionState> MotionState::make(std::span<const double> weights) {
   MotionState state;
   for (std::size_t k = 0; k < weights.size(); ++k) {
     if (!std::isfinite(weights[k]))
-      return fail("Weight ", k, " of the motion is not a finite number.");
+      return failCall("Weight ", k, " of the motion is not a finite number.");
     state.coordinates_.push_back({Trajectory(weights[k]), Trajectory(weights[k]), 0, 0});
   }
   state.springs_ = SpringBank(weights.size());
@@ -108,7 +108,7 @@ Kinematics MotionState::at(std::size_t weight, double time) const noexcept {
 Result<Trajectory> MotionState::prepare(std::size_t weight, double goal, const Drive& drive) const {
   if (auto ok = checkIndex(weight, size()); !ok) return std::unexpected(ok.error());
   if (!(std::isfinite(drive.delay) && drive.delay >= 0))
-    return fail("The delay of a motion must be at least 0 seconds.");
+    return failCall("The delay of a motion must be at least 0 seconds.");
   // Where it will stand when the drive sets out.
   const Coordinate& coordinate = coordinates_[weight];
   const double start = now_ + drive.delay;
@@ -144,7 +144,7 @@ Result<void> MotionState::moveTo(std::size_t weight, double goal, const Drive& d
 
 Result<void> MotionState::moveTo(std::span<const double> goals, const Drive& drive) {
   if (goals.size() != size())
-    return fail("There are ", goals.size(), " goals for ", size(), " weights; give one each.");
+    return failCall("There are ", goals.size(), " goals for ", size(), " weights; give one each.");
   // All are prepared before the first sets out, so that an error leaves everything as it was.
   for (std::size_t k = 0; k < size(); ++k)
     if (auto ok = check(k, goals[k], drive); !ok) return ok;

@@ -42,7 +42,7 @@ Result<TimeLaw> timeLawFromName(std::string_view name) {
     if (!names.empty()) names += ", ";
     names += nameOf(law);
   }
-  return fail("There is no time law \"", name, "\"; the laws are ", names, ".");
+  return failCall("There is no time law \"", name, "\"; the laws are ", names, ".");
 }
 
 Progress progress(TimeLaw law, double s) noexcept {
@@ -66,13 +66,14 @@ Progress progress(TimeLaw law, double s) noexcept {
 Result<Motion> Motion::make(std::span<const double> from, std::span<const double> to, TimeLaw law,
                             double seconds, double mass) {
   if (from.size() != to.size()) {
-    return fail("The motion starts with ", from.size(), " weights and ends with ", to.size(),
-                "; give both ends the same weights.");
+    return failCall("The motion starts with ", from.size(), " weights and ends with ", to.size(),
+                    "; give both ends the same weights.");
   }
   if (!isPositive(seconds)) {
-    return fail("The motion must last a finite time greater than 0 seconds.");
+    return failCall("The motion must last a finite time greater than 0 seconds.");
   }
-  if (!isPositive(mass)) return fail("The mass of the motion must be finite and greater than 0.");
+  if (!isPositive(mass))
+    return failCall("The mass of the motion must be finite and greater than 0.");
 
   Motion motion;
   motion.from_.assign(from.begin(), from.end());
@@ -83,11 +84,11 @@ Result<Motion> Motion::make(std::span<const double> from, std::span<const double
 
   for (std::size_t k = 0; k < from.size(); ++k) {
     if (!std::isfinite(from[k]) || !std::isfinite(to[k])) {
-      return fail("Weight ", k, " of the motion is not a finite number.");
+      return failCall("Weight ", k, " of the motion is not a finite number.");
     }
     const MotionSample peak = motion.sampleAt(k, kPeak);
     if (!std::isfinite(peak.velocity) || !std::isfinite(peak.force)) {
-      return fail(
+      return failCall(
           "Weight ", k,
           " of the motion moves too fast for its speed and force to be numbers; give it more "
           "seconds, less mass or a shorter way.");

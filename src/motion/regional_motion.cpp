@@ -82,7 +82,7 @@ Clip inMatter(const Clip& clip, const Matter& matter, const Spring& hold) {
 Result<RegionalMotion> RegionalMotion::make(std::span<const double> weights,
                                             std::span<const Matter> matters) {
   if (matters.empty() || matters.size() > kMostRegions)
-    return fail("A motion has 1 to ", kMostRegions, " regions.");
+    return failCall("A motion has 1 to ", kMostRegions, " regions.");
   RegionalMotion motion;
   for (const Matter& matter : matters) {
     if (auto ok = check(matter); !ok) return std::unexpected(ok.error());
@@ -119,7 +119,7 @@ Result<void> RegionalMotion::moveTo(std::span<const double> goals, const Drive& 
 
 Result<void> RegionalMotion::checkRegion(std::size_t region) const {
   if (region < states_.size()) return {};
-  return fail("There is no region ", region, "; there are ", states_.size(), ".");
+  return failCall("There is no region ", region, "; there are ", states_.size(), ".");
 }
 
 Result<void> RegionalMotion::moveTo(std::size_t region, std::size_t weight, double goal,

@@ -35,7 +35,8 @@ Result<Clip> bake(const Timeline& timeline, double framesPerSecond, std::string_
                   const Matter& matter) {
   const double frames = std::round(timeline.seconds * timeline.loops * framesPerSecond);
   if (!(framesPerSecond > 0) || !(frames >= 1 && frames <= 1e6))
-    return fail("A timeline is baked into 1 to 1,000,000 frames; change its length or the rate.");
+    return failCall(
+        "A timeline is baked into 1 to 1,000,000 frames; change its length or the rate.");
   Clip clip;
   for (const TimelineEvent& event : timeline.events)
     for (const auto& [name, goal] : event.goals)

@@ -12,13 +12,13 @@ namespace {
 
 Result<void> checkNumbers(std::initializer_list<double> numbers) {
   for (const double x : numbers)
-    if (!std::isfinite(x)) return fail("A motion needs finite numbers.");
+    if (!std::isfinite(x)) return failCall("A motion needs finite numbers.");
   return {};
 }
 
 Result<void> checkSeconds(double seconds) {
   if (std::isfinite(seconds) && seconds > 0) return {};
-  return fail("The motion must last a finite time greater than 0 seconds.");
+  return failCall("The motion must last a finite time greater than 0 seconds.");
 }
 
 Result<void> check(Start start, double to, double seconds) {
@@ -168,7 +168,7 @@ Result<Trajectory> Trajectory::linearForce(Start start, double to, double second
 Result<Trajectory> Trajectory::twoForces(Start start, double to, double seconds, double turn) {
   if (auto ok = check(start, to, seconds); !ok) return std::unexpected(ok.error());
   if (!(turn > 0 && turn < 1))
-    return fail("The force must turn after the start and before the end: between 0 and 1.");
+    return failCall("The force must turn after the start and before the end: between 0 and 1.");
   const double speed = (to - start.position) / seconds, v = start.velocity;
   // The velocity at the turn: the mean of v, peak and 0 over the two parts is the mean speed.
   const double peak = 2 * speed - turn * v;
@@ -185,13 +185,13 @@ Result<Trajectory> Trajectory::spring(Start start, double to, Spring spring) {
       !ok)
     return std::unexpected(ok.error());
   if (!(spring.frequency > 0) || !(spring.damping >= 0))
-    return fail("A spring needs a frequency greater than 0 and a damping of at least 0.");
+    return failCall("A spring needs a frequency greater than 0 and a damping of at least 0.");
   return Trajectory(path::Swing{to, start.position, start.velocity, sigma, omega});
 }
 
 Result<Trajectory> Trajectory::bounce(Start start, double to, double seconds, double restitution) {
   if (!(restitution >= 0 && restitution < 1))
-    return fail("A bounce keeps a part of its speed: the restitution lies in [0, 1).");
+    return failCall("A bounce keeps a part of its speed: the restitution lies in [0, 1).");
   const Result<Trajectory> fall = constantForce(start, to, seconds);
   if (!fall) return fall;
   const Cubic first = std::get<path::Pieces>(fall->path_).first;
@@ -201,7 +201,7 @@ Result<Trajectory> Trajectory::bounce(Start start, double to, double seconds, do
 Result<Trajectory> Trajectory::impulse(Start start, double velocityChange, double drag) {
   if (auto ok = checkNumbers({start.position, start.velocity, velocityChange, drag}); !ok)
     return std::unexpected(ok.error());
-  if (drag < 0) return fail("The drag on a blow must be at least 0.");
+  if (drag < 0) return failCall("The drag on a blow must be at least 0.");
   return Trajectory(path::Coasting{start.position, start.velocity + velocityChange, drag});
 }
 
@@ -209,8 +209,9 @@ Result<Trajectory> Trajectory::periodicForce(Start start, double to, double seco
                                              std::span<const Harmonic> harmonics) {
   if (auto ok = check(start, to, seconds); !ok) return std::unexpected(ok.error());
   if (auto ok = checkSeconds(period); !ok)
-    return fail("The period of a force must be greater than 0.");
-  if (harmonics.size() > kMostHarmonics) return fail("A periodic force has at most 8 harmonics.");
+    return failCall("The period of a force must be greater than 0.");
+  if (harmonics.size() > kMostHarmonics)
+    return failCall("A periodic force has at most 8 harmonics.");
   path::Driven driven{{}, seconds, to, 2 * std::numbers::pi / period, harmonics.size(), {}};
   for (std::size_t k = 0; k < harmonics.size(); ++k) {
     if (auto ok = checkNumbers({harmonics[k].cosine, harmonics[k].sine}); !ok)

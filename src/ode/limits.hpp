@@ -1,7 +1,7 @@
 #pragma once
 
 #include <cmath>
-#include <string>
+#include <string_view>
 
 #include "sweepface/result.hpp"
 
@@ -16,8 +16,8 @@ constexpr double largestValue = 10, largestRoot = 1000;
 constexpr int gridSteps = 1024;
 
 // Not by snprintf: it would be a tenth of what a browser has to load.
-inline std::string number(double x) {
-  return x < 1e9 ? joined({std::lround(x)}) : "more than 1000000000";
+inline TextPart number(double x) {
+  return x < 1e9 ? TextPart(std::lround(x)) : TextPart("more than 1000000000");
 }
 
 /// A parameter divided by the leading one, for u in [0,1] instead of lengths.
@@ -40,7 +40,7 @@ double largestOnGrid(const Basis& basis) {
 
 /// The basis, or why it cannot be used. `root` bounds the roots; a safe basis never resonates.
 template <typename Basis>
-Result<Basis> accepted(const Basis& basis, double root, bool isSafe, const std::string& safe) {
+Result<Basis> accepted(const Basis& basis, double root, bool isSafe, std::string_view safe) {
   for (const double g : basis.at(0.5, 3))
     if (!std::isfinite(g)) return fail("The shape parameters are too large, or meet a resonance.");
   if (isSafe) return basis;

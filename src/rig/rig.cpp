@@ -26,7 +26,7 @@ std::string listNames(const Rig& rig) {
 
 Result<Index> findTarget(const Rig& rig, std::string_view name) {
   if (const Index target = rig.find(name); target >= 0) return target;
-  return fail("there is no target named '", name, "'; ", listNames(rig));
+  return failCall("there is no target named '", name, "'; ", listNames(rig));
 }
 
 Result<Weights> parseWeights(const Rig& rig, std::string_view text) {
@@ -48,7 +48,7 @@ Result<Weights> parseWeights(const Rig& rig, std::string_view text) {
       const bool plain =
           digits.find_first_not_of("0123456789+-.eE") == std::string::npos && digits[0] != '+';
       if (digits.empty() || !plain || *end != 0 || !std::isfinite(value))
-        return fail("the weight of '", name, "' must be a finite number, not '", digits, "'");
+        return failCall("the weight of '", name, "' must be a finite number, not '", digits, "'");
     }
     weights[*target] = value;
   }

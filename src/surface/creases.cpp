@@ -36,10 +36,11 @@ void chain(std::vector<Fan>& fans) {
 void close(std::vector<Fan>& fans, int sectors) {
   const auto single = std::ranges::find(fans, 1, &Fan::sectors);
   const bool joins = single != fans.end();
-  if (joins)
-    std::ranges::rotate(fans, single + 1);
-  else if (fans.size() == 2 && fans[0].sectors != 2)
-    std::ranges::rotate(fans, fans.begin() + 1);
+  const bool isTurned = fans.size() == 2 && fans[0].sectors != 2;
+  const auto first = joins ? single - fans.begin() + 1 : isTurned ? 1 : 0;
+  std::vector<Fan> turned(fans.begin() + first, fans.end());
+  turned.insert(turned.end(), fans.begin(), fans.begin() + first);
+  fans = std::move(turned);
   const auto count = static_cast<double>(fans.size());
   for (std::size_t k = 0; k < fans.size(); ++k) {
     Fan& fan = fans[k];

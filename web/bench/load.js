@@ -1,22 +1,24 @@
 // How long a browser takes from the bytes of a face and of the module to its first frame: every visit is a new browser
 // without anything in its caches, so that code runs for the first time.
 //
-//   npm ci && node bench/load.js FACE.sweep [VISITS]
+//   npm ci && node bench/load.js FACE.sweep [VISITS [sweepface_full.wasm]]
+//
+// The full module is what a face needs that is not packed.
 import {readFileSync} from 'node:fs';
 import {blank, withPage} from '../test/browser.js';
 
-const [file, visits = 7] = process.argv.slice(2);
+const [file, visits = 7, module = 'sweepface.wasm'] = process.argv.slice(2);
 if (!file) {
-  console.error('Usage: node bench/load.js FACE.sweep [VISITS]');
+  console.error('Usage: node bench/load.js FACE.sweep [VISITS [sweepface_full.wasm]]');
   process.exit(2);
 }
 const files = {'blank.html': blank, 'face.sweep': readFileSync(file)};
 
 /** Runs in the page: milliseconds of each step. */
-async function measure() {
+async function measure(module) {
   const {Sweepface} = await import('/sweepface.js'), {SweepfaceMesh} = await import('/sweepface_three.js');
   const bytesOf = async (url) => (await fetch(url)).arrayBuffer();
-  const code = await bytesOf('/sweepface.wasm'), bytes = await bytesOf('/face.sweep');
+  const code = await bytesOf(`/${module}`), bytes = await bytesOf('/face.sweep');
   const steps = {};
   let before = performance.now();
   const done = (step) => {
@@ -41,7 +43,7 @@ async function measure() {
 
 const all = {};
 for (let k = 0; k < Number(visits); ++k) {
-  const steps = await withPage('blank.html', {files}, (page) => page.evaluate(measure));
+  const steps = await withPage('blank.html', {files}, (page) => page.evaluate(measure, module));
   for (const [step, time] of Object.entries(steps)) (all[step] ??= []).push(time);
 }
 

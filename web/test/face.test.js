@@ -3,7 +3,7 @@ import {readFileSync} from 'node:fs';
 import {basename} from 'node:path';
 import test from 'node:test';
 import {Sweepface} from '../sweepface.js';
-import {difference, everyFile, exported, played, sample, someWeights, withArcs} from './native.js';
+import {difference, everyFile, exported, packed, played, sample, someWeights, withArcs} from './native.js';
 
 const load = (options, file = sample) => Sweepface.load(readFileSync(file), options);
 function evaluate(face) {
@@ -181,7 +181,48 @@ test('a face that needs more memory than there is is refused', async () => {
 });
 
 test('the module may come from elsewhere', async () => {
-  const code = readFileSync(new URL('../sweepface.wasm', import.meta.url));
-  for (const wasm of [code, await WebAssembly.compile(code), new URL('../sweepface.wasm', import.meta.url)])
+  const url = new URL('../sweepface_full.wasm', import.meta.url), code = readFileSync(url);
+  for (const wasm of [code, await WebAssembly.compile(code), url])
     assert.equal((await load({wasm})).names.length, 42);
+});
+
+test('a packed face needs the usual module only, with all that is played', async () => {
+  const file = packed(), wasm = new URL('../sweepface.wasm', import.meta.url);
+  const face = await load({wasm}, file), full = await load({wasm: new URL('../sweepface_full.wasm', import.meta.url)}, file);
+  assert.deepEqual(face.names, ['jawOpen', 'mouthSmileLeft']);
+  assert.deepEqual(face.parts, full.parts);
+  assert.deepEqual(face.triangles, full.triangles);
+  assert.deepEqual(face.texcoords, full.texcoords);
+  assert.ok(face.texcoords.length > 0);
+  for (const each of [face, full]) each.moveTo({jawOpen: 0.5, mouthSmileLeft: 1}, {kind: 'bounce', seconds: 0.3});
+  for (let k = 0; k < 20; ++k) {
+    for (const each of [face, full]) each.advance(1 / 30);
+    assert.deepEqual(evaluate(face), evaluate(full));
+  }
+  assert.deepEqual(face.shaderTables(true), full.shaderTables(true));
+  await assert.rejects(load({wasm}), {message: /give sweepface_full.wasm, which can or says why\.$/});
+});
+
+// In a module of its own, where none was compiled before.
+test('the full module is fetched where it is needed, and by itself where that is known before', async () => {
+  const {Sweepface: Fresh} = await import('../sweepface.js?fresh'), {compile} = WebAssembly, fetched = [];
+  WebAssembly.compile = (code) => {
+    fetched.push(code.length);
+    return compile(code);
+  };
+  const sizes = ['sweepface.wasm', 'sweepface_full.wasm'].map(
+      (name) => readFileSync(new URL(`../${name}`, import.meta.url)).length);
+  try {
+    const bytes = readFileSync(packed());
+    await Fresh.load(bytes);
+    assert.deepEqual(fetched.splice(0), sizes.slice(0, 1));
+    await assert.rejects(Fresh.load(bytes.subarray(0, bytes.length - 1), {name: 'Half'}), {message: /^Half, byte \d+: the file ends/});
+    assert.deepEqual(fetched.splice(0), sizes.slice(1));
+    const {Sweepface: Fresher} = await import('../sweepface.js?fresher');
+    await Fresher.load(readFileSync(sample));
+    await Fresher.load(bytes, {vertices: 5000});
+    assert.deepEqual(fetched, sizes.slice(1));
+  } finally {
+    WebAssembly.compile = compile;
+  }
 });

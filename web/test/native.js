@@ -54,6 +54,17 @@ export function exported(file, weights, lod, options = []) {
   return readObj(out);
 }
 
+/** The sample face as small as it gets. */
+export function packed() {
+  const folder = newFolder(), file = join(folder, 'packed.sweep'), names = ['neutral', 'jawOpen', 'mouthSmileLeft'];
+  for (const name of names)
+    execFileSync(tool, ['export', sample, '-o', join(folder, `${name}.obj`), '--quiet',
+                        ...(name === 'neutral' ? [] : ['--weights', `${name}=1`])]);
+  const [neutral, ...targets] = names.map((name) => join(folder, `${name}.obj`));
+  execFileSync(tool, ['convert', neutral, ...targets, '-o', file, '--tolerance', '0.05', '--pack', '--quiet']);
+  return file;
+}
+
 /** The sample face with what its targets turn about. */
 export function withArcs() {
   const folder = newFolder(), drawing = join(folder, 'sample.wire.json'), file = join(folder, 'arcs.sweep');

@@ -1,0 +1,25 @@
+#include "codec/refusal.hpp"
+
+namespace sweepface::codec {
+
+std::string_view Refusal::advice() const {
+  return problem_.find("memory") == problem_.npos ? kConvertAgain
+                                                  : "; allow more, or do not open it.";
+}
+
+void Refusal::refuse(std::string_view problem) { refuseWith({problem}); }
+
+void Refusal::refuseWith(std::initializer_list<TextPart> parts) {
+  if (ok_) problem_ = joined(parts);
+  ok_ = false;
+}
+
+void Refusal::refuseNumber(const char* what, long long number) {
+  refuseWith({what, " ", number, " is out of range"});
+}
+
+void Refusal::refuseCount(const char* what, long long entries) {
+  refuseWith({"there are said to be ", entries, " ", what, ", more than the chunk can hold"});
+}
+
+}  // namespace sweepface::codec

@@ -1,0 +1,50 @@
+// What the usual module does without: files that are not packed, and the words about what is wrong
+// with one. sweepface.js asks the full module for them.
+#include "capi/message.hpp"
+#include "codec/crc.hpp"
+#include "codec/decoding.hpp"
+
+namespace sweepface {
+
+std::unexpected<Error> failWith(std::initializer_list<TextPart>) {
+  return std::unexpected(Error({}));
+}
+
+sweepface_status capi::refuseWith(std::initializer_list<TextPart>) {
+  return SWEEPFACE_BAD_ARGUMENT;
+}
+
+namespace codec {
+
+std::string_view Refusal::advice() const { return {}; }
+void Refusal::refuse(std::string_view) { ok_ = false; }
+void Refusal::refuseWith(std::initializer_list<TextPart>) { ok_ = false; }
+void Refusal::refuseNumber(const char*, long long) { ok_ = false; }
+void Refusal::refuseCount(const char*, long long) { ok_ = false; }
+
+// Byte by byte: packed faces have few.
+std::uint32_t crc32(std::string_view bytes, std::uint32_t before) {
+  std::uint32_t c = ~before;
+  for (const char b : bytes) {
+    c ^= static_cast<unsigned char>(b);
+    for (int bit = 0; bit < 8; ++bit) c = (c & 1 ? 0xEDB88320u : 0) ^ (c >> 1);
+  }
+  return ~c;
+}
+
+std::span<const ChunkHandler> version1() { return {}; }
+
+void readExact(Decoding&, Reader& in) { in.refuse({}); }
+void readDrift(Decoding&, Reader& in) { in.refuse({}); }
+void readLoose(Decoding&, Reader& in) { in.refuse({}); }
+void readSourceOrder(Decoding&, Reader& in) { in.refuse({}); }
+void readPolygons(Decoding&, Reader& in) { in.refuse({}); }
+void readTexcoords(Decoding&, Reader& in) { in.refuse({}); }
+void readQuadCorners(Decoding&, Reader& in) { in.refuse({}); }
+
+// Of no use to who only plays the face.
+void readScene(Decoding&, Reader& in) { in.raw(in.left()); }
+void readThingNames(Decoding&, Reader& in) { in.raw(in.left()); }
+
+}  // namespace codec
+}  // namespace sweepface
