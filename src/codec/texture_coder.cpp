@@ -1,6 +1,9 @@
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <initializer_list>
+#include <optional>
 
 #include "codec/edge_map.hpp"
 #include "codec/faces.hpp"
@@ -40,11 +43,12 @@ class TextureCoder {
       whole_.resize(count);
     }
     known_.assign(count, 0);
+    off_.assign(count, 0);
     const bool used = s_.bit(kHasTexture, 0, 0, !p_.cornerTexcoords.empty());
     if (used) codeIndices();
     if (used && s_.ok()) codeByFaces();
     for (std::size_t t = 0; t < count && s_.ok(); ++t)
-      if (!known_[t]) codeValue(static_cast<Index>(t), last_, 3);
+      if (!known_[t]) codeValue(static_cast<Index>(t), last_, 3, 0);
     if constexpr (!kWrites<Coder>) {
       const double step = std::ldexp(1.0, -bits_);
       for (const auto& [x, y] : whole_) p_.texcoords.push_back({x * step, y * step});
@@ -87,9 +91,9 @@ class TextureCoder {
 
   // From face to face across the edges that they share in the texture.
   void codeByFaces() {
-    EdgeMap<Side> sides(p_.corners.size());
+    sides_.emplace(p_.corners.size());
     for (Index f = 0; f < p_.faceCount(); ++f)
-      for (Index k = 0; k < p_.faceSize(f); ++k) sides.add(at(f, k), at(f, k + 1), Side{f, k});
+      for (Index k = 0; k < p_.faceSize(f); ++k) sides_->add(at(f, k), at(f, k + 1), Side{f, k});
     std::vector<char> reached(p_.faceCount(), 0);
     std::vector<Entry> queue;
     for (Index seed = 0; seed < p_.faceCount() && s_.ok(); ++seed) {
@@ -100,7 +104,7 @@ class TextureCoder {
         const Entry entry = queue[head];
         codeFace(entry);
         for (Index k = 0; k < p_.faceSize(entry.face); ++k) {
-          const Side* const other = sides.find(at(entry.face, k + 1), at(entry.face, k));
+          const Side* const other = across({entry.face, k});
           if (!other || reached[other->face]) continue;
           reached[other->face] = 1;
           queue.push_back({other->face, other->corner, {entry.face, k}});
@@ -122,8 +126,20 @@ class TextureCoder {
     return p_.cornerTexcoords[p_.faceStart[face] + (k % size + size) % size];
   }
   bool knows(Index t) const { return t >= 0 && known_[t]; }
-  Whole beyond(Index a, Index b, Index c) const {  // the fourth corner of a parallelogram
-    return {whole_[a][0] + whole_[c][0] - whole_[b][0], whole_[a][1] + whole_[c][1] - whole_[b][1]};
+
+  // The same side as the face beyond it has it.
+  const Side* across(const Side& side) const {
+    return sides_->find(at(side.face, side.corner + 1), at(side.face, side.corner));
+  }
+  // The side opposite to a side in the quad beyond it: first what is beside the side's own first
+  // corner. Nothing where there is no quad, or not all of it is known.
+  std::optional<std::array<Index, 2>> beyond(const Side& side) const {
+    const Side* const other = across(side);
+    if (!other || p_.faceSize(other->face) != 4) return {};
+    const Index first = at(other->face, other->corner + 2),
+                second = at(other->face, other->corner + 3);
+    if (!knows(first) || !knows(second)) return {};
+    return {{first, second}};
   }
 
   void codeFace(const Entry& entry) {
@@ -132,14 +148,14 @@ class TextureCoder {
       const Index k = entry.corner + j, t = at(f, k);
       if (t < 0) continue;
       if (!known_[t]) {
-        const Index before = at(f, k - 1), across = at(f, k + 2), after = at(f, k + 1);
-        if (size == 4 && knows(before) && knows(across) && knows(after))
-          codeValue(t, beyond(before, across, after), 0);
+        const Index before = at(f, k - 1);
+        if (size == 4 && knows(before) && knows(at(f, k + 1)) && knows(at(f, k + 2)))
+          codeFourth(f, k);
         else if (const Index back = cornerBefore(entry.from);
                  j == 2 && knows(before) && knows(back))
-          codeValue(t, beyond(before, back, before), 1);  // as far on as the face before is long
+          codeNext(t, entry.from, before, back);
         else
-          codeValue(t, knows(before) ? whole_[before] : last_, 2);
+          codeValue(t, knows(before) ? whole_[before] : last_, 2, 0);
       }
       last_ = whole_[t];
     }
@@ -150,13 +166,53 @@ class TextureCoder {
     return side.face < 0 ? -1 : at(side.face, side.corner - 1);
   }
 
-  void codeValue(Index t, const Whole& guess, std::uint32_t how) {
+  // The fourth corner of a quad: that of a parallelogram, and as far from it as the quads beyond
+  // the known sides are from one.
+  void codeFourth(Index f, Index k) {
+    const Index after = at(f, k + 1), middle = at(f, k + 2), before = at(f, k + 3);
+    Whole guess, bent{};
+    std::int32_t quads = 0;
+    const auto bend = [&](Index from, Index to, Index farFrom, Index farTo) {
+      for (int a = 0; a < 2; ++a)
+        bent[a] += whole_[to][a] - whole_[from][a] - (whole_[farTo][a] - whole_[farFrom][a]);
+      ++quads;
+    };
+    if (const auto far = beyond({f, k + 1})) bend(middle, after, (*far)[1], (*far)[0]);
+    if (const auto far = beyond({f, k + 2})) bend(middle, before, (*far)[0], (*far)[1]);
+    for (int a = 0; a < 2; ++a)
+      guess[a] = whole_[before][a] + whole_[after][a] - whole_[middle][a] +
+                 (quads == 2 ? (bent[a] + 1) >> 1 : bent[a]);
+    codeValue(at(f, k), guess, 0, activity({before, middle, after}));
+  }
+
+  // The first corner beyond a side: where a line through two or three corners before it leads.
+  void codeNext(Index t, const Side& from, Index before, Index back) {
+    Whole guess;
+    for (int a = 0; a < 2; ++a) guess[a] = 2 * whole_[before][a] - whole_[back][a];
+    if (p_.faceSize(from.face) == 4)
+      if (const auto far = beyond({from.face, from.corner + 2}))
+        for (int a = 0; a < 2; ++a)
+          guess[a] += whole_[before][a] - 2 * whole_[back][a] + whole_[(*far)[1]][a];
+    codeValue(t, guess, 1, activity({before, back}));
+  }
+
+  // How far off the guesses of some were.
+  std::uint32_t activity(std::initializer_list<Index> known) const {
+    std::uint32_t sum = 0;
+    for (const Index t : known) sum += off_[t];
+    return 1 + static_cast<std::uint32_t>(
+                   std::bit_width(4 * sum / static_cast<std::uint32_t>(known.size())));
+  }
+
+  void codeValue(Index t, const Whole& guess, std::uint32_t how, std::uint32_t active) {
+    constexpr std::int64_t kMostOff = 1 << 20;
     for (int a = 0; a < 2; ++a) {
-      const std::int64_t value =
-          std::int64_t{guess[a]} +
-          s_.signedNumber(kResidual, how * 2 + a, 0, std::int64_t{whole_[t][a]} - guess[a]);
+      const std::int64_t residual = s_.signedNumber(kResidual, how * 2 + a, active,
+                                                    std::int64_t{whole_[t][a]} - guess[a]),
+                         value = guess[a] + residual;
       if (std::abs(value) > kMostTexture) s_.refuse("a texture coordinate is out of range");
       whole_[t][a] = s_.ok() ? static_cast<std::int32_t>(value) : 0;
+      off_[t] += static_cast<std::uint32_t>(std::min(std::abs(residual), kMostOff));
     }
     known_[t] = 1;
     last_ = whole_[t];
@@ -168,6 +224,8 @@ class TextureCoder {
   int bits_;
   std::vector<Whole> whole_;
   std::vector<char> known_;
+  std::vector<std::uint32_t> off_;  // how far off the guess of each was
+  std::optional<EdgeMap<Side>> sides_;
   std::vector<Index> ofVertex_;
   Index next_ = 0;
   Whole last_{};

@@ -62,12 +62,28 @@ void reorderFaces(SourceMesh& source) {
   for (Index& corner : source.quadCorners) corner = newCorner[corner];
 }
 
+// In the order in which corners have them, without those that none has.
+void reorderTexcoords(Polygons& faces) {
+  std::vector<Index> number(faces.texcoords.size(), -1);
+  std::vector<Vec2> texcoords;
+  for (Index& t : faces.cornerTexcoords) {
+    if (t < 0) continue;
+    if (number[t] < 0) {
+      number[t] = static_cast<Index>(texcoords.size());
+      texcoords.push_back(faces.texcoords[t]);
+    }
+    t = number[t];
+  }
+  faces.texcoords = std::move(texcoords);
+}
+
 Result<void> stripOrder(Rig& rig) {
   SourceMesh& source = rig.source;
   for (const Index v : source.polygons.corners)
     if (source.gridVertex[v] < 0)
       return fail("a face has a corner that is on no patch; keep the order");
   reorderFaces(source);
+  reorderTexcoords(source.polygons);
   source.gridVertex.resize(Tessellation(rig.surface, 1).vertexCount());
   std::iota(source.gridVertex.begin(), source.gridVertex.end(), 0);
   source.ownOrder = false;

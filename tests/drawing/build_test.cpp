@@ -69,7 +69,7 @@ TEST(Controls, giveTheSurfaceItsDerivativesAcross) {
     control["second"].push_back({x, 0.5, 0.1});
     control["third"].push_back({x, 1.4, 0.6});
   }
-  drawing["controls"] = {control};
+  drawing["controls"] = Json::array({control});
   const Rig rig = made(drawing);
   const auto expected =
       derivativesFromControls({}, {0, 0.5, 0.1}, {0, 1.4, 0.6}, {0.1, 0.3}).value();

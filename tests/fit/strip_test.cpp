@@ -91,6 +91,17 @@ TEST(Strip, KeepsMaterialsAndTextureCoordinatesWithTheirFaces) {
   EXPECT_EQ(std::ranges::count(after.faceMaterial, 1), std::ranges::count(faces.faceMaterial, 1));
 }
 
+TEST(Strip, TextureCoordinatesComeInTheOrderOfTheirCorners) {
+  Rig rig = convert(withTargets(plane())).value().rig;
+  Polygons& faces = rig.source.polygons;
+  const auto count = static_cast<Index>(faces.corners.size());
+  for (Index c = 0; c < count; ++c) faces.cornerTexcoords.push_back(7 * (count - c));
+  for (Index t = 0; t <= 7 * count; ++t) faces.texcoords.push_back({1.0 * t, 0});
+  ASSERT_TRUE(strip(rig, {.order = true}));
+  EXPECT_EQ(faces.texcoords.size(), faces.corners.size()) << "unused ones are left out";
+  for (Index c = 0; c < count; ++c) EXPECT_EQ(faces.cornerTexcoords[c], c);
+}
+
 TEST(Strip, NamesOnlyPartsThatThereAre) {
   EXPECT_TRUE(parseStrip("order,uv,groups,scene"));
   for (const char* text : {"hair", "uv,", "uv order", "UV"}) {

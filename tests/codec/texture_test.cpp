@@ -1,0 +1,98 @@
+#include <cmath>
+#include <gtest/gtest.h>
+#include <random>
+
+#include "codec/source_coder.hpp"
+
+namespace sweepface {
+namespace {
+
+using namespace codec;
+
+constexpr int kBits = 14;
+constexpr Index kQuads = 24;  // in a row and in a column
+
+// A sheet of quads with a texture coordinate for each vertex, in whole steps.
+template <typename At>
+Polygons sheetWith(At at) {
+  Polygons sheet;
+  const auto vertex = [](Index x, Index y) { return y * (kQuads + 1) + x; };
+  for (Index y = 0; y <= kQuads; ++y)
+    for (Index x = 0; x <= kQuads; ++x) {
+      const std::array<int, 2> whole = at(x, y);
+      sheet.texcoords.push_back({std::ldexp(whole[0], -kBits), std::ldexp(whole[1], -kBits)});
+    }
+  sheet.faceStart = {0};
+  for (Index y = 0; y < kQuads; ++y)
+    for (Index x = 0; x < kQuads; ++x) {
+      for (const Index v : {vertex(x, y), vertex(x + 1, y), vertex(x + 1, y + 1), vertex(x, y + 1)})
+        sheet.corners.push_back(v);
+      sheet.faceStart.push_back(static_cast<Index>(sheet.corners.size()));
+    }
+  sheet.cornerTexcoords = sheet.corners;
+  return sheet;
+}
+
+std::string written(const Polygons& polygons) {
+  RangeEncoder coder;
+  Symbols<RangeEncoder> symbols(coder);
+  writeTexture(symbols, polygons, kBits);
+  return coder.finish();
+}
+
+void expectReadBack(const Polygons& polygons) {
+  const std::string bytes = written(polygons);
+  RangeDecoder coder(bytes);
+  Symbols<RangeDecoder> symbols(coder);
+  Polygons back = polygons;
+  back.texcoords.clear();
+  back.cornerTexcoords.clear();
+  int bits = 0;
+  readTexture(symbols, polygons.texcoords.size(), back, bits);
+  ASSERT_TRUE(symbols.ok()) << symbols.problem();
+  EXPECT_EQ(bits, kBits);
+  EXPECT_EQ(back.cornerTexcoords, polygons.cornerTexcoords);
+  ASSERT_EQ(back.texcoords.size(), polygons.texcoords.size());
+  for (std::size_t t = 0; t < back.texcoords.size(); ++t) {
+    EXPECT_EQ(back.texcoords[t].x, polygons.texcoords[t].x);
+    EXPECT_EQ(back.texcoords[t].y, polygons.texcoords[t].y);
+  }
+}
+
+TEST(Texture, OfWhatIsEvenlyLaidOutCostsHardlyAnything) {
+  const Polygons even = sheetWith([](int x, int y) { return std::array{31 * x + 5 * y, 40 * y}; });
+  expectReadBack(even);
+  EXPECT_LT(written(even).size(), 120u) << "the indices of " << even.corners.size() << " corners";
+}
+
+// Without knowing how the quads before were bent, each of 625 coordinates would cost its own bend,
+// up to 47 and 93 steps.
+TEST(Texture, FollowsWhatBendsMoreAndMore) {
+  const Polygons bent = sheetWith(
+      [](int x, int y) { return std::array{31 * x + x * x * y, 40 * y - 2 * x * y * y}; });
+  expectReadBack(bent);
+  EXPECT_LT(written(bent).size(), 250u);
+}
+
+TEST(Texture, ComesBackHoweverRoughItIs) {
+  std::mt19937 random(5);
+  Polygons rough = sheetWith([&](int, int) {
+    return std::array{static_cast<int>(random() % 100'000) - 50'000,
+                      static_cast<int>(random() % 9)};
+  });
+  for (Index& t : rough.cornerTexcoords)  // seams, corners without any, coordinates without corners
+    if (random() % 10 == 0) t = static_cast<Index>(random() % (rough.texcoords.size() + 1)) - 1;
+  expectReadBack(rough);
+}
+
+TEST(Texture, ComesBackOnTrianglesAndLargeFaces) {
+  Polygons mixed = sheetWith([](int x, int y) { return std::array{31 * x * x, 40 * y}; });
+  mixed.faceStart.clear();
+  for (Index c = 0; c < static_cast<Index>(mixed.corners.size()); c += 3 + c % 5)
+    mixed.faceStart.push_back(c);
+  mixed.faceStart.push_back(static_cast<Index>(mixed.corners.size()));
+  expectReadBack(mixed);
+}
+
+}  // namespace
+}  // namespace sweepface
