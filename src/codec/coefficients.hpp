@@ -86,11 +86,10 @@ class CoefficientCoder {
       begin(q, expected);
     const auto& sites = h_.sites();
     for (Index s = 0; s < static_cast<Index>(sites.size()); ++s) {
-      const CodedSite& site = sites[s];
-      const bool follows = symmetry == Symmetry::self && site.mirror >= 0 && site.mirror < s;
+      const bool follows = symmetry == Symmetry::self && isImage(s);
       phase_ = neutral ? 0 : symmetry == Symmetry::partner ? 3 : 1;
       if (follows) phase_ += neutral ? 4 : 1;
-      if (site.parent < 0 || below_[site.parent]) codeSite(s);
+      if (sites[s].parent < 0 || below_[sites[s].parent]) codeSite(s);
       // Later sites of this pose may be images of this one.
       if constexpr (!kWrites<Coder>) fillIn(q, s, follows);
     }
@@ -108,6 +107,8 @@ class CoefficientCoder {
 
   enum BitKind { kAny, kBelow, kVector, kZero, kSign, kMore };
 
+  // Of a site that came before.
+  bool isImage(Index s) const { return h_.sites()[s].mirror >= 0 && h_.sites()[s].mirror < s; }
   Steps3 imageAt(const Coefficients& q, Index v) const {
     const Hierarchy::Image& image = h_.images()[v];
     return image.vector < 0 ? Steps3{} : reflected(q[image.vector], image.sign, axis_);
@@ -123,7 +124,7 @@ class CoefficientCoder {
     const auto& sites = h_.sites();
     for (Index s = 0; s < static_cast<Index>(sites.size()); ++s) {
       const CodedSite& site = sites[s];
-      const bool follows = symmetry == Symmetry::self && site.mirror >= 0 && site.mirror < s;
+      const bool follows = symmetry == Symmetry::self && isImage(s);
       active_[s] = 0;
       for (Index v = site.first; v < site.first + site.count; ++v) {
         if (follows) subtract(v, imageAt(q, v));
@@ -213,8 +214,7 @@ class CoefficientCoder {
     for (const Term& t : h_.beside(s)) near += isMoved(residual_[t.vector]);
     near = std::min(near, 4u);
     const std::uint32_t past = std::min<std::uint32_t>(history_[s], 6);
-    const std::uint32_t mirrored =
-        site.mirror >= 0 && site.mirror < s ? 1 + active_[site.mirror] : 0;
+    const std::uint32_t mirrored = isImage(s) ? 1 + active_[site.mirror] : 0;
     const std::uint32_t p = phase_;
     bool any = active_[s];
     any = bit(kAny, site.leaf, any,
