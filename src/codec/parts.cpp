@@ -39,9 +39,17 @@ constexpr KindPart kParts[] = {{"HEAD", "container"},
                                {"turn", "turns"},
                                {"END ", "container"}};
 
-std::string_view partOf(std::string_view code) {
-  return std::ranges::find(kParts, code, &KindPart::code)->part;
+constexpr const KindPart* find(std::string_view code) {
+  return std::ranges::find(kParts, code, &KindPart::code);
 }
+constexpr bool knowsAll(int version) {
+  for (std::size_t at = 0; at < codesOf(version).size(); at += 4)
+    if (find(codesOf(version).substr(at, 4)) == std::end(kParts)) return false;
+  return true;
+}
+static_assert(knowsAll(1) && knowsAll(2));
+
+std::string_view partOf(std::string_view code) { return find(code)->part; }
 
 }  // namespace
 }  // namespace codec

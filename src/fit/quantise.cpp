@@ -319,13 +319,9 @@ class Quantiser {
       if (site.mirror < 0 || (symmetry == Symmetry::self && site.mirror >= s)) continue;
       for (Index v = site.first; v < site.first + site.count; ++v) {
         if (images[v].vector < 0) continue;
-        if (symmetry == Symmetry::partner) {
-          q[v] = expected[v];
-          continue;
-        }
-        for (int a = 0; a < 3; ++a)
-          q[v][a] =
-              (a == lattice_->axis() ? -images[v].sign : images[v].sign) * q[images[v].vector][a];
+        q[v] = symmetry == Symmetry::partner
+                   ? expected[v]
+                   : codec::reflected(q[images[v].vector], images[v].sign, lattice_->axis());
       }
     }
   }

@@ -38,6 +38,7 @@ void close(std::vector<Fan>& fans, int sectors) {
   const bool joins = single != fans.end();
   const bool isTurned = fans.size() == 2 && fans[0].sectors != 2;
   const auto first = joins ? single - fans.begin() + 1 : isTurned ? 1 : 0;
+  // Not std::rotate: it would be 0.7 KB of what a browser has to load.
   std::vector<Fan> turned(fans.begin() + first, fans.end());
   turned.insert(turned.end(), fans.begin(), fans.begin() + first);
   fans = std::move(turned);
