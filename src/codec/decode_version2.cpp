@@ -52,7 +52,7 @@ void readGrid(Decoding& d, Reader& in) {
   const std::size_t most = std::min(d.memory / kBytesAPatch,
                                     within(kMostPatches, kPatchesAByte, kPatchesAnyway, in.left()));
   decodeRest(in, [&](RangeDecoder&, Symbols<RangeDecoder>& symbols) {
-    d.wireframe = readWireframe(symbols, most, kMostGridVertices);
+    d.wireframe = readWireframe(symbols, most, kMostGridVertices, d.connectivity);
     readMirror(symbols, d.wireframe.arcs.size(), d.rig.packing);
   });
   if (!in.ok()) return;

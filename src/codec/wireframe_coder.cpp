@@ -65,6 +65,8 @@ class WireframeCoder {
     return std::move(w_);
   }
 
+  std::optional<Connectivity> connectivity;  // of what was coded: no shape or mask changes it
+
  private:
   std::size_t count(std::size_t value, std::size_t most) {
     const std::size_t n = s_.number(kCounts, 0, 0, value);
@@ -154,9 +156,9 @@ class WireframeCoder {
 
   // A set that is closed downwards, component by component.
   void codeMasks() {
-    const auto connectivity = Connectivity::make(w_);
-    if (!connectivity)
-      return s_.refuseWith({"the wireframe is unsound: ", connectivity.error().message});
+    auto made = Connectivity::make(w_);
+    if (!made) return s_.refuseWith({"the wireframe is unsound: ", made.error().message});
+    connectivity = std::move(*made);
     for (Index n = 0; n < static_cast<Index>(w_.nodes.size()); ++n) {
       const std::uint32_t x = lineClass(w_, *connectivity, n, 0),
                           y = lineClass(w_, *connectivity, n, 1);
@@ -228,8 +230,12 @@ void writeWireframe(Symbols<RangeEncoder>& out, const Wireframe& wireframe) {
   WireframeCoder<RangeEncoder>(out, &wireframe).run(SIZE_MAX, INT64_MAX);
 }
 
-Wireframe readWireframe(Symbols<RangeDecoder>& in, std::size_t most, std::int64_t mostQuads) {
-  return WireframeCoder<RangeDecoder>(in, nullptr).run(most, mostQuads);
+Wireframe readWireframe(Symbols<RangeDecoder>& in, std::size_t most, std::int64_t mostQuads,
+                        std::optional<Connectivity>& connectivity) {
+  WireframeCoder<RangeDecoder> coder(in, nullptr);
+  Wireframe wireframe = coder.run(most, mostQuads);
+  connectivity = std::move(coder.connectivity);
+  return wireframe;
 }
 
 }  // namespace sweepface::codec

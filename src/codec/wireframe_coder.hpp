@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "sweepface/surface.hpp"
 
 #include "codec/symbols.hpp"
@@ -13,7 +15,9 @@ namespace sweepface::codec {
 /// that are numbered as they come cost nothing; any other numbering is kept too.
 void writeWireframe(Symbols<RangeEncoder>& out, const Wireframe& wireframe);
 
-/// Fails through `in`. Has no more than `most` of anything, and `mostQuads` quads.
-Wireframe readWireframe(Symbols<RangeDecoder>& in, std::size_t most, std::int64_t mostQuads);
+/// Fails through `in`. Has no more than `most` of anything, and `mostQuads` quads. What is read also
+/// says who meets whom.
+Wireframe readWireframe(Symbols<RangeDecoder>& in, std::size_t most, std::int64_t mostQuads,
+                        std::optional<Connectivity>& connectivity);
 
 }  // namespace sweepface::codec
