@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "codec/kriging.hpp"
+#include "codec/two.hpp"
 
 namespace sweepface::codec {
 
@@ -57,9 +58,8 @@ bool Lattice::restore(Index pose, const Coefficients& coefficients, double step,
 namespace {
 
 // A vector of four poses side by side, so that one walk over the terms serves them all: x of all
-// of them, y and z, by twos as processors add them.
+// of them, y and z.
 constexpr std::size_t kAbreast = 4;
-using Two [[gnu::vector_size(16)]] = double;
 using Abreast = std::array<Two, 6>;
 
 double& coordinate(Abreast& vector, std::size_t pose, std::size_t axis) {

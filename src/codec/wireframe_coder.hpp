@@ -15,8 +15,8 @@ namespace sweepface::codec {
 /// that are numbered as they come cost nothing; any other numbering is kept too.
 void writeWireframe(Symbols<RangeEncoder>& out, const Wireframe& wireframe);
 
-/// Fails through `in`. Has no more than `most` of anything, and `mostQuads` quads. What is read also
-/// says who meets whom.
+/// Fails through `in`. Has no more than `most` of anything, and `mostQuads` quads. What is read
+/// also says who meets whom.
 Wireframe readWireframe(Symbols<RangeDecoder>& in, std::size_t most, std::int64_t mostQuads,
                         std::optional<Connectivity>& connectivity);
 
