@@ -364,10 +364,14 @@ class HierarchyBuilder {
   }
 
   void addDerivatives(const DerivativeRules& rules, int order) {
+    Terms terms;
     for (const CodedSite& site : out_.sites_)
       for (Index v = site.first; v < site.first + site.count; ++v)
-        if (const StoredVector& s = surface_.stored(v); std::min(2, s.i + s.j) == order)
-          addStep(v, rules.predict(site, s));
+        if (const StoredVector& s = surface_.stored(v); std::min(2, s.i + s.j) == order) {
+          terms.clear();
+          rules.predict(site, s, terms);
+          addStep(v, terms);
+        }
   }
 
   const Surface& surface_;
