@@ -23,7 +23,8 @@ DerivativeRules::DerivativeRules(const Surface& surface, const std::vector<Coded
       siteOf_(siteOf),
       nodesAt_(w_.points) {
   for (std::size_t n = 0; n < w_.nodes.size(); ++n)
-    if (w_.nodes[n].point >= 0) nodesAt_[w_.nodes[n].point].push_back(static_cast<Index>(n));
+    if (c_.kinds[n] == NodeKind::irregular)
+      nodesAt_[w_.nodes[n].point].push_back(static_cast<Index>(n));
 }
 
 void DerivativeRules::predict(const CodedSite& site, const StoredVector& s, Terms& terms) const {
@@ -214,8 +215,7 @@ std::vector<std::pair<Index, int>> DerivativeRules::spokes(const CodedSite& site
     for (int arm = 0; arm < static_cast<int>(arms.size()); ++arm)
       if (!w_.arcs[arcOf(arms[arm])].collapsed) result.emplace_back(node, arm);
   };
-  for (const Index node : nodesAt_[point])
-    if (c_.kinds[node] == NodeKind::irregular) visit(node);
+  for (const Index node : nodesAt_[point]) visit(node);
   return result;
 }
 

@@ -86,7 +86,7 @@ class DerivativeRules {
   const Connectivity& c_;
   const std::vector<CodedSite>& sites_;
   const std::vector<Index>& siteOf_;
-  std::vector<std::vector<Index>> nodesAt_;  // [points]
+  std::vector<std::vector<Index>> nodesAt_;  // [points] those that are irregular
 };
 
 /// The stored vector that mirrors each [S], and how.

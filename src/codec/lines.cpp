@@ -1,6 +1,7 @@
 #include "codec/lines.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "codec/derivative_rules.hpp"
 
@@ -22,8 +23,19 @@ Lines::Lines(const Surface& surface)
   }
   for (std::size_t n = 0; n < w.nodes.size(); ++n) {
     if (c.kinds[n] == NodeKind::irregular) siteOf_[n] = ofPoint[w.nodes[n].point];
-    if (siteOf_[n] >= 0) sites_[siteOf_[n]].nodes.push_back(static_cast<Index>(n));
+    if (siteOf_[n] >= 0) ++sites_[siteOf_[n]].nodes;
   }
+  std::size_t count = 0;
+  for (Site& site : sites_) {
+    site.firstNode = count;
+    count += std::exchange(site.nodes, 0);
+  }
+  nodes_.resize(count);
+  for (std::size_t n = 0; n < w.nodes.size(); ++n)
+    if (siteOf_[n] >= 0) {
+      Site& site = sites_[siteOf_[n]];
+      nodes_[site.firstNode + site.nodes++] = static_cast<Index>(n);
+    }
   opposite_.reserve(links_.size());
   for (HalfArc h = 0; h < static_cast<HalfArc>(links_.size()); ++h) {
     const auto [last, edges] = c.rails[h];

@@ -18,12 +18,14 @@ class Lines {
   Index siteOf(Index node) const { return siteOf_[node]; }
   bool isSite(Index node) const { return siteOf_[node] >= 0; }
   Index siteCount() const { return static_cast<Index>(sites_.size()); }
-  std::span<const Index> nodesOf(Index site) const { return sites_[site].nodes; }
+  std::span<const Index> nodesOf(Index site) const {
+    return {nodes_.data() + sites_[site].firstNode, sites_[site].nodes};
+  }
 
   bool isLeft(Index site) const { return sites_[site].left; }
   void takeOut(Index site) {
     sites_[site].left = false;
-    for (const Index node : sites_[site].nodes) isOut_[node] = 1;
+    for (const Index node : nodesOf(site)) isOut_[node] = 1;
   }
 
   /// Where a line leads from a half-arc: to the half-arc that comes back from the next node that is
@@ -46,7 +48,7 @@ class Lines {
 
  private:
   struct Site {
-    std::vector<Index> nodes;
+    std::size_t firstNode = 0, nodes = 0;
     bool left = true, irregular = false;
   };
 
@@ -55,6 +57,7 @@ class Lines {
   std::vector<Index> siteOf_;      // [nodes]
   std::vector<char> isOut_;        // [nodes]
   std::vector<Site> sites_;        // [sites]
+  std::vector<Index> nodes_;       // by sites
   std::vector<Link> links_;        // [half-arcs] what was taken out stays out
   std::vector<HalfArc> opposite_;  // [half-arcs] that go straight on, behind where one begins
   Index longest_ = 0;

@@ -44,6 +44,7 @@ class LoopCoder {
   void run(std::size_t nodes, std::size_t arcs, std::size_t patches) {
     nodeKnown_.assign(nodes, 0);
     arms_.resize(nodes);
+    nextArm_.assign(2 * arcs, -1);
     w_.nodes.resize(nodes);
     w_.arcs.resize(arcs);
     arcKnown_.assign(arcs, 0);
@@ -62,15 +63,25 @@ class LoopCoder {
   };
 
   bool isOpen(HalfArc h) const { return arcKnown_[arcOf(h)] && !taken_[h] && taken_[twin(h)]; }
+  // The half-arcs that leave a node, in the order in which they came: each knows the next.
+  struct Arms {
+    HalfArc first = -1, last = -1;
+    std::uint32_t count = 0;
+  };
+  void addArm(Index node, HalfArc h) {
+    Arms& arms = arms_[node];
+    (arms.count++ == 0 ? arms.first : nextArm_[arms.last]) = h;
+    arms.last = h;
+  }
   HalfArc openFrom(Index node) const {
-    for (const HalfArc h : arms_[node])
-      if (isOpen(h)) return h;
-    return -1;
+    HalfArc h = arms_[node].first;
+    while (h >= 0 && !isOpen(h)) h = nextArm_[h];
+    return h;
   }
   HalfArc openTo(Index node) const {
-    for (const HalfArc h : arms_[node])
-      if (isOpen(twin(h))) return twin(h);
-    return -1;
+    HalfArc h = arms_[node].first;
+    while (h >= 0 && !isOpen(twin(h))) h = nextArm_[h];
+    return h < 0 ? -1 : twin(h);
   }
   Index unusedNode() {
     while (nextNode_ < static_cast<Index>(nodeKnown_.size()) && nodeKnown_[nextNode_]) ++nextNode_;
@@ -114,14 +125,15 @@ class LoopCoder {
 
   void codePatch(Index p) {
     dropBorders();
-    std::vector<Piece> told;
+    std::vector<Piece>&told = told_, &loop = loop_;
+    told.clear();
+    loop.clear();
     int base = 0;
     if constexpr (kWrites<Coder>) {
       base = baseOf(p);
       for (int s = 0; s < 4; ++s)
         for (const HalfArc h : whole_->side(p, (base + s) % 4)) told.push_back({h, s});
     }
-    std::vector<Piece> loop;
     codeLoop(told, loop);
     if (!s_.ok()) return;
     // Loops are kept as they are told until the turns are known.
@@ -233,12 +245,11 @@ class LoopCoder {
   }
 
   std::uint32_t degree(Index node) const {
-    return static_cast<std::uint32_t>(std::min<std::size_t>(arms_[node].size(), 6)) +
-           (straight_[node] ? 8 : 0);
+    return std::min(arms_[node].count, 6u) + (straight_[node] ? 8 : 0);
   }
   std::uint32_t openCount(Index node) const {
     std::uint32_t open = 0;
-    for (const HalfArc h : arms_[node]) open += isOpen(h);
+    for (HalfArc h = arms_[node].first; h >= 0; h = nextArm_[h]) open += isOpen(h);
     return std::min(open, 3u);
   }
 
@@ -282,8 +293,8 @@ class LoopCoder {
     (current_ & 1 ? arc.from : arc.to) = end_;
     w_.arcs[id] = arc;
     arcKnown_[id] = 1;
-    arms_[startOfNew_].push_back(current_);
-    arms_[end_].push_back(twin(current_));
+    addArm(startOfNew_, current_);
+    addArm(end_, twin(current_));
     return corner;
   }
 
@@ -352,7 +363,9 @@ class LoopCoder {
   Wireframe& w_;
   const Wireframe* whole_;
   std::vector<char> nodeKnown_, arcKnown_, taken_, straight_;
-  std::vector<std::vector<HalfArc>> arms_;
+  std::vector<Arms> arms_;          // [nodes]
+  std::vector<HalfArc> nextArm_;    // [half-arcs]
+  std::vector<Piece> told_, loop_;  // of the patch that is being coded
   std::vector<HalfArc> queue_;
   std::size_t head_ = 0;
   Index nextNode_ = 0, nextArc_ = 0;

@@ -30,11 +30,12 @@ enum Tag : std::uint32_t {
 };
 
 // Turns the loop of a patch so that the side `base` comes first.
-void turn(Wireframe& w, Index patch, int base) {
+void turn(Wireframe& w, Index patch, int base, std::vector<HalfArc>& loop) {
+  if (base == 0) return;
   auto& sides = w.patches[patch].sides;
   const std::array<Index, 5> old = sides;
   const Index begin = old[0];
-  const std::vector<HalfArc> loop(w.loops.begin() + begin, w.loops.begin() + old[4]);
+  loop.assign(w.loops.begin() + begin, w.loops.begin() + old[4]);
   std::copy(loop.begin(), loop.begin() + (old[base] - begin),
             std::copy(loop.begin() + (old[base] - begin), loop.end(), w.loops.begin() + begin));
   for (int s = 0; s < 4; ++s) {
@@ -91,12 +92,13 @@ class WireframeCoder {
   // Every loop was told from side `base` of the patch on: side 4 - base of the loop comes first.
   void codeTurns(const std::vector<int>& bases) {
     SweepRule rule(w_);
+    std::vector<HalfArc> loop;
     for (Index p = 0; p < static_cast<Index>(w_.patches.size()); ++p) {
       const bool expected = rule.turns(p, 0);
       const int first = (4 - bases[p]) % 4;
       const bool odd = s_.bit(kTurn, expected, 0, first % 2);
       const bool half = s_.bit(kHalfTurn, odd, 0, first / 2);
-      turn(w_, p, 2 * half + odd);
+      turn(w_, p, 2 * half + odd, loop);
       rule.sweep(p);
     }
   }
