@@ -4,7 +4,6 @@
 
 #include "codec/chunks.hpp"
 #include "codec/decoding.hpp"
-#include "codec/limits.hpp"
 #include "codec/utf8.hpp"
 #include "codec/wire_version1.hpp"
 
@@ -23,9 +22,7 @@ bool Decoding::afford(Reader& in, std::size_t count, std::size_t bytesEach) {
 
 void Decoding::makeSurface(Reader& in) {
   quads = gridQuads(wireframe);
-  if (!afford(in, wireframe.patches.size(), kBytesAPatch)) return;
-  auto surface = connectivity ? Surface::make(std::move(wireframe), std::move(*connectivity))
-                              : Surface::make(std::move(wireframe));
+  auto surface = Surface::make(std::move(wireframe), std::move(connectivity));
   if (!surface) return in.refuseWith({"the wireframe is unsound: ", surface.error().message});
   rig.surface = std::move(*surface);
   stored = static_cast<std::size_t>(rig.surface.storedCount());

@@ -36,6 +36,11 @@ void readShapes(Decoding& d, Reader& in) {
     if (chosen[r]) d.wireframe.ribbons[r] = {in.f64(), in.f64(), in.f64()};
   if (!in.ok()) return;
   const std::size_t announced = d.stored;
+  if (!d.afford(in, d.wireframe.patches.size(), kBytesAPatch)) return;
+  auto connectivity = Connectivity::make(d.wireframe);
+  if (!connectivity)
+    return in.refuseWith({"the wireframe is unsound: ", connectivity.error().message});
+  d.connectivity = std::move(*connectivity);
   d.makeSurface(in);
   if (in.ok()) d.afford(in, (d.targets + 1) * d.stored, kBytesAVector);
   if (in.ok() && d.stored != announced)

@@ -55,7 +55,7 @@ void readGrid(Decoding& d, Reader& in) {
     d.wireframe = readWireframe(symbols, most, kMostGridVertices, d.connectivity);
     readMirror(symbols, d.wireframe.arcs.size(), d.rig.packing);
   });
-  if (!in.ok()) return;
+  if (!in.ok() || !d.afford(in, d.wireframe.patches.size(), kBytesAPatch)) return;
   d.makeSurface(in);
   if (!in.ok()) return;
   // What is still costs nothing, so that memory is limited here.

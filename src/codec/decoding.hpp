@@ -19,14 +19,14 @@ struct Decoding {
   std::size_t stored = 0, targets = 0, loose = 0;  ///< vectors, targets and loose vertices
   std::size_t quads = 0;                           ///< of the grid at level 1
   Wireframe wireframe;                             ///< until the surface is made of it
-  std::optional<Connectivity> connectivity;        ///< of that, where it was asked for already
+  Connectivity connectivity;                       ///< of that, likewise
   std::optional<Lattice> lattice;
   std::optional<LevelOne> levelOne;
   Rig rig;
 
   /// Whether so many more bytes may be taken; complains through `in` if not.
   bool afford(Reader& in, std::size_t count, std::size_t bytesEach);
-  /// Of the wireframe; says how many vectors it stores.
+  /// Of the wireframe and its connectivity; says how many vectors it stores.
   void makeSurface(Reader& in);
   /// A name that is UTF-8; complains through `in`. That none comes twice is looked at in the end.
   void addTarget(Reader& in, std::string_view name);

@@ -6,6 +6,7 @@
 #include "codec/faces.hpp"
 #include "codec/source_coder.hpp"
 #include "codec/walk.hpp"
+#include "surface/groups.hpp"
 
 namespace sweepface::codec {
 
@@ -25,30 +26,6 @@ enum Tag : std::uint32_t {
   kOwnOrder = 37
 };
 
-// The source's vertices at each vertex of the grid.
-class Places {
- public:
-  Places(const LevelOne& grid, const std::vector<Index>& order)
-      : start_(grid.vertexCount() + 1, 0) {
-    vertices_ = static_cast<Index>(order.size());
-    for (const Index g : order)
-      if (g >= 0) ++start_[g + 1];
-    for (std::size_t g = 1; g < start_.size(); ++g) start_[g] += start_[g - 1];
-    list_.resize(start_.back());
-    std::vector<Index> at = start_;
-    for (Index v = 0; v < vertices_; ++v)
-      if (order[v] >= 0) list_[at[order[v]]++] = v;
-  }
-  std::span<const Index> at(Index gridVertex) const {
-    return {list_.data() + start_[gridVertex], list_.data() + start_[gridVertex + 1]};
-  }
-  Index vertices() const { return vertices_; }
-
- private:
-  std::vector<Index> start_, list_;
-  Index vertices_ = 0;
-};
-
 template <typename Coder>
 class FaceCoder {
  public:
@@ -57,7 +34,7 @@ class FaceCoder {
         grid_(grid),
         source_(source),
         faces_(source.polygons),
-        places_(grid, source.gridVertex),
+        places_(source.gridVertex, static_cast<std::size_t>(grid.vertexCount())),
         most_(most),
         walk_(symbols, grid.quadNeighbours()) {}
 
@@ -127,7 +104,7 @@ class FaceCoder {
     return true;
   }
   Index whichAt(Index gridVertex, Index vertex) const {
-    const auto here = places_.at(gridVertex);
+    const auto here = places_.of(gridVertex);
     const auto found = std::ranges::find(here, vertex);
     return found == here.end() ? -1 : static_cast<Index>(found - here.begin());
   }
@@ -156,7 +133,7 @@ class FaceCoder {
     for (std::uint32_t k = 0; k < ring.size; ++k) {
       const std::uint32_t at = ring.at[(turn + k) % ring.size];
       const Index place = grid_.quads()[q][at];
-      const auto here = places_.at(place);
+      const auto here = places_.of(place);
       if (here.empty()) return s_.refuse("a face has a corner where the source has no vertex");
       std::size_t which = 0;
       if (here.size() > 1)
@@ -186,7 +163,8 @@ class FaceCoder {
           std::int64_t{last_} +
           s_.signedNumber(kCorner, std::min(k, 4u), 0,
                           kWrites<Coder> ? std::int64_t{faces_.corners[first + k]} - last_ : 0);
-      if (vertex < 0 || vertex >= places_.vertices()) return s_.refuse("a vertex is out of range");
+      if (vertex < 0 || vertex >= static_cast<Index>(source_.gridVertex.size()))
+        return s_.refuse("a vertex is out of range");
       last_ = static_cast<Index>(vertex);
       if constexpr (!kWrites<Coder>) faces_.corners.push_back(last_);
     }
@@ -251,7 +229,7 @@ class FaceCoder {
   const LevelOne& grid_;
   SourceMesh& source_;
   Polygons& faces_;
-  Places places_;
+  Groups places_;  // the source's vertices at each vertex of the grid
   std::size_t most_, total_ = 0;
   Walk<Coder> walk_;
   std::vector<Index> plainQuad_;  // [faces] of a writer

@@ -332,12 +332,6 @@ class HierarchyBuilder {
 
   // Numbers sites in coding order and writes the steps of their positions.
   void arrange() {
-    const auto vectors = static_cast<std::size_t>(surface_.storedCount());
-    out_.sites_.reserve(all_.size());
-    out_.nearStart_.reserve(all_.size() + 1);
-    out_.near_.reserve(near_.size());
-    out_.prediction_.steps.reserve(vectors);
-    out_.prediction_.terms.reserve(6 * vectors);
     std::vector<Index> rank(all_.size());
     for (std::size_t k = 0; k < order_.size(); ++k) rank[order_[k]] = static_cast<Index>(k);
     siteOf_ = lines_.siteOf();

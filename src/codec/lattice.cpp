@@ -62,6 +62,10 @@ namespace {
 constexpr std::size_t kAbreast = 4;
 using Abreast = std::array<Two, 6>;
 
+double* numberOf(Abreast& vector, std::size_t pose, std::size_t axis) {
+  return reinterpret_cast<double*>(vector.data()) + kAbreast * axis + pose;
+}
+
 // `known` are the steps of all vectors, and then what they are. False if any is not finite.
 bool complete(const Prediction& prediction, const std::array<Two, 2>& step, Abreast* known) {
   Two nothing{};  // until it meets what is not finite: 0 times that is not a number
@@ -91,13 +95,13 @@ bool Lattice::restore(const Prediction& prediction, std::span<const Restored> po
     for (std::size_t p = 0; p < now.size(); ++p) {
       step[p / 2][p % 2] = now[p].step;
       for (const Moved& m : now[p].moved)
-        for (std::size_t a = 0; a < 3; ++a) known[m.vector][2 * a + p / 2][p % 2] = m.steps[a];
+        for (std::size_t a = 0; a < 3; ++a) *numberOf(known[m.vector], p, a) = m.steps[a];
     }
     finite &= complete(prediction, step, known.data());
     for (std::size_t p = 0; p < now.size(); ++p) {
       Vec3* vector = now[p].vectors.data();
-      for (const Abreast& k : known)
-        *vector++ = {k[p / 2][p % 2], k[2 + p / 2][p % 2], k[4 + p / 2][p % 2]};
+      for (Abreast& k : known)
+        *vector++ = {*numberOf(k, p, 0), *numberOf(k, p, 1), *numberOf(k, p, 2)};
     }
   }
   return finite;

@@ -1,7 +1,6 @@
 #include "codec/level_one.hpp"
 
 #include <algorithm>
-#include <numeric>
 
 namespace sweepface::codec {
 
@@ -82,22 +81,13 @@ LevelOne::LevelOne(const Surface& surface) {
   }
 }
 
-Neighbours LevelOne::corners() const {
-  Neighbours corners;
-  corners.first.resize(vertices_ + 1);
-  corners.all.resize(4 * quads_.size());
-  for (const auto& quad : quads_)
-    for (const Index v : quad) ++corners.first[v + 1];
-  std::partial_sum(corners.first.begin(), corners.first.end(), corners.first.begin());
-  std::vector<Index> next(corners.first.begin(), corners.first.end() - 1);
-  for (std::size_t q = 0; q < quads_.size(); ++q)
-    for (std::size_t k = 0; k < 4; ++k)
-      corners.all[next[quads_[q][k]]++] = static_cast<Index>(4 * q + k);
-  return corners;
+Groups LevelOne::corners() const {
+  const Index* const first = quads_.empty() ? nullptr : quads_[0].data();
+  return Groups({first, 4 * quads_.size()}, static_cast<std::size_t>(vertices_));
 }
 
 Neighbours LevelOne::quadNeighbours() const {
-  const Neighbours corners = this->corners();
+  const Groups corners = this->corners();
   Neighbours neighbours;
   neighbours.first.reserve(quads_.size() + 1);
   neighbours.all.reserve(4 * quads_.size());
@@ -116,7 +106,7 @@ Neighbours LevelOne::quadNeighbours() const {
 
 Neighbours LevelOne::vertexNeighbours() const {
   // Around a vertex counter-clockwise: from each quad's next corner to its last one.
-  const Neighbours corners = this->corners();
+  const Groups corners = this->corners();
   Neighbours neighbours;
   std::vector<std::array<Index, 2>> fan;
   for (Index v = 0; v < vertices_; ++v) {

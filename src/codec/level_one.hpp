@@ -6,6 +6,8 @@
 
 #include "sweepface/surface.hpp"
 
+#include "surface/groups.hpp"
+
 namespace sweepface::codec {
 
 /// What is beside each of many items, in one list.
@@ -37,7 +39,7 @@ class LevelOne {
 
  private:
   // The corners at each vertex, 4 * quad + k, in ascending order.
-  Neighbours corners() const;
+  Groups corners() const;
 
   Index vertices_ = 0;
   std::vector<std::array<Index, 4>> quads_;

@@ -1,7 +1,6 @@
 #include "codec/lines.hpp"
 
 #include <algorithm>
-#include <utility>
 
 #include "codec/derivative_rules.hpp"
 
@@ -23,19 +22,8 @@ Lines::Lines(const Surface& surface)
   }
   for (std::size_t n = 0; n < w.nodes.size(); ++n) {
     if (c.kinds[n] == NodeKind::irregular) siteOf_[n] = ofPoint[w.nodes[n].point];
-    if (siteOf_[n] >= 0) ++sites_[siteOf_[n]].nodes;
   }
-  std::size_t count = 0;
-  for (Site& site : sites_) {
-    site.firstNode = count;
-    count += std::exchange(site.nodes, 0);
-  }
-  nodes_.resize(count);
-  for (std::size_t n = 0; n < w.nodes.size(); ++n)
-    if (siteOf_[n] >= 0) {
-      Site& site = sites_[siteOf_[n]];
-      nodes_[site.firstNode + site.nodes++] = static_cast<Index>(n);
-    }
+  nodes_.emplace(siteOf_, sites_.size());
   opposite_.reserve(links_.size());
   for (HalfArc h = 0; h < static_cast<HalfArc>(links_.size()); ++h) {
     const auto [last, edges] = c.rails[h];
@@ -45,15 +33,19 @@ Lines::Lines(const Surface& surface)
   }
 }
 
-// Beyond what was taken out.
-Lines::Link Lines::walkOn(Link link) const {
-  for (std::size_t steps = 0; steps < links_.size() / 2; ++steps) {
-    if (!isOut_[link.node]) return link;
-    const HalfArc on = opposite_[link.back];
-    if (on < 0 || links_[on].back < 0) return {};
-    link = {links_[on].back, links_[on].node, link.distance + links_[on].distance};
+// What was taken out stays out: the next walk begins where this one ends.
+Lines::Link Lines::walk(HalfArc h) {
+  if (h < 0) return {};
+  Link link = links_[h];
+  if (link.back < 0 || !isOut_[link.node]) return link;
+  for (std::size_t steps = 0; link.back >= 0 && isOut_[link.node]; ++steps) {
+    const HalfArc on = steps < links_.size() ? opposite_[link.back] : -1;
+    if (on < 0 || links_[on].back < 0)
+      link = {};
+    else
+      link = {links_[on].back, links_[on].node, link.distance + links_[on].distance};
   }
-  return {};
+  return links_[h] = link;
 }
 
 Lines::Link Lines::beyond(const Link& link) {

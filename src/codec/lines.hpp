@@ -1,9 +1,12 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "sweepface/surface.hpp"
+
+#include "surface/groups.hpp"
 
 namespace sweepface::codec {
 
@@ -18,9 +21,7 @@ class Lines {
   Index siteOf(Index node) const { return siteOf_[node]; }
   bool isSite(Index node) const { return siteOf_[node] >= 0; }
   Index siteCount() const { return static_cast<Index>(sites_.size()); }
-  std::span<const Index> nodesOf(Index site) const {
-    return {nodes_.data() + sites_[site].firstNode, sites_[site].nodes};
-  }
+  std::span<const Index> nodesOf(Index site) const { return nodes_->of(site); }
 
   bool isLeft(Index site) const { return sites_[site].left; }
   void takeOut(Index site) {
@@ -36,11 +37,7 @@ class Lines {
     Index distance = 0;
   };
   /// The first T-node or site that is left along a line.
-  Link walk(HalfArc h) {
-    if (h < 0) return {};
-    const Link& link = links_[h];
-    return link.back < 0 || !isOut_[link.node] ? link : links_[h] = walkOn(link);
-  }
+  Link walk(HalfArc h);
   /// One more site beyond one that is left, on the same line.
   Link beyond(const Link& link);
   /// The longest distance along a line to the next node while all are left.
@@ -48,16 +45,13 @@ class Lines {
 
  private:
   struct Site {
-    std::size_t firstNode = 0, nodes = 0;
     bool left = true, irregular = false;
   };
-
-  Link walkOn(Link link) const;
 
   std::vector<Index> siteOf_;      // [nodes]
   std::vector<char> isOut_;        // [nodes]
   std::vector<Site> sites_;        // [sites]
-  std::vector<Index> nodes_;       // by sites
+  std::optional<Groups> nodes_;    // by sites
   std::vector<Link> links_;        // [half-arcs] what was taken out stays out
   std::vector<HalfArc> opposite_;  // [half-arcs] that go straight on, behind where one begins
   Index longest_ = 0;

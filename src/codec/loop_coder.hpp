@@ -65,21 +65,22 @@ class LoopCoder {
   bool isOpen(HalfArc h) const { return arcKnown_[arcOf(h)] && !taken_[h] && taken_[twin(h)]; }
   // The half-arcs that leave a node, in the order in which they came: each knows the next.
   struct Arms {
-    HalfArc first = -1, last = -1;
-    std::uint32_t count = 0;
+    HalfArc first, last;
+    std::uint32_t count;
   };
+  HalfArc firstArm(Index node) const { return arms_[node].count > 0 ? arms_[node].first : -1; }
   void addArm(Index node, HalfArc h) {
     Arms& arms = arms_[node];
     (arms.count++ == 0 ? arms.first : nextArm_[arms.last]) = h;
     arms.last = h;
   }
   HalfArc openFrom(Index node) const {
-    HalfArc h = arms_[node].first;
+    HalfArc h = firstArm(node);
     while (h >= 0 && !isOpen(h)) h = nextArm_[h];
     return h;
   }
   HalfArc openTo(Index node) const {
-    HalfArc h = arms_[node].first;
+    HalfArc h = firstArm(node);
     while (h >= 0 && !isOpen(twin(h))) h = nextArm_[h];
     return h < 0 ? -1 : twin(h);
   }
@@ -249,7 +250,7 @@ class LoopCoder {
   }
   std::uint32_t openCount(Index node) const {
     std::uint32_t open = 0;
-    for (HalfArc h = arms_[node].first; h >= 0; h = nextArm_[h]) open += isOpen(h);
+    for (HalfArc h = firstArm(node); h >= 0; h = nextArm_[h]) open += isOpen(h);
     return std::min(open, 3u);
   }
 

@@ -12,7 +12,8 @@ namespace sweepface::codec {
 /// many T-nodes and spokes there are, a search is short.
 class NearSites {
  public:
-  NearSites(const Surface& surface, Lines& lines);
+  NearSites(const Surface& surface, Lines& lines)
+      : w_(surface.wireframe()), c_(surface.connectivity()), lines_(lines) {}
 
   static constexpr std::size_t kMost = 16;
   /// At least 12 sites where there are as many, and those as far away as the last. Without the
@@ -30,13 +31,16 @@ class NearSites {
   };
 
   void goOn(Index node, Index distance);
+  Index& reachedBy(Index node) {
+    const Index site = lines_.siteOf(node);
+    return reachedBy_[site >= 0 ? site : lines_.siteCount() + node];
+  }
 
+  const Wireframe& w_;
+  const Connectivity& c_;
   Lines& lines_;
-  std::vector<Index> firstArm_;   // [nodes + 1]
-  std::vector<HalfArc> arms_;     // that leave each node, but for those that are one point
-  std::vector<Index> place_;      // [nodes] in the list below: all nodes of a site share one
-  std::vector<Index> reachedBy_;  // the last search that was there
   std::vector<Waiting> queue_;    // a heap
+  std::vector<Index> reachedBy_;  // [sites, then nodes] the last search that was there
   std::vector<Index> found_;
   Index search_ = 0;
 };

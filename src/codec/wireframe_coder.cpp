@@ -47,7 +47,8 @@ void turn(Wireframe& w, Index patch, int base, std::vector<HalfArc>& loop) {
 template <typename Coder>
 class WireframeCoder {
  public:
-  WireframeCoder(Symbols<Coder>& symbols, const Wireframe* whole) : s_(symbols), whole_(whole) {}
+  WireframeCoder(Symbols<Coder>& symbols, const Wireframe* whole, Connectivity& connectivity)
+      : s_(symbols), whole_(whole), connectivity_(connectivity) {}
 
   Wireframe run(std::size_t most, std::int64_t mostQuads) {
     const std::size_t nodes = count(whole_ ? whole_->nodes.size() : 0, most),
@@ -65,8 +66,6 @@ class WireframeCoder {
     if (s_.ok()) codeShapes();
     return std::move(w_);
   }
-
-  std::optional<Connectivity> connectivity;  // of what was coded: no shape or mask changes it
 
  private:
   std::size_t count(std::size_t value, std::size_t most) {
@@ -160,10 +159,10 @@ class WireframeCoder {
   void codeMasks() {
     auto made = Connectivity::make(w_);
     if (!made) return s_.refuseWith({"the wireframe is unsound: ", made.error().message});
-    connectivity = std::move(*made);
+    connectivity_ = std::move(*made);
     for (Index n = 0; n < static_cast<Index>(w_.nodes.size()); ++n) {
-      const std::uint32_t x = lineClass(w_, *connectivity, n, 0),
-                          y = lineClass(w_, *connectivity, n, 1);
+      const std::uint32_t x = lineClass(w_, connectivity_, n, 0),
+                          y = lineClass(w_, connectivity_, n, 1);
       const JetMask told = whole_ ? whole_->nodes[n].stored : 0;
       JetMask mask = 0;
       for (int k = 0; k < 9; ++k) {
@@ -224,20 +223,19 @@ class WireframeCoder {
   Symbols<Coder>& s_;
   const Wireframe* whole_;
   Wireframe w_;
+  Connectivity& connectivity_;  // of that: neither masks nor shapes change it
 };
 
 }  // namespace
 
 void writeWireframe(Symbols<RangeEncoder>& out, const Wireframe& wireframe) {
-  WireframeCoder<RangeEncoder>(out, &wireframe).run(SIZE_MAX, INT64_MAX);
+  Connectivity connectivity;
+  WireframeCoder<RangeEncoder>(out, &wireframe, connectivity).run(SIZE_MAX, INT64_MAX);
 }
 
 Wireframe readWireframe(Symbols<RangeDecoder>& in, std::size_t most, std::int64_t mostQuads,
-                        std::optional<Connectivity>& connectivity) {
-  WireframeCoder<RangeDecoder> coder(in, nullptr);
-  Wireframe wireframe = coder.run(most, mostQuads);
-  connectivity = std::move(coder.connectivity);
-  return wireframe;
+                        Connectivity& connectivity) {
+  return WireframeCoder<RangeDecoder>(in, nullptr, connectivity).run(most, mostQuads);
 }
 
 }  // namespace sweepface::codec

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <optional>
-
 #include "sweepface/surface.hpp"
 
 #include "codec/symbols.hpp"
@@ -15,9 +13,9 @@ namespace sweepface::codec {
 /// that are numbered as they come cost nothing; any other numbering is kept too.
 void writeWireframe(Symbols<RangeEncoder>& out, const Wireframe& wireframe);
 
-/// Fails through `in`. Has no more than `most` of anything, and `mostQuads` quads. What is read
-/// also says who meets whom.
+/// Fails through `in`. Has no more than `most` of anything, and `mostQuads` quads. Also says who
+/// meets whom.
 Wireframe readWireframe(Symbols<RangeDecoder>& in, std::size_t most, std::int64_t mostQuads,
-                        std::optional<Connectivity>& connectivity);
+                        Connectivity& connectivity);
 
 }  // namespace sweepface::codec

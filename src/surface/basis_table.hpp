@@ -14,7 +14,7 @@ class BasisTable {
  public:
   /// Fails where a ribbon's shape parameters are refused at one of its lengths.
   static Result<BasisTable> make(const std::vector<Shape>& ribbons,
-                                 std::vector<std::array<Index, 2>> ribbonsAndEdges);
+                                 const std::vector<std::array<Index, 2>>& ribbonsAndEdges);
   Index find(Index ribbon, Index edges) const;
   const SweepBasis& at(Index ribbon, Index edges) const { return bases_[find(ribbon, edges)]; }
   const SweepBasis& operator[](Index basis) const { return bases_[basis]; }

@@ -14,23 +14,30 @@ namespace sweepface {
 namespace {
 
 constexpr int comp(int i, int j) { return 3 * i + j; }
-constexpr double signOf(int power) { return power % 2 ? -1 : 1; }
+double signOf(int power) { return power % 2 ? -1 : 1; }
 
 // By quarter and component.
-constexpr auto kTurned = [] {
-  std::array<std::array<Turned, 9>, 4> all{};
+struct Turn {
+  signed char component, sign;
+};
+constexpr auto kTurns = [] {
+  std::array<std::array<Turn, 9>, 4> all{};
   for (int quarter = 0; quarter < 4; ++quarter)
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) {
         const int flips = (quarter == 1 || quarter == 2 ? j : 0) + (quarter >= 2 ? i : 0);
-        all[quarter][comp(i, j)] = {quarter % 2 ? comp(j, i) : comp(i, j), signOf(flips)};
+        all[quarter][comp(i, j)] = {static_cast<signed char>(quarter % 2 ? comp(j, i) : comp(i, j)),
+                                    static_cast<signed char>(flips % 2 ? -1 : 1)};
       }
   return all;
 }();
 
 }  // namespace
 
-Turned turned(int quarter, int i, int j) { return kTurned[quarter][comp(i, j)]; }
+Turned turned(int quarter, int i, int j) {
+  const auto [component, sign] = kTurns[quarter][comp(i, j)];
+  return {component, static_cast<double>(sign)};
+}
 
 namespace {
 
@@ -196,7 +203,6 @@ class JetBuilder {
         add({n, k / 3, k % 3}, crossing && (k == 0 || (w_.nodes[n].stored >> k & 1)));
     }
     rows_.resize(owners_.size());
-    turnCorners();
   }
 
   void numberIrregular(Index n) {
@@ -240,17 +246,6 @@ class JetBuilder {
   }
   static double opening(const Fan& fan) { return fan.step * fan.sectors; }
 
-  // How a corner's axes are turned from those of its node, if that has any.
-  void turnCorners() {
-    quarter_ = c_.cornerSector;
-    for (Index n = 0; n < nodeCount(); ++n) {
-      if (c_.kinds[n] != NodeKind::hanging) continue;
-      const int host = hostArm(n);
-      for (const Index corner : c_.stars[n].sectors)
-        if (corner != kStraight) quarter_[corner] = (c_.cornerSector[corner] - host + 3) % 3;
-    }
-  }
-
   // Whether all corners of a node share nine vectors.
   bool hasAxes(Index n) const {
     return c_.kinds[n] == NodeKind::crossing || c_.kinds[n] == NodeKind::hanging;
@@ -267,7 +262,9 @@ class JetBuilder {
       if (i == 0) return {armBase_[n] + 2 * ((sector + 1) % arms) + j - 1, 1};
       return {mixedBase_[corner] + 2 * (i - 1) + j - 1, 1};
     }
-    const Turned& t = kTurned[quarter_[corner]][comp(i, j)];
+    int quarter = c_.cornerSector[corner];
+    if (c_.kinds[n] == NodeKind::hanging) quarter = (quarter - hostArm(n) + 3) % 3;
+    const Turned t = turned(quarter, i, j);
     return {base_[n] + t.component, t.sign};
   }
 
@@ -685,21 +682,13 @@ class JetBuilder {
   }
 
   void fillCorners(JetTable& table, const std::vector<Index>& place) const {
-    table.corners.resize(36 * w_.patches.size());
-    for (std::size_t corner = 0; corner < 4 * w_.patches.size(); ++corner) {
-      JetRef* const jets = &table.corners[9 * corner];
-      const Index n = c_.cornerNode[corner];
-      if (hasAxes(n)) {
-        const Index* const own = &place[base_[n]];
-        const auto& turned = kTurned[quarter_[corner]];
-        for (int k = 0; k < 9; ++k) jets[k] = {own[turned[k].component], turned[k].sign};
-        continue;
-      }
+    table.corners.reserve(36 * w_.patches.size());
+    for (Index corner = 0; corner < static_cast<Index>(4 * w_.patches.size()); ++corner)
       for (int k = 0; k < 9; ++k) {
-        const JetRef ref = cornerJet(static_cast<Index>(corner), k / 3, k % 3);
-        jets[k] = {place[ref.vector], ref.sign};
+        JetRef ref = cornerJet(corner, k / 3, k % 3);
+        ref.vector = place[ref.vector];
+        table.corners.push_back(ref);
       }
-    }
   }
 
   const Wireframe& w_;
@@ -709,7 +698,6 @@ class JetBuilder {
   std::vector<char> isStored_;    // [vectors]
   std::vector<Owner> owners_;     // [vectors]
   std::vector<Index> base_;       // [nodes] first of nine vectors of a crossing or a T-node
-  std::vector<int> quarter_;      // [corners] of a crossing or a T-node
   std::vector<Index> armBase_;    // [nodes] first of two vectors an arm of an irregular node
   std::vector<Index> mixedBase_;  // [corners] first of four mixed vectors at an irregular node
   std::vector<Index> fanBase_;    // [nodes] first of eight vectors a fan of a creased node

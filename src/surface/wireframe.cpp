@@ -1,9 +1,9 @@
 #include <algorithm>
-#include <numeric>
 
 #include "sweepface/surface.hpp"
 
 #include "surface/creases.hpp"
+#include "surface/groups.hpp"
 
 namespace sweepface {
 
@@ -70,33 +70,25 @@ Result<void> linkLoops(const Wireframe& w, Connectivity& c) {
   return {};
 }
 
-// The half-arcs that leave each node, in the order of the loops.
-class Leaving {
- public:
-  explicit Leaving(const Wireframe& w) : first_(w.nodes.size() + 1), all_(w.loops.size()) {
-    for (const HalfArc h : w.loops) ++first_[w.start(h) + 1];
-    std::partial_sum(first_.begin(), first_.end(), first_.begin());
-    std::vector<Index> next(first_.begin(), first_.end() - 1);
-    for (const HalfArc h : w.loops) all_[next[w.start(h)]++] = h;
-  }
-  std::span<const HalfArc> at(Index node) const {
-    return {all_.data() + first_[node], all_.data() + first_[node + 1]};
-  }
+// The half-arcs of the loops by the nodes that they leave.
+Groups leavingEach(const Wireframe& w) {
+  std::vector<Index> starts;
+  starts.reserve(w.loops.size());
+  for (const HalfArc h : w.loops) starts.push_back(w.start(h));
+  return Groups(starts, w.nodes.size());
+}
 
- private:
-  std::vector<Index> first_;
-  std::vector<HalfArc> all_;
-};
-
-// The arms of a node, counter-clockwise, from one of the half-arcs that leave it.
-Result<Star> starAt(const Connectivity& c, Index node, std::span<const HalfArc> leaving) {
+// The arms of a node, counter-clockwise, from one of the half-arcs that leave it, by their places
+// in the loops.
+Result<Star> starAt(const Wireframe& w, const Connectivity& c, Index node,
+                    std::span<const Index> leaving) {
   Star star;
   if (leaving.empty()) return fail("node ", node, " belongs to no patch");
   star.arms.reserve(leaving.size() + 1);
   star.sectors.reserve(leaving.size());
-  HalfArc first = leaving[0];
-  for (HalfArc h : leaving)
-    if (c.patchOf[twin(h)] < 0) first = h;
+  HalfArc first = w.loops[leaving[0]];
+  for (const Index at : leaving)
+    if (c.patchOf[twin(w.loops[at])] < 0) first = w.loops[at];
   HalfArc h = first;
   do {
     star.arms.push_back(h);
@@ -176,14 +168,14 @@ Result<Connectivity> Connectivity::make(const Wireframe& w) {
   Connectivity c;
   if (auto ok = linkLoops(w, c); !ok) return std::unexpected(ok.error());
 
-  const Leaving leaving(w);
+  const Groups leaving = leavingEach(w);
   c.stars.resize(w.nodes.size());
   c.kinds.resize(w.nodes.size());
   c.fans.resize(w.nodes.size());
   c.cornerSector.assign(4 * w.patches.size(), -1);
   c.cornerNode.assign(4 * w.patches.size(), -1);
   for (Index n = 0; n < static_cast<Index>(w.nodes.size()); ++n) {
-    auto star = starAt(c, n, leaving.at(n));
+    auto star = starAt(w, c, n, leaving.of(n));
     if (!star) return std::unexpected(star.error());
     c.fans[n] = fansOf(w, c, *star);
     auto kind = kindOf(w, n, *star, !c.fans[n].empty());
