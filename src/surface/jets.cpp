@@ -54,8 +54,8 @@ class Rows {
     open_ = vector;
     ranges_[vector].first = static_cast<Index>(terms_.size());
   }
-  void add(JetRef ref, double factor) {
-    if (factor != 0) terms_.push_back({ref.vector, ref.sign * factor});
+  void add(Index vector, double factor) {
+    if (factor != 0) terms_.push_back({vector, factor});
   }
   /// Sorts the terms by vector, adds up those of the same one and drops those without a factor.
   void close() {
@@ -292,8 +292,8 @@ class JetBuilder {
         rows_.open(base_[n] + comp(i, j));
         for (int a = 0; a < 3; ++a) {
           const double scale = ode::power(length, a - i);
-          rows_.add(cornerJet(startCorner, a, j), value[a] * scale);
-          rows_.add(cornerJet(endCorner, j, a), value[3 + a] * scale * signOf(a));
+          addJet(cornerJet(startCorner, a, j), value[a] * scale);
+          addJet(cornerJet(endCorner, j, a), value[3 + a] * scale * signOf(a));
         }
         rows_.close();
       }
@@ -360,9 +360,7 @@ class JetBuilder {
     const int d = alongX >= alongY && (alongX > 0 || i > 0) ? 0 : 1;
     const int order = d == 0 ? i : j, other = d == 0 ? j : i;
     const int count = std::max(1, d == 0 ? alongX : alongY);
-    const auto own = [&](int a) {
-      return JetRef{base_[n] + (d == 0 ? comp(a, other) : comp(other, a)), 1};
-    };
+    const auto own = [&](int a) { return base_[n] + (d == 0 ? comp(a, other) : comp(other, a)); };
     const Neighbours at = neighbours(n, d, other);
     rows_.open(base_[n] + comp(i, j));
     if (count == 1)
@@ -373,7 +371,7 @@ class JetBuilder {
   }
 
   // Derivative 1 or 2 of the parabola through the node and its neighbours.
-  void predictFromValues(const Neighbours& at, JetRef own, int order) {
+  void predictFromValues(const Neighbours& at, Index own, int order) {
     if (!at.has[0] || !at.has[1]) {  // the end of a line: a straight one
       if (order == 1)
         for (int e = 0; e < 2; ++e)
@@ -393,7 +391,7 @@ class JetBuilder {
 
   // Second derivative of the cubic through the neighbours that has the node's value and slope; at
   // the end of a line, of the parabola through its one neighbour.
-  void predictFromSlope(const Neighbours& at, JetRef own, JetRef slope) {
+  void predictFromSlope(const Neighbours& at, Index own, Index slope) {
     for (int e = 0; e < 2; ++e) {
       if (!at.has[e]) continue;
       const double h = at.distance[e], outward = e == 0 ? 1 : -1;
@@ -515,7 +513,7 @@ class JetBuilder {
     const double factors[5] = {d.real(), d.imag(), xx / 2, xy, yy / 2};
     rows_.open(vector);
     for (int k = 0; k < 5; ++k)  // what is rounding only must not tie patches together
-      if (std::abs(factors[k]) > 1e-14) rows_.add(JetRef{f[k], 1}, factors[k]);
+      if (std::abs(factors[k]) > 1e-14) rows_.add(f[k], factors[k]);
     rows_.close();
   }
 
@@ -581,15 +579,14 @@ class JetBuilder {
     const Fan& fan = c_.fans[n][f];
     const auto spoke = characteristicSpoke(0, fan.step, scale);
     const double s = spoke[0].real(), t = spoke[1].real();
-    const auto own = [&](int i, int j) { return JetRef{fanVector(n, f, i, j), 1}; };
-    const auto arm = [&](std::size_t k, int i) { return JetRef{armVector(n, k, i), 1}; };
-    const auto open = [&](int i, int j) { rows_.open(fanVector(n, f, i, j)); };
+    const auto own = [&](int i, int j) { return fanVector(n, f, i, j); };
+    const auto open = [&](int i, int j) { rows_.open(own(i, j)); };
     if (fan.firstGiven) {
       open(1, 0);
-      rows_.add(arm(fan.first, 1), 1 / s);
+      rows_.add(armVector(n, fan.first, 1), 1 / s);
       rows_.close();
       open(2, 0);
-      rows_.add(arm(fan.first, 2), 1 / (s * s));
+      rows_.add(armVector(n, fan.first, 2), 1 / (s * s));
       rows_.add(own(1, 0), -t / (s * s));
       rows_.close();
     }
@@ -597,12 +594,12 @@ class JetBuilder {
     if (!fan.lastGiven || std::abs(d) <= 1e-9) return;
     const std::size_t last = fan.first + fan.sectors;
     open(0, 1);
-    rows_.add(arm(last, 1), 1 / (s * d));
+    rows_.add(armVector(n, last, 1), 1 / (s * d));
     rows_.add(own(1, 0), -c / d);
     rows_.close();
     const double e = 1 / (s * s * d * d);
     open(0, 2);
-    rows_.add(arm(last, 2), e);
+    rows_.add(armVector(n, last, 2), e);
     rows_.add(own(2, 0), -c * c / (d * d));
     rows_.add(own(1, 1), -2 * c / d);
     rows_.add(own(1, 0), -t * c * e);
@@ -613,12 +610,13 @@ class JetBuilder {
   // A vector that is another one.
   void follow(Index vector, JetRef other) {
     rows_.open(vector);
-    rows_.add(other, 1);
+    addJet(other, 1);
     rows_.close();
   }
+  void addJet(JetRef ref, double factor) { rows_.add(ref.vector, ref.sign * factor); }
   void addAll(const Across& across, double factor) {
     for (int k = 0; k < across.count; ++k)
-      rows_.add({across.terms[k].vector, across.terms[k].factor}, factor);
+      rows_.add(across.terms[k].vector, across.terms[k].factor * factor);
   }
 
   // Kahn's algorithm: stored vectors first, then derived ones as soon as all they need is there.
