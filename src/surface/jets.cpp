@@ -54,22 +54,23 @@ class Rows {
     open_ = vector;
     ranges_[vector].first = static_cast<Index>(terms_.size());
   }
+  // In their order by vector; those of the same one are added up. Rows are short.
   void add(Index vector, double factor) {
-    if (factor != 0) terms_.push_back({vector, factor});
+    if (factor == 0) return;
+    const auto first = terms_.begin() + ranges_[open_].first;
+    auto place = terms_.end();
+    while (place != first && place[-1].vector >= vector) --place;
+    if (place != terms_.end() && place->vector == vector)
+      place->factor += factor;
+    else
+      terms_.insert(place, {vector, factor});
   }
-  /// Sorts the terms by vector, adds up those of the same one and drops those without a factor.
+  /// Drops what has no factor.
   void close() {
-    auto& [begin, end] = ranges_[open_];
-    Term* const first = terms_.data() + begin;
-    Term* const last = terms_.data() + terms_.size();
-    sortFew(first, last);
-    Term* kept = first;
-    for (const Term* t = first; t != last;) {
-      Term sum = *t++;
-      for (; t != last && t->vector == sum.vector; ++t) sum.factor += t->factor;
-      if (sum.factor != 0) *kept++ = sum;
-    }
-    end = begin + static_cast<Index>(kept - first);
+    auto& [first, end] = ranges_[open_];
+    end = first;
+    for (auto t = terms_.begin() + first; t != terms_.end(); ++t)
+      if (t->factor != 0) terms_[end++] = *t;
     terms_.resize(end);
   }
 
@@ -83,16 +84,6 @@ class Rows {
   struct Range {
     Index first = 0, end = 0;
   };
-
-  // By insertion: rows are short, and terms of the same vector keep their order everywhere.
-  static void sortFew(Term* first, Term* last) {
-    for (Term* t = first; t != last; ++t) {
-      const Term moved = *t;
-      Term* place = t;
-      for (; place != first && moved.vector < place[-1].vector; --place) *place = place[-1];
-      *place = moved;
-    }
-  }
 
   std::vector<Range> ranges_;  // [vectors]
   std::vector<Term> terms_;
