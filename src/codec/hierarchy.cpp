@@ -308,9 +308,8 @@ class HierarchyBuilder {
     std::vector<std::array<Index, 2>> result;
     const auto visit = [&](Index node) {
       for (const HalfArc arm : c_.stars[node].arms) {
-        if (w_.arcs[arcOf(arm)].collapsed) continue;
-        const Link link = lines_.walk(arm);
-        if (link.back < 0) continue;
+        const Link& link = lines_.walk(arm);
+        if (link.collapsed || link.back < 0) continue;
         if (lines_.isSite(link.node) && lines_.siteOf(link.node) != s)
           result.push_back({lines_.siteOf(link.node), link.distance});
       }

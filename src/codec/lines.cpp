@@ -27,25 +27,19 @@ Lines::Lines(const Surface& surface)
   opposite_.reserve(links_.size());
   for (HalfArc h = 0; h < static_cast<HalfArc>(links_.size()); ++h) {
     const auto [last, edges] = c.rails[h];
-    links_[h] = {twin(last), w.end(last), edges};
+    links_[h] = {twin(last), w.end(last), edges, w.arcs[arcOf(h)].collapsed};
     longest_ = std::max(longest_, links_[h].distance);
     opposite_.push_back(oppositeOf(w, c, h));
   }
 }
 
 // What was taken out stays out: the next walk begins where this one ends.
-Lines::Link Lines::walk(HalfArc h) {
-  if (h < 0) return {};
-  Link link = links_[h];
-  if (link.back < 0 || !isOut_[link.node]) return link;
+void Lines::walkOn(Link& link) const {
   for (std::size_t steps = 0; link.back >= 0 && isOut_[link.node]; ++steps) {
     const HalfArc on = steps < links_.size() ? opposite_[link.back] : -1;
-    if (on < 0 || links_[on].back < 0)
-      link = {};
-    else
-      link = {links_[on].back, links_[on].node, link.distance + links_[on].distance};
+    const Link next = on < 0 ? Link{} : links_[on];
+    link = {next.back, next.node, link.distance + next.distance, link.collapsed};
   }
-  return links_[h] = link;
 }
 
 Lines::Link Lines::beyond(const Link& link) {

@@ -35,9 +35,16 @@ class Lines {
     HalfArc back = -1;
     Index node = -1;
     Index distance = 0;
+    bool collapsed = false;  ///< it begins with an arc that is one point
   };
   /// The first T-node or site that is left along a line.
-  Link walk(HalfArc h);
+  const Link& walk(HalfArc h) {
+    static constexpr Link kNone;
+    if (h < 0) return kNone;
+    Link& link = links_[h];
+    if (link.back >= 0 && isOut_[link.node]) walkOn(link);
+    return link;
+  }
   /// One more site beyond one that is left, on the same line.
   Link beyond(const Link& link);
   /// The longest distance along a line to the next node while all are left.
@@ -47,6 +54,8 @@ class Lines {
   struct Site {
     bool left = true, irregular = false;
   };
+
+  void walkOn(Link& link) const;
 
   std::vector<Index> siteOf_;      // [nodes]
   std::vector<char> isOut_;        // [nodes]

@@ -13,7 +13,7 @@ constexpr std::size_t kEnough = 12, kMostReached = 128, kMostQueued = 1024;
 std::span<const Index> NearSites::around(Index own, Index image) {
   found_.clear();
   ++search_;
-  reachedBy_.resize(lines_.siteCount() + w_.nodes.size(), 0);
+  reachedBy_.resize(lines_.siteCount() + c_.stars.size(), 0);
   queue_.assign(1, Waiting(0, lines_.nodesOf(own)[0]));
   Index last = 0;
   for (std::size_t reached = 0; !queue_.empty() && reached < kMostReached;) {
@@ -42,9 +42,8 @@ std::span<const Index> NearSites::around(Index own, Index image) {
 void NearSites::goOn(Index node, Index distance) {
   for (const HalfArc arm : c_.stars[node].arms) {
     if (queue_.size() >= kMostQueued) return;
-    if (w_.arcs[arcOf(arm)].collapsed) continue;
-    const Lines::Link link = lines_.walk(arm);
-    if (link.back < 0 || reachedBy(link.node) == search_) continue;
+    const Lines::Link& link = lines_.walk(arm);
+    if (link.collapsed || link.back < 0 || reachedBy(link.node) == search_) continue;
     queue_.emplace_back(distance + link.distance, link.node);
     std::push_heap(queue_.begin(), queue_.end(), std::greater{});
   }

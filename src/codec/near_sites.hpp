@@ -12,8 +12,7 @@ namespace sweepface::codec {
 /// many T-nodes and spokes there are, a search is short.
 class NearSites {
  public:
-  NearSites(const Surface& surface, Lines& lines)
-      : w_(surface.wireframe()), c_(surface.connectivity()), lines_(lines) {}
+  NearSites(const Surface& surface, Lines& lines) : c_(surface.connectivity()), lines_(lines) {}
 
   static constexpr std::size_t kMost = 16;
   /// At least 12 sites where there are as many, and those as far away as the last. Without the
@@ -36,7 +35,6 @@ class NearSites {
     return reachedBy_[site >= 0 ? site : lines_.siteCount() + node];
   }
 
-  const Wireframe& w_;
   const Connectivity& c_;
   Lines& lines_;
   std::vector<Waiting> queue_;    // a heap
