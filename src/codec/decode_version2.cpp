@@ -39,21 +39,15 @@ void decodeRest(Reader& in, Read read) {
   if (!coder.exhausted()) in.refuse("the chunk goes on after its last value");
 }
 
-void readMirror(Symbols<RangeDecoder>& symbols, std::size_t arcs, Packing& packing) {
-  const auto halves = static_cast<std::uint32_t>(2 * arcs);
-  packing.axis = static_cast<int>(symbols.index(kMirrorAxis, 3, 0));
-  packing.mirror.resize(std::min<std::size_t>(symbols.number(kMirrorCount, 0, 0, 0), halves));
-  for (auto& pair : packing.mirror)
-    for (HalfArc& h : pair) h = static_cast<HalfArc>(symbols.index(kMirrorArc, halves, 0));
-}
-
 void readGrid(Decoding& d, Reader& in) {
   // A patch, an arc or a node takes a fraction of a bit at best.
   const std::size_t most = std::min(d.memory / kBytesAPatch,
                                     within(kMostPatches, kPatchesAByte, kPatchesAnyway, in.left()));
   decodeRest(in, [&](RangeDecoder&, Symbols<RangeDecoder>& symbols) {
-    d.wireframe = readWireframe(symbols, most, kMostGridVertices);
-    readMirror(symbols, d.wireframe.arcs.size(), d.rig.packing);
+    MirrorSeeds mirror;
+    d.wireframe = readWireframe(symbols, most, kMostGridVertices, mirror);
+    d.rig.packing.axis = mirror.axis;
+    d.rig.packing.mirror = std::move(mirror.pairs);
   });
   if (!in.ok()) return;
   d.makeSurface(in);

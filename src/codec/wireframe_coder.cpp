@@ -26,7 +26,10 @@ enum Tag : std::uint32_t {
   kShapeLength = 33,
   kShapeRaw = 35,
   kHasCreases = 37,
-  kCrease = 38
+  kCrease = 38,
+  kMirrorAxis = 40,
+  kMirrorCount = 41,
+  kMirrorArc = 43
 };
 
 // Turns the loop of a patch so that the side `base` comes first.
@@ -46,15 +49,17 @@ void turn(Wireframe& w, Index patch, int base) {
 template <typename Coder>
 class WireframeCoder {
  public:
-  WireframeCoder(Symbols<Coder>& symbols, const Wireframe* whole) : s_(symbols), whole_(whole) {}
+  WireframeCoder(Symbols<Coder>& symbols, const Wireframe* whole, MirrorSeeds& mirror)
+      : s_(symbols), whole_(whole), mirror_(mirror) {}
 
   Wireframe run(std::size_t most, std::int64_t mostQuads) {
     const std::size_t nodes = count(whole_ ? whole_->nodes.size() : 0, most),
                       arcs = count(whole_ ? whole_->arcs.size() : 0, most),
                       patches = count(whole_ ? whole_->patches.size() : 0, most);
+    codeMirror(static_cast<std::uint32_t>(2 * arcs));
     if (!s_.ok()) return {};
-    LoopCoder<Coder> loops(s_, w_, whole_);
-    loops.run(nodes, arcs, patches);
+    LoopCoder<Coder> loops(s_, w_, whole_, mirror_.pairs, nodes, arcs);
+    loops.run(patches);
     if (!s_.ok() || !isSmallEnough(mostQuads)) return {};
     codeTurns(loops.bases);
     codePoints();
@@ -70,6 +75,16 @@ class WireframeCoder {
     const std::size_t n = s_.number(kCounts, 0, 0, value);
     if (n > most) s_.refuse("the wireframe is larger than its bytes or the memory allow");
     return n;
+  }
+
+  void codeMirror(std::uint32_t halves) {
+    mirror_.axis = static_cast<int>(
+        s_.index(kMirrorAxis, 3, static_cast<std::uint32_t>(mirror_.axis)));
+    const std::uint32_t pairs = s_.number(kMirrorCount, 0, 0, mirror_.pairs.size());
+    if (!kWrites<Coder>) mirror_.pairs.resize(std::min(pairs, halves));
+    for (auto& pair : mirror_.pairs)
+      for (HalfArc& h : pair)
+        h = static_cast<HalfArc>(s_.index(kMirrorArc, halves, static_cast<std::uint32_t>(h)));
   }
 
   bool isSmallEnough(std::int64_t mostQuads) {
@@ -219,17 +234,19 @@ class WireframeCoder {
 
   Symbols<Coder>& s_;
   const Wireframe* whole_;
+  MirrorSeeds& mirror_;
   Wireframe w_;
 };
 
 }  // namespace
 
-void writeWireframe(Symbols<RangeEncoder>& out, const Wireframe& wireframe) {
-  WireframeCoder<RangeEncoder>(out, &wireframe).run(SIZE_MAX, INT64_MAX);
+void writeWireframe(Symbols<RangeEncoder>& out, const Wireframe& wireframe, MirrorSeeds mirror) {
+  WireframeCoder<RangeEncoder>(out, &wireframe, mirror).run(SIZE_MAX, INT64_MAX);
 }
 
-Wireframe readWireframe(Symbols<RangeDecoder>& in, std::size_t most, std::int64_t mostQuads) {
-  return WireframeCoder<RangeDecoder>(in, nullptr).run(most, mostQuads);
+Wireframe readWireframe(Symbols<RangeDecoder>& in, std::size_t most, std::int64_t mostQuads,
+                        MirrorSeeds& mirror) {
+  return WireframeCoder<RangeDecoder>(in, nullptr, mirror).run(most, mostQuads);
 }
 
 }  // namespace sweepface::codec

@@ -2,6 +2,7 @@
 
 #include "sweepface/surface.hpp"
 
+#include "codec/mirror.hpp"
 #include "codec/symbols.hpp"
 
 namespace sweepface::codec {
@@ -11,9 +12,12 @@ namespace sweepface::codec {
 /// and where the corners are. What follows from that (lengths of opposite sides, T-nodes, points,
 /// ribbons, which derivatives a node stores) is told only where it is different. Nodes and arcs
 /// that are numbered as they come cost nothing; any other numbering is kept too.
-void writeWireframe(Symbols<RangeEncoder>& out, const Wireframe& wireframe);
+///
+/// `mirror` is told as well; where it spreads, the second of two images costs next to nothing.
+void writeWireframe(Symbols<RangeEncoder>& out, const Wireframe& wireframe, MirrorSeeds mirror);
 
 /// Fails through `in`. Has no more than `most` of anything, and `mostQuads` quads.
-Wireframe readWireframe(Symbols<RangeDecoder>& in, std::size_t most, std::int64_t mostQuads);
+Wireframe readWireframe(Symbols<RangeDecoder>& in, std::size_t most, std::int64_t mostQuads,
+                        MirrorSeeds& mirror);
 
 }  // namespace sweepface::codec
