@@ -104,11 +104,15 @@ MirrorSeeds findMirror(const Surface& surface, std::span<const Vec3> neutral) {
     if (c.patchOf[h] < 0 || spreader.bound(h) >= 0) continue;
     const auto image = between.find({best[w.end(h)], best[w.start(h)]});
     if (image == between.end()) continue;
-    if (spreader.spread(h, image->second).size() < kWorthwhile) {
+    const auto spread = spreader.spread(h, image->second);
+    if (spread.size() < kWorthwhile) {
       spreader.undo();
       continue;
     }
-    seeds.pairs.push_back({h, image->second});
+    // From where a reader of the wireframe knows both sides first: arcs are numbered as they come.
+    const auto bothKnown = [&](HalfArc a) { return std::max(a, spreader.bound(a)); };
+    const HalfArc first = *std::ranges::min_element(spread, {}, bothKnown);
+    seeds.pairs.push_back({first, spreader.bound(first)});
     if (seeds.pairs.size() == kMostSeeds) break;
   }
   return seeds;
