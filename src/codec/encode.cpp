@@ -30,8 +30,7 @@ std::string base(const Rig& rig, const Packing& packing) {
 }
 
 std::string grid(const Wireframe& wireframe, const Packing& packing) {
-  return ranged(
-      [&](auto& out) { writeWireframe(out, wireframe, {packing.axis, packing.mirror}); });
+  return ranged([&](auto& out) { writeWireframe(out, wireframe, {packing.axis, packing.mirror}); });
 }
 
 std::string targetNames(const std::vector<Target>& targets) {

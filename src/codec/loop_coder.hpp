@@ -32,7 +32,8 @@ enum LoopTag : std::uint32_t {
   kNewNode = 19,
   kNewNodeIndex = 20,
   kBorder = 36,
-  kMirrored = 39
+  kMirrored = 39,
+  kWaiting = 56
 };
 
 /// The loops of the patches, one after the other, each glued to those told before it
@@ -52,6 +53,7 @@ class LoopCoder {
         arcKnown_(arcs, 0),
         taken_(2 * arcs, 0),
         straight_(nodes, 0),
+        corners_(nodes, 0),
         arms_(nodes),
         next_(2 * arcs, -1),
         prev_(2 * arcs, -1),
@@ -164,7 +166,10 @@ class LoopCoder {
       const Piece &before = loop[(k + size - 1) % size], &piece = loop[k];
       next_[before.h] = piece.h;
       prev_[piece.h] = before.h;
-      if (k == 0 || piece.side != before.side) cornerAt_[piece.h] = 4 * patch + piece.side;
+      if (k == 0 || piece.side != before.side) {
+        cornerAt_[piece.h] = 4 * patch + piece.side;
+        ++corners_[w_.start(piece.h)];
+      }
     }
     for (const auto& [h, g] : seeds_) spread(h, g);
     for (const Piece& piece : loop)
@@ -243,7 +248,9 @@ class LoopCoder {
       std::uint32_t rank = 0;
       if constexpr (kWrites<Coder>)
         for (std::size_t at = head_; queue_[at] != h; ++at) rank += isOpen(queue_[at]);
-      rank = s_.number(kRank, 0, 0, rank);
+      const HalfArc first = queue_[head_], image = imageOf(first);
+      rank = s_.number(kRank, image < 0 ? 0 : 1 + (cornerAt_[next_[image]] >= 0),
+                       around(w_.start(first)), rank);
       std::size_t at = head_;
       for (; at < queue_.size(); ++at)
         if (isOpen(queue_[at]) && rank-- == 0) break;
@@ -262,8 +269,8 @@ class LoopCoder {
   bool codeNext(HalfArc h) {
     const Index node = end_;
     const HalfArc candidate = openFrom(node);
-    if (candidate >= 0 && s_.bit(kTake, openCount(node) + 4 * takeHint(candidate), degree(node),
-                                 h == candidate)) {
+    if (candidate >= 0 &&
+        s_.bit(kTake, openCount(node) + 4 * takeHint(candidate), degree(node), h == candidate)) {
       current_ = candidate;
       return true;
     }
@@ -298,6 +305,9 @@ class LoopCoder {
   std::uint32_t degree(Index node) const {
     return static_cast<std::uint32_t>(std::min<std::size_t>(arms_[node].size(), 6)) +
            (straight_[node] ? 8 : 0);
+  }
+  std::uint32_t around(Index node) const {
+    return degree(node) + 16 * static_cast<std::uint32_t>(std::min(corners_[node], 7));
   }
   std::uint32_t openCount(Index node) const {
     std::uint32_t open = 0;
@@ -356,15 +366,15 @@ class LoopCoder {
     constexpr Index kLongest = 65535;
     const std::int64_t remaining = side < 2 ? 0 : length[side - 2] - length[side];
     const std::int64_t image = image_ < 0 ? 0 : w_.arcs[arcOf(image_)].edges;
-    if (side >= 2 &&
-        s_.bit(kRemaining,
-               static_cast<std::uint32_t>(std::min<std::int64_t>(remaining, 9)) +
-                   16 * hint(image == remaining),
-               side, edges == remaining))
+    if (side >= 2 && s_.bit(kRemaining,
+                            static_cast<std::uint32_t>(std::min<std::int64_t>(remaining, 9)) +
+                                16 * hint(image == remaining),
+                            side, edges == remaining))
       return checkedLength(remaining, kLongest);
-    const auto context = static_cast<std::uint32_t>(
-        image > 0 ? 16 + std::min<std::int64_t>(image, 15)
-                  : side == 0 ? 0 : 1 + std::min<std::int64_t>(length[side - 1], 8));
+    const auto context =
+        static_cast<std::uint32_t>(image > 0   ? 16 + std::min<std::int64_t>(image, 15)
+                                   : side == 0 ? 0
+                                               : 1 + std::min<std::int64_t>(length[side - 1], 8));
     return checkedLength(
         1 + std::int64_t{s_.number(kLength, context, side,
                                    static_cast<std::uint64_t>(std::max(0, edges - 1)))},
@@ -380,14 +390,16 @@ class LoopCoder {
   Index codeNode(Index node, std::int64_t rest, int side) {
     const Index candidate = nodeBefore(rest), mirrored = nodeExpected();
     const std::uint32_t meets = mirrored < 0 ? 0 : mirrored == candidate ? 1 : 2;
-    if (candidate >= 0 &&
-        s_.bit(kMeets, side + 4 * (image_ < 0 ? 0 : 1 + meets), 0, node == candidate))
+    if (candidate >= 0 && s_.bit(kMeets, side + 4 * (image_ < 0 ? 0 : 1 + meets), around(candidate),
+                                 node == candidate))
       return candidate;
     const bool known = kWrites<Coder> && nodeKnown_[node];
     const auto nodes = static_cast<std::uint32_t>(nodeKnown_.size());
     if (s_.bit(kOldNode, side + 4 * hint(mirrored >= 0), candidate >= 0, known)) {
       if (mirrored >= 0 && s_.bit(kMirrored, 0, 0, node == mirrored)) return mirrored;
-      const auto found = static_cast<Index>(s_.index(kOldNodeIndex, nodes, node));
+      const Index waiting = codeWaiting(node);
+      const Index found =
+          waiting >= 0 ? waiting : static_cast<Index>(s_.index(kOldNodeIndex, nodes, node));
       if (s_.ok() && !nodeKnown_[found]) s_.refuse("an arc ends at a node that does not exist");
       return found;
     }
@@ -402,6 +414,26 @@ class LoopCoder {
     if (nodeKnown_[fresh]) s_.refuse("a node comes twice");
     nodeKnown_[fresh] = 1;
     return fresh;
+  }
+
+  // A node from which an open half-arc leaves, by how many have waited longer; -1 if there is none.
+  Index codeWaiting(Index node) {
+    const auto waiting = [&](const auto& isIt) {
+      std::uint32_t place = 0;
+      for (std::size_t at = head_; at < queue_.size(); ++at)
+        if (isOpen(queue_[at]) && isIt(++place, w_.start(queue_[at]))) return place;
+      return std::uint32_t{0};
+    };
+    std::uint32_t told = 0;
+    if constexpr (kWrites<Coder>) told = waiting([&](auto, Index start) { return start == node; });
+    told = s_.number(kWaiting, 0, 0, told);
+    Index found = -1;
+    if (told > 0 && waiting([&](std::uint32_t place, Index start) {
+                      found = start;
+                      return place == told;
+                    }) == 0)
+      s_.refuse("an arc ends at a node that does not exist");
+    return found;
   }
 
   // Back along what is open from the start of the loop.
@@ -426,6 +458,7 @@ class LoopCoder {
   const Wireframe* whole_;
   std::span<const std::array<HalfArc, 2>> seeds_;
   std::vector<char> nodeKnown_, arcKnown_, taken_, straight_;
+  std::vector<int> corners_;  // [nodes] of patches that were told
   std::vector<std::vector<HalfArc>> arms_;
   std::vector<HalfArc> next_, prev_;  // [half-arcs] in loops that were told, else -1
   std::vector<Index> cornerAt_;       // [half-arcs]

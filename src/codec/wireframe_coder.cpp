@@ -78,8 +78,8 @@ class WireframeCoder {
   }
 
   void codeMirror(std::uint32_t halves) {
-    mirror_.axis = static_cast<int>(
-        s_.index(kMirrorAxis, 3, static_cast<std::uint32_t>(mirror_.axis)));
+    mirror_.axis =
+        static_cast<int>(s_.index(kMirrorAxis, 3, static_cast<std::uint32_t>(mirror_.axis)));
     const std::uint32_t pairs = s_.number(kMirrorCount, 0, 0, mirror_.pairs.size());
     if (!kWrites<Coder>) mirror_.pairs.resize(std::min(pairs, halves));
     for (auto& pair : mirror_.pairs)
@@ -167,12 +167,29 @@ class WireframeCoder {
       w_.arcs[a].crease = last = s_.bit(kCrease, last, 0, whole_ && whole_->arcs[a].crease);
   }
 
+  // What the mirror image of a node stores, in the frame of the node; 0 where that is not known
+  // yet.
+  JetMask imageMask(const Connectivity& c, const Mirror& mirror, Index node) const {
+    const Index image = mirror.node[node];
+    if (image < 0 || image >= node || c.stars[node].arms.empty()) return 0;
+    const auto& arms = c.stars[image].arms;
+    const auto x = std::ranges::find(arms, mirror.halfArc[c.stars[node].arms[0]]) - arms.begin();
+    const JetMask mask = w_.nodes[image].stored;
+    if (x % 2 == 0) return mask;
+    JetMask turned = 0;
+    for (int k = 0; k < 9; ++k)
+      if (mask >> k & 1) turned = static_cast<JetMask>(turned | 1 << (k % 3 * 3 + k / 3));
+    return turned;
+  }
+
   // A set that is closed downwards, component by component.
   void codeMasks() {
     const auto connectivity = Connectivity::make(w_);
     if (!connectivity)
       return s_.refuseWith({"the wireframe is unsound: ", connectivity.error().message});
+    const Mirror mirror = spreadMirror(w_, *connectivity, mirror_.pairs);
     for (Index n = 0; n < static_cast<Index>(w_.nodes.size()); ++n) {
+      const JetMask image = imageMask(*connectivity, mirror, n);
       const std::uint32_t x = lineClass(w_, *connectivity, n, 0),
                           y = lineClass(w_, *connectivity, n, 1);
       const JetMask told = whole_ ? whole_->nodes[n].stored : 0;
@@ -181,7 +198,9 @@ class WireframeCoder {
         if (k >= 3 && !(mask >> (k - 3) & 1)) continue;
         if (k % 3 > 0 && !(mask >> (k - 1) & 1)) continue;
         const std::uint32_t before = mask;
-        if (s_.bit(kMask, (x * 16 + y) * 16 + static_cast<std::uint32_t>(k), before, told >> k & 1))
+        const std::uint32_t expected = image == 0 ? 0 : 1 + (image >> k & 1);
+        const std::uint32_t context = ((expected * 16 + x) * 16 + y) * 16;
+        if (s_.bit(kMask, context + static_cast<std::uint32_t>(k), before, told >> k & 1))
           mask = static_cast<JetMask>(mask | 1 << k);
       }
       w_.nodes[n].stored = mask;
