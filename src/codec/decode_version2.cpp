@@ -120,7 +120,9 @@ void readByGrid(Decoding& d, Reader& in, Read read) {
   if (d.quads > most) return in.refuse("the patches have too many vertices for so few bytes");
   if (!d.levelOne) {
     if (!d.afford(in, d.quads, kBytesAQuad)) return;
-    d.levelOne.emplace(d.rig.surface);
+    const Surface& surface = d.rig.surface;
+    d.levelOne.emplace(surface, spreadMirror(surface.wireframe(), surface.connectivity(),
+                                             d.rig.packing.mirror));
   }
   decodeRest(in, [&](RangeDecoder&, Symbols<RangeDecoder>& symbols) {
     read(symbols, *d.levelOne, most, d.rig.source);
@@ -141,8 +143,11 @@ void readGridFaces(Decoding& d, Reader& in) {
 
 void readTextureSteps(Decoding& d, Reader& in) {
   const std::size_t most = mostQuads(in);
+  SourceMesh& source = d.rig.source;
+  const std::vector<Index> images =
+      d.levelOne ? cornerImages(d.levelOne->mirror(), source) : std::vector<Index>{};
   decodeRest(in, [&](RangeDecoder&, Symbols<RangeDecoder>& symbols) {
-    readTexture(symbols, most, d.rig.source.polygons, d.rig.packing.textureBits);
+    readTexture(symbols, most, source.polygons, images, d.rig.packing.textureBits);
   });
 }
 

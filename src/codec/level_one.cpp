@@ -70,7 +70,7 @@ class Numbering {
 
 }  // namespace
 
-LevelOne::LevelOne(const Surface& surface) {
+LevelOne::LevelOne(const Surface& surface, const Mirror& mirror) {
   const Numbering numbering(surface);
   vertices_ = numbering.count();
   for (Index p = 0; p < surface.patchCount(); ++p) {
@@ -82,6 +82,7 @@ LevelOne::LevelOne(const Surface& surface) {
         quads_.push_back({at[0], at[1], at[m + 2], at[m + 1]});
       }
   }
+  mirror_ = mirrorGrid(surface, quads_, vertices_, mirror);
 }
 
 Neighbours LevelOne::corners() const {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <initializer_list>
 #include <optional>
+#include <span>
 
 #include "codec/edge_map.hpp"
 #include "codec/faces.hpp"
@@ -20,7 +21,8 @@ enum Tag : std::uint32_t {
   kKnown = 29,
   kTexture = 30,
   kBits = 32,
-  kResidual = 34
+  kResidual = 34,
+  kMirrorsAxis = 42
 };
 
 // Beyond any texture that repeats, and far from where whole numbers end.
@@ -29,8 +31,9 @@ constexpr std::int32_t kMostTexture = 1 << 26;
 template <typename Coder>
 class TextureCoder {
  public:
-  TextureCoder(Symbols<Coder>& symbols, Polygons& polygons, std::size_t most, int bits)
-      : s_(symbols), p_(polygons), most_(most), bits_(bits) {}
+  TextureCoder(Symbols<Coder>& symbols, Polygons& polygons, std::span<const Index> images,
+               std::size_t most, int bits)
+      : s_(symbols), p_(polygons), images_(images), most_(most), bits_(bits) {}
 
   int run() {
     bits_ = static_cast<int>(s_.number(kBits, 0, 0, static_cast<std::uint64_t>(bits_)));
@@ -48,7 +51,7 @@ class TextureCoder {
     if (used) codeIndices();
     if (used && s_.ok()) codeByFaces();
     for (std::size_t t = 0; t < count && s_.ok(); ++t)
-      if (!known_[t]) codeValue(static_cast<Index>(t), last_, 3, 0);
+      if (!known_[t]) codeValue(static_cast<Index>(t), {last_, 3, 0});
     if constexpr (!kWrites<Coder>) {
       const double step = std::ldexp(1.0, -bits_);
       for (const auto& [x, y] : whole_) p_.texcoords.push_back({x * step, y * step});
@@ -91,6 +94,7 @@ class TextureCoder {
 
   // From face to face across the edges that they share in the texture.
   void codeByFaces() {
+    if (!images_.empty()) codeSigns();
     sides_.emplace(p_.corners.size());
     for (Index f = 0; f < p_.faceCount(); ++f)
       for (Index k = 0; k < p_.faceSize(f); ++k) sides_->add(at(f, k), at(f, k + 1), Side{f, k});
@@ -121,10 +125,11 @@ class TextureCoder {
     Side from;           // the same side as the face before has it
   };
 
-  Index at(Index face, Index k) const {
+  Index cornerOf(Index face, Index k) const {
     const Index size = p_.faceSize(face);
-    return p_.cornerTexcoords[p_.faceStart[face] + (k % size + size) % size];
+    return p_.faceStart[face] + (k % size + size) % size;
   }
+  Index at(Index face, Index k) const { return p_.cornerTexcoords[cornerOf(face, k)]; }
   bool knows(Index t) const { return t >= 0 && known_[t]; }
 
   // The same side as the face beyond it has it.
@@ -150,12 +155,12 @@ class TextureCoder {
       if (!known_[t]) {
         const Index before = at(f, k - 1);
         if (size == 4 && knows(before) && knows(at(f, k + 1)) && knows(at(f, k + 2)))
-          codeFourth(f, k);
+          codeCorner(f, k, fourth(f, k));
         else if (const Index back = cornerBefore(entry.from);
                  j == 2 && knows(before) && knows(back))
-          codeNext(t, entry.from, before, back);
+          codeCorner(f, k, next(entry.from, before, back));
         else
-          codeValue(t, knows(before) ? whole_[before] : last_, 2, 0);
+          codeCorner(f, k, {knows(before) ? whole_[before] : last_, 2, 0});
       }
       last_ = whole_[t];
     }
@@ -166,9 +171,72 @@ class TextureCoder {
     return side.face < 0 ? -1 : at(side.face, side.corner - 1);
   }
 
+  struct Guess {
+    Whole value{};
+    std::uint32_t how = 0, active = 0;  // contexts
+  };
+
+  // By the mirror image where that has been better of late.
+  void codeCorner(Index f, Index k, const Guess& guess) {
+    const Index t = at(f, k), image = imageAt(f, k);
+    const std::optional<Guess> mirrored = knows(image) ? mirroredGuess(f, k, image) : std::nullopt;
+    if (!mirrored) return codeValue(t, guess);
+    const bool mirrors = mirrorMisses_ <= guessMisses_;
+    codeValue(t, mirrors ? *mirrored : guess);
+    remember(mirrorMisses_, offBy(t, mirrored->value));
+    remember(guessMisses_, offBy(t, guess.value));
+    if (mirrors) off_[t] = off_[image];
+  }
+  // A sum in which older ones count less and less.
+  static void remember(std::uint32_t& misses, std::uint32_t miss) {
+    misses += miss - (misses >> 4);
+  }
+  std::uint32_t offBy(Index t, const Whole& guess) const {
+    std::int64_t sum = 0;
+    for (int a = 0; a < 2; ++a) sum += std::abs(std::int64_t{whole_[t][a]} - guess[a]);
+    return static_cast<std::uint32_t>(std::min<std::int64_t>(sum, 1 << 20));
+  }
+
+  // As far from a neighbour as the images are from each other. Islands of a texture lie anywhere.
+  std::optional<Guess> mirroredGuess(Index f, Index k, Index image) const {
+    for (const Index beside : {k - 1, k + 1}) {
+      const Index known = at(f, beside), there = imageAt(f, beside);
+      if (!knows(known) || !knows(there)) continue;
+      Guess guess{whole_[known], 4, static_cast<std::uint32_t>(std::bit_width(mirrorMisses_))};
+      for (int a = 0; a < 2; ++a)
+        guess.value[a] += sign_[a] * (whole_[image][a] - whole_[there][a]);
+      return guess;
+    }
+    return {};
+  }
+  // The texture coordinates at the mirror image of a corner, or -1.
+  Index imageAt(Index face, Index k) const {
+    const Index image = images_.empty() ? -1 : images_[cornerOf(face, k)];
+    return image < 0 ? -1 : p_.cornerTexcoords[image];
+  }
+
+  // Whether the axes of the texture run the other way in the mirror image: as most sides of faces do.
+  void codeSigns() {
+    std::array<std::int64_t, 2> same{}, opposite{};
+    if constexpr (kWrites<Coder>)
+      for (Index f = 0; f < p_.faceCount(); ++f)
+        for (Index k = 0; k < p_.faceSize(f); ++k) {
+          const std::array ends{at(f, k), at(f, k + 1), imageAt(f, k), imageAt(f, k + 1)};
+          if (std::ranges::min(ends) < 0) continue;
+          for (int a = 0; a < 2; ++a) {
+            const std::int64_t way = std::int64_t{whole_[ends[1]][a]} - whole_[ends[0]][a],
+                               there = std::int64_t{whole_[ends[3]][a]} - whole_[ends[2]][a];
+            same[a] += std::abs(way - there);
+            opposite[a] += std::abs(way + there);
+          }
+        }
+    for (int a = 0; a < 2; ++a)
+      sign_[a] = s_.bit(kMirrorsAxis, 0, 0, opposite[a] < same[a]) ? -1 : 1;
+  }
+
   // The fourth corner of a quad: that of a parallelogram, and as far from it as the quads beyond
   // the known sides are from one.
-  void codeFourth(Index f, Index k) {
+  Guess fourth(Index f, Index k) const {
     const Index after = at(f, k + 1), middle = at(f, k + 2), before = at(f, k + 3);
     Whole guess, bent{};
     std::int32_t quads = 0;
@@ -182,18 +250,18 @@ class TextureCoder {
     for (int a = 0; a < 2; ++a)
       guess[a] = whole_[before][a] + whole_[after][a] - whole_[middle][a] +
                  (quads == 2 ? (bent[a] + 1) >> 1 : bent[a]);
-    codeValue(at(f, k), guess, 0, activity({before, middle, after}));
+    return {guess, 0, activity({before, middle, after})};
   }
 
   // The first corner beyond a side: where a line through two or three corners before it leads.
-  void codeNext(Index t, const Side& from, Index before, Index back) {
+  Guess next(const Side& from, Index before, Index back) const {
     Whole guess;
     for (int a = 0; a < 2; ++a) guess[a] = 2 * whole_[before][a] - whole_[back][a];
     if (p_.faceSize(from.face) == 4)
       if (const auto far = beyond({from.face, from.corner + 2}))
         for (int a = 0; a < 2; ++a)
           guess[a] += whole_[before][a] - 2 * whole_[back][a] + whole_[(*far)[1]][a];
-    codeValue(t, guess, 1, activity({before, back}));
+    return {guess, 1, activity({before, back})};
   }
 
   // How far off the guesses of some were.
@@ -204,12 +272,13 @@ class TextureCoder {
                    std::bit_width(4 * sum / static_cast<std::uint32_t>(known.size())));
   }
 
-  void codeValue(Index t, const Whole& guess, std::uint32_t how, std::uint32_t active) {
+  void codeValue(Index t, const Guess& guess) {
     constexpr std::int64_t kMostOff = 1 << 20;
     for (int a = 0; a < 2; ++a) {
-      const std::int64_t residual = s_.signedNumber(kResidual, how * 2 + a, active,
-                                                    std::int64_t{whole_[t][a]} - guess[a]),
-                         value = guess[a] + residual;
+      const std::int64_t residual =
+                             s_.signedNumber(kResidual, guess.how * 2 + a, guess.active,
+                                             std::int64_t{whole_[t][a]} - guess.value[a]),
+                         value = guess.value[a] + residual;
       if (std::abs(value) > kMostTexture) s_.refuse("a texture coordinate is out of range");
       whole_[t][a] = s_.ok() ? static_cast<std::int32_t>(value) : 0;
       off_[t] += static_cast<std::uint32_t>(std::min(std::abs(residual), kMostOff));
@@ -220,6 +289,7 @@ class TextureCoder {
 
   Symbols<Coder>& s_;
   Polygons& p_;
+  std::span<const Index> images_;  // [corners] or empty
   std::size_t most_;
   int bits_;
   std::vector<Whole> whole_;
@@ -228,17 +298,34 @@ class TextureCoder {
   std::optional<EdgeMap<Side>> sides_;
   std::vector<Index> ofVertex_;
   Index next_ = 0;
-  Whole last_{};
+  Whole last_{}, sign_{1, 1};  // sign: of the axes in the mirror image
+  std::uint32_t mirrorMisses_ = 0, guessMisses_ = 0;
 };
 
 }  // namespace
 
-void writeTexture(Symbols<RangeEncoder>& out, const Polygons& polygons, int bits) {
-  Polygons copy = polygons;
-  TextureCoder<RangeEncoder>(out, copy, SIZE_MAX, bits).run();
+std::vector<Index> cornerImages(const GridMirror& mirror, const SourceMesh& source) {
+  const auto corners = static_cast<Index>(source.polygons.corners.size());
+  const std::vector<Index>& at = source.quadCorners;
+  if (at.size() != 4 * mirror.quad.size()) return {};
+  const auto exists = [&](Index corner) { return corner >= 0 && corner < corners; };
+  std::vector<Index> images(corners, -1);
+  for (std::size_t q = 0; q < mirror.quad.size(); ++q)
+    for (int k = 0; mirror.quad[q] >= 0 && k < 4; ++k)
+      if (const Index image = at[4 * mirror.quad[q] + ((mirror.turn[q] - k) & 3)];
+          exists(at[4 * q + k]) && exists(image))
+        images[at[4 * q + k]] = image;
+  return images;
 }
-void readTexture(Symbols<RangeDecoder>& in, std::size_t most, Polygons& polygons, int& bits) {
-  bits = TextureCoder<RangeDecoder>(in, polygons, most, 0).run();
+
+void writeTexture(Symbols<RangeEncoder>& out, const Polygons& polygons,
+                  std::span<const Index> images, int bits) {
+  Polygons copy = polygons;
+  TextureCoder<RangeEncoder>(out, copy, images, SIZE_MAX, bits).run();
+}
+void readTexture(Symbols<RangeDecoder>& in, std::size_t most, Polygons& polygons,
+                 std::span<const Index> images, int& bits) {
+  bits = TextureCoder<RangeDecoder>(in, polygons, images, most, 0).run();
 }
 
 }  // namespace sweepface::codec
