@@ -21,8 +21,7 @@ enum Tag : std::uint32_t {
   kKnown = 29,
   kTexture = 30,
   kBits = 32,
-  kResidual = 34,
-  kMirrorsAxis = 42
+  kResidual = 34
 };
 
 // Beyond any texture that repeats, and far from where whole numbers end.
@@ -94,7 +93,6 @@ class TextureCoder {
 
   // From face to face across the edges that they share in the texture.
   void codeByFaces() {
-    if (!images_.empty()) codeSigns();
     sides_.emplace(p_.corners.size());
     for (Index f = 0; f < p_.faceCount(); ++f)
       for (Index k = 0; k < p_.faceSize(f); ++k) sides_->add(at(f, k), at(f, k + 1), Side{f, k});
@@ -176,20 +174,24 @@ class TextureCoder {
     std::uint32_t how = 0, active = 0;  // contexts
   };
 
-  // By the mirror image where that has been better of late.
+  // By the mirror image, the way that has been best of late, where that was better than without.
   void codeCorner(Index f, Index k, const Guess& guess) {
     const Index t = at(f, k), image = imageAt(f, k);
-    const std::optional<Guess> mirrored = knows(image) ? mirroredGuess(f, k, image) : std::nullopt;
-    if (!mirrored) return codeValue(t, guess);
-    const bool mirrors = mirrorMisses_ <= guessMisses_;
-    codeValue(t, mirrors ? *mirrored : guess);
-    remember(mirrorMisses_, offBy(t, mirrored->value));
-    remember(guessMisses_, offBy(t, guess.value));
-    if (mirrors) off_[t] = off_[image];
-  }
-  // A sum in which older ones count less and less.
-  static void remember(std::uint32_t& misses, std::uint32_t miss) {
-    misses += miss - (misses >> 4);
+    const std::optional<Pair> beside = knows(image) ? knownBeside(f, k) : std::nullopt;
+    if (!beside) return codeValue(t, guess);
+    std::array<Whole, kWays + 1> guesses;
+    for (std::size_t way = 0; way < kWays; ++way)
+      guesses[way] = mirrored(image, *beside, way);
+    guesses[kWays] = guess.value;
+    const auto best =
+        static_cast<std::size_t>(std::ranges::min_element(misses_) - misses_.begin());
+    if (best == kWays)
+      codeValue(t, guess);
+    else
+      codeValue(t, {guesses[best], 4, static_cast<std::uint32_t>(std::bit_width(misses_[best]))});
+    for (std::size_t way = 0; way <= kWays; ++way)  // older ones count less and less
+      misses_[way] += offBy(t, guesses[way]) - (misses_[way] >> 4);
+    if (best < kWays) off_[t] = off_[image];
   }
   std::uint32_t offBy(Index t, const Whole& guess) const {
     std::int64_t sum = 0;
@@ -197,16 +199,14 @@ class TextureCoder {
     return static_cast<std::uint32_t>(std::min<std::int64_t>(sum, 1 << 20));
   }
 
-  // As far from a neighbour as the images are from each other. Islands of a texture lie anywhere.
-  std::optional<Guess> mirroredGuess(Index f, Index k, Index image) const {
-    for (const Index beside : {k - 1, k + 1}) {
-      const Index known = at(f, beside), there = imageAt(f, beside);
-      if (!knows(known) || !knows(there)) continue;
-      Guess guess{whole_[known], 4, static_cast<std::uint32_t>(std::bit_width(mirrorMisses_))};
-      for (int a = 0; a < 2; ++a)
-        guess.value[a] += sign_[a] * (whole_[image][a] - whole_[there][a]);
-      return guess;
-    }
+  // What is known beside a corner of a face, and its mirror image.
+  struct Pair {
+    Index here, there;
+  };
+  std::optional<Pair> knownBeside(Index f, Index k) const {
+    for (const Index beside : {k - 1, k + 1})
+      if (const Pair pair{at(f, beside), imageAt(f, beside)}; knows(pair.here) && knows(pair.there))
+        return pair;
     return {};
   }
   // The texture coordinates at the mirror image of a corner, or -1.
@@ -214,24 +214,14 @@ class TextureCoder {
     const Index image = images_.empty() ? -1 : images_[cornerOf(face, k)];
     return image < 0 ? -1 : p_.cornerTexcoords[image];
   }
-
-  // Whether the axes of the texture run the other way in the mirror image: as most sides of faces do.
-  void codeSigns() {
-    std::array<std::int64_t, 2> same{}, opposite{};
-    if constexpr (kWrites<Coder>)
-      for (Index f = 0; f < p_.faceCount(); ++f)
-        for (Index k = 0; k < p_.faceSize(f); ++k) {
-          const std::array ends{at(f, k), at(f, k + 1), imageAt(f, k), imageAt(f, k + 1)};
-          if (std::ranges::min(ends) < 0) continue;
-          for (int a = 0; a < 2; ++a) {
-            const std::int64_t way = std::int64_t{whole_[ends[1]][a]} - whole_[ends[0]][a],
-                               there = std::int64_t{whole_[ends[3]][a]} - whole_[ends[2]][a];
-            same[a] += std::abs(way - there);
-            opposite[a] += std::abs(way + there);
-          }
-        }
-    for (int a = 0; a < 2; ++a)
-      sign_[a] = s_.bit(kMirrorsAxis, 0, 0, opposite[a] < same[a]) ? -1 : 1;
+  // As far from what is beside as the images are from each other, as islands of a texture lie
+  // anywhere: across its width, as most faces do, or any of the ways a square can be turned.
+  Whole mirrored(Index image, const Pair& beside, std::size_t way) const {
+    Whole step;
+    for (int a = 0; a < 2; ++a) step[a] = whole_[image][a] - whole_[beside.there][a];
+    if (way & 4) std::swap(step[0], step[1]);
+    return {whole_[beside.here][0] + (way & 1 ? step[0] : -step[0]),
+            whole_[beside.here][1] + (way & 2 ? -step[1] : step[1])};
   }
 
   // The fourth corner of a quad: that of a parallelogram, and as far from it as the quads beyond
@@ -298,8 +288,9 @@ class TextureCoder {
   std::optional<EdgeMap<Side>> sides_;
   std::vector<Index> ofVertex_;
   Index next_ = 0;
-  Whole last_{}, sign_{1, 1};  // sign: of the axes in the mirror image
-  std::uint32_t mirrorMisses_ = 0, guessMisses_ = 0;
+  Whole last_{};
+  static constexpr std::size_t kWays = 8;
+  std::array<std::uint32_t, kWays + 1> misses_{};  // of the ways to mirror, and without
 };
 
 }  // namespace
