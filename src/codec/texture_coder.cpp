@@ -68,15 +68,23 @@ class TextureCoder {
 
   void codeIndices() {
     p_.cornerTexcoords.resize(p_.corners.size(), -1);
+    asBefore_.assign(p_.corners.size(), 0);
     for (std::size_t c = 0; c < p_.corners.size() && s_.ok(); ++c)
-      p_.cornerTexcoords[c] = codeIndex(p_.corners[c], p_.cornerTexcoords[c]);
+      p_.cornerTexcoords[c] = codeIndex(c, p_.cornerTexcoords[c]);
   }
 
   // The next new one, the one this vertex had last, or any.
-  Index codeIndex(Index vertex, Index t) {
+  Index codeIndex(std::size_t corner, Index t) {
+    const Index vertex = p_.corners[corner];
+    const Index image = images_.empty() ? -1 : images_[corner];
+    const std::uint32_t expected = image < 0 ? 0 : asBefore_[image];
     if (vertex >= static_cast<Index>(ofVertex_.size())) ofVertex_.resize(vertex + 1, -2);
     Index& had = ofVertex_[vertex];
-    if (had >= -1 && s_.bit(kKnown, 0, 0, t == had)) return had;
+    if (had >= -1) {
+      const bool same = s_.bit(kKnown, expected, 0, t == had);
+      asBefore_[corner] = 1 + same;
+      if (same) return had;
+    }
     if (s_.bit(kFresh, had >= -1, 0, t == next_)) {
       t = next_;
     } else {
@@ -286,7 +294,8 @@ class TextureCoder {
   std::vector<char> known_;
   std::vector<std::uint32_t> off_;  // how far off the guess of each was
   std::optional<EdgeMap<Side>> sides_;
-  std::vector<Index> ofVertex_;
+  std::vector<Index> ofVertex_;  // the texture coordinates that each had last, or -2
+  std::vector<std::uint8_t> asBefore_;  // [corners] 1 + whether it has what its vertex had, else 0
   Index next_ = 0;
   Whole last_{};
   static constexpr std::size_t kWays = 8;
