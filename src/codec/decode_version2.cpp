@@ -90,7 +90,8 @@ void readPose(Decoding& d, Symbols<RangeDecoder>& symbols, CoefficientCoder<Rang
 void readRest(Decoding& d, Reader& in) {
   decodeRest(in, [&](RangeDecoder& coder, Symbols<RangeDecoder>& symbols) {
     d.rig.packing.poses.resize(1);
-    CoefficientCoder<RangeDecoder> vectors(d.lattice->hierarchy(), coder, d.lattice->axis());
+    CoefficientCoder<RangeDecoder> vectors(d.lattice->hierarchy(), coder, d.lattice->axis(),
+                                           kNeutralMemory);
     std::vector<Coefficients> poses(1);
     readPose(d, symbols, vectors, poses, 0, d.rig.neutral);
   });
@@ -101,7 +102,8 @@ void readMoves(Decoding& d, Reader& in) {
   if (d.targets > 0) d.lattice->learn(d.rig.surface, d.rig.neutral, stepOf(d.rig.packing, 0));
   decodeRest(in, [&](RangeDecoder& coder, Symbols<RangeDecoder>& symbols) {
     d.rig.packing.poses.resize(d.targets + 1);
-    CoefficientCoder<RangeDecoder> vectors(d.lattice->hierarchy(), coder, d.lattice->axis());
+    CoefficientCoder<RangeDecoder> vectors(d.lattice->hierarchy(), coder, d.lattice->axis(),
+                                           kTargetMemory);
     std::vector<Coefficients> poses(d.targets + 1);
     for (std::size_t k = 0; k < d.targets && symbols.ok(); ++k)
       readPose(d, symbols, vectors, poses, static_cast<Index>(k) + 1, d.rig.targets[k].difference);
@@ -121,8 +123,8 @@ void readByGrid(Decoding& d, Reader& in, Read read) {
   if (!d.levelOne) {
     if (!d.afford(in, d.quads, kBytesAQuad)) return;
     const Surface& surface = d.rig.surface;
-    d.levelOne.emplace(surface, spreadMirror(surface.wireframe(), surface.connectivity(),
-                                             d.rig.packing.mirror));
+    d.levelOne.emplace(
+        surface, spreadMirror(surface.wireframe(), surface.connectivity(), d.rig.packing.mirror));
   }
   decodeRest(in, [&](RangeDecoder&, Symbols<RangeDecoder>& symbols) {
     read(symbols, *d.levelOne, most, d.rig.source);

@@ -99,7 +99,8 @@ std::string writePoses(Poses& poses, const Packing& packing, const Lattice& latt
                        const Likenesses& likenesses, Index first, Index end) {
   RangeEncoder coder;
   Symbols<RangeEncoder> out(coder);
-  CoefficientCoder<RangeEncoder> vectors(lattice.hierarchy(), coder, lattice.axis());
+  CoefficientCoder<RangeEncoder> vectors(lattice.hierarchy(), coder, lattice.axis(),
+                                         first == 0 ? kNeutralMemory : kTargetMemory);
   for (Index pose = first; pose < end; ++pose) {
     Packing::Pose form = packing.poses[pose];
     codePose(out, form, pose);

@@ -99,8 +99,8 @@ void writeSource(Writer& out, const Rig& rig, int textureBits) {
   std::vector<Index> images;
   bool byGrid = quads <= kMostQuads, ownOrder = !source.gridVertex.empty();
   if (byGrid) {
-    const LevelOne grid(rig.surface, spreadMirror(rig.surface.wireframe(), rig.surface.connectivity(),
-                                                  rig.packing.mirror));
+    const LevelOne grid(rig.surface, spreadMirror(rig.surface.wireframe(),
+                                                  rig.surface.connectivity(), rig.packing.mirror));
     order = ranged([&](auto& symbols) { writeOrder(symbols, grid, source); });
     polygonBytes = ranged([&](auto& symbols) { writeFaces(symbols, grid, source); });
     byGrid = trusted(order) && trusted(polygonBytes);

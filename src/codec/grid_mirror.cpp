@@ -13,8 +13,8 @@ Index imageOfCorner(const Surface& surface, const Mirror& mirror, Index patch) {
   if (corner < 0) return -1;
   const bool turned = corner % 2 == 0;  // what was along u is along v
   const Index m = surface.edgesU(corner / 4), n = surface.edgesV(corner / 4);
-  const bool fits = surface.edgesU(patch) == (turned ? n : m) &&
-                    surface.edgesV(patch) == (turned ? m : n);
+  const bool fits =
+      surface.edgesU(patch) == (turned ? n : m) && surface.edgesV(patch) == (turned ? m : n);
   return fits ? corner : -1;
 }
 
@@ -33,15 +33,15 @@ GridMirror mirrorGrid(const Surface& surface, std::span<const std::array<Index, 
     const int turn = image % 4;
     const Index m = surface.edgesU(image / 4), n = surface.edgesV(image / 4);
     for (Index quad = first[p]; quad < first[p + 1]; ++quad) {
-      const Index i = (quad - first[p]) % surface.edgesU(p), j = (quad - first[p]) / surface.edgesU(p);
+      const Index i = (quad - first[p]) % surface.edgesU(p),
+                  j = (quad - first[p]) / surface.edgesU(p);
       // Back along the side before the corner, on along the side behind it.
       const Index u = turn == 0 ? j : turn == 1 ? m - 1 - i : turn == 2 ? m - 1 - j : i;
       const Index v = turn == 0 ? i : turn == 1 ? j : turn == 2 ? n - 1 - i : n - 1 - j;
       const Index there = first[image / 4] + v * m + u;
       found.quad[quad] = there;
       found.turn[quad] = static_cast<std::uint8_t>(turn);
-      for (int k = 0; k < 4; ++k)
-        found.vertex[quads[quad][k]] = quads[there][(turn - k) & 3];
+      for (int k = 0; k < 4; ++k) found.vertex[quads[quad][k]] = quads[there][(turn - k) & 3];
     }
   }
   return found;

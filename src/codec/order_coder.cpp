@@ -8,8 +8,8 @@ namespace {
 enum Tag : std::uint32_t { kStays = 2, kLoose = 8, kLooseIndex = 9 };
 
 template <typename Coder>
-void codeOrder(Symbols<Coder>& s, const LevelOne& grid, std::vector<Index>& order,
-               Index loose, std::size_t most) {
+void codeOrder(Symbols<Coder>& s, const LevelOne& grid, std::vector<Index>& order, Index loose,
+               std::size_t most) {
   order.resize(codeCount(s, 0, order.size(), most));
   Walk<Coder> walk(s, grid.vertexNeighbours(), grid.mirror().vertex);
   Index nextLoose = 0, before = 0;

@@ -188,11 +188,9 @@ class TextureCoder {
     const std::optional<Pair> beside = knows(image) ? knownBeside(f, k) : std::nullopt;
     if (!beside) return codeValue(t, guess);
     std::array<Whole, kWays + 1> guesses;
-    for (std::size_t way = 0; way < kWays; ++way)
-      guesses[way] = mirrored(image, *beside, way);
+    for (std::size_t way = 0; way < kWays; ++way) guesses[way] = mirrored(image, *beside, way);
     guesses[kWays] = guess.value;
-    const auto best =
-        static_cast<std::size_t>(std::ranges::min_element(misses_) - misses_.begin());
+    const auto best = static_cast<std::size_t>(std::ranges::min_element(misses_) - misses_.begin());
     if (best == kWays)
       codeValue(t, guess);
     else
@@ -273,9 +271,8 @@ class TextureCoder {
   void codeValue(Index t, const Guess& guess) {
     constexpr std::int64_t kMostOff = 1 << 20;
     for (int a = 0; a < 2; ++a) {
-      const std::int64_t residual =
-                             s_.signedNumber(kResidual, guess.how * 2 + a, guess.active,
-                                             std::int64_t{whole_[t][a]} - guess.value[a]),
+      const std::int64_t residual = s_.signedNumber(kResidual, guess.how * 2 + a, guess.active,
+                                                    std::int64_t{whole_[t][a]} - guess.value[a]),
                          value = guess.value[a] + residual;
       if (std::abs(value) > kMostTexture) s_.refuse("a texture coordinate is out of range");
       whole_[t][a] = s_.ok() ? static_cast<std::int32_t>(value) : 0;
@@ -294,7 +291,7 @@ class TextureCoder {
   std::vector<char> known_;
   std::vector<std::uint32_t> off_;  // how far off the guess of each was
   std::optional<EdgeMap<Side>> sides_;
-  std::vector<Index> ofVertex_;  // the texture coordinates that each had last, or -2
+  std::vector<Index> ofVertex_;         // the texture coordinates that each had last, or -2
   std::vector<std::uint8_t> asBefore_;  // [corners] 1 + whether it has what its vertex had, else 0
   Index next_ = 0;
   Whole last_{};

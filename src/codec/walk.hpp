@@ -15,7 +15,14 @@ namespace sweepface::codec {
 
 // What the coders of the source's parts share. Their tags are one list, since the parts were coded
 // by one model once: numbers stay what they are.
-enum SharedTag : std::uint32_t { kCount = 0, kNear = 3, kSteps = 4, kFar = 6, kNext = 38, kMirrored = 40 };
+enum SharedTag : std::uint32_t {
+  kCount = 0,
+  kNear = 3,
+  kSteps = 4,
+  kFar = 6,
+  kNext = 38,
+  kMirrored = 40
+};
 
 /// Items that are visited one after the other, most of them beside one that was visited not long
 /// ago: told by their place among the neighbours of those, the latest first and there straight on
@@ -33,7 +40,8 @@ class Walk {
 
   Index next(Index item) {
     const Step follow{kNext, kFollows, following()}, mirror{kMirrored, kMirrors, mirrored()};
-    for (const Step& step : last_ == kFollows ? std::array{follow, mirror} : std::array{mirror, follow})
+    for (const Step& step :
+         last_ == kFollows ? std::array{follow, mirror} : std::array{mirror, follow})
       if (isTaken(step, item)) return visit(step.to);
     Index found = -1;
     const bool near = !trail_.empty() && s_.bit(kNear, last_, 0, kWrites<Coder> && isNear(item));
