@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "codec/limits.hpp"
 #include "codec/mirror_spreader.hpp"
 
 namespace sweepface::codec {
@@ -98,7 +99,7 @@ MirrorSeeds findMirror(const Surface& surface, std::span<const Vec3> neutral) {
   std::map<std::array<Index, 2>, HalfArc> between;
   for (HalfArc h = 0; h < static_cast<HalfArc>(c.patchOf.size()); ++h)
     if (c.patchOf[h] >= 0) between[{w.start(h), w.end(h)}] = h;
-  constexpr std::size_t kMostSeeds = 64, kWorthwhile = 16;  // half-arcs for the bytes of a pair
+  constexpr std::size_t kWorthwhile = 16;  // half-arcs for the bytes of a pair
   MirrorSpreader spreader(w, loopsOf(c));
   for (HalfArc h = 0; h < static_cast<HalfArc>(c.patchOf.size()); ++h) {
     if (c.patchOf[h] < 0 || spreader.bound(h) >= 0) continue;
@@ -113,7 +114,7 @@ MirrorSeeds findMirror(const Surface& surface, std::span<const Vec3> neutral) {
     const auto bothKnown = [&](HalfArc a) { return std::max(a, spreader.bound(a)); };
     const HalfArc first = *std::ranges::min_element(spread, {}, bothKnown);
     seeds.pairs.push_back({first, spreader.bound(first)});
-    if (seeds.pairs.size() == kMostSeeds) break;
+    if (seeds.pairs.size() == kMostMirrorPairs) break;
   }
   return seeds;
 }

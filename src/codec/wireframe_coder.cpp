@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 
+#include "codec/limits.hpp"
 #include "codec/loop_coder.hpp"
 #include "codec/wireframe_rules.hpp"
 
@@ -56,6 +57,7 @@ class WireframeCoder {
     const std::size_t nodes = count(whole_ ? whole_->nodes.size() : 0, most),
                       arcs = count(whole_ ? whole_->arcs.size() : 0, most),
                       patches = count(whole_ ? whole_->patches.size() : 0, most);
+    if (!s_.ok()) return {};
     codeMirror(static_cast<std::uint32_t>(2 * arcs));
     if (!s_.ok()) return {};
     LoopCoder<Coder> loops(s_, w_, whole_, mirror_.pairs, nodes, arcs);
@@ -81,7 +83,8 @@ class WireframeCoder {
     mirror_.axis =
         static_cast<int>(s_.index(kMirrorAxis, 3, static_cast<std::uint32_t>(mirror_.axis)));
     const std::uint32_t pairs = s_.number(kMirrorCount, 0, 0, mirror_.pairs.size());
-    if (!kWrites<Coder>) mirror_.pairs.resize(std::min(pairs, halves));
+    if (pairs > kMostMirrorPairs) return s_.refuse("the mirror image begins in too many places");
+    mirror_.pairs.resize(pairs);
     for (auto& pair : mirror_.pairs)
       for (HalfArc& h : pair)
         h = static_cast<HalfArc>(s_.index(kMirrorArc, halves, static_cast<std::uint32_t>(h)));
