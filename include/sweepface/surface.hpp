@@ -151,6 +151,9 @@ class Surface {
   /// Fails where the wireframe is inconsistent, naming the place. Where derivatives are derived
   /// from themselves, `circle` (if given) receives for each circle one node that could break it.
   static Result<Surface> make(Wireframe wireframe, std::vector<Index>* circle = nullptr);
+  /// The same where it is known who meets whom in that wireframe.
+  static Result<Surface> make(Wireframe wireframe, Connectivity connectivity,
+                              std::vector<Index>* circle = nullptr);
 
   const Wireframe& wireframe() const { return wireframe_; }
   const Connectivity& connectivity() const { return connectivity_; }

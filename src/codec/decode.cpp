@@ -24,7 +24,8 @@ bool Decoding::afford(Reader& in, std::size_t count, std::size_t bytesEach) {
 void Decoding::makeSurface(Reader& in) {
   quads = gridQuads(wireframe);
   if (!afford(in, wireframe.patches.size(), kBytesAPatch)) return;
-  auto surface = Surface::make(std::move(wireframe));
+  auto surface = connectivity ? Surface::make(std::move(wireframe), std::move(*connectivity))
+                              : Surface::make(std::move(wireframe));
   if (!surface) return in.refuseWith({"the wireframe is unsound: ", surface.error().message});
   rig.surface = std::move(*surface);
   stored = static_cast<std::size_t>(rig.surface.storedCount());

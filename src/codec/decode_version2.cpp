@@ -44,10 +44,12 @@ void readGrid(Decoding& d, Reader& in) {
   const std::size_t most = std::min(d.memory / kBytesAPatch,
                                     within(kMostPatches, kPatchesAByte, kPatchesAnyway, in.left()));
   decodeRest(in, [&](RangeDecoder&, Symbols<RangeDecoder>& symbols) {
-    MirrorSeeds mirror;
-    d.wireframe = readWireframe(symbols, most, kMostGridVertices, mirror);
-    d.rig.packing.axis = mirror.axis;
-    d.rig.packing.mirror = std::move(mirror.pairs);
+    CodedWireframe coded = readWireframe(symbols, most, kMostGridVertices);
+    d.wireframe = std::move(coded.wireframe);
+    d.connectivity = std::move(coded.connectivity);
+    d.mirror = std::move(coded.mirror);
+    d.rig.packing.axis = coded.seeds.axis;
+    d.rig.packing.mirror = std::move(coded.seeds.pairs);
   });
   if (!in.ok()) return;
   d.makeSurface(in);
@@ -57,7 +59,7 @@ void readGrid(Decoding& d, Reader& in) {
       (d.targets + 1) * d.stored > kVectorsAByte * d.fileSize + kVectorsAnyway)
     return in.refuse("there are more targets than the file can hold");
   if (!d.afford(in, (d.targets + 1) * d.stored, kBytesAVector)) return;
-  d.lattice.emplace(d.rig.surface, d.rig.packing);
+  d.lattice.emplace(d.rig.surface, d.rig.packing, d.mirror);
 }
 
 void readTargetNames(Decoding& d, Reader& in) {
@@ -70,44 +72,68 @@ void readTargetNames(Decoding& d, Reader& in) {
   });
 }
 
-void readPose(Decoding& d, Symbols<RangeDecoder>& symbols, CoefficientCoder<RangeDecoder>& vectors,
-              std::vector<Coefficients>& poses, Index pose, std::vector<Vec3>& out) {
-  Packing::Pose& form = d.rig.packing.poses[pose];
-  codePose(symbols, form, pose);
-  if (!symbols.ok()) return;
-  Likeness like;
-  codeLikeness(symbols, form, like, pose);
-  if (!symbols.ok()) return;
-  poses[pose].resize(d.stored);
-  vectors.code(poses[pose], symmetryOf(form, pose),
-               partnerOf(d.rig.packing, *d.lattice, poses, pose), movedIn(like, *d.lattice, poses),
-               pose == 0);
-  out.resize(d.stored);
-  if (!d.lattice->restore(pose, poses[pose], stepOf(d.rig.packing, pose), out))
-    symbols.refuse("a coordinate is not finite");
-}
+// Poses one after the other. All but what is being read is kept as what moves: that is little.
+class PoseReader {
+ public:
+  PoseReader(Decoding& d, RangeDecoder& coder, Symbols<RangeDecoder>& symbols, std::uint16_t memory)
+      : d_(d),
+        lattice_(*d.lattice),
+        symbols_(symbols),
+        vectors_(lattice_.hierarchy(), coder, lattice_.axis(), memory),
+        current_(d.stored),
+        moved_(d.targets + 1) {}
 
-void readRest(Decoding& d, Reader& in) {
+  void read(Index pose) {
+    Packing& packing = d_.rig.packing;
+    Packing::Pose& form = packing.poses[pose];
+    codePose(symbols_, form, pose);
+    if (!symbols_.ok()) return;
+    Likeness like;
+    codeLikeness(symbols_, form, like, pose);
+    if (!symbols_.ok()) return;
+    vectors_.code(current_, symmetryOf(form, pose), partnerOf(packing, lattice_, moved_, pose),
+                  movedIn(like, lattice_, moved_), pose == 0);
+    moved_[pose] = movedIn(current_);
+    for (const Moved& m : moved_[pose]) current_[m.vector] = {};
+  }
+
+  // The vectors of what was read, once there is no more of it.
+  void restore(Index first, Index end) {
+    std::vector<Lattice::Restored> poses;
+    for (Index pose = first; pose < end; ++pose) {
+      auto& vectors = pose == 0 ? d_.rig.neutral : d_.rig.targets[pose - 1].difference;
+      vectors.resize(d_.stored);
+      poses.push_back({moved_[pose], stepOf(d_.rig.packing, pose), vectors});
+    }
+    if (!lattice_.restore(lattice_.prediction(first), poses))
+      symbols_.refuse("a coordinate is not finite");
+  }
+
+ private:
+  Decoding& d_;
+  const Lattice& lattice_;
+  Symbols<RangeDecoder>& symbols_;
+  CoefficientCoder<RangeDecoder> vectors_;
+  Coefficients current_;       // [S] of the pose that is being read, else zero
+  std::vector<Sparse> moved_;  // [poses]
+};
+
+// Poses from `first` up to `end`, 0 the neutral.
+void readPoses(Decoding& d, Reader& in, Index first, Index end) {
   decodeRest(in, [&](RangeDecoder& coder, Symbols<RangeDecoder>& symbols) {
-    d.rig.packing.poses.resize(1);
-    CoefficientCoder<RangeDecoder> vectors(d.lattice->hierarchy(), coder, d.lattice->axis(),
-                                           kNeutralMemory);
-    std::vector<Coefficients> poses(1);
-    readPose(d, symbols, vectors, poses, 0, d.rig.neutral);
+    d.rig.packing.poses.resize(end);
+    PoseReader poses(d, coder, symbols, first == 0 ? kNeutralMemory : kTargetMemory);
+    for (Index pose = first; pose < end && symbols.ok(); ++pose) poses.read(pose);
+    if (symbols.ok()) poses.restore(first, end);
   });
 }
+
+void readRest(Decoding& d, Reader& in) { readPoses(d, in, 0, 1); }
 
 void readMoves(Decoding& d, Reader& in) {
   if (d.rig.targets.size() < d.targets) return in.refuse("the targets have no names");
   if (d.targets > 0) d.lattice->learn(d.rig.surface, d.rig.neutral, stepOf(d.rig.packing, 0));
-  decodeRest(in, [&](RangeDecoder& coder, Symbols<RangeDecoder>& symbols) {
-    d.rig.packing.poses.resize(d.targets + 1);
-    CoefficientCoder<RangeDecoder> vectors(d.lattice->hierarchy(), coder, d.lattice->axis(),
-                                           kTargetMemory);
-    std::vector<Coefficients> poses(d.targets + 1);
-    for (std::size_t k = 0; k < d.targets && symbols.ok(); ++k)
-      readPose(d, symbols, vectors, poses, static_cast<Index>(k) + 1, d.rig.targets[k].difference);
-  });
+  readPoses(d, in, 1, static_cast<Index>(d.targets) + 1);
   for (Target& target : d.rig.targets) target.looseDifference.resize(d.loose);
 }
 
@@ -122,9 +148,7 @@ void readByGrid(Decoding& d, Reader& in, Read read) {
   if (d.quads > most) return in.refuse("the patches have too many vertices for so few bytes");
   if (!d.levelOne) {
     if (!d.afford(in, d.quads, kBytesAQuad)) return;
-    const Surface& surface = d.rig.surface;
-    d.levelOne.emplace(
-        surface, spreadMirror(surface.wireframe(), surface.connectivity(), d.rig.packing.mirror));
+    d.levelOne.emplace(d.rig.surface, d.mirror);
   }
   decodeRest(in, [&](RangeDecoder&, Symbols<RangeDecoder>& symbols) {
     read(symbols, *d.levelOne, most, d.rig.source);

@@ -19,6 +19,8 @@ struct Decoding {
   std::size_t stored = 0, targets = 0, loose = 0;  ///< vectors, targets and loose vertices
   std::size_t quads = 0;                           ///< of the grid at level 1
   Wireframe wireframe;                             ///< until the surface is made of it
+  std::optional<Connectivity> connectivity;        ///< of that, where it was asked for already
+  Mirror mirror;                                   ///< of that
   std::optional<Lattice> lattice;
   std::optional<LevelOne> levelOne;
   Rig rig;

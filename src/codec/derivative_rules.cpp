@@ -23,16 +23,15 @@ DerivativeRules::DerivativeRules(const Surface& surface, const std::vector<Coded
       siteOf_(siteOf),
       nodesAt_(w_.points) {
   for (std::size_t n = 0; n < w_.nodes.size(); ++n)
-    if (w_.nodes[n].point >= 0) nodesAt_[w_.nodes[n].point].push_back(static_cast<Index>(n));
+    if (c_.kinds[n] == NodeKind::irregular)
+      nodesAt_[w_.nodes[n].point].push_back(static_cast<Index>(n));
 }
 
-Terms DerivativeRules::predict(const CodedSite& site, const StoredVector& s) const {
-  Terms terms;
+void DerivativeRules::predict(const CodedSite& site, const StoredVector& s, Terms& terms) const {
   if (c_.kinds[site.node] == NodeKind::irregular)
     atHub(site, s, terms);
   else if (c_.kinds[site.node] == NodeKind::crossing)
     atCrossing(site, s, terms);
-  return terms;
 }
 
 Index DerivativeRules::derivative(Index node, int i, int j) const {
@@ -54,7 +53,7 @@ DerivativeRules::Neighbour DerivativeRules::neighbour(Index node, int arm) const
   return n;
 }
 
-bool DerivativeRules::placeAll(Index node, Terms& terms) const {
+bool DerivativeRules::placeAll(Index node, FewTerms& terms) const {
   if (isSite(node)) {
     terms.push_back({sites_[siteOf_[node]].first, 1});
     return true;
@@ -67,7 +66,7 @@ bool DerivativeRules::placeAll(Index node, Terms& terms) const {
   const double length = a.edges + b.edges;
   // Hermite's cubic where both ends know their slopes along the line, else a straight one.
   const double t = b.edges / length;
-  Terms slopeTo, slopeFrom;
+  FewTerms slopeTo, slopeFrom;
   if (slope(to, twin(a.last), slopeTo) && slope(from, twin(b.last), slopeFrom)) {
     const double s = 1 - t;
     terms.push_back({sites_[siteOf_[from]].first, s * s * (1 + 2 * t)});
@@ -81,7 +80,7 @@ bool DerivativeRules::placeAll(Index node, Terms& terms) const {
   return true;
 }
 
-bool DerivativeRules::slope(Index node, HalfArc h, Terms& terms) const {
+bool DerivativeRules::slope(Index node, HalfArc h, FewTerms& terms) const {
   if (c_.kinds[node] != NodeKind::crossing) return false;
   const HalfArc back = oppositeOf(w_, c_, h);
   if (back < 0) return false;
@@ -96,16 +95,13 @@ bool DerivativeRules::slope(Index node, HalfArc h, Terms& terms) const {
 
 void DerivativeRules::atCrossing(const CodedSite& site, const StoredVector& s, Terms& terms) const {
   const Index node = site.node;
-  const std::array<std::array<Neighbour, 2>, 2> at{
-      std::array{neighbour(node, 0), neighbour(node, 2)},
-      std::array{neighbour(node, 1), neighbour(node, 3)}};
   const int d = s.i > 0 ? 0 : 1;
   if (s.i + s.j == 1)
-    along(at[d], site.first, -1, 1, terms);
+    along(neighbours(node, d), site.first, -1, 1, terms);
   else if (s.i == 1 && s.j == 1)
-    mixed(node, at, terms);
+    mixed(node, terms);
   else if (std::max(s.i, s.j) == 2 && std::min(s.i, s.j) == 0)
-    along(at[d], site.first, derivative(node, d == 0, d == 1), 2, terms);
+    along(neighbours(node, d), site.first, derivative(node, d == 0, d == 1), 2, terms);
 }
 
 void DerivativeRules::along(const std::array<Neighbour, 2>& at, Index own, Index slope, int order,
@@ -139,19 +135,18 @@ void DerivativeRules::along(const std::array<Neighbour, 2>& at, Index own, Index
   terms.push_back({own, order == 1 ? (a * a - b * b) * s : -(a + b) * s});
 }
 
-void DerivativeRules::mixed(Index node, const std::array<std::array<Neighbour, 2>, 2>& at,
-                            Terms& terms) const {
-  std::array<Terms, 2> change;
+void DerivativeRules::mixed(Index node, Terms& terms) const {
+  std::array<FewTerms, 2> change;
   int known = 0;
-  for (int d = 0; d < 2; ++d) known += changeAcross(node, at[1 - d], d, change[d]);
-  for (const Terms& t : change) addTerms(terms, t, 1.0 / std::max(1, known));
+  for (int d = 0; d < 2; ++d) known += changeAcross(node, neighbours(node, 1 - d), d, change[d]);
+  for (const FewTerms& t : change) addTerms(terms, t, 1.0 / std::max(1, known));
 }
 
 bool DerivativeRules::changeAcross(Index node, const std::array<Neighbour, 2>& at, int d,
-                                   Terms& terms) const {
+                                   FewTerms& terms) const {
   const Index own = derivative(node, d == 0, d == 1);
   if (own < 0) return false;
-  std::array<Terms, 2> across;
+  std::array<FewTerms, 2> across;
   std::array<bool, 2> has{};
   for (int e = 0; e < 2; ++e)
     has[e] = at[e].has && isSite(at[e].node) && slopeAcross(at[e], (d == 0) == (e == 0), across[e]);
@@ -172,7 +167,7 @@ bool DerivativeRules::changeAcross(Index node, const std::array<Neighbour, 2>& a
   return false;
 }
 
-bool DerivativeRules::slopeAcross(const Neighbour& n, bool right, Terms& terms) const {
+bool DerivativeRules::slopeAcross(const Neighbour& n, bool right, FewTerms& terms) const {
   if (c_.kinds[n.node] != NodeKind::crossing || !c_.stars[n.node].closed) return false;
   const auto& arms = c_.stars[n.node].arms;
   if (arms.size() != 4) return false;
@@ -220,8 +215,7 @@ std::vector<std::pair<Index, int>> DerivativeRules::spokes(const CodedSite& site
     for (int arm = 0; arm < static_cast<int>(arms.size()); ++arm)
       if (!w_.arcs[arcOf(arms[arm])].collapsed) result.emplace_back(node, arm);
   };
-  for (const Index node : nodesAt_[point])
-    if (c_.kinds[node] == NodeKind::irregular) visit(node);
+  for (const Index node : nodesAt_[point]) visit(node);
   return result;
 }
 

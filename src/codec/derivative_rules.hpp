@@ -11,7 +11,21 @@ namespace sweepface::codec {
 
 using Terms = std::vector<Term>;
 
-inline void addTerms(Terms& terms, std::span<const Term> more, double factor) {
+/// The few terms of one value at a crossing or a T-node, held where they stand: no more than those
+/// of two places and two slopes.
+class FewTerms {
+ public:
+  void push_back(const Term& term) { terms_[size_++] = term; }
+  const Term* begin() const { return terms_.data(); }
+  const Term* end() const { return begin() + size_; }
+
+ private:
+  std::array<Term, 8> terms_;
+  std::size_t size_ = 0;
+};
+
+template <typename List>
+void addTerms(List& terms, std::span<const Term> more, double factor) {
   for (const Term& t : more) terms.push_back({t.vector, factor * t.factor});
 }
 
@@ -26,8 +40,8 @@ class DerivativeRules {
   DerivativeRules(const Surface& surface, const std::vector<CodedSite>& sites,
                   const std::vector<Index>& siteOf);
 
-  /// What predicts a stored derivative of a site; nothing where it is expected to be zero.
-  Terms predict(const CodedSite& site, const StoredVector& s) const;
+  /// Adds what predicts a stored derivative of a site; nothing where it is expected to be zero.
+  void predict(const CodedSite& site, const StoredVector& s, Terms& terms) const;
 
  private:
   // The stored derivative of a node, or -1.
@@ -38,14 +52,18 @@ class DerivativeRules {
     double distance = 0;
     Index node = -1;
     HalfArc back = -1;
-    Terms value;
+    FewTerms value;
   };
   Neighbour neighbour(Index node, int arm) const;
+  // Those along an axis, ahead and behind.
+  std::array<Neighbour, 2> neighbours(Index node, int axis) const {
+    return {neighbour(node, axis), neighbour(node, axis + 2)};
+  }
   // The position of a site, or of a T-node by what stands on the line it hangs on.
-  bool placeAll(Index node, Terms& terms) const;
+  bool placeAll(Index node, FewTerms& terms) const;
   // The slope along a half-arc that leaves a node: by the parabola through the node and its
   // neighbours, both sites.
-  bool slope(Index node, HalfArc h, Terms& terms) const;
+  bool slope(Index node, HalfArc h, FewTerms& terms) const;
   Index position(Index node) const { return sites_[siteOf_[node]].first; }
   void atCrossing(const CodedSite& site, const StoredVector& s, Terms& terms) const;
   // Derivative 1 or 2 of the polynomial through the neighbours on a line and what the node knows.
@@ -53,11 +71,11 @@ class DerivativeRules {
              Terms& terms) const;
   // ∂x∂y: how the slope along x changes from neighbour to neighbour along y, and the other way
   // round; the mean where both are known.
-  void mixed(Index node, const std::array<std::array<Neighbour, 2>, 2>& at, Terms& terms) const;
+  void mixed(Index node, Terms& terms) const;
   // How the slope along axis d changes along the other one.
-  bool changeAcross(Index node, const std::array<Neighbour, 2>& at, int d, Terms& terms) const;
+  bool changeAcross(Index node, const std::array<Neighbour, 2>& at, int d, FewTerms& terms) const;
   // The slope at a neighbour to the right of travel, or to the left of it.
-  bool slopeAcross(const Neighbour& n, bool right, Terms& terms) const;
+  bool slopeAcross(const Neighbour& n, bool right, FewTerms& terms) const;
   // First derivatives at an irregular point: least squares over the slopes of its spokes, which are
   // combinations of A and B.
   void atHub(const CodedSite& site, const StoredVector& s, Terms& terms) const;
@@ -68,7 +86,7 @@ class DerivativeRules {
   const Connectivity& c_;
   const std::vector<CodedSite>& sites_;
   const std::vector<Index>& siteOf_;
-  std::vector<std::vector<Index>> nodesAt_;  // [points]
+  std::vector<std::vector<Index>> nodesAt_;  // [points] those that are irregular
 };
 
 /// The stored vector that mirrors each [S], and how.

@@ -56,11 +56,12 @@ class HierarchyBuilder {
     CodedSite site;
     Terms terms;
     Index image = -1;
-    Index atLeast = 0;  // its span cannot be less
-    std::vector<Index> near;
+    Index atLeast = 0;            // its span cannot be less
+    std::array<Index, 2> near{};  // from where up to where among those of all
   };
 
   void gatherSites() {
+    all_.reserve(static_cast<std::size_t>(lines_.siteCount()));
     for (Index v = 0; v < surface_.storedCount(); ++v) {
       const StoredVector& s = surface_.stored(v);
       if (s.i == 0 && s.j == 0) {
@@ -113,19 +114,19 @@ class HierarchyBuilder {
     const auto add = [&](const Link& link, int sign) {
       first[count] = terms.size();
       at[count++] = sign * link.distance;
-      if (place(w_.start(link.back), terms, depth)) return true;
+      if (place(link.node, terms, depth)) return true;
       terms.resize(before);
       return false;
     };
     const std::array<Link, 2> near{lines_.walk(ahead), lines_.walk(behind)};
     for (const Link& link : near)
-      if (link.back < 0 || isGuessed(w_.start(link.back))) return false;
+      if (link.back < 0 || isGuessed(link.node)) return false;
     span = near[0].distance + near[1].distance;
     for (int side = 0; side < 2; ++side) {
       const int sign = side == 0 ? 1 : -1;
       if (!add(near[side], sign)) return false;
       const Link far = lines_.beyond(near[side]);
-      if (far.back < 0 || isGuessed(w_.start(far.back))) continue;
+      if (far.back < 0 || isGuessed(far.node)) continue;
       if (far.distance > 3 * near[side].distance + 2 * span) continue;
       if (!add(far, sign)) return false;
     }
@@ -167,8 +168,7 @@ class HierarchyBuilder {
         continue;
       }
       for (int side = 0; side < 2; ++side) {
-        const Link link = lines_.walk(side ? behind : ahead);
-        const Index node = w_.start(link.back);
+        const Index node = lines_.walk(side ? behind : ahead).node;
         if (lines_.isSite(node)) g.beside[2 * line + side] = lines_.siteOf(node);
       }
     }
@@ -230,7 +230,7 @@ class HierarchyBuilder {
     const Index image = all_[s].image;
     if (blocked[s] || !isRemovable(s) || (image >= 0 && image < s)) return false;
     if (isTooWide(all_[s], most)) return false;
-    const Guess own = guess(all_[s]);
+    Guess own = guess(all_[s]);
     if (own.span == 0 || own.span > most) return false;
     if (image < 0 || image == s) {
       seekNear(s);
@@ -238,7 +238,7 @@ class HierarchyBuilder {
       return true;
     }
     if (blocked[image] || !isRemovable(image)) return false;
-    const Guess other = guess(all_[image]);
+    Guess other = guess(all_[image]);
     if (other.span != own.span) return false;
     for (const Index either : {s, image}) seekNear(either);
     remove(image, other, blocked);
@@ -246,15 +246,15 @@ class HierarchyBuilder {
     return true;
   }
 
-  void remove(Index s, const Guess& g, std::vector<char>& blocked) {
+  void remove(Index s, Guess& g, std::vector<char>& blocked) {
     Candidate& c = all_[s];
-    c.terms = g.terms;
+    c.terms = std::move(g.terms);
     c.site.span = g.span;
     lines_.takeOut(s);
     for (const Index b : g.beside)
       if (b >= 0) blocked[b] = 1;
     double most = 0;  // the parent counts most
-    for (const Term& t : g.terms)
+    for (const Term& t : c.terms)
       if (std::abs(t.factor) > most + 1e-9) {
         most = std::abs(t.factor);
         c.site.parent = siteOfVector(t.vector);
@@ -263,7 +263,11 @@ class HierarchyBuilder {
   }
 
   void seekNear(Index s) {
-    if (seekNear_) all_[s].near = nearSites_.around(s, all_[s].image);
+    if (!seekNear_) return;
+    const auto found = nearSites_.around(s, all_[s].image);
+    const auto before = static_cast<Index>(near_.size());
+    near_.insert(near_.end(), found.begin(), found.end());
+    all_[s].near = {before, static_cast<Index>(near_.size())};
   }
 
   Index siteOfVector(Index vector) const { return lines_.siteOf(surface_.stored(vector).node); }
@@ -307,9 +311,8 @@ class HierarchyBuilder {
         if (w_.arcs[arcOf(arm)].collapsed) continue;
         const Link link = lines_.walk(arm);
         if (link.back < 0) continue;
-        const Index end = w_.start(link.back);
-        if (lines_.isSite(end) && lines_.siteOf(end) != s)
-          result.push_back({lines_.siteOf(end), link.distance});
+        if (lines_.isSite(link.node) && lines_.siteOf(link.node) != s)
+          result.push_back({lines_.siteOf(link.node), link.distance});
       }
     };
     for (const Index node : lines_.nodesOf(s)) visit(node);
@@ -329,6 +332,12 @@ class HierarchyBuilder {
 
   // Numbers sites in coding order and writes the steps of their positions.
   void arrange() {
+    const auto vectors = static_cast<std::size_t>(surface_.storedCount());
+    out_.sites_.reserve(all_.size());
+    out_.nearStart_.reserve(all_.size() + 1);
+    out_.near_.reserve(near_.size());
+    out_.prediction_.steps.reserve(vectors);
+    out_.prediction_.terms.reserve(6 * vectors);
     std::vector<Index> rank(all_.size());
     for (std::size_t k = 0; k < order_.size(); ++k) rank[order_[k]] = static_cast<Index>(k);
     siteOf_ = lines_.siteOf();
@@ -341,7 +350,8 @@ class HierarchyBuilder {
       if (site.parent >= 0) out_.sites_[site.parent].leaf = false;
       out_.sites_.push_back(site);
       out_.nearStart_.push_back(static_cast<Index>(out_.near_.size()));
-      for (const Index n : all_[s].near) out_.near_.push_back(rank[n]);
+      for (Index k = all_[s].near[0]; k < all_[s].near[1]; ++k)
+        out_.near_.push_back(rank[near_[k]]);
       addStep(site.first, all_[s].terms);
     }
     out_.nearStart_.push_back(static_cast<Index>(out_.near_.size()));
@@ -360,10 +370,14 @@ class HierarchyBuilder {
   }
 
   void addDerivatives(const DerivativeRules& rules, int order) {
+    Terms terms;
     for (const CodedSite& site : out_.sites_)
       for (Index v = site.first; v < site.first + site.count; ++v)
-        if (const StoredVector& s = surface_.stored(v); std::min(2, s.i + s.j) == order)
-          addStep(v, rules.predict(site, s));
+        if (const StoredVector& s = surface_.stored(v); std::min(2, s.i + s.j) == order) {
+          terms.clear();
+          rules.predict(site, s, terms);
+          addStep(v, terms);
+        }
   }
 
   const Surface& surface_;
@@ -375,6 +389,7 @@ class HierarchyBuilder {
   Lines lines_;
   NearSites nearSites_;
   std::vector<Candidate> all_;  // [sites] as the lines number them
+  std::vector<Index> near_;     // the sites nearby of those that were taken out
   std::vector<Index> siteOf_;   // [nodes] by the order of coding
   std::vector<Index> order_;
   std::vector<double> reach_;             // [vectors]

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "codec/near_sites.hpp"
+#include "codec/two.hpp"
 
 namespace sweepface::codec {
 
@@ -38,50 +39,93 @@ std::vector<Stand> standsOf(const Surface& surface, const Hierarchy& hierarchy,
   return stands;
 }
 
-// The power 1.5 of the distance.
-double apart(const Stand& a, const Stand& b, double turned) {
-  const Vec3 way = a.position - b.position, turn = a.facing - b.facing;
-  const double r = std::sqrt(dot(way, way) + turned * turned * dot(turn, turn));
-  return r * std::sqrt(r);
-}
-
 constexpr std::size_t kMost = NearSites::kMost;
 using Weights = std::array<double, kMost>;
+
+// Numbers of the sites nearby, by twos.
+class Row {
+ public:
+  double operator[](std::size_t k) const { return twos_[k / 2][k % 2]; }
+  void set(std::size_t k, double x) { twos_[k / 2][k % 2] = x; }
+  Two& two(std::size_t k) { return twos_[k]; }
+  const Two& two(std::size_t k) const { return twos_[k]; }
+
+  // this -= other * factor, for those from `first` on.
+  void subtract(const Row& other, double factor, std::size_t first, std::size_t end) {
+    for (std::size_t k = first / 2; k < (end + 1) / 2; ++k) twos_[k] -= other.twos_[k] * factor;
+  }
+
+ private:
+  std::array<Two, kMost / 2> twos_{};
+};
+
+Two rootOf(const Two& x) { return Two{std::sqrt(x[0]), std::sqrt(x[1])}; }
+
+// Where the sites nearby stand.
+class Stands {
+ public:
+  Stands(std::span<const Stand> stands, std::span<const Index> near, double turned)
+      : turnedSquared_(turned * turned) {
+    for (std::size_t k = 0; k < near.size(); ++k) {
+      const auto& [p, f] = stands[near[k]];
+      const std::array<double, 6> numbers{p.x, p.y, p.z, f.x, f.y, f.z};
+      for (std::size_t c = 0; c < numbers.size(); ++c) rows_[c].set(k, numbers[c]);
+    }
+  }
+
+  // The power 1.5 of the distances of two of them from another place.
+  Two apart(std::size_t two, const Stand& from) const {
+    const auto squares = [&](std::size_t c, const Vec3& v) {
+      const Two x = v.x - rows_[c].two(two), y = v.y - rows_[c + 1].two(two),
+                z = v.z - rows_[c + 2].two(two);
+      return x * x + y * y + z * z;
+    };
+    const Two r = rootOf(squares(0, from.position) + turnedSquared_ * squares(3, from.facing));
+    return r * rootOf(r);
+  }
+
+ private:
+  double turnedSquared_;
+  std::array<Row, 6> rows_;
+};
 
 // Weights that sum to 1, by Cholesky's factors of what the differences from the place itself have
 // in common. False where they cannot be told.
 bool weigh(const Stand& own, std::span<const Stand> stands, std::span<const Index> near,
            double turned, Weights& weights) {
-  const std::size_t n = near.size();
+  const std::size_t n = near.size(), twos = (n + 1) / 2;
   if (n == 0 || n > kMost) return false;
-  Weights away;
+  const Stands around(stands, near, turned);
+  Row away;
+  for (std::size_t two = 0; two < twos; ++two) away.two(two) = around.apart(two, own);
   double mean = 0;
-  for (std::size_t k = 0; k < n; ++k) mean += away[k] = apart(own, stands[near[k]], turned);
+  for (std::size_t k = 0; k < n; ++k) mean += away[k];
   mean /= static_cast<double>(n);
   if (!(mean > 0) || !std::isfinite(mean)) return false;
   constexpr double kRidge = 1e-6;
-  std::array<Weights, kMost> l;
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t j = 0; j <= i; ++j) {
-      double sum = i == j ? 2 * away[i] + kRidge * mean
-                          : away[i] + away[j] - apart(stands[near[i]], stands[near[j]], turned);
-      for (std::size_t k = 0; k < j; ++k) sum -= l[i][k] * l[j][k];
-      if (i > j)
-        l[i][j] = sum / l[j][j];
-      else if (sum > 0)
-        l[i][i] = std::sqrt(sum);
-      else
-        return false;
-    }
-  for (std::size_t i = 0; i < n; ++i) {
-    double sum = 1;
-    for (std::size_t k = 0; k < i; ++k) sum -= l[i][k] * weights[k];
-    weights[i] = sum / l[i][i];
+  std::array<Row, kMost> columns;  // from the diagonal down
+  Row sums;
+  for (std::size_t two = 0; two < twos; ++two) sums.two(two) = Two{1, 1};
+  for (std::size_t j = 0; j < n; ++j) {
+    Row& column = columns[j];
+    for (std::size_t two = j / 2; two < twos; ++two)
+      column.two(two) = away[j] + away.two(two) - around.apart(two, stands[near[j]]);
+    column.set(j, 2 * away[j] + kRidge * mean);
+  }
+  for (std::size_t j = 0; j < n; ++j) {
+    Row& column = columns[j];
+    if (!(column[j] > 0)) return false;
+    const double root = std::sqrt(column[j]);
+    for (std::size_t two = j / 2; two < twos; ++two) column.two(two) /= root;
+    column.set(j, root);
+    for (std::size_t k = j + 1; k < n; ++k) columns[k].subtract(column, column[k], k, n);
+    weights[j] = sums[j] / root;
+    sums.subtract(column, weights[j], j + 1, n);
   }
   double total = 0;
   for (std::size_t i = n; i-- > 0;) {
-    for (std::size_t k = i + 1; k < n; ++k) weights[i] -= l[k][i] * weights[k];
-    total += weights[i] /= l[i][i];
+    for (std::size_t k = i + 1; k < n; ++k) weights[i] -= columns[i][k] * weights[k];
+    total += weights[i] /= columns[i][i];
   }
   // Rounded so that no last digit counts; the nearest makes up for it.
   constexpr double kUnit = 65536, kLargest = 4;

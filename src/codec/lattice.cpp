@@ -5,6 +5,7 @@
 
 #include "codec/kriging.hpp"
 #include "codec/limits.hpp"
+#include "codec/two.hpp"
 
 namespace sweepface::codec {
 
@@ -51,13 +52,54 @@ Coefficients Lattice::round(Index pose, std::span<const Vec3> vectors, double st
 
 bool Lattice::restore(Index pose, const Coefficients& coefficients, double step,
                       std::span<Vec3> vectors) const {
-  const Prediction& prediction = this->prediction(pose);
-  bool finite = true;
+  const Sparse moved = movedIn(coefficients);
+  return restore(prediction(pose), std::array{Restored{moved, step, vectors}});
+}
+
+namespace {
+
+// A vector of four poses side by side, so that one walk over the terms serves them all: x of all
+// of them, y and z.
+constexpr std::size_t kAbreast = 4;
+using Abreast = std::array<Two, 6>;
+
+// `known` are the steps of all vectors, and then what they are. False if any is not finite.
+bool complete(const Prediction& prediction, const std::array<Two, 2>& step, Abreast* known) {
+  Two nothing{};  // until it meets what is not finite: 0 times that is not a number
   for (const Prediction::Step& s : prediction.steps) {
-    const Vec3 vector =
-        predict(prediction.of(s), vectors) + scaled(coefficients[s.vector], step / s.reach);
-    vectors[s.vector] = vector;
-    finite &= isFinite(vector);
+    const std::array<Two, 2> unit{step[0] / s.reach, step[1] / s.reach};
+    Abreast sum{}, &own = known[s.vector];
+    for (const Term& t : prediction.of(s))
+      for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += t.factor * known[t.vector][k];
+    for (std::size_t k = 0; k < sum.size(); ++k) {
+      own[k] = sum[k] + own[k] * unit[k % 2];
+      nothing += 0 * own[k];
+    }
+  }
+  return nothing[0] == 0 && nothing[1] == 0;
+}
+
+}  // namespace
+
+bool Lattice::restore(const Prediction& prediction, std::span<const Restored> poses) const {
+  std::vector<Abreast> known;
+  bool finite = true;
+  while (!poses.empty()) {
+    const auto now = poses.first(std::min(kAbreast, poses.size()));
+    poses = poses.subspan(now.size());
+    known.assign(prediction.steps.size(), {});
+    std::array<Two, 2> step{};
+    for (std::size_t p = 0; p < now.size(); ++p) {
+      step[p / 2][p % 2] = now[p].step;
+      for (const Moved& m : now[p].moved)
+        for (std::size_t a = 0; a < 3; ++a) known[m.vector][2 * a + p / 2][p % 2] = m.steps[a];
+    }
+    finite &= complete(prediction, step, known.data());
+    for (std::size_t p = 0; p < now.size(); ++p) {
+      Vec3* vector = now[p].vectors.data();
+      for (const Abreast& k : known)
+        *vector++ = {k[p / 2][p % 2], k[2 + p / 2][p % 2], k[4 + p / 2][p % 2]};
+    }
   }
   return finite;
 }
@@ -68,14 +110,33 @@ Coefficients Lattice::image(const Coefficients& coefficients) const {
   return image;
 }
 
-Sparse Lattice::moved(const Coefficients& coefficients, bool mirrored, int finer) const {
+std::vector<Index> Lattice::mirrorsOf(const Hierarchy& hierarchy) {
+  const auto& images = hierarchy.images();
+  std::vector<Index> mirrors(images.size(), -1);
+  for (Index v = 0; v < static_cast<Index>(images.size()); ++v)
+    if (images[v].vector >= 0) mirrors[images[v].vector] = v;
+  return mirrors;
+}
+
+Sparse Lattice::moved(const Sparse& moved, bool mirrored, int finer) const {
+  Sparse result;
+  result.reserve(moved.size());
+  for (const Moved& m : moved) {
+    const Steps3 steps = inFinerSteps(m.steps, finer);
+    if (!mirrored)
+      result.push_back({m.vector, steps});
+    else if (const Index image = mirrors_[m.vector]; image >= 0)
+      result.push_back({image, reflected(steps, hierarchy_.images()[image].sign, axis_)});
+  }
+  return result;
+}
+
+Sparse movedIn(const Coefficients& coefficients) {
   Sparse moved;
-  const auto& images = hierarchy_.images();
-  for (Index v = 0; v < static_cast<Index>(coefficients.size()); ++v) {
-    const Index from = mirrored ? images[v].vector : v;
-    if (from < 0 || !isMoved(coefficients[from])) continue;
-    const Steps3 steps = inFinerSteps(coefficients[from], finer);
-    moved.push_back({v, mirrored ? reflected(steps, images[v].sign, axis_) : steps});
+  Index v = 0;
+  for (const Steps3& steps : coefficients) {
+    if (isMoved(steps)) moved.push_back({v, steps});
+    ++v;
   }
   return moved;
 }

@@ -8,14 +8,20 @@
 
 namespace sweepface::codec {
 
+/// What moves in coefficients.
+Sparse movedIn(const Coefficients& coefficients);
+
 /// What a file can hold of a pose: whole multiples of a step for every stored vector, smaller for
 /// those that move the surface further, beyond what the hierarchy predicts.
 class Lattice {
  public:
-  explicit Lattice(const Surface& surface, const Packing& packing)
-      : hierarchy_(surface,
-                   spreadMirror(surface.wireframe(), surface.connectivity(), packing.mirror),
-                   packing.neutralStep > 0),
+  Lattice(const Surface& surface, const Packing& packing)
+      : Lattice(surface, packing,
+                spreadMirror(surface.wireframe(), surface.connectivity(), packing.mirror)) {}
+  /// With what the packing's pairs spread to.
+  Lattice(const Surface& surface, const Packing& packing, const Mirror& mirror)
+      : hierarchy_(surface, mirror, packing.neutralStep > 0),
+        mirrors_(mirrorsOf(hierarchy_)),
         axis_(packing.axis) {}
 
   const Hierarchy& hierarchy() const { return hierarchy_; }
@@ -33,15 +39,29 @@ class Lattice {
   /// The vectors of coefficients [S]; false if one is not finite.
   bool restore(Index pose, const Coefficients& coefficients, double step,
                std::span<Vec3> vectors) const;
+  /// The same of several poses, all of them targets or the neutral alone.
+  struct Restored {
+    const Sparse& moved;
+    double step;
+    std::span<Vec3> vectors;
+  };
+  bool restore(const Prediction& prediction, std::span<const Restored> poses) const;
 
   /// The coefficients of the mirror image; zero for vectors that have none.
   Coefficients image(const Coefficients& coefficients) const;
 
-  /// What moves in coefficients or in their mirror image, in steps 2^finer times smaller.
-  Sparse moved(const Coefficients& coefficients, bool mirrored, int finer) const;
+  /// What moves, or its mirror image, in steps 2^finer times smaller.
+  Sparse moved(const Sparse& moved, bool mirrored, int finer) const;
+  Sparse moved(const Coefficients& coefficients, bool mirrored, int finer) const {
+    return moved(movedIn(coefficients), mirrored, finer);
+  }
 
  private:
+  // The vector that each one is the image of [S], or -1: no two have the same.
+  static std::vector<Index> mirrorsOf(const Hierarchy& hierarchy);
+
   Hierarchy hierarchy_;
+  std::vector<Index> mirrors_;
   Prediction moves_;  // of targets, once the neutral is known
   int axis_;
 };
@@ -57,8 +77,10 @@ inline Symmetry symmetryOf(const Packing::Pose& form, Index pose) {
 }
 
 /// The image that a pose is compared with, in its own steps; nothing but for Symmetry::partner.
-inline Sparse partnerOf(const Packing& packing, const Lattice& lattice,
-                        const std::vector<Coefficients>& poses, Index pose) {
+/// Poses are Coefficients or Sparse.
+template <typename Steps>
+Sparse partnerOf(const Packing& packing, const Lattice& lattice, const std::vector<Steps>& poses,
+                 Index pose) {
   const Packing::Pose& form = packing.poses[pose];
   if (symmetryOf(form, pose) != Symmetry::partner) return {};
   return lattice.moved(poses[form.image], true, form.finer - packing.poses[form.image].finer);

@@ -30,36 +30,29 @@ class Numbering {
   Index count() const { return count_; }
 
   // All vertices of a patch in rows of constant v.
-  std::vector<Index> grid(Index p) const {
+  void fill(Index p, std::vector<Index>& grid) const {
     const Index m = surface_.edgesU(p), n = surface_.edgesV(p);
-    std::vector<Index> grid((m + 1) * (n + 1));
+    grid.resize((m + 1) * (n + 1));
     Index inner = patch_[p];
     for (Index j = 1; j < n; ++j)
       for (Index i = 1; i < m; ++i) grid[j * (m + 1) + i] = inner++;
-    const std::array<std::vector<Index>, 4> sides{side(p, 0), side(p, 1), side(p, 2), side(p, 3)};
-    for (Index i = 0; i <= m; ++i) {
-      grid[i] = sides[0][i];
-      grid[n * (m + 1) + m - i] = sides[2][i];
-    }
-    for (Index j = 0; j <= n; ++j) {
-      grid[j * (m + 1) + m] = sides[1][j];
-      grid[(n - j) * (m + 1)] = sides[3][j];
-    }
-    return grid;
+    fillSide(p, 0, &grid[0], 1);
+    fillSide(p, 1, &grid[m], m + 1);
+    fillSide(p, 2, &grid[n * (m + 1) + m], -1);
+    fillSide(p, 3, &grid[n * (m + 1)], -(m + 1));
   }
 
  private:
-  std::vector<Index> side(Index p, int s) const {
-    std::vector<Index> vertices;
+  // From one corner up to the next.
+  void fillSide(Index p, int s, Index* at, std::ptrdiff_t stride) const {
     for (const HalfArc h : w_.side(p, s)) {
       const Arc& arc = w_.arcs[arcOf(h)];
-      vertices.push_back(node_[w_.start(h)]);
-      for (Index step = 1; step < arc.edges; ++step)
-        vertices.push_back(arc.collapsed ? vertices.back()
-                                         : arc_[arcOf(h)] + (h & 1 ? arc.edges - step : step) - 1);
+      const Index first = node_[w_.start(h)];
+      *at = first;
+      at += stride;
+      for (Index step = 1; step < arc.edges; ++step, at += stride)
+        *at = arc.collapsed ? first : arc_[arcOf(h)] + (h & 1 ? arc.edges - step : step) - 1;
     }
-    vertices.push_back(node_[w_.end(w_.side(p, s).back())]);
-    return vertices;
   }
 
   const Surface& surface_;
@@ -73,9 +66,14 @@ class Numbering {
 LevelOne::LevelOne(const Surface& surface, const Mirror& mirror) {
   const Numbering numbering(surface);
   vertices_ = numbering.count();
+  std::size_t quads = 0;
+  for (Index p = 0; p < surface.patchCount(); ++p)
+    quads += static_cast<std::size_t>(surface.edgesU(p)) * surface.edgesV(p);
+  quads_.reserve(quads);
+  std::vector<Index> grid;
   for (Index p = 0; p < surface.patchCount(); ++p) {
     const Index m = surface.edgesU(p), n = surface.edgesV(p);
-    const std::vector<Index> grid = numbering.grid(p);
+    numbering.fill(p, grid);
     for (Index j = 0; j < n; ++j)
       for (Index i = 0; i < m; ++i) {
         const Index* at = &grid[j * (m + 1) + i];
@@ -102,6 +100,8 @@ Neighbours LevelOne::corners() const {
 Neighbours LevelOne::quadNeighbours() const {
   const Neighbours corners = this->corners();
   Neighbours neighbours;
+  neighbours.first.reserve(quads_.size() + 1);
+  neighbours.all.reserve(4 * quads_.size());
   for (const auto& quad : quads_) {
     for (int k = 0; k < 4; ++k) {
       // The one that has the same side the other way round.

@@ -57,14 +57,4 @@ Likeness Likenesses::of(Index pose) const {
   return best;
 }
 
-Sparse movedIn(const Likeness& like, const Lattice& lattice,
-               const std::vector<Coefficients>& poses) {
-  if (like.pose < 0) return {};
-  Sparse moved = lattice.moved(poses[like.pose], like.mirrored, 0);
-  if (like.negated)
-    for (Moved& m : moved)
-      for (std::int32_t& x : m.steps) x = -x;
-  return moved;
-}
-
 }  // namespace sweepface::codec

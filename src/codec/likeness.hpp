@@ -27,8 +27,15 @@ class Likenesses {
   std::vector<std::array<Bits, 2>> moved_;  // [poses] by itself and in its image
 };
 
-/// What moves in a likeness, nothing where there is none.
-Sparse movedIn(const Likeness& like, const Lattice& lattice,
-               const std::vector<Coefficients>& poses);
+/// What moves in a likeness, nothing where there is none. Poses are Coefficients or Sparse.
+template <typename Steps>
+Sparse movedIn(const Likeness& like, const Lattice& lattice, const std::vector<Steps>& poses) {
+  if (like.pose < 0) return {};
+  Sparse moved = lattice.moved(poses[like.pose], like.mirrored, 0);
+  if (like.negated)
+    for (Moved& m : moved)
+      for (std::int32_t& x : m.steps) x = -x;
+  return moved;
+}
 
 }  // namespace sweepface::codec

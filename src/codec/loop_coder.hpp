@@ -55,6 +55,7 @@ class LoopCoder {
         straight_(nodes, 0),
         corners_(nodes, 0),
         arms_(nodes),
+        nextArm_(2 * arcs, -1),
         next_(2 * arcs, -1),
         prev_(2 * arcs, -1),
         cornerAt_(2 * arcs, -1),
@@ -79,15 +80,25 @@ class LoopCoder {
   };
 
   bool isOpen(HalfArc h) const { return arcKnown_[arcOf(h)] && !taken_[h] && taken_[twin(h)]; }
+  // The half-arcs that leave a node, in the order in which they came: each knows the next.
+  struct Arms {
+    HalfArc first = -1, last = -1;
+    std::uint32_t count = 0;
+  };
+  void addArm(Index node, HalfArc h) {
+    Arms& arms = arms_[node];
+    (arms.count++ == 0 ? arms.first : nextArm_[arms.last]) = h;
+    arms.last = h;
+  }
   HalfArc openFrom(Index node) const {
-    for (const HalfArc h : arms_[node])
-      if (isOpen(h)) return h;
-    return -1;
+    HalfArc h = arms_[node].first;
+    while (h >= 0 && !isOpen(h)) h = nextArm_[h];
+    return h;
   }
   HalfArc openTo(Index node) const {
-    for (const HalfArc h : arms_[node])
-      if (isOpen(twin(h))) return twin(h);
-    return -1;
+    HalfArc h = arms_[node].first;
+    while (h >= 0 && !isOpen(twin(h))) h = nextArm_[h];
+    return h < 0 ? -1 : twin(h);
   }
   Index unusedNode() {
     while (nextNode_ < static_cast<Index>(nodeKnown_.size()) && nodeKnown_[nextNode_]) ++nextNode_;
@@ -131,14 +142,15 @@ class LoopCoder {
 
   void codePatch(Index p) {
     dropBorders();
-    std::vector<Piece> told;
+    std::vector<Piece>&told = told_, &loop = loop_;
+    told.clear();
+    loop.clear();
     int base = 0;
     if constexpr (kWrites<Coder>) {
       base = baseOf(p);
       for (int s = 0; s < 4; ++s)
         for (const HalfArc h : whole_->side(p, (base + s) % 4)) told.push_back({h, s});
     }
-    std::vector<Piece> loop;
     codeLoop(told, loop);
     if (!s_.ok()) return;
     // Loops are kept as they are told until the turns are known.
@@ -303,15 +315,14 @@ class LoopCoder {
   }
 
   std::uint32_t degree(Index node) const {
-    return static_cast<std::uint32_t>(std::min<std::size_t>(arms_[node].size(), 6)) +
-           (straight_[node] ? 8 : 0);
+    return std::min(arms_[node].count, 6u) + (straight_[node] ? 8 : 0);
   }
   std::uint32_t around(Index node) const {
     return degree(node) + 16 * static_cast<std::uint32_t>(std::min(corners_[node], 7));
   }
   std::uint32_t openCount(Index node) const {
     std::uint32_t open = 0;
-    for (const HalfArc h : arms_[node]) open += isOpen(h);
+    for (HalfArc h = arms_[node].first; h >= 0; h = nextArm_[h]) open += isOpen(h);
     return std::min(open, 3u);
   }
 
@@ -357,8 +368,8 @@ class LoopCoder {
     (current_ & 1 ? arc.from : arc.to) = end_;
     w_.arcs[id] = arc;
     arcKnown_[id] = 1;
-    arms_[startOfNew_].push_back(current_);
-    arms_[end_].push_back(twin(current_));
+    addArm(startOfNew_, current_);
+    addArm(end_, twin(current_));
     return corner;
   }
 
@@ -458,8 +469,10 @@ class LoopCoder {
   const Wireframe* whole_;
   std::span<const std::array<HalfArc, 2>> seeds_;
   std::vector<char> nodeKnown_, arcKnown_, taken_, straight_;
-  std::vector<int> corners_;  // [nodes] of patches that were told
-  std::vector<std::vector<HalfArc>> arms_;
+  std::vector<int> corners_;          // [nodes] of patches that were told
+  std::vector<Arms> arms_;            // [nodes]
+  std::vector<HalfArc> nextArm_;      // [half-arcs]
+  std::vector<Piece> told_, loop_;    // of the patch that is being coded
   std::vector<HalfArc> next_, prev_;  // [half-arcs] in loops that were told, else -1
   std::vector<Index> cornerAt_;       // [half-arcs]
   std::vector<Index> nodeImage_;      // [nodes] or -1

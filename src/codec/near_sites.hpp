@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "codec/lines.hpp"
@@ -11,13 +12,12 @@ namespace sweepface::codec {
 /// many T-nodes and spokes there are, a search is short.
 class NearSites {
  public:
-  NearSites(const Surface& surface, Lines& lines)
-      : w_(surface.wireframe()), c_(surface.connectivity()), lines_(lines) {}
+  NearSites(const Surface& surface, Lines& lines);
 
   static constexpr std::size_t kMost = 16;
   /// At least 12 sites where there are as many, and those as far away as the last. Without the
-  /// site's own mirror image (or -1), so that both see the same.
-  std::vector<Index> around(Index site, Index image);
+  /// site's own mirror image (or -1), so that both see the same. Until the next search.
+  std::span<const Index> around(Index site, Index image);
 
  private:
   // A node that the search will come to, the nearest first.
@@ -30,13 +30,14 @@ class NearSites {
   };
 
   void goOn(Index node, Index distance);
-  Index& reachedBy(Index node);
 
-  const Wireframe& w_;
-  const Connectivity& c_;
   Lines& lines_;
+  std::vector<Index> firstArm_;   // [nodes + 1]
+  std::vector<HalfArc> arms_;     // that leave each node, but for those that are one point
+  std::vector<Index> place_;      // [nodes] in the list below: all nodes of a site share one
+  std::vector<Index> reachedBy_;  // the last search that was there
   std::vector<Waiting> queue_;    // a heap
-  std::vector<Index> reachedBy_;  // [sites, then nodes] the last search that was there
+  std::vector<Index> found_;
   Index search_ = 0;
 };
 

@@ -34,11 +34,12 @@ enum Tag : std::uint32_t {
 };
 
 // Turns the loop of a patch so that the side `base` comes first.
-void turn(Wireframe& w, Index patch, int base) {
+void turn(Wireframe& w, Index patch, int base, std::vector<HalfArc>& loop) {
+  if (base == 0) return;
   auto& sides = w.patches[patch].sides;
   const std::array<Index, 5> old = sides;
   const Index begin = old[0];
-  const std::vector<HalfArc> loop(w.loops.begin() + begin, w.loops.begin() + old[4]);
+  loop.assign(w.loops.begin() + begin, w.loops.begin() + old[4]);
   std::copy(loop.begin(), loop.begin() + (old[base] - begin),
             std::copy(loop.begin() + (old[base] - begin), loop.end(), w.loops.begin() + begin));
   for (int s = 0; s < 4; ++s) {
@@ -50,8 +51,8 @@ void turn(Wireframe& w, Index patch, int base) {
 template <typename Coder>
 class WireframeCoder {
  public:
-  WireframeCoder(Symbols<Coder>& symbols, const Wireframe* whole, MirrorSeeds& mirror)
-      : s_(symbols), whole_(whole), mirror_(mirror) {}
+  WireframeCoder(Symbols<Coder>& symbols, const Wireframe* whole, MirrorSeeds given)
+      : seeds(std::move(given)), s_(symbols), whole_(whole) {}
 
   Wireframe run(std::size_t most, std::int64_t mostQuads) {
     const std::size_t nodes = count(whole_ ? whole_->nodes.size() : 0, most),
@@ -60,7 +61,7 @@ class WireframeCoder {
     if (!s_.ok()) return {};
     codeMirror(static_cast<std::uint32_t>(2 * arcs));
     if (!s_.ok()) return {};
-    LoopCoder<Coder> loops(s_, w_, whole_, mirror_.pairs, nodes, arcs);
+    LoopCoder<Coder> loops(s_, w_, whole_, seeds.pairs, nodes, arcs);
     loops.run(patches);
     if (!s_.ok() || !isSmallEnough(mostQuads)) return {};
     codeTurns(loops.bases);
@@ -72,6 +73,11 @@ class WireframeCoder {
     return std::move(w_);
   }
 
+  MirrorSeeds seeds;
+  // Of what was coded: no shape or mask changes them.
+  std::optional<Connectivity> connectivity;
+  Mirror mirror;
+
  private:
   std::size_t count(std::size_t value, std::size_t most) {
     const std::size_t n = s_.number(kCounts, 0, 0, value);
@@ -80,12 +86,11 @@ class WireframeCoder {
   }
 
   void codeMirror(std::uint32_t halves) {
-    mirror_.axis =
-        static_cast<int>(s_.index(kMirrorAxis, 3, static_cast<std::uint32_t>(mirror_.axis)));
-    const std::uint32_t pairs = s_.number(kMirrorCount, 0, 0, mirror_.pairs.size());
+    seeds.axis = static_cast<int>(s_.index(kMirrorAxis, 3, static_cast<std::uint32_t>(seeds.axis)));
+    const std::uint32_t pairs = s_.number(kMirrorCount, 0, 0, seeds.pairs.size());
     if (pairs > kMostMirrorPairs) return s_.refuse("the mirror image begins in too many places");
-    mirror_.pairs.resize(pairs);
-    for (auto& pair : mirror_.pairs)
+    seeds.pairs.resize(pairs);
+    for (auto& pair : seeds.pairs)
       for (HalfArc& h : pair)
         h = static_cast<HalfArc>(s_.index(kMirrorArc, halves, static_cast<std::uint32_t>(h)));
   }
@@ -107,12 +112,13 @@ class WireframeCoder {
   // Every loop was told from side `base` of the patch on: side 4 - base of the loop comes first.
   void codeTurns(const std::vector<int>& bases) {
     SweepRule rule(w_);
+    std::vector<HalfArc> loop;
     for (Index p = 0; p < static_cast<Index>(w_.patches.size()); ++p) {
       const bool expected = rule.turns(p, 0);
       const int first = (4 - bases[p]) % 4;
       const bool odd = s_.bit(kTurn, expected, 0, first % 2);
       const bool half = s_.bit(kHalfTurn, odd, 0, first / 2);
-      turn(w_, p, 2 * half + odd);
+      turn(w_, p, 2 * half + odd, loop);
       rule.sweep(p);
     }
   }
@@ -172,7 +178,7 @@ class WireframeCoder {
 
   // What the mirror image of a node stores, in the frame of the node; 0 where that is not known
   // yet.
-  JetMask imageMask(const Connectivity& c, const Mirror& mirror, Index node) const {
+  JetMask imageMask(const Connectivity& c, Index node) const {
     const Index image = mirror.node[node];
     if (image < 0 || image >= node || c.stars[node].arms.empty()) return 0;
     const auto& arms = c.stars[image].arms;
@@ -187,12 +193,12 @@ class WireframeCoder {
 
   // A set that is closed downwards, component by component.
   void codeMasks() {
-    const auto connectivity = Connectivity::make(w_);
-    if (!connectivity)
-      return s_.refuseWith({"the wireframe is unsound: ", connectivity.error().message});
-    const Mirror mirror = spreadMirror(w_, *connectivity, mirror_.pairs);
+    auto made = Connectivity::make(w_);
+    if (!made) return s_.refuseWith({"the wireframe is unsound: ", made.error().message});
+    connectivity = std::move(*made);
+    mirror = spreadMirror(w_, *connectivity, seeds.pairs);
     for (Index n = 0; n < static_cast<Index>(w_.nodes.size()); ++n) {
-      const JetMask image = imageMask(*connectivity, mirror, n);
+      const JetMask image = imageMask(*connectivity, n);
       const std::uint32_t x = lineClass(w_, *connectivity, n, 0),
                           y = lineClass(w_, *connectivity, n, 1);
       const JetMask told = whole_ ? whole_->nodes[n].stored : 0;
@@ -256,19 +262,20 @@ class WireframeCoder {
 
   Symbols<Coder>& s_;
   const Wireframe* whole_;
-  MirrorSeeds& mirror_;
   Wireframe w_;
 };
 
 }  // namespace
 
-void writeWireframe(Symbols<RangeEncoder>& out, const Wireframe& wireframe, MirrorSeeds mirror) {
-  WireframeCoder<RangeEncoder>(out, &wireframe, mirror).run(SIZE_MAX, INT64_MAX);
+void writeWireframe(Symbols<RangeEncoder>& out, const Wireframe& wireframe, MirrorSeeds seeds) {
+  WireframeCoder<RangeEncoder>(out, &wireframe, std::move(seeds)).run(SIZE_MAX, INT64_MAX);
 }
 
-Wireframe readWireframe(Symbols<RangeDecoder>& in, std::size_t most, std::int64_t mostQuads,
-                        MirrorSeeds& mirror) {
-  return WireframeCoder<RangeDecoder>(in, nullptr, mirror).run(most, mostQuads);
+CodedWireframe readWireframe(Symbols<RangeDecoder>& in, std::size_t most, std::int64_t mostQuads) {
+  WireframeCoder<RangeDecoder> coder(in, nullptr, {});
+  Wireframe wireframe = coder.run(most, mostQuads);
+  return {std::move(wireframe), std::move(coder.seeds), std::move(coder.connectivity),
+          std::move(coder.mirror)};
 }
 
 }  // namespace sweepface::codec

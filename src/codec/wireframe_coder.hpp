@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "sweepface/surface.hpp"
 
 #include "codec/mirror.hpp"
@@ -13,11 +15,19 @@ namespace sweepface::codec {
 /// ribbons, which derivatives a node stores) is told only where it is different. Nodes and arcs
 /// that are numbered as they come cost nothing; any other numbering is kept too.
 ///
-/// `mirror` is told as well; where it spreads, the second of two images costs next to nothing.
-void writeWireframe(Symbols<RangeEncoder>& out, const Wireframe& wireframe, MirrorSeeds mirror);
+/// `seeds` are told as well; where the mirror spreads, the second of two images costs next to
+/// nothing.
+void writeWireframe(Symbols<RangeEncoder>& out, const Wireframe& wireframe, MirrorSeeds seeds);
+
+/// What is read of a wireframe, and what follows from it on the way.
+struct CodedWireframe {
+  Wireframe wireframe;
+  MirrorSeeds seeds;
+  std::optional<Connectivity> connectivity;
+  Mirror mirror;
+};
 
 /// Fails through `in`. Has no more than `most` of anything, and `mostQuads` quads.
-Wireframe readWireframe(Symbols<RangeDecoder>& in, std::size_t most, std::int64_t mostQuads,
-                        MirrorSeeds& mirror);
+CodedWireframe readWireframe(Symbols<RangeDecoder>& in, std::size_t most, std::int64_t mostQuads);
 
 }  // namespace sweepface::codec

@@ -8,46 +8,103 @@
 #include "ode/power.hpp"
 #include "surface/basis_table.hpp"
 #include "surface/chart.hpp"
-#include "surface/terms.hpp"
 
 namespace sweepface {
 
 namespace {
 
-using Row = TermRow;
+constexpr int comp(int i, int j) { return 3 * i + j; }
+constexpr double signOf(int power) { return power % 2 ? -1 : 1; }
 
-int comp(int i, int j) { return 3 * i + j; }
-double signOf(int power) { return power % 2 ? -1 : 1; }
+// By quarter and component.
+constexpr auto kTurned = [] {
+  std::array<std::array<Turned, 9>, 4> all{};
+  for (int quarter = 0; quarter < 4; ++quarter)
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) {
+        const int flips = (quarter == 1 || quarter == 2 ? j : 0) + (quarter >= 2 ? i : 0);
+        all[quarter][comp(i, j)] = {quarter % 2 ? comp(j, i) : comp(i, j), signOf(flips)};
+      }
+  return all;
+}();
 
 }  // namespace
 
-Turned turned(int quarter, int i, int j) {
-  switch (quarter) {
-    case 0:
-      return {comp(i, j), 1};
-    case 1:
-      return {comp(j, i), signOf(j)};
-    case 2:
-      return {comp(i, j), signOf(i + j)};
-    default:
-      return {comp(j, i), signOf(i)};
-  }
-}
+Turned turned(int quarter, int i, int j) { return kTurned[quarter][comp(i, j)]; }
 
 namespace {
+
+// The derived vectors' sums of terms, written one after the other into one list.
+class Rows {
+ public:
+  void resize(std::size_t vectors) {
+    ranges_.resize(vectors);
+    terms_.reserve(4 * vectors);
+  }
+
+  /// What is added from here on belongs to `vector`, until it is closed.
+  void open(Index vector) {
+    open_ = vector;
+    ranges_[vector].first = static_cast<Index>(terms_.size());
+  }
+  void add(JetRef ref, double factor) {
+    if (factor != 0) terms_.push_back({ref.vector, ref.sign * factor});
+  }
+  /// Sorts the terms by vector, adds up those of the same one and drops those without a factor.
+  void close() {
+    auto& [begin, end] = ranges_[open_];
+    Term* const first = terms_.data() + begin;
+    Term* const last = terms_.data() + terms_.size();
+    sortFew(first, last);
+    Term* kept = first;
+    for (const Term* t = first; t != last;) {
+      Term sum = *t++;
+      for (; t != last && t->vector == sum.vector; ++t) sum.factor += t->factor;
+      if (sum.factor != 0) *kept++ = sum;
+    }
+    end = begin + static_cast<Index>(kept - first);
+    terms_.resize(end);
+  }
+
+  std::span<const Term> of(Index vector) const {
+    const auto [first, end] = ranges_[vector];
+    return {terms_.data() + first, terms_.data() + end};
+  }
+  std::size_t termCount() const { return terms_.size(); }
+
+ private:
+  struct Range {
+    Index first = 0, end = 0;
+  };
+
+  // By insertion: rows are short, and terms of the same vector keep their order everywhere.
+  static void sortFew(Term* first, Term* last) {
+    for (Term* t = first; t != last; ++t) {
+      const Term moved = *t;
+      Term* place = t;
+      for (; place != first && moved.vector < place[-1].vector; --place) *place = place[-1];
+      *place = moved;
+    }
+  }
+
+  std::vector<Range> ranges_;  // [vectors]
+  std::vector<Term> terms_;
+  Index open_ = -1;
+};
 
 // Which derived vectors need a derived vector, in ascending order.
 class Dependents {
  public:
-  Dependents(const std::vector<Row>& rows, const std::vector<char>& isStored)
-      : starts_(rows.size() + 1, 0) {
+  Dependents(const Rows& rows, const std::vector<char>& isStored)
+      : starts_(isStored.size() + 1, 0), needs_(isStored.size(), 0) {
+    const auto vectors = static_cast<Index>(isStored.size());
     const auto eachNeed = [&](const auto& use) {
-      for (std::size_t v = 0; v < rows.size(); ++v)
-        for (const Term& t : rows[v])
-          if (!isStored[v] && !isStored[t.vector]) use(t.vector, static_cast<Index>(v));
+      for (Index v = 0; v < vectors; ++v)
+        for (const Term& t : rows.of(v))
+          if (!isStored[t.vector]) use(t.vector, v);
     };
-    eachNeed([&](Index needed, Index) { ++starts_[needed + 1]; });
-    for (std::size_t v = 0; v < rows.size(); ++v) starts_[v + 1] += starts_[v];
+    eachNeed([&](Index needed, Index v) { ++starts_[needed + 1], ++needs_[v]; });
+    for (Index v = 0; v < vectors; ++v) starts_[v + 1] += starts_[v];
     all_.resize(starts_.back());
     std::vector<Index> next(starts_.begin(), starts_.end() - 1);
     eachNeed([&](Index needed, Index v) { all_[next[needed]++] = v; });
@@ -56,9 +113,11 @@ class Dependents {
   std::span<const Index> of(Index vector) const {
     return {all_.data() + starts_[vector], all_.data() + starts_[vector + 1]};
   }
+  /// [vectors] how many derived vectors each needs.
+  const std::vector<Index>& needs() const { return needs_; }
 
  private:
-  std::vector<Index> starts_, all_;
+  std::vector<Index> starts_, needs_, all_;
 };
 
 }  // namespace
@@ -97,14 +156,14 @@ class JetBuilder {
   }
 
   Index nodeCount() const { return static_cast<Index>(w_.nodes.size()); }
+  Index vectorCount() const { return static_cast<Index>(owners_.size()); }
   Index add(Owner owner, bool stored) {
     owners_.push_back(owner);
     isStored_.push_back(stored);
-    rows_.emplace_back();
-    return static_cast<Index>(rows_.size()) - 1;
+    return vectorCount() - 1;
   }
 
-  // No fewer than there will be: growing would move all rows.
+  // No fewer than there will be.
   std::size_t mostVectors() const {
     std::size_t count = 9 * w_.nodes.size();
     for (Index n = 0; n < nodeCount(); ++n)
@@ -115,9 +174,8 @@ class JetBuilder {
   }
 
   void number() {
-    rows_.reserve(mostVectors());
-    owners_.reserve(rows_.capacity());
-    isStored_.reserve(rows_.capacity());
+    owners_.reserve(mostVectors());
+    isStored_.reserve(owners_.capacity());
     base_.assign(nodeCount(), -1);
     hubs_.resize(w_.points);
     armBase_.assign(nodeCount(), -1);
@@ -133,17 +191,19 @@ class JetBuilder {
         continue;
       }
       const bool crossing = c_.kinds[n] == NodeKind::crossing;
-      base_[n] = static_cast<Index>(rows_.size());
+      base_[n] = vectorCount();
       for (int k = 0; k < 9; ++k)
         add({n, k / 3, k % 3}, crossing && (k == 0 || (w_.nodes[n].stored >> k & 1)));
     }
+    rows_.resize(owners_.size());
+    turnCorners();
   }
 
   void numberIrregular(Index n) {
     Hub& hub = hubs_[w_.nodes[n].point];
     if (hub.first < 0) {
       constexpr int kOrders[6][2] = {{0, 0}, {1, 0}, {0, 1}, {2, 0}, {1, 1}, {0, 2}};
-      hub.first = static_cast<Index>(rows_.size());
+      hub.first = vectorCount();
       for (auto [i, j] : kOrders) add({n, i, j}, true);
     }
     hub.nodes.push_back(n);
@@ -153,17 +213,17 @@ class JetBuilder {
   // Nodes without axes of their own have vectors by arm and by corner.
   void numberArms(Index n) {
     const Star& star = c_.stars[n];
-    armBase_[n] = static_cast<Index>(rows_.size());
+    armBase_[n] = vectorCount();
     for (std::size_t k = 0; k < 2 * star.arms.size(); ++k) add({n, 0, 0}, false);
     for (Index corner : star.sectors) {
-      mixedBase_[corner] = static_cast<Index>(rows_.size());
+      mixedBase_[corner] = vectorCount();
       for (int k = 0; k < 4; ++k) add({n, 0, 0}, false);
     }
   }
 
   void numberCreased(Index n) {
     base_[n] = add({n, 0, 0}, true);
-    fanBase_[n] = static_cast<Index>(rows_.size());
+    fanBase_[n] = vectorCount();
     const auto& fans = c_.fans[n];
     for (int f = 0; f < static_cast<int>(fans.size()); ++f)
       for (int k = 1; k < 9; ++k) add({n, k / 3, k % 3, f}, fanStores(fans[f], k));
@@ -180,22 +240,34 @@ class JetBuilder {
   }
   static double opening(const Fan& fan) { return fan.step * fan.sectors; }
 
+  // How a corner's axes are turned from those of its node, if that has any.
+  void turnCorners() {
+    quarter_ = c_.cornerSector;
+    for (Index n = 0; n < nodeCount(); ++n) {
+      if (c_.kinds[n] != NodeKind::hanging) continue;
+      const int host = hostArm(n);
+      for (const Index corner : c_.stars[n].sectors)
+        if (corner != kStraight) quarter_[corner] = (c_.cornerSector[corner] - host + 3) % 3;
+    }
+  }
+
+  // Whether all corners of a node share nine vectors.
+  bool hasAxes(Index n) const {
+    return c_.kinds[n] == NodeKind::crossing || c_.kinds[n] == NodeKind::hanging;
+  }
+
   // ∂α^i ∂β^j at a corner.
   JetRef cornerJet(Index corner, int i, int j) const {
     const Index n = c_.cornerNode[corner];
-    const int sector = c_.cornerSector[corner];
-    const Star& star = c_.stars[n];
-    if (c_.kinds[n] == NodeKind::irregular || c_.kinds[n] == NodeKind::creased) {
+    if (!hasAxes(n)) {
       const bool creased = c_.kinds[n] == NodeKind::creased;
       if (i == 0 && j == 0) return {creased ? base_[n] : hubs_[w_.nodes[n].point].first, 1};
-      const int arms = static_cast<int>(star.arms.size());
+      const int sector = c_.cornerSector[corner], arms = static_cast<int>(c_.stars[n].arms.size());
       if (j == 0) return {armBase_[n] + 2 * sector + i - 1, 1};
       if (i == 0) return {armBase_[n] + 2 * ((sector + 1) % arms) + j - 1, 1};
       return {mixedBase_[corner] + 2 * (i - 1) + j - 1, 1};
     }
-    int quarter = sector;
-    if (c_.kinds[n] == NodeKind::hanging) quarter = (sector - hostArm(n) + 3) % 3;
-    const Turned t = turned(quarter, i, j);
+    const Turned& t = kTurned[quarter_[corner]][comp(i, j)];
     return {base_[n] + t.component, t.sign};
   }
 
@@ -220,33 +292,43 @@ class JetBuilder {
     for (int i = 0; i < 3; ++i) {
       const auto value = g.at(static_cast<double>(behind.edges) / length, i);
       for (int j = 0; j < 3; ++j) {
-        Row& row = rows_[base_[n] + comp(i, j)];
+        rows_.open(base_[n] + comp(i, j));
         for (int a = 0; a < 3; ++a) {
           const double scale = ode::power(length, a - i);
-          addTo(row, cornerJet(startCorner, a, j), value[a] * scale);
-          addTo(row, cornerJet(endCorner, j, a), value[3 + a] * scale * signOf(a));
+          rows_.add(cornerJet(startCorner, a, j), value[a] * scale);
+          rows_.add(cornerJet(endCorner, j, a), value[3 + a] * scale * signOf(a));
         }
+        rows_.close();
       }
     }
   }
 
-  // ∂^j across a line, to the left of travel, at the node where its rail arrives. Where patches on
-  // both sides know it, their mean: they differ only at irregular nodes.
-  Row acrossAtEnd(const Rail& rail, int j) const {
-    Row row;
+  // ∂^j across a line at a node: what one patch beside it knows, or the mean of two.
+  struct Across {
+    std::array<Term, 2> terms;
+    int count = 0;
+  };
+
+  // To the left of travel, at the node where a rail arrives. Patches on both sides differ only at
+  // irregular nodes.
+  Across acrossAtEnd(const Rail& rail, int j) const {
+    Across across;
+    const auto add = [&](JetRef ref, double factor) {
+      across.terms[across.count++] = {ref.vector, ref.sign * factor};
+    };
     const Index left = c_.patchOf[rail.last] < 0 ? -1 : c_.cornerAt[c_.next[rail.last]];
     const Index right = c_.patchOf[twin(rail.last)] < 0 ? -1 : c_.cornerAt[twin(rail.last)];
     const double share = left >= 0 && right >= 0 ? 0.5 : 1;
-    if (left >= 0) addTo(row, cornerJet(left, j, 0), share);
-    if (right >= 0) addTo(row, cornerJet(right, 0, j), share * signOf(j));
-    return row;
+    if (left >= 0) add(cornerJet(left, j, 0), share);
+    if (right >= 0) add(cornerJet(right, 0, j), share * signOf(j));
+    return across;
   }
 
   // Values of ∂^other across the line through node n along axis d, at its two neighbours.
   struct Neighbours {
     bool has[2] = {false, false};
     double distance[2] = {0, 0};
-    Row value[2];
+    Across value[2];
   };
   Neighbours neighbours(Index n, int d, int other) const {
     Neighbours result;
@@ -259,7 +341,7 @@ class JetBuilder {
       result.distance[e] = rail.edges;
       result.value[e] = acrossAtEnd(rail, other);
       if ((d == 0) == (e == 1))  // the other axis points to the right of travel
-        for (Term& t : result.value[e]) t.factor *= signOf(other);
+        for (Term& t : result.value[e].terms) t.factor *= signOf(other);
     }
     return result;
   }
@@ -284,44 +366,45 @@ class JetBuilder {
     const auto own = [&](int a) {
       return JetRef{base_[n] + (d == 0 ? comp(a, other) : comp(other, a)), 1};
     };
-    Row& row = rows_[base_[n] + comp(i, j)];
     const Neighbours at = neighbours(n, d, other);
+    rows_.open(base_[n] + comp(i, j));
     if (count == 1)
-      predictFromValues(row, at, own(0), order);
+      predictFromValues(at, own(0), order);
     else
-      predictFromSlope(row, at, own(0), own(1));
+      predictFromSlope(at, own(0), own(1));
+    rows_.close();
   }
 
   // Derivative 1 or 2 of the parabola through the node and its neighbours.
-  static void predictFromValues(Row& row, const Neighbours& at, JetRef own, int order) {
+  void predictFromValues(const Neighbours& at, JetRef own, int order) {
     if (!at.has[0] || !at.has[1]) {  // the end of a line: a straight one
       if (order == 1)
         for (int e = 0; e < 2; ++e)
           if (at.has[e]) {
             const double s = (e == 0 ? 1 : -1) / at.distance[e];
-            addTo(row, at.value[e], s);
-            addTo(row, own, -s);
+            addAll(at.value[e], s);
+            rows_.add(own, -s);
           }
       return;
     }
     const double a = at.distance[0], b = at.distance[1];
     const double s = (order == 1 ? 1 : 2) / (a * b * (a + b));
-    addTo(row, at.value[0], order == 1 ? b * b * s : b * s);
-    addTo(row, at.value[1], order == 1 ? -a * a * s : a * s);
-    addTo(row, own, order == 1 ? (a * a - b * b) * s : -(a + b) * s);
+    addAll(at.value[0], order == 1 ? b * b * s : b * s);
+    addAll(at.value[1], order == 1 ? -a * a * s : a * s);
+    rows_.add(own, order == 1 ? (a * a - b * b) * s : -(a + b) * s);
   }
 
   // Second derivative of the cubic through the neighbours that has the node's value and slope; at
   // the end of a line, of the parabola through its one neighbour.
-  static void predictFromSlope(Row& row, const Neighbours& at, JetRef own, JetRef slope) {
+  void predictFromSlope(const Neighbours& at, JetRef own, JetRef slope) {
     for (int e = 0; e < 2; ++e) {
       if (!at.has[e]) continue;
       const double h = at.distance[e], outward = e == 0 ? 1 : -1;
       const double weight = at.has[1 - e] ? at.distance[1 - e] / (h + at.distance[1 - e]) : 1;
       const double s = 2 * weight / (h * h);
-      addTo(row, at.value[e], s);
-      addTo(row, own, -s);
-      addTo(row, slope, -outward * h * s);
+      addAll(at.value[e], s);
+      rows_.add(own, -s);
+      rows_.add(slope, -outward * h * s);
     }
   }
 
@@ -391,7 +474,7 @@ class JetBuilder {
         jet = characteristicCorner(angle, step, scale);
       if (!first) writeSpoke(hub, n, s, angle, step, scale, first || second);
       for (int k = 0; k < 4; ++k)
-        compose(rows_[mixedBase_[star.sectors[s]] + k], quadratic(hub), jet, 1 + k / 2, 1 + k % 2);
+        compose(mixedBase_[star.sectors[s]] + k, quadratic(hub), jet, 1 + k / 2, 1 + k % 2);
       if (!first && !second) angle += step;
     }
     if (star.closed) return angle;
@@ -413,14 +496,14 @@ class JetBuilder {
     PlaneJet along{};
     along[comp(1, 0)] = d[0];
     along[comp(2, 0)] = d[1];
-    for (int i = 1; i <= 2; ++i) compose(rows_[armVector(n, arm, i)], f, along, i, 0);
+    for (int i = 1; i <= 2; ++i) compose(armVector(n, arm, i), f, along, i, 0);
   }
   Index armVector(Index n, std::size_t arm, int i) const {
     return armBase_[n] + 2 * static_cast<Index>(arm % c_.stars[n].arms.size()) + i - 1;
   }
 
   // ∂α^i ∂β^j of F(φ(α, β)) by Leibniz' rule.
-  static void compose(Row& row, const Quadratic& f, const PlaneJet& jet, int i, int j) {
+  void compose(Index vector, const Quadratic& f, const PlaneJet& jet, int i, int j) {
     constexpr double kBinomial[3][3] = {{1, 0, 0}, {1, 1, 0}, {1, 2, 1}};
     double xx = 0, xy = 0, yy = 0;
     for (int a = 0; a <= i; ++a)
@@ -433,8 +516,10 @@ class JetBuilder {
       }
     const auto d = jet[comp(i, j)];
     const double factors[5] = {d.real(), d.imag(), xx / 2, xy, yy / 2};
+    rows_.open(vector);
     for (int k = 0; k < 5; ++k)  // what is rounding only must not tie patches together
-      if (std::abs(factors[k]) > 1e-14) addTo(row, JetRef{f[k], 1}, factors[k]);
+      if (std::abs(factors[k]) > 1e-14) rows_.add(JetRef{f[k], 1}, factors[k]);
+    rows_.close();
   }
 
   // A creased node: every fan has its jet, and takes from the fans before it what they share.
@@ -460,17 +545,15 @@ class JetBuilder {
       return JetRef{fanVector(n, f, t.component / 3, t.component % 3), t.sign};
     };
     for (int i = 1; i <= 2; ++i) {
-      if (fan.firstGiven)
-        addTo(rows_[fanVector(n, f, i, 0)], JetRef{armVector(n, fan.first, i), 1}, 1);
+      if (fan.firstGiven) follow(fanVector(n, f, i, 0), {armVector(n, fan.first, i), 1});
       if (fan.lastGiven && fan.sectors == 1)
-        addTo(rows_[fanVector(n, f, 0, i)], JetRef{armVector(n, fan.first + 1, i), 1}, 1);
+        follow(fanVector(n, f, 0, i), {armVector(n, fan.first + 1, i), 1});
     }
     for (int k = 0; k <= fan.sectors; ++k) {
       const bool given = k == 0 ? fan.firstGiven : k == fan.sectors && fan.lastGiven;
-      for (int i = 1; i <= 2 && !given; ++i)
-        addTo(rows_[armVector(n, fan.first + k, i)], own(k, i, 0), 1);
+      for (int i = 1; i <= 2 && !given; ++i) follow(armVector(n, fan.first + k, i), own(k, i, 0));
       for (int m = 0; m < 4 && k < fan.sectors; ++m)
-        addTo(rows_[mixedBase_[sector(n, fan.first + k)] + m], own(k, 1 + m / 2, 1 + m % 2), 1);
+        follow(mixedBase_[sector(n, fan.first + k)] + m, own(k, 1 + m / 2, 1 + m % 2));
     }
   }
   Index sector(Index n, int k) const {
@@ -491,7 +574,7 @@ class JetBuilder {
       if (k == fan.sectors) break;
       const PlaneJet jet = characteristicCorner(angle, fan.step, scale);
       for (int m = 0; m < 4; ++m)
-        compose(rows_[mixedBase_[sector(n, fan.first + k)] + m], own, jet, 1 + m / 2, 1 + m % 2);
+        compose(mixedBase_[sector(n, fan.first + k)] + m, own, jet, 1 + m / 2, 1 + m % 2);
     }
   }
 
@@ -502,59 +585,70 @@ class JetBuilder {
     const auto spoke = characteristicSpoke(0, fan.step, scale);
     const double s = spoke[0].real(), t = spoke[1].real();
     const auto own = [&](int i, int j) { return JetRef{fanVector(n, f, i, j), 1}; };
-    const auto row = [&](int i, int j) -> Row& { return rows_[fanVector(n, f, i, j)]; };
+    const auto arm = [&](std::size_t k, int i) { return JetRef{armVector(n, k, i), 1}; };
+    const auto open = [&](int i, int j) { rows_.open(fanVector(n, f, i, j)); };
     if (fan.firstGiven) {
-      addTo(row(1, 0), JetRef{armVector(n, fan.first, 1), 1}, 1 / s);
-      addTo(row(2, 0), JetRef{armVector(n, fan.first, 2), 1}, 1 / (s * s));
-      addTo(row(2, 0), own(1, 0), -t / (s * s));
+      open(1, 0);
+      rows_.add(arm(fan.first, 1), 1 / s);
+      rows_.close();
+      open(2, 0);
+      rows_.add(arm(fan.first, 2), 1 / (s * s));
+      rows_.add(own(1, 0), -t / (s * s));
+      rows_.close();
     }
     const auto [d, c] = ode::sineCosine(opening(fan));
     if (!fan.lastGiven || std::abs(d) <= 1e-9) return;
     const std::size_t last = fan.first + fan.sectors;
-    addTo(row(0, 1), JetRef{armVector(n, last, 1), 1}, 1 / (s * d));
-    addTo(row(0, 1), own(1, 0), -c / d);
+    open(0, 1);
+    rows_.add(arm(last, 1), 1 / (s * d));
+    rows_.add(own(1, 0), -c / d);
+    rows_.close();
     const double e = 1 / (s * s * d * d);
-    addTo(row(0, 2), JetRef{armVector(n, last, 2), 1}, e);
-    addTo(row(0, 2), own(2, 0), -c * c / (d * d));
-    addTo(row(0, 2), own(1, 1), -2 * c / d);
-    addTo(row(0, 2), own(1, 0), -t * c * e);
-    addTo(row(0, 2), own(0, 1), -t * d * e);
+    open(0, 2);
+    rows_.add(arm(last, 2), e);
+    rows_.add(own(2, 0), -c * c / (d * d));
+    rows_.add(own(1, 1), -2 * c / d);
+    rows_.add(own(1, 0), -t * c * e);
+    rows_.add(own(0, 1), -t * d * e);
+    rows_.close();
   }
 
-  static void addTo(Row& row, JetRef ref, double factor) {
-    if (factor != 0) row.push_back({ref.vector, ref.sign * factor});
+  // A vector that is another one.
+  void follow(Index vector, JetRef other) {
+    rows_.open(vector);
+    rows_.add(other, 1);
+    rows_.close();
   }
-  static void addTo(Row& row, const Row& other, double factor) {
-    for (const Term& t : other) row.push_back({t.vector, t.factor * factor});
+  void addAll(const Across& across, double factor) {
+    for (int k = 0; k < across.count; ++k)
+      rows_.add({across.terms[k].vector, across.terms[k].factor}, factor);
   }
 
   // Kahn's algorithm: stored vectors first, then derived ones as soon as all they need is there.
-  Result<JetTable> order(std::vector<Index>* circle) {
-    const std::size_t count = rows_.size();
-    std::vector<Index> place(count, -1), waitsFor(count, 0);
+  Result<JetTable> order(std::vector<Index>* circle) const {
+    std::vector<Index> place(owners_.size(), -1);
     JetTable table;
-    for (std::size_t v = 0; v < count; ++v) {
+    for (Index v = 0; v < vectorCount(); ++v)
       if (isStored_[v]) {
         place[v] = static_cast<Index>(table.stored.size());
         table.stored.push_back(owners_[v]);
-        continue;
       }
-      rows_[v].merge();
-      for (const Term& t : rows_[v]) waitsFor[v] += !isStored_[t.vector];
-    }
     const Dependents dependents(rows_, isStored_);
-    std::vector<Index> ready;
-    for (std::size_t v = 0; v < count; ++v)
-      if (!isStored_[v] && waitsFor[v] == 0) ready.push_back(static_cast<Index>(v));
+    std::vector<Index> waitsFor = dependents.needs(), ready;
+    ready.reserve(owners_.size() - table.stored.size());
+    for (Index v = 0; v < vectorCount(); ++v)
+      if (!isStored_[v] && waitsFor[v] == 0) ready.push_back(v);
+    table.terms.reserve(rows_.termCount());
+    table.rowStart.reserve(ready.capacity() + 1);
     for (std::size_t k = 0; k < ready.size(); ++k) {
       const Index v = ready[k];
       place[v] = static_cast<Index>(table.stored.size() + k);
-      for (const Term& t : rows_[v]) table.terms.push_back({place[t.vector], t.factor});
+      for (const Term& t : rows_.of(v)) table.terms.push_back({place[t.vector], t.factor});
       table.rowStart.push_back(static_cast<Index>(table.terms.size()));
       for (Index d : dependents.of(v))
         if (--waitsFor[d] == 0) ready.push_back(d);
     }
-    if (table.stored.size() + ready.size() < count) return circular(place, circle);
+    if (table.stored.size() + ready.size() < owners_.size()) return circular(place, circle);
     fillCorners(table, place);
     return table;
   }
@@ -577,7 +671,7 @@ class JetBuilder {
                 " are derived from themselves; let it store its own");
   }
   Index unmet(Index v, const std::vector<Index>& place) const {
-    const Row& row = rows_[v];
+    const auto row = rows_.of(v);
     return std::find_if(row.begin(), row.end(), [&](const Term& t) { return place[t.vector] < 0; })
         ->vector;
   }
@@ -591,22 +685,31 @@ class JetBuilder {
   }
 
   void fillCorners(JetTable& table, const std::vector<Index>& place) const {
-    table.corners.reserve(36 * w_.patches.size());
-    for (Index corner = 0; corner < static_cast<Index>(4 * w_.patches.size()); ++corner)
-      for (int k = 0; k < 9; ++k) {
-        JetRef ref = cornerJet(corner, k / 3, k % 3);
-        ref.vector = place[ref.vector];
-        table.corners.push_back(ref);
+    table.corners.resize(36 * w_.patches.size());
+    for (std::size_t corner = 0; corner < 4 * w_.patches.size(); ++corner) {
+      JetRef* const jets = &table.corners[9 * corner];
+      const Index n = c_.cornerNode[corner];
+      if (hasAxes(n)) {
+        const Index* const own = &place[base_[n]];
+        const auto& turned = kTurned[quarter_[corner]];
+        for (int k = 0; k < 9; ++k) jets[k] = {own[turned[k].component], turned[k].sign};
+        continue;
       }
+      for (int k = 0; k < 9; ++k) {
+        const JetRef ref = cornerJet(static_cast<Index>(corner), k / 3, k % 3);
+        jets[k] = {place[ref.vector], ref.sign};
+      }
+    }
   }
 
   const Wireframe& w_;
   const Connectivity& c_;
   const BasisTable& bases_;
-  std::vector<Row> rows_;
-  std::vector<char> isStored_;
-  std::vector<Owner> owners_;
+  Rows rows_;
+  std::vector<char> isStored_;    // [vectors]
+  std::vector<Owner> owners_;     // [vectors]
   std::vector<Index> base_;       // [nodes] first of nine vectors of a crossing or a T-node
+  std::vector<int> quarter_;      // [corners] of a crossing or a T-node
   std::vector<Index> armBase_;    // [nodes] first of two vectors an arm of an irregular node
   std::vector<Index> mixedBase_;  // [corners] first of four mixed vectors at an irregular node
   std::vector<Index> fanBase_;    // [nodes] first of eight vectors a fan of a creased node

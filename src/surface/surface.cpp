@@ -60,15 +60,20 @@ Result<void> checkRibbons(const Wireframe& w, const Connectivity& c) {
 Result<Surface> Surface::make(Wireframe wireframe, std::vector<Index>* circle) {
   auto connectivity = Connectivity::make(wireframe);
   if (!connectivity) return std::unexpected(connectivity.error());
-  if (auto ok = checkRibbons(wireframe, *connectivity); !ok) return std::unexpected(ok.error());
-  auto bases = BasisTable::make(wireframe.ribbons, basisKeys(wireframe, *connectivity));
+  return make(std::move(wireframe), std::move(*connectivity), circle);
+}
+
+Result<Surface> Surface::make(Wireframe wireframe, Connectivity connectivity,
+                              std::vector<Index>* circle) {
+  if (auto ok = checkRibbons(wireframe, connectivity); !ok) return std::unexpected(ok.error());
+  auto bases = BasisTable::make(wireframe.ribbons, basisKeys(wireframe, connectivity));
   if (!bases) return std::unexpected(bases.error());
-  auto jets = buildJets(wireframe, *connectivity, *bases, circle);
+  auto jets = buildJets(wireframe, connectivity, *bases, circle);
   if (!jets) return std::unexpected(jets.error());
 
   Surface surface;
   surface.wireframe_ = std::move(wireframe);
-  surface.connectivity_ = std::move(*connectivity);
+  surface.connectivity_ = std::move(connectivity);
   surface.bases_ = std::make_shared<const BasisTable>(std::move(*bases));
   surface.stored_ = std::move(jets->stored);
   surface.rowStart_ = std::move(jets->rowStart);

@@ -54,7 +54,7 @@ TEST_F(LinesOfASheet, EndAtTheBoundary) {
 
 TEST_F(LinesOfASheet, TellTheNearestSitesFirst) {
   NearSites near(surface, lines);
-  const std::vector<Index> found = near.around(at(8, 8), -1);
+  const auto found = near.around(at(8, 8), -1);
   ASSERT_EQ(found.size(), 12u) << "4 at a distance of 1, 8 at 2";
   for (std::size_t k = 0; k < found.size(); ++k)
     EXPECT_EQ(std::abs(found[k] % kRow - 8) + std::abs(found[k] / kRow - 8), k < 4 ? 1 : 2);
@@ -63,7 +63,7 @@ TEST_F(LinesOfASheet, TellTheNearestSitesFirst) {
 TEST_F(LinesOfASheet, TellNeitherWhatWasTakenOutNorTheImage) {
   lines.takeOut(at(8, 7));
   NearSites near(surface, lines);
-  const std::vector<Index> found = near.around(at(8, 8), at(9, 8));
+  const auto found = near.around(at(8, 8), at(9, 8));
   EXPECT_GE(found.size(), 12u);
   EXPECT_EQ(std::ranges::count(found, at(8, 7)), 0);
   EXPECT_EQ(std::ranges::count(found, at(9, 8)), 0);
