@@ -51,16 +51,21 @@ inline Steps3 inFinerSteps(Steps3 v, int finer) {
   return v;
 }
 
+/// Targets differ from each other: what was learned from some is forgotten sooner than in a
+/// neutral.
+inline constexpr std::uint16_t kNeutralMemory = 30, kTargetMemory = 16;
+
 /// Codes the coefficients of one pose after the other, coarse to fine; learns as it goes. Reader
 /// and writer are the same code over a RangeDecoder or a RangeEncoder.
 template <typename Coder>
 class CoefficientCoder {
  public:
-  CoefficientCoder(const Hierarchy& hierarchy, Coder& coder, int axis)
+  /// `memory` as Model has it.
+  CoefficientCoder(const Hierarchy& hierarchy, Coder& coder, int axis, std::uint16_t memory)
       : h_(hierarchy),
         axis_(axis),
         mask_(slotsFor(hierarchy.prediction().steps.size()) - 1),
-        model_(coder, mask_ + 1, kSets) {
+        model_(coder, mask_ + 1, kSets, memory) {
     const std::size_t sites = h_.sites().size();
     active_.resize(sites);
     below_.resize(sites);

@@ -39,21 +39,17 @@ void decodeRest(Reader& in, Read read) {
   if (!coder.exhausted()) in.refuse("the chunk goes on after its last value");
 }
 
-void readMirror(Symbols<RangeDecoder>& symbols, std::size_t arcs, Packing& packing) {
-  const auto halves = static_cast<std::uint32_t>(2 * arcs);
-  packing.axis = static_cast<int>(symbols.index(kMirrorAxis, 3, 0));
-  packing.mirror.resize(std::min<std::size_t>(symbols.number(kMirrorCount, 0, 0, 0), halves));
-  for (auto& pair : packing.mirror)
-    for (HalfArc& h : pair) h = static_cast<HalfArc>(symbols.index(kMirrorArc, halves, 0));
-}
-
 void readGrid(Decoding& d, Reader& in) {
   // A patch, an arc or a node takes a fraction of a bit at best.
   const std::size_t most = std::min(d.memory / kBytesAPatch,
                                     within(kMostPatches, kPatchesAByte, kPatchesAnyway, in.left()));
   decodeRest(in, [&](RangeDecoder&, Symbols<RangeDecoder>& symbols) {
-    d.wireframe = readWireframe(symbols, most, kMostGridVertices, d.connectivity);
-    readMirror(symbols, d.wireframe.arcs.size(), d.rig.packing);
+    CodedWireframe coded = readWireframe(symbols, most, kMostGridVertices);
+    d.wireframe = std::move(coded.wireframe);
+    d.connectivity = std::move(coded.connectivity);
+    d.mirror = std::move(coded.mirror);
+    d.rig.packing.axis = coded.seeds.axis;
+    d.rig.packing.mirror = std::move(coded.seeds.pairs);
   });
   if (!in.ok() || !d.afford(in, d.wireframe.patches.size(), kBytesAPatch)) return;
   d.makeSurface(in);
@@ -63,7 +59,7 @@ void readGrid(Decoding& d, Reader& in) {
       (d.targets + 1) * d.stored > kVectorsAByte * d.fileSize + kVectorsAnyway)
     return in.refuse("there are more targets than the file can hold");
   if (!d.afford(in, (d.targets + 1) * d.stored, kBytesAVector)) return;
-  d.lattice.emplace(d.rig.surface, d.rig.packing);
+  d.lattice.emplace(d.rig.surface, d.rig.packing, d.mirror);
 }
 
 void readTargetNames(Decoding& d, Reader& in) {
@@ -79,11 +75,11 @@ void readTargetNames(Decoding& d, Reader& in) {
 // Poses one after the other. All but what is being read is kept as what moves: that is little.
 class PoseReader {
  public:
-  PoseReader(Decoding& d, RangeDecoder& coder, Symbols<RangeDecoder>& symbols)
+  PoseReader(Decoding& d, RangeDecoder& coder, Symbols<RangeDecoder>& symbols, std::uint16_t memory)
       : d_(d),
         lattice_(*d.lattice),
         symbols_(symbols),
-        vectors_(lattice_.hierarchy(), coder, lattice_.axis()),
+        vectors_(lattice_.hierarchy(), coder, lattice_.axis(), memory),
         current_(d.stored),
         moved_(d.targets + 1) {}
 
@@ -126,7 +122,7 @@ class PoseReader {
 void readPoses(Decoding& d, Reader& in, Index first, Index end) {
   decodeRest(in, [&](RangeDecoder& coder, Symbols<RangeDecoder>& symbols) {
     d.rig.packing.poses.resize(end);
-    PoseReader poses(d, coder, symbols);
+    PoseReader poses(d, coder, symbols, first == 0 ? kNeutralMemory : kTargetMemory);
     for (Index pose = first; pose < end && symbols.ok(); ++pose) poses.read(pose);
     if (symbols.ok()) poses.restore(first, end);
   });
@@ -152,7 +148,7 @@ void readByGrid(Decoding& d, Reader& in, Read read) {
   if (d.quads > most) return in.refuse("the patches have too many vertices for so few bytes");
   if (!d.levelOne) {
     if (!d.afford(in, d.quads, kBytesAQuad)) return;
-    d.levelOne.emplace(d.rig.surface);
+    d.levelOne.emplace(d.rig.surface, d.mirror);
   }
   decodeRest(in, [&](RangeDecoder&, Symbols<RangeDecoder>& symbols) {
     read(symbols, *d.levelOne, most, d.rig.source);
@@ -173,8 +169,11 @@ void readGridFaces(Decoding& d, Reader& in) {
 
 void readTextureSteps(Decoding& d, Reader& in) {
   const std::size_t most = mostQuads(in);
+  SourceMesh& source = d.rig.source;
+  const std::vector<Index> images =
+      d.levelOne ? cornerImages(d.levelOne->mirror(), source) : std::vector<Index>{};
   decodeRest(in, [&](RangeDecoder&, Symbols<RangeDecoder>& symbols) {
-    readTexture(symbols, most, d.rig.source.polygons, d.rig.packing.textureBits);
+    readTexture(symbols, most, source.polygons, images, d.rig.packing.textureBits);
   });
 }
 

@@ -20,6 +20,7 @@ struct Decoding {
   std::size_t quads = 0;                           ///< of the grid at level 1
   Wireframe wireframe;                             ///< until the surface is made of it
   Connectivity connectivity;                       ///< of that, likewise
+  Mirror mirror;                                   ///< of that
   std::optional<Lattice> lattice;
   std::optional<LevelOne> levelOne;
   Rig rig;

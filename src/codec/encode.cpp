@@ -30,14 +30,7 @@ std::string base(const Rig& rig, const Packing& packing) {
 }
 
 std::string grid(const Wireframe& wireframe, const Packing& packing) {
-  return ranged([&](auto& out) {
-    writeWireframe(out, wireframe);
-    const auto halves = static_cast<std::uint32_t>(2 * wireframe.arcs.size());
-    out.index(kMirrorAxis, 3, static_cast<std::uint32_t>(packing.axis));
-    out.number(kMirrorCount, 0, 0, packing.mirror.size());
-    for (const auto& pair : packing.mirror)
-      for (const HalfArc h : pair) out.index(kMirrorArc, halves, static_cast<std::uint32_t>(h));
-  });
+  return ranged([&](auto& out) { writeWireframe(out, wireframe, {packing.axis, packing.mirror}); });
 }
 
 std::string targetNames(const std::vector<Target>& targets) {
@@ -106,7 +99,8 @@ std::string writePoses(Poses& poses, const Packing& packing, const Lattice& latt
                        const Likenesses& likenesses, Index first, Index end) {
   RangeEncoder coder;
   Symbols<RangeEncoder> out(coder);
-  CoefficientCoder<RangeEncoder> vectors(lattice.hierarchy(), coder, lattice.axis());
+  CoefficientCoder<RangeEncoder> vectors(lattice.hierarchy(), coder, lattice.axis(),
+                                         first == 0 ? kNeutralMemory : kTargetMemory);
   for (Index pose = first; pose < end; ++pose) {
     Packing::Pose form = packing.poses[pose];
     codePose(out, form, pose);

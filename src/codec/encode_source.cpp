@@ -96,12 +96,15 @@ void writeSource(Writer& out, const Rig& rig, int textureBits) {
     return quads <= within(kMostQuads, kQuadsAByte, kQuadsAnyway, bytes.size());
   };
   std::string order, polygonBytes;
+  std::vector<Index> images;
   bool byGrid = quads <= kMostQuads, ownOrder = !source.gridVertex.empty();
   if (byGrid) {
-    const LevelOne grid(rig.surface);
+    const LevelOne grid(rig.surface, spreadMirror(rig.surface.wireframe(),
+                                                  rig.surface.connectivity(), rig.packing.mirror));
     order = ranged([&](auto& symbols) { writeOrder(symbols, grid, source); });
     polygonBytes = ranged([&](auto& symbols) { writeFaces(symbols, grid, source); });
     byGrid = trusted(order) && trusted(polygonBytes);
+    if (byGrid && hasFaces(faces)) images = cornerImages(grid.mirror(), source);
     if (byGrid && hasFaces(faces) && countsUp(grid, source)) ownOrder = false;
   }
   if (ownOrder)
@@ -112,7 +115,7 @@ void writeSource(Writer& out, const Rig& rig, int textureBits) {
   if (!faces.texcoords.empty() || !faces.cornerTexcoords.empty()) {
     if (textureBits > 0)
       writeChunk(out, "text",
-                 ranged([&](auto& symbols) { writeTexture(symbols, faces, textureBits); }));
+                 ranged([&](auto& symbols) { writeTexture(symbols, faces, images, textureBits); }));
     else
       writeChunk(out, "texc", texcoords(faces));
   }

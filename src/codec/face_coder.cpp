@@ -36,7 +36,8 @@ class FaceCoder {
         faces_(source.polygons),
         places_(source.gridVertex, static_cast<std::size_t>(grid.vertexCount())),
         most_(most),
-        walk_(symbols, grid.quadNeighbours()) {}
+        walk_(symbols, grid.quadNeighbours(), grid.mirror().quad),
+        firstCorner_(grid.quads().size(), -1) {}
 
   void run() {
     if constexpr (kWrites<Coder>) {
@@ -126,10 +127,12 @@ class FaceCoder {
     std::uint32_t turn = 0, &last = turn_[ring.size - 3];
     if constexpr (kWrites<Coder>)
       while (source_.quadCorners[4 * q + ring.at[turn]] != first) ++turn;
-    const std::uint32_t half = s_.bit(kRotation, last + 8 * (4 - ring.size), 0, turn >> 1);
-    turn = 2 * half + s_.bit(kRotation, 4 + last + 8 * (4 - ring.size), half, turn & 1);
+    const std::uint32_t context = last + 8 * (4 - ring.size) + 16 * mirroredCorner(q);
+    const std::uint32_t half = s_.bit(kRotation, context, 0, turn >> 1);
+    turn = 2 * half + s_.bit(kRotation, 4 + context, half, turn & 1);
     if (turn >= ring.size) return s_.refuse("a triangle has no fourth corner");
     last = turn;
+    firstCorner_[q] = static_cast<Index>(ring.at[turn]);
     for (std::uint32_t k = 0; k < ring.size; ++k) {
       const std::uint32_t at = ring.at[(turn + k) % ring.size];
       const Index place = grid_.quads()[q][at];
@@ -151,6 +154,14 @@ class FaceCoder {
     }
     if constexpr (!kWrites<Coder>)
       faces_.faceStart.push_back(static_cast<Index>(faces_.corners.size()));
+  }
+
+  // What mirrors the first corner of the face around the image of a quad, from 1 on; 0: not known.
+  std::uint32_t mirroredCorner(Index quad) const {
+    const GridMirror& mirror = grid_.mirror();
+    const Index image = mirror.quad[quad];
+    if (image < 0 || firstCorner_[image] < 0) return 0;
+    return 1 + static_cast<std::uint32_t>((mirror.turn[quad] - firstCorner_[image]) & 3);
   }
 
   void codeOddFace(Index f, Index first) {
@@ -232,7 +243,8 @@ class FaceCoder {
   Groups places_;  // the source's vertices at each vertex of the grid
   std::size_t most_, total_ = 0;
   Walk<Coder> walk_;
-  std::vector<Index> plainQuad_;  // [faces] of a writer
+  std::vector<Index> plainQuad_;    // [faces] of a writer
+  std::vector<Index> firstCorner_;  // [quads] of the face around it, once it was told
   bool wasPlain_ = true;
   std::array<std::uint32_t, 2> turn_{};  // of the last triangle and quad
   Index last_ = 0;

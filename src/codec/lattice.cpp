@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "codec/kriging.hpp"
+#include "codec/limits.hpp"
 #include "codec/two.hpp"
 
 namespace sweepface::codec {
@@ -200,6 +201,7 @@ Packing sound(const Rig& rig) {
   if (!(packing.neutralStep > 0) || !(packing.targetStep > 0))
     packing.neutralStep = packing.targetStep = 0;
   packing.axis = std::clamp(packing.axis, 0, 2);
+  if (packing.mirror.size() > kMostMirrorPairs) packing.mirror.resize(kMostMirrorPairs);
   if (packing.rest.size() != rig.neutral.size()) packing.rest.clear();
   packing.poses.resize(rig.targets.size() + 1);
   for (Index pose = 0; pose < static_cast<Index>(packing.poses.size()); ++pose) {

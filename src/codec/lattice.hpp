@@ -15,10 +15,12 @@ Sparse movedIn(const Coefficients& coefficients);
 /// those that move the surface further, beyond what the hierarchy predicts.
 class Lattice {
  public:
-  explicit Lattice(const Surface& surface, const Packing& packing)
-      : hierarchy_(surface,
-                   spreadMirror(surface.wireframe(), surface.connectivity(), packing.mirror),
-                   packing.neutralStep > 0),
+  Lattice(const Surface& surface, const Packing& packing)
+      : Lattice(surface, packing,
+                spreadMirror(surface.wireframe(), surface.connectivity(), packing.mirror)) {}
+  /// With what the packing's pairs spread to.
+  Lattice(const Surface& surface, const Packing& packing, const Mirror& mirror)
+      : hierarchy_(surface, mirror, packing.neutralStep > 0),
         mirrors_(mirrorsOf(hierarchy_)),
         axis_(packing.axis) {}
 

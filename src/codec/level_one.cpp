@@ -62,7 +62,7 @@ class Numbering {
 
 }  // namespace
 
-LevelOne::LevelOne(const Surface& surface) {
+LevelOne::LevelOne(const Surface& surface, const Mirror& mirror) {
   const Numbering numbering(surface);
   vertices_ = numbering.count();
   std::size_t quads = 0;
@@ -79,6 +79,7 @@ LevelOne::LevelOne(const Surface& surface) {
         quads_.push_back({at[0], at[1], at[m + 2], at[m + 1]});
       }
   }
+  mirror_ = mirrorGrid(surface, quads_, vertices_, mirror);
 }
 
 Groups LevelOne::corners() const {

@@ -6,6 +6,7 @@
 
 #include "sweepface/surface.hpp"
 
+#include "codec/grid_mirror.hpp"
 #include "surface/groups.hpp"
 
 namespace sweepface::codec {
@@ -26,11 +27,13 @@ struct Neighbours {
 /// that are not collapsed, then those of patches in rows of constant v: as in Tessellation.
 class LevelOne {
  public:
-  explicit LevelOne(const Surface& surface);
+  LevelOne(const Surface& surface, const Mirror& mirror);
 
   Index vertexCount() const { return vertices_; }
   /// Patch by patch in rows of constant v, counter-clockwise from (i, j).
   const std::vector<std::array<Index, 4>>& quads() const { return quads_; }
+
+  const GridMirror& mirror() const { return mirror_; }
 
   /// Vertices that share an edge with each, and quads that share one with each side of each: a
   /// quad's by its sides, counter-clockwise, -1 at the boundary.
@@ -43,6 +46,7 @@ class LevelOne {
 
   Index vertices_ = 0;
   std::vector<std::array<Index, 4>> quads_;
+  GridMirror mirror_;
 };
 
 }  // namespace sweepface::codec

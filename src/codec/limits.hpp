@@ -12,6 +12,9 @@ inline constexpr std::size_t kMostVectors = std::size_t{1} << 25, kVectorsAByte 
 inline constexpr std::size_t kMostPatches = std::size_t{1} << 19, kPatchesAByte = 64,
                              kPatchesAnyway = 4096;
 
+/// Pairs of half-arcs from which a mirror image spreads: one for each part that has two sides.
+inline constexpr std::size_t kMostMirrorPairs = 64;
+
 /// Quads of the grid at level 1 that the source's order and faces may be told by.
 inline constexpr std::size_t kMostQuads = std::size_t{1} << 22, kQuadsAByte = 1024,
                              kQuadsAnyway = 65536;

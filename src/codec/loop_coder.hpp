@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <optional>
+#include <span>
 #include <vector>
 
 #include "sweepface/surface.hpp"
 
+#include "codec/mirror_spreader.hpp"
 #include "codec/symbols.hpp"
 
 namespace sweepface::codec {
@@ -30,26 +31,42 @@ enum LoopTag : std::uint32_t {
   kOldNodeIndex = 18,
   kNewNode = 19,
   kNewNodeIndex = 20,
-  kBorder = 36
+  kBorder = 36,
+  kMirrored = 39,
+  kWaiting = 56
 };
 
 /// The loops of the patches, one after the other, each glued to those told before it
-/// (docs/file-format.md, GRID). Numbers nodes and arcs as they come.
+/// (docs/file-format.md, GRID). Numbers nodes and arcs as they come. Where the mirror image of a
+/// patch was told before, it tells what to expect.
 template <typename Coder>
 class LoopCoder {
  public:
-  LoopCoder(Symbols<Coder>& symbols, Wireframe& w, const Wireframe* whole)
-      : s_(symbols), w_(w), whole_(whole) {}
-
-  void run(std::size_t nodes, std::size_t arcs, std::size_t patches) {
-    nodeKnown_.assign(nodes, 0);
-    arms_.resize(nodes);
-    nextArm_.assign(2 * arcs, -1);
+  /// `seeds` are pairs of half-arcs from which the mirror image spreads.
+  LoopCoder(Symbols<Coder>& symbols, Wireframe& w, const Wireframe* whole,
+            std::span<const std::array<HalfArc, 2>> seeds, std::size_t nodes, std::size_t arcs)
+      : s_(symbols),
+        w_(w),
+        whole_(whole),
+        seeds_(seeds),
+        nodeKnown_(nodes, 0),
+        arcKnown_(arcs, 0),
+        taken_(2 * arcs, 0),
+        straight_(nodes, 0),
+        corners_(nodes, 0),
+        arms_(nodes),
+        nextArm_(2 * arcs, -1),
+        next_(2 * arcs, -1),
+        prev_(2 * arcs, -1),
+        cornerAt_(2 * arcs, -1),
+        nodeImage_(nodes, -1),
+        mirror_(w, {next_, prev_, cornerAt_}) {
     w_.nodes.resize(nodes);
     w_.arcs.resize(arcs);
-    arcKnown_.assign(arcs, 0);
-    taken_.assign(2 * arcs, 0);
-    straight_.assign(nodes, 0);
+  }
+
+  void run(std::size_t patches) {
+    const std::size_t nodes = w_.nodes.size(), arcs = w_.arcs.size();
     for (Index p = 0; p < static_cast<Index>(patches) && s_.ok(); ++p) codePatch(p);
     if (s_.ok() &&
         (unusedNode() < static_cast<Index>(nodes) || unusedArc() < static_cast<Index>(arcs)))
@@ -114,7 +131,7 @@ class LoopCoder {
       while (head_ < queue_.size() && !isOpen(queue_[head_])) ++head_;
       if (head_ >= queue_.size()) return;
       const HalfArc h = queue_[head_];
-      if (!s_.bit(kBorder, degree(w_.start(h)), degree(w_.end(h)),
+      if (!s_.bit(kBorder, degree(w_.start(h)) + 16 * borderHint(h), degree(w_.end(h)),
                   kWrites<Coder> && bordersNothing(h)))
         return;
       taken_[h] = 1;
@@ -152,7 +169,55 @@ class LoopCoder {
       if (!taken_[twin(piece.h)]) queue_.push_back(twin(piece.h));
     for (std::size_t k = 1; k < loop.size(); ++k)
       if (loop[k].side == loop[k - 1].side) straight_[w_.start(loop[k].h)] = 1;
+    findImages(p, loop);
   }
+
+  // Pairs what a new loop adds with what it mirrors.
+  void findImages(Index patch, const std::vector<Piece>& loop) {
+    const std::size_t size = loop.size();
+    for (std::size_t k = 0; k < size; ++k) {
+      const Piece &before = loop[(k + size - 1) % size], &piece = loop[k];
+      next_[before.h] = piece.h;
+      prev_[piece.h] = before.h;
+      if (k == 0 || piece.side != before.side) {
+        cornerAt_[piece.h] = 4 * patch + piece.side;
+        ++corners_[w_.start(piece.h)];
+      }
+    }
+    for (const auto& [h, g] : seeds_) spread(h, g);
+    for (const Piece& piece : loop)
+      if (const HalfArc beside = mirror_.bound(twin(piece.h)); beside >= 0)
+        spread(piece.h, twin(beside));
+  }
+  void spread(HalfArc h, HalfArc g) {
+    for (const HalfArc here : mirror_.spread(h, g))
+      for (const HalfArc a : {here, mirror_.bound(here)}) {
+        const HalfArc b = mirror_.bound(a);
+        nodeImage_[w_.start(a)] = w_.end(b);
+        nodeImage_[w_.end(a)] = w_.start(b);
+      }
+  }
+
+  // What mirrors an open half-arc, if it bounds a patch that was told; else -1.
+  HalfArc imageOf(HalfArc open) const {
+    const HalfArc beside = mirror_.bound(twin(open));
+    return beside >= 0 && next_[twin(beside)] >= 0 ? twin(beside) : -1;
+  }
+
+  // Contexts: 0 where no image tells anything.
+  std::uint32_t borderHint(HalfArc open) const {
+    const HalfArc beside = mirror_.bound(twin(open));
+    if (beside < 0) return 0;
+    return next_[twin(beside)] >= 0 ? 1 : taken_[twin(beside)] ? 2 : 3;
+  }
+  std::uint32_t takeHint(HalfArc candidate) const {
+    if (image_ < 0) return 0;
+    const HalfArc beside = mirror_.bound(twin(image_));
+    return beside < 0 ? 1 : twin(beside) == candidate ? 2 : 3;
+  }
+  std::uint32_t hint(bool expected) const { return image_ < 0 ? 0 : 1 + expected; }
+  // The node at which the current half-arc should end.
+  Index nodeExpected() const { return image_ < 0 ? -1 : nodeImage_[w_.start(image_)]; }
 
   void codeLoop(const std::vector<Piece>& told, std::vector<Piece>& loop) {
     std::array<std::int64_t, 4> length{};
@@ -163,8 +228,10 @@ class LoopCoder {
       const bool lastTold = kWrites<Coder> && k + 1 == told.size();
       const bool corner = kWrites<Coder> && (lastTold || told[k + 1].side != told[k].side);
       const Asked asked{askedFor(k), corner};
+      image_ = k == 0 || image_ < 0 ? -1 : prev_[image_];
       const bool wasKnown = k == 0 ? codeFirst(asked.h) : codeNext(asked.h);
       if (!s_.ok()) return;
+      if (const HalfArc image = wasKnown ? imageOf(current_) : -1; image >= 0) image_ = image;
       if (k == 0) start_ = wasKnown ? w_.start(current_) : startOfNew_;
       const bool ends = wasKnown ? endOld(asked, side, length) : endNew(asked, side, length);
       if (!s_.ok()) return;
@@ -194,7 +261,9 @@ class LoopCoder {
       std::uint32_t rank = 0;
       if constexpr (kWrites<Coder>)
         for (std::size_t at = head_; queue_[at] != h; ++at) rank += isOpen(queue_[at]);
-      rank = s_.number(kRank, 0, 0, rank);
+      const HalfArc first = queue_[head_], image = imageOf(first);
+      rank = s_.number(kRank, image < 0 ? 0 : 1 + (cornerAt_[next_[image]] >= 0),
+                       around(w_.start(first)), rank);
       std::size_t at = head_;
       for (; at < queue_.size(); ++at)
         if (isOpen(queue_[at]) && rank-- == 0) break;
@@ -213,7 +282,8 @@ class LoopCoder {
   bool codeNext(HalfArc h) {
     const Index node = end_;
     const HalfArc candidate = openFrom(node);
-    if (candidate >= 0 && s_.bit(kTake, openCount(node), degree(node), h == candidate)) {
+    if (candidate >= 0 &&
+        s_.bit(kTake, openCount(node) + 4 * takeHint(candidate), degree(node), h == candidate)) {
       current_ = candidate;
       return true;
     }
@@ -248,6 +318,9 @@ class LoopCoder {
   std::uint32_t degree(Index node) const {
     return std::min(arms_[node].count, 6u) + (straight_[node] ? 8 : 0);
   }
+  std::uint32_t around(Index node) const {
+    return degree(node) + 16 * static_cast<std::uint32_t>(std::min(corners_[node], 7));
+  }
   std::uint32_t openCount(Index node) const {
     std::uint32_t open = 0;
     for (HalfArc h = firstArm(node); h >= 0; h = nextArm_[h]) open += isOpen(h);
@@ -258,7 +331,8 @@ class LoopCoder {
   // ones tell.
   bool codeCorner(const Asked& asked, int side, const std::array<std::int64_t, 4>& length,
                   std::uint32_t context, std::uint32_t more) {
-    if (side < 2) return s_.bit(kCorner, context, more, asked.corner);
+    const bool expected = image_ >= 0 && cornerAt_[image_] >= 0;
+    if (side < 2) return s_.bit(kCorner, context + 32 * hint(expected), more, asked.corner);
     if (length[side] > length[side - 2])
       s_.refuse("a patch has opposite sides of different length");
     return length[side] == length[side - 2];
@@ -275,7 +349,8 @@ class LoopCoder {
     const Arc* known = kWrites<Coder> ? &whole_->arcs[id] : nullptr;
     Arc arc;
     arc.edges = codeLength(known ? known->edges : 0, side, length);
-    arc.collapsed = s_.bit(kCollapsed, 0, 0, known && known->collapsed);
+    const bool expected = image_ >= 0 && w_.arcs[arcOf(image_)].collapsed;
+    arc.collapsed = s_.bit(kCollapsed, hint(expected), 0, known && known->collapsed);
     length[side] += arc.edges;
     const bool corner = codeCorner(asked, side, length, 0, side);
     if (!s_.ok()) return false;
@@ -302,12 +377,16 @@ class LoopCoder {
   Index codeLength(Index edges, int side, const std::array<std::int64_t, 4>& length) {
     constexpr Index kLongest = 65535;
     const std::int64_t remaining = side < 2 ? 0 : length[side - 2] - length[side];
-    if (side >= 2 &&
-        s_.bit(kRemaining, static_cast<std::uint32_t>(std::min<std::int64_t>(remaining, 9)), side,
-               edges == remaining))
+    const std::int64_t image = image_ < 0 ? 0 : w_.arcs[arcOf(image_)].edges;
+    if (side >= 2 && s_.bit(kRemaining,
+                            static_cast<std::uint32_t>(std::min<std::int64_t>(remaining, 9)) +
+                                16 * hint(image == remaining),
+                            side, edges == remaining))
       return checkedLength(remaining, kLongest);
     const auto context =
-        static_cast<std::uint32_t>(side == 0 ? 0 : 1 + std::min<std::int64_t>(length[side - 1], 8));
+        static_cast<std::uint32_t>(image > 0   ? 16 + std::min<std::int64_t>(image, 15)
+                                   : side == 0 ? 0
+                                               : 1 + std::min<std::int64_t>(length[side - 1], 8));
     return checkedLength(
         1 + std::int64_t{s_.number(kLength, context, side,
                                    static_cast<std::uint64_t>(std::max(0, edges - 1)))},
@@ -321,12 +400,18 @@ class LoopCoder {
 
   // The end of a new arc: a node that is `rest` before the start, any other old one, or a new one.
   Index codeNode(Index node, std::int64_t rest, int side) {
-    const Index candidate = nodeBefore(rest);
-    if (candidate >= 0 && s_.bit(kMeets, side, 0, node == candidate)) return candidate;
+    const Index candidate = nodeBefore(rest), mirrored = nodeExpected();
+    const std::uint32_t meets = mirrored < 0 ? 0 : mirrored == candidate ? 1 : 2;
+    if (candidate >= 0 && s_.bit(kMeets, side + 4 * (image_ < 0 ? 0 : 1 + meets), around(candidate),
+                                 node == candidate))
+      return candidate;
     const bool known = kWrites<Coder> && nodeKnown_[node];
     const auto nodes = static_cast<std::uint32_t>(nodeKnown_.size());
-    if (s_.bit(kOldNode, side, candidate >= 0, known)) {
-      const auto found = static_cast<Index>(s_.index(kOldNodeIndex, nodes, node));
+    if (s_.bit(kOldNode, side + 4 * hint(mirrored >= 0), candidate >= 0, known)) {
+      if (mirrored >= 0 && s_.bit(kMirrored, 0, 0, node == mirrored)) return mirrored;
+      const Index waiting = codeWaiting(node);
+      const Index found =
+          waiting >= 0 ? waiting : static_cast<Index>(s_.index(kOldNodeIndex, nodes, node));
       if (s_.ok() && !nodeKnown_[found]) s_.refuse("an arc ends at a node that does not exist");
       return found;
     }
@@ -341,6 +426,26 @@ class LoopCoder {
     if (nodeKnown_[fresh]) s_.refuse("a node comes twice");
     nodeKnown_[fresh] = 1;
     return fresh;
+  }
+
+  // A node from which an open half-arc leaves, by how many have waited longer; -1 if there is none.
+  Index codeWaiting(Index node) {
+    const auto waiting = [&](const auto& isIt) {
+      std::uint32_t place = 0;
+      for (std::size_t at = head_; at < queue_.size(); ++at)
+        if (isOpen(queue_[at]) && isIt(++place, w_.start(queue_[at]))) return place;
+      return std::uint32_t{0};
+    };
+    std::uint32_t told = 0;
+    if constexpr (kWrites<Coder>) told = waiting([&](auto, Index start) { return start == node; });
+    told = s_.number(kWaiting, 0, 0, told);
+    Index found = -1;
+    if (told > 0 && waiting([&](std::uint32_t place, Index start) {
+                      found = start;
+                      return place == told;
+                    }) == 0)
+      s_.refuse("an arc ends at a node that does not exist");
+    return found;
   }
 
   // Back along what is open from the start of the loop.
@@ -363,10 +468,17 @@ class LoopCoder {
   Symbols<Coder>& s_;
   Wireframe& w_;
   const Wireframe* whole_;
+  std::span<const std::array<HalfArc, 2>> seeds_;
   std::vector<char> nodeKnown_, arcKnown_, taken_, straight_;
-  std::vector<Arms> arms_;          // [nodes]
-  std::vector<HalfArc> nextArm_;    // [half-arcs]
-  std::vector<Piece> told_, loop_;  // of the patch that is being coded
+  std::vector<int> corners_;          // [nodes] of patches that were told
+  std::vector<Arms> arms_;            // [nodes]
+  std::vector<HalfArc> nextArm_;      // [half-arcs]
+  std::vector<Piece> told_, loop_;    // of the patch that is being coded
+  std::vector<HalfArc> next_, prev_;  // [half-arcs] in loops that were told, else -1
+  std::vector<Index> cornerAt_;       // [half-arcs]
+  std::vector<Index> nodeImage_;      // [nodes] or -1
+  MirrorSpreader mirror_;
+  HalfArc image_ = -1;  // mirrors the half-arc at hand, in a loop that was told
   std::vector<HalfArc> queue_;
   std::size_t head_ = 0;
   Index nextNode_ = 0, nextArc_ = 0;

@@ -4,66 +4,14 @@
 #include <cmath>
 #include <map>
 
+#include "codec/limits.hpp"
+#include "codec/mirror_spreader.hpp"
+
 namespace sweepface::codec {
 
 namespace {
 
-class MirrorSpreader {
- public:
-  MirrorSpreader(const Wireframe& w, const Connectivity& c)
-      : w_(w), c_(c), bound_(2 * w.arcs.size(), -1) {}
-
-  /// Pairs two half-arcs and all that follows; the number of half-arcs that have an image now and
-  /// had none before.
-  std::size_t spread(HalfArc h, HalfArc g) {
-    queue_.clear();
-    pair(h, g);
-    for (std::size_t k = 0; k < queue_.size(); ++k) {
-      const HalfArc here = queue_[k], there = bound_[here];
-      pair(c_.next[here], c_.prev[there]);
-      pair(c_.prev[here], c_.next[there]);
-      pair(twin(here), twin(there));
-    }
-    return queue_.size();
-  }
-  void undo() {
-    for (const HalfArc h : queue_) {
-      bound_[bound_[h]] = -1;
-      bound_[h] = -1;
-    }
-  }
-  bool isBound(HalfArc h) const { return bound_[h] >= 0; }
-
-  Mirror mirror() const {
-    Mirror m;
-    m.halfArc.assign(bound_.size(), -1);
-    m.node.assign(w_.nodes.size(), -1);
-    for (HalfArc h = 0; h < static_cast<HalfArc>(bound_.size()); ++h) {
-      if (bound_[h] < 0) continue;
-      m.halfArc[h] = twin(bound_[h]);
-      m.halfArc[twin(h)] = bound_[h];
-      m.node[w_.start(h)] = w_.end(bound_[h]);
-      m.node[w_.end(h)] = w_.start(bound_[h]);
-    }
-    return m;
-  }
-
- private:
-  void pair(HalfArc h, HalfArc g) {
-    if (c_.patchOf[h] < 0 || c_.patchOf[g] < 0 || bound_[h] >= 0 || bound_[g] >= 0) return;
-    const Arc &a = w_.arcs[arcOf(h)], &b = w_.arcs[arcOf(g)];
-    if (a.edges != b.edges || a.collapsed != b.collapsed) return;
-    if ((c_.cornerAt[h] >= 0) != (c_.cornerAt[c_.next[g]] >= 0)) return;
-    bound_[h] = g;
-    bound_[g] = h;
-    queue_.push_back(h);
-  }
-
-  const Wireframe& w_;
-  const Connectivity& c_;
-  std::vector<HalfArc> bound_;  // [half-arcs] the one that bounds the image patch there
-  std::vector<HalfArc> queue_;
-};
+Loops loopsOf(const Connectivity& c) { return {c.next, c.prev, c.cornerAt}; }
 
 double coordinate(const Vec3& p, int axis) { return axis == 0 ? p.x : axis == 1 ? p.y : p.z; }
 
@@ -103,11 +51,22 @@ std::vector<Index> imagesAcross(const std::vector<Vec3>& positions, int axis, do
 
 Mirror spreadMirror(const Wireframe& w, const Connectivity& c,
                     std::span<const std::array<HalfArc, 2>> seeds) {
-  MirrorSpreader spreader(w, c);
+  MirrorSpreader spreader(w, loopsOf(c));
   const auto halves = static_cast<HalfArc>(2 * w.arcs.size());
   for (const auto& [h, g] : seeds)
     if (h >= 0 && g >= 0 && h < halves && g < halves) spreader.spread(h, g);
-  return spreader.mirror();
+  Mirror mirror;
+  mirror.halfArc.assign(2 * w.arcs.size(), -1);
+  mirror.node.assign(w.nodes.size(), -1);
+  for (HalfArc h = 0; h < halves; ++h) {
+    const HalfArc g = spreader.bound(h);
+    if (g < 0) continue;
+    mirror.halfArc[h] = twin(g);
+    mirror.halfArc[twin(h)] = g;
+    mirror.node[w.start(h)] = w.end(g);
+    mirror.node[w.end(h)] = w.start(g);
+  }
+  return mirror;
 }
 
 MirrorSeeds findMirror(const Surface& surface, std::span<const Vec3> neutral) {
@@ -140,18 +99,22 @@ MirrorSeeds findMirror(const Surface& surface, std::span<const Vec3> neutral) {
   std::map<std::array<Index, 2>, HalfArc> between;
   for (HalfArc h = 0; h < static_cast<HalfArc>(c.patchOf.size()); ++h)
     if (c.patchOf[h] >= 0) between[{w.start(h), w.end(h)}] = h;
-  constexpr std::size_t kMostSeeds = 64, kWorthwhile = 16;  // half-arcs for the bytes of a pair
-  MirrorSpreader spreader(w, c);
+  constexpr std::size_t kWorthwhile = 16;  // half-arcs for the bytes of a pair
+  MirrorSpreader spreader(w, loopsOf(c));
   for (HalfArc h = 0; h < static_cast<HalfArc>(c.patchOf.size()); ++h) {
-    if (c.patchOf[h] < 0 || spreader.isBound(h)) continue;
+    if (c.patchOf[h] < 0 || spreader.bound(h) >= 0) continue;
     const auto image = between.find({best[w.end(h)], best[w.start(h)]});
     if (image == between.end()) continue;
-    if (spreader.spread(h, image->second) < kWorthwhile) {
+    const auto spread = spreader.spread(h, image->second);
+    if (spread.size() < kWorthwhile) {
       spreader.undo();
       continue;
     }
-    seeds.pairs.push_back({h, image->second});
-    if (seeds.pairs.size() == kMostSeeds) break;
+    // From where a reader of the wireframe knows both sides first: arcs are numbered as they come.
+    const auto bothKnown = [&](HalfArc a) { return std::max(a, spreader.bound(a)); };
+    const HalfArc first = *std::ranges::min_element(spread, {}, bothKnown);
+    seeds.pairs.push_back({first, spreader.bound(first)});
+    if (seeds.pairs.size() == kMostMirrorPairs) break;
   }
   return seeds;
 }

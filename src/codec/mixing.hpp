@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -50,8 +51,12 @@ struct Slot {
 template <typename Coder, int kInputs>
 class Model {
  public:
-  Model(Coder& coder, std::size_t slots, std::size_t sets)
-      : coder_(&coder), stretch_(stretchTable().data()), slots_(slots) {
+  /// What came more than `memory` times ago counts less and less.
+  Model(Coder& coder, std::size_t slots, std::size_t sets, std::uint16_t memory = kMostSeen)
+      : coder_(&coder),
+        stretch_(stretchTable().data()),
+        slots_(slots),
+        memory_(std::min(memory, kMostSeen)) {
     weights_.assign(sets * kInputs, (1 << 18) / 3 / (kInputs + 1));
   }
 
@@ -79,7 +84,8 @@ class Model {
 
  private:
   // The more a context has seen, the more it is trusted and the slower it moves.
-  static constexpr int kMostSeen = 30, kRate = 14;
+  static constexpr std::uint16_t kMostSeen = 30;
+  static constexpr int kRate = 14;
   static constexpr std::array<std::int32_t, 64> kTrust = [] {
     std::array<std::int32_t, 64> t{};
     for (int n = 0; n < 64; ++n) t[n] = 16 * n / (n + 1) + (n > 0 ? 4 : 0);
@@ -94,17 +100,18 @@ class Model {
     return t;
   }();
 
-  static void learn(Slot& slot, bool bit) {
+  void learn(Slot& slot, bool bit) const {
     const std::uint32_t way = bit ? 65535u - slot.one : slot.one;
     const auto step =
         static_cast<std::uint32_t>((std::uint64_t{2 * way} * kShare[slot.seen]) >> 32);
     slot.one = static_cast<std::uint16_t>(bit ? slot.one + step : slot.one - step);
-    if (slot.seen < kMostSeen) ++slot.seen;
+    if (slot.seen < memory_) ++slot.seen;
   }
 
   Coder* coder_;
   const std::int16_t* stretch_;
   std::vector<Slot> slots_;
+  std::uint16_t memory_;
   std::vector<std::int32_t> weights_;
 };
 

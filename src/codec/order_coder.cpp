@@ -11,7 +11,7 @@ template <typename Coder>
 void codeOrder(Symbols<Coder>& s, const LevelOne& grid, std::vector<Index>& order, Index loose,
                std::size_t most) {
   order.resize(codeCount(s, 0, order.size(), most));
-  Walk<Coder> walk(s, grid.vertexNeighbours());
+  Walk<Coder> walk(s, grid.vertexNeighbours(), grid.mirror().vertex);
   Index nextLoose = 0, before = 0;
   for (Index& v : order) {
     if (s.bit(kLoose, 0, 0, v < 0)) {

@@ -11,9 +11,6 @@ namespace sweepface::codec {
 
 /// Tags beyond those of the wireframe.
 enum RigTag : std::uint32_t {
-  kMirrorAxis = 40,
-  kMirrorCount = 41,
-  kMirrorArc = 43,
   kFiner = 45,
   kHasImage = 47,
   kOwnImage = 48,

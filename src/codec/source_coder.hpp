@@ -19,8 +19,15 @@ void writeFaces(Symbols<RangeEncoder>& out, const LevelOne& grid, const SourceMe
 void readFaces(Symbols<RangeDecoder>& in, const LevelOne& grid, std::size_t most,
                SourceMesh& source);
 
-/// Texture coordinates in 2^bits steps of the texture's width, and which corner has which.
-void writeTexture(Symbols<RangeEncoder>& out, const Polygons& polygons, int bits);
-void readTexture(Symbols<RangeDecoder>& in, std::size_t most, Polygons& polygons, int& bits);
+/// The corner of a face at the mirror image of each corner [corners], -1 where there is none; empty
+/// where the source does not say which corners are at the quads of the grid.
+std::vector<Index> cornerImages(const GridMirror& mirror, const SourceMesh& source);
+
+/// Texture coordinates in 2^bits steps of the texture's width, and which corner has which. `images`
+/// are those of the corners, or none.
+void writeTexture(Symbols<RangeEncoder>& out, const Polygons& polygons,
+                  std::span<const Index> images, int bits);
+void readTexture(Symbols<RangeDecoder>& in, std::size_t most, Polygons& polygons,
+                 std::span<const Index> images, int& bits);
 
 }  // namespace sweepface::codec

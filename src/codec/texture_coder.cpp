@@ -4,6 +4,7 @@
 #include <cmath>
 #include <initializer_list>
 #include <optional>
+#include <span>
 
 #include "codec/edge_map.hpp"
 #include "codec/faces.hpp"
@@ -29,8 +30,9 @@ constexpr std::int32_t kMostTexture = 1 << 26;
 template <typename Coder>
 class TextureCoder {
  public:
-  TextureCoder(Symbols<Coder>& symbols, Polygons& polygons, std::size_t most, int bits)
-      : s_(symbols), p_(polygons), most_(most), bits_(bits) {}
+  TextureCoder(Symbols<Coder>& symbols, Polygons& polygons, std::span<const Index> images,
+               std::size_t most, int bits)
+      : s_(symbols), p_(polygons), images_(images), most_(most), bits_(bits) {}
 
   int run() {
     bits_ = static_cast<int>(s_.number(kBits, 0, 0, static_cast<std::uint64_t>(bits_)));
@@ -48,7 +50,7 @@ class TextureCoder {
     if (used) codeIndices();
     if (used && s_.ok()) codeByFaces();
     for (std::size_t t = 0; t < count && s_.ok(); ++t)
-      if (!known_[t]) codeValue(static_cast<Index>(t), last_, 3, 0);
+      if (!known_[t]) codeValue(static_cast<Index>(t), {last_, 3, 0});
     if constexpr (!kWrites<Coder>) {
       const double step = std::ldexp(1.0, -bits_);
       for (const auto& [x, y] : whole_) p_.texcoords.push_back({x * step, y * step});
@@ -66,15 +68,23 @@ class TextureCoder {
 
   void codeIndices() {
     p_.cornerTexcoords.resize(p_.corners.size(), -1);
+    asBefore_.assign(p_.corners.size(), 0);
     for (std::size_t c = 0; c < p_.corners.size() && s_.ok(); ++c)
-      p_.cornerTexcoords[c] = codeIndex(p_.corners[c], p_.cornerTexcoords[c]);
+      p_.cornerTexcoords[c] = codeIndex(c, p_.cornerTexcoords[c]);
   }
 
   // The next new one, the one this vertex had last, or any.
-  Index codeIndex(Index vertex, Index t) {
+  Index codeIndex(std::size_t corner, Index t) {
+    const Index vertex = p_.corners[corner];
+    const Index image = images_.empty() ? -1 : images_[corner];
+    const std::uint32_t expected = image < 0 ? 0 : asBefore_[image];
     if (vertex >= static_cast<Index>(ofVertex_.size())) ofVertex_.resize(vertex + 1, -2);
     Index& had = ofVertex_[vertex];
-    if (had >= -1 && s_.bit(kKnown, 0, 0, t == had)) return had;
+    if (had >= -1) {
+      const bool same = s_.bit(kKnown, expected, 0, t == had);
+      asBefore_[corner] = 1 + same;
+      if (same) return had;
+    }
     if (s_.bit(kFresh, had >= -1, 0, t == next_)) {
       t = next_;
     } else {
@@ -121,10 +131,11 @@ class TextureCoder {
     Side from;           // the same side as the face before has it
   };
 
-  Index at(Index face, Index k) const {
+  Index cornerOf(Index face, Index k) const {
     const Index size = p_.faceSize(face);
-    return p_.cornerTexcoords[p_.faceStart[face] + (k % size + size) % size];
+    return p_.faceStart[face] + (k % size + size) % size;
   }
+  Index at(Index face, Index k) const { return p_.cornerTexcoords[cornerOf(face, k)]; }
   bool knows(Index t) const { return t >= 0 && known_[t]; }
 
   // The same side as the face beyond it has it.
@@ -150,12 +161,12 @@ class TextureCoder {
       if (!known_[t]) {
         const Index before = at(f, k - 1);
         if (size == 4 && knows(before) && knows(at(f, k + 1)) && knows(at(f, k + 2)))
-          codeFourth(f, k);
+          codeCorner(f, k, fourth(f, k));
         else if (const Index back = cornerBefore(entry.from);
                  j == 2 && knows(before) && knows(back))
-          codeNext(t, entry.from, before, back);
+          codeCorner(f, k, next(entry.from, before, back));
         else
-          codeValue(t, knows(before) ? whole_[before] : last_, 2, 0);
+          codeCorner(f, k, {knows(before) ? whole_[before] : last_, 2, 0});
       }
       last_ = whole_[t];
     }
@@ -166,9 +177,62 @@ class TextureCoder {
     return side.face < 0 ? -1 : at(side.face, side.corner - 1);
   }
 
+  struct Guess {
+    Whole value{};
+    std::uint32_t how = 0, active = 0;  // contexts
+  };
+
+  // By the mirror image, the way that has been best of late, where that was better than without.
+  void codeCorner(Index f, Index k, const Guess& guess) {
+    const Index t = at(f, k), image = imageAt(f, k);
+    const std::optional<Pair> beside = knows(image) ? knownBeside(f, k) : std::nullopt;
+    if (!beside) return codeValue(t, guess);
+    std::array<Whole, kWays + 1> guesses;
+    for (std::size_t way = 0; way < kWays; ++way) guesses[way] = mirrored(image, *beside, way);
+    guesses[kWays] = guess.value;
+    const auto best = static_cast<std::size_t>(std::ranges::min_element(misses_) - misses_.begin());
+    if (best == kWays)
+      codeValue(t, guess);
+    else
+      codeValue(t, {guesses[best], 4, static_cast<std::uint32_t>(std::bit_width(misses_[best]))});
+    for (std::size_t way = 0; way <= kWays; ++way)  // older ones count less and less
+      misses_[way] += offBy(t, guesses[way]) - (misses_[way] >> 4);
+    if (best < kWays) off_[t] = off_[image];
+  }
+  std::uint32_t offBy(Index t, const Whole& guess) const {
+    std::int64_t sum = 0;
+    for (int a = 0; a < 2; ++a) sum += std::abs(std::int64_t{whole_[t][a]} - guess[a]);
+    return static_cast<std::uint32_t>(std::min<std::int64_t>(sum, 1 << 20));
+  }
+
+  // What is known beside a corner of a face, and its mirror image.
+  struct Pair {
+    Index here, there;
+  };
+  std::optional<Pair> knownBeside(Index f, Index k) const {
+    for (const Index beside : {k - 1, k + 1})
+      if (const Pair pair{at(f, beside), imageAt(f, beside)}; knows(pair.here) && knows(pair.there))
+        return pair;
+    return {};
+  }
+  // The texture coordinates at the mirror image of a corner, or -1.
+  Index imageAt(Index face, Index k) const {
+    const Index image = images_.empty() ? -1 : images_[cornerOf(face, k)];
+    return image < 0 ? -1 : p_.cornerTexcoords[image];
+  }
+  // As far from what is beside as the images are from each other, as islands of a texture lie
+  // anywhere: across its width, as most faces do, or any of the ways a square can be turned.
+  Whole mirrored(Index image, const Pair& beside, std::size_t way) const {
+    Whole step;
+    for (int a = 0; a < 2; ++a) step[a] = whole_[image][a] - whole_[beside.there][a];
+    if (way & 4) std::swap(step[0], step[1]);
+    return {whole_[beside.here][0] + (way & 1 ? step[0] : -step[0]),
+            whole_[beside.here][1] + (way & 2 ? -step[1] : step[1])};
+  }
+
   // The fourth corner of a quad: that of a parallelogram, and as far from it as the quads beyond
   // the known sides are from one.
-  void codeFourth(Index f, Index k) {
+  Guess fourth(Index f, Index k) const {
     const Index after = at(f, k + 1), middle = at(f, k + 2), before = at(f, k + 3);
     Whole guess, bent{};
     std::int32_t quads = 0;
@@ -182,18 +246,18 @@ class TextureCoder {
     for (int a = 0; a < 2; ++a)
       guess[a] = whole_[before][a] + whole_[after][a] - whole_[middle][a] +
                  (quads == 2 ? (bent[a] + 1) >> 1 : bent[a]);
-    codeValue(at(f, k), guess, 0, activity({before, middle, after}));
+    return {guess, 0, activity({before, middle, after})};
   }
 
   // The first corner beyond a side: where a line through two or three corners before it leads.
-  void codeNext(Index t, const Side& from, Index before, Index back) {
+  Guess next(const Side& from, Index before, Index back) const {
     Whole guess;
     for (int a = 0; a < 2; ++a) guess[a] = 2 * whole_[before][a] - whole_[back][a];
     if (p_.faceSize(from.face) == 4)
       if (const auto far = beyond({from.face, from.corner + 2}))
         for (int a = 0; a < 2; ++a)
           guess[a] += whole_[before][a] - 2 * whole_[back][a] + whole_[(*far)[1]][a];
-    codeValue(t, guess, 1, activity({before, back}));
+    return {guess, 1, activity({before, back})};
   }
 
   // How far off the guesses of some were.
@@ -204,12 +268,12 @@ class TextureCoder {
                    std::bit_width(4 * sum / static_cast<std::uint32_t>(known.size())));
   }
 
-  void codeValue(Index t, const Whole& guess, std::uint32_t how, std::uint32_t active) {
+  void codeValue(Index t, const Guess& guess) {
     constexpr std::int64_t kMostOff = 1 << 20;
     for (int a = 0; a < 2; ++a) {
-      const std::int64_t residual = s_.signedNumber(kResidual, how * 2 + a, active,
-                                                    std::int64_t{whole_[t][a]} - guess[a]),
-                         value = guess[a] + residual;
+      const std::int64_t residual = s_.signedNumber(kResidual, guess.how * 2 + a, guess.active,
+                                                    std::int64_t{whole_[t][a]} - guess.value[a]),
+                         value = guess.value[a] + residual;
       if (std::abs(value) > kMostTexture) s_.refuse("a texture coordinate is out of range");
       whole_[t][a] = s_.ok() ? static_cast<std::int32_t>(value) : 0;
       off_[t] += static_cast<std::uint32_t>(std::min(std::abs(residual), kMostOff));
@@ -220,25 +284,45 @@ class TextureCoder {
 
   Symbols<Coder>& s_;
   Polygons& p_;
+  std::span<const Index> images_;  // [corners] or empty
   std::size_t most_;
   int bits_;
   std::vector<Whole> whole_;
   std::vector<char> known_;
   std::vector<std::uint32_t> off_;  // how far off the guess of each was
   std::optional<EdgeMap<Side>> sides_;
-  std::vector<Index> ofVertex_;
+  std::vector<Index> ofVertex_;         // the texture coordinates that each had last, or -2
+  std::vector<std::uint8_t> asBefore_;  // [corners] 1 + whether it has what its vertex had, else 0
   Index next_ = 0;
   Whole last_{};
+  static constexpr std::size_t kWays = 8;
+  std::array<std::uint32_t, kWays + 1> misses_{};  // of the ways to mirror, and without
 };
 
 }  // namespace
 
-void writeTexture(Symbols<RangeEncoder>& out, const Polygons& polygons, int bits) {
-  Polygons copy = polygons;
-  TextureCoder<RangeEncoder>(out, copy, SIZE_MAX, bits).run();
+std::vector<Index> cornerImages(const GridMirror& mirror, const SourceMesh& source) {
+  const auto corners = static_cast<Index>(source.polygons.corners.size());
+  const std::vector<Index>& at = source.quadCorners;
+  if (at.size() != 4 * mirror.quad.size()) return {};
+  const auto exists = [&](Index corner) { return corner >= 0 && corner < corners; };
+  std::vector<Index> images(corners, -1);
+  for (std::size_t q = 0; q < mirror.quad.size(); ++q)
+    for (int k = 0; mirror.quad[q] >= 0 && k < 4; ++k)
+      if (const Index image = at[4 * mirror.quad[q] + ((mirror.turn[q] - k) & 3)];
+          exists(at[4 * q + k]) && exists(image))
+        images[at[4 * q + k]] = image;
+  return images;
 }
-void readTexture(Symbols<RangeDecoder>& in, std::size_t most, Polygons& polygons, int& bits) {
-  bits = TextureCoder<RangeDecoder>(in, polygons, most, 0).run();
+
+void writeTexture(Symbols<RangeEncoder>& out, const Polygons& polygons,
+                  std::span<const Index> images, int bits) {
+  Polygons copy = polygons;
+  TextureCoder<RangeEncoder>(out, copy, images, SIZE_MAX, bits).run();
+}
+void readTexture(Symbols<RangeDecoder>& in, std::size_t most, Polygons& polygons,
+                 std::span<const Index> images, int& bits) {
+  bits = TextureCoder<RangeDecoder>(in, polygons, images, most, 0).run();
 }
 
 }  // namespace sweepface::codec

@@ -15,24 +15,35 @@ namespace sweepface::codec {
 
 // What the coders of the source's parts share. Their tags are one list, since the parts were coded
 // by one model once: numbers stay what they are.
-enum SharedTag : std::uint32_t { kCount = 0, kNear = 3, kSteps = 4, kFar = 6, kNext = 38 };
+enum SharedTag : std::uint32_t {
+  kCount = 0,
+  kNear = 3,
+  kSteps = 4,
+  kFar = 6,
+  kNext = 38,
+  kMirrored = 40
+};
 
 /// Items that are visited one after the other, most of them beside one that was visited not long
 /// ago: told by their place among the neighbours of those, the latest first and there straight on
-/// first.
+/// first. Before that comes what mirrors the way that was gone from the mirror image of the last.
 template <typename Coder>
 class Walk {
  public:
-  Walk(Symbols<Coder>& symbols, Neighbours neighbours)
-      : s_(symbols), neighbours_(std::move(neighbours)), visited_(neighbours_.items(), 0) {}
+  /// `images` [items] are kept by the caller.
+  Walk(Symbols<Coder>& symbols, Neighbours neighbours, std::span<const Index> images)
+      : s_(symbols),
+        neighbours_(std::move(neighbours)),
+        images_(images),
+        visited_(neighbours_.items(), 0),
+        after_(neighbours_.items(), -1) {}
 
   Index next(Index item) {
+    const Step follow{kNext, kFollows, following()}, mirror{kMirrored, kMirrors, mirrored()};
+    for (const Step& step :
+         last_ == kFollows ? std::array{follow, mirror} : std::array{mirror, follow})
+      if (isTaken(step, item)) return visit(step.to);
     Index found = -1;
-    const bool follows = far_ < static_cast<Index>(neighbours_.items()) && !visited_[far_];
-    if (follows && s_.bit(kNext, last_ == kFollows, 0, kWrites<Coder> && item == far_)) {
-      last_ = kFollows;
-      return visit(far_);
-    }
     const bool near = !trail_.empty() && s_.bit(kNear, last_, 0, kWrites<Coder> && isNear(item));
     if (near) {
       const std::uint32_t place =
@@ -58,9 +69,28 @@ class Walk {
 
  private:
   static constexpr std::size_t kTrail = 64;
-  static constexpr std::uint32_t kFollows = 16;  // as a last step: to the next in number
+  // Last steps that are no places: to the next in number, or as the mirror image went.
+  static constexpr std::uint32_t kFollows = 16, kMirrors = 17;
+
+  struct Step {
+    SharedTag tag;
+    std::uint32_t kind;
+    Index to;
+  };
+  bool isTaken(const Step& step, Index item) {
+    if (step.to < 0 || visited_[step.to]) return false;
+    if (!s_.bit(step.tag, last_ == step.kind, 0, kWrites<Coder> && item == step.to)) return false;
+    last_ = step.kind;
+    return true;
+  }
+  Index following() const { return far_ < static_cast<Index>(neighbours_.items()) ? far_ : -1; }
+  Index mirrored() const {
+    const Index image = trail_.empty() ? -1 : images_[trail_.back()];
+    return image < 0 || after_[image] < 0 ? -1 : images_[after_[image]];
+  }
 
   Index visit(Index item) {
+    if (!trail_.empty()) after_[trail_.back()] = item;
     far_ = item + 1;
     visited_[item] = 1;
     trail_.push_back(item);
@@ -113,7 +143,9 @@ class Walk {
 
   Symbols<Coder>& s_;
   Neighbours neighbours_;
+  std::span<const Index> images_;
   std::vector<char> visited_;
+  std::vector<Index> after_;  // [items] the one visited next
   std::vector<Index> trail_;
   std::uint32_t last_ = 15;
   Index far_ = 0;

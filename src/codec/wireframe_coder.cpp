@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 
+#include "codec/limits.hpp"
 #include "codec/loop_coder.hpp"
 #include "codec/wireframe_rules.hpp"
 
@@ -26,7 +27,10 @@ enum Tag : std::uint32_t {
   kShapeLength = 33,
   kShapeRaw = 35,
   kHasCreases = 37,
-  kCrease = 38
+  kCrease = 38,
+  kMirrorAxis = 40,
+  kMirrorCount = 41,
+  kMirrorArc = 43
 };
 
 // Turns the loop of a patch so that the side `base` comes first.
@@ -47,16 +51,18 @@ void turn(Wireframe& w, Index patch, int base, std::vector<HalfArc>& loop) {
 template <typename Coder>
 class WireframeCoder {
  public:
-  WireframeCoder(Symbols<Coder>& symbols, const Wireframe* whole, Connectivity& connectivity)
-      : s_(symbols), whole_(whole), connectivity_(connectivity) {}
+  WireframeCoder(Symbols<Coder>& symbols, const Wireframe* whole, MirrorSeeds given)
+      : seeds(std::move(given)), s_(symbols), whole_(whole) {}
 
   Wireframe run(std::size_t most, std::int64_t mostQuads) {
     const std::size_t nodes = count(whole_ ? whole_->nodes.size() : 0, most),
                       arcs = count(whole_ ? whole_->arcs.size() : 0, most),
                       patches = count(whole_ ? whole_->patches.size() : 0, most);
     if (!s_.ok()) return {};
-    LoopCoder<Coder> loops(s_, w_, whole_);
-    loops.run(nodes, arcs, patches);
+    codeMirror(static_cast<std::uint32_t>(2 * arcs));
+    if (!s_.ok()) return {};
+    LoopCoder<Coder> loops(s_, w_, whole_, seeds.pairs, nodes, arcs);
+    loops.run(patches);
     if (!s_.ok() || !isSmallEnough(mostQuads)) return {};
     codeTurns(loops.bases);
     codePoints();
@@ -67,11 +73,26 @@ class WireframeCoder {
     return std::move(w_);
   }
 
+  MirrorSeeds seeds;
+  // Of what was coded: no shape or mask changes them.
+  Connectivity connectivity;
+  Mirror mirror;
+
  private:
   std::size_t count(std::size_t value, std::size_t most) {
     const std::size_t n = s_.number(kCounts, 0, 0, value);
     if (n > most) s_.refuse("the wireframe is larger than its bytes or the memory allow");
     return n;
+  }
+
+  void codeMirror(std::uint32_t halves) {
+    seeds.axis = static_cast<int>(s_.index(kMirrorAxis, 3, static_cast<std::uint32_t>(seeds.axis)));
+    const std::uint32_t pairs = s_.number(kMirrorCount, 0, 0, seeds.pairs.size());
+    if (pairs > kMostMirrorPairs) return s_.refuse("the mirror image begins in too many places");
+    seeds.pairs.resize(pairs);
+    for (auto& pair : seeds.pairs)
+      for (HalfArc& h : pair)
+        h = static_cast<HalfArc>(s_.index(kMirrorArc, halves, static_cast<std::uint32_t>(h)));
   }
 
   bool isSmallEnough(std::int64_t mostQuads) {
@@ -155,21 +176,40 @@ class WireframeCoder {
       w_.arcs[a].crease = last = s_.bit(kCrease, last, 0, whole_ && whole_->arcs[a].crease);
   }
 
+  // What the mirror image of a node stores, in the frame of the node; 0 where that is not known
+  // yet.
+  JetMask imageMask(const Connectivity& c, Index node) const {
+    const Index image = mirror.node[node];
+    if (image < 0 || image >= node || c.stars[node].arms.empty()) return 0;
+    const auto& arms = c.stars[image].arms;
+    const auto x = std::ranges::find(arms, mirror.halfArc[c.stars[node].arms[0]]) - arms.begin();
+    const JetMask mask = w_.nodes[image].stored;
+    if (x % 2 == 0) return mask;
+    JetMask turned = 0;
+    for (int k = 0; k < 9; ++k)
+      if (mask >> k & 1) turned = static_cast<JetMask>(turned | 1 << (k % 3 * 3 + k / 3));
+    return turned;
+  }
+
   // A set that is closed downwards, component by component.
   void codeMasks() {
     auto made = Connectivity::make(w_);
     if (!made) return s_.refuseWith({"the wireframe is unsound: ", made.error().message});
-    connectivity_ = std::move(*made);
+    connectivity = std::move(*made);
+    mirror = spreadMirror(w_, connectivity, seeds.pairs);
     for (Index n = 0; n < static_cast<Index>(w_.nodes.size()); ++n) {
-      const std::uint32_t x = lineClass(w_, connectivity_, n, 0),
-                          y = lineClass(w_, connectivity_, n, 1);
+      const JetMask image = imageMask(connectivity, n);
+      const std::uint32_t x = lineClass(w_, connectivity, n, 0),
+                          y = lineClass(w_, connectivity, n, 1);
       const JetMask told = whole_ ? whole_->nodes[n].stored : 0;
       JetMask mask = 0;
       for (int k = 0; k < 9; ++k) {
         if (k >= 3 && !(mask >> (k - 3) & 1)) continue;
         if (k % 3 > 0 && !(mask >> (k - 1) & 1)) continue;
         const std::uint32_t before = mask;
-        if (s_.bit(kMask, (x * 16 + y) * 16 + static_cast<std::uint32_t>(k), before, told >> k & 1))
+        const std::uint32_t expected = image == 0 ? 0 : 1 + (image >> k & 1);
+        const std::uint32_t context = ((expected * 16 + x) * 16 + y) * 16;
+        if (s_.bit(kMask, context + static_cast<std::uint32_t>(k), before, told >> k & 1))
           mask = static_cast<JetMask>(mask | 1 << k);
       }
       w_.nodes[n].stored = mask;
@@ -223,19 +263,19 @@ class WireframeCoder {
   Symbols<Coder>& s_;
   const Wireframe* whole_;
   Wireframe w_;
-  Connectivity& connectivity_;  // of that: neither masks nor shapes change it
 };
 
 }  // namespace
 
-void writeWireframe(Symbols<RangeEncoder>& out, const Wireframe& wireframe) {
-  Connectivity connectivity;
-  WireframeCoder<RangeEncoder>(out, &wireframe, connectivity).run(SIZE_MAX, INT64_MAX);
+void writeWireframe(Symbols<RangeEncoder>& out, const Wireframe& wireframe, MirrorSeeds seeds) {
+  WireframeCoder<RangeEncoder>(out, &wireframe, std::move(seeds)).run(SIZE_MAX, INT64_MAX);
 }
 
-Wireframe readWireframe(Symbols<RangeDecoder>& in, std::size_t most, std::int64_t mostQuads,
-                        Connectivity& connectivity) {
-  return WireframeCoder<RangeDecoder>(in, nullptr, connectivity).run(most, mostQuads);
+CodedWireframe readWireframe(Symbols<RangeDecoder>& in, std::size_t most, std::int64_t mostQuads) {
+  WireframeCoder<RangeDecoder> coder(in, nullptr, {});
+  Wireframe wireframe = coder.run(most, mostQuads);
+  return {std::move(wireframe), std::move(coder.seeds), std::move(coder.connectivity),
+          std::move(coder.mirror)};
 }
 
 }  // namespace sweepface::codec

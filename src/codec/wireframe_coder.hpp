@@ -2,6 +2,7 @@
 
 #include "sweepface/surface.hpp"
 
+#include "codec/mirror.hpp"
 #include "codec/symbols.hpp"
 
 namespace sweepface::codec {
@@ -11,11 +12,20 @@ namespace sweepface::codec {
 /// and where the corners are. What follows from that (lengths of opposite sides, T-nodes, points,
 /// ribbons, which derivatives a node stores) is told only where it is different. Nodes and arcs
 /// that are numbered as they come cost nothing; any other numbering is kept too.
-void writeWireframe(Symbols<RangeEncoder>& out, const Wireframe& wireframe);
+///
+/// `seeds` are told as well; where the mirror spreads, the second of two images costs next to
+/// nothing.
+void writeWireframe(Symbols<RangeEncoder>& out, const Wireframe& wireframe, MirrorSeeds seeds);
 
-/// Fails through `in`. Has no more than `most` of anything, and `mostQuads` quads. Also says who
-/// meets whom.
-Wireframe readWireframe(Symbols<RangeDecoder>& in, std::size_t most, std::int64_t mostQuads,
-                        Connectivity& connectivity);
+/// What is read of a wireframe, and what follows from it on the way.
+struct CodedWireframe {
+  Wireframe wireframe;
+  MirrorSeeds seeds;
+  Connectivity connectivity;
+  Mirror mirror;
+};
+
+/// Fails through `in`. Has no more than `most` of anything, and `mostQuads` quads.
+CodedWireframe readWireframe(Symbols<RangeDecoder>& in, std::size_t most, std::int64_t mostQuads);
 
 }  // namespace sweepface::codec

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <fstream>
 #include <gtest/gtest.h>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -8,6 +10,12 @@
 
 // Files taken apart and put together again.
 namespace sweepface::testing {
+
+/// A file that is kept beside the tests.
+inline std::string goldenFile(const std::string& name) {
+  std::ifstream file(SWEEPFACE_SOURCE_DIR "/tests/codec/" + name, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
 
 struct FileChunk {
   std::string code, payload;

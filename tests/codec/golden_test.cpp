@@ -1,9 +1,8 @@
-#include <fstream>
 #include <gtest/gtest.h>
-#include <iterator>
 #include <sstream>
 
 #include "codec/digest.hpp"
+#include "codec/files.hpp"
 #include "codec/packed.hpp"
 #include "codec/rigs.hpp"
 #include "codec/version1.hpp"
@@ -14,12 +13,8 @@ namespace {
 using namespace sweepface::testing;
 
 // A file of each version with a chunk of nearly every kind. It must be read like this for ever.
-std::string golden(const std::string& name) {
-  std::ifstream file(SWEEPFACE_SOURCE_DIR "/tests/codec/" + name, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-std::string goldenVersion1() { return golden("golden_version1.sweep"); }
-std::string goldenVersion2() { return golden("golden_version2.sweep"); }
+std::string goldenVersion1() { return goldenFile("golden_version1.sweep"); }
+std::string goldenVersion2() { return goldenFile("golden_version2.sweep"); }
 
 Rig goldenRig() {
   Wireframe wireframe = onePatch(1, 1);
@@ -53,11 +48,11 @@ TEST(Golden, OfVersion2IsWrittenByteForByte) {
 // The sample is what `convert --pack --tolerance 0.3 --strip order,uv` makes of the sample face
 // with six expressions: predicted from its neutral, mirrored, with T-nodes and curved ribbons.
 TEST(Golden, DigestsAreTheSameEverywhere) {
-  std::istringstream list(golden("golden_digests.txt"));
+  std::istringstream list(goldenFile("golden_digests.txt"));
   int files = 0;
   for (std::string name, expected; list >> name && std::getline(list >> std::ws, expected);
        ++files) {
-    const auto rig = decode(golden(name), name);
+    const auto rig = decode(goldenFile(name), name);
     ASSERT_TRUE(rig) << rig.error().message;
     EXPECT_EQ(digestsOf(*rig), expected) << name;
   }

@@ -33,22 +33,22 @@ Polygons sheetWith(At at) {
   return sheet;
 }
 
-std::string written(const Polygons& polygons) {
+std::string written(const Polygons& polygons, std::span<const Index> images = {}) {
   RangeEncoder coder;
   Symbols<RangeEncoder> symbols(coder);
-  writeTexture(symbols, polygons, kBits);
+  writeTexture(symbols, polygons, images, kBits);
   return coder.finish();
 }
 
-void expectReadBack(const Polygons& polygons) {
-  const std::string bytes = written(polygons);
+void expectReadBack(const Polygons& polygons, std::span<const Index> images = {}) {
+  const std::string bytes = written(polygons, images);
   RangeDecoder coder(bytes);
   Symbols<RangeDecoder> symbols(coder);
   Polygons back = polygons;
   back.texcoords.clear();
   back.cornerTexcoords.clear();
   int bits = 0;
-  readTexture(symbols, polygons.texcoords.size(), back, bits);
+  readTexture(symbols, polygons.texcoords.size(), back, images, bits);
   ASSERT_TRUE(symbols.ok()) << symbols.problem();
   EXPECT_EQ(bits, kBits);
   EXPECT_EQ(back.cornerTexcoords, polygons.cornerTexcoords);
@@ -72,6 +72,70 @@ TEST(Texture, FollowsWhatBendsMoreAndMore) {
       [](int x, int y) { return std::array{31 * x + x * x * y, 40 * y - 2 * x * y * y}; });
   expectReadBack(bent);
   EXPECT_LT(written(bent).size(), 250u);
+}
+
+// The corner of a sheet's face at the mirror image of each, across the sheet.
+std::vector<Index> acrossTheSheet() {
+  std::vector<Index> images;
+  for (Index y = 0; y < kQuads; ++y)
+    for (Index x = 0; x < kQuads; ++x)
+      for (const Index k : {1, 0, 3, 2}) images.push_back(4 * (y * kQuads + kQuads - 1 - x) + k);
+  return images;
+}
+
+// A rough sheet whose right half is the left one turned in one of eight ways.
+Polygons mirroredSheet(int way) {
+  std::mt19937 random(7);
+  std::array<std::array<std::array<int, 2>, kQuads / 2 + 1>, kQuads + 1> half;
+  for (auto& row : half)
+    for (auto& t : row) t = {static_cast<int>(random() % 4096), static_cast<int>(random() % 4096)};
+  return sheetWith([&](int x, int y) {
+    auto t = half[y][std::min(x, kQuads - x)];
+    if (x <= kQuads / 2) return t;
+    if (way & 1) t[0] = 9000 - t[0];
+    if (way & 2) t[1] = 5000 - t[1];
+    if (way & 4) std::swap(t[0], t[1]);
+    return t;
+  });
+}
+
+TEST(Texture, OfAMirrorImageCostsHardlyAnythingWhicheverWayItIsTurned) {
+  for (int way = 0; way < 8; ++way) {
+    const Polygons mirrored = mirroredSheet(way);
+    expectReadBack(mirrored, acrossTheSheet());
+    EXPECT_LT(100 * written(mirrored, acrossTheSheet()).size(), 65 * written(mirrored).size())
+        << way;
+  }
+}
+
+TEST(Texture, OfWhatIsNotMirroredCostsNoMoreForImages) {
+  std::mt19937 random(8);
+  const Polygons bent = sheetWith([&](int x, int y) {
+    return std::array{31 * x + 3 * x * x + static_cast<int>(random() % 4), 40 * y};
+  });
+  expectReadBack(bent, acrossTheSheet());
+  EXPECT_LT(100 * written(bent, acrossTheSheet()).size(), 110 * written(bent).size());
+}
+
+TEST(Texture, SeamsAreWhereTheMirrorImageHasThem) {
+  Polygons cut = sheetWith([](int x, int y) { return std::array{31 * x, 40 * y}; });
+  const auto images = acrossTheSheet();
+  std::mt19937 random(9);
+  std::vector<char> isCut(images.size());
+  for (std::size_t c = 0; c < isCut.size(); ++c)
+    if (random() % 8 == 0) isCut[c] = isCut[images[c]] = 1;
+  std::vector<Index> had(cut.texcoords.size(), -1);
+  const std::vector<Vec2> at = std::exchange(cut.texcoords, {});
+  for (std::size_t c = 0; c < isCut.size(); ++c) {
+    Index& t = had[cut.corners[c]];
+    if (t < 0 || isCut[c]) {
+      t = static_cast<Index>(cut.texcoords.size());
+      cut.texcoords.push_back(at[cut.corners[c]]);
+    }
+    cut.cornerTexcoords[c] = t;
+  }
+  expectReadBack(cut, images);
+  EXPECT_LT(100 * written(cut, images).size(), 90 * written(cut).size());
 }
 
 TEST(Texture, ComesBackHoweverRoughItIs) {
