@@ -137,11 +137,9 @@ Sparse Lattice::moved(const Sparse& moved, bool mirrored, int finer) const {
 
 Sparse movedIn(const Coefficients& coefficients) {
   Sparse moved;
-  Index v = 0;
-  for (const Steps3& steps : coefficients) {
-    if (isMoved(steps)) moved.push_back({v, steps});
-    ++v;
-  }
+  const auto first = coefficients.begin(), end = coefficients.end();
+  for (auto at = first; (at = std::find_if(at, end, isMoved)) != end; ++at)
+    moved.push_back({static_cast<Index>(at - first), *at});
   return moved;
 }
 
