@@ -99,11 +99,11 @@ bool Lattice::restore(const Prediction& prediction, std::span<const Restored> po
         for (std::size_t a = 0; a < 3; ++a) *numberOf(known[m.vector], p, a) = m.steps[a];
     }
     finite &= complete(prediction, step, known.data());
-    for (std::size_t p = 0; p < now.size(); ++p) {
-      Vec3* vector = now[p].vectors.data();
-      for (Abreast& k : known)
-        *vector++ = {*numberOf(k, p, 0), *numberOf(k, p, 1), *numberOf(k, p, 2)};
-    }
+    for (std::size_t v = 0; v < known.size(); ++v)
+      for (std::size_t p = 0; p < now.size(); ++p) {
+        const double* const x = numberOf(known[v], p, 0);
+        now[p].vectors[v] = {x[0], x[kAbreast], x[2 * kAbreast]};
+      }
   }
   return finite;
 }
