@@ -63,6 +63,7 @@ namespace {
 constexpr std::size_t kAbreast = 4;
 using Abreast = std::array<Two, 6>;
 
+// Compilers let a vector be looked at as its numbers.
 double* numberOf(Abreast& vector, std::size_t pose, std::size_t axis) {
   return reinterpret_cast<double*>(vector.data()) + kAbreast * axis + pose;
 }
