@@ -63,6 +63,7 @@ namespace {
 constexpr std::size_t kAbreast = 4;
 using Abreast = std::array<Two, 6>;
 
+// Compilers let a vector be looked at as its numbers.
 double* numberOf(Abreast& vector, std::size_t pose, std::size_t axis) {
   return reinterpret_cast<double*>(vector.data()) + kAbreast * axis + pose;
 }
@@ -99,11 +100,11 @@ bool Lattice::restore(const Prediction& prediction, std::span<const Restored> po
         for (std::size_t a = 0; a < 3; ++a) *numberOf(known[m.vector], p, a) = m.steps[a];
     }
     finite &= complete(prediction, step, known.data());
-    for (std::size_t p = 0; p < now.size(); ++p) {
-      Vec3* vector = now[p].vectors.data();
-      for (Abreast& k : known)
-        *vector++ = {*numberOf(k, p, 0), *numberOf(k, p, 1), *numberOf(k, p, 2)};
-    }
+    for (std::size_t v = 0; v < known.size(); ++v)
+      for (std::size_t p = 0; p < now.size(); ++p) {
+        const double* const x = numberOf(known[v], p, 0);
+        now[p].vectors[v] = {x[0], x[kAbreast], x[2 * kAbreast]};
+      }
   }
   return finite;
 }
@@ -137,11 +138,9 @@ Sparse Lattice::moved(const Sparse& moved, bool mirrored, int finer) const {
 
 Sparse movedIn(const Coefficients& coefficients) {
   Sparse moved;
-  Index v = 0;
-  for (const Steps3& steps : coefficients) {
-    if (isMoved(steps)) moved.push_back({v, steps});
-    ++v;
-  }
+  const auto first = coefficients.begin(), end = coefficients.end();
+  for (auto at = first; (at = std::find_if(at, end, isMoved)) != end; ++at)
+    moved.push_back({static_cast<Index>(at - first), *at});
   return moved;
 }
 

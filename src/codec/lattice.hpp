@@ -50,7 +50,7 @@ class Lattice {
   /// The coefficients of the mirror image; zero for vectors that have none.
   Coefficients image(const Coefficients& coefficients) const;
 
-  /// What moves, or its mirror image, in steps 2^finer times smaller.
+  /// What moves, or its mirror image in the same order, in steps 2^finer times smaller.
   Sparse moved(const Sparse& moved, bool mirrored, int finer) const;
   Sparse moved(const Coefficients& coefficients, bool mirrored, int finer) const {
     return moved(movedIn(coefficients), mirrored, finer);

@@ -242,6 +242,19 @@ class JetBuilder {
     return c_.kinds[n] == NodeKind::crossing || c_.kinds[n] == NodeKind::hanging;
   }
 
+  // How a corner of such a node is turned from its axes.
+  int quarterOf(Index corner) const {
+    const Index n = c_.cornerNode[corner];
+    const int sector = c_.cornerSector[corner];
+    return c_.kinds[n] == NodeKind::hanging ? (sector - hostArm(n) + 3) % 3 : sector;
+  }
+
+  // ∂α^i ∂β^j in axes turned from those of the node.
+  JetRef nodeJet(Index n, int quarter, int i, int j) const {
+    const auto [component, sign] = kTurns[quarter][comp(i, j)];
+    return {base_[n] + component, static_cast<double>(sign)};
+  }
+
   // ∂α^i ∂β^j at a corner.
   JetRef cornerJet(Index corner, int i, int j) const {
     const Index n = c_.cornerNode[corner];
@@ -253,10 +266,7 @@ class JetBuilder {
       if (i == 0) return {armBase_[n] + 2 * ((sector + 1) % arms) + j - 1, 1};
       return {mixedBase_[corner] + 2 * (i - 1) + j - 1, 1};
     }
-    int quarter = c_.cornerSector[corner];
-    if (c_.kinds[n] == NodeKind::hanging) quarter = (quarter - hostArm(n) + 3) % 3;
-    const Turned t = turned(quarter, i, j);
-    return {base_[n] + t.component, t.sign};
+    return nodeJet(n, quarterOf(corner), i, j);
   }
 
   // The arm of a T-node along which its own x axis runs: the stem follows counter-clockwise.
@@ -672,12 +682,16 @@ class JetBuilder {
 
   void fillCorners(JetTable& table, const std::vector<Index>& place) const {
     table.corners.reserve(36 * w_.patches.size());
-    for (Index corner = 0; corner < static_cast<Index>(4 * w_.patches.size()); ++corner)
+    for (Index corner = 0; corner < static_cast<Index>(4 * w_.patches.size()); ++corner) {
+      const Index n = c_.cornerNode[corner];
+      const int quarter = hasAxes(n) ? quarterOf(corner) : -1;
       for (int k = 0; k < 9; ++k) {
-        JetRef ref = cornerJet(corner, k / 3, k % 3);
+        JetRef ref =
+            quarter < 0 ? cornerJet(corner, k / 3, k % 3) : nodeJet(n, quarter, k / 3, k % 3);
         ref.vector = place[ref.vector];
         table.corners.push_back(ref);
       }
+    }
   }
 
   const Wireframe& w_;

@@ -170,6 +170,41 @@ TEST(Lattice, RoundsWhatItRestoresToTheSameCoefficients) {
   }
 }
 
+TEST(Lattice, RestoresManyPosesAsEachAlone) {
+  constexpr Index kPoses = 7;  // more than go side by side, and one of them finer
+  for (const Surface& surface : someSurfaces()) {
+    const Lattice lattice(surface, {});
+    const auto count = static_cast<std::size_t>(surface.storedCount());
+    std::vector<codec::Sparse> moved;
+    std::vector<std::vector<Vec3>> together(kPoses, std::vector<Vec3>(count)), alone = together;
+    std::vector<Lattice::Restored> poses;
+    for (Index k = 0; k < kPoses; ++k) {
+      const double step = k == 2 ? 0.005 : 0.02;
+      const Coefficients q = k == 4 ? Coefficients(count) : anyCoefficients(count, 11 + k);
+      moved.push_back(codec::movedIn(q));
+      lattice.restore(1, q, step, alone[k]);
+    }
+    for (Index k = 0; k < kPoses; ++k)
+      poses.push_back({moved[k], k == 2 ? 0.005 : 0.02, together[k]});
+    EXPECT_TRUE(lattice.restore(lattice.prediction(1), poses));
+    EXPECT_EQ(together, alone);
+  }
+}
+
+TEST(Lattice, SaysWhereOneOfManyPosesIsNotFinite) {
+  const Surface surface = Surface::make(sheet(8)).value();
+  const Lattice lattice(surface, {});
+  const auto count = static_cast<std::size_t>(surface.storedCount());
+  const codec::Sparse still, moved{{0, {1 << 26, 0, 0}}};
+  for (std::size_t k = 0; k < 6; ++k) {
+    std::vector<std::vector<Vec3>> vectors(6, std::vector<Vec3>(count));
+    std::vector<Lattice::Restored> poses;
+    for (std::size_t p = 0; p < 6; ++p)
+      poses.push_back({p == k ? moved : still, p == k ? 1e307 : 0.01, vectors[p]});
+    EXPECT_FALSE(lattice.restore(lattice.prediction(1), poses)) << k;
+  }
+}
+
 TEST(Lattice, IsNeverMoreThanHalfAStepOff) {
   for (const Surface& surface : someSurfaces()) {
     const Lattice lattice(surface, {});

@@ -11,6 +11,19 @@ std::string refusal(const Wireframe& w) {
   return surface ? "" : surface.error().message;
 }
 
+TEST(Surfaces, areTheSameWhereItIsKnownWhoMeetsWhom) {
+  for (const Wireframe& w : {twoPatches(), tee(), fan(5)}) {
+    const Surface surface = Surface::make(w).value(), other = Surface::make(w, connect(w)).value();
+    ASSERT_EQ(other.vectorCount(), surface.vectorCount());
+    EXPECT_EQ(other.connectivity().patchOf, surface.connectivity().patchOf);
+    const std::vector<Vec3> stored(surface.storedCount(), Vec3{1, 2, 3});
+    std::vector<Vec3> vectors(surface.vectorCount()), others = vectors;
+    surface.settle(stored, vectors);
+    other.settle(stored, others);
+    EXPECT_EQ(others, vectors);
+  }
+}
+
 TEST(Kinds, cornersAndSidesOfABoundaryCross) {
   for (NodeKind kind : connect(twoPatches()).kinds) EXPECT_EQ(kind, NodeKind::crossing);
 }
