@@ -19,7 +19,7 @@ inline bool isMoved(const Steps3& v) { return (v[0] | v[1] | v[2]) != 0; }
 /// The stored vectors of a pose [S] as multiples of their steps beyond their predictions.
 using Coefficients = std::vector<Steps3>;
 
-/// The vectors of a pose that are not zero, in ascending order.
+/// The vectors of a pose that are not zero.
 struct Moved {
   Index vector;
   Steps3 steps;

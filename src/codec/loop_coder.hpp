@@ -7,7 +7,7 @@
 
 #include "sweepface/surface.hpp"
 
-#include "codec/mirror_spreader.hpp"
+#include "codec/loop_images.hpp"
 #include "codec/symbols.hpp"
 
 namespace sweepface::codec {
@@ -48,7 +48,6 @@ class LoopCoder {
       : s_(symbols),
         w_(w),
         whole_(whole),
-        seeds_(seeds),
         nodeKnown_(nodes, 0),
         arcKnown_(arcs, 0),
         taken_(2 * arcs, 0),
@@ -56,11 +55,7 @@ class LoopCoder {
         corners_(nodes, 0),
         arms_(nodes),
         nextArm_(2 * arcs, -1),
-        next_(2 * arcs, -1),
-        prev_(2 * arcs, -1),
-        cornerAt_(2 * arcs, -1),
-        nodeImage_(nodes, -1),
-        mirror_(w, {next_, prev_, cornerAt_}) {
+        images_(w, seeds, nodes, arcs) {
     w_.nodes.resize(nodes);
     w_.arcs.resize(arcs);
   }
@@ -74,10 +69,7 @@ class LoopCoder {
   }
 
  private:
-  struct Piece {
-    HalfArc h;
-    int side;
-  };
+  using Piece = LoopPiece;
 
   bool isOpen(HalfArc h) const { return arcKnown_[arcOf(h)] && !taken_[h] && taken_[twin(h)]; }
   // The half-arcs that leave a node, in the order in which they came: each knows the next.
@@ -93,12 +85,12 @@ class LoopCoder {
   }
   HalfArc openFrom(Index node) const {
     HalfArc h = firstArm(node);
-    while (h >= 0 && !isOpen(h)) h = nextArm_[h];
+    for (; h >= 0 && !isOpen(h); ++steps_) h = nextArm_[h];
     return h;
   }
   HalfArc openTo(Index node) const {
     HalfArc h = firstArm(node);
-    while (h >= 0 && !isOpen(twin(h))) h = nextArm_[h];
+    for (; h >= 0 && !isOpen(twin(h)); ++steps_) h = nextArm_[h];
     return h < 0 ? -1 : twin(h);
   }
   Index unusedNode() {
@@ -169,55 +161,24 @@ class LoopCoder {
       if (!taken_[twin(piece.h)]) queue_.push_back(twin(piece.h));
     for (std::size_t k = 1; k < loop.size(); ++k)
       if (loop[k].side == loop[k - 1].side) straight_[w_.start(loop[k].h)] = 1;
-    findImages(p, loop);
-  }
-
-  // Pairs what a new loop adds with what it mirrors.
-  void findImages(Index patch, const std::vector<Piece>& loop) {
-    const std::size_t size = loop.size();
-    for (std::size_t k = 0; k < size; ++k) {
-      const Piece &before = loop[(k + size - 1) % size], &piece = loop[k];
-      next_[before.h] = piece.h;
-      prev_[piece.h] = before.h;
-      if (k == 0 || piece.side != before.side) {
-        cornerAt_[piece.h] = 4 * patch + piece.side;
-        ++corners_[w_.start(piece.h)];
-      }
-    }
-    for (const auto& [h, g] : seeds_) spread(h, g);
-    for (const Piece& piece : loop)
-      if (const HalfArc beside = mirror_.bound(twin(piece.h)); beside >= 0)
-        spread(piece.h, twin(beside));
-  }
-  void spread(HalfArc h, HalfArc g) {
-    for (const HalfArc here : mirror_.spread(h, g))
-      for (const HalfArc a : {here, mirror_.bound(here)}) {
-        const HalfArc b = mirror_.bound(a);
-        nodeImage_[w_.start(a)] = w_.end(b);
-        nodeImage_[w_.end(a)] = w_.start(b);
-      }
-  }
-
-  // What mirrors an open half-arc, if it bounds a patch that was told; else -1.
-  HalfArc imageOf(HalfArc open) const {
-    const HalfArc beside = mirror_.bound(twin(open));
-    return beside >= 0 && next_[twin(beside)] >= 0 ? twin(beside) : -1;
+    images_.tell(p, loop);
+    for (std::size_t k = 0; k < loop.size(); ++k)
+      corners_[w_.start(loop[k].h)] += images_.startsSide(loop[k].h);
   }
 
   // Contexts: 0 where no image tells anything.
   std::uint32_t borderHint(HalfArc open) const {
-    const HalfArc beside = mirror_.bound(twin(open));
-    if (beside < 0) return 0;
-    return next_[twin(beside)] >= 0 ? 1 : taken_[twin(beside)] ? 2 : 3;
+    const HalfArc image = images_.across(open);
+    return image < 0 ? 0 : images_.isTold(image) ? 1 : taken_[image] ? 2 : 3;
   }
   std::uint32_t takeHint(HalfArc candidate) const {
     if (image_ < 0) return 0;
-    const HalfArc beside = mirror_.bound(twin(image_));
-    return beside < 0 ? 1 : twin(beside) == candidate ? 2 : 3;
+    const HalfArc expected = images_.across(image_);
+    return expected < 0 ? 1 : expected == candidate ? 2 : 3;
   }
   std::uint32_t hint(bool expected) const { return image_ < 0 ? 0 : 1 + expected; }
   // The node at which the current half-arc should end.
-  Index nodeExpected() const { return image_ < 0 ? -1 : nodeImage_[w_.start(image_)]; }
+  Index nodeExpected() const { return image_ < 0 ? -1 : images_.node(w_.start(image_)); }
 
   void codeLoop(const std::vector<Piece>& told, std::vector<Piece>& loop) {
     std::array<std::int64_t, 4> length{};
@@ -228,14 +189,16 @@ class LoopCoder {
       const bool lastTold = kWrites<Coder> && k + 1 == told.size();
       const bool corner = kWrites<Coder> && (lastTold || told[k + 1].side != told[k].side);
       const Asked asked{askedFor(k), corner};
-      image_ = k == 0 || image_ < 0 ? -1 : prev_[image_];
+      image_ = k == 0 || image_ < 0 ? -1 : images_.before(image_);
       const bool wasKnown = k == 0 ? codeFirst(asked.h) : codeNext(asked.h);
       if (!s_.ok()) return;
-      if (const HalfArc image = wasKnown ? imageOf(current_) : -1; image >= 0) image_ = image;
+      if (const HalfArc image = wasKnown ? images_.of(current_) : -1; image >= 0) image_ = image;
       if (k == 0) start_ = wasKnown ? w_.start(current_) : startOfNew_;
       const bool ends = wasKnown ? endOld(asked, side, length) : endNew(asked, side, length);
       if (!s_.ok()) return;
       if (taken_[current_]) return s_.refuse("an arc is used twice in the same direction");
+      if (!kWrites<Coder> && steps_ > kMostSteps)
+        return s_.refuse("the patches meet in too few places to be told apart in time");
       taken_[current_] = 1;
       loop.push_back({current_, side});
       if (ends && side == 3) {
@@ -261,11 +224,11 @@ class LoopCoder {
       std::uint32_t rank = 0;
       if constexpr (kWrites<Coder>)
         for (std::size_t at = head_; queue_[at] != h; ++at) rank += isOpen(queue_[at]);
-      const HalfArc first = queue_[head_], image = imageOf(first);
-      rank = s_.number(kRank, image < 0 ? 0 : 1 + (cornerAt_[next_[image]] >= 0),
+      const HalfArc first = queue_[head_], image = images_.of(first);
+      rank = s_.number(kRank, image < 0 ? 0 : 1 + images_.startsSide(images_.behind(image)),
                        around(w_.start(first)), rank);
       std::size_t at = head_;
-      for (; at < queue_.size(); ++at)
+      for (; at < queue_.size(); ++at, ++steps_)
         if (isOpen(queue_[at]) && rank-- == 0) break;
       if (at >= queue_.size()) {
         s_.refuse("a patch is glued to nothing");
@@ -323,7 +286,7 @@ class LoopCoder {
   }
   std::uint32_t openCount(Index node) const {
     std::uint32_t open = 0;
-    for (HalfArc h = firstArm(node); h >= 0; h = nextArm_[h]) open += isOpen(h);
+    for (HalfArc h = firstArm(node); h >= 0; h = nextArm_[h], ++steps_) open += isOpen(h);
     return std::min(open, 3u);
   }
 
@@ -331,7 +294,7 @@ class LoopCoder {
   // ones tell.
   bool codeCorner(const Asked& asked, int side, const std::array<std::int64_t, 4>& length,
                   std::uint32_t context, std::uint32_t more) {
-    const bool expected = image_ >= 0 && cornerAt_[image_] >= 0;
+    const bool expected = image_ >= 0 && images_.startsSide(image_);
     if (side < 2) return s_.bit(kCorner, context + 32 * hint(expected), more, asked.corner);
     if (length[side] > length[side - 2])
       s_.refuse("a patch has opposite sides of different length");
@@ -432,7 +395,7 @@ class LoopCoder {
   Index codeWaiting(Index node) {
     const auto waiting = [&](const auto& isIt) {
       std::uint32_t place = 0;
-      for (std::size_t at = head_; at < queue_.size(); ++at)
+      for (std::size_t at = head_; at < queue_.size(); ++at, ++steps_)
         if (isOpen(queue_[at]) && isIt(++place, w_.start(queue_[at]))) return place;
       return std::uint32_t{0};
     };
@@ -468,19 +431,17 @@ class LoopCoder {
   Symbols<Coder>& s_;
   Wireframe& w_;
   const Wireframe* whole_;
-  std::span<const std::array<HalfArc, 2>> seeds_;
   std::vector<char> nodeKnown_, arcKnown_, taken_, straight_;
-  std::vector<int> corners_;          // [nodes] of patches that were told
-  std::vector<Arms> arms_;            // [nodes]
-  std::vector<HalfArc> nextArm_;      // [half-arcs]
-  std::vector<Piece> told_, loop_;    // of the patch that is being coded
-  std::vector<HalfArc> next_, prev_;  // [half-arcs] in loops that were told, else -1
-  std::vector<Index> cornerAt_;       // [half-arcs]
-  std::vector<Index> nodeImage_;      // [nodes] or -1
-  MirrorSpreader mirror_;
+  std::vector<int> corners_;        // [nodes] of patches that were told
+  std::vector<Arms> arms_;          // [nodes]
+  std::vector<HalfArc> nextArm_;    // [half-arcs]
+  std::vector<Piece> told_, loop_;  // of the patch that is being coded
+  LoopImages images_;
   HalfArc image_ = -1;  // mirrors the half-arc at hand, in a loop that was told
   std::vector<HalfArc> queue_;
   std::size_t head_ = 0;
+  static constexpr std::uint64_t kMostSteps = std::uint64_t{1} << 28;  // half a second of searching
+  mutable std::uint64_t steps_ = 0;  // along arms of nodes and the queue
   Index nextNode_ = 0, nextArc_ = 0;
   HalfArc current_ = -1;
   Index start_ = -1, end_ = -1, startOfNew_ = -1;

@@ -5,6 +5,7 @@
 #include "codec/packed.hpp"
 #include "codec/rigs.hpp"
 #include "codec/version1.hpp"
+#include "codec/wireframe_coder.hpp"
 
 namespace sweepface {
 namespace {
@@ -139,6 +140,48 @@ TEST(Hostile, WhatTheSurfaceRefusesIsPassedOn) {
   EXPECT_NE(rig.error().message.find("the wireframe is unsound: patch 0 is not a closed loop"),
             std::string::npos)
       << rig.error().message;
+}
+
+// So many patches around one node, each glued to the one before.
+Wireframe fanOf(Index patches) {
+  Wireframe w;
+  const auto node = [&] {
+    return static_cast<Index>((w.nodes.push_back({w.points, kPosition}), w.points++));
+  };
+  const auto arc = [&](Index from, Index to) {
+    w.arcs.push_back({from, to});
+    return 2 * static_cast<HalfArc>(w.arcs.size() - 1);
+  };
+  const Index centre = node();
+  Index rim = node();
+  HalfArc spoke = arc(centre, rim);
+  for (Index p = 0; p < patches; ++p) {
+    const Index corner = node(), next = node();
+    const HalfArc there = arc(rim, corner), on = arc(corner, next), back = arc(centre, next);
+    const auto first = static_cast<Index>(w.loops.size());
+    w.loops.insert(w.loops.end(), {spoke, there, on, twin(back)});
+    w.patches.push_back({{first, first + 1, first + 2, first + 3, first + 4}});
+    rim = next, spoke = back;
+  }
+  w.ribbons.emplace_back();
+  return w;
+}
+
+std::string problemWith(const Wireframe& wireframe) {
+  codec::RangeEncoder encoder;
+  codec::Symbols<codec::RangeEncoder> out(encoder);
+  codec::writeWireframe(out, wireframe, {});
+  const std::string bytes = encoder.finish();
+  codec::RangeDecoder decoder(bytes);
+  codec::Symbols<codec::RangeDecoder> in(decoder);
+  codec::readWireframe(in, std::size_t{1} << 20, std::int64_t{1} << 30);
+  return in.ok() ? "" : std::string(in.problem());
+}
+
+// A file of a few bytes could keep a reader busy for hours.
+TEST(Hostile, WhatTakesTooLongToFollowIsRefused) {
+  EXPECT_EQ(problemWith(fanOf(300)), "");
+  EXPECT_NE(problemWith(fanOf(20'000)).find("in time"), std::string::npos);
 }
 
 }  // namespace
