@@ -172,7 +172,9 @@ std::string encode(const Rig& rig) {
   Writer out;
   writeHeader(out);
   const Packing packing = sound(rig);
-  Lattice lattice(rig.surface, packing);
+  const Mirror mirror =
+      spreadMirror(rig.surface.wireframe(), rig.surface.connectivity(), packing.mirror);
+  Lattice lattice(rig.surface, packing, mirror);
   Poses poses(rig, packing, lattice);
   const Likenesses likenesses(lattice, poses.coefficients);
   const auto count = static_cast<Index>(packing.poses.size());
@@ -187,7 +189,7 @@ std::string encode(const Rig& rig) {
     writeChunk(out, "loos", looseVertices(rig.source.loose));
     if (count > 1) writeChunk(out, "drif", drift(rig.targets));
   }
-  writeSource(out, rig, packing.textureBits);
+  writeSource(out, rig, mirror, packing.textureBits);
   if (!rig.scene.empty()) writeChunk(out, "scen", scene(rig.scene));
   if (hasNames(rig.names)) writeChunk(out, "name", thingNames(rig.names));
   if (const auto turns = storedTurns(rig); !turns.empty()) writeChunk(out, "turn", turnList(turns));

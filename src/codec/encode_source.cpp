@@ -88,7 +88,7 @@ bool countsUp(const LevelOne& grid, const SourceMesh& source) {
 }  // namespace
 
 // By the grid of the patches, unless that is so large that a reader would not trust so few bytes.
-void writeSource(Writer& out, const Rig& rig, int textureBits) {
+void writeSource(Writer& out, const Rig& rig, const Mirror& mirror, int textureBits) {
   const SourceMesh& source = rig.source;
   const Polygons& faces = source.polygons;
   const std::size_t quads = gridQuads(rig.surface.wireframe());
@@ -99,8 +99,7 @@ void writeSource(Writer& out, const Rig& rig, int textureBits) {
   std::vector<Index> images;
   bool byGrid = quads <= kMostQuads, ownOrder = !source.gridVertex.empty();
   if (byGrid) {
-    const LevelOne grid(rig.surface, spreadMirror(rig.surface.wireframe(),
-                                                  rig.surface.connectivity(), rig.packing.mirror));
+    const LevelOne grid(rig.surface, mirror);
     order = ranged([&](auto& symbols) { writeOrder(symbols, grid, source); });
     polygonBytes = ranged([&](auto& symbols) { writeFaces(symbols, grid, source); });
     byGrid = trusted(order) && trusted(polygonBytes);

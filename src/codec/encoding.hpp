@@ -2,6 +2,7 @@
 
 #include "sweepface/rig.hpp"
 
+#include "codec/mirror.hpp"
 #include "codec/symbols.hpp"
 #include "codec/writer.hpp"
 
@@ -17,6 +18,6 @@ std::string ranged(Write write) {
 }
 
 /// The chunks of the source: its order, faces, texture coordinates and corners of quads.
-void writeSource(Writer& out, const Rig& rig, int textureBits);
+void writeSource(Writer& out, const Rig& rig, const Mirror& mirror, int textureBits);
 
 }  // namespace sweepface::codec

@@ -200,6 +200,10 @@ Packing sound(const Rig& rig) {
   if (!(packing.neutralStep > 0) || !(packing.targetStep > 0))
     packing.neutralStep = packing.targetStep = 0;
   packing.axis = std::clamp(packing.axis, 0, 2);
+  const auto halves = static_cast<HalfArc>(2 * rig.surface.wireframe().arcs.size());
+  std::erase_if(packing.mirror, [&](const auto& pair) {
+    return std::ranges::min(pair) < 0 || std::ranges::max(pair) >= halves;
+  });
   if (packing.mirror.size() > kMostMirrorPairs) packing.mirror.resize(kMostMirrorPairs);
   if (packing.rest.size() != rig.neutral.size()) packing.rest.clear();
   packing.poses.resize(rig.targets.size() + 1);

@@ -283,6 +283,7 @@ TEST(Packing, FormsThatCannotBeAreMadeSound) {
   Rig rig = packed(tee());
   rig.packing.poses = {{-3, 7}, {99, 0}, {0, 2}};
   rig.packing.axis = 9;
+  rig.packing.mirror = {{-1, 0}, {0, 1 << 20}};
   const std::string bytes = encode(rig);
   const auto back = decode(bytes, "a.sweep");
   ASSERT_TRUE(back) << back.error().message;
