@@ -51,21 +51,18 @@ inline Steps3 inFinerSteps(Steps3 v, int finer) {
   return v;
 }
 
-/// Targets differ from each other: what was learned from some is forgotten sooner than in a
-/// neutral.
-inline constexpr std::uint16_t kNeutralMemory = 30, kTargetMemory = 16;
-
 /// Codes the coefficients of one pose after the other, coarse to fine; learns as it goes. Reader
 /// and writer are the same code over a RangeDecoder or a RangeEncoder.
 template <typename Coder>
 class CoefficientCoder {
  public:
-  /// `memory` as Model has it.
-  CoefficientCoder(const Hierarchy& hierarchy, Coder& coder, int axis, std::uint16_t memory)
+  /// For the neutral or for all targets.
+  CoefficientCoder(const Hierarchy& hierarchy, Coder& coder, int axis, bool neutral)
       : h_(hierarchy),
         axis_(axis),
+        neutral_(neutral),
         mask_(slotsFor(hierarchy.prediction().steps.size()) - 1),
-        model_(coder, mask_ + 1, kSets, memory) {
+        model_(coder, mask_ + 1, kSets, neutral ? kNeutralMemory : kTargetMemory) {
     const std::size_t sites = h_.sites().size();
     active_.resize(sites);
     below_.resize(sites);
@@ -83,7 +80,7 @@ class CoefficientCoder {
 
   /// What is read comes to a `q` of zeros. `expected` is what a partner's image predicts. `like`
   /// tells what else to expect: a pose that moves much the same, or nothing.
-  void code(Coefficients& q, Symmetry symmetry, const Sparse& expected, Sparse like, bool neutral) {
+  void code(Coefficients& q, Symmetry symmetry, const Sparse& expected, Sparse like) {
     lookAt(std::move(like));
     if constexpr (kWrites<Coder>)
       compare(q, symmetry, expected);
@@ -92,8 +89,8 @@ class CoefficientCoder {
     const auto& sites = h_.sites();
     for (Index s = 0; s < static_cast<Index>(sites.size()); ++s) {
       const bool follows = symmetry == Symmetry::self && isImage(s);
-      phase_ = neutral ? 0 : symmetry == Symmetry::partner ? 3 : 1;
-      if (follows) phase_ += neutral ? 4 : 1;
+      phase_ = neutral_ ? 0 : symmetry == Symmetry::partner ? 3 : 1;
+      if (follows) phase_ += neutral_ ? 4 : 1;
       if (sites[s].parent < 0 || below_[sites[s].parent]) codeSite(s);
       // Later sites of this pose may be images of this one.
       if constexpr (!kWrites<Coder>) fillIn(q, s, follows);
@@ -107,6 +104,9 @@ class CoefficientCoder {
     return static_cast<std::uint32_t>(
         std::bit_ceil(std::clamp<std::size_t>(32 * vectors, 1 << 10, 1 << 18)));
   }
+  // Targets differ from each other: what was learned from some is forgotten sooner than in a
+  // neutral.
+  static constexpr std::uint16_t kNeutralMemory = 30, kTargetMemory = 16;
   static constexpr std::uint32_t kMostBits = 28;
   static constexpr int kInputs = 5, kPhases = 6, kSets = 512;
 
@@ -339,6 +339,7 @@ class CoefficientCoder {
 
   const Hierarchy& h_;
   int axis_;
+  bool neutral_;
   std::uint32_t mask_;  // of slots
   Model<Coder, kInputs> model_;
   std::uint32_t phase_ = 0, recent_ = 0;        // the last bits with their kinds, four each

@@ -75,11 +75,11 @@ void readTargetNames(Decoding& d, Reader& in) {
 // Poses one after the other. All but what is being read is kept as what moves: that is little.
 class PoseReader {
  public:
-  PoseReader(Decoding& d, RangeDecoder& coder, Symbols<RangeDecoder>& symbols, std::uint16_t memory)
+  PoseReader(Decoding& d, RangeDecoder& coder, Symbols<RangeDecoder>& symbols, bool neutral)
       : d_(d),
         lattice_(*d.lattice),
         symbols_(symbols),
-        vectors_(lattice_.hierarchy(), coder, lattice_.axis(), memory),
+        vectors_(lattice_.hierarchy(), coder, lattice_.axis(), neutral),
         current_(d.stored),
         moved_(d.targets + 1) {}
 
@@ -92,7 +92,7 @@ class PoseReader {
     codeLikeness(symbols_, form, like, pose);
     if (!symbols_.ok()) return;
     vectors_.code(current_, symmetryOf(form, pose), partnerOf(packing, lattice_, moved_, pose),
-                  movedIn(like, lattice_, moved_), pose == 0);
+                  movedIn(like, lattice_, moved_));
     moved_[pose] = movedIn(current_);
     for (const Moved& m : moved_[pose]) current_[m.vector] = {};
   }
@@ -122,7 +122,7 @@ class PoseReader {
 void readPoses(Decoding& d, Reader& in, Index first, Index end) {
   decodeRest(in, [&](RangeDecoder& coder, Symbols<RangeDecoder>& symbols) {
     d.rig.packing.poses.resize(end);
-    PoseReader poses(d, coder, symbols, first == 0 ? kNeutralMemory : kTargetMemory);
+    PoseReader poses(d, coder, symbols, first == 0);
     for (Index pose = first; pose < end && symbols.ok(); ++pose) poses.read(pose);
     if (symbols.ok()) poses.restore(first, end);
   });

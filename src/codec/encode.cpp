@@ -99,8 +99,7 @@ std::string writePoses(Poses& poses, const Packing& packing, const Lattice& latt
                        const Likenesses& likenesses, Index first, Index end) {
   RangeEncoder coder;
   Symbols<RangeEncoder> out(coder);
-  CoefficientCoder<RangeEncoder> vectors(lattice.hierarchy(), coder, lattice.axis(),
-                                         first == 0 ? kNeutralMemory : kTargetMemory);
+  CoefficientCoder<RangeEncoder> vectors(lattice.hierarchy(), coder, lattice.axis(), first == 0);
   for (Index pose = first; pose < end; ++pose) {
     Packing::Pose form = packing.poses[pose];
     codePose(out, form, pose);
@@ -108,7 +107,7 @@ std::string writePoses(Poses& poses, const Packing& packing, const Lattice& latt
     codeLikeness(out, form, like, pose);
     vectors.code(poses.coefficients[pose], symmetryOf(form, pose),
                  partnerOf(packing, lattice, poses.coefficients, pose),
-                 movedIn(like, lattice, poses.coefficients), pose == 0);
+                 movedIn(like, lattice, poses.coefficients));
   }
   return coder.finish();
 }

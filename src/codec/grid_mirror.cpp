@@ -36,8 +36,9 @@ GridMirror mirrorGrid(const Surface& surface, std::span<const std::array<Index, 
       const Index i = (quad - first[p]) % surface.edgesU(p),
                   j = (quad - first[p]) / surface.edgesU(p);
       // Back along the side before the corner, on along the side behind it.
-      const Index u = turn == 0 ? j : turn == 1 ? m - 1 - i : turn == 2 ? m - 1 - j : i;
-      const Index v = turn == 0 ? i : turn == 1 ? j : turn == 2 ? n - 1 - i : n - 1 - j;
+      const std::array<std::array<Index, 2>, 4> byTurn{
+          {{j, i}, {m - 1 - i, j}, {m - 1 - j, n - 1 - i}, {i, n - 1 - j}}};
+      const auto [u, v] = byTurn[turn];
       const Index there = first[image / 4] + v * m + u;
       found.quad[quad] = there;
       found.turn[quad] = static_cast<std::uint8_t>(turn);

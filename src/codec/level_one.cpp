@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "codec/wire_version1.hpp"
+
 namespace sweepface::codec {
 
 namespace {
@@ -65,10 +67,7 @@ class Numbering {
 LevelOne::LevelOne(const Surface& surface, const Mirror& mirror) {
   const Numbering numbering(surface);
   vertices_ = numbering.count();
-  std::size_t quads = 0;
-  for (Index p = 0; p < surface.patchCount(); ++p)
-    quads += static_cast<std::size_t>(surface.edgesU(p)) * surface.edgesV(p);
-  quads_.reserve(quads);
+  quads_.reserve(gridQuads(surface.wireframe()));
   std::vector<Index> grid;
   for (Index p = 0; p < surface.patchCount(); ++p) {
     const Index m = surface.edgesU(p), n = surface.edgesV(p);

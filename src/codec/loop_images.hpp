@@ -21,13 +21,12 @@ class LoopImages {
 
   /// Views `wireframe`, whose arcs are known once a patch with them is told, and `seeds`.
   LoopImages(const Wireframe& wireframe, Seeds seeds, std::size_t nodes, std::size_t arcs)
-      : w_(wireframe),
-        seeds_(seeds),
+      : seeds_(seeds),
         next_(2 * arcs, -1),
         prev_(2 * arcs, -1),
         cornerAt_(2 * arcs, -1),
         node_(nodes, -1),
-        mirror_(w_, {next_, prev_, cornerAt_}) {}
+        mirror_(wireframe, {next_, prev_, cornerAt_}) {}
 
   void tell(Index patch, std::span<const LoopPiece> loop) {
     for (std::size_t k = 0; k < loop.size(); ++k) {
@@ -60,16 +59,11 @@ class LoopImages {
   Index node(Index node) const { return node_[node]; }
 
  private:
-  void spread(HalfArc h, HalfArc g) {
-    for (const HalfArc here : mirror_.spread(h, g))
-      for (const HalfArc a : {here, mirror_.bound(here)}) {
-        const HalfArc b = mirror_.bound(a);
-        node_[w_.start(a)] = w_.end(b);
-        node_[w_.end(a)] = w_.start(b);
-      }
+  void spread(HalfArc from, HalfArc to) {
+    for (const HalfArc here : mirror_.spread(from, to))
+      for (const HalfArc h : {here, mirror_.bound(here)}) mirror_.noteEnds(h, node_);
   }
 
-  const Wireframe& w_;
   Seeds seeds_;
   std::vector<HalfArc> next_, prev_;  // [half-arcs] in loops that were told, else -1
   std::vector<Index> cornerAt_;       // [half-arcs]

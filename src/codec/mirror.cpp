@@ -63,8 +63,7 @@ Mirror spreadMirror(const Wireframe& w, const Connectivity& c,
     if (g < 0) continue;
     mirror.halfArc[h] = twin(g);
     mirror.halfArc[twin(h)] = g;
-    mirror.node[w.start(h)] = w.end(g);
-    mirror.node[w.end(h)] = w.start(g);
+    spreader.noteEnds(h, mirror.node);
   }
   return mirror;
 }

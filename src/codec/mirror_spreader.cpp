@@ -21,6 +21,11 @@ void MirrorSpreader::undo() {
   }
 }
 
+void MirrorSpreader::noteEnds(HalfArc h, std::span<Index> images) const {
+  images[w_.start(h)] = w_.end(bound_[h]);
+  images[w_.end(h)] = w_.start(bound_[h]);
+}
+
 void MirrorSpreader::pair(HalfArc h, HalfArc g) {
   if (loops_.next[h] < 0 || loops_.next[g] < 0 || bound_[h] >= 0 || bound_[g] >= 0) return;
   const Arc &a = w_.arcs[arcOf(h)], &b = w_.arcs[arcOf(g)];

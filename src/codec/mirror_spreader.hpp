@@ -29,6 +29,8 @@ class MirrorSpreader {
 
   /// The half-arc that bounds the image of the patch there, or -1.
   HalfArc bound(HalfArc h) const { return bound_[h]; }
+  /// Notes the images [nodes] of both ends of a half-arc that has a partner.
+  void noteEnds(HalfArc h, std::span<Index> images) const;
 
  private:
   void pair(HalfArc h, HalfArc g);

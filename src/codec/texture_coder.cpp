@@ -26,6 +26,8 @@ enum Tag : std::uint32_t {
 
 // Beyond any texture that repeats, and far from where whole numbers end.
 constexpr std::int32_t kMostTexture = 1 << 26;
+// What a guess that is further off counts.
+constexpr std::int64_t kMostOff = 1 << 20;
 
 template <typename Coder>
 class TextureCoder {
@@ -202,7 +204,7 @@ class TextureCoder {
   std::uint32_t offBy(Index t, const Whole& guess) const {
     std::int64_t sum = 0;
     for (int a = 0; a < 2; ++a) sum += std::abs(std::int64_t{whole_[t][a]} - guess[a]);
-    return static_cast<std::uint32_t>(std::min<std::int64_t>(sum, 1 << 20));
+    return static_cast<std::uint32_t>(std::min(sum, kMostOff));
   }
 
   // What is known beside a corner of a face, and its mirror image.
@@ -269,7 +271,6 @@ class TextureCoder {
   }
 
   void codeValue(Index t, const Guess& guess) {
-    constexpr std::int64_t kMostOff = 1 << 20;
     for (int a = 0; a < 2; ++a) {
       const std::int64_t residual = s_.signedNumber(kResidual, guess.how * 2 + a, guess.active,
                                                     std::int64_t{whole_[t][a]} - guess.value[a]),
