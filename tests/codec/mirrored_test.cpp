@@ -81,7 +81,7 @@ TEST(Mirrored, OfAWireframeTheSecondHalfCostsLittle) {
 std::vector<Index> oneSideAndThenTheOther(std::span<const Index> images) {
   std::vector<Index> order(images.size());
   std::iota(order.begin(), order.end(), 0);
-  const auto other = std::stable_partition(order.begin(), order.end(), [&](Index item) {
+  const auto other = std::partition(order.begin(), order.end(), [&](Index item) {
     return images[item] < 0 || item <= images[item];
   });
   std::shuffle(order.begin(), other, std::mt19937(3));
