@@ -38,17 +38,29 @@ class PoseQuantiser {
   }
 
   void run() {
-    constexpr int kSweeps = 10;
-    for (sweep_ = 0; sweep_ < kSweeps; ++sweep_) {
-      Index changed = 0;
-      findWanted();
-      for (std::size_t k = steps_.size(); k-- > 0;) changed += improve(steps_[k].vector);
-      if (changed == 0) break;
+    // Repairs are dear: what they brought about is looked at once more.
+    for (const double dearest : {6, 3}) {
+      errors_.press(1);
+      search(dearest);
+      repair();
     }
-    repair();
   }
 
  private:
+  // Bits are dear to begin with and become cheaper from sweep to sweep, so that few coefficients do
+  // what many small ones would else have done a little of each: annealing without chance.
+  void search(double dearest) {
+    constexpr int kCooling = 6, kSweeps = 8;
+    std::ranges::fill(touched_, -1);
+    for (sweep_ = 0; sweep_ < kSweeps; ++sweep_) {
+      price_ = dearest + (1 - dearest) * std::min(1.0, static_cast<double>(sweep_) / kCooling);
+      Index changed = 0;
+      findWanted();
+      for (std::size_t k = steps_.size(); k-- > 0;) changed += improve(steps_[k].vector);
+      if (changed == 0 && sweep_ >= kCooling) break;
+    }
+  }
+
   // Coefficients that are zero may be wanted only where an error is well on its way to the bound or
   // the surface is tilted.
   void findWanted() {
@@ -183,10 +195,10 @@ class PoseQuantiser {
   double bits(Index v, std::int32_t before, std::int32_t after) const {
     const bool had = before != 0, has = after != 0;
     double sum = magnitude(after) - magnitude(before);
-    if (had == has) return sum;
+    if (had == has) return price_ * sum;
     const double opening = 0.6 + (inSite_[siteOf_[v]] - had == 0 ? siteBits(siteOf_[v]) : 0) +
                            (inVector_[v] - had == 0 ? 3 : 0);
-    return sum + (has ? opening : -opening);
+    return price_ * (sum + (has ? opening : -opening));
   }
 
   void move(Index v, int a, std::int32_t d) {
@@ -281,6 +293,7 @@ class PoseQuantiser {
   std::vector<int> touched_;            // [vertices] the sweep in which it moved last
   std::vector<Move> moves_;
   int sweep_ = 0;
+  double price_ = 1;  // of a bit
 };
 
 }  // namespace

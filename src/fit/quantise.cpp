@@ -31,7 +31,7 @@ constexpr double kNeutralStep = 0.25, kTargetStep = 1;
 // The neutral spends this share of the tolerance, so that its poses have room.
 constexpr double kNeutralShare = 0.5;
 // What a tangent that leans by the angle aimed at counts, in bits.
-constexpr double kNeutralBits = 1, kTargetBits = 0.05;
+constexpr double kNeutralBits = 1.2, kTargetBits = 0.05;
 constexpr int kMostFiner = 8;
 // From this many halvings on a target starts where the fit has the pose, whatever that costs.
 constexpr int kFaithful = 2;
