@@ -94,11 +94,12 @@ TEST(RealFaceLong, aPackedHeadIsSmallAndFoldsNowhere) {
   ASSERT_TRUE(m) << m.error().message;
   EXPECT_LE(m->worst.distance.max, options.tolerance);
   EXPECT_LE(m->worst.angle.rms, 1.6);
+  EXPECT_LE(m->worst.angle.p99, 5.5);
   EXPECT_EQ(m->worst.folds, 0);
   EXPECT_LE(read->surface.storedCount(), 0.71 * 11248);
-  EXPECT_LE(encode(*read).size(), 58000u);
+  EXPECT_LE(encode(*read).size(), 37'000u);
   ASSERT_TRUE(strip(conversion->rig, {true, true, false, false}));
-  EXPECT_LE(encode(conversion->rig).size(), 24000u);
+  EXPECT_LE(encode(conversion->rig).size(), 20'480u);
 }
 
 }  // namespace
