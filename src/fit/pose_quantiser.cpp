@@ -30,20 +30,19 @@ class PoseQuantiser {
         axis_(lattice.axis()),
         task_(std::move(task)),
         errors_(columns, task_),
-        q_(q),
-        touched_(task_.errors.size(), 0) {
+        q_(q) {
     siteOf_.resize(q.size());
     for (const Prediction::Step& step : steps_) siteOf_[step.vector] = step.site;
     count();
   }
 
   void run() {
+    search(6);
+    repair();
     // Repairs are dear: what they brought about is looked at once more.
-    for (const double dearest : {6, 3}) {
-      errors_.press(1);
-      search(dearest);
-      repair();
-    }
+    errors_.press(1);
+    search(3);
+    repair();
   }
 
  private:
@@ -51,7 +50,7 @@ class PoseQuantiser {
   // what many small ones would else have done a little of each: annealing without chance.
   void search(double dearest) {
     constexpr int kCooling = 6, kSweeps = 8;
-    std::ranges::fill(touched_, -1);
+    touched_.assign(vertexCount(), -1);
     for (sweep_ = 0; sweep_ < kSweeps; ++sweep_) {
       price_ = dearest + (1 - dearest) * std::min(1.0, static_cast<double>(sweep_) / kCooling);
       Index changed = 0;
