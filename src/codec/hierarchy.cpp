@@ -6,22 +6,19 @@
 
 #include "codec/derivative_rules.hpp"
 #include "codec/lines.hpp"
-#include "codec/near_sites.hpp"
 #include "codec/reach.hpp"
 
 namespace sweepface::codec {
 
 class HierarchyBuilder {
  public:
-  HierarchyBuilder(const Surface& surface, const Mirror& mirror, bool seekNear, Hierarchy& out)
+  HierarchyBuilder(const Surface& surface, const Mirror& mirror, Hierarchy& out)
       : surface_(surface),
         w_(surface.wireframe()),
         c_(surface.connectivity()),
         mirror_(mirror),
-        seekNear_(seekNear),
         out_(out),
-        lines_(surface),
-        nearSites_(surface, lines_) {}
+        lines_(surface) {}
 
   void build() {
     reach_ = reachOf(surface_);
@@ -56,8 +53,7 @@ class HierarchyBuilder {
     CodedSite site;
     Terms terms;
     Index image = -1;
-    Index atLeast = 0;            // its span cannot be less
-    std::array<Index, 2> near{};  // from where up to where among those of all
+    Index atLeast = 0;  // its span cannot be less
   };
 
   void gatherSites() {
@@ -233,14 +229,12 @@ class HierarchyBuilder {
     Guess own = guess(all_[s]);
     if (own.span == 0 || own.span > most) return false;
     if (image < 0 || image == s) {
-      seekNear(s);
       remove(s, own, blocked);
       return true;
     }
     if (blocked[image] || !isRemovable(image)) return false;
     Guess other = guess(all_[image]);
     if (other.span != own.span) return false;
-    for (const Index either : {s, image}) seekNear(either);
     remove(image, other, blocked);
     remove(s, own, blocked);
     return true;
@@ -260,14 +254,6 @@ class HierarchyBuilder {
         c.site.parent = siteOfVector(t.vector);
       }
     order_.push_back(s);
-  }
-
-  void seekNear(Index s) {
-    if (!seekNear_) return;
-    const auto found = nearSites_.around(s, all_[s].image);
-    const auto before = static_cast<Index>(near_.size());
-    near_.insert(near_.end(), found.begin(), found.end());
-    all_[s].near = {before, static_cast<Index>(near_.size())};
   }
 
   Index siteOfVector(Index vector) const { return lines_.siteOf(surface_.stored(vector).node); }
@@ -342,12 +328,8 @@ class HierarchyBuilder {
       site.mirror = all_[s].image < 0 ? -1 : rank[all_[s].image];
       if (site.parent >= 0) out_.sites_[site.parent].leaf = false;
       out_.sites_.push_back(site);
-      out_.nearStart_.push_back(static_cast<Index>(out_.near_.size()));
-      for (Index k = all_[s].near[0]; k < all_[s].near[1]; ++k)
-        out_.near_.push_back(rank[near_[k]]);
       addStep(site.first, all_[s].terms);
     }
-    out_.nearStart_.push_back(static_cast<Index>(out_.near_.size()));
   }
 
   void addStep(Index vector, const Terms& terms) {
@@ -377,12 +359,9 @@ class HierarchyBuilder {
   const Wireframe& w_;
   const Connectivity& c_;
   const Mirror& mirror_;
-  const bool seekNear_;
   Hierarchy& out_;
   Lines lines_;
-  NearSites nearSites_;
   std::vector<Candidate> all_;  // [sites] as the lines number them
-  std::vector<Index> near_;     // the sites nearby of those that were taken out
   std::vector<Index> siteOf_;   // [nodes] by the order of coding
   std::vector<Index> order_;
   std::vector<double> reach_;             // [vectors]
@@ -390,8 +369,8 @@ class HierarchyBuilder {
   std::vector<char> placed_;              // [sites] roots that have their place in the order
 };
 
-Hierarchy::Hierarchy(const Surface& surface, const Mirror& mirror, bool seekNear) {
-  HierarchyBuilder(surface, mirror, seekNear, *this).build();
+Hierarchy::Hierarchy(const Surface& surface, const Mirror& mirror) {
+  HierarchyBuilder(surface, mirror, *this).build();
 }
 
 }  // namespace sweepface::codec

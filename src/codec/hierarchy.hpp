@@ -45,10 +45,10 @@ struct Prediction {
 /// rules of the surface for derivatives that are not stored.
 class Hierarchy {
  public:
-  /// With `seekNear` it knows near(), which takes a while to find.
-  Hierarchy(const Surface& surface, const Mirror& mirror, bool seekNear);
+  Hierarchy(const Surface& surface, const Mirror& mirror);
 
-  /// Coarse to fine: parents come before children, mirror images one after the other.
+  /// Coarse to fine: parents come before children, mirror images one after the other. Those that
+  /// are no roots were taken out of their lines from the last to the first.
   const std::vector<CodedSite>& sites() const { return sites_; }
 
   /// What predicts the stored vectors of the neutral.
@@ -56,12 +56,6 @@ class Hierarchy {
 
   /// The positions that predict a site's.
   std::span<const Term> beside(Index site) const { return prediction_.of(prediction_.steps[site]); }
-
-  /// The sites before a site that were nearest to it, along what was left of the lines when it was
-  /// taken out; none for a root, or where they were not sought.
-  std::span<const Index> near(Index site) const {
-    return {near_.data() + nearStart_[site], near_.data() + nearStart_[site + 1]};
-  }
 
   /// The stored vector that mirrors one, and the sign with which it does; -1 where there is none.
   struct Image {
@@ -75,7 +69,6 @@ class Hierarchy {
   std::vector<CodedSite> sites_;
   Prediction prediction_;
   std::vector<Image> images_;
-  std::vector<Index> nearStart_, near_;
 };
 
 }  // namespace sweepface::codec

@@ -105,6 +105,7 @@ bool weigh(const Stand& own, std::span<const Stand> stands, std::span<const Inde
 Prediction predictMoves(const Surface& surface, const Hierarchy& hierarchy,
                         std::span<const Vec3> neutral, double turned) {
   const std::vector<Stand> stands = standsOf(surface, hierarchy, neutral);
+  const NearTable nearSites(surface, hierarchy);
   const Prediction& lines = hierarchy.prediction();
   Prediction moves;
   moves.steps.reserve(lines.steps.size());
@@ -112,7 +113,7 @@ Prediction predictMoves(const Surface& surface, const Hierarchy& hierarchy,
   Weights weights;
   for (Prediction::Step step : lines.steps) {
     const auto before = lines.of(step);
-    const auto near = hierarchy.near(step.site);
+    const auto near = nearSites.of(step.site);
     const bool isPosition = step.vector == hierarchy.sites()[step.site].first;
     step.terms = static_cast<Index>(moves.terms.size());
     if (isPosition && weigh(stands[step.site], stands, near, turned, weights))

@@ -49,4 +49,25 @@ void NearSites::goOn(Index node, Index distance) {
   }
 }
 
+NearTable::NearTable(const Surface& surface, const Hierarchy& hierarchy) {
+  const auto& sites = hierarchy.sites();
+  Lines lines(surface);
+  NearSites search(surface, lines);
+  std::vector<Index> rank(sites.size());  // by their numbers in `lines`
+  const auto numbered = [&](Index s) { return s < 0 ? -1 : lines.siteOf(sites[s].node); };
+  for (Index s = 0; s < static_cast<Index>(sites.size()); ++s) rank[numbered(s)] = s;
+  range_.resize(sites.size());
+  // Once more from the last to the first: images go together.
+  for (auto s = static_cast<Index>(sites.size()) - 1; s >= 0 && sites[s].span > 0;) {
+    const Index first = sites[s].mirror == s - 1 ? s - 1 : s;
+    for (Index k = first; k <= s; ++k) {
+      range_[k][0] = static_cast<Index>(near_.size());
+      for (const Index other : search.around(numbered(k), numbered(sites[k].mirror)))
+        near_.push_back(rank[other]);
+      range_[k][1] = static_cast<Index>(near_.size());
+    }
+    for (; s >= first; --s) lines.takeOut(numbered(s));
+  }
+}
+
 }  // namespace sweepface::codec

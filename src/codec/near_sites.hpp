@@ -1,9 +1,11 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "codec/hierarchy.hpp"
 #include "codec/lines.hpp"
 
 namespace sweepface::codec {
@@ -41,6 +43,22 @@ class NearSites {
   std::vector<Index> reachedBy_;  // [sites, then nodes] the last search that was there
   std::vector<Index> found_;
   Index search_ = 0;
+};
+
+/// The sites before each site of a hierarchy that were nearest to it along what was left of the
+/// lines when it was taken out; none for a root.
+class NearTable {
+ public:
+  NearTable(const Surface& surface, const Hierarchy& hierarchy);
+
+  std::span<const Index> of(Index site) const {
+    const auto [first, end] = range_[site];
+    return {near_.data() + first, near_.data() + end};
+  }
+
+ private:
+  std::vector<std::array<Index, 2>> range_;  // [sites] of each in `near_`
+  std::vector<Index> near_;
 };
 
 }  // namespace sweepface::codec

@@ -17,6 +17,7 @@ using codec::Coefficients;
 using codec::Hierarchy;
 using codec::Lattice;
 using codec::NearSites;
+using codec::NearTable;
 using codec::Prediction;
 using codec::stepOf;
 
@@ -84,12 +85,13 @@ TEST(Hierarchy, KnowsTheSiteOfEveryVector) {
   }
 }
 
-TEST(Hierarchy, TellsTheNearestSitesBeforeEachThatIsNoRoot) {
+TEST(NearTable, TellsTheNearestSitesBeforeEachThatIsNoRoot) {
   for (const Surface& surface : someSurfaces()) {
     const Lattice lattice(surface, someSteps());
     const auto& sites = lattice.hierarchy().sites();
+    const NearTable table(surface, lattice.hierarchy());
     for (Index s = 0; s < static_cast<Index>(sites.size()); ++s) {
-      const auto near = lattice.hierarchy().near(s);
+      const auto near = table.of(s);
       EXPECT_EQ(near.empty(), sites[s].span == 0);
       EXPECT_LE(near.size(), NearSites::kMost);
       EXPECT_EQ(std::set<Index>(near.begin(), near.end()).size(), near.size());
