@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,6 +23,40 @@ struct DecodeLimits {
 /// Reads a .sweep file; `name` is what messages call it. Whatever the bytes, the answer is a sound
 /// rig or an error: memory stays in proportion to the bytes given, and below the limit.
 Result<Rig> decode(std::string_view bytes, std::string_view name, const DecodeLimits& limits = {});
+
+struct NeutralFirst;
+
+/// What `decodeNeutral` left for later.
+class TargetsToCome {
+ public:
+  TargetsToCome();  ///< none
+  TargetsToCome(TargetsToCome&&) noexcept;
+  TargetsToCome& operator=(TargetsToCome&&) noexcept;
+  ~TargetsToCome();
+
+  bool any() const { return rest_ != nullptr; }
+  /// Fills in the differences of the targets of the rig that came with this. After an error they
+  /// are empty as before. Either way nothing is left to come.
+  Result<void> decode(Rig& rig);
+
+ private:
+  friend Result<NeutralFirst> decodeNeutral(std::string_view, std::string_view,
+                                            const DecodeLimits&);
+  struct Rest;
+  std::unique_ptr<Rest> rest_;
+};
+
+/// A rig that can show its neutral only: its targets have names, and empty differences until they
+/// are decoded.
+struct NeutralFirst {
+  Rig rig;
+  TargetsToCome targets;
+};
+
+/// The same in two steps, so that a face shows before it can move: the first takes about half of
+/// the time. Nothing is to come of a file that holds vectors of targets as they are.
+Result<NeutralFirst> decodeNeutral(std::string_view bytes, std::string_view name,
+                                   const DecodeLimits& limits = {});
 
 /// What a part of a file costs.
 struct FilePart {

@@ -24,13 +24,13 @@ void Decoding::makeSurface(Reader& in) {
   quads = gridQuads(wireframe);
   auto surface = Surface::make(std::move(wireframe), std::move(connectivity));
   if (!surface) return in.refuseWith({"the wireframe is unsound: ", surface.error().message});
-  rig.surface = std::move(*surface);
-  stored = static_cast<std::size_t>(rig.surface.storedCount());
+  rig->surface = std::move(*surface);
+  stored = static_cast<std::size_t>(rig->surface.storedCount());
 }
 
 void Decoding::addTarget(Reader& in, std::string_view name) {
   if (name.empty() || !isUtf8(name)) in.refuse("the target's name is empty or not UTF-8");
-  rig.targets.push_back({std::string(name), {}, {}});
+  rig->targets.push_back({std::string(name), {}, {}});
 }
 
 namespace {
@@ -42,17 +42,29 @@ class Decoder {
     decoding_.memory = limits.memory;
   }
 
-  Result<Rig> run(const Chunks& chunks) {
+  /// All chunks but the one that is `toCome`, if any.
+  Result<void> run(const Chunks& chunks, const Chunk* toCome, Rig& rig) {
     version_ = chunks.version;
     readers_ = version_ == 1 ? version1() : version2();
     if (readers_.empty())
       return fail(name_, " is of version ", version_, ", which this program does not read.");
+    decoding_.targetsToCome = toCome != nullptr;
     for (const Chunk& chunk : chunks.list) {
       if (chunk.rank < 0) continue;
-      if (auto ok = admit(chunk); !ok) return std::unexpected(ok.error());
-      if (auto ok = read(chunk); !ok) return std::unexpected(ok.error());
+      if (auto ok = admit(chunk); !ok) return ok;
+      if (&chunk == toCome) continue;
+      if (auto ok = read(chunk, rig); !ok) return ok;
     }
-    return std::move(decoding_.rig);
+    return {};
+  }
+
+  Result<void> read(const Chunk& chunk, Rig& rig) {
+    Reader in(chunk.payload, chunk.offset);
+    decoding_.rig = &rig;
+    readers_[chunk.rank].read(decoding_, in);
+    if (in.left() > 0) in.refuse("the chunk goes on after its last value");
+    if (!in.ok()) return failAt(chunk, in.place(), in.problem(), in.advice());
+    return {};
   }
 
  private:
@@ -72,34 +84,77 @@ class Decoder {
                       "' is missing before it", kConvertAgain);
     const auto repeated = std::ranges::find(readers_, true, &ChunkHandler::repeated);
     if (repeated - readers_.begin() < chunk.rank && repeated != readers_.end() &&
-        decoding_.rig.targets.size() < decoding_.targets)
+        decoding_.rig->targets.size() < decoding_.targets)
       return failAt(chunk, chunk.offset, "targets are missing before it", kConvertAgain);
     rank_ = chunk.rank;
     return {};
   }
 
-  Result<void> read(const Chunk& chunk) {
-    Reader in(chunk.payload, chunk.offset);
-    readers_[chunk.rank].read(decoding_, in);
-    if (in.left() > 0) in.refuse("the chunk goes on after its last value");
-    if (!in.ok()) return failAt(chunk, in.place(), in.problem(), in.advice());
-    return {};
-  }
-
-  std::string_view name_;
+  std::string name_;
   int version_ = 0;
   std::span<const ChunkHandler> readers_;
   int rank_ = -1;  // of the last chunk
   Decoding decoding_;
 };
 
+// What targets do, where nothing builds on it.
+const Chunk* movesOf(const Chunks& chunks) {
+  const Chunk* moves = nullptr;
+  for (const Chunk& chunk : chunks.list) {
+    const std::string_view code = chunk.rank < 0 ? "" : codeAt(chunk.rank, chunks.version);
+    if (code == "MOVE") moves = &chunk;
+    if (code == "EXAC" || code == "drif") return nullptr;
+  }
+  return moves;
+}
+
 }  // namespace
 }  // namespace codec
 
-Result<Rig> decode(std::string_view bytes, std::string_view name, const DecodeLimits& limits) {
+struct TargetsToCome::Rest {
+  codec::Decoder decoder;
+  codec::Chunk chunk;
+  std::string payload;
+  std::size_t stored, targets;  // of the rig
+};
+
+TargetsToCome::TargetsToCome() = default;
+TargetsToCome::TargetsToCome(TargetsToCome&&) noexcept = default;
+TargetsToCome& TargetsToCome::operator=(TargetsToCome&&) noexcept = default;
+TargetsToCome::~TargetsToCome() = default;
+
+Result<NeutralFirst> decodeNeutral(std::string_view bytes, std::string_view name,
+                                   const DecodeLimits& limits) {
   const auto chunks = codec::readChunks(bytes, name);
   if (!chunks) return std::unexpected(chunks.error());
-  return codec::Decoder(bytes, name, limits).run(*chunks);
+  const codec::Chunk* moves = codec::movesOf(*chunks);
+  codec::Decoder decoder(bytes, name, limits);
+  NeutralFirst made;
+  if (auto ok = decoder.run(*chunks, moves, made.rig); !ok) return std::unexpected(ok.error());
+  if (!moves) return made;
+  made.targets.rest_.reset(
+      new TargetsToCome::Rest{std::move(decoder), *moves, std::string(moves->payload),
+                              made.rig.neutral.size(), made.rig.targets.size()});
+  return made;
+}
+
+Result<void> TargetsToCome::decode(Rig& rig) {
+  const std::unique_ptr<Rest> rest = std::move(rest_);
+  if (!rest) return {};
+  if (rig.neutral.size() != rest->stored || rig.targets.size() != rest->targets)
+    return fail("The targets are those of another rig.");
+  rest->chunk.payload = rest->payload;
+  Result<void> done = rest->decoder.read(rest->chunk, rig);
+  if (!done)
+    for (Target& target : rig.targets) target.difference.clear();
+  return done;
+}
+
+Result<Rig> decode(std::string_view bytes, std::string_view name, const DecodeLimits& limits) {
+  auto made = decodeNeutral(bytes, name, limits);
+  if (!made) return std::unexpected(made.error());
+  if (auto ok = made->targets.decode(made->rig); !ok) return std::unexpected(ok.error());
+  return std::move(made->rig);
 }
 
 }  // namespace sweepface

@@ -49,22 +49,22 @@ std::vector<Index> readFaceNames(Reader& in, const Polygons& faces,
 }  // namespace
 
 void readLoose(Decoding& d, Reader& in) {
-  d.rig.source.loose = readVectors<Vec3>(in, d.loose, Precision::exact);
+  d.rig->source.loose = readVectors<Vec3>(in, d.loose, Precision::exact);
 }
 
 void readSourceOrder(Decoding& d, Reader& in) {
-  auto& order = d.rig.source.gridVertex;
+  auto& order = d.rig->source.gridVertex;
   order.resize(in.count(1, "vertices"));
-  const std::int64_t low = -static_cast<std::int64_t>(d.rig.source.loose.size());
-  const std::int64_t high = gridVertices(d.rig.surface);
+  const std::int64_t low = -static_cast<std::int64_t>(d.rig->source.loose.size());
+  const std::int64_t high = gridVertices(d.rig->surface);
   Index last = -1;
   for (Index& v : order) v = last = in.step(last + 1, low, high, "vertex");
 }
 
 void readPolygons(Decoding& d, Reader& in) {
-  Polygons& faces = d.rig.source.polygons;
+  Polygons& faces = d.rig->source.polygons;
   readFaceSizes(in, faces);
-  const auto vertices = static_cast<Index>(d.rig.source.gridVertex.size());
+  const auto vertices = static_cast<Index>(d.rig->source.gridVertex.size());
   faces.corners.resize(in.ok() ? faces.faceStart.back() : 0);
   Index last = 0;
   for (Index& v : faces.corners) v = last = in.step(last, 0, vertices, "vertex");
@@ -76,7 +76,7 @@ void readPolygons(Decoding& d, Reader& in) {
 }
 
 void readTexcoords(Decoding& d, Reader& in) {
-  Polygons& faces = d.rig.source.polygons;
+  Polygons& faces = d.rig->source.polygons;
   const std::size_t count = in.size();
   faces.texcoords = readVectors<Vec2>(in, count, Precision::exact);
   if (in.number(0, 2, "flag") == 0) return;
@@ -90,7 +90,7 @@ void readTexcoords(Decoding& d, Reader& in) {
 
 void readQuadCorners(Decoding& d, Reader& in) {
   if (d.quads > in.left()) return in.refuse("corners of quads are missing");
-  const Polygons& faces = d.rig.source.polygons;
+  const Polygons& faces = d.rig->source.polygons;
   const auto corners = static_cast<Index>(faces.corners.size());
   Index first = 0;
   for (std::size_t q = 0; q < d.quads && in.ok(); ++q) {
@@ -104,13 +104,13 @@ void readQuadCorners(Decoding& d, Reader& in) {
     else
       quad = aroundQuad(faces, first);
     if (quad[3] < 0) return in.refuse("a quad goes around a face that has not four corners");
-    d.rig.source.quadCorners.insert(d.rig.source.quadCorners.end(), quad.begin(), quad.end());
+    d.rig->source.quadCorners.insert(d.rig->source.quadCorners.end(), quad.begin(), quad.end());
   }
 }
 
-void readScene(Decoding& d, Reader& in) { d.rig.scene = in.text(); }
+void readScene(Decoding& d, Reader& in) { d.rig->scene = in.text(); }
 void readThingNames(Decoding& d, Reader& in) {
-  d.rig.names = readNames(in, d.rig.surface.wireframe());
+  d.rig->names = readNames(in, d.rig->surface.wireframe());
 }
 
 // Vectors that are not whole multiples of steps: by pose, as they are.
@@ -118,25 +118,25 @@ void readExact(Decoding& d, Reader& in) {
   std::int64_t pose = -1;
   while (in.left() > 0) {
     pose += 1 + static_cast<std::int64_t>(in.size());
-    if (pose > static_cast<std::int64_t>(d.rig.targets.size()))
+    if (pose > static_cast<std::int64_t>(d.rig->targets.size()))
       return in.refuse("there are more poses than announced");
     std::vector<Vec3>& vectors =
-        pose == 0 ? d.rig.neutral : d.rig.targets[static_cast<std::size_t>(pose - 1)].difference;
+        pose == 0 ? d.rig->neutral : d.rig->targets[static_cast<std::size_t>(pose - 1)].difference;
     std::vector<Index> places(in.count(1, "vectors"));
     Index last = -1;
     for (Index& v : places)
       v = last = in.step(last + 1, 0, static_cast<Index>(vectors.size()), "vector");
     const std::vector<Vec3> values = readVectors<Vec3>(in, places.size(), Precision::exact);
     if (!in.ok()) return;
-    if (pose == 0) d.rig.packing.rest = vectors;
+    if (pose == 0) d.rig->packing.rest = vectors;
     for (std::size_t k = 0; k < places.size(); ++k) vectors[places[k]] = values[k];
   }
 }
 
 void readDrift(Decoding& d, Reader& in) {
-  for (Target& target : d.rig.targets)
+  for (Target& target : d.rig->targets)
     target.looseDifference = readVectors<Vec3>(in, d.loose, Precision::exact);
-  if (d.rig.source.loose.empty()) in.refuse("there are no loose vertices that could move");
+  if (d.rig->source.loose.empty()) in.refuse("there are no loose vertices that could move");
 }
 
 }  // namespace sweepface::codec

@@ -8,8 +8,8 @@ namespace sweepface::codec {
 namespace {
 
 void readHead(Decoding& d, Reader& in) {
-  d.rig.tolerance = in.f64();
-  if (d.rig.tolerance < 0) in.refuse("the tolerance is negative");
+  d.rig->tolerance = in.f64();
+  if (d.rig->tolerance < 0) in.refuse("the tolerance is negative");
   d.stored = in.size();
   d.targets = in.size();
   d.loose = in.size();
@@ -48,13 +48,13 @@ void readShapes(Decoding& d, Reader& in) {
 }
 
 void readNeutral(Decoding& d, Reader& in) {
-  d.rig.neutral = readVectors<Vec3>(in, d.stored, Precision::single);
+  d.rig->neutral = readVectors<Vec3>(in, d.stored, Precision::single);
 }
 
 void readTarget(Decoding& d, Reader& in) {
-  if (d.rig.targets.size() == d.targets) return in.refuse("there are more targets than announced");
+  if (d.rig->targets.size() == d.targets) return in.refuse("there are more targets than announced");
   d.addTarget(in, in.text());
-  Target& target = d.rig.targets.back();
+  Target& target = d.rig->targets.back();
   target.difference = readVectors<Vec3>(in, d.stored, Precision::single);
   target.looseDifference = readVectors<Vec3>(in, d.loose, Precision::exact);
 }

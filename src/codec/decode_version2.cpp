@@ -17,9 +17,9 @@ namespace sweepface::codec {
 namespace {
 
 void readBase(Decoding& d, Reader& in) {
-  d.rig.tolerance = in.f64();
-  if (d.rig.tolerance < 0) in.refuse("the tolerance is negative");
-  Packing& packing = d.rig.packing;
+  d.rig->tolerance = in.f64();
+  if (d.rig->tolerance < 0) in.refuse("the tolerance is negative");
+  Packing& packing = d.rig->packing;
   packing.neutralStep = in.f64();
   packing.targetStep = in.f64();
   if (packing.neutralStep < 0 || packing.targetStep < 0) in.refuse("a step is negative");
@@ -48,8 +48,8 @@ void readGrid(Decoding& d, Reader& in) {
     d.wireframe = std::move(coded.wireframe);
     d.connectivity = std::move(coded.connectivity);
     d.mirror = std::move(coded.mirror);
-    d.rig.packing.axis = coded.seeds.axis;
-    d.rig.packing.mirror = std::move(coded.seeds.pairs);
+    d.rig->packing.axis = coded.seeds.axis;
+    d.rig->packing.mirror = std::move(coded.seeds.pairs);
   });
   if (!in.ok() || !d.afford(in, d.wireframe.patches.size(), kBytesAPatch)) return;
   d.makeSurface(in);
@@ -59,7 +59,7 @@ void readGrid(Decoding& d, Reader& in) {
       (d.targets + 1) * d.stored > kVectorsAByte * d.fileSize + kVectorsAnyway)
     return in.refuse("there are more targets than the file can hold");
   if (!d.afford(in, (d.targets + 1) * d.stored, kBytesAVector)) return;
-  d.lattice.emplace(d.rig.surface, d.rig.packing, d.mirror);
+  d.lattice.emplace(d.rig->surface, d.rig->packing, d.mirror);
 }
 
 void readTargetNames(Decoding& d, Reader& in) {
@@ -84,7 +84,7 @@ class PoseReader {
         moved_(d.targets + 1) {}
 
   void read(Index pose) {
-    Packing& packing = d_.rig.packing;
+    Packing& packing = d_.rig->packing;
     Packing::Pose& form = packing.poses[pose];
     codePose(symbols_, form, pose);
     if (!symbols_.ok()) return;
@@ -101,9 +101,9 @@ class PoseReader {
   void restore(Index first, Index end) {
     std::vector<Lattice::Restored> poses;
     for (Index pose = first; pose < end; ++pose) {
-      auto& vectors = pose == 0 ? d_.rig.neutral : d_.rig.targets[pose - 1].difference;
+      auto& vectors = pose == 0 ? d_.rig->neutral : d_.rig->targets[pose - 1].difference;
       vectors.resize(d_.stored);
-      poses.push_back({moved_[pose], stepOf(d_.rig.packing, pose), vectors});
+      poses.push_back({moved_[pose], stepOf(d_.rig->packing, pose), vectors});
     }
     if (!lattice_.restore(lattice_.prediction(first), poses))
       symbols_.refuse("a coordinate is not finite");
@@ -121,7 +121,7 @@ class PoseReader {
 // Poses from `first` up to `end`, 0 the neutral.
 void readPoses(Decoding& d, Reader& in, Index first, Index end) {
   decodeRest(in, [&](RangeDecoder& coder, Symbols<RangeDecoder>& symbols) {
-    d.rig.packing.poses.resize(end);
+    d.rig->packing.poses.resize(end);
     PoseReader poses(d, coder, symbols, first == 0);
     for (Index pose = first; pose < end && symbols.ok(); ++pose) poses.read(pose);
     if (symbols.ok()) poses.restore(first, end);
@@ -131,10 +131,10 @@ void readPoses(Decoding& d, Reader& in, Index first, Index end) {
 void readRest(Decoding& d, Reader& in) { readPoses(d, in, 0, 1); }
 
 void readMoves(Decoding& d, Reader& in) {
-  if (d.rig.targets.size() < d.targets) return in.refuse("the targets have no names");
-  if (d.targets > 0) d.lattice->learn(d.rig.surface, d.rig.neutral, stepOf(d.rig.packing, 0));
+  if (d.rig->targets.size() < d.targets) return in.refuse("the targets have no names");
+  if (d.targets > 0) d.lattice->learn(d.rig->surface, d.rig->neutral, stepOf(d.rig->packing, 0));
   readPoses(d, in, 1, static_cast<Index>(d.targets) + 1);
-  for (Target& target : d.rig.targets) target.looseDifference.resize(d.loose);
+  for (Target& target : d.rig->targets) target.looseDifference.resize(d.loose);
 }
 
 std::size_t mostQuads(const Reader& in) {
@@ -148,10 +148,10 @@ void readByGrid(Decoding& d, Reader& in, Read read) {
   if (d.quads > most) return in.refuse("the patches have too many vertices for so few bytes");
   if (!d.levelOne) {
     if (!d.afford(in, d.quads, kBytesAQuad)) return;
-    d.levelOne.emplace(d.rig.surface, d.mirror);
+    d.levelOne.emplace(d.rig->surface, d.mirror);
   }
   decodeRest(in, [&](RangeDecoder&, Symbols<RangeDecoder>& symbols) {
-    read(symbols, *d.levelOne, most, d.rig.source);
+    read(symbols, *d.levelOne, most, d.rig->source);
   });
 }
 void readWalk(Decoding& d, Reader& in) { readByGrid(d, in, readOrder); }
@@ -169,15 +169,17 @@ void readGridFaces(Decoding& d, Reader& in) {
 
 void readTextureSteps(Decoding& d, Reader& in) {
   const std::size_t most = mostQuads(in);
-  SourceMesh& source = d.rig.source;
+  SourceMesh& source = d.rig->source;
   const std::vector<Index> images =
       d.levelOne ? cornerImages(d.levelOne->mirror(), source) : std::vector<Index>{};
   decodeRest(in, [&](RangeDecoder&, Symbols<RangeDecoder>& symbols) {
-    readTexture(symbols, most, source.polygons, images, d.rig.packing.textureBits);
+    readTexture(symbols, most, source.polygons, images, d.rig->packing.textureBits);
   });
 }
 
-void readTargetTurns(Decoding& d, Reader& in) { d.rig.turns = readTurns(in, d.rig.targets.size()); }
+void readTargetTurns(Decoding& d, Reader& in) {
+  d.rig->turns = readTurns(in, d.rig->targets.size());
+}
 
 }  // namespace
 

@@ -23,7 +23,8 @@ struct Decoding {
   Mirror mirror;                                   ///< of that
   std::optional<Lattice> lattice;
   std::optional<LevelOne> levelOne;
-  Rig rig;
+  bool targetsToCome = false;  ///< what they do is read later
+  Rig* rig = nullptr;          ///< what is read goes there
 
   /// Whether so many more bytes may be taken; complains through `in` if not.
   bool afford(Reader& in, std::size_t count, std::size_t bytesEach);

@@ -20,9 +20,7 @@ class Lattice {
                 spreadMirror(surface.wireframe(), surface.connectivity(), packing.mirror)) {}
   /// With what the packing's pairs spread to.
   Lattice(const Surface& surface, const Packing& packing, const Mirror& mirror)
-      : hierarchy_(surface, mirror),
-        mirrors_(mirrorsOf(hierarchy_)),
-        axis_(packing.axis) {}
+      : hierarchy_(surface, mirror), mirrors_(mirrorsOf(hierarchy_)), axis_(packing.axis) {}
 
   const Hierarchy& hierarchy() const { return hierarchy_; }
   int axis() const { return axis_; }
