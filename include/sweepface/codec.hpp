@@ -35,8 +35,8 @@ class TargetsToCome {
   ~TargetsToCome();
 
   bool any() const { return rest_ != nullptr; }
-  /// Fills in the differences of the targets of the rig that came with this. After an error they
-  /// are empty as before. Either way nothing is left to come.
+  /// Fills in the differences of the targets of the rig that came with this; after an error they
+  /// are as empty as before.
   Result<void> decode(Rig& rig);
 
  private:

@@ -55,6 +55,12 @@ SWEEPFACE_API const char* sweepface_message(void);
  * what messages call it; NULL: "The face". */
 SWEEPFACE_API sweepface_status sweepface_rig_load(const void* bytes, size_t size, const char* name,
                                                   sweepface_rig** rig);
+/* The same in two steps, so that a face shows before it can move. The first reads all but what
+ * targets do, which takes about half of the time: until the second every weight stays 0. The second
+ * does nothing where all is read; nothing made from the rig may be in use meanwhile. */
+SWEEPFACE_API sweepface_status sweepface_rig_load_neutral(const void* bytes, size_t size,
+                                                          const char* name, sweepface_rig** rig);
+SWEEPFACE_API sweepface_status sweepface_rig_load_targets(sweepface_rig* rig);
 SWEEPFACE_API void sweepface_rig_free(sweepface_rig* rig);
 
 /* The expressions; names are UTF-8 and belong to the rig. */

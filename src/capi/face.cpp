@@ -62,6 +62,7 @@ sweepface_status sweepface_face_set_weight(sweepface_face* face, uint32_t target
   if (!face) return refuse("Setting a weight needs a face.");
   const std::size_t count = face->mesh->shown;
   if (target >= count) return noSuch("target", target, count);
+  if (awaitsTargets(*face->mesh->rig)) return refuse(kAwaitsTargets);
   if (!isWeight(weight)) return refuseWeight(*face, target);
   for (std::size_t k = target; k < face->weights.size(); k += count) face->weights[k] = weight;
   return SWEEPFACE_OK;
@@ -73,6 +74,7 @@ sweepface_status checkWeights(const sweepface_face* face, const double* weights,
   if (!face || (!weights && count > 0)) return refuse("Setting weights needs a face and weights.");
   if (count > face->mesh->shown)
     return refuse("There are ", count, " weights for ", face->mesh->shown, " targets.");
+  if (awaitsTargets(*face->mesh->rig)) return refuse(kAwaitsTargets);
   for (size_t k = 0; k < count; ++k)
     if (!isWeight(weights[k])) return refuseWeight(*face, k);
   return SWEEPFACE_OK;

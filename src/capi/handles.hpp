@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "sweepface/codec.hpp"
 #include "sweepface/evaluator.hpp"
 #include "sweepface/followers.hpp"
 #include "sweepface/head.hpp"
@@ -21,6 +22,13 @@
 struct sweepface_face;
 
 namespace sweepface::capi {
+
+/// Whether it shows its neutral only.
+inline bool awaitsTargets(const Rig& rig) {
+  return !rig.targets.empty() && rig.targets.front().difference.empty();
+}
+inline constexpr const char* kAwaitsTargets =
+    "What the targets do was not loaded; call sweepface_rig_load_targets first.";
 
 /// The regions of a face; none: one that is everywhere.
 struct Division {
@@ -47,8 +55,9 @@ const Weights& followAll(const Following& following, sweepface_face& face);
 }  // namespace sweepface::capi
 
 struct sweepface_rig {
-  std::shared_ptr<sweepface::Rig> rig;  // only read once there are meshes
-  std::size_t shown = 0;                // targets, the first ones
+  std::shared_ptr<sweepface::Rig> rig;  // once there are meshes only its targets may still come
+  sweepface::TargetsToCome toCome;
+  std::size_t shown = 0;  // targets, the first ones
   std::shared_ptr<const sweepface::capi::Division> division;
   sweepface::capi::Following following = {};
 };

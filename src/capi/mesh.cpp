@@ -72,6 +72,7 @@ sweepface_status sweepface_mesh_create_within(const sweepface_rig* rig, sweepfac
 
 sweepface_status sweepface_mesh_prepare(const sweepface_mesh* mesh, int32_t normals) {
   if (!mesh) return refuse("Preparing needs a mesh.");
+  if (awaitsTargets(*mesh->mesh->rig)) return refuse(kAwaitsTargets);
   mesh->mesh->positions();
   if (normals) mesh->mesh->normals();
   return SWEEPFACE_OK;

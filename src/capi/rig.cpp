@@ -9,14 +9,34 @@
 using namespace sweepface;
 using namespace sweepface::capi;
 
+sweepface_status sweepface_rig_load_neutral(const void* bytes, size_t size, const char* name,
+                                            sweepface_rig** rig) {
+  if (!rig || (!bytes && size > 0)) return refuse("Loading a rig needs bytes and a place for it.");
+  auto decoded = decodeNeutral({static_cast<const char*>(bytes), size}, name ? name : "The face");
+  if (!decoded) return refuse(SWEEPFACE_BAD_DATA, std::move(decoded.error().message));
+  const std::size_t targets = decoded->rig.targets.size();
+  *rig =
+      new sweepface_rig{std::make_shared<Rig>(std::move(decoded->rig)), std::move(decoded->targets),
+                        targets, std::make_shared<const Division>()};
+  return SWEEPFACE_OK;
+}
+
+sweepface_status sweepface_rig_load_targets(sweepface_rig* rig) {
+  if (!rig) return refuse("Loading targets needs a rig.");
+  const Result<void> decoded = rig->toCome.decode(*rig->rig);
+  return decoded ? SWEEPFACE_OK : refuse(SWEEPFACE_BAD_DATA, decoded.error().message);
+}
+
 sweepface_status sweepface_rig_load(const void* bytes, size_t size, const char* name,
                                     sweepface_rig** rig) {
-  if (!rig || (!bytes && size > 0)) return refuse("Loading a rig needs bytes and a place for it.");
-  Result<Rig> decoded = decode({static_cast<const char*>(bytes), size}, name ? name : "The face");
-  if (!decoded) return refuse(SWEEPFACE_BAD_DATA, std::move(decoded.error().message));
-  const std::size_t targets = decoded->targets.size();
-  *rig = new sweepface_rig{std::make_shared<Rig>(std::move(*decoded)), targets,
-                           std::make_shared<const Division>()};
+  sweepface_rig* made = nullptr;
+  if (const auto status = sweepface_rig_load_neutral(bytes, size, name, rig ? &made : nullptr))
+    return status;
+  if (const auto status = sweepface_rig_load_targets(made)) {
+    sweepface_rig_free(made);
+    return status;
+  }
+  *rig = made;
   return SWEEPFACE_OK;
 }
 
@@ -53,6 +73,7 @@ sweepface_status sweepface_rig_follow(sweepface_rig* rig, uint32_t what) {
   if (rig->rig.use_count() > 1)
     return refuse(
         "What follows must be said before a rig has meshes; free them, or load it again.");
+  if (awaitsTargets(*rig->rig)) return refuse(kAwaitsTargets);
   if (rig->following.eyes)
     return refuse("What follows must be said before eyes turn; load the rig again.");
   Rig& made = *rig->rig;

@@ -139,13 +139,14 @@ Result<NeutralFirst> decodeNeutral(std::string_view bytes, std::string_view name
 }
 
 Result<void> TargetsToCome::decode(Rig& rig) {
-  const std::unique_ptr<Rest> rest = std::move(rest_);
-  if (!rest) return {};
-  if (rig.neutral.size() != rest->stored || rig.targets.size() != rest->targets)
+  if (!rest_) return {};
+  if (rig.neutral.size() != rest_->stored || rig.targets.size() != rest_->targets)
     return fail("The targets are those of another rig.");
-  rest->chunk.payload = rest->payload;
-  Result<void> done = rest->decoder.read(rest->chunk, rig);
-  if (!done)
+  rest_->chunk.payload = rest_->payload;
+  Result<void> done = rest_->decoder.read(rest_->chunk, rig);
+  if (done)
+    rest_ = nullptr;
+  else
     for (Target& target : rig.targets) target.difference.clear();
   return done;
 }

@@ -2,9 +2,13 @@
 #include <thread>
 
 #include "sweepface/arcs.hpp"
+#include "sweepface/eval.hpp"
 #include "sweepface/sweepface.h"
+#include "sweepface/sweepface_head.h"
+#include "sweepface/sweepface_regions.h"
 
 #include "allocations.hpp"
+#include "codec/packed.hpp"
 #include "codec/rigs.hpp"
 
 namespace sweepface {
@@ -354,6 +358,48 @@ TEST_F(Faces, RefuseBytesThatAreNoFace) {
   EXPECT_TRUE(
       refuses(sweepface_rig_load("hello", 5, nullptr, &bad), "The face", SWEEPFACE_BAD_DATA));
   EXPECT_EQ(bad, nullptr);
+}
+
+// A packed face, whose targets come later.
+class FacesThatShowFirst : public Faces {
+ protected:
+  FacesThatShowFirst() {
+    rig = packed(makeRig(tee()));
+    sweepface_rig_free(handle);
+    const std::string bytes = encode(rig);
+    EXPECT_EQ(sweepface_rig_load_neutral(bytes.data(), bytes.size(), "tee", &handle), SWEEPFACE_OK);
+  }
+};
+
+TEST_F(FacesThatShowFirst, MoveOnceTheirTargetsAreLoaded) {
+  make(1);
+  const std::vector<float> neutral = evaluate(), normals = evaluate(true);
+  EXPECT_STREQ(sweepface_rig_target_name(handle, 0), rig.targets[0].name.c_str());
+  ASSERT_EQ(sweepface_rig_load_targets(handle), SWEEPFACE_OK);
+  EXPECT_EQ(evaluate(), neutral);
+  EXPECT_EQ(evaluate(true), normals);
+  ASSERT_EQ(sweepface_face_set_weight(face, 0, 0.5), SWEEPFACE_OK);
+  EXPECT_NE(evaluate(), neutral);
+  expectNear(Tessellation(rig.surface, 1).positions(blend(rig, Weights{0.5, 0, 0})), evaluate(),
+             0.3 * rig.tolerance + 1e-5);
+  EXPECT_EQ(sweepface_rig_load_targets(handle), SWEEPFACE_OK);
+}
+
+TEST_F(FacesThatShowFirst, RefuseToMoveBefore) {
+  make(1);
+  const double weight = 0.5;
+  sweepface_shader_tables tables;
+  uint32_t eyes;
+  for (const sweepface_status status :
+       {sweepface_face_set_weight(face, 0, weight), sweepface_face_set_weights(face, &weight, 1),
+        sweepface_face_set_region_weights(face, 0, &weight, 1), sweepface_mesh_prepare(mesh, 1),
+        sweepface_mesh_shader_tables(mesh, 0, &tables)})
+    EXPECT_TRUE(refuses(status, "call sweepface_rig_load_targets first"));
+  sweepface_face_free(std::exchange(face, nullptr));
+  sweepface_mesh_free(std::exchange(mesh, nullptr));
+  EXPECT_TRUE(refuses(sweepface_rig_follow(handle, SWEEPFACE_ARCS), "load_targets"));
+  EXPECT_TRUE(refuses(sweepface_rig_turn_eyes(handle, &eyes), "load_targets"));
+  EXPECT_TRUE(refuses(sweepface_rig_load_targets(nullptr), "needs a rig"));
 }
 
 TEST_F(Faces, AnswerNullWithoutAnything) {
