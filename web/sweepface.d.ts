@@ -90,7 +90,8 @@ export interface Part {
 export class Sweepface {
   private constructor();
 
-  /** Reads a .sweep file. Rejects with the library's own sentence about what is wrong. */
+  /** Reads a .sweep file: of a packed one all that the neutral needs, and what targets do when the face first moves.
+   * Rejects with the library's own sentence about what is wrong. */
   static load(bytes: BufferSource, options?: LoadOptions): Promise<Sweepface>;
 
   /** Another face of the same file, at rest; the two share everything but their weights. */
@@ -144,7 +145,8 @@ export class Sweepface {
   shaderModes(out: Float32Array, tangents?: boolean): void;
   /** For vertices behind the points, the point that each repeats. */
   readonly copies: Uint32Array;
-  /** Makes ready to move, which else happens when a weight first leaves 0 and takes a few frames. */
+  /** Makes ready to move, which else happens when it first does and takes a few frames: reads what targets do, and
+   * makes the tables of evaluation. */
   prepare(): void;
 
   /** Frees the face; it can no longer be used. Memory is given back with the last face of a file. */

@@ -107,7 +107,7 @@ class Runtime {
 
   loadRig(bytes, name) {
     return this.lend(bytes, (at) => this.lendText(name, (text) => {
-      return this.get('sweepface_rig_load', at, bytes.length, text);
+      return this.get('sweepface_rig_load_neutral', at, bytes.length, text);
     }));
   }
 }
@@ -136,6 +136,7 @@ class Shared {
   constructor(module, bytes, {name, follow, eyes, divide, lod, budget}) {
     const runtime = this.runtime = new Runtime(module), {wasm} = runtime;
     this.rig = runtime.loadRig(bytes, name);
+    if (follow || eyes || divide) this.loadTargets();
     if (follow) runtime.check(wasm.sweepface_rig_follow(this.rig, follow));
     this.eyeCount = eyes ? runtime.get('sweepface_rig_turn_eyes', this.rig) : 0;
     this.regions = divide ? divide(runtime, this.rig) : null;  // with their matter; null: of one piece
@@ -149,6 +150,13 @@ class Shared {
     this.weightCount = this.names.length * this.regionCount;
     this.vertexCount = wasm.sweepface_mesh_vertex_count(this.mesh);
     this.lod = lod;
+  }
+
+  /** Reads what targets do, which waits until the face is to move: so it shows sooner. */
+  loadTargets() {
+    if (this.canMove) return;
+    withinMemory(() => this.runtime.check(this.runtime.wasm.sweepface_rig_load_targets(this.rig)));
+    this.canMove = true;
   }
 
   target(name) {
@@ -267,7 +275,9 @@ export class Sweepface {
   /** Sets the weights that are named, everywhere or in a region, and leaves the others; those in motion stop. */
   setWeights(weights, region) {
     const shared = this.#open(), {runtime, names} = shared, {wasm} = runtime, count = names.length;
-    const named = this.#resolve(weights), all = this.#copyWeights();
+    const named = this.#resolve(weights);
+    shared.loadTargets();
+    const all = this.#copyWeights();
     const everywhere = Array.from({length: shared.regionCount}, (_, r) => r);
     const places = region === undefined ? everywhere : [shared.region(region)];
     for (const r of places)
@@ -333,6 +343,7 @@ export class Sweepface {
   /** What a vertex shader evaluates the face from, instead of `evaluate`: see shaderModes. */
   shaderTables(tangents = false) {
     const {runtime} = this.#open(), {wasm} = runtime, points = this.pointCount, rows = tangents ? 2 : 1;
+    this.#shared.loadTargets();
     return withinMemory(() => runtime.lend(new Uint8Array(20), (out) => {
       runtime.check(wasm.sweepface_mesh_shader_tables(this.#shared.mesh, tangents ? 1 : 0, out));
       const [basis, places, neutral, texels, modes] = runtime.words(out, 5);
@@ -357,9 +368,10 @@ export class Sweepface {
   /** For vertices behind the points, the point that each repeats. */
   get copies() { return this.#open().copies(); }
 
-  /** Makes ready to move, which else happens when a weight first leaves 0 and takes a few frames. */
+  /** Makes ready to move, which else happens when it first does and takes a few frames. */
   prepare() {
     const {runtime} = this.#open();
+    this.#shared.loadTargets();
     withinMemory(() => runtime.check(runtime.wasm.sweepface_mesh_prepare(this.#shared.mesh, 1)));
   }
 
@@ -431,6 +443,7 @@ export class Sweepface {
 
   #makeMotion() {
     const {runtime, names, regions} = this.#shared, {wasm} = runtime, count = names.length;
+    this.#shared.loadTargets();
     const weights = wasm.sweepface_face_weights(this.#face);
     if (!regions) return runtime.get('sweepface_motion_create', weights, count);
     const matters = new Float64Array(regions.flatMap(({mass, stiffness, delay}) => [mass, stiffness, delay]));
