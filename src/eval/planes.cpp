@@ -20,17 +20,24 @@
 namespace sweepface {
 namespace {
 
+// Eight numbers that processors reckon with at once, or by fours, wherever they lie.
 constexpr int kWide = 8;
+using Eight [[gnu::vector_size(4 * kWide)]] = float;
+using EightThere [[gnu::vector_size(4 * kWide), gnu::aligned(4), gnu::may_alias]] = float;
+
+[[gnu::always_inline]] inline EightThere& at(float* p) { return *reinterpret_cast<EightThere*>(p); }
+[[gnu::always_inline]] inline const EightThere& at(const float* p) {
+  return *reinterpret_cast<const EightThere*>(p);
+}
 
 }  // namespace
 
 SWEEPFACE_CLONES
 void sumRows(std::span<const Scaled> terms, int width, float* out) {
   for (int c = 0; c < width; c += kWide) {
-    float sums[kWide] = {};
-    for (const Scaled& term : terms)
-      for (int s = 0; s < kWide; ++s) sums[s] += term.factor * term.row[c + s];
-    for (int s = 0; s < kWide; ++s) out[c + s] = sums[s];
+    Eight sums{};
+    for (const Scaled& term : terms) sums += term.factor * at(term.row + c);
+    at(out + c) = sums;
   }
 }
 
@@ -38,11 +45,10 @@ SWEEPFACE_CLONES
 void project(const Planes& planes, const float* factors, float* out) {
   const int width = planes.width();
   for (int c = 0; c < width; c += kWide) {
-    float sums[kWide] = {};
+    Eight sums{};
     const float* from = planes.values.data() + c;
-    for (int r = 0; r < planes.rows; ++r, from += width)
-      for (int s = 0; s < kWide; ++s) sums[s] += factors[r] * from[s];
-    for (int s = 0; s < kWide; ++s) out[c + s] = sums[s];
+    for (int r = 0; r < planes.rows; ++r, from += width) sums += factors[r] * at(from);
+    at(out + c) = sums;
   }
 }
 
@@ -51,9 +57,8 @@ void dotRows(const Planes& planes, const float* vector, float* out) {
   const int width = planes.width();
   for (int r = 0; r < planes.rows; ++r) {
     const float* const row = planes.row(r);
-    float sums[kWide] = {};
-    for (int c = 0; c < width; c += kWide)
-      for (int s = 0; s < kWide; ++s) sums[s] += row[c + s] * vector[c + s];
+    Eight sums{};
+    for (int c = 0; c < width; c += kWide) sums += at(row + c) * at(vector + c);
     out[r] =
         ((sums[0] + sums[4]) + (sums[2] + sums[6])) + ((sums[1] + sums[5]) + (sums[3] + sums[7]));
   }
@@ -65,8 +70,7 @@ void takeAway(Planes& planes, const float* factors, const float* vector) {
   for (int r = 0; r < planes.rows; ++r) {
     float* const row = planes.row(r);
     const float factor = factors[r];
-    for (int c = 0; c < width; c += kWide)
-      for (int s = 0; s < kWide; ++s) row[c + s] -= factor * vector[c + s];
+    for (int c = 0; c < width; c += kWide) at(row + c) -= factor * at(vector + c);
   }
 }
 
@@ -74,20 +78,16 @@ SWEEPFACE_CLONES
 void measureSquares(const Planes& planes, float* sums, float* largest) {
   const int lane = planes.lane;
   for (int c = 0; c < lane; c += kWide) {
-    float x2[kWide] = {}, y2[kWide] = {}, z2[kWide] = {}, most[kWide] = {};
+    Eight x2{}, y2{}, z2{}, most{};
     for (int r = 0; r < planes.rows; ++r) {
       const float* const row = planes.row(r) + c;
-      for (int s = 0; s < kWide; ++s) {
-        const float x = row[s] * row[s], y = row[lane + s] * row[lane + s],
-                    z = row[2 * lane + s] * row[2 * lane + s], all = x + y + z;
-        x2[s] += x, y2[s] += y, z2[s] += z;
-        most[s] = all > most[s] ? all : most[s];
-      }
+      const Eight x = at(row) * at(row), y = at(row + lane) * at(row + lane),
+                  z = at(row + 2 * lane) * at(row + 2 * lane), all = x + y + z;
+      x2 += x, y2 += y, z2 += z;
+      most = all > most ? all : most;
     }
-    for (int s = 0; s < kWide; ++s) {
-      sums[c + s] = x2[s], sums[lane + c + s] = y2[s], sums[2 * lane + c + s] = z2[s];
-      largest[c + s] = most[s];
-    }
+    at(sums + c) = x2, at(sums + lane + c) = y2, at(sums + 2 * lane + c) = z2;
+    at(largest + c) = most;
   }
 }
 
@@ -97,24 +97,30 @@ void measureRest(const Planes& wanted, std::span<const float> basis, const float
   const int lane = wanted.lane, width = wanted.width(), rows = wanted.rows;
   const int modes = static_cast<int>(basis.size()) / rows;
   for (int c = 0; c < lane; c += kWide) {
-    float most[kWide] = {};
+    Eight most{};
     for (int r = 0; r < rows; ++r) {
-      float squares[kWide] = {};
+      Eight squares{};
       for (int axis = 0; axis < 3; ++axis) {
-        float sums[kWide] = {};
-        for (int m = 0; m < modes; ++m) {
-          const float b = basis[static_cast<std::size_t>(m) * rows + r];
-          const float* const from =
-              coefficients + static_cast<std::size_t>(m) * width + axis * lane + c;
-          for (int s = 0; s < kWide; ++s) sums[s] += b * from[s];
-        }
-        const float* const to = wanted.row(r) + axis * lane + c;
-        for (int s = 0; s < kWide; ++s) squares[s] += (sums[s] - to[s]) * (sums[s] - to[s]);
+        Eight sums{};
+        const float* from = coefficients + axis * lane + c;
+        for (int m = 0; m < modes; ++m, from += width)
+          sums += basis[static_cast<std::size_t>(m) * rows + r] * at(from);
+        const Eight off = sums - at(wanted.row(r) + axis * lane + c);
+        squares += off * off;
       }
-      for (int s = 0; s < kWide; ++s) most[s] = squares[s] > most[s] ? squares[s] : most[s];
+      most = squares > most ? squares : most;
     }
-    for (int s = 0; s < kWide; ++s) largest[c + s] = most[s];
-    if (*std::max_element(most, most + kWide) > enough) return;
+    at(largest + c) = most;
+    if (*std::max_element(largest + c, largest + c + kWide) > enough) return;
+  }
+}
+
+SWEEPFACE_CLONES
+void clampAll(std::span<float> values, float most) {
+  const Eight high = most - Eight{}, low = -high;
+  for (std::size_t k = 0; k < values.size(); k += kWide) {
+    EightThere& x = at(values.data() + k);
+    x = x > high ? high : x < low ? low : x;
   }
 }
 

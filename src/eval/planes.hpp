@@ -18,7 +18,8 @@ struct Planes {
   /// All zero.
   void reshape(int rowCount, int targetCount) {
     rows = rowCount, targets = targetCount, lane = laneOf(targetCount);
-    values.assign(static_cast<std::size_t>(rows) * width(), 0.0f);
+    values.clear();
+    values.resize(static_cast<std::size_t>(rows) * width());
   }
   int width() const { return 3 * lane; }
   float* row(int r) { return values.data() + static_cast<std::size_t>(r) * width(); }
@@ -49,5 +50,7 @@ void measureSquares(const Planes& planes, float* sums, float* largest);
 /// [lane]; `coefficients` is [modes][3 × lane]. Beyond `enough` the others are left as they are.
 void measureRest(const Planes& wanted, std::span<const float> basis, const float* coefficients,
                  float enough, float* largest);
+/// To what lies within `most` of 0; values in a multiple of 8.
+void clampAll(std::span<float> values, float most);
 
 }  // namespace sweepface

@@ -140,7 +140,7 @@ void RowDifferences::of(std::span<const Row> rows, double scale, std::vector<std
       to[c] = clamped(d.x), to[out.lane + c] = clamped(d.y), to[2 * out.lane + c] = clamped(d.z);
     }
   }
-  for (float& x : out.values) x = std::clamp(x, -kMostScaled, kMostScaled);
+  clampAll(out.values, kMostScaled);
 }
 
 }  // namespace sweepface
