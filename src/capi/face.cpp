@@ -154,6 +154,7 @@ sweepface_status evaluate(sweepface_face* face, std::size_t count,
                           const sweepface_vectors& positions, const sweepface_vectors& normals,
                           bool onlyChanges) {
   if (const auto status = checkOutputs(face, count, positions, normals)) return status;
+  if (positions.data && normals.data && !isNeutral(follow(*face))) face->mesh->prepareBoth();
   write(*face, What::positions, positions, count, onlyChanges);
   write(*face, What::normals, normals, count, onlyChanges);
   return SWEEPFACE_OK;

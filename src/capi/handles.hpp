@@ -64,20 +64,6 @@ struct sweepface_rig {
 
 namespace sweepface::capi {
 
-/// Tables are made when they are first asked for: until then a face shows its neutral.
-class LazyEvaluator {
- public:
-  const Evaluator& get(const Rig& rig, const Tessellation& grid,
-                       const EvaluatorOptions& options) const {
-    std::call_once(once_, [&] { made_ = *Evaluator::make(rig, grid, options); });
-    return made_;
-  }
-
- private:
-  mutable std::once_flag once_;
-  mutable Evaluator made_;
-};
-
 struct Mesh {
   std::shared_ptr<const Rig> rig;
   std::size_t shown;
@@ -87,7 +73,10 @@ struct Mesh {
   Tessellation grid;
   Evaluator neutral;  // with the same options the others cannot fail
   RenderMesh render;
-  LazyEvaluator lazyPositions = {}, lazyNormals = {};
+
+  // Tables are made when they are first asked for: until then a face shows its neutral.
+  mutable std::once_flag positionsOnce = {}, normalsOnce = {};
+  mutable Evaluator madePositions = {}, madeNormals = {};
 
   mutable std::once_flag shaderOnce = {};
   mutable ShaderTables shaderPositions = {}, shaderTangents = {};
@@ -100,12 +89,27 @@ struct Mesh {
   }
 
   const Evaluator& positions() const {
-    return lazyPositions.get(*rig, grid,
-                             {.level = lod, .normals = false, .influences = division->influences});
+    std::call_once(positionsOnce, [&] { madePositions = make(true, false); });
+    return madePositions;
   }
   const Evaluator& normals() const {
-    return lazyNormals.get(*rig, grid,
-                           {.level = lod, .positions = false, .influences = division->influences});
+    std::call_once(normalsOnce, [&] { madeNormals = make(false, true); });
+    return madeNormals;
+  }
+  /// Both at once take less than one after the other.
+  void prepareBoth() const {
+    std::call_once(positionsOnce, [&] { madePositions = make(true, true); });
+    if (!madePositions.hasNormals()) return void(normals());
+    std::call_once(normalsOnce, [&] { madeNormals = madePositions; });
+  }
+
+ private:
+  Evaluator make(bool ofPositions, bool ofNormals) const {
+    return *Evaluator::make(*rig, grid,
+                            {.level = lod,
+                             .normals = ofNormals,
+                             .positions = ofPositions,
+                             .influences = division->influences});
   }
 };
 

@@ -73,8 +73,10 @@ sweepface_status sweepface_mesh_create_within(const sweepface_rig* rig, sweepfac
 sweepface_status sweepface_mesh_prepare(const sweepface_mesh* mesh, int32_t normals) {
   if (!mesh) return refuse("Preparing needs a mesh.");
   if (awaitsTargets(*mesh->mesh->rig)) return refuse(kAwaitsTargets);
-  mesh->mesh->positions();
-  if (normals) mesh->mesh->normals();
+  if (normals)
+    mesh->mesh->prepareBoth();
+  else
+    mesh->mesh->positions();
   return SWEEPFACE_OK;
 }
 

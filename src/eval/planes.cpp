@@ -25,6 +25,8 @@ constexpr int kWide = 8;
 using Eight [[gnu::vector_size(4 * kWide)]] = float;
 using EightThere [[gnu::vector_size(4 * kWide), gnu::aligned(4), gnu::may_alias]] = float;
 
+using EightShorts [[gnu::vector_size(2 * kWide), gnu::aligned(2), gnu::may_alias]] = std::int16_t;
+
 [[gnu::always_inline]] inline EightThere& at(float* p) { return *reinterpret_cast<EightThere*>(p); }
 [[gnu::always_inline]] inline const EightThere& at(const float* p) {
   return *reinterpret_cast<const EightThere*>(p);
@@ -121,6 +123,31 @@ void clampAll(std::span<float> values, float most) {
   for (std::size_t k = 0; k < values.size(); k += kWide) {
     EightThere& x = at(values.data() + k);
     x = x > high ? high : x < low ? low : x;
+  }
+}
+
+SWEEPFACE_CLONES
+Extent extentOf(std::span<const float> values) {
+  Eight most{}, sum{};
+  for (std::size_t k = 0; k < values.size(); k += kWide) {
+    const Eight x = at(values.data() + k), size = x < 0 ? -x : x;
+    most = size > most ? size : most;
+    sum += size;
+  }
+  Extent extent;
+  for (int s = 0; s < kWide; ++s) {
+    extent.most = std::max(extent.most, most[s]);
+    extent.sum += sum[s];
+  }
+  return extent;
+}
+
+SWEEPFACE_CLONES
+void roundAll(std::span<const float> values, float factor, std::int16_t* out) {
+  constexpr float kWhole = 3 << 22;  // numbers near this one have no fractions
+  for (std::size_t k = 0; k < values.size(); k += kWide) {
+    const Eight rounded = at(values.data() + k) * factor + kWhole - kWhole;
+    reinterpret_cast<EightShorts&>(out[k]) = __builtin_convertvector(rounded, EightShorts);
   }
 }
 

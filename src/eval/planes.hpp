@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -28,8 +29,8 @@ struct Planes {
   static int laneOf(int targets) { return (targets + 7) / 8 * 8; }
 };
 
-// Loops over planes, by far most of what making an Evaluator takes. Rows are multiples of 8 long,
-// and sums are taken in the same order on every machine.
+// Loops over planes, by far most of what making an Evaluator takes. Rows and spans are
+// multiples of 8 long, and sums are taken in the same order on every machine.
 
 struct Scaled {
   float factor;
@@ -50,7 +51,14 @@ void measureSquares(const Planes& planes, float* sums, float* largest);
 /// [lane]; `coefficients` is [modes][3 × lane]. Beyond `enough` the others are left as they are.
 void measureRest(const Planes& wanted, std::span<const float> basis, const float* coefficients,
                  float enough, float* largest);
-/// To what lies within `most` of 0; values in a multiple of 8.
+/// To what lies within `most` of 0.
 void clampAll(std::span<float> values, float most);
+/// The largest size of a number, and the sum of all sizes.
+struct Extent {
+  float most = 0, sum = 0;
+};
+Extent extentOf(std::span<const float> values);
+/// The nearest whole numbers to values · factor, which 16 bits hold.
+void roundAll(std::span<const float> values, float factor, std::int16_t* out);
 
 }  // namespace sweepface

@@ -28,23 +28,24 @@ RowDifferences::RowDifferences(const Rig& rig, std::span<const std::vector<float
 // Counted first, so that all lie in one piece.
 void RowDifferences::listMoves(std::span<const std::vector<float>> influences) {
   const auto stored = static_cast<std::size_t>(rig_.surface.storedCount());
-  const auto influence = [&](Index column, std::size_t v) {
-    return influences.empty() ? 1.0f : influences[column / targets_][v];
-  };
-  firstMove_.assign(stored + 1, 0);
   const auto each = [&](const auto& use) {
     for (Index c = 0; c < columns_; ++c) {
-      const std::vector<Vec3>& difference = rig_.targets[c % targets_].difference;
-      for (std::size_t v = 0; v < stored; ++v)
-        if (difference[v] != Vec3{} && influence(c, v) != 0) use(c, v, difference[v]);
+      const Vec3* const difference = rig_.targets[c % targets_].difference.data();
+      const float* const influence = influences.empty() ? nullptr : influences[c / targets_].data();
+      for (std::size_t v = 0; v < stored; ++v) {
+        const Vec3& d = difference[v];
+        if (d.x == 0 && d.y == 0 && d.z == 0) continue;  // most are
+        const float share = influence ? influence[v] : 1;
+        if (share != 0) use(c, v, share * d);
+      }
     }
   };
+  firstMove_.assign(stored + 1, 0);
   each([&](Index, std::size_t v, const Vec3&) { ++firstMove_[v + 1]; });
   for (std::size_t v = 0; v < stored; ++v) firstMove_[v + 1] += firstMove_[v];
   moves_.resize(firstMove_.back());
   std::vector<std::size_t> next(firstMove_.begin(), firstMove_.end() - 1);
-  each([&](Index c, std::size_t v, const Vec3& difference) {
-    const Vec3 d = influences.empty() ? difference : influence(c, v) * difference;
+  each([&](Index c, std::size_t v, const Vec3& d) {
     moves_[next[v]++] = {static_cast<std::uint32_t>(c), clamped(d.x), clamped(d.y), clamped(d.z)};
   });
 }

@@ -39,15 +39,11 @@ std::int16_t toShort(double x, int shift) {
 struct Sizes {
   double most = 0, sum = 0;
 
-  Sizes(const float* coefficients, int lane, int targets) {
-    for (int axis = 0; axis < 3; ++axis) {
-      double ofAxis = 0;
-      for (int k = 0; k < targets; ++k) {
-        const double size = std::abs(double(coefficients[axis * lane + k]));
-        most = std::max(most, size);
-        ofAxis += size;
-      }
-      sum = std::max(sum, ofAxis);
+  Sizes(const float* coefficients, int lane) {
+    for (int axis = 0; axis < 3; ++axis, coefficients += lane) {
+      const Extent extent = extentOf({coefficients, static_cast<std::size_t>(lane)});
+      most = std::max(most, double(extent.most));
+      sum = std::max(sum, 1.0001 * extent.sum);  // added up in single precision
     }
   }
   /// The smallest unit with which nothing overflows, where rounding may add `room` to each.
@@ -75,7 +71,10 @@ bool narrow(Integers& integers, int target) {
   };
   bool fits = true;
   each([&](std::int16_t x, int shift) { fits = fits && std::abs(int(x)) < 127 << shift; });
-  if (fits) each([&](std::int16_t& x, int shift) { x = toShort(x, shift); });
+  if (fits)
+    each([](std::int16_t& x, int shift) {
+      x = static_cast<std::int16_t>((x + (1 << shift) / 2) >> shift << shift);
+    });
   return fits;
 }
 
@@ -91,13 +90,13 @@ Integers toIntegers(const LowRank& found, const Planes& wanted, Forms forms) {
   double most = 0;
   for (int m = 0; m < found.modes; ++m) {
     const float* const from = found.coefficients.data() + std::size_t(m) * width;
-    const Sizes sizes(from, wanted.lane, wanted.targets);
+    const Sizes sizes(from, wanted.lane);
     const int shift = shiftFor(forms.step, sizes.unit(1, wanted.targets), wanted.targets);
-    const double unit = sizes.unit((1 << shift) / 2 + 1, wanted.targets), perUnit = 1 / unit;
+    const double unit = sizes.unit((1 << shift) / 2 + 1, wanted.targets);
     out.shifts.push_back(shift);
     stepOf[m] = unit * 65536 / kWeightUnit;
-    std::int16_t* const to = out.coefficients.data() + std::size_t(m) * width;
-    for (int c = 0; c < width; ++c) to[c] = toShort(from[c] * perUnit, 0);
+    roundAll({from, static_cast<std::size_t>(width)}, static_cast<float>(1 / unit),
+             out.coefficients.data() + std::size_t(m) * width);
     for (int r = 0; r < rows; ++r) {
       const double size = std::abs(found.basis[std::size_t(m) * rows + r]) * stepOf[m];
       sums[r] += size;
@@ -334,16 +333,17 @@ PackedErrors packTile(const TileSource& source, std::uint16_t nobody, TileTable&
   Integers integers;
   Forms used;
   double share = 0.85;
-  for (int attempt = 0; attempt < 4 && errors.ofTarget.empty(); ++attempt, share *= 0.6) {
+  bool isDone = false;
+  for (int attempt = 0; attempt < 4 && !isDone; ++attempt, share *= 0.6) {
     found = factorise(wanted, static_cast<float>(share));
     for (const Forms& forms : kForms) {
       used = forms;
       integers = toIntegers(found, wanted, used);
       const bool isLast = forms.step == 0;
       errors.ofTarget = measure(integers, wanted, isLast ? kMostScale : 1);
-      if (isEnough(errors.ofTarget)) break;
+      isDone = isEnough(errors.ofTarget);
+      if (isDone) break;
     }
-    if (!isEnough(errors.ofTarget) && attempt < 3) errors.ofTarget.clear();
   }
   errors.rounding = roundingOf(integers);
   const float step = Packer(source, found, integers, used).write(nobody, table);
