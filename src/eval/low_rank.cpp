@@ -29,7 +29,7 @@ class Deflation {
     while (found_.modes < left_.rows) {
       measureSquares(left_, sums_.data(), most_.data());
       letGo();
-      if (unfinished_.empty() || !findMode(worstColumn())) break;
+      if (kept_.empty() || !findMode(worstColumn())) break;
       takeMode();
     }
     return std::move(found_);
@@ -45,21 +45,34 @@ class Deflation {
     return true;
   }
 
-  /// Takes out the columns of targets that are near enough.
+  /// Targets that are near enough go: their columns are zeroed, and taken out once that makes the
+  /// others fewer registers wide.
   void letGo() {
     kept_.clear();
     for (int k = 0; k < left_.targets; ++k)
       if (most_[k] > squared_) kept_.push_back(k);
-    const auto count = static_cast<int>(kept_.size());
-    if (count == left_.targets) return;
+    if (Planes::laneOf(static_cast<int>(kept_.size())) < left_.lane) return takeOut();
+    for (int k = 0; k < left_.targets; ++k) {
+      if (unfinished_[k] < 0 || most_[k] > squared_) continue;
+      unfinished_[k] = -1;
+      for (int r = 0; r < left_.rows; ++r) zero(left_.row(r) + k);
+      zero(sums_.data() + k);
+    }
+  }
+
+  void zero(float* column) const {
+    for (int axis = 0; axis < 3; ++axis) column[axis * left_.lane] = 0;
+  }
+
+  void takeOut() {
     const int before = left_.lane, width = left_.width();
-    left_.targets = count;
-    left_.lane = Planes::laneOf(count);
+    left_.targets = static_cast<int>(kept_.size());
+    left_.lane = Planes::laneOf(left_.targets);
     float* to = left_.values.data();
     for (int r = 0; r < left_.rows; ++r)
       to = keepColumns(left_.values.data() + static_cast<std::size_t>(r) * width, before, to);
     keepColumns(sums_.data(), before, sums_.data());
-    for (int i = 0; i < count; ++i) unfinished_[i] = unfinished_[kept_[i]];
+    for (int i = 0; i < left_.targets; ++i) unfinished_[i] = unfinished_[kept_[i]];
     unfinished_.resize(kept_.size());
   }
 
@@ -93,6 +106,7 @@ class Deflation {
     found_.coefficients.resize(first + 3 * static_cast<std::size_t>(lane_));
     ++found_.modes;
     for (std::size_t i = 0; i < unfinished_.size(); ++i) {
+      if (unfinished_[i] < 0) continue;
       found_.modesOf[unfinished_[i]] = found_.modes;
       for (int axis = 0; axis < 3; ++axis)
         found_.coefficients[first + axis * lane_ + unfinished_[i]] =
@@ -104,7 +118,8 @@ class Deflation {
   int lane_;
   float squared_;
   LowRank found_;
-  std::vector<int> unfinished_, kept_;
+  std::vector<int> unfinished_;  // [columns] whose they are; -1: nobody's any more
+  std::vector<int> kept_;
   std::vector<float> mode_, coefficients_, sums_, most_;
 };
 

@@ -34,23 +34,33 @@ using EightShorts [[gnu::vector_size(2 * kWide), gnu::aligned(2), gnu::may_alias
 
 }  // namespace
 
+// Three at once: sums of one wait for each other.
 SWEEPFACE_CLONES
 void sumRows(std::span<const Scaled> terms, int width, float* out) {
-  for (int c = 0; c < width; c += kWide) {
-    Eight sums{};
-    for (const Scaled& term : terms) sums += term.factor * at(term.row + c);
-    at(out + c) = sums;
+  for (int c = 0; c < width; c += 3 * kWide) {
+    Eight a{}, b{}, d{};
+    for (const Scaled& term : terms) {
+      const float* const row = term.row + c;
+      a += term.factor * at(row);
+      b += term.factor * at(row + kWide);
+      d += term.factor * at(row + 2 * kWide);
+    }
+    at(out + c) = a, at(out + c + kWide) = b, at(out + c + 2 * kWide) = d;
   }
 }
 
 SWEEPFACE_CLONES
 void project(const Planes& planes, const float* factors, float* out) {
   const int width = planes.width();
-  for (int c = 0; c < width; c += kWide) {
-    Eight sums{};
-    const float* from = planes.values.data() + c;
-    for (int r = 0; r < planes.rows; ++r, from += width) sums += factors[r] * at(from);
-    at(out + c) = sums;
+  for (int c = 0; c < width; c += 3 * kWide) {
+    Eight a{}, b{}, d{};
+    const float* row = planes.values.data() + c;
+    for (int r = 0; r < planes.rows; ++r, row += width) {
+      a += factors[r] * at(row);
+      b += factors[r] * at(row + kWide);
+      d += factors[r] * at(row + 2 * kWide);
+    }
+    at(out + c) = a, at(out + c + kWide) = b, at(out + c + 2 * kWide) = d;
   }
 }
 
@@ -101,15 +111,17 @@ void measureRest(const Planes& wanted, std::span<const float> basis, const float
   for (int c = 0; c < lane; c += kWide) {
     Eight most{};
     for (int r = 0; r < rows; ++r) {
-      Eight squares{};
-      for (int axis = 0; axis < 3; ++axis) {
-        Eight sums{};
-        const float* from = coefficients + axis * lane + c;
-        for (int m = 0; m < modes; ++m, from += width)
-          sums += basis[static_cast<std::size_t>(m) * rows + r] * at(from);
-        const Eight off = sums - at(wanted.row(r) + axis * lane + c);
-        squares += off * off;
+      Eight x{}, y{}, z{};
+      const float* from = coefficients + c;
+      for (int m = 0; m < modes; ++m, from += width) {
+        const float factor = basis[static_cast<std::size_t>(m) * rows + r];
+        x += factor * at(from);
+        y += factor * at(from + lane);
+        z += factor * at(from + 2 * lane);
       }
+      const float* const to = wanted.row(r) + c;
+      x -= at(to), y -= at(to + lane), z -= at(to + 2 * lane);
+      const Eight squares = x * x + y * y + z * z;
       most = squares > most ? squares : most;
     }
     at(largest + c) = most;
