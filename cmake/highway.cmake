@@ -9,10 +9,8 @@ elseif(CMAKE_SYSTEM_NAME STREQUAL "WASI")
   file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/highway)
   file(CREATE_LINK ${HIGHWAY_INCLUDE}/hwy ${PROJECT_BINARY_DIR}/highway/hwy SYMBOLIC)
   target_include_directories(sweepface_runtime SYSTEM PRIVATE ${PROJECT_BINARY_DIR}/highway)
-  # What runs every frame, and most of what loading a face takes, is built for speed.
+  # What runs every frame is built for speed.
   set_property(SOURCE ${kernels} APPEND PROPERTY COMPILE_OPTIONS -O2)
-  set_property(SOURCE ${PROJECT_SOURCE_DIR}/src/eval/planes.cpp APPEND PROPERTY COMPILE_OPTIONS
-    -O2 -fvectorize -fslp-vectorize)
 else()
   find_package(hwy 1 REQUIRED)
   target_link_libraries(sweepface_runtime PRIVATE hwy::hwy)

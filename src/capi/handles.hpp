@@ -88,20 +88,18 @@ struct Mesh {
     });
   }
 
-  const Evaluator& positions() const {
-    std::call_once(positionsOnce, [&] { madePositions = make(true, false); });
+  const Evaluator& positions(bool withNormals = false) const {
+    std::call_once(positionsOnce, [&] { madePositions = make(true, withNormals); });
     return madePositions;
   }
-  const Evaluator& normals() const {
-    std::call_once(normalsOnce, [&] { madeNormals = make(false, true); });
+  const Evaluator& normals(const Evaluator* both = nullptr) const {
+    std::call_once(normalsOnce, [&] {
+      madeNormals = both && both->hasNormals() ? *both : make(false, true);
+    });
     return madeNormals;
   }
-  /// Both at once take less than one after the other.
-  void prepareBoth() const {
-    std::call_once(positionsOnce, [&] { madePositions = make(true, true); });
-    if (!madePositions.hasNormals()) return void(normals());
-    std::call_once(normalsOnce, [&] { madeNormals = madePositions; });
-  }
+  /// At once they take less than one after the other.
+  void prepareBoth() const { normals(&positions(true)); }
 
  private:
   Evaluator make(bool ofPositions, bool ofNormals) const {

@@ -25,11 +25,17 @@ constexpr int kWide = 8;
 using Eight [[gnu::vector_size(4 * kWide)]] = float;
 using EightThere [[gnu::vector_size(4 * kWide), gnu::aligned(4), gnu::may_alias]] = float;
 
+using EightInts [[gnu::vector_size(4 * kWide)]] = std::int32_t;
 using EightShorts [[gnu::vector_size(2 * kWide), gnu::aligned(2), gnu::may_alias]] = std::int16_t;
 
 [[gnu::always_inline]] inline EightThere& at(float* p) { return *reinterpret_cast<EightThere*>(p); }
 [[gnu::always_inline]] inline const EightThere& at(const float* p) {
   return *reinterpret_cast<const EightThere*>(p);
+}
+
+// Each to the larger of the two.
+[[gnu::always_inline]] inline void raise(Eight& most, const Eight& x) {
+  most = most < x ? x : most;
 }
 
 }  // namespace
@@ -96,7 +102,7 @@ void measureSquares(const Planes& planes, float* sums, float* largest) {
       const Eight x = at(row) * at(row), y = at(row + lane) * at(row + lane),
                   z = at(row + 2 * lane) * at(row + 2 * lane), all = x + y + z;
       x2 += x, y2 += y, z2 += z;
-      most = all > most ? all : most;
+      raise(most, all);
     }
     at(sums + c) = x2, at(sums + lane + c) = y2, at(sums + 2 * lane + c) = z2;
     at(largest + c) = most;
@@ -122,7 +128,7 @@ void measureRest(const Planes& wanted, std::span<const float> basis, const float
       const float* const to = wanted.row(r) + c;
       x -= at(to), y -= at(to + lane), z -= at(to + 2 * lane);
       const Eight squares = x * x + y * y + z * z;
-      most = squares > most ? squares : most;
+      raise(most, squares);
     }
     at(largest + c) = most;
     if (*std::max_element(largest + c, largest + c + kWide) > enough) return;
@@ -133,8 +139,9 @@ SWEEPFACE_CLONES
 void clampAll(std::span<float> values, float most) {
   const Eight high = most - Eight{}, low = -high;
   for (std::size_t k = 0; k < values.size(); k += kWide) {
-    EightThere& x = at(values.data() + k);
-    x = x > high ? high : x < low ? low : x;
+    Eight x = at(values.data() + k);
+    raise(x, low);
+    at(values.data() + k) = high < x ? high : x;
   }
 }
 
@@ -142,24 +149,28 @@ SWEEPFACE_CLONES
 Extent extentOf(std::span<const float> values) {
   Eight most{}, sum{};
   for (std::size_t k = 0; k < values.size(); k += kWide) {
-    const Eight x = at(values.data() + k), size = x < 0 ? -x : x;
-    most = size > most ? size : most;
+    Eight size = at(values.data() + k);
+    raise(size, -size);
+    raise(most, size);
     sum += size;
   }
+  float each[2 * kWide];
+  at(each) = most, at(each + kWide) = sum;
   Extent extent;
   for (int s = 0; s < kWide; ++s) {
-    extent.most = std::max(extent.most, most[s]);
-    extent.sum += sum[s];
+    extent.most = std::max(extent.most, each[s]);
+    extent.sum += each[kWide + s];
   }
   return extent;
 }
 
 SWEEPFACE_CLONES
 void roundAll(std::span<const float> values, float factor, std::int16_t* out) {
-  constexpr float kWhole = 3 << 22;  // numbers near this one have no fractions
+  constexpr float kWhole = 3 << 22;  // numbers near this one are whole: their last bits say which
   for (std::size_t k = 0; k < values.size(); k += kWide) {
-    const Eight rounded = at(values.data() + k) * factor + kWhole - kWhole;
-    reinterpret_cast<EightShorts&>(out[k]) = __builtin_convertvector(rounded, EightShorts);
+    const Eight rounded = at(values.data() + k) * factor + kWhole;
+    const auto bits = (EightInts)rounded;
+    reinterpret_cast<EightShorts&>(out[k]) = __builtin_convertvector(bits, EightShorts);
   }
 }
 
