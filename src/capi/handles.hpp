@@ -93,9 +93,8 @@ struct Mesh {
     return madePositions;
   }
   const Evaluator& normals(const Evaluator* both = nullptr) const {
-    std::call_once(normalsOnce, [&] {
-      madeNormals = both && both->hasNormals() ? *both : make(false, true);
-    });
+    std::call_once(normalsOnce,
+                   [&] { madeNormals = both && both->hasNormals() ? *both : make(false, true); });
     return madeNormals;
   }
   /// At once they take less than one after the other.

@@ -113,9 +113,9 @@ const Chunk* movesOf(const Chunks& chunks) {
 
 struct TargetsToCome::Rest {
   codec::Decoder decoder;
-  codec::Chunk chunk;
   std::string payload;
-  std::size_t stored, targets;  // of the rig
+  codec::Chunk chunk;                   // holds the payload
+  std::size_t stored = 0, targets = 0;  // of the rig
 };
 
 TargetsToCome::TargetsToCome() = default;
@@ -127,14 +127,18 @@ Result<NeutralFirst> decodeNeutral(std::string_view bytes, std::string_view name
                                    const DecodeLimits& limits) {
   const auto chunks = codec::readChunks(bytes, name);
   if (!chunks) return std::unexpected(chunks.error());
-  const codec::Chunk* moves = codec::movesOf(*chunks);
-  codec::Decoder decoder(bytes, name, limits);
+  std::unique_ptr<TargetsToCome::Rest> rest(new TargetsToCome::Rest{{bytes, name, limits}, {}, {}});
+  const codec::Chunk* const moves = codec::movesOf(*chunks);
   NeutralFirst made;
-  if (auto ok = decoder.run(*chunks, moves, made.rig); !ok) return std::unexpected(ok.error());
+  if (auto ok = rest->decoder.run(*chunks, moves, made.rig); !ok)
+    return std::unexpected(ok.error());
   if (!moves) return made;
-  made.targets.rest_.reset(
-      new TargetsToCome::Rest{std::move(decoder), *moves, std::string(moves->payload),
-                              made.rig.neutral.size(), made.rig.targets.size()});
+  rest->payload = moves->payload;
+  rest->chunk = *moves;
+  rest->chunk.payload = rest->payload;
+  rest->stored = made.rig.neutral.size();
+  rest->targets = made.rig.targets.size();
+  made.targets.rest_ = std::move(rest);
   return made;
 }
 
@@ -142,7 +146,6 @@ Result<void> TargetsToCome::decode(Rig& rig) {
   if (!rest_) return {};
   if (rig.neutral.size() != rest_->stored || rig.targets.size() != rest_->targets)
     return fail("The targets are those of another rig.");
-  rest_->chunk.payload = rest_->payload;
   Result<void> done = rest_->decoder.read(rest_->chunk, rig);
   if (done)
     rest_ = nullptr;
