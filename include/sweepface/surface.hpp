@@ -218,6 +218,9 @@ class Surface {
     Index u = 0, v[2] = {0, 0};  // bases of the sweep and of the curves at u = 0 and u = m
   };
   void frame();
+  // Of the values of the sweep and of the curves at u = 0 and u = m.
+  Weights combine(Index patch, const std::array<double, 6>& gu, const std::array<double, 6>& g0,
+                  const std::array<double, 6>& g1) const;
 
   Wireframe wireframe_;
   Connectivity connectivity_;

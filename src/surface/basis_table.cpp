@@ -6,6 +6,7 @@
 #include <string>
 #include <tuple>
 
+#include "ode/power.hpp"
 #include "surface/sorting.hpp"
 
 namespace sweepface {
@@ -48,7 +49,37 @@ Result<BasisTable> BasisTable::make(const std::vector<Shape>& ribbons,
     if (!basis) return fail("ribbon ", ribbon, ": ", basis.error().message);
     table.bases_.push_back(*basis);
   }
+  table.tabulate();
   return table;
+}
+
+// Most of what is asked for: the source's own vertices. There are few bases, but who knows.
+void BasisTable::tabulate() {
+  constexpr Index kMostEdges = 16;
+  constexpr std::size_t kMostValues = 1 << 13;
+  for (std::size_t b = 0; b < bases_.size(); ++b) {
+    const Index edges = keys_[b][1];
+    const bool isShort = edges <= kMostEdges && values_.size() < kMostValues;
+    firstValue_.push_back(isShort ? static_cast<Index>(values_.size()) : -1);
+    for (int order = 0; isShort && order < 2; ++order)
+      for (Index t = 0; t <= edges; ++t) values_.push_back(inEdges(bases_[b], t, edges, order));
+  }
+}
+
+std::array<double, 6> BasisTable::at(Index basis, double t, int order) const {
+  const Index edges = keys_[basis][1], first = firstValue_[basis];
+  if (first >= 0 && order < 2 && t >= 0 && t <= edges)
+    if (const auto whole = static_cast<Index>(t); whole == t)
+      return values_[first + order * (edges + 1) + whole];
+  return inEdges(bases_[basis], t, edges, order);
+}
+
+std::array<double, 6> BasisTable::inEdges(const SweepBasis& basis, double t, Index edges,
+                                          int order) {
+  auto values = basis.at(t / edges, order);
+  const double h = edges, unit = ode::power(h, -order);
+  for (int k = 0; k < 6; ++k) values[k] *= unit * (k % 3 == 0 ? 1 : k % 3 == 1 ? h : h * h);
+  return values;
 }
 
 Index BasisTable::find(Index ribbon, Index edges) const {

@@ -19,13 +19,22 @@ class BasisTable {
   const SweepBasis& at(Index ribbon, Index edges) const { return bases_[find(ribbon, edges)]; }
   const SweepBasis& operator[](Index basis) const { return bases_[basis]; }
 
+  /// inEdges() of a basis, from a table at whole t of short ones.
+  std::array<double, 6> at(Index basis, double t, int order) const;
+  /// The six functions, or their derivatives, for jets by t ∈ [0, edges] instead of u = t / edges.
+  static std::array<double, 6> inEdges(const SweepBasis& basis, double t, Index edges, int order);
+
  private:
+  void tabulate();
+
   using Key = std::array<Index, 2>;  // shape and length
   Key keyOf(Index ribbon, Index edges) const { return {shapes_[ribbon], edges}; }
 
   std::vector<Index> shapes_;  // [ribbons] the first ribbon of the same shape
   std::vector<Key> keys_;      // sorted
   std::vector<SweepBasis> bases_;
+  std::vector<Index> firstValue_;              // of each basis, or -1
+  std::vector<std::array<double, 6>> values_;  // at t = 0 … edges, then their first derivatives
 };
 
 }  // namespace sweepface

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ode/power.hpp"
 #include "surface/basis_table.hpp"
 #include "surface/jets.hpp"
 
@@ -141,28 +140,29 @@ Surface::PatchBasis Surface::patchBasis(Index patch) const {
 }
 
 Surface::Weights Surface::weights(const Site& site, int du, int dv) const {
-  return weights(site, patchBasis(site.patch), du, dv);
+  const Frame& f = frames_[site.patch];
+  const auto g0 = bases_->at(f.v[0], site.v, dv);
+  return combine(site.patch, bases_->at(f.u, site.u, du), g0,
+                 f.v[0] == f.v[1] ? g0 : bases_->at(f.v[1], site.v, dv));
 }
 
 Surface::Weights Surface::weights(const Site& site, const PatchBasis& basis, int du, int dv) const {
   const Frame& f = frames_[site.patch];
-  const auto scaled = [](const SweepBasis& g, double t, Index edges, int order) {
-    auto values = g.at(t / edges, order);
-    const double h = edges, unit = ode::power(h, -order);
-    for (int k = 0; k < 6; ++k) values[k] *= unit * (k % 3 == 0 ? 1 : k % 3 == 1 ? h : h * h);
-    return values;
-  };
-  const auto gu = scaled(*basis.u, site.u, f.m, du);
-  const auto g0 = scaled(*basis.v0, site.v, f.n, dv);
-  const auto g1 = basis.v0 == basis.v1 ? g0 : scaled(*basis.v1, site.v, f.n, dv);
+  const auto g0 = BasisTable::inEdges(*basis.v0, site.v, f.n, dv);
+  return combine(site.patch, BasisTable::inEdges(*basis.u, site.u, f.m, du), g0,
+                 basis.v0 == basis.v1 ? g0 : BasisTable::inEdges(*basis.v1, site.v, f.n, dv));
+}
+
+Surface::Weights Surface::combine(Index patch, const std::array<double, 6>& gu,
+                                  const std::array<double, 6>& g0,
+                                  const std::array<double, 6>& g1) const {
   Weights w;
   for (int corner = 0, k = 0; corner < 4; ++corner) {
     const CornerPlace& place = kCorners[corner];
     const auto& gv = place.u == 0 ? g0 : g1;
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j, ++k) {
-        const JetRef ref =
-            cornerJet(site.patch, corner, place.alphaIsU ? i : j, place.alphaIsU ? j : i);
+        const JetRef ref = cornerJet(patch, corner, place.alphaIsU ? i : j, place.alphaIsU ? j : i);
         const double sign = (i == 1 ? place.signU : 1) * (j == 1 ? place.signV : 1);
         w.vectors[k] = ref.vector;
         w.factors[k] = ref.sign * sign * gu[place.u + i] * gv[place.v + j];
@@ -191,16 +191,14 @@ Vec3 Surface::normal(std::span<const Vec3> vectors, const Site& site) const {
 
 Surface::ArcWeights Surface::arcWeights(Index arc, double t) const {
   const HalfArc forward = 2 * arc;
-  const double h = wireframe_.arcs[arc].edges;
-  const auto g = (*bases_)[arcBases_[arc]].at(t / h);
-  const double scale[3] = {1, h, h * h};
+  const auto g = bases_->at(arcBases_[arc], t, 0);
   ArcWeights w;
   for (int i = 0; i < 3; ++i) {
     const JetRef a = alongJet(forward, i), b = alongJet(twin(forward), i);
     w.vectors[i] = a.vector;
-    w.factors[i] = a.sign * g[i] * scale[i];
+    w.factors[i] = a.sign * g[i];
     w.vectors[3 + i] = b.vector;
-    w.factors[3 + i] = b.sign * (i == 1 ? -1 : 1) * g[3 + i] * scale[i];
+    w.factors[3 + i] = b.sign * (i == 1 ? -1 : 1) * g[3 + i];
   }
   return w;
 }
