@@ -20,23 +20,28 @@
 namespace sweepface {
 namespace {
 
-// Eight numbers that processors reckon with at once, or by fours, wherever they lie.
+// Numbers that processors reckon with at once, wherever they lie: as many as WebAssembly can, and
+// elsewhere as AVX can; others take them by halves.
+#ifdef __wasm__
+constexpr int kWide = 4;
+#else
 constexpr int kWide = 8;
-using Eight [[gnu::vector_size(4 * kWide)]] = float;
-using EightThere [[gnu::vector_size(4 * kWide), gnu::aligned(4), gnu::may_alias]] = float;
+#endif
+using Wide [[gnu::vector_size(4 * kWide)]] = float;
+using WideThere [[gnu::vector_size(4 * kWide), gnu::aligned(4), gnu::may_alias]] = float;
+using WideInts [[gnu::vector_size(4 * kWide)]] = std::int32_t;
+using WideShorts [[gnu::vector_size(2 * kWide), gnu::aligned(2), gnu::may_alias]] = std::int16_t;
 
-using EightInts [[gnu::vector_size(4 * kWide)]] = std::int32_t;
-using EightShorts [[gnu::vector_size(2 * kWide), gnu::aligned(2), gnu::may_alias]] = std::int16_t;
-
-[[gnu::always_inline]] inline EightThere& at(float* p) { return *reinterpret_cast<EightThere*>(p); }
-[[gnu::always_inline]] inline const EightThere& at(const float* p) {
-  return *reinterpret_cast<const EightThere*>(p);
+[[gnu::always_inline]] inline WideThere& at(float* p) { return *reinterpret_cast<WideThere*>(p); }
+[[gnu::always_inline]] inline const WideThere& at(const float* p) {
+  return *reinterpret_cast<const WideThere*>(p);
 }
+
+// However wide, eight sums are added up in one order.
+constexpr int kSums = 8;
 
 // Each to the larger of the two.
-[[gnu::always_inline]] inline void raise(Eight& most, const Eight& x) {
-  most = most < x ? x : most;
-}
+[[gnu::always_inline]] inline void raise(Wide& most, const Wide& x) { most = most < x ? x : most; }
 
 }  // namespace
 
@@ -44,7 +49,7 @@ using EightShorts [[gnu::vector_size(2 * kWide), gnu::aligned(2), gnu::may_alias
 SWEEPFACE_CLONES
 void sumRows(std::span<const Scaled> terms, int width, float* out) {
   for (int c = 0; c < width; c += 3 * kWide) {
-    Eight a{}, b{}, d{};
+    Wide a{}, b{}, d{};
     for (const Scaled& term : terms) {
       const float* const row = term.row + c;
       a += term.factor * at(row);
@@ -59,7 +64,7 @@ SWEEPFACE_CLONES
 void project(const Planes& planes, const float* factors, float* out) {
   const int width = planes.width();
   for (int c = 0; c < width; c += 3 * kWide) {
-    Eight a{}, b{}, d{};
+    Wide a{}, b{}, d{};
     const float* row = planes.values.data() + c;
     for (int r = 0; r < planes.rows; ++r, row += width) {
       a += factors[r] * at(row);
@@ -75,10 +80,15 @@ void dotRows(const Planes& planes, const float* vector, float* out) {
   const int width = planes.width();
   for (int r = 0; r < planes.rows; ++r) {
     const float* const row = planes.row(r);
-    Eight sums{};
-    for (int c = 0; c < width; c += kWide) sums += at(row + c) * at(vector + c);
-    out[r] =
-        ((sums[0] + sums[4]) + (sums[2] + sums[6])) + ((sums[1] + sums[5]) + (sums[3] + sums[7]));
+    Wide sums[kSums / kWide] = {};
+    for (int c = 0; c < width;)
+      for (Wide& sum : sums) {
+        sum += at(row + c) * at(vector + c);
+        c += kWide;
+      }
+    float x[kSums];
+    for (int s = 0; s < kSums; s += kWide) at(x + s) = sums[s / kWide];
+    out[r] = ((x[0] + x[4]) + (x[2] + x[6])) + ((x[1] + x[5]) + (x[3] + x[7]));
   }
 }
 
@@ -96,11 +106,11 @@ SWEEPFACE_CLONES
 void measureSquares(const Planes& planes, float* sums, float* largest) {
   const int lane = planes.lane;
   for (int c = 0; c < lane; c += kWide) {
-    Eight x2{}, y2{}, z2{}, most{};
+    Wide x2{}, y2{}, z2{}, most{};
     for (int r = 0; r < planes.rows; ++r) {
       const float* const row = planes.row(r) + c;
-      const Eight x = at(row) * at(row), y = at(row + lane) * at(row + lane),
-                  z = at(row + 2 * lane) * at(row + 2 * lane), all = x + y + z;
+      const Wide x = at(row) * at(row), y = at(row + lane) * at(row + lane),
+                 z = at(row + 2 * lane) * at(row + 2 * lane), all = x + y + z;
       x2 += x, y2 += y, z2 += z;
       raise(most, all);
     }
@@ -115,9 +125,9 @@ void measureRest(const Planes& wanted, std::span<const float> basis, const float
   const int lane = wanted.lane, width = wanted.width(), rows = wanted.rows;
   const int modes = static_cast<int>(basis.size()) / rows;
   for (int c = 0; c < lane; c += kWide) {
-    Eight most{};
+    Wide most{};
     for (int r = 0; r < rows; ++r) {
-      Eight x{}, y{}, z{};
+      Wide x{}, y{}, z{};
       const float* from = coefficients + c;
       for (int m = 0; m < modes; ++m, from += width) {
         const float factor = basis[static_cast<std::size_t>(m) * rows + r];
@@ -127,7 +137,7 @@ void measureRest(const Planes& wanted, std::span<const float> basis, const float
       }
       const float* const to = wanted.row(r) + c;
       x -= at(to), y -= at(to + lane), z -= at(to + 2 * lane);
-      const Eight squares = x * x + y * y + z * z;
+      const Wide squares = x * x + y * y + z * z;
       raise(most, squares);
     }
     at(largest + c) = most;
@@ -137,9 +147,9 @@ void measureRest(const Planes& wanted, std::span<const float> basis, const float
 
 SWEEPFACE_CLONES
 void clampAll(std::span<float> values, float most) {
-  const Eight high = most - Eight{}, low = -high;
+  const Wide high = most - Wide{}, low = -high;
   for (std::size_t k = 0; k < values.size(); k += kWide) {
-    Eight x = at(values.data() + k);
+    Wide x = at(values.data() + k);
     raise(x, low);
     at(values.data() + k) = high < x ? high : x;
   }
@@ -147,20 +157,18 @@ void clampAll(std::span<float> values, float most) {
 
 SWEEPFACE_CLONES
 Extent extentOf(std::span<const float> values) {
-  Eight most{}, sum{};
-  for (std::size_t k = 0; k < values.size(); k += kWide) {
-    Eight size = at(values.data() + k);
-    raise(size, -size);
-    raise(most, size);
-    sum += size;
-  }
-  float each[2 * kWide];
-  at(each) = most, at(each + kWide) = sum;
+  Wide most{}, sums[kSums / kWide] = {};
+  for (std::size_t k = 0; k < values.size();)
+    for (Wide& sum : sums) {
+      Wide size = at(values.data() + k);
+      raise(size, -size);
+      raise(most, size);
+      sum += size;
+      k += kWide;
+    }
   Extent extent;
-  for (int s = 0; s < kWide; ++s) {
-    extent.most = std::max(extent.most, each[s]);
-    extent.sum += each[kWide + s];
-  }
+  for (int s = 0; s < kWide; ++s) extent.most = std::max(extent.most, most[s]);
+  for (int s = 0; s < kSums; ++s) extent.sum += sums[s / kWide][s % kWide];
   return extent;
 }
 
@@ -168,9 +176,9 @@ SWEEPFACE_CLONES
 void roundAll(std::span<const float> values, float factor, std::int16_t* out) {
   constexpr float kWhole = 3 << 22;  // numbers near this one are whole: their last bits say which
   for (std::size_t k = 0; k < values.size(); k += kWide) {
-    const Eight rounded = at(values.data() + k) * factor + kWhole;
-    const auto bits = (EightInts)rounded;
-    reinterpret_cast<EightShorts&>(out[k]) = __builtin_convertvector(bits, EightShorts);
+    const Wide rounded = at(values.data() + k) * factor + kWhole;
+    const auto bits = (WideInts)rounded;
+    reinterpret_cast<WideShorts&>(out[k]) = __builtin_convertvector(bits, WideShorts);
   }
 }
 
