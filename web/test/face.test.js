@@ -204,6 +204,42 @@ test('a packed face needs the usual module only, with all that is played', async
 });
 
 // In a module of its own, where none was compiled before.
+function crc32(...parts) {
+  let c = 0xffffffff;
+  for (const byte of Buffer.concat(parts)) {
+    c ^= byte;
+    for (let bit = 0; bit < 8; ++bit) c = (c & 1 ? 0xedb88320 : 0) ^ (c >>> 1);
+  }
+  return ~c >>> 0;
+}
+
+/** A packed face whose targets are nonsense, with a checksum that matches. */
+function withoutMoves() {
+  const bytes = Buffer.from(readFileSync(packed())), at = bytes.indexOf('MOVE'), begin = at + 12;
+  const payload = bytes.subarray(begin, begin + bytes.readUInt32LE(at + 4));
+  payload.fill(0x5a);
+  bytes.writeUInt32LE(crc32(bytes.subarray(at, at + 4), payload), at + 8);
+  return bytes;
+}
+
+test('a packed face shows its neutral before it reads what targets do', async () => {
+  const face = await Sweepface.load(withoutMoves()), whole = await load({}, packed());
+  assert.deepEqual(face.names, whole.names);
+  assert.deepEqual(evaluate(face), evaluate(whole));
+  for (const move of [() => face.setWeights({jawOpen: 1}), () => face.moveTo({jawOpen: 1}), () => face.prepare(),
+                      () => face.push('jawOpen', 1), () => face.shaderTables()])
+    for (let twice = 0; twice < 2; ++twice) assert.throws(move, /sweepface_full.wasm, which can or says why/);
+  assert.equal(face.advance(0.1), false);
+  assert.deepEqual(evaluate(face), evaluate(whole));
+  face.dispose();
+});
+
+test('the full module says what is wrong with targets that cannot be read', async () => {
+  const face = await Sweepface.load(withoutMoves(), {wasm: new URL('../sweepface_full.wasm', import.meta.url)});
+  assert.throws(() => face.setWeights({jawOpen: 1}), /^Error: The face, chunk 'MOVE', byte \d+: .*convert/);
+  face.dispose();
+});
+
 test('the full module is fetched where it is needed, and by itself where that is known before', async () => {
   const {Sweepface: Fresh} = await import('../sweepface.js?fresh'), {compile} = WebAssembly, fetched = [];
   WebAssembly.compile = (code) => {
