@@ -4,13 +4,12 @@
 #include <array>
 #include <cmath>
 
+#include "fit/distinct_poses.hpp"
 #include "parallel/parallel.hpp"
 
 namespace sweepface {
 
 namespace {
-
-using Evaluated = Eigen::Matrix<double, 1, Eigen::Dynamic>;
 
 Index faceVertex(const GridPatch& grid, Index i, Index j, int k) {
   return grid.vertex(i + (k == 1 || k == 2), j + (k >= 2));
@@ -25,30 +24,38 @@ class PatchMeter {
         grid_(draft.patches[patch]),
         data_(data),
         patch_(patch),
-        vectors_(patchVectors(draft, patch, settled)) {}
+        vectors_(patchVectors(draft, patch, settled)),
+        poses_(vectors_) {
+    vectors_ = poses_.of(vectors_);
+  }
 
   struct Vertex {
     double distance = 0, angle = 0, squares = 0, squaredAngles = 0;
   };
   std::vector<Vertex> vertices() const {
     std::vector<Vertex> result;
-    for (Index j = 0; j <= grid_.n; ++j)
+    for (Index j = 0; j <= grid_.n; ++j) {
+      std::vector<Asked> asked;
+      for (Index i = 0; i <= grid_.m; ++i) {
+        asked.push_back({double(i), double(j), 0, 0});
+        addDerivatives(i, j, asked);
+      }
+      const PoseMatrix found = at(asked);
       for (Index i = 0; i <= grid_.m; ++i) {
         const Index point = mesh_.point[grid_.vertex(i, j)];
-        const Evaluated position = at(i, j, 0, 0);
-        Evaluated u, v;
-        derivatives(i, j, u, v);
         Vertex worst;
         for (Index k = 0; k < data_.poses; ++k) {
-          const double distance = norm(vec(position, k) - data_.point(point, k));
+          const double distance = norm(vec(found, 3 * i, k) - data_.point(point, k));
           worst.distance = std::max(worst.distance, distance);
           worst.squares += distance * distance;
-          const double angle = angleDegrees(cross(vec(u, k), vec(v, k)), data_.normal(point, k));
+          const double angle = angleDegrees(
+              cross(vec(found, 3 * i + 1, k), vec(found, 3 * i + 2, k)), data_.normal(point, k));
           worst.angle = std::max(worst.angle, angle);
           worst.squaredAngles += angle * angle;
         }
         result.push_back(worst);
       }
+    }
     return result;
   }
 
@@ -56,45 +63,62 @@ class PatchMeter {
   // pose where the face is sound.
   std::vector<std::pair<Index, Index>> folds() const {
     std::vector<std::pair<Index, Index>> found;
-    for (Index j = 0; j < grid_.n; ++j)
+    const Index across = kLevel * grid_.m + 1;
+    for (Index j = 0; j < grid_.n; ++j) {
+      std::vector<Asked> asked;
+      for (int b = 0; b <= kLevel; ++b)
+        for (Index a = 0; a < across; ++a)
+          asked.push_back({a / double{kLevel}, j + b / double{kLevel}, 0, 0});
+      const PoseMatrix x = at(asked);
       for (Index i = 0; i < grid_.m; ++i)
-        if (foldsOver(i, j)) found.emplace_back(i, j);
+        if (foldsOver(i, j, x, across)) found.emplace_back(i, j);
+    }
     return found;
   }
 
  private:
-  static Vec3 vec(const Evaluated& row, Index pose) {
-    return {row[3 * pose], row[3 * pose + 1], row[3 * pose + 2]};
+  static constexpr int kLevel = 4;
+
+  Vec3 vec(const PoseMatrix& rows, Index row, Index pose) const {
+    const double* const x = &rows(row, poses_.column(pose));
+    return {x[0], x[1], x[2]};
   }
-  bool foldsOver(Index i, Index j) const {
-    constexpr int kLevel = 4;
-    std::array<std::array<Evaluated, kLevel + 1>, kLevel + 1> x;
-    for (int b = 0; b <= kLevel; ++b)
-      for (int a = 0; a <= kLevel; ++a)
-        x[b][a] = at(i + a / double{kLevel}, j + b / double{kLevel}, 0, 0);
+  bool foldsOver(Index i, Index j, const PoseMatrix& x, Index across) const {
     for (Index k = 0; k < data_.poses; ++k) {
       if (!soundFace(i, j, k)) continue;
       const Vec3 n = faceNormal(i, j, k);
       for (int b = 0; b < kLevel; ++b)
         for (int a = 0; a < kLevel; ++a) {
-          const Vec3 p = vec(x[b][a], k), q = vec(x[b][a + 1], k), r = vec(x[b + 1][a + 1], k),
-                     s = vec(x[b + 1][a], k);
+          const Index first = b * across + kLevel * i + a;
+          const Vec3 p = vec(x, first, k), q = vec(x, first + 1, k),
+                     r = vec(x, first + across + 1, k), s = vec(x, first + across, k);
           if (dot(cross(q - p, r - p), n) < 0 || dot(cross(r - p, s - p), n) < 0) return true;
         }
     }
     return false;
   }
-  Evaluated at(double u, double v, int du, int dv) const {
-    const auto w = surface_.weights({patch_, u, v}, du, dv);
-    return Eigen::Map<const Eigen::Matrix<double, 1, 36>>(w.factors.data()) * vectors_;
+
+  // All at once: a product of matrices takes far less than one of rows after the other.
+  struct Asked {
+    double u, v;
+    int du, dv;
+  };
+  PoseMatrix at(const std::vector<Asked>& asked) const {
+    Eigen::Matrix<double, Eigen::Dynamic, 36, Eigen::RowMajor> factors(asked.size(), 36);
+    for (std::size_t k = 0; k < asked.size(); ++k) {
+      const auto [u, v, du, dv] = asked[k];
+      const auto w = surface_.weights({patch_, u, v}, du, dv);
+      std::ranges::copy(w.factors, factors.row(static_cast<Eigen::Index>(k)).data());
+    }
+    return factors * vectors_;
   }
   // At a collapsed side one derivative vanishes; its limit is what it grows to inside.
-  void derivatives(Index i, Index j, Evaluated& u, Evaluated& v) const {
+  void addDerivatives(Index i, Index j, std::vector<Asked>& asked) const {
     const bool pole = touchesCollapsed(i, j);
     const double x = pole ? i + (grid_.m * 0.5 - i) * 1e-3 : i,
                  y = pole ? j + (grid_.n * 0.5 - j) * 1e-3 : j;
-    u = at(x, y, 1, 0);
-    v = at(x, y, 0, 1);
+    asked.push_back({x, y, 1, 0});
+    asked.push_back({x, y, 0, 1});
   }
   bool touchesCollapsed(Index i, Index j) const {
     const Index p = mesh_.point[grid_.vertex(i, j)];
@@ -131,7 +155,8 @@ class PatchMeter {
   const GridPatch& grid_;
   const SourceData& data_;
   Index patch_;
-  PoseMatrix vectors_;  // [36 × 3·poses]
+  PoseMatrix vectors_;  // [36 × 3·distinct poses]
+  DistinctPoses poses_;
 };
 
 }  // namespace

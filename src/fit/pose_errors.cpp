@@ -53,6 +53,7 @@ PoseErrors::PoseErrors(const Columns& columns, const PoseTask& task)
                               {t.normal[0], t.normal[1], t.normal[2]},
                               stress * t.lean,
                               stress * t.perLength,
+                              0,
                               0};
     }
     refresh(u);
@@ -75,6 +76,7 @@ void PoseErrors::refresh(Index u) {
   for (int side = 0; side < 2; ++side) {
     Tangent& t = x.tangent[side];
     t.strain = squared(t.error);
+    t.overturn = overturn(t.strain);
     const float torn = t.strain > kMostStrain && t.strain < kTorn ? kOverturn : 0;
     pull.along[side] =
         t.perLength * (slopeWeight_ * t.lean * four(t.normal) + torn * four(t.error));
@@ -83,8 +85,7 @@ void PoseErrors::refresh(Index u) {
 
 float PoseErrors::tilt(Index u) const {
   float sum = 0;
-  for (const Tangent& t : at_[u].tangent)
-    sum += slopeWeight_ * t.lean * t.lean + overturn(t.strain);
+  for (const Tangent& t : at_[u].tangent) sum += slopeWeight_ * t.lean * t.lean + t.overturn;
   return sum;
 }
 
@@ -101,7 +102,7 @@ PoseErrors::Four PoseErrors::growth(Index v, int a, const Four& steps) const {
       const Tangent& t = at.tangent[side];
       const Four change = x * (weight[1 + side] * t.perLength), turn = change * t.normal[a];
       tilted += (2 * t.lean + turn) * turn;
-      over += overturn(t.strain + (2 * t.error[a] + change) * change) - overturn(t.strain);
+      over += overturn(t.strain + (2 * t.error[a] + change) * change) - t.overturn;
     }
   }
   return sum + slopeWeight_ * tilted + over;

@@ -41,7 +41,7 @@ class PoseErrors {
  private:
   struct Tangent {
     float error[3], normal[3];
-    float lean, perLength, strain;
+    float lean, perLength, strain, overturn;
   };
   struct Vertex {
     float error[3], perSquare, square, penalty;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fit/distinct_poses.hpp"
 #include "parallel/parallel.hpp"
 #include "surface/terms.hpp"
 
@@ -37,7 +38,8 @@ std::vector<SparseRow> expand(const Surface& surface) {
 struct PatchEquations {
   std::vector<Index> unknowns;
   Dense matrix;    // [unknowns × unknowns]
-  PoseMatrix rhs;  // [unknowns × 3·poses]
+  PoseMatrix rhs;  // [unknowns × 3·distinct poses]
+  DistinctPoses poses;
 };
 
 class PatchAssembler {
@@ -210,15 +212,20 @@ class PatchAssembler {
                       e.unknowns.begin()) += t.factor;
 
     const auto count = static_cast<Index>(rows_.size());
+    // Those that ask for smoothness come last; they ask for zeros.
+    const auto valued = static_cast<Index>(
+        std::ranges::find_if(rows_, [](const Sample& s) { return s.value.size() == 0; }) -
+        rows_.begin());
     Dense basis(count, 36);
-    PoseMatrix values = PoseMatrix::Zero(count, 3 * data_.poses);
+    PoseMatrix values(valued, 3 * data_.poses);
     for (Index r = 0; r < count; ++r) {
       const double s = std::sqrt(rows_[r].weight);
       for (int k = 0; k < 36; ++k) basis(r, k) = s * rows_[r].weights.factors[k];
-      if (rows_[r].value.size()) values.row(r) = s * rows_[r].value;
+      if (r < valued) values.row(r) = s * rows_[r].value;
     }
+    e.poses = DistinctPoses(values);
     const Dense local = basis.transpose() * basis;
-    const PoseMatrix localRhs = basis.transpose() * values;
+    const PoseMatrix localRhs = basis.topRows(valued).transpose() * e.poses.of(values);
     e.matrix.noalias() = spread.transpose() * (local * spread);
     e.rhs.noalias() = spread.transpose() * localRhs;
     return e;
@@ -245,6 +252,22 @@ std::vector<Index> vertexOwners(const Draft& draft, Index vertexCount) {
 
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
+template <int kCount>
+using Columns = Eigen::Matrix<double, Eigen::Dynamic, kCount, Eigen::RowMajor>;
+
+// L D Lᵀ x = what is there, in all columns at once: Eigen's own walks through L for each of them.
+template <int kCount>
+void substitute(const Eigen::SimplicialLDLT<SparseMatrix>& factor, Columns<kCount>& x) {
+  const auto& lower = factor.matrixL().nestedExpression();
+  for (Eigen::Index k = 0; k < lower.cols(); ++k)
+    for (SparseMatrix::InnerIterator it(lower, k); it; ++it)
+      if (it.row() > k) x.row(it.row()) -= it.value() * x.row(k);
+  x.array().colwise() /= factor.vectorD().array();
+  for (Eigen::Index k = lower.cols(); k-- > 0;)
+    for (SparseMatrix::InnerIterator it(lower, k); it; ++it)
+      if (it.row() > k) x.row(k) -= it.value() * x.row(it.row());
+}
+
 Result<Solution> solveScaled(SparseMatrix& matrix, const PoseMatrix& rhs) {
   const auto n = static_cast<Index>(matrix.rows());
   Eigen::VectorXd scale(n);
@@ -262,8 +285,12 @@ Result<Solution> solveScaled(SparseMatrix& matrix, const PoseMatrix& rhs) {
   parallelFor(Index{0}, blocks, [&](Index b) {
     const Index first = b * kBlock,
                 columns = std::min<Index>(kBlock, static_cast<Index>(rhs.cols()) - first);
-    const Eigen::MatrixXd scaled = scale.asDiagonal() * rhs.middleCols(first, columns);
-    solution.middleCols(first, columns) = scale.asDiagonal() * factor.solve(scaled);
+    Columns<kBlock> x = Columns<kBlock>::Zero(n, kBlock);
+    x.leftCols(columns) =
+        factor.permutationP() * (scale.asDiagonal() * rhs.middleCols(first, columns));
+    substitute(factor, x);
+    solution.middleCols(first, columns) =
+        scale.asDiagonal() * (factor.permutationPinv() * x.leftCols(columns));
   });
   return solution;
 }
@@ -287,7 +314,9 @@ Result<Solution> solve(const Layout& layout, const Draft& draft, const SourceDat
     });
     for (const PatchEquations& e : batch)
       for (std::size_t a = 0; a < e.unknowns.size(); ++a) {
-        rhs.row(e.unknowns[a]) += e.rhs.row(static_cast<Index>(a));
+        for (Index k = 0; k < data.poses; ++k)
+          rhs.row(e.unknowns[a]).segment<3>(3 * k) +=
+              e.rhs.row(static_cast<Index>(a)).segment<3>(e.poses.column(k));
         for (std::size_t b = 0; b <= a; ++b)
           entries.emplace_back(e.unknowns[a], e.unknowns[b],
                                e.matrix(static_cast<Index>(a), static_cast<Index>(b)));
