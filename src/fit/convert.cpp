@@ -11,6 +11,7 @@
 #include "fit/refine.hpp"
 #include "fit/shapes.hpp"
 #include "fit/source_data.hpp"
+#include "parallel/parallel.hpp"
 
 namespace sweepface {
 
@@ -48,22 +49,24 @@ double normalLimit(const ConvertOptions& options, double tolerance, double size)
                                      : usual;
 }
 
-// Files hold single precision. What is verified is what will be read back.
-void roundToFile(Solution& solution) { solution = solution.cast<float>().cast<double>(); }
-
-// The stored vectors as they will be after the file: neutral and differences rounded each.
+// The stored vectors as they will be after the file: neutral and differences rounded each to single
+// precision. What is verified is what will be read back.
 Solution asStored(const Solution& solution) {
-  Solution rounded = solution;
-  const auto poses = solution.cols() / 3;
-  Solution neutral = solution.leftCols(3);
-  roundToFile(neutral);
-  rounded.leftCols(3) = neutral;
-  for (Eigen::Index k = 1; k < poses; ++k) {
-    Solution difference = solution.middleCols(3 * k, 3) - solution.leftCols(3);
-    roundToFile(difference);
-    rounded.middleCols(3 * k, 3) = neutral + difference;
-  }
-  return rounded;
+  const auto rounded = [](const auto& x) {
+    return x.template cast<float>().template cast<double>();
+  };
+  Solution stored(solution.rows(), solution.cols());
+  parallelRanges(solution.rows(), [&](Eigen::Index first, Eigen::Index end) {
+    for (Eigen::Index v = first; v < end; ++v) {
+      const auto fitted = solution.row(v);
+      auto row = stored.row(v);
+      row.leftCols<3>() = rounded(fitted.leftCols<3>());
+      for (Eigen::Index k = 3; k < solution.cols(); k += 3)
+        row.segment<3>(k) =
+            row.leftCols<3>() + rounded(fitted.segment<3>(k) - fitted.leftCols<3>());
+    }
+  });
+  return stored;
 }
 
 /// A name as far as it can be shown.
