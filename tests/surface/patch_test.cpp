@@ -55,6 +55,20 @@ TEST(Patch, reproducesPolynomialsOfDegreeFive) {
       }
 }
 
+TEST(Patch, hasTheSameWeightsFromTheTableOfItsBases) {
+  Wireframe w = onePatch(5, 40);  // of which one is long
+  const Surface surface = Surface::make(w).value();
+  const Surface::PatchBasis basis = surface.patchBasis(0);
+  for (const double u : {0.0, 1.0, 2.5, 4.0, 5.0, 5.5, -1.0})
+    for (const double v : {0.0, 0.25, 3.0, 39.0, 40.0})
+      for (int du = 0; du < 4; ++du)
+        for (int dv = 0; dv < 4; ++dv) {
+          const Surface::Weights own = surface.weights({0, u, v}, du, dv);
+          EXPECT_EQ(own.factors, surface.weights({0, u, v}, basis, du, dv).factors)
+              << u << ' ' << v;
+        }
+}
+
 // φ = x^k (1 − x²)⁴ vanishes at ±1 with three derivatives: integrated by parts against it, the
 // sixth derivative of S becomes the second.
 class TestFunction {
