@@ -60,10 +60,24 @@ async function show(buffer, name, keepView = false) {
     draw(0);
     loading = performance.now() - began;
     tellFigures();
+    setTimeout(() => prepare(face), 50);  // once the first frame is on the screen
   } catch (error) {
-    message.textContent = error.message;
-    message.className = 'error';
+    complain(error);
   }
+}
+
+/** Makes a face ready to move, if it is still on show. */
+function prepare(face) {
+  try {
+    if (mesh?.face === face) face.prepare();
+  } catch (error) {
+    complain(error);
+  }
+}
+
+function complain(error) {
+  message.textContent = error.message;
+  message.className = 'error';
 }
 
 function tellName(name) {

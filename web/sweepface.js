@@ -276,6 +276,7 @@ export class Sweepface {
   setWeights(weights, region) {
     const shared = this.#open(), {runtime, names} = shared, {wasm} = runtime, count = names.length;
     const named = this.#resolve(weights);
+    if (named.length === 0) return;
     shared.loadTargets();
     const all = this.#copyWeights();
     const everywhere = Array.from({length: shared.regionCount}, (_, r) => r);
