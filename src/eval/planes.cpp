@@ -128,8 +128,8 @@ void measureRest(const Planes& wanted, std::span<const float> basis, const float
     Wide most{};
     for (int r = 0; r < rows; ++r) {
       Wide x{}, y{}, z{};
-      const float* from = coefficients + c;
-      for (int m = 0; m < modes; ++m, from += width) {
+      for (int m = 0; m < modes; ++m) {
+        const float* const from = coefficients + static_cast<std::size_t>(m) * width + c;
         const float factor = basis[static_cast<std::size_t>(m) * rows + r];
         x += factor * at(from);
         y += factor * at(from + lane);
