@@ -91,7 +91,8 @@ export class Sweepface {
   private constructor();
 
   /** Reads a .sweep file: of a packed one all that the neutral needs, and what targets do when the face first moves.
-   * Rejects with the library's own sentence about what is wrong. */
+   * Rejects with the library's own sentence about what is wrong; what is wrong with targets is thrown when they are
+   * read. */
   static load(bytes: BufferSource, options?: LoadOptions): Promise<Sweepface>;
 
   /** Another face of the same file, at rest; the two share everything but their weights. */

@@ -136,7 +136,7 @@ class Shared {
   constructor(module, bytes, {name, follow, eyes, divide, lod, budget}) {
     const runtime = this.runtime = new Runtime(module), {wasm} = runtime;
     this.rig = runtime.loadRig(bytes, name);
-    if (follow || eyes || divide) this.loadTargets();
+    if (follow || eyes) this.loadTargets();
     if (follow) runtime.check(wasm.sweepface_rig_follow(this.rig, follow));
     this.eyeCount = eyes ? runtime.get('sweepface_rig_turn_eyes', this.rig) : 0;
     this.regions = divide ? divide(runtime, this.rig) : null;  // with their matter; null: of one piece
@@ -152,11 +152,9 @@ class Shared {
     this.lod = lod;
   }
 
-  /** Reads what targets do, which waits until the face is to move: so it shows sooner. */
+  /** Reads what targets do, once; that waits until the face is to move, so that it shows sooner. */
   loadTargets() {
-    if (this.canMove) return;
     withinMemory(() => this.runtime.check(this.runtime.wasm.sweepface_rig_load_targets(this.rig)));
-    this.canMove = true;
   }
 
   target(name) {
@@ -276,11 +274,11 @@ export class Sweepface {
   setWeights(weights, region) {
     const shared = this.#open(), {runtime, names} = shared, {wasm} = runtime, count = names.length;
     const named = this.#resolve(weights);
+    const everywhere = Array.from({length: shared.regionCount}, (_, r) => r);
+    const places = region === undefined ? everywhere : [shared.region(region)];
     if (named.length === 0) return;
     shared.loadTargets();
     const all = this.#copyWeights();
-    const everywhere = Array.from({length: shared.regionCount}, (_, r) => r);
-    const places = region === undefined ? everywhere : [shared.region(region)];
     for (const r of places)
       for (const [target, weight] of named) all[count * r + target] = weight;
     this.#takeWeights();

@@ -62,7 +62,7 @@ sweepface_status sweepface_face_set_weight(sweepface_face* face, uint32_t target
   if (!face) return refuse("Setting a weight needs a face.");
   const std::size_t count = face->mesh->shown;
   if (target >= count) return noSuch("target", target, count);
-  if (awaitsTargets(*face->mesh->rig)) return refuse(kAwaitsTargets);
+  if (const auto status = needTargets(*face->mesh->rig)) return status;
   if (!isWeight(weight)) return refuseWeight(*face, target);
   for (std::size_t k = target; k < face->weights.size(); k += count) face->weights[k] = weight;
   return SWEEPFACE_OK;
@@ -74,7 +74,7 @@ sweepface_status checkWeights(const sweepface_face* face, const double* weights,
   if (!face || (!weights && count > 0)) return refuse("Setting weights needs a face and weights.");
   if (count > face->mesh->shown)
     return refuse("There are ", count, " weights for ", face->mesh->shown, " targets.");
-  if (awaitsTargets(*face->mesh->rig)) return refuse(kAwaitsTargets);
+  if (const auto status = needTargets(*face->mesh->rig)) return status;
   for (size_t k = 0; k < count; ++k)
     if (!isWeight(weights[k])) return refuseWeight(*face, k);
   return SWEEPFACE_OK;
@@ -126,15 +126,14 @@ sweepface_status checkOutputs(const sweepface_face* face, std::size_t count,
 
 enum class What { positions, normals };
 
-void write(sweepface_face& face, What what, const sweepface_vectors& to, std::size_t count,
-           bool onlyChanges) {
+void write(sweepface_face& face, const Weights& weights, What what, const sweepface_vectors& to,
+           std::size_t count, bool onlyChanges) {
   if (!to.data) return;
   const Mesh& mesh = *face.mesh;
   const bool ofPositions = what == What::positions;
   auto& written = ofPositions ? face.positions : face.normals;
   const bool isThere =
       written.data == to.data && written.stride == to.stride && written.count == count;
-  const Weights& weights = follow(face);
   Evaluation job;
   job.evaluator = isNeutral(weights) ? &mesh.neutral
                   : ofPositions      ? &mesh.positions()
@@ -154,9 +153,10 @@ sweepface_status evaluate(sweepface_face* face, std::size_t count,
                           const sweepface_vectors& positions, const sweepface_vectors& normals,
                           bool onlyChanges) {
   if (const auto status = checkOutputs(face, count, positions, normals)) return status;
-  if (positions.data && normals.data && !isNeutral(follow(*face))) face->mesh->prepareBoth();
-  write(*face, What::positions, positions, count, onlyChanges);
-  write(*face, What::normals, normals, count, onlyChanges);
+  const Weights& weights = follow(*face);
+  if (positions.data && normals.data && !isNeutral(weights)) face->mesh->prepareBoth();
+  write(*face, weights, What::positions, positions, count, onlyChanges);
+  write(*face, weights, What::normals, normals, count, onlyChanges);
   return SWEEPFACE_OK;
 }
 

@@ -23,12 +23,8 @@ struct sweepface_face;
 
 namespace sweepface::capi {
 
-/// Whether it shows its neutral only.
-inline bool awaitsTargets(const Rig& rig) {
-  return !rig.targets.empty() && rig.targets.front().difference.empty();
-}
-inline constexpr const char* kAwaitsTargets =
-    "What the targets do was not loaded; call sweepface_rig_load_targets first.";
+/// Refuses where a rig shows its neutral only, as what its targets do was not loaded.
+sweepface_status needTargets(const Rig& rig);
 
 /// The regions of a face; none: one that is everywhere.
 struct Division {
@@ -83,8 +79,9 @@ struct Mesh {
 
   void makeShaderTables() const {
     std::call_once(shaderOnce, [&] {
-      shaderPositions = shaderTables(positions().tables().positions, render.points);
-      shaderTangents = shaderTables(normals().tables().derivatives, render.points);
+      prepareBoth();
+      shaderPositions = shaderTables(madePositions.tables().positions, render.points);
+      shaderTangents = shaderTables(madeNormals.tables().derivatives, render.points);
     });
   }
 

@@ -27,7 +27,7 @@ sweepface_status sweepface_rig_turn_eyes(sweepface_rig* rig, uint32_t* eyes) {
   if (rig->following.eyes) return refuse("The eyes turn already.");
   if (rig->rig.use_count() > 1)
     return refuse("Eyes must turn before a rig has meshes; free them, or load it again.");
-  if (awaitsTargets(*rig->rig)) return refuse(kAwaitsTargets);
+  if (const auto status = needTargets(*rig->rig)) return status;
   const std::vector<Eye> found = findEyes(*rig->rig);
   *eyes = static_cast<uint32_t>(found.size());
   if (found.empty()) return SWEEPFACE_OK;

@@ -72,7 +72,7 @@ sweepface_status sweepface_mesh_create_within(const sweepface_rig* rig, sweepfac
 
 sweepface_status sweepface_mesh_prepare(const sweepface_mesh* mesh, int32_t normals) {
   if (!mesh) return refuse("Preparing needs a mesh.");
-  if (awaitsTargets(*mesh->mesh->rig)) return refuse(kAwaitsTargets);
+  if (const auto status = needTargets(*mesh->mesh->rig)) return status;
   if (normals)
     mesh->mesh->prepareBoth();
   else

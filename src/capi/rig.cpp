@@ -9,6 +9,11 @@
 using namespace sweepface;
 using namespace sweepface::capi;
 
+sweepface_status capi::needTargets(const Rig& rig) {
+  if (rig.targets.empty() || !rig.targets.front().difference.empty()) return SWEEPFACE_OK;
+  return refuse("What the targets do was not loaded; call sweepface_rig_load_targets first.");
+}
+
 sweepface_status sweepface_rig_load_neutral(const void* bytes, size_t size, const char* name,
                                             sweepface_rig** rig) {
   if (!rig || (!bytes && size > 0)) return refuse("Loading a rig needs bytes and a place for it.");
@@ -73,7 +78,7 @@ sweepface_status sweepface_rig_follow(sweepface_rig* rig, uint32_t what) {
   if (rig->rig.use_count() > 1)
     return refuse(
         "What follows must be said before a rig has meshes; free them, or load it again.");
-  if (awaitsTargets(*rig->rig)) return refuse(kAwaitsTargets);
+  if (const auto status = needTargets(*rig->rig)) return status;
   if (rig->following.eyes)
     return refuse("What follows must be said before eyes turn; load the rig again.");
   Rig& made = *rig->rig;

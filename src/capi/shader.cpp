@@ -7,7 +7,7 @@ using namespace sweepface::capi;
 sweepface_status sweepface_mesh_shader_tables(const sweepface_mesh* mesh, int32_t tangents,
                                               sweepface_shader_tables* out) {
   if (!mesh || !out) return refuse("Tables for a shader need a mesh and a place for them.");
-  if (awaitsTargets(*mesh->mesh->rig)) return refuse(kAwaitsTargets);
+  if (const auto status = needTargets(*mesh->mesh->rig)) return status;
   mesh->mesh->makeShaderTables();
   const ShaderTables& t = tangents ? mesh->mesh->shaderTangents : mesh->mesh->shaderPositions;
   *out = {t.basis.data(), t.places.data(), t.neutral.data(),
@@ -18,7 +18,7 @@ sweepface_status sweepface_mesh_shader_tables(const sweepface_mesh* mesh, int32_
 sweepface_status sweepface_face_modes(sweepface_face* face, int32_t tangents, float* out,
                                       size_t count) {
   if (!face || !out) return refuse("Modes need a face and a place for them.");
-  if (awaitsTargets(*face->mesh->rig)) return refuse(kAwaitsTargets);
+  if (const auto status = needTargets(*face->mesh->rig)) return status;
   const Mesh& mesh = *face->mesh;
   mesh.makeShaderTables();
   const auto modes =

@@ -42,8 +42,14 @@ class Decoder {
     decoding_.memory = limits.memory;
   }
 
+  /// Reads into this rig from here on.
+  Decoder& into(Rig& rig) {
+    decoding_.rig = &rig;
+    return *this;
+  }
+
   /// All chunks but the one that is `toCome`, if any.
-  Result<void> run(const Chunks& chunks, const Chunk* toCome, Rig& rig) {
+  Result<void> run(const Chunks& chunks, const Chunk* toCome) {
     version_ = chunks.version;
     readers_ = version_ == 1 ? version1() : version2();
     if (readers_.empty())
@@ -53,14 +59,13 @@ class Decoder {
       if (chunk.rank < 0) continue;
       if (auto ok = admit(chunk); !ok) return ok;
       if (&chunk == toCome) continue;
-      if (auto ok = read(chunk, rig); !ok) return ok;
+      if (auto ok = read(chunk); !ok) return ok;
     }
     return {};
   }
 
-  Result<void> read(const Chunk& chunk, Rig& rig) {
+  Result<void> read(const Chunk& chunk) {
     Reader in(chunk.payload, chunk.offset);
-    decoding_.rig = &rig;
     readers_[chunk.rank].read(decoding_, in);
     if (in.left() > 0) in.refuse("the chunk goes on after its last value");
     if (!in.ok()) return failAt(chunk, in.place(), in.problem(), in.advice());
@@ -130,7 +135,7 @@ Result<NeutralFirst> decodeNeutral(std::string_view bytes, std::string_view name
   std::unique_ptr<TargetsToCome::Rest> rest(new TargetsToCome::Rest{{bytes, name, limits}, {}, {}});
   const codec::Chunk* const moves = codec::movesOf(*chunks);
   NeutralFirst made;
-  if (auto ok = rest->decoder.run(*chunks, moves, made.rig); !ok)
+  if (auto ok = rest->decoder.into(made.rig).run(*chunks, moves); !ok)
     return std::unexpected(ok.error());
   if (!moves) return made;
   rest->payload = moves->payload;
@@ -146,7 +151,7 @@ Result<void> TargetsToCome::decode(Rig& rig) {
   if (!rest_) return {};
   if (rig.neutral.size() != rest_->stored || rig.targets.size() != rest_->targets)
     return fail("The targets are those of another rig.");
-  Result<void> done = rest_->decoder.read(rest_->chunk, rig);
+  Result<void> done = rest_->decoder.into(rig).read(rest_->chunk);
   if (done)
     rest_ = nullptr;
   else

@@ -252,20 +252,20 @@ std::vector<Index> vertexOwners(const Draft& draft, Index vertexCount) {
 
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
-template <int kCount>
-using Columns = Eigen::Matrix<double, Eigen::Dynamic, kCount, Eigen::RowMajor>;
+constexpr Index kBlock = 12;  // columns that are solved for at once
+using Block = Eigen::Matrix<double, Eigen::Dynamic, kBlock, Eigen::RowMajor>;
 
-// L D Lᵀ x = what is there, in all columns at once: Eigen's own walks through L for each of them.
-template <int kCount>
-void substitute(const Eigen::SimplicialLDLT<SparseMatrix>& factor, Columns<kCount>& x) {
+// L D Lᵀ x = what is there, in all columns at once: Eigen's own walks through L for each of them. L
+// is held without its diagonal of ones.
+void substitute(const Eigen::SimplicialLDLT<SparseMatrix>& factor, Block& x) {
   const auto& lower = factor.matrixL().nestedExpression();
   for (Eigen::Index k = 0; k < lower.cols(); ++k)
     for (SparseMatrix::InnerIterator it(lower, k); it; ++it)
-      if (it.row() > k) x.row(it.row()) -= it.value() * x.row(k);
+      x.row(it.row()) -= it.value() * x.row(k);
   x.array().colwise() /= factor.vectorD().array();
   for (Eigen::Index k = lower.cols(); k-- > 0;)
     for (SparseMatrix::InnerIterator it(lower, k); it; ++it)
-      if (it.row() > k) x.row(k) -= it.value() * x.row(it.row());
+      x.row(k) -= it.value() * x.row(it.row());
 }
 
 Result<Solution> solveScaled(SparseMatrix& matrix, const PoseMatrix& rhs) {
@@ -280,12 +280,11 @@ Result<Solution> solveScaled(SparseMatrix& matrix, const PoseMatrix& rhs) {
   if (factor.info() != Eigen::Success)
     return fail("the fit cannot be solved; are there coordinates of wildly different size?");
   Solution solution(n, rhs.cols());
-  constexpr Index kBlock = 12;
   const auto blocks = static_cast<Index>((rhs.cols() + kBlock - 1) / kBlock);
   parallelFor(Index{0}, blocks, [&](Index b) {
     const Index first = b * kBlock,
                 columns = std::min<Index>(kBlock, static_cast<Index>(rhs.cols()) - first);
-    Columns<kBlock> x = Columns<kBlock>::Zero(n, kBlock);
+    Block x = Block::Zero(n, kBlock);
     x.leftCols(columns) =
         factor.permutationP() * (scale.asDiagonal() * rhs.middleCols(first, columns));
     substitute(factor, x);

@@ -66,7 +66,7 @@ void BasisTable::tabulate() {
   }
 }
 
-std::array<double, 6> BasisTable::at(Index basis, double t, int order) const {
+std::array<double, 6> BasisTable::values(Index basis, double t, int order) const {
   const Index edges = keys_[basis][1], first = firstValue_[basis];
   if (first >= 0 && order < 2 && t >= 0 && t <= edges)
     if (const auto whole = static_cast<Index>(t); whole == t)

@@ -20,7 +20,7 @@ class BasisTable {
   const SweepBasis& operator[](Index basis) const { return bases_[basis]; }
 
   /// inEdges() of a basis, from a table at whole t of short ones.
-  std::array<double, 6> at(Index basis, double t, int order) const;
+  std::array<double, 6> values(Index basis, double t, int order) const;
   /// The six functions, or their derivatives, for jets by t ∈ [0, edges] instead of u = t / edges.
   static std::array<double, 6> inEdges(const SweepBasis& basis, double t, Index edges, int order);
 

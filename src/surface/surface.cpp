@@ -141,9 +141,9 @@ Surface::PatchBasis Surface::patchBasis(Index patch) const {
 
 Surface::Weights Surface::weights(const Site& site, int du, int dv) const {
   const Frame& f = frames_[site.patch];
-  const auto g0 = bases_->at(f.v[0], site.v, dv);
-  return combine(site.patch, bases_->at(f.u, site.u, du), g0,
-                 f.v[0] == f.v[1] ? g0 : bases_->at(f.v[1], site.v, dv));
+  const auto g0 = bases_->values(f.v[0], site.v, dv);
+  return combine(site.patch, bases_->values(f.u, site.u, du), g0,
+                 f.v[0] == f.v[1] ? g0 : bases_->values(f.v[1], site.v, dv));
 }
 
 Surface::Weights Surface::weights(const Site& site, const PatchBasis& basis, int du, int dv) const {
@@ -191,7 +191,7 @@ Vec3 Surface::normal(std::span<const Vec3> vectors, const Site& site) const {
 
 Surface::ArcWeights Surface::arcWeights(Index arc, double t) const {
   const HalfArc forward = 2 * arc;
-  const auto g = bases_->at(arcBases_[arc], t, 0);
+  const auto g = bases_->values(arcBases_[arc], t, 0);
   ArcWeights w;
   for (int i = 0; i < 3; ++i) {
     const JetRef a = alongJet(forward, i), b = alongJet(twin(forward), i);

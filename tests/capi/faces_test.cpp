@@ -390,11 +390,14 @@ TEST_F(FacesThatShowFirst, RefuseToMoveBefore) {
   const double weight = 0.5;
   sweepface_shader_tables tables;
   uint32_t eyes;
-  for (const sweepface_status status :
-       {sweepface_face_set_weight(face, 0, weight), sweepface_face_set_weights(face, &weight, 1),
-        sweepface_face_set_region_weights(face, 0, &weight, 1), sweepface_mesh_prepare(mesh, 1),
-        sweepface_mesh_shader_tables(mesh, 0, &tables)})
-    EXPECT_TRUE(refuses(status, "call sweepface_rig_load_targets first"));
+  float mode;
+  constexpr auto kFirst = "call sweepface_rig_load_targets first";
+  EXPECT_TRUE(refuses(sweepface_face_set_weight(face, 0, weight), kFirst));
+  EXPECT_TRUE(refuses(sweepface_face_set_weights(face, &weight, 1), kFirst));
+  EXPECT_TRUE(refuses(sweepface_face_set_region_weights(face, 0, &weight, 1), kFirst));
+  EXPECT_TRUE(refuses(sweepface_mesh_prepare(mesh, 1), kFirst));
+  EXPECT_TRUE(refuses(sweepface_mesh_shader_tables(mesh, 0, &tables), kFirst));
+  EXPECT_TRUE(refuses(sweepface_face_modes(face, 0, &mode, 1), kFirst));
   sweepface_face_free(std::exchange(face, nullptr));
   sweepface_mesh_free(std::exchange(mesh, nullptr));
   EXPECT_TRUE(refuses(sweepface_rig_follow(handle, SWEEPFACE_ARCS), "load_targets"));

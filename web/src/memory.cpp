@@ -76,8 +76,7 @@ void release(Block* block) {
 
 bool grow(std::size_t bytes) {
   const std::size_t end = __builtin_wasm_memory_size(0) * kPage;
-  constexpr std::size_t kPages = 16;  // at least: each time takes a browser long
-  const std::size_t pages = bytes / kPage + kPages;
+  const std::size_t pages = last ? (bytes + kPage) / kPage : bytes / kPage + 1;
   if (__builtin_wasm_memory_grow(0, pages) == SIZE_MAX) return false;
   const std::size_t newEnd = end + pages * kPage;
   if (!last) {  // blocks begin half a step before what they are for

@@ -16,6 +16,7 @@ test('a face of one piece has no regions and does without their module', async (
   const face = await Sweepface.load(bytes);
   assert.deepEqual(face.regions, []);
   assert.throws(() => face.moveTo({jawOpen: 1}, 'spring', 'above'), /no region named 'above'; there are none/);
+  assert.throws(() => face.setWeights({}, 'above'), /no region named 'above'; there are none/);
 });
 
 test('regions that agree are the plain face', async () => {
