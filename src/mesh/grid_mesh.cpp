@@ -106,8 +106,7 @@ void pairEdges(GridMesh& mesh, const std::vector<std::array<Index, 4>>& welded,
 
 // One vertex for each fan of quads around a welded vertex, one point for vertices that collapsed
 // sides tie together.
-void numberVertices(GridMesh& mesh, const std::vector<std::array<Index, 4>>& welded,
-                    std::size_t sourceCount) {
+void numberVertices(GridMesh& mesh, const std::vector<std::array<Index, 4>>& welded) {
   const auto halves = static_cast<HalfEdge>(4 * welded.size());
   UnionFind fans(halves);
   for (HalfEdge h = 0; h < halves; ++h)
@@ -126,7 +125,6 @@ void numberVertices(GridMesh& mesh, const std::vector<std::array<Index, 4>>& wel
   for (HalfEdge h = 0; h < halves; ++h)
     if (mesh.collapsed[h]) ties.join(mesh.from(h), mesh.to(h));
   mesh.point.assign(anchor.size(), -1);
-  mesh.pointOfSource.assign(sourceCount, -1);
   std::vector<Index> pointOf(anchor.size(), -1);
   for (Index v = 0; v < static_cast<Index>(anchor.size()); ++v) {
     Index& p = pointOf[ties.find(v)];
@@ -135,8 +133,22 @@ void numberVertices(GridMesh& mesh, const std::vector<std::array<Index, 4>>& wel
       mesh.source.push_back(anchor[v]);
     }
     mesh.point[v] = p;
-    if (mesh.pointOfSource[anchor[v]] < 0) mesh.pointOfSource[anchor[v]] = p;
   }
+}
+
+// Sheets that touch at a vertex are fans of their own: a source vertex goes with the first of its
+// faces, and one without faces that are left with those it was welded to.
+void placeSource(GridMesh& mesh, const Polygons& faces, const std::vector<Index>& first) {
+  mesh.pointOfSource.assign(first.size(), -1);
+  std::vector<Index> welded(first.size(), -1);
+  for (std::size_t q = 0; q < mesh.quads.size(); ++q)
+    for (int k = 0; k < 4; ++k) {
+      const Index v = faces.corners[mesh.quadCorners[q][k]], p = mesh.point[mesh.quads[q][k]];
+      for (Index* place : {&mesh.pointOfSource[v], &welded[first[v]]})
+        if (*place < 0) *place = p;
+    }
+  for (std::size_t v = 0; v < first.size(); ++v)
+    if (mesh.pointOfSource[v] < 0) mesh.pointOfSource[v] = welded[first[v]];
 }
 
 std::string plural(Index count, const char* one, const char* many) {
@@ -176,9 +188,8 @@ Result<GridMesh> build(const MeshRig& rig, const std::vector<Index>& first,
   for (std::size_t q = 0; q < welded.size(); ++q)
     mesh.collapsed[4 * q + 2] = welded[q][2] == welded[q][3];
   pairEdges(mesh, welded, cut);
-  numberVertices(mesh, welded, first.size());
-  for (std::size_t v = 0; v < first.size(); ++v)
-    mesh.pointOfSource[v] = mesh.pointOfSource[first[v]];
+  numberVertices(mesh, welded);
+  placeSource(mesh, faces, first);
   if (cutter.dropped > 0)
     mesh.warnings.push_back(
         plural(cutter.dropped, "face has", "faces have") +

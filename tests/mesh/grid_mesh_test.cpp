@@ -75,6 +75,21 @@ TEST(Welding, takesBothZerosForTheSame) {
   EXPECT_EQ(openSides(gridOf(mesh)), 5);
 }
 
+// Lids and what lies on them: their corners stand at one place, but face different ways.
+TEST(Welding, leavesSheetsThatTouchAtAVertexAPointEach) {
+  PolygonMesh mesh;
+  mesh.positions = {{0, 0, 0}, {1, 0, 0},   {1, 1, 0},  {0, 1, 0},
+                    {0, 0, 0}, {-1, 0, -1}, {-1, 0, 0}, {0, 0, 1}};
+  addFace(mesh, {0, 1, 2, 3});
+  addFace(mesh, {4, 5, 6, 7});
+  const GridMesh quads = gridOf(mesh);
+  EXPECT_EQ(quads.pointCount(), 8);
+  for (std::size_t q = 0; q < 2; ++q)
+    for (std::size_t k = 0; k < 4; ++k)
+      EXPECT_EQ(quads.pointOfSource[mesh.polygons.corners[quads.quadCorners[q][k]]],
+                quads.point[quads.quads[q][k]]);
+}
+
 TEST(Cutting, turnsAPolygonIntoQuadsAndAtMostOneTriangle) {
   for (Index corners = 3; corners <= 12; ++corners) {
     PolygonMesh mesh;
