@@ -48,13 +48,25 @@ struct Packing {
   /// Half-arcs that mirror each other, each with its patch on the left; one pair for every part of
   /// the wireframe that has a mirror image.
   std::vector<std::array<HalfArc, 2>> mirror;
+  /// How a pose carries all that hangs on a bone, in fractions of the targets' step
+  /// (codec/bones.hpp): by how far its middle moves, and what is away from there along x, y and z
+  /// beyond that.
+  struct Carry {
+    Index bone = 0;
+    std::array<std::array<std::int32_t, 3>, 4> by{};
+    friend bool operator==(const Carry&, const Carry&) = default;
+  };
   struct Pose {
     int finer = 0;     ///< its step is divided by 2^finer
     Index image = -1;  ///< the pose whose mirror image it is compared with, itself or an earlier
                        ///< one; -1: with none
+    std::vector<Carry> carries{};  ///< by bone; what it does is told beyond that
     friend bool operator==(const Pose&, const Pose&) = default;
   };
   std::vector<Pose> poses;  ///< the neutral, then the targets
+  /// [S] or empty: the bone that carries each stored vector (teeth and lower gums by the jaw, say),
+  /// or -1.
+  std::vector<Index> bones;
   /// [S] or empty: the neutral before an edit. What targets are counted from goes by it, so that an
   /// edit of the neutral leaves their coefficients as they are.
   std::vector<Vec3> rest;

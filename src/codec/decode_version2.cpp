@@ -3,6 +3,7 @@
 #include <numeric>
 
 #include "codec/blocks.hpp"
+#include "codec/bones.hpp"
 #include "codec/decoding.hpp"
 #include "codec/limits.hpp"
 #include "codec/name_coder.hpp"
@@ -83,6 +84,8 @@ class PoseReader {
         current_(d.stored),
         moved_(d.targets + 1) {}
 
+  void readBones() { bones_ = codeBones(symbols_, lattice_.hierarchy(), d_.rig->packing.bones); }
+
   void read(Index pose) {
     Packing& packing = d_.rig->packing;
     Packing::Pose& form = packing.poses[pose];
@@ -90,6 +93,7 @@ class PoseReader {
     if (!symbols_.ok()) return;
     Likeness like;
     codeLikeness(symbols_, form, like, pose);
+    codeCarries(symbols_, bones_, form.carries);
     if (!symbols_.ok()) return;
     vectors_.code(current_, symmetryOf(form, pose), partnerOf(packing, lattice_, moved_, pose),
                   movedIn(like, lattice_, moved_));
@@ -105,8 +109,11 @@ class PoseReader {
       vectors.resize(d_.stored);
       poses.push_back({moved_[pose], stepOf(d_.rig->packing, pose), vectors});
     }
-    if (!lattice_.restore(lattice_.prediction(first), poses))
-      symbols_.refuse("a coordinate is not finite");
+    bool finite = lattice_.restore(lattice_.prediction(first), poses);
+    const Bones bones(d_.rig->surface, d_.rig->packing, d_.rig->neutral);
+    for (Index pose = first; pose < end; ++pose)
+      finite &= bones.add(d_.rig->packing.poses[pose].carries, 1, poses[pose - first].vectors);
+    if (!finite) symbols_.refuse("a coordinate is not finite");
   }
 
  private:
@@ -116,6 +123,7 @@ class PoseReader {
   CoefficientCoder<RangeDecoder> vectors_;
   Coefficients current_;       // [S] of the pose that is being read, else zero
   std::vector<Sparse> moved_;  // [poses]
+  Index bones_ = 0;
 };
 
 // Poses from `first` up to `end`, 0 the neutral.
@@ -123,6 +131,7 @@ void readPoses(Decoding& d, Reader& in, Index first, Index end) {
   decodeRest(in, [&](RangeDecoder& coder, Symbols<RangeDecoder>& symbols) {
     d.rig->packing.poses.resize(end);
     PoseReader poses(d, coder, symbols, first == 0);
+    if (first > 0) poses.readBones();
     for (Index pose = first; pose < end && symbols.ok(); ++pose) poses.read(pose);
     if (symbols.ok()) poses.restore(first, end);
   });

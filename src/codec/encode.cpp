@@ -4,6 +4,7 @@
 #include "sweepface/codec.hpp"
 
 #include "codec/blocks.hpp"
+#include "codec/bones.hpp"
 #include "codec/chunks.hpp"
 #include "codec/encoding.hpp"
 #include "codec/lattice.hpp"
@@ -61,6 +62,7 @@ struct Poses {
       Coded coded = code(pose, edited ? packing.rest : vectorsOf(rig, pose), lattice);
       if (pose == 0 && packing.poses.size() > 1)
         lattice.learn(rig.surface, coded.restored, stepOf(packing, 0));
+      if (pose == 0) bones_ = Bones(rig.surface, packing, coded.restored);
       exact.push_back(differing(vectorsOf(rig, pose), coded.restored));
       coefficients.push_back(std::move(coded.q));
     }
@@ -73,14 +75,19 @@ struct Poses {
   };
   Coded code(Index pose, const std::vector<Vec3>& vectors, const Lattice& lattice) const {
     const double step = stepOf(packing_, pose);
+    const auto& carries = packing_.poses[pose].carries;
     Coded coded{Coefficients(vectors.size()), std::vector<Vec3>(vectors.size())};
     if (!(step > 0)) return coded;
-    coded.q = lattice.round(pose, vectors, step);
+    std::vector<Vec3> beyond = vectors;
+    bones_.add(carries, -1, beyond);
+    coded.q = lattice.round(pose, beyond, step);
     lattice.restore(pose, coded.q, step, coded.restored);
+    bones_.add(carries, 1, coded.restored);
     // Where hardly anything is a multiple of the steps these only cost.
     if (2 * differing(vectors, coded.restored).size() > vectors.size()) {
       coded.q.assign(vectors.size(), Steps3{});
       coded.restored.assign(vectors.size(), Vec3{});
+      bones_.add(carries, 1, coded.restored);
     }
     return coded;
   }
@@ -92,6 +99,7 @@ struct Poses {
   }
 
   const Packing& packing_;
+  Bones bones_;
 };
 
 // Poses from `first` up to `end`, 0 the neutral.
@@ -100,11 +108,14 @@ std::string writePoses(Poses& poses, const Packing& packing, const Lattice& latt
   RangeEncoder coder;
   Symbols<RangeEncoder> out(coder);
   CoefficientCoder<RangeEncoder> vectors(lattice.hierarchy(), coder, lattice.axis(), first == 0);
+  std::vector<Index> hangs = packing.bones;
+  const Index bones = first > 0 ? codeBones(out, lattice.hierarchy(), hangs) : 0;
   for (Index pose = first; pose < end; ++pose) {
     Packing::Pose form = packing.poses[pose];
     codePose(out, form, pose);
     Likeness like = likenesses.of(pose);
     codeLikeness(out, form, like, pose);
+    codeCarries(out, bones, form.carries);
     vectors.code(poses.coefficients[pose], symmetryOf(form, pose),
                  partnerOf(packing, lattice, poses.coefficients, pose),
                  movedIn(like, lattice, poses.coefficients));
@@ -170,10 +181,11 @@ std::string encode(const Rig& rig) {
   using namespace codec;
   Writer out;
   writeHeader(out);
-  const Packing packing = sound(rig);
+  Packing packing = sound(rig);
   const Mirror mirror =
       spreadMirror(rig.surface.wireframe(), rig.surface.connectivity(), packing.mirror);
   Lattice lattice(rig.surface, packing, mirror);
+  levelOut(lattice.hierarchy(), packing.bones);
   Poses poses(rig, packing, lattice);
   const Likenesses likenesses(lattice, poses.coefficients);
   const auto count = static_cast<Index>(packing.poses.size());

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "codec/bones.hpp"
 #include "codec/kriging.hpp"
 #include "codec/limits.hpp"
 #include "codec/two.hpp"
@@ -36,15 +37,16 @@ void Lattice::learn(const Surface& surface, std::span<const Vec3> neutral, doubl
   if (step > 0) moves_ = predictMoves(surface, hierarchy_, neutral, kTurned * step);
 }
 
-Coefficients Lattice::round(Index pose, std::span<const Vec3> vectors, double step) const {
+Coefficients Lattice::round(Index pose, std::span<const Vec3> vectors, double step,
+                            Coefficients coefficients, std::span<const char> isFree) const {
   const Prediction& prediction = this->prediction(pose);
-  Coefficients coefficients(vectors.size());
   std::vector<Vec3> known(vectors.size());
   for (const Prediction::Step& s : prediction.steps) {
     const double unit = step / s.reach;
     const Vec3 expected = predict(prediction.of(s), known), rest = vectors[s.vector] - expected;
-    coefficients[s.vector] = {nearest(rest.x / unit), nearest(rest.y / unit),
-                              nearest(rest.z / unit)};
+    if (isFree[s.vector])
+      coefficients[s.vector] = {nearest(rest.x / unit), nearest(rest.y / unit),
+                                nearest(rest.z / unit)};
     known[s.vector] = expected + scaled(coefficients[s.vector], unit);
   }
   return coefficients;
@@ -208,10 +210,12 @@ Packing sound(const Rig& rig) {
   if (packing.rest.size() != rig.neutral.size()) packing.rest.clear();
   packing.poses.resize(rig.targets.size() + 1);
   for (Index pose = 0; pose < static_cast<Index>(packing.poses.size()); ++pose) {
-    auto& [finer, image] = packing.poses[pose];
+    auto& [finer, image, carries] = packing.poses[pose];
     finer = std::clamp(finer, 0, kMostFiner);
     if (image > pose || image < 0 || (image == 0 && pose > 0)) image = -1;
+    if (pose == 0) carries.clear();
   }
+  makeSound(packing, rig.neutral.size());
   return packing;
 }
 

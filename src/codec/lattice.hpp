@@ -33,7 +33,13 @@ class Lattice {
   }
 
   /// The nearest multiples, each beyond the prediction from the nearest ones before it.
-  Coefficients round(Index pose, std::span<const Vec3> vectors, double step) const;
+  Coefficients round(Index pose, std::span<const Vec3> vectors, double step) const {
+    return round(pose, vectors, step, Coefficients(vectors.size()),
+                 std::vector<char>(vectors.size(), 1));
+  }
+  /// The same for those [S] that are free, given the others.
+  Coefficients round(Index pose, std::span<const Vec3> vectors, double step, Coefficients given,
+                     std::span<const char> isFree) const;
   /// The vectors of coefficients [S]; false if one is not finite.
   bool restore(Index pose, const Coefficients& coefficients, double step,
                std::span<Vec3> vectors) const;

@@ -59,10 +59,15 @@ class Digest {
   void add(const SourceMesh& s) {
     add(s.gridVertex), add(s.ownOrder), add(s.loose), add(s.polygons), add(s.quadCorners);
   }
-  void add(const Packing::Pose& p) { add(Index{p.finer}), add(p.image); }
+  void add(const Packing::Carry& c) {
+    add(c.bone);
+    for (const auto& by : c.by)
+      for (const std::int32_t x : by) add(Index{x});
+  }
+  void add(const Packing::Pose& p) { add(Index{p.finer}), add(p.image), add(p.carries); }
   void add(const Packing& p) {
     add(p.neutralStep), add(p.targetStep), add(Index{p.axis}), add(p.mirror), add(p.poses);
-    add(p.rest), add(Index{p.textureBits});
+    add(p.bones), add(p.rest), add(Index{p.textureBits});
   }
   void add(const Names& n) {
     add(n.units), add(n.nodes), add(n.curves), add(n.patches), add(n.ribbons);

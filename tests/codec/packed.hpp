@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "codec/bones.hpp"
 #include "codec/lattice.hpp"
 #include "codec/rigs.hpp"
 
@@ -14,15 +15,32 @@ inline Rig packed(Rig rig) {
   rig.packing.textureBits = 12;
   rig.packing.poses.resize(rig.targets.size() + 1);
   codec::Lattice lattice(rig.surface, rig.packing);
+  codec::Bones bones;
   for (Index pose = 0; pose < static_cast<Index>(rig.packing.poses.size()); ++pose) {
     std::vector<Vec3>& vectors = pose == 0 ? rig.neutral : rig.targets[pose - 1].difference;
     const double step = codec::stepOf(rig.packing, pose);
+    bones.add(rig.packing.poses[pose].carries, -1, vectors);
     lattice.restore(pose, lattice.round(pose, vectors, step), step, vectors);
-    if (pose == 0) lattice.learn(rig.surface, vectors, step);
+    bones.add(rig.packing.poses[pose].carries, 1, vectors);
+    if (pose > 0) continue;
+    lattice.learn(rig.surface, vectors, step);
+    bones = codec::Bones(rig.surface, rig.packing, vectors);
   }
   for (Vec2& t : rig.source.polygons.texcoords)
     t = {std::round(t.x * 4096) / 4096, std::round(t.y * 4096) / 4096};
   return rig;
+}
+
+/// Bones that carry some of the nodes, and two targets that say how.
+inline void addBones(Rig& rig) {
+  for (Index v = 0; v < rig.surface.storedCount(); ++v) {
+    const Index node = rig.surface.stored(v).node;
+    rig.packing.bones.push_back(node < 2 ? 0 : node == 5 ? 1 : -1);
+  }
+  rig.packing.poses.resize(rig.targets.size() + 1);
+  rig.packing.poses[1].carries = {{0, {{{100, -2, 0}, {0, 3, -50}, {7, 0, 0}, {1, 1, -1}}}},
+                                  {1, {{{-9, 0, 4}, {0, 0, 0}, {0, 0, 0}, {0, 0, 12345}}}}};
+  rig.packing.poses[2].carries = {{1, {{{1, 2, 3}, {0, 5, 0}, {0, 0, 0}, {-8, 0, 0}}}}};
 }
 
 /// A rig with something of everything that files hold.
@@ -34,6 +52,7 @@ inline Rig everything() {
   Rig rig = withScene(dressed(makeRig(wireframe)));
   rig.packing.mirror = {{0, 2}};
   rig.packing.poses = {{0, 0}, {1, -1}, {0, 1}, {0, 3}};
+  addBones(rig);
   rig.names = {"cm", {}, {"brow", "", "", "", "", "", ""}, {}, {}};
   rig = packed(std::move(rig));
   rig.targets[1].difference[2].x = 1.0 / 3;  // no multiple of any step

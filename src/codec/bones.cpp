@@ -1,0 +1,89 @@
+#include "codec/bones.hpp"
+
+#include <array>
+
+namespace sweepface::codec {
+
+namespace {
+
+// Of the targets' step.
+constexpr double kUnit = 1.0 / 16;
+
+}  // namespace
+
+void makeSound(Packing& packing, std::size_t vectors) {
+  if (packing.bones.size() != vectors) packing.bones.clear();
+  Index count = 0;
+  for (Index& bone : packing.bones) {
+    if (bone < 0 || bone >= kMostBones) bone = -1;
+    count = std::max(count, bone + 1);
+  }
+  if (count == 0) packing.bones.clear();
+  for (Packing::Pose& pose : packing.poses) {
+    Index last = -1;
+    std::erase_if(pose.carries, [&](Packing::Carry& carry) {
+      for (auto& by : carry.by)
+        for (std::int32_t& x : by) x = std::clamp(x, -kMostCarried, kMostCarried);
+      const bool stays = carry.bone > last && carry.bone < count;
+      if (stays) last = carry.bone;
+      return !stays;
+    });
+  }
+}
+
+void levelOut(const Hierarchy& hierarchy, std::vector<Index>& bones) {
+  if (bones.empty()) return;
+  for (const CodedSite& site : hierarchy.sites())
+    std::fill_n(bones.begin() + site.first, site.count, bones[site.first]);
+}
+
+Bones::Bones(const Surface& surface, const Packing& packing, std::span<const Vec3> neutral)
+    : unit_(kUnit * packing.targetStep) {
+  struct Box {
+    Vec3 least, most;
+    bool isEmpty = true;
+  };
+  std::array<Box, kMostBones> boxes{};
+  for (Index v = 0; v < static_cast<Index>(packing.bones.size()); ++v) {
+    const Index bone = packing.bones[v];
+    if (bone < 0) continue;
+    const StoredVector& s = surface.stored(v);
+    const Vec3& p = neutral[v];
+    places_.push_back({v, bone, s.i + s.j == 0, p});
+    if (!places_.back().isPosition) continue;
+    auto& [least, most, isEmpty] = boxes[bone];
+    if (isEmpty) least = most = p, isEmpty = false;
+    least = {std::min(least.x, p.x), std::min(least.y, p.y), std::min(least.z, p.z)};
+    most = {std::max(most.x, p.x), std::max(most.y, p.y), std::max(most.z, p.z)};
+  }
+  for (Place& p : places_) {
+    const Box& box = boxes[p.bone];
+    const Vec3 across = box.most - box.least;
+    const double size = std::max(across.x, std::max(across.y, across.z));
+    if (p.isPosition) p.at -= 0.5 * (box.least + box.most);
+    p.at = (size > 0 ? 2 / size : 0) * p.at;
+  }
+}
+
+bool Bones::add(std::span<const Packing::Carry> carries, double sign,
+                std::span<Vec3> vectors) const {
+  if (carries.empty()) return true;
+  std::array<const Packing::Carry*, kMostBones> carryOf{};
+  for (const Packing::Carry& carry : carries) carryOf[carry.bone] = &carry;
+  const double unit = sign * unit_;
+  double nothing = 0;  // until it meets what is not finite
+  for (const auto& [vector, bone, isPosition, at] : places_) {
+    if (carryOf[bone] == nullptr) continue;
+    const auto& by = carryOf[bone]->by;
+    const auto along = [&](int axis) {
+      return unit * (at.x * by[1][axis] + at.y * by[2][axis] + at.z * by[3][axis] +
+                     (isPosition ? by[0][axis] : 0));
+    };
+    Vec3& moved = vectors[vector];
+    moved += {along(0), along(1), along(2)};
+    nothing += 0 * (moved.x + moved.y + moved.z);
+  }
+  return nothing == 0;
+}
+
+}  // namespace sweepface::codec
