@@ -31,7 +31,7 @@ constexpr int kMostRounds = 60;
 // The fit's share of the tolerance where the rest is left to packing.
 constexpr double kFitShare = 0.9;
 // What packing does to normals is more than a limit on the fit's could mend.
-constexpr double kNormalShare = 1.4;
+constexpr double kNormalShare = 1.25;
 // Predicted slopes overshoot where an edge is this many times as long as the next along its line.
 constexpr double kUneven = 3;
 // At the default tolerance of 0.02 % of the diagonal normals may be this far off, in degrees.

@@ -11,13 +11,17 @@ class FoldFinder {
  public:
   explicit FoldFinder(const Rig& rig, const Tessellation& grid);
 
-  /// The corners, as vertices of `grid` (level 1), of the quads that fold in a pose of the rig
-  /// whose source has its vertices at `source`; each as often as it is one.
-  std::vector<Index> corners(std::span<const Vec3> vectors, std::span<const Vec3> source) const;
+  /// The quads of `grid` (level 1) that fold in a pose of the rig whose source has its vertices at
+  /// `source`; in order, each as often as triangles of it do.
+  std::vector<Index> quads(std::span<const Vec3> vectors, std::span<const Vec3> source) const;
+
+  /// The vertices of such a quad.
+  const std::array<Index, 4>& corners(Index quad) const { return corners_[quad]; }
 
  private:
   const Rig& rig_;
-  const Tessellation& grid_;
+  Index vertexCount_;
+  std::vector<std::array<Index, 4>> corners_;
   Tessellation fine_;
   std::vector<std::array<Index, 4>> fineFaces_;
   FaceMap map_;

@@ -88,35 +88,61 @@ class PoseQuantiser {
     }
   }
 
-  // Of the moves that bring the vertex itself nearer, those are tried that move few others.
-  bool repairAt(Index u) {
-    gatherMoves(u);
-    double least = -1e-3;
-    const Move* best = nullptr;
-    for (const Move& m : moves_) {
-      const std::int32_t before = q_[m.vector][m.axis] - expected(m.vector, m.axis);
-      double cost = bits(m.vector, before, before + m.by) +
-                    errors_.growth(m.vector, m.axis, static_cast<float>(m.by));
-      if (const auto image = follower(m.vector); image.vector >= 0)
-        cost +=
-            errors_.growth(image.vector, m.axis, static_cast<float>(signFor(image, m.axis) * m.by));
-      if (cost < least) least = cost, best = &m;
-    }
-    if (best == nullptr) return false;
-    change(best->vector, best->axis, best->by);
-    return true;
-  }
-
   struct Move {
     float merit = 0;
     Index vector = -1;
     int axis = 0, by = 0;
+    double cost = 0;
   };
-  void gatherMoves(Index u) {
+
+  // Of the moves that bring the vertex itself nearer, those are tried that move few others; where
+  // none helps by itself, each with what then helps most where it does harm.
+  bool repairAt(Index u) {
+    constexpr double kHelps = -1e-3;
+    std::vector<Move> moves = movesAt(u);
+    if (const Move* best = cheapest(moves); best != nullptr && best->cost < kHelps) {
+      change(best->vector, best->axis, best->by);
+      return true;
+    }
+    for (const Move& m : moves) {
+      change(m.vector, m.axis, m.by);
+      std::vector<Move> next = movesAt(worstAround(m.vector));
+      if (const Move* best = cheapest(next); best != nullptr && m.cost + best->cost < kHelps) {
+        change(best->vector, best->axis, best->by);
+        return true;
+      }
+      change(m.vector, m.axis, -m.by);
+    }
+    return false;
+  }
+
+  const Move* cheapest(std::vector<Move>& moves) const {
+    const Move* best = nullptr;
+    for (Move& m : moves) {
+      const std::int32_t before = q_[m.vector][m.axis] - expected(m.vector, m.axis);
+      m.cost = bits(m.vector, before, before + m.by) +
+               errors_.growth(m.vector, m.axis, static_cast<float>(m.by));
+      if (const auto image = follower(m.vector); image.vector >= 0)
+        m.cost +=
+            errors_.growth(image.vector, m.axis, static_cast<float>(signFor(image, m.axis) * m.by));
+      if (best == nullptr || m.cost < best->cost) best = &m;
+    }
+    return best;
+  }
+
+  // The vertex that a coefficient moves and that is the furthest off.
+  Index worstAround(Index v) const {
+    Index worst = columns_.vertex[columns_.start[v]];
+    for (Index p = columns_.start[v]; p < columns_.start[v + 1]; ++p)
+      if (errors_.square(columns_.vertex[p]) > errors_.square(worst)) worst = columns_.vertex[p];
+    return worst;
+  }
+
+  std::vector<Move> movesAt(Index u) const {
     constexpr std::size_t kMost = 24;
     constexpr float kWorthIt = 0.01f;
     const auto step = static_cast<float>(task_.step);
-    moves_.clear();
+    std::vector<Move> moves;
     for (Index r = columns_.rowStart[u]; r < columns_.rowStart[u + 1]; ++r) {
       const Index v = columns_.rowVector[r];
       const auto reaches = static_cast<float>(columns_.length(v));
@@ -124,16 +150,17 @@ class PoseQuantiser {
         for (const int by : {-2, -1, 1, 2}) {
           const float nearer =
               errors_.nearer(u, a, static_cast<float>(by) * step * columns_.rowWeight[r]);
-          if (nearer > kWorthIt) moves_.push_back({nearer / (10 + reaches), v, a, by});
+          if (nearer > kWorthIt) moves.push_back({nearer / (10 + reaches), v, a, by});
         }
     }
-    const std::size_t kept = std::min(kMost, moves_.size());
-    std::ranges::partial_sort(moves_, moves_.begin() + static_cast<std::ptrdiff_t>(kept),
+    const std::size_t kept = std::min(kMost, moves.size());
+    std::ranges::partial_sort(moves, moves.begin() + static_cast<std::ptrdiff_t>(kept),
                               [](const Move& a, const Move& b) {
                                 return std::tie(b.merit, a.vector, a.axis, a.by) <
                                        std::tie(a.merit, b.vector, b.axis, b.by);
                               });
-    moves_.resize(kept);
+    moves.resize(kept);
+    return moves;
   }
 
   // Moves a coefficient and what follows it.
@@ -290,7 +317,6 @@ class PoseQuantiser {
   std::vector<int> inSite_, inVector_;  // coefficients that are not zero
   std::vector<char> wanted_;            // [S]
   std::vector<int> touched_;            // [vertices] the sweep in which it moved last
-  std::vector<Move> moves_;
   int sweep_ = 0;
   double price_ = 1;  // of a bit
 };

@@ -10,7 +10,9 @@
 
 #include "sweepface/eval.hpp"
 
+#include "codec/bones.hpp"
 #include "codec/lattice.hpp"
+#include "fit/bones.hpp"
 #include "fit/columns.hpp"
 #include "fit/folds.hpp"
 #include "fit/pose_quantiser.hpp"
@@ -31,7 +33,7 @@ constexpr double kNeutralStep = 0.25, kTargetStep = 1;
 // The neutral spends this share of the tolerance, so that its poses have room.
 constexpr double kNeutralShare = 0.5;
 // What a tangent that leans by the angle aimed at counts, in bits.
-constexpr double kNeutralBits = 1.2, kTargetBits = 0.05;
+constexpr double kNeutralBits = 1.5, kTargetBits = 0.1;
 constexpr int kMostFiner = 8;
 // From this many halvings on a target starts where the fit has the pose, whatever that costs.
 constexpr int kFaithful = 2;
@@ -73,6 +75,9 @@ class Quantiser {
     neutralErrors_.assign(grid_.vertexCount(), Vec3{});
     if (!settle(0, neutralBounds())) return failed();
     lattice_->learn(rig_.surface, rig_.neutral, codec::stepOf(rig_.packing, 0));
+    neutralFolds_ = foldsOf(0, rig_.neutral);
+    findBones(rig_, *lattice_, rig_.neutral, tolerance_, rig_.packing);
+    bones_ = codec::Bones(rig_.surface, rig_.packing, rig_.neutral);
     columns_ = columnsOf(rig_.surface, grid_, lattice_->prediction(1));
     neutralErrors_ = errorsOf(0, poses_[0]);
     neutralOff_ = rig_.neutral;
@@ -118,10 +123,7 @@ class Quantiser {
   }
 
   std::vector<Vec3> errorsOf(Index pose, const Coefficients& q) const {
-    std::vector<Vec3> vectors(rig_.surface.vectorCount());
-    lattice_->restore(pose, q, codec::stepOf(rig_.packing, pose), vectors);
-    rig_.surface.settle(std::span(vectors).first(q.size()), vectors);
-    std::vector<Vec3> errors = grid_.positions(vectors);
+    std::vector<Vec3> errors = grid_.positions(settled(restored(pose, q)));
     for (std::size_t v = 0; v < errors.size(); ++v) {
       errors[v] -= goals_[pose][v];
       if (pose > 0) errors[v] += neutralErrors_[v];
@@ -144,8 +146,7 @@ class Quantiser {
   }
 
   Slopes slopesOf(Index pose, const Coefficients& q, const std::vector<Vec3>& fitted) const {
-    std::vector<Vec3> off(q.size()), form = fitted;
-    lattice_->restore(pose, q, codec::stepOf(rig_.packing, pose), off);
+    std::vector<Vec3> off = restored(pose, q), form = fitted;
     for (std::size_t v = 0; v < q.size(); ++v) off[v] -= fitted[v];
     if (pose > 0)
       for (std::size_t v = 0; v < q.size(); ++v) form[v] += fittedNeutral_[v];
@@ -191,8 +192,11 @@ class Quantiser {
     return bounds;
   }
 
-  bool within(const std::vector<Vec3>& errors) const {
-    return std::ranges::all_of(errors, [&](const Vec3& e) { return norm(e) <= tolerance_; });
+  static std::vector<Index> verticesBeyond(double bound, const std::vector<Vec3>& errors) {
+    std::vector<Index> vertices;
+    for (Index u = 0; u < static_cast<Index>(errors.size()); ++u)
+      if (!(norm(errors[u]) <= bound)) vertices.push_back(u);
+    return vertices;
   }
 
   // Finds the coefficients of a pose and puts what they say into the rig. Finer steps where the
@@ -219,17 +223,16 @@ class Quantiser {
         for (const codec::Moved& m : codec::partnerOf(rig_.packing, *lattice_, poses_, pose))
           task.expected[m.vector] = m.steps;
       }
-      Coefficients q =
-          lattice_->round(pose, form.finer < kFaithful ? fitted : compensated(fitted), task.step);
-      if (fromImage) symmetrise(q, symmetry, task.expected);
-      if (!improve(pose, task, fitted, q)) continue;
+      Coefficients q = rounded(pose, form.finer < kFaithful ? fitted : compensated(fitted));
+      if (fromImage) startFromImage(pose, task, fitted, q);
+      if (!improveWithRoom(pose, task, fitted, q)) continue;
       done = unfold(pose, task, fitted, q) || form.finer >= kMostForFolds;
       poses_[pose] = std::move(q);
       found = form.finer;
     }
     if (found < 0) return false;
     form.finer = found;
-    lattice_->restore(pose, poses_[pose], codec::stepOf(rig_.packing, pose), vectorsOf(pose));
+    vectorsOf(pose) = restored(pose, poses_[pose]);
     return true;
   }
 
@@ -240,43 +243,76 @@ class Quantiser {
     return fitted;
   }
 
-  bool improve(Index pose, PoseTask task, const std::vector<Vec3>& fitted, Coefficients& q) const {
+  // The vertices that are beyond their bounds then.
+  std::vector<Index> improve(Index pose, PoseTask task, const std::vector<Vec3>& fitted,
+                             Coefficients& q) const {
     task.errors = errorsOf(pose, q);
     task.slopes = slopesOf(pose, q, fitted);
     quantisePose(*lattice_, columns_, std::move(task), q);
-    return within(errorsOf(pose, q));
+    return verticesBeyond(tolerance_, errorsOf(pose, q));
+  }
+
+  // Vertices that end up beyond their bounds begin again with narrower ones, if they are few.
+  // Whether none is left.
+  bool improveWithRoom(Index pose, PoseTask& task, const std::vector<Vec3>& fitted,
+                       Coefficients& q) const {
+    constexpr int kTrials = 4;
+    constexpr std::size_t kFew = 32;
+    constexpr float kNarrower = 0.85f;
+    const Coefficients first = q;
+    for (int trial = 0; trial < kTrials; ++trial) {
+      q = first;
+      const std::vector<Index> beyond = improve(pose, task, fitted, q);
+      if (beyond.empty()) return true;
+      if (beyond.size() > kFew) break;
+      for (const Index u : beyond) task.bounds[u] *= kNarrower;
+    }
+    return false;
   }
 
   // Where the surface turned over it goes back to the fit, and stays there; if that does not do,
-  // tangents count more there. Whether it turns over no more than the fit then.
+  // tangents count more there. Whether it turns over nowhere then but where the fit or the neutral
+  // does.
   bool unfold(Index pose, PoseTask& task, const std::vector<Vec3>& fitted, Coefficients& q) {
     constexpr int kRounds = 4;
     constexpr float kMore = 1.5f;
     const std::vector<Vec3> faithful = compensated(fitted);
-    const std::size_t own = foldsOf(pose, faithful).size() * 9 / 8;  // a few more will do
+    const std::vector<Index> own = foldsOf(pose, faithful);
+    const auto foldsBeyond = [&](const Coefficients& trial) {
+      std::vector<Index> folds = foldsOf(pose, restored(pose, trial));
+      std::erase_if(folds, [&](Index quad) {
+        return std::ranges::binary_search(own, quad) ||
+               std::ranges::binary_search(neutralFolds_, quad);
+      });
+      return folds;
+    };
     const Coefficients first = q;
-    const std::vector<Index> folded = foldsOf(pose, restored(pose, q, task.step));
-    std::size_t least = folded.size();
+    const std::vector<Index> before = foldsBeyond(q);
+    const std::size_t few = own.size() / 8;
+    std::size_t least = before.size();
     task.stress.assign(grid_.vertexCount(), 1);
     for (const bool stays : {true, false}) {
       Coefficients trial = first;
-      std::vector<Index> corners = folded;
+      std::vector<Index> folds = before;
       task.frozen.assign(stays ? q.size() : 0, 0);
-      for (int round = 0; round < kRounds && least > own; ++round) {
-        std::vector<Vec3> vectors = restored(pose, trial, task.step);
+      for (int round = 0; round < kRounds && least > few; ++round) {
+        std::vector<Index> corners;
+        for (const Index quad : folds)
+          std::ranges::copy(folds_->corners(quad), std::back_inserter(corners));
+        std::vector<Vec3> vectors = restored(pose, trial);
         for (const Index v : behind(corners)) {
           vectors[v] = faithful[v];
           if (stays) task.frozen[v] = 1;
         }
         if (!stays)
           for (const Index u : corners) task.stress[u] *= kMore;
-        trial = lattice_->round(pose, vectors, task.step);
-        const bool met = improve(pose, task, fitted, trial);
-        corners = foldsOf(pose, restored(pose, trial, task.step));
-        if (met && corners.size() < least) least = corners.size(), q = trial;
+        trial = rounded(pose, vectors);
+        const bool met = improve(pose, task, fitted, trial).empty();
+        folds = foldsBeyond(trial);
+        if (met && folds.size() < least) least = folds.size(), q = trial;
       }
     }
-    return least <= own;
+    return least <= few;
   }
 
   // The stored vectors that the surface around vertices is made of.
@@ -294,24 +330,46 @@ class Quantiser {
     return stored;
   }
 
-  std::vector<Vec3> restored(Index pose, const Coefficients& q, double step) const {
+  // Coefficients tell what a pose does beyond what its bones carry.
+  std::vector<Vec3> beyondBones(Index pose, std::vector<Vec3> vectors) const {
+    bones_.add(rig_.packing.poses[pose].carries, -1, vectors);
+    return vectors;
+  }
+  Coefficients rounded(Index pose, const std::vector<Vec3>& vectors) const {
+    return lattice_->round(pose, beyondBones(pose, vectors), codec::stepOf(rig_.packing, pose));
+  }
+  std::vector<Vec3> restored(Index pose, const Coefficients& q) const {
     std::vector<Vec3> vectors(q.size());
-    lattice_->restore(pose, q, step, vectors);
+    lattice_->restore(pose, q, codec::stepOf(rig_.packing, pose), vectors);
+    bones_.add(rig_.packing.poses[pose].carries, 1, vectors);
     return vectors;
   }
 
-  // The corners of the folds where a pose has these stored vectors, beyond the neutral's.
+  // The quads that fold where a pose has these stored vectors beyond the neutral's.
   std::vector<Index> foldsOf(Index pose, std::vector<Vec3> vectors) const {
     if (pose > 0)
       for (std::size_t v = 0; v < vectors.size(); ++v) vectors[v] += rig_.neutral[v];
     const MeshRig& s = source_;
-    return folds_->corners(settled(std::move(vectors)),
-                           pose == 0 ? s.neutral.positions : s.targets[pose - 1].positions);
+    return folds_->quads(settled(std::move(vectors)),
+                         pose == 0 ? s.neutral.positions : s.targets[pose - 1].positions);
   }
 
-  // Starts from the image where there is one.
+  // The image, but where it is far off: there what the fit has.
+  void startFromImage(Index pose, const PoseTask& task, const std::vector<Vec3>& fitted,
+                      Coefficients& q) const {
+    constexpr int kRounds = 3;
+    constexpr double kFar = 2;  // tolerances
+    symmetrise(q, task.symmetry, task.expected);
+    std::vector<char> isFree(q.size(), 0);
+    for (int round = 0; round < kRounds; ++round) {
+      const std::vector<Index> off = verticesBeyond(kFar * tolerance_, errorsOf(pose, q));
+      if (off.empty()) return;
+      for (const Index v : behind(off)) isFree[v] = 1;
+      q = lattice_->round(pose, beyondBones(pose, fitted), task.step, std::move(q), isFree);
+    }
+  }
+
   void symmetrise(Coefficients& q, Symmetry symmetry, const Coefficients& expected) const {
-    if (symmetry == Symmetry::none) return;
     const auto& sites = lattice_->hierarchy().sites();
     const auto& images = lattice_->hierarchy().images();
     for (Index s = 0; s < static_cast<Index>(sites.size()); ++s) {
@@ -332,8 +390,10 @@ class Quantiser {
   const std::function<bool(double)>& proceed_;
   Tessellation grid_;
   std::optional<Lattice> lattice_;
+  codec::Bones bones_;
   Columns columns_;
   std::optional<FoldFinder> folds_;
+  std::vector<Index> neutralFolds_;  // quads, in order
   std::vector<Coefficients> poses_;
   std::vector<std::vector<Vec3>> goals_;  // [poses][vertices] the neutral, then differences
   std::vector<char> known_;               // [vertices] that a source vertex stands for
