@@ -93,7 +93,9 @@ class BoneFinder {
       if (part < 0) part = static_cast<Index>(parts_.size()), parts_.emplace_back();
       parts_[part].push_back(s);
     }
-    std::ranges::stable_sort(parts_, std::greater{}, &std::vector<Index>::size);
+    std::ranges::sort(parts_, [](const auto& a, const auto& b) {
+      return a.size() != b.size() ? a.size() > b.size() : a.front() < b.front();
+    });
   }
 
   // The map that most of what moves follows (iteratively reweighted least squares).
