@@ -11,7 +11,7 @@ constexpr double kUnit = 1.0 / 16;
 
 }  // namespace
 
-void makeSound(Packing& packing, std::size_t vectors) {
+void makeBonesSound(Packing& packing, std::size_t vectors) {
   if (packing.bones.size() != vectors) packing.bones.clear();
   Index count = 0;
   for (Index& bone : packing.bones) {
@@ -19,6 +19,7 @@ void makeSound(Packing& packing, std::size_t vectors) {
     count = std::max(count, bone + 1);
   }
   if (count == 0) packing.bones.clear();
+  if (!packing.poses.empty()) packing.poses.front().carries.clear();  // the neutral's
   for (Packing::Pose& pose : packing.poses) {
     Index last = -1;
     std::erase_if(pose.carries, [&](Packing::Carry& carry) {

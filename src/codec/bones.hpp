@@ -15,7 +15,7 @@ inline constexpr Index kMostBones = 64;
 inline constexpr std::int32_t kMostCarried = 1 << 26;
 
 /// Leaves of the bones and of what they carry what a file can hold, for so many stored vectors.
-void makeSound(Packing& packing, std::size_t vectors);
+void makeBonesSound(Packing& packing, std::size_t vectors);
 
 /// The vectors of a site hang on the bone of its position.
 void levelOut(const Hierarchy& hierarchy, std::vector<Index>& bones);
@@ -32,6 +32,12 @@ class Bones {
   /// Adds what carries say, or takes it away, to vectors [S] of a pose. False where one comes out
   /// that is not finite.
   bool add(std::span<const Packing::Carry> carries, double sign, std::span<Vec3> vectors) const;
+  /// What vectors [S] of a pose do beyond what carries say.
+  std::vector<Vec3> beyond(std::span<const Packing::Carry> carries,
+                           std::vector<Vec3> vectors) const {
+    add(carries, -1, vectors);
+    return vectors;
+  }
 
   /// A vector by its bone's middle and size: what maps multiply.
   struct Place {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstdlib>
 #include <span>
 #include <utility>
@@ -16,6 +17,12 @@ namespace sweepface::codec {
 /// A vector in steps.
 using Steps3 = std::array<std::int32_t, 3>;
 inline bool isMoved(const Steps3& v) { return (v[0] | v[1] | v[2]) != 0; }
+/// About how many bits it takes to tell a vector where another is expected.
+inline double bitsOf(const Steps3& v, const Steps3& expected = {}) {
+  double sum = 0;
+  for (std::size_t k = 0; k < 3; ++k) sum += 2 * std::log2(1.0 + std::abs(v[k] - expected[k]));
+  return sum;
+}
 /// The stored vectors of a pose [S] as multiples of their steps beyond their predictions.
 using Coefficients = std::vector<Steps3>;
 

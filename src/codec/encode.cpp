@@ -78,9 +78,7 @@ struct Poses {
     const auto& carries = packing_.poses[pose].carries;
     Coded coded{Coefficients(vectors.size()), std::vector<Vec3>(vectors.size())};
     if (!(step > 0)) return coded;
-    std::vector<Vec3> beyond = vectors;
-    bones_.add(carries, -1, beyond);
-    coded.q = lattice.round(pose, beyond, step);
+    coded.q = lattice.round(pose, bones_.beyond(carries, vectors), step);
     lattice.restore(pose, coded.q, step, coded.restored);
     bones_.add(carries, 1, coded.restored);
     // Where hardly anything is a multiple of the steps these only cost.

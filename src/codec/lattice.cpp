@@ -165,10 +165,10 @@ std::string otherSide(std::string name) {
   return name;
 }
 
-double size(const Coefficients& a, const Coefficients& b) {
+// About how many bits it takes to tell coefficients where others are expected.
+double bitsOf(const Coefficients& q, const Coefficients& expected) {
   double sum = 0;
-  for (std::size_t v = 0; v < a.size(); ++v)
-    for (int k = 0; k < 3; ++k) sum += std::log2(1.0 + std::abs(a[v][k] - b[v][k]));
+  for (std::size_t v = 0; v < q.size(); ++v) sum += codec::bitsOf(q[v], expected[v]);
   return sum;
 }
 
@@ -184,16 +184,16 @@ void chooseImages(const Rig& rig, const Lattice& lattice, Packing& packing) {
   };
   for (Index pose = 0; pose < poses; ++pose) {
     const Coefficients own = coefficients(pose);
-    double least = 0.9 * size(own, Coefficients(own.size()));
+    double least = 0.9 * bitsOf(own, Coefficients(own.size()));
     Index& image = packing.poses[pose].image;
     image = -1;
     // Its own image tells the second half only.
-    if (const double s = 0.5 * least + 0.5 * size(own, lattice.image(own)); s < least)
+    if (const double s = 0.5 * least + 0.5 * bitsOf(own, lattice.image(own)); s < least)
       least = s, image = pose;
     if (pose == 0) continue;
     const Index other = rig.find(otherSide(rig.targets[pose - 1].name)) + 1;
     if (other < 1 || other >= pose) continue;
-    if (size(own, lattice.image(coefficients(other))) < least) image = other;
+    if (bitsOf(own, lattice.image(coefficients(other))) < least) image = other;
   }
 }
 
@@ -210,12 +210,11 @@ Packing sound(const Rig& rig) {
   if (packing.rest.size() != rig.neutral.size()) packing.rest.clear();
   packing.poses.resize(rig.targets.size() + 1);
   for (Index pose = 0; pose < static_cast<Index>(packing.poses.size()); ++pose) {
-    auto& [finer, image, carries] = packing.poses[pose];
-    finer = std::clamp(finer, 0, kMostFiner);
-    if (image > pose || image < 0 || (image == 0 && pose > 0)) image = -1;
-    if (pose == 0) carries.clear();
+    Packing::Pose& form = packing.poses[pose];
+    form.finer = std::clamp(form.finer, 0, kMostFiner);
+    if (form.image > pose || form.image < 0 || (form.image == 0 && pose > 0)) form.image = -1;
   }
-  makeSound(packing, rig.neutral.size());
+  makeBonesSound(packing, rig.neutral.size());
   return packing;
 }
 

@@ -55,7 +55,7 @@ class BoneFinder {
   void find(Packing& packing) {
     gatherParts();
     std::vector<Bone> bones;
-    for (std::vector<Index>& part : parts_) {
+    for (const std::vector<Index>& part : parts_) {
       const auto joins = [&](const Bone& bone) { return isCarried(bone, part); };
       if (const auto bone = std::ranges::find_if(bones, joins); bone != bones.end())
         bone->sites.insert(bone->sites.end(), part.begin(), part.end());
@@ -121,6 +121,7 @@ class BoneFinder {
     Bone bone;
     if (part.size() < kFewest) return bone;
     Index most = -1;
+    Map main;
     double largest = 0;
     for (Index t = 0; t < static_cast<Index>(rig_.targets.size()); ++t) {
       const std::vector<Index> moved = movedOf(t, part);
@@ -129,10 +130,9 @@ class BoneFinder {
       if (!follow(map, t, moved)) continue;
       double sum = 0;
       for (const Index s : moved) sum += norm(move(t, s));
-      if (sum > largest) largest = sum, most = t;
+      if (sum > largest) largest = sum, main = map, most = t;
     }
     if (most < 0) return bone;
-    const Map main = mapOf(most, movedOf(most, part));
     std::ranges::copy_if(part, std::back_inserter(bone.sites),
                          [&](Index s) { return off(main, most, s) <= 2 * near_; });
     for (Index t = 0; t < static_cast<Index>(rig_.targets.size()); ++t) {
@@ -159,7 +159,7 @@ class BoneFinder {
                                [&](const Carried& c) { return follow(c.map, c.target, part); });
   }
 
-  void write(std::vector<Bone>& bones, Packing& packing) const {
+  void write(const std::vector<Bone>& bones, Packing& packing) const {
     if (bones.empty()) return;
     packing.bones.assign(neutral_.size(), -1);
     for (std::size_t b = 0; b < bones.size(); ++b)
@@ -195,12 +195,9 @@ class BoneFinder {
   std::vector<std::vector<Index>> parts_;
 };
 
-// About how many bits numbers take.
-template <typename Numbers>
-double bitsOf(const Numbers& numbers) {
+double bitsOf(std::span<const codec::Steps3> vectors) {
   double sum = 0;
-  for (const auto& v : numbers)
-    for (const std::int32_t x : v) sum += 2 * std::log2(1.0 + std::abs(x));
+  for (const codec::Steps3& v : vectors) sum += codec::bitsOf(v);
   return sum;
 }
 
@@ -226,9 +223,8 @@ void dropIdle(const Rig& rig, const codec::Lattice& lattice, std::span<const Vec
   for (Index pose = 1; pose < static_cast<Index>(packing.poses.size()); ++pose) {
     auto& carries = packing.poses[pose].carries;
     const auto told = [&] {
-      std::vector<Vec3> beyond = rig.targets[pose - 1].difference;
-      bones.add(carries, -1, beyond);
-      return bitsOf(lattice.round(pose, beyond, codec::stepOf(packing, pose)));
+      return bitsOf(lattice.round(pose, bones.beyond(carries, rig.targets[pose - 1].difference),
+                                  codec::stepOf(packing, pose)));
     };
     double with = carries.empty() ? 0 : told();
     for (std::size_t k = carries.size(); k-- > 0;) {

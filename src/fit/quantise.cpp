@@ -331,9 +331,8 @@ class Quantiser {
   }
 
   // Coefficients tell what a pose does beyond what its bones carry.
-  std::vector<Vec3> beyondBones(Index pose, std::vector<Vec3> vectors) const {
-    bones_.add(rig_.packing.poses[pose].carries, -1, vectors);
-    return vectors;
+  std::vector<Vec3> beyondBones(Index pose, const std::vector<Vec3>& vectors) const {
+    return bones_.beyond(rig_.packing.poses[pose].carries, vectors);
   }
   Coefficients rounded(Index pose, const std::vector<Vec3>& vectors) const {
     return lattice_->round(pose, beyondBones(pose, vectors), codec::stepOf(rig_.packing, pose));

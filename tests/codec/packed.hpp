@@ -19,9 +19,9 @@ inline Rig packed(Rig rig) {
   for (Index pose = 0; pose < static_cast<Index>(rig.packing.poses.size()); ++pose) {
     std::vector<Vec3>& vectors = pose == 0 ? rig.neutral : rig.targets[pose - 1].difference;
     const double step = codec::stepOf(rig.packing, pose);
-    bones.add(rig.packing.poses[pose].carries, -1, vectors);
-    lattice.restore(pose, lattice.round(pose, vectors, step), step, vectors);
-    bones.add(rig.packing.poses[pose].carries, 1, vectors);
+    const auto& carries = rig.packing.poses[pose].carries;
+    lattice.restore(pose, lattice.round(pose, bones.beyond(carries, vectors), step), step, vectors);
+    bones.add(carries, 1, vectors);
     if (pose > 0) continue;
     lattice.learn(rig.surface, vectors, step);
     bones = codec::Bones(rig.surface, rig.packing, vectors);

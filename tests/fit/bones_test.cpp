@@ -3,10 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "sweepface/fit.hpp"
-#include "sweepface/io.hpp"
 
 #include "codec/bones.hpp"
-#include "codec/lattice.hpp"
 #include "faces.hpp"
 
 namespace sweepface {
@@ -18,22 +16,14 @@ constexpr double kTolerance = 0.01;
 
 // A hill and, above it, a wavy sheet as teeth would be; targets that do things to the sheet.
 MeshRig hillAndSheet(const std::vector<std::function<Vec3(const Vec3&)>>& moves) {
-  const PolygonMesh hill = plane();
-  const PolygonMesh sheet = grid(8, 6, [](double i, double j) {
-    return Vec3{0.3 * i, 0.3 * j, 5 + 0.2 * std::sin(i) * std::cos(j)};
-  });
-  MeshRig rig;
-  rig.neutral = hill;
-  const auto below = static_cast<Index>(hill.positions.size());
-  rig.neutral.positions.insert(rig.neutral.positions.end(), sheet.positions.begin(),
-                               sheet.positions.end());
-  for (Loop face : loopsOf(sheet.polygons)) {
-    for (Index& v : face) v += below;
-    addFace(rig.neutral, face);
-  }
+  const PolygonMesh hill = plane(),
+                    sheet = grid(8, 6, [](double i, double j) {
+                      return Vec3{0.3 * i, 0.3 * j, 5 + 0.2 * std::sin(i) * std::cos(j)};
+                    });
+  MeshRig rig{joined(hill, sheet, {}), {}};
   for (const auto& move : moves) {
     MeshTarget target{"t" + std::to_string(rig.targets.size()), rig.neutral.positions};
-    for (std::size_t v = below; v < target.positions.size(); ++v)
+    for (std::size_t v = hill.positions.size(); v < target.positions.size(); ++v)
       target.positions[v] = move(target.positions[v]);
     rig.targets.push_back(std::move(target));
   }
@@ -56,8 +46,8 @@ Rig packedRig(const MeshRig& source) {
 // The farthest that a carry alone leaves a position of its bone from where the target has it.
 double farthest(const Rig& rig, Index target) {
   const codec::Bones bones(rig.surface, rig.packing, rig.neutral);
-  std::vector<Vec3> left = rig.targets[target].difference;
-  bones.add(rig.packing.poses[target + 1].carries, -1, left);
+  const auto left =
+      bones.beyond(rig.packing.poses[target + 1].carries, rig.targets[target].difference);
   double most = 0;
   for (Index v = 0; v < rig.surface.storedCount(); ++v)
     if (rig.packing.bones[v] >= 0 && rig.surface.stored(v).i + rig.surface.stored(v).j == 0)

@@ -84,50 +84,50 @@ TEST(RealFaceLong, aHeadAndItsExpressionsStayWithinTheirTolerance) {
   }
 }
 
-// What packing may spend is the tolerance, not the surface between the vertices.
-TEST(RealFaceLong, aPackedHeadIsSmallAndFoldsNowhere) {
-  SKIP_WITHOUT_REAL_FACES();
-  const auto source = head(true);
+// What packing may spend is the tolerance, not the surface between the vertices. A face packed
+// within 0.2 mm and read again, what it measures, and its bytes with and without order and texture.
+struct Packed {
+  Rig read;
+  Measurement measured;
+  std::size_t bytes = 0, bare = 0;
+};
+void pack(const Result<MeshRig>& source, Packed& packed) {
   ASSERT_TRUE(source) << source.error().message;
   ConvertOptions options;
   options.tolerance = 0.02;
   options.pack = true;
   auto conversion = convert(*source, options);
   ASSERT_TRUE(conversion) << conversion.error().message;
-  const auto read = decode(encode(conversion->rig), "head");
+  auto read = decode(encode(conversion->rig), "face");
   ASSERT_TRUE(read) << read.error().message;
   const auto m = measure(*read, *source);
   ASSERT_TRUE(m) << m.error().message;
   EXPECT_LE(m->worst.distance.max, options.tolerance);
   EXPECT_LE(m->worst.angle.rms, 1.6);
   EXPECT_LE(m->worst.angle.p99, 5.5);
-  EXPECT_EQ(m->worst.folds, 0);
-  EXPECT_LE(read->surface.storedCount(), 0.71 * 11248);
-  EXPECT_LE(encode(*read).size(), 37'000u);
+  packed = {std::move(*read), *m, 0, 0};
+  packed.bytes = encode(packed.read).size();
   ASSERT_TRUE(strip(conversion->rig, {true, true, false, false}));
-  EXPECT_LE(encode(conversion->rig).size(), 20'480u);
+  packed.bare = encode(conversion->rig).size();
+}
+
+TEST(RealFaceLong, aPackedHeadIsSmallAndFoldsNowhere) {
+  SKIP_WITHOUT_REAL_FACES();
+  Packed packed;
+  ASSERT_NO_FATAL_FAILURE(pack(head(true), packed));
+  EXPECT_EQ(packed.measured.worst.folds, 0);
+  EXPECT_LE(packed.read.surface.storedCount(), 0.71 * 11248);
+  EXPECT_LE(packed.bytes, 37'000u);
+  EXPECT_LE(packed.bare, 20'480u);
 }
 
 // Teeth and gums hang on the jaw; sheets touch; the sockets of the eyes differ.
 TEST(RealFaceLong, aPackedFaceWithAllItsPartsIsSmall) {
   SKIP_WITHOUT_REAL_FACES();
-  const auto source = everything();
-  ASSERT_TRUE(source) << source.error().message;
-  ConvertOptions options;
-  options.tolerance = 0.02;
-  options.pack = true;
-  auto conversion = convert(*source, options);
-  ASSERT_TRUE(conversion) << conversion.error().message;
-  const auto read = decode(encode(conversion->rig), "face");
-  ASSERT_TRUE(read) << read.error().message;
-  EXPECT_FALSE(read->packing.bones.empty());
-  const auto m = measure(*read, *source);
-  ASSERT_TRUE(m) << m.error().message;
-  EXPECT_LE(m->worst.distance.max, options.tolerance);
-  EXPECT_LE(m->worst.angle.rms, 1.6);
-  EXPECT_LE(m->worst.angle.p99, 5.5);
-  ASSERT_TRUE(strip(conversion->rig, {true, true, false, false}));
-  EXPECT_LE(encode(conversion->rig).size(), 49'152u);
+  Packed packed;
+  ASSERT_NO_FATAL_FAILURE(pack(everything(), packed));
+  EXPECT_FALSE(packed.read.packing.bones.empty());
+  EXPECT_LE(packed.bare, 49'152u);
 }
 
 }  // namespace
