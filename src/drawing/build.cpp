@@ -12,7 +12,7 @@
 #include "drawing/weave.hpp"
 #include "drawing/wishes.hpp"
 #include "drawing/words.hpp"
-#include "surface/jets.hpp"
+#include "surface/jet_numbers.hpp"
 
 namespace sweepface {
 

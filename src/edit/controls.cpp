@@ -11,7 +11,6 @@
 
 #include "edit/affected.hpp"
 #include "edit/rest.hpp"
-#include "surface/jets.hpp"
 #include "surface/stored_jets.hpp"
 
 namespace sweepface {

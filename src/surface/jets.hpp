@@ -6,14 +6,6 @@
 
 namespace sweepface {
 
-/// ∂α^i ∂β^j of a jet known in axes (x, y) from which (α, β) are turned counter-clockwise by a
-/// number of right angles.
-struct Turned {
-  int component;  ///< 3i + j in the axes (x, y)
-  double sign;
-};
-Turned turned(int quarter, int i, int j);
-
 /// Every vector of a model and how the derived ones follow from the stored ones.
 struct JetTable {
   std::vector<StoredVector> stored;
