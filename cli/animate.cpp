@@ -9,6 +9,7 @@
 
 #include "command.hpp"
 #include "head.hpp"
+#include "interrupts.hpp"
 #include "lod_mesh.hpp"
 #include "output.hpp"
 #include "parallel.hpp"
@@ -75,12 +76,18 @@ void addOptions(CLI::App& app, AnimateArguments& a) {
 }
 
 /// When there is a mesh or a key.
-std::vector<double> sampleTimes(const AnimateArguments& a, const Performance& performance) {
+Result<std::vector<double>> sampleTimes(const AnimateArguments& a, const Performance& performance) {
+  constexpr double kMostFrames = 1e6;
   double rate = a.framesPerSecond;
   if (rate == 0 && a.frames == 0 && !a.what.clip.empty()) rate = 30;
-  const int last = rate > 0 ? std::max(1, static_cast<int>(std::floor(
-                                              std::min(performance.seconds * rate, 1e6) + 1e-6)))
-                            : (a.frames > 0 ? a.frames : 31) - 1;
+  if (performance.seconds * rate > kMostFrames)
+    return fail(
+        fmt::format("{:.6g} s at {:.6g} frames a second are more than {:.0f} frames; cut "
+                    "the clip, or ask for fewer a second.",
+                    performance.seconds, rate, kMostFrames));
+  const int last =
+      rate > 0 ? std::max(1, static_cast<int>(std::floor(performance.seconds * rate + 1e-6)))
+               : (a.frames > 0 ? a.frames : 31) - 1;
   std::vector<double> times;
   for (int k = 0; k <= last; ++k)
     times.push_back(rate > 0 ? k / rate : performance.seconds * (static_cast<double>(k) / last));
@@ -107,7 +114,7 @@ Result<void> writeFrames(const AnimateArguments& a, const Rig& rig, const Perfor
   std::mutex reporting;
   Result<void> result;
   parallelFor(std::size_t{0}, times.size(), [&](std::size_t frame) {
-    if (failed) return;
+    if (failed || interrupted) return;
     Weights weights(rig.targets.size());
     performance.at(times[frame], weights);
     const Result<void> written = writeFile(
@@ -118,19 +125,23 @@ Result<void> writeFrames(const AnimateArguments& a, const Rig& rig, const Perfor
     const std::scoped_lock lock(reporting);
     if (!failed.exchange(true)) result = written;
   });
+  if (interrupted && result)
+    return fail(fmt::format("Interrupted after {} of {} frames.", done.load(), times.size()));
   return result;
 }
 
 Result<void> animateMeshes(const AnimateArguments& a, const Rig& rig,
                            const Performance& performance) {
   if (auto ok = checkLod(rig, a.lod); !ok) return ok;
-  const std::vector<double> times = sampleTimes(a, performance);
-  const auto head = headTrack(a.head, rig, performance, times);
+  const Result<std::vector<double>> times = sampleTimes(a, performance);
+  if (!times) return std::unexpected(times.error());
+  const auto head = headTrack(a.head, rig, performance, *times);
   if (!head) return std::unexpected(head.error());
   if (auto made = makeFolder(a.output); !made) return made;
-  if (auto written = writeFrames(a, rig, performance, times, *head); !written) return written;
+  catchInterrupts();
+  if (auto written = writeFrames(a, rig, performance, *times, *head); !written) return written;
   if (!a.quiet)
-    fmt::print("{}: {} frames of {:.6g} s, {}\n", a.output, times.size(), performance.seconds,
+    fmt::print("{}: {} frames of {:.6g} s, {}\n", a.output, times->size(), performance.seconds,
                performance.name);
   return {};
 }
@@ -166,10 +177,11 @@ Result<void> animateGlb(const AnimateArguments& a, const Rig& rig, const Perform
     options.motion = &*performance.motion;
   } else {
     const bool own = keys == "sampled" && !performance.frameTimes.empty() && !a.namesFrames();
-    clip = sample(performance, rig,
-                  keys == "few" ? everyTime(performance)
-                  : own         ? performance.frameTimes
-                                : sampleTimes(a, performance));
+    const Result<std::vector<double>> times = keys == "few" ? everyTime(performance)
+                                              : own         ? performance.frameTimes
+                                                            : sampleTimes(a, performance);
+    if (!times) return std::unexpected(times.error());
+    clip = sample(performance, rig, *times);
     options.clip = &clip;
     if (keys == "few") options.keyTolerance = a.keyTolerance;
   }
@@ -193,8 +205,10 @@ Result<void> animateCsv(const AnimateArguments& a, const Rig& rig, const Perform
       !performance.frameTimes.empty() && !a.namesFrames() && isOfKind(a.what.clip, ".csv");
   AnimateArguments asked = a;
   if (!own && !a.namesFrames()) asked.framesPerSecond = a.what.clipRate;
-  Clip clip =
-      sample(performance, rig, own ? performance.frameTimes : sampleTimes(asked, performance));
+  const Result<std::vector<double>> times =
+      own ? performance.frameTimes : sampleTimes(asked, performance);
+  if (!times) return std::unexpected(times.error());
+  Clip clip = sample(performance, rig, *times);
   if (performance.pose) addAngles(clip, performance.pose);
   const Result<std::string> text = formatLiveLinkCsv(clip, a.what.clipRate);
   if (!text) return std::unexpected(text.error());
@@ -250,6 +264,10 @@ Result<int> runAnimate(const AnimateArguments& a) {
   const Result<void> written = (glb   ? animateGlb
                                 : csv ? animateCsv
                                       : animateMeshes)(a, *rig, *performance);
+  if (!written && interrupted) {
+    printError(written.error().message);
+    return kInterrupted;
+  }
   if (!written) return std::unexpected(written.error());
   for (const std::string& note : performance->notes) printWarning(note);
   return 0;

@@ -69,10 +69,11 @@ Result<int> runBuild(const BuildArguments& a) {
     if (auto ok = adoptSource(built->rig, *like); !ok) return std::unexpected(ok.error());
   }
   if (a.arcs) built->rig.turns = findTurns(built->rig);
-  const std::string bytes = encode(built->rig);
-  if (auto written = writeFile(a.output, bytes); !written) return std::unexpected(written.error());
+  const Result<std::string> bytes = encodeReadable(built->rig, a.output);
+  if (!bytes) return std::unexpected(bytes.error());
+  if (auto written = writeFile(a.output, *bytes); !written) return std::unexpected(written.error());
   if (drawing->tolerance == 0) warnOfMisses(a, *built);
-  if (!a.quiet) printSummary(a, *built, bytes.size());
+  if (!a.quiet) printSummary(a, *built, bytes->size());
   return 0;
 }
 

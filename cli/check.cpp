@@ -73,7 +73,11 @@ class Checker {
  public:
   explicit Checker(const Rig& rig) : rig_(rig), poses_(posesOf(rig)) {
     const Tessellation grid(rig.surface, 1);
-    size_ = diagonal({grid.positions(blend(rig, poses_[0].weights)), {}});
+    const std::vector<Vec3> places = grid.positions(blend(rig, poses_[0].weights));
+    size_ = diagonal({places, {}});
+    // Far from the origin numbers are coarser than the model's size would let one think.
+    for (const Vec3& p : places) size_ = std::max(size_, norm(p));
+    if (!(size_ > 0)) size_ = 1;
   }
 
   void run(bool quiet) {

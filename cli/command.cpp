@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <fmt/format.h>
 #include <system_error>
 #include <unistd.h>
@@ -21,6 +22,10 @@ bool parse(const std::string& text, Number& number) {
   const char* const end = text.data() + text.size();
   const auto [stop, error] = std::from_chars(text.data(), end, number);
   return error == std::errc{} && stop == end && std::isfinite(static_cast<double>(number));
+}
+
+std::string_view withoutStop(std::string_view sentence) {
+  return sentence.ends_with('.') ? sentence.substr(0, sentence.size() - 1) : sentence;
 }
 
 }  // namespace
@@ -101,6 +106,16 @@ CLI::Validator wholeNumber(int low, int high) {
   return CLI::Validator(check, "", "");
 }
 
+CLI::Validator positiveCount() {
+  constexpr std::uint64_t kMost = std::uint64_t{1} << 53;
+  const auto check = [](const std::string& text) -> std::string {
+    std::uint64_t number = 0;
+    if (parse(text, number) && number > 0 && number <= kMost) return {};
+    return fmt::format("This must be a whole number from 1 to 2^53, not '{}'.", text);
+  };
+  return CLI::Validator(check, "", "");
+}
+
 CLI::Validator positiveNumber(double high) {
   const auto check = [=](const std::string& text) -> std::string {
     double number = 0;
@@ -115,6 +130,21 @@ Result<Rig> readFace(const std::string& path) {
   const Result<std::string> bytes = readFile(path);
   if (!bytes) return std::unexpected(bytes.error());
   return decode(*bytes, path);
+}
+
+Result<Rig> readBack(std::string_view bytes, const std::string& path) {
+  Result<Rig> rig = decode(bytes, "it");
+  if (rig) return rig;
+  return fail(
+      fmt::format("Cannot write {}: nobody could read it again, as the model is too large "
+                  "for the format or has too little in it for its size ({}).",
+                  path, withoutStop(rig.error().message)));
+}
+
+Result<std::string> encodeReadable(const Rig& rig, const std::string& path) {
+  std::string bytes = encode(rig);
+  if (const auto back = readBack(bytes, path); !back) return std::unexpected(back.error());
+  return bytes;
 }
 
 bool isOfKind(const fs::path& path, std::string_view kind) { return extensionOf(path) == kind; }

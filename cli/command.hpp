@@ -70,12 +70,19 @@ struct GlbArguments {
 void addGlb(CLI::App& app, GlbArguments& glb);
 
 CLI::Validator wholeNumber(int low, int high);
+/// A whole number from 1 to 2^53: beyond, a program that goes by doubles would miss it.
+CLI::Validator positiveCount();
 /// A finite number > 0, and at most `high` if that is given.
 CLI::Validator positiveNumber(double high = 0);
 
 // ---- Files ----
 
 Result<Rig> readFace(const std::string& path);
+
+/// What a file would hold, read again before it is written.
+Result<Rig> readBack(std::string_view bytes, const std::string& path);
+/// The bytes of a face that can be read again.
+Result<std::string> encodeReadable(const Rig& rig, const std::string& path);
 
 /// Whether a file's name ends like ".glb", in small or large letters.
 bool isOfKind(const std::filesystem::path& path, std::string_view kind);

@@ -1,6 +1,4 @@
-#include <atomic>
 #include <chrono>
-#include <csignal>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -14,6 +12,7 @@
 #include "sweepface/strip.hpp"
 
 #include "command.hpp"
+#include "interrupts.hpp"
 #include "output.hpp"
 #include "parallel.hpp"
 
@@ -63,7 +62,7 @@ void addOptions(CLI::App& app, ConvertArguments& a) {
          "--max-bytes", a.maxBytes,
          "Pack, and look for the smallest tolerance whose file takes at most N bytes: several "
          "conversions")
-      ->check(CLI::PositiveNumber)
+      ->check(positiveCount())
       ->type_name("N");
   app.add_flag(
       "--arcs", a.arcs,
@@ -82,22 +81,6 @@ void addOptions(CLI::App& app, ConvertArguments& a) {
       "within the tolerance.\n\nExample:\n"
       "  sweepface convert head.obj expressions/ -o head.sweep --tolerance 0.05\n"
       "  sweepface convert head.glb -o head.sweep");
-}
-
-// ---- Interruption ----
-
-std::atomic<bool> interrupted{false};
-static_assert(std::atomic<bool>::is_always_lock_free, "signal handlers may not lock");
-constexpr int kInterrupted = 130;
-
-/// The first Ctrl-C asks the work to stop, a second one ends the program.
-void catchInterrupts() {
-  struct sigaction action{};
-  action.sa_handler = [](int) { interrupted = true; };
-  action.sa_flags = static_cast<int>(SA_RESETHAND);
-  struct sigaction before{};
-  sigaction(SIGINT, nullptr, &before);
-  if (before.sa_handler != SIG_IGN) sigaction(SIGINT, &action, nullptr);
 }
 
 // ---- Verification ----
@@ -144,7 +127,7 @@ std::string nameOfShape(const Rig& rig, Index target) {
 /// the conversion tells where the source's vertices are.
 Result<Worst> verify(std::string_view bytes, const std::string& name, const MeshRig& source,
                      const Rig& converted) {
-  Result<Rig> rig = decode(bytes, name);
+  Result<Rig> rig = readBack(bytes, name);
   if (!rig) return std::unexpected(rig.error());
   const double tolerance = converted.tolerance;
   if (!rig->source.ownOrder && rig->targets.size() == converted.targets.size()) {

@@ -186,8 +186,9 @@ Result<int> runEdit(const EditArguments& a) {
   if (!rig) return std::unexpected(rig.error());
   Editor editor(std::move(*rig));
   if (auto ok = editor.edit(a); !ok) return std::unexpected(ok.error());
-  if (auto written = writeFile(a.output, encode(editor.rig())); !written)
-    return std::unexpected(written.error());
+  const Result<std::string> bytes = encodeReadable(editor.rig(), a.output);
+  if (!bytes) return std::unexpected(bytes.error());
+  if (auto written = writeFile(a.output, *bytes); !written) return std::unexpected(written.error());
   if (!a.quiet) printSummary(a, editor);
   return 0;
 }

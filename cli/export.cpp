@@ -27,11 +27,15 @@ void addOptions(CLI::App& app, ExportArguments& a) {
   addWeights(app, a.weights);
   CLI::Option* lod =
       addLod(app, a.lod, "Write a finer mesh: every edge of the source cut into N, 1 to 64");
-  app.add_flag("--source-order", a.sourceOrder,
-               "Write the source's own vertices and polygons in their order (this is the default)")
-      ->excludes(lod);
+  CLI::Option* order = app.add_flag(
+      "--source-order", a.sourceOrder,
+      "Write the source's own vertices and polygons in their order (this is the default)");
+  order->excludes(lod);
   const auto addBudget = [&](const std::string& name, double& value, const std::string& what) {
-    return app.add_option(name, value, what)->check(CLI::PositiveNumber)->excludes(lod);
+    return app.add_option(name, value, what)
+        ->check(positiveNumber())
+        ->excludes(lod)
+        ->excludes(order);
   };
   CLI::Option* vertices =
       addBudget("--vertices", a.vertices, "Write the best mesh of at most so many vertices (.obj)");

@@ -102,6 +102,10 @@ Result<std::vector<Subject>> subjectsOf(const PlotArguments& a, const Rig& rig,
     if (!target) return std::unexpected(target.error());
     subjects.push_back(weightOf(rig, *target));
   }
+  if (!a.vertices.empty() && !rig.source.ownOrder)
+    return fail(a.face +
+                " has no source order, it was left out, so that nobody knows which vertex is "
+                "which; leave --vertex out, or convert the source again without --strip order.");
   const auto count = static_cast<int>(rig.source.gridVertex.size());
   for (const int vertex : a.vertices)
     if (vertex < 0 || vertex >= count)

@@ -8,7 +8,7 @@
 
 #include "codec/chunks.hpp"
 #include "codec/crc.hpp"
-#include "codec/wire_version1.hpp"
+#include "codec/grid_size.hpp"
 
 namespace {
 

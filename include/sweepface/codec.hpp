@@ -11,7 +11,8 @@
 namespace sweepface {
 
 /// The bytes of a .sweep file (docs/file-format.md). The same rig gives the same bytes everywhere.
-/// Vectors are held in single precision.
+/// Vectors are held bit for bit: as multiples of the packing's steps where they are, else as they
+/// are. Names of targets have at most 4096 bytes.
 std::string encode(const Rig& rig);
 
 /// What reading a file may take. What is still takes hardly any bytes, so that a small file may ask

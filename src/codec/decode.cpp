@@ -4,8 +4,8 @@
 
 #include "codec/chunks.hpp"
 #include "codec/decoding.hpp"
+#include "codec/grid_size.hpp"
 #include "codec/utf8.hpp"
-#include "codec/wire_version1.hpp"
 
 namespace sweepface {
 
@@ -20,6 +20,10 @@ bool Decoding::afford(Reader& in, std::size_t count, std::size_t bytesEach) {
   return true;
 }
 
+void Decoding::affordTargets(Reader& in) {
+  if (afford(in, targets, sizeof(Target))) afford(in, loose, (targets + 1) * sizeof(Vec3));
+}
+
 void Decoding::makeSurface(Reader& in) {
   quads = gridQuads(wireframe);
   auto surface = Surface::make(std::move(wireframe), std::move(connectivity));
@@ -30,7 +34,7 @@ void Decoding::makeSurface(Reader& in) {
 
 void Decoding::addTarget(Reader& in, std::string_view name) {
   if (name.empty() || !isUtf8(name)) in.refuse("the target's name is empty or not UTF-8");
-  rig->targets.push_back({std::string(name), {}, {}});
+  rig->targets.push_back({std::string(name), {}, std::vector<Vec3>(loose)});
 }
 
 namespace {
@@ -91,14 +95,21 @@ class Decoder {
     if (repeated - readers_.begin() < chunk.rank && repeated != readers_.end() &&
         decoding_.rig->targets.size() < decoding_.targets)
       return failAt(chunk, chunk.offset, "targets are missing before it", kConvertAgain);
+    if (const char* other = readers_[chunk.rank].instead; other && has(rankOf(other, version_)))
+      return failAt(chunk, chunk.offset, "it must not stand beside chunk '", other, "'",
+                    kConvertAgain);
     rank_ = chunk.rank;
+    seen_ |= std::uint32_t{1} << rank_;
     return {};
   }
+
+  bool has(int rank) const { return seen_ >> rank & 1; }
 
   std::string name_;
   int version_ = 0;
   std::span<const ChunkHandler> readers_;
-  int rank_ = -1;  // of the last chunk
+  int rank_ = -1;           // of the last chunk
+  std::uint32_t seen_ = 0;  // ranks of the chunks so far
   Decoding decoding_;
 };
 

@@ -13,6 +13,7 @@ void readHead(Decoding& d, Reader& in) {
   d.stored = in.size();
   d.targets = in.size();
   d.loose = in.size();
+  d.affordTargets(in);
 }
 
 void readWire(Decoding& d, Reader& in) { d.wireframe = readWireframe(in); }

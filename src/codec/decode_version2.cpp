@@ -5,12 +5,12 @@
 #include "codec/blocks.hpp"
 #include "codec/bones.hpp"
 #include "codec/decoding.hpp"
+#include "codec/grid_size.hpp"
 #include "codec/limits.hpp"
 #include "codec/name_coder.hpp"
 #include "codec/pose_form.hpp"
 #include "codec/source_coder.hpp"
 #include "codec/turns.hpp"
-#include "codec/wire_version1.hpp"
 #include "codec/wireframe_coder.hpp"
 
 namespace sweepface::codec {
@@ -26,6 +26,7 @@ void readBase(Decoding& d, Reader& in) {
   if (packing.neutralStep < 0 || packing.targetStep < 0) in.refuse("a step is negative");
   d.targets = in.size();
   d.loose = in.size();
+  d.affordTargets(in);
 }
 
 // All that follows of a chunk, through a range decoder.
@@ -56,8 +57,9 @@ void readGrid(Decoding& d, Reader& in) {
   d.makeSurface(in);
   if (!in.ok()) return;
   // What is still costs nothing, so that memory is limited here.
-  if (d.targets + 1 > kMostVectors / std::max<std::size_t>(1, d.stored) ||
-      (d.targets + 1) * d.stored > kVectorsAByte * d.fileSize + kVectorsAnyway)
+  const std::size_t vectors = std::max<std::size_t>(1, d.stored);
+  if (d.targets + 1 > kMostVectors / vectors ||
+      (d.targets + 1) * vectors > kVectorsAByte * d.fileSize + kVectorsAnyway)
     return in.refuse("there are more targets than the file can hold");
   if (!d.afford(in, (d.targets + 1) * d.stored, kBytesAVector)) return;
   d.lattice.emplace(d.rig->surface, d.rig->packing, d.mirror);
@@ -143,7 +145,6 @@ void readMoves(Decoding& d, Reader& in) {
   if (d.rig->targets.size() < d.targets) return in.refuse("the targets have no names");
   if (d.targets > 0) d.lattice->learn(d.rig->surface, d.rig->neutral, stepOf(d.rig->packing, 0));
   readPoses(d, in, 1, static_cast<Index>(d.targets) + 1);
-  for (Target& target : d.rig->targets) target.looseDifference.resize(d.loose);
 }
 
 std::size_t mostQuads(const Reader& in) {
@@ -193,11 +194,25 @@ void readTargetTurns(Decoding& d, Reader& in) {
 }  // namespace
 
 std::span<const ChunkHandler> version2() {
-  static constexpr ChunkHandler kReaders[] = {
-      {readBase, true}, {readGrid, true}, {readTargetNames},  {readRest, true}, {readMoves},
-      {readExact},      {readLoose},      {readDrift},        {readWalk},       {readSourceOrder},
-      {readGridFaces},  {readPolygons},   {readTextureSteps}, {readTexcoords},  {readQuadCorners},
-      {readScene},      {readThingNames}, {readTargetTurns},  {readEnd}};
+  static constexpr ChunkHandler kReaders[] = {{readBase, true},
+                                              {readGrid, true},
+                                              {readTargetNames},
+                                              {readRest, true},
+                                              {readMoves},
+                                              {readExact},
+                                              {readLoose},
+                                              {readDrift},
+                                              {readWalk},
+                                              {readSourceOrder, false, false, "walk"},
+                                              {readGridFaces},
+                                              {readPolygons, false, false, "face"},
+                                              {readTextureSteps},
+                                              {readTexcoords, false, false, "text"},
+                                              {readQuadCorners, false, false, "face"},
+                                              {readScene},
+                                              {readThingNames},
+                                              {readTargetTurns},
+                                              {readEnd}};
   return kReaders;
 }
 

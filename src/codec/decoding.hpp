@@ -28,6 +28,8 @@ struct Decoding {
 
   /// Whether so many more bytes may be taken; complains through `in` if not.
   bool afford(Reader& in, std::size_t count, std::size_t bytesEach);
+  /// Makes sure of room for as many targets and loose vertices as were announced.
+  void affordTargets(Reader& in);
   /// Of the wireframe and its connectivity; says how many vectors it stores.
   void makeSurface(Reader& in);
   /// A name that is UTF-8; complains through `in`. That none comes twice is looked at in the end.
@@ -38,6 +40,7 @@ struct Decoding {
 struct ChunkHandler {
   void (*read)(Decoding&, Reader&);
   bool required = false, repeated = false;
+  const char* instead = nullptr;  ///< the kind beside which it must not stand: it says the same
 };
 /// None: this program does not read the version (web/src/usual.cpp).
 std::span<const ChunkHandler> version1();

@@ -148,6 +148,10 @@ std::string looseVertices(const std::vector<Vec3>& loose) {
   return out.take();
 }
 
+bool movesLoose(const Target& target) {
+  return std::ranges::any_of(target.looseDifference, [](const Vec3& v) { return v != Vec3{}; });
+}
+
 std::string drift(const std::vector<Target>& targets) {
   Writer out;
   for (const Target& target : targets) writeVectors(out, target.looseDifference, Precision::exact);
@@ -196,7 +200,7 @@ std::string encode(const Rig& rig) {
     writeChunk(out, "EXAC", exact);
   if (!rig.source.loose.empty()) {
     writeChunk(out, "loos", looseVertices(rig.source.loose));
-    if (count > 1) writeChunk(out, "drif", drift(rig.targets));
+    if (std::ranges::any_of(rig.targets, movesLoose)) writeChunk(out, "drif", drift(rig.targets));
   }
   writeSource(out, rig, mirror, packing.textureBits);
   if (!rig.scene.empty()) writeChunk(out, "scen", scene(rig.scene));

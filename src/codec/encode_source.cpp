@@ -5,9 +5,9 @@
 #include "codec/chunks.hpp"
 #include "codec/encoding.hpp"
 #include "codec/faces.hpp"
+#include "codec/grid_size.hpp"
 #include "codec/limits.hpp"
 #include "codec/source_coder.hpp"
-#include "codec/wire_version1.hpp"
 
 namespace sweepface::codec {
 

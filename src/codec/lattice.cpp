@@ -146,57 +146,6 @@ Sparse movedIn(const Coefficients& coefficients) {
   return moved;
 }
 
-namespace {
-
-// "Left" for "Right", "_L" for "_R", and the other way round; the same name if it says no side.
-std::string otherSide(std::string name) {
-  constexpr std::array<std::array<std::string_view, 2>, 3> kSides{
-      {{"Left", "Right"}, {"left", "right"}, {"LEFT", "RIGHT"}}};
-  for (const auto& sides : kSides)
-    for (int k = 0; k < 2; ++k)
-      if (const auto at = name.find(sides[k]); at != std::string::npos)
-        return name.replace(at, sides[k].size(), sides[1 - k]);
-  const std::size_t size = name.size();
-  if (size < 2 || std::string_view("_.- ").find(name[size - 2]) == std::string_view::npos)
-    return name;
-  constexpr std::string_view kLetters = "LRlr", kOthers = "RLrl";
-  if (const auto letter = kLetters.find(name.back()); letter != std::string_view::npos)
-    name.back() = kOthers[letter];
-  return name;
-}
-
-// About how many bits it takes to tell coefficients where others are expected.
-double bitsOf(const Coefficients& q, const Coefficients& expected) {
-  double sum = 0;
-  for (std::size_t v = 0; v < q.size(); ++v) sum += codec::bitsOf(q[v], expected[v]);
-  return sum;
-}
-
-}  // namespace
-
-void chooseImages(const Rig& rig, const Lattice& lattice, Packing& packing) {
-  const auto poses = static_cast<Index>(rig.targets.size()) + 1;
-  packing.poses.resize(poses);
-  if (packing.mirror.empty()) return;
-  const auto coefficients = [&](Index pose) {
-    return lattice.round(pose, pose == 0 ? rig.neutral : rig.targets[pose - 1].difference,
-                         pose == 0 ? packing.neutralStep : packing.targetStep);
-  };
-  for (Index pose = 0; pose < poses; ++pose) {
-    const Coefficients own = coefficients(pose);
-    double least = 0.9 * bitsOf(own, Coefficients(own.size()));
-    Index& image = packing.poses[pose].image;
-    image = -1;
-    // Its own image tells the second half only.
-    if (const double s = 0.5 * least + 0.5 * bitsOf(own, lattice.image(own)); s < least)
-      least = s, image = pose;
-    if (pose == 0) continue;
-    const Index other = rig.find(otherSide(rig.targets[pose - 1].name)) + 1;
-    if (other < 1 || other >= pose) continue;
-    if (bitsOf(own, lattice.image(coefficients(other))) < least) image = other;
-  }
-}
-
 Packing sound(const Rig& rig) {
   Packing packing = rig.packing;
   if (!(packing.neutralStep > 0) || !(packing.targetStep > 0))

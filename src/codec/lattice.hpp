@@ -95,8 +95,4 @@ inline constexpr int kMostFiner = 40;
 /// A rig's packing as a file can hold it, with a form for every pose.
 Packing sound(const Rig& rig);
 
-/// For each pose the mirror image that leaves least to be told: none, its own, or that of the
-/// target whose name says the other side.
-void chooseImages(const Rig& rig, const Lattice& lattice, Packing& packing);
-
 }  // namespace sweepface::codec

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
-#include "codec/wire_version1.hpp"
+#include "codec/edge_map.hpp"
+#include "codec/fan_walk.hpp"
+#include "codec/grid_size.hpp"
 
 namespace sweepface::codec {
 
@@ -81,58 +83,36 @@ LevelOne::LevelOne(const Surface& surface, const Mirror& mirror) {
   mirror_ = mirrorGrid(surface, quads_, vertices_, mirror);
 }
 
-Groups LevelOne::corners() const {
-  const Index* const first = quads_.empty() ? nullptr : quads_[0].data();
-  return Groups({first, 4 * quads_.size()}, static_cast<std::size_t>(vertices_));
-}
-
 Neighbours LevelOne::quadNeighbours() const {
-  const Groups corners = this->corners();
+  const auto corners = static_cast<Index>(4 * quads_.size());
+  const auto at = [&](Index corner, int k) { return quads_[corner / 4][(corner + k) % 4]; };
+  EdgeMap<Index> sides(4 * quads_.size());
+  for (Index corner = 0; corner < corners; ++corner)
+    sides.add(at(corner, 0), at(corner, 1), corner / 4);
   Neighbours neighbours;
   neighbours.first.reserve(quads_.size() + 1);
   neighbours.all.reserve(4 * quads_.size());
-  for (const auto& quad : quads_) {
-    for (int k = 0; k < 4; ++k) {
-      // The one that has the same side the other way round.
-      const auto at = corners.of(quad[(k + 1) % 4]);
-      const auto found = std::ranges::find_if(
-          at, [&](Index corner) { return quads_[corner / 4][(corner + 1) % 4] == quad[k]; });
-      neighbours.all.push_back(found == at.end() ? -1 : *found / 4);
-    }
-    neighbours.first.push_back(static_cast<Index>(neighbours.all.size()));
+  for (Index corner = 0; corner < corners; ++corner) {
+    // The one that has the same side the other way round.
+    const Index* const other = sides.find(at(corner, 1), at(corner, 0));
+    neighbours.all.push_back(other ? *other : -1);
+    if (corner % 4 == 3) neighbours.first.push_back(corner + 1);
   }
   return neighbours;
 }
 
 Neighbours LevelOne::vertexNeighbours() const {
   // Around a vertex counter-clockwise: from each quad's next corner to its last one.
-  const Groups corners = this->corners();
+  const Index* const first = quads_.empty() ? nullptr : quads_[0].data();
+  const Groups corners({first, 4 * quads_.size()}, static_cast<std::size_t>(vertices_));
   Neighbours neighbours;
-  std::vector<std::array<Index, 2>> fan;
+  FanWalk walk(static_cast<std::size_t>(vertices_));
+  std::vector<FanWalk::Step> steps;
   for (Index v = 0; v < vertices_; ++v) {
-    fan.clear();
+    steps.clear();
     for (const Index corner : corners.of(v))
-      fan.push_back({quads_[corner / 4][(corner + 1) % 4], quads_[corner / 4][(corner + 3) % 4]});
-    const auto leads = [&](Index to) {
-      return std::ranges::find(fan, to, [](const auto& c) { return c[1]; });
-    };
-    const auto own = static_cast<std::ptrdiff_t>(neighbours.all.size());
-    const auto add = [&](Index u) {
-      auto& all = neighbours.all;
-      if (u != v && std::find(all.begin() + own, all.end(), u) == all.end()) all.push_back(u);
-    };
-    // From the corner that no other leads to, where there is one.
-    while (!fan.empty()) {
-      auto at = std::ranges::find_if(fan, [&](const auto& c) { return leads(c[0]) == fan.end(); });
-      if (at == fan.end()) at = fan.begin();
-      while (at != fan.end()) {
-        const auto [from, to] = *at;
-        fan.erase(at);
-        add(from);
-        add(to);
-        at = std::ranges::find(fan, to, [](const auto& c) { return c[0]; });
-      }
-    }
+      steps.push_back({quads_[corner / 4][(corner + 1) % 4], quads_[corner / 4][(corner + 3) % 4]});
+    walk.around(v, steps, neighbours.all);
     neighbours.first.push_back(static_cast<Index>(neighbours.all.size()));
   }
   return neighbours;

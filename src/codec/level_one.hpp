@@ -41,9 +41,6 @@ class LevelOne {
   Neighbours quadNeighbours() const;
 
  private:
-  // The corners at each vertex, 4 * quad + k, in ascending order.
-  Groups corners() const;
-
   Index vertices_ = 0;
   std::vector<std::array<Index, 4>> quads_;
   GridMirror mirror_;

@@ -9,21 +9,24 @@ inline constexpr std::size_t kMostVectors = std::size_t{1} << 25, kVectorsAByte 
                              kVectorsAnyway = std::size_t{1} << 20;
 
 /// Nodes, arcs and patches that a wireframe may have.
-inline constexpr std::size_t kMostPatches = std::size_t{1} << 19, kPatchesAByte = 64,
-                             kPatchesAnyway = 4096;
+inline constexpr std::size_t kMostPatches = std::size_t{1} << 19, kPatchesAByte = 1024,
+                             kPatchesAnyway = 65536;
 
 /// Pairs of half-arcs from which a mirror image spreads: one for each part that has two sides.
 inline constexpr std::size_t kMostMirrorPairs = 64;
 
 /// Quads of the grid at level 1 that the source's order and faces may be told by.
 inline constexpr std::size_t kMostQuads = std::size_t{1} << 22, kQuadsAByte = 1024,
-                             kQuadsAnyway = 65536;
+                             kQuadsAnyway = std::size_t{1} << 18;
 
 /// What a patch of the wireframe with its nodes and arcs, a stored vector of a pose, and a quad at
 /// level 1 with its corners and a letter of a name take while a file is read, in bytes, rounded up
 /// from measurements.
 inline constexpr std::size_t kBytesAPatch = 4000, kBytesAVector = 40, kBytesAQuad = 400,
                              kBytesALetter = 4;
+
+/// Bytes of a target's name.
+inline constexpr std::size_t kLongestName = 4096;
 
 constexpr std::size_t within(std::size_t most, std::size_t eachByte, std::size_t anyway,
                              std::size_t bytes) {

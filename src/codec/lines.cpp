@@ -33,10 +33,14 @@ Lines::Lines(const Surface& surface)
   }
 }
 
-// What was taken out stays out: the next walk begins where this one ends.
+// What was taken out stays out: the next walk begins where this one ends. A ring on which nothing
+// is left ends when the walk comes to where it was after 1, 2, 4 ... steps (Brent 1980).
 void Lines::walkOn(Link& link) const {
-  for (std::size_t steps = 0; link.back >= 0 && isOut_[link.node]; ++steps) {
-    const HalfArc on = steps < links_.size() ? opposite_[link.back] : -1;
+  HalfArc mark = -1;
+  for (std::size_t steps = 1, marked = 1; link.back >= 0 && isOut_[link.node]; ++steps) {
+    HalfArc on = opposite_[link.back];
+    if (on == mark) on = -1;
+    if (steps == marked) mark = on, marked *= 2;
     const Link next = on < 0 ? Link{} : links_[on];
     link = {next.back, next.node, link.distance + next.distance, link.collapsed};
   }

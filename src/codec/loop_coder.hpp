@@ -7,6 +7,7 @@
 
 #include "sweepface/surface.hpp"
 
+#include "codec/grid_size.hpp"
 #include "codec/loop_images.hpp"
 #include "codec/symbols.hpp"
 
@@ -338,14 +339,13 @@ class LoopCoder {
   }
 
   Index codeLength(Index edges, int side, const std::array<std::int64_t, 4>& length) {
-    constexpr Index kLongest = 65535;
     const std::int64_t remaining = side < 2 ? 0 : length[side - 2] - length[side];
     const std::int64_t image = image_ < 0 ? 0 : w_.arcs[arcOf(image_)].edges;
     if (side >= 2 && s_.bit(kRemaining,
                             static_cast<std::uint32_t>(std::min<std::int64_t>(remaining, 9)) +
                                 16 * hint(image == remaining),
                             side, edges == remaining))
-      return checkedLength(remaining, kLongest);
+      return checkedLength(remaining, kLongestArc);
     const auto context =
         static_cast<std::uint32_t>(image > 0   ? 16 + std::min<std::int64_t>(image, 15)
                                    : side == 0 ? 0
@@ -353,7 +353,7 @@ class LoopCoder {
     return checkedLength(
         1 + std::int64_t{s_.number(kLength, context, side,
                                    static_cast<std::uint64_t>(std::max(0, edges - 1)))},
-        kLongest);
+        kLongestArc);
   }
   Index checkedLength(std::int64_t edges, Index longest) {
     if (edges >= 1 && edges <= longest) return static_cast<Index>(edges);

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "codec/limits.hpp"
 #include "codec/symbols.hpp"
 
 namespace sweepface::codec {
@@ -32,7 +33,7 @@ class NameCoder {
   std::string code(std::string_view name) {
     const std::size_t begin = text_.size();
     for (std::size_t k = 0; codeLetter(k < name.size() ? name[k] : '\0') != 0 && s_.ok(); ++k)
-      if (k >= 4096) s_.refuse("a name is too long");
+      if (k >= kLongestName) s_.refuse("a name is too long");
     return {text_.begin() + static_cast<std::ptrdiff_t>(begin), text_.end() - 1};
   }
 

@@ -39,9 +39,9 @@ void codeLikeness(Symbols<Coder>& symbols, const Packing::Pose& form, Likeness& 
 
 template <typename Coder>
 void codePose(Symbols<Coder>& symbols, Packing::Pose& form, Index pose) {
-  form.finer =
-      static_cast<int>(symbols.number(kFiner, 0, 0, static_cast<std::uint64_t>(form.finer)));
-  if (form.finer > kMostFiner) symbols.refuse("a step is too fine");
+  const std::uint32_t finer = symbols.number(kFiner, 0, 0, static_cast<std::uint64_t>(form.finer));
+  if (finer > kMostFiner) return symbols.refuse("a step is too fine");
+  form.finer = static_cast<int>(finer);
   if (!symbols.bit(kHasImage, 0, 0, form.image >= 0)) {
     form.image = -1;
   } else if (symbols.bit(kOwnImage, 0, 0, form.image == pose)) {

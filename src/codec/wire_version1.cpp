@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
+#include "codec/grid_size.hpp"
+
 namespace sweepface::codec {
 
 namespace {
-
-constexpr std::int64_t kLongestArc = 65535;
 
 // A set that is closed downwards: whoever has ∂x^i ∂y^j has all that comes before.
 bool isClosed(JetMask mask) {
@@ -72,24 +72,6 @@ void readPatches(Reader& in, Wireframe& w) {
   }
 }
 
-std::int64_t length(const Wireframe& w, std::size_t patch, int side) {
-  std::int64_t sum = 0;
-  for (HalfArc h : w.side(static_cast<Index>(patch), side)) sum += w.arcs[arcOf(h)].edges;
-  return sum;
-}
-
-bool isSmallEnough(const Wireframe& w) {
-  std::int64_t vertices = 0;
-  for (const Arc& arc : w.arcs) vertices += arc.edges;
-  for (std::size_t p = 0; p < w.patches.size(); ++p) {
-    const std::int64_t m = length(w, p, 0), n = length(w, p, 1);
-    if (vertices > kMostGridVertices || m > kMostGridVertices || n > kMostGridVertices)
-      return false;
-    vertices += m * n;
-  }
-  return vertices <= kMostGridVertices;
-}
-
 bool allArcsBound(const Wireframe& w) {
   std::vector<char> bounds(w.arcs.size());
   for (HalfArc h : w.loops) bounds[arcOf(h)] = 1;
@@ -98,19 +80,14 @@ bool allArcsBound(const Wireframe& w) {
 
 }  // namespace
 
-std::size_t gridQuads(const Wireframe& w) {
-  std::int64_t quads = 0;
-  for (std::size_t p = 0; p < w.patches.size(); ++p) quads += length(w, p, 0) * length(w, p, 1);
-  return static_cast<std::size_t>(quads);
-}
-
 Wireframe readWireframe(Reader& in) {
   Wireframe w;
   w.points = in.number(0, INT32_MAX, "number of points");
   readNodes(in, w);
   readArcs(in, w);
   readPatches(in, w);
-  if (in.ok() && !isSmallEnough(w)) in.refuse("the patches have too many vertices");
+  if (in.ok() && !isSmallEnough(w, kMostGridVertices))
+    in.refuse("the patches have too many vertices");
   if (in.ok() && !allArcsBound(w)) in.refuse("an arc bounds no patch");
   return w;
 }

@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 
+#include "codec/grid_size.hpp"
 #include "codec/limits.hpp"
 #include "codec/loop_coder.hpp"
 #include "codec/wireframe_rules.hpp"
@@ -54,7 +55,7 @@ class WireframeCoder {
   WireframeCoder(Symbols<Coder>& symbols, const Wireframe* whole, MirrorSeeds given)
       : seeds(std::move(given)), s_(symbols), whole_(whole) {}
 
-  Wireframe run(std::size_t most, std::int64_t mostQuads) {
+  Wireframe run(std::size_t most, std::int64_t mostVertices) {
     const std::size_t nodes = count(whole_ ? whole_->nodes.size() : 0, most),
                       arcs = count(whole_ ? whole_->arcs.size() : 0, most),
                       patches = count(whole_ ? whole_->patches.size() : 0, most);
@@ -63,7 +64,9 @@ class WireframeCoder {
     if (!s_.ok()) return {};
     LoopCoder<Coder> loops(s_, w_, whole_, seeds.pairs, nodes, arcs);
     loops.run(patches);
-    if (!s_.ok() || !isSmallEnough(mostQuads)) return {};
+    if (s_.ok() && !isSmallEnough(w_, mostVertices))
+      s_.refuse("the patches have too many vertices");
+    if (!s_.ok()) return {};
     codeTurns(loops.bases);
     codePoints();
     codeRibbons();
@@ -93,20 +96,6 @@ class WireframeCoder {
     for (auto& pair : seeds.pairs)
       for (HalfArc& h : pair)
         h = static_cast<HalfArc>(s_.index(kMirrorArc, halves, static_cast<std::uint32_t>(h)));
-  }
-
-  bool isSmallEnough(std::int64_t mostQuads) {
-    std::int64_t quads = 0;
-    for (const Arc& arc : w_.arcs) quads += arc.edges;
-    for (Index p = 0; p < static_cast<Index>(w_.patches.size()); ++p) {
-      std::int64_t m = 0, n = 0;
-      for (const HalfArc h : w_.side(p, 0)) m += w_.arcs[arcOf(h)].edges;
-      for (const HalfArc h : w_.side(p, 1)) n += w_.arcs[arcOf(h)].edges;
-      if (m > mostQuads || n > mostQuads || quads > mostQuads) break;
-      quads += m * n;
-    }
-    if (quads > mostQuads) s_.refuse("the patches have too many vertices");
-    return quads <= mostQuads;
   }
 
   // Every loop was told from side `base` of the patch on: side 4 - base of the loop comes first.
@@ -228,6 +217,7 @@ class WireframeCoder {
         s.eta = s_.number(kShapeSize, 0, 0, s.eta);
         s.lambda = s_.number(kShapeSize, 1, 0, s.lambda);
         s.length = 1 + s_.number(kShapeLength, 0, 0, s.length - 1);
+        if (s.length == 0) s_.refuse("a value is not finite");
         w_.ribbons[r] = s.shape();
         continue;
       }
@@ -271,9 +261,10 @@ void writeWireframe(Symbols<RangeEncoder>& out, const Wireframe& wireframe, Mirr
   WireframeCoder<RangeEncoder>(out, &wireframe, std::move(seeds)).run(SIZE_MAX, INT64_MAX);
 }
 
-CodedWireframe readWireframe(Symbols<RangeDecoder>& in, std::size_t most, std::int64_t mostQuads) {
+CodedWireframe readWireframe(Symbols<RangeDecoder>& in, std::size_t most,
+                             std::int64_t mostVertices) {
   WireframeCoder<RangeDecoder> coder(in, nullptr, {});
-  Wireframe wireframe = coder.run(most, mostQuads);
+  Wireframe wireframe = coder.run(most, mostVertices);
   return {std::move(wireframe), std::move(coder.seeds), std::move(coder.connectivity),
           std::move(coder.mirror)};
 }

@@ -25,7 +25,8 @@ struct CodedWireframe {
   Mirror mirror;
 };
 
-/// Fails through `in`. Has no more than `most` of anything, and `mostQuads` quads.
-CodedWireframe readWireframe(Symbols<RangeDecoder>& in, std::size_t most, std::int64_t mostQuads);
+/// Fails through `in`. Has no more than `most` of anything, and `mostVertices` vertices at level 1.
+CodedWireframe readWireframe(Symbols<RangeDecoder>& in, std::size_t most,
+                             std::int64_t mostVertices);
 
 }  // namespace sweepface::codec

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <functional>
 
+#include "codec/limits.hpp"
 #include "codec/utf8.hpp"
 #include "drawing/json_reader.hpp"
 #include "drawing/words.hpp"
@@ -96,6 +97,8 @@ class DrawingReader {
     std::string text = in_.text(fmt::format("{}, a text in quotes,", what));
     if (text.empty() || !codec::isUtf8(text))
       in_.refuse(at, fmt::format("{} is empty or no clean UTF-8 text", what));
+    if (text.size() > codec::kLongestName)
+      in_.refuse(at, fmt::format("{} is longer than {} bytes", what, codec::kLongestName));
     return text;
   }
 

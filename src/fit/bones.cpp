@@ -59,8 +59,8 @@ class BoneFinder {
       const auto joins = [&](const Bone& bone) { return isCarried(bone, part); };
       if (const auto bone = std::ranges::find_if(bones, joins); bone != bones.end())
         bone->sites.insert(bone->sites.end(), part.begin(), part.end());
-      else if (Bone own = boneOf(part); !own.maps.empty() && bones.size() < codec::kMostBones)
-        bones.push_back(std::move(own));
+      else if (bones.size() < codec::kMostBones)
+        if (Bone own = boneOf(part); !own.maps.empty()) bones.push_back(std::move(own));
     }
     write(bones, packing);
   }

@@ -5,6 +5,7 @@
 #include "sweepface/eval.hpp"
 #include "sweepface/fit.hpp"
 
+#include "codec/limits.hpp"
 #include "codec/utf8.hpp"
 #include "fit/normal_error.hpp"
 #include "fit/quantise.hpp"
@@ -84,6 +85,9 @@ Result<void> checkNames(const std::vector<MeshTarget>& targets) {
     if (!codec::isUtf8(target.name))
       return fail("the name of the target " + printable(target.name) +
                   " has control characters or is not UTF-8; rename it");
+    if (target.name.size() > codec::kLongestName)
+      return fail("the name of a target, ", printable(target.name.substr(0, 32)),
+                  " and so on, is longer than ", codec::kLongestName, " bytes; shorten it");
     if (!names.insert(target.name).second)
       return fail("two targets are named " + printable(target.name) + "; rename one of them");
   }

@@ -38,7 +38,7 @@ Result<Conversion> convertToBytes(const MeshRig& source, ConvertOptions options,
       if (auto stripped = strip(rig, left); !stripped) return std::unexpected(stripped.error());
       now.bytes = encode(rig).size();
     }
-    if (now.bytes <= mostBytes) {
+    if (conversion && now.bytes <= mostBytes) {
       fits = now;
       best = std::move(*conversion);
       if (static_cast<double>(now.bytes) > kCloseEnough * static_cast<double>(mostBytes)) break;

@@ -15,6 +15,7 @@
 #include "fit/bones.hpp"
 #include "fit/columns.hpp"
 #include "fit/folds.hpp"
+#include "fit/images.hpp"
 #include "fit/pose_quantiser.hpp"
 #include "parallel/parallel.hpp"
 
@@ -34,7 +35,7 @@ constexpr double kNeutralStep = 0.25, kTargetStep = 1;
 constexpr double kNeutralShare = 0.5;
 // What a tangent that leans by the angle aimed at counts, in bits.
 constexpr double kNeutralBits = 1.5, kTargetBits = 0.1;
-constexpr int kMostFiner = 8;
+constexpr int kMostHalvings = 8;
 // From this many halvings on a target starts where the fit has the pose, whatever that costs.
 constexpr int kFaithful = 2;
 // Steps are halved this often for the sake of folds alone.
@@ -62,7 +63,7 @@ class Quantiser {
     rig.packing.axis = seeds.axis;
     rig.packing.mirror = seeds.pairs;
     lattice_.emplace(rig.surface, rig.packing);
-    codec::chooseImages(rig, *lattice_, rig.packing);
+    chooseImages(rig, *lattice_, rig.packing);
     columns_ = columnsOf(rig.surface, grid_, lattice_->prediction(0));
     folds_.emplace(rig, grid_);
   }
@@ -212,7 +213,7 @@ class Quantiser {
     const int coarsest = symmetry == Symmetry::partner ? rig_.packing.poses[form.image].finer : 0;
     for (int attempt = 0; !done; ++attempt) {
       form.finer = coarsest + (symmetric ? attempt / 2 : attempt);
-      if (form.finer > kMostFiner) break;
+      if (form.finer > kMostHalvings) break;
       const bool fromImage = symmetric && attempt % 2 == 0;
       PoseTask task;
       task.step = codec::stepOf(rig_.packing, pose);

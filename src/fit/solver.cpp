@@ -321,6 +321,8 @@ Result<Solution> solve(const Layout& layout, const Draft& draft, const SourceDat
                                e.matrix(static_cast<Index>(a), static_cast<Index>(b)));
       }
   }
+  // What moves nothing is nothing: second derivatives where two patches meet back to back.
+  for (Index k = 0; k < unknowns; ++k) entries.emplace_back(k, k, 0);
   SparseMatrix matrix(unknowns, unknowns);
   matrix.setFromTriplets(entries.begin(), entries.end());
   return solveScaled(matrix, rhs);

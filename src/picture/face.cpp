@@ -282,6 +282,10 @@ std::vector<Key> FaceScenes::legend(Style style) const {
 
 Result<std::vector<Vec3>> originalPositions(const Rig& rig, const MeshRig& source,
                                             std::span<const double> weights) {
+  if (!rig.source.ownOrder)
+    return fail(
+        "The face has no source order, it was left out, so that nobody knows which vertex is "
+        "which; convert the source again without --strip order.");
   const std::size_t vertices = rig.source.gridVertex.size();
   if (source.neutral.positions.size() != vertices)
     return fail(

@@ -22,14 +22,18 @@ class HubCharts {
             JetRows& rows)
       : w_(wireframe), c_(connectivity), jets_(numbers, rows) {}
 
-  void chart(const Hub& hub) {
+  Result<void> chart(const Hub& hub) {
     const std::vector<Index> ring = orderRing(hub);
+    const int steps = stepsAround(ring);
+    if (steps == 0)
+      return fail("all patches at node ", hub.nodes[0], " have a side that is one point there");
     const Quadratic f{hub.first + 1, hub.first + 2, hub.first + 3, hub.first + 4, hub.first + 5};
     const bool open = !c_.stars[ring[0]].closed && !collapsedArm(ring[0], 0);
-    const double step = (open ? 1 : 2) * std::numbers::pi / stepsAround(ring);
+    const double step = (open ? 1 : 2) * std::numbers::pi / steps;
     const double scale = scaleAround(ring);
     double angle = 0;
     for (Index n : ring) angle = chartNode(f, n, angle, step, scale);
+    return {};
   }
 
  private:
@@ -216,11 +220,13 @@ class FanCharts {
 
 }  // namespace
 
-void chartHubs(const Wireframe& wireframe, const Connectivity& connectivity,
-               const JetNumbers& numbers, JetRows& rows) {
+Result<void> chartHubs(const Wireframe& wireframe, const Connectivity& connectivity,
+                       const JetNumbers& numbers, JetRows& rows) {
   HubCharts charts(wireframe, connectivity, numbers, rows);
   for (const Hub& hub : numbers.hubs())
-    if (hub.first >= 0) charts.chart(hub);
+    if (hub.first >= 0)
+      if (auto ok = charts.chart(hub); !ok) return ok;
+  return {};
 }
 
 void chartFans(const Connectivity& connectivity, const JetNumbers& numbers, JetRows& rows) {

@@ -14,7 +14,8 @@ Result<JetTable> buildJets(const Wireframe& wireframe, const Connectivity& conne
   JetRows rows(numbers.count());
   predictCrossings(wireframe, connectivity, numbers, rows);
   hangNodes(wireframe, connectivity, bases, numbers, rows);
-  chartHubs(wireframe, connectivity, numbers, rows);
+  if (auto ok = chartHubs(wireframe, connectivity, numbers, rows); !ok)
+    return std::unexpected(ok.error());
   chartFans(connectivity, numbers, rows);
 
   std::vector<Index> place;  // [vectors] in the table, by number

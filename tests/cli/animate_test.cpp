@@ -72,6 +72,8 @@ TEST_F(Animate, RefusesWhatCannotBe) {
   EXPECT_TRUE(fails(command + "--to smile=1 --frames 1",
                     "--frames: This must be a whole number from 2", 2));
   EXPECT_TRUE(fails(command + "--to smile=1 --seconds 0", "--seconds", 2));
+  EXPECT_TRUE(fails(command + "--to smile=1 --seconds 100000 --fps 100",
+                    "more than 1000000 frames; cut the clip"));
   EXPECT_TRUE(fails(command + "--to smile=1 --lod 99", "--lod", 2));
   EXPECT_TRUE(fails(command, "Say where to go"));
   EXPECT_FALSE(std::filesystem::exists(folder / "frames"));

@@ -24,6 +24,31 @@ TEST_F(Convert, SaysWhatItMade) {
       << r.out;
 }
 
+// Lashes and cards of hair: faces given from both sides.
+TEST_F(Convert, TakesFacesThatLieBackToBack) {
+  folder.file("card.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\nf 4 3 2 1\n");
+  for (const char* options : {"", " --pack"}) {
+    const Outcome r = run(std::string("convert card.obj -o card.sweep --tolerance 0.05") + options);
+    EXPECT_EQ(r.code, 0) << r.err;
+    ASSERT_EQ(run("export card.sweep -o out.obj").code, 0);
+    EXPECT_LE(largestDistance(mesh("out.obj").positions, mesh("card.obj").positions), 0.05);
+  }
+}
+
+// Regular as they are, they take hardly any bytes; no limit on what so few may hold is in the way.
+TEST_F(Convert, TakesMeshesOfManyParts) {
+  std::string obj;
+  for (int k = 0; k < 2000; ++k) {
+    for (const auto& [x, y] : {std::pair{0, 0}, {1, 0}, {1, 1}, {0, 1}})
+      obj += fmt::format("v {} {} 0\n", 3 * k + x, y);
+    obj += "f -4 -3 -2 -1\n";
+  }
+  folder.file("cards.obj", obj);
+  const Outcome r = run("convert cards.obj -o cards.sweep --pack --tolerance 0.05");
+  EXPECT_EQ(r.code, 0) << r.err;
+  EXPECT_EQ(run("info cards.sweep").code, 0);
+}
+
 TEST_F(Convert, KeepsToTheTolerance) {
   makeRig();
   for (const double tolerance : {0.1, 0.005}) {

@@ -32,6 +32,17 @@ TEST_F(Export, WritesTheSourcesOwnPolygons) {
   EXPECT_EQ(contents(folder / "same.obj"), contents(folder / "out.obj"));
 }
 
+TEST_F(Export, RefusesBudgetsThatAreNone) {
+  convertRig();
+  for (const char* budget : {"--vertices nan", "--error nan", "--edge-length inf", "--error -1"}) {
+    const Outcome r = run(std::string("export face.sweep -o out.obj ") + budget);
+    EXPECT_EQ(r.code, 2) << budget;
+    EXPECT_NE(r.err.find("finite number greater than 0"), std::string::npos) << r.err;
+  }
+  EXPECT_EQ(run("export face.sweep -o out.obj --source-order --error 0.1").code, 2);
+  EXPECT_FALSE(std::filesystem::exists(folder / "out.obj"));
+}
+
 TEST_F(Export, BlendsLinearly) {
   convertRig();
   const auto exported = [&](const std::string& weights) {

@@ -37,6 +37,20 @@ TEST_F(Pack, WithoutItsOrderAFaceStillExportsButSaysSo) {
   EXPECT_NE(m.err.find("no source order"), std::string::npos) << m.err;
 }
 
+TEST_F(Pack, WithoutTheOrderNoVertexIsTakenForAnother) {
+  makeRig();
+  ASSERT_EQ(run("convert neutral.obj targets -o bare.sweep --tolerance 0.01 --strip order").code,
+            0);
+  for (const char* command :
+       {"plot bare.sweep --to smile=1 --vertex 5 -o out.svg",
+        "render bare.sweep -o out.png --style error --compare neutral.obj targets",
+        "measure bare.sweep neutral.obj targets"}) {
+    const Outcome r = run(command);
+    EXPECT_NE(r.code, 0) << command;
+    EXPECT_NE(r.err.find("no source order"), std::string::npos) << r.err;
+  }
+}
+
 TEST_F(Pack, SaysWhichPartsThereAre) {
   makeRig();
   const Outcome r = run("convert neutral.obj -o bare.sweep --strip hair");
@@ -57,6 +71,8 @@ TEST_F(Pack, FindsTheToleranceThatFitsIntoSoManyBytes) {
   const Outcome r = run("convert neutral.obj targets -o face.sweep --max-bytes 100");
   EXPECT_EQ(r.code, 1);
   EXPECT_NE(r.err.find("does not fit into 100 bytes"), std::string::npos) << r.err;
+  for (const char* bytes : {"0", "1e300", "99999999999999999999"})
+    EXPECT_EQ(run("convert neutral.obj -o huge.sweep --max-bytes " + std::string(bytes)).code, 2);
 }
 
 TEST_F(Pack, BringsNormalsWithinATolerance) {

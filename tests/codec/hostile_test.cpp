@@ -3,6 +3,7 @@
 #include "allocations.hpp"
 #include "codec/files.hpp"
 #include "codec/packed.hpp"
+#include "codec/pose_form.hpp"
 #include "codec/rigs.hpp"
 #include "codec/version1.hpp"
 #include "codec/wireframe_coder.hpp"
@@ -61,9 +62,20 @@ std::size_t memoryFor(const std::string& bytes) {
   return enough;
 }
 
+// Many targets that leave many loose vertices where they are: hardly a byte each.
+Rig withManyStillTargets() {
+  Rig rig = makeRig(onePatch(1, 1));
+  rig.source.loose.resize(3000);
+  const Target still{"", std::vector<Vec3>(rig.neutral.size()), std::vector<Vec3>(3000)};
+  rig.targets.assign(200, still);
+  for (std::size_t k = 0; k < rig.targets.size(); ++k) rig.targets[k].name = std::to_string(k);
+  return packed(rig);
+}
+
 TEST(Hostile, WhatIsReadTakesNoMoreMemoryThanItIsAllowed) {
   constexpr std::size_t kAnyway = 1 << 20;  // tables that do not grow with the file
-  for (const Rig& rig : {packed(makeRig(fan(5))), packed(everything()), dressed(makeRig(tee()))}) {
+  for (const Rig& rig : {packed(makeRig(fan(5))), packed(everything()), dressed(makeRig(tee())),
+                         withManyStillTargets()}) {
     for (const std::string& bytes : {encode(rig), encodeVersion1(rig)}) {
       const std::size_t limit = memoryFor(bytes);
       allocations.most = allocations.held;
@@ -85,6 +97,24 @@ TEST(Hostile, NumbersMustBeShortAndSmall) {
   };
   EXPECT_NE(message({"\x80\0", 2}).find("shortest form"), std::string::npos);
   EXPECT_NE(message(std::string(20, '\xFF')).find("too large"), std::string::npos);
+}
+
+TEST(Hostile, WhatSaysTheSameTwiceIsRefused) {
+  const Rig rig = packed(dressed(makeRig(sheet(3))));
+  const std::string bytes = encode(rig), asItIs = encodeVersion1(rig);
+  for (const auto& [code, other] :
+       {std::pair{"ordr", "walk"}, {"poly", "face"}, {"texc", "text"}, {"quad", "face"}}) {
+    TakenApart chunks = takeApart(bytes), plain = takeApart(asItIs);
+    const FileChunk twin = chunkOf(plain, code);
+    const auto isLater = [&](const FileChunk& chunk) {
+      return codec::rankOf(chunk.code) > codec::rankOf(twin.code);
+    };
+    chunks.insert(std::ranges::find_if(chunks, isLater), twin);
+    const auto read = decode(putTogether(chunks), "a.sweep");
+    ASSERT_FALSE(read) << code;
+    const std::string expected = std::string("must not stand beside chunk '") + other;
+    EXPECT_NE(read.error().message.find(expected), std::string::npos) << read.error().message;
+  }
 }
 
 std::string refusalOf(Wireframe wireframe) {
@@ -121,8 +151,13 @@ TEST(Hostile, WireframesThatCannotBeEvaluatedAreRefused) {
   unused.arcs.push_back(unused.arcs[0]);
   EXPECT_NE(refusalOf(unused).find("an arc bounds no patch"), std::string::npos);
 
-  Wireframe torn = onePatch(1, 1);
-  torn.arcs[0].collapsed = true;
+  // Between two nodes that other patches surround as well.
+  Wireframe torn = sheet(4);
+  const auto isInside = [&](const Arc& a) {
+    const Connectivity c = Connectivity::make(torn).value();
+    return c.stars[a.from].closed && c.stars[a.to].closed;
+  };
+  std::ranges::find_if(torn.arcs, isInside)->collapsed = true;
   EXPECT_NE(refusalOf(torn).find("a collapsed arc joins two points"), std::string::npos);
 
   Wireframe gap = onePatch(1, 1);
@@ -165,6 +200,21 @@ Wireframe fanOf(Index patches) {
   }
   w.ribbons.emplace_back();
   return w;
+}
+
+TEST(Hostile, StepsMustNotBeTooFine) {
+  for (const std::uint64_t finer : {std::uint64_t{41}, std::uint64_t{0xfffffffe}}) {
+    codec::RangeEncoder encoder;
+    codec::Symbols<codec::RangeEncoder> out(encoder);
+    out.number(45, 0, 0, finer);
+    const std::string bytes = encoder.finish();
+    codec::RangeDecoder decoder(bytes);
+    codec::Symbols<codec::RangeDecoder> in(decoder);
+    Packing::Pose form;
+    codec::codePose(in, form, 0);
+    EXPECT_FALSE(in.ok()) << finer;
+    EXPECT_EQ(form.finer, 0);
+  }
 }
 
 std::string problemWith(const Wireframe& wireframe) {

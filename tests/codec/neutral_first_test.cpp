@@ -28,6 +28,15 @@ TEST(NeutralFirst, ShowsBeforeItsTargetsAreDecoded) {
   }
 }
 
+TEST(NeutralFirst, ShowsVerticesOfNoFace) {
+  Rig rig = makeRig(tee());
+  rig.source.loose = {{1, 2, 3}, {4, 5, 6}};
+  for (Target& target : rig.targets) target.looseDifference.resize(2);
+  const NeutralFirst opened = decodeNeutral(encode(packed(rig)), "a.sweep").value();
+  ASSERT_TRUE(opened.targets.any());
+  EXPECT_EQ(blendLoose(opened.rig, Weights(rig.targets.size(), 1)), rig.source.loose);
+}
+
 TEST(NeutralFirst, KeepsNothingOfTheBytesNorOfThePlaceOfTheRig) {
   auto bytes = std::make_unique<std::string>(encode(packed(makeRig(tee()))));
   const Rig whole = decode(*bytes, "a.sweep").value();

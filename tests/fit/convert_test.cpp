@@ -247,6 +247,9 @@ TEST(Refusal, ofNamesThatFilesCannotHold) {
             "the name of the target 'a?b' has control characters or is not UTF-8; rename it");
   EXPECT_EQ(named("a", ""), "a target has no name; name it");
   EXPECT_EQ(named("a", "a"), "two targets are named 'a'; rename one of them");
+  EXPECT_EQ(named(std::string(4096, 'x'), "b"), "");
+  EXPECT_TRUE(
+      named(std::string(4097, 'x'), "b").ends_with("is longer than 4096 bytes; shorten it"));
 }
 
 TEST(Refusal, ofAToleranceBelowTheFilesPrecision) {

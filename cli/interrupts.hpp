@@ -1,0 +1,14 @@
+#pragma once
+
+#include <atomic>
+
+namespace sweepface::cli {
+
+/// Whether Ctrl-C has asked the work to stop.
+extern std::atomic<bool> interrupted;
+inline constexpr int kInterrupted = 130;  // the exit code then
+
+/// From here on the first Ctrl-C asks the work to stop, and a second one ends the program.
+void catchInterrupts();
+
+}  // namespace sweepface::cli
