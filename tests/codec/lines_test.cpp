@@ -52,6 +52,39 @@ TEST_F(LinesOfASheet, EndAtTheBoundary) {
   EXPECT_LT(lines.walk(right(15, 8)).back, 0);
 }
 
+// A tube of so many patches, one after the other around it.
+Wireframe tube(Index around) {
+  Wireframe w;
+  w.points = 2 * around;
+  for (Index n = 0; n < w.points; ++n) w.nodes.push_back({n, kPosition});
+  for (Index level = 0; level < 2; ++level)
+    for (Index k = 0; k < around; ++k)
+      w.arcs.push_back({level * around + k, level * around + (k + 1) % around});
+  for (Index k = 0; k < around; ++k) w.arcs.push_back({k, around + k});
+  for (Index k = 0; k < around; ++k) {
+    const auto first = static_cast<Index>(w.loops.size());
+    w.loops.insert(w.loops.end(), {2 * k, 2 * (2 * around + (k + 1) % around), 2 * (around + k) + 1,
+                                   2 * (2 * around + k) + 1});
+    w.patches.push_back({{first, first + 1, first + 2, first + 3, first + 4}});
+  }
+  w.ribbons.emplace_back();
+  return w;
+}
+
+TEST(LinesOfARing, EndWhereNothingIsLeft) {
+  for (const Index around : {3, 4, 17, 1000}) {
+    const Surface surface = Surface::make(tube(around)).value();
+    Lines lines(surface);
+    for (Index site = 1; site < around; ++site) lines.takeOut(site);
+    const Lines::Link once = lines.walk(0);
+    EXPECT_EQ(once.node, 0);
+    EXPECT_EQ(once.distance, around);
+    lines.takeOut(0);
+    for (Index arc = 0; arc < around; ++arc) EXPECT_LT(lines.walk(2 * arc).back, 0);
+    EXPECT_EQ(lines.walk(2 * around).node, around + 1) << "the other ring is whole";
+  }
+}
+
 TEST_F(LinesOfASheet, TellTheNearestSitesFirst) {
   NearSites near(surface, lines);
   const auto found = near.around(at(8, 8), -1);

@@ -223,6 +223,19 @@ Wireframe whirl() {
   return w;
 }
 
+// Both patches have the arc between them as a side that is one point: nothing goes around it.
+TEST(Poles, mustHaveAnAngle) {
+  Wireframe w = twoPatches();
+  const Connectivity c = connect(w);
+  for (std::size_t a = 0; a < w.arcs.size(); ++a)
+    if (c.patchOf[2 * a] >= 0 && c.patchOf[2 * a + 1] >= 0) {
+      w.arcs[a].collapsed = true;
+      w.nodes[w.arcs[a].to].point = w.nodes[w.arcs[a].from].point;
+    }
+  EXPECT_NE(refusal(w).find("have a side that is one point there"), std::string::npos)
+      << refusal(w);
+}
+
 TEST(Circles, areRefusedAndNameANodeThatBreaksThem) {
   Wireframe w = whirl();
   for (int round = 0; round < 9; ++round) {
