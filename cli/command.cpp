@@ -162,6 +162,7 @@ Result<void> checkOutput(const fs::path& output, const std::vector<std::string>&
   const auto cannot = [&](std::string_view why) {
     return fail(fmt::format("Cannot write {}: {}.", output.string(), why));
   };
+  if (output.empty()) return fail("The name of the output is empty; name a file.");
   std::error_code ignored;
   for (const std::string& input : inputs)
     if (fs::equivalent(output, input, ignored))

@@ -17,7 +17,8 @@ namespace sweepface::cli {
 namespace {
 
 struct EditArguments {
-  std::string face, output, ribbon, target;
+  std::string face, output, ribbon;
+  std::optional<std::string> target;
   std::optional<double> rho, eta, lambda;
   std::vector<std::pair<std::string, std::string>> moves;
   std::vector<std::tuple<std::string, std::string, std::string, std::string>> controls;
@@ -75,8 +76,8 @@ class Editor {
   explicit Editor(Rig rig) : rig_(std::move(rig)) {}
 
   Result<void> edit(const EditArguments& a) {
-    if (!a.target.empty() && (target_ = rig_.find(a.target)) < 0)
-      return fail(fmt::format("There is no expression named '{}'.", a.target));
+    if (a.target && (target_ = rig_.find(*a.target)) < 0)
+      return fail(fmt::format("There is no expression named '{}'.", *a.target));
     if (!a.ribbon.empty())
       if (auto ok = reshape(a); !ok) return ok;
     if (auto ok = move(a); !ok) return ok;

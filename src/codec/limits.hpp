@@ -9,8 +9,8 @@ inline constexpr std::size_t kMostVectors = std::size_t{1} << 25, kVectorsAByte 
                              kVectorsAnyway = std::size_t{1} << 20;
 
 /// Nodes, arcs and patches that a wireframe may have.
-inline constexpr std::size_t kMostPatches = std::size_t{1} << 19, kPatchesAByte = 1024,
-                             kPatchesAnyway = 65536;
+inline constexpr std::size_t kMostPatches = std::size_t{1} << 19, kPatchesAByte = 256,
+                             kPatchesAnyway = 16384;
 
 /// Pairs of half-arcs from which a mirror image spreads: one for each part that has two sides.
 inline constexpr std::size_t kMostMirrorPairs = 64;

@@ -12,6 +12,12 @@
 namespace sweepface {
 namespace {
 
+// Of a sentence, to put it into another.
+std::string withoutStop(std::string sentence) {
+  if (sentence.ends_with('.')) sentence.pop_back();
+  return sentence;
+}
+
 using Json = nlohmann::json;
 
 class TimelineReader {
@@ -81,8 +87,8 @@ class TimelineReader {
     if (event.time < 0) return failAt(place, "is before 0");
     // A drive that could not even set out from rest is refused here, where its place is known.
     if (const auto path = trajectoryOf(event.drive, {}, 1); !path || event.drive.delay < 0)
-      return failAt(place,
-                    path ? "has a negative 'delay'" : ("cannot be: " + path.error().message));
+      return failAt(place, path ? "has a negative 'delay'"
+                                : "cannot be: " + withoutStop(path.error().message));
     event.others = json.contains("only");
     if (event.others == json.contains("to"))
       return failAt(place, "needs one of 'to' and 'only', the weights to go to");

@@ -40,6 +40,7 @@ TEST_F(Export, RefusesBudgetsThatAreNone) {
     EXPECT_NE(r.err.find("finite number greater than 0"), std::string::npos) << r.err;
   }
   EXPECT_EQ(run("export face.sweep -o out.obj --source-order --error 0.1").code, 2);
+  EXPECT_NE(run("export face.sweep -o ''").err.find("the output is empty"), std::string::npos);
   EXPECT_FALSE(std::filesystem::exists(folder / "out.obj"));
 }
 

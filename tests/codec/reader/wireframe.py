@@ -1,6 +1,8 @@
-"""What a wireframe is (docs/wireframe.md): plain lists of numbers, as all parts of the reader share them.
+"""What a wireframe is (docs/wireframe.md): plain lists of numbers, which all parts of the reader
+share.
 
-A half-arc is 2 * arc, plus 1 when travelled from the arc's end to its start; its twin is `h ^ 1`."""
+A half-arc is 2 * arc, plus 1 when travelled from the arc's end to its start; its twin is
+`h ^ 1`."""
 
 from dataclasses import dataclass, field
 
@@ -33,7 +35,8 @@ class Wireframe:
     points: int = 0
     nodes: list[Node] = field(default_factory=list)
     arcs: list[Arc] = field(default_factory=list)
-    patches: list[list[int]] = field(default_factory=list)  # five places in `loops`: side s is [s, s + 1)
+    # Five places in `loops` each: side s is [s, s + 1).
+    patches: list[list[int]] = field(default_factory=list)
     loops: list[int] = field(default_factory=list)  # half-arcs
     ribbons: list[Shape] = field(default_factory=list)
 
