@@ -9,6 +9,7 @@
 #include "codec/chunks.hpp"
 #include "codec/crc.hpp"
 #include "codec/grid_size.hpp"
+#include "codec/wire_version1.hpp"
 
 namespace {
 
