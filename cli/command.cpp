@@ -4,7 +4,6 @@
 #include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <cstdint>
 #include <fmt/format.h>
 #include <system_error>
 #include <unistd.h>
@@ -22,10 +21,6 @@ bool parse(const std::string& text, Number& number) {
   const char* const end = text.data() + text.size();
   const auto [stop, error] = std::from_chars(text.data(), end, number);
   return error == std::errc{} && stop == end && std::isfinite(static_cast<double>(number));
-}
-
-std::string_view withoutStop(std::string_view sentence) {
-  return sentence.ends_with('.') ? sentence.substr(0, sentence.size() - 1) : sentence;
 }
 
 }  // namespace
@@ -97,21 +92,11 @@ void addGlb(CLI::App& app, GlbArguments& glb) {
                "For .glb: 16 bits a coordinate (KHR_mesh_quantization); about half as large");
 }
 
-CLI::Validator wholeNumber(int low, int high) {
+CLI::Validator wholeNumber(std::int64_t low, std::int64_t high) {
   const auto check = [=](const std::string& text) -> std::string {
-    int number = 0;
+    std::int64_t number = 0;
     if (parse(text, number) && number >= low && number <= high) return {};
     return fmt::format("This must be a whole number from {} to {}, not '{}'.", low, high, text);
-  };
-  return CLI::Validator(check, "", "");
-}
-
-CLI::Validator positiveCount() {
-  constexpr std::uint64_t kMost = std::uint64_t{1} << 53;
-  const auto check = [](const std::string& text) -> std::string {
-    std::uint64_t number = 0;
-    if (parse(text, number) && number > 0 && number <= kMost) return {};
-    return fmt::format("This must be a whole number from 1 to 2^53, not '{}'.", text);
   };
   return CLI::Validator(check, "", "");
 }
@@ -136,9 +121,9 @@ Result<Rig> readBack(std::string_view bytes, const std::string& path) {
   Result<Rig> rig = decode(bytes, "it");
   if (rig) return rig;
   return fail(
-      fmt::format("Cannot write {}: nobody could read it again, as the model is too large "
-                  "for the format or has too little in it for its size ({}).",
-                  path, withoutStop(rig.error().message)));
+      fmt::format("Cannot write {}: the model is too large for the format, or has too little in it "
+                  "for its size, so that who reads it would be told: {}",
+                  path, rig.error().message));
 }
 
 Result<std::string> encodeReadable(const Rig& rig, const std::string& path) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -69,9 +70,7 @@ struct GlbArguments {
 };
 void addGlb(CLI::App& app, GlbArguments& glb);
 
-CLI::Validator wholeNumber(int low, int high);
-/// A whole number from 1 to 2^53: beyond, a program that goes by doubles would miss it.
-CLI::Validator positiveCount();
+CLI::Validator wholeNumber(std::int64_t low, std::int64_t high);
 /// A finite number > 0, and at most `high` if that is given.
 CLI::Validator positiveNumber(double high = 0);
 

@@ -62,7 +62,7 @@ void addOptions(CLI::App& app, ConvertArguments& a) {
          "--max-bytes", a.maxBytes,
          "Pack, and look for the smallest tolerance whose file takes at most N bytes: several "
          "conversions")
-      ->check(positiveCount())
+      ->check(wholeNumber(1, std::int64_t{1} << 53))  // as far as doubles count
       ->type_name("N");
   app.add_flag(
       "--arcs", a.arcs,

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "drawing/weave.hpp"
+#include "io/text.hpp"
 
 namespace sweepface::drawing {
 
@@ -35,11 +36,6 @@ Spoken spoken(const Drawing& d, const Wireframe& w, std::string_view word, std::
   return {};
 }
 
-std::string withoutPeriod(std::string message) {
-  if (message.ends_with('.')) message.pop_back();
-  return message;
-}
-
 }  // namespace
 
 std::unexpected<Error> failAt(const Drawing& d, const TextPlace& place, const std::string& what) {
@@ -68,7 +64,7 @@ std::unexpected<Error> failNamed(const Drawing& d, const Wireframe& w, const std
     text += thing.name;
     at = digits;
   }
-  return failAt(d, first, withoutPeriod(text));
+  return failAt(d, first, io::withoutPeriod(text));
 }
 
 }  // namespace sweepface::drawing

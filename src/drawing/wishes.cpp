@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 #include <set>
 
+#include "io/text.hpp"
+
 namespace sweepface::drawing {
 
 namespace {
@@ -160,10 +162,9 @@ class WishGatherer {
     const auto spacing =
         spacingFromChords(line, control.second, control.third, sum / std::max(1, lines));
     if (spacing) return spacing;
-    std::string why = spacing.error().message;
     return failAt(d_, control.place,
                   fmt::format("the control curves beside '{}': {}", control.beside,
-                              why.substr(0, why.size() - why.ends_with('.'))));
+                              io::withoutPeriod(spacing.error().message)));
   }
 
   // A control point lies on the parabola S + u S' + ½ u² S'' that leaves the boundary.

@@ -100,6 +100,12 @@ inline std::string inQuotes(std::string_view word) {
   return text += word.size() > longest ? "...'" : "'";
 }
 
+/// A sentence that goes on in another one.
+inline std::string withoutPeriod(std::string sentence) {
+  if (sentence.ends_with('.')) sentence.pop_back();
+  return sentence;
+}
+
 /// Numbers names in the order in which they first come up.
 class NameIndex {
  public:

@@ -8,15 +8,10 @@
 
 #include "io/json_fields.hpp"
 #include "io/json_text.hpp"
+#include "io/text.hpp"
 
 namespace sweepface {
 namespace {
-
-// Of a sentence, to put it into another.
-std::string withoutStop(std::string sentence) {
-  if (sentence.ends_with('.')) sentence.pop_back();
-  return sentence;
-}
 
 using Json = nlohmann::json;
 
@@ -88,7 +83,7 @@ class TimelineReader {
     // A drive that could not even set out from rest is refused here, where its place is known.
     if (const auto path = trajectoryOf(event.drive, {}, 1); !path || event.drive.delay < 0)
       return failAt(place, path ? "has a negative 'delay'"
-                                : "cannot be: " + withoutStop(path.error().message));
+                                : "cannot be: " + io::withoutPeriod(path.error().message));
     event.others = json.contains("only");
     if (event.others == json.contains("to"))
       return failAt(place, "needs one of 'to' and 'only', the weights to go to");

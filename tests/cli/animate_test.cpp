@@ -1,3 +1,8 @@
+#include <csignal>
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include "cli/tool.hpp"
 
 namespace sweepface {
@@ -61,6 +66,32 @@ TEST_F(Animate, WritesFinerMeshes) {
   ASSERT_EQ(run("animate face.sweep --to smile=1 --frames 2 --lod 2 --quiet -o a/b/frames").code,
             0);
   EXPECT_EQ(mesh("a/b/frames/frame_0001.obj").polygons.faceCount(), 120);
+}
+
+TEST_F(Animate, LeavesOnlyWholeFramesOnInterrupt) {
+  convertRig();
+  const std::filesystem::path face = folder / "face.sweep", frames = folder / "frames";
+  const pid_t child = fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    std::signal(SIGINT, SIG_DFL);
+    const int errors = open((folder / ".err").c_str(), O_CREAT | O_WRONLY, 0600);
+    dup2(errors, STDERR_FILENO);
+    execl(SWEEPFACE_TOOL, SWEEPFACE_TOOL, "animate", face.c_str(), "--to", "smile=1", "--frames",
+          "100000", "-o", frames.c_str(), nullptr);
+    _exit(127);
+  }
+  while (!std::filesystem::exists(frames / "frame_0000.obj") &&
+         waitpid(child, nullptr, WNOHANG) == 0)
+    usleep(1000);
+  kill(child, SIGINT);
+  int status = 0;
+  waitpid(child, &status, 0);
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 130);
+  EXPECT_TRUE(contents(folder / ".err").starts_with("sweepface: Interrupted after "));
+  for (const auto& file : std::filesystem::directory_iterator(frames))
+    EXPECT_EQ(file.path().extension(), ".obj") << file.path();
 }
 
 TEST_F(Animate, RefusesWhatCannotBe) {

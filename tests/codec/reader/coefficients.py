@@ -24,20 +24,6 @@ def reflected(steps: Steps, sign: int, axis: int) -> Steps:
     return [-x if (a == axis) == (sign > 0) else x for a, x in enumerate(steps)]
 
 
-def in_finer_steps(steps: Steps, finer: int) -> Steps:
-    shift = min(30, abs(finer))
-    shifted = [x << shift if finer >= 0 else x >> shift for x in steps]
-    return [max(-2**26, min(2**26, x)) for x in shifted]
-
-
-def image_of(pose: list[Steps], images: list, v: int, axis: int, finer: int = 0) -> Steps:
-    """What the mirror image of a pose says of a vector."""
-    if images[v] is None:
-        return NOTHING
-    vector, sign = images[v]
-    return reflected(in_finer_steps(pose[vector], finer), sign, axis)
-
-
 class Coefficients:
     """Of the neutral or of all targets."""
 

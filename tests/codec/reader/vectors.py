@@ -5,7 +5,7 @@ import math
 from dataclasses import dataclass, field
 
 from bones import Carry, add_carries, bone_places, read_bones, read_carries
-from coefficients import Coefficients, Steps, image_of, in_finer_steps
+from coefficients import NOTHING, Coefficients, Steps, reflected
 from hierarchy import Hierarchy, Step, make_hierarchy
 from kriging import move_steps
 from symbols import RangeDecoder, Symbols
@@ -75,6 +75,20 @@ def earlier(symbols: Symbols, tag: int, pose: int) -> int:
     if target < 1:
         raise ValueError("there is no such target before")
     return target
+
+
+def in_finer_steps(steps: Steps, finer: int) -> Steps:
+    shift = min(30, abs(finer))
+    shifted = [x << shift if finer >= 0 else x >> shift for x in steps]
+    return [max(-2**26, min(2**26, x)) for x in shifted]
+
+
+def image_of(pose: list[Steps], images: list, v: int, axis: int, finer: int = 0) -> Steps:
+    """What the mirror image of a pose says of a vector."""
+    if images[v] is None:
+        return NOTHING
+    vector, sign = images[v]
+    return reflected(in_finer_steps(pose[vector], finer), sign, axis)
 
 
 def read_coefficients(coefficients: Coefficients, forms: list[Form], steps: list[list[Steps]],
