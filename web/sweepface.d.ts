@@ -142,8 +142,8 @@ export class Sweepface {
   evaluate(positions: Float32Array | null, normals?: Float32Array | null): void;
   /** What a vertex shader evaluates the face from: docs/evaluation.md. */
   shaderTables(tangents?: boolean): {basis: Int16Array; places: Uint32Array; neutral: Float32Array; modes: number};
-  /** Writes what changes every frame for it, four floats a mode. */
-  shaderModes(out: Float32Array, tangents?: boolean): void;
+  /** Writes what changes every frame for it, four integers a mode; returns their factor. */
+  shaderModes(out: Int16Array, tangents?: boolean): number;
   /** For vertices behind the points, the point that each repeats. */
   readonly copies: Uint32Array;
   /** Makes ready to move, which else happens when it first does and takes a few frames: reads what targets do, and

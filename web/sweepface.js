@@ -65,6 +65,7 @@ class Runtime {
   // Memory moves when it grows, so views are made where they are used.
   bytes(at, length) { return new Uint8Array(this.wasm.memory.buffer, at, length); }
   words(at, length) { return new Uint32Array(this.wasm.memory.buffer, at, length); }
+  shorts(at, length) { return new Int16Array(this.wasm.memory.buffer, at, length); }
   ints(at, length) { return new Int32Array(this.wasm.memory.buffer, at, length); }
   floats(at, length) { return new Float32Array(this.wasm.memory.buffer, at, length); }
   doubles(at, length) { return new Float64Array(this.wasm.memory.buffer, at, length); }
@@ -80,15 +81,22 @@ class Runtime {
     return at;
   }
 
-  /** Calls `use` with the address of a copy of the bytes. */
-  lend(bytes, use) {
-    const at = this.allocate(bytes.length);
+  /** Calls `use` with the address of room for that many bytes. */
+  room(size, use) {
+    const at = this.allocate(size);
     try {
-      this.bytes(at, bytes.length).set(bytes);
       return use(at);
     } finally {
       this.wasm.free(at);
     }
+  }
+
+  /** Calls `use` with the address of a copy of the bytes. */
+  lend(bytes, use) {
+    return this.room(bytes.length, (at) => {
+      this.bytes(at, bytes.length).set(bytes);
+      return use(at);
+    });
   }
 
   lendText(text, use) { return this.lend(encoder.encode(text + '\0'), use); }
@@ -99,7 +107,7 @@ class Runtime {
 
   /** What a function with a trailing out-parameter of 32 bits writes there. */
   get(name, ...parameters) {
-    return this.lend(new Uint8Array(4), (out) => {
+    return this.room(4, (out) => {
       this.check(this.wasm[name](...parameters, out));
       return this.words(out, 1)[0];
     });
@@ -189,7 +197,7 @@ class Shared {
 
   parts() {
     const {runtime} = this, {wasm} = runtime, length = wasm.sweepface_mesh_part_count(this.mesh);
-    return Array.from({length}, (_, k) => runtime.lend(new Uint8Array(12), (out) => {
+    return Array.from({length}, (_, k) => runtime.room(12, (out) => {
       runtime.check(wasm.sweepface_mesh_part(this.mesh, k, out));
       const [material, first, count] = runtime.words(out, 3);
       return {material: runtime.text(material), start: 3 * first, count: 3 * count};
@@ -343,24 +351,26 @@ export class Sweepface {
   shaderTables(tangents = false) {
     const {runtime} = this.#open(), {wasm} = runtime, points = this.pointCount, rows = tangents ? 2 : 1;
     this.#shared.loadTargets();
-    return withinMemory(() => runtime.lend(new Uint8Array(20), (out) => {
+    return withinMemory(() => runtime.room(20, (out) => {
       runtime.check(wasm.sweepface_mesh_shader_tables(this.#shared.mesh, tangents ? 1 : 0, out));
       const [basis, places, neutral, texels, modes] = runtime.words(out, 5);
       return {
-        basis: new Int16Array(wasm.memory.buffer, basis, 4 * texels).slice(),
-        places: runtime.words(places, 2 * points).slice(),
+        basis: runtime.shorts(basis, 4 * texels).slice(),
+        places: runtime.words(places, 3 * points).slice(),
         neutral: runtime.floats(neutral, 3 * points * rows).slice(),
         modes
       };
     }));
   }
 
-  /** Writes what changes every frame, four floats a mode. */
+  /** Writes what changes every frame, four integers a mode; returns their factor. */
   shaderModes(out, tangents = false) {
     const {runtime} = this.#open();
-    runtime.lend(new Uint8Array(4 * out.length), (at) => {
-      runtime.check(runtime.wasm.sweepface_face_modes(this.#face, tangents ? 1 : 0, at, out.length / 4));
-      out.set(runtime.floats(at, out.length));
+    return runtime.room(4 + 2 * out.length, (at) => {
+      runtime.check(
+        runtime.wasm.sweepface_face_modes(this.#face, tangents ? 1 : 0, at + 4, out.length / 4, at));
+      out.set(runtime.shorts(at + 4, out.length));
+      return runtime.floats(at, 1)[0];
     });
   }
 

@@ -2,7 +2,11 @@ import type {Material} from 'three';
 import type {Sweepface} from './sweepface.js';
 import type {FaceMesh} from './sweepface_mesh.js';
 
-/** GLSL ES 3: `vec3 sweepfaceRow(vec3 neutral, uvec2 place, int row, isampler2D basis, sampler2D modes)`. */
+/**
+ * GLSL ES 3, for textures of 1024 texels a row:
+ *   vec3 sweepfacePosition(vec3 neutral, uvec3 place, isampler2D basis, isampler2D modes, float factor)
+ *   vec3 sweepfaceNormal(vec3 along, vec3 across, uvec3 place, isampler2D basis, isampler2D modes, float factor)
+ */
 export const SWEEPFACE_GLSL: string;
 
 /** A face in a scene whose vertices are evaluated by the vertex shader of its materials. */

@@ -1,34 +1,52 @@
 // .sweep faces that a vertex shader evaluates: a mesh for three.js, and the shader for others. Every frame only the
-// modes of the weights go to the graphics card, about a tenth of a megabyte (docs/evaluation.md).
-import {BufferAttribute, DataTexture, FloatType, NearestFilter, RGBAFormat, RGBAIntegerFormat, ShortType} from 'three';
+// modes of the weights go to the graphics card, less than a tenth of a megabyte (docs/evaluation.md).
+import {
+  BufferAttribute, DataTexture, MeshDepthMaterial, MeshDistanceMaterial, NearestFilter, RGBADepthPacking,
+  RGBAIntegerFormat, ShortType
+} from 'three';
 import {FaceMesh, geometryOf} from './sweepface_mesh.js';
 
-/** GLSL ES 3: a row of a face, from its neutral, its place and the two textures. */
+/** GLSL ES 3: what moves a vertex from its neutral. Texel k of a texture is at (k mod 1024, k / 1024). */
 export const SWEEPFACE_GLSL = `
-  vec3 sweepfaceRow(vec3 neutral, uvec2 place, int row, highp isampler2D basis, highp sampler2D modes) {
-    int texels = int(place.y & 63u), first = int(place.x) + row * texels, at = int(place.y >> 6);
-    int basisWidth = textureSize(basis, 0).x, modesWidth = textureSize(modes, 0).x;
+  ivec2 sweepfaceTexel(int k) { return ivec2(k & 1023, k >> 10); }
+  vec4 sweepfaceBasis(highp isampler2D basis, int k) { return vec4(texelFetch(basis, sweepfaceTexel(k), 0)); }
+  vec3 sweepfaceMode(highp isampler2D modes, int k) { return vec3(texelFetch(modes, sweepfaceTexel(k), 0).xyz); }
+  mat4x3 sweepfaceModes(highp isampler2D modes, int k) {
+    return mat4x3(sweepfaceMode(modes, k), sweepfaceMode(modes, k + 1),
+                  sweepfaceMode(modes, k + 2), sweepfaceMode(modes, k + 3));
+  }
+
+  vec3 sweepfacePosition(vec3 neutral, uvec3 place, highp isampler2D basis, highp isampler2D modes, float factor) {
+    int first = int(place.x), at = int(place.y >> 6), texels = int(place.y & 63u);
     vec3 sum = vec3(0.0);
+    for (int t = 0; t < texels; ++t)
+      sum += sweepfaceModes(modes, at + 4 * t) * sweepfaceBasis(basis, first + t);
+    return neutral + uintBitsToFloat(place.z) * factor * sum;
+  }
+
+  vec3 sweepfaceNormal(vec3 along, vec3 across, uvec3 place, highp isampler2D basis, highp isampler2D modes,
+                       float factor) {
+    int first = int(place.x), at = int(place.y >> 6), texels = int(place.y & 63u);
+    vec3 a = vec3(0.0), b = vec3(0.0);
     for (int t = 0; t < texels; ++t) {
-      int b = first + t;
-      vec4 x = vec4(texelFetch(basis, ivec2(b % basisWidth, b / basisWidth), 0));
-      for (int k = 0; k < 4; ++k) {
-        int m = at + 4 * t + k;
-        sum += x[k] * texelFetch(modes, ivec2(m % modesWidth, m / modesWidth), 0).xyz;
-      }
+      mat4x3 four = sweepfaceModes(modes, at + 4 * t);
+      a += four * sweepfaceBasis(basis, first + t);
+      b += four * sweepfaceBasis(basis, first + texels + t);
     }
-    return neutral + sum;
+    float scale = uintBitsToFloat(place.z) * factor;
+    vec3 normal = cross(along + scale * a, across + scale * b);
+    return normal * inversesqrt(max(dot(normal, normal), 1e-30));  // finite at poles
   }`;
 
 const WIDTH = 1024;
 
-/** A texture of four numbers a texel, filled up to whole rows. */
-function texture(numbers, format, type, internalFormat) {
+/** A texture of four integers a texel, filled up to whole rows. */
+function texture(numbers) {
   const height = Math.max(1, Math.ceil(numbers.length / (4 * WIDTH)));
-  const data = new numbers.constructor(4 * WIDTH * height);
+  const data = new Int16Array(4 * WIDTH * height);
   data.set(numbers);
-  const made = new DataTexture(data, WIDTH, height, format, type);
-  made.internalFormat = internalFormat;
+  const made = new DataTexture(data, WIDTH, height, RGBAIntegerFormat, ShortType);
+  made.internalFormat = 'RGBA16I';
   made.minFilter = made.magFilter = NearestFilter;
   made.needsUpdate = true;
   return made;
@@ -42,12 +60,13 @@ class Tables {
     this.places = places;
     this.neutral = neutral;
     this.modeCount = modes;
-    this.basis = texture(basis, RGBAIntegerFormat, ShortType, 'RGBA16I');
-    this.modes = texture(new Float32Array(4 * modes), RGBAFormat, FloatType, 'RGBA32F');
+    this.basis = texture(basis);
+    this.modes = texture(new Int16Array(4 * modes));
+    this.factor = {value: 0};
   }
 
   update(face) {
-    face.shaderModes(this.modes.image.data.subarray(0, 4 * this.modeCount), this.tangents);
+    this.factor.value = face.shaderModes(this.modes.image.data.subarray(0, 4 * this.modeCount), this.tangents);
     this.modes.needsUpdate = true;
   }
 
@@ -77,38 +96,42 @@ export class SweepfaceGpuMesh extends FaceMesh {
     const positions = new Tables(face, false), tangents = new Tables(face, true);
     const geometry = geometryOf(face, {
       position: spread(face, positions.neutral, 3),
-      sweepPlace: spread(face, positions.places, 2),
-      sweepTangentPlace: spread(face, tangents.places, 2),
+      sweepPlace: spread(face, positions.places, 3),
+      sweepTangentPlace: spread(face, tangents.places, 3),
       normal: spread(face, tangents.neutral, 3, 0, 6),  // along the sweep
       sweepAcross: spread(face, tangents.neutral, 3, 3, 6)
     });
     super(face, geometry, materials);
     this.frustumCulled = false;  // bounds are those of the neutral
     this.#tables = [positions, tangents];
-    for (const material of [this.material].flat()) this.#patch(material);
+    this.customDepthMaterial = new MeshDepthMaterial({depthPacking: RGBADepthPacking});  // for shadows
+    this.customDistanceMaterial = new MeshDistanceMaterial();
+    for (const material of this.#materials) this.#patch(material);
     this.update();
   }
+
+  get #materials() { return [this.material, this.customDepthMaterial, this.customDistanceMaterial].flat(); }
 
   #patch(material) {
     const [positions, tangents] = this.#tables;
     material.onBeforeCompile = (shader) => {
       Object.assign(shader.uniforms, {
         sweepBasis: {value: positions.basis}, sweepModes: {value: positions.modes},
-        sweepTangentBasis: {value: tangents.basis}, sweepTangentModes: {value: tangents.modes}
+        sweepTangentBasis: {value: tangents.basis}, sweepTangentModes: {value: tangents.modes},
+        sweepFactor: positions.factor  // of the weights, and so that of tangents
       });
       shader.vertexShader = `
-        uniform highp isampler2D sweepBasis, sweepTangentBasis;
-        uniform highp sampler2D sweepModes, sweepTangentModes;
-        in uvec2 sweepPlace, sweepTangentPlace;
+        uniform highp isampler2D sweepBasis, sweepTangentBasis, sweepModes, sweepTangentModes;
+        uniform float sweepFactor;
+        in uvec3 sweepPlace, sweepTangentPlace;
         in vec3 sweepAcross;
         ${SWEEPFACE_GLSL}
         ` + shader.vertexShader
         .replace('#include <beginnormal_vertex>', `
-          vec3 objectNormal = normalize(cross(
-            sweepfaceRow(normal, sweepTangentPlace, 0, sweepTangentBasis, sweepTangentModes),
-            sweepfaceRow(sweepAcross, sweepTangentPlace, 1, sweepTangentBasis, sweepTangentModes)));`)
+          vec3 objectNormal = sweepfaceNormal(
+            normal, sweepAcross, sweepTangentPlace, sweepTangentBasis, sweepTangentModes, sweepFactor);`)
         .replace('#include <begin_vertex>', `
-          vec3 transformed = sweepfaceRow(position, sweepPlace, 0, sweepBasis, sweepModes);`);
+          vec3 transformed = sweepfacePosition(position, sweepPlace, sweepBasis, sweepModes, sweepFactor);`);
     };
   }
 
@@ -122,6 +145,8 @@ export class SweepfaceGpuMesh extends FaceMesh {
 
   dispose() {
     for (const tables of this.#tables) tables.dispose();
+    this.customDepthMaterial.dispose();
+    this.customDistanceMaterial.dispose();
     super.dispose();
   }
 }

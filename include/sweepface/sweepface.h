@@ -186,12 +186,14 @@ SWEEPFACE_API sweepface_status sweepface_face_update(sweepface_face* face, size_
 /* ---- Shaders ---- */
 
 /* A mesh as a vertex shader evaluates it (docs/evaluation.md). Row r of point p is
- *   neutral[p][r] + sum over t < texels, k < 4 of basis[first + r * texels + t][k] * modes[at + 4 *
- * t + k] where places[p] is first, then at * 64 + texels. Positions have one row a point, tangents
- * two: along the sweep and across, whose cross product points outward. Belongs to the mesh. */
+ *   neutral[p][r] + factor * scale *
+ *     (sum over t < texels, k < 4 of basis[first + r * texels + t][k] * modes[at + 4 * t + k])
+ * where places[p] is first, then at * 64 + texels, then the bits of the float scale. Positions have
+ * one row a point, tangents two: along the sweep and across, whose cross product points outward.
+ * Belongs to the mesh. */
 typedef struct sweepface_shader_tables {
   const int16_t* basis;   /* [texel_count x 4] */
-  const uint32_t* places; /* [points x 2] */
+  const uint32_t* places; /* [points x 3] */
   const float* neutral;   /* [points x rows x 3] */
   uint32_t texel_count;
   uint32_t mode_count;
@@ -200,9 +202,11 @@ typedef struct sweepface_shader_tables {
 SWEEPFACE_API sweepface_status sweepface_mesh_shader_tables(const sweepface_mesh* mesh,
                                                             int32_t tangents,
                                                             sweepface_shader_tables* out);
-/* What changes every frame: [count x 4], the fourth number 0; `count` is the table's mode_count. */
+/* What changes every frame: the modes [count x 4], the fourth number 0, and the factor; `count` is
+ * the table's mode_count. */
 SWEEPFACE_API sweepface_status sweepface_face_modes(sweepface_face* face, int32_t tangents,
-                                                    float* out, size_t count);
+                                                    int16_t* out, size_t count,
+                                                    float* factor);
 
 /* ---- Motions ---- */
 

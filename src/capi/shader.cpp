@@ -15,9 +15,9 @@ sweepface_status sweepface_mesh_shader_tables(const sweepface_mesh* mesh, int32_
   return SWEEPFACE_OK;
 }
 
-sweepface_status sweepface_face_modes(sweepface_face* face, int32_t tangents, float* out,
-                                      size_t count) {
-  if (!face || !out) return refuse("Modes need a face and a place for them.");
+sweepface_status sweepface_face_modes(sweepface_face* face, int32_t tangents, int16_t* out,
+                                      size_t count, float* factor) {
+  if (!face || !out || !factor) return refuse("Modes need a face and a place for them.");
   if (const auto status = needTargets(*face->mesh->rig)) return status;
   const Mesh& mesh = *face->mesh;
   mesh.makeShaderTables();
@@ -25,7 +25,7 @@ sweepface_status sweepface_face_modes(sweepface_face* face, int32_t tangents, fl
       static_cast<size_t>((tangents ? mesh.shaderTangents : mesh.shaderPositions).modes);
   if (count != modes) return refuseCall("There are ", modes, " modes, not ", count, ".");
   const EvaluatorTables& tables = (tangents ? mesh.normals() : mesh.positions()).tables();
-  blendModes(tables, tangents ? tables.derivatives : tables.positions, follow(*face), face->scratch,
-             {out, 4 * count});
+  *factor = blendModes(tables, tangents ? tables.derivatives : tables.positions, follow(*face),
+                       face->scratch, {out, 4 * count});
   return SWEEPFACE_OK;
 }

@@ -1,14 +1,12 @@
 #include "eval/shader_tables.hpp"
 
-#include <algorithm>
+#include <bit>
 #include <cstring>
 
 #include "eval/tile_kernels.hpp"
 
 namespace sweepface {
 namespace {
-
-int texelsOf(const TileHead& head) { return (head.modePairs + 1) / 2; }
 
 /// One number of a tile's basis.
 std::int16_t basisOf(const Tile& tile, int row, int mode) {
@@ -31,15 +29,17 @@ std::int16_t basisOf(const Tile& tile, int row, int mode) {
 ShaderTables shaderTables(const TileTable& table, Index vertices) {
   ShaderTables out;
   out.rows = table.groups() * kGroup / kTileVertices;
-  out.places.resize(2 * std::size_t(vertices));
+  out.places.resize(3 * std::size_t(vertices));
   out.neutral.resize(3 * std::size_t(out.rows) * vertices);
   for (Index t = 0; t < table.tileCount(); ++t) {
     const Tile tile = tileAt(table.record(t));
     const int texels = texelsOf(*tile.head);
     for (int k = 0; k < tile.head->vertices; ++k) {
       const std::uint32_t vertex = vertexOf(tile, k);
-      out.places[2 * vertex] = static_cast<std::uint32_t>(out.basis.size() / 4);
-      out.places[2 * vertex + 1] = static_cast<std::uint32_t>(out.modes * 64 + texels);
+      std::uint32_t* const place = out.places.data() + 3 * std::size_t(vertex);
+      place[0] = static_cast<std::uint32_t>(out.basis.size() / 4);
+      place[1] = static_cast<std::uint32_t>(out.modes * 64 + texels);
+      place[2] = std::bit_cast<std::uint32_t>(tile.head->scale);
       for (int r = 0; r < out.rows; ++r) {
         const int row = r * kTileVertices + k;
         for (int mode = 0; mode < 4 * texels; ++mode) out.basis.push_back(basisOf(tile, row, mode));
@@ -56,24 +56,12 @@ ShaderTables shaderTables(const TileTable& table, Index vertices) {
   return out;
 }
 
-void blendModes(const EvaluatorTables& tables, const TileTable& table,
-                std::span<const double> weights, std::span<std::byte> scratch,
-                std::span<float> out) {
+float blendModes(const EvaluatorTables& tables, const TileTable& table,
+                 std::span<const double> weights, std::span<std::byte> scratch,
+                 std::span<std::int16_t> out) {
   const FrameWeights frame = frameWeights(tables, weights, scratch);
-  std::array<std::int16_t, kMostBlocks * kGroup> c;
-  float* to = out.data();
-  for (Index t = 0; t < table.tileCount(); ++t) {
-    const Tile tile = tileAt(table.record(t));
-    plain::blendTile(tile, frame, c.data());
-    const float scale = tile.head->scale * frame.factor;
-    for (int mode = 0; mode < 4 * texelsOf(*tile.head); ++mode) {
-      for (int axis = 0; axis < 3; ++axis) {
-        const bool has = mode / 2 < tile.head->modePairs;
-        *to++ = has ? static_cast<float>(c[6 * (mode / 2) + 2 * axis + mode % 2]) * scale : 0.0f;
-      }
-      *to++ = 0;
-    }
-  }
+  blendModes(TileRange{table, 0, table.tileCount()}, frame, out.data());
+  return frame.factor;
 }
 
 }  // namespace sweepface

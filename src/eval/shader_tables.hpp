@@ -13,10 +13,12 @@ namespace sweepface {
 /// The tables of an Evaluator as a vertex shader wants them. Every tile has its modes side by side
 /// in one texture, four for every texel of a row of its basis in the other:
 ///
-///   row = neutral + Σ_t Σ_k basis[first + t][k] · modes[modesAt + 4 t + k]
+///   row = neutral + factor · scale · Σ_t Σ_k basis[first + t][k] · modes[modesAt + 4 t + k]
+///
+/// A vertex's place is first; modesAt · 64 + texels of a row; the bits of scale.
 struct ShaderTables {
   std::vector<std::int16_t> basis;    ///< [texels × 4]
-  std::vector<std::uint32_t> places;  ///< [vertices × 2] first; modesAt · 64 + texels of a row
+  std::vector<std::uint32_t> places;  ///< [vertices × 3]
   std::vector<float> neutral;         ///< [vertices × rows × 3]
   Index rows = 1;                     ///< of a vertex, one behind the other: 1, or ∂u and ∂v
   Index modes = 0;                    ///< texels of the other texture
@@ -24,10 +26,10 @@ struct ShaderTables {
 
 ShaderTables shaderTables(const TileTable& table, Index vertices);
 
-/// The modes under these weights [modes × 4], the fourth number 0. Allocates nothing; `scratch` is
-/// that of an evaluation.
-void blendModes(const EvaluatorTables& tables, const TileTable& table,
-                std::span<const double> weights, std::span<std::byte> scratch,
-                std::span<float> out);
+/// Writes the modes under these weights [modes × 4], the fourth number 0; returns their factor.
+/// Allocates nothing; `scratch` is that of an evaluation.
+float blendModes(const EvaluatorTables& tables, const TileTable& table,
+                 std::span<const double> weights, std::span<std::byte> scratch,
+                 std::span<std::int16_t> out);
 
 }  // namespace sweepface

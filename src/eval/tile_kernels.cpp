@@ -14,6 +14,9 @@ void evaluateNormals(const TileRange& tiles, const FrameWeights& frame, const Ve
                      const VectorsOut& tangents, Index) {
   plain::evaluateNormals(tiles, frame, normals, tangents);
 }
+void blendModes(const TileRange& tiles, const FrameWeights& frame, std::int16_t* out) {
+  plain::blendModes(tiles, frame, out);
+}
 
 }  // namespace sweepface
 
@@ -41,6 +44,9 @@ void evaluatePositions(const TileRange& tiles, const FrameWeights& frame, const 
 void evaluateNormals(const TileRange& tiles, const FrameWeights& frame, const VectorsOut& normals,
                      const VectorsOut& tangents, bool) {
   plain::evaluateNormals(tiles, frame, normals, tangents);
+}
+void blendModes(const TileRange& tiles, const FrameWeights& frame, std::int16_t* out) {
+  plain::blendModes(tiles, frame, out);
 }
 
 #else
@@ -119,6 +125,17 @@ void evaluateNormals(const TileRange& tiles, const FrameWeights& frame, const Ve
   });
 }
 
+void blendModes(const TileRange& tiles, const FrameWeights& frame, std::int16_t* out) {
+  const TileWeights weights(frame);
+  HWY_ALIGN std::int16_t c[kMostBlocks * kGroup];
+  for (Index k = 0; k < tiles.count; ++k) {
+    const Tile tile = tileAt(tiles.table.record(tiles[k]));
+    weights.choose(tile, frame.pairs);
+    blend(tile, frame.pairs, c);
+    out = putModes(tile, c, out);
+  }
+}
+
 #endif
 }  // namespace HWY_NAMESPACE
 }  // namespace sweepface
@@ -129,6 +146,7 @@ namespace sweepface {
 
 HWY_EXPORT(evaluatePositions);
 HWY_EXPORT(evaluateNormals);
+HWY_EXPORT(blendModes);
 
 void evaluatePositions(const TileRange& tiles, const FrameWeights& frame, const VectorsOut& out,
                        Index vertices) {
@@ -140,6 +158,10 @@ void evaluateNormals(const TileRange& tiles, const FrameWeights& frame, const Ve
   const auto hasRoom = [&](const VectorsOut& out) { return !out.data || out.count >= vertices; };
   HWY_DYNAMIC_DISPATCH(evaluateNormals)
   (tiles, frame, normals, tangents, hasRoom(normals) && hasRoom(tangents));
+}
+
+void blendModes(const TileRange& tiles, const FrameWeights& frame, std::int16_t* out) {
+  HWY_DYNAMIC_DISPATCH(blendModes)(tiles, frame, out);
 }
 
 }  // namespace sweepface

@@ -32,11 +32,10 @@ FrameWeights frameWeights(const EvaluatorTables& tables, std::span<const double>
                           std::span<std::byte> scratch);
 
 namespace plain {
-/// The modes' coefficients of a tile under the frame's weights, in the order of its blocks.
-void blendTile(const Tile& tile, const FrameWeights& frame, std::int16_t* c);
 void evaluatePositions(const TileRange& tiles, const FrameWeights& frame, const VectorsOut& out);
 void evaluateNormals(const TileRange& tiles, const FrameWeights& frame, const VectorsOut& normals,
                      const VectorsOut& tangents);
+void blendModes(const TileRange& tiles, const FrameWeights& frame, std::int16_t* out);
 }  // namespace plain
 
 /// `vertices`: of the whole evaluator.
@@ -44,6 +43,8 @@ void evaluatePositions(const TileRange& tiles, const FrameWeights& frame, const 
                        Index vertices);
 void evaluateNormals(const TileRange& tiles, const FrameWeights& frame, const VectorsOut& normals,
                      const VectorsOut& tangents, Index vertices);
+/// The modes of the tiles under the frame's weights, as shaders want them: see ShaderTables.
+void blendModes(const TileRange& tiles, const FrameWeights& frame, std::int16_t* out);
 
 /// Weights of a tile's targets side by side, as the dot products of 16-bit integers want them.
 inline void pairWeights(const Tile& tile, const FrameWeights& frame, std::uint32_t* pairs) {
@@ -51,6 +52,20 @@ inline void pairWeights(const Tile& tile, const FrameWeights& frame, std::uint32
     return static_cast<std::uint32_t>(static_cast<std::uint16_t>(frame.shorts[tile.targets[k]]));
   };
   for (int p = 0; p < tile.head->pairs; ++p) pairs[p] = weight(2 * p) | weight(2 * p + 1) << 16;
+}
+
+/// How many texels of a shader's texture a row of a tile's basis takes, a number for each of four
+/// modes.
+inline int texelsOf(const TileHead& head) { return (head.modePairs + 1) / 2; }
+
+/// Writes a tile's modes, which its blocks hold in pairs, by themselves, four numbers each. Returns
+/// where the next tile's go.
+inline std::int16_t* putModes(const Tile& tile, const std::int16_t* c, std::int16_t* to) {
+  const int modes = 2 * tile.head->modePairs;
+  for (int m = 0; m < 4 * texelsOf(*tile.head); ++m)
+    for (int axis = 0; axis < 4; ++axis)
+      *to++ = m < modes && axis < 3 ? c[6 * (m / 2) + 2 * axis + m % 2] : std::int16_t(0);
+  return to;
 }
 
 inline char* vectorAt(const VectorsOut& out, std::uint32_t vertex) {

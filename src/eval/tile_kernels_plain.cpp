@@ -23,8 +23,13 @@ std::int16_t take(const std::byte*& from, bool isWide) {
 }
 
 /// The modes' coefficients c_m under the frame's weights, in the order of the blocks.
-void blend(const Tile& tile, const std::uint32_t* pairs, std::int16_t* c) {
+using Modes = std::array<std::int16_t, kMostBlocks * kGroup>;
+Modes blend(const Tile& tile, const FrameWeights& frame) {
   const TileHead& head = *tile.head;
+  const std::uint32_t* const pairs = frame.pairs;
+  pairWeights(tile, frame, frame.pairs);
+  Modes modes;
+  std::int16_t* c = modes.data();
   const std::byte* from = tile.coefficients;
   for (int b = 0; b < head.blocks; ++b) {
     std::array<std::int32_t, kGroup> sums{};
@@ -40,6 +45,7 @@ void blend(const Tile& tile, const std::uint32_t* pairs, std::int16_t* c) {
     for (int lane = 0; lane < kGroup; ++lane)
       *c++ = static_cast<std::int16_t>(std::clamp((sums[lane] + (1 << 15)) >> 16, -32768, 32767));
   }
+  return modes;
 }
 
 float neutral(const Tile& tile, int group, int axis, int lane) {
@@ -49,8 +55,7 @@ float neutral(const Tile& tile, int group, int axis, int lane) {
 
 /// All rows of a tile under the frame's weights.
 void combine(const Tile& tile, int groups, const FrameWeights& frame, Vectors& out) {
-  std::array<std::int16_t, kMostBlocks * kGroup> c;
-  blendTile(tile, frame, c.data());
+  const Modes c = blend(tile, frame);
   const float scale = tile.head->scale * frame.factor;
   const std::byte* basis = tile.basis;
   for (int g = 0; g < groups; ++g) {
@@ -88,11 +93,6 @@ void write(const Tile& tile, int k, const std::array<float, 3>& vector, const Ve
 
 }  // namespace
 
-void blendTile(const Tile& tile, const FrameWeights& frame, std::int16_t* c) {
-  pairWeights(tile, frame, frame.pairs);
-  blend(tile, frame.pairs, c);
-}
-
 void evaluatePositions(const TileRange& tiles, const FrameWeights& frame, const VectorsOut& out) {
   Vectors rows;
   for (Index t = 0; t < tiles.count; ++t) {
@@ -115,6 +115,13 @@ void evaluateNormals(const TileRange& tiles, const FrameWeights& frame, const Ve
             normals);
       write(tile, k, unit(u), tangents);
     }
+  }
+}
+
+void blendModes(const TileRange& tiles, const FrameWeights& frame, std::int16_t* out) {
+  for (Index t = 0; t < tiles.count; ++t) {
+    const Tile tile = tileAt(tiles.table.record(tiles[t]));
+    out = putModes(tile, blend(tile, frame).data(), out);
   }
 }
 

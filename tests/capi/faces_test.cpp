@@ -1,3 +1,4 @@
+#include <bit>
 #include <limits>
 #include <thread>
 
@@ -210,6 +211,49 @@ TEST_F(Faces, EvaluateWithoutAllocating) {
   sweepface_face_free(another);
 }
 
+/// The rows of all points as the header says that a shader computes them.
+std::vector<Vec3> shaderRows(sweepface_mesh* mesh, sweepface_face* face, bool tangents) {
+  sweepface_shader_tables tables{};
+  EXPECT_EQ(sweepface_mesh_shader_tables(mesh, tangents, &tables), SWEEPFACE_OK);
+  std::vector<std::int16_t> modes(4 * std::size_t(tables.mode_count));
+  float factor = 0;
+  EXPECT_EQ(sweepface_face_modes(face, tangents, modes.data(), tables.mode_count, &factor),
+            SWEEPFACE_OK);
+  const std::uint32_t points = sweepface_mesh_point_count(mesh), rows = tangents ? 2 : 1;
+  std::vector<Vec3> out;
+  for (std::uint32_t k = 0; k < points * rows; ++k) {
+    const std::uint32_t* const place = tables.places + 3 * (k / rows);
+    const std::uint32_t at = place[1] / 64, texels = place[1] % 64;
+    const std::int16_t* const basis = tables.basis + 4 * (place[0] + k % rows * texels);
+    Vec3 sum;
+    for (std::uint32_t m = 0; m < 4 * texels; ++m)
+      sum += double(basis[m]) * Vec3{double(modes[4 * (at + m)]), double(modes[4 * (at + m) + 1]),
+                                     double(modes[4 * (at + m) + 2])};
+    const float* const neutral = tables.neutral + 3 * k;
+    out.push_back(Vec3{neutral[0], neutral[1], neutral[2]} +
+                  double(std::bit_cast<float>(place[2])) * factor * sum);
+  }
+  return out;
+}
+
+TEST_F(Faces, AreWhatAShaderMakesOfItsTables) {
+  for (const uint32_t lod : {0, 2}) {
+    make(lod);
+    for (const std::vector<double>& weights :
+         {std::vector{0.0, 0.0, 0.0}, std::vector{0.7, -3.0, 1.5}}) {
+      ASSERT_EQ(sweepface_face_set_weights(face, weights.data(), 3), SWEEPFACE_OK);
+      const auto tangents = shaderRows(mesh, face, true);
+      std::vector<Vec3> normals;
+      for (std::size_t p = 0; p < tangents.size(); p += 2)
+        normals.push_back(normalized(cross(tangents[p], tangents[p + 1])));
+      expectNear(shaderRows(mesh, face, false), evaluate(), 1e-5);
+      expectNear(normals, evaluate(true), 1e-4);
+    }
+    sweepface_face_free(std::exchange(face, nullptr));
+    sweepface_mesh_free(std::exchange(mesh, nullptr));
+  }
+}
+
 TEST_F(Faces, AreUpdatedToWhatAWholeEvaluationWrites) {
   make(2);
   const std::size_t count = sweepface_mesh_vertex_count(mesh);
@@ -390,14 +434,15 @@ TEST_F(FacesThatShowFirst, RefuseToMoveBefore) {
   const double weight = 0.5;
   sweepface_shader_tables tables;
   uint32_t eyes;
-  float mode;
+  std::int16_t mode;
+  float factor;
   constexpr auto kFirst = "call sweepface_rig_load_targets first";
   EXPECT_TRUE(refuses(sweepface_face_set_weight(face, 0, weight), kFirst));
   EXPECT_TRUE(refuses(sweepface_face_set_weights(face, &weight, 1), kFirst));
   EXPECT_TRUE(refuses(sweepface_face_set_region_weights(face, 0, &weight, 1), kFirst));
   EXPECT_TRUE(refuses(sweepface_mesh_prepare(mesh, 1), kFirst));
   EXPECT_TRUE(refuses(sweepface_mesh_shader_tables(mesh, 0, &tables), kFirst));
-  EXPECT_TRUE(refuses(sweepface_face_modes(face, 0, &mode, 1), kFirst));
+  EXPECT_TRUE(refuses(sweepface_face_modes(face, 0, &mode, 1, &factor), kFirst));
   sweepface_face_free(std::exchange(face, nullptr));
   sweepface_mesh_free(std::exchange(mesh, nullptr));
   EXPECT_TRUE(refuses(sweepface_rig_follow(handle, SWEEPFACE_ARCS), "load_targets"));

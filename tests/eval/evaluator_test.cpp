@@ -10,6 +10,7 @@
 
 #include "allocations.hpp"
 #include "codec/rigs.hpp"
+#include "eval/shader_tables.hpp"
 #include "eval/tile_kernels.hpp"
 #include "faces.hpp"
 
@@ -423,23 +424,45 @@ TEST(Evaluator, isNotMadeOfWhatDoesNotFit) {
   EXPECT_TRUE(Evaluator::make(sourceless, {.level = 1}));
 }
 
+/// Any weights of a frame.
+struct AnyFrame {
+  explicit AnyFrame(const EvaluatorTables& tables)
+      : weights(roundUp64(tables.weights + 1)),
+        pairs(4 * 4096),
+        frame{weights.data(), pairs.data(), 4096, 1.25f, tables.weights + 1} {
+    std::mt19937 random(1);
+    for (Index k = 0; k < tables.weights; ++k)
+      weights[k] = static_cast<std::int16_t>(static_cast<int>(random() % 32769) - 16384);
+  }
+
+  std::vector<std::int16_t> weights;
+  std::vector<std::uint32_t> pairs;
+  FrameWeights frame;
+};
+
+TileRange all(const TileTable& table) { return {table, 0, table.tileCount()}; }
+
 /// Positions, normals and tangents straight from the kernels.
 template <typename Positions, typename Normals>
 Played playWith(const Evaluator& evaluator, const Positions& positions, const Normals& normals) {
   const EvaluatorTables& tables = evaluator.tables();
-  std::mt19937 random(1);
-  std::vector<std::int16_t> weights(roundUp64(tables.weights + 1));
-  std::vector<std::uint32_t> pairs(4 * 4096);
-  for (Index k = 0; k < tables.weights; ++k)
-    weights[k] = static_cast<std::int16_t>(static_cast<int>(random() % 32769) - 16384);
-  const FrameWeights frame{weights.data(), pairs.data(), 4096, 1.25f, tables.weights + 1};
+  const AnyFrame any(tables);
   const std::size_t floats = 3 * static_cast<std::size_t>(tables.vertices);
   Played out{std::vector<float>(floats), std::vector<float>(floats), std::vector<float>(floats)};
   const VectorsOut to[3] = {{out.positions.data(), tables.vertices},
                             {out.normals.data(), tables.vertices},
                             {out.tangents.data(), tables.vertices}};
-  positions(TileRange{tables.positions, 0, tables.positions.tileCount()}, frame, to[0]);
-  normals(TileRange{tables.derivatives, 0, tables.derivatives.tileCount()}, frame, to[1], to[2]);
+  positions(all(tables.positions), any.frame, to[0]);
+  normals(all(tables.derivatives), any.frame, to[1], to[2]);
+  return out;
+}
+
+/// The modes of a table from a kernel.
+template <typename Blend>
+std::vector<std::int16_t> modesOf(const EvaluatorTables& tables, const TileTable& table,
+                                  const Blend& blend) {
+  std::vector<std::int16_t> out(4 * std::size_t(shaderTables(table, tables.vertices).modes), 7);
+  blend(all(table), AnyFrame(tables).frame, out.data());
   return out;
 }
 
@@ -449,19 +472,26 @@ bool sameBits(const std::vector<float>& a, const std::vector<float>& b) {
 
 /// On every instruction set what the plain kernels say.
 void expectSameBits(const Evaluator& evaluator) {
-  const Index all = evaluator.vertexCount();
+  const Index count = evaluator.vertexCount();
+  const EvaluatorTables& tables = evaluator.tables();
   const Played right = playWith(evaluator, plain::evaluatePositions, plain::evaluateNormals);
   const auto check = [&] {
     const Played fast = playWith(
         evaluator,
         [&](const TileRange& tiles, const FrameWeights& frame, const VectorsOut& out) {
-          evaluatePositions(tiles, frame, out, all);
+          evaluatePositions(tiles, frame, out, count);
         },
         [&](const TileRange& tiles, const FrameWeights& frame, const VectorsOut& normals,
-            const VectorsOut& tangents) { evaluateNormals(tiles, frame, normals, tangents, all); });
+            const VectorsOut& tangents) {
+          evaluateNormals(tiles, frame, normals, tangents, count);
+        });
     EXPECT_TRUE(sameBits(fast.positions, right.positions));
     EXPECT_TRUE(sameBits(fast.normals, right.normals));
     EXPECT_TRUE(sameBits(fast.tangents, right.tangents));
+    for (const TileTable* table : {&tables.positions, &tables.derivatives}) {
+      const auto modes = [](auto&&... x) { blendModes(x...); };
+      EXPECT_EQ(modesOf(tables, *table, modes), modesOf(tables, *table, plain::blendModes));
+    }
   };
 #ifdef SWEEPFACE_SIMD
   for (std::int64_t left = hwy::SupportedTargets(); left != 0; left &= left - 1) {

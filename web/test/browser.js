@@ -7,8 +7,9 @@ import {fileURLToPath} from 'node:url';
 const folder = fileURLToPath(new URL('..', import.meta.url));
 const executablePath = process.env.SWEEPFACE_CHROMIUM ?? '/usr/bin/chromium';
 const {chromium} = await import('playwright-core').catch(() => ({}));
+const inSoftware = '--use-angle=swiftshader --enable-unsafe-swiftshader';
 const launchOptions = {
-  executablePath, args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader']
+  executablePath, args: ['--no-sandbox', ...(process.env.SWEEPFACE_CHROMIUM_ARGS ?? inSoftware).split(' ')]
 };
 const types = {
   '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.wasm': 'application/wasm'

@@ -25,10 +25,10 @@ async function prepare() {
   }
 }
 
-/** In the page: a table of rows as a vertex shader has them, by transform feedback. */
-async function onTheCard(tangents) {
+/** In the page: positions and normals of all points as a vertex shader has them, by transform feedback. */
+async function onTheCard() {
   const {SWEEPFACE_GLSL} = await import('./sweepface_gpu.js');
-  const {face} = globalThis, tables = face.shaderTables(tangents), rows = tangents ? 2 : 1, count = face.pointCount;
+  const {face} = globalThis, count = face.pointCount;
   const gl = new OffscreenCanvas(1, 1).getContext('webgl2'), program = gl.createProgram();
   const shader = (type, source) => {
     const made = gl.createShader(type);
@@ -37,57 +37,64 @@ async function onTheCard(tangents) {
     if (!gl.getShaderParameter(made, gl.COMPILE_STATUS)) throw new Error(gl.getShaderInfoLog(made));
     gl.attachShader(program, made);
   };
-  shader(gl.VERTEX_SHADER, `uniform highp isampler2D basis; uniform highp sampler2D modes; uniform int row;
-    in uvec2 place; in vec3 neutral; out vec3 result; ${SWEEPFACE_GLSL}
-    void main() { result = sweepfaceRow(neutral, place, row, basis, modes); gl_Position = vec4(0); }`);
+  shader(gl.VERTEX_SHADER, `uniform highp isampler2D basis, modes, tangentBasis, tangentModes; uniform float factor;
+    in uvec3 place, tangentPlace; in vec3 neutral, along, across; out vec3 position, normal; ${SWEEPFACE_GLSL}
+    void main() {
+      position = sweepfacePosition(neutral, place, basis, modes, factor);
+      normal = sweepfaceNormal(along, across, tangentPlace, tangentBasis, tangentModes, factor);
+      gl_Position = vec4(0);
+    }`);
   shader(gl.FRAGMENT_SHADER, 'void main() {}');
-  gl.bindAttribLocation(program, 0, 'place');
-  gl.bindAttribLocation(program, 1, 'neutral');
-  gl.transformFeedbackVaryings(program, ['result'], gl.INTERLEAVED_ATTRIBS);
+  gl.transformFeedbackVaryings(program, ['position', 'normal'], gl.SEPARATE_ATTRIBS);
   gl.linkProgram(program);
   if (!gl.getProgramParameter(program, gl.LINK_STATUS)) throw new Error(gl.getProgramInfoLog(program));
   gl.useProgram(program);
-  const width = 1024;
-  const texture = (unit, name, numbers, internal, format, type) => {
-    const height = Math.max(1, Math.ceil(numbers.length / 4 / width));
-    const data = new numbers.constructor(4 * width * height);
+  const texture = (unit, name, numbers) => {
+    const width = 1024, height = Math.max(1, Math.ceil(numbers.length / 4 / width));
+    const data = new Int16Array(4 * width * height);
     data.set(numbers);
     gl.activeTexture(gl.TEXTURE0 + unit);
     gl.bindTexture(gl.TEXTURE_2D, gl.createTexture());
-    gl.texImage2D(gl.TEXTURE_2D, 0, internal, width, height, 0, format, type, data);
+    gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA16I, width, height, 0, gl.RGBA_INTEGER, gl.SHORT, data);
     for (const filter of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER])
       gl.texParameteri(gl.TEXTURE_2D, filter, gl.NEAREST);
     gl.uniform1i(gl.getUniformLocation(program, name), unit);
   };
-  const modes = new Float32Array(4 * tables.modes);
-  face.shaderModes(modes, tangents);
-  texture(0, 'basis', tables.basis, gl.RGBA16I, gl.RGBA_INTEGER, gl.SHORT);
-  texture(1, 'modes', modes, gl.RGBA32F, gl.RGBA, gl.FLOAT);
   const buffer = (target, data) => {
-    gl.bindBuffer(target, gl.createBuffer());
+    const made = gl.createBuffer();
+    gl.bindBuffer(target, made);
     gl.bufferData(target, data, gl.STATIC_DRAW);
+    return made;
   };
-  buffer(gl.ARRAY_BUFFER, tables.places);
-  gl.enableVertexAttribArray(0);
-  gl.vertexAttribIPointer(0, 2, gl.UNSIGNED_INT, 0, 0);
-  buffer(gl.ARRAY_BUFFER, tables.neutral);
-  gl.enableVertexAttribArray(1);
-  gl.enable(gl.RASTERIZER_DISCARD);
-  const results = [];
-  for (let row = 0; row < rows; ++row) {
-    gl.vertexAttribPointer(1, 3, gl.FLOAT, false, 12 * rows, 12 * row);
-    gl.uniform1i(gl.getUniformLocation(program, 'row'), row);
-    const out = gl.createBuffer();
-    gl.bindBufferBase(gl.TRANSFORM_FEEDBACK_BUFFER, 0, out);
-    gl.bufferData(gl.TRANSFORM_FEEDBACK_BUFFER, 12 * count, gl.STREAM_READ);
-    gl.beginTransformFeedback(gl.POINTS);
-    gl.drawArrays(gl.POINTS, 0, count);
-    gl.endTransformFeedback();
-    const values = new Float32Array(3 * count);
-    gl.getBufferSubData(gl.TRANSFORM_FEEDBACK_BUFFER, 0, values);
-    results.push(values);
+  const attribute = (name, data, stride = 0, offset = 0) => {
+    const at = gl.getAttribLocation(program, name);
+    buffer(gl.ARRAY_BUFFER, data);
+    gl.enableVertexAttribArray(at);
+    if (data instanceof Uint32Array) gl.vertexAttribIPointer(at, 3, gl.UNSIGNED_INT, stride, offset);
+    else gl.vertexAttribPointer(at, 3, gl.FLOAT, false, stride, offset);
+  };
+  for (const tangents of [false, true]) {
+    const tables = face.shaderTables(tangents), modes = new Int16Array(4 * tables.modes);
+    gl.uniform1f(gl.getUniformLocation(program, 'factor'), face.shaderModes(modes, tangents));
+    const named = (name) => tangents ? 'tangent' + name[0].toUpperCase() + name.slice(1) : name;
+    texture(tangents ? 2 : 0, named('basis'), tables.basis);
+    texture(tangents ? 3 : 1, named('modes'), modes);
+    attribute(named('place'), tables.places);
+    if (!tangents) attribute('neutral', tables.neutral);
+    else for (const k of [0, 1]) attribute(['along', 'across'][k], tables.neutral, 24, 12 * k);
   }
-  return results;
+  gl.enable(gl.RASTERIZER_DISCARD);
+  const outs = [0, 1].map(() => buffer(gl.TRANSFORM_FEEDBACK_BUFFER, new Float32Array(3 * count)));
+  outs.forEach((out, k) => gl.bindBufferBase(gl.TRANSFORM_FEEDBACK_BUFFER, k, out));
+  gl.beginTransformFeedback(gl.POINTS);
+  gl.drawArrays(gl.POINTS, 0, count);
+  gl.endTransformFeedback();
+  return outs.map((out) => {
+    const values = new Float32Array(3 * count);
+    gl.bindBuffer(gl.TRANSFORM_FEEDBACK_BUFFER, out);
+    gl.getBufferSubData(gl.TRANSFORM_FEEDBACK_BUFFER, 0, values);
+    return values;
+  });
 }
 
 const options = {skip, timeout: 240_000};
@@ -106,18 +113,12 @@ test('the vertex shader', options, (t) => withPage('blank.html', {files}, async 
         face.reset();
         face.setWeights(weights);
         face.evaluate(positions, normals);
-        const [places] = await onTheCard(false), [along, across] = await onTheCard(true);
+        const [places, directions] = await onTheCard();
         for (let k = 0; k < 3 * points; ++k) {
           most = Math.max(most, Math.abs(places[k] - positions[k]));
           moved = Math.max(moved, Math.abs(neutral[k] - positions[k]));
           size = Math.max(size, Math.abs(positions[k]));
-        }
-        for (let v = 0; v < points; ++v) {
-          const [a, b] = [along, across].map((x) => x.subarray(3 * v, 3 * v + 3));
-          const n = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
-          const length = Math.hypot(...n);
-          for (let k = 0; k < 3 && length > 1e-3; ++k)
-            turned = Math.max(turned, Math.abs(n[k] / length - normals[3 * v + k]));
+          turned = Math.max(turned, Math.abs(directions[k] - normals[k]));
         }
       }
       return {most: most / size, turned, moved: moved / size};
@@ -132,6 +133,7 @@ test('the vertex shader', options, (t) => withPage('blank.html', {files}, async 
       const THREE = await import('three');
       const {SweepfaceMesh} = await import('./sweepface_three.js');
       const {SweepfaceGpuMesh} = await import('./sweepface_gpu.js');
+      const {morphMesh} = await import('./test/morph_mesh.js');
       const {pose, load} = globalThis, size = 256;
       const renderer = new THREE.WebGLRenderer({canvas: new OffscreenCanvas(size, size), antialias: false});
       const target = new THREE.WebGLRenderTarget(size, size);
@@ -142,31 +144,15 @@ test('the vertex shader', options, (t) => withPage('blank.html', {files}, async 
       const light = new THREE.DirectionalLight(0xffffff, 3);
       light.position.set(1, 1, 2);
 
-      const morphs = () => {  // the same face as three.js has it
-        const face = onCpu.face, geometry = onCpu.geometry.clone(), at = (weights, normals) => {
-          const out = new Float32Array(3 * face.vertexCount), other = new Float32Array(3 * face.vertexCount);
-          face.reset();
-          face.setWeights(weights);
-          face.evaluate(out, other);
-          return normals ? other : out;
-        };
-        geometry.setAttribute('position', new THREE.BufferAttribute(at({}), 3));
-        geometry.setAttribute('normal', new THREE.BufferAttribute(at({}, true), 3));
-        const minus = (a, b) => new THREE.BufferAttribute(a.map((x, k) => x - b[k]), 3);
-        const {position, normal} = geometry.attributes;
-        geometry.morphTargetsRelative = true;
-        geometry.morphAttributes.position = face.names.map((name) => minus(at({[name]: 1}), position.array));
-        geometry.morphAttributes.normal = face.names.map((name) => minus(at({[name]: 1}, true), normal.array));
-        return new THREE.Mesh(geometry, onCpu.material);
-      };
-
+      const scene = new THREE.Scene();
+      scene.add(light, new THREE.AmbientLight(0xffffff, 0.5));
       const draw = (mesh) => {
-        const scene = new THREE.Scene();
-        scene.add(mesh, light, new THREE.AmbientLight(0xffffff, 0.5));
+        scene.add(mesh);
         const before = globalThis.uploaded, pixels = new Uint8Array(4 * size * size);
         renderer.setRenderTarget(target);
         renderer.render(scene, camera);
         renderer.readRenderTargetPixels(target, 0, 0, size, size, pixels);
+        scene.remove(mesh);
         return {pixels, uploaded: globalThis.uploaded - before};
       };
       const differ = (a, b) => {  // the share of pixels that anyone would tell apart
@@ -175,7 +161,7 @@ test('the vertex shader', options, (t) => withPage('blank.html', {files}, async 
           count += Math.max(...[0, 1, 2].map((c) => Math.abs(a[k + c] - b[k + c]))) > 24;
         return 4 * count / a.length;
       };
-      const morph = morphs(), meshes = {onCpu, onGpu, morph}, result = {};
+      const morph = morphMesh(onCpu.face, onCpu.geometry, onCpu.material), meshes = {onCpu, onGpu, morph}, result = {};
       onCpu.setWeights(Object.fromEntries(onCpu.face.names.map((name) => [name, 0])));
       onCpu.update();
       const first = Object.fromEntries(Object.entries(meshes).map(([name, mesh]) => [name, draw(mesh)]));
@@ -191,12 +177,44 @@ test('the vertex shader', options, (t) => withPage('blank.html', {files}, async 
       result.atRest = differ(first.onCpu.pixels, first.onGpu.pixels);
       result.posed = differ(second.onCpu.pixels, second.onGpu.pixels);
       result.likeMorphs = differ(second.morph.pixels, second.onGpu.pixels);
+
+      const wall = new THREE.Mesh(new THREE.PlaneGeometry(9 * sphere.radius, 9 * sphere.radius),
+                                  new THREE.MeshStandardMaterial());
+      wall.position.copy(sphere.center).add(new THREE.Vector3(0, 0, -sphere.radius));
+      wall.receiveShadow = renderer.shadowMap.enabled = true;
+      scene.add(wall);
+      scene.remove(light);
+      const reach = {near: 0.1 * sphere.radius, far: 9 * sphere.radius};
+      const sun = new THREE.DirectionalLight(0xffffff, 3), lamp = new THREE.PointLight(0xffffff, 3, 0, 0);
+      const side = 1.5 * sphere.radius;
+      Object.assign(sun.shadow.camera, reach, {left: -side, right: side, bottom: -side, top: side});
+      Object.assign(lamp.shadow.camera, reach);
+      const shadow = (mesh, light) => {  // the face itself is not drawn
+        mesh.castShadow = light.castShadow = true;
+        for (const material of [mesh.material].flat()) material.colorWrite = material.depthWrite = false;
+        light.position.copy(sphere.center).add(new THREE.Vector3(3, 0, 2).multiplyScalar(0.7 * sphere.radius));
+        if (light.target) light.target.position.copy(sphere.center), light.target.updateMatrixWorld();
+        scene.add(light);
+        const {pixels} = draw(mesh);
+        scene.remove(light);
+        return pixels;
+      };
+      result.shadows = [sun, lamp].map((light) => {
+        const here = shadow(onCpu, light), there = shadow(onGpu, light);
+        onCpu.setWeights(Object.fromEntries(onCpu.names.map((name) => [name, 0])));
+        onCpu.update();
+        const atRest = shadow(onCpu, light);
+        onCpu.setWeights(pose);
+        onCpu.update();
+        return {moved: differ(here, atRest), off: differ(here, there)};
+      });
       return result;
     });
     console.log('bytes uploaded:', JSON.stringify(found));
     assert.ok(found.moved > 0.005, 'the pose changes nothing');
     assert.ok(found.atRest < 0.001 && found.posed < 0.001, `${found.posed} of the pixels differ`);
     assert.ok(found.likeMorphs < 0.05, `${found.likeMorphs} of the pixels differ from morph targets`);
+    for (const {moved, off} of found.shadows) assert.ok(moved > 0.0002 && off < 0.1 * moved, `${moved} of the shadow`);
     assert.ok(found.onGpu.first < 0.5 * found.morph.first);
     assert.ok(found.onGpu.everyFrame < found.onCpu.everyFrame);
     assert.deepEqual(complaints, []);
