@@ -89,6 +89,8 @@ Result<Clip> readClip(const PerformanceArguments& a, const Region& region) {
   if (!text) return std::unexpected(text.error());
   const bool isJson = isOfKind(a.clip, ".json");
   if (isJson && text->find("\"events\"") != std::string::npos) {
+    if (a.smooth || !a.animation.empty())
+      return fail(fmt::format("{} is a timeline; leave --smooth and --animation out.", a.clip));
     const Result<Timeline> timeline = parseTimeline(*text, a.clip);
     if (!timeline) return std::unexpected(timeline.error());
     return bake(*timeline, kTimelineRate, region.name, region.matter);
@@ -96,6 +98,9 @@ Result<Clip> readClip(const PerformanceArguments& a, const Region& region) {
   const bool isGltf = isOfKind(a.clip, ".glb") || isOfKind(a.clip, ".gltf");
   if (!isJson && !isGltf && !isOfKind(a.clip, ".csv"))
     return fail(fmt::format("{} is neither a .csv, a .json nor a .glb clip.", a.clip));
+  if (!isGltf && !a.animation.empty())
+    return fail(fmt::format(
+        "{} has no animations to choose from, as a .glb has; leave --animation out.", a.clip));
   auto clip = isJson   ? parseClipJson(*text, a.clip)
               : isGltf ? parseGltfClip(*text, a.clip, std::filesystem::path(a.clip).parent_path(),
                                        a.animation)
@@ -204,6 +209,9 @@ void addPerformance(CLI::App& app, PerformanceArguments& a) {
                  "a timeline (.json), or the weights of an animation in a .glb")
       ->excludes("--to")
       ->excludes("--from")
+      ->excludes("--law")
+      ->excludes("--seconds")
+      ->excludes("--restitution")
       ->type_name("FILE");
   app.add_option("--animation", a.animation,
                  "Which animation of a .glb; the first with weights if not given")

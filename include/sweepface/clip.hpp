@@ -7,6 +7,7 @@
 
 #include "sweepface/result.hpp"
 #include "sweepface/vec.hpp"
+#include "sweepface/weights.hpp"
 
 namespace sweepface {
 

@@ -8,6 +8,7 @@
 
 #include "sweepface/polygons.hpp"
 #include "sweepface/surface.hpp"
+#include "sweepface/weights.hpp"
 
 namespace sweepface {
 
@@ -115,9 +116,6 @@ struct Rig {
 
 /// The target of a name; the error says which there are.
 Result<Index> findTarget(const Rig& rig, std::string_view name);
-
-/// A weight for every target.
-using Weights = std::vector<double>;
 
 /// Parses "jawOpen=1,eyeBlink_L=0.5" into weights for the rig's targets. The error names what is
 /// unknown or malformed and what there is instead.

@@ -62,8 +62,9 @@ class ClipJsonReader {
       return failFile(fmt::format("has not {} numbers in weightMat[{}], one for every name",
                                   clip_.names.size(), frame));
     for (const Json& weight : row) {
-      if (!weight.is_number() || !std::isfinite(weight.get<double>()))
-        return failFile(fmt::format("has a value that is not a number in weightMat[{}]", frame));
+      if (!weight.is_number() || !isPlausibleWeight(weight.get<double>()))
+        return failFile(fmt::format(
+            "has a value that is not a number within ±1,000,000 in weightMat[{}]", frame));
       clip_.weights.push_back(weight.get<double>());
     }
     return {};
@@ -106,7 +107,7 @@ class ClipJsonReader {
       if (!shape) shape = member(category, "category_name");
       const Json* score = member(category, "score");
       if (!shape || !shape->is_string() || !score || !score->is_number() ||
-          !std::isfinite(score->get<double>()))
+          !isPlausibleWeight(score->get<double>()))
         return failFile(
             fmt::format("has a category without 'categoryName' and 'score' in frame {}", f));
       scores[shape->get<std::string>()] = score->get<double>();

@@ -1,8 +1,14 @@
 #pragma once
 
+#include <algorithm>
 #include <fmt/format.h>
+#include <functional>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "sweepface/result.hpp"
 
@@ -38,13 +44,40 @@ inline bool isTooDeep(std::string_view text, int most) {
   return depth > most;
 }
 
+/// Finds keys that an object has twice, of which a parser silently takes the last.
+class TwiceNamed {
+ public:
+  bool operator()(int, nlohmann::json::parse_event_t event, const nlohmann::json& value) {
+    using Event = nlohmann::json::parse_event_t;
+    if (event == Event::object_start) open_.emplace_back();
+    if (event == Event::object_end) open_.pop_back();
+    if (event == Event::key && !open_.back().insert(value.get<std::string>()).second)
+      key = value.get<std::string>();
+    return true;
+  }
+
+  std::optional<std::string> key;  ///< the last of them
+
+ private:
+  std::vector<std::set<std::string>> open_;
+};
+
 /// The JSON in a small text file; messages call it `name`.
 inline Result<nlohmann::json> parseJson(std::string_view text, std::string_view name) {
   if (isTooDeep(text, 64)) return fail(fmt::format("{} is nested too deeply.", name));
-  nlohmann::json json = nlohmann::json::parse(text.begin(), text.end(), nullptr, false);
-  if (json.is_discarded())
-    return fail(fmt::format("{} is not JSON; was the file cut short?", name));
-  return json;
+  TwiceNamed twice;
+  try {
+    nlohmann::json json = nlohmann::json::parse(text.begin(), text.end(), std::ref(twice));
+    if (twice.key)
+      return fail(
+          fmt::format("{} has the key '{}' twice in one object; keep one.", name, *twice.key));
+    return json;
+  } catch (const nlohmann::json::parse_error& error) {
+    const std::string_view before = text.substr(0, std::max<std::size_t>(error.byte, 1) - 1);
+    return fail(fmt::format("{}, line {}: this is not JSON{}", name,
+                            1 + std::ranges::count(before, '\n'),
+                            error.byte > text.size() ? "; was the file cut short?" : "."));
+  }
 }
 
 }  // namespace sweepface::io

@@ -93,9 +93,9 @@ class LiveLinkReader {
     clip_.times.push_back(*time);
     for (const std::size_t c : shapeColumns_) {
       const auto value = toNumber<double>(row[c]);
-      if (!value || !std::isfinite(*value))
-        return failLine(
-            fmt::format("{} in column {} is not a finite number", inQuotes(row[c]), c + 1));
+      if (!value || !isPlausibleWeight(*value))
+        return failLine(fmt::format("{} in column {} is not a number within ±1,000,000",
+                                    inQuotes(row[c]), c + 1));
       clip_.weights.push_back(*value);
     }
     return {};

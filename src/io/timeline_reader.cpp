@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "sweepface/timeline.hpp"
+#include "sweepface/weights.hpp"
 
 #include "io/json_fields.hpp"
 #include "io/json_text.hpp"
@@ -106,8 +107,9 @@ class TimelineReader {
     }
     if (!json.is_object()) return failAt(place, "goes neither to weights nor to a pose");
     for (const auto& [name, weight] : json.items()) {
-      if (!weight.is_number() || !std::isfinite(weight.get<double>()))
-        return failAt(place, fmt::format("has a weight '{}' that is not a number", name));
+      if (!weight.is_number() || !isPlausibleWeight(weight.get<double>()))
+        return failAt(
+            place, fmt::format("has a weight '{}' that is not a number within ±1,000,000", name));
       goals.emplace_back(name, weight.get<double>());
     }
     return {};

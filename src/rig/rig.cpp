@@ -47,8 +47,9 @@ Result<Weights> parseWeights(const Rig& rig, std::string_view text) {
       value = std::strtod(digits.c_str(), &end);
       const bool plain =
           digits.find_first_not_of("0123456789+-.eE") == std::string::npos && digits[0] != '+';
-      if (digits.empty() || !plain || *end != 0 || !std::isfinite(value))
-        return failCall("the weight of '", name, "' must be a finite number, not '", digits, "'");
+      if (digits.empty() || !plain || *end != 0 || !isPlausibleWeight(value))
+        return failCall("the weight of '", name, "' must be a number within ±1,000,000, not '",
+                        digits, "'");
     }
     weights[*target] = value;
   }

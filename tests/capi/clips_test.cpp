@@ -142,7 +142,7 @@ TEST_F(Clips, HaveThePoseOfTheHead) {
 TEST_F(Clips, AreRefusedWithASentence) {
   EXPECT_TRUE(refuses("", "take is empty"));
   EXPECT_TRUE(refuses("Timecode,Open\n0,x\n", "take line 2: 'x' in column 2"));
-  EXPECT_TRUE(refuses("{", "is not JSON"));
+  EXPECT_TRUE(refuses("{", "this is not JSON"));
   EXPECT_TRUE(refuses("Timecode,Beard\n0,1\n", "none of its 1 names is a target"));
   double room[4];
   EXPECT_EQ(sweepface_clip_weights(nullptr, 0, room, 1), SWEEPFACE_BAD_ARGUMENT);

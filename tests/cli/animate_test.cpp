@@ -106,6 +106,12 @@ TEST_F(Animate, RefusesWhatCannotBe) {
   EXPECT_TRUE(fails(command + "--to smile=1 --seconds 100000 --fps 100",
                     "more than 1000000 frames; cut the clip"));
   EXPECT_TRUE(fails(command + "--to smile=1 --lod 99", "--lod", 2));
+  folder.file("line.json", R"({"seconds": 1, "events": [{"at": 0, "to": {"smile": 1}}]})");
+  folder.file("take.csv", "Timecode,smile\n0,0\n0.1,1\n");
+  EXPECT_TRUE(fails(command + "--clip take.csv --law spring", "--law", 2));
+  EXPECT_TRUE(fails(command + "--clip take.csv --seconds 3", "--seconds", 2));
+  EXPECT_TRUE(fails(command + "--clip take.csv --animation walk", "no animations to choose from"));
+  EXPECT_TRUE(fails(command + "--clip line.json --smooth", "leave --smooth"));
   EXPECT_TRUE(fails(command, "Say where to go"));
   EXPECT_FALSE(std::filesystem::exists(folder / "frames"));
   EXPECT_TRUE(fails("animate face.sweep --to smile=1 -o neutral.obj", "neutral.obj"));

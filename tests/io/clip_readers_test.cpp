@@ -46,7 +46,8 @@ TEST(LiveLinkCsv, SaysWhatIsWrongAndWhere) {
   expectError(csv("Timecode,,a\n"), "column 2 has no heading");
   expectError(csv("Timecode,a\n1,2,3\n"), "line 2: there are 3 values under 2 headings");
   expectError(csv("Timecode,a\n1\n"), "there are 1 values under 2 headings");
-  expectError(csv("Timecode,a\n1,nan\n"), "'nan' in column 2 is not a finite number");
+  expectError(csv("Timecode,a\n1,nan\n"), "'nan' in column 2 is not a number");
+  expectError(csv("Timecode,a\n1,1e7\n"), "'1e7' in column 2 is not a number within ±1,000,000");
   expectError(csv("Timecode,a\n1,x\n"), "'x' in column 2");
   expectError(csv("Timecode,a\n1,\n"), "'' in column 2");
   expectError(csv("Timecode,a\n2,0\n1,0\n"), "line 3: the timecode '1' is not after");
@@ -80,8 +81,8 @@ TEST(ClipJson, ReadsMediaPipe) {
 }
 
 TEST(ClipJson, SaysWhatIsWrong) {
-  expectError(json(""), "is not JSON");
-  expectError(json("{"), "is not JSON");
+  expectError(json(""), "this is not JSON");
+  expectError(json("{"), "this is not JSON");
   expectError(json("{}"), "neither of Audio2Face");
   expectError(json("[]"), "no frames");
   expectError(json("[1]"), "no 'timestampMs' in frame 0");

@@ -69,7 +69,9 @@ void expectError(std::string_view text, std::string_view part) {
 }
 
 TEST(Timeline, SaysWhatIsWrongAndWhere) {
-  expectError("", "is not JSON");
+  expectError("", "line.json, line 1: this is not JSON; was the file cut short?");
+  expectError("{\n\"seconds\": 1,\n\"events\": [}", "line.json, line 3: this is not JSON.");
+  expectError(R"({"seconds": 1, "seconds": 2})", "line.json has the key 'seconds' twice");
   expectError("[]", "is not an object");
   expectError(R"({"events": []})", "has no 'seconds'");
   expectError(R"({"seconds": 0, "events": [1]})", "'seconds' must be greater than 0");
@@ -86,6 +88,7 @@ TEST(Timeline, SaysWhatIsWrongAndWhere) {
   expectError(event(R"({"at": 0, "to": "nobody"})"), "a pose 'nobody'");
   expectError(event(R"({"at": 0, "to": "q"})"), "pose 'q' is not an object");
   expectError(event(R"({"at": 0, "to": {"a": "b"}})"), "a weight 'a' that is not a number");
+  expectError(event(R"({"at": 0, "to": {"a": 1e9}})"), "not a number within ±1,000,000");
   expectError(event(R"({"at": 0, "to": "p", "drive": "jump"})"), "accelerate-brake");
   expectError(event(R"({"at": 0, "to": "p", "speed": 3})"), "unknown key 'speed'");
   expectError(event(R"({"at": 0, "to": "p", "delay": -1})"), "'delay'");

@@ -45,7 +45,8 @@ TEST(WeightText, refusesWhatItDoesNotKnowAndSaysWhatThereIs) {
 TEST(WeightText, refusesWhatIsNoFiniteNumber) {
   for (const char* text : {"nan", "inf", "-inf", "1e999", "", "1x", " 1", "0x1", "1.5.2"})
     EXPECT_EQ(refusal(named(), std::string("jawOpen=") + text),
-              std::string("the weight of 'jawOpen' must be a finite number, not '") + text + "'");
+              std::string("the weight of 'jawOpen' must be a number within ±1,000,000, not '") +
+                  text + "'");
 }
 
 TEST(Find, answersByExactName) {
