@@ -3,8 +3,8 @@
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
-#include <utility>
 
+#include "sweepface/box.hpp"
 #include "sweepface/eval.hpp"
 
 namespace sweepface::cli {
@@ -13,14 +13,7 @@ namespace {
 Result<Vec3> pivotOf(const HeadArguments& a, const Rig& rig) {
   if (a.pivot.empty()) {
     const Tessellation grid(rig.surface, 1);
-    Vec3 low, high;
-    bool isFirst = true;
-    for (const Vec3& p : grid.positions(blend(rig, {}))) {
-      if (std::exchange(isFirst, false)) low = high = p;
-      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-    }
-    return 0.5 * (low + high);
+    return Box(grid.positions(blend(rig, {}))).centre();
   }
   const std::vector<std::string> parts = CLI::detail::split(a.pivot, ',');
   std::array<double, 3> p{};

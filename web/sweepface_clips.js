@@ -16,6 +16,8 @@ function numberIn(text) {
 }
 
 const isNumber = (value) => typeof value === 'number' && Number.isFinite(value);
+/** Whether a text can mean this as a weight; more is a slip. */
+const isWeight = (value) => isNumber(value) && Math.abs(value) <= 1e6;
 const isObject = (value) => typeof value === 'object' && value !== null && !Array.isArray(value);
 
 function parseJson(text, name) {
@@ -141,7 +143,7 @@ function readLiveLink(text, name, framesPerSecond) {
       throw fail(row, `the timecode '${timecode}' is not after the one before; sort the rows by time`);
     columns.forEach((c, k) => {
       const value = numberIn(cells[c]);
-      if (!Number.isFinite(value)) throw fail(row, `'${cells[c]}' in column ${c + 1} is not a finite number`);
+      if (!isWeight(value)) throw fail(row, `'${cells[c]}' in column ${c + 1} is not a number within ±1,000,000`);
       weights[f * names.length + k] = value;
     });
   });
@@ -170,7 +172,7 @@ function readAudio2Face(json, fail) {
   rows.forEach((row, f) => {
     if (!Array.isArray(row) || row.length !== names.length)
       throw fail(`has not ${names.length} numbers in weightMat[${f}], one for every name`);
-    if (!row.every(isNumber)) throw fail(`has a value that is not a number in weightMat[${f}]`);
+    if (!row.every(isWeight)) throw fail(`has a value that is not a number within ±1,000,000 in weightMat[${f}]`);
   });
   return new Clip(names, Float64Array.from(rows, (_, f) => f / exportFps), Float64Array.from(rows.flat()));
 }
@@ -313,7 +315,7 @@ function readEvent(event, poses, fail) {
   if (goals === undefined) throw fail(`goes to a pose '${wanted}' that 'poses' does not have`);
   if (!isObject(goals)) throw fail('goes neither to weights nor to a pose');
   for (const [weight, goal] of Object.entries(goals))
-    if (!isNumber(goal)) throw fail(`has a weight '${weight}' that is not a number`);
+    if (!isWeight(goal)) throw fail(`has a weight '${weight}' that is not a number within ±1,000,000`);
   const drive = {kind: event.drive ?? 'spring'};
   for (const key of DRIVE)
     if (key in event) drive[key] = event[key];

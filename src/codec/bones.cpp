@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "sweepface/box.hpp"
+
 namespace sweepface::codec {
 
 namespace {
@@ -40,10 +42,6 @@ void levelOut(const Hierarchy& hierarchy, std::vector<Index>& bones) {
 
 Bones::Bones(const Surface& surface, const Packing& packing, std::span<const Vec3> neutral)
     : unit_(kUnit * packing.targetStep) {
-  struct Box {
-    Vec3 least, most;
-    bool isEmpty = true;
-  };
   std::array<Box, kMostBones> boxes{};
   for (Index v = 0; v < static_cast<Index>(packing.bones.size()); ++v) {
     const Index bone = packing.bones[v];
@@ -51,17 +49,13 @@ Bones::Bones(const Surface& surface, const Packing& packing, std::span<const Vec
     const StoredVector& s = surface.stored(v);
     const Vec3& p = neutral[v];
     places_.push_back({v, bone, s.i + s.j == 0, p});
-    if (!places_.back().isPosition) continue;
-    auto& [least, most, isEmpty] = boxes[bone];
-    if (isEmpty) least = most = p, isEmpty = false;
-    least = {std::min(least.x, p.x), std::min(least.y, p.y), std::min(least.z, p.z)};
-    most = {std::max(most.x, p.x), std::max(most.y, p.y), std::max(most.z, p.z)};
+    if (places_.back().isPosition) boxes[bone].include(p);
   }
   for (Place& p : places_) {
     const Box& box = boxes[p.bone];
-    const Vec3 across = box.most - box.least;
+    const Vec3 across = box.size();
     const double size = std::max(across.x, std::max(across.y, across.z));
-    if (p.isPosition) p.at -= 0.5 * (box.least + box.most);
+    if (p.isPosition) p.at -= box.centre();
     p.at = (size > 0 ? 2 / size : 0) * p.at;
   }
 }

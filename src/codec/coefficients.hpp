@@ -115,7 +115,7 @@ class CoefficientCoder {
   // neutral.
   static constexpr std::uint16_t kNeutralMemory = 30, kTargetMemory = 16;
   static constexpr std::uint32_t kMostBits = 28;
-  static constexpr int kInputs = 5, kPhases = 6, kSets = 512;
+  static constexpr int kInputs = 5, kSets = 512;
 
   enum BitKind { kAny, kBelow, kVector, kZero, kSign, kMore };
 

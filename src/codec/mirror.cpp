@@ -4,6 +4,8 @@
 #include <cmath>
 #include <map>
 
+#include "sweepface/box.hpp"
+
 #include "codec/limits.hpp"
 #include "codec/mirror_spreader.hpp"
 
@@ -73,19 +75,15 @@ MirrorSeeds findMirror(const Surface& surface, std::span<const Vec3> neutral) {
   const std::vector<Vec3> positions = nodePositions(surface, neutral);
   MirrorSeeds seeds;
   if (positions.empty()) return seeds;
-  Vec3 low = positions[0], high = positions[0];
-  for (const Vec3& p : positions) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
+  const Box box(positions);
   constexpr double kNear = 2e-3;  // of the diagonal
-  const double reach = kNear * norm(high - low);
+  const double reach = kNear * norm(box.size());
   if (!(reach > 0) || !std::isfinite(reach)) return seeds;
   std::vector<Index> best;
   auto found = static_cast<std::ptrdiff_t>(positions.size() / 2);
   for (int axis = 0; axis < 3; ++axis) {
-    auto images =
-        imagesAcross(positions, axis, coordinate(low, axis) + coordinate(high, axis), reach);
+    auto images = imagesAcross(positions, axis,
+                               coordinate(box.low, axis) + coordinate(box.high, axis), reach);
     const auto count = std::ranges::count_if(images, [](Index n) { return n >= 0; });
     if (count <= found) continue;
     found = count;

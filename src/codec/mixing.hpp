@@ -12,11 +12,11 @@ namespace sweepface::codec {
 
 /// 65536 / (1 + e^(-x / 256)) for x in [-3072, 3072], by straight pieces.
 [[gnu::always_inline]] inline std::int32_t squash(std::int32_t x) {
-  static constexpr std::array<std::int32_t, 50> kAt{
+  static constexpr std::array<std::int32_t, 49> kAt{
       1,     1,     1,     2,     3,     5,     8,     13,    22,    36,    60,    98,    162,
       267,   439,   720,   1179,  1921,  3108,  4971,  7812,  11955, 17625, 24743, 32768, 40793,
       47911, 53581, 57724, 60565, 62428, 63615, 64357, 64816, 65097, 65269, 65374, 65438, 65476,
-      65500, 65514, 65523, 65528, 65531, 65533, 65534, 65535, 65535, 65535, 65535};
+      65500, 65514, 65523, 65528, 65531, 65533, 65534, 65535, 65535, 65535};
   if (x <= -3072) return kAt[0];
   if (x >= 3072) return kAt[48];
   const std::int32_t place = x + 3072, left = place >> 7, rest = place & 127;

@@ -58,20 +58,16 @@ class RangeDecoder {
     return bit;
   }
 
-  /// How many bytes were asked for beyond the last.
-  std::size_t overrun() const { return overrun_; }
   /// Whether all bytes have been looked at.
   bool exhausted() const { return at_ == bytes_.size(); }
 
  private:
   std::uint32_t next() {
-    if (at_ < bytes_.size()) return static_cast<unsigned char>(bytes_[at_++]);
-    ++overrun_;
-    return 0;
+    return at_ < bytes_.size() ? static_cast<unsigned char>(bytes_[at_++]) : 0;
   }
 
   std::string_view bytes_;
-  std::size_t at_ = 0, overrun_ = 0;
+  std::size_t at_ = 0;
   std::uint32_t low_ = 0, high_ = 0xffffffff, number_ = 0;
 };
 

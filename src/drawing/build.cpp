@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <limits>
 
+#include "sweepface/box.hpp"
 #include "sweepface/eval.hpp"
 
 #include "drawing/bend.hpp"
@@ -302,14 +303,10 @@ class Builder {
   }
 
   double diagonal() const {
-    const auto first = std::ranges::find_if(d_.nodes, [](const auto& n) { return bool(n.at); });
-    Vec3 low = *first->at, high = low;
-    for (const Drawing::Node& node : d_.nodes) {
-      const Vec3 p = node.at.value_or(low);
-      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-    }
-    return norm(high - low);
+    Box box;
+    for (const Drawing::Node& node : d_.nodes)
+      if (node.at) box.include(*node.at);
+    return norm(box.size());
   }
 
   // Names that are what a thing without one is called anyway are not kept.

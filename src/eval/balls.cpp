@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "sweepface/box.hpp"
+
 namespace sweepface {
 namespace {
 
@@ -55,15 +57,12 @@ std::vector<Part> partsOf(const Tessellation& grid) {
 /// |p|² = 2 c · p + (r² − |c|²) is linear in c and in what is in brackets.
 std::optional<Ball> ballOf(std::span<const Vec3> points) {
   if (points.size() < 50) return {};
-  Vec3 middle, low = points[0], high = points[0];
-  for (const Vec3& p : points) {
-    middle += p;
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
+  Vec3 middle;
+  for (const Vec3& p : points) middle += p;
   const auto count = static_cast<double>(points.size());
   middle = (1 / count) * middle;
-  const double size = norm(high - low);
+  const Vec3 box = Box(points).size();
+  const double size = norm(box);
   if (!(size > 0)) return {};
   std::array<Row, 4> m{};
   Row right{};
@@ -85,7 +84,6 @@ std::optional<Ball> ballOf(std::span<const Vec3> points) {
     const double off = norm(p - ball.centre) - ball.radius;
     squares += off * off;
   }
-  const Vec3 box = high - low;
   // A lens is round as well, but it is not most of a ball.
   if (!(std::sqrt(squares / count) <= kRound * ball.radius) ||
       !(std::min({box.x, box.y, box.z}) > 1.5 * ball.radius))

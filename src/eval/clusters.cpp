@@ -4,6 +4,8 @@
 #include <array>
 #include <numeric>
 
+#include "sweepface/box.hpp"
+
 #include "surface/sorting.hpp"
 
 namespace sweepface {
@@ -23,13 +25,9 @@ class Halving {
 
  private:
   int longestAxis(std::span<const Index> part) const {
-    Vec3 low = points_[part[0]], high = low;
-    for (const Index v : part) {
-      const Vec3& p = points_[v];
-      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-    }
-    const Vec3 size = high - low;
+    Box box;
+    for (const Index v : part) box.include(points_[v]);
+    const Vec3 size = box.size();
     return size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
   }
 

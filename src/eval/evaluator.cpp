@@ -7,6 +7,8 @@
 #include <optional>
 #include <string>
 
+#include "sweepface/box.hpp"
+
 #include "eval/clusters.hpp"
 #include "eval/row_differences.hpp"
 #include "eval/tile_packer.hpp"
@@ -20,16 +22,6 @@ float toFloat(double x) {
   return static_cast<float>(std::clamp(x, -most, most));
 }
 std::array<float, 3> toFloats(const Vec3& p) { return {toFloat(p.x), toFloat(p.y), toFloat(p.z)}; }
-
-double diagonal(std::span<const Vec3> points) {
-  if (points.empty()) return 0;
-  Vec3 low = points[0], high = points[0];
-  for (const Vec3& p : points) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  return norm(high - low);
-}
 
 class Compiler {
  public:

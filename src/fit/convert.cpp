@@ -2,6 +2,7 @@
 #include <cmath>
 #include <set>
 
+#include "sweepface/box.hpp"
 #include "sweepface/eval.hpp"
 #include "sweepface/fit.hpp"
 
@@ -16,15 +17,7 @@
 
 namespace sweepface {
 
-double diagonal(const PolygonMesh& mesh) {
-  if (mesh.positions.empty()) return 0;
-  Vec3 low = mesh.positions.front(), high = low;
-  for (const Vec3& p : mesh.positions) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  return norm(high - low);
-}
+double diagonal(const PolygonMesh& mesh) { return diagonal(std::span(mesh.positions)); }
 
 namespace {
 

@@ -7,20 +7,14 @@
 #include <fmt/format.h>
 #include <map>
 
+#include "sweepface/box.hpp"
+
 namespace sweepface::gltf {
 namespace {
 
 constexpr const char* extensionName = "KHR_mesh_quantization";
 
 double largestOf(const Vec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
-
-struct Box {
-  Vec3 low{INFINITY, INFINITY, INFINITY}, high{-INFINITY, -INFINITY, -INFINITY};
-  void include(const Vec3& p) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-};
 
 /// A number that single precision holds, as renderers will.
 double single(double value) { return static_cast<double>(static_cast<float>(value)); }
@@ -44,8 +38,7 @@ std::vector<Encoding> chooseEncodings(const BoundScene& scene, const Shapes& sha
     boxes[mesh].include(fromScene[mesh].point(shapes.neutral().positions[place]));
   });
   std::vector<double> half(parts.meshes.size(), 0.0);
-  for (std::size_t m = 0; m < half.size(); ++m)
-    half[m] = 0.5 * largestOf(boxes[m].high - boxes[m].low);
+  for (std::size_t m = 0; m < half.size(); ++m) half[m] = 0.5 * largestOf(boxes[m].size());
   for (const Index target : scene.targets) {
     const std::vector<Vec3> moves = shapes.target(target, false).positions;
     eachPlace([&](std::size_t mesh, Index place) {
@@ -54,7 +47,7 @@ std::vector<Encoding> chooseEncodings(const BoundScene& scene, const Shapes& sha
   }
   std::vector<Encoding> encodings;
   for (std::size_t m = 0; m < half.size(); ++m) {
-    const Vec3 c = 0.5 * (boxes[m].low + boxes[m].high);
+    const Vec3 c = boxes[m].centre();
     const Vec3 middle{single(c.x), single(c.y), single(c.z)};
     // Rounding the middle moves the cube by a little.
     encodings.push_back({true, middle, roomy(half[m] + largestOf(c - middle))});

@@ -7,6 +7,8 @@
 #include <tuple>
 #include <unordered_map>
 
+#include "sweepface/box.hpp"
+
 #include "mesh/union_find.hpp"
 
 namespace sweepface {
@@ -61,20 +63,15 @@ class PointGrid {
 std::vector<Index> imagesOfPoints(const GridMesh& mesh, std::span<const Vec3> positions) {
   std::vector<Vec3> points;
   for (const Index v : mesh.source) points.push_back(positions[v]);
-  Vec3 low = points[0], high = points[0];
-  for (Vec3 p : points)
-    for (int axis = 0; axis < 3; ++axis) {
-      coordinate(low, axis) = std::min(coordinate(low, axis), coordinate(p, axis));
-      coordinate(high, axis) = std::max(coordinate(high, axis), coordinate(p, axis));
-    }
+  Box box(points);
   constexpr double kNear = 1e-3;  // of the diagonal
-  const double cell = kNear * norm(high - low);
+  const double cell = kNear * norm(box.size());
   if (!(cell > 0) || !std::isfinite(cell)) return {};
   const PointGrid grid(points, cell);
   std::vector<Index> best;
   std::ptrdiff_t found = static_cast<std::ptrdiff_t>(points.size()) / 2;
   for (int axis = 0; axis < 3; ++axis) {
-    const double twice = coordinate(low, axis) + coordinate(high, axis);
+    const double twice = coordinate(box.low, axis) + coordinate(box.high, axis);
     std::vector<Index> images;
     for (Vec3 p : points) {
       coordinate(p, axis) = twice - coordinate(p, axis);

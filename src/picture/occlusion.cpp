@@ -6,24 +6,14 @@
 #include <limits>
 #include <numbers>
 
+#include "sweepface/box.hpp"
+
 #include "parallel/parallel.hpp"
 
 namespace sweepface {
 namespace {
 
 constexpr int kSkyDirections = 192, kLampDirections = 24;
-
-struct Box {
-  Vec3 low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
-
-  explicit Box(std::span<const Vec3> points) {
-    for (const Vec3& p : points) {
-      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-    }
-    if (points.empty()) low = high = {};
-  }
-};
 
 /// Directions spread evenly over the sphere (a Fibonacci lattice).
 std::vector<Vec3> sphere(int count) {
@@ -85,8 +75,8 @@ Result<Obstacles> Obstacles::make(std::span<const Vec3> positions,
   const auto noMemory = [] { return fail("There is not enough memory for the picture."); };
   Obstacles o;
   const Box box(positions);
-  o.centre_ = 0.5 * (box.low + box.high);
-  if (const double size = norm(box.high - box.low); size > 0) o.size_ = size;
+  o.centre_ = box.centre();
+  if (const double size = norm(box.size()); size > 0) o.size_ = size;
 
   o.device_.reset(rtcNewDevice(nullptr));
   if (!o.device_) return noMemory();

@@ -4,6 +4,7 @@
 #include <array>
 #include <fmt/format.h>
 
+#include "sweepface/box.hpp"
 #include "sweepface/gltf.hpp"
 
 #include "report/program.hpp"
@@ -16,16 +17,10 @@ constexpr std::array kBits{10, 12, 14};  // of positions; gltfpack's own choice 
 /// Coordinates of so many bits are no further off: gltfpack's grid has room for the neutral and
 /// for what all targets may add to it.
 double reachOf(const MeshRig& source, int bits) {
-  Vec3 low = source.neutral.positions[0], high = low;
-  const auto include = [&](const std::vector<Vec3>& positions) {
-    for (const Vec3& p : positions) {
-      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-    }
-  };
-  include(source.neutral.positions);
-  for (const MeshTarget& target : source.targets) include(target.positions);
-  const Vec3 size = high - low;
+  Box box(source.neutral.positions);
+  for (const MeshTarget& target : source.targets)
+    for (const Vec3& p : target.positions) box.include(p);
+  const Vec3 size = box.size();
   return 2 * std::max({size.x, size.y, size.z}) / ((1 << bits) - 1);
 }
 

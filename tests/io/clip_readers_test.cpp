@@ -97,7 +97,7 @@ TEST(ClipJson, SaysWhatIsWrong) {
   expectError(json(R"({"weightMat": [[1, 2]], "exportFps": 60, "facsNames": ["a"]})"),
               "has not 1 numbers in weightMat[0]");
   expectError(json(R"({"weightMat": [[null]], "exportFps": 60, "facsNames": ["a"]})"),
-              "not a number in weightMat[0]");
+              "within ±1,000,000 in weightMat[0]");
   expectError(json(std::string(10'000, '[')), "nested too deeply");
 }
 

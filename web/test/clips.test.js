@@ -115,7 +115,7 @@ for (const [file, text, words] of [
        ['a.csv', 'Timecode,,JawOpen\n0,1,1', 'line 1: column 2 has no heading'],
        ['a.csv', 'Timecode,JawOpen\n0,1\n1', 'line 3: there are 1 values under 2 headings'],
        ['a.csv', 'Timecode,JawOpen\n\n0,1\n0,1', 'line 4: the timecode \'0\' is not after the one before'],
-       ['a.csv', 'Timecode,JawOpen\n0,nan', 'line 2: \'nan\' in column 2 is not a finite number'],
+       ['a.csv', 'Timecode,JawOpen\n0,nan', 'line 2: \'nan\' in column 2 is not a number within ±1,000,000'],
        ['a.csv', 'Timecode,JawOpen\n0:0:1,1', '\'0:0:1\' is not a timecode'],
        ['a.csv', 'Timecode,JawOpen\n0:0:1:75,1', 'counts more than 60 frames a second'],
        ['a.json', '{', 'is not JSON'],
@@ -129,7 +129,7 @@ for (const [file, text, words] of [
        ['a.json', '{"weightMat": [[1]], "exportFps": 30, "facsNames": []}', 'has no list \'facsNames\''],
        ['a.json', '{"weightMat": [], "exportFps": 30, "facsNames": ["a"]}', 'has no frames in \'weightMat\''],
        ['a.json', '{"weightMat": [[1, 2]], "exportFps": 30, "facsNames": ["a"]}', 'has not 1 numbers in weightMat[0]'],
-       ['a.json', '{"weightMat": [["x"]], "exportFps": 30, "facsNames": ["a"]}', 'is not a number in weightMat[0]'],
+       ['a.json', '{"weightMat": [["x"]], "exportFps": 30, "facsNames": ["a"]}', 'is not a number within ±1,000,000 in weightMat[0]'],
        ['t.json', '{"events": []}', 'the file has no \'seconds\''],
        ['t.json', '{"seconds": 1, "events": []}', '\'events\' must be a list of at least one event'],
        ['t.json', '{"seconds": 0, "events": []}', '\'seconds\' must be greater than 0'],
@@ -139,7 +139,7 @@ for (const [file, text, words] of [
        ['t.json', '{"seconds": 1, "events": [{"at": 2, "to": {}}]}', '\'events\' hold one that is later than \'seconds\''],
        ['t.json', '{"seconds": 1, "events": [{"at": 0}]}', 'events[0] needs one of \'to\' and \'only\''],
        ['t.json', '{"seconds": 1, "events": [{"at": 0, "to": "grin"}]}', 'goes to a pose \'grin\''],
-       ['t.json', '{"seconds": 1, "events": [{"at": 0, "to": {"jawOpen": "x"}}]}', 'has a weight \'jawOpen\' that is not a number']])
+       ['t.json', '{"seconds": 1, "events": [{"at": 0, "to": {"jawOpen": "x"}}]}', 'has a weight \'jawOpen\' that is not a number within ±1,000,000']])
   test(`${file} of ${JSON.stringify(text).slice(0, 60)} is refused in the tool's words`, () => {
     const read = file === 't.json' ? readTimeline : readClip, native = refusal(file, text);
     assert.ok(native.includes(words), native);

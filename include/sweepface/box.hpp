@@ -1,0 +1,35 @@
+#pragma once
+
+#include <algorithm>
+#include <limits>
+#include <span>
+
+#include "sweepface/vec.hpp"
+
+namespace sweepface {
+
+/// The smallest box along the axes around what it includes.
+struct Box {
+  static constexpr double kNowhere = std::numeric_limits<double>::infinity();
+  Vec3 low{kNowhere, kNowhere, kNowhere}, high{-kNowhere, -kNowhere, -kNowhere};
+
+  Box() = default;
+  explicit Box(std::span<const Vec3> points) {
+    for (const Vec3& p : points) include(p);
+  }
+
+  void include(const Vec3& p) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  bool isEmpty() const { return low.x > high.x; }
+
+  /// Zero without points.
+  Vec3 size() const { return isEmpty() ? Vec3{} : high - low; }
+  Vec3 centre() const { return isEmpty() ? Vec3{} : 0.5 * (low + high); }
+};
+
+/// From corner to corner of the box around the points, 0 without points.
+inline double diagonal(std::span<const Vec3> points) { return norm(Box(points).size()); }
+
+}  // namespace sweepface
