@@ -27,7 +27,7 @@ struct ConvertArguments {
   std::string strip;
   double tolerance = 0, normalLimit = 0, normalTolerance = 0;
   std::size_t maxBytes = 0;
-  int threads = 0;
+  int threads = 0, uvBits = 14;
   bool pack = false, arcs = false, noShapes = false, bare = false, quiet = false, json = false;
 };
 
@@ -58,6 +58,14 @@ void addOptions(CLI::App& app, ConvertArguments& a) {
       ->check(positiveNumber(90))
       ->needs("--pack")
       ->type_name("DEGREES");
+  app.add_option(
+         "--uv-bits", a.uvBits,
+         "With --pack: texture coordinates become multiples of 1/2^N of the texture, N from "
+         "8 to 16")
+      ->check(wholeNumber(8, 16))
+      ->capture_default_str()
+      ->needs("--pack")
+      ->type_name("N");
   app.add_option(
          "--max-bytes", a.maxBytes,
          "Pack, and look for the smallest tolerance whose file takes at most N bytes: several "
@@ -206,6 +214,7 @@ ConvertOptions optionsOf(const ConvertArguments& a, ProgressBar& bar) {
   options.normalLimit = a.normalLimit;
   options.pack = a.pack;
   options.normalTolerance = a.normalTolerance;
+  options.textureBits = a.uvBits;
   options.chooseShapes = !a.noShapes;
   options.progress = [&](std::string_view what, double done) { bar.show(what, done); };
   options.cancel = &interrupted;

@@ -201,7 +201,7 @@ function scoresOf(frame, f, fail) {
   if (!Array.isArray(categories)) throw fail(`has no 'categories' in frame ${f}`);
   return new Map(categories.map((category) => {
     const shape = category?.categoryName ?? category?.category_name;
-    if (typeof shape !== 'string' || !isNumber(category.score))
+    if (typeof shape !== 'string' || !isWeight(category.score))
       throw fail(`has a category without 'categoryName' and 'score' in frame ${f}`);
     return [shape, category.score];
   }));

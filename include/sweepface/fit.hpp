@@ -26,6 +26,9 @@ struct ConvertOptions {
   /// Where it packs: what is written is at most this far off the source's vertex normals, degrees,
   /// root mean square over all vertices of all poses; 0: whatever the limit above brings.
   double normalTolerance = 0;
+  /// Where it packs: texture coordinates become multiples of 1 / 2^textureBits, 8 to 16. 14 bits
+  /// are at most an eighth of a texel off in a texture of 4096 × 4096.
+  int textureBits = 14;
   /// Try shape parameters on every ribbon and keep what lowers the error.
   bool chooseShapes = true;
   /// Called now and then with what is going on and how far it is, 0 to 1.

@@ -96,6 +96,8 @@ class Converter {
     if (source_.neutral.positions.empty())
       return fail("the neutral has no vertices; there is no surface to fit");
     if (auto ok = checkNames(source_.targets); !ok) return std::unexpected(ok.error());
+    if (options_.textureBits < 8 || options_.textureBits > 16)
+      return fail("packed texture coordinates have 8 to 16 bits, not ", options_.textureBits);
     const double size = diagonal(source_.neutral);
     if (!(size > 0))
       return fail("all vertices of the neutral stand at one place; there is no surface to fit");
@@ -131,15 +133,21 @@ class Converter {
     if (options_.progress) options_.progress(what, done_);
   }
 
+  Result<void> packOnce(Rig& rig, double tolerance, double angle) const {
+    const auto proceed = [&](double) { return !cancelled(); };
+    const Result<void> ok = quantise(rig, source_, tolerance, angle, proceed);
+    rig.packing.textureBits = options_.textureBits;
+    return ok;
+  }
+
   // Aims at smaller angles until they are as small as they must be.
   Result<void> pack(Rig& rig, double tolerance, double angle) {
-    const auto proceed = [&](double) { return !cancelled(); };
-    if (!(options_.normalTolerance > 0)) return quantise(rig, source_, tolerance, angle, proceed);
+    if (!(options_.normalTolerance > 0)) return packOnce(rig, tolerance, angle);
     const Rig fitted = rig;
     constexpr int kTries = 8;
     for (int attempt = 0; attempt < kTries; ++attempt) {
       rig = fitted;
-      if (auto ok = quantise(rig, source_, tolerance, angle, proceed); !ok) return ok;
+      if (auto ok = packOnce(rig, tolerance, angle); !ok) return ok;
       const double found = normalRms(rig, source_);
       if (found <= options_.normalTolerance) return {};
       angle *= std::clamp(0.8 * options_.normalTolerance / found, 0.2, 0.8);

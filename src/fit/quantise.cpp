@@ -42,8 +42,6 @@ constexpr int kFaithful = 2;
 constexpr int kMostForFolds = 2;
 // What the search keeps to, of the tolerance: it counts in single precision.
 constexpr double kBound = 0.995;
-// A quarter of a texel of a texture of 4096 x 4096.
-constexpr int kTextureBits = 14;
 
 class Quantiser {
  public:
@@ -58,7 +56,6 @@ class Quantiser {
     rig.packing = {};
     rig.packing.neutralStep = kNeutralStep * tolerance;
     rig.packing.targetStep = kTargetStep * tolerance;
-    rig.packing.textureBits = kTextureBits;
     const codec::MirrorSeeds seeds = codec::findMirror(rig.surface, rig.neutral);
     rig.packing.axis = seeds.axis;
     rig.packing.mirror = seeds.pairs;

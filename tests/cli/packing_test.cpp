@@ -23,6 +23,33 @@ TEST_F(Pack, LeavesPartsOut) {
   EXPECT_LT(bare["bytes"], whole["bytes"]);
 }
 
+TEST_F(Pack, RoundsTextureCoordinatesAsToldAndNoFurther) {
+  makeRig();
+  const auto packed = [&](const std::string& options) {
+    EXPECT_EQ(
+        run("convert neutral.obj targets -o face.sweep --tolerance 0.01 --pack " + options).code,
+        0);
+    EXPECT_EQ(run("export face.sweep -o out.obj --source-order").code, 0);
+    return mesh("out.obj").polygons;
+  };
+  for (const auto& [options, bits] : {std::pair{"", 14}, {"--uv-bits 8", 8}}) {
+    const Polygons found = packed(options);
+    const Polygons source = mesh("neutral.obj").polygons;
+    ASSERT_EQ(found.cornerTexcoords.size(), source.cornerTexcoords.size());
+    double most = 0;
+    for (std::size_t c = 0; c < source.cornerTexcoords.size(); ++c) {
+      const Vec2 a = source.texcoords[source.cornerTexcoords[c]],
+                 b = found.texcoords[found.cornerTexcoords[c]];
+      most = std::max({most, std::abs(a.x - b.x), std::abs(a.y - b.y)});
+      EXPECT_EQ(std::remainder(b.x * (1 << bits), 1), 0);
+    }
+    EXPECT_LE(most, 0.5 / (1 << bits));
+    EXPECT_GT(most, 0);
+  }
+  EXPECT_TRUE(fails("convert neutral.obj -o face.sweep --pack --uv-bits 7", "--uv-bits", 2));
+  EXPECT_TRUE(fails("convert neutral.obj -o face.sweep --uv-bits 12", "--pack", 2));
+}
+
 TEST_F(Pack, WithoutItsOrderAFaceStillExportsButSaysSo) {
   makeRig();
   ASSERT_EQ(run("convert neutral.obj targets -o bare.sweep --tolerance 0.01 --strip order").code,
