@@ -15,6 +15,7 @@ export const SWEEPFACE_GLSL = `
     return mat4x3(sweepfaceMode(modes, k), sweepfaceMode(modes, k + 1),
                   sweepfaceMode(modes, k + 2), sweepfaceMode(modes, k + 3));
   }
+  vec3 sweepfaceUnit(vec3 a) { return a * inversesqrt(max(dot(a, a), 1e-36)); }  // finite at poles
 
   vec3 sweepfacePosition(vec3 neutral, uvec3 place, highp isampler2D basis, highp isampler2D modes, float factor) {
     int first = int(place.x), at = int(place.y >> 6), texels = int(place.y & 63u);
@@ -34,8 +35,7 @@ export const SWEEPFACE_GLSL = `
       b += four * sweepfaceBasis(basis, first + texels + t);
     }
     float scale = uintBitsToFloat(place.z) * factor;
-    vec3 normal = cross(along + scale * a, across + scale * b);
-    return normal * inversesqrt(max(dot(normal, normal), 1e-30));  // finite at poles
+    return sweepfaceUnit(cross(sweepfaceUnit(along + scale * a), sweepfaceUnit(across + scale * b)));
   }`;
 
 const WIDTH = 1024;
