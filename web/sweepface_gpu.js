@@ -41,10 +41,9 @@ export const SWEEPFACE_GLSL = `
 const WIDTH = 1024;
 
 /** A texture of four integers a texel, filled up to whole rows. */
-function texture(numbers) {
-  const height = Math.max(1, Math.ceil(numbers.length / (4 * WIDTH)));
-  const data = new Int16Array(4 * WIDTH * height);
-  data.set(numbers);
+function texture(length, ...parts) {
+  const height = Math.max(1, Math.ceil(length / (4 * WIDTH))), data = new Int16Array(4 * WIDTH * height);
+  parts.reduce((at, part) => (data.set(part, at), at + part.length), 0);
   const made = new DataTexture(data, WIDTH, height, RGBAIntegerFormat, ShortType);
   made.internalFormat = 'RGBA16I';
   made.minFilter = made.magFilter = NearestFilter;
@@ -52,25 +51,26 @@ function texture(numbers) {
   return made;
 }
 
-/** The tables of positions or of tangents as textures. */
-class Tables {
-  constructor(face, tangents) {
-    const {basis, places, neutral, modes} = face.shaderTables(tangents);
-    this.tangents = tangents;
-    this.places = places;
-    this.neutral = neutral;
-    this.modeCount = modes;
-    this.basis = texture(basis);
-    this.modes = texture(new Int16Array(4 * modes));
-    this.factor = {value: 0};
+/** What the shader reads: the tables of positions and, behind them in the same textures, those of tangents. */
+class Textures {
+  constructor(positions, tangents) {
+    for (let k = 0; k < tangents.places.length; k += 3) {
+      tangents.places[k] += positions.basis.length / 4;
+      tangents.places[k + 1] += 64 * positions.modes;
+    }
+    this.between = 4 * positions.modes;
+    this.end = this.between + 4 * tangents.modes;
+    this.basis = texture(positions.basis.length + tangents.basis.length, positions.basis, tangents.basis);
+    this.modes = texture(this.end);
+    this.factor = {value: 0};  // of the weights, and so the same for both
   }
 
   update(face) {
-    this.factor.value = face.shaderModes(this.modes.image.data.subarray(0, 4 * this.modeCount), this.tangents);
+    const numbers = this.modes.image.data;
+    this.factor.value = face.shaderModes(numbers.subarray(0, this.between));
+    face.shaderModes(numbers.subarray(this.between, this.end), true);
     this.modes.needsUpdate = true;
   }
-
-  get bytes() { return this.basis.image.data.byteLength + this.modes.image.data.byteLength; }
 
   dispose() {
     this.basis.dispose();
@@ -90,10 +90,11 @@ function spread(face, perPoint, size, from = 0, stride = size) {
 
 /** A face in a scene that follows its weights without its vertices leaving the graphics card. */
 export class SweepfaceGpuMesh extends FaceMesh {
-  #tables;
+  #textures;
 
   constructor(face, materials) {
-    const positions = new Tables(face, false), tangents = new Tables(face, true);
+    const positions = face.shaderTables(), tangents = face.shaderTables(true);
+    const textures = new Textures(positions, tangents);
     const geometry = geometryOf(face, {
       position: spread(face, positions.neutral, 3),
       sweepPlace: spread(face, positions.places, 3),
@@ -103,7 +104,7 @@ export class SweepfaceGpuMesh extends FaceMesh {
     });
     super(face, geometry, materials);
     this.frustumCulled = false;  // bounds are those of the neutral
-    this.#tables = [positions, tangents];
+    this.#textures = textures;
     this.customDepthMaterial = new MeshDepthMaterial({depthPacking: RGBADepthPacking});  // for shadows
     this.customDistanceMaterial = new MeshDistanceMaterial();
     for (const material of this.#materials) this.#patch(material);
@@ -113,15 +114,11 @@ export class SweepfaceGpuMesh extends FaceMesh {
   get #materials() { return [this.material, this.customDepthMaterial, this.customDistanceMaterial].flat(); }
 
   #patch(material) {
-    const [positions, tangents] = this.#tables;
+    const {basis, modes, factor} = this.#textures;
     material.onBeforeCompile = (shader) => {
-      Object.assign(shader.uniforms, {
-        sweepBasis: {value: positions.basis}, sweepModes: {value: positions.modes},
-        sweepTangentBasis: {value: tangents.basis}, sweepTangentModes: {value: tangents.modes},
-        sweepFactor: positions.factor  // of the weights, and so that of tangents
-      });
+      Object.assign(shader.uniforms, {sweepBasis: {value: basis}, sweepModes: {value: modes}, sweepFactor: factor});
       shader.vertexShader = `
-        uniform highp isampler2D sweepBasis, sweepTangentBasis, sweepModes, sweepTangentModes;
+        uniform highp isampler2D sweepBasis, sweepModes;
         uniform float sweepFactor;
         in uvec3 sweepPlace, sweepTangentPlace;
         in vec3 sweepAcross;
@@ -129,22 +126,20 @@ export class SweepfaceGpuMesh extends FaceMesh {
         ` + shader.vertexShader
         .replace('#include <beginnormal_vertex>', `
           vec3 objectNormal = sweepfaceNormal(
-            normal, sweepAcross, sweepTangentPlace, sweepTangentBasis, sweepTangentModes, sweepFactor);`)
+            normal, sweepAcross, sweepTangentPlace, sweepBasis, sweepModes, sweepFactor);`)
         .replace('#include <begin_vertex>', `
           vec3 transformed = sweepfacePosition(position, sweepPlace, sweepBasis, sweepModes, sweepFactor);`);
     };
   }
 
   /** Bytes of textures on the graphics card, and of them those that change every frame. */
-  get textureBytes() { return this.#tables.reduce((sum, {bytes}) => sum + bytes, 0); }
-  get frameBytes() { return this.#tables.reduce((sum, {modes}) => sum + modes.image.data.byteLength, 0); }
+  get textureBytes() { return this.#textures.basis.image.data.byteLength + this.frameBytes; }
+  get frameBytes() { return this.#textures.modes.image.data.byteLength; }
 
-  show() {
-    for (const tables of this.#tables) tables.update(this.face);
-  }
+  show() { this.#textures.update(this.face); }
 
   dispose() {
-    for (const tables of this.#tables) tables.dispose();
+    this.#textures.dispose();
     this.customDepthMaterial.dispose();
     this.customDistanceMaterial.dispose();
     super.dispose();
