@@ -40,6 +40,7 @@ void playCrowd(benchmark::State& state) {
     });
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(faces));
 }
+
 void upToAllCores(benchmark::internal::Benchmark* crowd) {
   crowd->ArgNames({"faces", "threads"});
   for (std::int64_t threads = 1; threads <= std::thread::hardware_concurrency(); threads *= 2)

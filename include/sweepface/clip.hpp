@@ -7,7 +7,6 @@
 
 #include "sweepface/result.hpp"
 #include "sweepface/vec.hpp"
-#include "sweepface/weights.hpp"
 
 namespace sweepface {
 

@@ -39,7 +39,8 @@ struct Brush {
   bool alongSurface = true;  ///< distances along the curves of the neutral, or through space
 };
 
-/// Shares of the nodes [nodes]. The fading is twice continuously differentiable in the distance.
+/// Shares of the nodes [nodes]. The fading is twice continuously differentiable in the distance. A
+/// brush that reaches no node is refused.
 Result<std::vector<double>> paint(const Rig& rig, const Brush& brush);
 
 /// `count` ≥ 2 neighbouring bands that cover the face and fade into each other: the first is what

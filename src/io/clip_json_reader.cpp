@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "sweepface/clip.hpp"
+#include "sweepface/weights.hpp"
 
 #include "io/json_text.hpp"
 

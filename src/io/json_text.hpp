@@ -77,6 +77,8 @@ inline Result<nlohmann::json> parseJson(std::string_view text, std::string_view 
     return fail(fmt::format("{}, line {}: this is not JSON{}", name,
                             1 + std::ranges::count(before, '\n'),
                             error.byte > text.size() ? "; was the file cut short?" : "."));
+  } catch (const nlohmann::json::out_of_range&) {
+    return fail(fmt::format("{} has a number that is too large to be held.", name));
   }
 }
 

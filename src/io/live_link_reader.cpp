@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "sweepface/clip.hpp"
+#include "sweepface/weights.hpp"
 
 #include "io/text.hpp"
 

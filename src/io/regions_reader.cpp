@@ -1,5 +1,3 @@
-#include <algorithm>
-
 #include "sweepface/region_file.hpp"
 
 #include "io/json_fields.hpp"
@@ -104,8 +102,6 @@ Result<void> addRegion(const Rig& rig, const PaintedRegion& painted, std::vector
   if (painted.bands > 1) return addBands(rig, painted, regions);
   auto shares = paint(rig, painted.brush);
   if (!shares) return std::unexpected(shares.error());
-  if (std::ranges::all_of(*shares, [](double share) { return share == 0; }))
-    return fail("It reaches no node of the face; give it a larger 'whole' or 'fade'.");
   regions.push_back({painted.name, painted.matter, std::move(*shares)});
   return {};
 }

@@ -62,6 +62,8 @@ class Painter {
         return fail("The share of node '" + name + "' is not from 0 to 1.");
       own_[*node] = share;
     }
+    if (std::ranges::all_of(own_, [](double share) { return share == 0; }))
+      return fail("It reaches no node of the face; give it a larger 'whole' or 'fade'.");
     return own_;
   }
 

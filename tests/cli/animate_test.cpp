@@ -1,8 +1,3 @@
-#include <csignal>
-#include <fcntl.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include "cli/tool.hpp"
 
 namespace sweepface {
@@ -71,24 +66,14 @@ TEST_F(Animate, WritesFinerMeshes) {
 TEST_F(Animate, LeavesOnlyWholeFramesOnInterrupt) {
   convertRig();
   const std::filesystem::path face = folder / "face.sweep", frames = folder / "frames";
-  const pid_t child = fork();
+  const pid_t child = start(
+      {"animate", face.string(), "--to", "smile=1", "--frames", "100000", "-o", frames.string()});
   ASSERT_GE(child, 0);
-  if (child == 0) {
-    std::signal(SIGINT, SIG_DFL);
-    const int errors = open((folder / ".err").c_str(), O_CREAT | O_WRONLY, 0600);
-    dup2(errors, STDERR_FILENO);
-    execl(SWEEPFACE_TOOL, SWEEPFACE_TOOL, "animate", face.c_str(), "--to", "smile=1", "--frames",
-          "100000", "-o", frames.c_str(), nullptr);
-    _exit(127);
-  }
   while (!std::filesystem::exists(frames / "frame_0000.obj") &&
          waitpid(child, nullptr, WNOHANG) == 0)
     usleep(1000);
   kill(child, SIGINT);
-  int status = 0;
-  waitpid(child, &status, 0);
-  ASSERT_TRUE(WIFEXITED(status));
-  EXPECT_EQ(WEXITSTATUS(status), 130);
+  EXPECT_EQ(codeOf(child), 130);
   EXPECT_TRUE(contents(folder / ".err").starts_with("sweepface: Interrupted after "));
   for (const auto& file : std::filesystem::directory_iterator(frames))
     EXPECT_EQ(file.path().extension(), ".obj") << file.path();

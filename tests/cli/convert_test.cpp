@@ -1,8 +1,5 @@
-#include <csignal>
-#include <fcntl.h>
 #include <nlohmann/json.hpp>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include "cli/tool.hpp"
 
@@ -143,23 +140,13 @@ TEST_F(Convert, StopsOnInterrupt) {
   // comes.
   const std::filesystem::path pipe = folder / "neutral.obj", output = folder / "face.sweep";
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
-  const pid_t child = fork();
+  const pid_t child = start({"convert", pipe.string(), "-o", output.string()});
   ASSERT_GE(child, 0);
-  if (child == 0) {
-    std::signal(SIGINT, SIG_DFL);
-    const int errors = open((folder / ".err").c_str(), O_CREAT | O_WRONLY, 0600);
-    dup2(errors, STDERR_FILENO);
-    execl(SWEEPFACE_TOOL, SWEEPFACE_TOOL, "convert", pipe.c_str(), "-o", output.c_str(), nullptr);
-    _exit(127);
-  }
   const int writer = open(pipe.c_str(), O_WRONLY);
   ASSERT_GE(writer, 0);
   kill(child, SIGINT);
   close(writer);
-  int status = 0;
-  waitpid(child, &status, 0);
-  ASSERT_TRUE(WIFEXITED(status));
-  EXPECT_EQ(WEXITSTATUS(status), 130);
+  EXPECT_EQ(codeOf(child), 130);
   EXPECT_EQ(contents(folder / ".err"), "sweepface: Interrupted; nothing was written.\n");
   EXPECT_EQ(contents(output), "old");
 }

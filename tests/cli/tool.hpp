@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <csignal>
 #include <cstdlib>
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <fstream>
 #include <functional>
@@ -13,6 +15,8 @@
 #include <map>
 #include <string>
 #include <sys/wait.h>
+#include <unistd.h>
+#include <vector>
 
 #include "sweepface/io.hpp"
 
@@ -91,6 +95,27 @@ class Tool : public ::testing::Test {
     const int status = std::system(command.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(folder / ".out"),
             contents(folder / ".err")};
+  }
+
+  /// Starts the tool by itself, with paths as they are; its errors go to .err in the folder.
+  pid_t start(const std::vector<std::string>& arguments) {
+    std::vector<char*> words{const_cast<char*>(SWEEPFACE_TOOL)};
+    for (const std::string& word : arguments) words.push_back(const_cast<char*>(word.c_str()));
+    words.push_back(nullptr);
+    const std::string errors = (folder / ".err").string();
+    const pid_t child = fork();
+    if (child != 0) return child;
+    std::signal(SIGINT, SIG_DFL);
+    dup2(open(errors.c_str(), O_CREAT | O_WRONLY, 0600), STDERR_FILENO);
+    execv(SWEEPFACE_TOOL, words.data());
+    _exit(127);
+  }
+
+  /// How a started tool ended, or -1.
+  static int codeOf(pid_t child) {
+    int status = 0;
+    waitpid(child, &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }
 
   void makeRig() {

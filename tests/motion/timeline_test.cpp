@@ -72,6 +72,7 @@ TEST(Timeline, SaysWhatIsWrongAndWhere) {
   expectError("", "line.json, line 1: this is not JSON; was the file cut short?");
   expectError("{\n\"seconds\": 1,\n\"events\": [}", "line.json, line 3: this is not JSON.");
   expectError(R"({"seconds": 1, "seconds": 2})", "line.json has the key 'seconds' twice");
+  expectError(R"({"seconds": 1e999})", "line.json has a number that is too large to be held.");
   expectError("[]", "is not an object");
   expectError(R"({"events": []})", "has no 'seconds'");
   expectError(R"({"seconds": 0, "events": [1]})", "'seconds' must be greater than 0");
