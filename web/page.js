@@ -10,7 +10,7 @@ import {SweepfaceMesh} from 'sweepface/three';
 const at = (id) => document.getElementById(id);
 const view = at('view'), stage = at('stage'), message = at('message');
 
-const renderer = new WebGLRenderer({canvas: view, antialias: true, alpha: true});
+const renderer = makeRenderer();
 renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
 const scene = new Scene(), camera = new PerspectiveCamera(26, 1, 0.1, 1000);
 const controls = new OrbitControls(camera, view);
@@ -23,6 +23,15 @@ key.position.set(-1, 1.2, 1.6);
 rim.position.set(1.4, 0.6, -1.5);
 scene.add(new HemisphereLight(0xffffff, 0x8a7668, 1.3), camera);
 camera.add(key, key.target, rim, rim.target);
+
+function makeRenderer() {
+  try {
+    return new WebGLRenderer({canvas: view, antialias: true, alpha: true});
+  } catch (error) {
+    complain(new Error('Faces are drawn with WebGL 2, which this browser or its settings do not offer.'));
+    throw error;
+  }
+}
 
 /** What is seen of a head's inside, through eyes and mouth; and its edges. */
 const inside = new MeshBasicMaterial({color: 0x2b1a14, side: BackSide});
@@ -37,12 +46,18 @@ function colourOf(name) {
 
 let bytes, mesh, lines;  // the file, the face on show and, if wanted, its edges
 let loading = 0;         // milliseconds from the bytes to the first frame
+let asked = 0;           // how often a file was asked for; the last is shown, whichever is there first
 
-/** Shows a file, or says why it cannot be. */
-async function show(buffer, name, keepView = false) {
+/** Shows a file, from its bytes or what will be its bytes, or says why it cannot be. */
+async function show(source, name, keepView = false) {
+  const mine = ++asked;
   try {
+    const buffer = await source;
+    if (mine !== asked) return;
+    if (!buffer) return invite();
     const began = performance.now();
     const face = await Sweepface.load(buffer, {name, lod: Number(at('lod').value)});
+    if (mine !== asked) return face.dispose();
     const weights = mesh && keepView ? mesh.face.weights : {};
     remove();
     bytes = buffer;
@@ -62,7 +77,7 @@ async function show(buffer, name, keepView = false) {
     tellFigures();
     setTimeout(() => prepare(face), 50);  // once the first frame is on the screen
   } catch (error) {
-    complain(error);
+    if (mine === asked) complain(error);
   }
 }
 
@@ -78,6 +93,10 @@ function prepare(face) {
 function complain(error) {
   message.textContent = error.message;
   message.className = 'error';
+}
+
+function invite() {
+  message.textContent = 'Drop a .sweep file here, or open one.';
 }
 
 function tellName(name) {
@@ -130,13 +149,15 @@ function buildSliders() {
   sliders.clear();
   at('sliders').replaceChildren(...mesh.face.names.map((name) => {
     const row = document.createElement('label'), text = document.createElement('span');
-    const number = document.createElement('output'), input = document.createElement('input');
+    const number = document.createElement('span'), input = document.createElement('input');
     row.className = 'slider';
     text.textContent = name;
+    number.className = 'number';
+    number.ariaHidden = 'true';  // the slider says it, and its name is the text alone
     Object.assign(input, {type: 'range', min: 0, max: 1, step: 0.01, name});
     input.addEventListener('input', () => {
       mesh.setWeights({[name]: input.valueAsNumber});
-      number.value = input.valueAsNumber.toFixed(2);
+      number.textContent = input.valueAsNumber.toFixed(2);
       wake();
     });
     row.append(text, number, input);
@@ -150,8 +171,8 @@ function buildSliders() {
 function followWeights() {
   for (const [name, weight] of Object.entries(mesh.face.weights)) {
     const {input, number} = sliders.get(name);
-    if (document.activeElement !== input || number.value === '') input.value = weight;
-    number.value = weight.toFixed(2);
+    if (document.activeElement !== input || number.textContent === '') input.value = weight;
+    number.textContent = weight.toFixed(2);
   }
 }
 
@@ -233,7 +254,14 @@ function frame(now) {
 }
 
 async function open(file) {
-  if (file) await show(await file.arrayBuffer(), file.name);
+  if (file) await show(file.arrayBuffer(), file.name);
+}
+
+/** The bytes behind a URL; of one that nobody asked for, nothing if it is not there. */
+async function download(url, isWanted) {
+  const response = await fetch(url).catch(() => undefined);
+  if (response?.ok) return response.arrayBuffer();
+  if (isWanted) throw new Error(`${url} cannot be had: the server answers ${response?.status ?? 'nothing'}.`);
 }
 
 at('file').addEventListener('change', (event) => open(event.target.files[0]));
@@ -249,6 +277,7 @@ at('lines').addEventListener('change', () => {
   wake();
 });
 controls.addEventListener('change', wake);
+view.addEventListener('webglcontextrestored', wake);
 new ResizeObserver(resize).observe(stage);
 
 for (const type of ['dragover', 'dragleave', 'drop'])
@@ -259,10 +288,8 @@ for (const type of ['dragover', 'dragleave', 'drop'])
   });
 
 resize();
-const start = new URLSearchParams(location.search).get('face') ?? 'sample.sweep';
-const response = await fetch(start).catch(() => undefined);
-if (response?.ok) await show(await response.arrayBuffer(), start.split('/').pop());
-else message.textContent = 'Drop a .sweep file here, or open one.';
+const wanted = new URLSearchParams(location.search).get('face'), start = wanted ?? 'sample.sweep';
+await show(download(start, wanted !== null), start.split('/').pop());
 
 /** For the console. */
 globalThis.sweepface = {get mesh() { return mesh; }, get loading() { return loading; }, show};

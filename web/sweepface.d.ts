@@ -21,8 +21,11 @@ export interface Drive {
   restitution?: number;
 }
 
+/** A file in memory, Node's `Buffer` and shared memory included. */
+export type Bytes = ArrayBuffer | ArrayBufferView;
+
 /** Where the WebAssembly module is, if not beside sweepface.js. */
-export type ModuleSource = string | URL | BufferSource | WebAssembly.Module;
+export type ModuleSource = string | URL | Bytes | WebAssembly.Module;
 
 /** A part of the face that is heavier or stiffer than the rest or sets out later: docs/regions.md. */
 export interface Region {
@@ -60,7 +63,7 @@ export interface Look {
 export interface LoadOptions {
   /** 0: the source's own vertices; N: every edge of the source cut into N, up to 64. */
   lod?: number;
-  /** Instead of `lod`, as fine as one of these asks: no curve has a segment longer than `edgeLength` or is further
+  /** One of these instead of `lod`, as fine as it asks: no curve has a segment longer than `edgeLength` or is further
    * than `error` from its segments (both in model units), or the best with so many points. */
   edgeLength?: number;
   error?: number;
@@ -93,7 +96,7 @@ export class Sweepface {
   /** Reads a .sweep file: of a packed one all that the neutral needs, and what targets do when the face first moves.
    * Rejects with the library's own sentence about what is wrong; what is wrong with targets is thrown when they are
    * read. */
-  static load(bytes: BufferSource, options?: LoadOptions): Promise<Sweepface>;
+  static load(bytes: Bytes, options?: LoadOptions): Promise<Sweepface>;
 
   /** Another face of the same file, at rest; the two share everything but their weights. */
   clone(): Sweepface;
@@ -109,9 +112,9 @@ export class Sweepface {
   readonly pointCount: number;
   readonly vertexCount: number;
   /** [triangles × 3] vertices, counter-clockwise seen from outside; a new array every time. */
-  readonly triangles: Uint32Array<ArrayBuffer>;
+  readonly triangles: Uint32Array;
   /** [vertices × 2] u to the right and v upwards, or null; a new array every time. */
-  readonly texcoords: Float32Array<ArrayBuffer> | null;
+  readonly texcoords: Float32Array | null;
   readonly parts: Part[];
   /** Bytes of WebAssembly memory that the file and all its faces hold. */
   readonly memoryBytes: number;
@@ -128,9 +131,9 @@ export class Sweepface {
 
   /** Sends weights to goals from where they stand, everywhere or in one region; `advance` moves them. */
   moveTo(goals: Weights, drive?: DriveKind | Drive, region?: string): void;
-  /** A blow: adds to the velocity of a weight (per second), which drag (per second, 8 unless given) takes away. */
+  /** A blow: adds up to 1,000,000 to the velocity of a weight (per second), which drag (per second, 8 unless given) takes away. */
   push(name: string, velocityChange: number, drag?: number): void;
-  /** Lets seconds pass for the weights in motion; says whether anything goes on moving. */
+  /** Lets seconds pass for the weights in motion; says whether anything goes on moving or waits to. */
   advance(seconds: number): boolean;
 
   /** How many eyeballs turn: with the option `eyes`, as many as the face has. */

@@ -8,6 +8,10 @@ const DRIVE_NUMBERS = ['delay', 'seconds', 'turn', 'frequency', 'damping', 'rest
 
 /** What a level of detail may be asked for by, in the order of the C interface. */
 const BUDGETS = ['edgeLength', 'error', 'vertices'];
+const OPTIONS = ['lod', ...BUDGETS, 'name', 'arcs', 'combine', 'eyes', 'regions', 'wasm'];
+
+/** How far a weight may be from 0. */
+const MOST = 1e6;
 
 /** What targets may follow, in the numbers of the C interface. */
 const FOLLOW = {arcs: 1, combine: 2};
@@ -31,8 +35,9 @@ async function compileUrl(url) {
   }
   const response = await fetch(url);
   if (!response.ok) throw new Error(`Could not load ${url}: the server answered ${response.status}.`);
-  const isKnown = response.headers.get('content-type')?.startsWith('application/wasm');
-  const mayStream = isKnown && WebAssembly.compileStreaming;
+  const type = response.headers.get('content-type') ?? '';
+  if (/^text\/html/i.test(type)) throw new Error(`Could not load ${url}: the server sent a page of HTML instead.`);
+  const mayStream = type === 'application/wasm' && WebAssembly.compileStreaming;  // which refuses parameters
   return mayStream ? WebAssembly.compileStreaming(response) : WebAssembly.compile(await response.arrayBuffer());
 }
 
@@ -56,23 +61,23 @@ function compile(wasm, kind) {
 
 /** One instance of the module: a file and the faces made from it. Its memory goes with it. */
 class Runtime {
-  constructor(module) {
-    this.wasm = new WebAssembly.Instance(module).exports;
+  constructor(instance) {
+    this.wasm = instance.exports;
     this.wasm._initialize();
     this.users = 0;
   }
 
-  // Memory moves when it grows, so views are made where they are used.
-  bytes(at, length) { return new Uint8Array(this.wasm.memory.buffer, at, length); }
-  words(at, length) { return new Uint32Array(this.wasm.memory.buffer, at, length); }
-  shorts(at, length) { return new Int16Array(this.wasm.memory.buffer, at, length); }
-  ints(at, length) { return new Int32Array(this.wasm.memory.buffer, at, length); }
-  floats(at, length) { return new Float32Array(this.wasm.memory.buffer, at, length); }
-  doubles(at, length) { return new Float64Array(this.wasm.memory.buffer, at, length); }
+  // Memory moves when it grows, so views are made where they are used. Addresses from 2 GiB on are negative.
+  bytes(at, length) { return new Uint8Array(this.wasm.memory.buffer, at >>> 0, length); }
+  words(at, length) { return new Uint32Array(this.wasm.memory.buffer, at >>> 0, length); }
+  shorts(at, length) { return new Int16Array(this.wasm.memory.buffer, at >>> 0, length); }
+  ints(at, length) { return new Int32Array(this.wasm.memory.buffer, at >>> 0, length); }
+  floats(at, length) { return new Float32Array(this.wasm.memory.buffer, at >>> 0, length); }
+  doubles(at, length) { return new Float64Array(this.wasm.memory.buffer, at >>> 0, length); }
 
   text(at) {
     const memory = new Uint8Array(this.wasm.memory.buffer);
-    return decoder.decode(memory.subarray(at, memory.indexOf(0, at)));
+    return decoder.decode(memory.subarray(at >>> 0, memory.indexOf(0, at >>> 0)));
   }
 
   allocate(size) {
@@ -125,7 +130,7 @@ function isPacked(bytes) {
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
   const kinds = [];
   for (let at = 8; at + 8 <= bytes.length; at += 12 + view.getUint32(at + 4, true))
-    kinds.push(decoder.decode(bytes.subarray(at, at + 4)));
+    kinds.push(String.fromCharCode(...bytes.subarray(at, at + 4)));
   return bytes[7] === 2 && !kinds.some((kind) => AS_THEY_ARE.includes(kind));
 }
 
@@ -141,8 +146,8 @@ function withinMemory(run) {
 
 /** What all faces of one file at one level of detail share. */
 class Shared {
-  constructor(module, bytes, {name, follow, eyes, divide, lod, budget}) {
-    const runtime = this.runtime = new Runtime(module), {wasm} = runtime;
+  constructor(instance, bytes, {name, follow, eyes, divide, lod, budget}) {
+    const runtime = this.runtime = new Runtime(instance), {wasm} = runtime;
     this.rig = runtime.loadRig(bytes, name);
     if (follow || eyes) this.loadTargets();
     if (follow) runtime.check(wasm.sweepface_rig_follow(this.rig, follow));
@@ -179,6 +184,11 @@ class Shared {
     throw new Error(`There is no region named '${name}'; there are ${names}.`);
   }
 
+  /** The numbers of a region, or of all. */
+  places(region) {
+    return region === undefined ? Array.from({length: this.regionCount}, (_, r) => r) : [this.region(region)];
+  }
+
   triangles() {
     const {wasm} = this.runtime, count = wasm.sweepface_mesh_triangle_count(this.mesh);
     return this.runtime.words(wasm.sweepface_mesh_triangles(this.mesh), 3 * count).slice();
@@ -209,7 +219,7 @@ export class Sweepface {
   #shared;
   #face;
   #motion = 0;
-  #waits = 0;  // seconds until the last delayed motion sets out
+  #ends = new Map();  // seconds until a weight's drive is over, by the place of the weight among all
   #memory;  // in the module: arrays of floats and of weights, and C structs: a drive and two vectors
 
   /** Use Sweepface.load. */
@@ -224,23 +234,34 @@ export class Sweepface {
     ++runtime.users;
   }
 
-  static async load(bytes, {lod = 0, name = 'The face', arcs, combine, eyes, regions, wasm, ...rest} = {}) {
+  static async load(bytes, given = {}) {
+    const {lod = 0, name = 'The face', arcs, combine, eyes, regions, wasm} = given;
     if (!(bytes instanceof ArrayBuffer || ArrayBuffer.isView(bytes)))
       throw new TypeError('Sweepface.load needs the bytes of a .sweep file: an ArrayBuffer or a typed array.');
+    for (const key of Object.keys(given))
+      if (!OPTIONS.includes(key))
+        throw new TypeError(`Sweepface.load has no option '${key}'; it has ${OPTIONS.join(', ')}.`);
+    const details = ['lod', ...BUDGETS].filter((key) => given[key] !== undefined);
+    if (details.length > 1)
+      throw new TypeError(`A level of detail is asked for in one way, not by ${details.join(' and ')}.`);
     if (!Number.isInteger(lod) || lod < 0)
       throw new RangeError('The level of detail must be a whole number from 0 on.');
     const view = ArrayBuffer.isView(bytes) ? new Uint8Array(bytes.buffer, bytes.byteOffset, bytes.byteLength)
                                            : new Uint8Array(bytes);
-    const [budget] = BUDGETS.flatMap((kind, k) => (kind in rest ? [[k, Number(rest[kind])]] : []));
+    const [budget] = BUDGETS.flatMap((kind, k) => (given[kind] === undefined ? [] : [[k, Number(given[kind])]]));
     const divide = regions && (await import('./sweepface_regions.js')).divider(regions);
     const follow = (arcs ? FOLLOW.arcs : 0) + (combine ? FOLLOW.combine : 0);
     const options = {name: String(name), follow, eyes, divide, lod, budget};
-    const make = (module) => withinMemory(() => new Sweepface(new Shared(module, view, options)));
-    const isUsual = !follow && !eyes && !divide && !budget && isPacked(view);
-    if (wasm || !isUsual) return make(await compile(wasm, 'full'));
+    const needsFull = follow || eyes || divide || budget;
+    const make = async (module) => {
+      const instance = await WebAssembly.instantiate(module);
+      if (needsFull && !instance.exports.sweepface_rig_follow) throw new Error(UNSAID);
+      return withinMemory(() => new Sweepface(new Shared(instance, view, options)));
+    };
+    if (wasm || needsFull || !isPacked(view)) return make(await compile(wasm, 'full'));
     const usual = await compile(wasm, 'usual');
     try {
-      return make(usual);
+      return await make(usual);
     } catch (error) {
       if (error.cause instanceof WebAssembly.RuntimeError) throw error;
       return make(await compile(wasm, 'full'));  // which has the last word
@@ -281,15 +302,15 @@ export class Sweepface {
   /** Sets the weights that are named, everywhere or in a region, and leaves the others; those in motion stop. */
   setWeights(weights, region) {
     const shared = this.#open(), {runtime, names} = shared, {wasm} = runtime, count = names.length;
-    const named = this.#resolve(weights);
-    const everywhere = Array.from({length: shared.regionCount}, (_, r) => r);
-    const places = region === undefined ? everywhere : [shared.region(region)];
+    const named = this.#resolve(weights), places = shared.places(region);
     if (named.length === 0) return;
     shared.loadTargets();
     const all = this.#copyWeights();
     for (const r of places)
       for (const [target, weight] of named) all[count * r + target] = weight;
     this.#takeWeights();
+    for (const r of places)
+      for (const [target] of named) this.#ends.delete(count * r + target);
     if (!this.#motion) return;
     const cut = shared.regions ? 0 : this.#drive('cut');
     for (const r of places)
@@ -387,34 +408,50 @@ export class Sweepface {
   /** Sends weights to goals from where they stand, everywhere or in a region; `advance` moves them. */
   moveTo(goals, drive = {}, region) {
     const shared = this.#open(), {runtime} = shared, {wasm} = runtime;
-    const place = region === undefined ? -1 : shared.region(region);
-    const all = this.#resolve(goals), at = this.#drive(drive), motion = this.#moving();
-    for (const [target, goal] of all)
-      runtime.check(place < 0 ? wasm.sweepface_motion_move_to(motion, target, goal, at)
-                              : wasm.sweepface_motion_move_in(motion, place, target, goal, at));
-    const latest = Math.max(0, ...(shared.regions ?? []).map(({delay}) => delay));
-    this.#waits = Math.max(this.#waits, (drive.delay ?? 0) + latest);
+    const all = this.#resolve(goals), places = shared.places(region), at = this.#drive(drive), motion = this.#moving();
+    for (const [target, goal] of all) {
+      runtime.check(region === undefined ? wasm.sweepface_motion_move_to(motion, target, goal, at)
+                                         : wasm.sweepface_motion_move_in(motion, places[0], target, goal, at));
+      for (const r of places) this.#ends.set(shared.names.length * r + target, this.#secondsOf(at, r));
+    }
+  }
+
+  /** How long a drive takes a region: of a spring its first swing, in which it may seem to rest. */
+  #secondsOf(drive, region) {
+    const {runtime, regions} = this.#shared, kind = DRIVES[runtime.ints(drive, 1)[0]];
+    const {mass = 1, stiffness = 1, delay: later = 0} = regions?.[region] ?? {};
+    const [delay, seconds, , frequency] = runtime.doubles(drive + 8, DRIVE_NUMBERS.length);
+    const lasts = kind === 'cut' ? 0 : kind === 'spring' ? 1 / frequency : seconds;
+    return delay + later + lasts * Math.sqrt(mass / stiffness);
   }
 
   /** A blow: adds to the velocity of a weight (per second), which drag (per second) takes away. */
   push(name, velocityChange, drag = 8) {
-    const {runtime} = this.#open(), target = this.#shared.target(name);
+    const shared = this.#open(), {runtime} = shared, target = shared.target(name);
+    if (!(Math.abs(velocityChange) <= MOST))
+      throw new RangeError(`The push on '${name}' must lie within ${MOST} of 0, not be ${velocityChange}.`);
     runtime.check(runtime.wasm.sweepface_motion_push(this.#moving(), target, velocityChange, drag));
+    for (const r of shared.places()) this.#ends.delete(shared.names.length * r + target);
   }
 
   /** Lets time pass for the weights in motion; says whether anything goes on moving. */
   advance(seconds) {
     const {runtime, weightCount: count} = this.#open(), {wasm} = runtime, {weights} = this.#memory;
+    if (!Number.isFinite(seconds)) throw new RangeError(`Time passes by a finite number of seconds, not ${seconds}.`);
     if (!this.#motion) return false;
     const still = 1e-6, before = this.#copyWeights().slice();
-    const waits = this.#waits > 0;  // what sets out just now has no velocity yet
+    const isDriven = this.#ends.size > 0;  // what sets out just now has no velocity yet
     wasm.sweepface_motion_advance(this.#motion, seconds);
-    this.#waits -= Math.max(seconds, 0);
+    for (const [place, left] of this.#ends)
+      if (left > seconds) this.#ends.set(place, left - Math.max(seconds, 0));
+      else this.#ends.delete(place);
     runtime.check(wasm.sweepface_motion_velocities(this.#motion, weights, count));
     const fast = runtime.doubles(weights, count).some((velocity) => Math.abs(velocity) > still);
     runtime.check(wasm.sweepface_motion_positions(this.#motion, weights, count));
+    const now = runtime.doubles(weights, count);
+    now.set(now.map((weight) => Math.min(Math.max(weight, -MOST), MOST)));  // swings and blows may go further
     this.#takeWeights();
-    return fast || waits || runtime.doubles(weights, count).some((w, k) => Math.abs(w - before[k]) > still);
+    return fast || isDriven || runtime.doubles(weights, count).some((w, k) => Math.abs(w - before[k]) > still);
   }
 
   /** Frees the face; it can no longer be used. Memory is given back with the last face of a file. */
@@ -438,10 +475,13 @@ export class Sweepface {
 
   /** Targets and numbers; nothing is set before all are known. */
   #resolve(byName) {
+    if (typeof byName !== 'object' || !byName)
+      throw new TypeError('Weights are given by name, like {jawOpen: 0.7}.');
     return Object.entries(byName).map(([name, value]) => {
       const target = this.#shared.target(name);
       if (!Number.isFinite(value))
         throw new TypeError(`The weight of '${name}' must be a finite number, not ${value}.`);
+      if (Math.abs(value) > MOST) throw new RangeError(`The weight of '${name}' must lie within ${MOST} of 0.`);
       return [target, value];
     });
   }
@@ -474,7 +514,7 @@ export class Sweepface {
     runtime.wasm.sweepface_drive_of(at, kind);
     const numbers = runtime.doubles(at + 8, DRIVE_NUMBERS.length);
     for (const key of Object.keys(given)) {
-      if (key === 'kind') continue;
+      if (key === 'kind' || given[key] === undefined) continue;
       const place = DRIVE_NUMBERS.indexOf(key);
       if (place < 0) throw new Error(`A drive has no '${key}'; it has kind, ${DRIVE_NUMBERS.join(', ')}.`);
       numbers[place] = given[key];

@@ -1,7 +1,8 @@
-import type {Drive, Region, Sweepface, Weights} from './sweepface.js';
+import type {Bytes, Drive, Region, Sweepface, Weights} from './sweepface.js';
 
 /** A face, or a mesh of sweepface/three or sweepface/gpu. */
-type Playable = Pick<Sweepface, 'names' | 'eyeCount' | 'setWeights' | 'moveTo' | 'advance' | 'look'>;
+type Playable = Pick<Sweepface, 'names' | 'eyeCount' | 'setWeights' | 'moveTo' | 'advance' | 'look'> &
+  Partial<Pick<Sweepface, 'regions'>>;
 
 /** Which target each name of a clip drives. */
 export interface Match {
@@ -40,7 +41,7 @@ export class Clip {
 }
 
 /** A capture: a CSV of Live Link Face, or a JSON of Audio2Face or MediaPipe. Throws a sentence about what is wrong. */
-export function readClip(source: string | BufferSource, options?: {name?: string; framesPerSecond?: number}): Clip;
+export function readClip(source: string | Bytes, options?: {name?: string; framesPerSecond?: number}): Clip;
 
 /** Plays a clip on a face. */
 export class ClipPlayer {
@@ -72,9 +73,9 @@ export interface Timeline {
 }
 
 /** A timeline from its JSON (docs/clips.md). Throws a sentence about what is wrong. */
-export function readTimeline(source: string | BufferSource, options?: {name?: string}): Timeline;
+export function readTimeline(source: string | Bytes, options?: {name?: string}): Timeline;
 
-/** Plays a timeline on a face. */
+/** Plays a timeline on a face, which must have the regions that it moves. */
 export class TimelinePlayer {
   constructor(face: Playable, timeline: Timeline);
   readonly face: Playable;

@@ -4,10 +4,10 @@
 
 const decoder = new TextDecoder();
 
-function textOf(source) {
-  if (typeof source === 'string') return source;
+function textOf(source, what) {
+  if (typeof source === 'string') return source.replace(/^\uFEFF/, '');
   if (source instanceof ArrayBuffer || ArrayBuffer.isView(source)) return decoder.decode(source);
-  throw new TypeError('A clip is read from text or bytes.');
+  throw new TypeError(`A ${what} is read from text or bytes.`);
 }
 
 /** A number that nothing stands beside, or NaN. */
@@ -113,7 +113,7 @@ export class Clip {
 
 function readLiveLink(text, name, framesPerSecond) {
   const cellsOf = (line) => line.split(',').map((cell) => cell.trim());
-  const lines = text.replace(/^\uFEFF/, '').split('\n').map((line, k) => ({number: k + 1, cells: cellsOf(line)}));
+  const lines = text.split('\n').map((line, k) => ({number: k + 1, cells: cellsOf(line)}));
   const filled = lines.filter(({cells}) => cells.length > 1 || cells[0] !== '');
   if (filled.length === 0) throw new Error(`${name} is empty; record again.`);
   const fail = (line, what) => new Error(`${name} line ${line.number}: ${what}.`);
@@ -212,7 +212,7 @@ function scoresOf(frame, f, fail) {
  * Audio2Face or MediaPipe. `name` is what messages call it.
  */
 export function readClip(source, {name = 'The clip', framesPerSecond = 60} = {}) {
-  const text = textOf(source);
+  const text = textOf(source, 'clip');
   if (!(framesPerSecond > 0 && Number.isFinite(framesPerSecond)))
     throw new RangeError('The frames per second of a recording must be greater than 0.');
   if (!/^\s*[{[]/.test(text)) return readLiveLink(text, name, framesPerSecond);
@@ -278,7 +278,7 @@ const TIMELINE = ['seconds', 'loops', 'poses', 'events', 'regions'];
 
 /** A timeline from its JSON text or bytes: {seconds, loops, events, regions}; `regions` are for Sweepface.load. */
 export function readTimeline(source, {name = 'The timeline'} = {}) {
-  const json = parseJson(textOf(source), name);
+  const json = parseJson(textOf(source, 'timeline'), name);
   const fail = (place, what) => new Error(`${name}: ${place} ${what}.`);
   if (!isObject(json)) throw fail('the file', 'is not an object');
   for (const key of Object.keys(json))
@@ -297,6 +297,19 @@ export function readTimeline(source, {name = 'The timeline'} = {}) {
   return {seconds, loops, events: read, regions};
 }
 
+/** What keeps a drive from setting out at all, in the library's words. */
+function faultOf({drive = 'spring', seconds = 1, turn = 0.5, frequency = 1, damping = 1, restitution = 0}) {
+  if (drive === 'cut') return;
+  if (drive === 'spring')
+    return frequency > 0 && damping >= 0 ? undefined
+                                         : 'A spring needs a frequency greater than 0 and a damping of at least 0';
+  if (drive === 'bounce' && !(restitution >= 0 && restitution <= 1 - 1e-9))
+    return 'A bounce keeps a part of its speed: the restitution lies in [0, 1)';
+  if (!(seconds > 0)) return 'The motion must last a finite time greater than 0 seconds';
+  if (drive === 'accelerate-brake' && !(turn > 0 && turn < 1))
+    return 'The force must turn after the start and before the end: between 0 and 1';
+}
+
 function readEvent(event, poses, fail) {
   if (!isObject(event)) throw fail('is not an object');
   for (const key of Object.keys(event))
@@ -309,17 +322,21 @@ function readEvent(event, poses, fail) {
   if ('drive' in event && !DRIVES.includes(event.drive))
     throw fail(`has a 'drive' '${event.drive}'; there are ${DRIVES.join(', ')}`);
   if (event.at < 0) throw fail('is before 0');
+  const fault = faultOf(event);
+  if (fault) throw fail(`cannot be: ${fault}`);
   if (event.delay < 0) throw fail('has a negative \'delay\'');
   if (('to' in event) === ('only' in event)) throw fail('needs one of \'to\' and \'only\', the weights to go to');
-  const wanted = event.to ?? event.only, goals = typeof wanted === 'string' ? poses[wanted] : wanted;
-  if (goals === undefined) throw fail(`goes to a pose '${wanted}' that 'poses' does not have`);
+  const wanted = event.to ?? event.only, isPose = typeof wanted === 'string';
+  if (isPose && !(isObject(poses) && Object.keys(poses).includes(wanted)))
+    throw fail(`goes to a pose '${wanted}' that 'poses' does not have`);
+  const goals = isPose ? poses[wanted] : wanted;
   if (!isObject(goals)) throw fail('goes neither to weights nor to a pose');
   for (const [weight, goal] of Object.entries(goals))
     if (!isWeight(goal)) throw fail(`has a weight '${weight}' that is not a number within ±1,000,000`);
   const drive = {kind: event.drive ?? 'spring'};
   for (const key of DRIVE)
     if (key in event) drive[key] = event[key];
-  return {at: event.at, goals, others: 'only' in event, drive, region: event.region};
+  return {at: event.at, goals, others: 'only' in event, drive, region: event.region || undefined};
 }
 
 /** Plays a timeline on a face: `advance` lets time pass, and what sets out does so at its own instant. */
@@ -329,6 +346,9 @@ export class TimelinePlayer {
   #next = 0;  // of all events of all loops
 
   constructor(face, timeline) {
+    for (const {region} of timeline.events)
+      if (region && face.regions?.includes(region) === false)
+        throw new Error(`The timeline moves a region '${region}'; the face has ${face.regions.join(', ') || 'none'}.`);
     this.face = face;
     this.timeline = timeline;
     const names = [...new Set(timeline.events.flatMap(({goals}) => Object.keys(goals)))];
@@ -341,14 +361,16 @@ export class TimelinePlayer {
 
   /** Says whether anything is still to come or moves. */
   advance(seconds) {
+    if (!Number.isFinite(seconds)) throw new RangeError(`Time passes by a finite number of seconds, not ${seconds}.`);
     const {events, seconds: length, loops} = this.timeline, until = this.#now + Math.max(seconds, 0);
     let moves = false;
-    for (; this.#next < loops * events.length; ++this.#next) {
+    while (this.#next < loops * events.length) {
       const event = events[this.#next % events.length], loop = Math.floor(this.#next / events.length);
       const start = event.at + loop * length;
       if (start > until) break;
       this.face.advance(start - this.#now);
       this.#now = start;
+      ++this.#next;  // also where the face refuses it
       this.#play(event);
       moves = true;
     }

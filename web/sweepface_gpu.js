@@ -88,6 +88,9 @@ function spread(face, perPoint, size, from = 0, stride = size) {
   return new BufferAttribute(out, size);
 }
 
+/** What materials were told of their own before a face told them to follow it. */
+const own = new WeakMap();
+
 /** A face in a scene that follows its weights without its vertices leaving the graphics card. */
 export class SweepfaceGpuMesh extends FaceMesh {
   #textures;
@@ -115,7 +118,14 @@ export class SweepfaceGpuMesh extends FaceMesh {
 
   #patch(material) {
     const {basis, modes, factor} = this.#textures;
-    material.onBeforeCompile = (shader) => {
+    if (!own.has(material)) {
+      const {onBeforeCompile, customProgramCacheKey} = material;
+      own.set(material, {onBeforeCompile, customProgramCacheKey});
+    }
+    const {onBeforeCompile, customProgramCacheKey} = own.get(material);
+    material.customProgramCacheKey = () => onBeforeCompile.toString() + customProgramCacheKey.call(material);
+    material.onBeforeCompile = (shader, renderer) => {
+      onBeforeCompile.call(material, shader, renderer);
       Object.assign(shader.uniforms, {sweepBasis: {value: basis}, sweepModes: {value: modes}, sweepFactor: factor});
       shader.vertexShader = `
         uniform highp isampler2D sweepBasis, sweepModes;
@@ -124,11 +134,11 @@ export class SweepfaceGpuMesh extends FaceMesh {
         in vec3 sweepAcross;
         ${SWEEPFACE_GLSL}
         ` + shader.vertexShader
-        .replace('#include <beginnormal_vertex>', `
-          vec3 objectNormal = sweepfaceNormal(
+        .replace('#include <beginnormal_vertex>', `$&
+          objectNormal = sweepfaceNormal(
             normal, sweepAcross, sweepTangentPlace, sweepBasis, sweepModes, sweepFactor);`)
-        .replace('#include <begin_vertex>', `
-          vec3 transformed = sweepfacePosition(position, sweepPlace, sweepBasis, sweepModes, sweepFactor);`);
+        .replace('#include <begin_vertex>', `$&
+          transformed = sweepfacePosition(position, sweepPlace, sweepBasis, sweepModes, sweepFactor);`);
     };
   }
 
@@ -137,6 +147,12 @@ export class SweepfaceGpuMesh extends FaceMesh {
   get frameBytes() { return this.#textures.modes.image.data.byteLength; }
 
   show() { this.#textures.update(this.face); }
+
+  /** Materials follow one face each. */
+  materialsOfClone() {
+    const clone = (material) => Object.assign(material.clone(), own.get(material));
+    return Array.isArray(this.material) ? this.material.map(clone) : clone(this.material);
+  }
 
   dispose() {
     this.#textures.dispose();

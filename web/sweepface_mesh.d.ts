@@ -8,6 +8,7 @@ export class FaceMesh extends Mesh {
   readonly face: Sweepface;
   readonly names: string[];
   readonly eyeCount: number;
+  readonly regions: string[];
   /** How the eyes stand; null: by the weights of eyeLook targets. */
   look(pose: {leftEye?: Look; rightEye?: Look} | null): void;
 
@@ -21,6 +22,9 @@ export class FaceMesh extends Mesh {
   advance(seconds: number): boolean;
   /** Call it once a frame with the seconds since the last; costs nothing where nothing moves. */
   update(seconds?: number): void;
+  /** Another face of the same file with the same weights, which moves by itself. Materials are shared, but of a
+   * SweepfaceGpuMesh, whose are clones. */
+  clone(recursive?: boolean): this;
   /** Frees geometry, materials and the face. */
   dispose(): void;
 }

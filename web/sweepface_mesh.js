@@ -28,6 +28,7 @@ export class FaceMesh extends Mesh {
 
   get names() { return this.face.names; }
   get eyeCount() { return this.face.eyeCount; }
+  get regions() { return this.face.regions; }
 
   look(pose) {
     this.face.look(pose);
@@ -51,15 +52,36 @@ export class FaceMesh extends Mesh {
 
   /** Lets time pass without showing it; says whether anything goes on moving. */
   advance(seconds) {
-    this.#stale = true;
-    return this.#moving = this.face.advance(seconds);
+    const moving = this.face.advance(seconds);
+    this.#stale ||= moving || this.#moving;  // once more where it stopped
+    return this.#moving = moving;
   }
 
   /** Call it once a frame with the seconds since the last; costs nothing where nothing moves. */
   update(seconds = 0) {
-    if (this.#moving && seconds > 0) this.advance(seconds);
+    if ((this.#moving && seconds > 0) || !Number.isFinite(seconds)) this.advance(seconds);
     if (this.#stale) this.show();
     this.#stale = false;
+  }
+
+  /** Another face of the same file with the same weights, which moves by itself. */
+  clone(recursive) {
+    const face = this.face.clone(), regions = face.regions.length > 0 ? face.regions : [undefined];
+    for (const region of regions) {
+      const weights = region === undefined ? this.face.weights : this.face.weightsIn(region);
+      const set = Object.entries(weights).filter(([, weight]) => weight !== 0);  // none: nothing is to be read for it
+      face.setWeights(Object.fromEntries(set), region);
+    }
+    return new this.constructor(face, this.materialsOfClone()).copy(this, recursive);
+  }
+
+  materialsOfClone() { return Array.isArray(this.material) ? this.material.slice() : this.material; }
+
+  /** What three.js copies of a mesh, but for what follows this face. */
+  copy(source, recursive) {
+    const {geometry, material} = this;
+    super.copy(source, recursive);
+    return Object.assign(this, {geometry, material});
   }
 
   dispose() {

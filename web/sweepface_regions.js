@@ -27,6 +27,8 @@ class Copies {
   }
 }
 
+const isPlace = (place) => place?.length === 3 && Array.from(place).every(Number.isFinite);
+
 /** Refuses what is not as docs/regions.md says, before anything is painted. */
 function check(regions) {
   if (!Array.isArray(regions)) throw new TypeError('Regions are a list of objects with a name each.');
@@ -35,14 +37,25 @@ function check(regions) {
     const wrong = (what) => new TypeError(`Region '${region.name}' ${what}.`);
     for (const key of Object.keys(region))
       if (!MEMBERS.includes(key)) throw wrong(`has an unknown '${key}'; it has ${MEMBERS.join(', ')}`);
-    if (!PLACES.some((key) => key in region)) throw wrong(`says nowhere where it is; give it ${PLACES.join(', ')}`);
-    for (const key of ['points', 'line'])
-      if (!(region[key] ?? []).every((place) => place?.length === 3 && Array.from(place).every(Number.isFinite)))
+    const told = (keys) => keys.filter((key) => region[key] !== undefined);
+    if (told(PLACES).length === 0) throw wrong(`says nowhere where it is; give it ${PLACES.join(', ')}`);
+    for (const key of told(['parts', 'curves']))
+      if (!Array.isArray(region[key])) throw wrong(`has '${key}' that are no list of names`);
+    const {nodes = {}, bands = 1, mass = 1, stiffness = 1, delay = 0} = region;
+    if (typeof nodes !== 'object' || !nodes || !Object.values(nodes).every(Number.isFinite))
+      throw wrong('has \'nodes\' that are no shares by name');
+    for (const key of told(['points', 'line']))
+      if (!Array.isArray(region[key]) || !region[key].every(isPlace))
         throw wrong(`has '${key}' that are not like [[x, y, z]]`);
     if (!['surface', 'space'].includes(region.over ?? 'surface'))
       throw wrong(`is over '${region.over}', which is neither surface nor space`);
-    const {bands = 1} = region;
-    if (!Number.isInteger(bands) || bands < 1) throw wrong(`has ${bands} bands, which is no whole number from 1 on`);
+    for (const key of told([...Object.keys(MATTER), 'whole', 'fade']))
+      if (!Number.isFinite(region[key])) throw wrong(`has a '${key}' that is not a number`);
+    if (Math.min(mass, stiffness) < 1e-4 || Math.max(mass, stiffness) > 1e4)
+      throw wrong('has a mass or a stiffness that is not from 0.0001 to 10000');
+    if (delay < 0 || delay > 60) throw wrong('has a delay that is not from 0 to 60 seconds');
+    if (!Number.isInteger(bands) || bands < 1 || bands > 32)
+      throw wrong(`has ${bands} bands, which is no whole number from 1 to 32`);
   }
 }
 

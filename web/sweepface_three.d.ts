@@ -1,5 +1,5 @@
 import type {Loader, LoadingManager, Material} from 'three';
-import type {LoadOptions, Sweepface} from './sweepface.js';
+import type {Bytes, LoadOptions, Sweepface} from './sweepface.js';
 import type {FaceMesh} from './sweepface_mesh.js';
 
 /** A face in a scene whose geometry follows its weights. */
@@ -11,5 +11,5 @@ export class SweepfaceMesh extends FaceMesh {
 export class SweepfaceLoader extends Loader<SweepfaceMesh> {
   constructor(manager?: LoadingManager, options?: LoadOptions);
   options: LoadOptions;
-  parseAsync(bytes: BufferSource, options?: LoadOptions): Promise<SweepfaceMesh>;
+  parseAsync(bytes: Bytes, options?: LoadOptions): Promise<SweepfaceMesh>;
 }

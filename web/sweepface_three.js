@@ -36,12 +36,16 @@ export class SweepfaceLoader extends Loader {
     const loader = new FileLoader(this.manager);
     loader.setPath(this.path).setResponseType('arraybuffer');
     loader.setRequestHeader(this.requestHeader).setWithCredentials(this.withCredentials);
-    const fail = (error) => {
-      if (onError) onError(error);
-      else console.error(error);
-      this.manager.itemError(url);
-    };
-    loader.load(url, (bytes) => this.parseAsync(bytes, {name: url}).then(onLoad, fail), onProgress, fail);
+    const {manager} = this, tell = onError ?? console.error, name = this.options.name ?? url;
+    const parse = (bytes) => this.parseAsync(bytes, {name}).then(onLoad).catch((error) => {
+      manager.itemError(url);
+      tell(error);
+    }).finally(() => manager.itemEnd(url));
+    manager.itemStart(url);  // until the mesh is there; the file alone is an item of the other loader
+    loader.load(url, parse, onProgress, (error) => {
+      manager.itemEnd(url);
+      tell(error);
+    });
   }
 
   async parseAsync(bytes, options = {}) {

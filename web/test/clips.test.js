@@ -105,6 +105,37 @@ test('a timeline plays as the tool plays it, whatever the frame rate', async () 
   }
 });
 
+test('time that is no number plays nothing', async () => {
+  const face = await Sweepface.load(readFileSync(sample));
+  const player = new TimelinePlayer(face, readTimeline(JSON.stringify(timeline)));
+  for (const seconds of [NaN, Infinity, undefined])
+    assert.throws(() => player.advance(seconds), {message: /finite number of seconds/});
+  assert.equal(face.weights.jawOpen, 0);
+  player.advance(0.4);
+  assert.ok(face.weights.jawOpen > 0);
+});
+
+test('a timeline of regions that the face lacks is refused, and what a face refuses is passed over', async () => {
+  const face = await Sweepface.load(readFileSync(sample));
+  const cheeks = readTimeline(JSON.stringify({seconds: 1, events: [{at: 0, to: {jawOpen: 1}, region: 'cheeks'}]}));
+  assert.throws(() => new TimelinePlayer(face, cheeks), {message: /moves a region 'cheeks'; the face has none\.$/});
+  const everywhere = {seconds: 1, events: [{at: 0, to: {jawOpen: 1}, drive: 'cut', region: ''}]};
+  new TimelinePlayer(face, readTimeline(JSON.stringify(everywhere))).advance(0.1);
+  assert.equal(face.weights.jawOpen, 1);
+  const events = [{at: 0.1, to: {jawOpen: 0}, frequency: 1e300}, {at: 0.2, to: {jawOpen: 0.5}, drive: 'cut'}];
+  const player = new TimelinePlayer(face, readTimeline(JSON.stringify({seconds: 1, events})));
+  assert.throws(() => player.advance(0.5), {message: /finite numbers/});
+  player.advance(0.5);
+  assert.equal(face.weights.jawOpen, 0.5);
+});
+
+test('text may begin with a byte order mark, and other things are no clips', () => {
+  assert.equal(readTimeline('\uFEFF' + JSON.stringify(timeline)).loops, 2);
+  assert.equal(readClip('\uFEFF' + mediaPipe).times.length, frames.length);
+  assert.throws(() => readTimeline(timeline), {message: 'A timeline is read from text or bytes.'});
+  assert.throws(() => readClip({}), {message: 'A clip is read from text or bytes.'});
+});
+
 // The same words from either side.
 for (const [file, text, words] of [
        ['a.csv', '', 'is empty; record again'],
@@ -139,6 +170,13 @@ for (const [file, text, words] of [
        ['t.json', '{"seconds": 1, "events": [{"at": 2, "to": {}}]}', '\'events\' hold one that is later than \'seconds\''],
        ['t.json', '{"seconds": 1, "events": [{"at": 0}]}', 'events[0] needs one of \'to\' and \'only\''],
        ['t.json', '{"seconds": 1, "events": [{"at": 0, "to": "grin"}]}', 'goes to a pose \'grin\''],
+       ['t.json', '{"seconds": 1, "poses": null, "events": [{"at": 0, "to": "grin"}]}', 'goes to a pose \'grin\''],
+       ['t.json', '{"seconds": 1, "poses": {}, "events": [{"at": 0, "to": "__proto__"}]}', 'goes to a pose \'__proto__\''],
+       ...[['"drive": "newton", "seconds": 0', 'must last a finite time greater than 0 seconds'],
+           ['"drive": "bounce", "restitution": 2', 'the restitution lies in [0, 1)'],
+           ['"drive": "accelerate-brake", "turn": 1', 'between 0 and 1'],
+           ['"damping": -1', 'a damping of at least 0'], ['"frequency": 0', 'a frequency greater than 0']]
+         .map(([drive, words]) => ['t.json', `{"seconds": 1, "events": [{"at": 0, "to": {}, ${drive}}]}`, words]),
        ['t.json', '{"seconds": 1, "events": [{"at": 0, "to": {"jawOpen": "x"}}]}', 'has a weight \'jawOpen\' that is not a number within ±1,000,000']])
   test(`${file} of ${JSON.stringify(text).slice(0, 60)} is refused in the tool's words`, () => {
     const read = file === 't.json' ? readTimeline : readClip, native = refusal(file, text);

@@ -84,6 +84,12 @@ test('what there is not is refused with the library\'s sentence, and nothing cha
   assert.throws(() => face.moveTo({jawOpen: 1}, {speed: 1}), {message: /has no 'speed'; it has kind, delay/});
   assert.throws(() => face.moveTo({jawOpen: 1}, {kind: 'newton', seconds: 0}), {message: /\.$/});
   assert.throws(() => face.evaluate(new Float32Array(6)), {message: /There must be room for \d+ vertices/});
+  assert.throws(() => face.setWeights(), {message: /^Weights are given by name/});
+  assert.throws(() => face.moveTo({jawOpen: 1e9}), {message: /'jawOpen' must lie within 1000000 of 0\.$/});
+  for (const push of [1e8, NaN, undefined])
+    assert.throws(() => face.push('jawOpen', push), {message: /push on 'jawOpen' must lie within 1000000 of 0/});
+  for (const seconds of [NaN, Infinity, undefined])
+    assert.throws(() => face.advance(seconds), {message: /finite number of seconds/});
   assert.equal(face.weights.jawOpen, 0);
 });
 
@@ -129,6 +135,54 @@ test('a motion says when it is over', async () => {
   face.advance(0.3);
   assert.equal(face.advance(0.1), false);
   assert.equal(face.weights.jawOpen, 1);
+});
+
+test('a motion that has just begun goes on', async () => {
+  for (const [drive, step, steps] of [[{kind: 'accelerate-brake', seconds: 2}, 0.1, 30], ['spring', 0.1, 80],
+                                      [{kind: 'accelerate-brake', seconds: 90}, 1 / 144, 100 * 144]]) {
+    const face = await load();
+    face.moveTo({jawOpen: 0.2}, drive);
+    for (const tiny of [0, 1e-9]) assert.equal(face.advance(tiny), true);
+    let count = 0;
+    while (count < steps && face.advance(step)) ++count;
+    assert.ok(count > 10 && count < steps, `${count} steps`);
+    assert.ok(Math.abs(face.weights.jawOpen - 0.2) < 1e-4, `${face.weights.jawOpen}`);
+  }
+});
+
+test('heavy regions are waited for', async () => {
+  const face = await load({regions: [{name: 'above', points: [[0, 8, 9]], whole: 5, mass: 100, delay: 1}]});
+  face.moveTo({jawOpen: 1}, {kind: 'accelerate-brake', seconds: 0.5});
+  for (const seconds of [1, 1e-9]) assert.equal(face.advance(seconds), true);
+  let seconds = 1;
+  for (; face.advance(0.01); seconds += 0.01);
+  assert.ok(Math.abs(seconds - 6) < 0.05, `${seconds}`);
+});
+
+test('what is set, cut or pushed is no longer waited for', async () => {
+  for (const stop of [(face) => face.setWeights({jawOpen: 0.5}), (face) => face.reset(),
+                      (face) => face.moveTo({jawOpen: 0.5}, 'cut'), (face) => face.push('jawOpen', 0)]) {
+    const face = await load();
+    face.moveTo({jawOpen: 1}, {delay: 60});
+    assert.equal(face.advance(0.1), true);
+    stop(face);
+    face.advance(0.1);
+    assert.equal(face.advance(0.1), false);
+  }
+  const face = await load();
+  face.moveTo({jawOpen: 1, browInnerUp: 1}, {kind: 'newton', delay: 10, seconds: 1});
+  face.setWeights({jawOpen: 0});
+  assert.equal(face.advance(0.1), true);
+});
+
+test('a weight that swings or is pushed out of its range stops at its end', async () => {
+  const face = await load();
+  face.moveTo({jawOpen: 1e6}, {frequency: 1, damping: 0});
+  for (let k = 0; k < 20; ++k) face.advance(0.1);
+  assert.ok(Math.abs(face.weights.jawOpen) <= 1e6);
+  for (let k = 0; k < 20; ++k) face.push('jawOpen', 1e6, 0.1);
+  face.advance(60);
+  assert.equal(face.weights.jawOpen, 1e6);
 });
 
 test('setting a weight ends its motion, and its alone', async () => {
@@ -201,6 +255,85 @@ test('a packed face needs the usual module only, with all that is played', async
   }
   assert.deepEqual(face.shaderTables(true), full.shaderTables(true));
   await assert.rejects(load({wasm}), {message: /give sweepface_full.wasm, which can or says why\.$/});
+  for (const options of [{eyes: true}, {arcs: true}, {combine: true}, {vertices: 500}, {edgeLength: 1}, {error: 1},
+                         {regions: [{name: 'a', parts: ['lips']}]}])
+    await assert.rejects(load({wasm, ...options}, file), {message: /give sweepface_full.wasm/});
+});
+
+test('options are those that there are, and one level of detail', async () => {
+  await assert.rejects(load({lods: 2}), {message: /^Sweepface.load has no option 'lods'; it has lod, .*\.$/});
+  await assert.rejects(load({lod: 2, vertices: 500}), {message: /in one way, not by lod and vertices\.$/});
+  const nothing = Object.fromEntries(['lod', 'edgeLength', 'error', 'vertices', 'regions', 'wasm'].map((key) => [key]));
+  const face = await load(nothing, packed());
+  face.moveTo({jawOpen: 1}, {kind: 'cut', delay: undefined, seconds: undefined});
+  face.advance(0);
+  assert.equal(face.weights.jawOpen, 1);
+});
+
+test('browsers that make no instance of a large module at once can load a face', async () => {
+  const {Instance} = WebAssembly;
+  WebAssembly.Instance = () => { throw new RangeError('WebAssembly.Instance is disallowed on the main thread'); };
+  try {
+    assert.equal((await load()).names.length, 42);
+  } finally {
+    WebAssembly.Instance = Instance;
+  }
+});
+
+test('shared memory may hold a file', async () => {
+  const {decode} = TextDecoder.prototype, bytes = readFileSync(sample);
+  const shared = new Uint8Array(new SharedArrayBuffer(bytes.length));
+  shared.set(bytes);
+  TextDecoder.prototype.decode = function(source) {  // as browsers do
+    if (source?.buffer instanceof SharedArrayBuffer) throw new TypeError('It must not be shared.');
+    return decode.apply(this, arguments);
+  };
+  try {
+    assert.equal((await Sweepface.load(shared)).names.length, 42);
+  } finally {
+    TextDecoder.prototype.decode = decode;
+  }
+});
+
+test('memory may lie beyond 2 GiB', async () => {
+  const {instantiate} = WebAssembly, usual = await load({eyes: true});
+  WebAssembly.instantiate = async (module) => {
+    const {exports} = await instantiate(module);
+    exports._initialize();
+    for (let k = 0; k < 2; ++k) exports.malloc(2 ** 30);
+    return {exports: {...exports, _initialize() {}}};
+  };
+  try {
+    const face = await load({eyes: true});
+    assert.ok(face.memoryBytes > 2 ** 31);
+    for (const each of [face, usual]) each.setWeights({jawOpen: 0.5});
+    assert.deepEqual(evaluate(face), evaluate(usual));
+    assert.deepEqual(face.triangles, usual.triangles);
+    face.moveTo({jawOpen: 1});
+    assert.equal(face.advance(0.1), true);
+    assert.throws(() => face.setWeights({jawOpn: 1}), /its targets are/);
+    assert.ok(face.shaderTables().places.length > 0);
+  } finally {
+    WebAssembly.instantiate = instantiate;
+  }
+});
+
+test('a module is compiled while it comes only if the server calls it by its very name', async () => {
+  const {fetch} = globalThis, code = readFileSync(new URL('../sweepface_full.wasm', import.meta.url));
+  const served = (type) => {
+    globalThis.fetch = async () => new Response(type.startsWith('text/html') ? '<!doctype html>' : code,
+                                                {headers: {'content-type': type}});
+    return load({wasm: 'https://example.org/a.wasm'});
+  };
+  try {
+    for (const type of ['application/wasm', 'Application/WASM', 'application/wasm; charset=utf-8', 'text/plain'])
+      assert.equal((await served(type)).names.length, 42);
+    await assert.rejects(served('text/html; charset=utf-8'), {
+      message: 'Could not load https://example.org/a.wasm: the server sent a page of HTML instead.'
+    });
+  } finally {
+    globalThis.fetch = fetch;
+  }
 });
 
 // In a module of its own, where none was compiled before.

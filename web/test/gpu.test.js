@@ -219,4 +219,51 @@ test('the vertex shader', options, (t) => withPage('blank.html', {files}, async 
     assert.ok(found.onGpu.everyFrame < found.onCpu.everyFrame);
     assert.deepEqual(complaints, []);
   });
+
+  await t.test('goes with materials that dither or change shaders themselves, and with clones', async () => {
+    const found = await page.evaluate(async () => {
+      const THREE = await import('three');
+      const {SweepfaceMesh} = await import('./sweepface_three.js');
+      const {SweepfaceGpuMesh} = await import('./sweepface_gpu.js');
+      const {pose, load} = globalThis, size = 256, scene = new THREE.Scene();
+      const renderer = new THREE.WebGLRenderer({canvas: new OffscreenCanvas(size, size), antialias: false});
+      const target = new THREE.WebGLRenderTarget(size, size), camera = new THREE.PerspectiveCamera(30, 1, 1, 1000);
+      const bright = (mesh) => {  // how many pixels the face covers
+        mesh.geometry.computeBoundingSphere();
+        const {center, radius} = sphere ??= mesh.geometry.boundingSphere;
+        camera.position.copy(center).add(new THREE.Vector3(0, 0, 4.2 * radius));
+        const pixels = new Uint8Array(4 * size * size);
+        scene.add(mesh);
+        renderer.setRenderTarget(target);
+        renderer.render(scene, camera);
+        renderer.readRenderTargetPixels(target, 0, 0, size, size, pixels);
+        scene.remove(mesh);
+        return pixels.filter((value, k) => k % 4 === 0 && value > 0).length;
+      };
+      let sphere;
+      const white = (given) => new THREE.MeshBasicMaterial({side: THREE.DoubleSide, ...given});
+      const hash = () => white({alphaHash: true, opacity: 0.5});
+      const wide = () => white({onBeforeCompile(shader) {
+        shader.vertexShader = shader.vertexShader.replace(
+          '#include <begin_vertex>', '#include <begin_vertex>\ntransformed.x *= 0.5;');
+      }, customProgramCacheKey: () => 'wide'});
+      const draw = async (Made, materials) => {
+        const mesh = new Made(await load(), materials);
+        mesh.setWeights(pose);
+        mesh.update();
+        const twin = mesh.clone();
+        return [bright(mesh), bright(twin)];
+      };
+      const result = {};
+      for (const [name, make] of [['plain', white], ['hash', hash], ['changed', wide]])
+        result[name] = [await draw(SweepfaceMesh, make()), await draw(SweepfaceGpuMesh, make())];
+      return result;
+    });
+    for (const [name, [cpu, gpu]] of Object.entries(found)) {
+      assert.ok(cpu[0] > 1000, name);
+      for (const all of [...cpu, ...gpu]) assert.ok(Math.abs(all / cpu[0] - 1) < 0.05, `${name}: ${all} of ${cpu[0]}`);
+    }
+    for (const name of ['hash', 'changed']) assert.ok(found[name][1][0] < 0.9 * found.plain[1][0], name);
+    assert.deepEqual(complaints, []);
+  });
 }));

@@ -92,7 +92,7 @@ test('the page', options, (t) => withPage('index.html', visit, async (page, comp
 
   await t.test('finds expressions by a part of their name', async () => {
     await page.locator('#filter').fill('SMILE');
-    const found = await page.locator('.slider:not([hidden]) span').allTextContents();
+    const found = await page.locator('.slider:not([hidden]) span:first-child').allTextContents();
     assert.deepEqual(found, ['mouthSmileLeft', 'mouthSmileRight']);
     await page.locator('#filter').fill('');
   });
@@ -107,6 +107,54 @@ test('the page', options, (t) => withPage('index.html', visit, async (page, comp
     await open('again.sweep', bytes);
     await until(() => document.title.startsWith('again.sweep'));
     assert.equal(await page.locator('#message').textContent(), '');
+  });
+
+  await t.test('names its sliders', async () => {
+    assert.ok(await page.evaluate(() => [...document.querySelectorAll('.slider')].every((row) => {
+      const [input] = row.getElementsByTagName('input');
+      return row.control === input && row.querySelector('span:not([aria-hidden])').textContent === input.name;
+    })));
+  });
+
+  await t.test('shows the file that was asked for last', async () => {
+    await page.route('**/sample.sweep', async (route) => {
+      await page.waitForTimeout(2000);
+      await route.continue();
+    });
+    const begun = page.waitForRequest('**/sample.sweep'), late = page.waitForResponse('**/sample.sweep');
+    await page.reload({waitUntil: 'commit'});
+    await begun;
+    await page.locator('#file').setInputFiles({name: 'mine.sweep', mimeType: 'application/octet-stream', buffer: bytes});
+    await until(() => document.title.startsWith('mine.sweep'));
+    await late;
+    await page.waitForTimeout(800);
+    assert.ok((await page.title()).startsWith('mine.sweep'));
+    assert.equal(await page.locator('#message').textContent(), '');
+    await page.unroute('**/sample.sweep');
+  });
+
+  await t.test('draws again when the graphics card comes back', async () => {
+    await page.reload();
+    await settle();
+    const before = await picture(), told = complaints.length;
+    await page.evaluate(async () => {
+      const card = document.getElementById('view').getContext('webgl2').getExtension('WEBGL_lose_context');
+      card.loseContext();
+      await new Promise((done) => setTimeout(done, 500));
+      card.restoreContext();
+      await new Promise((done) => setTimeout(done, 1000));
+    });
+    const after = await changed(before, await picture());
+    assert.ok(after < 0.01, `${after} of the pixels differ`);
+    complaints.splice(told);  // that it was lost
+  });
+
+  await t.test('fits a phone on its side', async () => {
+    await page.setViewportSize({width: 667, height: 375});
+    const heightOf = (id) => document.getElementById(id).clientHeight;
+    const heights = [await page.evaluate(heightOf, 'view'), await page.evaluate(heightOf, 'sliders')];
+    assert.equal(heights[0], 375);
+    assert.ok(heights[1] > 120, `sliders have ${heights[1]} pixels`);
   });
 
   await t.test('fits a phone', async () => {
@@ -125,3 +173,26 @@ test('the page', options, (t) => withPage('index.html', visit, async (page, comp
     assert.deepEqual(complaints, []);
   });
 }));
+
+/** What the page says where something is amiss. */
+function told(name, visit) {
+  return withPage(name, visit, async (page) => {
+    await page.waitForFunction(() => document.getElementById('message').textContent !== 'Loading…');
+    return page.locator('#message.error').textContent();
+  });
+}
+
+test('the page says which file is missing', options, async () => {
+  assert.equal(await told('index.html?face=typo.sweep', visit), 'typo.sweep cannot be had: the server answers 404.');
+});
+
+test('the page says when three.js is missing', options, async () => {
+  const html = readFileSync(new URL('../index.html', import.meta.url), 'utf8').replace('three.module.js', 'nothing.js');
+  assert.match(await told('other.html', {files: {'other.html': html}}), /npm ci/);
+});
+
+test('the page says when there is no WebGL', options, async () => {
+  const html = readFileSync(new URL('../index.html', import.meta.url), 'utf8').replace('<script>',
+    '<script>HTMLCanvasElement.prototype.getContext = () => null;</script><script>');
+  assert.match(await told('other.html', {files: {'other.html': html}}), /WebGL 2/);
+});

@@ -92,6 +92,12 @@ test('what is no region is refused with a sentence', async () => {
   await refused([{...above, fade: -1}], /finite and at least 0/);
   await refused([above, above], /Two regions are named 'above'/);
   await refused([{name: 'x', parts: ['beard']}], /beard/);
-  const heavy = await load([{...above, mass: 1e9}]);
-  assert.throws(() => heavy.moveTo({jawOpen: 1}), /from 0\.0001 to 10000/);
+  await refused([{...above, mass: 1e9}], /from 0\.0001 to 10000/);
+  await refused([{...above, mass: 'heavy'}], /Region 'above' has a 'mass' that is not a number\./);
+  await refused([{...above, delay: -1}], /from 0 to 60 seconds/);
+  await refused([{...above, parts: 'lips'}], /'parts' that are no list of names/);
+  await refused([{...above, points: null}], /'points' that are not like/);
+  await refused([{...above, nodes: null}], /'nodes' that are no shares/);
+  await refused([{...above, bands: 1e9}], /whole number from 1 to 32/);
+  assert.deepEqual((await load([{...above, mass: undefined}])).regions, ['rest', 'above']);
 });

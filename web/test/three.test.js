@@ -37,6 +37,106 @@ test('an update costs nothing where nothing moves', options, async () => {
   assert.equal(position.version, after);
 });
 
+test('a slow motion moves a mesh, and one that waits uploads nothing once it is over', options, async () => {
+  const mesh = await load(), {position} = mesh.geometry.attributes;
+  mesh.moveTo({jawOpen: 0.2}, {kind: 'accelerate-brake', seconds: 2});
+  for (const tiny of [0, 1e-9]) mesh.advance(tiny);
+  for (let k = 0; k < 180; ++k) mesh.update(1 / 60);
+  assert.equal(mesh.face.weights.jawOpen, 0.2);
+  const {version} = position;
+  for (let k = 0; k < 10; ++k) {
+    assert.equal(mesh.advance(1 / 60), false);
+    mesh.update();
+  }
+  assert.equal(position.version, version);
+  for (const wait of [(seconds) => mesh.update(seconds), (seconds) => mesh.advance(seconds)])
+    for (const seconds of [NaN, Infinity]) assert.throws(() => wait(seconds), /finite number of seconds/);
+});
+
+for (const [name, module] of [['SweepfaceMesh', 'three'], ['SweepfaceGpuMesh', 'gpu']])
+  test(`${name} can be cloned, by itself and within a scene`, options, async () => {
+    const {Sweepface} = await import('../sweepface.js'), Made = (await import(`../sweepface_${module}.js`))[name];
+    const regions = [{name: 'above', points: [[0, 8, 9]], whole: 5, over: 'space'}];
+    const mesh = new Made(await Sweepface.load(readFileSync(sample), {regions})), group = new three.Group();
+    mesh.setWeights({jawOpen: 0.5});
+    mesh.setWeights({browInnerUp: 0.25}, 'above');
+    mesh.update();
+    mesh.position.set(1, 2, 3);
+    mesh.add(new three.Object3D());
+    group.add(mesh);
+    for (const twin of [mesh.clone(), group.clone().children[0]]) {
+      assert.ok(twin instanceof Made && twin.face !== mesh.face && twin.geometry !== mesh.geometry);
+      for (const region of mesh.regions) assert.deepEqual(twin.face.weightsIn(region), mesh.face.weightsIn(region));
+      assert.deepEqual(twin.geometry.attributes.position.array, mesh.geometry.attributes.position.array);
+      assert.deepEqual(twin.position.toArray(), [1, 2, 3]);
+      assert.equal(twin.children.length, 1);
+      assert.equal(twin.material.length, mesh.material.length);
+      assert.equal(twin.material[0] === mesh.material[0], name === 'SweepfaceMesh');
+      twin.setWeights({jawOpen: 1});
+      twin.update();
+      assert.equal(mesh.face.weights.jawOpen, 0.5);
+    }
+    assert.equal(mesh.clone(false).children.length, 0);
+  });
+
+test('materials keep what they do to a shader, and their clones too', options, async () => {
+  const {Sweepface} = await import('../sweepface.js'), {SweepfaceGpuMesh} = await import('../sweepface_gpu.js');
+  const face = await Sweepface.load(readFileSync(sample));
+  const [mine, other] = ['mine', 'other'].map((key) => Object.assign(new three.MeshStandardMaterial(), {
+    onBeforeCompile: (shader, renderer) => { shader.vertexShader += `// ${key} by ${renderer}`; },
+    customProgramCacheKey: () => key
+  }));
+  const mesh = new SweepfaceGpuMesh(face, [mine, mine, other]), [twin] = mesh.clone().material;
+  for (const material of [mine, twin]) {
+    const shader = {uniforms: {}, vertexShader: '#include <begin_vertex>'};
+    material.onBeforeCompile(shader, 'me');
+    assert.match(shader.vertexShader, /\/\/ mine by me/);
+    assert.equal(shader.vertexShader.match(/uniform float sweepFactor/g).length, 1);
+  }
+  assert.notEqual(mine.customProgramCacheKey(), other.customProgramCacheKey());
+  assert.equal(mine.customProgramCacheKey(), twin.customProgramCacheKey());
+});
+
+/** What happens when a loader loads, in order. */
+async function happenings(file, options, fail = () => {}) {
+  const {SweepfaceLoader} = await import('../sweepface_three.js'), seen = [];
+  const manager = new three.LoadingManager(() => seen.push('all'), undefined, () => seen.push('amiss'));
+  let all;
+  const done = new Promise((resolve) => all = resolve);
+  manager.onLoad = () => {
+    seen.push('all');
+    all();
+  };
+  new SweepfaceLoader(manager, options).load(file, () => {
+    seen.push('mesh');
+    fail();
+  }, undefined, ({message}) => seen.push(message));
+  await done;
+  return seen;
+}
+
+test('a manager hears of a mesh when it is there, and once of what goes wrong', options, async () => {
+  const {fetch} = globalThis;
+  globalThis.ProgressEvent ??= class { constructor(type) { this.type = type; } };
+  globalThis.fetch = async (request) => {
+    const name = new URL(request.url).pathname;
+    if (name === '/none') return new Response('', {status: 404});
+    return new Response(name === '/bad' ? 'GIF' : readFileSync(sample));
+  };
+  try {
+    assert.deepEqual(await happenings('http://a/face'), ['mesh', 'all']);
+    const [missing, ...rest] = await happenings('http://a/none');
+    assert.match(missing, /404/);
+    assert.deepEqual(rest, ['amiss', 'all']);
+    assert.match((await happenings('http://a/bad', {name: 'Anna'})).join(), /^amiss,Anna does not begin with .*,all$/);
+    assert.match((await happenings('http://a/bad')).join(), /http:\/\/a\/bad does not begin with/);
+    const mine = () => { throw new Error('Mine.'); };
+    assert.deepEqual(await happenings('http://a/face', {}, mine), ['mesh', 'amiss', 'Mine.', 'all']);
+  } finally {
+    globalThis.fetch = fetch;
+  }
+});
+
 test('materials are plain, one a part, named as in the source', options, async () => {
   const mesh = await load();
   assert.deepEqual(mesh.material.map(({name}) => name), mesh.face.parts.map(({material}) => material));

@@ -5,7 +5,7 @@ import {type Clip, ClipPlayer, readClip, readTimeline, TimelinePlayer} from 'swe
 import {SWEEPFACE_GLSL, SweepfaceGpuMesh} from 'sweepface/gpu';
 import {SweepfaceLoader, SweepfaceMesh} from 'sweepface/three';
 
-export async function useFace(bytes: ArrayBuffer): Promise<void> {
+export async function useFace(bytes: ArrayBuffer | Uint8Array): Promise<void> {
   const wasm = new URL('https://example.org/a.wasm');
   const face: Sweepface = await Sweepface.load(bytes, {lod: 2, name: 'face.sweep', wasm});
   const positions = new Float32Array(3 * face.vertexCount), parts: Part[] = face.parts;
@@ -31,6 +31,8 @@ export async function useThree(scene: Scene): Promise<void> {
   mesh.setWeights({jawOpen: 0.7});
   mesh.moveTo({jawOpen: 0}, 'spring');
   mesh.update(1 / 60);
+  const twin: SweepfaceMesh = mesh.clone();
+  console.log(twin.regions.length);
   mesh.dispose();
 }
 
