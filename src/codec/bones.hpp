@@ -81,20 +81,19 @@ Index codeBones(Symbols<Coder>& symbols, const Hierarchy& hierarchy, std::vector
     const auto beside = hierarchy.beside(s);
     const Index expected = beside.empty() ? before : bones[beside.front().vector];
     const std::uint32_t image = site.mirror >= 0 && site.mirror < s ? 1 + followed[site.mirror] : 0;
-    Index bone = bones[site.first];
+    std::int64_t bone = bones[site.first];
     const std::uint32_t kind = (beside.empty() ? 4 : site.parent < 0 ? 2 : 0) + (expected < 0);
     followed[s] = symbols.bit(kSameBone, image, kind, bone == expected);
     if (followed[s])
       bone = expected;
     else
-      bone =
-          static_cast<Index>(symbols.number(kBone, 0, 0, static_cast<std::uint64_t>(bone + 1))) - 1;
+      bone = std::int64_t{symbols.number(kBone, 0, 0, static_cast<std::uint64_t>(bone + 1))} - 1;
     if (bone < -1 || bone >= count) {
       symbols.refuse("there is no such bone");
       return 0;
     }
-    std::fill_n(bones.begin() + site.first, site.count, bone);
-    before = bone;
+    before = static_cast<Index>(bone);
+    std::fill_n(bones.begin() + site.first, site.count, before);
   }
   return count;
 }

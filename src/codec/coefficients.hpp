@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
@@ -94,7 +95,7 @@ class CoefficientCoder {
     else
       begin(q, expected);
     const auto& sites = h_.sites();
-    for (Index s = 0; s < static_cast<Index>(sites.size()); ++s) {
+    for (Index s = 0; s < static_cast<Index>(sites.size()) && length_ <= mostLength_; ++s) {
       const bool follows = symmetry == Symmetry::self && isImage(s);
       phase_ = neutral_ ? 0 : symmetry == Symmetry::partner ? 3 : 1;
       if (follows) phase_ += neutral_ ? 4 : 1;
@@ -104,6 +105,10 @@ class CoefficientCoder {
     }
     for (std::size_t s = 0; s < sites.size(); ++s) history_[s] += active_[s];
   }
+
+  /// Reading ends where coefficients have more bits in all.
+  void setMostBits(std::uint64_t most) { mostLength_ = most; }
+  bool hasTooManyBits() const { return length_ > mostLength_; }
 
  private:
   // Enough that contexts hardly ever share one, and no more than a small rig needs.
@@ -333,6 +338,7 @@ class CoefficientCoder {
       if (!more) break;
       ++n;
     }
+    length_ += n;
     std::uint32_t value = 1;
     for (std::uint32_t b = n - 1; b-- > 0;) {
       const std::uint32_t top = n - 1 - b, known = top < 4 ? value : 16 + top;
@@ -349,6 +355,7 @@ class CoefficientCoder {
   bool neutral_;
   std::uint32_t mask_;  // of slots
   Model<Coder, kInputs> model_;
+  std::uint64_t length_ = 0, mostLength_ = std::numeric_limits<std::uint64_t>::max();
   std::uint32_t phase_ = 0, recent_ = 0;        // the last bits with their kinds, four each
   std::vector<Index> siteOf_;                   // [S]
   std::vector<char> active_, below_, mirrors_;  // [sites]

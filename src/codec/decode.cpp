@@ -13,7 +13,7 @@ namespace codec {
 
 bool Decoding::afford(Reader& in, std::size_t count, std::size_t bytesEach) {
   if (count > memory / bytesEach) {
-    in.refuse("it needs more memory than it is allowed");
+    in.refuse(kTooMuchMemory);
     return false;
   }
   memory -= count * bytesEach;

@@ -78,13 +78,16 @@ void readTargetNames(Decoding& d, Reader& in) {
 // Poses one after the other. All but what is being read is kept as what moves: that is little.
 class PoseReader {
  public:
-  PoseReader(Decoding& d, RangeDecoder& coder, Symbols<RangeDecoder>& symbols, bool neutral)
+  PoseReader(Decoding& d, RangeDecoder& coder, Symbols<RangeDecoder>& symbols, bool neutral,
+             std::size_t bytes)
       : d_(d),
         lattice_(*d.lattice),
         symbols_(symbols),
         vectors_(lattice_.hierarchy(), coder, lattice_.axis(), neutral),
         current_(d.stored),
-        moved_(d.targets + 1) {}
+        moved_(d.targets + 1) {
+    vectors_.setMostBits(kBitsAnyway + kBitsAByte * bytes);
+  }
 
   void readBones() { bones_ = codeBones(symbols_, lattice_.hierarchy(), d_.rig->packing.bones); }
 
@@ -99,6 +102,7 @@ class PoseReader {
     if (!symbols_.ok()) return;
     vectors_.code(current_, symmetryOf(form, pose), partnerOf(packing, lattice_, moved_, pose),
                   movedIn(like, lattice_, moved_));
+    if (vectors_.hasTooManyBits()) symbols_.refuse("its numbers are too large for so few bytes");
     moved_[pose] = movedIn(current_);
     for (const Moved& m : moved_[pose]) current_[m.vector] = {};
   }
@@ -130,9 +134,10 @@ class PoseReader {
 
 // Poses from `first` up to `end`, 0 the neutral.
 void readPoses(Decoding& d, Reader& in, Index first, Index end) {
+  const std::size_t bytes = in.left();
   decodeRest(in, [&](RangeDecoder& coder, Symbols<RangeDecoder>& symbols) {
     d.rig->packing.poses.resize(end);
-    PoseReader poses(d, coder, symbols, first == 0);
+    PoseReader poses(d, coder, symbols, first == 0, bytes);
     if (first > 0) poses.readBones();
     for (Index pose = first; pose < end && symbols.ok(); ++pose) poses.read(pose);
     if (symbols.ok()) poses.restore(first, end);
@@ -150,16 +155,21 @@ void readMoves(Decoding& d, Reader& in) {
 std::size_t mostQuads(const Reader& in) {
   return within(kMostQuads, kQuadsAByte, kQuadsAnyway, in.left());
 }
+// Of whatever is told beyond the grid.
+std::size_t mostEntries(const Decoding& d, const Reader& in) {
+  return std::min(mostQuads(in), d.memory / kBytesAnEntry);
+}
 
 // What is told by the grid of the patches takes less than a bit each; its size is checked here.
 template <typename Read>
 void readByGrid(Decoding& d, Reader& in, Read read) {
-  const std::size_t most = mostQuads(in);
-  if (d.quads > most) return in.refuse("the patches have too many vertices for so few bytes");
+  if (d.quads > mostQuads(in))
+    return in.refuse("the patches have too many vertices for so few bytes");
   if (!d.levelOne) {
     if (!d.afford(in, d.quads, kBytesAQuad)) return;
     d.levelOne.emplace(d.rig->surface, d.mirror);
   }
+  const std::size_t most = mostEntries(d, in);
   decodeRest(in, [&](RangeDecoder&, Symbols<RangeDecoder>& symbols) {
     read(symbols, *d.levelOne, most, d.rig->source);
   });
@@ -178,7 +188,7 @@ void readGridFaces(Decoding& d, Reader& in) {
 }
 
 void readTextureSteps(Decoding& d, Reader& in) {
-  const std::size_t most = mostQuads(in);
+  const std::size_t most = mostEntries(d, in);
   SourceMesh& source = d.rig->source;
   const std::vector<Index> images =
       d.levelOne ? cornerImages(d.levelOne->mirror(), source) : std::vector<Index>{};

@@ -4,6 +4,7 @@
 #include <unordered_map>
 
 #include "codec/faces.hpp"
+#include "codec/limits.hpp"
 #include "codec/source_coder.hpp"
 #include "codec/walk.hpp"
 #include "surface/groups.hpp"
@@ -218,7 +219,7 @@ class FaceCoder {
   }
 
   void codeTexts(std::vector<std::string>& texts) {
-    texts.resize(codeCount(s_, 2, texts.size(), most_));
+    texts.resize(codeCount(s_, 2, texts.size(), most_ / kLettersAName));
     for (std::string& text : texts) {
       const std::size_t size = codeCount(s_, 3, text.size(), most_);
       if (!s_.ok()) return;

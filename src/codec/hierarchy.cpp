@@ -79,9 +79,6 @@ class HierarchyBuilder {
                          all_[image].site.count != all_[s].site.count))
         image = -1;
     }
-    for (std::size_t s = 0; s < all_.size(); ++s)
-      if (all_[s].image >= 0 && all_[all_[s].image].image != static_cast<Index>(s))
-        all_[s].image = -1;
   }
 
   bool isGuessed(Index node) const { return node == guessed_ || node == guessedToo_; }

@@ -1,12 +1,17 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 namespace sweepface::codec {
 
 /// Vectors of all poses that a file may ask for: still ones take no bytes.
 inline constexpr std::size_t kMostVectors = std::size_t{1} << 25, kVectorsAByte = 1024,
                              kVectorsAnyway = std::size_t{1} << 20;
+
+/// Bits of all coefficients of a chunk, without leading zeros: where all are alike they take hardly
+/// any bytes, but time.
+inline constexpr std::uint64_t kBitsAByte = 1024, kBitsAnyway = std::uint64_t{1} << 22;
 
 /// Nodes, arcs and patches that a wireframe may have.
 inline constexpr std::size_t kMostPatches = std::size_t{1} << 19, kPatchesAByte = 256,
@@ -24,6 +29,10 @@ inline constexpr std::size_t kMostQuads = std::size_t{1} << 22, kQuadsAByte = 10
 /// from measurements.
 inline constexpr std::size_t kBytesAPatch = 4000, kBytesAVector = 40, kBytesAQuad = 400,
                              kBytesALetter = 4;
+
+/// The same for whatever else the source's order, faces and texture have; a name takes as much as
+/// some letters.
+inline constexpr std::size_t kBytesAnEntry = 64, kLettersAName = 8;
 
 /// Bytes of a target's name.
 inline constexpr std::size_t kLongestName = 4096;

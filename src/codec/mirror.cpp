@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
+#include <utility>
 
 #include "sweepface/box.hpp"
 
@@ -15,8 +17,6 @@ namespace {
 
 Loops loopsOf(const Connectivity& c) { return {c.next, c.prev, c.cornerAt}; }
 
-double coordinate(const Vec3& p, int axis) { return axis == 0 ? p.x : axis == 1 ? p.y : p.z; }
-
 std::vector<Vec3> nodePositions(const Surface& surface, std::span<const Vec3> neutral) {
   const Wireframe& w = surface.wireframe();
   std::vector<Vec3> vectors(surface.vectorCount()), positions(w.nodes.size());
@@ -27,24 +27,28 @@ std::vector<Vec3> nodePositions(const Surface& surface, std::span<const Vec3> ne
   return positions;
 }
 
-// The nearest node to the image of each across the middle of one axis, no further than `reach`.
-std::vector<Index> imagesAcross(const std::vector<Vec3>& positions, int axis, double twice,
+// The nearest node to the image of each across the middle of one axis, no further than `reach`; the
+// first of those that are as near.
+std::vector<Index> imagesAcross(const std::vector<Vec3>& positions, const Box& box, int axis,
                                 double reach) {
-  const int other = (axis + 1) % 3;
+  const double twice = coordinate(box.low, axis) + coordinate(box.high, axis);
+  const Vec3 size = box.size();
+  const int along = size.x >= std::max(size.y, size.z) ? 0 : size.y >= size.z ? 1 : 2;
   std::vector<Index> sorted(positions.size());
-  for (std::size_t n = 0; n < sorted.size(); ++n) sorted[n] = static_cast<Index>(n);
-  const auto key = [&](Index n) { return coordinate(positions[n], other); };
-  std::ranges::sort(sorted, {}, key);
+  std::iota(sorted.begin(), sorted.end(), 0);
+  const auto key = [&](Index n) { return coordinate(positions[n], along); };
+  std::ranges::sort(sorted, {}, [&](Index n) { return std::pair(key(n), n); });
   std::vector<Index> images;
   for (const Vec3& p : positions) {
     Vec3 image = p;
-    (axis == 0 ? image.x : axis == 1 ? image.y : image.z) = twice - coordinate(p, axis);
-    Index nearest = -1;
-    double least = reach;
-    for (auto at = std::ranges::lower_bound(sorted, coordinate(p, other) - reach, {}, key);
-         at != sorted.end() && key(*at) <= coordinate(p, other) + reach; ++at)
-      if (const double d = norm(positions[*at] - image); d < least) least = d, nearest = *at;
-    images.push_back(nearest);
+    coordinate(image, axis) = twice - coordinate(p, axis);
+    const double place = coordinate(image, along);
+    std::pair nearest(reach, Index{-1});
+    for (auto at = std::ranges::lower_bound(sorted, place - reach, {}, key);
+         at != sorted.end() && key(*at) <= place + reach; ++at)
+      if (const double d = norm(positions[*at] - image); d < reach)
+        nearest = nearest.second < 0 ? std::pair(d, *at) : std::min(nearest, std::pair(d, *at));
+    images.push_back(nearest.second);
   }
   return images;
 }
@@ -82,8 +86,7 @@ MirrorSeeds findMirror(const Surface& surface, std::span<const Vec3> neutral) {
   std::vector<Index> best;
   auto found = static_cast<std::ptrdiff_t>(positions.size() / 2);
   for (int axis = 0; axis < 3; ++axis) {
-    auto images = imagesAcross(positions, axis,
-                               coordinate(box.low, axis) + coordinate(box.high, axis), reach);
+    auto images = imagesAcross(positions, box, axis, reach);
     const auto count = std::ranges::count_if(images, [](Index n) { return n >= 0; });
     if (count <= found) continue;
     found = count;

@@ -3,8 +3,8 @@
 namespace sweepface::codec {
 
 std::string_view Refusal::advice() const {
-  return problem_.find("memory") == problem_.npos ? kConvertAgain
-                                                  : "; allow more, or do not open it.";
+  const bool isMemory = problem_ == kTooMuchMemory || problem_ == kTooLarge;
+  return isMemory ? "; allow more, or do not open it." : kConvertAgain;
 }
 
 void Refusal::refuse(std::string_view problem) { refuseWith({problem}); }

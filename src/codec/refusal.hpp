@@ -9,6 +9,10 @@
 namespace sweepface::codec {
 
 inline constexpr std::string_view kConvertAgain = "; convert the source again.";
+/// What the limit of memory may be to blame for.
+inline constexpr std::string_view kTooMuchMemory = "it needs more memory than it is allowed",
+                                  kTooLarge =
+                                      "the wireframe is larger than its bytes or the memory allow";
 
 /// Whether what is read holds, and if not, what was wrong first. A program without words links its
 /// own (web/src/usual.cpp).

@@ -155,7 +155,7 @@ class Walk {
 template <typename Coder>
 std::size_t codeCount(Symbols<Coder>& s, std::uint32_t what, std::size_t count, std::size_t most) {
   const std::size_t n = s.number(kCount, what, 0, count);
-  if (n > most) s.refuse("there are more entries than the chunk can hold");
+  if (n > most) s.refuse("there are more entries than the chunk or the memory can hold");
   return s.ok() ? n : 0;
 }
 

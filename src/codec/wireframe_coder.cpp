@@ -84,7 +84,7 @@ class WireframeCoder {
  private:
   std::size_t count(std::size_t value, std::size_t most) {
     const std::size_t n = s_.number(kCounts, 0, 0, value);
-    if (n > most) s_.refuse("the wireframe is larger than its bytes or the memory allow");
+    if (n > most) s_.refuse(kTooLarge);
     return n;
   }
 

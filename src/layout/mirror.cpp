@@ -15,12 +15,12 @@ namespace sweepface {
 
 namespace {
 
-double& coordinate(Vec3& p, int axis) { return axis == 0 ? p.x : axis == 1 ? p.y : p.z; }
-
 // Points in cells, for the nearest one within the size of a cell.
 class PointGrid {
  public:
-  PointGrid(const std::vector<Vec3>& points, double cell) : points_(points), cell_(cell) {
+  /// Cells are counted from `origin`, so that their numbers stay small wherever the model stands.
+  PointGrid(const std::vector<Vec3>& points, const Vec3& origin, double cell)
+      : points_(points), origin_(origin), cell_(cell) {
     for (std::size_t p = 0; p < points.size(); ++p)
       cells_[keyOf(points[p])].push_back(static_cast<Index>(p));
   }
@@ -51,10 +51,12 @@ class PointGrid {
     }
   };
   Key keyOf(const Vec3& p) const {
-    return {std::llround(p.x / cell_), std::llround(p.y / cell_), std::llround(p.z / cell_)};
+    const Vec3 way = p - origin_;
+    return {std::llround(way.x / cell_), std::llround(way.y / cell_), std::llround(way.z / cell_)};
   }
 
   const std::vector<Vec3>& points_;
+  Vec3 origin_;
   double cell_;
   std::unordered_map<Key, std::vector<Index>, Hash> cells_;
 };
@@ -67,7 +69,7 @@ std::vector<Index> imagesOfPoints(const GridMesh& mesh, std::span<const Vec3> po
   constexpr double kNear = 1e-3;  // of the diagonal
   const double cell = kNear * norm(box.size());
   if (!(cell > 0) || !std::isfinite(cell)) return {};
-  const PointGrid grid(points, cell);
+  const PointGrid grid(points, box.low, cell);
   std::vector<Index> best;
   std::ptrdiff_t found = static_cast<std::ptrdiff_t>(points.size()) / 2;
   for (int axis = 0; axis < 3; ++axis) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <limits>
 
+#include "codec/encoding.hpp"
 #include "codec/files.hpp"
 #include "codec/packed.hpp"
 #include "codec/rigs.hpp"
@@ -121,6 +122,17 @@ TEST(BonesOfAFile, MakeATurnOfAPartCheap) {
   rig.packing.bones.clear();
   rig.packing.poses[1].carries.clear();
   EXPECT_LT(2 * carried, bytesOfTargets(packed(rig)));
+}
+
+TEST(BonesOfAFile, MustBeThere) {
+  const std::string payload = codec::ranged([](auto& out) {
+    out.number(codec::kBones, 0, 0, 1);
+    out.bit(codec::kSameBone, 0, 4 + 1, false);
+    out.number(codec::kBone, 0, 0, std::uint64_t{1} << 31);
+  });
+  const auto refused = decode(withPayload(encode(withBones()), "MOVE", payload + "UU"), "a.sweep");
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("no such bone"), std::string::npos);
 }
 
 TEST(BonesOfAFile, AreMadeSound) {

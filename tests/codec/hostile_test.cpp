@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "allocations.hpp"
+#include "codec/encoding.hpp"
 #include "codec/files.hpp"
 #include "codec/packed.hpp"
 #include "codec/pose_form.hpp"
@@ -88,6 +89,49 @@ TEST(Hostile, WhatIsReadTakesNoMoreMemoryThanItIsAllowed) {
           << refused.error().message;
     }
   }
+}
+
+// Names that are all alike take hardly any bytes.
+TEST(Hostile, ManyNamesInAFewBytesAreRefused) {
+  constexpr std::size_t kLimit = 16 << 20, kNames = 4'000'000;
+  const std::string payload = codec::ranged([](auto& out) {
+    out.number(0, 1, 0, 0);  // no faces beyond the grid's
+    out.bit(37, 0, 0, true);
+    out.bit(36, 0, 0, false);
+    out.number(0, 2, 0, kNames);  // materials
+    for (std::size_t k = 0; k < kNames; ++k) out.number(0, 3, 0, 0);
+  });
+  const std::string bytes =
+      withPayload(encode(packed(everything())), "face", payload + std::string(5000, 'U'));
+  allocations.most = allocations.held;
+  const std::size_t before = allocations.held;
+  EXPECT_FALSE(decode(bytes, "a.sweep", {kLimit}));
+  EXPECT_LT(allocations.most - before, kLimit);
+}
+
+// Large coefficients that are all alike take hardly any bytes either, but as long to read as
+// others.
+TEST(Hostile, LargeNumbersInAFewBytesAreRefused) {
+  constexpr std::int32_t kLarge = (1 << 26) - 1;
+  Rig rig = makeRig(sheet(8));
+  rig.targets.clear();
+  rig = packed(std::move(rig));
+  rig.packing.targetStep = 1e-9;
+  codec::Lattice lattice(rig.surface, rig.packing);
+  lattice.learn(rig.surface, rig.neutral, rig.packing.neutralStep);
+  Target target{"", std::vector<Vec3>(rig.neutral.size()), rig.source.loose};
+  lattice.restore(1, codec::Coefficients(rig.neutral.size(), {kLarge, kLarge, kLarge}),
+                  rig.packing.targetStep, target.difference);
+  for (std::size_t k = 0; k < 200'000 / rig.neutral.size(); ++k) {
+    target.name = std::to_string(k);
+    rig.targets.push_back(target);
+  }
+  const std::string bytes = encode(rig);
+  EXPECT_LT(bytes.size(), 20'000u);
+  const auto refused = decode(bytes, "a.sweep");
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("too large for so few bytes"), std::string::npos)
+      << refused.error().message;
 }
 
 TEST(Hostile, NumbersMustBeShortAndSmall) {
