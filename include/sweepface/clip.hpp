@@ -22,6 +22,10 @@ struct Clip {
   void at(double seconds, std::span<double> out) const noexcept;
 };
 
+/// Hours of every shape of a face, and few enough for the memory of any machine. A few bytes can
+/// ask for more: frames of a curve or of a timeline, or names that every frame has others of.
+inline constexpr std::size_t kMostClipWeights = std::size_t{1} << 26;
+
 /// Which target each name of a clip drives. Names match if they are equal but for case, '_', '-', '
 /// ' and whether a side is spelt out (eyeBlinkLeft, EyeBlink_L). A name without a side drives both
 /// sides where there is no target of its own (browInnerUp: browInnerUp_L and browInnerUp_R).

@@ -26,10 +26,14 @@ struct Timeline {
   std::vector<TimelineEvent> events;
 };
 
+/// Whether a JSON text is of a timeline, not of a capture: an object that has "events".
+bool isTimeline(std::string_view text);
+
 /// A timeline in its JSON form (docs/clips.md).
 Result<Timeline> parseTimeline(std::string_view text, std::string_view name);
 
-/// The timeline as a clip of `framesPerSecond`, from rest at 0: both ends included.
+/// The timeline as a clip of `framesPerSecond`, from rest at 0: both ends included. Refuses more
+/// than kMostClipWeights.
 Result<Clip> bake(const Timeline& timeline, double framesPerSecond);
 /// The same in one region: without what is meant for others, and by its own matter.
 Result<Clip> bake(const Timeline& timeline, double framesPerSecond, std::string_view region,

@@ -249,6 +249,11 @@ Result<Accessor> accessorAt(const Document& document, std::size_t index) {
 }
 
 Result<std::vector<double>> decode(const Document& document, const Accessor& accessor) {
+  if (!accessor.view && accessor.count > document.mostClaimed())
+    return fail(fmt::format(
+        "accessor {}: it claims {} elements without data in {} bytes, more than a file of this "
+        "size can mean; export the file again.",
+        accessor.index, accessor.count, document.sourceBytes));
   std::vector<double> values(accessor.count * accessor.components());
   if (accessor.view) readDense(document, accessor, values);
   if (accessor.sparse)

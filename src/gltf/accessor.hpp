@@ -43,11 +43,11 @@ struct Accessor {
   bool hasData() const { return view || sparse; }
 };
 
-/// The accessor of a number that is in the list. Memory for its values is the caller's worry:
-/// without data the count is only a claim.
+/// The accessor of a number that is in the list. Without a buffer view its count is only a claim.
 Result<Accessor> accessorAt(const Document& document, std::size_t index);
 
 /// All values, component after component, normalised where the accessor says so. All are finite.
+/// Refuses more zeros than a file of this size can mean.
 Result<std::vector<double>> decode(const Document& document, const Accessor& accessor);
 
 }  // namespace sweepface::gltf

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <map>
+#include <set>
 
 #include "sweepface/gltf.hpp"
 #include "sweepface/keys.hpp"
@@ -92,8 +93,6 @@ class ClipReader {
   Result<std::vector<double>> numbers(std::size_t index) const {
     const auto accessor = accessorAt(document_, index);
     if (!accessor) return std::unexpected(accessor.error());
-    if (!accessor->hasData() && accessor->count > document_.mostElements())
-      return fail(fmt::format("accessor {}: it has more elements than the file can hold.", index));
     return decode(document_, *accessor);
   }
 
@@ -112,6 +111,12 @@ class ClipReader {
     if (!times) return std::unexpected(times.error());
     if (!values) return std::unexpected(values.error());
     for (const std::size_t t : mesh.targets) track.names.push_back(parts_.targets[t]);
+    // Channels may all play the same few bytes.
+    held_ += values->size();
+    if (held_ > kMostClipWeights)
+      return fail(
+          "the channels of its animation have more values than a clip can hold; export it in "
+          "parts.");
     if (times->empty() || values->size() != times->size() * track.names.size() * (cubic ? 3 : 1))
       in.refuse(fmt::format("it has {} values for {} keys of {} targets", values->size(),
                             times->size(), track.names.size()));
@@ -119,7 +124,7 @@ class ClipReader {
       in.refuse("its times do not increase");
     if (!in.ok()) return in.error();
     track.times = std::move(*times), track.values = std::move(*values);
-    if (cubic) track.cubic = keysOf(track);
+    if (cubic) track.cubic = keysOf(track), track.values = {};
     tracks_.push_back(std::move(track));
     return {};
   }
@@ -163,13 +168,19 @@ class ClipReader {
     if (!times) return std::unexpected(times.error());
     Clip clip;
     clip.times = std::move(*times);
+    std::set<std::string_view> known;
     std::vector<std::pair<const Track*, std::size_t>> sources;
     for (const Track& track : tracks_)
       for (std::size_t k = 0; k < track.names.size(); ++k)
-        if (std::ranges::find(clip.names, track.names[k]) == clip.names.end()) {
+        if (known.insert(track.names[k]).second) {
           clip.names.push_back(track.names[k]);
           sources.emplace_back(&track, k);
         }
+    if (clip.times.size() > kMostClipWeights / clip.names.size())
+      return fail(
+          fmt::format("its animation of {} targets needs {} frames, more than a clip can hold; "
+                      "export it in parts.",
+                      clip.names.size(), clip.times.size()));
     std::map<const Track*, std::vector<double>> now;
     for (const Track& track : tracks_) now[&track].resize(track.names.size());
     for (const double time : clip.times) {
@@ -182,6 +193,7 @@ class ClipReader {
   const Document& document_;
   const Parts& parts_;
   std::vector<Track> tracks_;
+  std::size_t held_ = 0;  // values of them all
 };
 
 Result<Clip> readClip(std::string_view bytes, const std::filesystem::path& folder,

@@ -33,6 +33,10 @@ struct Document {
   /// Corners, or elements of attributes, that files of this size can mean. Few bytes can claim more
   /// by using the same data again and again.
   std::size_t mostElements() const { return (1 << 16) + 8 * sourceBytes; }
+  /// Vectors of all shapes together, or elements of an accessor without a buffer view: few bytes
+  /// can claim many that are zero. Files that mean what they say stay below this, however well they
+  /// are compressed.
+  std::size_t mostClaimed() const { return (1 << 16) + 32 * sourceBytes; }
   const Json& list(std::string_view key) const { return listOf(json, key); }
 };
 

@@ -8,6 +8,7 @@
 #include "gltf/fine_mesh.hpp"
 #include "gltf/quantize.hpp"
 #include "gltf/source_of_grid.hpp"
+#include "rig/source_quads.hpp"
 
 namespace sweepface {
 namespace gltf {
@@ -172,7 +173,7 @@ Result<std::string> formatGlb(const Rig& rig, const GlbOptions& options) {
   if (auto ok = gltf::check(rig, options); !ok) return std::unexpected(ok.error());
   if (auto ok = gltf::checkLod(rig.surface, options.lod); !ok) return std::unexpected(ok.error());
   const bool unknownFaces =
-      rig.source.polygons.faceCount() == 0 || (options.lod > 0 && rig.source.quadCorners.empty());
+      rig.source.polygons.faceCount() == 0 || (options.lod > 0 && !knowsQuads(rig));
   if (!unknownFaces) return gltf::GlbWriter(rig, options).write();
   Rig whole = rig;
   whole.source = gltf::sourceOfGrid(rig);

@@ -16,7 +16,8 @@ constexpr std::size_t deepest = 128, mostMembers = 4096;
 Result<void> checkNesting(std::string_view text) {
   std::vector<std::size_t> members;  // of each object around
   Result<void> result;
-  io::scanJson(text, [&](char c) {
+  io::scanJson(text, [&](std::size_t at) {
+    const char c = text[at];
     if ((c == '[' || c == '{') && members.size() == deepest)
       result = fail(
           fmt::format("its JSON is nested deeper than {} levels; export the file again.", deepest));

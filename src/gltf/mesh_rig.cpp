@@ -44,14 +44,10 @@ class RigReader {
   }
 
  private:
-  // Few bytes can claim much: targets without data, accessors that are used again and again. Files
-  // that mean what they say stay below this, however well they are compressed.
-  static constexpr std::size_t vectorsPerByte = 32, alwaysAllowed = 1 << 16;
-  std::size_t mostVectors() const { return alwaysAllowed + vectorsPerByte * document_.sourceBytes; }
-
+  /// Few bytes can claim much: targets without data, accessors that are used again and again.
   Result<void> checkRoom() const {
     const std::size_t shapes = parts_.targets.size() + 1;
-    if (parts_.vertexCount <= mostVectors() / shapes) return {};
+    if (parts_.vertexCount <= document_.mostClaimed() / shapes) return {};
     return fail(
         fmt::format("it claims {} morph targets of {} vertices in {} bytes, more than a file of "
                     "this size can mean; export the file again.",

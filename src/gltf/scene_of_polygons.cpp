@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <map>
+#include <tuple>
 
 #include "eval/triangulate.hpp"
 #include "gltf/bound_scene.hpp"
@@ -16,7 +17,6 @@ class VertexSplitter {
       : polygons_(source.polygons), texcoords_(source.gridVertex.size()) {
     const auto count = static_cast<Index>(source.gridVertex.size());
     for (Index v = 0; v < count; ++v) vertices_.push_back(v);
-    next_.assign(count, -1);
     taken_.assign(count, false);
   }
 
@@ -25,16 +25,14 @@ class VertexSplitter {
     const Index t = polygons_.cornerTexcoords.empty() ? -1 : polygons_.cornerTexcoords[corner];
     if (t < 0) return v;
     const Vec2 texcoord = polygons_.texcoords[t];
-    Index last = v;
-    for (Index copy = v; copy >= 0; copy = next_[copy]) {
-      if (!taken_[copy]) {
-        taken_[copy] = true;
-        texcoords_[copy] = texcoord;
-      }
-      if (texcoords_[copy] == texcoord) return copy;
-      last = copy;
+    if (!taken_[v]) {
+      taken_[v] = true;
+      texcoords_[v] = texcoord;
     }
-    return next_[last] = add(v, texcoord);
+    if (texcoords_[v] == texcoord) return v;
+    const auto [copy, isNew] = copies_.try_emplace({v, texcoord.x, texcoord.y}, 0);
+    if (isNew) copy->second = add(v, texcoord);
+    return copy->second;
   }
 
   bool hasTexture() const { return std::ranges::count(taken_, true) > 0; }
@@ -46,7 +44,6 @@ class VertexSplitter {
     vertices_.push_back(source);
     texcoords_.push_back(texcoord);
     taken_.push_back(true);
-    next_.push_back(-1);
     return static_cast<Index>(vertices_.size()) - 1;
   }
 
@@ -54,7 +51,7 @@ class VertexSplitter {
   std::vector<Index> vertices_;  // the source's vertex of each
   std::vector<Vec2> texcoords_;
   std::vector<bool> taken_;  // whether it has a texture coordinate of its own
-  std::vector<Index> next_;  // another one at the same place, or -1
+  std::map<std::tuple<Index, double, double>, Index> copies_;  // by source and texture coordinate
 };
 
 Json materialNamed(const std::string& name) {

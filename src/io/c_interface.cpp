@@ -43,9 +43,9 @@ enum class Kind { csv, capture, timeline, gltf };
 
 Kind kindOf(std::string_view bytes) {
   if (bytes.starts_with("glTF")) return Kind::gltf;
-  const std::string_view text = io::trimmed(bytes);
+  const std::string_view text = io::trimmed(io::withoutMark(bytes));
   if (!text.starts_with('{') && !text.starts_with('[')) return Kind::csv;
-  return text.find("\"events\"") == std::string_view::npos ? Kind::capture : Kind::timeline;
+  return isTimeline(text) ? Kind::timeline : Kind::capture;
 }
 
 Result<Clip> readCapture(Kind kind, std::string_view bytes, const char* name,
@@ -57,6 +57,12 @@ Result<Clip> readCapture(Kind kind, std::string_view bytes, const char* name,
   return clip;
 }
 
+/// Whether as many regions as there are can each have a clip like this.
+Result<void> checkRoom(const Clip& clip, std::size_t regions, const char* name) {
+  if (clip.weights.size() <= kMostClipWeights / regions) return {};
+  return fail(name, " is too long for ", regions, " regions; cut it, or play it with fewer.");
+}
+
 /// The clip as every region of the rig plays it.
 Result<std::vector<Clip>> readForRegions(const Division& division, std::string_view bytes,
                                          const char* name, const sweepface_clip_options& options) {
@@ -65,6 +71,8 @@ Result<std::vector<Clip>> readForRegions(const Division& division, std::string_v
   if (kind != Kind::timeline) {
     const auto capture = readCapture(kind, bytes, name, options);
     if (!capture) return std::unexpected(capture.error());
+    if (auto ok = checkRoom(*capture, division.count(), name); !ok)
+      return std::unexpected(ok.error());
     for (std::size_t r = 0; r < division.count(); ++r)
       clips.push_back(
           inMatter(*capture, matterOf(division, r), {options.frequency, options.damping}));
@@ -78,7 +86,8 @@ Result<std::vector<Clip>> readForRegions(const Division& division, std::string_v
       return fail(name, ": an event is for a region '", event.region, "' that there is not.");
   for (std::size_t r = 0; r < division.count(); ++r) {
     auto clip = bake(*timeline, kTimelineRate, nameOf(division, r), matterOf(division, r));
-    if (!clip) return std::unexpected(clip.error());
+    if (!clip) return fail(name, ": ", clip.error().message);
+    if (auto ok = checkRoom(*clip, division.count(), name); !ok) return std::unexpected(ok.error());
     clips.push_back(std::move(*clip));
   }
   return clips;
@@ -153,7 +162,10 @@ sweepface_status sweepface_clip_read(const sweepface_rig* rig, const void* bytes
 void sweepface_clip_free(sweepface_clip* clip) { delete clip; }
 
 double sweepface_clip_seconds(const sweepface_clip* clip) {
-  return clip ? clip->ofRegions.front().seconds() : 0;
+  if (!clip) return 0;
+  double longest = 0;
+  for (const Clip& each : clip->ofRegions) longest = std::max(longest, each.seconds());
+  return longest;
 }
 
 const char* sweepface_clip_unmatched(const sweepface_clip* clip, uint32_t index) {

@@ -1,8 +1,8 @@
-#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "sweepface/clip.hpp"
 #include "sweepface/weights.hpp"
@@ -78,11 +78,16 @@ class ClipJsonReader {
     std::vector<std::map<std::string, double>> scores(frames.size());
     for (std::size_t f = 0; f < frames.size(); ++f)
       if (auto ok = readFrame(frames[f], f, scores[f]); !ok) return std::unexpected(ok.error());
+    std::set<std::string_view> known{"_neutral"};
     for (const auto& frame : scores)
       for (const auto& [shape, score] : frame)
-        if (shape != "_neutral" && std::ranges::find(clip_.names, shape) == clip_.names.end())
-          clip_.names.push_back(shape);
+        if (known.insert(shape).second) clip_.names.push_back(shape);
     if (clip_.names.empty()) return failFile("has no scores in its frames");
+    // Frames that each have names of their own would make many of few.
+    if (clip_.names.size() > kMostClipWeights / scores.size())
+      return failFile(fmt::format(
+          "has {} names in {} frames, more than a clip can hold; name the same ones in every frame",
+          clip_.names.size(), scores.size()));
     for (const auto& frame : scores)
       for (const std::string& shape : clip_.names) {
         const auto found = frame.find(shape);

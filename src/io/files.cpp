@@ -81,6 +81,9 @@ Result<void> replaceFile(const fs::path& path, std::string_view bytes) {
   Temporary temporary = createTemporary(folder);
   if (!temporary.file) return cannotCreate(path, folder, temporary.code);
   std::error_code error, ignored;
+  // Before anything is in it that others may not be allowed to read.
+  if (const fs::file_status old = fs::status(path, ignored); fs::exists(old))
+    fs::permissions(temporary.path, old.permissions() & fs::perms::all, ignored);
   if (const int code = writeAll(std::move(temporary.file), bytes)) {
     fs::remove(temporary.path, ignored);
     return cannotWrite(path, code);
@@ -89,6 +92,20 @@ Result<void> replaceFile(const fs::path& path, std::string_view bytes) {
   if (!error) return {};
   fs::remove(temporary.path, ignored);
   return cannotWrite(path, error.value());
+}
+
+/// What a link points to in the end, which need not exist; no path where links go round in a
+/// circle.
+fs::path pointedTo(fs::path path) {
+  constexpr int kMostLinks = 40;  // as many as Linux follows
+  std::error_code error;
+  for (int links = 0; links <= kMostLinks; ++links) {
+    if (!fs::is_symlink(fs::symlink_status(path, error))) return path;
+    const fs::path next = fs::read_symlink(path, error);
+    if (error) return path;
+    path = path.parent_path() / next;
+  }
+  return {};
 }
 
 }  // namespace
@@ -132,11 +149,13 @@ Result<void> writeFile(const fs::path& path, std::string_view bytes) {
   if (!path.has_filename()) return fail("Cannot write a file without a name.");
   // A device or a pipe is not to be replaced, nor is a link: what it points to is.
   if (fs::exists(status) && !fs::is_regular_file(status)) return writeDirectly(path, bytes);
-  if (fs::is_symlink(fs::symlink_status(path, error))) {
-    const fs::path pointed = fs::weakly_canonical(path, error);
-    if (!error) return replaceFile(pointed, bytes);
-  }
-  return replaceFile(path, bytes);
+  const fs::path pointed = pointedTo(path);
+  if (pointed.empty())
+    return fail(
+        fmt::format("Cannot write {}: it is a link that leads round in a circle; remove it "
+                    "or choose another name.",
+                    path.string()));
+  return replaceFile(pointed, bytes);
 }
 
 }  // namespace sweepface

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
 #include <initializer_list>
 #include <nlohmann/json.hpp>
@@ -47,8 +46,7 @@ class JsonFields {
       if (required) return fail(fmt::format("has no '{}'", key));
       return {};
     }
-    if (!found->is_number() || !std::isfinite(found->get<double>()))
-      return fail(fmt::format("has a '{}' that is not a number", key));
+    if (!found->is_number()) return fail(fmt::format("has a '{}' that is not a number", key));
     value = found->get<double>();
     return {};
   }

@@ -14,8 +14,8 @@
 
 namespace sweepface::io {
 
-/// Hands every character of a JSON text that is in no string to `see`, and the quote that opens
-/// one, until that answers false.
+/// Hands the place of every character of a JSON text that is in no string to `see`, and of the
+/// quote that opens one, until that answers false.
 template <typename See>
 void scanJson(std::string_view text, See see) {
   bool inString = false;
@@ -29,14 +29,15 @@ void scanJson(std::string_view text, See see) {
       continue;
     }
     inString = c == '"';
-    if (!see(c)) return;
+    if (!see(i)) return;
   }
 }
 
 /// The parser of nlohmann-json keeps a stack of its own, but its values are freed by recursion.
 inline bool isTooDeep(std::string_view text, int most) {
   int depth = 0;
-  scanJson(text, [&](char c) {
+  scanJson(text, [&](std::size_t at) {
+    const char c = text[at];
     if (c == '[' || c == '{') ++depth;
     if (c == ']' || c == '}') --depth;
     return depth <= most;

@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
+#include <set>
 
 #include "sweepface/clip.hpp"
 #include "sweepface/weights.hpp"
@@ -54,9 +55,7 @@ class LiveLinkReader {
     do
       if (!lines_.next()) return failFile("is empty; record again");
     while (trimmed(lines_.line()).empty());
-    std::string_view line = lines_.line();
-    if (line.starts_with("\xef\xbb\xbf")) line.remove_prefix(3);
-    const auto headings = cells(line);
+    const auto headings = cells(io::withoutMark(lines_.line()));
     columns_ = headings.size();
     for (std::size_t c = 0; c < columns_; ++c)
       if (auto ok = readHeading(headings[c], c); !ok) return ok;
@@ -71,7 +70,7 @@ class LiveLinkReader {
     else if (heading.empty())
       return failLine(fmt::format("column {} has no heading", column + 1));
     else if (!sameLetters(heading, "BlendShapeCount")) {
-      if (std::ranges::find(clip_.names, heading) != clip_.names.end())
+      if (!known_.insert(heading).second)
         return failLine(fmt::format("there are two columns {}", inQuotes(heading)));
       clip_.names.emplace_back(heading);
       shapeColumns_.push_back(column);
@@ -130,6 +129,7 @@ class LiveLinkReader {
   double framesPerSecond_;
   std::size_t columns_ = 0, timeColumn_ = static_cast<std::size_t>(-1);
   std::vector<std::size_t> shapeColumns_;
+  std::set<std::string_view> known_;  // headings of shapes
   Clip clip_;
 };
 

@@ -28,7 +28,7 @@ class ObjReader {
   ObjReader(std::string_view text, std::string_view name, Wanted wanted)
       : name_(name),
         wanted_(wanted),
-        text_(text.starts_with("\xEF\xBB\xBF") ? text.substr(3) : text),
+        text_(io::withoutMark(text)),
         // Only texts without any '\n' have lines that end in '\r' alone.
         lines_(text_, text_.find('\n') == std::string_view::npos ? '\r' : '\n') {}
 

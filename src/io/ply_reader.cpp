@@ -22,6 +22,9 @@ class PlyReader {
 
   bool read() {
     if (!checkVertexElement()) return false;
+    // Faces may come first, and an Index can count their corners only if the vertices can be there.
+    for (const PlyElement& element : header_.elements)
+      if (!checkRoom(element)) return false;
     for (const PlyElement& element : header_.elements) {
       if (!checkRoom(element)) return false;
       if (!readElement(element)) return false;

@@ -34,8 +34,13 @@ std::unexpected<Error> unknownKind(const fs::path& path) {
         fmt::format("{} cannot be read as one mesh of several; it holds a face and its "
                     "expressions, so name it alone.",
                     path.string()));
-  return fail(fmt::format("{} is neither an .obj nor a .ply file; export the mesh as one of them.",
-                          path.string()));
+  std::error_code ignored;
+  if (fs::is_directory(path, ignored))
+    return fail(fmt::format("{} is a folder; name the mesh of the neutral first, then its targets.",
+                            path.string()));
+  return fail(fmt::format(
+      "{} is neither an .obj nor a .ply file, nor a .glb or .gltf; export the mesh as one of them.",
+      path.string()));
 }
 
 Result<Paths> meshesIn(const fs::path& folder, const fs::path& neutral) {
@@ -66,6 +71,11 @@ Result<Paths> targetFiles(std::span<const fs::path> targets, const fs::path& neu
   for (const fs::path& target : targets) {
     std::error_code ignored;
     if (!fs::is_directory(target, ignored)) {
+      if (!target.has_filename())
+        return fail(fmt::format("There is no folder {}.", target.string()));
+      if (fs::equivalent(target, neutral, ignored))
+        return fail(
+            fmt::format("{} is the neutral; leave it out of the targets.", target.string()));
       files.push_back(target);
       continue;
     }
@@ -86,6 +96,9 @@ Result<std::vector<std::string>> targetNames(const Paths& files) {
       return fail(fmt::format("The target {} has no name before its extension; rename the file.",
                               io::inQuotes(file.string())));
     const auto [owner, isNew] = owners.emplace(name, &file);
+    std::error_code ignored;
+    if (!isNew && fs::equivalent(*owner->second, file, ignored))
+      return fail(fmt::format("The target {} is named twice; name it once.", file.string()));
     if (!isNew)
       return fail(fmt::format("The targets {} and {} are both named '{}'; rename one of the files.",
                               owner->second->string(), file.string(), name));

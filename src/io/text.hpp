@@ -25,6 +25,12 @@ inline std::string_view trimmed(std::string_view text) {
   return text;
 }
 
+/// Without the byte order mark that some programs write before UTF-8.
+inline std::string_view withoutMark(std::string_view text) {
+  if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
+  return text;
+}
+
 /// The lines of a text, one after the other, counted from 1.
 class LineCursor {
  public:

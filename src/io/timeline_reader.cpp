@@ -121,6 +121,23 @@ class TimelineReader {
 
 }  // namespace
 
+bool isTimeline(std::string_view text) {
+  constexpr std::string_view key = "\"events\"";
+  int depth = 0;
+  bool found = false;
+  io::scanJson(text, [&](std::size_t at) {
+    const char c = text[at];
+    if (c == '{' || c == '[') ++depth;
+    if (c == '}' || c == ']') --depth;
+    if (depth != 1 || !text.substr(at).starts_with(key)) return true;
+    // The same word may be the value of another key.
+    const std::size_t after = text.find_first_not_of(" \t\r\n", at + key.size());
+    found = after != std::string_view::npos && text[after] == ':';
+    return !found;
+  });
+  return found;
+}
+
 Result<Timeline> parseTimeline(std::string_view text, std::string_view name) {
   const auto json = io::parseJson(text, name);
   if (!json) return std::unexpected(json.error());

@@ -79,10 +79,12 @@ ClipMatch matchClip(const Clip& clip, std::span<const std::string> targets) {
 }
 
 void ClipMatch::spread(std::span<const double> from, std::span<double> to) const noexcept {
-  std::ranges::fill(to, 0.0);
+  constexpr double kNone = -std::numeric_limits<double>::infinity();
+  std::ranges::fill(to, kNone);
   for (std::size_t k = 0; k < std::min(from.size(), targets.size()); ++k)
     for (const Index t : targets[k])
       if (static_cast<std::size_t>(t) < to.size()) to[t] = std::max(to[t], from[k]);
+  std::ranges::replace(to, kNone, 0.0);
 }
 
 }  // namespace sweepface

@@ -41,6 +41,9 @@ Result<Clip> bake(const Timeline& timeline, double framesPerSecond, std::string_
   for (const TimelineEvent& event : timeline.events)
     for (const auto& [name, goal] : event.goals)
       if (indexOf(clip.names, name) == clip.names.size()) clip.names.push_back(name);
+  if ((frames + 1) * static_cast<double>(clip.names.size()) > kMostClipWeights)
+    return failCall(
+        "The timeline bakes into more weights than a clip can hold; shorten it, or name fewer.");
   auto state = MotionState::make(std::vector<double>(clip.names.size(), 0.0));
   if (!state) return std::unexpected(state.error());
 

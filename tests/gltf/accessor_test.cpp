@@ -1,5 +1,6 @@
 #include "gltf/accessor.hpp"
 
+#include <fmt/format.h>
 #include <limits>
 
 #include "gltf/glb.hpp"
@@ -78,6 +79,19 @@ TEST(Accessor, WithoutAViewIsZero) {
   Glb glb;
   glb.add("accessors", {{"componentType", 5126}, {"type", "VEC3"}, {"count", 2}});
   EXPECT_EQ(decodeOnly(glb).value(), std::vector<double>(6));
+}
+
+TEST(Accessor, MayNotClaimMoreThanItsFileCanMean) {
+  Glb glb;
+  glb.addSparse(70'000, {1}, {{1, 2, 3}});
+  EXPECT_EQ(decodeOnly(glb).value().size(), 210'000u);
+  for (const std::size_t count : {std::size_t{1} << 24, std::size_t{1} << 40}) {
+    glb.accessor(0)["count"] = count;
+    EXPECT_TRUE(failsWith(decodeOnly(glb),
+                          {fmt::format("accessor 0: it claims {} elements without data", count)}));
+  }
+  glb.accessor(0).erase("sparse");
+  EXPECT_TRUE(failsWith(decodeOnly(glb), {"elements without data"}));
 }
 
 Glb sparse(std::vector<std::uint16_t> where = {1, 3}) {

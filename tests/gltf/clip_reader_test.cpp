@@ -89,6 +89,51 @@ TEST(GltfClip, WhatIsWrittenIsReadAgain) {
   EXPECT_LT(glb.accessor(sampler["input"])["count"], 40);
 }
 
+/// A triangle with many targets that do nothing, and two keys.
+Glb manyTargets(std::size_t targets, std::string_view interpolation, float seconds) {
+  Glb glb;
+  const std::size_t position = glb.addVectors({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+  glb.add("meshes", {{"primitives", Json::array({{{"attributes", {{"POSITION", position}}}}})}});
+  for (std::size_t k = 0; k < targets; ++k) glb.primitive()["targets"].push_back(Json::object());
+  glb.add("nodes", {{"mesh", 0}});
+  const std::size_t input =
+      glb.addAccessor(glb.addView(bytesOf(std::vector<float>{0, seconds})), 5126, "SCALAR", 2);
+  const std::size_t keys = interpolation == "CUBICSPLINE" ? 6 : 2;
+  const std::size_t output = glb.add(
+      "accessors", {{"componentType", 5126}, {"type", "SCALAR"}, {"count", keys * targets}});
+  glb.add(
+      "animations",
+      {{"samplers",
+        Json::array({{{"input", input}, {"output", output}, {"interpolation", interpolation}}})},
+       {"channels",
+        Json::array({{{"sampler", 0}, {"target", {{"node", 0}, {"path", "weights"}}}}})}});
+  return glb;
+}
+
+TEST(GltfClip, HoldsNoMoreWeightsThanAClipMay) {
+  EXPECT_EQ(clipOf(manyTargets(300, "CUBICSPLINE", 8)).value().weights.size(), 300u * 961);
+  EXPECT_TRUE(failsWith(clipOf(manyTargets(300, "CUBICSPLINE", 8000)),
+                        {"move.glb: its animation of 300 targets needs 960001 frames"}));
+}
+
+TEST(GltfClip, HoldsNoMoreValuesThanAClipMay) {
+  Glb glb = manyTargets(2000, "CUBICSPLINE", 1);
+  for (int k = 0; k < 6000; ++k)
+    glb.json["animations"][0]["channels"].push_back(glb.json["animations"][0]["channels"][0]);
+  EXPECT_TRUE(
+      failsWith(clipOf(glb), {"channels of its animation have more values than a clip can hold"}));
+}
+
+TEST(GltfClip, SparseTimesMayNotClaimMoreThanTheFileCanMean) {
+  Glb glb = moving("LINEAR", {0, 1}, {0, 0, 1, 1});
+  for (const char* part : {"input", "output"}) {
+    Glb changed = glb;
+    const std::size_t claim = changed.addSparse(std::size_t{1} << 40, {1}, {{1, 2, 3}});
+    changed.json["animations"][0]["samplers"][0][part] = claim;
+    EXPECT_TRUE(failsWith(clipOf(changed), {"move.glb: accessor", "elements without data"}));
+  }
+}
+
 TEST(GltfClip, SaysWhatIsWrong) {
   const auto fails = [](const Glb& glb, std::string_view why, std::string_view animation = {}) {
     return failsWith(clipOf(glb, animation), {"move.glb", why});

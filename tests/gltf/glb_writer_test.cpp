@@ -1,7 +1,11 @@
 // GLB files of faces that came without a scene.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
 #include <map>
 #include <numeric>
 #include <set>
+#include <span>
 
 #include "gltf/written.hpp"
 
@@ -215,6 +219,45 @@ TEST(GlbWriter, DoublesVerticesOnlyWhereTheTextureIsCut) {
       EXPECT_NEAR(texcoords[2 * v + 1], 1 - at.y / 8, 0.01);  // glTF counts from the top
     }
   EXPECT_EQ(p.texcoords.size(), 4u * 8 * 6);
+}
+
+/// Triangles about one vertex, which has another texture coordinate in each.
+MeshRig texturedFan(Index triangles) {
+  MeshRig rig;
+  Polygons& p = rig.neutral.polygons;
+  rig.neutral.positions.push_back({});
+  p.texcoords.push_back({});
+  for (Index k = 0; k <= triangles; ++k) {
+    const double angle = 6.0 * k / triangles;
+    rig.neutral.positions.push_back({std::cos(angle), std::sin(angle), 0});
+    p.texcoords.push_back({0.25 + 0.5 * k / triangles, 0.5});
+  }
+  p.faceStart = {0};
+  for (Index k = 0; k < triangles; ++k) {
+    p.corners.insert(p.corners.end(), {0, k + 1, k + 2});
+    p.cornerTexcoords.insert(p.cornerTexcoords.end(), {k + 1, 0, 0});
+    p.faceStart.push_back(3 * (k + 1));
+    p.faceGroup.push_back(-1);
+    p.faceMaterial.push_back(-1);
+  }
+  return rig;
+}
+
+TEST(GlbWriter, TakesNotLongWhereAVertexHasManyTextureCoordinates) {
+  constexpr Index kTriangles = 250'000;
+  const auto start = std::chrono::steady_clock::now();
+  const auto bytes = formatGlb(texturedFan(kTriangles));
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+  ASSERT_TRUE(bytes) << bytes.error().message;
+  EXPECT_LT(took.count(), 30);
+  const Written glb(*bytes);
+  const std::vector<Index> indices = glb.indices();
+  ASSERT_EQ(indices.size(), 3u * kTriangles);
+  std::size_t behind = kTriangles + 2;
+  for (std::size_t k = 1; k < kTriangles; ++k)
+    ASSERT_EQ(std::ranges::count(std::span(indices).subspan(3 * k, 3),
+                                 static_cast<Index>(behind + k - 1)),
+              1);
 }
 
 TEST(GlbWriter, KeepsCornersWithoutTexture) {

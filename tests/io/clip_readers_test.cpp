@@ -80,6 +80,14 @@ TEST(ClipJson, ReadsMediaPipe) {
   EXPECT_EQ(clip->weights, (std::vector<double>{0.5, 0, 0, 0, 0, 1}));
 }
 
+TEST(ClipJson, HoldsNoMoreWeightsThanAClipMay) {
+  std::string text = "[";
+  for (int f = 0; f < 9000; ++f)
+    text += std::string(f > 0 ? "," : "") + R"({"timestampMs": )" + std::to_string(f) +
+            R"(, "categories": [{"categoryName": "n)" + std::to_string(f) + R"(", "score": 1}]})";
+  expectError(json(text + "]"), "take.json has 9000 names in 9000 frames, more than a clip");
+}
+
 TEST(ClipJson, SaysWhatIsWrong) {
   expectError(json(""), "this is not JSON");
   expectError(json("{"), "this is not JSON");

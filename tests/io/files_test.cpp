@@ -37,6 +37,36 @@ TEST(Files, AreWrittenThroughLinks) {
   EXPECT_EQ(readFile(folder / "real/a.txt").value(), "new");
 }
 
+TEST(Files, AreWrittenThroughLinksToWhatIsNotThereYet) {
+  const TemporaryFolder folder;
+  folder.file("real/other", "x");
+  fs::create_symlink("real/second", folder / "first");
+  fs::create_symlink("new.txt", folder / "real/second");
+  ASSERT_TRUE(writeFile(folder / "first", "new").has_value());
+  EXPECT_TRUE(fs::is_symlink(folder / "first"));
+  EXPECT_TRUE(fs::is_symlink(folder / "real/second"));
+  EXPECT_EQ(readFile(folder / "real/new.txt").value(), "new");
+}
+
+TEST(Files, AreNotWrittenThroughLinksInACircle) {
+  const TemporaryFolder folder;
+  fs::create_symlink("b", folder / "a");
+  fs::create_symlink("a", folder / "b");
+  EXPECT_TRUE(failsWith(writeFile(folder / "a", "x"), {"Cannot write", "round in a circle"}));
+  EXPECT_TRUE(fs::is_symlink(folder / "a"));
+}
+
+TEST(Files, KeepTheirPermissionsWhenReplaced) {
+  const TemporaryFolder folder;
+  const fs::path file = folder.file("mine", "old");
+  constexpr fs::perms own = fs::perms::owner_read | fs::perms::owner_write;
+  for (const fs::perms kept : {own, own | fs::perms::others_write, fs::perms::owner_read}) {
+    fs::permissions(file, kept);
+    ASSERT_TRUE(writeFile(file, "new").has_value());
+    EXPECT_EQ(fs::status(file).permissions(), kept);
+  }
+}
+
 TEST(Files, ThatCannotBeReadSayWhy) {
   const TemporaryFolder folder;
   EXPECT_TRUE(failsWith(readFile(folder / "none.obj"), {"none.obj", "no such file"}));

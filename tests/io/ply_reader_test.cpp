@@ -196,6 +196,15 @@ std::string oneFace(const std::string& countType, const std::string& body) {
       std::string(3, '\0') + body);
 }
 
+/// A face of three corners `corner`, before so many vertices that the file cannot hold.
+std::string facesFirst(const std::string& vertices, std::uint32_t corner) {
+  Bytes bytes;
+  bytes << std::uint8_t{3} << corner << corner << corner;
+  return binary("element face 1\nproperty list uchar uint vertex_index\nelement vertex " +
+                    vertices + "\n" + xyz,
+                bytes.text);
+}
+
 std::string rows(const std::string& body) { return ply(quadElements, body); }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -204,6 +213,9 @@ INSTANTIATE_TEST_SUITE_P(
         BadPly{"MoreVerticesThanBytes",
                binary("element vertex 4000000000\n" + xyz, "0123"),
                {"promises 4000000000 of element 'vertex'", "only 4 bytes"}},
+        BadPly{"MoreVerticesThanBytesBehindFaces",
+               facesFirst("1000000000000000000", 4'000'000'000),
+               {"promises 1000000000000000000 of element 'vertex'", "only 13 bytes"}},
         BadPly{"MoreSkippedThanBytes",
                binary("element a 18446744073709551615\nproperty char b\nelement vertex 1\n" + xyz,
                       "0123"),

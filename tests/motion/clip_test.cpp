@@ -60,6 +60,8 @@ TEST(ClipMatch, SpreadsWeightsOverTargets) {
   std::array<double, 3> to{9, 9, 9};
   match.spread(std::array{0.3, 0.7}, to);
   EXPECT_EQ(to, (std::array{0.7, 0.3, 0.0}));
+  match.spread(std::array{-0.3, -0.1}, to);  // as springs swing
+  EXPECT_EQ(to, (std::array{-0.1, -0.3, 0.0}));
 }
 
 }  // namespace

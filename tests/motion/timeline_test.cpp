@@ -62,6 +62,27 @@ TEST(Timeline, LoopsGoOnFromWhereTheyAre) {
   EXPECT_EQ(weight(clip, 2.75, "a"), 0);
 }
 
+TEST(Timeline, HoldsNoMoreWeightsThanAClipMay) {
+  std::string goals;
+  for (int k = 0; k < 100; ++k) goals += (k > 0 ? ",\"n" : "\"n") + std::to_string(k) + "\": 1";
+  const auto timeline = parseTimeline(
+      R"({"seconds": 9000, "events": [{"at": 0, "to": {)" + goals + "}}]}", "line.json");
+  ASSERT_TRUE(timeline) << timeline.error().message;
+  const auto clip = bake(*timeline, 100);
+  ASSERT_FALSE(clip);
+  EXPECT_NE(clip.error().message.find("more weights than a clip can hold"), std::string::npos);
+}
+
+TEST(Timeline, IsToldFromACaptureByItsOwnKeys) {
+  EXPECT_TRUE(isTimeline(R"({"events": []})"));
+  EXPECT_TRUE(isTimeline("{\"a\": {\"events\": 1}, \"events\"\n :[]}"));
+  EXPECT_FALSE(isTimeline(R"([{"events": []}])"));
+  EXPECT_FALSE(isTimeline(R"({"frames": [{"events": []}]})"));
+  EXPECT_FALSE(isTimeline(R"({"facsNames": ["events"], "a": "events"})"));
+  EXPECT_FALSE(isTimeline(R"({"a": "\"events\":"})"));
+  EXPECT_FALSE(isTimeline("{\"events\""));
+}
+
 void expectError(std::string_view text, std::string_view part) {
   const auto timeline = parseTimeline(text, "line.json");
   ASSERT_FALSE(timeline) << text;
