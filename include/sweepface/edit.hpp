@@ -21,8 +21,9 @@ struct NodeMove {
   Index node = -1;
   Vec3 by;
 };
-/// Moves nodes of the neutral, or what a target adds to them. Stored derivatives stay, predicted
-/// ones follow. A T-node goes with the curve it stands on and cannot be moved itself.
+/// Moves nodes of the neutral, or what a target adds to them; nodes at one point move it once.
+/// Stored derivatives stay, predicted ones follow. A T-node goes with the curve it stands on and
+/// cannot be moved itself.
 Result<Patches> moveNodes(Rig& rig, std::span<const NodeMove> moves, Index target = -1);
 
 /// The nodes with which a curve moves: its ends, or those of the straight run that it is a piece

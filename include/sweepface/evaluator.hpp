@@ -12,9 +12,12 @@ namespace sweepface {
 
 struct EvaluatorTables;
 
+inline constexpr Index kMostLevel = 64;
+
 /// What an Evaluator is made for.
 struct EvaluatorOptions {
-  Index level = 0;        ///< 0: the source's vertices in their order; N: Tessellation(surface, N)
+  /// 0: the source's vertices in their order; N, at most kMostLevel: Tessellation(surface, N).
+  Index level = 0;
   bool normals = true;    ///< whether normals and tangents can be asked for
   bool positions = true;  ///< whether positions can
   bool targets = true;    ///< whether weights move anything; without, only the neutral can be had
@@ -44,6 +47,7 @@ class Evaluator {
 
   Index vertexCount() const;
   Index weightCount() const;  ///< R · K
+  bool hasPositions() const;
   bool hasNormals() const;
   /// Bytes of memory a job needs for itself.
   std::size_t scratchBytes() const;
@@ -73,12 +77,14 @@ struct VectorsOut {
 /// evaluator if each has its own scratch memory and its own outputs.
 struct Evaluation {
   const Evaluator* evaluator = nullptr;
-  std::span<const double> weights;  ///< [R × K], finite; missing ones are 0
-  std::span<std::byte> scratch;     ///< [scratchBytes], uninitialised
-  VectorsOut positions;             ///< model units
-  VectorsOut normals;               ///< outward, unit length; zero where a pose has none
-  VectorsOut tangents;              ///< unit length, along the sweep of each vertex' patch
-  Index part = 0, parts = 1;        ///< only this part of the vertices
+  /// [R × K], finite; missing ones are 0. Where the largest is beyond ±1e9 it moves as 1e9 does,
+  /// and all others in proportion.
+  std::span<const double> weights;
+  std::span<std::byte> scratch;  ///< [scratchBytes], uninitialised
+  VectorsOut positions;          ///< model units
+  VectorsOut normals;            ///< outward, unit length; zero where a pose has none
+  VectorsOut tangents;           ///< unit length, along the sweep of each vertex' patch
+  Index part = 0, parts = 1;     ///< only this part of the vertices
   /// Where the outputs hold what an evaluation with these weights wrote, only vertices that other
   /// weights move are written again, with the same result. Not used: all are written.
   std::optional<std::span<const double>> previous = {};

@@ -30,13 +30,17 @@ class Followers {
   explicit Followers(std::vector<Follower> followers);
 
   /// What the names of targets say: `A_B` follows the product of the targets A and B (and so on for
-  /// more), `A_50`, `A50` or `A.50` is the in-between of A at 0.5.
+  /// more, but not of products), `A_50`, `A50` or `A.50` is the in-between of A at 0.5.
   static std::vector<Follower> named(std::span<const std::string> targets);
 
-  bool empty() const noexcept { return products_.empty() && chains_.empty() && arcs_.empty(); }
+  bool empty() const noexcept {
+    return products_.empty() && chains_.empty() && arcs_.empty() && lateArcs_.empty();
+  }
 
   /// Replaces the weights [K] of all followers, and of leaders that hand over to in-betweens.
-  /// Products and arcs go by the weights as they were set. Allocates nothing.
+  /// Products and arcs go by the weights of their leaders as they were set, or as they follow where
+  /// these follow themselves: there may be products of in-betweens, and arcs of both. Allocates
+  /// nothing.
   void apply(std::span<double> weights) const noexcept;
 
  private:
@@ -47,7 +51,8 @@ class Followers {
   };
   static void handOver(const Chain& chain, std::span<double> weights) noexcept;
 
-  std::vector<Follower> products_, arcs_;
+  std::vector<Follower> products_, arcs_;          // by leaders that are set
+  std::vector<Follower> lateProducts_, lateArcs_;  // by leaders that follow
   std::vector<Chain> chains_;
 };
 

@@ -48,7 +48,7 @@ class MotionState {
   std::size_t size() const noexcept { return coordinates_.size(); }
   double now() const noexcept { return now_; }  ///< seconds since `make`
 
-  /// Lets time pass. Negative or not a number: none passes.
+  /// Lets time pass. Negative, infinite or not a number: none passes.
   void advance(double seconds) noexcept;
 
   /// Sends a weight to a goal; what it did before ends when the drive sets out. On an error
@@ -60,6 +60,8 @@ class MotionState {
   Result<void> moveTo(std::span<const double> goals, const Drive& drive = {});
   /// A blow: adds to a weight's velocity, which drag (per second) then takes away.
   Result<void> push(std::size_t weight, double velocityChange, double drag);
+  /// What that makes the weight do.
+  Result<Trajectory> pushed(std::size_t weight, double velocityChange, double drag) const;
 
   /// Where a weight stands; rest at 0 for one that there is not.
   Kinematics sample(std::size_t weight) const noexcept;

@@ -39,7 +39,7 @@ class RegionalMotion {
   Result<void> moveTo(std::size_t region, std::size_t weight, double goal, const Drive& drive);
   /// At once, whatever the matter.
   Result<void> put(std::size_t region, std::size_t weight, double value);
-  /// A blow, which a heavy region feels less.
+  /// A blow, which a heavy region feels less. On an error nothing changes.
   Result<void> push(std::size_t weight, double velocityChange, double drag);
 
   Kinematics sample(std::size_t region, std::size_t weight) const noexcept;
@@ -48,6 +48,7 @@ class RegionalMotion {
   void velocities(std::span<double> out) const noexcept;
 
  private:
+  RegionalMotion() = default;
   Result<void> checkRegion(std::size_t region) const;
 
   std::vector<Matter> matters_;

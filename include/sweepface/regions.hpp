@@ -17,7 +17,7 @@ struct Matter {
   friend bool operator==(const Matter&, const Matter&) = default;
 };
 
-/// Refuses masses and stiffnesses outside [1e-4, 1e4] and delays that are negative or not finite.
+/// Refuses masses and stiffnesses outside [1e-4, 1e4] and delays outside [0, 60].
 Result<void> check(const Matter& matter);
 
 /// A part of a face that moves in its own way.
@@ -59,8 +59,8 @@ Result<std::vector<Region>> dividedFace(const Rig& rig, std::vector<Region> pain
 std::vector<std::vector<float>> influencesOf(const Surface& surface,
                                              std::span<const Region> regions);
 
-/// Blends every region by its own weights [R × K], all others like the first: stored vectors of the
-/// pose, settled: [vectorCount].
+/// Blends every region by its own weights [R × K], of which missing ones are 0: stored vectors of
+/// the pose, settled: [vectorCount].
 void blend(const Rig& rig, std::span<const Region> regions, std::span<const double> weights,
            std::span<Vec3> vectors);
 

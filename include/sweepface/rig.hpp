@@ -105,6 +105,8 @@ struct Rig {
   /// looked. Files hold them in single precision.
   std::vector<Turn> turns{};
 
+  /// Whether it is said what every target does: not yet after `decodeNeutral`.
+  bool knowsTargets() const;
   /// Index of a target by its name, or -1.
   Index find(std::string_view name) const;
   /// The name of a thing, or its letter and number.
@@ -116,6 +118,8 @@ struct Rig {
 
 /// The target of a name; the error says which there are.
 Result<Index> findTarget(const Rig& rig, std::string_view name);
+/// The same among the first `count`.
+Result<Index> findTarget(const Rig& rig, std::string_view name, std::size_t count);
 
 /// Parses "jawOpen=1,eyeBlink_L=0.5" into weights for the rig's targets. The error names what is
 /// unknown or malformed and what there is instead.

@@ -161,7 +161,8 @@ SWEEPFACE_API sweepface_status sweepface_face_set_weights(sweepface_face* face,
 SWEEPFACE_API const double* sweepface_face_weights(const sweepface_face* face);
 
 /* How far any vertex may be from the exact surface under the weights as they are, in model units:
- * three tenths of the rig's tolerance for every target of weight 1, and rounding. */
+ * three tenths of the rig's tolerance (or 1e-5 of the neutral's diagonal, if that is more) for every
+ * target of weight 1, and rounding. */
 SWEEPFACE_API double sweepface_face_error(const sweepface_face* face);
 
 /* Where to write an array of three floats a vertex. */
@@ -239,7 +240,7 @@ SWEEPFACE_API sweepface_status sweepface_motion_create(const double* weights, si
                                                        sweepface_motion** motion);
 SWEEPFACE_API void sweepface_motion_free(sweepface_motion* motion);
 
-/* Lets time pass; negative or not a number: none. */
+/* Lets time pass; negative, infinite or not a number: none. */
 SWEEPFACE_API void sweepface_motion_advance(sweepface_motion* motion, double seconds);
 
 /* Sends one weight or all of them to goals. `drive` may be NULL: a critically damped spring. */

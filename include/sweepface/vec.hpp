@@ -32,6 +32,12 @@ struct Vec3 {
   friend bool operator==(const Vec3&, const Vec3&) = default;
 };
 
+/// x, y or z, for axis 0, 1 or 2.
+inline double& coordinate(Vec3& a, int axis) { return axis == 0 ? a.x : axis == 1 ? a.y : a.z; }
+inline double coordinate(const Vec3& a, int axis) {
+  return axis == 0 ? a.x : axis == 1 ? a.y : a.z;
+}
+
 [[gnu::always_inline]] inline Vec3 operator+(Vec3 a, const Vec3& b) { return a += b; }
 [[gnu::always_inline]] inline Vec3 operator-(Vec3 a, const Vec3& b) { return a -= b; }
 [[gnu::always_inline]] inline Vec3 operator-(const Vec3& a) { return {-a.x, -a.y, -a.z}; }

@@ -12,15 +12,21 @@ std::string text(const char* from) { return from ? from : ""; }
 
 std::vector<std::string> texts(const char* const* from, std::size_t count) {
   std::vector<std::string> found;
-  for (std::size_t k = 0; from && k < count; ++k) found.push_back(text(from[k]));
+  for (std::size_t k = 0; k < count; ++k) found.push_back(text(from[k]));
   return found;
 }
 
 std::vector<Vec3> places(const double* from, std::size_t count) {
   std::vector<Vec3> found;
-  for (std::size_t k = 0; from && k < count; ++k)
+  for (std::size_t k = 0; k < count; ++k)
     found.push_back({from[3 * k], from[3 * k + 1], from[3 * k + 2]});
   return found;
+}
+
+bool hasItsLists(const sweepface_brush& brush) {
+  return (brush.parts || !brush.part_count) && (brush.points || !brush.point_count) &&
+         (brush.line || !brush.line_count) && (brush.curves || !brush.curve_count) &&
+         ((brush.nodes && brush.node_shares) || !brush.node_count);
 }
 
 Brush brushOf(const sweepface_brush& given) {
@@ -30,7 +36,7 @@ Brush brushOf(const sweepface_brush& given) {
   brush.line = places(given.line, given.line_count);
   brush.curves = texts(given.curves, given.curve_count);
   const std::vector<std::string> nodes = texts(given.nodes, given.node_count);
-  for (std::size_t k = 0; given.node_shares && k < nodes.size(); ++k)
+  for (std::size_t k = 0; k < nodes.size(); ++k)
     brush.nodes.emplace_back(nodes[k], given.node_shares[k]);
   brush.whole = given.whole;
   brush.fade = given.fade;
@@ -67,6 +73,7 @@ sweepface_status sweepface_rig_paint(const sweepface_rig* rig, const sweepface_b
                                      uint32_t bands, double* shares, size_t count) {
   if (!rig || !brush || !shares)
     return refuse("Painting a region needs a rig, a brush and a place for the shares.");
+  if (!hasItsLists(*brush)) return refuse("A list of the brush is missing whose length is not 0.");
   if (bands > kMostRegions) return refuse("A face has at most ", kMostRegions, " regions.");
   const std::size_t nodes = sweepface_rig_node_count(rig), all = std::max(1U, bands) * nodes;
   if (count < all) return refuse("There is room for ", count, " shares; there are ", all, ".");
@@ -80,7 +87,7 @@ sweepface_status sweepface_rig_divide(sweepface_rig* rig, const char* const* nam
                                       const double* shares, size_t count) {
   if (!rig || (count > 0 && (!names || !shares)))
     return refuse("Dividing a face needs a rig, and names and shares of its regions.");
-  if (count >= kMostRegions) return refuse("A face has at most ", kMostRegions, " regions.");
+  if (count > kMostRegions) return refuse("A face has at most ", kMostRegions, " regions.");
   if (count == 0) {
     rig->division = std::make_shared<Division>();
     return SWEEPFACE_OK;

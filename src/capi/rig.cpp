@@ -10,7 +10,7 @@ using namespace sweepface;
 using namespace sweepface::capi;
 
 sweepface_status capi::needTargets(const Rig& rig) {
-  if (rig.targets.empty() || !rig.targets.front().difference.empty()) return SWEEPFACE_OK;
+  if (rig.knowsTargets()) return SWEEPFACE_OK;
   return refuse("What the targets do was not loaded; call sweepface_rig_load_targets first.");
 }
 
@@ -59,9 +59,7 @@ const char* sweepface_rig_target_name(const sweepface_rig* rig, uint32_t target)
 sweepface_status sweepface_rig_find_target(const sweepface_rig* rig, const char* name,
                                            uint32_t* target) {
   if (!rig || !name || !target) return refuse("Finding a target needs a rig, a name and a place.");
-  Result<Index> found = findTarget(*rig->rig, name);
-  if (found && static_cast<std::size_t>(*found) >= rig->shown)
-    found = failCall("there is no target named '", std::string_view(name), "'");
+  Result<Index> found = findTarget(*rig->rig, name, rig->shown);
   if (!found) return refuse(sentence(std::move(found.error().message)));
   *target = static_cast<uint32_t>(*found);
   return SWEEPFACE_OK;

@@ -10,6 +10,7 @@
 #include "sweepface/edit.hpp"
 
 #include "edit/affected.hpp"
+#include "edit/check_index.hpp"
 #include "edit/rest.hpp"
 #include "surface/stored_jets.hpp"
 
@@ -191,6 +192,16 @@ class ControlMover {
 }  // namespace
 
 Result<Patches> moveControls(Rig& rig, const ControlMove& move, Index target) {
+  const auto patches = static_cast<std::size_t>(rig.surface.patchCount());
+  if (auto ok = edit::checkIndex(move.curve, rig.surface.wireframe().arcs.size(), "curve"); !ok)
+    return std::unexpected(ok.error());
+  if (auto ok = edit::checkIndex(move.patch, patches, "patch"); !ok)
+    return std::unexpected(ok.error());
+  if (target >= 0)
+    if (auto ok = edit::checkIndex(target, rig.targets.size(), "target"); !ok)
+      return std::unexpected(ok.error());
+  if (!isFinite(move.second) || !isFinite(move.third))
+    return fail("A control curve cannot move by what is not finite.");
   auto moved = ControlMover(rig, move).run(target);
   if (!moved) return std::unexpected(moved.error());
   rig = std::move(moved->first);

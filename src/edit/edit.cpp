@@ -1,14 +1,20 @@
 #include "sweepface/edit.hpp"
 
+#include <map>
+
 #include "edit/affected.hpp"
+#include "edit/check_index.hpp"
 #include "edit/rest.hpp"
 #include "surface/stored_jets.hpp"
 
 namespace sweepface {
 
 using edit::Affected;
+using edit::checkIndex;
 
 Result<Patches> setShape(Rig& rig, Index ribbon, const Shape& shape) {
+  if (auto ok = checkIndex(ribbon, rig.surface.wireframe().ribbons.size(), "ribbon"); !ok)
+    return std::unexpected(ok.error());
   Wireframe wireframe = rig.surface.wireframe();
   wireframe.ribbons[ribbon] = shape;
   auto surface = Surface::make(std::move(wireframe));
@@ -31,18 +37,37 @@ std::vector<Vec3>& poseOf(Rig& rig, Index target) {
   return target < 0 ? rig.neutral : rig.targets[target].difference;
 }
 
+Result<void> check(const Rig& rig, const NodeMove& move) {
+  if (auto ok = checkIndex(move.node, rig.surface.wireframe().nodes.size(), "node"); !ok) return ok;
+  const auto refused = [&](const char* why) {
+    return fail("Node '" + rig.nameOf(Thing::node, move.node) + "' " + why);
+  };
+  if (rig.surface.connectivity().kinds[move.node] == NodeKind::hanging)
+    return refused("stands on the side of a patch and goes with it; move the curve there.");
+  if (!isFinite(move.by)) return refused("cannot move by what is not finite.");
+  return {};
+}
+
 }  // namespace
 
 Result<Patches> moveNodes(Rig& rig, std::span<const NodeMove> moves, Index target) {
+  if (target >= 0)
+    if (auto ok = checkIndex(target, rig.targets.size(), "target"); !ok)
+      return std::unexpected(ok.error());
+  // Several nodes may stand at one point, which moves once.
   const StoredJets jets(rig.surface);
-  for (const NodeMove& move : moves)
-    if (rig.surface.connectivity().kinds[move.node] == NodeKind::hanging)
-      return fail("Node '" + rig.nameOf(Thing::node, move.node) +
-                  "' stands on the side of a patch and goes with it; move the curve there.");
+  std::map<Index, NodeMove> ofPoint;
+  for (const NodeMove& move : moves) {
+    if (auto ok = check(rig, move); !ok) return std::unexpected(ok.error());
+    const auto [place, isNew] = ofPoint.try_emplace(jets.at(move.node, 0), move);
+    if (!isNew && place->second.by != move.by)
+      return fail("Nodes '" + rig.nameOf(Thing::node, place->second.node) + "' and '" +
+                  rig.nameOf(Thing::node, move.node) +
+                  "' are one point and cannot move to different places.");
+  }
   if (target < 0) edit::keepRest(rig);
   Affected affected(rig.surface);
-  for (const NodeMove& move : moves) {
-    const Index stored = jets.at(move.node, 0);
+  for (const auto& [stored, move] : ofPoint) {
     poseOf(rig, target)[stored] += move.by;
     affected.addVector(stored);
   }
@@ -50,6 +75,8 @@ Result<Patches> moveNodes(Rig& rig, std::span<const NodeMove> moves, Index targe
 }
 
 Result<std::vector<Index>> endsOf(const Rig& rig, Index curve) {
+  if (auto ok = checkIndex(curve, rig.surface.wireframe().arcs.size(), "curve"); !ok)
+    return std::unexpected(ok.error());
   const Connectivity& c = rig.surface.connectivity();
   std::vector<Index> ends;
   for (HalfArc h : {2 * curve + 1, 2 * curve}) {

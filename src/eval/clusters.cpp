@@ -11,8 +11,6 @@
 namespace sweepface {
 namespace {
 
-double coordinate(const Vec3& p, int axis) { return axis == 0 ? p.x : axis == 1 ? p.y : p.z; }
-
 class Halving {
  public:
   Halving(std::span<const Vec3> points, Index size) : points_(points), size_(size) {

@@ -4,12 +4,14 @@
 #include <cmath>
 
 #include "eval/stitching.hpp"
+#include "surface/segment.hpp"
 
 namespace sweepface {
 namespace {
 
 constexpr Index kFinest = 64;  // segments an edge of the source
 constexpr int kSamples = 8;    // an edge, to measure by
+constexpr double kMostVertices = 1 << 25;
 
 /// A line at even steps of its parameter.
 using Samples = std::vector<Vec3>;
@@ -18,13 +20,6 @@ double lengthOf(const Samples& line) {
   double length = 0;
   for (std::size_t k = 1; k < line.size(); ++k) length += norm(line[k] - line[k - 1]);
   return length;
-}
-
-double distanceToChord(const Vec3& p, const Vec3& a, const Vec3& b) {
-  const Vec3 ab = b - a;
-  const double squared = dot(ab, ab);
-  const double t = squared > 0 ? std::clamp(dot(p - a, ab) / squared, 0.0, 1.0) : 0.0;
-  return norm(p - (a + t * ab));
 }
 
 /// The point at a share of the line, between its samples.
@@ -40,8 +35,8 @@ double sagOf(const Samples& line, Index segments) {
   for (std::size_t k = 0; k < line.size(); ++k) {
     const double share = static_cast<double>(k) / static_cast<double>(line.size() - 1);
     const auto segment = std::min<Index>(static_cast<Index>(share * segments), segments - 1);
-    most = std::max(most, distanceToChord(line[k], at(line, double(segment) / segments),
-                                          at(line, double(segment + 1) / segments)));
+    most = std::max(most, distanceToSegment(line[k], at(line, double(segment) / segments),
+                                            at(line, double(segment + 1) / segments)));
   }
   return most;
 }
@@ -160,8 +155,13 @@ Result<Density> densityFor(const Surface& surface, std::span<const Vec3> vectors
   if (!(budget.value > 0) || !std::isfinite(budget.value))
     return fail("The budget of a level of detail must be a number greater than 0.");
   const Lines lines(surface, vectors);
-  if (budget.kind == Budget::Kind::vertices) return within(surface, lines, budget.value);
-  return lines.cut(budget.kind, budget.value);
+  if (budget.kind == Budget::Kind::vertices)
+    return within(surface, lines, std::min(budget.value, kMostVertices));
+  Density density = lines.cut(budget.kind, budget.value);
+  const std::int64_t count = lines.count(density);
+  if (static_cast<double>(count) > kMostVertices)
+    return fail("So fine a mesh has about ", count, " vertices; ask for a coarser one.");
+  return density;
 }
 
 }  // namespace sweepface

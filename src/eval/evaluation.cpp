@@ -12,7 +12,7 @@ std::size_t weightBytes(const EvaluatorTables& tables) {
 }
 
 std::size_t pairsRoom(const EvaluatorTables& tables) {
-  return roundUp64((static_cast<std::size_t>(tables.weights) + 1) / 2);
+  return roundUp64(static_cast<std::size_t>(tables.weights) / 2 + 1);  // odd ones of either width
 }
 
 constexpr double kMostFactor = 1e9;  // beyond, positions end at what single precision bears
@@ -113,7 +113,10 @@ Result<void> Evaluation::validate() const {
                 scratch.size(), ".");
   if (parts < 1 || part < 0 || part >= parts)
     return fail("There is no part ", part, " of ", parts, ".");
-  if ((normals.data || tangents.data) && !evaluator->hasNormals() && evaluator->vertexCount() > 0)
+  const bool any = evaluator->vertexCount() > 0;
+  if (positions.data && any && !evaluator->hasPositions())
+    return fail("The evaluator was made without positions.");
+  if ((normals.data || tangents.data) && any && !evaluator->hasNormals())
     return fail("The evaluator was made without normals.");
   for (const auto& [out, what] :
        {std::pair(&positions, "positions"), {&normals, "normals"}, {&tangents, "tangents"}})

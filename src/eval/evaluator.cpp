@@ -64,8 +64,10 @@ class Compiler {
   }
 
   double usedTolerance() const {
-    if (options_.tolerance > 0) return options_.tolerance;
-    return std::max({0.3 * rig_.tolerance, 1e-5 * diagonal(gridPositions_), 1e-30});
+    const double size = diagonal(gridPositions_), wanted = options_.tolerance;
+    if (!(wanted > 0)) return std::max({0.3 * rig_.tolerance, 1e-5 * size, 1e-30});
+    // What single precision bears, squared.
+    return std::clamp(wanted, std::max(1e-8 * size, 1e-30), std::max(1e12 * size, 1.0));
   }
 
   /// Single precision: what a coordinate of the neutral may be off.
@@ -192,12 +194,15 @@ double bound(const TableErrors& errors, std::span<const double> weights) {
 bool isShare(double x) { return x >= 0 && std::isfinite(x); }
 
 Result<void> check(const Rig& rig, const EvaluatorOptions& options) {
-  if (options.level < 0) return fail("The level of an evaluator must be 0 or more.");
+  if (options.level < 0 || options.level > kMostLevel)
+    return fail("The level of an evaluator must be 0 to ", kMostLevel, ".");
   if (options.level == 0 && rig.source.gridVertex.empty())
     return fail("The face came without its source's vertices; ask for level 1.");
   if (!isShare(options.tolerance) ||
       !(isShare(options.derivativeTolerance) && options.derivativeTolerance > 0))
     return fail("The tolerances of an evaluator must be positive.");
+  if (options.targets && !rig.knowsTargets())
+    return fail("What the targets do must be decoded before an evaluator moves them.");
   const auto stored = static_cast<std::size_t>(rig.surface.storedCount());
   for (const auto& region : options.influences) {
     if (region.size() != stored)
@@ -214,8 +219,8 @@ Result<void> check(const Rig& rig, const EvaluatorOptions& options) {
 }  // namespace
 
 Result<Evaluator> Evaluator::make(const Rig& rig, const EvaluatorOptions& options) {
-  if (auto ok = check(rig, options); !ok) return std::unexpected(ok.error());
-  return make(rig, Tessellation(rig.surface, std::max<Index>(1, options.level)), options);
+  const Index level = std::clamp<Index>(options.level, 1, kMostLevel);
+  return make(rig, Tessellation(rig.surface, level), options);
 }
 
 Result<Evaluator> Evaluator::make(const Rig& rig, const Tessellation& grid,
@@ -230,6 +235,7 @@ Result<Evaluator> Evaluator::make(const Rig& rig, const Tessellation& grid,
 
 Index Evaluator::vertexCount() const { return tables_->vertices; }
 Index Evaluator::weightCount() const { return tables_->weights; }
+bool Evaluator::hasPositions() const { return tables_->positions.tileCount() > 0; }
 bool Evaluator::hasNormals() const { return tables_->derivatives.tileCount() > 0; }
 std::size_t Evaluator::positionBytes() const { return tables_->positions.bytes(); }
 std::size_t Evaluator::normalBytes() const { return tables_->derivatives.bytes(); }

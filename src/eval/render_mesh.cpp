@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "eval/triangulate.hpp"
+#include "rig/source_quads.hpp"
 
 namespace sweepface {
 namespace {
@@ -128,21 +129,18 @@ Vec2 between(const Vec2& a, const Vec2& b, Index step, Index level) {
 /// What hangs on the quads of level 1.
 class Quads {
  public:
-  explicit Quads(const Rig& rig, std::size_t count)
-      : faces_(rig.source.polygons), corners_(rig.source.quadCorners) {
-    if (corners_.size() != 4 * count) return;  // a file may come without them
-    known_ = true;
-    for (Index face = 0; face < faces_.faceCount(); ++face)
-      faceOfCorner_.insert(faceOfCorner_.end(), faces_.faceSize(face), face);
-  }
+  explicit Quads(const Rig& rig)
+      : faces_(rig.source.polygons),
+        corners_(rig.source.quadCorners),
+        faceOfQuad_(faceOfQuads(rig)) {}
 
   Index material(std::size_t quad) const {
-    if (!known_ || faces_.faceMaterial.empty()) return -1;
-    return faces_.faceMaterial[faceOfCorner_[corners_[4 * quad]]];
+    if (faceOfQuad_.empty() || faces_.faceMaterial.empty()) return -1;
+    return faces_.faceMaterial[faceOfQuad_[quad]];
   }
 
   bool isTextured(std::size_t quad) const {
-    if (!known_ || faces_.cornerTexcoords.empty()) return false;
+    if (faceOfQuad_.empty() || faces_.cornerTexcoords.empty()) return false;
     return std::ranges::all_of(std::span(corners_).subspan(4 * quad, 4),
                                [&](Index c) { return faces_.cornerTexcoords[c] >= 0; });
   }
@@ -160,8 +158,7 @@ class Quads {
  private:
   const Polygons& faces_;
   const std::vector<Index>& corners_;
-  std::vector<Index> faceOfCorner_;
-  bool known_ = false;
+  std::vector<Index> faceOfQuad_;  // empty where nobody knows
 };
 
 }  // namespace
@@ -171,7 +168,7 @@ RenderMesh renderGrid(const Rig& rig, const Tessellation& grid) {
   const Index level = grid.level();
   const auto faces = grid.faces();
   Builder builder(grid.positions(blend(rig, {})), rig.source.polygons);
-  const Quads quads(rig, faces.size() / (std::size_t(level) * level));
+  const Quads quads(rig);
   std::size_t face = 0, first = 0;
   for (Index p = 0; p < surface.patchCount(); ++p) {
     const Index m = surface.edgesU(p), n = surface.edgesV(p);
@@ -209,10 +206,8 @@ OnEdge seenFrom(double middle, const Place& p, Index edges) {
 RenderMesh renderDensity(const Rig& rig, const Tessellation& grid) {
   const Surface& surface = rig.surface;
   Builder builder(grid.positions(blend(rig, {})), rig.source.polygons);
-  std::size_t count = 0, first = 0;
-  for (Index p = 0; p < surface.patchCount(); ++p)
-    count += std::size_t(surface.edgesU(p)) * surface.edgesV(p);
-  const Quads quads(rig, count);
+  std::size_t first = 0;
+  const Quads quads(rig);
   for (Index p = 0; p < surface.patchCount(); ++p) {
     const Index m = surface.edgesU(p), n = surface.edgesV(p);
     const PatchMesh mesh = grid.patchMesh(p);

@@ -26,9 +26,7 @@ class RowDifferences {
   /// Vertices of no face follow the first region.
   RowDifferences(const Rig& rig, std::span<const std::vector<float>> influences);
 
-  Index columns() const { return columns_; }
-  /// The columns that move any of the rows, and the differences of the rows times `scale`, within
-  /// ±`most`.
+  /// The columns that move any of the rows, and the differences of the rows times `scale`.
   void of(std::span<const Row> rows, double scale, std::vector<std::uint16_t>& moving, Planes& out);
 
  private:

@@ -12,7 +12,7 @@ namespace sweepface {
 struct FrameWeights {
   const std::int16_t* shorts;  ///< [roundUp64(W + 1)]
   std::uint32_t* pairs;        ///< [4 × pairsRoom] scratch
-  std::size_t pairsRoom;       ///< roundUp64(most pairs of a tile)
+  std::size_t pairsRoom;       ///< roundUp64(W / 2 + 1)
   float factor;                ///< what weights were divided by to lie within [-1, 1]
   Index count;                 ///< W + 1
   bool cold = false;           ///< whether to fetch tables ahead

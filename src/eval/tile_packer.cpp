@@ -104,7 +104,7 @@ Integers toIntegers(const LowRank& found, const Planes& wanted, Forms forms) {
     }
   }
   for (int k = 0; forms.step > 0 && k < wanted.targets; ++k) out.isNarrow[k] = narrow(out, k);
-  const double sum = rows > 0 ? std::ranges::max(sums) : 0, half = 1 << (kBasisShift - 1);
+  const double sum = std::ranges::max(sums), half = 1 << (kBasisShift - 1);
   const double rounding = found.modes + std::max(0, found.modes - forms.wideModes) * half;
   out.scale = std::max({sum / (kMostBasis - rounding), most / (kMostShort - half), 1e-30});
   for (int m = 0; m < found.modes; ++m) {
@@ -166,7 +166,7 @@ class Packer {
   /// Gives what the neutral is rounded to.
   float write(std::uint16_t nobody, TileTable& table) {
     const TileHead head = makeHead(table.groups());
-    std::byte* const record = table.add(head.bytes, head.pairs);
+    std::byte* const record = table.add(head.bytes);
     std::memcpy(record, &head, sizeof(head));
     const Tile tile = tileAt(record);
     writePairs(const_cast<BlockPairs*>(tile.pairs));

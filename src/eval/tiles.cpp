@@ -4,11 +4,10 @@
 
 namespace sweepface {
 
-std::byte* TileTable::add(std::size_t bytes, int pairs) {
+std::byte* TileTable::add(std::size_t bytes) {
   starts_.push_back(size_);
   size_ += roundUp32(bytes);
   memory_.resize(size_);
-  mostPairs_ = std::max(mostPairs_, pairs);
   return memory_.data() + starts_.back();
 }
 

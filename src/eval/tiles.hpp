@@ -107,7 +107,7 @@ inline Tile tileAt(const std::byte* record) {
           record + head->neutralAt + kNeutralBytes * head->groups};
 }
 
-/// Records one after the other, each beginning with a cache line once the table is finished.
+/// Records one after the other, the first beginning with a cache line once the table is finished.
 class TileTable {
  public:
   explicit TileTable(int groups = 0) : groups_(groups) {}
@@ -117,15 +117,13 @@ class TileTable {
   Index tileCount() const { return static_cast<Index>(starts_.size()); }
   const std::byte* record(Index tile) const { return memory_.data() + first_ + starts_[tile]; }
   std::size_t bytes() const { return size_; }
-  int mostPairs() const { return mostPairs_; }
 
   /// Room for one more record, all zero.
-  std::byte* add(std::size_t bytes, int pairs);
+  std::byte* add(std::size_t bytes);
   void finish();
 
  private:
   int groups_;
-  int mostPairs_ = 0;
   std::vector<std::byte> memory_;
   std::size_t first_ = 0, size_ = 0;  // bytes before and of the records
   std::vector<std::size_t> starts_;

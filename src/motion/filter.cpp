@@ -20,7 +20,8 @@ OneEuroFilter::OneEuroFilter(std::size_t count, const OneEuro& settings)
 
 void OneEuroFilter::apply(double seconds, std::span<double> weights) noexcept {
   const std::size_t count = std::min(values_.size(), weights.size());
-  const bool follows = begun_ && seconds > 0 && std::isfinite(seconds);
+  constexpr double kNoTime = 1e-9;  // speeds would not stay finite
+  const bool follows = begun_ && seconds > kNoTime && std::isfinite(seconds);
   begun_ = true;
   for (std::size_t k = 0; k < count; ++k) {
     double& value = values_[k];

@@ -82,7 +82,7 @@ Result<MotionState> MotionState::make(std::span<const double> weights) {
 
 void MotionState::advance(double seconds) noexcept {
   const double before = now_;
-  if (seconds > 0) now_ += seconds;
+  if (seconds > 0 && std::isfinite(now_ + seconds)) now_ += seconds;
   if (now_ < nextSwitch_) return;
   nextSwitch_ = kNever;
   for (std::size_t k = 0; k < size(); ++k)
@@ -152,10 +152,15 @@ Result<void> MotionState::moveTo(std::span<const double> goals, const Drive& dri
   return {};
 }
 
-Result<void> MotionState::push(std::size_t weight, double velocityChange, double drag) {
-  if (auto ok = checkIndex(weight, size()); !ok) return ok;
+Result<Trajectory> MotionState::pushed(std::size_t weight, double velocityChange,
+                                       double drag) const {
+  if (auto ok = checkIndex(weight, size()); !ok) return std::unexpected(ok.error());
   const Kinematics from = sample(weight);
-  const auto next = Trajectory::impulse({from.position, from.velocity}, velocityChange, drag);
+  return Trajectory::impulse({from.position, from.velocity}, velocityChange, drag);
+}
+
+Result<void> MotionState::push(std::size_t weight, double velocityChange, double drag) {
+  const auto next = pushed(weight, velocityChange, drag);
   if (!next) return std::unexpected(next.error());
   take(weight, *next, 0);
   return {};

@@ -61,6 +61,15 @@ void hang(Clip& clip, const Spring& spring) {
 void delay(Clip& clip, double seconds) {
   const Clip before = clip;
   const std::size_t n = clip.names.size();
+  // It goes on, in frames as long as its own, until the end has arrived.
+  if (const auto frames = static_cast<double>(before.times.size()); frames > 1) {
+    constexpr double kShortest = 1.0 / 240;
+    const double end = before.times.back(),
+                 step = std::max(kShortest, before.seconds() / (frames - 1));
+    for (int k = 1; clip.times.back() < end + seconds; ++k)
+      clip.times.push_back(std::min(end + k * step, end + seconds));
+    clip.weights.resize(n * clip.times.size());
+  }
   for (std::size_t f = 0; f < clip.times.size(); ++f)
     before.at(clip.times[f] - clip.times.front() - seconds,
               std::span(clip.weights).subspan(f * n, n));
@@ -134,6 +143,12 @@ Result<void> RegionalMotion::put(std::size_t region, std::size_t weight, double 
 }
 
 Result<void> RegionalMotion::push(std::size_t weight, double velocityChange, double drag) {
+  // All are asked before the first is pushed.
+  for (std::size_t r = 0; r < states_.size(); ++r)
+    if (auto ok =
+            states_[r].pushed(weight, velocityChange / matters_[r].mass, drag / matters_[r].mass);
+        !ok)
+      return std::unexpected(ok.error());
   for (std::size_t r = 0; r < states_.size(); ++r)
     if (auto ok =
             states_[r].push(weight, velocityChange / matters_[r].mass, drag / matters_[r].mass);

@@ -181,7 +181,8 @@ Result<Trajectory> Trajectory::twoForces(Start start, double to, double seconds,
 
 Result<Trajectory> Trajectory::spring(Start start, double to, Spring spring) {
   const double omega = 2 * std::numbers::pi * spring.frequency, sigma = spring.damping * omega;
-  if (auto ok = checkNumbers({start.position, start.velocity, to, sigma * sigma, omega * omega});
+  if (auto ok =
+          checkNumbers({start.position - to, start.velocity, to, sigma * sigma, omega * omega});
       !ok)
     return std::unexpected(ok.error());
   if (!(spring.frequency > 0) || !(spring.damping >= 0))
@@ -190,7 +191,8 @@ Result<Trajectory> Trajectory::spring(Start start, double to, Spring spring) {
 }
 
 Result<Trajectory> Trajectory::bounce(Start start, double to, double seconds, double restitution) {
-  if (!(restitution >= 0 && restitution < 1))
+  constexpr double kMost = 1 - 1e-9;  // beyond, the sum over all bounces loses its digits
+  if (!(restitution >= 0 && restitution <= kMost))
     return failCall("A bounce keeps a part of its speed: the restitution lies in [0, 1).");
   const Result<Trajectory> fall = constantForce(start, to, seconds);
   if (!fall) return fall;
@@ -199,7 +201,7 @@ Result<Trajectory> Trajectory::bounce(Start start, double to, double seconds, do
 }
 
 Result<Trajectory> Trajectory::impulse(Start start, double velocityChange, double drag) {
-  if (auto ok = checkNumbers({start.position, start.velocity, velocityChange, drag}); !ok)
+  if (auto ok = checkNumbers({start.position, start.velocity + velocityChange, drag}); !ok)
     return std::unexpected(ok.error());
   if (drag < 0) return failCall("The drag on a blow must be at least 0.");
   return Trajectory(path::Coasting{start.position, start.velocity + velocityChange, drag});

@@ -1,6 +1,7 @@
 #include "sweepface/followers.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <optional>
 
 #include "surface/sorting.hpp"
@@ -71,37 +72,64 @@ std::vector<Follower> Followers::named(std::span<const std::string> targets) {
   std::vector<Follower> followers;
   for (Index k = 0; k < static_cast<Index>(targets.size()); ++k)
     if (auto follower = reader.read(k)) followers.push_back(std::move(*follower));
-  return followers;
+  const auto isProduct = [&](Index target) {
+    return std::ranges::any_of(followers, [&](const Follower& f) {
+      return f.target == target && f.kind == Follower::Kind::product;
+    });
+  };
+  std::vector<Follower> found;
+  for (const Follower& follower : followers)
+    if (follower.kind != Follower::Kind::product ||
+        std::ranges::none_of(follower.leaders, isProduct))
+      found.push_back(follower);
+  return found;
 }
 
 Followers::Followers(std::vector<Follower> followers) {
   sortSmall(std::span(followers), [](const Follower& a, const Follower& b) {
     return a.at != b.at ? a.at < b.at : a.target < b.target;
   });
-  for (Follower& follower : followers) {
-    if (follower.kind == Follower::Kind::product)
-      products_.push_back(std::move(follower));
-    else if (follower.kind == Follower::Kind::arc)
-      arcs_.push_back(std::move(follower));
-    else {
+  const auto is = [&](Index target, Follower::Kind kind) {
+    return std::ranges::any_of(
+        followers, [&](const Follower& f) { return f.target == target && f.kind == kind; });
+  };
+  for (const Follower& follower : followers) {
+    const auto isBetween = [&](Index t) { return is(t, Follower::Kind::inBetween); };
+    if (follower.kind == Follower::Kind::product) {
+      Follower early = follower, late = follower;
+      std::erase_if(early.leaders, isBetween);
+      std::erase_if(late.leaders, std::not_fn(isBetween));
+      if (!late.leaders.empty()) lateProducts_.push_back(std::move(late));
+      products_.push_back(std::move(early));
+    } else if (follower.kind == Follower::Kind::arc) {
+      const Index leader = follower.leaders[0];
+      const bool follows = isBetween(leader) || is(leader, Follower::Kind::product);
+      (follows ? lateArcs_ : arcs_).push_back(follower);
+    } else {
       auto chain = std::ranges::find(chains_, follower.leaders[0], &Chain::leader);
       if (chain == chains_.end()) chain = chains_.insert(chain, {follower.leaders[0], {}});
-      chain->stops.push_back(std::move(follower));
+      chain->stops.push_back(follower);
     }
   }
 }
 
 void Followers::apply(std::span<double> weights) const noexcept {
-  for (const Follower& follower : products_) {
+  const auto productOf = [&](const Follower& follower) {
     double product = 1;
     for (const Index leader : follower.leaders) product *= weights[leader];
-    weights[follower.target] = product;
-  }
-  for (const Follower& follower : arcs_) {
-    const double w = weights[follower.leaders[0]];
-    weights[follower.target] = 4 * w * (1 - w);
-  }
+    return product;
+  };
+  const auto bend = [&](const std::vector<Follower>& arcs) {
+    for (const Follower& arc : arcs) {
+      const double w = weights[arc.leaders[0]];
+      weights[arc.target] = 4 * w * (1 - w);
+    }
+  };
+  for (const Follower& product : products_) weights[product.target] = productOf(product);
+  bend(arcs_);
   for (const Chain& chain : chains_) handOver(chain, weights);
+  for (const Follower& product : lateProducts_) weights[product.target] *= productOf(product);
+  bend(lateArcs_);
 }
 
 // Linear between neighbouring stops, of which the neutral and the leader itself are the outermost;

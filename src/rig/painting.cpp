@@ -8,23 +8,22 @@
 #include "sweepface/regions.hpp"
 
 #include "rig/shortest_ways.hpp"
+#include "rig/source_quads.hpp"
+#include "surface/segment.hpp"
 
 namespace sweepface {
 namespace {
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
-double fromSegment(const Vec3& p, const Vec3& a, const Vec3& b) {
-  const Vec3 way = b - a;
-  const double square = dot(way, way);
-  const double s = square > 0 ? std::clamp(dot(p - a, way) / square, 0.0, 1.0) : 0;
-  return norm(p - (a + s * way));
-}
-
 /// From 1 down to 0, without a bend up to the second derivative.
 double fading(double t) {
   if (!(t > 0)) return 1;
   return t >= 1 ? 0 : 1 - t * t * t * (t * (6 * t - 15) + 10);
+}
+
+std::unexpected<Error> reachesNothing() {
+  return fail("The brush reaches no node of the face; give it a larger 'whole' or 'fade'.");
 }
 
 class Painter {
@@ -62,8 +61,7 @@ class Painter {
         return fail("The share of node '" + name + "' is not from 0 to 1.");
       own_[*node] = share;
     }
-    if (std::ranges::all_of(own_, [](double share) { return share == 0; }))
-      return fail("It reaches no node of the face; give it a larger 'whole' or 'fade'.");
+    if (std::ranges::all_of(own_, [](double share) { return share == 0; })) return reachesNothing();
     return own_;
   }
 
@@ -82,7 +80,7 @@ class Painter {
   Result<void> fromParts() {
     if (brush_.parts.empty()) return {};
     const Polygons& polygons = rig_.source.polygons;
-    if (rig_.source.quadCorners.empty() || polygons.faceCount() == 0)
+    if (!knowsQuads(rig_) || polygons.faceCount() == 0)
       return fail("The face does not tell of its source's materials and groups; paint by points.");
     std::vector<bool> within(polygons.faceCount(), false);
     for (const std::string& part : brush_.parts) {
@@ -134,7 +132,7 @@ class Painter {
       own_[n] = all[keeper] > 0 ? inside[keeper] / all[keeper] : 0;
       if (own_[n] > 0) distances_[n] = 0;
     }
-    // What is only partly inside fades from there on, but is no more inside than it was.
+    // What is only partly inside is wholly so where a brush goes farther, and else stays as it is.
     for (std::size_t n = 0; n < own_.size(); ++n)
       if (own_[n] < 1 && brush_.fade == 0 && brush_.whole == 0) distances_[n] = kFar;
   }
@@ -183,7 +181,7 @@ class Painter {
   void measure() {
     for (std::size_t n = 0; n < places_.size(); ++n)
       for (const auto& [a, b] : segments_)
-        distances_[n] = std::min(distances_[n], fromSegment(places_[n], a, b));
+        distances_[n] = std::min(distances_[n], distanceToSegment(places_[n], a, b));
   }
 
   /// The nodes nearest to the line, from which ways begin.
@@ -196,7 +194,8 @@ class Painter {
         for (std::size_t n = 1; n < places_.size(); ++n)
           if (norm(places_[n] - p) < norm(places_[nearest] - p)) nearest = n;
         if (!places_.empty())
-          distances_[nearest] = std::min(distances_[nearest], fromSegment(places_[nearest], a, b));
+          distances_[nearest] =
+              std::min(distances_[nearest], distanceToSegment(places_[nearest], a, b));
       }
     }
   }
@@ -243,8 +242,11 @@ Result<std::vector<std::vector<double>>> paintBands(const Rig& rig, const Brush&
   if (count < 2 || static_cast<std::size_t>(count) > kMostRegions)
     return fail("A face has from 2 to " + std::to_string(kMostRegions) + " bands.");
   if (!(brush.fade > 0)) return fail("Bands need a 'fade', the way over which they follow.");
+  if (!brush.nodes.empty()) return fail("Bands take no shares of 'nodes'; leave them out.");
   const auto distances = Painter(rig, brush).distances();
   if (!distances) return std::unexpected(distances.error());
+  if (distances->empty() || !(std::ranges::min(*distances) < brush.whole + brush.fade))
+    return reachesNothing();
   std::vector<std::vector<double>> bands(count, std::vector<double>(distances->size(), 0.0));
   for (std::size_t n = 0; n < distances->size(); ++n) {
     const double share = std::clamp(((*distances)[n] - brush.whole) / brush.fade, 0.0, 1.0);

@@ -12,9 +12,13 @@ namespace {
 
 bool isShare(double x) { return x >= 0 && x <= 1; }
 
+std::unexpected<Error> tooMany() {
+  return fail("A face has at most " + std::to_string(kMostRegions) +
+              " regions, with what is left of it.");
+}
+
 Result<void> check(const std::vector<Region>& regions, std::size_t nodes) {
-  if (regions.size() >= kMostRegions)
-    return fail("A face has at most " + std::to_string(kMostRegions) + " regions.");
+  if (regions.size() > kMostRegions) return tooMany();
   for (std::size_t r = 0; r < regions.size(); ++r) {
     const Region& region = regions[r];
     if (region.name.empty()) return fail("A region has no name.");
@@ -48,8 +52,9 @@ Result<void> check(const Matter& matter) {
   const auto within = [](double x) { return x >= least && x <= most; };
   if (!within(matter.mass) || !within(matter.stiffness))
     return fail("A mass and a stiffness are from 0.0001 to 10000, 1 being that of the rest.");
-  if (!(matter.delay >= 0 && std::isfinite(matter.delay)))
-    return fail("A delay is at least 0 seconds.");
+  constexpr double latest = 60;
+  if (!(matter.delay >= 0 && matter.delay <= latest))
+    return fail("A delay is from 0 to 60 seconds.");
   return {};
 }
 
@@ -67,6 +72,7 @@ Result<std::vector<Region>> dividedFace(const Rig& rig, std::vector<Region> pain
       rest.shares[n] = 1 - sum, isLeft = true;
   }
   if (isLeft || painted.empty()) painted.insert(painted.begin(), std::move(rest));
+  if (painted.size() > kMostRegions) return tooMany();
   return painted;
 }
 
@@ -91,15 +97,15 @@ std::vector<std::vector<float>> influencesOf(const Surface& surface,
 void blend(const Rig& rig, std::span<const Region> regions, std::span<const double> weights,
            std::span<Vec3> vectors) {
   const std::size_t count = rig.targets.size(), stored = rig.neutral.size();
-  if (weights.size() < count * regions.size() || regions.size() < 2)
-    return blend(rig, weights, vectors);
+  if (regions.size() < 2) return blend(rig, weights, vectors);
+  const auto at = [&](std::size_t k) { return k < weights.size() ? weights[k] : 0; };
   std::ranges::copy(rig.neutral, vectors.begin());
   for (std::size_t k = 0; k < count; ++k)
     for (std::size_t v = 0; v < stored; ++v) {
       const Index node = rig.surface.stored(static_cast<Index>(v)).node;
       double weight = 0;
       for (std::size_t r = 0; r < regions.size(); ++r)
-        weight += regions[r].shares[node] * weights[r * count + k];
+        weight += regions[r].shares[node] * at(r * count + k);
       vectors[v] += weight * rig.targets[k].difference[v];
     }
   rig.surface.settle(vectors.first(stored), vectors);

@@ -6,6 +6,13 @@
 
 namespace sweepface {
 
+bool Rig::knowsTargets() const {
+  return std::ranges::all_of(targets, [&](const Target& target) {
+    return target.difference.size() == neutral.size() &&
+           target.looseDifference.size() == source.loose.size();
+  });
+}
+
 Index Rig::find(std::string_view name) const {
   for (std::size_t k = 0; k < targets.size(); ++k)
     if (targets[k].name == name) return static_cast<Index>(k);
@@ -14,35 +21,48 @@ Index Rig::find(std::string_view name) const {
 
 namespace {
 
-std::string listNames(const Rig& rig) {
-  if (rig.targets.empty()) return "this face has no targets";
+std::string listNames(const Rig& rig, std::size_t count) {
+  if (count == 0) return "this face has no targets";
   std::string list = "its targets are ";
-  for (std::size_t k = 0; k < rig.targets.size(); ++k)
-    list += (k ? ", " : "") + rig.targets[k].name;
+  for (std::size_t k = 0; k < count; ++k) list += (k ? ", " : "") + rig.targets[k].name;
   return list;
 }
 
 }  // namespace
 
-Result<Index> findTarget(const Rig& rig, std::string_view name) {
-  if (const Index target = rig.find(name); target >= 0) return target;
-  return failCall("there is no target named '", name, "'; ", listNames(rig));
+Result<Index> findTarget(const Rig& rig, std::string_view name, std::size_t count) {
+  const Index target = rig.find(name);
+  if (target >= 0 && static_cast<std::size_t>(target) < count) return target;
+  return failCall("there is no target named '", name, "'; ", listNames(rig, count));
 }
+
+Result<Index> findTarget(const Rig& rig, std::string_view name) {
+  return findTarget(rig, name, rig.targets.size());
+}
+
+namespace {
+
+std::string_view trimmed(std::string_view text) {
+  const auto first = text.find_first_not_of(' '), last = text.find_last_not_of(' ');
+  return first == text.npos ? "" : text.substr(first, last + 1 - first);
+}
+
+}  // namespace
 
 Result<Weights> parseWeights(const Rig& rig, std::string_view text) {
   Weights weights(rig.targets.size(), 0.0);
   while (!text.empty()) {
     const auto comma = text.find(',');
-    const std::string_view item = text.substr(0, comma);
+    const std::string_view item = trimmed(text.substr(0, comma));
     text = comma == std::string_view::npos ? "" : text.substr(comma + 1);
     if (item.empty()) continue;
     const auto equals = item.rfind('=');
-    const std::string_view name = item.substr(0, equals);
+    const std::string_view name = trimmed(item.substr(0, equals));
     const Result<Index> target = findTarget(rig, name);
     if (!target) return std::unexpected(target.error());
     double value = 1;
     if (equals != std::string_view::npos) {
-      const std::string digits(item.substr(equals + 1));
+      const std::string digits(trimmed(item.substr(equals + 1)));
       char* end = nullptr;  // not from_chars: libc++ 19 has none for floating point
       value = std::strtod(digits.c_str(), &end);
       const bool plain =

@@ -47,7 +47,7 @@ inline Taylor operator*(const Taylor& a, const Taylor& b) {
   return product;
 }
 
-/// f(a) from f's first four Taylor coefficients at a's value: without its value, a is nilpotent of
+/// f(a) from f's first five Taylor coefficients at a's value: without its value, a is nilpotent of
 /// order five.
 inline Taylor compose(const std::array<double, 5>& f, Taylor a) {
   a.c[0] = 0;

@@ -86,6 +86,38 @@ TEST_F(Clips, AreOfManyKinds) {
   EXPECT_TRUE(refuses("glTF\x02", "take"));
 }
 
+TEST_F(Clips, AreToldApartBehindAByteOrderMark) {
+  constexpr std::string_view mark = "\xEF\xBB\xBF";
+  const std::string capture =
+      R"({"events": 0, "exportFps": 2, "facsNames": ["open"], "weightMat": [[0], [1]]})";
+  ASSERT_EQ(read(std::string(mark) + std::string(kCsv)), SWEEPFACE_OK) << sweepface_message();
+  ASSERT_EQ(read(std::string(mark) + " " + capture.substr(0, 1) + capture.substr(14)), SWEEPFACE_OK)
+      << sweepface_message();
+  EXPECT_EQ(at(0.25)[0], 0.5);
+  EXPECT_TRUE(refuses(std::string(mark) + capture, "unknown key"));
+}
+
+TEST_F(Clips, ThatSpeakOfEventsAreNoTimelines) {
+  ASSERT_EQ(read(R"({"exportFps": 2, "facsNames": ["open", "events"],
+                     "weightMat": [[0, 0], [1, 0]], "more": {"events": []}})"),
+            SWEEPFACE_OK)
+      << sweepface_message();
+  EXPECT_EQ(at(0.25)[0], 0.5);
+}
+
+TEST_F(Clips, OfAllRegionsHoldNoMoreThanOneMay) {
+  std::string regions = R"({"regions": [)", goals = R"("open": 1)";
+  for (int r = 0; r < 8; ++r)
+    regions += std::string(r > 0 ? "," : "") + R"({"name": "r)" + std::to_string(r) +
+               R"(", "nodes": {"0": 0.1, "2": 0.1}})";
+  regions += "]}";
+  ASSERT_EQ(sweepface_rig_divide_by(handle, regions.data(), regions.size(), "scene"), SWEEPFACE_OK)
+      << sweepface_message();
+  for (int k = 0; k < 39; ++k) goals += ",\"n" + std::to_string(k) + "\": 1";
+  EXPECT_TRUE(refuses(R"({"seconds": 1000, "events": [{"at": 0, "to": {)" + goals + R"(}}]})",
+                      "take is too long for 9 regions"));
+}
+
 TEST_F(Clips, LoseTheirNoise) {
   sweepface_clip_options options = sweepface_clip_usual_options();
   options.smooth = 1;

@@ -186,6 +186,9 @@ TEST_F(DividedFaces, RefuseAndChangeNothing) {
   brush = {};
   brush.curves = nameless, brush.curve_count = 1;
   EXPECT_TRUE(refuses(paintWith(brush, 1, painted.size()), "."));
+  brush = {};
+  brush.nodes = names, brush.node_count = 1;
+  EXPECT_TRUE(refuses(paintWith(brush, 1, painted.size()), "A list of the brush is missing"));
   EXPECT_EQ(sweepface_rig_region_count(handle), 1U);
   const double rest[] = {0};
   const sweepface_matter heavy{1e9, 1, 0};

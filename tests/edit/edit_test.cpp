@@ -138,6 +138,33 @@ TEST(Nodes, TakeWhatMeetsThereAlong) {
   EXPECT_GT(moved(before, after)[changed->front()], 0.1);
 }
 
+TEST(Nodes, ListedTwiceMoveOnce) {
+  Rig once = sheet(), twice = sheet();
+  const NodeMove move{once.find(Thing::node, "b1").value(), {0, 0.3, 0}};
+  ASSERT_TRUE(moveNodes(once, std::array{move}));
+  ASSERT_TRUE(moveNodes(twice, std::array{move, move}));
+  EXPECT_EQ(once.neutral, twice.neutral);
+  const auto torn = moveNodes(twice, std::array{move, NodeMove{move.node, {1, 0, 0}}});
+  ASSERT_FALSE(torn);
+  EXPECT_EQ(torn.error().message,
+            "Nodes 'b1' and 'b1' are one point and cannot move to different places.");
+}
+
+TEST(EveryEdit, OfWhatThereIsNotIsRefused) {
+  Rig rig = sheet();
+  const double nan = std::nan("");
+  EXPECT_EQ(setShape(rig, 1000, {}).error().message.substr(0, 24), "There is no ribbon 1000;");
+  EXPECT_FALSE(setShape(rig, -1, {}));
+  EXPECT_FALSE(moveNodes(rig, std::array{NodeMove{1000, {}}}));
+  EXPECT_FALSE(moveNodes(rig, std::array{NodeMove{0, {}}}, 1000));
+  EXPECT_FALSE(moveNodes(rig, std::array{NodeMove{0, {0, nan, 0}}}));
+  EXPECT_FALSE(moveControls(rig, {1000, 0, {}, {}}));
+  EXPECT_FALSE(moveControls(rig, {0, -1, {}, {}}));
+  EXPECT_FALSE(moveControls(rig, {0, 0, {}, {}}, 1000));
+  EXPECT_FALSE(moveControls(rig, {0, 0, {nan, 0, 0}, {}}));
+  EXPECT_FALSE(endsOf(rig, 1000));
+}
+
 TEST(Nodes, OfATargetMoveInItAlone) {
   const auto [name, surface] = everySurface().front();
   const Rig before = rigOf(surface);

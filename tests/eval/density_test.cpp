@@ -144,6 +144,14 @@ TEST(Density, refusesABudgetThatIsNone) {
   EXPECT_FALSE(densityFor(surface, vectors, {Budget::Kind::vertices, 3}));
 }
 
+TEST(Density, refusesMoreVerticesThanAMachineHasRoomFor) {
+  const Surface surface = Surface::make(onePatch(200, 200)).value();
+  const auto vectors = neutral(surface);
+  const auto refused = densityFor(surface, vectors, {Budget::Kind::edgeLength, 1e-6});
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("ask for a coarser one"), std::string::npos);
+}
+
 TEST(Density, knowsWhatAPixelIs) {
   // 90 degrees: as high as twice the distance.
   EXPECT_NEAR(errorOnScreen(1, 50, 1.5707963267948966, 1000), 0.1, 1e-12);

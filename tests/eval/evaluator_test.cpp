@@ -376,6 +376,7 @@ TEST(Evaluator, refusesWhatDoesNotFit) {
   const Rig rig = makeRig(onePatch(3, 2));
   const auto evaluator = Evaluator::make(rig).value();
   const auto bare = Evaluator::make(rig, {.normals = false}).value();
+  const auto directions = Evaluator::make(rig, {.positions = false}).value();
   const Index count = evaluator.vertexCount();
   std::vector<std::byte> scratch(evaluator.scratchBytes());
   std::vector<float> out(3 * count);
@@ -397,8 +398,21 @@ TEST(Evaluator, refusesWhatDoesNotFit) {
   EXPECT_TRUE(refuses([](auto& job) { job.parts = 0; }, "no part"));
   EXPECT_TRUE(refuses([&](auto& job) { job.evaluator = &bare, job.normals = job.positions; },
                       "without normals"));
+  EXPECT_TRUE(refuses([&](auto& job) { job.evaluator = &directions; }, "without positions"));
   weights[1] = std::nan("");
   EXPECT_TRUE(refuses([](auto&) {}, "Weight 1 is not finite"));
+}
+
+TEST(Evaluator, bearsAnyTolerance) {
+  const Rig rig = makeRig(onePatch(3, 2));
+  for (const double tolerance : {1e-300, 1e-20, 1e20, 1e300}) {
+    const auto evaluator = Evaluator::make(rig, {.tolerance = tolerance}).value();
+    const auto weights = anyWeights(evaluator, 1);
+    EXPECT_LE(
+        largestDistance(play(evaluator, weights).positions, surfacePositions(rig, 0, weights)),
+        evaluator.positionBound(weights))
+        << tolerance;
+  }
 }
 
 TEST(Evaluator, isNotMadeOfWhatDoesNotFit) {
@@ -408,6 +422,7 @@ TEST(Evaluator, isNotMadeOfWhatDoesNotFit) {
     return !made && made.error().message.find(why) != std::string::npos;
   };
   EXPECT_TRUE(refuses({.level = -1}, "level"));
+  EXPECT_TRUE(refuses({.level = kMostLevel + 1}, "level"));
   EXPECT_TRUE(refuses({.tolerance = -1}, "tolerances"));
   EXPECT_TRUE(refuses({.tolerance = std::nan("")}, "tolerances"));
   EXPECT_TRUE(refuses({.derivativeTolerance = 0}, "tolerances"));
@@ -418,25 +433,27 @@ TEST(Evaluator, isNotMadeOfWhatDoesNotFit) {
   influences[5] = 1;
   EXPECT_TRUE(refuses({.influences = std::vector(40000, influences)}, "at most 65534 weights"));
   EXPECT_FALSE(Evaluator::make(rig, Tessellation(rig.surface, 2), {.level = 3}));
+  Rig undecoded = rig;
+  undecoded.targets[1].difference.clear();
+  EXPECT_FALSE(Evaluator::make(undecoded));
+  EXPECT_TRUE(Evaluator::make(undecoded, {.targets = false}));
   Rig sourceless = rig;
   sourceless.source = {};
   EXPECT_FALSE(Evaluator::make(sourceless));
   EXPECT_TRUE(Evaluator::make(sourceless, {.level = 1}));
 }
 
-/// Any weights of a frame.
+/// Any weights of a frame, some of them beyond 1, in scratch memory as large as an evaluation has.
 struct AnyFrame {
-  explicit AnyFrame(const EvaluatorTables& tables)
-      : weights(roundUp64(tables.weights + 1)),
-        pairs(4 * 4096),
-        frame{weights.data(), pairs.data(), 4096, 1.25f, tables.weights + 1} {
+  explicit AnyFrame(const Evaluator& evaluator) : scratch(evaluator.scratchBytes()) {
     std::mt19937 random(1);
-    for (Index k = 0; k < tables.weights; ++k)
-      weights[k] = static_cast<std::int16_t>(static_cast<int>(random() % 32769) - 16384);
+    std::uniform_real_distribution<double> uniform(-1.25, 1.25);
+    std::vector<double> weights(evaluator.weightCount());
+    for (double& weight : weights) weight = uniform(random);
+    frame = frameWeights(evaluator.tables(), weights, scratch);
   }
 
-  std::vector<std::int16_t> weights;
-  std::vector<std::uint32_t> pairs;
+  std::vector<std::byte> scratch;
   FrameWeights frame;
 };
 
@@ -446,7 +463,7 @@ TileRange all(const TileTable& table) { return {table, 0, table.tileCount()}; }
 template <typename Positions, typename Normals>
 Played playWith(const Evaluator& evaluator, const Positions& positions, const Normals& normals) {
   const EvaluatorTables& tables = evaluator.tables();
-  const AnyFrame any(tables);
+  const AnyFrame any(evaluator);
   const std::size_t floats = 3 * static_cast<std::size_t>(tables.vertices);
   Played out{std::vector<float>(floats), std::vector<float>(floats), std::vector<float>(floats)};
   const VectorsOut to[3] = {{out.positions.data(), tables.vertices},
@@ -459,10 +476,11 @@ Played playWith(const Evaluator& evaluator, const Positions& positions, const No
 
 /// The modes of a table from a kernel.
 template <typename Blend>
-std::vector<std::int16_t> modesOf(const EvaluatorTables& tables, const TileTable& table,
+std::vector<std::int16_t> modesOf(const Evaluator& evaluator, const TileTable& table,
                                   const Blend& blend) {
-  std::vector<std::int16_t> out(4 * std::size_t(shaderTables(table, tables.vertices).modes), 7);
-  blend(all(table), AnyFrame(tables).frame, out.data());
+  std::vector<std::int16_t> out(4 * std::size_t(shaderTables(table, evaluator.vertexCount()).modes),
+                                7);
+  blend(all(table), AnyFrame(evaluator).frame, out.data());
   return out;
 }
 
@@ -490,7 +508,7 @@ void expectSameBits(const Evaluator& evaluator) {
     EXPECT_TRUE(sameBits(fast.tangents, right.tangents));
     for (const TileTable* table : {&tables.positions, &tables.derivatives}) {
       const auto modes = [](auto&&... x) { blendModes(x...); };
-      EXPECT_EQ(modesOf(tables, *table, modes), modesOf(tables, *table, plain::blendModes));
+      EXPECT_EQ(modesOf(evaluator, *table, modes), modesOf(evaluator, *table, plain::blendModes));
     }
   };
 #ifdef SWEEPFACE_SIMD
@@ -525,6 +543,25 @@ TEST(Kernels, giveTheSameBitsForAnyNumberOfRegions) {
       for (std::size_t v = 0; v < stored; ++v)
         if (v * options.influences.size() / stored != r) options.influences[r][v] = 0;
     expectSameBits(Evaluator::make(rig, options).value());
+  }
+}
+
+// As many pairs of targets of 16 and of 8 bits as there can be in a tile.
+TEST(Kernels, giveTheSameBitsWhereEveryTargetMovesEveryTile) {
+  Rig rig = convertedRigs().front();
+  std::mt19937 random(9);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  for (const std::size_t targets : {64, 127, 128, 129, 256}) {
+    rig.targets.clear();
+    for (std::size_t k = 0; k < targets; ++k) {
+      Target target{std::to_string(k), rig.neutral, rig.source.loose};
+      const double size = k % 2 ? 1 : 0.01;
+      for (auto* differences : {&target.difference, &target.looseDifference})
+        for (Vec3& d : *differences)
+          d = size * Vec3{uniform(random), uniform(random), uniform(random)};
+      rig.targets.push_back(std::move(target));
+    }
+    expectSameBits(Evaluator::make(rig).value());
   }
 }
 

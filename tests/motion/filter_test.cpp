@@ -51,6 +51,9 @@ TEST(OneEuro, TheFirstFrameAndOneAfterNoTimePass) {
   weight[0] = 0.1;
   filter.apply(0, weight);
   EXPECT_EQ(weight[0], 0.1);
+  weight[0] = 0.9;
+  filter.apply(1e-310, weight);
+  EXPECT_EQ(weight[0], 0.9);
 }
 
 }  // namespace

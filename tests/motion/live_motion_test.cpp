@@ -102,6 +102,7 @@ TEST(MotionState, TimeNeverRunsBackwards) {
   state.advance(1);
   state.advance(-5);
   state.advance(std::numeric_limits<double>::quiet_NaN());
+  state.advance(std::numeric_limits<double>::infinity());
   EXPECT_EQ(state.now(), 1);
 }
 

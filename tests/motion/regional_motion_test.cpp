@@ -140,6 +140,9 @@ TEST(RegionalMotion, RefusesWithoutAChange) {
   RegionalMotion motion = motionOf({0.0, 0.0}, {{}, {}});
   EXPECT_FALSE(motion.moveTo(std::vector{1.0, std::nan("")}));
   EXPECT_FALSE(motion.moveTo(2, 1));
+  RegionalMotion uneven = motionOf({0.0}, {{1, 1, 0}, {1e-4, 1, 0}});
+  EXPECT_FALSE(uneven.push(0, 1e306, 0));  // too much for the light one
+  EXPECT_EQ(uneven.sample(0, 0).velocity, 0);
   motion.advance(1);
   EXPECT_EQ(motion.sample(1, 0).position, 0);
 }
@@ -201,6 +204,9 @@ TEST(RegionalClip, ALateRegionShowsTheClipLater) {
   const Clip clip = wave(40), late = inMatter(clip, {1, 1, 0.25});
   for (std::size_t f = 0; f < clip.times.size(); ++f)
     EXPECT_NEAR(late.weights[f], clip.weights[f < 10 ? 0 : f - 10], 1e-12);
+  // And goes on until all of it was shown.
+  EXPECT_NEAR(late.seconds(), clip.seconds() + 0.25, 1e-12);
+  EXPECT_NEAR(late.weights.back(), clip.weights.back(), 1e-12);
 }
 
 TEST(RegionalTimeline, EventsAreForOneRegionOrForAll) {

@@ -75,6 +75,28 @@ TEST(Followers, productsGoByTheWeightsThatWereSet) {
   EXPECT_EQ(applied(followers, {0.5, 0, 1, 0}), (std::vector<double>{0, 1, 1, 0.5}));
 }
 
+TEST(FollowerNames, ofProductsSayNothing) {
+  const std::vector<std::string> names{"A", "B", "A_B_A", "A_B"};
+  EXPECT_EQ(Followers::named(names), (std::vector<Follower>{{Kind::product, 3, {0, 1}, 0}}));
+}
+
+TEST(Followers, productsOfInBetweensGoByWhatTheseAreGiven) {
+  const std::vector<std::string> names{"A", "A_50_B", "A_50", "B"};
+  const auto followers = Followers::named(names);
+  EXPECT_EQ(applied(followers, {0.5, 9, 9, 0.5}), (std::vector<double>{0, 0.5, 1, 0.5}));
+  EXPECT_EQ(applied(followers, {0.75, 9, 9, 1}), (std::vector<double>{0.5, 0.5, 0.5, 1}));
+  EXPECT_EQ(applied(followers, {1, 9, 9, 1}), (std::vector<double>{1, 0, 0, 1}));
+}
+
+TEST(Followers, arcsGoByWhatTheirLeaderIsGiven) {
+  const std::vector<Follower> followers{{Kind::product, 2, {0, 1}, 0},
+                                        {Kind::inBetween, 3, {0}, 0.5},
+                                        {Kind::arc, 4, {2}, 0},
+                                        {Kind::arc, 5, {3}, 0}};
+  EXPECT_EQ(applied(followers, {0.25, 1, 0, 0, 0, 0}),
+            (std::vector<double>{0, 1, 0.25, 0.5, 0.75, 1}));
+}
+
 TEST(Followers, allocateNothing) {
   if (!testing::watchesAllocations) GTEST_SKIP() << "allocations cannot be watched here";
   const Followers followers(

@@ -201,6 +201,10 @@ TEST(Regions, BandsFollowEachOther) {
   }
   EXPECT_EQ((*bands)[0][0], 1);
   EXPECT_FALSE(paintBands(hill(), around(places[0], 1, 0, false), 5));
+  EXPECT_FALSE(paintBands(hill(), around({1e6, 0, 0}, 0, 12, false), 5)) << "reaches nothing";
+  Brush named = around(places[0], 0, 12, false);
+  named.nodes = {{"n1", 1}};
+  EXPECT_FALSE(paintBands(hill(), named, 5));
 }
 
 // ---- Shares ----
@@ -230,6 +234,20 @@ TEST(Regions, WithNothingLeftThereIsNoRest) {
   ASSERT_TRUE(regions);
   ASSERT_EQ(regions->size(), 2u);
   EXPECT_NEAR((*regions)[1].shares[0], 1.0 / 3, 1e-15);
+}
+
+TEST(Regions, AreAtMost32WithTheRest) {
+  const std::size_t nodes = hill().surface.wireframe().nodes.size();
+  const auto divided = [&](std::size_t count, double share) {
+    std::vector<Region> regions;
+    for (std::size_t r = 0; r < count; ++r)
+      regions.push_back({std::to_string(r), {}, std::vector(nodes, share)});
+    return dividedFace(hill(), std::move(regions));
+  };
+  EXPECT_EQ(divided(32, 1).value().size(), 32u);
+  EXPECT_EQ(divided(31, 0.01).value().size(), 32u);
+  EXPECT_FALSE(divided(32, 0.01));
+  EXPECT_FALSE(divided(33, 1));
 }
 
 TEST(Regions, RefuseWhatCannotBe) {

@@ -1,0 +1,24 @@
+#include "rig/source_quads.hpp"
+
+namespace sweepface {
+
+bool knowsQuads(const Rig& rig) {
+  std::size_t quads = 0;
+  for (Index p = 0; p < rig.surface.patchCount(); ++p)
+    quads += static_cast<std::size_t>(rig.surface.edgesU(p)) * rig.surface.edgesV(p);
+  return quads > 0 && rig.source.quadCorners.size() == 4 * quads;
+}
+
+std::vector<Index> faceOfQuads(const Rig& rig) {
+  if (!knowsQuads(rig)) return {};
+  const Polygons& polygons = rig.source.polygons;
+  std::vector<Index> faceOfCorner;
+  for (Index f = 0; f < polygons.faceCount(); ++f)
+    faceOfCorner.insert(faceOfCorner.end(), polygons.faceSize(f), f);
+  std::vector<Index> faces;
+  for (std::size_t k = 0; k < rig.source.quadCorners.size(); k += 4)
+    faces.push_back(faceOfCorner[rig.source.quadCorners[k]]);
+  return faces;
+}
+
+}  // namespace sweepface
