@@ -165,7 +165,6 @@ std::string keysOf(const AnimateArguments& a, const Performance& performance) {
 }
 
 Result<void> animateGlb(const AnimateArguments& a, const Rig& rig, const Performance& performance) {
-  if (auto ok = checkOutput(a.output, {a.face}, {}); !ok) return ok;
   GlbOptions options;
   options.lod = a.lod;
   options.morphNormals = a.glb.morphNormals;
@@ -200,7 +199,6 @@ Result<void> animateGlb(const AnimateArguments& a, const Rig& rig, const Perform
 // ---- A recording ----
 
 Result<void> animateCsv(const AnimateArguments& a, const Rig& rig, const Performance& performance) {
-  if (auto ok = checkOutput(a.output, {a.face, a.what.clip}, {}); !ok) return ok;
   const bool own =
       !performance.frameTimes.empty() && !a.namesFrames() && isOfKind(a.what.clip, ".csv");
   AnimateArguments asked = a;
@@ -233,8 +231,8 @@ Result<void> checkArguments(const AnimateArguments& a, bool glb) {
     return fail(fmt::format("--keys is exact, few or sampled, not '{}'.", a.keys));
   if (isOfKind(a.output, ".csv") && (!a.regions.file.empty() || a.following.any() || a.lod > 0))
     return fail(
-        "A .csv holds the weights as they were set; leave --regions, --arcs, --combine and --lod "
-        "out.");
+        "A .csv holds the weights as they were set; leave --regions, --arcs, --eyes, --combine and "
+        "--lod out.");
   return {};
 }
 
@@ -249,10 +247,13 @@ Result<void> checkKeys(const AnimateArguments& a, const Performance& performance
 }
 
 Result<int> runAnimate(const AnimateArguments& a) {
-  const bool glb = isOfKind(a.output, ".glb");
-  if (isOfKind(a.output, ".gltf"))
-    return fail(
-        fmt::format("Cannot write {}: its name promises another kind of file (.gltf).", a.output));
+  const bool glb = isOfKind(a.output, ".glb"), csv = isOfKind(a.output, ".csv");
+  std::error_code ignored;
+  const fs::path output(a.output);
+  if (!glb && !csv && output.has_extension() && !fs::is_directory(output, ignored))
+    return fail(fmt::format(
+        "Cannot write {}: its name must end in .glb or .csv, or be a folder's, without an ending.",
+        a.output));
   if (auto ok = checkArguments(a, glb); !ok) return std::unexpected(ok.error());
   Result<Rig> rig = readFace(a.face);
   if (!rig) return std::unexpected(rig.error());
@@ -260,7 +261,10 @@ Result<int> runAnimate(const AnimateArguments& a) {
   if (!performance) return std::unexpected(performance.error());
   if (glb)
     if (auto ok = checkKeys(a, *performance); !ok) return std::unexpected(ok.error());
-  const bool csv = isOfKind(a.output, ".csv");
+  if (glb || csv)
+    if (auto ok = checkOutput(a.output, {a.face, a.what.clip, a.regions.file}, {".glb", ".csv"});
+        !ok)
+      return std::unexpected(ok.error());
   const Result<void> written = (glb   ? animateGlb
                                 : csv ? animateCsv
                                       : animateMeshes)(a, *rig, *performance);

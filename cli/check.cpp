@@ -122,7 +122,7 @@ class Checker {
     std::size_t arc = 0;
     double value = 0;
     void see(std::size_t a, double x) {
-      if (!(x <= value)) arc = a, value = x;
+      if (!std::isnan(value) && !(x <= value)) arc = a, value = x;
     }
   };
 

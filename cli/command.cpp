@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <system_error>
 #include <unistd.h>
 
@@ -143,7 +144,7 @@ Result<RigSource> readMeshes(const std::string& neutral, const std::vector<std::
 }
 
 Result<void> checkOutput(const fs::path& output, const std::vector<std::string>& inputs,
-                         std::initializer_list<std::string_view> foreign) {
+                         std::initializer_list<std::string_view> kinds) {
   const auto cannot = [&](std::string_view why) {
     return fail(fmt::format("Cannot write {}: {}.", output.string(), why));
   };
@@ -152,13 +153,12 @@ Result<void> checkOutput(const fs::path& output, const std::vector<std::string>&
   for (const std::string& input : inputs)
     if (fs::equivalent(output, input, ignored))
       return cannot("it is what is read; choose another name");
-  for (const std::string_view kind : foreign)
-    if (isOfKind(output, kind))
-      return cannot(fmt::format("its name promises another kind of file ({})", kind));
   if (!output.has_filename() || fs::is_directory(output, ignored))
     return cannot("it is a folder; name a file");
   // A device is written to as it is; any other file is replaced in its folder.
   const bool device = fs::exists(output, ignored) && !fs::is_regular_file(output, ignored);
+  if (!device && std::ranges::none_of(kinds, [&](auto kind) { return isOfKind(output, kind); }))
+    return cannot(fmt::format("its name must end in {}", fmt::join(kinds, " or ")));
   const fs::path folder = output.has_parent_path() ? output.parent_path() : fs::path(".");
   if (!device && !fs::is_directory(folder, ignored))
     return cannot(fmt::format("there is no folder {}; create it first", folder.string()));

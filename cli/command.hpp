@@ -90,11 +90,11 @@ bool isOfKind(const std::filesystem::path& path, std::string_view kind);
 Result<RigSource> readMeshes(const std::string& neutral, const std::vector<std::string>& targets,
                              ProgressBar& bar);
 
-/// Whether a file can be made at `output` without loss of an input, asked before the long work. A
-/// name that ends in one of `foreign` promises another kind of file.
+/// Whether a file can be made at `output` without loss of an input, asked before the long work. Its
+/// name ends in one of `kinds`, so that nobody takes it for another kind of file.
 Result<void> checkOutput(const std::filesystem::path& output,
                          const std::vector<std::string>& inputs,
-                         std::initializer_list<std::string_view> foreign);
+                         std::initializer_list<std::string_view> kinds);
 
 /// Weights with one target at 1; all at 0 for -1.
 Weights single(const Rig& rig, Index target);

@@ -123,7 +123,7 @@ Worst compare(const Rig& rig, const MeshRig& source) {
   });
   Worst worst = each[0];
   for (const Worst& w : each)
-    if (!(w.distance <= worst.distance)) worst = w;
+    if (!std::isnan(worst.distance) && !(w.distance <= worst.distance)) worst = w;
   return worst;
 }
 
@@ -232,16 +232,21 @@ Result<int> convertAndWrite(const ConvertArguments& a) {
   // The scene comes with a frame and its length.
   constexpr std::size_t kMostAround = 32, kMostTurn = 29;
   const bool hasScene = !a.bare && !parts->scene && !source->scene.empty();
-  const std::size_t around = (hasScene ? source->scene.size() + kMostAround : 0) +
-                             (a.arcs ? kMostAround + kMostTurn * source->rig.targets.size() : 0);
-  if (a.maxBytes > 0 && around >= a.maxBytes)
+  const std::size_t scene = hasScene ? source->scene.size() + kMostAround : 0;
+  const std::size_t arcs = a.arcs ? kMostAround + kMostTurn * source->rig.targets.size() : 0;
+  if (a.maxBytes > 0 && scene >= a.maxBytes)
     return fail(
         fmt::format("What {} holds besides the face takes {} bytes; leave it out with "
                     "--bare, or allow more.",
                     a.neutral, source->scene.size()));
-  Result<Conversion> conversion =
-      a.maxBytes > 0 ? convertToBytes(source->rig, optionsOf(a, *bar), a.maxBytes - around, *parts)
-                     : convert(source->rig, optionsOf(a, *bar));
+  if (a.maxBytes > 0 && scene + arcs >= a.maxBytes)
+    return fail(
+        fmt::format("What the {} expressions turn about may take {} bytes; leave --arcs out, or "
+                    "allow more.",
+                    source->rig.targets.size(), arcs));
+  Result<Conversion> conversion = a.maxBytes > 0 ? convertToBytes(source->rig, optionsOf(a, *bar),
+                                                                  a.maxBytes - scene - arcs, *parts)
+                                                 : convert(source->rig, optionsOf(a, *bar));
   if (!conversion) return std::unexpected(conversion.error());
   if (!a.bare) conversion->rig.scene = std::move(source->scene);
   bar->show("verifying", 1);
@@ -272,8 +277,7 @@ Result<int> convertAndWrite(const ConvertArguments& a) {
 Result<int> runConvert(const ConvertArguments& a) {
   std::vector<std::string> inputs = a.targets;
   inputs.push_back(a.neutral);
-  if (auto ok = checkOutput(a.output, inputs, {".obj", ".ply", ".glb", ".gltf"}); !ok)
-    return std::unexpected(ok.error());
+  if (auto ok = checkOutput(a.output, inputs, {".sweep"}); !ok) return std::unexpected(ok.error());
   std::optional<tbb::global_control> limit;
   if (a.threads > 0)
     limit.emplace(tbb::global_control::max_allowed_parallelism,

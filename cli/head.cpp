@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 
 #include "sweepface/box.hpp"
 #include "sweepface/eval.hpp"
@@ -19,7 +20,8 @@ Result<Vec3> pivotOf(const HeadArguments& a, const Rig& rig) {
   std::array<double, 3> p{};
   bool whole = parts.size() == 3;
   for (std::size_t k = 0; whole && k < 3; ++k)
-    whole = CLI::detail::lexical_cast(parts[k], p[k]) && std::isfinite(p[k]);
+    whole = CLI::detail::lexical_cast(parts[k], p[k]) &&
+            std::abs(p[k]) <= std::numeric_limits<float>::max();
   if (whole) return Vec3{p[0], p[1], p[2]};
   return fail(fmt::format("--pivot is a point like 0,1.5,-2, not '{}'.", a.pivot));
 }

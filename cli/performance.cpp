@@ -88,12 +88,14 @@ Result<Clip> readClip(const PerformanceArguments& a, const Region& region) {
   const Result<std::string> text = readFile(a.clip);
   if (!text) return std::unexpected(text.error());
   const bool isJson = isOfKind(a.clip, ".json");
-  if (isJson && text->find("\"events\"") != std::string::npos) {
+  if (isJson && isTimeline(*text)) {
     if (a.smooth || !a.animation.empty())
       return fail(fmt::format("{} is a timeline; leave --smooth and --animation out.", a.clip));
     const Result<Timeline> timeline = parseTimeline(*text, a.clip);
     if (!timeline) return std::unexpected(timeline.error());
-    return bake(*timeline, kTimelineRate, region.name, region.matter);
+    auto clip = bake(*timeline, kTimelineRate, region.name, region.matter);
+    if (!clip) return fail(fmt::format("{}: {}", a.clip, clip.error().message));
+    return clip;
   }
   const bool isGltf = isOfKind(a.clip, ".glb") || isOfKind(a.clip, ".gltf");
   if (!isJson && !isGltf && !isOfKind(a.clip, ".csv"))
@@ -137,6 +139,7 @@ Result<Performance> byClip(const PerformanceArguments& a, const Rig& rig, const 
   Performance performance;
   performance.name = std::filesystem::path(a.clip).stem().string();
   performance.seconds = clip->seconds();
+  performance.clipWeights = clip->weights.size();
   performance.notes = notesOn(match, *clip, a.clip);
   for (const double time : clip->times)
     performance.frameTimes.push_back(time - clip->times.front());

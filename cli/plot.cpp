@@ -178,11 +178,10 @@ Result<Curves> curvesOf(const PlotArguments& a, const Rig& rig) {
 Result<int> runPlot(const PlotArguments& a) {
   if (!a.what.to && a.what.clip.empty())
     return fail("Say where to go with --to, or what to play with --clip.");
-  if (!isOfKind(a.output, ".svg"))
-    return fail(fmt::format("{} is not named .svg, which is what is written.", a.output));
   const Result<Rig> rig = readFace(a.face);
   if (!rig) return std::unexpected(rig.error());
-  if (auto ok = checkOutput(a.output, {a.face}, {}); !ok) return std::unexpected(ok.error());
+  if (auto ok = checkOutput(a.output, {a.face, a.what.clip}, {".svg"}); !ok)
+    return std::unexpected(ok.error());
   const Result<Curves> curves = curvesOf(a, *rig);
   if (!curves) return std::unexpected(curves.error());
   const std::string svg =

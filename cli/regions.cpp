@@ -70,14 +70,16 @@ struct Parts {
     return targets;
   }
 
-  double seconds() const {
-    return std::ranges::max(performances, {}, &Performance::seconds).seconds;
+  const Performance& longest() const {
+    return *std::ranges::max_element(performances, {}, &Performance::seconds);
   }
+  double seconds() const { return longest().seconds; }
 };
 
 Performance together(Parts parts, const RegionalTargets& targets) {
   Performance whole = parts.performances.front();
   whole.seconds = parts.seconds();
+  whole.frameTimes = parts.longest().frameTimes;
   whole.motion.reset();  // keys would not hold it exactly
   const auto shared = std::make_shared<const Parts>(std::move(parts));
   whole.at = [shared, targets](double time, std::span<double> weights) {
@@ -107,6 +109,9 @@ Result<Performance> perform(const PerformanceArguments& what, const RegionArgume
   for (const Region& region : *regions) {
     auto performance = makePerformance(what, rig, region);
     if (!performance) return std::unexpected(performance.error());
+    if (performance->clipWeights > kMostClipWeights / regions->size())
+      return fail(fmt::format("{} is too long for {} regions; cut it, or play it with fewer.",
+                              what.clip, regions->size()));
     parts.performances.push_back(std::move(*performance));
   }
   const Result<Following> followed = follow(following, rig);
@@ -115,7 +120,7 @@ Result<Performance> perform(const PerformanceArguments& what, const RegionArgume
     performance = withFollowing(std::move(performance), *followed);
   if (parts.performances.size() == 1) return std::move(parts.performances.front());
   parts.count = rig.targets.size();
-  const auto uneven = parts.uneven(parts.performances.front().frameTimes);
+  const auto uneven = parts.uneven(parts.longest().frameTimes);
   return together(std::move(parts), RegionalTargets::addTo(rig, *regions, uneven));
 }
 

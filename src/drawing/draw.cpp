@@ -5,7 +5,10 @@
 
 #include "sweepface/drawing.hpp"
 
+#include "codec/limits.hpp"
 #include "drawing/frames.hpp"
+#include "drawing/words.hpp"
+#include "rig/source_quads.hpp"
 
 namespace sweepface {
 
@@ -15,7 +18,12 @@ namespace {
 class Drawer {
  public:
   explicit Drawer(const Rig& rig)
-      : rig_(rig), s_(rig.surface), w_(s_.wireframe()), jets_(s_), nodesAt_(w_.points) {
+      : rig_(rig),
+        s_(rig.surface),
+        w_(s_.wireframe()),
+        jets_(s_),
+        nodesAt_(w_.points),
+        faceOfQuad_(faceOfQuads(rig)) {
     for (Index n = 0; n < nodeCount(); ++n)
       if (w_.nodes[n].point >= 0) nodesAt_[w_.nodes[n].point].push_back(n);
   }
@@ -117,21 +125,19 @@ class Drawer {
     drawing_.patches.push_back(std::move(patch));
   }
 
-  // What all source faces on a patch are made of; empty where they differ. Patches come in order.
+  // What all source faces on a patch are made of; empty where they differ, where nobody knows, and
+  // where the name is no text that could be read again. Patches come in order.
   std::string materialOf(Index p) {
     const Polygons& faces = rig_.source.polygons;
+    if (faceOfQuad_.empty() || faces.faceMaterial.empty()) return {};
     const auto quads = static_cast<std::size_t>(s_.edgesU(p) * s_.edgesV(p));
-    const std::span corners =
-        std::span(rig_.source.quadCorners).subspan(4 * quadsDrawn_, 4 * quads);
-    quadsDrawn_ += quads;
-    if (faces.faceMaterial.empty()) return {};
     std::set<Index> materials;
-    for (Index corner : corners) {
-      const auto next = std::ranges::upper_bound(faces.faceStart, corner);
-      materials.insert(faces.faceMaterial[next - faces.faceStart.begin() - 1]);
-    }
-    const bool one = materials.size() == 1 && *materials.begin() >= 0;
-    return one ? faces.materials[*materials.begin()] : std::string();
+    for (const Index face : std::span(faceOfQuad_).subspan(quadsDrawn_, quads))
+      materials.insert(faces.faceMaterial[face]);
+    quadsDrawn_ += quads;
+    if (materials.size() != 1 || *materials.begin() < 0) return {};
+    const std::string& name = faces.materials[*materials.begin()];
+    return isName(name) && name.size() <= codec::kLongestName ? name : std::string();
   }
 
   void drawExpression(const Target& target) {
@@ -168,6 +174,7 @@ class Drawer {
   StoredJets jets_;
   std::vector<std::vector<Index>> nodesAt_;  // [points]
   std::vector<Vec3> neutral_;                // settled
+  std::vector<Index> faceOfQuad_;            // [grid quads], or empty
   std::size_t quadsDrawn_ = 0;
   Drawing drawing_;
 };

@@ -24,10 +24,7 @@ class JsonReader {
   /// Fails at a place, unless something has failed before.
   void refuse(const TextPlace& place, std::string problem);
 
-  bool nextIsText() const { return peek() == '"'; }
   bool nextIsArray() const { return peek() == '['; }
-  bool nextIsNumber() const { return peek() == '-' || (peek() >= '0' && peek() <= '9'); }
-  bool nextIsObject() const { return peek() == '{'; }
 
   std::string text(std::string_view what);
   double number(std::string_view what);  ///< finite

@@ -4,7 +4,6 @@
 #include <functional>
 
 #include "codec/limits.hpp"
-#include "codec/utf8.hpp"
 #include "drawing/json_reader.hpp"
 #include "drawing/words.hpp"
 #include "io/text.hpp"
@@ -88,15 +87,15 @@ class DrawingReader {
   void tolerance() {
     const TextPlace at = in_.place();
     drawing_.tolerance = in_.number("the tolerance, a number,");
-    if (drawing_.tolerance < 0) in_.refuse(at, "the tolerance is negative");
+    if (!(drawing_.tolerance > 0))
+      in_.refuse(at, "the tolerance is not above 0; leave it out to be told how far curves pass");
   }
 
   // Something to be quoted in messages and in the file.
   std::string text(std::string_view what) {
     const TextPlace at = in_.place();
     std::string text = in_.text(fmt::format("{}, a text in quotes,", what));
-    if (text.empty() || !codec::isUtf8(text))
-      in_.refuse(at, fmt::format("{} is empty or no clean UTF-8 text", what));
+    if (!isName(text)) in_.refuse(at, fmt::format("{} is empty or no clean UTF-8 text", what));
     if (text.size() > codec::kLongestName)
       in_.refuse(at, fmt::format("{} is longer than {} bytes", what, codec::kLongestName));
     return text;

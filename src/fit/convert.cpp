@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
+#include <limits>
 #include <set>
 
 #include "sweepface/box.hpp"
@@ -22,6 +24,8 @@ double diagonal(const PolygonMesh& mesh) { return diagonal(std::span(mesh.positi
 namespace {
 
 constexpr int kMostRounds = 60;
+// Of the diagonal: what single precision rounds off at its end.
+constexpr double kLeastTolerance = 0x1p-25;
 // The fit's share of the tolerance where the rest is left to packing.
 constexpr double kFitShare = 0.9;
 // What packing does to normals is more than a limit on the fit's could mend.
@@ -102,6 +106,11 @@ class Converter {
     if (!(size > 0))
       return fail("all vertices of the neutral stand at one place; there is no surface to fit");
     const double tolerance = options_.tolerance > 0 ? options_.tolerance : 0.0002 * size;
+    if (tolerance < kLeastTolerance * size)
+      return fail(fmt::format(
+          "a tolerance of {:.3g} is finer than a file's numbers, {:.3g} for a mesh of this size; "
+          "allow a larger one",
+          tolerance, kLeastTolerance * size));
     const double angle = normalLimit(options_, tolerance, size);
     limits_ = {(options_.pack ? kFitShare : 1) * tolerance,
                std::min(180.0, (options_.pack ? kNormalShare : 1) * angle), angle < 180};
@@ -167,6 +176,7 @@ class Converter {
         const Index image = layout.image(static_cast<Index>(v));
         if (image >= 0) extra[image] = kSlopes;
       }
+    double nearest = std::numeric_limits<double>::infinity();
     int smoothing = 0;  // rounds since the promise holds, spent on normals
     for (int round = 0; round < kMostRounds; ++round) {
       if (cancelled()) return fail("the conversion was interrupted");
@@ -177,6 +187,7 @@ class Converter {
       *solution = asStored(*solution);
       const DraftErrors errors = measureDraft(layout, *draft, data, *solution);
       const bool within = errors.largestDistance <= limits_.distance;
+      nearest = std::min(nearest, errors.largestDistance);
       report("fitting",
              within
                  ? 0.9
@@ -189,7 +200,10 @@ class Converter {
       if (changed == 0) break;
       if (within && ++smoothing >= 8) limits_.angle = 180;
     }
-    return fail("the tolerance could not be met everywhere; allow a larger one");
+    return fail(fmt::format(
+        "a tolerance of {:.3g} is out of reach: the surface comes no nearer to all vertices than "
+        "{:.3g}; allow a larger one",
+        data.tolerance, nearest));
   }
 
   // Gives ribbons shape parameters that bring the surface nearer, and keeps them if the fit that

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rig/source_quads.hpp"
+
 namespace sweepface {
 
 namespace {
@@ -33,17 +35,11 @@ double distanceToTriangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec
 
 }  // namespace
 
-FaceMap::FaceMap(const SourceMesh& source) {
-  const Polygons& p = source.polygons;
-  std::vector<Index> faceOfCorner(p.corners.size());
-  std::vector<std::vector<Index>> facesAt(source.gridVertex.size());
+FaceMap::FaceMap(const Rig& rig) : faceOfQuad(faceOfQuads(rig)) {
+  const Polygons& p = rig.source.polygons;
+  std::vector<std::vector<Index>> facesAt(rig.source.gridVertex.size());
   for (Index f = 0; f < p.faceCount(); ++f)
-    for (Index c = p.faceStart[f]; c < p.faceStart[f + 1]; ++c) {
-      faceOfCorner[c] = f;
-      facesAt[p.corners[c]].push_back(f);
-    }
-  for (std::size_t q = 0; q < source.quadCorners.size(); q += 4)
-    faceOfQuad.push_back(faceOfCorner[source.quadCorners[q]]);
+    for (Index c = p.faceStart[f]; c < p.faceStart[f + 1]; ++c) facesAt[p.corners[c]].push_back(f);
   around.resize(p.faceCount());
   for (Index f = 0; f < p.faceCount(); ++f) {
     std::vector<Index>& list = around[f];
@@ -53,7 +49,7 @@ FaceMap::FaceMap(const SourceMesh& source) {
     list.erase(std::unique(list.begin(), list.end()), list.end());
     std::iter_swap(list.begin(), std::find(list.begin(), list.end(), f));
   }
-  findRims(source);
+  findRims(rig.source);
 }
 
 // The edges that one face alone has, each with the vertices before and after it along the

@@ -13,12 +13,12 @@ namespace sweepface {
 /// Which source face each quad of the tessellation at level 1 belongs to, and which faces lie round
 /// it.
 struct FaceMap {
-  std::vector<Index> faceOfQuad;
+  std::vector<Index> faceOfQuad;           ///< [grid quads]; empty where the rig does not know
   std::vector<std::vector<Index>> around;  ///< [F] faces that share a vertex, itself first
   std::map<std::pair<Index, Index>, std::pair<Index, Index>>
       rims;  ///< boundary edge → corners before and after
 
-  explicit FaceMap(const SourceMesh& source);
+  explicit FaceMap(const Rig& rig);
 
  private:
   void findRims(const SourceMesh& source);

@@ -16,7 +16,7 @@ FoldFinder::FoldFinder(const Rig& rig, const Tessellation& grid)
       corners_(grid.faces()),
       fine_(rig.surface, kLevel),
       fineFaces_(fine_.faces()),
-      map_(rig.source) {}
+      map_(rig) {}
 
 std::vector<Index> FoldFinder::quads(std::span<const Vec3> vectors,
                                      std::span<const Vec3> source) const {

@@ -9,6 +9,7 @@
 #include "fit/facets.hpp"
 #include "fit/vertex_normals.hpp"
 #include "parallel/parallel.hpp"
+#include "rig/source_quads.hpp"
 
 namespace sweepface {
 
@@ -51,7 +52,7 @@ class Meter {
         grid_(rig.surface, 1),
         fine_(rig.surface, kLevel),
         fineFaces_(fine_.faces()),
-        map_(rig.source) {}
+        map_(rig) {}
 
   PoseSamples measure(std::string name, const Weights& weights,
                       std::span<const Vec3> source) const {
@@ -197,6 +198,10 @@ Result<Measurement> measure(const Rig& rig, const MeshRig& source, const Measure
     return fail(
         "the face has no source order, it was left out, so that nobody knows which vertex is "
         "which; convert the source again without --strip order");
+  if (options.facets && !knowsQuads(rig))
+    return fail(
+        "the face does not tell which of its source's polygons lies where, so that its surface "
+        "cannot be compared with them; convert the source again");
   const auto shapes = matchShapes(rig, source);
   if (!shapes) return std::unexpected(shapes.error());
   const Meter meter(rig, options.facets);

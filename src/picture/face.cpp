@@ -9,6 +9,7 @@
 #include "fit/vertex_normals.hpp"
 #include "picture/materials.hpp"
 #include "picture/styles.hpp"
+#include "rig/source_quads.hpp"
 
 namespace sweepface {
 namespace {
@@ -37,17 +38,6 @@ std::string lowered(std::string_view text) {
   std::ranges::transform(lower, lower.begin(),
                          [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return lower;
-}
-
-/// The face of each of the source's quads, patch by patch.
-std::vector<Index> faceOfQuads(const SourceMesh& source) {
-  std::vector<Index> faceOfCorner;
-  for (Index f = 0; f < source.polygons.faceCount(); ++f)
-    faceOfCorner.insert(faceOfCorner.end(), source.polygons.faceSize(f), f);
-  std::vector<Index> faces;
-  for (std::size_t k = 0; k < source.quadCorners.size(); k += 4)
-    faces.push_back(faceOfCorner[source.quadCorners[k]]);
-  return faces;
 }
 
 /// Triangles of a scene with the colours of the faces they are part of; clear ones are left out.
@@ -140,11 +130,15 @@ Scene FaceScenes::scene(std::span<const double> weights, Style style) const {
   scene.finish = Finish::matte;
   switch (style) {
     case Style::shaded: {
+      scene.finish = Finish::skin;
+      const std::vector<Index> faces = faceOfQuads(rig_);
+      if (faces.empty()) {
+        scene.colour = *materialColour("");  // skin
+        break;
+      }
       std::vector<Index> faceOfTriangle;
-      const std::vector<Index> faces = faceOfQuads(rig_.source);
       for (const Index q : quadOf_) faceOfTriangle.push_back(faces[q]);
       addMaterials(scene, faceColours(rig_.source.polygons), faceOfTriangle);
-      scene.finish = Finish::skin;
       break;
     }
     case Style::patches: {
@@ -234,15 +228,20 @@ VertexErrors FaceScenes::errors(std::span<const double> weights,
 Scene FaceScenes::original(std::span<const Vec3> positions) const {
   const SourceMesh& source = rig_.source;
   const Polygons& polygons = source.polygons;
+  // Faces may have loose corners: those vertices come after the grid's.
+  const Index gridCount = source_.vertexCount();
+  const Index count = gridCount + static_cast<Index>(source.loose.size());
+  std::vector<Index> places = source.gridVertex;
+  for (Index& place : places)
+    if (place < 0) place = gridCount - 1 - place;
   Scene scene;
-  scene.positions.resize(source_.vertexCount());
-  for (std::size_t v = 0; v < positions.size(); ++v)
-    if (const Index g = source.gridVertex[v]; g >= 0) scene.positions[g] = positions[v];
-  scene.normals = vertexNormals(polygons, positions, source.gridVertex, source_.vertexCount());
+  scene.positions.resize(count);
+  for (std::size_t v = 0; v < positions.size(); ++v) scene.positions[places[v]] = positions[v];
+  scene.normals = vertexNormals(polygons, positions, places, count);
   std::vector<Index> faceOfTriangle;
   for (Index f = 0; f < polygons.faceCount(); ++f) {
     const auto corner = [&](Index k) {
-      return source.gridVertex[polygons.corners[polygons.faceStart[f] + k]];
+      return places[polygons.corners[polygons.faceStart[f] + k]];
     };
     for (Index k = 1; k + 1 < polygons.faceSize(f); ++k) {
       scene.triangles.push_back({corner(0), corner(k), corner(k + 1)});

@@ -31,7 +31,6 @@ class MotionSections {
   Result<std::string> strips() const;
   std::vector<Box> measuringBoxes() const;
   std::string plots() const;
-  std::string mixture() const;
   Result<std::string> sprites() const;
 
   const Rig& rig_;

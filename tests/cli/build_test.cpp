@@ -60,6 +60,29 @@ TEST_F(Build, GivesBackWhatWireframeWrote) {
   }
 }
 
+// Names of materials are bytes in an OBJ file, but texts in a drawing.
+TEST_F(Build, ReadsWhateverWireframeWrote) {
+  const std::string tooLong(5000, 'x');
+  for (const std::string& name : {std::string("h\xe9"
+                                              "ad"),
+                                  std::string("a\x01"
+                                              "b"),
+                                  tooLong}) {
+    std::string text = sheet();
+    const std::string skin = "usemtl skin", lips = "usemtl lips";
+    for (const std::string& line : {skin, lips})
+      for (auto at = text.find(line); at != text.npos; at = text.find(line))
+        text.replace(at, line.size(), "usemtl " + name);
+    folder.file("neutral.obj", text);
+    ASSERT_EQ(run("convert neutral.obj -o face.sweep").code, 0);
+    EXPECT_EQ(face("face.sweep").source.polygons.materials, std::vector{name});
+    ASSERT_EQ(run("wireframe face.sweep -o face.wire.json").code, 0);
+    const Outcome built = run("build face.wire.json -o again.sweep");
+    EXPECT_EQ(built.code, 0) << built.err;
+    EXPECT_TRUE(face("again.sweep").source.polygons.materials.empty());
+  }
+}
+
 TEST_F(Build, SaysWhereAFileIsWrongAndWritesNothing) {
   folder.file("vase.wire.json", "{\n  \"format\": \"sweepface wireframe 1\",\n  \"nodez\": []\n}");
   EXPECT_TRUE(fails("build vase.wire.json -o vase.sweep", "vase.wire.json, line 3"));

@@ -117,7 +117,26 @@ TEST_F(PlayClip, RecordsWhatItPlays) {
   EXPECT_EQ(clip->times.size(), 120u);
   ASSERT_EQ(run("animate face.sweep --to smile=1 --law spring -o spring.csv").code, 0);
   EXPECT_EQ(parseLiveLinkCsv(contents(folder / "spring.csv"), "s.csv")->times.size(), 61u);
-  EXPECT_TRUE(fails("animate face.sweep --to smile=1 --arcs on -o a.csv", "leave --regions"));
+  for (const std::string option : {"--arcs on", "--eyes on", "--combine"})
+    EXPECT_TRUE(fails("animate face.sweep --to smile=1 -o a.csv " + option, "leave --regions"));
+  EXPECT_TRUE(fails("animate face.sweep --to smile=1 --eyes on -o a.csv", "--eyes"));
+}
+
+TEST_F(PlayClip, NeverWritesOverWhatItReads) {
+  convertRig();
+  ASSERT_EQ(run("animate face.sweep --to jawOpen=1 -o take.glb").code, 0);
+  write("take.csv", "Timecode,JawOpen\n0,0\n1,1\n");
+  write("regions.json", R"({"regions": [{"name": "all", "points": [[0, 0, 0]], "whole": 99}]})");
+  std::filesystem::create_symlink("take.csv", folder / "same.csv");
+  std::filesystem::create_symlink("take.csv", folder / "same.svg");
+  std::filesystem::create_symlink("regions.json", folder / "same.glb");
+  for (const std::string what :
+       {"animate face.sweep --clip take.glb -o take.glb",
+        "animate face.sweep --clip take.csv -o same.csv",
+        "animate face.sweep --to smile=1 --regions regions.json -o same.glb",
+        "plot face.sweep --clip take.csv -o same.svg"})
+    EXPECT_TRUE(fails(what, "it is what is read")) << what;
+  EXPECT_TRUE(contents(folder / "take.glb").starts_with("glTF"));
 }
 
 TEST_F(PlayClip, SpringsSwingIntoTheirGoal) {

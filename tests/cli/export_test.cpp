@@ -44,6 +44,19 @@ TEST_F(Export, RefusesBudgetsThatAreNone) {
   EXPECT_FALSE(std::filesystem::exists(folder / "out.obj"));
 }
 
+TEST_F(Export, NamesSayWhatIsWritten) {
+  convertRig();
+  EXPECT_TRUE(fails("export face.sweep -o smile.png", "must end in .obj or .glb"));
+  EXPECT_TRUE(fails("export face.sweep -o smile", "must end in .obj or .glb"));
+  EXPECT_TRUE(fails("wireframe face.sweep -o lines.glb", "must end in .obj or .json"));
+  EXPECT_TRUE(fails("render face.sweep -o view.svg", "must end in .png"));
+  EXPECT_TRUE(fails("report face.sweep -o page.pdf", "must end in .html"));
+  EXPECT_TRUE(fails("convert neutral.obj -o face.json", "must end in .sweep"));
+  EXPECT_TRUE(fails("animate face.sweep --to smile=1 -o move.mp4", "must end in .glb or .csv"));
+  EXPECT_TRUE(fails("plot face.sweep --to smile=1 -o plot.png", "must end in .svg"));
+  EXPECT_EQ(run("export face.sweep -o SMILE.OBJ --quiet").code, 0);
+}
+
 TEST_F(Export, BlendsLinearly) {
   convertRig();
   const auto exported = [&](const std::string& weights) {
@@ -178,7 +191,7 @@ TEST_F(Export, LeavesTheOldFileWhereItFails) {
   EXPECT_TRUE(fails("export neutral.obj -o out.obj", "neutral.obj"));
   EXPECT_TRUE(fails("export face.sweep -o no/out.obj", "there is no folder no"));
   EXPECT_TRUE(fails("export face.sweep -o face.sweep", "it is what is read"));
-  EXPECT_TRUE(fails("export face.sweep -o out.ply", "another kind of file"));
+  EXPECT_TRUE(fails("export face.sweep -o out.ply", "must end in"));
   for (const std::string lod : {"0", "65", "-2", "1.5", "fine"})
     EXPECT_TRUE(fails("export face.sweep -o out.obj --lod " + lod, "whole number from 1 to 64", 2))
         << lod;

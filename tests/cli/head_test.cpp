@@ -78,8 +78,9 @@ TEST_F(HeadAndEyes, SayWhatIsMissing) {
       fails("animate face.sweep --clip plain.csv --head on -o a.glb", "no angles of the head"));
   EXPECT_TRUE(
       fails("animate face.sweep --to jawOpen=1 --head on -o a.glb", "no angles of the head"));
-  EXPECT_TRUE(
-      fails("animate face.sweep --clip take.csv --head on --pivot 1,2 -o a.glb", "--pivot"));
+  for (const std::string pivot : {"1,2", "1e300,0,0", "nan,0,0"})
+    EXPECT_TRUE(fails("animate face.sweep --clip take.csv --head on -o a.glb --pivot " + pivot,
+                      "--pivot is a point like"));
   EXPECT_TRUE(fails("animate face.sweep --clip take.csv --eyes on -o a.glb", "no two eyeballs"));
   EXPECT_TRUE(fails("export face.sweep --limits 2 -o a.obj", "--limits: limits are like"));
 }

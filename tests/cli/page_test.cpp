@@ -55,7 +55,7 @@ TEST_F(Page, SaysWhatIsWrong) {
   EXPECT_TRUE(fails("report face.sweep other.obj -o report.html --no-tolerances", "26 vertices"));
   EXPECT_TRUE(
       fails("report face.sweep neutral.obj targets -o report.html --weights frown=1", "frown"));
-  EXPECT_TRUE(fails("report face.sweep neutral.obj targets -o report.png", "another kind of file"));
+  EXPECT_TRUE(fails("report face.sweep neutral.obj targets -o report.png", "must end in"));
   EXPECT_TRUE(
       fails("report face.sweep neutral.obj targets -o no/report.html", "there is no folder no"));
   EXPECT_TRUE(

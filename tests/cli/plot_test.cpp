@@ -47,7 +47,7 @@ TEST_F(Plot, SaysWhatIsWrong) {
     EXPECT_FALSE(std::filesystem::exists(folder / "plot.svg"));
   };
   refused("-o plot.svg", "Say where to go");
-  refused("-o plot.png --to jawOpen=1", "not named .svg");
+  refused("-o plot.png --to jawOpen=1", "must end in .svg");
   refused("-o plot.svg --to jawOpen=1 --vertex 42", "There is no vertex 42; the face has 42");
   refused("-o plot.svg --to jawOpen=1 --weight frown", "frown");
   refused("-o plot.svg --to jawOpen=1 --laws magic", "There is no law 'magic'");

@@ -101,7 +101,7 @@ TEST_F(RegionsOnTheFace, SayWhatIsWrong) {
   folder.file("part.json", R"({"regions": [{"name": "a", "parts": ["nose"]}]})");
   folder.file("far.json",
               R"({"regions": [{"name": "a", "points": [[9, 9, 9]], "over": "space"}]})");
-  EXPECT_TRUE(fails(command + "far.json", "Region 'a': It reaches no node of the face"));
+  EXPECT_TRUE(fails(command + "far.json", "Region 'a': The brush reaches no node of the face"));
   EXPECT_TRUE(fails(command + "part.json", "no material or group named 'nose'; it has lips, skin"));
   folder.file("line.json", R"({"seconds": 1, "events": [
     {"at": 0, "to": {"smile": 1}, "region": "nose"}]})");

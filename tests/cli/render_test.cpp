@@ -117,7 +117,7 @@ TEST_F(Render, SaysWhatIsWrong) {
   EXPECT_TRUE(fails("render face.sweep -o out.png --size 64x64 --views front,side,back,front,side",
                     "no room"));
   EXPECT_TRUE(fails("render face.sweep -o out.png --weights frown=1", "frown"));
-  EXPECT_TRUE(fails("render face.sweep -o out.obj", "another kind of file"));
+  EXPECT_TRUE(fails("render face.sweep -o out.obj", "must end in"));
   EXPECT_TRUE(fails("render face.sweep -o no/out.png", "there is no folder no"));
   EXPECT_TRUE(fails("render neutral.obj -o out.png", "neutral.obj"));
   EXPECT_EQ(contents(folder / "out.png"), "old");

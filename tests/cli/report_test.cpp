@@ -1,5 +1,7 @@
 #include <nlohmann/json.hpp>
 
+#include "sweepface/codec.hpp"
+
 #include "cli/tool.hpp"
 
 namespace sweepface {
@@ -138,6 +140,36 @@ TEST_F(Measure, RefusesForeignMeshes) {
   EXPECT_EQ(run("measure face.sweep neutral.obj other.obj").code, 1);
   EXPECT_TRUE(fails("measure face.sweep nothing.obj", "nothing.obj"));
   EXPECT_TRUE(fails("measure face.sweep neutral.obj --mixtures -1", "--mixtures", 2));
+}
+
+TEST_F(Usage, TakesFacesThatDoNotKnowTheirQuads) {
+  convertRig();
+  auto rig = decode(contents(folder / "face.sweep"), "face.sweep");
+  ASSERT_TRUE(rig.has_value());
+  rig->source.quadCorners.clear();
+  folder.file("bare.sweep", encode(*rig));
+  folder.file("part.json", R"({"regions": [{"name": "a", "parts": ["skin"]}]})");
+  folder.file("point.json", R"({"regions": [{"name": "a", "points": [[3, 3, 0]], "fade": 2}]})");
+  for (const std::string command :
+       {"info bare.sweep", "check bare.sweep", "export bare.sweep -o out.obj",
+        "export bare.sweep -o out.glb --lod 2", "render bare.sweep -o out.png --size 100x100",
+        "render bare.sweep -o out.png --size 100x100 --style error --compare neutral.obj",
+        "wireframe bare.sweep -o out.wire.json", "wireframe bare.sweep -o wires.obj",
+        "build out.wire.json -o built.sweep", "report bare.sweep -o motion.html",
+        "animate bare.sweep --to smile=1 -o moved.glb",
+        "animate bare.sweep --to jawOpen=1 --arcs on -o arcs.glb",
+        "animate bare.sweep --to smile=1 --law spring --regions point.json -o part.glb",
+        "edit bare.sweep -o edited.sweep --move n0 0,0,0.1",
+        "plot bare.sweep --to smile=1 -o plot.svg"}) {
+    const Outcome r = run(command);
+    EXPECT_EQ(r.code, 0) << command << ": " << r.err;
+  }
+  for (const std::string command : {"measure bare.sweep neutral.obj targets",
+                                    "report bare.sweep neutral.obj targets -o a.html -q"})
+    EXPECT_TRUE(fails(command, "bare.sweep: the face does not tell which of its source's polygons"))
+        << command;
+  EXPECT_TRUE(fails("animate bare.sweep --to smile=1 --law spring --regions part.json -o part.glb",
+                    "does not tell of its source's materials"));
 }
 
 TEST_F(Usage, EveryCommandHelps) {

@@ -136,6 +136,10 @@ TEST(Points, tooManyForACurveAreMissedAndTheMissIsTold) {
   EXPECT_EQ(built->rig.tolerance, built->largestMiss);
   drawing["tolerance"] = 0.1;
   EXPECT_NE(buildJson(drawing).error().message.find("curve 'dc' misses"), std::string::npos);
+  for (const double none : {0.0, -0.1}) {
+    drawing["tolerance"] = none;
+    EXPECT_NE(buildJson(drawing).error().message.find("not above 0"), std::string::npos);
+  }
 }
 
 TEST(WhatNobodySays, bendsLeast) {

@@ -255,8 +255,17 @@ TEST(Refusal, ofNamesThatFilesCannotHold) {
 TEST(Refusal, ofAToleranceBelowTheFilesPrecision) {
   ConvertOptions options;
   options.tolerance = 1e-12;
-  EXPECT_EQ(refusal(withTargets(plane(4, 4)), options),
-            "the tolerance could not be met everywhere; allow a larger one");
+  EXPECT_EQ(
+      refusal(withTargets(plane(4, 4)), options),
+      "a tolerance of 1e-12 is finer than a file's numbers, 1.75e-07 for a mesh of this size; "
+      "allow a larger one");
+  MeshRig far = withTargets(plane(4, 4));
+  for (Vec3& p : far.neutral.positions) p.x += 1e6 + 1.0 / 3;
+  options.tolerance = 1e-4;
+  EXPECT_EQ(
+      refusal(far, options),
+      "a tolerance of 0.0001 is out of reach: the surface comes no nearer to all vertices than "
+      "0.0457; allow a larger one");
 }
 
 TEST(Diagonal, spansTheBoundingBox) {

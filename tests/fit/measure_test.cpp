@@ -203,5 +203,17 @@ TEST(Measure, refusesWhatDoesNotBelongTogether) {
             "converted from");
 }
 
+TEST(Measure, needsToKnowWhereTheFacetsLie) {
+  const MeshRig source = withTargets(plane(12, 10));
+  Rig rig = rigOf(source);
+  rig.source.quadCorners.clear();
+  const auto m = measure(rig, source);
+  ASSERT_FALSE(m);
+  EXPECT_NE(m.error().message.find("does not tell"), std::string::npos) << m.error().message;
+  const auto atVertices = measure(rig, source, {.facets = false});
+  ASSERT_TRUE(atVertices) << atVertices.error().message;
+  EXPECT_GT(atVertices->worst.distance.max, 0);
+}
+
 }  // namespace
 }  // namespace sweepface

@@ -49,6 +49,15 @@ TEST(FaceScenes, ShowThePose) {
   EXPECT_EQ(places, scenes.points(posed));
 }
 
+TEST(FaceScenes, ShowPlainSkinWhereNobodyKnowsTheMaterials) {
+  Hill hill;
+  hill.rig.source.quadCorners.clear();
+  const Scene scene = FaceScenes(hill.rig, 1).scene(hill.rest, Style::shaded);
+  EXPECT_EQ(scene.triangles.size(), 12u * 10u * 2u);
+  EXPECT_TRUE(scene.triangleColours.empty());
+  EXPECT_EQ(scene.colour, materialColour("skin"));
+}
+
 TEST(FaceScenes, DrawEveryCurve) {
   const Hill hill;
   const auto vectors = blend(hill.rig, hill.rest);
@@ -131,6 +140,31 @@ TEST(Originals, AreShownAsTheyAre) {
   double sourceTop = -1e9;
   for (const Vec3& p : hill.source.neutral.positions) sourceTop = std::max(sourceTop, p.z);
   EXPECT_EQ(top, sourceTop);
+}
+
+/// With a triangle that is a line, far away: it is on no patch.
+PolygonMesh withALine(PolygonMesh mesh) {
+  const auto first = static_cast<Index>(mesh.positions.size());
+  mesh.positions.insert(mesh.positions.end(), {{40, 40, 40}, {40, 40, 40}, {41, 40, 40}});
+  for (Index k = 0; k < 3; ++k) mesh.polygons.corners.push_back(first + k);
+  mesh.polygons.faceStart.push_back(static_cast<Index>(mesh.polygons.corners.size()));
+  return mesh;
+}
+
+TEST(Originals, ShowFacesThatAreOnNoPatch) {
+  const MeshRig source{withALine(plane(12, 10)), {}};
+  const Rig rig = converted(source);
+  ASSERT_EQ(rig.source.loose.size(), 3u);
+  const Scene scene = FaceScenes(rig, 1).original(source.neutral.positions);
+  ASSERT_EQ(scene.normals.size(), scene.positions.size());
+  double furthest = 0;
+  for (const auto& triangle : scene.triangles)
+    for (const Index v : triangle) {
+      ASSERT_GE(v, 0);
+      ASSERT_LT(v, static_cast<Index>(scene.positions.size()));
+      furthest = std::max(furthest, scene.positions[v].x);
+    }
+  EXPECT_EQ(furthest, 41);
 }
 
 // ---- Heat maps ----
