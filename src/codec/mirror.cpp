@@ -4,7 +4,6 @@
 #include <cmath>
 #include <map>
 #include <numeric>
-#include <utility>
 
 #include "sweepface/box.hpp"
 
@@ -37,18 +36,19 @@ std::vector<Index> imagesAcross(const std::vector<Vec3>& positions, const Box& b
   std::vector<Index> sorted(positions.size());
   std::iota(sorted.begin(), sorted.end(), 0);
   const auto key = [&](Index n) { return coordinate(positions[n], along); };
-  std::ranges::sort(sorted, {}, [&](Index n) { return std::pair(key(n), n); });
+  std::ranges::sort(sorted, {}, key);
   std::vector<Index> images;
   for (const Vec3& p : positions) {
     Vec3 image = p;
     coordinate(image, axis) = twice - coordinate(p, axis);
     const double place = coordinate(image, along);
-    std::pair nearest(reach, Index{-1});
+    Index nearest = -1;
+    double least = reach;
     for (auto at = std::ranges::lower_bound(sorted, place - reach, {}, key);
          at != sorted.end() && key(*at) <= place + reach; ++at)
-      if (const double d = norm(positions[*at] - image); d < reach)
-        nearest = nearest.second < 0 ? std::pair(d, *at) : std::min(nearest, std::pair(d, *at));
-    images.push_back(nearest.second);
+      if (const double d = norm(positions[*at] - image); d < least || (d == least && *at < nearest))
+        least = d, nearest = *at;
+    images.push_back(nearest);
   }
   return images;
 }
