@@ -112,6 +112,22 @@ CLI::Validator positiveNumber(double high) {
   return CLI::Validator(check, "", "");
 }
 
+CLI::Validator finiteNumber() {
+  const auto check = [](const std::string& text) -> std::string {
+    double number = 0;
+    return parse(text, number) ? "" : fmt::format("This must be a number, not '{}'.", text);
+  };
+  return CLI::Validator(check, "", "");
+}
+
+CLI::Validator onOrOff() {
+  const auto check = [](const std::string& text) -> std::string {
+    const bool known = text == "on" || text == "off";
+    return known ? "" : fmt::format("This must be on or off, not '{}'.", text);
+  };
+  return CLI::Validator(check, "", "");
+}
+
 Result<Rig> readFace(const std::string& path) {
   const Result<std::string> bytes = readFile(path);
   if (!bytes) return std::unexpected(bytes.error());
@@ -134,6 +150,8 @@ Result<std::string> encodeReadable(const Rig& rig, const std::string& path) {
 }
 
 bool isOfKind(const fs::path& path, std::string_view kind) { return extensionOf(path) == kind; }
+
+bool isGltf(const fs::path& path) { return isOfKind(path, ".glb") || isOfKind(path, ".gltf"); }
 
 Result<RigSource> readMeshes(const std::string& neutral, const std::vector<std::string>& targets,
                              ProgressBar& bar) {

@@ -73,6 +73,8 @@ void addGlb(CLI::App& app, GlbArguments& glb);
 CLI::Validator wholeNumber(std::int64_t low, std::int64_t high);
 /// A finite number > 0, and at most `high` if that is given.
 CLI::Validator positiveNumber(double high = 0);
+CLI::Validator finiteNumber();
+CLI::Validator onOrOff();
 
 // ---- Files ----
 
@@ -85,6 +87,8 @@ Result<std::string> encodeReadable(const Rig& rig, const std::string& path);
 
 /// Whether a file's name ends like ".glb", in small or large letters.
 bool isOfKind(const std::filesystem::path& path, std::string_view kind);
+/// A .glb or .gltf.
+bool isGltf(const std::filesystem::path& path);
 
 /// The face that addMeshes() named.
 Result<RigSource> readMeshes(const std::string& neutral, const std::vector<std::string>& targets,

@@ -263,6 +263,8 @@ Result<int> convertAndWrite(const ConvertArguments& a) {
 
   std::vector<std::string>& warnings = conversion->warnings;
   if (!a.bare) warnings.insert(warnings.begin(), source->warnings.begin(), source->warnings.end());
+  if (isGltf(a.neutral) && source->rig.targets.empty())
+    warnings.push_back(a.neutral + " has no morph targets, so the face has no expressions.");
   for (const std::string& warning : warnings) printWarning(warning);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   const Summary summary{

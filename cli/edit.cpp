@@ -32,9 +32,16 @@ void addOptions(CLI::App& app, EditArguments& a) {
                                        "The ribbon that gets other shape parameters, by name or "
                                        "number as `sweepface info --list` shows them")
                             ->type_name("RIBBON");
-  app.add_option("--rho", a.rho, "Its rho; as it was if not given")->needs(ribbon)->type_name("X");
-  app.add_option("--eta", a.eta, "Its eta, per edge squared")->needs(ribbon)->type_name("X");
+  app.add_option("--rho", a.rho, "Its rho; as it was if not given")
+      ->check(finiteNumber())
+      ->needs(ribbon)
+      ->type_name("X");
+  app.add_option("--eta", a.eta, "Its eta, per edge squared")
+      ->check(finiteNumber())
+      ->needs(ribbon)
+      ->type_name("X");
   app.add_option("--lambda", a.lambda, "Its lambda, per edge to the fourth")
+      ->check(finiteNumber())
       ->needs(ribbon)
       ->type_name("X");
   app.add_option("--move", a.moves,

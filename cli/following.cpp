@@ -9,13 +9,13 @@ void addFollowing(CLI::App& app, FollowingArguments& a) {
          "--arcs", a.arcs,
          "on: what turns moves on arcs instead of straight lines, lids over the eyeball and "
          "the jaw about its hinge")
-      ->check(CLI::IsMember({"on", "off"}))
+      ->check(onOrOff())
       ->capture_default_str()
       ->type_name("on|off");
   app.add_option("--eyes", a.eyes,
                  "on: eyeballs turn rigidly about their centres, by the eyeLook weights or the "
                  "angles of a capture")
-      ->check(CLI::IsMember({"on", "off"}))
+      ->check(onOrOff())
       ->capture_default_str()
       ->type_name("on|off");
   app.add_flag("--combine", a.combine,

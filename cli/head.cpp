@@ -29,12 +29,14 @@ Result<Vec3> pivotOf(const HeadArguments& a, const Rig& rig) {
 }  // namespace
 
 void addHead(CLI::App& app, HeadArguments& a) {
-  app.add_option("--head", a.turns, "on: the whole model turns by the head's angles in a capture")
-      ->check(CLI::IsMember({"on", "off"}))
-      ->capture_default_str()
-      ->type_name("on|off");
+  CLI::Option* head = app.add_option("--head", a.turns,
+                                     "on: the whole model turns by the head's angles in a capture")
+                          ->check(onOrOff())
+                          ->capture_default_str()
+                          ->type_name("on|off");
   app.add_option("--pivot", a.pivot,
                  "What the head turns about, as X,Y,Z; the middle of the model if not given")
+      ->needs(head)
       ->type_name("X,Y,Z");
 }
 

@@ -45,8 +45,16 @@ int run(int argc, char** argv) {
                    addRender, addReport, addPlot, addLaws, addBuild, addEdit})
     commands.push_back(add(tool));
 
+  // As other tools have it: help COMMAND.
+  std::vector<std::string> words(argv + 1, argv + argc);
+  if (!words.empty() && words.front() == "help") {
+    words.erase(words.begin());
+    words.resize(std::min<std::size_t>(words.size(), 1));
+    words.emplace_back("--help");
+  }
+  std::ranges::reverse(words);  // in which order CLI11 takes them
   try {
-    tool.parse(argc, argv);
+    tool.parse(std::move(words));
   } catch (const CLI::ParseError& error) {
     return tool.exit(error) == 0 ? 0 : kMisused;
   }

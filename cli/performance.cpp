@@ -81,9 +81,6 @@ Result<Performance> byLaw(const PerformanceArguments& a, const Rig& rig, const M
 
 // ---- Clips ----
 
-/// Timelines are baked so finely that frames between theirs are as good as exact.
-constexpr double kTimelineRate = 240;
-
 Result<Clip> readClip(const PerformanceArguments& a, const Region& region) {
   const Result<std::string> text = readFile(a.clip);
   if (!text) return std::unexpected(text.error());
@@ -97,16 +94,16 @@ Result<Clip> readClip(const PerformanceArguments& a, const Region& region) {
     if (!clip) return fail(fmt::format("{}: {}", a.clip, clip.error().message));
     return clip;
   }
-  const bool isGltf = isOfKind(a.clip, ".glb") || isOfKind(a.clip, ".gltf");
-  if (!isJson && !isGltf && !isOfKind(a.clip, ".csv"))
+  const bool gltf = isGltf(a.clip);
+  if (!isJson && !gltf && !isOfKind(a.clip, ".csv"))
     return fail(fmt::format("{} is neither a .csv, a .json nor a .glb clip.", a.clip));
-  if (!isGltf && !a.animation.empty())
+  if (!gltf && !a.animation.empty())
     return fail(fmt::format(
         "{} has no animations to choose from, as a .glb has; leave --animation out.", a.clip));
-  auto clip = isJson   ? parseClipJson(*text, a.clip)
-              : isGltf ? parseGltfClip(*text, a.clip, std::filesystem::path(a.clip).parent_path(),
-                                       a.animation)
-                       : parseLiveLinkCsv(*text, a.clip, a.clipRate);
+  auto clip = isJson ? parseClipJson(*text, a.clip)
+              : gltf ? parseGltfClip(*text, a.clip, std::filesystem::path(a.clip).parent_path(),
+                                     a.animation)
+                     : parseLiveLinkCsv(*text, a.clip, a.clipRate);
   if (!clip) return clip;
   if (a.smooth) smooth(*clip);
   return inMatter(*clip, region.matter, {a.frequency, a.damping});
@@ -115,10 +112,11 @@ Result<Clip> readClip(const PerformanceArguments& a, const Region& region) {
 std::vector<std::string> notesOn(const ClipMatch& match, const Clip& clip,
                                  const std::string& file) {
   std::vector<std::string> notes;
-  if (!match.unmatched.empty())
+  std::vector<std::string> idle = match.unmatched;
+  std::erase_if(idle, ClipAngles::tells);
+  if (!idle.empty())
     notes.push_back(fmt::format("{}: {} of {} names drive no target of the face: {}.", file,
-                                match.unmatched.size(), clip.names.size(),
-                                fmt::join(match.unmatched, ", ")));
+                                idle.size(), clip.names.size(), fmt::join(idle, ", ")));
   if (!match.undriven.empty())
     notes.push_back(
         fmt::format("{}: nothing drives the targets {}.", file, fmt::join(match.undriven, ", ")));
@@ -177,6 +175,29 @@ std::function<void(double, std::span<Kinematics>)> byDifferences(
   };
 }
 
+namespace {
+
+/// Refuses options that would change nothing.
+void checkUse(const CLI::App& app, const PerformanceArguments& a) {
+  const auto refuse = [&](const std::string& option, bool used, const std::string& why) {
+    if (app.count(option) > 0 && !used) throw CLI::ValidationError(option, why);
+  };
+  const CLI::Option* laws = app.get_option_no_throw("--laws");
+  const auto plays = [&](const std::string& law) {
+    if (!laws || laws->count() == 0) return a.law == law;
+    const std::vector<std::string> several = laws->results();
+    return std::ranges::find(several, law) != several.end();
+  };
+  for (const char* option : {"--frequency", "--damping"})
+    refuse(option, plays("spring") || !a.clip.empty(), "Only spring swings; leave this out.");
+  refuse("--restitution", plays("bounce"), "Only bounce comes back; leave this out.");
+  refuse("--clip-fps",
+         isOfKind(a.clip, ".csv") || isOfKind(app["--output"]->as<std::string>(), ".csv"),
+         "Only a .csv has timecodes; leave this out.");
+}
+
+}  // namespace
+
 void addPerformance(CLI::App& app, PerformanceArguments& a) {
   app.add_option("--from", a.from, "The expression to start from; the neutral if not given")
       ->type_name("NAME=W,...");
@@ -225,6 +246,7 @@ void addPerformance(CLI::App& app, PerformanceArguments& a) {
       ->capture_default_str()
       ->type_name("N");
   app.add_flag("--smooth", a.smooth, "Take a tracker's noise out of the clip")->needs("--clip");
+  app.parse_complete_callback([&app, &a] { checkUse(app, a); });
 }
 
 Result<Performance> makePerformance(const PerformanceArguments& a, const Rig& rig,

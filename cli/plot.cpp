@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <iterator>
+#include <limits>
 
 #include "sweepface/eval.hpp"
 #include "sweepface/io.hpp"
@@ -41,6 +42,7 @@ void addOptions(CLI::App& app, PlotArguments& a) {
   app.add_option("--vertex", a.vertices,
                  "Vertices of the source, counted from 0, whose way is shown")
       ->delimiter(',')
+      ->check(wholeNumber(0, std::numeric_limits<int>::max()))
       ->type_name("N,...");
   app.add_option("--mass", a.mass, "What the force is in units of")
       ->check(positiveNumber())
@@ -108,7 +110,7 @@ Result<std::vector<Subject>> subjectsOf(const PlotArguments& a, const Rig& rig,
                 "which; leave --vertex out, or convert the source again without --strip order.");
   const auto count = static_cast<int>(rig.source.gridVertex.size());
   for (const int vertex : a.vertices)
-    if (vertex < 0 || vertex >= count)
+    if (vertex >= count)
       return fail(
           fmt::format("There is no vertex {}; the face has {}, counted from 0.", vertex, count));
   std::ranges::move(verticesOf(rig, a.vertices), std::back_inserter(subjects));

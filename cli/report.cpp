@@ -20,7 +20,7 @@ struct ReportArguments {
 void addOptions(CLI::App& app, ReportArguments& a) {
   addFace(app, a.face);
   addMeshes(app, a.neutral, a.targets);
-  app.get_option("NEUTRAL")->required(false);
+  CLI::Option* meshes = app.get_option("NEUTRAL")->required(false);
   addOutput(app, a.output, "The .html file to write");
   app.add_option("--weights", a.weights,
                  "The expression shown beside the neutral; the target that moves furthest if not "
@@ -32,12 +32,14 @@ void addOptions(CLI::App& app, ReportArguments& a) {
                      "2, 4 and 8 times the face's own if not given")
           ->delimiter(',')
           ->check(positiveNumber())
+          ->needs(meshes)
           ->type_name("T,...");
   app.add_flag("--no-tolerances", a.noTolerances, "Do not convert again: much quicker")
       ->excludes(tolerances);
   app.add_option("--gltfpack", a.gltfpack,
                  "The program that packs GLBs for the plot of error against bytes; the one on the "
                  "PATH if not given")
+      ->needs(meshes)
       ->type_name("PATH");
   app.add_option("--box", a.regions,
                  "Draw a box round what the targets move whose names contain NAME; mouth and eye "

@@ -508,7 +508,7 @@ export class Sweepface {
   /** The C struct of a drive: its name, or its name and numbers. */
   #drive(drive) {
     const {runtime} = this.#shared, at = this.#memory.drive;
-    const given = typeof drive === 'string' ? {kind: drive} : drive;
+    const given = typeof drive === 'string' ? {kind: drive} : drive ?? {};
     const kind = DRIVES.indexOf(given.kind ?? 'spring');
     if (kind < 0) throw new Error(`There is no drive '${given.kind}'; there are ${DRIVES.join(', ')}.`);
     runtime.wasm.sweepface_drive_of(at, kind);

@@ -20,6 +20,7 @@ export function geometryOf(face, attributes) {
 export class FaceMesh extends Mesh {
   #stale = true;
   #moving = false;
+  #pose = null;
 
   constructor(face, geometry, materials = materialsOf(face)) {
     super(geometry, materials);
@@ -32,6 +33,7 @@ export class FaceMesh extends Mesh {
 
   look(pose) {
     this.face.look(pose);
+    this.#pose = pose;
     this.#stale = true;
   }
 
@@ -64,7 +66,7 @@ export class FaceMesh extends Mesh {
     this.#stale = false;
   }
 
-  /** Another face of the same file with the same weights, which moves by itself. */
+  /** Another face of the same file that stands as this one, and moves by itself. */
   clone(recursive) {
     const face = this.face.clone(), regions = face.regions.length > 0 ? face.regions : [undefined];
     for (const region of regions) {
@@ -72,7 +74,9 @@ export class FaceMesh extends Mesh {
       const set = Object.entries(weights).filter(([, weight]) => weight !== 0);  // none: nothing is to be read for it
       face.setWeights(Object.fromEntries(set), region);
     }
-    return new this.constructor(face, this.materialsOfClone()).copy(this, recursive);
+    const twin = new this.constructor(face, this.materialsOfClone()).copy(this, recursive);
+    if (this.#pose) twin.look(this.#pose);
+    return twin;
   }
 
   materialsOfClone() { return Array.isArray(this.material) ? this.material.slice() : this.material; }

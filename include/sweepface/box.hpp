@@ -27,6 +27,11 @@ struct Box {
   /// Zero without points.
   Vec3 size() const { return isEmpty() ? Vec3{} : high - low; }
   Vec3 centre() const { return isEmpty() ? Vec3{} : 0.5 * (low + high); }
+  /// 0, 1 or 2: the first of those as long as any.
+  int longestAxis() const {
+    const Vec3 s = size();
+    return s.x >= std::max(s.y, s.z) ? 0 : s.y >= s.z ? 1 : 2;
+  }
 };
 
 /// From corner to corner of the box around the points, 0 without points.

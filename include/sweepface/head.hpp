@@ -34,6 +34,8 @@ struct HeadPose {
 class ClipAngles {
  public:
   explicit ClipAngles(const Clip& clip);
+  /// Whether a clip's name is that of an angle.
+  static bool tells(const std::string& name);
   bool head() const { return has(0); }
   bool eyes() const { return has(3) || has(6); }
   /// The pose of a frame's weights [N]; what the clip lacks is 0.

@@ -107,6 +107,7 @@ struct Rig {
 
   /// Whether it is said what every target does: not yet after `decodeNeutral`.
   bool knowsTargets() const;
+  bool knows(const Target& target) const;
   /// Index of a target by its name, or -1.
   Index find(std::string_view name) const;
   /// The name of a thing, or its letter and number.

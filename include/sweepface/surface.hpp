@@ -64,6 +64,8 @@ struct Wireframe {
   Index end(HalfArc h) const { return start(twin(h)); }
   /// Length of a side in source edges.
   Index sideEdges(Index patch, int s) const;
+  /// Quads of all patches at level 1.
+  std::size_t quadCount() const;
   friend bool operator==(const Wireframe&, const Wireframe&) = default;
 };
 

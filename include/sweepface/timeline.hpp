@@ -32,6 +32,9 @@ bool isTimeline(std::string_view text);
 /// A timeline in its JSON form (docs/clips.md).
 Result<Timeline> parseTimeline(std::string_view text, std::string_view name);
 
+/// Frames a second at which straight lines between a timeline's are as good as exact.
+inline constexpr double kTimelineRate = 240;
+
 /// The timeline as a clip of `framesPerSecond`, from rest at 0: both ends included. Refuses more
 /// than kMostClipWeights.
 Result<Clip> bake(const Timeline& timeline, double framesPerSecond);

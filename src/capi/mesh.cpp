@@ -8,15 +8,8 @@ using namespace sweepface::capi;
 
 namespace {
 
-// How many vertices a level has is asked before anyone makes room for them.
+// How many vertices a level has, about one a quad, is asked before anyone makes room for them.
 constexpr double kMostVertices = 1 << 24;
-
-double gridVertices(const Surface& surface, double level) {
-  double count = 0;
-  for (Index p = 0; p < surface.patchCount(); ++p)
-    count += level * surface.edgesU(p) * level * surface.edgesV(p);
-  return count;
-}
 
 sweepface_status makeMesh(const sweepface_rig& rig, Index lod, Tessellation grid,
                           RenderMesh (*rendered)(const Rig&, const Tessellation&),
@@ -45,7 +38,8 @@ sweepface_status sweepface_mesh_create(const sweepface_rig* rig, uint32_t lod,
   if (lod == 0 && rig->rig->source.gridVertex.empty())
     return refuse("The face came without its source's vertices; ask for level of detail 1.");
   const Index level = lod == 0 ? 1 : static_cast<Index>(lod);
-  if (gridVertices(rig->rig->surface, level) > kMostVertices)
+  if (static_cast<double>(rig->rig->surface.wireframe().quadCount()) * level * level >
+      kMostVertices)
     return refuse("The face has too many vertices at level of detail ", lod,
                   "; ask for a lower one.");
   return makeMesh(*rig, static_cast<Index>(lod), Tessellation(rig->rig->surface, level),

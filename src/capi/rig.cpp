@@ -11,11 +11,7 @@ using namespace sweepface::capi;
 
 sweepface_status capi::needTargets(const Rig& rig) {
   // What all do comes at once, and many calls ask.
-  if (rig.targets.empty()) return SWEEPFACE_OK;
-  const Target& first = rig.targets.front();
-  if (first.difference.size() == rig.neutral.size() &&
-      first.looseDifference.size() == rig.source.loose.size())
-    return SWEEPFACE_OK;
+  if (rig.targets.empty() || rig.knows(rig.targets.front())) return SWEEPFACE_OK;
   return refuse("What the targets do was not loaded; call sweepface_rig_load_targets first.");
 }
 

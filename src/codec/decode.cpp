@@ -25,7 +25,7 @@ void Decoding::affordTargets(Reader& in) {
 }
 
 void Decoding::makeSurface(Reader& in) {
-  quads = gridQuads(wireframe);
+  quads = wireframe.quadCount();
   auto surface = Surface::make(std::move(wireframe), std::move(connectivity));
   if (!surface) return in.refuseWith({"the wireframe is unsound: ", surface.error().message});
   rig->surface = std::move(*surface);

@@ -91,7 +91,7 @@ bool countsUp(const LevelOne& grid, const SourceMesh& source) {
 void writeSource(Writer& out, const Rig& rig, const Mirror& mirror, int textureBits) {
   const SourceMesh& source = rig.source;
   const Polygons& faces = source.polygons;
-  const std::size_t quads = gridQuads(rig.surface.wireframe());
+  const std::size_t quads = rig.surface.wireframe().quadCount();
   const auto trusted = [&](const std::string& bytes) {
     return quads <= within(kMostQuads, kQuadsAByte, kQuadsAnyway, bytes.size());
   };

@@ -23,11 +23,4 @@ bool isSmallEnough(const Wireframe& w, std::int64_t most) {
   return vertices <= most;
 }
 
-std::size_t gridQuads(const Wireframe& w) {
-  std::int64_t quads = 0;
-  for (Index p = 0; p < static_cast<Index>(w.patches.size()); ++p)
-    quads += length(w, p, 0) * length(w, p, 1);
-  return static_cast<std::size_t>(quads);
-}
-
 }  // namespace sweepface::codec

@@ -14,7 +14,4 @@ inline constexpr std::int64_t kMostGridVertices = 64'000'000;
 /// Whether a wireframe has at most so many vertices at level 1.
 bool isSmallEnough(const Wireframe& wireframe, std::int64_t most);
 
-/// How many quads the patches of a wireframe have at level 1, if that is small enough.
-std::size_t gridQuads(const Wireframe& wireframe);
-
 }  // namespace sweepface::codec

@@ -69,7 +69,7 @@ class Numbering {
 LevelOne::LevelOne(const Surface& surface, const Mirror& mirror) {
   const Numbering numbering(surface);
   vertices_ = numbering.count();
-  quads_.reserve(gridQuads(surface.wireframe()));
+  quads_.reserve(surface.wireframe().quadCount());
   std::vector<Index> grid;
   for (Index p = 0; p < surface.patchCount(); ++p) {
     const Index m = surface.edgesU(p), n = surface.edgesV(p);

@@ -31,8 +31,7 @@ std::vector<Vec3> nodePositions(const Surface& surface, std::span<const Vec3> ne
 std::vector<Index> imagesAcross(const std::vector<Vec3>& positions, const Box& box, int axis,
                                 double reach) {
   const double twice = coordinate(box.low, axis) + coordinate(box.high, axis);
-  const Vec3 size = box.size();
-  const int along = size.x >= std::max(size.y, size.z) ? 0 : size.y >= size.z ? 1 : 2;
+  const int along = box.longestAxis();
   std::vector<Index> sorted(positions.size());
   std::iota(sorted.begin(), sorted.end(), 0);
   const auto key = [&](Index n) { return coordinate(positions[n], along); };

@@ -4,7 +4,7 @@
 
 namespace sweepface::codec {
 
-void joinRails(const Wireframe& w, Sets& sets) {
+void joinRails(const Wireframe& w, UnionFind& sets) {
   for (Index p = 0; p < static_cast<Index>(w.patches.size()); ++p)
     for (int s = 0; s < 4; ++s) {
       const auto side = w.side(p, s);
@@ -26,7 +26,7 @@ std::vector<Index> expectedRibbons(const Wireframe& w) {
 }
 
 std::vector<Index> expectedPoints(const Wireframe& w, std::size_t nodes) {
-  Sets sets(nodes);
+  UnionFind sets(nodes);
   std::vector<char> hanging(nodes, 0);
   for (Index p = 0; p < static_cast<Index>(w.patches.size()); ++p)
     for (int s = 0; s < 4; ++s)

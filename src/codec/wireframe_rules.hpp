@@ -1,39 +1,17 @@
 #pragma once
 
 #include <cstdint>
-#include <numeric>
 #include <vector>
 
 #include "sweepface/surface.hpp"
 
+#include "surface/union_find.hpp"
+
 // What usually holds of a wireframe, and is told only where it does not.
 namespace sweepface::codec {
 
-/// Disjoint sets of things.
-class Sets {
- public:
-  explicit Sets(std::size_t size) : parent_(size), size_(size, 1) {
-    std::iota(parent_.begin(), parent_.end(), 0);
-  }
-  Index find(Index a) {
-    while (parent_[a] != a) a = parent_[a] = parent_[parent_[a]];
-    return a;
-  }
-  void join(Index a, Index b) {
-    a = find(a), b = find(b);
-    if (a == b) return;
-    if (a > b) std::swap(a, b);
-    parent_[b] = a;
-    size_[a] += size_[b];
-  }
-  Index size(Index a) { return size_[find(a)]; }
-
- private:
-  std::vector<Index> parent_, size_;
-};
-
 /// The arcs at T-nodes that run straight on: a T-node is where a patch's side has a node inside.
-void joinRails(const Wireframe& w, Sets& sets);
+void joinRails(const Wireframe& w, UnionFind& sets);
 
 /// Whether a patch sweeps along the other pair of its sides than the one its loop begins with: the
 /// way that joins smaller sets of arcs that share their shape parameters.
@@ -52,7 +30,7 @@ struct SweepRule {
   void sweep(Index patch) { sets.join(first(patch, 0), first(patch, 2)); }
 
   const Wireframe& w;
-  Sets sets;
+  UnionFind sets;
 };
 
 /// One ribbon a set, numbered by their first arcs.

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "drawing/weave.hpp"
-#include "mesh/union_find.hpp"
+#include "surface/union_find.hpp"
 
 namespace sweepface::drawing {
 

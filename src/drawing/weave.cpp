@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <utility>
 
-#include "mesh/union_find.hpp"
+#include "surface/union_find.hpp"
 
 namespace sweepface::drawing {
 

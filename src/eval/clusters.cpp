@@ -25,8 +25,7 @@ class Halving {
   int longestAxis(std::span<const Index> part) const {
     Box box;
     for (const Index v : part) box.include(points_[v]);
-    const Vec3 size = box.size();
-    return size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    return box.longestAxis();
   }
 
   void halve(std::span<Index> part) {

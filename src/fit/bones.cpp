@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "codec/bones.hpp"
-#include "mesh/union_find.hpp"
+#include "surface/union_find.hpp"
 
 namespace sweepface {
 

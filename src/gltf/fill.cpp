@@ -122,11 +122,6 @@ class Filler {
     std::optional<Column> normals;
   };
 
-  Json& primitiveOf(const Part& part) {
-    const std::size_t mesh = scene_.parts.meshes[scene_.parts.runs[part.run].rigMesh].mesh;
-    return scene_.document.json["meshes"][mesh]["primitives"][part.primitive];
-  }
-
   Result<void> checkSize() const {
     if (builder_.size() < mostBytes) return {};
     return fail(
@@ -143,7 +138,7 @@ class Filler {
            Use use) {
     std::optional<std::size_t> filled;
     for (const Part& part : partsOfRun_[run]) {
-      Json& holder = holderOf(primitiveOf(part));
+      Json& holder = holderOf(primitiveOf(scene_.document, scene_.parts, part));
       if (!all && !find(holder, attribute)) continue;
       if (!filled) filled = slots_.put(findIndex(holder, attribute, accessors_), column, use);
       holder[attribute] = *filled;
@@ -165,7 +160,7 @@ class Filler {
   template <typename Holder>
   bool anyHas(std::size_t run, Holder holderOf, const char* attribute) {
     return std::ranges::any_of(partsOfRun_[run], [&](const Part& part) {
-      return find(holderOf(primitiveOf(part)), attribute) != nullptr;
+      return find(holderOf(primitiveOf(scene_.document, scene_.parts, part)), attribute) != nullptr;
     });
   }
 

@@ -7,7 +7,7 @@
 #include "gltf/binary.hpp"
 #include "gltf/fine_mesh.hpp"
 #include "gltf/quantize.hpp"
-#include "gltf/source_of_grid.hpp"
+#include "mesh/grid_source.hpp"
 #include "rig/source_quads.hpp"
 
 namespace sweepface {
@@ -48,9 +48,7 @@ Result<void> check(const Rig& rig, const GlbOptions& options) {
 
 /// Whether so many vertices of positions and normals alone would outgrow a GLB.
 Result<void> checkLod(const Surface& surface, Index lod) {
-  double quads = 0;
-  for (Index p = 0; p < surface.patchCount(); ++p)
-    quads += 1.0 * surface.edgesU(p) * surface.edgesV(p);
+  const auto quads = static_cast<double>(surface.wireframe().quadCount());
   if (24 * quads * lod * lod < 4e9) return {};
   return fail("The face would need more than the 4 GiB of a GLB; choose a lower level of detail.");
 }
@@ -176,7 +174,10 @@ Result<std::string> formatGlb(const Rig& rig, const GlbOptions& options) {
       rig.source.polygons.faceCount() == 0 || (options.lod > 0 && !knowsQuads(rig));
   if (!unknownFaces) return gltf::GlbWriter(rig, options).write();
   Rig whole = rig;
-  whole.source = gltf::sourceOfGrid(rig);
+  whole.source = gridSource(rig.surface);
+  whole.source.loose = rig.source.loose;
+  for (Index k = 0; k < static_cast<Index>(rig.source.loose.size()); ++k)
+    whole.source.gridVertex.push_back(-1 - k);
   whole.scene.clear();
   return gltf::GlbWriter(whole, options).write();
 }

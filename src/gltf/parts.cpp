@@ -238,6 +238,10 @@ const Json& primitiveOf(const Document& document, const Parts& parts, const Part
   return document.list("meshes")[mesh]["primitives"][part.primitive];
 }
 
+Json& primitiveOf(Document& document, const Parts& parts, const Part& part) {
+  return const_cast<Json&>(primitiveOf(std::as_const(document), parts, part));
+}
+
 Result<Parts> findParts(const Document& document) { return PartFinder(document).find(); }
 
 }  // namespace sweepface::gltf

@@ -48,6 +48,7 @@ Result<Parts> findParts(const Document& document);
 
 /// The JSON of a part's primitive.
 const Json& primitiveOf(const Document& document, const Parts& parts, const Part& part);
+Json& primitiveOf(Document& document, const Parts& parts, const Part& part);
 /// "mesh 0 'head', primitive 1", for messages.
 std::string placeOf(const Document& document, std::size_t mesh, std::size_t primitive);
 

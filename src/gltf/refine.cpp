@@ -41,13 +41,8 @@ class Refiner {
     std::size_t accessor = 0;  // where it is now
   };
 
-  Json& primitiveOf(const Part& part) {
-    const std::size_t mesh = scene_.parts.meshes[scene_.parts.runs[part.run].rigMesh].mesh;
-    return scene_.document.json["meshes"][mesh]["primitives"][part.primitive];
-  }
-
   Result<void> mix(const Part& part) {
-    Json& primitive = primitiveOf(part);
+    Json& primitive = primitiveOf(scene_.document, scene_.parts, part);
     if (auto ok = mixSkin(part.run, primitive["attributes"]); !ok) return ok;
     if (auto ok = mixAll(part.run, primitive["attributes"]); !ok) return ok;
     if (Json* const targets = find(primitive, "targets"))
@@ -107,7 +102,7 @@ class Refiner {
 
   void rewrite(std::size_t number) {
     const Part& part = scene_.parts.parts[number];
-    Json& primitive = primitiveOf(part);
+    Json& primitive = primitiveOf(scene_.document, scene_.parts, part);
     const auto indices = findIndex(primitive, "indices", scene_.document.list("accessors").size());
     primitive["indices"] = slots_.put(indices, packIndices(mesh_.triangles[number]), Use::indices);
     primitive.erase("mode");

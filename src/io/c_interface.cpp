@@ -36,9 +36,6 @@ std::string_view nameOf(const Division& division, std::size_t region) {
 
 // ---- Clips ----
 
-/// Timelines are baked so finely that frames between theirs are as good as exact.
-constexpr double kTimelineRate = 240;
-
 enum class Kind { csv, capture, timeline, gltf };
 
 Kind kindOf(std::string_view bytes) {
@@ -99,11 +96,6 @@ std::vector<std::string> shownTargets(const sweepface_rig& rig) {
   return names;
 }
 
-bool isAngle(const std::string& name) {
-  const ClipAngles angles(Clip{{name}, {}, {}});
-  return angles.head() || angles.eyes();
-}
-
 const char* nameAt(const std::vector<std::string>& names, uint32_t index) {
   return index < names.size() ? names[index].c_str() : nullptr;
 }
@@ -153,7 +145,7 @@ sweepface_status sweepface_clip_read(const sweepface_rig* rig, const void* bytes
     return refuse(SWEEPFACE_BAD_DATA, std::string(called) + ": none of its " +
                                           std::to_string(clips->front().names.size()) +
                                           " names is a target of the face.");
-  std::erase_if(match.unmatched, isAngle);
+  std::erase_if(match.unmatched, ClipAngles::tells);
   const ClipAngles angles(clips->front());
   *clip = new sweepface_clip{std::move(*clips), std::move(match), angles, rig->shown};
   return SWEEPFACE_OK;

@@ -9,7 +9,7 @@
 
 #include "sweepface/box.hpp"
 
-#include "mesh/union_find.hpp"
+#include "surface/union_find.hpp"
 
 namespace sweepface {
 

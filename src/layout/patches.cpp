@@ -3,7 +3,7 @@
 #include <string>
 
 #include "layout/layout.hpp"
-#include "mesh/union_find.hpp"
+#include "surface/union_find.hpp"
 
 namespace sweepface {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <tuple>
 
-#include "mesh/union_find.hpp"
 #include "mesh/weld.hpp"
+#include "surface/union_find.hpp"
 
 namespace sweepface {
 

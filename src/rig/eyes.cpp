@@ -131,6 +131,11 @@ ClipAngles::ClipAngles(const Clip& clip) {
     for (const Index angle : match.targets[k]) columns_[angle] = static_cast<std::ptrdiff_t>(k);
 }
 
+bool ClipAngles::tells(const std::string& name) {
+  const ClipAngles angles(Clip{{name}, {}, {}});
+  return std::ranges::any_of(angles.columns_, [](std::ptrdiff_t column) { return column >= 0; });
+}
+
 bool ClipAngles::has(std::size_t first) const {
   return columns_[first] >= 0 || columns_[first + 1] >= 0 || columns_[first + 2] >= 0;
 }

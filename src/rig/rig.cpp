@@ -6,11 +6,13 @@
 
 namespace sweepface {
 
+bool Rig::knows(const Target& target) const {
+  return target.difference.size() == neutral.size() &&
+         target.looseDifference.size() == source.loose.size();
+}
+
 bool Rig::knowsTargets() const {
-  return std::ranges::all_of(targets, [&](const Target& target) {
-    return target.difference.size() == neutral.size() &&
-           target.looseDifference.size() == source.loose.size();
-  });
+  return std::ranges::all_of(targets, [&](const Target& target) { return knows(target); });
 }
 
 Index Rig::find(std::string_view name) const {

@@ -3,9 +3,7 @@
 namespace sweepface {
 
 bool knowsQuads(const Rig& rig) {
-  std::size_t quads = 0;
-  for (Index p = 0; p < rig.surface.patchCount(); ++p)
-    quads += static_cast<std::size_t>(rig.surface.edgesU(p)) * rig.surface.edgesV(p);
+  const std::size_t quads = rig.surface.wireframe().quadCount();
   return quads > 0 && rig.source.quadCorners.size() == 4 * quads;
 }
 

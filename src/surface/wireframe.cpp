@@ -13,6 +13,13 @@ Index Wireframe::sideEdges(Index patch, int s) const {
   return sum;
 }
 
+std::size_t Wireframe::quadCount() const {
+  std::size_t quads = 0;
+  for (Index p = 0; p < static_cast<Index>(patches.size()); ++p)
+    quads += static_cast<std::size_t>(sideEdges(p, 0)) * sideEdges(p, 1);
+  return quads;
+}
+
 namespace {
 
 Result<void> checkIndices(const Wireframe& w) {

@@ -79,6 +79,19 @@ TEST_F(Animate, LeavesOnlyWholeFramesOnInterrupt) {
     EXPECT_EQ(file.path().extension(), ".obj") << file.path();
 }
 
+TEST_F(Animate, RefusesWhatWouldChangeNothing) {
+  convertRig();
+  folder.file("line.json", R"({"seconds": 1, "events": [{"at": 0, "to": {"smile": 1}}]})");
+  const std::string command = "animate face.sweep -o frames --to smile=1 ";
+  EXPECT_TRUE(fails(command + "--frequency 3", "--frequency: Only spring swings", 2));
+  EXPECT_TRUE(fails(command + "--law bounce --damping 0.5", "--damping: Only spring", 2));
+  EXPECT_TRUE(fails(command + "--law spring --restitution 0.5", "--restitution: Only bounce", 2));
+  EXPECT_TRUE(fails(command + "--clip-fps 30", "--clip-fps: Only a .csv has timecodes", 2));
+  EXPECT_EQ(run("animate face.sweep --to smile=1 --clip-fps 30 -o take.csv").code, 0);
+  EXPECT_EQ(run("plot face.sweep --to smile=1 --laws newton,spring --damping 0.5 -o a.svg").code,
+            0);
+}
+
 TEST_F(Animate, RefusesWhatCannotBe) {
   convertRig();
   const std::string command = "animate face.sweep -o frames ";

@@ -61,6 +61,16 @@ TEST_F(GltfSource, WarnsOfWhatIsNotCarriedOver) {
   EXPECT_EQ(run("convert face.glb -o face.sweep --tolerance 0.1 -q --bare").err, "");
 }
 
+TEST_F(GltfSource, WarnsOfAFaceWithoutExpressions) {
+  Glb glb = smallFace();
+  for (auto& mesh : glb.json["meshes"])
+    for (auto& primitive : mesh["primitives"]) primitive.erase("targets");
+  folder.file("face.glb", glb.bytes());
+  const Outcome r = run("convert face.glb -o face.sweep --tolerance 0.1 -q --bare");
+  EXPECT_EQ(r.code, 0);
+  EXPECT_NE(r.err.find("face.glb has no morph targets"), std::string::npos) << r.err;
+}
+
 TEST_F(GltfSource, StandsAlone) {
   makeRig();
   EXPECT_TRUE(fails("convert face.glb targets -o face.sweep",

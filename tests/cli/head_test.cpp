@@ -70,6 +70,17 @@ TEST_F(HeadAndEyes, AnglesGoIntoRecordings) {
   EXPECT_NEAR(ClipAngles(*clip).of(weights).head.yaw, 0.5, 1e-12);
 }
 
+TEST_F(HeadAndEyes, AnglesAreNamesThatTheCommandKnows) {
+  convertRig();
+  capture();
+  const std::string command = "animate face.sweep --clip take.csv -o a.glb";
+  const std::string still = run(command).err, turning = run(command + " --head on").err;
+  EXPECT_NE(still.find("take.csv: its angles of the head are left out"), std::string::npos);
+  EXPECT_EQ(turning.find("angles of the head"), std::string::npos) << turning;
+  for (const std::string& said : {still, turning})
+    EXPECT_EQ(said.find("drive no target"), std::string::npos) << said;
+}
+
 TEST_F(HeadAndEyes, SayWhatIsMissing) {
   convertRig();
   capture();
@@ -81,6 +92,9 @@ TEST_F(HeadAndEyes, SayWhatIsMissing) {
   for (const std::string pivot : {"1,2", "1e300,0,0", "nan,0,0"})
     EXPECT_TRUE(fails("animate face.sweep --clip take.csv --head on -o a.glb --pivot " + pivot,
                       "--pivot is a point like"));
+  EXPECT_TRUE(fails("animate face.sweep --clip take.csv --pivot 1,2,3 -o a.glb", "--head", 2));
+  EXPECT_TRUE(fails("animate face.sweep --clip take.csv --head yes -o a.glb",
+                    "--head: This must be on or off, not 'yes'.", 2));
   EXPECT_TRUE(fails("animate face.sweep --clip take.csv --eyes on -o a.glb", "no two eyeballs"));
   EXPECT_TRUE(fails("export face.sweep --limits 2 -o a.obj", "--limits: limits are like"));
 }

@@ -49,6 +49,8 @@ TEST_F(Plot, SaysWhatIsWrong) {
   refused("-o plot.svg", "Say where to go");
   refused("-o plot.png --to jawOpen=1", "must end in .svg");
   refused("-o plot.svg --to jawOpen=1 --vertex 42", "There is no vertex 42; the face has 42");
+  EXPECT_TRUE(fails("plot face.sweep -o plot.svg --to jawOpen=1 --vertex nose",
+                    "--vertex: This must be a whole number", 2));
   refused("-o plot.svg --to jawOpen=1 --weight frown", "frown");
   refused("-o plot.svg --to jawOpen=1 --laws magic", "There is no law 'magic'");
   refused("-o plot.svg --to jawOpen=0", "Nothing moves");

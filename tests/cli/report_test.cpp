@@ -193,6 +193,8 @@ TEST_F(Usage, HasAVersion) {
 TEST_F(Usage, RefusesWhatItDoesNotKnow) {
   EXPECT_TRUE(fails("", "A command is required", 2));
   EXPECT_TRUE(fails("info face.sweep --loud", "--loud", 2));
+  EXPECT_NE(run("help convert").out.find("sweepface convert"), std::string::npos);
+  EXPECT_NE(run("help").out.find("convert"), std::string::npos);
   EXPECT_TRUE(fails("dance --quickly", "There is no command 'dance'", 2));
 }
 

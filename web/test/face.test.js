@@ -268,6 +268,7 @@ test('options are those that there are, and one level of detail', async () => {
   face.moveTo({jawOpen: 1}, {kind: 'cut', delay: undefined, seconds: undefined});
   face.advance(0);
   assert.equal(face.weights.jawOpen, 1);
+  face.moveTo({jawOpen: 0.5}, null);
 });
 
 test('browsers that make no instance of a large module at once can load a face', async () => {

@@ -79,6 +79,17 @@ for (const [name, module] of [['SweepfaceMesh', 'three'], ['SweepfaceGpuMesh', '
     assert.equal(mesh.clone(false).children.length, 0);
   });
 
+test('clones look where their models look', options, async () => {
+  const {Sweepface} = await import('../sweepface.js'), {SweepfaceMesh} = await import('../sweepface_three.js');
+  const mesh = new SweepfaceMesh(await Sweepface.load(readFileSync(sample), {eyes: true}));
+  const places = (of) => (of.update(), of.geometry.attributes.position.array);
+  const ahead = places(mesh).slice(), straight = mesh.clone();
+  mesh.look({leftEye: {yaw: 0.3}, rightEye: {yaw: 0.3}});
+  assert.deepEqual(places(mesh.clone()), places(mesh));
+  assert.notDeepEqual(places(mesh), ahead);
+  assert.deepEqual(places(straight), ahead);
+});
+
 test('materials keep what they do to a shader, and their clones too', options, async () => {
   const {Sweepface} = await import('../sweepface.js'), {SweepfaceGpuMesh} = await import('../sweepface_gpu.js');
   const face = await Sweepface.load(readFileSync(sample));

@@ -11,19 +11,25 @@ namespace sweepface {
 /// Disjoint sets of the numbers below `size`; a set is named by its smallest member.
 class UnionFind {
  public:
-  explicit UnionFind(Index size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), 0); }
+  explicit UnionFind(std::size_t size) : parent_(size), size_(size, 1) {
+    std::iota(parent_.begin(), parent_.end(), 0);
+  }
   Index find(Index a) {
     while (parent_[a] != a) a = parent_[a] = parent_[parent_[a]];
     return a;
   }
   void join(Index a, Index b) {
     a = find(a), b = find(b);
+    if (a == b) return;
     if (a > b) std::swap(a, b);
     parent_[b] = a;
+    size_[a] += size_[b];
   }
+  /// Of the set that holds `a`.
+  Index size(Index a) { return size_[find(a)]; }
 
  private:
-  std::vector<Index> parent_;
+  std::vector<Index> parent_, size_;
 };
 
 }  // namespace sweepface

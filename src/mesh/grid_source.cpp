@@ -1,12 +1,10 @@
-#include "drawing/grid_source.hpp"
+#include "mesh/grid_source.hpp"
 
-#include <algorithm>
-#include <map>
 #include <numeric>
 
 #include "sweepface/eval.hpp"
 
-namespace sweepface::drawing {
+namespace sweepface {
 
 namespace {
 
@@ -32,32 +30,15 @@ void addQuad(SourceMesh& source, const std::array<Index, 4>& quad) {
   faces.faceStart.push_back(static_cast<Index>(faces.corners.size()));
 }
 
-// Materials are numbered as they come.
-void addMaterials(SourceMesh& source, const Surface& surface, const Drawing& drawing) {
-  Polygons& faces = source.polygons;
-  const auto hasNone = [](const Drawing::Patch& patch) { return patch.material.empty(); };
-  if (std::ranges::all_of(drawing.patches, hasNone)) return;
-  std::map<std::string, Index> numbers{{"", -1}};
-  for (Index p = 0; p < surface.patchCount(); ++p) {
-    const std::string& name = drawing.patches[p].material;
-    const auto next = static_cast<Index>(faces.materials.size());
-    const auto [number, isNew] = numbers.try_emplace(name, next);
-    if (isNew) faces.materials.push_back(name);
-    const auto quads = static_cast<std::size_t>(surface.edgesU(p) * surface.edgesV(p));
-    faces.faceMaterial.insert(faces.faceMaterial.end(), quads, number->second);
-  }
-}
-
 }  // namespace
 
-SourceMesh gridSource(const Surface& surface, const Drawing& drawing) {
+SourceMesh gridSource(const Surface& surface) {
   const Tessellation grid(surface, 1);
   SourceMesh source;
   source.gridVertex.resize(grid.vertexCount());
   std::iota(source.gridVertex.begin(), source.gridVertex.end(), 0);
   for (const auto& quad : grid.faces()) addQuad(source, quad);
-  addMaterials(source, surface, drawing);
   return source;
 }
 
-}  // namespace sweepface::drawing
+}  // namespace sweepface
