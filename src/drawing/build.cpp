@@ -2,13 +2,13 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <limits>
-#include <map>
 
 #include "sweepface/box.hpp"
 #include "sweepface/eval.hpp"
 
 #include "drawing/bend.hpp"
 #include "drawing/frames.hpp"
+#include "drawing/materials.hpp"
 #include "drawing/misses.hpp"
 #include "drawing/weave.hpp"
 #include "drawing/wishes.hpp"
@@ -25,22 +25,6 @@ namespace {
 constexpr double kDefaultTolerance = 0.0002;
 // An expression's derivatives below this share of the diagonal are none.
 constexpr double kTrace = 1e-5;
-
-// Materials are numbered as they come.
-void addMaterials(SourceMesh& source, const Surface& surface, const Drawing& drawing) {
-  Polygons& faces = source.polygons;
-  const auto hasNone = [](const Drawing::Patch& patch) { return patch.material.empty(); };
-  if (std::ranges::all_of(drawing.patches, hasNone)) return;
-  std::map<std::string, Index> numbers{{"", -1}};
-  for (Index p = 0; p < surface.patchCount(); ++p) {
-    const std::string& name = drawing.patches[p].material;
-    const auto next = static_cast<Index>(faces.materials.size());
-    const auto [number, isNew] = numbers.try_emplace(name, next);
-    if (isNew) faces.materials.push_back(name);
-    const auto quads = static_cast<std::size_t>(surface.edgesU(p) * surface.edgesV(p));
-    faces.faceMaterial.insert(faces.faceMaterial.end(), quads, number->second);
-  }
-}
 
 class Builder {
  public:
