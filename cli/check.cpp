@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
+#include "sweepface/box.hpp"
 #include "sweepface/eval.hpp"
 #include "sweepface/fit.hpp"
 
@@ -56,36 +57,43 @@ std::vector<Pose> posesOf(const Rig& rig) {
   return poses;
 }
 
+/// Gaps are in units of the pose's own size.
 struct PoseJoins {
   bool finite = true;
   std::vector<JoinReport> joins;
 };
 
-PoseJoins lookAt(const Rig& rig, const Pose& pose) {
+/// The diagonal, or the distance from the origin, if that is more: far from it numbers are coarser
+/// than the model's size would let one think.
+double sizeOf(const Tessellation& grid, const std::vector<Vec3>& vectors) {
+  const std::vector<Vec3> places = grid.positions(vectors);
+  double size = norm(Box(places).size());
+  for (const Vec3& p : places) size = std::max(size, norm(p));
+  return size > 0 ? size : 1;
+}
+
+PoseJoins lookAt(const Rig& rig, const Tessellation& grid, const Pose& pose) {
   const std::vector<Vec3> vectors = blend(rig, pose.weights);
   PoseJoins result;
   result.finite = std::ranges::all_of(vectors, isFinite);
-  if (result.finite) result.joins = examineJoins(rig.surface, vectors, kSamples);
+  if (!result.finite) return result;
+  result.joins = examineJoins(rig.surface, vectors, kSamples);
+  const double size = sizeOf(grid, vectors);
+  for (JoinReport& join : result.joins) join.positionGap /= size;
   return result;
 }
 
 class Checker {
  public:
-  explicit Checker(const Rig& rig) : rig_(rig), poses_(posesOf(rig)) {
-    const Tessellation grid(rig.surface, 1);
-    const std::vector<Vec3> places = grid.positions(blend(rig, poses_[0].weights));
-    size_ = diagonal({places, {}});
-    // Far from the origin numbers are coarser than the model's size would let one think.
-    for (const Vec3& p : places) size_ = std::max(size_, norm(p));
-    if (!(size_ > 0)) size_ = 1;
-  }
+  explicit Checker(const Rig& rig) : rig_(rig), poses_(posesOf(rig)) {}
 
   void run(bool quiet) {
     ProgressBar bar(quiet);
+    const Tessellation grid(rig_.surface, 1);
     std::vector<PoseJoins> looks(poses_.size());
     std::atomic<std::size_t> done = 0;
     parallelFor(std::size_t{0}, poses_.size(), [&](std::size_t k) {
-      looks[k] = lookAt(rig_, poses_[k]);
+      looks[k] = lookAt(rig_, grid, poses_[k]);
       bar.show("checking", static_cast<double>(++done) / static_cast<double>(poses_.size()));
     });
     for (std::size_t k = 0; k < looks.size(); ++k) judge(poses_[k].name, looks[k]);
@@ -104,7 +112,7 @@ class Checker {
     for (std::size_t a = 0; a < look.joins.size(); ++a) {
       const JoinReport& join = look.joins[a];
       all_[static_cast<std::size_t>(join.joinClass)].add(join);
-      gap.see(a, join.positionGap / size_);
+      gap.see(a, join.positionGap);
       if (join.joinClass != JoinClass::c2) continue;
       first.see(a, join.firstJump);
       second.see(a, join.secondJump);
@@ -142,7 +150,6 @@ class Checker {
 
   const Rig& rig_;
   std::vector<Pose> poses_;
-  double size_ = 1;
   std::array<JoinSummary, kClassNames.size()> neutral_, all_;  // in the neutral and in all poses
   std::vector<std::string> problems_;
 };
@@ -156,7 +163,7 @@ nlohmann::ordered_json Checker::report(const std::string& file) const {
             {"length", rest.length},
             {"lengthShare", rest.length / totalLength()}};
     if (static_cast<JoinClass>(k) == JoinClass::boundary) continue;
-    join.update({{"positionGap", c.positionGap / size_},
+    join.update({{"positionGap", c.positionGap},
                  {"firstJump", c.firstJump},
                  {"secondJump", c.secondJump},
                  {"normalJumpMax", c.normalJump},
@@ -190,8 +197,8 @@ void Checker::print(const std::string& file) const {
     fmt::print("  {:<9} {:>7} {:>11.4f} {:>5.1f} %", kClassNames[k], rest.count, rest.length,
                100 * rest.length / totalLength());
     if (static_cast<JoinClass>(k) != JoinClass::boundary)
-      fmt::print("   {:>9.1e} {:>9.1e} {:>9.1e} {:>7.2g} ° {:>7.2g} °", c.positionGap / size_,
-                 c.firstJump, c.secondJump, c.normalJump, c.normalRms());
+      fmt::print("   {:>9.1e} {:>9.1e} {:>9.1e} {:>7.2g} ° {:>7.2g} °", c.positionGap, c.firstJump,
+                 c.secondJump, c.normalJump, c.normalRms());
     fmt::print("\n");
   }
 }

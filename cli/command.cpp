@@ -120,6 +120,15 @@ CLI::Validator finiteNumber() {
   return CLI::Validator(check, "", "");
 }
 
+CLI::Validator partOfOne() {
+  const auto check = [](const std::string& text) -> std::string {
+    double number = 0;
+    if (parse(text, number) && number >= 0 && number < 1) return {};
+    return fmt::format("This must be a number from 0 to below 1, not '{}'.", text);
+  };
+  return CLI::Validator(check, "", "");
+}
+
 CLI::Validator onOrOff() {
   const auto check = [](const std::string& text) -> std::string {
     const bool known = text == "on" || text == "off";

@@ -71,7 +71,8 @@ Result<Vec3> parseOffset(const std::string& text) {
     const auto [stop, error] = std::from_chars(at, end, values[k]);
     const bool ends = k < 2 ? stop != end && *stop == ',' : stop == end;
     if (error != std::errc{} || !ends || !(std::abs(values[k]) < 1e30))
-      return fail(fmt::format("An offset must be three numbers like 0,0.1,-2, not '{}'.", text));
+      return fail(
+          fmt::format("An offset must be three numbers below 1e30 like 0,0.1,-2, not '{}'.", text));
     at = stop + (k < 2);
   }
   return Vec3{values[0], values[1], values[2]};
@@ -83,6 +84,8 @@ class Editor {
   explicit Editor(Rig rig) : rig_(std::move(rig)) {}
 
   Result<void> edit(const EditArguments& a) {
+    if (a.target && !a.ribbon.empty())
+      return fail("Shape parameters are those of all expressions; leave --target out.");
     if (a.target && (target_ = rig_.find(*a.target)) < 0)
       return fail(fmt::format("There is no expression named '{}'.", *a.target));
     if (!a.ribbon.empty())

@@ -225,7 +225,7 @@ void addPerformance(CLI::App& app, PerformanceArguments& a) {
       ->capture_default_str()
       ->type_name("Z");
   app.add_option("--restitution", a.restitution, "Of a bounce: the part of the speed that is left")
-      ->check(positiveNumber(1))
+      ->check(partOfOne())
       ->capture_default_str()
       ->type_name("E");
   app.add_option("--clip", a.clip,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <span>
 #include <string>
 #include <string_view>
@@ -21,6 +22,10 @@ struct Clip {
   /// writes min(N, out.size()) values.
   void at(double seconds, std::span<double> out) const noexcept;
 };
+
+/// Whether a time can be that of a frame: within 300 years, so that seconds stay exact to
+/// microseconds.
+inline bool isPlausibleTime(double seconds) { return std::abs(seconds) <= 1e10; }
 
 /// Hours of every shape of a face, and few enough for the memory of any machine. A few bytes can
 /// ask for more: frames of a curve or of a timeline, or names that every frame has others of.

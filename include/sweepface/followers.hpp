@@ -48,7 +48,9 @@ class Followers {
   struct Chain {
     Index leader = -1;
     std::vector<Follower> stops;
+    int depth = 0;  ///< how many chains hand over to its leader, one after another
   };
+  void orderChains();
   static void handOver(const Chain& chain, std::span<double> weights) noexcept;
 
   std::vector<Follower> products_, arcs_;          // by leaders that are set

@@ -24,8 +24,8 @@ SWEEPFACE_API sweepface_status sweepface_rig_region_matter(const sweepface_rig* 
 
 /* ---- Clips ---- */
 
-/* Weights over time for the targets of a rig. Never changes but by sweepface_clip_smooth: any
- * number of threads may read it. */
+/* Weights over time for the targets of a rig. Never changes: any number of threads may
+ * read it. */
 typedef struct sweepface_clip sweepface_clip;
 
 /* How a clip is read. */

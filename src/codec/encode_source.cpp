@@ -112,7 +112,7 @@ void writeSource(Writer& out, const Rig& rig, const Mirror& mirror, int textureB
   if (hasFaces(faces))
     byGrid ? writeChunk(out, "face", polygonBytes) : writeChunk(out, "poly", polygons(faces));
   if (!faces.texcoords.empty() || !faces.cornerTexcoords.empty()) {
-    if (textureBits > 0)
+    if (textureBits > 0 && holdsTexture(faces, textureBits))
       writeChunk(out, "text",
                  ranged([&](auto& symbols) { writeTexture(symbols, faces, images, textureBits); }));
     else

@@ -64,8 +64,7 @@ class TextureCoder {
   using Whole = std::array<std::int32_t, 2>;
 
   std::int32_t wholeOf(double x) const {
-    return static_cast<std::int32_t>(
-        std::llround(std::clamp<double>(std::ldexp(x, bits_), -kMostTexture, kMostTexture)));
+    return static_cast<std::int32_t>(std::llround(std::ldexp(x, bits_)));
   }
 
   void codeIndices() {
@@ -314,6 +313,13 @@ std::vector<Index> cornerImages(const GridMirror& mirror, const SourceMesh& sour
           exists(at[4 * q + k]) && exists(image))
         images[at[4 * q + k]] = image;
   return images;
+}
+
+bool holdsTexture(const Polygons& polygons, int bits) {
+  const double most = std::ldexp(kMostTexture, -bits);
+  return std::ranges::all_of(polygons.texcoords, [&](const Vec2& t) {
+    return std::abs(t.x) <= most && std::abs(t.y) <= most;
+  });
 }
 
 void writeTexture(Symbols<RangeEncoder>& out, const Polygons& polygons,

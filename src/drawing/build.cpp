@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <limits>
+#include <map>
 
 #include "sweepface/box.hpp"
 #include "sweepface/eval.hpp"
@@ -208,7 +209,7 @@ class Builder {
     for (std::size_t e = 0; e < d_.expressions.size(); ++e) {
       auto offsets = offsetsOf(d_, woven_, d_.expressions[e]);
       if (!offsets) return std::unexpected(offsets.error());
-      shareMoves(*offsets);
+      if (auto ok = shareMoves(d_.expressions[e], *offsets); !ok) return ok;
       for (Index n = 0; n < nodeCount(); ++n)
         if (offsets->nodes[n] && kind(n) != NodeKind::hanging) set(1 + e, n, 0, *offsets->nodes[n]);
       for (const Drawing::Move& move : d_.expressions[e].moves)
@@ -219,15 +220,21 @@ class Builder {
   }
 
   // Nodes at one point move together.
-  void shareMoves(Offsets& offsets) const {
+  Result<void> shareMoves(const Drawing::Expression& expression, Offsets& offsets) const {
     for (Index n = 0; n < nodeCount(); ++n) {
       if (d_.nodes[n].with.empty() || d_.nodes[n].at) continue;
       auto &own = offsets.nodes[n], &host = offsets.nodes[woven_.nodes.at(d_.nodes[n].with)];
+      if (own && host && *own != *host)
+        return refuse(expression.place,
+                      fmt::format("nodes '{}' and '{}' are one point and cannot move to different "
+                                  "places",
+                                  d_.nodes[n].with, d_.nodes[n].name));
       if (own && !host) host = own;
     }
     for (Index n = 0; n < nodeCount(); ++n)
       if (!d_.nodes[n].with.empty() && !offsets.nodes[n])
         offsets.nodes[n] = offsets.nodes[woven_.nodes.at(d_.nodes[n].with)];
+    return {};
   }
 
   Result<void> moveJets(std::size_t pose, const Drawing::Move& move) {
@@ -296,8 +303,7 @@ class Builder {
     rig.source = gridSource(rig.surface);
     addMaterials(rig.source, rig.surface, d_);
     rig.tolerance = d_.tolerance > 0 ? d_.tolerance : defaultTolerance();
-    nameThings();
-    return {};
+    return nameThings();
   }
 
   double defaultTolerance() const {
@@ -312,7 +318,7 @@ class Builder {
   }
 
   // Names that are what a thing without one is called anyway are not kept.
-  void nameThings() {
+  Result<void> nameThings() {
     Names& names = built_.rig.names;
     names.units = d_.units;
     keep(Thing::node, d_.nodes, names.nodes);
@@ -320,6 +326,24 @@ class Builder {
     keep(Thing::patch, d_.patches, names.patches);
     keep(Thing::ribbon, d_.ribbons, names.ribbons);
     if (!names.ribbons.empty()) names.ribbons.resize(w_.ribbons.size());
+    if (auto ok = checkNames(Thing::patch, names.patches, d_.patches); !ok) return ok;
+    return checkNames(Thing::ribbon, names.ribbons, d_.ribbons);
+  }
+  // What has no name goes by its letter and number, which are then nobody else's.
+  template <typename Things>
+  Result<void> checkNames(Thing kind, const std::vector<std::string>& names,
+                          const Things& things) const {
+    std::map<std::string, const TextPlace*> places;
+    for (const auto& thing : things) places.emplace(thing.name, &thing.place);
+    for (std::size_t k = 0; k < names.size(); ++k)
+      if (const std::string called = built_.rig.nameOf(kind, static_cast<Index>(k));
+          names[k].empty() && places.contains(called) &&
+          (k >= things.size() || things[k].name != called))
+        return refuse(
+            *places.at(called),
+            fmt::format("'{}' is what number {}, which has no name, goes by; choose another",
+                        called, k));
+    return {};
   }
   template <typename Things>
   void keep(Thing kind, const Things& things, std::vector<std::string>& names) const {

@@ -8,9 +8,10 @@
 
 namespace sweepface::drawing {
 
-/// Takes values from a JSON text one after another, as the caller expects them: nothing is kept, so
-/// that neither size nor depth of a text costs memory. The first failure sticks: from then on
-/// everything reads as empty, so that callers ask ok() only before they trust what they have read.
+/// Takes values from a JSON text one after another, as the caller expects them: nothing is kept but
+/// the keys of open objects, so that neither size nor depth of a text costs memory. The first
+/// failure sticks: from then on everything reads as empty, so that callers ask ok() only before
+/// they trust what they have read.
 class JsonReader {
  public:
   explicit JsonReader(std::string_view text) : text_(text) { skipBlanks(); }
@@ -38,7 +39,7 @@ class JsonReader {
     for (bool more = !closes('}'); more && ok(); more = continues('}')) {
       const TextPlace at = place();
       const std::string key = text("a name in quotes");
-      if (ok() && !keys.insert(key).second) refuse(at, "'" + key + "' is given twice");
+      if (ok() && !keys.insert(key).second) refuse(at, io::inQuotes(key) + " is given twice");
       if (!ok() || !take(':', "':' after the name")) return;
       visit(key, at);
     }

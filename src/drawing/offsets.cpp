@@ -66,7 +66,8 @@ class Mover {
   // A node that is moved itself stays where that puts it.
   Result<void> takeAlong(const Drawing::Move& move, Index curve, Index node) {
     auto& offset = offsets_.nodes[node];
-    if (taken_[node] == kItself) return {};
+    const bool onASide = woven_.wireframe.nodes[node].point < 0;  // and goes with it
+    if (onASide || taken_[node] == kItself) return {};
     if (offset && *offset != move.by)
       return failAt(d_, move.place,
                     fmt::format("curves '{}' and '{}' take node '{}' to different places; move the "

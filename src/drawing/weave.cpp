@@ -5,8 +5,6 @@
 #include <fmt/format.h>
 #include <utility>
 
-#include "surface/union_find.hpp"
-
 namespace sweepface::drawing {
 
 namespace {

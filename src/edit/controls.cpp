@@ -6,6 +6,7 @@
 #include <array>
 #include <map>
 #include <set>
+#include <span>
 
 #include "sweepface/edit.hpp"
 
@@ -37,7 +38,11 @@ class ControlMover {
     if (auto ok = storeWholeJets(); !ok) return std::unexpected(ok.error());
     edit::Affected affected(rig_.surface);
     auto& pose = target < 0 ? rig_.neutral : rig_.targets[target].difference;
-    for (const CornerChange& end : ends_) change(end, pose, affected);
+    const std::span<const CornerChange> ends(ends_);
+    if (ends.size() == 2 && nodeAt(ends[0]) == nodeAt(ends[1]))
+      change(ends, pose, affected);  // closed: what both ends share changes once
+    else
+      for (std::size_t k = 0; k < ends.size(); ++k) change(ends.subspan(k, 1), pose, affected);
     const StoredJets jets(rig_.surface);
     for (Index node : rewritten_)
       for (int k = 1; k < 9; ++k) affected.addVector(jets.at(node, k));
@@ -48,6 +53,8 @@ class ControlMover {
   const Connectivity& connectivity() const { return rig_.surface.connectivity(); }
   std::string curveName() const { return "'" + rig_.nameOf(Thing::curve, move_.curve) + "'"; }
   std::string patchName() const { return "'" + rig_.nameOf(Thing::patch, move_.patch) + "'"; }
+
+  Index nodeAt(const CornerChange& end) const { return connectivity().cornerNode[end.corner]; }
 
   Result<void> findEnds() {
     const Connectivity& c = connectivity();
@@ -127,42 +134,49 @@ class ControlMover {
     return rig_.surface.cornerJet(corner / 4, corner % 4, i, j).vector;
   }
 
-  void change(const CornerChange& end, std::vector<Vec3>& pose, edit::Affected& affected) const {
-    const Index node = connectivity().cornerNode[end.corner];
-    if (connectivity().kinds[node] != NodeKind::crossing) return solve(end, pose, affected);
-    for (int order = 1; order <= 2; ++order) {
-      const JetRef ref = rig_.surface.cornerJet(end.corner / 4, end.corner % 4,
-                                                end.byAlpha ? order : 0, end.byAlpha ? 0 : order);
-      pose[ref.vector] += ref.sign * (order == 1 ? first_ : second_);
-      affected.addVector(ref.vector);
-    }
+  // At the ends that meet at one node.
+  void change(std::span<const CornerChange> ends, std::vector<Vec3>& pose,
+              edit::Affected& affected) const {
+    if (connectivity().kinds[nodeAt(ends[0])] != NodeKind::crossing)
+      return solve(ends, pose, affected);
+    std::set<Index> changed;
+    for (const CornerChange& end : ends)
+      for (int order = 1; order <= 2; ++order) {
+        const JetRef ref = rig_.surface.cornerJet(end.corner / 4, end.corner % 4,
+                                                  end.byAlpha ? order : 0, end.byAlpha ? 0 : order);
+        if (!changed.insert(ref.vector).second) continue;
+        pose[ref.vector] += ref.sign * (order == 1 ? first_ : second_);
+        affected.addVector(ref.vector);
+      }
   }
 
   // Where a corner's derivatives are sums of what is stored: the smallest change that gives those
   // across what they want and leaves the others up to the second order alone.
-  void solve(const CornerChange& end, std::vector<Vec3>& pose, edit::Affected& affected) const {
+  void solve(std::span<const CornerChange> ends, std::vector<Vec3>& pose,
+             edit::Affected& affected) const {
     constexpr std::array<std::array<int, 2>, 5> orders{{{1, 0}, {0, 1}, {2, 0}, {1, 1}, {0, 2}}};
-    std::array<std::map<Index, double>, 5> sums;
+    const std::size_t rows = orders.size() * ends.size();
+    std::vector<std::map<Index, double>> sums(rows);
     std::set<Index> stored;
-    for (std::size_t r = 0; r < 5; ++r) {
-      const auto [i, j] = orders[r];
+    Eigen::MatrixXd wanted = Eigen::MatrixXd::Zero(static_cast<Index>(rows), 3);
+    for (std::size_t r = 0; r < rows; ++r) {
+      const CornerChange& end = ends[r / orders.size()];
+      const auto [i, j] = orders[r % orders.size()];
       const JetRef ref = rig_.surface.cornerJet(end.corner / 4, end.corner % 4, i, j);
       expand(ref.vector, ref.sign, sums[r]);
       for (const auto& [v, factor] : sums[r]) stored.insert(v);
-    }
-    const std::vector<Index> unknowns(stored.begin(), stored.end());
-    Eigen::MatrixXd composed = Eigen::MatrixXd::Zero(5, static_cast<Index>(unknowns.size()));
-    Eigen::MatrixXd wanted = Eigen::MatrixXd::Zero(5, 3);
-    for (int r = 0; r < 5; ++r) {
-      for (std::size_t k = 0; k < unknowns.size(); ++k)
-        if (const auto term = sums[r].find(unknowns[k]); term != sums[r].end())
-          composed(r, static_cast<Index>(k)) = term->second;
-      const auto [i, j] = orders[r];
       const int across = end.byAlpha ? i : j, along = end.byAlpha ? j : i;
       if (along > 0) continue;
       const Vec3& d = across == 1 ? first_ : second_;
-      wanted.row(r) << d.x, d.y, d.z;
+      wanted.row(static_cast<Index>(r)) << d.x, d.y, d.z;
     }
+    const std::vector<Index> unknowns(stored.begin(), stored.end());
+    Eigen::MatrixXd composed =
+        Eigen::MatrixXd::Zero(static_cast<Index>(rows), static_cast<Index>(unknowns.size()));
+    for (std::size_t r = 0; r < rows; ++r)
+      for (std::size_t k = 0; k < unknowns.size(); ++k)
+        if (const auto term = sums[r].find(unknowns[k]); term != sums[r].end())
+          composed(static_cast<Index>(r), static_cast<Index>(k)) = term->second;
     const Eigen::MatrixXd moved = composed.completeOrthogonalDecomposition().solve(wanted);
     const double rounding = 1e-13 * moved.cwiseAbs().maxCoeff();
     for (std::size_t k = 0; k < unknowns.size(); ++k) {

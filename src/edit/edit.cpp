@@ -54,21 +54,26 @@ Result<Patches> moveNodes(Rig& rig, std::span<const NodeMove> moves, Index targe
   if (target >= 0)
     if (auto ok = checkIndex(target, rig.targets.size(), "target"); !ok)
       return std::unexpected(ok.error());
-  // Several nodes may stand at one point, which moves once.
-  const StoredJets jets(rig.surface);
+  // Several nodes may stand at one point, which moves once and takes all of them along.
+  const Wireframe& w = rig.surface.wireframe();
   std::map<Index, NodeMove> ofPoint;
   for (const NodeMove& move : moves) {
     if (auto ok = check(rig, move); !ok) return std::unexpected(ok.error());
-    const auto [place, isNew] = ofPoint.try_emplace(jets.at(move.node, 0), move);
+    const auto [place, isNew] = ofPoint.try_emplace(w.nodes[move.node].point, move);
     if (!isNew && place->second.by != move.by)
       return fail("Nodes '" + rig.nameOf(Thing::node, place->second.node) + "' and '" +
                   rig.nameOf(Thing::node, move.node) +
                   "' are one point and cannot move to different places.");
   }
   if (target < 0) edit::keepRest(rig);
+  const StoredJets jets(rig.surface);
+  std::map<Index, Vec3> ofStored;
+  for (Index n = 0; n < static_cast<Index>(w.nodes.size()); ++n)
+    if (const auto move = ofPoint.find(w.nodes[n].point); move != ofPoint.end())
+      ofStored.insert_or_assign(jets.at(n, 0), move->second.by);
   Affected affected(rig.surface);
-  for (const auto& [stored, move] : ofPoint) {
-    poseOf(rig, target)[stored] += move.by;
+  for (const auto& [stored, by] : ofStored) {
+    poseOf(rig, target)[stored] += by;
     affected.addVector(stored);
   }
   return affected.patches();

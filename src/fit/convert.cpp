@@ -19,7 +19,11 @@
 
 namespace sweepface {
 
-double diagonal(const PolygonMesh& mesh) { return diagonal(std::span(mesh.positions)); }
+double diagonal(const PolygonMesh& mesh) {
+  Box box;
+  for (const Index v : mesh.polygons.corners) box.include(mesh.positions[v]);
+  return box.isEmpty() ? diagonal(std::span(mesh.positions)) : norm(box.size());
+}
 
 namespace {
 

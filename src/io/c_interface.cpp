@@ -7,6 +7,7 @@
 #include "sweepface/region_file.hpp"
 #include "sweepface/sweepface_clips.h"
 #include "sweepface/timeline.hpp"
+#include "sweepface/trajectory.hpp"
 
 #include "capi/handles.hpp"
 #include "capi/message.hpp"
@@ -137,8 +138,11 @@ sweepface_status sweepface_clip_read(const sweepface_rig* rig, const void* bytes
   if (!rig || !clip || (!bytes && size > 0))
     return refuse("Reading a clip needs a rig, bytes and a place for it.");
   const char* const called = name ? name : "The clip";
-  auto clips = readForRegions(*rig->division, {static_cast<const char*>(bytes), size}, called,
-                              options ? *options : sweepface_clip_usual_options());
+  const auto asked = options ? *options : sweepface_clip_usual_options();
+  if (const auto hold = Trajectory::spring({}, 0, {asked.frequency, asked.damping}); !hold)
+    return refuse("The spring on which heavy regions hang: ", hold.error().message);
+  auto clips =
+      readForRegions(*rig->division, {static_cast<const char*>(bytes), size}, called, asked);
   if (!clips) return refuse(SWEEPFACE_BAD_DATA, std::move(clips.error().message));
   ClipMatch match = matchClip(clips->front(), shownTargets(*rig));
   if (match.undriven.size() == rig->shown)

@@ -46,12 +46,17 @@ class ClipJsonReader {
       return failFile("has no 'exportFps' greater than 0");
     const Json* names = member(json, "facsNames");
     if (!names || !names->is_array() || names->empty()) return failFile("has no list 'facsNames'");
+    std::set<std::string> seen;
     for (const Json& shape : *names) {
       if (!shape.is_string()) return failFile("has a value in 'facsNames' that is not a name");
       clip_.names.push_back(shape.get<std::string>());
+      if (!seen.insert(clip_.names.back()).second)
+        return failFile(fmt::format("names '{}' twice in 'facsNames'", clip_.names.back()));
     }
     const Json& rows = json["weightMat"];
     if (!rows.is_array() || rows.empty()) return failFile("has no frames in 'weightMat'");
+    if (!isPlausibleTime(static_cast<double>(rows.size()) / fps->get<double>()))
+      return failFile("has too low an 'exportFps' for its frames");
     for (std::size_t f = 0; f < rows.size(); ++f) {
       clip_.times.push_back(static_cast<double>(f) / fps->get<double>());
       if (auto ok = readRow(rows[f], f); !ok) return std::unexpected(ok.error());
@@ -102,7 +107,7 @@ class ClipJsonReader {
     if (!time || !time->is_number())
       return failFile(fmt::format("has no 'timestampMs' in frame {}", f));
     const double seconds = time->get<double>() / 1000;
-    if (!std::isfinite(seconds) || (!clip_.times.empty() && seconds <= clip_.times.back()))
+    if (!isPlausibleTime(seconds) || (!clip_.times.empty() && seconds <= clip_.times.back()))
       return failFile(fmt::format("has a time in frame {} that is not after the one before", f));
     clip_.times.push_back(seconds);
     const Json* categories = categoriesOf(frame);

@@ -103,7 +103,7 @@ class LiveLinkReader {
 
   // HH:MM:SS:FF.fff, the last in frames; or plain seconds.
   Result<double> timecode(std::string_view text) const {
-    if (const auto seconds = toNumber<double>(text); seconds && std::isfinite(*seconds))
+    if (const auto seconds = toNumber<double>(text); seconds && isPlausibleTime(*seconds))
       return *seconds;
     std::array<double, 4> parts{};
     std::string_view rest = text;

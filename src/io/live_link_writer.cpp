@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
+#include <set>
 
 #include "sweepface/clip.hpp"
 
@@ -101,9 +102,13 @@ Result<void> check(const Clip& clip, const std::vector<Column>& columns, double 
   if (clip.times.empty()) return fail("The clip has no frames.");
   if (!(clip.times.front() >= 0 && clip.times.back() < 86400))
     return fail("The times of a recording lie within a day.");
-  for (const Column& column : columns)
+  std::set<std::string> headings{"Timecode", "BlendShapeCount"};
+  for (const Column& column : columns) {
     if (column.heading.empty() || column.heading.find_first_of(",\r\n") != std::string::npos)
       return fail(fmt::format("'{}' cannot be the heading of a column.", column.heading));
+    if (!headings.insert(column.heading).second)
+      return fail(fmt::format("There would be two columns '{}'.", column.heading));
+  }
   return {};
 }
 

@@ -163,11 +163,12 @@ void Layout::traceFromIrregular(std::span<const Vec3> positions) {
 void Layout::cutRings() {
   const auto quads = static_cast<Index>(mesh_.quads.size());
   std::vector<char> settled(quads, 0);
+  std::vector<Index> inside(quads, 0);  // in which look a quad was found last
+  Index look = 0;
   for (Index seed = 0; seed < quads; ++seed) {
     if (settled[seed]) continue;
     std::vector<Index> region{seed};
-    std::vector<char> inside(quads, 0);
-    inside[seed] = 1;
+    inside[seed] = ++look;
     HalfEdge border = -1;
     bool corner = false;
     for (std::size_t k = 0; k < region.size(); ++k)
@@ -176,8 +177,8 @@ void Layout::cutRings() {
         if (mark_[h]) {
           if (border < 0) border = h;
           corner |= mark_[prevIn(h)] != 0;
-        } else if (const Index q = mesh_.twin[h] >> 2; !inside[q]) {
-          inside[q] = 1;
+        } else if (const Index q = mesh_.twin[h] >> 2; inside[q] != look) {
+          inside[q] = look;
           region.push_back(q);
         }
       }

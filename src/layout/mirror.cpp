@@ -61,13 +61,25 @@ class PointGrid {
   std::unordered_map<Key, std::vector<Index>, Hash> cells_;
 };
 
+double medianEdge(const GridMesh& mesh, const std::vector<Vec3>& points) {
+  std::vector<double> lengths;
+  for (HalfEdge h = 0; h < static_cast<HalfEdge>(mesh.twin.size()); ++h)
+    if (!mesh.collapsed[h])
+      lengths.push_back(norm(points[mesh.point[mesh.to(h)]] - points[mesh.point[mesh.from(h)]]));
+  if (lengths.empty()) return 0;
+  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+  std::ranges::nth_element(lengths, middle);
+  return *middle;
+}
+
 // The image of each point across the best of the three planes; empty if most points have none.
 std::vector<Index> imagesOfPoints(const GridMesh& mesh, std::span<const Vec3> positions) {
   std::vector<Vec3> points;
   for (const Index v : mesh.source) points.push_back(positions[v]);
   Box box(points);
   constexpr double kNear = 1e-3;  // of the diagonal
-  const double cell = kNear * norm(box.size());
+  // No more than an edge, so that a part far away does not make all others one heap.
+  const double cell = std::min(kNear * norm(box.size()), medianEdge(mesh, points));
   if (!(cell > 0) || !std::isfinite(cell)) return {};
   const PointGrid grid(points, box.low, cell);
   std::vector<Index> best;

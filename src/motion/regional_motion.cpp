@@ -64,8 +64,12 @@ void delay(Clip& clip, double seconds) {
   // It goes on, in frames as long as its own, until the end has arrived.
   if (const auto frames = static_cast<double>(before.times.size()); frames > 1) {
     constexpr double kShortest = 1.0 / 240;
-    const double end = before.times.back(),
-                 step = std::max(kShortest, before.seconds() / (frames - 1));
+    const double end = before.times.back();
+    double step = std::max(kShortest, before.seconds() / (frames - 1));
+    // But no more of them than a clip may hold.
+    const std::size_t most = kMostClipWeights / std::max<std::size_t>(n, 1);
+    const auto room = static_cast<double>(most - std::min(most, before.times.size()));
+    step = std::max(step, seconds / std::max(1.0, room));
     for (int k = 1; clip.times.back() < end + seconds; ++k)
       clip.times.push_back(std::min(end + k * step, end + seconds));
     clip.weights.resize(n * clip.times.size());

@@ -2,20 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace sweepface {
 namespace {
 
-std::size_t indexOf(const std::vector<std::string>& names, std::string_view name) {
-  return static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
-}
+/// Where weights stand among the names of a clip.
+using Places = std::map<std::string_view, std::size_t>;
 
-Result<void> play(const TimelineEvent& event, const Clip& clip, const Matter& matter,
+Result<void> play(const TimelineEvent& event, const Places& places, const Matter& matter,
                   MotionState& state) {
   const Drive drive = inMatter(event.drive, matter);
-  std::vector<bool> named(clip.names.size(), false);
+  std::vector<bool> named(places.size(), false);
   for (const auto& [name, goal] : event.goals) {
-    const std::size_t k = indexOf(clip.names, name);
+    const std::size_t k = places.at(name);
     named[k] = true;
     if (auto ok = state.moveTo(k, goal, drive); !ok) return ok;
   }
@@ -33,14 +33,17 @@ Result<Clip> bake(const Timeline& timeline, double framesPerSecond) {
 
 Result<Clip> bake(const Timeline& timeline, double framesPerSecond, std::string_view region,
                   const Matter& matter) {
-  const double frames = std::round(timeline.seconds * timeline.loops * framesPerSecond);
+  const double seconds = timeline.seconds * timeline.loops;
+  // The last one is at the end, even where that is no whole number of frames.
+  const double frames = std::ceil(seconds * framesPerSecond - 1e-6);
   if (!(framesPerSecond > 0) || !(frames >= 1 && frames <= 1e6))
     return failCall(
         "A timeline is baked into 1 to 1,000,000 frames; change its length or the rate.");
   Clip clip;
+  Places places;
   for (const TimelineEvent& event : timeline.events)
     for (const auto& [name, goal] : event.goals)
-      if (indexOf(clip.names, name) == clip.names.size()) clip.names.push_back(name);
+      if (places.try_emplace(name, clip.names.size()).second) clip.names.push_back(name);
   if ((frames + 1) * static_cast<double>(clip.names.size()) > kMostClipWeights)
     return failCall(
         "The timeline bakes into more weights than a clip can hold; shorten it, or name fewer.");
@@ -51,7 +54,7 @@ Result<Clip> bake(const Timeline& timeline, double framesPerSecond, std::string_
   int loop = 0;
   std::vector<double> weights(clip.names.size());
   for (double frame = 0; frame <= frames; ++frame) {
-    const double time = frame / framesPerSecond;
+    const double time = frame < frames ? frame / framesPerSecond : seconds;
     // Everything that sets out until this frame does so at its own instant.
     while (loop < timeline.loops) {
       if (next == timeline.events.size()) {
@@ -63,7 +66,7 @@ Result<Clip> bake(const Timeline& timeline, double framesPerSecond, std::string_
       if (start > time) break;
       state->advance(start - state->now());
       const bool here = event.region.empty() || event.region == region;
-      if (auto ok = here ? play(event, clip, matter, *state) : Result<void>{}; !ok)
+      if (auto ok = here ? play(event, places, matter, *state) : Result<void>{}; !ok)
         return std::unexpected(ok.error());
       ++next;
     }

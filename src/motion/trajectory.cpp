@@ -31,8 +31,9 @@ Result<void> check(Start start, double to, double seconds) {
 using path::Cubic;
 
 Spring Spring::withHalfLife(double seconds, double damping) {
-  // Swings lie within e^(−ζωt).
-  return {std::numbers::ln2 / (2 * std::numbers::pi * damping * seconds), damping};
+  // Swings lie within e^(−ζωt); beyond critical damping the slower of two decays is what is left.
+  const double slow = damping > 1 ? 1 / (damping + std::sqrt(damping * damping - 1)) : damping;
+  return {std::numbers::ln2 / (2 * std::numbers::pi * slow * seconds), damping};
 }
 
 // ---- Evaluation ----
@@ -117,8 +118,8 @@ Kinematics path::Driven::at(double t) const noexcept {
 }
 
 Kinematics Trajectory::at(double time) const noexcept {
-  // Not a number counts as before the start.
-  const double t = time > 0 ? time : 0;
+  // Not a number counts as before the start, and for ever as very long.
+  const double t = time > 0 ? std::fmin(time, std::numeric_limits<double>::max()) : 0;
   return std::visit([t](const auto& form) { return form.at(t); }, path_);
 }
 

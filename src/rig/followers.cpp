@@ -107,10 +107,28 @@ Followers::Followers(std::vector<Follower> followers) {
       (follows ? lateArcs_ : arcs_).push_back(follower);
     } else {
       auto chain = std::ranges::find(chains_, follower.leaders[0], &Chain::leader);
-      if (chain == chains_.end()) chain = chains_.insert(chain, {follower.leaders[0], {}});
+      if (chain == chains_.end()) chain = chains_.insert(chain, {follower.leaders[0], {}, 0});
       chain->stops.push_back(follower);
     }
   }
+  orderChains();
+}
+
+// An in-between of an in-between is given its share after that.
+void Followers::orderChains() {
+  const auto chainOf = [&](Index target) {
+    return std::ranges::find_if(chains_, [&](const Chain& chain) {
+      return std::ranges::find(chain.stops, target, &Follower::target) != chain.stops.end();
+    });
+  };
+  for (Chain& chain : chains_)
+    for (auto above = chainOf(chain.leader);
+         above != chains_.end() && chain.depth < static_cast<int>(chains_.size());
+         above = chainOf(above->leader))
+      ++chain.depth;
+  sortSmall(std::span(chains_), [](const Chain& a, const Chain& b) {
+    return a.depth != b.depth ? a.depth < b.depth : a.leader < b.leader;
+  });
 }
 
 void Followers::apply(std::span<double> weights) const noexcept {

@@ -59,7 +59,12 @@ class Painter {
       if (!node) return std::unexpected(node.error());
       if (!(share >= 0 && share <= 1))
         return fail("The share of node '" + name + "' is not from 0 to 1.");
-      own_[*node] = share;
+      if (wireframe_.nodes[*node].point < 0)
+        return fail(
+            "Node '" + name +
+            "' stands on the side of a patch and goes with it; name the nodes at its ends.");
+      for (Index n = 0; n < static_cast<Index>(own_.size()); ++n)
+        if (keeperOf(n) == keeperOf(*node)) own_[n] = share;
     }
     if (std::ranges::all_of(own_, [](double share) { return share == 0; })) return reachesNothing();
     return own_;

@@ -1,8 +1,8 @@
 #include "sweepface/rig.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <cstdlib>
+
+#include "rig/number.hpp"
 
 namespace sweepface {
 
@@ -42,21 +42,10 @@ Result<Index> findTarget(const Rig& rig, std::string_view name) {
   return findTarget(rig, name, rig.targets.size());
 }
 
-namespace {
-
-std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(' '), last = text.find_last_not_of(' ');
-  return first == text.npos ? "" : text.substr(first, last + 1 - first);
-}
-
-}  // namespace
-
 Result<Weights> parseWeights(const Rig& rig, std::string_view text) {
   Weights weights(rig.targets.size(), 0.0);
   while (!text.empty()) {
-    const auto comma = text.find(',');
-    const std::string_view item = trimmed(text.substr(0, comma));
-    text = comma == std::string_view::npos ? "" : text.substr(comma + 1);
+    const std::string_view item = takeItem(text);
     if (item.empty()) continue;
     const auto equals = item.rfind('=');
     const std::string_view name = trimmed(item.substr(0, equals));
@@ -64,14 +53,12 @@ Result<Weights> parseWeights(const Rig& rig, std::string_view text) {
     if (!target) return std::unexpected(target.error());
     double value = 1;
     if (equals != std::string_view::npos) {
-      const std::string digits(trimmed(item.substr(equals + 1)));
-      char* end = nullptr;  // not from_chars: libc++ 19 has none for floating point
-      value = std::strtod(digits.c_str(), &end);
-      const bool plain =
-          digits.find_first_not_of("0123456789+-.eE") == std::string::npos && digits[0] != '+';
-      if (digits.empty() || !plain || *end != 0 || !isPlausibleWeight(value))
+      const std::string_view digits = trimmed(item.substr(equals + 1));
+      const std::optional<double> number = numberOf(digits);
+      if (!number || !isPlausibleWeight(*number))
         return failCall("the weight of '", name, "' must be a number within ±1,000,000, not '",
                         digits, "'");
+      value = *number;
     }
     weights[*target] = value;
   }
@@ -98,7 +85,7 @@ std::vector<Vec3> blend(const Rig& rig, std::span<const double> weights) {
 void blendLoose(const Rig& rig, std::span<const double> weights, std::span<Vec3> loose) {
   std::ranges::copy(rig.source.loose, loose.begin());
   for (std::size_t k = 0; k < rig.targets.size() && k < weights.size(); ++k)
-    for (std::size_t v = 0; v < loose.size(); ++v)
+    for (std::size_t v = 0; weights[k] != 0 && v < loose.size(); ++v)
       loose[v] += weights[k] * rig.targets[k].looseDifference[v];
 }
 

@@ -127,6 +127,8 @@ TEST_F(Clips, LoseTheirNoise) {
   EXPECT_EQ(at(0.5)[0], same.weights[same.names.size()]);
   options.frames_per_second = 0;
   EXPECT_EQ(read(kCsv, &options), SWEEPFACE_BAD_DATA);
+  const sweepface_clip_options nothing{60, 0, 0, 0};
+  EXPECT_EQ(read(kCsv, &nothing), SWEEPFACE_BAD_ARGUMENT);
 }
 
 TEST_F(Clips, OfTimelinesGoByTheirRegions) {

@@ -44,6 +44,8 @@ TEST_F(Edit, RefusesWhatItCannotDo) {
   EXPECT_TRUE(fails("edit sheet.sweep --ribbon middle" + out, "needs --rho, --eta or --lambda"));
   EXPECT_TRUE(fails("edit sheet.sweep --ribbon middle --eta much" + out,
                     "--eta: This must be a number, not 'much'.", 2));
+  EXPECT_TRUE(fails("edit sheet.sweep --ribbon middle --eta 1 --target other" + out,
+                    "are those of all expressions"));
   EXPECT_TRUE(fails("edit sheet.sweep --ribbon belly --eta 1" + out, "'belly'"));
   EXPECT_TRUE(
       fails("edit sheet.sweep --ribbon middle --eta 1.26224375 --lambda 0.000244140625" + out,

@@ -50,6 +50,26 @@ TEST_F(Pack, RoundsTextureCoordinatesAsToldAndNoFurther) {
   EXPECT_TRUE(fails("convert neutral.obj -o face.sweep --uv-bits 12", "--pack", 2));
 }
 
+TEST_F(Pack, KeepsTextureCoordinatesThatAreTooFarForStepsExactly) {
+  std::string text;  // in pixels, of a texture that repeats
+  for (std::size_t at = 0, line; at < sheet().size(); at = line + 1) {
+    line = sheet().find('\n', at);
+    const std::string row = sheet().substr(at, line - at);
+    double u = 0, v = 0;
+    if (std::sscanf(row.c_str(), "vt %lf %lf", &u, &v) == 2)
+      text += fmt::format("vt {} {}\n", 8192 * u, 8192 * v);
+    else
+      text += row + "\n";
+  }
+  folder.file("pixels.obj", text);
+  ASSERT_EQ(run("convert pixels.obj -o face.sweep --tolerance 0.01 --pack").code, 0);
+  ASSERT_EQ(run("export face.sweep -o out.obj --source-order").code, 0);
+  const Polygons found = mesh("out.obj").polygons, source = mesh("pixels.obj").polygons;
+  for (std::size_t c = 0; c < source.cornerTexcoords.size(); ++c)
+    EXPECT_EQ(found.texcoords[found.cornerTexcoords[c]],
+              source.texcoords[source.cornerTexcoords[c]]);
+}
+
 TEST_F(Pack, WithoutItsOrderAFaceStillExportsButSaysSo) {
   makeRig();
   ASSERT_EQ(run("convert neutral.obj targets -o bare.sweep --tolerance 0.01 --strip order").code,

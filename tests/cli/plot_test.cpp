@@ -54,6 +54,9 @@ TEST_F(Plot, SaysWhatIsWrong) {
   refused("-o plot.svg --to jawOpen=1 --weight frown", "frown");
   refused("-o plot.svg --to jawOpen=1 --laws magic", "There is no law 'magic'");
   refused("-o plot.svg --to jawOpen=0", "Nothing moves");
+  EXPECT_TRUE(fails("plot face.sweep -o plot.svg --to jawOpen=1 --law bounce --restitution 1",
+                    "from 0 to below 1", 2));
+  EXPECT_EQ(run("plot face.sweep -o plot.svg --to jawOpen=1 --law bounce --restitution 0").code, 0);
 }
 
 TEST_F(Plot, LawsNeedNoFace) {

@@ -84,6 +84,13 @@ TEST_F(Check, LooksAtEveryPose) {
   EXPECT_EQ(run("check face.sweep --quiet").out, "");
 }
 
+TEST_F(Check, KnowsHowFarAPoseIsFromTheOrigin) {
+  folder.file("neutral.obj", sheet());
+  folder.file("far.obj", sheet([](Vec3 p) { return p + Vec3{1e6, 0, 0}; }));
+  ASSERT_EQ(run("convert neutral.obj far.obj -o face.sweep --tolerance 0.05").code, 0);
+  EXPECT_EQ(run("check face.sweep").code, 0);
+}
+
 TEST_F(Check, RefusesADamagedFile) {
   convertRig();
   std::string bytes = contents(folder / "face.sweep");

@@ -219,6 +219,25 @@ TEST(TNodes, chooseEdgesThatFitBothSides) {
   EXPECT_LT(norm(middleOf(rig, "de", 1) - Vec3{4.0 / 3, 4, 0}), 0.1);
 }
 
+TEST(TNodes, goWithWhicheverCurvesMove) {
+  Json drawing = withTNode();
+  drawing["expressions"] =
+      Json::parse(R"([{"name": "bend", "moves": {"de": [0, 0, 1], "ec": [0, 0, 2]}}])");
+  EXPECT_TRUE(buildJson(drawing));
+}
+
+TEST(Names, ofOneThingAreNotWhatAnotherGoesBy) {
+  Json drawing = withTNode();
+  drawing["patches"][0]["name"] = "p1";  // as the second goes by
+  const auto built = buildJson(drawing);
+  ASSERT_FALSE(built);
+  EXPECT_NE(built.error().message.find("'p1' is what number 1, which has no name, goes by"),
+            std::string::npos)
+      << built.error().message;
+  drawing["patches"][0]["name"] = "p0";  // its own
+  EXPECT_TRUE(buildJson(drawing));
+}
+
 TEST(Rings, mayBeOnePatchAndOneCurve) {
   Json drawing = Json::parse(R"({"format": "sweepface wireframe 1",
     "nodes": [{"name": "low", "at": [2, 0, 0]}, {"name": "high", "at": [2, 5, 0]}],

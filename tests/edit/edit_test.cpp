@@ -127,6 +127,48 @@ TEST(ControlCurves, OfAnotherPatchOrWithoutLengthAreRefused) {
   EXPECT_EQ(refused.error().message, "Curve 'a0-b0' does not bound patch 'b1 c2'.");
 }
 
+TEST(ControlCurves, BesideAClosedCurveMoveOnce) {
+  Json drawing = Json::parse(R"({"format": "sweepface wireframe 1",
+    "nodes": [{"name": "low", "at": [2, 0, 0]}, {"name": "high", "at": [2, 5, 0]}],
+    "curves": [{"name": "foot", "from": "low", "to": "low"}, {"name": "rim", "from": "high", "to": "high"},
+               {"name": "seam", "from": "low", "to": "high"}],
+    "patches": [{"name": "tube", "sides": ["seam", "-rim", "-seam", "foot"]}]})");
+  for (int ring : {0, 1})
+    for (int k = 1; k < 8; ++k) {
+      const double a = 2 * M_PI * k / 8;
+      drawing["curves"][ring]["points"].push_back({2 * std::cos(a), 5.0 * ring, -2 * std::sin(a)});
+    }
+  const Rig before = made(drawing);
+  Rig after = before;
+  const Index foot = before.find(Thing::curve, "foot").value();
+  ASSERT_TRUE(moveControls(after, {foot, 0, {0, 0.25, 0}, {0, 0.625, 0}}));
+  double most = 0;
+  for (Index v = 0; v < before.surface.storedCount(); ++v)
+    most = std::max(most, norm(after.neutral[v] - before.neutral[v]));
+  // Controls a tenth and a quarter of the way across move straight on: 2.5 a whole way.
+  EXPECT_NEAR(most, 2.5 / before.surface.edgesU(0), 1e-9);
+}
+
+TEST(Nodes, AtOnePointMoveTogether) {
+  Json drawing = square();  // and another one that touches it at a corner
+  drawing["nodes"].push_back({{"name", "e"}, {"with", "c"}});
+  for (const auto& [name, x, y] : {std::tuple{"f", 8, 4}, {"g", 8, 8}, {"h", 4, 8}})
+    drawing["nodes"].push_back({{"name", name}, {"at", {x, y, 0}}});
+  for (const auto& [from, to] : {std::pair{"e", "f"}, {"f", "g"}, {"g", "h"}, {"h", "e"}})
+    drawing["curves"].push_back({{"name", std::string(from) + to}, {"from", from}, {"to", to}});
+  drawing["patches"].push_back({{"name", "other"}, {"sides", {"ef", "fg", "gh", "he"}}});
+  Rig rig = made(drawing);
+  ASSERT_TRUE(moveNodes(rig, std::array{NodeMove{rig.find(Thing::node, "c").value(), {0, 0, 5}}}));
+  EXPECT_LT(norm(middleOf(rig, "bc", 1) - Vec3{4, 4, 5}), 1e-12);
+  EXPECT_LT(norm(middleOf(rig, "ef", 0) - Vec3{4, 4, 5}), 1e-12);
+
+  drawing["expressions"] =
+      Json::parse(R"([{"name": "torn", "moves": {"c": [0, 0, 1], "e": [0, 0, 2]}}])");
+  const auto torn = buildJson(drawing);
+  ASSERT_FALSE(torn);
+  EXPECT_NE(torn.error().message.find("are one point and cannot move"), std::string::npos);
+}
+
 TEST(Nodes, TakeWhatMeetsThereAlong) {
   const Rig before = sheet();
   Rig after = before;

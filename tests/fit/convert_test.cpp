@@ -177,6 +177,16 @@ TEST(Convert, givesLooseVerticesBackExactly) {
   EXPECT_EQ(sourcePositions(rig, level1, blend(rig, one), one)[3], source.targets[0].positions[3]);
 }
 
+TEST(Convert, isAsFineAsItsFacesAreLarge) {
+  const MeshRig plain = withTargets(cubeSphere(), 1, 2);
+  MeshRig stray = plain;
+  for (auto* positions : {&stray.neutral.positions, &stray.targets[0].positions})
+    positions->push_back({1e6, 0, 0});  // in no face
+  const auto a = convert(plain), b = convert(stray);
+  ASSERT_TRUE(a && b);
+  EXPECT_EQ(a->rig.tolerance, b->rig.tolerance);
+}
+
 TEST(Convert, ofASingleFaceWorks) {
   for (Index corners : {3, 4, 5, 7}) {
     PolygonMesh mesh;

@@ -53,6 +53,7 @@ TEST(LiveLinkCsv, SaysWhatIsWrongAndWhere) {
   expectError(csv("Timecode,a\n2,0\n1,0\n"), "line 3: the timecode '1' is not after");
   expectError(csv("Timecode,a\n2,0\n2,0\n"), "is not after");
   expectError(csv("Timecode,a\nnan,0\n"), "not a timecode");
+  expectError(csv("Timecode,a\n1e300,0\n"), "not a timecode");
   expectError(csv("Timecode,a\n1:2:3,0\n"), "not a timecode");
   expectError(csv("Timecode,a\n1:2:3:-4,0\n"), "not a timecode");
   expectError(csv("Timecode,a\n0:0:0:60,0\n"), "more than 60 frames a second");
@@ -106,6 +107,11 @@ TEST(ClipJson, SaysWhatIsWrong) {
               "has not 1 numbers in weightMat[0]");
   expectError(json(R"({"weightMat": [[null]], "exportFps": 60, "facsNames": ["a"]})"),
               "within ±1,000,000 in weightMat[0]");
+  expectError(json(R"({"weightMat": [[1, 2]], "exportFps": 60, "facsNames": ["a", "a"]})"),
+              "names 'a' twice in 'facsNames'");
+  expectError(json(R"({"weightMat": [[1], [2]], "exportFps": 1e-320, "facsNames": ["a"]})"),
+              "too low an 'exportFps'");
+  expectError(json(R"([{"timestampMs": 1e300, "categories": []}])"), "a time in frame 0");
   expectError(json(std::string(10'000, '[')), "nested too deeply");
 }
 

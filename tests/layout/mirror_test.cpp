@@ -45,6 +45,12 @@ TEST(Mirror, ReachesOverVerticesThatAreNotWhereTheirImagesShouldBe) {
   EXPECT_TRUE(isWhole(mirrorOf(mesh)));
 }
 
+TEST(Mirror, OfAMeshWithAPartFarAwayIsSoughtAmongNeighbours) {
+  // Within a thousandth of the diagonal of both lies all of the sheet.
+  PolygonMesh mesh = joined(sheetAcross(), sheetAcross(), {1e5, 0, 0});
+  EXPECT_TRUE(isWhole(mirrorOf(mesh)));
+}
+
 TEST(Mirror, EndsWhereOneSideHasAQuadThatTheOtherHasNot) {
   PolygonMesh mesh = sheetAcross();
   Polygons& faces = mesh.polygons;

@@ -209,6 +209,14 @@ TEST(RegionalClip, ALateRegionShowsTheClipLater) {
   EXPECT_NEAR(late.weights.back(), clip.weights.back(), 1e-12);
 }
 
+TEST(RegionalClip, OfManyNamesIsNotStretchedBeyondWhatAClipHolds) {
+  Clip wide{std::vector<std::string>(100'000, "a"), {0, 0.001}, {}};
+  wide.weights.assign(200'000, 0.5);
+  const Clip late = inMatter(wide, {1, 1, 60});
+  EXPECT_LE(late.weights.size(), kMostClipWeights);
+  EXPECT_NEAR(late.seconds(), 60.001, 1e-9);
+}
+
 TEST(RegionalTimeline, EventsAreForOneRegionOrForAll) {
   const auto timeline = parseTimeline(R"({"seconds": 2, "events": [
     {"at": 0, "to": {"smile": 1}, "drive": "cut", "region": "left"},

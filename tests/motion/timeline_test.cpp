@@ -62,6 +62,14 @@ TEST(Timeline, LoopsGoOnFromWhereTheyAre) {
   EXPECT_EQ(weight(clip, 2.75, "a"), 0);
 }
 
+TEST(Timeline, EndsWhereItSaysThatItEnds) {
+  const Clip clip = baked(R"({"seconds": 1.002, "events": [
+    {"at": 1.0015, "to": {"a": 1}, "drive": "cut"}]})");
+  EXPECT_EQ(clip.times.back(), 1.002);
+  EXPECT_EQ(weight(clip, 1.002, "a"), 1);
+  EXPECT_EQ(weight(clip, 1, "a"), 0);
+}
+
 TEST(Timeline, HoldsNoMoreWeightsThanAClipMay) {
   std::string goals;
   for (int k = 0; k < 100; ++k) goals += (k > 0 ? ",\"n" : "\"n") + std::to_string(k) + "\": 1";

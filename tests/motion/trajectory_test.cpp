@@ -133,6 +133,17 @@ TEST(Trajectory, ASpringsSwingsHalveEveryHalfLife) {
   EXPECT_NEAR(t.at(turn).position, std::exp2(-turn / 0.2), 1e-12);
 }
 
+TEST(Trajectory, ACreepingSpringHalvesEveryHalfLifeInTheEnd) {
+  const Trajectory t = made(Trajectory::spring({1, 0}, 0, Spring::withHalfLife(0.5, 3)));
+  EXPECT_NEAR(t.at(3.5).position / t.at(3).position, 0.5, 1e-6);
+}
+
+TEST(Trajectory, ForEverIsWhereItEnds) {
+  const double ever = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(made(Trajectory::spring({0, 1}, 2, {})).at(ever).position, 2);
+  EXPECT_EQ(made(Trajectory::impulse({3, 0}, 0, 0)).at(ever).position, 3);
+}
+
 TEST(Trajectory, SplittingTimeGivesTheSameState) {
   Random random;
   for (int i = 0; i < 1000; ++i) {

@@ -48,6 +48,18 @@ TEST(Followers, productsMultiply) {
   EXPECT_EQ(applied(followers, {0.5, 0, 1, 7}), (std::vector<double>{0.5, 0, 1, 0}));
 }
 
+TEST(Followers, inBetweensOfInBetweensDoNotDependOnTheOrderOfTargets) {
+  // A, the half of its half, its half; and the other way round.
+  const std::vector<Follower> nested{{Kind::inBetween, 1, {2}, 0.5},
+                                     {Kind::inBetween, 2, {0}, 0.5}},
+      plain{{Kind::inBetween, 1, {0}, 0.5}, {Kind::inBetween, 2, {1}, 0.5}};
+  const auto a = applied(nested, {0.125, 0, 0}), b = applied(plain, {0.125, 0, 0});
+  EXPECT_EQ(a[0], b[0]);
+  EXPECT_EQ(a[2], b[1]);
+  EXPECT_EQ(a[1], b[2]);
+  EXPECT_GT(a[1], 0);
+}
+
 TEST(Followers, arcsAreFullHalfWay) {
   const std::vector<Follower> followers{{Kind::arc, 1, {0}, 0}};
   for (const auto& [w, expected] : {std::pair{0.0, 0.0}, {0.5, 1.0}, {1.0, 0.0}, {0.25, 0.75}})

@@ -27,9 +27,20 @@ TEST(Limits, OfOneTargetLeaveTheOthersAlone) {
   EXPECT_EQ(weights, (std::vector<double>{-9, 9, 0}));
 }
 
+TEST(Limits, AreListedAsWeightsAre) {
+  const Rig rig = makeRig(onePatch(1, 1));
+  const auto plain = Limits::parse(rig, "0:1,open=-0.5:0.8"),
+             spaced = Limits::parse(rig, " 0 : 1 , open = -0.5:0.8,,");
+  ASSERT_TRUE(plain && spaced);
+  std::vector<double> a{-9, 9, 0.5}, b = a;
+  plain->apply(a);
+  spaced->apply(b);
+  EXPECT_EQ(a, b);
+}
+
 TEST(Limits, SayWhatIsWrong) {
   const Rig rig = makeRig(onePatch(1, 1));
-  for (const char* text : {"1", "1:0", "0:x", "open=1", "open=:1", "0:1,,", "0:inf"})
+  for (const char* text : {"1", "1:0", "0:x", "open=1", "open=:1", "0:1;", "0:inf"})
     EXPECT_FALSE(Limits::parse(rig, text)) << text;
   const auto unknown = Limits::parse(rig, "frown=0:1");
   ASSERT_FALSE(unknown);

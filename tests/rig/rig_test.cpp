@@ -50,6 +50,14 @@ TEST(WeightText, refusesWhatIsNoFiniteNumber) {
                   text + "'");
 }
 
+TEST(Rig, atRestAsksNothingOfTargets) {
+  Rig rig = makeRig(onePatch(1, 1));
+  rig.source.loose = {{1, 2, 3}};  // of which no target says anything yet
+  for (Target& target : rig.targets) target.looseDifference.clear();
+  EXPECT_FALSE(rig.knowsTargets());
+  EXPECT_EQ(blendLoose(rig, Weights(rig.targets.size(), 0.0)), rig.source.loose);
+}
+
 TEST(Find, answersByExactName) {
   const Rig rig = named();
   EXPECT_EQ(rig.find("rest"), 2);

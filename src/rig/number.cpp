@@ -1,0 +1,35 @@
+#include "rig/number.hpp"
+
+#include <cmath>
+#include <locale>
+#include <sstream>
+#include <string>
+
+namespace sweepface {
+
+std::optional<double> numberOf(std::string_view text) {
+  const bool plain =
+      !text.empty() && text[0] != '+' && text.find_first_not_of("0123456789+-.eE") == text.npos;
+  if (!plain) return std::nullopt;
+  // Not from_chars, which libc++ 19 has not for floating point, nor strtod, which asks the locale.
+  std::istringstream in{std::string(text)};
+  in.imbue(std::locale::classic());
+  double value = 0;
+  in >> value;
+  if (in.fail() || in.peek() != in.eof() || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+std::string_view trimmed(std::string_view text) {
+  const auto first = text.find_first_not_of(' '), last = text.find_last_not_of(' ');
+  return first == text.npos ? "" : text.substr(first, last + 1 - first);
+}
+
+std::string_view takeItem(std::string_view& list) {
+  const auto comma = list.find(',');
+  const std::string_view item = trimmed(list.substr(0, comma));
+  list = comma == list.npos ? "" : list.substr(comma + 1);
+  return item;
+}
+
+}  // namespace sweepface
