@@ -106,6 +106,12 @@ Peers makePeers(const MeshRig& source, const std::string& gltfpack,
   const auto measured = glb ? measureFile(peers.glb, *glb, source, reachOf(source, 16))
                             : std::unexpected(glb.error());
   const ScratchFolder folder;
+  if (folder.path().empty()) {
+    peers.left =
+        "No folder for temporary files can be made, so that GLBs packed by gltfpack are left out; "
+        "let TMPDIR name one that can be written to.";
+    return peers;
+  }
   const auto ready = measured ? writeFile(folder.path() / "face.glb", *glb) : measured;
   if (!ready) {
     peers.left = "The source as GLB is left out: " + ready.error().message;

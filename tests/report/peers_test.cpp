@@ -109,6 +109,22 @@ TEST(Peers, LeaveNoFilesBehind) {
   EXPECT_EQ(folder.fileCount(), 0u);
 }
 
+// The folder that the program was started in belongs to somebody else.
+TEST(Peers, WriteNowhereElseWithoutTemporaryFiles) {
+  const TemporaryFolder folder;
+  const auto here = std::filesystem::current_path(),
+             before = std::filesystem::temp_directory_path();
+  std::filesystem::current_path(folder / "");
+  setenv("TMPDIR", (folder / "none").c_str(), 1);
+  const Peers peers = makePeers(withTargets(plane(4, 4)), "/bin/false", nothing);
+  setenv("TMPDIR", before.c_str(), 1);
+  std::filesystem::current_path(here);
+  EXPECT_EQ(folder.fileCount(), 0u);
+  EXPECT_NE(peers.left.find("TMPDIR"), std::string::npos) << peers.left;
+  EXPECT_GT(peers.glb.bytes, 0u);
+  EXPECT_TRUE(peers.packed.empty());
+}
+
 // The real one, where it is.
 TEST(Peers, ArePackedByGltfpack) {
   const std::string gltfpack = SWEEPFACE_SOURCE_DIR "/tests/web/node_modules/.bin/gltfpack";
