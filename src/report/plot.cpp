@@ -128,14 +128,17 @@ std::vector<double> niceTicks(double low, double high, bool logarithmic) {
         if (tick >= high * (1 - 1e-9) && ticks.size() > 1) return ticks;
       }
   }
-  if (!(high > low)) high = low + (low != 0 ? std::abs(low) : 1);
-  if (!std::isfinite(high - low)) return {0, 1};
+  // What differs by no more than rounding is the same: steps as small could not be counted.
+  if (!(high - low > 1e-12 * std::max(std::abs(low), std::abs(high))))
+    high = low + (low != 0 ? std::abs(low) : 1);
+  if (!std::isfinite(high - low) || high - low < 1e-300) return {0, 1};
   const double decade = std::pow(10, std::floor(std::log10((high - low) / 5)));
   double step = 10 * decade;
   for (const double nice : {5.0, 2.0, 1.0})
     if ((high - low) / (nice * decade) <= 7) step = nice * decade;
   const double first = std::floor(low / step + 1e-9), last = std::ceil(high / step - 1e-9);
-  for (double k = first; k <= last; ++k) ticks.push_back(k * step);
+  const int steps = static_cast<int>(last - first);
+  for (int k = 0; k <= steps; ++k) ticks.push_back((first + k) * step);
   return ticks;
 }
 

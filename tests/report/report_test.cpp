@@ -83,8 +83,14 @@ TEST(Ticks, CoverTheValuesWithReadableNumbers) {
   EXPECT_LE(wide.size(), 8u);
   EXPECT_LE(wide.front(), 3e-17);
   EXPECT_GE(wide.back(), 0.06);
-  for (const auto& [low, high] :
-       {std::pair{0.0, 0.0199}, {-3.2, 7.7}, {1e-9, 3e-9}, {5.0, 5.0}, {0.0, 0.0}}) {
+  for (const auto& [low, high] : {std::pair{0.0, 0.0199},
+                                  {-3.2, 7.7},
+                                  {1e-9, 3e-9},
+                                  {5.0, 5.0},
+                                  {0.0, 0.0},
+                                  {0.3, 0.1 + 0.2},
+                                  {-0.1 - 0.2, -0.3},
+                                  {0.0, 1e-310}}) {
     const std::vector<double> ticks = niceTicks(low, high, false);
     ASSERT_GE(ticks.size(), 2u);
     EXPECT_LE(ticks.size(), 10u);
