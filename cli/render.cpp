@@ -16,7 +16,8 @@ namespace sweepface::cli {
 namespace {
 
 struct RenderArguments {
-  std::string face, output, weights, views = "front", style = "shaded", size, from, to, close;
+  std::string face, output, weights, views = "front", style = "shaded", size, from, close;
+  std::optional<std::string> to;
   std::vector<std::string> compare, laws, boxes;
   FollowingArguments following;
   int lod = 0, frames = 5;
@@ -71,7 +72,7 @@ void addOptions(CLI::App& app, RenderArguments& a) {
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->type_name("NAME|X,Y,W,H");
-  app.get_option("--compare")->excludes(to);
+  for (const char* other : {"--compare", "--weights"}) app.get_option(other)->excludes(to);
   addQuiet(app, a.quiet);
   app.footer(
       "\nExamples:\n"
@@ -96,7 +97,7 @@ class Renderer {
         bar_(a.quiet) {}
 
   Result<Image> make() {
-    if (!a_.to.empty()) return strips();
+    if (a_.to) return strips();
     Result<Weights> weights = parseWeights(rig_, a_.weights);
     if (!weights) return std::unexpected(weights.error());
     const Weights plain = *weights;
@@ -251,7 +252,7 @@ class Renderer {
   }
 
   Result<std::vector<Motion>> makeMotions() const {
-    const Result<Weights> from = parseWeights(rig_, a_.from), to = parseWeights(rig_, a_.to);
+    const Result<Weights> from = parseWeights(rig_, a_.from), to = parseWeights(rig_, *a_.to);
     if (!from) return std::unexpected(from.error());
     if (!to) return std::unexpected(to.error());
     std::vector<Motion> motions;
@@ -322,12 +323,17 @@ Result<int> runRender(const RenderArguments& a) {
   if (!style) return std::unexpected(style.error());
   const Result<std::vector<View>> views = parseViews(a.views);
   if (!views) return std::unexpected(views.error());
+  if (a.to && isHeat(*style))
+    return fail(
+        fmt::format("The style {} shows a single expression; leave --to out, or choose another "
+                    "style.",
+                    a.style));
   if (isHeat(*style) && a.compare.empty() && !a.following.any())
     return fail(
         fmt::format("The style {} needs meshes to compare with; give --compare NEUTRAL "
                     "[TARGET...].",
                     a.style));
-  if (!a.to.empty() && views->size() > 1)
+  if (a.to && views->size() > 1)
     return fail("Pictures on the way to an expression have one view; give a single one.");
   std::vector<std::string> inputs = a.compare;
   inputs.push_back(a.face);

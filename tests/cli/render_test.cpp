@@ -104,6 +104,29 @@ TEST_F(Render, ShowsTheWayToAnExpression) {
   EXPECT_TRUE(fails("render face.sweep -o out.png --to jawOpen=1 --frames 1", "--frames", 2));
   EXPECT_TRUE(
       fails("render face.sweep -o out.png --to jawOpen=1 --compare neutral.obj", "--to", 2));
+  EXPECT_TRUE(fails("render face.sweep -o out.png --to jawOpen=1 --weights smile=1", "--to", 2));
+}
+
+TEST_F(Render, TheWayMayEndAtTheNeutral) {
+  convertRig();
+  const auto strip = [&](const std::string& more) {
+    const Outcome r = run("render face.sweep -o out.png --size 600x300 " + more);
+    EXPECT_EQ(r.code, 0) << r.err;
+    return contents(folder / "out.png");
+  };
+  const std::string back = strip("--from smile=1 --to ''");
+  EXPECT_EQ(back, strip("--from smile=1 --to smile=0"));
+  EXPECT_NE(back, strip(""));
+}
+
+TEST_F(Render, HeatMapsAreOfOneExpression) {
+  convertRig();
+  for (const std::string style : {"error", "angle"})
+    for (const std::string more : {"--combine", "--arcs on", ""})
+      EXPECT_TRUE(fails("render face.sweep -o out.png --to jawOpen=1 --style " + style + " " + more,
+                        "leave --to out"))
+          << style << more;
+  EXPECT_FALSE(std::filesystem::exists(folder / "out.png"));
 }
 
 TEST_F(Render, SaysWhatIsWrong) {
