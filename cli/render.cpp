@@ -130,8 +130,9 @@ class Renderer {
     if (a_.close.empty()) return points;
     const Result<std::vector<Index>> region = scenes_->region(a_.close);
     if (!region) return std::unexpected(region.error());
+    // A vertex alone has no size that would tell how far the eye must be.
     std::vector<Vec3> near;
-    for (const Index v : *region) near.push_back(points[v]);
+    for (const Index v : scenes_->around(*region)) near.push_back(points[v]);
     return near;
   }
 

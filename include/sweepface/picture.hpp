@@ -277,6 +277,9 @@ class FaceScenes {
   std::vector<Vec3> points(std::span<const double> weights) const;
   /// Which of these move most under the targets whose names contain `name`, in whatever case.
   Result<std::vector<Index>> region(std::string_view name) const;
+  /// The corners of all quads of level 1 that have one of these vertices, in ascending order: what
+  /// the surface moves where they do.
+  std::vector<Index> around(std::span<const Index> vertices) const;
 
  private:
   /// Colours for all vertices from values at those of level 1.

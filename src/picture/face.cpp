@@ -273,6 +273,18 @@ Result<std::vector<Index>> FaceScenes::region(std::string_view name) const {
   return fail(fmt::format("No target whose name contains '{}' moves anything.", name));
 }
 
+std::vector<Index> FaceScenes::around(std::span<const Index> vertices) const {
+  std::vector<bool> given(source_.vertexCount()), near(source_.vertexCount());
+  for (const Index v : vertices) given[v] = true;
+  for (const auto& quad : source_.faces())
+    if (std::ranges::any_of(quad, [&](Index v) { return given[v]; }))
+      for (const Index v : quad) near[v] = true;
+  std::vector<Index> corners;
+  for (Index v = 0; v < source_.vertexCount(); ++v)
+    if (near[v]) corners.push_back(v);
+  return corners;
+}
+
 std::vector<Key> FaceScenes::legend(Style style) const {
   if (style == Style::wireframe) return wireLegend();
   if (style == Style::joins) return joinLegend(rig_.surface);

@@ -62,6 +62,21 @@ TEST_F(Render, GoesClose) {
   EXPECT_NE(r.err.find("beard"), std::string::npos) << r.err;
 }
 
+TEST_F(Render, GoesCloseToASingleVertex) {
+  const auto flat = [](Vec3 p) { return Vec3{p.x, p.y, 0}; };
+  folder.file("neutral.obj", sheet(flat));
+  folder.file("dent.obj", sheet([&](Vec3 p) {
+                return flat(p) + Vec3{0, 0, p.x == 3 && p.y == 2.2 ? 0.5 : 0};
+              }));
+  ASSERT_EQ(run("convert neutral.obj dent.obj -o face.sweep --tolerance 0.01").code, 0);
+  const auto rendered = [&](const std::string& style) {
+    EXPECT_EQ(run("render face.sweep -o out.png --size 100x100 --close dent --style " + style).code,
+              0);
+    return contents(folder / "out.png");
+  };
+  EXPECT_NE(rendered("shaded"), rendered("normals")) << "something can be seen";
+}
+
 TEST_F(Render, PutsViewsBesideEachOther) {
   convertRig();
   ASSERT_EQ(run("render face.sweep -o out.png --views front,side,-30,10").code, 0);

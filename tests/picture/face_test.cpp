@@ -94,6 +94,30 @@ TEST(FaceScenes, FindWhatATargetMoves) {
   EXPECT_TRUE(failsWith(scenes.region("ear"), {"'ear'"}));
 }
 
+TEST(FaceScenes, KnowWhatIsAroundAVertex) {
+  MeshRig source{plane(12, 10), {}};
+  std::vector<Vec3> spike = source.neutral.positions;
+  const Vec3 place = spike[13 * 4 + 6];
+  spike[13 * 4 + 6].z += 1;
+  source.targets = {{"spike", spike}};
+  const Rig rig = converted(source);
+  const FaceScenes scenes(rig, 2);
+  const auto region = scenes.region("spike");
+  ASSERT_TRUE(region.has_value());
+  ASSERT_EQ(region->size(), 1u);
+  const std::vector<Index> around = scenes.around(*region);
+  EXPECT_EQ(around.size(), 9u);
+  const auto points = scenes.points(Weights{0});
+  std::vector<Vec3> shown;
+  for (const Index v : around) shown.push_back(points[v]);
+  // With them it can be looked at: the eye is outside, and the vertex near the middle.
+  const PictureSize size{200, 200};
+  const Vec3 seen = frameCamera(shown, {}, size).project(place, size);
+  EXPECT_GT(seen.z, 1);
+  EXPECT_NEAR(seen.x, 100, 30);
+  EXPECT_NEAR(seen.y, 100, 30);
+}
+
 TEST(FaceScenes, GetFinerWithThePicture) {
   const Hill hill;
   const Index small = lodFor(hill.rig.surface, Style::shaded, {100, 100});
