@@ -26,8 +26,7 @@ struct AnimateArguments {
   RegionArguments regions;
   FollowingArguments following;
   HeadArguments head;
-  double framesPerSecond = 0;
-  double keyTolerance = 0.002;
+  double framesPerSecond = 0, keyTolerance = 0;  // 0: not given
   int frames = 0, lod = 0;
   bool quiet = false;
   GlbArguments glb;
@@ -60,9 +59,8 @@ void addOptions(CLI::App& app, AnimateArguments& a) {
                  "programs that ignore tangents; the default with --frames or --fps)")
       ->type_name("KIND");
   app.add_option("--key-tolerance", a.keyTolerance,
-                 "How far few keys may take a weight from what is played")
+                 "How far few keys may take a weight from what is played; 0.002 if not given")
       ->check(positiveNumber(1))
-      ->capture_default_str()
       ->type_name("W");
   addHead(app, a.head);
   addLod(app, a.lod, "Write finer meshes: every edge of the source cut into N, 1 to 64");
@@ -182,7 +180,7 @@ Result<void> animateGlb(const AnimateArguments& a, const Rig& rig, const Perform
     if (!times) return std::unexpected(times.error());
     clip = sample(performance, rig, *times);
     options.clip = &clip;
-    if (keys == "few") options.keyTolerance = a.keyTolerance;
+    if (keys == "few") options.keyTolerance = a.keyTolerance > 0 ? a.keyTolerance : 0.002;
   }
   const auto head = headTrack(a.head, rig, performance, clip.times);
   if (!head) return std::unexpected(head.error());
@@ -223,16 +221,20 @@ Result<void> animateCsv(const AnimateArguments& a, const Rig& rig, const Perform
 Result<void> checkArguments(const AnimateArguments& a, bool glb) {
   if (!a.what.to && a.what.clip.empty())
     return fail("Say where to go with --to, or what to play with --clip.");
-  if (!glb && (a.glb.any() || !a.keys.empty()))
+  if (!glb && (a.glb.any() || !a.keys.empty() || a.keyTolerance > 0))
     return fail(
-        "--keys, --morph-normals and --quantize are for .glb files; name the output so or leave "
-        "them out.");
+        "--keys, --key-tolerance, --morph-normals and --quantize are for .glb files; name the "
+        "output so or leave them out.");
   if (!a.keys.empty() && a.keys != "exact" && a.keys != "few" && a.keys != "sampled")
     return fail(fmt::format("--keys is exact, few or sampled, not '{}'.", a.keys));
-  if (isOfKind(a.output, ".csv") && (!a.regions.file.empty() || a.following.any() || a.lod > 0))
+  const bool turns = a.head.turns == "on";
+  if (!a.head.pivot.empty() && !turns)
+    return fail("The model turns about --pivot with --head on only; leave --pivot out.");
+  if (isOfKind(a.output, ".csv") &&
+      (!a.regions.file.empty() || a.following.any() || turns || a.lod > 0))
     return fail(
-        "A .csv holds the weights as they were set; leave --regions, --arcs, --eyes, --combine and "
-        "--lod out.");
+        "A .csv holds weights and angles as they were set; leave --regions, --arcs, --eyes, "
+        "--combine, --head and --lod out.");
   return {};
 }
 
@@ -243,6 +245,11 @@ Result<void> checkKeys(const AnimateArguments& a, const Performance& performance
   if (a.namesFrames() && (a.keys == "exact" || a.keys == "few"))
     return fail(
         fmt::format("Keys that are {} have no frames; leave --frames and --fps out.", a.keys));
+  const std::string keys = keysOf(a, performance);
+  if (a.keyTolerance > 0 && keys != "few")
+    return fail(fmt::format(
+        "Keys that are {} have no tolerance; leave --key-tolerance out, or give --keys few.",
+        keys));
   return {};
 }
 

@@ -100,6 +100,10 @@ Result<int> runExport(const ExportArguments& a) {
   if (glb && budgetOf(a).value > 0)
     return fail(
         "A budget of vertices, error or edge length is for .obj files; name the output so.");
+  if (glb && a.weights.empty() && (a.following.combine || !a.following.limits.empty()))
+    return fail(
+        "A .glb holds all targets, and --combine and --limits change the expression of --weights "
+        "alone; name one, or leave them out.");
   Result<Rig> rig = readFace(a.face);
   if (!rig) return std::unexpected(rig.error());
   if (a.sourceOrder && !rig->source.ownOrder)

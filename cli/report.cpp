@@ -34,12 +34,15 @@ void addOptions(CLI::App& app, ReportArguments& a) {
           ->check(positiveNumber())
           ->needs(meshes)
           ->type_name("T,...");
-  app.add_flag("--no-tolerances", a.noTolerances, "Do not convert again: much quicker")
-      ->excludes(tolerances);
+  CLI::Option* none =
+      app.add_flag("--no-tolerances", a.noTolerances, "Do not convert again: much quicker")
+          ->excludes(tolerances)
+          ->needs(meshes);
   app.add_option("--gltfpack", a.gltfpack,
                  "The program that packs GLBs for the plot of error against bytes; the one on the "
                  "PATH if not given")
       ->needs(meshes)
+      ->excludes(none)
       ->type_name("PATH");
   app.add_option("--box", a.regions,
                  "Draw a box round what the targets move whose names contain NAME; mouth and eye "

@@ -12,7 +12,7 @@ namespace {
 
 struct WireframeArguments {
   std::string face, output, weights;
-  int lod = 8;
+  int lod = 0;  // 0: not given
   bool quiet = false;
 };
 
@@ -22,8 +22,7 @@ void addOptions(CLI::App& app, WireframeArguments& a) {
             "The file to write: lines (.obj), or the wireframe as a text that `sweepface build` "
             "reads (.json)");
   addWeights(app, a.weights);
-  addLod(app, a.lod, "Points on a curve for every edge of the source, 1 to 64")
-      ->capture_default_str();
+  addLod(app, a.lod, "Points on a curve for every edge of the source, 1 to 64; 8 if not given");
   addQuiet(app, a.quiet);
   app.footer(
       "\nThe file has the groups nodes, boundary_curves and control_curves: beside every "
@@ -55,8 +54,10 @@ std::string objLines(const CurveNetwork& net) {
 
 /// All of a face as a text: the neutral, its expressions, names and shape parameters.
 Result<int> writeDrawing(const WireframeArguments& a, const Rig& rig) {
-  if (!a.weights.empty())
-    return fail("A .json file holds the neutral and all expressions; --weights is for .obj.");
+  if (!a.weights.empty() || a.lod > 0)
+    return fail(
+        "A .json file holds the curves of the neutral and all expressions as they are; --weights "
+        "and --lod are for .obj.");
   const Drawing drawing = draw(rig);
   if (auto written = writeFile(a.output, formatDrawing(drawing)); !written)
     return std::unexpected(written.error());
@@ -75,7 +76,7 @@ Result<int> runWireframe(const WireframeArguments& a) {
   if (auto ok = checkOutput(a.output, {a.face}, {".obj", ".json"}); !ok)
     return std::unexpected(ok.error());
   if (isOfKind(a.output, ".json")) return writeDrawing(a, *rig);
-  const CurveNetwork net = curveNetwork(rig->surface, blend(*rig, *weights), a.lod);
+  const CurveNetwork net = curveNetwork(rig->surface, blend(*rig, *weights), a.lod > 0 ? a.lod : 8);
   if (auto written = writeFile(a.output, objLines(net)); !written)
     return std::unexpected(written.error());
   if (!a.quiet)

@@ -88,8 +88,24 @@ TEST_F(Animate, RefusesWhatWouldChangeNothing) {
   EXPECT_TRUE(fails(command + "--law spring --restitution 0.5", "--restitution: Only bounce", 2));
   EXPECT_TRUE(fails(command + "--clip-fps 30", "--clip-fps: Only a .csv has timecodes", 2));
   EXPECT_EQ(run("animate face.sweep --to smile=1 --clip-fps 30 -o take.csv").code, 0);
+  EXPECT_TRUE(fails(command + "--pivot 1,2,3 --head off", "leave --pivot out"));
   EXPECT_EQ(run("plot face.sweep --to smile=1 --laws newton,spring --damping 0.5 -o a.svg").code,
             0);
+}
+
+// Neither meshes nor recordings nor keys that hold the law or the frames have a tolerance.
+TEST_F(Animate, HasAToleranceForFewKeysOnly) {
+  convertRig();
+  const std::string command = "animate face.sweep --to smile=1 --key-tolerance 0.01 -o ";
+  for (const std::string output : {"frames", "take.csv"})
+    EXPECT_TRUE(fails(command + output, "are for .glb files")) << output;
+  for (const std::string keys : {"", " --keys exact"})
+    EXPECT_TRUE(fails(command + "a.glb" + keys, "that are exact have no tolerance")) << keys;
+  for (const std::string keys : {" --keys sampled", " --frames 5"})
+    EXPECT_TRUE(fails(command + "a.glb" + keys, "that are sampled have no tolerance")) << keys;
+  EXPECT_FALSE(std::filesystem::exists(folder / "a.glb"));
+  for (const std::string keys : {" --keys few", " --law spring"})
+    EXPECT_EQ(run(command + "a.glb" + keys).code, 0) << keys;
 }
 
 TEST_F(Animate, RefusesWhatCannotBe) {

@@ -288,6 +288,11 @@ TEST_F(Wires, FollowsTheWeights) {
   EXPECT_NE(contents(folder / "a.obj"), contents(folder / "b.obj"));
   EXPECT_TRUE(fails("wireframe face.sweep -o b.obj --weights frown=1", "frown"));
   EXPECT_TRUE(fails("wireframe face.sweep -o b.obj --lod 0", "--lod", 2));
+  EXPECT_TRUE(fails("wireframe face.sweep -o b.json --weights smile=1", "are for .obj"));
+  EXPECT_TRUE(fails("wireframe face.sweep -o b.json --lod 4", "are for .obj"));
+  ASSERT_EQ(run("wireframe face.sweep -o b.obj --weights smile=1 --lod 8").code, 0);
+  ASSERT_EQ(run("wireframe face.sweep -o c.obj --weights smile=1").code, 0);
+  EXPECT_EQ(contents(folder / "b.obj"), contents(folder / "c.obj")) << "8 if not given";
 }
 
 }  // namespace

@@ -93,10 +93,20 @@ TEST_F(HeadAndEyes, SayWhatIsMissing) {
     EXPECT_TRUE(fails("animate face.sweep --clip take.csv --head on -o a.glb --pivot " + pivot,
                       "--pivot is a point like"));
   EXPECT_TRUE(fails("animate face.sweep --clip take.csv --pivot 1,2,3 -o a.glb", "--head", 2));
+  EXPECT_TRUE(fails("animate face.sweep --clip take.csv --head on -o a.csv", "leave --regions"));
   EXPECT_TRUE(fails("animate face.sweep --clip take.csv --head yes -o a.glb",
                     "--head: This must be on or off, not 'yes'.", 2));
   EXPECT_TRUE(fails("animate face.sweep --clip take.csv --eyes on -o a.glb", "no two eyeballs"));
   EXPECT_TRUE(fails("export face.sweep --limits 2 -o a.obj", "--limits: limits are like"));
+}
+
+TEST_F(HeadAndEyes, GlbsAreLimitedWhereTheyShowAnExpression) {
+  convertRig();
+  for (const std::string option : {"--limits 0:1", "--combine"}) {
+    EXPECT_TRUE(fails("export face.sweep -o a.glb " + option, "the expression of --weights"));
+    EXPECT_EQ(run("export face.sweep -o b.glb --weights smile=2 " + option).code, 0) << option;
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder / "a.glb"));
 }
 
 TEST_F(HeadAndEyes, LimitsStopWeights) {

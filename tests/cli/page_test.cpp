@@ -62,6 +62,9 @@ TEST_F(Page, SaysWhatIsWrong) {
       fails("report face.sweep neutral.obj -o report.html --tolerances 0", "--tolerances", 2));
   EXPECT_TRUE(fails("report face.sweep neutral.obj -o report.html --tolerances 1 --no-tolerances",
                     "--tolerances", 2));
+  EXPECT_TRUE(fails("report face.sweep neutral.obj -o report.html --gltfpack g --no-tolerances",
+                    "--gltfpack", 2));
+  EXPECT_TRUE(fails("report face.sweep -o report.html --no-tolerances", "NEUTRAL", 2));
   EXPECT_EQ(contents(folder / "report.html"), "old");
 }
 
