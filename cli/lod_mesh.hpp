@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <fmt/format.h>
+#include <limits>
 #include <map>
 #include <string>
 #include <tuple>
@@ -130,9 +132,18 @@ class LodPolygons {
   Polygons result_;
 };
 
+/// Whether an Index can count the corners of all quads where every edge is cut into `lod`.
+inline Result<void> checkFineness(const Surface& surface, Index lod) {
+  const double quads = static_cast<double>(surface.wireframe().quadCount()) * lod * lod;
+  if (4 * quads <= std::numeric_limits<Index>::max()) return {};
+  return fail(fmt::format("At --lod {} the face would have {:.0f} million quads; give a lower one.",
+                          lod, quads / 1e6));
+}
+
 /// A file may lack what tells where the source's polygons are on the surface.
 inline Result<void> checkLod(const Rig& rig, Index lod) {
-  if (lod == 0 || !rig.source.quadCorners.empty()) return {};
+  if (lod == 0) return {};
+  if (!rig.source.quadCorners.empty()) return checkFineness(rig.surface, lod);
   return fail(
       "The face does not tell of its source's polygons, which --lod cuts; convert it again.");
 }

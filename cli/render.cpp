@@ -10,6 +10,7 @@
 
 #include "command.hpp"
 #include "following.hpp"
+#include "lod_mesh.hpp"
 #include "output.hpp"
 
 namespace sweepface::cli {
@@ -119,6 +120,7 @@ class Renderer {
     if (!page) return std::unexpected(page.error());
     page_ = std::move(*page);
     const Index lod = a_.lod > 0 ? a_.lod : lodFor(rig_.surface, style_, page_->panel());
+    if (auto ok = checkFineness(rig_.surface, lod); !ok) return ok;
     scenes_.emplace(rig_, lod);
     pictures_ = plan.columns * plan.rows;
     return {};

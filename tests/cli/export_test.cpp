@@ -98,6 +98,27 @@ TEST_F(Export, KeepsLooseVertices) {
   EXPECT_EQ(positions.back(), (Vec3{9, 9, 9}));
 }
 
+// Of 160,000 quads, the corners of whose 64² parts are more than 2³¹.
+TEST_F(Export, RefusesMoreQuadsThanCanBeCounted) {
+  folder.file("sheet.wire.json", R"({
+    "format": "sweepface wireframe 1",
+    "nodes": [{"name": "a", "at": [0, 0, 0]}, {"name": "b", "at": [1, 0, 0]},
+              {"name": "c", "at": [1, 1, 0]}, {"name": "d", "at": [0, 1, 0]}],
+    "curves": [{"name": "south", "from": "a", "to": "b", "edges": 400},
+               {"name": "east", "from": "b", "to": "c", "edges": 400},
+               {"name": "north", "from": "d", "to": "c"}, {"name": "west", "from": "a", "to": "d"}],
+    "patches": [{"name": "all", "sides": ["south", "east", "-north", "-west"]}],
+    "expressions": [{"name": "longer", "moves": {"east": [1, 0, 0]}}]
+  })");
+  const Outcome built = run("build sheet.wire.json -o sheet.sweep");
+  ASSERT_EQ(built.code, 0) << built.err;
+  for (const std::string command :
+       {"export sheet.sweep -o out.obj", "animate sheet.sweep --to longer=1 -o out",
+        "render sheet.sweep -o out.png"})
+    EXPECT_TRUE(fails(command + " --lod 64", "655 million quads")) << command;
+  EXPECT_FALSE(std::filesystem::exists(folder / "out"));
+}
+
 /// How often each edge is used, by its ends in their order.
 std::map<std::pair<Index, Index>, int> edgeUses(const Polygons& polygons) {
   std::map<std::pair<Index, Index>, int> uses;
