@@ -18,9 +18,9 @@ namespace sweepface {
 
 Result<std::string> encodePng(const Image& image) {
   if (auto ok = checkSize({image.width, image.height}); !ok) return std::unexpected(ok.error());
+  // Looks further for repetitions than it would by itself. Set once: threads may write together.
+  [[maybe_unused]] static const int level = stbi_write_png_compression_level = 24;
   int size = 0;
-  // Looks further for repetitions than it would by itself.
-  stbi_write_png_compression_level = 24;
   const std::unique_ptr<unsigned char, decltype(&std::free)> bytes(
       stbi_write_png_to_mem(image.rgb.data(), 3 * image.width, image.width, image.height, 3, &size),
       std::free);

@@ -10,6 +10,8 @@
 #include <stb/stb_image.h>
 #pragma GCC diagnostic pop
 
+#include <thread>
+
 #include "io/temporary_folder.hpp"
 #include "picture/font.hpp"
 #include "picture/scenes.hpp"
@@ -126,6 +128,16 @@ TEST(Png, ReadsBackAsTheSamePixels) {
   EXPECT_TRUE(std::equal(image.rgb.begin(), image.rgb.end(), pixels.get()));
   EXPECT_LT(png->size(), image.rgb.size() / 3);
   EXPECT_TRUE(failsWith(encodePng({}), {"cannot be made"}));
+}
+
+TEST(Png, IsWrittenByManyThreadsAtOnce) {
+  const Image image = picture(sphere(), before(), {123, 77});
+  std::array<std::string, 4> pngs;
+  {
+    std::vector<std::jthread> threads;
+    for (std::string& png : pngs) threads.emplace_back([&] { png = encodePng(image).value(); });
+  }
+  for (const std::string& png : pngs) EXPECT_EQ(png, encodePng(image).value());
 }
 
 TEST(Sizes, AreReadAndChecked) {
