@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <fmt/format.h>
 #include <map>
@@ -7,6 +6,7 @@
 #include "sweepface/picture.hpp"
 
 #include "fit/vertex_normals.hpp"
+#include "picture/lowered.hpp"
 #include "picture/materials.hpp"
 #include "picture/styles.hpp"
 #include "rig/source_quads.hpp"
@@ -32,13 +32,6 @@ double scaleEnd(std::vector<double> values) {
 
 /// Original meshes are cut into at least so many triangles, so that light is known all over them.
 constexpr std::size_t kTrianglesLit = 50'000;
-
-std::string lowered(std::string_view text) {
-  std::string lower(text);
-  std::ranges::transform(lower, lower.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return lower;
-}
 
 /// Triangles of a scene with the colours of the faces they are part of; clear ones are left out.
 void addMaterials(Scene& scene, const std::vector<std::optional<Colour>>& colours,

@@ -1,7 +1,6 @@
 #include "picture/materials.hpp"
 
-#include <algorithm>
-#include <cctype>
+#include "picture/lowered.hpp"
 
 namespace sweepface {
 namespace {
@@ -28,9 +27,7 @@ constexpr Look kLooks[] = {
 }  // namespace
 
 std::optional<Colour> materialColour(std::string_view name) {
-  std::string lower(name);
-  std::ranges::transform(lower, lower.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string lower = lowered(name);
   for (const Look& look : kLooks)
     if (lower.find(look.word) != lower.npos) return look.colour;
   return kSkin;

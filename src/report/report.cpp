@@ -30,6 +30,12 @@ Weights strongest(const MeshRig& source, const Rig& rig) {
   return weights;
 }
 
+Result<void> checkExpression(const Rig& rig, const ReportOptions& options) {
+  if (options.expression.empty() || options.expression.size() == rig.targets.size()) return {};
+  return fail(fmt::format("The expression has {} weights, but the face has {} targets.",
+                          options.expression.size(), rig.targets.size()));
+}
+
 }  // namespace
 
 ReportMaker::ReportMaker(const Rig& rig, const MeshRig& source, const ReportOptions& options)
@@ -148,16 +154,12 @@ Result<std::string> ReportMaker::sizes() {
 
 Result<std::string> makeReport(const Rig& rig, const MeshRig& source,
                                const ReportOptions& options) {
-  if (!options.expression.empty() && options.expression.size() != rig.targets.size())
-    return fail(fmt::format("The expression has {} weights, but the face has {} targets.",
-                            options.expression.size(), rig.targets.size()));
+  if (auto ok = checkExpression(rig, options); !ok) return std::unexpected(ok.error());
   return ReportMaker(rig, source, options).make();
 }
 
 Result<std::string> makeMotionReport(const Rig& rig, const ReportOptions& options) {
-  if (!options.expression.empty() && options.expression.size() != rig.targets.size())
-    return fail(fmt::format("The expression has {} weights, but the face has {} targets.",
-                            options.expression.size(), rig.targets.size()));
+  if (auto ok = checkExpression(rig, options); !ok) return std::unexpected(ok.error());
   const Weights rest(rig.targets.size(), 0.0);
   const Weights expression = options.expression.empty() ? strongestOf(rig) : options.expression;
   if (expression == rest)
