@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "rig/taylor.hpp"
+#include "surface/stored_jets.hpp"
 
 namespace sweepface {
 namespace {
@@ -51,7 +52,7 @@ Taylor3 bulgeOf(const Turn& turn, const Taylor3& from, const Taylor3& to) {
 class BulgeMaker {
  public:
   BulgeMaker(const Rig& rig, std::span<const Vec3> from)
-      : surface_(rig.surface), from_(from), small_(1e-3 * rig.tolerance) {}
+      : surface_(rig.surface), jets_(surface_), from_(from), small_(1e-3 * rig.tolerance) {}
 
   std::vector<Vec3> make(const Turn& turn, std::span<const Vec3> to) {
     to_ = to;
@@ -60,11 +61,11 @@ class BulgeMaker {
     for (Index patch = 0; patch < surface_.patchCount(); ++patch)
       for (int corner = 0; corner < 4; ++corner) atCorner(turn, patch, corner);
     atCharts(turn);
+    atFans(turn);
     return std::move(bulge_);
   }
 
  private:
-  static double component(const Vec3& v, int k) { return k == 0 ? v.x : k == 1 ? v.y : v.z; }
   static Vec3 derivative(const Taylor3& t, int i, int j) {
     return {t[0].derivative(i, j), t[1].derivative(i, j), t[2].derivative(i, j)};
   }
@@ -74,27 +75,50 @@ class BulgeMaker {
     if (norm(value) > small_) bulge_[stored] = value;
   }
 
-  /// Nodes whose jet a corner shows, turned by right angles.
-  void atCorner(const Turn& turn, Index patch, int corner) {
-    std::array<JetRef, 9> refs;
-    bool isNew = false;
-    for (int k = 0; k < 9; ++k) {
-      refs[k] = surface_.cornerJet(patch, corner, k / 3, k % 3);
-      isNew |= refs[k].vector < surface_.storedCount() && !done_[refs[k].vector];
-    }
-    const auto kind = surface_.connectivity().kinds[nodeAt(patch, corner)];
-    if (!isNew || kind == NodeKind::irregular) return;
+  /// The bulge of the jet that a corner shows.
+  Taylor3 bulgeAt(const Turn& turn, const std::array<JetRef, 9>& refs) const {
     Taylor3 from, to;
     for (int k = 0; k < 9; ++k)
       for (int axis = 0; axis < 3; ++axis) {
-        from[axis].setDerivative(k / 3, k % 3,
-                                 refs[k].sign * component(from_[refs[k].vector], axis));
-        to[axis].setDerivative(k / 3, k % 3, refs[k].sign * component(to_[refs[k].vector], axis));
+        const auto [vector, sign] = refs[k];
+        from[axis].setDerivative(k / 3, k % 3, sign * coordinate(from_[vector], axis));
+        to[axis].setDerivative(k / 3, k % 3, sign * coordinate(to_[vector], axis));
       }
-    const Taylor3 bulge = bulgeOf(turn, from, to);
+    return bulgeOf(turn, from, to);
+  }
+  std::array<JetRef, 9> jetAt(Index patch, int corner) const {
+    std::array<JetRef, 9> refs;
+    for (int k = 0; k < 9; ++k) refs[k] = surface_.cornerJet(patch, corner, k / 3, k % 3);
+    return refs;
+  }
+
+  /// Nodes whose jet a corner shows, turned by right angles.
+  void atCorner(const Turn& turn, Index patch, int corner) {
+    const auto refs = jetAt(patch, corner);
+    const bool isNew = std::ranges::any_of(refs, [&](const JetRef& ref) {
+      return ref.vector < surface_.storedCount() && !done_[ref.vector];
+    });
+    const auto kind = surface_.connectivity().kinds[nodeAt(patch, corner)];
+    if (!isNew || kind == NodeKind::irregular) return;
+    const Taylor3 bulge = bulgeAt(turn, refs);
     for (int k = 0; k < 9; ++k)
       if (refs[k].vector < surface_.storedCount())
         set(refs[k].vector, refs[k].sign * derivative(bulge, k / 3, k % 3));
+  }
+
+  /// Fans of right angles at creased nodes: the corner of the first sector has their axes.
+  void atFans(const Turn& turn) {
+    const Connectivity& c = surface_.connectivity();
+    for (Index n = 0; n < static_cast<Index>(c.kinds.size()); ++n)
+      for (std::size_t f = 0; c.kinds[n] == NodeKind::creased && f < c.fans[n].size(); ++f) {
+        if (!c.fans[n][f].regular) continue;
+        const auto& sectors = c.stars[n].sectors;
+        const Index corner = sectors[static_cast<std::size_t>(c.fans[n][f].first) % sectors.size()];
+        const Taylor3 bulge = bulgeAt(turn, jetAt(corner / 4, corner % 4));
+        for (int k = 0; k < 9; ++k)
+          if (const Index v = jets_.at(n, k, static_cast<int>(f)); v >= 0)
+            set(v, derivative(bulge, k / 3, k % 3));
+      }
   }
 
   /// Nodes with a second-order jet in a chart: all of it is stored.
@@ -106,8 +130,8 @@ class BulgeMaker {
       Taylor3 from, to;
       eachOf(first, v, [&](Index k, int i, int j) {
         for (int axis = 0; axis < 3; ++axis) {
-          from[axis].setDerivative(i, j, component(from_[k], axis));
-          to[axis].setDerivative(i, j, component(to_[k], axis));
+          from[axis].setDerivative(i, j, coordinate(from_[k], axis));
+          to[axis].setDerivative(i, j, coordinate(to_[k], axis));
         }
       });
       const Taylor3 bulge = bulgeOf(turn, from, to);
@@ -123,6 +147,7 @@ class BulgeMaker {
   }
 
   const Surface& surface_;
+  StoredJets jets_;
   std::span<const Vec3> from_, to_;
   double small_;
   std::vector<Vec3> bulge_;

@@ -4,6 +4,7 @@
 
 #include "codec/rigs.hpp"
 #include "rig/taylor.hpp"
+#include "surface/surfaces.hpp"
 
 namespace sweepface {
 namespace {
@@ -89,9 +90,9 @@ TEST(Bulge, isNoneWhereNothingTurns) {
 
 // ---- Rigs ----
 
-/// A patch whose first target turns it by `degrees` about an axis along z.
-Rig turning(const Vec3& pivot, double degrees) {
-  Rig rig = makeRig(onePatch(3, 2));
+/// A surface whose first target turns it by `degrees` about an axis along z.
+Rig turning(const Vec3& pivot, double degrees, const Wireframe& wireframe = onePatch(3, 2)) {
+  Rig rig = makeRig(wireframe);
   rig.targets.resize(1);
   rig.tolerance = 0;
   rig.source.loose = {{1, 2, 3}};
@@ -120,6 +121,28 @@ TEST(Arcs, turnTheSurfaceHalfWay) {
   for (std::size_t v = 0; v < places.size(); ++v)
     EXPECT_LE(norm(places[v] - turnedAboutZ(before[v], pivot, 15)), 1e-12) << v;
   EXPECT_LE(norm(blendLoose(rig, weights)[0] - turnedAboutZ({1, 2, 3}, pivot, 15)), 1e-12);
+}
+
+TEST(Arcs, turnFoldedSurfacesHalfWayToo) {
+  const Vec3 pivot{-20, -30, 0};
+  const Wireframe straight = wheel(4, {0, 2}), corner = wheel(4, {0, 1});
+  for (const Wireframe& wireframe : {straight, corner}) {
+    Rig rig = turning(pivot, 30, wireframe);
+    ASSERT_EQ(rig.surface.connectivity().kinds[0], NodeKind::creased);
+    const Turn turn{0, pivot, {0, 0, 1}};
+    const Followers followers(addArcs(rig, {&turn, 1}));
+    Weights weights{0.5, 0};
+    followers.apply(weights);
+    const auto half = blend(rig, weights);
+    for (Index v = 0; v < rig.surface.storedCount(); ++v) {
+      const StoredVector s = rig.surface.stored(v);
+      const auto& fans = rig.surface.connectivity().fans[s.node];
+      if (!fans.empty() && !fans[static_cast<std::size_t>(s.fan)].regular) continue;
+      const bool place = s.i == 0 && s.j == 0;
+      EXPECT_LE(norm(half[v] - turnedAboutZ(rig.neutral[v], place ? pivot : Vec3{}, 15)), 1e-12)
+          << v;
+    }
+  }
 }
 
 TEST(Arcs, changeNothingAtTheEnds) {
