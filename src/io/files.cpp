@@ -1,9 +1,15 @@
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdio>
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <memory>
+#include <optional>
+#include <sys/stat.h>
 #include <system_error>
+#include <tuple>
+#include <unistd.h>
 
 #include "sweepface/io.hpp"
 
@@ -37,16 +43,23 @@ int writeAll(File file, std::string_view bytes) {
   return code != 0 ? code : EIO;
 }
 
+/// The n-th name of a file that becomes another one; short because the other's may be as long as
+/// can be.
+fs::path temporaryName(const fs::path& folder, int number) {
+  return folder / fmt::format(".sweepface-{}.tmp", number);
+}
+constexpr int kMostTemporaries = 10'000;
+
 struct Temporary {
   fs::path path;
   File file;
   int code = EEXIST;  ///< why there is no file
 };
 
-/// A new file in the folder; the name is short because the target's may be as long as can be.
+/// A new file in the folder.
 Temporary createTemporary(const fs::path& folder) {
-  for (int number = 0; number < 10'000; ++number) {
-    fs::path path = folder / fmt::format(".sweepface-{}.tmp", number);
+  for (int number = 0; number < kMostTemporaries; ++number) {
+    fs::path path = temporaryName(folder, number);
     File file(std::fopen(path.string().c_str(), "wbx"));
     const int code = file ? 0 : errno;
     if (code != EEXIST) return {std::move(path), std::move(file), code};
@@ -76,8 +89,55 @@ Result<void> writeDirectly(const fs::path& path, std::string_view bytes) {
   return {};
 }
 
+#ifdef O_TMPFILE
+
+int writeAll(int file, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const auto written = ::write(file, bytes.data(), bytes.size());
+    if (written < 0 && errno != EINTR) return errno;
+    bytes.remove_prefix(static_cast<std::size_t>(std::max<decltype(written)>(written, 0)));
+  }
+  return 0;
+}
+
+/// By a file that has no name until it is whole: nothing is left of it, whatever ends the program
+/// before. Answers 0, the errno of what went wrong, or nothing where there are no such files.
+std::optional<int> replaceByNameless(const fs::path& path, const fs::path& folder,
+                                     std::string_view bytes) {
+  const int file = ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
+  if (file < 0) return std::nullopt;
+  struct stat old{};
+  if (::stat(path.c_str(), &old) == 0) std::ignore = ::fchmod(file, old.st_mode & 07777);
+  const std::string self = fmt::format("/proc/self/fd/{}", file);
+  std::optional<int> code = writeAll(file, bytes);
+  fs::path name;
+  for (int number = 0; code == 0 && number < kMostTemporaries; ++number) {
+    name = temporaryName(folder, number);
+    if (::linkat(AT_FDCWD, self.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0) break;
+    if (errno != EEXIST) code = std::nullopt;
+    name.clear();
+  }
+  if (::close(file) != 0 && code == 0) code = errno;
+  if (name.empty()) return code == 0 ? EEXIST : code;
+  if (code == 0 && ::rename(name.c_str(), path.c_str()) != 0) code = errno;
+  if (code != 0) ::unlink(name.c_str());
+  return code;
+}
+
+#else
+
+std::optional<int> replaceByNameless(const fs::path&, const fs::path&, std::string_view) {
+  return std::nullopt;
+}
+
+#endif
+
 Result<void> replaceFile(const fs::path& path, std::string_view bytes) {
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  if (const auto code = replaceByNameless(path, folder, bytes)) {
+    if (*code == 0) return {};
+    return cannotWrite(path, *code);
+  }
   Temporary temporary = createTemporary(folder);
   if (!temporary.file) return cannotCreate(path, folder, temporary.code);
   std::error_code error, ignored;

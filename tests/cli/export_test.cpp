@@ -14,6 +14,21 @@ using namespace testing;
 using Export = Tool;
 using Wires = Tool;
 
+TEST_F(Export, LeavesNothingBehindWhereItIsKilled) {
+  convertRig();
+  const int probe = open(std::filesystem::path(folder / ".").c_str(), O_TMPFILE | O_WRONLY, 0600);
+  if (probe < 0) GTEST_SKIP() << "no files without a name in this file system";
+  close(probe);
+  // The system ends who writes a file beyond a limit.
+  const std::string command = fmt::format(
+      "cd '{}' && ulimit -f 8 && '{}' export face.sweep -o big.obj --lod 16 2>/dev/null",
+      (folder / ".").string(), SWEEPFACE_TOOL);
+  EXPECT_NE(std::system(command.c_str()), 0);
+  for (const auto& entry : std::filesystem::directory_iterator(folder / "."))
+    EXPECT_FALSE(entry.path().filename().string().starts_with(".sweepface")) << entry.path();
+  EXPECT_FALSE(std::filesystem::exists(folder / "big.obj"));
+}
+
 TEST_F(Export, WritesTheSourcesOwnPolygons) {
   convertRig();
   ASSERT_EQ(run("export face.sweep -o out.obj").code, 0);
