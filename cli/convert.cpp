@@ -231,7 +231,8 @@ Result<int> convertAndWrite(const ConvertArguments& a) {
   if (!parts) return std::unexpected(parts.error());
   // The scene comes with a frame and its length.
   constexpr std::size_t kMostAround = 32, kMostTurn = 29;
-  const bool hasScene = !a.bare && !parts->scene && !source->scene.empty();
+  const bool bringsScene = !a.bare && !parts->scene && !source->scene.empty();
+  const bool hasScene = bringsScene && !parts->order;
   const std::size_t scene = hasScene ? source->scene.size() + kMostAround : 0;
   const std::size_t arcs = a.arcs ? kMostAround + kMostTurn * source->rig.targets.size() : 0;
   if (a.maxBytes > 0 && scene >= a.maxBytes)
@@ -263,6 +264,9 @@ Result<int> convertAndWrite(const ConvertArguments& a) {
 
   std::vector<std::string>& warnings = conversion->warnings;
   if (!a.bare) warnings.insert(warnings.begin(), source->warnings.begin(), source->warnings.end());
+  if (bringsScene && parts->order)
+    warnings.push_back("What " + a.neutral +
+                       " holds besides the face is left out with the order, which it counts on.");
   if (isGltf(a.neutral) && source->rig.targets.empty())
     warnings.push_back(a.neutral + " has no morph targets, so the face has no expressions.");
   for (const std::string& warning : warnings) printWarning(warning);

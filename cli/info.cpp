@@ -81,8 +81,8 @@ void printText(const nlohmann::ordered_json& r) {
   fmt::print("  tolerance  {:.6g}\n", r["tolerance"].get<double>());
   fmt::print("  targets    {}{}{}\n", names.size(), names.empty() ? "" : ": ",
              fmt::join(names, ", "));
-  fmt::print("  bytes      {}, {} without the source's order and texture coordinates\n",
-             number("bytes"), number("bareBytes"));
+  fmt::print("  bytes      {}, {} without the source's order{} and texture coordinates\n",
+             number("bytes"), number("bareBytes"), r["parts"].contains("scene") ? ", scene" : "");
   for (const auto& [part, bytes] : r["parts"].items())
     fmt::print("    {:<22} {:>10}\n", part, bytes.get<std::size_t>());
 }

@@ -6,7 +6,7 @@ namespace sweepface {
 
 /// What a file can do without.
 struct Strip {
-  bool order = false;   ///< the source's order of vertices and faces
+  bool order = false;   ///< the source's order of vertices and faces, and with it the scene
   bool uv = false;      ///< texture coordinates
   bool groups = false;  ///< groups, materials and their files
   bool scene = false;   ///< what the source's scene held besides the face
@@ -16,12 +16,13 @@ struct Strip {
 Result<Strip> parseStrip(std::string_view text);
 
 /// Leaves parts out. Without the source's order, vertices are those of the tessellation at level 1
-/// in its order (vertices of no face are gone), and faces come as the patches' quads do. Fails
-/// where a face has a corner that is on no patch.
+/// in its order (vertices of no face are gone), faces come as the patches' quads do, and the scene
+/// is gone, since it counts on the source's order. Fails where a face has a corner that is on no
+/// patch.
 Result<void> strip(Rig& rig, const Strip& parts);
 
-/// What the file would take without the source's order and texture coordinates; 0 where they cannot
-/// be left out. Costs a copy of the rig and an encoding.
+/// What the file would take without the source's order, scene and texture coordinates; 0 where they
+/// cannot be left out. Costs a copy of the rig and an encoding.
 std::size_t bareBytes(Rig rig);
 
 }  // namespace sweepface

@@ -89,6 +89,7 @@ Result<void> stripOrder(Rig& rig) {
   source.ownOrder = false;
   source.loose.clear();
   for (Target& target : rig.targets) target.looseDifference.clear();
+  rig.scene.clear();  // its indices, textures and joints count on the order
   return {};
 }
 

@@ -158,6 +158,15 @@ Rig looseRig(const MeshRig& meshes) {
   return rig;
 }
 
+/// Replaces polygons that are not known by those of the surface.
+void takeFacesOfSurface(Rig& rig) {
+  const auto loose = static_cast<Index>(rig.source.loose.size());
+  SourceMesh source = gridSource(rig.surface);
+  source.loose = std::move(rig.source.loose);
+  for (Index k = 0; k < loose; ++k) source.gridVertex.push_back(-1 - k);
+  rig.source = std::move(source);
+}
+
 }  // namespace
 }  // namespace gltf
 
@@ -172,13 +181,12 @@ Result<std::string> formatGlb(const Rig& rig, const GlbOptions& options) {
   if (auto ok = gltf::checkLod(rig.surface, options.lod); !ok) return std::unexpected(ok.error());
   const bool unknownFaces =
       rig.source.polygons.faceCount() == 0 || (options.lod > 0 && !knowsQuads(rig));
-  if (!unknownFaces) return gltf::GlbWriter(rig, options).write();
+  // A scene's vertices are those of the source in their order.
+  const bool unknownOrder = !rig.scene.empty() && !rig.source.ownOrder;
+  if (!unknownFaces && !unknownOrder) return gltf::GlbWriter(rig, options).write();
   Rig whole = rig;
-  whole.source = gridSource(rig.surface);
-  whole.source.loose = rig.source.loose;
-  for (Index k = 0; k < static_cast<Index>(rig.source.loose.size()); ++k)
-    whole.source.gridVertex.push_back(-1 - k);
   whole.scene.clear();
+  if (unknownFaces) gltf::takeFacesOfSurface(whole);
   return gltf::GlbWriter(whole, options).write();
 }
 

@@ -41,6 +41,17 @@ TEST_F(GltfSource, ItsSceneIsKeptUnlessTheFaceIsToBeBare) {
   EXPECT_EQ(whole["bytes"], bare["bytes"].get<std::size_t>() + scene.size() + 2 + 12);
 }
 
+TEST_F(GltfSource, ItsSceneGoesWithItsOrder) {
+  const std::string command = "convert face.glb -o bare.sweep --tolerance 0.1 -q ";
+  const Outcome r = run(command + "--strip order");
+  EXPECT_EQ(r.code, 0);
+  EXPECT_TRUE(r.err.starts_with("sweepface: warning: What face.glb holds besides")) << r.err;
+  EXPECT_FALSE(report("info bare.sweep")["parts"].contains("scene"));
+  EXPECT_EQ(run("export bare.sweep -o out.glb").code, 0);
+  EXPECT_EQ(run(command + "--strip order,scene").err, "");
+  EXPECT_EQ(run(command + "--strip order --bare").err, "");
+}
+
 TEST_F(GltfSource, MayHaveItsBufferBesideIt) {
   folder.file("sub/face.gltf", smallFace().text("face.bin"));
   EXPECT_TRUE(fails("convert sub/face.gltf -o face.sweep", "sub/face.gltf: buffer 0: the file "));

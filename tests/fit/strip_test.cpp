@@ -74,6 +74,15 @@ TEST(Strip, LeavesOutWhatItIsAskedTo) {
   EXPECT_EQ(bare.source.gridVertex, rig.source.gridVertex);
 }
 
+TEST(Strip, TheSceneGoesWithTheOrderThatItCountsOn) {
+  Rig rig = convert(withTargets(plane())).value().rig;
+  rig.scene = "scene";
+  ASSERT_TRUE(strip(rig, {.uv = true, .groups = true}));
+  EXPECT_EQ(rig.scene, "scene");
+  ASSERT_TRUE(strip(rig, {.order = true}));
+  EXPECT_TRUE(rig.scene.empty());
+}
+
 TEST(Strip, KeepsMaterialsAndTextureCoordinatesWithTheirFaces) {
   Rig rig = convert(withTargets(plane())).value().rig;
   Polygons& faces = rig.source.polygons;

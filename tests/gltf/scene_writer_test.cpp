@@ -2,6 +2,8 @@
 #include <functional>
 #include <set>
 
+#include "sweepface/strip.hpp"
+
 #include "gltf/written.hpp"
 
 namespace sweepface {
@@ -212,6 +214,21 @@ TEST(SceneWriter, LeavesSkinnedMeshesWhereTheirNodesAreNot) {
   source.json["nodes"][0]["translation"] = {100, 0, 0};
   const Rig rig = converted(source);
   expectSingle(write(rig).vectors(write(rig).attribute("POSITION")), surfacePositions(rig));
+}
+
+/// Files may hold a scene beside an order that was left out; its vertices are others.
+TEST(SceneWriter, LeavesOutASceneWhoseOrderIsNotKnown) {
+  Rig rig = converted(richFace());
+  const std::string scene = rig.scene;
+  ASSERT_TRUE(strip(rig, {.order = true}));
+  rig.scene = scene;
+  for (const Index lod : {0, 2}) {
+    const Written glb = write(rig, {.lod = lod});
+    EXPECT_EQ(glb.json["nodes"], Json::array({{{"name", "face"}, {"mesh", 0}}}));
+    EXPECT_FALSE(glb.json.contains("skins"));
+    expectOutwards(glb);
+    if (lod == 0) expectSingle(glb.vectors(glb.attribute("POSITION")), surfacePositions(rig));
+  }
 }
 
 // ---- Several meshes ----
