@@ -197,8 +197,13 @@ class Gatherer {
   void chooseViews() {
     std::size_t partly = 0, all = 0;
     for (const std::string& buffer : document_.buffers) all += buffer.size();
+    const bool mayBeNamed = mustKeepNumbers();
     for (std::size_t v = 0; v < views_.size(); ++v) {
-      if (references_[v] == 0) continue;
+      if (references_[v] == 0) {
+        // By something unknown, in its own words.
+        if (mayBeNamed && !touched_[v]) views_[v].fate = Fate::whole;
+        continue;
+      }
       // Not where something unknown refers to it as well.
       const bool shrinks = touched_[v] && references_[v] == uses_[v].size() &&
                            PartlyUsed::canShrink(document_.views[v].stride);
@@ -257,7 +262,7 @@ class Gatherer {
       holder["byteOffset"] = offset;
   }
 
-  /// Whether something unknown may count views.
+  /// Whether something unknown may count views, and refer to them.
   bool mustKeepNumbers() const {
     const Json* const used = find(document_.json, "extensionsUsed");
     return used && std::ranges::any_of(*used, [](const Json& name) {

@@ -83,6 +83,7 @@ std::size_t Builder::add(const Column& column, Use use) {
 
 void Builder::set(std::size_t index, const Column& column, Use use) {
   Json& accessor = document_.json["accessors"][index];
+  leaveViews(accessor);
   for (const char* key : {"bufferView", "byteOffset", "normalized", "min", "max", "sparse"})
     accessor.erase(key);
   accessor["componentType"] = static_cast<int>(column.type);
@@ -102,6 +103,23 @@ void Builder::set(std::size_t index, const Column& column, Use use) {
     setSparse(accessor, column, rows);
   else
     setDense(accessor, column, use);
+}
+
+void Builder::leaveViews(const Json& accessor) {
+  const auto leave = [&](const Json* holder) {
+    const auto view =
+        holder ? findIndex(*holder, "bufferView", document_.views.size()) : std::nullopt;
+    if (view) left_.push_back(*view);
+  };
+  leave(&accessor);
+  if (const Json* const sparse = find(accessor, "sparse"))
+    for (const char* part : {"indices", "values"}) leave(find(*sparse, part));
+}
+
+std::vector<bool> Builder::leftViews() const {
+  std::vector<bool> left(document_.views.size());
+  for (const std::size_t view : left_) left[view] = true;
+  return left;
 }
 
 void Builder::setDense(Json& accessor, const Column& column, Use use) {

@@ -2,6 +2,7 @@
 
 #include <span>
 #include <string>
+#include <vector>
 
 #include "gltf/column.hpp"
 #include "gltf/document.hpp"
@@ -32,12 +33,16 @@ class Builder {
   /// Writes what is left; call it once, last.
   void finish();
 
+  /// [views] those that accessors lay in until they were given other values.
+  std::vector<bool> leftViews() const;
+
   /// All bytes so far.
   std::size_t size() const;
   /// Whether every value that was given could be held.
   bool sound() const { return sound_; }
 
  private:
+  void leaveViews(const Json& accessor);
   std::size_t addView(std::string_view bytes, std::size_t stride, int target);
   void setDense(Json& accessor, const Column& column, Use use);
   void setSparse(Json& accessor, const Column& column, std::span<const double> rows);
@@ -45,6 +50,7 @@ class Builder {
   Document& document_;
   std::string sparseIndices_, sparseValues_;
   std::size_t sparseIndexView_ = 0, sparseValueView_ = 0;  // where the strings are not empty
+  std::vector<std::size_t> left_;                          // views
   bool sound_ = true;
 };
 

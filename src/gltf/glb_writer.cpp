@@ -73,7 +73,7 @@ class GlbWriter {
     builder.finish();
     if (!builder.sound())
       return fail("The face has numbers that are too large for the single precision of glTF.");
-    return finish();
+    return finish(builder.leftViews());
   }
 
  private:
@@ -119,7 +119,8 @@ class GlbWriter {
     return places;
   }
 
-  Result<std::string> finish() {
+  /// `touched` are views that hold what the source's vertices had.
+  Result<std::string> finish(const std::vector<bool>& touched) {
     Document& document = scene_.document;
     document.json["asset"]["generator"] = "sweepface " SWEEPFACE_VERSION;
     Json& buffers = document.json["buffers"];
@@ -127,7 +128,7 @@ class GlbWriter {
     buffers[0].erase("uri");
     buffers[0]["byteLength"] = document.buffers[0].size();
     if (options_.lod > 0)  // what the source's vertices had is needed no longer
-      document.buffers[0] = gatherBinary(document, std::vector<bool>(document.views.size(), false));
+      document.buffers[0] = gatherBinary(document, touched);
     constexpr std::size_t beyond = std::size_t{1} << 32;
     std::string bytes = formatContainer(document.json, document.buffers[0]);
     if (bytes.size() >= beyond)

@@ -238,6 +238,18 @@ TEST(LodWriter, DropsTheBytesOfTheSource) {
   EXPECT_EQ(named.size(), fine.json["bufferViews"].size()) << "every view is of use";
 }
 
+TEST(LodWriter, KeepsTheBytesThatExtensionsMayName) {
+  Glb source = smallFace();
+  const std::size_t secret = source.addView("secret bytes");
+  source.json["extensionsUsed"] = {"EXT_structural_metadata"};
+  source.json["extensions"]["EXT_structural_metadata"] = {{"values", secret}};
+  const std::size_t texcoords = source.attribute("TEXCOORD_0")["bufferView"];
+  const Written fine = write(converted(source), {.lod = 2});
+  const Json& kept = fine.json["bufferViews"].at(secret);
+  EXPECT_EQ(fine.binary.substr(kept.value("byteOffset", 0), kept["byteLength"]), "secret bytes");
+  EXPECT_EQ(fine.json["bufferViews"].at(texcoords)["byteLength"], 1) << "replaced by finer ones";
+}
+
 // ---- Skins ----
 
 /// The small face, every vertex tied to the joint of its own number, and to a common one.

@@ -251,6 +251,17 @@ TEST(Scene, UnknownExtensionsKeepTheNumbersOfTheirViews) {
   EXPECT_EQ(scene.bytesOf(0).size(), 1u);
 }
 
+TEST(Scene, UnknownExtensionsKeepViewsThatTheyNameInWordsOfTheirOwn) {
+  Glb glb = smallFace();
+  const std::size_t secret = glb.addView("secret bytes");
+  glb.json["extensionsUsed"] = {"EXT_structural_metadata"};
+  glb.json["extensions"]["EXT_structural_metadata"] = {{"values", secret}};
+  const gltf::Document scene = sceneOf(glb);
+  ASSERT_EQ(scene.views.size(), glb.json["bufferViews"].size());
+  EXPECT_EQ(scene.bytesOf(secret), "secret bytes");
+  EXPECT_EQ(scene.bytesOf(0).size(), 1u) << "the face's own are gone";
+}
+
 TEST(Scene, KnownExtensionsFollowTheirViews) {
   Glb glb = smallFace();
   const std::size_t secret = glb.addView("secret bytes");
