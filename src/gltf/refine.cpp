@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <map>
+#include <set>
+#include <tuple>
 
 #include "gltf/fine_mesh.hpp"
 #include "gltf/same_vertices.hpp"
@@ -29,13 +31,14 @@ class Refiner {
     for (const Part& part : scene_.parts.parts)
       if (auto ok = mix(part); !ok) return ok;
     for (auto& [place, value] : values_)
-      value.accessor = slots_.put(place.second, value.column, Use::vertices);
+      value.accessor = slots_.put(std::get<1>(place), value.column, Use::vertices);
     for (std::size_t p = 0; p < scene_.parts.parts.size(); ++p) rewrite(p);
     return {};
   }
 
  private:
-  using Place = std::pair<std::size_t, std::size_t>;  // run, accessor
+  /// Run, accessor, and the set of joints and weights that it is part of; 0 for what is in none.
+  using Place = std::tuple<std::size_t, std::size_t, std::size_t>;
   struct Value {
     Column column;
     std::size_t accessor = 0;  // where it is now
@@ -43,7 +46,9 @@ class Refiner {
 
   Result<void> mix(const Part& part) {
     Json& primitive = primitiveOf(scene_.document, scene_.parts, part);
-    if (auto ok = mixSkin(part.run, primitive["attributes"]); !ok) return ok;
+    const auto set = mixSkin(part.run, primitive["attributes"]);
+    if (!set) return std::unexpected(set.error());
+    firstSets_.push_back(*set);
     if (auto ok = mixAll(part.run, primitive["attributes"]); !ok) return ok;
     if (Json* const targets = find(primitive, "targets"))
       for (Json& target : *targets)
@@ -61,7 +66,7 @@ class Refiner {
         attributes.erase(name);
         continue;
       }
-      const auto [value, isNew] = values_.try_emplace(Place{run, accessor->index});
+      const auto [value, isNew] = values_.try_emplace(Place{run, accessor->index, 0});
       if (!isNew) continue;
       auto column = mixed(scene_.document, *accessor, mesh_.runs[run].places);
       if (!column) return std::unexpected(column.error());
@@ -75,29 +80,47 @@ class Refiner {
     return {};
   }
 
-  Result<void> mixSkin(std::size_t run, const Json& attributes) {
+  /// The sets of joints and weights, 0 and up; those that are not in pairs are left out.
+  Result<SkinAttributes> takeSkin(Json& attributes) const {
     SkinAttributes skin;
+    std::set<std::string> paired;
     for (int set = 0;; ++set) {
-      const Json* const joints = find(attributes, fmt::format("JOINTS_{}", set));
-      const Json* const weights = find(attributes, fmt::format("WEIGHTS_{}", set));
-      if (!joints || !weights) break;
-      for (const auto& [number, list] :
-           {std::pair{joints, &skin.joints}, std::pair{weights, &skin.weights}}) {
-        const auto accessor = accessorAt(scene_.document, number->get<std::size_t>());
+      const std::pair names{fmt::format("JOINTS_{}", set), fmt::format("WEIGHTS_{}", set)};
+      if (!find(attributes, names.first) || !find(attributes, names.second)) break;
+      for (const auto& [name, list] :
+           {std::pair{names.first, &skin.joints}, std::pair{names.second, &skin.weights}}) {
+        const auto accessor = accessorAt(scene_.document, attributes[name].get<std::size_t>());
         if (!accessor) return std::unexpected(accessor.error());
         if (accessor->components() != 4)
           return fail("A mesh of the face's scene has joints that are not in fours.");
         list->push_back(*accessor);
+        paired.insert(name);
       }
     }
-    if (skin.joints.empty() || values_.contains({run, skin.joints[0].index})) return {};
-    auto columns = mixedSkin(scene_.document, skin, mesh_.runs[run].places);
+    const Json before = attributes;
+    for (const auto& [name, number] : before.items())
+      if (isSkin(name) && !paired.contains(name)) attributes.erase(name);
+    return skin;
+  }
+
+  /// The number of the first set. Joints that are mixed with other weights become others.
+  Result<std::size_t> mixSkin(std::size_t run, Json& attributes) {
+    const auto skin = takeSkin(attributes);
+    if (!skin) return std::unexpected(skin.error());
+    std::vector<std::size_t> key{run};
+    for (const auto* list : {&skin->joints, &skin->weights})
+      for (const Accessor& accessor : *list) key.push_back(accessor.index);
+    const auto [known, isNew] = skins_.try_emplace(std::move(key), sets_ + 1);
+    const std::size_t first = known->second;
+    if (!isNew || skin->joints.empty()) return first;
+    auto columns = mixedSkin(scene_.document, *skin, mesh_.runs[run].places);
     if (!columns) return std::unexpected(columns.error());
-    for (std::size_t s = 0; s < skin.joints.size(); ++s) {
-      values_[{run, skin.joints[s].index}].column = std::move(columns->joints[s]);
-      values_[{run, skin.weights[s].index}].column = std::move(columns->weights[s]);
+    for (std::size_t s = 0; s < skin->joints.size(); ++s) {
+      values_[{run, skin->joints[s].index, first + s}].column = std::move(columns->joints[s]);
+      values_[{run, skin->weights[s].index, first + s}].column = std::move(columns->weights[s]);
     }
-    return {};
+    sets_ += skin->joints.size();
+    return first;
   }
 
   void rewrite(std::size_t number) {
@@ -107,6 +130,7 @@ class Refiner {
     primitive["indices"] = slots_.put(indices, packIndices(mesh_.triangles[number]), Use::indices);
     primitive.erase("mode");
     point(part.run, primitive["attributes"]);
+    pointSkin(part.run, firstSets_[number], primitive["attributes"]);
     if (Json* const targets = find(primitive, "targets"))
       for (Json& target : *targets) point(part.run, target);
     if (Json* const extensions = find(primitive, "extensions");
@@ -120,15 +144,28 @@ class Refiner {
 
   /// Makes attributes name the accessors that hold their new values.
   void point(std::size_t run, Json& attributes) {
-    for (auto& [name, number] : attributes.items())
-      if (const auto value = values_.find({run, number.get<std::size_t>()}); value != values_.end())
-        number = value->second.accessor;
+    for (auto& [name, number] : attributes.items()) {
+      if (isSkin(name)) continue;
+      const auto value = values_.find({run, number.get<std::size_t>(), 0});
+      if (value != values_.end()) number = value->second.accessor;
+    }
+  }
+  void pointSkin(std::size_t run, std::size_t firstSet, Json& attributes) {
+    for (std::size_t s = 0;; ++s)
+      for (const char* kind : {"JOINTS", "WEIGHTS"}) {
+        Json* const number = find(attributes, fmt::format("{}_{}", kind, s));
+        if (!number) return;
+        *number = values_.at({run, number->get<std::size_t>(), firstSet + s}).accessor;
+      }
   }
 
   BoundScene& scene_;
   const FineMesh& mesh_;
   Slots& slots_;
   std::map<Place, Value> values_;
+  std::map<std::vector<std::size_t>, std::size_t> skins_;  // run, accessors: their first set
+  std::vector<std::size_t> firstSets_;                     // [parts]
+  std::size_t sets_ = 0;
   std::size_t bytes_ = 0;
 };
 

@@ -331,6 +331,79 @@ TEST(LodWriter, KeepsTheJointsOfVerticesAsTheyWere) {
   EXPECT_EQ(after, before);
 }
 
+/// A skinned face of two primitives that share their vertices and the accessor of their joints.
+/// The second one has only the common joint, 9.
+Glb twiceSkinnedFace() {
+  Glb glb = skinnedFace(5126);
+  Json left = glb.primitive(), right = left;
+  const std::vector<std::uint16_t> indices = sheetIndices();
+  left["indices"] = glb.addIndices({indices.begin(), indices.begin() + 12});
+  right["indices"] = glb.addIndices({indices.begin() + 12, indices.end()});
+  std::vector<float> weights;
+  for (int v = 0; v < 9; ++v)
+    for (const float w : {0.f, 1.f, 0.f, 0.f}) weights.push_back(w);
+  right["attributes"]["WEIGHTS_0"] =
+      glb.addAccessor(glb.addView(bytesOf(weights)), 5126, "VEC4", 9);
+  glb.json["meshes"][0]["primitives"] = Json::array({left, right});
+  return glb;
+}
+
+/// All attributes of a primitive have as many elements as it has vertices.
+void expectWhole(const Written& glb, std::size_t primitive) {
+  const Json& count = glb.accessor(glb.attribute("POSITION", 0, primitive))["count"];
+  for (const auto& [name, number] : glb.primitive(0, primitive)["attributes"].items())
+    EXPECT_EQ(glb.accessor(number.get<std::size_t>())["count"], count) << name;
+}
+
+/// The least and the most that a joint moves any vertex of a primitive's triangles.
+std::pair<double, double> shareOf(double joint, const Written& glb, std::size_t primitive) {
+  const auto joints = glb.stored(glb.attribute("JOINTS_0", 0, primitive));
+  const auto weights = glb.stored(glb.attribute("WEIGHTS_0", 0, primitive));
+  std::pair<double, double> range{2, -1};
+  for (const Index v : glb.indices(0, primitive)) {
+    double share = 0;
+    for (std::size_t k = 4 * static_cast<std::size_t>(v), end = k + 4; k < end; ++k)
+      if (joints.at(k) == joint) share += weights.at(k);
+    range = {std::min(range.first, share), std::max(range.second, share)};
+  }
+  return range;
+}
+
+TEST(LodWriter, MixesJointsThatPrimitivesShareWithTheWeightsOfEach) {
+  const Written glb = write(converted(twiceSkinnedFace(), 0.001), {.lod = 3});
+  for (const std::size_t primitive : {0, 1}) expectWhole(glb, primitive);
+  EXPECT_NEAR(shareOf(9, glb, 1).first, 1, 1e-6);
+  EXPECT_LT(shareOf(9, glb, 0).second, 0.9);
+  EXPECT_GT(shareOf(9, glb, 0).first, 0.3);
+}
+
+TEST(LodWriter, MixesASecondSetOfJointsThatOnePrimitiveAloneHas) {
+  Glb source = twiceSkinnedFace();
+  const Json left = source.primitive()["attributes"];
+  Json& right = source.primitive(0, 1)["attributes"];
+  const Json second = right["WEIGHTS_0"];
+  right["WEIGHTS_0"] = left["WEIGHTS_0"];
+  right["JOINTS_1"] = left["JOINTS_0"];
+  right["WEIGHTS_1"] = second;
+  const Written glb = write(converted(source, 0.001), {.lod = 3});
+  for (const std::size_t primitive : {0, 1}) expectWhole(glb, primitive);
+  EXPECT_TRUE(glb.primitive(0, 1)["attributes"].contains("JOINTS_1"));
+  EXPECT_LT(shareOf(9, glb, 0).second, 0.9);
+}
+
+TEST(LodWriter, LeavesOutJointsWithoutWeights) {
+  Glb source = skinnedFace(5126);
+  Json& attributes = source.primitive()["attributes"];
+  const Json joints = attributes["JOINTS_0"], weights = attributes["WEIGHTS_0"];
+  attributes["JOINTS_1"] = joints;
+  attributes["WEIGHTS_2"] = weights;
+  const Written glb = write(converted(source, 0.001), {.lod = 3});
+  expectWhole(glb, 0);
+  EXPECT_TRUE(glb.primitive()["attributes"].contains("JOINTS_0"));
+  EXPECT_FALSE(glb.primitive()["attributes"].contains("JOINTS_1"));
+  EXPECT_FALSE(glb.primitive()["attributes"].contains("WEIGHTS_2"));
+}
+
 // ---- Mixtures ----
 
 TEST(Mix, IsTheSameFromBothEndsOfAnEdge) {
