@@ -252,7 +252,8 @@ class Loader {
   std::map<std::string_view, std::size_t> uris_;
 };
 
-/// Takes an extension that nothing uses any longer out of the lists of those that are.
+/// Takes an extension that nothing uses any longer out of the lists of those that are, and out of
+/// buffers: what stood in for compressed data may come to hold some.
 void forgetExtension(Json& json, std::string_view name) {
   for (const char* key : {"extensionsUsed", "extensionsRequired"}) {
     Json* const list = find(json, key);
@@ -262,6 +263,13 @@ void forgetExtension(Json& json, std::string_view name) {
       if (entry != name) kept.push_back(std::move(entry));
     *list = std::move(kept);
     if (list->empty()) json.erase(key);
+  }
+  Json* const buffers = find(json, "buffers");
+  for (std::size_t b = 0; buffers && b < buffers->size(); ++b) {
+    Json* const extensions = find((*buffers)[b], "extensions");
+    if (!extensions || !extensions->is_object()) continue;
+    extensions->erase(std::string(name));
+    if (extensions->empty()) (*buffers)[b].erase("extensions");
   }
 }
 

@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <meshoptimizer.h>
 
 #include "gltf/accessor.hpp"
@@ -151,6 +152,24 @@ TEST(Meshopt, ASceneIsNotCompressed) {
   ASSERT_EQ(scene->buffers.size(), 1u);
   EXPECT_EQ(scene->buffers[0].size(), 9 * 8 + 24 * 2u);
   EXPECT_NE(scene->buffers[0].find(plain), std::string::npos);
+}
+
+/// Some exporters put the buffer that stands in for compressed data first.
+TEST(Meshopt, ASceneHasNoBufferThatStandsInForOthers) {
+  const Glb glb = compressedFace();
+  Json json = glb.json;
+  for (Json& view : json["bufferViews"]) {
+    view["buffer"] = 1 - view["buffer"].get<int>();
+    if (view.contains("extensions")) view["extensions"]["EXT_meshopt_compression"]["buffer"] = 1;
+  }
+  std::string uri = "data:application/octet-stream,";
+  for (const unsigned char c : glb.binary) uri += fmt::format("%{:02x}", c);
+  const Json standIn = json["buffers"][1];
+  json["buffers"] = Json::array({standIn, {{"byteLength", glb.binary.size()}, {"uri", uri}}});
+  const auto source = parseGltf(json.dump(), "face.gltf", {});
+  ASSERT_TRUE(source) << source.error().message;
+  EXPECT_EQ(source->rig.targets[0].positions, read(smallFace()).rig.targets[0].positions);
+  EXPECT_EQ(source->scene.find("meshopt"), std::string::npos);
 }
 
 TEST(Meshopt, WhatTheExtensionSaysMustMakeSense) {
