@@ -1,7 +1,8 @@
 #include "gltf/more_targets.hpp"
 
+#include <charconv>
 #include <map>
-#include <set>
+#include <string_view>
 
 #include "gltf/builder.hpp"
 
@@ -85,14 +86,45 @@ class TargetAdder {
     return list && list->is_array();
   }
 
+  /// The mesh all of whose weights a channel moves.
+  std::optional<std::size_t> meshMovedBy(const Json& target) const {
+    const Json* const path = find(target, "path");
+    if (!path || (*path != "weights" && *path != "pointer")) return std::nullopt;
+    if (*path == "weights") return meshOfNode(findIndex(target, "node", nodes()));
+    const Json* const extensions = find(target, "extensions");
+    const Json* const extension = extensions ? find(*extensions, "KHR_animation_pointer") : nullptr;
+    const Json* const pointer = extension ? find(*extension, "pointer") : nullptr;
+    if (!pointer || !pointer->is_string()) return std::nullopt;
+    const std::string_view text = pointer->get_ref<const std::string&>();
+    if (const auto node = numberIn(text, "/nodes/", nodes())) return meshOfNode(node);
+    const auto mesh = numberIn(text, "/meshes/", document_.list("meshes").size());
+    return mesh && meshes_.contains(*mesh) ? mesh : std::nullopt;
+  }
+
+  std::size_t nodes() const { return document_.list("nodes").size(); }
+  std::optional<std::size_t> meshOfNode(std::optional<std::size_t> node) const {
+    return node ? meshOf(document_.list("nodes")[*node]) : std::nullopt;
+  }
+
+  /// N of "/nodes/N/weights", if there are more.
+  static std::optional<std::size_t> numberIn(std::string_view pointer, std::string_view start,
+                                             std::size_t count) {
+    constexpr std::string_view end = "/weights";
+    if (!pointer.starts_with(start) || !pointer.ends_with(end)) return std::nullopt;
+    std::size_t number = 0;
+    const char* const digits = pointer.data() + start.size();
+    const auto [after, error] = std::from_chars(digits, pointer.data() + pointer.size(), number);
+    const bool alone = std::string_view(after, pointer.data() + pointer.size()) == end;
+    return error == std::errc() && alone && number < count ? std::optional(number) : std::nullopt;
+  }
+
   Result<void> widenChannel(Json& samplers, Json& channel, Builder& builder) {
     const Json* const target = find(channel, "target");
-    const Json* const path = target ? find(*target, "path") : nullptr;
-    if (!path || *path != "weights") return {};
-    const auto node = findIndex(*target, "node", document_.list("nodes").size());
-    const auto mesh = node ? meshOf(document_.list("nodes")[*node]) : std::nullopt;
+    const auto mesh = target ? meshMovedBy(*target) : std::nullopt;
     const auto sampler = findIndex(channel, "sampler", samplers.size());
     if (!mesh || !sampler || !samplers[*sampler].is_object()) return {};
+    // Weights of no targets mean nothing that could be kept.
+    if (meshes_.at(*mesh) == 0) return {};
     // A sampler of another node's keeps its width.
     Json wide = samplers[*sampler];
     const auto output = findIndex(wide, "output", document_.list("accessors").size());
@@ -101,7 +133,7 @@ class TargetAdder {
     if (!accessor) return std::unexpected(accessor.error());
     const auto values = decode(document_, *accessor);
     if (!values) return std::unexpected(values.error());
-    wide["output"] = builder.add(pack(widened(*values, meshes_[*mesh]), 1), Use::other);
+    wide["output"] = builder.add(pack(widened(*values, meshes_.at(*mesh)), 1), Use::other);
     channel["sampler"] = samplers.size();
     samplers.push_back(std::move(wide));
     return {};
@@ -109,7 +141,7 @@ class TargetAdder {
 
   std::vector<double> widened(const std::vector<double>& values, std::size_t before) const {
     std::vector<double> wide;
-    for (std::size_t k = 0; before > 0 && k + before <= values.size(); k += before) {
+    for (std::size_t k = 0; k + before <= values.size(); k += before) {
       wide.insert(wide.end(), values.begin() + static_cast<std::ptrdiff_t>(k),
                   values.begin() + static_cast<std::ptrdiff_t>(k + before));
       wide.insert(wide.end(), names_.size(), 0.0);

@@ -366,6 +366,51 @@ TEST(SceneWriter, MakesRoomForNewTargets) {
   }
 }
 
+/// One animation with a channel for each target; each moves by two keys of as many values.
+void animate(Glb& glb, const std::vector<Json>& targets, const std::vector<float>& values) {
+  const std::vector<float> times{0, 1};
+  const std::size_t input = glb.addAccessor(glb.addView(bytesOf(times)), 5126, "SCALAR", 2);
+  const std::size_t output =
+      glb.addAccessor(glb.addView(bytesOf(values)), 5126, "SCALAR", values.size());
+  Json channels = Json::array();
+  for (const Json& target : targets) channels.push_back({{"sampler", 0}, {"target", target}});
+  glb.add("animations", {{"samplers", Json::array({{{"input", input}, {"output", output}}})},
+                         {"channels", channels}});
+}
+std::vector<double> animated(const Written& glb, std::size_t channel) {
+  const Json& animation = glb.json["animations"][0];
+  const std::size_t sampler = animation["channels"][channel]["sampler"];
+  return glb.numbers(animation["samplers"][sampler]["output"].get<std::size_t>());
+}
+
+TEST(SceneWriter, MakesRoomForNewTargetsWherePointersMoveTheWeights) {
+  Glb source = smallFace();
+  std::vector<Json> targets;
+  for (const char* pointer : {"/meshes/0/weights", "/nodes/0/weights", "/nodes/0/weights/1"}) {
+    Json target{{"path", "pointer"}};
+    target["extensions"]["KHR_animation_pointer"]["pointer"] = pointer;
+    targets.push_back(target);
+  }
+  animate(source, targets, {0, 0.25f, 0.5f, 0.75f});
+  source.json["extensionsUsed"] = {"KHR_animation_pointer"};
+  const Written glb = write(withFrown(converted(source)));
+  for (const std::size_t channel : {0, 1})
+    EXPECT_EQ(animated(glb, channel), (std::vector<double>{0, 0.25, 0, 0.5, 0.75, 0}));
+  EXPECT_EQ(animated(glb, 2), (std::vector<double>{0, 0.25, 0.5, 0.75})) << "one weight stays one";
+}
+
+TEST(SceneWriter, LeavesWeightsOfNoTargetsAsTheyWere) {
+  Glb source = smallFace();
+  source.primitive().erase("targets");
+  source.json["meshes"][0].erase("extras");
+  animate(source, {Json{{"node", 0}, {"path", "weights"}}}, {0.25f, 0.5f});
+  Rig rig = converted(source);
+  rig.targets.push_back({"frown", rig.neutral, {}});
+  const Written glb = write(rig);
+  EXPECT_EQ(glb.primitive()["targets"].size(), 1u);
+  EXPECT_EQ(animated(glb, 0), (std::vector<double>{0.25, 0.5}));
+}
+
 TEST(SceneWriter, AnswersAnyDamagedScene) {
   Rig rig = converted(smallFace());
   const std::string scene = rig.scene;
