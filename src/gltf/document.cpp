@@ -144,43 +144,44 @@ class Loader {
   }
 
  private:
+  /// What a buffer says of itself: its length, and where in the document's its bytes are.
+  struct Told {
+    std::size_t length = 0, place = 0;
+  };
+
   Result<void> loadBuffer(std::size_t index) {
     Members in(document_.list("buffers")[index], placeOf("buffer", index));
-    const std::size_t length = in.size("byteLength");
+    Told told{in.size("byteLength"), index};
     const std::string_view uri = in.text("uri");
     if (!in.ok()) return in.error();
-    std::string bytes;
+    std::string& bytes = document_.buffers.emplace_back();
     if (in.has("uri")) {
-      auto fetched = fetchOnce(uri, index);
-      if (!fetched) return fail(fmt::format("{}: {}", in.place(), fetched.error().message));
-      bytes = std::move(*fetched);
+      told.place = uris_.emplace(uri, index).first->second;
+      if (told.place == index)
+        if (auto ok = fetchInto(bytes, uri); !ok)
+          return fail(fmt::format("{}: {}", in.place(), ok.error().message));
     } else if (index == 0 && container_.binary) {
-      bytes = *container_.binary;
+      bytes = container_.binary->substr(0, told.length);
     } else {
-      // Nothing may lie in it: it stands in for what is compressed elsewhere.
-      document_.buffers.emplace_back();
-      return {};
+      told.length = 0;  // Nothing may lie in it: it stands in for what is compressed elsewhere.
     }
-    if (bytes.size() < length)
-      in.refuse(fmt::format("it has {} of its {} bytes", bytes.size(), length));
+    const std::size_t size = document_.buffers[told.place].size();
+    if (size < told.length) in.refuse(fmt::format("it has {} of its {} bytes", size, told.length));
     if (!in.ok()) return in.error();
-    document_.sourceBytes += in.has("uri") ? bytes.size() : 0;
-    bytes.resize(length);
-    total_ += length;
+    total_ += bytes.size();
     if (total_ > io::maxFileBytes)
       return fail("its buffers are larger than 2 GiB; export only the face.");
-    document_.buffers.push_back(std::move(bytes));
+    told_.push_back(told);
     return {};
   }
 
-  /// A file is read once, however many buffers name it.
-  Result<std::string> fetchOnce(std::string_view uri, std::size_t index) {
-    if (const auto [known, isNew] = uris_.emplace(uri, index); !isNew)
-      return fail(
-          fmt::format("it is the same file as buffer {}; export the glTF again.", known->second));
+  /// A file is read once, however many buffers name it, and all of it: they may have other lengths.
+  Result<void> fetchInto(std::string& bytes, std::string_view uri) {
     auto fetched = fetch(uri, folder_);
     if (!fetched) return std::unexpected(fetched.error());
-    return std::move(fetched->bytes);
+    bytes = std::move(fetched->bytes);
+    document_.sourceBytes += bytes.size();
+    return {};
   }
 
   Result<void> loadView(std::size_t index) {
@@ -195,12 +196,13 @@ class Loader {
     if (view.stride > 252) in.refuse("its byteStride is larger than 252");
     if (in.ok()) checkRange(in, view.buffer, view.offset, view.length);
     if (!in.ok()) return in.error();
+    view.buffer = told_[view.buffer].place;
     document_.views.push_back(view);
     return {};
   }
 
   void checkRange(Members& in, std::size_t buffer, std::size_t offset, std::size_t length) {
-    const std::size_t size = document_.buffers[buffer].size();
+    const std::size_t size = told_[buffer].length;
     if (length == 0) in.refuse("its byteLength is 0");
     if (offset > size || length > size - offset)
       in.refuse(fmt::format("it reaches beyond the {} bytes of buffer {}", size, buffer));
@@ -217,8 +219,8 @@ class Loader {
     compressed_ += stream.length;
     if (compressed_ > total_) in.refuse("its bytes are those of other compressed views");
     if (!in.ok()) return in.error();
-    const std::string_view bytes =
-        std::string_view(document_.buffers[stream.buffer]).substr(stream.offset, stream.length);
+    const std::string_view bytes = std::string_view(document_.buffers[told_[stream.buffer].place])
+                                       .substr(stream.offset, stream.length);
     std::string elements = decodeMeshopt(in, stream, bytes);
     if (!in.ok()) return in.error();
     Members view(json, in.place());
@@ -228,6 +230,7 @@ class Loader {
     if (!view.ok()) return view.error();
     pointTo(index, elements.size());
     document_.views.push_back({document_.buffers.size(), 0, elements.size(), stride});
+    told_.push_back({elements.size(), document_.buffers.size()});
     document_.buffers.push_back(std::move(elements));
     return {};
   }
@@ -249,7 +252,8 @@ class Loader {
   const Container& container_;
   const fs::path& folder_;
   std::size_t total_ = 0, compressed_ = 0;
-  std::map<std::string_view, std::size_t> uris_;
+  std::map<std::string_view, std::size_t> uris_;  // the first buffer that names it
+  std::vector<Told> told_;                        // [buffers]
 };
 
 /// Takes an extension that nothing uses any longer out of the lists of those that are, and out of

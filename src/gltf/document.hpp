@@ -22,8 +22,10 @@ struct BufferView {
 struct Document {
   Json json;
   std::vector<std::string> buffers;
-  std::vector<BufferView> views;  ///< as json tells; each lies within its buffer
-  std::size_t sourceBytes = 0;    ///< of the file and of those that it names
+  /// As json tells, but in the first of the buffers that name one file; each lies within its
+  /// buffer.
+  std::vector<BufferView> views;
+  std::size_t sourceBytes = 0;  ///< of the file and of those that it names
   std::vector<std::string> warnings;
 
   std::string_view bytesOf(std::size_t view) const {

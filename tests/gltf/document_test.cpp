@@ -297,11 +297,43 @@ TEST_F(Files, ThatAreMissingOrNoFilesAreRefused) {
                         {"'face.bin' is not read here"}));
 }
 
-TEST_F(Files, AreReadOnceEach) {
+/// The small face with its texture coordinates in a second buffer, of the same file.
+Glb faceOfTwoBuffers(std::string_view uri) {
   Glb glb = smallFace();
-  glb.json["buffers"] = {Json::object(), {{"byteLength", 8}, {"uri", "face.bin"}}};
+  glb.json["buffers"] = {Json::object(), {{"byteLength", glb.binary.size()}, {"uri", uri}}};
+  const std::size_t view = glb.attribute("TEXCOORD_0")["bufferView"];
+  glb.json["bufferViews"][view]["buffer"] = 1;
+  return glb;
+}
+
+TEST_F(Files, MayBeSharedByBuffers) {
+  const std::string uri = "face.bin", text = faceOfTwoBuffers(uri).text(uri);
+  const auto source = parseGltf(text, "face.gltf", folder / "home");
+  ASSERT_TRUE(source) << source.error().message;
+  EXPECT_EQ(source->rig.neutral.positions, sheetPositions());
+  EXPECT_EQ(source->rig.neutral.polygons.texcoords,
+            read(smallFace()).rig.neutral.polygons.texcoords);
+  EXPECT_EQ(source->scene, read(smallFace()).scene);
+  const auto document = gltf::parseDocument(text, folder / "home");
+  EXPECT_EQ(document->sourceBytes, text.size() + smallFace().binary.size()) << "read once";
+}
+
+TEST_F(Files, ThatBuffersShareEndWhereEachSays) {
+  Glb glb = faceOfTwoBuffers("face.bin");
+  glb.json["buffers"][1]["byteLength"] = 8;
   EXPECT_TRUE(failsWith(parseGltf(glb.text("face.bin"), "face.gltf", folder / "home"),
-                        {"buffer 1: it is the same file as buffer 0"}));
+                        {"reaches beyond the 8 bytes of buffer 1"}));
+  glb.json["buffers"][1]["byteLength"] = 1 << 20;
+  EXPECT_TRUE(failsWith(parseGltf(glb.text("face.bin"), "face.gltf", folder / "home"),
+                        {"buffer 1: it has ", " of its 1048576 bytes"}));
+}
+
+TEST(Buffers, MayBeTheSameDataUri) {
+  std::string uri = "data:,";
+  for (const unsigned char c : smallFace().binary) uri += fmt::format("%{:02x}", c);
+  const auto source = parseGltf(faceOfTwoBuffers(uri).text(uri), "face.gltf", {});
+  ASSERT_TRUE(source) << source.error().message;
+  EXPECT_EQ(source->scene, read(smallFace()).scene);
 }
 
 }  // namespace
