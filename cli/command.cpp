@@ -186,7 +186,7 @@ Result<void> checkOutput(const fs::path& output, const std::vector<std::string>&
   const bool device = fs::exists(output, ignored) && !fs::is_regular_file(output, ignored);
   if (!device && std::ranges::none_of(kinds, [&](auto kind) { return isOfKind(output, kind); }))
     return cannot(fmt::format("its name must end in {}", fmt::join(kinds, " or ")));
-  const fs::path folder = output.has_parent_path() ? output.parent_path() : fs::path(".");
+  const fs::path folder = folderOf(output);
   if (!device && !fs::is_directory(folder, ignored))
     return cannot(fmt::format("there is no folder {}; create it first", folder.string()));
   if (access((device ? output : folder).c_str(), W_OK) != 0)

@@ -101,8 +101,7 @@ Result<Clip> readClip(const PerformanceArguments& a, const Region& region) {
     return fail(fmt::format(
         "{} has no animations to choose from, as a .glb has; leave --animation out.", a.clip));
   auto clip = isJson ? parseClipJson(*text, a.clip)
-              : gltf ? parseGltfClip(*text, a.clip, std::filesystem::path(a.clip).parent_path(),
-                                     a.animation)
+              : gltf ? parseGltfClip(*text, a.clip, folderOf(a.clip), a.animation)
                      : parseLiveLinkCsv(*text, a.clip, a.clipRate);
   if (!clip) return clip;
   if (a.smooth) smooth(*clip);

@@ -62,6 +62,9 @@ Result<std::string> readFile(const std::filesystem::path& path);
 /// The extension of a path with its dot, in small letters.
 std::string extensionOf(const std::filesystem::path& path);
 
+/// The folder that a file is in, "." where its path names none.
+std::filesystem::path folderOf(const std::filesystem::path& path);
+
 /// Writes beside `path` and renames, so that the file is either whole or as it was.
 Result<void> writeFile(const std::filesystem::path& path, std::string_view bytes);
 

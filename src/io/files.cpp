@@ -133,7 +133,7 @@ std::optional<int> replaceByNameless(const fs::path&, const fs::path&, std::stri
 #endif
 
 Result<void> replaceFile(const fs::path& path, std::string_view bytes) {
-  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  const fs::path folder = folderOf(path);
   if (const auto code = replaceByNameless(path, folder, bytes)) {
     if (*code == 0) return {};
     return cannotWrite(path, *code);
@@ -199,6 +199,10 @@ std::string extensionOf(const fs::path& path) {
   for (char& c : text)
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   return text;
+}
+
+fs::path folderOf(const fs::path& path) {
+  return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
 Result<void> writeFile(const fs::path& path, std::string_view bytes) {

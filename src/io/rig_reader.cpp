@@ -190,8 +190,7 @@ Result<RigSource> readSource(const fs::path& neutral, std::span<const fs::path> 
                             neutral.string(), targets[0].string()));
   const Result<std::string> bytes = readFile(neutral);
   if (!bytes) return std::unexpected(bytes.error());
-  return parseGltf(*bytes, neutral.string(),
-                   neutral.has_parent_path() ? neutral.parent_path() : fs::path("."));
+  return parseGltf(*bytes, neutral.string(), folderOf(neutral));
 }
 
 }  // namespace sweepface

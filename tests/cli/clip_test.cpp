@@ -5,6 +5,7 @@
 #include "sweepface/gltf.hpp"
 
 #include "cli/tool.hpp"
+#include "gltf/written.hpp"
 
 namespace sweepface {
 namespace {
@@ -104,6 +105,18 @@ TEST_F(PlayClip, PlaysAnAnimationOfAGlb) {
   EXPECT_LE(largestDistance(frame(1), exported("jawOpen=0.25,smile=0.125")), 1e-4);
   EXPECT_LE(largestDistance(frame(2), exported("jawOpen=1,smile=0.5")), 1e-6);
   EXPECT_TRUE(fails("animate face.sweep --clip move.glb --animation walk -o frames", "'walk'"));
+}
+
+TEST_F(PlayClip, PlaysAnAnimationOfAGltfOfTheCurrentFolder) {
+  convertRig();
+  ASSERT_EQ(run("animate face.sweep --to smile=1 --law linear -o move.glb").code, 0);
+  Written move(contents(folder / "move.glb"));
+  move.json["buffers"][0]["uri"] = "move.bin";
+  folder.file("move.gltf", move.json.dump());
+  folder.file("move.bin", move.binary);
+  const Outcome r = run("animate face.sweep --clip move.gltf --frames 3 -o frames");
+  ASSERT_EQ(r.code, 0) << r.err;
+  EXPECT_LE(largestDistance(frame(2), exported("smile=1")), 1e-6);
 }
 
 TEST_F(PlayClip, RecordsWhatItPlays) {

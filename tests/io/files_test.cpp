@@ -23,6 +23,12 @@ TEST(Files, AreWrittenAndReadWhole) {
   EXPECT_EQ(folder.fileCount(), 1u) << "no temporary file stays";
 }
 
+TEST(Files, OfBareNamesAreInTheCurrentFolder) {
+  EXPECT_EQ(folderOf("a.txt"), ".");
+  EXPECT_EQ(folderOf("sub/a.txt"), "sub");
+  EXPECT_EQ(folderOf("/a.txt"), "/");
+}
+
 TEST(Files, MayHaveTheLongestOfNames) {
   const TemporaryFolder folder;
   EXPECT_TRUE(writeFile(folder / std::string(255, 'n'), "x").has_value());
