@@ -26,28 +26,31 @@ Result<Conversion> convertToBytes(const MeshRig& source, ConvertOptions options,
                                   std::size_t mostBytes, const Strip& left) {
   options.pack = true;
   std::optional<Conversion> best;
-  Try fits, tooLarge;
+  Try coarse, fine;
   if (!(options.tolerance > 0)) options.tolerance = 0.0005 * diagonal(source.neutral);
   int halvings = 0;
   for (int attempt = 0; attempt < kMostTries && halvings <= kMostHalvings; ++attempt) {
     auto conversion = convert(source, options);
-    if (!conversion && !best) return conversion;
-    Try now{options.tolerance, SIZE_MAX};  // what cannot be met is too fine as well
+    const bool cancelled = options.cancel && options.cancel->load();
+    if (!conversion && (cancelled || attempt == 0)) return conversion;
+    Try now{options.tolerance, SIZE_MAX};
     if (conversion) {
       Rig rig = conversion->rig;
       if (auto stripped = strip(rig, left); !stripped) return std::unexpected(stripped.error());
       now.bytes = encode(rig).size();
     }
     if (conversion && now.bytes <= mostBytes) {
-      fits = now;
+      coarse = now;
       best = std::move(*conversion);
       if (static_cast<double>(now.bytes) > kCloseEnough * static_cast<double>(mostBytes)) break;
+    } else if (conversion || best) {
+      fine = now;  // what cannot be met is too fine as well
     } else {
-      tooLarge = now;
+      coarse = now;  // what cannot be met though a finer one could be is too coarse
     }
-    if (fits.bytes > 0 && tooLarge.bytes > 0) {
+    if (coarse.bytes > 0 && fine.bytes > 0) {
       ++halvings;
-      options.tolerance = std::sqrt(fits.tolerance * tooLarge.tolerance);
+      options.tolerance = std::sqrt(coarse.tolerance * fine.tolerance);
     } else {
       const double ratio = static_cast<double>(now.bytes) / static_cast<double>(mostBytes);
       const double factor = std::pow(ratio, 1.25);

@@ -234,6 +234,31 @@ TEST(Cancel, isHeardBetweenRounds) {
   EXPECT_EQ(refusal(withTargets(torus()), options), "the conversion was interrupted");
 }
 
+TEST(Cancel, endsTheSearchForATolerance) {
+  std::atomic<bool> cancel = false;
+  ConvertOptions options;
+  options.cancel = &cancel;
+  options.progress = [&](std::string_view what, double) { cancel = cancel || what == "done"; };
+  const auto conversion = convertToBytes(withTargets(plane()), options, 1 << 20);
+  ASSERT_FALSE(conversion) << "though its first try did fit";
+  EXPECT_EQ(conversion.error().message, "the conversion was interrupted");
+}
+
+/// Normals that a fine tolerance brings within theirs, and a coarse one does not.
+TEST(Search, forAToleranceDoesNotEndWhereOneCannotBeMet) {
+  ConvertOptions options;
+  options.normalTolerance = 2;
+  for (const std::size_t most : {1, 200}) {
+    const auto conversion = convertToBytes(withTargets(plane()), options, most);
+    if (conversion) {
+      EXPECT_LE(encode(conversion->rig).size(), most);
+    } else {
+      EXPECT_TRUE(conversion.error().message.starts_with("the face does not fit into"))
+          << conversion.error().message;
+    }
+  }
+}
+
 TEST(Refusal, isASentenceOfWhatIsWrong) {
   MeshRig flat = withTargets(plane(2, 2), 0);
   for (Vec3& p : flat.neutral.positions) p = {1, 2, 3};
