@@ -71,16 +71,11 @@ class Meter {
   void atVertices(PoseSamples& s, const Weights& weights, std::span<const Vec3> vectors,
                   std::span<const Vec3> source, std::span<const Vec3> expected) const {
     const auto positions = sourcePositions(rig_, grid_, vectors, weights);
-    const auto normals = grid_.normals(vectors);
-    std::vector<char> seen(grid_.vertexCount(), 0);
     for (std::size_t v = 0; v < positions.size(); ++v) {
       s.offsets.push_back(positions[v] - source[v]);
       s.distances.push_back(norm(s.offsets[v]));
-      const Index g = rig_.source.gridVertex[v];
-      if (g < 0 || seen[g] || norm(expected[g]) == 0) continue;
-      seen[g] = 1;
-      s.angles.push_back(angleDegrees(normals[g], expected[g]));
     }
+    s.angles = normalAngles(expected, grid_.normals(vectors));
   }
 
   void betweenVertices(PoseSamples& s, std::span<const Vec3> vectors, const Facets& facets) const {

@@ -19,4 +19,11 @@ std::vector<Vec3> vertexNormals(const Polygons& polygons, std::span<const Vec3> 
   return normals;
 }
 
+std::vector<double> normalAngles(std::span<const Vec3> source, std::span<const Vec3> surface) {
+  std::vector<double> angles;
+  for (std::size_t v = 0; v < source.size(); ++v)
+    if (norm(source[v]) != 0) angles.push_back(angleDegrees(surface[v], source[v]));
+  return angles;
+}
+
 }  // namespace sweepface

@@ -14,4 +14,8 @@ namespace sweepface {
 std::vector<Vec3> vertexNormals(const Polygons& polygons, std::span<const Vec3> positions,
                                 const std::vector<Index>& pointOf, Index pointCount);
 
+/// The angles between such normals and those of a surface at the same points, in degrees, wherever
+/// the source has a normal.
+std::vector<double> normalAngles(std::span<const Vec3> source, std::span<const Vec3> surface);
+
 }  // namespace sweepface
