@@ -37,18 +37,9 @@ double distanceToTriangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec
 
 FaceMap::FaceMap(const Rig& rig) : faceOfQuad(faceOfQuads(rig)) {
   const Polygons& p = rig.source.polygons;
-  std::vector<std::vector<Index>> facesAt(rig.source.gridVertex.size());
+  facesAt.resize(rig.source.gridVertex.size());
   for (Index f = 0; f < p.faceCount(); ++f)
     for (Index c = p.faceStart[f]; c < p.faceStart[f + 1]; ++c) facesAt[p.corners[c]].push_back(f);
-  around.resize(p.faceCount());
-  for (Index f = 0; f < p.faceCount(); ++f) {
-    std::vector<Index>& list = around[f];
-    for (Index c = p.faceStart[f]; c < p.faceStart[f + 1]; ++c)
-      list.insert(list.end(), facesAt[p.corners[c]].begin(), facesAt[p.corners[c]].end());
-    std::sort(list.begin(), list.end());
-    list.erase(std::unique(list.begin(), list.end()), list.end());
-    std::iter_swap(list.begin(), std::find(list.begin(), list.end(), f));
-  }
   findRims(rig.source);
 }
 
@@ -74,10 +65,21 @@ void FaceMap::findRims(const SourceMesh& source) {
       rims[{corners.first, corners.second}] = {before[ends.first], after[ends.second]};
 }
 
+// Faces across an edge are at both of its ends; the first one is enough.
 double Facets::distance(const Vec3& p, Index face) const {
-  double best = 1e300;
-  for (Index f : map_.around[face]) best = std::min(best, distanceToFace(p, f));
+  const Index* const corners = &polygons_.corners[polygons_.faceStart[face]];
+  double best = distanceToFace(p, face);
+  for (Index k = 0; k < polygons_.faceSize(face); ++k)
+    for (const Index f : map_.facesAt[corners[k]])
+      if (f != face && (k == 0 || !hasCorner(f, corners[k - 1])))
+        best = std::min(best, distanceToFace(p, f));
   return best;
+}
+
+bool Facets::hasCorner(Index face, Index vertex) const {
+  const auto corners =
+      std::span(polygons_.corners).subspan(polygons_.faceStart[face], polygons_.faceSize(face));
+  return std::ranges::find(corners, vertex) != corners.end();
 }
 
 Vec3 Facets::normal(Index face) const {

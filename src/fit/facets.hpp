@@ -11,10 +11,10 @@
 namespace sweepface {
 
 /// Which source face each quad of the tessellation at level 1 belongs to, and which faces lie round
-/// it.
+/// each vertex.
 struct FaceMap {
-  std::vector<Index> faceOfQuad;           ///< [grid quads]; empty where the rig does not know
-  std::vector<std::vector<Index>> around;  ///< [F] faces that share a vertex, itself first
+  std::vector<Index> faceOfQuad;            ///< [grid quads]; empty where the rig does not know
+  std::vector<std::vector<Index>> facesAt;  ///< [V] faces that have the vertex
   std::map<std::pair<Index, Index>, std::pair<Index, Index>>
       rims;  ///< boundary edge → corners before and after
 
@@ -49,6 +49,7 @@ class Facets {
  private:
   bool isSound(Index face) const;
   double distanceToFace(const Vec3& p, Index f) const;
+  bool hasCorner(Index face, Index vertex) const;
   Vec3 at(Index corner) const { return positions_[polygons_.corners[corner]]; }
   Vec3 normalAt(Index corner) const {
     const Index g = gridVertex_[polygons_.corners[corner]];

@@ -1,0 +1,54 @@
+#include "fit/facets.hpp"
+
+#include "sweepface/fit.hpp"
+
+#include "faces.hpp"
+
+namespace sweepface {
+namespace {
+
+using namespace sweepface::testing;
+
+class EveryFacet : public ::testing::TestWithParam<Face> {};
+INSTANTIATE_TEST_SUITE_P(Facets, EveryFacet, eachFace(), faceName);
+
+bool shareAVertex(const Loop& a, const Loop& b) {
+  return std::ranges::find_first_of(a, b) != a.end();
+}
+
+TEST_P(EveryFacet, isNoFurtherThanThoseThatShareAVertexWithIt) {
+  ConvertOptions options;
+  options.tolerance = 0.01 * diagonal(GetParam().rig.neutral);
+  const Rig rig = convert(GetParam().rig, options).value().rig;
+  const std::vector<Vec3>& positions = GetParam().rig.neutral.positions;
+  const FaceMap map(rig);
+  FaceMap apart = map;  // no face is beside another
+  for (std::vector<Index>& faces : apart.facesAt) faces.clear();
+  const Facets facets(rig.source, map, positions, {}, 0),
+      alone(rig.source, apart, positions, {}, 0);
+  const std::vector<Loop> loops = loopsOf(rig.source.polygons);
+  for (std::size_t f = 0; f < loops.size(); ++f) {
+    const Vec3 p = positions[(7 * f) % positions.size()] + Vec3{0.1, 0.2, 0.3};
+    double nearest = 1e300;
+    for (std::size_t g = 0; g < loops.size(); ++g)
+      if (shareAVertex(loops[f], loops[g]))
+        nearest = std::min(nearest, alone.distance(p, static_cast<Index>(g)));
+    EXPECT_EQ(facets.distance(p, static_cast<Index>(f)), nearest) << "face " << f;
+  }
+}
+
+TEST(FaceMap, OfAFanTakesRoomForItsCornersAlone) {
+  constexpr Index kTriangles = 1000;
+  PolygonMesh fan;
+  for (Index k = 1; k <= kTriangles; ++k) addFace(fan, {0, k, k + 1});
+  Rig rig;
+  rig.source.polygons = fan.polygons;
+  for (Index v = 0; v < kTriangles + 2; ++v) rig.source.gridVertex.push_back(v);
+  std::size_t entries = 0;
+  const FaceMap map(rig);
+  for (const std::vector<Index>& faces : map.facesAt) entries += faces.size();
+  EXPECT_EQ(entries, fan.polygons.corners.size());
+}
+
+}  // namespace
+}  // namespace sweepface
