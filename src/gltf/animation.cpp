@@ -18,8 +18,6 @@ struct Keys {
   std::vector<double> in, values, out;  ///< [keys × targets]
 };
 
-double single(double value) { return static_cast<double>(static_cast<float>(value)); }
-
 /// A law as a cubic Hermite spline: a parabola between two keys is one with the right speeds.
 Keys exactKeys(const Motion& motion, const std::vector<std::size_t>& targets) {
   const bool turns = motion.law() == TimeLaw::accelerateBrake;

@@ -24,6 +24,9 @@ struct Column {
   double stored(std::size_t component) const;
 };
 
+/// What is left of a number in single precision, as renderers will have it.
+inline double single(double value) { return static_cast<double>(static_cast<float>(value)); }
+
 /// Numbers as a type holds them, whole ones rounded. A zero has no sign.
 Column pack(std::span<const double> values, std::size_t width, Component type = Component::float32,
             bool normalized = false);

@@ -3,6 +3,7 @@
 #include "eval/triangulate.hpp"
 #include "gltf/fine_mesh.hpp"
 #include "gltf/same_vertices.hpp"
+#include "rig/source_quads.hpp"
 
 namespace sweepface::gltf {
 namespace {
@@ -50,22 +51,20 @@ class Cutter {
         positions_(positions),
         same_(same),
         level_(grid.level()),
-        cell_(static_cast<std::size_t>((level_ + 1) * (level_ + 1))) {
+        cell_(static_cast<std::size_t>((level_ + 1) * (level_ + 1))),
+        faceOfQuad_(faceOfQuads(rig)) {
     mesh_.runs.resize(scene.parts.runs.size());
     mesh_.triangles.resize(scene.parts.parts.size());
     for (FineMesh::Run& run : mesh_.runs) vertices_.emplace_back(run);
-    const Polygons& polygons = rig.source.polygons;
-    for (Index face = 0; face < polygons.faceCount(); ++face)
-      faceOfCorner_.insert(faceOfCorner_.end(), polygons.faceSize(face), face);
   }
 
   Result<FineMesh> cut() {
     const Surface& surface = rig_.surface;
-    const Index* corners = rig_.source.quadCorners.data();
+    std::size_t quad = 0;
     for (Index p = 0; p < surface.patchCount(); ++p)
       for (Index j = 0; j < surface.edgesV(p); ++j)
-        for (Index i = 0; i < surface.edgesU(p); ++i, corners += 4)
-          if (auto ok = cutQuad(p, i, j, corners); !ok) return std::unexpected(ok.error());
+        for (Index i = 0; i < surface.edgesU(p); ++i, ++quad)
+          if (auto ok = cutQuad(p, i, j, quad); !ok) return std::unexpected(ok.error());
     for (std::size_t part = 0; part < mesh_.triangles.size(); ++part)
       if (mesh_.triangles[part].empty()) addDot(part);
     return std::move(mesh_);
@@ -76,9 +75,10 @@ class Cutter {
     Index vertex, gridVertex;
   };
 
-  Result<void> cutQuad(Index patch, Index i, Index j, const Index* corners) {
-    const Index part = scene_.facePart[faceOfCorner_[corners[0]]];
+  Result<void> cutQuad(Index patch, Index i, Index j, std::size_t quad) {
+    const Index part = scene_.facePart[faceOfQuad_[quad]];
     if (part < 0) return {};
+    const Index* const corners = &rig_.source.quadCorners[4 * quad];
     const std::size_t number = scene_.parts.parts[part].run;
     const Run& run = scene_.parts.runs[number];
     std::array<Index, 4> vertices{};
@@ -139,7 +139,7 @@ class Cutter {
   const std::vector<Index>& same_;
   Index level_;
   std::vector<Corner> cell_;  // [(level + 1)²] of the quad at hand
-  std::vector<Index> faceOfCorner_;
+  std::vector<Index> faceOfQuad_;
   std::vector<EdgeVertices> vertices_;  // [runs]
   FineMesh mesh_;
 };

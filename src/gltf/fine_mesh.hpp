@@ -21,7 +21,8 @@ struct FineMesh {
 };
 
 /// Cuts every quad of the source as the tessellation does. Vertices are shared within a run unless
-/// the source's attributes differ there. `positions` are those of the tessellation.
+/// the source's attributes differ there. `positions` are those of the tessellation; the rig knows
+/// its quads.
 Result<FineMesh> cutFinely(const Rig& rig, const BoundScene& scene, const Tessellation& grid,
                            const std::vector<Vec3>& positions);
 

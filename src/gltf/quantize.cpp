@@ -16,9 +16,6 @@ constexpr const char* extensionName = "KHR_mesh_quantization";
 
 double largestOf(const Vec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
-/// A number that single precision holds, as renderers will.
-double single(double value) { return static_cast<double>(static_cast<float>(value)); }
-
 /// A bit larger, so that what is rounded stays inside.
 double roomy(double half) { return half > 0 ? single(half * (1 + 1e-6)) : 1; }
 
