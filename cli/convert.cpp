@@ -221,6 +221,22 @@ ConvertOptions optionsOf(const ConvertArguments& a, ProgressBar& bar) {
   return options;
 }
 
+/// What the user should know of the source.
+std::vector<std::string> warningsOf(const ConvertArguments& a, const RigSource& source) {
+  std::vector<std::string> warnings;
+  if (!a.bare) warnings = source.warnings;
+  if (isGltf(a.neutral) && source.rig.targets.empty())
+    warnings.push_back(a.neutral + " has no morph targets, so the face has no expressions.");
+  for (const MeshTarget& target : source.rig.targets)
+    if (const std::string& name = target.name;
+        name.find_first_of(",=") != name.npos || name.starts_with(' ') || name.ends_with(' '))
+      warnings.push_back(
+          fmt::format("'{}' is no name for a list of weights; rename the target to set it with "
+                      "--weights and the like.",
+                      name));
+  return warnings;
+}
+
 Result<int> convertAndWrite(const ConvertArguments& a) {
   const auto start = std::chrono::steady_clock::now();
   std::optional<ProgressBar> bar(std::in_place, a.quiet);
@@ -263,12 +279,10 @@ Result<int> convertAndWrite(const ConvertArguments& a) {
   bar.reset();
 
   std::vector<std::string>& warnings = conversion->warnings;
-  if (!a.bare) warnings.insert(warnings.begin(), source->warnings.begin(), source->warnings.end());
   if (bringsScene && parts->order)
     warnings.push_back("What " + a.neutral +
                        " holds besides the face is left out with the order, which it counts on.");
-  if (isGltf(a.neutral) && source->rig.targets.empty())
-    warnings.push_back(a.neutral + " has no morph targets, so the face has no expressions.");
+  std::ranges::move(warningsOf(a, *source), std::back_inserter(warnings));
   for (const std::string& warning : warnings) printWarning(warning);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   const Summary summary{

@@ -9,6 +9,15 @@ namespace {
 using namespace testing;
 using Convert = Tool;
 
+TEST_F(Convert, WarnsOfNamesThatCommandsCannotTake) {
+  makeRig();
+  folder.file("p,q.obj", sheet(opened));
+  const Outcome r = run("convert neutral.obj 'p,q.obj' targets -o face.sweep --tolerance 0.1");
+  EXPECT_EQ(r.code, 0);
+  EXPECT_NE(r.err.find("'p,q' is no name for a list of weights"), std::string::npos) << r.err;
+  EXPECT_EQ(r.err.find("'smile'"), std::string::npos) << r.err;
+}
+
 TEST_F(Convert, SaysWhatItMade) {
   makeRig();
   const Outcome r = run("convert neutral.obj targets -o face.sweep --tolerance 0.01");
