@@ -6,6 +6,8 @@
 
 #include "sweepface/drawing.hpp"
 
+#include "io/text.hpp"
+
 namespace sweepface::drawing {
 
 /// Takes values from a JSON text one after another, as the caller expects them: nothing is kept but
