@@ -16,7 +16,7 @@ std::optional<double> numberOf(std::string_view text) {
   in.imbue(std::locale::classic());
   double value = 0;
   in >> value;
-  if (in.fail() || in.peek() != in.eof() || !std::isfinite(value)) return std::nullopt;
+  if (in.fail() || !in.eof() || !std::isfinite(value)) return std::nullopt;
   return value;
 }
 
