@@ -1,8 +1,8 @@
 #include "rig/number.hpp"
 
+#include <clocale>
 #include <cmath>
-#include <locale>
-#include <sstream>
+#include <cstdlib>
 #include <string>
 
 namespace sweepface {
@@ -11,12 +11,13 @@ std::optional<double> numberOf(std::string_view text) {
   const bool plain =
       !text.empty() && text[0] != '+' && text.find_first_not_of("0123456789+-.eE") == text.npos;
   if (!plain) return std::nullopt;
-  // Not from_chars, which libc++ 19 has not for floating point, nor strtod, which asks the locale.
-  std::istringstream in{std::string(text)};
-  in.imbue(std::locale::classic());
-  double value = 0;
-  in >> value;
-  if (in.fail() || !in.eof() || !std::isfinite(value)) return std::nullopt;
+  // Not from_chars, which libc++ 19 has not for floating point. strtod reads the locale's point.
+  std::string digits(text);
+  if (const auto point = digits.find('.'); point != digits.npos)
+    digits.replace(point, 1, std::localeconv()->decimal_point);
+  char* end = nullptr;
+  const double value = std::strtod(digits.c_str(), &end);
+  if (end != digits.c_str() + digits.size() || !std::isfinite(value)) return std::nullopt;
   return value;
 }
 
