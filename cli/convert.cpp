@@ -221,10 +221,14 @@ ConvertOptions optionsOf(const ConvertArguments& a, ProgressBar& bar) {
   return options;
 }
 
-/// What the user should know of the source.
-std::vector<std::string> warningsOf(const ConvertArguments& a, const RigSource& source) {
+/// What the user should know of the source, and of its scene if that is lost.
+std::vector<std::string> warningsOf(const ConvertArguments& a, const RigSource& source,
+                                    bool losesScene) {
   std::vector<std::string> warnings;
   if (!a.bare) warnings = source.warnings;
+  if (losesScene)
+    warnings.push_back("What " + a.neutral +
+                       " holds besides the face is left out with the order, which it counts on.");
   if (isGltf(a.neutral) && source.rig.targets.empty())
     warnings.push_back(a.neutral + " has no morph targets, so the face has no expressions.");
   for (const MeshTarget& target : source.rig.targets)
@@ -279,10 +283,8 @@ Result<int> convertAndWrite(const ConvertArguments& a) {
   bar.reset();
 
   std::vector<std::string>& warnings = conversion->warnings;
-  if (bringsScene && parts->order)
-    warnings.push_back("What " + a.neutral +
-                       " holds besides the face is left out with the order, which it counts on.");
-  std::ranges::move(warningsOf(a, *source), std::back_inserter(warnings));
+  std::ranges::move(warningsOf(a, *source, bringsScene && parts->order),
+                    std::back_inserter(warnings));
   for (const std::string& warning : warnings) printWarning(warning);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   const Summary summary{

@@ -406,7 +406,7 @@ export class Sweepface {
   }
 
   /** Sends weights to goals from where they stand, everywhere or in a region; `advance` moves them. */
-  moveTo(goals, drive = {}, region) {
+  moveTo(goals, drive, region) {
     const shared = this.#open(), {runtime} = shared, {wasm} = runtime;
     const all = this.#resolve(goals), places = shared.places(region), at = this.#drive(drive), motion = this.#moving();
     for (const [target, goal] of all) {

@@ -23,10 +23,10 @@ void readFaces(Symbols<RangeDecoder>& in, const LevelOne& grid, std::size_t most
 /// where the source does not say which corners are at the quads of the grid.
 std::vector<Index> cornerImages(const GridMirror& mirror, const SourceMesh& source);
 
+/// Whether all texture coordinates lie within what writeTexture can tell with so many bits.
+bool holdsTexture(const Polygons& polygons, int bits);
 /// Texture coordinates in 2^bits steps of the texture's width, and which corner has which. `images`
 /// are those of the corners, or none.
-/// Whether all texture coordinates lie within what so many bits can tell.
-bool holdsTexture(const Polygons& polygons, int bits);
 void writeTexture(Symbols<RangeEncoder>& out, const Polygons& polygons,
                   std::span<const Index> images, int bits);
 void readTexture(Symbols<RangeDecoder>& in, std::size_t most, Polygons& polygons,

@@ -107,7 +107,7 @@ std::optional<int> replaceByNameless(const fs::path& path, const fs::path& folde
   const int file = ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
   if (file < 0) return std::nullopt;
   struct stat old{};
-  if (::stat(path.c_str(), &old) == 0) std::ignore = ::fchmod(file, old.st_mode & 07777);
+  if (::stat(path.c_str(), &old) == 0) std::ignore = ::fchmod(file, old.st_mode & 0777);
   const std::string self = fmt::format("/proc/self/fd/{}", file);
   std::optional<int> code = writeAll(file, bytes);
   fs::path name;

@@ -117,26 +117,19 @@ struct ArcBuilder {
 // One ribbon for each set of arcs that must share their shape parameters: those of a rail, and the
 // two sides along which a patch sweeps. A patch sweeps the way that joins the smaller sets.
 void chooseSweeps(Wireframe& w, std::vector<GridPatch>& patches, const Connectivity& c) {
-  UnionFind sets(static_cast<Index>(w.arcs.size()));
-  std::vector<Index> size(w.arcs.size(), 1);
-  const auto join = [&](Index a, Index b) {
-    a = sets.find(a), b = sets.find(b);
-    if (a == b) return;
-    sets.join(a, b);
-    size[sets.find(a)] = size[a] + size[b];
-  };
+  UnionFind sets(w.arcs.size());
   for (std::size_t n = 0; n < w.nodes.size(); ++n)
     if (c.kinds[n] == NodeKind::hanging)
       for (int k = 0; k < 3; ++k)
         if (const int on = c.opposite(static_cast<Index>(n), k); on >= 0)
-          join(arcOf(c.stars[n].arms[k]), arcOf(c.stars[n].arms[on]));
+          sets.join(arcOf(c.stars[n].arms[k]), arcOf(c.stars[n].arms[on]));
   for (Index p = 0; p < static_cast<Index>(w.patches.size()); ++p) {
     const auto first = [&](int s) { return sets.find(arcOf(w.side(p, s)[0])); };
     const auto cost = [&](int s) {
-      return first(s) == first(s + 2) ? 0 : size[first(s)] + size[first(s + 2)];
+      return first(s) == first(s + 2) ? 0 : sets.size(first(s)) + sets.size(first(s + 2));
     };
     const bool turn = cost(1) < cost(0);
-    join(first(turn ? 1 : 0), first(turn ? 3 : 2));
+    sets.join(first(turn ? 1 : 0), first(turn ? 3 : 2));
     if (!turn) continue;
     auto& sides = w.patches[p].sides;
     const Index begin = sides[0], moved = sides[1] - begin;

@@ -105,12 +105,15 @@ void blend(const Rig& rig, std::span<const Region> regions, std::span<const doub
     bool even = true;
     for (std::size_t r = 1; r < regions.size(); ++r) even &= at(r * count + k) == at(k);
     if (even && at(k) == 0) continue;
+    const auto weightAt = [&](Index node) {
+      double weight = 0;
+      for (std::size_t r = 0; r < regions.size(); ++r)
+        weight += regions[r].shares[node] * at(r * count + k);
+      return weight;
+    };
     for (std::size_t v = 0; v < stored; ++v) {
       const Index node = rig.surface.stored(static_cast<Index>(v)).node;
-      double weight = even ? at(k) : 0;
-      for (std::size_t r = 0; !even && r < regions.size(); ++r)
-        weight += regions[r].shares[node] * at(r * count + k);
-      vectors[v] += weight * rig.targets[k].difference[v];
+      vectors[v] += (even ? at(k) : weightAt(node)) * rig.targets[k].difference[v];
     }
   }
   rig.surface.settle(vectors.first(stored), vectors);

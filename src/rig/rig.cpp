@@ -84,9 +84,11 @@ std::vector<Vec3> blend(const Rig& rig, std::span<const double> weights) {
 
 void blendLoose(const Rig& rig, std::span<const double> weights, std::span<Vec3> loose) {
   std::ranges::copy(rig.source.loose, loose.begin());
-  for (std::size_t k = 0; k < rig.targets.size() && k < weights.size(); ++k)
-    for (std::size_t v = 0; weights[k] != 0 && v < loose.size(); ++v)
+  for (std::size_t k = 0; k < rig.targets.size() && k < weights.size(); ++k) {
+    if (weights[k] == 0) continue;
+    for (std::size_t v = 0; v < loose.size(); ++v)
       loose[v] += weights[k] * rig.targets[k].looseDifference[v];
+  }
 }
 
 std::vector<Vec3> blendLoose(const Rig& rig, std::span<const double> weights) {

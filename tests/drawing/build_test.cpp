@@ -239,17 +239,7 @@ TEST(Names, ofOneThingAreNotWhatAnotherGoesBy) {
 }
 
 TEST(Rings, mayBeOnePatchAndOneCurve) {
-  Json drawing = Json::parse(R"({"format": "sweepface wireframe 1",
-    "nodes": [{"name": "low", "at": [2, 0, 0]}, {"name": "high", "at": [2, 5, 0]}],
-    "curves": [{"name": "foot", "from": "low", "to": "low"}, {"name": "rim", "from": "high", "to": "high"},
-               {"name": "seam", "from": "low", "to": "high"}],
-    "patches": [{"name": "tube", "sides": ["seam", "-rim", "-seam", "foot"]}]})");
-  for (int ring : {0, 1})
-    for (int k = 1; k < 8; ++k) {
-      const double a = 2 * M_PI * k / 8;
-      drawing["curves"][ring]["points"].push_back({2 * std::cos(a), 5.0 * ring, -2 * std::sin(a)});
-    }
-  const Rig rig = made(drawing);
+  const Rig rig = made(tube());
   EXPECT_EQ(rig.surface.connectivity().kinds, std::vector<NodeKind>(2, NodeKind::crossing));
   EXPECT_LT(largestRadiusError(rig, 0, 2), 0.2);  // one quintic is no good circle
   for (const JoinReport& join : examineJoins(rig.surface, neutralPose(rig)))

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <fstream>
 #include <gtest/gtest.h>
 #include <iterator>
@@ -53,6 +54,21 @@ inline Json square() {
                {"name": "dc", "from": "d", "to": "c"}, {"name": "da", "from": "d", "to": "a"}],
     "patches": [{"name": "square", "sides": ["ab", "bc", "-dc", "da"]}]
   })");
+}
+
+/// A tube of one patch round the y axis, whose foot and rim are a closed curve each.
+inline Json tube() {
+  Json drawing = Json::parse(R"({"format": "sweepface wireframe 1",
+    "nodes": [{"name": "low", "at": [2, 0, 0]}, {"name": "high", "at": [2, 5, 0]}],
+    "curves": [{"name": "foot", "from": "low", "to": "low"}, {"name": "rim", "from": "high", "to": "high"},
+               {"name": "seam", "from": "low", "to": "high"}],
+    "patches": [{"name": "tube", "sides": ["seam", "-rim", "-seam", "foot"]}]})");
+  for (int ring : {0, 1})
+    for (int k = 1; k < 8; ++k) {
+      const double a = 2 * M_PI * k / 8;
+      drawing["curves"][ring]["points"].push_back({2 * std::cos(a), 5.0 * ring, -2 * std::sin(a)});
+    }
+  return drawing;
 }
 
 inline std::vector<Vec3> neutralPose(const Rig& rig) {

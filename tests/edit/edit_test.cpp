@@ -128,17 +128,7 @@ TEST(ControlCurves, OfAnotherPatchOrWithoutLengthAreRefused) {
 }
 
 TEST(ControlCurves, BesideAClosedCurveMoveOnce) {
-  Json drawing = Json::parse(R"({"format": "sweepface wireframe 1",
-    "nodes": [{"name": "low", "at": [2, 0, 0]}, {"name": "high", "at": [2, 5, 0]}],
-    "curves": [{"name": "foot", "from": "low", "to": "low"}, {"name": "rim", "from": "high", "to": "high"},
-               {"name": "seam", "from": "low", "to": "high"}],
-    "patches": [{"name": "tube", "sides": ["seam", "-rim", "-seam", "foot"]}]})");
-  for (int ring : {0, 1})
-    for (int k = 1; k < 8; ++k) {
-      const double a = 2 * M_PI * k / 8;
-      drawing["curves"][ring]["points"].push_back({2 * std::cos(a), 5.0 * ring, -2 * std::sin(a)});
-    }
-  const Rig before = made(drawing);
+  const Rig before = made(tube());
   Rig after = before;
   const Index foot = before.find(Thing::curve, "foot").value();
   ASSERT_TRUE(moveControls(after, {foot, 0, {0, 0.25, 0}, {0, 0.625, 0}}));

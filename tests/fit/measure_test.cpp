@@ -3,18 +3,12 @@
 #include "sweepface/eval.hpp"
 #include "sweepface/fit.hpp"
 
-#include "faces.hpp"
+#include "fit/roughly.hpp"
 
 namespace sweepface {
 namespace {
 
 using namespace sweepface::testing;
-
-Rig rigOf(const MeshRig& source) {
-  ConvertOptions options;
-  options.tolerance = 0.01 * diagonal(source.neutral);
-  return convert(source, options).value().rig;
-}
 
 // The rig's own vertices and targets as a mesh.
 MeshRig exported(const Rig& rig, const MeshRig& source) {
@@ -34,7 +28,7 @@ class EveryMeasure : public ::testing::TestWithParam<Face> {};
 INSTANTIATE_TEST_SUITE_P(Measure, EveryMeasure, eachFace(), faceName);
 
 TEST_P(EveryMeasure, findsNoDistanceToTheRigsOwnExport) {
-  const Rig rig = rigOf(GetParam().rig);
+  const Rig rig = roughly(GetParam().rig);
   const auto m = measure(rig, exported(rig, GetParam().rig));
   ASSERT_TRUE(m) << m.error().message;
   ASSERT_EQ(m->shapes.size(), 3u);
@@ -46,7 +40,7 @@ TEST_P(EveryMeasure, findsNoDistanceToTheRigsOwnExport) {
 }
 
 TEST_P(EveryMeasure, showsAKnownDisplacementAsThatDistance) {
-  const Rig rig = rigOf(GetParam().rig);
+  const Rig rig = roughly(GetParam().rig);
   MeshRig source = exported(rig, GetParam().rig);
   for (Vec3& p : source.targets[1].positions) p += {0.3, -0.4, 1.2};
   const auto m = measure(rig, source);
@@ -61,7 +55,7 @@ TEST_P(EveryMeasure, showsAKnownDisplacementAsThatDistance) {
 
 // Ways from the neutral are right wherever the whole face stands.
 TEST_P(EveryMeasure, findsNoErrorInDisplacementsOfAShiftedFace) {
-  const Rig rig = rigOf(GetParam().rig);
+  const Rig rig = roughly(GetParam().rig);
   MeshRig source = exported(rig, GetParam().rig);
   for (Vec3& p : source.neutral.positions) p += {0.3, -0.4, 1.2};
   for (MeshTarget& t : source.targets)
@@ -74,7 +68,7 @@ TEST_P(EveryMeasure, findsNoErrorInDisplacementsOfAShiftedFace) {
 }
 
 TEST_P(EveryMeasure, showsAWrongNeutralInTheDisplacementsOfAllTargets) {
-  const Rig rig = rigOf(GetParam().rig);
+  const Rig rig = roughly(GetParam().rig);
   MeshRig source = exported(rig, GetParam().rig);
   for (Vec3& p : source.neutral.positions) p += {0.3, -0.4, 1.2};
   for (Vec3& p : source.targets[1].positions) p += {0.3, -0.4, 0};
@@ -92,7 +86,7 @@ TEST_P(EveryMeasure, showsAWrongNeutralInTheDisplacementsOfAllTargets) {
 
 TEST(Measure, findsNoAngleOnAPlane) {
   const MeshRig flat{grid(6, 5, [](double x, double y) { return Vec3{x, y, 0}; }), {}};
-  const auto m = measure(rigOf(flat), flat);
+  const auto m = measure(roughly(flat), flat);
   ASSERT_TRUE(m) << m.error().message;
   EXPECT_LT(m->worst.angle.max, 1e-6);
   EXPECT_LT(m->worst.facetDistance, 1e-6);
@@ -107,7 +101,7 @@ TEST(Measure, showsAKnownTiltAsThatAngle) {
                 [=](double x, double y) { return Vec3{x, y * std::cos(a), y * std::sin(a)}; });
   };
   const MeshRig flat{tilted(0), {}}, raised{tilted(5), {}};
-  const auto m = measure(rigOf(flat), raised);
+  const auto m = measure(roughly(flat), raised);
   ASSERT_TRUE(m) << m.error().message;
   EXPECT_NEAR(m->worst.angle.max, 5, 1e-4);
   EXPECT_NEAR(m->worst.angle.rms, 5, 1e-4);
@@ -115,7 +109,7 @@ TEST(Measure, showsAKnownTiltAsThatAngle) {
 
 TEST(Measure, seesAnOutlierInTheMaximumOnly) {
   const MeshRig source{plane(50, 50), {}};
-  const Rig rig = rigOf(source);
+  const Rig rig = roughly(source);
   MeshRig moved = exported(rig, source);
   moved.neutral.positions[1300].z += 1;
   const auto m = measure(rig, moved);
@@ -139,7 +133,7 @@ TEST(Measure, sumsUpErrors) {
 
 TEST(Measure, countsFolds) {
   const MeshRig source{plane(8, 8), {}};
-  Rig rig = rigOf(source);
+  Rig rig = roughly(source);
   EXPECT_EQ(measure(rig, source)->worst.folds, 0);
   for (Vec3& v : rig.neutral) v.x = -v.x;  // every triangle of level 4 looks the other way
   EXPECT_EQ(measure(rig, source)->worst.folds, 2 * 16 * 8 * 8);
@@ -147,7 +141,7 @@ TEST(Measure, countsFolds) {
 
 TEST(Measure, leavesOutFacetsWhereNobodyAsks) {
   const MeshRig source = withTargets(plane(8, 8));
-  const Rig rig = rigOf(source);
+  const Rig rig = roughly(source);
   const Measurement all = measure(rig, source).value();
   const Measurement some = measure(rig, source, {.facets = false}).value();
   EXPECT_GT(all.worst.facetDistance, 0);
@@ -169,7 +163,7 @@ TEST(Measure, countsAFoldBetweenVerticesThatFit) {
 
 TEST(Measure, drawsTheSameMixturesFromTheSameSeed) {
   const MeshRig& source = everyFace()[0].rig;
-  const Rig rig = rigOf(source);
+  const Rig rig = roughly(source);
   const auto rms = [&](unsigned seed) {
     std::vector<double> list;
     const Measurement m = measure(rig, source, {4, seed}).value();
@@ -183,7 +177,7 @@ TEST(Measure, drawsTheSameMixturesFromTheSameSeed) {
 
 TEST(Measure, findsTargetsByName) {
   MeshRig source = everyFace()[0].rig;
-  const Rig rig = rigOf(source);
+  const Rig rig = roughly(source);
   source = exported(rig, source);
   std::swap(source.targets[0], source.targets[1]);
   EXPECT_EQ(measure(rig, source)->worst.distance.max, 0);
@@ -193,7 +187,7 @@ TEST(Measure, findsTargetsByName) {
 
 TEST(Measure, refusesWhatDoesNotBelongTogether) {
   const MeshRig source = everyFace()[0].rig;
-  const Rig rig = rigOf(source);
+  const Rig rig = roughly(source);
   MeshRig renamed = source;
   renamed.targets[1].name = "frown";
   EXPECT_EQ(measure(rig, renamed).error().message,
@@ -205,7 +199,7 @@ TEST(Measure, refusesWhatDoesNotBelongTogether) {
 
 TEST(Measure, needsToKnowWhereTheFacetsLie) {
   const MeshRig source = withTargets(plane(12, 10));
-  Rig rig = rigOf(source);
+  Rig rig = roughly(source);
   rig.source.quadCorners.clear();
   const auto m = measure(rig, source);
   ASSERT_FALSE(m);

@@ -3,32 +3,26 @@
 #include "sweepface/fit.hpp"
 #include "sweepface/measure.hpp"
 
-#include "faces.hpp"
+#include "fit/roughly.hpp"
 
 namespace sweepface {
 namespace {
 
 using namespace sweepface::testing;
 
-Rig rigOf(const MeshRig& source) {
-  ConvertOptions options;
-  options.tolerance = 0.01 * diagonal(source.neutral);
-  return convert(source, options).value().rig;
-}
-
 class EveryNormalError : public ::testing::TestWithParam<Face> {};
 INSTANTIATE_TEST_SUITE_P(NormalError, EveryNormalError, eachFace(), faceName);
 
 TEST_P(EveryNormalError, isWhatIsMeasured) {
   const MeshRig& source = GetParam().rig;
-  const Rig rig = rigOf(source);
+  const Rig rig = roughly(source);
   EXPECT_NEAR(normalRms(rig, source), measure(rig, source)->worst.angle.rms, 1e-9);
 }
 
 /// Where a part of the mesh shrinks to a point it has no normals; every other one counts the same.
 TEST(NormalError, isOverAllVerticesOfAllExpressions) {
   MeshRig source = withTargets(plane());
-  const Rig rig = rigOf(source);
+  const Rig rig = roughly(source);
   for (Vec3& p : source.targets[0].positions) p = p.x < 8 ? Vec3{} : Vec3{p.z, p.x, p.y};
   EXPECT_NEAR(normalRms(rig, source), measure(rig, source)->worst.angle.rms, 1e-9);
 }
