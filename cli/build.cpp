@@ -24,8 +24,10 @@ void addOptions(CLI::App& app, BuildArguments& a) {
                  "Keep the source mesh of this .sweep file, whose wireframe `sweepface wireframe` "
                  "wrote; else the source is the surface's own grid")
       ->type_name("FACE");
-  app.add_flag("--arcs", a.arcs,
-               "Note in the file what expressions turn about, for programs that play it");
+  app.add_flag(
+      "--arcs", a.arcs,
+      "Note in the file what expressions turn about, for programs that play it; done anyway "
+      "where the file of --source notes it");
   addQuiet(app, a.quiet);
   app.footer(
       "\nExamples:\n  sweepface build vase.wire.json -o vase.sweep\n"
@@ -62,12 +64,14 @@ Result<int> runBuild(const BuildArguments& a) {
   if (!drawing) return std::unexpected(drawing.error());
   Result<Built> built = build(*drawing);
   if (!built) return std::unexpected(built.error());
+  bool hasArcs = a.arcs;
   if (!a.source.empty()) {
     const Result<Rig> like = readFace(a.source);
     if (!like) return std::unexpected(like.error());
     if (auto ok = adoptSource(built->rig, *like); !ok) return std::unexpected(ok.error());
+    hasArcs |= !like->turns.empty();
   }
-  if (a.arcs) built->rig.turns = findTurns(built->rig);
+  if (hasArcs) built->rig.turns = findTurns(built->rig);
   const Result<std::string> bytes = encodeReadable(built->rig, a.output);
   if (!bytes) return std::unexpected(bytes.error());
   if (auto written = writeFile(a.output, *bytes); !written) return std::unexpected(written.error());

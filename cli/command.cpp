@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
 
@@ -22,6 +23,13 @@ bool parse(const std::string& text, Number& number) {
   const char* const end = text.data() + text.size();
   const auto [stop, error] = std::from_chars(text.data(), end, number);
   return error == std::errc{} && stop == end && std::isfinite(static_cast<double>(number));
+}
+
+/// Whether what is written there would mix with the report in one pipe.
+bool isPipeOfReport(const fs::path& path) {
+  struct stat there{}, report{};
+  return stat(path.c_str(), &there) == 0 && fstat(STDOUT_FILENO, &report) == 0 &&
+         S_ISFIFO(there.st_mode) && there.st_dev == report.st_dev && there.st_ino == report.st_ino;
 }
 
 }  // namespace
@@ -182,6 +190,7 @@ Result<void> checkOutput(const fs::path& output, const std::vector<std::string>&
       return cannot("it is what is read; choose another name");
   if (!output.has_filename() || fs::is_directory(output, ignored))
     return cannot("it is a folder; name a file");
+  if (isPipeOfReport(output)) return cannot("the report goes there; name a file");
   // A device is written to as it is; any other file is replaced in its folder.
   const bool device = fs::exists(output, ignored) && !fs::is_regular_file(output, ignored);
   if (!device && std::ranges::none_of(kinds, [&](auto kind) { return isOfKind(output, kind); }))

@@ -27,7 +27,8 @@ struct ConvertArguments {
   std::string strip;
   double tolerance = 0, normalLimit = 0, normalTolerance = 0;
   std::size_t maxBytes = 0;
-  int threads = 0, uvBits = 14;
+  std::optional<int> uvBits;
+  int threads = 0;
   bool pack = false, arcs = false, noShapes = false, bare = false, quiet = false, json = false;
 };
 
@@ -52,19 +53,15 @@ void addOptions(CLI::App& app, ConvertArguments& a) {
                  "vertices and faces), uv, groups, scene")
       ->type_name("PARTS");
   app.add_option("--normal-tolerance", a.normalTolerance,
-                 "With --pack: largest allowed angle between the surface's normals and the mesh's, "
-                 "in degrees: "
-                 "root mean square over all vertices of all expressions")
+                 "Packed: largest allowed angle between the surface's normals and the mesh's, in "
+                 "degrees: root mean square over all vertices of all expressions")
       ->check(positiveNumber(90))
-      ->needs("--pack")
       ->type_name("DEGREES");
   app.add_option(
          "--uv-bits", a.uvBits,
-         "With --pack: texture coordinates become multiples of 1/2^N of the texture, N from "
-         "8 to 16")
+         "Packed: texture coordinates become multiples of 1/2^N of the texture, N from 8 to 16; "
+         "14 if not given")
       ->check(wholeNumber(8, 16))
-      ->capture_default_str()
-      ->needs("--pack")
       ->type_name("N");
   app.add_option(
          "--max-bytes", a.maxBytes,
@@ -214,7 +211,7 @@ ConvertOptions optionsOf(const ConvertArguments& a, ProgressBar& bar) {
   options.normalLimit = a.normalLimit;
   options.pack = a.pack;
   options.normalTolerance = a.normalTolerance;
-  options.textureBits = a.uvBits;
+  options.textureBits = a.uvBits.value_or(options.textureBits);
   options.chooseShapes = !a.noShapes;
   options.progress = [&](std::string_view what, double done) { bar.show(what, done); };
   options.cancel = &interrupted;
@@ -243,12 +240,12 @@ std::vector<std::string> warningsOf(const ConvertArguments& a, const RigSource& 
 
 Result<int> convertAndWrite(const ConvertArguments& a) {
   const auto start = std::chrono::steady_clock::now();
+  const Result<Strip> parts = a.strip.empty() ? Strip{} : parseStrip(a.strip);
+  if (!parts) return std::unexpected(parts.error());
   std::optional<ProgressBar> bar(std::in_place, a.quiet);
   Result<RigSource> source = readMeshes(a.neutral, a.targets, *bar);
   if (!source) return std::unexpected(source.error());
   if (interrupted) return kInterrupted;
-  const Result<Strip> parts = a.strip.empty() ? Strip{} : parseStrip(a.strip);
-  if (!parts) return std::unexpected(parts.error());
   // The scene comes with a frame and its length.
   constexpr std::size_t kMostAround = 32, kMostTurn = 29;
   const bool bringsScene = !a.bare && !parts->scene && !source->scene.empty();
@@ -300,6 +297,10 @@ Result<int> runConvert(const ConvertArguments& a) {
   std::vector<std::string> inputs = a.targets;
   inputs.push_back(a.neutral);
   if (auto ok = checkOutput(a.output, inputs, {".sweep"}); !ok) return std::unexpected(ok.error());
+  const bool packs = a.pack || a.maxBytes > 0;
+  if (!packs && (a.uvBits || a.normalTolerance > 0))
+    return fail(fmt::format("{} is for packed files; give --pack or --max-bytes as well.",
+                            a.uvBits ? "--uv-bits" : "--normal-tolerance"));
   std::optional<tbb::global_control> limit;
   if (a.threads > 0)
     limit.emplace(tbb::global_control::max_allowed_parallelism,

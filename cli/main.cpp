@@ -50,7 +50,8 @@ int run(int argc, char** argv) {
   if (!words.empty() && words.front() == "help") {
     words.erase(words.begin());
     words.resize(std::min<std::size_t>(words.size(), 1));
-    words.emplace_back("--help");
+    const auto isKnown = [&](const Command& c) { return c.app->get_name() == words.front(); };
+    if (words.empty() || std::ranges::any_of(commands, isKnown)) words.emplace_back("--help");
   }
   std::ranges::reverse(words);  // in which order CLI11 takes them
   try {

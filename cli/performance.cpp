@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <map>
 #include <memory>
 
 #include "sweepface/filter.hpp"
@@ -109,7 +110,7 @@ Result<Clip> readClip(const PerformanceArguments& a, const Region& region) {
 }
 
 std::vector<std::string> notesOn(const ClipMatch& match, const Clip& clip,
-                                 const std::string& file) {
+                                 const std::vector<std::string>& targets, const std::string& file) {
   std::vector<std::string> notes;
   std::vector<std::string> idle = match.unmatched;
   std::erase_if(idle, ClipAngles::tells);
@@ -119,6 +120,13 @@ std::vector<std::string> notesOn(const ClipMatch& match, const Clip& clip,
   if (!match.undriven.empty())
     notes.push_back(
         fmt::format("{}: nothing drives the targets {}.", file, fmt::join(match.undriven, ", ")));
+  std::map<Index, std::vector<std::string>> drivers;
+  for (std::size_t k = 0; k < clip.names.size(); ++k)
+    for (const Index target : match.targets[k]) drivers[target].push_back(clip.names[k]);
+  for (const auto& [target, names] : drivers)
+    if (names.size() > 1)
+      notes.push_back(fmt::format("{}: {} drive the target {}, whichever is largest.", file,
+                                  fmt::join(names, " and "), targets[target]));
   return notes;
 }
 
@@ -137,7 +145,7 @@ Result<Performance> byClip(const PerformanceArguments& a, const Rig& rig, const 
   performance.name = std::filesystem::path(a.clip).stem().string();
   performance.seconds = clip->seconds();
   performance.clipWeights = clip->weights.size();
-  performance.notes = notesOn(match, *clip, a.clip);
+  performance.notes = notesOn(match, *clip, targets, a.clip);
   for (const double time : clip->times)
     performance.frameTimes.push_back(time - clip->times.front());
   const auto shared = std::make_shared<const Clip>(std::move(*clip));

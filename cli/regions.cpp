@@ -35,11 +35,10 @@ Result<void> checkNames(const std::string& file, const std::vector<Region>& regi
   if (!text || text->find("\"region\"") == std::string::npos) return {};
   const auto timeline = parseTimeline(*text, file);
   if (!timeline) return {};  // reported when it is played
-  for (const TimelineEvent& event : timeline->events)
-    if (!event.region.empty() &&
-        std::ranges::find(regions, event.region, &Region::name) == regions.end())
-      return fail(
-          fmt::format("{}: an event is for a region '{}' that there is not.", file, event.region));
+  std::vector<std::string> names;
+  for (const Region& region : regions) names.push_back(region.name);
+  if (auto ok = checkRegions(*timeline, names); !ok)
+    return fail(fmt::format("{}: {}", file, ok.error().message));
   return {};
 }
 

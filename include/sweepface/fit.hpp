@@ -44,6 +44,8 @@ struct Conversion {
 
 /// The length of the neutral's bounding-box diagonal.
 double diagonal(const PolygonMesh& mesh);
+/// Fails where a tolerance is finer than what files hold of a mesh with that diagonal.
+Result<void> checkTolerance(double tolerance, double diagonal);
 
 /// Turns a mesh rig into a rig of ODE sweeping surfaces. Uses all cores that the calling TBB arena
 /// allows; the result does not depend on how many. Fails if the tolerance cannot be met.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -31,6 +32,9 @@ bool isTimeline(std::string_view text);
 
 /// A timeline in its JSON form (docs/clips.md).
 Result<Timeline> parseTimeline(std::string_view text, std::string_view name);
+
+/// Fails where an event is for a region that is not among these.
+Result<void> checkRegions(const Timeline& timeline, std::span<const std::string> regions);
 
 /// Frames a second at which straight lines between a timeline's are as good as exact.
 inline constexpr double kTimelineRate = 240;

@@ -33,6 +33,8 @@ class ControlMover {
   /// The rig with the change, and what it reaches.
   Result<std::pair<Rig, Patches>> run(Index target) {
     if (auto ok = findEnds(); !ok) return std::unexpected(ok.error());
+    if (move_.second == Vec3{} && move_.third == Vec3{})
+      return std::pair(std::move(rig_), Patches{});
     if (auto ok = findDerivatives(); !ok) return std::unexpected(ok.error());
     if (target < 0) edit::keepRest(rig_);
     if (auto ok = storeWholeJets(); !ok) return std::unexpected(ok.error());

@@ -16,6 +16,7 @@ Result<Patches> setShape(Rig& rig, Index ribbon, const Shape& shape) {
   if (auto ok = checkIndex(ribbon, rig.surface.wireframe().ribbons.size(), "ribbon"); !ok)
     return std::unexpected(ok.error());
   Wireframe wireframe = rig.surface.wireframe();
+  if (wireframe.ribbons[ribbon] == shape) return Patches{};
   wireframe.ribbons[ribbon] = shape;
   auto surface = Surface::make(std::move(wireframe));
   if (!surface) {
@@ -65,6 +66,8 @@ Result<Patches> moveNodes(Rig& rig, std::span<const NodeMove> moves, Index targe
                   rig.nameOf(Thing::node, move.node) +
                   "' are one point and cannot move to different places.");
   }
+  std::erase_if(ofPoint, [](const auto& move) { return move.second.by == Vec3{}; });
+  if (ofPoint.empty()) return Patches{};
   if (target < 0) edit::keepRest(rig);
   const StoredJets jets(rig.surface);
   std::map<Index, Vec3> ofStored;

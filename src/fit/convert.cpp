@@ -25,11 +25,19 @@ double diagonal(const PolygonMesh& mesh) {
   return box.isEmpty() ? diagonal(std::span(mesh.positions)) : norm(box.size());
 }
 
+Result<void> checkTolerance(double tolerance, double diagonal) {
+  constexpr double kLeast =
+      0x1p-25;  // of the diagonal: what single precision rounds off at its end
+  if (tolerance >= kLeast * diagonal) return {};
+  return fail(fmt::format(
+      "a tolerance of {:.3g} is finer than a file's numbers, {:.3g} for a mesh of this size; "
+      "allow a larger one",
+      tolerance, kLeast * diagonal));
+}
+
 namespace {
 
 constexpr int kMostRounds = 60;
-// Of the diagonal: what single precision rounds off at its end.
-constexpr double kLeastTolerance = 0x1p-25;
 // The fit's share of the tolerance where the rest is left to packing.
 constexpr double kFitShare = 0.9;
 // What packing does to normals is more than a limit on the fit's could mend.
@@ -110,11 +118,7 @@ class Converter {
     if (!(size > 0))
       return fail("all vertices of the neutral stand at one place; there is no surface to fit");
     const double tolerance = options_.tolerance > 0 ? options_.tolerance : 0.0002 * size;
-    if (tolerance < kLeastTolerance * size)
-      return fail(fmt::format(
-          "a tolerance of {:.3g} is finer than a file's numbers, {:.3g} for a mesh of this size; "
-          "allow a larger one",
-          tolerance, kLeastTolerance * size));
+    if (auto ok = checkTolerance(tolerance, size); !ok) return std::unexpected(ok.error());
     const double angle = normalLimit(options_, tolerance, size);
     limits_ = {(options_.pack ? kFitShare : 1) * tolerance,
                std::min(180.0, (options_.pack ? kNormalShare : 1) * angle), angle < 180};

@@ -4,6 +4,7 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <fmt/format.h>
 #include <numbers>
 #include <optional>
 #include <set>
@@ -71,7 +72,7 @@ class Quantiser {
     fittedNeutral_ = rig_.neutral;
     gather();
     neutralErrors_.assign(grid_.vertexCount(), Vec3{});
-    if (!settle(0, neutralBounds())) return failed();
+    if (!settle(0, neutralBounds())) return failed("the neutral");
     lattice_->learn(rig_.surface, rig_.neutral, codec::stepOf(rig_.packing, 0));
     neutralFolds_ = foldsOf(0, rig_.neutral);
     findBones(rig_, *lattice_, rig_.neutral, tolerance_, rig_.packing);
@@ -83,23 +84,28 @@ class Quantiser {
     neutralOff_ = settled(std::move(neutralOff_));
     // Images first: what is compared with them needs them.
     const auto bound = static_cast<float>(kBound * tolerance_);
-    std::atomic<Index> bad = -1, count = 0;
+    std::atomic<Index> count = 0;
+    std::vector<char> met(poses_.size(), true);
     for (const bool images : {true, false}) {
       parallelFor(Index{1}, poses, [&](Index pose) {
         const Index image = rig_.packing.poses[pose].image;
         if (images != (image < 0 || image == pose)) return;
         if (!proceed_(static_cast<double>(++count) / poses)) return;
-        if (!settle(pose, std::vector<float>(grid_.vertexCount(), bound))) bad = pose;
+        met[pose] = settle(pose, std::vector<float>(grid_.vertexCount(), bound));
       });
       if (!proceed_(1)) return fail("the conversion was interrupted");
-      if (bad >= 0) return failed();
+      if (const auto bad = std::ranges::find(met, false); bad != met.end())
+        return failed("'" + rig_.targets[bad - met.begin() - 1].name + "'");
     }
     return {};
   }
 
  private:
-  static std::unexpected<Error> failed() {
-    return fail("the tolerance could not be met everywhere; allow a larger one");
+  std::unexpected<Error> failed(const std::string& pose) const {
+    return fail(fmt::format(
+        "steps fine enough for a tolerance of {:.3g} cannot be packed in {}; allow a larger one, "
+        "or do not pack",
+        tolerance_, pose));
   }
 
   // Where the source's vertices are in each pose, at the vertices of level 1.

@@ -78,10 +78,8 @@ Result<std::vector<Clip>> readForRegions(const Division& division, std::string_v
   }
   const auto timeline = parseTimeline(bytes, name);
   if (!timeline) return std::unexpected(timeline.error());
-  for (const TimelineEvent& event : timeline->events)
-    if (!event.region.empty() &&
-        std::ranges::find(division.names, event.region) == division.names.end())
-      return fail(name, ": an event is for a region '", event.region, "' that there is not.");
+  if (auto ok = checkRegions(*timeline, division.names); !ok)
+    return fail(name, ": ", ok.error().message);
   for (std::size_t r = 0; r < division.count(); ++r) {
     auto clip = bake(*timeline, kTimelineRate, nameOf(division, r), matterOf(division, r));
     if (!clip) return fail(name, ": ", clip.error().message);

@@ -101,8 +101,8 @@ class LiveLinkReader {
     return {};
   }
 
-  // HH:MM:SS:FF.fff, the last in frames; or plain seconds.
-  Result<double> timecode(std::string_view text) const {
+  // HH:MM:SS:FF.fff, the last in frames; or plain seconds. At midnight the clock begins anew.
+  Result<double> timecode(std::string_view text) {
     if (const auto seconds = toNumber<double>(text); seconds && isPlausibleTime(*seconds))
       return *seconds;
     std::array<double, 4> parts{};
@@ -121,12 +121,17 @@ class LiveLinkReader {
           fmt::format("the timecode {} counts more than {} frames a second; give the "
                       "recording's own rate",
                       inQuotes(text), framesPerSecond_));
-    return (parts[0] * 60 + parts[1]) * 60 + parts[2] + parts[3] / framesPerSecond_;
+    constexpr double kDay = 86400;
+    const double clock = (parts[0] * 60 + parts[1]) * 60 + parts[2] + parts[3] / framesPerSecond_;
+    if (!clip_.times.empty() && clock + midnights_ < clip_.times.back() - kDay / 2)
+      midnights_ += kDay;
+    return clock + midnights_;
   }
 
   io::LineCursor lines_;
   std::string_view name_;
   double framesPerSecond_;
+  double midnights_ = 0;  // seconds of the days gone by
   std::size_t columns_ = 0, timeColumn_ = static_cast<std::size_t>(-1);
   std::vector<std::size_t> shapeColumns_;
   std::set<std::string_view> known_;  // headings of shapes

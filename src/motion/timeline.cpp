@@ -27,6 +27,13 @@ Result<void> play(const TimelineEvent& event, const Places& places, const Matter
 
 }  // namespace
 
+Result<void> checkRegions(const Timeline& timeline, std::span<const std::string> regions) {
+  for (const TimelineEvent& event : timeline.events)
+    if (!event.region.empty() && std::ranges::find(regions, event.region) == regions.end())
+      return fail("an event is for a region '", event.region, "' that there is not.");
+  return {};
+}
+
 Result<Clip> bake(const Timeline& timeline, double framesPerSecond) {
   return bake(timeline, framesPerSecond, {}, {});
 }

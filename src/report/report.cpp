@@ -68,6 +68,8 @@ Result<std::string> ReportMaker::make() {
 
 /// What several sections need.
 Result<void> ReportMaker::prepare() {
+  for (const double tolerance : options_.tolerances)
+    if (auto ok = checkTolerance(tolerance, diagonal(source_.neutral)); !ok) return ok;
   Result<std::vector<Vec3>> moved = originalPositions(rig_, source_, expression_);
   if (!moved) return std::unexpected(moved.error());
   moved_ = std::move(*moved);

@@ -34,6 +34,7 @@ TEST_F(PlayClip, PlaysACaptureByName) {
   ASSERT_EQ(r.code, 0) << r.err;
   EXPECT_NE(r.err.find("drive no target of the face: Beard"), std::string::npos) << r.err;
   EXPECT_NE(r.err.find("nothing drives the targets smile"), std::string::npos) << r.err;
+  EXPECT_EQ(r.err.find("whichever is largest"), std::string::npos) << r.err;
   EXPECT_EQ(frame(2), exported("jawOpen=1"));
   EXPECT_EQ(frame(1), exported("jawOpen=0.5"));
   EXPECT_EQ(frame(4), exported(""));
@@ -48,6 +49,18 @@ TEST_F(PlayClip, PlaysATimeline) {
   ASSERT_EQ(run("animate face.sweep --clip scene.json --frames 5 --quiet -o frames").code, 0);
   EXPECT_EQ(frame(1), exported("jawOpen=0.25"));
   EXPECT_EQ(frame(4), exported("smile=1"));
+}
+
+TEST_F(PlayClip, SaysWhereSeveralNamesDriveOneTarget) {
+  convertRig();
+  write("take.csv", "Timecode,JawOpen,jaw_open,smile\n0,0,0,0\n0.5,0.25,0.5,1\n");
+  const Outcome r = run("animate face.sweep --clip take.csv --frames 2 -o frames");
+  EXPECT_EQ(r.code, 0);
+  EXPECT_NE(r.err.find("take.csv: JawOpen and jaw_open drive the target jawOpen, whichever is "
+                       "largest."),
+            std::string::npos)
+      << r.err;
+  EXPECT_EQ(frame(1), exported("jawOpen=0.5,smile=1"));
 }
 
 TEST_F(PlayClip, SaysWhatMatchesNothingEvenWhenQuiet) {

@@ -38,6 +38,16 @@ TEST_F(Edit, TakesSeveralCurvesAndControlsAtOnce) {
   EXPECT_EQ(heights, (std::set<double>{0.2, 0.3}));
 }
 
+TEST_F(Edit, ByNothingChangesNothing) {
+  ASSERT_EQ(run("edit sheet.sweep --ribbon middle --eta -100 -o before.sweep").code, 0);
+  for (const char* nothing :
+       {"--move b1 0,0,0", "--ribbon middle --eta -100", "--control b1-c1 'b1 c2' second 0,0,0"}) {
+    const Outcome r = run(fmt::format("edit before.sweep {} -o after.sweep", nothing));
+    EXPECT_EQ(r.out, "after.sweep: 0 of 9 patches changed\n") << r.err;
+    EXPECT_EQ(contents(folder / "after.sweep"), contents(folder / "before.sweep"));
+  }
+}
+
 TEST_F(Edit, RefusesWhatItCannotDo) {
   const std::string out = " -o other.sweep";
   EXPECT_TRUE(fails("edit sheet.sweep" + out, "nothing to edit"));

@@ -91,6 +91,10 @@ TEST_F(Following, TheFileMayTellWhatTurns) {
   const auto told = exported("--weights jawOpen=0.5 --arcs on");
   EXPECT_LE(furthest(found, told), 1e-4);
   EXPECT_GT(furthest(told, exported("--weights jawOpen=0.5")), 0.1);
+  // The way through a text finds them again.
+  ASSERT_EQ(run("wireframe face.sweep -o face.wire.json").code, 0);
+  ASSERT_EQ(run("build face.wire.json -o again.sweep --source face.sweep").code, 0);
+  EXPECT_NE(run("info again.sweep").out.find("turns"), std::string::npos);
   // Plain files of the same face are smaller by what it takes to tell.
   const std::size_t size = contents(folder / "face.sweep").size();
   ASSERT_EQ(run("convert neutral.obj turns -o plain.sweep --tolerance 0.001").code, 0);

@@ -60,6 +60,8 @@ TEST_F(Page, SaysWhatIsWrong) {
       fails("report face.sweep neutral.obj targets -o no/report.html", "there is no folder no"));
   EXPECT_TRUE(
       fails("report face.sweep neutral.obj -o report.html --tolerances 0", "--tolerances", 2));
+  EXPECT_TRUE(fails("report face.sweep neutral.obj targets -o report.html --tolerances 1e-12",
+                    "finer than a file's numbers"));
   EXPECT_TRUE(fails("report face.sweep neutral.obj -o report.html --tolerances 1 --no-tolerances",
                     "--tolerances", 2));
   EXPECT_TRUE(fails("report face.sweep neutral.obj -o report.html --gltfpack g --no-tolerances",

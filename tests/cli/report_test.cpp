@@ -202,7 +202,18 @@ TEST_F(Usage, RefusesWhatItDoesNotKnow) {
   EXPECT_TRUE(fails("info face.sweep --loud", "--loud", 2));
   EXPECT_NE(run("help convert").out.find("sweepface convert"), std::string::npos);
   EXPECT_NE(run("help").out.find("convert"), std::string::npos);
+  EXPECT_TRUE(fails("help nothing", "There is no command 'nothing'.", 2));
   EXPECT_TRUE(fails("dance --quickly", "There is no command 'dance'", 2));
+}
+
+TEST_F(Usage, DoesNotMixTheReportWithWhatItMakes) {
+  const std::string command = fmt::format(
+      "cd '{}' && '{}' build '{}/examples/sheet.wire.json' -o /dev/stdout 2>.err | cat "
+      ">.out",
+      (folder / "").string(), SWEEPFACE_TOOL, SWEEPFACE_SOURCE_DIR);
+  EXPECT_EQ(std::system(command.c_str()), 0);  // cat's
+  EXPECT_EQ(contents(folder / ".out"), "");
+  EXPECT_NE(contents(folder / ".err").find("the report goes there"), std::string::npos);
 }
 
 TEST_F(Usage, NoticesThatNobodyCanReadTheReport) {

@@ -37,6 +37,13 @@ TEST(LiveLinkCsv, AnyRateOfFrames) {
   EXPECT_NEAR(parseLiveLinkCsv("Timecode,a\n0:0:0:12,1\n", "x", 24)->times[0], 0.5, 1e-15);
 }
 
+TEST(LiveLinkCsv, GoesOnPastMidnight) {
+  const auto clip = csv("Timecode,a\n23:59:59:30,0\n0:0:0:0,1\n0:0:0:30,2\n");
+  ASSERT_TRUE(clip) << clip.error().message;
+  EXPECT_EQ(clip->seconds(), 1);
+  expectError(csv("Timecode,a\n10:0:0:0,0\n9:59:59:0,1\n"), "is not after");
+}
+
 TEST(LiveLinkCsv, SaysWhatIsWrongAndWhere) {
   expectError(csv(""), "is empty");
   expectError(csv("JawOpen\n1\n"), "line 1: there is no column 'Timecode'");
