@@ -89,6 +89,10 @@ Result<std::vector<double>> sampleTimes(const AnimateArguments& a, const Perform
   std::vector<double> times;
   for (int k = 0; k <= last; ++k)
     times.push_back(rate > 0 ? k / rate : performance.seconds * (static_cast<double>(k) / last));
+  // Keys hold on for ever: the end is one even between two frames. A mesh is for a frame.
+  constexpr double kSame = 1e-4;
+  const bool hasKeys = isOfKind(a.output, ".glb") || isOfKind(a.output, ".csv");
+  if (hasKeys && performance.seconds > times.back() + kSame) times.push_back(performance.seconds);
   return times;
 }
 

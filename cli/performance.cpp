@@ -17,8 +17,12 @@ namespace {
 
 // ---- From one expression to another ----
 
+/// How much longer than its fall a bounce lasts: bounce n lasts 2 eⁿ times as long.
+double bounceShare(double restitution) { return (1 + restitution) / (1 - restitution); }
+
 Drive driveOf(const PerformanceArguments& a, Drive drive) {
-  drive.seconds = a.seconds;
+  const bool bounces = drive.kind == Drive::Kind::bounce;
+  drive.seconds = bounces ? a.seconds / bounceShare(a.restitution) : a.seconds;
   drive.spring = {a.frequency, a.damping};
   drive.restitution = a.restitution;
   return drive;
@@ -36,7 +40,10 @@ Result<Performance> driven(const PerformanceArguments& a, const Drive& drive, co
   }
   Performance performance;
   performance.name = a.law;
-  performance.seconds = delay + (drive.kind == Drive::Kind::spring ? a.seconds : drive.seconds);
+  performance.seconds = delay + drive.seconds;
+  if (drive.kind == Drive::Kind::spring) performance.seconds = delay + a.seconds;
+  if (drive.kind == Drive::Kind::bounce)
+    performance.seconds = delay + drive.seconds * bounceShare(a.restitution);
   performance.at = [paths, delay](double time, std::span<double> weights) {
     for (std::size_t k = 0; k < weights.size(); ++k)
       weights[k] = (*paths)[k].at(time - delay).position;
@@ -82,7 +89,12 @@ Result<Performance> byLaw(const PerformanceArguments& a, const Rig& rig, const M
 
 // ---- Clips ----
 
-Result<Clip> readClip(const PerformanceArguments& a, const Region& region) {
+/// A clip as it was recorded, and as a region plays it.
+struct Recording {
+  Clip clip, played;
+};
+
+Result<Recording> readClip(const PerformanceArguments& a, const Region& region) {
   const Result<std::string> text = readFile(a.clip);
   if (!text) return std::unexpected(text.error());
   const bool isJson = isOfKind(a.clip, ".json");
@@ -93,7 +105,7 @@ Result<Clip> readClip(const PerformanceArguments& a, const Region& region) {
     if (!timeline) return std::unexpected(timeline.error());
     auto clip = bake(*timeline, kTimelineRate, region.name, region.matter);
     if (!clip) return fail(fmt::format("{}: {}", a.clip, clip.error().message));
-    return clip;
+    return Recording{*clip, *clip};
   }
   const bool gltf = isGltf(a.clip);
   if (!isJson && !gltf && !isOfKind(a.clip, ".csv"))
@@ -104,9 +116,10 @@ Result<Clip> readClip(const PerformanceArguments& a, const Region& region) {
   auto clip = isJson ? parseClipJson(*text, a.clip)
               : gltf ? parseGltfClip(*text, a.clip, folderOf(a.clip), a.animation)
                      : parseLiveLinkCsv(*text, a.clip, a.clipRate);
-  if (!clip) return clip;
+  if (!clip) return std::unexpected(clip.error());
   if (a.smooth) smooth(*clip);
-  return inMatter(*clip, region.matter, {a.frequency, a.damping});
+  Clip played = inMatter(*clip, region.matter, {a.frequency, a.damping});
+  return Recording{std::move(*clip), std::move(played)};
 }
 
 std::vector<std::string> notesOn(const ClipMatch& match, const Clip& clip,
@@ -131,32 +144,34 @@ std::vector<std::string> notesOn(const ClipMatch& match, const Clip& clip,
 }
 
 Result<Performance> byClip(const PerformanceArguments& a, const Rig& rig, const Region& region) {
-  Result<Clip> clip = readClip(a, region);
-  if (!clip) return std::unexpected(clip.error());
+  Result<Recording> recording = readClip(a, region);
+  if (!recording) return std::unexpected(recording.error());
+  Clip& clip = recording->played;
   std::vector<std::string> targets;
   for (const Target& target : rig.targets) targets.push_back(target.name);
-  ClipMatch match = matchClip(*clip, targets);
+  ClipMatch match = matchClip(clip, targets);
   if (match.undriven.size() == targets.size())
     return fail(
         fmt::format("{}: none of its {} names is a target of the face; `sweepface info` "
                     "lists the targets.",
-                    a.clip, clip->names.size()));
+                    a.clip, clip.names.size()));
   Performance performance;
   performance.name = std::filesystem::path(a.clip).stem().string();
-  performance.seconds = clip->seconds();
-  performance.clipWeights = clip->weights.size();
-  performance.notes = notesOn(match, *clip, targets, a.clip);
-  for (const double time : clip->times)
-    performance.frameTimes.push_back(time - clip->times.front());
-  const auto shared = std::make_shared<const Clip>(std::move(*clip));
-  const ClipAngles angles(*shared);
+  performance.seconds = clip.seconds();
+  performance.clipWeights = clip.weights.size();
+  performance.notes = notesOn(match, clip, targets, a.clip);
+  for (const double time : clip.times) performance.frameTimes.push_back(time - clip.times.front());
+  const ClipAngles angles(clip);
   performance.hasHead = angles.head(), performance.hasEyes = angles.eyes();
+  // Of the whole head, whatever its regions are made of.
   if (performance.hasHead || performance.hasEyes)
-    performance.pose = [shared, angles](double time) {
-      std::vector<double> own(shared->names.size());
-      shared->at(time, own);
+    performance.pose = [whole = std::make_shared<const Clip>(std::move(recording->clip)),
+                        angles](double time) {
+      std::vector<double> own(whole->names.size());
+      whole->at(time, own);
       return angles.of(own);
     };
+  const auto shared = std::make_shared<const Clip>(std::move(clip));
   performance.at = [shared, match = std::move(match)](double time, std::span<double> weights) {
     std::vector<double> own(shared->names.size());
     shared->at(time, own);
@@ -216,7 +231,9 @@ void addPerformance(CLI::App& app, PerformanceArguments& a) {
                  "linear (constant speed)")
       ->capture_default_str()
       ->type_name("LAW");
-  app.add_option("--seconds", a.seconds, "How long it takes; for a spring, how long it is shown")
+  app.add_option("--seconds", a.seconds,
+                 "How long it takes; for a spring, how long it is shown; for a "
+                 "bounce, until it rests")
       ->check(positiveNumber())
       ->capture_default_str()
       ->type_name("S");

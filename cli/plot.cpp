@@ -11,6 +11,7 @@
 
 #include "command.hpp"
 #include "performance.hpp"
+#include "regions.hpp"
 
 namespace sweepface::cli {
 namespace {
@@ -156,11 +157,14 @@ void addCurves(Curves& curves, const Performance& performance, const Subject& su
 
 Result<Curves> curvesOf(const PlotArguments& a, const Rig& rig) {
   const std::vector<std::string> laws = a.laws.empty() ? std::vector{a.what.law} : a.laws;
+  // Of several regions, what the first does.
+  const auto regions = regionsOf(a.what, {}, rig);
+  if (!regions) return std::unexpected(regions.error());
   std::vector<Performance> performances;
   for (const std::string& law : laws) {
     PerformanceArguments what = a.what;
     what.law = law;
-    Result<Performance> performance = makePerformance(what, rig);
+    Result<Performance> performance = makePerformance(what, rig, regions->front());
     if (!performance) return std::unexpected(performance.error());
     performances.push_back(std::move(*performance));
   }

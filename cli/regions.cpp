@@ -99,11 +99,18 @@ void addRegions(CLI::App& app, RegionArguments& a) {
       ->type_name("FILE");
 }
 
+Result<std::vector<Region>> regionsOf(const PerformanceArguments& what, const RegionArguments& a,
+                                      const Rig& rig) {
+  auto regions = readRegions(what, a, rig);
+  if (!regions) return regions;
+  if (auto ok = checkNames(what.clip, *regions); !ok) return std::unexpected(ok.error());
+  return regions;
+}
+
 Result<Performance> perform(const PerformanceArguments& what, const RegionArguments& a,
                             const FollowingArguments& following, Rig& rig) {
-  const auto regions = readRegions(what, a, rig);
+  const auto regions = regionsOf(what, a, rig);
   if (!regions) return std::unexpected(regions.error());
-  if (auto ok = checkNames(what.clip, *regions); !ok) return std::unexpected(ok.error());
   Parts parts;
   for (const Region& region : *regions) {
     auto performance = makePerformance(what, rig, region);

@@ -51,7 +51,7 @@ void play(const Surface& surface, const std::vector<Vec3>& vectors) {
 }
 
 /// Few bytes may stand for many vertices, which take long and tell nothing more.
-bool isSmall(const Wireframe& wireframe) { return codec::gridQuads(wireframe) < 2000; }
+bool isSmall(const Wireframe& wireframe) { return wireframe.quadCount() < 2000; }
 
 void play(const Rig& rig) {
   const Weights weights(rig.targets.size(), 0.5);

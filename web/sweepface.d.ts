@@ -6,19 +6,19 @@ export type DriveKind = 'cut' | 'newton' | 'linear-force' | 'accelerate-brake' |
 
 export interface Drive {
   /** 'spring' unless given. */
-  kind?: DriveKind;
+  kind?: DriveKind | undefined;
   /** Seconds before it sets out. */
-  delay?: number;
+  delay?: number | undefined;
   /** Seconds until it arrives; not for 'cut' and 'spring'. */
-  seconds?: number;
+  seconds?: number | undefined;
   /** 'accelerate-brake': when the second force takes over, as a fraction. */
-  turn?: number;
+  turn?: number | undefined;
   /** 'spring': oscillations a second if there were no damper. */
-  frequency?: number;
+  frequency?: number | undefined;
   /** 'spring': below 1 it overshoots, above it creeps. */
-  damping?: number;
+  damping?: number | undefined;
   /** 'bounce': the share of the speed that is left, in [0, 1). */
-  restitution?: number;
+  restitution?: number | undefined;
 }
 
 /** A file in memory, Node's `Buffer` and shared memory included. */
@@ -62,23 +62,23 @@ export interface Look {
  * sweepface_full.wasm instead of sweepface.wasm. */
 export interface LoadOptions {
   /** 0: the source's own vertices; N: every edge of the source cut into N, up to 64. */
-  lod?: number;
+  lod?: number | undefined;
   /** One of these instead of `lod`, as fine as it asks: no curve has a segment longer than `edgeLength` or is further
    * than `error` from its segments (both in model units), or the best with so many points. */
-  edgeLength?: number;
-  error?: number;
-  vertices?: number;
+  edgeLength?: number | undefined;
+  error?: number | undefined;
+  vertices?: number | undefined;
   /** What messages call the face. */
-  name?: string;
+  name?: string | undefined;
   /** Targets that turn, the jaw and lids, go on arcs, if the file tells about what they turn. */
-  arcs?: boolean;
+  arcs?: boolean | undefined;
   /** `A_B` goes by the product of A and B, `A_50` stands in for A at 0.5. */
-  combine?: boolean;
+  combine?: boolean | undefined;
   /** Eyeballs turn rigidly about their centres. */
-  eyes?: boolean;
+  eyes?: boolean | undefined;
   /** Divides the face. */
-  regions?: Region[];
-  wasm?: ModuleSource;
+  regions?: Region[] | undefined;
+  wasm?: ModuleSource | undefined;
 }
 
 /** Triangles of one material, as a range of `triangles`. */
@@ -119,7 +119,7 @@ export class Sweepface {
   /** Bytes of WebAssembly memory that the file and all its faces hold. */
   readonly memoryBytes: number;
 
-  /** The regions, 'rest' first; none where the face is of one piece. */
+  /** The regions, first 'rest' if they leave anything; none where the face is of one piece. */
   readonly regions: string[];
   /** The weights as they are; of several regions, those of the first. */
   readonly weights: Weights;

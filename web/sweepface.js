@@ -244,12 +244,12 @@ export class Sweepface {
     const details = ['lod', ...BUDGETS].filter((key) => given[key] !== undefined);
     if (details.length > 1)
       throw new TypeError(`A level of detail is asked for in one way, not by ${details.join(' and ')}.`);
-    if (!Number.isInteger(lod) || lod < 0)
-      throw new RangeError('The level of detail must be a whole number from 0 on.');
+    if (!Number.isInteger(lod) || lod < 0 || lod >= 2 ** 32)
+      throw new RangeError('The level of detail must be a whole number from 0 to 64.');
     const view = ArrayBuffer.isView(bytes) ? new Uint8Array(bytes.buffer, bytes.byteOffset, bytes.byteLength)
                                            : new Uint8Array(bytes);
     const [budget] = BUDGETS.flatMap((kind, k) => (given[kind] === undefined ? [] : [[k, Number(given[kind])]]));
-    const divide = regions && (await import('./sweepface_regions.js')).divider(regions);
+    const divide = regions?.length !== 0 && regions && (await import('./sweepface_regions.js')).divider(regions);
     const follow = (arcs ? FOLLOW.arcs : 0) + (combine ? FOLLOW.combine : 0);
     const options = {name: String(name), follow, eyes, divide, lod, budget};
     const needsFull = follow || eyes || divide || budget;
@@ -387,6 +387,8 @@ export class Sweepface {
   /** Writes what changes every frame, four integers a mode; returns their factor. */
   shaderModes(out, tangents = false) {
     const {runtime} = this.#open();
+    if (out.length % 4 !== 0) throw new RangeError(`Modes are four numbers each, not ${out.length} together.`);
+    this.#shared.loadTargets();
     return runtime.room(4 + 2 * out.length, (at) => {
       runtime.check(
         runtime.wasm.sweepface_face_modes(this.#face, tangents ? 1 : 0, at + 4, out.length / 4, at));
@@ -420,7 +422,8 @@ export class Sweepface {
   #secondsOf(drive, region) {
     const {runtime, regions} = this.#shared, kind = DRIVES[runtime.ints(drive, 1)[0]];
     const {mass = 1, stiffness = 1, delay: later = 0} = regions?.[region] ?? {};
-    const [delay, seconds, , frequency] = runtime.doubles(drive + 8, DRIVE_NUMBERS.length);
+    const [delay, seconds, , frequency, damping] = runtime.doubles(drive + 8, DRIVE_NUMBERS.length);
+    if (kind === 'spring' && damping === 0) return Infinity;
     const lasts = kind === 'cut' ? 0 : kind === 'spring' ? 1 / frequency : seconds;
     return delay + later + lasts * Math.sqrt(mass / stiffness);
   }

@@ -43,7 +43,7 @@ export class Clip {
 /** A capture: a CSV of Live Link Face, or a JSON of Audio2Face or MediaPipe. Throws a sentence about what is wrong. */
 export function readClip(source: string | Bytes, options?: {name?: string; framesPerSecond?: number}): Clip;
 
-/** Plays a clip on a face. */
+/** Plays a clip on a face, in all regions alike: what they are made of is for `moveTo` and timelines. */
 export class ClipPlayer {
   constructor(face: Playable, clip: Clip);
   readonly face: Playable;
@@ -61,7 +61,7 @@ export interface TimelineEvent {
   /** Whether all other weights of the timeline go to 0. */
   others: boolean;
   drive: Drive;
-  region?: string;
+  region?: string | undefined;
 }
 
 export interface Timeline {
@@ -69,7 +69,7 @@ export interface Timeline {
   loops: number;
   events: TimelineEvent[];
   /** For the options of Sweepface.load. */
-  regions?: Region[];
+  regions?: Region[] | undefined;
 }
 
 /** A timeline from its JSON (docs/clips.md). Throws a sentence about what is wrong. */

@@ -6,7 +6,10 @@ const decoder = new TextDecoder();
 
 function textOf(source, what) {
   if (typeof source === 'string') return source.replace(/^\uFEFF/, '');
-  if (source instanceof ArrayBuffer || ArrayBuffer.isView(source)) return decoder.decode(source);
+  const {buffer = source, byteOffset, byteLength} = source ?? {};
+  // A copy, as browsers do not decode memory that is shared.
+  if (source instanceof ArrayBuffer || ArrayBuffer.isView(source))
+    return decoder.decode(new Uint8Array(buffer, byteOffset, byteLength).slice());
   throw new TypeError(`A ${what} is read from text or bytes.`);
 }
 
@@ -14,6 +17,8 @@ function textOf(source, what) {
 function numberIn(text) {
   return /^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i.test(text) ? Number(text) : NaN;
 }
+
+const DAY = 86400, MOST_TIME = 1e10;  // seconds
 
 const isNumber = (value) => typeof value === 'number' && Number.isFinite(value);
 /** Whether a text can mean this as a weight; more is a slip. */
@@ -50,13 +55,12 @@ export function matchNames(names, targets) {
     if (!byName.has(target)) byName.set(target, k);
     if (!byPlain.has(plain(target))) byPlain.set(plain(target), k);
   });
-  const found = names.map((name) => {
-    const key = plain(name), one = byName.get(name) ?? byPlain.get(key);
-    const all = (one !== undefined ? [one] : ['_l', '_r'].map((side) => byPlain.get(key + side)))
-                    .filter((k) => k !== undefined);
-    for (const k of all) driven.add(k);
-    return all;
-  });
+  const own = names.map((name) => byName.get(name) ?? byPlain.get(plain(name)));
+  // Both sides at once, where they have no names of their own.
+  const sides = (name) => ['_l', '_r'].map((side) => byPlain.get(plain(name) + side))
+                              .filter((k) => k !== undefined && !own.includes(k));
+  const found = names.map((name, k) => (own[k] !== undefined ? [own[k]] : sides(name)));
+  for (const k of found.flat()) driven.add(k);
   return {
     targets: found,
     unmatched: names.filter((_, k) => found[k].length === 0),
@@ -134,11 +138,15 @@ function readLiveLink(text, name, framesPerSecond) {
   if (rows.length === 0) throw new Error(`${name} has headings but no frames; record again.`);
 
   const times = new Float64Array(rows.length), weights = new Float64Array(rows.length * names.length);
+  let midnights = 0;  // in seconds
   rows.forEach((row, f) => {
     const {cells} = row, timecode = cells[timeColumn], expected = headings.cells.length;
     if (cells.length !== expected)
       throw fail(row, `there are ${cells.length} values under ${expected} headings; the file may be cut short`);
-    times[f] = secondsOf(timecode, framesPerSecond, (what) => fail(row, what));
+    const {seconds, isClock} = timeOf(timecode, framesPerSecond, (what) => fail(row, what));
+    // At midnight the clock begins anew.
+    if (isClock && f > 0 && seconds + midnights < times[f - 1] - DAY / 2) midnights += DAY;
+    times[f] = seconds + (isClock ? midnights : 0);
     if (f > 0 && times[f] <= times[f - 1])
       throw fail(row, `the timecode '${timecode}' is not after the one before; sort the rows by time`);
     columns.forEach((c, k) => {
@@ -151,16 +159,16 @@ function readLiveLink(text, name, framesPerSecond) {
 }
 
 /** HH:MM:SS:FF.fff, the last in frames; or plain seconds. */
-function secondsOf(timecode, framesPerSecond, fail) {
+function timeOf(timecode, framesPerSecond, fail) {
   const seconds = numberIn(timecode);
-  if (Number.isFinite(seconds)) return seconds;
+  if (Math.abs(seconds) <= MOST_TIME) return {seconds, isClock: false};
   const parts = timecode.split(':').map(numberIn);
   if (parts.length !== 4 || !parts.every((part) => part >= 0 && part <= 1e6))
     throw fail(`'${timecode}' is not a timecode like 12:59:59:23.500`);
   if (parts[3] >= framesPerSecond)
     throw fail(`the timecode '${timecode}' counts more than ${framesPerSecond} frames a second; ` +
                'give the recording\'s own rate');
-  return (parts[0] * 60 + parts[1]) * 60 + parts[2] + parts[3] / framesPerSecond;
+  return {seconds: (parts[0] * 60 + parts[1]) * 60 + parts[2] + parts[3] / framesPerSecond, isClock: true};
 }
 
 function readAudio2Face(json, fail) {
@@ -168,6 +176,8 @@ function readAudio2Face(json, fail) {
   if (!isNumber(exportFps) || !(exportFps > 0)) throw fail('has no \'exportFps\' greater than 0');
   if (!Array.isArray(names) || names.length === 0) throw fail('has no list \'facsNames\'');
   if (!names.every((name) => typeof name === 'string')) throw fail('has a value in \'facsNames\' that is not a name');
+  const twice = names.find((name, k) => names.indexOf(name) < k);
+  if (twice !== undefined) throw fail(`names '${twice}' twice in 'facsNames'`);
   if (!Array.isArray(rows) || rows.length === 0) throw fail('has no frames in \'weightMat\'');
   rows.forEach((row, f) => {
     if (!Array.isArray(row) || row.length !== names.length)
@@ -183,7 +193,7 @@ function readMediaPipe(frames, fail) {
     const time = frame?.timestampMs ?? frame?.timestamp_ms ?? frame?.timestamp;
     if (typeof time !== 'number') throw fail(`has no 'timestampMs' in frame ${f}`);
     times[f] = time / 1000;
-    if (!Number.isFinite(times[f]) || (f > 0 && times[f] <= times[f - 1]))
+    if (!(Math.abs(times[f]) <= MOST_TIME) || (f > 0 && times[f] <= times[f - 1]))
       throw fail(`has a time in frame ${f} that is not after the one before`);
     return scoresOf(frame, f, fail);
   });
@@ -251,7 +261,7 @@ export class ClipPlayer {
   seek(seconds) {
     const values = this.clip.at(seconds), names = this.face.names, weights = {};
     this.match.targets.forEach((targets, k) => {
-      for (const target of targets) weights[names[target]] = Math.max(weights[names[target]] ?? 0, values[k]);
+      for (const target of targets) weights[names[target]] = Math.max(weights[names[target]] ?? -Infinity, values[k]);
     });
     this.face.setWeights(weights);
     const [head, leftEye, rightEye] = [0, 3, 6].map((first) => this.#anglesAt(values, first));
@@ -339,6 +349,9 @@ function readEvent(event, poses, fail) {
   return {at: event.at, goals, others: 'only' in event, drive, region: event.region || undefined};
 }
 
+/** Whether that is all of a face of one piece. */
+const isWhole = (face, region) => region === 'rest' && !face.regions?.length;
+
 /** Plays a timeline on a face: `advance` lets time pass, and what sets out does so at its own instant. */
 export class TimelinePlayer {
   #goals;
@@ -347,7 +360,7 @@ export class TimelinePlayer {
 
   constructor(face, timeline) {
     for (const {region} of timeline.events)
-      if (region && face.regions?.includes(region) === false)
+      if (region && face.regions?.includes(region) === false && !isWhole(face, region))
         throw new Error(`The timeline moves a region '${region}'; the face has ${face.regions.join(', ') || 'none'}.`);
     this.face = face;
     this.timeline = timeline;
@@ -381,8 +394,9 @@ export class TimelinePlayer {
 
   #play({goals, others, drive, region}) {
     const all = others ? Object.fromEntries([...this.#goals.values()].flat().map((target) => [target, 0])) : {};
+    const named = {};  // of two names for one target the larger counts
     for (const [name, goal] of Object.entries(goals))
-      for (const target of this.#goals.get(name)) all[target] = goal;
-    this.face.moveTo(all, drive, region);
+      for (const target of this.#goals.get(name)) named[target] = Math.max(named[target] ?? -Infinity, goal);
+    this.face.moveTo({...all, ...named}, drive, isWhole(this.face, region) ? undefined : region);
   }
 }

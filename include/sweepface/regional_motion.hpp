@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "sweepface/clip.hpp"
-#include "sweepface/live_motion.hpp"
+#include "sweepface/late_goals.hpp"
 #include "sweepface/regions.hpp"
 
 namespace sweepface {
@@ -20,15 +20,16 @@ Drive inMatter(Drive drive, const Matter& matter);
 Clip inMatter(const Clip& clip, const Matter& matter, const Spring& hold = {});
 
 /// R regions × K weights in motion: a goal sends a weight off everywhere, and each region moves by
-/// its own matter. One region of matter 1 is a MotionState, bit for bit.
+/// its own matter. One region of matter 1 is a MotionState, bit for bit. A late region does all
+/// that it would do at once, later. Nothing allocates after `make`, but the texts of errors.
 class RegionalMotion {
  public:
   /// All regions start from the same weights [K]. Refuses what MotionState or check() refuse.
   static Result<RegionalMotion> make(std::span<const double> weights,
                                      std::span<const Matter> matters);
 
-  std::size_t regionCount() const noexcept { return states_.size(); }
-  std::size_t size() const noexcept { return states_.front().size(); }  ///< K
+  std::size_t regionCount() const noexcept { return regions_.size(); }
+  std::size_t size() const noexcept { return regions_.front().state.size(); }  ///< K
 
   void advance(double seconds) noexcept;
 
@@ -37,7 +38,7 @@ class RegionalMotion {
   Result<void> moveTo(std::span<const double> goals, const Drive& drive = {});
   /// Only in one region.
   Result<void> moveTo(std::size_t region, std::size_t weight, double goal, const Drive& drive);
-  /// At once, whatever the matter.
+  /// At once, whatever the matter; no goal waits for it any more.
   Result<void> put(std::size_t region, std::size_t weight, double value);
   /// A blow, which a heavy region feels less. On an error nothing changes.
   Result<void> push(std::size_t weight, double velocityChange, double drag);
@@ -48,11 +49,20 @@ class RegionalMotion {
   void velocities(std::span<double> out) const noexcept;
 
  private:
+  struct Region {
+    Matter matter;
+    MotionState state;
+    LateGoals late;
+
+    void advance(double seconds) noexcept;
+    Result<void> check(std::size_t weight, double goal, const Drive& drive) const;
+    Result<void> moveTo(std::size_t weight, double goal, const Drive& drive);
+  };
+
   RegionalMotion() = default;
   Result<void> checkRegion(std::size_t region) const;
 
-  std::vector<Matter> matters_;
-  std::vector<MotionState> states_;  // [R]
+  std::vector<Region> regions_;  // [R]
 };
 
 }  // namespace sweepface

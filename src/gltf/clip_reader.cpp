@@ -149,7 +149,8 @@ class ClipReader {
         times.push_back(track.times[k]);
         if (k + 1 == track.times.size()) break;
         const double span = track.times[k + 1] - track.times[k];
-        if (track.interpolation == "STEP") times.push_back(track.times[k + 1] - 1e-3 * span);
+        if (track.interpolation == "STEP")
+          times.push_back(track.times[k + 1] - std::min(1e-3 * span, 1e-4));
         const double pieces = std::ceil(span * kCurveRate);
         if (!(static_cast<double>(times.size()) + pieces <= kMostFrames))
           return fail("its animation is too long for a clip.");

@@ -16,8 +16,18 @@
 using namespace sweepface;
 using namespace sweepface::capi;
 
-struct sweepface_clip {
+namespace {
+
+/// A clip as it was recorded, and as every region plays it.
+struct Recording {
+  Clip clip;
   std::vector<Clip> ofRegions;  // [R]
+};
+
+}  // namespace
+
+struct sweepface_clip {
+  Recording recording;
   ClipMatch match;
   ClipAngles angles;
   std::size_t targets;
@@ -29,10 +39,6 @@ namespace {
 
 Matter matterOf(const Division& division, std::size_t region) {
   return region < division.matters.size() ? division.matters[region] : Matter{};
-}
-
-std::string_view nameOf(const Division& division, std::size_t region) {
-  return region < division.names.size() ? division.names[region] : std::string_view();
 }
 
 // ---- Clips ----
@@ -61,32 +67,35 @@ Result<void> checkRoom(const Clip& clip, std::size_t regions, const char* name) 
   return fail(name, " is too long for ", regions, " regions; cut it, or play it with fewer.");
 }
 
-/// The clip as every region of the rig plays it.
-Result<std::vector<Clip>> readForRegions(const Division& division, std::string_view bytes,
-                                         const char* name, const sweepface_clip_options& options) {
+Result<Recording> readForRegions(const Division& division, std::string_view bytes, const char* name,
+                                 const sweepface_clip_options& options) {
   const Kind kind = kindOf(bytes);
-  std::vector<Clip> clips;
+  Recording recording;
+  std::vector<Clip>& clips = recording.ofRegions;
   if (kind != Kind::timeline) {
-    const auto capture = readCapture(kind, bytes, name, options);
+    auto capture = readCapture(kind, bytes, name, options);
     if (!capture) return std::unexpected(capture.error());
     if (auto ok = checkRoom(*capture, division.count(), name); !ok)
       return std::unexpected(ok.error());
     for (std::size_t r = 0; r < division.count(); ++r)
       clips.push_back(
           inMatter(*capture, matterOf(division, r), {options.frequency, options.damping}));
-    return clips;
+    recording.clip = std::move(*capture);
+    return recording;
   }
   const auto timeline = parseTimeline(bytes, name);
   if (!timeline) return std::unexpected(timeline.error());
-  if (auto ok = checkRegions(*timeline, division.names); !ok)
-    return fail(name, ": ", ok.error().message);
+  const std::vector<std::string> undivided{"rest"};
+  const auto& names = division.names.empty() ? undivided : division.names;
+  if (auto ok = checkRegions(*timeline, names); !ok) return fail(name, ": ", ok.error().message);
   for (std::size_t r = 0; r < division.count(); ++r) {
-    auto clip = bake(*timeline, kTimelineRate, nameOf(division, r), matterOf(division, r));
+    auto clip = bake(*timeline, kTimelineRate, names[r], matterOf(division, r));
     if (!clip) return fail(name, ": ", clip.error().message);
     if (auto ok = checkRoom(*clip, division.count(), name); !ok) return std::unexpected(ok.error());
     clips.push_back(std::move(*clip));
   }
-  return clips;
+  recording.clip = clips.front();
+  return recording;
 }
 
 std::vector<std::string> shownTargets(const sweepface_rig& rig) {
@@ -139,17 +148,18 @@ sweepface_status sweepface_clip_read(const sweepface_rig* rig, const void* bytes
   const auto asked = options ? *options : sweepface_clip_usual_options();
   if (const auto hold = Trajectory::spring({}, 0, {asked.frequency, asked.damping}); !hold)
     return refuse("The spring on which heavy regions hang: ", hold.error().message);
-  auto clips =
+  auto recording =
       readForRegions(*rig->division, {static_cast<const char*>(bytes), size}, called, asked);
-  if (!clips) return refuse(SWEEPFACE_BAD_DATA, std::move(clips.error().message));
-  ClipMatch match = matchClip(clips->front(), shownTargets(*rig));
+  if (!recording) return refuse(SWEEPFACE_BAD_DATA, std::move(recording.error().message));
+  const Clip& whole = recording->clip;
+  ClipMatch match = matchClip(whole, shownTargets(*rig));
   if (match.undriven.size() == rig->shown)
     return refuse(SWEEPFACE_BAD_DATA, std::string(called) + ": none of its " +
-                                          std::to_string(clips->front().names.size()) +
+                                          std::to_string(whole.names.size()) +
                                           " names is a target of the face.");
   std::erase_if(match.unmatched, ClipAngles::tells);
-  const ClipAngles angles(clips->front());
-  *clip = new sweepface_clip{std::move(*clips), std::move(match), angles, rig->shown};
+  const ClipAngles angles(whole);
+  *clip = new sweepface_clip{std::move(*recording), std::move(match), angles, rig->shown};
   return SWEEPFACE_OK;
 }
 
@@ -158,7 +168,7 @@ void sweepface_clip_free(sweepface_clip* clip) { delete clip; }
 double sweepface_clip_seconds(const sweepface_clip* clip) {
   if (!clip) return 0;
   double longest = 0;
-  for (const Clip& each : clip->ofRegions) longest = std::max(longest, each.seconds());
+  for (const Clip& each : clip->recording.ofRegions) longest = std::max(longest, each.seconds());
   return longest;
 }
 
@@ -173,11 +183,12 @@ const char* sweepface_clip_undriven(const sweepface_clip* clip, uint32_t index) 
 sweepface_status sweepface_clip_weights(const sweepface_clip* clip, double seconds, double* out,
                                         size_t count) {
   if (!clip || (!out && count > 0)) return refuse("Reading a clip needs one and a place.");
-  const std::size_t all = clip->ofRegions.size() * clip->targets;
+  const std::vector<Clip>& ofRegions = clip->recording.ofRegions;
+  const std::size_t all = ofRegions.size() * clip->targets;
   if (count > all) return refuse("The clip has only ", all, " weights, not ", count, ".");
-  std::vector<double> own(clip->ofRegions.front().names.size()), weights(clip->targets);
+  std::vector<double> own(clip->recording.clip.names.size()), weights(clip->targets);
   for (std::size_t r = 0, first = 0; first < count; ++r, first += clip->targets) {
-    clip->ofRegions[r].at(seconds, own);
+    ofRegions[r].at(seconds, own);
     clip->match.spread(own, weights);
     std::copy_n(weights.begin(), std::min(clip->targets, count - first), out + first);
   }
@@ -190,8 +201,9 @@ int32_t sweepface_clip_has_eyes(const sweepface_clip* clip) { return clip && cli
 sweepface_status sweepface_clip_pose(const sweepface_clip* clip, double seconds,
                                      sweepface_pose* pose) {
   if (!clip || !pose) return refuse("A pose needs a clip and a place for it.");
-  std::vector<double> own(clip->ofRegions.front().names.size());
-  clip->ofRegions.front().at(seconds, own);
+  const Clip& whole = clip->recording.clip;
+  std::vector<double> own(whole.names.size());
+  whole.at(seconds, own);
   const HeadPose found = clip->angles.of(own);
   *pose = {anglesOf(found.head), anglesOf(found.leftEye), anglesOf(found.rightEye)};
   return SWEEPFACE_OK;

@@ -72,7 +72,8 @@ constexpr std::array<std::string_view, 61> kColumns{"EyeBlinkLeft",
                                                     "RightEyePitch",
                                                     "RightEyeRoll"};
 
-/// A column and the weights of the clip that it shows, the largest of them.
+/// A column and the weights of the clip that it shows, the largest of them. Where they are not
+/// always alike each has a column of its own as well, which counts more when it is read.
 struct Column {
   std::string heading;
   std::vector<std::size_t> sources;
@@ -82,16 +83,22 @@ std::vector<Column> columnsOf(const Clip& clip) {
   Clip app;
   for (const std::string_view name : kColumns) app.names.emplace_back(name);
   const ClipMatch match = matchClip(app, clip.names);
+  const std::size_t n = clip.names.size();
+  const auto alike = [&](std::size_t a, std::size_t b) {
+    for (std::size_t f = 0; f < clip.times.size(); ++f)
+      if (clip.weights[f * n + a] != clip.weights[f * n + b]) return false;
+    return true;
+  };
   std::vector<Column> columns;
-  std::vector<bool> shown(clip.names.size(), false);
+  std::vector<bool> shown(n, false);
   for (std::size_t k = 0; k < kColumns.size(); ++k) {
     Column& column = columns.emplace_back(app.names[k]);
     for (const Index source : match.targets[k]) {
       column.sources.push_back(static_cast<std::size_t>(source));
-      shown[source] = true;
+      shown[source] = alike(source, match.targets[k][0]) && alike(source, match.targets[k].back());
     }
   }
-  for (std::size_t k = 0; k < clip.names.size(); ++k)
+  for (std::size_t k = 0; k < n; ++k)
     if (!shown[k]) columns.push_back({clip.names[k], {k}});
   return columns;
 }

@@ -57,22 +57,26 @@ ClipMatch matchClip(const Clip& clip, std::span<const std::string> targets) {
     byName.emplace(targets[t], static_cast<Index>(t));
     byPlain.emplace(plain(targets[t]), static_cast<Index>(t));
   }
+  const auto ownOf = [&](const std::string& name) -> Index {
+    if (const auto exact = byName.find(name); exact != byName.end()) return exact->second;
+    const auto same = byPlain.find(plain(name));
+    return same != byPlain.end() ? same->second : -1;
+  };
   ClipMatch match;
   std::vector<bool> driven(targets.size(), false);
   for (const std::string& name : clip.names) {
-    std::vector<Index> found;
-    const std::string key = plain(name);
-    if (const auto exact = byName.find(name); exact != byName.end())
-      found = {exact->second};
-    else if (const auto same = byPlain.find(key); same != byPlain.end())
-      found = {same->second};
-    else
-      for (const char* side : {"_l", "_r"})
-        if (const auto half = byPlain.find(key + side); half != byPlain.end())
-          found.push_back(half->second);
-    for (const Index t : found) driven[t] = true;
-    if (found.empty()) match.unmatched.push_back(name);
-    match.targets.push_back(std::move(found));
+    std::vector<Index>& found = match.targets.emplace_back();
+    if (const Index own = ownOf(name); own >= 0) found = {own}, driven[own] = true;
+  }
+  // Both sides at once, where they have no names of their own.
+  const std::vector<bool> hasOwn = driven;
+  for (std::size_t k = 0; k < clip.names.size(); ++k) {
+    if (!match.targets[k].empty()) continue;
+    for (const char* side : {"_l", "_r"})
+      if (const auto half = byPlain.find(plain(clip.names[k]) + side);
+          half != byPlain.end() && !hasOwn[half->second])
+        match.targets[k].push_back(half->second), driven[half->second] = true;
+    if (match.targets[k].empty()) match.unmatched.push_back(clip.names[k]);
   }
   for (std::size_t t = 0; t < targets.size(); ++t)
     if (!driven[t]) match.undriven.push_back(targets[t]);

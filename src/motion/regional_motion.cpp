@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
+#include <tuple>
 
 namespace sweepface {
 
@@ -23,60 +23,86 @@ namespace {
 /// swings freely between two frames, where g is straight, and gets a blow where g changes speed.
 class Hanging {
  public:
-  explicit Hanging(const Spring& spring) : spring_(spring) {}
-
-  double at() const { return distance_.position; }
-
-  void step(double seconds, double way) {
+  double step(const Spring& spring, double seconds, double way) {
     const double speed = way / seconds;
     const Start start{distance_.position, distance_.velocity + speed_ - speed};
-    if (const auto swing = Trajectory::spring(start, 0, spring_))
+    if (const auto swing = Trajectory::spring(start, 0, spring))
       distance_ = swing->at(seconds);
     else
       distance_ = {};
     speed_ = speed;
+    return distance_.position;
+  }
+
+  /// Whether it goes on to swing when what it hangs on has stopped.
+  bool swingsOn() const {
+    constexpr double kSmall = 1e-3;
+    return std::abs(distance_.position) > kSmall || std::abs(distance_.velocity + speed_) > kSmall;
   }
 
  private:
-  Spring spring_;
   Kinematics distance_;
   double speed_ = 0;  // of what it hangs on
 };
 
-void hang(Clip& clip, const Spring& spring) {
+/// The same clip with more frames, so that no two are further apart than that.
+Clip finer(const Clip& clip, double longest) {
+  Clip result{clip.names, {}, {}};
   const std::size_t n = clip.names.size();
-  for (std::size_t k = 0; k < n; ++k) {
-    Hanging hanging(spring);
-    double before = clip.times.empty() ? 0 : clip.weights[k];
-    for (std::size_t f = 1; f < clip.times.size(); ++f) {
-      double& weight = clip.weights[f * n + k];
-      const double now = weight;
-      hanging.step(clip.times[f] - clip.times[f - 1], now - before);
-      weight += hanging.at();
-      before = now;
-    }
+  const auto add = [&](double time) {
+    result.times.push_back(time);
+    result.weights.resize(n * result.times.size());
+    clip.at(time - clip.times.front(), std::span(result.weights).last(n));
+  };
+  for (std::size_t f = 0; f < clip.times.size(); ++f) {
+    const double before = f > 0 ? clip.times[f - 1] : clip.times[f], span = clip.times[f] - before;
+    const double pieces = std::ceil(span / longest);
+    for (double p = 1; p < pieces; ++p) add(before + span * p / pieces);
+    add(clip.times[f]);
   }
+  return result;
+}
+
+/// Straight lines between its frames are as good as exact, and it goes on until it hangs still, or
+/// for ten seconds.
+Clip hanging(const Clip& clip, const Spring& spring) {
+  constexpr double kFrame = 1.0 / 120, kLongest = 10;
+  const std::size_t n = clip.names.size();
+  if (clip.times.empty() || n == 0) return clip;
+  // But no more frames than a clip may hold.
+  const auto most = static_cast<double>(kMostClipWeights / n);
+  const double room = most - static_cast<double>(clip.times.size());
+  const double frame = std::max(kFrame, room > 0 ? (clip.seconds() + kLongest) / room : HUGE_VAL);
+  Clip result = finer(clip, frame);
+  std::vector<Hanging> hangs(n);
+  std::vector<double> before(n), now(n);
+  const std::size_t recorded = result.times.size();
+  const double end = result.times.back() + kLongest;
+  result.at(0, before);
+  for (std::size_t f = 1;; ++f) {
+    if (f >= recorded) {
+      const double next = result.times.back() + frame;
+      if (std::ranges::none_of(hangs, &Hanging::swingsOn) || !(next <= end)) break;
+      result.times.push_back(next);
+      result.weights.resize(n * result.times.size());
+    }
+    clip.at(result.times[f] - result.times.front(), now);
+    for (std::size_t k = 0; k < n; ++k)
+      result.weights[f * n + k] =
+          now[k] + hangs[k].step(spring, result.times[f] - result.times[f - 1], now[k] - before[k]);
+    before.swap(now);
+  }
+  return result;
 }
 
 void delay(Clip& clip, double seconds) {
-  const Clip before = clip;
-  const std::size_t n = clip.names.size();
-  // It goes on, in frames as long as its own, until the end has arrived.
-  if (const auto frames = static_cast<double>(before.times.size()); frames > 1) {
-    constexpr double kShortest = 1.0 / 240;
-    const double end = before.times.back();
-    double step = std::max(kShortest, before.seconds() / (frames - 1));
-    // But no more of them than a clip may hold.
-    const std::size_t most = kMostClipWeights / std::max<std::size_t>(n, 1);
-    const auto room = static_cast<double>(most - std::min(most, before.times.size()));
-    step = std::max(step, seconds / std::max(1.0, room));
-    for (int k = 1; clip.times.back() < end + seconds; ++k)
-      clip.times.push_back(std::min(end + k * step, end + seconds));
-    clip.weights.resize(n * clip.times.size());
-  }
-  for (std::size_t f = 0; f < clip.times.size(); ++f)
-    before.at(clip.times[f] - clip.times.front() - seconds,
-              std::span(clip.weights).subspan(f * n, n));
+  if (clip.times.empty()) return;
+  const std::vector<double> first(clip.weights.begin(),
+                                  clip.weights.begin() + std::ssize(clip.names));
+  const double start = clip.times.front();
+  for (double& time : clip.times) time += seconds;
+  clip.times.insert(clip.times.begin(), start);
+  clip.weights.insert(clip.weights.begin(), first.begin(), first.end());
 }
 
 }  // namespace
@@ -84,13 +110,48 @@ void delay(Clip& clip, double seconds) {
 Clip inMatter(const Clip& clip, const Matter& matter, const Spring& hold) {
   Clip late = clip;
   if (const double excess = matter.mass - 1; excess > 0)
-    hang(late, {hold.frequency * std::sqrt(matter.stiffness / excess),
-                hold.damping / std::sqrt(matter.stiffness * excess)});
+    late = hanging(clip, {hold.frequency * std::sqrt(matter.stiffness / excess),
+                          hold.damping / std::sqrt(matter.stiffness * excess)});
   if (matter.delay > 0) delay(late, matter.delay);
   return late;
 }
 
 // ---- Live ----
+
+namespace {
+
+/// What a drive becomes in a region once it has set out.
+Drive onceSetOut(const Drive& drive, const Matter& matter) {
+  return inMatter(drive, {matter.mass, matter.stiffness, 0});
+}
+
+}  // namespace
+
+void RegionalMotion::Region::advance(double seconds) noexcept {
+  double left = seconds;
+  const double until = std::isfinite(seconds) ? state.now() + seconds : state.now();
+  for (; const LateGoals::Goal* goal = late.due(until); late.removeFirst()) {
+    const double step = std::max(0.0, goal->at - state.now());
+    state.advance(step);
+    left -= step;
+    // Refused is only what no number can hold from where the weight is by now.
+    std::ignore = state.moveTo(goal->weight, goal->value, goal->drive);
+  }
+  state.advance(left);
+}
+
+Result<void> RegionalMotion::Region::check(std::size_t weight, double goal,
+                                           const Drive& drive) const {
+  return state.check(weight, goal, onceSetOut(drive, matter));
+}
+
+Result<void> RegionalMotion::Region::moveTo(std::size_t weight, double goal, const Drive& drive) {
+  const Drive own = onceSetOut(drive, matter);
+  if (matter.delay == 0) return state.moveTo(weight, goal, own);
+  if (auto ok = state.check(weight, goal, own); !ok) return ok;
+  late.add({state.now() + matter.delay, weight, goal, own});
+  return {};
+}
 
 Result<RegionalMotion> RegionalMotion::make(std::span<const double> weights,
                                             std::span<const Matter> matters) {
@@ -101,78 +162,75 @@ Result<RegionalMotion> RegionalMotion::make(std::span<const double> weights,
     if (auto ok = check(matter); !ok) return std::unexpected(ok.error());
     auto state = MotionState::make(weights);
     if (!state) return std::unexpected(state.error());
-    motion.matters_.push_back(matter);
-    motion.states_.push_back(std::move(*state));
+    motion.regions_.push_back({matter, std::move(*state), {weights.size(), matter.delay}});
   }
   return motion;
 }
 
 void RegionalMotion::advance(double seconds) noexcept {
-  for (MotionState& state : states_) state.advance(seconds);
+  for (Region& region : regions_) region.advance(seconds);
 }
 
 Result<void> RegionalMotion::moveTo(std::size_t weight, double goal, const Drive& drive) {
   // All are asked before the first sets out, so that an error leaves everything as it was.
-  for (std::size_t r = 0; r < states_.size(); ++r)
-    if (auto ok = states_[r].check(weight, goal, inMatter(drive, matters_[r])); !ok) return ok;
-  for (std::size_t r = 0; r < states_.size(); ++r)
-    if (auto ok = states_[r].moveTo(weight, goal, inMatter(drive, matters_[r])); !ok) return ok;
+  for (const Region& region : regions_)
+    if (auto ok = region.check(weight, goal, drive); !ok) return ok;
+  for (Region& region : regions_)
+    if (auto ok = region.moveTo(weight, goal, drive); !ok) return ok;
   return {};
 }
 
 Result<void> RegionalMotion::moveTo(std::span<const double> goals, const Drive& drive) {
-  if (goals.size() != size()) return states_.front().moveTo(goals, drive);
+  if (goals.size() != size()) return regions_.front().state.moveTo(goals, drive);
   for (std::size_t k = 0; k < goals.size(); ++k)
-    for (std::size_t r = 0; r < states_.size(); ++r)
-      if (auto ok = states_[r].check(k, goals[k], inMatter(drive, matters_[r])); !ok) return ok;
-  for (std::size_t r = 0; r < states_.size(); ++r)
-    if (auto ok = states_[r].moveTo(goals, inMatter(drive, matters_[r])); !ok) return ok;
+    for (const Region& region : regions_)
+      if (auto ok = region.check(k, goals[k], drive); !ok) return ok;
+  for (std::size_t k = 0; k < goals.size(); ++k)
+    for (Region& region : regions_)
+      if (auto ok = region.moveTo(k, goals[k], drive); !ok) return ok;
   return {};
 }
 
 Result<void> RegionalMotion::checkRegion(std::size_t region) const {
-  if (region < states_.size()) return {};
-  return failCall("There is no region ", region, "; there are ", states_.size(), ".");
+  if (region < regions_.size()) return {};
+  return failCall("There is no region ", region, "; there are ", regions_.size(), ".");
 }
 
 Result<void> RegionalMotion::moveTo(std::size_t region, std::size_t weight, double goal,
                                     const Drive& drive) {
   if (auto ok = checkRegion(region); !ok) return ok;
-  return states_[region].moveTo(weight, goal, inMatter(drive, matters_[region]));
+  return regions_[region].moveTo(weight, goal, drive);
 }
 
 Result<void> RegionalMotion::put(std::size_t region, std::size_t weight, double value) {
   if (auto ok = checkRegion(region); !ok) return ok;
-  return states_[region].moveTo(weight, value, {.kind = Drive::Kind::cut, .spring = {}});
+  regions_[region].late.forget(weight);
+  return regions_[region].state.moveTo(weight, value, {.kind = Drive::Kind::cut, .spring = {}});
 }
 
 Result<void> RegionalMotion::push(std::size_t weight, double velocityChange, double drag) {
   // All are asked before the first is pushed.
-  for (std::size_t r = 0; r < states_.size(); ++r)
-    if (auto ok =
-            states_[r].pushed(weight, velocityChange / matters_[r].mass, drag / matters_[r].mass);
-        !ok)
+  for (const auto& [matter, state, late] : regions_)
+    if (auto ok = state.pushed(weight, velocityChange / matter.mass, drag / matter.mass); !ok)
       return std::unexpected(ok.error());
-  for (std::size_t r = 0; r < states_.size(); ++r)
-    if (auto ok =
-            states_[r].push(weight, velocityChange / matters_[r].mass, drag / matters_[r].mass);
-        !ok)
+  for (auto& [matter, state, late] : regions_)
+    if (auto ok = state.push(weight, velocityChange / matter.mass, drag / matter.mass); !ok)
       return ok;
   return {};
 }
 
 Kinematics RegionalMotion::sample(std::size_t region, std::size_t weight) const noexcept {
-  return region < states_.size() ? states_[region].sample(weight) : Kinematics{};
+  return region < regions_.size() ? regions_[region].state.sample(weight) : Kinematics{};
 }
 
 void RegionalMotion::positions(std::span<double> out) const noexcept {
-  for (std::size_t r = 0; r < states_.size(); ++r)
-    states_[r].positions(out.subspan(std::min(out.size(), r * size())));
+  for (std::size_t r = 0; r < regions_.size(); ++r)
+    regions_[r].state.positions(out.subspan(std::min(out.size(), r * size())));
 }
 
 void RegionalMotion::velocities(std::span<double> out) const noexcept {
-  for (std::size_t r = 0; r < states_.size(); ++r)
-    states_[r].velocities(out.subspan(std::min(out.size(), r * size())));
+  for (std::size_t r = 0; r < regions_.size(); ++r)
+    regions_[r].state.velocities(out.subspan(std::min(out.size(), r * size())));
 }
 
 }  // namespace sweepface

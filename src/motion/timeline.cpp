@@ -40,7 +40,9 @@ Result<Clip> bake(const Timeline& timeline, double framesPerSecond) {
 
 Result<Clip> bake(const Timeline& timeline, double framesPerSecond, std::string_view region,
                   const Matter& matter) {
-  const double seconds = timeline.seconds * timeline.loops;
+  // A late region does all of it later.
+  const double seconds = timeline.seconds * timeline.loops + matter.delay;
+  const Matter onceSetOut{matter.mass, matter.stiffness, 0};
   // The last one is at the end, even where that is no whole number of frames.
   const double frames = std::ceil(seconds * framesPerSecond - 1e-6);
   if (!(framesPerSecond > 0) || !(frames >= 1 && frames <= 1e6))
@@ -62,18 +64,18 @@ Result<Clip> bake(const Timeline& timeline, double framesPerSecond, std::string_
   std::vector<double> weights(clip.names.size());
   for (double frame = 0; frame <= frames; ++frame) {
     const double time = frame < frames ? frame / framesPerSecond : seconds;
-    // Everything that sets out until this frame does so at its own instant.
+    // Everything that sets out until this frame does so at its own instant; by the last, all does.
     while (loop < timeline.loops) {
       if (next == timeline.events.size()) {
         next = 0, ++loop;
         continue;
       }
       const TimelineEvent& event = timeline.events[next];
-      const double start = event.time + loop * timeline.seconds;
-      if (start > time) break;
+      const double start = event.time + loop * timeline.seconds + matter.delay;
+      if (start > time && frame < frames) break;
       state->advance(start - state->now());
       const bool here = event.region.empty() || event.region == region;
-      if (auto ok = here ? play(event, places, matter, *state) : Result<void>{}; !ok)
+      if (auto ok = here ? play(event, places, onceSetOut, *state) : Result<void>{}; !ok)
         return std::unexpected(ok.error());
       ++next;
     }

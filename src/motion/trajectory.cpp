@@ -51,7 +51,8 @@ Kinematics path::Pieces::at(double t) const noexcept {
 // sin(wt)/w, or cosh and sinh/w beyond critical damping; w² = |ω² − σ²|.
 path::Swing::Decay path::Swing::decay(double t) const noexcept {
   const double difference = (omega - sigma) * (omega + sigma);
-  const double w = std::sqrt(std::abs(difference)), angle = w * t;
+  const double w = std::sqrt(std::abs(difference));
+  const double angle = std::fmin(w * t, std::numeric_limits<double>::max());
   double c, s;
   if (angle < 1e-8) {
     c = ode::exponential(-sigma * t);

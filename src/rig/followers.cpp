@@ -103,8 +103,13 @@ Followers::Followers(std::vector<Follower> followers) {
       products_.push_back(std::move(early));
     } else if (follower.kind == Follower::Kind::arc) {
       const Index leader = follower.leaders[0];
+      const bool hasStops = std::ranges::any_of(followers, [&](const Follower& f) {
+        return f.kind == Follower::Kind::inBetween && f.leaders[0] == leader;
+      });
       const bool follows = isBetween(leader) || is(leader, Follower::Kind::product);
-      (follows ? lateArcs_ : arcs_).push_back(follower);
+      auto& arcs = follows ? lateArcs_ : arcs_;
+      arcs.push_back(follower);
+      if (hasStops) arcs.back().leaders.clear();  // these tell the way: no bulge beside them
     } else {
       auto chain = std::ranges::find(chains_, follower.leaders[0], &Chain::leader);
       if (chain == chains_.end()) chain = chains_.insert(chain, {follower.leaders[0], {}, 0});
@@ -139,7 +144,7 @@ void Followers::apply(std::span<double> weights) const noexcept {
   };
   const auto bend = [&](const std::vector<Follower>& arcs) {
     for (const Follower& arc : arcs) {
-      const double w = weights[arc.leaders[0]];
+      const double w = arc.leaders.empty() ? 0 : weights[arc.leaders[0]];
       weights[arc.target] = 4 * w * (1 - w);
     }
   };

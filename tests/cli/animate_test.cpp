@@ -1,3 +1,5 @@
+#include "sweepface/clip.hpp"
+
 #include "cli/tool.hpp"
 
 namespace sweepface {
@@ -61,6 +63,41 @@ TEST_F(Animate, WritesFinerMeshes) {
   ASSERT_EQ(run("animate face.sweep --to smile=1 --frames 2 --lod 2 --quiet -o a/b/frames").code,
             0);
   EXPECT_EQ(mesh("a/b/frames/frame_0001.obj").polygons.faceCount(), 120);
+}
+
+TEST_F(Animate, ABounceFallsAndComesBack) {
+  convertRig();
+  const auto weights = [&](const std::string& options) {
+    EXPECT_EQ(
+        run("animate face.sweep --to smile=1 --law bounce --fps 100 -o take.csv " + options).code,
+        0);
+    const auto clip = parseLiveLinkCsv(contents(folder / "take.csv"), "take.csv");
+    std::vector<double> found;
+    const auto column = std::ranges::find(clip->names, "smile") - clip->names.begin();
+    for (std::size_t f = 0; f < clip->times.size(); ++f)
+      found.push_back(clip->weights[f * clip->names.size() + column]);
+    return found;
+  };
+  for (const double left : {0.2, 0.5}) {
+    const auto w = weights(fmt::format("--restitution {}", left));
+    ASSERT_EQ(w.size(), 101u);
+    EXPECT_NEAR(w.back(), 1, 1e-6);
+    // It falls for a part of the time, and comes back by the square of what is left of its speed.
+    const double fall = (1 - left) / (1 + left);
+    const auto landed = static_cast<std::size_t>(std::lround(100 * fall));
+    EXPECT_NEAR(w[landed], 1, 0.06);
+    EXPECT_NEAR(*std::min_element(w.begin() + landed, w.end()), 1 - left * left, 0.02);
+  }
+}
+
+TEST_F(Animate, KeysHoldTheEnd) {
+  convertRig();
+  for (const std::string options : {"--seconds 0.5 --fps 25", "--seconds 0.99"}) {
+    ASSERT_EQ(run("animate face.sweep --to smile=1 -o take.csv " + options).code, 0);
+    const auto clip = parseLiveLinkCsv(contents(folder / "take.csv"), "take.csv");
+    const auto column = std::ranges::find(clip->names, "smile") - clip->names.begin();
+    EXPECT_EQ(clip->weights[(clip->times.size() - 1) * clip->names.size() + column], 1);
+  }
 }
 
 TEST_F(Animate, LeavesOnlyWholeFramesOnInterrupt) {

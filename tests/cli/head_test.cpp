@@ -41,6 +41,22 @@ TEST_F(HeadAndEyes, TheHeadTurnsInMeshes) {
   }
 }
 
+TEST_F(HeadAndEyes, TheHeadIsOfNoRegion) {
+  convertRig();
+  capture();
+  folder.file("late.json", R"({"regions": [{"name": "all", "points": [[3, 3, 0]], "whole": 99,
+              "over": "space", "delay": 0.2, "mass": 3}]})");
+  const std::string command = "animate face.sweep --clip take.csv --head on --pivot 1,2,3 ";
+  ASSERT_EQ(run(command + "--fps 60 -o plain").code, 0);
+  ASSERT_EQ(run(command + "--fps 60 --regions late.json -o late").code, 0);
+  // The jaw has not set out yet, the head turns.
+  ASSERT_EQ(run("export face.sweep -o rest.obj").code, 0);
+  const Vec3 pivot{1, 2, 3};
+  const auto rest = mesh("rest.obj").positions, late = mesh("late/frame_0006.obj").positions;
+  for (std::size_t v = 0; v < rest.size(); ++v)
+    EXPECT_LE(norm(late[v] - (pivot + turned(quaternionOf({0.1, 0, 0}), rest[v] - pivot))), 1e-9);
+}
+
 TEST_F(HeadAndEyes, TheHeadIsANodeOfAGlb) {
   convertRig();
   capture();

@@ -59,6 +59,19 @@ TEST_F(Plot, SaysWhatIsWrong) {
   EXPECT_EQ(run("plot face.sweep -o plot.svg --to jawOpen=1 --law bounce --restitution 0").code, 0);
 }
 
+TEST_F(Plot, ShowsWhatATimelineMeansForTheRest) {
+  convertRig();
+  const auto timeline = [&](const std::string& region) {
+    folder.file("line.json",
+                R"({"seconds": 1, "events": [{"at": 0, "to": {"smile": 1}, "region": ")" + region +
+                    R"("}]})");
+  };
+  timeline("rest");
+  EXPECT_EQ(run("plot face.sweep --clip line.json -o plot.svg").code, 0);
+  timeline("cheek");
+  EXPECT_TRUE(fails("plot face.sweep --clip line.json -o plot.svg", "a region 'cheek'"));
+}
+
 TEST_F(Plot, LawsNeedNoFace) {
   ASSERT_EQ(run("laws -o laws.svg").code, 0);
   EXPECT_TRUE(contents(folder / "laws.svg").starts_with("<svg "));

@@ -68,6 +68,13 @@ TEST(GltfClip, StepsHold) {
   EXPECT_EQ(weight(*clip, 2, 0), 0);
 }
 
+TEST(GltfClip, LongStepsHoldAsWell) {
+  const auto clip = clipOf(moving("STEP", {0, 100, 101}, {0, 0, 1, 0, 0, 0}));
+  ASSERT_TRUE(clip) << clip.error().message;
+  EXPECT_EQ(weight(*clip, 99.999, 0), 0);
+  EXPECT_EQ(weight(*clip, 100, 0), 1);
+}
+
 TEST(GltfClip, WhatIsWrittenIsReadAgain) {
   const Rig rig = converted(withTargets(plane(4, 4), 2));
   const auto spring = Trajectory::spring({}, 1, {2, 0.3});

@@ -45,17 +45,27 @@ TEST(LiveLinkWriter, ColumnsAreTheAppsOwn) {
   EXPECT_TRUE(text->starts_with("Timecode,BlendShapeCount,EyeBlinkLeft,EyeLookDownLeft,"));
   const auto clip = parseLiveLinkCsv(*text, "take.csv");
   ASSERT_TRUE(clip);
-  EXPECT_EQ(clip->names.size(), 62u);
+  EXPECT_EQ(clip->names.size(), 64u);
   const auto weight = [&](std::string_view name) {
     for (std::size_t k = 0; k < clip->names.size(); ++k)
       if (clip->names[k] == name) return clip->weights[k];
     return std::nan("");
   };
-  EXPECT_EQ(weight("BrowInnerUp"), 0.5);  // both sides
+  // Both sides as one for other programs; what reads it here again takes each by its own name.
+  EXPECT_EQ(weight("BrowInnerUp"), 0.5);
+  EXPECT_EQ(weight("browInnerUp_L"), 0.25);
+  EXPECT_EQ(weight("browInnerUp_R"), 0.5);
   EXPECT_EQ(weight("EyeBlinkRight"), 1);
   EXPECT_EQ(weight("EyeBlinkLeft"), 0);
   EXPECT_EQ(weight("HeadYaw"), 0);
   EXPECT_EQ(weight("cheekRaiser"), 0.75);
+}
+
+TEST(LiveLinkWriter, SidesThatAreAlikeAreOneColumn) {
+  const auto text =
+      formatLiveLinkCsv({{"cheekPuff_L", "cheekPuff_R"}, {0, 1}, {0.25, 0.25, 0.5, 0.5}});
+  ASSERT_TRUE(text);
+  EXPECT_EQ(text->find("cheekPuff"), std::string::npos);
 }
 
 TEST(LiveLinkWriter, RefusesWhatTimecodesCannotTell) {

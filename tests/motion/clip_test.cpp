@@ -54,14 +54,24 @@ TEST(ClipMatch, SaysWhatDrivesNothingAndWhatNothingDrives) {
   EXPECT_EQ(match.undriven, std::vector<std::string>{"smile"});
 }
 
+TEST(ClipMatch, ANameOfItsOwnDrivesASideAlone) {
+  const std::vector<std::string> targets{"up_L", "up_R"};
+  EXPECT_EQ(matched({"up", "upLeft"}, targets), (std::vector<std::vector<Index>>{{1}, {0}}));
+  EXPECT_EQ(matched({"up_R", "up", "up_L"}, targets),
+            (std::vector<std::vector<Index>>{{1}, {}, {0}}));
+}
+
 TEST(ClipMatch, SpreadsWeightsOverTargets) {
   const std::vector<std::string> targets{"up_L", "up_R", "jaw"};
-  const ClipMatch match = matchClip({{"up", "upLeft"}, {}, {}}, targets);
+  const ClipMatch match = matchClip({{"upRight", "upLeft"}, {}, {}}, targets);
   std::array<double, 3> to{9, 9, 9};
   match.spread(std::array{0.3, 0.7}, to);
   EXPECT_EQ(to, (std::array{0.7, 0.3, 0.0}));
   match.spread(std::array{-0.3, -0.1}, to);  // as springs swing
   EXPECT_EQ(to, (std::array{-0.1, -0.3, 0.0}));
+  // Of several names for one target the largest.
+  matchClip({{"jaw", "Jaw"}, {}, {}}, targets).spread(std::array{-0.3, -0.1}, to);
+  EXPECT_EQ(to, (std::array{0.0, 0.0, -0.1}));
 }
 
 }  // namespace

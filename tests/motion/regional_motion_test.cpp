@@ -95,6 +95,47 @@ TEST(RegionalMotion, LateRegionsDoTheSameLater) {
   }
 }
 
+// Goals of a tracker come more often than the region is late.
+TEST(RegionalMotion, LateRegionsGoAfterEveryGoal) {
+  constexpr int late = 8;
+  RegionalMotion motion = motionOf({0.0, 0.0}, {{}, {1, 1, late * 0.015625}});
+  std::vector<double> first;
+  for (int k = 0; k < 200; ++k) {
+    first.push_back(motion.sample(0, 1).position);
+    EXPECT_NEAR(motion.sample(1, 1).position, k < late ? 0 : first[k - late], 1e-12) << k;
+    ASSERT_TRUE(motion.moveTo(std::vector{0.0, std::sin(0.1 * k)}, spring(3, 0.5)));
+    motion.advance(0.015625);
+  }
+}
+
+TEST(RegionalMotion, MoreGoalsThanCanWaitBecomeFewer) {
+  RegionalMotion motion = motionOf({0.0, 0.0}, {{}, {1, 1, 2}});
+  constexpr double frame = 1.0 / 512;
+  std::vector<double> first;
+  for (int k = 0; k < 6 * 512; ++k) {
+    first.push_back(motion.sample(0, 0).position);
+    if (k >= 4 * 512) {
+      EXPECT_NEAR(motion.sample(1, 0).position, first[k - 1024], 0.1) << k;
+    }
+    ASSERT_TRUE(motion.moveTo(0, k < 5 * 512 ? std::sin(2 * frame * k) : 0.75, spring(3, 1)));
+    ASSERT_TRUE(k > 0 || motion.moveTo(1, 1, spring(3, 1)));
+    motion.advance(frame);
+  }
+  motion.advance(4);
+  EXPECT_NEAR(motion.sample(1, 0).position, 0.75, 1e-9) << "the last one is kept";
+  EXPECT_NEAR(motion.sample(1, 1).position, 1, 1e-9) << "and the only one of a weight";
+}
+
+TEST(RegionalMotion, WhatIsPutSomewhereStaysThere) {
+  RegionalMotion motion = motionOf({0.0, 0.0}, {{}, {1, 1, 0.5}});
+  ASSERT_TRUE(motion.moveTo(0, 1, spring(3, 1)));
+  ASSERT_TRUE(motion.moveTo(1, 1, spring(3, 1)));
+  ASSERT_TRUE(motion.put(1, 0, 0.25));
+  motion.advance(9);
+  EXPECT_EQ(motion.sample(1, 0).position, 0.25);
+  EXPECT_NEAR(motion.sample(1, 1).position, 1, 1e-9);
+}
+
 TEST(RegionalMotion, GoesOnWithoutAJumpInAnyRegion) {
   RegionalMotion motion = motionOf({0.0, 0.0}, {{}, {5, 1, 0.05}, {0.3, 2, 0}});
   std::mt19937 random(8);
@@ -169,13 +210,20 @@ TEST(RegionalClip, MatterOfOneIsTheClipItself) {
 TEST(RegionalClip, AHeavyRegionFollowsLate) {
   const Clip clip = wave(60), heavy = inMatter(clip, {8, 1, 0}, {3, 0.7});
   const auto peak = [](const Clip& c) {
-    return std::ranges::max_element(c.weights.begin(), c.weights.begin() + 60) - c.weights.begin();
+    std::vector<double> weight(1);
+    double most = 0, at = 0;
+    for (double t = 0; t < 1; t += 1e-3)
+      if (c.at(t, weight); weight[0] > most) most = weight[0], at = t;
+    return at;
   };
-  EXPECT_GT(peak(heavy), peak(clip) + 2);
+  EXPECT_GT(peak(heavy), peak(clip) + 0.04);
   // A little more than nothing is little more than nothing.
   const Clip hardly = inMatter(clip, {1 + 1e-4, 1, 0}, {3, 0.7});
-  for (std::size_t k = 0; k < clip.weights.size(); ++k)
-    EXPECT_NEAR(hardly.weights[k], clip.weights[k], 1e-4);
+  std::vector<double> recorded(1);
+  for (std::size_t k = 0; k < hardly.weights.size(); ++k) {
+    clip.at(hardly.times[k], recorded);
+    EXPECT_NEAR(hardly.weights[k], recorded[0], 1e-3);
+  }
 }
 
 // Against steps so small that the order of the method does not matter (semi-implicit Euler).
@@ -196,14 +244,46 @@ TEST(RegionalClip, ObeysNewtonsLaw) {
       v += h * (stiffness * (g - x) + damper * (speed - v)) / excess;
       x += h * v;
     }
-    EXPECT_NEAR(heavy.weights[f], x, 1e-4) << f;
+    std::vector<double> found(1);
+    heavy.at(clip.times[f], found);
+    EXPECT_NEAR(found[0], x, 1e-4) << f;
   }
+}
+
+// Clips of few keys, as animations in files are.
+TEST(RegionalClip, FewFramesDoAsWellAsMany) {
+  const Clip few{{"jawOpen"}, {0, 1, 2}, {0, 1, 0}};
+  Clip many{{"jawOpen"}, {}, {}};
+  for (int k = 0; k <= 480; ++k) {
+    many.times.push_back(k / 240.0);
+    many.weights.push_back(1 - std::abs(k / 240.0 - 1));
+  }
+  for (const Matter& matter : {Matter{1, 1, 0.5}, Matter{4, 1, 0}, Matter{3, 1, 0.25}}) {
+    const Clip a = inMatter(few, matter), b = inMatter(many, matter);
+    std::vector<double> x(1), y(1);
+    for (double t = 0; t < 3; t += 0.01) {
+      a.at(t, x), b.at(t, y);
+      EXPECT_NEAR(x[0], y[0], 2e-3) << matter.mass << " " << t;
+    }
+  }
+}
+
+TEST(RegionalClip, AHeavyRegionArrives) {
+  const Clip clip{{"jawOpen"}, {0, 1.9, 2}, {0, 0, 1}};
+  const Clip heavy = inMatter(clip, {4, 1, 0}, {2, 0.3});
+  EXPECT_GT(heavy.seconds(), 2.2);
+  EXPECT_NEAR(heavy.weights.back(), 1, 1e-2);
+  // What never stops is shown for a while.
+  EXPECT_NEAR(inMatter(clip, {4, 1, 0}, {2, 1e-9}).seconds(), 12, 0.1);
 }
 
 TEST(RegionalClip, ALateRegionShowsTheClipLater) {
   const Clip clip = wave(40), late = inMatter(clip, {1, 1, 0.25});
-  for (std::size_t f = 0; f < clip.times.size(); ++f)
-    EXPECT_NEAR(late.weights[f], clip.weights[f < 10 ? 0 : f - 10], 1e-12);
+  std::vector<double> found(1);
+  for (std::size_t f = 0; f < clip.times.size(); ++f) {
+    late.at(clip.times[f], found);
+    EXPECT_NEAR(found[0], clip.weights[f < 10 ? 0 : f - 10], 1e-12);
+  }
   // And goes on until all of it was shown.
   EXPECT_NEAR(late.seconds(), clip.seconds() + 0.25, 1e-12);
   EXPECT_NEAR(late.weights.back(), clip.weights.back(), 1e-12);
@@ -233,6 +313,24 @@ TEST(RegionalTimeline, EventsAreForOneRegionOrForAll) {
   EXPECT_EQ(weight("rest", {}, 1.25), 0.5);
   EXPECT_NEAR(weight("rest", {4, 1, 0}, 1.25), 0.125, 1e-12);  // half-way in time
   EXPECT_EQ(weight("rest", {1, 1, 0.3}, 1.29), 0);
+}
+
+TEST(RegionalTimeline, LateRegionsPlayAllOfIt) {
+  const auto timeline = parseTimeline(R"({"seconds": 0.6, "loops": 3, "events": [
+    {"at": 0, "to": {"smile": 1}, "drive": "newton", "seconds": 0.2},
+    {"at": 0.3, "to": {"smile": 0}, "drive": "newton", "seconds": 0.2},
+    {"at": 0.6, "to": {"jawOpen": 1}, "drive": "cut"}]})",
+                                      "t");
+  ASSERT_TRUE(timeline) << timeline.error().message;
+  const auto now = bake(*timeline, 100, "", {}), late = bake(*timeline, 100, "", {1, 1, 0.4});
+  EXPECT_NEAR(late->seconds(), now->seconds() + 0.4, 1e-12);
+  std::vector<double> a(2), b(2);
+  for (double t = 0; t < 1.79; t += 0.01) {
+    now->at(t, a), late->at(t + 0.4, b);
+    EXPECT_NEAR(a[0], b[0], 1e-9) << t;
+  }
+  EXPECT_EQ(now->weights.back(), 1) << "what is at the very end is still seen";
+  EXPECT_EQ(late->weights.back(), 1);
 }
 
 }  // namespace

@@ -140,6 +140,9 @@ TEST(Trajectory, ACreepingSpringHalvesEveryHalfLifeInTheEnd) {
 
 TEST(Trajectory, ForEverIsWhereItEnds) {
   const double ever = std::numeric_limits<double>::infinity();
+  for (const double damping : {0.001, 0.5, 1.0, 3.0})
+    for (const double time : {ever, 1e308})
+      EXPECT_EQ(Trajectory::spring({0, 3}, 1, {2, damping})->at(time).position, 1);
   EXPECT_EQ(made(Trajectory::spring({0, 1}, 2, {})).at(ever).position, 2);
   EXPECT_EQ(made(Trajectory::impulse({3, 0}, 0, 0)).at(ever).position, 3);
 }

@@ -109,6 +109,12 @@ TEST(Followers, arcsGoByWhatTheirLeaderIsGiven) {
             (std::vector<double>{0, 1, 0.25, 0.5, 0.75, 1}));
 }
 
+TEST(Followers, whereInBetweensTellTheWayThereIsNoArcBeside) {
+  const std::vector<Follower> followers{
+      {Kind::inBetween, 1, {0}, 0.5}, {Kind::arc, 2, {0}, 0}, {Kind::arc, 3, {1}, 0}};
+  EXPECT_EQ(applied(followers, {0.25, 9, 9, 9}), (std::vector<double>{0, 0.5, 0, 1}));
+}
+
 TEST(Followers, allocateNothing) {
   if (!testing::watchesAllocations) GTEST_SKIP() << "allocations cannot be watched here";
   const Followers followers(

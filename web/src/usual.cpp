@@ -1,5 +1,7 @@
-// What the usual module does without: files that are not packed, and the words about what is wrong
-// with one. sweepface.js asks the full module for them.
+// What the usual module does without: files that are not packed, the words about what is wrong with
+// one, and regions. sweepface.js asks the full module for them.
+#include "sweepface/late_goals.hpp"
+
 #include "capi/message.hpp"
 #include "codec/crc.hpp"
 #include "codec/decoding.hpp"
@@ -13,6 +15,13 @@ std::unexpected<Error> failWith(std::initializer_list<TextPart>) {
 sweepface_status capi::refuseWith(std::initializer_list<TextPart>) {
   return SWEEPFACE_BAD_ARGUMENT;
 }
+
+// A face of one piece is never late.
+LateGoals::LateGoals(std::size_t, double) {}
+void LateGoals::add(const Goal&) noexcept {}
+const LateGoals::Goal* LateGoals::due(double) const noexcept { return nullptr; }
+void LateGoals::removeFirst() noexcept {}
+void LateGoals::forget(std::size_t) noexcept {}
 
 namespace codec {
 

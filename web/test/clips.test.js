@@ -70,6 +70,8 @@ test('names are matched and reported', async () => {
   const {targets} = matchNames(['browInnerUp', 'eye_blink-left', 'curl', 'jawL'],
                                ['browInnerUp_L', 'browInnerUp_R', 'eyeBlinkLeft', 'cur_L', 'jawLeft']);
   assert.deepEqual(targets, [[0, 1], [2], [], [4]]);
+  // A side that has a name of its own goes by that.
+  assert.deepEqual(matchNames(['up', 'upLeft'], ['up_L', 'up_R']).targets, [[1], [0]]);
 });
 
 test('the head has the angles of the app', async () => {
@@ -113,6 +115,32 @@ test('time that is no number plays nothing', async () => {
   assert.equal(face.weights.jawOpen, 0);
   player.advance(0.4);
   assert.ok(face.weights.jawOpen > 0);
+});
+
+test('captures go on past midnight and below 0, as for the tool', async () => {
+  const text = 'Timecode,JawOpen\n23:59:59:30,-0.5\n0:0:0:0,1\n0:0:0:30,-0.25\n';
+  const clip = readClip(text), native = played('take.csv', text, ['--fps', '4']), face = await Sweepface.load(readFileSync(sample));
+  const player = new ClipPlayer(face, clip), k = native.names.indexOf('JawOpen');
+  assert.equal(clip.seconds, 1);
+  native.times.forEach((time, f) => {
+    player.seek(time - native.times[0]);
+    assert.equal(face.weights.jawOpen, native.weights[f * native.names.length + k]);
+  });
+  assert.throws(() => readClip('Timecode,a\n10:0:0:0,0\n9:59:59:0,1\n'), {message: /is not after/});
+});
+
+test('the rest of a face of one piece is all of it, and of two names for a target the larger counts', async () => {
+  const face = await Sweepface.load(readFileSync(sample));
+  const events = [{at: 0, to: {jawOpen: 0.75, JawOpen: 0.25}, drive: 'cut', region: 'rest'}];
+  new TimelinePlayer(face, readTimeline(JSON.stringify({seconds: 1, events}))).advance(0.1);
+  assert.equal(face.weights.jawOpen, 0.75);
+});
+
+test('shared memory is read', () => {
+  const bytes = new TextEncoder().encode(csv), shared = new Uint8Array(new SharedArrayBuffer(bytes.length));
+  shared.set(bytes);
+  assert.equal(readClip(shared).times.length, frames.length);
+  assert.equal(readClip(bytes.buffer).times.length, frames.length);
 });
 
 test('a timeline of regions that the face lacks is refused, and what a face refuses is passed over', async () => {
@@ -161,6 +189,8 @@ for (const [file, text, words] of [
        ['a.json', '{"weightMat": [], "exportFps": 30, "facsNames": ["a"]}', 'has no frames in \'weightMat\''],
        ['a.json', '{"weightMat": [[1, 2]], "exportFps": 30, "facsNames": ["a"]}', 'has not 1 numbers in weightMat[0]'],
        ['a.json', '{"weightMat": [["x"]], "exportFps": 30, "facsNames": ["a"]}', 'is not a number within ±1,000,000 in weightMat[0]'],
+       ['a.json', '{"weightMat": [[1, 2]], "exportFps": 30, "facsNames": ["a", "a"]}', 'names \'a\' twice in \'facsNames\''],
+       ['a.json', '[{"timestampMs": 1e300, "categories": []}]', 'has a time in frame 0'],
        ['t.json', '{"events": []}', 'the file has no \'seconds\''],
        ['t.json', '{"seconds": 1, "events": []}', '\'events\' must be a list of at least one event'],
        ['t.json', '{"seconds": 0, "events": []}', '\'seconds\' must be greater than 0'],

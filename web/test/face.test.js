@@ -260,7 +260,23 @@ test('a packed face needs the usual module only, with all that is played', async
     await assert.rejects(load({wasm, ...options}, file), {message: /give sweepface_full.wasm/});
 });
 
+test('a spring without a damper never rests', async () => {
+  const face = await Sweepface.load(readFileSync(sample));
+  face.moveTo({jawOpen: 1}, {frequency: 2, damping: 0});
+  for (let k = 0; k < 9; ++k) assert.equal(face.advance(0.5), true);
+});
+
+test('modes are read where the face has not moved yet', async () => {
+  const bytes = readFileSync(packed()), {modes} = (await Sweepface.load(bytes)).shaderTables();
+  const fresh = await Sweepface.load(bytes);
+  assert.ok(fresh.shaderModes(new Int16Array(4 * modes)) > 0);
+  assert.throws(() => fresh.shaderModes(new Int16Array(4 * modes + 3)), {name: 'RangeError', message: /four numbers each/});
+});
+
 test('options are those that there are, and one level of detail', async () => {
+  const bytes = readFileSync(sample);
+  for (const lod of [-1, 0.5, 2 ** 32 + 2])
+    await assert.rejects(Sweepface.load(bytes, {lod}), {name: 'RangeError', message: /from 0 to 64/});
   await assert.rejects(load({lods: 2}), {message: /^Sweepface.load has no option 'lods'; it has lod, .*\.$/});
   await assert.rejects(load({lod: 2, vertices: 500}), {message: /in one way, not by lod and vertices\.$/});
   const nothing = Object.fromEntries(['lod', 'edgeLength', 'error', 'vertices', 'regions', 'wasm'].map((key) => [key]));

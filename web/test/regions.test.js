@@ -64,6 +64,20 @@ for (const [title, regions] of [['a painted region', [above]], ['bands', [wave]]
     for (const region of face.regions) assert.equal(face.weightsIn(region).jawOpen, 0.25);
   });
 
+test('a late region goes after goals of every frame', async () => {
+  const face = await load([{...above, mass: 1, delay: 0.125}]), way = [];
+  for (let frame = 0; frame < 60; ++frame) {
+    way.push(face.weights.jawOpen);
+    assert.ok(Math.abs(face.weightsIn('above').jawOpen - (frame < 8 ? 0 : way[frame - 8])) < 1e-9, `frame ${frame}`);
+    face.moveTo({jawOpen: Math.sin(frame / 9)});
+    assert.equal(face.advance(1 / 64), true);
+  }
+});
+
+test('no regions are no division', async () => {
+  assert.deepEqual((await load([])).regions, []);
+});
+
 test('a goal of one region is its own', async () => {
   const face = await load([above]);
   face.moveTo({jawOpen: 1}, {kind: 'accelerate-brake', seconds: 0.2}, 'above');
