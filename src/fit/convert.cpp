@@ -15,6 +15,7 @@
 #include "fit/refine.hpp"
 #include "fit/shapes.hpp"
 #include "fit/source_data.hpp"
+#include "io/text.hpp"
 #include "parallel/parallel.hpp"
 
 namespace sweepface {
@@ -79,26 +80,19 @@ Solution asStored(const Solution& solution) {
   return stored;
 }
 
-/// A name as far as it can be shown.
-std::string printable(std::string name) {
-  for (char& c : name)
-    if (c < ' ' || c > '~') c = '?';
-  return "'" + name + "'";
-}
-
 /// Files tell targets apart by their names, which are UTF-8.
 Result<void> checkNames(const std::vector<MeshTarget>& targets) {
   std::set<std::string_view> names;
   for (const MeshTarget& target : targets) {
     if (target.name.empty()) return fail("a target has no name; name it");
     if (!codec::isUtf8(target.name))
-      return fail("the name of the target " + printable(target.name) +
+      return fail("the name of the target " + io::inQuotes(target.name) +
                   " has control characters or is not UTF-8; rename it");
     if (target.name.size() > codec::kLongestName)
-      return fail("the name of a target, ", printable(target.name.substr(0, 32)),
-                  " and so on, is longer than ", codec::kLongestName, " bytes; shorten it");
+      return fail("the name of a target, ", io::inQuotes(target.name), ", is longer than ",
+                  codec::kLongestName, " bytes; shorten it");
     if (!names.insert(target.name).second)
-      return fail("two targets are named " + printable(target.name) + "; rename one of them");
+      return fail("two targets are named " + io::inQuotes(target.name) + "; rename one of them");
   }
   return {};
 }

@@ -1,8 +1,39 @@
 #include "fit/source_data.hpp"
 
 #include <algorithm>
+#include <array>
+#include <limits>
+#include <utility>
 
 namespace sweepface {
+
+namespace {
+
+/// The shortest edge at every point, but no less than a part of what its neighbours have. A row of
+/// faces far thinner than those beside it would count so much more than them that what it asks of
+/// derivatives, which are its neighbours' too, would bend these out of shape.
+std::vector<double> shortestEdges(const GridMesh& mesh, const SourceData& data) {
+  constexpr double kLeastPart = 0.1;
+  std::vector<double> shortest(mesh.pointCount(), std::numeric_limits<double>::infinity());
+  std::vector<std::array<Index, 2>> edges;
+  for (HalfEdge h = 0; h < static_cast<HalfEdge>(mesh.twin.size()); ++h) {
+    if (mesh.collapsed[h]) continue;
+    const std::array<Index, 2> ends{mesh.point[mesh.from(h)], mesh.point[mesh.to(h)]};
+    const double length = norm(data.point(ends[0], 0) - data.point(ends[1], 0));
+    for (const Index p : ends) shortest[p] = std::min(shortest[p], length);
+    edges.push_back(ends);
+  }
+  for (bool grew = true; grew;) {
+    grew = false;
+    for (const auto& [a, b] : edges)
+      for (const auto& [small, large] : {std::pair{a, b}, {b, a}})
+        if (const double least = kLeastPart * shortest[large]; shortest[small] < least)
+          shortest[small] = least, grew = true;
+  }
+  return shortest;
+}
+
+}  // namespace
 
 SourceData gatherSource(const MeshRig& rig, const GridMesh& mesh, double tolerance) {
   SourceData data;
@@ -23,18 +54,10 @@ SourceData gatherSource(const MeshRig& rig, const GridMesh& mesh, double toleran
 
   data.placeEmphasis.assign(points, 1);
   data.slopeEmphasis.assign(points, 1);
-  data.edgeLength.assign(points, 1e300);
-  for (HalfEdge h = 0; h < static_cast<HalfEdge>(mesh.twin.size()); ++h) {
-    if (mesh.collapsed[h]) continue;
-    const Index a = mesh.point[mesh.from(h)], b = mesh.point[mesh.to(h)];
-    const double length = norm(data.point(a, 0) - data.point(b, 0));
-    for (Index p : {a, b}) data.edgeLength[p] = std::min(data.edgeLength[p], length);
-  }
+  const std::vector<double> lengths = shortestEdges(mesh, data);
   // Points move by a good part of the tolerance anyway: shorter edges than that mean nothing.
   const double least = tolerance / 2;
-  for (Index p = 0; p < points; ++p) {
-    data.weight.push_back(1 / (data.edgeLength[p] * data.edgeLength[p] + least * least));
-  }
+  for (const double length : lengths) data.weight.push_back(1 / (length * length + least * least));
   return data;
 }
 

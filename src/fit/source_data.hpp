@@ -18,14 +18,12 @@ using PoseRow = Eigen::Matrix<double, 1, Eigen::Dynamic>;
 /// What is fitted: the source's points and normals in all poses, and how much each point counts.
 struct SourceData {
   double tolerance = 0;
-  Index poses = 0;                 ///< the neutral and all targets
-  PoseMatrix points;               ///< [points × 3·poses]
-  PoseMatrix normals;              ///< [points × 3·poses] unit vertex normals
-  std::vector<double> edgeLength;  ///< [points] shortest of the neutral's edges there
-  std::vector<double>
-      weight;                ///< [points] 1 / length²: an error counts relative to the mesh's size
-  double slopeWeight = 1;    ///< of a tangent beside a position
-  std::vector<char> uneven;  ///< [vertices] a line passes from a long edge to a short one
+  Index poses = 0;             ///< the neutral and all targets
+  PoseMatrix points;           ///< [points × 3·poses]
+  PoseMatrix normals;          ///< [points × 3·poses] unit vertex normals
+  std::vector<double> weight;  ///< [points] 1 / edge²: an error counts relative to the mesh there
+  double slopeWeight = 1;      ///< of a tangent beside a position
+  std::vector<char> uneven;    ///< [vertices] a line passes from a long edge to a short one
   std::vector<double> placeEmphasis;  ///< [points] factor on the weight of the position there
   std::vector<double> slopeEmphasis;  ///< [points] factor on the weight of the tangents there
 

@@ -1,5 +1,6 @@
 #include "gltf/parts.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <map>
 #include <set>
@@ -180,12 +181,14 @@ class PartFinder {
       if (const Json* extras = gltf::find(*holder, "extras"); extras && !given)
         if (const Json* list = gltf::find(*extras, "targetNames"); list && list->is_array())
           given = list;
-    std::vector<std::string> names;
-    for (std::size_t t = 0; t < primitive.targets.size(); ++t) {
-      const bool named = given && t < given->size() && (*given)[t].is_string();
-      std::string name = named ? (*given)[t].get<std::string>() : std::string();
-      names.push_back(io::trimmed(name).empty() ? fmt::format("target_{}", t) : std::move(name));
-    }
+    std::vector<std::string> names(primitive.targets.size());
+    for (std::size_t t = 0; given && t < std::min(names.size(), given->size()); ++t)
+      if (const Json& name = (*given)[t]; name.is_string()) names[t] = name.get<std::string>();
+    for (std::size_t t = 0; t < names.size(); ++t)
+      for (std::size_t free = t; io::trimmed(names[t]).empty(); ++free)
+        if (std::string name = fmt::format("target_{}", free);
+            std::ranges::find(names, name) == names.end())
+          names[t] = std::move(name);
     return names;
   }
 

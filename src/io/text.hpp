@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstddef>
@@ -11,6 +12,8 @@
 #include <vector>
 
 #include "sweepface/vec.hpp"
+
+#include "codec/utf8.hpp"
 
 namespace sweepface::io {
 
@@ -98,12 +101,20 @@ inline bool isUsable(double coordinate) {
   return std::abs(coordinate) <= std::numeric_limits<float>::max();
 }
 
-/// A word for a message: in quotes, printable and short.
+/// A word for a message: in quotes, printable and short. What is not UTF-8 is shown as far as it is
+/// ASCII.
 inline std::string inQuotes(std::string_view word) {
   constexpr std::size_t longest = 40;
+  const bool isUtf8 = codec::isUtf8(word);
+  const auto isInside = [&](char c) { return isUtf8 && (c & 0xC0) == 0x80; };  // a character
+  std::size_t length = std::min(word.size(), longest);
+  while (length < word.size() && isInside(word[length])) --length;
   std::string text = "'";
-  for (const char c : word.substr(0, longest)) text += c >= ' ' && c != '\x7f' ? c : '?';
-  return text += word.size() > longest ? "...'" : "'";
+  for (const char c : word.substr(0, length)) {
+    const auto code = static_cast<unsigned char>(c);
+    text += code < ' ' || code == 0x7f || (code > 0x7f && !isUtf8) ? '?' : c;
+  }
+  return text += length < word.size() ? "...'" : "'";
 }
 
 /// A sentence that goes on in another one.

@@ -4,6 +4,7 @@
 #include "sweepface/codec.hpp"
 #include "sweepface/eval.hpp"
 #include "sweepface/fit.hpp"
+#include "sweepface/measure.hpp"
 
 #include "faces.hpp"
 
@@ -305,6 +306,37 @@ TEST(Refusal, ofAToleranceBelowTheFilesPrecision) {
 
 TEST(Diagonal, spansTheBoundingBox) {
   EXPECT_DOUBLE_EQ(diagonal(grid(3, 4, [](double x, double y) { return Vec3{x, y, 0}; })), 5);
+}
+
+// Loops of edges that hold a shape: one row of faces a fiftieth as wide as those beside it.
+TEST(ThinRows, DoNotBendWhatIsBesideThem) {
+  const MeshRig sheet{grid(20, 20,
+                           [](double i, double j) {
+                             const double x = -1 + 0.1 * i, y = j == 11 ? 0.002 : 0.12 * (j - 10);
+                             return Vec3{x, y, 0.64 * std::cos(1.2 * x) * std::cos(0.9 * y)};
+                           }),
+                      {}};
+  const MeshRig ring{grid(
+                         24, 16,
+                         [](double i, double j) {
+                           constexpr double step = std::numbers::pi / 12;
+                           const double u = i == 5 ? 4 * step + 0.005 : step * i;
+                           const double v = std::numbers::pi / 8 * j, r = 1 + 0.35 * std::cos(v);
+                           return Vec3{r * std::cos(u), r * std::sin(u), 0.35 * std::sin(v)};
+                         },
+                         true, true),
+                     {}};
+  for (const MeshRig* source : {&sheet, &ring})
+    for (const bool pack : {false, true}) {
+      ConvertOptions options;
+      options.pack = pack;
+      const auto conversion = convert(*source, options);
+      ASSERT_TRUE(conversion) << conversion.error().message;
+      const auto found = measure(conversion->rig, *source);
+      ASSERT_TRUE(found) << found.error().message;
+      EXPECT_LT(found->worst.angle.rms, 1.5) << pack;
+      EXPECT_LT(found->worst.facetExcess, 0.01) << pack;
+    }
 }
 
 }  // namespace
