@@ -79,7 +79,11 @@ function paint(runtime, rig, region) {
   try {
     const nodes = wasm.sweepface_rig_node_count(rig), count = bands * nodes;
     const room = copies.numbers(new Float64Array(count));
-    runtime.check(wasm.sweepface_rig_paint(rig, brush(copies, region), bands, room, count));
+    try {
+      runtime.check(wasm.sweepface_rig_paint(rig, brush(copies, region), bands, room, count));
+    } catch (error) {
+      throw new Error(`Region '${region.name}': ${error.message}`, {cause: error});
+    }
     const shares = runtime.doubles(room, count).slice();
     return Array.from({length: bands}, (_, k) => {
       const matter = Object.fromEntries(Object.entries(MATTER).map(([key, usual]) => [key, region[key] ?? usual]));

@@ -105,7 +105,8 @@ test('what is no region is refused with a sentence', async () => {
   await refused([{...above, bands: 1.5}], /1\.5 bands/);
   await refused([{...above, fade: -1}], /finite and at least 0/);
   await refused([above, above], /Two regions are named 'above'/);
-  await refused([{name: 'x', parts: ['beard']}], /beard/);
+  await refused([{name: 'x', parts: ['beard']}], /Region 'x': .*beard/);
+  await refused([{...above, points: [[1e6, 0, 0]]}], /Region 'above': The brush reaches no node/);
   await refused([{...above, mass: 1e9}], /from 0\.0001 to 10000/);
   await refused([{...above, mass: 'heavy'}], /Region 'above' has a 'mass' that is not a number\./);
   await refused([{...above, delay: -1}], /from 0 to 60 seconds/);
