@@ -3,6 +3,7 @@
 
 #include "sweepface/live_motion.hpp"
 #include "sweepface/motion.hpp"
+#include "sweepface/regional_motion.hpp"
 
 #include "allocations.hpp"
 
@@ -38,6 +39,23 @@ TEST(MotionState, MovesWithoutAllocating) {
     ASSERT_TRUE(state->push(3, 0.1, 1));
     state->positions(out);
     state->velocities(out);
+  }
+  EXPECT_EQ(allocations.count, before);
+}
+
+TEST(RegionalMotion, MovesLateRegionsWithoutAllocating) {
+  auto motion = RegionalMotion::make(std::vector<double>(57, 0.0),
+                                     std::vector<Matter>{{1, 1, 0}, {3, 1, 0.1}, {1, 1, 5}});
+  const std::vector<double> goals(57, 1.0);
+  std::vector<double> out(3 * 57);
+  const std::size_t before = allocations.count;
+  for (int frame = 0; frame < 600; ++frame) {
+    motion->advance(1.0 / 60);
+    ASSERT_TRUE(motion->moveTo(goals));
+    ASSERT_TRUE(motion->push(3, 0.1, 1));
+    ASSERT_TRUE(frame % 100 > 0 || motion->put(2, 7, 0.5));
+    motion->positions(out);
+    motion->velocities(out);
   }
   EXPECT_EQ(allocations.count, before);
 }
