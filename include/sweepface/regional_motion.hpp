@@ -15,8 +15,9 @@ namespace sweepface {
 Drive inMatter(Drive drive, const Matter& matter);
 
 /// What a clip becomes there. The recorded face has the mass 1 already; what is beyond that hangs
-/// on the recorded weights by a spring and a damper, follows late and swings on. The frames stay;
-/// between them the path is exact however many there are.
+/// on the recorded weights by a spring and a damper, follows late and swings on. It has so many
+/// frames that straight lines between them are as good as exact, and goes on until all of it has
+/// arrived: until what swings hangs still, or for ten seconds.
 Clip inMatter(const Clip& clip, const Matter& matter, const Spring& hold = {});
 
 /// R regions × K weights in motion: a goal sends a weight off everywhere, and each region moves by
