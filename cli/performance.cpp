@@ -17,21 +17,26 @@ namespace {
 
 // ---- From one expression to another ----
 
-/// How much longer than its fall a bounce lasts: bounce n lasts 2 eⁿ times as long.
-double bounceShare(double restitution) { return (1 + restitution) / (1 - restitution); }
+/// How long a bounce lasts, of its fall: bounce n lasts 2 eⁿ times as long as that.
+double bounceLength(double restitution) { return (1 + restitution) / (1 - restitution); }
+
+/// How long a drive that was asked for is shown: a spring, which never ends, for as long as asked.
+double lengthOf(const Drive& drive, double asked) {
+  if (drive.kind == Drive::Kind::spring) return asked;
+  return drive.seconds * (drive.kind == Drive::Kind::bounce ? bounceLength(drive.restitution) : 1);
+}
 
 Drive driveOf(const PerformanceArguments& a, Drive drive) {
   const bool bounces = drive.kind == Drive::Kind::bounce;
-  drive.seconds = bounces ? a.seconds / bounceShare(a.restitution) : a.seconds;
+  drive.seconds = bounces ? a.seconds / bounceLength(a.restitution) : a.seconds;
   drive.spring = {a.frequency, a.damping};
   drive.restitution = a.restitution;
   return drive;
 }
 
 /// Laws that are not exact in two or three keys: a trajectory for every weight.
-Result<Performance> driven(const PerformanceArguments& a, const Drive& drive, const Weights& from,
-                           const Weights& to) {
-  const double delay = drive.delay;
+Result<Performance> driven(const PerformanceArguments& a, const Drive& drive, double delay,
+                           const Weights& from, const Weights& to) {
   const auto paths = std::make_shared<std::vector<Trajectory>>();
   for (std::size_t k = 0; k < from.size(); ++k) {
     const auto path = trajectoryOf(drive, {from[k], 0}, to[k]);
@@ -40,10 +45,7 @@ Result<Performance> driven(const PerformanceArguments& a, const Drive& drive, co
   }
   Performance performance;
   performance.name = a.law;
-  performance.seconds = delay + drive.seconds;
-  if (drive.kind == Drive::Kind::spring) performance.seconds = delay + a.seconds;
-  if (drive.kind == Drive::Kind::bounce)
-    performance.seconds = delay + drive.seconds * bounceShare(a.restitution);
+  performance.seconds = delay + lengthOf(drive, a.seconds);
   performance.at = [paths, delay](double time, std::span<double> weights) {
     for (std::size_t k = 0; k < weights.size(); ++k)
       weights[k] = (*paths)[k].at(time - delay).position;
@@ -60,30 +62,31 @@ Result<Performance> byLaw(const PerformanceArguments& a, const Rig& rig, const M
   if (!to) return std::unexpected(to.error());
   if (const auto drive = driveFromName(a.law);
       drive && drive->kind != Drive::Kind::cut && !timeLawFromName(a.law))
-    return driven(a, inMatter(driveOf(a, *drive), matter), *from, *to);
+    return driven(a, inMatter(driveOf(a, *drive), matter), matter.delay, *from, *to);
   const Result<TimeLaw> law = timeLawFromName(a.law);
   if (!law)
     return fail(
         fmt::format("There is no law '{}'; there are linear, newton, brake, "
                     "accelerate-brake, linear-force, spring and bounce.",
                     a.law));
-  const Drive timed = inMatter({.seconds = a.seconds, .spring = {}}, matter);
-  auto motion = Motion::make(*from, *to, *law, timed.seconds);
+  const double seconds = inMatter({.seconds = a.seconds, .spring = {}}, matter).seconds;
+  auto motion = Motion::make(*from, *to, *law, seconds);
   if (!motion) return std::unexpected(motion.error());
   Performance performance;
   performance.name = a.law;
-  performance.seconds = timed.delay + timed.seconds;
-  performance.at = [motion = *motion, delay = timed.delay](double time, std::span<double> weights) {
+  performance.seconds = matter.delay + seconds;
+  performance.at = [motion = *motion, delay = matter.delay](double time,
+                                                            std::span<double> weights) {
     motion.at(time - delay, weights);
   };
-  performance.kinematicsAt = [motion = *motion, delay = timed.delay](
+  performance.kinematicsAt = [motion = *motion, delay = matter.delay](
                                  double time, std::span<Kinematics> weights) {
     for (std::size_t k = 0; k < weights.size(); ++k) {
       const MotionSample sample = motion.sample(k, time - delay);
       weights[k] = {sample.position, sample.velocity, sample.force};
     }
   };
-  if (timed.delay == 0) performance.motion = std::move(*motion);
+  if (matter.delay == 0) performance.motion = std::move(*motion);
   return performance;
 }
 

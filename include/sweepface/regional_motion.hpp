@@ -11,7 +11,8 @@ namespace sweepface {
 
 /// What a drive becomes in a part of a face. The pull is that of the rest times the stiffness, and
 /// m q″ = f: everything takes √(mass / stiffness) times as long, and a spring's damping, whose
-/// damper stays the same, is divided by √(mass · stiffness).
+/// damper stays the same, is divided by √(mass · stiffness). How late the part sets out is not the
+/// drive's: its own delay stays.
 Drive inMatter(Drive drive, const Matter& matter);
 
 /// What a clip becomes there. The recorded face has the mass 1 already; what is beyond that hangs
@@ -56,6 +57,7 @@ class RegionalMotion {
     LateGoals late;
 
     void advance(double seconds) noexcept;
+    /// Whether moveTo() would be an error.
     Result<void> check(std::size_t weight, double goal, const Drive& drive) const;
     Result<void> moveTo(std::size_t weight, double goal, const Drive& drive);
   };

@@ -27,8 +27,8 @@ double diagonal(const PolygonMesh& mesh) {
 }
 
 Result<void> checkTolerance(double tolerance, double diagonal) {
-  constexpr double kLeast =
-      0x1p-25;  // of the diagonal: what single precision rounds off at its end
+  // Of the diagonal: what single precision rounds off at its end.
+  constexpr double kLeast = 0x1p-25;
   if (tolerance >= kLeast * diagonal) return {};
   return fail(fmt::format(
       "a tolerance of {:.3g} is finer than a file's numbers, {:.3g} for a mesh of this size; "

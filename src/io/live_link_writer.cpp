@@ -93,10 +93,10 @@ std::vector<Column> columnsOf(const Clip& clip) {
   std::vector<bool> shown(n, false);
   for (std::size_t k = 0; k < kColumns.size(); ++k) {
     Column& column = columns.emplace_back(app.names[k]);
-    for (const Index source : match.targets[k]) {
-      column.sources.push_back(static_cast<std::size_t>(source));
-      shown[source] = alike(source, match.targets[k][0]) && alike(source, match.targets[k].back());
-    }
+    column.sources.assign(match.targets[k].begin(), match.targets[k].end());
+    const bool isAll = std::ranges::all_of(
+        column.sources, [&](std::size_t source) { return alike(source, column.sources[0]); });
+    for (const std::size_t source : column.sources) shown[source] = isAll;
   }
   for (std::size_t k = 0; k < n; ++k)
     if (!shown[k]) columns.push_back({clip.names[k], {k}});

@@ -72,8 +72,9 @@ ClipMatch matchClip(const Clip& clip, std::span<const std::string> targets) {
   const std::vector<bool> hasOwn = driven;
   for (std::size_t k = 0; k < clip.names.size(); ++k) {
     if (!match.targets[k].empty()) continue;
+    const std::string key = plain(clip.names[k]);
     for (const char* side : {"_l", "_r"})
-      if (const auto half = byPlain.find(plain(clip.names[k]) + side);
+      if (const auto half = byPlain.find(key + side);
           half != byPlain.end() && !hasOwn[half->second])
         match.targets[k].push_back(half->second), driven[half->second] = true;
     if (match.targets[k].empty()) match.unmatched.push_back(clip.names[k]);

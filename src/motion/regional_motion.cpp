@@ -11,7 +11,6 @@ Drive inMatter(Drive drive, const Matter& matter) {
   drive.seconds *= stretch;
   drive.spring.frequency /= stretch;
   drive.spring.damping /= std::sqrt(matter.mass * matter.stiffness);
-  drive.delay += matter.delay;
   return drive;
 }
 
@@ -108,24 +107,15 @@ void delay(Clip& clip, double seconds) {
 }  // namespace
 
 Clip inMatter(const Clip& clip, const Matter& matter, const Spring& hold) {
-  Clip late = clip;
-  if (const double excess = matter.mass - 1; excess > 0)
-    late = hanging(clip, {hold.frequency * std::sqrt(matter.stiffness / excess),
-                          hold.damping / std::sqrt(matter.stiffness * excess)});
+  const double excess = matter.mass - 1;
+  Clip late = excess > 0 ? hanging(clip, {hold.frequency * std::sqrt(matter.stiffness / excess),
+                                          hold.damping / std::sqrt(matter.stiffness * excess)})
+                         : clip;
   if (matter.delay > 0) delay(late, matter.delay);
   return late;
 }
 
 // ---- Live ----
-
-namespace {
-
-/// What a drive becomes in a region once it has set out.
-Drive onceSetOut(const Drive& drive, const Matter& matter) {
-  return inMatter(drive, {matter.mass, matter.stiffness, 0});
-}
-
-}  // namespace
 
 void RegionalMotion::Region::advance(double seconds) noexcept {
   double left = seconds;
@@ -142,11 +132,11 @@ void RegionalMotion::Region::advance(double seconds) noexcept {
 
 Result<void> RegionalMotion::Region::check(std::size_t weight, double goal,
                                            const Drive& drive) const {
-  return state.check(weight, goal, onceSetOut(drive, matter));
+  return state.check(weight, goal, inMatter(drive, matter));
 }
 
 Result<void> RegionalMotion::Region::moveTo(std::size_t weight, double goal, const Drive& drive) {
-  const Drive own = onceSetOut(drive, matter);
+  const Drive own = inMatter(drive, matter);
   if (matter.delay == 0) return state.moveTo(weight, goal, own);
   if (auto ok = state.check(weight, goal, own); !ok) return ok;
   late.add({state.now() + matter.delay, weight, goal, own});

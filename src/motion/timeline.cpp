@@ -42,7 +42,6 @@ Result<Clip> bake(const Timeline& timeline, double framesPerSecond, std::string_
                   const Matter& matter) {
   // A late region does all of it later.
   const double seconds = timeline.seconds * timeline.loops + matter.delay;
-  const Matter onceSetOut{matter.mass, matter.stiffness, 0};
   // The last one is at the end, even where that is no whole number of frames.
   const double frames = std::ceil(seconds * framesPerSecond - 1e-6);
   if (!(framesPerSecond > 0) || !(frames >= 1 && frames <= 1e6))
@@ -75,7 +74,7 @@ Result<Clip> bake(const Timeline& timeline, double framesPerSecond, std::string_
       if (start > time && frame < frames) break;
       state->advance(start - state->now());
       const bool here = event.region.empty() || event.region == region;
-      if (auto ok = here ? play(event, places, onceSetOut, *state) : Result<void>{}; !ok)
+      if (auto ok = here ? play(event, places, matter, *state) : Result<void>{}; !ok)
         return std::unexpected(ok.error());
       ++next;
     }
