@@ -38,7 +38,7 @@ std::uint32_t fixed32(std::string_view bytes) {
 bool isCode(std::string_view code) {
   return std::ranges::all_of(code, [](char c) { return c >= ' ' && c <= '~'; });
 }
-bool isOptional(std::string_view code) { return code[0] >= 'a' && code[0] <= 'z'; }
+bool isOptional(std::string_view code) { return code[0] < 'A' || code[0] > 'Z'; }
 
 class ChunkReader {
  public:

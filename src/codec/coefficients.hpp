@@ -254,11 +254,12 @@ class CoefficientCoder {
 
   void codeVectors(Index s, std::uint32_t level) {
     const CodedSite& site = h_.sites()[s];
-    std::uint32_t before = 0;
+    std::uint32_t before = 0;  // which moved, of the last 32
+    bool some = false;
     for (Index k = 0; k < site.count; ++k) {
       const Index v = site.first + k;
       bool moved = isMoved(residual_[v]);
-      if (k + 1 == site.count && before == 0) {
+      if (k + 1 == site.count && !some) {
         moved = true;
       } else {
         const std::uint32_t p = phase_, shape = site.count * 8 + k;
@@ -269,6 +270,7 @@ class CoefficientCoder {
       }
       before = before * 2 + moved;
       if (!moved) continue;
+      some = true;
       codeVector(s, k, v, level);
       if constexpr (!kWrites<Coder>) told_.push_back(v);
     }

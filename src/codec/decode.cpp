@@ -5,6 +5,7 @@
 #include "codec/chunks.hpp"
 #include "codec/decoding.hpp"
 #include "codec/grid_size.hpp"
+#include "codec/limits.hpp"
 #include "codec/utf8.hpp"
 
 namespace sweepface {
@@ -20,8 +21,15 @@ bool Decoding::afford(Reader& in, std::size_t count, std::size_t bytesEach) {
   return true;
 }
 
-void Decoding::affordTargets(Reader& in) {
-  if (afford(in, targets, sizeof(Target))) afford(in, loose, (targets + 1) * sizeof(Vec3));
+bool Decoding::affordVectors(Reader& in, std::size_t eachPose, std::size_t bytesEach) {
+  const std::size_t poses = targets + 1, vectors = std::max<std::size_t>(1, eachPose);
+  // What is still costs nothing, so that memory is limited here.
+  if (poses > kMostVectors / vectors ||
+      poses * vectors > within(kMostVectors, kVectorsAByte, kVectorsAnyway, fileSize)) {
+    in.refuse("there are more targets than the file can hold");
+    return false;
+  }
+  return afford(in, poses * eachPose, bytesEach);
 }
 
 void Decoding::makeSurface(Reader& in) {

@@ -54,7 +54,9 @@ void readLoose(Decoding& d, Reader& in) {
 
 void readSourceOrder(Decoding& d, Reader& in) {
   auto& order = d.rig->source.gridVertex;
-  order.resize(in.count(1, "vertices"));
+  const std::size_t count = in.count(1, "vertices");
+  if (!d.afford(in, count, sizeof(Index))) return;
+  order.resize(count);
   const std::int64_t low = -static_cast<std::int64_t>(d.rig->source.loose.size());
   const std::int64_t high = gridVertices(d.rig->surface);
   Index last = -1;
@@ -62,6 +64,8 @@ void readSourceOrder(Decoding& d, Reader& in) {
 }
 
 void readPolygons(Decoding& d, Reader& in) {
+  // A size, a corner or a name takes a byte at least.
+  if (!d.afford(in, in.left(), sizeof(std::string))) return;
   Polygons& faces = d.rig->source.polygons;
   readFaceSizes(in, faces);
   const auto vertices = static_cast<Index>(d.rig->source.gridVertex.size());
@@ -78,6 +82,8 @@ void readPolygons(Decoding& d, Reader& in) {
 void readTexcoords(Decoding& d, Reader& in) {
   Polygons& faces = d.rig->source.polygons;
   const std::size_t count = in.size();
+  if (!d.afford(in, count, sizeof(Vec2)) || !d.afford(in, faces.corners.size(), sizeof(Index)))
+    return;
   faces.texcoords = readVectors<Vec2>(in, count, Precision::exact);
   if (in.number(0, 2, "flag") == 0) return;
   if (faces.corners.size() > in.left()) in.refuse("texture coordinates of corners are missing");
@@ -90,6 +96,7 @@ void readTexcoords(Decoding& d, Reader& in) {
 
 void readQuadCorners(Decoding& d, Reader& in) {
   if (d.quads > in.left()) return in.refuse("corners of quads are missing");
+  if (!d.afford(in, d.quads, sizeof(std::array<Index, 4>))) return;
   const Polygons& faces = d.rig->source.polygons;
   const auto corners = static_cast<Index>(faces.corners.size());
   Index first = 0;
@@ -108,13 +115,16 @@ void readQuadCorners(Decoding& d, Reader& in) {
   }
 }
 
-void readScene(Decoding& d, Reader& in) { d.rig->scene = in.text(); }
+void readScene(Decoding& d, Reader& in) {
+  if (d.afford(in, in.left(), 1)) d.rig->scene = in.text();
+}
 void readThingNames(Decoding& d, Reader& in) {
   d.rig->names = readNames(in, d.rig->surface.wireframe());
 }
 
 // Vectors that are not whole multiples of steps: by pose, as they are.
 void readExact(Decoding& d, Reader& in) {
+  if (!d.afford(in, in.left(), sizeof(Index) + sizeof(Vec3))) return;  // a byte each at least
   std::int64_t pose = -1;
   while (in.left() > 0) {
     pose += 1 + static_cast<std::int64_t>(in.size());

@@ -26,7 +26,7 @@ void readBase(Decoding& d, Reader& in) {
   if (packing.neutralStep < 0 || packing.targetStep < 0) in.refuse("a step is negative");
   d.targets = in.size();
   d.loose = in.size();
-  d.affordTargets(in);
+  if (d.afford(in, d.targets, sizeof(Target))) d.affordVectors(in, d.loose, sizeof(Vec3));
 }
 
 // All that follows of a chunk, through a range decoder.
@@ -56,13 +56,8 @@ void readGrid(Decoding& d, Reader& in) {
   if (!in.ok() || !d.afford(in, d.wireframe.patches.size(), kBytesAPatch)) return;
   d.makeSurface(in);
   if (!in.ok()) return;
-  // What is still costs nothing, so that memory is limited here.
-  const std::size_t vectors = std::max<std::size_t>(1, d.stored);
-  if (d.targets + 1 > kMostVectors / vectors ||
-      (d.targets + 1) * vectors > kVectorsAByte * d.fileSize + kVectorsAnyway)
-    return in.refuse("there are more targets than the file can hold");
-  if (!d.afford(in, (d.targets + 1) * d.stored, kBytesAVector)) return;
-  d.lattice.emplace(d.rig->surface, d.rig->packing, d.mirror);
+  if (d.affordVectors(in, d.stored, kBytesAVector))
+    d.lattice.emplace(d.rig->surface, d.rig->packing, d.mirror);
 }
 
 void readTargetNames(Decoding& d, Reader& in) {
@@ -152,24 +147,21 @@ void readMoves(Decoding& d, Reader& in) {
   readPoses(d, in, 1, static_cast<Index>(d.targets) + 1);
 }
 
-std::size_t mostQuads(const Reader& in) {
-  return within(kMostQuads, kQuadsAByte, kQuadsAnyway, in.left());
-}
 // Of whatever is told beyond the grid.
-std::size_t mostEntries(const Decoding& d, const Reader& in) {
-  return std::min(mostQuads(in), d.memory / kBytesAnEntry);
+std::size_t affordable(const Decoding& d, const Reader& in) {
+  return std::min(mostEntries(in.left()), d.memory / kBytesAnEntry);
 }
 
 // What is told by the grid of the patches takes less than a bit each; its size is checked here.
 template <typename Read>
 void readByGrid(Decoding& d, Reader& in, Read read) {
-  if (d.quads > mostQuads(in))
+  if (d.quads > mostEntries(in.left()))
     return in.refuse("the patches have too many vertices for so few bytes");
   if (!d.levelOne) {
     if (!d.afford(in, d.quads, kBytesAQuad)) return;
     d.levelOne.emplace(d.rig->surface, d.mirror);
   }
-  const std::size_t most = mostEntries(d, in);
+  const std::size_t most = affordable(d, in);
   decodeRest(in, [&](RangeDecoder&, Symbols<RangeDecoder>& symbols) {
     read(symbols, *d.levelOne, most, d.rig->source);
   });
@@ -188,7 +180,7 @@ void readGridFaces(Decoding& d, Reader& in) {
 }
 
 void readTextureSteps(Decoding& d, Reader& in) {
-  const std::size_t most = mostEntries(d, in);
+  const std::size_t most = affordable(d, in);
   SourceMesh& source = d.rig->source;
   const std::vector<Index> images =
       d.levelOne ? cornerImages(d.levelOne->mirror(), source) : std::vector<Index>{};

@@ -28,8 +28,9 @@ struct Decoding {
 
   /// Whether so many more bytes may be taken; complains through `in` if not.
   bool afford(Reader& in, std::size_t count, std::size_t bytesEach);
-  /// Makes sure of room for as many targets and loose vertices as were announced.
-  void affordTargets(Reader& in);
+  /// The same for so many vectors of every pose, of which a file may have no more than its size
+  /// lets one expect.
+  bool affordVectors(Reader& in, std::size_t eachPose, std::size_t bytesEach);
   /// Of the wireframe and its connectivity; says how many vectors it stores.
   void makeSurface(Reader& in);
   /// A name that is UTF-8; complains through `in`. That none comes twice is looked at in the end.

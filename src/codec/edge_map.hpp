@@ -1,51 +1,54 @@
 #pragma once
 
-#include <bit>
-#include <cstdint>
+#include <algorithm>
+#include <compare>
+#include <span>
 #include <vector>
 
 #include "sweepface/vec.hpp"
 
+#include "surface/sorting.hpp"
+
 namespace sweepface::codec {
 
-/// Values by directed edges: a table with linear probing, a few hundred bytes of code.
+/// Values by directed edges, the first of each: counted by where edges begin and sorted by where
+/// they end. Files choose edges freely, and could make any table of hashes slow.
 template <typename Value>
 class EdgeMap {
  public:
-  /// Room for `count` edges; more must not be added.
-  explicit EdgeMap(std::size_t count) : slots_(std::bit_ceil(2 * count + 1)) {}
-
-  /// Keeps the first value of an edge.
-  void add(Index from, Index to, const Value& value) {
-    Slot& slot = slots_[placeOf(from, to)];
-    if (!slot.used) slot = {from, to, true, value};
-  }
-  /// The value of an edge, or nothing.
-  const Value* find(Index from, Index to) const {
-    const Slot& slot = slots_[placeOf(from, to)];
-    return slot.used ? &slot.value : nullptr;
-  }
-
- private:
-  struct Slot {
-    Index from = 0, to = 0;
-    bool used = false;
+  struct Edge {
+    Index from = -1, to = -1;
     Value value{};
   };
 
-  /// Where an edge is, or would go.
-  std::size_t placeOf(Index from, Index to) const {
-    const std::uint64_t key =
-        std::uint64_t{static_cast<std::uint32_t>(from)} << 32 | static_cast<std::uint32_t>(to);
-    std::uint64_t hash = key * 0x9e3779b97f4a7c15u;
-    hash ^= hash >> 32;
-    std::size_t place = static_cast<std::size_t>(hash) & (slots_.size() - 1);
-    while (slots_[place].used && (slots_[place].from != from || slots_[place].to != to))
-      place = (place + 1) & (slots_.size() - 1);
-    return place;
+  /// Edges go between -1 and `ends` - 1; their values ascend.
+  EdgeMap(std::span<const Edge> edges, Index ends) : first_(ends + 2), sorted_(edges.size()) {
+    for (const Edge& edge : edges) ++first_[edge.from + 1];
+    Index end = 0;
+    for (Index& first : first_) first = end += first;
+    for (const Edge& edge : edges) sorted_[--first_[edge.from + 1]] = {edge.to, edge.value};
+    for (Index from = -1; from < ends; ++from)
+      sortSmall(std::span(sorted_).subspan(first_[from + 1], countFrom(from)));
   }
 
-  std::vector<Slot> slots_;
+  /// The value of an edge, or nothing.
+  const Value* find(Index from, Index to) const {
+    const auto edges = std::span(sorted_).subspan(first_[from + 1], countFrom(from));
+    const auto found = std::ranges::lower_bound(edges, to, {}, &End::to);
+    return found != edges.end() && found->to == to ? &found->value : nullptr;
+  }
+
+ private:
+  struct End {
+    Index to = -1;
+    Value value{};
+    auto operator<=>(const End&) const = default;
+  };
+
+  std::size_t countFrom(Index from) const { return first_[from + 2] - first_[from + 1]; }
+
+  std::vector<Index> first_;  // of the edges from -1 on, and where the last ones end
+  std::vector<End> sorted_;
 };
 
 }  // namespace sweepface::codec

@@ -76,6 +76,15 @@ std::string quadCorners(const SourceMesh& source) {
   return out.take();
 }
 
+// Whether a reader takes so much from so few bytes.
+template <typename Read>
+bool isReadable(const std::string& bytes, Read read) {
+  RangeDecoder coder(bytes);
+  Symbols<RangeDecoder> symbols(coder);
+  read(symbols, mostEntries(bytes.size()));
+  return symbols.ok();
+}
+
 // Whether the vertices are those of the grid in its order.
 bool countsUp(const LevelOne& grid, const SourceMesh& source) {
   const auto& order = source.gridVertex;
@@ -87,14 +96,13 @@ bool countsUp(const LevelOne& grid, const SourceMesh& source) {
 
 }  // namespace
 
-// By the grid of the patches, unless that is so large that a reader would not trust so few bytes.
+// By the grid of the patches, unless there is so much that a reader would not trust so few bytes.
 void writeSource(Writer& out, const Rig& rig, const Mirror& mirror, int textureBits) {
   const SourceMesh& source = rig.source;
   const Polygons& faces = source.polygons;
   const std::size_t quads = rig.surface.wireframe().quadCount();
-  const auto trusted = [&](const std::string& bytes) {
-    return quads <= within(kMostQuads, kQuadsAByte, kQuadsAnyway, bytes.size());
-  };
+  SourceMesh again;  // as a reader has it
+  again.loose = source.loose;
   std::string order, polygonBytes;
   std::vector<Index> images;
   bool byGrid = quads <= kMostQuads, ownOrder = !source.gridVertex.empty();
@@ -102,7 +110,10 @@ void writeSource(Writer& out, const Rig& rig, const Mirror& mirror, int textureB
     const LevelOne grid(rig.surface, mirror);
     order = ranged([&](auto& symbols) { writeOrder(symbols, grid, source); });
     polygonBytes = ranged([&](auto& symbols) { writeFaces(symbols, grid, source); });
-    byGrid = trusted(order) && trusted(polygonBytes);
+    byGrid =
+        quads <= mostEntries(std::min(order.size(), polygonBytes.size())) &&
+        isReadable(order, [&](auto& in, auto most) { readOrder(in, grid, most, again); }) &&
+        isReadable(polygonBytes, [&](auto& in, auto most) { readFaces(in, grid, most, again); });
     if (byGrid && hasFaces(faces)) images = cornerImages(grid.mirror(), source);
     if (byGrid && hasFaces(faces) && countsUp(grid, source)) ownOrder = false;
   }
@@ -112,9 +123,18 @@ void writeSource(Writer& out, const Rig& rig, const Mirror& mirror, int textureB
   if (hasFaces(faces))
     byGrid ? writeChunk(out, "face", polygonBytes) : writeChunk(out, "poly", polygons(faces));
   if (!faces.texcoords.empty() || !faces.cornerTexcoords.empty()) {
+    std::string texture;
     if (textureBits > 0 && holdsTexture(faces, textureBits))
-      writeChunk(out, "text",
-                 ranged([&](auto& symbols) { writeTexture(symbols, faces, images, textureBits); }));
+      texture = ranged([&](auto& to) { writeTexture(to, faces, images, textureBits); });
+    again.polygons = faces;
+    again.polygons.texcoords.clear();
+    again.polygons.cornerTexcoords.clear();
+    const auto readAgain = [&](auto& in, auto most) {
+      int bits = textureBits;
+      readTexture(in, most, again.polygons, images, bits);
+    };
+    if (!texture.empty() && isReadable(texture, readAgain))
+      writeChunk(out, "text", texture);
     else
       writeChunk(out, "texc", texcoords(faces));
   }

@@ -151,6 +151,7 @@ Packing sound(const Rig& rig) {
   if (!(packing.neutralStep > 0) || !(packing.targetStep > 0))
     packing.neutralStep = packing.targetStep = 0;
   packing.axis = std::clamp(packing.axis, 0, 2);
+  packing.textureBits = std::clamp(packing.textureBits, 0, kMostTextureBits);
   const auto halves = static_cast<HalfArc>(2 * rig.surface.wireframe().arcs.size());
   std::erase_if(packing.mirror, [&](const auto& pair) {
     return std::ranges::min(pair) < 0 || std::ranges::max(pair) >= halves;

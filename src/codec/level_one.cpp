@@ -86,9 +86,11 @@ LevelOne::LevelOne(const Surface& surface, const Mirror& mirror) {
 Neighbours LevelOne::quadNeighbours() const {
   const auto corners = static_cast<Index>(4 * quads_.size());
   const auto at = [&](Index corner, int k) { return quads_[corner / 4][(corner + k) % 4]; };
-  EdgeMap<Index> sides(4 * quads_.size());
+  std::vector<EdgeMap<Index>::Edge> edges;
+  edges.reserve(4 * quads_.size());
   for (Index corner = 0; corner < corners; ++corner)
-    sides.add(at(corner, 0), at(corner, 1), corner / 4);
+    edges.push_back({at(corner, 0), at(corner, 1), corner / 4});
+  const EdgeMap<Index> sides(edges, vertices_);
   Neighbours neighbours;
   neighbours.first.reserve(quads_.size() + 1);
   neighbours.all.reserve(4 * quads_.size());

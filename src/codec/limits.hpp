@@ -5,6 +5,12 @@
 
 namespace sweepface::codec {
 
+/// So much for each byte and something anyway, but no more than the most.
+constexpr std::size_t within(std::size_t most, std::size_t eachByte, std::size_t anyway,
+                             std::size_t bytes) {
+  return bytes > (most - anyway) / eachByte ? most : eachByte * bytes + anyway;
+}
+
 /// Vectors of all poses that a file may ask for: still ones take no bytes.
 inline constexpr std::size_t kMostVectors = std::size_t{1} << 25, kVectorsAByte = 1024,
                              kVectorsAnyway = std::size_t{1} << 20;
@@ -24,6 +30,11 @@ inline constexpr std::size_t kMostMirrorPairs = 64;
 inline constexpr std::size_t kMostQuads = std::size_t{1} << 22, kQuadsAByte = 1024,
                              kQuadsAnyway = std::size_t{1} << 18;
 
+/// Entries of the source's order, faces or texture, told by so many bytes.
+constexpr std::size_t mostEntries(std::size_t bytes) {
+  return within(kMostQuads, kQuadsAByte, kQuadsAnyway, bytes);
+}
+
 /// What a patch of the wireframe with its nodes and arcs, a stored vector of a pose, and a quad at
 /// level 1 with its corners and a letter of a name take while a file is read, in bytes, rounded up
 /// from measurements.
@@ -34,12 +45,10 @@ inline constexpr std::size_t kBytesAPatch = 4000, kBytesAVector = 40, kBytesAQua
 /// some letters.
 inline constexpr std::size_t kBytesAnEntry = 64, kLettersAName = 8;
 
+/// Of texture coordinates.
+inline constexpr int kMostTextureBits = 24;
+
 /// Bytes of a target's name.
 inline constexpr std::size_t kLongestName = 4096;
-
-constexpr std::size_t within(std::size_t most, std::size_t eachByte, std::size_t anyway,
-                             std::size_t bytes) {
-  return bytes > (most - anyway) / eachByte ? most : eachByte * bytes + anyway;
-}
 
 }  // namespace sweepface::codec

@@ -8,6 +8,7 @@
 
 #include "codec/edge_map.hpp"
 #include "codec/faces.hpp"
+#include "codec/limits.hpp"
 #include "codec/source_coder.hpp"
 #include "codec/walk.hpp"
 
@@ -29,6 +30,11 @@ constexpr std::int32_t kMostTexture = 1 << 26;
 // What a guess that is further off counts.
 constexpr std::int64_t kMostOff = 1 << 20;
 
+struct Side {
+  Index face = -1, corner = 0;  // from this corner to the next
+  auto operator<=>(const Side&) const = default;
+};
+
 template <typename Coder>
 class TextureCoder {
  public:
@@ -38,7 +44,7 @@ class TextureCoder {
 
   int run() {
     bits_ = static_cast<int>(s_.number(kBits, 0, 0, static_cast<std::uint64_t>(bits_)));
-    if (bits_ < 1 || bits_ > 24) s_.refuse("texture coordinates have too many bits");
+    if (bits_ < 1 || bits_ > kMostTextureBits) s_.refuse("texture coordinates have too many bits");
     if (!s_.ok()) return bits_;
     const std::size_t count = codeCount(s_, 4, p_.texcoords.size(), most_);
     if constexpr (kWrites<Coder>) {
@@ -102,9 +108,11 @@ class TextureCoder {
 
   // From face to face across the edges that they share in the texture.
   void codeByFaces() {
-    sides_.emplace(p_.corners.size());
+    std::vector<EdgeMap<Side>::Edge> sides;
+    sides.reserve(p_.corners.size());
     for (Index f = 0; f < p_.faceCount(); ++f)
-      for (Index k = 0; k < p_.faceSize(f); ++k) sides_->add(at(f, k), at(f, k + 1), Side{f, k});
+      for (Index k = 0; k < p_.faceSize(f); ++k) sides.push_back({at(f, k), at(f, k + 1), {f, k}});
+    sides_.emplace(sides, static_cast<Index>(known_.size()));
     std::vector<char> reached(p_.faceCount(), 0);
     std::vector<Entry> queue;
     for (Index seed = 0; seed < p_.faceCount() && s_.ok(); ++seed) {
@@ -124,9 +132,6 @@ class TextureCoder {
     }
   }
 
-  struct Side {
-    Index face = -1, corner = 0;  // from this corner to the next
-  };
   struct Entry {
     Index face, corner;  // entered across the side from this corner
     Side from;           // the same side as the face before has it

@@ -21,7 +21,7 @@ enum SharedTag : std::uint32_t {
   kSteps = 4,
   kFar = 6,
   kNext = 38,
-  kMirrored = 40
+  kMirroredStep = 40
 };
 
 /// Items that are visited one after the other, most of them beside one that was visited not long
@@ -39,7 +39,7 @@ class Walk {
         after_(neighbours_.items(), -1) {}
 
   Index next(Index item) {
-    const Step follow{kNext, kFollows, following()}, mirror{kMirrored, kMirrors, mirrored()};
+    const Step follow{kNext, kFollows, following()}, mirror{kMirroredStep, kMirrors, mirrored()};
     for (const Step& step :
          last_ == kFollows ? std::array{follow, mirror} : std::array{mirror, follow})
       if (isTaken(step, item)) return visit(step.to);

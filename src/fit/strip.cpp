@@ -84,8 +84,10 @@ Result<void> stripOrder(Rig& rig) {
       return fail("a face has a corner that is on no patch; keep the order");
   reorderFaces(source);
   reorderTexcoords(source.polygons);
-  source.gridVertex.resize(Tessellation(rig.surface, 1).vertexCount());
-  std::iota(source.gridVertex.begin(), source.gridVertex.end(), 0);
+  if (!source.gridVertex.empty()) {
+    source.gridVertex.resize(Tessellation(rig.surface, 1).vertexCount());
+    std::iota(source.gridVertex.begin(), source.gridVertex.end(), 0);
+  }
   source.ownOrder = false;
   source.loose.clear();
   for (Target& target : rig.targets) target.looseDifference.clear();

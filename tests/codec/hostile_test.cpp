@@ -91,6 +91,39 @@ TEST(Hostile, WhatIsReadTakesNoMoreMemoryThanItIsAllowed) {
   }
 }
 
+TEST(Hostile, LooseVerticesAreNoMoreThanTheFileCanHold) {
+  const std::string payload = payloadOf([](codec::Writer& out) {
+    for (int k = 0; k < 3; ++k) out.f64(1);
+    out.number(3);
+    out.number(10'000'000);
+  });
+  allocations.largest = 0;
+  EXPECT_FALSE(decode(withPayload(encode(makeRig(onePatch(1, 1))), "BASE", payload), "a.sweep"));
+  EXPECT_LT(allocations.largest, 1'000'000u);
+}
+
+// Zeros take a bit each, a scene and an order a byte a letter and a vertex.
+TEST(Hostile, ChunksThatHoldThingsAsTheyAreTakeNoMoreMemoryThanAllowed) {
+  constexpr std::size_t kLimit = 4 << 20, kSome = 8'000'000;
+  const std::string bytes = encode(withScene(dressed(makeRig(onePatch(1, 1)))));
+  const auto expectTooMuch = [&](const char* code, auto write) {
+    const std::string changed = withPayload(bytes, code, payloadOf(write));
+    allocations.most = allocations.held;
+    const std::size_t before = allocations.held;
+    const auto refused = decode(changed, "a.sweep", {kLimit});
+    ASSERT_FALSE(refused) << code;
+    EXPECT_NE(refused.error().message.find("memory"), std::string::npos) << refused.error().message;
+    EXPECT_LT(allocations.most - before, kLimit) << code;
+  };
+  expectTooMuch("texc", [](codec::Writer& out) {
+    out.number(kSome);
+    out.byte(1);
+    out.raw(std::string(kSome / 8, '\0'));
+    out.number(0);
+  });
+  expectTooMuch("scen", [](codec::Writer& out) { out.text(std::string(kSome, ' ')); });
+}
+
 // Names that are all alike take hardly any bytes.
 TEST(Hostile, ManyNamesInAFewBytesAreRefused) {
   constexpr std::size_t kLimit = 16 << 20, kNames = 4'000'000;

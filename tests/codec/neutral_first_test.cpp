@@ -37,6 +37,16 @@ TEST(NeutralFirst, ShowsVerticesOfNoFace) {
   EXPECT_EQ(blendLoose(opened.rig, Weights(rig.targets.size(), 1)), rig.source.loose);
 }
 
+TEST(NeutralFirst, IsWrittenAsIfNothingMoved) {
+  const Rig rig = packed(makeRig(tee()));
+  const NeutralFirst opened = decodeNeutral(encode(rig), "a.sweep").value();
+  const Rig still = decode(encode(opened.rig), "a.sweep").value();
+  EXPECT_EQ(still.neutral, rig.neutral);
+  ASSERT_EQ(still.targets.size(), rig.targets.size());
+  for (const Target& target : still.targets)
+    EXPECT_EQ(target.difference, std::vector<Vec3>(rig.neutral.size()));
+}
+
 TEST(NeutralFirst, KeepsNothingOfTheBytesNorOfThePlaceOfTheRig) {
   auto bytes = std::make_unique<std::string>(encode(packed(makeRig(tee()))));
   const Rig whole = decode(*bytes, "a.sweep").value();

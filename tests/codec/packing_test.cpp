@@ -27,10 +27,28 @@ Wireframe creased() {
   return w;
 }
 
+// Patches around a node, all of whose curves are creases: it has a vector for each direction on
+// either side of them.
+Wireframe star(Index creases) {
+  Wireframe w;
+  w.points = 1 + 2 * creases;
+  for (Index k = 0; k < w.points; ++k) w.nodes.push_back({k, kPosition});
+  for (Index k = 0; k < creases; ++k) {
+    const Index next = (k + 1) % creases, start = 4 * k;
+    w.arcs.push_back({0, 1 + k, 1, 0, false, true});
+    w.arcs.push_back(arc(1 + k, 1 + creases + k, 1, 0));
+    w.arcs.push_back(arc(1 + creases + k, 1 + next, 1, 0));
+    w.patches.push_back({{start, start + 1, start + 2, start + 3, start + 4}});
+    for (const HalfArc h : {6 * k, 6 * k + 2, 6 * k + 4, 6 * next + 1}) w.loops.push_back(h);
+  }
+  w.ribbons = {{}};
+  return w;
+}
+
 /// Wireframes of every sort: grids large and small, T-nodes, poles, creases.
 std::vector<Wireframe> someWireframes() {
   return {onePatch(1, 1), onePatch(7, 4), twoPatches(), slice(), tee(),
-          fan(3),         fan(6),         creased(),    sheet(8)};
+          fan(3),         fan(6),         creased(),    star(6), sheet(8)};
 }
 
 std::vector<Surface> someSurfaces() {
@@ -255,6 +273,18 @@ TEST(Packing, VectorsOnTheLatticeComeBackBitForBitWithoutBeingHeldAsTheyAre) {
   }
 }
 
+// More vectors at a node than an integer has bits.
+TEST(Packing, OnlyTheFirstOfManyVectorsOfANodeMoves) {
+  Rig rig = packed(star(6));
+  const auto isAtTheCentre = [&](Index v) { return rig.surface.stored(v).node == 0; };
+  Index first = 0;
+  while (!isAtTheCentre(first)) ++first;
+  ASSERT_TRUE(isAtTheCentre(first + 33));
+  std::ranges::fill(rig.targets[0].difference, Vec3{});
+  rig.targets[0].difference[first] = {rig.packing.targetStep, 0, 0};
+  expectEqual(decode(encode(rig), "a.sweep").value(), rig);
+}
+
 TEST(Packing, WhatLeavesTheLatticeIsHeldExactlyAndTheRestStays) {
   Rig rig = packed(onePatch(7, 4));
   const std::size_t before = encode(rig).size();
@@ -285,6 +315,7 @@ TEST(Packing, FormsThatCannotBeAreMadeSound) {
   Rig rig = packed(tee());
   rig.packing.poses = {{-3, 7}, {99, 0}, {0, 2}};
   rig.packing.axis = 9;
+  rig.packing.textureBits = 99;
   rig.packing.mirror = {{-1, 0}, {0, 1 << 20}};
   const std::string bytes = encode(rig);
   const auto back = decode(bytes, "a.sweep");

@@ -41,6 +41,23 @@ TEST(RoundTrip, KeepsARigWithoutSourceOrTargets) {
   expectEqual(decode(encode(rig), "a.sweep").value(), rig);
 }
 
+// More than a reader expects of so few bytes.
+TEST(RoundTrip, KeepsASourceOfMuchThatIsAlike) {
+  constexpr std::size_t kMany = 600'000;
+  Rig many = makeRig(onePatch(1, 1)), textured = many;
+  many.source.loose.resize(kMany);
+  for (Target& target : many.targets) target.looseDifference.resize(kMany);
+  for (std::size_t k = 0; k < kMany; ++k)
+    many.source.gridVertex.push_back(-1 - static_cast<Index>(k));
+  textured.source.polygons.texcoords.resize(kMany);
+  textured.packing.textureBits = 14;
+  for (const Rig& rig : {many, textured}) {
+    const auto back = decode(encode(rig), "a.sweep");
+    ASSERT_TRUE(back) << back.error().message;
+    expectEqual(*back, rig);
+  }
+}
+
 TEST(RoundTrip, KeepsFacesThatAreNotQuadsAndQuadsThatAreNotFaces) {
   Rig rig = makeRig(onePatch(2, 1));
   Polygons& faces = rig.source.polygons;
