@@ -32,7 +32,6 @@ constexpr Pairs kPairs;
 constexpr std::size_t kLanes = hn::MaxLanes(kFloats);
 constexpr std::size_t kParts = kChunk / kLanes;
 constexpr std::size_t kBlock = 16;
-constexpr std::size_t kMostTargets = 1024;
 
 HWY_INLINE Float floatsOf(const std::int16_t* from) {
   return hn::ConvertTo(kFloats, hn::PromoteTo(kInts, hn::LoadU(kShorts, from)));

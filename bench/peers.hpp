@@ -15,6 +15,9 @@ namespace sweepface::bench {
 /// Floats that are blended in one go, and the multiple to which arrays are filled up.
 inline constexpr std::size_t kChunk = 64;
 
+/// Targets that the kernels have room for.
+inline constexpr std::size_t kMostTargets = 1024;
+
 /// 64-byte aligned memory.
 template <typename T>
 class Aligned {

@@ -111,27 +111,29 @@ Player peerPlayer(PeerKind kind, bool normals, double drop, double normalDrop) {
           }};
 }
 
-Floats roomForOutput() { return Floats(2 * morphs().floats() + 2 * kChunk); }
+// On a cache line, as kernels that add to their output need most.
+Aligned<float> roomForOutput() { return Aligned<float>(2 * morphs().floats() + 2 * kChunk); }
 
 /// How far positions are from the morph targets' exact blend, over all targets at weight 1 alone.
 double worstTarget(const Player& player) {
-  Floats out = roomForOutput();
+  const Aligned<float> out = roomForOutput();
   Weights weights(face().targets.size(), 0.0);
   double most = 0;
   for (double& weight : weights) {
     weight = 1;
     player.play(weights, out.data());
+    const float* const found = out.data();
     const auto exact = exactBlend(morphs().neutral, morphs().differences, weights);
     for (std::size_t v = 0; v < exact.size(); v += 3)
-      most = std::max(most, std::hypot(out[v] - exact[v], out[v + 1] - exact[v + 1],
-                                       out[v + 2] - exact[v + 2]));
+      most = std::max(most, std::hypot(found[v] - exact[v], found[v + 1] - exact[v + 1],
+                                       found[v + 2] - exact[v + 2]));
     weight = 0;
   }
   return most;
 }
 
 void playWarm(benchmark::State& state, const Player& player, Active active) {
-  Floats out = roomForOutput();
+  const Aligned<float> out = roomForOutput();
   const Frames& wanted = frames(active);
   std::size_t frame = 0;
   for (auto _ : state) {
@@ -145,7 +147,7 @@ void playWarm(benchmark::State& state, const Player& player, Active active) {
 void playCold(benchmark::State& state, const std::function<Player()>& make) {
   std::vector<Player> players;
   for (int k = 0; k < kRigs; ++k) players.push_back(make());
-  Floats out = roomForOutput();
+  const Aligned<float> out = roomForOutput();
   const Frames& wanted = frames(Active::all);
   std::size_t frame = 0;
   for (auto _ : state) {
@@ -186,6 +188,11 @@ void addPeers(bool equalError) {
 }  // namespace
 
 bool registerPlayers() {
+  if (face().targets.size() > kMostTargets) {
+    fmt::print(stderr, "sweepface_bench: The face has {} targets; the kernels take {} at most.\n",
+               face().targets.size(), kMostTargets);
+    return false;
+  }
   static const Evaluator evaluator = makeEvaluator(true);
   const Player plain = evaluatorPlayer(evaluator, false);
   const double off = worstTarget(plain);

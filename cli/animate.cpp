@@ -46,7 +46,7 @@ void addOptions(CLI::App& app, AnimateArguments& a) {
   app.add_option("--frames", a.frames,
                  "How many meshes or sampled keys, the first and the last included; 31 if neither "
                  "this nor --fps is given")
-      ->check(wholeNumber(2, 100'000))
+      ->transform(wholeNumber(2, 100'000))
       ->type_name("N");
   app.add_option("--fps", a.framesPerSecond, "Meshes or sampled keys a second, instead of --frames")
       ->check(positiveNumber(1000))
@@ -83,9 +83,8 @@ Result<std::vector<double>> sampleTimes(const AnimateArguments& a, const Perform
         fmt::format("{:.6g} s at {:.6g} frames a second are more than {:.0f} frames; cut "
                     "the clip, or ask for fewer a second.",
                     performance.seconds, rate, kMostFrames));
-  const int last =
-      rate > 0 ? std::max(1, static_cast<int>(std::floor(performance.seconds * rate + 1e-6)))
-               : (a.frames > 0 ? a.frames : 31) - 1;
+  const int last = rate > 0 ? static_cast<int>(std::floor(performance.seconds * rate + 1e-6))
+                            : (a.frames > 0 ? a.frames : 31) - 1;
   std::vector<double> times;
   for (int k = 0; k <= last; ++k)
     times.push_back(rate > 0 ? k / rate : performance.seconds * (static_cast<double>(k) / last));
@@ -257,6 +256,15 @@ Result<void> checkKeys(const AnimateArguments& a, const Performance& performance
   return {};
 }
 
+/// A timeline may divide the face by itself.
+Result<void> checkWhole(const AnimateArguments& a, const Rig& rig) {
+  const auto regions = regionsOf(a.what, a.regions, rig);
+  if (!regions) return std::unexpected(regions.error());
+  if (regions->size() == 1) return {};
+  return fail(fmt::format("{} has regions, which a .csv cannot tell apart; leave them out there.",
+                          a.what.clip));
+}
+
 Result<int> runAnimate(const AnimateArguments& a) {
   const bool glb = isOfKind(a.output, ".glb"), csv = isOfKind(a.output, ".csv");
   std::error_code ignored;
@@ -268,6 +276,8 @@ Result<int> runAnimate(const AnimateArguments& a) {
   if (auto ok = checkArguments(a, glb); !ok) return std::unexpected(ok.error());
   Result<Rig> rig = readFace(a.face);
   if (!rig) return std::unexpected(rig.error());
+  if (csv)
+    if (auto ok = checkWhole(a, *rig); !ok) return std::unexpected(ok.error());
   const Result<Performance> performance = perform(a.what, a.regions, a.following, *rig);
   if (!performance) return std::unexpected(performance.error());
   if (glb)

@@ -73,7 +73,7 @@ void addWeights(CLI::App& app, std::string& weights) {
 }
 
 CLI::Option* addLod(CLI::App& app, int& lod, const std::string& description) {
-  return app.add_option("--lod", lod, description)->check(wholeNumber(1, 64))->type_name("N");
+  return app.add_option("--lod", lod, description)->transform(wholeNumber(1, 64))->type_name("N");
 }
 
 void addMeshes(CLI::App& app, std::string& neutral, std::vector<std::string>& targets) {
@@ -90,7 +90,7 @@ void addMeshes(CLI::App& app, std::string& neutral, std::vector<std::string>& ta
 
 void addThreads(CLI::App& app, int& threads) {
   app.add_option("--threads", threads, "How many threads may work; all cores if not given")
-      ->check(wholeNumber(1, 1024))
+      ->transform(wholeNumber(1, 1024))
       ->type_name("N");
 }
 
@@ -102,10 +102,12 @@ void addGlb(CLI::App& app, GlbArguments& glb) {
 }
 
 CLI::Validator wholeNumber(std::int64_t low, std::int64_t high) {
-  const auto check = [=](const std::string& text) -> std::string {
+  const auto check = [=](std::string& text) -> std::string {
     std::int64_t number = 0;
-    if (parse(text, number) && number >= low && number <= high) return {};
-    return fmt::format("This must be a whole number from {} to {}, not '{}'.", low, high, text);
+    if (!parse(text, number) || number < low || number > high)
+      return fmt::format("This must be a whole number from {} to {}, not '{}'.", low, high, text);
+    text = std::to_string(number);  // CLI11 takes what begins with a zero for octal
+    return {};
   };
   return CLI::Validator(check, "", "");
 }

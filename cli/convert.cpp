@@ -61,13 +61,13 @@ void addOptions(CLI::App& app, ConvertArguments& a) {
          "--uv-bits", a.uvBits,
          "Packed: texture coordinates become multiples of 1/2^N of the texture, N from 8 to 16; "
          "14 if not given")
-      ->check(wholeNumber(8, 16))
+      ->transform(wholeNumber(8, 16))
       ->type_name("N");
   app.add_option(
          "--max-bytes", a.maxBytes,
          "Pack, and look for the smallest tolerance whose file takes at most N bytes: several "
          "conversions")
-      ->check(wholeNumber(1, std::int64_t{1} << 53))  // as far as doubles count
+      ->transform(wholeNumber(1, std::int64_t{1} << 53))  // as far as doubles count
       ->type_name("N");
   app.add_flag(
       "--arcs", a.arcs,

@@ -117,10 +117,11 @@ class Editor {
   // A node that two curves share moves once; one that is named itself goes where that says.
   Result<void> move(const EditArguments& a) {
     std::map<Index, Vec3> own, taken;
+    std::set<Index> curves;
     for (const auto& [name, text] : a.moves) {
       const Result<Vec3> by = parseOffset(text);
       if (!by) return std::unexpected(by.error());
-      if (auto ok = gather(name, *by, own, taken); !ok) return ok;
+      if (auto ok = gather(name, *by, own, taken, curves); !ok) return ok;
     }
     taken.merge(own);  // keeps what is in `taken`
     for (const auto& [node, by] : own) taken[node] = by;
@@ -130,15 +131,17 @@ class Editor {
   }
 
   Result<void> gather(const std::string& name, const Vec3& by, std::map<Index, Vec3>& own,
-                      std::map<Index, Vec3>& taken) const {
+                      std::map<Index, Vec3>& taken, std::set<Index>& curves) const {
     const bool isNode =
         !isNamed(Thing::curve, name) && (isNamed(Thing::node, name) || name.starts_with('n'));
     const Result<Index> thing = rig_.find(isNode ? Thing::node : Thing::curve, name);
     if (!thing) return std::unexpected(thing.error());
     if (isNode) {
-      own[*thing] = by;
-      return {};
+      if (own.try_emplace(*thing, by).second) return {};
+      return fail(fmt::format("Node '{}' is moved twice; give the sum of both.", name));
     }
+    if (!curves.insert(*thing).second)
+      return fail(fmt::format("Curve '{}' is moved twice; give the sum of both.", name));
     const auto ends = endsOf(rig_, *thing);
     if (!ends) return std::unexpected(ends.error());
     for (Index node : *ends)

@@ -5,6 +5,7 @@
 #include "sweepface/io.hpp"
 
 #include "command.hpp"
+#include "output.hpp"
 
 namespace sweepface::cli {
 namespace {
@@ -21,8 +22,7 @@ void addOptions(CLI::App& app, LawsArguments& a) {
 }
 
 Result<int> runLaws(const LawsArguments& a) {
-  if (!isOfKind(a.output, ".svg"))
-    return fail(fmt::format("{}: a moving picture is an .svg file; name it so.", a.output));
+  if (auto ok = checkOutput(a.output, {}, {".svg"}); !ok) return std::unexpected(ok.error());
   if (auto written = writeFile(a.output, lawSheet()); !written)
     return std::unexpected(written.error());
   if (!a.quiet) fmt::print("{}: {} laws\n", a.output, everyLaw().size());

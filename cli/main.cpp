@@ -62,7 +62,7 @@ int run(int argc, char** argv) {
   for (const Command& command : commands) {
     if (!command.app->parsed()) continue;
     const Result<int> code = command.run();
-    if (code && std::fflush(stdout) == 0) return *code;
+    if (code && std::fflush(stdout) == 0 && !std::ferror(stdout)) return *code;
     printError(code ? "Cannot write the report: the output is full or closed."
                     : code.error().message);
     return kFailed;

@@ -23,11 +23,11 @@ void addOptions(CLI::App& app, MeasureArguments& a) {
   addMeshes(app, a.neutral, a.targets);
   app.add_option("--mixtures", a.options.mixtures,
                  "Also compare N random mixtures with the same blend of the meshes")
-      ->check(wholeNumber(0, 100'000))
+      ->transform(wholeNumber(0, 100'000))
       ->capture_default_str()
       ->type_name("N");
   app.add_option("--seed", a.options.seed, "Which random mixtures")
-      ->check(wholeNumber(0, std::numeric_limits<int>::max()))
+      ->transform(wholeNumber(0, std::numeric_limits<int>::max()))
       ->capture_default_str()
       ->type_name("S");
   addQuiet(app, a.quiet);

@@ -213,8 +213,10 @@ void checkUse(const CLI::App& app, const PerformanceArguments& a) {
     const std::vector<std::string> several = laws->results();
     return std::ranges::find(several, law) != several.end();
   };
+  // Heavy regions of a clip hang on springs.
+  const bool hangs = !a.clip.empty() && app.get_option_no_throw("--regions");
   for (const char* option : {"--frequency", "--damping"})
-    refuse(option, plays("spring") || !a.clip.empty(), "Only spring swings; leave this out.");
+    refuse(option, plays("spring") || hangs, "Only spring swings; leave this out.");
   refuse("--restitution", plays("bounce"), "Only bounce comes back; leave this out.");
   refuse("--clip-fps",
          isOfKind(a.clip, ".csv") || isOfKind(app["--output"]->as<std::string>(), ".csv"),

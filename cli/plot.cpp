@@ -1,6 +1,7 @@
 #include "sweepface/plot.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <iterator>
 #include <limits>
@@ -43,7 +44,7 @@ void addOptions(CLI::App& app, PlotArguments& a) {
   app.add_option("--vertex", a.vertices,
                  "Vertices of the source, counted from 0, whose way is shown")
       ->delimiter(',')
-      ->check(wholeNumber(0, std::numeric_limits<int>::max()))
+      ->transform(wholeNumber(0, std::numeric_limits<int>::max()))
       ->type_name("N,...");
   app.add_option("--mass", a.mass, "What the force is in units of")
       ->check(positiveNumber())
@@ -178,6 +179,13 @@ Result<Curves> curvesOf(const PlotArguments& a, const Rig& rig) {
                 : subjects->size() == 1 ? laws[k]
                                         : laws[k] + ", " + subject.name,
                 a.mass);
+  for (const auto& panel : curves)
+    for (const Series& series : panel)
+      for (const Vec2& p : series.points)
+        if (!std::isfinite(p.y))
+          return fail(
+              "The motion or its force is beyond what numbers hold; give it other seconds, "
+              "weights or another --mass.");
   return curves;
 }
 

@@ -62,7 +62,7 @@ void addOptions(CLI::App& app, RenderArguments& a) {
       ->needs(to)
       ->type_name("LAW,...");
   app.add_option("--frames", a.frames, "How many pictures there are on the way")
-      ->check(wholeNumber(2, 32))
+      ->transform(wholeNumber(2, 32))
       ->needs(to)
       ->capture_default_str()
       ->type_name("N");
@@ -269,8 +269,8 @@ class Renderer {
     return motions;
   }
 
-  Result<void> frame(const Motion& motion, const Camera& camera, const std::vector<Box>& boxes,
-                     Index column, Index row) {
+  Result<void> frame(const Motion& motion, const Camera& camera,
+                     const std::vector<PictureBox>& boxes, Index column, Index row) {
     const double time = static_cast<double>(column) / (a_.frames - 1);
     Weights weights(motion.size());
     motion.at(time, weights);
@@ -287,10 +287,10 @@ class Renderer {
     return {};
   }
 
-  Result<std::vector<Box>> makeBoxes(const Camera& camera, const Motion& motion) const {
-    std::vector<Box> boxes;
+  Result<std::vector<PictureBox>> makeBoxes(const Camera& camera, const Motion& motion) const {
+    std::vector<PictureBox> boxes;
     for (const std::string& text : a_.boxes) {
-      const Result<Box> box = makeBox(text, camera, motion);
+      const Result<PictureBox> box = makeBox(text, camera, motion);
       if (!box) return std::unexpected(box.error());
       boxes.push_back(*box);
     }
@@ -298,7 +298,8 @@ class Renderer {
   }
 
   /// Given in numbers, or round what some targets move in either expression.
-  Result<Box> makeBox(const std::string& text, const Camera& camera, const Motion& motion) const {
+  Result<PictureBox> makeBox(const std::string& text, const Camera& camera,
+                             const Motion& motion) const {
     if (text.find(',') != text.npos) return parseBox(text);
     const Result<std::vector<Index>> region = scenes_->region(text);
     if (!region) return std::unexpected(region.error());

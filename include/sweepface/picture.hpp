@@ -70,13 +70,13 @@ void paste(Image& image, const Image& part, Index x, Index y);
 
 /// A box of the same place in several pictures, to measure by: shares of their width and height
 /// from the upper left corner.
-struct Box {
+struct PictureBox {
   double x = 0, y = 0, width = 0, height = 0;
 };
 /// Parses "0.3,0.6,0.4,0.2".
-Result<Box> parseBox(std::string_view text);
+Result<PictureBox> parseBox(std::string_view text);
 /// Draws boxes in colours that tell them apart: green, blue, orange, purple, and again.
-void drawBoxes(Image& image, std::span<const Box> boxes);
+void drawBoxes(Image& image, std::span<const PictureBox> boxes);
 
 // ---- Pages ----
 
@@ -148,7 +148,7 @@ std::vector<Camera> frameCameras(std::span<const Vec3> points, std::span<const V
                                  PictureSize size, double margin = 0.05);
 
 /// The smallest box round some points as a camera sees them, and a little room.
-Box boxAround(std::span<const Vec3> points, const Camera& camera, PictureSize size);
+PictureBox boxAround(std::span<const Vec3> points, const Camera& camera, PictureSize size);
 
 // ---- Scenes ----
 

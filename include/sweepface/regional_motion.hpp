@@ -42,7 +42,8 @@ class RegionalMotion {
   Result<void> moveTo(std::size_t region, std::size_t weight, double goal, const Drive& drive);
   /// At once, whatever the matter; no goal waits for it any more.
   Result<void> put(std::size_t region, std::size_t weight, double value);
-  /// A blow, which a heavy region feels less. On an error nothing changes.
+  /// A blow, which a heavy region feels less and a late one at once: no goal waits for the weight
+  /// any more. On an error nothing changes.
   Result<void> push(std::size_t weight, double velocityChange, double drag);
 
   Kinematics sample(std::size_t region, std::size_t weight) const noexcept;

@@ -23,8 +23,9 @@ struct ReportOptions {
   /// The program that packs GLBs for the latter; looked for on the PATH unless it has a slash. The
   /// page says where it is missing.
   std::string gltfpack = "gltfpack";
-  /// Boxes are drawn round what the targets move whose names contain one of these.
-  std::vector<std::string> regions{"mouth", "eye"};
+  /// Boxes are drawn round what the targets move whose names contain one of these; if empty, round
+  /// mouth and eye where there are any.
+  std::vector<std::string> regions;
   /// Called now and then with what is going on and how far all of it is, 0 to 1.
   std::function<void(std::string_view what, double done)> progress;
 };

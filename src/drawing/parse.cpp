@@ -120,7 +120,7 @@ class DrawingReader {
     const TextPlace at = in_.place();
     double values[3]{};
     int count = 0;
-    in_.array(fmt::format("{}, three numbers,", what), [&] {
+    in_.array(fmt::format("{}, three numbers", what), [&] {
       const TextPlace number = in_.place();
       const double value = in_.number("a number");
       if (!io::isUsable(value)) in_.refuse(number, "a coordinate is beyond what a float can hold");

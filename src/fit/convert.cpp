@@ -277,7 +277,7 @@ class Converter {
 
   const MeshRig& source_;
   const ConvertOptions& options_;
-  Limits limits_{};
+  RefineLimits limits_{};
   Draft draft_;
   double done_ = 0;
 };

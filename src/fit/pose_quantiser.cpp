@@ -6,7 +6,7 @@
 #include <span>
 #include <tuple>
 
-#include "fit/pose_errors.hpp"
+#include "fit/pose_cost.hpp"
 
 namespace sweepface {
 
@@ -20,7 +20,7 @@ using codec::Symmetry;
 namespace {
 
 class PoseQuantiser {
-  using Four = PoseErrors::Four;
+  using Four = PoseCost::Four;
 
  public:
   PoseQuantiser(const Lattice& lattice, const Columns& columns, PoseTask task, Coefficients& q)
@@ -311,7 +311,7 @@ class PoseQuantiser {
   const Columns& columns_;
   int axis_;
   PoseTask task_;
-  PoseErrors errors_;
+  PoseCost errors_;
   Coefficients& q_;
   std::vector<Index> siteOf_;           // [S]
   std::vector<int> inSite_, inVector_;  // coefficients that are not zero

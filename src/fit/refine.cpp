@@ -135,7 +135,7 @@ bool splitPatch(Layout& layout, const GridPatch& grid, const SourceData& data) {
 }  // namespace
 
 Index refine(Layout& layout, const Draft& draft, SourceData& data, const DraftErrors& errors,
-             const Limits& limits, ExtraJets& extra) {
+             const RefineLimits& limits, ExtraJets& extra) {
   const GridMesh& mesh = layout.mesh();
   const auto excess = [&](Index v) {
     return std::max(errors.distance[v] / limits.distance, errors.angle[v] / limits.angle);

@@ -4,7 +4,7 @@
 
 namespace sweepface {
 
-struct Limits {
+struct RefineLimits {
   double distance;  ///< model units
   double angle;     ///< degrees
   bool smooth;      ///< normals matter: tangents may not be given up for points
@@ -23,6 +23,6 @@ Result<Draft> makeDraft(Layout& layout, ExtraJets& extra);
 /// Splits every patch that breaks a limit where that promises most, and lets vertices count more
 /// that no split can help. Returns how many patches it changed.
 Index refine(Layout& layout, const Draft& draft, SourceData& data, const DraftErrors& errors,
-             const Limits& limits, ExtraJets& extra);
+             const RefineLimits& limits, ExtraJets& extra);
 
 }  // namespace sweepface

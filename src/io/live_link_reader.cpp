@@ -12,7 +12,7 @@
 namespace sweepface {
 namespace {
 
-using io::inQuotes, io::toNumber, io::trimmed;
+using io::inQuotes, io::sameLetters, io::toNumber, io::trimmed;
 
 std::vector<std::string_view> cells(std::string_view line) {
   std::vector<std::string_view> found;
@@ -22,11 +22,6 @@ std::vector<std::string_view> cells(std::string_view line) {
     if (comma == std::string_view::npos) return found;
     line.remove_prefix(comma + 1);
   }
-}
-
-bool sameLetters(std::string_view a, std::string_view b) {
-  const auto small = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; };
-  return std::ranges::equal(a, b, {}, small, small);
 }
 
 class LiveLinkReader {
@@ -65,9 +60,10 @@ class LiveLinkReader {
     return {};
   }
   Result<void> readHeading(std::string_view heading, std::size_t column) {
-    if (sameLetters(heading, "Timecode"))
+    if (sameLetters(heading, "Timecode")) {
+      if (timeColumn_ < columns_) return failLine("there are two columns 'Timecode'");
       timeColumn_ = column;
-    else if (heading.empty())
+    } else if (heading.empty())
       return failLine(fmt::format("column {} has no heading", column + 1));
     else if (!sameLetters(heading, "BlendShapeCount")) {
       if (!known_.insert(heading).second)

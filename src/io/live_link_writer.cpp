@@ -6,6 +6,8 @@
 
 #include "sweepface/clip.hpp"
 
+#include "io/text.hpp"
+
 namespace sweepface {
 namespace {
 
@@ -109,8 +111,11 @@ Result<void> check(const Clip& clip, const std::vector<Column>& columns, double 
   if (clip.times.empty()) return fail("The clip has no frames.");
   if (!(clip.times.front() >= 0 && clip.times.back() < 86400))
     return fail("The times of a recording lie within a day.");
-  std::set<std::string> headings{"Timecode", "BlendShapeCount"};
+  std::set<std::string> headings;
   for (const Column& column : columns) {
+    if (io::sameLetters(column.heading, "Timecode") ||
+        io::sameLetters(column.heading, "BlendShapeCount"))
+      return fail(fmt::format("'{}' cannot be a shape of a recording.", column.heading));
     if (column.heading.empty() || column.heading.find_first_of(",\r\n") != std::string::npos)
       return fail(fmt::format("'{}' cannot be the heading of a column.", column.heading));
     if (!headings.insert(column.heading).second)

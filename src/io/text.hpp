@@ -22,6 +22,12 @@ inline constexpr std::size_t maxFileBytes = std::numeric_limits<Index>::max();
 
 inline bool isBlank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 
+/// Whether small and capital letters alone differ.
+inline bool sameLetters(std::string_view a, std::string_view b) {
+  const auto small = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; };
+  return std::ranges::equal(a, b, {}, small, small);
+}
+
 inline std::string_view trimmed(std::string_view text) {
   while (!text.empty() && isBlank(text.front())) text.remove_prefix(1);
   while (!text.empty() && isBlank(text.back())) text.remove_suffix(1);

@@ -203,9 +203,11 @@ Result<void> RegionalMotion::push(std::size_t weight, double velocityChange, dou
   for (const auto& [matter, state, late] : regions_)
     if (auto ok = state.pushed(weight, velocityChange / matter.mass, drag / matter.mass); !ok)
       return std::unexpected(ok.error());
-  for (auto& [matter, state, late] : regions_)
+  for (auto& [matter, state, late] : regions_) {
+    late.forget(weight);
     if (auto ok = state.push(weight, velocityChange / matter.mass, drag / matter.mass); !ok)
       return ok;
+  }
   return {};
 }
 

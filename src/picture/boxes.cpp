@@ -7,7 +7,7 @@
 
 namespace sweepface {
 
-Result<Box> parseBox(std::string_view text) {
+Result<PictureBox> parseBox(std::string_view text) {
   std::array<double, 4> values{};
   const char *at = text.data(), *const end = at + text.size();
   bool sound = true;
@@ -19,12 +19,12 @@ Result<Box> parseBox(std::string_view text) {
     at = sound && !last ? stop + 1 : stop;
   }
   if (sound && values[2] > 0 && values[3] > 0)
-    return Box{values[0], values[1], values[2], values[3]};
+    return PictureBox{values[0], values[1], values[2], values[3]};
   return fail(fmt::format(
       "'{}' is no box; give X,Y,WIDTH,HEIGHT as shares of the picture from 0 to 1.", text));
 }
 
-Box boxAround(std::span<const Vec3> points, const Camera& camera, PictureSize size) {
+PictureBox boxAround(std::span<const Vec3> points, const Camera& camera, PictureSize size) {
   constexpr double room = 0.015;
   double left = 1, right = 0, top = 1, bottom = 0;
   for (const Vec3& p : points) {
@@ -37,7 +37,7 @@ Box boxAround(std::span<const Vec3> points, const Camera& camera, PictureSize si
   return {left - room, top - room, right - left + 2 * room, bottom - top + 2 * room};
 }
 
-void drawBoxes(Image& image, std::span<const Box> boxes) {
+void drawBoxes(Image& image, std::span<const PictureBox> boxes) {
   constexpr std::array<Colour, 4> colours{
       {{0.16f, 0.62f, 0.33f}, {0.15f, 0.40f, 0.82f}, {0.90f, 0.49f, 0.13f}, {0.55f, 0.30f, 0.70f}}};
   const double line = std::max(0.005 * image.height, 1.5);

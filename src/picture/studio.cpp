@@ -151,6 +151,7 @@ class Photograph {
     const double slack = 0.0025 * studio_.obstacles.size();
     const Vec3 way = camera_.eye - p;
     const double distance = norm(way);
+    if (dot(way, camera_.forward) >= 0) return false;  // behind the eye
     return distance <= slack || !studio_.obstacles.blocks(p, way * (1 / distance), slack, distance);
   }
 
@@ -188,6 +189,8 @@ class Photograph {
   /// Asks every few pixels, and then for the very place where the line goes behind something.
   void addSeen(const Vec3& from, const Vec3& to, std::vector<Vec2>& ends) const {
     constexpr double step = 5;
+    const auto isAhead = [&](const Vec3& p) { return dot(p - camera_.eye, camera_.forward) > 0; };
+    if (!isAhead(from) || !isAhead(to)) return;
     const Vec2 a = placeOf(from), b = placeOf(to);
     const double length = std::hypot(b.x - a.x, b.y - a.y);
     if (!(length < 10.0 * size_.width * size_.height)) return;  // it passes the eye

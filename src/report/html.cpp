@@ -37,6 +37,7 @@ th:first-child, td:first-child { text-align: left; padding-left: 0; }
 thead th { border-bottom: 2px solid var(--ink); vertical-align: bottom; }
 tr.strong td { font-weight: 600; border-bottom: 2px solid var(--ink); }
 svg { display: block; width: 100%; max-width: 600px; height: auto; font: 13px system-ui, "Segoe UI", Roboto, sans-serif; }
+.wide svg { width: auto; max-width: none; }
 .scale { max-width: 460px; margin: 14px auto; font-size: .82rem; color: var(--soft); text-align: center; }
 .scale i { display: block; height: 14px; border-radius: 3px; }
 .scale span { display: flex; justify-content: space-between; }

@@ -31,7 +31,7 @@ class ReportMaker {
     Index points = 0, patches = 0;
     PoseErrors errors;                     ///< over all shapes
     std::size_t bytes = 0, bareBytes = 0;  ///< whole, and without order and uv
-    bool packed = false;
+    bool packed = false, own = false;      ///< own: this file
   };
 
   // report.cpp
@@ -51,7 +51,7 @@ class ReportMaker {
   // picture_sections.cpp
   void frame();
   Result<std::string> picture(Scene scene, const Camera& camera, std::string_view caption,
-                              PictureSize size = kPanel, std::span<const Box> boxes = {});
+                              PictureSize size = kPanel, std::span<const PictureBox> boxes = {});
   Result<std::string> comparison();
   Result<std::string> network();
   Result<std::string> continuity();
@@ -78,6 +78,7 @@ class ReportMaker {
   const Rig& rig_;
   const MeshRig& source_;
   const ReportOptions& options_;
+  const std::size_t bytes_;  // of the file, without a scene
   Weights rest_, expression_;
   bool moves_;
   FaceScenes scenes_;

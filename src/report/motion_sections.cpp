@@ -116,7 +116,8 @@ Result<std::string> MotionSections::experiment() const {
 }
 
 Result<std::string> MotionSections::strips() const {
-  const std::vector<Box> boxes = measuringBoxes();
+  const Result<std::vector<PictureBox>> boxes = measuringBoxes();
+  if (!boxes) return std::unexpected(boxes.error());
   std::string times;
   for (int k = 0; k < kShownFrames; ++k) {
     const int frame = k * (kKeyFrames - 1) / (kShownFrames - 1);
@@ -125,7 +126,7 @@ Result<std::string> MotionSections::strips() const {
       const double way = progress(law, shareOfTime(frame)).position;
       Result<Image> image = picture(way, kFrame);
       if (!image) return std::unexpected(image.error());
-      drawBoxes(*image, boxes);
+      drawBoxes(*image, *boxes);
       const auto figure = html::figure(
           *image, fmt::format("{}, frame {}: {:.0f} %", nameOf(law), frame, 100 * way));
       if (!figure) return figure;
@@ -136,12 +137,14 @@ Result<std::string> MotionSections::strips() const {
   return fmt::format("<div class=\"times\">{}</div>\n", times);
 }
 
-std::vector<Box> MotionSections::measuringBoxes() const {
-  std::vector<Box> boxes;
+Result<std::vector<PictureBox>> MotionSections::measuringBoxes() const {
+  const std::vector<std::string> usual{"mouth", "eye"};
+  std::vector<PictureBox> boxes;
   const std::vector<Vec3> from = scenes_.points(rest_), to = scenes_.points(expression_);
-  for (const std::string& name : regions_) {
+  for (const std::string& name : regions_.empty() ? std::span(usual) : regions_) {
     const auto region = scenes_.region(name);
-    if (!region) continue;  // this rig has none
+    if (!region && regions_.empty()) continue;  // this rig has none
+    if (!region) return std::unexpected(region.error());
     std::vector<Vec3> places;
     for (const Index v : *region) {
       places.push_back(from[v]);
@@ -199,7 +202,8 @@ Result<std::string> MotionSections::everyLaw() const {
                              "spring and the bounce take longer. Below, position, velocity and "
                              "force over time.",
                              mixtureOf(rig_, expression_))) +
-         fmt::format("<style>{}</style>\n<div>{}</div>\n{}", style, cells, lawSheet());
+         fmt::format("<style>{}</style>\n<div>{}</div>\n<div class=\"wide\">{}</div>\n", style,
+                     cells, lawSheet());
 }
 
 /// All poses in a row, as a PNG in base 64.

@@ -29,7 +29,7 @@ class MotionSections {
  private:
   Result<Image> picture(double way, PictureSize size) const;
   Result<std::string> strips() const;
-  std::vector<Box> measuringBoxes() const;
+  Result<std::vector<PictureBox>> measuringBoxes() const;
   std::string plots() const;
   Result<std::string> sprites() const;
 

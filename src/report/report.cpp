@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 
+#include "sweepface/codec.hpp"
 #include "sweepface/fit.hpp"
 
 #include "report/maker.hpp"
@@ -30,6 +31,22 @@ Weights strongest(const MeshRig& source, const Rig& rig) {
   return weights;
 }
 
+// What other formats are compared with holds the face alone.
+std::size_t bytesWithoutScene(const Rig& rig, std::size_t bytes) {
+  if (rig.scene.empty()) return bytes;
+  Rig face = rig;
+  face.scene.clear();
+  return encode(face).size();
+}
+
+Result<void> checkMeshes(const Rig& rig, const MeshRig& source) {
+  for (const Target& target : rig.targets)
+    if (std::ranges::find(source.targets, target.name, &MeshTarget::name) == source.targets.end())
+      return fail(fmt::format("There is no mesh of '{}'; give all that the face was made from.",
+                              target.name));
+  return {};
+}
+
 Result<void> checkExpression(const Rig& rig, const ReportOptions& options) {
   if (options.expression.empty() || options.expression.size() == rig.targets.size()) return {};
   return fail(fmt::format("The expression has {} weights, but the face has {} targets.",
@@ -42,6 +59,7 @@ ReportMaker::ReportMaker(const Rig& rig, const MeshRig& source, const ReportOpti
     : rig_(rig),
       source_(source),
       options_(options),
+      bytes_(bytesWithoutScene(rig, options.bytes)),
       rest_(rig.targets.size(), 0.0),
       expression_(options.expression.empty() ? strongest(source, rig) : options.expression),
       moves_(expression_ != rest_),
@@ -72,6 +90,7 @@ Result<void> ReportMaker::prepare() {
     if (auto ok = checkTolerance(tolerance, diagonal(source_.neutral)); !ok) return ok;
   Result<std::vector<Vec3>> moved = originalPositions(rig_, source_, expression_);
   if (!moved) return std::unexpected(moved.error());
+  if (auto ok = checkMeshes(rig_, source_); !ok) return ok;
   moved_ = std::move(*moved);
   show("measuring");
   Result<Measurement> measured = measure(rig_, source_, {.mixtures = 5, .seed = 1});
@@ -124,9 +143,8 @@ std::string ReportMaker::head() const {
                            number(rig_.tolerance), number(diagonal(source_.neutral))));
   html += fact(fmt::format("{:.2g}°", measured_.worst.angle.rms), "RMS angle between the normals");
   html += fact(percent(shareOf(JoinClass::c2)), "of the curves' length are C² joins");
-  html += fact(
-      percent(static_cast<double>(options_.bytes) / static_cast<double>(sourceBytes())),
-      fmt::format("of the meshes' bytes: {} of {}", count(options_.bytes), count(sourceBytes())));
+  html += fact(percent(static_cast<double>(bytes_) / static_cast<double>(sourceBytes())),
+               fmt::format("of the meshes' bytes: {} of {}", count(bytes_), count(sourceBytes())));
   return html + "</div>\n";
 }
 
@@ -145,12 +163,15 @@ Result<std::string> ReportMaker::sizes() {
   if (moves_) line("Vertices → points, " + name, vertices(), stored);
   line("Polygons → patches, neutral", faces, patches);
   if (moves_) line("Polygons → patches, " + name, faces, patches);
-  line("Bytes, neutral and all expressions", sourceBytes(), options_.bytes);
+  line("Bytes, neutral and all expressions", sourceBytes(), bytes_);
   return section("Size",
                  "As in Table I of the paper. Points are the vectors that a shape stores on its "
                  "boundary and control curves; an expression stores as many as the neutral. The "
                  "original's bytes are its positions in single precision, without polygons; the "
-                 "recreated face's are those of the whole file.") +
+                 "recreated face's are those of the whole file" +
+                     (rig_.scene.empty() ? std::string(".")
+                                         : fmt::format(" without its scene, which takes {} more.",
+                                                       count(options_.bytes - bytes_)))) +
          table.html();
 }
 

@@ -53,7 +53,7 @@ Result<ReportMaker::Trial> ReportMaker::tryTolerance(double tolerance) {
 Result<std::string> ReportMaker::tolerances() {
   if (options_.tolerances.empty()) return "";
   std::vector<Trial> trials{{rig_.tolerance, points(), rig_.surface.patchCount(), measured_.worst,
-                             options_.bytes, bareBytes(rig_), rig_.packing.neutralStep > 0}};
+                             bytes_, bareBytes(rig_), rig_.packing.neutralStep > 0, true}};
   for (const double tolerance : options_.tolerances) {
     const Result<Trial> trial = tryTolerance(tolerance);
     if (!trial) return std::unexpected(trial.error());
@@ -74,7 +74,7 @@ std::string ReportMaker::errorOverPoints(const std::vector<Trial>& trials) const
         {number(t.tolerance) + (t.packed ? "" : ", not packed"), count(t.points),
          percent(t.points / static_cast<double>(vertices())), count(t.patches),
          number(t.errors.distance.rms), count(t.bytes), t.bareBytes > 0 ? count(t.bareBytes) : ""},
-        t.tolerance == rig_.tolerance);
+        t.own);
   }
   return section("Error against points",
                  "The same meshes converted with other tolerances and packed; this file's is in "
@@ -101,7 +101,7 @@ std::string ReportMaker::errorOverBytes(const std::vector<Trial>& trials) {
   };
   for (const Trial& t : trials)
     add(fmt::format(".sweep{}, {}", t.packed ? "" : ", not packed", number(t.tolerance)), t.bytes,
-        t.errors, t.tolerance == rig_.tolerance);
+        t.errors, t.own);
   const std::string meshopt = "GLB + meshopt", brotli = " + brotli";
   add("GLB, single precision", peers.glb.bytes, peers.glb);
   for (const PeerFile& p : peers.packed) {
@@ -131,7 +131,8 @@ std::string ReportMaker::errorOverBytes(const std::vector<Trial>& trials) {
                   [](auto& e) { return e.displacement.rms; });
   return section("Error against bytes",
                  "Whole files with the same vertices, faces, texture coordinates and expressions, "
-                 "without normals, and what they decode to against the source. GLBs hold the "
+                 "without normals and scenes, and what they decode to against the source. GLBs "
+                 "hold the "
                  "source's positions and differences; gltfpack -cc makes them smaller and changes "
                  "the order of vertices and faces, which a .sweep keeps. The dashed upright line "
                  "is the GLB in single precision, whose errors are rounding.") +

@@ -98,6 +98,13 @@ TEST_F(Animate, KeysHoldTheEnd) {
   }
 }
 
+TEST_F(Animate, IsNoLongerThanItsMotion) {
+  convertRig();
+  ASSERT_EQ(run("animate face.sweep --to smile=1 --seconds 0.25 --fps 1 -o take.csv").code, 0);
+  const std::string text = contents(folder / "take.csv");
+  EXPECT_NE(text.find("\n00:00:00:15.000,"), std::string::npos) << text;
+}
+
 TEST_F(Animate, LeavesOnlyWholeFramesOnInterrupt) {
   convertRig();
   const std::filesystem::path face = folder / "face.sweep", frames = folder / "frames";
@@ -156,6 +163,10 @@ TEST_F(Animate, RefusesWhatCannotBe) {
                     "more than 1000000 frames; cut the clip"));
   EXPECT_TRUE(fails(command + "--to smile=1 --lod 99", "--lod", 2));
   folder.file("line.json", R"({"seconds": 1, "events": [{"at": 0, "to": {"smile": 1}}]})");
+  folder.file("divided.json", R"({"seconds": 1, "events": [{"at": 0, "to": {"smile": 1}}],
+    "regions": [{"name": "up", "points": [[0, 0, 1]], "whole": 0.5, "fade": 1, "delay": 0.2}]})");
+  EXPECT_TRUE(fails("animate face.sweep --clip divided.json -o divided.csv",
+                    "divided.json has regions, which a .csv cannot tell apart"));
   folder.file("take.csv", "Timecode,smile\n0,0\n0.1,1\n");
   EXPECT_TRUE(fails(command + "--clip take.csv --law spring", "--law", 2));
   EXPECT_TRUE(fails(command + "--clip take.csv --seconds 3", "--seconds", 2));

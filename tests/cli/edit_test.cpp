@@ -67,6 +67,10 @@ TEST_F(Edit, RefusesWhatItCannotDo) {
   EXPECT_TRUE(fails("edit sheet.sweep --move b1 0,0,1 --target smile" + out, "'smile'"));
   EXPECT_TRUE(
       fails("edit sheet.sweep --move a1-b1 0,0,1 --move b1-c1 0,0,2" + out, "different places"));
+  EXPECT_TRUE(fails("edit sheet.sweep --move b1 0,0,1 --move b1 1,0,0" + out,
+                    "Node 'b1' is moved twice; give the sum of both."));
+  EXPECT_TRUE(fails("edit sheet.sweep --move a1-b1 0,0,1 --move a1-b1 0,0,1" + out,
+                    "Curve 'a1-b1' is moved twice; give the sum of both."));
   EXPECT_FALSE(std::filesystem::exists(folder / "other.sweep"));
 }
 

@@ -54,6 +54,10 @@ TEST_F(Plot, SaysWhatIsWrong) {
   refused("-o plot.svg --to jawOpen=1 --weight frown", "frown");
   refused("-o plot.svg --to jawOpen=1 --laws magic", "There is no law 'magic'");
   refused("-o plot.svg --to jawOpen=0", "Nothing moves");
+  refused("-o plot.svg --to jawOpen=1 --mass 1e308 --seconds 0.001", "beyond what numbers hold");
+  std::ofstream(folder / "take.csv") << "Timecode,JawOpen\n0,0\n0.5,1\n1,0\n";
+  EXPECT_TRUE(fails("plot face.sweep -o plot.svg --clip take.csv --frequency 3",
+                    "--frequency: Only spring swings", 2));
   EXPECT_TRUE(fails("plot face.sweep -o plot.svg --to jawOpen=1 --law bounce --restitution 1",
                     "from 0 to below 1", 2));
   EXPECT_EQ(run("plot face.sweep -o plot.svg --to jawOpen=1 --law bounce --restitution 0").code, 0);
@@ -75,7 +79,8 @@ TEST_F(Plot, ShowsWhatATimelineMeansForTheRest) {
 TEST_F(Plot, LawsNeedNoFace) {
   ASSERT_EQ(run("laws -o laws.svg").code, 0);
   EXPECT_TRUE(contents(folder / "laws.svg").starts_with("<svg "));
-  EXPECT_TRUE(fails("laws -o laws.png", "name it so"));
+  EXPECT_TRUE(fails("laws -o laws.png", "must end in .svg"));
+  EXPECT_EQ(run("laws -o /dev/null").code, 0);
 }
 
 TEST_F(Plot, ThePapersExperimentIsOneCommand) {

@@ -219,11 +219,30 @@ TEST_F(Usage, DoesNotMixTheReportWithWhatItMakes) {
 TEST_F(Usage, NoticesThatNobodyCanReadTheReport) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP();
   convertRig();
-  const std::string command =
-      fmt::format("'{}' info '{}' >/dev/full 2>'{}'", SWEEPFACE_TOOL,
-                  (folder / "face.sweep").string(), (folder / ".err").string());
-  EXPECT_NE(std::system(command.c_str()), 0);
-  EXPECT_NE(contents(folder / ".err").find("Cannot write the report"), std::string::npos);
+  for (const char* name : {"info", "check"}) {
+    const std::string command =
+        fmt::format("'{}' {} '{}' >/dev/full 2>'{}'", SWEEPFACE_TOOL, name,
+                    (folder / "face.sweep").string(), (folder / ".err").string());
+    EXPECT_NE(std::system(command.c_str()), 0);
+    EXPECT_NE(contents(folder / ".err").find("Cannot write the report"), std::string::npos);
+  }
+}
+
+TEST_F(Usage, ReadsAFaceFromAPipe) {
+  convertRig();
+  for (const char* rest : {"info /dev/stdin", "report /dev/stdin -o page.html"}) {
+    const std::string command = fmt::format("cd '{}' && cat face.sweep | '{}' {} >.out",
+                                            (folder / "").string(), SWEEPFACE_TOOL, rest);
+    EXPECT_EQ(std::system(command.c_str()), 0) << rest;
+  }
+}
+
+// As CLI11 does by itself.
+TEST_F(Usage, DoesNotTakeALeadingZeroForOctal) {
+  convertRig();
+  ASSERT_EQ(run("export face.sweep -o a.obj --lod 010").code, 0);
+  ASSERT_EQ(run("export face.sweep -o b.obj --lod 10").code, 0);
+  EXPECT_TRUE(contents(folder / "a.obj") == contents(folder / "b.obj"));
 }
 
 }  // namespace

@@ -50,6 +50,7 @@ TEST(LiveLinkCsv, SaysWhatIsWrongAndWhere) {
   expectError(csv("Timecode\n1\n"), "no column of a shape");
   expectError(csv("Timecode,a\n"), "no frames");
   expectError(csv("Timecode,a,a\n"), "two columns 'a'");
+  expectError(csv("Timecode,a,timecode\n"), "two columns 'Timecode'");
   expectError(csv("Timecode,,a\n"), "column 2 has no heading");
   expectError(csv("Timecode,a\n1,2,3\n"), "line 2: there are 3 values under 2 headings");
   expectError(csv("Timecode,a\n1\n"), "there are 1 values under 2 headings");

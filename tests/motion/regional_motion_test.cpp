@@ -126,6 +126,14 @@ TEST(RegionalMotion, MoreGoalsThanCanWaitBecomeFewer) {
   EXPECT_NEAR(motion.sample(1, 1).position, 1, 1e-9) << "and the only one of a weight";
 }
 
+TEST(RegionalMotion, LateRegionsFeelABlowAtOnce) {
+  RegionalMotion motion = motionOf({0.0}, {{}, {1, 1, 0.5}});
+  ASSERT_TRUE(motion.moveTo(0, 1, spring(3, 1)));
+  ASSERT_TRUE(motion.push(0, 2, 4));
+  motion.advance(9);
+  EXPECT_NEAR(motion.sample(1, 0).position, 0.5, 1e-9) << "where drag stops it";
+}
+
 TEST(RegionalMotion, WhatIsPutSomewhereStaysThere) {
   RegionalMotion motion = motionOf({0.0, 0.0}, {{}, {1, 1, 0.5}});
   ASSERT_TRUE(motion.moveTo(0, 1, spring(3, 1)));

@@ -93,7 +93,7 @@ TEST(Boxes, AreReadAndFound) {
        {"", "0.1,0.2,0.3", "0.1,0.2,0.3,0.4,0.5", "0,0,0,1", "2,0,1,1", "a,b,c,d"})
     EXPECT_TRUE(failsWith(parseBox(text), {"no box"})) << text;
   const std::array corners{Vec3{-1, -1, 0}, Vec3{1, 1, 0}};
-  const Box around = boxAround(corners, before(), {200, 200});
+  const PictureBox around = boxAround(corners, before(), {200, 200});
   // At distance 10 a length of 1 is 60 pixels of 200.
   EXPECT_NEAR(around.x, 0.2, 0.02);
   EXPECT_NEAR(around.width, 0.6, 0.04);

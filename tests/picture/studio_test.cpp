@@ -88,6 +88,9 @@ TEST(Studio, ShowsInnerSidesInAColourOfTheirOwn) {
 TEST(Studio, LeavesOutWhatIsBehindTheEye) {
   Scene scene = squares();
   addSquare(scene, {0, 0, 20}, 1, kRed);
+  scene.strokes.push_back({{{-1, 1, 20}, {1, 1, 20}}, kBlue, 10});
+  scene.strokes.push_back({{{0, 0, -1}, {0.1, 0.1, 20}}, kBlue, 10});
+  scene.labels.push_back({{0, 0, 20}, "behind", kBlue});
   EXPECT_EQ(countNear(picture(scene), kPaper), 200 * 200);
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "sweepface/codec.hpp"
 #include "sweepface/measure.hpp"
 #include "sweepface/plot.hpp"
 
@@ -264,6 +265,26 @@ TEST(Report, FailsWhereFaceAndMeshesDoNotBelongTogether) {
   ReportOptions options;
   options.expression = {1, 2, 3};
   EXPECT_TRUE(failsWith(makeReport(rig, source, options), {"3 weights", "2 targets"}));
+  const MeshRig part{source.neutral, {source.targets[0]}};
+  EXPECT_TRUE(failsWith(makeReport(rig, part, {}), {"no mesh of 'mouth & \"eye\"'"}));
+  options = {};
+  options.regions = {"nose"};
+  EXPECT_TRUE(failsWith(makeReport(rig, source, options), {"No target", "'nose'"}));
+}
+
+// Neither meshes nor the formats that it is compared with have one.
+TEST(Report, CountsAFaceWithoutItsScene) {
+  const MeshRig source = hill();
+  Rig rig = converted(source, 0.05);
+  const std::size_t face = encode(rig).size();
+  rig.scene.assign(50'000, 'x');
+  ReportOptions options;
+  options.bytes = encode(rig).size();
+  const std::string page = makeReport(rig, source, options).value();
+  const auto count = [](std::size_t n) { return fmt::format("{},{:03}", n / 1000, n % 1000); };
+  EXPECT_NE(page.find("of the meshes' bytes: " + count(face)), std::string::npos);
+  EXPECT_NE(page.find("scene, which takes " + count(options.bytes - face) + " more"),
+            std::string::npos);
 }
 
 }  // namespace

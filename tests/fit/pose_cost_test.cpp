@@ -1,4 +1,4 @@
-#include "fit/pose_errors.hpp"
+#include "fit/pose_cost.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -62,10 +62,10 @@ class RandomErrors : public ::testing::TestWithParam<unsigned> {
 };
 
 TEST_P(RandomErrors, GrowAsTheirGradientSays) {
-  const PoseErrors errors(columns, task);
+  const PoseCost errors(columns, task);
   constexpr float kSmall = 1e-2f;
   for (Index v = 0; v < kVectors; ++v) {
-    const PoseErrors::Four gradient = errors.gradient(v);
+    const PoseCost::Four gradient = errors.gradient(v);
     for (int a = 0; a < 3; ++a) {
       // Where a vertex comes to its bound in between the two sides differ.
       const float ahead = errors.growth(v, a, kSmall) / kSmall,
@@ -78,8 +78,8 @@ TEST_P(RandomErrors, GrowAsTheirGradientSays) {
 }
 
 TEST_P(RandomErrors, GrowTheSameOneByOneAndFourAtOnce) {
-  const PoseErrors errors(columns, task);
-  const PoseErrors::Four four = errors.growth(3, 1, PoseErrors::Four(-1, 0, 1, 2));
+  const PoseCost errors(columns, task);
+  const PoseCost::Four four = errors.growth(3, 1, PoseCost::Four(-1, 0, 1, 2));
   EXPECT_EQ(four[0], errors.growth(3, 1, -1));
   EXPECT_EQ(four[1], 0);
   EXPECT_EQ(four[2], errors.growth(3, 1, 1));
@@ -87,7 +87,7 @@ TEST_P(RandomErrors, GrowTheSameOneByOneAndFourAtOnce) {
 }
 
 TEST_P(RandomErrors, AreAfterMovesWhatTheyWouldBeFromTheStart) {
-  PoseErrors errors(columns, task);
+  PoseCost errors(columns, task);
   for (int k = 0; k < 20; ++k) {
     const auto v = static_cast<Index>(generator() % kVectors);
     const int a = static_cast<int>(generator() % 3);
@@ -97,23 +97,23 @@ TEST_P(RandomErrors, AreAfterMovesWhatTheyWouldBeFromTheStart) {
     move(v, a, steps);
     EXPECT_NEAR(errors.growth(v, a, -steps), -there, 1e-3f * (1 + std::abs(there)));
   }
-  const PoseErrors fresh(columns, task);
+  const PoseCost fresh(columns, task);
   for (Index u = 0; u < kVertices; ++u) {
     EXPECT_NEAR(errors.square(u), fresh.square(u), 1e-4f);
     EXPECT_NEAR(errors.tilt(u), fresh.tilt(u), 1e-2f);
   }
   for (Index v = 0; v < kVectors; ++v) {
-    const PoseErrors::Four own = errors.gradient(v), its = fresh.gradient(v);
+    const PoseCost::Four own = errors.gradient(v), its = fresh.gradient(v);
     for (int a = 0; a < 3; ++a) EXPECT_NEAR(own[a], its[a], 1e-2f * (1 + std::abs(its[a])));
   }
 }
 
 TEST_P(RandomErrors, CountMoreBeyondTheirBoundsOncePressed) {
-  PoseErrors errors(columns, task);
+  PoseCost errors(columns, task);
   float most = 0;
   for (Index u = 0; u < kVertices; ++u) most = std::max(most, errors.square(u));
   ASSERT_GT(most, 1) << "something is beyond its bound";
-  const PoseErrors::Four before = errors.gradient(0);
+  const PoseCost::Four before = errors.gradient(0);
   errors.press(100);
   EXPECT_GT((errors.gradient(0) - before).abs().maxCoeff(), 0);
 }

@@ -11,11 +11,11 @@ namespace sweepface {
 /// How far off a pose is at every vertex while its coefficients change, and what that costs in
 /// bits: hardly anything well within the bounds, steeply more beyond them, and for tangents more
 /// the further they lean or turn over.
-class PoseErrors {
+class PoseCost {
  public:
   using Four = Eigen::Array4f;
 
-  PoseErrors(const Columns& columns, const PoseTask& task);
+  PoseCost(const Columns& columns, const PoseTask& task);
 
   Index vertexCount() const { return static_cast<Index>(at_.size()); }
   /// The square of how far off a vertex is, as a share of its bound's.

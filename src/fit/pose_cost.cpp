@@ -1,4 +1,4 @@
-#include "fit/pose_errors.hpp"
+#include "fit/pose_cost.hpp"
 
 #include <algorithm>
 
@@ -6,7 +6,7 @@ namespace sweepface {
 
 namespace {
 
-using Four = PoseErrors::Four;
+using Four = PoseCost::Four;
 
 // A penalty in bits: hardly any well within the bound, steep beyond it.
 constexpr float kInside = 2, kBeyond = 400;
@@ -30,7 +30,7 @@ float overturn(float strain) {
 
 }  // namespace
 
-PoseErrors::PoseErrors(const Columns& columns, const PoseTask& task)
+PoseCost::PoseCost(const Columns& columns, const PoseTask& task)
     : columns_(columns),
       step_(static_cast<float>(task.step)),
       slopeWeight_(task.slopes.weight),
@@ -60,12 +60,12 @@ PoseErrors::PoseErrors(const Columns& columns, const PoseTask& task)
   }
 }
 
-void PoseErrors::press(float times) {
+void PoseCost::press(float times) {
   beyond_ = times * kBeyond;
   for (Index u = 0; u < vertexCount(); ++u) refresh(u);
 }
 
-void PoseErrors::refresh(Index u) {
+void PoseCost::refresh(Index u) {
   Vertex& x = at_[u];
   Pull& pull = pulls_[u];
   const auto squared = [](const float* v) { return v[0] * v[0] + v[1] * v[1] + v[2] * v[2]; };
@@ -83,13 +83,13 @@ void PoseErrors::refresh(Index u) {
   }
 }
 
-float PoseErrors::tilt(Index u) const {
+float PoseCost::tilt(Index u) const {
   float sum = 0;
   for (const Tangent& t : at_[u].tangent) sum += slopeWeight_ * t.lean * t.lean + t.overturn;
   return sum;
 }
 
-PoseErrors::Four PoseErrors::growth(Index v, int a, const Four& steps) const {
+PoseCost::Four PoseCost::growth(Index v, int a, const Four& steps) const {
   const Four x = steps * step_;
   Four sum = Four::Zero(), tilted = Four::Zero(), over = Four::Zero();
   for (Index p = columns_.start[v]; p < columns_.start[v + 1]; ++p) {
@@ -108,7 +108,7 @@ PoseErrors::Four PoseErrors::growth(Index v, int a, const Four& steps) const {
   return sum + slopeWeight_ * tilted + over;
 }
 
-PoseErrors::Four PoseErrors::gradient(Index v) const {
+PoseCost::Four PoseCost::gradient(Index v) const {
   Four sum = Four::Zero();
   for (Index p = columns_.start[v]; p < columns_.start[v + 1]; ++p) {
     const Pull& pull = pulls_[columns_.vertex[p]];
@@ -118,7 +118,7 @@ PoseErrors::Four PoseErrors::gradient(Index v) const {
   return 2 * step_ * sum;
 }
 
-void PoseErrors::move(Index v, int a, float steps) {
+void PoseCost::move(Index v, int a, float steps) {
   const float x = steps * step_;
   for (Index p = columns_.start[v]; p < columns_.start[v + 1]; ++p) {
     const Index u = columns_.vertex[p];
