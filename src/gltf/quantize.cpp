@@ -69,7 +69,7 @@ class Undoer {
 
   Result<void> run() {
     if (auto ok = checkPrimitives(); !ok) return ok;
-    noteAnimations();
+    noteUses();
     const std::vector<Index> shown = shownMeshes(scene_);
     for (std::size_t n = 0; n < shown.size(); ++n)
       if (shown[n] >= 0)
@@ -111,19 +111,22 @@ class Undoer {
     return path && *path == "weights";
   }
 
-  /// Nodes that animations move.
-  void noteAnimations() {
-    moved_.resize(scene_.document.list("nodes").size());
+  /// Nodes that animations move, and those that move other meshes as joints.
+  void noteUses() {
+    used_.resize(scene_.document.list("nodes").size());
     eachChannelTarget([&](const Json& target) {
-      const auto node = findIndex(target, "node", moved_.size());
-      if (node && !isOfWeights(target)) moved_[*node] = true;
+      const auto node = findIndex(target, "node", used_.size());
+      if (node && !isOfWeights(target)) used_[*node] = true;
     });
+    for (const Json& skin : scene_.document.list("skins"))
+      for (const Json& joint : listOf(skin, "joints"))
+        if (const auto node = asIndex(joint, used_.size())) used_[*node] = true;
   }
 
   /// Animated weights go with their meshes.
   void redirectWeights() {
     eachChannelTarget([&](Json& target) {
-      const auto node = findIndex(target, "node", moved_.size());
+      const auto node = findIndex(target, "node", used_.size());
       const auto below = node && isOfWeights(target) ? below_.find(*node) : below_.end();
       if (below != below_.end()) target["node"] = below->second;
     });
@@ -146,7 +149,7 @@ class Undoer {
     constexpr std::array kept{"name", "mesh", "weights", "extras"};
     for (const auto& [key, value] : node.items())
       if (std::ranges::find(kept, key) == kept.end()) return false;
-    return !moved_[number] && !uses("KHR_animation_pointer");
+    return !used_[number] && !uses("KHR_animation_pointer");
   }
   bool uses(std::string_view extension) const {
     return std::ranges::any_of(scene_.document.list("extensionsUsed"),
@@ -233,7 +236,7 @@ class Undoer {
   Json& json_;
   const std::vector<Encoding>& encodings_;
   Builder& builder_;
-  std::vector<bool> moved_;                   // [nodes]
+  std::vector<bool> used_;                    // [nodes]
   std::map<std::size_t, std::size_t> below_;  // the new node that has a node's mesh
   std::map<std::pair<std::size_t, const Encoding*>, std::size_t> skins_;
 };

@@ -182,6 +182,17 @@ TEST(QuantizeWriter, ScalesByTheMatricesOfASkin) {
   }
 }
 
+TEST(QuantizeWriter, LeavesJointsOfOtherMeshesAsTheyAre) {
+  Glb source = smallFace();
+  source.add("skins", {{"joints", {0}}});
+  const Rig rig = converted(source);
+  const Json nodes = write(rig, {.quantize = true}).json["nodes"];
+  ASSERT_EQ(nodes.size(), 2u);
+  EXPECT_EQ(nodes[0], Json({{"children", {1}}}));
+  EXPECT_EQ(nodes[1]["mesh"], 0);
+  EXPECT_TRUE(nodes[1].contains("scale"));
+}
+
 TEST(QuantizeWriter, RefusesWhatItWouldEnlarge) {
   const auto refuses = [](const Glb& source, std::string_view why) {
     EXPECT_TRUE(
