@@ -156,7 +156,7 @@ class Loader {
     if (!in.ok()) return in.error();
     std::string& bytes = document_.buffers.emplace_back();
     if (in.has("uri")) {
-      told.place = uris_.emplace(uri, index).first->second;
+      told.place = sources_.emplace(identityOf(uri, folder_), index).first->second;
       if (told.place == index)
         if (auto ok = fetchInto(bytes, uri); !ok)
           return fail(fmt::format("{}: {}", in.place(), ok.error().message));
@@ -252,8 +252,8 @@ class Loader {
   const Container& container_;
   const fs::path& folder_;
   std::size_t total_ = 0, compressed_ = 0;
-  std::map<std::string_view, std::size_t> uris_;  // the first buffer that names it
-  std::vector<Told> told_;                        // [buffers]
+  std::map<std::string, std::size_t> sources_;  // the first buffer of each file or data: URI
+  std::vector<Told> told_;                      // [buffers]
 };
 
 /// Takes an extension that nothing uses any longer out of the lists of those that are, and out of

@@ -73,6 +73,8 @@ bool startsWithoutCase(std::string_view text, std::string_view start) {
          });
 }
 
+bool isData(std::string_view uri) { return startsWithoutCase(uri, "data:"); }
+
 /// data:[<type>][;parameters][;base64],<data>
 Result<Resource> decodeData(std::string_view uri) {
   const std::size_t comma = uri.find(',');
@@ -106,7 +108,8 @@ std::unexpected<Error> refuse(std::string_view uri, std::string_view why) {
   return fail(fmt::format("the file {} {}.", io::inQuotes(uri), why));
 }
 
-Result<Resource> readBeside(std::string_view uri, const fs::path& folder) {
+/// Where the file is that a URI names, free of links.
+Result<fs::path> pathOf(std::string_view uri, const fs::path& folder) {
   const auto decoded = percentDecoded(uri);
   const bool plain = decoded && isPrintable(*decoded) && decoded->find('\\') == std::string::npos;
   if (hasScheme(uri) || !plain || !leadsDown(*decoded))
@@ -121,8 +124,16 @@ Result<Resource> readBeside(std::string_view uri, const fs::path& folder) {
   const auto [end, unused] = std::mismatch(home.begin(), home.end(), path.begin(), path.end());
   if (end != home.end())
     return refuse(uri, "is a link out of the folder of the glTF; put a copy into the folder");
-  if (!fs::is_regular_file(path, error)) return refuse(uri, "is not a file; export the glTF again");
-  auto bytes = readFile(path);
+  return path;
+}
+
+Result<Resource> readBeside(std::string_view uri, const fs::path& folder) {
+  const auto path = pathOf(uri, folder);
+  if (!path) return std::unexpected(path.error());
+  std::error_code error;
+  if (!fs::is_regular_file(*path, error))
+    return refuse(uri, "is not a file; export the glTF again");
+  auto bytes = readFile(*path);
   if (!bytes) return refuse(uri, fmt::format("cannot be read; {}", bytes.error().message));
   return Resource{std::move(*bytes), {}};
 }
@@ -130,7 +141,12 @@ Result<Resource> readBeside(std::string_view uri, const fs::path& folder) {
 }  // namespace
 
 Result<Resource> fetch(std::string_view uri, const fs::path& folder) {
-  return startsWithoutCase(uri, "data:") ? decodeData(uri) : readBeside(uri, folder);
+  return isData(uri) ? decodeData(uri) : readBeside(uri, folder);
+}
+
+std::string identityOf(std::string_view uri, const fs::path& folder) {
+  const auto path = isData(uri) ? Result<fs::path>(fs::path()) : pathOf(uri, folder);
+  return path && !path->empty() ? path->string() : std::string(uri);
 }
 
 }  // namespace sweepface::gltf

@@ -18,4 +18,7 @@ struct Resource {
 /// schemes, absolute paths, ways up and links that lead out. Messages name the URI, not the glTF.
 Result<Resource> fetch(std::string_view uri, const std::filesystem::path& folder);
 
+/// The same for all URIs that name one file, however they spell it, and for equal data: URIs.
+std::string identityOf(std::string_view uri, const std::filesystem::path& folder);
+
 }  // namespace sweepface::gltf

@@ -74,7 +74,10 @@ class Emptier {
     if (known != claims_.end()) return known->second;
     std::size_t accessor = std::get<0>(use);
     if (others_[accessor] || !claimed_.insert(accessor).second) {
-      Json copy = accessors()[accessor];
+      // Its name and extras could be long, and the uses many.
+      Json copy = Json::object();
+      for (const char* key : {"componentType", "count", "type"})
+        copy[key] = accessors()[accessor][key];
       accessor = accessors().size();
       accessors().push_back(std::move(copy));
     }
@@ -131,13 +134,18 @@ class ImageEmbedder {
   ImageEmbedder(Document& document, const fs::path& folder, std::vector<std::string>& warnings)
       : document_(document), folder_(folder), warnings_(warnings) {}
 
-  void run() {
+  Result<void> run() {
     Json* const images = find(document_.json, "images");
     for (std::size_t k = 0; images && k < images->size(); ++k) {
       Json& image = (*images)[k];
       const Json* const uri = find(image, "uri");
       if (!uri || !uri->is_string()) continue;
-      const Embedded& embedded = embedOnce(uri->get_ref<const std::string&>());
+      const Json* const type = find(image, "mimeType");
+      const Embedded& embedded =
+          embedOnce(uri->get_ref<const std::string&>(),
+                    type && type->is_string() ? type->get<std::string>() : std::string());
+      if (total_ > io::maxFileBytes)
+        return fail("its images are larger than 2 GiB; export only the face.");
       if (!embedded.problem.empty()) {
         warnings_.push_back(
             fmt::format("Image {} stays a reference to a file, which may be missing "
@@ -147,8 +155,9 @@ class ImageEmbedder {
       }
       image.erase("uri");
       image["bufferView"] = embedded.view;
-      if (!find(image, "mimeType")) image["mimeType"] = embedded.mimeType;
+      if (!type) image["mimeType"] = embedded.mimeType;
     }
+    return {};
   }
 
  private:
@@ -157,20 +166,24 @@ class ImageEmbedder {
     std::string mimeType, problem;
   };
 
-  const Embedded& embedOnce(const std::string& uri) {
-    const auto [known, isNew] = embedded_.try_emplace(uri);
-    if (isNew) known->second = embed(uri);
+  /// `given` is the type that the image says it has.
+  const Embedded& embedOnce(const std::string& uri, const std::string& given) {
+    const auto [known, isNew] = embedded_.try_emplace(identityOf(uri, folder_));
+    if (isNew) known->second = embed(uri, given);
     return known->second;
   }
 
-  Embedded embed(const std::string& uri) {
+  Embedded embed(const std::string& uri, const std::string& given) {
     auto fetched = fetch(uri, folder_);
     if (!fetched) return {0, {}, fetched.error().message};
     const std::string kind = kindOf(fetched->bytes);
-    const std::string type = kind.empty() ? fetched->mimeType : kind;
+    const std::string type = !kind.empty()                ? kind
+                             : !fetched->mimeType.empty() ? fetched->mimeType
+                                                          : given;
     if (fetched->bytes.empty() || type.empty())
       return {0, {}, fmt::format("the file {} is no image of a known kind.", io::inQuotes(uri))};
     const std::size_t size = fetched->bytes.size(), buffer = document_.buffers.size();
+    total_ += size;
     document_.views.push_back({buffer, 0, size, 0});
     document_.buffers.push_back(std::move(fetched->bytes));
     document_.json["buffers"].push_back({{"byteLength", size}});
@@ -181,7 +194,8 @@ class ImageEmbedder {
   Document& document_;
   const fs::path& folder_;
   std::vector<std::string>& warnings_;
-  std::map<std::string, Embedded> embedded_;
+  std::map<std::string, Embedded> embedded_;  // by what tells files apart
+  std::size_t total_ = 0;                     // bytes of them all
 };
 
 // ---- Warnings ----
@@ -240,7 +254,8 @@ Result<Scene> makeScene(Document document, const Parts& parts, const fs::path& f
   Emptier emptier(document, parts);
   emptier.run();
   std::vector<bool> touched = emptier.touched();
-  ImageEmbedder(document, folder, scene.warnings).run();
+  if (auto ok = ImageEmbedder(document, folder, scene.warnings).run(); !ok)
+    return std::unexpected(ok.error());
   touched.resize(document.views.size());
   const std::string binary = gatherBinary(document, touched);
   scene.glb = formatContainer(document.json, binary);

@@ -318,6 +318,17 @@ TEST_F(Files, MayBeSharedByBuffers) {
   EXPECT_EQ(document->sourceBytes, text.size() + smallFace().binary.size()) << "read once";
 }
 
+TEST_F(Files, AreReadOnceHoweverTheyAreSpelt) {
+  Glb glb = faceOfTwoBuffers("%66ace.bin");
+  std::filesystem::create_symlink("face.bin", folder / "home/link.bin");
+  for (const char* uri : {"./face.bin", "link.bin"})
+    glb.add("buffers", {{"byteLength", 4}, {"uri", uri}});
+  const std::string text = glb.text("face.bin");
+  const auto document = gltf::parseDocument(text, folder / "home");
+  ASSERT_TRUE(document) << document.error().message;
+  EXPECT_EQ(document->sourceBytes, text.size() + smallFace().binary.size());
+}
+
 TEST_F(Files, ThatBuffersShareEndWhereEachSays) {
   Glb glb = faceOfTwoBuffers("face.bin");
   glb.json["buffers"][1]["byteLength"] = 8;

@@ -133,6 +133,14 @@ TEST(Hostile, VeryManyViewsOfTheSameDataAreStoredOnce) {
       true);
 }
 
+TEST(Hostile, LongNamesOfAccessorsAreStoredOnce) {
+  Glb glb = smallFace();
+  glb.accessor(4)["name"] = std::string(100'000, 'x');
+  Json& targets = glb.primitive()["targets"];
+  for (int k = 0; k < 1000; ++k) targets.push_back({{"POSITION", 4}});
+  EXPECT_LT(memoryOf(glb.bytes(), true), 20'000'000u);
+}
+
 TEST(Hostile, ManyEmptyTargetsOfAFewVerticesAreRead) {
   Glb glb = smallFace();
   Json& targets = glb.primitive()["targets"];

@@ -320,6 +320,24 @@ TEST_F(Images, BesideTheFileAreEmbeddedOnce) {
   EXPECT_TRUE(warnings.empty());
 }
 
+TEST_F(Images, AreEmbeddedOnceHoweverTheyAreSpelt) {
+  Glb glb = smallFace();
+  glb.json["images"] = {{{"uri", "skin.png"}}, {{"uri", "%73kin.png"}}, {{"uri", "./skin.png"}}};
+  const auto source = parseGltf(glb.bytes(), "face.glb", folder / "home");
+  ASSERT_TRUE(source) << source.error().message;
+  const gltf::Document scene = parsed(source->scene);
+  for (const Json& image : scene.list("images"))
+    EXPECT_EQ(image["bufferView"], scene.views.size() - 1);
+}
+
+TEST_F(Images, OfOtherKindsAreWhatTheFileSays) {
+  folder.file("home/skin.avif", "an image");
+  const gltf::Document scene = sceneWith({{"uri", "skin.avif"}, {"mimeType", "image/avif"}});
+  EXPECT_EQ(scene.list("images")[0]["mimeType"], "image/avif");
+  EXPECT_EQ(scene.bytesOf(scene.views.size() - 1), "an image");
+  EXPECT_TRUE(warnings.empty());
+}
+
 TEST_F(Images, InDataUrisAreEmbedded) {
   const gltf::Document scene = sceneWith({{"uri", "data:image/x-hair;base64,aGVsbG8="}});
   EXPECT_EQ(scene.list("images")[0]["mimeType"], "image/x-hair");
