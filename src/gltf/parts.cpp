@@ -123,10 +123,11 @@ class PartFinder {
 
   Result<Primitive> readPrimitive(std::size_t mesh, std::size_t index) const {
     const Json& json = meshes_[mesh]["primitives"][index];
-    Members in(json, place(mesh, index));
+    const std::string here = place(mesh, index);
+    Members in(json, here);
     Primitive primitive;
     primitive.index = index;
-    Members attributes(in.object("attributes"), place(mesh, index));
+    Members attributes(in.object("attributes"), here);
     if (gltf::find(in.object("extensions"), "KHR_draco_mesh_compression"))
       return fail(std::string(dracoRefusal));
     if (in.ok() && !attributes.has("POSITION")) in.refuse("it has triangles without POSITION");
@@ -137,12 +138,12 @@ class PartFinder {
     const auto position = accessorAt(document_, primitive.position);
     if (!position) return std::unexpected(position.error());
     primitive.count = position->count;
-    if (auto ok = checkAttributes(in.object("attributes"), primitive, place(mesh, index)); !ok)
+    if (auto ok = checkAttributes(in.object("attributes"), primitive, here); !ok)
       return std::unexpected(ok.error());
 
     const Json& targets = in.array("targets");
     for (std::size_t t = 0; t < targets.size(); ++t) {
-      const std::string where = fmt::format("{}, target {}", place(mesh, index), t);
+      const std::string where = fmt::format("{}, target {}", here, t);
       if (auto ok = checkAttributes(targets[t], primitive, where); !ok)
         return std::unexpected(ok.error());
       const Json* const moved = gltf::find(targets[t], "POSITION");
@@ -184,11 +185,14 @@ class PartFinder {
     std::vector<std::string> names(primitive.targets.size());
     for (std::size_t t = 0; given && t < std::min(names.size(), given->size()); ++t)
       if (const Json& name = (*given)[t]; name.is_string()) names[t] = name.get<std::string>();
-    for (std::size_t t = 0; t < names.size(); ++t)
-      for (std::size_t free = t; io::trimmed(names[t]).empty(); ++free)
-        if (std::string name = fmt::format("target_{}", free);
-            std::ranges::find(names, name) == names.end())
+    std::set<std::string> taken(names.begin(), names.end());
+    std::size_t free = 0;  // the numbers from t up to it are taken
+    for (std::size_t t = 0; t < names.size(); ++t) {
+      free = std::max(free, t);
+      while (io::trimmed(names[t]).empty())
+        if (std::string name = fmt::format("target_{}", free++); taken.insert(name).second)
           names[t] = std::move(name);
+    }
     return names;
   }
 

@@ -107,14 +107,15 @@ inline bool isUsable(double coordinate) {
   return std::abs(coordinate) <= std::numeric_limits<float>::max();
 }
 
-/// A word for a message: in quotes, printable and short. What is not UTF-8 is shown as far as it is
-/// ASCII.
+/// A word for a message: in quotes, printable and short. Where what is shown is not UTF-8, it is
+/// shown as far as it is ASCII. Of a long word no more is looked at.
 inline std::string inQuotes(std::string_view word) {
   constexpr std::size_t longest = 40;
-  const bool isUtf8 = codec::isUtf8(word);
-  const auto isInside = [&](char c) { return isUtf8 && (c & 0xC0) == 0x80; };  // a character
+  const auto isInside = [](char c) { return (c & 0xC0) == 0x80; };  // a character
   std::size_t length = std::min(word.size(), longest);
-  while (length < word.size() && isInside(word[length])) --length;
+  while (length < word.size() && length + 3 > longest && isInside(word[length])) --length;
+  const bool isUtf8 = codec::isUtf8(word.substr(0, length));
+  if (!isUtf8) length = std::min(word.size(), longest);
   std::string text = "'";
   for (const char c : word.substr(0, length)) {
     const auto code = static_cast<unsigned char>(c);

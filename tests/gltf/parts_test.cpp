@@ -153,6 +153,16 @@ TEST(TargetNames, AreNumbersWhereThereAreNone) {
             (std::vector<std::string>{"target_1", "target_2"}));
 }
 
+TEST(TargetNames, MayBeAHundredThousandNumbers) {
+  Glb glb = smallFace();
+  for (int k = 0; k < 100'000; ++k) glb.primitive()["targets"].push_back(Json::object());
+  glb.json["meshes"][0]["extras"]["targetNames"] = {"target_2"};
+  const std::vector<std::string> names = partsOf(glb).targets;
+  EXPECT_EQ(names[1], "target_1");
+  EXPECT_EQ(names[2], "target_3");
+  EXPECT_EQ(names.back(), "target_100002");
+}
+
 TEST(TargetNames, OfSeveralMeshesAreUnited) {
   Glb glb = smallFace();
   const std::size_t p = glb.addVectors(threePoints()), t = glb.addVectors(threePoints(2));

@@ -18,6 +18,11 @@ TEST(InQuotes, CutsBetweenCharacters) {
   EXPECT_EQ(inQuotes(std::string(38, 'a') + "é"), "'" + std::string(38, 'a') + "é'");
 }
 
+TEST(InQuotes, JudgesWhatItShows) {
+  EXPECT_EQ(inQuotes("é" + std::string(50, 'a') + "\xff"), "'é" + std::string(38, 'a') + "...'");
+  EXPECT_EQ(inQuotes(std::string(50, '\x80')), "'" + std::string(40, '?') + "...'");
+}
+
 TEST(InQuotes, HidesWhatIsNoText) {
   EXPECT_EQ(inQuotes("a\x1b[31m"), "'a?[31m'");
   EXPECT_EQ(inQuotes("a\x7f"), "'a?'");
