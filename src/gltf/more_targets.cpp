@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <map>
+#include <set>
 #include <string_view>
 
 #include "gltf/builder.hpp"
@@ -21,6 +22,7 @@ class TargetAdder {
       name(mesh);
     }
     for (const Part& part : parts_.parts) widen(part);
+    if (auto ok = widenOthers(); !ok) return ok;
     for (const auto& [mesh, before] : meshes_) widenWeights(json_["meshes"][mesh], before);
     if (json_.contains("nodes"))
       for (Json& node : json_["nodes"])
@@ -47,21 +49,57 @@ class TargetAdder {
   /// Primitives that shared their vertices go on doing so.
   void widen(const Part& part) {
     const Run& run = parts_.runs[part.run];
-    const std::size_t mesh = parts_.meshes[run.rigMesh].mesh;
+    const std::size_t mesh = meshOf(part);
     if (!meshes_.contains(mesh)) return;
     Json& targets = json_["meshes"][mesh]["primitives"][part.primitive]["targets"];
     if (!targets.is_array()) targets = Json::array();
     for (std::size_t k = 0; k < names_.size(); ++k) {
       const auto [hollow, isNew] = hollows_.try_emplace({part.run, k});
-      if (isNew) {
-        Json& accessors = json_["accessors"];
-        hollow->second = accessors.size();
-        accessors.push_back({{"componentType", static_cast<int>(Component::float32)},
-                             {"count", run.count},
-                             {"type", "VEC3"}});
-      }
+      if (isNew) hollow->second = addHollow(run.count);
       targets.push_back({{"POSITION", hollow->second}});
     }
+  }
+
+  std::size_t meshOf(const Part& part) const {
+    return parts_.meshes[parts_.runs[part.run].rigMesh].mesh;
+  }
+
+  /// All primitives of a mesh have as many targets: points and lines get some that move nothing.
+  Result<void> widenOthers() {
+    std::set<std::pair<std::size_t, std::size_t>> ofParts;
+    for (const Part& part : parts_.parts) ofParts.emplace(meshOf(part), part.primitive);
+    for (const auto& [mesh, unused] : meshes_) {
+      Json& primitives = json_["meshes"][mesh]["primitives"];
+      for (std::size_t p = 0; p < primitives.size(); ++p)
+        if (!ofParts.contains({mesh, p}))
+          if (auto ok = widenOther(primitives[p]); !ok) return ok;
+    }
+    return {};
+  }
+
+  Result<void> widenOther(Json& primitive) {
+    const Json* const attributes = find(primitive, "attributes");
+    const auto position =
+        attributes ? findIndex(*attributes, "POSITION", document_.list("accessors").size())
+                   : std::nullopt;
+    if (listOf(primitive, "targets").empty() || !position) return {};
+    const auto accessor = accessorAt(document_, *position);
+    if (!accessor) return std::unexpected(accessor.error());
+    const std::size_t hollow = addHollow(accessor->count);
+    for (std::size_t k = 0; k < names_.size(); ++k)
+      primitive["targets"].push_back({{"POSITION", hollow}});
+    return {};
+  }
+
+  /// An accessor of vectors that are all zero.
+  std::size_t addHollow(std::size_t count) {
+    Json& accessors = json_["accessors"];
+    accessors.push_back({{"componentType", static_cast<int>(Component::float32)},
+                         {"count", count},
+                         {"type", "VEC3"},
+                         {"min", {0, 0, 0}},
+                         {"max", {0, 0, 0}}});
+    return accessors.size() - 1;
   }
 
   void widenWeights(Json& holder, std::size_t before) const {

@@ -366,6 +366,19 @@ TEST(SceneWriter, MakesRoomForNewTargets) {
   }
 }
 
+TEST(SceneWriter, MakesRoomForNewTargetsInAllPrimitives) {
+  Glb source = smallFace();
+  const std::size_t dots = source.addVectors({{0, 0, 0}, {1, 0, 0}});
+  const Json still{{"POSITION", dots}};
+  source.json["meshes"][0]["primitives"].push_back(
+      {{"attributes", still}, {"mode", 0}, {"targets", Json::array({still, still})}});
+  for (const Index lod : {0, 2}) {
+    const Written glb = write(withFrown(converted(source)), {.lod = lod});
+    ASSERT_EQ(glb.primitive(0, 1)["targets"].size(), 3u);
+    EXPECT_EQ(glb.vectors(glb.morph(2, "POSITION", 0, 1)), std::vector<Vec3>(2));
+  }
+}
+
 /// One animation with a channel for each target; each moves by two keys of as many values.
 void animate(Glb& glb, const std::vector<Json>& targets, const std::vector<float>& values) {
   const std::vector<float> times{0, 1};
