@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <map>
+#include <limits>
 #include <set>
 
 #include "sweepface/gltf.hpp"
@@ -18,7 +18,6 @@ namespace {
 
 /// Curves between keys become straight lines between so many places a second, at the least.
 constexpr double kCurveRate = 120;
-constexpr double kMostFrames = 1'000'000;
 
 /// One channel: the weights of a mesh.
 struct Track {
@@ -102,6 +101,10 @@ class ClipReader {
     const std::size_t input = in.index("input", accessors, "accessors"),
                       output = in.index("output", accessors, "accessors");
     Track track;
+    for (const std::size_t t : mesh.targets) track.names.push_back(parts_.targets[t]);
+    // Where several meshes have a target, the first one's weight counts.
+    const auto isKnown = [&](const std::string& name) { return known_.contains(name); };
+    if (std::ranges::all_of(track.names, isKnown)) return {};
     track.interpolation = in.has("interpolation") ? in.text("interpolation") : "LINEAR";
     const bool cubic = track.interpolation == "CUBICSPLINE";
     if (!cubic && track.interpolation != "LINEAR" && track.interpolation != "STEP")
@@ -110,7 +113,6 @@ class ClipReader {
     auto times = numbers(input), values = numbers(output);
     if (!times) return std::unexpected(times.error());
     if (!values) return std::unexpected(values.error());
-    for (const std::size_t t : mesh.targets) track.names.push_back(parts_.targets[t]);
     // Channels may all play the same few bytes.
     held_ += values->size();
     if (held_ > kMostClipWeights)
@@ -125,6 +127,11 @@ class ClipReader {
     if (!in.ok()) return in.error();
     track.times = std::move(*times), track.values = std::move(*values);
     if (cubic) track.cubic = keysOf(track), track.values = {};
+    for (std::size_t k = 0; k < track.names.size(); ++k)
+      if (known_.insert(track.names[k]).second) {
+        names_.push_back(track.names[k]);
+        sources_.emplace_back(tracks_.size(), k);
+      }
     tracks_.push_back(std::move(track));
     return {};
   }
@@ -141,6 +148,21 @@ class ClipReader {
     return keys;
   }
 
+  /// When what held since a span ago ends: as late as floats can tell from `time`.
+  static double justBefore(double time, double span) {
+    constexpr float kPast = -std::numeric_limits<float>::infinity();
+    const float last = std::nextafter(static_cast<float>(time), kPast);
+    return std::min(time - std::min(1e-3 * span, 1e-4), double{std::nextafter(last, kPast)});
+  }
+
+  std::size_t mostFrames() const { return kMostClipWeights / names_.size(); }
+  std::unexpected<Error> tooLong() const {
+    return fail(
+        fmt::format("its animation of {} targets needs more than the {} frames that a clip of them "
+                    "can hold; export it in parts.",
+                    names_.size(), mostFrames()));
+  }
+
   /// All keys; more on curves, and just before what holds changes.
   Result<std::vector<double>> frames() const {
     std::vector<double> times;
@@ -148,14 +170,15 @@ class ClipReader {
       for (std::size_t k = 0; k < track.times.size(); ++k) {
         times.push_back(track.times[k]);
         if (k + 1 == track.times.size()) break;
-        const double span = track.times[k + 1] - track.times[k];
+        const double next = track.times[k + 1], span = next - track.times[k];
         if (track.interpolation == "STEP")
-          times.push_back(track.times[k + 1] - std::min(1e-3 * span, 1e-4));
+          if (const double before = justBefore(next, span); before > track.times[k])
+            times.push_back(before);
+        if (track.interpolation != "CUBICSPLINE") continue;
         const double pieces = std::ceil(span * kCurveRate);
-        if (!(static_cast<double>(times.size()) + pieces <= kMostFrames))
-          return fail("its animation is too long for a clip.");
-        for (double p = 1; track.interpolation == "CUBICSPLINE" && p < pieces; ++p)
-          times.push_back(track.times[k] + span * p / pieces);
+        if (static_cast<double>(times.size()) + pieces > static_cast<double>(mostFrames()))
+          return tooLong();
+        for (double p = 1; p < pieces; ++p) times.push_back(track.times[k] + span * p / pieces);
       }
     std::ranges::sort(times);
     const auto same = [](double a, double b) { return b - a < 1e-9; };
@@ -163,30 +186,16 @@ class ClipReader {
     return times;
   }
 
-  /// Where several meshes have a target, the first one's weight counts.
   Result<Clip> clipOf() const {
     auto times = frames();
     if (!times) return std::unexpected(times.error());
-    Clip clip;
-    clip.times = std::move(*times);
-    std::set<std::string_view> known;
-    std::vector<std::pair<const Track*, std::size_t>> sources;
-    for (const Track& track : tracks_)
-      for (std::size_t k = 0; k < track.names.size(); ++k)
-        if (known.insert(track.names[k]).second) {
-          clip.names.push_back(track.names[k]);
-          sources.emplace_back(&track, k);
-        }
-    if (clip.times.size() > kMostClipWeights / clip.names.size())
-      return fail(
-          fmt::format("its animation of {} targets needs {} frames, more than a clip can hold; "
-                      "export it in parts.",
-                      clip.names.size(), clip.times.size()));
-    std::map<const Track*, std::vector<double>> now;
-    for (const Track& track : tracks_) now[&track].resize(track.names.size());
+    if (times->size() > mostFrames()) return tooLong();
+    Clip clip{names_, std::move(*times), {}};
+    std::vector<std::vector<double>> now;
+    for (const Track& track : tracks_) now.emplace_back(track.names.size());
     for (const double time : clip.times) {
-      for (auto& [track, weights] : now) track->at(time, weights);
-      for (const auto& [track, k] : sources) clip.weights.push_back(now[track][k]);
+      for (std::size_t t = 0; t < tracks_.size(); ++t) tracks_[t].at(time, now[t]);
+      for (const auto& [track, k] : sources_) clip.weights.push_back(now[track][k]);
     }
     return clip;
   }
@@ -195,6 +204,9 @@ class ClipReader {
   const Parts& parts_;
   std::vector<Track> tracks_;
   std::size_t held_ = 0;  // values of them all
+  std::vector<std::string> names_;
+  std::set<std::string> known_;                               // the names
+  std::vector<std::pair<std::size_t, std::size_t>> sources_;  // [names] track, and place in it
 };
 
 Result<Clip> readClip(std::string_view bytes, const std::filesystem::path& folder,

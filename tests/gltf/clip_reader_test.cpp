@@ -75,6 +75,42 @@ TEST(GltfClip, LongStepsHoldAsWell) {
   EXPECT_EQ(weight(*clip, 100, 0), 1);
 }
 
+TEST(GltfClip, LateStepsCanBeWritten) {
+  const Glb glb = moving("STEP", {0, 3000, 4000}, {0, 0, 1, 0, 0, 0});
+  const Clip clip = clipOf(glb).value();
+  const auto bytes = formatGlb(converted(glb), {.clip = &clip, .animationName = "again"});
+  ASSERT_TRUE(bytes) << bytes.error().message;
+  const auto again = parseGltfClip(*bytes, "again.glb", {}, "again");
+  ASSERT_TRUE(again) << again.error().message;
+  EXPECT_EQ(weight(*again, 2999.99, 0), 0);
+  EXPECT_EQ(weight(*again, 3000, 0), 1);
+  EXPECT_EQ(weight(*again, 3999.99, 0), 1);
+}
+
+TEST(GltfClip, StepsBeforeZeroHoldAsWell) {
+  const auto clip = clipOf(moving("STEP", {-4000, -3000}, {0, 0, 1, 0}));
+  ASSERT_TRUE(clip) << clip.error().message;
+  ASSERT_EQ(clip->times.size(), 3u);
+  EXPECT_LT(clip->times[1], -3000);
+}
+
+TEST(GltfClip, OfSeveralMeshesTheFirstOneCounts) {
+  Glb glb = moving("LINEAR", {0, 1}, {0, 0, 1, 0.5f});
+  Json other = glb.json["meshes"][0];
+  glb.add("meshes", other);
+  other["extras"]["targetNames"] = {"wink", "smile"};
+  glb.add("meshes", other);
+  Json& channels = glb.json["animations"][0]["channels"];
+  for (const int mesh : {1, 2}) {
+    channels.push_back(channels[0]);
+    channels.back()["target"]["node"] = glb.add("nodes", {{"mesh", mesh}});
+  }
+  const auto clip = clipOf(glb);
+  ASSERT_TRUE(clip) << clip.error().message;
+  EXPECT_EQ(clip->names, (std::vector<std::string>{"open", "wink", "smile"}));
+  EXPECT_EQ(clip->weights, (std::vector<double>{0, 0, 0, 1, 0.5, 0.5}));
+}
+
 TEST(GltfClip, WhatIsWrittenIsReadAgain) {
   const Rig rig = converted(withTargets(plane(4, 4), 2));
   const auto spring = Trajectory::spring({}, 1, {2, 0.3});
@@ -120,13 +156,39 @@ Glb manyTargets(std::size_t targets, std::string_view interpolation, float secon
 TEST(GltfClip, HoldsNoMoreWeightsThanAClipMay) {
   EXPECT_EQ(clipOf(manyTargets(300, "CUBICSPLINE", 8)).value().weights.size(), 300u * 961);
   EXPECT_TRUE(failsWith(clipOf(manyTargets(300, "CUBICSPLINE", 8000)),
-                        {"move.glb: its animation of 300 targets needs 960001 frames"}));
+                        {"move.glb: its animation of 300 targets needs more than the 223696 "
+                         "frames that a clip of them can hold"}));
 }
 
-TEST(GltfClip, HoldsNoMoreValuesThanAClipMay) {
+/// Only curves are cut.
+TEST(GltfClip, HoldsStraightLinesOfAnyLength) {
+  for (const char* interpolation : {"LINEAR", "STEP"})
+    EXPECT_TRUE(clipOf(manyTargets(300, interpolation, 1e6f))) << interpolation;
+}
+
+TEST(GltfClip, HoldsWhatManyChannelsMoveOnce) {
   Glb glb = manyTargets(2000, "CUBICSPLINE", 1);
   for (int k = 0; k < 6000; ++k)
     glb.json["animations"][0]["channels"].push_back(glb.json["animations"][0]["channels"][0]);
+  EXPECT_TRUE(clipOf(glb));
+}
+
+TEST(GltfClip, HoldsNoMoreValuesThanAClipMay) {
+  constexpr std::size_t keys = 10'000, targets = 50;
+  Glb glb = manyTargets(targets, "LINEAR", 1);
+  std::vector<float> times;
+  for (std::size_t k = 0; k < keys; ++k) times.push_back(static_cast<float>(k));
+  Json& sampler = glb.json["animations"][0]["samplers"][0];
+  sampler["input"] = glb.addAccessor(glb.addView(bytesOf(times)), 5126, "SCALAR", keys);
+  sampler["output"] = glb.add(
+      "accessors", {{"componentType", 5126}, {"type", "SCALAR"}, {"count", keys * targets}});
+  // Each mesh has a target of its own.
+  for (int k = 0; k < 150; ++k) {
+    Json mesh = glb.json["meshes"][0], channel = glb.json["animations"][0]["channels"][0];
+    mesh["extras"]["targetNames"] = {std::to_string(k)};
+    channel["target"]["node"] = glb.add("nodes", {{"mesh", glb.add("meshes", mesh)}});
+    glb.json["animations"][0]["channels"].push_back(channel);
+  }
   EXPECT_TRUE(
       failsWith(clipOf(glb), {"channels of its animation have more values than a clip can hold"}));
 }
