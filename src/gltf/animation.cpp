@@ -1,6 +1,7 @@
 #include "gltf/animation.hpp"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <limits>
 #include <map>
 
@@ -81,11 +82,13 @@ std::vector<double> interleaved(const Keys& keys) {
   return all;
 }
 
-bool increase(const std::vector<double>& times) {
-  for (std::size_t k = 1; k < times.size(); ++k)
-    if (!(static_cast<float>(times[k]) > static_cast<float>(times[k - 1]))) return false;
-  return true;
+/// The first key that is not after the one before it in single precision; their number if none is.
+std::size_t sameAsBefore(const std::vector<double>& times) {
+  std::size_t k = 1;
+  while (k < times.size() && static_cast<float>(times[k]) > static_cast<float>(times[k - 1])) ++k;
+  return std::min(k, times.size());
 }
+bool increase(const std::vector<double>& times) { return sameAsBefore(times) == times.size(); }
 
 bool areSingle(const std::vector<double>& values) {
   return std::ranges::all_of(values, [](double value) {
@@ -101,8 +104,11 @@ class Animator {
   Result<void> run() {
     std::string name = options_.animationName;
     if (name.empty()) name = options_.motion ? nameOf(options_.motion->law()) : "clip";
-    if (options_.clip && options_.keyTolerance > 0)
+    if (options_.clip && options_.keyTolerance > 0) {
+      // Fitting keys to times that cannot be written may take very long.
+      if (!areSingle(options_.clip->times)) return beyondFloats(options_.clip->times);
       few_ = fewestKeys(*options_.clip, options_.keyTolerance);
+    }
     // A key with tangents is as large as three without.
     if (few_ && 3 * few_->times.size() > options_.clip->times.size()) few_.reset();
     animation_ = {{"name", name}, {"channels", Json::array()}, {"samplers", Json::array()}};
@@ -144,6 +150,22 @@ class Animator {
                         animation_, builder_);
   }
 
+  std::unexpected<Error> beyondFloats(const std::vector<double>& times) const {
+    if (options_.motion)
+      return fail(
+          "The motion is too fast, too slow or too wide for the single precision of glTF; give it "
+          "other seconds or weights.");
+    const std::size_t same = sameAsBefore(times);
+    if (areSingle(times) && same < times.size())
+      return fail(
+          fmt::format("Keys about {:.10g} s are closer to each other than the single precision of "
+                      "glTF can tell; ask for fewer frames a second, or play it in parts.",
+                      times[same]));
+    return fail(
+        "A time or a weight is too large for the single precision of glTF, or a weight changes too "
+        "fast; play it in less time, or with smaller weights.");
+  }
+
   Result<std::size_t> samplerOf(Index mesh) {
     if (const auto known = samplers_.find(mesh); known != samplers_.end()) return known->second;
     std::vector<std::size_t> targets;
@@ -154,9 +176,7 @@ class Animator {
                                       : framesOf(*options_.clip, targets);
     const std::vector<double> values = interleaved(keys);
     if (!areSingle(keys.times) || !increase(keys.times) || !areSingle(values))
-      return fail(
-          "The motion is too fast, too slow or too wide for the single precision of glTF; give it "
-          "other seconds or weights.");
+      return beyondFloats(keys.times);
     if (!input_) {
       Column times = pack(keys.times, 1);
       times.bounded = true;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace sweepface::gltf {
 namespace {
@@ -56,23 +57,46 @@ std::vector<std::size_t> keysOf(const HeadTrack& track, const std::vector<Quater
   return keys;
 }
 
+/// What the scene shows, as lists of nodes: what goes below the head, and skinned meshes, which
+/// their joints carry. A node above these would not move them.
+struct Roots {
+  Json below = Json::array(), beside = Json::array();
+
+  explicit Roots(const Document& document) {
+    const Json& nodes = document.list("nodes");
+    std::set<std::size_t> joints;
+    for (const Json& skin : document.list("skins"))
+      for (const Json& joint : listOf(skin, "joints"))
+        if (const auto node = asIndex(joint, nodes.size())) joints.insert(*node);
+    for (const Json& root : listOf(document.list("scenes")[0], "nodes")) {
+      const auto node = asIndex(root, nodes.size());
+      const bool isCarried = node && find(nodes[*node], "skin") && !joints.contains(*node) &&
+                             listOf(nodes[*node], "children").empty();
+      (isCarried ? beside : below).push_back(root);
+    }
+  }
+};
+
 }  // namespace
 
 Result<void> addHeadTrack(Document& document, const HeadTrack& track, double tolerance,
                           Json& animation, Builder& builder) {
   Json& json = document.json;
-  if (document.list("scenes").size() != 1 || !find(json["scenes"][0], "nodes"))
+  if (document.list("scenes").size() != 1)
     return fail("The face's file has not just one scene, so it is not clear what its head holds.");
+  Roots roots(document);
+  if (roots.below.empty())
+    return fail("The scene of the face's file shows nothing that its head could hold.");
   Json& nodes = json["nodes"];
   const std::size_t head = nodes.size();
   const auto place = [](const Vec3& p) { return Json::array({p.x, p.y, p.z}); };
   nodes.push_back({{"name", "head"},
                    {"translation", place(track.pivot)},
                    {"children", Json::array({head + 1})}});
-  nodes.push_back({{"name", "head.contents"},
-                   {"translation", place(-track.pivot)},
-                   {"children", json["scenes"][0]["nodes"]}});
-  json["scenes"][0]["nodes"] = Json::array({head});
+  nodes.push_back(
+      {{"name", "head.contents"}, {"translation", place(-track.pivot)}, {"children", roots.below}});
+  roots.beside.insert(roots.beside.begin(), head);
+  json["scenes"][0]["nodes"] = roots.beside;
   const std::vector<Quaternion> rotations = untwisted(track.rotations);
   std::vector<double> times, values;
   for (const std::size_t key : keysOf(track, rotations, tolerance)) {

@@ -187,7 +187,8 @@ TEST(AnimationWriter, RefusesWhatCannotMove) {
   refuses(rig, motion(0, 1, 1e39), 0, "single precision");
   refuses(rig, motion(0, 1e39, 1), 0, "single precision");
   refuses(rig, motion(0, 1, 1e-44), 100, "single precision");
-  const Clip empty{{"t0"}, {}, {}}, other;
+  const Clip empty{{"t0"}, {}, {}}, other, near{{"t0"}, {20000, 20000.0005}, {0, 1}};
+  EXPECT_TRUE(failsWith(formatGlb(rig, {.clip = &near}), {"Keys about 20000.0005 s", "parts"}));
   EXPECT_TRUE(failsWith(formatGlb(rig, {.clip = &empty}), {"no frames"}));
   EXPECT_TRUE(failsWith(formatGlb(rig, {.clip = &other}), {"clip has 0 weights"}));
   Rig unseen = converted(scene());
@@ -199,6 +200,36 @@ TEST(AnimationWriter, RefusesWhatCannotMove) {
   }();
   const Motion both = motionOf(unseen, TimeLaw::newton);
   refuses(unseen, both, 0, "no target in its scene");
+}
+
+// ---- The head ----
+
+Result<std::string> turning(const Rig& rig) {
+  const Clip clip{{"open", "wink"}, {0, 1}, {0, 0, 1, 0}};
+  const HeadTrack head{{0, 1}, {{0, 0, 0, 1}, {0, 1, 0, 0}}, {}};
+  return formatGlb(rig, {.clip = &clip, .head = &head});
+}
+
+TEST(AnimationWriter, TurnsTheJointsOfSkinnedMeshesAlone) {
+  Glb source = smallFace();
+  source.json["nodes"] = {{{"mesh", 0}, {"skin", 0}}, {{"name", "hip"}}, {{"name", "hat"}}};
+  source.add("skins", {{"joints", {1}}});
+  source.add("scenes", {{"nodes", {0, 1, 2}}});
+  const auto bytes = turning(converted(source));
+  ASSERT_TRUE(bytes) << bytes.error().message;
+  const Json json = Written(*bytes).json;
+  const Json& shown = json["scenes"][0]["nodes"];
+  ASSERT_EQ(shown, Json({3, 0})) << "a node above a skinned mesh means nothing";
+  EXPECT_EQ(json["nodes"][3]["name"], "head");
+  EXPECT_EQ(json["nodes"][4]["children"], Json({1, 2}));
+}
+
+TEST(AnimationWriter, SaysWhereThereIsNothingToTurn) {
+  Glb source = smallFace();
+  source.add("scenes", {{"name", "empty"}});
+  EXPECT_TRUE(failsWith(turning(converted(source)), {"shows nothing"}));
+  source.add("scenes", {{"name", "another"}});
+  EXPECT_TRUE(failsWith(turning(converted(source)), {"not just one scene"}));
 }
 
 }  // namespace
