@@ -28,7 +28,14 @@ constexpr double shareOf(std::size_t part) { return static_cast<double>(part) / 
 class KeyFinder {
  public:
   KeyFinder(const Clip& clip, double tolerance)
-      : clip_(clip), count_(clip.names.size()), tolerance_(tolerance), slopes_(2 * count_) {}
+      : clip_(clip), count_(clip.names.size()), tolerance_(tolerance), slopes_(2 * count_) {
+    for (std::size_t k = 0; k < count_; ++k)
+      for (std::size_t f = 1; f < clip.times.size(); ++f)
+        if (weight(f, k) != weight(0, k)) {
+          moving_.push_back(k);
+          break;
+        }
+  }
 
   CubicKeys find() {
     keys_.names = clip_.names;
@@ -83,7 +90,7 @@ class KeyFinder {
   /// Fits the slopes of a piece, and says whether it is near enough.
   bool fit(std::size_t from, std::size_t to) {
     prepare(from, to);
-    for (std::size_t k = 0; k < count_; ++k)
+    for (const std::size_t k : moving_)
       if (!fitWeight(from, to, k)) return false;
     return true;
   }
@@ -134,7 +141,8 @@ class KeyFinder {
   const Clip& clip_;
   std::size_t count_;
   double tolerance_, length_ = 1;
-  std::vector<double> slopes_;  // [2 × N] of the last fit, per second
+  std::vector<double> slopes_;       // [2 × N] of the last fit, per second
+  std::vector<std::size_t> moving_;  // weights; the others have no slope anywhere
   std::vector<Hermite> places_;
   double aa_ = 0, ab_ = 0, bb_ = 0;  // the normal equations
   CubicKeys keys_;

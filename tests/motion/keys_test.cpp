@@ -86,6 +86,16 @@ TEST(FewestKeys, NoiseKeepsTheToleranceToo) {
   EXPECT_EQ(keys.times.back(), clip.times.back());
 }
 
+TEST(FewestKeys, WhatKeepsStillHasNoSlopes) {
+  const CubicKeys keys =
+      fewestKeys(sampled({*Trajectory::bounce({}, 1, 0.4, 0.6), Trajectory(0.3)}, 2, 240), 1e-3);
+  for (std::size_t k = 1; k < keys.in.size(); k += 2) {
+    EXPECT_EQ(keys.in[k], 0);
+    EXPECT_EQ(keys.out[k], 0);
+    EXPECT_EQ(keys.values[k], 0.3);
+  }
+}
+
 TEST(FewestKeys, OfLittleIsLittle) {
   EXPECT_TRUE(fewestKeys(Clip{{"a"}, {}, {}}, 0.1).times.empty());
   const CubicKeys one = fewestKeys(Clip{{"a"}, {2}, {0.5}}, 0.1);
