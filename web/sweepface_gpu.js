@@ -123,7 +123,7 @@ export class SweepfaceGpuMesh extends FaceMesh {
       own.set(material, {onBeforeCompile, customProgramCacheKey});
     }
     const {onBeforeCompile, customProgramCacheKey} = own.get(material);
-    material.customProgramCacheKey = () => onBeforeCompile.toString() + customProgramCacheKey.call(material);
+    material.customProgramCacheKey = () => 'sweepface' + onBeforeCompile + customProgramCacheKey.call(material);
     material.onBeforeCompile = (shader, renderer) => {
       onBeforeCompile.call(material, shader, renderer);
       Object.assign(shader.uniforms, {sweepBasis: {value: basis}, sweepModes: {value: modes}, sweepFactor: factor});
@@ -147,6 +147,20 @@ export class SweepfaceGpuMesh extends FaceMesh {
   get frameBytes() { return this.#textures.modes.image.data.byteLength; }
 
   show() { this.#textures.update(this.face); }
+
+  /** Rays meet the face as it stands, which the attributes do not tell: it is evaluated for them. */
+  raycast(raycaster, hits) {
+    const {geometry} = this, {attributes, boundingSphere, boundingBox} = geometry;
+    const stands = ['position', 'normal'].map((name) => new Float32Array(attributes[name].array.length));
+    this.face.evaluate(...stands);
+    const [position, normal] = stands.map((array) => new BufferAttribute(array, 3));
+    Object.assign(geometry, {attributes: {...attributes, position, normal}, boundingSphere: null, boundingBox: null});
+    try {
+      super.raycast(raycaster, hits);
+    } finally {
+      Object.assign(geometry, {attributes, boundingSphere, boundingBox});
+    }
+  }
 
   /** Materials follow one face each. */
   materialsOfClone() {

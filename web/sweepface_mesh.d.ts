@@ -5,6 +5,7 @@ import type {Drive, DriveKind, Look, Sweepface, Weights} from './sweepface.js';
 export class FaceMesh extends Mesh {
   /** Materials: one a part of the face; plain ones, named as in the source, unless given. */
   protected constructor(face: Sweepface, geometry: BufferGeometry, materials?: Material | Material[]);
+  /** For reading: what is set there does not show. */
   readonly face: Sweepface;
   readonly names: string[];
   readonly eyeCount: number;
@@ -14,6 +15,8 @@ export class FaceMesh extends Mesh {
 
   /** Sets the weights that are named, at once, everywhere or in one region; the others stay. */
   setWeights(weights: Weights, region?: string): void;
+  /** All weights to 0, at once. */
+  reset(): void;
   /** Sends weights to goals from where they stand, everywhere or in one region; `update` moves them. */
   moveTo(goals: Weights, drive?: DriveKind | Drive, region?: string): void;
   /** A blow: adds to the velocity of a weight (per second), which drag (per second) takes away. */

@@ -42,6 +42,11 @@ export class FaceMesh extends Mesh {
     this.#stale = true;
   }
 
+  reset() {
+    this.face.reset();
+    this.#stale = true;
+  }
+
   moveTo(goals, drive, region) {
     this.face.moveTo(goals, drive, region);
     this.#moving = true;

@@ -23,6 +23,15 @@ test('a mesh follows its weights when it is updated', options, async () => {
   assert.ok(difference(native.positions, position.array).most <= native.error);
 });
 
+test('a mesh goes back to its neutral', options, async () => {
+  const mesh = await load(), {array} = mesh.geometry.attributes.position, neutral = array.slice();
+  mesh.setWeights({jawOpen: 0.7});
+  mesh.update();
+  mesh.reset();
+  mesh.update();
+  assert.deepEqual(array, neutral);
+});
+
 test('an update costs nothing where nothing moves', options, async () => {
   const mesh = await load(), {position} = mesh.geometry.attributes;
   const {version} = position;
@@ -90,6 +99,29 @@ test('clones look where their models look', options, async () => {
   assert.deepEqual(places(straight), ahead);
 });
 
+test('rays meet a face on the graphics card where they meet one that is not', options, async () => {
+  const {Sweepface} = await import('../sweepface.js'), {SweepfaceGpuMesh} = await import('../sweepface_gpu.js');
+  const usual = await load(), mesh = new SweepfaceGpuMesh(await Sweepface.load(readFileSync(sample)));
+  const {position} = mesh.geometry.attributes, neutral = position.array.slice(), down = new three.Vector3(0, 0, -1);
+  let moved = 0;
+  for (let y = -10; y <= 10; ++y) {
+    const rays = new three.Raycaster(new three.Vector3(0.3, y, 100), down);
+    const hits = [{jawOpen: 0}, {jawOpen: 1}].map((weights) => {
+      const [here, there] = [usual, mesh].map((each) => {
+        each.setWeights(weights);
+        each.update();
+        return rays.intersectObject(each).map(({point, normal}) => [point.toArray(), normal?.toArray()]);
+      });
+      assert.deepEqual(there, here);
+      return here;
+    });
+    moved += JSON.stringify(hits[0]) !== JSON.stringify(hits[1]);
+  }
+  assert.ok(moved > 3);
+  assert.equal(mesh.geometry.attributes.position, position);
+  assert.deepEqual(position.array, neutral);
+});
+
 test('materials keep what they do to a shader, and their clones too', options, async () => {
   const {Sweepface} = await import('../sweepface.js'), {SweepfaceGpuMesh} = await import('../sweepface_gpu.js');
   const face = await Sweepface.load(readFileSync(sample));
@@ -106,6 +138,10 @@ test('materials keep what they do to a shader, and their clones too', options, a
   }
   assert.notEqual(mine.customProgramCacheKey(), other.customProgramCacheKey());
   assert.equal(mine.customProgramCacheKey(), twin.customProgramCacheKey());
+  const plain = new three.MeshStandardMaterial(), same = new three.MeshStandardMaterial();
+  same.customProgramCacheKey = () => '';
+  new SweepfaceGpuMesh(await Sweepface.load(readFileSync(sample)), same);
+  assert.notEqual(same.customProgramCacheKey(), plain.customProgramCacheKey());  // which knows no face
 });
 
 /** What happens when a loader loads, in order. */

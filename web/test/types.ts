@@ -29,6 +29,7 @@ export async function useThree(scene: Scene): Promise<void> {
   const mesh: SweepfaceMesh = await new SweepfaceLoader(undefined, {lod: 1}).loadAsync('face.sweep');
   scene.add(mesh);
   mesh.setWeights({jawOpen: 0.7});
+  mesh.reset();
   mesh.moveTo({jawOpen: 0}, 'spring');
   mesh.update(1 / 60);
   const twin: SweepfaceMesh = mesh.clone();
