@@ -4,11 +4,14 @@
 
 const decoder = new TextDecoder();
 
+/** Of any realm: frames and Node's vm have an ArrayBuffer of their own. */
+const isBuffer = (source) => Object.prototype.toString.call(source) === '[object ArrayBuffer]';
+
 function textOf(source, what) {
   if (typeof source === 'string') return source.replace(/^\uFEFF/, '');
   const {buffer = source, byteOffset, byteLength} = source ?? {};
   // A copy, as browsers do not decode memory that is shared.
-  if (source instanceof ArrayBuffer || ArrayBuffer.isView(source))
+  if (isBuffer(source) || ArrayBuffer.isView(source))
     return decoder.decode(new Uint8Array(buffer, byteOffset, byteLength).slice());
   throw new TypeError(`A ${what} is read from text or bytes.`);
 }
@@ -19,17 +22,30 @@ function numberIn(text) {
 }
 
 const DAY = 86400, MOST_TIME = 1e10;  // seconds
+/** Weights that a clip can hold: frames times names. */
+const MOST_WEIGHTS = 2 ** 26;
 
 const isNumber = (value) => typeof value === 'number' && Number.isFinite(value);
 /** Whether a text can mean this as a weight; more is a slip. */
 const isWeight = (value) => isNumber(value) && Math.abs(value) <= 1e6;
 const isObject = (value) => typeof value === 'object' && value !== null && !Array.isArray(value);
 
+/** Small letters, of A to Z alone. */
+const lowered = (text) => text.replace(/[A-Z]/g, (letter) => letter.toLowerCase());
+
+/** How engines say that a text ends too soon. */
+const CUT_SHORT = /^(JSON.parse: |JSON Parse error: )?(unexpected )?(end|EOF|unterminated)/i;
+
 function parseJson(text, name) {
   try {
     return JSON.parse(text);
   } catch (error) {
-    throw new Error(`${name} is not JSON; was the file cut short?`, {cause: error});
+    // Engines tell the place in words of their own, or not at all.
+    const [, at, , told] = error.message.match(/ at (?:position (\d+)( \(.*\))?|line (\d+) column.*)$/) ?? [];
+    const isCut = at >= text.length || CUT_SHORT.test(error.message);
+    const line = isCut || at ? text.slice(0, isCut ? undefined : at).split('\n').length : told;
+    const what = `${line ? `, line ${line}: this` : ''} is not JSON${isCut ? '; was the file cut short?' : '.'}`;
+    throw new Error(name + what, {cause: error});
   }
 }
 
@@ -37,7 +53,7 @@ function parseJson(text, name) {
 
 /** A name without what spellings differ in: small letters, and a side as a final _l or _r. */
 function plain(name) {
-  const text = name.replace(/[_\- ]/g, '').toLowerCase();
+  const text = lowered(name.replace(/[_\- ]/g, ''));
   for (const side of ['left', 'right'])
     if (text.length > side.length && text.endsWith(side)) return `${text.slice(0, -side.length)}_${side[0]}`;
   // A single letter is a side only where the name sets it apart: jawL, jaw_L, but not "curl".
@@ -70,6 +86,9 @@ export function matchNames(names, targets) {
 
 // ---- Clips ----
 
+/** Seconds in which speeds would not stay finite. */
+const NO_TIME = 1e-9;
+
 /** Weights over time: `names` [N], `times` [F] in seconds, `weights` [F x N]. */
 export class Clip {
   constructor(names, times, weights) {
@@ -83,6 +102,7 @@ export class Clip {
   /** The weights [N] at so many seconds after the first frame, straight between frames and held at the ends. */
   at(seconds, out = new Float64Array(this.names.length)) {
     const {times, weights} = this, n = this.names.length, time = times[0] + Math.max(seconds, 0);
+    if (times.length === 0) return out.fill(0);
     let low = 0, high = times.length;  // the first frame after the time
     while (low < high) {
       const middle = (low + high) >> 1;
@@ -105,6 +125,10 @@ export class Clip {
     const share = (hertz, seconds) => 1 - 1 / (2 * Math.PI * hertz * seconds + 1);
     for (let f = 1; f < this.times.length; ++f) {
       const seconds = this.times[f] - this.times[f - 1];
+      if (!(seconds > NO_TIME)) {  // the filter begins anew
+        speeds.fill(0);
+        continue;
+      }
       for (let k = 0; k < n; ++k) {
         const before = weights[(f - 1) * n + k], now = weights[f * n + k];
         speeds[k] += ((now - before) / seconds - speeds[k]) * share(speedCutoff, seconds);
@@ -121,23 +145,22 @@ function readLiveLink(text, name, framesPerSecond) {
   const filled = lines.filter(({cells}) => cells.length > 1 || cells[0] !== '');
   if (filled.length === 0) throw new Error(`${name} is empty; record again.`);
   const fail = (line, what) => new Error(`${name} line ${line.number}: ${what}.`);
-  const [headings, ...rows] = filled, names = [], columns = [];
+  const [headings, ...rows] = filled, shapes = new Map();  // and their columns
   let timeColumn = -1;
   headings.cells.forEach((heading, c) => {
-    if (heading.toLowerCase() === 'timecode') timeColumn = c;
-    else if (heading === '') throw fail(headings, `column ${c + 1} has no heading`);
-    else if (heading.toLowerCase() !== 'blendshapecount') {
-      if (names.includes(heading)) throw fail(headings, `there are two columns '${heading}'`);
-      names.push(heading);
-      columns.push(c);
-    }
+    const isTime = lowered(heading) === 'timecode';
+    if (heading === '') throw fail(headings, `column ${c + 1} has no heading`);
+    if (shapes.has(heading) || (isTime && timeColumn >= 0))
+      throw fail(headings, `there are two columns '${isTime ? 'Timecode' : heading}'`);
+    if (isTime) timeColumn = c;
+    else if (lowered(heading) !== 'blendshapecount') shapes.set(heading, c);
   });
   if (timeColumn < 0)
     throw fail(headings, 'there is no column \'Timecode\'; this may be no recording of Live Link Face');
-  if (names.length === 0) throw fail(headings, 'there is no column of a shape');
+  if (shapes.size === 0) throw fail(headings, 'there is no column of a shape');
   if (rows.length === 0) throw new Error(`${name} has headings but no frames; record again.`);
 
-  const times = new Float64Array(rows.length), weights = new Float64Array(rows.length * names.length);
+  const times = new Float64Array(rows.length), weights = [];
   let midnights = 0;  // in seconds
   rows.forEach((row, f) => {
     const {cells} = row, timecode = cells[timeColumn], expected = headings.cells.length;
@@ -149,13 +172,13 @@ function readLiveLink(text, name, framesPerSecond) {
     times[f] = seconds + (isClock ? midnights : 0);
     if (f > 0 && times[f] <= times[f - 1])
       throw fail(row, `the timecode '${timecode}' is not after the one before; sort the rows by time`);
-    columns.forEach((c, k) => {
+    for (const c of shapes.values()) {
       const value = numberIn(cells[c]);
       if (!isWeight(value)) throw fail(row, `'${cells[c]}' in column ${c + 1} is not a number within ±1,000,000`);
-      weights[f * names.length + k] = value;
-    });
+      weights.push(value);
+    }
   });
-  return new Clip(names, times, weights);
+  return new Clip([...shapes.keys()], times, new Float64Array(weights));
 }
 
 /** HH:MM:SS:FF.fff, the last in frames; or plain seconds. */
@@ -176,15 +199,16 @@ function readAudio2Face(json, fail) {
   if (!isNumber(exportFps) || !(exportFps > 0)) throw fail('has no \'exportFps\' greater than 0');
   if (!Array.isArray(names) || names.length === 0) throw fail('has no list \'facsNames\'');
   if (!names.every((name) => typeof name === 'string')) throw fail('has a value in \'facsNames\' that is not a name');
-  const twice = names.find((name, k) => names.indexOf(name) < k);
+  const seen = new Set(), twice = names.find((name) => seen.size === seen.add(name).size);
   if (twice !== undefined) throw fail(`names '${twice}' twice in 'facsNames'`);
   if (!Array.isArray(rows) || rows.length === 0) throw fail('has no frames in \'weightMat\'');
+  if (!(rows.length / exportFps <= MOST_TIME)) throw fail('has too low an \'exportFps\' for its frames');
   rows.forEach((row, f) => {
     if (!Array.isArray(row) || row.length !== names.length)
       throw fail(`has not ${names.length} numbers in weightMat[${f}], one for every name`);
     if (!row.every(isWeight)) throw fail(`has a value that is not a number within ±1,000,000 in weightMat[${f}]`);
   });
-  return new Clip(names, Float64Array.from(rows, (_, f) => f / exportFps), Float64Array.from(rows.flat()));
+  return new Clip(names, Float64Array.from(rows, (_, f) => f / exportFps), new Float64Array(rows.flat()));
 }
 
 function readMediaPipe(frames, fail) {
@@ -200,14 +224,21 @@ function readMediaPipe(frames, fail) {
   const shapes = new Set(scores.flatMap((frame) => [...frame.keys()].sort()));
   const names = [...shapes].filter((shape) => shape !== '_neutral');
   if (names.length === 0) throw fail('has no scores in its frames');
-  const weights = scores.flatMap((frame) => names.map((shape) => frame.get(shape) ?? 0));
-  return new Clip(names, times, Float64Array.from(weights));
+  // Frames that each have names of their own would make many of few.
+  if (names.length > MOST_WEIGHTS / frames.length)
+    throw fail(`has ${names.length} names in ${frames.length} frames, more than a clip can hold; ` +
+               'name the same ones in every frame');
+  const weights = new Float64Array(frames.length * names.length);
+  scores.forEach((frame, f) => names.forEach((shape, k) => {
+    weights[f * names.length + k] = frame.get(shape) ?? 0;
+  }));
+  return new Clip(names, times, weights);
 }
 
 function scoresOf(frame, f, fail) {
   // Beside the time, or within the first of the faces found. A frame without a face has none.
-  const faces = frame.faceBlendshapes ?? frame.face_blendshapes;
-  const categories = frame.categories ?? (faces?.length === 0 ? [] : faces?.[0]?.categories);
+  const {faceBlendshapes: faces = frame.face_blendshapes} = frame;
+  const {categories = faces?.length === 0 ? [] : faces?.[0]?.categories} = frame;
   if (!Array.isArray(categories)) throw fail(`has no 'categories' in frame ${f}`);
   return new Map(categories.map((category) => {
     const shape = category?.categoryName ?? category?.category_name;
@@ -239,16 +270,17 @@ const ANGLES = ['Head', 'LeftEye', 'RightEye'].flatMap((of) => ['Yaw', 'Pitch', 
 
 /** Plays a clip on a face: `seek` sets the weights of a time. */
 export class ClipPlayer {
-  #angles;
+  #angles = ANGLES.map(() => -1);  // their columns, or -1
 
   constructor(face, clip) {
     this.face = face;
     this.clip = clip;
     /** What drives what: see matchNames. */
     this.match = matchNames(clip.names, face.names);
-    const lower = clip.names.map((name) => name.toLowerCase());
-    this.#angles = ANGLES.map((angle) => lower.indexOf(angle.toLowerCase()));
-    this.match.unmatched = this.match.unmatched.filter((name) => !this.#angles.includes(clip.names.indexOf(name)));
+    this.match.unmatched = matchNames(this.match.unmatched, ANGLES).unmatched;
+    matchNames(clip.names, ANGLES).targets.forEach((found, k) => {
+      for (const angle of found) this.#angles[angle] = k;
+    });
   }
 
   get seconds() { return this.clip.seconds; }
@@ -259,7 +291,7 @@ export class ClipPlayer {
    * `head.rotation.set(pitch, yaw, roll, 'YXZ')`. Where two names drive a target the larger weight counts.
    */
   seek(seconds) {
-    const values = this.clip.at(seconds), names = this.face.names, weights = {};
+    const values = this.clip.at(seconds), names = this.face.names, weights = Object.create(null);
     this.match.targets.forEach((targets, k) => {
       for (const target of targets) weights[names[target]] = Math.max(weights[names[target]] ?? -Infinity, values[k]);
     });
@@ -301,26 +333,33 @@ export function readTimeline(source, {name = 'The timeline'} = {}) {
   if (!Number.isInteger(loops) || loops < 1 || loops > 10000)
     throw fail('\'loops\'', 'must be a whole number from 1 to 10000');
   if (!Array.isArray(events) || events.length === 0) throw fail('\'events\'', 'must be a list of at least one event');
-  const read = events.map((event, k) => readEvent(event, poses, (what) => fail(`events[${k}]`, what)))
+  const read = events.map((event, k) => readEvent(event, poses, `events[${k}]`, fail))
                    .sort((a, b) => a.at - b.at);
   if (read.at(-1).at > seconds) throw fail('\'events\'', 'hold one that is later than \'seconds\'');
   return {seconds, loops, events: read, regions};
 }
 
-/** What keeps a drive from setting out at all, in the library's words. */
+/** What keeps a drive from setting out from 0 to 1, in the library's words. */
 function faultOf({drive = 'spring', seconds = 1, turn = 0.5, frequency = 1, damping = 1, restitution = 0}) {
+  const tooMuch = (...numbers) => (numbers.every(Number.isFinite) ? undefined : 'A motion needs finite numbers');
   if (drive === 'cut') return;
-  if (drive === 'spring')
-    return frequency > 0 && damping >= 0 ? undefined
-                                         : 'A spring needs a frequency greater than 0 and a damping of at least 0';
+  if (drive === 'spring') {
+    const omega = 2 * Math.PI * frequency;
+    return tooMuch(omega ** 2, (damping * omega) ** 2) ??
+           (frequency > 0 && damping >= 0 ? undefined
+                                          : 'A spring needs a frequency greater than 0 and a damping of at least 0');
+  }
   if (drive === 'bounce' && !(restitution >= 0 && restitution <= 1 - 1e-9))
     return 'A bounce keeps a part of its speed: the restitution lies in [0, 1)';
   if (!(seconds > 0)) return 'The motion must last a finite time greater than 0 seconds';
-  if (drive === 'accelerate-brake' && !(turn > 0 && turn < 1))
-    return 'The force must turn after the start and before the end: between 0 and 1';
+  if (drive === 'linear-force') return tooMuch(12 / seconds / seconds / seconds);  // how fast the force changes
+  if (drive !== 'accelerate-brake') return tooMuch(2 / seconds / seconds);
+  if (!(turn > 0 && turn < 1)) return 'The force must turn after the start and before the end: between 0 and 1';
+  return tooMuch(2 / Math.min(turn, 1 - turn) / seconds / seconds);
 }
 
-function readEvent(event, poses, fail) {
+function readEvent(event, poses, place, failAt) {
+  const fail = (what) => failAt(place, what);
   if (!isObject(event)) throw fail('is not an object');
   for (const key of Object.keys(event))
     if (!EVENT.includes(key)) throw fail(`has an unknown key '${key}'`);
@@ -330,23 +369,31 @@ function readEvent(event, poses, fail) {
   for (const key of ['drive', 'region'])
     if (key in event && typeof event[key] !== 'string') throw fail(`has a '${key}' that is not a text`);
   if ('drive' in event && !DRIVES.includes(event.drive))
-    throw fail(`has a 'drive' '${event.drive}'; there are ${DRIVES.join(', ')}`);
+    throw failAt(`${place}:`, `There is no way to move called "${event.drive}"; there are ${DRIVES.join(', ')}`);
   if (event.at < 0) throw fail('is before 0');
   const fault = faultOf(event);
   if (fault) throw fail(`cannot be: ${fault}`);
   if (event.delay < 0) throw fail('has a negative \'delay\'');
   if (('to' in event) === ('only' in event)) throw fail('needs one of \'to\' and \'only\', the weights to go to');
-  const wanted = event.to ?? event.only, isPose = typeof wanted === 'string';
-  if (isPose && !(isObject(poses) && Object.keys(poses).includes(wanted)))
-    throw fail(`goes to a pose '${wanted}' that 'poses' does not have`);
-  const goals = isPose ? poses[wanted] : wanted;
-  if (!isObject(goals)) throw fail('goes neither to weights nor to a pose');
-  for (const [weight, goal] of Object.entries(goals))
-    if (!isWeight(goal)) throw fail(`has a weight '${weight}' that is not a number within ±1,000,000`);
-  const drive = {kind: event.drive ?? 'spring'};
+  const goals = readGoals(event.to ?? event.only, poses, place, failAt), drive = {kind: event.drive ?? 'spring'};
   for (const key of DRIVE)
     if (key in event) drive[key] = event[key];
   return {at: event.at, goals, others: 'only' in event, drive, region: event.region || undefined};
+}
+
+/** Weights by name, or by the name of a pose that has them. */
+function readGoals(wanted, poses, place, failAt) {
+  if (typeof wanted === 'string') {
+    if (!(isObject(poses) && Object.keys(poses).includes(wanted)))
+      throw failAt(place, `goes to a pose '${wanted}' that 'poses' does not have`);
+    const pose = `pose '${wanted}'`;
+    if (!isObject(poses[wanted])) throw failAt(pose, 'is not an object of weights');
+    return readGoals(poses[wanted], poses, pose, failAt);
+  }
+  if (!isObject(wanted)) throw failAt(place, 'goes neither to weights nor to a pose');
+  for (const [weight, goal] of Object.entries(wanted))
+    if (!isWeight(goal)) throw failAt(place, `has a weight '${weight}' that is not a number within ±1,000,000`);
+  return wanted;
 }
 
 /** Whether that is all of a face of one piece. */
@@ -394,7 +441,7 @@ export class TimelinePlayer {
 
   #play({goals, others, drive, region}) {
     const all = others ? Object.fromEntries([...this.#goals.values()].flat().map((target) => [target, 0])) : {};
-    const named = {};  // of two names for one target the larger counts
+    const named = Object.create(null);  // of two names for one target the larger counts
     for (const [name, goal] of Object.entries(goals))
       for (const target of this.#goals.get(name)) named[target] = Math.max(named[target] ?? -Infinity, goal);
     this.face.moveTo({...all, ...named}, drive, isWhole(this.face, region) ? undefined : region);

@@ -3,7 +3,8 @@ import {execFileSync} from 'node:child_process';
 import {readFileSync, writeFileSync} from 'node:fs';
 import {join} from 'node:path';
 import test from 'node:test';
-import {ClipPlayer, matchNames, readClip, readTimeline, TimelinePlayer} from '../sweepface_clips.js';
+import {runInNewContext} from 'node:vm';
+import {Clip, ClipPlayer, matchNames, readClip, readTimeline, TimelinePlayer} from '../sweepface_clips.js';
 import {Sweepface} from '../sweepface.js';
 import {newFolder, sample, tool} from './native.js';
 
@@ -63,6 +64,19 @@ for (const [title, file, text] of [['Live Link Face', 'take.csv', csv], ['Audio2
       assert.ok(face.weights.jawOpen > 0);
     });
 
+test('frames without time between them begin the filter anew, as for the tool', () => {
+  const text = 'Timecode,JawOpen\n0,0\n5e-10,1\n0.05,0.5\n1,1\n', clip = readClip(text).smooth();
+  const native = played('take.csv', text, ['--smooth', '--fps', '60']), k = native.names.indexOf('JawOpen');
+  native.times.forEach((time, f) => {
+    const [weight] = clip.at(time - native.times[0]), expected = native.weights[f * native.names.length + k];
+    assert.ok(Math.abs(weight - expected) < 1e-12, `${weight} instead of ${expected} at ${time}`);
+  });
+});
+
+test('a clip without frames has weights of 0', () => {
+  assert.deepEqual(new Clip(['a'], new Float64Array(), new Float64Array()).at(1, Float64Array.of(5)), Float64Array.of(0));
+});
+
 test('names are matched and reported', async () => {
   const face = await Sweepface.load(readFileSync(sample)), player = new ClipPlayer(face, readClip(csv));
   assert.deepEqual(player.match.unmatched, ['tongueOut'].filter((name) => !face.names.includes(name)));
@@ -72,6 +86,17 @@ test('names are matched and reported', async () => {
   assert.deepEqual(targets, [[0, 1], [2], [], [4]]);
   // A side that has a name of its own goes by that.
   assert.deepEqual(matchNames(['up', 'upLeft'], ['up_L', 'up_R']).targets, [[1], [0]]);
+  assert.deepEqual(matchNames(['ÄUGE'], ['äuge']).unmatched, ['ÄUGE']);  // case is that of A to Z
+});
+
+test('any text is a name', () => {
+  const names = ['constructor', '__proto__'], given = [];
+  const face = {names, eyeCount: 0, setWeights: (weights) => given.push(weights), moveTo: (goals) => given.push(goals),
+                advance: () => false};
+  new ClipPlayer(face, readClip('Timecode,constructor,__proto__\n0,0.5,0.25')).seek(0);
+  const events = '[{"at": 0, "to": {"constructor": 0.5, "__proto__": 0.25}}]';
+  new TimelinePlayer(face, readTimeline(`{"seconds": 1, "events": ${events}}`)).advance(0);
+  assert.deepEqual(given.map(Object.entries), [0, 1].map(() => [['constructor', 0.5], ['__proto__', 0.25]]));
 });
 
 test('the head has the angles of the app', async () => {
@@ -79,6 +104,9 @@ test('the head has the angles of the app', async () => {
   const [yaw, pitch, roll] = clip.at(0.1).slice(5);
   assert.deepEqual(new ClipPlayer(face, clip).seek(0.1), {yaw, pitch, roll});
   assert.equal(new ClipPlayer(face, readClip(audio2Face)).seek(0), null);
+  const spelt = new ClipPlayer(face, readClip('Timecode,head_yaw,Head Pitch,jawOpen\n0,0.25,0.5,1'));
+  assert.deepEqual(spelt.seek(0), {yaw: 0.25, pitch: 0.5, roll: 0});
+  assert.deepEqual(spelt.match.unmatched, []);
 });
 
 const timeline = {
@@ -129,15 +157,17 @@ test('captures go on past midnight and below 0, as for the tool', async () => {
   assert.throws(() => readClip('Timecode,a\n10:0:0:0,0\n9:59:59:0,1\n'), {message: /is not after/});
 });
 
-test('the rest of a face of one piece is all of it, and of two names for a target the larger counts', async () => {
+test('the rest of a face of one piece is all of it, and of two names in an event for a target the larger counts', async () => {
   const face = await Sweepface.load(readFileSync(sample));
   const events = [{at: 0, to: {jawOpen: 0.75, JawOpen: 0.25}, drive: 'cut', region: 'rest'}];
   new TimelinePlayer(face, readTimeline(JSON.stringify({seconds: 1, events}))).advance(0.1);
   assert.equal(face.weights.jawOpen, 0.75);
 });
 
-test('shared memory is read', () => {
-  const bytes = new TextEncoder().encode(csv), shared = new Uint8Array(new SharedArrayBuffer(bytes.length));
+test('shared memory is read, and that of another realm', () => {
+  const bytes = new TextEncoder().encode(csv), foreign = runInNewContext('(all) => Uint8Array.from(all).buffer');
+  assert.equal(readClip(foreign(bytes)).times.length, frames.length);
+  const shared = new Uint8Array(new SharedArrayBuffer(bytes.length));
   shared.set(bytes);
   assert.equal(readClip(shared).times.length, frames.length);
   assert.equal(readClip(bytes.buffer).times.length, frames.length);
@@ -150,8 +180,9 @@ test('a timeline of regions that the face lacks is refused, and what a face refu
   const everywhere = {seconds: 1, events: [{at: 0, to: {jawOpen: 1}, drive: 'cut', region: ''}]};
   new TimelinePlayer(face, readTimeline(JSON.stringify(everywhere))).advance(0.1);
   assert.equal(face.weights.jawOpen, 1);
-  const events = [{at: 0.1, to: {jawOpen: 0}, frequency: 1e300}, {at: 0.2, to: {jawOpen: 0.5}, drive: 'cut'}];
+  const events = [{at: 0.1, to: {jawOpen: 0}}, {at: 0.2, to: {jawOpen: 0.5}, drive: 'cut'}];
   const player = new TimelinePlayer(face, readTimeline(JSON.stringify({seconds: 1, events})));
+  player.timeline.events[0].drive.frequency = 1e300;
   assert.throws(() => player.advance(0.5), {message: /finite numbers/});
   player.advance(0.5);
   assert.equal(face.weights.jawOpen, 0.5);
@@ -163,6 +194,39 @@ test('text may begin with a byte order mark, and other things are no clips', () 
   assert.throws(() => readTimeline(timeline), {message: 'A timeline is read from text or bytes.'});
   assert.throws(() => readClip({}), {message: 'A clip is read from text or bytes.'});
 });
+
+test('a time is told by one column', () => {
+  assert.throws(() => readClip('Timecode,a,TIMECODE\n0,1,5', {name: 'a.csv'}), {message: /there are two columns 'Timecode'\.$/});
+});
+
+test('however many values a row should have, as many as there are take memory', () => {
+  const wide = Array.from({length: 200_000}, (_, k) => `a${k}`), frames = '0\n'.repeat(200_000);
+  assert.throws(() => readClip(`Timecode,${wide}\n${frames}`), {message: /there are 1 values under 200001 headings/});
+});
+
+test('where JSON goes wrong is said as far as the engine tells', () => {
+  const {parse} = JSON;
+  try {
+    for (const [told, said] of [
+           ['Unexpected token \']\', ..." at position 1" is not valid JSON', ' is not JSON.'],
+           ['Expected \',\' in JSON at position 3 (line 2 column 1)', ', line 2: this is not JSON.'],
+           ['JSON.parse: expected property name at line 2 column 2 of the JSON data', ', line 2: this is not JSON.'],
+           ['JSON.parse: end of data after property value at line 3 column 2 of the JSON data',
+            ', line 3: this is not JSON; was the file cut short?'],
+           ['JSON Parse error: Unexpected identifier "a"', ' is not JSON.'],
+           ['JSON Parse error: Unexpected EOF', ', line 3: this is not JSON; was the file cut short?']]) {
+      JSON.parse = () => { throw new SyntaxError(told); };
+      assert.throws(() => readClip('{\n1\n', {name: 'a.json'}), {message: `a.json${said}`});
+    }
+  } finally {
+    JSON.parse = parse;
+  }
+});
+
+// Frames that each have a name of their own.
+const scattered = JSON.stringify(Array.from({length: 8200}, (_, f) => {
+  return {timestampMs: f, categories: [{categoryName: `a${f}`, score: 0}]};
+}));
 
 // The same words from either side.
 for (const [file, text, words] of [
@@ -177,7 +241,8 @@ for (const [file, text, words] of [
        ['a.csv', 'Timecode,JawOpen\n0,nan', 'line 2: \'nan\' in column 2 is not a number within ±1,000,000'],
        ['a.csv', 'Timecode,JawOpen\n0:0:1,1', '\'0:0:1\' is not a timecode'],
        ['a.csv', 'Timecode,JawOpen\n0:0:1:75,1', 'counts more than 60 frames a second'],
-       ['a.json', '{', 'is not JSON'],
+       ['a.json', '{\n', ', line 2: this is not JSON; was the file cut short?'],
+       ['a.json', '{\n"frames": 1,}', ', line 2: this is not JSON.'],
        ['a.json', '{"frames": 1}', 'is neither of Audio2Face'],
        ['a.json', '[]', 'has no frames'],
        ['a.json', '[{"categories": []}]', 'has no \'timestampMs\' in frame 0'],
@@ -190,7 +255,10 @@ for (const [file, text, words] of [
        ['a.json', '{"weightMat": [[1, 2]], "exportFps": 30, "facsNames": ["a"]}', 'has not 1 numbers in weightMat[0]'],
        ['a.json', '{"weightMat": [["x"]], "exportFps": 30, "facsNames": ["a"]}', 'is not a number within ±1,000,000 in weightMat[0]'],
        ['a.json', '{"weightMat": [[1, 2]], "exportFps": 30, "facsNames": ["a", "a"]}', 'names \'a\' twice in \'facsNames\''],
+       ['a.json', '{"weightMat": [[1], [1]], "exportFps": 1e-12, "facsNames": ["a"]}', 'has too low an \'exportFps\' for its frames'],
        ['a.json', '[{"timestampMs": 1e300, "categories": []}]', 'has a time in frame 0'],
+       ['a.json', '[{"timestampMs": 0, "categories": null, "faceBlendshapes": []}]', 'has no \'categories\' in frame 0'],
+       ['a.json', scattered, 'has 8200 names in 8200 frames, more than a clip can hold; name the same ones in every frame.'],
        ['t.json', '{"events": []}', 'the file has no \'seconds\''],
        ['t.json', '{"seconds": 1, "events": []}', '\'events\' must be a list of at least one event'],
        ['t.json', '{"seconds": 0, "events": []}', '\'seconds\' must be greater than 0'],
@@ -202,9 +270,16 @@ for (const [file, text, words] of [
        ['t.json', '{"seconds": 1, "events": [{"at": 0, "to": "grin"}]}', 'goes to a pose \'grin\''],
        ['t.json', '{"seconds": 1, "poses": null, "events": [{"at": 0, "to": "grin"}]}', 'goes to a pose \'grin\''],
        ['t.json', '{"seconds": 1, "poses": {}, "events": [{"at": 0, "to": "__proto__"}]}', 'goes to a pose \'__proto__\''],
+       ['t.json', '{"seconds": 1, "poses": {"p": 5}, "events": [{"at": 0, "to": "p"}]}', 'pose \'p\' is not an object of weights'],
+       ['t.json', '{"seconds": 1, "poses": {"p": {"a": "x"}}, "events": [{"at": 0, "to": "p"}]}', 'pose \'p\' has a weight \'a\' that is not a number'],
        ...[['"drive": "newton", "seconds": 0', 'must last a finite time greater than 0 seconds'],
            ['"drive": "bounce", "restitution": 2', 'the restitution lies in [0, 1)'],
            ['"drive": "accelerate-brake", "turn": 1', 'between 0 and 1'],
+           ['"drive": "jump"', 'events[0]: There is no way to move called "jump"; there are cut, newton,'],
+           ...['"drive": "newton", "seconds": 1e-160', '"drive": "bounce", "seconds": 1e-160',
+               '"drive": "linear-force", "seconds": 1e-103', '"frequency": 1e154', '"damping": 1e160',
+               '"drive": "accelerate-brake", "seconds": 1e-10, "turn": 1e-290']
+             .map((drive) => [drive, 'events[0] cannot be: A motion needs finite numbers.']),
            ['"damping": -1', 'a damping of at least 0'], ['"frequency": 0', 'a frequency greater than 0']]
          .map(([drive, words]) => ['t.json', `{"seconds": 1, "events": [{"at": 0, "to": {}, ${drive}}]}`, words]),
        ['t.json', '{"seconds": 1, "events": [{"at": 0, "to": {"jawOpen": "x"}}]}', 'has a weight \'jawOpen\' that is not a number within ±1,000,000']])
