@@ -24,6 +24,16 @@ const UNSAID = 'sweepface.wasm cannot do that with this face; give sweepface_ful
 
 const encoder = new TextEncoder(), decoder = new TextDecoder();
 
+/** Of any realm: frames and Node's vm have an ArrayBuffer of their own. */
+const isBuffer = (source) => Object.prototype.toString.call(source) === '[object ArrayBuffer]';
+
+/** There is no more memory, which another module does not change. */
+class MemoryError extends Error {
+  constructor(cause, advice = '') {
+    super(`There is not enough memory for the face${advice}.`, {cause});
+  }
+}
+
 /**
  * The module behind a URL. Browsers keep what they make of one that they compile while it comes; Node's fetch does not
  * read files.
@@ -50,7 +60,7 @@ const MODULES = {
 const compiled = {};  // each once
 function compile(wasm, kind) {
   if (wasm instanceof WebAssembly.Module) return wasm;
-  if (wasm instanceof ArrayBuffer || ArrayBuffer.isView(wasm)) return WebAssembly.compile(wasm);
+  if (isBuffer(wasm) || ArrayBuffer.isView(wasm)) return WebAssembly.compile(wasm);
   if (wasm) return compileUrl(new URL(wasm, globalThis.location?.href));
   compiled[kind] ??= compileUrl(MODULES[kind]()).catch((error) => {
     delete compiled[kind];
@@ -59,12 +69,38 @@ function compile(wasm, kind) {
   return compiled[kind];
 }
 
+/** Browsers have room for about a hundred memories at once, however small. */
+async function instantiate(module) {
+  try {
+    return await WebAssembly.instantiate(module);
+  } catch (error) {
+    if (!(error instanceof RangeError)) throw error;
+    throw new MemoryError(error, '; dispose of others, or clone() those of one file');
+  }
+}
+
 /** One instance of the module: a file and the faces made from it. Its memory goes with it. */
 class Runtime {
   constructor(instance) {
-    this.wasm = instance.exports;
+    this.wasm = Object.fromEntries(Object.entries(instance.exports).map(([name, it]) => {
+      return [name, typeof it === 'function' ? this.watched(it) : it];
+    }));
     this.wasm._initialize();
     this.users = 0;
+    this.isDead = false;
+  }
+
+  /** Where memory runs out the module stops amid what it does, and is of no use from then on. */
+  watched(call) {
+    return (...parameters) => {
+      try {
+        return call(...parameters);
+      } catch (error) {
+        if (!(error instanceof WebAssembly.RuntimeError)) throw error;
+        this.isDead = true;
+        throw new MemoryError(error);
+      }
+    };
   }
 
   // Memory moves when it grows, so views are made where they are used. Addresses from 2 GiB on are negative.
@@ -82,7 +118,7 @@ class Runtime {
 
   allocate(size) {
     const at = this.wasm.malloc(Math.max(size, 8));
-    if (at === 0) throw new WebAssembly.RuntimeError('out of memory');
+    if (at === 0) throw new MemoryError();
     return at;
   }
 
@@ -134,16 +170,6 @@ function isPacked(bytes) {
   return bytes[7] === 2 && !kinds.some((kind) => AS_THEY_ARE.includes(kind));
 }
 
-/** Runs what may need more memory than there is: the module then stops for good. */
-function withinMemory(run) {
-  try {
-    return run();
-  } catch (error) {
-    if (!(error instanceof WebAssembly.RuntimeError)) throw error;
-    throw new Error('There is not enough memory for the face.', {cause: error});
-  }
-}
-
 /** What all faces of one file at one level of detail share. */
 class Shared {
   constructor(instance, bytes, {name, follow, eyes, divide, lod, budget}) {
@@ -167,7 +193,7 @@ class Shared {
 
   /** Reads what targets do, once; that waits until the face is to move, so that it shows sooner. */
   loadTargets() {
-    withinMemory(() => this.runtime.check(this.runtime.wasm.sweepface_rig_load_targets(this.rig)));
+    this.runtime.check(this.runtime.wasm.sweepface_rig_load_targets(this.rig));
   }
 
   target(name) {
@@ -220,23 +246,23 @@ export class Sweepface {
   #face;
   #motion = 0;
   #ends = new Map();  // seconds until a weight's drive is over, by the place of the weight among all
-  #memory;  // in the module: arrays of floats and of weights, and C structs: a drive and two vectors
+  #memory;  // in the module, in one piece: arrays of floats and of weights, and C structs: a drive and two vectors
 
   /** Use Sweepface.load. */
   constructor(shared) {
     if (!(shared instanceof Shared)) throw new TypeError('Faces are made by Sweepface.load.');
     const {runtime, vertexCount, weightCount} = shared;
     this.#shared = shared;
-    this.#face = runtime.get('sweepface_face_create', shared.mesh);
-    const positions = runtime.allocate(24 * vertexCount), normals = positions + 12 * vertexCount;
-    const weights = runtime.allocate(8 * weightCount), drive = runtime.allocate(56), vectors = runtime.allocate(16);
+    const positions = runtime.allocate(24 * vertexCount + 8 * weightCount + 72), normals = positions + 12 * vertexCount;
+    const weights = positions + 24 * vertexCount, drive = weights + 8 * weightCount, vectors = drive + 56;
     this.#memory = {positions, normals, weights, drive, vectors};
+    this.#face = runtime.get('sweepface_face_create', shared.mesh);
     ++runtime.users;
   }
 
   static async load(bytes, given = {}) {
     const {lod = 0, name = 'The face', arcs, combine, eyes, regions, wasm} = given;
-    if (!(bytes instanceof ArrayBuffer || ArrayBuffer.isView(bytes)))
+    if (!(isBuffer(bytes) || ArrayBuffer.isView(bytes)))
       throw new TypeError('Sweepface.load needs the bytes of a .sweep file: an ArrayBuffer or a typed array.');
     for (const key of Object.keys(given))
       if (!OPTIONS.includes(key))
@@ -254,24 +280,23 @@ export class Sweepface {
     const options = {name: String(name), follow, eyes, divide, lod, budget};
     const needsFull = follow || eyes || divide || budget;
     const make = async (module) => {
-      const instance = await WebAssembly.instantiate(module);
+      const instance = await instantiate(module);
       if (needsFull && !instance.exports.sweepface_rig_follow) throw new Error(UNSAID);
-      return withinMemory(() => new Sweepface(new Shared(instance, view, options)));
+      return new Sweepface(new Shared(instance, view, options));
     };
     if (wasm || needsFull || !isPacked(view)) return make(await compile(wasm, 'full'));
     const usual = await compile(wasm, 'usual');
     try {
       return await make(usual);
     } catch (error) {
-      if (error.cause instanceof WebAssembly.RuntimeError) throw error;
+      if (error instanceof MemoryError) throw error;
       return make(await compile(wasm, 'full'));  // which has the last word
     }
   }
 
   /** Another face of the same file, at rest; the two share everything but their weights. */
   clone() {
-    const shared = this.#open();
-    return withinMemory(() => new Sweepface(shared));
+    return new Sweepface(this.#open());
   }
 
   get names() { return [...this.#open().names]; }
@@ -372,7 +397,7 @@ export class Sweepface {
   shaderTables(tangents = false) {
     const {runtime} = this.#open(), {wasm} = runtime, points = this.pointCount, rows = tangents ? 2 : 1;
     this.#shared.loadTargets();
-    return withinMemory(() => runtime.room(20, (out) => {
+    return runtime.room(20, (out) => {
       runtime.check(wasm.sweepface_mesh_shader_tables(this.#shared.mesh, tangents ? 1 : 0, out));
       const [basis, places, neutral, texels, modes] = runtime.words(out, 5);
       return {
@@ -381,7 +406,7 @@ export class Sweepface {
         neutral: runtime.floats(neutral, 3 * points * rows).slice(),
         modes
       };
-    }));
+    });
   }
 
   /** Writes what changes every frame, four integers a mode; returns their factor. */
@@ -404,7 +429,7 @@ export class Sweepface {
   prepare() {
     const {runtime} = this.#open();
     this.#shared.loadTargets();
-    withinMemory(() => runtime.check(runtime.wasm.sweepface_mesh_prepare(this.#shared.mesh, 1)));
+    runtime.check(runtime.wasm.sweepface_mesh_prepare(this.#shared.mesh, 1));
   }
 
   /** Sends weights to goals from where they stand, everywhere or in a region; `advance` moves them. */
@@ -461,18 +486,20 @@ export class Sweepface {
   dispose() {
     if (!this.#shared) return;
     const {runtime, mesh, rig} = this.#shared, {wasm} = runtime;
+    this.#shared = undefined;
+    if (runtime.isDead) return;
     wasm.sweepface_motion_free(this.#motion);
     wasm.sweepface_face_free(this.#face);
-    for (const key of ['positions', 'weights', 'drive', 'vectors']) wasm.free(this.#memory[key]);
+    wasm.free(this.#memory.positions);
     if (--runtime.users === 0) {
       wasm.sweepface_mesh_free(mesh);
       wasm.sweepface_rig_free(rig);
     }
-    this.#shared = undefined;
   }
 
   #open() {
     if (!this.#shared) throw new Error('The face was disposed of.');
+    if (this.#shared.runtime.isDead) throw new MemoryError();
     return this.#shared;
   }
 
@@ -489,9 +516,7 @@ export class Sweepface {
     });
   }
 
-  #moving() {
-    return this.#motion ||= withinMemory(() => this.#makeMotion());
-  }
+  #moving() { return this.#motion ||= this.#makeMotion(); }
 
   #makeMotion() {
     const {runtime, names, regions} = this.#shared, {wasm} = runtime, count = names.length;

@@ -2,6 +2,7 @@ import assert from 'node:assert/strict';
 import {readFileSync} from 'node:fs';
 import {basename} from 'node:path';
 import test from 'node:test';
+import {runInNewContext} from 'node:vm';
 import {Sweepface} from '../sweepface.js';
 import {difference, everyFile, exported, packed, played, sample, someWeights, withArcs} from './native.js';
 
@@ -232,6 +233,52 @@ test('memory does not grow by making and disposing of faces, nor by evaluating',
 
 test('a face that needs more memory than there is is refused', async () => {
   await assert.rejects(load({lod: 60}), {message: /^There is not enough memory for the face\.$|too many vertices/});
+});
+
+test('where browsers have no room for one more file, that is said, and no other module is tried', async () => {
+  const {instantiate} = WebAssembly;
+  let tried = 0;
+  WebAssembly.instantiate = async () => {
+    ++tried;
+    throw new RangeError('WebAssembly.instantiate(): Out of memory: Cannot allocate Wasm memory for new instance');
+  };
+  try {
+    await assert.rejects(load({}, packed()), {
+      message: 'There is not enough memory for the face; dispose of others, or clone() those of one file.'
+    });
+    assert.equal(tried, 1);
+  } finally {
+    WebAssembly.instantiate = instantiate;
+  }
+});
+
+test('a face whose module ran out of memory says so from then on', async () => {
+  const {instantiate} = WebAssembly, wasm = new URL('../sweepface.wasm', import.meta.url);
+  let malloc;
+  WebAssembly.instantiate = async (module) => {
+    const instance = await instantiate(module);
+    ({malloc} = instance.exports);
+    return instance;
+  };
+  try {
+    const face = await load({wasm}, packed()), twin = face.clone(), without = {message: /^There is not enough memory/};
+    for (let size = 2 ** 30; size >= 8; size /= 2) while (malloc(size));
+    assert.throws(() => face.clone(), without);
+    assert.equal(face.names.length, 2);  // it was only asked
+    assert.throws(() => face.setWeights({jawOpen: 1}), without);
+    for (const use of [() => face.names, () => twin.evaluate(new Float32Array(3 * 1e5)), () => twin.clone()])
+      assert.throws(use, without);
+    for (const each of [face, twin]) each.dispose();
+    assert.throws(() => face.names, {message: 'The face was disposed of.'});
+  } finally {
+    WebAssembly.instantiate = instantiate;
+  }
+});
+
+test('bytes of another realm hold a face and a module', async () => {
+  const foreign = runInNewContext('(all) => Uint8Array.from(all).buffer');
+  const wasm = foreign(readFileSync(new URL('../sweepface_full.wasm', import.meta.url)));
+  assert.equal((await Sweepface.load(foreign(readFileSync(sample)), {wasm})).names.length, 42);
 });
 
 test('the module may come from elsewhere', async () => {
