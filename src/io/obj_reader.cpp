@@ -62,19 +62,37 @@ class ObjReader {
                                       : corrected);
   }
 
-  /// Moves to the next statement, which goes on in the next line after a '\'.
+  /// Moves to the next statement, which goes on in the next line after a '\' outside a comment.
   bool nextStatement() {
     if (!lines_.next()) return false;
     statementLine_ = lines_.number();
     statement_ = trimmed(lines_.line());
-    if (!statement_.ends_with('\\') || statement_.starts_with('#')) return true;
+    if (!statement_.ends_with('\\')) return true;
+    const bool isName = endsInName(statement_);
+    const auto goesOn = [&](std::string_view line) {
+      return line.ends_with('\\') && (isName || !hasComment(line));
+    };
     joined_ = statement_;
-    while (joined_.ends_with('\\') && lines_.next()) {
+    for (std::string_view line = statement_; goesOn(line) && lines_.next();) {
+      line = trimmed(lines_.line());
       joined_.back() = ' ';
-      joined_ += trimmed(lines_.line());
+      joined_ += line;
     }
     statement_ = joined_;
     return true;
+  }
+
+  /// Names run to the end of the line and may have a '#'.
+  static bool endsInName(std::string_view statement) {
+    const std::string_view keyword = Words(statement).next();
+    return keyword == "g" || keyword == "o" || keyword == "usemtl" || keyword == "mtllib";
+  }
+
+  static bool hasComment(std::string_view line) {
+    Words words(line);
+    for (auto word = words.next(); !word.empty(); word = words.next())
+      if (word.starts_with('#')) return true;
+    return false;
   }
 
   bool readStatement() {

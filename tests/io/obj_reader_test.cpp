@@ -83,6 +83,15 @@ TEST(ObjReader, JoinsLinesAfterABackslash) {
       << "a comment ends with its line";
 }
 
+TEST(ObjReader, EndsAStatementWithTheCommentBehindIt) {
+  EXPECT_EQ(corners("v 0 0 0\nv 1 0 0 # from C:\\\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n").size(), 4u);
+  EXPECT_EQ(corners(square + "f 1 \\\n 2 3 # D:\\heads\\\nf 1 3 4\n"),
+            (std::vector<Index>{0, 1, 2, 0, 2, 3}));
+  EXPECT_EQ(parsed(square + "g left # \\\nbrow\nf 1 2 3\n").polygons.groups,
+            (std::vector<std::string>{"left #  brow"}))
+      << "a name may have a '#'";
+}
+
 TEST(ObjReader, PassesOverWhatAMeshDoesNotNeed) {
   EXPECT_EQ(corners("\xEF\xBB\xBF# made by hand\n\n \t\n" + square +
                     "vn nan 0 0\nvp 1\ns off\nl 1 2\np 1\ncurv 0 1 1 2\nwhatever 1\n"
