@@ -29,13 +29,17 @@ bool isGltf(const fs::path& path) {
 }
 
 std::unexpected<Error> unknownKind(const fs::path& path) {
+  if (path.empty())
+    return fail("The name of a mesh is empty, as an unset variable leaves it; name the file.");
+  std::error_code error;
+  if (!fs::exists(path, error) && !error)
+    return fail(fmt::format("There is no file or folder {}; check the name.", path.string()));
   if (isGltf(path))
     return fail(
         fmt::format("{} cannot be read as one mesh of several; it holds a face and its "
                     "expressions, so name it alone.",
                     path.string()));
-  std::error_code ignored;
-  if (fs::is_directory(path, ignored))
+  if (fs::is_directory(path, error))
     return fail(fmt::format("{} is a folder; name the mesh of the neutral first, then its targets.",
                             path.string()));
   return fail(fmt::format(
@@ -71,8 +75,7 @@ Result<Paths> targetFiles(std::span<const fs::path> targets, const fs::path& neu
   for (const fs::path& target : targets) {
     std::error_code ignored;
     if (!fs::is_directory(target, ignored)) {
-      if (!target.has_filename())
-        return fail(fmt::format("There is no folder {}.", target.string()));
+      if (!target.has_filename()) return unknownKind(target);
       if (fs::equivalent(target, neutral, ignored))
         return fail(
             fmt::format("{} is the neutral; leave it out of the targets.", target.string()));
@@ -116,16 +119,17 @@ Result<std::vector<Vec3>> readTarget(const fs::path& path, const fs::path& neutr
   Result<io::TargetShape> shape = parse(*bytes, path.string());
   if (!shape) return std::unexpected(shape.error());
 
-  const auto differs = [&](std::string_view what, std::size_t count, std::size_t expected) {
+  const auto differs = [&](std::string_view one, std::string_view many, std::size_t count,
+                           std::size_t expected) {
     return fail(
         fmt::format("{} has {} {} but the neutral {} has {}; export every target with the "
                     "neutral's vertices and faces in the same order.",
-                    path.string(), count, what, neutralPath.string(), expected));
+                    path.string(), count, count == 1 ? one : many, neutralPath.string(), expected));
   };
   if (shape->positions.size() != neutral.positions.size())
-    return differs("vertices", shape->positions.size(), neutral.positions.size());
+    return differs("vertex", "vertices", shape->positions.size(), neutral.positions.size());
   if (shape->faceCount != 0 && shape->faceCount != neutral.polygons.faceCount())
-    return differs("faces", shape->faceCount, neutral.polygons.faceCount());
+    return differs("face", "faces", shape->faceCount, neutral.polygons.faceCount());
   return std::move(shape->positions);
 }
 

@@ -96,6 +96,8 @@ TEST_F(RigReader, SaysBothCountsOfATargetThatDiffers) {
   EXPECT_TRUE(failsWith(read({more}), {"more.obj has 4 vertices", "neutral.obj has 3"}));
   const fs::path faces = folder.file("faces.obj", triangle + "f 3 2 1\n");
   EXPECT_TRUE(failsWith(read({faces}), {"faces.obj has 2 faces", "neutral.obj has 1"}));
+  const fs::path one = folder.file("one.obj", "v 0 0 0\n");
+  EXPECT_TRUE(failsWith(read({one}), {"one.obj has 1 vertex but"}));
 }
 
 TEST_F(RigReader, ReportsTheFirstOfManyErrors) {
@@ -124,6 +126,15 @@ TEST_F(RigReader, SaysWhichFileIsMissingOrNoMesh) {
   fs::create_directory(folder / "empty");
   EXPECT_TRUE(failsWith(read({folder / "empty"}), {"empty", "no .obj or .ply files"}));
   EXPECT_TRUE(failsWith(readRig(folder / "no.obj", {}), {"no.obj", "no such file"}));
+}
+
+TEST_F(RigReader, SaysThatThereIsNothingOfAName) {
+  EXPECT_TRUE(
+      failsWith(read({folder / "expresions"}), {"There is no file or folder", "expresions;"}));
+  EXPECT_TRUE(failsWith(read({folder / "expresions/"}), {"There is no file or folder"}));
+  EXPECT_TRUE(failsWith(readRig(folder / "neutral", {}), {"There is no file or folder"}));
+  EXPECT_TRUE(failsWith(read({""}), {"name of a mesh is empty"}));
+  EXPECT_TRUE(failsWith(readRig("", {}), {"name of a mesh is empty"}));
 }
 
 TEST_F(RigReader, NeedsFacesOfTheNeutral) {
