@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "mesh/face_cutter.hpp"
 #include "mesh/weld.hpp"
 #include "surface/union_find.hpp"
 
@@ -10,45 +11,10 @@ namespace sweepface {
 
 namespace {
 
-// A face corner with the welded vertex it stands at.
-struct Corner {
-  Index vertex, corner;
-};
+using Corner = FaceCutter::Corner;
 
-// Cuts the source's faces into quads and triangles of distinct vertices.
-struct FaceCutter {
-  std::vector<std::vector<Corner>> pieces;
-  Index dropped = 0;
-
-  void cut(std::vector<Corner> face) {
-    simplify(face);
-    while (face.size() > 4) {
-      std::vector<Corner> quad(face.begin(), face.begin() + 4);
-      face.erase(face.begin() + 1, face.begin() + 3);
-      keep(std::move(quad));
-    }
-    keep(std::move(face));
-  }
-
- private:
-  static void simplify(std::vector<Corner>& face) {
-    for (std::size_t k = 0; k < face.size() && face.size() > 1;)
-      if (face[k].vertex == face[(k + 1) % face.size()].vertex)
-        face.erase(face.begin() + static_cast<std::ptrdiff_t>((k + 1) % face.size()));
-      else
-        ++k;
-  }
-  void keep(std::vector<Corner> piece) {
-    simplify(piece);
-    if (piece.size() == 4 &&
-        (piece[0].vertex == piece[2].vertex || piece[1].vertex == piece[3].vertex))
-      piece.clear();
-    if (piece.size() < 3)
-      ++dropped;
-    else
-      pieces.push_back(std::move(piece));
-  }
-};
+// A face's pieces meet in one of its corners: the time grows with the square of how many they are.
+constexpr Index kMostCorners = 4096;
 
 // Which corner of each triangle becomes its collapsed side: the one where most triangles meet, so
 // that fans share their pole, and otherwise the most irregular one.
@@ -164,8 +130,11 @@ namespace {
 Result<GridMesh> build(const MeshRig& rig, const std::vector<Index>& first,
                        std::vector<std::pair<Index, Index>>& cut) {
   const Polygons& faces = rig.neutral.polygons;
-  FaceCutter cutter;
+  FaceCutter cutter(rig.neutral.positions);
   for (Index f = 0; f < faces.faceCount(); ++f) {
+    if (faces.faceSize(f) > kMostCorners)
+      return fail("face ", f + 1, " has ", faces.faceSize(f), " corners, of which ", kMostCorners,
+                  " are the most; cut it into smaller ones");
     std::vector<Corner> face;
     for (Index c = faces.faceStart[f]; c < faces.faceStart[f + 1]; ++c)
       face.push_back({first[faces.corners[c]], c});

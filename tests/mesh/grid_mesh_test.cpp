@@ -107,6 +107,66 @@ TEST(Cutting, turnsAPolygonIntoQuadsAndAtMostOneTriangle) {
   }
 }
 
+const std::vector<Vec3> kL{{2, 0, 0}, {2, 1, 0}, {1, 1, 0}, {1, 2, 0}, {0, 2, 0}, {0, 0, 0}};
+const std::vector<Vec3> kU{{0, 0, 0}, {3, 0, 0}, {3, 3, 0}, {2, 3, 0},
+                           {2, 1, 0}, {1, 1, 0}, {1, 3, 0}, {0, 3, 0}};
+
+/// Of pieces in a plane; twice, and 0 if one is not convex.
+double areaOfPieces(const PolygonMesh& mesh) {
+  const GridMesh result = gridOf(mesh);
+  double sum = 0;
+  for (const auto& quad : result.quads) {
+    const auto at = [&](std::size_t k) {
+      return mesh.positions[result.source[result.point[quad[k % 4]]]];
+    };
+    for (std::size_t k = 0; k < 4; ++k)
+      if (cross(at(k + 1) - at(k), at(k + 2) - at(k)).z < 0) return 0;
+    sum += cross(at(2) - at(0), at(3) - at(1)).z;
+  }
+  return sum;
+}
+
+TEST(Cutting, keepsToTheInsideOfConcavePolygons) {
+  for (const auto& [corners, area] : {std::pair{kL, 3}, {kU, 7}})
+    for (std::size_t first = 0; first < corners.size(); ++first) {
+      PolygonMesh mesh;
+      mesh.positions = corners;
+      std::ranges::rotate(mesh.positions, mesh.positions.begin() + static_cast<Index>(first));
+      Loop face;
+      for (Index k = 0; k < static_cast<Index>(corners.size()); ++k) face.push_back(k);
+      addFace(mesh, face);
+      EXPECT_EQ(areaOfPieces(mesh), 2 * area) << "from corner " << first;
+    }
+}
+
+TEST(Cutting, makesQuadsOfAConcavePolygonWhereACornerSeesThemAll) {
+  PolygonMesh mesh;
+  mesh.positions = kL;
+  addFace(mesh, {0, 1, 2, 3, 4, 5});
+  EXPECT_EQ(gridOf(mesh).quads.size(), 2u);
+}
+
+TEST(Cutting, beginsAtTheFirstCornerWhereCornersStandInLine) {
+  PolygonMesh mesh;
+  mesh.positions = {{0, 0, 0}, {1, 1e-4, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}, {0, 1, 0}};
+  addFace(mesh, {0, 1, 2, 3, 4, 5});
+  EXPECT_EQ(gridOf(mesh).quadCorners[0], (std::array<Index, 4>{0, 1, 2, 3}));
+}
+
+TEST(Cutting, refusesFacesOfThousandsOfCorners) {
+  PolygonMesh mesh = plane(3, 3);
+  Loop face;
+  for (Index k = 0; k < 4097; ++k) {
+    face.push_back(static_cast<Index>(mesh.positions.size()));
+    mesh.positions.push_back({std::cos(turn(k / 4097.0)), std::sin(turn(k / 4097.0)), 0});
+  }
+  addFace(mesh, face);
+  const auto none = makeGridMesh({mesh, {}});
+  ASSERT_FALSE(none);
+  EXPECT_EQ(none.error().message,
+            "face 10 has 4097 corners, of which 4096 are the most; cut it into smaller ones");
+}
+
 TEST(Fans, shareTheirPole) {
   const GridMesh mesh = gridOf(uvSphere(16, 8));
   const auto south = static_cast<Index>(uvSphere(16, 8).positions.size()) - 2;

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "sweepface/vec.hpp"
+
+namespace sweepface {
+
+/// Cuts faces into convex quads and triangles of distinct vertices. Whatever has four corners or
+/// three stays whole.
+class FaceCutter {
+ public:
+  /// A face corner with the welded vertex it stands at.
+  struct Corner {
+    Index vertex, corner;
+  };
+  using Piece = std::vector<Corner>;
+
+  explicit FaceCutter(std::span<const Vec3> positions) : positions_(positions) {}
+
+  void cut(Piece face);
+
+  std::vector<Piece> pieces;
+  Index dropped = 0;  ///< pieces of fewer than three different corners
+
+ private:
+  std::vector<Piece> cutLarge(Piece face) const;
+  std::vector<Piece> triangles(const Piece& face) const;
+  bool areConvex(const std::vector<Piece>& cuts, const Piece& face) const;
+  void keep(Piece piece);
+
+  std::span<const Vec3> positions_;
+};
+
+}  // namespace sweepface
