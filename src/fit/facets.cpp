@@ -43,6 +43,17 @@ FaceMap::FaceMap(const Rig& rig) : faceOfQuad(faceOfQuads(rig)) {
   findRims(rig.source);
 }
 
+FaceMap::FaceMap(const Rig& rig, std::span<const Vec3> neutral) : FaceMap(rig) {
+  const Polygons& p = rig.source.polygons;
+  for (Index f = 0; f < p.faceCount(); ++f) {
+    if (p.faceSize(f) <= 4) continue;
+    std::vector<Vec3> polygon;
+    for (Index c = p.faceStart[f]; c < p.faceStart[f + 1]; ++c)
+      polygon.push_back(neutral[p.corners[c]]);
+    cuts[f] = triangulate(polygon);
+  }
+}
+
 // The edges that one face alone has, each with the vertices before and after it along the
 // boundary.
 void FaceMap::findRims(const SourceMesh& source) {
@@ -137,13 +148,16 @@ int Facets::folds(const std::array<Index, 4>& q, std::span<const Vec3> x, Index 
 }
 
 double Facets::distanceToFace(const Vec3& p, Index f) const {
-  double best = 1e300;
   const Index begin = polygons_.faceStart[f], size = polygons_.faceSize(f);
-  for (Index k = 1; k + 1 < size; ++k)
-    best = std::min(best, distanceToTriangle(p, at(begin), at(begin + k), at(begin + k + 1)));
+  const auto distance = [&](Index a, Index b, Index c) {
+    return distanceToTriangle(p, at(begin + a), at(begin + b), at(begin + c));
+  };
+  double best = 1e300;
+  if (size == 3) best = distance(0, 1, 2);
   if (size == 4)  // both diagonals are as good
-    best = std::min({best, distanceToTriangle(p, at(begin + 1), at(begin + 2), at(begin + 3)),
-                     distanceToTriangle(p, at(begin + 1), at(begin + 3), at(begin))});
+    best = std::min({distance(0, 1, 2), distance(0, 2, 3), distance(1, 2, 3), distance(1, 3, 0)});
+  if (size > 4)
+    for (const auto& [a, b, c] : map_.cuts.at(f)) best = std::min(best, distance(a, b, c));
   return best;
 }
 

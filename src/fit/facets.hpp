@@ -8,6 +8,8 @@
 
 #include "sweepface/rig.hpp"
 
+#include "eval/triangulate.hpp"
+
 namespace sweepface {
 
 /// Which source face each quad of the tessellation at level 1 belongs to, and which faces lie round
@@ -16,9 +18,12 @@ struct FaceMap {
   std::vector<Index> faceOfQuad;            ///< [grid quads]; empty where the rig does not know
   std::vector<std::vector<Index>> facesAt;  ///< [V] faces that have the vertex
   std::map<std::pair<Index, Index>, std::pair<Index, Index>>
-      rims;  ///< boundary edge → corners before and after
+      rims;                                     ///< boundary edge → corners before and after
+  std::map<Index, std::vector<Triangle>> cuts;  ///< faces of more than four corners → triangles
 
   explicit FaceMap(const Rig& rig);
+  /// Also cuts the larger faces, as the neutral's positions say: distances from them need that.
+  FaceMap(const Rig& rig, std::span<const Vec3> neutral);
 
  private:
   void findRims(const SourceMesh& source);

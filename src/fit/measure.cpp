@@ -46,13 +46,13 @@ void summarize(PoseSamples& s, std::span<const Vec3> neutralOffsets) {
 
 class Meter {
  public:
-  Meter(const Rig& rig, bool facets)
+  Meter(const Rig& rig, std::span<const Vec3> neutral, bool facets)
       : facets_(facets),
         rig_(rig),
         grid_(rig.surface, 1),
         fine_(rig.surface, kLevel),
         fineFaces_(fine_.faces()),
-        map_(rig) {}
+        map_(rig, neutral) {}
 
   PoseSamples measure(std::string name, const Weights& weights,
                       std::span<const Vec3> source) const {
@@ -199,7 +199,7 @@ Result<Measurement> measure(const Rig& rig, const MeshRig& source, const Measure
         "cannot be compared with them; convert the source again");
   const auto shapes = matchShapes(rig, source);
   if (!shapes) return std::unexpected(shapes.error());
-  const Meter meter(rig, options.facets);
+  const Meter meter(rig, source.neutral.positions, options.facets);
   std::vector<PoseSamples> samples(shapes->size());
   parallelFor(std::size_t{0}, samples.size(), [&](std::size_t k) {
     samples[k] = meter.measure(k == 0 ? "neutral" : source.targets[k - 1].name, (*shapes)[k].first,

@@ -7,7 +7,8 @@
 
 namespace sweepface {
 
-/// The vertex normals of one pose [V]: the sum of edge × edge over a vertex's face corners. On a
+/// The vertex normals of one pose [V]: the sum of edge × edge over a vertex's face corners, turned
+/// round at the reflex corners of faces with more than four. On a
 /// regular grid this is the cross product of the central differences, so a smooth surface through
 /// the vertices has it too; weighting by angle or by whole faces differs from it by degrees on
 /// uneven meshes.

@@ -21,7 +21,7 @@ TEST_P(EveryFacet, isNoFurtherThanThoseThatShareAVertexWithIt) {
   options.tolerance = 0.01 * diagonal(GetParam().rig.neutral);
   const Rig rig = convert(GetParam().rig, options).value().rig;
   const std::vector<Vec3>& positions = GetParam().rig.neutral.positions;
-  const FaceMap map(rig);
+  const FaceMap map(rig, positions);
   FaceMap apart = map;  // no face is beside another
   for (std::vector<Index>& faces : apart.facesAt) faces.clear();
   const Facets facets(rig.source, map, positions, {}, 0),
@@ -35,6 +35,17 @@ TEST_P(EveryFacet, isNoFurtherThanThoseThatShareAVertexWithIt) {
         nearest = std::min(nearest, alone.distance(p, static_cast<Index>(g)));
     EXPECT_EQ(facets.distance(p, static_cast<Index>(f)), nearest) << "face " << f;
   }
+}
+
+TEST(Facets, OfAConcavePolygonDoNotCoverItsNotch) {
+  PolygonMesh l;
+  l.positions = {{2, 0, 0}, {2, 1, 0}, {1, 1, 0}, {1, 2, 0}, {0, 2, 0}, {0, 0, 0}};
+  addFace(l, {0, 1, 2, 3, 4, 5});
+  const Rig rig = convert({l, {}}).value().rig;
+  const FaceMap map(rig, l.positions);
+  const Facets facets(rig.source, map, l.positions, {}, 0);
+  EXPECT_NEAR(facets.distance({1.3, 1.3, 0}, 0), 0.3, 1e-12);
+  EXPECT_NEAR(facets.distance({0.7, 0.7, 0.1}, 0), 0.1, 1e-12);
 }
 
 TEST(FaceMap, OfAFanTakesRoomForItsCornersAlone) {

@@ -1,0 +1,31 @@
+#include "fit/vertex_normals.hpp"
+
+#include "faces.hpp"
+
+namespace sweepface {
+namespace {
+
+using namespace sweepface::testing;
+
+std::vector<Vec3> normalsOf(const PolygonMesh& mesh) {
+  std::vector<Index> points;
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v) points.push_back(static_cast<Index>(v));
+  return vertexNormals(mesh.polygons, mesh.positions, points, static_cast<Index>(points.size()));
+}
+
+TEST(VertexNormals, LookOutOfAFlatPolygonAtItsReflexCornersToo) {
+  PolygonMesh l;
+  l.positions = {{2, 0, 0}, {2, 1, 0}, {1, 1, 0}, {1, 2, 0}, {0, 2, 0}, {0, 0, 0}};
+  addFace(l, {0, 1, 2, 3, 4, 5});
+  for (const Vec3& normal : normalsOf(l)) EXPECT_EQ(normal, (Vec3{0, 0, 1}));
+}
+
+TEST(VertexNormals, AreThoseOfCentralDifferencesOnAGrid) {
+  const PolygonMesh mesh = plane(2, 2);
+  const auto& p = mesh.positions;
+  const Vec3 middle = normalsOf(mesh)[4], expected = normalized(cross(p[5] - p[3], p[7] - p[1]));
+  EXPECT_NEAR(norm(middle - expected), 0, 1e-15);
+}
+
+}  // namespace
+}  // namespace sweepface
