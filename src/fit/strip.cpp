@@ -12,7 +12,7 @@ namespace sweepface {
 
 namespace {
 
-// Where each face goes and which of its corners comes first: as the first quad that it is part of
+// Where a face goes and which of its corners comes first: as the first quad that it is part of
 // says.
 struct Place {
   std::size_t quad = SIZE_MAX;
@@ -33,12 +33,14 @@ std::vector<Place> placesOf(const SourceMesh& source) {
     if (place.quad == SIZE_MAX) place = {q, place.face, corner - faces.faceStart[faceOf[corner]]};
   }
   std::ranges::sort(places, {}, [](const Place& p) { return std::pair(p.quad, p.face); });
+  // What has no quad has no surface; but where nobody knows the quads, no face has any.
+  if (!source.quadCorners.empty())
+    std::erase_if(places, [](const Place& p) { return p.quad == SIZE_MAX; });
   return places;
 }
 
-void reorderFaces(SourceMesh& source) {
+void reorderFaces(SourceMesh& source, const std::vector<Place>& places) {
   const Polygons old = source.polygons;
-  const std::vector<Place> places = placesOf(source);
   Polygons& faces = source.polygons;
   std::vector<Index> newCorner(old.corners.size());
   faces.faceStart = {0};
@@ -59,6 +61,8 @@ void reorderFaces(SourceMesh& source) {
     if (!old.faceGroup.empty()) faces.faceGroup[place] = old.faceGroup[p.face];
     ++place;
   }
+  if (!old.faceMaterial.empty()) faces.faceMaterial.resize(place);
+  if (!old.faceGroup.empty()) faces.faceGroup.resize(place);
   for (Index& corner : source.quadCorners) corner = newCorner[corner];
 }
 
@@ -79,10 +83,13 @@ void reorderTexcoords(Polygons& faces) {
 
 Result<void> stripOrder(Rig& rig) {
   SourceMesh& source = rig.source;
-  for (const Index v : source.polygons.corners)
-    if (source.gridVertex[v] < 0)
-      return fail("a face has a corner that is on no patch; keep the order");
-  reorderFaces(source);
+  const Polygons& faces = source.polygons;
+  const std::vector<Place> places = placesOf(source);
+  for (const Place& p : places)
+    for (Index c = faces.faceStart[p.face]; c < faces.faceStart[p.face + 1]; ++c)
+      if (source.gridVertex[faces.corners[c]] < 0)
+        return fail("a face has a corner that is on no patch; keep the order");
+  reorderFaces(source, places);
   reorderTexcoords(source.polygons);
   if (!source.gridVertex.empty()) {
     source.gridVertex.resize(Tessellation(rig.surface, 1).vertexCount());

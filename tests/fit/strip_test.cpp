@@ -111,6 +111,24 @@ TEST(Strip, TextureCoordinatesComeInTheOrderOfTheirCorners) {
   for (Index c = 0; c < count; ++c) EXPECT_EQ(faces.cornerTexcoords[c], c);
 }
 
+TEST(Strip, FacesWithoutASurfaceGoWithTheOrder) {
+  MeshRig source = withTargets(plane(2, 2), 0);
+  source.neutral.positions.push_back({5, 5, 5});  // of no other face
+  PolygonMesh& mesh = source.neutral;
+  mesh.polygons = {};
+  addFace(mesh, {9, 9, 9});
+  for (const Loop& face : loopsOf(plane(2, 2).polygons)) addFace(mesh, face);
+  mesh.polygons.materials = {"a", "b"};
+  mesh.polygons.faceMaterial = {0, 1, 1, 1, 1};
+  Rig rig = convert(source).value().rig;
+  EXPECT_GT(bareBytes(rig), 0u);
+  ASSERT_TRUE(strip(rig, {.order = true}));
+  EXPECT_EQ(rig.source.polygons.faceMaterial, (std::vector<Index>{1, 1, 1, 1}));
+  const Rig back = decode(encode(rig), "face").value();
+  EXPECT_EQ(back.source.polygons.faceCount(), 4);
+  EXPECT_EQ(back.source.gridVertex.size(), 9u);
+}
+
 TEST(Strip, NamesOnlyPartsThatThereAre) {
   EXPECT_TRUE(parseStrip("order,uv,groups,scene"));
   for (const char* text : {"hair", "uv,", "uv order", "UV"}) {
