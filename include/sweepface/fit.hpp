@@ -14,7 +14,7 @@ namespace sweepface {
 
 struct ConvertOptions {
   /// Largest allowed distance between a source vertex and its surface point, in model units, in the
-  /// neutral and in every target at weight 1; 0: 0.02 % of the neutral's bounding-box diagonal.
+  /// neutral and in every target at weight 1; 0: 0.02 % of `diagonal`.
   double tolerance = 0;
   /// Refine also where the surface's normal is further than this from the source's vertex normal,
   /// degrees; 0: in proportion to the tolerance (docs/fitting.md); 180: never.
@@ -42,17 +42,19 @@ struct Conversion {
   std::vector<std::string> warnings;
 };
 
-/// The length of the neutral's bounding-box diagonal.
+/// The length of the diagonal of the box round the neutral's faces; without faces, its vertices.
 double diagonal(const PolygonMesh& mesh);
-/// Fails where a tolerance is finer than what files hold of a mesh with that diagonal.
+/// Fails where a tolerance is larger than that diagonal of a mesh or finer than what files hold.
 Result<void> checkTolerance(double tolerance, double diagonal);
 
 /// Turns a mesh rig into a rig of ODE sweeping surfaces. Uses all cores that the calling TBB arena
-/// allows; the result does not depend on how many. Fails if the tolerance cannot be met.
+/// allows; the result does not depend on how many. Fails if the tolerance cannot be met, and where
+/// a face has more than 4096 corners.
 Result<Conversion> convert(const MeshRig& source, const ConvertOptions& options = {});
 
 /// Looks for the smallest tolerance whose file, without the parts of `left`, takes at most
-/// `mostBytes`, packed: several conversions, the first at `options.tolerance`.
+/// `mostBytes`, packed: several conversions, the first at `options.tolerance`. If that cannot be
+/// met, up to 256 times as much is tried.
 Result<Conversion> convertToBytes(const MeshRig& source, ConvertOptions options,
                                   std::size_t mostBytes, const Strip& left = {});
 

@@ -29,6 +29,11 @@ double diagonal(const PolygonMesh& mesh) {
 Result<void> checkTolerance(double tolerance, double diagonal) {
   // Of the diagonal: what single precision rounds off at its end.
   constexpr double kLeast = 0x1p-25;
+  if (tolerance > diagonal)
+    return fail(fmt::format(
+        "a tolerance of {:.3g} is larger than the mesh, which is {:.3g} across; ask for a finer "
+        "one",
+        tolerance, diagonal));
   if (tolerance >= kLeast * diagonal) return {};
   return fail(fmt::format(
       "a tolerance of {:.3g} is finer than a file's numbers, {:.3g} for a mesh of this size; "
@@ -97,6 +102,18 @@ Result<void> checkNames(const std::vector<MeshTarget>& targets) {
   return {};
 }
 
+/// Files hold what targets add to the neutral in single precision.
+Result<void> checkDifferences(const MeshRig& source) {
+  for (const MeshTarget& target : source.targets)
+    for (std::size_t v = 0; v < target.positions.size(); ++v) {
+      const Vec3 way = target.positions[v] - source.neutral.positions[v];
+      if (!io::isUsable(way.x) || !io::isUsable(way.y) || !io::isUsable(way.z))
+        return fail("vertex ", v + 1, " of the target ", io::inQuotes(target.name),
+                    " is further from the neutral's than a file can tell; scale the meshes down");
+    }
+  return {};
+}
+
 class Converter {
  public:
   Converter(const MeshRig& source, const ConvertOptions& options)
@@ -106,6 +123,7 @@ class Converter {
     if (source_.neutral.positions.empty())
       return fail("the neutral has no vertices; there is no surface to fit");
     if (auto ok = checkNames(source_.targets); !ok) return std::unexpected(ok.error());
+    if (auto ok = checkDifferences(source_); !ok) return std::unexpected(ok.error());
     if (options_.textureBits < 8 || options_.textureBits > 16)
       return fail("packed texture coordinates have 8 to 16 bits, not ", options_.textureBits);
     const double size = diagonal(source_.neutral);

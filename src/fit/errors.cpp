@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "fit/distinct_poses.hpp"
 #include "parallel/parallel.hpp"
@@ -45,7 +46,8 @@ class PatchMeter {
         const Index point = mesh_.point[grid_.vertex(i, j)];
         Vertex worst;
         for (Index k = 0; k < data_.poses; ++k) {
-          const double distance = norm(vec(found, 3 * i, k) - data_.point(point, k));
+          double distance = norm(vec(found, 3 * i, k) - data_.point(point, k));
+          if (std::isnan(distance)) distance = std::numeric_limits<double>::infinity();
           worst.distance = std::max(worst.distance, distance);
           worst.squares += distance * distance;
           const double angle = angleDegrees(

@@ -10,8 +10,9 @@ namespace sweepface {
 
 namespace {
 
-constexpr int kMostTries = 12, kMostHalvings = 4;
+constexpr int kMostTries = 12, kMostHalvings = 4, kMostFailures = 4;
 constexpr double kCloseEnough = 0.98;  // of the bytes
+constexpr double kCoarser = 4;         // where a tolerance cannot be met
 
 struct Try {
   double tolerance = 0;
@@ -20,6 +21,7 @@ struct Try {
 
 }  // namespace
 
+// Where the first tolerance cannot be met, some larger ones are tried before anything else.
 // Bytes fall as the tolerance grows, about as its power -0.8: from the first try outwards until one
 // is too large and one fits, then between them.
 Result<Conversion> convertToBytes(const MeshRig& source, ConvertOptions options,
@@ -28,11 +30,19 @@ Result<Conversion> convertToBytes(const MeshRig& source, ConvertOptions options,
   std::optional<Conversion> best;
   Try coarse, fine;
   if (!(options.tolerance > 0)) options.tolerance = 0.0005 * diagonal(source.neutral);
-  int halvings = 0;
+  std::optional<Error> first;  // why the first tolerance cannot be met
+  int failures = 0, halvings = 0;
   for (int attempt = 0; attempt < kMostTries && halvings <= kMostHalvings; ++attempt) {
     auto conversion = convert(source, options);
     const bool cancelled = options.cancel && options.cancel->load();
-    if (!conversion && (cancelled || attempt == 0)) return conversion;
+    if (!conversion && cancelled) return conversion;
+    if (!conversion && attempt == failures) {
+      if (!first) first = conversion.error();
+      if (++failures > kMostFailures) return std::unexpected(*first);
+      fine = {options.tolerance, SIZE_MAX};
+      options.tolerance *= kCoarser;
+      continue;
+    }
     Try now{options.tolerance, SIZE_MAX};
     if (conversion) {
       Rig rig = conversion->rig;

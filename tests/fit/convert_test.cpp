@@ -260,6 +260,22 @@ TEST(Search, forAToleranceDoesNotEndWhereOneCannotBeMet) {
   }
 }
 
+TEST(Search, forAToleranceGoesOnWithLargerOnesWhereTheFirstCannotBeMet) {
+  MeshRig far = withTargets(plane(4, 4), 0);
+  for (Vec3& p : far.neutral.positions) p.x += 1e6 + 1.0 / 3;
+  ConvertOptions options;
+  options.tolerance = 0.002;
+  const std::string why = refusal(far, options);
+  EXPECT_TRUE(why.starts_with("a tolerance of 0.002 is out of reach")) << why;
+  const auto conversion = convertToBytes(far, options, 1 << 20);
+  ASSERT_TRUE(conversion) << conversion.error().message;
+  EXPECT_GT(conversion->rig.tolerance, 0.0457);
+  options.tolerance = 1e-6;
+  const auto none = convertToBytes(far, options, 1 << 20);
+  ASSERT_FALSE(none);
+  EXPECT_TRUE(none.error().message.starts_with("a tolerance of 1e-06 is")) << none.error().message;
+}
+
 TEST(Refusal, isASentenceOfWhatIsWrong) {
   MeshRig flat = withTargets(plane(2, 2), 0);
   for (Vec3& p : flat.neutral.positions) p = {1, 2, 3};
@@ -302,6 +318,32 @@ TEST(Refusal, ofAToleranceBelowTheFilesPrecision) {
       refusal(far, options),
       "a tolerance of 0.0001 is out of reach: the surface comes no nearer to all vertices than "
       "0.0457; allow a larger one");
+}
+
+TEST(Refusal, ofAToleranceBeyondTheMesh) {
+  ConvertOptions options;
+  options.tolerance = 6;
+  const MeshRig square{grid(3, 4, [](double x, double y) { return Vec3{x, y, 0}; }), {}};
+  EXPECT_EQ(refusal(square, options),
+            "a tolerance of 6 is larger than the mesh, which is 5 across; ask for a finer one");
+}
+
+TEST(Refusal, ofDifferencesBeyondSinglePrecision) {
+  MeshRig rig = withTargets(plane(4, 4), 1);
+  rig.neutral.positions[3].z = 3e38, rig.targets[0].positions[3].z = -3e38;
+  EXPECT_EQ(refusal(rig),
+            "vertex 4 of the target '" + rig.targets[0].name +
+                "' is further from the neutral's than a file can tell; scale the meshes down");
+}
+
+TEST(Convert, givesFiniteVectorsOrNone) {
+  MeshRig rig = withTargets(plane(4, 4), 1);
+  for (std::size_t v = 0; v < rig.neutral.positions.size(); ++v)
+    rig.targets[0].positions[v].z = v % 2 ? 3.4e38 : -3.4e38;
+  const auto conversion = convert(rig);
+  if (!conversion) return;
+  for (const Vec3& difference : conversion->rig.targets[0].difference)
+    EXPECT_TRUE(std::isfinite(norm(difference)));
 }
 
 TEST(Diagonal, spansTheBoundingBox) {
