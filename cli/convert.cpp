@@ -37,7 +37,7 @@ void addOptions(CLI::App& app, ConvertArguments& a) {
   addOutput(app, a.output, "The .sweep file to write");
   app.add_option("--tolerance", a.tolerance,
                  "Largest allowed distance between a vertex and the surface, in the mesh's units; "
-                 "0.02 % of the neutral's bounding-box diagonal if not given")
+                 "0.02 % of the diagonal of the box round the neutral's faces if not given")
       ->check(positiveNumber())
       ->type_name("T");
   app.add_option("--normal-limit", a.normalLimit,
@@ -246,6 +246,9 @@ Result<int> convertAndWrite(const ConvertArguments& a) {
   Result<RigSource> source = readMeshes(a.neutral, a.targets, *bar);
   if (!source) return std::unexpected(source.error());
   if (interrupted) return kInterrupted;
+  const auto refused = [&](const Error& error) {
+    return fail(fmt::format("{}: {}.", a.neutral, error.message));
+  };
   // The scene comes with a frame and its length.
   constexpr std::size_t kMostAround = 32, kMostTurn = 29;
   const bool bringsScene = !a.bare && !parts->scene && !source->scene.empty();
@@ -265,11 +268,11 @@ Result<int> convertAndWrite(const ConvertArguments& a) {
   Result<Conversion> conversion = a.maxBytes > 0 ? convertToBytes(source->rig, optionsOf(a, *bar),
                                                                   a.maxBytes - scene - arcs, *parts)
                                                  : convert(source->rig, optionsOf(a, *bar));
-  if (!conversion) return std::unexpected(conversion.error());
+  if (!conversion) return refused(conversion.error());
   if (!a.bare) conversion->rig.scene = std::move(source->scene);
   bar->show("verifying", 1);
   Rig stripped = conversion->rig;
-  if (auto ok = strip(stripped, *parts); !ok) return std::unexpected(ok.error());
+  if (auto ok = strip(stripped, *parts); !ok) return refused(ok.error());
   if (a.arcs) stripped.turns = findTurns(conversion->rig);
   const std::string bytes = encode(stripped);
   const Result<Worst> worst = verify(bytes, a.output, source->rig, conversion->rig);

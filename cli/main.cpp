@@ -79,7 +79,9 @@ int main(int argc, char** argv) {
   } catch (const std::bad_alloc&) {
     sweepface::cli::printError("There is not enough memory for this.");
   } catch (const std::exception& error) {
-    sweepface::cli::printError(error.what());
+    sweepface::cli::printError(std::ferror(stdout)
+                                   ? "Cannot write the report: the output is full or closed."
+                                   : error.what());
   }
   return 1;
 }

@@ -107,7 +107,7 @@ Result<int> runMeasure(const MeasureArguments& a) {
   }();
   if (!source) return std::unexpected(source.error());
   const Result<Measurement> measurement = measure(*rig, source->rig, a.options);
-  if (!measurement) return fail(a.face + ": " + measurement.error().message);
+  if (!measurement) return fail(a.face + ": " + measurement.error().message + ".");
   if (a.json)
     printJson(toJson(a, *rig, *measurement));
   else if (!a.quiet)

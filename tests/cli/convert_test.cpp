@@ -133,6 +133,13 @@ TEST_F(Convert, LeavesTheOldFileWhereItFails) {
   EXPECT_EQ(contents(folder / "face.sweep"), "old");
 }
 
+TEST_F(Convert, SaysOfWhichMeshNothingCanBeMade) {
+  folder.file("line.obj", "v 0 0 0\nv 1 0 0\nf 1 2 1\n");
+  EXPECT_TRUE(fails("convert line.obj -o face.sweep",
+                    "line.obj: the mesh has no face with an area; nothing can be converted.\n"));
+  EXPECT_TRUE(fails("convert line.obj -o face.sweep --max-bytes 1000", "line.obj: the mesh has"));
+}
+
 TEST_F(Convert, ChecksItsOutputFirst) {
   makeRig();
   // The source is not there either, so what is reported was found before reading.
