@@ -94,7 +94,7 @@ Result<void> ReportMaker::prepare() {
   moved_ = std::move(*moved);
   show("measuring");
   Result<Measurement> measured = measure(rig_, source_, {.mixtures = 5, .seed = 1});
-  if (!measured) return fail(options_.name + ": " + measured.error().message);
+  if (!measured) return fail(options_.name + ": " + measured.error().message + ".");
   measured_ = std::move(*measured);
   done_ += 2 * static_cast<double>(source_.targets.size());
   sumUpJoins();
