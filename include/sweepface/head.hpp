@@ -67,6 +67,8 @@ std::vector<Eye> findEyes(const Rig& rig);
 /// either sign, since some programs stop weights at 0.
 class EyeTurns {
  public:
+  static constexpr std::size_t kTargets = 8;  ///< of an eye
+
   EyeTurns() = default;
 
   /// Adds the targets to a rig, named eyeLeft.down, .up, .left, .right, .xx, .yy, .xy

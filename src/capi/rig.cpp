@@ -21,6 +21,8 @@ sweepface_status sweepface_rig_load_neutral(const void* bytes, size_t size, cons
   auto decoded = decodeNeutral({static_cast<const char*>(bytes), size}, name ? name : "The face");
   if (!decoded) return refuse(SWEEPFACE_BAD_DATA, std::move(decoded.error().message));
   const std::size_t targets = decoded->rig.targets.size();
+  // Names stay where they are when a target each for arcs and those that turn two eyes are added.
+  decoded->rig.targets.reserve(2 * targets + 2 * EyeTurns::kTargets);
   *rig =
       new sweepface_rig{std::make_shared<Rig>(std::move(decoded->rig)), std::move(decoded->targets),
                         targets, std::make_shared<const Division>()};

@@ -11,7 +11,7 @@ constexpr double kUsualLook = 0.5;  // radians at weight 1, where a target turns
 Vec3 acrossX(const Vec3& v) { return cross({1, 0, 0}, v); }
 Vec3 acrossY(const Vec3& v) { return cross({0, 1, 0}, v); }
 
-constexpr std::size_t kTerms = 5, kTargets = 8;
+constexpr std::size_t kTerms = 5;
 
 /// A target: a term of the rotation, with a sign.
 struct TurnTarget {
@@ -19,14 +19,14 @@ struct TurnTarget {
   std::size_t term;
   double sign;
 };
-constexpr std::array<TurnTarget, kTargets> kTurnTargets{{{".down", 0, 1},
-                                                         {".up", 0, -1},
-                                                         {".left", 1, 1},
-                                                         {".right", 1, -1},
-                                                         {".xx", 2, 1},
-                                                         {".yy", 3, 1},
-                                                         {".xy", 4, 1},
-                                                         {".yx", 4, -1}}};
+constexpr std::array<TurnTarget, EyeTurns::kTargets> kTurnTargets{{{".down", 0, 1},
+                                                                   {".up", 0, -1},
+                                                                   {".left", 1, 1},
+                                                                   {".right", 1, -1},
+                                                                   {".xx", 2, 1},
+                                                                   {".yy", 3, 1},
+                                                                   {".xy", 4, 1},
+                                                                   {".yx", 4, -1}}};
 
 /// Factors of the terms for a rotation vector (x, y, 0).
 std::array<double, kTerms> factorsOf(double x, double y) {

@@ -93,6 +93,19 @@ TEST_F(Faces, AreTheLibrarysOwnInTheSourcesOrder) {
   expectNear(sourceNormals(rig, grid, vectors), evaluate(true), 0.08);
 }
 
+TEST(FacesThatFollow, LeaveTheNamesOfTargetsWhereTheyAre) {
+  Rig rig = dressed(makeRig(tee()));
+  for (Index k = 0; k < std::ssize(rig.targets); ++k)
+    rig.turns.push_back({k, {3, 4, 5}, {0, 0, 1}});
+  const std::string bytes = encode(rig);
+  sweepface_rig* handle = nullptr;
+  ASSERT_EQ(sweepface_rig_load(bytes.data(), bytes.size(), "tee", &handle), SWEEPFACE_OK);
+  const char* const name = sweepface_rig_target_name(handle, 0);
+  ASSERT_EQ(sweepface_rig_follow(handle, SWEEPFACE_ARCS), SWEEPFACE_OK);
+  EXPECT_EQ(sweepface_rig_target_name(handle, 0), name);
+  sweepface_rig_free(handle);
+}
+
 TEST(FacesThatFollow, GoOnArcsAndCombine) {
   Rig rig = withTurns(dressed(makeRig(tee())));
   rig.targets[1].name = "rest_open";  // goes by the product of both

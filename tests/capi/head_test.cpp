@@ -108,6 +108,13 @@ TEST_F(Eyes, TurnRigidlyByAnglesAndByWeights) {
   EXPECT_EQ(again, down1);
 }
 
+TEST_F(Eyes, LeaveTheNamesOfTargetsWhereTheyAre) {
+  const char* const name = sweepface_rig_target_name(rig, 0);
+  uint32_t eyes = 0;
+  ASSERT_EQ(sweepface_rig_turn_eyes(rig, &eyes), SWEEPFACE_OK);
+  EXPECT_EQ(sweepface_rig_target_name(rig, 0), name);
+}
+
 TEST_F(Eyes, AreSaidToTurnBeforeMeshesAndAfterWhatFollows) {
   uint32_t eyes = 0;
   sweepface_mesh* mesh = nullptr;
