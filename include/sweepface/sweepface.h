@@ -95,7 +95,8 @@ SWEEPFACE_API double sweepface_rig_tolerance(const sweepface_rig* rig);
  * of the source cut into N. */
 SWEEPFACE_API sweepface_status sweepface_mesh_create(const sweepface_rig* rig, uint32_t lod,
                                                      sweepface_mesh** mesh);
-/* What a level of detail may cost or must reach, in the neutral. */
+/* What a level of detail may cost or must reach, in the neutral. Edges of the source are cut into 64
+ * at most, even where that is too few for a length or an error. */
 typedef int32_t sweepface_budget;
 enum {
   SWEEPFACE_EDGE_LENGTH = 0, /* no curve has a segment longer than this, in model units */

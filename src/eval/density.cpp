@@ -10,84 +10,39 @@ namespace sweepface {
 namespace {
 
 constexpr Index kFinest = 64;  // segments an edge of the source
-constexpr int kSamples = 8;    // an edge, to measure by
+constexpr int kSamples = 8;    // a segment, to measure by
 constexpr double kMostVertices = 1 << 25;
 
-/// A line at even steps of its parameter.
-using Samples = std::vector<Vec3>;
-
-double lengthOf(const Samples& line) {
-  double length = 0;
-  for (std::size_t k = 1; k < line.size(); ++k) length += norm(line[k] - line[k - 1]);
-  return length;
-}
-
-/// The point at a share of the line, between its samples.
-Vec3 at(const Samples& line, double share) {
-  const double x = share * static_cast<double>(line.size() - 1);
-  const auto k = std::min(static_cast<std::size_t>(x), line.size() - 2);
-  return line[k] + (x - static_cast<double>(k)) * (line[k + 1] - line[k]);
-}
-
-/// How far the line is from so many chords.
-double sagOf(const Samples& line, Index segments) {
-  double most = 0;
-  for (std::size_t k = 0; k < line.size(); ++k) {
-    const double share = static_cast<double>(k) / static_cast<double>(line.size() - 1);
-    const auto segment = std::min<Index>(static_cast<Index>(share * segments), segments - 1);
-    most = std::max(most, distanceToSegment(line[k], at(line, double(segment) / segments),
-                                            at(line, double(segment + 1) / segments)));
-  }
-  return most;
-}
-
-/// The lines that a surface is judged by.
+/// The lines that a surface is judged by: its arcs, then two through the middle of every patch.
 class Lines {
  public:
-  Lines(const Surface& surface, std::span<const Vec3> vectors) : surface_(surface) {
-    const Wireframe& w = surface.wireframe();
-    for (Index a = 0; a < static_cast<Index>(w.arcs.size()); ++a) {
-      const Index count = kSamples * w.arcs[a].edges;
-      arcs_.emplace_back();
-      for (Index k = 0; k <= count && !w.arcs[a].collapsed; ++k)
-        arcs_.back().push_back(surface.pointOnArc(vectors, a, double(k) / kSamples));
-    }
-    for (Index p = 0; p < surface.patchCount(); ++p)
-      for (int d = 0; d < 2; ++d) {
-        const double m = surface.edgesU(p), n = surface.edgesV(p);
-        const Index count = kSamples * (d == 0 ? surface.edgesU(p) : surface.edgesV(p));
-        middles_.emplace_back();
-        for (Index k = 0; k <= count; ++k) {
-          const double x = double(k) / kSamples;
-          middles_.back().push_back(
-              surface.evaluate(vectors, d == 0 ? Site{p, x, n / 2} : Site{p, m / 2, x}));
-        }
-      }
+  Lines(const Surface& surface, std::span<const Vec3> vectors, Budget::Kind kind)
+      : surface_(surface),
+        vectors_(vectors),
+        kind_(kind),
+        arcs_(static_cast<Index>(surface.wireframe().arcs.size())),
+        coarsest_{std::vector<Index>(arcs_, 1),
+                  std::vector(surface.patchCount(), std::array{1, 1})},
+        measured_(arcs_ + 2 * surface.patchCount()) {
+    refineToShape(surface, coarsest_);
   }
 
-  Density cut(Budget::Kind kind, double value) const {
-    Density density;
-    const auto segments = [&](const Samples& line) -> Index {
-      if (line.empty()) return 1;
-      const auto most = static_cast<Index>((line.size() - 1) / kSamples) * kFinest;
-      if (kind == Budget::Kind::edgeLength)
-        return static_cast<Index>(
-            std::clamp(std::ceil(lengthOf(line) / value), 1.0, static_cast<double>(most)));
-      Index count = 1;
-      while (count < most && sagOf(line, count) > value) ++count;
-      return count;
-    };
-    for (const Samples& line : arcs_) density.arcs.push_back(segments(line));
+  const Density& coarsest() const { return coarsest_; }
+
+  Density cut(double value) {
+    Density density = coarsest_;
+    for (Index a = 0; a < arcs_; ++a) refine(density.arcs[a], a, value);
     for (Index p = 0; p < surface_.patchCount(); ++p)
-      density.patches.push_back({segments(middles_[2 * p]), segments(middles_[2 * p + 1])});
+      for (int d = 0; d < 2; ++d) refine(density.patches[p][d], arcs_ + 2 * p + d, value);
     refineToShape(surface_, density);
     return density;
   }
 
+  /// About as long as the longest.
   double longest() const {
     double longest = 0;
-    for (const Samples& line : arcs_) longest = std::max(longest, lengthOf(line));
-    for (const Samples& line : middles_) longest = std::max(longest, lengthOf(line));
+    for (Index l = 0; l < std::ssize(measured_); ++l)
+      longest = std::max(longest, kSamples * measure(Budget::Kind::edgeLength, l, kSamples));
     return longest;
   }
 
@@ -105,39 +60,95 @@ class Lines {
   }
 
  private:
+  /// None where an arc is one point.
+  Index edgesOf(Index line) const {
+    if (line >= arcs_) {
+      const Index patch = (line - arcs_) / 2;
+      return (line - arcs_) % 2 == 0 ? surface_.edgesU(patch) : surface_.edgesV(patch);
+    }
+    const Arc& arc = surface_.wireframe().arcs[line];
+    return arc.collapsed ? 0 : arc.edges;
+  }
+
+  Vec3 at(Index line, double x) const {
+    if (line < arcs_) return surface_.pointOnArc(vectors_, line, x);
+    const Index patch = (line - arcs_) / 2;
+    const double m = surface_.edgesU(patch), n = surface_.edgesV(patch);
+    return surface_.evaluate(
+        vectors_, (line - arcs_) % 2 == 0 ? Site{patch, x, n / 2} : Site{patch, m / 2, x});
+  }
+
+  /// The longest of so many segments, or how far the line is from any.
+  double measure(Budget::Kind kind, Index line, Index segments) const {
+    const double edges = edgesOf(line);
+    const auto point = [&](Index segment, int sample) {
+      return at(line, (segment + double(sample) / kSamples) * edges / segments);
+    };
+    double most = 0;
+    Vec3 from = point(0, 0);
+    for (Index s = 0; s < segments; ++s) {
+      const Vec3 to = point(s, kSamples);
+      if (kind == Budget::Kind::edgeLength) most = std::max(most, norm(to - from));
+      for (int k = 1; k < kSamples && kind != Budget::Kind::edgeLength; ++k)
+        most = std::max(most, distanceToSegment(point(s, k), from, to));
+      from = to;
+    }
+    return most;
+  }
+
+  bool fits(Index line, Index segments, double value) {
+    std::vector<double>& known = measured_[line];
+    const auto k = static_cast<std::size_t>(segments);
+    if (known.size() <= k) known.resize(k + 1, -1);
+    if (known[k] < 0) known[k] = measure(kind_, line, segments);
+    return known[k] <= value;
+  }
+
+  /// By doubling, and then by halving what the last doubling added: more segments are hardly ever
+  /// worse.
+  void refine(Index& segments, Index line, double value) {
+    const Index most = kFinest * edgesOf(line);
+    Index few = segments - 1;
+    while (segments < most && !fits(line, segments, value))
+      few = std::exchange(segments, std::min(2 * segments, most));
+    if (!fits(line, segments, value)) return;
+    while (segments - few > 1) {
+      const Index middle = (few + segments) / 2;
+      (fits(line, middle, value) ? segments : few) = middle;
+    }
+  }
+
   const Surface& surface_;
-  std::vector<Samples> arcs_, middles_;
+  std::span<const Vec3> vectors_;
+  Budget::Kind kind_;
+  Index arcs_;
+  Density coarsest_;
+  std::vector<std::vector<double>> measured_;  // [lines] by the number of segments; -1: not yet
 };
 
-/// The smallest error, to a hundredth of it, that so many vertices allow.
-Result<Density> atMost(const Lines& lines, double vertices) {
-  double high = lines.longest(), low = high * 1e-9;  // no sag is longer than its line
-  Density best = lines.cut(Budget::Kind::error, high);
-  const auto fewest = lines.count(best);
-  if (static_cast<double>(fewest) > vertices)
-    return fail("The face has ", fewest, " vertices at least; allow so many.");
-  while (high > 1.01 * low) {
-    const double middle = std::sqrt(low * high);
-    Density density = lines.cut(Budget::Kind::error, middle);
+/// The smallest error, to a hundredth of it, that so many vertices allow; the coarsest density if
+/// they are too few even for that. From above, as finer densities take longer to measure.
+Density finest(Lines& lines, double vertices) {
+  double error = lines.longest();  // no sag is longer than its line
+  const double least = 1e-9 * error;
+  Density best = lines.coarsest();
+  for (double step = 4; step > 1.01 && error > least;) {
+    Density density = lines.cut(error / step);
     if (static_cast<double>(lines.count(density)) <= vertices)
-      best = std::move(density), high = middle;
+      best = std::move(density), error /= step;
     else
-      low = middle;
+      step = std::sqrt(step);
   }
   return best;
 }
 
-}  // namespace
-
-namespace {
-
 /// A tessellation may need some vertices more to keep edges apart.
-Result<Density> within(const Surface& surface, const Lines& lines, double vertices) {
-  double allowed = vertices;
-  for (;;) {
-    Result<Density> found = atMost(lines, allowed);
-    if (!found) return found;
-    const double excess = Tessellation(surface, *found).vertexCount() - vertices;
+Result<Density> within(const Surface& surface, Lines& lines, double vertices) {
+  const Index fewest = Tessellation(surface, lines.coarsest()).vertexCount();
+  if (fewest > vertices) return fail("The face has ", fewest, " vertices at least; allow so many.");
+  for (double allowed = vertices;;) {
+    Density found = finest(lines, allowed);
+    const double excess = Tessellation(surface, found).vertexCount() - vertices;
     if (!(excess > 0)) return found;
     allowed -= excess;
   }
@@ -154,10 +165,10 @@ Result<Density> densityFor(const Surface& surface, std::span<const Vec3> vectors
                            const Budget& budget) {
   if (!(budget.value > 0) || !std::isfinite(budget.value))
     return fail("The budget of a level of detail must be a number greater than 0.");
-  const Lines lines(surface, vectors);
+  Lines lines(surface, vectors, budget.kind);
   if (budget.kind == Budget::Kind::vertices)
     return within(surface, lines, std::min(budget.value, kMostVertices));
-  Density density = lines.cut(budget.kind, budget.value);
+  Density density = lines.cut(budget.value);
   const std::int64_t count = lines.count(density);
   if (static_cast<double>(count) > kMostVertices)
     return fail("So fine a mesh has about ", count, " vertices; ask for a coarser one.");
