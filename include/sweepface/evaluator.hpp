@@ -21,9 +21,9 @@ struct EvaluatorOptions {
   bool normals = true;    ///< whether normals and tangents can be asked for
   bool positions = true;  ///< whether positions can
   bool targets = true;    ///< whether weights move anything; without, only the neutral can be had
-  /// How far a target of weight 1 may take a vertex from the surface, in model units. 0: three
-  /// tenths of the rig's own tolerance, but no less than a hundred-thousandth of the neutral's
-  /// diagonal.
+  /// How far a target of weight 1 in one region may take a vertex from the surface, in model units.
+  /// 0: three tenths of the rig's own tolerance, but no less than a hundred-thousandth of the
+  /// neutral's diagonal.
   double tolerance = 0;
   /// The same for the surface's first derivatives, as a share of their neutral length.
   double derivativeTolerance = 0.03;
@@ -45,6 +45,8 @@ class Evaluator {
   static Result<Evaluator> make(const Rig& rig, const Tessellation& grid,
                                 const EvaluatorOptions& options);
 
+  /// Whether it came from make(): one that did not may only be assigned to.
+  bool isMade() const { return tables_ != nullptr; }
   Index vertexCount() const;
   Index weightCount() const;  ///< R · K
   bool hasPositions() const;
@@ -77,7 +79,7 @@ struct VectorsOut {
 /// evaluator if each has its own scratch memory and its own outputs.
 struct Evaluation {
   const Evaluator* evaluator = nullptr;
-  /// [R × K], finite; missing ones are 0. Where the largest is beyond ±1e9 it moves as 1e9 does,
+  /// [R × K], finite; missing ones are 0. Where the largest is beyond ±1e6 it moves as 1e6 does,
   /// and all others in proportion.
   std::span<const double> weights;
   std::span<std::byte> scratch;  ///< [scratchBytes], uninitialised

@@ -15,7 +15,7 @@ std::size_t pairsRoom(const EvaluatorTables& tables) {
   return roundUp64(static_cast<std::size_t>(tables.weights) / 2 + 1);  // odd ones of either width
 }
 
-constexpr double kMostFactor = 1e9;  // beyond, positions end at what single precision bears
+constexpr double kMostFactor = 1e6;  // beyond, normals are more than single precision bears
 
 /// The largest size of a weight, but at least 1: four at a time, as a maximum waits for the one
 /// before.
@@ -98,7 +98,7 @@ std::size_t Evaluator::scratchBytes() const {
 }
 
 Result<void> Evaluation::validate() const {
-  if (!evaluator) return fail("An evaluation needs an evaluator.");
+  if (!evaluator || !evaluator->isMade()) return fail("An evaluation needs an evaluator.");
   if (weights.size() > static_cast<std::size_t>(evaluator->weightCount()))
     return fail("There are ", weights.size(), " weights for ", evaluator->weightCount(),
                 " targets.");

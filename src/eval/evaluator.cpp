@@ -219,8 +219,8 @@ Result<void> check(const Rig& rig, const EvaluatorOptions& options) {
 }  // namespace
 
 Result<Evaluator> Evaluator::make(const Rig& rig, const EvaluatorOptions& options) {
-  const Index level = std::clamp<Index>(options.level, 1, kMostLevel);
-  return make(rig, Tessellation(rig.surface, level), options);
+  if (auto ok = check(rig, options); !ok) return std::unexpected(ok.error());
+  return make(rig, Tessellation(rig.surface, std::max<Index>(1, options.level)), options);
 }
 
 Result<Evaluator> Evaluator::make(const Rig& rig, const Tessellation& grid,

@@ -357,6 +357,21 @@ TEST(Evaluator, staysFiniteAtHugeNumbers) {
       EXPECT_TRUE(std::isfinite(x));
 }
 
+TEST(Evaluator, hasUnitNormalsOrNoneAtHugeWeights) {
+  for (Rig rig : everyRig()) {
+    for (Target& target : rig.targets)
+      for (Vec3& v : target.difference) v *= 30;
+    const auto evaluator = Evaluator::make(rig).value();
+    for (const double size : {1.0, 1e6, 1e9, 1e300}) {
+      const auto normals = play(evaluator, anyWeights(evaluator, 1, size)).normals;
+      for (std::size_t v = 0; v < normals.size() / 3; ++v) {
+        const double length = norm(vectorOf(normals, v));
+        EXPECT_TRUE(length == 0 || std::abs(length - 1) < 1e-5) << length << " at " << size;
+      }
+    }
+  }
+}
+
 TEST(Evaluator, allocatesNothingWhenRun) {
   if (!watchesAllocations) GTEST_SKIP();
   const auto evaluator = Evaluator::make(largeRig()).value();
@@ -390,6 +405,8 @@ TEST(Evaluator, refusesWhatDoesNotFit) {
     return !result && result.error().message.find(why) != std::string::npos;
   };
   EXPECT_TRUE(refuses([](auto& job) { job.evaluator = nullptr; }, "evaluator"));
+  const Evaluator none;
+  EXPECT_TRUE(refuses([&](auto& job) { job.evaluator = &none; }, "evaluator"));
   EXPECT_TRUE(refuses([&](auto& job) { job.weights = tooMany; }, "4 weights for 3 targets"));
   EXPECT_TRUE(refuses([&](auto& job) { job.scratch = job.scratch.subspan(1); }, "scratch"));
   EXPECT_TRUE(refuses([](auto& job) { job.positions.count = -1; }, "negative"));
@@ -423,6 +440,9 @@ TEST(Evaluator, isNotMadeOfWhatDoesNotFit) {
   };
   EXPECT_TRUE(refuses({.level = -1}, "level"));
   EXPECT_TRUE(refuses({.level = kMostLevel + 1}, "level"));
+  Rig vast;
+  vast.surface = Surface::make(onePatch(30000, 30000)).value();
+  EXPECT_FALSE(Evaluator::make(vast, {.level = kMostLevel + 1}));  // before it is cut
   EXPECT_TRUE(refuses({.tolerance = -1}, "tolerances"));
   EXPECT_TRUE(refuses({.tolerance = std::nan("")}, "tolerances"));
   EXPECT_TRUE(refuses({.derivativeTolerance = 0}, "tolerances"));
