@@ -144,7 +144,7 @@ function readLiveLink(text, name, framesPerSecond) {
   const lines = text.split('\n').map((line, k) => ({number: k + 1, cells: cellsOf(line)}));
   const filled = lines.filter(({cells}) => cells.length > 1 || cells[0] !== '');
   if (filled.length === 0) throw new Error(`${name} is empty; record again.`);
-  const fail = (line, what) => new Error(`${name} line ${line.number}: ${what}.`);
+  const fail = (line, what) => new Error(`${name}, line ${line.number}: ${what}.`);
   const [headings, ...rows] = filled, shapes = new Map();  // and their columns
   let timeColumn = -1;
   headings.cells.forEach((heading, c) => {

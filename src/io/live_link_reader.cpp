@@ -43,7 +43,7 @@ class LiveLinkReader {
     return fail(fmt::format("{} {}.", name_, what));
   }
   std::unexpected<Error> failLine(std::string_view what) const {
-    return fail(fmt::format("{} line {}: {}.", name_, lines_.number(), what));
+    return fail(fmt::format("{}, line {}: {}.", name_, lines_.number(), what));
   }
 
   Result<void> readHeadings() {
