@@ -163,13 +163,14 @@ SWEEPFACE_API const double* sweepface_face_weights(const sweepface_face* face);
 
 /* How far any vertex may be from the exact surface under the weights as they are, in model units:
  * three tenths of the rig's tolerance (or 1e-5 of the neutral's diagonal, if that is more) for every
- * target of weight 1, and rounding. */
+ * target of weight 1, in a divided face for every such target of every region, and rounding. */
 SWEEPFACE_API double sweepface_face_error(const sweepface_face* face);
 
 /* Where to write an array of three floats a vertex. */
 typedef struct sweepface_vectors {
   float* data;   /* NULL: not wanted */
-  size_t stride; /* bytes from one vertex to the next; 0: 12, one behind the other */
+  size_t stride; /* bytes from one vertex to the next, no fewer than 12 even where data is NULL;
+                    0: 12, one behind the other */
 } sweepface_vectors;
 
 /* Positions in model units and unit normals of the first `count` vertices under the face's weights.
