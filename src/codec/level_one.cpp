@@ -86,18 +86,18 @@ LevelOne::LevelOne(const Surface& surface, const Mirror& mirror) {
 Neighbours LevelOne::quadNeighbours() const {
   const auto corners = static_cast<Index>(4 * quads_.size());
   const auto at = [&](Index corner, int k) { return quads_[corner / 4][(corner + k) % 4]; };
-  std::vector<EdgeMap<Index>::Edge> edges;
+  std::vector<EdgeMap::Edge> edges;
   edges.reserve(4 * quads_.size());
   for (Index corner = 0; corner < corners; ++corner)
-    edges.push_back({at(corner, 0), at(corner, 1), corner / 4});
-  const EdgeMap<Index> sides(edges, vertices_);
+    edges.push_back({at(corner, 0), at(corner, 1)});
+  const EdgeMap sides(edges, vertices_);
   Neighbours neighbours;
   neighbours.first.reserve(quads_.size() + 1);
   neighbours.all.reserve(4 * quads_.size());
   for (Index corner = 0; corner < corners; ++corner) {
     // The one that has the same side the other way round.
-    const Index* const other = sides.find(at(corner, 1), at(corner, 0));
-    neighbours.all.push_back(other ? *other : -1);
+    const Index other = sides.find(at(corner, 1), at(corner, 0));
+    neighbours.all.push_back(other < 0 ? -1 : other / 4);
     if (corner % 4 == 3) neighbours.first.push_back(corner + 1);
   }
   return neighbours;

@@ -30,11 +30,6 @@ constexpr std::int32_t kMostTexture = 1 << 26;
 // What a guess that is further off counts.
 constexpr std::int64_t kMostOff = 1 << 20;
 
-struct Side {
-  Index face = -1, corner = 0;  // from this corner to the next
-  auto operator<=>(const Side&) const = default;
-};
-
 template <typename Coder>
 class TextureCoder {
  public:
@@ -108,11 +103,15 @@ class TextureCoder {
 
   // From face to face across the edges that they share in the texture.
   void codeByFaces() {
-    std::vector<EdgeMap<Side>::Edge> sides;
-    sides.reserve(p_.corners.size());
+    std::vector<EdgeMap::Edge> edges;
+    edges.reserve(p_.corners.size());
+    sides_.reserve(p_.corners.size());
     for (Index f = 0; f < p_.faceCount(); ++f)
-      for (Index k = 0; k < p_.faceSize(f); ++k) sides.push_back({at(f, k), at(f, k + 1), {f, k}});
-    sides_.emplace(sides, static_cast<Index>(known_.size()));
+      for (Index k = 0; k < p_.faceSize(f); ++k) {
+        edges.push_back({at(f, k), at(f, k + 1)});
+        sides_.push_back({f, k});
+      }
+    map_.emplace(edges, static_cast<Index>(known_.size()));
     std::vector<char> reached(p_.faceCount(), 0);
     std::vector<Entry> queue;
     for (Index seed = 0; seed < p_.faceCount() && s_.ok(); ++seed) {
@@ -132,6 +131,9 @@ class TextureCoder {
     }
   }
 
+  struct Side {
+    Index face = -1, corner = 0;  // from this corner to the next
+  };
   struct Entry {
     Index face, corner;  // entered across the side from this corner
     Side from;           // the same side as the face before has it
@@ -146,7 +148,8 @@ class TextureCoder {
 
   // The same side as the face beyond it has it.
   const Side* across(const Side& side) const {
-    return sides_->find(at(side.face, side.corner + 1), at(side.face, side.corner));
+    const Index other = map_->find(at(side.face, side.corner + 1), at(side.face, side.corner));
+    return other < 0 ? nullptr : &sides_[other];
   }
   // The side opposite to a side in the quad beyond it: first what is beside the side's own first
   // corner. Nothing where there is no quad, or not all of it is known.
@@ -295,7 +298,8 @@ class TextureCoder {
   std::vector<Whole> whole_;
   std::vector<char> known_;
   std::vector<std::uint32_t> off_;  // how far off the guess of each was
-  std::optional<EdgeMap<Side>> sides_;
+  std::vector<Side> sides_;         // [corners]
+  std::optional<EdgeMap> map_;
   std::vector<Index> ofVertex_;         // the texture coordinates that each had last, or -2
   std::vector<std::uint8_t> asBefore_;  // [corners] 1 + whether it has what its vertex had, else 0
   Index next_ = 0;
