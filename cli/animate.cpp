@@ -256,15 +256,6 @@ Result<void> checkKeys(const AnimateArguments& a, const Performance& performance
   return {};
 }
 
-/// A timeline may divide the face by itself.
-Result<void> checkWhole(const AnimateArguments& a, const Rig& rig) {
-  const auto regions = regionsOf(a.what, a.regions, rig);
-  if (!regions) return std::unexpected(regions.error());
-  if (regions->size() == 1) return {};
-  return fail(fmt::format("{} has regions, which a .csv cannot tell apart; leave them out there.",
-                          a.what.clip));
-}
-
 Result<int> runAnimate(const AnimateArguments& a) {
   const bool glb = isOfKind(a.output, ".glb"), csv = isOfKind(a.output, ".csv");
   std::error_code ignored;
@@ -276,12 +267,13 @@ Result<int> runAnimate(const AnimateArguments& a) {
   if (auto ok = checkArguments(a, glb); !ok) return std::unexpected(ok.error());
   Result<Rig> rig = readFace(a.face);
   if (!rig) return std::unexpected(rig.error());
-  if (csv)
-    if (auto ok = checkWhole(a, *rig); !ok) return std::unexpected(ok.error());
   const Result<Performance> performance = perform(a.what, a.regions, a.following, *rig);
   if (!performance) return std::unexpected(performance.error());
   if (glb)
     if (auto ok = checkKeys(a, *performance); !ok) return std::unexpected(ok.error());
+  if (csv && performance->isDivided)  // by a timeline's own regions
+    return fail(fmt::format("{} has regions, which a .csv cannot tell apart; leave them out there.",
+                            a.what.clip));
   if (glb || csv)
     if (auto ok = checkOutput(a.output, {a.face, a.what.clip, a.regions.file}, {".glb", ".csv"});
         !ok)

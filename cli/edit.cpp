@@ -114,38 +114,41 @@ class Editor {
     return remember(setShape(rig_, *ribbon, shape));
   }
 
+  struct Moves {
+    std::map<Index, Vec3> own, taken;  // nodes that are named, and those of curves that are
+    std::set<Index> curves;
+  };
+
   // A node that two curves share moves once; one that is named itself goes where that says.
   Result<void> move(const EditArguments& a) {
-    std::map<Index, Vec3> own, taken;
-    std::set<Index> curves;
+    Moves all;
     for (const auto& [name, text] : a.moves) {
       const Result<Vec3> by = parseOffset(text);
       if (!by) return std::unexpected(by.error());
-      if (auto ok = gather(name, *by, own, taken, curves); !ok) return ok;
+      if (auto ok = gather(name, *by, all); !ok) return ok;
     }
-    taken.merge(own);  // keeps what is in `taken`
-    for (const auto& [node, by] : own) taken[node] = by;
+    all.own.merge(all.taken);  // keeps what is in `own`
     std::vector<NodeMove> moves;
-    for (const auto& [node, by] : taken) moves.push_back({node, by});
+    for (const auto& [node, by] : all.own) moves.push_back({node, by});
     return remember(moveNodes(rig_, moves, target_));
   }
 
-  Result<void> gather(const std::string& name, const Vec3& by, std::map<Index, Vec3>& own,
-                      std::map<Index, Vec3>& taken, std::set<Index>& curves) const {
+  Result<void> gather(const std::string& name, const Vec3& by, Moves& all) const {
     const bool isNode =
         !isNamed(Thing::curve, name) && (isNamed(Thing::node, name) || name.starts_with('n'));
     const Result<Index> thing = rig_.find(isNode ? Thing::node : Thing::curve, name);
     if (!thing) return std::unexpected(thing.error());
     if (isNode) {
-      if (own.try_emplace(*thing, by).second) return {};
+      if (all.own.try_emplace(*thing, by).second) return {};
       return fail(fmt::format("Node '{}' is moved twice; give the sum of both.", name));
     }
-    if (!curves.insert(*thing).second)
+    if (!all.curves.insert(*thing).second)
       return fail(fmt::format("Curve '{}' is moved twice; give the sum of both.", name));
     const auto ends = endsOf(rig_, *thing);
     if (!ends) return std::unexpected(ends.error());
     for (Index node : *ends)
-      if (const auto [place, isNew] = taken.try_emplace(node, by); !isNew && place->second != by)
+      if (const auto [place, isNew] = all.taken.try_emplace(node, by);
+          !isNew && place->second != by)
         return fail(
             fmt::format("Two curves take node '{}' to different places; move the node "
                         "itself as well.",

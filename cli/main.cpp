@@ -12,6 +12,7 @@ namespace sweepface::cli {
 namespace {
 
 constexpr int kFailed = 1, kMisused = 2;
+constexpr const char* kReportIsLost = "Cannot write the report: the output is full or closed.";
 
 /// What was misused and where to read on; `app` is the whole tool.
 std::string usageMessage(const CLI::App* app, const CLI::Error& error) {
@@ -63,8 +64,7 @@ int run(int argc, char** argv) {
     if (!command.app->parsed()) continue;
     const Result<int> code = command.run();
     if (code && std::fflush(stdout) == 0 && !std::ferror(stdout)) return *code;
-    printError(code ? "Cannot write the report: the output is full or closed."
-                    : code.error().message);
+    printError(code ? kReportIsLost : code.error().message);
     return kFailed;
   }
   return kMisused;
@@ -79,9 +79,7 @@ int main(int argc, char** argv) {
   } catch (const std::bad_alloc&) {
     sweepface::cli::printError("There is not enough memory for this.");
   } catch (const std::exception& error) {
-    sweepface::cli::printError(std::ferror(stdout)
-                                   ? "Cannot write the report: the output is full or closed."
-                                   : error.what());
+    sweepface::cli::printError(std::ferror(stdout) ? sweepface::cli::kReportIsLost : error.what());
   }
   return 1;
 }

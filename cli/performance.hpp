@@ -36,6 +36,7 @@ struct Performance {
   /// Null unless a clip tells how head or eyes stand.
   std::function<HeadPose(double time)> pose;
   bool hasHead = false, hasEyes = false;
+  bool isDivided = false;          ///< into regions, some of whose targets are parts
   std::vector<std::string> notes;  ///< what the user should know, in sentences
 };
 /// By the matter of a region, and without what a timeline means for others.

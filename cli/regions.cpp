@@ -80,6 +80,7 @@ Performance together(Parts parts, const RegionalTargets& targets) {
   whole.seconds = parts.seconds();
   whole.frameTimes = parts.longest().frameTimes;
   whole.motion.reset();  // keys would not hold it exactly
+  whole.isDivided = true;
   const auto shared = std::make_shared<const Parts>(std::move(parts));
   whole.at = [shared, targets](double time, std::span<double> weights) {
     std::vector<double> ofRegions(shared->count * shared->performances.size());

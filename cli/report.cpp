@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "sweepface/codec.hpp"
+#include "sweepface/fit.hpp"
 #include "sweepface/io.hpp"
 
 #include "command.hpp"
@@ -72,8 +73,6 @@ Result<ReportOptions> optionsOf(const ReportArguments& a, const Rig& rig, std::s
   if (!a.regions.empty()) options.regions = a.regions;
   if (!a.gltfpack.empty()) options.gltfpack = a.gltfpack;
   options.tolerances = a.tolerances;
-  if (a.tolerances.empty() && !a.noTolerances && rig.tolerance > 0)
-    for (const double times : {2, 4, 8}) options.tolerances.push_back(times * rig.tolerance);
   return options;
 }
 
@@ -89,6 +88,10 @@ Result<std::string> reportOf(const ReportArguments& a) {
   if (a.neutral.empty()) return makeMotionReport(*rig, *options);
   const Result<RigSource> source = readMeshes(a.neutral, a.targets, bar);
   if (!source) return std::unexpected(source.error());
+  const double size = diagonal(source->rig.neutral);
+  if (a.tolerances.empty() && !a.noTolerances && rig->tolerance > 0)
+    for (const double times : {2, 4, 8})
+      if (times * rig->tolerance <= size) options->tolerances.push_back(times * rig->tolerance);
   return makeReport(*rig, source->rig, *options);
 }
 

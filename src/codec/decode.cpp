@@ -32,6 +32,10 @@ bool Decoding::affordVectors(Reader& in, std::size_t eachPose, std::size_t bytes
   return afford(in, poses * eachPose, bytesEach);
 }
 
+void Decoding::affordTargets(Reader& in) {
+  if (afford(in, targets, sizeof(Target))) affordVectors(in, loose, sizeof(Vec3));
+}
+
 void Decoding::makeSurface(Reader& in) {
   quads = wireframe.quadCount();
   auto surface = Surface::make(std::move(wireframe), std::move(connectivity));

@@ -13,7 +13,7 @@ void readHead(Decoding& d, Reader& in) {
   d.stored = in.size();
   d.targets = in.size();
   d.loose = in.size();
-  if (d.afford(in, d.targets, sizeof(Target))) d.affordVectors(in, d.loose, sizeof(Vec3));
+  d.affordTargets(in);
 }
 
 void readWire(Decoding& d, Reader& in) { d.wireframe = readWireframe(in); }

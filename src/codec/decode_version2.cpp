@@ -26,7 +26,7 @@ void readBase(Decoding& d, Reader& in) {
   if (packing.neutralStep < 0 || packing.targetStep < 0) in.refuse("a step is negative");
   d.targets = in.size();
   d.loose = in.size();
-  if (d.afford(in, d.targets, sizeof(Target))) d.affordVectors(in, d.loose, sizeof(Vec3));
+  d.affordTargets(in);
 }
 
 // All that follows of a chunk, through a range decoder.

@@ -31,6 +31,8 @@ struct Decoding {
   /// The same for so many vectors of every pose, of which a file may have no more than its size
   /// lets one expect.
   bool affordVectors(Reader& in, std::size_t eachPose, std::size_t bytesEach);
+  /// Makes sure of room for as many targets and loose vertices as were announced.
+  void affordTargets(Reader& in);
   /// Of the wireframe and its connectivity; says how many vectors it stores.
   void makeSurface(Reader& in);
   /// A name that is UTF-8; complains through `in`. That none comes twice is looked at in the end.

@@ -1,14 +1,17 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "sweepface/vec.hpp"
 
+#include "surface/groups.hpp"
+
 namespace sweepface::codec {
 
-/// Finds directed edges: counted by where they begin and sorted by where they end. Files choose
-/// edges freely, and could make any table of hashes slow.
+/// Finds directed edges: counted by where they end and then by where they begin. Files choose edges
+/// freely, and could make any table of hashes slow.
 class EdgeMap {
  public:
   struct Edge {
@@ -22,14 +25,8 @@ class EdgeMap {
   Index find(Index from, Index to) const;
 
  private:
-  struct End {
-    Index to = -1, edge = -1;
-  };
-
-  std::size_t countFrom(Index from) const { return first_[from + 2] - first_[from + 1]; }
-
-  std::vector<Index> first_;  // of the edges from -1 on, and where the last ones end
-  std::vector<End> sorted_;
+  std::vector<Index> number_, to_;  // of the edges in the order of where they end
+  std::optional<Groups> leaving_;   // places in these, by where edges begin, from -1 on
 };
 
 }  // namespace sweepface::codec

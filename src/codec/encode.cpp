@@ -41,11 +41,8 @@ std::string targetNames(const std::vector<Target>& targets) {
   });
 }
 
-// Without targets that are still to come.
-std::vector<Vec3> vectorsOf(const Rig& rig, Index pose) {
-  std::vector<Vec3> vectors = pose == 0 ? rig.neutral : rig.targets[pose - 1].difference;
-  vectors.resize(rig.neutral.size());
-  return vectors;
+const std::vector<Vec3>& vectorsOf(const Rig& rig, Index pose) {
+  return pose == 0 ? rig.neutral : rig.targets[pose - 1].difference;
 }
 
 bool isSame(const Vec3& a, const Vec3& b) {
@@ -62,12 +59,11 @@ struct Poses {
   Poses(const Rig& rig, const Packing& packing, Lattice& lattice) : packing_(packing) {
     for (Index pose = 0; pose < static_cast<Index>(packing.poses.size()); ++pose) {
       const bool edited = pose == 0 && !packing.rest.empty();
-      const std::vector<Vec3> vectors = vectorsOf(rig, pose);
-      Coded coded = code(pose, edited ? packing.rest : vectors, lattice);
+      Coded coded = code(pose, edited ? packing.rest : vectorsOf(rig, pose), lattice);
       if (pose == 0 && packing.poses.size() > 1)
         lattice.learn(rig.surface, coded.restored, stepOf(packing, 0));
       if (pose == 0) bones_ = Bones(rig.surface, packing, coded.restored);
-      exact.push_back(differing(vectors, coded.restored));
+      exact.push_back(differing(vectorsOf(rig, pose), coded.restored));
       coefficients.push_back(std::move(coded.q));
     }
   }
@@ -131,7 +127,6 @@ std::string exactVectors(const Rig& rig, const Poses& poses) {
   for (Index pose = 0; pose < static_cast<Index>(poses.exact.size()); ++pose) {
     const std::vector<Index>& places = poses.exact[pose];
     if (places.empty()) continue;
-    const std::vector<Vec3> vectors = vectorsOf(rig, pose);
     out.number(static_cast<std::uint64_t>(pose - before - 1));
     before = pose;
     out.number(places.size());
@@ -140,7 +135,7 @@ std::string exactVectors(const Rig& rig, const Poses& poses) {
     for (const Index v : places) {
       out.signedNumber(v - last - 1);
       last = v;
-      values.push_back(vectors[v]);
+      values.push_back(vectorsOf(rig, pose)[v]);
     }
     writeVectors(out, values, Precision::exact);
   }
@@ -186,6 +181,12 @@ std::string turnList(const std::vector<Turn>& turns) {
 
 std::string encode(const Rig& rig) {
   using namespace codec;
+  const auto isToCome = [&](const Target& t) { return t.difference.size() != rig.neutral.size(); };
+  if (std::ranges::any_of(rig.targets, isToCome)) {
+    Rig still = rig;
+    for (Target& target : still.targets) target.difference.resize(rig.neutral.size());
+    return encode(still);
+  }
   Writer out;
   writeHeader(out);
   Packing packing = sound(rig);

@@ -11,13 +11,6 @@ namespace {
 // Cutting takes time with the third power of the corners; larger polygons become fans.
 constexpr std::size_t kMostCorners = 64;
 
-Vec3 meanNormal(std::span<const Vec3> polygon) {
-  Vec3 sum;
-  for (std::size_t k = 1; k + 1 < polygon.size(); ++k)
-    sum += cross(polygon[k] - polygon[0], polygon[k + 1] - polygon[0]);
-  return sum;
-}
-
 class EarCutter {
  public:
   explicit EarCutter(std::span<const Vec3> polygon)
@@ -87,6 +80,21 @@ std::vector<Triangle> fan(Index corners) {
 }
 
 }  // namespace
+
+std::vector<Vec3> cornerPositions(const Polygons& polygons, std::span<const Vec3> positions,
+                                  Index face) {
+  std::vector<Vec3> corners;
+  for (Index c = polygons.faceStart[face]; c < polygons.faceStart[face + 1]; ++c)
+    corners.push_back(positions[polygons.corners[c]]);
+  return corners;
+}
+
+Vec3 meanNormal(std::span<const Vec3> polygon) {
+  Vec3 sum;
+  for (std::size_t k = 1; k + 1 < polygon.size(); ++k)
+    sum += cross(polygon[k] - polygon[0], polygon[k + 1] - polygon[0]);
+  return sum;
+}
 
 std::vector<Triangle> triangulate(std::span<const Vec3> polygon) {
   if (polygon.size() < 4 || polygon.size() > kMostCorners)

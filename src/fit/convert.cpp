@@ -106,8 +106,7 @@ Result<void> checkNames(const std::vector<MeshTarget>& targets) {
 Result<void> checkDifferences(const MeshRig& source) {
   for (const MeshTarget& target : source.targets)
     for (std::size_t v = 0; v < target.positions.size(); ++v) {
-      const Vec3 way = target.positions[v] - source.neutral.positions[v];
-      if (!io::isUsable(way.x) || !io::isUsable(way.y) || !io::isUsable(way.z))
+      if (!io::isUsable(target.positions[v] - source.neutral.positions[v]))
         return fail("vertex ", v + 1, " of the target ", io::inQuotes(target.name),
                     " is further from the neutral's than a file can tell; scale the meshes down");
     }

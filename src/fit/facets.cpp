@@ -45,13 +45,8 @@ FaceMap::FaceMap(const Rig& rig) : faceOfQuad(faceOfQuads(rig)) {
 
 FaceMap::FaceMap(const Rig& rig, std::span<const Vec3> neutral) : FaceMap(rig) {
   const Polygons& p = rig.source.polygons;
-  for (Index f = 0; f < p.faceCount(); ++f) {
-    if (p.faceSize(f) <= 4) continue;
-    std::vector<Vec3> polygon;
-    for (Index c = p.faceStart[f]; c < p.faceStart[f + 1]; ++c)
-      polygon.push_back(neutral[p.corners[c]]);
-    cuts[f] = triangulate(polygon);
-  }
+  for (Index f = 0; f < p.faceCount(); ++f)
+    if (p.faceSize(f) > 4) cuts[f] = triangulate(cornerPositions(p, neutral, f));
 }
 
 // The edges that one face alone has, each with the vertices before and after it along the

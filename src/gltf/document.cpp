@@ -324,6 +324,14 @@ Result<Document> parseDocument(std::string_view bytes, const fs::path& folder) {
   return document;
 }
 
+std::vector<bool> jointsOf(const Document& document) {
+  std::vector<bool> isJoint(document.list("nodes").size());
+  for (const Json& skin : document.list("skins"))
+    for (const Json& joint : listOf(skin, "joints"))
+      if (const auto node = asIndex(joint, isJoint.size())) isJoint[*node] = true;
+  return isJoint;
+}
+
 std::string formatContainer(const Json& json, std::string_view binary) {
   // Names that are no UTF-8 lose the bytes that make them so.
   std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);

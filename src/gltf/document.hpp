@@ -54,6 +54,9 @@ inline constexpr std::string_view dracoRefusal =
 /// members of that name alone.
 bool isHarmlessExtension(std::string_view name);
 
+/// Which nodes are joints of skins [nodes].
+std::vector<bool> jointsOf(const Document& document);
+
 /// A GLB of a JSON and the bytes of its first buffer.
 std::string formatContainer(const Json& json, std::string_view binary);
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 namespace sweepface::gltf {
 namespace {
@@ -64,13 +63,10 @@ struct Roots {
 
   explicit Roots(const Document& document) {
     const Json& nodes = document.list("nodes");
-    std::set<std::size_t> joints;
-    for (const Json& skin : document.list("skins"))
-      for (const Json& joint : listOf(skin, "joints"))
-        if (const auto node = asIndex(joint, nodes.size())) joints.insert(*node);
+    const std::vector<bool> joints = jointsOf(document);
     for (const Json& root : listOf(document.list("scenes")[0], "nodes")) {
       const auto node = asIndex(root, nodes.size());
-      const bool isCarried = node && find(nodes[*node], "skin") && !joints.contains(*node) &&
+      const bool isCarried = node && find(nodes[*node], "skin") && !joints[*node] &&
                              listOf(nodes[*node], "children").empty();
       (isCarried ? beside : below).push_back(root);
     }

@@ -18,8 +18,6 @@ std::vector<Vec3> asVectors(const std::vector<double>& values) {
   return vectors;
 }
 
-bool isUsable(const Vec3& p) { return io::isUsable(p.x) && io::isUsable(p.y) && io::isUsable(p.z); }
-
 class RigReader {
  public:
   RigReader(const Document& document, const Parts& parts)
@@ -76,7 +74,7 @@ class RigReader {
     if (!positions) return std::unexpected(positions.error());
     for (const Vec3& p : *positions) {
       rig_.neutral.positions.push_back(meshOf(run).world.point(p));
-      if (!isUsable(rig_.neutral.positions.back())) return tooLarge(run.position);
+      if (!io::isUsable(rig_.neutral.positions.back())) return tooLarge(run.position);
     }
     return {};
   }
@@ -89,7 +87,7 @@ class RigReader {
       Vec3* const moved = &rig_.targets[meshOf(run).targets[t]].positions[run.first];
       for (std::size_t v = 0; v < run.count; ++v) {
         moved[v] += meshOf(run).world.direction((*deltas)[v]);
-        if (!isUsable(moved[v])) return tooLarge(*run.targets[t]);
+        if (!io::isUsable(moved[v])) return tooLarge(*run.targets[t]);
       }
     }
     return {};

@@ -113,14 +113,11 @@ class Undoer {
 
   /// Nodes that animations move, and those that move other meshes as joints.
   void noteUses() {
-    used_.resize(scene_.document.list("nodes").size());
+    used_ = jointsOf(scene_.document);
     eachChannelTarget([&](const Json& target) {
       const auto node = findIndex(target, "node", used_.size());
       if (node && !isOfWeights(target)) used_[*node] = true;
     });
-    for (const Json& skin : scene_.document.list("skins"))
-      for (const Json& joint : listOf(skin, "joints"))
-        if (const auto node = asIndex(joint, used_.size())) used_[*node] = true;
   }
 
   /// Animated weights go with their meshes.

@@ -1,7 +1,6 @@
 // The part of the C interface that reads other programs' files (sweepface_clips.h). Only here does
 // it link what converts.
 #include <algorithm>
-#include <cmath>
 
 #include "sweepface/filter.hpp"
 #include "sweepface/gltf.hpp"
@@ -149,8 +148,7 @@ sweepface_status sweepface_clip_read(const sweepface_rig* rig, const void* bytes
   const auto asked = options ? *options : sweepface_clip_usual_options();
   if (const auto hold = Trajectory::spring({}, 0, {asked.frequency, asked.damping}); !hold)
     return refuse("The spring on which heavy regions hang: ", hold.error().message);
-  if (!(std::isfinite(asked.frames_per_second) && asked.frames_per_second > 0))
-    return refuse("The frames per second of a recording must be greater than 0.");
+  if (auto ok = io::checkFrameRate(asked.frames_per_second); !ok) return refuse(ok.error().message);
   auto recording =
       readForRegions(*rig->division, {static_cast<const char*>(bytes), size}, called, asked);
   if (!recording) return refuse(SWEEPFACE_BAD_DATA, std::move(recording.error().message));

@@ -138,8 +138,7 @@ class LiveLinkReader {
 
 Result<Clip> parseLiveLinkCsv(std::string_view text, std::string_view name,
                               double framesPerSecond) {
-  if (!(std::isfinite(framesPerSecond) && framesPerSecond > 0))
-    return fail("The frames per second of a recording must be greater than 0.");
+  if (auto ok = io::checkFrameRate(framesPerSecond); !ok) return std::unexpected(ok.error());
   return LiveLinkReader(text, name, framesPerSecond).read();
 }
 

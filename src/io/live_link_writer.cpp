@@ -106,8 +106,7 @@ std::vector<Column> columnsOf(const Clip& clip) {
 }
 
 Result<void> check(const Clip& clip, const std::vector<Column>& columns, double framesPerSecond) {
-  if (!(std::isfinite(framesPerSecond) && framesPerSecond > 0))
-    return fail("The frames per second of a recording must be greater than 0.");
+  if (auto ok = io::checkFrameRate(framesPerSecond); !ok) return ok;
   if (clip.times.empty()) return fail("The clip has no frames.");
   if (!(clip.times.front() >= 0 && clip.times.back() < 86400))
     return fail("The times of a recording lie within a day.");

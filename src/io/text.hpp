@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "sweepface/result.hpp"
 #include "sweepface/vec.hpp"
 
 #include "codec/utf8.hpp"
@@ -105,6 +106,14 @@ std::optional<Number> toNumber(std::string_view word) {
 /// Whether a coordinate is a number that a float can hold, which all that follows counts on.
 inline bool isUsable(double coordinate) {
   return std::abs(coordinate) <= std::numeric_limits<float>::max();
+}
+
+inline bool isUsable(const Vec3& p) { return isUsable(p.x) && isUsable(p.y) && isUsable(p.z); }
+
+/// Of a recording with timecodes.
+inline Result<void> checkFrameRate(double framesPerSecond) {
+  if (std::isfinite(framesPerSecond) && framesPerSecond > 0) return {};
+  return fail("The frames per second of a recording must be greater than 0.");
 }
 
 /// A word for a message: in quotes, printable and short. Where what is shown is not UTF-8, it is

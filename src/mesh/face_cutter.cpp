@@ -41,35 +41,31 @@ void FaceCutter::cut(Piece face) {
 
 // A convex polygon is cut from its first corner on, any other from the first one that will do.
 std::vector<Piece> FaceCutter::cutLarge(Piece face) const {
-  for (std::size_t k = 0; k < face.size(); ++k) {
-    std::vector<Piece> cuts = fan(face);
-    if (areConvex(cuts, face)) return cuts;
-    std::ranges::rotate(face, face.begin() + 1);
-  }
-  return triangles(face);
-}
-
-std::vector<Piece> FaceCutter::triangles(const Piece& face) const {
   std::vector<Vec3> polygon;
   for (const Corner& c : face) polygon.push_back(positions_[c.vertex]);
+  const Vec3 normal = meanNormal(polygon);
+  // Rounded coordinates may have corners in line lean inwards, by a part of a corner's share in the
+  // area.
+  constexpr double kInLine = 0.01;
+  const double least = -kInLine * dot(normal, normal) / static_cast<double>(face.size());
+  for (std::size_t k = 0; k < face.size(); ++k) {
+    std::vector<Piece> cuts = fan(face);
+    if (areConvex(cuts, normal, least)) return cuts;
+    std::ranges::rotate(face, face.begin() + 1);
+  }
   std::vector<Piece> cuts;
   for (const Triangle& t : triangulate(polygon))
     cuts.push_back({face[t[0]], face[t[1]], face[t[2]]});
   return cuts;
 }
 
-// As seen along the mean normal of their face. Rounded coordinates may have corners in line lean
-// inwards, by a part of a corner's share in the area.
-bool FaceCutter::areConvex(const std::vector<Piece>& cuts, const Piece& face) const {
-  constexpr double kInLine = 0.01;
+// As seen along a normal: no corner turns by less.
+bool FaceCutter::areConvex(const std::vector<Piece>& cuts, const Vec3& normal, double least) const {
   const auto turn = [&](const Piece& p, std::size_t a, std::size_t b, std::size_t c) {
     const Vec3& from = positions_[p[a % p.size()].vertex];
     return cross(positions_[p[b % p.size()].vertex] - from,
                  positions_[p[c % p.size()].vertex] - from);
   };
-  Vec3 normal;
-  for (std::size_t k = 1; k + 1 < face.size(); ++k) normal += turn(face, 0, k, k + 1);
-  const double least = -kInLine * dot(normal, normal) / static_cast<double>(face.size());
   return std::ranges::all_of(cuts, [&](const Piece& p) {
     for (std::size_t k = 0; k < p.size(); ++k)
       if (dot(turn(p, k, k + 1, k + 2), normal) < least) return false;

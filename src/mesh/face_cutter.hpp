@@ -26,8 +26,7 @@ class FaceCutter {
 
  private:
   std::vector<Piece> cutLarge(Piece face) const;
-  std::vector<Piece> triangles(const Piece& face) const;
-  bool areConvex(const std::vector<Piece>& cuts, const Piece& face) const;
+  bool areConvex(const std::vector<Piece>& cuts, const Vec3& normal, double least) const;
   void keep(Piece piece);
 
   std::span<const Vec3> positions_;

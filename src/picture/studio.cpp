@@ -147,11 +147,14 @@ class Photograph {
 
   /// Whether nothing is between a point and the eye. The first bit of the way does not count: lines
   /// lie on the surface, whose triangles cut its corners.
+  /// Of the eye, whose pictures show what is behind it upside down.
+  bool isAhead(const Vec3& p) const { return dot(p - camera_.eye, camera_.forward) > 0; }
+
   bool sees(const Vec3& p) const {
     const double slack = 0.0025 * studio_.obstacles.size();
     const Vec3 way = camera_.eye - p;
     const double distance = norm(way);
-    if (dot(way, camera_.forward) >= 0) return false;  // behind the eye
+    if (!isAhead(p)) return false;
     return distance <= slack || !studio_.obstacles.blocks(p, way * (1 / distance), slack, distance);
   }
 
@@ -189,7 +192,6 @@ class Photograph {
   /// Asks every few pixels, and then for the very place where the line goes behind something.
   void addSeen(const Vec3& from, const Vec3& to, std::vector<Vec2>& ends) const {
     constexpr double step = 5;
-    const auto isAhead = [&](const Vec3& p) { return dot(p - camera_.eye, camera_.forward) > 0; };
     if (!isAhead(from) || !isAhead(to)) return;
     const Vec2 a = placeOf(from), b = placeOf(to);
     const double length = std::hypot(b.x - a.x, b.y - a.y);

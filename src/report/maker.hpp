@@ -39,6 +39,8 @@ class ReportMaker {
   std::string head() const;
   Result<std::string> sizes();
   void show(std::string_view what) const;
+  /// What converting or measuring says, as a sentence.
+  std::unexpected<Error> refused(const Error& error) const;
   std::size_t vertices() const { return source_.neutral.positions.size(); }
   Index points() const { return rig_.surface.storedCount(); }
   /// Of the neutral's and all targets' positions in single precision.

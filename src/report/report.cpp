@@ -87,14 +87,15 @@ Result<std::string> ReportMaker::make() {
 /// What several sections need.
 Result<void> ReportMaker::prepare() {
   for (const double tolerance : options_.tolerances)
-    if (auto ok = checkTolerance(tolerance, diagonal(source_.neutral)); !ok) return ok;
+    if (auto ok = checkTolerance(tolerance, diagonal(source_.neutral)); !ok)
+      return refused(ok.error());
   Result<std::vector<Vec3>> moved = originalPositions(rig_, source_, expression_);
   if (!moved) return std::unexpected(moved.error());
   if (auto ok = checkMeshes(rig_, source_); !ok) return ok;
   moved_ = std::move(*moved);
   show("measuring");
   Result<Measurement> measured = measure(rig_, source_, {.mixtures = 5, .seed = 1});
-  if (!measured) return fail(options_.name + ": " + measured.error().message + ".");
+  if (!measured) return refused(measured.error());
   measured_ = std::move(*measured);
   done_ += 2 * static_cast<double>(source_.targets.size());
   sumUpJoins();
@@ -104,6 +105,10 @@ Result<void> ReportMaker::prepare() {
 
 void ReportMaker::show(std::string_view what) const {
   if (options_.progress) options_.progress(what, std::min(done_ / work_, 1.0));
+}
+
+std::unexpected<Error> ReportMaker::refused(const Error& error) const {
+  return fail(fmt::format("{}: {}.", options_.name, error.message));
 }
 
 std::string ReportMaker::mixture() const { return mixtureOf(rig_, expression_); }

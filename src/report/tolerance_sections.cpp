@@ -34,13 +34,13 @@ Result<ReportMaker::Trial> ReportMaker::tryTolerance(double tolerance) {
   options.tolerance = tolerance;
   options.pack = true;
   const Result<Conversion> conversion = convert(source_, options);
-  if (!conversion) return std::unexpected(conversion.error());
+  if (!conversion) return refused(conversion.error());
   done_ += static_cast<double>(source_.targets.size() + 3);
   const std::string bytes = encode(conversion->rig);
   const Result<Rig> rig = decode(bytes, "the face");
   if (!rig) return std::unexpected(rig.error());
   const Result<Measurement> measured = measure(*rig, source_, {.mixtures = 0, .facets = false});
-  if (!measured) return std::unexpected(measured.error());
+  if (!measured) return refused(measured.error());
   return Trial{tolerance,
                rig->surface.storedCount(),
                rig->surface.patchCount(),
@@ -132,10 +132,9 @@ std::string ReportMaker::errorOverBytes(const std::vector<Trial>& trials) {
   return section("Error against bytes",
                  "Whole files with the same vertices, faces, texture coordinates and expressions, "
                  "without normals and scenes, and what they decode to against the source. GLBs "
-                 "hold the "
-                 "source's positions and differences; gltfpack -cc makes them smaller and changes "
-                 "the order of vertices and faces, which a .sweep keeps. The dashed upright line "
-                 "is the GLB in single precision, whose errors are rounding.") +
+                 "hold the source's positions and differences; gltfpack -cc makes them smaller and "
+                 "changes the order of vertices and faces, which a .sweep keeps. The dashed "
+                 "upright line is the GLB in single precision, whose errors are rounding.") +
          paragraph(peers.left) + row(plots, "plots") + table.html();
 }
 

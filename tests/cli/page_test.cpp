@@ -48,6 +48,15 @@ TEST_F(Page, FollowsItsOptions) {
   EXPECT_NE(html.find("There is no program './not-here'"), std::string::npos);
 }
 
+// Eight times as much would be more than the whole mesh.
+TEST_F(Page, ComparesACoarseFaceWithWhatThereCanBe) {
+  makeRig();
+  ASSERT_EQ(run("convert neutral.obj targets -o face.sweep --tolerance 2").code, 0);
+  const Outcome r = run("report face.sweep neutral.obj targets -o report.html --gltfpack ./no");
+  ASSERT_EQ(r.code, 0) << r.err;
+  EXPECT_NE(contents(folder / "report.html").find("<td>4</td>"), std::string::npos);
+}
+
 TEST_F(Page, SaysWhatIsWrong) {
   convertRig();
   folder.file("report.html", "old");
@@ -61,7 +70,7 @@ TEST_F(Page, SaysWhatIsWrong) {
   EXPECT_TRUE(
       fails("report face.sweep neutral.obj -o report.html --tolerances 0", "--tolerances", 2));
   EXPECT_TRUE(fails("report face.sweep neutral.obj targets -o report.html --tolerances 1e-12",
-                    "finer than a file's numbers"));
+                    "sweepface: face.sweep: a tolerance of 1e-12 is finer than a file's numbers"));
   EXPECT_TRUE(fails("report face.sweep neutral.obj -o report.html --tolerances 1 --no-tolerances",
                     "--tolerances", 2));
   EXPECT_TRUE(fails("report face.sweep neutral.obj -o report.html --gltfpack g --no-tolerances",
