@@ -1,6 +1,8 @@
+#include <algorithm>
 #include <chrono>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <optional>
 #include <tbb/global_control.h>
 
@@ -9,6 +11,7 @@
 #include "sweepface/eval.hpp"
 #include "sweepface/fit.hpp"
 #include "sweepface/io.hpp"
+#include "sweepface/measure.hpp"
 #include "sweepface/strip.hpp"
 
 #include "command.hpp"
@@ -128,10 +131,15 @@ std::string nameOfShape(const Rig& rig, Index target) {
   return target < 0 ? "the neutral" : rig.targets[target].name;
 }
 
-/// What a reader of the bytes will see, compared with the source. Where the order was left out,
-/// the conversion tells where the source's vertices are.
-Result<Worst> verify(std::string_view bytes, const std::string& name, const MeshRig& source,
-                     const Rig& converted) {
+/// What a reader of the bytes will see, compared with the source.
+struct Verified {
+  Worst worst;
+  std::vector<Index> folds;  // of the neutral and every target
+};
+
+/// Where the order was left out, the conversion tells where the source's vertices are.
+Result<Verified> verify(std::string_view bytes, const std::string& name, const MeshRig& source,
+                        const Rig& converted) {
   Result<Rig> rig = readBack(bytes, name);
   if (!rig) return std::unexpected(rig.error());
   const double tolerance = converted.tolerance;
@@ -146,7 +154,7 @@ Result<Worst> verify(std::string_view bytes, const std::string& name, const Mesh
         "The encoded face lacks vertices or targets of the source; nothing was written. "
         "This is a fault of sweepface, please report it.");
   const Worst worst = compare(*rig, source);
-  if (worst.distance <= tolerance) return worst;
+  if (worst.distance <= tolerance) return Verified{worst, countFolds(*rig, source)};
   return fail(
       fmt::format("Vertex {} of {} would be {:.6g} away from the source, beyond the "
                   "tolerance of {:.6g}; nothing was written. This is a fault of sweepface, "
@@ -171,22 +179,24 @@ Result<void> writeAndReadBack(const fs::path& path, std::string_view bytes) {
 struct Summary {
   const ConvertArguments& arguments;
   const Conversion& conversion;
-  Worst worst;
+  const Verified& verified;
   std::size_t vertices, bytes;
   double seconds;
 };
 
 nlohmann::ordered_json toJson(const Summary& s) {
   const Rig& rig = s.conversion.rig;
+  const auto& [worst, folds] = s.verified;
   return {{"file", s.arguments.output},
           {"patches", rig.surface.patchCount()},
           {"vectors", rig.surface.storedCount()},
           {"vertices", s.vertices},
           {"targets", rig.targets.size()},
           {"tolerance", rig.tolerance},
-          {"worstDistance", s.worst.distance},
-          {"worstVertex", s.worst.vertex},
-          {"worstShape", nameOfShape(rig, s.worst.target)},
+          {"worstDistance", worst.distance},
+          {"worstVertex", worst.vertex},
+          {"worstShape", nameOfShape(rig, worst.target)},
+          {"folds", folds},
           {"bytes", s.bytes},
           {"seconds", s.seconds},
           {"warnings", s.conversion.warnings}};
@@ -194,12 +204,17 @@ nlohmann::ordered_json toJson(const Summary& s) {
 
 void printText(const Summary& s) {
   const Rig& rig = s.conversion.rig;
+  const auto& [worst, folds] = s.verified;
   const Index points = rig.surface.storedCount();
   fmt::print("{}: {} patches, {} points ({:.1f} % of the source's {} vertices), {} targets\n",
              s.arguments.output, rig.surface.patchCount(), points,
              100.0 * points / static_cast<double>(s.vertices), s.vertices, rig.targets.size());
-  fmt::print("worst distance {:.4g} of {:.4g} allowed, at vertex {} of {}\n", s.worst.distance,
-             rig.tolerance, s.worst.vertex + 1, nameOfShape(rig, s.worst.target));
+  fmt::print("worst distance {:.4g} of {:.4g} allowed, at vertex {} of {}\n", worst.distance,
+             rig.tolerance, worst.vertex + 1, nameOfShape(rig, worst.target));
+  if (const auto most = std::ranges::max_element(folds); *most > 0)
+    fmt::print("{} triangles fold over, most in {} ({}); sweepface measure tells more\n",
+               std::reduce(folds.begin(), folds.end()),
+               nameOfShape(rig, static_cast<Index>(most - folds.begin()) - 1), *most);
   fmt::print("{} bytes in {:.1f} s\n", s.bytes, s.seconds);
 }
 
@@ -275,8 +290,8 @@ Result<int> convertAndWrite(const ConvertArguments& a) {
   if (auto ok = strip(stripped, *parts); !ok) return refused(ok.error());
   if (a.arcs) stripped.turns = findTurns(conversion->rig);
   const std::string bytes = encode(stripped);
-  const Result<Worst> worst = verify(bytes, a.output, source->rig, conversion->rig);
-  if (!worst) return std::unexpected(worst.error());
+  const Result<Verified> verified = verify(bytes, a.output, source->rig, conversion->rig);
+  if (!verified) return std::unexpected(verified.error());
   if (interrupted) return kInterrupted;
   if (auto written = writeAndReadBack(a.output, bytes); !written)
     return std::unexpected(written.error());
@@ -287,8 +302,12 @@ Result<int> convertAndWrite(const ConvertArguments& a) {
                     std::back_inserter(warnings));
   for (const std::string& warning : warnings) printWarning(warning);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-  const Summary summary{
-      a, *conversion, *worst, source->rig.neutral.positions.size(), bytes.size(), seconds.count()};
+  const Summary summary{a,
+                        *conversion,
+                        *verified,
+                        source->rig.neutral.positions.size(),
+                        bytes.size(),
+                        seconds.count()};
   if (a.json)
     printJson(toJson(summary));
   else if (!a.quiet)

@@ -46,4 +46,9 @@ struct MeasureOptions {
 Result<Measurement> measure(const Rig& rig, const MeshRig& source,
                             const MeasureOptions& options = {});
 
+/// How many level-4 triangles of a rig's surface look the other way than their source facet, in the
+/// neutral and after it in every target: [1 + K]. `source` is what the rig was made from, with its
+/// targets in the same order, and the rig knows the source's order.
+std::vector<Index> countFolds(const Rig& rig, const MeshRig& source);
+
 }  // namespace sweepface

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 
+#include "sweepface/measure.hpp"
+
 #include "fit/vertex_normals.hpp"
+#include "parallel/parallel.hpp"
 
 namespace sweepface {
 
@@ -18,13 +21,13 @@ FoldFinder::FoldFinder(const Rig& rig, const Tessellation& grid)
       fineFaces_(fine_.faces()),
       map_(rig) {}
 
-std::vector<Index> FoldFinder::quads(std::span<const Vec3> vectors,
-                                     std::span<const Vec3> source) const {
+template <typename Visit>
+void FoldFinder::visit(std::span<const Vec3> vectors, std::span<const Vec3> source,
+                       Visit visit) const {
   const auto normals =
       vertexNormals(rig_.source.polygons, source, rig_.source.gridVertex, vertexCount_);
   const Facets facets(rig_.source, map_, source, normals, rig_.tolerance);
   const std::vector<Vec3> positions = fine_.positions(vectors);
-  std::vector<Index> found;
   std::size_t face = 0;
   Index first = 0;  // of the patch's quads
   for (Index p = 0; p < rig_.surface.patchCount(); ++p) {
@@ -32,13 +35,37 @@ std::vector<Index> FoldFinder::quads(std::span<const Vec3> vectors,
     for (Index j = 0; j < kLevel * n; ++j)
       for (Index i = 0; i < kLevel * m; ++i, ++face) {
         const Index quad = first + (j / kLevel) * m + i / kLevel;
-        if (facets.folds(fineFaces_[face], positions, map_.faceOfQuad[quad]) > 0)
-          found.push_back(quad);
+        const int folds = facets.folds(fineFaces_[face], positions, map_.faceOfQuad[quad]);
+        if (folds > 0) visit(quad, folds);
       }
     first += m * n;
   }
+}
+
+std::vector<Index> FoldFinder::quads(std::span<const Vec3> vectors,
+                                     std::span<const Vec3> source) const {
+  std::vector<Index> found;
+  visit(vectors, source, [&](Index quad, int) { found.push_back(quad); });
   std::ranges::sort(found);
   return found;
+}
+
+Index FoldFinder::count(std::span<const Vec3> vectors, std::span<const Vec3> source) const {
+  Index count = 0;
+  visit(vectors, source, [&](Index, int folds) { count += folds; });
+  return count;
+}
+
+std::vector<Index> countFolds(const Rig& rig, const MeshRig& source) {
+  const FoldFinder finder(rig, Tessellation(rig.surface, 1));
+  std::vector<Index> folds(rig.targets.size() + 1);
+  parallelFor(std::size_t{0}, folds.size(), [&](std::size_t k) {
+    Weights weights(rig.targets.size(), 0.0);
+    if (k > 0) weights[k - 1] = 1;
+    const auto& positions = k == 0 ? source.neutral.positions : source.targets[k - 1].positions;
+    folds[k] = finder.count(blend(rig, weights), positions);
+  });
+  return folds;
 }
 
 }  // namespace sweepface

@@ -12,13 +12,20 @@ class FoldFinder {
   explicit FoldFinder(const Rig& rig, const Tessellation& grid);
 
   /// The quads of `grid` (level 1) that fold in a pose of the rig whose source has its vertices at
-  /// `source`; in order, each as often as triangles of it do.
+  /// `source`; in order, each as often as sixteenths of it do.
   std::vector<Index> quads(std::span<const Vec3> vectors, std::span<const Vec3> source) const;
+
+  /// How many triangles of level 4 fold there, two to a sixteenth of a quad.
+  Index count(std::span<const Vec3> vectors, std::span<const Vec3> source) const;
 
   /// The vertices of such a quad.
   const std::array<Index, 4>& corners(Index quad) const { return corners_[quad]; }
 
  private:
+  /// Calls `visit(quad, folded triangles)` for every sixteenth of a quad that folds.
+  template <typename Visit>
+  void visit(std::span<const Vec3> vectors, std::span<const Vec3> source, Visit visit) const;
+
   const Rig& rig_;
   Index vertexCount_;
   std::vector<std::array<Index, 4>> corners_;

@@ -187,6 +187,10 @@ Index refine(Layout& layout, const Draft& draft, SourceData& data, const DraftEr
         extra[v] |= kSlopes;
         ++changed;
         unfolding = true;
+      } else if (limits.smooth && errors.nearFold[v] && !data.uneven[v]) {
+        data.uneven[v] = 1;
+        ++changed;
+        unfolding = true;
       }
   }
   const Index stalled = draft.surface.patchCount() / 500;

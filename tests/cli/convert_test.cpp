@@ -30,6 +30,24 @@ TEST_F(Convert, SaysWhatItMade) {
       << r.out;
 }
 
+// A row of faces is a hundredth as wide in a target, and hardly more than the tolerance.
+TEST_F(Convert, SaysWhereTheSurfaceFoldsOver) {
+  folder.file("neutral.obj", sheet());
+  folder.file("squash.obj",
+              sheet([](Vec3 p) { return Vec3{p.x, p.y < 2.5 ? p.y : p.y - 1.089, p.z}; }));
+  const std::string command =
+      "convert neutral.obj squash.obj -o face.sweep --tolerance 0.009 --normal-limit 180";
+  const Outcome r = run(command);
+  EXPECT_EQ(r.code, 0) << r.err;
+  const auto folds = nlohmann::json::parse(run(command + " --json").out)["folds"];
+  EXPECT_EQ(folds[0], 0);
+  ASSERT_GT(folds[1], 0);
+  EXPECT_NE(r.out.find(fmt::format("\n{0} triangles fold over, most in squash ({0}); ",
+                                   folds[1].get<int>())),
+            std::string::npos)
+      << r.out;
+}
+
 // Lashes and cards of hair: faces given from both sides.
 TEST_F(Convert, TakesFacesThatLieBackToBack) {
   folder.file("card.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\nf 4 3 2 1\n");

@@ -381,5 +381,24 @@ TEST(ThinRows, DoNotBendWhatIsBesideThem) {
     }
 }
 
+// Lids and lips that close: a row of faces a fiftieth as wide as in the neutral, one with nothing
+// uneven.
+TEST(ThinRows, OfATargetDoNotFoldOver) {
+  const auto sheet = [](double row) {
+    return grid(10, 10, [=](double x, double y) {
+      return Vec3{x, y < 6 ? y : y - 1 + row, 0.3 * std::sin(0.8 * x) * std::cos(0.7 * y)};
+    });
+  };
+  const MeshRig source{sheet(1), {{"squash", sheet(0.02).positions}}};
+  for (const bool pack : {false, true}) {
+    ConvertOptions options;
+    options.pack = pack;
+    options.tolerance = 0.005;
+    const auto conversion = convert(source, options);
+    ASSERT_TRUE(conversion) << conversion.error().message;
+    EXPECT_EQ(countFolds(conversion->rig, source), (std::vector<Index>{0, 0})) << pack;
+  }
+}
+
 }  // namespace
 }  // namespace sweepface

@@ -139,6 +139,18 @@ TEST(Measure, countsFolds) {
   EXPECT_EQ(measure(rig, source)->worst.folds, 2 * 16 * 8 * 8);
 }
 
+TEST(Measure, countsFoldsByThemselvesAlike) {
+  const MeshRig source = withTargets(plane(8, 8), 2);
+  Rig rig = roughly(source);
+  for (Vec3& d : rig.targets[1].difference) d.x = -1.5 * d.x;
+  for (std::size_t v = 0; v < rig.neutral.size(); v += 3) rig.neutral[v].x *= -1;
+  const std::vector<Index> folds = countFolds(rig, source);
+  const Measurement measured = measure(rig, source).value();
+  ASSERT_EQ(folds.size(), measured.shapes.size());
+  for (std::size_t k = 0; k < folds.size(); ++k) EXPECT_EQ(folds[k], measured.shapes[k].folds) << k;
+  EXPECT_GT(folds[0], 0);
+}
+
 TEST(Measure, leavesOutFacetsWhereNobodyAsks) {
   const MeshRig source = withTargets(plane(8, 8));
   const Rig rig = roughly(source);
