@@ -52,15 +52,9 @@ sweepface_status sweepface_mesh_create_within(const sweepface_rig* rig, sweepfac
   if (budget < SWEEPFACE_EDGE_LENGTH || budget > SWEEPFACE_VERTICES)
     return refuse("There is no budget of kind ", budget, "; kinds are 0 to ",
                   int(SWEEPFACE_VERTICES), ".");
-  if (budget == SWEEPFACE_VERTICES && value > kMostVertices)
-    return refuse("The face has too many vertices within this budget; ask for fewer.");
   const auto density = densityFor(rig->rig->surface, blend(*rig->rig, {}),
                                   {static_cast<Budget::Kind>(budget), value});
   if (!density) return refuse(std::string(density.error().message));
-  double vertices = 0;
-  for (const auto& [columns, rows] : density->patches) vertices += double(columns) * rows;
-  if (vertices > kMostVertices)
-    return refuse("The face has too many vertices within this budget; ask for fewer.");
   return makeMesh(*rig, 1, Tessellation(rig->rig->surface, *density), renderDensity, mesh);
 }
 

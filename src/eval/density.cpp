@@ -10,8 +10,9 @@ namespace sweepface {
 namespace {
 
 constexpr Index kFinest = 64;  // segments an edge of the source
-constexpr int kSamples = 8;    // a segment, to measure by
-constexpr double kMostVertices = 1 << 25;
+constexpr int kSamples = 8;    // a segment, to measure by; 2 where they are short
+constexpr Index kMostVertices = 1 << 24;
+constexpr double kLeastError = 1e-9;  // of the longest line
 
 /// The lines that a surface is judged by: its arcs, then two through the middle of every patch.
 class Lines {
@@ -81,15 +82,16 @@ class Lines {
   /// The longest of so many segments, or how far the line is from any.
   double measure(Budget::Kind kind, Index line, Index segments) const {
     const double edges = edgesOf(line);
+    const int samples = segments > 4 * edges ? 2 : kSamples;
     const auto point = [&](Index segment, int sample) {
-      return at(line, (segment + double(sample) / kSamples) * edges / segments);
+      return at(line, (segment + double(sample) / samples) * edges / segments);
     };
     double most = 0;
     Vec3 from = point(0, 0);
     for (Index s = 0; s < segments; ++s) {
-      const Vec3 to = point(s, kSamples);
+      const Vec3 to = point(s, samples);
       if (kind == Budget::Kind::edgeLength) most = std::max(most, norm(to - from));
-      for (int k = 1; k < kSamples && kind != Budget::Kind::edgeLength; ++k)
+      for (int k = 1; k < samples && kind != Budget::Kind::edgeLength; ++k)
         most = std::max(most, distanceToSegment(point(s, k), from, to));
       from = to;
     }
@@ -130,7 +132,7 @@ class Lines {
 /// they are too few even for that. From above, as finer densities take longer to measure.
 Density finest(Lines& lines, double vertices) {
   double error = lines.longest();  // no sag is longer than its line
-  const double least = 1e-9 * error;
+  const double least = kLeastError * error;
   Density best = lines.coarsest();
   for (double step = 4; step > 1.01 && error > least;) {
     Density density = lines.cut(error / step);
@@ -166,11 +168,16 @@ Result<Density> densityFor(const Surface& surface, std::span<const Vec3> vectors
   if (!(budget.value > 0) || !std::isfinite(budget.value))
     return fail("The budget of a level of detail must be a number greater than 0.");
   Lines lines(surface, vectors, budget.kind);
-  if (budget.kind == Budget::Kind::vertices)
-    return within(surface, lines, std::min(budget.value, kMostVertices));
-  Density density = lines.cut(budget.value);
+  if (budget.kind == Budget::Kind::vertices) {
+    if (budget.value > kMostVertices)
+      return fail("A mesh has at most ", kMostVertices, " vertices; ask for no more.");
+    return within(surface, lines, budget.value);
+  }
+  const bool byError = budget.kind == Budget::Kind::error;
+  const double least = byError ? kLeastError * lines.longest() : 0;
+  Density density = lines.cut(std::max(budget.value, least));
   const std::int64_t count = lines.count(density);
-  if (static_cast<double>(count) > kMostVertices)
+  if (count > kMostVertices)
     return fail("So fine a mesh has about ", count, " vertices; ask for a coarser one.");
   return density;
 }

@@ -27,6 +27,15 @@ std::array<Index, 2> endsOf(const Wireframe& w, const Arc& arc) {
   return {std::min(a, b), std::max(a, b)};
 }
 
+// Is the patch a tube, with two opposite sides that are the same arcs?
+bool closesUpon(const Wireframe& w, Index patch, int side) {
+  const auto opposite = w.side(patch, side + 2);
+  return std::ranges::any_of(w.side(patch, side), [&](HalfArc h) {
+    return !w.arcs[arcOf(h)].collapsed &&
+           std::ranges::any_of(opposite, [&](HalfArc o) { return arcOf(o) == arcOf(h); });
+  });
+}
+
 }  // namespace
 
 void refineToShape(const Surface& surface, Density& density) {
@@ -43,6 +52,15 @@ void refineToShape(const Surface& surface, Density& density) {
     if (arcs[k][0] == arcs[k - 1][0] && arcs[k][1] == arcs[k - 1][1])
       for (const auto& arc : {arcs[k - 1], arcs[k]})
         density.arcs[arc[2]] = std::max<Index>(density.arcs[arc[2]], 2);
+  for (Index p = 0; p < surface.patchCount(); ++p)
+    for (int s = 0; s < 2; ++s)
+      if (closesUpon(w, p, s)) {
+        Index& around = density.patches[p][1 - s];
+        around = std::max<Index>(around, 3);
+        if (sideSegments(w, density, p, 1 - s) + sideSegments(w, density, p, 3 - s) > 0) continue;
+        for (const HalfArc h : w.side(p, s))  // between two poles
+          density.arcs[arcOf(h)] = std::max<Index>(density.arcs[arcOf(h)], 2);
+      }
   for (Index p = 0; p < surface.patchCount(); ++p)
     for (int s = 0; s < 4; ++s) {
       Index& rows = density.patches[p][s % 2];

@@ -143,6 +143,11 @@ class Converter {
     if (!limits_.smooth) data.slopeWeight = 0.1;
     auto solution = fit(layout, data);
     if (!solution) return std::unexpected(solution.error());
+    const auto vectors = static_cast<std::size_t>(solution->rows()) * data.poses;
+    if (vectors > codec::kMostVectors)
+      return fail("the surface takes ", solution->rows(), " vectors in each of ", data.poses,
+                  " shapes, together more than the ", codec::kMostVectors,
+                  " of a file; give fewer targets, or allow a larger tolerance");
     Conversion conversion{assemble(*mesh, *solution, data), mesh->warnings};
     conversion.rig.tolerance = tolerance;
     if (options_.pack) {
@@ -173,16 +178,20 @@ class Converter {
     if (!(options_.normalTolerance > 0)) return packOnce(rig, tolerance, angle);
     const Rig fitted = rig;
     constexpr int kTries = 8;
+    double nearest = std::numeric_limits<double>::infinity();
     for (int attempt = 0; attempt < kTries; ++attempt) {
       rig = fitted;
       if (auto ok = packOnce(rig, tolerance, angle); !ok) return ok;
       const double found = normalRms(rig, source_);
       if (found <= options_.normalTolerance) return {};
+      nearest = std::min(nearest, found);
       angle *= std::clamp(0.8 * options_.normalTolerance / found, 0.2, 0.8);
     }
     return fail(
-        "the normals could not be brought so near to the mesh's; allow more degrees, or ask "
-        "for a smaller tolerance");
+        fmt::format("normals come no nearer to the mesh's than {:.3g} degrees at this tolerance; "
+                    "allow more, or "
+                    "try a smaller tolerance",
+                    nearest));
   }
 
   // Solve, measure, refine, until every vertex is within the limits. The limit on distance is a

@@ -43,6 +43,9 @@ void reorderFaces(SourceMesh& source, const std::vector<Place>& places) {
   const Polygons old = source.polygons;
   Polygons& faces = source.polygons;
   std::vector<Index> newCorner(old.corners.size());
+  // The tips of spikes, where a face turns back upon itself, are on no patch.
+  std::vector<char> isOnPatch(old.corners.size(), source.quadCorners.empty());
+  for (const Index corner : source.quadCorners) isOnPatch[corner] = 1;
   faces.faceStart = {0};
   faces.corners.clear();
   faces.cornerTexcoords.clear();
@@ -51,6 +54,7 @@ void reorderFaces(SourceMesh& source, const std::vector<Place>& places) {
     const Index size = old.faceSize(p.face);
     for (Index k = 0; k < size; ++k) {
       const Index corner = old.faceStart[p.face] + (p.first + k) % size;
+      if (!isOnPatch[corner]) continue;
       newCorner[corner] = static_cast<Index>(faces.corners.size());
       faces.corners.push_back(source.gridVertex[old.corners[corner]]);
       if (!old.cornerTexcoords.empty())
@@ -83,13 +87,10 @@ void reorderTexcoords(Polygons& faces) {
 
 Result<void> stripOrder(Rig& rig) {
   SourceMesh& source = rig.source;
-  const Polygons& faces = source.polygons;
-  const std::vector<Place> places = placesOf(source);
-  for (const Place& p : places)
-    for (Index c = faces.faceStart[p.face]; c < faces.faceStart[p.face + 1]; ++c)
-      if (source.gridVertex[faces.corners[c]] < 0)
-        return fail("a face has a corner that is on no patch; keep the order");
-  reorderFaces(source, places);
+  const auto isLoose = [&](Index vertex) { return source.gridVertex[vertex] < 0; };
+  if (source.quadCorners.empty() && std::ranges::any_of(source.polygons.corners, isLoose))
+    return fail("a face has a corner that is on no patch; keep the order");
+  reorderFaces(source, placesOf(source));
   reorderTexcoords(source.polygons);
   if (!source.gridVertex.empty()) {
     source.gridVertex.resize(Tessellation(rig.surface, 1).vertexCount());

@@ -78,10 +78,7 @@ void FaceCutter::keep(Piece piece) {
   if (piece.size() == 4 &&
       (piece[0].vertex == piece[2].vertex || piece[1].vertex == piece[3].vertex))
     piece.clear();
-  if (piece.size() < 3)
-    ++dropped;
-  else
-    pieces.push_back(std::move(piece));
+  if (piece.size() >= 3) pieces.push_back(std::move(piece));
 }
 
 }  // namespace sweepface

@@ -22,7 +22,6 @@ class FaceCutter {
   void cut(Piece face);
 
   std::vector<Piece> pieces;
-  Index dropped = 0;  ///< pieces of fewer than three different corners
 
  private:
   std::vector<Piece> cutLarge(Piece face) const;

@@ -131,6 +131,7 @@ Result<GridMesh> build(const MeshRig& rig, const std::vector<Index>& first,
                        std::vector<std::pair<Index, Index>>& cut) {
   const Polygons& faces = rig.neutral.polygons;
   FaceCutter cutter(rig.neutral.positions);
+  Index without = 0;  // a surface
   for (Index f = 0; f < faces.faceCount(); ++f) {
     if (faces.faceSize(f) > kMostCorners)
       return fail("face ", f + 1, " has ", faces.faceSize(f), " corners, of which ", kMostCorners,
@@ -138,7 +139,9 @@ Result<GridMesh> build(const MeshRig& rig, const std::vector<Index>& first,
     std::vector<Corner> face;
     for (Index c = faces.faceStart[f]; c < faces.faceStart[f + 1]; ++c)
       face.push_back({first[faces.corners[c]], c});
+    const std::size_t before = cutter.pieces.size();
     cutter.cut(std::move(face));
+    without += cutter.pieces.size() == before;
   }
   if (cutter.pieces.empty())
     return fail("the mesh has no face with an area; nothing can be converted");
@@ -159,9 +162,9 @@ Result<GridMesh> build(const MeshRig& rig, const std::vector<Index>& first,
   pairEdges(mesh, welded, cut);
   numberVertices(mesh, welded);
   placeSource(mesh, faces, first);
-  if (cutter.dropped > 0)
+  if (without > 0)
     mesh.warnings.push_back(
-        plural(cutter.dropped, "face has", "faces have") +
+        plural(without, "face has", "faces have") +
         " fewer than three different corners and no surface; the source order keeps them.");
   return mesh;
 }

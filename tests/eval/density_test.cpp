@@ -43,6 +43,12 @@ Density anyDensity(const Surface& surface, unsigned seed) {
   return density;
 }
 
+/// One segment everywhere: what a part that a budget says nothing of may get.
+Density coarsest(const Surface& surface) {
+  return {std::vector<Index>(surface.wireframe().arcs.size(), 1),
+          std::vector(surface.patchCount(), std::array{1, 1})};
+}
+
 class EveryDensity : public ::testing::TestWithParam<Face> {};
 INSTANTIATE_TEST_SUITE_P(Tessellation, EveryDensity, eachFace(), faceName);
 
@@ -52,8 +58,8 @@ TEST_P(EveryDensity, hasTheSourcesShapeWithoutACrackOrATJunction) {
   const Topology source = topologyOf(weldedLoops(GetParam().rig));
   for (const int splits : {0, 10}) {
     const Surface surface = surfaceOf(GetParam().rig, splits);
-    for (unsigned seed = 0; seed < 5; ++seed) {
-      const Tessellation grid(surface, anyDensity(surface, seed));
+    for (unsigned seed = 0; seed < 6; ++seed) {
+      const Tessellation grid(surface, seed == 0 ? coarsest(surface) : anyDensity(surface, seed));
       const Topology t = topologyOf(loops(grid));
       EXPECT_EQ(t.euler, source.euler) << "seed " << seed;
       EXPECT_EQ(t.boundaryLoops, source.boundaryLoops) << "seed " << seed;
@@ -170,11 +176,19 @@ TEST(Density, refusesMoreVerticesThanAMachineHasRoomFor) {
   EXPECT_NE(refused.error().message.find("ask for a coarser one"), std::string::npos);
 }
 
+TEST(Density, refusesABudgetOfMoreVerticesThanAMeshMayHave) {
+  const Surface surface = Surface::make(onePatch(2, 3)).value();
+  const auto refused = densityFor(surface, neutral(surface), {Budget::Kind::vertices, 1e9});
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().message, "A mesh has at most 16777216 vertices; ask for no more.");
+}
+
 TEST(Density, takesAMomentForCurvesOfManyEdges) {
   const Surface surface = Surface::make(onePatch(4000, 2)).value();
   const auto vectors = neutral(surface);
   const auto start = std::chrono::steady_clock::now();
   EXPECT_TRUE(densityFor(surface, vectors, {Budget::Kind::vertices, 20000}));
+  EXPECT_TRUE(densityFor(surface, vectors, {Budget::Kind::error, 1e-300}));
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));
 }
 
