@@ -287,7 +287,7 @@ Result<int> runAnimate(const AnimateArguments& a) {
   }
   if (!written) return std::unexpected(written.error());
   for (const std::string& note : performance->notes) printWarning(note);
-  if (performance->hasHead && a.head.turns != "on" && !csv)
+  if (performance->turnsHead && a.head.turns != "on" && !csv)
     printWarning(
         fmt::format("{}: its angles of the head are left out; --head on turns the model "
                     "by them.",

@@ -165,7 +165,8 @@ Result<Performance> byClip(const PerformanceArguments& a, const Rig& rig, const 
   performance.notes = notesOn(match, clip, targets, a.clip);
   for (const double time : clip.times) performance.frameTimes.push_back(time - clip.times.front());
   const ClipAngles angles(clip);
-  performance.hasHead = angles.head(), performance.hasEyes = angles.eyes();
+  performance.hasHead = angles.head(), performance.turnsHead = angles.turnsHead();
+  performance.hasEyes = angles.eyes();
   // Of the whole head, whatever its regions are made of.
   if (performance.hasHead || performance.hasEyes)
     performance.pose = [whole = std::make_shared<const Clip>(std::move(recording->clip)),

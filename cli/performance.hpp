@@ -35,7 +35,7 @@ struct Performance {
   std::size_t clipWeights = 0;     ///< what it keeps of a clip
   /// Null unless a clip tells how head or eyes stand.
   std::function<HeadPose(double time)> pose;
-  bool hasHead = false, hasEyes = false;
+  bool hasHead = false, turnsHead = false, hasEyes = false;  ///< as ClipAngles has them
   bool isDivided = false;          ///< into regions, some of whose targets are parts
   std::vector<std::string> notes;  ///< what the user should know, in sentences
 };

@@ -279,7 +279,9 @@ export class ClipPlayer {
     this.match = matchNames(clip.names, face.names);
     this.match.unmatched = matchNames(this.match.unmatched, ANGLES).unmatched;
     matchNames(clip.names, ANGLES).targets.forEach((found, k) => {
-      for (const angle of found) this.#angles[angle] = k;
+      // Recordings have columns for the eyes' angles that are 0 throughout where nobody told them.
+      const isTold = clip.weights.some((w, i) => w !== 0 && i % clip.names.length === k);
+      for (const angle of found) if (angle < 3 || isTold) this.#angles[angle] = k;
     });
   }
 

@@ -128,16 +128,16 @@ ClipAngles::ClipAngles(const Clip& clip) {
   columns_.fill(-1);
   const ClipMatch match = matchClip(clip, names);
   for (std::size_t k = 0; k < match.targets.size(); ++k)
-    for (const Index angle : match.targets[k]) columns_[angle] = static_cast<std::ptrdiff_t>(k);
+    for (const Index angle : match.targets[k]) {
+      columns_[angle] = static_cast<std::ptrdiff_t>(k);
+      for (std::size_t at = k; at < clip.weights.size(); at += clip.names.size())
+        if (clip.weights[at] != 0) turns_[angle] = true;
+    }
 }
 
 bool ClipAngles::tells(const std::string& name) {
   const ClipAngles angles(Clip{{name}, {}, {}});
   return std::ranges::any_of(angles.columns_, [](std::ptrdiff_t column) { return column >= 0; });
-}
-
-bool ClipAngles::has(std::size_t first) const {
-  return columns_[first] >= 0 || columns_[first + 1] >= 0 || columns_[first + 2] >= 0;
 }
 
 HeadPose ClipAngles::of(std::span<const double> weights) const noexcept {

@@ -166,6 +166,9 @@ TEST_F(Clips, HaveThePoseOfTheHead) {
   EXPECT_EQ(pose.head.roll, 0.3);
   EXPECT_EQ(pose.left_eye.yaw, 0.4);
   EXPECT_EQ(pose.right_eye.yaw, 0);
+  ASSERT_EQ(read("Timecode,Open,HeadYaw,LeftEyeYaw\n0,0,0,0\n1,1,0,0\n"), SWEEPFACE_OK);
+  EXPECT_TRUE(sweepface_clip_has_head(clip));
+  EXPECT_FALSE(sweepface_clip_has_eyes(clip));
   double found[4];
   sweepface_rotation(&pose.head, found);
   EXPECT_TRUE(std::ranges::equal(found, quaternionOf({0.1, 0.2, 0.3})));

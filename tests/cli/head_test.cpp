@@ -97,6 +97,14 @@ TEST_F(HeadAndEyes, AnglesAreNamesThatTheCommandKnows) {
     EXPECT_EQ(said.find("drive no target"), std::string::npos) << said;
 }
 
+TEST_F(HeadAndEyes, AHeadThatNeverTurnsIsNotLeftOut) {
+  convertRig();
+  ASSERT_EQ(run("animate face.sweep --to jawOpen=1 -o still.csv").code, 0);
+  EXPECT_EQ(run("animate face.sweep --clip still.csv -o a.glb").err.find("angles of the head"),
+            std::string::npos);
+  EXPECT_EQ(run("animate face.sweep --clip still.csv --head on -o a.glb").code, 0);
+}
+
 TEST_F(HeadAndEyes, SayWhatIsMissing) {
   convertRig();
   capture();

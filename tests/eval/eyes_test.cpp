@@ -174,6 +174,18 @@ TEST(HeadAngles, AreFoundByTheirHeadings) {
   EXPECT_FALSE(none.head() || none.eyes());
 }
 
+TEST(HeadAngles, TurnNothingWhereTheyAreAlways0) {
+  const std::vector<std::string> names{"HeadYaw", "LeftEyePitch", "LeftEyeYaw"};
+  const ClipAngles still(Clip{names, {0, 1}, {0, 0, 0, 0, 0, 0}});
+  EXPECT_TRUE(still.head());
+  EXPECT_FALSE(still.turnsHead() || still.eyes());
+  const ClipAngles head(Clip{names, {0, 1}, {0, 0, 0, 0.1, 0, 0}});
+  EXPECT_TRUE(head.turnsHead() && !head.eyes());
+  const ClipAngles eyes(Clip{names, {0, 1}, {0, 0, 0, 0, 0, 0.1}});
+  EXPECT_TRUE(eyes.eyes() && !eyes.turnsHead());
+  EXPECT_TRUE(ClipAngles::tells("LeftEyeYaw"));
+}
+
 TEST(EyesLong, OfTheRealFaceTurnRigidly) {
   SKIP_WITHOUT_REAL_FACES();
   const std::filesystem::path folder = std::filesystem::path(realFaces()) / "ictface";

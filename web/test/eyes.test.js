@@ -39,6 +39,19 @@ test('eyes turn by the angles of a capture as the tool turns them', async () => 
   assert.ok(difference(positionsOf(await load()), positionsOf(face)).most <= 1e-3);
 });
 
+test('eyes turn by their weights where a recording has no angles of theirs but 0', async () => {
+  const folder = newFolder(), recorded = join(folder, 'down.csv'), weights = {eyeLookDownLeft: 1, eyeLookDownRight: 1};
+  const animate = (...options) => execFileSync(tool, ['animate', sample, '--quiet', ...options], {stdio: 'pipe'});
+  animate('--from', 'eyeLookDownLeft=1,eyeLookDownRight=1', '--to', 'eyeLookDownLeft=1,eyeLookDownRight=1',
+          '-o', recorded);
+  animate('--clip', recorded, '--eyes', 'on', '--frames', '2', '-o', folder);
+  const exact = exported(sample, weights, 0, ['--eyes', 'on']).positions;
+  assert.ok(difference(exact, readObj(join(folder, 'frame_0000.obj')).positions).most <= 1e-6);
+  const face = await load({eyes: true});
+  new ClipPlayer(face, readClip(readFileSync(recorded))).seek(0);
+  assert.ok(difference(exact, positionsOf(face)).most <= 2 * face.tolerance);
+});
+
 test('eyes that do not turn cannot look', async () => {
   const face = await load(), eyes = await load({eyes: true});
   assert.equal(face.eyeCount, 0);
