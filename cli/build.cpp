@@ -57,7 +57,8 @@ void warnOfMisses(const BuildArguments& a, const Built& built) {
 Result<int> runBuild(const BuildArguments& a) {
   std::vector<std::string> inputs{a.drawing};
   if (!a.source.empty()) inputs.push_back(a.source);
-  if (auto ok = checkOutput(a.output, inputs, {".sweep"}); !ok) return std::unexpected(ok.error());
+  if (auto ok = checkOutput(a.output, inputs, {".sweep"}, !a.quiet); !ok)
+    return std::unexpected(ok.error());
   const Result<std::string> text = readFile(a.drawing);
   if (!text) return std::unexpected(text.error());
   const Result<Drawing> drawing = parseDrawing(*text, a.drawing);

@@ -181,7 +181,7 @@ Result<RigSource> readMeshes(const std::string& neutral, const std::vector<std::
 }
 
 Result<void> checkOutput(const fs::path& output, const std::vector<std::string>& inputs,
-                         std::initializer_list<std::string_view> kinds) {
+                         std::initializer_list<std::string_view> kinds, bool reports) {
   const auto cannot = [&](std::string_view why) {
     return fail(fmt::format("Cannot write {}: {}.", output.string(), why));
   };
@@ -192,7 +192,7 @@ Result<void> checkOutput(const fs::path& output, const std::vector<std::string>&
       return cannot("it is what is read; choose another name");
   if (!output.has_filename() || fs::is_directory(output, ignored))
     return cannot("it is a folder; name a file");
-  if (isPipeOfReport(output)) return cannot("the report goes there; name a file");
+  if (reports && isPipeOfReport(output)) return cannot("the report goes there; name a file");
   // A device is written to as it is; any other file is replaced in its folder.
   const bool device = fs::exists(output, ignored) && !fs::is_regular_file(output, ignored);
   if (!device && std::ranges::none_of(kinds, [&](auto kind) { return isOfKind(output, kind); }))

@@ -97,10 +97,11 @@ Result<RigSource> readMeshes(const std::string& neutral, const std::vector<std::
                              ProgressBar& bar);
 
 /// Whether a file can be made at `output` without loss of an input, asked before the long work. Its
-/// name ends in one of `kinds`, so that nobody takes it for another kind of file.
+/// name ends in one of `kinds`, so that nobody takes it for another kind of file. `reports`:
+/// whether a report goes to the standard output, so that the file cannot.
 Result<void> checkOutput(const std::filesystem::path& output,
                          const std::vector<std::string>& inputs,
-                         std::initializer_list<std::string_view> kinds);
+                         std::initializer_list<std::string_view> kinds, bool reports = true);
 
 /// Weights with one target at 1; all at 0 for -1.
 Weights single(const Rig& rig, Index target);

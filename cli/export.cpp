@@ -112,7 +112,7 @@ Result<int> runExport(const ExportArguments& a) {
                 "source again without --strip order.");
   Result<Weights> weights = parseWeights(*rig, a.weights);
   if (!weights) return std::unexpected(weights.error());
-  if (auto ok = checkOutput(a.output, {a.face}, {".obj", ".glb"}); !ok)
+  if (auto ok = checkOutput(a.output, {a.face}, {".obj", ".glb"}, !a.quiet); !ok)
     return std::unexpected(ok.error());
   const Result<Following> following = follow(a.following, *rig);
   if (!following) return std::unexpected(following.error());

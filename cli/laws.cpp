@@ -22,7 +22,8 @@ void addOptions(CLI::App& app, LawsArguments& a) {
 }
 
 Result<int> runLaws(const LawsArguments& a) {
-  if (auto ok = checkOutput(a.output, {}, {".svg"}); !ok) return std::unexpected(ok.error());
+  if (auto ok = checkOutput(a.output, {}, {".svg"}, !a.quiet); !ok)
+    return std::unexpected(ok.error());
   if (auto written = writeFile(a.output, lawSheet()); !written)
     return std::unexpected(written.error());
   if (!a.quiet) fmt::print("{}: {} laws\n", a.output, everyLaw().size());

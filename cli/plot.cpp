@@ -194,7 +194,7 @@ Result<int> runPlot(const PlotArguments& a) {
     return fail("Say where to go with --to, or what to play with --clip.");
   const Result<Rig> rig = readFace(a.face);
   if (!rig) return std::unexpected(rig.error());
-  if (auto ok = checkOutput(a.output, {a.face, a.what.clip}, {".svg"}); !ok)
+  if (auto ok = checkOutput(a.output, {a.face, a.what.clip}, {".svg"}, !a.quiet); !ok)
     return std::unexpected(ok.error());
   const Result<Curves> curves = curvesOf(a, *rig);
   if (!curves) return std::unexpected(curves.error());

@@ -341,7 +341,8 @@ Result<int> runRender(const RenderArguments& a) {
     return fail("Pictures on the way to an expression have one view; give a single one.");
   std::vector<std::string> inputs = a.compare;
   inputs.push_back(a.face);
-  if (auto ok = checkOutput(a.output, inputs, {".png"}); !ok) return std::unexpected(ok.error());
+  if (auto ok = checkOutput(a.output, inputs, {".png"}, !a.quiet); !ok)
+    return std::unexpected(ok.error());
   if (!a.compare.empty() && a.following.any())
     return fail("Meshes know neither arcs nor eyes; leave --compare out, or the others.");
   Result<Rig> rig = readFace(a.face);

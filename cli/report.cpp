@@ -99,7 +99,7 @@ Result<int> runReport(const ReportArguments& a) {
   std::vector<std::string> inputs = a.targets;
   inputs.push_back(a.face);
   if (!a.neutral.empty()) inputs.push_back(a.neutral);
-  if (auto ok = checkOutput(a.output, inputs, {".html", ".htm"}); !ok)
+  if (auto ok = checkOutput(a.output, inputs, {".html", ".htm"}, !a.quiet); !ok)
     return std::unexpected(ok.error());
   const Result<std::string> page = reportOf(a);
   if (!page) return std::unexpected(page.error());

@@ -73,7 +73,7 @@ Result<int> runWireframe(const WireframeArguments& a) {
   if (!rig) return std::unexpected(rig.error());
   const Result<Weights> weights = parseWeights(*rig, a.weights);
   if (!weights) return std::unexpected(weights.error());
-  if (auto ok = checkOutput(a.output, {a.face}, {".obj", ".json"}); !ok)
+  if (auto ok = checkOutput(a.output, {a.face}, {".obj", ".json"}, !a.quiet); !ok)
     return std::unexpected(ok.error());
   if (isOfKind(a.output, ".json")) return writeDrawing(a, *rig);
   const CurveNetwork net = curveNetwork(rig->surface, blend(*rig, *weights), a.lod > 0 ? a.lod : 8);

@@ -209,13 +209,18 @@ TEST_F(Usage, RefusesWhatItDoesNotKnow) {
 }
 
 TEST_F(Usage, DoesNotMixTheReportWithWhatItMakes) {
-  const std::string command = fmt::format(
-      "cd '{}' && '{}' build '{}/examples/sheet.wire.json' -o /dev/stdout 2>.err | cat "
-      ">.out",
-      (folder / "").string(), SWEEPFACE_TOOL, SWEEPFACE_SOURCE_DIR);
-  EXPECT_EQ(std::system(command.c_str()), 0);  // cat's
-  EXPECT_EQ(contents(folder / ".out"), "");
+  convertRig();
+  const auto exportTo = [&](const std::string& output) {
+    const std::string command =
+        fmt::format("cd '{}' && '{}' export face.sweep -o {} 2>.err | cat >.out",
+                    (folder / "").string(), SWEEPFACE_TOOL, output);
+    EXPECT_EQ(std::system(command.c_str()), 0);  // cat's
+    return contents(folder / ".out");
+  };
+  EXPECT_EQ(exportTo("/dev/stdout"), "");
   EXPECT_NE(contents(folder / ".err").find("the report goes there"), std::string::npos);
+  exportTo("face.obj");
+  EXPECT_EQ(exportTo("/dev/stdout --quiet"), contents(folder / "face.obj"));
 }
 
 TEST_F(Usage, NoticesThatNobodyCanReadTheReport) {
