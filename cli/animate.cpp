@@ -99,6 +99,7 @@ Result<std::vector<double>> sampleTimes(const AnimateArguments& a, const Perform
 
 Result<void> makeFolder(const fs::path& folder) {
   std::error_code error;
+  if (folder.empty()) return fail("The name of the output is empty; name a folder or a file.");
   fs::create_directories(folder, error);
   if (fs::is_directory(folder)) return {};
   return fail(fmt::format("Cannot make the folder {}: {}.", folder.string(),

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <exception>
 #include <fmt/format.h>
+#include <iostream>
 
 #include "command.hpp"
 #include "output.hpp"
@@ -58,7 +59,10 @@ int run(int argc, char** argv) {
   try {
     tool.parse(std::move(words));
   } catch (const CLI::ParseError& error) {
-    return tool.exit(error) == 0 ? 0 : kMisused;
+    if (tool.exit(error) != 0) return kMisused;
+    if (std::cout.flush()) return 0;
+    printError(kReportIsLost);
+    return kFailed;
   }
   for (const Command& command : commands) {
     if (!command.app->parsed()) continue;

@@ -126,3 +126,4 @@ TEST_F(ToolGlb, RefusesOptionsThatDoNotGoTogether) {
 
 }  // namespace
 }  // namespace sweepface
+  EXPECT_TRUE(fails(animate + "-o ''", "the output is empty"));

@@ -227,7 +227,7 @@ TEST_F(Usage, NoticesThatNobodyCanReadTheReport) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP();
   convertRig();
   // A short report fails at its end, a long one on the way.
-  for (const char* arguments : {"info face.sweep", "check face.sweep",
+  for (const char* arguments : {"--help", "info face.sweep", "check face.sweep",
                                 "measure face.sweep neutral.obj targets --mixtures 100"}) {
     const std::string command = fmt::format("cd '{}' && '{}' {} >/dev/full 2>.err",
                                             (folder / "").string(), SWEEPFACE_TOOL, arguments);
