@@ -7,6 +7,7 @@
 #include "sweepface/io.hpp"
 
 #include "command.hpp"
+#include "interrupts.hpp"
 #include "output.hpp"
 
 namespace sweepface::cli {
@@ -83,6 +84,7 @@ Result<std::string> reportOf(const ReportArguments& a) {
   if (!rig) return std::unexpected(rig.error());
   Result<ReportOptions> options = optionsOf(a, *rig, bytes->size());
   if (!options) return std::unexpected(options.error());
+  options->cancel = &interrupted;
   ProgressBar bar(a.quiet);
   options->progress = [&](std::string_view what, double done) { bar.show(what, done); };
   if (a.neutral.empty()) return makeMotionReport(*rig, *options);
@@ -101,7 +103,12 @@ Result<int> runReport(const ReportArguments& a) {
   if (!a.neutral.empty()) inputs.push_back(a.neutral);
   if (auto ok = checkOutput(a.output, inputs, {".html", ".htm"}, !a.quiet); !ok)
     return std::unexpected(ok.error());
+  catchInterrupts();
   const Result<std::string> page = reportOf(a);
+  if (interrupted) {
+    printError("Interrupted; nothing was written.");
+    return kInterrupted;
+  }
   if (!page) return std::unexpected(page.error());
   if (auto written = writeFile(a.output, *page); !written) return std::unexpected(written.error());
   if (!a.quiet) fmt::print("{}: {} bytes\n", a.output, page->size());

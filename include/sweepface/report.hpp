@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -28,6 +29,8 @@ struct ReportOptions {
   std::vector<std::string> regions;
   /// Called now and then with what is going on and how far all of it is, 0 to 1.
   std::function<void(std::string_view what, double done)> progress;
+  /// Set by another thread or a signal to give up; there is no page then.
+  const std::atomic<bool>* cancel = nullptr;
 };
 
 /// A page of HTML about a rig and the meshes it was made from: pictures, tables and plots, with

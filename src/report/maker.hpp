@@ -38,7 +38,8 @@ class ReportMaker {
   Result<void> prepare();
   std::string head() const;
   Result<std::string> sizes();
-  void show(std::string_view what) const;
+  /// Shows what is going on; fails where the report was given up.
+  Result<void> proceed(std::string_view what) const;
   /// What converting or measuring says, as a sentence.
   std::unexpected<Error> refused(const Error& error) const;
   std::size_t vertices() const { return source_.neutral.positions.size(); }

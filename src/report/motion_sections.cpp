@@ -80,13 +80,13 @@ Weights strongestOf(const Rig& rig) {
 
 MotionSections::MotionSections(const Rig& rig, const FaceScenes& scenes, const Weights& expression,
                                const Camera& front, std::span<const std::string> regions,
-                               std::function<void()> drawn)
+                               std::function<Result<void>()> drawing)
     : rig_(rig),
       scenes_(scenes),
       expression_(expression),
       front_(front),
       regions_(regions),
-      drawn_(std::move(drawn)),
+      drawing_(std::move(drawing)),
       fine_(rig, lodFor(rig.surface, Style::shaded, kFrame)),
       rest_(rig.targets.size(), 0.0) {}
 
@@ -95,7 +95,7 @@ int MotionSections::pictures() {
 }
 
 Result<Image> MotionSections::picture(double way, PictureSize size) const {
-  if (drawn_) drawn_();
+  if (auto ok = drawing_(); !ok) return std::unexpected(ok.error());
   return render(fine_.scene(scaled(expression_, way), Style::shaded), front_, size);
 }
 

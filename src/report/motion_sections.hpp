@@ -12,10 +12,10 @@ namespace sweepface {
 class MotionSections {
  public:
   /// Everything must outlive the sections. Boxes are drawn round what the targets move whose names
-  /// contain one of `regions`; `drawn` is called for every picture.
+  /// contain one of `regions`; `drawing` is called before every picture and may refuse it.
   MotionSections(const Rig& rig, const FaceScenes& scenes, const Weights& expression,
                  const Camera& front, std::span<const std::string> regions,
-                 std::function<void()> drawn);
+                 std::function<Result<void>()> drawing);
 
   /// How many pictures there are.
   static int pictures();
@@ -38,7 +38,7 @@ class MotionSections {
   const Weights& expression_;
   const Camera& front_;
   std::span<const std::string> regions_;
-  std::function<void()> drawn_;
+  std::function<Result<void>()> drawing_;
   FaceScenes fine_;
   Weights rest_;
 };

@@ -99,9 +99,9 @@ Result<PeerFile> packed(const std::string& gltfpack, const std::filesystem::path
 }  // namespace
 
 Peers makePeers(const MeshRig& source, const std::string& gltfpack,
-                const std::function<void()>& step) {
+                const std::function<Result<void>()>& step) {
   Peers peers;
-  step();
+  if (!step()) return peers;
   const auto glb = formatGlb(source);
   const auto measured = glb ? measureFile(peers.glb, *glb, source, reachOf(source, 16))
                             : std::unexpected(glb.error());
@@ -118,7 +118,7 @@ Peers makePeers(const MeshRig& source, const std::string& gltfpack,
     return peers;
   }
   for (const int bits : kBits) {
-    step();
+    if (!step()) return peers;
     Result<PeerFile> file = packed(gltfpack, folder.path(), source, bits);
     if (!file) {
       peers.left = file.error().message;

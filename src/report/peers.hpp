@@ -27,9 +27,9 @@ struct Peers {
 constexpr int kPeerSteps = 4;
 
 /// Writes the source as GLB, has it packed by `gltfpack` and measures what these decode to. Calls
-/// `step` before each step.
+/// `step` before each step, and goes no further where that refuses.
 Peers makePeers(const MeshRig& source, const std::string& gltfpack,
-                const std::function<void()>& step);
+                const std::function<Result<void>()>& step);
 
 /// Which vertex of a rig that lost its order stands for each of the source's: of those within
 /// `radius` of it in the neutral, the nearest at its worst over all shapes. -1: for vertices of no

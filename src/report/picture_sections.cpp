@@ -18,7 +18,7 @@ void ReportMaker::Figures::add(Result<std::string> figure) {
 Result<std::string> ReportMaker::picture(Scene scene, const Camera& camera,
                                          std::string_view caption, PictureSize size,
                                          std::span<const PictureBox> boxes) {
-  show("rendering");
+  if (auto ok = proceed("rendering"); !ok) return std::unexpected(ok.error());
   Result<Image> image = render(std::move(scene), camera, size);
   if (!image) return std::unexpected(image.error());
   done_ += 1;

@@ -53,6 +53,12 @@ Result<void> checkExpression(const Rig& rig, const ReportOptions& options) {
                           options.expression.size(), rig.targets.size()));
 }
 
+Result<void> proceed(const ReportOptions& options, std::string_view what, double done) {
+  if (options.cancel && *options.cancel) return fail("The report was interrupted.");
+  if (options.progress) options.progress(what, std::min(done, 1.0));
+  return {};
+}
+
 }  // namespace
 
 ReportMaker::ReportMaker(const Rig& rig, const MeshRig& source, const ReportOptions& options)
@@ -93,7 +99,7 @@ Result<void> ReportMaker::prepare() {
   if (!moved) return std::unexpected(moved.error());
   if (auto ok = checkMeshes(rig_, source_); !ok) return ok;
   moved_ = std::move(*moved);
-  show("measuring");
+  if (auto ok = proceed("measuring"); !ok) return ok;
   Result<Measurement> measured = measure(rig_, source_, {.mixtures = 5, .seed = 1});
   if (!measured) return refused(measured.error());
   measured_ = std::move(*measured);
@@ -103,8 +109,8 @@ Result<void> ReportMaker::prepare() {
   return {};
 }
 
-void ReportMaker::show(std::string_view what) const {
-  if (options_.progress) options_.progress(what, std::min(done_ / work_, 1.0));
+Result<void> ReportMaker::proceed(std::string_view what) const {
+  return sweepface::proceed(options_, what, done_ / work_);
 }
 
 std::unexpected<Error> ReportMaker::refused(const Error& error) const {
@@ -116,8 +122,9 @@ std::string ReportMaker::mixture() const { return mixtureOf(rig_, expression_); 
 Result<std::string> ReportMaker::motion() {
   if (!moves_) return "";
   const MotionSections sections(rig_, scenes_, expression_, front_, options_.regions, [this] {
-    show("rendering");
+    const Result<void> ok = proceed("rendering");
     done_ += 1;
+    return ok;
   });
   const auto experiment = sections.experiment();
   if (!experiment) return experiment;
@@ -198,8 +205,7 @@ Result<std::string> makeMotionReport(const Rig& rig, const ReportOptions& option
   const Camera front = frameCameras(all, std::array{View{0, 0}}, kPanel)[0];
   int done = 0;
   const MotionSections sections(rig, scenes, expression, front, options.regions, [&] {
-    if (options.progress)
-      options.progress("rendering", static_cast<double>(done++) / MotionSections::pictures());
+    return proceed(options, "rendering", static_cast<double>(done++) / MotionSections::pictures());
   });
   const auto experiment = sections.experiment();
   if (!experiment) return experiment;

@@ -29,10 +29,11 @@ void addUpright(std::vector<Series>& series, const std::string& name, double x) 
 }  // namespace
 
 Result<ReportMaker::Trial> ReportMaker::tryTolerance(double tolerance) {
-  show("converting");
+  if (auto ok = proceed("converting"); !ok) return std::unexpected(ok.error());
   ConvertOptions options;
   options.tolerance = tolerance;
   options.pack = true;
+  options.cancel = options_.cancel;
   const Result<Conversion> conversion = convert(source_, options);
   if (!conversion) return refused(conversion.error());
   done_ += static_cast<double>(source_.targets.size() + 3);
@@ -85,8 +86,9 @@ std::string ReportMaker::errorOverPoints(const std::vector<Trial>& trials) const
 
 std::string ReportMaker::errorOverBytes(const std::vector<Trial>& trials) {
   const Peers peers = makePeers(source_, options_.gltfpack, [this] {
-    show("comparing formats");
+    const Result<void> ok = proceed("comparing formats");
     done_ += 1;
+    return ok;
   });
   html::Table table(
       {"file", "bytes", "distance RMS", "99.9 %", "max", "displacement RMS", "99.9 %", "max"});

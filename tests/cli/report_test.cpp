@@ -246,6 +246,28 @@ TEST_F(Usage, ReadsAFaceFromAPipe) {
   }
 }
 
+TEST_F(Usage, LeavesNothingOfAReportOnInterrupt) {
+  convertRig();
+  const auto at = [&](const char* name) { return (folder / name).string(); };
+  folder.file("temporary/.keep", "");
+  folder.file("pack", "#!/bin/sh\necho >> " + at("runs") + "\nsleep 0.5\ncp \"$2\" \"$4\"\n");
+  std::filesystem::permissions(at("pack"), std::filesystem::perms::owner_all);
+  setenv("TMPDIR", at("temporary").c_str(), 1);
+  const pid_t child = start({"report", at("face.sweep"), at("neutral.obj"), at("targets"),
+                             "--tolerances", "0.5", "--gltfpack", at("pack"), "-o", at("a.html")});
+  unsetenv("TMPDIR");
+  ASSERT_GE(child, 0);
+  while (!std::filesystem::exists(at("runs")) && waitpid(child, nullptr, WNOHANG) == 0)
+    usleep(1000);
+  kill(child, SIGINT);
+  EXPECT_EQ(codeOf(child), 130);
+  EXPECT_EQ(contents(at(".err")), "sweepface: Interrupted; nothing was written.\n");
+  EXPECT_EQ(contents(at("runs")), "\n");
+  EXPECT_FALSE(std::filesystem::exists(at("a.html")));
+  for (const auto& left : std::filesystem::directory_iterator(at("temporary")))
+    EXPECT_EQ(left.path().filename(), ".keep");
+}
+
 // As CLI11 does by itself.
 TEST_F(Usage, DoesNotTakeALeadingZeroForOctal) {
   convertRig();

@@ -15,7 +15,7 @@ namespace {
 
 using namespace testing;
 
-void nothing() {}
+Result<void> nothing() { return {}; }
 
 /// A program for gltfpack that does what the script says with its input $2 and its output $4.
 std::string program(const TemporaryFolder& folder, const std::string& script) {
@@ -71,7 +71,10 @@ TEST(Peers, AreMeasuredOnWhatTheyDecodeTo) {
   const TemporaryFolder folder;
   const MeshRig source = withTargets(plane(12, 10));
   int steps = 0;
-  const Peers peers = makePeers(source, program(folder, "cp \"$2\" \"$4\""), [&] { ++steps; });
+  const Peers peers = makePeers(source, program(folder, "cp \"$2\" \"$4\""), [&] {
+    ++steps;
+    return Result<void>();
+  });
   EXPECT_EQ(steps, kPeerSteps);
   EXPECT_GT(peers.glb.bytes, 12 * 3 * source.neutral.positions.size());
   EXPECT_GT(peers.glb.distance.max, 0);

@@ -246,6 +246,18 @@ TEST(MotionReport, ShowsThePapersExperimentAndEveryLaw) {
   EXPECT_TRUE(makeMotionReport(rig, options));
 }
 
+TEST(Report, MayBeGivenUp) {
+  const MeshRig source = hill();
+  const Rig rig = converted(source, 0.05);
+  std::atomic<bool> cancel = false;
+  ReportOptions options;
+  options.cancel = &cancel;
+  options.progress = [&](std::string_view, double) { cancel = true; };
+  EXPECT_TRUE(failsWith(makeReport(rig, source, options), {"was interrupted"}));
+  cancel = false;
+  EXPECT_TRUE(failsWith(makeMotionReport(rig, options), {"was interrupted"}));
+}
+
 TEST(Report, DoesWithoutTargetsAndTolerances) {
   const MeshRig source{plane(12, 10), {}};
   const auto report = makeReport(converted(source, 0.05), source, {});
