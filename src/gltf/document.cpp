@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 
+#include "gltf/bounds.hpp"
 #include "gltf/meshopt.hpp"
 #include "gltf/resources.hpp"
 #include "io/text.hpp"
@@ -140,6 +141,7 @@ class Loader {
     const std::size_t views = document_.list("bufferViews").size();
     for (std::size_t v = 0; v < views; ++v)
       if (auto ok = loadView(v); !ok) return ok;
+    correctBounds(document_, rounded_);
     return {};
   }
 
@@ -186,6 +188,7 @@ class Loader {
 
   Result<void> loadView(std::size_t index) {
     const Json& json = document_.list("bufferViews")[index];
+    rounded_.push_back(false);
     if (meshoptOf(json)) return decompressView(index);
     Members in(json, placeOf("buffer view", index));
     BufferView view;
@@ -228,6 +231,7 @@ class Loader {
     if (view.ok() && stride != 0 && stride != stream.stride)
       view.refuse("its byteStride is not that of what is compressed");
     if (!view.ok()) return view.error();
+    rounded_.back() = in.has("filter");
     pointTo(index, elements.size());
     document_.views.push_back({document_.buffers.size(), 0, elements.size(), stride});
     told_.push_back({elements.size(), document_.buffers.size()});
@@ -254,6 +258,7 @@ class Loader {
   std::size_t total_ = 0, compressed_ = 0;
   std::map<std::string, std::size_t> sources_;  // the first buffer of each file or data: URI
   std::vector<Told> told_;                      // [buffers]
+  std::vector<bool> rounded_;                   // [views] by a filter
 };
 
 /// Takes an extension that nothing uses any longer out of the lists of those that are, and out of

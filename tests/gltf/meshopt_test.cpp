@@ -124,6 +124,30 @@ TEST(Meshopt, FiltersAreUndone) {
     EXPECT_NEAR(values[k], numbers[k], 1e-3 * std::abs(values[k]));
 }
 
+TEST(Meshopt, BoundsAreThoseOfWhatAFilterRounded) {
+  const std::vector<float> numbers{0.123456f, -9.87654f, 5.4321f, 0.777777f, 2.345678f, -1.2345f};
+  std::vector<std::uint32_t> exponential(6);
+  meshopt_encodeFilterExp(exponential.data(), 3, 8, 6, numbers.data());
+  const std::string stream = compressedVertices(bytesOf(exponential), 3, 8);
+  Glb glb;
+  const std::size_t rounded = addCompressed(glb, stream, 3, 8, "ATTRIBUTES", "EXPONENTIAL"),
+                    exact =
+                        addCompressed(glb, compressedVertices(floatsOf({{1, 2, 3}}), 1, 12), 1, 12);
+  for (const char* bound : {"min", "max"}) {
+    glb.accessor(glb.addAccessor(exact, 5126, "VEC3", 1))[bound] = {7, 7, 7};
+    glb.accessor(glb.addAccessor(rounded, 5126, "VEC2", 3))[bound] = {7, 7};
+  }
+  const auto values = decodeLast(glb).value();
+  const auto document = gltf::parseDocument(glb.bytes(), {});
+  const Json& accessors = document->list("accessors");
+  EXPECT_EQ(accessors[0]["min"], Json({7, 7, 7})) << "nothing was rounded";
+  EXPECT_EQ(accessors[1]["min"], Json({std::min({values[0], values[2], values[4]}),
+                                       std::min({values[1], values[3], values[5]})}));
+  EXPECT_EQ(accessors[3]["max"], Json({std::max({values[0], values[2], values[4]}),
+                                       std::max({values[1], values[3], values[5]})}));
+  EXPECT_FALSE(accessors[1].contains("max") || accessors[3].contains("min"));
+}
+
 /// The small face with its open target's accessor compressed.
 Glb compressedFace() {
   Glb glb = smallFace();
