@@ -79,10 +79,15 @@ Result<void> addHeadTrack(Document& document, const HeadTrack& track, double tol
                           Json& animation, Builder& builder) {
   Json& json = document.json;
   if (document.list("scenes").size() != 1)
-    return fail("The face's file has not just one scene, so it is not clear what its head holds.");
+    return fail(
+        "The face's file has not just one scene, so it is not clear what its head holds; leave the "
+        "head's turns out (--head), or convert the face from a file with one scene.");
   Roots roots(document);
   if (roots.below.empty())
-    return fail("The scene of the face's file shows nothing that its head could hold.");
+    return fail(
+        "The scene of the face's file shows nothing that its head could hold; leave the head's "
+        "turns "
+        "out (--head), or convert the face from a file that shows it.");
   Json& nodes = json["nodes"];
   const std::size_t head = nodes.size();
   const auto place = [](const Vec3& p) { return Json::array({p.x, p.y, p.z}); };
