@@ -10,6 +10,7 @@
 #include "command.hpp"
 #include "head.hpp"
 #include "interrupts.hpp"
+#include "key_frames.hpp"
 #include "lod_mesh.hpp"
 #include "output.hpp"
 #include "parallel.hpp"
@@ -98,8 +99,8 @@ Result<std::vector<double>> sampleTimes(const AnimateArguments& a, const Perform
 // ---- Meshes ----
 
 Result<void> makeFolder(const fs::path& folder) {
-  std::error_code error;
   if (folder.empty()) return fail("The name of the output is empty; name a folder or a file.");
+  std::error_code error;
   fs::create_directories(folder, error);
   if (fs::is_directory(folder)) return {};
   return fail(fmt::format("Cannot make the folder {}: {}.", folder.string(),
@@ -150,16 +151,6 @@ Result<void> animateMeshes(const AnimateArguments& a, const Rig& rig,
 
 // ---- GLB ----
 
-/// Times that miss nothing: a clip's own frames, or so many that straight lines between them do.
-std::vector<double> everyTime(const Performance& performance) {
-  if (!performance.frameTimes.empty()) return performance.frameTimes;
-  constexpr double kRate = 480;
-  const double last = std::max(8.0, std::ceil(std::min(performance.seconds * kRate, 1e6)));
-  std::vector<double> times;
-  for (double k = 0; k <= last; ++k) times.push_back(performance.seconds * (k / last));
-  return times;
-}
-
 /// Which kind of keys --keys means, or nobody did.
 std::string keysOf(const AnimateArguments& a, const Performance& performance) {
   if (!a.keys.empty()) return a.keys;
@@ -176,16 +167,18 @@ Result<void> animateGlb(const AnimateArguments& a, const Rig& rig, const Perform
   Clip clip;
   if (keys == "exact") {
     options.motion = &*performance.motion;
+  } else if (keys == "few") {
+    KeyFrames frames = keyFrames(performance, rig, a.keyTolerance > 0 ? a.keyTolerance : 0.002);
+    clip = std::move(frames.clip);
+    options.keyTolerance = frames.tolerance;
   } else {
-    const bool own = keys == "sampled" && !performance.frameTimes.empty() && !a.namesFrames();
-    const Result<std::vector<double>> times = keys == "few" ? everyTime(performance)
-                                              : own         ? performance.frameTimes
-                                                            : sampleTimes(a, performance);
+    const bool own = !performance.frameTimes.empty() && !a.namesFrames();
+    const Result<std::vector<double>> times =
+        own ? performance.frameTimes : sampleTimes(a, performance);
     if (!times) return std::unexpected(times.error());
     clip = sample(performance, rig, *times);
-    options.clip = &clip;
-    if (keys == "few") options.keyTolerance = a.keyTolerance > 0 ? a.keyTolerance : 0.002;
   }
+  if (keys != "exact") options.clip = &clip;
   const auto head = headTrack(a.head, rig, performance, clip.times);
   if (!head) return std::unexpected(head.error());
   if (*head) options.head = &**head;

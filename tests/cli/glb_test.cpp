@@ -1,3 +1,5 @@
+#include "sweepface/trajectory.hpp"
+
 #include "cli/tool.hpp"
 #include "gltf/written.hpp"
 
@@ -83,6 +85,36 @@ TEST_F(ToolGlb, Animates) {
   EXPECT_EQ(contents(folder / "same.glb"), contents(folder / "jaw.glb"));
 }
 
+TEST_F(ToolGlb, FewKeysKeepTheirToleranceOfWhatIsPlayed) {
+  convertRig();
+  const auto bounce = [](double seconds, double restitution) {
+    return *Trajectory::bounce({}, 1, seconds * (1 - restitution) / (1 + restitution), restitution);
+  };
+  const auto spring = [](double frequency, double damping) {
+    return *Trajectory::spring({}, 1, {frequency, damping});
+  };
+  struct Case {
+    std::string options;
+    Trajectory path;
+    double seconds = 1, tolerance = 0.002;
+  };
+  for (const auto& [options, path, seconds, tolerance] :
+       {Case{"--law bounce", bounce(1, 0.4)},
+        Case{"--law bounce --seconds 0.2 --restitution 0.6", bounce(0.2, 0.6), 0.2},
+        Case{"--law spring --frequency 20 --damping 0.1", spring(20, 0.1)},
+        Case{"--law spring --damping 0.2 --key-tolerance 1e-4", spring(2, 0.2), 1, 1e-4}}) {
+    ASSERT_EQ(run("animate face.sweep --to jawOpen=1 -o jaw.glb " + options).code, 0);
+    const Written file = glb("jaw.glb");
+    double worst = 0;
+    for (int k = 0; k <= 5000; ++k) {
+      const double time = seconds * k / 5000;
+      const auto weights = evaluate(file, file.json["animations"][0], 0, time);
+      worst = std::max(worst, std::abs(weights[0] - path.at(time).position));
+    }
+    EXPECT_LE(worst, tolerance + 1e-6) << options;
+  }
+}
+
 TEST_F(ToolGlb, SamplesKeysOnRequest) {
   convertRig();
   for (const auto& [frames, count] : {std::pair{"", 31}, std::pair{" --frames 5", 5}}) {
@@ -116,6 +148,7 @@ TEST_F(ToolGlb, RefusesOptionsThatDoNotGoTogether) {
       fails(animate + "-o out.glb --keys exact --frames 10", "leave --frames and --fps out"));
   EXPECT_TRUE(fails(animate + "-o out.glb --keys some", "exact, few or sampled, not 'some'"));
   EXPECT_TRUE(fails(animate + "-o out.gltf", "must end in"));
+  EXPECT_TRUE(fails(animate + "-o ''", "the output is empty"));
   EXPECT_TRUE(fails(animate + "-o folder.glb", "it is a folder"));
   EXPECT_TRUE(fails(animate + "-o out.glb --seconds 1e-44", "single precision"));
   EXPECT_TRUE(fails("animate face.sweep --to '' -o no/out.glb", "there is no folder no"));
@@ -126,4 +159,3 @@ TEST_F(ToolGlb, RefusesOptionsThatDoNotGoTogether) {
 
 }  // namespace
 }  // namespace sweepface
-  EXPECT_TRUE(fails(animate + "-o ''", "the output is empty"));

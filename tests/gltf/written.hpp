@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <gtest/gtest.h>
 #include <string>
@@ -151,6 +152,33 @@ class Written {
     }
   }
 };
+
+/// The values of a sampler at a time (glTF 2.0, appendix C).
+inline std::vector<double> evaluate(const Written& glb, const Json& animation, std::size_t sampler,
+                                    double time) {
+  const Json& s = animation["samplers"][sampler];
+  const std::vector<double> times = glb.numbers(s["input"].get<std::size_t>());
+  const std::vector<double> output = glb.numbers(s["output"].get<std::size_t>());
+  const bool cubic = s["interpolation"] == "CUBICSPLINE";
+  const std::size_t width = output.size() / times.size() / (cubic ? 3 : 1);
+  time = std::clamp(time, times.front(), times.back());
+  std::size_t k = 0;
+  while (k + 2 < times.size() && times[k + 1] < time) ++k;
+  const double td = times[k + 1] - times[k], t = (time - times[k]) / td;
+  std::vector<double> values;
+  for (std::size_t w = 0; w < width; ++w) {
+    if (!cubic) {
+      values.push_back(std::lerp(output[k * width + w], output[(k + 1) * width + w], t));
+      continue;
+    }
+    const double v0 = output[(3 * k + 1) * width + w], b0 = output[(3 * k + 2) * width + w];
+    const double a1 = output[(3 * k + 3) * width + w], v1 = output[(3 * k + 4) * width + w];
+    const double t2 = t * t, t3 = t2 * t;
+    values.push_back((2 * t3 - 3 * t2 + 1) * v0 + td * (t3 - 2 * t2 + t) * b0 +
+                     (-2 * t3 + 3 * t2) * v1 + td * (t3 - t2) * a1);
+  }
+  return values;
+}
 
 inline Written write(const Rig& rig, const GlbOptions& options = {}) {
   const Result<std::string> bytes = formatGlb(rig, options);
