@@ -318,7 +318,8 @@ Result<int> convertAndWrite(const ConvertArguments& a) {
 Result<int> runConvert(const ConvertArguments& a) {
   std::vector<std::string> inputs = a.targets;
   inputs.push_back(a.neutral);
-  if (auto ok = checkOutput(a.output, inputs, {".sweep"}); !ok) return std::unexpected(ok.error());
+  if (auto ok = checkOutput(a.output, inputs, {".sweep"}, a.json || !a.quiet); !ok)
+    return std::unexpected(ok.error());
   const bool packs = a.pack || a.maxBytes > 0;
   if (!packs && (a.uvBits || a.normalTolerance > 0))
     return fail(fmt::format("{} is for packed files; give --pack or --max-bytes as well.",

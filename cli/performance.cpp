@@ -97,7 +97,8 @@ struct Recording {
   Clip clip, played;
 };
 
-Result<Recording> readClip(const PerformanceArguments& a, const Region& region) {
+Result<Recording> readClip(const PerformanceArguments& a, const Region& region,
+                           std::size_t regions) {
   const Result<std::string> text = readFile(a.clip);
   if (!text) return std::unexpected(text.error());
   const bool isJson = isOfKind(a.clip, ".json");
@@ -121,7 +122,7 @@ Result<Recording> readClip(const PerformanceArguments& a, const Region& region) 
                      : parseLiveLinkCsv(*text, a.clip, a.clipRate);
   if (!clip) return std::unexpected(clip.error());
   if (a.smooth) smooth(*clip);
-  Clip played = inMatter(*clip, region.matter, {a.frequency, a.damping});
+  Clip played = inMatter(*clip, region.matter, {a.frequency, a.damping}, regions);
   return Recording{std::move(*clip), std::move(played)};
 }
 
@@ -146,8 +147,9 @@ std::vector<std::string> notesOn(const ClipMatch& match, const Clip& clip,
   return notes;
 }
 
-Result<Performance> byClip(const PerformanceArguments& a, const Rig& rig, const Region& region) {
-  Result<Recording> recording = readClip(a, region);
+Result<Performance> byClip(const PerformanceArguments& a, const Rig& rig, const Region& region,
+                           std::size_t regions) {
+  Result<Recording> recording = readClip(a, region, regions);
   if (!recording) return std::unexpected(recording.error());
   Clip& clip = recording->played;
   std::vector<std::string> targets;
@@ -280,8 +282,8 @@ void addPerformance(CLI::App& app, PerformanceArguments& a) {
 }
 
 Result<Performance> makePerformance(const PerformanceArguments& a, const Rig& rig,
-                                    const Region& region) {
-  return a.clip.empty() ? byLaw(a, rig, region.matter) : byClip(a, rig, region);
+                                    const Region& region, std::size_t regions) {
+  return a.clip.empty() ? byLaw(a, rig, region.matter) : byClip(a, rig, region, regions);
 }
 
 Clip sample(const Performance& performance, const Rig& rig, std::vector<double> times) {

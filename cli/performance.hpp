@@ -39,9 +39,9 @@ struct Performance {
   bool isDivided = false;          ///< into regions, some of whose targets are parts
   std::vector<std::string> notes;  ///< what the user should know, in sentences
 };
-/// By the matter of a region, and without what a timeline means for others.
+/// By the matter of a region, one of so many, and without what a timeline means for others.
 Result<Performance> makePerformance(const PerformanceArguments& a, const Rig& rig,
-                                    const Region& region = {});
+                                    const Region& region = {}, std::size_t regions = 1);
 
 /// Velocities and accelerations by central differences over a frame at 60 frames a second.
 std::function<void(double, std::span<Kinematics>)> byDifferences(

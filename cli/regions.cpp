@@ -114,7 +114,7 @@ Result<Performance> perform(const PerformanceArguments& what, const RegionArgume
   if (!regions) return std::unexpected(regions.error());
   Parts parts;
   for (const Region& region : *regions) {
-    auto performance = makePerformance(what, rig, region);
+    auto performance = makePerformance(what, rig, region, regions->size());
     if (!performance) return std::unexpected(performance.error());
     if (performance->clipWeights > kMostClipWeights / regions->size())
       return fail(fmt::format("{} is too long for {} regions; cut it, or play it with fewer.",

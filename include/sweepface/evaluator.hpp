@@ -57,7 +57,8 @@ class Evaluator {
   std::size_t positionBytes() const;
   std::size_t normalBytes() const;
   /// How far any vertex may be from the surface under these weights, in model units: what was
-  /// dropped of each target, as measured when the tables were made, and rounding.
+  /// dropped of each target, as measured when the tables were made, and rounding. Weights beyond
+  /// ±10⁶ are scaled back to that, and the bound does not hold.
   double positionBound(std::span<const double> weights) const;
   /// The same for a derivative, as a share of its neutral length.
   double derivativeBound(std::span<const double> weights) const;

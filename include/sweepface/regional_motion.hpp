@@ -16,10 +16,12 @@ namespace sweepface {
 Drive inMatter(Drive drive, const Matter& matter);
 
 /// What a clip becomes there. The recorded face has the mass 1 already; what is beyond that hangs
-/// on the recorded weights by a spring and a damper, follows late and swings on. It has so many
-/// frames that straight lines between them are as good as exact, and goes on until all of it has
-/// arrived: until what swings hangs still, or for ten seconds.
-Clip inMatter(const Clip& clip, const Matter& matter, const Spring& hold = {});
+/// on the recorded weights by a spring and a damper, follows late and swings on. Where it swings it
+/// has so many frames that straight lines between them are as good as exact, as far as `regions`
+/// such clips together hold kMostClipWeights, and it goes on until all of it has arrived: until
+/// what swings hangs still, or for ten seconds.
+Clip inMatter(const Clip& clip, const Matter& matter, const Spring& hold = {},
+              std::size_t regions = 1);
 
 /// R regions × K weights in motion: a goal sends a weight off everywhere, and each region moves by
 /// its own matter. One region of matter 1 is a MotionState, bit for bit. A late region does all

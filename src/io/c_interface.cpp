@@ -78,8 +78,8 @@ Result<Recording> readForRegions(const Division& division, std::string_view byte
     if (auto ok = checkRoom(*capture, division.count(), name); !ok)
       return std::unexpected(ok.error());
     for (std::size_t r = 0; r < division.count(); ++r)
-      clips.push_back(
-          inMatter(*capture, matterOf(division, r), {options.frequency, options.damping}));
+      clips.push_back(inMatter(*capture, matterOf(division, r),
+                               {options.frequency, options.damping}, division.count()));
     recording.clip = std::move(*capture);
     return recording;
   }

@@ -17,7 +17,7 @@ LateGoals::LateGoals(std::size_t weights, double delay) {
 
 void LateGoals::add(const Goal& goal) noexcept {
   if (2 * count_ >= ring_.size())
-    for (std::size_t k = count_; k-- > 0 && at(k).at > goal.at - apart_;)
+    for (std::size_t k = count_; k-- > 0 && goal.at - at(k).at < apart_;)
       if (at(k).weight == goal.weight) {
         at(k).value = goal.value;
         at(k).drive = goal.drive;

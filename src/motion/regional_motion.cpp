@@ -33,64 +33,56 @@ class Hanging {
     return distance_.position;
   }
 
-  /// Whether it goes on to swing when what it hangs on has stopped.
-  bool swingsOn() const {
-    constexpr double kSmall = 1e-3;
-    return std::abs(distance_.position) > kSmall || std::abs(distance_.velocity + speed_) > kSmall;
-  }
+  /// Whether it swings about what it hangs on, and whether it would if that stopped.
+  bool swings() const { return isMuch(distance_.velocity); }
+  bool swingsOn() const { return isMuch(distance_.velocity + speed_); }
 
  private:
+  bool isMuch(double speed) const {
+    constexpr double kSmall = 1e-3;
+    return std::abs(distance_.position) > kSmall || std::abs(speed) > kSmall;
+  }
+
   Kinematics distance_;
   double speed_ = 0;  // of what it hangs on
 };
 
-/// The same clip with more frames, so that no two are further apart than that.
-Clip finer(const Clip& clip, double longest) {
-  Clip result{clip.names, {}, {}};
-  const std::size_t n = clip.names.size();
-  const auto add = [&](double time) {
-    result.times.push_back(time);
-    result.weights.resize(n * result.times.size());
-    clip.at(time - clip.times.front(), std::span(result.weights).last(n));
-  };
-  for (std::size_t f = 0; f < clip.times.size(); ++f) {
-    const double before = f > 0 ? clip.times[f - 1] : clip.times[f], span = clip.times[f] - before;
-    const double pieces = std::ceil(span / longest);
-    for (double p = 1; p < pieces; ++p) add(before + span * p / pieces);
-    add(clip.times[f]);
-  }
-  return result;
-}
-
-/// Straight lines between its frames are as good as exact, and it goes on until it hangs still, or
-/// for ten seconds.
-Clip hanging(const Clip& clip, const Spring& spring) {
+/// Where anything swings there are so many frames that straight lines between them are as good as
+/// exact, for ten seconds after each of the clip's and no more than `most` weights in all. It goes
+/// on until it hangs still, or for as long.
+Clip hanging(const Clip& clip, const Spring& spring, std::size_t most) {
   constexpr double kFrame = 1.0 / 120, kLongest = 10;
   const std::size_t n = clip.names.size();
   if (clip.times.empty() || n == 0) return clip;
-  // But no more frames than a clip may hold.
-  const auto most = static_cast<double>(kMostClipWeights / n);
-  const double room = most - static_cast<double>(clip.times.size());
-  const double frame = std::max(kFrame, room > 0 ? (clip.seconds() + kLongest) / room : HUGE_VAL);
-  Clip result = finer(clip, frame);
+  double swinging = kLongest;
+  for (std::size_t f = 1; f < clip.times.size(); ++f)
+    swinging += std::min(clip.times[f] - clip.times[f - 1], kLongest);
+  const double room = static_cast<double>(most / n) - 2 * static_cast<double>(clip.times.size());
+  const double frame = std::max(kFrame, room > 0 ? swinging / room : HUGE_VAL);
+
+  std::vector<double> before(clip.weights.begin(), clip.weights.begin() + std::ssize(clip.names));
+  std::vector<double> now(n);
   std::vector<Hanging> hangs(n);
-  std::vector<double> before(n), now(n);
-  const std::size_t recorded = result.times.size();
-  const double end = result.times.back() + kLongest;
-  result.at(0, before);
-  for (std::size_t f = 1;; ++f) {
-    if (f >= recorded) {
-      const double next = result.times.back() + frame;
-      if (std::ranges::none_of(hangs, &Hanging::swingsOn) || !(next <= end)) break;
-      result.times.push_back(next);
-      result.weights.resize(n * result.times.size());
-    }
-    clip.at(result.times[f] - result.times.front(), now);
+  Clip result{clip.names, {clip.times.front()}, before};
+  const auto goTo = [&](double time) {
+    const double seconds = time - result.times.back();
+    clip.at(time - clip.times.front(), now);
+    result.times.push_back(time);
     for (std::size_t k = 0; k < n; ++k)
-      result.weights[f * n + k] =
-          now[k] + hangs[k].step(spring, result.times[f] - result.times[f - 1], now[k] - before[k]);
+      result.weights.push_back(now[k] + hangs[k].step(spring, seconds, now[k] - before[k]));
     before.swap(now);
+  };
+  const auto any = [&](auto swings) { return std::ranges::any_of(hangs, swings); };
+  for (std::size_t f = 1; f < clip.times.size(); ++f) {
+    const double from = clip.times[f - 1], span = clip.times[f] - from;
+    const double pieces = std::ceil(span / frame), swung = std::min(pieces, kLongest / frame);
+    for (double p = 1; p < swung && (p == 1 || any(&Hanging::swings)); ++p)
+      goTo(from + span * p / pieces);
+    goTo(clip.times[f]);
   }
+  const double end = clip.times.back() + kLongest;
+  while (any(&Hanging::swingsOn) && result.times.back() + frame <= end)
+    goTo(result.times.back() + frame);
   return result;
 }
 
@@ -106,10 +98,12 @@ void delay(Clip& clip, double seconds) {
 
 }  // namespace
 
-Clip inMatter(const Clip& clip, const Matter& matter, const Spring& hold) {
+Clip inMatter(const Clip& clip, const Matter& matter, const Spring& hold, std::size_t regions) {
   const double excess = matter.mass - 1;
-  Clip late = excess > 0 ? hanging(clip, {hold.frequency * std::sqrt(matter.stiffness / excess),
-                                          hold.damping / std::sqrt(matter.stiffness * excess)})
+  Clip late = excess > 0 ? hanging(clip,
+                                   {hold.frequency * std::sqrt(matter.stiffness / excess),
+                                    hold.damping / std::sqrt(matter.stiffness * excess)},
+                                   kMostClipWeights / regions)
                          : clip;
   if (matter.delay > 0) delay(late, matter.delay);
   return late;

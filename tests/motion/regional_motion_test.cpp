@@ -126,6 +126,19 @@ TEST(RegionalMotion, MoreGoalsThanCanWaitBecomeFewer) {
   EXPECT_NEAR(motion.sample(1, 1).position, 1, 1e-9) << "and the only one of a weight";
 }
 
+// Nor is any lost where the delay is less than the clock tells apart.
+TEST(RegionalMotion, GoalsOfOneInstantBecomeTheLast) {
+  auto motion = RegionalMotion::make(std::vector<double>{0, 0}, std::vector{Matter{1, 1, 1e-17}});
+  ASSERT_TRUE(motion);
+  motion->advance(1);
+  const Drive drive{.kind = Drive::Kind::cut, .spring = {}};
+  EXPECT_TRUE(motion->moveTo(1, 1, drive));
+  for (int k = 1; k <= 8; ++k) EXPECT_TRUE(motion->moveTo(0, k / 16.0, drive));
+  motion->advance(1);
+  EXPECT_EQ(motion->sample(0, 0).position, 0.5);
+  EXPECT_EQ(motion->sample(0, 1).position, 1);
+}
+
 TEST(RegionalMotion, LateRegionsFeelABlowAtOnce) {
   RegionalMotion motion = motionOf({0.0}, {{}, {1, 1, 0.5}});
   ASSERT_TRUE(motion.moveTo(0, 1, spring(3, 1)));
@@ -283,6 +296,27 @@ TEST(RegionalClip, AHeavyRegionArrives) {
   EXPECT_NEAR(heavy.weights.back(), 1, 1e-2);
   // What never stops is shown for a while.
   EXPECT_NEAR(inMatter(clip, {4, 1, 0}, {2, 1e-9}).seconds(), 12, 0.1);
+}
+
+// A take with a break of nine hours holds hardly more than one without.
+TEST(RegionalClip, AHeavyRegionThatHangsStillNeedsNoFrames) {
+  const Clip clip{{"jawOpen"}, {0, 0.1, 32400, 32400.1, 1e9}, {0, 1, 1, 0, 0.5}};
+  const Clip heavy = inMatter(clip, {4, 1, 0}, {2, 0.7});
+  EXPECT_LT(heavy.times.size(), 4 * 1200u);
+  std::vector<double> found(1);
+  heavy.at(100, found);
+  EXPECT_NEAR(found[0], 1, 1e-3);
+  heavy.at(32400.12, found);
+  EXPECT_GT(found[0], 0.5);  // it lags
+  heavy.at(32500, found);
+  EXPECT_NEAR(found[0], 0, 1e-3);
+}
+
+TEST(RegionalClip, SharesTheRoomWithOtherRegions) {
+  const Clip clip{{"jawOpen"}, {0, 2}, {0, 1}};
+  const std::size_t regions = kMostClipWeights / 100;
+  EXPECT_GT(inMatter(clip, {4, 1, 0}).weights.size(), 200u);
+  EXPECT_LE(inMatter(clip, {4, 1, 0}, {}, regions).weights.size(), 100u);
 }
 
 TEST(RegionalClip, ALateRegionShowsTheClipLater) {
