@@ -286,6 +286,21 @@ TEST(Refusal, isASentenceOfWhatIsWrong) {
   EXPECT_EQ(refusal(faceless), "the mesh has no face with an area; nothing can be converted");
 }
 
+TEST(Refusal, ofNormalsOutOfReachSaysHowNearTheyCome) {
+  MeshRig source = withTargets(plane(6, 6), 0);
+  for (std::size_t v = 0; v < source.neutral.positions.size(); v += 2)
+    source.neutral.positions[v].z += 0.5;
+  ConvertOptions options;
+  options.pack = true;
+  options.normalTolerance = 1e-9;
+  const std::string why = refusal(source, options);
+  double nearest = 0;
+  ASSERT_EQ(std::sscanf(why.c_str(), "normals come no nearer to the mesh's than %lf", &nearest), 1)
+      << why;
+  options.normalTolerance = 1.01 * nearest;
+  EXPECT_EQ(refusal(source, options), "");
+}
+
 TEST(Refusal, ofNamesThatFilesCannotHold) {
   const auto named = [](std::string_view first, std::string_view second) {
     MeshRig rig = withTargets(plane(4, 4));

@@ -129,6 +129,21 @@ TEST(Strip, FacesWithoutASurfaceGoWithTheOrder) {
   EXPECT_EQ(back.source.gridVertex.size(), 9u);
 }
 
+// Left by whoever dissolved edges: the face runs out to a vertex of no other face and back.
+TEST(Strip, TipsOfSpikesGoWithTheOrder) {
+  MeshRig source;
+  source.neutral.positions = {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}, {3, 0, 0}};
+  addFace(source.neutral, {0, 1, 4, 1, 2, 3});
+  const auto conversion = convert(source);
+  ASSERT_TRUE(conversion) << conversion.error().message;
+  EXPECT_EQ(conversion->warnings, std::vector<std::string>());
+  Rig rig = conversion->rig;
+  EXPECT_GT(bareBytes(rig), 0u);
+  ASSERT_TRUE(strip(rig, {.order = true}));
+  EXPECT_EQ(rig.source.polygons.corners.size(), 4u);
+  EXPECT_EQ(decode(encode(rig), "face").value().source.gridVertex.size(), 4u);
+}
+
 TEST(Strip, NamesOnlyPartsThatThereAre) {
   EXPECT_TRUE(parseStrip("order,uv,groups,scene"));
   for (const char* text : {"hair", "uv,", "uv order", "UV"}) {
