@@ -245,7 +245,7 @@ export class Sweepface {
   #shared;
   #face;
   #motion = 0;
-  #ends = new Map();  // seconds until a weight's drive is over, by the place of the weight among all
+  #drives = new Map();  // goals, and seconds before which none rests there, by the place of the weight among all
   #memory;  // in the module, in one piece: arrays of floats and of weights, and C structs: a drive and two vectors
 
   /** Use Sweepface.load. */
@@ -335,7 +335,7 @@ export class Sweepface {
       for (const [target, weight] of named) all[count * r + target] = weight;
     this.#takeWeights();
     for (const r of places)
-      for (const [target] of named) this.#ends.delete(count * r + target);
+      for (const [target] of named) this.#drives.delete(count * r + target);
     if (!this.#motion) return;
     const cut = shared.regions ? 0 : this.#drive('cut');
     for (const r of places)
@@ -439,17 +439,17 @@ export class Sweepface {
     for (const [target, goal] of all) {
       runtime.check(region === undefined ? wasm.sweepface_motion_move_to(motion, target, goal, at)
                                          : wasm.sweepface_motion_move_in(motion, places[0], target, goal, at));
-      for (const r of places) this.#ends.set(shared.names.length * r + target, this.#secondsOf(at, r));
+      for (const r of places)
+        this.#drives.set(shared.names.length * r + target, {goal, left: this.#secondsOf(at, r)});
     }
   }
 
-  /** How long a drive takes a region: of a spring its first swing, in which it may seem to rest. */
+  /** Seconds before which a drive brings no weight of a region to rest. */
   #secondsOf(drive, region) {
     const {runtime, regions} = this.#shared, kind = DRIVES[runtime.ints(drive, 1)[0]];
     const {mass = 1, stiffness = 1, delay: later = 0} = regions?.[region] ?? {};
-    const [delay, seconds, , frequency, damping] = runtime.doubles(drive + 8, DRIVE_NUMBERS.length);
-    if (kind === 'spring' && damping === 0) return Infinity;
-    const lasts = kind === 'cut' ? 0 : kind === 'spring' ? 1 / frequency : seconds;
+    const [delay, seconds] = runtime.doubles(drive + 8, 2);
+    const lasts = ['cut', 'spring'].includes(kind) ? 0 : seconds;
     return delay + later + lasts * Math.sqrt(mass / stiffness);
   }
 
@@ -459,7 +459,7 @@ export class Sweepface {
     if (!(Math.abs(velocityChange) <= MOST))
       throw new RangeError(`The push on '${name}' must lie within ${MOST} of 0, not be ${velocityChange}.`);
     runtime.check(runtime.wasm.sweepface_motion_push(this.#moving(), target, velocityChange, drag));
-    for (const r of shared.places()) this.#ends.delete(shared.names.length * r + target);
+    for (const r of shared.places()) this.#drives.delete(shared.names.length * r + target);
   }
 
   /** Lets time pass for the weights in motion; says whether anything goes on moving. */
@@ -468,18 +468,22 @@ export class Sweepface {
     if (!Number.isFinite(seconds)) throw new RangeError(`Time passes by a finite number of seconds, not ${seconds}.`);
     if (!this.#motion) return false;
     const still = 1e-6, before = this.#copyWeights().slice();
-    const isDriven = this.#ends.size > 0;  // what sets out just now has no velocity yet
+    const isDriven = this.#drives.size > 0;
     wasm.sweepface_motion_advance(this.#motion, seconds);
-    for (const [place, left] of this.#ends)
-      if (left > seconds) this.#ends.set(place, left - Math.max(seconds, 0));
-      else this.#ends.delete(place);
     runtime.check(wasm.sweepface_motion_velocities(this.#motion, weights, count));
-    const fast = runtime.doubles(weights, count).some((velocity) => Math.abs(velocity) > still);
+    const velocities = runtime.doubles(weights, count).slice();
     runtime.check(wasm.sweepface_motion_positions(this.#motion, weights, count));
     const now = runtime.doubles(weights, count);
+    // What sets out or turns back has no velocity, either, but is not at its goal.
+    for (const [place, drive] of this.#drives) {
+      drive.left -= Math.max(seconds, 0);
+      const isThere = Math.abs(now[place] - drive.goal) <= still && Math.abs(velocities[place]) <= still;
+      if (isThere && drive.left <= 0) this.#drives.delete(place);
+    }
     now.set(now.map((weight) => Math.min(Math.max(weight, -MOST), MOST)));  // swings and blows may go further
     this.#takeWeights();
-    return fast || isDriven || runtime.doubles(weights, count).some((w, k) => Math.abs(w - before[k]) > still);
+    return isDriven || velocities.some((velocity) => Math.abs(velocity) > still) ||
+           runtime.doubles(weights, count).some((w, k) => Math.abs(w - before[k]) > still);
   }
 
   /** Frees the face; it can no longer be used. Memory is given back with the last face of a file. */

@@ -151,6 +151,19 @@ test('a motion that has just begun goes on', async () => {
   }
 });
 
+test('a motion goes on where it turns back', async () => {
+  for (const [drive, goal, frames] of [[{kind: 'bounce', seconds: 3, restitution: 0.6}, 0.03, 60],
+                                       [{kind: 'bounce', seconds: 2, restitution: 0.95}, 0.1, 240],
+                                       [{frequency: 0.1, damping: 0.05}, 0.1, 120]]) {
+    const face = await load();
+    face.moveTo({jawOpen: goal}, drive);
+    let count = 0;
+    while (count < 1000 * frames && face.advance(1 / frames)) ++count;
+    assert.ok(count < 1000 * frames);
+    assert.ok(Math.abs(face.weights.jawOpen - goal) < 1e-5, `${face.weights.jawOpen}`);
+  }
+});
+
 test('heavy regions are waited for', async () => {
   const face = await load({regions: [{name: 'above', points: [[0, 8, 9]], whole: 5, mass: 100, delay: 1}]});
   face.moveTo({jawOpen: 1}, {kind: 'accelerate-brake', seconds: 0.5});
