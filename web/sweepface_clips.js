@@ -33,7 +33,7 @@ const isObject = (value) => typeof value === 'object' && value !== null && !Arra
 /** Small letters, of A to Z alone. */
 const lowered = (text) => text.replace(/[A-Z]/g, (letter) => letter.toLowerCase());
 
-/** How engines say that a text ends too soon. */
+/** How engines say that a text ends too soon, where they count no characters. */
 const CUT_SHORT = /^(JSON.parse: |JSON Parse error: )?(unexpected )?(end|EOF|unterminated)/i;
 
 function parseJson(text, name) {
@@ -42,7 +42,7 @@ function parseJson(text, name) {
   } catch (error) {
     // Engines tell the place in words of their own, or not at all.
     const [, at, , told] = error.message.match(/ at (?:position (\d+)( \(.*\))?|line (\d+) column.*)$/) ?? [];
-    const isCut = at >= text.length || CUT_SHORT.test(error.message);
+    const isCut = at === undefined ? CUT_SHORT.test(error.message) : at >= text.length;
     const line = isCut || at ? text.slice(0, isCut ? undefined : at).split('\n').length : told;
     const what = `${line ? `, line ${line}: this` : ''} is not JSON${isCut ? '; was the file cut short?' : '.'}`;
     throw new Error(name + what, {cause: error});

@@ -243,6 +243,7 @@ for (const [file, text, words] of [
        ['a.csv', 'Timecode,JawOpen\n0:0:1:75,1', 'counts more than 60 frames a second'],
        ['a.json', '{\n', ', line 2: this is not JSON; was the file cut short?'],
        ['a.json', '{\n"frames": 1,}', ', line 2: this is not JSON.'],
+       ['a.json', '{\n"frames": 1.,\n"a": 1}', ', line 2: this is not JSON.'],
        ['a.json', '{"frames": 1}', 'is neither of Audio2Face'],
        ['a.json', '[]', 'has no frames'],
        ['a.json', '[{"categories": []}]', 'has no \'timestampMs\' in frame 0'],
