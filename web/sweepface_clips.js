@@ -33,6 +33,16 @@ const isObject = (value) => typeof value === 'object' && value !== null && !Arra
 /** Small letters, of A to Z alone. */
 const lowered = (text) => text.replace(/[A-Z]/g, (letter) => letter.toLowerCase());
 
+/** What a cell may have round it: the spaces of ASCII alone. */
+const isBlank = (c) => c === ' ' || (c >= '\t' && c <= '\r');
+
+function trimmed(text) {
+  let from = 0, to = text.length;
+  while (from < to && isBlank(text[from])) ++from;
+  while (from < to && isBlank(text[to - 1])) --to;
+  return text.slice(from, to);
+}
+
 /** How engines say that a text ends too soon, where they count no characters. */
 const CUT_SHORT = /^(JSON.parse: |JSON Parse error: )?(unexpected )?(end|EOF|unterminated)/i;
 
@@ -140,7 +150,7 @@ export class Clip {
 }
 
 function readLiveLink(text, name, framesPerSecond) {
-  const cellsOf = (line) => line.split(',').map((cell) => cell.trim());
+  const cellsOf = (line) => line.split(',').map(trimmed);
   const lines = text.split('\n').map((line, k) => ({number: k + 1, cells: cellsOf(line)}));
   const filled = lines.filter(({cells}) => cells.length > 1 || cells[0] !== '');
   if (filled.length === 0) throw new Error(`${name} is empty; record again.`);
@@ -256,7 +266,7 @@ export function readClip(source, {name = 'The clip', framesPerSecond = 60} = {})
   const text = textOf(source, 'clip');
   if (!(framesPerSecond > 0 && Number.isFinite(framesPerSecond)))
     throw new RangeError('The frames per second of a recording must be greater than 0.');
-  if (!/^\s*[{[]/.test(text)) return readLiveLink(text, name, framesPerSecond);
+  if (!/^[ \t-\r]*[{[]/.test(text)) return readLiveLink(text, name, framesPerSecond);
   const json = parseJson(text, name), fail = (what) => new Error(`${name} ${what}.`);
   if (isObject(json) && json.weightMat !== undefined) return readAudio2Face(json, fail);
   const frames = Array.isArray(json) ? json : json.frames;
