@@ -24,8 +24,11 @@ const UNSAID = 'sweepface.wasm cannot do that with this face; give sweepface_ful
 
 const encoder = new TextEncoder(), decoder = new TextDecoder();
 
-/** Of any realm: frames and Node's vm have an ArrayBuffer of their own. */
-const isBuffer = (source) => Object.prototype.toString.call(source) === '[object ArrayBuffer]';
+/** The bytes that are given, if any are, of any realm: frames and Node's vm have an ArrayBuffer of their own. */
+function bytesOf(source) {
+  if (ArrayBuffer.isView(source)) return new Uint8Array(source.buffer, source.byteOffset, source.byteLength);
+  if (Object.prototype.toString.call(source) === '[object ArrayBuffer]') return new Uint8Array(source);
+}
 
 /** There is no more memory, which another module does not change. */
 class MemoryError extends Error {
@@ -60,7 +63,8 @@ const MODULES = {
 const compiled = {};  // each once
 function compile(wasm, kind) {
   if (wasm instanceof WebAssembly.Module) return wasm;
-  if (isBuffer(wasm) || ArrayBuffer.isView(wasm)) return WebAssembly.compile(wasm);
+  const code = bytesOf(wasm);  // not all engines compile a DataView
+  if (code) return WebAssembly.compile(code);
   if (wasm) return compileUrl(new URL(wasm, globalThis.location?.href));
   compiled[kind] ??= compileUrl(MODULES[kind]()).catch((error) => {
     delete compiled[kind];
@@ -262,7 +266,8 @@ export class Sweepface {
 
   static async load(bytes, given = {}) {
     const {lod = 0, name = 'The face', arcs, combine, eyes, regions, wasm} = given;
-    if (!(isBuffer(bytes) || ArrayBuffer.isView(bytes)))
+    const view = bytesOf(bytes);
+    if (!view)
       throw new TypeError('Sweepface.load needs the bytes of a .sweep file: an ArrayBuffer or a typed array.');
     for (const key of Object.keys(given))
       if (!OPTIONS.includes(key))
@@ -272,8 +277,6 @@ export class Sweepface {
       throw new TypeError(`A level of detail is asked for in one way, not by ${details.join(' and ')}.`);
     if (!Number.isInteger(lod) || lod < 0 || lod >= 2 ** 32)
       throw new RangeError('The level of detail must be a whole number from 0 to 64.');
-    const view = ArrayBuffer.isView(bytes) ? new Uint8Array(bytes.buffer, bytes.byteOffset, bytes.byteLength)
-                                           : new Uint8Array(bytes);
     const [budget] = BUDGETS.flatMap((kind, k) => (given[kind] === undefined ? [] : [[k, Number(given[kind])]]));
     const divide = regions?.length !== 0 && regions && (await import('./sweepface_regions.js')).divider(regions);
     const follow = (arcs ? FOLLOW.arcs : 0) + (combine ? FOLLOW.combine : 0);

@@ -296,7 +296,8 @@ test('bytes of another realm hold a face and a module', async () => {
 
 test('the module may come from elsewhere', async () => {
   const url = new URL('../sweepface_full.wasm', import.meta.url), code = readFileSync(url);
-  for (const wasm of [code, await WebAssembly.compile(code), url])
+  const view = new DataView(code.buffer, code.byteOffset, code.length);
+  for (const wasm of [code, view, await WebAssembly.compile(code), url])
     assert.equal((await load({wasm})).names.length, 42);
 });
 
