@@ -21,7 +21,7 @@ export interface Drive {
   restitution?: number | undefined;
 }
 
-/** A file in memory, Node's `Buffer` and shared memory included. */
+/** A file in memory; also Node's `Buffer`, and views of shared memory. */
 export type Bytes = ArrayBuffer | ArrayBufferView;
 
 /** Where the WebAssembly module is, if not beside sweepface.js. */
