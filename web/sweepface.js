@@ -265,7 +265,7 @@ export class Sweepface {
   }
 
   static async load(bytes, given = {}) {
-    const {lod = 0, name = 'The face', arcs, combine, eyes, regions, wasm} = given;
+    const {lod = 0, name, arcs, combine, eyes, regions, wasm} = given;
     const view = bytesOf(bytes);
     if (!view)
       throw new TypeError('Sweepface.load needs the bytes of a .sweep file: an ArrayBuffer or a typed array.');
@@ -280,7 +280,7 @@ export class Sweepface {
     const [budget] = BUDGETS.flatMap((kind, k) => (given[kind] === undefined ? [] : [[k, Number(given[kind])]]));
     const divide = regions?.length !== 0 && regions && (await import('./sweepface_regions.js')).divider(regions);
     const follow = (arcs ? FOLLOW.arcs : 0) + (combine ? FOLLOW.combine : 0);
-    const options = {name: String(name), follow, eyes, divide, lod, budget};
+    const options = {name: String(name || 'The face'), follow, eyes, divide, lod, budget};
     const needsFull = follow || eyes || divide || budget;
     const make = async (module) => {
       const instance = await instantiate(module);

@@ -262,8 +262,8 @@ function scoresOf(frame, f, fail) {
  * A capture, from its text or bytes: a CSV of Live Link Face, whose timecodes count in `framesPerSecond`, or a JSON of
  * Audio2Face or MediaPipe. `name` is what messages call it.
  */
-export function readClip(source, {name = 'The clip', framesPerSecond = 60} = {}) {
-  const text = textOf(source, 'clip');
+export function readClip(source, {name: given, framesPerSecond = 60} = {}) {
+  const text = textOf(source, 'clip'), name = given || 'The clip';
   if (!(framesPerSecond > 0 && Number.isFinite(framesPerSecond)))
     throw new RangeError('The frames per second of a recording must be greater than 0.');
   if (!/^[ \t-\r]*[{[]/.test(text)) return readLiveLink(text, name, framesPerSecond);
@@ -331,8 +331,8 @@ const EVENT = ['at', 'to', 'only', 'drive', 'region', ...DRIVE];
 const TIMELINE = ['seconds', 'loops', 'poses', 'events', 'regions'];
 
 /** A timeline from its JSON text or bytes: {seconds, loops, events, regions}; `regions` are for Sweepface.load. */
-export function readTimeline(source, {name = 'The timeline'} = {}) {
-  const json = parseJson(textOf(source, 'timeline'), name);
+export function readTimeline(source, {name: given} = {}) {
+  const name = given || 'The timeline', json = parseJson(textOf(source, 'timeline'), name);
   const fail = (place, what) => new Error(`${name}: ${place} ${what}.`);
   if (!isObject(json)) throw fail('the file', 'is not an object');
   for (const key of Object.keys(json))

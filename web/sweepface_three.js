@@ -36,7 +36,7 @@ export class SweepfaceLoader extends Loader {
     const loader = new FileLoader(this.manager);
     loader.setPath(this.path).setResponseType('arraybuffer');
     loader.setRequestHeader(this.requestHeader).setWithCredentials(this.withCredentials);
-    const {manager} = this, tell = onError ?? console.error, name = this.options.name ?? url;
+    const {manager} = this, tell = onError ?? console.error, name = this.options.name || url;
     const parse = (bytes) => this.parseAsync(bytes, {name}).then(onLoad).catch((error) => {
       manager.itemError(url);
       tell(error);

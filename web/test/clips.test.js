@@ -195,6 +195,13 @@ test('text may begin with a byte order mark, and other things are no clips', () 
   assert.throws(() => readClip({}), {message: 'A clip is read from text or bytes.'});
 });
 
+test('messages call what has no name a clip or a timeline', () => {
+  for (const options of [undefined, {name: undefined}, {name: ''}]) {
+    assert.throws(() => readClip('', options), {message: 'The clip is empty; record again.'});
+    assert.throws(() => readTimeline('[]', options), {message: 'The timeline: the file is not an object.'});
+  }
+});
+
 test('a time is told by one column', () => {
   assert.throws(() => readClip('Timecode,a,TIMECODE\n0,1,5', {name: 'a.csv'}), {message: /there are two columns 'Timecode'\.$/});
 });

@@ -98,8 +98,9 @@ test('bytes that are no face are refused with the library\'s sentence', async ()
   const bytes = readFileSync(sample);
   await assert.rejects(Sweepface.load(new TextEncoder().encode('<!doctype html>'), {name: 'face.sweep'}),
                        {message: 'face.sweep does not begin with SWEEPFC; check that it is a .sweep file.'});
-  await assert.rejects(Sweepface.load(bytes.subarray(0, bytes.length / 2)),
-                       {message: /^The face, byte \d+: the file ends/});
+  for (const options of [undefined, {name: undefined}, {name: ''}])
+    await assert.rejects(Sweepface.load(bytes.subarray(0, bytes.length / 2), options),
+                         {message: /^The face, byte \d+: the file ends/});
   await assert.rejects(Sweepface.load('face.sweep'), {message: /needs the bytes of a .sweep file/});
   await assert.rejects(load({lod: 65}), {message: /must be 0 to 64, not 65/});
   await assert.rejects(load({lod: 0.5}), {message: /whole number/});

@@ -176,7 +176,8 @@ test('a manager hears of a mesh when it is there, and once of what goes wrong', 
     assert.match(missing, /404/);
     assert.deepEqual(rest, ['amiss', 'all']);
     assert.match((await happenings('http://a/bad', {name: 'Anna'})).join(), /^amiss,Anna does not begin with .*,all$/);
-    assert.match((await happenings('http://a/bad')).join(), /http:\/\/a\/bad does not begin with/);
+    for (const options of [undefined, {name: ''}])
+      assert.match((await happenings('http://a/bad', options)).join(), /http:\/\/a\/bad does not begin with/);
     const mine = () => { throw new Error('Mine.'); };
     assert.deepEqual(await happenings('http://a/face', {}, mine), ['mesh', 'amiss', 'Mine.', 'all']);
   } finally {
