@@ -31,31 +31,37 @@ export type ModuleSource = string | URL | Bytes | WebAssembly.Module;
 export interface Region {
   name: string;
   /** How heavy and how stiff it is; the rest is 1. */
-  mass?: number;
-  stiffness?: number;
+  mass?: number | undefined;
+  stiffness?: number | undefined;
   /** Seconds by which it sets out later. */
-  delay?: number;
+  delay?: number | undefined;
   /** Materials and groups of the source, by name. */
-  parts?: string[];
+  parts?: string[] | undefined;
   /** Places, each by itself, or joined by a line; model units. */
-  points?: [number, number, number][];
-  line?: [number, number, number][];
+  points?: [number, number, number][] | undefined;
+  line?: [number, number, number][] | undefined;
   /** Curves of the wireframe, and shares of single nodes, by name or number. */
-  curves?: string[];
-  nodes?: Record<string, number>;
+  curves?: string[] | undefined;
+  nodes?: Record<string, number> | undefined;
   /** All of it up to this distance, and from there less and less over so much more. */
-  whole?: number;
-  fade?: number;
+  whole?: number | undefined;
+  fade?: number | undefined;
   /** 'surface' unless given: distances along the neutral's curves, or straight through the air. */
-  over?: 'surface' | 'space';
+  over?: 'surface' | 'space' | undefined;
   /** Cuts what fades into so many regions name1, name2 ..., delayed in equal steps up to `delay`. */
-  bands?: number;
+  bands?: number | undefined;
 }
 
 /** Radians: yaw to the face's left, pitch down. */
 export interface Look {
-  yaw?: number;
-  pitch?: number;
+  yaw?: number | undefined;
+  pitch?: number | undefined;
+}
+
+/** How the eyes stand. */
+export interface Pose {
+  leftEye?: Look | undefined;
+  rightEye?: Look | undefined;
 }
 
 /** Files that are not packed, `edgeLength`, `error`, `vertices`, `arcs`, `combine`, `eyes` and `regions` load
@@ -139,7 +145,7 @@ export class Sweepface {
   /** How many eyeballs turn: with the option `eyes`, as many as the face has. */
   readonly eyeCount: number;
   /** How the eyes stand; null, as at the start: by the weights of eyeLook targets. */
-  look(pose: {leftEye?: Look; rightEye?: Look} | null): void;
+  look(pose: Pose | null): void;
 
   /** Writes three floats a vertex: positions in model units, unit normals. Either may be null. */
   evaluate(positions: Float32Array | null, normals?: Float32Array | null): void;

@@ -18,11 +18,11 @@ export function matchNames(names: string[], targets: string[]): Match;
 /** How the one-euro filter trades noise for lag, in hertz. */
 export interface OneEuro {
   /** At rest: lower removes more noise. 1 unless given. */
-  cutoff?: number;
+  cutoff?: number | undefined;
   /** Per unit of speed: higher follows quick moves more closely. 2 unless given. */
-  speedGain?: number;
+  speedGain?: number | undefined;
   /** Of the speed's own filter. 1 unless given. */
-  speedCutoff?: number;
+  speedCutoff?: number | undefined;
 }
 
 /** Weights over time. */
@@ -40,8 +40,13 @@ export class Clip {
   smooth(settings?: OneEuro): Clip;
 }
 
+export interface ReadOptions {
+  /** What messages call the clip or the timeline. */
+  name?: string | undefined;
+}
+
 /** A capture: a CSV of Live Link Face, or a JSON of Audio2Face or MediaPipe. Throws a sentence about what is wrong. */
-export function readClip(source: string | Bytes, options?: {name?: string; framesPerSecond?: number}): Clip;
+export function readClip(source: string | Bytes, options?: ReadOptions & {framesPerSecond?: number | undefined}): Clip;
 
 /** Plays a clip on a face, in all regions alike: what they are made of is for `moveTo` and timelines. */
 export class ClipPlayer {
@@ -73,7 +78,7 @@ export interface Timeline {
 }
 
 /** A timeline from its JSON (docs/clips.md). Throws a sentence about what is wrong. */
-export function readTimeline(source: string | Bytes, options?: {name?: string}): Timeline;
+export function readTimeline(source: string | Bytes, options?: ReadOptions): Timeline;
 
 /** Plays a timeline on a face, which must have the regions that it moves. */
 export class TimelinePlayer {

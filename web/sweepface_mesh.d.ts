@@ -1,5 +1,5 @@
 import type {BufferGeometry, Material, Mesh} from 'three';
-import type {Drive, DriveKind, Look, Sweepface, Weights} from './sweepface.js';
+import type {Drive, DriveKind, Pose, Sweepface, Weights} from './sweepface.js';
 
 /** A face in a scene. Weights are set at any time; `update` brings them to the screen. */
 export class FaceMesh extends Mesh {
@@ -11,7 +11,7 @@ export class FaceMesh extends Mesh {
   readonly eyeCount: number;
   readonly regions: string[];
   /** How the eyes stand; null: by the weights of eyeLook targets. */
-  look(pose: {leftEye?: Look; rightEye?: Look} | null): void;
+  look(pose: Pose | null): void;
 
   /** Sets the weights that are named, at once, everywhere or in one region; the others stay. */
   setWeights(weights: Weights, region?: string): void;

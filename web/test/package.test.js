@@ -45,8 +45,8 @@ test('the package holds what is needed, and an application can use it', () => {
 
 const tsc = join(folder, 'node_modules/.bin/tsc');
 test('the types say what there is', {skip: existsSync(tsc) ? false : 'typescript is not installed; try npm ci'}, () => {
-  run(tsc, ['--noEmit', '--strict', '--target', 'esnext', '--module', 'nodenext', '--lib', 'esnext,dom',
-            '--skipLibCheck', 'test/types.ts']);
+  run(tsc, ['--noEmit', '--strict', '--exactOptionalPropertyTypes', '--target', 'esnext', '--module', 'nodenext',
+            '--lib', 'esnext,dom', '--skipLibCheck', 'test/types.ts']);
 });
 
 test('what the types declare is there', async () => {

@@ -1,7 +1,7 @@
 // Compiles if the types say what the package offers. Never run.
 import {Scene} from 'three';
-import {Sweepface, type Drive, type Part, type Region} from 'sweepface';
-import {type Clip, ClipPlayer, readClip, readTimeline, TimelinePlayer} from 'sweepface/clips';
+import {Sweepface, type Drive, type LoadOptions, type Part, type Pose, type Region} from 'sweepface';
+import {type Clip, ClipPlayer, type OneEuro, readClip, readTimeline, TimelinePlayer} from 'sweepface/clips';
 import {SWEEPFACE_GLSL, SweepfaceGpuMesh} from 'sweepface/gpu';
 import {SweepfaceLoader, SweepfaceMesh} from 'sweepface/three';
 
@@ -55,4 +55,15 @@ export async function useClips(bytes: ArrayBuffer, csv: string): Promise<void> {
   face.moveTo({jawOpen: 1}, {seconds: 1}, face.regions[0]);
   face.setWeights(face.weightsIn('cheeks'), 'cheeks');
   console.log(player.match.unmatched, head?.yaw, new TimelinePlayer(face, timeline).advance(0.1));
+}
+
+export function withoutSaying(csv: string, seconds: number | undefined): [Drive, LoadOptions, Pose, Region] {
+  const settings: OneEuro = {cutoff: undefined, speedGain: undefined, speedCutoff: undefined};
+  readClip(csv, {name: undefined, framesPerSecond: undefined}).smooth(settings);
+  readTimeline(csv, {name: undefined});
+  const nowhere = {parts: undefined, points: undefined, line: undefined, curves: undefined, nodes: undefined};
+  const matter = {mass: undefined, stiffness: undefined, delay: seconds};
+  const region = {...nowhere, ...matter, whole: undefined, fade: undefined, over: undefined, bands: undefined};
+  const pose = {leftEye: {yaw: undefined, pitch: undefined}, rightEye: undefined};
+  return [{seconds}, {lod: undefined, name: undefined}, pose, {name: 'cheeks', ...region}];
 }
