@@ -189,8 +189,7 @@ class Converter {
     }
     return fail(
         fmt::format("normals come no nearer to the mesh's than {:.3g} degrees at this tolerance; "
-                    "allow more, or "
-                    "try a smaller tolerance",
+                    "allow more, or try a smaller tolerance",
                     nearest));
   }
 
