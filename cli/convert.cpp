@@ -331,11 +331,7 @@ Result<int> runConvert(const ConvertArguments& a) {
   catchInterrupts();
   Result<int> code = convertAndWrite(a);
   // Whatever failed after Ctrl-C failed because of it.
-  if (interrupted && code != 0) {
-    printError("Interrupted; nothing was written.");
-    return kInterrupted;
-  }
-  return code;
+  return interrupted && code != 0 ? endInterrupted() : code;
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include <csignal>
 
+#include "output.hpp"
+
 namespace sweepface::cli {
 
 std::atomic<bool> interrupted{false};
@@ -14,6 +16,11 @@ void catchInterrupts() {
   struct sigaction before{};
   sigaction(SIGINT, nullptr, &before);
   if (before.sa_handler != SIG_IGN) sigaction(SIGINT, &action, nullptr);
+}
+
+int endInterrupted() {
+  printError("Interrupted; nothing was written.");
+  return kInterrupted;
 }
 
 }  // namespace sweepface::cli

@@ -11,4 +11,7 @@ inline constexpr int kInterrupted = 130;  // the exit code then
 /// From here on the first Ctrl-C asks the work to stop, and a second one ends the program.
 void catchInterrupts();
 
+/// Says that the work was stopped and nothing written; the exit code.
+int endInterrupted();
+
 }  // namespace sweepface::cli

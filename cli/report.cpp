@@ -105,10 +105,7 @@ Result<int> runReport(const ReportArguments& a) {
     return std::unexpected(ok.error());
   catchInterrupts();
   const Result<std::string> page = reportOf(a);
-  if (interrupted) {
-    printError("Interrupted; nothing was written.");
-    return kInterrupted;
-  }
+  if (interrupted) return endInterrupted();
   if (!page) return std::unexpected(page.error());
   if (auto written = writeFile(a.output, *page); !written) return std::unexpected(written.error());
   if (!a.quiet) fmt::print("{}: {} bytes\n", a.output, page->size());

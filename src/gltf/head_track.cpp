@@ -86,8 +86,7 @@ Result<void> addHeadTrack(Document& document, const HeadTrack& track, double tol
   if (roots.below.empty())
     return fail(
         "The scene of the face's file shows nothing that its head could hold; leave the head's "
-        "turns "
-        "out (--head), or convert the face from a file that shows it.");
+        "turns out (--head), or convert the face from a file that shows it.");
   Json& nodes = json["nodes"];
   const std::size_t head = nodes.size();
   const auto place = [](const Vec3& p) { return Json::array({p.x, p.y, p.z}); };
