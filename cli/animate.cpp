@@ -168,7 +168,13 @@ Result<void> animateGlb(const AnimateArguments& a, const Rig& rig, const Perform
   if (keys == "exact") {
     options.motion = &*performance.motion;
   } else if (keys == "few") {
-    KeyFrames frames = keyFrames(performance, rig, a.keyTolerance > 0 ? a.keyTolerance : 0.002);
+    const double tolerance = a.keyTolerance > 0 ? a.keyTolerance : 0.002;
+    KeyFrames frames = keyFrames(performance, rig, tolerance);
+    if (frames.missed > tolerance)
+      printWarning(
+          fmt::format("{} swings more quickly than keys can tell: between them weights are off by "
+                      "{:.2g}, more than the tolerance of {:.6g}.",
+                      performance.name, frames.missed, tolerance));
     clip = std::move(frames.clip);
     options.keyTolerance = frames.tolerance;
   } else {

@@ -193,7 +193,7 @@ void printSummary(const EditArguments& a, const Editor& editor) {
 }
 
 Result<int> runEdit(const EditArguments& a) {
-  if (auto ok = checkOutput(a.output, {}, {".sweep"}, !a.quiet); !ok)
+  if (auto ok = checkOutput(a.output, {a.face}, {".sweep"}, !a.quiet); !ok)
     return std::unexpected(ok.error());
   if (a.ribbon.empty() && a.moves.empty() && a.controls.empty())
     return fail("There is nothing to edit; give --ribbon, --move or --control.");

@@ -52,7 +52,7 @@ class Halver {
     performance_.at(from, start_);
     performance_.at(to, end_);
     double most = 0;
-    for (const double s : {0.25, 0.5, 0.75}) {
+    for (const double s : {0.191, 0.5, 0.691}) {  // where no swing has zeros in step
       performance_.at(std::lerp(from, to, s), now_);
       for (std::size_t k = 0; k < now_.size(); ++k)
         most = std::max(most, std::abs(now_[k] - std::lerp(start_[k], end_[k], s)));
@@ -75,7 +75,7 @@ KeyFrames keyFrames(const Performance& performance, const Rig& rig, double toler
   halver.times.push_back(coarse.front());
   for (std::size_t k = 1; k < coarse.size(); ++k) halver.add(coarse[k - 1], coarse[k]);
   return {sample(performance, rig, std::move(halver.times)),
-          std::max(tolerance - halver.worst, tolerance / 2)};
+          std::max(tolerance - halver.worst, tolerance / 2), halver.worst};
 }
 
 }  // namespace sweepface::cli

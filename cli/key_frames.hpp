@@ -9,6 +9,7 @@ namespace sweepface::cli {
 struct KeyFrames {
   Clip clip;
   double tolerance = 0;
+  double missed = 0;  ///< what swings too quickly for them is off by so much between two frames
 };
 /// A clip's own frames; of a law 480 a second, and more wherever straight lines between them would
 /// take more than a sixteenth of the tolerance: where it bounces or swings quickly.

@@ -17,8 +17,6 @@
 namespace sweepface::cli {
 namespace {
 
-constexpr int kSamples = 241;
-
 struct PlotArguments {
   std::string face, output;
   PerformanceArguments what;
@@ -60,6 +58,18 @@ void addOptions(CLI::App& app, PlotArguments& a) {
 
 // ---- What is shown ----
 
+/// When to look: evenly, often enough for a spring's swings, and at a clip's own frames.
+std::vector<double> looksAt(const PerformanceArguments& what, const Performance& performance) {
+  constexpr double kFewest = 240, kMost = 1e5, kASwing = 24;
+  const double swings = what.law == "spring" ? what.frequency * performance.seconds : 0;
+  const double count = std::clamp(std::ceil(swings * kASwing), kFewest, kMost);
+  std::vector<double> times = performance.frameTimes;
+  for (double k = 0; k <= count; ++k) times.push_back(performance.seconds * k / count);
+  std::ranges::sort(times);
+  times.erase(std::ranges::unique(times).begin(), times.end());
+  return times;
+}
+
 /// A weight, or a vertex.
 struct Subject {
   std::string name;
@@ -99,7 +109,8 @@ std::vector<Subject> verticesOf(const Rig& rig, const std::vector<int>& vertices
 }
 
 Result<std::vector<Subject>> subjectsOf(const PlotArguments& a, const Rig& rig,
-                                        const Performance& performance) {
+                                        const Performance& performance,
+                                        std::span<const double> times) {
   std::vector<Subject> subjects;
   for (const std::string& name : a.weights) {
     const Result<Index> target = findTarget(rig, name);
@@ -119,8 +130,8 @@ Result<std::vector<Subject>> subjectsOf(const PlotArguments& a, const Rig& rig,
   if (!subjects.empty()) return subjects;
   std::vector<double> first(rig.targets.size()), later(rig.targets.size());
   performance.at(0, first);
-  for (int k = 1; k < kSamples; ++k) {
-    performance.at(performance.seconds * k / (kSamples - 1), later);
+  for (const double time : times) {
+    performance.at(time, later);
     for (std::size_t t = 0; t < first.size(); ++t)
       if (later[t] != first[t]) return std::vector{weightOf(rig, static_cast<Index>(t))};
   }
@@ -132,8 +143,8 @@ Result<std::vector<Subject>> subjectsOf(const PlotArguments& a, const Rig& rig,
 /// Position, velocity, acceleration and force.
 using Curves = std::array<std::vector<Series>, 4>;
 
-void addCurves(Curves& curves, const Performance& performance, const Subject& subject,
-               const std::string& name, double mass) {
+void addCurves(Curves& curves, const Performance& performance, std::span<const double> times,
+               const Subject& subject, const std::string& name, double mass) {
   static constexpr std::array colours{"#8a8e96", "#1a6aa8", "#d63f29", "#2a9d55",
                                       "#b8860b", "#7b4fa3", "#1b9aaa", "#e07a9a"};
   const std::size_t place = curves[0].size();
@@ -142,8 +153,7 @@ void addCurves(Curves& curves, const Performance& performance, const Subject& su
   std::vector<Kinematics> now(count);
   std::vector<double> start(count), values(count);
   performance.at(0, start);
-  for (int k = 0; k < kSamples; ++k) {
-    const double time = performance.seconds * k / (kSamples - 1);
+  for (const double time : times) {
     performance.kinematicsAt(time, now);
     const auto add = [&](std::size_t panel, auto value) {
       for (std::size_t t = 0; t < count; ++t) values[t] = value(t);
@@ -162,19 +172,21 @@ Result<Curves> curvesOf(const PlotArguments& a, const Rig& rig) {
   const auto regions = regionsOf(a.what, {}, rig);
   if (!regions) return std::unexpected(regions.error());
   std::vector<Performance> performances;
+  std::vector<std::vector<double>> times;
   for (const std::string& law : laws) {
     PerformanceArguments what = a.what;
     what.law = law;
     Result<Performance> performance = makePerformance(what, rig, regions->front());
     if (!performance) return std::unexpected(performance.error());
+    times.push_back(looksAt(what, *performance));
     performances.push_back(std::move(*performance));
   }
-  const auto subjects = subjectsOf(a, rig, performances.front());
+  const auto subjects = subjectsOf(a, rig, performances.front(), times.front());
   if (!subjects) return std::unexpected(subjects.error());
   Curves curves;
   for (std::size_t k = 0; k < laws.size(); ++k)
     for (const Subject& subject : *subjects)
-      addCurves(curves, performances[k], subject,
+      addCurves(curves, performances[k], times[k], subject,
                 laws.size() == 1        ? subject.name
                 : subjects->size() == 1 ? laws[k]
                                         : laws[k] + ", " + subject.name,

@@ -53,8 +53,9 @@ struct Parts {
   }
 
   /// The targets whose weights are not always the same everywhere.
-  std::vector<Index> uneven(std::vector<double> times) const {
+  std::vector<Index> uneven() const {
     constexpr int kLooks = 240;
+    std::vector<double> times = frameTimes();
     for (int k = 0; k <= kLooks; ++k) times.push_back(seconds() * k / kLooks);
     std::vector<bool> differs(count, false);
     std::vector<double> weights(count * performances.size());
@@ -69,16 +70,26 @@ struct Parts {
     return targets;
   }
 
-  const Performance& longest() const {
-    return *std::ranges::max_element(performances, {}, &Performance::seconds);
+  double seconds() const {
+    return std::ranges::max_element(performances, {}, &Performance::seconds)->seconds;
   }
-  double seconds() const { return longest().seconds; }
+  /// Those of all regions: late ones have others. Keys tell them apart in single precision.
+  std::vector<double> frameTimes() const {
+    std::vector<double> times;
+    for (const Performance& p : performances)
+      times.insert(times.end(), p.frameTimes.begin(), p.frameTimes.end());
+    std::ranges::sort(times);
+    const auto same =
+        std::ranges::unique(times, {}, [](double t) { return static_cast<float>(t); });
+    times.erase(same.begin(), same.end());
+    return times;
+  }
 };
 
 Performance together(Parts parts, const RegionalTargets& targets) {
   Performance whole = parts.performances.front();
   whole.seconds = parts.seconds();
-  whole.frameTimes = parts.longest().frameTimes;
+  whole.frameTimes = parts.frameTimes();
   whole.motion.reset();  // keys would not hold it exactly
   whole.isDivided = true;
   const auto shared = std::make_shared<const Parts>(std::move(parts));
@@ -127,7 +138,7 @@ Result<Performance> perform(const PerformanceArguments& what, const RegionArgume
     performance = withFollowing(std::move(performance), *followed);
   if (parts.performances.size() == 1) return std::move(parts.performances.front());
   parts.count = rig.targets.size();
-  const auto uneven = parts.uneven(parts.longest().frameTimes);
+  const auto uneven = parts.uneven();
   return together(std::move(parts), RegionalTargets::addTo(rig, *regions, uneven));
 }
 

@@ -1,7 +1,7 @@
 // The page: shows a .sweep face and lets its expressions be tried.
 import {
-  BackSide, Box3, Color, DirectionalLight, HemisphereLight, LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial,
-  MeshStandardMaterial, PerspectiveCamera, Scene, Vector3, WebGLRenderer, WireframeGeometry
+  BackSide, Box3, BufferAttribute, BufferGeometry, Color, DirectionalLight, HemisphereLight, LineBasicMaterial,
+  LineSegments, Mesh, MeshBasicMaterial, MeshStandardMaterial, PerspectiveCamera, Scene, Vector3, WebGLRenderer
 } from 'three';
 import {OrbitControls} from 'three/addons/controls/OrbitControls.js';
 import {Sweepface} from 'sweepface';
@@ -129,18 +129,36 @@ function placeCamera() {
 
 /** The edges of the triangles, drawn over the face. */
 function drawLines() {
-  lines?.removeFromParent();
-  lines?.geometry.dispose();
-  lines = undefined;
+  if (lines) {
+    lines.removeFromParent();
+    lines.geometry.deleteAttribute('position').dispose();  // the positions are the face's
+    lines = undefined;
+  }
   if (!at('lines').checked || !mesh) return;
-  lines = new LineSegments(new WireframeGeometry(mesh.geometry), ink);
+  const edges = new BufferGeometry();  // over the positions of the face, which they follow
+  const {index, attributes: {position}} = mesh.geometry;
+  edges.setIndex(new BufferAttribute(edgesOf(index.array, position.count), 1));
+  edges.setAttribute('position', position);
+  lines = new LineSegments(edges, ink);
+  lines.frustumCulled = false;  // bounds are those of the neutral
   mesh.add(lines);
 }
 
-/** Lines have vertices of their own, two an edge. */
-function followLines() {
-  lines.geometry.dispose();
-  lines.geometry = new WireframeGeometry(mesh.geometry);
+/** The edges of triangles among `count` vertices, each once, as two of them. */
+function edgesOf(triangles, count) {
+  const edges = new Set();
+  for (let first = 0; first < triangles.length; first += 3)
+    for (let k = 0; k < 3; ++k) {
+      const a = triangles[first + k], b = triangles[first + (k + 1) % 3];
+      edges.add(Math.min(a, b) * count + Math.max(a, b));
+    }
+  const ends = new Uint32Array(2 * edges.size);
+  let end = 0;
+  for (const edge of edges) {
+    ends[end++] = Math.floor(edge / count);
+    ends[end++] = edge % count;
+  }
+  return ends;
 }
 
 const sliders = new Map();  // by name: the input and what shows its number
@@ -223,7 +241,6 @@ function draw(seconds) {
   mesh?.update(seconds);
   if (mesh && mesh.geometry.attributes.position.version !== version) {
     average('evaluation', performance.now() - began);
-    if (lines) followLines();
     followWeights();
     wake();
   }
@@ -264,7 +281,10 @@ async function download(url, isWanted) {
   if (isWanted) throw new Error(`${url} cannot be had: the server answers ${response?.status ?? 'nothing'}.`);
 }
 
-at('file').addEventListener('change', (event) => open(event.target.files[0]));
+at('file').addEventListener('change', ({target}) => {
+  open(target.files[0]);
+  target.value = '';  // so that the same file, converted again, may be chosen again
+});
 at('filter').addEventListener('input', filterSliders);
 at('surprise').addEventListener('click', () => mesh && surprise());
 at('rest').addEventListener('click', () => {

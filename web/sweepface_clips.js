@@ -224,7 +224,7 @@ function readAudio2Face(json, fail) {
 function readMediaPipe(frames, fail) {
   if (frames.length === 0) throw fail('has no frames');
   const times = new Float64Array(frames.length), scores = frames.map((frame, f) => {
-    const time = frame?.timestampMs ?? frame?.timestamp_ms ?? frame?.timestamp;
+    const time = frame?.[['timestampMs', 'timestamp_ms', 'timestamp'].find((key) => Object.hasOwn(frame, key))];
     if (typeof time !== 'number') throw fail(`has no 'timestampMs' in frame ${f}`);
     times[f] = time / 1000;
     if (!(Math.abs(times[f]) <= MOST_TIME) || (f > 0 && times[f] <= times[f - 1]))
@@ -248,7 +248,7 @@ function readMediaPipe(frames, fail) {
 function scoresOf(frame, f, fail) {
   // Beside the time, or within the first of the faces found. A frame without a face has none.
   const {faceBlendshapes: faces = frame.face_blendshapes} = frame;
-  const {categories = faces?.length === 0 ? [] : faces?.[0]?.categories} = frame;
+  const {categories = Array.isArray(faces) && faces.length === 0 ? [] : faces?.[0]?.categories} = frame;
   if (!Array.isArray(categories)) throw fail(`has no 'categories' in frame ${f}`);
   return new Map(categories.map((category) => {
     const shape = category?.categoryName ?? category?.category_name;
@@ -278,6 +278,12 @@ export function readClip(source, {name: given, framesPerSecond = 60} = {}) {
 /** The angles of Live Link Face, in radians, in the order of the app. */
 const ANGLES = ['Head', 'LeftEye', 'RightEye'].flatMap((of) => ['Yaw', 'Pitch', 'Roll'].map((angle) => of + angle));
 
+/** Whether a clip ever has anything but 0 in a column. */
+function isTold({names, weights}, column) {
+  for (let i = column; i < weights.length; i += names.length) if (weights[i] !== 0) return true;
+  return false;
+}
+
 /** Plays a clip on a face: `seek` sets the weights of a time. */
 export class ClipPlayer {
   #angles = ANGLES.map(() => -1);  // their columns, or -1
@@ -288,10 +294,10 @@ export class ClipPlayer {
     /** What drives what: see matchNames. */
     this.match = matchNames(clip.names, face.names);
     this.match.unmatched = matchNames(this.match.unmatched, ANGLES).unmatched;
+    // Recordings have columns for the eyes' angles that are 0 throughout where nobody told them. Eyes use no roll.
+    const counts = (angle, k) => angle < 3 || (angle % 3 < 2 && isTold(clip, k));
     matchNames(clip.names, ANGLES).targets.forEach((found, k) => {
-      // Recordings have columns for the eyes' angles that are 0 throughout where nobody told them.
-      const isTold = clip.weights.some((w, i) => w !== 0 && i % clip.names.length === k);
-      for (const angle of found) if (angle < 3 || isTold) this.#angles[angle] = k;
+      for (const angle of found) if (counts(angle, k)) this.#angles[angle] = k;
     });
   }
 

@@ -118,6 +118,7 @@ export class SweepfaceGpuMesh extends FaceMesh {
 
   #patch(material) {
     const {basis, modes, factor} = this.#textures;
+    material.dispose();  // what a renderer made of it before knows no face, or another
     if (!own.has(material)) {
       const {onBeforeCompile, customProgramCacheKey} = material;
       own.set(material, {onBeforeCompile, customProgramCacheKey});

@@ -33,7 +33,7 @@ export class FaceMesh extends Mesh {
 
   look(pose) {
     this.face.look(pose);
-    this.#pose = pose;
+    this.#pose = pose && {leftEye: {...pose.leftEye}, rightEye: {...pose.rightEye}};
     this.#stale = true;
   }
 

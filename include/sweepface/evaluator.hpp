@@ -25,7 +25,8 @@ struct EvaluatorOptions {
   /// 0: three tenths of the rig's own tolerance, but no less than a hundred-thousandth of the
   /// neutral's diagonal.
   double tolerance = 0;
-  /// The same for the surface's first derivatives, as a share of their neutral length.
+  /// The same for the surface's first derivatives, as a share of their neutral length, or of a
+  /// hundredth of what a target makes of it where that is more.
   double derivativeTolerance = 0.03;
   /// Influences of regions [R][storedCount]: target k of region r adds weight[r·K + k] ·
   /// influence[r][v] · difference to stored vector v, the same seen from every patch. Empty: one
@@ -60,7 +61,7 @@ class Evaluator {
   /// dropped of each target, as measured when the tables were made, and rounding. Weights beyond
   /// ±10⁶ are scaled back to that, and the bound does not hold.
   double positionBound(std::span<const double> weights) const;
-  /// The same for a derivative, as a share of its neutral length.
+  /// The same for a derivative, as a share of the same.
   double derivativeBound(std::span<const double> weights) const;
 
   const EvaluatorTables& tables() const { return *tables_; }

@@ -38,17 +38,14 @@ class ClipAngles {
   static bool tells(const std::string& name);
   /// Whether there are any of the head.
   bool head() const { return columns_[0] >= 0 || columns_[1] >= 0 || columns_[2] >= 0; }
-  /// Whether any of the head, or of the eyes, is ever other than 0: recordings have a column for
-  /// each, and 0 in it where nobody told.
-  bool turnsHead() const { return turns(0); }
-  bool eyes() const { return turns(3) || turns(6); }
+  /// Whether any of the head, or that any eye uses, is ever other than 0: recordings have a column
+  /// for each, and 0 in it where nobody told.
+  bool turnsHead() const { return turns_[0] || turns_[1] || turns_[2]; }
+  bool eyes() const { return turns_[3] || turns_[4] || turns_[6] || turns_[7]; }
   /// The pose of a frame's weights [N]; what the clip lacks is 0.
   HeadPose of(std::span<const double> weights) const noexcept;
 
  private:
-  bool turns(std::size_t first) const {
-    return turns_[first] || turns_[first + 1] || turns_[first + 2];
-  }
   std::array<std::ptrdiff_t, 9> columns_;  // or -1
   std::array<bool, 9> turns_{};
 };

@@ -40,7 +40,7 @@ Result<void> checkRegions(const Timeline& timeline, std::span<const std::string>
 inline constexpr double kTimelineRate = 240;
 
 /// The timeline as a clip of `framesPerSecond`, from rest at 0: both ends included. Refuses more
-/// than kMostClipWeights.
+/// than kMostClipWeights, in its frames or for all its events to send off.
 Result<Clip> bake(const Timeline& timeline, double framesPerSecond);
 /// The same in one region: without what is meant for others, and by its own matter.
 Result<Clip> bake(const Timeline& timeline, double framesPerSecond, std::string_view region,

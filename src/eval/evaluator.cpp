@@ -41,6 +41,7 @@ class Compiler {
                                          std::max<std::size_t>(1, options_.influences.size()));
     tables_.positionErrors.ofTarget.assign(tables_.weights, 0.0);
     tables_.derivativeErrors.ofTarget.assign(tables_.weights, 0.0);
+    size_ = diagonal(gridPositions_);
     tolerance_ = usedTolerance();
     for (const auto& vertices : cluster(positions_, kTileVertices)) addTile(vertices);
     roundPositions();
@@ -64,10 +65,13 @@ class Compiler {
   }
 
   double usedTolerance() const {
-    const double size = diagonal(gridPositions_), wanted = options_.tolerance;
-    if (!(wanted > 0)) return std::max({0.3 * rig_.tolerance, 1e-5 * size, 1e-30});
+    const double wanted = options_.tolerance;
+    if (!(wanted > 0)) return std::max({0.3 * rig_.tolerance, 1e-5 * size_, 1e-30});
     // What single precision bears, squared.
-    return std::clamp(wanted, std::max(1e-8 * size, 1e-30), std::max(1e12 * size, 1.0));
+    return std::clamp(wanted, std::max(1e-8 * size_, 1e-30), std::max(1e12 * size_, 1.0));
+  }
+  double usedDerivativeTolerance() const {
+    return std::clamp(options_.derivativeTolerance, 1e-8, 1e12);
   }
 
   /// Single precision: what a coordinate of the neutral may be off.
@@ -99,16 +103,21 @@ class Compiler {
       rows_[k] = {vectors, factors};
     }
     std::fill(tile.neutral.begin() + std::ssize(vertices), tile.neutral.end(), tile.neutral[0]);
-    pack(tile, tolerance_, tables_.positions, tables_.positionErrors);
+    gather(tile, tolerance_);
+    pack(tile, tables_.positions, tables_.positionErrors);
   }
 
-  void pack(TileSource& tile, double unit, TileTable& table, TableErrors& errors) {
+  /// What targets add to the rows, in units.
+  void gather(TileSource& tile, double unit) {
     tile.unit = unit;
     tile.targets.clear();
     if (options_.targets)
       differences_->of(rows_, 1 / unit, tile.targets, tile.differences);
     else
       tile.differences.reshape(static_cast<int>(rows_.size()), 0);
+  }
+
+  void pack(const TileSource& tile, TileTable& table, TableErrors& errors) {
     const auto found = packTile(tile, static_cast<std::uint16_t>(tables_.weights), table);
     errors.rounding = std::max(errors.rounding, found.rounding * tile.unit);
     for (std::size_t k = 0; k < tile.targets.size(); ++k) {
@@ -144,7 +153,24 @@ class Compiler {
         {site.patch, site.u + (m * 0.5 - site.u) * 1e-3, site.v + (n * 0.5 - site.v) * 1e-3});
   }
 
-  /// ∂u and ∂v of vertices in units of their neutral lengths. Loose vertices look along z.
+  /// Only their directions count, so that derivatives which a target makes a hundred times as long,
+  /// as it does where it opens what the neutral holds shut, may be told in larger units. By powers
+  /// of two: what nothing moves stays as it is to the last bit.
+  static void tellInLargerUnits(TileSource& tile) {
+    constexpr double kMost = 100;
+    const auto width = static_cast<std::size_t>(tile.differences.width());
+    for (int r = 0; r < tile.differences.rows; ++r) {
+      const std::span row(tile.differences.row(r), width);
+      const double most = extentOf(row).most * tile.unit;
+      if (most <= kMost) continue;
+      const auto factor = static_cast<float>(std::ldexp(1.0, std::ilogb(kMost / most)));
+      for (float& x : row) x *= factor;
+      for (float& x : tile.neutral[r]) x *= factor;
+    }
+  }
+
+  /// ∂u and ∂v of vertices in units of their neutral lengths, unless these are nothing but
+  /// rounding. Loose vertices look along z.
   void addDerivatives(std::span<const Index> vertices, TileSource& tile) {
     tile.neutral.assign(kMostRows, {});
     rows_.assign(kMostRows, {});
@@ -158,7 +184,8 @@ class Compiler {
       derivatives_[k] = regularDerivatives(grid_.site(g));
       for (int d = 0; d < 2; ++d) {
         const auto& [whole, weights] = derivatives_[k][d];
-        const double length = norm(whole), scale = length > 0 ? 1 / length : 1;
+        const double length = std::max(norm(whole), 1e-9 * size_),
+                     scale = length > 0 ? 1 / length : 1;
         tile.neutral[d * kTileVertices + k] = toFloats(scale * whole);
         rows_[d * kTileVertices + k] = {weights.vectors, weights.factors, scale};
       }
@@ -166,7 +193,9 @@ class Compiler {
     for (const int first : {0, kTileVertices})
       std::fill(tile.neutral.begin() + first + std::ssize(vertices),
                 tile.neutral.begin() + first + kTileVertices, tile.neutral[first]);
-    pack(tile, options_.derivativeTolerance, tables_.derivatives, tables_.derivativeErrors);
+    gather(tile, usedDerivativeTolerance());
+    tellInLargerUnits(tile);
+    pack(tile, tables_.derivatives, tables_.derivativeErrors);
   }
 
   const Rig& rig_;
@@ -178,7 +207,7 @@ class Compiler {
   std::optional<RowDifferences> differences_;
   std::vector<Row> rows_;                 // of a tile
   std::vector<Derivatives> derivatives_;  // of a tile's vertices
-  double tolerance_ = 0;
+  double size_ = 0, tolerance_ = 0;
   EvaluatorTables tables_;
 };
 

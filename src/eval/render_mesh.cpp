@@ -24,16 +24,17 @@ class Builder {
 
   Index vertex(Index point) const { return point; }
   Index vertex(Index point, const Vec2& texcoord) {
-    Index last = point;
-    for (Index v = point; v >= 0; v = next_[v]) {
+    // Where a pole has thousands, faces that follow each other share one: a few looks do.
+    constexpr int kLooks = 16;
+    int looks = 0;
+    for (Index v = point; v >= 0 && looks < kLooks; v = next_[v], ++looks) {
       if (!textured_[v]) {
         textured_[v] = true;
         texcoords_[v] = texcoord;
       }
       if (texcoords_[v] == texcoord) return v;
-      last = v;
     }
-    return next_[last] = addCopy(point, texcoord);
+    return addCopy(point, texcoord);
   }
 
   void addTriangle(Index material, Index a, Index b, Index c) {
@@ -82,15 +83,15 @@ class Builder {
     mesh_.copies.push_back(point);
     texcoords_.push_back(texcoord);
     textured_.push_back(true);
-    next_.push_back(-1);
-    return mesh_.vertexCount() - 1;
+    next_.push_back(next_[point]);
+    return next_[point] = mesh_.vertexCount() - 1;
   }
 
   RenderMesh mesh_;
   std::vector<Vec3> neutral_;    // [points]
   std::vector<Vec2> texcoords_;  // [vertices]
   std::vector<char> textured_;   // [vertices] whether it has one of its own
-  std::vector<Index> next_;      // [vertices] another one of the same point, or -1
+  std::vector<Index> next_;      // [vertices] of the same point, the latest copy first, or -1
   std::vector<std::vector<std::uint32_t>> trianglesOf_;  // by material + 1
   std::vector<Vec3> corners_;
 };

@@ -109,7 +109,7 @@ Result<void> check(const Clip& clip, const std::vector<Column>& columns, double 
   if (auto ok = io::checkFrameRate(framesPerSecond); !ok) return ok;
   if (clip.times.empty()) return fail("The clip has no frames.");
   if (!(clip.times.front() >= 0 && clip.times.back() < 86400))
-    return fail("The times of a recording lie within a day.");
+    return fail("The times of a recording lie from 0 to below a day; this clip's do not.");
   std::set<std::string> headings;
   for (const Column& column : columns) {
     if (io::sameLetters(column.heading, "Timecode") ||

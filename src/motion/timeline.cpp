@@ -55,6 +55,12 @@ Result<Clip> bake(const Timeline& timeline, double framesPerSecond, std::string_
   if ((frames + 1) * static_cast<double>(clip.names.size()) > kMostClipWeights)
     return failCall(
         "The timeline bakes into more weights than a clip can hold; shorten it, or name fewer.");
+  if (static_cast<double>(timeline.events.size()) * timeline.loops *
+          static_cast<double>(clip.names.size()) >
+      kMostClipWeights)
+    return failCall(
+        "The timeline sends weights off more often than a clip can tell; repeat it less, or name "
+        "fewer.");
   auto state = MotionState::make(std::vector<double>(clip.names.size(), 0.0));
   if (!state) return std::unexpected(state.error());
 

@@ -72,6 +72,10 @@ TEST_F(Edit, RefusesWhatItCannotDo) {
   EXPECT_TRUE(fails("edit sheet.sweep --move a1-b1 0,0,1 --move a1-b1 0,0,1" + out,
                     "Curve 'a1-b1' is moved twice; give the sum of both."));
   EXPECT_FALSE(std::filesystem::exists(folder / "other.sweep"));
+  const std::string before = contents(folder / "sheet.sweep");
+  EXPECT_TRUE(
+      fails("edit sheet.sweep --ribbon middle --eta 1 -o sheet.sweep", "choose another name"));
+  EXPECT_EQ(contents(folder / "sheet.sweep"), before);
 }
 
 }  // namespace

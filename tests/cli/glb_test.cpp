@@ -101,7 +101,9 @@ TEST_F(ToolGlb, FewKeysKeepTheirToleranceOfWhatIsPlayed) {
   for (const auto& [options, path, seconds, tolerance] :
        {Case{"--law bounce", bounce(1, 0.4)},
         Case{"--law bounce --seconds 0.2 --restitution 0.6", bounce(0.2, 0.6), 0.2},
+        Case{"--law bounce --restitution 0.99", bounce(1, 0.99)},
         Case{"--law spring --frequency 20 --damping 0.1", spring(20, 0.1)},
+        Case{"--law spring --frequency 1920 --damping 0.01 --seconds 0.2", spring(1920, 0.01), 0.2},
         Case{"--law spring --damping 0.2 --key-tolerance 1e-4", spring(2, 0.2), 1, 1e-4}}) {
     ASSERT_EQ(run("animate face.sweep --to jawOpen=1 -o jaw.glb " + options).code, 0);
     const Written file = glb("jaw.glb");
@@ -113,6 +115,15 @@ TEST_F(ToolGlb, FewKeysKeepTheirToleranceOfWhatIsPlayed) {
     }
     EXPECT_LE(worst, tolerance + 1e-6) << options;
   }
+}
+
+TEST_F(ToolGlb, SaysWhenKeysCannotFollow) {
+  convertRig();
+  const Outcome r =
+      run("animate face.sweep --to jawOpen=1 -o jaw.glb --law bounce --restitution 0.9999");
+  ASSERT_EQ(r.code, 0) << r.err;
+  EXPECT_NE(r.err.find("bounce swings more quickly than keys can tell"), std::string::npos)
+      << r.err;
 }
 
 TEST_F(ToolGlb, SamplesKeysOnRequest) {

@@ -38,6 +38,18 @@ TEST_F(Plot, ClipsAreShownByDifferences) {
   EXPECT_EQ(countOf(plotted("--clip take.csv"), "<polyline"), 4u);
 }
 
+TEST_F(Plot, ShowsWhatIsShort) {
+  convertRig();
+  std::ofstream take(folder / "take.csv");
+  take << "Timecode,JawOpen\n0,0\n10,0\n10.01,1\n10.02,0\n60,0\n";
+  take.close();
+  EXPECT_NE(plotted("--clip take.csv"), plotted("--clip take.csv --weight smile"));
+  const auto points = [&](const std::string& frequency) {
+    return countOf(plotted("--to jawOpen=1 --law spring --frequency " + frequency), ",");
+  };
+  EXPECT_GT(points("500"), 20 * points("2"));
+}
+
 TEST_F(Plot, SaysWhatIsWrong) {
   convertRig();
   const auto refused = [&](const std::string& options, const std::string& words) {

@@ -1,4 +1,5 @@
 #include "cli/tool.hpp"
+#include "gltf/written.hpp"
 
 namespace sweepface {
 namespace {
@@ -57,6 +58,26 @@ TEST_F(RegionsOnTheFace, AGlbHoldsPartsByName) {
   ASSERT_EQ(r.code, 0) << r.err;
   const std::string glb = contents(folder / "face.glb");
   EXPECT_NE(glb.find(R"("jawOpen","smile","jawOpen@rest","jawOpen@side")"), std::string::npos);
+}
+
+// The frames of a late side lie between those of the rest, which loses none of its own.
+TEST_F(RegionsOnTheFace, LatePartsOfAClipLeaveTheRestItsFrames) {
+  convertRig();
+  folder.file("late.json", R"({"regions": [{"name": "side", "points": [[6, 0, 0]], "fade": 3,
+              "over": "space", "delay": 0.5}]})");
+  folder.file("take.csv", "Timecode,JawOpen\n0,0\n1,1\n2,0\n");
+  for (const char* keys : {"few", "sampled"}) {
+    const Outcome r = run(fmt::format(
+        "animate face.sweep --clip take.csv --regions late.json -o face.glb --keys {}", keys));
+    ASSERT_EQ(r.code, 0) << r.err;
+    const Written file(contents(folder / "face.glb"));
+    for (const auto& [time, rest, side] :
+         {std::array{0.5, 0.5, 0.}, {1., 1., 0.5}, {1.5, 0.5, 1.}, {2.25, 0., 0.25}}) {
+      const auto weights = evaluate(file, file.json["animations"][0], 0, time);
+      EXPECT_NEAR(weights[0] + weights[2], rest, 3e-3) << keys << " " << time;
+      EXPECT_NEAR(weights[0] + weights[3], side, 3e-3) << keys << " " << time;
+    }
+  }
 }
 
 TEST_F(RegionsOnTheFace, GoIntoTheSceneThatTheFaceCameFrom) {

@@ -169,6 +169,37 @@ TEST(Evaluator, hasTheSurfacesOwnNormals) {
   }
 }
 
+// A part that the neutral holds shut, at the skin of one that moves.
+TEST(Evaluator, hasTheNormalsOfWhatATargetOpens) {
+  const PolygonMesh skin = cubeSphere(4), part = cubeSphere(2, 0.8);
+  for (const double shut : {0.0, 1e-12, 1e-6, 1e-3}) {
+    const auto scaled = [&](double size) {
+      PolygonMesh mesh = part;
+      for (Vec3& p : mesh.positions) p = size * p;
+      return joined(skin, mesh, {4.1, 0.8, 0.4});
+    };
+    MeshRig mesh{scaled(shut), {{"open", scaled(1).positions}}};
+    auto& open = mesh.targets[0].positions;
+    for (std::size_t v = 0; v < skin.positions.size(); ++v)
+      open[v].y += 0.1 * open[v].x * open[v].x;
+    ConvertOptions options;
+    options.tolerance = 0.02;
+    options.chooseShapes = false;
+    const Rig rig = convert(mesh, options).value().rig;
+    for (const Index level : {0, 3}) {
+      const auto evaluator = Evaluator::make(rig, {.level = level}).value();
+      const Tessellation grid(rig.surface, std::max<Index>(1, level));
+      const auto vectors = blend(rig, Weights{1.0});
+      const auto wanted = level == 0 ? sourceNormals(rig, grid, vectors) : grid.normals(vectors);
+      const auto played = play(evaluator, {1.0});
+      for (std::size_t v = 0; v < wanted.size(); ++v)
+        EXPECT_LE(angleDegrees(vectorOf(played.normals, v), wanted[v]), 2) << shut << " " << v;
+      for (const double far : {-1e6, 1e6})
+        for (const float x : play(evaluator, {far}).normals) EXPECT_LE(std::abs(x), 1.001f);
+    }
+  }
+}
+
 // Buffers that hold a frame, with marks where the next one must not write.
 TEST(Evaluator, writesOnlyWhatOtherWeightsMoveAndTheSameAsAWholeFrame) {
   for (const Rig& rig : everyRig())
@@ -430,6 +461,26 @@ TEST(Evaluator, bearsAnyTolerance) {
         evaluator.positionBound(weights))
         << tolerance;
   }
+}
+
+TEST(Evaluator, bearsAnyToleranceOfDerivatives) {
+  const Rig& rig = convertedRigs().front();
+  const Tessellation grid(rig.surface, 1);
+  const auto vectors = blend(rig, Weights(rig.targets.size(), 0.5));
+  const auto wanted = sourceNormals(rig, grid, vectors);
+  for (const double tolerance : {1e-300, 1e-20, 1e-12, 1e-9, 1e-7, 1e-4}) {
+    const auto evaluator = Evaluator::make(rig, {.derivativeTolerance = tolerance}).value();
+    const std::vector<double> weights(evaluator.weightCount(), 0.5);
+    const auto played = play(evaluator, weights);
+    EXPECT_LE(evaluator.derivativeBound(weights), 0.01) << tolerance;
+    for (std::size_t v = 0; v < wanted.size(); ++v)
+      EXPECT_LE(norm(vectorOf(played.normals, v) - wanted[v]), 0.01) << tolerance;
+  }
+  for (const double tolerance : {1e20, 1e300})
+    EXPECT_GE(Evaluator::make(rig, {.derivativeTolerance = tolerance})
+                  .value()
+                  .derivativeBound(std::vector(rig.targets.size(), 0.5)),
+              0.1);
 }
 
 TEST(Evaluator, isNotMadeOfWhatDoesNotFit) {

@@ -181,6 +181,8 @@ TEST(HeadAngles, TurnNothingWhereTheyAreAlways0) {
   EXPECT_FALSE(still.turnsHead() || still.eyes());
   const ClipAngles head(Clip{names, {0, 1}, {0, 0, 0, 0.1, 0, 0}});
   EXPECT_TRUE(head.turnsHead() && !head.eyes());
+  const ClipAngles roll(Clip{{"LeftEyeYaw", "LeftEyeRoll"}, {0, 1}, {0, 0, 0, 0.1}});
+  EXPECT_FALSE(roll.eyes());  // which no eye uses
   const ClipAngles eyes(Clip{names, {0, 1}, {0, 0, 0, 0, 0, 0.1}});
   EXPECT_TRUE(eyes.eyes() && !eyes.turnsHead());
   EXPECT_TRUE(ClipAngles::tells("LeftEyeYaw"));

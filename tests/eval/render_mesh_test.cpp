@@ -166,6 +166,26 @@ TEST(RenderMesh, RepeatsPointsOnlyAlongSeams) {
   }
 }
 
+// At a pole every other triangle may have a texture coordinate of its own.
+TEST(RenderMesh, APointMayHaveHundredsOfTextureCoordinates) {
+  Rig rig = sheet();
+  Polygons& faces = rig.source.polygons = {};
+  faces.texcoords = {{0, 0}};
+  faces.faceStart = {0};
+  constexpr int kTriangles = 400;
+  for (int k = 0; k < kTriangles; ++k) {
+    if (k % 2 == 0) faces.texcoords.push_back({0.25 * k, 1});
+    faces.corners.insert(faces.corners.end(), {0, 1, 3});
+    faces.cornerTexcoords.insert(faces.cornerTexcoords.end(), {1 + k / 2, 0, 0});
+    faces.faceStart.push_back(static_cast<Index>(faces.corners.size()));
+  }
+  const RenderMesh mesh = renderSource(rig, Tessellation(rig.surface, 1));
+  ASSERT_EQ(mesh.triangles.size(), 3u * kTriangles);
+  EXPECT_EQ(mesh.copies.size(), kTriangles / 2 - 1u);
+  for (int k = 0; k < kTriangles; ++k)
+    EXPECT_EQ(mesh.texcoords[2 * mesh.triangles[3 * k]], 0.25f * static_cast<float>(k / 2 * 2));
+}
+
 TEST(RenderMesh, KeepsTheTrianglesOfAMaterialTogether) {
   Rig rig = sheet();
   rig.source.polygons.materials = {"skin", "lips"};

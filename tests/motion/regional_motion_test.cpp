@@ -289,6 +289,29 @@ TEST(RegionalClip, FewFramesDoAsWellAsMany) {
   }
 }
 
+// A blink of a recording in a hardly heavier region, against frames 200 times as close.
+TEST(RegionalClip, StraightLinesAreAsGoodAsExact) {
+  const Clip blink{{"eyeBlinkLeft"},
+                   {0, 1 / 60., 2 / 60., 3 / 60., 4 / 60., 5 / 60., 6 / 60., 7 / 60., 0.5},
+                   {0, 0.2, 0.8, 1, 1, 0.7, 0.3, 0, 0}};
+  Clip fine{blink.names, {}, {}};
+  for (std::size_t f = 1; f < blink.times.size(); ++f)
+    for (int k = 0; k < 200; ++k) {
+      const double s = k / 200.0;
+      fine.times.push_back(std::lerp(blink.times[f - 1], blink.times[f], s));
+      fine.weights.push_back(std::lerp(blink.weights[f - 1], blink.weights[f], s));
+    }
+  for (const double mass : {1.001, 1.05, 1.1, 1.5, 2.0, 4.0}) {
+    const Clip heavy = inMatter(blink, {mass, 1, 0}), exact = inMatter(fine, {mass, 1, 0});
+    std::vector<double> x(1), y(1);
+    for (double t = 0; t < 0.49; t += 2e-4) {
+      heavy.at(t, x), exact.at(t, y);
+      ASSERT_NEAR(x[0], y[0], 3e-3) << mass << " " << t;
+    }
+    EXPECT_LT(heavy.times.size(), 1400u) << mass;
+  }
+}
+
 TEST(RegionalClip, AHeavyRegionArrives) {
   const Clip clip{{"jawOpen"}, {0, 1.9, 2}, {0, 0, 1}};
   const Clip heavy = inMatter(clip, {4, 1, 0}, {2, 0.3});

@@ -81,6 +81,20 @@ TEST(Timeline, HoldsNoMoreWeightsThanAClipMay) {
   EXPECT_NE(clip.error().message.find("more weights than a clip can hold"), std::string::npos);
 }
 
+// Events of no time at all, again and again.
+TEST(Timeline, SendsWeightsOffNoMoreOftenThanAClipCanTell) {
+  std::string events;
+  for (int k = 0; k < 100; ++k)
+    events +=
+        std::string(k > 0 ? "," : "") + R"({"at": 0, "to": {"n)" + std::to_string(k) + R"(": 1}})";
+  const auto timeline = parseTimeline(
+      R"({"seconds": 0.001, "loops": 10000, "events": [)" + events + "]}", "line.json");
+  ASSERT_TRUE(timeline) << timeline.error().message;
+  const auto clip = bake(*timeline, 100);
+  ASSERT_FALSE(clip);
+  EXPECT_NE(clip.error().message.find("repeat it less"), std::string::npos) << clip.error().message;
+}
+
 TEST(Timeline, IsToldFromACaptureByItsOwnKeys) {
   EXPECT_TRUE(isTimeline(R"({"events": []})"));
   EXPECT_TRUE(isTimeline("{\"a\": {\"events\": 1}, \"events\"\n :[]}"));

@@ -42,6 +42,7 @@ export async function withPage(folders, address, use) {
   });
   try {
     const page = await browser.newPage({ viewport: { width: 640, height: 480 } });
+    page.setDefaultTimeout(120_000);  // machines may be busy
     const said = [];
     page.on('console', (message) => said.push(`${message.type()}: ${message.text()}`));
     page.on('pageerror', (error) => said.push(`uncaught: ${error.message}`));

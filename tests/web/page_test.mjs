@@ -18,7 +18,7 @@ for (const [name, options] of Object.entries({ exact: [], quantized: ['--quantiz
     sweepface('animate', sampleFace().sweep, '--to', 'jawOpen=1,browInnerUp=1', '--law', 'newton',
               '--seconds', '10', '-o', inWork(`${name}.glb`), '-q', ...options);
     await withPage([example, work], `?file=${name}.glb`, async (page, said) => {
-      await page.waitForFunction('document.body.dataset.playing > 0 && document.body.dataset.playing < 3');
+      await page.waitForFunction('document.body.dataset.playing > 0 && document.body.dataset.playing % 10 < 3');
       const first = await page.screenshot();
       await page.waitForFunction('document.body.dataset.playing % 10 > 6 && document.body.dataset.playing % 10 < 9');
       const second = await page.screenshot();

@@ -269,6 +269,8 @@ for (const [file, text, words] of [
        ['a.json', '{"weightMat": [[1], [1]], "exportFps": 1e-12, "facsNames": ["a"]}', 'has too low an \'exportFps\' for its frames'],
        ['a.json', '[{"timestampMs": 1e300, "categories": []}]', 'has a time in frame 0'],
        ['a.json', '[{"timestampMs": 0, "categories": null, "faceBlendshapes": []}]', 'has no \'categories\' in frame 0'],
+       ['a.json', '[{"timestampMs": 0, "faceBlendshapes": ""}]', 'has no \'categories\' in frame 0'],
+       ['a.json', '[{"timestampMs": null, "timestamp": 5, "categories": []}]', 'has no \'timestampMs\' in frame 0'],
        ['a.json', scattered, 'has 8200 names in 8200 frames, more than a clip can hold; name the same ones in every frame.'],
        ['t.json', '{"events": []}', 'the file has no \'seconds\''],
        ['t.json', '{"seconds": 1, "events": []}', '\'events\' must be a list of at least one event'],

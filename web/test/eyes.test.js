@@ -52,6 +52,13 @@ test('eyes turn by their weights where a recording has no angles of theirs but 0
   assert.ok(difference(exact, positionsOf(face)).most <= 2 * face.tolerance);
 });
 
+test('a roll, which no eye uses, leaves eyes to their weights', async () => {
+  const face = await load({eyes: true}), looking = await load({eyes: true});
+  looking.setWeights({eyeLookDownLeft: 1});
+  new ClipPlayer(face, readClip('Timecode,EyeLookDownLeft,LeftEyeYaw,LeftEyeRoll\n0,1,0,0\n1,1,0,0.5\n')).seek(1);
+  assert.equal(difference(positionsOf(looking), positionsOf(face)).most, 0);
+});
+
 test('eyes that do not turn cannot look', async () => {
   const face = await load(), eyes = await load({eyes: true});
   assert.equal(face.eyeCount, 0);

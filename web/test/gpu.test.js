@@ -178,6 +178,13 @@ test('the vertex shader', options, (t) => withPage('blank.html', {files}, async 
       result.posed = differ(second.onCpu.pixels, second.onGpu.pixels);
       result.likeMorphs = differ(second.morph.pixels, second.onGpu.pixels);
 
+      const other = new SweepfaceMesh(await load());
+      draw(other);
+      const worn = new SweepfaceGpuMesh(await load({lod: 2}), other.material);  // drawn before without the shader
+      worn.setWeights(pose);
+      worn.update();
+      result.worn = differ(second.onCpu.pixels, draw(worn).pixels);
+
       const wall = new THREE.Mesh(new THREE.PlaneGeometry(9 * sphere.radius, 9 * sphere.radius),
                                   new THREE.MeshStandardMaterial());
       wall.position.copy(sphere.center).add(new THREE.Vector3(0, 0, -sphere.radius));
@@ -213,6 +220,7 @@ test('the vertex shader', options, (t) => withPage('blank.html', {files}, async 
     console.log('bytes uploaded:', JSON.stringify(found));
     assert.ok(found.moved > 0.005, 'the pose changes nothing');
     assert.ok(found.atRest < 0.001 && found.posed < 0.001, `${found.posed} of the pixels differ`);
+    assert.ok(found.worn < 0.01, `${found.worn} of the pixels differ with a material that was drawn before`);
     assert.ok(found.likeMorphs < 0.05, `${found.likeMorphs} of the pixels differ from morph targets`);
     for (const {moved, off} of found.shadows) assert.ok(moved > 0.0002 && off < 0.1 * moved, `${moved} of the shadow`);
     assert.ok(found.onGpu.first < 0.5 * found.morph.first);

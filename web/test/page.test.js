@@ -85,9 +85,24 @@ test('the page', options, (t) => withPage('index.html', visit, async (page, comp
     await page.locator('#lod').selectOption('2');
     await until((vertices) => globalThis.sweepface.mesh.face.vertexCount > 3 * vertices, vertices);
     assert.equal(await weight('jawOpen'), 0.5);
+  });
+
+  await t.test('draws lines that follow the face', async () => {
     await page.locator('#lines').check();
-    await page.waitForTimeout(300);
+    const shared = () => {
+      const {mesh} = globalThis.sweepface, lines = mesh.children.find((child) => child.isLineSegments);
+      return lines && [lines.geometry.attributes.position === mesh.geometry.attributes.position,
+                       lines.geometry.index.count / mesh.geometry.index.count];
+    };
+    const [follows, share] = await page.evaluate(shared);
+    assert.ok(follows && share > 0.9 && share < 1.1, `${share}`);  // edges, as two vertices, a corner of a triangle
     await page.locator('#lines').uncheck();
+    assert.equal(await page.evaluate(shared), undefined);
+    await page.waitForTimeout(800);
+    const before = await picture();
+    await slide('jawOpen', 0);  // what the lines were over goes on moving
+    assert.ok(await changed(before, await picture()) > 0.005);
+    await slide('jawOpen', 0.5);
   });
 
   await t.test('finds expressions by a part of their name', async () => {
@@ -107,6 +122,7 @@ test('the page', options, (t) => withPage('index.html', visit, async (page, comp
     await open('again.sweep', bytes);
     await until(() => document.title.startsWith('again.sweep'));
     assert.equal(await page.locator('#message').textContent(), '');
+    assert.equal(await page.locator('#file').inputValue(), '');  // so that the same one can be chosen again
   });
 
   await t.test('names its sliders', async () => {

@@ -93,7 +93,9 @@ test('clones look where their models look', options, async () => {
   const mesh = new SweepfaceMesh(await Sweepface.load(readFileSync(sample), {eyes: true}));
   const places = (of) => (of.update(), of.geometry.attributes.position.array);
   const ahead = places(mesh).slice(), straight = mesh.clone();
-  mesh.look({leftEye: {yaw: 0.3}, rightEye: {yaw: 0.3}});
+  const pose = {leftEye: {yaw: 0.3}, rightEye: {yaw: 0.3}};
+  mesh.look(pose);
+  pose.leftEye.yaw = -1;  // it is the caller's
   assert.deepEqual(places(mesh.clone()), places(mesh));
   assert.notDeepEqual(places(mesh), ahead);
   assert.deepEqual(places(straight), ahead);
