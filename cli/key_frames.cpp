@@ -52,7 +52,7 @@ class Halver {
     performance_.at(from, start_);
     performance_.at(to, end_);
     double most = 0;
-    for (const double s : {0.191, 0.5, 0.691}) {  // where no swing has zeros in step
+    for (const double s : {0.191, 0.5, 0.691}) {  // not in step, as zeros of a swing are
       performance_.at(std::lerp(from, to, s), now_);
       for (std::size_t k = 0; k < now_.size(); ++k)
         most = std::max(most, std::abs(now_[k] - std::lerp(start_[k], end_[k], s)));

@@ -53,9 +53,8 @@ struct Parts {
   }
 
   /// The targets whose weights are not always the same everywhere.
-  std::vector<Index> uneven() const {
+  std::vector<Index> uneven(std::vector<double> times) const {
     constexpr int kLooks = 240;
-    std::vector<double> times = frameTimes();
     for (int k = 0; k <= kLooks; ++k) times.push_back(seconds() * k / kLooks);
     std::vector<bool> differs(count, false);
     std::vector<double> weights(count * performances.size());
@@ -86,10 +85,10 @@ struct Parts {
   }
 };
 
-Performance together(Parts parts, const RegionalTargets& targets) {
+Performance together(Parts parts, std::vector<double> frameTimes, const RegionalTargets& targets) {
   Performance whole = parts.performances.front();
   whole.seconds = parts.seconds();
-  whole.frameTimes = parts.frameTimes();
+  whole.frameTimes = std::move(frameTimes);
   whole.motion.reset();  // keys would not hold it exactly
   whole.isDivided = true;
   const auto shared = std::make_shared<const Parts>(std::move(parts));
@@ -138,8 +137,9 @@ Result<Performance> perform(const PerformanceArguments& what, const RegionArgume
     performance = withFollowing(std::move(performance), *followed);
   if (parts.performances.size() == 1) return std::move(parts.performances.front());
   parts.count = rig.targets.size();
-  const auto uneven = parts.uneven();
-  return together(std::move(parts), RegionalTargets::addTo(rig, *regions, uneven));
+  std::vector<double> times = parts.frameTimes();
+  const auto targets = RegionalTargets::addTo(rig, *regions, parts.uneven(times));
+  return together(std::move(parts), std::move(times), targets);
 }
 
 }  // namespace sweepface::cli

@@ -140,7 +140,7 @@ function drawLines() {
   edges.setIndex(new BufferAttribute(edgesOf(index.array, position.count), 1));
   edges.setAttribute('position', position);
   lines = new LineSegments(edges, ink);
-  lines.frustumCulled = false;  // bounds are those of the neutral
+  lines.frustumCulled = false;  // bounds would be those of how the face stands now
   mesh.add(lines);
 }
 

@@ -38,8 +38,8 @@ class ClipAngles {
   static bool tells(const std::string& name);
   /// Whether there are any of the head.
   bool head() const { return columns_[0] >= 0 || columns_[1] >= 0 || columns_[2] >= 0; }
-  /// Whether any of the head, or that any eye uses, is ever other than 0: recordings have a column
-  /// for each, and 0 in it where nobody told.
+  /// Whether any of the head, or a yaw or pitch of an eye, is ever other than 0: recordings have a
+  /// column for each, and 0 in it where nobody told.
   bool turnsHead() const { return turns_[0] || turns_[1] || turns_[2]; }
   bool eyes() const { return turns_[3] || turns_[4] || turns_[6] || turns_[7]; }
   /// The pose of a frame's weights [N]; what the clip lacks is 0.

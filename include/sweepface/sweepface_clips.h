@@ -62,8 +62,8 @@ SWEEPFACE_API sweepface_status sweepface_clip_weights(const sweepface_clip* clip
 
 /* ---- Eyes and head ---- */
 
-/* Whether a clip has any angles of the head, and any of the eyes that is ever other than 0: without
- * them eyes look by their weights. */
+/* Whether a clip has any angles of the head, and a yaw or pitch of an eye that is ever other than 0:
+ * without one eyes look by their weights. */
 SWEEPFACE_API int32_t sweepface_clip_has_head(const sweepface_clip* clip);
 SWEEPFACE_API int32_t sweepface_clip_has_eyes(const sweepface_clip* clip);
 /* All angles at a time; what the clip lacks is 0. */

@@ -89,9 +89,13 @@ class Compiler {
     if (options_.normals) addDerivatives(vertices, tile);
   }
 
+  void start(TileSource& tile, std::size_t rows) {
+    tile.neutral.assign(rows, {});
+    rows_.assign(rows, {});
+  }
+
   void addPositions(std::span<const Index> vertices, TileSource& tile) {
-    tile.neutral.assign(kTileVertices, {});
-    rows_.assign(kTileVertices, {});
+    start(tile, kTileVertices);
     for (std::size_t k = 0; k < vertices.size(); ++k) {
       const Index g = gridVertex(vertices[k]);
       tile.neutral[k] = toFloats(positions_[vertices[k]]);
@@ -102,22 +106,20 @@ class Compiler {
       const auto [vectors, factors] = grid_.terms(g);
       rows_[k] = {vectors, factors};
     }
-    std::fill(tile.neutral.begin() + std::ssize(vertices), tile.neutral.end(), tile.neutral[0]);
-    gather(tile, tolerance_);
-    pack(tile, tables_.positions, tables_.positionErrors);
+    pack(tile, tolerance_, tables_.positions, tables_.positionErrors);
   }
 
-  /// What targets add to the rows, in units.
-  void gather(TileSource& tile, double unit) {
+  void pack(TileSource& tile, double unit, TileTable& table, TableErrors& errors) {
     tile.unit = unit;
+    // Rows that no vertex takes are as the first.
+    for (auto first = tile.neutral.begin(); first != tile.neutral.end(); first += kTileVertices)
+      std::fill(first + std::ssize(tile.vertices), first + kTileVertices, *first);
     tile.targets.clear();
     if (options_.targets)
       differences_->of(rows_, 1 / unit, tile.targets, tile.differences);
     else
       tile.differences.reshape(static_cast<int>(rows_.size()), 0);
-  }
-
-  void pack(const TileSource& tile, TileTable& table, TableErrors& errors) {
+    if (&table == &tables_.derivatives) tellInLargerUnits(tile);
     const auto found = packTile(tile, static_cast<std::uint16_t>(tables_.weights), table);
     errors.rounding = std::max(errors.rounding, found.rounding * tile.unit);
     for (std::size_t k = 0; k < tile.targets.size(); ++k) {
@@ -163,8 +165,10 @@ class Compiler {
       const std::span row(tile.differences.row(r), width);
       const double most = extentOf(row).most * tile.unit;
       if (most <= kMost) continue;
-      const auto factor = static_cast<float>(std::ldexp(1.0, std::ilogb(kMost / most)));
-      for (float& x : row) x *= factor;
+      float factor = 1;
+      while (most * factor > kMost) factor /= 2;
+      const Scaled scaled{factor, row.data()};
+      sumRows({&scaled, 1}, tile.differences.width(), row.data());
       for (float& x : tile.neutral[r]) x *= factor;
     }
   }
@@ -172,8 +176,7 @@ class Compiler {
   /// ∂u and ∂v of vertices in units of their neutral lengths, unless these are nothing but
   /// rounding. Loose vertices look along z.
   void addDerivatives(std::span<const Index> vertices, TileSource& tile) {
-    tile.neutral.assign(kMostRows, {});
-    rows_.assign(kMostRows, {});
+    start(tile, kMostRows);
     derivatives_.resize(vertices.size());
     for (std::size_t k = 0; k < vertices.size(); ++k) {
       const Index g = gridVertex(vertices[k]);
@@ -190,12 +193,7 @@ class Compiler {
         rows_[d * kTileVertices + k] = {weights.vectors, weights.factors, scale};
       }
     }
-    for (const int first : {0, kTileVertices})
-      std::fill(tile.neutral.begin() + first + std::ssize(vertices),
-                tile.neutral.begin() + first + kTileVertices, tile.neutral[first]);
-    gather(tile, usedDerivativeTolerance());
-    tellInLargerUnits(tile);
-    pack(tile, tables_.derivatives, tables_.derivativeErrors);
+    pack(tile, usedDerivativeTolerance(), tables_.derivatives, tables_.derivativeErrors);
   }
 
   const Rig& rig_;

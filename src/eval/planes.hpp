@@ -36,7 +36,7 @@ struct Scaled {
   float factor;
   const float* row;
 };
-/// out = Σ factor · row
+/// out = Σ factor · row; `out` may be one of the rows
 void sumRows(std::span<const Scaled> terms, int width, float* out);
 /// out = Σ_r factors[r] · row r
 void project(const Planes& planes, const float* factors, float* out);

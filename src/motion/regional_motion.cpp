@@ -54,8 +54,9 @@ double quickest(const Spring& spring) {
 }
 
 /// Where anything swings there are so many frames that straight lines between them are as good as
-/// exact, for ten seconds after each of the clip's and no more than `most` weights in all. It goes
-/// on until it hangs still, or for as long.
+/// exact, for ten seconds after each of the clip's and no more than `most` weights in all: half of
+/// them for even frames, half for closer ones after a blow. It goes on until it hangs still, or for
+/// as long.
 Clip hanging(const Clip& clip, const Spring& spring, std::size_t most) {
   constexpr double kFrame = 1.0 / 120, kLongest = 10;
   const std::size_t n = clip.names.size();
@@ -68,10 +69,11 @@ Clip hanging(const Clip& clip, const Spring& spring, std::size_t most) {
   const double frame = std::max(kFrame, room > 0 ? swinging / room : HUGE_VAL);
   // A blow g' that settles at the rate r is off its straight line by g' r h² / 8 in a piece h at
   // first, and later by less: with pieces h exp(r t / 2) always by as much, in 2 / (r h) of them.
-  constexpr double kMiss = 4e-5;
+  // What settles sooner than the shortest has not gone far, and clocks may tell no less apart.
+  constexpr double kMiss = 4e-5, kShortest = 1e-4;
   const double rate = quickest(spring);
-  const double first =
-      std::max(std::sqrt(8 * kMiss / rate), room > 0 ? 2 * frames / (rate * room) : HUGE_VAL);
+  const double first = std::max(
+      {kShortest, std::sqrt(8 * kMiss / rate), room > 0 ? 2 * frames / (rate * room) : HUGE_VAL});
 
   std::vector<double> before(clip.weights.begin(), clip.weights.begin() + std::ssize(clip.names));
   std::vector<double> now(n);
@@ -88,13 +90,12 @@ Clip hanging(const Clip& clip, const Spring& spring, std::size_t most) {
   const auto any = [&](auto swings) { return std::ranges::any_of(hangs, swings); };
   // One piece at least, and then as long as anything swings.
   const auto goOn = [&](double from, double span, double piece, auto swings) {
-    double step = std::min(first, piece), at = step;
-    do {
-      if (at > span) break;
+    double step = std::min(first, piece);
+    for (double at = step; at <= span; at += step) {
       goTo(from + at);
+      if (!any(swings)) return;
       step = std::min(step * std::exp(rate * step / 2), piece);
-      at += step;
-    } while (any(swings));
+    }
   };
   for (std::size_t f = 1; f < clip.times.size(); ++f) {
     const double from = clip.times[f - 1], span = clip.times[f] - from;

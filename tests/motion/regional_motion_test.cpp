@@ -312,6 +312,22 @@ TEST(RegionalClip, StraightLinesAreAsGoodAsExact) {
   }
 }
 
+// At the end of the times that recordings may have, where clocks tell millionths of a second apart.
+TEST(RegionalClip, WhatSettlesAtOnceIsThere) {
+  const Clip clip{{"jawOpen"}, {1e10, 1e10 + 0.5, 1e10 + 1}, {0, 1, 0}};
+  for (const double excess : {1e-15, 1e-12, 1e-9, 1e-6}) {
+    const Clip heavy = inMatter(clip, {1 + excess, 1, 0});
+    std::vector<double> recorded(1);
+    for (std::size_t k = 0; k < heavy.times.size(); ++k) {
+      if (k > 0) {
+        ASSERT_GT(heavy.times[k], heavy.times[k - 1]);
+      }
+      clip.at(heavy.times[k] - clip.times.front(), recorded);
+      ASSERT_NEAR(heavy.weights[k], recorded[0], 1e-3) << excess;
+    }
+  }
+}
+
 TEST(RegionalClip, AHeavyRegionArrives) {
   const Clip clip{{"jawOpen"}, {0, 1.9, 2}, {0, 0, 1}};
   const Clip heavy = inMatter(clip, {4, 1, 0}, {2, 0.3});

@@ -96,13 +96,22 @@ test('the page', options, (t) => withPage('index.html', visit, async (page, comp
     };
     const [follows, share] = await page.evaluate(shared);
     assert.ok(follows && share > 0.9 && share < 1.1, `${share}`);  // edges, as two vertices, a corner of a triangle
-    await page.locator('#lines').uncheck();
+    const check = async (isDrawn) => {
+      await page.locator('#lines').setChecked(isDrawn);
+      await page.waitForTimeout(1500);
+      return picture();
+    };
+    const open = await check(true);
+    await slide('jawOpen', 0);
+    const followed = await check(true);
+    assert.ok(await changed(open, followed) > 0.005);
+    const plain = await check(false);
     assert.equal(await page.evaluate(shared), undefined);
-    await page.waitForTimeout(800);
-    const before = await picture();
-    await slide('jawOpen', 0);  // what the lines were over goes on moving
+    assert.ok(await changed(plain, followed) > 0.01);
+    assert.ok(await changed(followed, await check(true)) < 0.001);  // as lines that are drawn anew
+    const before = await check(false);
+    await slide('jawOpen', 0.5);  // what the lines were over goes on moving
     assert.ok(await changed(before, await picture()) > 0.005);
-    await slide('jawOpen', 0.5);
   });
 
   await t.test('finds expressions by a part of their name', async () => {
