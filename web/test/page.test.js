@@ -57,6 +57,31 @@ test('the page', options, (t) => withPage('index.html', visit, async (page, comp
     assert.deepEqual(await positions(), [...positionsOf(face)]);
   });
 
+  await t.test('draws lines that follow the face', async () => {
+    const shared = () => {
+      const {mesh} = globalThis.sweepface, lines = mesh.children.find((child) => child.isLineSegments);
+      return lines && [lines.geometry.attributes.position === mesh.geometry.attributes.position,
+                       lines.geometry.index.count / mesh.geometry.index.count];
+    };
+    const check = async (isDrawn) => {
+      await page.locator('#lines').setChecked(isDrawn);
+      await page.waitForTimeout(800);
+      return picture();
+    };
+    const open = await check(true), [follows, share] = await page.evaluate(shared);
+    assert.ok(follows && share > 0.9 && share < 1.1, `${share}`);  // edges, as two vertices, a corner of a triangle
+    await slide('jawOpen', 0);
+    const followed = await picture();
+    assert.ok(await changed(open, followed) > 0.005);
+    const plain = await check(false);
+    assert.equal(await page.evaluate(shared), undefined);
+    assert.ok(await changed(plain, followed) > 0.01);
+    assert.equal(await changed(followed, await check(true)), 0);  // as lines that are drawn anew
+    await check(false);
+    await slide('jawOpen', 0.6);  // what the lines were over goes on moving
+    assert.ok(await changed(plain, await picture()) > 0.005);
+  });
+
   await t.test('turns when it is dragged', async () => {
     const neutral = await picture();
     await page.mouse.move(300, 300);
@@ -85,33 +110,9 @@ test('the page', options, (t) => withPage('index.html', visit, async (page, comp
     await page.locator('#lod').selectOption('2');
     await until((vertices) => globalThis.sweepface.mesh.face.vertexCount > 3 * vertices, vertices);
     assert.equal(await weight('jawOpen'), 0.5);
-  });
-
-  await t.test('draws lines that follow the face', async () => {
     await page.locator('#lines').check();
-    const shared = () => {
-      const {mesh} = globalThis.sweepface, lines = mesh.children.find((child) => child.isLineSegments);
-      return lines && [lines.geometry.attributes.position === mesh.geometry.attributes.position,
-                       lines.geometry.index.count / mesh.geometry.index.count];
-    };
-    const [follows, share] = await page.evaluate(shared);
-    assert.ok(follows && share > 0.9 && share < 1.1, `${share}`);  // edges, as two vertices, a corner of a triangle
-    const check = async (isDrawn) => {
-      await page.locator('#lines').setChecked(isDrawn);
-      await page.waitForTimeout(1500);
-      return picture();
-    };
-    const open = await check(true);
-    await slide('jawOpen', 0);
-    const followed = await check(true);
-    assert.ok(await changed(open, followed) > 0.005);
-    const plain = await check(false);
-    assert.equal(await page.evaluate(shared), undefined);
-    assert.ok(await changed(plain, followed) > 0.01);
-    assert.ok(await changed(followed, await check(true)) < 0.001);  // as lines that are drawn anew
-    const before = await check(false);
-    await slide('jawOpen', 0.5);  // what the lines were over goes on moving
-    assert.ok(await changed(before, await picture()) > 0.005);
+    await page.waitForTimeout(300);
+    await page.locator('#lines').uncheck();
   });
 
   await t.test('finds expressions by a part of their name', async () => {
