@@ -9,10 +9,27 @@
 
 namespace sweepface::cli {
 
-void printError(std::string_view sentence) { fmt::print(stderr, "sweepface: {}\n", sentence); }
+namespace {
+
+/// Control characters that names have brought along would reach the terminal.
+std::string printable(std::string_view sentence) {
+  std::string text(sentence);
+  for (std::size_t k = 0; k < text.size(); ++k) {
+    const auto code = static_cast<unsigned char>(text[k]);
+    const bool isWide = code == 0xC2 && k + 1 < text.size() && (text[k + 1] & 0xE0) == 0x80;
+    if (code < ' ' || code == 0x7f || isWide) text.replace(k, isWide ? 2 : 1, "?");
+  }
+  return text;
+}
+
+}  // namespace
+
+void printError(std::string_view sentence) {
+  fmt::print(stderr, "sweepface: {}\n", printable(sentence));
+}
 
 void printWarning(std::string_view sentence) {
-  fmt::print(stderr, "sweepface: warning: {}\n", sentence);
+  fmt::print(stderr, "sweepface: warning: {}\n", printable(sentence));
 }
 
 void printJson(const nlohmann::ordered_json& report) {

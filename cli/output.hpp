@@ -8,7 +8,7 @@
 
 namespace sweepface::cli {
 
-/// "sweepface: sentence" on the error stream.
+/// "sweepface: sentence" on the error stream, with '?' for control characters.
 void printError(std::string_view sentence);
 void printWarning(std::string_view sentence);
 /// JSON on the output stream; bytes in names that are no UTF-8 are replaced.

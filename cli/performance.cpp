@@ -103,8 +103,9 @@ Result<Recording> readClip(const PerformanceArguments& a, const Region& region,
   if (!text) return std::unexpected(text.error());
   const bool isJson = isOfKind(a.clip, ".json");
   if (isJson && isTimeline(*text)) {
-    if (a.smooth || !a.animation.empty())
-      return fail(fmt::format("{} is a timeline; leave --smooth and --animation out.", a.clip));
+    if (a.smooth || !a.animation.empty() || a.tellsSpring)
+      return fail(fmt::format(
+          "{} is a timeline; leave --smooth, --animation, --frequency and --damping out.", a.clip));
     const Result<Timeline> timeline = parseTimeline(*text, a.clip);
     if (!timeline) return std::unexpected(timeline.error());
     auto clip = bake(*timeline, kTimelineRate, region.name, region.matter);
@@ -278,7 +279,10 @@ void addPerformance(CLI::App& app, PerformanceArguments& a) {
       ->capture_default_str()
       ->type_name("N");
   app.add_flag("--smooth", a.smooth, "Take a tracker's noise out of the clip")->needs("--clip");
-  app.parse_complete_callback([&app, &a] { checkUse(app, a); });
+  app.parse_complete_callback([&app, &a] {
+    checkUse(app, a);
+    a.tellsSpring = app.count("--frequency") + app.count("--damping") > 0;
+  });
 }
 
 Result<Performance> makePerformance(const PerformanceArguments& a, const Rig& rig,

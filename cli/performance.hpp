@@ -19,6 +19,7 @@ struct PerformanceArguments {
   std::optional<std::string> to;
   double seconds = 1, frequency = 2, damping = 1, restitution = 0.4, clipRate = 60;
   bool smooth = false;
+  bool tellsSpring = false;  ///< its frequency or damping
 };
 void addPerformance(CLI::App& app, PerformanceArguments& a);
 

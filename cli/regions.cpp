@@ -115,6 +115,12 @@ Result<std::vector<Region>> regionsOf(const PerformanceArguments& what, const Re
   auto regions = readRegions(what, a, rig);
   if (!regions) return regions;
   if (auto ok = checkNames(what.clip, *regions); !ok) return std::unexpected(ok.error());
+  const auto isHeavy = [](const Region& region) { return region.matter.mass > 1; };
+  if (!what.clip.empty() && what.tellsSpring && std::ranges::none_of(*regions, isHeavy))
+    return fail(
+        fmt::format("No region is heavier than the rest, so that nothing of {} hangs on springs; "
+                    "leave --frequency and --damping out.",
+                    what.clip));
   return regions;
 }
 

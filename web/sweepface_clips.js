@@ -151,7 +151,7 @@ export class Clip {
 
 function readLiveLink(text, name, framesPerSecond) {
   const cellsOf = (line) => line.split(',').map(trimmed);
-  const lines = text.split('\n').map((line, k) => ({number: k + 1, cells: cellsOf(line)}));
+  const lines = text.split(text.includes('\n') ? '\n' : '\r').map((line, k) => ({number: k + 1, cells: cellsOf(line)}));
   const filled = lines.filter(({cells}) => cells.length > 1 || cells[0] !== '');
   if (filled.length === 0) throw new Error(`${name} is empty; record again.`);
   const fail = (line, what) => new Error(`${name}, line ${line.number}: ${what}.`);
@@ -271,8 +271,8 @@ export function readClip(source, {name: given, framesPerSecond = 60} = {}) {
   if (isObject(json) && json.weightMat !== undefined) return readAudio2Face(json, fail);
   const frames = Array.isArray(json) ? json : json.frames;
   if (Array.isArray(frames)) return readMediaPipe(frames, fail);
-  throw fail('is neither of Audio2Face (\'facsNames\' and \'weightMat\') nor of MediaPipe ' +
-             '(a list of frames with \'categories\')');
+  throw fail('is neither of Audio2Face (\'facsNames\' and \'weightMat\'), nor of MediaPipe (a list of frames ' +
+             'with \'categories\'), nor a timeline (\'seconds\' and \'events\')');
 }
 
 /** The angles of Live Link Face, in radians, in the order of the app. */

@@ -29,8 +29,9 @@ class ClipJsonReader {
     const Json* frames = json.is_array() ? &json : member(json, "frames");
     if (frames && frames->is_array()) return readMediaPipe(*frames);
     return failFile(
-        "is neither of Audio2Face ('facsNames' and 'weightMat') nor of MediaPipe (a list of frames "
-        "with 'categories')");
+        "is neither of Audio2Face ('facsNames' and 'weightMat'), nor of MediaPipe (a list of "
+        "frames "
+        "with 'categories'), nor a timeline ('seconds' and 'events')");
   }
 
  private:

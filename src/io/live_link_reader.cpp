@@ -27,7 +27,7 @@ std::vector<std::string_view> cells(std::string_view line) {
 class LiveLinkReader {
  public:
   LiveLinkReader(std::string_view text, std::string_view name, double framesPerSecond)
-      : lines_(text, '\n'), name_(name), framesPerSecond_(framesPerSecond) {}
+      : lines_(text), name_(name), framesPerSecond_(framesPerSecond) {}
 
   Result<Clip> read() {
     if (auto ok = readHeadings(); !ok) return std::unexpected(ok.error());

@@ -26,11 +26,7 @@ class ObjReader {
   enum class Wanted { everything, target };
 
   ObjReader(std::string_view text, std::string_view name, Wanted wanted)
-      : name_(name),
-        wanted_(wanted),
-        text_(io::withoutMark(text)),
-        // Only texts without any '\n' have lines that end in '\r' alone.
-        lines_(text_, text_.find('\n') == std::string_view::npos ? '\r' : '\n') {}
+      : name_(name), wanted_(wanted), text_(io::withoutMark(text)), lines_(text_) {}
 
   bool read() {
     if (text_.size() > maxFileBytes) return failFile("is larger than 2 GiB; export only the face");

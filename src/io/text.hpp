@@ -44,6 +44,9 @@ inline std::string_view withoutMark(std::string_view text) {
 /// The lines of a text, one after the other, counted from 1.
 class LineCursor {
  public:
+  /// Only texts without any '\n' have lines that end in '\r' alone.
+  explicit LineCursor(std::string_view text)
+      : LineCursor(text, text.find('\n') == std::string_view::npos ? '\r' : '\n') {}
   LineCursor(std::string_view text, char lineBreak) : rest_(text), break_(lineBreak) {}
 
   /// Moves to the next line; false at the end of the text.

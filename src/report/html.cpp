@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "codec/utf8.hpp"
 #include "picture/colour.hpp"
 
 namespace sweepface::html {
@@ -70,6 +71,7 @@ std::string cells(const std::vector<std::string>& texts, std::string_view tag) {
 }  // namespace
 
 std::string escaped(std::string_view text) {
+  const bool isUtf8 = codec::isUtf8(text);
   std::string result;
   for (const char c : text) switch (c) {
       case '&':
@@ -85,7 +87,10 @@ std::string escaped(std::string_view text) {
         result += "&quot;";
         break;
       default:
-        result += c;
+        if (isUtf8 || c == '\n' || (c >= ' ' && c < 0x7f))
+          result += c;
+        else
+          result += "\uFFFD";
     }
   return result;
 }

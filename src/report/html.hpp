@@ -9,6 +9,7 @@
 // Pieces of HTML. Texts are given as they are to be read and escaped here.
 namespace sweepface::html {
 
+/// What is no UTF-8, as names of files may be, is shown as far as it is ASCII.
 std::string escaped(std::string_view text);
 std::string base64(std::string_view bytes);
 /// "#rrggbb".

@@ -72,6 +72,16 @@ TEST_F(PlayClip, SaysWhatMatchesNothingEvenWhenQuiet) {
   EXPECT_NE(r.err.find("1 of 2 names drive no target of the face: Beard."), std::string::npos);
 }
 
+// A JSON can spell any character: colours and titles would reach the terminal.
+TEST_F(PlayClip, ShowsNoControlCharactersOfNames) {
+  convertRig();
+  write("take.json", R"({"exportFps": 30, "facsNames": ["jawOpen", "\u001b[31mred\u007f\u009b"],
+                         "weightMat": [[0, 0], [1, 1]]})");
+  const Outcome r = run("animate face.sweep --clip take.json -o take.glb");
+  EXPECT_EQ(r.code, 0);
+  EXPECT_NE(r.err.find("no target of the face: ?[31mred??."), std::string::npos) << r.err;
+}
+
 TEST_F(PlayClip, GivesAGlbAKeyAFrameOnRequest) {
   convertRig();
   write("take.csv", "Timecode,JawOpen\n0,0\n0.1,1\n0.3,0.5\n");

@@ -129,5 +129,19 @@ TEST_F(RegionsOnTheFace, SayWhatIsWrong) {
   EXPECT_TRUE(fails("animate face.sweep -o out.glb --clip line.json", "a region 'nose'"));
 }
 
+TEST_F(RegionsOnTheFace, SpringsAreToldOnlyWhereHeavyPartsOfAClipHangOnThem) {
+  convertRig();
+  heavySide();
+  folder.file("late.json", R"({"regions": [{"name": "side", "points": [[6, 0, 0]], "fade": 3,
+              "over": "space", "delay": 0.5}]})");
+  folder.file("take.csv", "Timecode,JawOpen\n0,0\n1,1\n2,0\n");
+  folder.file("line.json", R"({"seconds": 1, "events": [{"at": 0, "to": {"smile": 1}}]})");
+  const std::string command = "animate face.sweep -o out.glb --frequency 3 --clip ";
+  EXPECT_EQ(run(command + "take.csv --regions heavy.json").code, 0);
+  EXPECT_TRUE(fails(command + "take.csv --regions late.json", "No region is heavier"));
+  EXPECT_TRUE(fails(command + "take.csv", "leave --frequency and --damping out"));
+  EXPECT_TRUE(fails(command + "line.json --regions heavy.json", "line.json is a timeline"));
+}
+
 }  // namespace
 }  // namespace sweepface

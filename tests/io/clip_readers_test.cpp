@@ -33,6 +33,13 @@ TEST(LiveLinkCsv, OrderCaseAndMarksOfHeadingsDoNotMatter) {
   EXPECT_EQ(clip->times, (std::vector<double>{0.5, 1}));
 }
 
+TEST(LiveLinkCsv, LinesMayEndInReturnsAlone) {
+  const auto clip = csv("Timecode,jawOpen\r0.5,1\r1,0\r");
+  ASSERT_TRUE(clip) << clip.error().message;
+  EXPECT_EQ(clip->weights, (std::vector<double>{1, 0}));
+  expectError(csv("Timecode,a\r1,x\r"), "line 2: 'x' in column 2");
+}
+
 TEST(LiveLinkCsv, AnyRateOfFrames) {
   EXPECT_NEAR(parseLiveLinkCsv("Timecode,a\n0:0:0:12,1\n", "x", 24)->times[0], 0.5, 1e-15);
 }

@@ -53,6 +53,8 @@ std::string withoutPictures(std::string page) {
 
 TEST(Html, EscapesTexts) {
   EXPECT_EQ(html::escaped("<b>&\"x\""), "&lt;b&gt;&amp;&quot;x&quot;");
+  EXPECT_EQ(html::escaped("jäwé"), "jäwé");
+  EXPECT_EQ(html::escaped("m\xfcnd\x1b\n"), "m\uFFFDnd\uFFFD\n");  // Latin 1, a control character
   html::Table table({"a<b", "n"});
   table.add({"<script>", "1"}, true);
   EXPECT_EQ(table.html().find("<script>"), std::string::npos);

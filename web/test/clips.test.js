@@ -44,7 +44,8 @@ const mediaPipe = JSON.stringify(frames.map((f) => ({
   faceBlendshapes: [{categories: few.map((categoryName, k) => ({categoryName, score: wave(f, k)}))}]
 })));
 
-for (const [title, file, text] of [['Live Link Face', 'take.csv', csv], ['Audio2Face', 'take.json', audio2Face],
+for (const [title, file, text] of [['Live Link Face', 'take.csv', csv],
+                                   ['lines that end in returns', 'take.csv', csv.replaceAll('\r\n', '\r')], ['Audio2Face', 'take.json', audio2Face],
                                    ['MediaPipe', 'take.json', mediaPipe]])
   for (const smooth of [false, true])
     test(`a capture of ${title}${smooth ? ', smoothed,' : ''} plays as the tool plays it`, async () => {
