@@ -8,7 +8,6 @@
 
 #include "sweepface/box.hpp"
 #include "sweepface/eval.hpp"
-#include "sweepface/fit.hpp"
 
 #include "command.hpp"
 #include "output.hpp"
@@ -45,9 +44,9 @@ struct Pose {
 };
 
 std::vector<Pose> posesOf(const Rig& rig) {
-  std::vector<Pose> poses{{"the neutral", single(rig, -1)}};
+  std::vector<Pose> poses{{"the neutral", rig.weightsOf(0)}};
   for (std::size_t k = 0; k < rig.targets.size(); ++k)
-    poses.push_back({rig.targets[k].name, single(rig, static_cast<Index>(k))});
+    poses.push_back({rig.targets[k].name, rig.weightsOf(static_cast<Index>(k) + 1)});
   if (rig.targets.empty()) return poses;
   Weights mixture;
   std::mt19937 random(1);
@@ -98,7 +97,7 @@ class Checker {
     });
     for (std::size_t k = 0; k < looks.size(); ++k) judge(poses_[k].name, looks[k]);
     for (const JoinReport& join : looks[0].joins)
-      neutral_[static_cast<std::size_t>(join.joinClass)].add(join);
+      if (!join.collapsed) neutral_[static_cast<std::size_t>(join.joinClass)].add(join);
   }
 
   const std::vector<std::string>& problems() const { return problems_; }
@@ -111,6 +110,7 @@ class Checker {
     Joint gap, first, second;
     for (std::size_t a = 0; a < look.joins.size(); ++a) {
       const JoinReport& join = look.joins[a];
+      if (join.collapsed) continue;
       all_[static_cast<std::size_t>(join.joinClass)].add(join);
       gap.see(a, join.positionGap);
       if (join.joinClass != JoinClass::c2) continue;

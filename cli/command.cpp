@@ -205,10 +205,4 @@ Result<void> checkOutput(const fs::path& output, const std::vector<std::string>&
   return {};
 }
 
-Weights single(const Rig& rig, Index target) {
-  Weights weights(rig.targets.size(), 0.0);
-  if (target >= 0) weights[target] = 1;
-  return weights;
-}
-
 }  // namespace sweepface::cli

@@ -103,7 +103,4 @@ Result<void> checkOutput(const std::filesystem::path& output,
                          const std::vector<std::string>& inputs,
                          std::initializer_list<std::string_view> kinds, bool reports = true);
 
-/// Weights with one target at 1; all at 0 for -1.
-Weights single(const Rig& rig, Index target);
-
 }  // namespace sweepface::cli

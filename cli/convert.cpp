@@ -8,7 +8,6 @@
 
 #include "sweepface/arcs.hpp"
 #include "sweepface/codec.hpp"
-#include "sweepface/eval.hpp"
 #include "sweepface/fit.hpp"
 #include "sweepface/io.hpp"
 #include "sweepface/measure.hpp"
@@ -68,8 +67,8 @@ void addOptions(CLI::App& app, ConvertArguments& a) {
       ->type_name("N");
   app.add_option(
          "--max-bytes", a.maxBytes,
-         "Pack, and look for the smallest tolerance whose file takes at most N bytes: several "
-         "conversions")
+         "Pack, and look for the smallest tolerance whose file takes at most N bytes, none finer "
+         "than --tolerance if that is given: several conversions")
       ->transform(wholeNumber(1, std::int64_t{1} << 53))  // as far as doubles count
       ->type_name("N");
   app.add_flag(
@@ -93,47 +92,13 @@ void addOptions(CLI::App& app, ConvertArguments& a) {
 
 // ---- Verification ----
 
-struct Worst {
-  double distance = 0;
-  std::size_t vertex = 0;
-  Index target = -1;
-};
-
-Worst worstOf(const Rig& rig, const Tessellation& grid, Index target,
-              const std::vector<Vec3>& source) {
-  const Weights weights = single(rig, target);
-  const std::vector<Vec3> found = sourcePositions(rig, grid, blend(rig, weights), weights);
-  Worst worst{.target = target};
-  for (std::size_t v = 0; v < source.size(); ++v) {
-    const double distance = norm(found[v] - source[v]);
-    // Also true where the distance is not a number.
-    if (!(distance <= worst.distance)) worst = {distance, v, target};
-    if (std::isnan(distance)) break;
-  }
-  return worst;
-}
-
-/// The vertex furthest from its source, over the neutral and every target.
-Worst compare(const Rig& rig, const MeshRig& source) {
-  const Tessellation grid(rig.surface, 1);
-  std::vector<Worst> each(rig.targets.size() + 1);
-  parallelFor(std::size_t{0}, each.size(), [&](std::size_t k) {
-    each[k] = worstOf(rig, grid, static_cast<Index>(k) - 1,
-                      k == 0 ? source.neutral.positions : source.targets[k - 1].positions);
-  });
-  Worst worst = each[0];
-  for (const Worst& w : each)
-    if (!std::isnan(worst.distance) && !(w.distance <= worst.distance)) worst = w;
-  return worst;
-}
-
 std::string nameOfShape(const Rig& rig, Index target) {
   return target < 0 ? "the neutral" : rig.targets[target].name;
 }
 
 /// What a reader of the bytes will see, compared with the source.
 struct Verified {
-  Worst worst;
+  FurthestVertex worst;
   std::vector<Index> folds;  // of the neutral and every target
 };
 
@@ -153,7 +118,7 @@ Result<Verified> verify(std::string_view bytes, const std::string& name, const M
     return fail(
         "The encoded face lacks vertices or targets of the source; nothing was written. "
         "This is a fault of sweepface, please report it.");
-  const Worst worst = compare(*rig, source);
+  const FurthestVertex worst = furthestVertex(*rig, source);
   if (worst.distance <= tolerance) return Verified{worst, countFolds(*rig, source)};
   return fail(
       fmt::format("Vertex {} of {} would be {:.6g} away from the source, beyond the "
@@ -264,32 +229,28 @@ Result<int> convertAndWrite(const ConvertArguments& a) {
   const auto refused = [&](const Error& error) {
     return fail(fmt::format("{}: {}.", a.neutral, error.message));
   };
-  // The scene comes with a frame and its length.
-  constexpr std::size_t kMostAround = 32, kMostTurn = 29;
   const bool bringsScene = !a.bare && !parts->scene && !source->scene.empty();
-  const bool hasScene = bringsScene && !parts->order;
-  const std::size_t scene = hasScene ? source->scene.size() + kMostAround : 0;
-  const std::size_t arcs = a.arcs ? kMostAround + kMostTurn * source->rig.targets.size() : 0;
-  if (a.maxBytes > 0 && scene >= a.maxBytes)
+  if (a.maxBytes > 0 && bringsScene && !parts->order && source->scene.size() >= a.maxBytes)
     return fail(
         fmt::format("What {} holds besides the face takes {} bytes; leave it out with "
                     "--bare, or allow more.",
                     a.neutral, source->scene.size()));
-  if (a.maxBytes > 0 && scene + arcs >= a.maxBytes)
-    return fail(
-        fmt::format("What the {} expressions turn about may take {} bytes; leave --arcs out, or "
-                    "allow more.",
-                    source->rig.targets.size(), arcs));
-  Result<Conversion> conversion = a.maxBytes > 0 ? convertToBytes(source->rig, optionsOf(a, *bar),
-                                                                  a.maxBytes - scene - arcs, *parts)
-                                                 : convert(source->rig, optionsOf(a, *bar));
+  const auto finish = [&](Rig& rig) {
+    std::vector<Turn> turns;
+    if (a.arcs) turns = findTurns(rig);
+    if (!a.bare) rig.scene = source->scene;
+    auto ok = strip(rig, *parts);
+    rig.turns = std::move(turns);
+    return ok;
+  };
+  Result<Conversion> conversion =
+      a.maxBytes > 0 ? convertToBytes(source->rig, optionsOf(a, *bar), a.maxBytes, finish)
+                     : convert(source->rig, optionsOf(a, *bar));
   if (!conversion) return refused(conversion.error());
-  if (!a.bare) conversion->rig.scene = std::move(source->scene);
   bar->show("verifying", 1);
-  Rig stripped = conversion->rig;
-  if (auto ok = strip(stripped, *parts); !ok) return refused(ok.error());
-  if (a.arcs) stripped.turns = findTurns(conversion->rig);
-  const std::string bytes = encode(stripped);
+  Rig finished = conversion->rig;
+  if (auto ok = finish(finished); !ok) return refused(ok.error());
+  const std::string bytes = encode(finished);
   const Result<Verified> verified = verify(bytes, a.output, source->rig, conversion->rig);
   if (!verified) return std::unexpected(verified.error());
   if (interrupted) return kInterrupted;

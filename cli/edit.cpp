@@ -86,8 +86,11 @@ class Editor {
   Result<void> edit(const EditArguments& a) {
     if (a.target && !a.ribbon.empty())
       return fail("Shape parameters are those of all expressions; leave --target out.");
-    if (a.target && (target_ = rig_.find(*a.target)) < 0)
-      return fail(fmt::format("There is no expression named '{}'.", *a.target));
+    if (a.target) {
+      const Result<Index> target = findTarget(rig_, *a.target);
+      if (!target) return std::unexpected(target.error());
+      target_ = *target;
+    }
     if (!a.ribbon.empty())
       if (auto ok = reshape(a); !ok) return ok;
     if (auto ok = move(a); !ok) return ok;

@@ -52,8 +52,7 @@ Result<Following> follow(const FollowingArguments& a, Rig& rig) {
   const auto turns = a.arcs == "on" ? turnsOf(rig) : std::vector<Turn>{};
   if (a.eyes == "on") {
     const std::vector<Eye> eyes = findEyes(rig);
-    if (eyes.empty())
-      return fail("The face has no two eyeballs that could turn; leave --eyes out.");
+    if (eyes.empty()) return fail("The face has no eyeballs that could turn; leave --eyes out.");
     following.eyes = EyeTurns::addTo(rig, eyes);
   }
   const std::vector<Follower> arcs = addArcs(rig, turns);

@@ -34,15 +34,13 @@ nlohmann::ordered_json describe(const InfoArguments& a, const Rig& rig, std::siz
   const auto kinds = [&](NodeKind kind) {
     return std::ranges::count(surface.connectivity().kinds, kind);
   };
-  Index quads = 0;
-  for (Index p = 0; p < surface.patchCount(); ++p) quads += surface.edgesU(p) * surface.edgesV(p);
   std::vector<std::string> names;
   for (const Target& target : rig.targets) names.push_back(target.name);
   nlohmann::ordered_json report{
       {"file", a.face},
       {"vertices", rig.source.gridVertex.size()},
       {"patches", surface.patchCount()},
-      {"quads", quads},
+      {"quads", w.quadCount()},
       {"nodes", w.nodes.size()},
       {"fullNodes", kinds(NodeKind::crossing)},
       {"irregularNodes", kinds(NodeKind::irregular)},
@@ -58,10 +56,7 @@ nlohmann::ordered_json describe(const InfoArguments& a, const Rig& rig, std::siz
       {"bytes", bytes},
       {"bareBytes", bareBytes(rig)},
       {"parts", nlohmann::ordered_json::object()}};
-  for (const FilePart& part : parts) {
-    auto& cost = report["parts"][part.name];
-    cost = cost.is_null() ? part.bytes : cost.get<std::size_t>() + part.bytes;
-  }
+  for (const FilePart& part : parts) report["parts"][part.name] = part.bytes;
   return report;
 }
 

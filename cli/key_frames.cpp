@@ -69,7 +69,8 @@ class Halver {
 
 KeyFrames keyFrames(const Performance& performance, const Rig& rig, double tolerance) {
   if (!performance.frameTimes.empty())
-    return {sample(performance, rig, performance.frameTimes), tolerance};
+    return {sample(performance, rig, performance.frameTimes),
+            std::max(tolerance - performance.frameMiss, tolerance / 2), performance.frameMiss};
   const std::vector<double> coarse = coarseTimes(performance);
   Halver halver(performance, rig.targets.size(), tolerance / 16);
   halver.times.push_back(coarse.front());

@@ -160,10 +160,6 @@ class MeshMaker {
 
   const Polygons& polygons() const { return polygons_; }
 
-  std::vector<Vec3> positions(std::span<const double> weights) const {
-    return positions(blend(rig_, weights), weights);
-  }
-
   /// The expression as an OBJ text, with the surface's own normals.
   std::string obj(std::span<const double> weights) const {
     const auto [places, normals] = shape(weights);

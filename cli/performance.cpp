@@ -95,6 +95,7 @@ Result<Performance> byLaw(const PerformanceArguments& a, const Rig& rig, const M
 /// A clip as it was recorded, and as a region plays it.
 struct Recording {
   Clip clip, played;
+  double missed = 0;  // by straight lines between its frames
 };
 
 Result<Recording> readClip(const PerformanceArguments& a, const Region& region,
@@ -108,9 +109,11 @@ Result<Recording> readClip(const PerformanceArguments& a, const Region& region,
           "{} is a timeline; leave --smooth, --animation, --frequency and --damping out.", a.clip));
     const Result<Timeline> timeline = parseTimeline(*text, a.clip);
     if (!timeline) return std::unexpected(timeline.error());
-    auto clip = bake(*timeline, kTimelineRate, region.name, region.matter);
-    if (!clip) return fail(fmt::format("{}: {}", a.clip, clip.error().message));
-    return Recording{*clip, *clip};
+    auto clip = bake(*timeline, kTimelineRate, region.name, {}),
+         played = bake(*timeline, kTimelineRate, region.name, region.matter);
+    for (const auto* baked : {&clip, &played})
+      if (!*baked) return fail(fmt::format("{}: {}", a.clip, baked->error().message));
+    return Recording{std::move(*clip), std::move(*played), kTimelineMiss};
   }
   const bool gltf = isGltf(a.clip);
   if (!isJson && !gltf && !isOfKind(a.clip, ".csv"))
@@ -165,6 +168,7 @@ Result<Performance> byClip(const PerformanceArguments& a, const Rig& rig, const 
   performance.name = std::filesystem::path(a.clip).stem().string();
   performance.seconds = clip.seconds();
   performance.clipWeights = clip.weights.size();
+  performance.frameMiss = recording->missed;
   performance.notes = notesOn(match, clip, targets, a.clip);
   for (const double time : clip.times) performance.frameTimes.push_back(time - clip.times.front());
   const ClipAngles angles(clip);

@@ -33,6 +33,7 @@ struct Performance {
   std::function<void(double time, std::span<Kinematics> weights)> kinematicsAt;
   std::optional<Motion> motion;    ///< where keys can hold it exactly
   std::vector<double> frameTimes;  ///< a clip's own frames, from 0
+  double frameMiss = 0;            ///< what straight lines between them miss of what is meant
   std::size_t clipWeights = 0;     ///< what it keeps of a clip
   /// Null unless a clip tells how head or eyes stand.
   std::function<HeadPose(double time)> pose;

@@ -128,8 +128,8 @@ class Renderer {
 
   /// What a picture has to show of an expression.
   Result<std::vector<Vec3>> shown(std::span<const double> weights) const {
-    std::vector<Vec3> points = scenes_->points(weights);
-    if (a_.close.empty()) return points;
+    if (a_.close.empty()) return scenes_->drawn(weights);
+    const std::vector<Vec3> points = scenes_->points(weights);
     const Result<std::vector<Index>> region = scenes_->region(a_.close);
     if (!region) return std::unexpected(region.error());
     // A vertex alone has no size that would tell how far the eye must be.

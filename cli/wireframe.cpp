@@ -80,7 +80,7 @@ Result<int> runWireframe(const WireframeArguments& a) {
   if (auto written = writeFile(a.output, objLines(net)); !written)
     return std::unexpected(written.error());
   if (!a.quiet)
-    fmt::print("{}: {} nodes, {} curves\n", a.output, rig->surface.wireframe().nodes.size(),
+    fmt::print("{}: {} nodes, {} curves\n", a.output, net.nodes.size(),
                net.boundary.size() + net.control.size());
   return 0;
 }

@@ -20,7 +20,8 @@ struct Budget {
   enum class Kind {
     edgeLength,  ///< no arc has a segment longer than this, in model units
     error,       ///< no segment is further than this from its arc, in model units, as seven points
-                 ///< of every segment's way tell: a few hundredths more where they miss the most
+                 ///< of its way tell (one, where an edge is cut into more than four): a few
+                 ///< hundredths more where they miss the most
     vertices     ///< as near to the surface as so many vertices allow
   };
   Kind kind = Kind::vertices;
@@ -32,7 +33,8 @@ double errorOnScreen(double pixels, double distance, double fieldOfView, double 
 
 /// The density for a budget, measured on a settled pose; the same for the same pose everywhere.
 /// An edge of the source is cut into 64 at most, even where that is too few for a length or an
-/// error. Fails where the face has more corners than vertices are allowed.
+/// error. Fails where the face has more corners than vertices are allowed, where more than 2^24
+/// would be needed, and for a budget that is not positive.
 Result<Density> densityFor(const Surface& surface, std::span<const Vec3> vectors,
                            const Budget& budget);
 

@@ -8,7 +8,6 @@
 
 #include "sweepface/mesh.hpp"
 #include "sweepface/rig.hpp"
-#include "sweepface/strip.hpp"
 
 namespace sweepface {
 
@@ -52,10 +51,13 @@ Result<void> checkTolerance(double tolerance, double diagonal);
 /// a face has more than 4096 corners.
 Result<Conversion> convert(const MeshRig& source, const ConvertOptions& options = {});
 
-/// Looks for the smallest tolerance whose file, without the parts of `left`, takes at most
-/// `mostBytes`, packed: several conversions, the first at `options.tolerance`. If that cannot be
-/// met, up to 256 times as much is tried.
+/// What a rig gets or loses before it is written.
+using FinishRig = std::function<Result<void>(Rig&)>;
+
+/// Looks for the smallest tolerance whose file takes at most `mostBytes`, packed and finished:
+/// several conversions. None is finer than `options.tolerance`, if that is given; where it cannot
+/// be met, up to 256 times as much is tried.
 Result<Conversion> convertToBytes(const MeshRig& source, ConvertOptions options,
-                                  std::size_t mostBytes, const Strip& left = {});
+                                  std::size_t mostBytes, const FinishRig& finish = {});
 
 }  // namespace sweepface

@@ -2,7 +2,6 @@
 
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "sweepface/rig.hpp"
@@ -44,18 +43,25 @@ class Followers {
   void apply(std::span<double> weights) const noexcept;
 
  private:
+  /// A product's leader that is an in-between: it counts as soon as it is given its weight.
+  struct Factor {
+    Index leader = -1, product = -1;
+  };
   /// A leader and its in-betweens, by ascending weight.
   struct Chain {
     Index leader = -1;
     std::vector<Follower> stops;
-    int depth = 0;  ///< how many chains hand over to its leader, one after another
+    int depth = 0;  ///< how many chains must hand over before it, one after another
+    std::vector<Factor> factors{};
+
+    bool gives(Index target) const;
   };
   void orderChains();
   static void handOver(const Chain& chain, std::span<double> weights) noexcept;
 
-  std::vector<Follower> products_, arcs_;          // by leaders that are set
-  std::vector<Follower> lateProducts_, lateArcs_;  // by leaders that follow
+  std::vector<Follower> products_, arcs_;  // by leaders that are set
   std::vector<Chain> chains_;
+  std::vector<Follower> lateArcs_;  // by leaders that follow
 };
 
 }  // namespace sweepface

@@ -46,6 +46,18 @@ struct MeasureOptions {
 Result<Measurement> measure(const Rig& rig, const MeshRig& source,
                             const MeasureOptions& options = {});
 
+/// The vertex that is furthest from where the source has it.
+struct FurthestVertex {
+  double distance = 0;     ///< not a number where a position is none
+  std::size_t vertex = 0;  ///< of the source
+  Index target = -1;       ///< -1: in the neutral
+};
+
+/// Over the neutral and every target; a vertex at which sheets touch is looked at on each of them.
+/// `source` is what the rig was made from, with its targets in the same order, and the rig knows
+/// the source's order.
+FurthestVertex furthestVertex(const Rig& rig, const MeshRig& source);
+
 /// How many level-4 triangles of a rig's surface look the other way than their source facet, in the
 /// neutral and after it in every target: [1 + K]. `source` is what the rig was made from, with its
 /// targets in the same order, and the rig knows the source's order.

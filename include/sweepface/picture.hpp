@@ -273,8 +273,10 @@ class FaceScenes {
 
   /// What the colours of a style mean; empty where they speak for themselves.
   std::vector<Key> legend(Style style) const;
-  /// Positions of the vertices of level 1 in a pose, to frame it.
+  /// Positions of the vertices of level 1 in a pose.
   std::vector<Vec3> points(std::span<const double> weights) const;
+  /// Of all that are drawn, to frame it: the surface may bulge beyond its source's vertices.
+  std::vector<Vec3> drawn(std::span<const double> weights) const;
   /// Which of these move most under the targets whose names contain `name`, in whatever case.
   Result<std::vector<Index>> region(std::string_view name) const;
   /// The corners of all quads of level 1 that have one of these vertices, in ascending order: what
@@ -287,6 +289,7 @@ class FaceScenes {
 
   const Rig& rig_;
   Tessellation grid_, source_;
+  std::vector<Index> cornerPlaces_;  // [C] of the source on source_
   std::vector<std::array<Index, 3>> triangles_;
   std::vector<Index> patchOf_, quadOf_;  // [T]
 };

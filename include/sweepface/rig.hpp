@@ -105,6 +105,16 @@ struct Rig {
   /// looked. Files hold them in single precision.
   std::vector<Turn> turns{};
 
+  /// The stored vectors of pose 0, the neutral, or what target pose - 1 adds to them.
+  std::vector<Vec3>& vectorsOf(Index pose) {
+    return pose == 0 ? neutral : targets[pose - 1].difference;
+  }
+  const std::vector<Vec3>& vectorsOf(Index pose) const {
+    return pose == 0 ? neutral : targets[pose - 1].difference;
+  }
+  /// The weights under which a face stands in that pose: [targets].
+  Weights weightsOf(Index pose) const;
+
   /// Whether it is said what every target does: not yet after `decodeNeutral`.
   bool knowsTargets() const;
   bool knows(const Target& target) const;

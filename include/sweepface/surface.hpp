@@ -3,7 +3,6 @@
 #include <array>
 #include <memory>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "sweepface/ode.hpp"
@@ -69,13 +68,18 @@ struct Wireframe {
   friend bool operator==(const Wireframe&, const Wireframe&) = default;
 };
 
+inline constexpr Index kStraight = -1;
 /// A node's surroundings. sectors[i] lies counter-clockwise of arms[i].
 struct Star {
   std::vector<HalfArc> arms;   ///< leaving the node, counter-clockwise
   std::vector<Index> sectors;  ///< 4·patch + corner, or kStraight where a patch's side runs through
   bool closed = false;         ///< no boundary: as many sectors as arms, else one fewer
+
+  /// Of a T-node: the sector of the patch on whose side it hangs.
+  std::size_t straight() const;
+  /// Its arms along that side, ahead and behind: pieces of one line.
+  std::array<HalfArc, 2> line() const;
 };
-inline constexpr Index kStraight = -1;
 
 enum class NodeKind {
   crossing,   ///< a full jet in its own frame: four patches, or one or two at a boundary
@@ -208,6 +212,13 @@ class Surface {
   /// A point at t ∈ [0, edges] on an arc: computed from the arc alone, never from a patch.
   Vec3 pointOnArc(std::span<const Vec3> vectors, Index arc, double t) const;
 
+  /// A thousandth of the way from a site to the middle of its patch: where a side is collapsed,
+  /// derivatives that vanish on it are there nearly in the directions to which they tend.
+  Site inside(const Site& site) const {
+    const Frame& f = frames_[site.patch];
+    return {site.patch, site.u + (f.m * 0.5 - site.u) * 1e-3, site.v + (f.n * 0.5 - site.v) * 1e-3};
+  }
+
   /// Where a half-arc lies on the patch on its left: the site at distance t from its start.
   Site siteOnArc(HalfArc h, double t) const;
 
@@ -246,6 +257,7 @@ inline constexpr std::size_t kJoinClasses = 4;
 
 struct JoinReport {
   JoinClass joinClass = JoinClass::boundary;
+  bool collapsed = false;  ///< the arc is one point, at which nothing joins
   double length = 0;       ///< of the arc, in model units
   double positionGap = 0;  ///< largest distance between the two sides
   double firstJump = 0;    ///< of the first cross derivative, relative to the largest of the model

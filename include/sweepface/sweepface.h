@@ -2,8 +2,10 @@
  *
  * A rig is what a file holds; a mesh is its surface at one level of detail; a face is one set of
  * weights on a mesh; a motion moves weights. What is made from something keeps it alive: handles
- * may be freed in any order, and NULL may be freed. Rigs and meshes never change and may be read by
- * any number of threads; a face or a motion belongs to one thread at a time.
+ * may be freed in any order, and NULL may be freed. Rigs change only in calls that say so (loading
+ * targets, following, dividing, turning eyes), beside which nothing else may use them; apart from
+ * that rigs and meshes may be read by any number of threads. A face or a motion belongs to one
+ * thread at a time.
  *
  * A function that can fail returns a status; sweepface_message() then has one sentence about it,
  * and what was to be written is untouched. Others answer 0 or NULL where there is nothing. Where

@@ -36,11 +36,15 @@ Result<Timeline> parseTimeline(std::string_view text, std::string_view name);
 /// Fails where an event is for a region that is not among these.
 Result<void> checkRegions(const Timeline& timeline, std::span<const std::string> regions);
 
-/// Frames a second at which straight lines between a timeline's are as good as exact.
+/// Frames a second that a timeline is baked into to be played.
 inline constexpr double kTimelineRate = 240;
+/// What straight lines between its frames may miss of a weight.
+inline constexpr double kTimelineMiss = 1e-4;
 
-/// The timeline as a clip of `framesPerSecond`, from rest at 0: both ends included. Refuses more
-/// than kMostClipWeights, in its frames or for all its events to send off.
+/// The timeline as a clip of `framesPerSecond`, from rest at 0: both ends included. Where something
+/// swings or bounces quickly there are more, as far as kTimelineMiss asks and four million weights
+/// allow; a jump takes a 256th of a frame. Refuses more than kMostClipWeights, in its frames or for
+/// all its events to send off.
 Result<Clip> bake(const Timeline& timeline, double framesPerSecond);
 /// The same in one region: without what is meant for others, and by its own matter.
 Result<Clip> bake(const Timeline& timeline, double framesPerSecond, std::string_view region,

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <string>
 
 #include "capi/handles.hpp"
 #include "capi/message.hpp"
@@ -132,14 +131,18 @@ void write(sweepface_face& face, const Weights& weights, What what, const sweepf
   const Mesh& mesh = *face.mesh;
   const bool ofPositions = what == What::positions;
   auto& written = ofPositions ? face.positions : face.normals;
+  auto& other = ofPositions ? face.normals : face.positions;
+  if (other.data == to.data) other.data = nullptr;  // it is written over
   const bool isThere =
       written.data == to.data && written.stride == to.stride && written.count == count;
   Evaluation job;
   job.evaluator = isNeutral(weights) ? &mesh.neutral
                   : ofPositions      ? &mesh.positions()
                                      : &mesh.normals();
-  // The neutral's tables have no targets that could tell what differs.
-  if (onlyChanges && isThere && !isNeutral(weights)) job.previous = written.weights;
+  // The neutral's tables have no targets that could tell what differs, and tell tangents in other
+  // units where a target opens what it holds shut.
+  const bool ofTheseTables = !isNeutral(weights) && (ofPositions || !isNeutral(written.weights));
+  if (onlyChanges && isThere && ofTheseTables) job.previous = written.weights;
   job.weights = weights;
   job.scratch = face.scratch;
   (ofPositions ? job.positions : job.normals) = pointsOf(mesh, to, count);

@@ -14,7 +14,9 @@ using namespace sweepface::capi;
 namespace {
 
 Angles anglesOf(const sweepface_angles& a) { return {a.yaw, a.pitch, a.roll}; }
-bool isFinite(const sweepface_angles& a) { return std::isfinite(a.yaw + a.pitch + a.roll); }
+bool isFinite(const sweepface_angles& a) {
+  return std::isfinite(a.yaw) && std::isfinite(a.pitch) && std::isfinite(a.roll);
+}
 
 }  // namespace
 

@@ -1,4 +1,3 @@
-#include <string_view>
 
 #include "sweepface/arcs.hpp"
 #include "sweepface/codec.hpp"

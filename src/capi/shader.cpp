@@ -17,7 +17,8 @@ sweepface_status sweepface_mesh_shader_tables(const sweepface_mesh* mesh, int32_
 
 sweepface_status sweepface_face_modes(sweepface_face* face, int32_t tangents, int16_t* out,
                                       size_t count, float* factor) {
-  if (!face || !out || !factor) return refuse("Modes need a face and a place for them.");
+  if (!face || (!out && count > 0) || !factor)
+    return refuse("Modes need a face and a place for them.");
   if (const auto status = needTargets(*face->mesh->rig)) return status;
   const Mesh& mesh = *face->mesh;
   mesh.makeShaderTables();

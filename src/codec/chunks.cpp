@@ -1,7 +1,6 @@
 #include "codec/chunks.hpp"
 
 #include <algorithm>
-#include <string>
 
 #include "codec/crc.hpp"
 

@@ -3,61 +3,16 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cmath>
 #include <cstdlib>
 #include <limits>
-#include <span>
 #include <utility>
 #include <vector>
 
 #include "codec/hierarchy.hpp"
+#include "codec/steps.hpp"
 #include "codec/symbols.hpp"
 
 namespace sweepface::codec {
-
-/// A vector in steps.
-using Steps3 = std::array<std::int32_t, 3>;
-inline bool isMoved(const Steps3& v) { return (v[0] | v[1] | v[2]) != 0; }
-/// About how many bits it takes to tell a vector where another is expected.
-inline double bitsOf(const Steps3& v, const Steps3& expected = {}) {
-  double sum = 0;
-  for (std::size_t k = 0; k < 3; ++k) sum += 2 * std::log2(1.0 + std::abs(v[k] - expected[k]));
-  return sum;
-}
-/// The stored vectors of a pose [S] as multiples of their steps beyond their predictions.
-using Coefficients = std::vector<Steps3>;
-
-/// The vectors of a pose that are not zero.
-struct Moved {
-  Index vector;
-  Steps3 steps;
-};
-using Sparse = std::vector<Moved>;
-
-/// What the coefficients of a pose are compared with before they are coded.
-enum class Symmetry {
-  none,    ///< with nothing
-  self,    ///< with the mirror image of the half that came before
-  partner  ///< with the mirror image of an earlier pose
-};
-
-/// What the mirror image of a vector says of it.
-inline Steps3 reflected(Steps3 v, int sign, int axis) {
-  for (int k = 0; k < 3; ++k)
-    if ((k == axis) == (sign > 0)) v[k] = -v[k];
-  return v;
-}
-
-/// The same in steps that are 2^finer times smaller, or larger where `finer` is negative.
-inline Steps3 inFinerSteps(Steps3 v, int finer) {
-  constexpr std::int64_t kMost = 1 << 26;
-  for (std::int32_t& x : v) {
-    const std::int64_t y =
-        finer >= 0 ? x * (std::int64_t{1} << std::min(finer, 30)) : x >> std::min(-finer, 30);
-    x = static_cast<std::int32_t>(std::clamp(y, -kMost, kMost));
-  }
-  return v;
-}
 
 /// Codes the coefficients of one pose after the other, coarse to fine; learns as it goes. Reader
 /// and writer are the same code over a RangeDecoder or a RangeEncoder.

@@ -4,7 +4,6 @@
 
 #include "codec/chunks.hpp"
 #include "codec/decoding.hpp"
-#include "codec/grid_size.hpp"
 #include "codec/limits.hpp"
 #include "codec/utf8.hpp"
 

@@ -1,5 +1,4 @@
 // Chunks that hold things as they are. Packed faces do without them.
-#include <algorithm>
 
 #include "codec/blocks.hpp"
 #include "codec/decoding.hpp"
@@ -130,8 +129,7 @@ void readExact(Decoding& d, Reader& in) {
     pose += 1 + static_cast<std::int64_t>(in.size());
     if (pose > static_cast<std::int64_t>(d.rig->targets.size()))
       return in.refuse("there are more poses than announced");
-    std::vector<Vec3>& vectors =
-        pose == 0 ? d.rig->neutral : d.rig->targets[static_cast<std::size_t>(pose - 1)].difference;
+    std::vector<Vec3>& vectors = d.rig->vectorsOf(static_cast<Index>(pose));
     std::vector<Index> places(in.count(1, "vectors"));
     Index last = -1;
     for (Index& v : places)

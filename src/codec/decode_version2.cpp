@@ -1,9 +1,9 @@
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 
 #include "codec/blocks.hpp"
 #include "codec/bones.hpp"
+#include "codec/coefficients.hpp"
 #include "codec/decoding.hpp"
 #include "codec/grid_size.hpp"
 #include "codec/limits.hpp"
@@ -106,7 +106,7 @@ class PoseReader {
   void restore(Index first, Index end) {
     std::vector<Lattice::Restored> poses;
     for (Index pose = first; pose < end; ++pose) {
-      auto& vectors = pose == 0 ? d_.rig->neutral : d_.rig->targets[pose - 1].difference;
+      std::vector<Vec3>& vectors = d_.rig->vectorsOf(pose);
       vectors.resize(d_.stored);
       poses.push_back({moved_[pose], stepOf(d_.rig->packing, pose), vectors});
     }

@@ -58,9 +58,8 @@ bool DerivativeRules::placeAll(Index node, FewTerms& terms) const {
     terms.push_back({sites_[siteOf_[node]].first, 1});
     return true;
   }
-  const Star& star = c_.stars[node];
-  const auto straight = std::ranges::find(star.sectors, kStraight) - star.sectors.begin();
-  const Rail &a = c_.rails[star.arms[(straight + 1) % 3]], &b = c_.rails[star.arms[straight]];
+  const auto [ahead, behind] = c_.stars[node].line();
+  const Rail &a = c_.rails[ahead], &b = c_.rails[behind];
   const Index to = w_.end(a.last), from = w_.end(b.last);
   if (!isSite(to) || !isSite(from)) return false;
   const double length = a.edges + b.edges;

@@ -6,6 +6,7 @@
 #include "codec/blocks.hpp"
 #include "codec/bones.hpp"
 #include "codec/chunks.hpp"
+#include "codec/coefficients.hpp"
 #include "codec/encoding.hpp"
 #include "codec/lattice.hpp"
 #include "codec/likeness.hpp"
@@ -41,10 +42,6 @@ std::string targetNames(const std::vector<Target>& targets) {
   });
 }
 
-const std::vector<Vec3>& vectorsOf(const Rig& rig, Index pose) {
-  return pose == 0 ? rig.neutral : rig.targets[pose - 1].difference;
-}
-
 bool isSame(const Vec3& a, const Vec3& b) {
   const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x); };
   return bits(a.x) == bits(b.x) && bits(a.y) == bits(b.y) && bits(a.z) == bits(b.z);
@@ -59,11 +56,11 @@ struct Poses {
   Poses(const Rig& rig, const Packing& packing, Lattice& lattice) : packing_(packing) {
     for (Index pose = 0; pose < static_cast<Index>(packing.poses.size()); ++pose) {
       const bool edited = pose == 0 && !packing.rest.empty();
-      Coded coded = code(pose, edited ? packing.rest : vectorsOf(rig, pose), lattice);
+      Coded coded = code(pose, edited ? packing.rest : rig.vectorsOf(pose), lattice);
       if (pose == 0 && packing.poses.size() > 1)
         lattice.learn(rig.surface, coded.restored, stepOf(packing, 0));
       if (pose == 0) bones_ = Bones(rig.surface, packing, coded.restored);
-      exact.push_back(differing(vectorsOf(rig, pose), coded.restored));
+      exact.push_back(differing(rig.vectorsOf(pose), coded.restored));
       coefficients.push_back(std::move(coded.q));
     }
   }
@@ -135,7 +132,7 @@ std::string exactVectors(const Rig& rig, const Poses& poses) {
     for (const Index v : places) {
       out.signedNumber(v - last - 1);
       last = v;
-      values.push_back(vectorsOf(rig, pose)[v]);
+      values.push_back(rig.vectorsOf(pose)[v]);
     }
     writeVectors(out, values, Precision::exact);
   }

@@ -5,7 +5,6 @@
 #include "codec/chunks.hpp"
 #include "codec/encoding.hpp"
 #include "codec/faces.hpp"
-#include "codec/grid_size.hpp"
 #include "codec/limits.hpp"
 #include "codec/source_coder.hpp"
 

@@ -1,7 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <unordered_map>
 
 #include "codec/faces.hpp"
 #include "codec/limits.hpp"

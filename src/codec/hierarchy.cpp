@@ -91,10 +91,9 @@ class HierarchyBuilder {
       return lines_.isLeft(lines_.siteOf(node));
     }
     if (depth > 3) return false;
-    const Star& star = c_.stars[node];
-    const auto straight = std::ranges::find(star.sectors, kStraight) - star.sectors.begin();
+    const auto [ahead, behind] = c_.stars[node].line();
     Index span = 0;
-    return between(star.arms[(straight + 1) % 3], star.arms[straight], terms, span, depth + 1);
+    return between(ahead, behind, terms, span, depth + 1);
   }
 
   // Interpolates at the place from which two half-arcs leave along a line, from one or two sites on

@@ -4,7 +4,8 @@
 
 #include "sweepface/rig.hpp"
 
-#include "codec/coefficients.hpp"
+#include "codec/hierarchy.hpp"
+#include "codec/steps.hpp"
 
 namespace sweepface::codec {
 

@@ -1,10 +1,7 @@
 #include "codec/level_one.hpp"
 
-#include <algorithm>
-
 #include "codec/edge_map.hpp"
 #include "codec/fan_walk.hpp"
-#include "codec/grid_size.hpp"
 
 namespace sweepface::codec {
 

@@ -38,7 +38,6 @@ class Writer {
   }
 
   void raw(std::string_view bytes) { bytes_ += bytes; }
-  const std::string& bytes() const { return bytes_; }
   std::string take() { return std::move(bytes_); }
 
  private:

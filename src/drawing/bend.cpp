@@ -32,11 +32,14 @@ class Bender {
  public:
   Bender(const Surface& surface, const std::vector<PatchSize>& sizes,
          const std::vector<bool>& known, std::vector<Pose>& poses)
-      : surface_(surface), sizes_(sizes), poses_(poses), column_(known.size(), -1) {
+      : surface_(surface),
+        sizes_(sizes),
+        poses_(poses),
+        column_(known.size(), -1),
+        rows_(inStoredVectors(surface)) {
     for (std::size_t v = 0; v < known.size(); ++v)
       if (!known[v]) column_[v] = unknowns_++;
     rhs_ = Matrix::Zero(unknowns_, static_cast<Index>(3 * poses.size()));
-    expand();
   }
 
   Result<void> solve(const Wishes& wishes) {
@@ -47,27 +50,8 @@ class Bender {
   }
 
  private:
-  // Every vector of the surface as a sum of stored ones.
-  void expand() {
-    rows_.resize(surface_.vectorCount());
-    for (Index v = 0; v < surface_.storedCount(); ++v) rows_[v] = {{v, 1}};
-    for (Index v = surface_.storedCount(); v < surface_.vectorCount(); ++v) {
-      for (const Term& t : surface_.derivation(v))
-        for (const Term& s : rows_[t.vector]) rows_[v].push_back({s.vector, s.factor * t.factor});
-      mergeTerms(rows_[v]);
-    }
-  }
-
-  Row expanded(const Row& sum) const {
-    Row row;
-    for (const Term& t : sum)
-      for (const Term& s : rows_[t.vector]) row.push_back({s.vector, s.factor * t.factor});
-    mergeTerms(row);
-    return row;
-  }
-
   void addWish(const Wishes& wishes, std::size_t k) {
-    const Row row = expanded(wishes.sums[k]);
+    const Row row = expanded(wishes.sums[k], rows_);
     for (const Term& a : row) {
       if (column_[a.vector] < 0) continue;
       for (std::size_t pose = 0; pose < poses_.size(); ++pose)

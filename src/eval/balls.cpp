@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 
 #include "sweepface/box.hpp"
+
+#include "surface/union_find.hpp"
 
 namespace sweepface {
 namespace {
@@ -40,16 +41,12 @@ std::optional<Row> solved(std::array<Row, 4> m, Row right) {
 }  // namespace
 
 std::vector<Part> partsOf(const Tessellation& grid) {
-  std::vector<Index> parent(grid.vertexCount());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](Index v) {
-    while (parent[v] != v) v = parent[v] = parent[parent[v]];
-    return v;
-  };
+  const Index vertices = grid.vertexCount();
+  UnionFind joined(vertices);
   for (const auto& face : grid.faces())
-    for (int k = 1; k < 4; ++k) parent[root(face[k])] = root(face[0]);
-  std::vector<Part> parts(parent.size());
-  for (Index v = 0; v < grid.vertexCount(); ++v) parts[root(v)].push_back(v);
+    for (int k = 1; k < 4; ++k) joined.join(face[0], face[k]);
+  std::vector<Part> parts(vertices);
+  for (Index v = 0; v < vertices; ++v) parts[joined.find(v)].push_back(v);
   std::erase_if(parts, [](const Part& part) { return part.empty(); });
   return parts;
 }

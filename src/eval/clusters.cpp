@@ -1,7 +1,6 @@
 #include "eval/clusters.hpp"
 
 #include <algorithm>
-#include <array>
 #include <numeric>
 
 #include "sweepface/box.hpp"

@@ -1,5 +1,5 @@
+#include <algorithm>
 #include <cmath>
-#include <string>
 
 #include "eval/tile_kernels.hpp"
 

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <string>
 
 #include "sweepface/box.hpp"
 
@@ -150,9 +149,7 @@ class Compiler {
     const Derivatives here = derivatives(site);
     const Vec3 &u = here[0].neutral, &v = here[1].neutral;
     if (norm(cross(u, v)) > 1e-9 * norm(u) * norm(v) && norm(u) > 0 && norm(v) > 0) return here;
-    const double m = rig_.surface.edgesU(site.patch), n = rig_.surface.edgesV(site.patch);
-    return derivatives(
-        {site.patch, site.u + (m * 0.5 - site.u) * 1e-3, site.v + (n * 0.5 - site.v) * 1e-3});
+    return derivatives(rig_.surface.inside(site));
   }
 
   /// Only their directions count, so that derivatives which a target makes a hundred times as long,

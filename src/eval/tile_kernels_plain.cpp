@@ -1,4 +1,5 @@
 // What the kernels compute, without regard to speed.
+#include <algorithm>
 #include <bit>
 #include <cstring>
 

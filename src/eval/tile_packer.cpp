@@ -1,5 +1,6 @@
 #include "eval/tile_packer.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <span>
-
 #include "eval/planes.hpp"
 #include "eval/tiles.hpp"
 

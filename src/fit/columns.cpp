@@ -16,15 +16,10 @@ namespace {
 class ColumnBuilder {
  public:
   ColumnBuilder(const Surface& surface, const Tessellation& grid, const Prediction& prediction)
-      : surface_(surface), grid_(grid), prediction_(prediction) {
-    expanded_.resize(surface.vectorCount());
-    for (Index v = 0; v < surface.storedCount(); ++v) expanded_[v] = {{v, 1}};
-    for (Index v = surface.storedCount(); v < surface.vectorCount(); ++v) {
-      for (const Term& t : surface.derivation(v))
-        for (const Term& s : expanded_[t.vector])
-          expanded_[v].push_back({s.vector, s.factor * t.factor});
-      mergeTerms(expanded_[v]);
-    }
+      : surface_(surface),
+        grid_(grid),
+        prediction_(prediction),
+        expanded_(inStoredVectors(surface)) {
     stepOf_.resize(surface.storedCount());
     for (std::size_t k = 0; k < prediction.steps.size(); ++k)
       stepOf_[prediction.steps[k].vector] = static_cast<Index>(k);

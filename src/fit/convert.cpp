@@ -58,11 +58,14 @@ constexpr double kAngleShare = 0.2;
 // The limit that leads to normals within a tolerance, root mean square.
 constexpr double kLimitForTolerance = 2.5;
 
-double normalLimit(const ConvertOptions& options, double tolerance, double size) {
-  if (options.normalLimit > 0) return options.normalLimit;
+/// Those to be tried in turn. A tighter one brings normals nearer, but now and then its fit is one
+/// to which packing does more harm; 180 is none.
+std::vector<double> normalLimits(const ConvertOptions& options, double tolerance, double size) {
+  if (options.normalLimit > 0) return {options.normalLimit};
   const double usual = std::clamp(kNormalLimitAtDefault * tolerance / (0.0002 * size), 2.0, 60.0);
-  return options.normalTolerance > 0 ? std::min(usual, kLimitForTolerance * options.normalTolerance)
-                                     : usual;
+  const double tight = kLimitForTolerance * options.normalTolerance;
+  if (!(options.normalTolerance > 0)) return {usual};
+  return tight < usual ? std::vector{tight, usual, 180.0} : std::vector{usual, 180.0};
 }
 
 // The stored vectors as they will be after the file: neutral and differences rounded each to single
@@ -127,18 +130,35 @@ class Converter {
       return fail("packed texture coordinates have 8 to 16 bits, not ", options_.textureBits);
     const double size = diagonal(source_.neutral);
     if (!(size > 0))
-      return fail("all vertices of the neutral stand at one place; there is no surface to fit");
+      return fail(
+          "all vertices of the neutral stand at one place, as far as numbers tell; there is no "
+          "surface to fit");
     const double tolerance = options_.tolerance > 0 ? options_.tolerance : 0.0002 * size;
     if (auto ok = checkTolerance(tolerance, size); !ok) return std::unexpected(ok.error());
-    const double angle = normalLimit(options_, tolerance, size);
+    auto mesh = makeGridMesh(source_);
+    if (!mesh) return std::unexpected(mesh.error());
+    for (const double limit : normalLimits(options_, tolerance, size)) {
+      auto conversion = convertWithin(*mesh, tolerance, limit);
+      if (!conversion) return conversion;
+      if (normalRms_ > options_.normalTolerance) continue;
+      report("done", 1);
+      return conversion;
+    }
+    return fail(fmt::format(
+        "normals came no nearer to the mesh's than {:.4g} degrees at this tolerance; allow "
+        "more, or try a smaller tolerance or another limit on normals",
+        nearestNormals_));
+  }
+
+ private:
+  // Sets normalRms_ where there is a tolerance for normals.
+  Result<Conversion> convertWithin(const GridMesh& mesh, double tolerance, double angle) {
     limits_ = {(options_.pack ? kFitShare : 1) * tolerance,
                std::min(180.0, (options_.pack ? kNormalShare : 1) * angle), angle < 180};
 
-    auto mesh = makeGridMesh(source_);
-    if (!mesh) return std::unexpected(mesh.error());
-    SourceData data = gatherSource(source_, *mesh, tolerance);
-    Layout layout(*mesh, source_.neutral.positions, options_.pack);
-    for (Index v = 0; v < mesh->vertexCount(); ++v)
+    SourceData data = gatherSource(source_, mesh, tolerance);
+    Layout layout(mesh, source_.neutral.positions, options_.pack);
+    for (Index v = 0; v < mesh.vertexCount(); ++v)
       data.uneven.push_back(layout.isUneven(v, source_.neutral.positions, kUneven));
     if (!limits_.smooth) data.slopeWeight = 0.1;
     auto solution = fit(layout, data);
@@ -148,18 +168,16 @@ class Converter {
       return fail("the surface takes ", solution->rows(), " vectors in each of ", data.poses,
                   " shapes, together more than the ", codec::kMostVectors,
                   " of a file; give fewer targets, or allow a larger tolerance");
-    Conversion conversion{assemble(*mesh, *solution, data), mesh->warnings};
+    Conversion conversion{assemble(mesh, *solution, data), mesh.warnings};
     conversion.rig.tolerance = tolerance;
     if (options_.pack) {
       report("packing", 0.95);
       if (auto ok = pack(conversion.rig, tolerance, kAngleShare * angle); !ok)
         return std::unexpected(ok.error());
     }
-    report("done", 1);
     return conversion;
   }
 
- private:
   bool cancelled() const { return options_.cancel && options_.cancel->load(); }
   void report(std::string_view what, double done) {
     done_ = std::max(done_, done);
@@ -173,24 +191,23 @@ class Converter {
     return ok;
   }
 
-  // Aims at smaller angles until they are as small as they must be.
+  // Aims at smaller angles until they are as small as they must be, or no try is left.
   Result<void> pack(Rig& rig, double tolerance, double angle) {
     if (!(options_.normalTolerance > 0)) return packOnce(rig, tolerance, angle);
     const Rig fitted = rig;
     constexpr int kTries = 8;
-    double nearest = std::numeric_limits<double>::infinity();
     for (int attempt = 0; attempt < kTries; ++attempt) {
       rig = fitted;
-      if (auto ok = packOnce(rig, tolerance, angle); !ok) return ok;
-      const double found = normalRms(rig, source_);
-      if (found <= options_.normalTolerance) return {};
-      nearest = std::min(nearest, found);
-      angle *= std::clamp(0.8 * options_.normalTolerance / found, 0.2, 0.8);
+      if (auto ok = packOnce(rig, tolerance, angle); !ok) {
+        if (attempt > 0 && !cancelled()) break;  // it was the angle that was too small
+        return ok;
+      }
+      normalRms_ = normalRms(rig, source_);
+      nearestNormals_ = std::min(nearestNormals_, normalRms_);
+      if (normalRms_ <= options_.normalTolerance) break;
+      angle *= std::clamp(0.8 * options_.normalTolerance / normalRms_, 0.2, 0.8);
     }
-    return fail(
-        fmt::format("normals come no nearer to the mesh's than {:.3g} degrees at this tolerance; "
-                    "allow more, or try a smaller tolerance",
-                    nearest));
+    return {};
   }
 
   // Solve, measure, refine, until every vertex is within the limits. The limit on distance is a
@@ -303,6 +320,7 @@ class Converter {
   const MeshRig& source_;
   const ConvertOptions& options_;
   RefineLimits limits_{};
+  double normalRms_ = 0, nearestNormals_ = std::numeric_limits<double>::infinity();
   Draft draft_;
   double done_ = 0;
 };

@@ -1,7 +1,6 @@
 #include "fit/errors.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -31,7 +30,7 @@ class PatchMeter {
   }
 
   struct Vertex {
-    double distance = 0, angle = 0, squares = 0, squaredAngles = 0;
+    double distance = 0, angle = 0, squares = 0;
   };
   std::vector<Vertex> vertices() const {
     std::vector<Vertex> result;
@@ -50,10 +49,8 @@ class PatchMeter {
           if (std::isnan(distance)) distance = std::numeric_limits<double>::infinity();
           worst.distance = std::max(worst.distance, distance);
           worst.squares += distance * distance;
-          const double angle = angleDegrees(
-              cross(vec(found, 3 * i + 1, k), vec(found, 3 * i + 2, k)), data_.normal(point, k));
-          worst.angle = std::max(worst.angle, angle);
-          worst.squaredAngles += angle * angle;
+          const Vec3 normal = cross(vec(found, 3 * i + 1, k), vec(found, 3 * i + 2, k));
+          worst.angle = std::max(worst.angle, angleDegrees(normal, data_.normal(point, k)));
         }
         result.push_back(worst);
       }
@@ -116,11 +113,10 @@ class PatchMeter {
   }
   // At a collapsed side one derivative vanishes; its limit is what it grows to inside.
   void addDerivatives(Index i, Index j, std::vector<Asked>& asked) const {
-    const bool pole = touchesCollapsed(i, j);
-    const double x = pole ? i + (grid_.m * 0.5 - i) * 1e-3 : i,
-                 y = pole ? j + (grid_.n * 0.5 - j) * 1e-3 : j;
-    asked.push_back({x, y, 1, 0});
-    asked.push_back({x, y, 0, 1});
+    const Site corner{patch_, double(i), double(j)},
+        site = touchesCollapsed(i, j) ? surface_.inside(corner) : corner;
+    asked.push_back({site.u, site.v, 1, 0});
+    asked.push_back({site.u, site.v, 0, 1});
   }
   bool touchesCollapsed(Index i, Index j) const {
     const Index p = mesh_.point[grid_.vertex(i, j)];
@@ -185,19 +181,15 @@ DraftErrors measureDraft(const Layout& layout, const Draft& draft, const SourceD
       for (int k = 0; k < 4; ++k) errors.nearFold[faceVertex(draft.patches[p], i, j, k)] = 1;
   errors.distance.assign(vertices, 0);
   errors.angle.assign(vertices, 0);
-  double squares = 0, count = 0;
   for (Index p = 0; p < patches; ++p)
     for (std::size_t k = 0; k < measured[p].size(); ++k) {
       const Index v = draft.patches[p].vertices[k];
       const auto& m = measured[p][k];
       errors.distance[v] = std::max(errors.distance[v], m.distance);
       errors.angle[v] = std::max(errors.angle[v], m.angle);
-      squares += m.squaredAngles;
       errors.weightedSquares += data.weight[layout.mesh().point[v]] * m.squares;
-      count += data.poses;
     }
   errors.largestDistance = *std::max_element(errors.distance.begin(), errors.distance.end());
-  errors.rmsAngle = std::sqrt(squares / count);
   return errors;
 }
 

@@ -13,7 +13,6 @@ struct DraftErrors {
   std::vector<char> folded;    ///< [patches] the surface turns over against a source face somewhere
   std::vector<char> nearFold;  ///< [vertices] corners of those source faces
   double largestDistance = 0;
-  double rmsAngle = 0;
   double weightedSquares = 0;  ///< of all distances, as the fit counts them
 };
 

@@ -35,15 +35,17 @@ double distanceToTriangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec
 
 }  // namespace
 
-FaceMap::FaceMap(const Rig& rig) : faceOfQuad(faceOfQuads(rig)) {
+FaceMap::FaceMap(const Rig& rig, std::vector<Index> places)
+    : faceOfQuad(faceOfQuads(rig)), cornerPlaces(std::move(places)) {
   const Polygons& p = rig.source.polygons;
   facesAt.resize(rig.source.gridVertex.size());
   for (Index f = 0; f < p.faceCount(); ++f)
     for (Index c = p.faceStart[f]; c < p.faceStart[f + 1]; ++c) facesAt[p.corners[c]].push_back(f);
-  findRims(rig.source);
+  findRims(p);
 }
 
-FaceMap::FaceMap(const Rig& rig, std::span<const Vec3> neutral) : FaceMap(rig) {
+FaceMap::FaceMap(const Rig& rig, std::vector<Index> places, std::span<const Vec3> neutral)
+    : FaceMap(rig, std::move(places)) {
   const Polygons& p = rig.source.polygons;
   for (Index f = 0; f < p.faceCount(); ++f)
     if (p.faceSize(f) > 4) cuts[f] = triangulate(cornerPositions(p, neutral, f));
@@ -51,13 +53,12 @@ FaceMap::FaceMap(const Rig& rig, std::span<const Vec3> neutral) : FaceMap(rig) {
 
 // The edges that one face alone has, each with the vertices before and after it along the
 // boundary.
-void FaceMap::findRims(const SourceMesh& source) {
-  const Polygons& p = source.polygons;
+void FaceMap::findRims(const Polygons& p) {
   std::map<std::pair<Index, Index>, std::pair<Index, Index>> edges;  // welded ends → corners
   for (Index f = 0; f < p.faceCount(); ++f)
     for (Index k = 0; k < p.faceSize(f); ++k) {
       const Index a = p.faceStart[f] + k, b = p.faceStart[f] + (k + 1) % p.faceSize(f);
-      edges[{source.gridVertex[p.corners[a]], source.gridVertex[p.corners[b]]}] = {a, b};
+      edges[{cornerPlaces[a], cornerPlaces[b]}] = {a, b};
     }
   std::map<Index, Index> before, after;
   for (const auto& [ends, corners] : edges)

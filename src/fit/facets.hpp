@@ -16,17 +16,18 @@ namespace sweepface {
 /// each vertex.
 struct FaceMap {
   std::vector<Index> faceOfQuad;            ///< [grid quads]; empty where the rig does not know
+  std::vector<Index> cornerPlaces;          ///< [C] as cornerPlaces() tells (fit/corner_places.hpp)
   std::vector<std::vector<Index>> facesAt;  ///< [V] faces that have the vertex
   std::map<std::pair<Index, Index>, std::pair<Index, Index>>
       rims;                                     ///< boundary edge → corners before and after
   std::map<Index, std::vector<Triangle>> cuts;  ///< faces of more than four corners → triangles
 
-  explicit FaceMap(const Rig& rig);
+  FaceMap(const Rig& rig, std::vector<Index> cornerPlaces);
   /// Also cuts the larger faces, as the neutral's positions say: distances from them need that.
-  FaceMap(const Rig& rig, std::span<const Vec3> neutral);
+  FaceMap(const Rig& rig, std::vector<Index> cornerPlaces, std::span<const Vec3> neutral);
 
  private:
-  void findRims(const SourceMesh& source);
+  void findRims(const Polygons& polygons);
 };
 
 /// The facets of one pose of the source.
@@ -35,7 +36,6 @@ class Facets {
   Facets(const SourceMesh& source, const FaceMap& map, std::span<const Vec3> positions,
          std::span<const Vec3> gridNormals, double tolerance)
       : polygons_(source.polygons),
-        gridVertex_(source.gridVertex),
         map_(map),
         positions_(positions),
         gridNormals_(gridNormals),
@@ -57,12 +57,11 @@ class Facets {
   bool hasCorner(Index face, Index vertex) const;
   Vec3 at(Index corner) const { return positions_[polygons_.corners[corner]]; }
   Vec3 normalAt(Index corner) const {
-    const Index g = gridVertex_[polygons_.corners[corner]];
+    const Index g = map_.cornerPlaces[corner];
     return g >= 0 ? gridNormals_[g] : Vec3{};
   }
 
   const Polygons& polygons_;
-  const std::vector<Index>& gridVertex_;
   const FaceMap& map_;
   std::span<const Vec3> positions_, gridNormals_;
   double tolerance_;

@@ -25,11 +25,12 @@ struct Try {
 // Bytes fall as the tolerance grows, about as its power -0.8: from the first try outwards until one
 // is too large and one fits, then between them.
 Result<Conversion> convertToBytes(const MeshRig& source, ConvertOptions options,
-                                  std::size_t mostBytes, const Strip& left) {
+                                  std::size_t mostBytes, const FinishRig& finish) {
   options.pack = true;
   std::optional<Conversion> best;
   Try coarse, fine;
-  if (!(options.tolerance > 0)) options.tolerance = 0.0005 * diagonal(source.neutral);
+  const bool isFinest = options.tolerance > 0;
+  if (!isFinest) options.tolerance = 0.0005 * diagonal(source.neutral);
   std::optional<Error> first;  // why the first tolerance cannot be met
   int failures = 0, halvings = 0;
   for (int attempt = 0; attempt < kMostTries && halvings <= kMostHalvings; ++attempt) {
@@ -46,13 +47,14 @@ Result<Conversion> convertToBytes(const MeshRig& source, ConvertOptions options,
     Try now{options.tolerance, SIZE_MAX};
     if (conversion) {
       Rig rig = conversion->rig;
-      if (auto stripped = strip(rig, left); !stripped) return std::unexpected(stripped.error());
+      if (auto ok = finish ? finish(rig) : Result<void>{}; !ok) return std::unexpected(ok.error());
       now.bytes = encode(rig).size();
     }
     if (conversion && now.bytes <= mostBytes) {
       coarse = now;
       best = std::move(*conversion);
       if (static_cast<double>(now.bytes) > kCloseEnough * static_cast<double>(mostBytes)) break;
+      if (isFinest && attempt == 0) break;
     } else if (conversion || best) {
       fine = now;  // what cannot be met is too fine as well
     } else {

@@ -4,6 +4,7 @@
 
 #include "sweepface/measure.hpp"
 
+#include "fit/corner_places.hpp"
 #include "fit/vertex_normals.hpp"
 #include "parallel/parallel.hpp"
 
@@ -19,13 +20,12 @@ FoldFinder::FoldFinder(const Rig& rig, const Tessellation& grid)
       corners_(grid.faces()),
       fine_(rig.surface, kLevel),
       fineFaces_(fine_.faces()),
-      map_(rig) {}
+      map_(rig, cornerPlaces(rig.source, grid)) {}
 
 template <typename Visit>
 void FoldFinder::visit(std::span<const Vec3> vectors, std::span<const Vec3> source,
                        Visit visit) const {
-  const auto normals =
-      vertexNormals(rig_.source.polygons, source, rig_.source.gridVertex, vertexCount_);
+  const auto normals = vertexNormals(rig_.source.polygons, source, map_.cornerPlaces, vertexCount_);
   const Facets facets(rig_.source, map_, source, normals, rig_.tolerance);
   const std::vector<Vec3> positions = fine_.positions(vectors);
   std::size_t face = 0;
@@ -59,11 +59,8 @@ Index FoldFinder::count(std::span<const Vec3> vectors, std::span<const Vec3> sou
 std::vector<Index> countFolds(const Rig& rig, const MeshRig& source) {
   const FoldFinder finder(rig, Tessellation(rig.surface, 1));
   std::vector<Index> folds(rig.targets.size() + 1);
-  parallelFor(std::size_t{0}, folds.size(), [&](std::size_t k) {
-    Weights weights(rig.targets.size(), 0.0);
-    if (k > 0) weights[k - 1] = 1;
-    const auto& positions = k == 0 ? source.neutral.positions : source.targets[k - 1].positions;
-    folds[k] = finder.count(blend(rig, weights), positions);
+  parallelFor(Index{0}, static_cast<Index>(folds.size()), [&](Index pose) {
+    folds[pose] = finder.count(blend(rig, rig.weightsOf(pose)), source.positionsOf(pose));
   });
   return folds;
 }

@@ -44,7 +44,7 @@ void chooseImages(const Rig& rig, const codec::Lattice& lattice, Packing& packin
   packing.poses.resize(poses);
   if (packing.mirror.empty()) return;
   const auto coefficients = [&](Index pose) {
-    return lattice.round(pose, pose == 0 ? rig.neutral : rig.targets[pose - 1].difference,
+    return lattice.round(pose, rig.vectorsOf(pose),
                          pose == 0 ? packing.neutralStep : packing.targetStep);
   };
   for (Index pose = 0; pose < poses; ++pose) {

@@ -6,6 +6,7 @@
 
 #include "sweepface/eval.hpp"
 
+#include "fit/corner_places.hpp"
 #include "fit/facets.hpp"
 #include "fit/vertex_normals.hpp"
 #include "parallel/parallel.hpp"
@@ -19,7 +20,8 @@ constexpr Index kLevel = 4;  // of the tessellation that is compared with the fa
 
 struct PoseSamples {
   PoseErrors errors;
-  std::vector<Vec3> offsets;  // [V] from the source's vertices to their points on the surface
+  // From the source's vertices to their points on the surface; those of other sheets come last.
+  std::vector<Vec3> offsets;
   std::vector<double> distances, displacements, angles;
 };
 
@@ -52,7 +54,8 @@ class Meter {
         grid_(rig.surface, 1),
         fine_(rig.surface, kLevel),
         fineFaces_(fine_.faces()),
-        map_(rig, neutral) {}
+        map_(rig, cornerPlaces(rig.source, grid_), neutral),
+        others_(otherPlaces(rig.source, map_.cornerPlaces)) {}
 
   PoseSamples measure(std::string name, const Weights& weights,
                       std::span<const Vec3> source) const {
@@ -60,7 +63,7 @@ class Meter {
     s.errors.name = std::move(name);
     const auto vectors = blend(rig_, weights);
     const auto expected =
-        vertexNormals(rig_.source.polygons, source, rig_.source.gridVertex, grid_.vertexCount());
+        vertexNormals(rig_.source.polygons, source, map_.cornerPlaces, grid_.vertexCount());
     atVertices(s, weights, vectors, source, expected);
     if (facets_)
       betweenVertices(s, vectors, Facets(rig_.source, map_, source, expected, rig_.tolerance));
@@ -71,10 +74,14 @@ class Meter {
   void atVertices(PoseSamples& s, const Weights& weights, std::span<const Vec3> vectors,
                   std::span<const Vec3> source, std::span<const Vec3> expected) const {
     const auto positions = sourcePositions(rig_, grid_, vectors, weights);
-    for (std::size_t v = 0; v < positions.size(); ++v) {
+    for (std::size_t v = 0; v < positions.size(); ++v)
       s.offsets.push_back(positions[v] - source[v]);
-      s.distances.push_back(norm(s.offsets[v]));
+    if (!others_.empty()) {
+      const std::vector<Vec3> places = grid_.positions(vectors);
+      for (const auto& [vertex, place] : others_)
+        s.offsets.push_back(places[place] - source[vertex]);
     }
+    for (const Vec3& offset : s.offsets) s.distances.push_back(norm(offset));
     s.angles = normalAngles(expected, grid_.normals(vectors));
   }
 
@@ -112,6 +119,7 @@ class Meter {
   Tessellation grid_, fine_;
   std::vector<std::array<Index, 4>> fineFaces_;
   FaceMap map_;
+  std::vector<OtherPlace> others_;
 };
 
 Result<std::vector<std::pair<Weights, const std::vector<Vec3>*>>> matchShapes(
@@ -128,8 +136,7 @@ Result<std::vector<std::pair<Weights, const std::vector<Vec3>*>>> matchShapes(
     if (k < 0)
       return fail("the model has no target named '" + t.name +
                   "'; give the targets it was converted from");
-    shapes.emplace_back(Weights(rig.targets.size(), 0.0), &t.positions);
-    shapes.back().first[k] = 1;
+    shapes.emplace_back(rig.weightsOf(k + 1), &t.positions);
   }
   return shapes;
 }

@@ -4,6 +4,7 @@
 
 #include "sweepface/eval.hpp"
 
+#include "fit/corner_places.hpp"
 #include "fit/vertex_normals.hpp"
 #include "parallel/parallel.hpp"
 
@@ -12,9 +13,8 @@ namespace sweepface {
 namespace {
 
 std::vector<double> anglesIn(const Rig& rig, const Tessellation& grid, const Weights& weights,
-                             const std::vector<Vec3>& source) {
-  const auto expected =
-      vertexNormals(rig.source.polygons, source, rig.source.gridVertex, grid.vertexCount());
+                             const std::vector<Index>& places, const std::vector<Vec3>& source) {
+  const auto expected = vertexNormals(rig.source.polygons, source, places, grid.vertexCount());
   return normalAngles(expected, grid.normals(blend(rig, weights)));
 }
 
@@ -22,12 +22,10 @@ std::vector<double> anglesIn(const Rig& rig, const Tessellation& grid, const Wei
 
 double normalRms(const Rig& rig, const MeshRig& source) {
   const Tessellation grid(rig.surface, 1);
+  const std::vector<Index> places = cornerPlaces(rig.source, grid);
   std::vector<std::vector<double>> angles(rig.targets.size() + 1);
-  parallelFor(std::size_t{0}, angles.size(), [&](std::size_t k) {
-    Weights weights(rig.targets.size(), 0.0);
-    if (k > 0) weights[k - 1] = 1;
-    angles[k] = anglesIn(rig, grid, weights,
-                         k == 0 ? source.neutral.positions : source.targets[k - 1].positions);
+  parallelFor(Index{0}, static_cast<Index>(angles.size()), [&](Index pose) {
+    angles[pose] = anglesIn(rig, grid, rig.weightsOf(pose), places, source.positionsOf(pose));
   });
   double squares = 0;
   std::size_t count = 0;

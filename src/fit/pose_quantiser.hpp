@@ -5,20 +5,9 @@
 
 #include "codec/lattice.hpp"
 #include "fit/columns.hpp"
+#include "fit/slopes.hpp"
 
 namespace sweepface {
-
-/// How far off the two tangents at each vertex are, as shares of their lengths.
-struct Slopes {
-  struct Tangent {
-    std::array<float, 3> error{};   ///< the neutral's included
-    float lean = 0;                 ///< along the normal: an angle in radians
-    std::array<float, 3> normal{};  ///< of the surface
-    float perLength = 0;
-  };
-  std::vector<std::array<Tangent, 2>> at;  ///< [vertices]
-  float weight = 0;                        ///< what the square of a lean counts, in bits
-};
 
 /// What is asked of one pose.
 struct PoseTask {

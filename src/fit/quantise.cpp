@@ -15,6 +15,7 @@
 #include "codec/lattice.hpp"
 #include "fit/bones.hpp"
 #include "fit/columns.hpp"
+#include "fit/corner_places.hpp"
 #include "fit/folds.hpp"
 #include "fit/images.hpp"
 #include "fit/pose_quantiser.hpp"
@@ -102,6 +103,16 @@ class Quantiser {
 
  private:
   std::unexpected<Error> failed(const std::string& pose) const {
+    // Files count steps from the origin, to 2²⁶.
+    constexpr double kFarthest = (1 << 26) * kNeutralStep / 2;
+    double away = 0;
+    for (const Vec3& p : source_.neutral.positions)
+      away = std::max({away, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    if (away > kFarthest * tolerance_)
+      return fail(fmt::format(
+          "the mesh stands {:.3g} from the origin, too far to be packed at a tolerance of {:.3g}; "
+          "move it there, allow a larger one, or do not pack",
+          away, tolerance_));
     return fail(fmt::format(
         "steps fine enough for a tolerance of {:.3g} cannot be packed in {}; allow a larger one, "
         "or do not pack",
@@ -110,20 +121,20 @@ class Quantiser {
 
   // Where the source's vertices are in each pose, at the vertices of level 1.
   void gather() {
-    const auto& where = rig_.source.gridVertex;
     known_.assign(grid_.vertexCount(), 0);
     goals_.assign(poses_.size(), std::vector<Vec3>(grid_.vertexCount()));
-    for (std::size_t s = 0; s < where.size(); ++s) {
-      if (where[s] < 0) continue;
-      known_[where[s]] = 1;
-      goals_[0][where[s]] = source_.neutral.positions[s];
+    const auto aim = [&](std::size_t vertex, Index place) {
+      known_[place] = 1;
+      goals_[0][place] = source_.neutral.positions[vertex];
       for (std::size_t k = 0; k < source_.targets.size(); ++k)
-        goals_[k + 1][where[s]] = source_.targets[k].positions[s] - source_.neutral.positions[s];
-    }
-  }
-
-  std::vector<Vec3>& vectorsOf(Index pose) {
-    return pose == 0 ? rig_.neutral : rig_.targets[pose - 1].difference;
+        goals_[k + 1][place] =
+            source_.targets[k].positions[vertex] - source_.neutral.positions[vertex];
+    };
+    const auto& where = rig_.source.gridVertex;
+    for (std::size_t s = 0; s < where.size(); ++s)
+      if (where[s] >= 0) aim(s, where[s]);
+    for (const auto& [vertex, place] : otherPlaces(rig_.source, cornerPlaces(rig_.source, grid_)))
+      aim(static_cast<std::size_t>(vertex), place);
   }
 
   std::vector<Vec3> errorsOf(Index pose, const Coefficients& q) const {
@@ -149,38 +160,18 @@ class Quantiser {
     return stored;
   }
 
-  Slopes slopesOf(Index pose, const Coefficients& q, const std::vector<Vec3>& fitted) const {
+  Slopes slopesAt(Index pose, const Coefficients& q, const std::vector<Vec3>& fitted) const {
     std::vector<Vec3> off = restored(pose, q), form = fitted;
     for (std::size_t v = 0; v < q.size(); ++v) off[v] -= fitted[v];
     if (pose > 0)
       for (std::size_t v = 0; v < q.size(); ++v) form[v] += fittedNeutral_[v];
     off = settled(std::move(off));
     form = settled(std::move(form));
-    Slopes slopes;
-    slopes.at.resize(grid_.vertexCount());
-    slopes.weight = static_cast<float>(slopeWeight(pose));
-    for (Index v = 0; v < grid_.vertexCount(); ++v) {
-      const Site site = grid_.site(v);
-      const std::array<Vec3, 2> tangent{rig_.surface.evaluate(form, site, 1, 0),
-                                        rig_.surface.evaluate(form, site, 0, 1)};
-      const Vec3 across = cross(tangent[0], tangent[1]);
-      const double area = norm(across), product = norm(tangent[0]) * norm(tangent[1]);
-      if (!known_[v] || !(area > 0.02 * product)) continue;  // a pole, or nothing that has a side
-      const Vec3 n = across * (1 / area);
-      for (int d = 0; d < 2; ++d) {
-        // What is shorter than vertices may move has no direction to keep.
-        const double perLength = 1 / std::max(norm(tangent[d]), 0.5 * tolerance_);
-        const Vec3 own = perLength * rig_.surface.evaluate(off, site, d == 0, d == 1);
-        Vec3 error = own;
-        if (pose > 0) error += perLength * rig_.surface.evaluate(neutralOff_, site, d == 0, d == 1);
-        slopes.at[v][d] = {
-            {static_cast<float>(error.x), static_cast<float>(error.y), static_cast<float>(error.z)},
-            static_cast<float>(dot(n, own)),
-            {static_cast<float>(n.x), static_cast<float>(n.y), static_cast<float>(n.z)},
-            static_cast<float>(perLength)};
-      }
-    }
-    return slopes;
+    std::vector<Vec3> whole = off;
+    if (pose > 0)
+      for (std::size_t v = 0; v < whole.size(); ++v) whole[v] += neutralOff_[v];
+    return slopesOf(rig_.surface, grid_, known_, {form, off, whole}, 0.5 * tolerance_,
+                    static_cast<float>(slopeWeight(pose)));
   }
 
   // The neutral leaves room for its poses, but no less than the fit itself needs.
@@ -208,7 +199,7 @@ class Quantiser {
   bool settle(Index pose, const std::vector<float>& bounds) {
     Packing::Pose& form = rig_.packing.poses[pose];
     const Symmetry symmetry = codec::symmetryOf(form, pose);
-    const std::vector<Vec3> fitted = vectorsOf(pose);
+    const std::vector<Vec3> fitted = rig_.vectorsOf(pose);
     // From its image, then from itself, in ever finer steps: those of its partner to begin with.
     bool done = false;
     int found = -1;  // how fine the steps are of the coefficients that were found last
@@ -236,7 +227,7 @@ class Quantiser {
     }
     if (found < 0) return false;
     form.finer = found;
-    vectorsOf(pose) = restored(pose, poses_[pose]);
+    rig_.vectorsOf(pose) = restored(pose, poses_[pose]);
     return true;
   }
 
@@ -251,7 +242,7 @@ class Quantiser {
   std::vector<Index> improve(Index pose, PoseTask task, const std::vector<Vec3>& fitted,
                              Coefficients& q) const {
     task.errors = errorsOf(pose, q);
-    task.slopes = slopesOf(pose, q, fitted);
+    task.slopes = slopesAt(pose, q, fitted);
     quantisePose(*lattice_, columns_, std::move(task), q);
     return verticesBeyond(tolerance_, errorsOf(pose, q));
   }
@@ -352,9 +343,7 @@ class Quantiser {
   std::vector<Index> foldsOf(Index pose, std::vector<Vec3> vectors) const {
     if (pose > 0)
       for (std::size_t v = 0; v < vectors.size(); ++v) vectors[v] += rig_.neutral[v];
-    const MeshRig& s = source_;
-    return folds_->quads(settled(std::move(vectors)),
-                         pose == 0 ? s.neutral.positions : s.targets[pose - 1].positions);
+    return folds_->quads(settled(std::move(vectors)), source_.positionsOf(pose));
   }
 
   // The image, but where it is far off: there what the fit has.

@@ -20,19 +20,6 @@ constexpr double kOneSidedTangent = 0.1;
 constexpr double kBetweenWeight = 0.05;
 constexpr double kSmoothWeight = 1e-4;
 
-// Every vector of the surface as a combination of stored ones.
-std::vector<SparseRow> expand(const Surface& surface) {
-  std::vector<SparseRow> rows(surface.vectorCount());
-  for (Index v = 0; v < surface.storedCount(); ++v) rows[v] = {{v, 1}};
-  for (Index v = surface.storedCount(); v < surface.vectorCount(); ++v) {
-    SparseRow& row = rows[v];
-    for (const Term& t : surface.derivation(v))
-      for (const Term& s : rows[t.vector]) row.push_back({s.vector, s.factor * t.factor});
-    mergeTerms(row);
-  }
-  return rows;
-}
-
 // The normal equations of one patch in its own 36 vectors, then in the stored vectors it depends
 // on.
 struct PatchEquations {
@@ -297,7 +284,7 @@ Result<Solution> solveScaled(SparseMatrix& matrix, const PoseMatrix& rhs) {
 }  // namespace
 
 Result<Solution> solve(const Layout& layout, const Draft& draft, const SourceData& data) {
-  const std::vector<SparseRow> expanded = expand(draft.surface);
+  const std::vector<SparseRow> expanded = inStoredVectors(draft.surface);
   const std::vector<Index> owner = vertexOwners(draft, layout.mesh().vertexCount());
   const Index unknowns = draft.surface.storedCount();
   PoseMatrix rhs = PoseMatrix::Zero(unknowns, 3 * data.poses);

@@ -33,6 +33,16 @@ std::vector<double> shortestEdges(const GridMesh& mesh, const SourceData& data) 
   return shortest;
 }
 
+/// Sheets that touch at a vertex have a point each there.
+std::vector<Index> pointsOfCorners(const Polygons& polygons, const GridMesh& mesh) {
+  std::vector<Index> points;
+  for (const Index v : polygons.corners) points.push_back(mesh.pointOfSource[v]);
+  for (std::size_t q = 0; q < mesh.quads.size(); ++q)
+    for (std::size_t k = 0; k < 4; ++k)
+      points[mesh.quadCorners[q][k]] = mesh.point[mesh.quads[q][k]];
+  return points;
+}
+
 }  // namespace
 
 SourceData gatherSource(const MeshRig& rig, const GridMesh& mesh, double tolerance) {
@@ -42,9 +52,10 @@ SourceData gatherSource(const MeshRig& rig, const GridMesh& mesh, double toleran
   data.poses = 1 + static_cast<Index>(rig.targets.size());
   data.points.resize(points, 3 * data.poses);
   data.normals.resize(points, 3 * data.poses);
+  const std::vector<Index> pointOfCorner = pointsOfCorners(rig.neutral.polygons, mesh);
   for (Index k = 0; k < data.poses; ++k) {
-    const auto& positions = k == 0 ? rig.neutral.positions : rig.targets[k - 1].positions;
-    const auto normals = vertexNormals(rig.neutral.polygons, positions, mesh.pointOfSource, points);
+    const std::vector<Vec3>& positions = rig.positionsOf(k);
+    const auto normals = vertexNormals(rig.neutral.polygons, positions, pointOfCorner, points);
     for (Index p = 0; p < points; ++p) {
       const Vec3 &x = positions[mesh.source[p]], &n = normals[p];
       data.points.row(p).segment<3>(3 * k) << x.x, x.y, x.z;

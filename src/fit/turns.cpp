@@ -1,5 +1,6 @@
 #include <Eigen/Dense>
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <optional>
 
@@ -138,9 +139,7 @@ class TurnFinder {
 
   /// Of parts that move rigidly, such as teeth, if there are any; else of all points that move.
   std::vector<Way> waysThatTell(Index target) const {
-    std::vector<double> weights(rig_.targets.size());
-    weights[target] = 1;
-    const std::vector<Vector> moved = pointsOf(weights);
+    const std::vector<Vector> moved = pointsOf(rig_.weightsOf(target + 1));
     double longest = 0;
     for (std::size_t v = 0; v < moved.size(); ++v)
       longest = std::max(longest, (moved[v] - neutral_[v]).norm());

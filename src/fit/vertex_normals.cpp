@@ -5,7 +5,7 @@
 namespace sweepface {
 
 std::vector<Vec3> vertexNormals(const Polygons& polygons, std::span<const Vec3> positions,
-                                const std::vector<Index>& pointOf, Index pointCount) {
+                                std::span<const Index> pointOf, Index pointCount) {
   std::vector<Vec3> normals(pointCount);
   for (Index f = 0; f < polygons.faceCount(); ++f) {
     const Index begin = polygons.faceStart[f], size = polygons.faceSize(f);
@@ -17,7 +17,8 @@ std::vector<Vec3> vertexNormals(const Polygons& polygons, std::span<const Vec3> 
       const Vec3 next = positions[polygons.corners[begin + (k + 1) % size]] - p;
       const Vec3 last = positions[polygons.corners[begin + (k + size - 1) % size]] - p;
       const Vec3 out = cross(next, last);
-      if (pointOf[v] >= 0) normals[pointOf[v]] += dot(out, face) < 0 ? -1 * out : out;
+      if (const Index point = pointOf[begin + k]; point >= 0)
+        normals[point] += dot(out, face) < 0 ? -1 * out : out;
     }
   }
   for (Vec3& n : normals) n = normalized(n);

@@ -7,13 +7,13 @@
 
 namespace sweepface {
 
-/// The vertex normals of one pose [V]: the sum of edge × edge over a vertex's face corners, turned
-/// round at the reflex corners of faces with more than four. On a
-/// regular grid this is the cross product of the central differences, so a smooth surface through
-/// the vertices has it too; weighting by angle or by whole faces differs from it by degrees on
-/// uneven meshes.
+/// The vertex normals of one pose [points]: the sum of edge × edge over the face corners at a point
+/// (`pointOf` [C]; negative: at none), turned round at the reflex corners of faces with more than
+/// four. On a regular grid this is the cross product of the central differences, so a smooth
+/// surface through the vertices has it too; weighting by angle or by whole faces differs from it by
+/// degrees on uneven meshes.
 std::vector<Vec3> vertexNormals(const Polygons& polygons, std::span<const Vec3> positions,
-                                const std::vector<Index>& pointOf, Index pointCount);
+                                std::span<const Index> pointOf, Index pointCount);
 
 /// The angles between such normals and those of a surface at the same points, in degrees, wherever
 /// the source has a normal.

@@ -32,9 +32,7 @@ ShapeAt Shapes::target(Index target, bool withNormals) const {
   appendAll(result.positions, t.looseDifference);
   if (!withNormals) return result;
 
-  Weights weights(rig_.targets.size(), 0.0);
-  weights[target] = 1;
-  result.normals = normals(blend(rig_, weights));
+  result.normals = normals(blend(rig_, rig_.weightsOf(target + 1)));
   for (std::size_t v = 0; v < result.normals.size(); ++v) result.normals[v] -= neutral_.normals[v];
   return result;
 }

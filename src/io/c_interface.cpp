@@ -94,7 +94,10 @@ Result<Recording> readForRegions(const Division& division, std::string_view byte
     if (auto ok = checkRoom(*clip, division.count(), name); !ok) return std::unexpected(ok.error());
     clips.push_back(std::move(*clip));
   }
-  recording.clip = clips.front();
+  // The head and the eyes are of the whole face, whatever its regions are made of.
+  auto whole = bake(*timeline, kTimelineRate, names.front(), {});
+  if (!whole) return fail(name, ": ", whole.error().message);
+  recording.clip = std::move(*whole);
   return recording;
 }
 

@@ -114,9 +114,11 @@ Result<void> check(const Clip& clip, const std::vector<Column>& columns, double 
   for (const Column& column : columns) {
     if (io::sameLetters(column.heading, "Timecode") ||
         io::sameLetters(column.heading, "BlendShapeCount"))
-      return fail(fmt::format("'{}' cannot be a shape of a recording.", column.heading));
+      return fail(
+          fmt::format("'{}' cannot be a shape of a recording; rename the target.", column.heading));
     if (column.heading.empty() || column.heading.find_first_of(",\r\n") != std::string::npos)
-      return fail(fmt::format("'{}' cannot be the heading of a column.", column.heading));
+      return fail(fmt::format("'{}' cannot be the heading of a column; rename the target.",
+                              column.heading));
     if (!headings.insert(column.heading).second)
       return fail(fmt::format("There would be two columns '{}'.", column.heading));
   }

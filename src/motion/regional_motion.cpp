@@ -24,6 +24,7 @@ namespace {
 class Hanging {
  public:
   double step(const Spring& spring, double seconds, double way) {
+    if (seconds < kJump) return jump(spring, way);
     const double speed = way / seconds;
     const Start start{distance_.position, distance_.velocity + speed_ - speed};
     if (const auto swing = Trajectory::spring(start, 0, spring))
@@ -39,6 +40,17 @@ class Hanging {
   bool swingsOn() const { return isMuch(distance_.velocity + speed_); }
 
  private:
+  // Frames that are nearer than this are one, as the speed between them has no digits.
+  static constexpr double kJump = 1e-7;
+
+  // All that a jump leaves behind is what the damper made of it.
+  double jump(const Spring& spring, double way) {
+    distance_.position -= way;
+    distance_.velocity += speed_ + 4 * std::numbers::pi * spring.frequency * spring.damping * way;
+    speed_ = 0;
+    return distance_.position;
+  }
+
   bool isMuch(double speed) const {
     constexpr double kSmall = 1e-3;
     return std::abs(distance_.position) > kSmall || std::abs(speed) > kSmall;
@@ -48,10 +60,16 @@ class Hanging {
   double speed_ = 0;  // of what it hangs on
 };
 
-/// What settles most quickly after a blow: its rate, per second.
-double quickest(const Spring& spring) {
-  return 2 * std::numbers::pi * spring.frequency * std::max(1.0, 2 * spring.damping);
-}
+/// Rates, per second, of what bends the way most after a blow, and of how soon that settles.
+struct Settling {
+  double bends, settles;
+
+  explicit Settling(const Spring& spring) {
+    const double omega = 2 * std::numbers::pi * spring.frequency;
+    bends = omega * std::max(1.0, 2 * spring.damping);
+    settles = spring.damping < 1 ? omega * spring.damping : bends;
+  }
+};
 
 /// Where anything swings there are so many frames that straight lines between them are as good as
 /// exact, for ten seconds after each of the clip's and no more than `most` weights in all: half of
@@ -67,13 +85,15 @@ Clip hanging(const Clip& clip, const Spring& spring, std::size_t most) {
   const auto frames = static_cast<double>(clip.times.size());
   const double room = (static_cast<double>(most / n) - 2 * frames) / 2;
   const double frame = std::max(kFrame, room > 0 ? swinging / room : HUGE_VAL);
-  // A blow g' that settles at the rate r is off its straight line by g' r h² / 8 in a piece h at
-  // first, and later by less: with pieces h exp(r t / 2) always by as much, in 2 / (r h) of them.
-  // What settles sooner than the shortest has not gone far, and clocks may tell no less apart.
+  // A blow g' is off its straight line by g' r h² / 8 in a piece h at first, where r bends, and
+  // later by less: with pieces h exp(s t / 2), where s settles, always by as much, in 2 / (s h) of
+  // them. What settles sooner than the shortest has not gone far, and clocks may tell no less
+  // apart.
   constexpr double kMiss = 4e-5, kShortest = 1e-4;
-  const double rate = quickest(spring);
-  const double first = std::max(
-      {kShortest, std::sqrt(8 * kMiss / rate), room > 0 ? 2 * frames / (rate * room) : HUGE_VAL});
+  const auto [bends, settles] = Settling(spring);
+  const double first =
+      std::max({kShortest, std::sqrt(8 * kMiss / bends),
+                room > 0 ? 2 * frames / (std::max(settles, 1 / kLongest) * room) : HUGE_VAL});
 
   std::vector<double> before(clip.weights.begin(), clip.weights.begin() + std::ssize(clip.names));
   std::vector<double> now(n);
@@ -94,7 +114,7 @@ Clip hanging(const Clip& clip, const Spring& spring, std::size_t most) {
     for (double at = step; at <= span; at += step) {
       goTo(from + at);
       if (!any(swings)) return;
-      step = std::min(step * std::exp(rate * step / 2), piece);
+      step = std::min(step * std::exp(settles * step / 2), piece);
     }
   };
   for (std::size_t f = 1; f < clip.times.size(); ++f) {
@@ -209,8 +229,10 @@ Result<void> RegionalMotion::moveTo(std::size_t region, std::size_t weight, doub
 
 Result<void> RegionalMotion::put(std::size_t region, std::size_t weight, double value) {
   if (auto ok = checkRegion(region); !ok) return ok;
-  regions_[region].late.forget(weight);
-  return regions_[region].state.moveTo(weight, value, {.kind = Drive::Kind::cut, .spring = {}});
+  auto& [matter, state, late] = regions_[region];
+  auto ok = state.moveTo(weight, value, {.kind = Drive::Kind::cut, .spring = {}});
+  if (ok) late.forget(weight);
+  return ok;
 }
 
 Result<void> RegionalMotion::push(std::size_t weight, double velocityChange, double drag) {

@@ -1,8 +1,10 @@
 #include "sweepface/timeline.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
+#include <numeric>
 
 namespace sweepface {
 namespace {
@@ -34,62 +36,147 @@ Result<void> checkRegions(const Timeline& timeline, std::span<const std::string>
   return {};
 }
 
+namespace {
+
+/// A timeline on its way.
+struct Playing {
+  MotionState state;
+  std::size_t next = 0;  // of its events
+  int loop = 0;
+};
+
+class Baker {
+ public:
+  Baker(const Timeline& timeline, std::string_view region, const Matter& matter)
+      : timeline_(timeline), region_(region), matter_(matter) {
+    for (const TimelineEvent& event : timeline.events)
+      for (const auto& [name, goal] : event.goals)
+        if (places_.try_emplace(name, clip_.names.size()).second) clip_.names.push_back(name);
+    for (std::vector<double>& weights : looks_) weights.resize(clip_.names.size());
+  }
+
+  Result<Clip> bake(double framesPerSecond) {
+    // The last one is at the end, even where that is no whole number of frames.
+    const double frames = std::ceil(seconds() * framesPerSecond - 1e-6);
+    if (auto ok = check(framesPerSecond, frames); !ok) return std::unexpected(ok.error());
+    auto state = MotionState::make(std::vector<double>(clip_.names.size(), 0.0));
+    if (!state) return std::unexpected(state.error());
+    Playing playing{std::move(*state)};
+    if (auto ok = goTo(playing, 0); !ok) return std::unexpected(ok.error());
+    append(playing, 0);
+    for (double frame = 1; frame <= frames; ++frame)
+      if (auto ok = add(playing, clip_.times.back(),
+                        frame < frames ? frame / framesPerSecond : seconds());
+          !ok)
+        return std::unexpected(ok.error());
+    return std::move(clip_);
+  }
+
+ private:
+  // A late region does all of it later.
+  double seconds() const { return timeline_.seconds * timeline_.loops + matter_.delay; }
+
+  Result<void> check(double framesPerSecond, double frames) const {
+    if (!(framesPerSecond > 0) || !(frames >= 1 && frames <= 1e6))
+      return failCall(
+          "A timeline is baked into 1 to 1,000,000 frames; change its length or the rate.");
+    const auto names = static_cast<double>(clip_.names.size());
+    if ((frames + 1) * names > kMostClipWeights)
+      return failCall(
+          "The timeline bakes into more weights than a clip can hold; shorten it, or name fewer.");
+    if (static_cast<double>(timeline_.events.size()) * timeline_.loops * names > kMostClipWeights)
+      return failCall(
+          "The timeline sends weights off more often than a clip can tell; repeat it less, or name "
+          "fewer.");
+    return {};
+  }
+
+  // Everything that sets out until then does so at its own instant; by the end, all does.
+  Result<void> goTo(Playing& playing, double time) const {
+    while (playing.loop < timeline_.loops) {
+      if (playing.next == timeline_.events.size()) {
+        playing.next = 0, ++playing.loop;
+        continue;
+      }
+      const TimelineEvent& event = timeline_.events[playing.next];
+      const double start = event.time + playing.loop * timeline_.seconds + matter_.delay;
+      if (start > time && time < seconds()) break;
+      playing.state.advance(start - playing.state.now());
+      const bool here = event.region.empty() || event.region == region_;
+      if (auto ok = here ? play(event, places_, matter_, playing.state) : Result<void>{}; !ok)
+        return ok;
+      ++playing.next;
+    }
+    playing.state.advance(time - playing.state.now());
+    return {};
+  }
+
+  void append(const Playing& playing, double time) {
+    playing.state.positions(looks_[0]);
+    clip_.times.push_back(time);
+    clip_.weights.insert(clip_.weights.end(), looks_[0].begin(), looks_[0].end());
+  }
+
+  // The frame at the end of a stretch of time that begins where it plays, and before it as many as
+  // straight lines need.
+  Result<void> add(Playing& playing, double from, double to, int halvings = 0) {
+    constexpr int kMostHalvings = 8;
+    constexpr std::size_t kMostMore = std::size_t{1} << 22;  // weights
+    const double middle = std::midpoint(from, to);
+    if (looksCloser() && halvings < kMostHalvings && from < middle && middle < to &&
+        more_ + clip_.names.size() <= kMostMore) {
+      const Result<double> missed = missedBy(playing, from, to);
+      if (!missed) return std::unexpected(missed.error());
+      if (*missed > kTimelineMiss) {
+        more_ += clip_.names.size();
+        if (auto ok = add(playing, from, middle, halvings + 1); !ok) return ok;
+        return add(playing, middle, to, halvings + 1);
+      }
+    }
+    if (auto ok = goTo(playing, to); !ok) return ok;
+    append(playing, to);
+    return {};
+  }
+
+  // Every look plays what sets out once more.
+  bool looksCloser() const {
+    return static_cast<double>(timeline_.events.size()) * timeline_.loops < 1e6;
+  }
+
+  Result<double> missedBy(Playing playing, double from, double to) {
+    constexpr std::array kLooks{0.191, 0.5, 0.691, 1.0};  // not in step, as zeros of a swing are
+    for (std::size_t k = 0; k < kLooks.size(); ++k) {
+      if (auto ok = goTo(playing, k + 1 < kLooks.size() ? std::lerp(from, to, kLooks[k]) : to); !ok)
+        return std::unexpected(ok.error());
+      playing.state.positions(looks_[k]);
+    }
+    const double* const start = clip_.weights.data() + clip_.weights.size() - clip_.names.size();
+    double most = 0;
+    for (std::size_t k = 0; k + 1 < kLooks.size(); ++k)
+      for (std::size_t n = 0; n < clip_.names.size(); ++n)
+        most = std::max(most,
+                        std::abs(looks_[k][n] - std::lerp(start[n], looks_.back()[n], kLooks[k])));
+    return most;
+  }
+
+  const Timeline& timeline_;
+  std::string_view region_;
+  const Matter& matter_;
+  Places places_;
+  Clip clip_;
+  std::array<std::vector<double>, 4> looks_;  // [names] each
+  std::size_t more_ = 0;                      // weights of frames beyond the rate
+};
+
+}  // namespace
+
 Result<Clip> bake(const Timeline& timeline, double framesPerSecond) {
   return bake(timeline, framesPerSecond, {}, {});
 }
 
 Result<Clip> bake(const Timeline& timeline, double framesPerSecond, std::string_view region,
                   const Matter& matter) {
-  // A late region does all of it later.
-  const double seconds = timeline.seconds * timeline.loops + matter.delay;
-  // The last one is at the end, even where that is no whole number of frames.
-  const double frames = std::ceil(seconds * framesPerSecond - 1e-6);
-  if (!(framesPerSecond > 0) || !(frames >= 1 && frames <= 1e6))
-    return failCall(
-        "A timeline is baked into 1 to 1,000,000 frames; change its length or the rate.");
-  Clip clip;
-  Places places;
-  for (const TimelineEvent& event : timeline.events)
-    for (const auto& [name, goal] : event.goals)
-      if (places.try_emplace(name, clip.names.size()).second) clip.names.push_back(name);
-  if ((frames + 1) * static_cast<double>(clip.names.size()) > kMostClipWeights)
-    return failCall(
-        "The timeline bakes into more weights than a clip can hold; shorten it, or name fewer.");
-  if (static_cast<double>(timeline.events.size()) * timeline.loops *
-          static_cast<double>(clip.names.size()) >
-      kMostClipWeights)
-    return failCall(
-        "The timeline sends weights off more often than a clip can tell; repeat it less, or name "
-        "fewer.");
-  auto state = MotionState::make(std::vector<double>(clip.names.size(), 0.0));
-  if (!state) return std::unexpected(state.error());
-
-  std::size_t next = 0;
-  int loop = 0;
-  std::vector<double> weights(clip.names.size());
-  for (double frame = 0; frame <= frames; ++frame) {
-    const double time = frame < frames ? frame / framesPerSecond : seconds;
-    // Everything that sets out until this frame does so at its own instant; by the last, all does.
-    while (loop < timeline.loops) {
-      if (next == timeline.events.size()) {
-        next = 0, ++loop;
-        continue;
-      }
-      const TimelineEvent& event = timeline.events[next];
-      const double start = event.time + loop * timeline.seconds + matter.delay;
-      if (start > time && frame < frames) break;
-      state->advance(start - state->now());
-      const bool here = event.region.empty() || event.region == region;
-      if (auto ok = here ? play(event, places, matter, *state) : Result<void>{}; !ok)
-        return std::unexpected(ok.error());
-      ++next;
-    }
-    state->advance(time - state->now());
-    state->positions(weights);
-    clip.times.push_back(time);
-    clip.weights.insert(clip.weights.end(), weights.begin(), weights.end());
-  }
-  return clip;
+  return Baker(timeline, region, matter).bake(framesPerSecond);
 }
 
 }  // namespace sweepface

@@ -97,27 +97,6 @@ Kinematics path::Coasting::at(double t) const noexcept {
   return {x + v * way, velocity, -drag * velocity};
 }
 
-// What the harmonics alone do to a coordinate that starts at 0 without velocity.
-Kinematics path::Driven::periodic(double t) const noexcept {
-  Kinematics sum;
-  for (std::size_t k = 0; k < count; ++k) {
-    const double w = static_cast<double>(k + 1) * omega, half = ode::sineCosine(w * t / 2).sine;
-    const auto [sine, cosine] = ode::sineCosine(w * t);
-    const double risen = 2 * half * half / w;
-    const Harmonic& h = harmonics[k];
-    sum.position += h.cosine * risen / w + h.sine * (t - sine / w) / w;
-    sum.velocity += h.cosine * sine / w + h.sine * risen;
-    sum.acceleration += h.cosine * cosine + h.sine * sine;
-  }
-  return sum;
-}
-
-Kinematics path::Driven::at(double t) const noexcept {
-  if (t > end) return {goal, 0, 0};
-  const Kinematics a = mean.at(t), b = periodic(t);
-  return {a.position + b.position, a.velocity + b.velocity, a.acceleration + b.acceleration};
-}
-
 Kinematics Trajectory::at(double time) const noexcept {
   // Not a number counts as before the start, and for ever as very long.
   const double t = time > 0 ? std::fmin(time, std::numeric_limits<double>::max()) : 0;

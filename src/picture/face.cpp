@@ -5,6 +5,7 @@
 
 #include "sweepface/picture.hpp"
 
+#include "fit/corner_places.hpp"
 #include "fit/vertex_normals.hpp"
 #include "picture/lowered.hpp"
 #include "picture/materials.hpp"
@@ -76,16 +77,17 @@ void refine(Scene& scene) {
 Index lodFor(const Surface& surface, Style style, PictureSize size) {
   // Shading hides corners that are a few pixels long; reflections show them.
   const double pixels = style == Style::zebra ? 1.5 : 6;
-  double quads = 0;
-  for (Index p = 0; p < surface.patchCount(); ++p)
-    quads += 1.0 * surface.edgesU(p) * surface.edgesV(p);
+  const auto quads = static_cast<double>(surface.wireframe().quadCount());
   const double shown = 0.35 * size.width * size.height / pixels;
   return std::clamp(static_cast<Index>(std::lround(std::sqrt(shown / std::max(quads, 1.0)))), 1,
                     16);
 }
 
 FaceScenes::FaceScenes(const Rig& rig, Index lod)
-    : rig_(rig), grid_(rig.surface, lod), source_(rig.surface, 1) {
+    : rig_(rig),
+      grid_(rig.surface, lod),
+      source_(rig.surface, 1),
+      cornerPlaces_(cornerPlaces(rig.source, source_)) {
   const std::vector<std::array<Index, 4>> faces = grid_.faces();
   const Index level = grid_.level();
   std::size_t face = 0;
@@ -111,6 +113,10 @@ FaceScenes::FaceScenes(const Rig& rig, Index lod)
 
 std::vector<Vec3> FaceScenes::points(std::span<const double> weights) const {
   return source_.positions(blend(rig_, weights));
+}
+
+std::vector<Vec3> FaceScenes::drawn(std::span<const double> weights) const {
+  return grid_.positions(blend(rig_, weights));
 }
 
 Scene FaceScenes::scene(std::span<const double> weights, Style style) const {
@@ -207,12 +213,14 @@ VertexErrors FaceScenes::errors(std::span<const double> weights,
   const std::vector<Vec3> vectors = blend(rig_, weights);
   const std::vector<Vec3> places = source_.positions(vectors), normals = source_.normals(vectors);
   const std::vector<Vec3> expected =
-      vertexNormals(source.polygons, original, source.gridVertex, source_.vertexCount());
+      vertexNormals(source.polygons, original, cornerPlaces_, source_.vertexCount());
   VertexErrors errors;
   errors.distances.assign(places.size(), 0);
   for (std::size_t v = 0; v < original.size(); ++v)
     if (const Index g = source.gridVertex[v]; g >= 0)
       errors.distances[g] = std::max(errors.distances[g], norm(places[g] - original[v]));
+  for (const auto& [v, g] : otherPlaces(source, cornerPlaces_))
+    errors.distances[g] = std::max(errors.distances[g], norm(places[g] - original[v]));
   for (std::size_t g = 0; g < places.size(); ++g)
     errors.angles.push_back(norm(expected[g]) > 0 ? angleDegrees(normals[g], expected[g]) : 0);
   return errors;
@@ -224,18 +232,17 @@ Scene FaceScenes::original(std::span<const Vec3> positions) const {
   // Faces may have loose corners: those vertices come after the grid's.
   const Index gridCount = source_.vertexCount();
   const Index count = gridCount + static_cast<Index>(source.loose.size());
-  std::vector<Index> places = source.gridVertex;
+  std::vector<Index> places = cornerPlaces_;
   for (Index& place : places)
     if (place < 0) place = gridCount - 1 - place;
   Scene scene;
   scene.positions.resize(count);
-  for (std::size_t v = 0; v < positions.size(); ++v) scene.positions[places[v]] = positions[v];
+  for (std::size_t c = 0; c < places.size(); ++c)
+    scene.positions[places[c]] = positions[polygons.corners[c]];
   scene.normals = vertexNormals(polygons, positions, places, count);
   std::vector<Index> faceOfTriangle;
   for (Index f = 0; f < polygons.faceCount(); ++f) {
-    const auto corner = [&](Index k) {
-      return places[polygons.corners[polygons.faceStart[f] + k]];
-    };
+    const auto corner = [&](Index k) { return places[polygons.faceStart[f] + k]; };
     for (Index k = 1; k + 1 < polygons.faceSize(f); ++k) {
       scene.triangles.push_back({corner(0), corner(k), corner(k + 1)});
       faceOfTriangle.push_back(f);
@@ -248,13 +255,11 @@ Scene FaceScenes::original(std::span<const Vec3> positions) const {
 
 Result<std::vector<Index>> FaceScenes::region(std::string_view name) const {
   constexpr double share = 0.5;  // of the largest way that a vertex goes
-  const std::vector<Vec3> rest = points(Weights(rig_.targets.size(), 0.0));
+  const std::vector<Vec3> rest = points(rig_.weightsOf(0));
   std::vector<Index> moved;
   for (std::size_t k = 0; k < rig_.targets.size(); ++k) {
     if (lowered(rig_.targets[k].name).find(lowered(name)) == std::string::npos) continue;
-    Weights weights(rig_.targets.size(), 0.0);
-    weights[k] = 1;
-    const std::vector<Vec3> pose = points(weights);
+    const std::vector<Vec3> pose = points(rig_.weightsOf(static_cast<Index>(k) + 1));
     double furthest = 0;
     for (std::size_t v = 0; v < rest.size(); ++v)
       furthest = std::max(furthest, norm(pose[v] - rest[v]));

@@ -144,8 +144,9 @@ std::vector<Key> wireLegend() {
 
 std::vector<Key> joinLegend(const Surface& surface) {
   std::array<int, kJoinClasses> count{};
-  for (Index arc = 0; arc < static_cast<Index>(surface.wireframe().arcs.size()); ++arc)
-    ++count[static_cast<std::size_t>(joinClass(surface, arc))];
+  const std::vector<Arc>& arcs = surface.wireframe().arcs;
+  for (Index arc = 0; arc < static_cast<Index>(arcs.size()); ++arc)
+    if (!arcs[arc].collapsed) ++count[static_cast<std::size_t>(joinClass(surface, arc))];
   std::vector<Key> keys;
   for (const JoinClass c : kJoinOrder) {
     const auto k = static_cast<std::size_t>(c);

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "sweepface/plot.hpp"
 
@@ -7,29 +8,34 @@
 
 namespace sweepface {
 
-Result<std::string> ReportMaker::errors() {
-  const HeatMap rest = scenes_.heatMap(rest_, source_.neutral.positions, Style::error);
-  const HeatMap angles = scenes_.heatMap(rest_, source_.neutral.positions, Style::angle);
-  Figures maps, normals;
+// The neutral and the expression side by side, on one scale.
+Result<std::string> ReportMaker::heatMaps(Style style, std::string_view unit) {
+  HeatMap rest = scenes_.heatMap(rest_, source_.neutral.positions, style);
+  std::optional<HeatMap> moved;
+  if (moves_) {
+    moved = scenes_.heatMap(expression_, moved_, style);
+    const double top = std::max(rest.top, moved->top);
+    if (rest.top < top) rest = scenes_.heatMap(rest_, source_.neutral.positions, style, top);
+    if (moved->top < top) moved = scenes_.heatMap(expression_, moved_, style, top);
+  }
+  Figures maps;
   maps.add(picture(rest.scene, front_, "Neutral: " + rest.title));
-  if (moves_) {
-    const HeatMap moved = scenes_.heatMap(expression_, moved_, Style::error, rest.top);
-    maps.add(picture(moved.scene, front_, expressionName() + ": " + moved.title));
-  }
-  normals.add(picture(angles.scene, front_, "Neutral: " + angles.title));
-  if (moves_) {
-    const HeatMap moved = scenes_.heatMap(expression_, moved_, Style::angle, angles.top);
-    normals.add(picture(moved.scene, front_, expressionName() + ": " + moved.title));
-  }
+  if (moved) maps.add(picture(moved->scene, front_, expressionName() + ": " + moved->title));
   if (maps.error) return std::unexpected(*maps.error);
-  if (normals.error) return std::unexpected(*normals.error);
+  return row(maps.html) + html::scale(rest.top, unit);
+}
+
+Result<std::string> ReportMaker::errors() {
+  const auto distances = heatMaps(Style::error, "distance");
+  if (!distances) return distances;
+  const auto angles = heatMaps(Style::angle, "angle in degrees");
+  if (!angles) return angles;
   return section("Errors",
                  "Distances between the source's vertices and their points on the surface, in the "
                  "source's units, and angles between the surface's normals and the source's "
                  "vertex normals, in degrees; the neutral and every expression at weight 1, then "
                  "random mixtures against the same blend of the meshes.") +
-         row(maps.html) + html::scale(rest.top, "distance") + row(normals.html) +
-         html::scale(angles.top, "angle in degrees") + errorPlot() + errorTable();
+         *distances + *angles + errorPlot() + errorTable();
 }
 
 std::string ReportMaker::errorPlot() const {

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <optional>
+#include <string_view>
 
 #include "sweepface/measure.hpp"
 #include "sweepface/picture.hpp"
@@ -63,6 +64,7 @@ class ReportMaker {
   double shareOf(JoinClass c) const;
 
   // error_sections.cpp
+  Result<std::string> heatMaps(Style style, std::string_view unit);
   Result<std::string> errors();
   std::string errorPlot() const;
   std::string errorTable() const;

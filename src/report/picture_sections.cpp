@@ -27,8 +27,8 @@ Result<std::string> ReportMaker::picture(Scene scene, const Camera& camera,
 }
 
 void ReportMaker::frame() {
-  std::vector<Vec3> all = scenes_.points(rest_);
-  if (moves_) std::ranges::copy(scenes_.points(expression_), std::back_inserter(all));
+  std::vector<Vec3> all = scenes_.drawn(rest_);
+  if (moves_) std::ranges::copy(scenes_.drawn(expression_), std::back_inserter(all));
   const std::array views{View{0, 0}, View{35, 6}};
   const std::vector<Camera> cameras = frameCameras(all, views, kPanel);
   front_ = cameras[0];
@@ -80,7 +80,7 @@ void ReportMaker::sumUpJoins() {
     const std::vector<Vec3> vectors = blend(rig_, *weights);
     auto& sums = weights == &rest_ ? restJoins_ : movedJoins_;
     for (const JoinReport& join : examineJoins(rig_.surface, vectors))
-      sums[static_cast<std::size_t>(join.joinClass)].add(join);
+      if (!join.collapsed) sums[static_cast<std::size_t>(join.joinClass)].add(join);
   }
 }
 

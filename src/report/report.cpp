@@ -200,8 +200,8 @@ Result<std::string> makeMotionReport(const Rig& rig, const ReportOptions& option
   if (expression == rest)
     return fail("The face does not move; name an expression to which it should.");
   const FaceScenes scenes(rig, lodFor(rig.surface, Style::shaded, kPanel));
-  std::vector<Vec3> all = scenes.points(rest);
-  std::ranges::copy(scenes.points(expression), std::back_inserter(all));
+  std::vector<Vec3> all = scenes.drawn(rest);
+  std::ranges::copy(scenes.drawn(expression), std::back_inserter(all));
   const Camera front = frameCameras(all, std::array{View{0, 0}}, kPanel)[0];
   int done = 0;
   const MotionSections sections(rig, scenes, expression, front, options.regions, [&] {

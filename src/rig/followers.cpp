@@ -1,7 +1,6 @@
 #include "sweepface/followers.hpp"
 
 #include <algorithm>
-#include <functional>
 #include <optional>
 
 #include "surface/sorting.hpp"
@@ -96,11 +95,8 @@ Followers::Followers(std::vector<Follower> followers) {
   for (const Follower& follower : followers) {
     const auto isBetween = [&](Index t) { return is(t, Follower::Kind::inBetween); };
     if (follower.kind == Follower::Kind::product) {
-      Follower early = follower, late = follower;
-      std::erase_if(early.leaders, isBetween);
-      std::erase_if(late.leaders, std::not_fn(isBetween));
-      if (!late.leaders.empty()) lateProducts_.push_back(std::move(late));
-      products_.push_back(std::move(early));
+      products_.push_back(follower);
+      std::erase_if(products_.back().leaders, isBetween);  // factors of chains
     } else if (follower.kind == Follower::Kind::arc) {
       const Index leader = follower.leaders[0];
       const bool hasStops = std::ranges::any_of(followers, [&](const Follower& f) {
@@ -116,42 +112,53 @@ Followers::Followers(std::vector<Follower> followers) {
       chain->stops.push_back(follower);
     }
   }
+  for (const Follower& product : followers)
+    if (product.kind == Follower::Kind::product)
+      for (const Index leader : product.leaders)
+        for (Chain& chain : chains_)
+          if (chain.gives(leader)) chain.factors.push_back({leader, product.target});
   orderChains();
 }
 
-// An in-between of an in-between is given its share after that.
+bool Followers::Chain::gives(Index target) const {
+  return std::ranges::find(stops, target, &Follower::target) != stops.end();
+}
+
+// A chain hands over what its leader is given: after all chains that have a part in that.
 void Followers::orderChains() {
-  const auto chainOf = [&](Index target) {
-    return std::ranges::find_if(chains_, [&](const Chain& chain) {
-      return std::ranges::find(chain.stops, target, &Follower::target) != chain.stops.end();
-    });
+  const auto isBefore = [](const Chain& a, const Chain& b) {
+    return a.gives(b.leader) ||
+           std::ranges::find(a.factors, b.leader, &Factor::product) != a.factors.end();
   };
-  for (Chain& chain : chains_)
-    for (auto above = chainOf(chain.leader);
-         above != chains_.end() && chain.depth < static_cast<int>(chains_.size());
-         above = chainOf(above->leader))
-      ++chain.depth;
+  bool deepens = true;
+  for (std::size_t round = 0; round < chains_.size() && deepens; ++round) {
+    deepens = false;
+    for (Chain& chain : chains_)
+      for (const Chain& before : chains_)
+        if (chain.depth <= before.depth && isBefore(before, chain))
+          chain.depth = before.depth + 1, deepens = true;
+  }
   sortSmall(std::span(chains_), [](const Chain& a, const Chain& b) {
     return a.depth != b.depth ? a.depth < b.depth : a.leader < b.leader;
   });
 }
 
 void Followers::apply(std::span<double> weights) const noexcept {
-  const auto productOf = [&](const Follower& follower) {
-    double product = 1;
-    for (const Index leader : follower.leaders) product *= weights[leader];
-    return product;
-  };
   const auto bend = [&](const std::vector<Follower>& arcs) {
     for (const Follower& arc : arcs) {
       const double w = arc.leaders.empty() ? 0 : weights[arc.leaders[0]];
       weights[arc.target] = 4 * w * (1 - w);
     }
   };
-  for (const Follower& product : products_) weights[product.target] = productOf(product);
+  for (const Follower& product : products_) {
+    double& weight = weights[product.target] = 1;
+    for (const Index leader : product.leaders) weight *= weights[leader];
+  }
   bend(arcs_);
-  for (const Chain& chain : chains_) handOver(chain, weights);
-  for (const Follower& product : lateProducts_) weights[product.target] *= productOf(product);
+  for (const Chain& chain : chains_) {
+    handOver(chain, weights);
+    for (const auto& [leader, product] : chain.factors) weights[product] *= weights[leader];
+  }
   bend(lateArcs_);
 }
 

@@ -4,6 +4,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "rig/number.hpp"
 
@@ -24,6 +25,7 @@ std::optional<Limits::Range> rangeOf(std::string_view text) {
 Result<Limits> Limits::parse(const Rig& rig, std::string_view text) {
   constexpr double most = std::numeric_limits<double>::infinity();
   std::vector<Range> ranges(rig.targets.size(), Range{-most, most});
+  std::vector<char> isTold(rig.targets.size(), 0);
   while (!text.empty()) {
     const std::string_view item = takeItem(text);
     if (item.empty()) continue;
@@ -39,6 +41,9 @@ Result<Limits> Limits::parse(const Rig& rig, std::string_view text) {
     }
     const Result<Index> target = findTarget(rig, trimmed(item.substr(0, equals)));
     if (!target) return std::unexpected(target.error());
+    if (std::exchange(isTold[*target], 1))
+      return fail("the limits of '" + rig.targets[*target].name +
+                  "' are told twice; tell them once");
     ranges[*target] = *range;
   }
   return Limits(std::move(ranges));

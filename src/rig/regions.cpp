@@ -4,7 +4,6 @@
 #include "sweepface/regions.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 
 namespace sweepface {

@@ -1,10 +1,17 @@
 #include "sweepface/rig.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "rig/number.hpp"
 
 namespace sweepface {
+
+Weights Rig::weightsOf(Index pose) const {
+  Weights weights(targets.size(), 0.0);
+  if (pose > 0) weights[pose - 1] = 1;
+  return weights;
+}
 
 bool Rig::knows(const Target& target) const {
   return target.difference.size() == neutral.size() &&
@@ -44,6 +51,7 @@ Result<Index> findTarget(const Rig& rig, std::string_view name) {
 
 Result<Weights> parseWeights(const Rig& rig, std::string_view text) {
   Weights weights(rig.targets.size(), 0.0);
+  std::vector<char> isTold(rig.targets.size(), 0);
   while (!text.empty()) {
     const std::string_view item = takeItem(text);
     if (item.empty()) continue;
@@ -51,6 +59,8 @@ Result<Weights> parseWeights(const Rig& rig, std::string_view text) {
     const std::string_view name = trimmed(item.substr(0, equals));
     const Result<Index> target = findTarget(rig, name);
     if (!target) return std::unexpected(target.error());
+    if (std::exchange(isTold[*target], 1))
+      return failCall("the weight of '", name, "' is told twice; tell it once");
     double value = 1;
     if (equals != std::string_view::npos) {
       const std::string_view digits = trimmed(item.substr(equals + 1));

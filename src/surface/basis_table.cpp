@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <numeric>
 #include <span>
-#include <string>
 #include <tuple>
 
 #include "ode/power.hpp"

@@ -163,9 +163,7 @@ JetRef JetNumbers::byArms(Index corner, int i, int j) const {
 }
 
 int JetNumbers::hostArm(Index node) const {
-  const Star& star = c_.stars[node];
-  const auto straight = std::find(star.sectors.begin(), star.sectors.end(), kStraight);
-  return static_cast<int>(straight - star.sectors.begin() + 1) % 3;
+  return static_cast<int>(c_.stars[node].straight() + 1) % 3;
 }
 
 }  // namespace sweepface

@@ -52,10 +52,10 @@ class JetNumbers {
   JetRef atCorner(Index corner, int i, int j) const;
   /// All nine of them, at 3i + j.
   std::array<JetRef, 9> atCorner(Index corner) const;
-  /// The arm of a T-node along which its own x axis runs: the stem follows counter-clockwise.
-  int hostArm(Index node) const;
 
  private:
+  /// The arm of a T-node along which its own x axis runs: the stem follows counter-clockwise.
+  int hostArm(Index node) const;
   Index add(StoredVector owner, bool stored);
   std::size_t most() const;
   void numberRegular(Index node);

@@ -88,6 +88,7 @@ std::vector<JoinReport> examineJoins(const Surface& surface, std::span<const Vec
   for (Index a = 0; a < static_cast<Index>(w.arcs.size()); ++a) {
     JoinReport& r = reports[a];
     r.joinClass = joinClass(surface, a);
+    r.collapsed = w.arcs[a].collapsed;
     const double edges = w.arcs[a].edges;
     Vec3 last = surface.pointOnArc(vectors, a, 0);
     for (int k = 1; k <= 4 * w.arcs[a].edges; ++k) {

@@ -141,14 +141,12 @@ void hangNodes(const Wireframe& wireframe, const Connectivity& connectivity,
                const BasisTable& bases, const JetNumbers& numbers, JetRows& rows) {
   for (Index n = 0; n < static_cast<Index>(wireframe.nodes.size()); ++n) {
     if (connectivity.kinds[n] != NodeKind::hanging) continue;
-    const int host = numbers.hostArm(n);
-    const Star& star = connectivity.stars[n];
-    const Rail ahead = connectivity.rails[star.arms[host]];
-    const Rail behind = connectivity.rails[star.arms[(host + 2) % 3]];
+    const auto [onward, back] = connectivity.stars[n].line();
+    const Rail ahead = connectivity.rails[onward], behind = connectivity.rails[back];
     const auto end = numbers.atCorner(connectivity.cornerAt[connectivity.next[ahead.last]]);
     const auto start = numbers.atCorner(connectivity.cornerAt[twin(behind.last)]);
     const int length = ahead.edges + behind.edges;
-    const SweepBasis& g = bases.at(wireframe.arcs[arcOf(star.arms[host])].ribbon, length);
+    const SweepBasis& g = bases.at(wireframe.arcs[arcOf(onward)].ribbon, length);
     for (int i = 0; i < 3; ++i) {
       const auto value = g.at(static_cast<double>(behind.edges) / length, i);
       for (int j = 0; j < 3; ++j) {

@@ -1,7 +1,6 @@
 #include "sweepface/surface.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "surface/basis_table.hpp"
 #include "surface/jets.hpp"
@@ -179,14 +178,11 @@ Vec3 Surface::evaluate(std::span<const Vec3> vectors, const Site& site, int du, 
 }
 
 Vec3 Surface::normal(std::span<const Vec3> vectors, const Site& site) const {
-  const Frame& f = frames_[site.patch];
   const Vec3 u = evaluate(vectors, site, 1, 0), v = evaluate(vectors, site, 0, 1);
   const Vec3 n = cross(u, v);
   if (norm(n) > 1e-9 * norm(u) * norm(v) && norm(u) > 0 && norm(v) > 0) return normalized(n);
-  // Nothing to be had here: look from a little inside the patch.
-  const Site inside{site.patch, site.u + (f.m * 0.5 - site.u) * 1e-3,
-                    site.v + (f.n * 0.5 - site.v) * 1e-3};
-  return normalized(cross(evaluate(vectors, inside, 1, 0), evaluate(vectors, inside, 0, 1)));
+  const Site near = inside(site);
+  return normalized(cross(evaluate(vectors, near, 1, 0), evaluate(vectors, near, 0, 1)));
 }
 
 Surface::ArcWeights Surface::arcWeights(Index arc, double t) const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <span>
 #include <vector>
 
 #include "sweepface/surface.hpp"
@@ -18,6 +19,25 @@ inline void mergeTerms(std::vector<Term>& terms) {
     else
       terms[n++] = t;
   terms.resize(n);
+}
+
+/// A sum of vectors as a combination of those that they are combinations of.
+inline std::vector<Term> expanded(std::span<const Term> sum,
+                                  std::span<const std::vector<Term>> vectors) {
+  std::vector<Term> terms;
+  for (const Term& t : sum)
+    for (const Term& s : vectors[t.vector]) terms.push_back({s.vector, s.factor * t.factor});
+  mergeTerms(terms);
+  return terms;
+}
+
+/// Every vector of a surface as a combination of stored ones: [vectorCount].
+inline std::vector<std::vector<Term>> inStoredVectors(const Surface& surface) {
+  std::vector<std::vector<Term>> vectors(surface.vectorCount());
+  for (Index v = 0; v < surface.storedCount(); ++v) vectors[v] = {{v, 1}};
+  for (Index v = surface.storedCount(); v < surface.vectorCount(); ++v)
+    vectors[v] = expanded(surface.derivation(v), vectors);
+  return vectors;
 }
 
 }  // namespace sweepface

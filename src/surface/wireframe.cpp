@@ -20,6 +20,15 @@ std::size_t Wireframe::quadCount() const {
   return quads;
 }
 
+std::size_t Star::straight() const {
+  return std::find(sectors.begin(), sectors.end(), kStraight) - sectors.begin();
+}
+
+std::array<HalfArc, 2> Star::line() const {
+  const std::size_t k = straight();
+  return {arms[(k + 1) % 3], arms[k]};
+}
+
 namespace {
 
 Result<void> checkIndices(const Wireframe& w) {
@@ -115,11 +124,9 @@ int quarterTurns(const Star& star) {
   return turns;
 }
 
-// The two arcs beside the side that a T-node stands on are pieces of it.
 bool hangsOnCrease(const Wireframe& w, const Star& star) {
-  const auto host = std::find(star.sectors.begin(), star.sectors.end(), kStraight);
-  const std::size_t k = host - star.sectors.begin();
-  return w.arcs[arcOf(star.arms[k])].crease || w.arcs[arcOf(star.arms[(k + 1) % 3])].crease;
+  const auto [ahead, behind] = star.line();
+  return w.arcs[arcOf(ahead)].crease || w.arcs[arcOf(behind)].crease;
 }
 
 Result<NodeKind> kindOf(const Wireframe& w, Index node, const Star& star, bool isCreased) {

@@ -156,6 +156,23 @@ TEST_F(Clips, OfTimelinesGoByTheirRegions) {
   EXPECT_EQ(sweepface_rig_region_count(handle), 1U);
 }
 
+TEST_F(Clips, OfTimelinesTurnTheHeadWhateverTheFaceIsMadeOf) {
+  constexpr std::string_view heavy = R"({
+    "seconds": 2,
+    "events": [{"at": 0, "to": {"open": 1, "HeadYaw": 0.5}, "drive": "newton", "seconds": 1}],
+    "regions": [{"name": "all", "points": [[0, 0, 0]], "over": "space", "whole": 1e6, "fade": 1,
+                 "mass": 4, "delay": 0.25}]
+  })";
+  ASSERT_EQ(sweepface_rig_divide_by(handle, heavy.data(), heavy.size(), "scene"), SWEEPFACE_OK)
+      << sweepface_message();
+  ASSERT_EQ(sweepface_rig_region_count(handle), 1U) << "there is no rest";
+  ASSERT_EQ(read(heavy), SWEEPFACE_OK) << sweepface_message();
+  EXPECT_LT(at(1)[0], 0.2);
+  sweepface_pose pose{};
+  ASSERT_EQ(sweepface_clip_pose(clip, 1, &pose), SWEEPFACE_OK);
+  EXPECT_EQ(pose.head.yaw, 0.5);
+}
+
 TEST_F(Clips, HaveThePoseOfTheHead) {
   ASSERT_EQ(read(kCsv), SWEEPFACE_OK);
   EXPECT_TRUE(sweepface_clip_has_head(clip));

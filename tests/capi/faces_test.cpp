@@ -1,3 +1,4 @@
+#include <array>
 #include <bit>
 #include <limits>
 #include <thread>
@@ -22,14 +23,17 @@ constexpr sweepface_vectors kUnwanted{nullptr, 0};
 /// A face with loose vertices, seams and three targets: open, "wink é" and rest.
 class Faces : public ::testing::Test {
  protected:
-  Faces() : rig(dressed(makeRig(tee()))) {
-    const std::string bytes = encode(rig);
-    EXPECT_EQ(sweepface_rig_load(bytes.data(), bytes.size(), "tee", &handle), SWEEPFACE_OK);
-  }
+  Faces() : rig(dressed(makeRig(tee()))) { load(rig); }
   ~Faces() override {
     sweepface_face_free(face);
     sweepface_mesh_free(mesh);
     sweepface_rig_free(handle);
+  }
+
+  void load(const Rig& other) {
+    sweepface_rig_free(handle);
+    const std::string bytes = encode(other);
+    ASSERT_EQ(sweepface_rig_load(bytes.data(), bytes.size(), "tee", &handle), SWEEPFACE_OK);
   }
 
   void make(uint32_t lod) {
@@ -54,6 +58,25 @@ class Faces : public ::testing::Test {
                                       normals ? to : kUnwanted),
               SWEEPFACE_OK);
     return out;
+  }
+
+  /// Poses of three weights, one after the other, into the same buffers.
+  void expectUpdatesToBeWhole(const std::vector<std::array<double, 3>>& poses) {
+    const std::size_t count = sweepface_mesh_vertex_count(mesh);
+    std::vector<float> positions(3 * count), normals(3 * count);
+    for (const auto& weights : poses) {
+      ASSERT_EQ(sweepface_face_set_weights(face, weights.data(), 3), SWEEPFACE_OK);
+      ASSERT_EQ(sweepface_face_update(face, count, {positions.data(), 0}, {normals.data(), 0}),
+                SWEEPFACE_OK);
+      sweepface_face* whole = nullptr;
+      ASSERT_EQ(sweepface_face_create(mesh, &whole), SWEEPFACE_OK);
+      std::swap(whole, face);
+      ASSERT_EQ(sweepface_face_set_weights(face, weights.data(), 3), SWEEPFACE_OK);
+      EXPECT_EQ(positions, evaluate());
+      EXPECT_EQ(normals, evaluate(true));
+      std::swap(whole, face);
+      sweepface_face_free(whole);
+    }
   }
 
   Rig rig;
@@ -224,6 +247,23 @@ TEST_F(Faces, EvaluateWithoutAllocating) {
   sweepface_face_free(another);
 }
 
+TEST(FacesWithoutTargets, HaveNoModes) {
+  Rig rig = makeRig(tee());
+  rig.targets.clear();
+  const std::string bytes = encode(rig);
+  sweepface_rig* handle = nullptr;
+  sweepface_mesh* mesh = nullptr;
+  sweepface_face* face = nullptr;
+  ASSERT_EQ(sweepface_rig_load(bytes.data(), bytes.size(), "tee", &handle), SWEEPFACE_OK);
+  ASSERT_EQ(sweepface_mesh_create(handle, 1, &mesh), SWEEPFACE_OK);
+  ASSERT_EQ(sweepface_face_create(mesh, &face), SWEEPFACE_OK);
+  float factor = 0;
+  EXPECT_EQ(sweepface_face_modes(face, 0, nullptr, 0, &factor), SWEEPFACE_OK);
+  sweepface_face_free(face);
+  sweepface_mesh_free(mesh);
+  sweepface_rig_free(handle);
+}
+
 /// The rows of all points as the header says that a shader computes them.
 std::vector<Vec3> shaderRows(sweepface_mesh* mesh, sweepface_face* face, bool tangents) {
   sweepface_shader_tables tables{};
@@ -269,22 +309,31 @@ TEST_F(Faces, AreWhatAShaderMakesOfItsTables) {
 
 TEST_F(Faces, AreUpdatedToWhatAWholeEvaluationWrites) {
   make(2);
+  expectUpdatesToBeWhole(
+      {{0, 0, 0}, {0.5, 0, 0}, {0.5, 0, 0.25}, {0.5, 2, 0.25}, {0, 0, 0}, {0, 1, 0}});
+}
+
+TEST_F(Faces, AreUpdatedFromTheNeutralWhereAnotherTargetIsLarge) {
+  Rig large = makeRig(sheet(12));
+  for (Target& target : large.targets) std::ranges::fill(target.difference, Vec3{});
+  large.targets[0].difference.front() = {0, 0, 1e4};
+  large.targets[1].difference.back() = {0, 0, 1};
+  load(large);
+  make(1);
+  expectUpdatesToBeWhole({{0, 0, 0}, {0, 1, 0}, {0, 0, 0}, {1, 1, 0}});
+}
+
+TEST_F(Faces, AreUpdatedInOneBufferForPositionsAndNormalsInTurn) {
+  make(2);
   const std::size_t count = sweepface_mesh_vertex_count(mesh);
-  std::vector<float> positions(3 * count), normals(3 * count);
-  const double poses[][3] = {{0, 0, 0},      {0.5, 0, 0}, {0.5, 0, 0.25},
-                             {0.5, 2, 0.25}, {0, 0, 0},   {0, 1, 0}};
-  for (const auto& weights : poses) {
-    ASSERT_EQ(sweepface_face_set_weights(face, weights, 3), SWEEPFACE_OK);
-    ASSERT_EQ(sweepface_face_update(face, count, {positions.data(), 0}, {normals.data(), 0}),
-              SWEEPFACE_OK);
-    sweepface_face* whole = nullptr;
-    ASSERT_EQ(sweepface_face_create(mesh, &whole), SWEEPFACE_OK);
-    std::swap(whole, face);
-    ASSERT_EQ(sweepface_face_set_weights(face, weights, 3), SWEEPFACE_OK);
+  std::vector<float> shared(3 * count);
+  const sweepface_vectors here{shared.data(), 0};
+  for (const double weight : {0.5, 0.75}) {
+    ASSERT_EQ(sweepface_face_set_weight(face, 1, weight), SWEEPFACE_OK);
+    ASSERT_EQ(sweepface_face_update(face, count, here, kUnwanted), SWEEPFACE_OK);
+    const std::vector<float> positions = shared;
+    ASSERT_EQ(sweepface_face_update(face, count, kUnwanted, here), SWEEPFACE_OK);
     EXPECT_EQ(positions, evaluate());
-    EXPECT_EQ(normals, evaluate(true));
-    std::swap(whole, face);
-    sweepface_face_free(whole);
   }
 }
 

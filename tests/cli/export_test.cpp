@@ -293,6 +293,17 @@ TEST_F(Wires, HasNodesBoundariesAndControls) {
     }
 }
 
+TEST_F(Wires, CountsTheNodesThatItWrites) {
+  std::string fan = "v 0 0 1\n";
+  for (int k = 0; k < 6; ++k) fan += fmt::format("v {} {} 0\n", std::cos(k), std::sin(k));
+  for (int k = 0; k < 6; ++k) fan += fmt::format("f 1 {} {}\n", k + 2, (k + 1) % 6 + 2);
+  folder.file("fan.obj", fan);
+  ASSERT_EQ(run("convert fan.obj -o face.sweep").code, 0);
+  const Outcome r = run("wireframe face.sweep -o wire.obj");
+  const auto nodes = readLines(folder / "wire.obj").groups["nodes"].size();
+  EXPECT_NE(r.out.find(fmt::format(": {} nodes, ", nodes)), std::string::npos) << r.out;
+}
+
 TEST_F(Wires, ControlsOfAPlaneLieAtTheirShares) {
   std::string plane;
   for (int j = 0; j <= 4; ++j)

@@ -1,8 +1,5 @@
-#include <cstdio>
 #include <gtest/gtest.h>
-#include <map>
 #include <random>
-#include <set>
 
 #include "sweepface/eval.hpp"
 #include "sweepface/evaluator.hpp"

@@ -1,5 +1,4 @@
 #include <tbb/global_control.h>
-#include <thread>
 
 #include "sweepface/codec.hpp"
 #include "sweepface/eval.hpp"
@@ -260,6 +259,28 @@ TEST(Search, forAToleranceDoesNotEndWhereOneCannotBeMet) {
   }
 }
 
+TEST(Search, forAToleranceIsDoneWhereTheFinestThatIsWantedFits) {
+  ConvertOptions options;
+  options.tolerance = 0.05;
+  const auto conversion = convertToBytes(withTargets(plane()), options, 1 << 20);
+  ASSERT_TRUE(conversion) << conversion.error().message;
+  EXPECT_EQ(conversion->rig.tolerance, 0.05);
+}
+
+TEST(Search, forAToleranceCountsWhatIsAddedBeforeTheFileIsWritten) {
+  const MeshRig source = withTargets(plane());
+  const auto finish = [](Rig& rig) -> Result<void> {
+    rig.names.units = std::string(100, 'm');
+    return {};
+  };
+  for (const std::size_t most : {600, 1200}) {
+    auto conversion = convertToBytes(source, {}, most, finish);
+    ASSERT_TRUE(conversion) << conversion.error().message;
+    ASSERT_TRUE(finish(conversion->rig));
+    EXPECT_LE(encode(conversion->rig).size(), most);
+  }
+}
+
 TEST(Search, forAToleranceGoesOnWithLargerOnesWhereTheFirstCannotBeMet) {
   MeshRig far = withTargets(plane(4, 4), 0);
   for (Vec3& p : far.neutral.positions) p.x += 1e6 + 1.0 / 3;
@@ -280,10 +301,24 @@ TEST(Refusal, isASentenceOfWhatIsWrong) {
   MeshRig flat = withTargets(plane(2, 2), 0);
   for (Vec3& p : flat.neutral.positions) p = {1, 2, 3};
   EXPECT_EQ(refusal(flat),
-            "all vertices of the neutral stand at one place; there is no surface to fit");
+            "all vertices of the neutral stand at one place, as far as numbers tell; there is no "
+            "surface to fit");
   MeshRig faceless;
   faceless.neutral.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   EXPECT_EQ(refusal(faceless), "the mesh has no face with an area; nothing can be converted");
+}
+
+TEST(Refusal, toPackAMeshThatIsFarAwaySaysSo) {
+  MeshRig far = withTargets(plane(4, 4));
+  for (Vec3& p : far.neutral.positions) p.x += 1e6;
+  for (MeshTarget& t : far.targets)
+    for (Vec3& p : t.positions) p.x += 1e6;
+  ConvertOptions options;
+  options.pack = true;
+  options.tolerance = 0.05;
+  EXPECT_NE(refusal(far, options).find("too far to be packed"), std::string::npos);
+  options.pack = false;
+  EXPECT_EQ(refusal(far, options), "");
 }
 
 TEST(Refusal, ofNormalsOutOfReachSaysHowNearTheyCome) {
@@ -295,7 +330,7 @@ TEST(Refusal, ofNormalsOutOfReachSaysHowNearTheyCome) {
   options.normalTolerance = 1e-9;
   const std::string why = refusal(source, options);
   double nearest = 0;
-  ASSERT_EQ(std::sscanf(why.c_str(), "normals come no nearer to the mesh's than %lf", &nearest), 1)
+  ASSERT_EQ(std::sscanf(why.c_str(), "normals came no nearer to the mesh's than %lf", &nearest), 1)
       << why;
   options.normalTolerance = 1.01 * nearest;
   EXPECT_EQ(refusal(source, options), "");

@@ -3,6 +3,7 @@
 #include "sweepface/fit.hpp"
 
 #include "faces.hpp"
+#include "fit/corner_places.hpp"
 
 namespace sweepface {
 namespace {
@@ -11,6 +12,10 @@ using namespace sweepface::testing;
 
 class EveryFacet : public ::testing::TestWithParam<Face> {};
 INSTANTIATE_TEST_SUITE_P(Facets, EveryFacet, eachFace(), faceName);
+
+std::vector<Index> placesOf(const Rig& rig) {
+  return cornerPlaces(rig.source, Tessellation(rig.surface, 1));
+}
 
 bool shareAVertex(const Loop& a, const Loop& b) {
   return std::ranges::find_first_of(a, b) != a.end();
@@ -21,7 +26,7 @@ TEST_P(EveryFacet, isNoFurtherThanThoseThatShareAVertexWithIt) {
   options.tolerance = 0.01 * diagonal(GetParam().rig.neutral);
   const Rig rig = convert(GetParam().rig, options).value().rig;
   const std::vector<Vec3>& positions = GetParam().rig.neutral.positions;
-  const FaceMap map(rig, positions);
+  const FaceMap map(rig, placesOf(rig), positions);
   FaceMap apart = map;  // no face is beside another
   for (std::vector<Index>& faces : apart.facesAt) faces.clear();
   const Facets facets(rig.source, map, positions, {}, 0),
@@ -42,7 +47,7 @@ TEST(Facets, OfAConcavePolygonDoNotCoverItsNotch) {
   l.positions = {{2, 0, 0}, {2, 1, 0}, {1, 1, 0}, {1, 2, 0}, {0, 2, 0}, {0, 0, 0}};
   addFace(l, {0, 1, 2, 3, 4, 5});
   const Rig rig = convert({l, {}}).value().rig;
-  const FaceMap map(rig, l.positions);
+  const FaceMap map(rig, placesOf(rig), l.positions);
   const Facets facets(rig.source, map, l.positions, {}, 0);
   EXPECT_NEAR(facets.distance({1.3, 1.3, 0}, 0), 0.3, 1e-12);
   EXPECT_NEAR(facets.distance({0.7, 0.7, 0.1}, 0), 0.1, 1e-12);
@@ -54,9 +59,9 @@ TEST(FaceMap, OfAFanTakesRoomForItsCornersAlone) {
   for (Index k = 1; k <= kTriangles; ++k) addFace(fan, {0, k, k + 1});
   Rig rig;
   rig.source.polygons = fan.polygons;
-  for (Index v = 0; v < kTriangles + 2; ++v) rig.source.gridVertex.push_back(v);
+  rig.source.gridVertex.resize(kTriangles + 2);
   std::size_t entries = 0;
-  const FaceMap map(rig);
+  const FaceMap map(rig, fan.polygons.corners);
   for (const std::vector<Index>& faces : map.facesAt) entries += faces.size();
   EXPECT_EQ(entries, fan.polygons.corners.size());
 }

@@ -8,9 +8,8 @@ namespace {
 using namespace sweepface::testing;
 
 std::vector<Vec3> normalsOf(const PolygonMesh& mesh) {
-  std::vector<Index> points;
-  for (std::size_t v = 0; v < mesh.positions.size(); ++v) points.push_back(static_cast<Index>(v));
-  return vertexNormals(mesh.polygons, mesh.positions, points, static_cast<Index>(points.size()));
+  return vertexNormals(mesh.polygons, mesh.positions, mesh.polygons.corners,
+                       static_cast<Index>(mesh.positions.size()));
 }
 
 TEST(VertexNormals, LookOutOfAFlatPolygonAtItsReflexCornersToo) {

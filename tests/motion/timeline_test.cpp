@@ -30,7 +30,7 @@ TEST(Timeline, EventsSetOutAtTheirTimes) {
   const Clip clip = baked(R"({"seconds": 3, "events": [
     {"at": 1.5, "to": {"smile": 1}, "drive": "newton", "seconds": 1},
     {"at": 0, "to": {"jawOpen": 0.5}, "drive": "accelerate-brake", "seconds": 1}]})");
-  EXPECT_EQ(clip.times.size(), 301u);
+  EXPECT_GE(clip.times.size(), 301u);
   EXPECT_NEAR(weight(clip, 0.5, "jawOpen"), 0.25, 1e-12);
   EXPECT_EQ(weight(clip, 1, "smile"), 0);
   EXPECT_NEAR(weight(clip, 2, "smile"), 0.25, 1e-12);
@@ -42,6 +42,27 @@ TEST(Timeline, EventsBetweenFramesAreNotRounded) {
   const std::string text =
       R"({"seconds": 1, "events": [{"at": 0.333, "to": {"a": 1}, "drive": "newton"}]})";
   EXPECT_NEAR(weight(baked(text, 10), 0.4, "a"), weight(baked(text, 1000), 0.4, "a"), 1e-12);
+}
+
+TEST(Timeline, StraightLinesAreAsGoodAsExactWhereSpringsSwing) {
+  for (const double frequency : {2.0, 10.0, 40.0}) {
+    const Clip clip = baked(R"({"seconds": 1, "events": [{"at": 0.1, "to": {"a": 1},
+      "drive": "spring", "damping": 0.1, "frequency": )" +
+                                std::to_string(frequency) + "}]}",
+                            kTimelineRate);
+    const auto spring = Trajectory::spring({0, 0}, 1, {frequency, 0.1});
+    ASSERT_TRUE(spring);
+    for (double t = 0; t < 1; t += 3e-4)
+      ASSERT_NEAR(weight(clip, t, "a"), spring->at(t - 0.1).position, 1.2 * kTimelineMiss)
+          << frequency << " " << t;
+  }
+}
+
+TEST(Timeline, HasNoMoreFramesWhereNothingSwings) {
+  const Clip clip = baked(R"({"seconds": 2, "events": [
+    {"at": 0.5, "to": {"a": 1}, "drive": "accelerate-brake", "seconds": 1}]})",
+                          kTimelineRate);
+  EXPECT_LT(clip.times.size(), 500u);
 }
 
 TEST(Timeline, OnlySendsEverythingElseToRest) {

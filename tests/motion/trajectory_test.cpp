@@ -222,6 +222,18 @@ TEST(Trajectory, PeriodicForcesAgreeWithIntegrationAndArrive) {
   }
 }
 
+TEST(Trajectory, PeriodsFarLongerThanTheMoveKeepTheirDigits) {
+  const std::array<Harmonic, 1> sine{{{0, 6}}};
+  for (const double period : {100.0, 1e3, 1e6, 1e12}) {
+    const Trajectory t = made(Trajectory::periodicForce({0, 0}, 1, 1, period, sine));
+    // f = a + 6 sin wt, whose sine is as good as its first two terms where it is long.
+    const double w = 2 * std::numbers::pi / period, mean = t.at(0).acceleration, s = 0.5;
+    const double way = w * s * s * s / 6 * (1 - w * w * s * s / 20 * (1 - w * w * s * s / 42));
+    EXPECT_NEAR(t.at(s).position, mean * s * s / 2 + 6 * way, 1e-14) << period;
+    EXPECT_NEAR(t.at(1).position, 1, 1e-14);
+  }
+}
+
 TEST(Trajectory, TimesBeforeTheStartAndNoTimeAtAllAreTheStart) {
   const Trajectory t = made(Trajectory::spring({0.25, 1}, 1, {}));
   EXPECT_EQ(t.at(-3).position, 0.25);

@@ -272,6 +272,20 @@ TEST(Report, DoesWithoutTargetsAndTolerances) {
   EXPECT_NE(report->find("Shape parameters"), std::string::npos);
 }
 
+TEST(Report, ShowsTheErrorsOfAnExpressionOnAScaleThatHoldsThem) {
+  const MeshRig source = hill();
+  MeshRig moved = source;
+  moved.targets[0].positions.back().z += 0.75;
+  ReportOptions options;
+  options.expression = {1, 0};
+  const auto report = makeReport(converted(source, 0.05), moved, options);
+  ASSERT_TRUE(report.has_value()) << report.error().message;
+  const std::size_t title = report->find("<div class=\"scale\">distance");
+  ASSERT_NE(title, std::string::npos);
+  const std::size_t end = report->find("</span>", title), last = report->rfind("<b>", end);
+  EXPECT_GE(std::stod(report->substr(last + 3)), 0.7);
+}
+
 TEST(Report, FailsWhereFaceAndMeshesDoNotBelongTogether) {
   const MeshRig source = hill();
   const Rig rig = converted(source, 0.05);

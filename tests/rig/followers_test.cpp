@@ -100,6 +100,18 @@ TEST(Followers, productsOfInBetweensGoByWhatTheseAreGiven) {
   EXPECT_EQ(applied(followers, {1, 9, 9, 1}), (std::vector<double>{1, 0, 0, 1}));
 }
 
+TEST(Followers, productsOfInBetweensDoNotWaitUntilTheseHandOver) {
+  const std::vector<std::string> names{"A", "A_50", "A_50_60", "B", "A_50_B"};
+  EXPECT_EQ(applied(Followers::named(names), {0.3, 9, 9, 0.5, 9}),
+            (std::vector<double>{0, 0, 1, 0.5, 0.3}));
+}
+
+TEST(Followers, productsOfInBetweensHandOverTheirOwnWeight) {
+  const std::vector<std::string> names{"A", "A_50", "B", "A_50_B", "A_50_B_75"};
+  EXPECT_EQ(applied(Followers::named(names), {0.25, 9, 0.75, 9, 9}),
+            (std::vector<double>{0, 0.5, 0.75, 0, 0.5}));
+}
+
 TEST(Followers, arcsGoByWhatTheirLeaderIsGiven) {
   const std::vector<Follower> followers{{Kind::product, 2, {0, 1}, 0},
                                         {Kind::inBetween, 3, {0}, 0.5},

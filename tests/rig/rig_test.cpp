@@ -26,7 +26,7 @@ TEST(WeightText, givesEachNamedTargetItsWeight) {
   EXPECT_EQ(parseWeights(rig, "jawOpen=0.5,rest=-2e-1").value(), (Weights{0.5, 0, -0.2}));
   EXPECT_EQ(parseWeights(rig, "rest").value(), (Weights{0, 0, 1}));
   EXPECT_EQ(parseWeights(rig, " jawOpen = 0.5 , rest").value(), (Weights{0.5, 0, 1}));
-  EXPECT_EQ(parseWeights(rig, "jawOpen=1,,jawOpen=0.25,").value(), (Weights{0.25, 0, 0}));
+  EXPECT_EQ(parseWeights(rig, "jawOpen=1,,rest=0.25,").value(), (Weights{1, 0, 0.25}));
 }
 
 TEST(WeightText, takesTheLastEqualsSign) {
@@ -38,6 +38,8 @@ TEST(WeightText, refusesWhatItDoesNotKnowAndSaysWhatThereIs) {
             "there is no target named 'jawopen'; its targets are jawOpen, a=b, rest");
   EXPECT_EQ(refusal(named(), "jawOpen=1, r est=1"),
             "there is no target named 'r est'; its targets are jawOpen, a=b, rest");
+  EXPECT_EQ(refusal(named(), "jawOpen=1,rest,jawOpen=1"),
+            "the weight of 'jawOpen' is told twice; tell it once");
   Rig none = named();
   none.targets.clear();
   EXPECT_EQ(refusal(none, "x"), "there is no target named 'x'; this face has no targets");

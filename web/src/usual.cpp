@@ -1,6 +1,7 @@
 // What the usual module does without: files that are not packed, the words about what is wrong with
 // one, and regions. sweepface.js asks the full module for them.
 #include "sweepface/late_goals.hpp"
+#include "sweepface/trajectory.hpp"
 
 #include "capi/message.hpp"
 #include "codec/crc.hpp"
@@ -22,6 +23,10 @@ void LateGoals::add(const Goal&) noexcept {}
 const LateGoals::Goal* LateGoals::due(double) const noexcept { return nullptr; }
 void LateGoals::removeFirst() noexcept {}
 void LateGoals::forget(std::size_t) noexcept {}
+
+// Nothing here makes one.
+Kinematics path::Driven::periodic(double) const noexcept { return {}; }
+Kinematics path::Driven::at(double) const noexcept { return {}; }
 
 namespace codec {
 
