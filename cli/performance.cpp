@@ -109,11 +109,13 @@ Result<Recording> readClip(const PerformanceArguments& a, const Region& region,
           "{} is a timeline; leave --smooth, --animation, --frequency and --damping out.", a.clip));
     const Result<Timeline> timeline = parseTimeline(*text, a.clip);
     if (!timeline) return std::unexpected(timeline.error());
-    auto clip = bake(*timeline, kTimelineRate, region.name, {}),
-         played = bake(*timeline, kTimelineRate, region.name, region.matter);
-    for (const auto* baked : {&clip, &played})
+    // The head is of the whole face, whatever its regions are made of.
+    auto played = bakeToPlay(*timeline, region.name, region.matter, regions),
+         whole =
+             region.matter == Matter{} ? played : bakeToPlay(*timeline, region.name, {}, regions);
+    for (const auto* baked : {&played, &whole})
       if (!*baked) return fail(fmt::format("{}: {}", a.clip, baked->error().message));
-    return Recording{std::move(*clip), std::move(*played), kTimelineMiss};
+    return Recording{std::move(whole->clip), std::move(played->clip), played->missed};
   }
   const bool gltf = isGltf(a.clip);
   if (!isJson && !gltf && !isOfKind(a.clip, ".csv"))

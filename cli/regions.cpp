@@ -89,6 +89,8 @@ Performance together(Parts parts, std::vector<double> frameTimes, const Regional
   Performance whole = parts.performances.front();
   whole.seconds = parts.seconds();
   whole.frameTimes = std::move(frameTimes);
+  for (const Performance& part : parts.performances)
+    whole.frameMiss = std::max(whole.frameMiss, part.frameMiss);
   whole.motion.reset();  // keys would not hold it exactly
   whole.isDivided = true;
   const auto shared = std::make_shared<const Parts>(std::move(parts));

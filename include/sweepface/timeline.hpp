@@ -36,18 +36,22 @@ Result<Timeline> parseTimeline(std::string_view text, std::string_view name);
 /// Fails where an event is for a region that is not among these.
 Result<void> checkRegions(const Timeline& timeline, std::span<const std::string> regions);
 
-/// Frames a second that a timeline is baked into to be played.
-inline constexpr double kTimelineRate = 240;
-/// What straight lines between its frames may miss of a weight.
-inline constexpr double kTimelineMiss = 1e-4;
-
-/// The timeline as a clip of `framesPerSecond`, from rest at 0: both ends included. Where something
-/// swings or bounces quickly there are more, as far as kTimelineMiss asks and four million weights
-/// allow; a jump takes a 256th of a frame. Refuses more than kMostClipWeights, in its frames or for
-/// all its events to send off.
+/// The timeline as a clip of `framesPerSecond`, from rest at 0: both ends included. Refuses more
+/// than kMostClipWeights, in its frames or for all its events to send off.
 Result<Clip> bake(const Timeline& timeline, double framesPerSecond);
 /// The same in one region: without what is meant for others, and by its own matter.
 Result<Clip> bake(const Timeline& timeline, double framesPerSecond, std::string_view region,
                   const Matter& matter);
+
+struct Baked {
+  Clip clip;
+  double missed = 0;  ///< the most that straight lines between frames miss of a weight; jumps aside
+};
+/// The same to be played: 240 frames a second, and where something swings or bounces quickly so
+/// many more that straight lines between them are within 1e-4 of what is meant, as far as four
+/// million weights more and `regions` such clips within kMostClipWeights allow; none more where a
+/// million events set out. A jump takes a 256th of a frame.
+Result<Baked> bakeToPlay(const Timeline& timeline, std::string_view region, const Matter& matter,
+                         std::size_t regions = 1);
 
 }  // namespace sweepface

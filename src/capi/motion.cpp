@@ -1,4 +1,3 @@
-
 #include "capi/handles.hpp"
 #include "capi/message.hpp"
 

@@ -1,4 +1,3 @@
-
 #include "sweepface/arcs.hpp"
 #include "sweepface/codec.hpp"
 

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
+#include <optional>
 #include <set>
 
 #include "sweepface/box.hpp"
@@ -137,13 +138,19 @@ class Converter {
     if (auto ok = checkTolerance(tolerance, size); !ok) return std::unexpected(ok.error());
     auto mesh = makeGridMesh(source_);
     if (!mesh) return std::unexpected(mesh.error());
+    const bool limitsNormals = options_.pack && options_.normalTolerance > 0;
+    std::optional<Error> failure;
     for (const double limit : normalLimits(options_, tolerance, size)) {
       auto conversion = convertWithin(*mesh, tolerance, limit);
-      if (!conversion) return conversion;
-      if (normalRms_ > options_.normalTolerance) continue;
-      report("done", 1);
-      return conversion;
+      if (!conversion) {
+        if (cancelled() || !limitsNormals) return conversion;
+        failure = conversion.error();
+      } else if (!limitsNormals || normalRms_ <= options_.normalTolerance) {
+        report("done", 1);
+        return conversion;
+      }
     }
+    if (failure && !std::isfinite(nearestNormals_)) return std::unexpected(*failure);
     return fail(fmt::format(
         "normals came no nearer to the mesh's than {:.4g} degrees at this tolerance; allow "
         "more, or try a smaller tolerance or another limit on normals",

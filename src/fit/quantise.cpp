@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cmath>
 #include <fmt/format.h>
+#include <functional>
 #include <numbers>
 #include <optional>
 #include <set>
@@ -103,11 +104,13 @@ class Quantiser {
 
  private:
   std::unexpected<Error> failed(const std::string& pose) const {
-    // Files count steps from the origin, to 2²⁶.
+    // Files count steps from the origin, to 2²⁶ (src/codec/lattice.cpp); those of roots are halved.
     constexpr double kFarthest = (1 << 26) * kNeutralStep / 2;
     double away = 0;
-    for (const Vec3& p : source_.neutral.positions)
+    for (const Index v : source_.neutral.polygons.corners) {
+      const Vec3& p = source_.neutral.positions[v];
       away = std::max({away, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    }
     if (away > kFarthest * tolerance_)
       return fail(fmt::format(
           "the mesh stands {:.3g} from the origin, too far to be packed at a tolerance of {:.3g}; "

@@ -89,15 +89,18 @@ Result<Recording> readForRegions(const Division& division, std::string_view byte
   const auto& names = division.names.empty() ? undivided : division.names;
   if (auto ok = checkRegions(*timeline, names); !ok) return fail(name, ": ", ok.error().message);
   for (std::size_t r = 0; r < division.count(); ++r) {
-    auto clip = bake(*timeline, kTimelineRate, names[r], matterOf(division, r));
-    if (!clip) return fail(name, ": ", clip.error().message);
-    if (auto ok = checkRoom(*clip, division.count(), name); !ok) return std::unexpected(ok.error());
-    clips.push_back(std::move(*clip));
+    auto baked = bakeToPlay(*timeline, names[r], matterOf(division, r), division.count());
+    if (!baked) return fail(name, ": ", baked.error().message);
+    if (auto ok = checkRoom(baked->clip, division.count(), name); !ok)
+      return std::unexpected(ok.error());
+    clips.push_back(std::move(baked->clip));
   }
   // The head and the eyes are of the whole face, whatever its regions are made of.
-  auto whole = bake(*timeline, kTimelineRate, names.front(), {});
+  recording.clip = clips.front();
+  if (matterOf(division, 0) == Matter{}) return recording;
+  auto whole = bakeToPlay(*timeline, names.front(), {}, division.count());
   if (!whole) return fail(name, ": ", whole.error().message);
-  recording.clip = std::move(*whole);
+  recording.clip = std::move(whole->clip);
   return recording;
 }
 

@@ -43,7 +43,7 @@ class Hanging {
   // Frames that are nearer than this are one, as the speed between them has no digits.
   static constexpr double kJump = 1e-7;
 
-  // All that a jump leaves behind is what the damper made of it.
+  // All that a jump leaves behind is what the damper made of it: it takes no time.
   double jump(const Spring& spring, double way) {
     distance_.position -= way;
     distance_.velocity += speed_ + 4 * std::numbers::pi * spring.frequency * spring.damping * way;

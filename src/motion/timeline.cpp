@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <optional>
 
 namespace sweepface {
 namespace {
@@ -55,12 +56,19 @@ class Baker {
     for (std::vector<double>& weights : looks_) weights.resize(clip_.names.size());
   }
 
-  Result<Clip> bake(double framesPerSecond) {
+  /// `most` weights in all, where straight lines between so many frames a second are not enough;
+  /// 0: nobody asks how good they are.
+  Result<Baked> bake(double framesPerSecond, std::size_t most) {
     // The last one is at the end, even where that is no whole number of frames.
     const double frames = std::ceil(seconds() * framesPerSecond - 1e-6);
     if (auto ok = check(framesPerSecond, frames); !ok) return std::unexpected(ok.error());
     auto state = MotionState::make(std::vector<double>(clip_.names.size(), 0.0));
     if (!state) return std::unexpected(state.error());
+    const auto even = static_cast<std::size_t>(frames + 1) * clip_.names.size();
+    isExamined_ = most > 0;
+    room_ = std::min(kMostMore, most - std::min(most, even));
+    // Every look plays what sets out once more.
+    if (static_cast<double>(timeline_.events.size()) * timeline_.loops > 1e6) room_ = 0;
     Playing playing{std::move(*state)};
     if (auto ok = goTo(playing, 0); !ok) return std::unexpected(ok.error());
     append(playing, 0);
@@ -69,10 +77,13 @@ class Baker {
                         frame < frames ? frame / framesPerSecond : seconds());
           !ok)
         return std::unexpected(ok.error());
-    return std::move(clip_);
+    return Baked{std::move(clip_), missed_};
   }
 
  private:
+  static constexpr std::size_t kMostMore = std::size_t{1} << 22;
+  static constexpr double kMiss = 1e-4;
+
   // A late region does all of it later.
   double seconds() const { return timeline_.seconds * timeline_.loops + matter_.delay; }
 
@@ -120,35 +131,33 @@ class Baker {
   // The frame at the end of a stretch of time that begins where it plays, and before it as many as
   // straight lines need.
   Result<void> add(Playing& playing, double from, double to, int halvings = 0) {
-    constexpr int kMostHalvings = 8;
-    constexpr std::size_t kMostMore = std::size_t{1} << 22;  // weights
+    constexpr int kMostHalvings = 8;  // what is off then is a jump
     const double middle = std::midpoint(from, to);
-    if (looksCloser() && halvings < kMostHalvings && from < middle && middle < to &&
-        more_ + clip_.names.size() <= kMostMore) {
-      const Result<double> missed = missedBy(playing, from, to);
-      if (!missed) return std::unexpected(missed.error());
-      if (*missed > kTimelineMiss) {
-        more_ += clip_.names.size();
+    if (isExamined_ && halvings < kMostHalvings && from < middle && middle < to) {
+      const Result<double> miss = missedBy(playing, from, to);
+      if (!miss) return std::unexpected(miss.error());
+      if (*miss > kMiss && clip_.names.size() <= room_) {
+        room_ -= clip_.names.size();
         if (auto ok = add(playing, from, middle, halvings + 1); !ok) return ok;
         return add(playing, middle, to, halvings + 1);
       }
+      missed_ = std::max(missed_, *miss);
     }
     if (auto ok = goTo(playing, to); !ok) return ok;
     append(playing, to);
     return {};
   }
 
-  // Every look plays what sets out once more.
-  bool looksCloser() const {
-    return static_cast<double>(timeline_.events.size()) * timeline_.loops < 1e6;
-  }
-
-  Result<double> missedBy(Playing playing, double from, double to) {
+  Result<double> missedBy(const Playing& playing, double from, double to) {
     constexpr std::array kLooks{0.191, 0.5, 0.691, 1.0};  // not in step, as zeros of a swing are
+    if (ahead_)
+      *ahead_ = playing;
+    else
+      ahead_ = playing;
     for (std::size_t k = 0; k < kLooks.size(); ++k) {
-      if (auto ok = goTo(playing, k + 1 < kLooks.size() ? std::lerp(from, to, kLooks[k]) : to); !ok)
-        return std::unexpected(ok.error());
-      playing.state.positions(looks_[k]);
+      const double time = k + 1 < kLooks.size() ? std::lerp(from, to, kLooks[k]) : to;
+      if (auto ok = goTo(*ahead_, time); !ok) return std::unexpected(ok.error());
+      ahead_->state.positions(looks_[k]);
     }
     const double* const start = clip_.weights.data() + clip_.weights.size() - clip_.names.size();
     double most = 0;
@@ -165,7 +174,10 @@ class Baker {
   Places places_;
   Clip clip_;
   std::array<std::vector<double>, 4> looks_;  // [names] each
-  std::size_t more_ = 0;                      // weights of frames beyond the rate
+  std::optional<Playing> ahead_;              // while it looks
+  bool isExamined_ = false;
+  std::size_t room_ = 0;  // for weights of frames beyond the rate
+  double missed_ = 0;
 };
 
 }  // namespace
@@ -176,7 +188,16 @@ Result<Clip> bake(const Timeline& timeline, double framesPerSecond) {
 
 Result<Clip> bake(const Timeline& timeline, double framesPerSecond, std::string_view region,
                   const Matter& matter) {
-  return Baker(timeline, region, matter).bake(framesPerSecond);
+  auto baked = Baker(timeline, region, matter).bake(framesPerSecond, 0);
+  if (!baked) return std::unexpected(baked.error());
+  return std::move(baked->clip);
+}
+
+Result<Baked> bakeToPlay(const Timeline& timeline, std::string_view region, const Matter& matter,
+                         std::size_t regions) {
+  constexpr double kRate = 240;
+  return Baker(timeline, region, matter)
+      .bake(kRate, kMostClipWeights / std::max<std::size_t>(1, regions));
 }
 
 }  // namespace sweepface

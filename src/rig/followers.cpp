@@ -1,6 +1,7 @@
 #include "sweepface/followers.hpp"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 
 #include "surface/sorting.hpp"
@@ -130,13 +131,15 @@ void Followers::orderChains() {
     return a.gives(b.leader) ||
            std::ranges::find(a.factors, b.leader, &Factor::product) != a.factors.end();
   };
+  std::vector<std::array<Chain*, 2>> pairs;
+  for (Chain& before : chains_)
+    for (Chain& chain : chains_)
+      if (isBefore(before, chain)) pairs.push_back({&before, &chain});
   bool deepens = true;
   for (std::size_t round = 0; round < chains_.size() && deepens; ++round) {
     deepens = false;
-    for (Chain& chain : chains_)
-      for (const Chain& before : chains_)
-        if (chain.depth <= before.depth && isBefore(before, chain))
-          chain.depth = before.depth + 1, deepens = true;
+    for (const auto& [before, chain] : pairs)
+      if (chain->depth <= before->depth) chain->depth = before->depth + 1, deepens = true;
   }
   sortSmall(std::span(chains_), [](const Chain& a, const Chain& b) {
     return a.depth != b.depth ? a.depth < b.depth : a.leader < b.leader;

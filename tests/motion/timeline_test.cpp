@@ -1,7 +1,10 @@
 #include "sweepface/timeline.hpp"
 
+#include <cmath>
 #include <gtest/gtest.h>
 #include <string>
+
+#include "sweepface/trajectory.hpp"
 
 namespace sweepface {
 namespace {
@@ -30,7 +33,7 @@ TEST(Timeline, EventsSetOutAtTheirTimes) {
   const Clip clip = baked(R"({"seconds": 3, "events": [
     {"at": 1.5, "to": {"smile": 1}, "drive": "newton", "seconds": 1},
     {"at": 0, "to": {"jawOpen": 0.5}, "drive": "accelerate-brake", "seconds": 1}]})");
-  EXPECT_GE(clip.times.size(), 301u);
+  EXPECT_EQ(clip.times.size(), 301u);
   EXPECT_NEAR(weight(clip, 0.5, "jawOpen"), 0.25, 1e-12);
   EXPECT_EQ(weight(clip, 1, "smile"), 0);
   EXPECT_NEAR(weight(clip, 2, "smile"), 0.25, 1e-12);
@@ -44,25 +47,50 @@ TEST(Timeline, EventsBetweenFramesAreNotRounded) {
   EXPECT_NEAR(weight(baked(text, 10), 0.4, "a"), weight(baked(text, 1000), 0.4, "a"), 1e-12);
 }
 
-TEST(Timeline, StraightLinesAreAsGoodAsExactWhereSpringsSwing) {
+Baked toPlay(const std::string& text, std::size_t regions = 1) {
+  const auto timeline = parseTimeline(text, "line.json");
+  if (!timeline) {
+    ADD_FAILURE() << timeline.error().message;
+    return {};
+  }
+  return bakeToPlay(*timeline, "rest", {}, regions).value_or(Baked{});
+}
+
+std::string swinging(double frequency) {
+  return R"({"seconds": 1, "events": [{"at": 0.1, "to": {"a": 1}, "drive": "spring",
+             "damping": 0.1, "frequency": )" +
+         std::to_string(frequency) + "}]}";
+}
+
+double furthestOff(const Clip& clip, double frequency) {
+  const auto spring = Trajectory::spring({0, 0}, 1, {frequency, 0.1});
+  double most = 0;
+  for (double t = 0; t < 1; t += 3e-4)
+    most = std::max(most, std::abs(weight(clip, t, "a") - spring->at(t - 0.1).position));
+  return most;
+}
+
+TEST(PlayedTimeline, HasStraightLinesAsGoodAsExactWhereSpringsSwing) {
   for (const double frequency : {2.0, 10.0, 40.0}) {
-    const Clip clip = baked(R"({"seconds": 1, "events": [{"at": 0.1, "to": {"a": 1},
-      "drive": "spring", "damping": 0.1, "frequency": )" +
-                                std::to_string(frequency) + "}]}",
-                            kTimelineRate);
-    const auto spring = Trajectory::spring({0, 0}, 1, {frequency, 0.1});
-    ASSERT_TRUE(spring);
-    for (double t = 0; t < 1; t += 3e-4)
-      ASSERT_NEAR(weight(clip, t, "a"), spring->at(t - 0.1).position, 1.2 * kTimelineMiss)
-          << frequency << " " << t;
+    const Baked baked = toPlay(swinging(frequency));
+    EXPECT_LE(baked.missed, 1e-4);
+    EXPECT_LE(furthestOff(baked.clip, frequency), 1.2e-4) << frequency;
   }
 }
 
-TEST(Timeline, HasNoMoreFramesWhereNothingSwings) {
-  const Clip clip = baked(R"({"seconds": 2, "events": [
-    {"at": 0.5, "to": {"a": 1}, "drive": "accelerate-brake", "seconds": 1}]})",
-                          kTimelineRate);
-  EXPECT_LT(clip.times.size(), 500u);
+TEST(PlayedTimeline, SaysWhatItMissesWhereThereIsNoRoom) {
+  const Baked baked = toPlay(swinging(40), kMostClipWeights / 400);
+  EXPECT_LE(baked.clip.weights.size(), 400u);
+  EXPECT_GT(baked.missed, 0.05);
+  EXPECT_NEAR(baked.missed, furthestOff(baked.clip, 40), 0.03);
+}
+
+TEST(PlayedTimeline, HasNoMoreFramesWhereNothingSwings) {
+  const Baked baked = toPlay(R"({"seconds": 2, "events": [
+    {"at": 0.5, "to": {"a": 1}, "drive": "accelerate-brake", "seconds": 1},
+    {"at": 1.777, "to": {"a": 0}, "drive": "cut"}]})");
+  EXPECT_LT(baked.clip.times.size(), 500u);
+  EXPECT_LE(baked.missed, 1e-4) << "a jump is meant";
 }
 
 TEST(Timeline, OnlySendsEverythingElseToRest) {
