@@ -150,10 +150,7 @@ class Baker {
 
   Result<double> missedBy(const Playing& playing, double from, double to) {
     constexpr std::array kLooks{0.191, 0.5, 0.691, 1.0};  // not in step, as zeros of a swing are
-    if (ahead_)
-      *ahead_ = playing;
-    else
-      ahead_ = playing;
+    ahead_ = playing;
     for (std::size_t k = 0; k < kLooks.size(); ++k) {
       const double time = k + 1 < kLooks.size() ? std::lerp(from, to, kLooks[k]) : to;
       if (auto ok = goTo(*ahead_, time); !ok) return std::unexpected(ok.error());
