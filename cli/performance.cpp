@@ -109,13 +109,21 @@ Result<Recording> readClip(const PerformanceArguments& a, const Region& region,
           "{} is a timeline; leave --smooth, --animation, --frequency and --damping out.", a.clip));
     const Result<Timeline> timeline = parseTimeline(*text, a.clip);
     if (!timeline) return std::unexpected(timeline.error());
+    const auto bakedIn = [&](const Matter& matter) -> Result<Baked> {
+      auto baked = bakeToPlay(*timeline, region.name, matter, regions);
+      if (!baked) return fail(fmt::format("{}: {}", a.clip, baked.error().message));
+      return baked;
+    };
+    auto played = bakedIn(region.matter);
+    if (!played) return std::unexpected(played.error());
+    Recording recording{played->clip, played->clip, played->missed};
     // The head is of the whole face, whatever its regions are made of.
-    auto played = bakeToPlay(*timeline, region.name, region.matter, regions),
-         whole =
-             region.matter == Matter{} ? played : bakeToPlay(*timeline, region.name, {}, regions);
-    for (const auto* baked : {&played, &whole})
-      if (!*baked) return fail(fmt::format("{}: {}", a.clip, baked->error().message));
-    return Recording{std::move(whole->clip), std::move(played->clip), played->missed};
+    if (region.matter == Matter{} || std::ranges::none_of(played->clip.names, ClipAngles::tells))
+      return recording;
+    auto whole = bakedIn({});
+    if (!whole) return std::unexpected(whole.error());
+    recording.clip = std::move(whole->clip);
+    return recording;
   }
   const bool gltf = isGltf(a.clip);
   if (!isJson && !gltf && !isOfKind(a.clip, ".csv"))

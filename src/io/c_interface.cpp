@@ -97,7 +97,9 @@ Result<Recording> readForRegions(const Division& division, std::string_view byte
   }
   // The head and the eyes are of the whole face, whatever its regions are made of.
   recording.clip = clips.front();
-  if (matterOf(division, 0) == Matter{}) return recording;
+  if (matterOf(division, 0) == Matter{} ||
+      std::ranges::none_of(recording.clip.names, ClipAngles::tells))
+    return recording;
   auto whole = bakeToPlay(*timeline, names.front(), {}, division.count());
   if (!whole) return fail(name, ": ", whole.error().message);
   recording.clip = std::move(whole->clip);
