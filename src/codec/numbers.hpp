@@ -1,0 +1,28 @@
+#pragma once
+
+#include <vector>
+
+#include "sweepface/mesh.hpp"
+
+namespace sweepface::codec {
+
+/// Which of the numbers from 0 on are taken.
+class Numbers {
+ public:
+  explicit Numbers(std::size_t count) : taken_(count, 0) {}
+
+  Index count() const { return static_cast<Index>(taken_.size()); }
+  bool has(Index number) const { return taken_[number]; }
+  void take(Index number) { taken_[number] = 1; }
+  /// The first that is free; count() if none is.
+  Index next() {
+    while (next_ < count() && has(next_)) ++next_;
+    return next_;
+  }
+
+ private:
+  std::vector<char> taken_;
+  Index next_ = 0;
+};
+
+}  // namespace sweepface::codec
