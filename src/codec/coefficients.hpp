@@ -231,77 +231,93 @@ class CoefficientCoder {
     }
   }
 
+  // The contexts that the numbers of a coefficient share.
+  struct Component {
+    std::uint32_t order;    // of the vector: 0 a position, 1 a slope, 2 what is beyond
+    std::uint32_t place;    // with the phase and the axis
+    std::uint32_t id;       // the coefficient
+    std::uint32_t level;    // of the site
+    std::uint32_t pattern;  // how large the components before are: 0, 1 or 2
+    std::uint32_t others;   // the largest of them, and of the vector around
+    std::int32_t around, like;
+  };
+
   void codeVector(Index s, Index k, Index v, std::uint32_t level) {
     Steps3& r = residual_[v];
-    Steps3 around{};
-    if (k == 0)
-      for (const Term& t : h_.beside(s))
-        for (int a = 0; a < 3; ++a)
-          if (const std::int32_t beside = residual_[t.vector][a];
-              std::abs(beside) > std::abs(around[a]))
-            around[a] = beside;
-    if (k > 0) around = residual_[h_.sites()[s].first];
-    const std::uint32_t p = phase_, order = k == 0 ? 0 : k < 3 ? 1 : 2;
+    const Steps3 around = k > 0 ? residual_[h_.sites()[s].first] : largestBeside(s);
+    const std::uint32_t order = k == 0 ? 0 : k < 3 ? 1 : 2;
     std::uint32_t pattern = 0;
-    for (int a = 0; a < 3; ++a) {
-      bool moved = r[a] != 0;
-      const std::uint32_t place = (p * 4 + order) * 4 + a;
-      const std::uint32_t by = bucket(around[a]), alike = bucket(like_[v][a]);
-      if (a == 2 && pattern == 0)
-        moved = true;
-      else
-        moved = bit(kZero, order, moved,
-                    {recently(0), place * 16 + pattern, place * 8 + by,
-                     (static_cast<std::uint32_t>(v) * 4 + a) * 8 + p,
-                     (place * 16 + likeSite_[s]) * 16 + alike});
-      std::uint32_t size = 0;
-      if (moved) {
-        bool negative = r[a] < 0;
-        const std::uint32_t lean = way(around[a]);
-        negative =
-            bit(kSign, order, negative,
-                {recently(0), place * 16 + pattern, (static_cast<std::uint32_t>(v) * 4 + a) * 8 + p,
-                 (place * 4 + lean) * 8 + level, (place * 4 + way(like_[v][a])) * 4 + lean});
-        const std::uint32_t others = ((order * 3 + a) * 8 + largest(r, a)) * 8 + largest(around, 3);
-        size = magnitude(static_cast<std::uint32_t>(std::abs(r[a])), place, by, level, v * 4 + a,
-                         others, alike);
-        r[a] = negative ? -static_cast<std::int32_t>(size) : static_cast<std::int32_t>(size);
-        pattern = pattern * 4 + (size > 1 ? 2 : 1);
-      } else {
-        r[a] = 0;
-        pattern = pattern * 4;
-      }
+    for (std::uint32_t a = 0; a < 3; ++a) {
+      const Component c{order,
+                        (phase_ * 4 + order) * 4 + a,
+                        static_cast<std::uint32_t>(v) * 4 + a,
+                        level,
+                        pattern,
+                        ((order * 3 + a) * 8 + largest(r, a)) * 8 + largest(around, 3),
+                        around[a],
+                        like_[v][a]};
+      const bool must = a == 2 && pattern == 0;
+      r[a] = must || codeMoved(r[a] != 0, c, likeSite_[s]) ? codeComponent(r[a], c) : 0;
+      pattern = pattern * 4 + std::min<std::uint32_t>(std::abs(r[a]), 2);
     }
+  }
+
+  // Of each component the largest of the vectors beside.
+  Steps3 largestBeside(Index s) const {
+    Steps3 most{};
+    for (const Term& t : h_.beside(s))
+      for (int a = 0; a < 3; ++a)
+        if (const std::int32_t beside = residual_[t.vector][a];
+            std::abs(beside) > std::abs(most[a]))
+          most[a] = beside;
+    return most;
+  }
+
+  bool codeMoved(bool moved, const Component& c, std::uint32_t likeSite) {
+    return bit(kZero, c.order, moved,
+               {recently(0), c.place * 16 + c.pattern, c.place * 8 + bucket(c.around),
+                c.id * 8 + phase_, (c.place * 16 + likeSite) * 16 + bucket(c.like)});
+  }
+
+  // Not zero.
+  std::int32_t codeComponent(std::int32_t value, const Component& c) {
+    const std::uint32_t lean = way(c.around);
+    const bool negative =
+        bit(kSign, c.order, value < 0,
+            {recently(0), c.place * 16 + c.pattern, c.id * 8 + phase_,
+             (c.place * 4 + lean) * 8 + c.level, (c.place * 4 + way(c.like)) * 4 + lean});
+    const auto size =
+        static_cast<std::int32_t>(magnitude(static_cast<std::uint32_t>(std::abs(value)), c));
+    return negative ? -size : size;
   }
 
   static std::uint32_t way(std::int32_t x) { return x < 0 ? 1 : x > 0 ? 2 : 0; }
 
   // The bucket of the largest of the first `count` values.
-  static std::uint32_t largest(const Steps3& values, int count) {
+  static std::uint32_t largest(const Steps3& values, std::uint32_t count) {
     std::int32_t most = 0;
-    for (int k = 0; k < count; ++k) most = std::max(most, std::abs(values[k]));
+    for (std::uint32_t k = 0; k < count; ++k) most = std::max(most, std::abs(values[k]));
     return bucket(most);
   }
 
   // At least 1: its length in bits (unary) and then the bits (Elias 1975).
-  std::uint32_t magnitude(std::uint32_t size, std::uint32_t place, std::uint32_t by,
-                          std::uint32_t level, std::uint32_t v, std::uint32_t others,
-                          std::uint32_t alike) {
+  std::uint32_t magnitude(std::uint32_t size, const Component& c) {
+    const std::uint32_t by = bucket(c.around), alike = bucket(c.like);
     std::uint32_t n = 1;
     while (n < kMostBits) {
       const bool more = bit(kMore, static_cast<int>(std::min(n, 8u)), size >> n != 0,
-                            {recent_ & 0xffff, v * 32 + n, others * 32 + n,
-                             (by * 8 + level) * 32 + n, (place * 8 + alike) * 32 + n});
+                            {recent_ & 0xffff, c.id * 32 + n, c.others * 32 + n,
+                             (by * 8 + c.level) * 32 + n, (c.place * 8 + alike) * 32 + n});
       if (!more) break;
       ++n;
     }
     length_ += n;
     std::uint32_t value = 1;
     for (std::uint32_t b = n - 1; b-- > 0;) {
-      const std::uint32_t top = n - 1 - b, known = top < 4 ? value : 16 + top;
-      const bool one = bit(kMore, 9 + std::min(top, 3u), size >> b & 1,
-                           {recently(0), (known * 32 + n) * 64 + place,
-                            (known * 32 + n) * 2048 + others, top, (known * 32 + n) * 8 + alike});
+      const std::uint32_t top = n - 1 - b, known = (top < 4 ? value : 16 + top) * 32 + n;
+      const bool one =
+          bit(kMore, 9 + std::min(top, 3u), size >> b & 1,
+              {recently(0), known * 64 + c.place, known * 2048 + c.others, top, known * 8 + alike});
       value = value << 1 | static_cast<std::uint32_t>(one);
     }
     return value;
