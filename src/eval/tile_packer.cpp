@@ -3,148 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
-#include "eval/low_rank.hpp"
+#include "eval/tile_integers.hpp"
 #include "surface/sorting.hpp"
 
 namespace sweepface {
 namespace {
 
 constexpr double kMostScale = 1e19;  // times 2³¹ and large weights it stays finite
-
-/// Where 8 bits do.
-struct Forms {
-  double step = 0;            ///< of coefficients of 8 bits, in units; 0: all have 16
-  int wideModes = kMostRows;  ///< whose basis has 16 bits
-};
-
-/// Modes in the integers of the tables.
-struct Integers {
-  int modes = 0, rows = 0, lane = 0;
-  std::vector<std::int16_t> coefficients;  // [modes][3 × lane]
-  std::vector<std::int16_t> basis;         // [modes][rows]
-  std::vector<int> shifts;                 // [modes] 8 bits are in units of 2^shift
-  std::vector<char> isNarrow;              // [targets]
-  double scale = 0;                        // of basis · c
-};
-
-/// To a whole multiple of 2^shift within 16 bits.
-std::int16_t toShort(double x, int shift) {
-  constexpr int kUp = 1 << 15;  // what is above 0 is rounded by cutting it off
-  const double steps = x * (1.0 / (1 << shift)), most = 32767 >> shift;
-  const int rounded = static_cast<int>(std::clamp(steps, -most, most) + (kUp + 0.5)) - kUp;
-  return static_cast<std::int16_t>(rounded * (1 << shift));
-}
-
-/// The largest number of a mode, and the largest sum of a component over all targets.
-struct Sizes {
-  double most = 0, sum = 0;
-
-  Sizes(const float* coefficients, int lane) {
-    for (int axis = 0; axis < 3; ++axis, coefficients += lane) {
-      const Extent extent = extentOf({coefficients, static_cast<std::size_t>(lane)});
-      most = std::max(most, double(extent.most));
-      sum = std::max(sum, 1.0001 * extent.sum);  // added up in single precision
-    }
-  }
-  /// The smallest unit with which nothing overflows, where rounding may add `room` to each.
-  double unit(double room, int targets) const {
-    return std::max({most / (kMostShort - room), sum / (kMostSum - room * targets), 1e-30});
-  }
-};
-
-/// The largest shift with which steps are no longer than `step`.
-int shiftFor(double step, double unit, int targets) {
-  int shift = 0;
-  while (shift < kMostShift && unit * (2 << shift) <= step &&
-         double(targets) * (2 << shift) <= kMostSum)
-    ++shift;
-  return shift;
-}
-
-/// Rounds a target's coefficients to what 8 bits hold, if they do.
-bool narrow(Integers& integers, int target) {
-  const auto each = [&](const auto& use) {
-    for (int m = 0; m < integers.modes; ++m)
-      for (int axis = 0; axis < 3; ++axis)
-        use(integers.coefficients[std::size_t(3 * m + axis) * integers.lane + target],
-            integers.shifts[m]);
-  };
-  bool fits = true;
-  each([&](std::int16_t x, int shift) { fits = fits && std::abs(int(x)) < 127 << shift; });
-  if (fits)
-    each([](std::int16_t& x, int shift) {
-      x = static_cast<std::int16_t>((x + (1 << shift) / 2) >> shift << shift);
-    });
-  return fits;
-}
-
-Integers toIntegers(const LowRank& found, const Planes& wanted, Forms forms) {
-  const int rows = wanted.rows, width = wanted.width();
-  Integers out;
-  out.modes = found.modes, out.rows = rows, out.lane = wanted.lane;
-  out.coefficients.resize(std::size_t(found.modes) * width);
-  out.basis.resize(std::size_t(found.modes) * rows);
-  out.isNarrow.assign(wanted.targets, 0);
-  std::vector<double> stepOf(found.modes);  // what 1 of c_m is
-  std::vector<double> sums(rows);
-  double most = 0;
-  for (int m = 0; m < found.modes; ++m) {
-    const float* const from = found.coefficients.data() + std::size_t(m) * width;
-    const Sizes sizes(from, wanted.lane);
-    const int shift = shiftFor(forms.step, sizes.unit(1, wanted.targets), wanted.targets);
-    const double unit = sizes.unit((1 << shift) / 2 + 1, wanted.targets);
-    out.shifts.push_back(shift);
-    stepOf[m] = unit * 65536 / kWeightUnit;
-    roundAll({from, static_cast<std::size_t>(width)}, static_cast<float>(1 / unit),
-             out.coefficients.data() + std::size_t(m) * width);
-    for (int r = 0; r < rows; ++r) {
-      const double size = std::abs(found.basis[std::size_t(m) * rows + r]) * stepOf[m];
-      sums[r] += size;
-      most = std::max(most, size);
-    }
-  }
-  for (int k = 0; forms.step > 0 && k < wanted.targets; ++k) out.isNarrow[k] = narrow(out, k);
-  const double sum = std::ranges::max(sums), half = 1 << (kBasisShift - 1);
-  const double rounding = found.modes + std::max(0, found.modes - forms.wideModes) * half;
-  out.scale = std::max({sum / (kMostBasis - rounding), most / (kMostShort - half), 1e-30});
-  for (int m = 0; m < found.modes; ++m) {
-    const double factor = stepOf[m] / out.scale;
-    for (int r = 0; r < rows; ++r) {
-      const std::size_t at = std::size_t(m) * rows + r;
-      out.basis[at] = toShort(found.basis[at] * factor, m < forms.wideModes ? 0 : kBasisShift);
-    }
-  }
-  return out;
-}
-
-/// The largest distance over all rows between the integers and what they stand for, for each target
-/// at weight 1. Errors of single precision are far below the unit.
-std::vector<double> measure(const Integers& integers, const Planes& wanted, double enough) {
-  const double scale = integers.scale * kWeightUnit / 65536;
-  std::vector<float> basis(integers.basis.size()), squares(wanted.lane);
-  for (std::size_t k = 0; k < basis.size(); ++k)
-    basis[k] = static_cast<float>(scale * integers.basis[k]);
-  const std::vector<float> coefficients(integers.coefficients.begin(), integers.coefficients.end());
-  measureRest(wanted, basis, coefficients.data(), static_cast<float>(enough * enough),
-              squares.data());
-  std::vector<double> worst(wanted.targets);
-  for (int k = 0; k < wanted.targets; ++k) worst[k] = std::sqrt(double(squares[k]));
-  return worst;
-}
-
-/// Each c_m is off by 1/2 from rounding it and by 1 from rounding weights, as coefficients add up
-/// to no more than 2¹⁷; single precision adds less than a hundredth of that.
-double roundingOf(const Integers& integers) {
-  double most = 0;
-  for (int r = 0; r < integers.rows; ++r) {
-    double sum = 0;
-    for (int m = 0; m < integers.modes; ++m)
-      sum += std::abs(integers.basis[std::size_t(m) * integers.rows + r]);
-    most = std::max(most, sum);
-  }
-  return 1.01 * std::sqrt(3.0) * 1.5 * integers.scale * most;
-}
 
 constexpr int pairsOf(std::ptrdiff_t count) { return static_cast<int>(count + 1) / 2; }
 /// The first mode of which a block has a coefficient.
@@ -154,7 +21,8 @@ constexpr int modeOf(int i) { return i / 6 * 2 + i % 2; }
 
 class Packer {
  public:
-  Packer(const TileSource& source, const LowRank& found, const Integers& integers, Forms forms)
+  Packer(const TileSource& source, const LowRank& found, const TileIntegers& integers,
+         TileForms forms)
       : source_(source), integers_(integers), modesOf_(found.modesOf), forms_(forms) {
     for (std::size_t k = 0; k < modesOf_.size(); ++k)
       if (modesOf_[k] > 0) (integers.isNarrow[k] ? narrow_ : wide_).push_back(static_cast<int>(k));
@@ -312,9 +180,9 @@ class Packer {
   }
 
   const TileSource& source_;
-  const Integers& integers_;
+  const TileIntegers& integers_;
   const std::vector<int>& modesOf_;
-  Forms forms_;
+  TileForms forms_;
   std::vector<int> wide_, narrow_;  // targets that have modes
 };
 
@@ -326,22 +194,22 @@ bool isEnough(const std::vector<double>& errors) {
 
 PackedErrors packTile(const TileSource& source, std::uint16_t nobody, TileTable& table) {
   // Rounding the modes takes its share; where that is too much, more modes make up for it.
-  constexpr Forms kForms[] = {
+  constexpr TileForms kForms[] = {
       {1.4, 4}, {1.0, kMostRows}, {0.5, kMostRows}, {}};  // the smallest first
   const Planes& wanted = source.differences;
   PackedErrors errors;
   LowRank found;
-  Integers integers;
-  Forms used;
+  TileIntegers integers;
+  TileForms used;
   double share = 0.85;
   bool isDone = false;
   for (int attempt = 0; attempt < 4 && !isDone; ++attempt, share *= 0.6) {
     found = factorise(wanted, static_cast<float>(share));
-    for (const Forms& forms : kForms) {
+    for (const TileForms& forms : kForms) {
       used = forms;
       integers = toIntegers(found, wanted, used);
       const bool isLast = forms.step == 0;
-      errors.ofTarget = measure(integers, wanted, isLast ? kMostScale : 1);
+      errors.ofTarget = errorsOf(integers, wanted, isLast ? kMostScale : 1);
       isDone = isEnough(errors.ofTarget);
       if (isDone) break;
     }
