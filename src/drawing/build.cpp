@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <limits>
-#include <map>
 
 #include "sweepface/box.hpp"
 #include "sweepface/eval.hpp"
@@ -11,6 +10,7 @@
 #include "drawing/frames.hpp"
 #include "drawing/materials.hpp"
 #include "drawing/misses.hpp"
+#include "drawing/naming.hpp"
 #include "drawing/weave.hpp"
 #include "drawing/wishes.hpp"
 #include "drawing/words.hpp"
@@ -303,7 +303,7 @@ class Builder {
     rig.source = gridSource(rig.surface);
     addMaterials(rig.source, rig.surface, d_);
     rig.tolerance = d_.tolerance > 0 ? d_.tolerance : defaultTolerance();
-    return nameThings();
+    return nameThings(d_, rig);
   }
 
   double defaultTolerance() const {
@@ -315,47 +315,6 @@ class Builder {
     for (const Drawing::Node& node : d_.nodes)
       if (node.at) box.include(*node.at);
     return norm(box.size());
-  }
-
-  // Names that are what a thing without one is called anyway are not kept.
-  Result<void> nameThings() {
-    Names& names = built_.rig.names;
-    names.units = d_.units;
-    keep(Thing::node, d_.nodes, names.nodes);
-    keep(Thing::curve, d_.curves, names.curves);
-    keep(Thing::patch, d_.patches, names.patches);
-    keep(Thing::ribbon, d_.ribbons, names.ribbons);
-    if (!names.ribbons.empty()) names.ribbons.resize(w_.ribbons.size());
-    if (auto ok = checkNames(Thing::patch, names.patches, d_.patches); !ok) return ok;
-    return checkNames(Thing::ribbon, names.ribbons, d_.ribbons);
-  }
-  // What has no name goes by its letter and number, which are then nobody else's.
-  template <typename Things>
-  Result<void> checkNames(Thing kind, const std::vector<std::string>& names,
-                          const Things& things) const {
-    std::map<std::string, const TextPlace*> places;
-    for (const auto& thing : things) places.emplace(thing.name, &thing.place);
-    for (std::size_t k = 0; k < names.size(); ++k)
-      if (const std::string called = built_.rig.nameOf(kind, static_cast<Index>(k));
-          names[k].empty() && places.contains(called) &&
-          (k >= things.size() || things[k].name != called))
-        return refuse(
-            *places.at(called),
-            fmt::format("'{}' is what number {}, which has no name, goes by; choose another",
-                        called, k));
-    return {};
-  }
-  template <typename Things>
-  void keep(Thing kind, const Things& things, std::vector<std::string>& names) const {
-    std::vector<std::string> own;
-    bool any = false;
-    for (const auto& thing : things) {
-      const auto index = static_cast<Index>(own.size());
-      const bool plain = thing.name == built_.rig.nameOf(kind, index);
-      own.push_back(plain ? "" : thing.name);
-      any |= !own.back().empty();
-    }
-    if (any) names = std::move(own);
   }
 
   const Drawing& d_;
@@ -378,27 +337,6 @@ Result<Built> build(const Drawing& d) {
   auto woven = drawing::weave(d);
   if (!woven) return std::unexpected(woven.error());
   return drawing::Builder(d, std::move(*woven)).build();
-}
-
-Result<void> adoptSource(Rig& rig, const Rig& like) {
-  Wireframe own = rig.surface.wireframe(), other = like.surface.wireframe();
-  own.ribbons = other.ribbons = {};
-  for (Wireframe* w : {&own, &other}) {
-    for (Node& node : w->nodes) node.stored = kPosition;
-    for (Arc& arc : w->arcs) arc.ribbon = 0;
-  }
-  if (own != other)
-    return fail(
-        "The curves or patches are others than those of the file whose source is to be "
-        "kept; build without it.");
-  rig.source = like.source;
-  rig.scene = like.scene;
-  for (Target& target : rig.targets) {
-    const Index same = like.find(target.name);
-    target.looseDifference = same >= 0 ? like.targets[same].looseDifference
-                                       : std::vector<Vec3>(like.source.loose.size());
-  }
-  return {};
 }
 
 }  // namespace sweepface
