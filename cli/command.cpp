@@ -139,6 +139,12 @@ CLI::Validator partOfOne() {
   return CLI::Validator(check, "", "");
 }
 
+CLI::Option* oneEachTime(CLI::Option* option) {
+  return option->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->allow_extra_args(false);
+}
+
 CLI::Validator onOrOff() {
   const auto check = [](const std::string& text) -> std::string {
     const bool known = text == "on" || text == "off";
@@ -197,6 +203,8 @@ Result<void> checkOutput(const fs::path& output, const std::vector<std::string>&
   const bool device = fs::exists(output, ignored) && !fs::is_regular_file(output, ignored);
   if (!device && std::ranges::none_of(kinds, [&](auto kind) { return isOfKind(output, kind); }))
     return cannot(fmt::format("its name must end in {}", fmt::join(kinds, " or ")));
+  if (!device && fs::exists(output, ignored) && access(output.c_str(), W_OK) != 0)
+    return cannot("it is write-protected; make it writable, or choose another name");
   const fs::path folder = folderOf(output);
   if (!device && !fs::is_directory(folder, ignored))
     return cannot(fmt::format("there is no folder {}; create it first", folder.string()));

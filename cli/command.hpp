@@ -78,6 +78,10 @@ CLI::Validator finiteNumber();
 CLI::Validator partOfOne();
 CLI::Validator onOrOff();
 
+/// An option that takes one value, or list of values with commas between, each time it is given, so
+/// that what follows is no more of it.
+CLI::Option* oneEachTime(CLI::Option* option);
+
 // ---- Files ----
 
 Result<Rig> readFace(const std::string& path);

@@ -124,7 +124,7 @@ Result<Verified> verify(std::string_view bytes, const std::string& name, const M
       fmt::format("Vertex {} of {} would be {:.6g} away from the source, beyond the "
                   "tolerance of {:.6g}; nothing was written. This is a fault of sweepface, "
                   "please report it.",
-                  worst.vertex + 1, nameOfShape(*rig, worst.target), worst.distance, tolerance));
+                  worst.vertex, nameOfShape(*rig, worst.target), worst.distance, tolerance));
 }
 
 /// Writes and makes sure that the disk holds what was meant.
@@ -175,7 +175,7 @@ void printText(const Summary& s) {
              s.arguments.output, rig.surface.patchCount(), points,
              100.0 * points / static_cast<double>(s.vertices), s.vertices, rig.targets.size());
   fmt::print("worst distance {:.4g} of {:.4g} allowed, at vertex {} of {}\n", worst.distance,
-             rig.tolerance, worst.vertex + 1, nameOfShape(rig, worst.target));
+             rig.tolerance, worst.vertex, nameOfShape(rig, worst.target));
   if (const auto most = std::ranges::max_element(folds); *most > 0)
     fmt::print("{} triangles fold over, most in {} ({}); sweepface measure tells more\n",
                std::reduce(folds.begin(), folds.end()),
@@ -200,9 +200,9 @@ ConvertOptions optionsOf(const ConvertArguments& a, ProgressBar& bar) {
 
 /// What the user should know of the source, and of its scene if that is lost.
 std::vector<std::string> warningsOf(const ConvertArguments& a, const RigSource& source,
-                                    bool losesScene) {
+                                    const Strip& parts, bool losesScene) {
   std::vector<std::string> warnings;
-  if (!a.bare) warnings = source.warnings;
+  if (!a.bare && !parts.scene && !losesScene) warnings = source.warnings;
   if (losesScene)
     warnings.push_back("What " + a.neutral +
                        " holds besides the face is left out with the order, which it counts on.");
@@ -259,7 +259,7 @@ Result<int> convertAndWrite(const ConvertArguments& a) {
   bar.reset();
 
   std::vector<std::string>& warnings = conversion->warnings;
-  std::ranges::move(warningsOf(a, *source, bringsScene && parts->order),
+  std::ranges::move(warningsOf(a, *source, *parts, bringsScene && parts->order),
                     std::back_inserter(warnings));
   for (const std::string& warning : warnings) printWarning(warning);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;

@@ -44,13 +44,14 @@ void addOptions(CLI::App& app, EditArguments& a) {
       ->check(finiteNumber())
       ->needs(ribbon)
       ->type_name("X");
-  app.add_option("--move", a.moves,
-                 "Move a curve with its ends, or a node; may be given several times")
+  oneEachTime(app.add_option("--move", a.moves,
+                             "Move a curve with its ends, or a node; may be given several times"))
       ->type_name("NAME DX,DY,DZ");
-  app.add_option("--control", a.controls,
-                 "Move the second or third control curve beside a curve in a patch: those at 1/10 "
-                 "and 1/4 of the way across, as `sweepface wireframe` draws them; may be given "
-                 "several times")
+  oneEachTime(
+      app.add_option("--control", a.controls,
+                     "Move the second or third control curve beside a curve in a patch: those at "
+                     "1/10 and 1/4 of the way across, as `sweepface wireframe` draws them; may be "
+                     "given several times"))
       ->type_name("CURVE PATCH second|third DX,DY,DZ");
   app.add_option("--target", a.target,
                  "Move what an expression adds, instead of the neutral with all its expressions")
@@ -140,6 +141,11 @@ class Editor {
     const bool isNode =
         !isNamed(Thing::curve, name) && (isNamed(Thing::node, name) || name.starts_with('n'));
     const Result<Index> thing = rig_.find(isNode ? Thing::node : Thing::curve, name);
+    if (!thing && !isNode && !name.starts_with('c'))
+      return fail(
+          fmt::format("There is no curve and no node named '{}'; `sweepface info --list` "
+                      "shows those there are.",
+                      name));
     if (!thing) return std::unexpected(thing.error());
     if (isNode) {
       if (all.own.try_emplace(*thing, by).second) return {};

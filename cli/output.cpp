@@ -22,14 +22,15 @@ std::string printable(std::string_view sentence) {
   return text;
 }
 
+/// Whether anybody can hear it or not: there is nowhere else to say so.
+void tell(const std::string& text) { std::fputs(text.c_str(), stderr); }
+
 }  // namespace
 
-void printError(std::string_view sentence) {
-  fmt::print(stderr, "sweepface: {}\n", printable(sentence));
-}
+void printError(std::string_view sentence) { tell("sweepface: " + printable(sentence) + "\n"); }
 
 void printWarning(std::string_view sentence) {
-  fmt::print(stderr, "sweepface: warning: {}\n", printable(sentence));
+  tell("sweepface: warning: " + printable(sentence) + "\n");
 }
 
 void printJson(const nlohmann::ordered_json& report) {
@@ -40,7 +41,7 @@ void printJson(const nlohmann::ordered_json& report) {
 ProgressBar::ProgressBar(bool quiet) : visible_(!quiet && isatty(STDERR_FILENO)) {}
 
 ProgressBar::~ProgressBar() {
-  if (!text_.empty()) fmt::print(stderr, "\r\033[K");
+  if (!text_.empty()) tell("\r\033[K");
 }
 
 void ProgressBar::show(std::string_view what, double done) {
@@ -55,7 +56,7 @@ void ProgressBar::show(std::string_view what, double done) {
   const int full = static_cast<int>(share * width);
   text_ =
       fmt::format("[{:=<{}}{: <{}}] {:3.0f} % {}", "", full, "", width - full, 100 * share, what);
-  fmt::print(stderr, "\r\033[K{}", text_);
+  tell("\r\033[K" + text_);
   std::fflush(stderr);
 }
 

@@ -30,17 +30,18 @@ void addOptions(CLI::App& app, PlotArguments& a) {
   addFace(app, a.face);
   addOutput(app, a.output, "The .svg file to write");
   addPerformance(app, a.what);
-  app.add_option("--laws", a.laws, "Several laws in one plot, instead of --law")
+  oneEachTime(app.add_option("--laws", a.laws, "Several laws in one plot, instead of --law"))
       ->delimiter(',')
       ->excludes("--law")
       ->excludes("--clip")
       ->type_name("LAW,...");
-  app.add_option("--weight", a.weights,
-                 "Targets whose weight is shown; the first that moves if nothing is named")
+  oneEachTime(
+      app.add_option("--weight", a.weights,
+                     "Targets whose weight is shown; the first that moves if nothing is named"))
       ->delimiter(',')
       ->type_name("NAME,...");
-  app.add_option("--vertex", a.vertices,
-                 "Vertices of the source, counted from 0, whose way is shown")
+  oneEachTime(app.add_option("--vertex", a.vertices,
+                             "Vertices of the source, counted from 0, whose way is shown"))
       ->delimiter(',')
       ->transform(wholeNumber(0, std::numeric_limits<int>::max()))
       ->type_name("N,...");

@@ -55,9 +55,10 @@ void addOptions(CLI::App& app, RenderArguments& a) {
   app.add_option("--from", a.from, "Where it starts; the neutral if not given")
       ->needs(to)
       ->type_name("NAME=W,...");
-  app.add_option("--law", a.laws,
-                 "How it moves: newton, brake, accelerate-brake, linear; several, separated by "
-                 "commas, stand one above the other; newton if not given")
+  oneEachTime(
+      app.add_option("--law", a.laws,
+                     "How it moves: newton, brake, accelerate-brake, linear; several, separated by "
+                     "commas, stand one above the other; newton if not given"))
       ->delimiter(',')
       ->needs(to)
       ->type_name("LAW,...");
@@ -66,12 +67,11 @@ void addOptions(CLI::App& app, RenderArguments& a) {
       ->needs(to)
       ->capture_default_str()
       ->type_name("N");
-  app.add_option("--box", a.boxes,
-                 "Draw the same box into each: round what the targets move whose names contain "
-                 "NAME, or at X,Y,W,H, shares of the picture from its upper left corner")
+  oneEachTime(
+      app.add_option("--box", a.boxes,
+                     "Draw the same box into each: round what the targets move whose names contain "
+                     "NAME, or at X,Y,W,H, shares of the picture from its upper left corner"))
       ->needs(to)
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->type_name("NAME|X,Y,W,H");
   for (const char* other : {"--compare", "--weights"}) app.get_option(other)->excludes(to);
   addQuiet(app, a.quiet);

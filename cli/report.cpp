@@ -30,9 +30,10 @@ void addOptions(CLI::App& app, ReportArguments& a) {
                  "given")
       ->type_name("NAME=W,...");
   CLI::Option* tolerances =
-      app.add_option("--tolerances", a.tolerances,
-                     "Convert again with these, for the plots of error against points and bytes; "
-                     "2, 4 and 8 times the face's own if not given")
+      oneEachTime(app.add_option(
+                      "--tolerances", a.tolerances,
+                      "Convert again with these, for the plots of error against points and bytes; "
+                      "2, 4 and 8 times the face's own if not given"))
           ->delimiter(',')
           ->check(positiveNumber())
           ->needs(meshes)
@@ -47,11 +48,9 @@ void addOptions(CLI::App& app, ReportArguments& a) {
       ->needs(meshes)
       ->excludes(none)
       ->type_name("PATH");
-  app.add_option("--box", a.regions,
-                 "Draw a box round what the targets move whose names contain NAME; mouth and eye "
-                 "if not given")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+  oneEachTime(app.add_option("--box", a.regions,
+                             "Draw a box round what the targets move whose names contain NAME; "
+                             "mouth and eye if not given"))
       ->type_name("NAME");
   addQuiet(app, a.quiet);
   app.footer(

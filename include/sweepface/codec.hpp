@@ -12,8 +12,9 @@ namespace sweepface {
 
 /// The bytes of a .sweep file (docs/file-format.md). The same rig gives the same bytes everywhere.
 /// Vectors are held bit for bit: as multiples of the packing's steps where they are, else as they
-/// are. Names of targets have at most 4096 bytes; targets that are still to come (NeutralFirst) are
-/// written as if they did not move.
+/// are. Numbers must be finite, and names of targets all different, of 1 to 4096 bytes of UTF-8
+/// without control characters: decode() refuses what was written of another rig, or reads less of
+/// it. Targets that are still to come (NeutralFirst) are written as if they did not move.
 std::string encode(const Rig& rig);
 
 /// What reading a file may take. What is still takes hardly any bytes, so that a small file may ask

@@ -65,6 +65,8 @@ class Tessellation {
   /// With a density of its own for every arc and patch; has triangles and no faces.
   Tessellation(const Surface& surface, Density density);
 
+  /// Whether it may be of this surface: one with as many nodes, arcs, patches and vectors.
+  bool fits(const Surface& surface) const;
   /// 0 where there is a density instead.
   Index level() const { return level_; }
   Index vertexCount() const { return static_cast<Index>(sites_.size()); }
@@ -106,6 +108,7 @@ class Tessellation {
 
   const Surface* surface_;
   Index level_;
+  Index vectors_;  // of the surface
   Density density_;
   std::vector<Index> nodeVertex_;   // [nodes]
   std::vector<Index> arcVertex_;    // [arcs] first interior vertex

@@ -21,9 +21,10 @@ struct EvaluatorOptions {
   bool normals = true;    ///< whether normals and tangents can be asked for
   bool positions = true;  ///< whether positions can
   bool targets = true;    ///< whether weights move anything; without, only the neutral can be had
-  /// How far a target of weight 1 in one region may take a vertex from the surface, in model units.
-  /// 0: three tenths of the rig's own tolerance, but no less than a hundred-thousandth of the
-  /// neutral's diagonal.
+  /// How far a target of weight 1 in one region may take a vertex from the surface, in model units,
+  /// where 16 bits can hold it; rounding comes on top, in proportion to how far all targets
+  /// together can move the vertex (positionBound tells both). 0: three tenths of the rig's own
+  /// tolerance, but no less than a hundred-thousandth of the neutral's diagonal.
   double tolerance = 0;
   /// The same for the surface's first derivatives, as a share of their neutral length, or of a
   /// hundredth of what a target makes of it where that is more.
@@ -39,7 +40,8 @@ struct EvaluatorOptions {
 /// it. Copies share the tables.
 class Evaluator {
  public:
-  /// Takes a few milliseconds for a face. Fails where options and rig do not fit.
+  /// Takes some 60 ms for a face of 11,000 vertices and 57 targets, half of them for normals. Fails
+  /// where options and rig do not fit.
   static Result<Evaluator> make(const Rig& rig, const EvaluatorOptions& options = {});
   /// The same where a tessellation of that level (level 0: 1) is at hand; or one with a density,
   /// whose vertices are then played.

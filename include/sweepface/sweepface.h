@@ -115,7 +115,8 @@ SWEEPFACE_API sweepface_status sweepface_mesh_create_within(const sweepface_rig*
 SWEEPFACE_API void sweepface_mesh_free(sweepface_mesh* mesh);
 
 /* Makes what moves the mesh, and with `normals` what moves its normals, now rather than when a face
- * with a weight other than 0 is first evaluated: that takes as long as a few frames. */
+ * with a weight other than 0 is first evaluated: that takes some 60 ms for 11,000 vertices and
+ * 57 targets. */
 SWEEPFACE_API sweepface_status sweepface_mesh_prepare(const sweepface_mesh* mesh, int32_t normals);
 
 /* Vertices are points first (lod 0: the source's vertices in their order) and then copies of points
@@ -165,13 +166,14 @@ SWEEPFACE_API const double* sweepface_face_weights(const sweepface_face* face);
 
 /* How far any vertex may be from the exact surface under the weights as they are, in model units:
  * three tenths of the rig's tolerance (or 1e-5 of the neutral's diagonal, if that is more) for every
- * target of weight 1, in a divided face for every such target of every region, and rounding. */
+ * target of weight 1, in a divided face for every such target of every region, and rounding, which
+ * grows with how far all targets together can move a place: of hundreds it is the larger part. */
 SWEEPFACE_API double sweepface_face_error(const sweepface_face* face);
 
 /* Where to write an array of three floats a vertex. */
 typedef struct sweepface_vectors {
   float* data;   /* NULL: not wanted */
-  size_t stride; /* bytes from one vertex to the next, no fewer than 12 even where data is NULL;
+  size_t stride; /* bytes from one vertex to the next, 12 to 2^30 even where data is NULL;
                     0: 12, one behind the other */
 } sweepface_vectors;
 

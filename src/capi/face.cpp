@@ -10,7 +10,7 @@ using namespace sweepface::capi;
 
 namespace {
 
-constexpr std::size_t kTight = 3 * sizeof(float);
+constexpr std::size_t kTight = 3 * sizeof(float), kMostStride = std::size_t{1} << 30;
 
 bool isWeight(double w) { return std::abs(w) <= SWEEPFACE_MOST_WEIGHT; }  // false for NaN
 
@@ -19,7 +19,9 @@ sweepface_status refuseWeight(const sweepface_face& face, std::size_t target) {
                     static_cast<int>(SWEEPFACE_MOST_WEIGHT), " of 0.");
 }
 
-bool fits(const sweepface_vectors& out) { return out.stride == 0 || out.stride >= kTight; }
+bool fits(const sweepface_vectors& out) {
+  return out.stride == 0 || (out.stride >= kTight && out.stride <= kMostStride);
+}
 
 bool isNeutral(const Weights& weights) {
   return std::ranges::all_of(weights, [](double w) { return w == 0; });
@@ -119,7 +121,7 @@ sweepface_status checkOutputs(const sweepface_face* face, std::size_t count,
   const auto vertices = static_cast<std::size_t>(face->mesh->render.vertexCount());
   if (count > vertices) return refuse("There are only ", vertices, " vertices, not ", count, ".");
   if (!fits(positions) || !fits(normals))
-    return refuse("A stride must be 0 or at least 12 bytes: three floats.");
+    return refuse("A stride must be 0 or 12 bytes, three floats, to a gigabyte.");
   return SWEEPFACE_OK;
 }
 

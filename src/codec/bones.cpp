@@ -1,8 +1,11 @@
 #include "codec/bones.hpp"
 
 #include <array>
+#include <cmath>
 
 #include "sweepface/box.hpp"
+
+#include "codec/limits.hpp"
 
 namespace sweepface::codec {
 
@@ -66,7 +69,7 @@ bool Bones::add(std::span<const Packing::Carry> carries, double sign,
   std::array<const Packing::Carry*, kMostBones> carryOf{};
   for (const Packing::Carry& carry : carries) carryOf[carry.bone] = &carry;
   const double unit = sign * unit_;
-  double nothing = 0;  // until it meets what is not finite
+  double scaled = 0;  // until it meets what is too large: finite
   for (const auto& [vector, bone, isPosition, at] : places_) {
     if (carryOf[bone] == nullptr) continue;
     const auto& by = carryOf[bone]->by;
@@ -76,9 +79,9 @@ bool Bones::add(std::span<const Packing::Carry> carries, double sign,
     };
     Vec3& moved = vectors[vector];
     moved += {along(0), along(1), along(2)};
-    nothing += 0 * (moved.x + moved.y + moved.z);
+    scaled += kScaleToMost * (moved.x + moved.y + moved.z);
   }
-  return nothing == 0;
+  return std::isfinite(scaled);
 }
 
 }  // namespace sweepface::codec

@@ -30,7 +30,7 @@ class Bones {
   Bones(const Surface& surface, const Packing& packing, std::span<const Vec3> neutral);
 
   /// Adds what carries say, or takes it away, to vectors [S] of a pose. False where one comes out
-  /// that is not finite.
+  /// that is too large.
   bool add(std::span<const Packing::Carry> carries, double sign, std::span<Vec3> vectors) const;
   /// What vectors [S] of a pose do beyond what carries say.
   std::vector<Vec3> beyond(std::span<const Packing::Carry> carries,

@@ -123,20 +123,25 @@ void readThingNames(Decoding& d, Reader& in) {
 
 // Vectors that are not whole multiples of steps: by pose, as they are.
 void readExact(Decoding& d, Reader& in) {
-  if (!d.afford(in, in.left(), sizeof(Index) + sizeof(Vec3))) return;  // a byte each at least
   std::int64_t pose = -1;
   while (in.left() > 0) {
     pose += 1 + static_cast<std::int64_t>(in.size());
     if (pose > static_cast<std::int64_t>(d.rig->targets.size()))
       return in.refuse("there are more poses than announced");
     std::vector<Vec3>& vectors = d.rig->vectorsOf(static_cast<Index>(pose));
-    std::vector<Index> places(in.count(1, "vectors"));
+    const std::size_t count = in.count(1, "vectors"), memory = d.memory;
+    if (!d.afford(in, count, sizeof(Index) + sizeof(Vec3))) return;
+    std::vector<Index> places(count);
     Index last = -1;
     for (Index& v : places)
       v = last = in.step(last + 1, 0, static_cast<Index>(vectors.size()), "vector");
     const std::vector<Vec3> values = readVectors<Vec3>(in, places.size(), Precision::exact);
     if (!in.ok()) return;
-    if (pose == 0) d.rig->packing.rest = vectors;
+    d.memory = memory;  // what was read of this pose is soon given back
+    if (pose == 0) {
+      if (!d.afford(in, vectors.size(), sizeof(Vec3))) return;
+      d.rig->packing.rest = vectors;
+    }
     for (std::size_t k = 0; k < places.size(); ++k) vectors[places[k]] = values[k];
   }
 }

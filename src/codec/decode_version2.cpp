@@ -110,11 +110,11 @@ class PoseReader {
       vectors.resize(d_.stored);
       poses.push_back({moved_[pose], stepOf(d_.rig->packing, pose), vectors});
     }
-    bool finite = lattice_.restore(lattice_.prediction(first), poses);
+    bool fits = lattice_.restore(lattice_.prediction(first), poses);
     const Bones bones(d_.rig->surface, d_.rig->packing, d_.rig->neutral);
     for (Index pose = first; pose < end; ++pose)
-      finite &= bones.add(d_.rig->packing.poses[pose].carries, 1, poses[pose - first].vectors);
-    if (!finite) symbols_.refuse("a coordinate is not finite");
+      fits &= bones.add(d_.rig->packing.poses[pose].carries, 1, poses[pose - first].vectors);
+    if (!fits) symbols_.refuse("a coordinate is too large");
   }
 
  private:

@@ -70,9 +70,9 @@ double* numberOf(Abreast& vector, std::size_t pose, std::size_t axis) {
   return reinterpret_cast<double*>(vector.data()) + kAbreast * axis + pose;
 }
 
-// `known` are the steps of all vectors, and then what they are. False if any is not finite.
+// `known` are the steps of all vectors, and then what they are. False if any is too large.
 bool complete(const Prediction& prediction, const std::array<Two, 2>& step, Abreast* known) {
-  Two nothing{};  // until it meets what is not finite: 0 times that is not a number
+  Two scaled{};  // until it meets what is too large: finite
   for (const Prediction::Step& s : prediction.steps) {
     const std::array<Two, 2> unit{step[0] / s.reach, step[1] / s.reach};
     Abreast sum{}, &own = known[s.vector];
@@ -80,17 +80,17 @@ bool complete(const Prediction& prediction, const std::array<Two, 2>& step, Abre
       for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += t.factor * known[t.vector][k];
     for (std::size_t k = 0; k < sum.size(); ++k) {
       own[k] = sum[k] + own[k] * unit[k % 2];
-      nothing += 0 * own[k];
+      scaled += kScaleToMost * own[k];
     }
   }
-  return nothing[0] == 0 && nothing[1] == 0;
+  return std::isfinite(scaled[0]) && std::isfinite(scaled[1]);
 }
 
 }  // namespace
 
 bool Lattice::restore(const Prediction& prediction, std::span<const Restored> poses) const {
   std::vector<Abreast> known;
-  bool finite = true;
+  bool fit = true;
   while (!poses.empty()) {
     const auto now = poses.first(std::min(kAbreast, poses.size()));
     poses = poses.subspan(now.size());
@@ -101,14 +101,14 @@ bool Lattice::restore(const Prediction& prediction, std::span<const Restored> po
       for (const Moved& m : now[p].moved)
         for (std::size_t a = 0; a < 3; ++a) *numberOf(known[m.vector], p, a) = m.steps[a];
     }
-    finite &= complete(prediction, step, known.data());
+    fit &= complete(prediction, step, known.data());
     for (std::size_t v = 0; v < known.size(); ++v)
       for (std::size_t p = 0; p < now.size(); ++p) {
         const double* const x = numberOf(known[v], p, 0);
         now[p].vectors[v] = {x[0], x[kAbreast], x[2 * kAbreast]};
       }
   }
-  return finite;
+  return fit;
 }
 
 Coefficients Lattice::image(const Coefficients& coefficients) const {

@@ -41,7 +41,7 @@ class Lattice {
   /// The same for those [S] that are free, given the others.
   Coefficients round(Index pose, std::span<const Vec3> vectors, double step, Coefficients given,
                      std::span<const char> isFree) const;
-  /// The vectors of coefficients [S]; false if one is not finite.
+  /// The vectors of coefficients [S]; false if one is too large.
   bool restore(Index pose, const Coefficients& coefficients, double step,
                std::span<Vec3> vectors) const;
   /// The same of several poses, all of them targets or the neutral alone.

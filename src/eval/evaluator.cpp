@@ -252,6 +252,10 @@ Result<Evaluator> Evaluator::make(const Rig& rig, const Tessellation& grid,
   if (auto ok = check(rig, options); !ok) return std::unexpected(ok.error());
   if (grid.level() != 0 && grid.level() != std::max<Index>(1, options.level))
     return fail("The tessellation of an evaluator must be of its level.");
+  const auto isKnown = [&](Index vertex) { return vertex < grid.vertexCount(); };
+  if (!grid.fits(rig.surface) ||
+      (options.level == 0 && !std::ranges::all_of(rig.source.gridVertex, isKnown)))
+    return fail("The tessellation of an evaluator must be of its rig's surface.");
   Evaluator made;
   made.tables_ = std::make_shared<const EvaluatorTables>(Compiler(rig, grid, options).compile());
   return made;

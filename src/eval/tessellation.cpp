@@ -19,14 +19,17 @@ Density densityOf(const Surface& surface, Index level) {
 }  // namespace
 
 Tessellation::Tessellation(const Surface& surface, Index level)
-    : surface_(&surface), level_(level), density_(densityOf(surface, level)) {
+    : surface_(&surface),
+      level_(level),
+      vectors_(surface.vectorCount()),
+      density_(densityOf(surface, level)) {
   placeArcs();
   onArcs_ = vertexCount();
   placePatches();
 }
 
 Tessellation::Tessellation(const Surface& surface, Density density)
-    : surface_(&surface), level_(0), density_(std::move(density)) {
+    : surface_(&surface), level_(0), vectors_(surface.vectorCount()), density_(std::move(density)) {
   refineToShape(surface, density_);
   constexpr int kMostRounds = 4;
   for (int round = 0; round < kMostRounds; ++round) {
@@ -34,6 +37,12 @@ Tessellation::Tessellation(const Surface& surface, Density density)
     if (!separateEdges()) return;
   }
   placeAll();
+}
+
+bool Tessellation::fits(const Surface& surface) const {
+  const Wireframe& w = surface.wireframe();
+  return nodeVertex_.size() == w.nodes.size() && arcVertex_.size() == w.arcs.size() &&
+         patchVertex_.size() == w.patches.size() && vectors_ == surface.vectorCount();
 }
 
 void Tessellation::placeAll() {

@@ -7,6 +7,7 @@
 
 #include "sweepface/gltf.hpp"
 #include "sweepface/keys.hpp"
+#include "sweepface/weights.hpp"
 
 #include "gltf/accessor.hpp"
 #include "gltf/parts.hpp"
@@ -189,6 +190,8 @@ class ClipReader {
   Result<Clip> clipOf() const {
     auto times = frames();
     if (!times) return std::unexpected(times.error());
+    // Players hold the first key from the beginning.
+    if (times->front() > 0) times->insert(times->begin(), 0.0);
     if (times->size() > mostFrames()) return tooLong();
     Clip clip{names_, std::move(*times), {}};
     std::vector<std::vector<double>> now;
@@ -197,6 +200,8 @@ class ClipReader {
       for (std::size_t t = 0; t < tracks_.size(); ++t) tracks_[t].at(time, now[t]);
       for (const auto& [track, k] : sources_) clip.weights.push_back(now[track][k]);
     }
+    if (!std::ranges::all_of(clip.weights, isPlausibleWeight))
+      return fail("its animation has a weight that is not within ±1,000,000.");
     return clip;
   }
 

@@ -120,7 +120,8 @@ Result<fs::path> pathOf(std::string_view uri, const fs::path& folder) {
   std::error_code error;
   const fs::path home = fs::canonical(folder, error);
   const fs::path path = error ? fs::path() : fs::canonical(home / *decoded, error);
-  if (error) return refuse(uri, fmt::format("cannot be read: {}", error.message()));
+  if (error)
+    return refuse(uri, fmt::format("cannot be read ({}); put it beside the glTF", error.message()));
   const auto [end, unused] = std::mismatch(home.begin(), home.end(), path.begin(), path.end());
   if (end != home.end())
     return refuse(uri, "is a link out of the folder of the glTF; put a copy into the folder");

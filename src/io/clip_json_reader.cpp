@@ -46,7 +46,8 @@ class ClipJsonReader {
     if (!fps || !fps->is_number() || !(fps->get<double>() > 0))
       return failFile("has no 'exportFps' greater than 0");
     const Json* names = member(json, "facsNames");
-    if (!names || !names->is_array() || names->empty()) return failFile("has no list 'facsNames'");
+    if (!names || !names->is_array() || names->empty())
+      return failFile("has no list 'facsNames' with names in it");
     std::set<std::string> seen;
     for (const Json& shape : *names) {
       if (!shape.is_string()) return failFile("has a value in 'facsNames' that is not a name");
@@ -118,10 +119,11 @@ class ClipJsonReader {
       const Json* shape = member(category, "categoryName");
       if (!shape) shape = member(category, "category_name");
       const Json* score = member(category, "score");
-      if (!shape || !shape->is_string() || !score || !score->is_number() ||
-          !isPlausibleWeight(score->get<double>()))
+      if (!shape || !shape->is_string() || !score || !score->is_number())
         return failFile(
             fmt::format("has a category without 'categoryName' and 'score' in frame {}", f));
+      if (!isPlausibleWeight(score->get<double>()))
+        return failFile(fmt::format("has a score in frame {} that is not within ±1,000,000", f));
       scores[shape->get<std::string>()] = score->get<double>();
     }
     return {};

@@ -134,6 +134,9 @@ std::optional<int> replaceByNameless(const fs::path&, const fs::path&, std::stri
 
 Result<void> replaceFile(const fs::path& path, std::string_view bytes) {
   const fs::path folder = folderOf(path);
+  // Folders let anybody replace what is write-protected.
+  if (::access(path.c_str(), F_OK) == 0 && ::access(path.c_str(), W_OK) != 0)
+    return cannotWrite(path, errno);
   if (const auto code = replaceByNameless(path, folder, bytes)) {
     if (*code == 0) return {};
     return cannotWrite(path, *code);

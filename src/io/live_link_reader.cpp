@@ -112,6 +112,9 @@ class LiveLinkReader {
       parts[k] = *part;
       if (k < 3) rest.remove_prefix(colon + 1);
     }
+    if (parts[1] >= 60 || parts[2] >= 60)
+      return failLine(
+          fmt::format("the timecode {} has more than 59 minutes or seconds", inQuotes(text)));
     if (parts[3] >= framesPerSecond_)
       return failLine(
           fmt::format("the timecode {} counts more than {} frames a second; give the "

@@ -120,7 +120,7 @@ Result<void> check(const Clip& clip, const std::vector<Column>& columns, double 
       return fail(fmt::format("'{}' cannot be the heading of a column; rename the target.",
                               column.heading));
     if (!headings.insert(column.heading).second)
-      return fail(fmt::format("There would be two columns '{}'; rename one of the targets.",
+      return fail(fmt::format("There would be two columns '{}'; rename the target, or one of them.",
                               column.heading));
   }
   return {};

@@ -108,10 +108,10 @@ Clip hanging(const Clip& clip, const Spring& spring, std::size_t most) {
     before.swap(now);
   };
   const auto any = [&](auto swings) { return std::ranges::any_of(hangs, swings); };
-  // One piece at least, and then as long as anything swings.
+  // One piece at least, and then as long as anything swings; the last is a quarter longer at most.
   const auto goOn = [&](double from, double span, double piece, auto swings) {
     double step = std::min(first, piece);
-    for (double at = step; at <= span; at += step) {
+    for (double at = step; at + step / 4 <= span && at <= kLongest; at += step) {
       goTo(from + at);
       if (!any(swings)) return;
       step = std::min(step * std::exp(settles * step / 2), piece);
@@ -120,7 +120,7 @@ Clip hanging(const Clip& clip, const Spring& spring, std::size_t most) {
   for (std::size_t f = 1; f < clip.times.size(); ++f) {
     const double from = clip.times[f - 1], span = clip.times[f] - from;
     const double piece = span / std::ceil(span / frame);
-    goOn(from, std::min(span - piece / 4, kLongest), piece, &Hanging::swings);
+    goOn(from, span, piece, &Hanging::swings);
     goTo(clip.times[f]);
   }
   if (any(&Hanging::swingsOn)) goOn(clip.times.back(), kLongest, frame, &Hanging::swingsOn);

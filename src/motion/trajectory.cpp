@@ -162,8 +162,9 @@ Result<Trajectory> Trajectory::twoForces(Start start, double to, double seconds,
 
 Result<Trajectory> Trajectory::spring(Start start, double to, Spring spring) {
   const double omega = 2 * std::numbers::pi * spring.frequency, sigma = spring.damping * omega;
-  if (auto ok =
-          checkNumbers({start.position - to, start.velocity, to, sigma * sigma, omega * omega});
+  const double way = start.position - to;
+  if (auto ok = checkNumbers({way, start.velocity, to, sigma * sigma, omega * omega,
+                              (sigma * sigma + omega * omega) * way, 2 * sigma * start.velocity});
       !ok)
     return std::unexpected(ok.error());
   if (!(spring.frequency > 0) || !(spring.damping >= 0))
@@ -174,7 +175,7 @@ Result<Trajectory> Trajectory::spring(Start start, double to, Spring spring) {
 Result<Trajectory> Trajectory::bounce(Start start, double to, double seconds, double restitution) {
   constexpr double kMost = 1 - 1e-9;  // beyond, the sum over all bounces loses its digits
   if (!(restitution >= 0 && restitution <= kMost))
-    return failCall("A bounce keeps a part of its speed: the restitution lies in [0, 1).");
+    return failCall("A bounce keeps a part of its speed: the restitution lies in [0, 1 - 1e-9].");
   const Result<Trajectory> fall = constantForce(start, to, seconds);
   if (!fall) return fall;
   const Cubic first = std::get<path::Pieces>(fall->path_).first;

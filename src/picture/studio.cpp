@@ -226,10 +226,19 @@ class Photograph {
       const bool left = p.x + 2 * height + width > size_.width;
       const double side = left ? -1 : 1;
       const Vec2 corner{p.x + side * 1.6 * height, p.y - 1.6 * height};
-      drawLine(image, std::array{p, corner}, std::max(2 * unit, 1.0), label.colour);
-      drawLine(image, std::array{p}, std::max(8 * unit, 4.0), label.colour);
-      drawText(image, label.text, corner.x + side * 0.4 * height, corner.y + 0.2 * height, height,
-               label.colour, left ? Align::right : Align::left);
+      const auto write = [&](double x, double y, const Colour& colour) {
+        drawText(image, label.text, corner.x + side * 0.4 * height + x, corner.y + 0.2 * height + y,
+                 height, colour, left ? Align::right : Align::left);
+      };
+      // Rimmed in paper, as what is behind may be of any colour.
+      const double line = std::max(2 * unit, 1.0), point = std::max(8 * unit, 4.0), rim = line;
+      drawLine(image, std::array{p, corner}, line + 2 * rim, kPaper);
+      drawLine(image, std::array{p}, point + 2 * rim, kPaper);
+      for (const double x : {-rim, 0.0, rim})
+        for (const double y : {-rim, 0.0, rim}) write(x, y, kPaper);
+      drawLine(image, std::array{p, corner}, line, label.colour);
+      drawLine(image, std::array{p}, point, label.colour);
+      write(0, 0, label.colour);
     }
   }
 

@@ -21,7 +21,8 @@ void addUpright(std::vector<Series>& series, const std::string& name, double x) 
   for (const Series& s : series)
     for (const Vec2& p : s.points) line.points.push_back({x, p.y});
   if (line.points.empty()) return;
-  const auto [low, high] = std::ranges::minmax(line.points, {}, &Vec2::y);
+  auto [low, high] = std::ranges::minmax(line.points, {}, &Vec2::y);
+  if (low.y == high.y) low.y /= 2, high.y *= 2;  // of a logarithmic axis
   line.points = {low, high};
   series.push_back(std::move(line));
 }

@@ -191,11 +191,18 @@ TEST_F(Clips, HaveThePoseOfTheHead) {
   EXPECT_TRUE(std::ranges::equal(found, quaternionOf({0.1, 0.2, 0.3})));
 }
 
+TEST_F(Clips, MayTurnNothingButTheHead) {
+  ASSERT_EQ(read("Timecode,HeadYaw\n0,0.5\n1,0\n"), SWEEPFACE_OK) << sweepface_message();
+  EXPECT_TRUE(sweepface_clip_has_head(clip));
+  EXPECT_EQ(at(0.5), (std::vector{0.0, 0.0, 0.0}));
+}
+
 TEST_F(Clips, AreRefusedWithASentence) {
   EXPECT_TRUE(refuses("", "take is empty"));
   EXPECT_TRUE(refuses("Timecode,Open\n0,x\n", "take, line 2: 'x' in column 2"));
   EXPECT_TRUE(refuses("{", "this is not JSON"));
   EXPECT_TRUE(refuses("Timecode,Beard\n0,1\n", "none of its 1 names is a target"));
+  EXPECT_TRUE(refuses("Timecode,Beard,HeadYaw\n0,1,1\n", "none of its 2 names is a target"));
   for (const double rate : {0.0, -1.0, std::nan(""), HUGE_VAL}) {
     auto options = sweepface_clip_usual_options();
     options.frames_per_second = rate;

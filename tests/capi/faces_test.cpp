@@ -436,6 +436,9 @@ TEST_F(Faces, RefuseBuffersThatCannotBeMeant) {
                       "There are only"));
   EXPECT_TRUE(refuses(sweepface_face_evaluate(face, count, {out.data(), 11}, kUnwanted), "stride"));
   EXPECT_TRUE(refuses(sweepface_face_evaluate(face, count, kUnwanted, {out.data(), 4}), "stride"));
+  const auto backwards = static_cast<std::size_t>(-12);
+  EXPECT_TRUE(
+      refuses(sweepface_face_evaluate(face, count, {out.data(), backwards}, kUnwanted), "stride"));
 }
 
 TEST_F(Faces, RefuseLevelsThatThereAreNot) {

@@ -79,7 +79,7 @@ TEST_F(ASheetOnABone, HasNoSizeWhereAllStandsAtOnePlace) {
     EXPECT_EQ(m, Vec3{});
 }
 
-TEST_F(ASheetOnABone, SaysWhatIsNotFinite) {
+TEST_F(ASheetOnABone, SaysWhatIsTooLarge) {
   packing.targetStep = std::numeric_limits<double>::max();
   std::vector<Vec3> moves(neutral.size());
   const Carry carry{0, {{{1 << 26, 0, 0}, {}, {}, {}}}};

@@ -91,6 +91,33 @@ TEST(Hostile, WhatIsReadTakesNoMoreMemoryThanItIsAllowed) {
   }
 }
 
+// Poses are read one after the other: what is read of one is given back before the next.
+TEST(Hostile, ManyTargetsAsTheyAreTakeLittleMoreThanTheirRig) {
+  Rig rig = makeRig(sheet(8));
+  Target exact{"", rig.neutral, rig.source.loose};
+  for (Vec3& v : exact.difference) v = v / 3.0;
+  rig.targets.assign(200, exact);
+  for (std::size_t k = 0; k < rig.targets.size(); ++k) rig.targets[k].name = std::to_string(k);
+  const std::size_t vectors = rig.targets.size() * rig.neutral.size() * sizeof(Vec3);
+  EXPECT_LT(memoryFor(encode(rig)), 2 * vectors + (1 << 20));
+}
+
+TEST(Hostile, VectorsThatWeightsTakeBeyondAFloatAreRefused) {
+  Rig rig = packed(makeRig(sheet(4)));
+  const auto scaled = [&](double size) {
+    Rig large = rig;
+    large.packing.neutralStep *= size, large.packing.targetStep *= size;
+    for (Vec3& v : large.neutral) v = size * v;
+    for (Target& target : large.targets)
+      for (Vec3& v : target.difference) v = size * v;
+    return decode(encode(large), "a.sweep");
+  };
+  EXPECT_TRUE(scaled(std::ldexp(1, 60)));
+  const auto refused = scaled(std::ldexp(1, 90));
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("too large"), std::string::npos);
+}
+
 TEST(Hostile, LooseVerticesAreNoMoreThanTheFileCanHold) {
   const std::string payload = payloadOf([](codec::Writer& out) {
     for (int k = 0; k < 3; ++k) out.f64(1);

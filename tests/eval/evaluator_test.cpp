@@ -504,6 +504,9 @@ TEST(Evaluator, isNotMadeOfWhatDoesNotFit) {
   influences[5] = 1;
   EXPECT_TRUE(refuses({.influences = std::vector(40000, influences)}, "at most 65534 weights"));
   EXPECT_FALSE(Evaluator::make(rig, Tessellation(rig.surface, 2), {.level = 3}));
+  const Rig other = makeRig(fan(5));
+  EXPECT_FALSE(Evaluator::make(rig, Tessellation(other.surface, 2), {.level = 2}));
+  EXPECT_FALSE(Evaluator::make(rig, Tessellation(other.surface, 1), {.level = 0}));
   Rig undecoded = rig;
   undecoded.targets[1].difference.clear();
   EXPECT_FALSE(Evaluator::make(undecoded));

@@ -256,6 +256,8 @@ TEST(Trajectory, RefusesWhatHasNoMeaning) {
   EXPECT_FALSE(Trajectory::bounce({0, 0}, 1, -1, 0.5));
   EXPECT_FALSE(Trajectory::bounce({0, 0}, 1, 1, 1 - 1e-14));
   EXPECT_FALSE(Trajectory::spring({-1e308, 0}, 1e308, {}));
+  EXPECT_FALSE(Trajectory::spring({0, 0}, 1.2e306, {8, 1}));
+  EXPECT_FALSE(Trajectory::spring({0, 1e307}, 1, {8, 1}));
   EXPECT_FALSE(Trajectory::impulse({0, 0}, 1, -1));
   EXPECT_FALSE(Trajectory::impulse({0, 1e308}, 1e308, 0));
   EXPECT_FALSE(Trajectory::periodicForce({0, 0}, 1, 1, 0, {}));
