@@ -24,10 +24,16 @@ const UNSAID = 'sweepface.wasm cannot do that with this face; give sweepface_ful
 
 const encoder = new TextEncoder(), decoder = new TextDecoder();
 
-/** The bytes that are given, if any are, of any realm: frames and Node's vm have an ArrayBuffer of their own. */
+/** What kind of object something is, of any realm: frames and Node's vm have an ArrayBuffer of their own. */
+const kindOf = (it) => Object.prototype.toString.call(it).slice(8, -1);
+
+/** How a message calls what is no number. */
+const told = (value) => (typeof value === 'string' ? `the text '${value}'` : String(value));
+
+/** The bytes that are given, if any are. */
 function bytesOf(source) {
   if (ArrayBuffer.isView(source)) return new Uint8Array(source.buffer, source.byteOffset, source.byteLength);
-  if (Object.prototype.toString.call(source) === '[object ArrayBuffer]') return new Uint8Array(source);
+  if (kindOf(source) === 'ArrayBuffer') return new Uint8Array(source);
 }
 
 /** There is no more memory, which another module does not change. */
@@ -60,12 +66,21 @@ const MODULES = {
   full: () => new URL('./sweepface_full.wasm', import.meta.url)
 };
 
+function urlOf(wasm) {
+  try {
+    return new URL(wasm, globalThis.location?.href);
+  } catch (error) {
+    const not = `not ${told(wasm)}`;
+    throw new TypeError(`The option wasm is an absolute URL, bytes or a WebAssembly.Module, ${not}.`, {cause: error});
+  }
+}
+
 const compiled = {};  // each once
 function compile(wasm, kind) {
-  if (wasm instanceof WebAssembly.Module) return wasm;
+  if (kindOf(wasm) === 'WebAssembly.Module') return wasm;
   const code = bytesOf(wasm);  // not all engines compile a DataView
   if (code) return WebAssembly.compile(code);
-  if (wasm) return compileUrl(new URL(wasm, globalThis.location?.href));
+  if (wasm) return compileUrl(urlOf(wasm));
   compiled[kind] ??= compileUrl(MODULES[kind]()).catch((error) => {
     delete compiled[kind];
     throw error;
@@ -264,9 +279,9 @@ export class Sweepface {
     ++runtime.users;
   }
 
-  static async load(bytes, given = {}) {
-    const {lod = 0, name, arcs, combine, eyes, regions, wasm} = given;
-    const view = bytesOf(bytes);
+  static async load(bytes, options) {
+    const given = options ?? {}, {lod = 0, name, arcs, combine, eyes, regions, wasm} = given;
+    const view = bytesOf(bytes)?.slice();  // its owner may change it, or send it away, while the module comes
     if (!view)
       throw new TypeError('Sweepface.load needs the bytes of a .sweep file: an ArrayBuffer or a typed array.');
     for (const key of Object.keys(given))
@@ -280,12 +295,14 @@ export class Sweepface {
     const [budget] = BUDGETS.flatMap((kind, k) => (given[kind] === undefined ? [] : [[k, Number(given[kind])]]));
     const divide = regions?.length !== 0 && regions && (await import('./sweepface_regions.js')).divider(regions);
     const follow = (arcs ? FOLLOW.arcs : 0) + (combine ? FOLLOW.combine : 0);
-    const options = {name: String(name || 'The face'), follow, eyes, divide, lod, budget};
+    const making = {name: String(name || 'The face'), follow, eyes, divide, lod, budget};
     const needsFull = follow || eyes || divide || budget;
     const make = async (module) => {
       const instance = await instantiate(module);
+      if (!instance.exports.sweepface_rig_load_neutral)
+        throw new Error('The option wasm is another module than those of sweepface.');
       if (needsFull && !instance.exports.sweepface_rig_follow) throw new Error(UNSAID);
-      return new Sweepface(new Shared(instance, view, options));
+      return new Sweepface(new Shared(instance, view, making));
     };
     if (wasm || needsFull || !isPacked(view)) return make(await compile(wasm, 'full'));
     const usual = await compile(wasm, 'usual');
@@ -375,7 +392,7 @@ export class Sweepface {
   look(pose) {
     const {runtime, eyeCount} = this.#open();
     if (eyeCount === 0) throw new Error('The face has no eyes that turn; load it with the option eyes, if it has any.');
-    const angles = ({yaw = 0, pitch = 0} = {}) => [yaw, pitch, 0];
+    const angles = (eye) => [eye?.yaw ?? 0, eye?.pitch ?? 0, 0];
     if (!pose) return runtime.check(runtime.wasm.sweepface_face_look(this.#face, 0));
     const numbers = new Float64Array([0, 0, 0, ...angles(pose.leftEye), ...angles(pose.rightEye)]);
     runtime.lend(new Uint8Array(numbers.buffer), (at) => {
@@ -387,9 +404,12 @@ export class Sweepface {
   evaluate(positions, normals = null) {
     const {runtime, vertexCount} = this.#open(), memory = this.#memory;
     const count = 3 * vertexCount;
-    for (const out of [positions, normals])
-      if (out && !(out.length >= count))
+    for (const out of [positions ?? null, normals ?? null].filter((out) => out !== null)) {
+      if (!['Float32Array', 'Float64Array'].includes(kindOf(out)))
+        throw new TypeError(`Positions and normals are written to a Float32Array or null, not to ${kindOf(out)}.`);
+      if (out.length < count)
         throw new RangeError(`There must be room for ${vertexCount} vertices: ${count} numbers, not ${out.length}.`);
+    }
     runtime.words(memory.vectors, 4).set([positions ? memory.positions : 0, 0, normals ? memory.normals : 0, 0]);
     runtime.check(runtime.wasm.sweepface_face_update(this.#face, vertexCount, memory.vectors, memory.vectors + 8));
     positions?.set(runtime.floats(memory.positions, count));
@@ -415,6 +435,7 @@ export class Sweepface {
   /** Writes what changes every frame, four integers a mode; returns their factor. */
   shaderModes(out, tangents = false) {
     const {runtime} = this.#open();
+    if (kindOf(out) !== 'Int16Array') throw new TypeError(`Modes are written to an Int16Array, not to ${kindOf(out)}.`);
     if (out.length % 4 !== 0) throw new RangeError(`Modes are four numbers each, not ${out.length} together.`);
     this.#shared.loadTargets();
     return runtime.room(4 + 2 * out.length, (at) => {
@@ -460,7 +481,7 @@ export class Sweepface {
   push(name, velocityChange, drag = 8) {
     const shared = this.#open(), {runtime} = shared, target = shared.target(name);
     if (!(Math.abs(velocityChange) <= MOST))
-      throw new RangeError(`The push on '${name}' must lie within ${MOST} of 0, not be ${velocityChange}.`);
+      throw new RangeError(`The push on '${name}' must lie within ${MOST} of 0, not be ${told(velocityChange)}.`);
     runtime.check(runtime.wasm.sweepface_motion_push(this.#moving(), target, velocityChange, drag));
     for (const r of shared.places()) this.#drives.delete(shared.names.length * r + target);
   }
@@ -468,7 +489,8 @@ export class Sweepface {
   /** Lets time pass for the weights in motion; says whether anything goes on moving. */
   advance(seconds) {
     const {runtime, weightCount: count} = this.#open(), {wasm} = runtime, {weights} = this.#memory;
-    if (!Number.isFinite(seconds)) throw new RangeError(`Time passes by a finite number of seconds, not ${seconds}.`);
+    if (!Number.isFinite(seconds))
+      throw new RangeError(`Time passes by a finite number of seconds, not ${told(seconds)}.`);
     if (!this.#motion) return false;
     const still = 1e-6, before = this.#copyWeights().slice();
     const isDriven = this.#drives.size > 0;
@@ -512,12 +534,12 @@ export class Sweepface {
 
   /** Targets and numbers; nothing is set before all are known. */
   #resolve(byName) {
-    if (typeof byName !== 'object' || !byName)
+    if (typeof byName !== 'object' || !byName || Symbol.iterator in byName)
       throw new TypeError('Weights are given by name, like {jawOpen: 0.7}.');
     return Object.entries(byName).map(([name, value]) => {
       const target = this.#shared.target(name);
       if (!Number.isFinite(value))
-        throw new TypeError(`The weight of '${name}' must be a finite number, not ${value}.`);
+        throw new TypeError(`The weight of '${name}' must be a finite number, not ${told(value)}.`);
       if (Math.abs(value) > MOST) throw new RangeError(`The weight of '${name}' must lie within ${MOST} of 0.`);
       return [target, value];
     });
@@ -544,6 +566,8 @@ export class Sweepface {
   #drive(drive) {
     const {runtime} = this.#shared, at = this.#memory.drive;
     const given = typeof drive === 'string' ? {kind: drive} : drive ?? {};
+    if (kindOf(given) !== 'Object')
+      throw new TypeError(`A drive is a name, or numbers like {kind: 'spring', frequency: 3}, not ${told(given)}.`);
     const kind = DRIVES.indexOf(given.kind ?? 'spring');
     if (kind < 0) throw new Error(`There is no drive '${given.kind}'; there are ${DRIVES.join(', ')}.`);
     runtime.wasm.sweepface_drive_of(at, kind);

@@ -64,4 +64,5 @@ test('eyes that do not turn cannot look', async () => {
   assert.equal(face.eyeCount, 0);
   assert.throws(() => face.look(null), /no eyes that turn/);
   assert.throws(() => eyes.look({leftEye: {yaw: NaN}}), /finite numbers/);
+  eyes.look({leftEye: null, rightEye: undefined});
 });

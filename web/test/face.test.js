@@ -300,6 +300,15 @@ test('the module may come from elsewhere', async () => {
   const view = new DataView(code.buffer, code.byteOffset, code.length);
   for (const wasm of [code, view, await WebAssembly.compile(code), url])
     assert.equal((await load({wasm})).names.length, 42);
+  const foreign = runInNewContext('(code) => new WebAssembly.Module(code)')(code);
+  assert.equal((await load({wasm: foreign})).names.length, 42);
+});
+
+test('what is no module is refused with a sentence', async () => {
+  for (const wasm of ['./sweepface.wasm', '/sweepface.wasm', 5])
+    await assert.rejects(load({wasm}), {message: /^The option wasm is an absolute URL, bytes or a WebAssembly\.Module, not /});
+  const empty = Uint8Array.of(0, 0x61, 0x73, 0x6d, 1, 0, 0, 0);
+  await assert.rejects(load({wasm: empty}), {message: /another module than those of sweepface\.$/});
 });
 
 test('a packed face needs the usual module only, with all that is played', async () => {
@@ -357,6 +366,41 @@ test('browsers that make no instance of a large module at once can load a face',
   } finally {
     WebAssembly.Instance = Instance;
   }
+});
+
+test('a file is the caller\'s again at once', async () => {
+  const mine = Uint8Array.from(readFileSync(sample)), sent = Uint8Array.from(mine);
+  const both = [load({}), Sweepface.load(mine), Sweepface.load(sent)];
+  mine.fill(0);
+  structuredClone(sent.buffer, {transfer: [sent.buffer]});
+  for (const face of await Promise.all(both)) assert.equal(face.names.length, 42);
+});
+
+test('no options are given as nothing, too', async () => {
+  assert.equal((await load(null)).lod, 0);
+});
+
+test('arrays that cannot hold what is written are refused', async () => {
+  const face = await load(), count = 3 * face.vertexCount, {modes} = face.shaderTables();
+  const doubles = new Float64Array(count), floats = new Float32Array(count);
+  face.evaluate(doubles);
+  face.evaluate(floats);
+  assert.deepEqual(Float32Array.from(doubles), floats);
+  for (const out of [new Int16Array(count), new Array(count).fill(0), new ArrayBuffer(4 * count), 'x'.repeat(count), 5])
+    for (const write of [() => face.evaluate(out), () => face.evaluate(null, out)])
+      assert.throws(write, {name: 'TypeError', message: /written to a Float32Array or null, not to (\w+)\.$/});
+  for (const out of [undefined, null, new Uint8Array(4 * modes), new Array(4 * modes).fill(0)])
+    assert.throws(() => face.shaderModes(out), {name: 'TypeError', message: /written to an Int16Array/});
+});
+
+test('weights and drives of another shape are refused, not passed over', async () => {
+  const face = await load();
+  for (const weights of [new Map([['jawOpen', 1]]), [], [0.5], new Set()])
+    assert.throws(() => face.setWeights(weights), {name: 'TypeError', message: /^Weights are given by name/});
+  for (const drive of [0.5, true, [], ['spring']])
+    assert.throws(() => face.moveTo({jawOpen: 1}, drive), {name: 'TypeError', message: /^A drive is a name, or numbers/});
+  assert.throws(() => face.setWeights({jawOpen: '0.5'}), {message: /a finite number, not the text '0\.5'\.$/});
+  assert.throws(() => face.advance('0.5'), {message: /seconds, not the text '0\.5'\.$/});
 });
 
 test('shared memory may hold a file', async () => {
