@@ -16,6 +16,13 @@ function textOf(source, what) {
   throw new TypeError(`A ${what} is read from text or bytes.`);
 }
 
+/** Options as they are, of which one that there is not is a slip. */
+function known(options, keys, what) {
+  for (const key of Object.keys(options ?? {}))
+    if (!keys.includes(key)) throw new TypeError(`${what} has no option '${key}'; it has ${keys.join(', ')}.`);
+  return options ?? {};
+}
+
 /** A number that nothing stands beside, or NaN. */
 function numberIn(text) {
   return /^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i.test(text) ? Number(text) : NaN;
@@ -98,6 +105,7 @@ export function matchNames(names, targets) {
 
 /** Seconds in which speeds would not stay finite. */
 const NO_TIME = 1e-9;
+const ONE_EURO = ['cutoff', 'speedGain', 'speedCutoff'];
 
 /** Weights over time: `names` [N], `times` [F] in seconds, `weights` [F x N]. */
 export class Clip {
@@ -111,6 +119,8 @@ export class Clip {
 
   /** The weights [N] at so many seconds after the first frame, straight between frames and held at the ends. */
   at(seconds, out = new Float64Array(this.names.length)) {
+    if (typeof seconds !== 'number' || Number.isNaN(seconds))
+      throw new RangeError(`A time is a number of seconds, not ${seconds}.`);
     const {times, weights} = this, n = this.names.length, time = times[0] + Math.max(seconds, 0);
     if (times.length === 0) return out.fill(0);
     let low = 0, high = times.length;  // the first frame after the time
@@ -130,7 +140,11 @@ export class Clip {
   }
 
   /** Without the noise of a tracker, by the one-euro filter: heavily where weights rest, hardly where they move. */
-  smooth({cutoff = 1, speedGain = 2, speedCutoff = 1} = {}) {
+  smooth(settings) {
+    const {cutoff = 1, speedGain = 2, speedCutoff = 1} = known(settings, ONE_EURO, 'The one-euro filter');
+    for (const number of [cutoff, speedGain, speedCutoff])
+      if (!(isNumber(number) && number >= 0))
+        throw new RangeError(`The one-euro filter needs finite numbers of at least 0, not ${number}.`);
     const n = this.names.length, weights = this.weights.slice(), speeds = new Float64Array(n);
     const share = (hertz, seconds) => 1 - 1 / (2 * Math.PI * hertz * seconds + 1);
     for (let f = 1; f < this.times.length; ++f) {
@@ -224,7 +238,7 @@ function readAudio2Face(json, fail) {
 function readMediaPipe(frames, fail) {
   if (frames.length === 0) throw fail('has no frames');
   const times = new Float64Array(frames.length), scores = frames.map((frame, f) => {
-    const time = frame?.[['timestampMs', 'timestamp_ms', 'timestamp'].find((key) => Object.hasOwn(frame, key))];
+    const time = frame?.[['timestampMs', 'timestamp_ms', 'timestamp'].find((key) => frame[key] !== undefined)];
     if (typeof time !== 'number') throw fail(`has no 'timestampMs' in frame ${f}`);
     times[f] = time / 1000;
     if (!(Math.abs(times[f]) <= MOST_TIME) || (f > 0 && times[f] <= times[f - 1]))
@@ -262,7 +276,8 @@ function scoresOf(frame, f, fail) {
  * A capture, from its text or bytes: a CSV of Live Link Face, whose timecodes count in `framesPerSecond`, or a JSON of
  * Audio2Face or MediaPipe. `name` is what messages call it.
  */
-export function readClip(source, {name: given, framesPerSecond = 60} = {}) {
+export function readClip(source, options) {
+  const {name: given, framesPerSecond = 60} = known(options, ['name', 'framesPerSecond'], 'readClip');
   const text = textOf(source, 'clip'), name = given || 'The clip';
   if (!(framesPerSecond > 0 && Number.isFinite(framesPerSecond)))
     throw new RangeError('The frames per second of a recording must be greater than 0.');
@@ -337,7 +352,8 @@ const EVENT = ['at', 'to', 'only', 'drive', 'region', ...DRIVE];
 const TIMELINE = ['seconds', 'loops', 'poses', 'events', 'regions'];
 
 /** A timeline from its JSON text or bytes: {seconds, loops, events, regions}; `regions` are for Sweepface.load. */
-export function readTimeline(source, {name: given} = {}) {
+export function readTimeline(source, options) {
+  const {name: given} = known(options, ['name'], 'readTimeline');
   const name = given || 'The timeline', json = parseJson(textOf(source, 'timeline'), name);
   const fail = (place, what) => new Error(`${name}: ${place} ${what}.`);
   if (!isObject(json)) throw fail('the file', 'is not an object');
@@ -351,6 +367,7 @@ export function readTimeline(source, {name: given} = {}) {
   if (!Number.isInteger(loops) || loops < 1 || loops > 10000)
     throw fail('\'loops\'', 'must be a whole number from 1 to 10000');
   if (!Array.isArray(events) || events.length === 0) throw fail('\'events\'', 'must be a list of at least one event');
+  if (regions !== undefined && !Array.isArray(regions)) throw fail('\'regions\'', 'are not a list');
   const read = events.map((event, k) => readEvent(event, poses, `events[${k}]`, fail))
                    .sort((a, b) => a.at - b.at);
   if (read.at(-1).at > seconds) throw fail('\'events\'', 'hold one that is later than \'seconds\'');

@@ -74,6 +74,38 @@ test('frames without time between them begin the filter anew, as for the tool', 
   });
 });
 
+test('the filter takes settings that it has, and finite ones', () => {
+  const clip = readClip(csv);
+  assert.deepEqual(clip.smooth(null).weights, clip.smooth().weights);
+  for (const settings of [{cutoff: NaN}, {cutoff: -1}, {speedGain: Infinity}, {speedCutoff: '1'}])
+    assert.throws(() => clip.smooth(settings), {name: 'RangeError', message: /finite numbers of at least 0, not /});
+  assert.throws(() => clip.smooth({cutOff: 1}), {message: /no option 'cutOff'; it has cutoff, speedGain, speedCutoff\.$/});
+});
+
+test('options that there are not are refused', () => {
+  assert.throws(() => readClip(csv, {fps: 30}), {message: 'readClip has no option \'fps\'; it has name, framesPerSecond.'});
+  assert.throws(() => readTimeline('{}', {fps: 30}), {message: 'readTimeline has no option \'fps\'; it has name.'});
+  assert.equal(readClip(csv, null).times.length, frames.length);
+});
+
+test('times are numbers', async () => {
+  const clip = readClip(csv), player = new ClipPlayer(await Sweepface.load(readFileSync(sample)), clip);
+  for (const seconds of [NaN, undefined, '0.5'])
+    for (const go of [() => clip.at(seconds), () => player.seek(seconds)])
+      assert.throws(go, {name: 'RangeError', message: /a number of seconds, not /});
+  assert.deepEqual(clip.at(Infinity), clip.at(1e9));
+});
+
+test('captures are read by browsers that have no Object.hasOwn', () => {
+  const {hasOwn} = Object;
+  delete Object.hasOwn;  // Chrome 92 and Firefox 90 do not
+  try {
+    assert.equal(readClip(mediaPipe).times.length, frames.length);
+  } finally {
+    Object.hasOwn = hasOwn;
+  }
+});
+
 test('a clip without frames has weights of 0', () => {
   assert.deepEqual(new Clip(['a'], new Float64Array(), new Float64Array()).at(1, Float64Array.of(5)), Float64Array.of(0));
 });
@@ -286,6 +318,9 @@ for (const [file, text, words] of [
        ['t.json', '{"seconds": 1, "poses": {}, "events": [{"at": 0, "to": "__proto__"}]}', 'goes to a pose \'__proto__\''],
        ['t.json', '{"seconds": 1, "poses": {"p": 5}, "events": [{"at": 0, "to": "p"}]}', 'pose \'p\' is not an object of weights'],
        ['t.json', '{"seconds": 1, "poses": {"p": {"a": "x"}}, "events": [{"at": 0, "to": "p"}]}', 'pose \'p\' has a weight \'a\' that is not a number'],
+       ...['null', '{}', '"x"'].map((regions) => {
+         return ['t.json', `{"seconds": 1, "events": [{"at": 0, "to": {}}], "regions": ${regions}}`, '\'regions\' are not a list'];
+       }),
        ...[['"drive": "newton", "seconds": 0', 'must last a finite time greater than 0 seconds'],
            ['"drive": "bounce", "restitution": 2', 'the restitution lies in [0, 1)'],
            ['"drive": "accelerate-brake", "turn": 1', 'between 0 and 1'],
