@@ -16,6 +16,13 @@ export function geometryOf(face, attributes) {
   return geometry;
 }
 
+/** Gives a geometry what was put into another of the same face: attributes, groups and what of it is drawn. */
+function addTo(geometry, {name, userData, attributes, groups, drawRange}) {
+  for (const [key, attribute] of Object.entries(attributes))
+    if (!geometry.hasAttribute(key)) geometry.setAttribute(key, attribute);
+  Object.assign(geometry, {name, userData, groups: groups.map((group) => ({...group})), drawRange: {...drawRange}});
+}
+
 /** A face in a scene. Weights are set at any time; `update` has `show` bring them to the screen. */
 export class FaceMesh extends Mesh {
   #stale = true;
@@ -81,6 +88,7 @@ export class FaceMesh extends Mesh {
     }
     const twin = new this.constructor(face, this.materialsOfClone()).copy(this, recursive);
     if (this.#pose) twin.look(this.#pose);
+    addTo(twin.geometry, this.geometry);
     return twin;
   }
 

@@ -88,6 +88,20 @@ for (const [name, module] of [['SweepfaceMesh', 'three'], ['SweepfaceGpuMesh', '
     assert.equal(mesh.clone(false).children.length, 0);
   });
 
+test('clones have what was put into a geometry', options, async () => {
+  const mesh = await load(), {geometry} = mesh, colour = new three.BufferAttribute(new Float32Array(3), 3);
+  geometry.setAttribute('color', colour);
+  geometry.groups.pop();
+  geometry.setDrawRange(3, 300);
+  geometry.name = 'mine';
+  const twin = mesh.clone().geometry;
+  assert.equal(twin.attributes.color, colour);
+  assert.notEqual(twin.attributes.position, geometry.attributes.position);
+  assert.deepEqual(twin.groups, geometry.groups);
+  assert.notEqual(twin.groups[0], geometry.groups[0]);
+  assert.deepEqual([twin.drawRange, twin.name], [{start: 3, count: 300}, 'mine']);
+});
+
 test('clones look where their models look', options, async () => {
   const {Sweepface} = await import('../sweepface.js'), {SweepfaceMesh} = await import('../sweepface_three.js');
   const mesh = new SweepfaceMesh(await Sweepface.load(readFileSync(sample), {eyes: true}));
