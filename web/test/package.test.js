@@ -37,10 +37,11 @@ test('the package holds what is needed, and an application can use it', () => {
   symlinkSync(join(scratch, 'package'), join(scratch, 'node_modules', 'sweepface'));
   writeFileSync(join(scratch, 'app.mjs'), `
     import {readFile} from 'node:fs/promises';
+    import {createRequire} from 'node:module';
     import {Sweepface} from 'sweepface';
     const face = await Sweepface.load(await readFile(process.argv[2]));
-    console.log(face.names.length);`);
-  assert.equal(run(process.execPath, ['app.mjs', sample], scratch).trim(), '42');
+    console.log(face.names.length, createRequire(import.meta.url)('sweepface/package.json').name);`);
+  assert.equal(run(process.execPath, ['app.mjs', sample], scratch).trim(), '42 sweepface');
 });
 
 const tsc = join(folder, 'node_modules/.bin/tsc');
