@@ -1,5 +1,6 @@
 import assert from 'node:assert/strict';
-import {readFileSync} from 'node:fs';
+import {execFileSync} from 'node:child_process';
+import {readFileSync, statSync} from 'node:fs';
 import {basename} from 'node:path';
 import test from 'node:test';
 import {runInNewContext} from 'node:vm';
@@ -459,7 +460,6 @@ test('a module is compiled while it comes only if the server calls it by its ver
   }
 });
 
-// In a module of its own, where none was compiled before.
 function crc32(...parts) {
   let c = 0xffffffff;
   for (const byte of Buffer.concat(parts)) {
@@ -497,25 +497,27 @@ test('the full module says what is wrong with targets that cannot be read', asyn
   face.dispose();
 });
 
+/** Sizes of the modules that each of some loads fetches in a process of their own, and what it throws. */
+function fetched(...loads) {
+  const script = `
+    import {readFileSync} from 'node:fs';
+    import {Sweepface} from ${JSON.stringify(new URL('../sweepface.js', import.meta.url))};
+    const {compile} = WebAssembly, told = [];
+    WebAssembly.compile = (code) => (told.at(-1).push(code.length), compile(code));
+    for (const [file, length, options] of ${JSON.stringify(loads)}) {
+      told.push([]);
+      await Sweepface.load(readFileSync(file).subarray(0, length), options).catch(({message}) => told.at(-1).push(message));
+    }
+    console.log(JSON.stringify(told));`;
+  return JSON.parse(execFileSync(process.execPath, ['--input-type=module', '-e', script], {encoding: 'utf8'}));
+}
+
 test('the full module is fetched where it is needed, and by itself where that is known before', async () => {
-  const {Sweepface: Fresh} = await import('../sweepface.js?fresh'), {compile} = WebAssembly, fetched = [];
-  WebAssembly.compile = (code) => {
-    fetched.push(code.length);
-    return compile(code);
-  };
-  const sizes = ['sweepface.wasm', 'sweepface_full.wasm'].map(
-      (name) => readFileSync(new URL(`../${name}`, import.meta.url)).length);
-  try {
-    const bytes = readFileSync(packed());
-    await Fresh.load(bytes);
-    assert.deepEqual(fetched.splice(0), sizes.slice(0, 1));
-    await assert.rejects(Fresh.load(bytes.subarray(0, bytes.length - 1), {name: 'Half'}), {message: /^Half, byte \d+: the file ends/});
-    assert.deepEqual(fetched.splice(0), sizes.slice(1));
-    const {Sweepface: Fresher} = await import('../sweepface.js?fresher');
-    await Fresher.load(readFileSync(sample));
-    await Fresher.load(bytes, {vertices: 5000});
-    assert.deepEqual(fetched, sizes.slice(1));
-  } finally {
-    WebAssembly.compile = compile;
-  }
+  const file = packed(), {size} = statSync(file), [usual, full] = ['sweepface.wasm', 'sweepface_full.wasm'].map(
+      (name) => statSync(new URL(`../${name}`, import.meta.url)).size);
+  assert.deepEqual(fetched([file]), [[usual]]);
+  const [first, half] = fetched([file], [file, size - 1, {name: 'Half'}]);
+  assert.deepEqual([first, half.slice(0, 1)], [[usual], [full]]);
+  assert.match(half[1], /^Half, byte \d+: the file ends/);
+  assert.deepEqual(fetched([sample], [file, size, {vertices: 5000}]), [[full], []]);
 });

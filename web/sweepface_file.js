@@ -1,0 +1,134 @@
+// A .sweep file in a module: what it is opened with, and what all its faces share.
+import {bytesOf} from './sweepface_values.js';
+import {compile, instantiate, MemoryError, Runtime, UNSAID} from './sweepface_wasm.js';
+
+/** What a level of detail may be asked for by, in the order of the C interface. */
+const BUDGETS = ['edgeLength', 'error', 'vertices'];
+const OPTIONS = ['lod', ...BUDGETS, 'name', 'arcs', 'combine', 'eyes', 'regions', 'wasm'];
+
+/** What targets may follow, in the numbers of the C interface. */
+const FOLLOW = {arcs: 1, combine: 2};
+
+/** What sound options ask for: how the file is played, and whether that takes the full module. */
+async function read(given) {
+  const {lod = 0, name, arcs, combine, eyes, regions, wasm} = given;
+  for (const key of Object.keys(given))
+    if (!OPTIONS.includes(key))
+      throw new TypeError(`Sweepface.load has no option '${key}'; it has ${OPTIONS.join(', ')}.`);
+  const details = ['lod', ...BUDGETS].filter((key) => given[key] !== undefined);
+  if (details.length > 1)
+    throw new TypeError(`A level of detail is asked for in one way, not by ${details.join(' and ')}.`);
+  if (!Number.isInteger(lod) || lod < 0 || lod >= 2 ** 32)
+    throw new RangeError('The level of detail must be a whole number from 0 to 64.');
+  const [budget] = BUDGETS.flatMap((kind, k) => (given[kind] === undefined ? [] : [[k, Number(given[kind])]]));
+  const divide = regions?.length !== 0 && regions && (await import('./sweepface_regions.js')).divider(regions);
+  const follow = (arcs ? FOLLOW.arcs : 0) + (combine ? FOLLOW.combine : 0);
+  const needsFull = Boolean(follow || eyes || divide || budget);
+  return {name: String(name || 'The face'), follow, eyes, divide, lod, budget, wasm, needsFull};
+}
+
+/** Chunks that hold things as they are, which takes a hundred times the bytes of a packed face. */
+const AS_THEY_ARE = ['EXAC', 'loos', 'drif', 'ordr', 'poly', 'texc', 'quad'];
+
+/** Whether a file holds nothing but what the usual module reads. */
+function isPacked(bytes) {
+  const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
+  const kinds = [];
+  for (let at = 8; at + 8 <= bytes.length; at += 12 + view.getUint32(at + 4, true))
+    kinds.push(String.fromCharCode(...bytes.subarray(at, at + 4)));
+  return bytes[7] === 2 && !kinds.some((kind) => AS_THEY_ARE.includes(kind));
+}
+
+/** What all faces of one file at one level of detail share. */
+export class Shared {
+  constructor(instance, bytes, {name, follow, eyes, divide, lod, budget}) {
+    const runtime = this.runtime = new Runtime(instance), {wasm} = runtime;
+    this.rig = runtime.loadRig(bytes, name);
+    if (follow || eyes) this.loadTargets();
+    if (follow) runtime.check(wasm.sweepface_rig_follow(this.rig, follow));
+    this.eyeCount = eyes ? runtime.get('sweepface_rig_turn_eyes', this.rig) : 0;
+    this.regions = divide ? divide(runtime, this.rig) : null;  // with their matter; null: of one piece
+    this.regionCount = this.regions?.length ?? 1;
+    this.turnCount = wasm.sweepface_rig_turn_count(this.rig);
+    this.mesh = budget ? runtime.get('sweepface_mesh_create_within', this.rig, ...budget)
+                       : runtime.get('sweepface_mesh_create', this.rig, lod);
+    this.names = Array.from({length: wasm.sweepface_rig_target_count(this.rig)},
+                            (_, k) => runtime.text(wasm.sweepface_rig_target_name(this.rig, k)));
+    this.indexOf = new Map(this.names.map((text, k) => [text, k]));
+    this.weightCount = this.names.length * this.regionCount;
+    this.vertexCount = wasm.sweepface_mesh_vertex_count(this.mesh);
+    this.lod = lod;
+  }
+
+  /** Reads what targets do, once; that waits until the face is to move, so that it shows sooner. */
+  loadTargets() {
+    this.runtime.check(this.runtime.wasm.sweepface_rig_load_targets(this.rig));
+  }
+
+  target(name) {
+    const index = this.indexOf.get(name);
+    if (index !== undefined) return index;
+    const known = this.names.length > 0 ? `its targets are ${this.names.join(', ')}` : 'this face has no targets';
+    throw new Error(`There is no target named '${name}'; ${known}.`);
+  }
+
+  region(name) {
+    const index = this.regions?.findIndex((region) => region.name === name) ?? -1;
+    if (index >= 0) return index;
+    const names = this.regions?.map((region) => region.name).join(', ') ?? 'none';
+    throw new Error(`There is no region named '${name}'; there are ${names}.`);
+  }
+
+  /** The numbers of a region, or of all. */
+  places(region) {
+    return region === undefined ? Array.from({length: this.regionCount}, (_, r) => r) : [this.region(region)];
+  }
+
+  triangles() {
+    const {wasm} = this.runtime, count = wasm.sweepface_mesh_triangle_count(this.mesh);
+    return this.runtime.words(wasm.sweepface_mesh_triangles(this.mesh), 3 * count).slice();
+  }
+
+  copies() {
+    const {wasm} = this.runtime, points = wasm.sweepface_mesh_point_count(this.mesh);
+    const at = wasm.sweepface_mesh_copies(this.mesh);
+    return at === 0 ? new Uint32Array() : this.runtime.words(at, this.vertexCount - points).slice();
+  }
+
+  texcoords() {
+    const at = this.runtime.wasm.sweepface_mesh_texcoords(this.mesh);
+    return at === 0 ? null : this.runtime.floats(at, 2 * this.vertexCount).slice();
+  }
+
+  parts() {
+    const {runtime} = this, {wasm} = runtime, length = wasm.sweepface_mesh_part_count(this.mesh);
+    return Array.from({length}, (_, k) => runtime.room(12, (out) => {
+      runtime.check(wasm.sweepface_mesh_part(this.mesh, k, out));
+      const [material, first, count] = runtime.words(out, 3);
+      return {material: runtime.text(material), start: 3 * first, count: 3 * count};
+    }));
+  }
+}
+
+async function openIn(module, bytes, options) {
+  const instance = await instantiate(module), {sweepface_rig_load_neutral: isOurs} = instance.exports;
+  if (!isOurs) throw new Error('The option wasm is another module than those of sweepface.');
+  if (options.needsFull && !instance.exports.sweepface_rig_follow) throw new Error(UNSAID);
+  return new Shared(instance, bytes, options);
+}
+
+/** Opens a file in the module that it and the options need. */
+export async function open(given, givenOptions) {
+  const bytes = bytesOf(given)?.slice();  // its owner may change it, or send it away, while the module comes
+  if (!bytes)
+    throw new TypeError('Sweepface.load needs the bytes of a .sweep file: an ArrayBuffer or a typed array.');
+  const options = await read(givenOptions ?? {}), {wasm} = options;
+  if (wasm || options.needsFull || !isPacked(bytes)) return openIn(await compile(wasm, 'full'), bytes, options);
+  const usual = await compile(wasm, 'usual');
+  try {
+    return await openIn(usual, bytes, options);
+  } catch (error) {
+    if (error instanceof MemoryError) throw error;
+    return openIn(await compile(wasm, 'full'), bytes, options);  // which has the last word
+  }
+}

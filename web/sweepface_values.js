@@ -1,0 +1,13 @@
+// What is given, whatever it may be.
+
+/** What kind of object something is, of any realm: frames and Node's vm have an ArrayBuffer of their own. */
+export const kindOf = (it) => Object.prototype.toString.call(it).slice(8, -1);
+
+/** How a message calls what is no number. */
+export const told = (value) => (typeof value === 'string' ? `the text '${value}'` : String(value));
+
+/** The bytes that are given, if any are. */
+export function bytesOf(source) {
+  if (ArrayBuffer.isView(source)) return new Uint8Array(source.buffer, source.byteOffset, source.byteLength);
+  if (kindOf(source) === 'ArrayBuffer') return new Uint8Array(source);
+}

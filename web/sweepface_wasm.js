@@ -1,0 +1,151 @@
+// The WebAssembly modules, and what is called in them: the C interface (include/sweepface/sweepface.h).
+import {bytesOf, kindOf, told} from './sweepface_values.js';
+
+/** Where the usual module, which spares the words, is the only one that was given. */
+export const UNSAID = 'sweepface.wasm cannot do that with this face; give sweepface_full.wasm, which can or says why.';
+
+const encoder = new TextEncoder(), decoder = new TextDecoder();
+
+/** There is no more memory, which another module does not change. */
+export class MemoryError extends Error {
+  constructor(cause, advice = '') {
+    super(`There is not enough memory for the face${advice}.`, {cause});
+  }
+}
+
+/**
+ * The module behind a URL. Browsers keep what they make of one that they compile while it comes; Node's fetch does not
+ * read files.
+ */
+async function compileUrl(url) {
+  if (url.protocol === 'file:' && globalThis.process?.versions?.node) {
+    const files = 'node:fs/promises';  // in a variable, so that no bundler looks for it
+    return WebAssembly.compile(await (await import(/* @vite-ignore */ /* webpackIgnore: true */ files)).readFile(url));
+  }
+  const response = await fetch(url);
+  if (!response.ok) throw new Error(`Could not load ${url}: the server answered ${response.status}.`);
+  const type = response.headers.get('content-type') ?? '';
+  if (/^text\/html/i.test(type)) throw new Error(`Could not load ${url}: the server sent a page of HTML instead.`);
+  const mayStream = type === 'application/wasm' && WebAssembly.compileStreaming;  // which refuses parameters
+  return mayStream ? WebAssembly.compileStreaming(response) : WebAssembly.compile(await response.arrayBuffer());
+}
+
+/** The modules beside this file: one for packed faces as they are, and one for all files with all there is. */
+const MODULES = {
+  usual: () => new URL('./sweepface.wasm', import.meta.url),
+  full: () => new URL('./sweepface_full.wasm', import.meta.url)
+};
+
+function urlOf(wasm) {
+  try {
+    return new URL(wasm, globalThis.location?.href);
+  } catch (error) {
+    const not = `not ${told(wasm)}`;
+    throw new TypeError(`The option wasm is an absolute URL, bytes or a WebAssembly.Module, ${not}.`, {cause: error});
+  }
+}
+
+const compiled = {};  // each once
+export function compile(wasm, kind) {
+  if (kindOf(wasm) === 'WebAssembly.Module') return wasm;
+  const code = bytesOf(wasm);  // not all engines compile a DataView
+  if (code) return WebAssembly.compile(code);
+  if (wasm) return compileUrl(urlOf(wasm));
+  compiled[kind] ??= compileUrl(MODULES[kind]()).catch((error) => {
+    delete compiled[kind];
+    throw error;
+  });
+  return compiled[kind];
+}
+
+/** Browsers have room for about a hundred memories at once, however small. */
+export async function instantiate(module) {
+  try {
+    return await WebAssembly.instantiate(module);
+  } catch (error) {
+    if (!(error instanceof RangeError)) throw error;
+    throw new MemoryError(error, '; dispose of others, or clone() those of one file');
+  }
+}
+
+/** One instance of the module: a file and the faces made from it. Its memory goes with it. */
+export class Runtime {
+  constructor(instance) {
+    this.wasm = Object.fromEntries(Object.entries(instance.exports).map(([name, it]) => {
+      return [name, typeof it === 'function' ? this.watched(it) : it];
+    }));
+    this.wasm._initialize();
+    this.users = 0;
+    this.isDead = false;
+  }
+
+  /** Where memory runs out the module stops amid what it does, and is of no use from then on. */
+  watched(call) {
+    return (...parameters) => {
+      try {
+        return call(...parameters);
+      } catch (error) {
+        if (!(error instanceof WebAssembly.RuntimeError)) throw error;
+        this.isDead = true;
+        throw new MemoryError(error);
+      }
+    };
+  }
+
+  // Memory moves when it grows, so views are made where they are used. Addresses from 2 GiB on are negative.
+  bytes(at, length) { return new Uint8Array(this.wasm.memory.buffer, at >>> 0, length); }
+  words(at, length) { return new Uint32Array(this.wasm.memory.buffer, at >>> 0, length); }
+  shorts(at, length) { return new Int16Array(this.wasm.memory.buffer, at >>> 0, length); }
+  ints(at, length) { return new Int32Array(this.wasm.memory.buffer, at >>> 0, length); }
+  floats(at, length) { return new Float32Array(this.wasm.memory.buffer, at >>> 0, length); }
+  doubles(at, length) { return new Float64Array(this.wasm.memory.buffer, at >>> 0, length); }
+
+  text(at) {
+    const memory = new Uint8Array(this.wasm.memory.buffer);
+    return decoder.decode(memory.subarray(at >>> 0, memory.indexOf(0, at >>> 0)));
+  }
+
+  allocate(size) {
+    const at = this.wasm.malloc(Math.max(size, 8));
+    if (at === 0) throw new MemoryError();
+    return at;
+  }
+
+  /** Calls `use` with the address of room for that many bytes. */
+  room(size, use) {
+    const at = this.allocate(size);
+    try {
+      return use(at);
+    } finally {
+      this.wasm.free(at);
+    }
+  }
+
+  /** Calls `use` with the address of a copy of the bytes. */
+  lend(bytes, use) {
+    return this.room(bytes.length, (at) => {
+      this.bytes(at, bytes.length).set(bytes);
+      return use(at);
+    });
+  }
+
+  lendText(text, use) { return this.lend(encoder.encode(text + '\0'), use); }
+
+  check(status) {
+    if (status !== 0) throw new Error(this.text(this.wasm.sweepface_message()) || UNSAID);
+  }
+
+  /** What a function with a trailing out-parameter of 32 bits writes there. */
+  get(name, ...parameters) {
+    return this.room(4, (out) => {
+      this.check(this.wasm[name](...parameters, out));
+      return this.words(out, 1)[0];
+    });
+  }
+
+  loadRig(bytes, name) {
+    return this.lend(bytes, (at) => this.lendText(name, (text) => {
+      return this.get('sweepface_rig_load_neutral', at, bytes.length, text);
+    }));
+  }
+}
