@@ -1,5 +1,5 @@
 // A .sweep file in a module: what it is opened with, and what all its faces share.
-import {bytesOf} from './sweepface_values.js';
+import {bytesOf, known} from './sweepface_values.js';
 import {compile, instantiate, MemoryError, Runtime, UNSAID} from './sweepface_wasm.js';
 
 /** What a level of detail may be asked for by, in the order of the C interface. */
@@ -10,11 +10,9 @@ const OPTIONS = ['lod', ...BUDGETS, 'name', 'arcs', 'combine', 'eyes', 'regions'
 const FOLLOW = {arcs: 1, combine: 2};
 
 /** What sound options ask for: how the file is played, and whether that takes the full module. */
-async function read(given) {
+async function read(options) {
+  const given = known(options, OPTIONS, 'Sweepface.load');
   const {lod = 0, name, arcs, combine, eyes, regions, wasm} = given;
-  for (const key of Object.keys(given))
-    if (!OPTIONS.includes(key))
-      throw new TypeError(`Sweepface.load has no option '${key}'; it has ${OPTIONS.join(', ')}.`);
   const details = ['lod', ...BUDGETS].filter((key) => given[key] !== undefined);
   if (details.length > 1)
     throw new TypeError(`A level of detail is asked for in one way, not by ${details.join(' and ')}.`);
@@ -122,7 +120,7 @@ export async function open(given, givenOptions) {
   const bytes = bytesOf(given)?.slice();  // its owner may change it, or send it away, while the module comes
   if (!bytes)
     throw new TypeError('Sweepface.load needs the bytes of a .sweep file: an ArrayBuffer or a typed array.');
-  const options = await read(givenOptions ?? {}), {wasm} = options;
+  const options = await read(givenOptions), {wasm} = options;
   if (wasm || options.needsFull || !isPacked(bytes)) return openIn(await compile(wasm, 'full'), bytes, options);
   const usual = await compile(wasm, 'usual');
   try {

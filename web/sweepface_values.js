@@ -11,3 +11,10 @@ export function bytesOf(source) {
   if (ArrayBuffer.isView(source)) return new Uint8Array(source.buffer, source.byteOffset, source.byteLength);
   if (kindOf(source) === 'ArrayBuffer') return new Uint8Array(source);
 }
+
+/** Options as they are, of which one that there is not is a slip. */
+export function known(options, keys, what) {
+  for (const key of Object.keys(options ?? {}))
+    if (!keys.includes(key)) throw new TypeError(`${what} has no option '${key}'; it has ${keys.join(', ')}.`);
+  return options ?? {};
+}

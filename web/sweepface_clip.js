@@ -1,0 +1,118 @@
+// Clips: weights over time, and what plays them on a face.
+import {matchNames} from './sweepface_names.js';
+import {isNumber} from './sweepface_text.js';
+import {known, told} from './sweepface_values.js';
+
+/** Seconds in which speeds would not stay finite. */
+const NO_TIME = 1e-9;
+const ONE_EURO = ['cutoff', 'speedGain', 'speedCutoff'];
+
+/** Weights over time: `names` [N], `times` [F] in seconds, `weights` [F x N]. */
+export class Clip {
+  constructor(names, times, weights) {
+    this.names = names;
+    this.times = times;
+    this.weights = weights;
+  }
+
+  get seconds() { return this.times.length === 0 ? 0 : this.times.at(-1) - this.times[0]; }
+
+  /** The weights [N] at so many seconds after the first frame, straight between frames and held at the ends. */
+  at(seconds, out = new Float64Array(this.names.length)) {
+    if (typeof seconds !== 'number' || Number.isNaN(seconds))
+      throw new RangeError(`A time is a number of seconds, not ${told(seconds)}.`);
+    const {times, weights} = this, n = this.names.length, time = times[0] + Math.max(seconds, 0);
+    if (times.length === 0) return out.fill(0);
+    let low = 0, high = times.length;  // the first frame after the time
+    while (low < high) {
+      const middle = (low + high) >> 1;
+      if (times[middle] <= time) low = middle + 1;
+      else high = middle;
+    }
+    const later = Math.min(low, times.length - 1), earlier = Math.max(later - 1, 0);
+    const length = times[later] - times[earlier];
+    const s = length > 0 ? Math.min(Math.max((time - times[earlier]) / length, 0), 1) : 1;
+    for (let k = 0; k < n; ++k) {
+      const from = weights[earlier * n + k], to = weights[later * n + k];
+      out[k] = s === 1 ? to : from + s * (to - from);
+    }
+    return out;
+  }
+
+  /** Without the noise of a tracker, by the one-euro filter: heavily where weights rest, hardly where they move. */
+  smooth(settings) {
+    const {cutoff = 1, speedGain = 2, speedCutoff = 1} = known(settings, ONE_EURO, 'The one-euro filter');
+    for (const number of [cutoff, speedGain, speedCutoff])
+      if (!(isNumber(number) && number >= 0))
+        throw new RangeError(`The one-euro filter needs finite numbers of at least 0, not ${told(number)}.`);
+    const n = this.names.length, weights = this.weights.slice(), speeds = new Float64Array(n);
+    const share = (hertz, seconds) => 1 - 1 / (2 * Math.PI * hertz * seconds + 1);
+    for (let f = 1; f < this.times.length; ++f) {
+      const seconds = this.times[f] - this.times[f - 1];
+      if (!(seconds > NO_TIME)) {  // the filter begins anew
+        speeds.fill(0);
+        continue;
+      }
+      for (let k = 0; k < n; ++k) {
+        const before = weights[(f - 1) * n + k], now = weights[f * n + k];
+        speeds[k] += ((now - before) / seconds - speeds[k]) * share(speedCutoff, seconds);
+        weights[f * n + k] = before + (now - before) * share(cutoff + speedGain * Math.abs(speeds[k]), seconds);
+      }
+    }
+    return new Clip(this.names, this.times, weights);
+  }
+}
+
+/** The angles of Live Link Face, in radians, in the order of the app. */
+const ANGLES = ['Head', 'LeftEye', 'RightEye'].flatMap((of) => ['Yaw', 'Pitch', 'Roll'].map((angle) => of + angle));
+
+/** Whether a clip ever has anything but 0 in a column. */
+function isTold({names, weights}, column) {
+  for (let i = column; i < weights.length; i += names.length) if (weights[i] !== 0) return true;
+  return false;
+}
+
+/** Plays a clip on a face: `seek` sets the weights of a time. */
+export class ClipPlayer {
+  #angles = ANGLES.map(() => -1);  // their columns, or -1
+
+  constructor(face, clip) {
+    this.face = face;
+    this.clip = clip;
+    /** What drives what: see matchNames. */
+    this.match = matchNames(clip.names, face.names);
+    this.match.unmatched = matchNames(this.match.unmatched, ANGLES).unmatched;
+    // Recordings have columns for the eyes' angles that are 0 throughout where nobody told them. Eyes use no roll.
+    const counts = (angle, k) => angle < 3 || (angle % 3 < 2 && isTold(clip, k));
+    matchNames(clip.names, ANGLES).targets.forEach((found, k) => {
+      for (const angle of found) if (counts(angle, k)) this.#angles[angle] = k;
+    });
+  }
+
+  get seconds() { return this.clip.seconds; }
+
+  /**
+   * Sets the weights that the clip drives, turns eyes if it has their angles, and returns the angles of the head,
+   * {yaw, pitch, roll} in radians, or null where the clip has none: for three.js
+   * `head.rotation.set(pitch, yaw, roll, 'YXZ')`. Where two names drive a target the larger weight counts.
+   */
+  seek(seconds) {
+    const values = this.clip.at(seconds), names = this.face.names, weights = Object.create(null);
+    this.match.targets.forEach((targets, k) => {
+      for (const target of targets) weights[names[target]] = Math.max(weights[names[target]] ?? -Infinity, values[k]);
+    });
+    this.face.setWeights(weights);
+    const [head, leftEye, rightEye] = [0, 3, 6].map((first) => this.#anglesAt(values, first));
+    if (this.face.eyeCount > 0 && (leftEye || rightEye))
+      this.face.look({leftEye: leftEye ?? {}, rightEye: rightEye ?? {}});
+    return head;
+  }
+
+  /** Yaw, pitch and roll from a column on, or null where the clip has none of them. */
+  #anglesAt(values, first) {
+    const columns = this.#angles.slice(first, first + 3);
+    if (columns.every((k) => k < 0)) return null;
+    const [yaw, pitch, roll] = columns.map((k) => (k < 0 ? 0 : values[k]));
+    return {yaw, pitch, roll};
+  }
+}

@@ -1,0 +1,35 @@
+// What clips and timelines are read from: text, numbers and JSON.
+import {bytesOf} from './sweepface_values.js';
+
+const decoder = new TextDecoder();
+
+export function textOf(source, what) {
+  if (typeof source === 'string') return source.replace(/^\uFEFF/, '');
+  const bytes = bytesOf(source);
+  if (!bytes) throw new TypeError(`A ${what} is read from text or bytes.`);
+  return decoder.decode(bytes.slice());  // a copy, as browsers do not decode memory that is shared
+}
+
+export const isNumber = (value) => typeof value === 'number' && Number.isFinite(value);
+/** Whether a text can mean this as a weight; more is a slip. */
+export const isWeight = (value) => isNumber(value) && Math.abs(value) <= 1e6;
+export const isObject = (value) => typeof value === 'object' && value !== null && !Array.isArray(value);
+
+/** Small letters, of A to Z alone. */
+export const lowered = (text) => text.replace(/[A-Z]/g, (letter) => letter.toLowerCase());
+
+/** How engines say that a text ends too soon, where they count no characters. */
+const CUT_SHORT = /^(JSON.parse: |JSON Parse error: )?(unexpected )?(end|EOF|unterminated)/i;
+
+export function parseJson(text, name) {
+  try {
+    return JSON.parse(text);
+  } catch (error) {
+    // Engines tell the place in words of their own, or not at all.
+    const [, at, , told] = error.message.match(/ at (?:position (\d+)( \(.*\))?|line (\d+) column.*)$/) ?? [];
+    const isCut = at === undefined ? CUT_SHORT.test(error.message) : at >= text.length;
+    const line = isCut || at ? text.slice(0, isCut ? undefined : at).split('\n').length : told;
+    const what = `${line ? `, line ${line}: this` : ''} is not JSON${isCut ? '; was the file cut short?' : '.'}`;
+    throw new Error(name + what, {cause: error});
+  }
+}

@@ -1,0 +1,142 @@
+// Timelines: what an animator wrote down, and what plays it on a face.
+import {matchNames} from './sweepface_names.js';
+import {isNumber, isObject, isWeight, parseJson, textOf} from './sweepface_text.js';
+import {known, told} from './sweepface_values.js';
+
+const DRIVES = ['cut', 'newton', 'linear-force', 'accelerate-brake', 'spring', 'bounce'];
+const DRIVE = ['seconds', 'turn', 'frequency', 'damping', 'restitution', 'delay'];
+const EVENT = ['at', 'to', 'only', 'drive', 'region', ...DRIVE];
+const TIMELINE = ['seconds', 'loops', 'poses', 'events', 'regions'];
+
+/** A timeline from its JSON text or bytes: {seconds, loops, events, regions}; `regions` are for Sweepface.load. */
+export function readTimeline(source, options) {
+  const {name: given} = known(options, ['name'], 'readTimeline');
+  const name = given || 'The timeline', json = parseJson(textOf(source, 'timeline'), name);
+  const fail = (place, what) => new Error(`${name}: ${place} ${what}.`);
+  if (!isObject(json)) throw fail('the file', 'is not an object');
+  for (const key of Object.keys(json))
+    if (!TIMELINE.includes(key)) throw fail('the file', `has an unknown key '${key}'`);
+  const {seconds, loops = 1, poses = {}, events, regions} = json;
+  if (seconds === undefined) throw fail('the file', 'has no \'seconds\'');
+  for (const key of ['seconds', 'loops'])
+    if (key in json && !isNumber(json[key])) throw fail('the file', `has a '${key}' that is not a number`);
+  if (!(seconds > 0)) throw fail('\'seconds\'', 'must be greater than 0');
+  if (!Number.isInteger(loops) || loops < 1 || loops > 10000)
+    throw fail('\'loops\'', 'must be a whole number from 1 to 10000');
+  if (!Array.isArray(events) || events.length === 0) throw fail('\'events\'', 'must be a list of at least one event');
+  if (regions !== undefined && !Array.isArray(regions)) throw fail('\'regions\'', 'are not a list');
+  const read = events.map((event, k) => readEvent(event, poses, `events[${k}]`, fail))
+                   .sort((a, b) => a.at - b.at);
+  if (read.at(-1).at > seconds) throw fail('\'events\'', 'hold one that is later than \'seconds\'');
+  return {seconds, loops, events: read, regions};
+}
+
+/** What keeps a drive from setting out from 0 to 1, in the library's words. */
+function faultOf({drive = 'spring', seconds = 1, turn = 0.5, frequency = 1, damping = 1, restitution = 0}) {
+  const tooMuch = (...numbers) => (numbers.every(Number.isFinite) ? undefined : 'A motion needs finite numbers');
+  if (drive === 'cut') return;
+  if (drive === 'spring') {
+    const omega = 2 * Math.PI * frequency;
+    return tooMuch(omega ** 2, (damping * omega) ** 2) ??
+           (frequency > 0 && damping >= 0 ? undefined
+                                          : 'A spring needs a frequency greater than 0 and a damping of at least 0');
+  }
+  if (drive === 'bounce' && !(restitution >= 0 && restitution <= 1 - 1e-9))
+    return 'A bounce keeps a part of its speed: the restitution lies in [0, 1)';
+  if (!(seconds > 0)) return 'The motion must last a finite time greater than 0 seconds';
+  if (drive === 'linear-force') return tooMuch(12 / seconds / seconds / seconds);  // how fast the force changes
+  if (drive !== 'accelerate-brake') return tooMuch(2 / seconds / seconds);
+  if (!(turn > 0 && turn < 1)) return 'The force must turn after the start and before the end: between 0 and 1';
+  return tooMuch(2 / Math.min(turn, 1 - turn) / seconds / seconds);
+}
+
+function readEvent(event, poses, place, failAt) {
+  const fail = (what) => failAt(place, what);
+  if (!isObject(event)) throw fail('is not an object');
+  for (const key of Object.keys(event))
+    if (!EVENT.includes(key)) throw fail(`has an unknown key '${key}'`);
+  if (!('at' in event)) throw fail('has no \'at\'');
+  for (const key of ['at', ...DRIVE])
+    if (key in event && !isNumber(event[key])) throw fail(`has a '${key}' that is not a number`);
+  for (const key of ['drive', 'region'])
+    if (key in event && typeof event[key] !== 'string') throw fail(`has a '${key}' that is not a text`);
+  if ('drive' in event && !DRIVES.includes(event.drive))
+    throw failAt(`${place}:`, `There is no way to move called "${event.drive}"; there are ${DRIVES.join(', ')}`);
+  if (event.at < 0) throw fail('is before 0');
+  const fault = faultOf(event);
+  if (fault) throw fail(`cannot be: ${fault}`);
+  if (event.delay < 0) throw fail('has a negative \'delay\'');
+  if (('to' in event) === ('only' in event)) throw fail('needs one of \'to\' and \'only\', the weights to go to');
+  const goals = readGoals(event.to ?? event.only, poses, place, failAt), drive = {kind: event.drive ?? 'spring'};
+  for (const key of DRIVE)
+    if (key in event) drive[key] = event[key];
+  return {at: event.at, goals, others: 'only' in event, drive, region: event.region || undefined};
+}
+
+/** Weights by name, or by the name of a pose that has them. */
+function readGoals(wanted, poses, place, failAt) {
+  if (typeof wanted === 'string') {
+    if (!(isObject(poses) && Object.keys(poses).includes(wanted)))
+      throw failAt(place, `goes to a pose '${wanted}' that 'poses' does not have`);
+    const pose = `pose '${wanted}'`;
+    if (!isObject(poses[wanted])) throw failAt(pose, 'is not an object of weights');
+    return readGoals(poses[wanted], poses, pose, failAt);
+  }
+  if (!isObject(wanted)) throw failAt(place, 'goes neither to weights nor to a pose');
+  for (const [weight, goal] of Object.entries(wanted))
+    if (!isWeight(goal)) throw failAt(place, `has a weight '${weight}' that is not a number within ±1,000,000`);
+  return wanted;
+}
+
+/** Whether that is all of a face of one piece. */
+const isWhole = (face, region) => region === 'rest' && !face.regions?.length;
+
+/** Plays a timeline on a face: `advance` lets time pass, and what sets out does so at its own instant. */
+export class TimelinePlayer {
+  #goals;
+  #now = 0;
+  #next = 0;  // of all events of all loops
+
+  constructor(face, timeline) {
+    for (const {region} of timeline.events)
+      if (region && face.regions?.includes(region) === false && !isWhole(face, region))
+        throw new Error(`The timeline moves a region '${region}'; the face has ${face.regions.join(', ') || 'none'}.`);
+    this.face = face;
+    this.timeline = timeline;
+    const names = [...new Set(timeline.events.flatMap(({goals}) => Object.keys(goals)))];
+    /** What drives what: see matchNames. */
+    this.match = matchNames(names, face.names);
+    this.#goals = new Map(names.map((name, k) => [name, this.match.targets[k].map((target) => face.names[target])]));
+  }
+
+  get seconds() { return this.timeline.seconds * this.timeline.loops; }
+
+  /** Says whether anything is still to come or moves. */
+  advance(seconds) {
+    if (!Number.isFinite(seconds))
+      throw new RangeError(`Time passes by a finite number of seconds, not ${told(seconds)}.`);
+    const {events, seconds: length, loops} = this.timeline, until = this.#now + Math.max(seconds, 0);
+    let moves = false;
+    while (this.#next < loops * events.length) {
+      const event = events[this.#next % events.length], loop = Math.floor(this.#next / events.length);
+      const start = event.at + loop * length;
+      if (start > until) break;
+      this.face.advance(start - this.#now);
+      this.#now = start;
+      ++this.#next;  // also where the face refuses it
+      this.#play(event);
+      moves = true;
+    }
+    moves = this.face.advance(until - this.#now) || moves;
+    this.#now = until;
+    return moves || this.#now < this.seconds;
+  }
+
+  #play({goals, others, drive, region}) {
+    const all = others ? Object.fromEntries([...this.#goals.values()].flat().map((target) => [target, 0])) : {};
+    const named = Object.create(null);  // of two names for one target the larger counts
+    for (const [name, goal] of Object.entries(goals))
+      for (const target of this.#goals.get(name)) named[target] = Math.max(named[target] ?? -Infinity, goal);
+    this.face.moveTo({...all, ...named}, drive, isWhole(this.face, region) ? undefined : region);
+  }
+}
