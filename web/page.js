@@ -1,48 +1,10 @@
 // The page: shows a .sweep face and lets its expressions be tried.
-import {
-  BackSide, Box3, BufferAttribute, BufferGeometry, Color, DirectionalLight, HemisphereLight, LineBasicMaterial,
-  LineSegments, Mesh, MeshBasicMaterial, MeshStandardMaterial, PerspectiveCamera, Scene, Vector3, WebGLRenderer
-} from 'three';
-import {OrbitControls} from 'three/addons/controls/OrbitControls.js';
 import {Sweepface} from 'sweepface';
-import {SweepfaceMesh} from 'sweepface/three';
-
-const at = (id) => document.getElementById(id);
-const view = at('view'), stage = at('stage'), message = at('message');
-
-const renderer = makeRenderer();
-renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
-const scene = new Scene(), camera = new PerspectiveCamera(26, 1, 0.1, 1000);
-const controls = new OrbitControls(camera, view);
-controls.enableDamping = true;
-controls.enablePan = false;
-
-// A large soft light, a key from the upper left and a rim from behind; they stay with the viewer.
-const key = new DirectionalLight(0xfff1e2, 2.4), rim = new DirectionalLight(0xbfd4ff, 1.6);
-key.position.set(-1, 1.2, 1.6);
-rim.position.set(1.4, 0.6, -1.5);
-scene.add(new HemisphereLight(0xffffff, 0x8a7668, 1.3), camera);
-camera.add(key, key.target, rim, rim.target);
-
-function makeRenderer() {
-  try {
-    return new WebGLRenderer({canvas: view, antialias: true, alpha: true});
-  } catch (error) {
-    complain(new Error('Faces are drawn with WebGL 2, which this browser or its settings do not offer.'));
-    throw error;
-  }
-}
-
-/** What is seen of a head's inside, through eyes and mouth; and its edges. */
-const inside = new MeshBasicMaterial({color: 0x2b1a14, side: BackSide});
-const ink = new LineBasicMaterial({color: 0x5a2c14, transparent: true, opacity: 0.35});
-
-/** A colour for a material, by what its name says. */
-function colourOf(name) {
-  const known = [[/lip|mouth|tongue|gum/i, 0xb8675c], [/teeth|tooth/i, 0xf0e8d8], [/lash|brow|hair|beard/i, 0x3a2a22],
-                 [/iris/i, 0x61757f], [/pupil/i, 0x1f1c1c], [/nostril/i, 0x734539], [/eye|sclera|cornea/i, 0xf4f1ee]];
-  return new Color(known.find(([pattern]) => pattern.test(name))?.[1] ?? 0xd9a688);
-}
+import {at, complain, say} from './page_message.js';
+import {average, buildSliders, filterSliders, followWeights, tellFigures} from './page_panel.js';
+import {
+  controls, linesOver, meshOf, placeCamera, removeLines, render, resize, scene, stage, view
+} from './page_stage.js';
 
 let bytes, mesh, lines;  // the file, the face on show and, if wanted, its edges
 let loading = 0;         // milliseconds from the bytes to the first frame
@@ -61,20 +23,17 @@ async function show(source, name, keepView = false) {
     const weights = mesh && keepView ? mesh.face.weights : {};
     remove();
     bytes = buffer;
-    mesh = new SweepfaceMesh(face, face.parts.map(({material}) =>
-      new MeshStandardMaterial({name: material, color: colourOf(material), roughness: 0.62})));
-    mesh.add(new Mesh(mesh.geometry, inside));
+    mesh = meshOf(face);
     mesh.setWeights(weights);
     scene.add(mesh);
-    if (!keepView) placeCamera();
-    message.textContent = '';
-    message.className = '';
+    if (!keepView) placeCamera(mesh);
+    say('');
     tellName(name);
-    buildSliders();
+    buildSliders(mesh, wake);
     drawLines();
     draw(0);
     loading = performance.now() - began;
-    tellFigures();
+    tellFigures(figures());
     setTimeout(() => prepare(face), 50);  // once the first frame is on the screen
   } catch (error) {
     if (mine === asked) complain(error);
@@ -90,13 +49,8 @@ function prepare(face) {
   }
 }
 
-function complain(error) {
-  message.textContent = error.message;
-  message.className = 'error';
-}
-
 function invite() {
-  message.textContent = 'Drop a .sweep file here, or open one.';
+  say('Drop a .sweep file here, or open one.');
 }
 
 function tellName(name) {
@@ -111,92 +65,13 @@ function remove() {
   mesh = undefined;
 }
 
-/** The camera in front of the face, at a distance from which all of it is seen. */
-function placeCamera() {
-  const box = new Box3().setFromBufferAttribute(mesh.geometry.attributes.position);
-  const size = box.getSize(new Vector3()), middle = box.getCenter(new Vector3());
-  const reach = Math.max(size.y, size.x / camera.aspect) / 2 / Math.tan(camera.fov / 2 * Math.PI / 180);
-  const distance = 1.15 * reach + size.z / 2;
-  controls.target.copy(middle);
-  camera.position.copy(middle).add(new Vector3(0.25, 0.06, 1).setLength(distance));
-  camera.near = distance / 100;
-  camera.far = 10 * distance;
-  camera.updateProjectionMatrix();
-  controls.minDistance = distance / 6;
-  controls.maxDistance = 3 * distance;
-  controls.update();
-}
-
-/** The edges of the triangles, drawn over the face. */
 function drawLines() {
-  if (lines) {
-    lines.removeFromParent();
-    lines.geometry.deleteAttribute('position').dispose();  // the positions are the face's
-    lines = undefined;
-  }
-  if (!at('lines').checked || !mesh) return;
-  const edges = new BufferGeometry();  // over the positions of the face, which they follow
-  const {index, attributes: {position}} = mesh.geometry;
-  edges.setIndex(new BufferAttribute(edgesOf(index.array, position.count), 1));
-  edges.setAttribute('position', position);
-  lines = new LineSegments(edges, ink);
-  lines.frustumCulled = false;  // bounds would be those of how the face stands now
-  mesh.add(lines);
+  if (lines) removeLines(lines);
+  lines = at('lines').checked && mesh ? linesOver(mesh) : undefined;
 }
 
-/** The edges of triangles among `count` vertices, each once, as two of them. */
-function edgesOf(triangles, count) {
-  const edges = new Set();
-  for (let first = 0; first < triangles.length; first += 3)
-    for (let k = 0; k < 3; ++k) {
-      const a = triangles[first + k], b = triangles[first + (k + 1) % 3];
-      edges.add(Math.min(a, b) * count + Math.max(a, b));
-    }
-  const ends = new Uint32Array(2 * edges.size);
-  let end = 0;
-  for (const edge of edges) {
-    ends[end++] = Math.floor(edge / count);
-    ends[end++] = edge % count;
-  }
-  return ends;
-}
-
-const sliders = new Map();  // by name: the input and what shows its number
-
-function buildSliders() {
-  sliders.clear();
-  at('sliders').replaceChildren(...mesh.face.names.map((name) => {
-    const row = document.createElement('label'), text = document.createElement('span');
-    const number = document.createElement('span'), input = document.createElement('input');
-    row.className = 'slider';
-    text.textContent = name;
-    number.className = 'number';
-    number.ariaHidden = 'true';  // the slider says it, and its name is the text alone
-    Object.assign(input, {type: 'range', min: 0, max: 1, step: 0.01, name});
-    input.addEventListener('input', () => {
-      mesh.setWeights({[name]: input.valueAsNumber});
-      number.textContent = input.valueAsNumber.toFixed(2);
-      wake();
-    });
-    row.append(text, number, input);
-    sliders.set(name, {row, input, number});
-    return row;
-  }));
-  followWeights();
-  filterSliders();
-}
-
-function followWeights() {
-  for (const [name, weight] of Object.entries(mesh.face.weights)) {
-    const {input, number} = sliders.get(name);
-    if (document.activeElement !== input || number.textContent === '') input.value = weight;
-    number.textContent = weight.toFixed(2);
-  }
-}
-
-function filterSliders() {
-  const wanted = at('filter').value.trim().toLowerCase();
-  for (const [name, {row}] of sliders) row.hidden = !name.toLowerCase().includes(wanted);
+function figures() {
+  return {file: bytes.byteLength, vertices: mesh.face.vertexCount, loading, memory: mesh.face.memoryBytes};
 }
 
 function surprise() {
@@ -207,45 +82,16 @@ function surprise() {
   wake();
 }
 
-const megabytes = (size) => `${(size / 1e6).toFixed(size < 1e6 ? 2 : 1)} MB`;
-const figures = {};  // smoothed milliseconds
-
-function tellFigures() {
-  const rows = {
-    'file': megabytes(bytes.byteLength), 'vertices': mesh.face.vertexCount.toLocaleString('en'),
-    'loaded in': `${loading.toFixed(0)} ms`, 'evaluation': `${(figures.evaluation ?? 0).toFixed(2)} ms`,
-    'frame': `${(figures.frame ?? 0).toFixed(1)} ms`, 'memory': megabytes(mesh.face.memoryBytes),
-  };
-  at('figures').replaceChildren(...Object.entries(rows).flatMap(([name, value]) => {
-    const term = document.createElement('dt'), text = document.createElement('dd');
-    term.textContent = name;
-    text.textContent = value;
-    return [term, text];
-  }));
-}
-
-function average(name, value) {
-  figures[name] = figures[name] === undefined ? value : 0.9 * figures[name] + 0.1 * value;
-}
-
-function resize() {
-  const {clientWidth, clientHeight} = stage;
-  renderer.setSize(clientWidth, clientHeight, false);
-  camera.aspect = clientWidth / Math.max(clientHeight, 1);
-  camera.updateProjectionMatrix();
-  wake();
-}
-
 function draw(seconds) {
   const began = performance.now(), version = mesh?.geometry.attributes.position.version;
   mesh?.update(seconds);
   if (mesh && mesh.geometry.attributes.position.version !== version) {
     average('evaluation', performance.now() - began);
-    followWeights();
+    followWeights(mesh);
     wake();
   }
   if (controls.update()) wake();
-  renderer.render(scene, camera);
+  render();
   average('frame', performance.now() - began);
 }
 
@@ -263,11 +109,16 @@ function frame(now) {
   draw(Math.min(Math.max(now - last, 0) / 1000, 0.1));
   last = now;
   if (mesh && now - told > 250) {
-    tellFigures();
+    tellFigures(figures());
     told = now;
   }
   running = now < awakeUntil;
   if (running) requestAnimationFrame(frame);
+}
+
+function fit() {
+  resize();
+  wake();
 }
 
 async function open(file) {
@@ -298,7 +149,7 @@ at('lines').addEventListener('change', () => {
 });
 controls.addEventListener('change', wake);
 view.addEventListener('webglcontextrestored', wake);
-new ResizeObserver(resize).observe(stage);
+new ResizeObserver(fit).observe(stage);
 
 for (const type of ['dragover', 'dragleave', 'drop'])
   addEventListener(type, (event) => {
@@ -307,7 +158,7 @@ for (const type of ['dragover', 'dragleave', 'drop'])
     if (type === 'drop') open(event.dataTransfer.files[0]);
   });
 
-resize();
+fit();
 const wanted = new URLSearchParams(location.search).get('face'), start = wanted ?? 'sample.sweep';
 await show(download(start, wanted !== null), start.split('/').pop());
 

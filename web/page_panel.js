@@ -1,0 +1,69 @@
+// The page's panel of sliders, and the figures over the picture.
+import {at} from './page_message.js';
+
+const sliders = new Map();  // by name: the input and what shows its number
+
+/** A slider for every expression of a mesh; `moved` hears of each that is moved. */
+export function buildSliders(mesh, moved) {
+  sliders.clear();
+  at('sliders').replaceChildren(...mesh.face.names.map((name) => {
+    const slider = sliderOf(name);
+    slider.input.addEventListener('input', () => {
+      const weight = slider.input.valueAsNumber;
+      mesh.setWeights({[name]: weight});
+      slider.number.textContent = weight.toFixed(2);
+      moved();
+    });
+    sliders.set(name, slider);
+    return slider.row;
+  }));
+  followWeights(mesh);
+  filterSliders();
+}
+
+function sliderOf(name) {
+  const row = document.createElement('label'), text = document.createElement('span');
+  const number = document.createElement('span'), input = document.createElement('input');
+  row.className = 'slider';
+  text.textContent = name;
+  number.className = 'number';
+  number.ariaHidden = 'true';  // the slider says it, and its name is the text alone
+  Object.assign(input, {type: 'range', min: 0, max: 1, step: 0.01, name});
+  row.append(text, number, input);
+  return {row, input, number};
+}
+
+export function followWeights(mesh) {
+  for (const [name, weight] of Object.entries(mesh.face.weights)) {
+    const {input, number} = sliders.get(name);
+    if (document.activeElement !== input || number.textContent === '') input.value = weight;
+    number.textContent = weight.toFixed(2);
+  }
+}
+
+export function filterSliders() {
+  const wanted = at('filter').value.trim().toLowerCase();
+  for (const [name, {row}] of sliders) row.hidden = !name.toLowerCase().includes(wanted);
+}
+
+const averages = {};  // smoothed milliseconds
+
+export function average(name, value) {
+  averages[name] = averages[name] === undefined ? value : 0.9 * averages[name] + 0.1 * value;
+}
+
+const megabytes = (size) => `${(size / 1e6).toFixed(size < 1e6 ? 2 : 1)} MB`;
+
+export function tellFigures({file, vertices, loading, memory}) {
+  const rows = {
+    'file': megabytes(file), 'vertices': vertices.toLocaleString('en'), 'loaded in': `${loading.toFixed(0)} ms`,
+    'evaluation': `${(averages.evaluation ?? 0).toFixed(2)} ms`, 'frame': `${(averages.frame ?? 0).toFixed(1)} ms`,
+    'memory': megabytes(memory)
+  };
+  at('figures').replaceChildren(...Object.entries(rows).flatMap(([name, value]) => {
+    const term = document.createElement('dt'), text = document.createElement('dd');
+    term.textContent = name;
+    text.textContent = value;
+    return [term, text];
+  }));
+}

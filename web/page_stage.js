@@ -1,0 +1,115 @@
+// What the page draws faces with: a renderer, lights, a camera that turns round them, and colours.
+import {
+  BackSide, Box3, BufferAttribute, BufferGeometry, Color, DirectionalLight, HemisphereLight, LineBasicMaterial,
+  LineSegments, Mesh, MeshBasicMaterial, MeshStandardMaterial, PerspectiveCamera, Scene, Vector3, WebGLRenderer
+} from 'three';
+import {OrbitControls} from 'three/addons/controls/OrbitControls.js';
+import {SweepfaceMesh} from 'sweepface/three';
+import {at, complain} from './page_message.js';
+
+export const stage = at('stage'), view = at('view');
+
+const renderer = makeRenderer();
+renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+export const scene = new Scene();
+const camera = new PerspectiveCamera(26, 1, 0.1, 1000);
+export const controls = new OrbitControls(camera, view);
+controls.enableDamping = true;
+controls.enablePan = false;
+
+// A large soft light, a key from the upper left and a rim from behind; they stay with the viewer.
+const key = new DirectionalLight(0xfff1e2, 2.4), rim = new DirectionalLight(0xbfd4ff, 1.6);
+key.position.set(-1, 1.2, 1.6);
+rim.position.set(1.4, 0.6, -1.5);
+scene.add(new HemisphereLight(0xffffff, 0x8a7668, 1.3), camera);
+camera.add(key, key.target, rim, rim.target);
+
+function makeRenderer() {
+  try {
+    return new WebGLRenderer({canvas: view, antialias: true, alpha: true});
+  } catch (error) {
+    complain(new Error('Faces are drawn with WebGL 2, which this browser or its settings do not offer.'));
+    throw error;
+  }
+}
+
+/** What is seen of a head's inside, through eyes and mouth; and its edges. */
+const inside = new MeshBasicMaterial({color: 0x2b1a14, side: BackSide});
+const ink = new LineBasicMaterial({color: 0x5a2c14, transparent: true, opacity: 0.35});
+
+/** A colour for a material, by what its name says. */
+function colourOf(name) {
+  const known = [[/lip|mouth|tongue|gum/i, 0xb8675c], [/teeth|tooth/i, 0xf0e8d8], [/lash|brow|hair|beard/i, 0x3a2a22],
+                 [/iris/i, 0x61757f], [/pupil/i, 0x1f1c1c], [/nostril/i, 0x734539], [/eye|sclera|cornea/i, 0xf4f1ee]];
+  return new Color(known.find(([pattern]) => pattern.test(name))?.[1] ?? 0xd9a688);
+}
+
+/** A face in the colours of its materials, with what is seen of its inside. */
+export function meshOf(face) {
+  const mesh = new SweepfaceMesh(face, face.parts.map(({material}) =>
+    new MeshStandardMaterial({name: material, color: colourOf(material), roughness: 0.62})));
+  mesh.add(new Mesh(mesh.geometry, inside));
+  return mesh;
+}
+
+/** The camera in front of the face, at a distance from which all of it is seen. */
+export function placeCamera(mesh) {
+  const box = new Box3().setFromBufferAttribute(mesh.geometry.attributes.position);
+  const size = box.getSize(new Vector3()), middle = box.getCenter(new Vector3());
+  const reach = Math.max(size.y, size.x / camera.aspect) / 2 / Math.tan(camera.fov / 2 * Math.PI / 180);
+  const distance = 1.15 * reach + size.z / 2;
+  controls.target.copy(middle);
+  camera.position.copy(middle).add(new Vector3(0.25, 0.06, 1).setLength(distance));
+  camera.near = distance / 100;
+  camera.far = 10 * distance;
+  camera.updateProjectionMatrix();
+  controls.minDistance = distance / 6;
+  controls.maxDistance = 3 * distance;
+  controls.update();
+}
+
+/** The edges of triangles among `count` vertices, each once, as two of them. */
+function edgesOf(triangles, count) {
+  const edges = new Set();
+  for (let first = 0; first < triangles.length; first += 3)
+    for (let k = 0; k < 3; ++k) {
+      const a = triangles[first + k], b = triangles[first + (k + 1) % 3];
+      edges.add(Math.min(a, b) * count + Math.max(a, b));
+    }
+  const ends = new Uint32Array(2 * edges.size);
+  let end = 0;
+  for (const edge of edges) {
+    ends[end++] = Math.floor(edge / count);
+    ends[end++] = edge % count;
+  }
+  return ends;
+}
+
+/** The edges of a mesh, over its positions, which they follow. */
+export function linesOver(mesh) {
+  const edges = new BufferGeometry(), {index, attributes: {position}} = mesh.geometry;
+  edges.setIndex(new BufferAttribute(edgesOf(index.array, position.count), 1));
+  edges.setAttribute('position', position);
+  const lines = new LineSegments(edges, ink);
+  lines.frustumCulled = false;  // bounds would be those of how the face stands now
+  mesh.add(lines);
+  return lines;
+}
+
+/** Takes lines away, but not the positions, which are the face's. */
+export function removeLines(lines) {
+  lines.removeFromParent();
+  lines.geometry.deleteAttribute('position').dispose();
+}
+
+/** Fits the picture to the page. */
+export function resize() {
+  const {clientWidth, clientHeight} = stage;
+  renderer.setSize(clientWidth, clientHeight, false);
+  camera.aspect = clientWidth / Math.max(clientHeight, 1);
+  camera.updateProjectionMatrix();
+}
+
+export function render() {
+  renderer.render(scene, camera);
+}
