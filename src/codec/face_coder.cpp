@@ -5,6 +5,7 @@
 #include "codec/limits.hpp"
 #include "codec/source_coder.hpp"
 #include "codec/walk.hpp"
+#include "rig/source_quads.hpp"
 #include "surface/groups.hpp"
 
 namespace sweepface::codec {
@@ -76,9 +77,7 @@ class FaceCoder {
   void findPlain() {
     plainQuad_.assign(faces_.faceCount(), kNone);
     if (source_.quadCorners.empty()) return;
-    std::vector<Index> faceOf;
-    for (Index f = 0; f < faces_.faceCount(); ++f)
-      faceOf.insert(faceOf.end(), faces_.faceSize(f), f);
+    const std::vector<Index> faceOf = facesOfCorners(faces_);
     const auto corners = static_cast<Index>(faceOf.size());
     for (std::size_t q = 0; q < grid_.quads().size(); ++q) {
       const Index* told = &source_.quadCorners[4 * q];

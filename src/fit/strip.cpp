@@ -8,6 +8,8 @@
 #include "sweepface/codec.hpp"
 #include "sweepface/eval.hpp"
 
+#include "rig/source_quads.hpp"
+
 namespace sweepface {
 
 namespace {
@@ -22,11 +24,8 @@ struct Place {
 std::vector<Place> placesOf(const SourceMesh& source) {
   const Polygons& faces = source.polygons;
   std::vector<Place> places(faces.faceCount());
-  std::vector<Index> faceOf;
-  for (Index f = 0; f < faces.faceCount(); ++f) {
-    places[f].face = f;
-    faceOf.insert(faceOf.end(), faces.faceSize(f), f);
-  }
+  for (Index f = 0; f < faces.faceCount(); ++f) places[f].face = f;
+  const std::vector<Index> faceOf = facesOfCorners(faces);
   for (std::size_t q = 0; 4 * q + 3 < source.quadCorners.size(); ++q) {
     const Index corner = source.quadCorners[4 * q];
     Place& place = places[faceOf[corner]];

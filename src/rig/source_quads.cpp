@@ -2,6 +2,14 @@
 
 namespace sweepface {
 
+std::vector<Index> facesOfCorners(const Polygons& polygons) {
+  std::vector<Index> faces;
+  faces.reserve(polygons.corners.size());
+  for (Index f = 0; f < polygons.faceCount(); ++f)
+    faces.insert(faces.end(), polygons.faceSize(f), f);
+  return faces;
+}
+
 bool knowsQuads(const Rig& rig) {
   const std::size_t quads = rig.surface.wireframe().quadCount();
   return quads > 0 && rig.source.quadCorners.size() == 4 * quads;
@@ -9,10 +17,7 @@ bool knowsQuads(const Rig& rig) {
 
 std::vector<Index> faceOfQuads(const Rig& rig) {
   if (!knowsQuads(rig)) return {};
-  const Polygons& polygons = rig.source.polygons;
-  std::vector<Index> faceOfCorner;
-  for (Index f = 0; f < polygons.faceCount(); ++f)
-    faceOfCorner.insert(faceOfCorner.end(), polygons.faceSize(f), f);
+  const std::vector<Index> faceOfCorner = facesOfCorners(rig.source.polygons);
   std::vector<Index> faces;
   for (std::size_t k = 0; k < rig.source.quadCorners.size(); k += 4)
     faces.push_back(faceOfCorner[rig.source.quadCorners[k]]);

@@ -6,6 +6,9 @@
 
 namespace sweepface {
 
+/// The face of each corner [C].
+std::vector<Index> facesOfCorners(const Polygons& polygons);
+
 /// Whether the face says which corners of its source lie round the quads of level 1: a file may
 /// come without them.
 bool knowsQuads(const Rig& rig);
