@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "eval/cells.hpp"
 #include "eval/triangulate.hpp"
 #include "rig/source_quads.hpp"
 
@@ -165,27 +166,19 @@ class Quads {
 }  // namespace
 
 RenderMesh renderGrid(const Rig& rig, const Tessellation& grid) {
-  const Surface& surface = rig.surface;
   const Index level = grid.level();
   const auto faces = grid.faces();
   Builder builder(grid.positions(blend(rig, {})), rig.source.polygons);
   const Quads quads(rig);
-  std::size_t face = 0, first = 0;
-  for (Index p = 0; p < surface.patchCount(); ++p) {
-    const Index m = surface.edgesU(p), n = surface.edgesV(p);
-    for (Index j = 0; j < level * n; ++j)
-      for (Index i = 0; i < level * m; ++i) {
-        const std::size_t quad = first + std::size_t(j / level) * m + i / level;
-        std::array<Index, 4> vertices = faces[face++];
-        if (quads.isTextured(quad))
-          for (int k = 0; k < 4; ++k)
-            vertices[k] =
-                builder.vertex(vertices[k], quads.texcoord(quad, i % level + (k == 1 || k == 2),
-                                                           level, j % level + (k >= 2), level));
-        builder.addQuad(quads.material(quad), vertices);
+  forEachCell(rig.surface, level, [&](const Cell& cell) {
+    std::array<Index, 4> vertices = faces[cell.face];
+    if (quads.isTextured(cell.quad))
+      for (int k = 0; k < 4; ++k) {
+        const Index i = cell.i % level + (k == 1 || k == 2), j = cell.j % level + (k >= 2);
+        vertices[k] = builder.vertex(vertices[k], quads.texcoord(cell.quad, i, level, j, level));
       }
-    first += std::size_t(m) * n;
-  }
+    builder.addQuad(quads.material(cell.quad), vertices);
+  });
   return builder.take();
 }
 

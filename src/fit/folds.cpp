@@ -4,6 +4,7 @@
 
 #include "sweepface/measure.hpp"
 
+#include "eval/cells.hpp"
 #include "fit/corner_places.hpp"
 #include "fit/vertex_normals.hpp"
 #include "parallel/parallel.hpp"
@@ -28,18 +29,11 @@ void FoldFinder::visit(std::span<const Vec3> vectors, std::span<const Vec3> sour
   const auto normals = vertexNormals(rig_.source.polygons, source, map_.cornerPlaces, vertexCount_);
   const Facets facets(rig_.source, map_, source, normals, rig_.tolerance);
   const std::vector<Vec3> positions = fine_.positions(vectors);
-  std::size_t face = 0;
-  Index first = 0;  // of the patch's quads
-  for (Index p = 0; p < rig_.surface.patchCount(); ++p) {
-    const Index m = rig_.surface.edgesU(p), n = rig_.surface.edgesV(p);
-    for (Index j = 0; j < kLevel * n; ++j)
-      for (Index i = 0; i < kLevel * m; ++i, ++face) {
-        const Index quad = first + (j / kLevel) * m + i / kLevel;
-        const int folds = facets.folds(fineFaces_[face], positions, map_.faceOfQuad[quad]);
-        if (folds > 0) visit(quad, folds);
-      }
-    first += m * n;
-  }
+  forEachCell(rig_.surface, kLevel, [&](const Cell& cell) {
+    const Index face = map_.faceOfQuad[cell.quad];
+    if (const int folds = facets.folds(fineFaces_[cell.face], positions, face); folds > 0)
+      visit(cell.quad, folds);
+  });
 }
 
 std::vector<Index> FoldFinder::quads(std::span<const Vec3> vectors,

@@ -6,6 +6,7 @@
 
 #include "sweepface/eval.hpp"
 
+#include "eval/cells.hpp"
 #include "fit/corner_places.hpp"
 #include "fit/facets.hpp"
 #include "fit/vertex_normals.hpp"
@@ -87,28 +88,21 @@ class Meter {
 
   void betweenVertices(PoseSamples& s, std::span<const Vec3> vectors, const Facets& facets) const {
     const auto positions = fine_.positions(vectors);
-    std::size_t face = 0, quad = 0;
-    for (Index p = 0; p < rig_.surface.patchCount(); ++p) {
-      const Index m = rig_.surface.edgesU(p), n = rig_.surface.edgesV(p);
-      for (Index j = 0; j < kLevel * n; ++j)
-        for (Index i = 0; i < kLevel * m; ++i, ++face) {
-          const Index sourceFace = map_.faceOfQuad[quad + (j / kLevel) * m + i / kLevel];
-          s.errors.folds += facets.folds(fineFaces_[face], positions, sourceFace);
-        }
-      for (Index j = 0; j < n; ++j)
-        for (Index i = 0; i < m; ++i)
-          compareFacet(s.errors, p, i, j, positions, facets, map_.faceOfQuad[quad + j * m + i]);
-      quad += static_cast<std::size_t>(m) * n;
-    }
+    forEachCell(rig_.surface, kLevel, [&](const Cell& cell) {
+      s.errors.folds += facets.folds(fineFaces_[cell.face], positions, map_.faceOfQuad[cell.quad]);
+    });
+    forEachCell(rig_.surface, 1,
+                [&](const Cell& quad) { compareFacet(s.errors, quad, positions, facets); });
   }
 
-  void compareFacet(PoseErrors& e, Index patch, Index i, Index j,
-                    const std::vector<Vec3>& positions, const Facets& facets, Index face) const {
+  void compareFacet(PoseErrors& e, const Cell& at, const std::vector<Vec3>& positions,
+                    const Facets& facets) const {
+    const Index face = map_.faceOfQuad[at.quad];
     const double sag = facets.sag(face);
     for (Index b = 0; b <= kLevel; ++b)
       for (Index a = 0; a <= kLevel; ++a) {
-        const double distance =
-            facets.distance(positions[fine_.vertex(patch, kLevel * i + a, kLevel * j + b)], face);
+        const Index vertex = fine_.vertex(at.patch, kLevel * at.i + a, kLevel * at.j + b);
+        const double distance = facets.distance(positions[vertex], face);
         e.facetDistance = std::max(e.facetDistance, distance);
         e.facetExcess = std::max(e.facetExcess, distance - sag);
       }

@@ -5,6 +5,7 @@
 
 #include "sweepface/picture.hpp"
 
+#include "eval/cells.hpp"
 #include "fit/corner_places.hpp"
 #include "fit/vertex_normals.hpp"
 #include "picture/lowered.hpp"
@@ -89,26 +90,16 @@ FaceScenes::FaceScenes(const Rig& rig, Index lod)
       source_(rig.surface, 1),
       cornerPlaces_(cornerPlaces(rig.source, source_)) {
   const std::vector<std::array<Index, 4>> faces = grid_.faces();
-  const Index level = grid_.level();
-  std::size_t face = 0;
-  Index quad = 0;
-  const auto add = [&](Index a, Index b, Index c, Index patch, Index inQuad) {
-    if (a == b || b == c || c == a) return;
-    triangles_.push_back({a, b, c});
-    patchOf_.push_back(patch);
-    quadOf_.push_back(inQuad);
-  };
-  for (Index p = 0; p < rig.surface.patchCount(); ++p) {
-    const Index m = rig.surface.edgesU(p), n = rig.surface.edgesV(p);
-    for (Index j = 0; j < level * n; ++j)
-      for (Index i = 0; i < level * m; ++i) {
-        const auto& [a, b, c, d] = faces[face++];
-        const Index inQuad = quad + j / level * m + i / level;
-        add(a, b, c, p, inQuad);
-        add(a, c, d, p, inQuad);
-      }
-    quad += m * n;
-  }
+  forEachCell(rig.surface, grid_.level(), [&](const Cell& cell) {
+    const auto& [a, b, c, d] = faces[cell.face];
+    for (const auto& triangle : {std::array{a, b, c}, {a, c, d}}) {
+      if (triangle[0] == triangle[1] || triangle[1] == triangle[2] || triangle[2] == triangle[0])
+        continue;
+      triangles_.push_back(triangle);
+      patchOf_.push_back(cell.patch);
+      quadOf_.push_back(cell.quad);
+    }
+  });
 }
 
 std::vector<Vec3> FaceScenes::points(std::span<const double> weights) const {

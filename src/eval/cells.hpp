@@ -1,0 +1,33 @@
+#pragma once
+
+#include <utility>
+
+#include "sweepface/surface.hpp"
+
+namespace sweepface {
+
+/// A face of the tessellation at some level, and where it is.
+struct Cell {
+  std::size_t face = 0;  ///< as Tessellation::faces() counts
+  Index patch = 0;
+  Index quad = 0;      ///< of level 1, as SourceMesh::quadCorners counts
+  Index i = 0, j = 0;  ///< its column and row in the patch
+};
+
+/// Calls `visit(cell)` for all in the order of their faces.
+template <typename Visit>
+void forEachCell(const Surface& surface, Index level, Visit visit) {
+  Cell cell;
+  Index first = 0;  // quad of the patch
+  for (cell.patch = 0; cell.patch < surface.patchCount(); ++cell.patch) {
+    const Index m = surface.edgesU(cell.patch), n = surface.edgesV(cell.patch);
+    for (cell.j = 0; cell.j < level * n; ++cell.j)
+      for (cell.i = 0; cell.i < level * m; ++cell.i, ++cell.face) {
+        cell.quad = first + cell.j / level * m + cell.i / level;
+        visit(std::as_const(cell));
+      }
+    first += m * n;
+  }
+}
+
+}  // namespace sweepface
