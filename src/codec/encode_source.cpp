@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <optional>
 #include <span>
 
 #include "codec/blocks.hpp"
@@ -93,51 +94,63 @@ bool countsUp(const LevelOne& grid, const SourceMesh& source) {
   return true;
 }
 
+/// What the grid of the patches tells of the source.
+struct ByGrid {
+  std::string order, faces;
+  std::vector<Index> images;  ///< of corners, where there are faces
+  bool countsUp = false;      ///< the vertices are those of the grid in its order
+};
+
+// Nothing where there is so much that a reader would not trust so few bytes.
+std::optional<ByGrid> byGrid(const Rig& rig, const Mirror& mirror) {
+  const SourceMesh& source = rig.source;
+  const std::size_t quads = rig.surface.wireframe().quadCount();
+  if (quads > kMostQuads) return std::nullopt;
+  const LevelOne grid(rig.surface, mirror);
+  ByGrid told;
+  told.order = ranged([&](auto& out) { writeOrder(out, grid, source); });
+  told.faces = ranged([&](auto& out) { writeFaces(out, grid, source); });
+  SourceMesh again;  // as a reader has it
+  again.loose = source.loose;
+  if (quads > mostEntries(std::min(told.order.size(), told.faces.size())) ||
+      !isReadable(told.order, [&](auto& in, auto most) { readOrder(in, grid, most, again); }) ||
+      !isReadable(told.faces, [&](auto& in, auto most) { readFaces(in, grid, most, again); }))
+    return std::nullopt;
+  if (hasFaces(source.polygons)) told.images = cornerImages(grid.mirror(), source);
+  told.countsUp = countsUp(grid, source);
+  return told;
+}
+
+// In steps, unless they are too fine for some coordinate or a reader would not trust so few bytes.
+void writeTexcoords(Writer& out, const Polygons& faces, std::span<const Index> images, int bits) {
+  if (bits > 0 && holdsTexture(faces, bits)) {
+    const std::string bytes = ranged([&](auto& to) { writeTexture(to, faces, images, bits); });
+    Polygons again = faces;
+    again.texcoords.clear();
+    again.cornerTexcoords.clear();
+    const auto readAgain = [&](auto& in, auto most) { readTexture(in, most, again, images, bits); };
+    if (!bytes.empty() && isReadable(bytes, readAgain)) return writeChunk(out, "text", bytes);
+  }
+  writeChunk(out, "texc", texcoords(faces));
+}
+
 }  // namespace
 
-// By the grid of the patches, unless there is so much that a reader would not trust so few bytes.
 void writeSource(Writer& out, const Rig& rig, const Mirror& mirror, int textureBits) {
   const SourceMesh& source = rig.source;
   const Polygons& faces = source.polygons;
-  const std::size_t quads = rig.surface.wireframe().quadCount();
-  SourceMesh again;  // as a reader has it
-  again.loose = source.loose;
-  std::string order, polygonBytes;
-  std::vector<Index> images;
-  bool byGrid = quads <= kMostQuads, ownOrder = !source.gridVertex.empty();
-  if (byGrid) {
-    const LevelOne grid(rig.surface, mirror);
-    order = ranged([&](auto& symbols) { writeOrder(symbols, grid, source); });
-    polygonBytes = ranged([&](auto& symbols) { writeFaces(symbols, grid, source); });
-    byGrid =
-        quads <= mostEntries(std::min(order.size(), polygonBytes.size())) &&
-        isReadable(order, [&](auto& in, auto most) { readOrder(in, grid, most, again); }) &&
-        isReadable(polygonBytes, [&](auto& in, auto most) { readFaces(in, grid, most, again); });
-    if (byGrid && hasFaces(faces)) images = cornerImages(grid.mirror(), source);
-    if (byGrid && hasFaces(faces) && countsUp(grid, source)) ownOrder = false;
+  const std::optional<ByGrid> grid = byGrid(rig, mirror);
+  if (!source.gridVertex.empty()) {
+    if (!grid)
+      writeChunk(out, "ordr", sourceOrder(source.gridVertex));
+    else if (!hasFaces(faces) || !grid->countsUp)
+      writeChunk(out, "walk", grid->order);
   }
-  if (ownOrder)
-    byGrid ? writeChunk(out, "walk", order)
-           : writeChunk(out, "ordr", sourceOrder(source.gridVertex));
   if (hasFaces(faces))
-    byGrid ? writeChunk(out, "face", polygonBytes) : writeChunk(out, "poly", polygons(faces));
-  if (!faces.texcoords.empty() || !faces.cornerTexcoords.empty()) {
-    std::string texture;
-    if (textureBits > 0 && holdsTexture(faces, textureBits))
-      texture = ranged([&](auto& to) { writeTexture(to, faces, images, textureBits); });
-    again.polygons = faces;
-    again.polygons.texcoords.clear();
-    again.polygons.cornerTexcoords.clear();
-    const auto readAgain = [&](auto& in, auto most) {
-      int bits = textureBits;
-      readTexture(in, most, again.polygons, images, bits);
-    };
-    if (!texture.empty() && isReadable(texture, readAgain))
-      writeChunk(out, "text", texture);
-    else
-      writeChunk(out, "texc", texcoords(faces));
-  }
-  if (!source.quadCorners.empty() && !(byGrid && hasFaces(faces)))
+    grid ? writeChunk(out, "face", grid->faces) : writeChunk(out, "poly", polygons(faces));
+  if (!faces.texcoords.empty() || !faces.cornerTexcoords.empty())
+    writeTexcoords(out, faces, grid ? grid->images : std::vector<Index>{}, textureBits);
+  if (!source.quadCorners.empty() && !(grid && hasFaces(faces)))
     writeChunk(out, "quad", quadCorners(source));
 }
 
