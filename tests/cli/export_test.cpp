@@ -4,7 +4,6 @@
 #include "sweepface/codec.hpp"
 #include "sweepface/fit.hpp"
 
-#include "../cli/lod_mesh.hpp"
 #include "cli/tool.hpp"
 
 namespace sweepface {
@@ -189,21 +188,21 @@ TEST_F(Export, CarriesTextureAndMaterialsOver) {
   }
 }
 
-TEST(LodPolygons, HasTrianglesAtCollapsedSides) {
+TEST_F(Export, HasTrianglesAtCollapsedSides) {
   // A fan of six triangles round a raised middle.
   std::string text = "v 0 0 0.5\n";
   for (int k = 0; k < 6; ++k)
     text += fmt::format("v {} {} 0\n", std::cos(1.0472 * k), std::sin(1.0472 * k));
   for (int k = 0; k < 6; ++k) text += fmt::format("f 1 {} {}\n", k + 2, (k + 1) % 6 + 2);
-  const auto mesh = parseObj(text, "fan");
-  ASSERT_TRUE(mesh.has_value()) << mesh.error().message;
+  const auto fan = parseObj(text, "fan");
+  ASSERT_TRUE(fan.has_value()) << fan.error().message;
   ConvertOptions options;
   options.tolerance = 0.05;
-  const auto conversion = convert({*mesh, {}}, options);
+  const auto conversion = convert({*fan, {}}, options);
   ASSERT_TRUE(conversion.has_value()) << conversion.error().message;
-  const Rig& rig = conversion->rig;
-  const Tessellation grid(rig.surface, 2);
-  const Polygons polygons = cli::LodPolygons(rig, grid).make();
+  folder.file("fan.sweep", encode(conversion->rig));
+  ASSERT_EQ(run("export fan.sweep -o fine.obj --lod 2").code, 0);
+  const Polygons polygons = mesh("fine.obj").polygons;
   EXPECT_EQ(polygons.faceCount(), 6 * 4);
   int triangles = 0;
   for (Index f = 0; f < polygons.faceCount(); ++f) {
