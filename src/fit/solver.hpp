@@ -1,17 +1,9 @@
 #pragma once
 
-#include <vector>
-
+#include "fit/draft.hpp"
 #include "fit/source_data.hpp"
-#include "layout/layout.hpp"
 
 namespace sweepface {
-
-/// A layout with its surface: what one round of fitting works on.
-struct Draft {
-  std::vector<GridPatch> patches;  ///< in the order of the surface's patches
-  Surface surface;
-};
 
 /// The stored vectors of all poses.
 using Solution = PoseMatrix;  ///< [storedCount × 3·poses]

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <vector>
+
+#include "layout/layout.hpp"
+
+namespace sweepface {
+
+/// A layout with its surface: what one round of fitting works on.
+struct Draft {
+  std::vector<GridPatch> patches;  ///< in the order of the surface's patches
+  Surface surface;
+};
+
+/// What a vertex of the mesh stores as a node beyond what the layout grants it: its slopes where
+/// lines pass from a long edge to a short one, because predicted slopes overshoot there; its whole
+/// jet where its prediction would run in a circle.
+using ExtraJets = std::vector<JetMask>;
+inline constexpr JetMask kSlopes = kPosition | 1 << 1 | 1 << 3;
+
+/// Reads the patches and the surface off a layout. Circles of derivations are broken by letting
+/// nodes store their jets or by running lines on; both are remembered in the layout and in `extra`.
+Result<Draft> makeDraft(Layout& layout, ExtraJets& extra);
+
+}  // namespace sweepface
