@@ -1,0 +1,80 @@
+#include "fit/check_source.hpp"
+
+#include <fmt/format.h>
+#include <set>
+
+#include "sweepface/box.hpp"
+#include "sweepface/fit.hpp"
+
+#include "codec/limits.hpp"
+#include "codec/utf8.hpp"
+#include "io/text.hpp"
+
+namespace sweepface {
+
+double diagonal(const PolygonMesh& mesh) {
+  Box box;
+  for (const Index v : mesh.polygons.corners) box.include(mesh.positions[v]);
+  return box.isEmpty() ? diagonal(std::span(mesh.positions)) : norm(box.size());
+}
+
+Result<void> checkTolerance(double tolerance, double diagonal) {
+  // Of the diagonal: what single precision rounds off at its end.
+  constexpr double kLeast = 0x1p-25;
+  if (tolerance > diagonal)
+    return fail(fmt::format(
+        "a tolerance of {:.3g} is larger than the mesh, which is {:.3g} across; ask for a finer "
+        "one",
+        tolerance, diagonal));
+  if (tolerance >= kLeast * diagonal) return {};
+  return fail(fmt::format(
+      "a tolerance of {:.3g} is finer than a file's numbers, {:.3g} for a mesh of this size; "
+      "allow a larger one",
+      tolerance, kLeast * diagonal));
+}
+
+namespace {
+
+/// Files tell targets apart by their names, which are UTF-8.
+Result<void> checkNames(const std::vector<MeshTarget>& targets) {
+  std::set<std::string_view> names;
+  for (const MeshTarget& target : targets) {
+    if (target.name.empty()) return fail("a target has no name; name it");
+    if (!codec::isUtf8(target.name))
+      return fail("the name of the target " + io::inQuotes(target.name) +
+                  " has control characters or is not UTF-8; rename it");
+    if (target.name.size() > codec::kLongestName)
+      return fail("the name of a target, ", io::inQuotes(target.name), ", is longer than ",
+                  codec::kLongestName, " bytes; shorten it");
+    if (!names.insert(target.name).second)
+      return fail("two targets are named " + io::inQuotes(target.name) + "; rename one of them");
+  }
+  return {};
+}
+
+/// Files hold what targets add to the neutral in single precision.
+Result<void> checkDifferences(const MeshRig& source) {
+  for (const MeshTarget& target : source.targets)
+    for (std::size_t v = 0; v < target.positions.size(); ++v) {
+      if (!io::isUsable(target.positions[v] - source.neutral.positions[v]))
+        return fail("vertex ", v + 1, " of the target ", io::inQuotes(target.name),
+                    " is further from the neutral's than a file can tell; scale the meshes down");
+    }
+  return {};
+}
+
+}  // namespace
+
+Result<void> checkSource(const MeshRig& source) {
+  if (source.neutral.positions.empty())
+    return fail("the neutral has no vertices; there is no surface to fit");
+  if (auto ok = checkNames(source.targets); !ok) return ok;
+  if (auto ok = checkDifferences(source); !ok) return ok;
+  if (!(diagonal(source.neutral) > 0))
+    return fail(
+        "all vertices of the neutral stand at one place, as far as numbers tell; there is no "
+        "surface to fit");
+  return {};
+}
+
+}  // namespace sweepface

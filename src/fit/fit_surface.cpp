@@ -1,0 +1,126 @@
+#include "fit/fit_surface.hpp"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+
+#include "fit/shapes.hpp"
+#include "parallel/parallel.hpp"
+
+namespace sweepface {
+
+namespace {
+
+constexpr int kMostRounds = 60;
+// Of them for the sake of normals alone.
+constexpr int kMostForNormals = 8;
+
+// The stored vectors as they will be after the file: neutral and differences rounded each to single
+// precision. What is verified is what will be read back.
+Solution asStored(const Solution& solution) {
+  const auto rounded = [](const auto& x) {
+    return x.template cast<float>().template cast<double>();
+  };
+  Solution stored(solution.rows(), solution.cols());
+  parallelRanges(solution.rows(), [&](Eigen::Index first, Eigen::Index end) {
+    for (Eigen::Index v = first; v < end; ++v) {
+      const auto fitted = solution.row(v);
+      auto row = stored.row(v);
+      row.leftCols<3>() = rounded(fitted.leftCols<3>());
+      for (Eigen::Index k = 3; k < solution.cols(); k += 3)
+        row.segment<3>(k) =
+            row.leftCols<3>() + rounded(fitted.segment<3>(k) - fitted.leftCols<3>());
+    }
+  });
+  return stored;
+}
+
+class SurfaceFitter {
+ public:
+  SurfaceFitter(Layout& layout, SourceData& data, const RefineLimits& limits, bool choosesShapes,
+                ConversionProgress& progress)
+      : layout_(layout),
+        data_(data),
+        limits_(limits),
+        choosesShapes_(choosesShapes),
+        progress_(progress) {}
+
+  // Solve, measure, refine.
+  Result<Fitted> run() {
+    ExtraJets extra = slopesWhereUneven();
+    double nearest = std::numeric_limits<double>::infinity();
+    int smoothing = 0;  // rounds since the promise holds
+    for (int round = 0; round < kMostRounds; ++round) {
+      if (progress_.cancelled()) return fail("the conversion was interrupted");
+      auto draft = makeDraft(layout_, extra);
+      if (!draft) return std::unexpected(draft.error());
+      auto fitted = solved(std::move(*draft));
+      if (!fitted) return fitted;
+      const DraftErrors errors = measured(*fitted);
+      const bool within = errors.largestDistance <= limits_.distance;
+      nearest = std::min(nearest, errors.largestDistance);
+      const double share = within ? 1 : std::sqrt(limits_.distance / errors.largestDistance);
+      progress_.report("fitting", 0.9 * share);
+      const Index changed = refine(layout_, fitted->draft, data_, errors, limits_, extra);
+      if (changed == 0 && within) return reshaped(std::move(*fitted), errors);
+      if (changed == 0) break;
+      if (within && ++smoothing >= kMostForNormals) limits_.angle = 180;
+    }
+    return fail(fmt::format(
+        "a tolerance of {:.3g} is out of reach: the surface comes no nearer to all vertices than "
+        "{:.3g}; allow a larger one",
+        data_.tolerance, nearest));
+  }
+
+ private:
+  ExtraJets slopesWhereUneven() const {
+    ExtraJets extra(data_.uneven.size(), 0);
+    for (Index v = 0; v < static_cast<Index>(extra.size()); ++v)
+      if (data_.uneven[v]) {
+        extra[v] = kSlopes;
+        if (const Index image = layout_.image(v); image >= 0) extra[image] = kSlopes;
+      }
+    return extra;
+  }
+
+  Result<Fitted> solved(Draft draft) const {
+    const auto solution = solve(layout_, draft, data_);
+    if (!solution) return std::unexpected(solution.error());
+    return Fitted{std::move(draft), asStored(*solution)};
+  }
+  DraftErrors measured(const Fitted& fitted) const {
+    return measureDraft(layout_, fitted.draft, data_, fitted.solution);
+  }
+
+  // With other shape parameters, if the fit that follows is better and still within the limits.
+  Fitted reshaped(Fitted fitted, const DraftErrors& errors) const {
+    if (!choosesShapes_) return fitted;
+    progress_.report("shape parameters", 0.92);
+    Wireframe wireframe = fitted.draft.surface.wireframe();
+    if (chooseShapes(layout_, fitted.draft, data_, fitted.solution, wireframe.ribbons) == 0)
+      return fitted;
+    auto surface = Surface::make(std::move(wireframe));
+    if (!surface) return fitted;
+    auto again = solved({fitted.draft.patches, std::move(*surface)});
+    if (!again) return fitted;
+    const DraftErrors now = measured(*again);
+    if (now.largestDistance > limits_.distance || now.weightedSquares >= errors.weightedSquares)
+      return fitted;
+    return std::move(*again);
+  }
+
+  Layout& layout_;
+  SourceData& data_;
+  RefineLimits limits_;
+  bool choosesShapes_;
+  ConversionProgress& progress_;
+};
+
+}  // namespace
+
+Result<Fitted> fitSurface(Layout& layout, SourceData& data, const RefineLimits& limits,
+                          bool choosesShapes, ConversionProgress& progress) {
+  return SurfaceFitter(layout, data, limits, choosesShapes, progress).run();
+}
+
+}  // namespace sweepface
