@@ -16,59 +16,71 @@ constexpr double kCoarser = 4;         // where a tolerance cannot be met
 
 struct Try {
   double tolerance = 0;
-  std::size_t bytes = 0;
+  std::size_t bytes = 0;  // SIZE_MAX: it cannot be met
 };
+
+// Bytes fall as the tolerance grows, about as its power -0.8: from the first try outwards until one
+// is too large and one fits, then between them.
+struct Bracket {
+  Try coarse, fine;
+  int halvings = 0;
+
+  double next(const Try& last, std::size_t mostBytes) {
+    if (coarse.bytes > 0 && fine.bytes > 0) {
+      ++halvings;
+      return std::sqrt(coarse.tolerance * fine.tolerance);
+    }
+    const double ratio = static_cast<double>(last.bytes) / static_cast<double>(mostBytes);
+    const double factor = std::pow(ratio, 1.25);
+    return last.tolerance *
+           (ratio > 1 ? std::clamp(factor, 2.0, 8.0) : std::clamp(factor, 0.125, 0.5));
+  }
+};
+
+Result<std::size_t> bytesOf(Rig rig, const FinishRig& finish) {
+  if (auto ok = finish ? finish(rig) : Result<void>{}; !ok) return std::unexpected(ok.error());
+  return encode(rig).size();
+}
 
 }  // namespace
 
 // Where the first tolerance cannot be met, some larger ones are tried before anything else.
-// Bytes fall as the tolerance grows, about as its power -0.8: from the first try outwards until one
-// is too large and one fits, then between them.
 Result<Conversion> convertToBytes(const MeshRig& source, ConvertOptions options,
                                   std::size_t mostBytes, const FinishRig& finish) {
   options.pack = true;
-  std::optional<Conversion> best;
-  Try coarse, fine;
   const bool isFinest = options.tolerance > 0;
   if (!isFinest) options.tolerance = 0.0005 * diagonal(source.neutral);
+  std::optional<Conversion> best;
   std::optional<Error> first;  // why the first tolerance cannot be met
-  int failures = 0, halvings = 0;
-  for (int attempt = 0; attempt < kMostTries && halvings <= kMostHalvings; ++attempt) {
+  Bracket bracket;
+  int failures = 0;
+  for (int attempt = 0; attempt < kMostTries && bracket.halvings <= kMostHalvings; ++attempt) {
     auto conversion = convert(source, options);
-    const bool cancelled = options.cancel && options.cancel->load();
-    if (!conversion && cancelled) return conversion;
+    if (!conversion && options.cancel && options.cancel->load()) return conversion;
+    Try now{options.tolerance, SIZE_MAX};
     if (!conversion && attempt == failures) {
       if (!first) first = conversion.error();
       if (++failures > kMostFailures) return std::unexpected(*first);
-      fine = {options.tolerance, SIZE_MAX};
+      bracket.fine = now;
       options.tolerance *= kCoarser;
       continue;
     }
-    Try now{options.tolerance, SIZE_MAX};
     if (conversion) {
-      Rig rig = conversion->rig;
-      if (auto ok = finish ? finish(rig) : Result<void>{}; !ok) return std::unexpected(ok.error());
-      now.bytes = encode(rig).size();
+      const auto bytes = bytesOf(conversion->rig, finish);
+      if (!bytes) return std::unexpected(bytes.error());
+      now.bytes = *bytes;
     }
     if (conversion && now.bytes <= mostBytes) {
-      coarse = now;
+      bracket.coarse = now;
       best = std::move(*conversion);
       if (static_cast<double>(now.bytes) > kCloseEnough * static_cast<double>(mostBytes)) break;
       if (isFinest && attempt == 0) break;
     } else if (conversion || best) {
-      fine = now;  // what cannot be met is too fine as well
+      bracket.fine = now;  // what cannot be met is too fine as well
     } else {
-      coarse = now;  // what cannot be met though a finer one could be is too coarse
+      bracket.coarse = now;  // what cannot be met though a finer one could be is too coarse
     }
-    if (coarse.bytes > 0 && fine.bytes > 0) {
-      ++halvings;
-      options.tolerance = std::sqrt(coarse.tolerance * fine.tolerance);
-    } else {
-      const double ratio = static_cast<double>(now.bytes) / static_cast<double>(mostBytes);
-      const double factor = std::pow(ratio, 1.25);
-      options.tolerance *=
-          ratio > 1 ? std::clamp(factor, 2.0, 8.0) : std::clamp(factor, 0.125, 0.5);
-    }
+    options.tolerance = bracket.next(now, mostBytes);
   }
   if (best) return std::move(*best);
   return fail("the face does not fit into " + std::to_string(mostBytes) +
