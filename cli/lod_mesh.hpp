@@ -9,8 +9,8 @@ namespace sweepface::cli {
 
 /// Whether an Index can count the corners of all quads where every edge is cut into `lod`.
 Result<void> checkFineness(const Surface& surface, Index lod);
-/// The same, and whether a file that lacks it must tell where the source's polygons are on the
-/// surface.
+/// Whether the source's polygons can be cut into `lod`: the face knows them, and an Index the
+/// parts.
 Result<void> checkLod(const Rig& rig, Index lod);
 
 /// The meshes of a rig, all over the same polygons: the source's own at lod 0, else a tessellation.

@@ -148,7 +148,7 @@ export class Sweepface {
   look(pose: Pose | null): void;
 
   /** Writes three floats a vertex: positions in model units, unit normals. Either may be null. */
-  evaluate(positions: Float32Array | null, normals?: Float32Array | null): void;
+  evaluate(positions: Float32Array | Float64Array | null, normals?: Float32Array | Float64Array | null): void;
   /** What a vertex shader evaluates the face from: docs/evaluation.md. */
   shaderTables(tangents?: boolean): {basis: Int16Array; places: Uint32Array; neutral: Float32Array; modes: number};
   /** Writes what changes every frame for it, four integers a mode; returns their factor. */

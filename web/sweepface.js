@@ -123,7 +123,7 @@ export class Sweepface {
     const count = 3 * vertexCount;
     for (const out of [positions ?? null, normals ?? null].filter((out) => out !== null)) {
       if (!['Float32Array', 'Float64Array'].includes(kindOf(out)))
-        throw new TypeError(`Positions and normals are written to a Float32Array or null, not to ${kindOf(out)}.`);
+        throw new TypeError(`Positions and normals are written to a Float32Array, a Float64Array or null, not to ${kindOf(out)}.`);
       if (out.length < count)
         throw new RangeError(`There must be room for ${vertexCount} vertices: ${count} numbers, not ${out.length}.`);
     }

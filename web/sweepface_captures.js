@@ -77,6 +77,8 @@ function timeOf(timecode, framesPerSecond, fail) {
   const parts = timecode.split(':').map(numberIn);
   if (parts.length !== 4 || !parts.every((part) => part >= 0 && part <= 1e6))
     throw fail(`'${timecode}' is not a timecode like 12:59:59:23.500`);
+  if (parts[1] >= 60 || parts[2] >= 60)
+    throw fail(`the timecode '${timecode}' has more than 59 minutes or seconds`);
   if (parts[3] >= framesPerSecond)
     throw fail(`the timecode '${timecode}' counts more than ${framesPerSecond} frames a second; ` +
                'give the recording\'s own rate');
@@ -86,7 +88,7 @@ function timeOf(timecode, framesPerSecond, fail) {
 function readAudio2Face(json, fail) {
   const {exportFps, facsNames: names, weightMat: rows} = json;
   if (!isNumber(exportFps) || !(exportFps > 0)) throw fail('has no \'exportFps\' greater than 0');
-  if (!Array.isArray(names) || names.length === 0) throw fail('has no list \'facsNames\'');
+  if (!Array.isArray(names) || names.length === 0) throw fail('has no list \'facsNames\' with names in it');
   if (!names.every((name) => typeof name === 'string')) throw fail('has a value in \'facsNames\' that is not a name');
   const seen = new Set(), twice = names.find((name) => seen.size === seen.add(name).size);
   if (twice !== undefined) throw fail(`names '${twice}' twice in 'facsNames'`);
@@ -131,8 +133,9 @@ function scoresOf(frame, f, fail) {
   if (!Array.isArray(categories)) throw fail(`has no 'categories' in frame ${f}`);
   return new Map(categories.map((category) => {
     const shape = category?.categoryName ?? category?.category_name;
-    if (typeof shape !== 'string' || !isWeight(category.score))
+    if (typeof shape !== 'string' || !isNumber(category.score))
       throw fail(`has a category without 'categoryName' and 'score' in frame ${f}`);
+    if (!isWeight(category.score)) throw fail(`has a score in frame ${f} that is not within ±1,000,000`);
     return [shape, category.score];
   }));
 }

@@ -19,7 +19,7 @@ export function geometryOf(face, attributes) {
 /** Gives a geometry what was put into another of the same face: attributes, groups and what of it is drawn. */
 function addTo(geometry, {name, userData, attributes, groups, drawRange}) {
   for (const [key, attribute] of Object.entries(attributes))
-    if (!geometry.hasAttribute(key)) geometry.setAttribute(key, attribute);
+    if (!geometry.hasAttribute(key)) geometry.setAttribute(key, attribute.clone());
   Object.assign(geometry, {name, userData, groups: groups.map((group) => ({...group})), drawRange: {...drawRange}});
 }
 

@@ -37,12 +37,12 @@ function faultOf({drive = 'spring', seconds = 1, turn = 0.5, frequency = 1, damp
   if (drive === 'cut') return;
   if (drive === 'spring') {
     const omega = 2 * Math.PI * frequency;
-    return tooMuch(omega ** 2, (damping * omega) ** 2) ??
+    return tooMuch(omega ** 2 + (damping * omega) ** 2) ??
            (frequency > 0 && damping >= 0 ? undefined
                                           : 'A spring needs a frequency greater than 0 and a damping of at least 0');
   }
   if (drive === 'bounce' && !(restitution >= 0 && restitution <= 1 - 1e-9))
-    return 'A bounce keeps a part of its speed: the restitution lies in [0, 1)';
+    return 'A bounce keeps a part of its speed: the restitution lies in [0, 1 - 1e-9]';
   if (!(seconds > 0)) return 'The motion must last a finite time greater than 0 seconds';
   if (drive === 'linear-force') return tooMuch(12 / seconds / seconds / seconds);  // how fast the force changes
   if (drive !== 'accelerate-brake') return tooMuch(2 / seconds / seconds);

@@ -72,6 +72,9 @@ class Evaluator {
   std::shared_ptr<const EvaluatorTables> tables_;
 };
 
+/// Bytes from one vertex to the next, at the most.
+inline constexpr std::size_t kMostStride = std::size_t{1} << 30;
+
 /// Three floats every `stride` bytes; no data: not wanted.
 struct VectorsOut {
   float* data = nullptr;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,7 @@ struct MeasureOptions {
   int mixtures = 10;
   unsigned seed = 1;
   bool facets = true;  ///< also between vertices: facets and folds, which take most of the time
+  const std::atomic<bool>* cancel = nullptr;  ///< asked before each shape; true: fails soon
 };
 
 /// Compares a rig with the mesh rig it was made from: same vertices, and a shape for every target

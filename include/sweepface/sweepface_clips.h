@@ -42,7 +42,8 @@ SWEEPFACE_API sweepface_clip_options sweepface_clip_usual_options(void);
 /* Reads a clip from memory, which may be reused afterwards: a CSV of Live Link Face, a JSON of
  * MediaPipe or Audio2Face, a timeline (JSON) or the first animation of a .glb that has weights;
  * told apart by what they hold. Names are matched with the rig's targets; none that matches is an
- * error. `options` may be NULL; `name` is what messages call it, NULL: "The clip". */
+ * error, unless all are angles of head and eyes. `options` may be NULL; `name` is what messages
+ * call it, NULL or empty: "The clip". */
 SWEEPFACE_API sweepface_status sweepface_clip_read(const sweepface_rig* rig, const void* bytes,
                                                    size_t size, const char* name,
                                                    const sweepface_clip_options* options,

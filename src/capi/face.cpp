@@ -10,7 +10,7 @@ using namespace sweepface::capi;
 
 namespace {
 
-constexpr std::size_t kTight = 3 * sizeof(float), kMostStride = std::size_t{1} << 30;
+constexpr std::size_t kTight = 3 * sizeof(float);
 
 bool isWeight(double w) { return std::abs(w) <= SWEEPFACE_MOST_WEIGHT; }  // false for NaN
 

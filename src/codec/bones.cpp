@@ -79,7 +79,7 @@ bool Bones::add(std::span<const Packing::Carry> carries, double sign,
     };
     Vec3& moved = vectors[vector];
     moved += {along(0), along(1), along(2)};
-    scaled += kScaleToMost * (moved.x + moved.y + moved.z);
+    scaled += kScaleToMost * moved.x + kScaleToMost * moved.y + kScaleToMost * moved.z;
   }
   return std::isfinite(scaled);
 }

@@ -52,7 +52,7 @@ class Front {
   HalfArc waiting(std::uint32_t rank) const {
     return find([&](HalfArc) { return rank-- == 0; });
   }
-  /// Before an open half-arc.
+  /// How many came before an open half-arc.
   std::uint32_t rankOf(HalfArc open) const {
     std::uint32_t rank = 0;
     find([&](HalfArc h) { return h == open || (++rank, false); });

@@ -48,8 +48,8 @@ inline constexpr std::size_t kBytesAnEntry = 64, kLettersAName = 8;
 /// Of texture coordinates.
 inline constexpr int kMostTextureBits = 24;
 
-/// Vectors beyond some 10²⁵ are refused, as weights would take them beyond what a float holds: so
-/// much times a sum of theirs is infinite.
+/// Vectors that are told in steps and come out beyond some 10²⁵ are refused, as weights would take
+/// them beyond what a float holds: so much times a sum of theirs is infinite.
 inline constexpr double kScaleToMost = 1e283;
 
 /// Bytes of a target's name.

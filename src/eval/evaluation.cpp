@@ -85,8 +85,8 @@ TileRange changed(const TileRange& all, const Scratch& scratch) {
 Result<void> checkOut(const VectorsOut& out, const char* what) {
   if (!out.data) return {};
   if (out.count < 0) return fail("The number of ", what, " must not be negative.");
-  if (out.stride < 3 * sizeof(float))
-    return fail("The stride of ", what, " must be at least 12 bytes.");
+  if (out.stride < 3 * sizeof(float) || out.stride > kMostStride)
+    return fail("The stride of ", what, " must be 12 bytes to a gigabyte.");
   return {};
 }
 

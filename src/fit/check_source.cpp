@@ -57,7 +57,7 @@ Result<void> checkDifferences(const MeshRig& source) {
   for (const MeshTarget& target : source.targets)
     for (std::size_t v = 0; v < target.positions.size(); ++v) {
       if (!io::isUsable(target.positions[v] - source.neutral.positions[v]))
-        return fail("vertex ", v + 1, " of the target ", io::inQuotes(target.name),
+        return fail("vertex ", v, " of the target ", io::inQuotes(target.name),
                     " is further from the neutral's than a file can tell; scale the meshes down");
     }
   return {};

@@ -5,6 +5,7 @@
 
 namespace sweepface {
 
+/// A layout's draft with the vectors that were fitted to it.
 struct Fitted {
   Draft draft;
   Solution solution;

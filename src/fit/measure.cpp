@@ -202,10 +202,13 @@ Result<Measurement> measure(const Rig& rig, const MeshRig& source, const Measure
   if (!shapes) return std::unexpected(shapes.error());
   const Meter meter(rig, source.neutral.positions, options.facets);
   std::vector<PoseSamples> samples(shapes->size());
+  const auto isCancelled = [&] { return options.cancel && *options.cancel; };
   parallelFor(std::size_t{0}, samples.size(), [&](std::size_t k) {
+    if (isCancelled()) return;
     samples[k] = meter.measure(k == 0 ? "neutral" : source.targets[k - 1].name, (*shapes)[k].first,
                                *(*shapes)[k].second);
   });
+  if (isCancelled()) return fail("measuring was interrupted");
 
   Measurement result = sumUp(samples);
   if (source.targets.empty()) return result;
@@ -214,11 +217,13 @@ Result<Measurement> measure(const Rig& rig, const MeshRig& source, const Measure
   for (int k = 0; k < options.mixtures; ++k) mixtures.push_back(randomWeights(rig, source, random));
   result.mixtures.resize(mixtures.size());
   parallelFor(std::size_t{0}, mixtures.size(), [&](std::size_t k) {
+    if (isCancelled()) return;
     PoseSamples s = meter.measure("mixture " + std::to_string(k + 1), mixtures[k],
                                   blendSource(rig, source, mixtures[k]));
     summarize(s, samples[0].offsets);
     result.mixtures[k] = std::move(s.errors);
   });
+  if (isCancelled()) return fail("measuring was interrupted");
   return result;
 }
 

@@ -1,7 +1,9 @@
 #include "fit/packed_poses.hpp"
 
+#include <algorithm>
 #include <iterator>
 #include <numbers>
+#include <utility>
 
 #include "fit/bones.hpp"
 #include "fit/corner_places.hpp"

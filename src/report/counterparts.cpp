@@ -54,7 +54,7 @@ Result<std::vector<Index>> counterparts(const MeshRig& source, const MeshRig& fo
       const double worst = worstDistance(*from, v, *to, *w, best);
       if (worst < best) best = worst, result[v] = *w;
     }
-    if (result[v] < 0) return fail(fmt::format("vertex {} is missing.", v + 1));
+    if (result[v] < 0) return fail(fmt::format("vertex {} is missing.", v));
   }
   return result;
 }

@@ -100,7 +100,8 @@ Result<void> ReportMaker::prepare() {
   if (auto ok = checkMeshes(rig_, source_); !ok) return ok;
   moved_ = std::move(*moved);
   if (auto ok = proceed("measuring"); !ok) return ok;
-  Result<Measurement> measured = measure(rig_, source_, {.mixtures = 5, .seed = 1});
+  Result<Measurement> measured =
+      measure(rig_, source_, {.mixtures = 5, .seed = 1, .cancel = options_.cancel});
   if (!measured) return refused(measured.error());
   measured_ = std::move(*measured);
   done_ += 2 * static_cast<double>(source_.targets.size());

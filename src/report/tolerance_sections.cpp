@@ -41,7 +41,8 @@ Result<ReportMaker::Trial> ReportMaker::tryTolerance(double tolerance) {
   const std::string bytes = encode(conversion->rig);
   const Result<Rig> rig = decode(bytes, "the face");
   if (!rig) return std::unexpected(rig.error());
-  const Result<Measurement> measured = measure(*rig, source_, {.mixtures = 0, .facets = false});
+  const Result<Measurement> measured =
+      measure(*rig, source_, {.mixtures = 0, .facets = false, .cancel = options_.cancel});
   if (!measured) return refused(measured.error());
   return Trial{tolerance,
                rig->surface.storedCount(),

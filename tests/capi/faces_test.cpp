@@ -467,6 +467,7 @@ TEST_F(Faces, RefuseBytesThatAreNoFace) {
                         SWEEPFACE_BAD_DATA));
   EXPECT_TRUE(
       refuses(sweepface_rig_load("hello", 5, nullptr, &bad), "The face", SWEEPFACE_BAD_DATA));
+  EXPECT_TRUE(refuses(sweepface_rig_load("hello", 5, "", &bad), "The face", SWEEPFACE_BAD_DATA));
   EXPECT_EQ(bad, nullptr);
 }
 

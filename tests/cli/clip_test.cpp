@@ -188,13 +188,13 @@ TEST_F(PlayClip, SpringsSwingIntoTheirGoal) {
 TEST_F(PlayClip, RefusesWhatCannotBe) {
   convertRig();
   write("take.csv", "Timecode,JawOpen\n0,0\n0,1\n");
-  write("head.csv", "Timecode,headYaw\n0,0\n");
+  write("other.csv", "Timecode,beard\n0,0\n");
   write("take.txt", "");
   const std::string command = "animate face.sweep -o frames ";
   EXPECT_TRUE(fails(command + "--clip none.csv", "there is no such file"));
   EXPECT_TRUE(
       fails(command + "--clip take.csv", "take.csv, line 3: the timecode '0' is not after"));
-  EXPECT_TRUE(fails(command + "--clip head.csv", "none of its 1 names is a target"));
+  EXPECT_TRUE(fails(command + "--clip other.csv", "none of its 1 names is a target"));
   EXPECT_TRUE(fails(command + "--clip take.txt", "neither a .csv, a .json nor a .glb"));
   EXPECT_TRUE(fails(command + "--clip take.csv --to smile=1", "excludes", 2));
   EXPECT_TRUE(fails(command + "--to smile=1 --smooth", "--clip", 2));

@@ -94,6 +94,14 @@ TEST_F(Convert, KeepsToTheTolerance) {
   }
 }
 
+TEST_F(Convert, CountsVerticesFrom0InTextAndJson) {
+  makeRig();
+  const std::string command = "convert neutral.obj targets -o face.sweep --tolerance 0.1";
+  const auto worst = nlohmann::json::parse(run(command + " --json").out)["worstVertex"];
+  const std::string text = run(command).out, told = fmt::format("at vertex {} of", worst.dump());
+  EXPECT_NE(text.find(told), std::string::npos) << text;
+}
+
 TEST_F(Convert, TakesFilesInTheirOrderAndNoTargetsAtAll) {
   makeRig();
   ASSERT_EQ(run("convert neutral.obj targets/smile.obj targets/jawOpen.obj -o face.sweep "

@@ -60,7 +60,8 @@ TEST_F(Edit, RefusesWhatItCannotDo) {
   EXPECT_TRUE(
       fails("edit sheet.sweep --ribbon middle --eta 1.26224375 --lambda 0.000244140625" + out,
             "cannot have these parameters"));
-  EXPECT_TRUE(fails("edit sheet.sweep --move z9 0,0,1" + out, "'z9'"));
+  EXPECT_TRUE(
+      fails("edit sheet.sweep --move z9 0,0,1" + out, "There is no curve and no node named 'z9'"));
   EXPECT_TRUE(fails("edit sheet.sweep --move b1 0,0" + out, "three numbers"));
   EXPECT_TRUE(fails("edit sheet.sweep --move b1 0,0,nan" + out, "three numbers"));
   EXPECT_TRUE(fails("edit sheet.sweep --control b1-c1 'b1 c2' first 0,0,1" + out, "'first'"));

@@ -69,7 +69,9 @@ TEST_F(GltfSource, WarnsOfWhatIsNotCarriedOver) {
   const Outcome r = run("convert face.glb -o face.sweep --tolerance 0.1 -q");
   EXPECT_EQ(r.code, 0);
   EXPECT_TRUE(r.err.starts_with("sweepface: warning: Image 0 stays a reference")) << r.err;
-  EXPECT_EQ(run("convert face.glb -o face.sweep --tolerance 0.1 -q --bare").err, "");
+  for (const char* without : {"--bare", "--strip scene"})
+    EXPECT_EQ(run(fmt::format("convert face.glb -o face.sweep --tolerance 0.1 -q {}", without)).err,
+              "");
 }
 
 TEST_F(GltfSource, WarnsOfAFaceWithoutExpressions) {

@@ -237,6 +237,30 @@ TEST_F(Usage, NoticesThatNobodyCanReadTheReport) {
   }
 }
 
+TEST_F(Usage, GoesOnWhereNobodyHearsWhatIsWrong) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP();
+  for (const char* stream : {"2>/dev/full", "2>&-"}) {
+    const std::string command =
+        fmt::format("'{}' info '{}' {}", SWEEPFACE_TOOL, (folder / "none.sweep").string(), stream);
+    const int status = std::system(command.c_str());
+    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 1) << stream;
+  }
+}
+
+TEST_F(Usage, ListsEndWhereTheFaceBegins) {
+  convertRig();
+  for (const char* arguments :
+       {"plot --laws linear,newton face.sweep --to smile=1 -o a.svg",
+        "plot --weight smile face.sweep --to smile=1 -o a.svg",
+        "plot --vertex 3,5 face.sweep --to smile=1 -o a.svg",
+        "report --box smile face.sweep --weights smile=1 -o a.html",
+        "render --law newton,linear --box smile face.sweep --to smile=1 -o a.png --frames 2",
+        "edit --move n0 0,0,0.1 --move n1 0,0,0.1 face.sweep -o other.sweep"}) {
+    const Outcome r = run(arguments);
+    EXPECT_EQ(r.code, 0) << arguments << r.err;
+  }
+}
+
 TEST_F(Usage, ReadsAFaceFromAPipe) {
   convertRig();
   for (const char* rest : {"info /dev/stdin", "report /dev/stdin -o page.html"}) {

@@ -80,10 +80,18 @@ TEST_F(ASheetOnABone, HasNoSizeWhereAllStandsAtOnePlace) {
 }
 
 TEST_F(ASheetOnABone, SaysWhatIsTooLarge) {
-  packing.targetStep = std::numeric_limits<double>::max();
-  std::vector<Vec3> moves(neutral.size());
-  const Carry carry{0, {{{1 << 26, 0, 0}, {}, {}, {}}}};
-  EXPECT_FALSE(Bones(surface, packing, neutral).add(std::span(&carry, 1), 1, moves));
+  packing.targetStep = 1e18;
+  for (const Steps3 shift : {Steps3{1 << 26, 0, 0}, Steps3{1 << 26, -(1 << 26), 0}}) {
+    const Carry carry{0, {{shift, {}, {}, {}}}};
+    const auto isTold = [&] {
+      std::vector<Vec3> moves(neutral.size());
+      return Bones(surface, packing, neutral).add(std::span(&carry, 1), 1, moves);
+    };
+    packing.targetStep = 1e18;
+    EXPECT_TRUE(isTold());
+    packing.targetStep = 1e24;
+    EXPECT_FALSE(isTold());
+  }
 }
 
 Rig withBones() {

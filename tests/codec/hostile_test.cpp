@@ -95,7 +95,7 @@ TEST(Hostile, WhatIsReadTakesNoMoreMemoryThanItIsAllowed) {
 TEST(Hostile, ManyTargetsAsTheyAreTakeLittleMoreThanTheirRig) {
   Rig rig = makeRig(sheet(8));
   Target exact{"", rig.neutral, rig.source.loose};
-  for (Vec3& v : exact.difference) v = v / 3.0;
+  for (Vec3& v : exact.difference) v = (1 / 3.0) * v;
   rig.targets.assign(200, exact);
   for (std::size_t k = 0; k < rig.targets.size(); ++k) rig.targets[k].name = std::to_string(k);
   const std::size_t vectors = rig.targets.size() * rig.neutral.size() * sizeof(Vec3);

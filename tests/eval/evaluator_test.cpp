@@ -442,6 +442,7 @@ TEST(Evaluator, refusesWhatDoesNotFit) {
   EXPECT_TRUE(refuses([&](auto& job) { job.scratch = job.scratch.subspan(1); }, "scratch"));
   EXPECT_TRUE(refuses([](auto& job) { job.positions.count = -1; }, "negative"));
   EXPECT_TRUE(refuses([](auto& job) { job.positions.stride = 8; }, "stride"));
+  EXPECT_TRUE(refuses([](auto& job) { job.positions.stride = kMostStride + 1; }, "stride"));
   EXPECT_TRUE(refuses([](auto& job) { job.part = 1; }, "no part 1 of 1"));
   EXPECT_TRUE(refuses([](auto& job) { job.parts = 0; }, "no part"));
   EXPECT_TRUE(refuses([&](auto& job) { job.evaluator = &bare, job.normals = job.positions; },

@@ -382,7 +382,7 @@ TEST(Refusal, ofDifferencesBeyondSinglePrecision) {
   MeshRig rig = withTargets(plane(4, 4), 1);
   rig.neutral.positions[3].z = 3e38, rig.targets[0].positions[3].z = -3e38;
   EXPECT_EQ(refusal(rig),
-            "vertex 4 of the target '" + rig.targets[0].name +
+            "vertex 3 of the target '" + rig.targets[0].name +
                 "' is further from the neutral's than a file can tell; scale the meshes down");
 }
 

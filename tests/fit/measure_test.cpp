@@ -209,6 +209,14 @@ TEST(Measure, refusesWhatDoesNotBelongTogether) {
             "converted from");
 }
 
+TEST(Measure, endsWhereItIsGivenUp) {
+  const MeshRig source = everyFace()[0].rig;
+  const std::atomic<bool> cancel = true;
+  const auto measured = measure(roughly(source), source, {.cancel = &cancel});
+  ASSERT_FALSE(measured);
+  EXPECT_EQ(measured.error().message, "measuring was interrupted");
+}
+
 TEST(Measure, needsToKnowWhereTheFacetsLie) {
   const MeshRig source = withTargets(plane(12, 10));
   Rig rig = roughly(source);

@@ -38,12 +38,26 @@ double weight(const Clip& clip, double seconds, std::size_t k) {
   return all[k];
 }
 
-TEST(GltfClip, StraightLinesKeepTheirKeys) {
+// As players do; other animations of the file then stay in step.
+TEST(GltfClip, HoldTheirFirstKeyFromTheBeginning) {
   const auto clip = clipOf(moving("LINEAR", {1, 2, 4}, {0, 0.5f, 1, 0.25f, 0, 0.75f}));
   ASSERT_TRUE(clip) << clip.error().message;
   EXPECT_EQ(clip->names, (std::vector<std::string>{"open", "wink"}));
-  EXPECT_EQ(clip->times, (std::vector<double>{1, 2, 4}));
+  EXPECT_EQ(clip->times, (std::vector<double>{0, 1, 2, 4}));
+  EXPECT_EQ(clip->weights, (std::vector<double>{0, 0.5, 0, 0.5, 1, 0.25, 0, 0.75}));
+}
+
+TEST(GltfClip, StraightLinesKeepTheirKeys) {
+  const auto clip = clipOf(moving("LINEAR", {0, 2, 4}, {0, 0.5f, 1, 0.25f, 0, 0.75f}));
+  ASSERT_TRUE(clip) << clip.error().message;
+  EXPECT_EQ(clip->times, (std::vector<double>{0, 2, 4}));
   EXPECT_EQ(clip->weights, (std::vector<double>{0, 0.5, 1, 0.25, 0, 0.75}));
+}
+
+TEST(GltfClip, OfWeightsThatNoReaderTakesAreRefused) {
+  const auto clip = clipOf(moving("LINEAR", {0, 1, 2}, {0, 0.5f, 1, 1e30f, 0, 0.75f}));
+  ASSERT_FALSE(clip);
+  EXPECT_NE(clip.error().message.find("±1,000,000"), std::string::npos) << clip.error().message;
 }
 
 TEST(GltfClip, CurvesAreFollowed) {

@@ -71,6 +71,8 @@ TEST(LiveLinkCsv, SaysWhatIsWrongAndWhere) {
   expectError(csv("Timecode,a\n1e300,0\n"), "not a timecode");
   expectError(csv("Timecode,a\n1:2:3,0\n"), "not a timecode");
   expectError(csv("Timecode,a\n1:2:3:-4,0\n"), "not a timecode");
+  expectError(csv("Timecode,a\n12:59:60:1,0\n"), "more than 59 minutes or seconds");
+  expectError(csv("Timecode,a\n12:60:59:1,0\n"), "more than 59 minutes or seconds");
   expectError(csv("Timecode,a\n0:0:0:60,0\n"), "more than 60 frames a second");
   EXPECT_FALSE(parseLiveLinkCsv("Timecode,a\n1,2\n", "x", 0));
 }

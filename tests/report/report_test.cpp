@@ -1,6 +1,7 @@
 #include "sweepface/report.hpp"
 
 #include <fmt/format.h>
+#include <regex>
 
 #include "sweepface/codec.hpp"
 #include "sweepface/measure.hpp"
@@ -209,6 +210,15 @@ TEST(Report, TellsAllAboutAFace) {
   EXPECT_EQ(countOf(*report, "<svg "), 9u);
   const std::string words = withoutPictures(*report);
   EXPECT_EQ(countOf(words, "nan") + countOf(words, "inf,"), 0u);
+  // The GLB's upright line has a length beside a single packed file, too.
+  static const std::regex upright(
+      R"re(<polyline points="[0-9.]+,([0-9.]+) [0-9.]+,([0-9.]+) "[^>]*stroke-dasharray)re");
+  std::size_t lines = 0;
+  for (std::sregex_iterator line(words.begin(), words.end(), upright), end; line != end; ++line) {
+    EXPECT_NE((*line)[1], (*line)[2]) << line->str();
+    ++lines;
+  }
+  EXPECT_GE(lines, 2u);
   EXPECT_NE(report->find(fmt::format("<td>143</td><td>{}</td>", rig.surface.storedCount())),
             std::string::npos);
   EXPECT_NE(report->find("<td>4,321</td>"), std::string::npos);

@@ -389,7 +389,7 @@ test('arrays that cannot hold what is written are refused', async () => {
   assert.deepEqual(Float32Array.from(doubles), floats);
   for (const out of [new Int16Array(count), new Array(count).fill(0), new ArrayBuffer(4 * count), 'x'.repeat(count), 5])
     for (const write of [() => face.evaluate(out), () => face.evaluate(null, out)])
-      assert.throws(write, {name: 'TypeError', message: /written to a Float32Array or null, not to (\w+)\.$/});
+      assert.throws(write, {name: 'TypeError', message: /written to a Float32Array, a Float64Array or null, not to (\w+)\.$/});
   for (const out of [undefined, null, new Uint8Array(4 * modes), new Array(4 * modes).fill(0)])
     assert.throws(() => face.shaderModes(out), {name: 'TypeError', message: /written to an Int16Array/});
 });

@@ -95,7 +95,8 @@ test('clones have what was put into a geometry', options, async () => {
   geometry.setDrawRange(3, 300);
   geometry.name = 'mine';
   const twin = mesh.clone().geometry;
-  assert.equal(twin.attributes.color, colour);
+  assert.notEqual(twin.attributes.color, colour);
+  assert.deepEqual(twin.attributes.color.array, colour.array);
   assert.notEqual(twin.attributes.position, geometry.attributes.position);
   assert.deepEqual(twin.groups, geometry.groups);
   assert.notEqual(twin.groups[0], geometry.groups[0]);
