@@ -81,7 +81,8 @@ TEST_F(ASheetOnABone, HasNoSizeWhereAllStandsAtOnePlace) {
 
 TEST_F(ASheetOnABone, SaysWhatIsTooLarge) {
   packing.targetStep = 1e18;
-  for (const Steps3 shift : {Steps3{1 << 26, 0, 0}, Steps3{1 << 26, -(1 << 26), 0}}) {
+  for (const codec::Steps3 shift :
+       {codec::Steps3{1 << 26, 0, 0}, codec::Steps3{1 << 26, -(1 << 26), 0}}) {
     const Carry carry{0, {{shift, {}, {}, {}}}};
     const auto isTold = [&] {
       std::vector<Vec3> moves(neutral.size());
