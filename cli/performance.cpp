@@ -169,9 +169,7 @@ Result<Performance> byClip(const PerformanceArguments& a, const Rig& rig, const 
   std::vector<std::string> targets;
   for (const Target& target : rig.targets) targets.push_back(target.name);
   ClipMatch match = matchClip(clip, targets);
-  // A clip of nothing but angles moves the head and the eyes alone.
-  if (match.undriven.size() == targets.size() &&
-      !std::ranges::all_of(clip.names, ClipAngles::tells))
+  if (!movesAnything(clip, match))
     return fail(
         fmt::format("{}: none of its {} names is a target of the face; `sweepface info` "
                     "lists the targets.",

@@ -50,6 +50,10 @@ class ClipAngles {
   std::array<bool, 9> turns_{};
 };
 
+/// Whether a clip drives any target, or is of nothing but angles: such a one moves the head and the
+/// eyes alone.
+bool movesAnything(const Clip& clip, const ClipMatch& match);
+
 /// An eyeball: stored vectors that turn together about a centre.
 struct Eye {
   std::string name;  ///< eyeLeft, eyeRight

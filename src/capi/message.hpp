@@ -28,6 +28,11 @@ template <typename... Parts>
 /// The sentence about something that `count` there are of, and `index` is not one.
 sweepface_status noSuch(const char* what, std::size_t index, std::size_t count);
 
+/// What messages call something: the caller's name of it, if there is one.
+inline const char* calledOr(const char* name, const char* usual) {
+  return name && *name ? name : usual;
+}
+
 /// Begun with a capital and ended with a period.
 std::string sentence(std::string message);
 

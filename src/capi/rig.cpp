@@ -16,8 +16,7 @@ sweepface_status capi::needTargets(const Rig& rig) {
 sweepface_status sweepface_rig_load_neutral(const void* bytes, size_t size, const char* name,
                                             sweepface_rig** rig) {
   if (!rig || (!bytes && size > 0)) return refuse("Loading a rig needs bytes and a place for it.");
-  auto decoded =
-      decodeNeutral({static_cast<const char*>(bytes), size}, name && *name ? name : "The face");
+  auto decoded = decodeNeutral({static_cast<const char*>(bytes), size}, calledOr(name, "The face"));
   if (!decoded) return refuse(SWEEPFACE_BAD_DATA, std::move(decoded.error().message));
   const std::size_t targets = decoded->rig.targets.size();
   // Names stay where they are when a target each for arcs and those that turn two eyes are added.

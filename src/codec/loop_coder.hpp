@@ -220,10 +220,7 @@ class LoopCoder {
       return 0;
     }
     const bool next = s_.bit(isNext, 0, 0, number == expected);
-    if (next)
-      number = expected;
-    else
-      number = static_cast<Index>(s_.index(which, numbers.count(), number));
+    number = next ? expected : static_cast<Index>(s_.index(which, numbers.count(), number));
     if (numbers.has(number)) s_.refuse(twice);
     numbers.take(number);
     return number;

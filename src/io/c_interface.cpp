@@ -123,7 +123,7 @@ sweepface_angles anglesOf(const Angles& a) { return {a.yaw, a.pitch, a.roll}; }
 sweepface_status sweepface_rig_divide_by(sweepface_rig* rig, const void* text, size_t size,
                                          const char* name) {
   if (!rig || (!text && size > 0)) return refuse("Dividing a face needs a rig and a text.");
-  const char* const called = name && *name ? name : "The text";
+  const char* const called = calledOr(name, "The text");
   const auto painted = parseRegions({static_cast<const char*>(text), size}, called);
   if (!painted) return refuse(SWEEPFACE_BAD_DATA, painted.error().message);
   if (painted->empty()) return sweepface_rig_divide(rig, nullptr, nullptr, 0);
@@ -152,7 +152,7 @@ sweepface_status sweepface_clip_read(const sweepface_rig* rig, const void* bytes
                                      sweepface_clip** clip) {
   if (!rig || !clip || (!bytes && size > 0))
     return refuse("Reading a clip needs a rig, bytes and a place for it.");
-  const char* const called = name && *name ? name : "The clip";
+  const char* const called = calledOr(name, "The clip");
   const auto asked = options ? *options : sweepface_clip_usual_options();
   if (const auto hold = Trajectory::spring({}, 0, {asked.frequency, asked.damping}); !hold)
     return refuse("The spring on which heavy regions hang: ", hold.error().message);
@@ -162,8 +162,7 @@ sweepface_status sweepface_clip_read(const sweepface_rig* rig, const void* bytes
   if (!recording) return refuse(SWEEPFACE_BAD_DATA, std::move(recording.error().message));
   const Clip& whole = recording->clip;
   ClipMatch match = matchClip(whole, shownTargets(*rig));
-  // A clip of nothing but angles moves the head and the eyes alone.
-  if (match.undriven.size() == rig->shown && !std::ranges::all_of(whole.names, ClipAngles::tells))
+  if (!movesAnything(whole, match))
     return refuse(SWEEPFACE_BAD_DATA, std::string(called) + ": none of its " +
                                           std::to_string(whole.names.size()) +
                                           " names is a target of the face.");

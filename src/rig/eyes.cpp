@@ -140,6 +140,11 @@ bool ClipAngles::tells(const std::string& name) {
   return std::ranges::any_of(angles.columns_, [](std::ptrdiff_t column) { return column >= 0; });
 }
 
+bool movesAnything(const Clip& clip, const ClipMatch& match) {
+  return !std::ranges::all_of(match.targets, &std::vector<Index>::empty) ||
+         std::ranges::all_of(clip.names, ClipAngles::tells);
+}
+
 HeadPose ClipAngles::of(std::span<const double> weights) const noexcept {
   const auto angles = [&](std::size_t first) {
     std::array<double, 3> three{};
