@@ -11,6 +11,9 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # GCC 12 reports these inside its own standard library.
   target_compile_options(sweepface_options INTERFACE -Wno-maybe-uninitialized -Wno-restrict
     -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread -Wno-dangling-pointer)
+  # Every file of a unity build looks like a header to it.
+  target_compile_options(sweepface_options INTERFACE
+    $<$<BOOL:$<TARGET_PROPERTY:UNITY_BUILD>>:-Wno-subobject-linkage>)
 endif()
 if(SWEEPFACE_SANITIZE)
   # The runtime has no run-time type information, so the check of virtual pointers cannot work.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <functional>
@@ -30,6 +31,14 @@ inline std::vector<Loop> loopsOf(const Polygons& p) {
   for (Index f = 0; f < p.faceCount(); ++f)
     faces.emplace_back(p.corners.begin() + p.faceStart[f], p.corners.begin() + p.faceStart[f + 1]);
   return faces;
+}
+
+/// Of quads or triangles as arrays.
+template <std::size_t Corners>
+std::vector<Loop> loopsOf(const std::vector<std::array<Index, Corners>>& faces) {
+  std::vector<Loop> loops;
+  for (const auto& face : faces) loops.emplace_back(face.begin(), face.end());
+  return loops;
 }
 
 /// Keeps only the vertices that `keep` wants, and the faces between them.

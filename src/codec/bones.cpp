@@ -12,7 +12,7 @@ namespace sweepface::codec {
 namespace {
 
 // Of the targets' step.
-constexpr double kUnit = 1.0 / 16;
+constexpr double kBoneUnit = 1.0 / 16;
 
 }  // namespace
 
@@ -44,7 +44,7 @@ void levelOut(const Hierarchy& hierarchy, std::vector<Index>& bones) {
 }
 
 Bones::Bones(const Surface& surface, const Packing& packing, std::span<const Vec3> neutral)
-    : unit_(kUnit * packing.targetStep) {
+    : unit_(kBoneUnit * packing.targetStep) {
   std::array<Box, kMostBones> boxes{};
   for (Index v = 0; v < static_cast<Index>(packing.bones.size()); ++v) {
     const Index bone = packing.bones[v];

@@ -12,12 +12,12 @@ namespace sweepface::codec {
 
 namespace {
 
-enum Tag : std::uint32_t {
+enum FaceTag : std::uint32_t {
   kPlain = 11,
   kRotation = 12,
   kWhich = 13,
   kSize = 15,
-  kCorner = 17,
+  kOddCorner = 17,
   kQuadCorner = 19,
   kSameName = 21,
   kName = 22,
@@ -170,7 +170,7 @@ class FaceCoder {
     for (std::uint32_t k = 0; k < size && s_.ok(); ++k) {
       const std::int64_t vertex =
           std::int64_t{last_} +
-          s_.signedNumber(kCorner, std::min(k, 4u), 0,
+          s_.signedNumber(kOddCorner, std::min(k, 4u), 0,
                           kWrites<Coder> ? std::int64_t{faces_.corners[first + k]} - last_ : 0);
       if (vertex < 0 || vertex >= static_cast<Index>(source_.gridVertex.size()))
         return s_.refuse("a vertex is out of range");

@@ -5,7 +5,7 @@ namespace sweepface::codec {
 
 namespace {
 
-enum Tag : std::uint32_t { kStays = 2, kLoose = 8, kLooseIndex = 9 };
+enum OrderTag : std::uint32_t { kStays = 2, kLoose = 8, kLooseIndex = 9 };
 
 template <typename Coder>
 void codeOrder(Symbols<Coder>& s, const LevelOne& grid, std::vector<Index>& order, Index loose,

@@ -16,9 +16,9 @@ namespace sweepface::codec {
 
 namespace {
 
-enum Tag : std::uint32_t {
+enum TextureTag : std::uint32_t {
   kHasTexture = 27,
-  kFresh = 28,
+  kFreshTexture = 28,
   kKnown = 29,
   kTexture = 30,
   kBits = 32,
@@ -87,7 +87,7 @@ class TextureCoder {
       asBefore_[corner] = 1 + same;
       if (same) return had;
     }
-    if (s_.bit(kFresh, had >= -1, 0, t == next_)) {
+    if (s_.bit(kFreshTexture, had >= -1, 0, t == next_)) {
       t = next_;
     } else {
       const std::int64_t there = next_ + s_.signedNumber(kTexture, 0, 0, std::int64_t{t} - next_);

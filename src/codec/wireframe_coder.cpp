@@ -14,7 +14,7 @@ namespace sweepface::codec {
 namespace {
 
 // What is coded besides the loops; numbers take two tags.
-enum Tag : std::uint32_t {
+enum WireframeTag : std::uint32_t {
   kCounts = 0,
   kTurn = 21,
   kHalfTurn = 22,

@@ -13,11 +13,11 @@ namespace {
 
 constexpr double kRound = 0.05;  // RMS distance from a sphere, of its radius
 
-using Row = std::array<double, 4>;
+using Equation = std::array<double, 4>;
 
 /// The x of m x = right by elimination; m is a symmetric matrix of sums of squares. Nothing where
 /// the squares do not tell.
-std::optional<Row> solved(std::array<Row, 4> m, Row right) {
+std::optional<Equation> solved(std::array<Equation, 4> m, Equation right) {
   double largest = 0;
   for (std::size_t k = 0; k < 4; ++k) largest = std::max(largest, m[k][k]);
   for (std::size_t k = 0; k < 4; ++k) {
@@ -61,11 +61,11 @@ std::optional<Ball> ballOf(std::span<const Vec3> points) {
   const Vec3 box = Box(points).size();
   const double size = norm(box);
   if (!(size > 0)) return {};
-  std::array<Row, 4> m{};
-  Row right{};
+  std::array<Equation, 4> m{};
+  Equation right{};
   for (const Vec3& point : points) {
     const Vec3 p = (1 / size) * (point - middle);
-    const Row row{2 * p.x, 2 * p.y, 2 * p.z, 1};
+    const Equation row{2 * p.x, 2 * p.y, 2 * p.z, 1};
     for (std::size_t r = 0; r < 4; ++r) {
       for (std::size_t c = 0; c < 4; ++c) m[r][c] += row[r] * row[c];
       right[r] += row[r] * dot(p, p);

@@ -10,7 +10,7 @@ namespace sweepface {
 
 namespace {
 
-constexpr int kMostTries = 12, kMostHalvings = 4, kMostFailures = 4;
+constexpr int kMostTries = 12, kMostBracketHalvings = 4, kMostFailures = 4;
 constexpr double kCloseEnough = 0.98;  // of the bytes
 constexpr double kCoarser = 4;         // where a tolerance cannot be met
 
@@ -54,7 +54,8 @@ Result<Conversion> convertToBytes(const MeshRig& source, ConvertOptions options,
   std::optional<Error> first;  // why the first tolerance cannot be met
   Bracket bracket;
   int failures = 0;
-  for (int attempt = 0; attempt < kMostTries && bracket.halvings <= kMostHalvings; ++attempt) {
+  for (int attempt = 0; attempt < kMostTries && bracket.halvings <= kMostBracketHalvings;
+       ++attempt) {
     auto conversion = convert(source, options);
     if (!conversion && options.cancel && options.cancel->load()) return conversion;
     Try now{options.tolerance, SIZE_MAX};

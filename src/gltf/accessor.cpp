@@ -13,13 +13,13 @@ struct Shape {
   std::string_view name;
   std::size_t rows, columns;
 };
-constexpr std::array<Shape, 7> shapes{{{"SCALAR", 1, 1},
-                                       {"VEC2", 2, 1},
-                                       {"VEC3", 3, 1},
-                                       {"VEC4", 4, 1},
-                                       {"MAT2", 2, 2},
-                                       {"MAT3", 3, 3},
-                                       {"MAT4", 4, 4}}};
+constexpr std::array<Shape, 7> kShapes{{{"SCALAR", 1, 1},
+                                        {"VEC2", 2, 1},
+                                        {"VEC3", 3, 1},
+                                        {"VEC4", 4, 1},
+                                        {"MAT2", 2, 2},
+                                        {"MAT3", 3, 3},
+                                        {"MAT4", 4, 4}}};
 
 std::optional<Component> componentOf(std::size_t number) {
   switch (number) {
@@ -95,8 +95,8 @@ Component readType(Members& in) {
 
 void readShape(Members& in, Accessor& accessor) {
   const std::string_view name = in.text("type");
-  const auto shape = std::ranges::find(shapes, name, &Shape::name);
-  if (shape == shapes.end()) return in.refuse("its 'type' is missing or unknown");
+  const auto shape = std::ranges::find(kShapes, name, &Shape::name);
+  if (shape == kShapes.end()) return in.refuse("its 'type' is missing or unknown");
   accessor.rows = shape->rows, accessor.columns = shape->columns;
 }
 

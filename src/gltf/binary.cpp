@@ -71,7 +71,7 @@ class Pieces {
 };
 
 /// Values of an accessor in a view; `holder` has their byteOffset.
-struct Use {
+struct ViewUse {
   Json* holder = nullptr;
   std::size_t offset = 0, count = 0, size = 0;
   bool strided = false;
@@ -81,10 +81,10 @@ struct Use {
 /// and some words are kept.
 class PartlyUsed {
  public:
-  PartlyUsed(std::string_view bytes, std::size_t stride, const std::vector<Use>& uses)
+  PartlyUsed(std::string_view bytes, std::size_t stride, const std::vector<ViewUse>& uses)
       : bytes_(bytes), row_(stride ? stride : word), words_(row_ / word) {
     std::vector<Range> rows;
-    for (const Use& use : uses) rows.push_back(mark(use));
+    for (const ViewUse& use : uses) rows.push_back(mark(use));
     rows_ = Pieces(std::move(rows), 1);
   }
 
@@ -106,7 +106,7 @@ class PartlyUsed {
 
  private:
   /// The rows of a use, whose words are marked.
-  Range mark(const Use& use) {
+  Range mark(const ViewUse& use) {
     const std::size_t first = use.offset / row_, phase = use.offset % row_;
     if (use.strided && phase + use.size <= row_) {
       std::fill(words_.begin() + static_cast<std::ptrdiff_t>(phase / word),
@@ -248,7 +248,7 @@ class Gatherer {
     for (std::size_t v = 0; v < views_.size(); ++v) {
       if (views_[v].fate != Fate::partly) continue;
       const PartlyUsed view = partlyUsed(v);
-      for (const Use& use : uses_[v]) setOffset(*use.holder, view.place(use.offset));
+      for (const ViewUse& use : uses_[v]) setOffset(*use.holder, view.place(use.offset));
       const std::size_t stride = document_.views[v].stride ? view.stride() : 0;
       views_[v] = {Fate::partly, binary_.size(), view.size(), stride};
       binary_ += view.bytes();
@@ -319,7 +319,7 @@ class Gatherer {
   Document& document_;
   const std::vector<bool>& touched_;
   std::vector<View> views_;
-  std::vector<std::vector<Use>> uses_;
+  std::vector<std::vector<ViewUse>> uses_;
   std::vector<std::size_t> references_;
   std::string binary_;
 };

@@ -65,11 +65,11 @@ class Emptier {
   }
 
   /// An accessor and what it is for.
-  using Use = std::tuple<std::size_t, std::size_t, std::size_t, std::string_view>;
+  using Claim = std::tuple<std::size_t, std::size_t, std::size_t, std::string_view>;
 
   /// The emptied accessor that serves this use alone: the same one, or a new one where it serves
   /// others as well.
-  std::size_t claim(const Use& use) {
+  std::size_t claim(const Claim& use) {
     const auto known = claims_.find(use);
     if (known != claims_.end()) return known->second;
     std::size_t accessor = std::get<0>(use);
@@ -108,7 +108,7 @@ class Emptier {
   const Parts& parts_;
   std::vector<bool> others_;  // accessors that something else uses
   std::vector<bool> touched_;
-  std::map<Use, std::size_t> claims_;
+  std::map<Claim, std::size_t> claims_;
   std::set<std::size_t> claimed_, tangents_;
 };
 

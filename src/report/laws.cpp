@@ -5,20 +5,18 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "report/colours.hpp"
 #include "report/html.hpp"
 
 namespace sweepface {
 namespace {
-
-constexpr std::string_view kInk = "#24262b", kSoft = "#6b6f78", kGrid = "#dcdad6",
-                           kBlue = "#1a6aa8", kGreen = "#2a9d55", kRed = "#d63f29";
 
 // A cell: a plot over the first second and a half, and a track below it.
 constexpr double kWidth = 232, kHeight = 226, kLeft = 14, kRight = 218, kTop = 44, kBottom = 172,
                  kTrack = 196;
 constexpr int kColumns = 4;
 constexpr double kShown = 1.5, kLoop = 2.5;  // seconds
-constexpr int kSteps = 60;
+constexpr int kFrames = 60;
 
 ShownLaw shown(std::string name, std::string use, const Result<Trajectory>& path) {
   return {std::move(name), std::move(use), path.value_or(Trajectory(1))};
@@ -59,8 +57,8 @@ std::string curve(const Trajectory& path, const Curve& c) {
 /// An attribute that takes these values one after the other, for ever.
 std::string moving(std::string_view attribute, const Trajectory& path, auto value) {
   std::string values;
-  for (int k = 0; k <= kSteps; ++k) {
-    const double time = kLoop * k / kSteps;
+  for (int k = 0; k <= kFrames; ++k) {
+    const double time = kLoop * k / kFrames;
     values += fmt::format("{}{:.1f}", k ? ";" : "", value(time, path.at(time).position));
   }
   return fmt::format(

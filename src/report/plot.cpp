@@ -4,12 +4,11 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "report/colours.hpp"
 #include "report/html.hpp"
 
 namespace sweepface {
 namespace {
-
-constexpr std::string_view kGrid = "#dcdad6", kInk = "#24262b", kSoft = "#6b6f78";
 
 /// The values of a direction and where they lie in the picture.
 struct Scale {
@@ -72,7 +71,7 @@ std::string shortened(const std::string& name, std::size_t most) {
 }
 
 /// As short as it can be, without an exponent for the sizes of ordinary things.
-std::string number(double value) {
+std::string tickText(double value) {
   return std::abs(value) >= 1e4 && std::abs(value) < 1e7 ? fmt::format("{:.0f}", value)
                                                          : fmt::format("{:.4g}", value);
 }
@@ -156,11 +155,11 @@ std::string linePlot(const std::string& title, const Axis& x, const Axis& y,
   const Scale up = scaleOf(series, &Vec2::y, y, bottom, top);
   for (const double tick : up.ticks) {
     svg += line(left, up.at(tick), right, up.at(tick), kGrid);
-    svg += text(left - 8, up.at(tick) + 4, "end", number(tick));
+    svg += text(left - 8, up.at(tick) + 4, "end", tickText(tick));
   }
   for (const double tick : across.ticks) {
     svg += line(across.at(tick), bottom, across.at(tick), bottom + 5, kSoft);
-    svg += text(across.at(tick), bottom + 20, "middle", number(tick));
+    svg += text(across.at(tick), bottom + 20, "middle", tickText(tick));
   }
   svg += line(left, bottom, right, bottom, kSoft);
   svg += text(0.5 * (left + right), bottom + 42, "middle", x.title);
@@ -211,7 +210,7 @@ std::string rowPlot(const std::string& title, const std::string& axis,
   addKeys(svg, series, 0, 42, right);
   for (const double tick : across.ticks) {
     svg += line(across.at(tick), top, across.at(tick), bottom, kGrid);
-    svg += text(across.at(tick), bottom + 18, "middle", number(tick));
+    svg += text(across.at(tick), bottom + 18, "middle", tickText(tick));
   }
   if (limit > 0)
     svg += line(across.at(limit), top - 6, across.at(limit), bottom, kInk,

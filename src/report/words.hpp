@@ -6,14 +6,13 @@
 
 #include "sweepface/picture.hpp"
 
+#include "report/colours.hpp"
 #include "report/html.hpp"
 
 // What the sections of a report have in common.
 namespace sweepface {
 
 inline constexpr PictureSize kPanel{520, 650};
-inline constexpr const char *kBlue = "#1a6aa8", *kRed = "#d63f29", *kGrey = "#8a8e96",
-                            *kGreen = "#2a9d55";
 
 /// With commas between thousands.
 inline std::string count(std::size_t n) {

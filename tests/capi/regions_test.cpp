@@ -12,8 +12,6 @@ namespace {
 
 using namespace testing;
 
-constexpr sweepface_vectors kUnwanted{nullptr, 0};
-
 /// A face of three patches and eight nodes, and a brush round its first node.
 class DividedFaces : public ::testing::Test {
  protected:
@@ -44,7 +42,7 @@ class DividedFaces : public ::testing::Test {
   }
   std::vector<float> evaluate(sweepface_face* of) {
     std::vector<float> out(3 * sweepface_mesh_point_count(mesh));
-    EXPECT_EQ(sweepface_face_evaluate(of, out.size() / 3, {out.data(), 0}, kUnwanted),
+    EXPECT_EQ(sweepface_face_evaluate(of, out.size() / 3, {out.data(), 0}, {nullptr, 0}),
               SWEEPFACE_OK);
     return out;
   }

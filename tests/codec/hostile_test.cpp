@@ -14,13 +14,13 @@ namespace {
 
 using namespace sweepface::testing;
 
-constexpr std::uint64_t kMany = std::uint64_t{1} << 31;
+constexpr std::uint64_t kTooMany = std::uint64_t{1} << 31;
 
-// A count of `kMany` in the first payload of a kind, after `before`.
+// A count of `kTooMany` in the first payload of a kind, after `before`.
 void expectRefusedInLittleMemory(const std::string& bytes, std::string_view code, auto before) {
   const std::string changed = withPayload(bytes, code, payloadOf([&](codec::Writer& out) {
                                             before(out);
-                                            out.number(kMany);
+                                            out.number(kTooMany);
                                             out.raw("some more");
                                           }));
   allocations.largest = 0;

@@ -12,12 +12,6 @@ namespace {
 
 using namespace sweepface::testing;
 
-std::vector<Loop> loops(const Tessellation& t) {
-  std::vector<Loop> result;
-  for (const auto& triangle : t.triangles()) result.emplace_back(triangle.begin(), triangle.end());
-  return result;
-}
-
 std::vector<Vec3> neutral(const Surface& surface) {
   std::vector<Vec3> vectors(surface.vectorCount());
   std::mt19937 random(5);
@@ -56,7 +50,7 @@ TEST_P(EveryDensity, hasTheSourcesShapeWithoutACrackOrATJunction) {
     const Surface surface = surfaceOf(GetParam().rig, splits);
     for (unsigned seed = 0; seed < 6; ++seed) {
       const Tessellation grid(surface, seed == 0 ? coarsest(surface) : anyDensity(surface, seed));
-      const Topology t = topologyOf(loops(grid));
+      const Topology t = topologyOf(loopsOf(grid.triangles()));
       EXPECT_EQ(t.euler, source.euler) << "seed " << seed;
       EXPECT_EQ(t.boundaryLoops, source.boundaryLoops) << "seed " << seed;
       EXPECT_EQ(t.overfullEdges, 0) << "seed " << seed;

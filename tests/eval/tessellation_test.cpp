@@ -7,12 +7,6 @@ namespace {
 
 using namespace sweepface::testing;
 
-std::vector<Loop> loops(const Tessellation& t) {
-  std::vector<Loop> result;
-  for (const auto& face : t.faces()) result.emplace_back(face.begin(), face.end());
-  return result;
-}
-
 class EveryLevel : public ::testing::TestWithParam<Face> {};
 INSTANTIATE_TEST_SUITE_P(Tessellation, EveryLevel, eachFace(), faceName);
 
@@ -21,7 +15,7 @@ TEST_P(EveryLevel, hasTheSourcesShapeWithoutACrack) {
   for (int splits : {0, 10}) {
     const Surface surface = surfaceOf(GetParam().rig, splits);
     for (Index level = 1; level <= 8; ++level) {
-      const Topology t = topologyOf(loops(Tessellation(surface, level)));
+      const Topology t = topologyOf(loopsOf(Tessellation(surface, level).faces()));
       EXPECT_EQ(t.euler, source.euler) << "level " << level;
       EXPECT_EQ(t.boundaryLoops, source.boundaryLoops) << "level " << level;
       EXPECT_EQ(t.overfullEdges, 0) << "level " << level;

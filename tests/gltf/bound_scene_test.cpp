@@ -40,14 +40,14 @@ Glb faceOf(const std::vector<std::vector<std::uint16_t>>& primitives) {
   return glb;
 }
 
-const Loop front{0, 1, 4, 3}, back{0, 3, 4, 1};
+const Loop front{0, 1, 4, 3}, backward{0, 3, 4, 1};
 
 TEST(BoundScene, FindsThePartsOfQuadsUponEachOther) {
   const std::vector<std::uint16_t> across{0, 1, 4, 0, 4, 3}, behind{0, 4, 1, 0, 3, 4},
       other{0, 3, 1, 1, 3, 4};
-  EXPECT_EQ(facePartsOf(faceOf({across, behind}), {front, back}), (std::vector<Index>{0, 1}));
-  EXPECT_EQ(facePartsOf(faceOf({across, other}), {front, back}), (std::vector<Index>{0, 1}));
-  EXPECT_EQ(facePartsOf(faceOf({other, across}), {back, front}), (std::vector<Index>{0, 1}));
+  EXPECT_EQ(facePartsOf(faceOf({across, behind}), {front, backward}), (std::vector<Index>{0, 1}));
+  EXPECT_EQ(facePartsOf(faceOf({across, other}), {front, backward}), (std::vector<Index>{0, 1}));
+  EXPECT_EQ(facePartsOf(faceOf({other, across}), {backward, front}), (std::vector<Index>{0, 1}));
 }
 
 TEST(BoundScene, FindsThePartsOfTrianglesUponQuads) {

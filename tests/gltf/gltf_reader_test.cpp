@@ -6,6 +6,7 @@
 
 #include "gltf/glb.hpp"
 #include "gltf/mesh_rig.hpp"
+#include "gltf/written.hpp"
 
 namespace sweepface {
 namespace {
@@ -30,13 +31,6 @@ Faces trianglesOf(const Glb& glb) {
   const gltf::Document document = gltf::parseDocument(glb.bytes(), {}).value();
   const gltf::Parts parts = gltf::findParts(document).value();
   return facesOf(gltf::readMeshRig(document, parts).value().neutral.polygons);
-}
-
-void expectNear(const std::vector<Vec3>& found, const std::vector<Vec3>& expected,
-                double within = 1e-12) {
-  ASSERT_EQ(found.size(), expected.size());
-  for (std::size_t v = 0; v < found.size(); ++v)
-    EXPECT_LE(norm(found[v] - expected[v]), within) << v;
 }
 
 /// Vertices without faces that matter.

@@ -194,7 +194,7 @@ std::vector<Affine> worldOf(const Json& nodes) {
   return gltf::worldMatrices(gltf::parseDocument(glb.bytes(), {}).value()).value();
 }
 
-void expectNear(const Vec3& a, const Vec3& b) {
+void expectAt(const Vec3& a, const Vec3& b) {
   EXPECT_NEAR(norm(a - b), 0, 1e-12) << a.x << " " << a.y << " " << a.z;
 }
 
@@ -202,21 +202,21 @@ TEST(Nodes, PlaceByTranslationRotationAndScale) {
   const double h = std::sqrt(0.5);  // a quarter turn about z
   const auto world =
       worldOf({{{"translation", {10, 20, 30}}, {"rotation", {0, 0, h, h}}, {"scale", {2, 3, 4}}}});
-  expectNear(world[0].point({1, 0, 0}), {10, 22, 30});
-  expectNear(world[0].point({0, 1, 0}), {7, 20, 30});
-  expectNear(world[0].direction({0, 0, 1}), {0, 0, 4});
+  expectAt(world[0].point({1, 0, 0}), {10, 22, 30});
+  expectAt(world[0].point({0, 1, 0}), {7, 20, 30});
+  expectAt(world[0].direction({0, 0, 1}), {0, 0, 4});
 }
 
 TEST(Nodes, PlaceByMatrix) {
   const auto world = worldOf({{{"matrix", {0, 2, 0, 0, -3, 0, 0, 0, 0, 0, 4, 0, 10, 20, 30, 1}}}});
-  expectNear(world[0].point({1, 1, 1}), {7, 22, 34});
+  expectAt(world[0].point({1, 1, 1}), {7, 22, 34});
 }
 
 TEST(Nodes, PlaceWithinTheirParents) {
   const auto world = worldOf({{{"translation", {1, 0, 0}}},
                               {{"scale", {2, 2, 2}}, {"children", {2}}},
                               {{"translation", {0, 1, 0}}, {"children", {0}}}});
-  expectNear(world[0].point({0, 0, 0}), {2, 2, 0});
+  expectAt(world[0].point({0, 0, 0}), {2, 2, 0});
 }
 
 TEST(Nodes, AMatrixAndItsInverseUndoEachOther) {
@@ -224,7 +224,7 @@ TEST(Nodes, AMatrixAndItsInverseUndoEachOther) {
                                {"rotation", {0.1, -0.7, 0.5, 0.5}},
                                {"scale", {0.5, -2, 3e-4}}}});
   const Affine both = world[0].inverse() * world[0];
-  expectNear(both.point({1, 2, 3}), {1, 2, 3});
+  expectAt(both.point({1, 2, 3}), {1, 2, 3});
   EXPECT_TRUE(world[0].mirrors());
   EXPECT_FALSE(world[0].isSingular());
 }
@@ -254,7 +254,7 @@ TEST(Nodes, OfAHundredThousandLevelsAreRead) {
   for (int k = 0; k < 100'000; ++k)
     nodes.push_back({{"children", {k + 1}}, {"translation", {0, 0, 1}}});
   nodes.push_back(Json::object());
-  expectNear(worldOf(nodes).back().origin, {0, 0, 100'000});
+  expectAt(worldOf(nodes).back().origin, {0, 0, 100'000});
 }
 
 TEST(Nodes, ThatFlattenAFaceAreRefused) {

@@ -224,7 +224,7 @@ inline double largest(const std::vector<Vec3>& list) {
 
 /// Equal as far as floats of their size can tell.
 inline void expectNear(const std::vector<Vec3>& found, const std::vector<Vec3>& expected,
-                       double within) {
+                       double within = 1e-12) {
   ASSERT_EQ(found.size(), expected.size());
   for (std::size_t v = 0; v < found.size(); ++v)
     ASSERT_LE(norm(found[v] - expected[v]), within) << "vertex " << v;

@@ -11,16 +11,16 @@ using testing::failsWith;
 
 const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
-PolygonMesh parsed(const std::string& text) {
+PolygonMesh objMesh(const std::string& text) {
   auto mesh = parseObj(text, "a.obj");
   EXPECT_TRUE(mesh.has_value()) << mesh.error().message;
   return mesh ? std::move(*mesh) : PolygonMesh{};
 }
 
-std::vector<Index> corners(const std::string& text) { return parsed(text).polygons.corners; }
+std::vector<Index> cornersOf(const std::string& text) { return objMesh(text).polygons.corners; }
 
 TEST(ObjReader, ReadsPositionsAndPolygonsOfAnySize) {
-  const PolygonMesh mesh = parsed(square + "v 0.5 -2e-1 +3\nf 1 2 3\nf 1 2 3 4\nf 1 5 2 3 4\n");
+  const PolygonMesh mesh = objMesh(square + "v 0.5 -2e-1 +3\nf 1 2 3\nf 1 2 3 4\nf 1 5 2 3 4\n");
   ASSERT_EQ(mesh.positions.size(), 5u);
   EXPECT_EQ(mesh.positions[4], (Vec3{0.5, -0.2, 3}));
   EXPECT_EQ(mesh.polygons.faceStart, (std::vector<Index>{0, 3, 7, 12}));
@@ -29,33 +29,33 @@ TEST(ObjReader, ReadsPositionsAndPolygonsOfAnySize) {
 
 TEST(ObjReader, ReadsAllFourFormsOfACorner) {
   const std::string values = square + "vt 0 0\nvt 1\nvt 1 1 0\nvn 0 0 1\n";
-  const Polygons polygons = parsed(values + "f 1 2/2 3//1 4/3/1\n").polygons;
+  const Polygons polygons = objMesh(values + "f 1 2/2 3//1 4/3/1\n").polygons;
   EXPECT_EQ(polygons.corners, (std::vector<Index>{0, 1, 2, 3}));
   EXPECT_EQ(polygons.cornerTexcoords, (std::vector<Index>{-1, 1, -1, 2}));
   EXPECT_EQ(polygons.texcoords, (std::vector<Vec2>{{0, 0}, {1, 0}, {1, 1}}));
 }
 
 TEST(ObjReader, CountsNegativeIndicesBackFromTheFace) {
-  EXPECT_EQ(corners(square + "f -4 -3 -1\nv 2 2 2\nf -5 -4 -1\n"),
+  EXPECT_EQ(cornersOf(square + "f -4 -3 -1\nv 2 2 2\nf -5 -4 -1\n"),
             (std::vector<Index>{0, 1, 3, 0, 1, 4}));
-  EXPECT_EQ(parsed(square + "vt 0 0\nvt 1 1\nf 1/-1 2/-2 3/-1\n").polygons.cornerTexcoords,
+  EXPECT_EQ(objMesh(square + "vt 0 0\nvt 1 1\nf 1/-1 2/-2 3/-1\n").polygons.cornerTexcoords,
             (std::vector<Index>{1, 0, 1}));
 }
 
 TEST(ObjReader, LetsFacesComeBeforeTheirVertices) {
-  EXPECT_EQ(corners("f 1 2 4\n" + square), (std::vector<Index>{0, 1, 3}));
+  EXPECT_EQ(cornersOf("f 1 2 4\n" + square), (std::vector<Index>{0, 1, 3}));
 }
 
 TEST(ObjReader, HasNoTextureCoordinatesWhereNoFaceUsesThem) {
-  const Polygons polygons = parsed(square + "vt 0 0\nf 1 2 3\n").polygons;
+  const Polygons polygons = objMesh(square + "vt 0 0\nf 1 2 3\n").polygons;
   EXPECT_TRUE(polygons.cornerTexcoords.empty());
   EXPECT_TRUE(polygons.texcoords.empty());
 }
 
 TEST(ObjReader, KeepsGroupsMaterialsAndMaterialFiles) {
-  const Polygons polygons = parsed("mtllib a.mtl b.mtl\nmtllib c.mtl a.mtl\n" + square +
-                                   "f 1 2 3\ng left eye\nusemtl skin # 2\nf 1 2 3\n"
-                                   "g\nf 1 2 4\nusemtl iris\ng left eye\nf 1 2 3\n")
+  const Polygons polygons = objMesh("mtllib a.mtl b.mtl\nmtllib c.mtl a.mtl\n" + square +
+                                    "f 1 2 3\ng left eye\nusemtl skin # 2\nf 1 2 3\n"
+                                    "g\nf 1 2 4\nusemtl iris\ng left eye\nf 1 2 3\n")
                                 .polygons;
   EXPECT_EQ(polygons.materialFiles, (std::vector<std::string>{"a.mtl", "b.mtl", "c.mtl"}));
   EXPECT_EQ(polygons.groups, (std::vector<std::string>{"left eye"}));
@@ -66,46 +66,47 @@ TEST(ObjReader, KeepsGroupsMaterialsAndMaterialFiles) {
 
 TEST(ObjReader, TakesObjectsForGroupsWhereThereAreNoGroups) {
   const Polygons polygons =
-      parsed(square + "o head\nf 1 2 3\ng brow\nf 1 2 3\no rest\nf 1 2 3\n").polygons;
+      objMesh(square + "o head\nf 1 2 3\ng brow\nf 1 2 3\no rest\nf 1 2 3\n").polygons;
   EXPECT_EQ(polygons.groups, (std::vector<std::string>{"head", "brow"}));
   EXPECT_EQ(polygons.faceGroup, (std::vector<Index>{0, 1, 1}));
 }
 
 TEST(ObjReader, ReadsEveryKindOfLineBreak) {
   const std::vector<Index> expected{0, 1, 2, 3};
-  EXPECT_EQ(corners("v 0 0 0\r\nv 1 0 0\r\nv 1 1 0\r\nv 0 1 0\r\nf 1 2 3 4\r\n"), expected);
-  EXPECT_EQ(corners("v 0 0 0\rv 1 0 0\rv 1 1 0\rv 0 1 0\rf 1 2 3 4"), expected);
+  EXPECT_EQ(cornersOf("v 0 0 0\r\nv 1 0 0\r\nv 1 1 0\r\nv 0 1 0\r\nf 1 2 3 4\r\n"), expected);
+  EXPECT_EQ(cornersOf("v 0 0 0\rv 1 0 0\rv 1 1 0\rv 0 1 0\rf 1 2 3 4"), expected);
 }
 
 TEST(ObjReader, JoinsLinesAfterABackslash) {
-  EXPECT_EQ(corners(square + "f 1 \\\n 2 3\\\r\n4\n"), (std::vector<Index>{0, 1, 2, 3}));
-  EXPECT_EQ(corners("# from C:\\\n" + square + "f 1 2 3\n"), (std::vector<Index>{0, 1, 2}))
+  EXPECT_EQ(cornersOf(square + "f 1 \\\n 2 3\\\r\n4\n"), (std::vector<Index>{0, 1, 2, 3}));
+  EXPECT_EQ(cornersOf("# from C:\\\n" + square + "f 1 2 3\n"), (std::vector<Index>{0, 1, 2}))
       << "a comment ends with its line";
 }
 
 TEST(ObjReader, EndsAStatementWithTheCommentBehindIt) {
-  EXPECT_EQ(corners("v 0 0 0\nv 1 0 0 # from C:\\\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n").size(), 4u);
-  EXPECT_EQ(corners(square + "f 1 \\\n 2 3 # D:\\heads\\\nf 1 3 4\n"),
+  EXPECT_EQ(cornersOf("v 0 0 0\nv 1 0 0 # from C:\\\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n").size(), 4u);
+  EXPECT_EQ(cornersOf(square + "f 1 \\\n 2 3 # D:\\heads\\\nf 1 3 4\n"),
             (std::vector<Index>{0, 1, 2, 0, 2, 3}));
-  EXPECT_EQ(parsed(square + "g left # \\\nbrow\nf 1 2 3\n").polygons.groups,
+  EXPECT_EQ(objMesh(square + "g left # \\\nbrow\nf 1 2 3\n").polygons.groups,
             (std::vector<std::string>{"left #  brow"}))
       << "a name may have a '#'";
 }
 
 TEST(ObjReader, PassesOverWhatAMeshDoesNotNeed) {
-  EXPECT_EQ(corners("\xEF\xBB\xBF# made by hand\n\n \t\n" + square +
-                    "vn nan 0 0\nvp 1\ns off\nl 1 2\np 1\ncurv 0 1 1 2\nwhatever 1\n"
-                    "  f\t1 2 3  # a face\n"),
+  EXPECT_EQ(cornersOf("\xEF\xBB\xBF# made by hand\n\n \t\n" + square +
+                      "vn nan 0 0\nvp 1\ns off\nl 1 2\np 1\ncurv 0 1 1 2\nwhatever 1\n"
+                      "  f\t1 2 3  # a face\n"),
             (std::vector<Index>{0, 1, 2}));
 }
 
 TEST(ObjReader, TakesWeightsAndColoursAfterAPosition) {
-  const PolygonMesh mesh = parsed("v 1 2 3 1\nv 4 5 6 .5 .5 .5\nv 7 8 9 1 1 1 1 # grey\nf 1 2 3\n");
+  const PolygonMesh mesh =
+      objMesh("v 1 2 3 1\nv 4 5 6 .5 .5 .5\nv 7 8 9 1 1 1 1 # grey\nf 1 2 3\n");
   EXPECT_EQ(mesh.positions, (std::vector<Vec3>{{1, 2, 3}, {4, 5, 6}, {7, 8, 9}}));
 }
 
 TEST(ObjReader, KeepsFacesThatRepeatAVertex) {
-  EXPECT_EQ(corners(square + "f 1 2 1\n"), (std::vector<Index>{0, 1, 0}));
+  EXPECT_EQ(cornersOf(square + "f 1 2 1\n"), (std::vector<Index>{0, 1, 0}));
 }
 
 struct BadObj {

@@ -44,14 +44,14 @@ std::string quadBytes(bool bigEndian) {
   return bytes.text;
 }
 
-PolygonMesh parsed(const std::string& bytes) {
+PolygonMesh plyMesh(const std::string& bytes) {
   auto mesh = parsePly(bytes, "a.ply");
   EXPECT_TRUE(mesh.has_value()) << mesh.error().message;
   return mesh ? std::move(*mesh) : PolygonMesh{};
 }
 
 void expectQuad(const std::string& bytes) {
-  const PolygonMesh mesh = parsed(bytes);
+  const PolygonMesh mesh = plyMesh(bytes);
   EXPECT_EQ(mesh.positions, (std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}));
   EXPECT_EQ(mesh.polygons.faceStart, (std::vector<Index>{0, 3, 7}));
   EXPECT_EQ(mesh.polygons.corners, (std::vector<Index>{0, 1, 2, 0, 1, 2, 3}));
@@ -83,14 +83,14 @@ TEST(PlyReader, ReadsPositionsOfAnyScalarType) {
   for (const std::string& type : types) {
     const std::string header = "element vertex 3\nproperty " + type + " x\nproperty " + type +
                                " y\nproperty " + type + " z\nelement face 1\n" + faceList;
-    EXPECT_EQ(parsed(ply(header, "1 2 3\n4 5 6\n7 8 9\n3 0 1 2\n")).positions[1], (Vec3{4, 5, 6}));
+    EXPECT_EQ(plyMesh(ply(header, "1 2 3\n4 5 6\n7 8 9\n3 0 1 2\n")).positions[1], (Vec3{4, 5, 6}));
   }
   Bytes bytes;
   for (int i = 0; i < 3; ++i) bytes << std::int8_t{-1} << std::uint16_t{65535} << 0.1;
   bytes << std::uint8_t{3} << 0 << 1 << 2;
   const std::string header =
       "element vertex 3\nproperty int8 x\nproperty ushort y\nproperty float64 z\nelement face 1\n";
-  EXPECT_EQ(parsed(ply(header + faceList, bytes.text, "binary_little_endian")).positions[2],
+  EXPECT_EQ(plyMesh(ply(header + faceList, bytes.text, "binary_little_endian")).positions[2],
             (Vec3{-1, 65535, 0.1}));
 }
 
@@ -106,7 +106,7 @@ TEST(PlyReader, SkipsOtherElementsAndProperties) {
   const std::string body =
       "2 0.5 0.5 7\n0 8\n9 0 1 2 3\n9 1 5 4 5 6\n9 2 5 5 7 8 9\n"
       "0.5 3 2 1 0 2 0 1\n1\n";
-  const PolygonMesh mesh = parsed(ply(header, body));
+  const PolygonMesh mesh = plyMesh(ply(header, body));
   EXPECT_EQ(mesh.positions, (std::vector<Vec3>{{1, 2, 3}, {4, 5, 6}, {7, 8, 9}}));
   EXPECT_EQ(mesh.polygons.corners, (std::vector<Index>{2, 1, 0}));
 }
@@ -116,7 +116,7 @@ TEST(PlyReader, ReadsTextureCoordinatesOfVertices) {
     const std::string header = "element vertex 3\n" + xyz + "property float " + u +
                                "\nproperty float " + v + "\nelement face 1\n" + faceList;
     const Polygons polygons =
-        parsed(ply(header, "0 0 0 0 0\n1 0 0 1 0\n0 1 0 0 1\n3 2 1 0\n")).polygons;
+        plyMesh(ply(header, "0 0 0 0 0\n1 0 0 1 0\n0 1 0 0 1\n3 2 1 0\n")).polygons;
     EXPECT_EQ(polygons.texcoords, (std::vector<Vec2>{{0, 0}, {1, 0}, {0, 1}}));
     EXPECT_EQ(polygons.cornerTexcoords, (std::vector<Index>{2, 1, 0}));
   }

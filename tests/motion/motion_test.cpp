@@ -46,13 +46,13 @@ State gaussStep(State q, double t, double h, Acceleration acceleration) {
   return next;
 }
 
-class EveryLaw : public testing::TestWithParam<TimeLaw> {};
+class EveryLaw : public ::testing::TestWithParam<TimeLaw> {};
 
-std::string suiteName(const testing::TestParamInfo<TimeLaw>& law) {
+std::string suiteName(const ::testing::TestParamInfo<TimeLaw>& law) {
   return law.param == TimeLaw::accelerateBrake ? "accelerateBrake" : std::string(nameOf(law.param));
 }
 
-INSTANTIATE_TEST_SUITE_P(Motion, EveryLaw, testing::ValuesIn(timeLaws), suiteName);
+INSTANTIATE_TEST_SUITE_P(Motion, EveryLaw, ::testing::ValuesIn(timeLaws), suiteName);
 
 TEST_P(EveryLaw, IsFoundByItsName) {
   const Result<TimeLaw> law = timeLawFromName(nameOf(GetParam()));

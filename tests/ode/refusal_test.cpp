@@ -1,3 +1,4 @@
+#include <cmath>
 #include <gtest/gtest.h>
 #include <limits>
 #include <random>
@@ -9,7 +10,6 @@
 namespace sweepface {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 bool isRefused(double a, double b) { return !SweepBasis::make({1, a, b}); }
@@ -98,7 +98,7 @@ TEST(Roots, thatOscillateFasterThanTheGridAreRefused) {
 TEST(Parameters, thatMakeNoEquationAreRefused) {
   EXPECT_FALSE(SweepBasis::make({0, 1, 1}));
   EXPECT_FALSE(TangentBasis::make({1, 0, 1}));
-  for (const double bad : {nan, infinity, -infinity}) {
+  for (const double bad : {std::nan(""), infinity, -infinity}) {
     EXPECT_FALSE(SweepBasis::make({bad, 1, 1}));
     EXPECT_FALSE(SweepBasis::make({1, bad, 1}));
     EXPECT_FALSE(SweepBasis::make({1, 1, bad}));
