@@ -54,8 +54,13 @@ export function exported(file, weights, lod, options = []) {
   return readObj(out);
 }
 
-/** The sample face as small as it gets. */
-export function packed() {
+const once = (make) => {
+  let made;
+  return () => made ??= make();
+};
+
+/** The sample face as small as it gets: a file to read. */
+export const packed = once(() => {
   const folder = newFolder(), file = join(folder, 'packed.sweep'), names = ['neutral', 'jawOpen', 'mouthSmileLeft'];
   for (const name of names)
     execFileSync(tool, ['export', sample, '-o', join(folder, `${name}.obj`), '--quiet',
@@ -63,15 +68,15 @@ export function packed() {
   const [neutral, ...targets] = names.map((name) => join(folder, `${name}.obj`));
   execFileSync(tool, ['convert', neutral, ...targets, '-o', file, '--tolerance', '0.05', '--pack', '--quiet']);
   return file;
-}
+});
 
-/** The sample face with what its targets turn about. */
-export function withArcs() {
+/** The sample face with what its targets turn about: a file to read. */
+export const withArcs = once(() => {
   const folder = newFolder(), drawing = join(folder, 'sample.wire.json'), file = join(folder, 'arcs.sweep');
   execFileSync(tool, ['wireframe', sample, '-o', drawing, '--quiet']);
   execFileSync(tool, ['build', drawing, '--source', sample, '--arcs', '-o', file, '--quiet']);
   return file;
-}
+});
 
 /** The vertices of a face as it is. */
 export function positionsOf(face) {
