@@ -46,11 +46,11 @@ inline Steps3 reflected(Steps3 v, int sign, int axis) {
 
 /// The same in steps that are 2^finer times smaller, or larger where `finer` is negative.
 inline Steps3 inFinerSteps(Steps3 v, int finer) {
-  constexpr std::int64_t kMost = 1 << 26;
+  constexpr std::int64_t kMostSteps = 1 << 26;
   for (std::int32_t& x : v) {
     const std::int64_t y =
         finer >= 0 ? x * (std::int64_t{1} << std::min(finer, 30)) : x >> std::min(-finer, 30);
-    x = static_cast<std::int32_t>(std::clamp(y, -kMost, kMost));
+    x = static_cast<std::int32_t>(std::clamp(y, -kMostSteps, kMostSteps));
   }
   return v;
 }
