@@ -6,6 +6,7 @@
 #include "sweepface/io.hpp"
 
 #include "command.hpp"
+#include "following.hpp"
 
 namespace sweepface::cli {
 namespace {
@@ -73,6 +74,7 @@ Result<int> runBuild(const BuildArguments& a) {
     hasArcs |= !like->turns.empty();
   }
   if (hasArcs) built->rig.turns = findTurns(built->rig);
+  if (a.arcs && built->rig.turns.empty()) printWarning(kNoTurns);
   const Result<std::string> bytes = encodeReadable(built->rig, a.output);
   if (!bytes) return std::unexpected(bytes.error());
   if (auto written = writeFile(a.output, *bytes); !written) return std::unexpected(written.error());

@@ -14,6 +14,7 @@
 #include "sweepface/strip.hpp"
 
 #include "command.hpp"
+#include "following.hpp"
 #include "interrupts.hpp"
 #include "output.hpp"
 #include "parallel.hpp"
@@ -261,6 +262,7 @@ Result<int> convertAndWrite(const ConvertArguments& a) {
   std::vector<std::string>& warnings = conversion->warnings;
   std::ranges::move(warningsOf(a, *source, *parts, bringsScene && parts->order),
                     std::back_inserter(warnings));
+  if (a.arcs && finished.turns.empty()) warnings.push_back(kNoTurns);
   for (const std::string& warning : warnings) printWarning(warning);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   const Summary summary{a,

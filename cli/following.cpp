@@ -2,6 +2,8 @@
 
 #include "sweepface/arcs.hpp"
 
+#include "output.hpp"
+
 namespace sweepface::cli {
 
 void addFollowing(CLI::App& app, FollowingArguments& a) {
@@ -47,9 +49,12 @@ Result<Following> follow(const FollowingArguments& a, Rig& rig) {
     std::vector<std::string> names;
     for (const Target& target : rig.targets) names.push_back(target.name);
     followers = Followers::named(names);
+    if (followers.empty())
+      printWarning("No target is named after others, so --combine changes nothing.");
   }
   // Eyeballs tell what lids turn about, so turns are found while they still move by the targets.
   const auto turns = a.arcs == "on" ? turnsOf(rig) : std::vector<Turn>{};
+  if (a.arcs == "on" && turns.empty()) printWarning(kNoTurns);
   if (a.eyes == "on") {
     const std::vector<Eye> eyes = findEyes(rig);
     if (eyes.empty()) return fail("The face has no eyeballs that could turn; leave --eyes out.");

@@ -29,6 +29,9 @@ struct Following {
   void apply(std::span<double> weights, const HeadPose* pose = nullptr) const;
 };
 
+inline constexpr const char* kNoTurns =
+    "No target turns about anything, so --arcs changes nothing.";
+
 /// What was asked for; arcs and turning eyes are added to the targets of the rig.
 Result<Following> follow(const FollowingArguments& a, Rig& rig);
 

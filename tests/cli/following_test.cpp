@@ -76,6 +76,19 @@ TEST_F(Following, CombinedTargetsFollow) {
   EXPECT_LE(norm(shift("--weights A=0.5,B=1") - Vec3{0.5, 1, 0}), 0.01);
 }
 
+TEST_F(Following, SaysWhereNothingTurnsOrIsCombined) {
+  convertWith({{"A", [](const Vec3& p) { return p + Vec3{1, 0, 0}; }}});
+  const Outcome arcs = run("export face.sweep -o out.obj --arcs on");
+  EXPECT_EQ(arcs.code, 0);
+  EXPECT_NE(arcs.err.find("No target turns about anything"), std::string::npos) << arcs.err;
+  const Outcome combined = run("export face.sweep -o out.obj --combine");
+  EXPECT_EQ(combined.code, 0);
+  EXPECT_NE(combined.err.find("No target is named after others"), std::string::npos);
+  const Outcome r = run("convert neutral.obj turns -o face.sweep --tolerance 0.001 --arcs --json");
+  EXPECT_EQ(r.code, 0);
+  EXPECT_NE(r.out.find("No target turns about anything"), std::string::npos) << r.out;
+}
+
 TEST_F(Following, ArcsAreOnOrOff) {
   const Outcome r = run("export face.sweep -o out.obj --arcs maybe");
   EXPECT_NE(r.code, 0);
