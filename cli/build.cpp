@@ -78,6 +78,8 @@ Result<int> runBuild(const BuildArguments& a) {
   const Result<std::string> bytes = encodeReadable(built->rig, a.output);
   if (!bytes) return std::unexpected(bytes.error());
   if (auto written = writeFile(a.output, *bytes); !written) return std::unexpected(written.error());
+  for (const Target& target : built->rig.targets)
+    if (!canBeListed(target.name)) printWarning(cannotBeListed(target.name));
   if (drawing->tolerance == 0) warnOfMisses(a, *built);
   if (!a.quiet) printSummary(a, *built, bytes->size());
   return 0;

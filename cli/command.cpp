@@ -101,6 +101,17 @@ void addGlb(CLI::App& app, GlbArguments& glb) {
                "For .glb: 16 bits a coordinate (KHR_mesh_quantization); about half as large");
 }
 
+bool canBeListed(const std::string& name) {
+  return name.find_first_of(",=") == name.npos && !name.starts_with(' ') && !name.ends_with(' ');
+}
+
+std::string cannotBeListed(const std::string& name) {
+  return fmt::format(
+      "'{}' is no name for a list of weights; rename the target to set it with --weights and the "
+      "like.",
+      name);
+}
+
 CLI::Validator wholeNumber(std::int64_t low, std::int64_t high) {
   const auto check = [=](std::string& text) -> std::string {
     std::int64_t number = 0;

@@ -70,6 +70,10 @@ struct GlbArguments {
 };
 void addGlb(CLI::App& app, GlbArguments& glb);
 
+/// Whether a list of weights, NAME=W,..., can hold the name of a target, and what is said if not.
+bool canBeListed(const std::string& name);
+std::string cannotBeListed(const std::string& name);
+
 CLI::Validator wholeNumber(std::int64_t low, std::int64_t high);
 /// A finite number > 0, and at most `high` if that is given.
 CLI::Validator positiveNumber(double high = 0);

@@ -210,12 +210,7 @@ std::vector<std::string> warningsOf(const ConvertArguments& a, const RigSource& 
   if (isGltf(a.neutral) && source.rig.targets.empty())
     warnings.push_back(a.neutral + " has no morph targets, so the face has no expressions.");
   for (const MeshTarget& target : source.rig.targets)
-    if (const std::string& name = target.name;
-        name.find_first_of(",=") != name.npos || name.starts_with(' ') || name.ends_with(' '))
-      warnings.push_back(
-          fmt::format("'{}' is no name for a list of weights; rename the target to set it with "
-                      "--weights and the like.",
-                      name));
+    if (!canBeListed(target.name)) warnings.push_back(cannotBeListed(target.name));
   return warnings;
 }
 

@@ -85,10 +85,27 @@ struct Subject {
   bool isWeight = true;
 };
 
-Subject weightOf(const Rig& rig, Index target) {
+/// The target that a region's part is of; itself where it is one of the face's `own`.
+Index wholeOf(const Rig& rig, Index own, Index target) {
+  const std::string& name = rig.targets[target].name;
+  for (Index k = 0; target >= own && k < own; ++k)
+    if (name.starts_with(partName(rig.targets[k].name, ""))) return k;
+  return target;
+}
+
+/// A region's weight is that of the whole target and what its part has more.
+Subject weightOf(const Rig& rig, Index own, Index target) {
   Subject subject{rig.targets[target].name, std::vector<Vec3>(rig.targets.size())};
-  subject.differences[target] = {1, 0, 0};
+  for (const Index k : {target, wholeOf(rig, own, target)}) subject.differences[k] = {1, 0, 0};
   return subject;
+}
+
+/// One for every region where they differ.
+std::vector<Subject> weightsOf(const Rig& rig, Index own, Index target) {
+  std::vector<Subject> parts;
+  for (auto k = own; k < static_cast<Index>(rig.targets.size()); ++k)
+    if (wholeOf(rig, own, k) == target) parts.push_back(weightOf(rig, own, k));
+  return parts.empty() ? std::vector{weightOf(rig, own, target)} : parts;
 }
 
 std::vector<Subject> verticesOf(const Rig& rig, const std::vector<int>& vertices) {
@@ -109,14 +126,15 @@ std::vector<Subject> verticesOf(const Rig& rig, const std::vector<int>& vertices
   return subjects;
 }
 
-Result<std::vector<Subject>> subjectsOf(const PlotArguments& a, const Rig& rig,
+/// Of a rig to whose `own` targets the parts of regions were added.
+Result<std::vector<Subject>> subjectsOf(const PlotArguments& a, const Rig& rig, Index own,
                                         const Performance& performance,
                                         std::span<const double> times) {
   std::vector<Subject> subjects;
   for (const std::string& name : a.weights) {
     const Result<Index> target = findTarget(rig, name);
     if (!target) return std::unexpected(target.error());
-    subjects.push_back(weightOf(rig, *target));
+    std::ranges::move(weightsOf(rig, own, *target), std::back_inserter(subjects));
   }
   if (!a.vertices.empty() && !rig.source.ownOrder)
     return fail(a.face +
@@ -134,7 +152,8 @@ Result<std::vector<Subject>> subjectsOf(const PlotArguments& a, const Rig& rig,
   for (const double time : times) {
     performance.at(time, later);
     for (std::size_t t = 0; t < first.size(); ++t)
-      if (later[t] != first[t]) return std::vector{weightOf(rig, static_cast<Index>(t))};
+      if (later[t] != first[t])
+        return weightsOf(rig, own, wholeOf(rig, own, static_cast<Index>(t)));
   }
   return fail("Nothing moves; name a target with --weight.");
 }
@@ -167,22 +186,21 @@ void addCurves(Curves& curves, const Performance& performance, std::span<const d
   }
 }
 
-Result<Curves> curvesOf(const PlotArguments& a, const Rig& rig) {
+/// Parts of a timeline's regions are added to the rig.
+Result<Curves> curvesOf(const PlotArguments& a, Rig& rig) {
   const std::vector<std::string> laws = a.laws.empty() ? std::vector{a.what.law} : a.laws;
-  // Of several regions, what the first does.
-  const auto regions = regionsOf(a.what, {}, rig);
-  if (!regions) return std::unexpected(regions.error());
+  const auto own = static_cast<Index>(rig.targets.size());
   std::vector<Performance> performances;
   std::vector<std::vector<double>> times;
   for (const std::string& law : laws) {
     PerformanceArguments what = a.what;
     what.law = law;
-    Result<Performance> performance = makePerformance(what, rig, regions->front());
+    Result<Performance> performance = perform(what, {}, {}, rig);
     if (!performance) return std::unexpected(performance.error());
     times.push_back(looksAt(what, *performance));
     performances.push_back(std::move(*performance));
   }
-  const auto subjects = subjectsOf(a, rig, performances.front(), times.front());
+  const auto subjects = subjectsOf(a, rig, own, performances.front(), times.front());
   if (!subjects) return std::unexpected(subjects.error());
   Curves curves;
   for (std::size_t k = 0; k < laws.size(); ++k)
@@ -205,7 +223,7 @@ Result<Curves> curvesOf(const PlotArguments& a, const Rig& rig) {
 Result<int> runPlot(const PlotArguments& a) {
   if (!a.what.to && a.what.clip.empty())
     return fail("Say where to go with --to, or what to play with --clip.");
-  const Result<Rig> rig = readFace(a.face);
+  Result<Rig> rig = readFace(a.face);
   if (!rig) return std::unexpected(rig.error());
   if (auto ok = checkOutput(a.output, {a.face, a.what.clip}, {".svg"}, !a.quiet); !ok)
     return std::unexpected(ok.error());

@@ -24,8 +24,10 @@ export interface Drive {
 /** A file in memory; also Node's `Buffer`, and views of shared memory. */
 export type Bytes = ArrayBuffer | ArrayBufferView;
 
-/** Where the WebAssembly module is, if not beside sweepface.js. */
-export type ModuleSource = string | URL | Bytes | WebAssembly.Module;
+/** A `WebAssembly.Module`, where the types of the project know it: those of browsers do. */
+type CompiledModule = typeof globalThis extends {WebAssembly: {Module: {prototype: infer Module}}} ? Module : object;
+/** Where the WebAssembly module is, if not beside sweepface.js: a `URL` has a `href`. */
+export type ModuleSource = string | {readonly href: string} | Bytes | CompiledModule;
 
 /** A part of the face that is heavier or stiffer than the rest or sets out later: docs/regions.md. */
 export interface Region {
@@ -100,8 +102,8 @@ export class Sweepface {
   private constructor();
 
   /** Reads a .sweep file: of a packed one all that the neutral needs, and what targets do when the face first moves.
-   * Rejects with the library's own sentence about what is wrong; what is wrong with targets is thrown when they are
-   * read. */
+   * Rejects with the library's own sentence about what is wrong; what no checksum shows of targets is thrown
+   * when they are read. */
   static load(bytes: Bytes, options?: LoadOptions): Promise<Sweepface>;
 
   /** Another face of the same file, at rest; the two share everything but their weights. */
@@ -109,6 +111,7 @@ export class Sweepface {
 
   /** The expressions. */
   readonly names: string[];
+  /** The level that was asked for; 0 where a budget was. */
   readonly lod: number;
   /** How far any source vertex may be off in any expression, in model units. */
   readonly tolerance: number;

@@ -1,7 +1,7 @@
 // Plays .sweep faces in browsers and in Node.
 import {DRIVE_SIZE, secondsOf, writeDrive} from './sweepface_drives.js';
 import {open, Shared} from './sweepface_file.js';
-import {kindOf, told} from './sweepface_values.js';
+import {kindOf, known, told} from './sweepface_values.js';
 import {MemoryError} from './sweepface_wasm.js';
 
 /** How far a weight may be from 0. */
@@ -109,9 +109,13 @@ export class Sweepface {
   look(pose) {
     const {runtime, eyeCount} = this.#open();
     if (eyeCount === 0) throw new Error('The face has no eyes that turn; load it with the option eyes, if it has any.');
-    const angles = (eye) => [eye?.yaw ?? 0, eye?.pitch ?? 0, 0];
+    const angles = (eye, name) => {
+      const {yaw = 0, pitch = 0} = known(eye, ['yaw', 'pitch', 'roll'], `look's ${name}`);
+      return [yaw, pitch, 0];
+    };
     if (!pose) return runtime.check(runtime.wasm.sweepface_face_look(this.#face, 0));
-    const numbers = new Float64Array([0, 0, 0, ...angles(pose.leftEye), ...angles(pose.rightEye)]);
+    const {leftEye, rightEye} = known(pose, ['leftEye', 'rightEye'], 'look');
+    const numbers = new Float64Array([0, 0, 0, ...angles(leftEye, 'leftEye'), ...angles(rightEye, 'rightEye')]);
     runtime.lend(new Uint8Array(numbers.buffer), (at) => {
       runtime.check(runtime.wasm.sweepface_face_look(this.#face, at));
     });

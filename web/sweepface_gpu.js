@@ -4,7 +4,7 @@ import {
   BufferAttribute, DataTexture, MeshDepthMaterial, MeshDistanceMaterial, NearestFilter, RGBADepthPacking,
   RGBAIntegerFormat, ShortType
 } from 'three';
-import {FaceMesh, geometryOf} from './sweepface_mesh.js';
+import {FaceMesh, faceFrom, geometryOf} from './sweepface_mesh.js';
 
 /** GLSL ES 3: what moves a vertex from its neutral. Texel k of a texture is at (k mod 1024, k / 1024). */
 export const SWEEPFACE_GLSL = `
@@ -96,7 +96,7 @@ export class SweepfaceGpuMesh extends FaceMesh {
   #textures;
 
   constructor(face, materials) {
-    const positions = face.shaderTables(), tangents = face.shaderTables(true);
+    const positions = faceFrom(face).shaderTables(), tangents = face.shaderTables(true);
     const textures = new Textures(positions, tangents);
     const geometry = geometryOf(face, {
       position: spread(face, positions.neutral, 3),

@@ -6,6 +6,12 @@ function materialsOf(face) {
   return face.parts.map(({material}) => new MeshStandardMaterial({name: material, roughness: 0.7, side: DoubleSide}));
 }
 
+/** The face that is given, not what Sweepface.load promises or takes. */
+export function faceFrom(face) {
+  if (typeof face?.evaluate === 'function') return face;
+  throw new TypeError('A mesh is made of a face; await Sweepface.load for it.');
+}
+
 /** The triangles of a face, its texture coordinates and a group for each part, with attributes by name. */
 export function geometryOf(face, attributes) {
   const geometry = new BufferGeometry(), {texcoords} = face;

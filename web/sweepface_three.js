@@ -1,11 +1,11 @@
 // .sweep faces for three.js: a loader, and a mesh whose geometry follows the weights.
 import {BufferAttribute, DynamicDrawUsage, FileLoader, Loader} from 'three';
 import {Sweepface} from './sweepface.js';
-import {FaceMesh, geometryOf} from './sweepface_mesh.js';
+import {FaceMesh, faceFrom, geometryOf} from './sweepface_mesh.js';
 
 /** Room for three numbers a vertex that change every frame. */
 function vectors(face) {
-  return new BufferAttribute(new Float32Array(3 * face.vertexCount), 3).setUsage(DynamicDrawUsage);
+  return new BufferAttribute(new Float32Array(3 * faceFrom(face).vertexCount), 3).setUsage(DynamicDrawUsage);
 }
 
 /** A face in a scene. Weights are set at any time; `update` brings the geometry up to date. */

@@ -19,8 +19,7 @@ class Limits {
   /// None.
   Limits() = default;
   explicit Limits(std::vector<Range> ranges) : ranges_(std::move(ranges)) {}
-  /// "0:1,jawOpen=0:0.8": all targets from 0 to 1, jawOpen no more than 0.8. What comes later
-  /// counts.
+  /// "0:1,jawOpen=0:0.8": all targets from 0 to 1, jawOpen no more than 0.8, in any order.
   static Result<Limits> parse(const Rig& rig, std::string_view text);
 
   bool empty() const noexcept { return ranges_.empty(); }

@@ -198,6 +198,9 @@ Result<std::string> makeMotionReport(const Rig& rig, const ReportOptions& option
   if (auto ok = checkExpression(rig, options); !ok) return std::unexpected(ok.error());
   const Weights rest(rig.targets.size(), 0.0);
   const Weights expression = options.expression.empty() ? strongestOf(rig) : options.expression;
+  if (rig.targets.empty())
+    return fail(
+        "The face has no expressions that could move; give the meshes it was made from as well.");
   if (expression == rest)
     return fail("The face does not move; name an expression to which it should.");
   const FaceScenes scenes(rig, lodFor(rig.surface, Style::shaded, kPanel));

@@ -36,7 +36,8 @@ Result<Limits> Limits::parse(const Rig& rig, std::string_view text) {
       return fail("limits are like 0:1 or jawOpen=0:0.8, the lower one first, not '" +
                   std::string(item) + "'");
     if (all) {
-      std::ranges::fill(ranges, *range);
+      for (std::size_t k = 0; k < ranges.size(); ++k)
+        if (!isTold[k]) ranges[k] = *range;
       continue;
     }
     const Result<Index> target = findTarget(rig, trimmed(item.substr(0, equals)));

@@ -40,6 +40,18 @@ TEST_F(Build, WarnsOfPointsThatAreFarFromTheirCurve) {
       << r.err;
 }
 
+TEST_F(Build, WarnsOfNamesThatNoListOfWeightsHolds) {
+  Json drawing = vase();
+  for (const char* name : {"a,b", " lead"}) {
+    drawing["expressions"][0]["name"] = name;
+    folder.file("vase.wire.json", drawing.dump());
+    const Outcome r = run("build vase.wire.json -o vase.sweep --quiet");
+    EXPECT_EQ(r.code, 0);
+    EXPECT_NE(r.err.find(std::string("'") + name + "' is no name for a list"), std::string::npos)
+        << r.err;
+  }
+}
+
 TEST_F(Build, GivesBackWhatWireframeWrote) {
   convertRig();
   ASSERT_EQ(run("wireframe face.sweep -o face.wire.json").code, 0);

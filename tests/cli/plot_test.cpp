@@ -88,6 +88,25 @@ TEST_F(Plot, ShowsWhatATimelineMeansForTheRest) {
   EXPECT_TRUE(fails("plot face.sweep --clip line.json -o plot.svg", "a region 'cheek'"));
 }
 
+TEST_F(Plot, ShowsWhatEveryRegionOfATimelineDoes) {
+  convertRig();
+  folder.file("line.json", R"({"seconds": 1,
+    "regions": [{"name": "side", "line": [[6, 0, 0], [6, 6, 0]], "whole": 1, "fade": 2,
+                 "over": "space"}],
+    "events": [{"at": 0, "to": {"smile": 0.25}},
+               {"at": 0, "to": {"jawOpen": 1}, "region": "side"}]})");
+  const std::string weights = plotted("--clip line.json --weight jawOpen");
+  EXPECT_EQ(countOf(weights, "<polyline"), 4u * 2);
+  EXPECT_NE(weights.find("jawOpen@rest"), std::string::npos);
+  EXPECT_NE(weights.find("jawOpen@side"), std::string::npos);
+  EXPECT_EQ(countOf(plotted("--clip line.json --weight jawOpen@side"), "<polyline"), 4u);
+  // A vertex of the region goes as it does where the whole face moves so.
+  folder.file("everywhere.json", R"({"seconds": 1,
+    "events": [{"at": 0, "to": {"smile": 0.25, "jawOpen": 1}}]})");
+  EXPECT_EQ(plotted("--clip line.json --vertex 6"), plotted("--clip everywhere.json --vertex 6"));
+  EXPECT_NE(plotted("--clip line.json --vertex 0"), plotted("--clip everywhere.json --vertex 0"));
+}
+
 TEST_F(Plot, LawsNeedNoFace) {
   ASSERT_EQ(run("laws -o laws.svg").code, 0);
   EXPECT_TRUE(contents(folder / "laws.svg").starts_with("<svg "));

@@ -228,6 +228,14 @@ TEST(Report, TellsAllAboutAFace) {
   EXPECT_NE(report->find("There is no program './no&lt;such"), std::string::npos);
 }
 
+TEST(MotionReport, NeedsAnExpression) {
+  ConvertOptions options;
+  options.tolerance = 0.01;
+  const auto page = makeMotionReport(convert(withTargets(plane(2, 2), 0), options).value().rig, {});
+  ASSERT_FALSE(page);
+  EXPECT_NE(page.error().message.find("has no expressions that could move"), std::string::npos);
+}
+
 TEST(MotionReport, ShowsThePapersExperimentAndEveryLaw) {
   const MeshRig mesh = withTargets(plane(4, 4), 2);
   ConvertOptions convertOptions;

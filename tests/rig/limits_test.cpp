@@ -27,6 +27,16 @@ TEST(Limits, OfOneTargetLeaveTheOthersAlone) {
   EXPECT_EQ(weights, (std::vector<double>{-9, 9, 0}));
 }
 
+TEST(Limits, OfOneTargetCountWhereverTheyAreTold) {
+  const Rig rig = makeRig(onePatch(1, 1));
+  std::vector<double> weights(rig.targets.size(), 1);
+  const auto limits = Limits::parse(rig, "rest=0:0.5,0:0.75");
+  ASSERT_TRUE(limits) << limits.error().message;
+  limits->apply(weights);
+  for (std::size_t k = 0; k < weights.size(); ++k)
+    EXPECT_EQ(weights[k], rig.targets[k].name == "rest" ? 0.5 : 0.75);
+}
+
 TEST(Limits, AreToldOnce) {
   const auto limits = Limits::parse(makeRig(onePatch(1, 1)), "rest=0:1,rest=0:2");
   ASSERT_FALSE(limits);

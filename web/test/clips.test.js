@@ -65,6 +65,11 @@ for (const [title, file, text] of [['Live Link Face', 'take.csv', csv],
       assert.ok(face.weights.jawOpen > 0);
     });
 
+test('a timeline that is read as a capture is told from one', () => {
+  assert.throws(() => readClip('{"seconds": 1, "events": []}', {name: 'talk.json'}),
+                {message: 'talk.json is a timeline; readTimeline reads it.'});
+});
+
 test('frames without time between them begin the filter anew, as for the tool', () => {
   const text = 'Timecode,JawOpen\n0,0\n5e-10,1\n0.05,0.5\n1,1\n', clip = readClip(text).smooth();
   const native = played('take.csv', text, ['--smooth', '--fps', '60']), k = native.names.indexOf('JawOpen');

@@ -64,5 +64,7 @@ test('eyes that do not turn cannot look', async () => {
   assert.equal(face.eyeCount, 0);
   assert.throws(() => face.look(null), /no eyes that turn/);
   assert.throws(() => eyes.look({leftEye: {yaw: NaN}}), /finite numbers/);
+  assert.throws(() => eyes.look({left: {yaw: 1}}), /look has no option 'left'; it has leftEye, rightEye/);
+  assert.throws(() => eyes.look({leftEye: {up: 1}}), /look's leftEye has no option 'up'/);
   eyes.look({leftEye: null, rightEye: undefined});
 });

@@ -52,6 +52,11 @@ test('the types say what there is', {skip: existsSync(tsc) ? false : 'typescript
             '--lib', 'esnext,dom', '--skipLibCheck', 'test/types.ts']);
 });
 
+test('Node projects need no types of browsers', {skip: existsSync(tsc) ? false : 'typescript is not installed; try npm ci'}, () => {
+  run(tsc, ['--noEmit', '--strict', '--target', 'esnext', '--module', 'nodenext', '--lib', 'esnext', '--types', '',
+            'sweepface.d.ts', 'sweepface_clips.d.ts']);
+});
+
 test('what the types declare is there', async () => {
   const {Sweepface} = await import('../sweepface.js');
   const text = readFileSync(join(folder, 'sweepface.d.ts'), 'utf8');

@@ -103,6 +103,14 @@ test('clones have what was put into a geometry', options, async () => {
   assert.deepEqual([twin.drawRange, twin.name], [{start: 3, count: 300}, 'mine']);
 });
 
+test('what is no face is refused with a sentence', options, async () => {
+  const {SweepfaceMesh} = await import('../sweepface_three.js');
+  const {SweepfaceGpuMesh} = await import('../sweepface_gpu.js');
+  for (const Mesh of [SweepfaceMesh, SweepfaceGpuMesh])
+    for (const slip of [Promise.resolve(), new ArrayBuffer(8), undefined])
+      assert.throws(() => new Mesh(slip), {message: /^A mesh is made of a face; await Sweepface\.load/});
+});
+
 test('clones look where their models look', options, async () => {
   const {Sweepface} = await import('../sweepface.js'), {SweepfaceMesh} = await import('../sweepface_three.js');
   const mesh = new SweepfaceMesh(await Sweepface.load(readFileSync(sample), {eyes: true}));
