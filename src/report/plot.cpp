@@ -76,7 +76,7 @@ std::string tickText(double value) {
                                                          : fmt::format("{:.4g}", value);
 }
 
-double widthOf(const Series& key) { return 40 + 6.8 * letters(key.name); }
+double widthOf(const Series& key) { return 40 + 8 * letters(key.name); }  // of wide letters
 
 /// The keys of a plot in lines from `x` to `right`, the first at `y`; returns where the last is.
 double addKeys(std::string& svg, const std::vector<Series>& series, double x, double y,
