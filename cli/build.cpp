@@ -74,10 +74,10 @@ Result<int> runBuild(const BuildArguments& a) {
     hasArcs |= !like->turns.empty();
   }
   if (hasArcs) built->rig.turns = findTurns(built->rig);
-  if (a.arcs && built->rig.turns.empty()) printWarning(kNoTurns);
   const Result<std::string> bytes = encodeReadable(built->rig, a.output);
   if (!bytes) return std::unexpected(bytes.error());
   if (auto written = writeFile(a.output, *bytes); !written) return std::unexpected(written.error());
+  if (a.arcs && built->rig.turns.empty()) printWarning(kNoTurns);
   for (const Target& target : built->rig.targets)
     if (!canBeListed(target.name)) printWarning(cannotBeListed(target.name));
   if (drawing->tolerance == 0) warnOfMisses(a, *built);

@@ -39,6 +39,7 @@ struct Performance {
   std::function<HeadPose(double time)> pose;
   bool hasHead = false, turnsHead = false, hasEyes = false;  ///< as ClipAngles has them
   bool isDivided = false;          ///< into regions, some of whose targets are parts
+  std::vector<Index> wholes;       ///< of what each is a part then, as RegionalTargets has it
   std::vector<std::string> notes;  ///< what the user should know, in sentences
 };
 /// By the matter of a region, one of so many, and without what a timeline means for others.

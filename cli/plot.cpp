@@ -85,27 +85,25 @@ struct Subject {
   bool isWeight = true;
 };
 
-/// The target that a region's part is of; itself where it is one of the face's `own`.
-Index wholeOf(const Rig& rig, Index own, Index target) {
-  const std::string& name = rig.targets[target].name;
-  for (Index k = 0; target >= own && k < own; ++k)
-    if (name.starts_with(partName(rig.targets[k].name, ""))) return k;
-  return target;
+/// The target that a region's part is of, or itself.
+Index wholeOf(const Performance& performance, Index target) {
+  return performance.isDivided ? performance.wholes[target] : target;
 }
 
 /// A region's weight is that of the whole target and what its part has more.
-Subject weightOf(const Rig& rig, Index own, Index target) {
+Subject weightOf(const Rig& rig, const Performance& performance, Index target) {
   Subject subject{rig.targets[target].name, std::vector<Vec3>(rig.targets.size())};
-  for (const Index k : {target, wholeOf(rig, own, target)}) subject.differences[k] = {1, 0, 0};
+  for (const Index k : {target, wholeOf(performance, target)}) subject.differences[k] = {1, 0, 0};
   return subject;
 }
 
 /// One for every region where they differ.
-std::vector<Subject> weightsOf(const Rig& rig, Index own, Index target) {
+std::vector<Subject> weightsOf(const Rig& rig, const Performance& performance, Index target) {
   std::vector<Subject> parts;
-  for (auto k = own; k < static_cast<Index>(rig.targets.size()); ++k)
-    if (wholeOf(rig, own, k) == target) parts.push_back(weightOf(rig, own, k));
-  return parts.empty() ? std::vector{weightOf(rig, own, target)} : parts;
+  for (Index k = 0; k < static_cast<Index>(rig.targets.size()); ++k)
+    if (k != target && wholeOf(performance, k) == target)
+      parts.push_back(weightOf(rig, performance, k));
+  return parts.empty() ? std::vector{weightOf(rig, performance, target)} : parts;
 }
 
 std::vector<Subject> verticesOf(const Rig& rig, const std::vector<int>& vertices) {
@@ -126,15 +124,14 @@ std::vector<Subject> verticesOf(const Rig& rig, const std::vector<int>& vertices
   return subjects;
 }
 
-/// Of a rig to whose `own` targets the parts of regions were added.
-Result<std::vector<Subject>> subjectsOf(const PlotArguments& a, const Rig& rig, Index own,
+Result<std::vector<Subject>> subjectsOf(const PlotArguments& a, const Rig& rig,
                                         const Performance& performance,
                                         std::span<const double> times) {
   std::vector<Subject> subjects;
   for (const std::string& name : a.weights) {
     const Result<Index> target = findTarget(rig, name);
     if (!target) return std::unexpected(target.error());
-    std::ranges::move(weightsOf(rig, own, *target), std::back_inserter(subjects));
+    std::ranges::move(weightsOf(rig, performance, *target), std::back_inserter(subjects));
   }
   if (!a.vertices.empty() && !rig.source.ownOrder)
     return fail(a.face +
@@ -153,7 +150,7 @@ Result<std::vector<Subject>> subjectsOf(const PlotArguments& a, const Rig& rig, 
     performance.at(time, later);
     for (std::size_t t = 0; t < first.size(); ++t)
       if (later[t] != first[t])
-        return weightsOf(rig, own, wholeOf(rig, own, static_cast<Index>(t)));
+        return weightsOf(rig, performance, wholeOf(performance, static_cast<Index>(t)));
   }
   return fail("Nothing moves; name a target with --weight.");
 }
@@ -189,7 +186,6 @@ void addCurves(Curves& curves, const Performance& performance, std::span<const d
 /// Parts of a timeline's regions are added to the rig.
 Result<Curves> curvesOf(const PlotArguments& a, Rig& rig) {
   const std::vector<std::string> laws = a.laws.empty() ? std::vector{a.what.law} : a.laws;
-  const auto own = static_cast<Index>(rig.targets.size());
   std::vector<Performance> performances;
   std::vector<std::vector<double>> times;
   for (const std::string& law : laws) {
@@ -200,7 +196,7 @@ Result<Curves> curvesOf(const PlotArguments& a, Rig& rig) {
     times.push_back(looksAt(what, *performance));
     performances.push_back(std::move(*performance));
   }
-  const auto subjects = subjectsOf(a, rig, own, performances.front(), times.front());
+  const auto subjects = subjectsOf(a, rig, performances.front(), times.front());
   if (!subjects) return std::unexpected(subjects.error());
   Curves curves;
   for (std::size_t k = 0; k < laws.size(); ++k)

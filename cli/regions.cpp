@@ -93,6 +93,7 @@ Performance together(Parts parts, std::vector<double> frameTimes, const Regional
     whole.frameMiss = std::max(whole.frameMiss, part.frameMiss);
   whole.motion.reset();  // keys would not hold it exactly
   whole.isDivided = true;
+  whole.wholes = targets.wholes();
   const auto shared = std::make_shared<const Parts>(std::move(parts));
   whole.at = [shared, targets](double time, std::span<double> weights) {
     std::vector<double> ofRegions(shared->count * shared->performances.size());

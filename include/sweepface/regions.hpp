@@ -75,6 +75,9 @@ class RegionalTargets {
   static RegionalTargets addTo(Rig& rig, std::span<const Region> regions,
                                std::span<const Index> targets);
 
+  /// Of each of the rig's targets [K + parts], the one that it is a part of, or itself.
+  std::vector<Index> wholes() const;
+
   /// Weights of the regions [R × K] as weights of the rig's targets, `out`.
   void spread(std::span<const double> ofRegions, std::span<double> out) const noexcept;
 

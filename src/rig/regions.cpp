@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <numeric>
 
 namespace sweepface {
 namespace {
@@ -162,6 +163,14 @@ RegionalTargets RegionalTargets::addTo(Rig& rig, std::span<const Region> regions
     if (!parts.empty()) made.splits_.push_back(std::move(split));
   }
   return made;
+}
+
+std::vector<Index> RegionalTargets::wholes() const {
+  std::vector<Index> wholes(count_);
+  std::iota(wholes.begin(), wholes.end(), 0);
+  for (const Split& split : splits_)
+    if (split.regions.size() > 1) wholes.insert(wholes.end(), split.regions.size(), split.target);
+  return wholes;
 }
 
 void RegionalTargets::spread(std::span<const double> ofRegions,

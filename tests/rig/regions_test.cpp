@@ -356,6 +356,13 @@ TEST(Regions, PartsOfTargetsAddUpToTheSamePose) {
     for (std::size_t v = 0; v < a.size(); ++v) EXPECT_LE(norm(a[v] - b[v]), 1e-12);
     // No part is behind: some programs stop at 0.
     for (std::size_t k = count; k < all.size(); ++k) EXPECT_GE(all[k], 0);
+    const auto wholes = targets.wholes();
+    ASSERT_EQ(wholes.size(), rig.targets.size());
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      const Target& whole = rig.targets[wholes[k]];
+      EXPECT_TRUE(k < count ? whole == rig.targets[k]
+                            : rig.targets[k].name.starts_with(partName(whole.name, "")));
+    }
     // By itself a whole target is what it was.
     EXPECT_EQ(rig.targets[0], original->targets[0]);
   }
