@@ -180,7 +180,7 @@ Result<void> animateGlb(const AnimateArguments& a, const Rig& rig, const Perform
   } else {
     const bool own = !performance.frameTimes.empty() && !a.namesFrames();
     const Result<std::vector<double>> times =
-        own ? performance.frameTimes : sampleTimes(a, performance);
+        own ? ownKeyTimes(performance) : sampleTimes(a, performance);
     if (!times) return std::unexpected(times.error());
     clip = sample(performance, rig, *times);
   }

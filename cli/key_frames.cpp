@@ -9,6 +9,9 @@ namespace {
 
 constexpr double kMostFrames = 1e6;
 
+/// Whether the single precision of keys tells them apart.
+bool areApart(double a, double b) { return static_cast<float>(a) < static_cast<float>(b); }
+
 std::vector<double> coarseTimes(const Performance& performance) {
   constexpr double kRate = 480;
   const double last = std::max(64.0, std::ceil(std::min(performance.seconds * kRate, kMostFrames)));
@@ -45,9 +48,6 @@ class Halver {
   double worst = 0;  ///< that a line still misses
 
  private:
-  /// Times of keys have single precision.
-  static bool areApart(double a, double b) { return static_cast<float>(a) < static_cast<float>(b); }
-
   double missed(double from, double to) {
     performance_.at(from, start_);
     performance_.at(to, end_);
@@ -67,9 +67,18 @@ class Halver {
 
 }  // namespace
 
+std::vector<double> ownKeyTimes(const Performance& performance) {
+  std::vector<double> times;
+  for (const double time : performance.frameTimes) {
+    if (!times.empty() && !areApart(times.back(), time)) times.pop_back();
+    times.push_back(time);
+  }
+  return times;
+}
+
 KeyFrames keyFrames(const Performance& performance, const Rig& rig, double tolerance) {
   if (!performance.frameTimes.empty())
-    return {sample(performance, rig, performance.frameTimes),
+    return {sample(performance, rig, ownKeyTimes(performance)),
             std::max(tolerance - performance.frameMiss, tolerance / 2), performance.frameMiss};
   const std::vector<double> coarse = coarseTimes(performance);
   Halver halver(performance, rig.targets.size(), tolerance / 16);

@@ -4,6 +4,9 @@
 
 namespace sweepface::cli {
 
+/// A clip's own frames; of those that the single precision of keys cannot tell apart, the last.
+std::vector<double> ownKeyTimes(const Performance& performance);
+
 /// A performance as frames, and how far keys may be off their straight lines so that they are
 /// within a tolerance of what is played.
 struct KeyFrames {

@@ -28,6 +28,8 @@ export class SweepfaceMesh extends FaceMesh {
 export class SweepfaceLoader extends Loader {
   /** Options of Sweepface.load. */
   constructor(manager, options = {}) {
+    if (manager && typeof manager.itemStart !== 'function')
+      throw new TypeError('A loader takes a LoadingManager, or undefined, and its options after it.');
     super(manager);
     this.options = options;
   }

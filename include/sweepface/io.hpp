@@ -59,7 +59,7 @@ std::string formatObj(const ObjOutput& output);
 /// All bytes of a file.
 Result<std::string> readFile(const std::filesystem::path& path);
 
-/// The extension of a path with its dot, in small letters.
+/// The extension of a path with its dot, in small letters; that of a file named ".glb" too.
 std::string extensionOf(const std::filesystem::path& path);
 
 /// The folder that a file is in, "." where its path names none.

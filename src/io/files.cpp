@@ -199,6 +199,8 @@ Result<std::string> readFile(const fs::path& path) {
 
 std::string extensionOf(const fs::path& path) {
   std::string text = path.extension().string();
+  if (const std::string name = path.filename().string(); text.empty() && name.starts_with('.'))
+    text = name;
   for (char& c : text)
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   return text;

@@ -131,24 +131,30 @@ class Baker {
   // The frame at the end of a stretch of time that begins where it plays, and before it as many as
   // straight lines need.
   Result<void> add(Playing& playing, double from, double to, int halvings = 0) {
-    constexpr int kMostHalvings = 8;  // what is off then is a jump
+    constexpr int kMostHalvings = 12;
     const double middle = std::midpoint(from, to);
-    if (isExamined_ && halvings < kMostHalvings && from < middle && middle < to) {
-      const Result<double> miss = missedBy(playing, from, to);
+    if (isExamined_ && from < middle && middle < to) {
+      const Result<Miss> miss = missedBy(playing, from, to);
       if (!miss) return std::unexpected(miss.error());
-      if (*miss > kMiss && clip_.names.size() <= room_) {
+      const bool isShortest = halvings == kMostHalvings;
+      if (miss->byLine > kMiss && !isShortest && clip_.names.size() <= room_) {
         room_ -= clip_.names.size();
         if (auto ok = add(playing, from, middle, halvings + 1); !ok) return ok;
         return add(playing, middle, to, halvings + 1);
       }
-      missed_ = std::max(missed_, *miss);
+      missed_ = std::max(missed_, isShortest ? miss->byJump : miss->byLine);
     }
     if (auto ok = goTo(playing, to); !ok) return ok;
     append(playing, to);
     return {};
   }
 
-  Result<double> missedBy(const Playing& playing, double from, double to) {
+  /// What a stretch of time is off by when a line is drawn through it, and when it is a jump.
+  struct Miss {
+    double byLine = 0, byJump = 0;
+  };
+
+  Result<Miss> missedBy(const Playing& playing, double from, double to) {
     constexpr std::array kLooks{0.191, 0.5, 0.691, 1.0};  // not in step, as zeros of a swing are
     ahead_ = playing;
     for (std::size_t k = 0; k < kLooks.size(); ++k) {
@@ -157,11 +163,16 @@ class Baker {
       ahead_->state.positions(looks_[k]);
     }
     const double* const start = clip_.weights.data() + clip_.weights.size() - clip_.names.size();
-    double most = 0;
+    const std::vector<double>& end = looks_.back();
+    Miss most;
     for (std::size_t k = 0; k + 1 < kLooks.size(); ++k)
-      for (std::size_t n = 0; n < clip_.names.size(); ++n)
-        most = std::max(most,
-                        std::abs(looks_[k][n] - std::lerp(start[n], looks_.back()[n], kLooks[k])));
+      for (std::size_t n = 0; n < clip_.names.size(); ++n) {
+        const double look = looks_[k][n];
+        most.byLine =
+            std::max(most.byLine, std::abs(look - std::lerp(start[n], end[n], kLooks[k])));
+        most.byJump =
+            std::max(most.byJump, std::min(std::abs(look - start[n]), std::abs(look - end[n])));
+      }
     return most;
   }
 

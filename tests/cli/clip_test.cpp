@@ -3,6 +3,7 @@
 #include <fstream>
 
 #include "sweepface/gltf.hpp"
+#include "sweepface/trajectory.hpp"
 
 #include "cli/tool.hpp"
 #include "gltf/written.hpp"
@@ -119,6 +120,26 @@ TEST_F(PlayClip, FewKeysHoldACapture) {
   const std::string glb = contents(folder / "few.glb");
   EXPECT_NE(glb.find(R"("interpolation":"CUBICSPLINE")"), std::string::npos);
   EXPECT_LT(glb.size() + 10'000, contents(folder / "all.glb").size());
+}
+
+// Frames about a jump are closer to each other than times of keys can be so late.
+TEST_F(PlayClip, KeysHoldATimelineThatJumpsLate) {
+  convertRig();
+  write("line.json", R"({"seconds": 302, "events": [
+    {"at": 300.1, "to": {"jawOpen": 1}, "drive": "cut"},
+    {"at": 301.1, "to": {"jawOpen": 0}, "drive": "spring", "frequency": 3, "damping": 0.2}]})");
+  for (const std::string keys : {"few", "sampled"}) {
+    const Outcome r = run("animate face.sweep --clip line.json -o line.glb --keys " + keys);
+    ASSERT_EQ(r.code, 0) << r.err;
+    const Clip clip = *parseGltfClip(contents(folder / "line.glb"), "line.glb", {});
+    const auto spring = Trajectory::spring({1, 0}, 0, {3, 0.2});
+    std::vector<double> weights(clip.names.size());
+    for (double time = 299.9; time < 302; time += 0.0031) {
+      clip.at(time, weights);
+      const double meant = time < 300.1 ? 0 : time < 301.1 ? 1 : spring->at(time - 301.1).position;
+      EXPECT_NEAR(weights[0], meant, 0.003) << keys << " " << time;
+    }
+  }
 }
 
 TEST_F(PlayClip, PlaysAnAnimationOfAGlb) {

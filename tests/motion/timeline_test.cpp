@@ -71,7 +71,7 @@ double furthestOff(const Clip& clip, double frequency) {
 }
 
 TEST(PlayedTimeline, HasStraightLinesAsGoodAsExactWhereSpringsSwing) {
-  for (const double frequency : {2.0, 10.0, 40.0}) {
+  for (const double frequency : {2.0, 10.0, 40.0, 1000.0}) {
     const Baked baked = toPlay(swinging(frequency));
     EXPECT_LE(baked.missed, 1e-4);
     EXPECT_LE(furthestOff(baked.clip, frequency), 1.2e-4) << frequency;
@@ -83,6 +83,11 @@ TEST(PlayedTimeline, SaysWhatItMissesWhereThereIsNoRoom) {
   EXPECT_LE(baked.clip.weights.size(), 400u);
   EXPECT_GT(baked.missed, 0.05);
   EXPECT_NEAR(baked.missed, furthestOff(baked.clip, 40), 0.03);
+}
+
+TEST(PlayedTimeline, SaysWhatItMissesOfSpringsQuickerThanItsFrames) {
+  EXPECT_GT(toPlay(swinging(1e5)).missed, 0.05);
+  EXPECT_LE(toPlay(swinging(1e8)).missed, 1e-4) << "it is there within a frame, as a jump is";
 }
 
 TEST(PlayedTimeline, HasNoMoreFramesWhereNothingSwings) {
