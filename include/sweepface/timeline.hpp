@@ -50,7 +50,7 @@ struct Baked {
 /// The same to be played: 240 frames a second, and where something swings or bounces quickly so
 /// many more that straight lines between them are within 1e-4 of what is meant, as far as four
 /// million weights more and `regions` such clips within kMostClipWeights allow; none more where a
-/// million events set out. A jump takes a 4096th of a frame.
+/// million events set out. A jump takes a 1024th of a frame.
 Result<Baked> bakeToPlay(const Timeline& timeline, std::string_view region, const Matter& matter,
                          std::size_t regions = 1);
 

@@ -131,27 +131,27 @@ class Baker {
   // The frame at the end of a stretch of time that begins where it plays, and before it as many as
   // straight lines need.
   Result<void> add(Playing& playing, double from, double to, int halvings = 0) {
-    constexpr int kMostHalvings = 12;
+    constexpr int kMostHalvings = 10;
     const double middle = std::midpoint(from, to);
     if (isExamined_ && from < middle && middle < to) {
       const Result<Miss> miss = missedBy(playing, from, to);
       if (!miss) return std::unexpected(miss.error());
       const bool isShortest = halvings == kMostHalvings;
-      if (miss->byLine > kMiss && !isShortest && clip_.names.size() <= room_) {
+      if (miss->all > kMiss && !isShortest && clip_.names.size() <= room_) {
         room_ -= clip_.names.size();
         if (auto ok = add(playing, from, middle, halvings + 1); !ok) return ok;
         return add(playing, middle, to, halvings + 1);
       }
-      missed_ = std::max(missed_, isShortest ? miss->byJump : miss->byLine);
+      missed_ = std::max(missed_, isShortest ? miss->butJumps : miss->all);
     }
     if (auto ok = goTo(playing, to); !ok) return ok;
     append(playing, to);
     return {};
   }
 
-  /// What a stretch of time is off by when a line is drawn through it, and when it is a jump.
+  /// What a straight line through a stretch of time is off by, and of that what is no jump.
   struct Miss {
-    double byLine = 0, byJump = 0;
+    double all = 0, butJumps = 0;
   };
 
   Result<Miss> missedBy(const Playing& playing, double from, double to) {
@@ -167,11 +167,11 @@ class Baker {
     Miss most;
     for (std::size_t k = 0; k + 1 < kLooks.size(); ++k)
       for (std::size_t n = 0; n < clip_.names.size(); ++n) {
-        const double look = looks_[k][n];
-        most.byLine =
-            std::max(most.byLine, std::abs(look - std::lerp(start[n], end[n], kLooks[k])));
-        most.byJump =
-            std::max(most.byJump, std::min(std::abs(look - start[n]), std::abs(look - end[n])));
+        const double look = looks_[k][n],
+                     byLine = std::abs(look - std::lerp(start[n], end[n], kLooks[k]));
+        most.all = std::max(most.all, byLine);
+        most.butJumps = std::max(
+            most.butJumps, std::min({byLine, std::abs(look - start[n]), std::abs(look - end[n])}));
       }
     return most;
   }

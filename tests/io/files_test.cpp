@@ -29,6 +29,13 @@ TEST(Files, OfBareNamesAreInTheCurrentFolder) {
   EXPECT_EQ(folderOf("/a.txt"), "/");
 }
 
+TEST(Files, HaveExtensionsInSmallLetters) {
+  EXPECT_EQ(extensionOf("sub.d/face.GLB"), ".glb");
+  EXPECT_EQ(extensionOf("sub.d/face"), "");
+  EXPECT_EQ(extensionOf("sub/.glb"), ".glb");
+  EXPECT_EQ(extensionOf("sub/.hidden.obj"), ".obj");
+}
+
 TEST(Files, MayHaveTheLongestOfNames) {
   const TemporaryFolder folder;
   EXPECT_TRUE(writeFile(folder / std::string(255, 'n'), "x").has_value());

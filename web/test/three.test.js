@@ -169,6 +169,11 @@ test('materials keep what they do to a shader, and their clones too', options, a
   assert.notEqual(same.customProgramCacheKey(), plain.customProgramCacheKey());  // which knows no face
 });
 
+test('a loader tells that its options come second', options, async () => {
+  const {SweepfaceLoader} = await import('../sweepface_three.js');
+  assert.throws(() => new SweepfaceLoader({lod: 2}), /its options after it/);
+});
+
 /** What happens when a loader loads, in order. */
 async function happenings(file, options, fail = () => {}) {
   const {SweepfaceLoader} = await import('../sweepface_three.js'), seen = [];
