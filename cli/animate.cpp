@@ -185,7 +185,10 @@ Result<void> animateGlb(const AnimateArguments& a, const Rig& rig, const Perform
     clip = sample(performance, rig, *times);
   }
   if (keys != "exact") options.clip = &clip;
-  const auto head = headTrack(a.head, rig, performance, clip.times);
+  const bool turns = a.head.turns == "on" && performance.hasHead;
+  const auto head =
+      headTrack(a.head, rig, performance,
+                keys == "few" && turns ? turningTimes(performance, 0.001) : clip.times);
   if (!head) return std::unexpected(head.error());
   if (*head) options.head = &**head;
   const Result<std::string> bytes = formatGlb(rig, options);

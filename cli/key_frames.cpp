@@ -2,18 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 
 namespace sweepface::cli {
 namespace {
 
-constexpr double kMostFrames = 1e6;
+constexpr double kMostFrames = 1e6, kRate = 480;
 
-/// Whether the single precision of keys tells them apart.
-bool areApart(double a, double b) { return static_cast<float>(a) < static_cast<float>(b); }
+/// Times of keys have single precision.
+double written(double time) { return static_cast<float>(time); }
 
 std::vector<double> coarseTimes(const Performance& performance) {
-  constexpr double kRate = 480;
   const double last = std::max(64.0, std::ceil(std::min(performance.seconds * kRate, kMostFrames)));
   std::vector<double> times;
   for (double k = 0; k <= last; ++k) times.push_back(performance.seconds * (k / last));
@@ -23,69 +23,103 @@ std::vector<double> coarseTimes(const Performance& performance) {
 /// Halves stretches of time until straight lines over them are near enough.
 class Halver {
  public:
-  Halver(const Performance& performance, std::size_t targets, double allowed)
-      : performance_(performance),
-        allowed_(allowed),
-        start_(targets),
-        end_(targets),
-        now_(targets) {}
+  /// What a line misses between two times.
+  using Missed = std::function<double(double from, double to)>;
 
-  /// Adds the end of a stretch, and before it what is needed in between.
-  void add(double from, double to, int halvings = 0) {
-    constexpr int kMostHalvings = 8;
-    const double miss = missed(from, to), middle = std::midpoint(from, to);
-    if (miss > allowed_ && halvings < kMostHalvings && areApart(from, middle) &&
-        areApart(middle, to) && static_cast<double>(times.size()) < kMostFrames) {
-      add(from, middle, halvings + 1);
-      add(middle, to, halvings + 1);
-    } else {
-      times.push_back(to);
-      worst = std::max(worst, miss);
-    }
+  Halver(Missed missed, double allowed, double seconds)
+      : missed_(std::move(missed)),
+        allowed_(allowed),
+        shortest_(std::min(1 / kRate, seconds / 64) / 256) {}
+
+  /// Times of keys within all of these, which increase.
+  std::vector<double> cut(const std::vector<double>& times) {
+    cut_ = {written(times.front())};
+    for (const double time : times)
+      if (written(time) > cut_.back()) add(cut_.back(), written(time));
+    return std::move(cut_);
   }
 
-  std::vector<double> times;
-  double worst = 0;  ///< that a line still misses
+  double worst() const { return worst_; }  ///< that a line still misses
 
  private:
-  double missed(double from, double to) {
-    performance_.at(from, start_);
-    performance_.at(to, end_);
-    double most = 0;
-    for (const double s : {0.191, 0.5, 0.691}) {  // not in step, as zeros of a swing are
-      performance_.at(std::lerp(from, to, s), now_);
-      for (std::size_t k = 0; k < now_.size(); ++k)
-        most = std::max(most, std::abs(now_[k] - std::lerp(start_[k], end_[k], s)));
+  /// Adds the end of a stretch, and before it what is needed in between.
+  void add(double from, double to) {
+    const double miss = missed_(from, to), middle = written(std::midpoint(from, to));
+    if (miss > allowed_ && to - from > shortest_ && from < middle && middle < to &&
+        static_cast<double>(cut_.size()) < kMostFrames) {
+      add(from, middle);
+      add(middle, to);
+    } else {
+      cut_.push_back(to);
+      worst_ = std::max(worst_, miss);
     }
-    return most;
   }
 
-  const Performance& performance_;
-  const double allowed_;
-  Weights start_, end_, now_;
+  Missed missed_;
+  double allowed_, shortest_, worst_ = 0;
+  std::vector<double> cut_;
 };
+
+/// What lines miss of the weights.
+Halver::Missed ofWeights(const Performance& performance, std::size_t targets) {
+  return [&performance, start = Weights(targets), end = Weights(targets), now = Weights(targets)](
+             double from, double to) mutable {
+    constexpr double kGolden = 0.6180339887;  // not in step, as zeros of a swing are
+    const int looks = static_cast<int>(std::clamp(30 * (to - from), 3.0, 100.0));
+    performance.at(from, start);
+    performance.at(to, end);
+    double most = 0;
+    for (int look = 1; look <= looks; ++look) {
+      const double s = std::fmod(look * kGolden, 1);
+      performance.at(std::lerp(from, to, s), now);
+      for (std::size_t k = 0; k < now.size(); ++k)
+        most = std::max(most, std::abs(now[k] - std::lerp(start[k], end[k], s)));
+    }
+    return most;
+  };
+}
+
+/// Radians that a turn at constant speed misses in the middle, where it misses most of angles that
+/// change at constant speed.
+double missedOfTurn(const Performance& performance, double from, double to) {
+  const auto at = [&](double time) { return quaternionOf(performance.pose(time).head); };
+  const Quaternion start = at(from), end = at(to), middle = at(std::midpoint(from, to));
+  double along = 0, square = 0;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const double sum = start[k] + end[k];
+    along += sum * middle[k], square += sum * sum;
+  }
+  return 2 * std::acos(std::min(1.0, std::abs(along) / std::sqrt(square)));
+}
 
 }  // namespace
 
 std::vector<double> ownKeyTimes(const Performance& performance) {
   std::vector<double> times;
   for (const double time : performance.frameTimes) {
-    if (!times.empty() && !areApart(times.back(), time)) times.pop_back();
+    if (!times.empty() && written(times.back()) >= written(time)) {
+      times.back() = std::nextafter(static_cast<float>(time), -1.0F);
+      if (times.size() == 1 || written(times[times.size() - 2]) >= times.back()) times.pop_back();
+    }
     times.push_back(time);
   }
   return times;
 }
 
 KeyFrames keyFrames(const Performance& performance, const Rig& rig, double tolerance) {
-  if (!performance.frameTimes.empty())
-    return {sample(performance, rig, ownKeyTimes(performance)),
-            std::max(tolerance - performance.frameMiss, tolerance / 2), performance.frameMiss};
-  const std::vector<double> coarse = coarseTimes(performance);
-  Halver halver(performance, rig.targets.size(), tolerance / 16);
-  halver.times.push_back(coarse.front());
-  for (std::size_t k = 1; k < coarse.size(); ++k) halver.add(coarse[k - 1], coarse[k]);
-  return {sample(performance, rig, std::move(halver.times)),
-          std::max(tolerance - halver.worst, tolerance / 2), halver.worst};
+  Halver halver(ofWeights(performance, rig.targets.size()), tolerance / 16, performance.seconds);
+  Clip clip = sample(performance, rig,
+                     halver.cut(performance.frameTimes.empty() ? coarseTimes(performance)
+                                                               : ownKeyTimes(performance)));
+  const double missed = performance.frameMiss + halver.worst();
+  return {std::move(clip), std::max(tolerance - missed, tolerance / 2),
+          std::max(performance.frameMiss, halver.worst())};
+}
+
+std::vector<double> turningTimes(const Performance& performance, double radians) {
+  Halver halver([&](double from, double to) { return missedOfTurn(performance, from, to); },
+                radians / 16, performance.seconds);
+  return halver.cut(ownKeyTimes(performance));
 }
 
 }  // namespace sweepface::cli

@@ -4,7 +4,8 @@
 
 namespace sweepface::cli {
 
-/// A clip's own frames; of those that the single precision of keys cannot tell apart, the last.
+/// A clip's own frames. Where single precision cannot tell two apart, the earlier one is moved to
+/// the number before: it may be the last before a jump.
 std::vector<double> ownKeyTimes(const Performance& performance);
 
 /// A performance as frames, and how far keys may be off their straight lines so that they are
@@ -14,8 +15,13 @@ struct KeyFrames {
   double tolerance = 0;
   double missed = 0;  ///< what swings too quickly for them is off by so much between two frames
 };
-/// A clip's own frames; of a law 480 a second, and more wherever straight lines between them would
-/// take more than a sixteenth of the tolerance: where it bounces or swings quickly.
+/// A clip's own frames, of a law 480 a second, and more wherever straight lines between them would
+/// take more than a sixteenth of the tolerance: where it bounces or swings quickly, and where
+/// weights follow from others. All at times that single precision can tell.
 KeyFrames keyFrames(const Performance& performance, const Rig& rig, double tolerance);
+
+/// Frames of a clip's head between which turns at constant speed are a sixteenth of so many radians
+/// off at the most.
+std::vector<double> turningTimes(const Performance& performance, double radians);
 
 }  // namespace sweepface::cli

@@ -72,14 +72,14 @@ struct Parts {
   double seconds() const {
     return std::ranges::max_element(performances, {}, &Performance::seconds)->seconds;
   }
-  /// Those of all regions: late ones have others. Keys tell them apart in single precision.
+  /// Those of all regions: late ones have others, or the same but for rounding.
   std::vector<double> frameTimes() const {
     std::vector<double> times;
     for (const Performance& p : performances)
       times.insert(times.end(), p.frameTimes.begin(), p.frameTimes.end());
     std::ranges::sort(times);
     const auto same =
-        std::ranges::unique(times, {}, [](double t) { return static_cast<float>(t); });
+        std::ranges::unique(times, [](double a, double b) { return b - a <= 1e-12 * b; });
     times.erase(same.begin(), same.end());
     return times;
   }

@@ -90,7 +90,8 @@ class Baker {
   Result<void> check(double framesPerSecond, double frames) const {
     if (!(framesPerSecond > 0) || !(frames >= 1 && frames <= 1e6))
       return failCall(
-          "A timeline is baked into 1 to 1,000,000 frames; change its length or the rate.");
+          "A timeline has 1 to 1,000,000 frames, which at 240 a second are 4,166 s with its loops; "
+          "make it shorter, or bake it at another rate.");
     const auto names = static_cast<double>(clip_.names.size());
     if ((frames + 1) * names > kMostClipWeights)
       return failCall(

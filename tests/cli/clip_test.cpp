@@ -142,6 +142,19 @@ TEST_F(PlayClip, KeysHoldATimelineThatJumpsLate) {
   }
 }
 
+TEST_F(PlayClip, KeysTellWhatHappensBetweenFrames) {
+  convertRig();
+  write("take.csv", "Timecode,JawOpen\n0,0\n1,1\n61,0\n");
+  ASSERT_EQ(run("animate face.sweep --clip take.csv --limits 0:0.5 -o take.glb").code, 0);
+  const Clip clip = *parseGltfClip(contents(folder / "take.glb"), "take.glb", {});
+  std::vector<double> weights(clip.names.size());
+  for (const auto& [time, meant] :
+       {std::pair{0.25, 0.25}, {0.75, 0.5}, {21.0, 0.5}, {46.0, 0.25}}) {
+    clip.at(time, weights);
+    EXPECT_NEAR(weights[0], meant, 0.0021) << time;
+  }
+}
+
 TEST_F(PlayClip, PlaysAnAnimationOfAGlb) {
   convertRig();
   ASSERT_EQ(run("animate face.sweep --to jawOpen=1,smile=0.5 --law newton -o move.glb").code, 0);

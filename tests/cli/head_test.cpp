@@ -75,6 +75,20 @@ TEST_F(HeadAndEyes, TheHeadIsANodeOfAGlb) {
   EXPECT_EQ(channels[1]["target"]["node"], head);
 }
 
+// Angles that change together do not turn about one axis.
+TEST_F(HeadAndEyes, TheHeadTurnsBetweenFramesOfAGlb) {
+  convertRig();
+  folder.file("take.csv",
+              "Timecode,JawOpen,HeadYaw,HeadPitch,HeadRoll\n0,0,0,0,0\n1,1,0.8,0.5,-0.3\n");
+  ASSERT_EQ(run("animate face.sweep --clip take.csv --head on -o take.glb").code, 0);
+  const auto document = gltf::parseDocument(contents(folder / "take.glb"), {}).value();
+  const gltf::Json& samplers = document.json["animations"][0]["samplers"];
+  const std::size_t keys =
+      document.json["accessors"][samplers[1]["input"].get<std::size_t>()]["count"];
+  EXPECT_GE(keys, 4u);
+  EXPECT_LE(keys, 100u);
+}
+
 TEST_F(HeadAndEyes, AnglesGoIntoRecordings) {
   convertRig();
   capture();

@@ -274,7 +274,7 @@ TEST_F(Usage, LeavesNothingOfAReportOnInterrupt) {
   convertRig();
   const auto at = [&](const char* name) { return (folder / name).string(); };
   folder.file("temporary/.keep", "");
-  folder.file("pack", "#!/bin/sh\necho >> " + at("runs") + "\nsleep 0.5\ncp \"$2\" \"$4\"\n");
+  folder.file("pack", "#!/bin/sh\necho >> " + at("runs") + "\nsleep 1\ncp \"$2\" \"$4\"\n");
   std::filesystem::permissions(at("pack"), std::filesystem::perms::owner_all);
   setenv("TMPDIR", at("temporary").c_str(), 1);
   const pid_t child = start({"report", at("face.sweep"), at("neutral.obj"), at("targets"),
@@ -283,6 +283,7 @@ TEST_F(Usage, LeavesNothingOfAReportOnInterrupt) {
   ASSERT_GE(child, 0);
   while (!std::filesystem::exists(at("runs")) && waitpid(child, nullptr, WNOHANG) == 0)
     usleep(1000);
+  usleep(100'000);  // no signal reaches a thread that still starts a program
   kill(child, SIGINT);
   EXPECT_EQ(codeOf(child), 130);
   EXPECT_EQ(contents(at(".err")), "sweepface: Interrupted; nothing was written.\n");
