@@ -23,8 +23,11 @@ std::vector<double> coarseTimes(const Performance& performance) {
 /// Halves stretches of time until straight lines over them are near enough.
 class Halver {
  public:
-  /// What a line misses between two times.
-  using Missed = std::function<double(double from, double to)>;
+  /// What a line misses between two times, and of that what is no jump.
+  struct Miss {
+    double all = 0, butJumps = 0;
+  };
+  using Missed = std::function<Miss(double from, double to)>;
 
   Halver(Missed missed, double allowed, double seconds)
       : missed_(std::move(missed)),
@@ -39,19 +42,20 @@ class Halver {
     return std::move(cut_);
   }
 
-  double worst() const { return worst_; }  ///< that a line still misses
+  double worst() const { return worst_; }  ///< that a line still misses but for jumps
 
  private:
   /// Adds the end of a stretch, and before it what is needed in between.
   void add(double from, double to) {
-    const double miss = missed_(from, to), middle = written(std::midpoint(from, to));
-    if (miss > allowed_ && to - from > shortest_ && from < middle && middle < to &&
+    const Miss miss = missed_(from, to);
+    const double middle = written(std::midpoint(from, to));
+    if (miss.all > allowed_ && to - from > shortest_ && from < middle && middle < to &&
         static_cast<double>(cut_.size()) < kMostFrames) {
       add(from, middle);
       add(middle, to);
     } else {
       cut_.push_back(to);
-      worst_ = std::max(worst_, miss);
+      worst_ = std::max(worst_, miss.butJumps);
     }
   }
 
@@ -68,12 +72,17 @@ Halver::Missed ofWeights(const Performance& performance, std::size_t targets) {
     const int looks = static_cast<int>(std::clamp(30 * (to - from), 3.0, 100.0));
     performance.at(from, start);
     performance.at(to, end);
-    double most = 0;
+    Halver::Miss most;
     for (int look = 1; look <= looks; ++look) {
       const double s = std::fmod(look * kGolden, 1);
       performance.at(std::lerp(from, to, s), now);
-      for (std::size_t k = 0; k < now.size(); ++k)
-        most = std::max(most, std::abs(now[k] - std::lerp(start[k], end[k], s)));
+      for (std::size_t k = 0; k < now.size(); ++k) {
+        const double byLine = std::abs(now[k] - std::lerp(start[k], end[k], s));
+        most.all = std::max(most.all, byLine);
+        most.butJumps =
+            std::max(most.butJumps,
+                     std::min({byLine, std::abs(now[k] - start[k]), std::abs(now[k] - end[k])}));
+      }
     }
     return most;
   };
@@ -81,7 +90,7 @@ Halver::Missed ofWeights(const Performance& performance, std::size_t targets) {
 
 /// Radians that a turn at constant speed misses in the middle, where it misses most of angles that
 /// change at constant speed.
-double missedOfTurn(const Performance& performance, double from, double to) {
+Halver::Miss ofTurn(const Performance& performance, double from, double to) {
   const auto at = [&](double time) { return quaternionOf(performance.pose(time).head); };
   const Quaternion start = at(from), end = at(to), middle = at(std::midpoint(from, to));
   double along = 0, square = 0;
@@ -89,7 +98,8 @@ double missedOfTurn(const Performance& performance, double from, double to) {
     const double sum = start[k] + end[k];
     along += sum * middle[k], square += sum * sum;
   }
-  return 2 * std::acos(std::min(1.0, std::abs(along) / std::sqrt(square)));
+  const double miss = 2 * std::acos(std::min(1.0, std::abs(along) / std::sqrt(square)));
+  return {miss, miss};
 }
 
 }  // namespace
@@ -117,8 +127,8 @@ KeyFrames keyFrames(const Performance& performance, const Rig& rig, double toler
 }
 
 std::vector<double> turningTimes(const Performance& performance, double radians) {
-  Halver halver([&](double from, double to) { return missedOfTurn(performance, from, to); },
-                radians / 16, performance.seconds);
+  Halver halver([&](double from, double to) { return ofTurn(performance, from, to); }, radians / 16,
+                performance.seconds);
   return halver.cut(ownKeyTimes(performance));
 }
 

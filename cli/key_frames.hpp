@@ -13,7 +13,7 @@ std::vector<double> ownKeyTimes(const Performance& performance);
 struct KeyFrames {
   Clip clip;
   double tolerance = 0;
-  double missed = 0;  ///< what swings too quickly for them is off by so much between two frames
+  double missed = 0;  ///< what swings too quickly for them is off by so much; jumps aside
 };
 /// A clip's own frames, of a law 480 a second, and more wherever straight lines between them would
 /// take more than a sixteenth of the tolerance: where it bounces or swings quickly, and where

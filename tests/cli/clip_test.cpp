@@ -131,6 +131,7 @@ TEST_F(PlayClip, KeysHoldATimelineThatJumpsLate) {
   for (const std::string keys : {"few", "sampled"}) {
     const Outcome r = run("animate face.sweep --clip line.json -o line.glb --keys " + keys);
     ASSERT_EQ(r.code, 0) << r.err;
+    EXPECT_EQ(r.err.find("more quickly"), std::string::npos) << "a jump is meant";
     const Clip clip = *parseGltfClip(contents(folder / "line.glb"), "line.glb", {});
     const auto spring = Trajectory::spring({1, 0}, 0, {3, 0.2});
     std::vector<double> weights(clip.names.size());
