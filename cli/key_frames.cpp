@@ -23,7 +23,7 @@ std::vector<double> coarseTimes(const Performance& performance) {
 /// Halves stretches of time until straight lines over them are near enough.
 class Halver {
  public:
-  /// What a line misses between two times, and of that what is no jump.
+  /// What a line misses between two times, and what is beyond both its ends: not a jump's.
   struct Miss {
     double all = 0, butJumps = 0;
   };
@@ -49,13 +49,13 @@ class Halver {
   void add(double from, double to) {
     const Miss miss = missed_(from, to);
     const double middle = written(std::midpoint(from, to));
-    if (miss.all > allowed_ && to - from > shortest_ && from < middle && middle < to &&
-        static_cast<double>(cut_.size()) < kMostFrames) {
+    const bool isShortest = to - from <= shortest_ || from >= middle || middle >= to;
+    if (miss.all > allowed_ && !isShortest && static_cast<double>(cut_.size()) < kMostFrames) {
       add(from, middle);
       add(middle, to);
     } else {
       cut_.push_back(to);
-      worst_ = std::max(worst_, miss.butJumps);
+      worst_ = std::max(worst_, isShortest ? miss.butJumps : miss.all);
     }
   }
 
@@ -77,11 +77,9 @@ Halver::Missed ofWeights(const Performance& performance, std::size_t targets) {
       const double s = std::fmod(look * kGolden, 1);
       performance.at(std::lerp(from, to, s), now);
       for (std::size_t k = 0; k < now.size(); ++k) {
-        const double byLine = std::abs(now[k] - std::lerp(start[k], end[k], s));
-        most.all = std::max(most.all, byLine);
-        most.butJumps =
-            std::max(most.butJumps,
-                     std::min({byLine, std::abs(now[k] - start[k]), std::abs(now[k] - end[k])}));
+        most.all = std::max(most.all, std::abs(now[k] - std::lerp(start[k], end[k], s)));
+        const auto [low, high] = std::minmax(start[k], end[k]);
+        most.butJumps = std::max({most.butJumps, low - now[k], now[k] - high});
       }
     }
     return most;

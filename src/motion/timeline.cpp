@@ -150,7 +150,8 @@ class Baker {
     return {};
   }
 
-  /// What a straight line through a stretch of time is off by, and of that what is no jump.
+  /// What a straight line through a stretch of time misses, and what is beyond both its ends: not a
+  /// jump's.
   struct Miss {
     double all = 0, butJumps = 0;
   };
@@ -168,11 +169,10 @@ class Baker {
     Miss most;
     for (std::size_t k = 0; k + 1 < kLooks.size(); ++k)
       for (std::size_t n = 0; n < clip_.names.size(); ++n) {
-        const double look = looks_[k][n],
-                     byLine = std::abs(look - std::lerp(start[n], end[n], kLooks[k]));
-        most.all = std::max(most.all, byLine);
-        most.butJumps = std::max(
-            most.butJumps, std::min({byLine, std::abs(look - start[n]), std::abs(look - end[n])}));
+        const double look = looks_[k][n];
+        most.all = std::max(most.all, std::abs(look - std::lerp(start[n], end[n], kLooks[k])));
+        const auto [low, high] = std::minmax(start[n], end[n]);
+        most.butJumps = std::max({most.butJumps, low - look, look - high});
       }
     return most;
   }

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sweepface/arcs.hpp"
 #include "sweepface/head.hpp"
 
 namespace sweepface {
@@ -200,6 +201,9 @@ void EyeTurns::addLooks(Rig& rig, const Eye& eye, Turning& turning) {
       } else if (fit.left <= kRigid * kRigid * fit.moves) {
         turning.looks.push_back({index, fit.x, fit.y});
         for (const Index v : eye.stored) target.difference[v] -= added(rig, eye, v, fit.x, fit.y);
+        // What bends the straight way into an arc is not for what turns by itself.
+        if (const Index arc = rig.find(arcName(target.name)); arc >= 0)
+          for (const Index v : eye.stored) rig.targets[arc].difference[v] = {};
       }
     }
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <numbers>
 
+#include "sweepface/arcs.hpp"
 #include "sweepface/eval.hpp"
 #include "sweepface/fit.hpp"
 #include "sweepface/head.hpp"
@@ -128,6 +129,22 @@ TEST(EyeTurns, GoAsFarAsTheTargetWent) {
     }
   }
   EXPECT_GT(sagged, 0.02);  // what the straight way loses
+}
+
+TEST(EyeTurns, AreNotBentByArcsThatAreThereAlready) {
+  Rig rig = converted(faceWithEyes(true));
+  const auto rest = shown(rig, {});
+  const Index look = rig.find("eyeLookDown_L");
+  const Followers arcs(addArcs(rig, std::vector{Turn{look, kLeft, {1, 0, 0}}}));
+  const EyeTurns turns = EyeTurns::addTo(rig, findEyes(rig));
+  std::vector<double> weights(rig.targets.size());
+  weights[look] = 0.5;
+  turns.apply(weights);
+  arcs.apply(weights);
+  const auto now = shown(rig, weights);
+  const Quaternion by = quaternionOf({0, 0.2, 0});
+  for (std::size_t v = 99; v < 99 + 218; ++v)
+    EXPECT_LE(norm(now[v] - (kLeft + turned(by, rest[v] - kLeft))), 0.012);
 }
 
 TEST(EyeTurns, LookWhereTheAnglesSay) {
