@@ -185,10 +185,9 @@ Result<void> animateGlb(const AnimateArguments& a, const Rig& rig, const Perform
     clip = sample(performance, rig, *times);
   }
   if (keys != "exact") options.clip = &clip;
-  const bool turns = a.head.turns == "on" && performance.hasHead;
+  const bool isCut = keys == "few" && a.head.on() && performance.hasHead;
   const auto head =
-      headTrack(a.head, rig, performance,
-                keys == "few" && turns ? turningTimes(performance, 0.001) : clip.times);
+      headTrack(a.head, rig, performance, isCut ? turningTimes(performance) : clip.times);
   if (!head) return std::unexpected(head.error());
   if (*head) options.head = &**head;
   const Result<std::string> bytes = formatGlb(rig, options);
@@ -233,7 +232,7 @@ Result<void> checkArguments(const AnimateArguments& a, bool glb) {
         "output so or leave them out.");
   if (!a.keys.empty() && a.keys != "exact" && a.keys != "few" && a.keys != "sampled")
     return fail(fmt::format("--keys is exact, few or sampled, not '{}'.", a.keys));
-  const bool turns = a.head.turns == "on";
+  const bool turns = a.head.on();
   if (!a.head.pivot.empty() && !turns)
     return fail("The model turns about --pivot with --head on only; leave --pivot out.");
   if (isOfKind(a.output, ".csv") &&
@@ -291,7 +290,7 @@ Result<int> runAnimate(const AnimateArguments& a) {
   }
   if (!written) return std::unexpected(written.error());
   for (const std::string& note : performance->notes) printWarning(note);
-  if (performance->turnsHead && a.head.turns != "on" && !csv)
+  if (performance->turnsHead && !a.head.on() && !csv)
     printWarning(
         fmt::format("{}: its angles of the head are left out; --head on turns the model "
                     "by them.",

@@ -43,7 +43,7 @@ void addHead(CLI::App& app, HeadArguments& a) {
 Result<std::optional<HeadTrack>> headTrack(const HeadArguments& a, const Rig& rig,
                                            const Performance& performance,
                                            const std::vector<double>& times) {
-  if (a.turns != "on") return std::nullopt;
+  if (!a.on()) return std::nullopt;
   if (!performance.hasHead)
     return fail(fmt::format("{} has no angles of the head; leave --head out.", performance.name));
   const auto pivot = pivotOf(a, rig);

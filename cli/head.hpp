@@ -10,6 +10,7 @@ namespace sweepface::cli {
 /// Whether the model turns as a head, and about what.
 struct HeadArguments {
   std::string turns = "off", pivot;
+  bool on() const { return turns == "on"; }
 };
 void addHead(CLI::App& app, HeadArguments& a);
 

@@ -5,6 +5,8 @@
 #include <functional>
 #include <numeric>
 
+#include "sweepface/gltf.hpp"
+
 namespace sweepface::cli {
 namespace {
 
@@ -115,19 +117,18 @@ std::vector<double> ownKeyTimes(const Performance& performance) {
 }
 
 KeyFrames keyFrames(const Performance& performance, const Rig& rig, double tolerance) {
+  const std::vector<double>& own = performance.frameTimes;
   Halver halver(ofWeights(performance, rig.targets.size()), tolerance / 16, performance.seconds);
-  Clip clip = sample(performance, rig,
-                     halver.cut(performance.frameTimes.empty() ? coarseTimes(performance)
-                                                               : ownKeyTimes(performance)));
+  Clip clip = sample(performance, rig, halver.cut(own.empty() ? coarseTimes(performance) : own));
   const double missed = performance.frameMiss + halver.worst();
   return {std::move(clip), std::max(tolerance - missed, tolerance / 2),
           std::max(performance.frameMiss, halver.worst())};
 }
 
-std::vector<double> turningTimes(const Performance& performance, double radians) {
-  Halver halver([&](double from, double to) { return ofTurn(performance, from, to); }, radians / 16,
-                performance.seconds);
-  return halver.cut(ownKeyTimes(performance));
+std::vector<double> turningTimes(const Performance& performance) {
+  Halver halver([&](double from, double to) { return ofTurn(performance, from, to); },
+                kHeadTolerance / 16, performance.seconds);
+  return halver.cut(performance.frameTimes);
 }
 
 }  // namespace sweepface::cli

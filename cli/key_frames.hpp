@@ -20,8 +20,7 @@ struct KeyFrames {
 /// weights follow from others. All at times that single precision can tell.
 KeyFrames keyFrames(const Performance& performance, const Rig& rig, double tolerance);
 
-/// Frames of a clip's head between which turns at constant speed are a sixteenth of so many radians
-/// off at the most.
-std::vector<double> turningTimes(const Performance& performance, double radians);
+/// The same of the times of a clip's head, with turns at constant speed and kHeadTolerance.
+std::vector<double> turningTimes(const Performance& performance);
 
 }  // namespace sweepface::cli

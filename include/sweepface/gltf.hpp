@@ -33,6 +33,9 @@ struct HeadTrack {
   Vec3 pivot;
 };
 
+/// How far as few keys as do may take a head's turn, in radians.
+inline constexpr double kHeadTolerance = 0.001;
+
 /// What formatGlb writes.
 struct GlbOptions {
   Index lod = 0;              ///< 0: the source's vertices in their order; N: every edge cut into N

@@ -145,9 +145,8 @@ class Animator {
         !areSingle(rotations) || !areSingle({pivot.x, pivot.y, pivot.z}) ||
         rotations.size() != 4 * options_.head->times.size() || rotations.empty())
       return fail("The head's rotation needs one for each of its increasing times.");
-    constexpr double kRadians = 0.001;
-    return addHeadTrack(scene_.document, *options_.head, options_.keyTolerance > 0 ? kRadians : 0,
-                        animation_, builder_);
+    return addHeadTrack(scene_.document, *options_.head,
+                        options_.keyTolerance > 0 ? kHeadTolerance : 0, animation_, builder_);
   }
 
   std::unexpected<Error> beyondFloats(const std::vector<double>& times) const {
