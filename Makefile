@@ -2,7 +2,7 @@
 BUILD := build/release
 FUZZ_SECONDS ?= 60
 
-.PHONY: help deps build demo web test test-long bench fuzz format clean
+.PHONY: help deps build demo web test test-long test-arm bench fuzz format clean
 
 help:
 	@echo 'make build      build the tool, build/release/sweepface'
@@ -10,6 +10,7 @@ help:
 	@echo 'make web        build the page in web/ and what it shows'
 	@echo 'make test       install what is missing, build everything, run the tests'
 	@echo 'make test-long  the long tests, and all others under sanitizers and with clang'
+	@echo 'make test-arm   the tests of what plays, built for 64-bit ARM and run in an emulator'
 	@echo 'make bench      build and run the benchmarks'
 	@echo 'make fuzz       run each fuzz target for FUZZ_SECONDS (60)'
 	@echo 'make format     format the sources'
@@ -59,6 +60,11 @@ test-long: tests/web/node_modules/.package-lock.json
 	for preset in clang asan tsan; do \
 	  cmake --preset $$preset && cmake --build build/$$preset && \
 	  ctest --preset $$preset --label-exclude '^long$$' || exit 1; done
+
+test-arm:
+	scripts/install-deps arm
+	scripts/arm-root
+	cmake --workflow --preset arm
 
 bench:
 	scripts/install-deps bench

@@ -71,7 +71,12 @@ Result<ReportOptions> optionsOf(const ReportArguments& a, const Rig& rig, std::s
     options.expression = *weights;
   }
   if (!a.regions.empty()) options.regions = a.regions;
-  if (!a.gltfpack.empty()) options.gltfpack = a.gltfpack;
+  if (!a.gltfpack.empty()) {
+    // A name without a folder is looked for when it is run.
+    if (a.gltfpack.contains('/') && !std::filesystem::exists(a.gltfpack))
+      return fail(fmt::format("There is no program {}; --gltfpack says where it is.", a.gltfpack));
+    options.gltfpack = a.gltfpack;
+  }
   options.tolerances = a.tolerances;
   return options;
 }

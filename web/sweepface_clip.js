@@ -72,9 +72,13 @@ function isTold({names, weights}, column) {
   return false;
 }
 
+/** Faces whose eyes stand as the angles of a clip had them last. */
+const turned = new WeakSet();
+
 /** Plays a clip on a face: `seek` sets the weights of a time. */
 export class ClipPlayer {
   #angles = ANGLES.map(() => -1);  // their columns, or -1
+  #looks;                          // whether its weights say where the eyes look
 
   constructor(face, clip) {
     this.face = face;
@@ -82,6 +86,7 @@ export class ClipPlayer {
     /** What drives what: see matchNames. */
     this.match = matchNames(clip.names, face.names);
     this.match.unmatched = matchNames(this.match.unmatched, ANGLES).unmatched;
+    this.#looks = this.match.targets.flat().some((target) => /eye.?look/i.test(face.names[target]));
     // Recordings have columns for the eyes' angles that are 0 throughout where nobody told them. Eyes use no roll.
     const counts = (angle, k) => angle < 3 || (angle % 3 < 2 && isTold(clip, k));
     matchNames(clip.names, ANGLES).targets.forEach((found, k) => {
@@ -103,9 +108,18 @@ export class ClipPlayer {
     });
     this.face.setWeights(weights);
     const [head, leftEye, rightEye] = [0, 3, 6].map((first) => this.#anglesAt(values, first));
-    if (this.face.eyeCount > 0 && (leftEye || rightEye))
-      this.face.look({leftEye: leftEye ?? {}, rightEye: rightEye ?? {}});
+    if (this.face.eyeCount > 0) this.#look(leftEye, rightEye);
     return head;
+  }
+
+  /** Weights of the eyes count again after the angles of another clip, but not against what somebody else's `look` said. */
+  #look(leftEye, rightEye) {
+    if (leftEye || rightEye) {
+      this.face.look({leftEye: leftEye ?? {}, rightEye: rightEye ?? {}});
+      turned.add(this.face);
+    } else if (this.#looks && turned.delete(this.face)) {
+      this.face.look(null);
+    }
   }
 
   /** Yaw, pitch and roll from a column on, or null where the clip has none of them. */

@@ -92,8 +92,9 @@ export class FaceMesh extends Mesh {
       const set = Object.entries(weights).filter(([, weight]) => weight !== 0);  // none: nothing is to be read for it
       face.setWeights(Object.fromEntries(set), region);
     }
+    if (this.#pose) face.look(this.#pose);
     const twin = new this.constructor(face, this.materialsOfClone()).copy(this, recursive);
-    if (this.#pose) twin.look(this.#pose);
+    twin.#pose = this.#pose;
     addTo(twin.geometry, this.geometry);
     return twin;
   }

@@ -38,7 +38,6 @@ function check(regions) {
     for (const key of Object.keys(region))
       if (!MEMBERS.includes(key)) throw wrong(`has an unknown '${key}'; it has ${MEMBERS.join(', ')}`);
     const told = (keys) => keys.filter((key) => region[key] !== undefined);
-    if (told(PLACES).length === 0) throw wrong(`says nowhere where it is; give it ${PLACES.join(', ')}`);
     for (const key of told(['parts', 'curves']))
       if (!Array.isArray(region[key])) throw wrong(`has '${key}' that are no list of names`);
     const {nodes = {}, bands = 1, mass = 1, stiffness = 1, delay = 0} = region;
@@ -47,6 +46,8 @@ function check(regions) {
     for (const key of told(['points', 'line']))
       if (!Array.isArray(region[key]) || !region[key].every(isPlace))
         throw wrong(`has '${key}' that are not like [[x, y, z]]`);
+    if (told(PLACES).every((key) => Object.keys(region[key]).length === 0))
+      throw wrong(`says nowhere where it is; give it ${PLACES.join(', ')}`);
     if (!['surface', 'space'].includes(region.over ?? 'surface'))
       throw wrong(`is over '${region.over}', which is neither surface nor space`);
     for (const key of told([...Object.keys(MATTER), 'whole', 'fade']))

@@ -13,10 +13,13 @@ sweepface_status capi::needTargets(const Rig& rig) {
   return refuse("What the targets do was not loaded; call sweepface_rig_load_targets first.");
 }
 
-sweepface_status sweepface_rig_load_neutral(const void* bytes, size_t size, const char* name,
-                                            sweepface_rig** rig) {
+namespace {
+
+sweepface_status loadNeutral(const void* bytes, size_t size, const char* name,
+                             const DecodeLimits& limits, sweepface_rig** rig) {
   if (!rig || (!bytes && size > 0)) return refuse("Loading a rig needs bytes and a place for it.");
-  auto decoded = decodeNeutral({static_cast<const char*>(bytes), size}, calledOr(name, "The face"));
+  auto decoded =
+      decodeNeutral({static_cast<const char*>(bytes), size}, calledOr(name, "The face"), limits);
   if (!decoded) return refuse(SWEEPFACE_BAD_DATA, std::move(decoded.error().message));
   const std::size_t targets = decoded->rig.targets.size();
   // Names stay where they are when a target each for arcs and those that turn two eyes are added.
@@ -27,6 +30,13 @@ sweepface_status sweepface_rig_load_neutral(const void* bytes, size_t size, cons
   return SWEEPFACE_OK;
 }
 
+}  // namespace
+
+sweepface_status sweepface_rig_load_neutral(const void* bytes, size_t size, const char* name,
+                                            sweepface_rig** rig) {
+  return loadNeutral(bytes, size, name, {}, rig);
+}
+
 sweepface_status sweepface_rig_load_targets(sweepface_rig* rig) {
   if (!rig) return refuse("Loading targets needs a rig.");
   const Result<void> decoded = rig->toCome.decode(*rig->rig);
@@ -35,8 +45,13 @@ sweepface_status sweepface_rig_load_targets(sweepface_rig* rig) {
 
 sweepface_status sweepface_rig_load(const void* bytes, size_t size, const char* name,
                                     sweepface_rig** rig) {
+  return sweepface_rig_load_within(bytes, size, name, DecodeLimits{}.memory, rig);
+}
+
+sweepface_status sweepface_rig_load_within(const void* bytes, size_t size, const char* name,
+                                           size_t memory, sweepface_rig** rig) {
   sweepface_rig* made = nullptr;
-  if (const auto status = sweepface_rig_load_neutral(bytes, size, name, rig ? &made : nullptr))
+  if (const auto status = loadNeutral(bytes, size, name, {memory}, rig ? &made : nullptr))
     return status;
   if (const auto status = sweepface_rig_load_targets(made)) {
     sweepface_rig_free(made);

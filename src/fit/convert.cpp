@@ -28,18 +28,34 @@ constexpr double kUneven = 3;
 constexpr double kNormalLimitAtDefault = 2.8;
 // What packing aims at, of the limit.
 constexpr double kAngleShare = 0.2;
+// What packing aims at next, of what it aimed at last, where nothing tells it better.
+constexpr double kSmaller = 0.35;
 // The limit that leads to normals within a tolerance, root mean square.
 constexpr double kLimitForTolerance = 2.5;
+// The tightest limit that is tried; nearly every edge of the mesh is a curve by then.
+constexpr double kTightest = 0.3;
 
-/// Those to be tried in turn. A tighter one brings normals nearer, but now and then its fit is one
-/// to which packing does more harm; 180 is none.
-std::vector<double> normalLimits(const ConvertOptions& options, double tolerance, double size) {
-  if (options.normalLimit > 0) return {options.normalLimit};
+/// A way to normals as near as they must be.
+struct NormalTry {
+  double limit = 0;       ///< on the fit's; 180: none
+  bool isGuided = false;  ///< whether what packing aims at goes by the tolerance for normals
+};
+
+/// Those to be tried in turn: first what most likely leads to the tolerance for normals. A tighter
+/// limit brings normals nearer, but now and then its fit is one to which packing does more harm. So
+/// where none of these leads there, the same limits are tried whatever the tolerance for normals
+/// is: who is told how near they came can have that.
+std::vector<NormalTry> normalTries(const ConvertOptions& options, double tolerance, double size) {
   const double usual =
       std::clamp(kNormalLimitAtDefault * tolerance / (kDefaultTolerance * size), 2.0, 60.0);
+  const double limit = options.normalLimit > 0 ? options.normalLimit : usual;
+  if (!(options.normalTolerance > 0)) return {{limit, false}};
+  if (options.normalLimit > 0) return {{limit, true}, {limit, false}};
+  std::vector<NormalTry> tries{{usual, true}, {180, true}};
   const double tight = kLimitForTolerance * options.normalTolerance;
-  if (!(options.normalTolerance > 0)) return {usual};
-  return tight < usual ? std::vector{tight, usual, 180.0} : std::vector{usual, 180.0};
+  if (tight < usual) tries.insert(tries.begin(), {tight, true});
+  for (double next = usual; next >= kTightest; next /= 2) tries.push_back({next, false});
+  return tries;
 }
 
 class Converter {
@@ -58,26 +74,30 @@ class Converter {
     if (!mesh) return std::unexpected(mesh.error());
     const bool limitsNormals = options_.pack && options_.normalTolerance > 0;
     std::optional<Error> failure;
-    for (const double limit : normalLimits(options_, tolerance_, size)) {
-      auto conversion = convertWithin(*mesh, limit);
+    double nearest = std::numeric_limits<double>::infinity();  // without guidance
+    for (const NormalTry& next : normalTries(options_, tolerance_, size)) {
+      auto conversion = convertWithin(*mesh, next);
       if (!conversion) {
         if (progress_.cancelled() || !limitsNormals) return conversion;
         failure = conversion.error();
       } else if (!limitsNormals || normalRms_ <= options_.normalTolerance) {
         progress_.report("done", 1);
         return conversion;
+      } else if (!next.isGuided) {
+        nearest = std::min(nearest, normalRms_);
       }
     }
-    if (failure && !std::isfinite(nearestNormals_)) return std::unexpected(*failure);
+    if (failure && !std::isfinite(nearest)) return std::unexpected(*failure);
     return fail(fmt::format(
         "normals came no nearer to the mesh's than {:.4g} degrees at this tolerance; allow "
         "more, or try a smaller tolerance or another limit on normals",
-        nearestNormals_));
+        nearest));
   }
 
  private:
   // Sets normalRms_ where there is a tolerance for normals.
-  Result<Conversion> convertWithin(const GridMesh& mesh, double angle) {
+  Result<Conversion> convertWithin(const GridMesh& mesh, const NormalTry& normals) {
+    const double angle = normals.limit;
     const RefineLimits limits{.distance = (options_.pack ? kFitShare : 1) * tolerance_,
                               .angle = std::min(180.0, (options_.pack ? kNormalShare : 1) * angle),
                               .smooth = angle < 180};
@@ -97,15 +117,17 @@ class Converter {
     conversion.rig.tolerance = tolerance_;
     if (!options_.pack) return conversion;
     progress_.report("packing", 0.95);
-    if (auto ok = pack(conversion.rig, kAngleShare * angle); !ok)
+    if (auto ok = pack(conversion.rig, kAngleShare * angle, normals.isGuided); !ok)
       return std::unexpected(ok.error());
     return conversion;
   }
 
-  // Aims at smaller angles until normals are as near as they must be, or no try is left.
-  Result<void> pack(Rig& rig, double angle) {
+  // Aims at smaller angles until normals are as near as they must be, or no try is left. The rig is
+  // that of the last try, normalRms_ the least.
+  Result<void> pack(Rig& rig, double angle, bool isGuided) {
     if (!(options_.normalTolerance > 0)) return packOnce(rig, angle);
     const Rig fitted = rig;
+    normalRms_ = std::numeric_limits<double>::infinity();
     constexpr int kTries = 8;
     for (int attempt = 0; attempt < kTries; ++attempt) {
       rig = fitted;
@@ -113,10 +135,10 @@ class Converter {
         if (attempt > 0 && !progress_.cancelled()) break;  // it was the angle that was too small
         return ok;
       }
-      normalRms_ = normalRms(rig, source_);
-      nearestNormals_ = std::min(nearestNormals_, normalRms_);
-      if (normalRms_ <= options_.normalTolerance) break;
-      angle *= std::clamp(0.8 * options_.normalTolerance / normalRms_, 0.2, 0.8);
+      const double rms = normalRms(rig, source_);
+      normalRms_ = std::min(normalRms_, rms);
+      if (rms <= options_.normalTolerance) break;
+      angle *= isGuided ? std::clamp(0.8 * options_.normalTolerance / rms, 0.2, 0.8) : kSmaller;
     }
     return {};
   }
@@ -132,7 +154,7 @@ class Converter {
   const ConvertOptions& options_;
   ConversionProgress progress_;
   double tolerance_ = 0;
-  double normalRms_ = 0, nearestNormals_ = std::numeric_limits<double>::infinity();
+  double normalRms_ = 0;
 };
 
 }  // namespace

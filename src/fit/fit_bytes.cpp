@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kMostTries = 12, kMostBracketHalvings = 4, kMostFailures = 4;
 constexpr double kCloseEnough = 0.98;  // of the bytes
-constexpr double kCoarser = 4;         // where a tolerance cannot be met
+constexpr double kAway = 4;            // from a first tolerance that cannot be met
 
 struct Try {
   double tolerance = 0;
@@ -44,11 +44,12 @@ Result<std::size_t> bytesOf(Rig rig, const FinishRig& finish) {
 
 }  // namespace
 
-// Where the first tolerance cannot be met, some larger ones are tried before anything else.
+// Where the first tolerance cannot be met, some others are tried before anything else: smaller ones
+// bring normals nearer, larger ones are met where distances were too great.
 Result<Conversion> convertToBytes(const MeshRig& source, ConvertOptions options,
                                   std::size_t mostBytes, const FinishRig& finish) {
   options.pack = true;
-  const bool isFinest = options.tolerance > 0;
+  const bool isFinest = options.tolerance > 0, goesFiner = !isFinest && options.normalTolerance > 0;
   if (!isFinest) options.tolerance = 0.0005 * diagonal(source.neutral);
   std::optional<Conversion> best;
   std::optional<Error> first;  // why the first tolerance cannot be met
@@ -62,8 +63,8 @@ Result<Conversion> convertToBytes(const MeshRig& source, ConvertOptions options,
     if (!conversion && attempt == failures) {
       if (!first) first = conversion.error();
       if (++failures > kMostFailures) return std::unexpected(*first);
-      bracket.fine = now;
-      options.tolerance *= kCoarser;
+      (goesFiner ? bracket.coarse : bracket.fine) = now;
+      options.tolerance *= goesFiner ? 1 / kAway : kAway;
       continue;
     }
     if (conversion) {

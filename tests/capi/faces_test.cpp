@@ -471,6 +471,20 @@ TEST_F(Faces, RefuseBytesThatAreNoFace) {
   EXPECT_EQ(bad, nullptr);
 }
 
+TEST_F(Faces, AreReadWithinTheMemoryThatTheyNeed) {
+  const std::string bytes = encode(rig);
+  sweepface_rig* read = nullptr;
+  const auto within = [&](std::size_t memory) {
+    return sweepface_rig_load_within(bytes.data(), bytes.size(), "tee", memory, &read);
+  };
+  EXPECT_TRUE(refuses(within(1000), "memory", SWEEPFACE_BAD_DATA));
+  EXPECT_EQ(read, nullptr);
+  ASSERT_EQ(within(100 * bytes.size()), SWEEPFACE_OK);
+  EXPECT_EQ(sweepface_rig_target_count(read), sweepface_rig_target_count(handle));
+  sweepface_rig_free(read);
+  EXPECT_TRUE(refuses(sweepface_rig_load_within(nullptr, 5, nullptr, 1000, &read), "needs bytes"));
+}
+
 // A packed face, whose targets come later.
 class FacesThatShowFirst : public Faces {
  protected:

@@ -40,19 +40,19 @@ TEST_F(Page, FollowsItsOptions) {
   convertRig();
   const Outcome r =
       run("report face.sweep neutral.obj targets -o report.html --tolerances 0.05 "
-          "--weights smile=0.25 --box jaw --gltfpack ./not-here");
+          "--weights smile=0.25 --box jaw --gltfpack not-here");
   ASSERT_EQ(r.code, 0) << r.err;
   const std::string html = contents(folder / "report.html");
   EXPECT_NE(html.find("The expression is smile=0.25."), std::string::npos);
   EXPECT_NE(html.find("<td>0.05</td>"), std::string::npos);
-  EXPECT_NE(html.find("There is no program './not-here'"), std::string::npos);
+  EXPECT_NE(html.find("There is no program 'not-here'"), std::string::npos);
 }
 
 // Eight times as much would be more than the whole mesh.
 TEST_F(Page, ComparesACoarseFaceWithWhatThereCanBe) {
   makeRig();
   ASSERT_EQ(run("convert neutral.obj targets -o face.sweep --tolerance 2").code, 0);
-  const Outcome r = run("report face.sweep neutral.obj targets -o report.html --gltfpack ./no");
+  const Outcome r = run("report face.sweep neutral.obj targets -o report.html --gltfpack not-here");
   ASSERT_EQ(r.code, 0) << r.err;
   EXPECT_NE(contents(folder / "report.html").find("<td>4</td>"), std::string::npos);
 }
@@ -75,6 +75,8 @@ TEST_F(Page, SaysWhatIsWrong) {
                     "--tolerances", 2));
   EXPECT_TRUE(fails("report face.sweep neutral.obj -o report.html --gltfpack g --no-tolerances",
                     "--gltfpack", 2));
+  EXPECT_TRUE(fails("report face.sweep neutral.obj targets -o report.html --gltfpack ./not-here",
+                    "There is no program ./not-here"));
   EXPECT_TRUE(fails("report face.sweep -o report.html --no-tolerances", "NEUTRAL", 2));
   EXPECT_EQ(contents(folder / "report.html"), "old");
 }

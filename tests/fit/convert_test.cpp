@@ -259,6 +259,21 @@ TEST(Search, forAToleranceDoesNotEndWhereOneCannotBeMet) {
   }
 }
 
+/// Normals that the first tolerance leaves too far off.
+TEST(Search, forAToleranceGoesOnWithSmallerOnesWhereNormalsAreTooFarOff) {
+  const MeshRig source = withTargets(plane());
+  ConvertOptions options;
+  options.pack = true;
+  options.tolerance = 0.0005 * diagonal(source.neutral);
+  options.normalTolerance = 0.02;
+  EXPECT_TRUE(refusal(source, options).starts_with("normals came no nearer"))
+      << refusal(source, options);
+  options.tolerance = 0;
+  const auto conversion = convertToBytes(source, options, 1 << 20);
+  ASSERT_TRUE(conversion) << conversion.error().message;
+  EXPECT_LT(conversion->rig.tolerance, 0.0005 * diagonal(source.neutral));
+}
+
 TEST(Search, forAToleranceIsDoneWhereTheFinestThatIsWantedFits) {
   ConvertOptions options;
   options.tolerance = 0.05;
@@ -332,8 +347,13 @@ TEST(Refusal, ofNormalsOutOfReachSaysHowNearTheyCome) {
   double nearest = 0;
   ASSERT_EQ(std::sscanf(why.c_str(), "normals came no nearer to the mesh's than %lf", &nearest), 1)
       << why;
-  options.normalTolerance = 1.01 * nearest;
-  EXPECT_EQ(refusal(source, options), "");
+  for (const double times : {1.01, 1.2, 1.7, 3.0}) {
+    options.normalTolerance = times * nearest;
+    EXPECT_EQ(refusal(source, options), "") << times;
+  }
+  options.normalTolerance = 0.9 * nearest;
+  const std::string again = refusal(source, options);
+  EXPECT_TRUE(again.empty() || again == why) << again;
 }
 
 TEST(Refusal, ofNamesThatFilesCannotHold) {

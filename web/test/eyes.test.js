@@ -59,6 +59,22 @@ test('a roll, which no eye uses, leaves eyes to their weights', async () => {
   assert.equal(difference(positionsOf(looking), positionsOf(face)).most, 0);
 });
 
+test('a clip moves the eyes by its weights after another whose angles did', async () => {
+  const face = await load({eyes: true}), other = await load({eyes: true});
+  const angles = readClip('Timecode,LeftEyeYaw\n0,0.4\n'), weights = readClip('Timecode,EyeLookDownLeft\n0,1\n');
+  new ClipPlayer(face, angles).seek(0);
+  const turned = positionsOf(face);
+  new ClipPlayer(face, readClip('Timecode,JawOpen\n0,0\n')).seek(0);
+  assert.equal(difference(turned, positionsOf(face)).most, 0, 'no word of the eyes');
+  for (const it of [face, other]) new ClipPlayer(it, weights).seek(0);
+  assert.equal(difference(positionsOf(other), positionsOf(face)).most, 0);
+
+  face.look({leftEye: {yaw: 0.4}});  // not a clip's
+  const looking = positionsOf(face);
+  new ClipPlayer(face, weights).seek(0);
+  assert.equal(difference(looking, positionsOf(face)).most, 0);
+});
+
 test('eyes that do not turn cannot look', async () => {
   const face = await load(), eyes = await load({eyes: true});
   assert.equal(face.eyeCount, 0);

@@ -99,7 +99,8 @@ test('what is no region is refused with a sentence', async () => {
   await refused({}, /Regions are a list/);
   await refused([{points: [[0, 0, 0]]}], /A region needs a name\./);
   await refused([{...above, weight: 1}], /Region 'above' has an unknown 'weight'/);
-  await refused([{name: 'above'}], /says nowhere where it is/);
+  for (const nowhere of [{}, {parts: []}, {points: []}, {nodes: {}}])
+    await refused([{name: 'above', ...nowhere}], /says nowhere where it is/);
   await refused([{...above, points: [[0, 0]]}], /not like \[\[x, y, z\]\]/);
   await refused([{...above, over: 'land'}], /over 'land'/);
   await refused([{...above, bands: 1.5}], /1\.5 bands/);
