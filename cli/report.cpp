@@ -73,7 +73,8 @@ Result<ReportOptions> optionsOf(const ReportArguments& a, const Rig& rig, std::s
   if (!a.regions.empty()) options.regions = a.regions;
   if (!a.gltfpack.empty()) {
     // A name without a folder is looked for when it is run.
-    if (a.gltfpack.contains('/') && !std::filesystem::exists(a.gltfpack))
+    std::error_code ignored;
+    if (a.gltfpack.contains('/') && !std::filesystem::is_regular_file(a.gltfpack, ignored))
       return fail(fmt::format("There is no program {}; --gltfpack says where it is.", a.gltfpack));
     options.gltfpack = a.gltfpack;
   }

@@ -72,9 +72,6 @@ function isTold({names, weights}, column) {
   return false;
 }
 
-/** Faces whose eyes stand as the angles of a clip had them last. */
-const turned = new WeakSet();
-
 /** Plays a clip on a face: `seek` sets the weights of a time. */
 export class ClipPlayer {
   #angles = ANGLES.map(() => -1);  // their columns, or -1
@@ -97,7 +94,7 @@ export class ClipPlayer {
   get seconds() { return this.clip.seconds; }
 
   /**
-   * Sets the weights that the clip drives, turns eyes if it has their angles, and returns the angles of the head,
+   * Sets the weights that the clip drives, turns eyes by its angles or else by its weights of theirs, and returns the angles of the head,
    * {yaw, pitch, roll} in radians, or null where the clip has none: for three.js
    * `head.rotation.set(pitch, yaw, roll, 'YXZ')`. Where two names drive a target the larger weight counts.
    */
@@ -108,18 +105,11 @@ export class ClipPlayer {
     });
     this.face.setWeights(weights);
     const [head, leftEye, rightEye] = [0, 3, 6].map((first) => this.#anglesAt(values, first));
-    if (this.face.eyeCount > 0) this.#look(leftEye, rightEye);
-    return head;
-  }
-
-  /** Weights of the eyes count again after the angles of another clip, but not against what somebody else's `look` said. */
-  #look(leftEye, rightEye) {
-    if (leftEye || rightEye) {
+    if (this.face.eyeCount > 0 && (leftEye || rightEye))
       this.face.look({leftEye: leftEye ?? {}, rightEye: rightEye ?? {}});
-      turned.add(this.face);
-    } else if (this.#looks && turned.delete(this.face)) {
-      this.face.look(null);
-    }
+    else if (this.face.eyeCount > 0 && this.#looks)
+      this.face.look(null);  // which may stand as another clip's angles had them
+    return head;
   }
 
   /** Yaw, pitch and roll from a column on, or null where the clip has none of them. */

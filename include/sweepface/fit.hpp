@@ -56,7 +56,8 @@ using FinishRig = std::function<Result<void>(Rig&)>;
 
 /// Looks for the smallest tolerance whose file takes at most `mostBytes`, packed and finished:
 /// several conversions. None is finer than `options.tolerance`, if that is given; where it cannot
-/// be met, up to 256 times as much is tried.
+/// be met, up to 256 times as much is tried, or where nobody says and normals are too far off as
+/// little as a 256th.
 Result<Conversion> convertToBytes(const MeshRig& source, ConvertOptions options,
                                   std::size_t mostBytes, const FinishRig& finish = {});
 

@@ -10,6 +10,7 @@
 #include "fit/assemble.hpp"
 #include "fit/check_source.hpp"
 #include "fit/normal_error.hpp"
+#include "fit/normals_out_of_reach.hpp"
 #include "fit/quantise.hpp"
 
 namespace sweepface {
@@ -32,7 +33,8 @@ constexpr double kAngleShare = 0.2;
 constexpr double kSmaller = 0.35;
 // The limit that leads to normals within a tolerance, root mean square.
 constexpr double kLimitForTolerance = 2.5;
-// The tightest limit that is tried; nearly every edge of the mesh is a curve by then.
+// The tightest limit of those that are tried whatever the tolerance for normals is; nearly every
+// edge of the mesh is a curve by then.
 constexpr double kTightest = 0.3;
 
 /// A way to normals as near as they must be.
@@ -56,6 +58,12 @@ std::vector<NormalTry> normalTries(const ConvertOptions& options, double toleran
   if (tight < usual) tries.insert(tries.begin(), {tight, true});
   for (double next = usual; next >= kTightest; next /= 2) tries.push_back({next, false});
   return tries;
+}
+
+/// To four digits, so that nothing less is written.
+double roundedUp(double x) {
+  const double unit = std::pow(10, std::floor(std::log10(x)) - 3);
+  return std::ceil(x / unit * (1 + 1e-12)) * unit;
 }
 
 class Converter {
@@ -89,9 +97,9 @@ class Converter {
     }
     if (failure && !std::isfinite(nearest)) return std::unexpected(*failure);
     return fail(fmt::format(
-        "normals came no nearer to the mesh's than {:.4g} degrees at this tolerance; allow "
-        "more, or try a smaller tolerance or another limit on normals",
-        nearest));
+        "{} {:.4g} degrees at this tolerance; allow more, or try a smaller tolerance or another "
+        "limit on normals",
+        kNormalsOutOfReach, roundedUp(nearest)));
   }
 
  private:

@@ -6,6 +6,8 @@
 #include "sweepface/codec.hpp"
 #include "sweepface/fit.hpp"
 
+#include "fit/normals_out_of_reach.hpp"
+
 namespace sweepface {
 
 namespace {
@@ -49,7 +51,7 @@ Result<std::size_t> bytesOf(Rig rig, const FinishRig& finish) {
 Result<Conversion> convertToBytes(const MeshRig& source, ConvertOptions options,
                                   std::size_t mostBytes, const FinishRig& finish) {
   options.pack = true;
-  const bool isFinest = options.tolerance > 0, goesFiner = !isFinest && options.normalTolerance > 0;
+  const bool isFinest = options.tolerance > 0;
   if (!isFinest) options.tolerance = 0.0005 * diagonal(source.neutral);
   std::optional<Conversion> best;
   std::optional<Error> first;  // why the first tolerance cannot be met
@@ -63,6 +65,7 @@ Result<Conversion> convertToBytes(const MeshRig& source, ConvertOptions options,
     if (!conversion && attempt == failures) {
       if (!first) first = conversion.error();
       if (++failures > kMostFailures) return std::unexpected(*first);
+      const bool goesFiner = !isFinest && first->message.starts_with(kNormalsOutOfReach);
       (goesFiner ? bracket.coarse : bracket.fine) = now;
       options.tolerance *= goesFiner ? 1 / kAway : kAway;
       continue;

@@ -483,6 +483,7 @@ TEST_F(Faces, AreReadWithinTheMemoryThatTheyNeed) {
   EXPECT_EQ(sweepface_rig_target_count(read), sweepface_rig_target_count(handle));
   sweepface_rig_free(read);
   EXPECT_TRUE(refuses(sweepface_rig_load_within(nullptr, 5, nullptr, 1000, &read), "needs bytes"));
+  EXPECT_TRUE(refuses(sweepface_rig_load_within("hello", 5, nullptr, 1000, nullptr), "a place"));
 }
 
 // A packed face, whose targets come later.
@@ -508,6 +509,20 @@ TEST_F(FacesThatShowFirst, MoveOnceTheirTargetsAreLoaded) {
   expectNear(Tessellation(rig.surface, 1).positions(blend(rig, Weights{0.5, 0, 0})), evaluate(),
              0.3 * rig.tolerance + 1e-5);
   EXPECT_EQ(sweepface_rig_load_targets(handle), SWEEPFACE_OK);
+}
+
+TEST_F(FacesThatShowFirst, AreRefusedWhereTheirTargetsAloneNeedTooMuchMemory) {
+  const std::string bytes = encode(rig);
+  bool isRead = false;
+  for (double memory = 1000; !isRead; memory *= 1.05) {
+    const auto limit = static_cast<std::size_t>(memory);
+    sweepface_rig* read = nullptr;
+    isRead =
+        sweepface_rig_load_within(bytes.data(), bytes.size(), "tee", limit, &read) == SWEEPFACE_OK;
+    EXPECT_EQ(read != nullptr, isRead) << limit;
+    sweepface_rig_free(read);
+    ASSERT_LT(memory, 1e9);
+  }
 }
 
 TEST_F(FacesThatShowFirst, RefuseToMoveBefore) {

@@ -306,6 +306,12 @@ TEST(Search, forAToleranceGoesOnWithLargerOnesWhereTheFirstCannotBeMet) {
   const auto conversion = convertToBytes(far, options, 1 << 20);
   ASSERT_TRUE(conversion) << conversion.error().message;
   EXPECT_GT(conversion->rig.tolerance, 0.0457);
+  options.tolerance = 0;  // also where there is one for normals, which is not to blame
+  options.normalTolerance = 60;
+  const auto nearEnough = convertToBytes(far, options, 1 << 20);
+  ASSERT_TRUE(nearEnough) << nearEnough.error().message;
+  EXPECT_GT(nearEnough->rig.tolerance, 0.0457);
+  options.normalTolerance = 0;
   options.tolerance = 1e-6;
   const auto none = convertToBytes(far, options, 1 << 20);
   ASSERT_FALSE(none);
@@ -347,7 +353,7 @@ TEST(Refusal, ofNormalsOutOfReachSaysHowNearTheyCome) {
   double nearest = 0;
   ASSERT_EQ(std::sscanf(why.c_str(), "normals came no nearer to the mesh's than %lf", &nearest), 1)
       << why;
-  for (const double times : {1.01, 1.2, 1.7, 3.0}) {
+  for (const double times : {1.0, 1.2, 1.7, 3.0}) {
     options.normalTolerance = times * nearest;
     EXPECT_EQ(refusal(source, options), "") << times;
   }
