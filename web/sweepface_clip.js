@@ -94,8 +94,8 @@ export class ClipPlayer {
   get seconds() { return this.clip.seconds; }
 
   /**
-   * Sets the weights that the clip drives, turns eyes by its angles or else by its weights of theirs, and returns the angles of the head,
-   * {yaw, pitch, roll} in radians, or null where the clip has none: for three.js
+   * Sets the weights that the clip drives, turns eyes by its angles or else by its weights of theirs, and returns the
+   * angles of the head, {yaw, pitch, roll} in radians, or null where the clip has none: for three.js
    * `head.rotation.set(pitch, yaw, roll, 'YXZ')`. Where two names drive a target the larger weight counts.
    */
   seek(seconds) {
@@ -105,10 +105,9 @@ export class ClipPlayer {
     });
     this.face.setWeights(weights);
     const [head, leftEye, rightEye] = [0, 3, 6].map((first) => this.#anglesAt(values, first));
-    if (this.face.eyeCount > 0 && (leftEye || rightEye))
-      this.face.look({leftEye: leftEye ?? {}, rightEye: rightEye ?? {}});
-    else if (this.face.eyeCount > 0 && this.#looks)
-      this.face.look(null);  // which may stand as another clip's angles had them
+    const pose = leftEye || rightEye ? {leftEye: leftEye ?? {}, rightEye: rightEye ?? {}} : null;
+    // The eyes may still stand as another clip's angles had them, so that weights would not count.
+    if (this.face.eyeCount > 0 && (pose || this.#looks)) this.face.look(pose);
     return head;
   }
 

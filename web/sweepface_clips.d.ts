@@ -55,8 +55,8 @@ export class ClipPlayer {
   readonly clip: Clip;
   readonly match: Match;
   readonly seconds: number;
-  /** Sets the weights of a time, and turns eyes if the clip has their angles. Returns the angles of the head in
-   * radians, if the clip has them. */
+  /** Sets the weights of a time, and turns eyes by the clip's angles or else by its weights of theirs, instead of an
+   * earlier `look`. Returns the angles of the head in radians, if the clip has them. */
   seek(seconds: number): {yaw: number; pitch: number; roll: number} | null;
 }
 

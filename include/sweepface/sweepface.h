@@ -57,17 +57,17 @@ SWEEPFACE_API const char* sweepface_message(void);
  * what messages call it; NULL: "The face". */
 SWEEPFACE_API sweepface_status sweepface_rig_load(const void* bytes, size_t size, const char* name,
                                                   sweepface_rig** rig);
-/* The same within so many bytes of memory, about: a file that needs more is refused. What is still
- * takes hardly any bytes, so that a small file may ask for much; the others let it have 2 GiB. */
-SWEEPFACE_API sweepface_status sweepface_rig_load_within(const void* bytes, size_t size,
-                                                         const char* name, size_t memory,
-                                                         sweepface_rig** rig);
 /* The same in two steps, so that a face shows before it can move. The first reads all but what
  * targets do, which takes about half of the time: until the second every weight stays 0. The second
  * does nothing where all is read; nothing made from the rig may be in use meanwhile. */
 SWEEPFACE_API sweepface_status sweepface_rig_load_neutral(const void* bytes, size_t size,
                                                           const char* name, sweepface_rig** rig);
 SWEEPFACE_API sweepface_status sweepface_rig_load_targets(sweepface_rig* rig);
+/* All at once, within so many bytes of memory, about: a file that needs more is refused. What is
+ * still takes hardly any bytes, so that a small file may ask for much; the others let it have 2 GiB. */
+SWEEPFACE_API sweepface_status sweepface_rig_load_within(const void* bytes, size_t size,
+                                                         const char* name, size_t memory,
+                                                         sweepface_rig** rig);
 SWEEPFACE_API void sweepface_rig_free(sweepface_rig* rig);
 
 /* The expressions; names are UTF-8 and belong to the rig. */

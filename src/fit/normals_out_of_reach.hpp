@@ -4,7 +4,8 @@
 
 namespace sweepface {
 
-/// How the sentence begins that says that the tolerance for normals, and nothing else, was not met.
+/// How the sentence begins that says that the tolerance for distances could be met, but not the one
+/// for normals: a smaller one may bring both.
 inline constexpr std::string_view kNormalsOutOfReach = "normals came no nearer to the mesh's than";
 
 }  // namespace sweepface
