@@ -2,7 +2,9 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
+#include <map>
 #include <optional>
+#include <utility>
 
 #include "sweepface/fit.hpp"
 
@@ -31,6 +33,11 @@ constexpr double kNormalLimitAtDefault = 2.8;
 constexpr double kAngleShare = 0.2;
 // What packing aims at next, of what it aimed at last, where nothing tells it better.
 constexpr double kSmaller = 0.35;
+// Normals that come no nearer than this, of where they were, are as near as packing brings them.
+constexpr double kGain = 0.97;
+// Where less than half of what is usual is aimed at steps are finer, in proportion, to this share:
+// steps too large for the angle make normals worse and the search long.
+constexpr double kFinestSteps = 1.0 / 64;
 // The limit that leads to normals within a tolerance, root mean square.
 constexpr double kLimitForTolerance = 2.5;
 // The tightest limit of those that are tried whatever the tolerance for normals is; nearly every
@@ -47,9 +54,7 @@ struct NormalTry {
 /// limit brings normals nearer, but now and then its fit is one to which packing does more harm. So
 /// where none of these leads there, the same limits are tried whatever the tolerance for normals
 /// is: who is told how near they came can have that.
-std::vector<NormalTry> normalTries(const ConvertOptions& options, double tolerance, double size) {
-  const double usual =
-      std::clamp(kNormalLimitAtDefault * tolerance / (kDefaultTolerance * size), 2.0, 60.0);
+std::vector<NormalTry> normalTries(const ConvertOptions& options, double usual) {
   const double limit = options.normalLimit > 0 ? options.normalLimit : usual;
   if (!(options.normalTolerance > 0)) return {{limit, false}};
   if (options.normalLimit > 0) return {{limit, true}, {limit, false}};
@@ -80,10 +85,11 @@ class Converter {
     if (auto ok = checkTolerance(tolerance_, size); !ok) return std::unexpected(ok.error());
     const auto mesh = makeGridMesh(source_);
     if (!mesh) return std::unexpected(mesh.error());
+    usualLimit_ =
+        std::clamp(kNormalLimitAtDefault * tolerance_ / (kDefaultTolerance * size), 2.0, 60.0);
     const bool limitsNormals = options_.pack && options_.normalTolerance > 0;
     std::optional<Error> failure;
-    double nearest = std::numeric_limits<double>::infinity();  // without guidance
-    for (const NormalTry& next : normalTries(options_, tolerance_, size)) {
+    for (const NormalTry& next : normalTries(options_, usualLimit_)) {
       auto conversion = convertWithin(*mesh, next);
       if (!conversion) {
         if (progress_.cancelled() || !limitsNormals) return conversion;
@@ -92,20 +98,30 @@ class Converter {
         progress_.report("done", 1);
         return conversion;
       } else if (!next.isGuided) {
-        nearest = std::min(nearest, normalRms_);
+        nearest_ = std::min(nearest_, normalRms_);
       }
     }
-    if (failure && !std::isfinite(nearest)) return std::unexpected(*failure);
+    if (failure && !std::isfinite(nearest_)) return std::unexpected(*failure);
     return fail(fmt::format(
         "{} {:.4g} degrees at this tolerance; allow more, or try a smaller tolerance or another "
         "limit on normals",
-        kNormalsOutOfReach, roundedUp(nearest)));
+        kNormalsOutOfReach, roundedUp(nearest_)));
   }
 
  private:
   // Sets normalRms_ where there is a tolerance for normals.
   Result<Conversion> convertWithin(const GridMesh& mesh, const NormalTry& normals) {
-    const double angle = normals.limit;
+    auto found = fits_.find(normals.limit);
+    if (found == fits_.end())
+      found = fits_.emplace(normals.limit, fitWithin(mesh, normals.limit)).first;
+    if (!found->second || !options_.pack) return found->second;
+    progress_.report("packing", 0.95);
+    Conversion conversion = *found->second;
+    if (auto ok = pack(conversion.rig, normals); !ok) return std::unexpected(ok.error());
+    return conversion;
+  }
+
+  Result<Conversion> fitWithin(const GridMesh& mesh, double angle) {
     const RefineLimits limits{.distance = (options_.pack ? kFitShare : 1) * tolerance_,
                               .angle = std::min(180.0, (options_.pack ? kNormalShare : 1) * angle),
                               .smooth = angle < 180};
@@ -123,19 +139,18 @@ class Converter {
                   " of a file; give fewer targets, or allow a larger tolerance");
     Conversion conversion{assemble(source_, mesh, std::move(*fitted)), mesh.warnings};
     conversion.rig.tolerance = tolerance_;
-    if (!options_.pack) return conversion;
-    progress_.report("packing", 0.95);
-    if (auto ok = pack(conversion.rig, kAngleShare * angle, normals.isGuided); !ok)
-      return std::unexpected(ok.error());
     return conversion;
   }
 
-  // Aims at smaller angles until normals are as near as they must be, or no try is left. The rig is
-  // that of the last try, normalRms_ the least.
-  Result<void> pack(Rig& rig, double angle, bool isGuided) {
+  // Aims at smaller angles until normals are as near as they must be, or that helps no more. The
+  // rig is that of the last try, normalRms_ the least: no less than the fit's, to speak of.
+  Result<void> pack(Rig& rig, const NormalTry& normals) {
+    double angle = kAngleShare * normals.limit;
     if (!(options_.normalTolerance > 0)) return packOnce(rig, angle);
     const Rig fitted = rig;
     normalRms_ = std::numeric_limits<double>::infinity();
+    if (normalRms(fitted, source_) > (normals.isGuided ? options_.normalTolerance : nearest_))
+      return {};
     constexpr int kTries = 8;
     for (int attempt = 0; attempt < kTries; ++attempt) {
       rig = fitted;
@@ -143,17 +158,19 @@ class Converter {
         if (attempt > 0 && !progress_.cancelled()) break;  // it was the angle that was too small
         return ok;
       }
-      const double rms = normalRms(rig, source_);
-      normalRms_ = std::min(normalRms_, rms);
-      if (rms <= options_.normalTolerance) break;
-      angle *= isGuided ? std::clamp(0.8 * options_.normalTolerance / rms, 0.2, 0.8) : kSmaller;
+      const double rms = normalRms(rig, source_),
+                   before = std::exchange(normalRms_, std::min(normalRms_, rms));
+      if (rms <= options_.normalTolerance || rms > kGain * before) break;
+      angle *=
+          normals.isGuided ? std::clamp(0.8 * options_.normalTolerance / rms, 0.2, 0.8) : kSmaller;
     }
     return {};
   }
 
   Result<void> packOnce(Rig& rig, double angle) const {
     const auto proceed = [&](double) { return !progress_.cancelled(); };
-    const Result<void> ok = quantise(rig, source_, tolerance_, angle, proceed);
+    const double stepShare = std::clamp(2 * angle / (kAngleShare * usualLimit_), kFinestSteps, 1.0);
+    const Result<void> ok = quantise(rig, source_, {tolerance_, angle, stepShare}, proceed);
     rig.packing.textureBits = options_.textureBits;
     return ok;
   }
@@ -161,8 +178,10 @@ class Converter {
   const MeshRig& source_;
   const ConvertOptions& options_;
   ConversionProgress progress_;
-  double tolerance_ = 0;
+  double tolerance_ = 0, usualLimit_ = 0;
+  std::map<double, Result<Conversion>> fits_;  // by their limits on normals
   double normalRms_ = 0;
+  double nearest_ = std::numeric_limits<double>::infinity();  // of what is not guided
 };
 
 }  // namespace

@@ -22,11 +22,11 @@ constexpr double kNeutralShare = 0.5;
 constexpr double kBound = 0.995;
 
 // Chooses steps, mirror and images.
-codec::Lattice latticeFor(Rig& rig, double tolerance) {
+codec::Lattice latticeFor(Rig& rig, const PackAims& aims) {
   Packing& packing = rig.packing;
   packing = {};
-  packing.neutralStep = kNeutralStep * tolerance;
-  packing.targetStep = kTargetStep * tolerance;
+  packing.neutralStep = kNeutralStep * aims.stepShare * aims.tolerance;
+  packing.targetStep = kTargetStep * aims.stepShare * aims.tolerance;
   const codec::MirrorSeeds seeds = codec::findMirror(rig.surface, rig.neutral);
   packing.axis = seeds.axis;
   packing.mirror = seeds.pairs;
@@ -37,13 +37,13 @@ codec::Lattice latticeFor(Rig& rig, double tolerance) {
 
 class Quantiser {
  public:
-  Quantiser(Rig& rig, const MeshRig& source, double tolerance, double angle,
+  Quantiser(Rig& rig, const MeshRig& source, const PackAims& aims,
             const std::function<bool(double)>& proceed)
       : rig_(rig),
         source_(source),
-        tolerance_(tolerance),
+        tolerance_(aims.tolerance),
         proceed_(proceed),
-        poses_(rig, source, latticeFor(rig, tolerance), tolerance, angle) {}
+        poses_(rig, source, latticeFor(rig, aims), aims.tolerance, aims.angle) {}
 
   Result<void> run() {
     if (!packPose(poses_, 0, neutralBounds())) return failed("the neutral");
@@ -112,9 +112,9 @@ class Quantiser {
 
 }  // namespace
 
-Result<void> quantise(Rig& rig, const MeshRig& source, double tolerance, double angle,
+Result<void> quantise(Rig& rig, const MeshRig& source, const PackAims& aims,
                       const std::function<bool(double)>& proceed) {
-  return Quantiser(rig, source, tolerance, angle, proceed).run();
+  return Quantiser(rig, source, aims, proceed).run();
 }
 
 }  // namespace sweepface

@@ -6,6 +6,7 @@
 #include "sweepface/measure.hpp"
 
 #include "faces.hpp"
+#include "fit/normal_error.hpp"
 
 namespace sweepface {
 namespace {
@@ -242,6 +243,21 @@ TEST(Cancel, endsTheSearchForATolerance) {
   const auto conversion = convertToBytes(withTargets(plane()), options, 1 << 20);
   ASSERT_FALSE(conversion) << "though its first try did fit";
   EXPECT_EQ(conversion.error().message, "the conversion was interrupted");
+}
+
+/// Normals far nearer than the steps of the tolerance alone could bring them.
+TEST(Packed, normalsComeAsNearAsIsAskedWithFinerSteps) {
+  const MeshRig source = withTargets(torus());
+  ConvertOptions options;
+  options.pack = true;
+  options.tolerance = 0.002 * diagonal(source.neutral);
+  const auto usual = convert(source, options);
+  ASSERT_TRUE(usual) << usual.error().message;
+  options.normalTolerance = normalRms(usual->rig, source) / 10;
+  const auto near = convert(source, options);
+  ASSERT_TRUE(near) << near.error().message;
+  EXPECT_LE(normalRms(near->rig, source), options.normalTolerance);
+  EXPECT_LT(near->rig.packing.targetStep, usual->rig.packing.targetStep);
 }
 
 /// Normals that a fine tolerance brings within theirs, and a coarse one does not.
