@@ -40,8 +40,7 @@ constexpr double kGain = 0.97;
 constexpr double kFinestSteps = 1.0 / 64;
 // The limit that leads to normals within a tolerance, root mean square.
 constexpr double kLimitForTolerance = 2.5;
-// The tightest limit of those that are tried whatever the tolerance for normals is; nearly every
-// edge of the mesh is a curve by then.
+// The tightest limit of those that are tried; nearly every edge of the mesh is a curve by then.
 constexpr double kTightest = 0.3;
 
 /// A way to normals as near as they must be.
@@ -59,7 +58,7 @@ std::vector<NormalTry> normalTries(const ConvertOptions& options, double usual) 
   if (!(options.normalTolerance > 0)) return {{limit, false}};
   if (options.normalLimit > 0) return {{limit, true}, {limit, false}};
   std::vector<NormalTry> tries{{usual, true}, {180, true}};
-  const double tight = kLimitForTolerance * options.normalTolerance;
+  const double tight = std::max(kLimitForTolerance * options.normalTolerance, kTightest);
   if (tight < usual) tries.insert(tries.begin(), {tight, true});
   for (double next = usual; next >= kTightest; next /= 2) tries.push_back({next, false});
   return tries;
