@@ -151,10 +151,10 @@ export function readClip(source, options) {
     throw new RangeError('The frames per second of a recording must be greater than 0.');
   if (!/^[ \t-\r]*[{[]/.test(text)) return readLiveLink(text, name, framesPerSecond);
   const json = parseJson(text, name), fail = (what) => new Error(`${name} ${what}.`);
+  if (isObject(json) && json.events !== undefined) throw fail('is a timeline; readTimeline reads it');
   if (isObject(json) && json.weightMat !== undefined) return readAudio2Face(json, fail);
   const frames = Array.isArray(json) ? json : json.frames;
   if (Array.isArray(frames)) return readMediaPipe(frames, fail);
-  if (isObject(json) && json.events !== undefined) throw fail('is a timeline; readTimeline reads it');
   throw fail('is neither of Audio2Face (\'facsNames\' and \'weightMat\'), nor of MediaPipe (a list of frames ' +
              'with \'categories\'), nor a timeline (\'seconds\' and \'events\')');
 }

@@ -1,5 +1,5 @@
 // Clips: weights over time, and what plays them on a face.
-import {matchNames} from './sweepface_names.js';
+import {matchNames, turnsEyes} from './sweepface_names.js';
 import {isNumber} from './sweepface_text.js';
 import {known, told} from './sweepface_values.js';
 
@@ -83,7 +83,7 @@ export class ClipPlayer {
     /** What drives what: see matchNames. */
     this.match = matchNames(clip.names, face.names);
     this.match.unmatched = matchNames(this.match.unmatched, ANGLES).unmatched;
-    this.#looks = this.match.targets.flat().some((target) => /eye.?look/i.test(face.names[target]));
+    this.#looks = turnsEyes(this.match, face.names);
     // Recordings have columns for the eyes' angles that are 0 throughout where nobody told them. Eyes use no roll.
     const counts = (angle, k) => angle < 3 || (angle % 3 < 2 && isTold(clip, k));
     matchNames(clip.names, ANGLES).targets.forEach((found, k) => {

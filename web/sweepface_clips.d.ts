@@ -80,7 +80,8 @@ export interface Timeline {
 /** A timeline from its JSON (docs/clips.md). Throws a sentence about what is wrong. */
 export function readTimeline(source: string | Bytes, options?: ReadOptions): Timeline;
 
-/** Plays a timeline on a face, which must have the regions that it moves. */
+/** Plays a timeline on a face, which must have the regions that it moves. What it says of eyes counts instead of an
+ * earlier `look`. */
 export class TimelinePlayer {
   constructor(face: Playable, timeline: Timeline);
   readonly face: Playable;

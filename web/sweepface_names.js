@@ -33,3 +33,8 @@ export function matchNames(names, targets) {
     undriven: targets.filter((_, k) => !driven.has(k))
   };
 }
+
+/** Whether what matchNames found says where eyes look. */
+export function turnsEyes({targets: found}, targets) {
+  return found.flat().some((k) => /eye.?look/i.test(targets[k]));
+}

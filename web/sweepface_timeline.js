@@ -1,5 +1,5 @@
 // Timelines: what an animator wrote down, and what plays it on a face.
-import {matchNames} from './sweepface_names.js';
+import {matchNames, turnsEyes} from './sweepface_names.js';
 import {isNumber, isObject, isWeight, parseJson, textOf} from './sweepface_text.js';
 import {known, told} from './sweepface_values.js';
 
@@ -94,6 +94,7 @@ const isWhole = (face, region) => region === 'rest' && !face.regions?.length;
 /** Plays a timeline on a face: `advance` lets time pass, and what sets out does so at its own instant. */
 export class TimelinePlayer {
   #goals;
+  #looks;  // whether its weights say where the eyes look
   #now = 0;
   #next = 0;  // of all events of all loops
 
@@ -106,6 +107,7 @@ export class TimelinePlayer {
     const names = [...new Set(timeline.events.flatMap(({goals}) => Object.keys(goals)))];
     /** What drives what: see matchNames. */
     this.match = matchNames(names, face.names);
+    this.#looks = turnsEyes(this.match, face.names);
     this.#goals = new Map(names.map((name, k) => [name, this.match.targets[k].map((target) => face.names[target])]));
   }
 
@@ -137,6 +139,8 @@ export class TimelinePlayer {
     const named = Object.create(null);  // of two names for one target the larger counts
     for (const [name, goal] of Object.entries(goals))
       for (const target of this.#goals.get(name)) named[target] = Math.max(named[target] ?? -Infinity, goal);
+    // The eyes may still stand as a clip's angles had them, so that weights would not count.
+    if (this.#looks && this.face.eyeCount > 0) this.face.look(null);
     this.face.moveTo({...all, ...named}, drive, isWhole(this.face, region) ? undefined : region);
   }
 }

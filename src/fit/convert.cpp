@@ -160,6 +160,9 @@ class Converter {
       const double rms = normalRms(rig, source_),
                    before = std::exchange(normalRms_, std::min(normalRms_, rms));
       if (rms <= options_.normalTolerance || rms > kGain * before) break;
+      progress_.report(
+          fmt::format("packing, normals {:.3g} of {:.3g} degrees", rms, options_.normalTolerance),
+          0.95);
       angle *=
           normals.isGuided ? std::clamp(0.8 * options_.normalTolerance / rms, 0.2, 0.8) : kSmaller;
     }

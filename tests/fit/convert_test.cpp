@@ -1,3 +1,4 @@
+#include <set>
 #include <tbb/global_control.h>
 
 #include "sweepface/codec.hpp"
@@ -254,10 +255,14 @@ TEST(Packed, normalsComeAsNearAsIsAskedWithFinerSteps) {
   const auto usual = convert(source, options);
   ASSERT_TRUE(usual) << usual.error().message;
   options.normalTolerance = normalRms(usual->rig, source) / 10;
+  std::set<std::string> told;
+  options.progress = [&](std::string_view what, double) { told.emplace(what); };
   const auto near = convert(source, options);
   ASSERT_TRUE(near) << near.error().message;
   EXPECT_LE(normalRms(near->rig, source), options.normalTolerance);
   EXPECT_LT(near->rig.packing.targetStep, usual->rig.packing.targetStep);
+  EXPECT_TRUE(std::ranges::any_of(
+      told, [](const std::string& what) { return what.starts_with("packing, normals "); }));
 }
 
 /// Normals that a fine tolerance brings within theirs, and a coarse one does not.

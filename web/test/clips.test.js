@@ -66,8 +66,9 @@ for (const [title, file, text] of [['Live Link Face', 'take.csv', csv],
     });
 
 test('a timeline that is read as a capture is told from one', () => {
-  assert.throws(() => readClip('{"seconds": 1, "events": []}', {name: 'talk.json'}),
-                {message: 'talk.json is a timeline; readTimeline reads it.'});
+  for (const more of ['', ', "weightMat": [[0]]', ', "frames": []'])
+    assert.throws(() => readClip(`{"seconds": 1, "events": []${more}}`, {name: 'talk.json'}),
+                  {message: 'talk.json is a timeline; readTimeline reads it.'});
 });
 
 test('frames without time between them begin the filter anew, as for the tool', () => {

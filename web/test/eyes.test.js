@@ -3,7 +3,7 @@ import {execFileSync} from 'node:child_process';
 import {readFileSync, writeFileSync} from 'node:fs';
 import {join} from 'node:path';
 import test from 'node:test';
-import {ClipPlayer, readClip} from '../sweepface_clips.js';
+import {ClipPlayer, readClip, readTimeline, TimelinePlayer} from '../sweepface_clips.js';
 import {Sweepface} from '../sweepface.js';
 import {difference, exported, newFolder, positionsOf, readObj, sample, tool} from './native.js';
 
@@ -67,6 +67,19 @@ test('a clip moves the eyes by its weights after another whose angles did', asyn
   new ClipPlayer(face, readClip('Timecode,JawOpen\n0,0\n')).seek(0);
   assert.equal(difference(turned, positionsOf(face)).most, 0, 'no word of the eyes');
   for (const it of [face, other]) new ClipPlayer(it, weights).seek(0);
+  assert.equal(difference(positionsOf(other), positionsOf(face)).most, 0);
+});
+
+test('a timeline moves the eyes by its weights after a clip whose angles did', async () => {
+  const face = await load({eyes: true}), other = await load({eyes: true});
+  const playing = (goal) =>
+    readTimeline(JSON.stringify({seconds: 1, events: [{at: 0, to: {[goal]: 1}, drive: 'cut'}]}));
+  new ClipPlayer(face, readClip('Timecode,LeftEyeYaw\n0,0.4\n')).seek(0);
+  const turned = positionsOf(face);
+  new TimelinePlayer(face, playing('eyeBlinkLeft')).advance(0);
+  face.setWeights({eyeBlinkLeft: 0});
+  assert.equal(difference(turned, positionsOf(face)).most, 0, 'no word of the eyes');
+  for (const it of [face, other]) new TimelinePlayer(it, playing('eyeLookDownLeft')).advance(0);
   assert.equal(difference(positionsOf(other), positionsOf(face)).most, 0);
 });
 
