@@ -116,7 +116,8 @@ class Converter {
     if (!found->second || !options_.pack) return found->second;
     progress_.report("packing", 0.95);
     Conversion conversion = *found->second;
-    if (auto ok = pack(conversion.rig, normals); !ok) return std::unexpected(ok.error());
+    if (auto ok = pack(conversion.rig, found->second->rig, normals); !ok)
+      return std::unexpected(ok.error());
     return conversion;
   }
 
@@ -143,10 +144,9 @@ class Converter {
 
   // Aims at smaller angles until normals are as near as they must be, or that helps no more. The
   // rig is that of the last try, normalRms_ the least: no less than the fit's, to speak of.
-  Result<void> pack(Rig& rig, const NormalTry& normals) {
+  Result<void> pack(Rig& rig, const Rig& fitted, const NormalTry& normals) {
     double angle = kAngleShare * normals.limit;
     if (!(options_.normalTolerance > 0)) return packOnce(rig, angle);
-    const Rig fitted = rig;
     normalRms_ = std::numeric_limits<double>::infinity();
     if (normalRms(fitted, source_) > (normals.isGuided ? options_.normalTolerance : nearest_))
       return {};
