@@ -12,6 +12,7 @@
 
 #include "sweepface/evaluator.hpp"
 
+#include "add.hpp"
 #include "bench_face.hpp"
 #include "peers.hpp"
 
@@ -155,10 +156,6 @@ void playCold(benchmark::State& state, const std::function<Player()>& make) {
     ++frame;
     benchmark::ClobberMemory();
   }
-}
-
-void add(const std::string& name, std::function<void(benchmark::State&)> run) {
-  benchmark::RegisterBenchmark(name.c_str(), std::move(run))->Unit(benchmark::kMicrosecond);
 }
 
 void addWarm(const std::string& group, const Player& player, Active active) {

@@ -3,12 +3,12 @@
 #include <benchmark/benchmark.h>
 #include <cstdlib>
 #include <fmt/format.h>
-#include <functional>
 #include <vector>
 
 #include "sweepface/evaluator.hpp"
 #include "sweepface/regional_motion.hpp"
 
+#include "add.hpp"
 #include "bench_face.hpp"
 
 namespace sweepface::bench {
@@ -131,10 +131,6 @@ void evaluate(benchmark::State& state, const std::vector<Region>& regions, bool 
   }
   state.counters["bytes"] =
       static_cast<double>(evaluator.positionBytes() + (normals ? evaluator.normalBytes() : 0));
-}
-
-void add(const std::string& name, std::function<void(benchmark::State&)> run) {
-  benchmark::RegisterBenchmark(name.c_str(), std::move(run))->Unit(benchmark::kMicrosecond);
 }
 
 const bool registered = [] {
