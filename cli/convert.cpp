@@ -100,6 +100,7 @@ std::string nameOfShape(const Rig& rig, Index target) {
 /// What a reader of the bytes will see, compared with the source.
 struct Verified {
   FurthestVertex worst;
+  double angleRms = 0;
   std::vector<Index> folds;  // of the neutral and every target
 };
 
@@ -120,7 +121,8 @@ Result<Verified> verify(std::string_view bytes, const std::string& name, const M
         "The encoded face lacks vertices or targets of the source; nothing was written. "
         "This is a fault of sweepface, please report it.");
   const FurthestVertex worst = furthestVertex(*rig, source);
-  if (worst.distance <= tolerance) return Verified{worst, countFolds(*rig, source)};
+  if (worst.distance <= tolerance)
+    return Verified{worst, normalRms(*rig, source), countFolds(*rig, source)};
   return fail(
       fmt::format("Vertex {} of {} would be {:.6g} away from the source, beyond the "
                   "tolerance of {:.6g}; nothing was written. This is a fault of sweepface, "
@@ -152,7 +154,7 @@ struct Summary {
 
 nlohmann::ordered_json toJson(const Summary& s) {
   const Rig& rig = s.conversion.rig;
-  const auto& [worst, folds] = s.verified;
+  const auto& [worst, angleRms, folds] = s.verified;
   return {{"file", s.arguments.output},
           {"patches", rig.surface.patchCount()},
           {"vectors", rig.surface.storedCount()},
@@ -162,6 +164,7 @@ nlohmann::ordered_json toJson(const Summary& s) {
           {"worstDistance", worst.distance},
           {"worstVertex", worst.vertex},
           {"worstShape", nameOfShape(rig, worst.target)},
+          {"angleRms", angleRms},
           {"folds", folds},
           {"bytes", s.bytes},
           {"seconds", s.seconds},
@@ -170,13 +173,17 @@ nlohmann::ordered_json toJson(const Summary& s) {
 
 void printText(const Summary& s) {
   const Rig& rig = s.conversion.rig;
-  const auto& [worst, folds] = s.verified;
+  const auto& [worst, angleRms, folds] = s.verified;
   const Index points = rig.surface.storedCount();
   fmt::print("{}: {} patches, {} points ({:.1f} % of the source's {} vertices), {} targets\n",
              s.arguments.output, rig.surface.patchCount(), points,
              100.0 * points / static_cast<double>(s.vertices), s.vertices, rig.targets.size());
   fmt::print("worst distance {:.4g} of {:.4g} allowed, at vertex {} of {}\n", worst.distance,
              rig.tolerance, worst.vertex, nameOfShape(rig, worst.target));
+  fmt::print("normals {:.4g} {}, RMS over all expressions\n", angleRms,
+             s.arguments.normalTolerance > 0
+                 ? fmt::format("of {:.4g} degrees allowed", s.arguments.normalTolerance)
+                 : "degrees off");
   if (const auto most = std::ranges::max_element(folds); *most > 0)
     fmt::print("{} triangles fold over, most in {} ({}); sweepface measure tells more\n",
                std::reduce(folds.begin(), folds.end()),

@@ -60,6 +60,11 @@ struct FurthestVertex {
 /// the source's order.
 FurthestVertex furthestVertex(const Rig& rig, const MeshRig& source);
 
+/// The angle between the surface's normal and the source's vertex normal: the root of its mean
+/// square over all vertices of the neutral and of every target, in degrees. `source` is what the
+/// rig was made from, with its targets in the same order, and the rig knows the source's order.
+double normalRms(const Rig& rig, const MeshRig& source);
+
 /// How many level-4 triangles of a rig's surface look the other way than their source facet, in the
 /// neutral and after it in every target: [1 + K]. `source` is what the rig was made from, with its
 /// targets in the same order, and the rig knows the source's order.

@@ -7,11 +7,11 @@
 #include <utility>
 
 #include "sweepface/fit.hpp"
+#include "sweepface/measure.hpp"
 
 #include "codec/limits.hpp"
 #include "fit/assemble.hpp"
 #include "fit/check_source.hpp"
-#include "fit/normal_error.hpp"
 #include "fit/normals_out_of_reach.hpp"
 #include "fit/quantise.hpp"
 

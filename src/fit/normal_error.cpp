@@ -1,8 +1,7 @@
-#include "fit/normal_error.hpp"
-
 #include <cmath>
 
 #include "sweepface/eval.hpp"
+#include "sweepface/measure.hpp"
 
 #include "fit/corner_places.hpp"
 #include "fit/vertex_normals.hpp"

@@ -7,7 +7,6 @@
 #include "sweepface/measure.hpp"
 
 #include "faces.hpp"
-#include "fit/normal_error.hpp"
 
 namespace sweepface {
 namespace {

@@ -4,7 +4,6 @@
 #include "sweepface/measure.hpp"
 
 #include "faces.hpp"
-#include "fit/normal_error.hpp"
 
 namespace sweepface {
 namespace {

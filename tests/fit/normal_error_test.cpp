@@ -1,5 +1,3 @@
-#include "fit/normal_error.hpp"
-
 #include "sweepface/fit.hpp"
 #include "sweepface/measure.hpp"
 
