@@ -90,9 +90,9 @@ Result<std::vector<double>> sampleTimes(const AnimateArguments& a, const Perform
   for (int k = 0; k <= last; ++k)
     times.push_back(rate > 0 ? k / rate : performance.seconds * (static_cast<double>(k) / last));
   // Keys hold on for ever: the end is one even between two frames. A mesh is for a frame.
-  constexpr double kSame = 1e-4;
+  const double same = std::min(1e-4, 0.5 * performance.seconds);
   const bool hasKeys = isOfKind(a.output, ".glb") || isOfKind(a.output, ".csv");
-  if (hasKeys && performance.seconds > times.back() + kSame) times.push_back(performance.seconds);
+  if (hasKeys && performance.seconds > times.back() + same) times.push_back(performance.seconds);
   return times;
 }
 
@@ -100,11 +100,12 @@ Result<std::vector<double>> sampleTimes(const AnimateArguments& a, const Perform
 
 Result<void> makeFolder(const fs::path& folder) {
   if (folder.empty()) return fail("The name of the output is empty; name a folder or a file.");
-  std::error_code error;
+  std::error_code error, ignored;
   fs::create_directories(folder, error);
-  if (fs::is_directory(folder)) return {};
+  if (fs::is_directory(folder, ignored)) return {};
+  const bool isFile = fs::exists(folder, ignored) || !error;
   return fail(fmt::format("Cannot make the folder {}: {}.", folder.string(),
-                          error ? error.message() : "a file is in its place"));
+                          isFile ? "a file is in its place" : error.message()));
 }
 
 /// Writes the frames in parallel; the answer is that of the first one that failed.

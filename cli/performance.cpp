@@ -71,7 +71,11 @@ Result<Performance> byLaw(const PerformanceArguments& a, const Rig& rig, const M
                     a.law));
   const double seconds = inMatter({.seconds = a.seconds, .spring = {}}, matter).seconds;
   auto motion = Motion::make(*from, *to, *law, seconds);
-  if (!motion) return std::unexpected(motion.error());
+  if (!motion)
+    return fail(
+        fmt::format("In {:.4g} s it moves too fast for its speed and force to be numbers; "
+                    "give it more --seconds.",
+                    seconds));
   Performance performance;
   performance.name = a.law;
   performance.seconds = matter.delay + seconds;
@@ -231,8 +235,9 @@ void checkUse(const CLI::App& app, const PerformanceArguments& a) {
     const std::vector<std::string> several = laws->results();
     return std::ranges::find(several, law) != several.end();
   };
-  // Heavy regions of a clip hang on springs.
-  const bool hangs = !a.clip.empty() && app.get_option_no_throw("--regions");
+  // Heavy regions of a clip hang on springs; it may come with some of its own.
+  const bool hangs =
+      !a.clip.empty() && (app.get_option_no_throw("--regions") || isOfKind(a.clip, ".json"));
   for (const char* option : {"--frequency", "--damping"})
     refuse(option, plays("spring") || hangs, "Only spring swings; leave this out.");
   refuse("--restitution", plays("bounce"), "Only bounce comes back; leave this out.");

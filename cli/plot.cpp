@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <iterator>
 #include <limits>
+#include <numbers>
 
 #include "sweepface/eval.hpp"
 #include "sweepface/io.hpp"
@@ -59,13 +60,49 @@ void addOptions(CLI::App& app, PlotArguments& a) {
 
 // ---- What is shown ----
 
-/// When to look: evenly, often enough for a spring's swings, and at a clip's own frames.
-std::vector<double> looksAt(const PerformanceArguments& what, const Performance& performance) {
-  constexpr double kFewest = 240, kMost = 1e5, kASwing = 24;
-  const double swings = what.law == "spring" ? what.frequency * performance.seconds : 0;
-  const double count = std::clamp(std::ceil(swings * kASwing), kFewest, kMost);
+// What is smaller than this share of the way cannot be seen.
+constexpr double kVisible = 1e-3;
+
+/// How often a law swings or bounces visibly, and when first to look at each.
+struct Repeats {
+  double count = 0;
+  std::function<double(double repeat)> startOf;
+};
+
+Repeats swings(const PerformanceArguments& what, double seconds) {
+  const double dying = -std::log(kVisible) / (2 * std::numbers::pi * std::min(what.damping, 1.0));
+  return {std::min(what.frequency * seconds, 1 + dying),
+          [f = what.frequency](double swing) { return swing / f; }};
+}
+
+/// Bounce n is e²ⁿ high and lasts 2 eⁿ falls; bounce 0 is the second half of one, the fall itself.
+Repeats bounces(const PerformanceArguments& what, double seconds) {
+  const double e = what.restitution, fall = seconds * (1 - e) / (1 + e);
+  return {e > 0 ? 1 + std::log(kVisible) / (2 * std::log(e)) : 1, [e, fall](double bounce) {
+            return bounce == 0 ? 0 : fall * (1 + 2 * e * (1 - std::pow(e, bounce - 1)) / (1 - e));
+          }};
+}
+
+/// When to look: evenly, often enough for what swings or bounces, and at a clip's own frames.
+Result<std::vector<double>> looksAt(const PerformanceArguments& what,
+                                    const Performance& performance) {
+  constexpr double kEvenly = 240, kMost = 4000, kARepeat = 24;
+  const double seconds = performance.seconds;
   std::vector<double> times = performance.frameTimes;
-  for (double k = 0; k <= count; ++k) times.push_back(performance.seconds * k / count);
+  for (double k = 0; k <= kEvenly; ++k) times.push_back(seconds * k / kEvenly);
+  Repeats repeats;
+  if (what.clip.empty() && what.law == "spring") repeats = swings(what, seconds);
+  if (what.clip.empty() && what.law == "bounce") repeats = bounces(what, seconds);
+  if (repeats.count > kMost)
+    return fail(
+        fmt::format("{:.4g} swings or bounces are more than a plot can show; give it fewer "
+                    "--seconds, more --damping or less --restitution.",
+                    repeats.count));
+  for (double n = 0; n < repeats.count; ++n) {
+    const double start = repeats.startOf(n), end = std::min(repeats.startOf(n + 1), seconds);
+    for (double k = 0; k < kARepeat; ++k) times.push_back(std::lerp(start, end, k / kARepeat));
+    times.push_back(std::lerp(start, end, 1 - 1e-9));  // where a bounce is about to turn
+  }
   std::ranges::sort(times);
   times.erase(std::ranges::unique(times).begin(), times.end());
   return times;
@@ -165,7 +202,9 @@ void addCurves(Curves& curves, const Performance& performance, std::span<const d
   static constexpr std::array colours{"#8a8e96", "#1a6aa8", "#d63f29", "#2a9d55",
                                       "#b8860b", "#7b4fa3", "#1b9aaa", "#e07a9a"};
   const std::size_t place = curves[0].size();
-  for (auto& panel : curves) panel.push_back({name, colours[place % colours.size()], {}});
+  const bool isDashed = place / colours.size() % 2 == 1;  // where colours come again
+  for (auto& panel : curves)
+    panel.push_back({name, colours[place % colours.size()], {}, false, isDashed});
   const std::size_t count = subject.differences.size();
   std::vector<Kinematics> now(count);
   std::vector<double> start(count), values(count);
@@ -183,8 +222,13 @@ void addCurves(Curves& curves, const Performance& performance, std::span<const d
   }
 }
 
+struct Plotted {
+  Curves curves;
+  std::vector<std::string> notes;  // what the user should know
+};
+
 /// Parts of a timeline's regions are added to the rig.
-Result<Curves> curvesOf(const PlotArguments& a, Rig& rig) {
+Result<Plotted> curvesOf(const PlotArguments& a, Rig& rig) {
   const std::vector<std::string> laws = a.laws.empty() ? std::vector{a.what.law} : a.laws;
   std::vector<Performance> performances;
   std::vector<std::vector<double>> times;
@@ -193,7 +237,9 @@ Result<Curves> curvesOf(const PlotArguments& a, Rig& rig) {
     what.law = law;
     Result<Performance> performance = perform(what, {}, {}, rig);
     if (!performance) return std::unexpected(performance.error());
-    times.push_back(looksAt(what, *performance));
+    auto looks = looksAt(what, *performance);
+    if (!looks) return std::unexpected(looks.error());
+    times.push_back(std::move(*looks));
     performances.push_back(std::move(*performance));
   }
   const auto subjects = subjectsOf(a, rig, performances.front(), times.front());
@@ -213,7 +259,7 @@ Result<Curves> curvesOf(const PlotArguments& a, Rig& rig) {
           return fail(
               "The motion or its force is beyond what numbers hold; give it other seconds, "
               "weights or another --mass.");
-  return curves;
+  return Plotted{std::move(curves), std::move(performances.front().notes)};
 }
 
 Result<int> runPlot(const PlotArguments& a) {
@@ -223,15 +269,18 @@ Result<int> runPlot(const PlotArguments& a) {
   if (!rig) return std::unexpected(rig.error());
   if (auto ok = checkOutput(a.output, {a.face, a.what.clip}, {".svg"}, !a.quiet); !ok)
     return std::unexpected(ok.error());
-  const Result<Curves> curves = curvesOf(a, *rig);
-  if (!curves) return std::unexpected(curves.error());
+  const Result<Plotted> plotted = curvesOf(a, *rig);
+  if (!plotted) return std::unexpected(plotted.error());
+  const auto& [positions, velocities, accelerations, forces] = plotted->curves;
   const std::string svg =
-      plotSheet({linePlot("Position", {"seconds"}, {"way"}, (*curves)[0]),
-                 linePlot("Velocity", {"seconds"}, {"per second"}, (*curves)[1]),
-                 linePlot("Acceleration", {"seconds"}, {"per second²"}, (*curves)[2]),
-                 linePlot("Force", {"seconds"}, {"mass × per second²"}, (*curves)[3])});
+      plotSheet({linePlot("Position", {"seconds"}, {"way"}, positions),
+                 linePlot("Velocity", {"seconds"}, {"per second"}, velocities),
+                 linePlot("Acceleration", {"seconds"}, {"per second²"}, accelerations),
+                 linePlot("Force", {"seconds"}, {"mass × per second²"}, forces)});
   if (auto written = writeFile(a.output, svg); !written) return std::unexpected(written.error());
-  if (!a.quiet) fmt::print("{}: {} curves\n", a.output, (*curves)[0].size());
+  for (const std::string& note : plotted->notes) printWarning(note);
+  if (!a.quiet)
+    fmt::print("{}: {} curve{}\n", a.output, positions.size(), positions.size() == 1 ? "" : "s");
   return 0;
 }
 

@@ -20,7 +20,7 @@ struct Axis {
   bool logarithmic = false;  ///< what is not positive is left out then
 };
 
-/// Curves over a common axis.
+/// Curves over a common axis; empty where there is nothing to show.
 std::string linePlot(const std::string& title, const Axis& x, const Axis& y,
                      std::vector<Series> series);
 
@@ -31,7 +31,7 @@ std::string rowPlot(const std::string& title, const std::string& axis,
                     double limit);
 
 /// Plots of linePlot() two by two, as a file of its own.
-std::string plotSheet(const std::vector<std::string>& plots);
+std::string plotSheet(std::vector<std::string> plots);
 
 /// Numbers that are easy to read, from no more than the smallest value to no less than the largest.
 std::vector<double> niceTicks(double low, double high, bool logarithmic);

@@ -26,6 +26,9 @@ namespace sweepface::capi {
 /// Refuses where a rig shows its neutral only, as what its targets do was not loaded.
 sweepface_status needTargets(const Rig& rig);
 
+/// How many vertices a mesh may have, about one a quad: asked before anyone makes room for them.
+inline constexpr double kMostVertices = 1 << 24;
+
 /// The regions of a face; none: one that is everywhere.
 struct Division {
   std::vector<std::string> names;

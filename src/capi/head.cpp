@@ -30,6 +30,8 @@ sweepface_status sweepface_rig_turn_eyes(sweepface_rig* rig, uint32_t* eyes) {
   if (rig->rig.use_count() > 1)
     return refuse("Eyes must turn before a rig has meshes; free them, or load it again.");
   if (const auto status = needTargets(*rig->rig)) return status;
+  if (static_cast<double>(rig->rig->surface.wireframe().quadCount()) > kMostVertices)
+    return refuse("The face has too many vertices to look for eyes.");
   const std::vector<Eye> found = findEyes(*rig->rig);
   *eyes = static_cast<uint32_t>(found.size());
   if (found.empty()) return SWEEPFACE_OK;

@@ -8,9 +8,6 @@ using namespace sweepface::capi;
 
 namespace {
 
-// How many vertices a level has, about one a quad, is asked before anyone makes room for them.
-constexpr double kMostVertices = 1 << 24;
-
 sweepface_status makeMesh(const sweepface_rig& rig, Index lod, Tessellation grid,
                           RenderMesh (*rendered)(const Rig&, const Tessellation&),
                           sweepface_mesh** mesh) {

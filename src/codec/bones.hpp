@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <span>
 #include <vector>
 
@@ -98,9 +99,12 @@ Index codeBones(Symbols<Coder>& symbols, const Hierarchy& hierarchy, std::vector
   return count;
 }
 
+/// Answers how many bits its numbers have.
 template <typename Coder>
-void codeCarries(Symbols<Coder>& symbols, Index bones, std::vector<Packing::Carry>& carries) {
+std::uint64_t codeCarries(Symbols<Coder>& symbols, Index bones,
+                          std::vector<Packing::Carry>& carries) {
   std::size_t next = 0;
+  std::uint64_t bits = 0;
   for (Index b = 0; b < bones && symbols.ok(); ++b) {
     const bool told = next < carries.size() && carries[next].bone == b;
     if (!symbols.bit(kCarries, static_cast<std::uint32_t>(b), 0, told)) continue;
@@ -109,10 +113,13 @@ void codeCarries(Symbols<Coder>& symbols, Index bones, std::vector<Packing::Carr
     for (std::uint32_t k = 0; k < 4; ++k)
       for (std::int32_t& x : by[k]) {
         const std::int64_t steps = symbols.signedNumber(kCarry, k > 0, 0, x);
-        if (std::abs(steps) > kMostCarried) return symbols.refuse("a bone is carried too far");
+        if (std::abs(steps) > kMostCarried) symbols.refuse("a bone is carried too far");
+        if (!symbols.ok()) return bits;
         x = static_cast<std::int32_t>(steps);
+        bits += std::bit_width(static_cast<std::uint64_t>(std::abs(steps))) + 1;
       }
   }
+  return bits;
 }
 
 }  // namespace sweepface::codec

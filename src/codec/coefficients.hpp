@@ -63,6 +63,8 @@ class CoefficientCoder {
 
   /// Reading ends where coefficients have more bits in all.
   void setMostBits(std::uint64_t most) { mostLength_ = most; }
+  /// Of what else counts among them.
+  void countBits(std::uint64_t bits) { length_ += bits; }
   bool hasTooManyBits() const { return length_ > mostLength_; }
 
  private:

@@ -118,7 +118,9 @@ void readScene(Decoding& d, Reader& in) {
   if (d.afford(in, in.left(), 1)) d.rig->scene = in.text();
 }
 void readThingNames(Decoding& d, Reader& in) {
-  d.rig->names = readNames(in, d.rig->surface.wireframe());
+  // A name takes a byte at least, and is looked for among the others.
+  if (d.afford(in, in.left(), sizeof(std::string) + sizeof(std::string_view)))
+    d.rig->names = readNames(in, d.rig->surface.wireframe());
 }
 
 // Vectors that are not whole multiples of steps: by pose, as they are.

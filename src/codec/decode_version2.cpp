@@ -63,8 +63,11 @@ void readGrid(Decoding& d, Reader& in) {
 void readTargetNames(Decoding& d, Reader& in) {
   decodeRest(in, [&](RangeDecoder&, Symbols<RangeDecoder>& symbols) {
     NameCoder names(symbols);
+    std::size_t left = within(kMostLetters, kLettersAByte, kLettersAnyway, d.fileSize);
     for (std::size_t k = 0; k < d.targets && symbols.ok() && in.ok(); ++k) {
       const std::string name = names.code("");
+      if (name.size() > left) return symbols.refuse("its names are too long for so few bytes");
+      left -= name.size();
       if (d.afford(in, name.size(), kBytesALetter)) d.addTarget(in, name);
     }
   });
@@ -73,9 +76,10 @@ void readTargetNames(Decoding& d, Reader& in) {
 // Poses one after the other. All but what is being read is kept as what moves: that is little.
 class PoseReader {
  public:
-  PoseReader(Decoding& d, RangeDecoder& coder, Symbols<RangeDecoder>& symbols, bool neutral,
-             std::size_t bytes)
+  PoseReader(Decoding& d, Reader& in, RangeDecoder& coder, Symbols<RangeDecoder>& symbols,
+             bool neutral, std::size_t bytes)
       : d_(d),
+        in_(in),
         lattice_(*d.lattice),
         symbols_(symbols),
         vectors_(lattice_.hierarchy(), coder, lattice_.axis(), neutral),
@@ -93,7 +97,8 @@ class PoseReader {
     if (!symbols_.ok()) return;
     Likeness like;
     codeLikeness(symbols_, form, like, pose);
-    codeCarries(symbols_, bones_, form.carries);
+    vectors_.countBits(codeCarries(symbols_, bones_, form.carries));
+    if (!d_.afford(in_, form.carries.size(), kBytesACarry)) symbols_.refuse(kTooMuchMemory);
     if (!symbols_.ok()) return;
     vectors_.code(current_, symmetryOf(form, pose), partnerOf(packing, lattice_, moved_, pose),
                   movedIn(like, lattice_, moved_));
@@ -119,6 +124,7 @@ class PoseReader {
 
  private:
   Decoding& d_;
+  Reader& in_;
   const Lattice& lattice_;
   Symbols<RangeDecoder>& symbols_;
   CoefficientCoder<RangeDecoder> vectors_;
@@ -132,7 +138,7 @@ void readPoses(Decoding& d, Reader& in, Index first, Index end) {
   const std::size_t bytes = in.left();
   decodeRest(in, [&](RangeDecoder& coder, Symbols<RangeDecoder>& symbols) {
     d.rig->packing.poses.resize(end);
-    PoseReader poses(d, coder, symbols, first == 0, bytes);
+    PoseReader poses(d, in, coder, symbols, first == 0, bytes);
     if (first > 0) poses.readBones();
     for (Index pose = first; pose < end && symbols.ok(); ++pose) poses.read(pose);
     if (symbols.ok()) poses.restore(first, end);
@@ -190,7 +196,8 @@ void readTextureSteps(Decoding& d, Reader& in) {
 }
 
 void readTargetTurns(Decoding& d, Reader& in) {
-  d.rig->turns = readTurns(in, d.rig->targets.size());
+  // A turn takes a byte at least.
+  if (d.afford(in, in.left(), sizeof(Turn))) d.rig->turns = readTurns(in, d.rig->targets.size());
 }
 
 }  // namespace

@@ -163,10 +163,12 @@ class FaceCoder {
   }
 
   void codeOddFace(Index f, Index first) {
-    const std::uint32_t size =
-        3 + s_.number(kSize, 0, 0, kWrites<Coder> ? faces_.faceSize(f) - 3 : 0);
+    const std::uint32_t beyond =
+        s_.number(kSize, 0, 0, kWrites<Coder> ? faces_.faceSize(f) - 3 : 0);
+    if (total_ + 3 > most_ || beyond > most_ - total_ - 3)
+      return s_.refuse("the faces have too many corners");
+    const std::uint32_t size = 3 + beyond;
     total_ += size;
-    if (total_ > most_) return s_.refuse("the faces have too many corners");
     for (std::uint32_t k = 0; k < size && s_.ok(); ++k) {
       const std::int64_t vertex =
           std::int64_t{last_} +

@@ -19,6 +19,10 @@ inline constexpr std::size_t kMostVectors = std::size_t{1} << 25, kVectorsAByte 
 /// any bytes, but time.
 inline constexpr std::uint64_t kBitsAByte = 1024, kBitsAnyway = std::uint64_t{1} << 22;
 
+/// Letters of all targets' names: what comes again takes hardly any bytes, but time.
+inline constexpr std::size_t kMostLetters = std::size_t{1} << 28, kLettersAByte = 128,
+                             kLettersAnyway = std::size_t{1} << 20;
+
 /// Nodes, arcs and patches that a wireframe may have.
 inline constexpr std::size_t kMostPatches = std::size_t{1} << 19, kPatchesAByte = 256,
                              kPatchesAnyway = 16384;
@@ -36,10 +40,10 @@ constexpr std::size_t mostEntries(std::size_t bytes) {
 }
 
 /// What a patch of the wireframe with its nodes and arcs, a stored vector of a pose, and a quad at
-/// level 1 with its corners and a letter of a name take while a file is read, in bytes, rounded up
-/// from measurements.
+/// level 1 with its corners, a letter of a name and what a bone carries in a pose take while a file
+/// is read, in bytes, rounded up from measurements.
 inline constexpr std::size_t kBytesAPatch = 4000, kBytesAVector = 40, kBytesAQuad = 400,
-                             kBytesALetter = 4;
+                             kBytesALetter = 4, kBytesACarry = 128;
 
 /// The same for whatever else the source's order, faces and texture have; a name takes as much as
 /// some letters.

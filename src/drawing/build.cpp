@@ -6,6 +6,7 @@
 #include "sweepface/box.hpp"
 #include "sweepface/eval.hpp"
 
+#include "codec/limits.hpp"
 #include "drawing/bend.hpp"
 #include "drawing/frames.hpp"
 #include "drawing/materials.hpp"
@@ -110,9 +111,14 @@ class Builder {
     surface = Surface::make(std::move(plain));
     if (!surface) return failNamed(d_, w_, surface.error().message);
     plain_ = std::move(*surface);
+    const std::size_t poses = 1 + d_.expressions.size();
+    if (static_cast<std::size_t>(plain_.storedCount()) * poses > codec::kMostVectors)
+      return refuse({}, fmt::format("it stores {} vectors in each of {} shapes, together more than "
+                                    "the {} of a file; give fewer expressions",
+                                    plain_.storedCount(), poses, codec::kMostVectors));
     jets_.emplace(plain_);
     known_.assign(plain_.storedCount(), false);
-    poses_.assign(1 + d_.expressions.size(), Pose(plain_.storedCount()));
+    poses_.assign(poses, Pose(plain_.storedCount()));
     return {};
   }
 

@@ -47,6 +47,23 @@ class Lines {
     return longest;
   }
 
+  /// No more than the vertices of a tessellation whose edges are as short as that: chords are no
+  /// longer than their lines.
+  double countWith(double edgeLength) const {
+    const auto between = [&](Index line) {
+      const double edges = edgesOf(line);
+      double length = 0;
+      for (int k = 0; k < kSamples; ++k)
+        length += norm(at(line, (k + 1) * edges / kSamples) - at(line, k * edges / kSamples));
+      return std::max(0.0, std::min(length / edgeLength, kFinest * edges) - 1);
+    };
+    double count = 0;
+    for (Index a = 0; a < arcs_; ++a) count += between(a);
+    for (Index p = 0; p < surface_.patchCount(); ++p)
+      count += between(arcs_ + 2 * p) * between(arcs_ + 2 * p + 1);
+    return count;
+  }
+
   /// Vertices of a tessellation with this density.
   std::int64_t count(const Density& density) const {
     const Wireframe& w = surface_.wireframe();
@@ -99,11 +116,11 @@ class Lines {
   }
 
   bool fits(Index line, Index segments, double value) {
-    std::vector<double>& known = measured_[line];
-    const auto k = static_cast<std::size_t>(segments);
-    if (known.size() <= k) known.resize(k + 1, -1);
-    if (known[k] < 0) known[k] = measure(kind_, line, segments);
-    return known[k] <= value;
+    std::vector<Measured>& known = measured_[line];
+    auto found = std::ranges::lower_bound(known, segments, {}, &Measured::segments);
+    if (found == known.end() || found->segments != segments)
+      found = known.insert(found, {segments, measure(kind_, line, segments)});
+    return found->most <= value;
   }
 
   /// By doubling, and then by halving what the last doubling added: more segments are hardly ever
@@ -120,12 +137,18 @@ class Lines {
     }
   }
 
+  /// What measure() says of so many segments.
+  struct Measured {
+    Index segments;
+    double most;
+  };
+
   const Surface& surface_;
   std::span<const Vec3> vectors_;
   Budget::Kind kind_;
   Index arcs_;
   Density coarsest_;
-  std::vector<std::vector<double>> measured_;  // [lines] by the number of segments; -1: not yet
+  std::vector<std::vector<Measured>> measured_;  // [lines]
 };
 
 /// The smallest error, to a hundredth of it, that so many vertices allow; the coarsest density if
@@ -173,12 +196,18 @@ Result<Density> densityFor(const Surface& surface, std::span<const Vec3> vectors
       return fail("A mesh has at most ", kMostVertices, " vertices; ask for no more.");
     return within(surface, lines, budget.value);
   }
+  const auto tooFine = [](double count) {
+    return fail("So fine a mesh has about ", static_cast<std::int64_t>(std::min(count, 1e18)),
+                " vertices; ask for a coarser one.");
+  };
   const bool byError = budget.kind == Budget::Kind::error;
+  if (!byError)
+    if (const double count = lines.countWith(budget.value); count > kMostVertices)
+      return tooFine(count);
   const double least = byError ? kLeastError * lines.longest() : 0;
   Density density = lines.cut(std::max(budget.value, least));
-  const std::int64_t count = lines.count(density);
-  if (count > kMostVertices)
-    return fail("So fine a mesh has about ", count, " vertices; ask for a coarser one.");
+  const auto count = static_cast<double>(lines.count(density));
+  if (count > kMostVertices) return tooFine(count);
   return density;
 }
 

@@ -35,13 +35,11 @@ inline constexpr int kBasisShift = 8;  // of a basis of 8 bits
 ///   pairs         [blocks] BlockPairs
 ///   shifts        [blocks][16] uint8: of coefficients of 8 bits
 ///   targets       [2 × pairs] uint16, those of 16 bits first
-///   coefficients  [blocks]: block b holds coefficients 16b … 16b + 15 for two targets side by
-///   side,
+///   coefficients  [blocks]: those from 16b to 16b + 15 in block b, for two targets side by side:
 ///                 [wide][16 × 2] int16 and then [narrow][16 × 2] int8 · 2^shift;
 ///                 coefficient 6p + 2c + h is component c of mode 2p + h
-///   basis         [groups][modePairs][16 × 2] int16, from wideModePairs on int8 in units of 2⁸:
-///   two
-///                 modes side by side
+///   basis         [groups][modePairs][16 × 2], two modes side by side: int16, and from
+///                 wideModePairs on int8 in units of 2⁸
 ///   neutral       [groups][3][16] int16 · step + origin
 ///   vertices      [32] uint16 or uint32: where they go
 struct TileHead {

@@ -29,8 +29,10 @@ struct PoseSamples {
 /// Those of ascending errors.
 ErrorSummary summaryOfSorted(std::span<const double> errors) {
   if (errors.empty()) return {};
+  // The least of which so many are no larger.
   const auto quantile = [&](double q) {
-    return errors[static_cast<std::size_t>(q * static_cast<double>(errors.size() - 1))];
+    const double rank = std::ceil(q * static_cast<double>(errors.size()));
+    return errors[static_cast<std::size_t>(std::max(rank - 1, 0.0))];
   };
   double sum = 0;
   for (const double e : errors) sum += e * e;

@@ -63,6 +63,11 @@ class ClipReader {
   Result<void> readAnimation(Members& in) {
     const Json &channels = in.array("channels"), &samplers = in.array("samplers");
     if (!in.ok()) return in.error();
+    struct Channel {
+      const RigMesh* mesh;
+      std::size_t node, sampler;
+    };
+    std::vector<Channel> found;
     for (std::size_t c = 0; c < channels.size(); ++c) {
       Members channel(channels[c], fmt::format("{}, channel {}", in.place(), c));
       Members target(channel.object("target"), channel.place());
@@ -72,13 +77,16 @@ class ClipReader {
       if (!channel.ok()) return channel.error();
       if (!target.ok()) return target.error();
       if (!weights || !node) continue;
-      const RigMesh* const mesh = meshOf(*node);
-      if (!mesh) continue;
+      if (const RigMesh* const mesh = meshOf(*node)) found.push_back({mesh, *node, sampler});
+    }
+    // The order of channels means nothing.
+    std::ranges::stable_sort(found, {},
+                             [](const Channel& c) { return std::pair(c.mesh->mesh, c.node); });
+    for (const auto& [mesh, node, sampler] : found)
       if (auto ok = readTrack(*mesh, samplers[sampler],
                               fmt::format("{}, sampler {}", in.place(), sampler));
           !ok)
         return ok;
-    }
     return {};
   }
 
@@ -101,9 +109,10 @@ class ClipReader {
     const std::size_t accessors = document_.list("accessors").size();
     const std::size_t input = in.index("input", accessors, "accessors"),
                       output = in.index("output", accessors, "accessors");
+    // Where several meshes have a target, the first one's weight counts.
+    if (!played_.insert(mesh.mesh).second) return {};
     Track track;
     for (const std::size_t t : mesh.targets) track.names.push_back(parts_.targets[t]);
-    // Where several meshes have a target, the first one's weight counts.
     const auto isKnown = [&](const std::string& name) { return known_.contains(name); };
     if (std::ranges::all_of(track.names, isKnown)) return {};
     track.interpolation = in.has("interpolation") ? in.text("interpolation") : "LINEAR";
@@ -164,6 +173,12 @@ class ClipReader {
                     names_.size(), mostFrames()));
   }
 
+  static void sortOut(std::vector<double>& times) {
+    std::ranges::sort(times);
+    const auto same = [](double a, double b) { return b - a < 1e-9; };
+    times.erase(std::unique(times.begin(), times.end(), same), times.end());
+  }
+
   /// All keys; more on curves, and just before what holds changes.
   Result<std::vector<double>> frames() const {
     std::vector<double> times;
@@ -177,13 +192,15 @@ class ClipReader {
             times.push_back(before);
         if (track.interpolation != "CUBICSPLINE") continue;
         const double pieces = std::ceil(span * kCurveRate);
-        if (static_cast<double>(times.size()) + pieces > static_cast<double>(mostFrames()))
-          return tooLong();
+        const auto room = [&](std::size_t frames) {
+          return static_cast<double>(times.size()) + pieces <= static_cast<double>(frames);
+        };
+        // Tracks may have their frames in common.
+        if (!room(2 * mostFrames())) sortOut(times);
+        if (!room(2 * mostFrames())) return tooLong();
         for (double p = 1; p < pieces; ++p) times.push_back(track.times[k] + span * p / pieces);
       }
-    std::ranges::sort(times);
-    const auto same = [](double a, double b) { return b - a < 1e-9; };
-    times.erase(std::unique(times.begin(), times.end(), same), times.end());
+    sortOut(times);
     return times;
   }
 
@@ -208,7 +225,8 @@ class ClipReader {
   const Document& document_;
   const Parts& parts_;
   std::vector<Track> tracks_;
-  std::size_t held_ = 0;  // values of them all
+  std::size_t held_ = 0;          // values of them all
+  std::set<std::size_t> played_;  // meshes
   std::vector<std::string> names_;
   std::set<std::string> known_;                               // the names
   std::vector<std::pair<std::size_t, std::size_t>> sources_;  // [names] track, and place in it

@@ -14,12 +14,13 @@ Result<RigSource> readGltf(std::string_view bytes, const std::filesystem::path& 
   if (!document) return std::unexpected(document.error());
   const auto parts = gltf::findParts(*document);
   if (!parts) return std::unexpected(parts.error());
-  auto rig = gltf::readMeshRig(*document, *parts);
-  if (!rig) return std::unexpected(rig.error());
-  const auto same = gltf::sameVertices(*document, *parts, weld(*rig));
+  auto read = gltf::readMeshRig(*document, *parts);
+  if (!read) return std::unexpected(read.error());
+  auto& [rig, facePart] = *read;
+  const auto same = gltf::sameVertices(*document, *parts, weld(rig));
   if (!same) return std::unexpected(same.error());
-  rig->neutral.polygons = recoverQuads(*rig, *same).polygons;
-  RigSource source{std::move(*rig), {}, document->warnings};
+  rig.neutral.polygons = recoverQuads(rig, *same, facePart).polygons;
+  RigSource source{std::move(rig), {}, document->warnings};
   auto scene = gltf::makeScene(std::move(*document), *parts, folder);
   if (!scene) return std::unexpected(scene.error());
   source.scene = std::move(scene->glb);

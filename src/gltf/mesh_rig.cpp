@@ -26,7 +26,7 @@ class RigReader {
         materials_(rig_.neutral.polygons.materials),
         groups_(rig_.neutral.polygons.groups) {}
 
-  Result<MeshRig> read() {
+  Result<PartedRig> read() {
     if (auto ok = checkRoom(); !ok) return std::unexpected(ok.error());
     for (const Run& run : parts_.runs)
       if (auto ok = addNeutral(run); !ok) return std::unexpected(ok.error());
@@ -37,8 +37,8 @@ class RigReader {
     for (const Part& part : parts_.parts)
       if (auto ok = addPart(part); !ok) return std::unexpected(ok.error());
     if (rig_.neutral.polygons.faceCount() == 0)
-      return fail("all of its triangles name a vertex twice; export the file again.");
-    return std::move(rig_);
+      return fail("it has no triangle of three different vertices; export the file again.");
+    return PartedRig{std::move(rig_), std::move(facePart_)};
   }
 
  private:
@@ -117,6 +117,7 @@ class RigReader {
     const auto faces = static_cast<std::size_t>(rig_.neutral.polygons.faceCount());
     rig_.neutral.polygons.faceMaterial.resize(faces, material);
     rig_.neutral.polygons.faceGroup.resize(faces, groups_(meshName(run)));
+    facePart_.resize(faces, static_cast<Index>(&part - parts_.parts.data()));
     return {};
   }
 
@@ -166,6 +167,7 @@ class RigReader {
   const Document& document_;
   const Parts& parts_;
   MeshRig rig_;
+  std::vector<Index> facePart_;
   io::NameIndex materials_, groups_;
   std::size_t corners_ = 0;
   std::map<std::pair<Json, Json>, Index> texcoords_;  // first of each accessor and material
@@ -173,10 +175,12 @@ class RigReader {
 
 }  // namespace
 
-Result<MeshRig> readMeshRig(const Document& document, const Parts& parts) {
-  auto rig = RigReader(document, parts).read();
-  if (rig && rig->neutral.polygons.texcoords.empty()) rig->neutral.polygons.cornerTexcoords.clear();
-  return rig;
+Result<PartedRig> readMeshRig(const Document& document, const Parts& parts) {
+  auto read = RigReader(document, parts).read();
+  if (!read) return read;
+  Polygons& polygons = read->rig.neutral.polygons;
+  if (polygons.texcoords.empty()) polygons.cornerTexcoords.clear();
+  return read;
 }
 
 }  // namespace sweepface::gltf

@@ -6,8 +6,13 @@
 
 namespace sweepface::gltf {
 
-/// The rig of a file's parts in the space of its scene, with triangles for faces. Its memory stays
-/// in proportion to the bytes that were read.
-Result<MeshRig> readMeshRig(const Document& document, const Parts& parts);
+/// The rig of a file's parts in the space of its scene, with triangles for faces.
+struct PartedRig {
+  MeshRig rig;
+  std::vector<Index> facePart;  ///< [faces] in Parts::parts
+};
+
+/// Its memory stays in proportion to the bytes that were read.
+Result<PartedRig> readMeshRig(const Document& document, const Parts& parts);
 
 }  // namespace sweepface::gltf

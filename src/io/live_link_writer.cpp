@@ -109,7 +109,7 @@ Result<void> check(const Clip& clip, const std::vector<Column>& columns, double 
   if (auto ok = io::checkFrameRate(framesPerSecond); !ok) return ok;
   if (clip.times.empty()) return fail("The clip has no frames.");
   if (!(clip.times.front() >= 0 && clip.times.back() < 86400))
-    return fail("The times of a recording lie from 0 to below a day; this clip's do not.");
+    return fail("The times of a recording lie from 0 to below a day; cut the clip.");
   std::set<std::string> headings;
   for (const Column& column : columns) {
     if (io::sameLetters(column.heading, "Timecode") ||
@@ -157,8 +157,8 @@ Result<std::string> formatLiveLinkCsv(const Clip& clip, double framesPerSecond) 
     if (f > 0 && !time.isAfter({clip.times[f - 1], framesPerSecond}))
       return fail(
           fmt::format("Frames {} and {} of the clip are too near to each other for a "
-                      "timecode; give a rate.",
-                      f - 1, f));
+                      "timecode at {:.6g} frames a second; ask for fewer, or for another rate.",
+                      f - 1, f, framesPerSecond));
     text += fmt::format("\n{},{}", time.text(), columns.size());
     for (const Column& column : columns) {
       double value = column.sources.empty() ? 0 : -HUGE_VAL;

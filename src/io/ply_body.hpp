@@ -92,7 +92,7 @@ class AsciiBody {
     return words_.rest().empty() || failed("there are more values than the header's properties");
   }
 
-  std::size_t bytesLeft() const { return words_.rest().size() + lines_.rest().size(); }
+  std::size_t bytesLeft() const { return words_.bytesLeft() + lines_.rest().size(); }
   std::string place() const { return "line " + std::to_string(headerLines_ + lines_.number()); }
   const std::string& problem() const { return problem_; }
 

@@ -125,6 +125,12 @@ Result<std::vector<PaintedRegion>> parseRegions(std::string_view text, std::stri
 
 Result<std::vector<Region>> paintRegions(const Rig& rig,
                                          const std::vector<PaintedRegion>& painted) {
+  std::size_t count = 0;
+  for (const PaintedRegion& region : painted)
+    count += static_cast<std::size_t>(std::max(1, region.bands));
+  if (count > kMostRegions)
+    return fail(
+        fmt::format("A face has at most {} regions, with what is left of it.", kMostRegions));
   std::vector<Region> regions;
   for (const PaintedRegion& region : painted)
     if (auto ok = addRegion(rig, region, regions); !ok)

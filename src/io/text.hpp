@@ -90,6 +90,7 @@ class Words {
 
   /// All that is left, without blanks around it.
   std::string_view rest() const { return trimmed({at_, end_}); }
+  std::size_t bytesLeft() const { return static_cast<std::size_t>(end_ - at_); }
 
  private:
   const char* at_;

@@ -56,7 +56,7 @@ class TimelineReader {
     return fields(json_, {}).failAt(place, what);
   }
 
-  Result<TimelineEvent> readEvent(const Json& json, const std::string& place) const {
+  Result<TimelineEvent> readEvent(const Json& json, const std::string& place) {
     const io::JsonFields at = fields(json, place);
     if (auto ok = at.isObject({"at", "to", "only", "drive", "seconds", "turn", "frequency",
                                "damping", "restitution", "delay", "region"});
@@ -90,6 +90,10 @@ class TimelineReader {
       return failAt(place, "needs one of 'to' and 'only', the weights to go to");
     if (auto ok = readGoals(json[event.others ? "only" : "to"], place, event.goals); !ok)
       return std::unexpected(ok.error());
+    goals_ += event.goals.size();
+    if (goals_ > kMostGoals)
+      return failAt(place,
+                    fmt::format("is beyond the {} goals that a timeline may have", kMostGoals));
     return event;
   }
 
@@ -115,8 +119,11 @@ class TimelineReader {
     return {};
   }
 
+  static constexpr std::size_t kMostGoals = 2'000'000;  // of all events, those of poses counted
+
   std::string_view name_;
   const Json& json_;
+  std::size_t goals_ = 0;
 };
 
 }  // namespace

@@ -25,10 +25,11 @@ constexpr int mostSpokes = 12;         // larger stars are poles, where anything
 
 class Finder {
  public:
-  Finder(const MeshRig& rig, std::span<const Index> copies)
+  Finder(const MeshRig& rig, std::span<const Index> copies, std::span<const Index> parts)
       : faces_(rig.neutral.polygons),
         positions_(rig.neutral.positions),
         copies_(copies),
+        parts_(parts),
         edges_(faceEdges(rig)),
         pairAt_(edges_.twin.size(), -1) {}
 
@@ -59,11 +60,11 @@ class Finder {
   }
 
   bool alike(Index f, Index g) const {
-    const auto same = [&](const std::vector<Index>& list) {
+    const auto same = [&](std::span<const Index> list) {
       return list.empty() || list[f] == list[g];
     };
     return faces_.faceSize(f) == 3 && faces_.faceSize(g) == 3 && same(faces_.faceMaterial) &&
-           same(faces_.faceGroup);
+           same(faces_.faceGroup) && same(parts_);
   }
 
   // Not so where a seam runs along the edge.
@@ -160,7 +161,7 @@ class Finder {
 
   const Polygons& faces_;
   const std::vector<Vec3>& positions_;
-  std::span<const Index> copies_;
+  std::span<const Index> copies_, parts_;
   FaceEdges edges_;
   std::vector<Index> pairAt_;  // [C] the pair over the edge that begins at a corner, or -1
   QuadCandidates result_;
@@ -168,8 +169,9 @@ class Finder {
 
 }  // namespace
 
-QuadCandidates findQuadCandidates(const MeshRig& rig, std::span<const Index> copies) {
-  return Finder(rig, copies).find();
+QuadCandidates findQuadCandidates(const MeshRig& rig, std::span<const Index> copies,
+                                  std::span<const Index> parts) {
+  return Finder(rig, copies, parts).find();
 }
 
 }  // namespace sweepface

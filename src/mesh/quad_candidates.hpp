@@ -18,7 +18,9 @@ struct QuadCandidates {
   std::vector<std::array<Index, 2>> corners;
 };
 
-/// `copies`: see recoverQuads. Of two triangles in a pair the first stands earlier in the mesh.
-QuadCandidates findQuadCandidates(const MeshRig& rig, std::span<const Index> copies);
+/// `copies` and `parts`: see recoverQuads. Of two triangles in a pair the first stands earlier in
+/// the mesh.
+QuadCandidates findQuadCandidates(const MeshRig& rig, std::span<const Index> copies,
+                                  std::span<const Index> parts);
 
 }  // namespace sweepface

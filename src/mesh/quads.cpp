@@ -121,9 +121,10 @@ class Joiner {
 
 }  // namespace
 
-RecoveredQuads recoverQuads(const MeshRig& rig, std::span<const Index> copies) {
+RecoveredQuads recoverQuads(const MeshRig& rig, std::span<const Index> copies,
+                            std::span<const Index> parts) {
   const Polygons& faces = rig.neutral.polygons;
-  const QuadCandidates candidates = findQuadCandidates(rig, copies);
+  const QuadCandidates candidates = findQuadCandidates(rig, copies, parts);
   return Joiner(faces, candidates, choose(candidates, faces)).join();
 }
 

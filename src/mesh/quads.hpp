@@ -19,6 +19,8 @@ struct RecoveredQuads {
 ///
 /// `copies` names for every vertex the first that carries the same attributes at the same place
 /// in all poses, so that an edge between copies is no seam; if empty, every vertex is its own.
-RecoveredQuads recoverQuads(const MeshRig& rig, std::span<const Index> copies = {});
+/// Triangles of different `parts` [faces], if there are any, are never joined.
+RecoveredQuads recoverQuads(const MeshRig& rig, std::span<const Index> copies = {},
+                            std::span<const Index> parts = {});
 
 }  // namespace sweepface

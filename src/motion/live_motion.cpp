@@ -60,7 +60,7 @@ Result<Trajectory> trajectoryOf(const Drive& drive, Start start, double goal) {
     case Drive::Kind::cut:
       break;
   }
-  if (!std::isfinite(goal)) return failCall("A motion needs finite numbers.");
+  if (!std::isfinite(goal)) return failCall("A goal must be a finite number.");
   return Trajectory(goal);
 }
 

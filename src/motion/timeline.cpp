@@ -31,9 +31,13 @@ Result<void> play(const TimelineEvent& event, const Places& places, const Matter
 }  // namespace
 
 Result<void> checkRegions(const Timeline& timeline, std::span<const std::string> regions) {
-  for (const TimelineEvent& event : timeline.events)
-    if (!event.region.empty() && std::ranges::find(regions, event.region) == regions.end())
-      return fail("an event is for a region '", event.region, "' that there is not.");
+  for (const TimelineEvent& event : timeline.events) {
+    if (event.region.empty() || std::ranges::find(regions, event.region) != regions.end()) continue;
+    std::string known;
+    for (const std::string& region : regions) known += (known.empty() ? "" : ", ") + region;
+    return fail("an event is for a region '", event.region, "' that there is not; there ",
+                known.empty() ? "are none" : "is " + known, ".");
+  }
   return {};
 }
 
@@ -88,7 +92,9 @@ class Baker {
   double seconds() const { return timeline_.seconds * timeline_.loops + matter_.delay; }
 
   Result<void> check(double framesPerSecond, double frames) const {
-    if (!(framesPerSecond > 0) || !(frames >= 1 && frames <= 1e6))
+    if (framesPerSecond > 0 && frames < 1)
+      return failCall("A timeline lasts longer than a millionth of a frame; make it longer.");
+    if (!(framesPerSecond > 0) || !(frames <= 1e6))
       return failCall(
           "A timeline has 1 to 1,000,000 frames, which at 240 a second are 4,166 s with its loops; "
           "make it shorter, or bake it at another rate.");

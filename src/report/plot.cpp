@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <fmt/format.h>
+#include <span>
 
 #include "report/colours.hpp"
 #include "report/html.hpp"
@@ -10,11 +12,13 @@
 namespace sweepface {
 namespace {
 
-/// The values of a direction and where they lie in the picture.
+constexpr double kPlotWidth = 490;  // of linePlot()
+
+/// The values of a direction.
 struct Scale {
   std::vector<double> ticks;
   bool logarithmic = false;
-  double start = 0, end = 1;  ///< in the picture
+  double start = 0, end = 1;  ///< where they lie in the picture
 
   double at(double value) const {
     const auto place = [&](double v) { return logarithmic ? std::log(v) : v; };
@@ -23,17 +27,21 @@ struct Scale {
   }
 };
 
-Scale scaleOf(const std::vector<Series>& series, double Vec2::* along, const Axis& axis,
-              double start, double end) {
+/// Whether numbers differ by no more than rounding: steps as small could not be counted.
+bool isSame(double low, double high) {
+  return !(high - low > 1e-12 * std::max(std::abs(low), std::abs(high)));
+}
+
+Scale scaleOf(const std::vector<Series>& series, double Vec2::* along, const Axis& axis) {
   double low = 1e300, high = -1e300;
   for (const Series& s : series)
     for (const Vec2& p : s.points) {
       low = std::min(low, p.*along);
       high = std::max(high, p.*along);
     }
-  // Lengths start at 0, if that is not far away.
-  if (!axis.logarithmic && low > 0 && low < 0.5 * high) low = 0;
-  return {niceTicks(low, high, axis.logarithmic), axis.logarithmic, start, end};
+  // Lengths start at 0, if that is not far away, and so does what never changes.
+  if (!axis.logarithmic && low > 0 && (low < 0.5 * high || isSame(low, high))) low = 0;
+  return {niceTicks(low, high, axis.logarithmic), axis.logarithmic};
 }
 
 std::string text(double x, double y, std::string_view anchor, std::string_view content,
@@ -70,10 +78,20 @@ std::string shortened(const std::string& name, std::size_t most) {
   return name.substr(0, end) + "…";
 }
 
-/// As short as it can be, without an exponent for the sizes of ordinary things.
-std::string tickText(double value) {
-  return std::abs(value) >= 1e4 && std::abs(value) < 1e7 ? fmt::format("{:.0f}", value)
-                                                         : fmt::format("{:.4g}", value);
+/// As short as they can be and still differ, without an exponent for the sizes of ordinary things.
+std::vector<std::string> labelsOf(const Scale& scale) {
+  const std::vector<double>& ticks = scale.ticks;
+  const double most = std::max(std::abs(ticks.front()), std::abs(ticks.back())),
+               step = ticks[1] - ticks[0];
+  const double digits =
+      scale.logarithmic ? 1 : std::floor(std::log10(most)) - std::floor(std::log10(step)) + 1;
+  std::vector<std::string> labels;
+  for (const double tick : ticks) {
+    const double fewest = std::abs(tick) >= 1e4 && std::abs(tick) < 1e7 ? 7 : 4;
+    labels.push_back(
+        fmt::format("{:.{}g}", tick, static_cast<int>(std::clamp(digits, fewest, 15.0))));
+  }
+  return labels;
 }
 
 double widthOf(const Series& key) { return 40 + 8 * letters(key.name); }  // of wide letters
@@ -127,9 +145,7 @@ std::vector<double> niceTicks(double low, double high, bool logarithmic) {
         if (tick >= high * (1 - 1e-9) && ticks.size() > 1) return ticks;
       }
   }
-  // What differs by no more than rounding is the same: steps as small could not be counted.
-  if (!(high - low > 1e-12 * std::max(std::abs(low), std::abs(high))))
-    high = low + (low != 0 ? std::abs(low) : 1);
+  if (isSame(low, high)) high = low + (low != 0 ? std::abs(low) : 1);
   if (!std::isfinite(high - low) || high - low < 1e-300) return {0, 1};
   const double decade = std::pow(10, std::floor(std::log10((high - low) / 5)));
   double step = 10 * decade;
@@ -141,56 +157,94 @@ std::vector<double> niceTicks(double low, double high, bool logarithmic) {
   return ticks;
 }
 
+namespace {
+
+/// The lines and numbers round a plot, whose scales say where they lie.
+std::string axes(const Scale& across, const Scale& up, const Axis& x, const Axis& y) {
+  const double left = across.start, right = across.end, bottom = up.start;
+  std::string svg;
+  const std::vector<std::string> heights = labelsOf(up), places = labelsOf(across);
+  for (std::size_t k = 0; k < heights.size(); ++k) {
+    const double height = up.at(up.ticks[k]);
+    svg += line(left, height, right, height, kGrid);
+    svg += text(left - 8, height + 4, "end", heights[k]);
+  }
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    const double place = across.at(across.ticks[k]);
+    svg += line(place, bottom, place, bottom + 5, kSoft);
+    svg += text(place, bottom + 20, "middle", places[k]);
+  }
+  svg += line(left, bottom, right, bottom, kSoft);
+  svg += text(0.5 * (left + right), bottom + 42, "middle", x.title);
+  const double middle = 0.5 * (bottom + up.end);
+  return svg + text(12, middle, "middle", y.title, kSoft,
+                    fmt::format(" transform=\"rotate(-90 12 {})\"", middle));
+}
+
+std::string curve(const Series& series, const Scale& across, const Scale& up) {
+  std::string points;
+  for (const Vec2& p : series.points)
+    points += fmt::format("{:.1f},{:.1f} ", across.at(p.x), up.at(p.y));
+  std::string svg =
+      fmt::format("<polyline points=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"2\"{}/>\n",
+                  points, series.colour, dashes(series));
+  if (series.dots || series.points.size() == 1)
+    for (const Vec2& p : series.points) svg += dot(across.at(p.x), up.at(p.y), series.colour);
+  return svg;
+}
+
+}  // namespace
+
 std::string linePlot(const std::string& title, const Axis& x, const Axis& y,
                      std::vector<Series> series) {
-  constexpr double width = 490, height = 330, left = 70, right = 462, bottom = 278;
   for (Series& s : series)
     std::erase_if(s.points, [&](const Vec2& p) {
       return (x.logarithmic && !(p.x > 0)) || (y.logarithmic && !(p.y > 0));
     });
   if (std::ranges::all_of(series, [](const Series& s) { return s.points.empty(); })) return {};
-  std::string svg = text(left, 18, "start", title, kInk, " font-weight=\"600\"");
-  const double top = addKeys(svg, series, left, 39, width) + 13;
-  const Scale across = scaleOf(series, &Vec2::x, x, left, right);
-  const Scale up = scaleOf(series, &Vec2::y, y, bottom, top);
-  for (const double tick : up.ticks) {
-    svg += line(left, up.at(tick), right, up.at(tick), kGrid);
-    svg += text(left - 8, up.at(tick) + 4, "end", tickText(tick));
-  }
-  for (const double tick : across.ticks) {
-    svg += line(across.at(tick), bottom, across.at(tick), bottom + 5, kSoft);
-    svg += text(across.at(tick), bottom + 20, "middle", tickText(tick));
-  }
-  svg += line(left, bottom, right, bottom, kSoft);
-  svg += text(0.5 * (left + right), bottom + 42, "middle", x.title);
-  svg += text(12, 0.5 * (top + bottom), "middle", y.title, kSoft,
-              fmt::format(" transform=\"rotate(-90 12 {})\"", 0.5 * (top + bottom)));
-  for (const Series& s : series) {
-    std::string points;
-    for (const Vec2& p : s.points)
-      points += fmt::format("{:.1f},{:.1f} ", across.at(p.x), up.at(p.y));
-    svg +=
-        fmt::format("<polyline points=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"2\"{}/>\n",
-                    points, s.colour, dashes(s));
-    if (s.dots)
-      for (const Vec2& p : s.points) svg += dot(across.at(p.x), up.at(p.y), s.colour);
-  }
-  return framed(width, height, title, svg);
+  Scale across = scaleOf(series, &Vec2::x, x), up = scaleOf(series, &Vec2::y, y);
+  across.start = 70, across.end = 462;
+  for (const std::string& label : labelsOf(up))
+    across.start = std::max(across.start, 28 + 7.5 * letters(label));
+  std::string svg = text(across.start, 18, "start", title, kInk, " font-weight=\"600\"");
+  up.end = addKeys(svg, series, across.start, 39, kPlotWidth) + 13;
+  up.start = std::max(278.0, up.end + 150);  // below however many lines of keys
+  svg += axes(across, up, x, y);
+  for (const Series& s : series) svg += curve(s, across, up);
+  return framed(kPlotWidth, up.start + 52, title, svg);
 }
 
-std::string plotSheet(const std::vector<std::string>& plots) {
-  constexpr int width = 490, height = 330, gap = 20;
-  const int rows = (static_cast<int>(plots.size()) + 1) / 2;
-  std::string svg = fmt::format(
+namespace {
+
+/// Of what framed() made.
+double heightOf(std::string_view plot) {
+  const std::string before = fmt::format("viewBox=\"0 0 {} ", kPlotWidth);
+  return std::strtod(plot.data() + plot.find(before) + before.size(), nullptr);
+}
+
+}  // namespace
+
+std::string plotSheet(std::vector<std::string> plots) {
+  std::erase(plots, "");
+  constexpr double gap = 20;
+  double y = gap;
+  std::string svg;
+  for (std::size_t k = 0; k < plots.size(); k += 2) {
+    const std::span row(plots.data() + k, std::min<std::size_t>(2, plots.size() - k));
+    double x = gap, highest = 0;
+    for (const std::string& plot : row) {
+      svg += fmt::format("<svg x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" {}", x, y, kPlotWidth,
+                         heightOf(plot), plot.substr(std::string_view("<svg ").size()));
+      x += kPlotWidth + gap;
+      highest = std::max(highest, heightOf(plot));
+    }
+    y += highest + gap;
+  }
+  return fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" "
       "height=\"{1}\" font-family=\"system-ui, sans-serif\" font-size=\"13\">\n"
-      "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n",
-      2 * width + 3 * gap, rows * (height + gap) + gap);
-  for (std::size_t k = 0; k < plots.size(); ++k)
-    svg += fmt::format("<svg x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" {}",
-                       gap + (k % 2) * (width + gap), gap + (k / 2) * (height + gap), width, height,
-                       plots[k].substr(std::string_view("<svg ").size()));
-  return svg + "</svg>\n";
+      "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n{2}</svg>\n",
+      2 * kPlotWidth + 3 * gap, y, svg);
 }
 
 std::string rowPlot(const std::string& title, const std::string& axis,
@@ -208,9 +262,11 @@ std::string rowPlot(const std::string& title, const std::string& axis,
   const Scale across{niceTicks(0, high, false), false, left, right};
   std::string svg = text(0, 18, "start", title, kInk, " font-weight=\"600\"");
   addKeys(svg, series, 0, 42, right);
-  for (const double tick : across.ticks) {
-    svg += line(across.at(tick), top, across.at(tick), bottom, kGrid);
-    svg += text(across.at(tick), bottom + 18, "middle", tickText(tick));
+  const std::vector<std::string> labels = labelsOf(across);
+  for (std::size_t k = 0; k < labels.size(); ++k) {
+    const double place = across.at(across.ticks[k]);
+    svg += line(place, top, place, bottom, kGrid);
+    svg += text(place, bottom + 18, "middle", labels[k]);
   }
   if (limit > 0)
     svg += line(across.at(limit), top - 6, across.at(limit), bottom, kInk,

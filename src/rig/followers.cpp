@@ -12,7 +12,11 @@ namespace {
 /// Finds what the names of targets say of each other.
 class NameReader {
  public:
-  explicit NameReader(std::span<const std::string> names) : names_(names) {}
+  explicit NameReader(std::span<const std::string> names) : names_(names) {
+    for (Index k = 0; k < static_cast<Index>(names.size()); ++k) sorted_.push_back(k);
+    sortSmall(std::span(sorted_),
+              [&](Index a, Index b) { return names[a] != names[b] ? names[a] < names[b] : a < b; });
+  }
 
   std::optional<Follower> read(Index target) const {
     if (auto follower = readInBetween(target)) return follower;
@@ -21,8 +25,9 @@ class NameReader {
 
  private:
   Index find(std::string_view name) const {
-    const auto found = std::ranges::find(names_, name);
-    return name.empty() || found == names_.end() ? -1 : static_cast<Index>(found - names_.begin());
+    const auto found = std::ranges::lower_bound(
+        sorted_, name, {}, [&](Index k) { return std::string_view(names_[k]); });
+    return name.empty() || found == sorted_.end() || names_[*found] != name ? -1 : *found;
   }
 
   /// The leader's name, perhaps a separator, and two digits: per cent of its weight.
@@ -63,6 +68,7 @@ class NameReader {
   }
 
   std::span<const std::string> names_;
+  std::vector<Index> sorted_;  // targets by their names
 };
 
 }  // namespace

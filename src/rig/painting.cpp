@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "sweepface/regions.hpp"
 
@@ -170,9 +171,11 @@ class Painter {
     for (std::size_t k = 1; k < brush_.line.size(); ++k)
       segments_.push_back({brush_.line[k - 1], brush_.line[k]});
     if (brush_.line.size() == 1) segments_.push_back({brush_.line[0], brush_.line[0]});
+    std::vector<char> isTold(wireframe_.arcs.size(), 0);
     for (const std::string& name : brush_.curves) {
       const Result<Index> arc = rig_.find(Thing::curve, name);
       if (!arc) return std::unexpected(arc.error());
+      if (std::exchange(isTold[*arc], 1)) continue;  // once is enough
       const Index pieces = 4 * wireframe_.arcs[*arc].edges;
       for (Index k = 0; k < pieces; ++k)
         segments_.push_back({onArc(*arc, k / 4.0), onArc(*arc, (k + 1) / 4.0)});

@@ -130,7 +130,8 @@ TEST_F(Clips, LoseTheirNoise) {
 }
 
 TEST_F(Clips, OfTimelinesGoByTheirRegions) {
-  EXPECT_TRUE(refuses(kTimeline, "an event is for a region 'part' that there is not"));
+  EXPECT_TRUE(
+      refuses(kTimeline, "an event is for a region 'part' that there is not; there is rest"));
   ASSERT_EQ(sweepface_rig_divide_by(handle, kTimeline.data(), kTimeline.size(), "scene"),
             SWEEPFACE_OK)
       << sweepface_message();

@@ -1,3 +1,9 @@
+#include <cmath>
+#include <fmt/format.h>
+#include <sstream>
+
+#include "sweepface/trajectory.hpp"
+
 #include "cli/tool.hpp"
 #include "count_of.hpp"
 
@@ -47,7 +53,59 @@ TEST_F(Plot, ShowsWhatIsShort) {
   const auto points = [&](const std::string& frequency) {
     return countOf(plotted("--to jawOpen=1 --law spring --frequency " + frequency), ",");
   };
-  EXPECT_GT(points("500"), 20 * points("2"));
+  EXPECT_GT(points("500 --damping 0.01"), 5 * points("2 --damping 0.01"));
+}
+
+/// The points of the first panel's curve between (0, 0) and (seconds, 1) in its picture.
+std::vector<Vec2> positionsIn(const std::string& svg, double seconds, double highest) {
+  std::istringstream points(svg.substr(svg.find("points=\"") + 8));
+  std::vector<Vec2> way;
+  char comma = 0;
+  for (double x = 0, y = 0; points >> x >> comma >> y;)
+    way.push_back({(x - 70) / (462 - 70) * seconds, (278 - y) / (278 - 52) * highest});
+  return way;
+}
+
+TEST_F(Plot, FollowsABounceHoweverLively) {
+  convertRig();
+  for (const double e : {0.4, 0.9, 0.98}) {
+    const auto way = positionsIn(
+        plotted(fmt::format("--to jawOpen=1 --law bounce --restitution {} --seconds 2", e)), 2, 1);
+    ASSERT_GT(way.size(), 240u);
+    const double fall = 2 * (1 - e) / (1 + e);
+    const auto law = Trajectory::bounce({0, 0}, 1, fall, e).value();
+    const auto drawn = [&](double time) {
+      const auto after = std::ranges::lower_bound(way, time, {}, &Vec2::x);
+      const Vec2 b = *after, a = after == way.begin() ? b : *(after - 1);
+      return b.x > a.x ? std::lerp(a.y, b.y, (time - a.x) / (b.x - a.x)) : b.y;
+    };
+    // A pixel is a two-hundredth of a second, in which the liveliest goes a quarter of its way.
+    double worst = 0;
+    for (double time = 0.001; time < 1.99; time += 0.0037) {
+      double miss = 1;
+      for (double near = -0.004; near <= 0.004; near += 0.0001)
+        miss = std::min(miss, std::abs(drawn(time) - law.at(time + near).position));
+      worst = std::max(worst, miss);
+    }
+    EXPECT_LE(worst, 0.01) << e;
+  }
+}
+
+TEST_F(Plot, TellsColoursThatComeAgainByDashes) {
+  convertRig();
+  std::string many = "3";
+  for (int k = 0; k < 8; ++k) many += "," + std::to_string(k + 4);
+  EXPECT_EQ(countOf(plotted("--to jawOpen=1 --vertex 3"), "stroke-dasharray"), 0u);
+  EXPECT_EQ(countOf(plotted("--to jawOpen=1 --vertex " + many), "stroke-dasharray"), 4u * 2);
+}
+
+TEST_F(Plot, SaysWhatAClipDoesNotDrive) {
+  convertRig();
+  std::ofstream(folder / "take.csv") << "Timecode,JawOpen,Jawbone\n0,0,0\n0.5,1,1\n1,0,0\n";
+  const Outcome r = run("plot face.sweep -o plot.svg --clip take.csv");
+  EXPECT_NE(r.err.find("1 of 2 names drive no target of the face: Jawbone"), std::string::npos)
+      << r.err;
+  EXPECT_NE(r.out.find("plot.svg: 1 curve\n"), std::string::npos) << r.out;
 }
 
 TEST_F(Plot, SaysWhatIsWrong) {
@@ -67,6 +125,10 @@ TEST_F(Plot, SaysWhatIsWrong) {
   refused("-o plot.svg --to jawOpen=1 --laws magic", "There is no law 'magic'");
   refused("-o plot.svg --to jawOpen=0", "Nothing moves");
   refused("-o plot.svg --to jawOpen=1 --mass 1e308 --seconds 0.001", "beyond what numbers hold");
+  refused("-o plot.svg --to jawOpen=1 --law spring --frequency 1e5 --damping 1e-9",
+          "more than a plot can show");
+  refused("-o plot.svg --to jawOpen=1 --law bounce --restitution 0.9999999",
+          "more than a plot can show");
   std::ofstream(folder / "take.csv") << "Timecode,JawOpen\n0,0\n0.5,1\n1,0\n";
   EXPECT_TRUE(fails("plot face.sweep -o plot.svg --clip take.csv --frequency 3",
                     "--frequency: Only spring swings", 2));

@@ -1,8 +1,12 @@
 #include <gtest/gtest.h>
 
 #include "allocations.hpp"
+#include "codec/bones.hpp"
+#include "codec/coefficients.hpp"
 #include "codec/encoding.hpp"
 #include "codec/files.hpp"
+#include "codec/lattice.hpp"
+#include "codec/name_coder.hpp"
 #include "codec/packed.hpp"
 #include "codec/pose_form.hpp"
 #include "codec/rigs.hpp"
@@ -132,7 +136,10 @@ TEST(Hostile, LooseVerticesAreNoMoreThanTheFileCanHold) {
 // Zeros take a bit each, a scene and an order a byte a letter and a vertex.
 TEST(Hostile, ChunksThatHoldThingsAsTheyAreTakeNoMoreMemoryThanAllowed) {
   constexpr std::size_t kLimit = 4 << 20, kSome = 8'000'000;
-  const std::string bytes = encode(withScene(dressed(makeRig(onePatch(1, 1)))));
+  Rig rig = withScene(dressed(makeRig(onePatch(1, 1))));
+  rig.names.units = "cm";
+  rig.turns = {{0, {}, {}}};
+  const std::string bytes = encode(rig);
   const auto expectTooMuch = [&](const char* code, auto write) {
     const std::string changed = withPayload(bytes, code, payloadOf(write));
     allocations.most = allocations.held;
@@ -149,6 +156,112 @@ TEST(Hostile, ChunksThatHoldThingsAsTheyAreTakeNoMoreMemoryThanAllowed) {
     out.number(0);
   });
   expectTooMuch("scen", [](codec::Writer& out) { out.text(std::string(kSome, ' ')); });
+  expectTooMuch("name", [](codec::Writer& out) {
+    out.text("");
+    out.number(kSome);
+    out.raw(std::string(kSome, '\0'));
+  });
+  expectTooMuch("turn", [](codec::Writer& out) {
+    out.number(kSome / 14);
+    for (std::size_t k = 0; k < kSome / 14; ++k) out.number(1), out.raw(std::string(12, '\0'));
+  });
+}
+
+// A face has three corners at least, whatever the number that is told instead.
+TEST(Hostile, FacesOfTwoCornersAreRefused) {
+  const std::string bytes = encode(packed(everything()));
+  for (const std::uint32_t size : {0u, 1u, 2u}) {
+    const std::string payload = codec::ranged([&](auto& out) {
+      out.number(0, 1, 0, 1);
+      out.bit(37, 0, 0, true);
+      out.bit(36, 0, 0, false);
+      out.bit(11, 1, 0, false);
+      out.number(15, 0, 0, size - 3);
+      for (std::uint32_t k = 0; k < size; ++k) out.signedNumber(17, k, 0, 0);
+    });
+    const auto refused =
+        decode(withPayload(bytes, "face", payload + std::string(50, 'U')), "a.sweep");
+    ASSERT_FALSE(refused);
+    EXPECT_NE(refused.error().message.find("too many corners"), std::string::npos)
+        << refused.error().message;
+  }
+}
+
+// What bones carry takes room and time, where it is always the same hardly any bytes.
+TEST(Hostile, WhatBonesCarryInAFewBytesIsRefused) {
+  Rig rig = makeRig(onePatch(1, 1));
+  rig.targets.assign(1, {"a", std::vector<Vec3>(rig.neutral.size()), {}});
+  rig = packed(std::move(rig));
+  const codec::Lattice lattice(rig.surface, rig.packing);
+  const auto moves = [&](std::size_t targets, std::int32_t large) {
+    codec::RangeEncoder coder;
+    codec::Symbols<codec::RangeEncoder> out(coder);
+    std::vector<Index> hangs(rig.neutral.size(), 0);
+    hangs[0] = codec::kMostBones - 1;
+    codec::CoefficientCoder<codec::RangeEncoder> vectors(lattice.hierarchy(), coder, lattice.axis(),
+                                                         false);
+    const Index bones = codec::codeBones(out, lattice.hierarchy(), hangs);
+    std::vector<Packing::Carry> carries;
+    for (Index b = 0; b < codec::kMostBones; ++b) {
+      carries.push_back({b, {}});
+      for (auto& by : carries.back().by) by.fill(large);
+    }
+    for (Index k = 1; k <= static_cast<Index>(targets); ++k) {
+      Packing::Pose form;
+      codec::Likeness like;
+      codec::codePose(out, form, k);
+      codec::codeLikeness(out, form, like, k);
+      codec::codeCarries(out, bones, carries);
+      codec::Coefficients none(rig.neutral.size());
+      vectors.code(none, codec::Symmetry::none, {}, {});
+    }
+    return coder.finish();
+  };
+  TakenApart chunks = takeApart(encode(rig));
+  const auto expectRefused = [&](std::size_t targets, std::int32_t large, std::size_t limit,
+                                 const char* why) {
+    chunkOf(chunks, "BASE").payload = payloadOf([&](codec::Writer& out) {
+      for (int k = 0; k < 3; ++k) out.f64(1);
+      out.number(targets);
+      out.number(0);
+    });
+    chunkOf(chunks, "TNAM").payload = codec::ranged([&](auto& out) {
+      codec::NameCoder names(out);
+      for (std::size_t k = 0; k < targets; ++k) names.code(std::to_string(k));
+    });
+    chunkOf(chunks, "MOVE").payload = moves(targets, large);
+    const std::string bytes = putTogether(chunks);
+    EXPECT_LT(bytes.size(), 60'000u);
+    allocations.most = allocations.held;
+    const std::size_t before = allocations.held;
+    const auto refused = decode(bytes, "a.sweep", {limit});
+    ASSERT_FALSE(refused);
+    EXPECT_NE(refused.error().message.find(why), std::string::npos) << refused.error().message;
+    EXPECT_LT(allocations.most - before, limit);
+  };
+  expectRefused(6000, 0, std::size_t{32} << 20, "memory");
+  expectRefused(1000, (1 << 26) - 1, std::size_t{1} << 30, "too large for so few bytes");
+}
+
+// Long names that are all alike take hardly any bytes.
+TEST(Hostile, LongNamesInAFewBytesAreRefused) {
+  constexpr std::size_t kTargets = 1000;
+  TakenApart chunks = takeApart(encode(makeRig(onePatch(1, 1))));
+  chunkOf(chunks, "BASE").payload = payloadOf([&](codec::Writer& out) {
+    for (int k = 0; k < 3; ++k) out.f64(1);
+    out.number(kTargets);
+    out.number(0);
+  });
+  const auto decoded = [&](std::size_t letters) {
+    chunkOf(chunks, "TNAM").payload = codec::ranged([&](auto& out) {
+      codec::NameCoder names(out);
+      for (std::size_t k = 0; k < kTargets; ++k)
+        names.code(std::string(letters, 'a') + std::to_string(k));
+    });
+    return decode(putTogether(chunks), "a.sweep").error().message;
+  };
+  EXPECT_NE(decoded(4000).find("names are too long"), std::string::npos) << decoded(4000);
+  EXPECT_EQ(decoded(400).find("names are too long"), std::string::npos) << decoded(400);
 }
 
 // Names that are all alike take hardly any bytes.

@@ -30,7 +30,7 @@ using Faces = std::vector<std::vector<Index>>;
 Faces trianglesOf(const Glb& glb) {
   const gltf::Document document = gltf::parseDocument(glb.bytes(), {}).value();
   const gltf::Parts parts = gltf::findParts(document).value();
-  return facesOf(gltf::readMeshRig(document, parts).value().neutral.polygons);
+  return facesOf(gltf::readMeshRig(document, parts).value().rig.neutral.polygons);
 }
 
 /// Vertices without faces that matter.
@@ -144,7 +144,7 @@ TEST(GltfReader, TrianglesThatNameAVertexTwiceAreNone) {
   EXPECT_EQ(facesOf(read(glb).rig.neutral.polygons), (Faces{{0, 1, 2}, {3, 5, 4}}));
   glb.primitive()["mode"] = 4;
   glb.primitive()["indices"] = glb.addIndices({0, 1, 1, 2, 3, 2});
-  EXPECT_TRUE(refused(glb, {"all of its triangles name a vertex twice"}));
+  EXPECT_TRUE(refused(glb, {"it has no triangle of three different vertices"}));
 }
 
 TEST(GltfReader, ReadsIndicesOfEveryWidth) {
@@ -333,6 +333,18 @@ TEST(GltfReader, JoinsTrianglesWhoseVerticesDifferInNormalsOnly) {
   for (std::size_t k = 0; k < 3; ++k) torn[k].x += 7;  // the first triangle
   EXPECT_EQ(faceCount(loneTriangles({{"TEXCOORD_0", torn}})), 5);
   EXPECT_EQ(faceCount(loneTriangles({{"TEXCOORD_0", places}, {"TEXCOORD_1", torn}})), 5);
+}
+
+TEST(GltfReader, TrianglesOfDifferentPrimitivesMakeNoQuads) {
+  Glb glb = smallFace();
+  Json half = glb.primitive();
+  std::vector<std::uint16_t> indices[2];
+  for (std::size_t k = 0; k < sheetIndices().size(); ++k)
+    indices[k / 3 % 2].push_back(sheetIndices()[k]);
+  glb.primitive()["indices"] = glb.addIndices(indices[0]);
+  half["indices"] = glb.addIndices(indices[1]);
+  glb.json["meshes"][0]["primitives"].push_back(half);
+  EXPECT_EQ(faceCount(glb), 8);
 }
 
 // ---- Places ----

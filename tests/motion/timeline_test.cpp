@@ -196,6 +196,22 @@ TEST(Timeline, SaysWhatIsWrongAndWhere) {
   expectError(event(R"({"at": 2, "to": "p"})"), "later than 'seconds'");
 }
 
+TEST(Timeline, HoldsNoMoreGoalsThanAnyoneDraws) {
+  const auto readWith = [](int events) {
+    std::string text = R"({"seconds": 1, "poses": {"all": {"0": 0)";
+    for (int k = 1; k < 2000; ++k) text += ",\"" + std::to_string(k) + "\": 0";
+    text += R"(}}, "events": [{"at": 0, "to": "all"})";
+    for (int k = 1; k < events; ++k) text += R"(,{"at": 0, "to": "all"})";
+    return parseTimeline(text + "]}", "line.json");
+  };
+  EXPECT_TRUE(readWith(1000));
+  const auto refused = readWith(1001);
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("events[1000] is beyond the 2000000 goals"),
+            std::string::npos)
+      << refused.error().message;
+}
+
 TEST(Timeline, BakingRefusesTooManyFrames) {
   const auto timeline = parseTimeline(R"({"seconds": 1, "events": [{"at": 0, "to": {}}]})", "t");
   ASSERT_TRUE(timeline);

@@ -116,6 +116,48 @@ TEST(Plots, PutPointsWhereTheyBelong) {
   EXPECT_NE(svg.find("points=\"70.0,278.0 266.0,165.0 462.0,52.0 \""), std::string::npos) << svg;
 }
 
+TEST(Plots, GrowWithTheirKeys) {
+  const auto heightWith = [](std::size_t keys) {
+    std::vector<Series> series(keys, {"a name as long as some", "#123456", {{0, 0}, {10, 100}}});
+    const std::string plot = linePlot("t", {"x"}, {"y"}, series), sheet = plotSheet({plot});
+    EXPECT_TRUE(isWellFormed(sheet));
+    // The curve's ends: the lower left and the upper right corner.
+    double left = 0, bottom = 0, right = 0, top = 0, height = 0;
+    const char* const points = plot.c_str() + plot.find("points=");
+    EXPECT_EQ(std::sscanf(points, "points=\"%lf,%lf %lf,%lf", &left, &bottom, &right, &top), 4);
+    EXPECT_GE(bottom - top, 150);
+    EXPECT_EQ(std::sscanf(plot.c_str(), "<svg viewBox=\"0 0 490 %lf\"", &height), 1);
+    EXPECT_GT(height, bottom);
+    EXPECT_NE(sheet.find(fmt::format("width=\"490\" height=\"{}\"", height)), std::string::npos);
+    return height;
+  };
+  EXPECT_EQ(heightWith(1), 330);
+  EXPECT_EQ(heightWith(3), 330);
+  EXPECT_GT(heightWith(60), 700);
+}
+
+TEST(Plots, TellTicksApart) {
+  const auto labels = [](double low, double high) {
+    const std::string svg = linePlot("t", {"x"}, {"y"}, {{"", "#123456", {{0, low}, {1, high}}}});
+    std::vector<std::string> found;
+    constexpr std::string_view end = "text-anchor=\"end\"";
+    for (std::size_t at = svg.find(end); at != std::string::npos; at = svg.find(end, at + 1)) {
+      const std::size_t from = svg.find('>', at) + 1;
+      found.push_back(svg.substr(from, svg.find('<', from) - from));
+    }
+    return found;
+  };
+  for (const auto& [low, high] : std::initializer_list<std::pair<double, double>>{
+           {1000, 1000.001}, {-1e6, -1e6 + 0.5}, {0.003947841, 0.003947845}, {0, 1}, {1e-9, 3e5}}) {
+    const std::vector<std::string> all = labels(low, high);
+    EXPECT_GE(all.size(), 3u);
+    EXPECT_EQ(std::set(all.begin(), all.end()).size(), all.size()) << all.front();
+  }
+  // What never changes stands above 0, not on the axis.
+  EXPECT_EQ(labels(2, 2).front(), "0");
+  EXPECT_EQ(labels(1000, 1000.001).front(), "1000");
+}
+
 TEST(Plots, LeaveOutWhatHasNoLogarithm) {
   const Series some{"some", "#123456", {{10, 0}, {100, 1}, {1000, 10}}};
   const std::string svg = linePlot("t", {"x", true}, {"y", true}, {some});
