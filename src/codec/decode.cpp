@@ -102,9 +102,9 @@ class Decoder {
       if (readers_[rank].required)
         return failAt(chunk, chunk.offset, "chunk '", codeAt(rank, version_),
                       "' is missing before it", kConvertAgain);
-    const auto repeated = std::ranges::find(readers_, true, &ChunkHandler::repeated);
-    if (repeated - readers_.begin() < chunk.rank && repeated != readers_.end() &&
-        decoding_.rig->targets.size() < decoding_.targets)
+    const bool isBehindTargets = std::ranges::any_of(
+        readers_.first(static_cast<std::size_t>(chunk.rank)), &ChunkHandler::repeated);
+    if (isBehindTargets && decoding_.rig->targets.size() < decoding_.targets)
       return failAt(chunk, chunk.offset, "targets are missing before it", kConvertAgain);
     if (const char* other = readers_[chunk.rank].instead; other && has(rankOf(other, version_)))
       return failAt(chunk, chunk.offset, "it must not stand beside chunk '", other, "'",

@@ -209,12 +209,11 @@ void DerivativeRules::atHub(const CodedSite& site, const StoredVector& s, Terms&
 std::vector<std::pair<Index, int>> DerivativeRules::spokes(const CodedSite& site) const {
   std::vector<std::pair<Index, int>> result;
   const Index point = w_.nodes[site.node].point;
-  const auto visit = [&](Index node) {
+  for (const Index node : nodesAt_[point]) {
     const auto& arms = c_.stars[node].arms;
     for (int arm = 0; arm < static_cast<int>(arms.size()); ++arm)
       if (!w_.arcs[arcOf(arms[arm])].collapsed) result.emplace_back(node, arm);
-  };
-  for (const Index node : nodesAt_[point]) visit(node);
+  }
   return result;
 }
 

@@ -288,15 +288,13 @@ class HierarchyBuilder {
 
   std::vector<std::array<Index, 2>> around(Index s) {
     std::vector<std::array<Index, 2>> result;
-    const auto visit = [&](Index node) {
+    for (const Index node : lines_.nodesOf(s))
       for (const HalfArc arm : c_.stars[node].arms) {
         const Link& link = lines_.walk(arm);
         if (link.collapsed || link.back < 0) continue;
         if (lines_.isSite(link.node) && lines_.siteOf(link.node) != s)
           result.push_back({lines_.siteOf(link.node), link.distance});
       }
-    };
-    for (const Index node : lines_.nodesOf(s)) visit(node);
     return result;
   }
 

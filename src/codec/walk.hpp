@@ -47,9 +47,9 @@ class Walk {
     const bool near = !trail_.empty() && s_.bit(kNear, last_, 0, kWrites<Coder> && isNear(item));
     if (near) {
       const std::uint32_t place =
-          s_.number(kSteps, std::min(last_, 15u), 0, kWrites<Coder> ? placeOf(item) : 0);
+          s_.number(kSteps, std::min(last_, kFarStep), 0, kWrites<Coder> ? placeOf(item) : 0);
       found = at(place);
-      last_ = place < 14 ? place : 14;
+      last_ = std::min(place, kFurther);
       if (found < 0) s_.refuse("a step leads nowhere");
     } else {
       const std::int64_t step = s_.signedNumber(kFar, 0, 0, std::int64_t{item} - far_);
@@ -58,7 +58,7 @@ class Walk {
         s_.refuse("a vertex or a face is out of range");
       else
         found = static_cast<Index>(there);
-      last_ = 15;
+      last_ = kFarStep;
     }
     if (s_.ok() && visited_[found]) s_.refuse("a vertex or a face comes twice");
     return s_.ok() ? visit(found) : 0;
@@ -70,7 +70,8 @@ class Walk {
  private:
   static constexpr std::size_t kTrail = 64;
   // Last steps that are no places: to the next in number, or as the mirror image went.
-  static constexpr std::uint32_t kFollows = 16, kMirrors = 17;
+  // What the last step was, beyond how many steps back it led.
+  static constexpr std::uint32_t kFurther = 14, kFarStep = 15, kFollows = 16, kMirrors = 17;
 
   struct Step {
     SharedTag tag;
@@ -147,7 +148,7 @@ class Walk {
   std::vector<char> visited_;
   std::vector<Index> after_;  // [items] the one visited next
   std::vector<Index> trail_;
-  std::uint32_t last_ = 15;
+  std::uint32_t last_ = kFarStep;
   Index far_ = 0;
 };
 

@@ -18,16 +18,14 @@ struct Spoken {
 // What the surface calls `word` and a number, as the drawing calls it; without a name if it means
 // something else.
 Spoken spoken(const Drawing& d, const Wireframe& w, std::string_view word, std::size_t number) {
-  if (word == "node" && number < d.nodes.size())
-    return {fmt::format("node '{}'", d.nodes[number].name), d.nodes[number].place};
-  if (word == "T-node" && number < d.nodes.size())
-    return {fmt::format("node '{}'", d.nodes[number].name), d.nodes[number].place};
-  if (word == "arc" && number < d.curves.size())
-    return {fmt::format("curve '{}'", d.curves[number].name), d.curves[number].place};
-  if (word == "patch" && number < d.patches.size())
-    return {fmt::format("patch '{}'", d.patches[number].name), d.patches[number].place};
-  if (word == "ribbon" && number < d.ribbons.size())
-    return {fmt::format("ribbon '{}'", d.ribbons[number].name), d.ribbons[number].place};
+  const auto named = [number](const char* kind, const auto& things) -> Spoken {
+    if (number >= things.size()) return {};
+    return {fmt::format("{} '{}'", kind, things[number].name), things[number].place};
+  };
+  if (word == "node" || word == "T-node") return named("node", d.nodes);
+  if (word == "arc") return named("curve", d.curves);
+  if (word == "patch") return named("patch", d.patches);
+  if (word == "ribbon" && number < d.ribbons.size()) return named("ribbon", d.ribbons);
   // A ribbon that the drawing does not name: it is known by its first curve.
   if (word == "ribbon")
     for (std::size_t a = 0; a < w.arcs.size() && a < d.curves.size(); ++a)

@@ -185,9 +185,10 @@ std::string curve(const Series& series, const Scale& across, const Scale& up) {
   std::string points;
   for (const Vec2& p : series.points)
     points += fmt::format("{:.1f},{:.1f} ", across.at(p.x), up.at(p.y));
-  std::string svg =
-      fmt::format("<polyline points=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"2\"{}/>\n",
-                  points, series.colour, dashes(series));
+  std::string svg = fmt::format(
+      "<polyline points=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"2\" "
+      "stroke-linejoin=\"round\"{}/>\n",
+      points, series.colour, dashes(series));
   if (series.dots || series.points.size() == 1)
     for (const Vec2& p : series.points) svg += dot(across.at(p.x), up.at(p.y), series.colour);
   return svg;
