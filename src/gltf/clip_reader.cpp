@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <limits>
 #include <set>
+#include <tuple>
 
 #include "sweepface/gltf.hpp"
 #include "sweepface/keys.hpp"
@@ -65,7 +66,7 @@ class ClipReader {
     if (!in.ok()) return in.error();
     struct Channel {
       const RigMesh* mesh;
-      std::size_t node, sampler;
+      std::size_t node, number, sampler;
     };
     std::vector<Channel> found;
     for (std::size_t c = 0; c < channels.size(); ++c) {
@@ -77,12 +78,12 @@ class ClipReader {
       if (!channel.ok()) return channel.error();
       if (!target.ok()) return target.error();
       if (!weights || !node) continue;
-      if (const RigMesh* const mesh = meshOf(*node)) found.push_back({mesh, *node, sampler});
+      if (const RigMesh* const mesh = meshOf(*node)) found.push_back({mesh, *node, c, sampler});
     }
     // The order of channels means nothing.
-    std::ranges::stable_sort(found, {},
-                             [](const Channel& c) { return std::pair(c.mesh->mesh, c.node); });
-    for (const auto& [mesh, node, sampler] : found)
+    std::ranges::sort(found, {},
+                      [](const Channel& c) { return std::tuple(c.mesh->mesh, c.node, c.number); });
+    for (const auto& [mesh, node, number, sampler] : found)
       if (auto ok = readTrack(*mesh, samplers[sampler],
                               fmt::format("{}, sampler {}", in.place(), sampler));
           !ok)
