@@ -64,7 +64,8 @@ SWEEPFACE_API sweepface_status sweepface_rig_load_neutral(const void* bytes, siz
                                                           const char* name, sweepface_rig** rig);
 SWEEPFACE_API sweepface_status sweepface_rig_load_targets(sweepface_rig* rig);
 /* All at once, within so many bytes of memory, about: a file that needs more is refused. What is
- * still takes hardly any bytes, so that a small file may ask for much; the others let it have 2 GiB. */
+ * still takes hardly any bytes, so that a small file may ask for much; the others let it have 2 GiB.
+ * Meshes, and looking for eyes, take theirs besides, some 600 bytes a vertex, of 2^24 at most. */
 SWEEPFACE_API sweepface_status sweepface_rig_load_within(const void* bytes, size_t size,
                                                          const char* name, size_t memory,
                                                          sweepface_rig** rig);
