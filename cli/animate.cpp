@@ -90,8 +90,10 @@ Result<std::vector<double>> sampleTimes(const AnimateArguments& a, const Perform
   for (int k = 0; k <= last; ++k)
     times.push_back(rate > 0 ? k / rate : performance.seconds * (static_cast<double>(k) / last));
   // Keys hold on for ever: the end is one even between two frames. A mesh is for a frame.
-  const double same = std::min(1e-4, 0.5 * performance.seconds);
-  const bool hasKeys = isOfKind(a.output, ".glb") || isOfKind(a.output, ".csv");
+  const bool isCsv = isOfKind(a.output, ".csv"), hasKeys = isCsv || isOfKind(a.output, ".glb");
+  // A timecode tells thousandths of a frame.
+  const double same =
+      std::max(std::min(1e-4, 0.5 * performance.seconds), isCsv ? 1e-3 / a.what.clipRate : 0);
   if (hasKeys && performance.seconds > times.back() + same) times.push_back(performance.seconds);
   return times;
 }

@@ -75,10 +75,11 @@ Repeats swings(const PerformanceArguments& what, double seconds) {
           [f = what.frequency](double swing) { return swing / f; }};
 }
 
-/// Bounce n is e²ⁿ high and lasts 2 eⁿ falls; bounce 0 is the second half of one, the fall itself.
+/// Bounce n lasts 2 eⁿ falls and begins with eⁿ of their speed; bounce 0 is the second half of one,
+/// the fall itself.
 Repeats bounces(const PerformanceArguments& what, double seconds) {
   const double e = what.restitution, fall = seconds * (1 - e) / (1 + e);
-  return {e > 0 ? 1 + std::log(kVisible) / (2 * std::log(e)) : 1, [e, fall](double bounce) {
+  return {e > 0 ? 1 + std::log(kVisible) / std::log(e) : 1, [e, fall](double bounce) {
             return bounce == 0 ? 0 : fall * (1 + 2 * e * (1 - std::pow(e, bounce - 1)) / (1 - e));
           }};
 }
@@ -86,7 +87,7 @@ Repeats bounces(const PerformanceArguments& what, double seconds) {
 /// When to look: evenly, often enough for what swings or bounces, and at a clip's own frames.
 Result<std::vector<double>> looksAt(const PerformanceArguments& what,
                                     const Performance& performance) {
-  constexpr double kEvenly = 240, kMost = 4000, kARepeat = 24;
+  constexpr double kEvenly = 240, kMost = 8000, kARepeat = 24;
   const double seconds = performance.seconds;
   std::vector<double> times = performance.frameTimes;
   for (double k = 0; k <= kEvenly; ++k) times.push_back(seconds * k / kEvenly);
@@ -101,7 +102,8 @@ Result<std::vector<double>> looksAt(const PerformanceArguments& what,
   for (double n = 0; n < repeats.count; ++n) {
     const double start = repeats.startOf(n), end = std::min(repeats.startOf(n + 1), seconds);
     for (double k = 0; k < kARepeat; ++k) times.push_back(std::lerp(start, end, k / kARepeat));
-    times.push_back(std::lerp(start, end, 1 - 1e-9));  // where a bounce is about to turn
+    for (const double share : {1e-9, 1 - 1e-9})  // on both sides of where a bounce turns
+      times.push_back(std::lerp(start, end, share));
   }
   std::ranges::sort(times);
   times.erase(std::ranges::unique(times).begin(), times.end());
@@ -202,9 +204,9 @@ void addCurves(Curves& curves, const Performance& performance, std::span<const d
   static constexpr std::array colours{"#8a8e96", "#1a6aa8", "#d63f29", "#2a9d55",
                                       "#b8860b", "#7b4fa3", "#1b9aaa", "#e07a9a"};
   const std::size_t place = curves[0].size();
-  const bool isDashed = place / colours.size() % 2 == 1;  // where colours come again
+  const auto round = static_cast<int>(place / colours.size());  // where colours come again
   for (auto& panel : curves)
-    panel.push_back({name, colours[place % colours.size()], {}, false, isDashed});
+    panel.push_back({name, colours[place % colours.size()], {}, false, round % kDashes});
   const std::size_t count = subject.differences.size();
   std::vector<Kinematics> now(count);
   std::vector<double> start(count), values(count);

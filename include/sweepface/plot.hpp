@@ -12,8 +12,9 @@ struct Series {
   std::string name, colour;
   std::vector<Vec2> points;
   bool dots = false;  ///< marks the points
-  bool dashed = false;
+  int dashes = 0;     ///< 0: a whole line; below kDashes
 };
+inline constexpr int kDashes = 4;
 
 struct Axis {
   std::string title;

@@ -15,8 +15,8 @@ constexpr std::size_t within(std::size_t most, std::size_t eachByte, std::size_t
 inline constexpr std::size_t kMostVectors = std::size_t{1} << 25, kVectorsAByte = 1024,
                              kVectorsAnyway = std::size_t{1} << 20;
 
-/// Bits of all coefficients of a chunk, without leading zeros: where all are alike they take hardly
-/// any bytes, but time.
+/// Bits of all coefficients and carries of a chunk, without leading zeros: where all are alike they
+/// take hardly any bytes, but time.
 inline constexpr std::uint64_t kBitsAByte = 1024, kBitsAnyway = std::uint64_t{1} << 22;
 
 /// Letters of all targets' names: what comes again takes hardly any bytes, but time.
@@ -39,9 +39,9 @@ constexpr std::size_t mostEntries(std::size_t bytes) {
   return within(kMostQuads, kQuadsAByte, kQuadsAnyway, bytes);
 }
 
-/// What a patch of the wireframe with its nodes and arcs, a stored vector of a pose, and a quad at
-/// level 1 with its corners, a letter of a name and what a bone carries in a pose take while a file
-/// is read, in bytes, rounded up from measurements.
+/// What these take while a file is read, in bytes, rounded up from measurements: a patch with its
+/// nodes and arcs, a stored vector of a pose, a quad at level 1 with its corners, a letter of a
+/// name, and what a bone carries in a pose.
 inline constexpr std::size_t kBytesAPatch = 4000, kBytesAVector = 40, kBytesAQuad = 400,
                              kBytesALetter = 4, kBytesACarry = 128;
 

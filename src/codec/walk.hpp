@@ -69,8 +69,8 @@ class Walk {
 
  private:
   static constexpr std::size_t kTrail = 64;
-  // Last steps that are no places: to the next in number, or as the mirror image went.
-  // What the last step was, beyond how many steps back it led.
+  // What the last step was, if not a place fewer than 14 back: further back, far away, to the next
+  // in number, as the mirror image went.
   static constexpr std::uint32_t kFurther = 14, kFarStep = 15, kFollows = 16, kMirrors = 17;
 
   struct Step {

@@ -47,9 +47,9 @@ class Halving {
   }
 
   // Puts the `first` items that come before all others in front of them (Hoare, Algorithm 65: find,
-  // 1961). Not std::nth_element, which is four times as long. Points made so that the middle is a
-  // bad guess again and again are not told apart to the last: that would take as long as they
-  // please.
+  // 1961). Not std::nth_element, which is four times as long. After very many bad guesses it stops,
+  // in any order: points can be made so that it would take the square of their number. Clusters are
+  // less compact then, nothing else.
   template <typename Before>
   static void divide(std::span<Index> items, Index first, const Before& before) {
     constexpr int kGuesses = 100;

@@ -47,10 +47,10 @@ class Lines {
     return longest;
   }
 
-  /// No more than the vertices of a tessellation whose edges are as short as that: chords are no
-  /// longer than their lines.
+  /// A lower bound of count(cut(edgeLength)), without cutting: a line has at least as many segments
+  /// as fit into its length, here that of eight chords.
   double countWith(double edgeLength) const {
-    const auto between = [&](Index line) {
+    const auto insideOf = [&](Index line) {
       const double edges = edgesOf(line);
       double length = 0;
       for (int k = 0; k < kSamples; ++k)
@@ -58,9 +58,9 @@ class Lines {
       return std::max(0.0, std::min(length / edgeLength, kFinest * edges) - 1);
     };
     double count = 0;
-    for (Index a = 0; a < arcs_; ++a) count += between(a);
+    for (Index a = 0; a < arcs_; ++a) count += insideOf(a);
     for (Index p = 0; p < surface_.patchCount(); ++p)
-      count += between(arcs_ + 2 * p) * between(arcs_ + 2 * p + 1);
+      count += insideOf(arcs_ + 2 * p) * insideOf(arcs_ + 2 * p + 1);
     return count;
   }
 
@@ -197,7 +197,8 @@ Result<Density> densityFor(const Surface& surface, std::span<const Vec3> vectors
     return within(surface, lines, budget.value);
   }
   const auto tooFine = [](double count) {
-    return fail("So fine a mesh has about ", static_cast<std::int64_t>(std::min(count, 1e18)),
+    return fail("So fine a mesh has more than ",
+                static_cast<std::int64_t>(std::min(count - 1, 1e18)),
                 " vertices; ask for a coarser one.");
   };
   const bool byError = budget.kind == Budget::Kind::error;

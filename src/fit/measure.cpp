@@ -29,7 +29,7 @@ struct PoseSamples {
 /// Those of ascending errors.
 ErrorSummary summaryOfSorted(std::span<const double> errors) {
   if (errors.empty()) return {};
-  // The least of which so many are no larger.
+  // The smallest error that at least this share of them do not exceed.
   const auto quantile = [&](double q) {
     const double rank = std::ceil(q * static_cast<double>(errors.size()));
     return errors[static_cast<std::size_t>(std::max(rank - 1, 0.0))];

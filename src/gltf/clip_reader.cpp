@@ -196,9 +196,10 @@ class ClipReader {
         const auto room = [&](std::size_t frames) {
           return static_cast<double>(times.size()) + pieces <= static_cast<double>(frames);
         };
-        // Tracks may have their frames in common.
-        if (!room(2 * mostFrames())) sortOut(times);
-        if (!room(2 * mostFrames())) return tooLong();
+        if (!room(2 * mostFrames())) {
+          sortOut(times);  // tracks may have their frames in common
+          if (times.size() > mostFrames() || !room(2 * mostFrames())) return tooLong();
+        }
         for (double p = 1; p < pieces; ++p) times.push_back(track.times[k] + span * p / pieces);
       }
     sortOut(times);

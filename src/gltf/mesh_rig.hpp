@@ -6,13 +6,13 @@
 
 namespace sweepface::gltf {
 
-/// The rig of a file's parts in the space of its scene, with triangles for faces.
+/// A rig in the space of a file's scene, with triangles for faces.
 struct PartedRig {
   MeshRig rig;
   std::vector<Index> facePart;  ///< [faces] in Parts::parts
 };
 
-/// Its memory stays in proportion to the bytes that were read.
+/// Of a file's parts. Memory stays in proportion to the bytes that were read.
 Result<PartedRig> readMeshRig(const Document& document, const Parts& parts);
 
 }  // namespace sweepface::gltf

@@ -93,7 +93,8 @@ class TimelineReader {
     goals_ += event.goals.size();
     if (goals_ > kMostGoals)
       return failAt(place,
-                    fmt::format("is beyond the {} goals that a timeline may have", kMostGoals));
+                    "is beyond the 8,000,000 goals of a timeline, those of poses counted for each "
+                    "event; send off fewer weights, or cut it");
     return event;
   }
 
@@ -119,7 +120,7 @@ class TimelineReader {
     return {};
   }
 
-  static constexpr std::size_t kMostGoals = 2'000'000;  // of all events, those of poses counted
+  static constexpr std::size_t kMostGoals = 8'000'000;
 
   std::string_view name_;
   const Json& json_;

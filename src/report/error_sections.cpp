@@ -71,7 +71,7 @@ std::string ReportMaker::errorTable() const {
 Result<std::string> ReportMaker::displacements() {
   const std::vector<double>& errors = measured_.displacements;
   if (errors.empty()) return "";
-  Series beyond{"vertices further off", kBlue, {}}, allowed{"tolerance", kRed, {}, false, true};
+  Series beyond{"vertices further off", kBlue, {}}, allowed{"tolerance", kRed, {}, false, 1};
   // Twenty points for every power of ten, down to the last vertex.
   const auto last = static_cast<double>(errors.size() - 1);
   for (double share = 1; share * last >= 1; share *= std::pow(10, -0.05))

@@ -1,6 +1,7 @@
 #include "sweepface/plot.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <fmt/format.h>
@@ -62,7 +63,12 @@ std::string dot(double x, double y, std::string_view colour, double radius = 3.5
                      colour);
 }
 
-std::string_view dashes(const Series& s) { return s.dashed ? " stroke-dasharray=\"5 4\"" : ""; }
+std::string_view dashes(const Series& s) {
+  static constexpr std::array<std::string_view, kDashes> kPatterns{"", " stroke-dasharray=\"5 4\"",
+                                                                   " stroke-dasharray=\"2 3\"",
+                                                                   " stroke-dasharray=\"9 3 2 3\""};
+  return kPatterns[static_cast<std::size_t>(s.dashes)];
+}
 
 /// Of a text in UTF-8, where bytes 10xxxxxx go on with a letter.
 double letters(std::string_view text) {

@@ -17,7 +17,7 @@ double kilobytes(std::size_t bytes) { return static_cast<double>(bytes) / 1000; 
 
 /// A vertical line as high as the points of all series.
 void addUpright(std::vector<Series>& series, const std::string& name, double x) {
-  Series line{name, kGrey, {}, false, true};
+  Series line{name, kGrey, {}, false, 1};
   for (const Series& s : series)
     for (const Vec2& p : s.points) line.points.push_back({x, p.y});
   if (line.points.empty()) return;

@@ -91,6 +91,28 @@ TEST_F(Plot, FollowsABounceHoweverLively) {
   }
 }
 
+// The speed after a hit is e of the speed before: the curve's lowest points.
+TEST_F(Plot, ShowsHowFastABounceComesBack) {
+  convertRig();
+  const double e = 0.9, seconds = 2, fall = seconds * (1 - e) / (1 + e);
+  std::string svg = plotted("--to jawOpen=1 --law bounce --restitution 0.9 --seconds 2");
+  svg = svg.substr(svg.find(">Velocity<"));
+  // The axis: from its lowest tick, at the bottom, to its highest.
+  std::vector<double> ticks;
+  constexpr std::string_view end = "text-anchor=\"end\"";
+  for (std::size_t at = svg.find(end); at < svg.find("<polyline"); at = svg.find(end, at + 1))
+    ticks.push_back(std::stod(svg.substr(svg.find('>', at) + 1)));
+  const auto way = positionsIn(svg, seconds, 1);
+  double hit = fall;
+  for (int n = 1; n < 20; hit += 2 * fall * std::pow(e, n++)) {
+    double lowest = 0;
+    for (const Vec2& p : way)
+      if (std::abs(p.x - hit) < 0.2 * fall * std::pow(e, n))
+        lowest = std::min(lowest, std::lerp(ticks.front(), ticks.back(), p.y));
+    EXPECT_NEAR(lowest, -2 / fall * std::pow(e, n), 0.1) << n;
+  }
+}
+
 TEST_F(Plot, TellsColoursThatComeAgainByDashes) {
   convertRig();
   std::string many = "3";

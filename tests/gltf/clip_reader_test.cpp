@@ -226,6 +226,25 @@ TEST(GltfClip, CountsFramesThatTracksHaveInCommonOnce) {
   EXPECT_GT(meshes * clip->weights.size(), kMostClipWeights);
 }
 
+// Frames that are just too many are not sorted again at every key.
+TEST(GltfClip, RefusesTooManyDifferentFramesSoon) {
+  constexpr std::size_t meshes = 100, keys = 10'001;
+  Glb glb = manyTargets(1, "CUBICSPLINE", 1);
+  std::vector<float> times;  // as many frames as twice a clip of so many targets can hold, nearly
+  for (std::size_t k = 0; k < keys; ++k) times.push_back(static_cast<float>(k) * 134.f / 120);
+  Json& sampler = glb.json["animations"][0]["samplers"][0];
+  sampler["input"] = glb.addAccessor(glb.addView(bytesOf(times)), 5126, "SCALAR", keys);
+  sampler["output"] =
+      glb.add("accessors", {{"componentType", 5126}, {"type", "SCALAR"}, {"count", 3 * keys}});
+  for (std::size_t k = 1; k < meshes; ++k) {
+    Json mesh = glb.json["meshes"][0], channel = glb.json["animations"][0]["channels"][0];
+    mesh["extras"]["targetNames"] = {"target " + std::to_string(k)};
+    channel["target"]["node"] = glb.add("nodes", {{"mesh", glb.add("meshes", mesh)}});
+    glb.json["animations"][0]["channels"].push_back(channel);
+  }
+  EXPECT_TRUE(failsWith(clipOf(glb), {"needs more than the 671088 frames"}));
+}
+
 TEST(GltfClip, SparseTimesMayNotClaimMoreThanTheFileCanMean) {
   Glb glb = moving("LINEAR", {0, 1}, {0, 0, 1, 1});
   for (const char* part : {"input", "output"}) {

@@ -204,10 +204,10 @@ TEST(Timeline, HoldsNoMoreGoalsThanAnyoneDraws) {
     for (int k = 1; k < events; ++k) text += R"(,{"at": 0, "to": "all"})";
     return parseTimeline(text + "]}", "line.json");
   };
-  EXPECT_TRUE(readWith(1000));
-  const auto refused = readWith(1001);
+  EXPECT_TRUE(readWith(4000));
+  const auto refused = readWith(4001);
   ASSERT_FALSE(refused);
-  EXPECT_NE(refused.error().message.find("events[1000] is beyond the 2000000 goals"),
+  EXPECT_NE(refused.error().message.find("events[4000] is beyond the 8,000,000 goals"),
             std::string::npos)
       << refused.error().message;
 }
