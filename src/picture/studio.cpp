@@ -226,12 +226,14 @@ class Photograph {
       const bool left = p.x + 2 * height + width > size_.width;
       const double side = left ? -1 : 1;
       const Vec2 corner{p.x + side * 1.6 * height, p.y - 1.6 * height};
-      const auto write = [&](double x, double y, const Colour& colour) {
-        drawText(image, label.text, corner.x + side * 0.4 * height + x, corner.y + 0.2 * height + y,
-                 height, colour, left ? Align::right : Align::left);
-      };
       // Rimmed in paper, as what is behind may be of any colour.
       const double line = std::max(2 * unit, 1.0), point = std::max(8 * unit, 4.0), rim = line;
+      const double beside = corner.x + side * 0.4 * height - (left ? width : 0);
+      const double begin = std::clamp(beside, rim, std::max(rim, size_.width - width - rim));
+      const auto write = [&](double x, double y, const Colour& colour) {
+        drawText(image, label.text, begin + x, corner.y + 0.2 * height + y, height, colour,
+                 Align::left);
+      };
       drawLine(image, std::array{p, corner}, line + 2 * rim, kPaper);
       drawLine(image, std::array{p}, point + 2 * rim, kPaper);
       for (const double x : {-rim, 0.0, rim})

@@ -184,6 +184,20 @@ TEST(Studio, DrawsLabelsWhereTheirPointIsSeen) {
   EXPECT_EQ(countNear(picture(scene), kBlue), 0);
 }
 
+TEST(Studio, WritesLabelsWithinThePicture) {
+  Scene scene = sphere();
+  scene.labels.push_back({{0, 0, 1}, "as long as half of it", kBlue});
+  const auto bluish = [&](PictureSize size) {
+    const Image image = picture(scene, before(), size);
+    int count = 0;
+    for (Index x = 0; x < image.width; ++x)
+      for (Index y = 0; y < image.height; ++y) count += image.at(x, y).b > image.at(x, y).r + 0.1f;
+    return count;
+  };
+  EXPECT_GT(bluish({600, 200}), 200);
+  EXPECT_NEAR(bluish({200, 200}), bluish({600, 200}), 0.1 * bluish({600, 200}));
+}
+
 // ---- Promises ----
 
 TEST(Studio, MakesTheSamePictureWithAnyNumberOfThreads) {
