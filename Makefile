@@ -9,7 +9,7 @@ help:
 	@echo 'make demo       install what is missing, build, and show the tool on a sample face'
 	@echo 'make web        build the page in web/ and what it shows'
 	@echo 'make test       install what is missing, build everything, run the tests'
-	@echo 'make test-long  the long tests, and all others under sanitizers and with clang'
+	@echo 'make test-long  the long tests, the benchmarks briefly, and all tests under sanitizers and with clang'
 	@echo 'make test-arm   the tests of what plays, built for 64-bit ARM and run in an emulator'
 	@echo 'make bench      build and run the benchmarks'
 	@echo 'make fuzz       run each fuzz target for FUZZ_SECONDS (60)'
@@ -53,10 +53,12 @@ test: deps tests/web/node_modules/.package-lock.json
 	  echo 'SWEEPFACE_DATA is not set: the tests on real faces were skipped.'; fi
 
 test-long: tests/web/node_modules/.package-lock.json
-	scripts/install-deps clang blender
+	scripts/install-deps clang blender bench
 	cmake --preset release
 	cmake --build $(BUILD)
 	ctest --preset release --label-regex '^long$$'
+	cmake --preset bench && cmake --build build/bench
+	build/bench/bench/sweepface_bench --benchmark_min_time=0.01
 	for preset in clang asan tsan; do \
 	  cmake --preset $$preset && cmake --build build/$$preset && \
 	  ctest --preset $$preset --label-exclude '^long$$' || exit 1; done
