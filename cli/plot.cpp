@@ -1,8 +1,10 @@
 #include "sweepface/plot.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
+#include <functional>
 #include <iterator>
 #include <limits>
 #include <numbers>
@@ -63,25 +65,29 @@ void addOptions(CLI::App& app, PlotArguments& a) {
 // What is smaller than this share of the way cannot be seen.
 constexpr double kVisible = 1e-3;
 
-/// How often a law swings or bounces visibly, and when first to look at each.
+/// How often a law swings or bounces visibly, when each begins, and what makes them fewer.
 struct Repeats {
   double count = 0;
   std::function<double(double repeat)> startOf;
+  const char* remedy = "";
 };
 
 Repeats swings(const PerformanceArguments& what, double seconds) {
   const double dying = -std::log(kVisible) / (2 * std::numbers::pi * std::min(what.damping, 1.0));
   return {std::min(what.frequency * seconds, 1 + dying),
-          [f = what.frequency](double swing) { return swing / f; }};
+          [f = what.frequency](double swing) { return swing / f; },
+          "fewer --seconds, less --frequency or more --damping"};
 }
 
 /// Bounce n lasts 2 eⁿ falls and begins with eⁿ of their speed; bounce 0 is the second half of one,
 /// the fall itself.
 Repeats bounces(const PerformanceArguments& what, double seconds) {
   const double e = what.restitution, fall = seconds * (1 - e) / (1 + e);
-  return {e > 0 ? 1 + std::log(kVisible) / std::log(e) : 1, [e, fall](double bounce) {
+  return {e > 0 ? 1 + std::log(kVisible) / std::log(e) : 1,
+          [e, fall](double bounce) {
             return bounce == 0 ? 0 : fall * (1 + 2 * e * (1 - std::pow(e, bounce - 1)) / (1 - e));
-          }};
+          },
+          "less --restitution"};
 }
 
 /// When to look: evenly, often enough for what swings or bounces, and at a clip's own frames.
@@ -95,10 +101,8 @@ Result<std::vector<double>> looksAt(const PerformanceArguments& what,
   if (what.clip.empty() && what.law == "spring") repeats = swings(what, seconds);
   if (what.clip.empty() && what.law == "bounce") repeats = bounces(what, seconds);
   if (repeats.count > kMost)
-    return fail(
-        fmt::format("{:.4g} swings or bounces are more than a plot can show; give it fewer "
-                    "--seconds, more --damping or less --restitution.",
-                    repeats.count));
+    return fail(fmt::format("{:.4g} swings or bounces are more than a plot can show; give it {}.",
+                            repeats.count, repeats.remedy));
   for (double n = 0; n < repeats.count; ++n) {
     const double start = repeats.startOf(n), end = std::min(repeats.startOf(n + 1), seconds);
     for (double k = 0; k < kARepeat; ++k) times.push_back(std::lerp(start, end, k / kARepeat));
