@@ -33,7 +33,8 @@ export function readTimeline(source, options) {
 
 /** What keeps a drive from setting out from 0 to 1, in the library's words. */
 function faultOf({drive = 'spring', seconds = 1, turn = 0.5, frequency = 1, damping = 1, restitution = 0}) {
-  const tooMuch = (...numbers) => (numbers.every(Number.isFinite) ? undefined : 'A motion needs finite numbers');
+  const tooMuch = (...numbers) => (numbers.every(Number.isFinite) ? undefined
+    : 'A motion needs finite numbers; its goal, time or frequency is beyond what they hold');
   if (drive === 'cut') return;
   if (drive === 'spring') {
     const omega = 2 * Math.PI * frequency;
