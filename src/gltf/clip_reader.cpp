@@ -80,9 +80,11 @@ class ClipReader {
       if (!weights || !node) continue;
       if (const RigMesh* const mesh = meshOf(*node)) found.push_back({mesh, *node, c, sampler});
     }
-    // The order of channels means nothing.
+    // The order of channels means nothing: of each mesh the first node that shows it counts.
     std::ranges::sort(found, {},
                       [](const Channel& c) { return std::tuple(c.mesh->mesh, c.node, c.number); });
+    const auto others = std::ranges::unique(found, {}, &Channel::mesh);
+    found.erase(others.begin(), others.end());
     for (const auto& [mesh, node, number, sampler] : found)
       if (auto ok = readTrack(*mesh, samplers[sampler],
                               fmt::format("{}, sampler {}", in.place(), sampler));
@@ -110,10 +112,9 @@ class ClipReader {
     const std::size_t accessors = document_.list("accessors").size();
     const std::size_t input = in.index("input", accessors, "accessors"),
                       output = in.index("output", accessors, "accessors");
-    // Where several meshes have a target, the first one's weight counts.
-    if (!played_.insert(mesh.mesh).second) return {};
     Track track;
     for (const std::size_t t : mesh.targets) track.names.push_back(parts_.targets[t]);
+    // Where several meshes have a target, the first one's weight counts.
     const auto isKnown = [&](const std::string& name) { return known_.contains(name); };
     if (std::ranges::all_of(track.names, isKnown)) return {};
     track.interpolation = in.has("interpolation") ? in.text("interpolation") : "LINEAR";
@@ -227,8 +228,7 @@ class ClipReader {
   const Document& document_;
   const Parts& parts_;
   std::vector<Track> tracks_;
-  std::size_t held_ = 0;          // values of them all
-  std::set<std::size_t> played_;  // meshes
+  std::size_t held_ = 0;  // values of them all
   std::vector<std::string> names_;
   std::set<std::string> known_;                               // the names
   std::vector<std::pair<std::size_t, std::size_t>> sources_;  // [names] track, and place in it

@@ -10,12 +10,11 @@
 namespace sweepface {
 namespace {
 
-constexpr char kBeyondNumbers[] =
-    "A motion needs finite numbers; its goal, time or frequency is beyond what they hold.";
-
 Result<void> checkNumbers(std::initializer_list<double> numbers) {
   for (const double x : numbers)
-    if (!std::isfinite(x)) return failCall(kBeyondNumbers);
+    if (!std::isfinite(x))
+      return failCall(
+          "A motion needs finite numbers; its goal, time or frequency is beyond what they hold.");
   return {};
 }
 

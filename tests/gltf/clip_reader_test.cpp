@@ -170,6 +170,16 @@ Glb manyTargets(std::size_t targets, std::string_view interpolation, float secon
   return glb;
 }
 
+/// Meshes as the first, each with a target of its own that its channel moves in the same way.
+void addMeshes(Glb& glb, int count) {
+  for (int k = 0; k < count; ++k) {
+    Json mesh = glb.json["meshes"][0], channel = glb.json["animations"][0]["channels"][0];
+    mesh["extras"]["targetNames"] = {std::to_string(k)};
+    channel["target"]["node"] = glb.add("nodes", {{"mesh", glb.add("meshes", mesh)}});
+    glb.json["animations"][0]["channels"].push_back(channel);
+  }
+}
+
 TEST(GltfClip, HoldsNoMoreWeightsThanAClipMay) {
   EXPECT_EQ(clipOf(manyTargets(300, "CUBICSPLINE", 8)).value().weights.size(), 300u * 961);
   EXPECT_TRUE(failsWith(clipOf(manyTargets(300, "CUBICSPLINE", 8000)),
@@ -199,13 +209,7 @@ TEST(GltfClip, HoldsNoMoreValuesThanAClipMay) {
   sampler["input"] = glb.addAccessor(glb.addView(bytesOf(times)), 5126, "SCALAR", keys);
   sampler["output"] = glb.add(
       "accessors", {{"componentType", 5126}, {"type", "SCALAR"}, {"count", keys * targets}});
-  // Each mesh has a target of its own.
-  for (int k = 0; k < 150; ++k) {
-    Json mesh = glb.json["meshes"][0], channel = glb.json["animations"][0]["channels"][0];
-    mesh["extras"]["targetNames"] = {std::to_string(k)};
-    channel["target"]["node"] = glb.add("nodes", {{"mesh", glb.add("meshes", mesh)}});
-    glb.json["animations"][0]["channels"].push_back(channel);
-  }
+  addMeshes(glb, 150);
   EXPECT_TRUE(
       failsWith(clipOf(glb), {"channels of its animation have more values than a clip can hold"}));
 }
@@ -213,12 +217,7 @@ TEST(GltfClip, HoldsNoMoreValuesThanAClipMay) {
 TEST(GltfClip, CountsFramesThatTracksHaveInCommonOnce) {
   constexpr int meshes = 100, seconds = 60;
   Glb glb = manyTargets(1, "CUBICSPLINE", seconds);
-  for (int k = 1; k < meshes; ++k) {
-    Json mesh = glb.json["meshes"][0], channel = glb.json["animations"][0]["channels"][0];
-    mesh["extras"]["targetNames"] = {"target " + std::to_string(k)};
-    channel["target"]["node"] = glb.add("nodes", {{"mesh", glb.add("meshes", mesh)}});
-    glb.json["animations"][0]["channels"].push_back(channel);
-  }
+  addMeshes(glb, meshes - 1);
   const auto clip = clipOf(glb);
   ASSERT_TRUE(clip) << clip.error().message;
   EXPECT_EQ(clip->names.size(), std::size_t{meshes});
@@ -228,7 +227,8 @@ TEST(GltfClip, CountsFramesThatTracksHaveInCommonOnce) {
 
 // Frames that are just too many are not sorted again at every key.
 TEST(GltfClip, RefusesTooManyDifferentFramesSoon) {
-  constexpr std::size_t meshes = 100, keys = 10'001;
+  constexpr int meshes = 100;
+  constexpr std::size_t keys = 10'001;
   Glb glb = manyTargets(1, "CUBICSPLINE", 1);
   std::vector<float> times;  // as many frames as twice a clip of so many targets can hold, nearly
   for (std::size_t k = 0; k < keys; ++k) times.push_back(static_cast<float>(k) * 134.f / 120);
@@ -236,12 +236,7 @@ TEST(GltfClip, RefusesTooManyDifferentFramesSoon) {
   sampler["input"] = glb.addAccessor(glb.addView(bytesOf(times)), 5126, "SCALAR", keys);
   sampler["output"] =
       glb.add("accessors", {{"componentType", 5126}, {"type", "SCALAR"}, {"count", 3 * keys}});
-  for (std::size_t k = 1; k < meshes; ++k) {
-    Json mesh = glb.json["meshes"][0], channel = glb.json["animations"][0]["channels"][0];
-    mesh["extras"]["targetNames"] = {"target " + std::to_string(k)};
-    channel["target"]["node"] = glb.add("nodes", {{"mesh", glb.add("meshes", mesh)}});
-    glb.json["animations"][0]["channels"].push_back(channel);
-  }
+  addMeshes(glb, meshes - 1);
   EXPECT_TRUE(failsWith(clipOf(glb), {"needs more than the 671088 frames"}));
 }
 
