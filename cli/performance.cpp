@@ -191,16 +191,10 @@ Result<Performance> byClip(const PerformanceArguments& a, const Rig& rig, const 
   // Of the whole head, whatever its regions are made of.
   if (performance.hasHead || performance.hasEyes)
     performance.pose = [whole = std::make_shared<const Clip>(std::move(recording->clip)),
-                        angles](double time) {
-      std::vector<double> own(whole->names.size());
-      whole->at(time, own);
-      return angles.of(own);
-    };
+                        angles](double time) { return angles.at(*whole, time); };
   const auto shared = std::make_shared<const Clip>(std::move(clip));
   performance.at = [shared, match = std::move(match)](double time, std::span<double> weights) {
-    std::vector<double> own(shared->names.size());
-    shared->at(time, own);
-    match.spread(own, weights);
+    match.spread(*shared, time, weights);
   };
   performance.kinematicsAt = byDifferences(performance.at);
   return performance;

@@ -7,7 +7,7 @@ export type DriveKind = 'cut' | 'newton' | 'linear-force' | 'accelerate-brake' |
 export interface Drive {
   /** 'spring' unless given. */
   kind?: DriveKind | undefined;
-  /** Seconds before it sets out. */
+  /** Seconds before it sets out; what still waits when the next comes for the same weight is left out. */
   delay?: number | undefined;
   /** Seconds until it arrives; not for 'cut' and 'spring'. */
   seconds?: number | undefined;

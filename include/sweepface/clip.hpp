@@ -19,8 +19,17 @@ struct Clip {
 
   double seconds() const { return times.empty() ? 0 : times.back() - times.front(); }
   /// The weights at `seconds` after the first frame, straight between frames and held at the ends:
-  /// writes min(N, out.size()) values.
+  /// writes min(N, out.size()) values, 0 where there are no frames.
   void at(double seconds, std::span<double> out) const noexcept;
+
+  /// Between which frames a time lies, and how far from the earlier to the later.
+  struct Moment {
+    std::size_t earlier = 0, later = 0;
+    double share = 1;
+  };
+  Moment momentAt(double seconds) const noexcept;
+  /// The weight of a name then.
+  double weight(const Moment& moment, std::size_t name) const noexcept;
 };
 
 /// Whether a time can be that of a frame: within 300 years, so that seconds stay exact to
@@ -39,9 +48,9 @@ struct ClipMatch {
   std::vector<std::string> unmatched;       ///< names of the clip that drive nothing
   std::vector<std::string> undriven;        ///< targets that nothing drives
 
-  /// A clip's weights [N] as weights of the targets; those that nothing drives stay 0. Where two
-  /// names drive one target, the larger weight counts.
-  void spread(std::span<const double> from, std::span<double> to) const noexcept;
+  /// The clip's weights at `seconds` as weights of the targets; those that nothing drives stay 0.
+  /// Where two names drive one target, the larger weight counts.
+  void spread(const Clip& clip, double seconds, std::span<double> to) const noexcept;
 };
 ClipMatch matchClip(const Clip& clip, std::span<const std::string> targets);
 

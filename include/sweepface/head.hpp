@@ -42,8 +42,8 @@ class ClipAngles {
   /// column for each, and 0 in it where nobody told.
   bool turnsHead() const { return turns_[0] || turns_[1] || turns_[2]; }
   bool eyes() const { return turns_[3] || turns_[4] || turns_[6] || turns_[7]; }
-  /// The pose of a frame's weights [N]; what the clip lacks is 0.
-  HeadPose of(std::span<const double> weights) const noexcept;
+  /// The pose at `seconds` after the first frame of the clip; what it lacks is 0.
+  HeadPose at(const Clip& clip, double seconds) const noexcept;
 
  private:
   std::array<std::ptrdiff_t, 9> columns_;  // or -1

@@ -36,6 +36,10 @@ std::string_view nameOf(Drive::Kind kind) noexcept;
 /// The trajectory of a drive without its delay. A cut keeps no velocity.
 Result<Trajectory> trajectoryOf(const Drive& drive, Start start, double goal);
 
+/// What may pass at once, some 300 years: after more a clock would not tell frames apart. So much
+/// is a clock of other units, or a first frame that no other was before.
+inline constexpr double kMostSeconds = 1e10;
+
 /// K weights in motion that take new goals at any instant and go on from where they are without a
 /// jump in position or velocity (but for cuts). Every path is a closed form of the clock, so what
 /// is seen does not depend on the frame rate. Nothing allocates after `make`, but the texts of
@@ -48,11 +52,11 @@ class MotionState {
   std::size_t size() const noexcept { return coordinates_.size(); }
   double now() const noexcept { return now_; }  ///< seconds since `make`
 
-  /// Lets time pass. Negative, infinite or not a number: none passes.
+  /// Lets time pass. Negative, not a number or more than kMostSeconds: none passes.
   void advance(double seconds) noexcept;
 
-  /// Sends a weight to a goal; what it did before ends when the drive sets out. On an error
-  /// nothing changes.
+  /// Sends a weight to a goal; what it did before ends when the drive sets out. A drive that still
+  /// waits for that is given up. On an error nothing changes.
   Result<void> moveTo(std::size_t weight, double goal, const Drive& drive = {});
   /// Whether that would be an error.
   Result<void> check(std::size_t weight, double goal, const Drive& drive) const;

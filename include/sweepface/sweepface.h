@@ -47,8 +47,8 @@ enum {
 /* The version of the library: major * 10000 + minor * 100 + patch. */
 SWEEPFACE_API uint32_t sweepface_version(void);
 
-/* Why the last failing call on this thread failed: one sentence in UTF-8, valid until the next
- * fails. Empty if none has. */
+/* Why the last failing call on this thread failed: one sentence in UTF-8, of its first 2,047 bytes,
+ * valid until the next fails. Empty if none has. */
 SWEEPFACE_API const char* sweepface_message(void);
 
 /* ---- Rigs ---- */
@@ -58,7 +58,7 @@ SWEEPFACE_API const char* sweepface_message(void);
 SWEEPFACE_API sweepface_status sweepface_rig_load(const void* bytes, size_t size, const char* name,
                                                   sweepface_rig** rig);
 /* The same in two steps, so that a face shows before it can move. The first reads all but what
- * targets do, which takes about half of the time: until the second every weight stays 0. The second
+ * the targets of a packed file do, about half of it: until the second every weight stays 0. The second
  * does nothing where all is read; nothing made from the rig may be in use meanwhile. */
 SWEEPFACE_API sweepface_status sweepface_rig_load_neutral(const void* bytes, size_t size,
                                                           const char* name, sweepface_rig** rig);
@@ -236,7 +236,7 @@ enum {
 
 typedef struct sweepface_drive {
   sweepface_drive_kind kind;
-  double delay;       /* seconds before it sets out */
+  double delay;       /* seconds before it sets out; what waits for that gives way to the next */
   double seconds;     /* until it arrives; not for CUT and SPRING */
   double turn;        /* ACCELERATE_BRAKE: when the second force takes over, as a fraction */
   double frequency;   /* SPRING: oscillations a second if there were no damper */
@@ -252,7 +252,7 @@ SWEEPFACE_API sweepface_status sweepface_motion_create(const double* weights, si
                                                        sweepface_motion** motion);
 SWEEPFACE_API void sweepface_motion_free(sweepface_motion* motion);
 
-/* Lets time pass; negative, infinite or not a number: none. */
+/* Lets time pass; negative, not a number or more than 1e10 seconds at once: none. */
 SWEEPFACE_API void sweepface_motion_advance(sweepface_motion* motion, double seconds);
 
 /* Sends one weight or all of them to goals. `drive` may be NULL: a critically damped spring. */

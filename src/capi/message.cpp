@@ -1,13 +1,21 @@
 #include "capi/message.hpp"
 
+#include <algorithm>
+#include <array>
+
 namespace sweepface::capi {
 
 namespace {
-thread_local std::string lastMessage;
-}
+// No string: its destructor would keep a plugin loaded for as long as the thread lives.
+constinit thread_local std::array<char, 2048> lastMessage{};
+
+bool isWithinCharacter(char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; }
+}  // namespace
 
 sweepface_status refuse(sweepface_status status, std::string message) {
-  lastMessage = std::move(message);
+  std::size_t length = std::min(message.size(), lastMessage.size() - 1);
+  while (length < message.size() && length > 0 && isWithinCharacter(message[length])) --length;
+  *std::copy_n(message.data(), length, lastMessage.data()) = '\0';
   return status;
 }
 
@@ -34,4 +42,4 @@ uint32_t sweepface_version(void) {
   return SWEEPFACE_VERSION_MAJOR * 10000 + SWEEPFACE_VERSION_MINOR * 100 + SWEEPFACE_VERSION_PATCH;
 }
 
-const char* sweepface_message(void) { return sweepface::capi::lastMessage.c_str(); }
+const char* sweepface_message(void) { return sweepface::capi::lastMessage.data(); }

@@ -43,7 +43,8 @@ constexpr int kSums = 8;
 // Each to the larger of the two.
 [[gnu::always_inline]] inline void raise(Wide& most, const Wide& x) { most = most < x ? x : most; }
 
-}  // namespace
+// In here, as GCC lets a shared library show every function that has clones to all others.
+namespace loops {
 
 // Three at once: sums of one wait for each other.
 SWEEPFACE_CLONES
@@ -180,6 +181,34 @@ void roundAll(std::span<const float> values, float factor, std::int16_t* out) {
     const auto bits = (WideInts)rounded;
     reinterpret_cast<WideShorts&>(out[k]) = __builtin_convertvector(bits, WideShorts);
   }
+}
+
+}  // namespace loops
+}  // namespace
+
+void sumRows(std::span<const Scaled> terms, int width, float* out) {
+  loops::sumRows(terms, width, out);
+}
+void project(const Planes& planes, const float* factors, float* out) {
+  loops::project(planes, factors, out);
+}
+void dotRows(const Planes& planes, const float* vector, float* out) {
+  loops::dotRows(planes, vector, out);
+}
+void takeAway(Planes& planes, const float* factors, const float* vector) {
+  loops::takeAway(planes, factors, vector);
+}
+void measureSquares(const Planes& planes, float* sums, float* largest) {
+  loops::measureSquares(planes, sums, largest);
+}
+void measureRest(const Planes& wanted, std::span<const float> basis, const float* coefficients,
+                 float enough, float* largest) {
+  loops::measureRest(wanted, basis, coefficients, enough, largest);
+}
+void clampAll(std::span<float> values, float most) { loops::clampAll(values, most); }
+Extent extentOf(std::span<const float> values) { return loops::extentOf(values); }
+void roundAll(std::span<const float> values, float factor, std::int16_t* out) {
+  loops::roundAll(values, factor, out);
 }
 
 }  // namespace sweepface

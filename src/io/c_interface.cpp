@@ -195,12 +195,9 @@ sweepface_status sweepface_clip_weights(const sweepface_clip* clip, double secon
   const std::vector<Clip>& ofRegions = clip->recording.ofRegions;
   const std::size_t all = ofRegions.size() * clip->targets;
   if (count > all) return refuse("The clip has only ", all, " weights, not ", count, ".");
-  std::vector<double> own(clip->recording.clip.names.size()), weights(clip->targets);
-  for (std::size_t r = 0, first = 0; first < count; ++r, first += clip->targets) {
-    ofRegions[r].at(seconds, own);
-    clip->match.spread(own, weights);
-    std::copy_n(weights.begin(), std::min(clip->targets, count - first), out + first);
-  }
+  for (std::size_t r = 0, first = 0; first < count; ++r, first += clip->targets)
+    clip->match.spread(ofRegions[r], seconds,
+                       {out + first, std::min(clip->targets, count - first)});
   return SWEEPFACE_OK;
 }
 
@@ -210,10 +207,7 @@ int32_t sweepface_clip_has_eyes(const sweepface_clip* clip) { return clip && cli
 sweepface_status sweepface_clip_pose(const sweepface_clip* clip, double seconds,
                                      sweepface_pose* pose) {
   if (!clip || !pose) return refuse("A pose needs a clip and a place for it.");
-  const Clip& whole = clip->recording.clip;
-  std::vector<double> own(whole.names.size());
-  whole.at(seconds, own);
-  const HeadPose found = clip->angles.of(own);
+  const HeadPose found = clip->angles.at(clip->recording.clip, seconds);
   *pose = {anglesOf(found.head), anglesOf(found.leftEye), anglesOf(found.rightEye)};
   return SWEEPFACE_OK;
 }

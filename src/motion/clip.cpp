@@ -34,21 +34,28 @@ std::string plain(std::string_view name) {
 
 }  // namespace
 
-void Clip::at(double seconds, std::span<double> out) const noexcept {
-  const std::size_t n = names.size(), count = std::min(n, out.size());
-  if (times.empty() || n == 0) {
-    std::ranges::fill(out.first(count), 0.0);
-    return;
-  }
+Clip::Moment Clip::momentAt(double seconds) const noexcept {
+  if (times.empty()) return {};
   const double time = times.front() + (seconds > 0 ? seconds : 0);
   const auto next = std::ranges::upper_bound(times, time);
   const auto later = static_cast<std::size_t>(
       std::min(next - times.begin(), static_cast<std::ptrdiff_t>(times.size()) - 1));
   const std::size_t earlier = later == 0 ? 0 : later - 1;
   const double length = times[later] - times[earlier];
-  const double s = length > 0 ? std::clamp((time - times[earlier]) / length, 0.0, 1.0) : 1;
-  for (std::size_t k = 0; k < count; ++k)
-    out[k] = std::lerp(weights[earlier * n + k], weights[later * n + k], s);
+  return {earlier, later,
+          length > 0 ? std::clamp((time - times[earlier]) / length, 0.0, 1.0) : 1};
+}
+
+double Clip::weight(const Moment& moment, std::size_t name) const noexcept {
+  if (times.empty()) return 0;
+  const std::size_t n = names.size();
+  return std::lerp(weights[moment.earlier * n + name], weights[moment.later * n + name],
+                   moment.share);
+}
+
+void Clip::at(double seconds, std::span<double> out) const noexcept {
+  const Moment moment = momentAt(seconds);
+  for (std::size_t k = 0; k < std::min(names.size(), out.size()); ++k) out[k] = weight(moment, k);
 }
 
 ClipMatch matchClip(const Clip& clip, std::span<const std::string> targets) {
@@ -84,12 +91,13 @@ ClipMatch matchClip(const Clip& clip, std::span<const std::string> targets) {
   return match;
 }
 
-void ClipMatch::spread(std::span<const double> from, std::span<double> to) const noexcept {
+void ClipMatch::spread(const Clip& clip, double seconds, std::span<double> to) const noexcept {
   constexpr double kNone = -std::numeric_limits<double>::infinity();
   std::ranges::fill(to, kNone);
-  for (std::size_t k = 0; k < std::min(from.size(), targets.size()); ++k)
+  const Clip::Moment moment = clip.momentAt(seconds);
+  for (std::size_t k = 0; k < std::min(clip.names.size(), targets.size()); ++k)
     for (const Index t : targets[k])
-      if (static_cast<std::size_t>(t) < to.size()) to[t] = std::max(to[t], from[k]);
+      if (static_cast<std::size_t>(t) < to.size()) to[t] = std::max(to[t], clip.weight(moment, k));
   std::ranges::replace(to, kNone, 0.0);
 }
 

@@ -82,7 +82,7 @@ Result<MotionState> MotionState::make(std::span<const double> weights) {
 
 void MotionState::advance(double seconds) noexcept {
   const double before = now_;
-  if (seconds > 0 && std::isfinite(now_ + seconds)) now_ += seconds;
+  if (seconds > 0 && seconds <= kMostSeconds) now_ += seconds;
   if (now_ < nextSwitch_) return;
   nextSwitch_ = kNever;
   for (std::size_t k = 0; k < size(); ++k)

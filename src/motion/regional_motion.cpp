@@ -153,8 +153,8 @@ Clip inMatter(const Clip& clip, const Matter& matter, const Spring& hold, std::s
 // ---- Live ----
 
 void RegionalMotion::Region::advance(double seconds) noexcept {
-  double left = seconds;
-  const double until = std::isfinite(seconds) ? state.now() + seconds : state.now();
+  double left = seconds <= kMostSeconds ? seconds : 0;
+  const double until = state.now() + left;
   for (; const LateGoals::Goal* goal = late.due(until); late.removeFirst()) {
     const double step = std::max(0.0, goal->at - state.now());
     state.advance(step);

@@ -94,7 +94,7 @@ class Baker {
   Result<void> check(double framesPerSecond, double frames) const {
     if (framesPerSecond > 0 && frames < 1)
       return failCall("A timeline must last longer than a millionth of a frame; make it longer.");
-    if (!(framesPerSecond > 0) || !(frames <= 1e6))
+    if (!(framesPerSecond > 0) || !(frames <= 1e6) || seconds() > kMostSeconds)
       return failCall(
           "A timeline has 1 to 1,000,000 frames, which at 240 a second are 4,166 s with its loops; "
           "make it shorter, or bake it at another rate.");

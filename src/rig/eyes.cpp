@@ -146,13 +146,14 @@ bool movesAnything(const Clip& clip, const ClipMatch& match) {
          std::ranges::all_of(clip.names, ClipAngles::tells);
 }
 
-HeadPose ClipAngles::of(std::span<const double> weights) const noexcept {
+HeadPose ClipAngles::at(const Clip& clip, double seconds) const noexcept {
+  const Clip::Moment moment = clip.momentAt(seconds);
   const auto angles = [&](std::size_t first) {
     std::array<double, 3> three{};
     for (std::size_t k = 0; k < 3; ++k)
       if (const auto c = columns_[first + k];
-          c >= 0 && static_cast<std::size_t>(c) < weights.size())
-        three[k] = weights[static_cast<std::size_t>(c)];
+          c >= 0 && static_cast<std::size_t>(c) < clip.names.size())
+        three[k] = clip.weight(moment, static_cast<std::size_t>(c));
     return Angles{three[0], three[1], three[2]};
   };
   return {angles(0), angles(3), angles(6)};

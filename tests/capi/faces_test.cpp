@@ -577,6 +577,14 @@ TEST_F(Faces, KeepMessagesToTheThread) {
   EXPECT_NE(std::string(sweepface_message()).find("17"), std::string::npos);
 }
 
+TEST(Messages, EndWithAWholeCharacter) {
+  std::string name;
+  while (name.size() < 4000) name += "\xC3\xA9";
+  sweepface_rig* rig = nullptr;
+  EXPECT_EQ(sweepface_rig_load("no face", 7, name.c_str(), &rig), SWEEPFACE_BAD_DATA);
+  EXPECT_EQ(std::string(sweepface_message()), name.substr(0, 2046));
+}
+
 TEST(Version, IsTheHeaders) {
   EXPECT_EQ(sweepface_version(), SWEEPFACE_VERSION_MAJOR * 10000u + SWEEPFACE_VERSION_MINOR * 100 +
                                      SWEEPFACE_VERSION_PATCH);

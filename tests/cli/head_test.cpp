@@ -105,9 +105,7 @@ TEST_F(HeadAndEyes, AnglesGoIntoRecordings) {
   ASSERT_EQ(run("animate face.sweep --clip take.csv -o again.csv").code, 0);
   const auto clip = parseLiveLinkCsv(contents(folder / "again.csv"), "again.csv");
   ASSERT_TRUE(clip);
-  std::vector<double> weights(clip->names.size());
-  clip->at(0.5, weights);
-  EXPECT_NEAR(ClipAngles(*clip).of(weights).head.yaw, 0.5, 1e-12);
+  EXPECT_NEAR(ClipAngles(*clip).at(*clip, 0.5).head.yaw, 0.5, 1e-12);
 }
 
 TEST_F(HeadAndEyes, AnglesAreNamesThatTheCommandKnows) {

@@ -4,7 +4,6 @@
 #include "sweepface/eval.hpp"
 #include "sweepface/evaluator.hpp"
 
-#include "allocations.hpp"
 #include "surface/segment.hpp"
 #include "surface/surfaces.hpp"
 
@@ -165,15 +164,6 @@ TEST(Density, refusesMoreVerticesThanAMachineHasRoomFor) {
   const auto refused = densityFor(surface, vectors, {Budget::Kind::edgeLength, 1e-6});
   ASSERT_FALSE(refused);
   EXPECT_NE(refused.error().message.find("ask for a coarser one"), std::string::npos);
-}
-
-TEST(Density, takesLittleMemoryBeforeItRefuses) {
-  const Surface surface = Surface::make(onePatch(60000, 60000)).value();
-  const auto vectors = neutral(surface);
-  allocations.most = allocations.held;
-  const std::size_t before = allocations.held;
-  EXPECT_FALSE(densityFor(surface, vectors, {Budget::Kind::edgeLength, 1e-7}));
-  EXPECT_LT(allocations.most - before, 100'000u);
 }
 
 TEST(Density, refusesABudgetOfMoreVerticesThanAMeshMayHave) {

@@ -8,7 +8,6 @@
 #include "sweepface/fit.hpp"
 #include "sweepface/io.hpp"
 
-#include "allocations.hpp"
 #include "codec/rigs.hpp"
 #include "eval/shader_tables.hpp"
 #include "eval/tile_kernels.hpp"
@@ -401,21 +400,6 @@ TEST(Evaluator, hasUnitNormalsOrNoneAtHugeWeights) {
       }
     }
   }
-}
-
-TEST(Evaluator, allocatesNothingWhenRun) {
-  if (!watchesAllocations) GTEST_SKIP();
-  const auto evaluator = Evaluator::make(largeRig()).value();
-  const auto weights = anyWeights(evaluator, 1);
-  const Index count = evaluator.vertexCount();
-  std::vector<float> positions(3 * count), normals(3 * count);
-  std::vector<std::byte> scratch(evaluator.scratchBytes());
-  const Evaluation job{
-      &evaluator, weights, scratch, {positions.data(), count}, {normals.data(), count}, {}};
-  const std::size_t before = allocations.count;
-  EXPECT_TRUE(job.validate());
-  job.run();
-  EXPECT_EQ(allocations.count, before);
 }
 
 TEST(Evaluator, refusesWhatDoesNotFit) {

@@ -186,7 +186,7 @@ TEST(HeadAngles, AreFoundByTheirHeadings) {
   const Clip clip{{"jawOpen", "headYaw", "RightEyePitch"}, {0}, {0.1, 0.2, 0.3}};
   const ClipAngles angles(clip);
   EXPECT_TRUE(angles.head() && angles.eyes());
-  EXPECT_EQ(angles.of(clip.weights), (HeadPose{{0.2, 0, 0}, {}, {0, 0.3, 0}}));
+  EXPECT_EQ(angles.at(clip, 0), (HeadPose{{0.2, 0, 0}, {}, {0, 0.3, 0}}));
   const ClipAngles none(Clip{{"jawOpen"}, {}, {}});
   EXPECT_FALSE(none.head() || none.eyes());
 }

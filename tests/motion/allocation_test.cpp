@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <vector>
 
+#include "sweepface/head.hpp"
 #include "sweepface/live_motion.hpp"
 #include "sweepface/motion.hpp"
 #include "sweepface/regional_motion.hpp"
@@ -26,6 +27,19 @@ TEST(Motion, EvaluatesWithoutAllocating) {
     motion->forces(0.3, out);
     EXPECT_EQ(allocations.count, made);
   }
+}
+
+TEST(Clip, IsReadWithoutAllocating) {
+  if (!testing::watchesAllocations) GTEST_SKIP() << "allocations cannot be watched here";
+  const Clip clip{{"jawOpen", "HeadYaw"}, {0, 1}, {0, 0, 1, 0.5}};
+  const ClipMatch match = matchClip(clip, std::vector<std::string>{"jawOpen"});
+  const ClipAngles angles(clip);
+  std::vector<double> out(1);
+  const std::size_t before = allocations.count;
+  match.spread(clip, 0.5, out);
+  EXPECT_EQ(angles.at(clip, 0.5).head.yaw, 0.25);
+  EXPECT_EQ(allocations.count, before);
+  EXPECT_EQ(out[0], 0.5);
 }
 
 TEST(MotionState, MovesWithoutAllocating) {

@@ -63,15 +63,23 @@ TEST(ClipMatch, ANameOfItsOwnDrivesASideAlone) {
 
 TEST(ClipMatch, SpreadsWeightsOverTargets) {
   const std::vector<std::string> targets{"up_L", "up_R", "jaw"};
-  const ClipMatch match = matchClip({{"upRight", "upLeft"}, {}, {}}, targets);
+  const Clip clip{{"upRight", "upLeft"}, {3, 4}, {0.3, 0.7, -0.3, -0.1}};
+  const ClipMatch match = matchClip(clip, targets);
   std::array<double, 3> to{9, 9, 9};
-  match.spread(std::array{0.3, 0.7}, to);
+  match.spread(clip, 0, to);
   EXPECT_EQ(to, (std::array{0.7, 0.3, 0.0}));
-  match.spread(std::array{-0.3, -0.1}, to);  // as springs swing
+  match.spread(clip, 0.25, to);
+  EXPECT_DOUBLE_EQ(to[0], 0.5);
+  EXPECT_DOUBLE_EQ(to[1], 0.15);
+  match.spread(clip, 9, to);  // below 0, as springs swing
   EXPECT_EQ(to, (std::array{-0.1, -0.3, 0.0}));
   // Of several names for one target the largest.
-  matchClip({{"jaw", "Jaw"}, {}, {}}, targets).spread(std::array{-0.3, -0.1}, to);
+  const Clip twice{{"jaw", "Jaw"}, {0}, {-0.3, -0.1}};
+  matchClip(twice, targets).spread(twice, 0, to);
   EXPECT_EQ(to, (std::array{0.0, 0.0, -0.1}));
+  const Clip empty{{"jaw"}, {}, {}};
+  matchClip(empty, targets).spread(empty, 0, to);
+  EXPECT_EQ(to, (std::array{0.0, 0.0, 0.0}));
 }
 
 }  // namespace

@@ -49,6 +49,15 @@ TEST(RegionalMotion, OneRegionIsAMotionStateBitForBit) {
   EXPECT_EQ(motion.sample(0, 0).position, state->sample(0).position);
 }
 
+TEST(RegionalMotion, AStepOfAClockOfOtherUnitsIsNone) {
+  RegionalMotion motion = motionOf({0.0}, {{}, {1, 1, 0.5}});
+  ASSERT_TRUE(motion.moveTo(0, 1, {.kind = Drive::Kind::cut, .spring = {}}));
+  motion.advance(1.7e18);
+  EXPECT_EQ(motion.sample(1, 0).position, 0);
+  motion.advance(0.6);
+  EXPECT_EQ(motion.sample(1, 0).position, 1);
+}
+
 // m q″ = −k (q − 1) − c q′ with the same damper everywhere.
 TEST(RegionalMotion, ASpringPullsHeavyRegionsByNewtonsLaw) {
   const Matter matter{4, 2, 0};

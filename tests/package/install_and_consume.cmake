@@ -22,6 +22,14 @@ function(consume folder)
 endfunction()
 
 consume(by_cmake -DCMAKE_PREFIX_PATH=${prefix})
+
+# Plugins with versions of their own must not share what is inside.
+execute_process(COMMAND nm -D --defined-only ${WORK}/by_cmake/libplugin.so OUTPUT_VARIABLE exported
+                COMMAND_ERROR_IS_FATAL ANY)
+if(exported MATCHES "[^\n]* u [^\n]*|[^\n]*N9sweepface[^\n]*")
+  message(FATAL_ERROR "A plugin exports what is inside the library: ${CMAKE_MATCH_0}")
+endif()
+
 set(ENV{PKG_CONFIG_PATH} ${prefix}/${LIBDIR}/pkgconfig)
 consume(by_pkg_config -DFIND_BY_PKG_CONFIG=ON)
 
