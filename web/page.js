@@ -20,33 +20,51 @@ async function show(source, name, keepView = false) {
     const began = performance.now();
     const face = await Sweepface.load(buffer, {name, lod: Number(at('lod').value)});
     if (mine !== asked) return face.dispose();
-    const weights = mesh && keepView ? mesh.face.weights : {};
+    const next = standing(face, mesh && keepView ? mesh.face.weights : {});
     remove();
     bytes = buffer;
-    mesh = meshOf(face);
-    mesh.setWeights(weights);
+    mesh = next;
     scene.add(mesh);
     if (!keepView) placeCamera(mesh);
     say('');
     tellName(name);
-    buildSliders(mesh, wake);
+    buildSliders(mesh, setWeight);
     drawLines();
     draw(0);
     loading = performance.now() - began;
     tellFigures(figures());
     setTimeout(() => prepare(face), 50);  // once the first frame is on the screen
   } catch (error) {
-    if (mine === asked) complain(error);
+    if (mine !== asked) return;
+    if (mesh) at('lod').value = mesh.face.lod;  // what is still on show
+    complain(error);
+  }
+}
+
+/** A mesh of a face that stands so; a face that cannot is disposed of. */
+function standing(face, weights) {
+  try {
+    const made = meshOf(face);
+    made.setWeights(weights);
+    return made;
+  } catch (error) {
+    face.dispose();
+    throw error;
+  }
+}
+
+/** Does what was asked for, or says why it cannot be. */
+function attempt(action) {
+  try {
+    action();
+  } catch (error) {
+    complain(error);
   }
 }
 
 /** Makes a face ready to move, if it is still on show. */
 function prepare(face) {
-  try {
-    if (mesh?.face === face) face.prepare();
-  } catch (error) {
-    complain(error);
-  }
+  attempt(() => mesh?.face === face && face.prepare());
 }
 
 function invite() {
@@ -68,6 +86,11 @@ function remove() {
 function drawLines() {
   if (lines) removeLines(lines);
   lines = at('lines').checked && mesh ? linesOver(mesh) : undefined;
+}
+
+function setWeight(name, weight) {
+  attempt(() => mesh.setWeights({[name]: weight}));
+  wake();
 }
 
 function figures() {
@@ -128,8 +151,10 @@ async function open(file) {
 /** The bytes behind a URL; of one that nobody asked for, nothing if it is not there. */
 async function download(url, isWanted) {
   const response = await fetch(url).catch(() => undefined);
-  if (response?.ok) return response.arrayBuffer();
-  if (isWanted) throw new Error(`${url} cannot be had: the server answers ${response?.status ?? 'nothing'}.`);
+  const whole = response?.ok && await response.arrayBuffer().catch(() => undefined);
+  if (whole) return whole;
+  const answer = response?.ok ? 'breaks off' : `answers ${response?.status ?? 'nothing'}`;
+  if (isWanted) throw new Error(`${url} cannot be had: the server ${answer}.`);
 }
 
 at('file').addEventListener('change', ({target}) => {
@@ -137,9 +162,9 @@ at('file').addEventListener('change', ({target}) => {
   target.value = '';  // so that the same file, converted again, may be chosen again
 });
 at('filter').addEventListener('input', filterSliders);
-at('surprise').addEventListener('click', () => mesh && surprise());
+at('surprise').addEventListener('click', () => attempt(() => mesh && surprise()));
 at('rest').addEventListener('click', () => {
-  if (mesh) mesh.moveTo(Object.fromEntries(mesh.face.names.map((name) => [name, 0])));
+  attempt(() => mesh?.moveTo(Object.fromEntries(mesh.face.names.map((name) => [name, 0]))));
   wake();
 });
 at('lod').addEventListener('change', () => bytes && show(bytes, stage.dataset.face, true));
@@ -150,6 +175,9 @@ at('lines').addEventListener('change', () => {
 controls.addEventListener('change', wake);
 view.addEventListener('webglcontextrestored', wake);
 new ResizeObserver(fit).observe(stage);
+
+// What was said of another file is over once the face on show is used.
+for (const type of ['pointerdown', 'keydown']) addEventListener(type, () => mesh && say(''));
 
 for (const type of ['dragover', 'dragleave', 'drop'])
   addEventListener(type, (event) => {

@@ -3,16 +3,15 @@ import {at} from './page_message.js';
 
 const sliders = new Map();  // by name: the input and what shows its number
 
-/** A slider for every expression of a mesh; `moved` hears of each that is moved. */
+/** A slider for every expression of a mesh; `moved` hears of each that is moved, and where to. */
 export function buildSliders(mesh, moved) {
   sliders.clear();
   at('sliders').replaceChildren(...mesh.face.names.map((name) => {
     const slider = sliderOf(name);
     slider.input.addEventListener('input', () => {
       const weight = slider.input.valueAsNumber;
-      mesh.setWeights({[name]: weight});
       slider.number.textContent = weight.toFixed(2);
-      moved();
+      moved(name, weight);
     });
     sliders.set(name, slider);
     return slider.row;

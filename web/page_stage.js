@@ -1,7 +1,8 @@
 // What the page draws faces with: a renderer, lights, a camera that turns round them, and colours.
 import {
   BackSide, Box3, BufferAttribute, BufferGeometry, Color, DirectionalLight, HemisphereLight, LineBasicMaterial,
-  LineSegments, Mesh, MeshBasicMaterial, MeshStandardMaterial, PerspectiveCamera, Scene, Vector3, WebGLRenderer
+  LineSegments, Mesh, MeshBasicMaterial, MeshStandardMaterial, PerspectiveCamera, Scene, Spherical, Vector3,
+  WebGLRenderer
 } from 'three';
 import {OrbitControls} from 'three/addons/controls/OrbitControls.js';
 import {SweepfaceMesh} from 'sweepface/three';
@@ -52,8 +53,12 @@ export function meshOf(face) {
   return mesh;
 }
 
+let unplaced;  // a face that came while there was no room to show it
+
 /** The camera in front of the face, at a distance from which all of it is seen. */
 export function placeCamera(mesh) {
+  unplaced = camera.aspect > 0 ? undefined : mesh;
+  if (unplaced) return;
   const box = new Box3().setFromBufferAttribute(mesh.geometry.attributes.position);
   const size = box.getSize(new Vector3()), middle = box.getCenter(new Vector3());
   const reach = Math.max(size.y, size.x / camera.aspect) / 2 / Math.tan(camera.fov / 2 * Math.PI / 180);
@@ -108,7 +113,22 @@ export function resize() {
   renderer.setSize(clientWidth, clientHeight, false);
   camera.aspect = clientWidth / Math.max(clientHeight, 1);
   camera.updateProjectionMatrix();
+  if (unplaced) placeCamera(unplaced);
 }
+
+const TURNS = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1]};
+
+/** Turns the face by the arrow keys, as the pointer does. */
+view.addEventListener('keydown', (event) => {
+  const turn = TURNS[event.key];
+  if (!turn) return;
+  event.preventDefault();
+  const from = new Spherical().setFromVector3(camera.position.clone().sub(controls.target));
+  from.theta += 0.1 * turn[0];
+  from.phi += 0.1 * turn[1];
+  camera.position.setFromSpherical(from.makeSafe()).add(controls.target);
+  controls.update();
+});
 
 export function render() {
   renderer.render(scene, camera);

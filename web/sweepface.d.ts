@@ -149,6 +149,8 @@ export class Sweepface {
   readonly eyeCount: number;
   /** How the eyes stand; null, as at the start: by the weights of eyeLook targets. */
   look(pose: Pose | null): void;
+  /** What `look` was told last. */
+  readonly pose: Pose | null;
 
   /** Writes three floats a vertex: positions in model units, unit normals. Either may be null. */
   evaluate(positions: Float32Array | Float64Array | null, normals?: Float32Array | Float64Array | null): void;

@@ -11,6 +11,7 @@ export class Sweepface {
   #shared;
   #face;
   #motion = 0;
+  #pose = null;
   #drives = new Map();  // goals, and seconds before which none rests there, by the place of the weight among all
   #memory;  // in the module, in one piece: arrays of floats and of weights, and C structs: a drive and two vectors
 
@@ -105,6 +106,9 @@ export class Sweepface {
   /** How many eyeballs turn. */
   get eyeCount() { return this.#open().eyeCount; }
 
+  /** How the eyes were told to stand, or null. */
+  get pose() { return structuredClone(this.#pose); }
+
   /** How the eyes stand, {leftEye: {yaw, pitch}, rightEye: {yaw, pitch}} in radians; null: by the eyeLook weights. */
   look(pose) {
     const {runtime, eyeCount} = this.#open();
@@ -113,12 +117,17 @@ export class Sweepface {
       const {yaw = 0, pitch = 0} = known(eye, ['yaw', 'pitch', 'roll'], `look's ${name}`);
       return [yaw, pitch, 0];
     };
-    if (!pose) return runtime.check(runtime.wasm.sweepface_face_look(this.#face, 0));
+    if (pose === null || pose === undefined) {
+      runtime.check(runtime.wasm.sweepface_face_look(this.#face, 0));
+      this.#pose = null;
+      return;
+    }
     const {leftEye, rightEye} = known(pose, ['leftEye', 'rightEye'], 'look');
     const numbers = new Float64Array([0, 0, 0, ...angles(leftEye, 'leftEye'), ...angles(rightEye, 'rightEye')]);
     runtime.lend(new Uint8Array(numbers.buffer), (at) => {
       runtime.check(runtime.wasm.sweepface_face_look(this.#face, at));
     });
+    this.#pose = {leftEye: {...leftEye}, rightEye: {...rightEye}};
   }
 
   /** Writes positions and normals, three floats a vertex; either may be null. */

@@ -9,7 +9,7 @@ const MOST_WEIGHTS = 2 ** 26;
 
 /** A number that nothing stands beside, or NaN. */
 function numberIn(text) {
-  return /^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i.test(text) ? Number(text) : NaN;
+  return /^[+-]?(\d+(\.\d*)?|\.\d+)(e[+-]?\d+)?$/i.test(text) ? Number(text) : NaN;
 }
 
 /** What a cell may have round it: the spaces of ASCII alone. */

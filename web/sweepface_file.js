@@ -28,13 +28,16 @@ async function read(options) {
 /** Chunks that hold things as they are, which takes a hundred times the bytes of a packed face. */
 const AS_THEY_ARE = ['EXAC', 'loos', 'drif', 'ordr', 'poly', 'texc', 'quad'];
 
+const MAGIC = 'SWEEPFC\x02';
+
 /** Whether a file holds nothing but what the usual module reads. */
 function isPacked(bytes) {
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
-  const kinds = [];
-  for (let at = 8; at + 8 <= bytes.length; at += 12 + view.getUint32(at + 4, true))
-    kinds.push(String.fromCharCode(...bytes.subarray(at, at + 4)));
-  return bytes[7] === 2 && !kinds.some((kind) => AS_THEY_ARE.includes(kind));
+  const textAt = (from, length) => String.fromCharCode(...bytes.subarray(from, from + length));
+  if (textAt(0, MAGIC.length) !== MAGIC) return false;
+  for (let at = MAGIC.length; at + 8 <= bytes.length; at += 12 + view.getUint32(at + 4, true))
+    if (AS_THEY_ARE.includes(textAt(at, 4))) return false;
+  return true;
 }
 
 /** What all faces of one file at one level of detail share. */

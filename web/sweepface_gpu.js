@@ -2,7 +2,7 @@
 // modes of the weights go to the graphics card, less than a tenth of a megabyte (docs/evaluation.md).
 import {
   BufferAttribute, DataTexture, MeshDepthMaterial, MeshDistanceMaterial, NearestFilter, RGBADepthPacking,
-  RGBAIntegerFormat, ShortType
+  RGBAIntegerFormat, ShortType, Vector3
 } from 'three';
 import {FaceMesh, faceFrom, geometryOf} from './sweepface_mesh.js';
 
@@ -88,6 +88,17 @@ function spread(face, perPoint, size, from = 0, stride = size) {
   return new BufferAttribute(out, size);
 }
 
+/** The normals of points whose tangents lie behind each other. */
+function normalsOf(tangents) {
+  const normals = new Float32Array(tangents.length / 2), along = new Vector3(), across = new Vector3();
+  for (let at = 0; at < normals.length; at += 3) {
+    along.fromArray(tangents, 2 * at);
+    across.fromArray(tangents, 2 * at + 3);
+    along.normalize().cross(across.normalize()).normalize().toArray(normals, at);
+  }
+  return normals;
+}
+
 /** What materials were told of their own before a face told them to follow it. */
 const own = new WeakMap();
 
@@ -102,7 +113,8 @@ export class SweepfaceGpuMesh extends FaceMesh {
       position: spread(face, positions.neutral, 3),
       sweepPlace: spread(face, positions.places, 3),
       sweepTangentPlace: spread(face, tangents.places, 3),
-      normal: spread(face, tangents.neutral, 3, 0, 6),  // along the sweep
+      normal: spread(face, normalsOf(tangents.neutral), 3),  // for materials that do not follow the face
+      sweepAlong: spread(face, tangents.neutral, 3, 0, 6),
       sweepAcross: spread(face, tangents.neutral, 3, 3, 6)
     });
     super(face, geometry, materials);
@@ -118,6 +130,7 @@ export class SweepfaceGpuMesh extends FaceMesh {
 
   #patch(material) {
     const {basis, modes, factor} = this.#textures;
+    if (!material?.isMaterial) throw new TypeError('A mesh takes a material, or one for each part of the face.');
     material.dispose();  // what a renderer made of it before knows no face, or another
     if (!own.has(material)) {
       const {onBeforeCompile, customProgramCacheKey} = material;
@@ -132,12 +145,12 @@ export class SweepfaceGpuMesh extends FaceMesh {
         uniform highp isampler2D sweepBasis, sweepModes;
         uniform float sweepFactor;
         in uvec3 sweepPlace, sweepTangentPlace;
-        in vec3 sweepAcross;
+        in vec3 sweepAlong, sweepAcross;
         ${SWEEPFACE_GLSL}
         ` + shader.vertexShader
         .replace('#include <beginnormal_vertex>', `$&
           objectNormal = sweepfaceNormal(
-            normal, sweepAcross, sweepTangentPlace, sweepBasis, sweepModes, sweepFactor);`)
+            sweepAlong, sweepAcross, sweepTangentPlace, sweepBasis, sweepModes, sweepFactor);`)
         .replace('#include <begin_vertex>', `$&
           transformed = sweepfacePosition(position, sweepPlace, sweepBasis, sweepModes, sweepFactor);`);
     };

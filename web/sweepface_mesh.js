@@ -32,12 +32,12 @@ function addTo(geometry, {name, userData, attributes, groups, drawRange}) {
 /** A face in a scene. Weights are set at any time; `update` has `show` bring them to the screen. */
 export class FaceMesh extends Mesh {
   #stale = true;
-  #moving = false;
-  #pose = null;
+  #moving;
 
   constructor(face, geometry, materials = materialsOf(face)) {
     super(geometry, materials);
     this.face = face;
+    this.#moving = face.advance(0);
   }
 
   get names() { return this.face.names; }
@@ -46,7 +46,6 @@ export class FaceMesh extends Mesh {
 
   look(pose) {
     this.face.look(pose);
-    this.#pose = pose && {leftEye: {...pose.leftEye}, rightEye: {...pose.rightEye}};
     this.#stale = true;
   }
 
@@ -92,10 +91,12 @@ export class FaceMesh extends Mesh {
       const set = Object.entries(weights).filter(([, weight]) => weight !== 0);  // none: nothing is to be read for it
       face.setWeights(Object.fromEntries(set), region);
     }
-    if (this.#pose) face.look(this.#pose);
+    if (this.face.pose) face.look(this.face.pose);
     const twin = new this.constructor(face, this.materialsOfClone()).copy(this, recursive);
-    twin.#pose = this.#pose;
     addTo(twin.geometry, this.geometry);
+    twin.traverse((part) => {
+      if (part.geometry === this.geometry) part.geometry = twin.geometry;
+    });
     return twin;
   }
 

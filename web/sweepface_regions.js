@@ -34,6 +34,8 @@ function check(regions) {
   if (!Array.isArray(regions)) throw new TypeError('Regions are a list of objects with a name each.');
   for (const region of regions) {
     if (typeof region?.name !== 'string') throw new TypeError('A region needs a name.');
+    if (/\0|\p{Surrogate}/u.test(region.name))
+      throw new TypeError('A region needs a name that is text all through.');
     const wrong = (what) => new TypeError(`Region '${region.name}' ${what}.`);
     for (const key of Object.keys(region))
       if (!MEMBERS.includes(key)) throw wrong(`has an unknown '${key}'; it has ${MEMBERS.join(', ')}`);

@@ -14,6 +14,8 @@ export function bytesOf(source) {
 
 /** Options as they are, of which one that there is not is a slip. */
 export function known(options, keys, what) {
+  if (typeof (options ?? {}) !== 'object' || Symbol.iterator in (options ?? {}))
+    throw new TypeError(`${what} takes an object of ${keys.join(', ')}, no ${kindOf(options)}.`);
   for (const key of Object.keys(options ?? {}))
     if (!keys.includes(key)) throw new TypeError(`${what} has no option '${key}'; it has ${keys.join(', ')}.`);
   return options ?? {};

@@ -17,17 +17,25 @@ export class MemoryError extends Error {
  * The module behind a URL. Browsers keep what they make of one that they compile while it comes; Node's fetch does not
  * read files.
  */
-async function compileUrl(url) {
+async function fetchModule(url) {
   if (url.protocol === 'file:' && globalThis.process?.versions?.node) {
     const files = 'node:fs/promises';  // in a variable, so that no bundler looks for it
     return WebAssembly.compile(await (await import(/* @vite-ignore */ /* webpackIgnore: true */ files)).readFile(url));
   }
   const response = await fetch(url);
-  if (!response.ok) throw new Error(`Could not load ${url}: the server answered ${response.status}.`);
+  if (!response.ok) throw new Error(`the server answered ${response.status}.`);
   const type = response.headers.get('content-type') ?? '';
-  if (/^text\/html/i.test(type)) throw new Error(`Could not load ${url}: the server sent a page of HTML instead.`);
+  if (/^text\/html/i.test(type)) throw new Error('the server sent a page of HTML instead.');
   const mayStream = type === 'application/wasm' && WebAssembly.compileStreaming;  // which refuses parameters
   return mayStream ? WebAssembly.compileStreaming(response) : WebAssembly.compile(await response.arrayBuffer());
+}
+
+async function compileUrl(url) {
+  try {
+    return await fetchModule(url);
+  } catch (error) {
+    throw new Error(`Could not load ${url}: ${error.message}`, {cause: error});
+  }
 }
 
 /** The modules beside this file: one for packed faces as they are, and one for all files with all there is. */

@@ -13,7 +13,7 @@ sweepface_status makeMesh(const sweepface_rig& rig, Index lod, Tessellation grid
                           sweepface_mesh** mesh) {
   auto neutral = Evaluator::make(
       *rig.rig, grid, {.level = lod, .targets = false, .influences = rig.division->influences});
-  if (!neutral) return refuse(std::move(neutral.error().message));
+  if (!neutral) return refuse(neutral.error().message);
   RenderMesh render = rendered(*rig.rig, grid);
   *mesh = new sweepface_mesh{std::make_shared<Mesh>(rig.rig, rig.shown, rig.division, rig.following,
                                                     lod, std::move(grid), std::move(*neutral),
@@ -51,7 +51,7 @@ sweepface_status sweepface_mesh_create_within(const sweepface_rig* rig, sweepfac
                   int(SWEEPFACE_VERTICES), ".");
   const auto density = densityFor(rig->rig->surface, blend(*rig->rig, {}),
                                   {static_cast<Budget::Kind>(budget), value});
-  if (!density) return refuse(std::string(density.error().message));
+  if (!density) return refuse(density.error().message);
   return makeMesh(*rig, 1, Tessellation(rig->rig->surface, *density), renderDensity, mesh);
 }
 

@@ -1,21 +1,23 @@
 #include "capi/message.hpp"
 
-#include <algorithm>
-#include <array>
+#include <cstring>
 
 namespace sweepface::capi {
 
 namespace {
 // No string: its destructor would keep a plugin loaded for as long as the thread lives.
-constinit thread_local std::array<char, 2048> lastMessage{};
+constinit thread_local char lastMessage[2048] = "";
 
 bool isWithinCharacter(char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; }
 }  // namespace
 
-sweepface_status refuse(sweepface_status status, std::string message) {
-  std::size_t length = std::min(message.size(), lastMessage.size() - 1);
-  while (length < message.size() && length > 0 && isWithinCharacter(message[length])) --length;
-  *std::copy_n(message.data(), length, lastMessage.data()) = '\0';
+sweepface_status refuse(sweepface_status status, std::string_view message) {
+  std::size_t length = message.size();
+  if (length >= sizeof lastMessage)
+    for (length = sizeof lastMessage - 1; length > 0 && isWithinCharacter(message[length]);)
+      --length;
+  std::memcpy(lastMessage, message.data(), length);
+  lastMessage[length] = '\0';
   return status;
 }
 
@@ -33,7 +35,7 @@ std::string sentence(std::string message) {
 }
 
 sweepface_status statusOf(Result<void> result) {
-  return result ? SWEEPFACE_OK : refuse(std::move(result.error().message));
+  return result ? SWEEPFACE_OK : refuse(result.error().message);
 }
 
 }  // namespace sweepface::capi
@@ -42,4 +44,4 @@ uint32_t sweepface_version(void) {
   return SWEEPFACE_VERSION_MAJOR * 10000 + SWEEPFACE_VERSION_MINOR * 100 + SWEEPFACE_VERSION_PATCH;
 }
 
-const char* sweepface_message(void) { return sweepface::capi::lastMessage.data(); }
+const char* sweepface_message(void) { return sweepface::capi::lastMessage; }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "sweepface/result.hpp"
 #include "sweepface/sweepface.h"
@@ -8,9 +9,9 @@
 namespace sweepface::capi {
 
 /// Keeps the sentence for sweepface_message() and gives the status back.
-sweepface_status refuse(sweepface_status status, std::string message);
-inline sweepface_status refuse(std::string message) {
-  return refuse(SWEEPFACE_BAD_ARGUMENT, std::move(message));
+sweepface_status refuse(sweepface_status status, std::string_view message);
+inline sweepface_status refuse(std::string_view message) {
+  return refuse(SWEEPFACE_BAD_ARGUMENT, message);
 }
 /// Not said by a module that is called by sweepface.js only (web/src/usual.cpp).
 sweepface_status refuseWith(std::initializer_list<TextPart> parts);

@@ -65,7 +65,7 @@ sweepface_status sweepface_motion_create_regions(const double* weights, size_t c
   for (size_t r = 0; r < regions; ++r)
     given.push_back({matters[r].mass, matters[r].stiffness, matters[r].delay});
   Result<RegionalMotion> state = RegionalMotion::make({weights, count}, given);
-  if (!state) return refuse(std::move(state.error().message));
+  if (!state) return refuse(state.error().message);
   *motion = new sweepface_motion{std::move(*state)};
   return SWEEPFACE_OK;
 }

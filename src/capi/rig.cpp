@@ -20,7 +20,7 @@ sweepface_status loadNeutral(const void* bytes, size_t size, const char* name,
   if (!rig || (!bytes && size > 0)) return refuse("Loading a rig needs bytes and a place for it.");
   auto decoded =
       decodeNeutral({static_cast<const char*>(bytes), size}, calledOr(name, "The face"), limits);
-  if (!decoded) return refuse(SWEEPFACE_BAD_DATA, std::move(decoded.error().message));
+  if (!decoded) return refuse(SWEEPFACE_BAD_DATA, decoded.error().message);
   const std::size_t targets = decoded->rig.targets.size();
   // Names stay where they are when a target each for arcs and those that turn two eyes are added.
   decoded->rig.targets.reserve(2 * targets + 2 * EyeTurns::kTargets);

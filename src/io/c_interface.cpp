@@ -159,7 +159,7 @@ sweepface_status sweepface_clip_read(const sweepface_rig* rig, const void* bytes
   if (auto ok = io::checkFrameRate(asked.frames_per_second); !ok) return refuse(ok.error().message);
   auto recording =
       readForRegions(*rig->division, {static_cast<const char*>(bytes), size}, called, asked);
-  if (!recording) return refuse(SWEEPFACE_BAD_DATA, std::move(recording.error().message));
+  if (!recording) return refuse(SWEEPFACE_BAD_DATA, recording.error().message);
   const Clip& whole = recording->clip;
   ClipMatch match = matchClip(whole, shownTargets(*rig));
   if (!movesAnything(whole, match))

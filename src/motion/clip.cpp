@@ -42,8 +42,7 @@ Clip::Moment Clip::momentAt(double seconds) const noexcept {
       std::min(next - times.begin(), static_cast<std::ptrdiff_t>(times.size()) - 1));
   const std::size_t earlier = later == 0 ? 0 : later - 1;
   const double length = times[later] - times[earlier];
-  return {earlier, later,
-          length > 0 ? std::clamp((time - times[earlier]) / length, 0.0, 1.0) : 1};
+  return {earlier, later, length > 0 ? std::clamp((time - times[earlier]) / length, 0.0, 1.0) : 1};
 }
 
 double Clip::weight(const Moment& moment, std::size_t name) const noexcept {

@@ -111,7 +111,8 @@ TEST(MotionState, AStepOfAClockOfOtherUnitsIsNone) {
   state.advance(1.7e18);  // nanoseconds
   EXPECT_EQ(state.now(), 0);
   state.advance(kMostSeconds);
-  ASSERT_TRUE(state.moveTo(0, 1, {.kind = Drive::Kind::accelerateBrake, .seconds = 1, .spring = {}}));
+  ASSERT_TRUE(
+      state.moveTo(0, 1, {.kind = Drive::Kind::accelerateBrake, .seconds = 1, .spring = {}}));
   for (int frame = 0; frame < 30; ++frame) state.advance(1.0 / 60);
   EXPECT_NEAR(state.sample(0).position, 0.5, 1e-3);
 }

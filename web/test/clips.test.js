@@ -94,6 +94,12 @@ test('options that there are not are refused', () => {
   assert.equal(readClip(csv, null).times.length, frames.length);
 });
 
+test('a cell of many digits is refused at once', {timeout: 5000}, () => {
+  const digits = '1'.repeat(300_000);
+  assert.throws(() => readClip(`Timecode,a\n${digits}x,0\n`), /line 2/);
+  assert.throws(() => readClip(`Timecode,a\n0,${digits}x\n`), /line 2/);
+});
+
 test('times are numbers', async () => {
   const clip = readClip(csv), player = new ClipPlayer(await Sweepface.load(readFileSync(sample)), clip);
   for (const seconds of [NaN, undefined, '0.5'])

@@ -90,5 +90,11 @@ test('eyes that do not turn cannot look', async () => {
   assert.throws(() => eyes.look({leftEye: {yaw: NaN}}), /finite numbers/);
   assert.throws(() => eyes.look({left: {yaw: 1}}), /look has no option 'left'; it has leftEye, rightEye/);
   assert.throws(() => eyes.look({leftEye: {up: 1}}), /look's leftEye has no option 'up'/);
+  for (const no of [5, true, [], 'left', {leftEye: 5}, {leftEye: []}])
+    assert.throws(() => eyes.look(no), {name: 'TypeError', message: /takes an object of/});
+  assert.equal(eyes.pose, null);
   eyes.look({leftEye: null, rightEye: undefined});
+  assert.deepEqual(eyes.pose, {leftEye: {}, rightEye: {}});
+  eyes.look(null);
+  assert.equal(eyes.pose, null);
 });

@@ -112,6 +112,14 @@ test('bytes that are no face are refused with the library\'s sentence', async ()
   }
 });
 
+test('a large file that is no face is refused in little memory', async () => {
+  const before = process.memoryUsage().heapUsed;
+  const refused = assert.rejects(Sweepface.load(new Uint8Array(3e7)), /does not begin with SWEEPFC/);
+  await Promise.resolve();
+  assert.ok(process.memoryUsage().heapUsed - before < 1e7);
+  await refused;
+});
+
 test('weights move by springs and are interrupted without a jump', async () => {
   const face = await load();
   face.moveTo({jawOpen: 1}, {kind: 'spring', frequency: 2, damping: 0.3});
@@ -455,6 +463,8 @@ test('a module is compiled while it comes only if the server calls it by its ver
     await assert.rejects(served('text/html; charset=utf-8'), {
       message: 'Could not load https://example.org/a.wasm: the server sent a page of HTML instead.'
     });
+    globalThis.fetch = async () => new Response('', {headers: {'content-type': 'application/wasm'}});
+    await assert.rejects(load({wasm: 'https://example.org/a.wasm'}), /^Error: Could not load https:\/\/example\.org\/a\.wasm: /);
   } finally {
     globalThis.fetch = fetch;
   }

@@ -82,6 +82,23 @@ test('the page', options, (t) => withPage('index.html', visit, async (page, comp
     assert.ok(await changed(plain, await picture()) > 0.005);
   });
 
+  await t.test('turns by arrow keys', async () => {
+    const ahead = await picture();
+    await page.locator('#view').focus();
+    const after = async (key) => {
+      for (let k = 0; k < 3; ++k) await page.keyboard.press(key);
+      await page.waitForTimeout(800);
+      await page.locator('#view').blur();  // which takes the frame away
+      const turned = await picture();
+      await page.locator('#view').focus();
+      return changed(ahead, turned);
+    };
+    assert.ok(await after('ArrowLeft') > 0.05);
+    assert.ok(await after('ArrowRight') < 0.01);
+    assert.ok(await after('ArrowUp') > 0.05);
+    assert.ok(await after('ArrowDown') < 0.01);
+  });
+
   await t.test('turns when it is dragged', async () => {
     const neutral = await picture();
     await page.mouse.move(300, 300);
@@ -129,6 +146,12 @@ test('the page', options, (t) => withPage('index.html', visit, async (page, comp
     await page.waitForSelector('#message.error');
     assert.equal(await page.locator('#message').textContent(),
                  'holiday.sweep does not begin with SWEEPFC; check that it is a .sweep file.');
+    await page.locator('#filter').click();  // the face that was there is used on
+    assert.equal(await page.locator('#message').textContent(), '');
+    await open(`${'B'.repeat(400)}.sweep`, Buffer.from('GIF89a'));
+    await page.waitForSelector('#message.error');
+    const {x, width} = await page.locator('#message').boundingBox();
+    assert.ok(x >= 0 && x + width <= 660);
     await open('again.sweep', bytes);
     await until(() => document.title.startsWith('again.sweep'));
     assert.equal(await page.locator('#message').textContent(), '');
@@ -140,6 +163,16 @@ test('the page', options, (t) => withPage('index.html', visit, async (page, comp
       const [input] = row.getElementsByTagName('input');
       return row.control === input && row.querySelector('span:not([aria-hidden])').textContent === input.name;
     })));
+  });
+
+  await t.test('keeps the face where another cannot be shown', async () => {
+    const broken = Buffer.from(bytes);
+    broken.fill(0, bytes.length / 2);
+    await page.locator('#file').setInputFiles({name: 'broken.sweep', mimeType: 'application/octet-stream', buffer: broken});
+    await page.waitForSelector('#message.error');
+    await slide('jawOpen', 0.3);
+    assert.equal(await weight('jawOpen'), 0.3);
+    assert.ok((await page.title()).startsWith('again.sweep'));
   });
 
   await t.test('shows the file that was asked for last', async () => {
@@ -173,6 +206,27 @@ test('the page', options, (t) => withPage('index.html', visit, async (page, comp
     const after = await changed(before, await picture());
     assert.ok(after < 0.01, `${after} of the pixels differ`);
     complaints.splice(told);  // that it was lost
+  });
+
+  await t.test('shows a face that came while there was no room for it', async () => {
+    await page.addInitScript(() => {
+      if (sessionStorage.getItem('room') !== 'none') return;
+      addEventListener('DOMContentLoaded', () => { document.getElementById('stage').style.maxWidth = '0'; });
+    });
+    await page.evaluate(() => sessionStorage.setItem('room', 'none'));
+    await page.reload();
+    await settle();
+    await page.evaluate(() => {
+      sessionStorage.clear();
+      document.getElementById('stage').style.maxWidth = '';
+    });
+    await page.waitForTimeout(800);
+    const shown = await picture();
+    await page.evaluate(() => { globalThis.sweepface.mesh.visible = false; });
+    await page.locator('#lines').check();  // draws again
+    await page.waitForTimeout(800);
+    assert.ok(await changed(shown, await picture()) > 0.1);
+    await page.locator('#lines').uncheck();
   });
 
   await t.test('fits a phone on its side', async () => {

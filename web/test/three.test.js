@@ -71,14 +71,14 @@ for (const [name, module] of [['SweepfaceMesh', 'three'], ['SweepfaceGpuMesh', '
     mesh.setWeights({browInnerUp: 0.25}, 'above');
     mesh.update();
     mesh.position.set(1, 2, 3);
-    mesh.add(new three.Object3D());
+    mesh.add(new three.Mesh(mesh.geometry));  // as for what is seen of its inside
     group.add(mesh);
     for (const twin of [mesh.clone(), group.clone().children[0]]) {
       assert.ok(twin instanceof Made && twin.face !== mesh.face && twin.geometry !== mesh.geometry);
       for (const region of mesh.regions) assert.deepEqual(twin.face.weightsIn(region), mesh.face.weightsIn(region));
       assert.deepEqual(twin.geometry.attributes.position.array, mesh.geometry.attributes.position.array);
       assert.deepEqual(twin.position.toArray(), [1, 2, 3]);
-      assert.equal(twin.children.length, 1);
+      assert.deepEqual(twin.children.map(({geometry}) => geometry), [twin.geometry]);
       assert.equal(twin.material.length, mesh.material.length);
       assert.equal(twin.material[0] === mesh.material[0], name === 'SweepfaceMesh');
       twin.setWeights({jawOpen: 1});
@@ -109,6 +109,26 @@ test('what is no face is refused with a sentence', options, async () => {
   for (const Mesh of [SweepfaceMesh, SweepfaceGpuMesh])
     for (const slip of [Promise.resolve(), new ArrayBuffer(8), undefined])
       assert.throws(() => new Mesh(slip), {message: /^A mesh is made of a face; await Sweepface\.load/});
+});
+
+for (const [name, module] of [['SweepfaceMesh', 'three'], ['SweepfaceGpuMesh', 'gpu']])
+  test(`${name} takes over a face as it moves and looks`, options, async () => {
+    const {Sweepface} = await import('../sweepface.js'), Made = (await import(`../sweepface_${module}.js`))[name];
+    const face = await Sweepface.load(readFileSync(sample), {eyes: true});
+    face.moveTo({jawOpen: 1});
+    face.look({leftEye: {yaw: 0.3}});
+    const mesh = new Made(face);
+    for (let frame = 0; frame < 120; ++frame) mesh.update(1 / 60);
+    assert.ok(face.weights.jawOpen > 0.99);
+    assert.deepEqual(mesh.clone().face.pose, face.pose);
+  });
+
+test('other materials see the neutral of a face on the graphics card', options, async () => {
+  const {SweepfaceGpuMesh} = await import('../sweepface_gpu.js');
+  const usual = await load(), mesh = new SweepfaceGpuMesh((await load()).face);
+  const {normal: {array}} = mesh.geometry.attributes, expected = usual.geometry.attributes.normal.array;
+  assert.ok(array.every((x, k) => Math.abs(x - expected[k]) < 1e-3));
+  assert.throws(() => new SweepfaceGpuMesh(usual.face, [null]), {name: 'TypeError', message: /takes a material/});
 });
 
 test('clones look where their models look', options, async () => {
