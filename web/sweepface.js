@@ -7,6 +7,8 @@ import {MemoryError} from './sweepface_wasm.js';
 /** How far a weight may be from 0. */
 const MOST = 1e6;
 
+const copyOf = ({leftEye, rightEye}) => ({leftEye: {...leftEye}, rightEye: {...rightEye}});
+
 export class Sweepface {
   #shared;
   #face;
@@ -107,7 +109,7 @@ export class Sweepface {
   get eyeCount() { return this.#open().eyeCount; }
 
   /** How the eyes were told to stand, or null. */
-  get pose() { return structuredClone(this.#pose); }
+  get pose() { return this.#open() && this.#pose && copyOf(this.#pose); }
 
   /** How the eyes stand, {leftEye: {yaw, pitch}, rightEye: {yaw, pitch}} in radians; null: by the eyeLook weights. */
   look(pose) {
@@ -127,7 +129,7 @@ export class Sweepface {
     runtime.lend(new Uint8Array(numbers.buffer), (at) => {
       runtime.check(runtime.wasm.sweepface_face_look(this.#face, at));
     });
-    this.#pose = {leftEye: {...leftEye}, rightEye: {...rightEye}};
+    this.#pose = copyOf(pose);
   }
 
   /** Writes positions and normals, three floats a vertex; either may be null. */
