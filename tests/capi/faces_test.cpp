@@ -1,6 +1,7 @@
 #include <array>
 #include <bit>
 #include <limits>
+#include <pthread.h>
 #include <thread>
 
 #include "sweepface/arcs.hpp"
@@ -245,6 +246,43 @@ TEST_F(Faces, EvaluateWithoutAllocating) {
   EXPECT_EQ(sweepface_face_create(mesh, &another), SWEEPFACE_OK);
   EXPECT_GT(allocations.count, before);  // the counter counts
   sweepface_face_free(another);
+}
+
+/// From bytes to vertices, as a thread of its own does it.
+void* playBytes(void* given) {
+  const std::string& bytes = *static_cast<const std::string*>(given);
+  sweepface_rig* handle = nullptr;
+  sweepface_mesh* mesh = nullptr;
+  sweepface_face* face = nullptr;
+  EXPECT_EQ(sweepface_rig_load(bytes.data(), bytes.size(), nullptr, &handle), SWEEPFACE_OK);
+  EXPECT_EQ(sweepface_mesh_create(handle, 2, &mesh), SWEEPFACE_OK);
+  EXPECT_EQ(sweepface_mesh_prepare(mesh, 1), SWEEPFACE_OK);
+  EXPECT_EQ(sweepface_face_create(mesh, &face), SWEEPFACE_OK);
+  EXPECT_EQ(sweepface_face_set_weight(face, 0, 0.5), SWEEPFACE_OK);
+  const std::size_t count = sweepface_mesh_vertex_count(mesh);
+  std::vector<float> out(3 * count), normals(3 * count);
+  EXPECT_EQ(sweepface_face_evaluate(face, count, {out.data(), 0}, {normals.data(), 0}),
+            SWEEPFACE_OK);
+  sweepface_face_free(face);
+  sweepface_mesh_free(mesh);
+  sweepface_rig_free(handle);
+  return nullptr;
+}
+
+TEST(Stacks, OfJobSystemsAreLargeEnough) {
+#ifdef SWEEPFACE_SANITIZED
+  GTEST_SKIP() << "sanitizers take more";
+#endif
+  for (const Rig& rig : {dressed(makeRig(sheet(20))), packed(dressed(makeRig(sheet(20))))}) {
+    std::string bytes = encode(rig);
+    pthread_attr_t small;
+    pthread_attr_init(&small);
+    ASSERT_EQ(pthread_attr_setstacksize(&small, 65536), 0);
+    pthread_t thread;
+    ASSERT_EQ(pthread_create(&thread, &small, playBytes, &bytes), 0);
+    pthread_join(thread, nullptr);
+    pthread_attr_destroy(&small);
+  }
 }
 
 TEST(FacesWithoutTargets, HaveNoModes) {
