@@ -94,7 +94,9 @@ Result<std::vector<double>> sampleTimes(const AnimateArguments& a, const Perform
   // A timecode tells thousandths of a frame.
   const double same =
       std::max(std::min(1e-4, 0.5 * performance.seconds), isCsv ? 1e-3 / a.what.clipRate : 0);
-  if (hasKeys && performance.seconds > times.back() + same) times.push_back(performance.seconds);
+  if (!hasKeys) return times;
+  if (performance.seconds > times.back() + same) times.push_back(performance.seconds);
+  times.back() = std::max(times.back(), performance.seconds);
   return times;
 }
 

@@ -119,10 +119,12 @@ std::vector<double> ownKeyTimes(const Performance& performance) {
 KeyFrames keyFrames(const Performance& performance, const Rig& rig, double tolerance) {
   const std::vector<double>& own = performance.frameTimes;
   Halver halver(ofWeights(performance, rig.targets.size()), tolerance / 16, performance.seconds);
-  Clip clip = sample(performance, rig, halver.cut(own.empty() ? coarseTimes(performance) : own));
+  std::vector<double> times = halver.cut(own.empty() ? coarseTimes(performance) : own);
+  // Single precision may end before the last event does.
+  times.back() = std::max(times.back(), performance.seconds);
+  Clip clip = sample(performance, rig, times);
   const double missed = performance.frameMiss + halver.worst();
-  return {std::move(clip), std::max(tolerance - missed, tolerance / 2),
-          std::max(performance.frameMiss, halver.worst())};
+  return {std::move(clip), std::max(tolerance - missed, tolerance / 2), halver.worst()};
 }
 
 std::vector<double> turningTimes(const Performance& performance) {

@@ -14,12 +14,13 @@ namespace {
 
 constexpr const char* kName = "input";
 
-/// An error is a sentence about the file.
+/// An error is a sentence about the file, or a question.
 template <typename T>
 bool isRead(const Result<T>& result) {
-  if (!result)
-    require(result.error().message.starts_with(kName) && result.error().message.ends_with('.'));
-  return result.has_value();
+  if (result) return true;
+  const std::string& message = result.error().message;
+  require(message.starts_with(kName) && (message.ends_with('.') || message.ends_with('?')));
+  return false;
 }
 
 /// Frames come one after the other, and every number is one.

@@ -113,7 +113,11 @@ class DrawingReader {
 
   // The same, perhaps with a '-' before it.
   std::string reference(std::string_view what) {
-    return in_.text(fmt::format("{}, a name in quotes,", what));
+    const TextPlace at = in_.place();
+    std::string name = in_.text(fmt::format("{}, a name in quotes,", what));
+    if (name.empty())
+      in_.refuse(at, fmt::format("{} has no name; leave it out if there is none", what));
+    return name;
   }
 
   Vec3 vector(std::string_view what) {

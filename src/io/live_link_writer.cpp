@@ -112,14 +112,14 @@ Result<void> check(const Clip& clip, const std::vector<Column>& columns, double 
     return fail("The times of a recording lie from 0 to below a day; cut the clip.");
   std::set<std::string> headings;
   for (const Column& column : columns) {
-    if (io::sameLetters(column.heading, "Timecode") ||
-        io::sameLetters(column.heading, "BlendShapeCount"))
+    const std::string read(io::trimmed(column.heading));
+    if (io::sameLetters(read, "Timecode") || io::sameLetters(read, "BlendShapeCount"))
       return fail(
           fmt::format("'{}' cannot be a shape of a recording; rename the target.", column.heading));
-    if (column.heading.empty() || column.heading.find_first_of(",\r\n") != std::string::npos)
+    if (read.empty() || column.heading.find_first_of(",\r\n") != std::string::npos)
       return fail(fmt::format("'{}' cannot be the heading of a column; rename the target.",
                               column.heading));
-    if (!headings.insert(column.heading).second)
+    if (!headings.insert(read).second)
       return fail(fmt::format("There would be two columns '{}'; rename the target, or one of them.",
                               column.heading));
   }

@@ -25,7 +25,7 @@ std::optional<Limits::Range> rangeOf(std::string_view text) {
 Result<Limits> Limits::parse(const Rig& rig, std::string_view text) {
   constexpr double most = std::numeric_limits<double>::infinity();
   std::vector<Range> ranges(rig.targets.size(), Range{-most, most});
-  std::vector<char> isTold(rig.targets.size(), 0);
+  std::vector<char> isTold(rig.targets.size() + 1, 0);  // the last one: for all
   while (!text.empty()) {
     const std::string_view item = takeItem(text);
     if (item.empty()) continue;
@@ -36,6 +36,8 @@ Result<Limits> Limits::parse(const Rig& rig, std::string_view text) {
       return fail("limits are like 0:1 or jawOpen=0:0.8, the lower one first, not '" +
                   std::string(item) + "'");
     if (all) {
+      if (std::exchange(isTold.back(), 1))
+        return fail("limits for all are told twice; tell them once");
       for (std::size_t k = 0; k < ranges.size(); ++k)
         if (!isTold[k]) ranges[k] = *range;
       continue;

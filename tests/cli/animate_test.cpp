@@ -1,4 +1,5 @@
 #include "sweepface/clip.hpp"
+#include "sweepface/gltf.hpp"
 
 #include "cli/tool.hpp"
 
@@ -95,6 +96,38 @@ TEST_F(Animate, KeysHoldTheEnd) {
   for (const std::string options : {"--seconds 0.5 --fps 25", "--seconds 0.99"}) {
     ASSERT_EQ(run("animate face.sweep --to smile=1 -o take.csv " + options).code, 0);
     EXPECT_EQ(recorded("take.csv", "smile").back(), 1);
+  }
+}
+
+TEST_F(Animate, ATimelinesEndIsKeptHoweverNearAFrame) {
+  convertRig();
+  for (const double end : {1.00005, 4.746, 600.1}) {  // in single precision the last two are less
+    folder.file("line.json", fmt::format(R"({{"seconds": {0}, "events": [
+      {{"at": 0, "to": {{"jawOpen": 1}}, "drive": "linear-force", "seconds": 0.5}},
+      {{"at": {0}, "to": {{"jawOpen": 0.25}}, "drive": "cut"}}]}})",
+                                         end));
+    for (const std::string options : {"", " --fps 10"}) {
+      ASSERT_EQ(run("animate face.sweep --clip line.json -o line.csv" + options).code, 0);
+      EXPECT_EQ(recorded("line.csv", "JawOpen").back(), 0.25) << end << options;
+      ASSERT_EQ(run("animate face.sweep --clip line.json -o line.glb" + options).code, 0);
+      const Clip clip = *parseGltfClip(contents(folder / "line.glb"), "line.glb", {});
+      const auto jaw = std::ranges::find(clip.names, "jawOpen") - clip.names.begin();
+      const auto last = clip.weights.end() - std::ssize(clip.names);
+      EXPECT_NEAR(last[jaw], 0.25, 1e-6) << end << options;
+    }
+  }
+}
+
+TEST_F(Animate, SaysWhereFramesCannotFollow) {
+  convertRig();
+  folder.file("line.json", R"({"seconds": 1, "events": [
+    {"at": 0, "to": {"jawOpen": 1}, "drive": "spring", "frequency": 5000, "damping": 0}]})");
+  for (const std::string output : {"line.csv", "line.glb", "line"}) {
+    const Outcome r = run("animate face.sweep --clip line.json -o " + output);
+    ASSERT_EQ(r.code, 0) << r.err;
+    EXPECT_NE(r.err.find("than frames can tell: between them weights are off by 0.00"),
+              std::string::npos)
+        << r.err;
   }
 }
 

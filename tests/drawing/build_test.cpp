@@ -142,6 +142,15 @@ TEST(Points, tooManyForACurveAreMissedAndTheMissIsTold) {
   }
 }
 
+TEST(References, nameSomethingWhereTheyAreGiven) {
+  Json ribbon = square(), node = square();
+  ribbon["curves"][0]["ribbon"] = "";
+  node["nodes"][0]["with"] = "";
+  for (const Json& drawing : {ribbon, node})
+    EXPECT_NE(buildJson(drawing).error().message.find("has no name; leave it out"),
+              std::string::npos);
+}
+
 TEST(WhatNobodySays, bendsLeast) {
   const Rig rig = made(square());
   for (double u : {0.5, 3.0, 7.5})

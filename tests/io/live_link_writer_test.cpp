@@ -81,7 +81,9 @@ TEST(LiveLinkWriter, RefusesWhatTimecodesCannotTell) {
   EXPECT_TRUE(refuses({1, 1 + 1e-7}));
   EXPECT_TRUE(refuses({0}, 0));
   EXPECT_TRUE(refuses({0}, 60, "a,b"));
-  EXPECT_TRUE(refuses({0}, 60, "timecode"));
+  for (const char* name : {"timecode", " Timecode", "blendshapecount ", " "})
+    EXPECT_TRUE(refuses({0}, 60, name)) << name;
+  EXPECT_FALSE(formatLiveLinkCsv({{"beard", "beard "}, {0}, {0, 1}}, 60));
   EXPECT_FALSE(formatLiveLinkCsv({{"beard", "beard"}, {0}, {0, 1}}, 60));
 }
 

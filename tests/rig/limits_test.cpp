@@ -43,6 +43,12 @@ TEST(Limits, AreToldOnce) {
   EXPECT_EQ(limits.error().message, "the limits of 'rest' are told twice; tell them once");
 }
 
+TEST(Limits, ForAllAreToldOnce) {
+  const auto limits = Limits::parse(makeRig(onePatch(1, 1)), "0:1,rest=0:2,0:2");
+  ASSERT_FALSE(limits);
+  EXPECT_EQ(limits.error().message, "limits for all are told twice; tell them once");
+}
+
 TEST(Limits, AreListedAsWeightsAre) {
   const Rig rig = makeRig(onePatch(1, 1));
   const auto plain = Limits::parse(rig, "0:1,open=-0.5:0.8"),
