@@ -148,7 +148,7 @@ struct Summary {
   const ConvertArguments& arguments;
   const Conversion& conversion;
   const Verified& verified;
-  std::size_t vertices, bytes;
+  std::size_t vertices, bytes, sceneBytes;
   double seconds;
 };
 
@@ -167,6 +167,7 @@ nlohmann::ordered_json toJson(const Summary& s) {
           {"angleRms", angleRms},
           {"folds", folds},
           {"bytes", s.bytes},
+          {"sceneBytes", s.sceneBytes},
           {"seconds", s.seconds},
           {"warnings", s.conversion.warnings}};
 }
@@ -189,6 +190,9 @@ void printText(const Summary& s) {
                std::reduce(folds.begin(), folds.end()),
                nameOfShape(rig, static_cast<Index>(most - folds.begin()) - 1), *most);
   fmt::print("{} bytes in {:.1f} s\n", s.bytes, s.seconds);
+  if (s.sceneBytes > 0)
+    fmt::print("{} of them are what {} holds besides the face; --bare leaves it out\n",
+               s.sceneBytes, s.arguments.neutral);
 }
 
 // ---- The command ----
@@ -272,6 +276,7 @@ Result<int> convertAndWrite(const ConvertArguments& a) {
                         *verified,
                         source->rig.neutral.positions.size(),
                         bytes.size(),
+                        finished.scene.size(),
                         seconds.count()};
   if (a.json)
     printJson(toJson(summary));

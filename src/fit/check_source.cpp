@@ -1,5 +1,7 @@
 #include "fit/check_source.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <set>
 
@@ -31,6 +33,42 @@ Result<void> checkTolerance(double tolerance, double diagonal) {
       "a tolerance of {:.3g} is finer than a file's numbers, {:.3g} for a mesh of this size; "
       "allow a larger one",
       tolerance, kLeast * diagonal));
+}
+
+namespace {
+
+/// The largest coordinate of what faces use.
+double largest(const PolygonMesh& mesh, const auto& vectorOf) {
+  double most = 0;
+  for (const Index v : mesh.polygons.corners) {
+    const Vec3 x = vectorOf(v);
+    most = std::max({most, std::abs(x.x), std::abs(x.y), std::abs(x.z)});
+  }
+  return most;
+}
+
+}  // namespace
+
+Result<void> checkPrecision(const MeshRig& source, double tolerance) {
+  constexpr double kHalfUnit = 0x1p-25;  // of a number in single precision, at least
+  const auto& neutral = source.neutral.positions;
+  const double away = largest(source.neutral, [&](Index v) { return neutral[v]; });
+  if (away * kHalfUnit > tolerance)
+    return fail(fmt::format(
+        "the mesh stands {:.3g} from the origin, where a file's numbers are {:.2g} apart; move it "
+        "there, or allow a larger tolerance than {:.3g}",
+        away, 4 * away * kHalfUnit, tolerance));
+  for (const MeshTarget& target : source.targets) {
+    const double moved =
+        largest(source.neutral, [&](Index v) { return target.positions[v] - neutral[v]; });
+    if (moved * kHalfUnit > tolerance)
+      return fail(
+          fmt::format("the target {} moves a vertex by {:.3g}, which a file cannot tell within "
+                      "{:.3g}; is it in "
+                      "other units, or of another mesh?",
+                      io::inQuotes(target.name), moved, tolerance));
+  }
+  return {};
 }
 
 namespace {

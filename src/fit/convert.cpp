@@ -82,6 +82,7 @@ class Converter {
     const double size = diagonal(source_.neutral);
     tolerance_ = options_.tolerance > 0 ? options_.tolerance : kDefaultTolerance * size;
     if (auto ok = checkTolerance(tolerance_, size); !ok) return std::unexpected(ok.error());
+    if (auto ok = checkPrecision(source_, tolerance_); !ok) return std::unexpected(ok.error());
     const auto mesh = makeGridMesh(source_);
     if (!mesh) return std::unexpected(mesh.error());
     usualLimit_ =

@@ -120,7 +120,8 @@ double Facets::sag(Index face) const {
 }
 
 // A face that is folded, thinner than its vertices may move, or turned against the source's own
-// normal at a corner says nothing about which way is out.
+// normal at a corner says nothing about which way is out. Larger faces may have corners in line, or
+// inwards.
 bool Facets::isSound(Index face) const {
   const Vec3 n = normal(face);
   const Index begin = polygons_.faceStart[face], size = polygons_.faceSize(face);
@@ -129,7 +130,7 @@ bool Facets::isSound(Index face) const {
     const Vec3 p = at(begin + k), next = at(begin + (k + 1) % size) - p;
     longest = std::max(longest, norm(next));
     const Vec3 corner = cross(next, at(begin + (k + size - 1) % size) - p);
-    if (dot(corner, n) <= 0.05 * dot(n, n) / size) return false;
+    if (size <= 4 && dot(corner, n) <= 0.05 * dot(n, n) / size) return false;
     if (dot(normalAt(begin + k), n) < 0) return false;
   }
   return norm(n) / 2 > tolerance_ * longest;

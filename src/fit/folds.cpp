@@ -26,7 +26,8 @@ FoldFinder::FoldFinder(const Rig& rig, const Tessellation& grid)
 template <typename Visit>
 void FoldFinder::visit(std::span<const Vec3> vectors, std::span<const Vec3> source,
                        Visit visit) const {
-  const auto normals = vertexNormals(rig_.source.polygons, source, map_.cornerPlaces, vertexCount_);
+  const auto normals = vertexNormals(rig_.source.polygons, source, map_.cornerPlaces, vertexCount_,
+                                     rig_.source.quadCorners);
   const Facets facets(rig_.source, map_, source, normals, rig_.tolerance);
   const std::vector<Vec3> positions = fine_.positions(vectors);
   forEachCell(rig_.surface, kFoldLevel, [&](const Cell& cell) {

@@ -65,8 +65,8 @@ class Meter {
     PoseSamples s;
     s.errors.name = std::move(name);
     const auto vectors = blend(rig_, weights);
-    const auto expected =
-        vertexNormals(rig_.source.polygons, source, map_.cornerPlaces, grid_.vertexCount());
+    const auto expected = vertexNormals(rig_.source.polygons, source, map_.cornerPlaces,
+                                        grid_.vertexCount(), rig_.source.quadCorners);
     atVertices(s, weights, vectors, source, expected);
     if (facets_)
       betweenVertices(s, vectors, Facets(rig_.source, map_, source, expected, rig_.tolerance));

@@ -13,7 +13,8 @@ namespace {
 
 std::vector<double> anglesIn(const Rig& rig, const Tessellation& grid, const Weights& weights,
                              const std::vector<Index>& places, const std::vector<Vec3>& source) {
-  const auto expected = vertexNormals(rig.source.polygons, source, places, grid.vertexCount());
+  const auto expected = vertexNormals(rig.source.polygons, source, places, grid.vertexCount(),
+                                      rig.source.quadCorners);
   return normalAngles(expected, grid.normals(blend(rig, weights)));
 }
 

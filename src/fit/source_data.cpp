@@ -53,9 +53,11 @@ SourceData gatherSource(const MeshRig& rig, const GridMesh& mesh, double toleran
   data.points.resize(points, 3 * data.poses);
   data.normals.resize(points, 3 * data.poses);
   const std::vector<Index> pointOfCorner = pointsOfCorners(rig.neutral.polygons, mesh);
+  const std::span quadCorners(mesh.quadCorners.front().data(), 4 * mesh.quadCorners.size());
   for (Index k = 0; k < data.poses; ++k) {
     const std::vector<Vec3>& positions = rig.positionsOf(k);
-    const auto normals = vertexNormals(rig.neutral.polygons, positions, pointOfCorner, points);
+    const auto normals =
+        vertexNormals(rig.neutral.polygons, positions, pointOfCorner, points, quadCorners);
     for (Index p = 0; p < points; ++p) {
       const Vec3 &x = positions[mesh.source[p]], &n = normals[p];
       data.points.row(p).segment<3>(3 * k) << x.x, x.y, x.z;

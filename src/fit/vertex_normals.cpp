@@ -1,28 +1,70 @@
 #include "fit/vertex_normals.hpp"
 
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
 #include "eval/triangulate.hpp"
 
 namespace sweepface {
 
-std::vector<Vec3> vertexNormals(const Polygons& polygons, std::span<const Vec3> positions,
-                                std::span<const Index> pointOf, Index pointCount) {
-  std::vector<Vec3> normals(pointCount);
-  for (Index f = 0; f < polygons.faceCount(); ++f) {
-    const Index begin = polygons.faceStart[f], size = polygons.faceSize(f);
-    // Reflex corners look the other way than their face; of quads and triangles none counts as one.
-    const Vec3 face = size > 4 ? meanNormal(cornerPositions(polygons, positions, f)) : Vec3{};
-    for (Index k = 0; k < size; ++k) {
-      const Index v = polygons.corners[begin + k];
-      const Vec3& p = positions[v];
-      const Vec3 next = positions[polygons.corners[begin + (k + 1) % size]] - p;
-      const Vec3 last = positions[polygons.corners[begin + (k + size - 1) % size]] - p;
-      const Vec3 out = cross(next, last);
-      if (const Index point = pointOf[begin + k]; point >= 0)
-        normals[point] += dot(out, face) < 0 ? -1 * out : out;
+namespace {
+
+/// Adds up what corners say.
+class Normals {
+ public:
+  Normals(const Polygons& polygons, std::span<const Vec3> positions, std::span<const Index> pointOf,
+          Index pointCount)
+      : polygons_(polygons), positions_(positions), pointOf_(pointOf), sums_(pointCount) {}
+
+  /// A loop of face corners, which may be there twice in a row.
+  void add(std::span<const Index> loop, const Vec3& up = {}) {
+    const std::size_t size = loop.size();
+    for (std::size_t k = 0; k < size; ++k) {
+      const Index here = loop[k];
+      std::size_t next = (k + 1) % size, last = (k + size - 1) % size;
+      if (loop[next] == here) continue;
+      if (loop[last] == here) last = (last + size - 1) % size;
+      const Vec3 out = cross(at(loop[next]) - at(here), at(loop[last]) - at(here));
+      if (const Index point = pointOf_[here]; point >= 0)
+        sums_[point] += dot(out, up) < 0 ? -1 * out : out;
     }
   }
-  for (Vec3& n : normals) n = normalized(n);
-  return normals;
+
+  std::vector<Vec3> take() {
+    for (Vec3& sum : sums_) sum = normalized(sum);
+    return std::move(sums_);
+  }
+
+ private:
+  const Vec3& at(Index corner) const { return positions_[polygons_.corners[corner]]; }
+
+  const Polygons& polygons_;
+  std::span<const Vec3> positions_;
+  std::span<const Index> pointOf_;
+  std::vector<Vec3> sums_;
+};
+
+}  // namespace
+
+std::vector<Vec3> vertexNormals(const Polygons& polygons, std::span<const Vec3> positions,
+                                std::span<const Index> pointOf, Index pointCount,
+                                std::span<const Index> quadCorners) {
+  Normals normals(polygons, positions, pointOf, pointCount);
+  std::vector<char> isOfLarge(polygons.corners.size(), 0);
+  std::vector<Index> loop;
+  for (Index f = 0; f < polygons.faceCount(); ++f) {
+    const Index begin = polygons.faceStart[f], size = polygons.faceSize(f);
+    if (size > 4) std::fill_n(isOfLarge.begin() + begin, size, 1);
+    if (size > 4 && !quadCorners.empty()) continue;
+    loop.resize(size);
+    std::iota(loop.begin(), loop.end(), begin);
+    // Reflex corners look the other way than their face; of quads and triangles none counts as one.
+    normals.add(loop, size > 4 ? meanNormal(cornerPositions(polygons, positions, f)) : Vec3{});
+  }
+  for (std::size_t k = 0; k < quadCorners.size(); k += 4)
+    if (isOfLarge[quadCorners[k]]) normals.add(quadCorners.subspan(k, 4));
+  return normals.take();
 }
 
 std::vector<double> normalAngles(std::span<const Vec3> source, std::span<const Vec3> surface) {

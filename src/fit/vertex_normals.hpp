@@ -8,12 +8,14 @@
 namespace sweepface {
 
 /// The vertex normals of one pose [points]: the sum of edge × edge over the face corners at a point
-/// (`pointOf` [C]; negative: at none), turned round at the reflex corners of faces with more than
-/// four. On a regular grid this is the cross product of the central differences, so a smooth
-/// surface through the vertices has it too; weighting by angle or by whole faces differs from it by
-/// degrees on uneven meshes.
+/// (`pointOf` [C]; negative: at none). Of faces with more than four corners it is that of the quads
+/// that they are cut into, where `quadCorners` [Q × 4] tells them, face corners that are the same
+/// twice in triangles; else it is turned round at reflex corners. On a regular grid this is the
+/// cross product of the central differences, so a smooth surface through the vertices has it too;
+/// weighting by angle or by whole faces differs from it by degrees on uneven meshes.
 std::vector<Vec3> vertexNormals(const Polygons& polygons, std::span<const Vec3> positions,
-                                std::span<const Index> pointOf, Index pointCount);
+                                std::span<const Index> pointOf, Index pointCount,
+                                std::span<const Index> quadCorners);
 
 /// The angles between such normals and those of a surface at the same points, in degrees, wherever
 /// the source has a normal.

@@ -19,6 +19,32 @@ void simplify(Piece& face) {
       ++k;
 }
 
+// Takes away tips to which the face runs out and back.
+void dropSpikes(Piece& face) {
+  for (std::size_t k = 0; k < face.size() && face.size() > 4;) {
+    const std::size_t tip = (k + 1) % face.size(), back = (k + 2) % face.size();
+    if (face[k].vertex != face[back].vertex) {
+      ++k;
+      continue;
+    }
+    face.erase(face.begin() + static_cast<std::ptrdiff_t>(std::max(tip, back)));
+    face.erase(face.begin() + static_cast<std::ptrdiff_t>(std::min(tip, back)));
+    k = 0;
+  }
+}
+
+// Quads between rungs, so that no corner is in more than two of them, and a triangle at the end
+// where a corner is left.
+std::vector<Piece> ladder(const Piece& face) {
+  std::vector<Piece> pieces;
+  for (std::size_t low = 0, high = face.size() - 1; high >= low + 2; ++low, --high) {
+    pieces.push_back({face[low], face[low + 1]});
+    if (high > low + 2) pieces.back().push_back(face[high - 1]);
+    pieces.back().push_back(face[high]);
+  }
+  return pieces;
+}
+
 // Quads that share the first corner, and a triangle where one corner is left.
 std::vector<Piece> fan(const Piece& face) {
   std::vector<Piece> pieces;
@@ -35,42 +61,63 @@ std::vector<Piece> fan(const Piece& face) {
 
 void FaceCutter::cut(Piece face) {
   simplify(face);
+  dropSpikes(face);
   if (face.size() <= 4) return keep(std::move(face));
   for (Piece& piece : cutLarge(std::move(face))) keep(std::move(piece));
 }
 
-// A convex polygon is cut from its first corner on, any other from the first one that will do.
+// The first ladder that is good; where none is, as of polygons that are not convex or have corners
+// in line, a fan or triangles, or the best of all.
 std::vector<Piece> FaceCutter::cutLarge(Piece face) const {
   std::vector<Vec3> polygon;
   for (const Corner& c : face) polygon.push_back(positions_[c.vertex]);
   const Vec3 normal = meanNormal(polygon);
-  // Rounded coordinates may have corners in line lean inwards, by a part of a corner's share in the
-  // area.
-  constexpr double kInLine = 0.01;
-  const double least = -kInLine * dot(normal, normal) / static_cast<double>(face.size());
-  for (std::size_t k = 0; k < face.size(); ++k) {
-    std::vector<Piece> cuts = fan(face);
-    if (areConvex(cuts, normal, least)) return cuts;
-    std::ranges::rotate(face, face.begin() + 1);
+  std::vector<Piece> best;
+  double bestWorth = 0;
+  const auto offer = [&](std::vector<Piece> cuts) {
+    // Clearly better ones only, so that rounding has no say.
+    if (const double worth = worthOf(cuts, normal); worth > 1.01 * bestWorth)
+      best = std::move(cuts), bestWorth = worth;
+  };
+  constexpr std::size_t kMostTries = 64;
+  const double good = 1.5 / static_cast<double>(face.size());  // a quarter of a regular polygon's
+  for (const auto& way : {ladder, fan}) {
+    Piece from = face;
+    if (way == ladder) std::ranges::rotate(from, from.begin() + 2);  // the first rung begins at 0
+    for (std::size_t k = 0; k < std::min(face.size(), kMostTries) && bestWorth < good; ++k) {
+      offer(way(from));
+      std::ranges::rotate(from, from.begin() + 1);
+    }
   }
-  std::vector<Piece> cuts;
+  if (bestWorth >= good) return best;
+  std::vector<Piece> triangles;
   for (const Triangle& t : triangulate(polygon))
-    cuts.push_back({face[t[0]], face[t[1]], face[t[2]]});
-  return cuts;
+    triangles.push_back({face[t[0]], face[t[1]], face[t[2]]});
+  offer(triangles);
+  return best.empty() ? triangles : best;
 }
 
-// As seen along a normal: no corner turns by less.
-bool FaceCutter::areConvex(const std::vector<Piece>& cuts, const Vec3& normal, double least) const {
-  const auto turn = [&](const Piece& p, std::size_t a, std::size_t b, std::size_t c) {
-    const Vec3& from = positions_[p[a % p.size()].vertex];
-    return cross(positions_[p[b % p.size()].vertex] - from,
-                 positions_[p[c % p.size()].vertex] - from);
-  };
-  return std::ranges::all_of(cuts, [&](const Piece& p) {
-    for (std::size_t k = 0; k < p.size(); ++k)
-      if (dot(turn(p, k, k + 1, k + 2), normal) < least) return false;
-    return true;
-  });
+// As seen along the normal: the least that a corner turns by, of one that is straight hardly
+// anything; 0 where one turns inwards, or a piece has next to no area.
+double FaceCutter::worthOf(const std::vector<Piece>& cuts, const Vec3& normal) const {
+  // Rounded coordinates may have corners in line lean inwards.
+  constexpr double kInLine = 0.01, kThin = 1e-3;
+  const double up = norm(normal);
+  double worth = 1;
+  for (const Piece& p : cuts) {
+    double area = 0, longest = 0;
+    for (std::size_t k = 0; k < p.size(); ++k) {
+      const Vec3& here = positions_[p[k].vertex];
+      const Vec3 next = positions_[p[(k + 1) % p.size()].vertex] - here;
+      const Vec3 last = positions_[p[(k + p.size() - 1) % p.size()].vertex] - here;
+      const double turn = dot(cross(next, last), normal), full = norm(next) * norm(last) * up;
+      if (!(turn >= -kInLine * full)) return 0;
+      worth = std::min(worth, std::max(turn / full, 1e-3 * kInLine));
+      area += turn / up, longest = std::max(longest, dot(next, next));
+    }
+    if (!(area > kThin * longest)) return 0;
+  }
+  return worth;
 }
 
 void FaceCutter::keep(Piece piece) {

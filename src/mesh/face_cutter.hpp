@@ -25,7 +25,7 @@ class FaceCutter {
 
  private:
   std::vector<Piece> cutLarge(Piece face) const;
-  bool areConvex(const std::vector<Piece>& cuts, const Vec3& normal, double least) const;
+  double worthOf(const std::vector<Piece>& cuts, const Vec3& normal) const;
   void keep(Piece piece);
 
   std::span<const Vec3> positions_;

@@ -203,8 +203,8 @@ VertexErrors FaceScenes::errors(std::span<const double> weights,
   const SourceMesh& source = rig_.source;
   const std::vector<Vec3> vectors = blend(rig_, weights);
   const std::vector<Vec3> places = source_.positions(vectors), normals = source_.normals(vectors);
-  const std::vector<Vec3> expected =
-      vertexNormals(source.polygons, original, cornerPlaces_, source_.vertexCount());
+  const std::vector<Vec3> expected = vertexNormals(source.polygons, original, cornerPlaces_,
+                                                   source_.vertexCount(), source.quadCorners);
   VertexErrors errors;
   errors.distances.assign(places.size(), 0);
   for (std::size_t v = 0; v < original.size(); ++v)
@@ -230,7 +230,7 @@ Scene FaceScenes::original(std::span<const Vec3> positions) const {
   scene.positions.resize(count);
   for (std::size_t c = 0; c < places.size(); ++c)
     scene.positions[places[c]] = positions[polygons.corners[c]];
-  scene.normals = vertexNormals(polygons, positions, places, count);
+  scene.normals = vertexNormals(polygons, positions, places, count, source.quadCorners);
   std::vector<Index> faceOfTriangle;
   for (Index f = 0; f < polygons.faceCount(); ++f) {
     const auto corner = [&](Index k) { return places[polygons.faceStart[f] + k]; };

@@ -160,6 +160,36 @@ TEST(Convert, copesWithASourceThatIsNoSurface) {
   EXPECT_LE(worstDistance(conversion->rig, source), conversion->rig.tolerance);
 }
 
+TEST(Convert, refusesAtOnceWhatSinglePrecisionCannotTell) {
+  ConvertOptions options;
+  options.tolerance = 0.001;
+  MeshRig source = withTargets(cubeSphere());
+  const auto far = convert(scaled(source, 1, {0, 0, 1e6}), options);
+  ASSERT_FALSE(far);
+  EXPECT_NE(far.error().message.find("stands 1e+06 from the origin"), std::string::npos)
+      << far.error().message;
+  for (Vec3& p : source.targets[0].positions) p = 1e6 * p;
+  const auto large = convert(source, options);
+  ASSERT_FALSE(large);
+  EXPECT_NE(large.error().message.find("moves a vertex by 4.49e+06"), std::string::npos)
+      << large.error().message;
+}
+
+TEST(Convert, bendsNothingWhereFacesHaveManyCorners) {
+  constexpr Index kAround = 12;
+  MeshRig rig{cylinder(kAround), {}};
+  Loop bottom, top;
+  for (Index k = 0; k < kAround; ++k) {
+    bottom.insert(bottom.begin(), k);
+    top.push_back(static_cast<Index>(rig.neutral.positions.size()) - kAround + k);
+  }
+  addFace(rig.neutral, bottom);
+  addFace(rig.neutral, top);
+  const auto converted = convert(rig);
+  ASSERT_TRUE(converted);
+  EXPECT_LT(normalRms(converted->rig, rig), 1);
+}
+
 TEST(Convert, givesLooseVerticesBackExactly) {
   MeshRig source = withTargets(plane(5, 4));
   const Vec3 lonely{1.0 / 3, 1e-7, -123.456789};

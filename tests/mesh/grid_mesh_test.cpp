@@ -1,5 +1,8 @@
 #include "mesh/grid_mesh.hpp"
 
+#include <map>
+#include <numeric>
+
 #include "faces.hpp"
 
 namespace sweepface {
@@ -146,11 +149,61 @@ TEST(Cutting, makesQuadsOfAConcavePolygonWhereACornerSeesThemAll) {
   EXPECT_EQ(gridOf(mesh).quads.size(), 2u);
 }
 
-TEST(Cutting, beginsAtTheFirstCornerWhereCornersStandInLine) {
+/// The least sine of a corner of the pieces of one polygon.
+double leastSine(const std::vector<Vec3>& corners) {
   PolygonMesh mesh;
-  mesh.positions = {{0, 0, 0}, {1, 1e-4, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}, {0, 1, 0}};
-  addFace(mesh, {0, 1, 2, 3, 4, 5});
-  EXPECT_EQ(gridOf(mesh).quadCorners[0], (std::array<Index, 4>{0, 1, 2, 3}));
+  mesh.positions = corners;
+  Loop face(corners.size());
+  std::iota(face.begin(), face.end(), 0);
+  addFace(mesh, face);
+  double least = 1;
+  for (const auto& quad : gridOf(mesh).quadCorners) {
+    Loop piece(quad.begin(), quad.end());
+    piece.erase(std::unique(piece.begin(), piece.end()), piece.end());
+    const auto at = [&](std::size_t k) { return mesh.positions[piece[k % piece.size()]]; };
+    for (std::size_t k = 0; k < piece.size(); ++k) {
+      const Vec3 next = at(k + 2) - at(k + 1), last = at(k) - at(k + 1);
+      least = std::min(least, norm(cross(next, last)) / norm(next) / norm(last));
+    }
+  }
+  return least;
+}
+
+TEST(Cutting, leavesNoCornerInLine) {
+  EXPECT_GT(leastSine({{0, 0, 0}, {1, 1e-4, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}, {0, 1, 0}}), 0.25);
+  std::vector<Vec3> pentagon{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}};
+  for (int first = 0; first < 5; ++first) {
+    EXPECT_GT(leastSine(pentagon), 0.4) << first;
+    std::ranges::rotate(pentagon, pentagon.begin() + 1);
+  }
+  // Three by three quads as one.
+  EXPECT_GT(leastSine({{0, 0, 0},
+                       {1, 0, 0},
+                       {2, 0, 0},
+                       {3, 0, 0},
+                       {3, 1, 0},
+                       {3, 2, 0},
+                       {3, 3, 0},
+                       {2, 3, 0},
+                       {1, 3, 0},
+                       {0, 3, 0},
+                       {0, 2, 0},
+                       {0, 1, 0}}),
+            0.1);
+}
+
+TEST(Cutting, makesLaddersOfCaps) {
+  PolygonMesh mesh;
+  Loop face;
+  for (Index k = 0; k < 40; ++k) {
+    face.push_back(k);
+    mesh.positions.push_back({std::cos(turn(k / 40.0)), std::sin(turn(k / 40.0)), 0});
+  }
+  addFace(mesh, face);
+  std::map<Index, int> uses;
+  for (const auto& quad : gridOf(mesh).quadCorners)
+    for (const Index corner : quad) ++uses[corner];
+  for (const auto& [corner, count] : uses) EXPECT_LE(count, 2) << corner;
 }
 
 TEST(Cutting, refusesFacesOfThousandsOfCorners) {
