@@ -30,7 +30,8 @@ struct ConvertOptions {
   int textureBits = 14;
   /// Try shape parameters on every ribbon and keep what lowers the error.
   bool chooseShapes = true;
-  /// Called now and then with what is going on and how far it is, 0 to 1.
+  /// Called now and then with what is going on and how far it is, 0 to 1; from several threads, one
+  /// at a time.
   std::function<void(std::string_view what, double done)> progress;
   /// Set by another thread to give up; convert then fails.
   const std::atomic<bool>* cancel = nullptr;

@@ -95,7 +95,7 @@ class Converter {
         if (progress_.cancelled() || !limitsNormals) return conversion;
         failure = conversion.error();
       } else if (!limitsNormals || normalRms_ <= options_.normalTolerance) {
-        progress_.report("done", 1);
+        progress_.end();
         return conversion;
       } else if (!next.isGuided) {
         nearest_ = std::min(nearest_, normalRms_);
@@ -115,7 +115,7 @@ class Converter {
     if (found == fits_.end())
       found = fits_.emplace(normals.limit, fitWithin(mesh, normals.limit)).first;
     if (!found->second || !options_.pack) return found->second;
-    progress_.report("packing", 0.95);
+    progress_.reportPacking("packing", 0);
     Conversion conversion = *found->second;
     if (auto ok = pack(conversion.rig, found->second->rig, normals); !ok)
       return std::unexpected(ok.error());
@@ -161,17 +161,20 @@ class Converter {
       const double rms = normalRms(rig, source_),
                    before = std::exchange(normalRms_, std::min(normalRms_, rms));
       if (rms <= options_.normalTolerance || rms > kGain * before) break;
-      progress_.report(
+      progress_.reportPacking(
           fmt::format("packing, normals {:.3g} of {:.3g} degrees", rms, options_.normalTolerance),
-          0.95);
+          0);
       angle *=
           normals.isGuided ? std::clamp(0.8 * options_.normalTolerance / rms, 0.2, 0.8) : kSmaller;
     }
     return {};
   }
 
-  Result<void> packOnce(Rig& rig, double angle) const {
-    const auto proceed = [&](double) { return !progress_.cancelled(); };
+  Result<void> packOnce(Rig& rig, double angle) {
+    const auto proceed = [&](double done) {
+      progress_.reportPacking("packing", done);
+      return !progress_.cancelled();
+    };
     const double stepShare = std::clamp(2 * angle / (kAngleShare * usualLimit_), kFinestSteps, 1.0);
     const Result<void> ok = quantise(rig, source_, {tolerance_, angle, stepShare}, proceed);
     rig.packing.textureBits = options_.textureBits;

@@ -57,8 +57,17 @@ Result<Conversion> convertToBytes(const MeshRig& source, ConvertOptions options,
   std::optional<Error> first;  // why the first tolerance cannot be met
   Bracket bracket;
   int failures = 0;
+  // Nobody knows how many tries it takes: each has a part of what is left.
+  int number = 0;
+  double begun = 0, part = 0;
+  const auto progress = std::move(options.progress);
+  if (progress)
+    options.progress = [&](std::string_view what, double done) {
+      progress("try " + std::to_string(number) + ": " + std::string(what), begun + part * done);
+    };
   for (int attempt = 0; attempt < kMostTries && bracket.halvings <= kMostBracketHalvings;
        ++attempt) {
+    ++number, begun += part, part = 0.4 * (1 - begun);
     auto conversion = convert(source, options);
     if (!conversion && options.cancel && options.cancel->load()) return conversion;
     Try now{options.tolerance, SIZE_MAX};
@@ -87,6 +96,7 @@ Result<Conversion> convertToBytes(const MeshRig& source, ConvertOptions options,
     }
     options.tolerance = bracket.next(now, mostBytes);
   }
+  if (progress) progress("done", 1);
   if (best) return std::move(*best);
   return fail("the face does not fit into " + std::to_string(mostBytes) +
               " bytes at any tolerance tried; allow more or strip parts");

@@ -60,7 +60,7 @@ class SurfaceFitter {
       const bool within = errors.largestDistance <= limits_.distance;
       nearest = std::min(nearest, errors.largestDistance);
       const double share = within ? 1 : std::sqrt(limits_.distance / errors.largestDistance);
-      progress_.report("fitting", 0.9 * share);
+      progress_.reportFit("fitting", 0.9 * share);
       const Index changed = refine(layout_, fitted->draft, data_, errors, limits_, extra);
       if (changed == 0 && within) return reshaped(std::move(*fitted), errors);
       if (changed == 0) break;
@@ -95,7 +95,7 @@ class SurfaceFitter {
   // With other shape parameters, if the fit that follows is better and still within the limits.
   Fitted reshaped(Fitted fitted, const DraftErrors& errors) const {
     if (!choosesShapes_) return fitted;
-    progress_.report("shape parameters", 0.92);
+    progress_.reportFit("shape parameters", 0.92);
     Wireframe wireframe = fitted.draft.surface.wireframe();
     if (chooseShapes(layout_, fitted.draft, data_, fitted.solution, wireframe.ribbons) == 0)
       return fitted;

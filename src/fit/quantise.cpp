@@ -74,14 +74,17 @@ class Quantiser {
     parallelFor(Index{1}, poses_.count(), [&](Index pose) {
       const Index image = poses_.form(pose).image;
       if (images != (image < 0 || image == pose)) return;
-      if (!proceed_(static_cast<double>(++begun_) / poses_.count())) return;
+      ++begun_;
+      if (!goesOn()) return;
       met[pose] = packPose(poses_, pose, bounds);
     });
-    if (!proceed_(1)) return fail("the conversion was interrupted");
+    if (!goesOn()) return fail("the conversion was interrupted");
     if (const auto bad = std::ranges::find(met, false); bad != met.end())
       return failed("'" + rig_.targets[bad - met.begin() - 1].name + "'");
     return {};
   }
+
+  bool goesOn() const { return proceed_(static_cast<double>(begun_) / poses_.count()); }
 
   std::unexpected<Error> failed(const std::string& pose) const {
     // Files count steps from the origin, to 2²⁶ (src/codec/lattice.cpp); those of roots are halved.
