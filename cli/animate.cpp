@@ -95,7 +95,10 @@ Result<std::vector<double>> sampleTimes(const AnimateArguments& a, const Perform
   const double same =
       std::max(std::min(1e-4, 0.5 * performance.seconds), isCsv ? 1e-3 / a.what.clipRate : 0);
   if (!hasKeys) return times;
-  if (performance.seconds > times.back() + same) times.push_back(performance.seconds);
+  // Keys have single precision.
+  const bool isLater =
+      isCsv || static_cast<float>(performance.seconds) > static_cast<float>(times.back());
+  if (performance.seconds > times.back() + same && isLater) times.push_back(performance.seconds);
   times.back() = std::max(times.back(), performance.seconds);
   return times;
 }

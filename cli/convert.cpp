@@ -260,6 +260,7 @@ Result<int> convertAndWrite(const ConvertArguments& a) {
   const std::string bytes = encode(finished);
   const Result<Verified> verified = verify(bytes, a.output, source->rig, conversion->rig);
   if (!verified) return std::unexpected(verified.error());
+  catchInterrupts();  // writing is not to end in the middle
   if (interrupted) return kInterrupted;
   if (auto written = writeAndReadBack(a.output, bytes); !written)
     return std::unexpected(written.error());
@@ -298,7 +299,7 @@ Result<int> runConvert(const ConvertArguments& a) {
   if (a.threads > 0)
     limit.emplace(tbb::global_control::max_allowed_parallelism,
                   static_cast<std::size_t>(a.threads));
-  catchInterrupts();
+  catchInterrupts(Patience::twoSeconds);
   Result<int> code = convertAndWrite(a);
   // Whatever failed after Ctrl-C failed because of it.
   return interrupted && code != 0 ? endInterrupted() : code;

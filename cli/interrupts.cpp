@@ -14,26 +14,26 @@ static_assert(std::atomic<bool>::is_always_lock_free, "signal handlers may not l
 
 namespace {
 
-// Some work asks seldom; files have no name until they are whole, so that it can end anywhere.
-constexpr unsigned kPatience = 2;  // seconds
-
 void endAnyway(int) {
   constexpr std::string_view text = "\nsweepface: Interrupted.\n";
   std::ignore = ::write(STDERR_FILENO, text.data(), text.size());
   ::_exit(kInterrupted);
 }
 
-void ask(int) {
+void ask(int) { interrupted = true; }
+
+void askForTwoSeconds(int) {
   interrupted = true;
-  ::alarm(kPatience);
+  ::alarm(2);
 }
 
 }  // namespace
 
-void catchInterrupts() {
+void catchInterrupts(Patience patience) {
+  ::alarm(0);
   std::signal(SIGALRM, endAnyway);
   struct sigaction action{};
-  action.sa_handler = ask;
+  action.sa_handler = patience == Patience::endless ? ask : askForTwoSeconds;
   action.sa_flags = static_cast<int>(SA_RESETHAND);
   struct sigaction before{};
   sigaction(SIGINT, nullptr, &before);

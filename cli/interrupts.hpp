@@ -8,9 +8,11 @@ namespace sweepface::cli {
 extern std::atomic<bool> interrupted;
 inline constexpr int kInterrupted = 130;  // the exit code then
 
-/// From here on the first Ctrl-C asks the work to stop, and ends the program where it has not done
-/// so two seconds later; a second one ends it at once.
-void catchInterrupts();
+enum class Patience { endless, twoSeconds };
+
+/// From here on the first Ctrl-C asks the work to stop, and a second one ends the program. So does
+/// the end of patience, for work that asks seldom and has nothing to clear away.
+void catchInterrupts(Patience patience = Patience::endless);
 
 /// Says that the work was stopped and nothing written; the exit code.
 int endInterrupted();

@@ -215,6 +215,7 @@ export class Sweepface {
     if (!Number.isFinite(seconds))
       throw new RangeError(`Time passes by a finite number of seconds, not ${told(seconds)}.`);
     if (!this.#motion) return false;
+    const passing = seconds > 0 && seconds <= 1e10 ? seconds : 0;  // as in the module
     const still = 1e-6, before = this.#copyWeights().slice();
     const isDriven = this.#drives.size > 0;
     wasm.sweepface_motion_advance(this.#motion, seconds);
@@ -224,7 +225,7 @@ export class Sweepface {
     const now = runtime.doubles(weights, count);
     // What sets out or turns back has no velocity, either, but is not at its goal.
     for (const [place, drive] of this.#drives) {
-      drive.left -= Math.max(seconds, 0);
+      drive.left -= passing;
       const isThere = Math.abs(now[place] - drive.goal) <= still && Math.abs(velocities[place]) <= still;
       if (isThere && drive.left <= 0) this.#drives.delete(place);
     }

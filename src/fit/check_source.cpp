@@ -37,36 +37,37 @@ Result<void> checkTolerance(double tolerance, double diagonal) {
 
 namespace {
 
-/// The largest coordinate of what faces use.
-double largest(const PolygonMesh& mesh, const auto& vectorOf) {
-  double most = 0;
-  for (const Index v : mesh.polygons.corners) {
-    const Vec3 x = vectorOf(v);
-    most = std::max({most, std::abs(x.x), std::abs(x.y), std::abs(x.z)});
+/// The largest coordinate of what faces use, and the most that single precision is off there.
+struct Reach {
+  double away = 0, off = 0;
+
+  void include(const Vec3& v) {
+    for (const double x : {v.x, v.y, v.z}) {
+      away = std::max(away, std::abs(x));
+      off = std::max(off, std::abs(x - static_cast<double>(static_cast<float>(x))));
+    }
   }
-  return most;
-}
+};
 
 }  // namespace
 
 Result<void> checkPrecision(const MeshRig& source, double tolerance) {
-  constexpr double kHalfUnit = 0x1p-25;  // of a number in single precision, at least
-  const auto& neutral = source.neutral.positions;
-  const double away = largest(source.neutral, [&](Index v) { return neutral[v]; });
-  if (away * kHalfUnit > tolerance)
+  const auto& [neutral, polygons] = source.neutral;
+  Reach whole;
+  for (const Index v : polygons.corners) whole.include(neutral[v]);
+  if (whole.off > tolerance)
     return fail(fmt::format(
-        "the mesh stands {:.3g} from the origin, where a file's numbers are {:.2g} apart; move it "
+        "the mesh stands {:.3g} from the origin, where a file's numbers are off by {:.2g}; move it "
         "there, or allow a larger tolerance than {:.3g}",
-        away, 4 * away * kHalfUnit, tolerance));
+        whole.away, whole.off, tolerance));
   for (const MeshTarget& target : source.targets) {
-    const double moved =
-        largest(source.neutral, [&](Index v) { return target.positions[v] - neutral[v]; });
-    if (moved * kHalfUnit > tolerance)
+    Reach way;
+    for (const Index v : polygons.corners) way.include(target.positions[v] - neutral[v]);
+    if (way.off > tolerance)
       return fail(
           fmt::format("the target {} moves a vertex by {:.3g}, which a file cannot tell within "
-                      "{:.3g}; is it in "
-                      "other units, or of another mesh?",
-                      io::inQuotes(target.name), moved, tolerance));
+                      "{:.3g}; it may be in other units, or of another mesh",
+                      io::inQuotes(target.name), way.away, tolerance));
   }
   return {};
 }

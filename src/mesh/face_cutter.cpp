@@ -79,12 +79,13 @@ std::vector<Piece> FaceCutter::cutLarge(Piece face) const {
     if (const double worth = worthOf(cuts, normal); worth > 1.01 * bestWorth)
       best = std::move(cuts), bestWorth = worth;
   };
-  constexpr std::size_t kMostTries = 64;
+  constexpr std::size_t kMostPieces = 1 << 20;  // all corners up to a thousand
+  const std::size_t tries = std::min(face.size(), kMostPieces / face.size());
   const double good = 1.5 / static_cast<double>(face.size());  // a quarter of a regular polygon's
   for (const auto& way : {ladder, fan}) {
     Piece from = face;
     if (way == ladder) std::ranges::rotate(from, from.begin() + 2);  // the first rung begins at 0
-    for (std::size_t k = 0; k < std::min(face.size(), kMostTries) && bestWorth < good; ++k) {
+    for (std::size_t k = 0; k < tries && bestWorth < good; ++k) {
       offer(way(from));
       std::ranges::rotate(from, from.begin() + 1);
     }

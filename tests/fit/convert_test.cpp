@@ -453,10 +453,30 @@ TEST(Refusal, ofAToleranceBelowTheFilesPrecision) {
   MeshRig far = withTargets(plane(4, 4));
   for (Vec3& p : far.neutral.positions) p.x += 1e6 + 1.0 / 3;
   options.tolerance = 1e-4;
-  EXPECT_EQ(
-      refusal(far, options),
-      "a tolerance of 0.0001 is out of reach: the surface comes no nearer to all vertices than "
-      "0.0457; allow a larger one");
+  EXPECT_EQ(refusal(far, options),
+            "the mesh stands 1e+06 from the origin, where a file's numbers are off by 0.021; move "
+            "it there, or allow a larger tolerance than 0.0001");
+}
+
+TEST(Refusal, ofAToleranceThatNoCoordinateButTheirDistanceExceeds) {
+  MeshRig far = withTargets(plane(4, 4), 0);
+  for (Vec3& p : far.neutral.positions) p += (1e6 + 1.0 / 3) * Vec3{1, 1, 1};
+  ConvertOptions options;
+  options.tolerance = 0.0313;
+  const std::string why = refusal(far, options);
+  EXPECT_TRUE(why.starts_with("a tolerance of 0.0313 is out of reach: the surface comes no nearer"))
+      << why;
+}
+
+// As those of files of single precision do.
+TEST(Convert, takesNumbersThatAFileHoldsFarFromTheOrigin) {
+  MeshRig far = withTargets(plane(4, 4), 0);
+  for (Vec3& p : far.neutral.positions) p.x = static_cast<float>(p.x + 1e6);
+  ConvertOptions options;
+  options.tolerance = 0.01;
+  const auto conversion = convert(far, options);
+  ASSERT_TRUE(conversion) << conversion.error().message;
+  EXPECT_LE(worstDistance(conversion->rig, far), 0.01);
 }
 
 TEST(Refusal, ofAToleranceBeyondTheMesh) {

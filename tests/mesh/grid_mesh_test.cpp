@@ -192,6 +192,17 @@ TEST(Cutting, leavesNoCornerInLine) {
             0.1);
 }
 
+TEST(Cutting, makesALadderOfAStripWhereverItBegins) {
+  constexpr Index kEnd = 100;
+  std::vector<Vec3> strip;
+  for (Index x = 0; x <= kEnd; ++x) strip.push_back({1.0 * x, 0, 0});
+  for (Index x = kEnd; x >= 0; --x) strip.push_back({1.0 * x, 1, 0});
+  for (const Index first : {0, 50, 150}) {
+    std::ranges::rotate(strip, strip.begin() + first);
+    EXPECT_GT(leastSine(strip), 0.9) << first;
+  }
+}
+
 TEST(Cutting, makesLaddersOfCaps) {
   PolygonMesh mesh;
   Loop face;
