@@ -193,20 +193,5 @@ TEST_F(Convert, StopsOnInterrupt) {
   EXPECT_EQ(contents(output), "old");
 }
 
-TEST_F(Convert, StopsOnInterruptHoweverBusy) {
-  folder.file("face.sweep", "old");
-  const std::filesystem::path pipe = folder / "neutral.obj", output = folder / "face.sweep";
-  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
-  const pid_t child = start({"convert", pipe.string(), "-o", output.string()});
-  ASSERT_GE(child, 0);
-  const int writer = open(pipe.c_str(), O_WRONLY);
-  ASSERT_GE(writer, 0);
-  kill(child, SIGINT);  // while it goes on waiting
-  EXPECT_EQ(codeOf(child), 130);
-  close(writer);
-  EXPECT_EQ(contents(folder / ".err"), "\nsweepface: Interrupted.\n");
-  EXPECT_EQ(contents(output), "old");
-}
-
 }  // namespace
 }  // namespace sweepface

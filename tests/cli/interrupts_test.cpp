@@ -1,0 +1,35 @@
+#include "cli/interrupts.hpp"
+
+#include <csignal>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+namespace sweepface::cli {
+namespace {
+
+[[noreturn]] void workWithoutAsking() {
+  catchInterrupts(Patience::twoSeconds);
+  std::raise(SIGINT);
+  if (!interrupted) ::_exit(1);
+  for (;;) ::pause();
+}
+
+TEST(Interrupts, EndWorkThatDoesNotAsk) {
+  EXPECT_EXIT(workWithoutAsking(), ::testing::ExitedWithCode(kInterrupted),
+              "sweepface: Interrupted");
+}
+
+[[noreturn]] void workThatClearsAway() {
+  catchInterrupts(Patience::twoSeconds);
+  catchInterrupts();
+  std::raise(SIGINT);
+  ::sleep(3);
+  ::_exit(interrupted ? 0 : 1);
+}
+
+TEST(Interrupts, WaitForWorkThatClearsAway) {
+  EXPECT_EXIT(workThatClearsAway(), ::testing::ExitedWithCode(0), "");
+}
+
+}  // namespace
+}  // namespace sweepface::cli
