@@ -184,11 +184,6 @@ Result<Performance> byClip(const PerformanceArguments& a, const Rig& rig, const 
   performance.clipWeights = clip.weights.size();
   performance.frameMiss = recording->missed;
   performance.notes = notesOn(match, clip, targets, a.clip);
-  if (recording->missed > 1e-4)
-    performance.notes.push_back(
-        fmt::format("{}: it moves more quickly, or for longer, than frames can tell: between them "
-                    "weights are off by {:.2g}.",
-                    a.clip, recording->missed));
   for (const double time : clip.times) performance.frameTimes.push_back(time - clip.times.front());
   const ClipAngles angles(clip);
   performance.hasHead = angles.head(), performance.turnsHead = angles.turnsHead();

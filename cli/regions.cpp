@@ -85,10 +85,12 @@ struct Parts {
   }
 };
 
-Performance together(Parts parts, std::vector<double> frameTimes, const RegionalTargets& targets) {
+Performance together(Parts parts, const std::vector<Region>& regions, Rig& rig) {
   Performance whole = parts.performances.front();
+  parts.count = rig.targets.size();
   whole.seconds = parts.seconds();
-  whole.frameTimes = std::move(frameTimes);
+  whole.frameTimes = parts.frameTimes();
+  const auto targets = RegionalTargets::addTo(rig, regions, parts.uneven(whole.frameTimes));
   for (const Performance& part : parts.performances)
     whole.frameMiss = std::max(whole.frameMiss, part.frameMiss);
   whole.motion.reset();  // keys would not hold it exactly
@@ -144,11 +146,14 @@ Result<Performance> perform(const PerformanceArguments& what, const RegionArgume
   if (!followed) return std::unexpected(followed.error());
   for (Performance& performance : parts.performances)
     performance = withFollowing(std::move(performance), *followed);
-  if (parts.performances.size() == 1) return std::move(parts.performances.front());
-  parts.count = rig.targets.size();
-  std::vector<double> times = parts.frameTimes();
-  const auto targets = RegionalTargets::addTo(rig, *regions, parts.uneven(times));
-  return together(std::move(parts), std::move(times), targets);
+  Performance whole = parts.performances.size() == 1 ? std::move(parts.performances.front())
+                                                     : together(std::move(parts), *regions, rig);
+  if (whole.frameMiss > 1e-4)
+    whole.notes.push_back(
+        fmt::format("{}: it moves more quickly, or for longer, than frames can tell: between them "
+                    "weights are off by {:.2g}.",
+                    what.clip, whole.frameMiss));
+  return whole;
 }
 
 }  // namespace sweepface::cli

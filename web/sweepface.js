@@ -6,6 +6,8 @@ import {MemoryError} from './sweepface_wasm.js';
 
 /** How far a weight may be from 0. */
 const MOST = 1e6;
+/** Of more at once no time passes, as in the module. */
+const MOST_SECONDS = 1e10;
 
 const copyOf = ({leftEye, rightEye}) => ({leftEye: {...leftEye}, rightEye: {...rightEye}});
 
@@ -215,7 +217,7 @@ export class Sweepface {
     if (!Number.isFinite(seconds))
       throw new RangeError(`Time passes by a finite number of seconds, not ${told(seconds)}.`);
     if (!this.#motion) return false;
-    const passing = seconds > 0 && seconds <= 1e10 ? seconds : 0;  // as in the module
+    const passing = seconds > 0 && seconds <= MOST_SECONDS ? seconds : 0;
     const still = 1e-6, before = this.#copyWeights().slice();
     const isDriven = this.#drives.size > 0;
     wasm.sweepface_motion_advance(this.#motion, seconds);

@@ -35,26 +35,22 @@ Result<void> checkTolerance(double tolerance, double diagonal) {
       tolerance, kLeast * diagonal));
 }
 
-namespace {
-
-/// The largest coordinate of what faces use, and the most that single precision is off there.
-struct Reach {
-  double away = 0, off = 0;
-
-  void include(const Vec3& v) {
-    for (const double x : {v.x, v.y, v.z}) {
-      away = std::max(away, std::abs(x));
-      off = std::max(off, std::abs(x - static_cast<double>(static_cast<float>(x))));
-    }
+void Reach::include(const Vec3& v) {
+  for (const double x : {v.x, v.y, v.z}) {
+    away = std::max(away, std::abs(x));
+    off = std::max(off, std::abs(x - static_cast<double>(static_cast<float>(x))));
   }
-};
+}
 
-}  // namespace
+Reach reachOf(const PolygonMesh& mesh) {
+  Reach reach;
+  for (const Index v : mesh.polygons.corners) reach.include(mesh.positions[v]);
+  return reach;
+}
 
 Result<void> checkPrecision(const MeshRig& source, double tolerance) {
   const auto& [neutral, polygons] = source.neutral;
-  Reach whole;
-  for (const Index v : polygons.corners) whole.include(neutral[v]);
+  const Reach whole = reachOf(source.neutral);
   if (whole.off > tolerance)
     return fail(fmt::format(
         "the mesh stands {:.3g} from the origin, where a file's numbers are off by {:.2g}; move it "

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "fit/check_source.hpp"
 #include "fit/images.hpp"
 #include "fit/pose_packer.hpp"
 #include "parallel/parallel.hpp"
@@ -89,11 +90,7 @@ class Quantiser {
   std::unexpected<Error> failed(const std::string& pose) const {
     // Files count steps from the origin, to 2²⁶ (src/codec/lattice.cpp); those of roots are halved.
     const double farthest = (1 << 26) * rig_.packing.neutralStep / 2;
-    double away = 0;
-    for (const Index v : source_.neutral.polygons.corners) {
-      const Vec3& p = source_.neutral.positions[v];
-      away = std::max({away, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-    }
+    const double away = reachOf(source_.neutral).away;
     if (away > farthest)
       return fail(fmt::format(
           "the mesh stands {:.3g} from the origin, too far to be packed at a tolerance of {:.3g}; "

@@ -129,6 +129,16 @@ TEST_F(Animate, SaysWhereFramesCannotFollow) {
               std::string::npos)
         << r.err;
   }
+  // Also where it is a stiff region alone.
+  folder.file("line.json", R"({"seconds": 1,
+    "regions": [{"name": "stiff", "points": [[0, 0, 0]], "whole": 1, "fade": 1, "stiffness": 10000}],
+    "events": [{"at": 0, "to": {"jawOpen": 1}, "drive": "spring", "frequency": 50, "damping": 0}]})");
+  for (const std::string command : {"animate face.sweep --clip line.json -o line.glb",
+                                    "plot face.sweep --clip line.json -o line.svg"}) {
+    const Outcome r = run(command);
+    ASSERT_EQ(r.code, 0) << r.err;
+    EXPECT_NE(r.err.find("than frames can tell"), std::string::npos) << r.err;
+  }
 }
 
 TEST_F(Animate, IsNoLongerThanItsMotion) {
