@@ -21,7 +21,7 @@ if(SWEEPFACE_RUNTIME_ONLY)
 else()
   list(PREPEND installed_libraries sweepface_picture sweepface_convert)
   list(PREPEND installed_archives -lsweepface_picture -lsweepface_convert)
-  list(APPEND private_archives -lembree3 -ltbb -lfmt -lmeshoptimizer)
+  list(APPEND private_archives -lembree3 -ltbb -lfmt -lmeshoptimizer -lz)
   install(TARGETS sweepface RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()
 

@@ -35,7 +35,8 @@ Result<MeshRig> readRig(const std::filesystem::path& neutral,
 /// A rig as files hold it, and what else they hold.
 struct RigSource {
   MeshRig rig;
-  /// A GLB of what the file holds besides the rig (docs/glb.md); empty for files without a scene.
+  /// What the file holds besides the rig, for Rig::scene (docs/glb.md); empty for files without
+  /// one.
   std::string scene;
   std::vector<std::string> warnings;  ///< what could not be carried over, in sentences
 };

@@ -59,7 +59,7 @@ std::vector<bool> usedAccessors(const Document& document, const Parts& parts,
   for (const Part& part : parts.parts) ofParts.insert(&primitiveOf(document, parts, part));
   std::vector<bool> used(document.list("accessors").size());
   visitAll(document, [&](const Json& reference, std::string_view name, const Json* primitive) {
-    if (ofParts.contains(primitive) && !counts(name)) return;
+    if (ofParts.contains(primitive) && !counts(name, reference)) return;
     if (const auto index = asIndex(reference, used.size())) used[*index] = true;
   });
   return used;

@@ -8,8 +8,9 @@
 
 namespace sweepface::gltf {
 
-/// Whether the use of an accessor in a part counts: by the attribute's name, or "indices".
-using CountsInParts = std::function<bool(std::string_view)>;
+/// Whether the use of an accessor in a part counts: by the attribute's name, or "indices", and the
+/// JSON that refers to it.
+using CountsInParts = std::function<bool(std::string_view, const Json&)>;
 
 /// [accessors] those that something uses. Attributes and indices of parts count if asked for,
 /// everything else always does.

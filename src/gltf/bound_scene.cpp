@@ -7,8 +7,9 @@
 #include <set>
 #include <span>
 
+#include "gltf/left_to_face.hpp"
 #include "gltf/more_targets.hpp"
-#include "gltf/triangles.hpp"
+#include "gltf/scene.hpp"
 
 namespace sweepface::gltf {
 namespace {
@@ -17,93 +18,36 @@ std::unexpected<Error> doesNotFit(std::string_view why) {
   return fail(fmt::format("The face and its scene do not fit: {}; convert the source again.", why));
 }
 
-/// Finds the part of every face. Where parts share vertices their triangles tell: faces come in the
-/// order of the parts, so that each run of vertices is gone through part by part.
-class FaceFinder {
- public:
-  FaceFinder(const Polygons& polygons, const BoundScene& scene)
-      : polygons_(polygons), scene_(scene), runs_(scene.parts.runs.size()) {
-    for (std::size_t p = 0; p < scene.parts.parts.size(); ++p)
-      runs_[scene.parts.parts[p].run].parts.push_back(static_cast<Index>(p));
-  }
-
-  Result<std::vector<Index>> find() {
-    std::vector<Index> parts;
-    for (Index face = 0; face < polygons_.faceCount(); ++face) {
-      const auto part = partOf(face);
-      if (!part) return std::unexpected(part.error());
-      parts.push_back(*part);
-    }
-    return parts;
-  }
-
- private:
-  /// The parts of a run, and what no face has taken of the triangles of the last one looked at.
-  struct RunParts {
-    std::vector<Index> parts;
-    std::size_t next = 0;          // in parts
-    std::multiset<Triangle> left;  // vertices in ascending order
-  };
-
-  Result<Index> partOf(Index face) {
-    const std::span corners(&polygons_.corners[polygons_.faceStart[face]],
-                            static_cast<std::size_t>(polygons_.faceSize(face)));
-    const auto& runs = scene_.parts.runs;
-    const auto after =
-        std::ranges::upper_bound(runs, static_cast<std::size_t>(corners[0]), {}, &Run::first);
-    RunParts& run = runs_[static_cast<std::size_t>(after - runs.begin()) - 1];
-    if (run.parts.size() == 1) return run.parts[0];
-    while (!take(run.left, corners)) {
-      if (run.next == run.parts.size())
-        return doesNotFit(fmt::format("face {} is in no mesh of it", face));
-      if (auto ok = note(run, run.parts[run.next++]); !ok) return std::unexpected(ok.error());
-    }
-    return run.parts[run.next - 1];
-  }
-
-  Result<void> note(RunParts& run, Index part) {
-    const auto found = trianglesOf(scene_.document, scene_.parts, scene_.parts.parts[part]);
-    if (!found) return std::unexpected(found.error());
+/// The part of every face. They come in the order of the parts, as many as their triangles make.
+Result<std::vector<Index>> partsOfFaces(const Polygons& polygons, const BoundScene& scene) {
+  const Parts& parts = scene.parts;
+  std::vector<Index> facePart;
+  std::size_t named = 0;
+  Index face = 0;
+  for (std::size_t p = 0; p < parts.parts.size(); ++p) {
+    const auto count = triangleCount(scene.document, parts, parts.parts[p]);
+    if (!count) return std::unexpected(count.error());
     // Parts that share indices could take very long.
-    named_ += found->named;
-    if (named_ > scene_.document.mostElements()) return doesNotFit("it has far more triangles");
-    const auto first = static_cast<Index>(scene_.parts.runs[scene_.parts.parts[part].run].first);
-    run.left.clear();
-    for (Triangle t : found->triangles) {
-      for (Index& v : t) v += first;
-      std::ranges::sort(t);
-      run.left.insert(t);
+    named += 3 * *count;
+    if (named > scene.document.mostElements()) return doesNotFit("it has far more triangles");
+    const Run& run = parts.runs[parts.parts[p].run];
+    std::size_t left = *count;
+    for (; left > 0 && face < polygons.faceCount(); ++face) {
+      const std::span corners(&polygons.corners[polygons.faceStart[face]],
+                              static_cast<std::size_t>(polygons.faceSize(face)));
+      const bool fits = corners.size() - 2 <= left && std::ranges::all_of(corners, [&](Index v) {
+                          return static_cast<std::size_t>(v) - run.first < run.count;
+                        });
+      if (!fits) return doesNotFit(fmt::format("face {} is in no mesh of it", face));
+      left -= corners.size() - 2;
+      facePart.push_back(static_cast<Index>(p));
     }
-    return {};
+    if (left > 0) return doesNotFit("it has more triangles");
   }
-
-  /// Takes the triangles of a face out of those that are left; false where there are none. A quad's
-  /// are the halves beside one of its diagonals. One of them may lie in another part, or be told by
-  /// copies of its vertices.
-  static bool take(std::multiset<Triangle>& left, std::span<const Index> corners) {
-    const std::size_t size = corners.size();
-    const auto half = [&](std::size_t k) {
-      Triangle t{corners[k % size], corners[(k + 1) % size], corners[(k + 2) % size]};
-      std::ranges::sort(t);
-      return left.find(t);
-    };
-    for (const std::size_t k : {0, 1}) {
-      const auto one = half(k), other = half(k + 2);
-      if (size != 4 || one == left.end() || other == left.end() || one == other) continue;
-      left.erase(one);
-      left.erase(other);
-      return true;
-    }
-    for (std::size_t k = 0; k < (size == 4 ? 4 : 1); ++k)
-      if (const auto one = half(k); one != left.end()) return left.erase(one), true;
-    return false;
-  }
-
-  const Polygons& polygons_;
-  const BoundScene& scene_;
-  std::vector<RunParts> runs_;
-  std::size_t named_ = 0;
-};
+  if (face < polygons.faceCount())
+    return doesNotFit(fmt::format("face {} is in no mesh of it", face));
+  return facePart;
+}
 
 /// Targets of the rig that its scene came without.
 std::vector<std::string> newTargets(const Rig& rig, const std::vector<std::string>& known) {
@@ -145,14 +89,16 @@ std::vector<Index> shownMeshes(const BoundScene& scene) {
 }
 
 Result<BoundScene> sceneOf(const Rig& rig) {
-  auto document = parseDocument(rig.scene, {});
+  auto document = parseScene(rig.scene);
   if (!document) return doesNotFit(document.error().message);
   auto parts = findParts(*document);
   if (!parts) return doesNotFit(parts.error().message);
   if (document->buffers.size() > 1) return doesNotFit("it has several buffers");
-  // What its accessors may claim counts on the shapes that were taken out as well.
+  // What its accessors may claim counts on what was taken out as well: shapes, triangles and
+  // texture coordinates.
+  const Polygons& polygons = rig.source.polygons;
   const std::size_t vertices = rig.source.gridVertex.size();
-  document->sourceBytes += 12 * vertices;
+  document->sourceBytes += (12 + 8) * vertices + 2 * polygons.corners.size();
   if (const auto more = newTargets(rig, parts->targets); !more.empty()) {
     if (auto ok = addTargets(*document, *parts, more); !ok) return doesNotFit(ok.error().message);
     parts = findParts(*document);
@@ -160,16 +106,16 @@ Result<BoundScene> sceneOf(const Rig& rig) {
   }
   if (parts->vertexCount != vertices)
     return doesNotFit(fmt::format("they have {} and {} vertices", vertices, parts->vertexCount));
-  BoundScene scene{
-      std::move(*document), std::move(*parts), {}, {}, rig.source.polygons.corners, {}};
+  BoundScene scene{std::move(*document), std::move(*parts), {}, {}, polygons.corners, {}};
   auto targets = matchTargets(rig, scene.parts.targets);
   if (!targets) return std::unexpected(targets.error());
   scene.targets = std::move(*targets);
   scene.vertices.resize(vertices);
   std::iota(scene.vertices.begin(), scene.vertices.end(), 0);
-  auto faces = FaceFinder(rig.source.polygons, scene).find();
+  auto faces = partsOfFaces(polygons, scene);
   if (!faces) return std::unexpected(faces.error());
   scene.facePart = std::move(*faces);
+  if (auto ok = takeFromFace(scene, polygons); !ok) return doesNotFit(ok.error().message);
   return scene;
 }
 

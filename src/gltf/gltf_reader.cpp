@@ -23,7 +23,7 @@ Result<RigSource> readGltf(std::string_view bytes, const std::filesystem::path& 
   RigSource source{std::move(rig), {}, document->warnings};
   auto scene = gltf::makeScene(std::move(*document), *parts, folder);
   if (!scene) return std::unexpected(scene.error());
-  source.scene = std::move(scene->glb);
+  source.scene = gltf::formatScene(scene->glb);
   source.warnings.insert(source.warnings.end(), scene->warnings.begin(), scene->warnings.end());
   return source;
 }

@@ -1,6 +1,7 @@
 #include "gltf/parts.hpp"
 
 #include <algorithm>
+#include <array>
 #include <fmt/format.h>
 #include <map>
 #include <set>
@@ -247,6 +248,12 @@ const Json& primitiveOf(const Document& document, const Parts& parts, const Part
 
 Json& primitiveOf(Document& document, const Parts& parts, const Part& part) {
   return const_cast<Json&>(primitiveOf(std::as_const(document), parts, part));
+}
+
+bool countsOnOrder(std::string_view extension) {
+  constexpr std::array names{"KHR_materials_variants", "EXT_mesh_features",
+                             "EXT_structural_metadata"};
+  return std::ranges::find(names, extension) == names.end();
 }
 
 Result<Parts> findParts(const Document& document) { return PartFinder(document).find(); }

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "gltf/accessor.hpp"
@@ -49,6 +50,8 @@ Result<Parts> findParts(const Document& document);
 /// The JSON of a part's primitive.
 const Json& primitiveOf(const Document& document, const Parts& parts, const Part& part);
 Json& primitiveOf(Document& document, const Parts& parts, const Part& part);
+/// Whether an extension of a primitive may count on the order of its vertices or triangles.
+bool countsOnOrder(std::string_view extension);
 /// "mesh 0 'head', primitive 1", for messages.
 std::string placeOf(const Document& document, std::size_t mesh, std::size_t primitive);
 

@@ -14,13 +14,6 @@ bool isSkin(std::string_view name) {
   return name.starts_with("JOINTS_") || name.starts_with("WEIGHTS_");
 }
 
-/// Extensions of a primitive that do not count on its vertices.
-bool survives(std::string_view extension) {
-  constexpr std::array names{"KHR_materials_variants", "EXT_mesh_features",
-                             "EXT_structural_metadata"};
-  return std::ranges::find(names, extension) != names.end();
-}
-
 class Refiner {
  public:
   Refiner(BoundScene& scene, const FineMesh& mesh, Slots& slots)
@@ -137,7 +130,7 @@ class Refiner {
         extensions && extensions->is_object()) {
       const Json before = *extensions;
       for (const auto& [name, value] : before.items())
-        if (!survives(name)) extensions->erase(name);
+        if (countsOnOrder(name)) extensions->erase(name);
       if (extensions->empty()) primitive.erase("extensions");
     }
   }

@@ -9,7 +9,10 @@
 
 #include "gltf/accessor_uses.hpp"
 #include "gltf/binary.hpp"
+#include "gltf/deflate.hpp"
+#include "gltf/left_to_face.hpp"
 #include "gltf/resources.hpp"
+#include "gltf/triangles.hpp"
 #include "io/text.hpp"
 
 namespace sweepface::gltf {
@@ -19,7 +22,7 @@ namespace fs = std::filesystem;
 
 // ---- Taking out what the rig stands for ----
 
-/// Whether a part keeps an attribute as it is.
+/// Whether a part keeps an attribute as it is, wherever it has it.
 bool isKept(std::string_view attribute) {
   return attribute != "POSITION" && attribute != "NORMAL" && attribute != "TANGENT";
 }
@@ -29,47 +32,73 @@ class Emptier {
   Emptier(Document& document, const Parts& parts)
       : document_(document),
         parts_(parts),
-        others_(usedAccessors(document, parts, isKept)),
+        left_(leftToFace(document, parts)),
+        others_(usedAccessors(document, parts,
+                              [&](std::string_view name, const Json& reference) {
+                                return isKept(name) && !left_.contains(&reference);
+                              })),
         touched_(document.views.size()) {}
 
-  void run() {
-    for (const Part& part : parts_.parts) {
-      Json& primitive = document_.json["meshes"][meshOf(part)]["primitives"][part.primitive];
+  Result<void> run() {
+    for (std::size_t p = 0; p < parts_.parts.size(); ++p) {
+      const Part& part = parts_.parts[p];
+      Json& primitive = primitiveOf(document_, parts_, part);
+      if (auto ok = emptyIndices(primitive, p); !ok) return ok;
+      emptyTexcoords(primitive["attributes"], part.run);
       emptyAttributes(primitive["attributes"], part.run, 0);
       if (Json* const targets = find(primitive, "targets"))
         for (std::size_t t = 0; t < targets->size(); ++t)
           emptyAttributes((*targets)[t], part.run, t + 1);
     }
     for (std::size_t accessor : tangents_)
-      if (!others_[accessor] && !claimed_.contains(accessor)) empty(accessor);
+      if (!others_[accessor] && !claimed_.contains(accessor)) empty(accessor, floats);
+    return {};
   }
 
   const std::vector<bool>& touched() const { return touched_; }
 
  private:
-  std::size_t meshOf(const Part& part) const {
-    return parts_.meshes[parts_.runs[part.run].rigMesh].mesh;
+  static constexpr int floats = 5126;
+
+  std::size_t named(const Json& reference) { return *asIndex(reference, accessors().size()); }
+
+  /// Their number stays, of triangles one by one.
+  Result<void> emptyIndices(Json& primitive, std::size_t part) {
+    Json* const reference = find(primitive, "indices");
+    if (!reference || !left_.contains(reference)) return {};
+    const auto count = triangleCount(document_, parts_, parts_.parts[part]);
+    if (!count) return std::unexpected(count.error());
+    const Json type = accessors()[named(*reference)]["componentType"];
+    *reference = claim({named(*reference), part, 0, "indices"}, type);
+    accessors()[named(*reference)]["count"] = 3 * *count;
+    if (Json* const mode = find(primitive, "mode")) *mode = listMode;
+    return {};
+  }
+
+  void emptyTexcoords(Json& attributes, std::size_t run) {
+    Json* const reference = find(attributes, "TEXCOORD_0");
+    if (reference && left_.contains(reference))
+      *reference = claim({named(*reference), run, 0, "TEXCOORD_0"}, floats);
   }
 
   /// `shape` is 0 for the base and 1 + k for target k.
   void emptyAttributes(Json& attributes, std::size_t run, std::size_t shape) {
     for (const char* name : {"POSITION", "NORMAL"})
       if (Json* const reference = find(attributes, name)) {
-        const auto accessor = *asIndex(*reference, accessors().size());
-        *reference = claim({accessor, run, shape, name});
+        *reference = claim({named(*reference), run, shape, name}, floats);
       }
     if (const Json* const reference = find(attributes, "TANGENT")) {
-      tangents_.insert(*asIndex(*reference, accessors().size()));
+      tangents_.insert(named(*reference));
       attributes.erase("TANGENT");
     }
   }
 
-  /// An accessor and what it is for.
+  /// An accessor and what it is for: the part or run, and its shape.
   using Claim = std::tuple<std::size_t, std::size_t, std::size_t, std::string_view>;
 
   /// The emptied accessor that serves this use alone: the same one, or a new one where it serves
   /// others as well.
-  std::size_t claim(const Claim& use) {
+  std::size_t claim(const Claim& use, const Json& type) {
     const auto known = claims_.find(use);
     if (known != claims_.end()) return known->second;
     std::size_t accessor = std::get<0>(use);
@@ -81,18 +110,18 @@ class Emptier {
       accessor = accessors().size();
       accessors().push_back(std::move(copy));
     }
-    empty(accessor);
+    empty(accessor, type);
     if (std::get<3>(use) == "POSITION")
       for (const char* bound : {"min", "max"}) accessors()[accessor][bound] = {0, 0, 0};
     return claims_[use] = accessor;
   }
 
-  void empty(std::size_t accessor) {
+  void empty(std::size_t accessor, const Json& type) {
     Json& json = accessors()[accessor];
     touch(json);
     if (const Json* const sparse = find(json, "sparse"))
       for (const char* part : {"indices", "values"}) touch((*sparse)[part]);
-    json["componentType"] = 5126;
+    json["componentType"] = type;
     for (const char* key : {"bufferView", "byteOffset", "sparse", "normalized", "min", "max"})
       json.erase(key);
   }
@@ -106,6 +135,7 @@ class Emptier {
 
   Document& document_;
   const Parts& parts_;
+  std::set<const Json*> left_;
   std::vector<bool> others_;  // accessors that something else uses
   std::vector<bool> touched_;
   std::map<Claim, std::size_t> claims_;
@@ -244,6 +274,18 @@ Result<void> checkReferences(const Document& document) {
 
 }  // namespace
 
+std::string formatScene(const std::string& glb) {
+  std::string stream = deflated(glb);
+  return glb.size() <= mostInflated(stream.size()) ? stream : glb;
+}
+
+Result<Document> parseScene(std::string_view scene) {
+  if (scene.starts_with("glTF")) return parseDocument(scene, {});
+  const auto glb = inflated(scene);
+  if (!glb) return std::unexpected(glb.error());
+  return parseDocument(*glb, {});
+}
+
 Result<Scene> makeScene(Document document, const Parts& parts, const fs::path& folder) {
   if (auto ok = checkReferences(document); !ok) return std::unexpected(ok.error());
   Scene scene;
@@ -252,7 +294,7 @@ Result<Scene> makeScene(Document document, const Parts& parts, const fs::path& f
         "The tangents of the face are not carried over, since the surface has other normals; "
         "programs compute them for its normal maps.");
   Emptier emptier(document, parts);
-  emptier.run();
+  if (auto ok = emptier.run(); !ok) return std::unexpected(ok.error());
   std::vector<bool> touched = emptier.touched();
   if (auto ok = ImageEmbedder(document, folder, scene.warnings).run(); !ok)
     return std::unexpected(ok.error());

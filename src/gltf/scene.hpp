@@ -12,9 +12,13 @@ struct Scene {
 };
 
 /// Everything that the document holds but what the rig stands for: POSITION and NORMAL of its parts
-/// and of their targets become accessors without data, one for each run and attribute, and TANGENT
-/// is removed. Images are read from `folder` alone. Parts are found in it as they are in the
-/// document.
+/// and of their targets become accessors without data, one for each run and attribute, and so does
+/// what leftToFace() tells; TANGENT is removed. Images are read from `folder` alone. Parts are
+/// found in it as they are in the document.
 Result<Scene> makeScene(Document document, const Parts& parts, const std::filesystem::path& folder);
+
+/// A GLB as rigs have it: deflated, or as it is where nobody would believe what that holds.
+std::string formatScene(const std::string& glb);
+Result<Document> parseScene(std::string_view scene);
 
 }  // namespace sweepface::gltf

@@ -5,7 +5,7 @@
 namespace sweepface::gltf {
 
 Slots::Slots(const Document& document, const Parts& parts, Builder& builder)
-    : taken_(usedAccessors(document, parts, [](std::string_view) { return false; })),
+    : taken_(usedAccessors(document, parts, [](std::string_view, const Json&) { return false; })),
       builder_(builder) {}
 
 std::size_t Slots::put(std::optional<std::size_t> accessor, const Column& column, Use use) {

@@ -13,6 +13,8 @@ struct Transform {
   Vec2 offset, scale{1, 1};
   double rotation = 0;  // radians, counter-clockwise where v goes down
 
+  bool changesNothing() const { return offset == Vec2{} && scale == Vec2{1, 1} && rotation == 0; }
+
   Vec2 operator()(Vec2 t) const {
     const double c = std::cos(rotation), s = std::sin(rotation);
     t = {scale.x * t.x, scale.y * t.y};
@@ -70,6 +72,16 @@ Result<std::vector<Vec2>> readTexcoords(const Document& document, const Json& pr
                     index));
   }
   return texcoords;
+}
+
+bool hasPlainTexcoords(const Document& document, const Json& primitive) {
+  const Json* const number = find(primitive["attributes"], "TEXCOORD_0");
+  const auto index = number ? asIndex(*number, document.list("accessors").size()) : std::nullopt;
+  if (!index) return false;
+  const auto accessor = accessorAt(document, *index);
+  const auto transform = transformOf(document, primitive);
+  return accessor && accessor->type == Component::float32 && accessor->components() == 2 &&
+         accessor->columns == 1 && transform && transform->changesNothing();
 }
 
 }  // namespace sweepface::gltf

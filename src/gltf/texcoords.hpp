@@ -13,4 +13,8 @@ namespace sweepface::gltf {
 /// them.
 Result<std::vector<Vec2>> readTexcoords(const Document& document, const Json& primitive);
 
+/// Whether a primitive has TEXCOORD_0 of single precision that no transform changes, so that they
+/// can be told from what readTexcoords() gives.
+bool hasPlainTexcoords(const Document& document, const Json& primitive);
+
 }  // namespace sweepface::gltf

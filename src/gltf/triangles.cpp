@@ -6,7 +6,7 @@
 namespace sweepface::gltf {
 namespace {
 
-constexpr std::size_t listMode = 4, stripMode = 5;
+constexpr std::size_t stripMode = 5;
 
 /// The corners of triangle t, as numbers in the list of the primitive's indices.
 std::array<std::size_t, 3> cornersOf(std::size_t mode, std::size_t t) {

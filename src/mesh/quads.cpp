@@ -89,11 +89,12 @@ class Joiner {
  private:
   void copyFace(Index f) {
     Polygons& to = result_.polygons;
-    const Index pair = pairOf_[f];
-    for (Index c = faces_.faceStart[f]; c < faces_.faceStart[f + 1]; ++c) {
-      copyCorner(c);
-      if (pair >= 0 && candidates_.corners[pair][0] == c) copyCorner(farCorner(pair));
-    }
+    const Index pair = pairOf_[f], start = faces_.faceStart[f], size = faces_.faceSize(f);
+    // A quad from where its diagonal ends in the first half, so that a fan from there is the
+    // halves.
+    const Index first = pair < 0 ? 0 : candidates_.corners[pair][0] - start + 1;
+    for (Index k = 0; k < size; ++k) copyCorner(start + (first + k) % size);
+    if (pair >= 0) copyCorner(farCorner(pair));
     to.faceStart.push_back(static_cast<Index>(to.corners.size()));
     if (!faces_.faceMaterial.empty()) to.faceMaterial.push_back(faces_.faceMaterial[f]);
     if (!faces_.faceGroup.empty()) to.faceGroup.push_back(faces_.faceGroup[f]);

@@ -9,7 +9,7 @@ namespace sweepface {
 /// The faces of a mesh after its triangles were joined to quads.
 struct RecoveredQuads {
   Polygons polygons;    ///< faces between the same vertices; a quad stands where its first triangle
-                        ///< stood
+                        ///< stood, and a fan from its first corner is the two, that one first
   Index recovered = 0;  ///< quads made, of two triangles each
   Index triangles = 0;  ///< triangles that are left
 };

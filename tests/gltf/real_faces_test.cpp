@@ -3,7 +3,9 @@
 #include <set>
 
 #include "faces.hpp"
+#include "gltf/bound_scene.hpp"
 #include "gltf/glb.hpp"
+#include "gltf/triangles.hpp"
 
 namespace sweepface {
 namespace {
@@ -80,6 +82,38 @@ TEST(RealFace, AWholeFaceOfSparseTargetsIsThatOfItsObjFiles) {
   std::ranges::set_difference(quads, found, std::back_inserter(missing));
   EXPECT_LE(missing.size(), 3u);
   EXPECT_LE(found.size(), quads.size() + 548 / 2);
+}
+
+/// Triangles of a document's parts, each from its smallest vertex on, in ascending order.
+std::vector<std::vector<gltf::Triangle>> trianglesIn(const gltf::Document& document,
+                                                     const gltf::Parts& parts) {
+  std::vector<std::vector<gltf::Triangle>> all;
+  for (const gltf::Part& part : parts.parts) {
+    auto& triangles = all.emplace_back(gltf::trianglesOf(document, parts, part)->triangles);
+    for (gltf::Triangle& t : triangles) std::ranges::rotate(t, std::ranges::min_element(t));
+    std::ranges::sort(triangles);
+  }
+  return all;
+}
+
+TEST(RealFace, LeavesItsSceneHardlyAnythingAndGetsItsTrianglesBack) {
+  SKIP_WITHOUT_REAL_FACES();
+  for (const char* name : {"head.glb", "full_sparse.glb"}) {
+    const fs::path path = fs::path(realFaces()) / "ictface" / "glb" / name;
+    auto source = readSource(path, {});
+    ASSERT_TRUE(source) << source.error().message;
+    EXPECT_LT(source->scene.size(), 1000u);
+    Rig rig;
+    for (const MeshTarget& target : source->rig.targets) rig.targets.emplace_back(target.name);
+    rig.scene = source->scene;
+    rig.source.gridVertex.resize(source->rig.neutral.positions.size());
+    rig.source.polygons = source->rig.neutral.polygons;
+    const auto scene = gltf::sceneOf(rig);
+    ASSERT_TRUE(scene) << scene.error().message;
+    const auto before = gltf::parseDocument(readFile(path).value(), {});
+    EXPECT_EQ(trianglesIn(scene->document, scene->parts),
+              trianglesIn(*before, *gltf::findParts(*before)));
+  }
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "sweepface/gltf.hpp"
 
 #include "faces.hpp"
+#include "gltf/deflate.hpp"
 #include "gltf/glb.hpp"
 
 // What is in a GLB that was written, told by nothing but the words of the glTF specification.
@@ -202,6 +203,9 @@ inline Rig converted(const Glb& glb, double tolerance = 0.05) {
   rig.scene = std::move(source.scene);
   return rig;
 }
+
+/// The GLB of a rig's scene.
+inline Written sceneOf(const Rig& rig) { return Written(gltf::inflated(rig.scene).value()); }
 
 /// The surface at the vertices of the source.
 inline std::vector<Vec3> surfacePositions(const Rig& rig, const Weights& weights = {}) {

@@ -150,10 +150,11 @@ bool joins(const MeshRig& rig, std::span<const Index> copies = {}) {
   return result.recovered == 1;
 }
 
-TEST(Halves, makeAQuadThatBeginsWhereTheFirstBegins) {
+/// A fan from the first corner of the quad is the first half and then the second.
+TEST(Halves, makeAQuadThatBeginsOnItsDiagonal) {
   EXPECT_EQ(loopsOf(recoverQuads(halves()).polygons), (std::vector<Loop>{{0, 1, 2, 3}}));
-  for (const auto& [a, b, quad] : {std::tuple<Loop, Loop, Loop>{{1, 2, 0}, {2, 3, 0}, {1, 2, 3, 0}},
-                                   {{2, 0, 1}, {3, 0, 2}, {2, 3, 0, 1}},
+  for (const auto& [a, b, quad] : {std::tuple<Loop, Loop, Loop>{{1, 2, 0}, {2, 3, 0}, {0, 1, 2, 3}},
+                                   {{2, 0, 1}, {3, 0, 2}, {0, 1, 2, 3}},
                                    {{2, 3, 0}, {0, 1, 2}, {2, 3, 0, 1}}}) {
     MeshRig rig = halves();
     rig.neutral.polygons = {};

@@ -1,0 +1,190 @@
+#include "gltf/left_to_face.hpp"
+
+#include "sweepface/codec.hpp"
+#include "sweepface/strip.hpp"
+
+#include "gltf/written.hpp"
+
+namespace sweepface {
+namespace {
+
+using namespace testing;
+
+std::vector<Index> asRead(const std::vector<std::uint16_t>& indices) {
+  return {indices.begin(), indices.end()};
+}
+
+/// Triangles that begin with their smallest vertex, in ascending order.
+std::vector<Loop> trianglesOf(const std::vector<Index>& indices) {
+  std::vector<Loop> triangles;
+  for (std::size_t k = 0; k < indices.size(); k += 3) {
+    Loop t(indices.begin() + static_cast<std::ptrdiff_t>(k),
+           indices.begin() + static_cast<std::ptrdiff_t>(k + 3));
+    std::ranges::rotate(t, std::ranges::min_element(t));
+    triangles.push_back(std::move(t));
+  }
+  std::ranges::sort(triangles);
+  return triangles;
+}
+/// Of the sheet of 2 x 2 quads, each cut along either diagonal: those of `across` along the second.
+std::vector<std::uint16_t> sheetCut(unsigned across) {
+  std::vector<std::uint16_t> indices;
+  for (const std::uint16_t a :
+       {std::uint16_t{0}, std::uint16_t{1}, std::uint16_t{3}, std::uint16_t{4}}) {
+    const auto b = static_cast<std::uint16_t>(a + 1), c = static_cast<std::uint16_t>(a + 4),
+               d = static_cast<std::uint16_t>(a + 3);
+    if (across & 1)
+      indices.insert(indices.end(), {b, c, d, b, d, a});
+    else
+      indices.insert(indices.end(), {a, b, c, a, c, d});
+    across >>= 1;
+  }
+  return indices;
+}
+
+// ---- Triangles ----
+
+TEST(LeftToFace, TrianglesComeBackAsTheyWereWhereQuadsWereCutFromTheirFirstCorner) {
+  for (unsigned across = 0; across < 16; ++across) {
+    Glb glb = smallFace();
+    const auto indices = sheetCut(across);
+    glb.primitive()["indices"] = glb.addIndices(indices);
+    EXPECT_EQ(write(converted(glb)).indices(), asRead(indices)) << across;
+  }
+}
+
+TEST(LeftToFace, TrianglesOfAnyOrderAreTheSameOnes) {
+  std::mt19937 random(3);
+  for (int round = 0; round < 50; ++round) {
+    auto indices = sheetCut(static_cast<unsigned>(round));
+    std::vector<std::array<std::uint16_t, 3>> triangles(8);
+    for (std::size_t k = 0; k < indices.size(); ++k) triangles[k / 3][k % 3] = indices[k];
+    std::ranges::shuffle(triangles, random);
+    for (std::size_t k = 0; k < indices.size(); ++k)
+      indices[k] = triangles[k / 3][(k + static_cast<std::size_t>(round)) % 3];
+    Glb glb = smallFace();
+    glb.primitive()["indices"] = glb.addIndices(indices);
+    EXPECT_EQ(trianglesOf(write(converted(glb)).indices()), trianglesOf(asRead(indices)));
+  }
+}
+
+TEST(LeftToFace, TrianglesOfMirroredMeshesLookTheSameWay) {
+  Glb glb = smallFace();
+  glb.json["nodes"][0]["scale"] = {-1, 1, 1};
+  EXPECT_EQ(trianglesOf(write(converted(glb)).indices()), trianglesOf(asRead(sheetIndices())));
+}
+
+TEST(LeftToFace, StripsBecomeTriangles) {
+  Glb glb = smallFace();
+  glb.primitive()["mode"] = 5;
+  glb.primitive()["indices"] = glb.addIndices({0, 3, 1, 4, 2, 5});
+  const Written written = write(converted(glb));
+  EXPECT_EQ(written.primitive()["mode"], 4);
+  EXPECT_EQ(trianglesOf(written.indices()),
+            (std::vector<Loop>{{0, 3, 1}, {1, 3, 4}, {1, 4, 2}, {2, 4, 5}}));
+}
+
+TEST(LeftToFace, IndicesKeepTheirType) {
+  Glb glb = smallFace();
+  std::vector<std::uint32_t> wide;
+  for (const std::uint16_t v : sheetIndices()) wide.push_back(v);
+  const std::size_t accessor =
+      glb.addAccessor(glb.addView(bytesOf(wide)), 5125, "SCALAR", wide.size());
+  glb.primitive()["indices"] = accessor;
+  const Written written = write(converted(glb));
+  EXPECT_EQ(written.primitive()["indices"], accessor);
+  EXPECT_EQ(written.accessor(accessor)["componentType"], 5125);
+  EXPECT_EQ(written.indices(), asRead(sheetIndices()));
+}
+
+TEST(LeftToFace, PartsThatSharedIndicesHaveTheirOwn) {
+  Glb glb = smallFace();
+  glb.json["meshes"].push_back(glb.json["meshes"][0]);
+  glb.json["nodes"].push_back({{"mesh", 1}, {"translation", {0, 0, 1}}});
+  const Written written = write(converted(glb));
+  EXPECT_NE(written.primitive(0)["indices"], written.primitive(1)["indices"]);
+  for (const std::size_t mesh : {0, 1})
+    EXPECT_EQ(written.indices(mesh), asRead(sheetIndices())) << mesh;
+}
+
+// ---- Texture coordinates ----
+
+TEST(LeftToFace, TextureCoordinatesComeBackAsTheyWere) {
+  const Glb glb = smallFace();
+  const Written before(glb.bytes()), after = write(converted(glb));
+  EXPECT_EQ(after.numbers(after.attribute("TEXCOORD_0")),
+            before.numbers(before.attribute("TEXCOORD_0")));
+}
+
+TEST(LeftToFace, TextureCoordinatesOfPackedFacesAreWithinHalfAStep) {
+  Glb glb = smallFace();
+  std::vector<Vec2> texcoords;
+  for (const Vec3& p : sheetPositions()) texcoords.push_back({p.x / 3, p.y / 7});
+  glb.primitive()["attributes"]["TEXCOORD_0"] = glb.addTexcoords(texcoords);
+  RigSource source = read(glb);
+  ConvertOptions options;
+  options.tolerance = 0.05;
+  options.pack = true;
+  auto conversion = convert(source.rig, options);
+  ASSERT_TRUE(conversion) << conversion.error().message;
+  conversion->rig.scene = source.scene;
+  const auto rig = decode(encode(conversion->rig), "face.sweep");
+  ASSERT_TRUE(rig) << rig.error().message;
+  const Written written = write(*rig);
+  const auto found = written.numbers(written.attribute("TEXCOORD_0"));
+  const double half = 0x1p-15;
+  for (std::size_t v = 0; v < texcoords.size(); ++v) {
+    EXPECT_NEAR(found[2 * v], texcoords[v].x, half + 1e-7);
+    EXPECT_NEAR(found[2 * v + 1], texcoords[v].y, half + 1e-7);
+  }
+}
+
+TEST(LeftToFace, TextureCoordinatesAreZerosOnceTheFaceHasNone) {
+  Rig rig = converted(smallFace());
+  ASSERT_TRUE(strip(rig, {.uv = true}));
+  for (const Index lod : {0, 2}) {
+    const Written written = write(rig, {.lod = lod});
+    for (const double t : written.numbers(written.attribute("TEXCOORD_0"))) EXPECT_EQ(t, 0);
+  }
+}
+
+/// Two primitives of the same vertices, of which each has texture coordinates of its own for some.
+TEST(LeftToFace, PartsThatShareTextureCoordinatesGiveTheirsTogether) {
+  Glb glb = smallFace();
+  const auto indices = sheetIndices();
+  const auto middle = indices.begin() + 12;
+  Json other = glb.primitive();
+  glb.primitive()["indices"] = glb.addIndices({indices.begin(), middle});
+  other["indices"] = glb.addIndices({middle, indices.end()});
+  glb.json["meshes"][0]["primitives"].push_back(other);
+  const Written before(glb.bytes()), after = write(converted(glb));
+  EXPECT_EQ(after.attribute("TEXCOORD_0", 0, 0), after.attribute("TEXCOORD_0", 0, 1));
+  EXPECT_EQ(after.numbers(after.attribute("TEXCOORD_0")),
+            before.numbers(before.attribute("TEXCOORD_0")));
+}
+
+TEST(LeftToFace, FinerMeshesHaveTheirTextureCoordinatesBetween) {
+  const Written written = write(converted(smallFace()), {.lod = 2});
+  const auto texcoords = written.numbers(written.attribute("TEXCOORD_0"));
+  const auto positions = written.vectors(written.attribute("POSITION"));
+  ASSERT_EQ(positions.size(), 25u);
+  for (std::size_t v = 0; v < positions.size(); ++v) {
+    EXPECT_NEAR(texcoords[2 * v], positions[v].x / 2, 0.03);
+    EXPECT_NEAR(texcoords[2 * v + 1], positions[v].y / 2, 0.03);
+  }
+}
+
+// ---- Files of others ----
+
+TEST(LeftToFace, RefusesIndicesThatCannotBeHeld) {
+  Rig rig = converted(smallFace());
+  const Written scene = sceneOf(rig);
+  Json json = scene.json;
+  const auto indices = scene.primitive()["indices"].get<std::size_t>();
+  json["accessors"][indices]["componentType"] = 5126;
+  rig.scene = gltf::formatContainer(json, scene.binary);
+  EXPECT_TRUE(failsWith(formatGlb(rig, {}), {"do not fit", "are no unsigned integers"}));
+}
+
+}  // namespace
+}  // namespace sweepface
