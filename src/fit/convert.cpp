@@ -12,6 +12,7 @@
 #include "codec/limits.hpp"
 #include "fit/assemble.hpp"
 #include "fit/check_source.hpp"
+#include "fit/doubts.hpp"
 #include "fit/normals_out_of_reach.hpp"
 #include "fit/quantise.hpp"
 
@@ -83,8 +84,9 @@ class Converter {
     tolerance_ = options_.tolerance > 0 ? options_.tolerance : kDefaultTolerance * size;
     if (auto ok = checkTolerance(tolerance_, size); !ok) return std::unexpected(ok.error());
     if (auto ok = checkPrecision(source_, tolerance_); !ok) return std::unexpected(ok.error());
-    const auto mesh = makeGridMesh(source_);
+    auto mesh = makeGridMesh(source_);
     if (!mesh) return std::unexpected(mesh.error());
+    std::ranges::move(doubtsAbout(source_, tolerance_), std::back_inserter(mesh->warnings));
     usualLimit_ =
         std::clamp(kNormalLimitAtDefault * tolerance_ / (kDefaultTolerance * size), 2.0, 60.0);
     const bool limitsNormals = options_.pack && options_.normalTolerance > 0;
