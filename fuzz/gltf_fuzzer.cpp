@@ -4,7 +4,9 @@
 
 #include "sweepface/gltf.hpp"
 
+#include "gltf/bound_scene.hpp"
 #include "gltf/scene.hpp"
+#include "gltf/triangles.hpp"
 #include "gltf_mutator.hpp"
 #include "mesh_properties.hpp"
 
@@ -34,8 +36,27 @@ void requireScene(const RigSource& source) {
   require(parts.has_value());
   require(parts->vertexCount == source.rig.neutral.positions.size());
   require(parts->targets.size() == source.rig.targets.size());
-  const auto again = gltf::makeScene(std::move(*scene), *parts, {});
+  const auto again = gltf::makeScene(std::move(*scene), *parts, source.rig.neutral.polygons, {});
   require(again.has_value() && gltf::formatScene(again->glb) == source.scene);
+}
+
+/// The scene takes back what it left to the face: the same triangles.
+void requireTriangles(const RigSource& source) {
+  Rig rig;
+  for (const MeshTarget& target : source.rig.targets) rig.targets.emplace_back(target.name);
+  rig.scene = source.scene;
+  rig.source.gridVertex.resize(source.rig.neutral.positions.size());
+  rig.source.polygons = source.rig.neutral.polygons;
+  const auto scene = gltf::sceneOf(rig);
+  require(scene.has_value());
+  std::size_t count = 0;
+  for (const gltf::Part& part : scene->parts.parts) {
+    const auto found = gltf::trianglesOf(scene->document, scene->parts, part);
+    require(found.has_value());
+    count += found->triangles.size();
+  }
+  const Polygons& faces = rig.source.polygons;
+  require(count == faces.corners.size() - 2 * static_cast<std::size_t>(faces.faceCount()));
 }
 
 }  // namespace
@@ -61,6 +82,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   fuzzing::requireWhole(source->rig.neutral);
   requireTargets(source->rig);
   requireScene(*source);
+  requireTriangles(*source);
   return 0;
 }
 

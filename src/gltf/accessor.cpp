@@ -139,9 +139,8 @@ Result<Accessor::Sparse> readSparse(const Json& json, const Document& document,
   if (!in.ok()) return in.error();
 
   sparse.indexType = readType(indices);
-  const bool whole = sparse.indexType == Component::uint8 ||
-                     sparse.indexType == Component::uint16 || sparse.indexType == Component::uint32;
-  if (!whole) indices.refuse("their componentType is not one of unsigned integers");
+  if (!isOfIndices(sparse.indexType))
+    indices.refuse("their componentType is not one of unsigned integers");
   const Packed where = readPacked(indices, document, sparse.count, sizeOf(sparse.indexType));
   if (!indices.ok()) return indices.error();
   const Packed what = readPacked(values, document, sparse.count, accessor.elementSize());

@@ -19,6 +19,10 @@ enum class Component {
 
 /// Bytes of a component.
 std::size_t sizeOf(Component component);
+/// Whether indices may be of this type.
+constexpr bool isOfIndices(Component type) {
+  return type == Component::uint8 || type == Component::uint16 || type == Component::uint32;
+}
 
 /// An accessor whose data lie within their buffer views.
 struct Accessor {

@@ -5,7 +5,6 @@
 #include <map>
 #include <numeric>
 #include <set>
-#include <span>
 
 #include "gltf/left_to_face.hpp"
 #include "gltf/more_targets.hpp"
@@ -16,37 +15,6 @@ namespace {
 
 std::unexpected<Error> doesNotFit(std::string_view why) {
   return fail(fmt::format("The face and its scene do not fit: {}; convert the source again.", why));
-}
-
-/// The part of every face. They come in the order of the parts, as many as their triangles make.
-Result<std::vector<Index>> partsOfFaces(const Polygons& polygons, const BoundScene& scene) {
-  const Parts& parts = scene.parts;
-  std::vector<Index> facePart;
-  std::size_t named = 0;
-  Index face = 0;
-  for (std::size_t p = 0; p < parts.parts.size(); ++p) {
-    const auto count = triangleCount(scene.document, parts, parts.parts[p]);
-    if (!count) return std::unexpected(count.error());
-    // Parts that share indices could take very long.
-    named += 3 * *count;
-    if (named > scene.document.mostElements()) return doesNotFit("it has far more triangles");
-    const Run& run = parts.runs[parts.parts[p].run];
-    std::size_t left = *count;
-    for (; left > 0 && face < polygons.faceCount(); ++face) {
-      const std::span corners(&polygons.corners[polygons.faceStart[face]],
-                              static_cast<std::size_t>(polygons.faceSize(face)));
-      const bool fits = corners.size() - 2 <= left && std::ranges::all_of(corners, [&](Index v) {
-                          return static_cast<std::size_t>(v) - run.first < run.count;
-                        });
-      if (!fits) return doesNotFit(fmt::format("face {} is in no mesh of it", face));
-      left -= corners.size() - 2;
-      facePart.push_back(static_cast<Index>(p));
-    }
-    if (left > 0) return doesNotFit("it has more triangles");
-  }
-  if (face < polygons.faceCount())
-    return doesNotFit(fmt::format("face {} is in no mesh of it", face));
-  return facePart;
 }
 
 /// Targets of the rig that its scene came without.
@@ -112,10 +80,11 @@ Result<BoundScene> sceneOf(const Rig& rig) {
   scene.targets = std::move(*targets);
   scene.vertices.resize(vertices);
   std::iota(scene.vertices.begin(), scene.vertices.end(), 0);
-  auto faces = partsOfFaces(polygons, scene);
-  if (!faces) return std::unexpected(faces.error());
+  auto faces = partsOfFaces(scene.document, scene.parts, polygons);
+  if (!faces) return doesNotFit(faces.error().message);
   scene.facePart = std::move(*faces);
-  if (auto ok = takeFromFace(scene, polygons); !ok) return doesNotFit(ok.error().message);
+  if (auto ok = takeFromFace(scene.document, scene.parts, polygons, scene.facePart); !ok)
+    return doesNotFit(ok.error().message);
   return scene;
 }
 

@@ -62,20 +62,19 @@ Component typeOfIndices(std::size_t count) {
   return count <= 0xffff ? Component::uint16 : Component::uint32;
 }
 
-Json& listIn(Json& object, const char* key) {
-  Json& list = object[key];
-  if (!list.is_array()) list = Json::array();
-  return list;
-}
+constexpr std::array grownLists{"accessors", "bufferViews"};
 
 }  // namespace
 
+// A JSON object moves all that it holds when it gets another member.
 Builder::Builder(Document& document) : document_(document) {
   if (document.buffers.empty()) document.buffers.emplace_back();
+  for (const char* list : grownLists)
+    if (Json& value = document.json[list]; !value.is_array()) value = Json::array();
 }
 
 std::size_t Builder::add(const Column& column, Use use) {
-  Json& accessors = listIn(document_.json, "accessors");
+  Json& accessors = document_.json["accessors"];
   accessors.push_back(Json::object());
   set(accessors.size() - 1, column, use);
   return accessors.size() - 1;
@@ -169,7 +168,7 @@ std::size_t Builder::addView(std::string_view bytes, std::size_t stride, int tar
   Json json{{"buffer", 0}, {"byteOffset", view.offset}, {"byteLength", view.length}};
   if (stride != 0) json["byteStride"] = stride;
   if (target != 0) json["target"] = target;
-  Json& views = listIn(document_.json, "bufferViews");
+  Json& views = document_.json["bufferViews"];
   views.push_back(std::move(json));
   document_.views.push_back(view);
   buffer += bytes;
@@ -191,6 +190,8 @@ void Builder::finish() {
     fill(sparseValueView_, sparseValues_);
   }
   align(buffer, 4);
+  for (const char* list : grownLists)
+    if (document_.json[list].empty()) document_.json.erase(list);
 }
 
 std::size_t Builder::size() const {

@@ -21,7 +21,7 @@ Result<RigSource> readGltf(std::string_view bytes, const std::filesystem::path& 
   if (!same) return std::unexpected(same.error());
   rig.neutral.polygons = recoverQuads(rig, *same, facePart).polygons;
   RigSource source{std::move(rig), {}, document->warnings};
-  auto scene = gltf::makeScene(std::move(*document), *parts, folder);
+  auto scene = gltf::makeScene(std::move(*document), *parts, source.rig.neutral.polygons, folder);
   if (!scene) return std::unexpected(scene.error());
   source.scene = gltf::formatScene(scene->glb);
   source.warnings.insert(source.warnings.end(), scene->warnings.begin(), scene->warnings.end());

@@ -13,8 +13,6 @@
 namespace sweepface::gltf {
 namespace {
 
-constexpr std::size_t trianglesMode = 4, fanMode = 6;
-
 std::string meshPlace(const Document& document, std::size_t mesh) {
   const Json* const name = find(document.list("meshes")[mesh], "name");
   if (!name || !name->is_string()) return fmt::format("mesh {}", mesh);
@@ -76,10 +74,10 @@ class PartFinder {
     if (!in.ok()) return in.error();
     for (std::size_t p = 0; p < primitives.size(); ++p) {
       Members primitive(primitives[p], place(mesh, p));
-      const std::size_t mode = primitive.size("mode", trianglesMode);
+      const std::size_t mode = primitive.size("mode", listMode);
       const bool targets = !primitive.array("targets").empty();
       if (!primitive.ok()) return primitive.error();
-      if (mode >= trianglesMode && mode <= fanMode && (targets || !morphing)) found.push_back(p);
+      if (mode >= listMode && mode <= fanMode && (targets || !morphing)) found.push_back(p);
     }
     return found;
   }

@@ -11,6 +11,9 @@
 
 namespace sweepface::gltf {
 
+/// The "mode" of triangles.
+inline constexpr std::size_t listMode = 4, stripMode = 5, fanMode = 6;
+
 /// A mesh that has primitives of the rig.
 struct RigMesh {
   std::size_t mesh = 0;              ///< in the list of meshes

@@ -5,14 +5,12 @@
 #include <fmt/format.h>
 #include <map>
 #include <set>
-#include <tuple>
 
 #include "gltf/accessor_uses.hpp"
 #include "gltf/binary.hpp"
 #include "gltf/deflate.hpp"
 #include "gltf/left_to_face.hpp"
 #include "gltf/resources.hpp"
-#include "gltf/triangles.hpp"
 #include "io/text.hpp"
 
 namespace sweepface::gltf {
@@ -29,22 +27,22 @@ bool isKept(std::string_view attribute) {
 
 class Emptier {
  public:
-  Emptier(Document& document, const Parts& parts)
+  Emptier(Document& document, const Parts& parts, const LeftToFace& left)
       : document_(document),
         parts_(parts),
-        left_(leftToFace(document, parts)),
+        left_(left),
         others_(usedAccessors(document, parts,
                               [&](std::string_view name, const Json& reference) {
-                                return isKept(name) && !left_.contains(&reference);
+                                return isKept(name) && !left.indices.contains(&reference) &&
+                                       !left.texcoords.contains(&reference);
                               })),
         touched_(document.views.size()) {}
 
-  Result<void> run() {
+  void run() {
     for (std::size_t p = 0; p < parts_.parts.size(); ++p) {
       const Part& part = parts_.parts[p];
       Json& primitive = primitiveOf(document_, parts_, part);
-      if (auto ok = emptyIndices(primitive, p); !ok) return ok;
-      emptyTexcoords(primitive["attributes"], part.run);
+      emptyIndices(primitive, p);
       emptyAttributes(primitive["attributes"], part.run, 0);
       if (Json* const targets = find(primitive, "targets"))
         for (std::size_t t = 0; t < targets->size(); ++t)
@@ -52,7 +50,6 @@ class Emptier {
     }
     for (std::size_t accessor : tangents_)
       if (!others_[accessor] && !claimed_.contains(accessor)) empty(accessor, floats);
-    return {};
   }
 
   const std::vector<bool>& touched() const { return touched_; }
@@ -60,48 +57,46 @@ class Emptier {
  private:
   static constexpr int floats = 5126;
 
-  std::size_t named(const Json& reference) { return *asIndex(reference, accessors().size()); }
-
   /// Their number stays, of triangles one by one.
-  Result<void> emptyIndices(Json& primitive, std::size_t part) {
+  void emptyIndices(Json& primitive, std::size_t part) {
     Json* const reference = find(primitive, "indices");
-    if (!reference || !left_.contains(reference)) return {};
-    const auto count = triangleCount(document_, parts_, parts_.parts[part]);
-    if (!count) return std::unexpected(count.error());
+    const auto left = left_.indices.find(reference);
+    if (left == left_.indices.end()) return;
     const Json type = accessors()[named(*reference)]["componentType"];
     *reference = claim({named(*reference), part, 0, "indices"}, type);
-    accessors()[named(*reference)]["count"] = 3 * *count;
+    accessors()[named(*reference)]["count"] = left->second;
     if (Json* const mode = find(primitive, "mode")) *mode = listMode;
-    return {};
-  }
-
-  void emptyTexcoords(Json& attributes, std::size_t run) {
-    Json* const reference = find(attributes, "TEXCOORD_0");
-    if (reference && left_.contains(reference))
-      *reference = claim({named(*reference), run, 0, "TEXCOORD_0"}, floats);
   }
 
   /// `shape` is 0 for the base and 1 + k for target k.
   void emptyAttributes(Json& attributes, std::size_t run, std::size_t shape) {
-    for (const char* name : {"POSITION", "NORMAL"})
-      if (Json* const reference = find(attributes, name)) {
-        *reference = claim({named(*reference), run, shape, name}, floats);
-      }
+    for (const char* name : {"POSITION", "NORMAL", "TEXCOORD_0"})
+      if (Json* const reference = find(attributes, name))
+        if (!isKept(name) || left_.texcoords.contains(reference))
+          *reference = claim({named(*reference), run, shape, name}, floats);
     if (const Json* const reference = find(attributes, "TANGENT")) {
       tangents_.insert(named(*reference));
       attributes.erase("TANGENT");
     }
   }
 
-  /// An accessor and what it is for: the part or run, and its shape.
-  using Claim = std::tuple<std::size_t, std::size_t, std::size_t, std::string_view>;
+  std::size_t named(const Json& reference) { return *asIndex(reference, accessors().size()); }
+
+  /// An accessor and what it is for.
+  struct Claim {
+    std::size_t accessor = 0;
+    std::size_t place = 0;  // a run, or the part of indices
+    std::size_t shape = 0;
+    std::string_view name;
+    auto operator<=>(const Claim&) const = default;
+  };
 
   /// The emptied accessor that serves this use alone: the same one, or a new one where it serves
   /// others as well.
   std::size_t claim(const Claim& use, const Json& type) {
     const auto known = claims_.find(use);
     if (known != claims_.end()) return known->second;
-    std::size_t accessor = std::get<0>(use);
+    std::size_t accessor = use.accessor;
     if (others_[accessor] || !claimed_.insert(accessor).second) {
       // Its name and extras could be long, and the uses many.
       Json copy = Json::object();
@@ -111,7 +106,7 @@ class Emptier {
       accessors().push_back(std::move(copy));
     }
     empty(accessor, type);
-    if (std::get<3>(use) == "POSITION")
+    if (use.name == "POSITION")
       for (const char* bound : {"min", "max"}) accessors()[accessor][bound] = {0, 0, 0};
     return claims_[use] = accessor;
   }
@@ -135,7 +130,7 @@ class Emptier {
 
   Document& document_;
   const Parts& parts_;
-  std::set<const Json*> left_;
+  const LeftToFace& left_;
   std::vector<bool> others_;  // accessors that something else uses
   std::vector<bool> touched_;
   std::map<Claim, std::size_t> claims_;
@@ -286,15 +281,18 @@ Result<Document> parseScene(std::string_view scene) {
   return parseDocument(*glb, {});
 }
 
-Result<Scene> makeScene(Document document, const Parts& parts, const fs::path& folder) {
+Result<Scene> makeScene(Document document, const Parts& parts, const Polygons& polygons,
+                        const fs::path& folder) {
   if (auto ok = checkReferences(document); !ok) return std::unexpected(ok.error());
+  const auto left = leftToFace(document, parts, polygons);
+  if (!left) return std::unexpected(left.error());
   Scene scene;
   if (losesTangents(document, parts))
     scene.warnings.push_back(
         "The tangents of the face are not carried over, since the surface has other normals; "
         "programs compute them for its normal maps.");
-  Emptier emptier(document, parts);
-  if (auto ok = emptier.run(); !ok) return std::unexpected(ok.error());
+  Emptier emptier(document, parts, *left);
+  emptier.run();
   std::vector<bool> touched = emptier.touched();
   if (auto ok = ImageEmbedder(document, folder, scene.warnings).run(); !ok)
     return std::unexpected(ok.error());

@@ -2,6 +2,8 @@
 
 #include <filesystem>
 
+#include "sweepface/polygons.hpp"
+
 #include "gltf/parts.hpp"
 
 namespace sweepface::gltf {
@@ -15,7 +17,8 @@ struct Scene {
 /// and of their targets become accessors without data, one for each run and attribute, and so does
 /// what leftToFace() tells; TANGENT is removed. Images are read from `folder` alone. Parts are
 /// found in it as they are in the document.
-Result<Scene> makeScene(Document document, const Parts& parts, const std::filesystem::path& folder);
+Result<Scene> makeScene(Document document, const Parts& parts, const Polygons& polygons,
+                        const std::filesystem::path& folder);
 
 /// A GLB as rigs have it: deflated, or as it is where nobody would believe what that holds.
 std::string formatScene(const std::string& glb);

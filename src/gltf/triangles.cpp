@@ -6,8 +6,6 @@
 namespace sweepface::gltf {
 namespace {
 
-constexpr std::size_t stripMode = 5;
-
 /// The corners of triangle t, as numbers in the list of the primitive's indices.
 std::array<std::size_t, 3> cornersOf(std::size_t mode, std::size_t t) {
   if (mode == listMode) return {3 * t, 3 * t + 1, 3 * t + 2};
@@ -41,9 +39,8 @@ Result<std::vector<Index>> readIndices(const Document& document, Members& in,
   }
   const auto accessor = accessorAt(document, *given);
   if (!accessor) return std::unexpected(accessor.error());
-  const bool whole = accessor->type == Component::uint8 || accessor->type == Component::uint16 ||
-                     accessor->type == Component::uint32;
-  if (accessor->components() != 1 || !whole || accessor->normalized || !accessor->view)
+  if (accessor->components() != 1 || !isOfIndices(accessor->type) || accessor->normalized ||
+      !accessor->view)
     in.refuse(fmt::format("its indices, accessor {}, are not data of unsigned integers", *given));
   if (!in.ok()) return in.error();
   const auto values = decode(document, *accessor);

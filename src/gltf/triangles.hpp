@@ -7,9 +7,6 @@
 
 namespace sweepface::gltf {
 
-/// What "mode" says of triangles one by one.
-inline constexpr std::size_t listMode = 4;
-
 /// Three vertices of a run or corners of a polygon, counted from 0.
 using Triangle = std::array<Index, 3>;
 

@@ -107,6 +107,65 @@ TEST(LeftToFace, PartsThatSharedIndicesHaveTheirOwn) {
     EXPECT_EQ(written.indices(mesh), asRead(sheetIndices())) << mesh;
 }
 
+/// Before one of them is emptied, an accessor's triangles are counted for both.
+TEST(LeftToFace, IndicesMayBeThoseOfAListAndOfAFan) {
+  Glb glb = smallFace();
+  const std::size_t indices = glb.addIndices({0, 1, 4, 3, 0, 4});
+  glb.primitive()["indices"] = indices;
+  Json fan = glb.primitive();
+  fan["mode"] = 6;
+  for (Json& target : fan["targets"]) target = Json::object();
+  glb.json["meshes"][0]["primitives"].push_back(fan);
+  const Written written = write(converted(glb));
+  EXPECT_EQ(trianglesOf(written.indices(0, 0)), trianglesOf({0, 1, 4, 3, 0, 4}));
+  EXPECT_EQ(trianglesOf(written.indices(0, 1)), trianglesOf({0, 1, 4, 0, 4, 3}));
+}
+
+/// A quad of two triangles that share no vertex, but have the same ones.
+Glb halvesApart(bool indexed) {
+  Glb glb;
+  const std::vector<Index> corners{0, 1, 4, 0, 4, 3};
+  std::vector<Vec3> positions, normals;
+  std::vector<Vec2> texcoords;
+  for (const Index v : corners) {
+    positions.push_back(sheetPositions()[v]);
+    normals.push_back(normalized({1.0 * static_cast<double>(positions.size()), 1, 5}));
+    texcoords.push_back({positions.back().x / 4 + 0.25, positions.back().y / 4 + 0.25});
+  }
+  Json primitive{{"attributes",
+                  {{"POSITION", glb.addVectors(positions)},
+                   {"NORMAL", glb.addVectors(normals)},
+                   {"TEXCOORD_0", glb.addTexcoords(texcoords)}}}};
+  if (indexed) primitive["indices"] = glb.addIndices({0, 1, 2, 3, 4, 5});
+  glb.add("meshes", {{"primitives", Json::array({std::move(primitive)})}});
+  return glb;
+}
+
+/// The polygons name the vertices of the first half alone.
+TEST(LeftToFace, DoubledVerticesKeepTheirTrianglesAndTextureCoordinates) {
+  for (const bool indexed : {true, false}) {
+    const Glb glb = halvesApart(indexed);
+    ASSERT_EQ(read(glb).rig.neutral.polygons.faceCount(), 1);
+    const Written before(glb.bytes()), after = write(converted(glb));
+    EXPECT_EQ(after.numbers(after.attribute("TEXCOORD_0")),
+              before.numbers(before.attribute("TEXCOORD_0")));
+    if (!indexed) continue;
+    EXPECT_EQ(after.indices(), before.indices());
+  }
+}
+
+/// A JSON object moves all that it holds when it gets another member.
+TEST(LeftToFace, ComesBackHoweverManyMembersTheSceneHas) {
+  for (int members = 0; members < 40; ++members) {
+    Glb glb = smallFace();
+    for (int k = 0; k < members; ++k) glb.json["member" + std::to_string(k)] = Json::object();
+    const Written before(glb.bytes()), after = write(converted(glb));
+    EXPECT_EQ(after.indices(), before.indices());
+    EXPECT_EQ(after.numbers(after.attribute("TEXCOORD_0")),
+              before.numbers(before.attribute("TEXCOORD_0")));
+  }
+}
+
 // ---- Texture coordinates ----
 
 TEST(LeftToFace, TextureCoordinatesComeBackAsTheyWere) {
@@ -163,6 +222,20 @@ TEST(LeftToFace, PartsThatShareTextureCoordinatesGiveTheirsTogether) {
             before.numbers(before.attribute("TEXCOORD_0")));
 }
 
+/// A face has as many as one accessor of its vertices holds.
+TEST(LeftToFace, OtherAccessorsOfTheSameVerticesAreKept) {
+  Glb glb = smallFace();
+  Json other = glb.primitive();
+  std::vector<Vec2> texcoords;
+  for (const Vec3& p : sheetPositions()) texcoords.push_back({p.y / 3, p.x / 5});
+  other["attributes"]["TEXCOORD_0"] = glb.addTexcoords(texcoords);
+  glb.json["meshes"][0]["primitives"].push_back(other);
+  const Written before(glb.bytes()), after = write(converted(glb));
+  for (const std::size_t part : {0, 1})
+    EXPECT_EQ(after.numbers(after.attribute("TEXCOORD_0", 0, part)),
+              before.numbers(before.attribute("TEXCOORD_0", 0, part)));
+}
+
 TEST(LeftToFace, FinerMeshesHaveTheirTextureCoordinatesBetween) {
   const Written written = write(converted(smallFace()), {.lod = 2});
   const auto texcoords = written.numbers(written.attribute("TEXCOORD_0"));
@@ -183,7 +256,7 @@ TEST(LeftToFace, RefusesIndicesThatCannotBeHeld) {
   const auto indices = scene.primitive()["indices"].get<std::size_t>();
   json["accessors"][indices]["componentType"] = 5126;
   rig.scene = gltf::formatContainer(json, scene.binary);
-  EXPECT_TRUE(failsWith(formatGlb(rig, {}), {"do not fit", "are no unsigned integers"}));
+  EXPECT_TRUE(failsWith(formatGlb(rig, {}), {"do not fit", "cannot hold indices"}));
 }
 
 }  // namespace

@@ -149,6 +149,10 @@ TEST(Scene, KeepsIndicesThatExtensionsMayCountOn) {
   EXPECT_FALSE(hasData(sceneOf(glb), primitiveOf(sceneOf(glb))["indices"]));
   glb.primitive()["extensions"]["TEST_edges"] = Json::object();
   expectKept(glb, "indices");
+  expectKept(glb, "TEXCOORD_0");
+  glb = smallFace();
+  glb.json["meshes"][0]["extensions"]["EXT_mesh_manifold"] = Json::object();
+  expectKept(glb, "indices");
 }
 
 /// The face has them as they are after the transform, which may be that of no number.
