@@ -102,6 +102,7 @@ struct Verified {
   FurthestVertex worst;
   double angleRms = 0;
   std::vector<Index> folds;  // of the neutral and every target
+  std::vector<double> kept;  // of every target's movement
 };
 
 /// Where the order was left out, the conversion tells where the source's vertices are.
@@ -122,7 +123,8 @@ Result<Verified> verify(std::string_view bytes, const std::string& name, const M
         "This is a fault of sweepface, please report it.");
   const FurthestVertex worst = furthestVertex(*rig, source);
   if (worst.distance <= tolerance)
-    return Verified{worst, normalRms(*rig, source), countFolds(*rig, source)};
+    return Verified{worst, normalRms(*rig, source), countFolds(*rig, source),
+                    keptMovement(*rig, source)};
   return fail(
       fmt::format("Vertex {} of {} would be {:.6g} away from the source, beyond the "
                   "tolerance of {:.6g}; nothing was written. This is a fault of sweepface, "
@@ -154,7 +156,7 @@ struct Summary {
 
 nlohmann::ordered_json toJson(const Summary& s) {
   const Rig& rig = s.conversion.rig;
-  const auto& [worst, angleRms, folds] = s.verified;
+  const auto& [worst, angleRms, folds, kept] = s.verified;
   return {{"file", s.arguments.output},
           {"patches", rig.surface.patchCount()},
           {"vectors", rig.surface.storedCount()},
@@ -166,6 +168,7 @@ nlohmann::ordered_json toJson(const Summary& s) {
           {"worstShape", nameOfShape(rig, worst.target)},
           {"angleRms", angleRms},
           {"folds", folds},
+          {"kept", kept},
           {"bytes", s.bytes},
           {"sceneBytes", s.sceneBytes},
           {"seconds", s.seconds},
@@ -174,14 +177,15 @@ nlohmann::ordered_json toJson(const Summary& s) {
 
 void printText(const Summary& s) {
   const Rig& rig = s.conversion.rig;
-  const auto& [worst, angleRms, folds] = s.verified;
+  const FurthestVertex& worst = s.verified.worst;
+  const std::vector<Index>& folds = s.verified.folds;
   const Index points = rig.surface.storedCount();
   fmt::print("{}: {} patches, {} points ({:.1f} % of the source's {} vertices), {} targets\n",
              s.arguments.output, rig.surface.patchCount(), points,
              100.0 * points / static_cast<double>(s.vertices), s.vertices, rig.targets.size());
   fmt::print("worst distance {:.4g} of {:.4g} allowed, at vertex {} of {}\n", worst.distance,
              rig.tolerance, worst.vertex, nameOfShape(rig, worst.target));
-  fmt::print("normals {:.4g} {}, RMS over all expressions\n", angleRms,
+  fmt::print("normals {:.4g} {}, RMS over all expressions\n", s.verified.angleRms,
              s.arguments.normalTolerance > 0
                  ? fmt::format("of {:.4g} degrees allowed", s.arguments.normalTolerance)
                  : "degrees off");
@@ -208,6 +212,21 @@ ConvertOptions optionsOf(const ConvertArguments& a, ProgressBar& bar) {
   options.progress = [&](std::string_view what, double done) { bar.show(what, done); };
   options.cancel = &interrupted;
   return options;
+}
+
+/// Names targets that are mostly lost; empty if none is.
+std::string lostMovement(const Rig& rig, const Verified& verified) {
+  constexpr double kMostly = 0.5;
+  constexpr std::size_t kMost = 6;
+  std::string list;
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < verified.kept.size(); ++k)
+    if (verified.kept[k] < kMostly && ++count <= kMost)
+      list += fmt::format("{}'{}' ({:.0f} % left)", list.empty() ? "" : ", ", rig.targets[k].name,
+                          100 * std::max(verified.kept[k], 0.0));
+  if (count == 0) return {};
+  if (count > kMost) list += fmt::format(" and {} more", count - kMost);
+  return fmt::format("Most of the movement is within the tolerance and lost in {}.", list);
 }
 
 /// What the user should know of the source, and of its scene if that is lost.
@@ -269,6 +288,8 @@ Result<int> convertAndWrite(const ConvertArguments& a) {
   std::vector<std::string>& warnings = conversion->warnings;
   std::ranges::move(warningsOf(a, *source, *parts, bringsScene && parts->order),
                     std::back_inserter(warnings));
+  if (auto lost = lostMovement(finished, *verified); !lost.empty())
+    warnings.push_back(std::move(lost));
   if (a.arcs && finished.turns.empty()) warnings.push_back(kNoTurns);
   for (const std::string& warning : warnings) printWarning(warning);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;

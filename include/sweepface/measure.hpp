@@ -65,6 +65,12 @@ FurthestVertex furthestVertex(const Rig& rig, const MeshRig& source);
 /// rig was made from, with its targets in the same order, and the rig knows the source's order.
 double normalRms(const Rig& rig, const MeshRig& source);
 
+/// What share of every target's movement a rig has [K]: Σ d·d' / Σ d·d over the corners of faces, d
+/// being a vertex's way from the neutral in the source and d' in the rig; 1 where the source moves
+/// none. `source` is what the rig was made from, with its targets in the same order, and the rig
+/// knows the source's order.
+std::vector<double> keptMovement(const Rig& rig, const MeshRig& source);
+
 /// How many level-4 triangles of a rig's surface look the other way than their source facet, in the
 /// neutral and after it in every target: [1 + K]. `source` is what the rig was made from, with its
 /// targets in the same order, and the rig knows the source's order.

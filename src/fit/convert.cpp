@@ -22,6 +22,8 @@ namespace {
 
 // Of the diagonal, where nobody says.
 constexpr double kDefaultTolerance = 0.0002;
+// Vertices that rounding left so near each other become one: of the diagonal, and of the tolerance.
+constexpr double kRounding = 1e-6, kRoundingShare = 1.0 / 64;
 // The fit's share of the tolerance where the rest is left to packing.
 constexpr double kFitShare = 0.9;
 // What packing does to normals is more than a limit on the fit's could mend.
@@ -84,8 +86,9 @@ class Converter {
     tolerance_ = options_.tolerance > 0 ? options_.tolerance : kDefaultTolerance * size;
     if (auto ok = checkTolerance(tolerance_, size); !ok) return std::unexpected(ok.error());
     if (auto ok = checkPrecision(source_, tolerance_); !ok) return std::unexpected(ok.error());
-    auto mesh = makeGridMesh(source_);
+    auto mesh = makeGridMesh(source_, std::min(kRounding * size, kRoundingShare * tolerance_));
     if (!mesh) return std::unexpected(mesh.error());
+    aim_ = tolerance_ - mesh->rounding;
     std::ranges::move(doubtsAbout(source_, tolerance_), std::back_inserter(mesh->warnings));
     usualLimit_ =
         std::clamp(kNormalLimitAtDefault * tolerance_ / (kDefaultTolerance * size), 2.0, 60.0);
@@ -125,10 +128,10 @@ class Converter {
   }
 
   Result<Conversion> fitWithin(const GridMesh& mesh, double angle) {
-    const RefineLimits limits{.distance = (options_.pack ? kFitShare : 1) * tolerance_,
+    const RefineLimits limits{.distance = (options_.pack ? kFitShare : 1) * aim_,
                               .angle = std::min(180.0, (options_.pack ? kNormalShare : 1) * angle),
                               .smooth = angle < 180};
-    SourceData data = gatherSource(source_, mesh, tolerance_);
+    SourceData data = gatherSource(source_, mesh, aim_);
     Layout layout(mesh, source_.neutral.positions, options_.pack);
     for (Index v = 0; v < mesh.vertexCount(); ++v)
       data.uneven.push_back(layout.isUneven(v, source_.neutral.positions, kUneven));
@@ -178,7 +181,7 @@ class Converter {
       return !progress_.cancelled();
     };
     const double stepShare = std::clamp(2 * angle / (kAngleShare * usualLimit_), kFinestSteps, 1.0);
-    const Result<void> ok = quantise(rig, source_, {tolerance_, angle, stepShare}, proceed);
+    const Result<void> ok = quantise(rig, source_, {aim_, angle, stepShare}, proceed);
     rig.packing.textureBits = options_.textureBits;
     return ok;
   }
@@ -187,6 +190,7 @@ class Converter {
   const ConvertOptions& options_;
   ConversionProgress progress_;
   double tolerance_ = 0, usualLimit_ = 0;
+  double aim_ = 0;  // the tolerance where one vertex of several stands for all
   std::map<double, Result<Conversion>> fits_;  // by their limits on normals
   double normalRms_ = 0;
   double nearest_ = std::numeric_limits<double>::infinity();  // of what is not guided

@@ -1,8 +1,11 @@
 #include "fit/doubts.hpp"
 
+#include <Eigen/SVD>
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
+#include <numbers>
+#include <utility>
 
 #include "sweepface/fit.hpp"
 
@@ -12,77 +15,160 @@
 namespace sweepface {
 namespace {
 
-// Of the mesh's diagonal: of a head's it is about the nose.
-constexpr double kCoarse = 0.05;
-// How many times as long, or as short, most edges of a target are where something else is wrong
-// with it than that somebody opens the mouth.
-constexpr double kUnlike = 4;
-constexpr std::size_t kNamed = 6;
+// A tolerance of more than this share of the diagonal, about a head's nose, or of so many edges.
+constexpr double kOfSize = 0.05, kOfEdges = 4;
+// No expression makes most edges so many times as long, or as short.
+constexpr double kStretch = 2;
+// Nor turns a face as a whole so far, in degrees, with only such a share of its movement left
+// beside that (squared), or moves it by such a share of the diagonal.
+constexpr double kTurn = 60, kLeft = 0.25, kWay = 0.5;
 
-/// "'a', 'b' and 3 more", of the targets in question.
-std::string listed(const MeshRig& source, const std::vector<char>& inQuestion) {
-  std::vector<std::string> names;
-  std::size_t count = 0;
-  for (std::size_t t = 0; t < inQuestion.size(); ++t)
-    if (inQuestion[t] && ++count <= kNamed) names.push_back(io::inQuotes(source.targets[t].name));
-  const std::string list = fmt::format("{}", fmt::join(names, ", "));
-  return count <= kNamed ? list : fmt::format("{} and {} more", list, count - kNamed);
-}
+/// Edges of faces, and vertices of faces.
+struct Outline {
+  std::vector<std::pair<Index, Index>> edges;
+  std::vector<Index> vertices;
 
-/// How much longer the edge in the middle of all, in the order of how much longer they are, is in a
-/// target; 1 if the neutral has no edge of any length.
-double stretchOf(const MeshRig& source, const MeshTarget& target) {
-  const auto& [neutral, faces] = source.neutral;
-  std::vector<double> stretches;
-  stretches.reserve(faces.corners.size());
-  for (Index f = 0; f < faces.faceCount(); ++f)
-    for (Index k = 0; k < faces.faceSize(f); ++k) {
-      const Index a = faces.corners[faces.faceStart[f] + k],
-                  b = faces.corners[faces.faceStart[f] + (k + 1) % faces.faceSize(f)];
-      const double length = norm(neutral[a] - neutral[b]);
-      if (length > 0) stretches.push_back(norm(target.positions[a] - target.positions[b]) / length);
-    }
-  if (stretches.empty()) return 1;
-  const auto middle = stretches.begin() + static_cast<std::ptrdiff_t>(stretches.size() / 2);
-  std::ranges::nth_element(stretches, middle);
+  explicit Outline(const Polygons& faces) : vertices(faces.corners) {
+    for (Index f = 0; f < faces.faceCount(); ++f)
+      for (Index k = 0; k < faces.faceSize(f); ++k)
+        edges.push_back(
+            std::minmax({faces.corners[faces.faceStart[f] + k],
+                         faces.corners[faces.faceStart[f] + (k + 1) % faces.faceSize(f)]}));
+    sortOut(edges);
+    sortOut(vertices);
+  }
+
+ private:
+  static void sortOut(auto& list) {
+    std::ranges::sort(list);
+    list.erase(std::ranges::unique(list).begin(), list.end());
+  }
+};
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, middle);
   return *middle;
 }
 
-bool moves(const MeshRig& source, const MeshTarget& target, double further) {
-  return std::ranges::any_of(source.neutral.polygons.corners, [&](Index v) {
-    return norm(target.positions[v] - source.neutral.positions[v]) > further;
-  });
+double medianEdge(const Outline& outline, const std::vector<Vec3>& positions) {
+  std::vector<double> lengths;
+  for (const auto& [a, b] : outline.edges) lengths.push_back(norm(positions[a] - positions[b]));
+  return median(std::move(lengths));
+}
+
+/// How many times as long edges are in a target, in the middle of all of any length.
+double stretchOf(const Outline& outline, const std::vector<Vec3>& neutral,
+                 const std::vector<Vec3>& target) {
+  std::vector<double> stretches;
+  for (const auto& [a, b] : outline.edges)
+    if (const double length = norm(neutral[a] - neutral[b]); length > 0)
+      stretches.push_back(norm(target[a] - target[b]) / length);
+  return stretches.empty() ? 1 : median(std::move(stretches));
+}
+
+Vec3 centreOf(const Outline& outline, const std::vector<Vec3>& positions) {
+  Vec3 sum;
+  for (const Index v : outline.vertices) sum += positions[v];
+  return sum * (1.0 / static_cast<double>(outline.vertices.size()));
+}
+
+/// How a target stands to the neutral as a whole: what brings that nearest to it (Kabsch 1976).
+struct Attitude {
+  bool mirrored = false;
+  double degrees = 0;
+  double left = 0;  ///< of the target's movement about its centre, squared
+};
+Attitude attitudeOf(const Outline& outline, const std::vector<Vec3>& neutral,
+                    const std::vector<Vec3>& target) {
+  constexpr double kClearly = 0.02;  // flat faces are no worse mirrored
+  const Vec3 from = centreOf(outline, neutral), to = centreOf(outline, target);
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  double sizes = 0, movement = 0;
+  for (const Index v : outline.vertices) {
+    const Vec3 a = neutral[v] - from, b = target[v] - to;
+    covariance += Eigen::Vector3d(b.x, b.y, b.z) * Eigen::RowVector3d(a.x, a.y, a.z);
+    sizes += dot(a, a) + dot(b, b);
+    movement += dot(b - a, b - a);
+  }
+  const Eigen::JacobiSVD svd(covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Eigen::Vector3d values = svd.singularValues();
+  Eigen::Matrix3d u = svd.matrixU();
+  const bool reflects = (u * svd.matrixV().transpose()).determinant() < 0;
+  Attitude attitude;
+  attitude.mirrored = reflects && values[2] > kClearly * values.sum();
+  double fit = values.sum();
+  if (reflects && !attitude.mirrored) u.col(2) *= -1, fit -= 2 * values[2];
+  const double cosine = ((u * svd.matrixV().transpose()).trace() - 1) / 2;
+  attitude.degrees = std::acos(std::clamp(cosine, -1.0, 1.0)) * 180 / std::numbers::pi;
+  attitude.left = movement > 0 ? (sizes - 2 * fit) / movement : 1;
+  return attitude;
+}
+
+/// What may be wrong with a target; the first that applies.
+struct TargetDoubt {
+  enum Kind { none, neutral, units, axes, origin } kind = none;
+  std::string detail;
+};
+
+TargetDoubt doubtAbout(const Outline& outline, const std::vector<Vec3>& neutral,
+                       const std::vector<Vec3>& target, double size) {
+  if (std::ranges::all_of(outline.vertices, [&](Index v) { return target[v] == neutral[v]; }))
+    return {TargetDoubt::neutral, {}};
+  const double stretch = stretchOf(outline, neutral, target);
+  if (!(stretch < kStretch && stretch > 1 / kStretch))
+    return {TargetDoubt::units, fmt::format(" (edges {:.3g} times as long)", stretch)};
+  const Attitude attitude = attitudeOf(outline, neutral, target);
+  if (attitude.left < kLeft && attitude.mirrored) return {TargetDoubt::axes, " (mirrored)"};
+  if (attitude.left < kLeft && attitude.degrees > kTurn)
+    return {TargetDoubt::axes, fmt::format(" (turned by {:.0f} degrees)", attitude.degrees)};
+  const double way = norm(centreOf(outline, target) - centreOf(outline, neutral));
+  if (way > kWay * size) return {TargetDoubt::origin, fmt::format(" ({:.3g} away)", way)};
+  return {};
+}
+
+/// "'a' (mirrored), 'b' and 3 more", of the targets with a doubt of one kind; empty if none has.
+std::string listed(const MeshRig& source, const std::vector<TargetDoubt>& doubts,
+                   TargetDoubt::Kind kind) {
+  constexpr std::size_t most = 6;
+  std::string list;
+  std::size_t count = 0;
+  for (std::size_t t = 0; t < doubts.size(); ++t)
+    if (doubts[t].kind == kind && ++count <= most)
+      list += fmt::format("{}{}{}", list.empty() ? "" : ", ", io::inQuotes(source.targets[t].name),
+                          doubts[t].detail);
+  return count <= most ? list : fmt::format("{} and {} more", list, count - most);
 }
 
 }  // namespace
 
 std::vector<std::string> doubtsAbout(const MeshRig& source, double tolerance) {
-  std::vector<std::string> doubts;
-  const double size = diagonal(source.neutral);
-  if (tolerance > kCoarse * size)
-    doubts.push_back(
-        fmt::format("The tolerance, {:.3g}, is {:.0f} % of the mesh's size, {:.3g}, and much of "
-                    "its form may be "
-                    "lost; it may be meant in other units.",
-                    tolerance, 100 * tolerance / size, size));
+  const Outline outline(source.neutral.polygons);
+  if (outline.vertices.empty()) return {};
+  const std::vector<Vec3>& neutral = source.neutral.positions;
+  std::vector<std::string> sentences;
+  const double size = diagonal(source.neutral), edge = medianEdge(outline, neutral);
+  if (tolerance > kOfSize * size || tolerance > kOfEdges * edge)
+    sentences.push_back(fmt::format(
+        "The tolerance, {:.3g}, is {:.2g} % of the mesh's size and {:.2g} times as long as most "
+        "edges, and finer forms are lost; it may be meant in other units, or for a part of the "
+        "mesh.",
+        tolerance, 100 * tolerance / size, tolerance / edge));
 
-  const std::size_t targets = source.targets.size();
-  std::vector<char> unlike(targets), still(targets);
-  parallelFor(std::size_t{0}, targets, [&](std::size_t t) {
-    const double stretch = stretchOf(source, source.targets[t]);
-    unlike[t] = stretch > kUnlike || stretch < 1 / kUnlike;
-    still[t] = !moves(source, source.targets[t], tolerance);
+  std::vector<TargetDoubt> doubts(source.targets.size());
+  parallelFor(std::size_t{0}, doubts.size(), [&](std::size_t t) {
+    doubts[t] = doubtAbout(outline, neutral, source.targets[t].positions, size);
   });
-  if (std::ranges::count(unlike, 1) > 0)
-    doubts.push_back(fmt::format(
-        "Most edges are more than {} times as long, or as short, as the neutral's in {}: vertices "
-        "may be in another order there, or in other units.",
-        kUnlike, listed(source, unlike)));
-  if (std::ranges::count(still, 1) > 0)
-    doubts.push_back(
-        fmt::format("No vertex moves by more than the tolerance in {}, which may be lost.",
-                    listed(source, still)));
-  return doubts;
+  const auto tell = [&](TargetDoubt::Kind kind, std::string_view what) {
+    if (const std::string list = listed(source, doubts, kind); !list.empty())
+      sentences.push_back(fmt::format("Targets that {}: {}.", what, list));
+  };
+  tell(TargetDoubt::neutral, "are the same as the neutral");
+  tell(TargetDoubt::units, "may be in other units, or have their vertices in another order");
+  tell(TargetDoubt::axes, "may have other axes");
+  tell(TargetDoubt::origin, "may have another origin");
+  return sentences;
 }
 
 }  // namespace sweepface

@@ -7,9 +7,9 @@
 
 namespace sweepface {
 
-/// Sentences on what can be converted but is hardly meant: a tolerance like the mesh's size,
-/// targets in other units or another order of vertices, and those that move no vertex of a face by
-/// more than the tolerance.
+/// Sentences on what can be converted but is hardly meant: a tolerance like the mesh's size or far
+/// above its edges, and targets that are the neutral, or seem to have other units, axes or another
+/// origin or order of vertices.
 std::vector<std::string> doubtsAbout(const MeshRig& source, double tolerance);
 
 }  // namespace sweepface

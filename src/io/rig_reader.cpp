@@ -10,6 +10,7 @@
 #include "io/target_shape.hpp"
 #include "io/text.hpp"
 #include "mesh/quads.hpp"
+#include "mesh/weld.hpp"
 #include "parallel/parallel.hpp"
 
 namespace sweepface {
@@ -186,7 +187,7 @@ Result<RigSource> readSource(const fs::path& neutral, std::span<const fs::path> 
     auto rig = readRig(neutral, targets, progress);
     if (!rig) return std::unexpected(rig.error());
     if (isCutToTriangles(rig->neutral.polygons))
-      rig->neutral.polygons = recoverQuads(*rig).polygons;
+      rig->neutral.polygons = recoverQuads(*rig, weld(*rig)).polygons;
     return RigSource{std::move(*rig), {}, {}};
   }
   if (!targets.empty())

@@ -1,6 +1,7 @@
 #include "mesh/grid_mesh.hpp"
 
 #include <algorithm>
+#include <set>
 #include <tuple>
 
 #include "mesh/face_cutter.hpp"
@@ -125,6 +126,14 @@ std::string plural(Index count, const char* one, const char* many) {
 
 namespace {
 
+// The source's vertices at the corners of a face, in ascending order.
+std::vector<Index> cornersOf(const Polygons& faces, Index face) {
+  std::vector<Index> corners(faces.corners.begin() + faces.faceStart[face],
+                             faces.corners.begin() + faces.faceStart[face + 1]);
+  std::ranges::sort(corners);
+  return corners;
+}
+
 // The grid mesh of the source with its vertices welded as `first` says; edges left open go to
 // `cut`.
 Result<GridMesh> build(const MeshRig& rig, const std::vector<Index>& first,
@@ -132,6 +141,8 @@ Result<GridMesh> build(const MeshRig& rig, const std::vector<Index>& first,
   const Polygons& faces = rig.neutral.polygons;
   FaceCutter cutter(rig.neutral.positions);
   Index without = 0;  // a surface
+  Index again = 0;    // the same corners as a face before
+  std::set<std::vector<Index>> shapes;
   for (Index f = 0; f < faces.faceCount(); ++f) {
     if (faces.faceSize(f) > kMostCorners)
       return fail("face ", f + 1, " has ", faces.faceSize(f), " corners, of which ", kMostCorners,
@@ -139,6 +150,10 @@ Result<GridMesh> build(const MeshRig& rig, const std::vector<Index>& first,
     std::vector<Corner> face;
     for (Index c = faces.faceStart[f]; c < faces.faceStart[f + 1]; ++c)
       face.push_back({first[faces.corners[c]], c});
+    if (!shapes.insert(cornersOf(faces, f)).second) {
+      ++again;
+      continue;
+    }
     const std::size_t before = cutter.pieces.size();
     cutter.cut(std::move(face));
     without += cutter.pieces.size() == before;
@@ -166,21 +181,31 @@ Result<GridMesh> build(const MeshRig& rig, const std::vector<Index>& first,
     mesh.warnings.push_back(
         plural(without, "face has", "faces have") +
         " fewer than three different corners and no surface; the source order keeps them.");
+  if (again > 0)
+    mesh.warnings.push_back(
+        plural(again, "face has", "faces have") +
+        " the corners of another one, and no surface of their own; the source order keeps them.");
   return mesh;
 }
 
 }  // namespace
 
-Result<GridMesh> makeGridMesh(const MeshRig& rig) {
+Result<GridMesh> makeGridMesh(const MeshRig& rig, double rounding) {
   std::vector<Index> first = weld(rig);
+  if (rounding > 0) rounding = weldRounded(rig, rounding, first);
   while (true) {
     std::vector<std::pair<Index, Index>> cut;
     auto mesh = build(rig, first, cut);
-    if (!mesh || cut.empty()) return mesh;
+    if (!mesh) return mesh;
+    mesh->rounding = rounding;
+    if (cut.empty()) return mesh;
     if (takeApart(first, cut)) continue;
     mesh->warnings.push_back(
         plural(static_cast<Index>(cut.size()), "edge joins", "edges join") +
-        " more than two faces or faces of opposite orientation; the surface is cut there.");
+        " more than two faces or faces that look to opposite sides, the first one vertices " +
+        std::to_string(cut.front().first) + " and " + std::to_string(cut.front().second) +
+        "; the surface is cut there. Make faces look to one side, and leave out those between "
+        "others.");
     return mesh;
   }
 }

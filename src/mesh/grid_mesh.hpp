@@ -25,6 +25,8 @@ struct GridMesh {
   std::vector<Index> point;                       ///< [vertices]
   std::vector<Index> source;                      ///< [points] a source vertex at that place
   std::vector<Index> pointOfSource;               ///< [source vertices] or -1 where no face uses it
+  double rounding =
+      0;  ///< how far a source vertex is from the one of its point at most, in any pose
   std::vector<std::string> warnings;  ///< what had to be done to the source, in sentences
 
   Index vertexCount() const { return static_cast<Index>(point.size()); }
@@ -33,7 +35,8 @@ struct GridMesh {
   Index to(HalfEdge h) const { return from(nextIn(h)); }
 };
 
-/// Builds the grid mesh of a rig. Fails only where no face is left.
-Result<GridMesh> makeGridMesh(const MeshRig& rig);
+/// Builds the grid mesh of a rig. Vertices within `rounding` of each other in all poses may become
+/// one (weldRounded()). Fails only where no face is left.
+Result<GridMesh> makeGridMesh(const MeshRig& rig, double rounding = 0);
 
 }  // namespace sweepface

@@ -10,6 +10,11 @@ namespace sweepface {
 /// For every vertex the first that stands at the same place in the neutral and in every target.
 std::vector<Index> weld(const MeshRig& rig);
 
+/// Joins what copies became where they were rounded otherwise: vertices that are no further apart
+/// in any pose than `within`, nor than a thousandth of their edges in the neutral. Returns the
+/// largest distance of any from the one that `first` names now.
+double weldRounded(const MeshRig& rig, double within, std::vector<Index>& first);
+
 /// Separate sheets that merely touch must not be welded: they would meet in edges of three and
 /// more faces. Takes apart what was welded at the ends of such edges; false if there was nothing
 /// to take apart.

@@ -139,6 +139,15 @@ TEST_F(Measure, DrawsTheMixturesOfASeed) {
   EXPECT_NE(run(command + "5").out, run(command + "6").out);
 }
 
+TEST_F(Measure, SaysThatMeshesAreHardlyTheFaces) {
+  convertRig();
+  EXPECT_EQ(run("measure face.sweep neutral.obj targets --mixtures 0").err, "");
+  folder.file("other/jawOpen.obj", sheet(smiling));
+  const Outcome r = run("measure face.sweep neutral.obj other --mixtures 0 -q");
+  EXPECT_EQ(r.code, 0);
+  EXPECT_TRUE(r.err.starts_with("sweepface: warning: jawOpen is up to ")) << r.err;
+}
+
 TEST_F(Measure, RefusesForeignMeshes) {
   convertRig();
   folder.file("cube.obj", cube(2));

@@ -131,7 +131,7 @@ inline std::vector<std::uint16_t> sheetIndices() {
 }
 inline std::vector<Vec3> openDeltas() {
   std::vector<Vec3> deltas;
-  for (int v = 0; v < 9; ++v) deltas.push_back({0, -0.5 * v, 0.125 * v});
+  for (int v = 0; v < 9; ++v) deltas.push_back({0, -0.125 * v, 0.125 * v});
   return deltas;
 }
 

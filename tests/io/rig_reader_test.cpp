@@ -155,6 +155,19 @@ TEST(MeshReader, TellsFormatsByExtension) {
 // Two squares side by side, and the same cut into triangles.
 const std::string corners = "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 1 0\nv 1 1 0\nv 2 1 0\n";
 
+/// Some exporters give every triangle vertices of its own.
+TEST_F(RigReader, JoinsTrianglesOfDoubledVertices) {
+  const std::string apart =
+      "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n";
+  const auto facesOf = [&](const std::string& faces) {
+    const auto source = readSource(folder.file("face.obj", apart + faces), {});
+    return source ? source->rig.neutral.polygons.faceCount() : -1;
+  };
+  EXPECT_EQ(facesOf("f 1 2 3\nf 4 5 6\n"), 1);
+  EXPECT_EQ(facesOf("f 1/1 2/2 3/3\nf 4/1 5/3 6/4\n"), 1);
+  EXPECT_EQ(facesOf("f 1/1 2/2 3/3\nf 4/2 5/3 6/4\n"), 2) << "a seam of the texture";
+}
+
 TEST_F(RigReader, JoinsTrianglesToQuadsWhereThereIsNothingElse) {
   const auto facesOf = [&](const std::string& faces) {
     const auto source = readSource(folder.file("face.obj", corners + faces), {});

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "faces.hpp"
+#include "mesh/weld.hpp"
 
 namespace sweepface {
 namespace {
@@ -68,6 +69,34 @@ TEST(Welding, leavesVerticesApartThatOneTargetParts) {
     seam.targets[1].positions[v].x += 1;
   EXPECT_EQ(gridOf(seam).pointCount(), 13 * 5);
   EXPECT_EQ(openSides(gridOf(seam)), 2 * 12 + 2 * 4);
+}
+
+/// Copies that were rounded otherwise in one pose would leave a slit in all of them.
+TEST(Welding, joinsWhatRoundingParted) {
+  MeshRig seam = withTargets(cylinder(12, 4, true));
+  for (std::size_t v = 0; v < seam.neutral.positions.size(); v += 13)
+    seam.targets[1].positions[v].x += 3e-6;
+  EXPECT_EQ(gridOf(seam).pointCount(), 13 * 5) << "not unless asked";
+  const GridMesh joined = makeGridMesh(seam, 1e-5).value();
+  EXPECT_EQ(joined.pointCount(), 12 * 5);
+  EXPECT_NEAR(joined.rounding, 3e-6, 1e-12);
+  EXPECT_EQ(makeGridMesh(seam, 1e-6)->pointCount(), 13 * 5) << "further than asked";
+  for (std::size_t v = 0; v < seam.neutral.positions.size(); v += 13)
+    seam.targets[1].positions[v].x += 0.01;
+  EXPECT_EQ(makeGridMesh(seam, 0.1)->pointCount(), 13 * 5) << "too far for its edges";
+}
+
+TEST(Welding, joinsChainsWithTheirCopies) {
+  MeshRig rig;
+  rig.neutral.positions = {{0, 0, 0}, {10, 0, 0}, {10, 10, 0}, {0, 10, 0}};
+  for (const double off : {0.0, 8e-6, 8e-6, 4e-6})  // the last one is near both
+    rig.neutral.positions.insert(rig.neutral.positions.end(),
+                                 {{10 + off, 0, 0}, {20, 0, off}, {20, 10, 0}, {10 + off, 10, 0}});
+  for (Index v = 0; v < 20; v += 4) addFace(rig.neutral, {v, v + 1, v + 2, v + 3});
+  std::vector<Index> first = weld(rig);
+  const double rounding = weldRounded(rig, 5e-6, first);
+  for (const Index v : {4, 8, 12, 16}) EXPECT_EQ(first[v], 1) << v;
+  EXPECT_NEAR(rounding, 8e-6, 1e-12);
 }
 
 TEST(Welding, takesBothZerosForTheSame) {
@@ -299,11 +328,21 @@ TEST(Damage, aFaceTurnedOverIsCutOutAndReported) {
   EXPECT_TRUE(result.warnings[0].starts_with("4 edges join")) << result.warnings[0];
 }
 
-TEST(Damage, aFaceGivenTwiceStaysTwice) {
-  PolygonMesh mesh = plane(3, 3);
-  addFace(mesh, loopsOf(mesh.polygons)[4]);
-  EXPECT_EQ(gridOf(mesh).quads.size(), 10u);
-  EXPECT_EQ(gridOf(mesh).warnings.size(), 1u);
+TEST(Damage, aFaceGivenTwiceHasOneSurfaceAndIsReported) {
+  const PolygonMesh once = plane(3, 3);
+  for (const bool turned : {false, true}) {
+    PolygonMesh mesh = once;
+    for (Loop face : loopsOf(once.polygons)) {
+      if (turned) std::ranges::reverse(face);
+      std::ranges::rotate(face, face.begin() + 1);
+      addFace(mesh, face);
+    }
+    const GridMesh result = gridOf(mesh);
+    EXPECT_EQ(result.quads, gridOf(once).quads);
+    ASSERT_EQ(result.warnings.size(), 1u);
+    EXPECT_TRUE(result.warnings[0].starts_with("9 faces have the corners of another one"))
+        << result.warnings[0];
+  }
 }
 
 TEST(Damage, facesThatTouchInAPointOnlyAreTwoFans) {

@@ -1,0 +1,34 @@
+#include <gtest/gtest.h>
+
+#include "sweepface/fit.hpp"
+#include "sweepface/measure.hpp"
+
+#include "faces.hpp"
+
+namespace sweepface {
+namespace {
+
+using namespace testing;
+
+TEST(KeptMovement, IsAllWithinAFineTolerance) {
+  MeshRig source = withTargets(plane());
+  source.targets.push_back({"still", source.neutral.positions});
+  const auto conversion = convert(source);
+  ASSERT_TRUE(conversion) << conversion.error().message;
+  const auto kept = keptMovement(conversion->rig, source);
+  ASSERT_EQ(kept.size(), 3u);
+  for (const double share : kept) EXPECT_NEAR(share, 1, 0.01);
+}
+
+TEST(KeptMovement, IsTheShareThatTheRigHas) {
+  const MeshRig source = withTargets(plane());
+  auto rig = convert(source)->rig;
+  for (Vec3& d : rig.targets[0].difference) d *= 0.25;
+  for (Vec3& d : rig.targets[1].difference) d *= 0;
+  const auto kept = keptMovement(rig, source);
+  EXPECT_NEAR(kept[0], 0.25, 0.01);
+  EXPECT_EQ(kept[1], 0);
+}
+
+}  // namespace
+}  // namespace sweepface
