@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <tuple>
 #include <unordered_map>
 
 #include "surface/union_find.hpp"
@@ -37,6 +38,45 @@ std::vector<double> shortestEdges(const PolygonMesh& mesh, double most) {
   return shortest;
 }
 
+/// Sets of vertices, of those that are the first at their place, that are next to each other in all
+/// poses.
+template <typename Apart>
+UnionFind nearSets(const MeshRig& rig, double within, const std::vector<Index>& first,
+                   const Apart& apart) {
+  constexpr double kOfEdges = 1e-3;
+  const std::vector<Vec3>& neutral = rig.neutral.positions;
+  std::vector<double> allowed = shortestEdges(rig.neutral, within / kOfEdges);
+  for (double& distance : allowed) distance *= kOfEdges;
+  // In an order in which what is near is near: along a line that hardly any mesh stands across.
+  const Vec3 line = normalized({0.61, 0.55, 0.57});
+  std::vector<std::pair<double, Index>> order;
+  for (Index v = 0; v < static_cast<Index>(first.size()); ++v)
+    if (first[v] == v) order.emplace_back(dot(neutral[v], line), v);
+  std::ranges::sort(order);
+  UnionFind sets(first.size());
+  for (std::size_t k = 0; k < order.size(); ++k)
+    for (std::size_t before = k; before-- > 0;) {
+      if (order[k].first - order[before].first > within) break;
+      const Index a = order[k].second, b = order[before].second;
+      if (norm(neutral[a] - neutral[b]) <= allowed[a] && apart(a, b) <= allowed[a]) sets.join(a, b);
+    }
+  return sets;
+}
+
+/// From and to which vertex edges lead that no face has the other way.
+std::vector<std::pair<Index, Index>> openEdges(const Polygons& faces,
+                                               const std::vector<Index>& first) {
+  std::vector<std::pair<Index, Index>> edges, open;
+  for (Index f = 0; f < faces.faceCount(); ++f)
+    for (Index k = 0; k < faces.faceSize(f); ++k)
+      edges.emplace_back(first[faces.corners[faces.faceStart[f] + k]],
+                         first[faces.corners[faces.faceStart[f] + (k + 1) % faces.faceSize(f)]]);
+  std::ranges::sort(edges);
+  for (const auto& [from, to] : edges)
+    if (!std::ranges::binary_search(edges, std::pair(to, from))) open.emplace_back(from, to);
+  return open;
+}
+
 }  // namespace
 
 std::vector<Index> weld(const MeshRig& rig) {
@@ -57,29 +97,35 @@ std::vector<Index> weld(const MeshRig& rig) {
 }
 
 double weldRounded(const MeshRig& rig, double within, std::vector<Index>& first) {
-  const std::vector<Vec3>& neutral = rig.neutral.positions;
   const auto apart = [&](Index a, Index b) {
-    double most = norm(neutral[a] - neutral[b]);
+    double most = norm(rig.neutral.positions[a] - rig.neutral.positions[b]);
     for (const MeshTarget& t : rig.targets)
       most = std::max(most, norm(t.positions[a] - t.positions[b]));
     return most;
   };
-  constexpr double kOfEdges = 1e-3;
-  std::vector<double> allowed = shortestEdges(rig.neutral, within / kOfEdges);
-  for (double& distance : allowed) distance *= kOfEdges;
-  // In an order in which what is near is near: along a line that hardly any mesh stands across.
-  const Vec3 line = normalized({0.61, 0.55, 0.57});
-  std::vector<std::pair<double, Index>> order;
-  for (Index v = 0; v < static_cast<Index>(first.size()); ++v)
-    if (first[v] == v) order.emplace_back(dot(neutral[v], line), v);
-  std::ranges::sort(order);
-  UnionFind sets(static_cast<Index>(first.size()));
-  for (std::size_t k = 0; k < order.size(); ++k)
-    for (std::size_t before = k; before-- > 0;) {
-      if (order[k].first - order[before].first > within) break;
-      const Index a = order[k].second, b = order[before].second;
-      if (norm(neutral[a] - neutral[b]) <= allowed[a] && apart(a, b) <= allowed[a]) sets.join(a, b);
+  UnionFind near = nearSets(rig, within, first, apart);
+  // What merely touches somewhere is not meant to be joined, but edges that only these sets pair.
+  struct OpenEdge {
+    Index low, high;  // sets
+    Index from, to;
+  };
+  std::vector<OpenEdge> edges;
+  for (const auto& [from, to] : openEdges(rig.neutral.polygons, first))
+    if (const auto [low, high] = std::minmax({near.find(from), near.find(to)}); low != high)
+      edges.push_back({low, high, from, to});
+  std::ranges::sort(edges, {},
+                    [](const OpenEdge& e) { return std::tuple(e.low, e.high, e.from, e.to); });
+  UnionFind sets(first.size());
+  for (std::size_t k = 0; k < edges.size();) {
+    std::size_t end = k + 1;
+    while (end < edges.size() && edges[end].low == edges[k].low && edges[end].high == edges[k].high)
+      ++end;
+    if (end - k == 2 && near.find(edges[k].from) == near.find(edges[k + 1].to)) {
+      sets.join(edges[k].from, edges[k + 1].to);
+      sets.join(edges[k].to, edges[k + 1].from);
     }
+    k = end;
+  }
   double furthest = 0;
   for (Index v = 0; v < static_cast<Index>(first.size()); ++v) {
     first[v] = sets.find(first[v]);

@@ -86,17 +86,14 @@ TEST(Welding, joinsWhatRoundingParted) {
   EXPECT_EQ(makeGridMesh(seam, 0.1)->pointCount(), 13 * 5) << "too far for its edges";
 }
 
-TEST(Welding, joinsChainsWithTheirCopies) {
-  MeshRig rig;
-  rig.neutral.positions = {{0, 0, 0}, {10, 0, 0}, {10, 10, 0}, {0, 10, 0}};
-  for (const double off : {0.0, 8e-6, 8e-6, 4e-6})  // the last one is near both
-    rig.neutral.positions.insert(rig.neutral.positions.end(),
-                                 {{10 + off, 0, 0}, {20, 0, off}, {20, 10, 0}, {10 + off, 10, 0}});
-  for (Index v = 0; v < 20; v += 4) addFace(rig.neutral, {v, v + 1, v + 2, v + 3});
-  std::vector<Index> first = weld(rig);
-  const double rounding = weldRounded(rig, 5e-6, first);
-  for (const Index v : {4, 8, 12, 16}) EXPECT_EQ(first[v], 1) << v;
-  EXPECT_NEAR(rounding, 8e-6, 1e-12);
+/// Lashes stand on lids by vertices alone.
+TEST(Welding, leavesApartWhatTouchesAlongNoEdge) {
+  PolygonMesh mesh;
+  mesh.positions = {{0, 0, 0},        {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
+                    {1 + 1e-9, 1, 0}, {2, 1, 0}, {2, 2, 0}, {1, 2, 0}};
+  addFace(mesh, {0, 1, 2, 3});
+  addFace(mesh, {4, 5, 6, 7});
+  EXPECT_EQ(makeGridMesh({mesh, {}}, 1e-6)->pointCount(), 8);
 }
 
 TEST(Welding, takesBothZerosForTheSame) {
