@@ -56,13 +56,28 @@ Result<Performance> driven(const PerformanceArguments& a, const Drive& drive, do
   return performance;
 }
 
-Result<Performance> byLaw(const PerformanceArguments& a, const Rig& rig, const Matter& matter) {
-  const Result<Weights> from = parseWeights(rig, a.from), to = parseWeights(rig, a.to.value_or(""));
-  if (!from) return std::unexpected(from.error());
-  if (!to) return std::unexpected(to.error());
+/// What changes its weight and yet moves nothing.
+std::vector<std::string> notesOnStill(const Rig& rig, const Weights& from, const Weights& to) {
+  const auto isStill = [](const std::vector<Vec3>& ways) {
+    return std::ranges::all_of(ways, [](const Vec3& way) { return way == Vec3{}; });
+  };
+  std::vector<std::string> notes;
+  for (std::size_t k = 0; k < rig.targets.size(); ++k)
+    if (const Target& target = rig.targets[k];
+        from[k] != to[k] && isStill(target.difference) && isStill(target.looseDifference))
+      notes.push_back(
+          fmt::format("{} moves nothing in this face: in its meshes it was the neutral, or within "
+                      "the tolerance of "
+                      "it.",
+                      target.name));
+  return notes;
+}
+
+Result<Performance> between(const PerformanceArguments& a, const Weights& from, const Weights& to,
+                            const Matter& matter) {
   if (const auto drive = driveFromName(a.law);
       drive && drive->kind != Drive::Kind::cut && !timeLawFromName(a.law))
-    return driven(a, inMatter(driveOf(a, *drive), matter), matter.delay, *from, *to);
+    return driven(a, inMatter(driveOf(a, *drive), matter), matter.delay, from, to);
   const Result<TimeLaw> law = timeLawFromName(a.law);
   if (!law)
     return fail(
@@ -70,7 +85,7 @@ Result<Performance> byLaw(const PerformanceArguments& a, const Rig& rig, const M
                     "accelerate-brake, linear-force, spring and bounce.",
                     a.law));
   const double seconds = inMatter({.seconds = a.seconds, .spring = {}}, matter).seconds;
-  auto motion = Motion::make(*from, *to, *law, seconds);
+  auto motion = Motion::make(from, to, *law, seconds);
   if (!motion)
     return fail(
         fmt::format("In {:.4g} s it moves too fast for its speed and force to be numbers; "
@@ -91,6 +106,15 @@ Result<Performance> byLaw(const PerformanceArguments& a, const Rig& rig, const M
     }
   };
   if (matter.delay == 0) performance.motion = std::move(*motion);
+  return performance;
+}
+
+Result<Performance> byLaw(const PerformanceArguments& a, const Rig& rig, const Matter& matter) {
+  const Result<Weights> from = parseWeights(rig, a.from), to = parseWeights(rig, a.to.value_or(""));
+  if (!from) return std::unexpected(from.error());
+  if (!to) return std::unexpected(to.error());
+  auto performance = between(a, *from, *to, matter);
+  if (performance) performance->notes = notesOnStill(rig, *from, *to);
   return performance;
 }
 

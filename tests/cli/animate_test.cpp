@@ -68,6 +68,17 @@ TEST_F(Animate, HasLawsThatDiffer) {
   for (std::size_t k = 0; k < ways.size(); ++k) EXPECT_NEAR(ways[k], expected[k], 1e-12);
 }
 
+TEST_F(Animate, SaysWhichTargetsMoveNothing) {
+  folder.file("targets/wink.obj", sheet());
+  convertRig();
+  for (const std::string command :
+       {"animate face.sweep -o move.glb", "plot face.sweep -o move.svg"}) {
+    EXPECT_EQ(run(command + " --to jawOpen=1 --law newton").err, "");
+    EXPECT_TRUE(run(command + " --to jawOpen=1,wink=1 --law newton")
+                    .err.starts_with("sweepface: warning: wink moves nothing in this face"));
+  }
+}
+
 TEST_F(Animate, WritesFinerMeshes) {
   convertRig();
   ASSERT_EQ(run("animate face.sweep --to smile=1 --frames 2 --lod 2 --quiet -o a/b/frames").code,
