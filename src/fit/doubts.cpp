@@ -10,6 +10,7 @@
 #include "sweepface/fit.hpp"
 
 #include "io/text.hpp"
+#include "mesh/each_edge.hpp"
 #include "parallel/parallel.hpp"
 
 namespace sweepface {
@@ -29,11 +30,7 @@ struct Outline {
   std::vector<Index> vertices;
 
   explicit Outline(const Polygons& faces) : vertices(faces.corners) {
-    for (Index f = 0; f < faces.faceCount(); ++f)
-      for (Index k = 0; k < faces.faceSize(f); ++k)
-        edges.push_back(
-            std::minmax({faces.corners[faces.faceStart[f] + k],
-                         faces.corners[faces.faceStart[f] + (k + 1) % faces.faceSize(f)]}));
+    eachEdge(faces, [&](Index a, Index b) { edges.push_back(std::minmax({a, b})); });
     sortOut(edges);
     sortOut(vertices);
   }

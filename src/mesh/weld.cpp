@@ -6,6 +6,7 @@
 #include <tuple>
 #include <unordered_map>
 
+#include "mesh/each_edge.hpp"
 #include "surface/union_find.hpp"
 
 namespace sweepface {
@@ -25,16 +26,12 @@ std::uint64_t hashOf(const MeshRig& rig, std::size_t vertex) {
 
 /// [vertices] of the edges of any length around each, but `most` at most.
 std::vector<double> shortestEdges(const PolygonMesh& mesh, double most) {
-  const Polygons& faces = mesh.polygons;
   std::vector<double> shortest(mesh.positions.size(), most);
-  for (Index f = 0; f < faces.faceCount(); ++f)
-    for (Index k = 0; k < faces.faceSize(f); ++k) {
-      const Index a = faces.corners[faces.faceStart[f] + k],
-                  b = faces.corners[faces.faceStart[f] + (k + 1) % faces.faceSize(f)];
-      const double length = norm(mesh.positions[a] - mesh.positions[b]);
-      if (length > 0)
-        for (const Index v : {a, b}) shortest[v] = std::min(shortest[v], length);
-    }
+  eachEdge(mesh.polygons, [&](Index a, Index b) {
+    const double length = norm(mesh.positions[a] - mesh.positions[b]);
+    if (length > 0)
+      for (const Index v : {a, b}) shortest[v] = std::min(shortest[v], length);
+  });
   return shortest;
 }
 
@@ -44,6 +41,7 @@ template <typename Apart>
 UnionFind nearSets(const MeshRig& rig, double within, const std::vector<Index>& first,
                    const Apart& apart) {
   constexpr double kOfEdges = 1e-3;
+  constexpr std::size_t kMostLooks = 256;  // at vertices of one place that targets part
   const std::vector<Vec3>& neutral = rig.neutral.positions;
   std::vector<double> allowed = shortestEdges(rig.neutral, within / kOfEdges);
   for (double& distance : allowed) distance *= kOfEdges;
@@ -56,7 +54,7 @@ UnionFind nearSets(const MeshRig& rig, double within, const std::vector<Index>& 
   UnionFind sets(first.size());
   for (std::size_t k = 0; k < order.size(); ++k)
     for (std::size_t before = k; before-- > 0;) {
-      if (order[k].first - order[before].first > within) break;
+      if (order[k].first - order[before].first > within || k - before > kMostLooks) break;
       const Index a = order[k].second, b = order[before].second;
       if (norm(neutral[a] - neutral[b]) <= allowed[a] && apart(a, b) <= allowed[a]) sets.join(a, b);
     }
@@ -67,10 +65,7 @@ UnionFind nearSets(const MeshRig& rig, double within, const std::vector<Index>& 
 std::vector<std::pair<Index, Index>> openEdges(const Polygons& faces,
                                                const std::vector<Index>& first) {
   std::vector<std::pair<Index, Index>> edges, open;
-  for (Index f = 0; f < faces.faceCount(); ++f)
-    for (Index k = 0; k < faces.faceSize(f); ++k)
-      edges.emplace_back(first[faces.corners[faces.faceStart[f] + k]],
-                         first[faces.corners[faces.faceStart[f] + (k + 1) % faces.faceSize(f)]]);
+  eachEdge(faces, [&](Index a, Index b) { edges.emplace_back(first[a], first[b]); });
   std::ranges::sort(edges);
   for (const auto& [from, to] : edges)
     if (!std::ranges::binary_search(edges, std::pair(to, from))) open.emplace_back(from, to);
