@@ -1,5 +1,6 @@
 #include "fit/doubts.hpp"
 
+#include <Eigen/LU>
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
