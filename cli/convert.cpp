@@ -214,21 +214,6 @@ ConvertOptions optionsOf(const ConvertArguments& a, ProgressBar& bar) {
   return options;
 }
 
-/// Names targets that are mostly lost; empty if none is.
-std::string lostMovement(const Rig& rig, const Verified& verified) {
-  constexpr double kMostly = 0.5;
-  constexpr std::size_t kMost = 6;
-  std::string list;
-  std::size_t count = 0;
-  for (std::size_t k = 0; k < verified.kept.size(); ++k)
-    if (verified.kept[k] < kMostly && ++count <= kMost)
-      list += fmt::format("{}'{}' ({:.0f} % left)", list.empty() ? "" : ", ", rig.targets[k].name,
-                          100 * std::max(verified.kept[k], 0.0));
-  if (count == 0) return {};
-  if (count > kMost) list += fmt::format(" and {} more", count - kMost);
-  return fmt::format("Most of the movement is within the tolerance and lost in {}.", list);
-}
-
 /// What the user should know of the source, and of its scene if that is lost.
 std::vector<std::string> warningsOf(const ConvertArguments& a, const RigSource& source,
                                     const Strip& parts, bool losesScene) {
@@ -288,7 +273,7 @@ Result<int> convertAndWrite(const ConvertArguments& a) {
   std::vector<std::string>& warnings = conversion->warnings;
   std::ranges::move(warningsOf(a, *source, *parts, bringsScene && parts->order),
                     std::back_inserter(warnings));
-  if (auto lost = lostMovement(finished, *verified); !lost.empty())
+  if (auto lost = lostMovement(source->rig, verified->kept); !lost.empty())
     warnings.push_back(std::move(lost));
   if (a.arcs && finished.turns.empty()) warnings.push_back(kNoTurns);
   for (const std::string& warning : warnings) printWarning(warning);

@@ -105,9 +105,8 @@ void warnOfOtherMeshes(const Rig& rig, const Measurement& m) {
       std::ranges::max_element(m.shapes, {}, [](const PoseErrors& e) { return e.distance.max; });
   if (furthest == m.shapes.end() || !(furthest->distance.max > kRounding * rig.tolerance)) return;
   printWarning(
-      fmt::format("{} is up to {:.3g} away, beyond the tolerance of the face, {:.3g}: it was "
-                  "edited or drawn, or these "
-                  "are not the meshes that it was made from.",
+      fmt::format("{} is up to {:.3g} away, beyond the tolerance of the face, {:.3g}: the face was "
+                  "edited or drawn, or these are not the meshes that it was made from.",
                   furthest->name, furthest->distance.max, rig.tolerance));
 }
 

@@ -56,23 +56,6 @@ Result<Performance> driven(const PerformanceArguments& a, const Drive& drive, do
   return performance;
 }
 
-/// What changes its weight and yet moves nothing.
-std::vector<std::string> notesOnStill(const Rig& rig, const Weights& from, const Weights& to) {
-  const auto isStill = [](const std::vector<Vec3>& ways) {
-    return std::ranges::all_of(ways, [](const Vec3& way) { return way == Vec3{}; });
-  };
-  std::vector<std::string> notes;
-  for (std::size_t k = 0; k < rig.targets.size(); ++k)
-    if (const Target& target = rig.targets[k];
-        from[k] != to[k] && isStill(target.difference) && isStill(target.looseDifference))
-      notes.push_back(
-          fmt::format("{} moves nothing in this face: in its meshes it was the neutral, or within "
-                      "the tolerance of "
-                      "it.",
-                      target.name));
-  return notes;
-}
-
 Result<Performance> between(const PerformanceArguments& a, const Weights& from, const Weights& to,
                             const Matter& matter) {
   if (const auto drive = driveFromName(a.law);
@@ -113,9 +96,7 @@ Result<Performance> byLaw(const PerformanceArguments& a, const Rig& rig, const M
   const Result<Weights> from = parseWeights(rig, a.from), to = parseWeights(rig, a.to.value_or(""));
   if (!from) return std::unexpected(from.error());
   if (!to) return std::unexpected(to.error());
-  auto performance = between(a, *from, *to, matter);
-  if (performance) performance->notes = notesOnStill(rig, *from, *to);
-  return performance;
+  return between(a, *from, *to, matter);
 }
 
 // ---- Clips ----
@@ -225,6 +206,22 @@ Result<Performance> byClip(const PerformanceArguments& a, const Rig& rig, const 
 }
 
 }  // namespace
+
+std::vector<std::string> notesOnStill(const PerformanceArguments& a, const Rig& rig) {
+  const Result<Weights> from = parseWeights(rig, a.from), to = parseWeights(rig, a.to.value_or(""));
+  const auto isStill = [](const std::vector<Vec3>& ways) {
+    return std::ranges::all_of(ways, [](const Vec3& way) { return way == Vec3{}; });
+  };
+  std::vector<std::string> notes;
+  for (std::size_t k = 0; from && to && k < rig.targets.size(); ++k)
+    if (const Target& target = rig.targets[k];
+        (*from)[k] != (*to)[k] && isStill(target.difference) && isStill(target.looseDifference))
+      notes.push_back(
+          target.name +
+          " moves nothing in this face: in its meshes it was the neutral, or within the "
+          "tolerance of that.");
+  return notes;
+}
 
 std::function<void(double, std::span<Kinematics>)> byDifferences(
     const std::function<void(double, std::span<double>)>& at) {

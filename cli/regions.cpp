@@ -133,6 +133,9 @@ Result<Performance> perform(const PerformanceArguments& what, const RegionArgume
                             const FollowingArguments& following, Rig& rig) {
   const auto regions = regionsOf(what, a, rig);
   if (!regions) return std::unexpected(regions.error());
+  // Combinations may show what moves nothing by itself.
+  std::vector<std::string> still;
+  if (what.clip.empty() && !following.combine) still = notesOnStill(what, rig);
   Parts parts;
   for (const Region& region : *regions) {
     auto performance = makePerformance(what, rig, region, regions->size());
@@ -148,6 +151,7 @@ Result<Performance> perform(const PerformanceArguments& what, const RegionArgume
     performance = withFollowing(std::move(performance), *followed);
   Performance whole = parts.performances.size() == 1 ? std::move(parts.performances.front())
                                                      : together(std::move(parts), *regions, rig);
+  std::ranges::move(still, std::back_inserter(whole.notes));
   if (whole.frameMiss > 1e-4)
     whole.notes.push_back(
         fmt::format("{}: it moves more quickly, or for longer, than frames can tell: between them "

@@ -70,6 +70,8 @@ double normalRms(const Rig& rig, const MeshRig& source);
 /// none. `source` is what the rig was made from, with its targets in the same order, and the rig
 /// knows the source's order.
 std::vector<double> keptMovement(const Rig& rig, const MeshRig& source);
+/// A sentence that names the targets of which less than half is left; empty if there is none.
+std::string lostMovement(const MeshRig& source, const std::vector<double>& kept);
 
 /// How many level-4 triangles of a rig's surface look the other way than their source facet, in the
 /// neutral and after it in every target: [1 + K]. `source` is what the rig was made from, with its

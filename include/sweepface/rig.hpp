@@ -94,8 +94,8 @@ struct Rig {
   std::vector<Target> targets;
   SourceMesh source;
   double tolerance = 0;  ///< the error it was made for, in model units
-  /// What the source's scene held besides the rig, as a GLB in a zlib stream (docs/glb.md), or
-  /// empty. Opaque to what plays.
+  /// What the source's scene held besides the rig, as a GLB, mostly in a zlib stream
+  /// (docs/glb.md), or empty. Opaque to what plays.
   std::string scene;
   Names names{};
 

@@ -131,7 +131,7 @@ class Converter {
     const RefineLimits limits{.distance = (options_.pack ? kFitShare : 1) * aim_,
                               .angle = std::min(180.0, (options_.pack ? kNormalShare : 1) * angle),
                               .smooth = angle < 180};
-    SourceData data = gatherSource(source_, mesh, aim_);
+    SourceData data = gatherSource(source_, mesh, tolerance_);
     Layout layout(mesh, source_.neutral.positions, options_.pack);
     for (Index v = 0; v < mesh.vertexCount(); ++v)
       data.uneven.push_back(layout.isUneven(v, source_.neutral.positions, kUneven));

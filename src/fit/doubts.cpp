@@ -10,7 +10,7 @@
 
 #include "sweepface/fit.hpp"
 
-#include "io/text.hpp"
+#include "fit/listed.hpp"
 #include "mesh/each_edge.hpp"
 #include "parallel/parallel.hpp"
 
@@ -21,9 +21,9 @@ namespace {
 constexpr double kOfSize = 0.05, kOfEdges = 4;
 // No expression makes most edges so many times as long, or as short.
 constexpr double kStretch = 2;
-// Nor turns a face as a whole so far, in degrees, with only such a share of its movement left
-// beside that (squared), or moves it by such a share of the diagonal.
-constexpr double kTurn = 60, kLeft = 0.25, kWay = 0.5;
+// Other axes leave only such a share of a target's movement, squared. Nothing that is meant moves
+// the most targets by such a share of the diagonal.
+constexpr double kLeft = 0.25, kWay = 0.5;
 
 /// Edges of faces, and vertices of faces.
 struct Outline {
@@ -50,9 +50,12 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
+/// Of those of any length; 0 if there is none.
 double medianEdge(const Outline& outline, const std::vector<Vec3>& positions) {
   std::vector<double> lengths;
-  for (const auto& [a, b] : outline.edges) lengths.push_back(norm(positions[a] - positions[b]));
+  for (const auto& [a, b] : outline.edges)
+    if (const double length = norm(positions[a] - positions[b]); length > 0)
+      lengths.push_back(length);
   return median(std::move(lengths));
 }
 
@@ -75,12 +78,14 @@ Vec3 centreOf(const Outline& outline, const std::vector<Vec3>& positions) {
 /// How a target stands to the neutral as a whole: what brings that nearest to it (Kabsch 1976).
 struct Attitude {
   bool mirrored = false;
+  bool swapsAxes = false;  ///< nearly a turn that brings axes onto others: heads turn otherwise
   double degrees = 0;
   double left = 0;  ///< of the target's movement about its centre, squared
 };
 Attitude attitudeOf(const Outline& outline, const std::vector<Vec3>& neutral,
                     const std::vector<Vec3>& target) {
   constexpr double kClearly = 0.02;  // flat faces are no worse mirrored
+  constexpr double kNearly = 0.99;   // the cosine of 8 degrees
   const Vec3 from = centreOf(outline, neutral), to = centreOf(outline, target);
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   double sizes = 0, movement = 0;
@@ -98,7 +103,9 @@ Attitude attitudeOf(const Outline& outline, const std::vector<Vec3>& neutral,
   attitude.mirrored = reflects && values[2] > kClearly * values.sum();
   double fit = values.sum();
   if (reflects && !attitude.mirrored) u.col(2) *= -1, fit -= 2 * values[2];
-  const double cosine = ((u * svd.matrixV().transpose()).trace() - 1) / 2;
+  const Eigen::Matrix3d turn = u * svd.matrixV().transpose();
+  attitude.swapsAxes = (turn.cwiseAbs().rowwise().maxCoeff().array() > kNearly).all();
+  const double cosine = (turn.trace() - 1) / 2;
   attitude.degrees = std::acos(std::clamp(cosine, -1.0, 1.0)) * 180 / std::numbers::pi;
   attitude.left = movement > 0 ? (sizes - 2 * fit) / movement : 1;
   return attitude;
@@ -119,24 +126,11 @@ TargetDoubt doubtAbout(const Outline& outline, const std::vector<Vec3>& neutral,
     return {TargetDoubt::units, fmt::format(" (edges {:.3g} times as long)", stretch)};
   const Attitude attitude = attitudeOf(outline, neutral, target);
   if (attitude.left < kLeft && attitude.mirrored) return {TargetDoubt::axes, " (mirrored)"};
-  if (attitude.left < kLeft && attitude.degrees > kTurn)
+  if (attitude.left < kLeft && attitude.swapsAxes && attitude.degrees > 45)
     return {TargetDoubt::axes, fmt::format(" (turned by {:.0f} degrees)", attitude.degrees)};
   const double way = norm(centreOf(outline, target) - centreOf(outline, neutral));
   if (way > kWay * size) return {TargetDoubt::origin, fmt::format(" ({:.3g} away)", way)};
   return {};
-}
-
-/// "'a' (mirrored), 'b' and 3 more", of the targets with a doubt of one kind; empty if none has.
-std::string listed(const MeshRig& source, const std::vector<TargetDoubt>& doubts,
-                   TargetDoubt::Kind kind) {
-  constexpr std::size_t most = 6;
-  std::string list;
-  std::size_t count = 0;
-  for (std::size_t t = 0; t < doubts.size(); ++t)
-    if (doubts[t].kind == kind && ++count <= most)
-      list += fmt::format("{}{}{}", list.empty() ? "" : ", ", io::inQuotes(source.targets[t].name),
-                          doubts[t].detail);
-  return count <= most ? list : fmt::format("{} and {} more", list, count - most);
 }
 
 }  // namespace
@@ -147,25 +141,34 @@ std::vector<std::string> doubtsAbout(const MeshRig& source, double tolerance) {
   const std::vector<Vec3>& neutral = source.neutral.positions;
   std::vector<std::string> sentences;
   const double size = diagonal(source.neutral), edge = medianEdge(outline, neutral);
-  if (tolerance > kOfSize * size || tolerance > kOfEdges * edge)
+  if (tolerance > kOfSize * size || (edge > 0 && tolerance > kOfEdges * edge))
     sentences.push_back(fmt::format(
         "The tolerance, {:.3g}, is {:.2g} % of the mesh's size and {:.2g} times as long as most "
-        "edges, and finer forms are lost; it may be meant in other units, or for a part of the "
-        "mesh.",
-        tolerance, 100 * tolerance / size, tolerance / edge));
+        "edges, so that finer forms are lost; give a finer one if it was meant in other units, or "
+        "if some part makes the mesh look large.",
+        tolerance, 100 * tolerance / size, edge > 0 ? tolerance / edge : 0));
 
   std::vector<TargetDoubt> doubts(source.targets.size());
   parallelFor(std::size_t{0}, doubts.size(), [&](std::size_t t) {
     doubts[t] = doubtAbout(outline, neutral, source.targets[t].positions, size);
   });
-  const auto tell = [&](TargetDoubt::Kind kind, std::string_view what) {
-    if (const std::string list = listed(source, doubts, kind); !list.empty())
-      sentences.push_back(fmt::format("Targets that {}: {}.", what, list));
+  using Doubts = std::vector<std::pair<std::string, std::string>>;
+  const auto of = [&](TargetDoubt::Kind kind) {
+    Doubts found;
+    for (std::size_t t = 0; t < doubts.size(); ++t)
+      if (doubts[t].kind == kind) found.emplace_back(source.targets[t].name, doubts[t].detail);
+    return found;
   };
-  tell(TargetDoubt::neutral, "are the same as the neutral");
-  tell(TargetDoubt::units, "may be in other units, or have their vertices in another order");
-  tell(TargetDoubt::axes, "may have other axes");
-  tell(TargetDoubt::origin, "may have another origin");
+  const auto tell = [&](const Doubts& found, std::string_view what) {
+    if (!found.empty())
+      sentences.push_back(fmt::format("Targets that {}: {}.", what, listed(found)));
+  };
+  const Doubts still = of(TargetDoubt::neutral), away = of(TargetDoubt::origin);
+  tell(still, "are the same as the neutral");
+  tell(of(TargetDoubt::units), "may be in other units, or have their vertices in another order");
+  tell(of(TargetDoubt::axes), "may have other axes");
+  // Lower teeth go far for their size, but hardly in most targets.
+  if (2 * away.size() > doubts.size() - still.size()) tell(away, "may have another origin");
   return sentences;
 }
 

@@ -1,6 +1,10 @@
+#include <algorithm>
+#include <fmt/format.h>
+
 #include "sweepface/eval.hpp"
 #include "sweepface/measure.hpp"
 
+#include "fit/listed.hpp"
 #include "parallel/parallel.hpp"
 
 namespace sweepface {
@@ -23,6 +27,16 @@ std::vector<double> keptMovement(const Rig& rig, const MeshRig& source) {
     if (whole > 0) kept[k] = here / whole;
   });
   return kept;
+}
+
+std::string lostMovement(const MeshRig& source, const std::vector<double>& kept) {
+  std::vector<std::pair<std::string, std::string>> lost;
+  for (std::size_t k = 0; k < kept.size(); ++k)
+    if (kept[k] < 0.5)
+      lost.emplace_back(source.targets[k].name,
+                        fmt::format(" ({:.0f} % left)", 100 * std::max(kept[k], 0.0)));
+  if (lost.empty()) return {};
+  return fmt::format("Most of the movement is within the tolerance and lost in {}.", listed(lost));
 }
 
 }  // namespace sweepface

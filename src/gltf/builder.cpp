@@ -66,7 +66,7 @@ constexpr std::array grownLists{"accessors", "bufferViews"};
 
 }  // namespace
 
-// A JSON object moves all that it holds when it gets another member.
+// A JSON object moves all that it holds when it gets another member: so both lists are made now.
 Builder::Builder(Document& document) : document_(document) {
   if (document.buffers.empty()) document.buffers.emplace_back();
   for (const char* list : grownLists)

@@ -21,8 +21,8 @@ enum class Use {
 };
 
 /// Puts values into a document: behind all that its first buffer holds, in new buffer views. Sparse
-/// values gather until finish(). From its constructor on to that references into the document's
-/// JSON stay good but those into the lists of accessors and views, which grow.
+/// values gather until finish(). Between constructor and finish() references into the document's
+/// JSON stay valid, except into the lists of accessors and views, which grow.
 class Builder {
  public:
   explicit Builder(Document& document);

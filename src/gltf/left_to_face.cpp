@@ -73,14 +73,17 @@ std::vector<std::vector<Index>> facesOfParts(const Parts& parts,
   return faces;
 }
 
-/// The triangles of a part. Those of indices without data are the face's: only their number is
-/// known.
-Result<std::size_t> triangleCount(const Document& document, const Parts& parts, const Part& part) {
-  const auto left = emptyAccessor(document, indicesOf(primitiveOf(document, parts, part)));
-  if (left) return left->count / 3;
+/// How many triangles a part has, and vertices that its indices name.
+struct Counts {
+  std::size_t triangles = 0, named = 0;
+};
+Result<Counts> countsOf(const Document& document, const Parts& parts, const Part& part) {
+  // Of indices without data only their number is known: they are the face's.
+  if (const auto left = emptyAccessor(document, indicesOf(primitiveOf(document, parts, part))))
+    return Counts{left->count / 3, left->count};
   const auto found = trianglesOf(document, parts, part);
   if (!found) return std::unexpected(found.error());
-  return found->triangles.size();
+  return Counts{found->triangles.size(), found->named};
 }
 
 /// Gives back what a scene left to its face.
@@ -166,13 +169,13 @@ Result<std::vector<Index>> partsOfFaces(const Document& document, const Parts& p
   Index face = 0;
   const auto isInNone = [&] { return fail(fmt::format("face {} is in no mesh of it", face)); };
   for (std::size_t p = 0; p < parts.parts.size(); ++p) {
-    const auto count = triangleCount(document, parts, parts.parts[p]);
-    if (!count) return std::unexpected(count.error());
+    const auto counts = countsOf(document, parts, parts.parts[p]);
+    if (!counts) return std::unexpected(counts.error());
     // Parts that share indices could take very long.
-    named += 3 * *count;
+    named += counts->named;
     if (named > document.mostElements()) return fail("it has far more triangles");
     const Run& run = parts.runs[parts.parts[p].run];
-    std::size_t left = *count;
+    std::size_t left = counts->triangles;
     for (; left > 0 && face < polygons.faceCount(); ++face) {
       const std::span corners(&polygons.corners[polygons.faceStart[face]],
                               static_cast<std::size_t>(polygons.faceSize(face)));
@@ -203,7 +206,7 @@ Result<LeftToFace> leftToFace(const Document& document, const Parts& parts,
     const Json& mesh = document.list("meshes")[parts.meshes[parts.runs[part.run].rigMesh].mesh];
     if (!indices || faces[p].empty() || keepsOrder(primitive) || keepsOrder(mesh)) continue;
     const std::vector<Index> vertices = fans(parts, part, polygons, faces[p]);
-    if (!emptyAccessor(document, indices)) {
+    if (!emptyAccessor(document, indices)) {  // as a scene's own scene has them
       const auto found = trianglesOf(document, parts, part);
       if (!found) return std::unexpected(found.error());
       // Quads may have been made across doubled vertices.

@@ -72,8 +72,8 @@ void pairEdges(GridMesh& mesh, const std::vector<std::array<Index, 4>>& welded,
 }
 
 // One vertex for each fan of quads around a welded vertex, one point for vertices that collapsed
-// sides tie together.
-void numberVertices(GridMesh& mesh, const std::vector<std::array<Index, 4>>& welded) {
+// sides tie together. Of those from `count` on, the vertices of backs, the source counts from 0.
+void numberVertices(GridMesh& mesh, const std::vector<std::array<Index, 4>>& welded, Index count) {
   const auto halves = static_cast<HalfEdge>(4 * welded.size());
   UnionFind fans(halves);
   for (HalfEdge h = 0; h < halves; ++h)
@@ -84,7 +84,7 @@ void numberVertices(GridMesh& mesh, const std::vector<std::array<Index, 4>>& wel
     Index& v = vertexOf[fans.find(h)];
     if (v < 0) {
       v = static_cast<Index>(anchor.size());
-      anchor.push_back(welded[h >> 2][h & 3]);
+      anchor.push_back(welded[h >> 2][h & 3] % count);
     }
     mesh.quads[h >> 2][h & 3] = v;
   }
@@ -126,13 +126,26 @@ std::string plural(Index count, const char* one, const char* many) {
 
 namespace {
 
-// The source's vertices at the corners of a face, in ascending order.
-std::vector<Index> cornersOf(const Polygons& faces, Index face) {
-  std::vector<Index> corners(faces.corners.begin() + faces.faceStart[face],
-                             faces.corners.begin() + faces.faceStart[face + 1]);
-  std::ranges::sort(corners);
-  return corners;
-}
+// What faces there are, by the vertices around them.
+class KnownFaces {
+ public:
+  enum Kind { alone, back, again };
+  // Whether a face goes around the vertices of one before it, the other way or the same.
+  Kind add(const Polygons& faces, Index face) {
+    std::vector<Index> around(faces.corners.begin() + faces.faceStart[face],
+                              faces.corners.begin() + faces.faceStart[face + 1]);
+    if (!known_.insert(fromSmallest(around)).second) return again;
+    std::ranges::reverse(around);
+    return known_.contains(fromSmallest(around)) ? back : alone;
+  }
+
+ private:
+  static std::vector<Index> fromSmallest(std::vector<Index> around) {
+    std::ranges::rotate(around, std::ranges::min_element(around));
+    return around;
+  }
+  std::set<std::vector<Index>> known_;
+};
 
 // The grid mesh of the source with its vertices welded as `first` says; edges left open go to
 // `cut`.
@@ -141,26 +154,32 @@ Result<GridMesh> build(const MeshRig& rig, const std::vector<Index>& first,
   const Polygons& faces = rig.neutral.polygons;
   FaceCutter cutter(rig.neutral.positions);
   Index without = 0;  // a surface
-  Index again = 0;    // the same corners as a face before
-  std::set<std::vector<Index>> shapes;
+  Index again = 0;    // faces that were there before
+  KnownFaces known;
+  const auto count = static_cast<Index>(first.size());
   for (Index f = 0; f < faces.faceCount(); ++f) {
     if (faces.faceSize(f) > kMostCorners)
       return fail("face ", f + 1, " has ", faces.faceSize(f), " corners, of which ", kMostCorners,
                   " are the most; cut it into smaller ones");
-    std::vector<Corner> face;
-    for (Index c = faces.faceStart[f]; c < faces.faceStart[f + 1]; ++c)
-      face.push_back({first[faces.corners[c]], c});
-    if (!shapes.insert(cornersOf(faces, f)).second) {
+    const KnownFaces::Kind kind = known.add(faces, f);
+    if (kind == KnownFaces::again) {
       ++again;
       continue;
     }
+    std::vector<Corner> face;
+    for (Index c = faces.faceStart[f]; c < faces.faceStart[f + 1]; ++c)
+      face.push_back({first[faces.corners[c]], c});
     const std::size_t before = cutter.pieces.size();
     cutter.cut(std::move(face));
     without += cutter.pieces.size() == before;
+    // A sheet and its back share no vertex: those of the back count on.
+    if (kind == KnownFaces::back)
+      for (std::size_t k = before; k < cutter.pieces.size(); ++k)
+        for (Corner& corner : cutter.pieces[k]) corner.vertex += count;
   }
   if (cutter.pieces.empty())
     return fail("the mesh has no face with an area; nothing can be converted");
-  rotateTriangles(cutter.pieces, first.size());
+  rotateTriangles(cutter.pieces, 2 * first.size());
 
   GridMesh mesh;
   std::vector<std::array<Index, 4>> welded;
@@ -175,7 +194,8 @@ Result<GridMesh> build(const MeshRig& rig, const std::vector<Index>& first,
   for (std::size_t q = 0; q < welded.size(); ++q)
     mesh.collapsed[4 * q + 2] = welded[q][2] == welded[q][3];
   pairEdges(mesh, welded, cut);
-  numberVertices(mesh, welded);
+  for (auto& [a, b] : cut) a %= count, b %= count;
+  numberVertices(mesh, welded, count);
   placeSource(mesh, faces, first);
   if (without > 0)
     mesh.warnings.push_back(
@@ -184,7 +204,7 @@ Result<GridMesh> build(const MeshRig& rig, const std::vector<Index>& first,
   if (again > 0)
     mesh.warnings.push_back(
         plural(again, "face has", "faces have") +
-        " the corners of another one, and no surface of their own; the source order keeps them.");
+        " the corners of another one and no surface of their own; leave them out.");
   return mesh;
 }
 
@@ -202,10 +222,11 @@ Result<GridMesh> makeGridMesh(const MeshRig& rig, double rounding) {
     if (takeApart(first, cut)) continue;
     mesh->warnings.push_back(
         plural(static_cast<Index>(cut.size()), "edge joins", "edges join") +
-        " more than two faces or faces that look to opposite sides, the first one vertices " +
+        " more than two faces or faces that look to opposite sides, the first one at the "
+        "vertices " +
         std::to_string(cut.front().first) + " and " + std::to_string(cut.front().second) +
-        "; the surface is cut there. Make faces look to one side, and leave out those between "
-        "others.");
+        " (counted from 0); the surface is cut there. Make neighbouring faces look to the same "
+        "side, and remove the third face of an edge.");
     return mesh;
   }
 }

@@ -1,8 +1,12 @@
 #include "mesh/weld.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <cmath>
 #include <cstdint>
+#include <map>
+#include <numbers>
 #include <tuple>
 #include <unordered_map>
 
@@ -35,31 +39,64 @@ std::vector<double> shortestEdges(const PolygonMesh& mesh, double most) {
   return shortest;
 }
 
-/// Sets of vertices, of those that are the first at their place, that are next to each other in all
-/// poses.
-template <typename Apart>
-UnionFind nearSets(const MeshRig& rig, double within, const std::vector<Index>& first,
-                   const Apart& apart) {
-  constexpr double kOfEdges = 1e-3;
-  constexpr std::size_t kMostLooks = 256;  // at vertices of one place that targets part
-  const std::vector<Vec3>& neutral = rig.neutral.positions;
-  std::vector<double> allowed = shortestEdges(rig.neutral, within / kOfEdges);
-  for (double& distance : allowed) distance *= kOfEdges;
-  // In an order in which what is near is near: along a line that hardly any mesh stands across.
-  const Vec3 line = normalized({0.61, 0.55, 0.57});
-  std::vector<std::pair<double, Index>> order;
-  for (Index v = 0; v < static_cast<Index>(first.size()); ++v)
-    if (first[v] == v) order.emplace_back(dot(neutral[v], line), v);
-  std::ranges::sort(order);
-  UnionFind sets(first.size());
-  for (std::size_t k = 0; k < order.size(); ++k)
-    for (std::size_t before = k; before-- > 0;) {
-      if (order[k].first - order[before].first > within || k - before > kMostLooks) break;
-      const Index a = order[k].second, b = order[before].second;
-      if (norm(neutral[a] - neutral[b]) <= allowed[a] && apart(a, b) <= allowed[a]) sets.join(a, b);
+/// Which vertices are next to each other in all poses: no further than `within`, nor than a
+/// thousandth of the edges of either.
+class Neighbours {
+ public:
+  Neighbours(const MeshRig& rig, double within)
+      : rig_(rig), within_(within), allowed_(shortestEdges(rig.neutral, within / kOfEdges)) {
+    for (double& distance : allowed_) distance *= kOfEdges;
+  }
+
+  /// The largest distance of two vertices in any pose.
+  double apart(Index a, Index b) const {
+    double most = norm(rig_.neutral.positions[a] - rig_.neutral.positions[b]);
+    for (const MeshTarget& t : rig_.targets)
+      most = std::max(most, norm(t.positions[a] - t.positions[b]));
+    return most;
+  }
+  bool areNear(Index a, Index b) const { return apart(a, b) <= std::min(allowed_[a], allowed_[b]); }
+
+  /// Sets of some vertices, of which each is near to another one.
+  UnionFind sets(const std::vector<Index>& vertices) const {
+    UnionFind sets(rig_.neutral.positions.size());
+    std::map<Cell, std::vector<Index>> cells;
+    for (const Index v : vertices) {
+      const Cell here = cellOf(v);
+      for (double x : {-1, 0, 1})
+        for (double y : {-1, 0, 1})
+          for (double z : {-1, 0, 1})
+            if (const auto there = cells.find({here[0] + x, here[1] + y, here[2] + z});
+                there != cells.end())
+              for (const Index w : there->second)
+                if (areNear(v, w)) sets.join(v, w);
+      cells[here].push_back(v);
     }
-  return sets;
-}
+    return sets;
+  }
+
+ private:
+  static constexpr double kOfEdges = 1e-3;
+  using Cell = std::array<double, 3>;
+
+  /// Of the mean over all poses, no two of which count the same: what is near in all poses is near
+  /// there, and what one of them parts is not.
+  Cell cellOf(Index v) const {
+    double sum = 1, share = 0;
+    Vec3 mean = rig_.neutral.positions[v];
+    for (const MeshTarget& target : rig_.targets) {
+      share = std::fmod(share + std::numbers::phi, 1);
+      mean += (1 + share) * target.positions[v];
+      sum += 1 + share;
+    }
+    const double cells = 1 / (sum * within_);
+    return {std::floor(mean.x * cells), std::floor(mean.y * cells), std::floor(mean.z * cells)};
+  }
+
+  const MeshRig& rig_;
+  double within_;
+  std::vector<double> allowed_;  // [vertices]
+};
 
 /// From and to which vertex edges lead that no face has the other way.
 std::vector<std::pair<Index, Index>> openEdges(const Polygons& faces,
@@ -92,20 +129,20 @@ std::vector<Index> weld(const MeshRig& rig) {
 }
 
 double weldRounded(const MeshRig& rig, double within, std::vector<Index>& first) {
-  const auto apart = [&](Index a, Index b) {
-    double most = norm(rig.neutral.positions[a] - rig.neutral.positions[b]);
-    for (const MeshTarget& t : rig.targets)
-      most = std::max(most, norm(t.positions[a] - t.positions[b]));
-    return most;
-  };
-  UnionFind near = nearSets(rig, within, first, apart);
+  const Neighbours neighbours(rig, within);
+  const auto open = openEdges(rig.neutral.polygons, first);
+  std::vector<Index> ends;
+  for (const auto& [from, to] : open) ends.insert(ends.end(), {from, to});
+  std::ranges::sort(ends);
+  ends.erase(std::ranges::unique(ends).begin(), ends.end());
+  UnionFind near = neighbours.sets(ends);
   // What merely touches somewhere is not meant to be joined, but edges that only these sets pair.
   struct OpenEdge {
     Index low, high;  // sets
     Index from, to;
   };
   std::vector<OpenEdge> edges;
-  for (const auto& [from, to] : openEdges(rig.neutral.polygons, first))
+  for (const auto& [from, to] : open)
     if (const auto [low, high] = std::minmax({near.find(from), near.find(to)}); low != high)
       edges.push_back({low, high, from, to});
   std::ranges::sort(edges, {},
@@ -115,16 +152,18 @@ double weldRounded(const MeshRig& rig, double within, std::vector<Index>& first)
     std::size_t end = k + 1;
     while (end < edges.size() && edges[end].low == edges[k].low && edges[end].high == edges[k].high)
       ++end;
-    if (end - k == 2 && near.find(edges[k].from) == near.find(edges[k + 1].to)) {
-      sets.join(edges[k].from, edges[k + 1].to);
-      sets.join(edges[k].to, edges[k + 1].from);
+    const OpenEdge &one = edges[k], &other = edges[end - 1];
+    if (end - k == 2 && neighbours.areNear(one.from, other.to) &&
+        neighbours.areNear(one.to, other.from)) {
+      sets.join(one.from, other.to);
+      sets.join(one.to, other.from);
     }
     k = end;
   }
   double furthest = 0;
   for (Index v = 0; v < static_cast<Index>(first.size()); ++v) {
     first[v] = sets.find(first[v]);
-    if (first[v] != v) furthest = std::max(furthest, apart(v, first[v]));
+    if (first[v] != v) furthest = std::max(furthest, neighbours.apart(v, first[v]));
   }
   return furthest;
 }

@@ -76,9 +76,24 @@ TEST(Doubts, AreOfTargetsOfOtherAxes) {
             std::vector<std::string>{"Targets that may have other axes: 'odd' (mirrored)."});
 }
 
-TEST(Doubts, AreOfTargetsOfAnotherOrigin) {
-  EXPECT_EQ(doubtAbout(placed([](const Vec3& p) { return p + Vec3{50, 0, 0}; })),
-            "Targets that may have another origin: 'odd' (50 away).");
+std::vector<Vec3> farAway() {
+  return placed([](const Vec3& p) { return p + Vec3{50, 0, 0}; });
+}
+
+TEST(Doubts, AreOfMostTargetsOfAnotherOrigin) {
+  EXPECT_EQ(doubtsAbout(rigWith({{"a", farAway()}, {"b", farAway()}, {"open", opened()}}), 0.01),
+            std::vector<std::string>{
+                "Targets that may have another origin: 'a' (50 away), 'b' (50 away)."});
+  // The jaw takes the teeth with it.
+  EXPECT_TRUE(doubtsAbout(rigWith({{"jaw", farAway()}, {"open", opened()}}), 0.01).empty());
+}
+
+TEST(Doubts, AreNoneOfTurningHeads) {
+  const auto turned = placed([](const Vec3& p) {
+    const double c = std::cos(1.2), s = std::sin(1.2);
+    return Vec3{c * p.x + s * p.z, p.y, c * p.z - s * p.x};
+  });
+  EXPECT_TRUE(doubtsAbout(rigWith({{"turn", turned}}), 0.01).empty());
 }
 
 TEST(Doubts, AreOfTargetsThatAreTheNeutral) {
@@ -114,6 +129,10 @@ TEST(Doubts, AreOfAToleranceFarAboveEdges) {
     rig.neutral.positions.push_back(p);
   addFace(rig.neutral, {first, first + 1, first + 2, first + 3});
   EXPECT_EQ(doubtsAbout(rig, 0.0002 * diagonal(rig.neutral)).size(), 1u);
+  // Edges of no length are none.
+  for (Vec3& p : rig.neutral.positions)
+    if (std::abs(p.x) < 100) p = {};
+  EXPECT_TRUE(doubtsAbout(rig, 0.0002 * diagonal(rig.neutral)).empty());
 }
 
 TEST(Doubts, AreToldByConvert) {

@@ -28,6 +28,10 @@ TEST(KeptMovement, IsTheShareThatTheRigHas) {
   const auto kept = keptMovement(rig, source);
   EXPECT_NEAR(kept[0], 0.25, 0.01);
   EXPECT_EQ(kept[1], 0);
+  EXPECT_EQ(lostMovement(source, kept),
+            "Most of the movement is within the tolerance and lost in '" + source.targets[0].name +
+                "' (25 % left), '" + source.targets[1].name + "' (0 % left).");
+  EXPECT_EQ(lostMovement(source, {1, 0.6}), "");
 }
 
 }  // namespace

@@ -259,5 +259,22 @@ TEST(LeftToFace, RefusesIndicesThatCannotBeHeld) {
   EXPECT_TRUE(failsWith(formatGlb(rig, {}), {"do not fit", "cannot hold indices"}));
 }
 
+/// Few bytes can name the same vertices again and again.
+TEST(LeftToFace, RefusesFarMoreIndicesThanAFaceCanMean) {
+  Rig rig = converted(smallFace());
+  const Written scene = sceneOf(rig);
+  Json json = scene.json;
+  json["bufferViews"] = {{{"buffer", 0}, {"byteLength", 60'000}}};
+  json["buffers"] = {{{"byteLength", 60'000}}};
+  Json& primitives = json["meshes"][0]["primitives"];
+  Json other = primitives[0];
+  other["indices"] = json["accessors"].size();
+  json["accessors"].push_back(
+      {{"bufferView", 0}, {"componentType", 5121}, {"type", "SCALAR"}, {"count", 60'000}});
+  for (int k = 0; k < 200; ++k) primitives.push_back(other);
+  rig.scene = gltf::formatContainer(json, std::string(60'000, '\0'));
+  EXPECT_TRUE(failsWith(formatGlb(rig, {}), {"do not fit", "far more triangles"}));
+}
+
 }  // namespace
 }  // namespace sweepface

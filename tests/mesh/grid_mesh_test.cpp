@@ -86,13 +86,36 @@ TEST(Welding, joinsWhatRoundingParted) {
   EXPECT_EQ(makeGridMesh(seam, 0.1)->pointCount(), 13 * 5) << "too far for its edges";
 }
 
-/// Lashes stand on lids by vertices alone.
+/// Two sheets of 40 x 40 that meet in an edge of which each has vertices of its own.
+TEST(Welding, joinsWhatRoundingPartedHoweverItStands) {
+  PolygonMesh sheets =
+      joined(grid(40, 40, [](double x, double y) { return Vec3{x, y, 0}; }),
+             grid(40, 40, [](double x, double y) { return Vec3{x, y, 0}; }), {40, 0, 0});
+  for (std::size_t v = 0; v < sheets.positions.size(); ++v)
+    sheets.positions[v].z += 1e-7 * static_cast<double>(v % 3);
+  std::mt19937 random(11);
+  for (int round = 0; round < 10; ++round) {
+    PolygonMesh turned = sheets;
+    const Vec3 axis = normalized({std::uniform_real_distribution(-1.0, 1.0)(random), 0.5, 0.3});
+    const Vec3 side = normalized(cross(axis, {0, 0, 1})), up = cross(axis, side);
+    for (Vec3& p : turned.positions) p = p.x * axis + p.y * side + p.z * up;
+    const Index points = makeGridMesh({turned, {}}, 1e-6)->pointCount();
+    EXPECT_EQ(points, 81 * 41) << round;
+  }
+}
+
+/// Lashes stand on lids by vertices alone; what no face has joins nothing.
 TEST(Welding, leavesApartWhatTouchesAlongNoEdge) {
   PolygonMesh mesh;
   mesh.positions = {{0, 0, 0},        {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
                     {1 + 1e-9, 1, 0}, {2, 1, 0}, {2, 2, 0}, {1, 2, 0}};
   addFace(mesh, {0, 1, 2, 3});
   addFace(mesh, {4, 5, 6, 7});
+  EXPECT_EQ(makeGridMesh({mesh, {}}, 1e-6)->pointCount(), 8);
+  mesh.positions = {{0, 0, 0},        {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
+                    {1 + 4e-6, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1 + 4e-6, 1, 0}};
+  for (const double y : {0, 1})
+    for (int k = 0; k <= 5; ++k) mesh.positions.push_back({1 + 0.8e-6 * k, y, 0});
   EXPECT_EQ(makeGridMesh({mesh, {}}, 1e-6)->pointCount(), 8);
 }
 
@@ -325,21 +348,31 @@ TEST(Damage, aFaceTurnedOverIsCutOutAndReported) {
   EXPECT_TRUE(result.warnings[0].starts_with("4 edges join")) << result.warnings[0];
 }
 
-TEST(Damage, aFaceGivenTwiceHasOneSurfaceAndIsReported) {
-  const PolygonMesh once = plane(3, 3);
-  for (const bool turned : {false, true}) {
-    PolygonMesh mesh = once;
-    for (Loop face : loopsOf(once.polygons)) {
-      if (turned) std::ranges::reverse(face);
-      std::ranges::rotate(face, face.begin() + 1);
-      addFace(mesh, face);
-    }
-    const GridMesh result = gridOf(mesh);
-    EXPECT_EQ(result.quads, gridOf(once).quads);
-    ASSERT_EQ(result.warnings.size(), 1u);
-    EXPECT_TRUE(result.warnings[0].starts_with("9 faces have the corners of another one"))
-        << result.warnings[0];
+/// A sheet and again its faces, perhaps turned over.
+PolygonMesh doubled(const PolygonMesh& once, bool turned) {
+  PolygonMesh mesh = once;
+  for (Loop face : loopsOf(once.polygons)) {
+    if (turned) std::ranges::reverse(face);
+    std::ranges::rotate(face, face.begin() + 1);
+    addFace(mesh, face);
   }
+  return mesh;
+}
+
+TEST(Damage, aFaceGivenTwiceHasOneSurfaceAndIsReported) {
+  const GridMesh result = gridOf(doubled(plane(3, 3), false));
+  EXPECT_EQ(result.quads, gridOf(plane(3, 3)).quads);
+  ASSERT_EQ(result.warnings.size(), 1u);
+  EXPECT_TRUE(result.warnings[0].starts_with("9 faces have the corners of another one"))
+      << result.warnings[0];
+}
+
+TEST(Damage, theBackOfASheetIsASheetOfItsOwn) {
+  const GridMesh result = gridOf(doubled(plane(3, 3), true));
+  EXPECT_EQ(result.quads.size(), 18u);
+  EXPECT_EQ(result.vertexCount(), 2 * 16);
+  EXPECT_EQ(openSides(result), 2 * 12);
+  EXPECT_TRUE(result.warnings.empty());
 }
 
 TEST(Damage, facesThatTouchInAPointOnlyAreTwoFans) {
