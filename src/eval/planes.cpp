@@ -43,19 +43,20 @@ constexpr int kSums = 8;
 // Each to the larger of the two.
 [[gnu::always_inline]] inline void raise(Wide& most, const Wide& x) { most = most < x ? x : most; }
 
-// In here, as GCC lets a shared library show every function that has clones to all others.
+// In here, as GCC lets a shared library show every function that has clones to all others. Clang
+// does not emit inline functions that such functions alone call: iterators of spans, constructors.
 namespace loops {
 
 // Three at once: sums of one wait for each other.
 SWEEPFACE_CLONES
-void sumRows(std::span<const Scaled> terms, int width, float* out) {
+void sumRows(const Scaled* terms, const Scaled* end, int width, float* out) {
   for (int c = 0; c < width; c += 3 * kWide) {
     Wide a{}, b{}, d{};
-    for (const Scaled& term : terms) {
-      const float* const row = term.row + c;
-      a += term.factor * at(row);
-      b += term.factor * at(row + kWide);
-      d += term.factor * at(row + 2 * kWide);
+    for (const Scaled* term = terms; term != end; ++term) {
+      const float* const row = term->row + c;
+      a += term->factor * at(row);
+      b += term->factor * at(row + kWide);
+      d += term->factor * at(row + 2 * kWide);
     }
     at(out + c) = a, at(out + c + kWide) = b, at(out + c + 2 * kWide) = d;
   }
@@ -167,10 +168,10 @@ Extent extentOf(std::span<const float> values) {
       sum += size;
       k += kWide;
     }
-  Extent extent;
-  for (int s = 0; s < kWide; ++s) extent.most = std::max(extent.most, most[s]);
-  for (int s = 0; s < kSums; ++s) extent.sum += sums[s / kWide][s % kWide];
-  return extent;
+  float largest = 0, sum = 0;
+  for (int s = 0; s < kWide; ++s) largest = std::max(largest, most[s]);
+  for (int s = 0; s < kSums; ++s) sum += sums[s / kWide][s % kWide];
+  return {largest, sum};
 }
 
 SWEEPFACE_CLONES
@@ -187,7 +188,7 @@ void roundAll(std::span<const float> values, float factor, std::int16_t* out) {
 }  // namespace
 
 void sumRows(std::span<const Scaled> terms, int width, float* out) {
-  loops::sumRows(terms, width, out);
+  loops::sumRows(terms.data(), terms.data() + terms.size(), width, out);
 }
 void project(const Planes& planes, const float* factors, float* out) {
   loops::project(planes, factors, out);
