@@ -49,14 +49,14 @@ namespace loops {
 
 // Three at once: sums of one wait for each other.
 SWEEPFACE_CLONES
-void sumRows(const Scaled* terms, const Scaled* end, int width, float* out) {
+void sumRows(const Scaled* terms, std::size_t count, int width, float* out) {
   for (int c = 0; c < width; c += 3 * kWide) {
     Wide a{}, b{}, d{};
-    for (const Scaled* term = terms; term != end; ++term) {
-      const float* const row = term->row + c;
-      a += term->factor * at(row);
-      b += term->factor * at(row + kWide);
-      d += term->factor * at(row + 2 * kWide);
+    for (std::size_t t = 0; t < count; ++t) {
+      const float* const row = terms[t].row + c;
+      a += terms[t].factor * at(row);
+      b += terms[t].factor * at(row + kWide);
+      d += terms[t].factor * at(row + 2 * kWide);
     }
     at(out + c) = a, at(out + c + kWide) = b, at(out + c + 2 * kWide) = d;
   }
@@ -188,7 +188,7 @@ void roundAll(std::span<const float> values, float factor, std::int16_t* out) {
 }  // namespace
 
 void sumRows(std::span<const Scaled> terms, int width, float* out) {
-  loops::sumRows(terms.data(), terms.data() + terms.size(), width, out);
+  loops::sumRows(terms.data(), terms.size(), width, out);
 }
 void project(const Planes& planes, const float* factors, float* out) {
   loops::project(planes, factors, out);
