@@ -28,10 +28,10 @@ void eachReferenceIn(Json& json, const std::function<void(Json&)>& visit) {
   }
 }
 
-/// All of a glTF's, without what views may say of themselves: that keeps no view alive.
+/// All of a glTF's, without what views and buffers may say of themselves: that keeps no view alive.
 void eachReference(Json& gltf, const std::function<void(Json&)>& visit) {
   for (auto& [key, value] : gltf.items())
-    if (key != "bufferViews") eachReferenceIn(value, visit);
+    if (key != "bufferViews" && key != "buffers") eachReferenceIn(value, visit);
 }
 
 /// From `begin` up to `end`.

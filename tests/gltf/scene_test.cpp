@@ -339,6 +339,14 @@ TEST(Scene, UnknownExtensionsKeepViewsThatTheyNameInWordsOfTheirOwn) {
   EXPECT_EQ(scene.bytesOf(0).size(), 1u) << "the face's own are gone";
 }
 
+TEST(Scene, WhatBuffersSayOfThemselvesKeepsNoView) {
+  Glb glb = smallFace();
+  const std::size_t secret = glb.addView("secret bytes");
+  glb.json["buffers"] = {
+      {{"byteLength", glb.binary.size()}, {"extras", 1}, {"of", {{"bufferView", secret}}}}};
+  EXPECT_TRUE(sceneOf(glb).views.empty());
+}
+
 TEST(Scene, KnownExtensionsFollowTheirViews) {
   Glb glb = smallFace();
   const std::size_t secret = glb.addView("secret bytes");
