@@ -48,6 +48,7 @@ Result<Performance> makePerformance(const PerformanceArguments& a, const Rig& ri
 
 /// Sentences on targets that change their weight between the two expressions and yet move nothing.
 std::vector<std::string> notesOnStill(const PerformanceArguments& a, const Rig& rig);
+
 /// Velocities and accelerations by central differences over a frame at 60 frames a second.
 std::function<void(double, std::span<Kinematics>)> byDifferences(
     const std::function<void(double, std::span<double>)>& at);

@@ -11,17 +11,13 @@
 namespace sweepface::gltf {
 namespace {
 
-std::optional<Accessor> namedAccessor(const Document& document, const Json* reference) {
+/// The accessor that a reference names, if it has no data.
+std::optional<Accessor> emptyAccessor(const Document& document, const Json* reference) {
   const auto index =
       reference ? asIndex(*reference, document.list("accessors").size()) : std::nullopt;
   if (!index) return {};
   const auto accessor = accessorAt(document, *index);
-  return accessor ? std::optional(*accessor) : std::nullopt;
-}
-/// The same if it has no data.
-std::optional<Accessor> emptyAccessor(const Document& document, const Json* reference) {
-  const auto accessor = namedAccessor(document, reference);
-  return accessor && !accessor->hasData() ? accessor : std::nullopt;
+  return accessor && !accessor->hasData() ? std::optional(*accessor) : std::nullopt;
 }
 
 const Json* indicesOf(const Json& primitive) { return find(primitive, "indices"); }

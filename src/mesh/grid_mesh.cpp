@@ -126,46 +126,39 @@ std::string plural(Index count, const char* one, const char* many) {
 
 namespace {
 
-// What faces there are, by the vertices around them.
-class KnownFaces {
- public:
-  enum Kind { alone, back, again };
-  // Whether a face goes around the vertices of one before it, the other way or the same.
-  Kind add(const Polygons& faces, Index face) {
-    std::vector<Index> around(faces.corners.begin() + faces.faceStart[face],
-                              faces.corners.begin() + faces.faceStart[face + 1]);
-    if (!known_.insert(fromSmallest(around)).second) return again;
-    std::ranges::reverse(around);
-    return known_.contains(fromSmallest(around)) ? back : alone;
-  }
-
- private:
-  static std::vector<Index> fromSmallest(std::vector<Index> around) {
+// Whether a face goes around the vertices of one before it, the other way or the same.
+enum class Kind { alone, back, again };
+std::vector<Kind> kindsOf(const Polygons& faces) {
+  const auto fromSmallest = [](std::vector<Index> around) {
     std::ranges::rotate(around, std::ranges::min_element(around));
     return around;
+  };
+  std::set<std::vector<Index>> known;
+  std::vector<Kind> kinds;
+  for (Index f = 0; f < faces.faceCount(); ++f) {
+    std::vector<Index> around(faces.corners.begin() + faces.faceStart[f],
+                              faces.corners.begin() + faces.faceStart[f + 1]);
+    const bool isNew = known.insert(fromSmallest(around)).second;
+    std::ranges::reverse(around);
+    const bool isBack = known.contains(fromSmallest(around));
+    kinds.push_back(!isNew ? Kind::again : isBack ? Kind::back : Kind::alone);
   }
-  std::set<std::vector<Index>> known_;
-};
+  return kinds;
+}
 
 // The grid mesh of the source with its vertices welded as `first` says; edges left open go to
 // `cut`.
-Result<GridMesh> build(const MeshRig& rig, const std::vector<Index>& first,
-                       std::vector<std::pair<Index, Index>>& cut) {
+Result<GridMesh> build(const MeshRig& rig, const std::vector<Kind>& kinds,
+                       const std::vector<Index>& first, std::vector<std::pair<Index, Index>>& cut) {
   const Polygons& faces = rig.neutral.polygons;
   FaceCutter cutter(rig.neutral.positions);
   Index without = 0;  // a surface
-  Index again = 0;    // faces that were there before
-  KnownFaces known;
   const auto count = static_cast<Index>(first.size());
   for (Index f = 0; f < faces.faceCount(); ++f) {
     if (faces.faceSize(f) > kMostCorners)
       return fail("face ", f + 1, " has ", faces.faceSize(f), " corners, of which ", kMostCorners,
                   " are the most; cut it into smaller ones");
-    const KnownFaces::Kind kind = known.add(faces, f);
-    if (kind == KnownFaces::again) {
-      ++again;
-      continue;
-    }
+    if (kinds[f] == Kind::again) continue;
     std::vector<Corner> face;
     for (Index c = faces.faceStart[f]; c < faces.faceStart[f + 1]; ++c)
       face.push_back({first[faces.corners[c]], c});
@@ -173,7 +166,7 @@ Result<GridMesh> build(const MeshRig& rig, const std::vector<Index>& first,
     cutter.cut(std::move(face));
     without += cutter.pieces.size() == before;
     // A sheet and its back share no vertex: those of the back count on.
-    if (kind == KnownFaces::back)
+    if (kinds[f] == Kind::back)
       for (std::size_t k = before; k < cutter.pieces.size(); ++k)
         for (Corner& corner : cutter.pieces[k]) corner.vertex += count;
   }
@@ -201,7 +194,7 @@ Result<GridMesh> build(const MeshRig& rig, const std::vector<Index>& first,
     mesh.warnings.push_back(
         plural(without, "face has", "faces have") +
         " fewer than three different corners and no surface; the source order keeps them.");
-  if (again > 0)
+  if (const auto again = static_cast<Index>(std::ranges::count(kinds, Kind::again)); again > 0)
     mesh.warnings.push_back(
         plural(again, "face has", "faces have") +
         " the corners of another one and no surface of their own; leave them out.");
@@ -211,11 +204,12 @@ Result<GridMesh> build(const MeshRig& rig, const std::vector<Index>& first,
 }  // namespace
 
 Result<GridMesh> makeGridMesh(const MeshRig& rig, double rounding) {
+  const std::vector<Kind> kinds = kindsOf(rig.neutral.polygons);
   std::vector<Index> first = weld(rig);
   if (rounding > 0) rounding = weldRounded(rig, rounding, first);
   while (true) {
     std::vector<std::pair<Index, Index>> cut;
-    auto mesh = build(rig, first, cut);
+    auto mesh = build(rig, kinds, first, cut);
     if (!mesh) return mesh;
     mesh->rounding = rounding;
     if (cut.empty()) return mesh;

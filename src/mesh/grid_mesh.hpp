@@ -25,8 +25,7 @@ struct GridMesh {
   std::vector<Index> point;                       ///< [vertices]
   std::vector<Index> source;                      ///< [points] a source vertex at that place
   std::vector<Index> pointOfSource;               ///< [source vertices] or -1 where no face uses it
-  double rounding =
-      0;  ///< how far a source vertex is from the one of its point at most, in any pose
+  double rounding = 0;  ///< of source vertices from the one of their point, at most, in any pose
   std::vector<std::string> warnings;  ///< what had to be done to the source, in sentences
 
   Index vertexCount() const { return static_cast<Index>(point.size()); }

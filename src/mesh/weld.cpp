@@ -1,17 +1,9 @@
 #include "mesh/weld.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
-#include <cmath>
 #include <cstdint>
-#include <map>
-#include <numbers>
-#include <tuple>
 #include <unordered_map>
-
-#include "mesh/each_edge.hpp"
-#include "surface/union_find.hpp"
 
 namespace sweepface {
 
@@ -26,87 +18,6 @@ std::uint64_t hashOf(const MeshRig& rig, std::size_t vertex) {
   add(rig.neutral.positions[vertex]);
   for (const MeshTarget& target : rig.targets) add(target.positions[vertex]);
   return h;
-}
-
-/// [vertices] of the edges of any length around each, but `most` at most.
-std::vector<double> shortestEdges(const PolygonMesh& mesh, double most) {
-  std::vector<double> shortest(mesh.positions.size(), most);
-  eachEdge(mesh.polygons, [&](Index a, Index b) {
-    const double length = norm(mesh.positions[a] - mesh.positions[b]);
-    if (length > 0)
-      for (const Index v : {a, b}) shortest[v] = std::min(shortest[v], length);
-  });
-  return shortest;
-}
-
-/// Which vertices are next to each other in all poses: no further than `within`, nor than a
-/// thousandth of the edges of either.
-class Neighbours {
- public:
-  Neighbours(const MeshRig& rig, double within)
-      : rig_(rig), within_(within), allowed_(shortestEdges(rig.neutral, within / kOfEdges)) {
-    for (double& distance : allowed_) distance *= kOfEdges;
-  }
-
-  /// The largest distance of two vertices in any pose.
-  double apart(Index a, Index b) const {
-    double most = norm(rig_.neutral.positions[a] - rig_.neutral.positions[b]);
-    for (const MeshTarget& t : rig_.targets)
-      most = std::max(most, norm(t.positions[a] - t.positions[b]));
-    return most;
-  }
-  bool areNear(Index a, Index b) const { return apart(a, b) <= std::min(allowed_[a], allowed_[b]); }
-
-  /// Sets of some vertices, of which each is near to another one.
-  UnionFind sets(const std::vector<Index>& vertices) const {
-    UnionFind sets(rig_.neutral.positions.size());
-    std::map<Cell, std::vector<Index>> cells;
-    for (const Index v : vertices) {
-      const Cell here = cellOf(v);
-      for (double x : {-1, 0, 1})
-        for (double y : {-1, 0, 1})
-          for (double z : {-1, 0, 1})
-            if (const auto there = cells.find({here[0] + x, here[1] + y, here[2] + z});
-                there != cells.end())
-              for (const Index w : there->second)
-                if (areNear(v, w)) sets.join(v, w);
-      cells[here].push_back(v);
-    }
-    return sets;
-  }
-
- private:
-  static constexpr double kOfEdges = 1e-3;
-  using Cell = std::array<double, 3>;
-
-  /// Of the mean over all poses, no two of which count the same: what is near in all poses is near
-  /// there, and what one of them parts is not.
-  Cell cellOf(Index v) const {
-    double sum = 1, share = 0;
-    Vec3 mean = rig_.neutral.positions[v];
-    for (const MeshTarget& target : rig_.targets) {
-      share = std::fmod(share + std::numbers::phi, 1);
-      mean += (1 + share) * target.positions[v];
-      sum += 1 + share;
-    }
-    const double cells = 1 / (sum * within_);
-    return {std::floor(mean.x * cells), std::floor(mean.y * cells), std::floor(mean.z * cells)};
-  }
-
-  const MeshRig& rig_;
-  double within_;
-  std::vector<double> allowed_;  // [vertices]
-};
-
-/// From and to which vertex edges lead that no face has the other way.
-std::vector<std::pair<Index, Index>> openEdges(const Polygons& faces,
-                                               const std::vector<Index>& first) {
-  std::vector<std::pair<Index, Index>> edges, open;
-  eachEdge(faces, [&](Index a, Index b) { edges.emplace_back(first[a], first[b]); });
-  std::ranges::sort(edges);
-  for (const auto& [from, to] : edges)
-    if (!std::ranges::binary_search(edges, std::pair(to, from))) open.emplace_back(from, to);
-  return open;
 }
 
 }  // namespace
@@ -126,46 +37,6 @@ std::vector<Index> weld(const MeshRig& rig) {
     if (match == here.end()) here.push_back(v);
   }
   return first;
-}
-
-double weldRounded(const MeshRig& rig, double within, std::vector<Index>& first) {
-  const Neighbours neighbours(rig, within);
-  const auto open = openEdges(rig.neutral.polygons, first);
-  std::vector<Index> ends;
-  for (const auto& [from, to] : open) ends.insert(ends.end(), {from, to});
-  std::ranges::sort(ends);
-  ends.erase(std::ranges::unique(ends).begin(), ends.end());
-  UnionFind near = neighbours.sets(ends);
-  // What merely touches somewhere is not meant to be joined, but edges that only these sets pair.
-  struct OpenEdge {
-    Index low, high;  // sets
-    Index from, to;
-  };
-  std::vector<OpenEdge> edges;
-  for (const auto& [from, to] : open)
-    if (const auto [low, high] = std::minmax({near.find(from), near.find(to)}); low != high)
-      edges.push_back({low, high, from, to});
-  std::ranges::sort(edges, {},
-                    [](const OpenEdge& e) { return std::tuple(e.low, e.high, e.from, e.to); });
-  UnionFind sets(first.size());
-  for (std::size_t k = 0; k < edges.size();) {
-    std::size_t end = k + 1;
-    while (end < edges.size() && edges[end].low == edges[k].low && edges[end].high == edges[k].high)
-      ++end;
-    const OpenEdge &one = edges[k], &other = edges[end - 1];
-    if (end - k == 2 && neighbours.areNear(one.from, other.to) &&
-        neighbours.areNear(one.to, other.from)) {
-      sets.join(one.from, other.to);
-      sets.join(one.to, other.from);
-    }
-    k = end;
-  }
-  double furthest = 0;
-  for (Index v = 0; v < static_cast<Index>(first.size()); ++v) {
-    first[v] = sets.find(first[v]);
-    if (first[v] != v) furthest = std::max(furthest, neighbours.apart(v, first[v]));
-  }
-  return furthest;
 }
 
 bool takeApart(std::vector<Index>& first, const std::vector<std::pair<Index, Index>>& edges) {
