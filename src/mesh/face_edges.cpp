@@ -1,8 +1,6 @@
 #include "mesh/face_edges.hpp"
 
-#include <algorithm>
-#include <tuple>
-
+#include "mesh/shared_edges.hpp"
 #include "mesh/weld.hpp"
 
 namespace sweepface {
@@ -22,30 +20,13 @@ void goRound(FaceEdges& edges, const Polygons& polygons) {
 
 // Finds the twins; says between which vertices edges are left that more faces share.
 std::vector<std::pair<Index, Index>> pairUp(FaceEdges& edges) {
-  struct Edge {
-    Index low, high, corner;
-  };
-  std::vector<Edge> sorted;
+  std::vector<EdgeSide> sides;
   for (Index c = 0; c < static_cast<Index>(edges.vertex.size()); ++c) {
     const Index a = edges.vertex[c], b = edges.vertex[edges.next[c]];
-    if (a != b) sorted.push_back({std::min(a, b), std::max(a, b), c});
+    if (a != b) sides.emplace_back(a, b, c);
   }
-  std::sort(sorted.begin(), sorted.end(), [](const Edge& a, const Edge& b) {
-    return std::tie(a.low, a.high, a.corner) < std::tie(b.low, b.high, b.corner);
-  });
-  edges.twin.assign(edges.vertex.size(), -1);
-  std::vector<std::pair<Index, Index>> cut;
-  for (std::size_t k = 0, end = 0; k < sorted.size(); k = end) {
-    const auto [low, high, corner] = sorted[k];
-    while (end < sorted.size() && sorted[end].low == low && sorted[end].high == high) ++end;
-    if (end - k == 2 && edges.vertex[corner] != edges.vertex[sorted[k + 1].corner]) {
-      edges.twin[corner] = sorted[k + 1].corner;
-      edges.twin[sorted[k + 1].corner] = corner;
-    } else if (end - k > 1) {
-      cut.emplace_back(low, high);
-    }
-  }
-  return cut;
+  edges.twin.resize(edges.vertex.size());
+  return pairSides(sides, edges.twin);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "mesh/face_cutter.hpp"
+#include "mesh/shared_edges.hpp"
 #include "mesh/weld.hpp"
 #include "surface/union_find.hpp"
 
@@ -41,34 +42,16 @@ void rotateTriangles(std::vector<std::vector<Corner>>& pieces, std::size_t verte
 }
 
 // Joins quads over every edge that exactly two of them share in opposite directions.
-// Edges that cannot be joined are added to `cut`.
-void pairEdges(GridMesh& mesh, const std::vector<std::array<Index, 4>>& welded,
-               std::vector<std::pair<Index, Index>>& cut) {
-  struct Edge {
-    Index low, high;
-    HalfEdge h;
-  };
-  std::vector<Edge> edges;
-  for (HalfEdge h = 0; h < static_cast<HalfEdge>(4 * welded.size()); ++h) {
+// Returns the edges that cannot be joined.
+std::vector<std::pair<Index, Index>> pairEdges(GridMesh& mesh,
+                                               const std::vector<std::array<Index, 4>>& welded) {
+  std::vector<EdgeSide> sides;
+  mesh.twin.resize(4 * welded.size());
+  for (HalfEdge h = 0; h < static_cast<HalfEdge>(mesh.twin.size()); ++h) {
     const Index a = welded[h >> 2][h & 3], b = welded[h >> 2][(h + 1) & 3];
-    if (a != b) edges.push_back({std::min(a, b), std::max(a, b), h});
+    if (a != b) sides.emplace_back(a, b, h);
   }
-  std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
-    return std::tie(a.low, a.high, a.h) < std::tie(b.low, b.high, b.h);
-  });
-  for (std::size_t k = 0; k < edges.size();) {
-    std::size_t end = k + 1;
-    while (end < edges.size() && edges[end].low == edges[k].low && edges[end].high == edges[k].high)
-      ++end;
-    const auto startsLow = [&](HalfEdge h) { return welded[h >> 2][h & 3] == edges[k].low; };
-    if (end - k == 2 && startsLow(edges[k].h) != startsLow(edges[k + 1].h)) {
-      mesh.twin[edges[k].h] = edges[k + 1].h;
-      mesh.twin[edges[k + 1].h] = edges[k].h;
-    } else if (end - k > 1) {
-      cut.emplace_back(edges[k].low, edges[k].high);
-    }
-    k = end;
-  }
+  return pairSides(sides, mesh.twin);
 }
 
 // One vertex for each fan of quads around a welded vertex, one point for vertices that collapsed
@@ -182,11 +165,10 @@ Result<GridMesh> build(const MeshRig& rig, const std::vector<Kind>& kinds,
     welded.push_back(quad);
     mesh.quadCorners.push_back(corners);
   }
-  mesh.twin.assign(4 * welded.size(), -1);
   mesh.collapsed.assign(4 * welded.size(), 0);
   for (std::size_t q = 0; q < welded.size(); ++q)
     mesh.collapsed[4 * q + 2] = welded[q][2] == welded[q][3];
-  pairEdges(mesh, welded, cut);
+  cut = pairEdges(mesh, welded);
   for (auto& [a, b] : cut) a %= count, b %= count;
   numberVertices(mesh, welded, count);
   placeSource(mesh, faces, first);

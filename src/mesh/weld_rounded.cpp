@@ -3,9 +3,9 @@
 #include <cmath>
 #include <map>
 #include <numbers>
-#include <tuple>
 
 #include "mesh/each_edge.hpp"
+#include "mesh/shared_edges.hpp"
 #include "mesh/weld.hpp"
 #include "surface/union_find.hpp"
 
@@ -105,29 +105,19 @@ double weldRounded(const MeshRig& rig, double within, std::vector<Index>& first)
   ends.erase(std::ranges::unique(ends).begin(), ends.end());
   UnionFind near = neighbours.sets(ends);
   // What merely touches somewhere is not meant to be joined, but edges that only these sets pair.
-  struct OpenEdge {
-    Index low, high;  // sets
-    Index from, to;
-  };
-  std::vector<OpenEdge> edges;
-  for (const auto& [from, to] : open)
-    if (const auto [low, high] = std::minmax({near.find(from), near.find(to)}); low != high)
-      edges.push_back({low, high, from, to});
-  std::ranges::sort(edges, {},
-                    [](const OpenEdge& e) { return std::tuple(e.low, e.high, e.from, e.to); });
+  std::vector<EdgeSide> sides;
+  for (std::size_t k = 0; k < open.size(); ++k)
+    if (const Index a = near.find(open[k].first), b = near.find(open[k].second); a != b)
+      sides.emplace_back(a, b, static_cast<Index>(k));
   UnionFind sets(first.size());
-  for (std::size_t k = 0; k < edges.size();) {
-    std::size_t end = k + 1;
-    while (end < edges.size() && edges[end].low == edges[k].low && edges[end].high == edges[k].high)
-      ++end;
-    const OpenEdge &one = edges[k], &other = edges[end - 1];
-    if (end - k == 2 && neighbours.areNear(one.from, other.to) &&
-        neighbours.areNear(one.to, other.from)) {
-      sets.join(one.from, other.to);
-      sets.join(one.to, other.from);
-    }
-    k = end;
-  }
+  eachSharedEdge(sides, [&](std::span<const EdgeSide> edge) {
+    if (edge.size() != 2) return;
+    const auto [a, b] = open[edge[0].at];
+    const auto [c, d] = open[edge[1].at];
+    if (!neighbours.areNear(a, d) || !neighbours.areNear(b, c)) return;
+    sets.join(a, d);
+    sets.join(b, c);
+  });
   double furthest = 0;
   for (Index v = 0; v < static_cast<Index>(first.size()); ++v) {
     first[v] = sets.find(first[v]);
