@@ -40,7 +40,8 @@ struct ControlMove {
 };
 /// Moves control curves; the derivatives across the boundary follow, in every patch that shares
 /// them. The nodes at the ends store their whole jets from then on. At the tip of a triangle a
-/// control curve has no room and stays.
+/// control curve has no room and stays; towards an irregular node, where patches share few vectors,
+/// the curves move as nearly as can be, in the least squares, like what is asked.
 Result<Patches> moveControls(Rig& rig, const ControlMove& move, Index target = -1);
 
 }  // namespace sweepface

@@ -1,9 +1,10 @@
 // Moving the control curves beside a boundary curve. With both moved by constants, the derivatives
 // across change by constants all along the curve: at its ends by just these, and mixed ones not at
-// all, since the basis reproduces constants.
+// all, since the basis reproduces constants. Irregular nodes come as near to that as they can.
 #include <Eigen/Dense>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <set>
 #include <span>
@@ -89,12 +90,13 @@ class ControlMover {
       const auto arcs = rig_.surface.wireframe().side(move_.patch, s);
       return std::ranges::count(arcs, half_) > 0;
     };
-    const double edges =
-        side(0) || side(2) ? rig_.surface.edgesV(move_.patch) : rig_.surface.edgesU(move_.patch);
+    edgesAlong_ = rig_.surface.edgesU(move_.patch);
+    edgesAcross_ = rig_.surface.edgesV(move_.patch);
+    if (!side(0) && !side(2)) std::swap(edgesAlong_, edgesAcross_);
     const auto across = derivativesFromControls({}, move_.second, move_.third, kControlSpacing);
     if (!across) return std::unexpected(across.error());
-    first_ = across->first * (1 / edges);
-    second_ = across->second * (1 / (edges * edges));
+    first_ = across->first * (1 / edgesAcross_);
+    second_ = across->second * (1 / (edgesAcross_ * edgesAcross_));
     return {};
   }
 
@@ -152,33 +154,29 @@ class ControlMover {
       }
   }
 
-  // Where a corner's derivatives are sums of what is stored: the smallest change that gives those
-  // across what they want and leaves the others up to the second order alone.
+  // Where a corner's derivatives are sums of what is stored: the change, the smallest of those as
+  // good, by which the curve stays and the controls beside it move as nearly as can be like what is
+  // wanted all along. Where corners of one node share a few vectors, to give the end of the curve
+  // just the derivatives that are wanted would tell mixed ones that throw the rest far off.
   void solve(std::span<const CornerChange> ends, std::vector<Vec3>& pose,
              edit::Affected& affected) const {
-    constexpr std::array<std::array<int, 2>, 5> orders{{{1, 0}, {0, 1}, {2, 0}, {1, 1}, {0, 2}}};
-    const std::size_t rows = orders.size() * ends.size();
-    std::vector<std::map<Index, double>> sums(rows);
+    Rows rows;
+    for (const CornerChange& end : ends) addRows(end, rows);
     std::set<Index> stored;
-    Eigen::MatrixXd wanted = Eigen::MatrixXd::Zero(static_cast<Index>(rows), 3);
-    for (std::size_t r = 0; r < rows; ++r) {
-      const CornerChange& end = ends[r / orders.size()];
-      const auto [i, j] = orders[r % orders.size()];
-      const JetRef ref = rig_.surface.cornerJet(end.corner / 4, end.corner % 4, i, j);
-      expand(ref.vector, ref.sign, sums[r]);
-      for (const auto& [v, factor] : sums[r]) stored.insert(v);
-      const int across = end.byAlpha ? i : j, along = end.byAlpha ? j : i;
-      if (along > 0) continue;
-      const Vec3& d = across == 1 ? first_ : second_;
-      wanted.row(static_cast<Index>(r)) << d.x, d.y, d.z;
-    }
+    for (const Row& row : rows)
+      for (const auto& [v, factor] : row.sum) stored.insert(v);
     const std::vector<Index> unknowns(stored.begin(), stored.end());
-    Eigen::MatrixXd composed =
-        Eigen::MatrixXd::Zero(static_cast<Index>(rows), static_cast<Index>(unknowns.size()));
-    for (std::size_t r = 0; r < rows; ++r)
-      for (std::size_t k = 0; k < unknowns.size(); ++k)
-        if (const auto term = sums[r].find(unknowns[k]); term != sums[r].end())
-          composed(static_cast<Index>(r), static_cast<Index>(k)) = term->second;
+    const auto height = static_cast<Index>(rows.size()),
+               width = static_cast<Index>(unknowns.size());
+    Eigen::MatrixXd composed = Eigen::MatrixXd::Zero(height, width);
+    Eigen::MatrixXd wanted(height, 3);
+    for (Index r = 0; r < height; ++r) {
+      const Row& row = rows[r];
+      wanted.row(r) << row.wanted.x, row.wanted.y, row.wanted.z;
+      for (Index k = 0; k < width; ++k)
+        if (const auto term = row.sum.find(unknowns[k]); term != row.sum.end())
+          composed(r, k) = term->second;
+    }
     const Eigen::MatrixXd moved = composed.completeOrthogonalDecomposition().solve(wanted);
     const double rounding = 1e-13 * moved.cwiseAbs().maxCoeff();
     for (std::size_t k = 0; k < unknowns.size(); ++k) {
@@ -187,6 +185,42 @@ class ControlMover {
       pose[unknowns[k]] += {row[0], row[1], row[2]};
       affected.addVector(unknowns[k]);
     }
+  }
+
+  struct Row {
+    std::map<Index, double> sum;
+    Vec3 wanted;
+  };
+  using Rows = std::vector<Row>;
+
+  // By how much an end moves points along the curve and along the controls beside it.
+  void addRows(const CornerChange& end, Rows& rows) const {
+    constexpr double held = 1e4;  // rather than its controls, the curve itself stays
+    constexpr int points = 8;
+    std::array<std::array<std::map<Index, double>, 3>, 3> jet;  // [along][across]
+    for (int along = 0; along < 3; ++along)
+      for (int across = 0; across < 3; ++across) {
+        const JetRef ref =
+            rig_.surface.cornerJet(end.corner / 4, end.corner % 4, end.byAlpha ? across : along,
+                                   end.byAlpha ? along : across);
+        expand(ref.vector, ref.sign * std::pow(edgesAlong_, along) * std::pow(edgesAcross_, across),
+               jet[along][across]);
+      }
+    const struct {
+      double u, weight;
+      Vec3 wanted;
+    } curves[]{
+        {0, held, {}}, {kControlSpacing.u2, 1, move_.second}, {kControlSpacing.u3, 1, move_.third}};
+    for (const auto& curve : curves)
+      for (int k = 0; k < points; ++k) {
+        const auto g = SweepBasis().at(1.0 * k / points);
+        const std::array<double, 3> parabola{1, curve.u, curve.u * curve.u / 2};
+        Row& row = rows.emplace_back(Row{{}, curve.weight * g[0] * curve.wanted});
+        for (int along = 0; along < 3; ++along)
+          for (int across = 0; across < 3; ++across)
+            for (const auto& [v, factor] : jet[along][across])
+              row.sum[v] += curve.weight * g[along] * parabola[across] * factor;
+      }
   }
 
   void expand(Index vector, double factor, std::map<Index, double>& sum) const {
@@ -201,6 +235,7 @@ class ControlMover {
   ControlMove move_;
   HalfArc half_ = -1;
   std::vector<CornerChange> ends_;
+  double edgesAlong_ = 1, edgesAcross_ = 1;
   Vec3 first_, second_;
   std::vector<Index> rewritten_;
 };

@@ -10,9 +10,10 @@ namespace sweepface {
 /// For every vertex the first that stands at the same place in the neutral and in every target.
 std::vector<Index> weld(const MeshRig& rig);
 
-/// Joins the ends of edges that would be one if copies had not been rounded otherwise: ends that
-/// are no further apart in any pose than `within`, nor than a thousandth of their edges in the
-/// neutral. Returns the largest distance of any vertex from the one that `first` names now.
+/// Joins the ends of open edges that would be one, or one point, if copies had not been rounded
+/// otherwise: ends that are no further apart in any pose than `within`, nor than a thousandth of
+/// their longer edges in the neutral. Returns the largest distance of any vertex from the one that
+/// `first` names now.
 double weldRounded(const MeshRig& rig, double within, std::vector<Index>& first);
 
 /// Separate sheets that merely touch must not be welded: they would meet in edges of three and

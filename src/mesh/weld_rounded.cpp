@@ -3,6 +3,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <numeric>
 
 #include "mesh/each_edge.hpp"
 #include "mesh/shared_edges.hpp"
@@ -13,23 +14,25 @@ namespace sweepface {
 
 namespace {
 
-/// [vertices] of the edges of any length around each, but `most` at most.
-std::vector<double> shortestEdges(const PolygonMesh& mesh, double most) {
+/// [vertices] of the edges around each that are longer than `least`, but `most` at most.
+std::vector<double> shortestEdges(const PolygonMesh& mesh, double least, double most) {
   std::vector<double> shortest(mesh.positions.size(), most);
   eachEdge(mesh.polygons, [&](Index a, Index b) {
     const double length = norm(mesh.positions[a] - mesh.positions[b]);
-    if (length > 0)
+    if (length > least)
       for (const Index v : {a, b}) shortest[v] = std::min(shortest[v], length);
   });
   return shortest;
 }
 
 /// Which vertices are next to each other in all poses: no further than `within`, nor than a
-/// thousandth of the edges of either.
+/// thousandth of the edges of either that are longer than that.
 class Neighbours {
  public:
   Neighbours(const MeshRig& rig, double within)
-      : rig_(rig), within_(within), allowed_(shortestEdges(rig.neutral, within / kOfEdges)) {
+      : rig_(rig),
+        within_(within),
+        allowed_(shortestEdges(rig.neutral, within, within / kOfEdges)) {
     for (double& distance : allowed_) distance *= kOfEdges;
   }
 
@@ -94,22 +97,32 @@ std::vector<std::pair<Index, Index>> openEdges(const Polygons& faces,
   return open;
 }
 
-}  // namespace
+std::vector<Index> firstOf(UnionFind& sets) {
+  std::vector<Index> first(sets.size());
+  for (Index v = 0; v < std::ssize(first); ++v) first[v] = sets.find(v);
+  return first;
+}
 
-double weldRounded(const MeshRig& rig, double within, std::vector<Index>& first) {
-  const Neighbours neighbours(rig, within);
-  const auto open = openEdges(rig.neutral.polygons, first);
+/// Joins the ends of open edges that are points, as around the pole of a sphere.
+void closePoints(const Polygons& faces, const Neighbours& neighbours, UnionFind& sets) {
+  std::vector<Index> each(sets.size());
+  std::iota(each.begin(), each.end(), 0);
+  for (const auto& [from, to] : openEdges(faces, each))
+    if (neighbours.areNear(from, to)) sets.join(from, to);
+}
+
+/// Joins open edges that only sets of near vertices pair; what merely touches stays apart.
+void closeSlits(const Polygons& faces, const Neighbours& neighbours, UnionFind& sets) {
+  const auto open = openEdges(faces, firstOf(sets));
   std::vector<Index> ends;
   for (const auto& [from, to] : open) ends.insert(ends.end(), {from, to});
   std::ranges::sort(ends);
   ends.erase(std::ranges::unique(ends).begin(), ends.end());
   UnionFind near = neighbours.sets(ends);
-  // What merely touches somewhere is not meant to be joined, but edges that only these sets pair.
   std::vector<EdgeSide> sides;
-  for (std::size_t k = 0; k < open.size(); ++k)
+  for (Index k = 0; k < std::ssize(open); ++k)
     if (const Index a = near.find(open[k].first), b = near.find(open[k].second); a != b)
-      sides.emplace_back(a, b, static_cast<Index>(k));
-  UnionFind sets(first.size());
+      sides.emplace_back(a, b, k);
   eachSharedEdge(sides, [&](std::span<const EdgeSide> edge) {
     if (edge.size() != 2) return;
     const auto [a, b] = open[edge[0].at];
@@ -118,11 +131,20 @@ double weldRounded(const MeshRig& rig, double within, std::vector<Index>& first)
     sets.join(a, d);
     sets.join(b, c);
   });
+}
+
+}  // namespace
+
+double weldRounded(const MeshRig& rig, double within, std::vector<Index>& first) {
+  const Neighbours neighbours(rig, within);
+  UnionFind sets(first.size());
+  for (Index v = 0; v < std::ssize(first); ++v) sets.join(v, first[v]);
+  closePoints(rig.neutral.polygons, neighbours, sets);
+  closeSlits(rig.neutral.polygons, neighbours, sets);
+  first = firstOf(sets);
   double furthest = 0;
-  for (Index v = 0; v < static_cast<Index>(first.size()); ++v) {
-    first[v] = sets.find(first[v]);
+  for (Index v = 0; v < std::ssize(first); ++v)
     if (first[v] != v) furthest = std::max(furthest, neighbours.apart(v, first[v]));
-  }
   return furthest;
 }
 

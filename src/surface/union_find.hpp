@@ -14,6 +14,7 @@ class UnionFind {
   explicit UnionFind(std::size_t size) : parent_(size), size_(size, 1) {
     std::iota(parent_.begin(), parent_.end(), 0);
   }
+  std::size_t size() const { return parent_.size(); }
   Index find(Index a) {
     while (parent_[a] != a) a = parent_[a] = parent_[parent_[a]];
     return a;

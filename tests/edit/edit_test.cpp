@@ -1,5 +1,7 @@
 #include "sweepface/edit.hpp"
 
+#include <numbers>
+
 #include "drawing/drawings.hpp"
 #include "surface/surfaces.hpp"
 
@@ -115,6 +117,55 @@ TEST(ControlCurves, MoveByWhatIsAskedAndTheSurfaceBendsBesideThem) {
       EXPECT_LT(norm(offset - by), 1e-9) << along << ' ' << share;
     }
   }
+}
+
+/// Three sheets around a node 'o', from which their first sides 's0' to 's2' leave.
+Json star() {
+  Json drawing = {{"format", "sweepface wireframe 1"},
+                  {"nodes", {{{"name", "o"}, {"at", {0, 0, 0.3}}}}}};
+  const auto at = [&](const std::string& name, double radius, double degrees, double z) {
+    const double angle = degrees * std::numbers::pi / 180;
+    drawing["nodes"].push_back(
+        {{"name", name}, {"at", {radius * std::cos(angle), radius * std::sin(angle), z}}});
+  };
+  const auto curve = [&](const std::string& name, const std::string& from, const std::string& to) {
+    drawing["curves"].push_back({{"name", name}, {"from", from}, {"to", to}, {"edges", 8}});
+  };
+  for (int k = 0; k < 3; ++k) {
+    const std::string one = std::to_string(k), next = std::to_string((k + 1) % 3);
+    at("a" + one, 1, 120 * k, 0.15);
+    at("b" + one, 1.4, 120 * k + 60, 0);
+    curve("s" + one, "o", "a" + one);
+    curve("t" + one, "a" + one, "b" + one);
+    curve("u" + one, "b" + one, "a" + next);
+    drawing["patches"].push_back(
+        {{"name", "p" + one}, {"sides", {"s" + one, "t" + one, "u" + one, "-s" + next}}});
+  }
+  return drawing;
+}
+
+// What the few vectors of the node cannot give must not be thrown far off.
+TEST(ControlCurves, BesideASpokeMoveAboutAsAsked) {
+  const Rig before = made(star());
+  Rig after = before;
+  const Index patch = before.find(Thing::patch, "p0").value();
+  const Vec3 by{0, 0, 0.1};
+  ASSERT_TRUE(moveControls(after, {before.find(Thing::curve, "s0").value(), patch, by, {}}));
+  const auto x = poseOf(before), y = poseOf(after);
+  double second = 0, third = 0;
+  for (double along = 0; along <= 8; along += 0.5) {
+    const Site site{patch, along, 0};
+    std::array<Vec3, 3> change;
+    for (int order = 0; order < 3; ++order)
+      change[order] =
+          after.surface.evaluate(y, site, 0, order) - before.surface.evaluate(x, site, 0, order);
+    EXPECT_LT(norm(change[0]), 1e-8);
+    const auto [two, three] =
+        controlsFromDerivatives(change[0], {8 * change[1], 64 * change[2]}, kControlSpacing);
+    second = std::max(second, norm(two - by)), third = std::max(third, norm(three));
+  }
+  EXPECT_LT(second, 0.6 * norm(by));
+  EXPECT_LT(third, 0.3 * norm(by));
 }
 
 TEST(ControlCurves, OfAnotherPatchOrWithoutLengthAreRefused) {

@@ -104,6 +104,26 @@ TEST(Welding, joinsWhatRoundingPartedHoweverItStands) {
   }
 }
 
+/// The sine of pi is not quite 0 in floating point: the last row of a sphere is a ring.
+TEST(Welding, closesPolesThatRoundingOpened) {
+  const auto cone = [](double tip) {
+    return grid(12, 4, [tip](double x, double y) {
+      const double turn = 2 * std::numbers::pi * std::fmod(x, 12) / 12;
+      const double radius = y < 4 ? 5 - y : tip;
+      return Vec3{radius * std::cos(turn), radius * std::sin(turn), y};
+    });
+  };
+  for (double tip : {0.0, 1e-16, 1e-7}) {
+    const GridMesh mesh = makeGridMesh({cone(tip), {}}, 1e-6).value();
+    EXPECT_EQ(mesh.pointCount(), 12 * 4 + 1) << tip;
+    EXPECT_EQ(openSides(mesh), 12) << tip;
+  }
+  PolygonMesh partly = cone(1e-16);
+  for (std::size_t v = 4 * 13; v < 5 * 13; v += 3) partly.positions[v] = {0, 0, 4};
+  EXPECT_EQ(makeGridMesh({partly, {}}, 1e-6)->pointCount(), 12 * 4 + 1);
+  EXPECT_EQ(openSides(makeGridMesh({cone(1e-3), {}}, 1e-6).value()), 2 * 12) << "a hole";
+}
+
 /// Lashes stand on lids by vertices alone; what no face has joins nothing.
 TEST(Welding, leavesApartWhatTouchesAlongNoEdge) {
   PolygonMesh mesh;
