@@ -1,4 +1,5 @@
 // A .sweep file in a module: what it is opened with, and what all its faces share.
+import {divider} from './sweepface_regions.js';
 import {bytesOf, known} from './sweepface_values.js';
 import {compile, instantiate, MemoryError, Runtime, UNSAID} from './sweepface_wasm.js';
 
@@ -10,7 +11,7 @@ const OPTIONS = ['lod', ...BUDGETS, 'name', 'arcs', 'combine', 'eyes', 'regions'
 const FOLLOW = {arcs: 1, combine: 2};
 
 /** What sound options ask for: how the file is played, and whether that takes the full module. */
-async function read(options) {
+function read(options) {
   const given = known(options, OPTIONS, 'Sweepface.load');
   const {lod = 0, name, arcs, combine, eyes, regions, wasm} = given;
   const details = ['lod', ...BUDGETS].filter((key) => given[key] !== undefined);
@@ -19,7 +20,7 @@ async function read(options) {
   if (!Number.isInteger(lod) || lod < 0 || lod >= 2 ** 32)
     throw new RangeError('The level of detail must be a whole number from 0 to 64.');
   const [budget] = BUDGETS.flatMap((kind, k) => (given[kind] === undefined ? [] : [[k, Number(given[kind])]]));
-  const divide = regions?.length !== 0 && regions && (await import('./sweepface_regions.js')).divider(regions);
+  const divide = regions?.length !== 0 && regions && divider(regions);
   const follow = (arcs ? FOLLOW.arcs : 0) + (combine ? FOLLOW.combine : 0);
   const needsFull = Boolean(follow || eyes || divide || budget);
   return {name: String(name || 'The face'), follow, eyes, divide, lod, budget, wasm, needsFull};
@@ -123,7 +124,7 @@ export async function open(given, givenOptions) {
   const bytes = bytesOf(given)?.slice();  // its owner may change it, or send it away, while the module comes
   if (!bytes)
     throw new TypeError('Sweepface.load needs the bytes of a .sweep file: an ArrayBuffer or a typed array.');
-  const options = await read(givenOptions), {wasm} = options;
+  const options = read(givenOptions), {wasm} = options;
   if (wasm || options.needsFull || !isPacked(bytes)) return openIn(await compile(wasm, 'full'), bytes, options);
   const usual = await compile(wasm, 'usual');
   try {

@@ -1,5 +1,4 @@
-// Regions of a face (docs/regions.md), painted by the C interface (include/sweepface/sweepface_regions.h). Loaded only
-// where a face is divided.
+// Regions of a face (docs/regions.md), painted by the C interface (include/sweepface/sweepface_regions.h).
 
 const MATTER = {mass: 1, stiffness: 1, delay: 0};
 const PLACES = ['parts', 'points', 'line', 'curves', 'nodes'];

@@ -1,6 +1,6 @@
 import assert from 'node:assert/strict';
 import {execFileSync} from 'node:child_process';
-import {existsSync, mkdirSync, readFileSync, symlinkSync, writeFileSync} from 'node:fs';
+import {existsSync, mkdirSync, readdirSync, readFileSync, symlinkSync, writeFileSync} from 'node:fs';
 import {join} from 'node:path';
 import {fileURLToPath} from 'node:url';
 import test from 'node:test';
@@ -17,6 +17,11 @@ test('the module is small', () => {
   console.log(`sweepface.wasm: ${code.length} bytes, ${packed.length} with brotli`);
   assert.ok(code.length <= 168_300);
   assert.ok(packed.length <= 66_500);
+});
+
+test('bundlers have no scripts to split, which those for workers may not', () => {
+  for (const name of readdirSync(folder).filter((name) => /^sweepface.*\.js$/.test(name)))
+    assert.doesNotMatch(readFileSync(join(folder, name), 'utf8'), /import\('/, name);
 });
 
 test('the module asks for nothing', () => {

@@ -12,7 +12,7 @@ const load = (regions, options = {}) => Sweepface.load(bytes, {...options, regio
 /** The upper half of the sample face, heavier and later than the rest. */
 const above = {name: 'above', points: [[0, 8, 9]], over: 'space', whole: 5, fade: 4, mass: 4, delay: 0.1};
 
-test('a face of one piece has no regions and does without their module', async () => {
+test('a face of one piece has no regions', async () => {
   const face = await Sweepface.load(bytes);
   assert.deepEqual(face.regions, []);
   assert.throws(() => face.moveTo({jawOpen: 1}, 'spring', 'above'), /no region named 'above'; there are none/);
