@@ -118,7 +118,9 @@ export class Sweepface {
     const {runtime, eyeCount} = this.#open();
     if (eyeCount === 0) throw new Error('The face has no eyes that turn; load it with the option eyes, if it has any.');
     const angles = (eye, name) => {
-      const {yaw = 0, pitch = 0} = known(eye, ['yaw', 'pitch', 'roll'], `look's ${name}`);
+      const {yaw = 0, pitch = 0} = known(eye, ['yaw', 'pitch'], `look's ${name}`);
+      for (const angle of [yaw, pitch])
+        if (!Number.isFinite(angle)) throw new TypeError(`look's ${name} takes finite numbers, not ${told(angle)}.`);
       return [yaw, pitch, 0];
     };
     if (pose === null || pose === undefined) {
@@ -193,7 +195,8 @@ export class Sweepface {
   /** Sends weights to goals from where they stand, everywhere or in a region; `advance` moves them. */
   moveTo(goals, drive, region) {
     const shared = this.#open(), {runtime} = shared, {wasm} = runtime;
-    const all = this.#resolve(goals), places = shared.places(region), at = this.#drive(drive), motion = this.#moving();
+    const all = this.#resolve(goals), places = shared.places(region);
+    const at = this.#drive(drive, places), motion = this.#moving();  // from here on nothing is refused
     for (const [target, goal] of all) {
       runtime.check(region === undefined ? wasm.sweepface_motion_move_to(motion, target, goal, at)
                                          : wasm.sweepface_motion_move_in(motion, places[0], target, goal, at));
@@ -205,8 +208,10 @@ export class Sweepface {
   /** A blow: adds to the velocity of a weight (per second), which drag (per second) takes away. */
   push(name, velocityChange, drag = 8) {
     const shared = this.#open(), {runtime} = shared, target = shared.target(name);
-    if (!(Math.abs(velocityChange) <= MOST))
+    if (!Number.isFinite(velocityChange) || Math.abs(velocityChange) > MOST)
       throw new RangeError(`The push on '${name}' must lie within ${MOST} of 0, not be ${told(velocityChange)}.`);
+    if (!Number.isFinite(drag) || drag < 0)
+      throw new RangeError(`The drag on a blow must be a finite number of at least 0, not ${told(drag)}.`);
     runtime.check(runtime.wasm.sweepface_motion_push(this.#moving(), target, velocityChange, drag));
     for (const r of shared.places()) this.#drives.delete(shared.names.length * r + target);
   }
@@ -289,9 +294,9 @@ export class Sweepface {
   }
 
   /** Where the struct of a drive is, until the next. */
-  #drive(drive) {
-    const at = this.#memory.drive;
-    writeDrive(this.#shared.runtime, at, drive);
+  #drive(drive, places = []) {
+    const {runtime, regions} = this.#shared, at = this.#memory.drive;
+    writeDrive(runtime, at, drive, places.map((r) => regions?.[r]));
     return at;
   }
 }

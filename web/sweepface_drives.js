@@ -9,8 +9,45 @@ const NUMBERS = ['delay', 'seconds', 'turn', 'frequency', 'damping', 'restitutio
 /** Bytes of the struct. */
 export const DRIVE_SIZE = 56;
 
-/** Writes a drive, its name or its name and numbers, to a place in the memory of a module. */
-export function writeDrive(runtime, at, drive) {
+/** Further off and faster than weights ever are. */
+const FAR = 1e12;
+
+/**
+ * What keeps a drive from setting out, in the library's words: to a goal so far off, or of a weight that is so fast.
+ */
+export function faultOf(drive, way = 1, speed = 0) {
+  const {kind = 'spring', seconds = 1, turn = 0.5, frequency = 1, damping = 1, restitution = 0} = drive;
+  const tooMuch = (...numbers) => (numbers.every(Number.isFinite) ? undefined
+    : 'A motion needs finite numbers; its goal, time or frequency is beyond what they hold');
+  if (kind === 'cut') return;
+  if (kind === 'spring') {
+    const omega = 2 * Math.PI * frequency, sigma = damping * omega, force = omega ** 2 + sigma ** 2;
+    return tooMuch(force, force * way, 2 * sigma * speed) ??
+           (frequency > 0 && damping >= 0 ? undefined
+                                          : 'A spring needs a frequency greater than 0 and a damping of at least 0');
+  }
+  if (kind === 'bounce' && !(restitution >= 0 && restitution <= 1 - 1e-9))
+    return 'A bounce keeps a part of its speed: the restitution lies in [0, 1 - 1e-9]';
+  if (!(seconds > 0)) return 'The motion must last a finite time greater than 0 seconds';
+  const peak = 2 * way / seconds + speed;
+  if (kind === 'linear-force') return tooMuch(6 * peak / seconds / seconds);  // how fast the force changes
+  if (kind !== 'accelerate-brake') return tooMuch(2 * peak / seconds);
+  if (!(turn > 0 && turn < 1)) return 'The force must turn after the start and before the end: between 0 and 1';
+  return tooMuch(peak / Math.min(turn, 1 - turn) / seconds, speed * seconds);
+}
+
+/** A drive as weights of a region follow it. */
+function inMatter(drive, {mass = 1, stiffness = 1} = {}) {
+  const {seconds, frequency, damping} = drive, stretch = Math.sqrt(mass / stiffness);
+  return {...drive, seconds: seconds * stretch, frequency: frequency / stretch,
+          damping: damping / Math.sqrt(mass * stiffness)};
+}
+
+/**
+ * Writes a drive, its name or its name and numbers, to a place in the memory of a module, if weights of all those
+ * matters can follow it.
+ */
+export function writeDrive(runtime, at, drive, matters) {
   const given = typeof drive === 'string' ? {kind: drive} : drive ?? {};
   if (kindOf(given) !== 'Object')
     throw new TypeError(`A drive is a name, or numbers like {kind: 'spring', frequency: 3}, not ${told(given)}.`);
@@ -22,7 +59,15 @@ export function writeDrive(runtime, at, drive) {
     if (key === 'kind' || given[key] === undefined) continue;
     const place = NUMBERS.indexOf(key);
     if (place < 0) throw new Error(`A drive has no '${key}'; it has kind, ${NUMBERS.join(', ')}.`);
+    if (!Number.isFinite(given[key]))
+      throw new TypeError(`The ${key} of a drive must be a finite number, not ${told(given[key])}.`);
     numbers[place] = given[key];
+  }
+  const written = Object.fromEntries(NUMBERS.map((key, k) => [key, numbers[k]]));
+  if (written.delay < 0) throw new RangeError('The delay of a motion must be at least 0 seconds.');
+  for (const matter of matters) {
+    const fault = faultOf({...inMatter(written, matter), kind: KINDS[kind]}, FAR, FAR);
+    if (fault) throw new RangeError(`${fault}.`);
   }
 }
 

@@ -1,4 +1,5 @@
 // Timelines: what an animator wrote down, and what plays it on a face.
+import {faultOf} from './sweepface_drives.js';
 import {matchNames, turnsEyes} from './sweepface_names.js';
 import {isNumber, isObject, isWeight, parseJson, textOf} from './sweepface_text.js';
 import {known, told} from './sweepface_values.js';
@@ -31,26 +32,6 @@ export function readTimeline(source, options) {
   return {seconds, loops, events: read, regions};
 }
 
-/** What keeps a drive from setting out from 0 to 1, in the library's words. */
-function faultOf({drive = 'spring', seconds = 1, turn = 0.5, frequency = 1, damping = 1, restitution = 0}) {
-  const tooMuch = (...numbers) => (numbers.every(Number.isFinite) ? undefined
-    : 'A motion needs finite numbers; its goal, time or frequency is beyond what they hold');
-  if (drive === 'cut') return;
-  if (drive === 'spring') {
-    const omega = 2 * Math.PI * frequency;
-    return tooMuch(omega ** 2 + (damping * omega) ** 2) ??
-           (frequency > 0 && damping >= 0 ? undefined
-                                          : 'A spring needs a frequency greater than 0 and a damping of at least 0');
-  }
-  if (drive === 'bounce' && !(restitution >= 0 && restitution <= 1 - 1e-9))
-    return 'A bounce keeps a part of its speed: the restitution lies in [0, 1 - 1e-9]';
-  if (!(seconds > 0)) return 'The motion must last a finite time greater than 0 seconds';
-  if (drive === 'linear-force') return tooMuch(12 / seconds / seconds / seconds);  // how fast the force changes
-  if (drive !== 'accelerate-brake') return tooMuch(2 / seconds / seconds);
-  if (!(turn > 0 && turn < 1)) return 'The force must turn after the start and before the end: between 0 and 1';
-  return tooMuch(2 / Math.min(turn, 1 - turn) / seconds / seconds);
-}
-
 function readEvent(event, poses, place, failAt) {
   const fail = (what) => failAt(place, what);
   if (!isObject(event)) throw fail('is not an object');
@@ -64,7 +45,7 @@ function readEvent(event, poses, place, failAt) {
   if ('drive' in event && !DRIVES.includes(event.drive))
     throw failAt(`${place}:`, `There is no way to move called "${event.drive}"; there are ${DRIVES.join(', ')}`);
   if (event.at < 0) throw fail('is before 0');
-  const fault = faultOf(event);
+  const fault = faultOf({...event, kind: event.drive});
   if (fault) throw fail(`cannot be: ${fault}`);
   if (event.delay < 0) throw fail('has a negative \'delay\'');
   if (('to' in event) === ('only' in event)) throw fail('needs one of \'to\' and \'only\', the weights to go to');

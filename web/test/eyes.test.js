@@ -87,9 +87,13 @@ test('eyes that do not turn cannot look', async () => {
   const face = await load(), eyes = await load({eyes: true});
   assert.equal(face.eyeCount, 0);
   assert.throws(() => face.look(null), /no eyes that turn/);
-  assert.throws(() => eyes.look({leftEye: {yaw: NaN}}), /finite numbers/);
+  for (const angle of [NaN, '0.1', null])
+    for (const eye of [{yaw: angle}, {pitch: angle}])
+      assert.throws(() => eyes.look({leftEye: eye}), {name: 'TypeError', message: /leftEye takes finite numbers, not /});
   assert.throws(() => eyes.look({left: {yaw: 1}}), /look has no option 'left'; it has leftEye, rightEye/);
-  assert.throws(() => eyes.look({leftEye: {up: 1}}), /look's leftEye has no option 'up'/);
+  for (const no of ['up', 'roll'])
+    assert.throws(() => eyes.look({leftEye: {[no]: 1}}),
+                  {message: `look's leftEye has no option '${no}'; it has yaw, pitch.`});
   for (const no of [5, true, [], 'left', {leftEye: 5}, {leftEye: []}])
     assert.throws(() => eyes.look(no), {name: 'TypeError', message: /takes an object of/});
   assert.equal(eyes.pose, null);

@@ -88,11 +88,38 @@ test('what there is not is refused with the library\'s sentence, and nothing cha
   assert.throws(() => face.evaluate(new Float32Array(6)), {message: /There must be room for \d+ vertices/});
   assert.throws(() => face.setWeights(), {message: /^Weights are given by name/});
   assert.throws(() => face.moveTo({jawOpen: 1e9}), {message: /'jawOpen' must lie within 1000000 of 0\.$/});
-  for (const push of [1e8, NaN, undefined])
+  for (const push of [1e8, NaN, undefined, '3', true, [5]])
     assert.throws(() => face.push('jawOpen', push), {message: /push on 'jawOpen' must lie within 1000000 of 0/});
+  for (const drag of [-1, NaN, Infinity, null, '8'])
+    assert.throws(() => face.push('jawOpen', 1, drag), {name: 'RangeError', message: /drag on a blow must be a finite number/});
   for (const seconds of [NaN, Infinity, undefined])
     assert.throws(() => face.advance(seconds), {message: /finite number of seconds/});
   assert.equal(face.weights.jawOpen, 0);
+});
+
+/** What a face does from now on. */
+function goesOn(face) {
+  return Array.from({length: 5}, () => [face.advance(0.05), face.weights]);
+}
+
+test('a refused goal or drive leaves all as it moves', async () => {
+  const regions = [{name: 'above', points: [[0, 8, 9]], whole: 5, over: 'space', mass: 100}];
+  for (const options of [{}, {regions}]) {
+    const faces = [await load(options), await load(options)], [face] = faces, goals = {jawOpen: 0.25, browInnerUp: 1e6};
+    for (const each of faces) each.moveTo({jawOpen: 1, mouthSmileLeft: 0.5}, {kind: 'newton', seconds: 1, delay: 0.1});
+    const tooSoon = {kind: 'newton', seconds: 1.4e-152}, finite = {name: 'RangeError', message: /needs finite numbers/};
+    assert.throws(() => face.moveTo(goals, tooSoon), finite);
+    assert.throws(() => face.moveTo({jawOpen: 0.25, mouthSmileLeft: 1}, {kind: 'accelerate-brake', seconds: 1e303}), finite);
+    assert.throws(() => face.moveTo({jawOpen: 0.25}, {kind: 'spring', frequency: 2e147, damping: 2}), finite);
+    for (const drive of [{delay: -1}, {frequency: 0}, {damping: -1}, {kind: 'bounce', restitution: 1},
+                         {kind: 'newton', seconds: 0}, {kind: 'accelerate-brake', turn: 1}])
+      for (const to of [goals, {}]) assert.throws(() => face.moveTo(to, drive), {name: 'RangeError', message: /\.$/});
+    for (const number of ['3', null, NaN, true, [2]])
+      for (const to of [goals, {}])
+        assert.throws(() => face.moveTo(to, {frequency: number}),
+                      {name: 'TypeError', message: /^The frequency of a drive must be a finite number, not /});
+    assert.deepEqual(goesOn(face), goesOn(faces[1]));
+  }
 });
 
 test('bytes that are no face are refused with the library\'s sentence', async () => {
