@@ -1,7 +1,7 @@
 // .sweep faces that a vertex shader evaluates: a mesh for three.js, and the shader for others. Every frame only the
 // modes of the weights go to the graphics card, less than a tenth of a megabyte (docs/evaluation.md).
 import {
-  BufferAttribute, DataTexture, MeshDepthMaterial, MeshDistanceMaterial, NearestFilter, RGBADepthPacking,
+  BufferAttribute, DataTexture, GLSL3, MeshDepthMaterial, MeshDistanceMaterial, NearestFilter, RGBADepthPacking,
   RGBAIntegerFormat, ShortType, Vector3
 } from 'three';
 import {FaceMesh, faceFrom, geometryOf} from './sweepface_mesh.js';
@@ -99,12 +99,24 @@ function normalsOf(tangents) {
   return normals;
 }
 
-/** What materials were told of their own before a face told them to follow it. */
+/** What materials that follow a face were told of their own before. */
 const own = new WeakMap();
+
+/** Refuses a material that cannot follow a face, or follows one. */
+function check(material) {
+  const refuse = (what) => { throw new TypeError(`The material '${material.name || material.type}' ${what}.`); };
+  if (own.has(material)) refuse('follows a face already; give each mesh a clone() of it');
+  if (!material.isShaderMaterial) return;
+  if (!material.vertexShader.includes('#include <begin_vertex>'))
+    refuse('has no `#include <begin_vertex>` in its vertex shader, to follow the face by; have it, and use `transformed`');
+  if (material.isRawShaderMaterial && material.glslVersion !== GLSL3)
+    refuse('is written in GLSL ES 1, which reads no face; set its glslVersion to GLSL3');
+}
 
 /** A face in a scene that follows its weights without its vertices leaving the graphics card. */
 export class SweepfaceGpuMesh extends FaceMesh {
   #textures;
+  #followers;  // its materials, each once
 
   constructor(face, materials) {
     const positions = faceFrom(face).shaderTables(), tangents = face.shaderTables(true);
@@ -122,21 +134,17 @@ export class SweepfaceGpuMesh extends FaceMesh {
     this.#textures = textures;
     this.customDepthMaterial = new MeshDepthMaterial({depthPacking: RGBADepthPacking});  // for shadows
     this.customDistanceMaterial = new MeshDistanceMaterial();
-    for (const material of this.#materials) this.#patch(material);
+    this.#followers = new Set([this.material, this.customDepthMaterial, this.customDistanceMaterial].flat());
+    this.#followers.forEach(check);  // all before the first is changed
+    for (const material of this.#followers) this.#patch(material);
     this.update();
   }
 
-  get #materials() { return [this.material, this.customDepthMaterial, this.customDistanceMaterial].flat(); }
-
   #patch(material) {
     const {basis, modes, factor} = this.#textures;
-    if (!material?.isMaterial) throw new TypeError('A mesh takes a material, or one for each part of the face.');
     material.dispose();  // what a renderer made of it before knows no face, or another
-    if (!own.has(material)) {
-      const {onBeforeCompile, customProgramCacheKey} = material;
-      own.set(material, {onBeforeCompile, customProgramCacheKey});
-    }
-    const {onBeforeCompile, customProgramCacheKey} = own.get(material);
+    const {onBeforeCompile, customProgramCacheKey} = material;
+    own.set(material, {onBeforeCompile, customProgramCacheKey});
     material.customProgramCacheKey = () => 'sweepface' + onBeforeCompile + customProgramCacheKey.call(material);
     material.onBeforeCompile = (shader, renderer) => {
       onBeforeCompile.call(material, shader, renderer);
@@ -163,14 +171,14 @@ export class SweepfaceGpuMesh extends FaceMesh {
   show() { this.#textures.update(this.face); }
 
   /** Rays meet the face as it stands, which the attributes do not tell: it is evaluated for them. */
-  raycast(raycaster, hits) {
+  meet(raycaster, hits) {
     const {geometry} = this, {attributes, boundingSphere, boundingBox} = geometry;
     const stands = ['position', 'normal'].map((name) => new Float32Array(attributes[name].array.length));
     this.face.evaluate(...stands);
     const [position, normal] = stands.map((array) => new BufferAttribute(array, 3));
     Object.assign(geometry, {attributes: {...attributes, position, normal}, boundingSphere: null, boundingBox: null});
     try {
-      super.raycast(raycaster, hits);
+      super.meet(raycaster, hits);
     } finally {
       Object.assign(geometry, {attributes, boundingSphere, boundingBox});
     }
@@ -184,8 +192,12 @@ export class SweepfaceGpuMesh extends FaceMesh {
 
   dispose() {
     this.#textures.dispose();
-    this.customDepthMaterial.dispose();
-    this.customDistanceMaterial.dispose();
     super.dispose();
+    for (const material of this.#followers) {
+      material.dispose();
+      Object.assign(material, own.get(material));
+      own.delete(material);
+    }
+    this.#followers.clear();
   }
 }

@@ -6,6 +6,13 @@ function materialsOf(face) {
   return face.parts.map(({material}) => new MeshStandardMaterial({name: material, roughness: 0.7, side: DoubleSide}));
 }
 
+/** The materials that are given, if they can be drawn. */
+function materialsFrom(materials) {
+  const all = [materials].flat();
+  if (all.length > 0 && all.every((material) => material?.isMaterial)) return materials;
+  throw new TypeError('A mesh takes a material, or one for each part of the face.');
+}
+
 /** The face that is given, not what Sweepface.load promises or takes. */
 export function faceFrom(face) {
   if (typeof face?.evaluate === 'function') return face;
@@ -29,13 +36,17 @@ function addTo(geometry, {name, userData, attributes, groups, drawRange}) {
   Object.assign(geometry, {name, userData, groups: groups.map((group) => ({...group})), drawRange: {...drawRange}});
 }
 
-/** A face in a scene. Weights are set at any time; `update` has `show` bring them to the screen. */
+/**
+ * A face in a scene. Weights are set at any time; `update` has `show` bring them to the screen, and `raycast` has `meet`
+ * tell where rays meet it.
+ */
 export class FaceMesh extends Mesh {
   #stale = true;
   #moving;
+  #isGone = false;
 
   constructor(face, geometry, materials = materialsOf(face)) {
-    super(geometry, materials);
+    super(geometry, materialsFrom(materials));
     this.face = face;
     this.#moving = face.advance(0);
   }
@@ -78,10 +89,17 @@ export class FaceMesh extends Mesh {
 
   /** Call it once a frame with the seconds since the last; costs nothing where nothing moves. */
   update(seconds = 0) {
+    if (this.#isGone) return;
     if ((this.#moving && seconds > 0) || !Number.isFinite(seconds)) this.advance(seconds);
     if (this.#stale) this.show();
     this.#stale = false;
   }
+
+  raycast(raycaster, hits) {
+    if (!this.#isGone) this.meet(raycaster, hits);
+  }
+
+  meet(raycaster, hits) { super.raycast(raycaster, hits); }
 
   /** Another face of the same file that stands as this one, and moves by itself. */
   clone(recursive) {
@@ -110,6 +128,7 @@ export class FaceMesh extends Mesh {
   }
 
   dispose() {
+    this.#isGone = true;
     this.geometry.dispose();
     for (const material of [this.material].flat()) material.dispose();
     this.face.dispose();

@@ -16,11 +16,11 @@ export class SweepfaceMesh extends FaceMesh {
   }
 
   show() {
-    const {position, normal} = this.geometry.attributes;
+    const {geometry} = this, {position, normal} = geometry.attributes;
     this.face.evaluate(position.array, normal.array);
     position.needsUpdate = normal.needsUpdate = true;
-    this.geometry.boundingBox = null;
-    this.geometry.computeBoundingSphere();
+    geometry.computeBoundingSphere();
+    if (geometry.boundingBox) geometry.computeBoundingBox();
   }
 }
 

@@ -255,6 +255,16 @@ test('the vertex shader', options, (t) => withPage('blank.html', {files}, async 
         shader.vertexShader = shader.vertexShader.replace(
           '#include <begin_vertex>', '#include <begin_vertex>\ntransformed.x *= 0.5;');
       }, customProgramCacheKey: () => 'wide'});
+      const place = 'gl_Position = projectionMatrix * modelViewMatrix * vec4(transformed, 1.0);';
+      const main = `void main() {\n#include <begin_vertex>\n${place}\n}`;
+      const shader = () => new THREE.ShaderMaterial({
+        side: THREE.DoubleSide, vertexShader: main, fragmentShader: 'void main() { gl_FragColor = vec4(1.0); }'
+      });
+      const raw = () => new THREE.RawShaderMaterial({
+        side: THREE.DoubleSide, glslVersion: THREE.GLSL3,
+        vertexShader: `in vec3 position; uniform mat4 modelViewMatrix, projectionMatrix; ${main}`,
+        fragmentShader: 'precision highp float; out vec4 colour; void main() { colour = vec4(1.0); }'
+      });
       const draw = async (Made, materials) => {
         const mesh = new Made(await load(), materials);
         mesh.setWeights(pose);
@@ -263,7 +273,7 @@ test('the vertex shader', options, (t) => withPage('blank.html', {files}, async 
         return [bright(mesh), bright(twin)];
       };
       const result = {};
-      for (const [name, make] of [['plain', white], ['hash', hash], ['changed', wide]])
+      for (const [name, make] of [['plain', white], ['hash', hash], ['changed', wide], ['shader', shader], ['raw', raw]])
         result[name] = [await draw(SweepfaceMesh, make()), await draw(SweepfaceGpuMesh, make())];
       return result;
     });

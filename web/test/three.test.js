@@ -131,6 +131,42 @@ test('other materials see the neutral of a face on the graphics card', options, 
   assert.throws(() => new SweepfaceGpuMesh(usual.face, [null]), {name: 'TypeError', message: /takes a material/});
 });
 
+for (const [name, module] of [['SweepfaceMesh', 'three'], ['SweepfaceGpuMesh', 'gpu']])
+  test(`${name} takes materials, and at least one`, options, async () => {
+    const {face} = await load(), Made = (await import(`../sweepface_${module}.js`))[name];
+    for (const no of [null, [null], [], 'red', new three.Texture(), [new three.MeshBasicMaterial(), undefined]])
+      assert.throws(() => new Made(face, no), {name: 'TypeError', message: /^A mesh takes a material, or one/});
+  });
+
+test('shaders that cannot follow a face are refused, and nothing changes', options, async () => {
+  const {SweepfaceGpuMesh} = await import('../sweepface_gpu.js'), {face} = await load();
+  const plain = new three.MeshStandardMaterial(), {onBeforeCompile} = plain, {GLSL3} = three;
+  const follows = 'void main() {\n#include <begin_vertex>\n}', stays = 'void main() { gl_Position = vec4(position, 1.0); }';
+  const {ShaderMaterial, RawShaderMaterial} = three;
+  for (const [Shader, given, sentence] of [
+         [ShaderMaterial, {vertexShader: stays}, /^The material 'mine' has no `#include <begin_vertex>` in/],
+         [RawShaderMaterial, {vertexShader: stays, glslVersion: GLSL3}, /has no `#include <begin_vertex>`/],
+         [RawShaderMaterial, {vertexShader: follows}, /^The material 'mine' is written in GLSL ES 1/]]) {
+    const materials = [plain, new Shader({...given, name: 'mine'})];
+    assert.throws(() => new SweepfaceGpuMesh(face, materials), {name: 'TypeError', message: sentence});
+    assert.equal(plain.onBeforeCompile, onBeforeCompile);
+  }
+  new SweepfaceGpuMesh(face, [plain, new ShaderMaterial({vertexShader: follows}),
+                              new RawShaderMaterial({vertexShader: follows, glslVersion: GLSL3})]);
+});
+
+test('materials on the graphics card follow one face at a time', options, async () => {
+  const {SweepfaceGpuMesh} = await import('../sweepface_gpu.js');
+  const material = new three.MeshNormalMaterial(), {onBeforeCompile} = material;
+  const mesh = new SweepfaceGpuMesh((await load()).face, [material, material]), {face} = await load();
+  assert.throws(() => new SweepfaceGpuMesh(face, material),
+                {name: 'TypeError', message: /^The material 'MeshNormalMaterial' follows a face already; .* clone\(\)/});
+  mesh.material = new three.MeshBasicMaterial();  // the mesh made the other its own all the same
+  mesh.dispose();
+  assert.equal(material.onBeforeCompile, onBeforeCompile);
+  new SweepfaceGpuMesh(face, material);
+});
+
 test('clones look where their models look', options, async () => {
   const {Sweepface} = await import('../sweepface.js'), {SweepfaceMesh} = await import('../sweepface_three.js');
   const mesh = new SweepfaceMesh(await Sweepface.load(readFileSync(sample), {eyes: true}));
@@ -263,6 +299,32 @@ test('normals are of unit length and point outwards', options, async () => {
     outward += n.dot(p.fromBufferAttribute(position, v).sub(centre)) > 0;
   }
   assert.ok(outward > 0.9 * position.count);
+});
+
+for (const [name, module] of [['SweepfaceMesh', 'three'], ['SweepfaceGpuMesh', 'gpu']])
+  test(`${name} does nothing and meets no ray once it is disposed of`, options, async () => {
+    const Made = (await import(`../sweepface_${module}.js`))[name];
+    const rays = new three.Raycaster(new three.Vector3(0, 0, 100), new three.Vector3(0, 0, -1));
+    for (const moves of [false, true]) {
+      const mesh = new Made((await load()).face);
+      assert.ok(rays.intersectObject(mesh).length > 0);
+      if (moves) mesh.moveTo({jawOpen: 1});
+      else mesh.setWeights({jawOpen: 1});
+      mesh.dispose();
+      for (const seconds of [0, 1 / 60]) mesh.update(seconds);
+      assert.deepEqual(rays.intersectObject(mesh), []);
+    }
+  });
+
+test('a bounding box that was asked for follows the face', options, async () => {
+  const mesh = await load(), {geometry} = mesh;
+  assert.equal(geometry.boundingBox, null);
+  geometry.computeBoundingBox();
+  const before = geometry.boundingBox.clone();
+  mesh.setWeights({jawOpen: 20});
+  mesh.update();
+  assert.notDeepEqual(geometry.boundingBox, before);
+  assert.deepEqual(geometry.boundingBox, new three.Box3().setFromBufferAttribute(geometry.attributes.position));
 });
 
 test('a disposed mesh gives its face back', options, async () => {
