@@ -8,8 +8,12 @@ export const told = (value) => (typeof value === 'string' ? `the text '${value}'
 
 /** The bytes that are given, if any are. */
 export function bytesOf(source) {
-  if (ArrayBuffer.isView(source)) return new Uint8Array(source.buffer, source.byteOffset, source.byteLength);
-  if (kindOf(source) === 'ArrayBuffer') return new Uint8Array(source);
+  try {
+    if (ArrayBuffer.isView(source)) return new Uint8Array(source.buffer, source.byteOffset, source.byteLength);
+    if (kindOf(source) === 'ArrayBuffer') return new Uint8Array(source);
+  } catch (error) {
+    throw new TypeError('The bytes were sent away with their buffer; give a copy, or send one.', {cause: error});
+  }
 }
 
 /** Options as they are, of which one that there is not is a slip. */

@@ -45,11 +45,26 @@ const MODULES = {
 };
 
 function urlOf(wasm) {
+  const text = typeof wasm === 'string' ? wasm : wasm.href;
   try {
-    return new URL(wasm, globalThis.location?.href);
+    if (typeof text === 'string') return new URL(text, globalThis.document?.baseURI ?? globalThis.location?.href);
+  } catch {}  // it is relative to nothing
+  throw new TypeError(`The option wasm is an absolute URL, bytes or a WebAssembly.Module, not ${told(wasm)}.`);
+}
+
+function besideThisFile(kind) {
+  try {
+    return MODULES[kind]();
+  } catch (error) {  // bundled as what is no module
+    throw new Error('This build does not know where sweepface.wasm is; tell it by the option wasm.', {cause: error});
+  }
+}
+
+async function compileBytes(code) {
+  try {
+    return await WebAssembly.compile(code);
   } catch (error) {
-    const not = `not ${told(wasm)}`;
-    throw new TypeError(`The option wasm is an absolute URL, bytes or a WebAssembly.Module, ${not}.`, {cause: error});
+    throw new Error(`The option wasm holds no module of WebAssembly: ${error.message}`, {cause: error});
   }
 }
 
@@ -57,9 +72,9 @@ const compiled = {};  // each once
 export function compile(wasm, kind) {
   if (kindOf(wasm) === 'WebAssembly.Module') return wasm;
   const code = bytesOf(wasm);  // not all engines compile a DataView
-  if (code) return WebAssembly.compile(code);
+  if (code) return compileBytes(code);
   if (wasm) return compileUrl(urlOf(wasm));
-  compiled[kind] ??= compileUrl(MODULES[kind]()).catch((error) => {
+  compiled[kind] ??= compileUrl(besideThisFile(kind)).catch((error) => {
     delete compiled[kind];
     throw error;
   });

@@ -334,17 +334,36 @@ test('bytes of another realm hold a face and a module', async () => {
 test('the module may come from elsewhere', async () => {
   const url = new URL('../sweepface_full.wasm', import.meta.url), code = readFileSync(url);
   const view = new DataView(code.buffer, code.byteOffset, code.length);
-  for (const wasm of [code, view, await WebAssembly.compile(code), url])
+  for (const wasm of [code, view, await WebAssembly.compile(code), url, {href: url.href}])
     assert.equal((await load({wasm})).names.length, 42);
   const foreign = runInNewContext('(code) => new WebAssembly.Module(code)')(code);
   assert.equal((await load({wasm: foreign})).names.length, 42);
 });
 
 test('what is no module is refused with a sentence', async () => {
-  for (const wasm of ['./sweepface.wasm', '/sweepface.wasm', 5])
+  for (const wasm of ['./sweepface.wasm', '/sweepface.wasm', 5, {}, {href: 5}, Promise.resolve()])
     await assert.rejects(load({wasm}), {message: /^The option wasm is an absolute URL, bytes or a WebAssembly\.Module, not /});
   const empty = Uint8Array.of(0, 0x61, 0x73, 0x6d, 1, 0, 0, 0);
   await assert.rejects(load({wasm: empty}), {message: /another module than those of sweepface\.$/});
+  await assert.rejects(load({wasm: Uint8Array.of(1, 2, 3)}), {message: /^The option wasm holds no module of WebAssembly: /});
+});
+
+test('a relative URL of the module goes by the base of the page', async () => {
+  const {fetch, document, location} = globalThis, asked = [];
+  globalThis.fetch = async (url) => {
+    asked.push(String(url));
+    return new Response(readFileSync(new URL('../sweepface_full.wasm', import.meta.url)));
+  };
+  try {
+    globalThis.location = {href: 'https://example.org/a/page.html'};  // in workers there is no document
+    await load({wasm: 'm.wasm'});
+    globalThis.document = {baseURI: 'https://example.org/b/'};
+    await load({wasm: 'm.wasm'});
+    assert.deepEqual(asked, ['https://example.org/a/m.wasm', 'https://example.org/b/m.wasm']);
+    await assert.rejects(load({wasm: 5}), {name: 'TypeError', message: /^The option wasm is an absolute URL/});
+  } finally {
+    Object.assign(globalThis, {fetch, document, location});
+  }
 });
 
 test('a packed face needs the usual module only, with all that is played', async () => {
@@ -410,6 +429,9 @@ test('a file is the caller\'s again at once', async () => {
   mine.fill(0);
   structuredClone(sent.buffer, {transfer: [sent.buffer]});
   for (const face of await Promise.all(both)) assert.equal(face.names.length, 42);
+  for (const gone of [sent, sent.buffer])
+    for (const refused of [Sweepface.load(gone), Sweepface.load(readFileSync(sample), {wasm: gone})])
+      await assert.rejects(refused, {name: 'TypeError', message: /^The bytes were sent away with their buffer; /});
 });
 
 test('no options are given as nothing, too', async () => {

@@ -24,6 +24,18 @@ test('bundlers have no scripts to split, which those for workers may not', () =>
     assert.doesNotMatch(readFileSync(join(folder, name), 'utf8'), /import\('/, name);
 });
 
+test('what was bundled as no module asks where the module is', async () => {
+  const bundled = newFolder();
+  for (const name of readdirSync(folder).filter((name) => /^sweepface.*\.js$/.test(name))) {
+    const text = readFileSync(join(folder, name), 'utf8').replaceAll('import.meta.url', '({}).url');  // as bundlers do
+    writeFileSync(join(bundled, name.replace(/js$/, 'mjs')), text.replace(/(from '\.\/\w+\.)js'/g, '$1mjs\''));
+  }
+  const {Sweepface} = await import(join(bundled, 'sweepface.mjs'));
+  const bytes = readFileSync(sample), wasm = readFileSync(join(folder, 'sweepface_full.wasm'));
+  await assert.rejects(Sweepface.load(bytes), {message: /does not know where sweepface\.wasm is; tell it by the option wasm/});
+  assert.equal((await Sweepface.load(bytes, {wasm})).names.length, 42);
+});
+
 test('the module asks for nothing', () => {
   const module = new WebAssembly.Module(readFileSync(join(folder, 'sweepface.wasm')));
   assert.deepEqual(WebAssembly.Module.imports(module), []);
