@@ -35,7 +35,7 @@ export class Clip {
   readonly weights: Float64Array;
   readonly seconds: number;
   /** The weights at so many seconds after the first frame, straight between frames and held at the ends. */
-  at(seconds: number, out?: Float64Array): Float64Array;
+  at<Floats extends Float32Array | Float64Array = Float64Array>(seconds: number, out?: Floats): Floats;
   /** The clip without the noise of a tracker. */
   smooth(settings?: OneEuro): Clip;
 }
@@ -72,6 +72,7 @@ export interface TimelineEvent {
 export interface Timeline {
   seconds: number;
   loops: number;
+  /** In any order; of two at one time the latter counts. */
   events: TimelineEvent[];
   /** For the options of Sweepface.load. */
   regions?: Region[] | undefined;

@@ -75,17 +75,21 @@ const isWhole = (face, region) => region === 'rest' && !face.regions?.length;
 
 /** Plays a timeline on a face: `advance` lets time pass, and what sets out does so at its own instant. */
 export class TimelinePlayer {
+  #events;  // by their times
   #goals;
   #looks;  // whether its weights say where the eyes look
   #now = 0;
   #next = 0;  // of all events of all loops
 
   constructor(face, timeline) {
+    if (typeof face?.moveTo !== 'function' || !Array.isArray(timeline?.events))
+      throw new TypeError('A TimelinePlayer plays a timeline on a face; give it the face, and what readTimeline returns.');
     for (const {region} of timeline.events)
       if (region && face.regions?.includes(region) === false && !isWhole(face, region))
         throw new Error(`The timeline moves a region '${region}'; the face has ${face.regions.join(', ') || 'none'}.`);
     this.face = face;
     this.timeline = timeline;
+    this.#events = [...timeline.events].sort((a, b) => a.at - b.at);
     const names = [...new Set(timeline.events.flatMap(({goals}) => Object.keys(goals)))];
     /** What drives what: see matchNames. */
     this.match = matchNames(names, face.names);
@@ -99,7 +103,7 @@ export class TimelinePlayer {
   advance(seconds) {
     if (!Number.isFinite(seconds))
       throw new RangeError(`Time passes by a finite number of seconds, not ${told(seconds)}.`);
-    const {events, seconds: length, loops} = this.timeline, until = this.#now + Math.max(seconds, 0);
+    const {seconds: length, loops} = this.timeline, events = this.#events, until = this.#now + Math.max(seconds, 0);
     let moves = false;
     while (this.#next < loops * events.length) {
       const event = events[this.#next % events.length], loop = Math.floor(this.#next / events.length);

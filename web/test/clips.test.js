@@ -122,6 +122,36 @@ test('a clip without frames has weights of 0', () => {
   assert.deepEqual(new Clip(['a'], new Float64Array(), new Float64Array()).at(1, Float64Array.of(5)), Float64Array.of(0));
 });
 
+test('clips have a weight for every name and time, and are asked for them in floats', () => {
+  const times = Float64Array.of(0, 1), weights = Float64Array.of(0, 1, 2, 3), clip = new Clip(['a', 'b'], times, weights);
+  for (const numbers of [[['a'], times, weights], [['a', 'b'], times, weights.subarray(1)], [[], times, weights]])
+    assert.throws(() => new Clip(...numbers), {name: 'RangeError', message: /^A clip of \d names and 2 times has as many/});
+  for (const numbers of [[], ['ab', times, weights], [['a', 'b'], [0, 1], weights], [['a', 'b'], times]])
+    assert.throws(() => new Clip(...numbers), {name: 'TypeError', message: /^A clip is made of a list of names/});
+  assert.throws(() => clip.at(0, new Float64Array(1)), {name: 'RangeError', message: 'There must be room for 2 weights, not 1.'});
+  for (const out of [null, [0, 0], new Int8Array(2)])
+    assert.throws(() => clip.at(0, out), {name: 'TypeError', message: /^Weights are written to a Float32Array or/});
+  assert.deepEqual(clip.at(0.5, new Float32Array(3)), Float32Array.of(1, 2, 0));
+});
+
+test('players need a face, and what they play', async () => {
+  const face = await Sweepface.load(readFileSync(sample)), clip = readClip(csv);
+  for (const [one, other] of [[face], [null, clip], [clip, face], [face, Promise.resolve(clip)], [face, timeline]])
+    assert.throws(() => new ClipPlayer(one, other), {name: 'TypeError', message: /^A ClipPlayer plays a clip on a face; /});
+  for (const [one, other] of [[face], [undefined, timeline], [face, clip]])
+    assert.throws(() => new TimelinePlayer(one, other), {name: 'TypeError', message: /^A TimelinePlayer plays a timeline/});
+});
+
+test('events that were made by hand are played by their times', async () => {
+  const face = await Sweepface.load(readFileSync(sample)), drive = {kind: 'cut'}, others = false;
+  const events = [[0.5, 1], [0.2, 0.25], [0.5, 0.75]].map(([at, jawOpen]) => ({at, goals: {jawOpen}, others, drive}));
+  const player = new TimelinePlayer(face, {seconds: 1, loops: 1, events});
+  for (const jawOpen of [0.25, 0.75]) {
+    player.advance(0.3);
+    assert.equal(face.weights.jawOpen, jawOpen);
+  }
+});
+
 test('names are matched and reported', async () => {
   const face = await Sweepface.load(readFileSync(sample)), player = new ClipPlayer(face, readClip(csv));
   assert.deepEqual(player.match.unmatched, ['tongueOut'].filter((name) => !face.names.includes(name)));
