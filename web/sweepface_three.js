@@ -26,6 +26,8 @@ export class SweepfaceMesh extends FaceMesh {
 
 /** Loads a .sweep file as a SweepfaceMesh, as three.js's own loaders do. */
 export class SweepfaceLoader extends Loader {
+  #files = new FileLoader();
+
   /** Options of Sweepface.load. */
   constructor(manager, options = {}) {
     if (manager && typeof manager.itemStart !== 'function')
@@ -35,10 +37,10 @@ export class SweepfaceLoader extends Loader {
   }
 
   load(url, onLoad, onProgress, onError) {
-    const loader = new FileLoader(this.manager);
+    const {manager} = this, loader = Object.assign(this.#files, {manager});
     loader.setPath(this.path).setResponseType('arraybuffer');
     loader.setRequestHeader(this.requestHeader).setWithCredentials(this.withCredentials);
-    const {manager} = this, tell = onError ?? console.error, name = this.options.name || url;
+    const tell = onError ?? console.error, name = this.options.name || url;
     const parse = (bytes) => this.parseAsync(bytes, {name}).then(onLoad).catch((error) => {
       manager.itemError(url);
       tell(error);
@@ -48,6 +50,12 @@ export class SweepfaceLoader extends Loader {
       manager.itemEnd(url);
       tell(error);
     });
+  }
+
+  /** Ends the downloads that are under way, as far as three.js can. */
+  abort() {
+    this.#files.abort?.();
+    return this;
   }
 
   async parseAsync(bytes, options = {}) {

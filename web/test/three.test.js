@@ -273,6 +273,20 @@ test('a manager hears of a mesh when it is there, and once of what goes wrong', 
   }
 });
 
+test('a loader aborts its downloads', {...options, timeout: 10_000}, async () => {
+  const {fetch} = globalThis, {SweepfaceLoader} = await import('../sweepface_three.js'), loader = new SweepfaceLoader();
+  globalThis.fetch = ({signal}) => new Promise((_, reject) => {
+    signal.addEventListener('abort', () => reject(signal.reason));
+  });
+  try {
+    const all = ['http://a/one', 'http://a/two'].map((url) => assert.rejects(loader.loadAsync(url), {name: 'AbortError'}));
+    assert.equal(loader.abort(), loader);
+    await Promise.all(all);
+  } finally {
+    globalThis.fetch = fetch;
+  }
+});
+
 test('materials are plain, one a part, named as in the source', options, async () => {
   const mesh = await load();
   assert.deepEqual(mesh.material.map(({name}) => name), mesh.face.parts.map(({material}) => material));
