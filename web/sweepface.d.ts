@@ -26,7 +26,8 @@ export type Bytes = ArrayBuffer | ArrayBufferView;
 
 /** A `WebAssembly.Module`, where the types of the project know it: those of browsers do. */
 type CompiledModule = typeof globalThis extends {WebAssembly: {Module: {prototype: infer Module}}} ? Module : object;
-/** Where the WebAssembly module is, if not beside sweepface.js: a `URL` has a `href`. */
+/** Where the WebAssembly module is, if not beside sweepface.js: a text or a `href` is a URL, in a page relative to its
+ * base. */
 export type ModuleSource = string | {readonly href: string} | Bytes | CompiledModule;
 
 /** A part of the face that is heavier or stiffer than the rest or sets out later: docs/regions.md. */
@@ -142,7 +143,8 @@ export class Sweepface {
   moveTo(goals: Weights, drive?: DriveKind | Drive, region?: string): void;
   /** A blow: adds up to 1,000,000 to the velocity of a weight (per second), which drag (per second, 8 unless given) takes away. */
   push(name: string, velocityChange: number, drag?: number): void;
-  /** Lets seconds pass for the weights in motion; says whether anything goes on moving or waits to. */
+  /** Lets seconds pass for the weights in motion; says whether anything goes on moving or waits to. Of less than 0, or
+   * more than 1e10 at once, none pass. */
   advance(seconds: number): boolean;
 
   /** How many eyeballs turn: with the option `eyes`, as many as the face has. */

@@ -21,9 +21,11 @@ export class FaceMesh extends Mesh {
   moveTo(goals: Weights, drive?: DriveKind | Drive, region?: string): void;
   /** A blow: adds to the velocity of a weight (per second), which drag (per second) takes away. */
   push(name: string, velocityChange: number, drag?: number): void;
-  /** Lets seconds pass without showing it; says whether anything goes on moving. */
+  /** Lets seconds pass without showing it; says whether anything goes on moving. Of less than 0, or more than 1e10 at
+   * once, none pass. */
   advance(seconds: number): boolean;
-  /** Call it once a frame with the seconds since the last; costs nothing where nothing moves. */
+  /** Call it once a frame with the seconds since the last, as `advance` takes them; costs nothing where nothing moves,
+   * and does nothing once the mesh is disposed of. */
   update(seconds?: number): void;
   /** Another face of the same file with the same weights, which moves by itself. Materials are shared, but of a
    * SweepfaceGpuMesh, whose are clones. */

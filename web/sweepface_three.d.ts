@@ -11,5 +11,7 @@ export class SweepfaceMesh extends FaceMesh {
 export class SweepfaceLoader extends Loader<SweepfaceMesh> {
   constructor(manager?: LoadingManager, options?: LoadOptions);
   options: LoadOptions;
+  /** Ends the downloads that are under way. */
+  abort(): this;
   parseAsync(bytes: Bytes, options?: LoadOptions): Promise<SweepfaceMesh>;
 }

@@ -24,6 +24,11 @@ test('bundlers have no scripts to split, which those for workers may not', () =>
     assert.doesNotMatch(readFileSync(join(folder, name), 'utf8'), /import\('/, name);
 });
 
+test('what knows no exports finds the package, too', () => {
+  const {main, exports} = JSON.parse(readFileSync(join(folder, 'package.json'), 'utf8'));
+  assert.equal(main, exports['.'].default);
+});
+
 test('what was bundled as no module asks where the module is', async () => {
   const bundled = newFolder();
   for (const name of readdirSync(folder).filter((name) => /^sweepface.*\.js$/.test(name))) {

@@ -33,7 +33,7 @@ export async function useThree(scene: Scene): Promise<void> {
   mesh.moveTo({jawOpen: 0}, 'spring');
   mesh.update(1 / 60);
   const twin: SweepfaceMesh = mesh.clone();
-  console.log(twin.regions.length);
+  console.log(twin.regions.length, new SweepfaceLoader(undefined, {wasm: {href: 'a.wasm'}}).abort().options);
   mesh.dispose();
 }
 
@@ -52,9 +52,10 @@ export async function useClips(bytes: ArrayBuffer, csv: string): Promise<void> {
   if (face.eyeCount > 0) face.look({leftEye: {yaw: 0.1}});
   face.look(null);
   const player = new ClipPlayer(face, clip), head = player.seek(0.5);
+  const few: Float32Array = clip.at(0.5, new Float32Array(clip.names.length)), all: Float64Array = clip.at(0.5);
   face.moveTo({jawOpen: 1}, {seconds: 1}, face.regions[0]);
   face.setWeights(face.weightsIn('cheeks'), 'cheeks');
-  console.log(player.match.unmatched, head?.yaw, new TimelinePlayer(face, timeline).advance(0.1));
+  console.log(few, all, player.match.unmatched, head?.yaw, new TimelinePlayer(face, timeline).advance(0.1));
 }
 
 export function withoutSaying(csv: string, seconds: number | undefined): [Drive, LoadOptions, Pose, Region] {
