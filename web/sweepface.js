@@ -1,7 +1,7 @@
 // Plays .sweep faces in browsers and in Node.
 import {DRIVE_SIZE, secondsOf, writeDrive} from './sweepface_drives.js';
 import {open, Shared} from './sweepface_file.js';
-import {kindOf, known, told} from './sweepface_values.js';
+import {isFloats, kindOf, known, told} from './sweepface_values.js';
 import {MemoryError} from './sweepface_wasm.js';
 
 /** How far a weight may be from 0. */
@@ -141,7 +141,7 @@ export class Sweepface {
     const {runtime, vertexCount} = this.#open(), memory = this.#memory;
     const count = 3 * vertexCount;
     for (const out of [positions ?? null, normals ?? null].filter((out) => out !== null)) {
-      if (!['Float32Array', 'Float64Array'].includes(kindOf(out)))
+      if (!isFloats(out))
         throw new TypeError(`Positions and normals are written to a Float32Array, a Float64Array or null, not to ${kindOf(out)}.`);
       if (out.length < count)
         throw new RangeError(`There must be room for ${vertexCount} vertices: ${count} numbers, not ${out.length}.`);

@@ -1,17 +1,16 @@
 // Clips: weights over time, and what plays them on a face.
 import {matchNames, turnsEyes} from './sweepface_names.js';
 import {isNumber} from './sweepface_text.js';
-import {kindOf, known, told} from './sweepface_values.js';
+import {isFloats, kindOf, known, told} from './sweepface_values.js';
 
 /** Seconds in which speeds would not stay finite. */
 const NO_TIME = 1e-9;
-const FLOATS = ['Float32Array', 'Float64Array'];
 const ONE_EURO = ['cutoff', 'speedGain', 'speedCutoff'];
 
 /** Weights over time: `names` [N], `times` [F] in seconds, `weights` [F x N]. */
 export class Clip {
   constructor(names, times, weights) {
-    if (!Array.isArray(names) || ![times, weights].every((numbers) => FLOATS.includes(kindOf(numbers))))
+    if (!Array.isArray(names) || ![times, weights].every(isFloats))
       throw new TypeError('A clip is made of a list of names, and times and weights in a Float64Array each.');
     if (weights.length !== names.length * times.length)
       throw new RangeError(`A clip of ${names.length} names and ${times.length} times has as many weights as their ` +
@@ -28,7 +27,7 @@ export class Clip {
     if (typeof seconds !== 'number' || Number.isNaN(seconds))
       throw new RangeError(`A time is a number of seconds, not ${told(seconds)}.`);
     const {times, weights} = this, n = this.names.length, time = times[0] + Math.max(seconds, 0);
-    if (!FLOATS.includes(kindOf(out)))
+    if (!isFloats(out))
       throw new TypeError(`Weights are written to a Float32Array or a Float64Array, not to ${kindOf(out)}.`);
     if (out.length < n) throw new RangeError(`There must be room for ${n} weights, not ${out.length}.`);
     if (times.length === 0) return out.fill(0);

@@ -29,11 +29,11 @@ export class SweepfaceLoader extends Loader {
   #files = new FileLoader();
 
   /** Options of Sweepface.load. */
-  constructor(manager, options = {}) {
+  constructor(manager, options) {
     if (manager && typeof manager.itemStart !== 'function')
       throw new TypeError('A loader takes a LoadingManager, or undefined, and its options after it.');
     super(manager);
-    this.options = options;
+    this.options = options ?? {};
   }
 
   load(url, onLoad, onProgress, onError) {

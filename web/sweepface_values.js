@@ -3,6 +3,9 @@
 /** What kind of object something is, of any realm: frames and Node's vm have an ArrayBuffer of their own. */
 export const kindOf = (it) => Object.prototype.toString.call(it).slice(8, -1);
 
+/** Whether it holds numbers as the module has them. */
+export const isFloats = (it) => ['Float32Array', 'Float64Array'].includes(kindOf(it));
+
 /** How a message calls what is no number. */
 export const told = (value) => (typeof value === 'string' ? `the text '${value}'` : String(value));
 

@@ -230,6 +230,7 @@ test('materials keep what they do to a shader, and their clones too', options, a
 test('a loader tells that its options come second', options, async () => {
   const {SweepfaceLoader} = await import('../sweepface_three.js');
   assert.throws(() => new SweepfaceLoader({lod: 2}), /its options after it/);
+  assert.deepEqual(new SweepfaceLoader(undefined, null).options, {});
 });
 
 /** What happens when a loader loads, in order. */
