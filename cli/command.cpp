@@ -32,6 +32,16 @@ bool isPipeOfReport(const fs::path& path) {
          S_ISFIFO(there.st_mode) && there.st_dev == report.st_dev && there.st_ino == report.st_ino;
 }
 
+/// Whether this is another name of a stream, as /dev/stdout, that goes to a file: to put a new file
+/// in its place would not reach it.
+bool leadsToFile(const fs::path& path) {
+  const fs::path way = fs::absolute(path).lexically_normal();
+  const auto first = std::next(way.begin());
+  std::error_code ignored;
+  return first != way.end() && (*first == "dev" || *first == "proc") &&
+         fs::is_regular_file(path, ignored);
+}
+
 }  // namespace
 
 std::string HelpFormatter::make_option_desc(const CLI::Option* option) const {
@@ -69,6 +79,7 @@ void addWeights(CLI::App& app, std::string& weights) {
   app.add_option("--weights", weights,
                  "The expression: targets and how much of each, e.g. jawOpen=1,eyeBlink_L=0.5; "
                  "targets that are not named are at 0")
+      ->check(notEmpty())
       ->type_name("NAME=W,...");
 }
 
@@ -137,6 +148,13 @@ CLI::Validator finiteNumber() {
   const auto check = [](const std::string& text) -> std::string {
     double number = 0;
     return parse(text, number) ? "" : fmt::format("This must be a number, not '{}'.", text);
+  };
+  return CLI::Validator(check, "", "");
+}
+
+CLI::Validator notEmpty() {
+  const auto check = [](const std::string& text) -> std::string {
+    return text.empty() ? "This is empty; give it something, or leave it out." : "";
   };
   return CLI::Validator(check, "", "");
 }
@@ -210,6 +228,7 @@ Result<void> checkOutput(const fs::path& output, const std::vector<std::string>&
   if (!output.has_filename() || fs::is_directory(output, ignored))
     return cannot("it is a folder; name a file");
   if (reports && isPipeOfReport(output)) return cannot("the report goes there; name a file");
+  if (leadsToFile(output)) return cannot("it leads into a file; name that file");
   // A device is written to as it is; any other file is replaced in its folder.
   const bool device = fs::exists(output, ignored) && !fs::is_regular_file(output, ignored);
   if (!device && std::ranges::none_of(kinds, [&](auto kind) { return isOfKind(output, kind); }))

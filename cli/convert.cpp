@@ -54,6 +54,7 @@ void addOptions(CLI::App& app, ConvertArguments& a) {
   app.add_option("--strip", a.strip,
                  "Leave parts out of the file, with commas between: order (of the source's "
                  "vertices and faces), uv, groups, scene")
+      ->check(notEmpty())
       ->type_name("PARTS");
   app.add_option("--normal-tolerance", a.normalTolerance,
                  "Packed: largest allowed angle between the surface's normals and the mesh's, in "
@@ -199,6 +200,14 @@ void printText(const Summary& s) {
                s.sceneBytes, s.arguments.neutral);
 }
 
+/// What info tells of it too.
+std::size_t sceneBytesOf(std::string_view bytes) {
+  const Result<std::vector<FilePart>> parts = fileParts(bytes, "");
+  if (!parts) return 0;
+  const auto scene = std::ranges::find(*parts, "scene", &FilePart::name);
+  return scene == parts->end() ? 0 : scene->bytes;
+}
+
 // ---- The command ----
 
 ConvertOptions optionsOf(const ConvertArguments& a, ProgressBar& bar) {
@@ -283,7 +292,7 @@ Result<int> convertAndWrite(const ConvertArguments& a) {
                         *verified,
                         source->rig.neutral.positions.size(),
                         bytes.size(),
-                        finished.scene.size(),
+                        sceneBytesOf(bytes),
                         seconds.count()};
   if (a.json)
     printJson(toJson(summary));

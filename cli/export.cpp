@@ -33,6 +33,9 @@ void addOptions(CLI::App& app, ExportArguments& a) {
   order->excludes(lod);
   const auto addBudget = [&](const std::string& name, double& value, const std::string& what) {
     return app.add_option(name, value, what)
+        ->type_name(name == "--vertices" ? "N"
+                    : name == "--error"  ? "E"
+                                         : "L")
         ->check(positiveNumber())
         ->excludes(lod)
         ->excludes(order);
@@ -85,6 +88,7 @@ Result<void> writeGlb(const ExportArguments& a, const Rig& rig, const Weights& w
   options.morphNormals = a.glb.morphNormals;
   options.quantize = a.glb.quantize;
   if (!a.weights.empty()) options.weights = weights;
+  if (auto ok = checkFineness(rig.surface, a.lod); !ok) return ok;
   const Result<std::string> bytes = formatGlb(rig, options);
   if (!bytes) return std::unexpected(bytes.error());
   if (auto written = writeFile(a.output, *bytes); !written) return written;

@@ -27,6 +27,7 @@ void addFollowing(CLI::App& app, FollowingArguments& a) {
          "--limits", a.limits,
          "What weights may be, e.g. 0:1 for all, or 0:1,jawOpen=0:0.8; what is beyond stops "
          "there")
+      ->check(notEmpty())
       ->type_name("LOW:HIGH,...");
 }
 

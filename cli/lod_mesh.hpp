@@ -7,10 +7,10 @@
 
 namespace sweepface::cli {
 
-/// Whether an Index can count the corners of all quads where every edge is cut into `lod`.
+/// Whether there are not too many quads where every edge is cut into `lod`.
 Result<void> checkFineness(const Surface& surface, Index lod);
-/// Whether the source's polygons can be cut into `lod`: the face knows them, and an Index the
-/// parts.
+/// Whether the source's polygons can be cut into `lod`: the face knows them, and the parts
+/// are not too many.
 Result<void> checkLod(const Rig& rig, Index lod);
 
 /// The meshes of a rig, all over the same polygons: the source's own at lod 0, else a tessellation.

@@ -81,7 +81,9 @@ int main(int argc, char** argv) {
   try {
     return sweepface::cli::run(argc, argv);
   } catch (const std::bad_alloc&) {
-    sweepface::cli::printError("There is not enough memory for this.");
+    sweepface::cli::printError(
+        "There is not enough memory for this; ask for a coarser mesh or a smaller "
+        "picture, or close other programs.");
   } catch (const std::exception& error) {
     sweepface::cli::printError(std::ferror(stdout) ? sweepface::cli::kReportIsLost : error.what());
   }

@@ -200,17 +200,19 @@ Result<std::vector<Subject>> subjectsOf(const PlotArguments& a, const Rig& rig,
 
 // ---- Curves ----
 
+constexpr std::array kColours{"#8a8e96", "#1a6aa8", "#d63f29", "#2a9d55",
+                              "#b8860b", "#7b4fa3", "#1b9aaa", "#e07a9a"};
+constexpr std::size_t kCurveLooks = kColours.size() * kDashes;
+
 /// Position, velocity, acceleration and force.
 using Curves = std::array<std::vector<Series>, 4>;
 
 void addCurves(Curves& curves, const Performance& performance, std::span<const double> times,
                const Subject& subject, const std::string& name, double mass) {
-  static constexpr std::array colours{"#8a8e96", "#1a6aa8", "#d63f29", "#2a9d55",
-                                      "#b8860b", "#7b4fa3", "#1b9aaa", "#e07a9a"};
   const std::size_t place = curves[0].size();
-  const auto round = static_cast<int>(place / colours.size());  // where colours come again
+  const auto round = static_cast<int>(place / kColours.size());  // where colours come again
   for (auto& panel : curves)
-    panel.push_back({name, colours[place % colours.size()], {}, false, round % kDashes});
+    panel.push_back({name, kColours[place % kColours.size()], {}, false, round % kDashes});
   const std::size_t count = subject.differences.size();
   std::vector<Kinematics> now(count);
   std::vector<double> start(count), values(count);
@@ -265,7 +267,13 @@ Result<Plotted> curvesOf(const PlotArguments& a, Rig& rig) {
           return fail(
               "The motion or its force is beyond what numbers hold; give it other seconds, "
               "weights or another --mass.");
-  return Plotted{std::move(curves), std::move(performances.front().notes)};
+  std::vector<std::string>& notes = performances.front().notes;
+  if (curves[0].size() > kCurveLooks)
+    notes.push_back(
+        fmt::format("{} curves are more than the {} colours and dashes there are: some "
+                    "look the same. Name fewer with --weight or --vertex.",
+                    curves[0].size(), kCurveLooks));
+  return Plotted{std::move(curves), std::move(notes)};
 }
 
 Result<int> runPlot(const PlotArguments& a) {

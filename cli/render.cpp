@@ -39,7 +39,8 @@ void addOptions(CLI::App& app, RenderArguments& a) {
                  "also error and angle, or with --arcs, --eyes or --combine, what they change")
       ->capture_default_str()
       ->type_name("STYLE");
-  app.add_option("--size", a.size, "Of the whole picture, in pixels")->type_name("WxH");
+  app.add_option("--size", a.size, "Of the whole picture, in pixels, 16 to 16384 each way")
+      ->type_name("WxH");
   app.add_option("--close", a.close,
                  "Show nothing but what the targets move whose names contain NAME")
       ->type_name("NAME");
@@ -51,9 +52,11 @@ void addOptions(CLI::App& app, RenderArguments& a) {
          "folders of them")
       ->type_name("NEUTRAL [TARGET...]");
   CLI::Option* to = app.add_option("--to", a.to, "Show the way from one expression to this one")
+                        ->check(notEmpty())
                         ->type_name("NAME=W,...");
   app.add_option("--from", a.from, "Where it starts; the neutral if not given")
       ->needs(to)
+      ->check(notEmpty())
       ->type_name("NAME=W,...");
   oneEachTime(
       app.add_option("--law", a.laws,
@@ -62,7 +65,7 @@ void addOptions(CLI::App& app, RenderArguments& a) {
       ->delimiter(',')
       ->needs(to)
       ->type_name("LAW,...");
-  app.add_option("--frames", a.frames, "How many pictures there are on the way")
+  app.add_option("--frames", a.frames, "How many pictures there are on the way, 2 to 32")
       ->transform(wholeNumber(2, 32))
       ->needs(to)
       ->capture_default_str()

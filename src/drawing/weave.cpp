@@ -165,6 +165,12 @@ class Weaver {
                                   quoted(p), nameOf(h), nodeName(w_.end(h)), nameOf(next),
                                   nodeName(w_.start(next))));
     }
+    if (std::all_of(w_.loops.begin() + sides[0], w_.loops.begin() + sides[4],
+                    [&](HalfArc h) { return w_.arcs[arcOf(h)].collapsed; }))
+      return refuse(d_.patches[p].place,
+                    fmt::format("all curves of {} are collapsed, so that it is a point; leave it "
+                                "out, or give it curves with a length",
+                                quoted(p)));
     return {};
   }
 

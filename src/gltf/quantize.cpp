@@ -155,12 +155,18 @@ class Undoer {
 
   /// Hangs the mesh on a node of its own, below the one that had it.
   Result<void> moveBelow(std::size_t number, const Encoding& encoding) {
+    std::vector<std::string> extensions;
     for (const Json& name : scene_.document.list("extensionsUsed"))
-      if (!name.is_string() || !ignoresNodes(name.get_ref<const std::string&>()))
+      extensions.push_back(name.is_string() ? name.get<std::string>() : "?");
+    // Files are about that do not tell what they use.
+    if (const Json* const own = find(json_["nodes"][number], "extensions"); own && own->is_object())
+      for (const auto& [name, value] : own->items()) extensions.push_back(name);
+    for (const std::string& name : extensions)
+      if (!ignoresNodes(name))
         return cannot(
             fmt::format("its node {} is more than a place, and the extension {} may need "
                         "it as it is",
-                        number, name.is_string() ? name.get<std::string>() : "?"));
+                        number, name));
     Json child = Json::object();
     Json& node = json_["nodes"][number];
     if (const Json* const name = find(node, "name")) child["name"] = *name;

@@ -99,8 +99,10 @@ class LiveLinkReader {
 
   // HH:MM:SS:FF.fff, the last in frames; or plain seconds. At midnight the clock begins anew.
   Result<double> timecode(std::string_view text) {
-    if (const auto seconds = toNumber<double>(text); seconds && isPlausibleTime(*seconds))
+    if (const auto seconds = toNumber<double>(text); seconds && isPlausibleTime(*seconds)) {
+      if (*seconds < 0) return failLine(fmt::format("the time {} is below 0", inQuotes(text)));
       return *seconds;
+    }
     std::array<double, 4> parts{};
     std::string_view rest = text;
     for (std::size_t k = 0; k < 4; ++k) {

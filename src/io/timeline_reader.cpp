@@ -16,6 +16,16 @@ namespace {
 
 using Json = nlohmann::json;
 
+/// Whether a drive goes by a number; all have the time at which they set out, and its delay.
+bool takes(Drive::Kind kind, std::string_view number) {
+  using Kind = Drive::Kind;
+  if (number == "seconds") return kind != Kind::cut && kind != Kind::spring;
+  if (number == "turn") return kind == Kind::accelerateBrake;
+  if (number == "frequency" || number == "damping") return kind == Kind::spring;
+  if (number == "restitution") return kind == Kind::bounce;
+  return true;
+}
+
 class TimelineReader {
  public:
   TimelineReader(std::string_view name, const Json& json) : name_(name), json_(json) {}
@@ -45,6 +55,10 @@ class TimelineReader {
     for (auto& [time, event] : inOrder) timeline.events.push_back(std::move(event));
     if (timeline.events.back().time > timeline.seconds)
       return failAt("'events'", "hold one that is later than 'seconds'");
+    for (const TimelineEvent& event : timeline.events)
+      if (event.time + event.drive.delay > timeline.seconds * loops)
+        return failAt("'events'",
+                      "hold one whose 'delay' leads beyond the end, so that it never plays");
     return timeline;
   }
 
@@ -80,6 +94,12 @@ class TimelineReader {
     for (const auto& [key, value] : numbers)
       if (auto ok = at.number(key, *value, key == std::string_view("at")); !ok)
         return std::unexpected(ok.error());
+    for (const auto& [key, value] : numbers)
+      if (json.contains(key) && !takes(event.drive.kind, key))
+        return failAt(place,
+                      fmt::format("has a '{}', which the drive '{}' has no use for; leave it "
+                                  "out, or name another drive",
+                                  key, drive));
     if (event.time < 0) return failAt(place, "is before 0");
     // A drive that could not even set out from rest is refused here, where its place is known.
     if (const auto path = trajectoryOf(event.drive, {}, 1); !path || event.drive.delay < 0)

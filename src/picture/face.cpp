@@ -10,6 +10,7 @@
 #include "fit/vertex_normals.hpp"
 #include "picture/lowered.hpp"
 #include "picture/materials.hpp"
+#include "picture/number.hpp"
 #include "picture/styles.hpp"
 #include "rig/source_quads.hpp"
 
@@ -189,12 +190,13 @@ HeatMap FaceScenes::heatMap(std::span<const double> weights, std::span<const Vec
   HeatMap map{scene(weights, style), 0, worst == values.end() ? 0 : *worst, {}};
   map.top = top > 0 ? top : angles ? scaleEnd(values) : std::max(map.worst, rig_.tolerance);
   map.title =
-      angles ? fmt::format("angle between the normals in degrees, {:.3g} at worst", map.worst)
-             : fmt::format("distance from the original in its units, {:.3g} at worst", map.worst);
+      angles
+          ? fmt::format("angle between the normals in degrees, {} at worst", number(map.worst))
+          : fmt::format("distance from the original in its units, {} at worst", number(map.worst));
   map.scene.vertexColours = heatColours(values, map.top);
   if (worst != values.end())
     map.scene.labels.push_back(
-        {points(weights)[worst - values.begin()], fmt::format("{:.3g}", map.worst), kLabel});
+        {points(weights)[worst - values.begin()], number(map.worst), kLabel});
   return map;
 }
 

@@ -5,6 +5,7 @@
 #include "sweepface/picture.hpp"
 
 #include "picture/colour.hpp"
+#include "picture/number.hpp"
 
 namespace sweepface {
 namespace {
@@ -96,8 +97,7 @@ void Page::addScale(double top, std::string_view title) {
   for (int k = 0; k <= ticks; ++k) {
     const double x = left + width * k / ticks;
     fillRectangle(image_, std::round(x - 0.5), bar + height, 1, 0.3 * text, kInk);
-    drawText(image_, fmt::format("{:.3g}", top * k / ticks), x, bar + 2.3 * text, 0.8 * text, kInk,
-             Align::centre);
+    drawText(image_, number(top * k / ticks), x, bar + 2.3 * text, 0.8 * text, kInk, Align::centre);
   }
 }
 

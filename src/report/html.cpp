@@ -4,6 +4,7 @@
 
 #include "codec/utf8.hpp"
 #include "picture/colour.hpp"
+#include "picture/number.hpp"
 
 namespace sweepface::html {
 namespace {
@@ -139,7 +140,7 @@ std::string scale(double top, std::string_view title) {
   std::string stops;
   for (int k = 0; k <= 28; ++k) stops += ", " + hex(heatColour(k / 28.0));
   std::string ticks;
-  for (int k = 0; k <= 4; ++k) ticks += fmt::format("<b>{:.3g}</b>", top * k / 4);
+  for (int k = 0; k <= 4; ++k) ticks += "<b>" + number(top * k / 4) + "</b>";
   return fmt::format(
       "<div class=\"scale\">{}<i style=\"background: linear-gradient(to right{})\"></i>"
       "<span>{}</span></div>\n",

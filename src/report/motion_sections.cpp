@@ -58,7 +58,7 @@ std::string mixtureOf(const Rig& rig, const Weights& weights) {
     if (weights[k] == 0) continue;
     if (!text.empty()) text += ", ";
     text += rig.targets[k].name;
-    if (weights[k] != 1) text += fmt::format("={:.3g}", weights[k]);
+    if (weights[k] != 1) text += "=" + number(weights[k]);
   }
   return text;
 }

@@ -70,18 +70,27 @@ std::string_view dashes(const Series& s) {
   return kPatterns[static_cast<std::size_t>(s.dashes)];
 }
 
-/// Of a text in UTF-8, where bytes 10xxxxxx go on with a letter.
+/// How wide a text in UTF-8 is, in Latin letters; most letters of three bytes and more are as wide
+/// as two.
 double letters(std::string_view text) {
-  return static_cast<double>(
-      std::ranges::count_if(text, [](char c) { return (c & 0xc0) != 0x80; }));
+  double sum = 0;
+  for (const char c : text)
+    if ((c & 0xc0) != 0x80) sum += (c & 0xe0) == 0xe0 ? 2 : 1;
+  return sum;
 }
 
-/// At most so many letters.
-std::string shortened(const std::string& name, std::size_t most) {
-  if (name.size() <= most) return name;
-  std::size_t end = most - 1;
-  while (end > 0 && (name[end] & 0xc0) == 0x80) --end;  // not in the middle of a letter
-  return name.substr(0, end) + "…";
+/// As wide as so many letters at most: the middle goes, since names often begin or end alike.
+std::string shortened(const std::string& name, double most) {
+  if (letters(name) <= most) return name;
+  const auto isInside = [&](std::size_t at) {
+    return at > 0 && at < name.size() && (name[at] & 0xc0) == 0x80;
+  };
+  std::size_t head = 0, tail = name.size();
+  const std::string_view all = name;
+  const auto room = [&](std::string_view part) { return letters(part) < (most - 1) / 2; };
+  while (room(all.substr(0, head)) || isInside(head)) ++head;
+  while (room(all.substr(tail)) || isInside(tail)) --tail;
+  return name.substr(0, head) + "…" + name.substr(tail);
 }
 
 /// As short as they can be and still differ, without an exponent for the sizes of ordinary things.
@@ -100,19 +109,22 @@ std::vector<std::string> labelsOf(const Scale& scale) {
   return labels;
 }
 
-double widthOf(const Series& key) { return 40 + 8 * letters(key.name); }  // of wide letters
+constexpr double kKeyLetters = 44;
+
+double widthOf(const std::string& key) { return 40 + 8 * letters(key); }  // of wide letters
 
 /// The keys of a plot in lines from `x` to `right`, the first at `y`; returns where the last is.
 double addKeys(std::string& svg, const std::vector<Series>& series, double x, double y,
                double right) {
   const double left = x;
   for (const Series& s : series) {
-    if (x > left && x + widthOf(s) > right) x = left, y += 18;
+    const std::string key = shortened(s.name, kKeyLetters);
+    if (x > left && x + widthOf(key) > right) x = left, y += 18;
     svg += s.dots ? dot(x + 10, y - 4, s.colour)
                   : line(x, y - 4, x + 20, y - 4, s.colour,
                          fmt::format(" stroke-width=\"2\"{}", dashes(s)));
-    svg += text(x + 26, y, "start", s.name, kInk);
-    x += widthOf(s);
+    svg += text(x + 26, y, "start", key, kInk);
+    x += widthOf(key);
   }
   return y;
 }
@@ -257,11 +269,10 @@ std::string plotSheet(std::vector<std::string> plots) {
 std::string rowPlot(const std::string& title, const std::string& axis,
                     const std::vector<std::string>& names, const std::vector<Series>& series,
                     double limit) {
-  constexpr double width = 640, row = 19, top = 62, right = 620;
-  std::size_t longest = 4;
-  for (const std::string& name : names) longest = std::max(longest, name.size());
-  constexpr std::size_t most = 36;
-  const double left = 16 + 7.6 * static_cast<double>(std::min(longest, most));
+  constexpr double width = 640, row = 19, top = 62, right = 600, most = 36;
+  double longest = 4;
+  for (const std::string& name : names) longest = std::max(longest, letters(name));
+  const double left = 16 + 7.6 * std::min(longest, most);
   const double bottom = top + row * static_cast<double>(names.size());
   double high = limit;
   for (const Series& s : series)
@@ -270,10 +281,14 @@ std::string rowPlot(const std::string& title, const std::string& axis,
   std::string svg = text(0, 18, "start", title, kInk, " font-weight=\"600\"");
   addKeys(svg, series, 0, 42, right);
   const std::vector<std::string> labels = labelsOf(across);
+  double widest = 0;
+  for (const std::string& label : labels) widest = std::max(widest, 8 * letters(label) + 8);
+  const double space = (right - left) / static_cast<double>(labels.size() - 1);
+  const auto every = static_cast<std::size_t>(std::ceil(widest / space));  // so that none overlap
   for (std::size_t k = 0; k < labels.size(); ++k) {
     const double place = across.at(across.ticks[k]);
     svg += line(place, top, place, bottom, kGrid);
-    svg += text(place, bottom + 18, "middle", labels[k]);
+    if (k % every == 0) svg += text(place, bottom + 18, "middle", labels[k]);
   }
   if (limit > 0)
     svg += line(across.at(limit), top - 6, across.at(limit), bottom, kInk,

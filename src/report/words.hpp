@@ -6,6 +6,7 @@
 
 #include "sweepface/picture.hpp"
 
+#include "picture/number.hpp"
 #include "report/colours.hpp"
 #include "report/html.hpp"
 
@@ -21,8 +22,6 @@ inline std::string count(std::size_t n) {
   return digits;
 }
 inline std::string count(Index n) { return count(static_cast<std::size_t>(n)); }
-
-inline std::string number(double x) { return fmt::format("{:.3g}", x); }
 
 /// With a true minus where it is negative.
 inline std::string percent(double share) {

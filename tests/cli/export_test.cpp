@@ -71,13 +71,27 @@ TEST_F(Export, NamesSayWhatIsWritten) {
   EXPECT_EQ(run("export face.sweep -o SMILE.OBJ --quiet").code, 0);
 }
 
+TEST_F(Export, ReachesNoFileThroughAnotherNameOfAStream) {
+  convertRig();
+  EXPECT_TRUE(fails("export face.sweep --quiet -o /dev/fd/1", "it leads into a file; name that"));
+}
+
+TEST_F(Export, RefusesWhatAnEmptyVariableLeaves) {
+  convertRig();
+  for (const std::string command :
+       {"export face.sweep -o out.obj --weights ''", "export face.sweep -o out.obj --limits ''",
+        "animate face.sweep -o out.glb --to ''", "render face.sweep -o out.png --to ''",
+        "report face.sweep -o out.html --weights ''", "convert neutral.obj -o f.sweep --strip ''"})
+    EXPECT_TRUE(fails(command, "This is empty", 2)) << command;
+}
+
 TEST_F(Export, BlendsLinearly) {
   convertRig();
   const auto exported = [&](const std::string& weights) {
     EXPECT_EQ(run("export face.sweep -o out.obj --weights '" + weights + "'").code, 0);
     return mesh("out.obj").positions;
   };
-  const auto neutral = exported(""), open = exported("jawOpen"), smile = exported("smile=1"),
+  const auto neutral = exported("smile=0"), open = exported("jawOpen"), smile = exported("smile=1"),
              both = exported("jawOpen=0.5,smile=-2");
   for (std::size_t v = 0; v < neutral.size(); ++v) {
     const Vec3 expected = neutral[v] + 0.5 * (open[v] - neutral[v]) - 2 * (smile[v] - neutral[v]);
@@ -113,7 +127,7 @@ TEST_F(Export, KeepsLooseVertices) {
 }
 
 // Of 160,000 quads, the corners of whose 64² parts are more than 2³¹.
-TEST_F(Export, RefusesMoreQuadsThanCanBeCounted) {
+TEST_F(Export, RefusesMoreQuadsThanMemoryHolds) {
   folder.file("sheet.wire.json", R"({
     "format": "sweepface wireframe 1",
     "nodes": [{"name": "a", "at": [0, 0, 0]}, {"name": "b", "at": [1, 0, 0]},
@@ -127,9 +141,13 @@ TEST_F(Export, RefusesMoreQuadsThanCanBeCounted) {
   const Outcome built = run("build sheet.wire.json -o sheet.sweep");
   ASSERT_EQ(built.code, 0) << built.err;
   for (const std::string command :
-       {"export sheet.sweep -o out.obj", "animate sheet.sweep --to longer=1 -o out",
-        "render sheet.sweep -o out.png"})
+       {"export sheet.sweep -o out.obj", "export sheet.sweep -o out.glb",
+        "animate sheet.sweep --to longer=1 -o out", "animate sheet.sweep --to longer=1 -o out.glb",
+        "render sheet.sweep -o out.png"}) {
     EXPECT_TRUE(fails(command + " --lod 64", "655 million quads")) << command;
+    EXPECT_TRUE(fails(command + " --lod 8", "10 million quads, of which 8 million are the most"))
+        << command;
+  }
   EXPECT_FALSE(std::filesystem::exists(folder / "out"));
 }
 

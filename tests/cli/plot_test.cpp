@@ -121,6 +121,15 @@ TEST_F(Plot, TellsColoursThatComeAgainByDashes) {
   EXPECT_EQ(countOf(plotted("--to jawOpen=1 --vertex " + many), "stroke-dasharray"), 4u * 2);
 }
 
+TEST_F(Plot, SaysWhereCurvesLookTheSame) {
+  convertRig();
+  std::string many = "0";
+  for (int k = 1; k < 33; ++k) many += "," + std::to_string(k);
+  const Outcome r = run("plot face.sweep -o plot.svg --to jawOpen=1 --vertex " + many);
+  EXPECT_EQ(r.code, 0);
+  EXPECT_NE(r.err.find("33 curves are more than the 32 colours"), std::string::npos) << r.err;
+}
+
 TEST_F(Plot, SaysWhatAClipDoesNotDrive) {
   convertRig();
   std::ofstream(folder / "take.csv") << "Timecode,JawOpen,Jawbone\n0,0,0\n0.5,1,1\n1,0,0\n";

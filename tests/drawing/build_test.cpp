@@ -142,6 +142,16 @@ TEST(Points, tooManyForACurveAreMissedAndTheMissIsTold) {
   }
 }
 
+TEST(Patches, thatArePointsAreNone) {
+  Json drawing = square();
+  for (std::size_t k = 1; k < 4; ++k)
+    drawing["nodes"][k] = {{"name", drawing["nodes"][k]["name"]},
+                           {"with", drawing["nodes"][0]["name"]}};
+  for (Json& curve : drawing["curves"]) curve["collapsed"] = true;
+  EXPECT_NE(buildJson(drawing).error().message.find("so that it is a point"), std::string::npos)
+      << buildJson(drawing).error().message;
+}
+
 TEST(References, nameSomethingWhereTheyAreGiven) {
   Json ribbon = square(), node = square();
   ribbon["curves"][0]["ribbon"] = "";

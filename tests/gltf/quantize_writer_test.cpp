@@ -216,6 +216,8 @@ TEST(QuantizeWriter, RefusesWhatItWouldEnlarge) {
   crowd.json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]["TRANSLATION"] =
       crowd.addVectors({{1, 0, 0}, {2, 0, 0}});
   refuses(crowd, "EXT_mesh_gpu_instancing");
+  crowd.json.erase("extensionsUsed");
+  refuses(crowd, "EXT_mesh_gpu_instancing");
 }
 
 }  // namespace

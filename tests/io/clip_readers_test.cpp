@@ -69,6 +69,7 @@ TEST(LiveLinkCsv, SaysWhatIsWrongAndWhere) {
   expectError(csv("Timecode,a\n2,0\n2,0\n"), "is not after");
   expectError(csv("Timecode,a\nnan,0\n"), "not a timecode");
   expectError(csv("Timecode,a\n1e300,0\n"), "not a timecode");
+  expectError(csv("Timecode,a\n-1,0\n"), "line 2: the time '-1' is below 0");
   expectError(csv("Timecode,a\n1:2:3,0\n"), "not a timecode");
   expectError(csv("Timecode,a\n1:2:3:-4,0\n"), "not a timecode");
   expectError(csv("Timecode,a\n12:59:60:1,0\n"), "more than 59 minutes or seconds");

@@ -194,6 +194,13 @@ TEST(Timeline, SaysWhatIsWrongAndWhere) {
               "events[0] cannot");
   expectError(event(R"({"at": -1, "to": "p"})"), "before 0");
   expectError(event(R"({"at": 2, "to": "p"})"), "later than 'seconds'");
+  expectError(event(R"({"at": 0.5, "to": "p", "delay": 0.6})"), "so that it never plays");
+  expectError(event(R"({"at": 0, "to": "p", "seconds": 1.5})"),
+              "has a 'seconds', which the drive 'spring' has no use for");
+  expectError(event(R"({"at": 0, "to": "p", "drive": "cut", "seconds": 1})"), "'seconds'");
+  expectError(event(R"({"at": 0, "to": "p", "drive": "newton", "turn": 0.5})"), "'turn'");
+  expectError(event(R"({"at": 0, "to": "p", "drive": "newton", "damping": 1})"), "'damping'");
+  expectError(event(R"({"at": 0, "to": "p", "restitution": 0.5})"), "'restitution'");
 }
 
 TEST(Timeline, HoldsNoMoreGoalsThanAnyoneDraws) {

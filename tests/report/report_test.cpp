@@ -175,6 +175,34 @@ TEST(Plots, HaveARowForEachName) {
   EXPECT_EQ(countOf(svg, "<circle"), 4u);
 }
 
+TEST(Plots, ShortenNamesInTheMiddleByLetters) {
+  std::string russian, chinese;
+  for (int k = 0; k < 22; ++k) russian += "у";
+  for (int k = 0; k < 40; ++k) chinese += "嘴";
+  const std::string head(30, 'h'), tail(30, 't');
+  const std::string svg = rowPlot("t", "x", {russian, chinese, head + tail},
+                                  {{"max", "#123456", {{1, 0}, {2, 0}, {3, 0}}, true}}, 2.5);
+  EXPECT_NE(svg.find(">" + russian + "<"), std::string::npos);
+  EXPECT_NE(svg.find(">" + head.substr(0, 18) + "…" + tail.substr(0, 18) + "<"), std::string::npos)
+      << svg;
+  EXPECT_EQ(countOf(svg, "嘴"), 18u);
+  EXPECT_TRUE(isWellFormed(svg));
+  const std::string lines =
+      linePlot("t", {"x"}, {"y"}, {{head + head + tail, "#123456", {{0, 0}, {1, 1}}}});
+  EXPECT_NE(lines.find(">" + head.substr(0, 22) + "…" + tail.substr(0, 22) + "<"),
+            std::string::npos);
+}
+
+TEST(Plots, NumberAxesWithinThePictureAndApart) {
+  const std::string long_name(60, 'n');
+  const std::string svg =
+      rowPlot("t", "x", {long_name}, {{"max", "#123456", {{0.00033, 0}}, true}}, 0.0003);
+  EXPECT_NE(svg.find(">0.0003<"), std::string::npos) << svg;
+  EXPECT_EQ(svg.find(">0.00035<"), std::string::npos) << "there is no room for all";
+  const std::string lines = rowPlot("t", "x", {"n"}, {{"max", "#123456", {{0.00033, 0}}, true}}, 0);
+  EXPECT_NE(lines.find("x=\"600.0\""), std::string::npos) << lines;
+}
+
 // ---- What shape parameters do ----
 
 TEST(ShapeStudies, PullTheSweepTowardsItsChord) {
