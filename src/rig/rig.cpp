@@ -32,8 +32,11 @@ namespace {
 
 std::string listNames(const Rig& rig, std::size_t count) {
   if (count == 0) return "this face has no targets";
+  constexpr std::size_t most = 60;
   std::string list = "its targets are ";
-  for (std::size_t k = 0; k < count; ++k) list += (k ? ", " : "") + rig.targets[k].name;
+  for (std::size_t k = 0; k < std::min(count, most); ++k)
+    list += (k ? ", " : "") + rig.targets[k].name;
+  if (count > most) list += ", ...";
   return list;
 }
 

@@ -1,5 +1,7 @@
 #include "sweepface/rig.hpp"
 
+#include <algorithm>
+
 #include "codec/rigs.hpp"
 
 namespace sweepface {
@@ -43,6 +45,11 @@ TEST(WeightText, refusesWhatItDoesNotKnowAndSaysWhatThereIs) {
   Rig none = named();
   none.targets.clear();
   EXPECT_EQ(refusal(none, "x"), "there is no target named 'x'; this face has no targets");
+  Rig many;
+  many.targets.resize(61, {"t", {}, {}});
+  const std::string list = refusal(many, "x");
+  EXPECT_EQ(std::ranges::count(list, ','), 60);
+  EXPECT_TRUE(list.ends_with("t, t, ...")) << list;
 }
 
 TEST(WeightText, refusesWhatIsNoFiniteNumber) {
