@@ -12,6 +12,8 @@
 
 #include "sweepface/result.hpp"
 
+#include "io/text.hpp"
+
 namespace sweepface::io {
 
 /// Hands the place of every character of a JSON text that is in no string to `see`, and of the
@@ -65,6 +67,7 @@ class TwiceNamed {
 
 /// The JSON in a small text file; messages call it `name`.
 inline Result<nlohmann::json> parseJson(std::string_view text, std::string_view name) {
+  if (isUtf16(text)) return fail(fmt::format("{} is a text in UTF-16; save it in UTF-8.", name));
   if (isTooDeep(text, 64)) return fail(fmt::format("{} is nested too deeply.", name));
   TwiceNamed twice;
   try {

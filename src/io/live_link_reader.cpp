@@ -30,6 +30,7 @@ class LiveLinkReader {
       : lines_(text), name_(name), framesPerSecond_(framesPerSecond) {}
 
   Result<Clip> read() {
+    if (io::isUtf16(lines_.rest())) return failFile("is a text in UTF-16; save it in UTF-8");
     if (auto ok = readHeadings(); !ok) return std::unexpected(ok.error());
     while (lines_.next())
       if (!trimmed(lines_.line()).empty())

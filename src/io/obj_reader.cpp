@@ -31,6 +31,7 @@ class ObjReader {
   bool read() {
     if (text_.size() > maxFileBytes) return failFile("is larger than 2 GiB; export only the face");
     if (trimmed(text_).empty()) return failFile("is empty; export the mesh again");
+    if (io::isUtf16(text_)) return failFile("is a text in UTF-16; save it in UTF-8");
     while (nextStatement())
       if (!readStatement()) return false;
     return checkWhole();

@@ -41,6 +41,11 @@ inline std::string_view withoutMark(std::string_view text) {
   return text;
 }
 
+/// As some programs of Windows write texts, beginning with its own byte order mark.
+inline bool isUtf16(std::string_view text) {
+  return text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff");
+}
+
 /// The lines of a text, one after the other, counted from 1.
 class LineCursor {
  public:

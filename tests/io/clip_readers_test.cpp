@@ -53,6 +53,7 @@ TEST(LiveLinkCsv, GoesOnPastMidnight) {
 
 TEST(LiveLinkCsv, SaysWhatIsWrongAndWhere) {
   expectError(csv(""), "is empty");
+  expectError(csv(std::string_view("\xff\xfeT\0i\0", 6)), "in UTF-16; save it in UTF-8");
   expectError(csv("JawOpen\n1\n"), "line 1: there is no column 'Timecode'");
   expectError(csv("Timecode\n1\n"), "no column of a shape");
   expectError(csv("Timecode,a\n"), "no frames");

@@ -129,6 +129,7 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(
         BadObj{"EmptyFile", "", {"is empty"}}, BadObj{"BlankFile", " \n\n", {"is empty"}},
         BadObj{"NoVertices", "f 1 2 3\n", {"has no vertices"}},
+        BadObj{"Utf16", std::string("\xff\xfev\0 \0", 6), {"in UTF-16; save it in UTF-8"}},
         BadObj{"NotAnObj", std::string("\x89PNG\r\n\0\1", 8), {"has no vertices"}},
         BadObj{"NoFaces", square, {"has no faces"}},
         BadObj{"VertexCutShort", "v 0 0 0\nv 1 2", {"line 2", "2 of the 3", "may be cut short"}},

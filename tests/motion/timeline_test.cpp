@@ -170,6 +170,7 @@ TEST(Timeline, SaysWhatIsWrongAndWhere) {
   expectError("{\n\"seconds\": 1,\n\"events\": [}", "line.json, line 3: this is not JSON.");
   expectError(R"({"seconds": 1, "seconds": 2})", "line.json has the key 'seconds' twice");
   expectError(R"({"seconds": 1e999})", "line.json has a number that is too large to be held.");
+  expectError("\xfe\xff", "line.json is a text in UTF-16; save it in UTF-8.");
   expectError("[]", "is not an object");
   expectError(R"({"events": []})", "has no 'seconds'");
   expectError(R"({"seconds": 0, "events": [1]})", "'seconds' must be greater than 0");
