@@ -73,6 +73,7 @@ function columnsOf(headings, fail) {
 /** HH:MM:SS:FF.fff, the last in frames; or plain seconds. */
 function timeOf(timecode, framesPerSecond, fail) {
   const seconds = numberIn(timecode);
+  if (seconds < 0 && seconds >= -MOST_TIME) throw fail(`the time '${timecode}' is below 0`);
   if (Math.abs(seconds) <= MOST_TIME) return {seconds, isClock: false};
   const parts = timecode.split(':').map(numberIn);
   if (parts.length !== 4 || !parts.every((part) => part >= 0 && part <= 1e6))
@@ -146,7 +147,7 @@ function scoresOf(frame, f, fail) {
  */
 export function readClip(source, options) {
   const {name: given, framesPerSecond = 60} = known(options, ['name', 'framesPerSecond'], 'readClip');
-  const text = textOf(source, 'clip'), name = given || 'The clip';
+  const name = given || 'The clip', text = textOf(source, 'clip', name);
   if (!(framesPerSecond > 0 && Number.isFinite(framesPerSecond)))
     throw new RangeError('The frames per second of a recording must be greater than 0.');
   if (!/^[ \t-\r]*[{[]/.test(text)) return readLiveLink(text, name, framesPerSecond);

@@ -2,9 +2,20 @@
 import {kindOf, told} from './sweepface_values.js';
 
 /** In the order of the C interface. */
-const KINDS = ['cut', 'newton', 'linear-force', 'accelerate-brake', 'spring', 'bounce'];
+export const KINDS = ['cut', 'newton', 'linear-force', 'accelerate-brake', 'spring', 'bounce'];
 /** In the order of the C struct. */
-const NUMBERS = ['delay', 'seconds', 'turn', 'frequency', 'damping', 'restitution'];
+export const NUMBERS = ['delay', 'seconds', 'turn', 'frequency', 'damping', 'restitution'];
+
+/** Which drives go by a number; all have a delay. */
+const GO_BY = {
+  seconds: ['newton', 'linear-force', 'accelerate-brake', 'bounce'],
+  turn: ['accelerate-brake'],
+  frequency: ['spring'],
+  damping: ['spring'],
+  restitution: ['bounce'],
+  delay: KINDS
+};
+export const goesBy = (kind, number) => GO_BY[number].includes(kind);
 
 /** Bytes of the struct. */
 export const DRIVE_SIZE = 56;

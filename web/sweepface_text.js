@@ -3,10 +3,13 @@ import {bytesOf} from './sweepface_values.js';
 
 const decoder = new TextDecoder();
 
-export function textOf(source, what) {
+/** The text of a clip or timeline; messages call it `name`. */
+export function textOf(source, what, name) {
   if (typeof source === 'string') return source.replace(/^\uFEFF/, '');
   const bytes = bytesOf(source);
   if (!bytes) throw new TypeError(`A ${what} is read from text or bytes.`);
+  if (['255,254', '254,255'].includes(bytes.subarray(0, 2).join()))
+    throw new Error(`${name} is a text in UTF-16; save it in UTF-8.`);
   return decoder.decode(bytes.slice());  // a copy, as browsers do not decode memory that is shared
 }
 

@@ -1,18 +1,16 @@
 // Timelines: what an animator wrote down, and what plays it on a face.
-import {faultOf} from './sweepface_drives.js';
+import {faultOf, goesBy, KINDS, NUMBERS} from './sweepface_drives.js';
 import {matchNames, turnsEyes} from './sweepface_names.js';
 import {isNumber, isObject, isWeight, parseJson, textOf} from './sweepface_text.js';
 import {known, told} from './sweepface_values.js';
 
-const DRIVES = ['cut', 'newton', 'linear-force', 'accelerate-brake', 'spring', 'bounce'];
-const DRIVE = ['seconds', 'turn', 'frequency', 'damping', 'restitution', 'delay'];
-const EVENT = ['at', 'to', 'only', 'drive', 'region', ...DRIVE];
+const EVENT = ['at', 'to', 'only', 'drive', 'region', ...NUMBERS];
 const TIMELINE = ['seconds', 'loops', 'poses', 'events', 'regions'];
 
 /** A timeline from its JSON text or bytes: {seconds, loops, events, regions}; `regions` are for Sweepface.load. */
 export function readTimeline(source, options) {
   const {name: given} = known(options, ['name'], 'readTimeline');
-  const name = given || 'The timeline', json = parseJson(textOf(source, 'timeline'), name);
+  const name = given || 'The timeline', json = parseJson(textOf(source, 'timeline', name), name);
   const fail = (place, what) => new Error(`${name}: ${place} ${what}.`);
   if (!isObject(json)) throw fail('the file', 'is not an object');
   for (const key of Object.keys(json))
@@ -29,6 +27,9 @@ export function readTimeline(source, options) {
   const read = events.map((event, k) => readEvent(event, poses, `events[${k}]`, fail))
                    .sort((a, b) => a.at - b.at);
   if (read.at(-1).at > seconds) throw fail('\'events\'', 'hold one that is later than \'seconds\'');
+  for (const {at, drive: {delay = 0}} of read)
+    if (at + delay > seconds * loops)
+      throw fail('\'events\'', 'hold one whose \'delay\' leads beyond the end, so that it never plays');
   return {seconds, loops, events: read, regions};
 }
 
@@ -38,20 +39,23 @@ function readEvent(event, poses, place, failAt) {
   for (const key of Object.keys(event))
     if (!EVENT.includes(key)) throw fail(`has an unknown key '${key}'`);
   if (!('at' in event)) throw fail('has no \'at\'');
-  for (const key of ['at', ...DRIVE])
+  for (const key of ['at', ...NUMBERS])
     if (key in event && !isNumber(event[key])) throw fail(`has a '${key}' that is not a number`);
   for (const key of ['drive', 'region'])
     if (key in event && typeof event[key] !== 'string') throw fail(`has a '${key}' that is not a text`);
-  if ('drive' in event && !DRIVES.includes(event.drive))
-    throw failAt(`${place}:`, `There is no way to move called "${event.drive}"; there are ${DRIVES.join(', ')}`);
+  const {drive: kind = 'spring'} = event, numbers = NUMBERS.filter((key) => key in event);
+  if (!KINDS.includes(kind))
+    throw failAt(`${place}:`, `There is no way to move called "${kind}"; there are ${KINDS.join(', ')}`);
+  const idle = numbers.find((key) => !goesBy(kind, key));
+  if (idle)
+    throw fail(`has a '${idle}', which the drive '${kind}' has no use for; leave it out, or name another drive`);
   if (event.at < 0) throw fail('is before 0');
-  const fault = faultOf({...event, kind: event.drive});
+  const fault = faultOf({...event, kind});
   if (fault) throw fail(`cannot be: ${fault}`);
   if (event.delay < 0) throw fail('has a negative \'delay\'');
   if (('to' in event) === ('only' in event)) throw fail('needs one of \'to\' and \'only\', the weights to go to');
-  const goals = readGoals(event.to ?? event.only, poses, place, failAt), drive = {kind: event.drive ?? 'spring'};
-  for (const key of DRIVE)
-    if (key in event) drive[key] = event[key];
+  const goals = readGoals(event.to ?? event.only, poses, place, failAt), drive = {kind};
+  for (const key of numbers) drive[key] = event[key];
   return {at: event.at, goals, others: 'only' in event, drive, region: event.region || undefined};
 }
 

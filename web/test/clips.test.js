@@ -305,6 +305,11 @@ test('where JSON goes wrong is said as far as the engine tells', () => {
   }
 });
 
+test('texts in UTF-16 are told as such', () => {
+  for (const [read, bytes] of [[readClip, [0xff, 0xfe, 0x54, 0]], [readTimeline, [0xfe, 0xff, 0, 0x7b]]])
+    assert.throws(() => read(Uint8Array.from(bytes), {name: 'a'}), {message: 'a is a text in UTF-16; save it in UTF-8.'});
+});
+
 // Frames that each have a name of their own.
 const scattered = JSON.stringify(Array.from({length: 8200}, (_, f) => {
   return {timestampMs: f, categories: [{categoryName: `a${f}`, score: 0}]};
@@ -319,6 +324,7 @@ for (const [file, text, words] of [
        ['a.csv', 'Timecode,JawOpen,JawOpen\n0,1,1', ', line 1: there are two columns \'JawOpen\''],
        ['a.csv', 'Timecode,,JawOpen\n0,1,1', ', line 1: column 2 has no heading'],
        ['a.csv', 'Timecode,JawOpen\n0,1\n1', ', line 3: there are 1 values under 2 headings'],
+       ['a.csv', 'Timecode,JawOpen\n-1,1', ', line 2: the time \'-1\' is below 0'],
        ['a.csv', 'Timecode,JawOpen\n\n0,1\n0,1', ', line 4: the timecode \'0\' is not after the one before'],
        ['a.csv', 'Timecode,JawOpen\n0,nan', ', line 2: \'nan\' in column 2 is not a number within ±1,000,000'],
        ['a.csv', 'Timecode,JawOpen\n0,1\u00A0', ', line 2: \'1\u00A0\' in column 2 is not a number within ±1,000,000'],
@@ -358,6 +364,12 @@ for (const [file, text, words] of [
        ['t.json', '{"seconds": 1, "speed": 1, "events": []}', 'the file has an unknown key \'speed\''],
        ['t.json', '{"seconds": 1, "events": [{"to": {}}]}', 'events[0] has no \'at\''],
        ['t.json', '{"seconds": 1, "events": [{"at": 2, "to": {}}]}', '\'events\' hold one that is later than \'seconds\''],
+       ['t.json', '{"seconds": 1, "events": [{"at": 0, "to": {}, "delay": 1.5}]}', 'so that it never plays'],
+       ['t.json', '{"seconds": 1, "events": [{"at": 0, "to": {}, "seconds": 1.5}]}',
+        'events[0] has a \'seconds\', which the drive \'spring\' has no use for'],
+       ['t.json', '{"seconds": 1, "events": [{"at": 0, "to": {}, "drive": "newton", "turn": 0.5}]}', '\'turn\''],
+       ['t.json', '{"seconds": 1, "events": [{"at": 0, "to": {}, "drive": "cut", "damping": 1}]}', '\'damping\''],
+       ['t.json', '{"seconds": 1, "events": [{"at": 0, "to": {}, "restitution": 0.5}]}', '\'restitution\''],
        ['t.json', '{"seconds": 1, "events": [{"at": 0}]}', 'events[0] needs one of \'to\' and \'only\''],
        ['t.json', '{"seconds": 1, "events": [{"at": 0, "to": "grin"}]}', 'goes to a pose \'grin\''],
        ['t.json', '{"seconds": 1, "poses": null, "events": [{"at": 0, "to": "grin"}]}', 'goes to a pose \'grin\''],
