@@ -156,8 +156,8 @@ class ControlMover {
 
   // Where a corner's derivatives are sums of what is stored: the change, the smallest of those as
   // good, by which the curve stays and the controls beside it move as nearly as can be like what is
-  // wanted all along. Where corners of one node share a few vectors, to give the end of the curve
-  // just the derivatives that are wanted would tell mixed ones that throw the rest far off.
+  // wanted all along. Where corners of one node share a few vectors, the derivatives that are
+  // wanted at the end of the curve would bring mixed ones that throw the rest far off.
   void solve(std::span<const CornerChange> ends, std::vector<Vec3>& pose,
              edit::Affected& affected) const {
     Rows rows;
@@ -177,7 +177,12 @@ class ControlMover {
         if (const auto term = row.sum.find(unknowns[k]); term != row.sum.end())
           composed(r, k) = term->second;
     }
-    const Eigen::MatrixXd moved = composed.completeOrthogonalDecomposition().solve(wanted);
+    // Vectors by how far they move places, whatever their order and the edges they are per.
+    Eigen::VectorXd reach = composed.colwise().norm();
+    for (double& r : reach) r = r > 0 ? 1 / r : 0;
+    composed *= reach.asDiagonal();
+    const Eigen::MatrixXd moved =
+        reach.asDiagonal() * composed.completeOrthogonalDecomposition().solve(wanted);
     const double rounding = 1e-13 * moved.cwiseAbs().maxCoeff();
     for (std::size_t k = 0; k < unknowns.size(); ++k) {
       const auto row = moved.row(static_cast<Index>(k));
