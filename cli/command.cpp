@@ -35,11 +35,11 @@ bool isPipeOfReport(const fs::path& path) {
 /// Whether this is another name of a stream, as /dev/stdout, that goes to a file: to put a new file
 /// in its place would not reach it.
 bool leadsToFile(const fs::path& path) {
-  const fs::path way = fs::absolute(path).lexically_normal();
-  const auto first = std::next(way.begin());
+  const fs::path way = fs::absolute(path).lexically_normal(), folder = way.parent_path();
+  const bool isStream = folder == "/dev/fd" || way == "/dev/stdout" || way == "/dev/stderr" ||
+                        (folder.filename() == "fd" && folder.string().starts_with("/proc/"));
   std::error_code ignored;
-  return first != way.end() && (*first == "dev" || *first == "proc") &&
-         fs::is_regular_file(path, ignored);
+  return isStream && fs::is_regular_file(path, ignored);
 }
 
 }  // namespace
@@ -154,7 +154,9 @@ CLI::Validator finiteNumber() {
 
 CLI::Validator notEmpty() {
   const auto check = [](const std::string& text) -> std::string {
-    return text.empty() ? "This is empty; give it something, or leave it out." : "";
+    return text.find_first_not_of(" ,") == std::string::npos
+               ? "This is empty; give it something, or leave it out."
+               : "";
   };
   return CLI::Validator(check, "", "");
 }

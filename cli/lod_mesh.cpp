@@ -16,7 +16,7 @@ Result<void> checkFineness(const Surface& surface, Index lod) {
   const double quads = static_cast<double>(surface.wireframe().quadCount()) * lod * lod;
   if (quads <= kMostQuads) return {};
   return fail(
-      fmt::format("At --lod {} the face would have {:.0f} million quads, of which {:.0f} "
+      fmt::format("At --lod {} the face would have {:.1f} million quads, of which {:.0f} "
                   "million are the most; give a lower one.",
                   lod, quads / 1e6, kMostQuads / 1e6));
 }

@@ -112,6 +112,7 @@ void addRegions(CLI::App& app, RegionArguments& a) {
   app.add_option("--regions", a.file,
                  "A .json with 'regions': parts of the face that are heavier, stiffer or later "
                  "than the rest; a timeline may have its own")
+      ->check(notEmpty())
       ->type_name("FILE");
 }
 

@@ -40,9 +40,11 @@ void addOptions(CLI::App& app, RenderArguments& a) {
       ->capture_default_str()
       ->type_name("STYLE");
   app.add_option("--size", a.size, "Of the whole picture, in pixels, 16 to 16384 each way")
+      ->check(notEmpty())
       ->type_name("WxH");
   app.add_option("--close", a.close,
                  "Show nothing but what the targets move whose names contain NAME")
+      ->check(notEmpty())
       ->type_name("NAME");
   addFollowing(app, a.following);
   addLod(app, a.lod, "Cut every edge of the source into N; by the size if not given");
@@ -122,8 +124,9 @@ class Renderer {
     Result<Page> page = Page::make(size, plan);
     if (!page) return std::unexpected(page.error());
     page_ = std::move(*page);
-    const Index lod = a_.lod > 0 ? a_.lod : lodFor(rig_.surface, style_, page_->panel());
-    if (auto ok = checkFineness(rig_.surface, lod); !ok) return ok;
+    if (auto ok = checkFineness(rig_.surface, a_.lod); !ok) return ok;
+    Index lod = a_.lod > 0 ? a_.lod : lodFor(rig_.surface, style_, page_->panel());
+    while (lod > 1 && !checkFineness(rig_.surface, lod)) --lod;
     scenes_.emplace(rig_, lod);
     pictures_ = plan.columns * plan.rows;
     return {};

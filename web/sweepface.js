@@ -118,7 +118,7 @@ export class Sweepface {
     const {runtime, eyeCount} = this.#open();
     if (eyeCount === 0) throw new Error('The face has no eyes that turn; load it with the option eyes, if it has any.');
     const angles = (eye, name) => {
-      const {yaw = 0, pitch = 0} = known(eye, ['yaw', 'pitch'], `look's ${name}`);
+      const {yaw = 0, pitch = 0} = known(eye, ['yaw', 'pitch', 'roll'], `look's ${name}`);  // as clips have it
       for (const angle of [yaw, pitch])
         if (!Number.isFinite(angle)) throw new TypeError(`look's ${name} takes finite numbers, not ${told(angle)}.`);
       return [yaw, pitch, 0];

@@ -115,8 +115,7 @@ export class ClipPlayer {
     });
     this.face.setWeights(weights);
     const [head, leftEye, rightEye] = [0, 3, 6].map((first) => this.#anglesAt(values, first));
-    const eye = (angles) => (angles ? {yaw: angles.yaw, pitch: angles.pitch} : {});
-    const pose = leftEye || rightEye ? {leftEye: eye(leftEye), rightEye: eye(rightEye)} : null;
+    const pose = leftEye || rightEye ? {leftEye: leftEye ?? {}, rightEye: rightEye ?? {}} : null;
     // The eyes may still stand as another clip's angles had them, so that weights would not count.
     if (this.face.eyeCount > 0 && (pose || this.#looks)) this.face.look(pose);
     return head;

@@ -144,9 +144,9 @@ export class SweepfaceGpuMesh extends FaceMesh {
     const {basis, modes, factor} = this.#textures;
     material.dispose();  // what a renderer made of it before knows no face, or another
     const {onBeforeCompile, customProgramCacheKey} = material;
-    own.set(material, {onBeforeCompile, customProgramCacheKey});
-    material.customProgramCacheKey = () => 'sweepface' + onBeforeCompile + customProgramCacheKey.call(material);
-    material.onBeforeCompile = (shader, renderer) => {
+    const follow = {customProgramCacheKey: () => 'sweepface' + onBeforeCompile + customProgramCacheKey.call(material)};
+    own.set(material, {before: {onBeforeCompile, customProgramCacheKey}, follow});
+    follow.onBeforeCompile = (shader, renderer) => {
       onBeforeCompile.call(material, shader, renderer);
       Object.assign(shader.uniforms, {sweepBasis: {value: basis}, sweepModes: {value: modes}, sweepFactor: factor});
       shader.vertexShader = `
@@ -162,6 +162,7 @@ export class SweepfaceGpuMesh extends FaceMesh {
         .replace('#include <begin_vertex>', `$&
           transformed = sweepfacePosition(position, sweepPlace, sweepBasis, sweepModes, sweepFactor);`);
     };
+    Object.assign(material, follow);
   }
 
   /** Bytes of textures on the graphics card, and of them those that change every frame. */
@@ -195,7 +196,9 @@ export class SweepfaceGpuMesh extends FaceMesh {
     super.dispose();
     for (const material of this.#followers) {
       material.dispose();
-      Object.assign(material, own.get(material));
+      const {before, follow} = own.get(material);
+      for (const hook of Object.keys(follow))  // what was put in its place later stays
+        if (material[hook] === follow[hook]) material[hook] = before[hook];
       own.delete(material);
     }
     this.#followers.clear();

@@ -26,7 +26,7 @@ export class SweepfaceMesh extends FaceMesh {
 
 /** Loads a .sweep file as a SweepfaceMesh, as three.js's own loaders do. */
 export class SweepfaceLoader extends Loader {
-  #files = new FileLoader();
+  #downloads = new Set();
 
   /** Options of Sweepface.load. */
   constructor(manager, options) {
@@ -37,7 +37,7 @@ export class SweepfaceLoader extends Loader {
   }
 
   load(url, onLoad, onProgress, onError) {
-    const {manager} = this, loader = Object.assign(this.#files, {manager});
+    const {manager} = this, loader = new FileLoader(manager);
     loader.setPath(this.path).setResponseType('arraybuffer');
     loader.setRequestHeader(this.requestHeader).setWithCredentials(this.withCredentials);
     const tell = onError ?? console.error, name = this.options.name || url;
@@ -45,8 +45,13 @@ export class SweepfaceLoader extends Loader {
       manager.itemError(url);
       tell(error);
     }).finally(() => manager.itemEnd(url));
+    this.#downloads.add(loader);
     manager.itemStart(url);  // until the mesh is there; the file alone is an item of the other loader
-    loader.load(url, parse, onProgress, (error) => {
+    loader.load(url, (bytes) => {
+      this.#downloads.delete(loader);
+      parse(bytes);
+    }, onProgress, (error) => {
+      this.#downloads.delete(loader);
       manager.itemEnd(url);
       tell(error);
     });
@@ -54,7 +59,7 @@ export class SweepfaceLoader extends Loader {
 
   /** Ends the downloads that are under way, as far as three.js can. */
   abort() {
-    this.#files.abort?.();
+    for (const loader of this.#downloads) loader.abort?.();
     return this;
   }
 

@@ -27,8 +27,9 @@ export function readTimeline(source, options) {
   const read = events.map((event, k) => readEvent(event, poses, `events[${k}]`, fail))
                    .sort((a, b) => a.at - b.at);
   if (read.at(-1).at > seconds) throw fail('\'events\'', 'hold one that is later than \'seconds\'');
+  const end = seconds * loops * (1 + 1e-9);  // 0.1 + 0.2 is more than 0.3
   for (const {at, drive: {delay = 0}} of read)
-    if (at + delay > seconds * loops)
+    if (at + delay > end)
       throw fail('\'events\'', 'hold one whose \'delay\' leads beyond the end, so that it never plays');
   return {seconds, loops, events: read, regions};
 }

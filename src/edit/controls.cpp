@@ -154,14 +154,19 @@ class ControlMover {
       }
   }
 
-  // Where a corner's derivatives are sums of what is stored: the change, the smallest of those as
-  // good, by which the curve stays and the controls beside it move as nearly as can be like what is
-  // wanted all along. Where corners of one node share a few vectors, the derivatives that are
-  // wanted at the end of the curve would bring mixed ones that throw the rest far off.
+  // Where a corner's derivatives are sums of what is stored: the smallest change that gives those
+  // across what they want and leaves the others up to the second order alone. At irregular nodes,
+  // whose corners share a few vectors, that would bring mixed derivatives that throw the curves far
+  // off: there the change by which the curve stays and the controls beside it move as nearly as can
+  // be like what is wanted all along.
   void solve(std::span<const CornerChange> ends, std::vector<Vec3>& pose,
              edit::Affected& affected) const {
     Rows rows;
-    for (const CornerChange& end : ends) addRows(end, rows);
+    for (const CornerChange& end : ends)
+      if (connectivity().kinds[nodeAt(end)] == NodeKind::irregular)
+        addPlaces(end, rows);
+      else
+        addDerivatives(end, rows);
     std::set<Index> stored;
     for (const Row& row : rows)
       for (const auto& [v, factor] : row.sum) stored.insert(v);
@@ -198,19 +203,37 @@ class ControlMover {
   };
   using Rows = std::vector<Row>;
 
-  // By how much an end moves points along the curve and along the controls beside it.
-  void addRows(const CornerChange& end, Rows& rows) const {
-    constexpr double held = 1e4;  // rather than its controls, the curve itself stays
+  // What a derivative at an end is the sum of, by stored vectors.
+  std::map<Index, double> sumOf(const CornerChange& end, int along, int across) const {
+    const JetRef ref = rig_.surface.cornerJet(
+        end.corner / 4, end.corner % 4, end.byAlpha ? across : along, end.byAlpha ? along : across);
+    std::map<Index, double> sum;
+    expand(ref.vector, ref.sign, sum);
+    return sum;
+  }
+
+  void addDerivatives(const CornerChange& end, Rows& rows) const {
+    for (const auto& [along, across] : kOrders)
+      rows.push_back({sumOf(end, along, across), along > 0     ? Vec3{}
+                                                 : across == 1 ? first_
+                                                               : second_});
+  }
+
+  // By how much an end moves points along the curve and along the controls beside it, with the
+  // vectors that the derivatives up to the second order go by.
+  void addPlaces(const CornerChange& end, Rows& rows) const {
+    constexpr double held = 1e6;  // rather than its controls, the curve itself stays
     constexpr int points = 8;
+    std::set<Index> own;
+    for (const auto& [along, across] : kOrders)
+      for (const auto& [v, factor] : sumOf(end, along, across)) own.insert(v);
     std::array<std::array<std::map<Index, double>, 3>, 3> jet;  // [along][across]
     for (int along = 0; along < 3; ++along)
-      for (int across = 0; across < 3; ++across) {
-        const JetRef ref =
-            rig_.surface.cornerJet(end.corner / 4, end.corner % 4, end.byAlpha ? across : along,
-                                   end.byAlpha ? along : across);
-        expand(ref.vector, ref.sign * std::pow(edgesAlong_, along) * std::pow(edgesAcross_, across),
-               jet[along][across]);
-      }
+      for (int across = 0; across < 3; ++across)
+        for (const auto& [v, factor] : sumOf(end, along, across))
+          if (own.contains(v))
+            jet[along][across][v] =
+                factor * std::pow(edgesAlong_, along) * std::pow(edgesAcross_, across);
     const struct {
       double u, weight;
       Vec3 wanted;
@@ -235,6 +258,10 @@ class ControlMover {
     }
     for (const Term& t : rig_.surface.derivation(vector)) expand(t.vector, factor * t.factor, sum);
   }
+
+  // Of the derivatives along and across the curve.
+  static constexpr std::array<std::array<int, 2>, 5> kOrders{
+      {{1, 0}, {0, 1}, {2, 0}, {1, 1}, {0, 2}}};
 
   Rig rig_;
   ControlMove move_;

@@ -55,8 +55,9 @@ class TimelineReader {
     for (auto& [time, event] : inOrder) timeline.events.push_back(std::move(event));
     if (timeline.events.back().time > timeline.seconds)
       return failAt("'events'", "hold one that is later than 'seconds'");
+    const double end = timeline.seconds * loops * (1 + 1e-9);  // 0.1 + 0.2 is more than 0.3
     for (const TimelineEvent& event : timeline.events)
-      if (event.time + event.drive.delay > timeline.seconds * loops)
+      if (event.time + event.drive.delay > end)
         return failAt("'events'",
                       "hold one whose 'delay' leads beyond the end, so that it never plays");
     return timeline;

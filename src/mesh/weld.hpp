@@ -10,7 +10,7 @@ namespace sweepface {
 /// For every vertex the first that stands at the same place in the neutral and in every target.
 std::vector<Index> weld(const MeshRig& rig);
 
-/// Joins the ends of open edges that would be one, or one point, if copies had not been rounded
+/// Joins the ends of open edges that would be one, or all one point, if copies had not been rounded
 /// otherwise: ends that are no further apart in any pose than `within`, nor than a thousandth of
 /// their longer edges in the neutral. Returns the largest distance of any vertex from the one that
 /// `first` names now.

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
-#include <numeric>
+#include <set>
 
 #include "mesh/each_edge.hpp"
 #include "mesh/shared_edges.hpp"
@@ -103,12 +103,35 @@ std::vector<Index> firstOf(UnionFind& sets) {
   return first;
 }
 
-/// Joins the ends of open edges that are points, as around the pole of a sphere.
+/// Vertices whose sets are not points: one that is not near the first, or a face that would have
+/// no surface any more.
+std::vector<char> notPoints(const Polygons& faces, const Neighbours& neighbours, UnionFind& before,
+                            UnionFind& after) {
+  std::vector<char> bad(after.size(), 0);
+  for (Index v = 0; v < std::ssize(bad); ++v)
+    if (const Index first = after.find(v);
+        first != before.find(v) && !neighbours.areNear(first, before.find(v)))
+      bad[first] = 1;
+  for (Index f = 0; f < faces.faceCount(); ++f) {
+    std::set<Index> corners, left;
+    for (Index c = faces.faceStart[f]; c < faces.faceStart[f + 1]; ++c)
+      corners.insert(before.find(faces.corners[c])), left.insert(after.find(faces.corners[c]));
+    if (corners.size() > 2 && left.size() < 3)
+      for (const Index v : left) bad[v] = 1;
+  }
+  return bad;
+}
+
+/// Joins the ends of open edges that are points together, as around the pole of a sphere.
 void closePoints(const Polygons& faces, const Neighbours& neighbours, UnionFind& sets) {
-  std::vector<Index> each(sets.size());
-  std::iota(each.begin(), each.end(), 0);
-  for (const auto& [from, to] : openEdges(faces, each))
-    if (neighbours.areNear(from, to)) sets.join(from, to);
+  UnionFind closed = sets;
+  const auto open = openEdges(faces, firstOf(sets));
+  for (const auto& [from, to] : open)
+    if (neighbours.areNear(from, to)) closed.join(from, to);
+  const std::vector<char> bad = notPoints(faces, neighbours, sets, closed);
+  for (const auto& [from, to] : open)
+    if (const Index point = closed.find(from); point == closed.find(to) && !bad[point])
+      sets.join(from, to);
 }
 
 /// Joins open edges that only sets of near vertices pair; what merely touches stays apart.

@@ -85,11 +85,13 @@ std::string shortened(const std::string& name, double most) {
   const auto isInside = [&](std::size_t at) {
     return at > 0 && at < name.size() && (name[at] & 0xc0) == 0x80;
   };
-  std::size_t head = 0, tail = name.size();
   const std::string_view all = name;
-  const auto room = [&](std::string_view part) { return letters(part) < (most - 1) / 2; };
-  while (room(all.substr(0, head)) || isInside(head)) ++head;
-  while (room(all.substr(tail)) || isInside(tail)) --tail;
+  const auto fits = [&](std::string_view part) { return letters(part) <= (most - 1) / 2; };
+  std::size_t head = 0, tail = name.size();
+  for (std::size_t at = 0; isInside(at) || fits(all.substr(0, at)); ++at)
+    if (!isInside(at)) head = at;
+  for (std::size_t at = name.size(); isInside(at) || fits(all.substr(at)); --at)
+    if (!isInside(at)) tail = at;
   return name.substr(0, head) + "…" + name.substr(tail);
 }
 

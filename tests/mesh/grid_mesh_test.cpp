@@ -118,10 +118,45 @@ TEST(Welding, closesPolesThatRoundingOpened) {
     EXPECT_EQ(mesh.pointCount(), 12 * 4 + 1) << tip;
     EXPECT_EQ(openSides(mesh), 12) << tip;
   }
-  PolygonMesh partly = cone(1e-16);
-  for (std::size_t v = 4 * 13; v < 5 * 13; v += 3) partly.positions[v] = {0, 0, 4};
-  EXPECT_EQ(makeGridMesh({partly, {}}, 1e-6)->pointCount(), 12 * 4 + 1);
-  EXPECT_EQ(openSides(makeGridMesh({cone(1e-3), {}}, 1e-6).value()), 2 * 12) << "a hole";
+  for (double hole : {1e-3, 1e-6})  // each of the latter's edges is shorter than what is rounded
+    EXPECT_EQ(openSides(makeGridMesh({cone(hole), {}}, 1e-6).value()), 2 * 12) << hole;
+}
+
+/// A ground beside it makes rounding as large as a detail.
+TEST(Welding, leavesDetailsThatAreMereRounding) {
+  const auto flat = [](double size) {
+    return [size](double x, double y) { return Vec3{size * x, size * y, 0}; };
+  };
+  for (Index n : {1, 3}) {
+    const PolygonMesh both =
+        joined(grid(1, 1, flat(1000)), grid(n, n, flat(5e-4 / n)), {2000, 0, 0});
+    EXPECT_EQ(makeGridMesh({both, {}}, 1e-3)->pointCount(), 4 + (n + 1) * (n + 1)) << n;
+  }
+}
+
+/// Sides that only a weld makes one are not open, however short they are.
+TEST(Welding, leavesShortEdgesWithinASoup) {
+  PolygonMesh mesh;
+  const Loop around{0, 1, 2, 3};
+  for (const auto& [x, width] : {std::pair(0.0, 1.0), {1.0, 1e-7}, {1 + 1e-7, 1.0}}) {
+    Loop face;
+    for (const auto& [dx, y] : {std::pair(0.0, 0.0), {width, 0.0}, {width, 1.0}, {0.0, 1.0}}) {
+      face.push_back(static_cast<Index>(mesh.positions.size()));
+      mesh.positions.push_back({x + dx, y, 0});
+    }
+    addFace(mesh, face);
+    for (double y : {-1.0, 1.0}) {  // and what closes the short edges
+      face.clear();
+      for (const auto& [dx, dy] : {std::pair(0.0, 0.0), {width, 0.0}, {width, 1.0}, {0.0, 1.0}}) {
+        face.push_back(static_cast<Index>(mesh.positions.size()));
+        mesh.positions.push_back({x + dx, y + dy, 0});
+      }
+      addFace(mesh, face);
+    }
+  }
+  EXPECT_EQ(makeGridMesh({mesh, {}})->pointCount(), 16);
+  EXPECT_EQ(openSides(makeGridMesh({mesh, {}}, 1e-6).value()),
+            openSides(makeGridMesh({mesh, {}}).value()) - 2);
 }
 
 /// Lashes stand on lids by vertices alone; what no face has joins nothing.
