@@ -79,7 +79,6 @@ void addWeights(CLI::App& app, std::string& weights) {
   app.add_option("--weights", weights,
                  "The expression: targets and how much of each, e.g. jawOpen=1,eyeBlink_L=0.5; "
                  "targets that are not named are at 0")
-      ->check(notEmpty())
       ->type_name("NAME=W,...");
 }
 

@@ -265,10 +265,8 @@ void checkUse(const CLI::App& app, const PerformanceArguments& a) {
 
 void addPerformance(CLI::App& app, PerformanceArguments& a) {
   app.add_option("--from", a.from, "The expression to start from; the neutral if not given")
-      ->check(notEmpty())
       ->type_name("NAME=W,...");
   app.add_option("--to", a.to, "The expression to end with, e.g. jawOpen=1,mouthSmile=0.5")
-      ->check(notEmpty())
       ->type_name("NAME=W,...");
   app.add_option("--law", a.law,
                  "How it moves: newton (a constant force from rest), brake (a constant force to "

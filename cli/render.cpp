@@ -54,11 +54,9 @@ void addOptions(CLI::App& app, RenderArguments& a) {
          "folders of them")
       ->type_name("NEUTRAL [TARGET...]");
   CLI::Option* to = app.add_option("--to", a.to, "Show the way from one expression to this one")
-                        ->check(notEmpty())
                         ->type_name("NAME=W,...");
   app.add_option("--from", a.from, "Where it starts; the neutral if not given")
       ->needs(to)
-      ->check(notEmpty())
       ->type_name("NAME=W,...");
   oneEachTime(
       app.add_option("--law", a.laws,

@@ -28,7 +28,6 @@ void addOptions(CLI::App& app, ReportArguments& a) {
   app.add_option("--weights", a.weights,
                  "The expression shown beside the neutral; the target that moves furthest if not "
                  "given")
-      ->check(notEmpty())
       ->type_name("NAME=W,...");
   CLI::Option* tolerances =
       oneEachTime(app.add_option(

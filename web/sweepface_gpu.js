@@ -187,7 +187,7 @@ export class SweepfaceGpuMesh extends FaceMesh {
 
   /** Materials follow one face each. */
   materialsOfClone() {
-    const clone = (material) => Object.assign(material.clone(), own.get(material));
+    const clone = (material) => Object.assign(material.clone(), own.get(material).before);
     return Array.isArray(this.material) ? this.material.map(clone) : clone(this.material);
   }
 

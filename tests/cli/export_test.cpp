@@ -79,12 +79,9 @@ TEST_F(Export, ReachesNoFileThroughAnotherNameOfAStream) {
 TEST_F(Export, RefusesWhatAnEmptyVariableLeaves) {
   convertRig();
   for (const std::string command :
-       {"export face.sweep -o out.obj --weights ''", "export face.sweep -o out.obj --limits ''",
-        "animate face.sweep -o out.glb --to ''", "render face.sweep -o out.png --to ''",
-        "report face.sweep -o out.html --weights ''", "render face.sweep -o out.png --size ''",
-        "render face.sweep -o out.png --close ''",
-        "animate face.sweep -o out.glb --to jawOpen --regions ''",
-        "animate face.sweep -o out.glb --to ' '", "convert neutral.obj -o f.sweep --strip ''"})
+       {"export face.sweep -o out.obj --limits ''", "convert neutral.obj -o f.sweep --strip ','",
+        "render face.sweep -o out.png --size ' '", "render face.sweep -o out.png --close ''",
+        "animate face.sweep -o out.glb --to jawOpen --regions ''"})
     EXPECT_TRUE(fails(command, "This is empty", 2)) << command;
 }
 
@@ -94,7 +91,7 @@ TEST_F(Export, BlendsLinearly) {
     EXPECT_EQ(run("export face.sweep -o out.obj --weights '" + weights + "'").code, 0);
     return mesh("out.obj").positions;
   };
-  const auto neutral = exported("smile=0"), open = exported("jawOpen"), smile = exported("smile=1"),
+  const auto neutral = exported(""), open = exported("jawOpen"), smile = exported("smile=1"),
              both = exported("jawOpen=0.5,smile=-2");
   for (std::size_t v = 0; v < neutral.size(); ++v) {
     const Vec3 expected = neutral[v] + 0.5 * (open[v] - neutral[v]) - 2 * (smile[v] - neutral[v]);

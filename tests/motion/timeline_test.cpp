@@ -204,6 +204,11 @@ TEST(Timeline, SaysWhatIsWrongAndWhere) {
   expectError(event(R"({"at": 0, "to": "p", "restitution": 0.5})"), "'restitution'");
 }
 
+TEST(Timeline, MayHoldWhatSetsOutAtItsVeryEnd) {
+  EXPECT_TRUE(parseTimeline(R"({"seconds": 0.3, "events": [{"at": 0.1, "delay": 0.2, "to": {}}]})",
+                            "line.json"));
+}
+
 TEST(Timeline, HoldsNoMoreGoalsThanAnyoneDraws) {
   const auto readWith = [](int events) {
     std::string text = R"({"seconds": 1, "poses": {"all": {"0": 0)";

@@ -227,6 +227,16 @@ test('materials keep what they do to a shader, and their clones too', options, a
   assert.notEqual(same.customProgramCacheKey(), plain.customProgramCacheKey());  // which knows no face
 });
 
+test('a hook that is put in later stays when the mesh goes', options, async () => {
+  const {Sweepface} = await import('../sweepface.js'), {SweepfaceGpuMesh} = await import('../sweepface_gpu.js');
+  const material = new three.MeshStandardMaterial(), {customProgramCacheKey} = material, hook = () => {};
+  const mesh = new SweepfaceGpuMesh(await Sweepface.load(readFileSync(sample)), material);
+  material.onBeforeCompile = hook;
+  mesh.dispose();
+  assert.equal(material.onBeforeCompile, hook);
+  assert.equal(material.customProgramCacheKey, customProgramCacheKey);
+});
+
 test('a loader tells that its options come second', options, async () => {
   const {SweepfaceLoader} = await import('../sweepface_three.js');
   assert.throws(() => new SweepfaceLoader({lod: 2}), /its options after it/);
