@@ -124,14 +124,15 @@ std::vector<char> notPoints(const Polygons& faces, const Neighbours& neighbours,
 
 /// Joins the ends of open edges that are points together, as around the pole of a sphere.
 void closePoints(const Polygons& faces, const Neighbours& neighbours, UnionFind& sets) {
+  auto open = openEdges(faces, firstOf(sets));
+  std::erase_if(open,
+                [&](const auto& ends) { return !neighbours.areNear(ends.first, ends.second); });
+  if (open.empty()) return;
   UnionFind closed = sets;
-  const auto open = openEdges(faces, firstOf(sets));
-  for (const auto& [from, to] : open)
-    if (neighbours.areNear(from, to)) closed.join(from, to);
+  for (const auto& [from, to] : open) closed.join(from, to);
   const std::vector<char> bad = notPoints(faces, neighbours, sets, closed);
   for (const auto& [from, to] : open)
-    if (const Index point = closed.find(from); point == closed.find(to) && !bad[point])
-      sets.join(from, to);
+    if (!bad[closed.find(from)]) sets.join(from, to);
 }
 
 /// Joins open edges that only sets of near vertices pair; what merely touches stays apart.
