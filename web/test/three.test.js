@@ -298,6 +298,21 @@ test('a loader aborts its downloads', {...options, timeout: 10_000}, async () =>
   }
 });
 
+test('a load tells the manager that it began with', {...options, timeout: 10_000}, async () => {
+  const {fetch} = globalThis, {SweepfaceLoader} = await import('../sweepface_three.js'), seen = [];
+  const managers = ['first', 'second'].map((name) => new three.LoadingManager(() => seen.push(name)));
+  globalThis.fetch = async () => new Response(readFileSync(sample));
+  try {
+    const loader = new SweepfaceLoader(managers[0]), one = loader.loadAsync('http://a/one');
+    loader.manager = managers[1];
+    await Promise.all([one, loader.loadAsync('http://a/two')]);
+    await new Promise((resolve) => setTimeout(resolve));
+    assert.deepEqual(seen.sort(), ['first', 'second']);
+  } finally {
+    globalThis.fetch = fetch;
+  }
+});
+
 test('materials are plain, one a part, named as in the source', options, async () => {
   const mesh = await load();
   assert.deepEqual(mesh.material.map(({name}) => name), mesh.face.parts.map(({material}) => material));
