@@ -78,7 +78,7 @@ CLI::Validator wholeNumber(std::int64_t low, std::int64_t high);
 /// A finite number > 0, and at most `high` if that is given.
 CLI::Validator positiveNumber(double high = 0);
 CLI::Validator finiteNumber();
-/// What an empty variable of a script leaves.
+/// Anything but what an empty variable of a script leaves.
 CLI::Validator notEmpty();
 /// From 0 to below 1.
 CLI::Validator partOfOne();

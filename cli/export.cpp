@@ -31,20 +31,21 @@ void addOptions(CLI::App& app, ExportArguments& a) {
       "--source-order", a.sourceOrder,
       "Write the source's own vertices and polygons in their order (this is the default)");
   order->excludes(lod);
-  const auto addBudget = [&](const std::string& name, double& value, const std::string& what) {
+  const auto addBudget = [&](const std::string& name, double& value, const std::string& type,
+                             const std::string& what) {
     return app.add_option(name, value, what)
-        ->type_name(name == "--vertices" ? "N"
-                    : name == "--error"  ? "E"
-                                         : "L")
+        ->type_name(type)
         ->check(positiveNumber())
         ->excludes(lod)
         ->excludes(order);
   };
-  CLI::Option* vertices =
-      addBudget("--vertices", a.vertices, "Write the best mesh of at most so many vertices (.obj)");
-  CLI::Option* error = addBudget(
-      "--error", a.error, "Write a mesh whose edges are nowhere further from their curves (.obj)");
-  addBudget("--edge-length", a.edgeLength, "Write a mesh without longer edges along curves (.obj)")
+  CLI::Option* vertices = addBudget("--vertices", a.vertices, "N",
+                                    "Write the best mesh of at most so many vertices (.obj)");
+  CLI::Option* error =
+      addBudget("--error", a.error, "E",
+                "Write a mesh whose edges are nowhere further from their curves (.obj)");
+  addBudget("--edge-length", a.edgeLength, "L",
+            "Write a mesh without longer edges along curves (.obj)")
       ->excludes(vertices)
       ->excludes(error);
   error->excludes(vertices);

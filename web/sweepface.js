@@ -196,7 +196,7 @@ export class Sweepface {
   moveTo(goals, drive, region) {
     const shared = this.#open(), {runtime} = shared, {wasm} = runtime;
     const all = this.#resolve(goals), places = shared.places(region);
-    const at = this.#drive(drive, places), motion = this.#moving();  // from here on nothing is refused
+    const at = this.#drive(drive, places), motion = this.#moving();  // all is checked before the first sets out
     for (const [target, goal] of all) {
       runtime.check(region === undefined ? wasm.sweepface_motion_move_to(motion, target, goal, at)
                                          : wasm.sweepface_motion_move_in(motion, places[0], target, goal, at));

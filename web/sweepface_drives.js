@@ -47,11 +47,14 @@ export function faultOf(drive, way = 1, speed = 0) {
   return tooMuch(peak / Math.min(turn, 1 - turn) / seconds, speed * seconds);
 }
 
-/** A drive as weights of a region follow it. */
-function inMatter(drive, {mass = 1, stiffness = 1} = {}) {
-  const {seconds, frequency, damping} = drive, stretch = Math.sqrt(mass / stiffness);
-  return {...drive, seconds: seconds * stretch, frequency: frequency / stretch,
-          damping: damping / Math.sqrt(mass * stiffness)};
+/** By how much weights of a region take longer. */
+const stretchOf = ({mass = 1, stiffness = 1} = {}) => Math.sqrt(mass / stiffness);
+
+/** The numbers of a drive as weights of a region follow it. */
+function inMatter([, seconds, turn, frequency, damping, restitution], matter) {
+  const {mass = 1, stiffness = 1} = matter ?? {}, stretch = stretchOf(matter);
+  return {seconds: seconds * stretch, turn, frequency: frequency / stretch,
+          damping: damping / Math.sqrt(mass * stiffness), restitution};
 }
 
 /**
@@ -74,17 +77,15 @@ export function writeDrive(runtime, at, drive, matters) {
       throw new TypeError(`The ${key} of a drive must be a finite number, not ${told(given[key])}.`);
     numbers[place] = given[key];
   }
-  const written = Object.fromEntries(NUMBERS.map((key, k) => [key, numbers[k]]));
-  if (written.delay < 0) throw new RangeError('The delay of a motion must be at least 0 seconds.');
+  if (numbers[0] < 0) throw new RangeError('The delay of a motion must be at least 0 seconds.');
   for (const matter of matters) {
-    const fault = faultOf({...inMatter(written, matter), kind: KINDS[kind]}, FAR, FAR);
+    const fault = faultOf({...inMatter(numbers, matter), kind: KINDS[kind]}, FAR, FAR);
     if (fault) throw new RangeError(`${fault}.`);
   }
 }
 
 /** Seconds before which a drive that was written brings no weight of such a matter to rest. */
-export function secondsOf(runtime, at, {mass = 1, stiffness = 1, delay: later = 0} = {}) {
+export function secondsOf(runtime, at, matter) {
   const kind = KINDS[runtime.ints(at, 1)[0]], [delay, seconds] = runtime.doubles(at + 8, 2);
-  const lasts = ['cut', 'spring'].includes(kind) ? 0 : seconds;
-  return delay + later + lasts * Math.sqrt(mass / stiffness);
+  return delay + (matter?.delay ?? 0) + (goesBy(kind, 'seconds') ? seconds : 0) * stretchOf(matter);
 }

@@ -224,6 +224,7 @@ class ControlMover {
   void addPlaces(const CornerChange& end, Rows& rows) const {
     constexpr double held = 1e6;  // rather than its controls, the curve itself stays
     constexpr int points = 8;
+    const SweepBasis hermite;
     std::set<Index> own;
     for (const auto& [along, across] : kOrders)
       for (const auto& [v, factor] : sumOf(end, along, across)) own.insert(v);
@@ -241,7 +242,7 @@ class ControlMover {
         {0, held, {}}, {kControlSpacing.u2, 1, move_.second}, {kControlSpacing.u3, 1, move_.third}};
     for (const auto& curve : curves)
       for (int k = 0; k < points; ++k) {
-        const auto g = SweepBasis().at(1.0 * k / points);
+        const auto g = hermite.at(1.0 * k / points);
         const std::array<double, 3> parabola{1, curve.u, curve.u * curve.u / 2};
         Row& row = rows.emplace_back(Row{{}, curve.weight * g[0] * curve.wanted});
         for (int along = 0; along < 3; ++along)
