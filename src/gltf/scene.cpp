@@ -8,7 +8,6 @@
 
 #include "gltf/accessor_uses.hpp"
 #include "gltf/binary.hpp"
-#include "gltf/deflate.hpp"
 #include "gltf/left_to_face.hpp"
 #include "gltf/resources.hpp"
 #include "io/text.hpp"
@@ -268,18 +267,6 @@ Result<void> checkReferences(const Document& document) {
 }
 
 }  // namespace
-
-std::string formatScene(const std::string& glb) {
-  std::string stream = deflated(glb);
-  return glb.size() <= mostInflated(stream.size()) ? stream : glb;
-}
-
-Result<Document> parseScene(std::string_view scene) {
-  if (scene.starts_with("glTF")) return parseDocument(scene, {});
-  const auto glb = inflated(scene);
-  if (!glb) return std::unexpected(glb.error());
-  return parseDocument(*glb, {});
-}
 
 Result<Scene> makeScene(Document document, const Parts& parts, const Polygons& polygons,
                         const fs::path& folder) {

@@ -20,8 +20,10 @@ struct Scene {
 Result<Scene> makeScene(Document document, const Parts& parts, const Polygons& polygons,
                         const std::filesystem::path& folder);
 
-/// A GLB as rigs have it: deflated, or as it is where nobody would believe what that holds.
+/// A scene's GLB as rigs have it: numbers in planes where that is smaller, deflated, or as it is
+/// where nobody would believe what that holds.
 std::string formatScene(const std::string& glb);
+Result<std::string> glbOf(std::string_view scene);
 Result<Document> parseScene(std::string_view scene);
 
 }  // namespace sweepface::gltf

@@ -428,7 +428,7 @@ TEST(SceneWriter, LeavesWeightsOfNoTargetsAsTheyWere) {
 
 TEST(SceneWriter, AnswersAnyDamagedScene) {
   Rig rig = converted(smallFace());
-  const std::string scene = gltf::inflated(rig.scene).value();
+  const std::string scene = gltf::glbOf(rig.scene).value();
   std::mt19937 random(7);
   for (int round = 0; round < 2000; ++round) {
     rig.scene = scene;

@@ -13,8 +13,8 @@
 #include "sweepface/gltf.hpp"
 
 #include "faces.hpp"
-#include "gltf/deflate.hpp"
 #include "gltf/glb.hpp"
+#include "gltf/scene.hpp"
 
 // What is in a GLB that was written, told by nothing but the words of the glTF specification.
 namespace sweepface::testing {
@@ -205,7 +205,7 @@ inline Rig converted(const Glb& glb, double tolerance = 0.05) {
 }
 
 /// The GLB of a rig's scene.
-inline Written sceneOf(const Rig& rig) { return Written(gltf::inflated(rig.scene).value()); }
+inline Written sceneOf(const Rig& rig) { return Written(gltf::glbOf(rig.scene).value()); }
 
 /// The surface at the vertices of the source.
 inline std::vector<Vec3> surfacePositions(const Rig& rig, const Weights& weights = {}) {

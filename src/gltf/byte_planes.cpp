@@ -1,0 +1,139 @@
+#include "gltf/byte_planes.hpp"
+
+#include <cstdint>
+#include <vector>
+
+#include "gltf/deflate.hpp"
+
+namespace sweepface::gltf {
+namespace {
+
+/// A plane of a table, whose bytes stand one after another in planes, and `width` apart in rows.
+std::string planeOf(std::string_view rows, std::size_t plane, std::size_t width) {
+  std::string bytes;
+  bytes.reserve(rows.size() / width);
+  for (std::size_t at = plane; at < rows.size(); at += width) bytes += rows[at];
+  return bytes;
+}
+
+std::string differences(std::string_view plane) {
+  std::string steps(plane);
+  for (std::size_t k = steps.size(); k-- > 1;)
+    steps[k] = static_cast<char>(static_cast<unsigned char>(plane[k]) -
+                                 static_cast<unsigned char>(plane[k - 1]));
+  return steps;
+}
+
+void undoDifferences(std::string& plane) {
+  for (std::size_t k = 1; k < plane.size(); ++k)
+    plane[k] = static_cast<char>(static_cast<unsigned char>(plane[k]) +
+                                 static_cast<unsigned char>(plane[k - 1]));
+}
+
+/// A table in planes, and which of these are differences, a byte each.
+struct Planes {
+  std::string bytes, steps;
+};
+
+Planes planesOf(std::string_view rows, std::size_t width) {
+  Planes planes;
+  for (std::size_t p = 0; p < width; ++p) {
+    const std::string plane = planeOf(rows, p, width), steps = differences(plane);
+    const bool better = deflated(steps).size() < deflated(plane).size();
+    planes.bytes += better ? steps : plane;
+    planes.steps += better ? '\1' : '\0';
+  }
+  return planes;
+}
+
+void append32(std::string& bytes, std::size_t value) {
+  for (int k = 0; k < 4; ++k) bytes += static_cast<char>(value >> (8 * k) & 255);
+}
+
+/// Takes numbers and bytes from the front of a text.
+class Front {
+ public:
+  explicit Front(std::string_view text) : text_(text) {}
+
+  std::string_view bytes(std::size_t count) {
+    ok_ &= count <= text_.size();
+    const std::string_view taken = text_.substr(0, count);
+    text_.remove_prefix(taken.size());
+    return taken;
+  }
+  std::size_t number() {
+    std::uint32_t value = 0;
+    int shift = 0;
+    for (const char byte : bytes(4)) {
+      value |= std::uint32_t{static_cast<unsigned char>(byte)} << shift;
+      shift += 8;
+    }
+    return value;
+  }
+  std::string_view rest() const { return text_; }
+  bool ok() const { return ok_; }
+
+ private:
+  std::string_view text_;
+  bool ok_ = true;
+};
+
+void putRows(std::string& bytes, const ByteTable& table, std::string_view steps) {
+  const std::string planes = bytes.substr(table.begin, table.size());
+  for (std::size_t p = 0; p < table.width; ++p) {
+    std::string plane = planes.substr(p * table.rows, table.rows);
+    if (steps[p] != 0) undoDifferences(plane);
+    for (std::size_t k = 0; k < table.rows; ++k)
+      bytes[table.begin + k * table.width + p] = plane[k];
+  }
+}
+
+}  // namespace
+
+std::string toPlanes(std::string_view bytes, std::span<const ByteTable> tables) {
+  std::string turned(bytes), heads;
+  std::size_t count = 0;
+  for (const ByteTable& table : tables) {
+    const std::string_view rows = bytes.substr(table.begin, table.size());
+    const Planes planes = planesOf(rows, table.width);
+    std::string head;
+    for (const std::size_t number : {table.begin, table.width, table.rows}) append32(head, number);
+    head += planes.steps;
+    if (deflated(planes.bytes).size() + head.size() >= deflated(rows).size()) continue;
+    turned.replace(table.begin, table.size(), planes.bytes);
+    heads += head;
+    ++count;
+  }
+  if (count == 0) return {};
+  std::string text;
+  append32(text, count);
+  return text + heads + turned;
+}
+
+Result<std::string> fromPlanes(std::string_view planes) {
+  struct Turned {
+    ByteTable table;
+    std::string_view steps;
+  };
+  Front front(planes);
+  std::vector<Turned> all;
+  std::size_t end = 0;
+  for (std::size_t left = front.number(); left > 0 && front.ok(); --left) {
+    ByteTable table;
+    table.begin = front.number();
+    table.width = front.number();
+    table.rows = front.number();
+    const std::string_view steps = front.bytes(table.width);
+    const bool sound = table.begin >= end && table.size() > 0 &&
+                       steps.find_first_not_of(std::string_view("\0\1", 2)) == steps.npos;
+    if (!sound) return fail("it is damaged");
+    end = table.end();
+    all.push_back({table, steps});
+  }
+  if (!front.ok() || end > front.rest().size()) return fail("it is damaged");
+  std::string bytes(front.rest());
+  for (const auto& [table, steps] : all) putRows(bytes, table, steps);
+  return bytes;
+}
+
+}  // namespace sweepface::gltf
