@@ -65,8 +65,8 @@ export function writeDrive(runtime, at, drive, matters) {
   const given = typeof drive === 'string' ? {kind: drive} : drive ?? {};
   if (kindOf(given) !== 'Object')
     throw new TypeError(`A drive is a name, or numbers like {kind: 'spring', frequency: 3}, not ${told(given)}.`);
-  const kind = KINDS.indexOf(given.kind ?? 'spring');
-  if (kind < 0) throw new Error(`There is no drive '${given.kind}'; there are ${KINDS.join(', ')}.`);
+  const name = given.kind ?? 'spring', kind = KINDS.indexOf(name);
+  if (kind < 0) throw new Error(`There is no drive '${name}'; there are ${KINDS.join(', ')}.`);
   runtime.wasm.sweepface_drive_of(at, kind);
   const numbers = runtime.doubles(at + 8, NUMBERS.length);
   for (const key of Object.keys(given)) {
@@ -75,11 +75,13 @@ export function writeDrive(runtime, at, drive, matters) {
     if (place < 0) throw new Error(`A drive has no '${key}'; it has kind, ${NUMBERS.join(', ')}.`);
     if (!Number.isFinite(given[key]))
       throw new TypeError(`The ${key} of a drive must be a finite number, not ${told(given[key])}.`);
+    if (!goesBy(name, key))
+      throw new Error(`The drive '${name}' has no use for '${key}'; leave it out, or name another drive.`);
     numbers[place] = given[key];
   }
   if (numbers[0] < 0) throw new RangeError('The delay of a motion must be at least 0 seconds.');
   for (const matter of matters) {
-    const fault = faultOf({...inMatter(numbers, matter), kind: KINDS[kind]}, FAR, FAR);
+    const fault = faultOf({...inMatter(numbers, matter), kind: name}, FAR, FAR);
     if (fault) throw new RangeError(`${fault}.`);
   }
 }

@@ -85,6 +85,9 @@ test('what there is not is refused with the library\'s sentence, and nothing cha
   assert.throws(() => face.moveTo({jawOpen: 1}, 'jump'), {message: /no drive 'jump'; there are cut, newton/});
   assert.throws(() => face.moveTo({jawOpen: 1}, {speed: 1}), {message: /has no 'speed'; it has kind, delay/});
   assert.throws(() => face.moveTo({jawOpen: 1}, {kind: 'newton', seconds: 0}), {message: /\.$/});
+  for (const [drive, idle] of [[{seconds: 2}, 'seconds'], [{kind: 'cut', turn: 0.5}, 'turn'],
+                               [{kind: 'newton', damping: 1}, 'damping']])
+    assert.throws(() => face.moveTo({jawOpen: 1}, drive), {message: new RegExp(`has no use for '${idle}'; leave it out`)});
   assert.throws(() => face.evaluate(new Float32Array(6)), {message: /There must be room for \d+ vertices/});
   assert.throws(() => face.setWeights(), {message: /^Weights are given by name/});
   assert.throws(() => face.moveTo({jawOpen: 1e9}), {message: /'jawOpen' must lie within 1000000 of 0\.$/});
