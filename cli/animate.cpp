@@ -93,7 +93,7 @@ Result<std::vector<double>> sampleTimes(const AnimateArguments& a, const Perform
   const bool isCsv = isOfKind(a.output, ".csv"), hasKeys = isCsv || isOfKind(a.output, ".glb");
   // A timecode tells thousandths of a frame.
   const double same =
-      std::max(std::min(1e-4, 0.5 * performance.seconds), isCsv ? 1e-3 / a.what.clipRate : 0);
+      std::max(std::min(1e-4, 0.5 * performance.seconds), isCsv ? 1e-3 / a.what.writtenRate() : 0);
   if (!hasKeys) return times;
   // Keys have single precision.
   const bool isLater =
@@ -214,13 +214,13 @@ Result<void> animateCsv(const AnimateArguments& a, const Rig& rig, const Perform
   const bool own =
       !performance.frameTimes.empty() && !a.namesFrames() && isOfKind(a.what.clip, ".csv");
   AnimateArguments asked = a;
-  if (!own && !a.namesFrames()) asked.framesPerSecond = a.what.clipRate;
+  if (!own && !a.namesFrames()) asked.framesPerSecond = a.what.writtenRate();
   const Result<std::vector<double>> times =
       own ? performance.frameTimes : sampleTimes(asked, performance);
   if (!times) return std::unexpected(times.error());
   Clip clip = sample(performance, rig, *times);
   if (performance.pose) addAngles(clip, performance.pose);
-  const Result<std::string> text = formatLiveLinkCsv(clip, a.what.clipRate);
+  const Result<std::string> text = formatLiveLinkCsv(clip, a.what.writtenRate());
   if (!text) return std::unexpected(text.error());
   if (auto written = writeFile(a.output, *text); !written) return written;
   if (!a.quiet)
@@ -261,9 +261,8 @@ Result<void> checkKeys(const AnimateArguments& a, const Performance& performance
         fmt::format("Keys that are {} have no frames; leave --frames and --fps out.", a.keys));
   const std::string keys = keysOf(a, performance);
   if (a.keyTolerance > 0 && keys != "few")
-    return fail(fmt::format(
-        "Keys that are {} have no tolerance; leave --key-tolerance out, or give --keys few.",
-        keys));
+    return fail(fmt::format("Keys that are {} have no tolerance; leave --key-tolerance out, or {}.",
+                            keys, a.namesFrames() ? "--frames and --fps" : "give --keys few"));
   return {};
 }
 

@@ -140,7 +140,7 @@ Result<Recording> readClip(const PerformanceArguments& a, const Region& region,
   if (!gltf && !a.animation.empty())
     return fail(fmt::format(
         "{} has no animations to choose from, as a .glb has; leave --animation out.", a.clip));
-  auto clip = isJson ? parseClipJson(*text, a.clip)
+  auto clip = isJson ? parseClipJson(*text, a.clip, a.clipRate)
               : gltf ? parseGltfClip(*text, a.clip, folderOf(a.clip), a.animation)
                      : parseLiveLinkCsv(*text, a.clip, a.clipRate);
   if (!clip) return std::unexpected(clip.error());
@@ -188,7 +188,8 @@ Result<Performance> byClip(const PerformanceArguments& a, const Rig& rig, const 
   performance.seconds = clip.seconds();
   performance.clipWeights = clip.weights.size();
   performance.frameMiss = recording->missed;
-  performance.notes = notesOn(match, clip, targets, a.clip);
+  performance.notes = recording->clip.warnings;
+  std::ranges::move(notesOn(match, clip, targets, a.clip), std::back_inserter(performance.notes));
   for (const double time : clip.times) performance.frameTimes.push_back(time - clip.times.front());
   const ClipAngles angles(clip);
   performance.hasHead = angles.head(), performance.turnsHead = angles.turnsHead();
@@ -257,8 +258,9 @@ void checkUse(const CLI::App& app, const PerformanceArguments& a) {
     refuse(option, plays("spring") || hangs, "Only spring swings; leave this out.");
   refuse("--restitution", plays("bounce"), "Only bounce comes back; leave this out.");
   refuse("--clip-fps",
-         isOfKind(a.clip, ".csv") || isOfKind(app["--output"]->as<std::string>(), ".csv"),
-         "Only a .csv has timecodes; leave this out.");
+         isOfKind(a.clip, ".csv") || isOfKind(a.clip, ".json") ||
+             isOfKind(app["--output"]->as<std::string>(), ".csv"),
+         "Only a .csv has timecodes, and a .json may lack times; leave this out.");
 }
 
 }  // namespace
@@ -308,9 +310,10 @@ void addPerformance(CLI::App& app, PerformanceArguments& a) {
                  "Which animation of a .glb; the first with weights if not given")
       ->needs("--clip")
       ->type_name("NAME");
-  app.add_option("--clip-fps", a.clipRate, "Frames a second in the timecodes of a .csv")
+  app.add_option("--clip-fps", a.clipRate,
+                 "Frames a second: in the timecodes of a .csv, as these tell or else 60 if not "
+                 "given; of a MediaPipe .json without times")
       ->check(positiveNumber(1000))
-      ->capture_default_str()
       ->type_name("N");
   app.add_flag("--smooth", a.smooth, "Take a tracker's noise out of the clip")->needs("--clip");
   app.parse_complete_callback([&app, &a] {
@@ -345,8 +348,10 @@ void addAngles(Clip& clip, const std::function<HeadPose(double time)>& pose) {
     const auto row = clip.weights.begin() + static_cast<std::ptrdiff_t>(f * before);
     weights.insert(weights.end(), row, row + static_cast<std::ptrdiff_t>(before));
     const HeadPose stands = pose(clip.times[f]);
-    for (const Angles& a : {stands.head, stands.leftEye, stands.rightEye})
+    for (const Angles& angles : {stands.head, stands.leftEye, stands.rightEye}) {
+      const Angles a = betweenHands(angles);
       weights.insert(weights.end(), {a.yaw, a.pitch, a.roll});
+    }
   }
   clip.weights = std::move(weights);
 }

@@ -17,9 +17,13 @@ namespace sweepface::cli {
 struct PerformanceArguments {
   std::string from, law = "newton", clip, animation;
   std::optional<std::string> to;
-  double seconds = 1, frequency = 2, damping = 1, restitution = 0.4, clipRate = 60;
+  double seconds = 1, frequency = 2, damping = 1, restitution = 0.4;
+  double clipRate = 0;  ///< frames a second of the clip's timecodes; 0: as they tell
   bool smooth = false;
   bool tellsSpring = false;  ///< its frequency or damping
+
+  /// Of the timecodes that are written.
+  double writtenRate() const { return clipRate > 0 ? clipRate : 60; }
 };
 void addPerformance(CLI::App& app, PerformanceArguments& a);
 

@@ -42,6 +42,15 @@ Result<void> checkNames(const std::string& file, const std::vector<Region>& regi
   return {};
 }
 
+/// What --regions takes the place of.
+std::vector<std::string> notesOnOwn(const std::string& clip, const RegionArguments& a) {
+  if (a.file.empty() || !isOfKind(clip, ".json")) return {};
+  const Result<std::string> text = readFile(clip);
+  const auto own = text ? parseRegions(*text, clip) : std::vector<PaintedRegion>{};
+  if (!own || own->empty()) return {};
+  return {fmt::format("{}: its own regions are not used, but those of {}.", clip, a.file)};
+}
+
 /// Everything that regions do: a performance each, of K weights.
 struct Parts {
   std::vector<Performance> performances;  // [R]
@@ -153,6 +162,7 @@ Result<Performance> perform(const PerformanceArguments& what, const RegionArgume
   Performance whole = parts.performances.size() == 1 ? std::move(parts.performances.front())
                                                      : together(std::move(parts), *regions, rig);
   std::ranges::move(still, std::back_inserter(whole.notes));
+  std::ranges::move(notesOnOwn(what.clip, a), std::back_inserter(whole.notes));
   if (whole.frameMiss > 1e-4)
     whole.notes.push_back(
         fmt::format("{}: it moves more quickly, or for longer, than frames can tell: between them "

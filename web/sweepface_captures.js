@@ -4,6 +4,7 @@ import {isNumber, isObject, isWeight, lowered, parseJson, textOf} from './sweepf
 import {known} from './sweepface_values.js';
 
 const DAY = 86400, MOST_TIME = 1e10;  // seconds
+const USUAL_RATE = 60;  // of timecodes
 /** Weights that a clip can hold: frames times names. */
 const MOST_WEIGHTS = 2 ** 26;
 
@@ -22,39 +23,83 @@ function trimmed(text) {
   return text.slice(from, to);
 }
 
+/** Cells between commas, without blanks and quotes around them. */
+function cellsOf(line) {
+  return line.split(',').map(trimmed)
+      .map((cell) => (/^".*"$/s.test(cell) && cell.length > 1 ? trimmed(cell.slice(1, -1)) : cell));
+}
+
 function readLiveLink(text, name, framesPerSecond) {
-  const cellsOf = (line) => line.split(',').map(trimmed);
-  const lines = text.split(text.includes('\n') ? '\n' : '\r').map((line, k) => ({number: k + 1, cells: cellsOf(line)}));
-  const filled = lines.filter(({cells}) => cells.length > 1 || cells[0] !== '');
+  const lines = text.split(text.includes('\n') ? '\n' : '\r').map((line, k) => ({number: k + 1, text: trimmed(line)}));
+  const filled = lines.filter(({text: line}, k) => line !== '' && !(k === 0 && lowered(line) === 'sep=,'));
   if (filled.length === 0) throw new Error(`${name} is empty; record again.`);
   const fail = (line, what) => new Error(`${name}, line ${line.number}: ${what}.`);
-  const [headings, ...rows] = filled;
-  const {timeColumn, shapes} = columnsOf(headings.cells, (what) => fail(headings, what));
-  if (rows.length === 0) throw new Error(`${name} has headings but no frames; record again.`);
+  const [first, ...rest] = filled, headings = cellsOf(first.text);
+  // Spreadsheets end every line with a comma.
+  const endsEmpty = headings.length > 1 && headings.at(-1) === '';
+  if (endsEmpty) headings.pop();
+  const {timeColumn, shapes} = columnsOf(headings, first.text, (what) => fail(first, what));
+  if (rest.length === 0) throw new Error(`${name} has headings but no frames; record again.`);
 
-  const times = new Float64Array(rows.length), weights = [];
-  let midnights = 0;  // in seconds
-  rows.forEach((row, f) => {
-    const {cells} = row, timecode = cells[timeColumn], expected = headings.cells.length;
+  const weights = [], rows = rest.map((line) => {
+    const cells = cellsOf(line.text), expected = headings.length;
+    if (endsEmpty && cells.length === expected + 1 && cells.at(-1) === '') cells.pop();
     if (cells.length !== expected)
-      throw fail(row, `there are ${cells.length} values under ${expected} headings; the file may be cut short`);
-    const {seconds, isClock} = timeOf(timecode, framesPerSecond, (what) => fail(row, what));
-    // At midnight the clock begins anew.
-    if (isClock && f > 0 && seconds + midnights < times[f - 1] - DAY / 2) midnights += DAY;
-    times[f] = seconds + (isClock ? midnights : 0);
-    if (f > 0 && times[f] <= times[f - 1])
-      throw fail(row, `the timecode '${timecode}' is not after the one before; sort the rows by time`);
+      throw fail(line, `there are ${cells.length} values under ${expected} headings; the file may be cut short`);
+    const time = timeOf(cells[timeColumn], (what) => fail(line, what));
     for (const c of shapes.values()) {
       const value = numberIn(cells[c]);
-      if (!isWeight(value)) throw fail(row, `'${cells[c]}' in column ${c + 1} is not a number within ±1,000,000`);
+      if (!isWeight(value)) throw fail(line, `'${cells[c]}' in column ${c + 1} is not a number within ±1,000,000`);
       weights.push(value);
     }
+    return {...time, timecode: cells[timeColumn], line};
   });
-  return new Clip([...shapes.keys()], times, new Float64Array(weights));
+  return clipOf([...shapes.keys()], rows, weights, framesPerSecond ?? rateOf(rows), name, fail);
+}
+
+/** Of rows at the same time the last one stays. */
+function clipOf(names, rows, weights, rate, name, fail) {
+  const n = names.length, times = [], repeated = [];
+  let midnights = 0;  // in seconds
+  rows.forEach(({seconds, frames, isClock, timecode, line}, row) => {
+    if (frames >= rate)
+      throw fail(line, `the timecode '${timecode}' counts more than ${rate} frames a second; ` +
+                       'give the recording\'s own rate, a whole number');
+    const before = times.at(-1), clock = seconds + frames / rate;
+    // At midnight the clock begins anew.
+    if (isClock && clock + midnights < before - DAY / 2) midnights += DAY;
+    const time = clock + (isClock ? midnights : 0);
+    if (time < before) throw fail(line, `the timecode '${timecode}' is before the one above; sort the rows by time`);
+    if (time === before) repeated.push(line.number);
+    else times.push(time);
+    for (let k = 0; k < n; ++k) weights[(times.length - 1) * n + k] = weights[row * n + k];
+  });
+  const clip = new Clip(names, new Float64Array(times), new Float64Array(weights.slice(0, times.length * n)));
+  if (repeated.length > 0)
+    clip.warnings.push(`${name}: ${repeated.length} of ${rows.length} rows, the first in line ${repeated[0]}, have the ` +
+                       'timecode of the one before; of each time the last row counts.');
+  return clip;
+}
+
+/**
+ * In what the timecodes of a take count: the app's usual rate, unless a whole second of many rows goes no further than
+ * another one's.
+ */
+function rateOf(rows) {
+  let most = 0, inASecond = 0, count = 0, isFirst = true;
+  rows.forEach(({seconds, frames}, row) => {
+    most = Math.max(most, Math.floor(frames));
+    ++count;
+    if (row + 1 === rows.length || rows[row + 1].seconds === seconds) return;
+    if (!isFirst) inASecond = Math.max(inASecond, count);  // one between two others
+    isFirst = false;
+    count = 0;
+  });
+  return [24, 25, 30, 48, 50].find((rate) => most < rate && inASecond >= 0.8 * rate) ?? USUAL_RATE;
 }
 
 /** The column of times, and those of shapes by name. */
-function columnsOf(headings, fail) {
+function columnsOf(headings, line, fail) {
   const shapes = new Map();
   let timeColumn = -1;
   headings.forEach((heading, c) => {
@@ -65,29 +110,30 @@ function columnsOf(headings, fail) {
     if (isTime) timeColumn = c;
     else if (lowered(heading) !== 'blendshapecount') shapes.set(heading, c);
   });
-  if (timeColumn < 0) throw fail('there is no column \'Timecode\'; this may be no recording of Live Link Face');
+  if (timeColumn < 0) {
+    for (const [separator, called] of [[';', 'semicolons'], ['\t', 'tabs']])
+      if (line.includes(separator)) throw fail(`the columns are separated by ${called}; save them with commas`);
+    throw fail('there is no column \'Timecode\'; this may be no recording of Live Link Face');
+  }
   if (shapes.size === 0) throw fail('there is no column of a shape');
   return {timeColumn, shapes};
 }
 
-/** HH:MM:SS:FF.fff, the last in frames; or plain seconds. */
-function timeOf(timecode, framesPerSecond, fail) {
+/** HH:MM:SS:FF.fff, the last in frames, after ';' in some; or plain seconds. */
+function timeOf(timecode, fail) {
   const seconds = numberIn(timecode);
   if (seconds < 0 && seconds >= -MOST_TIME) throw fail(`the time '${timecode}' is below 0`);
-  if (Math.abs(seconds) <= MOST_TIME) return {seconds, isClock: false};
-  const parts = timecode.split(':').map(numberIn);
+  if (Math.abs(seconds) <= MOST_TIME) return {seconds, frames: 0, isClock: false};
+  const parts = timecode.replace(/^([^:;]*:[^:;]*:[^:;]*);/, '$1:').split(':').map(numberIn);
   if (parts.length !== 4 || !parts.every((part) => part >= 0 && part <= 1e6))
     throw fail(`'${timecode}' is not a timecode like 12:59:59:23.500`);
   if (parts[1] >= 60 || parts[2] >= 60)
     throw fail(`the timecode '${timecode}' has more than 59 minutes or seconds`);
-  if (parts[3] >= framesPerSecond)
-    throw fail(`the timecode '${timecode}' counts more than ${framesPerSecond} frames a second; ` +
-               'give the recording\'s own rate');
-  return {seconds: (parts[0] * 60 + parts[1]) * 60 + parts[2] + parts[3] / framesPerSecond, isClock: true};
+  return {seconds: (parts[0] * 60 + parts[1]) * 60 + parts[2], frames: parts[3], isClock: true};
 }
 
-function readAudio2Face(json, fail) {
-  const {exportFps, facsNames: names, weightMat: rows} = json;
+function readAudio2Face(json, name, fail) {
+  const {exportFps, facsNames: names, weightMat: rows, numFrames} = json;
   if (!isNumber(exportFps) || !(exportFps > 0)) throw fail('has no \'exportFps\' greater than 0');
   if (!Array.isArray(names) || names.length === 0) throw fail('has no list \'facsNames\' with names in it');
   if (!names.every((name) => typeof name === 'string')) throw fail('has a value in \'facsNames\' that is not a name');
@@ -100,17 +146,18 @@ function readAudio2Face(json, fail) {
       throw fail(`has not ${names.length} numbers in weightMat[${f}], one for every name`);
     if (!row.every(isWeight)) throw fail(`has a value that is not a number within ±1,000,000 in weightMat[${f}]`);
   });
-  return new Clip(names, Float64Array.from(rows, (_, f) => f / exportFps), new Float64Array(rows.flat()));
+  const clip = new Clip(names, Float64Array.from(rows, (_, f) => f / exportFps), new Float64Array(rows.flat()));
+  if (numFrames !== undefined && numFrames !== rows.length)
+    clip.warnings.push(`${name}: 'numFrames' is ${JSON.stringify(numFrames)}, but 'weightMat' has ${rows.length} frames; ` +
+                       'was the file cut short?');
+  return clip;
 }
 
-function readMediaPipe(frames, fail) {
+function readMediaPipe(frames, framesPerSecond, name, fail) {
   if (frames.length === 0) throw fail('has no frames');
-  const times = new Float64Array(frames.length), scores = frames.map((frame, f) => {
-    const time = frame?.[['timestampMs', 'timestamp_ms', 'timestamp'].find((key) => frame[key] !== undefined)];
-    if (typeof time !== 'number') throw fail(`has no 'timestampMs' in frame ${f}`);
-    times[f] = time / 1000;
-    if (!(Math.abs(times[f]) <= MOST_TIME) || (f > 0 && times[f] <= times[f - 1]))
-      throw fail(`has a time in frame ${f} that is not after the one before`);
+  const times = [], scores = frames.map((frame, f) => {
+    times.push(timeIn(frame, f, framesPerSecond, fail));
+    if (f > 0 && times[f] <= times[f - 1]) throw fail(`has a time in frame ${f} that is not after the one before`);
     return scoresOf(frame, f, fail);
   });
   const shapes = new Set(scores.flatMap((frame) => [...frame.keys()].sort()));
@@ -120,17 +167,43 @@ function readMediaPipe(frames, fail) {
   if (names.length > MOST_WEIGHTS / frames.length)
     throw fail(`has ${names.length} names in ${frames.length} frames, more than a clip can hold; ` +
                'name the same ones in every frame');
-  const weights = new Float64Array(frames.length * names.length);
-  scores.forEach((frame, f) => names.forEach((shape, k) => {
-    weights[f * names.length + k] = frame.get(shape) ?? 0;
-  }));
-  return new Clip(names, times, weights);
+  // Frames without a face are left out; those at the ends are as their neighbours, so that the others stay when they
+  // were.
+  const last = frames.length - 1, found = scores.map(({size}) => size > 0);
+  const firstFace = found.indexOf(true), lastFace = found.lastIndexOf(true);
+  const kept = found.map((_, f) => f).filter((f) => found[f] || f === 0 || f === last);
+  const weights = new Float64Array(kept.length * names.length);
+  kept.forEach((f, row) => {
+    const frame = scores[Math.min(Math.max(f, firstFace), lastFace)];
+    names.forEach((shape, k) => { weights[row * names.length + k] = frame.get(shape) ?? 0; });
+  });
+  const clip = new Clip(names, Float64Array.from(kept, (f) => times[f]), weights);
+  const step = 1000 * (times[last] - times[0]) / last, lost = found.filter((has) => !has).length;
+  if (step < 1 || step > 5000)  // what no camera does
+    clip.warnings.push(`${name}: frames are ${Number(step.toPrecision(3))} ms apart; are the times milliseconds, as they ` +
+                       'should be?');
+  if (lost > 0)
+    clip.warnings.push(`${name}: ${lost} of ${frames.length} frames found no face; weights go on from the frames around ` +
+                       'them.');
+  return clip;
+}
+
+/** Seconds. */
+function timeIn(frame, f, framesPerSecond, fail) {
+  const time = frame?.[['timestampMs', 'timestamp_ms', 'timestamp'].find((key) => frame[key] !== undefined)];
+  if (time === undefined && framesPerSecond) return f / framesPerSecond;
+  if (typeof time !== 'number')
+    throw fail(`has no 'timestampMs' in frame ${f}; add the milliseconds, or give the frames a second`);
+  if (!(Math.abs(time / 1000) <= MOST_TIME)) throw fail(`has a time in frame ${f} that is not within 300 years`);
+  return time / 1000;
 }
 
 function scoresOf(frame, f, fail) {
-  // Beside the time, or within the first of the faces found. A frame without a face has none.
-  const {faceBlendshapes: faces = frame.face_blendshapes} = frame;
-  const {categories = Array.isArray(faces) && faces.length === 0 ? [] : faces?.[0]?.categories} = frame;
+  // Beside the time, or of the first of the faces found: an object in JavaScript, the list itself in Python. A frame
+  // without a face has none.
+  const {faceBlendshapes: faces = frame?.face_blendshapes} = frame ?? {};
+  const face = Array.isArray(faces) && faces.length === 0 ? [] : faces?.[0];
+  const {categories = Array.isArray(face) ? face : face?.categories} = frame ?? {};
   if (!Array.isArray(categories)) throw fail(`has no 'categories' in frame ${f}`);
   return new Map(categories.map((category) => {
     const shape = category?.categoryName ?? category?.category_name;
@@ -142,20 +215,20 @@ function scoresOf(frame, f, fail) {
 }
 
 /**
- * A capture, from its text or bytes: a CSV of Live Link Face, whose timecodes count in `framesPerSecond`, or a JSON of
- * Audio2Face or MediaPipe. `name` is what messages call it.
+ * A capture, from its text or bytes: a CSV of Live Link Face, whose timecodes count in `framesPerSecond` (or as they
+ * tell, or else 60), or a JSON of Audio2Face or MediaPipe. `name` is what messages call it.
  */
 export function readClip(source, options) {
-  const {name: given, framesPerSecond = 60} = known(options, ['name', 'framesPerSecond'], 'readClip');
+  const {name: given, framesPerSecond} = known(options, ['name', 'framesPerSecond'], 'readClip');
   const name = given || 'The clip', text = textOf(source, 'clip', name);
-  if (!(framesPerSecond > 0 && Number.isFinite(framesPerSecond)))
+  if (framesPerSecond !== undefined && !(framesPerSecond > 0 && Number.isFinite(framesPerSecond)))
     throw new RangeError('The frames per second of a recording must be greater than 0.');
   if (!/^[ \t-\r]*[{[]/.test(text)) return readLiveLink(text, name, framesPerSecond);
   const json = parseJson(text, name), fail = (what) => new Error(`${name} ${what}.`);
   if (isObject(json) && json.events !== undefined) throw fail('is a timeline; readTimeline reads it');
-  if (isObject(json) && json.weightMat !== undefined) return readAudio2Face(json, fail);
+  if (isObject(json) && json.weightMat !== undefined) return readAudio2Face(json, name, fail);
   const frames = Array.isArray(json) ? json : json.frames;
-  if (Array.isArray(frames)) return readMediaPipe(frames, fail);
+  if (Array.isArray(frames)) return readMediaPipe(frames, framesPerSecond, name, fail);
   throw fail('is neither of Audio2Face (\'facsNames\' and \'weightMat\'), nor of MediaPipe (a list of frames ' +
              'with \'categories\'), nor a timeline (\'seconds\' and \'events\')');
 }

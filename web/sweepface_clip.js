@@ -18,6 +18,8 @@ export class Clip {
     this.names = names;
     this.times = times;
     this.weights = weights;
+    /** What was mended or may be wrong in the file that it was read from, in sentences. */
+    this.warnings = [];
   }
 
   get seconds() { return this.times.length === 0 ? 0 : this.times.at(-1) - this.times[0]; }
@@ -47,27 +49,38 @@ export class Clip {
     return out;
   }
 
-  /** Without the noise of a tracker, by the one-euro filter: heavily where weights rest, hardly where they move. */
+  /**
+   * Without the noise of a tracker, by the one-euro filter, from both ends so that nothing is late: heavily where
+   * weights rest, hardly where they move.
+   */
   smooth(settings) {
-    const {cutoff = 1, speedGain = 2, speedCutoff = 1} = known(settings, ONE_EURO, 'The one-euro filter');
+    const {cutoff = 1, speedGain = 8, speedCutoff = 5} = known(settings, ONE_EURO, 'The one-euro filter');
     for (const number of [cutoff, speedGain, speedCutoff])
       if (!(isNumber(number) && number >= 0))
         throw new RangeError(`The one-euro filter needs finite numbers of at least 0, not ${told(number)}.`);
-    const n = this.names.length, weights = this.weights.slice(), speeds = new Float64Array(n);
+    const [late, early] = [false, true].map((backwards) => this.#filtered(cutoff, speedGain, speedCutoff, backwards));
+    const clip = new Clip(this.names, this.times, late.map((weight, k) => (weight + early[k]) / 2));
+    clip.warnings = this.warnings;
+    return clip;
+  }
+
+  #filtered(cutoff, speedGain, speedCutoff, backwards) {
+    const n = this.names.length, frames = this.times.length, weights = this.weights.slice();
+    const speeds = new Float64Array(n), step = backwards ? -1 : 1;
     const share = (hertz, seconds) => 1 - 1 / (2 * Math.PI * hertz * seconds + 1);
-    for (let f = 1; f < this.times.length; ++f) {
-      const seconds = this.times[f] - this.times[f - 1];
+    for (let i = 1; i < frames; ++i) {
+      const f = backwards ? frames - 1 - i : i, seconds = Math.abs(this.times[f] - this.times[f - step]);
       if (!(seconds > NO_TIME)) {  // the filter begins anew
         speeds.fill(0);
         continue;
       }
       for (let k = 0; k < n; ++k) {
-        const before = weights[(f - 1) * n + k], now = weights[f * n + k];
+        const before = weights[(f - step) * n + k], now = weights[f * n + k];
         speeds[k] += ((now - before) / seconds - speeds[k]) * share(speedCutoff, seconds);
         weights[f * n + k] = before + (now - before) * share(cutoff + speedGain * Math.abs(speeds[k]), seconds);
       }
     }
-    return new Clip(this.names, this.times, weights);
+    return weights;
   }
 }
 
@@ -121,11 +134,11 @@ export class ClipPlayer {
     return head;
   }
 
-  /** Yaw, pitch and roll from a column on, or null where the clip has none of them. */
+  /** Yaw, pitch and roll from a column on, right-handed as they are not in the app, or null where the clip has none. */
   #anglesAt(values, first) {
     const columns = this.#angles.slice(first, first + 3);
     if (columns.every((k) => k < 0)) return null;
     const [yaw, pitch, roll] = columns.map((k) => (k < 0 ? 0 : values[k]));
-    return {yaw, pitch, roll};
+    return {yaw: 0 - yaw, pitch, roll: 0 - roll};
   }
 }

@@ -19,9 +19,9 @@ export function matchNames(names: string[], targets: string[]): Match;
 export interface OneEuro {
   /** At rest: lower removes more noise. 1 unless given. */
   cutoff?: number | undefined;
-  /** Per unit of speed: higher follows quick moves more closely. 2 unless given. */
+  /** Per unit of speed: higher follows quick moves more closely. 8 unless given. */
   speedGain?: number | undefined;
-  /** Of the speed's own filter. 1 unless given. */
+  /** Of the speed's own filter: lower misses what goes to and fro. 5 unless given. */
   speedCutoff?: number | undefined;
 }
 
@@ -34,9 +34,11 @@ export class Clip {
   /** [frames × names] */
   readonly weights: Float64Array;
   readonly seconds: number;
+  /** What was mended or may be wrong in the file that it was read from, in sentences. */
+  readonly warnings: string[];
   /** The weights at so many seconds after the first frame, straight between frames and held at the ends. */
   at<Floats extends Float32Array | Float64Array = Float64Array>(seconds: number, out?: Floats): Floats;
-  /** The clip without the noise of a tracker. */
+  /** The clip without the noise of a tracker; nothing is late. */
   smooth(settings?: OneEuro): Clip;
 }
 

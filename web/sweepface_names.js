@@ -3,11 +3,11 @@ import {lowered} from './sweepface_text.js';
 
 /** A name without what spellings differ in: small letters, and a side as a final _l or _r. */
 function plain(name) {
-  const text = lowered(name.replace(/[_\- ]/g, ''));
+  const text = lowered(name.replace(/[_\-. ]/g, ''));
   for (const side of ['left', 'right'])
     if (text.length > side.length && text.endsWith(side)) return `${text.slice(0, -side.length)}_${side[0]}`;
   // A single letter is a side only where the name sets it apart: jawL, jaw_L, but not "curl".
-  const isApart = /([_\- ][LRlr]|[a-z][LR])$/.test(name);
+  const isApart = /([_\-. ][LRlr]|[a-z][LR])$/.test(name);
   return isApart && text.length > 1 ? `${text.slice(0, -1)}_${text.at(-1)}` : text;
 }
 
@@ -22,9 +22,9 @@ export function matchNames(names, targets) {
     if (!byPlain.has(plain(target))) byPlain.set(plain(target), k);
   });
   const own = names.map((name) => byName.get(name) ?? byPlain.get(plain(name)));
-  // Both sides at once, where they have no names of their own.
-  const sides = (name) => ['_l', '_r'].map((side) => byPlain.get(plain(name) + side))
-                              .filter((k) => k !== undefined && !own.includes(k));
+  // Both sides at once, where they have no names of their own. A jaw that goes left goes not right.
+  const sides = (name) => (/^(jaw|mouth)$/.test(plain(name)) ? [] : ['_l', '_r'])
+      .map((side) => byPlain.get(plain(name) + side)).filter((k) => k !== undefined && !own.includes(k));
   const found = names.map((name, k) => (own[k] !== undefined ? [own[k]] : sides(name)));
   for (const k of found.flat()) driven.add(k);
   return {

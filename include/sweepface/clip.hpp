@@ -13,9 +13,10 @@ namespace sweepface {
 
 /// Weights over time, as a tracker or an animator gives them.
 struct Clip {
-  std::vector<std::string> names;  ///< [N] as they stand in the source
-  std::vector<double> times;       ///< [F] seconds, increasing
-  std::vector<double> weights;     ///< [F × N]
+  std::vector<std::string> names;       ///< [N] as they stand in the source
+  std::vector<double> times;            ///< [F] seconds, increasing
+  std::vector<double> weights;          ///< [F × N]
+  std::vector<std::string> warnings{};  ///< what was mended or may be wrong in the file, sentences
 
   double seconds() const { return times.empty() ? 0 : times.back() - times.front(); }
   /// The weights at `seconds` after the first frame, straight between frames and held at the ends:
@@ -40,9 +41,10 @@ inline bool isPlausibleTime(double seconds) { return std::abs(seconds) <= 1e10; 
 /// ask for more: frames of a curve or of a timeline, or names that every frame has others of.
 inline constexpr std::size_t kMostClipWeights = std::size_t{1} << 26;
 
-/// Which target each name of a clip drives. Names match if they are equal but for case, '_', '-', '
-/// ' and whether a side is spelt out (eyeBlinkLeft, EyeBlink_L). A name without a side drives both
-/// sides where there is no target of its own (browInnerUp: browInnerUp_L and browInnerUp_R).
+/// Which target each name of a clip drives. Names match if they are equal but for case, '_', '-',
+/// '.', ' ' and whether a side is spelt out (eyeBlinkLeft, EyeBlink_L). A name without a side
+/// drives both sides where there is no target of its own (browInnerUp: browInnerUp_L and
+/// browInnerUp_R), but for jaw and mouth, whose left and right are ways to go.
 struct ClipMatch {
   std::vector<std::vector<Index>> targets;  ///< [N] the targets each name drives
   std::vector<std::string> unmatched;       ///< names of the clip that drive nothing
@@ -55,9 +57,10 @@ struct ClipMatch {
 ClipMatch matchClip(const Clip& clip, std::span<const std::string> targets);
 
 /// A capture of the Live Link Face app: a CSV with a timecode, a count and a column a shape, found
-/// by their headings. `framesPerSecond` is what its timecodes count in.
+/// by their headings. `framesPerSecond` is what its timecodes count in; 0: 60, or 24, 25, 30, 48 or
+/// 50 where the frames of whole seconds say so. Of rows at the same time the last one counts.
 Result<Clip> parseLiveLinkCsv(std::string_view text, std::string_view name,
-                              double framesPerSecond = 60);
+                              double framesPerSecond = 0);
 
 /// The same from a clip: first the 52 shapes of ARKit and nine angles, as the app has them, then
 /// whatever else the clip names. Shapes go by matchClip(), what drives none is 0. Refuses times
@@ -65,7 +68,10 @@ Result<Clip> parseLiveLinkCsv(std::string_view text, std::string_view name,
 Result<std::string> formatLiveLinkCsv(const Clip& clip, double framesPerSecond = 60);
 
 /// A JSON of Audio2Face (`exportFps`, `facsNames`, `weightMat`) or of MediaPipe's face landmarker
-/// (frames with a timestamp in milliseconds and `categories` of names and scores).
-Result<Clip> parseClipJson(std::string_view text, std::string_view name);
+/// (frames with a timestamp in milliseconds and `categories` of names and scores). Frames without
+/// times are MediaPipe's own results; then `framesPerSecond` tells when they were. Where no face
+/// was found weights go straight from the frame before to the one after.
+Result<Clip> parseClipJson(std::string_view text, std::string_view name,
+                           double framesPerSecond = 0);
 
 }  // namespace sweepface

@@ -11,8 +11,8 @@ namespace sweepface {
 /// How the one-euro filter trades noise for lag.
 struct OneEuro {
   double cutoff = 1;       ///< hertz, at rest: lower removes more noise
-  double speedGain = 2;    ///< hertz per unit of speed: higher follows quick moves more closely
-  double speedCutoff = 1;  ///< hertz, of the speed's own filter
+  double speedGain = 8;    ///< hertz per unit of speed: higher follows quick moves more closely
+  double speedCutoff = 5;  ///< hertz, of the speed's own filter: lower misses what goes to and fro
 };
 
 /// Takes the noise of a tracker out of K weights: heavily where they rest, hardly where they move.
@@ -32,7 +32,7 @@ class OneEuroFilter {
   bool begun_ = false;
 };
 
-/// All frames of a clip, filtered.
+/// All frames of a clip, filtered from both its ends and averaged, so that nothing is late.
 void smooth(Clip& clip, const OneEuro& settings = {});
 
 }  // namespace sweepface

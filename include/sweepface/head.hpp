@@ -30,7 +30,11 @@ struct HeadPose {
   friend bool operator==(const HeadPose&, const HeadPose&) = default;
 };
 
-/// Where a clip has the angles of Live Link Face: HeadYaw, LeftEyePitch and so on.
+/// Left-handed angles as right-handed ones, and the other way around.
+Angles betweenHands(const Angles& angles);
+
+/// Where a clip has the angles of Live Link Face: HeadYaw, LeftEyePitch and so on. These are
+/// left-handed: yaw is positive to the face's right, roll to its left.
 class ClipAngles {
  public:
   explicit ClipAngles(const Clip& clip);
@@ -42,7 +46,7 @@ class ClipAngles {
   /// column for each, and 0 in it where nobody told.
   bool turnsHead() const { return turns_[0] || turns_[1] || turns_[2]; }
   bool eyes() const { return turns_[3] || turns_[4] || turns_[6] || turns_[7]; }
-  /// The pose at `seconds` after the first frame of the clip; what it lacks is 0.
+  /// The pose at `seconds` after the first frame of the clip, right-handed; what it lacks is 0.
   HeadPose at(const Clip& clip, double seconds) const noexcept;
 
  private:

@@ -30,7 +30,8 @@ typedef struct sweepface_clip sweepface_clip;
 
 /* How a clip is read. */
 typedef struct sweepface_clip_options {
-  double frames_per_second; /* of the timecodes of a CSV */
+  double frames_per_second; /* of the timecodes of a CSV; 0: as these tell, or else 60. Of frames of
+                               MediaPipe without times, which need it */
   int32_t smooth;           /* takes a tracker's noise out, by the one-euro filter */
   double frequency;         /* of the spring on which heavy regions hang, */
   double damping;           /* and its damping */
@@ -55,6 +56,8 @@ SWEEPFACE_API double sweepface_clip_seconds(const sweepface_clip* clip);
  * where there are no more. They belong to the clip. Angles of the head and the eyes are neither. */
 SWEEPFACE_API const char* sweepface_clip_unmatched(const sweepface_clip* clip, uint32_t index);
 SWEEPFACE_API const char* sweepface_clip_undriven(const sweepface_clip* clip, uint32_t index);
+/* What was mended or may be wrong in the file, in sentences; NULL where there are no more. */
+SWEEPFACE_API const char* sweepface_clip_warning(const sweepface_clip* clip, uint32_t index);
 
 /* The weights at so many seconds after the first frame, straight between frames and held at the
  * ends: `count` of [regions x targets], of the regions that the rig had when the clip was read. */

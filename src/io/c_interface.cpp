@@ -55,7 +55,7 @@ Kind kindOf(std::string_view bytes) {
 Result<Clip> readCapture(Kind kind, std::string_view bytes, const char* name,
                          const sweepface_clip_options& options) {
   auto clip = kind == Kind::gltf      ? parseGltfClip(bytes, name, {}, "")
-              : kind == Kind::capture ? parseClipJson(bytes, name)
+              : kind == Kind::capture ? parseClipJson(bytes, name, options.frames_per_second)
                                       : parseLiveLinkCsv(bytes, name, options.frames_per_second);
   if (clip && options.smooth) smooth(*clip);
   return clip;
@@ -144,7 +144,7 @@ sweepface_status sweepface_rig_region_matter(const sweepface_rig* rig, uint32_t 
 
 sweepface_clip_options sweepface_clip_usual_options(void) {
   const Spring hold;
-  return {60, 0, hold.frequency, hold.damping};
+  return {0, 0, hold.frequency, hold.damping};
 }
 
 sweepface_status sweepface_clip_read(const sweepface_rig* rig, const void* bytes, size_t size,
@@ -156,7 +156,9 @@ sweepface_status sweepface_clip_read(const sweepface_rig* rig, const void* bytes
   const auto asked = options ? *options : sweepface_clip_usual_options();
   if (const auto hold = Trajectory::spring({}, 0, {asked.frequency, asked.damping}); !hold)
     return refuse("The spring on which heavy regions hang: ", hold.error().message);
-  if (auto ok = io::checkFrameRate(asked.frames_per_second); !ok) return refuse(ok.error().message);
+  if (asked.frames_per_second != 0)
+    if (auto ok = io::checkFrameRate(asked.frames_per_second); !ok)
+      return refuse(ok.error().message);
   auto recording =
       readForRegions(*rig->division, {static_cast<const char*>(bytes), size}, called, asked);
   if (!recording) return refuse(SWEEPFACE_BAD_DATA, recording.error().message);
@@ -187,6 +189,10 @@ const char* sweepface_clip_unmatched(const sweepface_clip* clip, uint32_t index)
 
 const char* sweepface_clip_undriven(const sweepface_clip* clip, uint32_t index) {
   return clip ? nameAt(clip->match.undriven, index) : nullptr;
+}
+
+const char* sweepface_clip_warning(const sweepface_clip* clip, uint32_t index) {
+  return clip ? nameAt(clip->recording.clip.warnings, index) : nullptr;
 }
 
 sweepface_status sweepface_clip_weights(const sweepface_clip* clip, double seconds, double* out,

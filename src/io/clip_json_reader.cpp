@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -22,7 +24,8 @@ const Json* member(const Json& object, std::string_view key) {
 
 class ClipJsonReader {
  public:
-  explicit ClipJsonReader(std::string_view name) : name_(name) {}
+  ClipJsonReader(std::string_view name, double framesPerSecond)
+      : name_(name), framesPerSecond_(framesPerSecond) {}
 
   Result<Clip> read(const Json& json) {
     if (member(json, "weightMat")) return readAudio2Face(json);
@@ -37,6 +40,9 @@ class ClipJsonReader {
  private:
   std::unexpected<Error> failFile(std::string_view what) const {
     return fail(fmt::format("{} {}.", name_, what));
+  }
+  void warn(std::string_view what) {
+    clip_.warnings.push_back(fmt::format("{}: {}.", name_, what));
   }
 
   // ---- Audio2Face: a matrix of frames × names ----
@@ -59,6 +65,9 @@ class ClipJsonReader {
     if (!rows.is_array() || rows.empty()) return failFile("has no frames in 'weightMat'");
     if (!isPlausibleTime(static_cast<double>(rows.size()) / fps->get<double>()))
       return failFile("has too low an 'exportFps' for its frames");
+    if (const Json* told = member(json, "numFrames"); told && *told != rows.size())
+      warn(fmt::format("'numFrames' is {}, but 'weightMat' has {} frames; was the file cut short?",
+                       told->dump(), rows.size()));
     for (std::size_t f = 0; f < rows.size(); ++f) {
       clip_.times.push_back(static_cast<double>(f) / fps->get<double>());
       if (auto ok = readRow(rows[f], f); !ok) return std::unexpected(ok.error());
@@ -80,13 +89,50 @@ class ClipJsonReader {
 
   // ---- MediaPipe: every frame names its scores ----
 
+  using Scores = std::map<std::string, double>;
+
   Result<Clip> readMediaPipe(const Json& frames) {
     if (frames.empty()) return failFile("has no frames");
-    std::vector<std::map<std::string, double>> scores(frames.size());
-    for (std::size_t f = 0; f < frames.size(); ++f)
-      if (auto ok = readFrame(frames[f], f, scores[f]); !ok) return std::unexpected(ok.error());
+    std::vector<double> times;
+    std::vector<Scores> scores(frames.size());
+    for (std::size_t f = 0; f < frames.size(); ++f) {
+      const auto time = readTime(frames[f], f);
+      if (!time) return std::unexpected(time.error());
+      if (f > 0 && *time <= times.back())
+        return failFile(fmt::format("has a time in frame {} that is not after the one before", f));
+      times.push_back(*time);
+      if (auto ok = readScores(frames[f], f, scores[f]); !ok) return std::unexpected(ok.error());
+    }
+    checkUnit(times);
+    return clipOf(times, scores);
+  }
+
+  Result<double> readTime(const Json& frame, std::size_t f) const {
+    const Json* time = nullptr;
+    for (const char* key : {"timestampMs", "timestamp_ms", "timestamp"})
+      if (!time) time = member(frame, key);
+    if (!time && framesPerSecond_ > 0) return static_cast<double>(f) / framesPerSecond_;
+    if (!time || !time->is_number())
+      return failFile(fmt::format(
+          "has no 'timestampMs' in frame {}; add the milliseconds, or give the frames a second",
+          f));
+    const double seconds = time->get<double>() / 1000;
+    if (isPlausibleTime(seconds)) return seconds;
+    return failFile(fmt::format("has a time in frame {} that is not within 300 years", f));
+  }
+  /// Warns of what no camera does.
+  void checkUnit(const std::vector<double>& times) {
+    if (times.size() < 2) return;
+    const double step =
+        1000 * (times.back() - times.front()) / static_cast<double>(times.size() - 1);
+    if (step < 1 || step > 5000)
+      warn(fmt::format("frames are {:.3g} ms apart; are the times milliseconds, as they should be?",
+                       step));
+  }
+
+  Result<Clip> clipOf(const std::vector<double>& times, const std::vector<Scores>& scores) {
     std::set<std::string_view> known{"_neutral"};
-    for (const auto& frame : scores)
+    for (const Scores& frame : scores)
       for (const auto& [shape, score] : frame)
         if (known.insert(shape).second) clip_.names.push_back(shape);
     if (clip_.names.empty()) return failFile("has no scores in its frames");
@@ -95,23 +141,30 @@ class ClipJsonReader {
       return failFile(fmt::format(
           "has {} names in {} frames, more than a clip can hold; name the same ones in every frame",
           clip_.names.size(), scores.size()));
-    for (const auto& frame : scores)
-      for (const std::string& shape : clip_.names) {
-        const auto found = frame.find(shape);
-        clip_.weights.push_back(found == frame.end() ? 0 : found->second);
-      }
+    // Frames without a face are left out; those at the ends are as their neighbours, so that
+    // the others stay when they were.
+    const auto hasFace = [&](const Scores& frame) { return !frame.empty(); };
+    const auto first =
+        static_cast<std::size_t>(std::ranges::find_if(scores, hasFace) - scores.begin());
+    std::size_t last = scores.size() - 1;
+    while (!hasFace(scores[last])) --last;
+    for (std::size_t f = 0; f < scores.size(); ++f)
+      if (hasFace(scores[f]) || f == 0 || f + 1 == scores.size())
+        append(times[f], scores[std::clamp(f, first, last)]);
+    if (const auto lost = std::ranges::count_if(scores, std::not_fn(hasFace)); lost > 0)
+      warn(fmt::format("{} of {} frames found no face; weights go on from the frames around them",
+                       lost, scores.size()));
     return std::move(clip_);
   }
-  Result<void> readFrame(const Json& frame, std::size_t f, std::map<std::string, double>& scores) {
-    const Json* time = nullptr;
-    for (const char* key : {"timestampMs", "timestamp_ms", "timestamp"})
-      if (!time) time = member(frame, key);
-    if (!time || !time->is_number())
-      return failFile(fmt::format("has no 'timestampMs' in frame {}", f));
-    const double seconds = time->get<double>() / 1000;
-    if (!isPlausibleTime(seconds) || (!clip_.times.empty() && seconds <= clip_.times.back()))
-      return failFile(fmt::format("has a time in frame {} that is not after the one before", f));
-    clip_.times.push_back(seconds);
+  void append(double time, const Scores& frame) {
+    clip_.times.push_back(time);
+    for (const std::string& shape : clip_.names) {
+      const auto found = frame.find(shape);
+      clip_.weights.push_back(found == frame.end() ? 0 : found->second);
+    }
+  }
+
+  Result<void> readScores(const Json& frame, std::size_t f, Scores& scores) const {
     const Json* categories = categoriesOf(frame);
     if (!categories || !categories->is_array())
       return failFile(fmt::format("has no 'categories' in frame {}", f));
@@ -128,26 +181,33 @@ class ClipJsonReader {
     }
     return {};
   }
-  // Beside the time, or within the first of the faces found. A frame without a face has none.
+  // Beside the time, or of the first of the faces found: an object in JavaScript, the list itself
+  // in Python. A frame without a face has none.
   static const Json* categoriesOf(const Json& frame) {
     static const Json none = Json::array();
     if (const Json* direct = member(frame, "categories")) return direct;
     for (const char* key : {"faceBlendshapes", "face_blendshapes"})
-      if (const Json* faces = member(frame, key); faces && faces->is_array())
-        return faces->empty() ? &none : member((*faces)[0], "categories");
+      if (const Json* faces = member(frame, key); faces && faces->is_array()) {
+        if (faces->empty()) return &none;
+        const Json& face = (*faces)[0];
+        return face.is_array() ? &face : member(face, "categories");
+      }
     return nullptr;
   }
 
   std::string_view name_;
+  double framesPerSecond_;
   Clip clip_;
 };
 
 }  // namespace
 
-Result<Clip> parseClipJson(std::string_view text, std::string_view name) {
+Result<Clip> parseClipJson(std::string_view text, std::string_view name, double framesPerSecond) {
+  if (framesPerSecond != 0)
+    if (auto ok = io::checkFrameRate(framesPerSecond); !ok) return std::unexpected(ok.error());
   const auto json = io::parseJson(text, name);
   if (!json) return std::unexpected(json.error());
-  return ClipJsonReader(name).read(*json);
+  return ClipJsonReader(name, framesPerSecond).read(*json);
 }
 
 }  // namespace sweepface

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cctype>
 #include <fmt/format.h>
 #include <functional>
 #include <nlohmann/json.hpp>
@@ -65,6 +66,22 @@ class TwiceNamed {
   std::vector<std::set<std::string>> open_;
 };
 
+/// Where a parser that stopped at a byte, counted from 1, found no JSON.
+inline std::string whereNoJson(std::string_view text, std::size_t byte) {
+  const std::string_view before = text.substr(0, std::max<std::size_t>(byte, 1) - 1);
+  const auto line = 1 + std::ranges::count(before, '\n');
+  if (byte > text.size())
+    return fmt::format("line {}: this is not JSON; was the file cut short?", line);
+  const std::size_t column = before.size() - (before.rfind('\n') + 1);
+  // A parser stops within a word, of which all should be shown.
+  std::size_t from = before.size();
+  while (from > 0 && before.size() - from < 20 &&
+         std::isalpha(static_cast<unsigned char>(text[from - 1])))
+    --from;
+  return fmt::format("line {}: this is not JSON, at column {}: {}.", line, column + 1,
+                     inQuotes(text.substr(from, 20)));
+}
+
 /// The JSON in a small text file; messages call it `name`.
 inline Result<nlohmann::json> parseJson(std::string_view text, std::string_view name) {
   if (isUtf16(text)) return fail(fmt::format("{} is a text in UTF-16; save it in UTF-8.", name));
@@ -77,10 +94,7 @@ inline Result<nlohmann::json> parseJson(std::string_view text, std::string_view 
           fmt::format("{} has the key '{}' twice in one object; keep one.", name, *twice.key));
     return json;
   } catch (const nlohmann::json::parse_error& error) {
-    const std::string_view before = text.substr(0, std::max<std::size_t>(error.byte, 1) - 1);
-    return fail(fmt::format("{}, line {}: this is not JSON{}", name,
-                            1 + std::ranges::count(before, '\n'),
-                            error.byte > text.size() ? "; was the file cut short?" : "."));
+    return fail(fmt::format("{}, {}", name, whereNoJson(text, error.byte)));
   } catch (const nlohmann::json::out_of_range&) {
     return fail(fmt::format("{} has a number that is too large to be held.", name));
   }

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <set>
+#include <utility>
+#include <vector>
 
 #include "sweepface/clip.hpp"
 #include "sweepface/weights.hpp"
@@ -14,14 +16,48 @@ namespace {
 
 using io::inQuotes, io::sameLetters, io::toNumber, io::trimmed;
 
+/// Cells between commas, without blanks and quotes around them.
 std::vector<std::string_view> cells(std::string_view line) {
   std::vector<std::string_view> found;
   while (true) {
     const std::size_t comma = line.find(',');
-    found.push_back(trimmed(line.substr(0, comma)));
+    std::string_view cell = trimmed(line.substr(0, comma));
+    if (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"')
+      cell = trimmed(cell.substr(1, cell.size() - 2));
+    found.push_back(cell);
     if (comma == std::string_view::npos) return found;
     line.remove_prefix(comma + 1);
   }
+}
+
+/// When a row was recorded: seconds and frames of a clock, or seconds alone.
+struct RowTime {
+  std::string_view text;
+  std::size_t line = 0;
+  double seconds = 0, frames = 0;
+  bool isClock = false;
+};
+
+constexpr double kUsualRate = 60;
+
+/// In what the timecodes of a take count: the app's usual rate, unless a whole second of many rows
+/// goes no further than another one's.
+double rateOf(const std::vector<RowTime>& timecodes) {
+  double most = 0;                      // frames
+  std::size_t rows = 0, inASecond = 0;  // of the densest second between two others
+  bool isFirst = true;
+  for (std::size_t k = 0; k < timecodes.size(); ++k) {
+    most = std::max(most, std::floor(timecodes[k].frames));
+    ++rows;
+    if (k + 1 == timecodes.size() || timecodes[k + 1].seconds == timecodes[k].seconds) continue;
+    if (!isFirst) inASecond = std::max(inASecond, rows);
+    isFirst = false;
+    rows = 0;
+  }
+  constexpr double kDense = 0.8;
+  for (const double rate : {24.0, 25.0, 30.0, 48.0, 50.0})
+    if (most < rate && static_cast<double>(inASecond) >= kDense * rate) return rate;
+  return kUsualRate;
 }
 
 class LiveLinkReader {
@@ -35,7 +71,9 @@ class LiveLinkReader {
     while (lines_.next())
       if (!trimmed(lines_.line()).empty())
         if (auto ok = readRow(); !ok) return std::unexpected(ok.error());
-    if (clip_.times.empty()) return failFile("has headings but no frames; record again");
+    if (timecodes_.empty()) return failFile("has headings but no frames; record again");
+    if (framesPerSecond_ == 0) framesPerSecond_ = rateOf(timecodes_);
+    if (auto ok = setTimes(); !ok) return std::unexpected(ok.error());
     return std::move(clip_);
   }
 
@@ -43,22 +81,35 @@ class LiveLinkReader {
   std::unexpected<Error> failFile(std::string_view what) const {
     return fail(fmt::format("{} {}.", name_, what));
   }
+  std::unexpected<Error> failAt(std::size_t line, std::string_view what) const {
+    return fail(fmt::format("{}, line {}: {}.", name_, line, what));
+  }
   std::unexpected<Error> failLine(std::string_view what) const {
-    return fail(fmt::format("{}, line {}: {}.", name_, lines_.number(), what));
+    return failAt(lines_.number(), what);
   }
 
   Result<void> readHeadings() {
-    do
+    std::string_view line;
+    do {
       if (!lines_.next()) return failFile("is empty; record again");
-    while (trimmed(lines_.line()).empty());
-    const auto headings = cells(io::withoutMark(lines_.line()));
+      line = trimmed(io::withoutMark(lines_.line()));
+    } while (line.empty() || sameLetters(line, "sep=,"));
+    auto headings = cells(line);
+    // Spreadsheets end every line with a comma.
+    endsEmpty_ = headings.size() > 1 && headings.back().empty();
+    if (endsEmpty_) headings.pop_back();
     columns_ = headings.size();
     for (std::size_t c = 0; c < columns_; ++c)
       if (auto ok = readHeading(headings[c], c); !ok) return ok;
-    if (timeColumn_ >= columns_)
-      return failLine("there is no column 'Timecode'; this may be no recording of Live Link Face");
+    if (timeColumn_ >= columns_) return failLine(lackOfTimes(line));
     if (clip_.names.empty()) return failLine("there is no column of a shape");
     return {};
+  }
+  static std::string lackOfTimes(std::string_view headings) {
+    for (const auto& [separator, called] : {std::pair(';', "semicolons"), std::pair('\t', "tabs")})
+      if (headings.contains(separator))
+        return fmt::format("the columns are separated by {}; save them with commas", called);
+    return "there is no column 'Timecode'; this may be no recording of Live Link Face";
   }
   Result<void> readHeading(std::string_view heading, std::size_t column) {
     if (sameLetters(heading, "Timecode")) {
@@ -76,18 +127,15 @@ class LiveLinkReader {
   }
 
   Result<void> readRow() {
-    const auto row = cells(lines_.line());
+    auto row = cells(lines_.line());
+    if (endsEmpty_ && row.size() == columns_ + 1 && row.back().empty()) row.pop_back();
     if (row.size() != columns_)
       return failLine(
           fmt::format("there are {} values under {} headings; the file may be cut short",
                       row.size(), columns_));
-    const Result<double> time = timecode(row[timeColumn_]);
+    const Result<RowTime> time = timecode(row[timeColumn_]);
     if (!time) return std::unexpected(time.error());
-    if (!clip_.times.empty() && *time <= clip_.times.back())
-      return failLine(
-          fmt::format("the timecode {} is not after the one before; sort the rows by time",
-                      inQuotes(row[timeColumn_])));
-    clip_.times.push_back(*time);
+    timecodes_.push_back(*time);
     for (const std::size_t c : shapeColumns_) {
       const auto value = toNumber<double>(row[c]);
       if (!value || !isPlausibleWeight(*value))
@@ -98,36 +146,71 @@ class LiveLinkReader {
     return {};
   }
 
-  // HH:MM:SS:FF.fff, the last in frames; or plain seconds. At midnight the clock begins anew.
-  Result<double> timecode(std::string_view text) {
+  // HH:MM:SS:FF.fff, the last in frames, after ';' in some; or plain seconds.
+  Result<RowTime> timecode(std::string_view text) const {
     if (const auto seconds = toNumber<double>(text); seconds && isPlausibleTime(*seconds)) {
       if (*seconds < 0) return failLine(fmt::format("the time {} is below 0", inQuotes(text)));
-      return *seconds;
+      return RowTime{text, lines_.number(), *seconds};
     }
     std::array<double, 4> parts{};
     std::string_view rest = text;
     for (std::size_t k = 0; k < 4; ++k) {
-      const std::size_t colon = k < 3 ? rest.find(':') : rest.size();
-      const auto part = colon == std::string_view::npos ? std::optional<double>{}
-                                                        : toNumber<double>(rest.substr(0, colon));
+      const std::size_t end = k < 2    ? rest.find(':')
+                              : k == 2 ? rest.find_first_of(":;")
+                                       : rest.size();
+      const auto part = end == std::string_view::npos ? std::optional<double>{}
+                                                      : toNumber<double>(rest.substr(0, end));
       if (!part || !(*part >= 0) || *part > 1e6)
         return failLine(fmt::format("{} is not a timecode like 12:59:59:23.500", inQuotes(text)));
       parts[k] = *part;
-      if (k < 3) rest.remove_prefix(colon + 1);
+      if (k < 3) rest.remove_prefix(end + 1);
     }
     if (parts[1] >= 60 || parts[2] >= 60)
       return failLine(
           fmt::format("the timecode {} has more than 59 minutes or seconds", inQuotes(text)));
-    if (parts[3] >= framesPerSecond_)
-      return failLine(
-          fmt::format("the timecode {} counts more than {} frames a second; give the "
-                      "recording's own rate",
-                      inQuotes(text), framesPerSecond_));
+    return RowTime{text, lines_.number(), (parts[0] * 60 + parts[1]) * 60 + parts[2], parts[3],
+                   true};
+  }
+
+  /// Of rows at the same time the last one stays.
+  Result<void> setTimes() {
+    const std::size_t n = clip_.names.size();
+    std::size_t again = 0, firstLine = 0;
+    for (std::size_t row = 0; row < timecodes_.size(); ++row) {
+      const Result<double> time = timeOf(timecodes_[row]);
+      if (!time) return std::unexpected(time.error());
+      if (!clip_.times.empty() && *time == clip_.times.back()) {
+        if (again++ == 0) firstLine = timecodes_[row].line;
+      } else {
+        clip_.times.push_back(*time);
+      }
+      std::copy_n(&clip_.weights[row * n], n, &clip_.weights[(clip_.times.size() - 1) * n]);
+    }
+    clip_.weights.resize(clip_.times.size() * n);
+    if (again > 0)
+      clip_.warnings.push_back(fmt::format(
+          "{}: {} of {} rows, the first in line {}, have the timecode of the one before; of each "
+          "time the last row counts.",
+          name_, again, timecodes_.size(), firstLine));
+    return {};
+  }
+  /// At midnight the clock begins anew.
+  Result<double> timeOf(const RowTime& at) {
+    if (at.frames >= framesPerSecond_)
+      return failAt(at.line, fmt::format("the timecode {} counts more than {} frames a second; "
+                                         "give the recording's own rate, a whole number",
+                                         inQuotes(at.text), framesPerSecond_));
     constexpr double kDay = 86400;
-    const double clock = (parts[0] * 60 + parts[1]) * 60 + parts[2] + parts[3] / framesPerSecond_;
-    if (!clip_.times.empty() && clock + midnights_ < clip_.times.back() - kDay / 2)
+    double time = at.seconds + at.frames / framesPerSecond_;
+    const bool isFirst = clip_.times.empty();
+    if (at.isClock && !isFirst && time + midnights_ < clip_.times.back() - kDay / 2)
       midnights_ += kDay;
-    return clock + midnights_;
+    if (at.isClock) time += midnights_;
+    if (!isFirst && time < clip_.times.back())
+      return failAt(at.line,
+                    fmt::format("the timecode {} is before the one above; sort the rows by time",
+                                inQuotes(at.text)));
+    return time;
   }
 
   io::LineCursor lines_;
@@ -135,8 +218,10 @@ class LiveLinkReader {
   double framesPerSecond_;
   double midnights_ = 0;  // seconds of the days gone by
   std::size_t columns_ = 0, timeColumn_ = static_cast<std::size_t>(-1);
+  bool endsEmpty_ = false;  // every line may
   std::vector<std::size_t> shapeColumns_;
   std::set<std::string_view> known_;  // headings of shapes
+  std::vector<RowTime> timecodes_;    // [rows]
   Clip clip_;
 };
 
@@ -144,7 +229,8 @@ class LiveLinkReader {
 
 Result<Clip> parseLiveLinkCsv(std::string_view text, std::string_view name,
                               double framesPerSecond) {
-  if (auto ok = io::checkFrameRate(framesPerSecond); !ok) return std::unexpected(ok.error());
+  if (framesPerSecond != 0)
+    if (auto ok = io::checkFrameRate(framesPerSecond); !ok) return std::unexpected(ok.error());
   return LiveLinkReader(text, name, framesPerSecond).read();
 }
 

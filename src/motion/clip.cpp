@@ -8,12 +8,13 @@
 namespace sweepface {
 namespace {
 
+constexpr bool isGap(char c) { return c == '_' || c == '-' || c == '.' || c == ' '; }
+
 /// A name without what spellings differ in: small letters, and a side as a final _l or _r.
 std::string plain(std::string_view name) {
   std::string text;
   for (const char c : name)
-    if (c != '_' && c != '-' && c != ' ')
-      text += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    if (!isGap(c)) text += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
   const auto shorten = [&](std::string_view side) {
     if (text.size() <= side.size() || !text.ends_with(side)) return false;
     text.resize(text.size() - side.size());
@@ -23,8 +24,8 @@ std::string plain(std::string_view name) {
   // A single letter is a side only where the name sets it apart: jawL, jaw_L, but not "curl".
   if (name.size() < 2 || text.size() < 2) return text;
   const char last = name.back(), before = name[name.size() - 2];
-  const bool apart = before == '_' || before == '-' || before == ' ' ||
-                     ((last == 'L' || last == 'R') && before >= 'a' && before <= 'z');
+  const bool apart =
+      isGap(before) || ((last == 'L' || last == 'R') && before >= 'a' && before <= 'z');
   if (apart && (last == 'L' || last == 'R' || last == 'l' || last == 'r')) {
     text.pop_back();
     text += {'_', last == 'L' || last == 'l' ? 'l' : 'r'};
@@ -74,14 +75,15 @@ ClipMatch matchClip(const Clip& clip, std::span<const std::string> targets) {
     std::vector<Index>& found = match.targets.emplace_back();
     if (const Index own = ownOf(name); own >= 0) found = {own}, driven[own] = true;
   }
-  // Both sides at once, where they have no names of their own.
+  // Both sides at once, where they have no names of their own. A jaw that goes left goes not right.
   const std::vector<bool> hasOwn = driven;
   for (std::size_t k = 0; k < clip.names.size(); ++k) {
     if (!match.targets[k].empty()) continue;
     const std::string key = plain(clip.names[k]);
+    const bool goesAside = key == "jaw" || key == "mouth";
     for (const char* side : {"_l", "_r"})
       if (const auto half = byPlain.find(key + side);
-          half != byPlain.end() && !hasOwn[half->second])
+          half != byPlain.end() && !goesAside && !hasOwn[half->second])
         match.targets[k].push_back(half->second), driven[half->second] = true;
     if (match.targets[k].empty()) match.unmatched.push_back(clip.names[k]);
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 namespace sweepface {
 namespace {
@@ -38,12 +39,31 @@ void OneEuroFilter::apply(double seconds, std::span<double> weights) noexcept {
   }
 }
 
-void smooth(Clip& clip, const OneEuro& settings) {
-  const std::size_t n = clip.names.size();
+namespace {
+
+/// The weights of all frames, filtered from the first to the last or the other way.
+std::vector<double> filtered(const Clip& clip, const OneEuro& settings, bool backwards) {
+  const std::size_t n = clip.names.size(), last = clip.times.size() - 1;
   OneEuroFilter filter(n, settings);
-  for (std::size_t f = 0; f < clip.times.size(); ++f)
-    filter.apply(f == 0 ? 0 : clip.times[f] - clip.times[f - 1],
-                 std::span(clip.weights).subspan(f * n, n));
+  std::vector<double> weights = clip.weights;
+  double before = 0;
+  for (std::size_t k = 0; k <= last; ++k) {
+    const std::size_t f = backwards ? last - k : k;
+    filter.apply(k == 0 ? 0 : std::abs(clip.times[f] - before),
+                 std::span(weights).subspan(f * n, n));
+    before = clip.times[f];
+  }
+  return weights;
+}
+
+}  // namespace
+
+void smooth(Clip& clip, const OneEuro& settings) {
+  if (clip.times.empty()) return;
+  const std::vector<double> late = filtered(clip, settings, false);
+  const std::vector<double> early = filtered(clip, settings, true);
+  for (std::size_t k = 0; k < clip.weights.size(); ++k)
+    clip.weights[k] = std::midpoint(late[k], early[k]);
 }
 
 }  // namespace sweepface

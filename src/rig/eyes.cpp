@@ -122,6 +122,10 @@ Vec3 turned(const Quaternion& by, const Vec3& v) {
 
 // ---- Clips ----
 
+Angles betweenHands(const Angles& angles) {
+  return {0 - angles.yaw, angles.pitch, 0 - angles.roll};
+}
+
 ClipAngles::ClipAngles(const Clip& clip) {
   const std::array<std::string, 9> names{"HeadYaw",     "HeadPitch",     "HeadRoll",
                                          "LeftEyeYaw",  "LeftEyePitch",  "LeftEyeRoll",
@@ -154,7 +158,7 @@ HeadPose ClipAngles::at(const Clip& clip, double seconds) const noexcept {
       if (const auto c = columns_[first + k];
           c >= 0 && static_cast<std::size_t>(c) < clip.names.size())
         three[k] = clip.weight(moment, static_cast<std::size_t>(c));
-    return Angles{three[0], three[1], three[2]};
+    return betweenHands({three[0], three[1], three[2]});
   };
   return {angles(0), angles(3), angles(6)};
 }

@@ -224,13 +224,13 @@ TEST_F(PlayClip, SpringsSwingIntoTheirGoal) {
 
 TEST_F(PlayClip, RefusesWhatCannotBe) {
   convertRig();
-  write("take.csv", "Timecode,JawOpen\n0,0\n0,1\n");
+  write("take.csv", "Timecode,JawOpen\n1,0\n0,1\n");
   write("other.csv", "Timecode,beard\n0,0\n");
   write("take.txt", "");
   const std::string command = "animate face.sweep -o frames ";
   EXPECT_TRUE(fails(command + "--clip none.csv", "there is no such file"));
-  EXPECT_TRUE(
-      fails(command + "--clip take.csv", "take.csv, line 3: the timecode '0' is not after"));
+  EXPECT_TRUE(fails(command + "--clip take.csv",
+                    "take.csv, line 3: the timecode '0' is before the one above"));
   EXPECT_TRUE(fails(command + "--clip other.csv", "none of its 1 names is a target"));
   EXPECT_TRUE(fails(command + "--clip take.txt", "neither a .csv, a .json nor a .glb"));
   EXPECT_TRUE(fails(command + "--clip take.csv --to smile=1", "excludes", 2));
@@ -239,6 +239,22 @@ TEST_F(PlayClip, RefusesWhatCannotBe) {
   EXPECT_TRUE(fails("animate face.sweep --to smile=1 --law spring --keys exact -o a.glb",
                     "Keys cannot hold spring exactly"));
   EXPECT_FALSE(std::filesystem::exists(folder / "frames"));
+}
+
+TEST_F(PlayClip, SaysWhatItMendedInAFile) {
+  convertRig();
+  write("take.csv", "Timecode,JawOpen\n0,0\n1,0.5\n1,1\n");
+  const Outcome twice = run("animate face.sweep --clip take.csv -o take.glb");
+  EXPECT_EQ(twice.code, 0);
+  EXPECT_NE(twice.err.find("take.csv: 1 of 3 rows, the first in line 4"), std::string::npos);
+  write("take.json", R"([{"categories": [{"categoryName": "JawOpen", "score": 1}]},
+                         {"categories": []}, {"categories": []}])");
+  EXPECT_TRUE(
+      fails("animate face.sweep --clip take.json -o lost.glb", "no 'timestampMs' in frame 0"));
+  const Outcome lost = run("animate face.sweep --clip take.json --clip-fps 2 -o lost.glb");
+  EXPECT_EQ(lost.code, 0) << lost.err;
+  EXPECT_NE(lost.err.find("2 of 3 frames found no face"), std::string::npos) << lost.err;
+  EXPECT_NE(lost.out.find("lost.glb: 1 s"), std::string::npos) << lost.out;
 }
 
 }  // namespace

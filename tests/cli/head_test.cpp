@@ -17,7 +17,7 @@ class HeadAndEyes : public Tool {
   void capture() {
     std::string text = "Timecode,BlendShapeCount,JawOpen,HeadYaw,HeadPitch,HeadRoll\n";
     for (int f = 0; f <= 30; ++f)
-      text += fmt::format("00:00:00:{:02},3,{},{},0,0\n", f, f / 30.0, f / 60.0);
+      text += fmt::format("00:00:00:{:02},3,{},{},0,0\n", f, f / 30.0, -f / 60.0);
     folder.file("take.csv", text);
   }
   static gltf::Json jsonOf(const std::string& glb) {
@@ -89,7 +89,7 @@ TEST_F(HeadAndEyes, TheHeadTurnsBetweenFramesOfAGlb) {
   EXPECT_EQ(times.back(), 1);
   for (std::size_t k = 1; k < times.size(); ++k) {
     const double t = std::midpoint(times[k - 1], times[k]);
-    const Quaternion meant = quaternionOf({0.8 * t, 0.5 * t, -0.3 * t});
+    const Quaternion meant = quaternionOf({-0.8 * t, 0.5 * t, 0.3 * t});
     double along = 0, square = 0;
     for (std::size_t c = 0; c < 4; ++c) {
       const double sum = rotations[4 * (k - 1) + c] + rotations[4 * k + c];

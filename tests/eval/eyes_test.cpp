@@ -186,9 +186,22 @@ TEST(HeadAngles, AreFoundByTheirHeadings) {
   const Clip clip{{"jawOpen", "headYaw", "RightEyePitch"}, {0}, {0.1, 0.2, 0.3}};
   const ClipAngles angles(clip);
   EXPECT_TRUE(angles.head() && angles.eyes());
-  EXPECT_EQ(angles.at(clip, 0), (HeadPose{{0.2, 0, 0}, {}, {0, 0.3, 0}}));
+  EXPECT_EQ(angles.at(clip, 0), (HeadPose{{-0.2, 0, 0}, {}, {0, 0.3, 0}}));
   const ClipAngles none(Clip{{"jawOpen"}, {}, {}});
   EXPECT_FALSE(none.head() || none.eyes());
+}
+
+/// As in takes of the app: where EyeLookOutLeft, EyeLookInRight and EyeLookUp are, yaw and pitch
+/// are below 0 and roll is their product.
+TEST(HeadAngles, OfCapturesLookWhereItsWeightsDo) {
+  const Clip take{{"EyeLookOutLeft", "LeftEyeYaw", "LeftEyePitch", "LeftEyeRoll"},
+                  {0},
+                  {0.503, -0.36, -0.174, 0.062}};
+  const Angles eye = ClipAngles(take).at(take, 0).leftEye;
+  const Vec3 view = turned(quaternionOf(eye), {0, 0, 1});
+  EXPECT_GT(view.x, 0.3) << "to the face's left, which is out for the left eye";
+  EXPECT_GT(view.y, 0.1) << "up";
+  EXPECT_EQ(betweenHands(eye), (Angles{-0.36, -0.174, 0.062}));
 }
 
 TEST(HeadAngles, TurnNothingWhereTheyAreAlways0) {

@@ -44,11 +44,60 @@ TEST(LiveLinkCsv, AnyRateOfFrames) {
   EXPECT_NEAR(parseLiveLinkCsv("Timecode,a\n0:0:0:12,1\n", "x", 24)->times[0], 0.5, 1e-15);
 }
 
+/// Three and a half seconds of a take that counts so many frames a second, of which every `step`th
+/// is there, from the middle of a second on.
+std::string take(int rate, double step = 1) {
+  std::string text = "Timecode,a\n";
+  for (double f = rate / 2; f < 4 * rate; f += step) {
+    const int second = static_cast<int>(f) / rate;
+    text += "1:02:0" + std::to_string(second) + ":" + std::to_string(f - second * rate) + ",0\n";
+  }
+  return text;
+}
+
+TEST(LiveLinkCsv, TellsItsRateWhereWholeSecondsAreThere) {
+  for (const int rate : {24, 25, 30, 48, 50, 60})
+    EXPECT_NEAR(csv(take(rate))->seconds(), (4 * rate - rate / 2 - 1.0) / rate, 1e-9) << rate;
+  EXPECT_NEAR(csv(take(30, 0.5))->seconds(), 3.5 - 0.5 / 30, 1e-9) << "60 rows a second";
+  EXPECT_NEAR(csv(take(60, 2))->seconds(), 3.5 - 2.0 / 60, 1e-9) << "30 rows a second";
+  // Few rows tell nothing, nor do those of less than a second.
+  EXPECT_NEAR(csv("Timecode,a\n0:0:0:0,0\n0:0:1:15,0\n0:0:2:0,0\n")->times[1], 1.25, 1e-12);
+  EXPECT_NEAR(csv("Timecode,a\n0:0:0:0,0\n0:0:0:15,0\n")->times[1], 0.25, 1e-12);
+  EXPECT_NEAR(
+      parseLiveLinkCsv(take(30), "x", 60)->times[1] - parseLiveLinkCsv(take(30), "x", 60)->times[0],
+      1.0 / 60, 1e-9)
+      << "what is given counts";
+}
+
+TEST(LiveLinkCsv, OfRowsAtTheSameTimeTheLastCounts) {
+  const auto clip = csv("Timecode,a,b\n1,0,9\n2,1,8\n2,2,7\n2,3,6\n3,4,5\n3,5,4\n");
+  ASSERT_TRUE(clip) << clip.error().message;
+  EXPECT_EQ(clip->times, (std::vector<double>{1, 2, 3}));
+  EXPECT_EQ(clip->weights, (std::vector<double>{0, 9, 3, 6, 5, 4}));
+  EXPECT_EQ(clip->warnings, std::vector<std::string>{
+                                "take.csv: 3 of 6 rows, the first in line 4, have the timecode "
+                                "of the one before; of each time the last row counts."});
+}
+
+TEST(LiveLinkCsv, MayComeFromASpreadsheet) {
+  const auto clip = csv(
+      "\xef\xbb\xbfsep=,\n\"Timecode\",\"JawOpen\", \"a b\" ,\n\"0:0:0;30\",\"0.5\",1,\n1,0,0,\n");
+  ASSERT_TRUE(clip) << clip.error().message;
+  EXPECT_EQ(clip->names, (std::vector<std::string>{"JawOpen", "a b"}));
+  EXPECT_EQ(clip->times, (std::vector<double>{0.5, 1}));
+  EXPECT_EQ(clip->weights, (std::vector<double>{0.5, 1, 0, 0}));
+  expectError(csv("Timecode;a\n1;0,5\n"), "line 1: the columns are separated by semicolons; save");
+  expectError(csv("Timecode\ta\n1\t0\n"),
+              "the columns are separated by tabs; save them with commas");
+  expectError(csv("Timecode,a,\n1,0,2\n"), "there are 3 values under 2 headings");
+}
+
 TEST(LiveLinkCsv, GoesOnPastMidnight) {
   const auto clip = csv("Timecode,a\n23:59:59:30,0\n0:0:0:0,1\n0:0:0:30,2\n");
   ASSERT_TRUE(clip) << clip.error().message;
   EXPECT_EQ(clip->seconds(), 1);
-  expectError(csv("Timecode,a\n10:0:0:0,0\n9:59:59:0,1\n"), "is not after");
+  expectError(csv("Timecode,a\n10:0:0:0,0\n9:59:59:0,1\n"),
+              "line 3: the timecode '9:59:59:0' is before the one above; sort");
 }
 
 TEST(LiveLinkCsv, SaysWhatIsWrongAndWhere) {
@@ -66,8 +115,7 @@ TEST(LiveLinkCsv, SaysWhatIsWrongAndWhere) {
   expectError(csv("Timecode,a\n1,1e7\n"), "'1e7' in column 2 is not a number within ±1,000,000");
   expectError(csv("Timecode,a\n1,x\n"), "'x' in column 2");
   expectError(csv("Timecode,a\n1,\n"), "'' in column 2");
-  expectError(csv("Timecode,a\n2,0\n1,0\n"), "line 3: the timecode '1' is not after");
-  expectError(csv("Timecode,a\n2,0\n2,0\n"), "is not after");
+  expectError(csv("Timecode,a\n2,0\n1,0\n"), "line 3: the timecode '1' is before the one above");
   expectError(csv("Timecode,a\nnan,0\n"), "not a timecode");
   expectError(csv("Timecode,a\n1e300,0\n"), "not a timecode");
   expectError(csv("Timecode,a\n-1,0\n"), "line 2: the time '-1' is below 0");
@@ -75,8 +123,9 @@ TEST(LiveLinkCsv, SaysWhatIsWrongAndWhere) {
   expectError(csv("Timecode,a\n1:2:3:-4,0\n"), "not a timecode");
   expectError(csv("Timecode,a\n12:59:60:1,0\n"), "more than 59 minutes or seconds");
   expectError(csv("Timecode,a\n12:60:59:1,0\n"), "more than 59 minutes or seconds");
-  expectError(csv("Timecode,a\n0:0:0:60,0\n"), "more than 60 frames a second");
-  EXPECT_FALSE(parseLiveLinkCsv("Timecode,a\n1,2\n", "x", 0));
+  expectError(csv("Timecode,a\n0:0:0:60,0\n"),
+              "more than 60 frames a second; give the recording's own rate, a whole");
+  EXPECT_FALSE(parseLiveLinkCsv("Timecode,a\n1,2\n", "x", -1));
 }
 
 TEST(ClipJson, ReadsAudio2Face) {
@@ -86,6 +135,12 @@ TEST(ClipJson, ReadsAudio2Face) {
   EXPECT_EQ(clip->names, (std::vector<std::string>{"jawOpen", "smile"}));
   EXPECT_EQ(clip->times, (std::vector<double>{0, 0.02}));
   EXPECT_EQ(clip->weights, (std::vector<double>{0, 0.5, 1, 0.25}));
+  EXPECT_TRUE(clip->warnings.empty());
+  const auto cut =
+      json(R"({"exportFps": 50, "numFrames": 3, "facsNames": ["a"], "weightMat": [[0]]})");
+  ASSERT_EQ(cut->warnings.size(), 1u);
+  EXPECT_NE(cut->warnings[0].find("'numFrames' is 3, but 'weightMat' has 1 frames"),
+            std::string::npos);
 }
 
 TEST(ClipJson, ReadsMediaPipe) {
@@ -96,8 +151,50 @@ TEST(ClipJson, ReadsMediaPipe) {
     {"timestampMs": 80, "categories": [{"categoryName": "smile", "score": 1}]}])");
   ASSERT_TRUE(clip) << clip.error().message;
   EXPECT_EQ(clip->names, (std::vector<std::string>{"jawOpen", "smile"}));
-  EXPECT_EQ(clip->times, (std::vector<double>{0, 0.04, 0.08}));
-  EXPECT_EQ(clip->weights, (std::vector<double>{0.5, 0, 0, 0, 0, 1}));
+  EXPECT_EQ(clip->times, (std::vector<double>{0, 0.08}));
+  EXPECT_EQ(clip->weights, (std::vector<double>{0.5, 0, 0, 1}));
+}
+
+TEST(ClipJson, FramesWithoutAFaceAreAsThoseAroundThem) {
+  const auto frame = [](int time, const char* faces) {
+    return "{\"timestampMs\": " + std::to_string(time) + ", \"faceBlendshapes\": [" + faces + "]}";
+  };
+  const char* open = R"({"categories": [{"categoryName": "jawOpen", "score": 0.5}]})";
+  const char* shut = R"({"categories": [{"categoryName": "jawOpen", "score": 0.25}]})";
+  const auto clip = json("[" + frame(0, "") + "," + frame(10, "") + "," + frame(20, open) + "," +
+                         frame(30, "") + "," + frame(40, shut) + "," + frame(50, "") + "]");
+  ASSERT_TRUE(clip) << clip.error().message;
+  EXPECT_EQ(clip->times, (std::vector<double>{0, 0.02, 0.04, 0.05}));
+  EXPECT_EQ(clip->weights, (std::vector<double>{0.5, 0.5, 0.25, 0.25}));
+  EXPECT_EQ(clip->warnings, std::vector<std::string>{
+                                "take.json: 4 of 6 frames found no face; weights go on from the "
+                                "frames around them."});
+}
+
+TEST(ClipJson, ReadsMediaPipeFromPython) {
+  constexpr std::string_view text = R"([
+    {"face_blendshapes": [[{"index": 0, "category_name": "jawOpen", "score": 0.5}]]},
+    {"face_blendshapes": []},
+    {"face_blendshapes": [[{"index": 0, "category_name": "jawOpen", "score": 1}]]}])";
+  const auto clip = parseClipJson(text, "take.json", 25);
+  ASSERT_TRUE(clip) << clip.error().message;
+  EXPECT_EQ(clip->times, (std::vector<double>{0, 0.08}));
+  EXPECT_EQ(clip->weights, (std::vector<double>{0.5, 1}));
+  expectError(json(text),
+              "has no 'timestampMs' in frame 0; add the milliseconds, or give the frames");
+  EXPECT_FALSE(parseClipJson(text, "take.json", -1));
+}
+
+TEST(ClipJson, WarnsOfTimesThatAreNoMilliseconds) {
+  for (const char* step : {"0.033", "33000"}) {
+    const auto clip =
+        json(std::string(R"([{"timestamp": 0, "categories": [{"categoryName": "a", "score": 1}]},
+      {"timestamp": )") +
+             step + R"(, "categories": [{"categoryName": "a", "score": 0}]}])");
+    ASSERT_TRUE(clip) << clip.error().message;
+    ASSERT_EQ(clip->warnings.size(), 1u) << step;
+    EXPECT_NE(clip->warnings[0].find("ms apart; are the times milliseconds"), std::string::npos);
+  }
 }
 
 TEST(ClipJson, HoldsNoMoreWeightsThanAClipMay) {
@@ -111,6 +208,8 @@ TEST(ClipJson, HoldsNoMoreWeightsThanAClipMay) {
 TEST(ClipJson, SaysWhatIsWrong) {
   expectError(json(""), "this is not JSON");
   expectError(json("{"), "this is not JSON");
+  expectError(json("{\"weightMat\": [[0.5, NaN]]}"),
+              "line 1: this is not JSON, at column 22: 'NaN]]}'.");
   expectError(json("{}"), "neither of Audio2Face");
   expectError(json("[]"), "no frames");
   expectError(json("[1]"), "no 'timestampMs' in frame 0");
@@ -118,7 +217,7 @@ TEST(ClipJson, SaysWhatIsWrong) {
   expectError(json(R"([{"timestampMs": 0, "categories": [{"score": 1}]}])"), "categoryName");
   expectError(
       json(R"([{"timestampMs": 5, "categories": []}, {"timestampMs": 5, "categories": []}])"),
-      "frame 1 that is not after");
+      "frame 1 that is not after the one before");
   expectError(json(R"({"weightMat": []})"), "exportFps");
   expectError(json(R"({"weightMat": [], "exportFps": 60})"), "facsNames");
   expectError(json(R"({"weightMat": [], "exportFps": 60, "facsNames": ["a"]})"), "no frames");

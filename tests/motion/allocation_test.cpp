@@ -37,7 +37,7 @@ TEST(Clip, IsReadWithoutAllocating) {
   std::vector<double> out(1);
   const std::size_t before = allocations.count;
   match.spread(clip, 0.5, out);
-  EXPECT_EQ(angles.at(clip, 0.5).head.yaw, 0.25);
+  EXPECT_EQ(angles.at(clip, 0.5).head.yaw, -0.25);
   EXPECT_EQ(allocations.count, before);
   EXPECT_EQ(out[0], 0.5);
 }

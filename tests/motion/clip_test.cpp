@@ -34,13 +34,16 @@ TEST(ClipMatch, SpellingsOfOneShapeAreTheSame) {
   const std::vector<std::string> targets{"eyeBlink_L", "eyeBlink_R", "jawOpen", "mouthLeft"};
   EXPECT_EQ(matched({"EyeBlinkLeft", "eye_blink_right", "JawOpen", "mouthLeft"}, targets),
             (std::vector<std::vector<Index>>{{0}, {1}, {2}, {3}}));
-  EXPECT_EQ(matched({"eyeBlink_R", "eyeBlinkL", "eye-blink-r"}, targets),
-            (std::vector<std::vector<Index>>{{1}, {0}, {1}}));
+  EXPECT_EQ(matched({"eyeBlink_R", "eyeBlinkL", "eye-blink-r", "eyeBlink.L"}, targets),
+            (std::vector<std::vector<Index>>{{1}, {0}, {1}, {0}}));
 }
 
 TEST(ClipMatch, ANameWithoutASideDrivesBoth) {
   EXPECT_EQ(matched({"browInnerUp"}, {"browInnerUp_L", "jawOpen", "browInnerUp_R"}),
             (std::vector<std::vector<Index>>{{0, 2}}));
+  EXPECT_EQ(matched({"jaw", "Mouth"}, {"jawLeft", "jawRight", "mouthLeft", "mouth_R"}),
+            (std::vector<std::vector<Index>>{{}, {}}))
+      << "these go there";
 }
 
 TEST(ClipMatch, AFinalLetterIsNotASide) {

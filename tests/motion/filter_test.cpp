@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <gtest/gtest.h>
+#include <numbers>
 #include <random>
 
 namespace sweepface {
@@ -38,9 +39,30 @@ TEST(OneEuro, FollowsWhatMoves) {
   const Clip wanted = take(0);
   Clip clip = wanted;
   smooth(clip);
-  // In the middle of the move it lags by less than a tenth of a second.
-  EXPECT_GT(clip.weights[107], wanted.weights[101]);
+  // In the middle of the move it is neither late nor early.
+  EXPECT_NEAR(clip.weights[105], wanted.weights[105], 1e-3);
   EXPECT_NEAR(clip.weights.back(), 1, 0.01);
+}
+
+/// Syllables, and lips that close for a moment.
+TEST(OneEuro, KeepsSpeech) {
+  Clip clip{{"jawOpen", "mouthClose"}, {}, {}};
+  for (int f = 0; f < 240; ++f) {
+    const double t = f / 60.0;
+    clip.times.push_back(t);
+    clip.weights.push_back(0.3 + 0.125 * std::sin(2 * std::numbers::pi * 5 * t));
+    clip.weights.push_back(0.2 * std::exp(-0.5 * std::pow((t - 2) / 0.035, 2)));
+  }
+  smooth(clip);
+  std::array<double, 2> high{-1, -1}, low{1, 1};
+  for (std::size_t f = 60; f < 180; ++f)
+    for (std::size_t k = 0; k < 2; ++k) {
+      high[k] = std::max(high[k], clip.weights[2 * f + k]);
+      low[k] = std::min(low[k], clip.weights[2 * f + k]);
+    }
+  EXPECT_GT(high[0] - low[0], 0.9 * 0.25);
+  EXPECT_GT(high[1], 0.9 * 0.2);
+  EXPECT_EQ(high[1], clip.weights[2 * 120 + 1]) << "and at the same time";
 }
 
 TEST(OneEuro, TheFirstFrameAndOneAfterNoTimePass) {

@@ -167,7 +167,8 @@ void expectError(std::string_view text, std::string_view part) {
 
 TEST(Timeline, SaysWhatIsWrongAndWhere) {
   expectError("", "line.json, line 1: this is not JSON; was the file cut short?");
-  expectError("{\n\"seconds\": 1,\n\"events\": [}", "line.json, line 3: this is not JSON.");
+  expectError("{\n\"seconds\": 1,\n\"events\": [}",
+              "line.json, line 3: this is not JSON, at column 12: '}'.");
   expectError(R"({"seconds": 1, "seconds": 2})", "line.json has the key 'seconds' twice");
   expectError(R"({"seconds": 1e999})", "line.json has a number that is too large to be held.");
   expectError("\xfe\xff", "line.json is a text in UTF-16; save it in UTF-8.");

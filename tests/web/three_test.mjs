@@ -150,13 +150,13 @@ test('a capture of a minute is played by name, eyes and head too', async () => {
         for (const [target, column] of [['jawOpen', 'JawOpen'], ['mouthSmileLeft', 'MouthSmileLeft'],
                                         ['eyeBlinkRight', 'EyeBlinkRight'], ['browInnerUp', 'BrowInnerUp']])
           assert.ok(Math.abs(weight(mesh, target) - recorded(column, t)) < 0.004, `${target} at ${t}`);
-        // sin θ · a of the rotation that looks where the angles do
-        const yaw = recorded('LeftEyeYaw', t), pitch = recorded('LeftEyePitch', t);
+        // sin θ · a of the rotation that looks where the angles do, which are left-handed
+        const yaw = -recorded('LeftEyeYaw', t), pitch = recorded('LeftEyePitch', t);
         const aside = weight(mesh, 'eyeLeft.left') - weight(mesh, 'eyeLeft.right');
         assert.ok(Math.abs(aside - Math.sin(yaw) * Math.cos(pitch)) < 0.006, `the left eye at ${t}`);
       }
       const expected = new THREE.Quaternion().setFromEuler(new THREE.Euler(
-          recorded('HeadPitch', t), recorded('HeadYaw', t), recorded('HeadRoll', t), 'YXZ'));
+          recorded('HeadPitch', t), -recorded('HeadYaw', t), -recorded('HeadRoll', t), 'YXZ'));
       assert.ok(head.quaternion.angleTo(expected) < 0.003, `the head at ${t}`);
     }
   });

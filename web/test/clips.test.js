@@ -41,12 +41,21 @@ const audio2Face = JSON.stringify({
 });
 const mediaPipe = JSON.stringify(frames.map((f) => ({
   timestampMs: 33 * f + 5,
-  faceBlendshapes: [{categories: few.map((categoryName, k) => ({categoryName, score: wave(f, k)}))}]
+  faceBlendshapes: f % 7 < 2 ? [] : [{categories: few.map((categoryName, k) => ({categoryName, score: wave(f, k)}))}]
 })));
+const python = JSON.stringify(frames.map((f) => ({
+  timestamp_ms: 33 * f + 5,
+  face_blendshapes: [few.map((name, k) => ({index: k, category_name: name, score: wave(f, k)}))]
+})));
+const at30 = (f) => `00:00:0${Math.floor((f + 7) / 10)};${String((f + 7) % 10 * 3).padStart(2, '0')}.500`;
+const sheet = 'sep=,\n' + [['Timecode', 'BlendshapeCount', ...shapes], ...frames.flatMap((f) => [
+  [at30(f), 52, ...shapes.map(() => 0.25)], [at30(f), 52, ...shapes.map((_, k) => wave(f, k))]])]
+    .map((cells) => cells.map((cell) => `"${cell}"`).join(',') + ',').join('\n');
 
 for (const [title, file, text] of [['Live Link Face', 'take.csv', csv],
                                    ['lines that end in returns', 'take.csv', csv.replaceAll('\r\n', '\r')], ['Audio2Face', 'take.json', audio2Face],
-                                   ['MediaPipe', 'take.json', mediaPipe]])
+                                   ['a spreadsheet, with rows twice', 'take.csv', sheet],
+                                   ['MediaPipe', 'take.json', mediaPipe], ['its Python', 'take.json', python]])
   for (const smooth of [false, true])
     test(`a capture of ${title}${smooth ? ', smoothed,' : ''} plays as the tool plays it`, async () => {
       const face = await Sweepface.load(readFileSync(sample)), clip = readClip(text, {name: file});
@@ -88,6 +97,26 @@ test('the filter takes settings that it has, and finite ones', () => {
   assert.throws(() => clip.smooth({cutOff: 1}), {message: /no option 'cutOff'; it has cutoff, speedGain, speedCutoff\.$/});
 });
 
+test('what was mended in a file is told', () => {
+  const warnings = (text, options) => readClip(text, {name: 'take', ...options}).smooth().warnings;
+  assert.deepEqual(warnings(csv), []);
+  assert.deepEqual(warnings(sheet), ['take: 40 of 80 rows, the first in line 4, have the timecode of the one before; of each ' +
+                                     'time the last row counts.']);
+  assert.deepEqual(warnings(mediaPipe), ['take: 12 of 40 frames found no face; weights go on from the frames around them.']);
+  assert.match(warnings(mediaPipe.replace(/"timestampMs":\d+,/g, ''), {framesPerSecond: 2e4})[0], /frames are 0\.05 ms apart/);
+  assert.match(warnings(audio2Face.replace('{', '{"numFrames": 41,'))[0], /'numFrames' is 41, but 'weightMat' has 40 frames/);
+});
+
+/** A take that counts so many frames a second, from the middle of a second on. */
+const take = (rate) => 'Timecode,a\n' + Array.from({length: 4 * rate}, (_, k) => k + (rate >> 1))
+    .map((f) => `1:02:0${Math.floor(f / rate)}:${f % rate},0`).join('\n');
+
+test('timecodes tell their rate where whole seconds are there', () => {
+  for (const rate of [24, 25, 30, 48, 50, 60])
+    assert.ok(Math.abs(readClip(take(rate)).seconds - (4 - 1 / rate)) < 1e-9, `${rate}`);
+  assert.ok(Math.abs(readClip('Timecode,a\n0:0:0:0,0\n0:0:1:15,0\n0:0:2:0,0\n').times[1] - 1.25) < 1e-12);
+});
+
 test('options that there are not are refused', () => {
   assert.throws(() => readClip(csv, {fps: 30}), {message: 'readClip has no option \'fps\'; it has name, framesPerSecond.'});
   assert.throws(() => readTimeline('{}', {fps: 30}), {message: 'readTimeline has no option \'fps\'; it has name.'});
@@ -112,7 +141,7 @@ test('captures are read by browsers that have no Object.hasOwn', () => {
   const {hasOwn} = Object;
   delete Object.hasOwn;  // Chrome 92 and Firefox 90 do not
   try {
-    assert.equal(readClip(mediaPipe).times.length, frames.length);
+    assert.equal(readClip(python).times.length, frames.length);
   } finally {
     Object.hasOwn = hasOwn;
   }
@@ -177,10 +206,10 @@ test('any text is a name', () => {
 test('the head has the angles of the app', async () => {
   const face = await Sweepface.load(readFileSync(sample)), clip = readClip(csv);
   const [yaw, pitch, roll] = clip.at(0.1).slice(5);
-  assert.deepEqual(new ClipPlayer(face, clip).seek(0.1), {yaw, pitch, roll});
+  assert.deepEqual(new ClipPlayer(face, clip).seek(0.1), {yaw: -yaw, pitch, roll: -roll});  // the app is left-handed
   assert.equal(new ClipPlayer(face, readClip(audio2Face)).seek(0), null);
   const spelt = new ClipPlayer(face, readClip('Timecode,head_yaw,Head Pitch,jawOpen\n0,0.25,0.5,1'));
-  assert.deepEqual(spelt.seek(0), {yaw: 0.25, pitch: 0.5, roll: 0});
+  assert.deepEqual(spelt.seek(0), {yaw: -0.25, pitch: 0.5, roll: 0});
   assert.deepEqual(spelt.match.unmatched, []);
 });
 
@@ -229,7 +258,7 @@ test('captures go on past midnight and below 0, as for the tool', async () => {
     player.seek(time - native.times[0]);
     assert.equal(face.weights.jawOpen, native.weights[f * native.names.length + k]);
   });
-  assert.throws(() => readClip('Timecode,a\n10:0:0:0,0\n9:59:59:0,1\n'), {message: /is not after/});
+  assert.throws(() => readClip('Timecode,a\n10:0:0:0,0\n9:59:59:0,1\n'), {message: /is before the one above/});
 });
 
 test('the rest of a face of one piece is all of it, and of two names in an event for a target the larger counts', async () => {
@@ -265,7 +294,7 @@ test('a timeline of regions that the face lacks is refused, and what a face refu
 
 test('text may begin with a byte order mark, and other things are no clips', () => {
   assert.equal(readTimeline('\uFEFF' + JSON.stringify(timeline)).loops, 2);
-  assert.equal(readClip('\uFEFF' + mediaPipe).times.length, frames.length);
+  assert.equal(readClip('\uFEFF' + audio2Face).times.length, frames.length);
   assert.throws(() => readTimeline(timeline), {message: 'A timeline is read from text or bytes.'});
   assert.throws(() => readClip({}), {message: 'A clip is read from text or bytes.'});
 });
@@ -325,7 +354,12 @@ for (const [file, text, words] of [
        ['a.csv', 'Timecode,,JawOpen\n0,1,1', ', line 1: column 2 has no heading'],
        ['a.csv', 'Timecode,JawOpen\n0,1\n1', ', line 3: there are 1 values under 2 headings'],
        ['a.csv', 'Timecode,JawOpen\n-1,1', ', line 2: the time \'-1\' is below 0'],
-       ['a.csv', 'Timecode,JawOpen\n\n0,1\n0,1', ', line 4: the timecode \'0\' is not after the one before'],
+       ['a.csv', 'Timecode,JawOpen\n\n1,1\n0,1', ', line 4: the timecode \'0\' is before the one above; sort'],
+       ['a.csv', 'Timecode;JawOpen\n1;0,5', ', line 1: the columns are separated by semicolons; save them with commas'],
+       ['a.csv', 'Timecode\tJawOpen\n1\t0', ', line 1: the columns are separated by tabs; save them with commas'],
+       ['a.csv', 'Timecode,JawOpen,\n1,0,2', ', line 2: there are 3 values under 2 headings'],
+       ['a.json', '[{"categories": []}]', ' has no \'timestampMs\' in frame 0; add the milliseconds, or give the frames a second'],
+       ['a.json', '[{"timestampMs": 1e300, "categories": []}]', ' has a time in frame 0 that is not within 300 years'],
        ['a.csv', 'Timecode,JawOpen\n0,nan', ', line 2: \'nan\' in column 2 is not a number within ±1,000,000'],
        ['a.csv', 'Timecode,JawOpen\n0,1\u00A0', ', line 2: \'1\u00A0\' in column 2 is not a number within ±1,000,000'],
        ['a.csv', 'Timecode\u00A0,JawOpen\n0,1', ', line 1: there is no column \'Timecode\''],
@@ -333,8 +367,8 @@ for (const [file, text, words] of [
        ['a.csv', 'Timecode,JawOpen\n0:0:1,1', '\'0:0:1\' is not a timecode'],
        ['a.csv', 'Timecode,JawOpen\n0:0:1:75,1', 'counts more than 60 frames a second'],
        ['a.json', '{\n', ', line 2: this is not JSON; was the file cut short?'],
-       ['a.json', '{\n"frames": 1,}', ', line 2: this is not JSON.'],
-       ['a.json', '{\n"frames": 1.,\n"a": 1}', ', line 2: this is not JSON.'],
+       ['a.json', '{\n"frames": 1,}', ', line 2: this is not JSON'],
+       ['a.json', '{\n"frames": 1.,\n"a": 1}', ', line 2: this is not JSON'],
        ['a.json', '{"frames": 1}', 'is neither of Audio2Face'],
        ['a.json', '[]', 'has no frames'],
        ['a.json', '[{"categories": []}]', 'has no \'timestampMs\' in frame 0'],
