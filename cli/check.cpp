@@ -78,7 +78,14 @@ PoseJoins lookAt(const Rig& rig, const Tessellation& grid, const Pose& pose) {
   if (!result.finite) return result;
   result.joins = examineJoins(rig.surface, vectors, kSamples);
   const double size = sizeOf(grid, vectors);
-  for (JoinReport& join : result.joins) join.positionGap /= size;
+  for (JoinReport& join : result.joins) {
+    join.positionGap /= size;
+    // Numbers that are finite may be too large to be reckoned with.
+    result.finite &= std::isfinite(join.positionGap) && std::isfinite(join.firstJump) &&
+                     std::isfinite(join.secondJump);
+  }
+  result.finite &= std::isfinite(size);
+  if (!result.finite) result.joins.clear();
   return result;
 }
 
@@ -106,7 +113,8 @@ class Checker {
 
  private:
   void judge(const std::string& pose, const PoseJoins& look) {
-    if (!look.finite) problems_.push_back(fmt::format("{} has vectors that are not finite", pose));
+    if (!look.finite)
+      problems_.push_back(fmt::format("{} has numbers that are not finite, or too large", pose));
     Joint gap, first, second;
     for (std::size_t a = 0; a < look.joins.size(); ++a) {
       const JoinReport& join = look.joins[a];

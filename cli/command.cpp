@@ -186,7 +186,19 @@ CLI::Validator onOrOff() {
 Result<Rig> readFace(const std::string& path) {
   const Result<std::string> bytes = readFile(path);
   if (!bytes) return std::unexpected(bytes.error());
-  return decode(*bytes, path);
+  return opened(*bytes, path);
+}
+
+Result<Rig> opened(std::string_view bytes, const std::string& path) {
+  Result<Rig> rig = decode(bytes, path);
+  if (!rig) return rig;
+  // Files of a few bytes can have patches of any number of quads.
+  const double quads = static_cast<double>(rig->surface.wireframe().quadCount());
+  if (quads <= kMostQuads) return rig;
+  return fail(
+      fmt::format("{}: its patches have {:.1f} million quads, of which this program opens at most "
+                  "{:.0f} million; the file may be damaged.",
+                  path, quads / 1e6, kMostQuads / 1e6));
 }
 
 Result<Rig> readBack(std::string_view bytes, const std::string& path) {

@@ -91,6 +91,11 @@ CLI::Option* oneEachTime(CLI::Option* option);
 // ---- Files ----
 
 Result<Rig> readFace(const std::string& path);
+/// The face that bytes are, of which messages say where they come from.
+Result<Rig> opened(std::string_view bytes, const std::string& path);
+/// Quads that a face may have, at whatever level: each takes about a kilobyte while it is made and
+/// written.
+inline constexpr double kMostQuads = 8e6;
 
 /// What a file would hold, read again before it is written.
 Result<Rig> readBack(std::string_view bytes, const std::string& path);

@@ -140,7 +140,7 @@ void printList(const nlohmann::ordered_json& list) {
 Result<int> runInfo(const InfoArguments& a) {
   const Result<std::string> bytes = readFile(a.face);
   if (!bytes) return std::unexpected(bytes.error());
-  const Result<Rig> rig = decode(*bytes, a.face);
+  const Result<Rig> rig = opened(*bytes, a.face);
   if (!rig) return std::unexpected(rig.error());
   const Result<std::vector<FilePart>> parts = fileParts(*bytes, a.face);
   if (!parts) return std::unexpected(parts.error());

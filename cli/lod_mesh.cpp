@@ -5,12 +5,10 @@
 
 #include "sweepface/io.hpp"
 
+#include "command.hpp"
 #include "lod_polygons.hpp"
 
 namespace sweepface::cli {
-
-// Each takes about a kilobyte while it is made and written.
-constexpr double kMostQuads = 8e6;
 
 Result<void> checkFineness(const Surface& surface, Index lod) {
   const double quads = static_cast<double>(surface.wireframe().quadCount()) * lod * lod;

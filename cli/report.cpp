@@ -85,7 +85,7 @@ Result<ReportOptions> optionsOf(const ReportArguments& a, const Rig& rig, std::s
 Result<std::string> reportOf(const ReportArguments& a) {
   const Result<std::string> bytes = readFile(a.face);
   if (!bytes) return std::unexpected(bytes.error());
-  const Result<Rig> rig = decode(*bytes, a.face);  // a pipe is read once
+  const Result<Rig> rig = opened(*bytes, a.face);  // a pipe is read once
   if (!rig) return std::unexpected(rig.error());
   Result<ReportOptions> options = optionsOf(a, *rig, bytes->size());
   if (!options) return std::unexpected(options.error());

@@ -43,8 +43,8 @@ void decodeRest(Reader& in, Read read) {
 
 void readGrid(Decoding& d, Reader& in) {
   // A patch, an arc or a node takes a fraction of a bit at best.
-  const std::size_t most = std::min(d.memory / kBytesAPatch,
-                                    within(kMostPatches, kPatchesAByte, kPatchesAnyway, in.left()));
+  const std::size_t most = std::min(
+      d.memory / kBytesAPatch, within(kMostPatches, kPatchesAByte, kPatchesAnyway, d.fileSize));
   decodeRest(in, [&](RangeDecoder&, Symbols<RangeDecoder>& symbols) {
     CodedWireframe coded = readWireframe(symbols, most, kMostGridVertices);
     d.wireframe = std::move(coded.wireframe);

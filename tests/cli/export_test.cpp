@@ -5,6 +5,7 @@
 #include "sweepface/fit.hpp"
 
 #include "cli/tool.hpp"
+#include "codec/rigs.hpp"
 
 namespace sweepface {
 namespace {
@@ -151,6 +152,22 @@ TEST_F(Export, RefusesMoreQuadsThanMemoryHolds) {
         << command;
   }
   EXPECT_FALSE(std::filesystem::exists(folder / "out"));
+}
+
+/// A file of hundreds of bytes can have a patch of any size.
+TEST_F(Export, RefusesAFaceOfMoreQuadsThanMemoryHolds) {
+  Rig rig;
+  rig.surface = Surface::make(onePatch(3000, 3000)).value();
+  rig.neutral.resize(rig.surface.storedCount(), {1, 2, 3});
+  const std::string bytes = encode(rig);
+  EXPECT_LT(bytes.size(), 1000u);
+  folder.file("wide.sweep", bytes);
+  for (const std::string command : {"info", "check", "export -o out.obj", "render -o out.png",
+                                    "wireframe -o out.json", "report -o out.html"})
+    EXPECT_TRUE(fails(command + " wide.sweep",
+                      "wide.sweep: its patches have 9.0 million quads, of "
+                      "which this program opens at most 8 million"))
+        << command;
 }
 
 /// How often each edge is used, by its ends in their order.

@@ -3,6 +3,7 @@
 #include "sweepface/codec.hpp"
 
 #include "cli/tool.hpp"
+#include "codec/rigs.hpp"
 
 namespace sweepface {
 namespace {
@@ -89,6 +90,19 @@ TEST_F(Check, KnowsHowFarAPoseIsFromTheOrigin) {
   folder.file("far.obj", sheet([](Vec3 p) { return p + Vec3{1e6, 0, 0}; }));
   ASSERT_EQ(run("convert neutral.obj far.obj -o face.sweep --tolerance 0.05").code, 0);
   EXPECT_EQ(run("check face.sweep").code, 0);
+}
+
+TEST_F(Check, FailsForNumbersBeyondReckoning) {
+  Rig rig;
+  rig.surface = Surface::make(onePatch(2, 2)).value();
+  rig.neutral.resize(rig.surface.storedCount(), {1, 2, 3});
+  rig.neutral[3] = {1e300, 1, 1};
+  folder.file("far.sweep", encode(rig));
+  const Outcome r = run("check far.sweep");
+  EXPECT_EQ(r.code, 1) << r.out;
+  EXPECT_NE((r.out + r.err).find("the neutral has numbers that are not finite, or too large"),
+            std::string::npos)
+      << r.out << r.err;
 }
 
 TEST_F(Check, RefusesADamagedFile) {

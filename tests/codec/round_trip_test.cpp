@@ -34,6 +34,31 @@ TEST(RoundTrip, GivesTheSamePoints) {
   }
 }
 
+/// As hair is made of: however alike they are, so that they take hardly any bytes.
+TEST(RoundTrip, KeepsThousandsOfSeparateCards) {
+  constexpr Index kCards = 6000;
+  const Wireframe card = onePatch(1, 1);
+  Wireframe cards;
+  cards.points = kCards * card.points;
+  cards.ribbons = card.ribbons;
+  for (Index k = 0; k < kCards; ++k) {
+    for (Node node : card.nodes) cards.nodes.push_back({node.point + 4 * k, kPosition});
+    for (Arc arc : card.arcs) {
+      arc.from += 4 * k, arc.to += 4 * k;
+      cards.arcs.push_back(arc);
+    }
+    Patch patch = card.patches[0];
+    for (Index& side : patch.sides) side += 4 * k;
+    cards.patches.push_back(patch);
+    for (const HalfArc half : card.loops) cards.loops.push_back(half + 8 * k);
+  }
+  const Rig rig = makeRig(std::move(cards));
+  const std::string bytes = encode(rig);
+  const auto again = decode(bytes, "cards");
+  ASSERT_TRUE(again) << again.error().message;
+  EXPECT_EQ(encode(*again), bytes);
+}
+
 TEST(RoundTrip, KeepsARigWithoutSourceOrTargets) {
   Rig rig = makeRig(onePatch(2, 2));
   rig.source = {};
