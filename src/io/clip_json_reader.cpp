@@ -41,8 +41,8 @@ class ClipJsonReader {
   std::unexpected<Error> failFile(std::string_view what) const {
     return fail(fmt::format("{} {}.", name_, what));
   }
-  void warn(std::string_view what) {
-    clip_.warnings.push_back(fmt::format("{}: {}.", name_, what));
+  void warn(std::string_view sentence) {
+    clip_.warnings.push_back(fmt::format("{}: {}", name_, sentence));
   }
 
   // ---- Audio2Face: a matrix of frames × names ----
@@ -152,7 +152,7 @@ class ClipJsonReader {
       if (hasFace(scores[f]) || f == 0 || f + 1 == scores.size())
         append(times[f], scores[std::clamp(f, first, last)]);
     if (const auto lost = std::ranges::count_if(scores, std::not_fn(hasFace)); lost > 0)
-      warn(fmt::format("{} of {} frames found no face; weights go on from the frames around them",
+      warn(fmt::format("{} of {} frames found no face; weights go on from the frames around them.",
                        lost, scores.size()));
     return std::move(clip_);
   }
