@@ -65,7 +65,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace sweepface;
   using namespace fuzzing;
   const std::string_view text = asText(data, size);
-  for (const auto& clip : {parseLiveLinkCsv(text, kName), parseClipJson(text, kName)})
+  for (const auto& clip : {parseLiveLinkCsv(text, kName), parseLiveLinkCsv(text, kName, 60),
+                           parseClipJson(text, kName), parseClipJson(text, kName, 25)})
     if (isRead(clip)) play(*clip);
   if (const auto timeline = parseTimeline(text, kName); isRead(timeline)) play(*timeline);
   if (const auto regions = parseRegions(text, kName); isRead(regions))
