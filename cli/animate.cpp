@@ -183,7 +183,7 @@ Result<void> animateGlb(const AnimateArguments& a, const Rig& rig, const Perform
       printWarning(
           fmt::format("{} swings more quickly than keys can tell: between them weights are off by "
                       "{:.2g}, more than the tolerance of {:.6g}.",
-                      performance.name, frames.missed, tolerance));
+                      performance.called, frames.missed, tolerance));
     clip = std::move(frames.clip);
     options.keyTolerance = frames.tolerance;
   } else {
@@ -255,7 +255,7 @@ Result<void> checkArguments(const AnimateArguments& a, bool glb) {
 /// What only a performance can tell of its options.
 Result<void> checkKeys(const AnimateArguments& a, const Performance& performance) {
   if (a.keys == "exact" && !performance.motion)
-    return fail(fmt::format("Keys cannot hold {} exactly; leave --keys out.", performance.name));
+    return fail(fmt::format("Keys cannot hold {} exactly; leave --keys out.", performance.called));
   if (a.namesFrames() && (a.keys == "exact" || a.keys == "few"))
     return fail(
         fmt::format("Keys that are {} have no frames; leave --frames and --fps out.", a.keys));

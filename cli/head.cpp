@@ -45,7 +45,7 @@ Result<std::optional<HeadTrack>> headTrack(const HeadArguments& a, const Rig& ri
                                            const std::vector<double>& times) {
   if (!a.on()) return std::nullopt;
   if (!performance.hasHead)
-    return fail(fmt::format("{} has no angles of the head; leave --head out.", performance.name));
+    return fail(fmt::format("{} has no angles of the head; leave --head out.", performance.called));
   const auto pivot = pivotOf(a, rig);
   if (!pivot) return std::unexpected(pivot.error());
   HeadTrack track{times, {}, *pivot};

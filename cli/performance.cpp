@@ -44,7 +44,7 @@ Result<Performance> driven(const PerformanceArguments& a, const Drive& drive, do
     paths->push_back(*path);
   }
   Performance performance;
-  performance.name = a.law;
+  performance.name = performance.called = a.law;
   performance.seconds = delay + lengthOf(drive, a.seconds);
   performance.at = [paths, delay](double time, std::span<double> weights) {
     for (std::size_t k = 0; k < weights.size(); ++k)
@@ -75,7 +75,7 @@ Result<Performance> between(const PerformanceArguments& a, const Weights& from, 
                     "give it more --seconds.",
                     seconds));
   Performance performance;
-  performance.name = a.law;
+  performance.name = performance.called = a.law;
   performance.seconds = matter.delay + seconds;
   performance.at = [motion = *motion, delay = matter.delay](double time,
                                                             std::span<double> weights) {
@@ -185,6 +185,7 @@ Result<Performance> byClip(const PerformanceArguments& a, const Rig& rig, const 
                     a.clip, clip.names.size()));
   Performance performance;
   performance.name = std::filesystem::path(a.clip).stem().string();
+  performance.called = a.clip;
   performance.seconds = clip.seconds();
   performance.clipWeights = clip.weights.size();
   performance.frameMiss = recording->missed;

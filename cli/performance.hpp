@@ -30,6 +30,7 @@ void addPerformance(CLI::App& app, PerformanceArguments& a);
 /// Weights of a rig's targets over time.
 struct Performance {
   std::string name;
+  std::string called;  ///< in messages: the law, or the clip's file
   double seconds = 0;
   std::function<void(double time, std::span<double> weights)> at;
   /// The same with velocities and accelerations, per second: exact for laws, of a clip by

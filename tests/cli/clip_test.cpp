@@ -247,6 +247,8 @@ TEST_F(PlayClip, SaysWhatItMendedInAFile) {
   const Outcome twice = run("animate face.sweep --clip take.csv -o take.glb");
   EXPECT_EQ(twice.code, 0);
   EXPECT_NE(twice.err.find("take.csv: 1 of 3 rows, the first in line 4"), std::string::npos);
+  EXPECT_TRUE(fails("animate face.sweep --clip take.csv --head on -o take.glb",
+                    "take.csv has no angles of the head; leave --head out."));
   write("take.json", R"([{"categories": [{"categoryName": "JawOpen", "score": 1}]},
                          {"categories": []}, {"categories": []}])");
   EXPECT_TRUE(
