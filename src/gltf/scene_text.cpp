@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <tuple>
 #include <vector>
 
 #include "gltf/accessor.hpp"
@@ -21,13 +22,15 @@ ByteTable rowsOf(const Document& document, const Accessor& accessor) {
   return {view.offset + accessor.offset, width, std::min(accessor.count, whole)};
 }
 
-/// In ascending order and apart: the first of those that lie upon each other.
+/// In ascending order and apart: of those that lie upon each other the first, and then the longest.
 std::vector<ByteTable> tablesOf(const Document& document) {
   std::vector<ByteTable> tables;
   for (std::size_t a = 0; a < document.list("accessors").size(); ++a)
     if (const auto accessor = accessorAt(document, a); accessor && accessor->view)
       tables.push_back(rowsOf(document, *accessor));
-  std::ranges::stable_sort(tables, {}, &ByteTable::begin);
+  std::ranges::sort(tables, [](const ByteTable& a, const ByteTable& b) {
+    return std::tuple(a.begin, b.size(), b.width) < std::tuple(b.begin, a.size(), a.width);
+  });
   std::size_t end = 0;
   std::erase_if(tables, [&](const ByteTable& table) {
     if (table.begin < end) return true;
