@@ -147,17 +147,30 @@ class Quads {
                                [&](Index c) { return faces_.cornerTexcoords[c] >= 0; });
   }
 
-  /// i steps of m and j of n from the first corner of a textured quad.
+  /// i steps of m and j of n from the first corner of a textured quad, or straight on from there.
   Vec2 texcoord(std::size_t quad, Index i, Index m, Index j, Index n) const {
-    const auto at = [&](int k) {
-      return faces_.texcoords[faces_.cornerTexcoords[corners_[4 * quad + k]]];
-    };
+    const auto at = [&](int k) { return texcoordAt(quad, k); };
     if (i == 0) return between(at(0), at(3), j, n);
     if (i == m) return between(at(1), at(2), j, n);
     return between(between(at(0), at(1), i, m), between(at(3), at(2), i, m), j, n);
   }
 
+  /// Goes from a textured quad, number `at` of its row or column, towards a place on that, as far
+  /// as no seam is in the way. The next quad is `stride` on, behind the corner `next`.
+  void follow(std::size_t& quad, Index& at, const Place& goal, Index stride, int next) const {
+    while (goal.value() > at + 1 && areJoined(quad, quad + stride, next)) quad += stride, ++at;
+    while (goal.value() < at && areJoined(quad - stride, quad, next)) quad -= stride, --at;
+  }
+
  private:
+  const Vec2& texcoordAt(std::size_t quad, int corner) const {
+    return faces_.texcoords[faces_.cornerTexcoords[corners_[4 * quad + corner]]];
+  }
+  bool areJoined(std::size_t a, std::size_t b, int next) const {
+    return isTextured(a) && isTextured(b) && texcoordAt(a, next) == texcoordAt(b, 0) &&
+           texcoordAt(a, 2) == texcoordAt(b, 4 - next);
+  }
+
   const Polygons& faces_;
   const std::vector<Index>& corners_;
   std::vector<Index> faceOfQuad_;  // empty where nobody knows
@@ -182,21 +195,8 @@ RenderMesh renderGrid(const Rig& rig, const Tessellation& grid) {
   return builder.take();
 }
 
-namespace {
-
-/// The edge of the source that a coordinate lies on, seen from a triangle's middle, and how far on
-/// it.
-struct OnEdge {
-  Index edge, step;
-};
-OnEdge seenFrom(double middle, const Place& p, Index edges) {
-  const bool isBehind = p.step == 0 && (p.whole == edges || middle < p.whole) && p.whole > 0;
-  return isBehind ? OnEdge{p.whole - 1, p.of} : OnEdge{p.whole, p.step};
-}
-
-}  // namespace
-
-// A triangle's texture coordinates are those of the quads on its own side of a seam.
+// A triangle has the texture coordinates of the quad in its middle. What lies beyond a seam has
+// them as if that quad went on.
 RenderMesh renderDensity(const Rig& rig, const Tessellation& grid) {
   const Surface& surface = rig.surface;
   Builder builder(grid.positions(blend(rig, {})), rig.source.polygons);
@@ -209,19 +209,27 @@ RenderMesh renderDensity(const Rig& rig, const Tessellation& grid) {
       double u = 0, v = 0;
       for (const Index k : triangle)
         u += mesh.points[k].u.value() / 3, v += mesh.points[k].v.value() / 3;
-      const auto quadOf = [&](Index i, Index j) { return first + std::size_t(j) * m + i; };
-      const std::size_t middle =
-          quadOf(std::min(static_cast<Index>(u), m - 1), std::min(static_cast<Index>(v), n - 1));
-      std::array<Index, 3> corners{};
-      for (int k = 0; k < 3; ++k) {
-        const auto& point = mesh.points[triangle[k]];
-        const OnEdge onU = seenFrom(u, point.u, m), onV = seenFrom(v, point.v, n);
-        const std::size_t quad = quadOf(onU.edge, onV.edge);
-        corners[k] = quads.isTextured(quad)
-                         ? builder.vertex(point.vertex, quads.texcoord(quad, onU.step, point.u.of,
-                                                                       onV.step, point.v.of))
-                         : builder.vertex(point.vertex);
-      }
+      const Index column = std::min(static_cast<Index>(u), m - 1),
+                  row = std::min(static_cast<Index>(v), n - 1);
+      const std::size_t middle = first + std::size_t(row) * m + column;
+      const auto cornerAt = [&](const PatchMesh::Point& point) {
+        if (!quads.isTextured(middle)) return builder.vertex(point.vertex);
+        std::size_t quad = middle;
+        Index i = column, j = row;
+        for (int turn = 0; turn < 2; ++turn) {  // once more, around the end of a seam
+          quads.follow(quad, i, point.u, 1, 1);
+          quads.follow(quad, j, point.v, m, 3);
+        }
+        const auto steps = [](const Place& place, Index from) {
+          return (place.whole - from) * place.of + place.step;
+        };
+        return builder.vertex(point.vertex, quads.texcoord(quad, steps(point.u, i), point.u.of,
+                                                           steps(point.v, j), point.v.of));
+      };
+      // In this order, as each may add a vertex.
+      const std::array corners{cornerAt(mesh.points[triangle[0]]),
+                               cornerAt(mesh.points[triangle[1]]),
+                               cornerAt(mesh.points[triangle[2]])};
       builder.addTriangle(quads.material(middle), corners[0], corners[1], corners[2]);
     }
     first += std::size_t(m) * n;

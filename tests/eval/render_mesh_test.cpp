@@ -166,6 +166,30 @@ TEST(RenderMesh, RepeatsPointsOnlyAlongSeams) {
   }
 }
 
+// A column lies across the seam: its triangles have the coordinates of the side that their middle
+// is on.
+TEST(RenderMesh, OfADensityGoesOnBeyondSeamsInsidePatches) {
+  Rig rig = sheet();
+  texture(rig);
+  for (const Index segments : {1, 3, 5}) {
+    const Tessellation grid(rig.surface,
+                            Density{std::vector<Index>(4, segments), {{segments, segments}}});
+    const RenderMesh mesh = renderDensity(rig, grid);
+    const auto points = grid.positions(blend(rig, {}));
+    ASSERT_EQ(mesh.triangles.size(), 6u * segments * segments);
+    for (std::size_t k = 0; k < mesh.triangles.size(); k += 3) {
+      const auto place = [&](int c) { return points[pointOf(mesh, mesh.triangles[k + c])]; };
+      const double middle = (place(0).x + place(1).x + place(2).x) / 3;
+      for (int c = 0; c < 3; ++c) {
+        EXPECT_NEAR(mesh.texcoords[2 * mesh.triangles[k + c]], place(c).x + (middle > 1 ? 10 : 0),
+                    1e-6)
+            << segments;
+        EXPECT_NEAR(mesh.texcoords[2 * mesh.triangles[k + c] + 1], place(c).y, 1e-6);
+      }
+    }
+  }
+}
+
 // At a pole every other triangle may have a texture coordinate of its own.
 TEST(RenderMesh, APointMayHaveHundredsOfTextureCoordinates) {
   Rig rig = sheet();
