@@ -73,7 +73,8 @@ export interface LoadOptions {
   /** 0: the source's own vertices; N: every edge of the source cut into N, up to 64. */
   lod?: number | undefined;
   /** One of these instead of `lod`, as fine as it asks: no curve has a segment longer than `edgeLength` or is further
-   * than `error` from its segments (both in model units), or the best with so many points. */
+   * than `error` from its segments (both in model units; between curves triangles may be, several times), or the best
+   * with so many points. */
   edgeLength?: number | undefined;
   error?: number | undefined;
   vertices?: number | undefined;
@@ -114,7 +115,7 @@ export class Sweepface {
   readonly names: string[];
   /** The level that was asked for; 0 where a budget was. */
   readonly lod: number;
-  /** How far any source vertex may be off in any expression, in model units. */
+  /** How far any source vertex may be off in any expression, in model units, not counting what evaluation adds. */
   readonly tolerance: number;
   /** How many targets turn about something that the file tells: what `arcs` is for. */
   readonly turnCount: number;

@@ -21,7 +21,8 @@ struct Budget {
     edgeLength,  ///< no arc has a segment longer than this, in model units
     error,       ///< no segment is further than this from its arc, in model units, as seven points
                  ///< of its way tell (one, where an edge is cut into more than four): a few
-                 ///< hundredths more where they miss the most
+                 ///< hundredths more where they miss the most. Between curves triangles may be
+                 ///< several times further
     vertices     ///< as near to the surface as so many vertices allow
   };
   Kind kind = Kind::vertices;

@@ -91,7 +91,8 @@ enum {
 /* `what` is a sum of the above; 0: none, as after loading. */
 SWEEPFACE_API sweepface_status sweepface_rig_follow(sweepface_rig* rig, uint32_t what);
 
-/* How far any source vertex may be off in any expression, in model units. */
+/* How far any source vertex may be off in any expression, in model units. What is played may be off
+ * by sweepface_face_error more. */
 SWEEPFACE_API double sweepface_rig_tolerance(const sweepface_rig* rig);
 
 /* ---- Meshes ---- */
@@ -108,7 +109,8 @@ SWEEPFACE_API sweepface_status sweepface_mesh_create(const sweepface_rig* rig, u
 typedef int32_t sweepface_budget;
 enum {
   SWEEPFACE_EDGE_LENGTH = 0, /* no curve has a segment longer than this, in model units */
-  SWEEPFACE_ERROR = 1,       /* no segment is further than this from its curve, in model units */
+  SWEEPFACE_ERROR = 1,       /* no segment is further than this from its curve, in model units;
+                                between curves triangles may be, several times (docs/evaluation.md) */
   SWEEPFACE_VERTICES = 2     /* as near to the surface as so many points allow */
 };
 
@@ -261,7 +263,8 @@ SWEEPFACE_API sweepface_status sweepface_motion_move_to(sweepface_motion* motion
 SWEEPFACE_API sweepface_status sweepface_motion_move_all(sweepface_motion* motion,
                                                          const double* goals, size_t count,
                                                          const sweepface_drive* drive);
-/* A blow: adds to a weight's velocity (per second), which drag (per second) then takes away. */
+/* A blow: adds to a weight's velocity (per second), which drag (per second) then takes away. Pushes
+ * beyond 1,000,000 may lead to weights that a face refuses. */
 SWEEPFACE_API sweepface_status sweepface_motion_push(sweepface_motion* motion, uint32_t weight,
                                                      double velocity_change, double drag);
 

@@ -25,7 +25,7 @@ SWEEPFACE_API void sweepface_rotation(const sweepface_angles* angles, double qua
  * after sweepface_rig_follow. Writes how many there are, which may be none. */
 SWEEPFACE_API sweepface_status sweepface_rig_turn_eyes(sweepface_rig* rig, uint32_t* eyes);
 /* How the eyes stand, whatever the head does; NULL, as at the start: by the weights of eyeLook
- * targets. */
+ * targets. Nothing where no eyes turn. */
 SWEEPFACE_API sweepface_status sweepface_face_look(sweepface_face* face,
                                                    const sweepface_pose* pose);
 
