@@ -13,7 +13,10 @@
 namespace sweepface::gltf {
 namespace {
 
+/// Advice on the glTF that the scene once was helps nobody.
 std::unexpected<Error> doesNotFit(std::string_view why) {
+  why = why.substr(0, why.find(';'));
+  if (why.ends_with('.')) why.remove_suffix(1);
   return fail(fmt::format("The face and its scene do not fit: {}; convert the source again.", why));
 }
 

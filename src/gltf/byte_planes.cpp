@@ -1,5 +1,6 @@
 #include "gltf/byte_planes.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -7,6 +8,9 @@
 
 namespace sweepface::gltf {
 namespace {
+
+/// Bytes by which tables are judged.
+constexpr std::size_t kEnough = std::size_t{1} << 18;
 
 /// A plane of a table, whose bytes stand one after another in planes, and `width` apart in rows.
 std::string planeOf(std::string_view rows, std::size_t plane, std::size_t width) {
@@ -30,18 +34,21 @@ void undoDifferences(std::string& plane) {
                                  static_cast<unsigned char>(plane[k - 1]));
 }
 
-/// A table in planes, and which of these are differences, a byte each.
-struct Planes {
-  std::string bytes, steps;
-};
-
-Planes planesOf(std::string_view rows, std::size_t width) {
-  Planes planes;
+/// Which planes deflate better as differences, a byte each.
+std::string stepsOf(std::string_view rows, std::size_t width) {
+  std::string steps;
   for (std::size_t p = 0; p < width; ++p) {
-    const std::string plane = planeOf(rows, p, width), steps = differences(plane);
-    const bool better = deflated(steps).size() < deflated(plane).size();
-    planes.bytes += better ? steps : plane;
-    planes.steps += better ? '\1' : '\0';
+    const std::string plane = planeOf(rows, p, width);
+    steps += deflated(differences(plane)).size() < deflated(plane).size() ? '\1' : '\0';
+  }
+  return steps;
+}
+
+std::string inPlanes(std::string_view rows, std::string_view steps) {
+  std::string planes;
+  for (std::size_t p = 0; p < steps.size(); ++p) {
+    const std::string plane = planeOf(rows, p, steps.size());
+    planes += steps[p] != 0 ? differences(plane) : plane;
   }
   return planes;
 }
@@ -95,12 +102,15 @@ std::string toPlanes(std::string_view bytes, std::span<const ByteTable> tables) 
   std::size_t count = 0;
   for (const ByteTable& table : tables) {
     const std::string_view rows = bytes.substr(table.begin, table.size());
-    const Planes planes = planesOf(rows, table.width);
+    // Of many rows the first ones tell.
+    const std::string_view some =
+        rows.substr(0, std::max<std::size_t>(kEnough / table.width, 1) * table.width);
+    const std::string steps = stepsOf(some, table.width);
     std::string head;
     for (const std::size_t number : {table.begin, table.width, table.rows}) append32(head, number);
-    head += planes.steps;
-    if (deflated(planes.bytes).size() + head.size() >= deflated(rows).size()) continue;
-    turned.replace(table.begin, table.size(), planes.bytes);
+    head += steps;
+    if (deflated(inPlanes(some, steps)).size() + head.size() >= deflated(some).size()) continue;
+    turned.replace(table.begin, table.size(), inPlanes(rows, steps));
     heads += head;
     ++count;
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
@@ -13,10 +14,10 @@ namespace sweepface::gltf {
 
 /// Rows of bytes one after another.
 struct ByteTable {
-  std::size_t begin = 0, width = 0, rows = 0;
+  std::uint64_t begin = 0, width = 0, rows = 0;  ///< below 2^32 each
 
-  std::size_t size() const { return width * rows; }
-  std::size_t end() const { return begin + size(); }
+  std::uint64_t size() const { return width * rows; }
+  std::uint64_t end() const { return begin + size(); }
 };
 
 /// The bytes with those of the tables that then deflate better in planes, each as it is or as

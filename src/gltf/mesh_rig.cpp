@@ -126,11 +126,11 @@ class RigReader {
     const Json* const number = find(primitive["attributes"], "TEXCOORD_0");
     if (!number) return -1;
     std::vector<Vec2>& all = rig_.neutral.polygons.texcoords;
-    const Json* const material = find(primitive, "material");
-    const auto [known, isNew] =
-        texcoords_.emplace(std::pair(*number, material ? *material : Json()), all.size());
+    const auto transform = textureTransformOf(document_, primitive);
+    if (!transform) return std::unexpected(transform.error());
+    const auto [known, isNew] = texcoords_.emplace(std::pair(*number, *transform), all.size());
     if (!isNew) return known->second;
-    const auto texcoords = readTexcoords(document_, primitive);
+    const auto texcoords = readTexcoords(document_, primitive, *transform);
     if (!texcoords) return std::unexpected(texcoords.error());
     if (all.size() + texcoords->size() > document_.mostElements())
       return fail("it has more texture coordinates than its size can mean; export the file again.");
@@ -170,7 +170,8 @@ class RigReader {
   std::vector<Index> facePart_;
   io::NameIndex materials_, groups_;
   std::size_t corners_ = 0;
-  std::map<std::pair<Json, Json>, Index> texcoords_;  // first of each accessor and material
+  std::map<std::pair<Json, TextureTransform>, Index>
+      texcoords_;  // first of each accessor so changed
 };
 
 }  // namespace

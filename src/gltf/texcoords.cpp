@@ -1,5 +1,6 @@
 #include "gltf/texcoords.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -9,25 +10,19 @@ namespace sweepface::gltf {
 namespace {
 
 /// offset + rotation · scale · t
-struct Transform {
-  Vec2 offset, scale{1, 1};
-  double rotation = 0;  // radians, counter-clockwise where v goes down
+Vec2 transformed(const TextureTransform& by, double u, double v) {
+  const double c = std::cos(by[4]), s = std::sin(by[4]);
+  u *= by[2], v *= by[3];
+  return {by[0] + c * u + s * v, by[1] - s * u + c * v};
+}
 
-  bool changesNothing() const { return offset == Vec2{} && scale == Vec2{1, 1} && rotation == 0; }
+}  // namespace
 
-  Vec2 operator()(Vec2 t) const {
-    const double c = std::cos(rotation), s = std::sin(rotation);
-    t = {scale.x * t.x, scale.y * t.y};
-    return {offset.x + c * t.x + s * t.y, offset.y - s * t.x + c * t.y};
-  }
-};
-
-/// What the base colour of a primitive's material does to TEXCOORD_0.
-Result<Transform> transformOf(const Document& document, const Json& primitive) {
+Result<TextureTransform> textureTransformOf(const Document& document, const Json& primitive) {
   const Json& materials = document.list("materials");
   const Json* const number = find(primitive, "material");
   const auto material = number ? asIndex(*number, materials.size()) : std::nullopt;
-  if (!material) return Transform{};
+  if (!material) return kNoTransform;
   Members in(materials[*material], fmt::format("material {}", *material));
   Members colour(in.object("pbrMetallicRoughness"), in.place());
   Members texture(colour.object("baseColorTexture"), in.place());
@@ -39,17 +34,16 @@ Result<Transform> transformOf(const Document& document, const Json& primitive) {
   const double rotation = told.number("rotation", 0);
   for (const Members* m : {&in, &colour, &texture, &extensions, &told})
     if (!m->ok()) return m->error();
-  Transform transform;
+  TextureTransform transform = kNoTransform;
   if (set != 0) return transform;
-  if (offset) transform.offset = {(*offset)[0], (*offset)[1]};
-  if (scale) transform.scale = {(*scale)[0], (*scale)[1]};
-  transform.rotation = rotation;
+  if (offset) std::ranges::copy(*offset, transform.begin());
+  if (scale) std::ranges::copy(*scale, transform.begin() + 2);
+  transform[4] = rotation;
   return transform;
 }
 
-}  // namespace
-
-Result<std::vector<Vec2>> readTexcoords(const Document& document, const Json& primitive) {
+Result<std::vector<Vec2>> readTexcoords(const Document& document, const Json& primitive,
+                                        const TextureTransform& transform) {
   const Json& number = primitive["attributes"]["TEXCOORD_0"];
   const std::size_t index = *asIndex(number, document.list("accessors").size());
   const auto accessor = accessorAt(document, index);
@@ -57,13 +51,11 @@ Result<std::vector<Vec2>> readTexcoords(const Document& document, const Json& pr
   if (accessor->rows != 2 || accessor->columns != 1)
     return fail(fmt::format("accessor {}: a TEXCOORD_0 is not of type VEC2; export the file again.",
                             index));
-  const auto transform = transformOf(document, primitive);
-  if (!transform) return std::unexpected(transform.error());
   const auto values = decode(document, *accessor);
   if (!values) return std::unexpected(values.error());
   std::vector<Vec2> texcoords;
   for (std::size_t k = 0; k < values->size(); k += 2) {
-    const Vec2 t = (*transform)({(*values)[k], (*values)[k + 1]});
+    const Vec2 t = transformed(transform, (*values)[k], (*values)[k + 1]);
     texcoords.push_back({t.x, 1 - t.y});
     if (std::isfinite(t.x) && std::isfinite(t.y)) continue;
     return fail(
@@ -79,9 +71,9 @@ bool hasPlainTexcoords(const Document& document, const Json& primitive) {
   const auto index = number ? asIndex(*number, document.list("accessors").size()) : std::nullopt;
   if (!index) return false;
   const auto accessor = accessorAt(document, *index);
-  const auto transform = transformOf(document, primitive);
+  const auto transform = textureTransformOf(document, primitive);
   return accessor && accessor->type == Component::float32 && accessor->components() == 2 &&
-         accessor->columns == 1 && transform && transform->changesNothing();
+         accessor->columns == 1 && transform && *transform == kNoTransform;
 }
 
 }  // namespace sweepface::gltf

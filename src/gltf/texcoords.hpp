@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "sweepface/vec.hpp"
@@ -8,10 +9,17 @@
 
 namespace sweepface::gltf {
 
-/// TEXCOORD_0 of a primitive as OBJ counts: from the lower left, after the transform that its base
-/// colour has them go through (KHR_texture_transform; quantised ones need it). The primitive has
-/// them.
-Result<std::vector<Vec2>> readTexcoords(const Document& document, const Json& primitive);
+/// What the base colour of a primitive's material does to TEXCOORD_0 (KHR_texture_transform;
+/// quantised ones need it): the offset, the scale, and a rotation in radians, counter-clockwise
+/// where v goes down.
+using TextureTransform = std::array<double, 5>;
+inline constexpr TextureTransform kNoTransform{0, 0, 1, 1, 0};
+Result<TextureTransform> textureTransformOf(const Document& document, const Json& primitive);
+
+/// TEXCOORD_0 of a primitive, which has them, as OBJ counts: from the lower left, after a
+/// transform.
+Result<std::vector<Vec2>> readTexcoords(const Document& document, const Json& primitive,
+                                        const TextureTransform& transform);
 
 /// Whether a primitive has TEXCOORD_0 of single precision that no transform changes, so that they
 /// can be told from what readTexcoords() gives.

@@ -182,6 +182,20 @@ TEST(GltfReader, IndicesMustBeWholeNumbersOfVertices) {
   EXPECT_TRUE(refused(glb, {"are not data of unsigned integers"}));
 }
 
+TEST(GltfReader, MaterialsShareTextureCoordinatesThatTheyDoNotTransform) {
+  Glb glb = smallFace();
+  Json& primitives = glb.json["meshes"][0]["primitives"];
+  for (int k = 0; k < 2; ++k) {
+    Json more = primitives[0];
+    more["material"] = glb.add("materials", glb.json["materials"][0]);
+    primitives.push_back(more);
+  }
+  EXPECT_EQ(read(glb).rig.neutral.polygons.texcoords.size(), 9u);
+  glb.json["materials"][2]["pbrMetallicRoughness"]["baseColorTexture"] = {
+      {"index", 0}, {"extensions", {{"KHR_texture_transform", {{"offset", {0.5, 0}}}}}}};
+  EXPECT_EQ(read(glb).rig.neutral.polygons.texcoords.size(), 18u);
+}
+
 // ---- Quads ----
 
 /// The sheet with vertices of its own for every triangle, and a colour and a normal for each.

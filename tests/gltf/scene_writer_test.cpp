@@ -321,7 +321,7 @@ TEST(SceneWriter, RefusesAnotherFacesScene) {
       EXPECT_TRUE(failsWith(formatGlb(rig, {.lod = lod}), {"do not fit", why, "convert"}));
   };
   rig.scene = "glTF";
-  refuses("ends within its header");
+  refuses("ends within its header; convert the source again.");
   rig.scene = scene.substr(0, scene.size() / 2);
   refuses("it is damaged");
   rig.scene = converted(headAndEyes()).scene;
