@@ -1,5 +1,8 @@
+#include <algorithm>
+
 #include "sweepface/gltf.hpp"
 
+#include "gltf/accessor.hpp"
 #include "gltf/mesh_rig.hpp"
 #include "gltf/same_vertices.hpp"
 #include "gltf/scene.hpp"
@@ -8,6 +11,20 @@
 
 namespace sweepface {
 namespace {
+
+/// Whether steps of a quantisation are undone by a skin, which the rig knows nothing of.
+bool hasStepsThatASkinUndoes(const gltf::Document& document, const gltf::Parts& parts) {
+  const auto isSkinned = [&](std::size_t mesh) {
+    return std::ranges::any_of(document.list("nodes"), [&](const gltf::Json& node) {
+      return gltf::find(node, "skin") && gltf::findIndex(node, "mesh", mesh + 1) == mesh;
+    });
+  };
+  return std::ranges::any_of(parts.runs, [&](const gltf::Run& run) {
+    const auto position = gltf::accessorAt(document, run.position);
+    return position && position->type != gltf::Component::float32 &&
+           isSkinned(parts.meshes[run.rigMesh].mesh);
+  });
+}
 
 Result<RigSource> readGltf(std::string_view bytes, const std::filesystem::path& folder) {
   auto document = gltf::parseDocument(bytes, folder);
@@ -21,6 +38,11 @@ Result<RigSource> readGltf(std::string_view bytes, const std::filesystem::path& 
   if (!same) return std::unexpected(same.error());
   rig.neutral.polygons = recoverQuads(rig, *same, facePart).polygons;
   RigSource source{std::move(rig), {}, document->warnings};
+  if (hasStepsThatASkinUndoes(*document, *parts))
+    source.warnings.push_back(
+        "The face is quantized, and its skin undoes that: sizes, distances and the tolerance are "
+        "in "
+        "units of the quantization, not of the scene.");
   auto scene = gltf::makeScene(std::move(*document), *parts, source.rig.neutral.polygons, folder);
   if (!scene) return std::unexpected(scene.error());
   source.scene = gltf::formatScene(scene->glb);

@@ -384,6 +384,19 @@ TEST(GltfReader, ASkinIgnoresWhereItsNodeIs) {
   EXPECT_EQ(read(glb).rig.neutral.positions, sheetPositions());
 }
 
+TEST(GltfReader, WarnsWhereASkinUndoesAQuantization) {
+  Glb glb = points(zigzag(3));
+  const std::vector<std::int16_t> values{32767, -32767, 0, 0, 16384, 0, 0, 0, 0, 0, -32768, 0};
+  glb.primitive()["attributes"]["POSITION"] =
+      glb.addAccessor(glb.addView(bytesOf(values), 8), 5122, "VEC3", 3);
+  glb.add("nodes", {{"mesh", 0}});
+  EXPECT_TRUE(read(glb).warnings.empty());
+  glb.json["nodes"][0]["skin"] = 0;
+  const auto warnings = read(glb).warnings;
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("units of the quantization, not of the scene"), std::string::npos);
+}
+
 TEST(GltfReader, AMeshThatNoNodeShowsStaysWhereItIs) {
   Glb glb = smallFace();
   glb.json.erase("nodes");
