@@ -113,9 +113,11 @@ Result<Recording> readClip(const PerformanceArguments& a, const Region& region,
   if (!text) return std::unexpected(text.error());
   const bool isJson = isOfKind(a.clip, ".json");
   if (isJson && isTimeline(*text)) {
-    if (a.smooth || !a.animation.empty() || a.tellsSpring)
-      return fail(fmt::format(
-          "{} is a timeline; leave --smooth, --animation, --frequency and --damping out.", a.clip));
+    if (a.smooth || !a.animation.empty() || a.tellsSpring || a.tellsRate)
+      return fail(
+          fmt::format("{} is a timeline; leave --smooth, --animation, --clip-fps, --frequency and "
+                      "--damping out.",
+                      a.clip));
     const Result<Timeline> timeline = parseTimeline(*text, a.clip);
     if (!timeline) return std::unexpected(timeline.error());
     const auto bakedIn = [&](const Matter& matter) -> Result<Baked> {
@@ -320,6 +322,8 @@ void addPerformance(CLI::App& app, PerformanceArguments& a) {
   app.parse_complete_callback([&app, &a] {
     checkUse(app, a);
     a.tellsSpring = app.count("--frequency") + app.count("--damping") > 0;
+    a.tellsRate =
+        app.count("--clip-fps") > 0 && !isOfKind(app["--output"]->as<std::string>(), ".csv");
   });
 }
 

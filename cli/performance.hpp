@@ -21,6 +21,7 @@ struct PerformanceArguments {
   double clipRate = 0;  ///< frames a second of the clip's timecodes; 0: as they tell
   bool smooth = false;
   bool tellsSpring = false;  ///< its frequency or damping
+  bool tellsRate = false;    ///< of the clip, not of a recording that is written
 
   /// Of the timecodes that are written.
   double writtenRate() const { return clipRate > 0 ? clipRate : 60; }

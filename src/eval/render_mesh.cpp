@@ -122,7 +122,7 @@ RenderMesh renderSource(const Rig& rig, const Tessellation& grid) {
 namespace {
 
 // The same number from either end.
-Vec2 between(const Vec2& a, const Vec2& b, Index step, Index level) {
+Vec2 between(const Vec2& a, const Vec2& b, std::int64_t step, Index level) {
   if (std::pair(b.x, b.y) < std::pair(a.x, a.y)) return between(b, a, level - step, level);
   const double t = static_cast<double>(step) / level;
   return {std::lerp(a.x, b.x, t), std::lerp(a.y, b.y, t)};
@@ -148,7 +148,7 @@ class Quads {
   }
 
   /// i steps of m and j of n from the first corner of a textured quad, or straight on from there.
-  Vec2 texcoord(std::size_t quad, Index i, Index m, Index j, Index n) const {
+  Vec2 texcoord(std::size_t quad, std::int64_t i, Index m, std::int64_t j, Index n) const {
     const auto at = [&](int k) { return texcoordAt(quad, k); };
     if (i == 0) return between(at(0), at(3), j, n);
     if (i == m) return between(at(1), at(2), j, n);
@@ -221,7 +221,7 @@ RenderMesh renderDensity(const Rig& rig, const Tessellation& grid) {
           quads.follow(quad, j, point.v, m, 3);
         }
         const auto steps = [](const Place& place, Index from) {
-          return (place.whole - from) * place.of + place.step;
+          return std::int64_t{place.whole - from} * place.of + place.step;
         };
         return builder.vertex(point.vertex, quads.texcoord(quad, steps(point.u, i), point.u.of,
                                                            steps(point.v, j), point.v.of));

@@ -241,6 +241,15 @@ TEST_F(PlayClip, RefusesWhatCannotBe) {
   EXPECT_FALSE(std::filesystem::exists(folder / "frames"));
 }
 
+TEST_F(PlayClip, TimelinesHaveNoFramesASecond) {
+  convertRig();
+  write("line.json", R"({"seconds": 1, "events": [{"at": 0, "to": {"jawOpen": 1}}]})");
+  const std::string command = "animate face.sweep --clip line.json --clip-fps 30 -o out";
+  EXPECT_TRUE(
+      fails(command + ".glb", "line.json is a timeline; leave --smooth, --animation, --clip-fps"));
+  EXPECT_EQ(run(command + ".csv").code, 0) << "which is the recording's";
+}
+
 TEST_F(PlayClip, SaysWhatItMendedInAFile) {
   convertRig();
   write("take.csv", "Timecode,JawOpen\n0,0\n1,0.5\n1,1\n");
