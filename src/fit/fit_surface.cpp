@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "fit/shapes.hpp"
+#include "fit/tips.hpp"
 #include "parallel/parallel.hpp"
 
 namespace sweepface {
@@ -86,7 +87,9 @@ class SurfaceFitter {
   Result<Fitted> solved(Draft draft) const {
     const auto solution = solve(layout_, draft, data_);
     if (!solution) return std::unexpected(solution.error());
-    return Fitted{std::move(draft), asStored(*solution)};
+    Solution stored = asStored(*solution);
+    dropSlopesAtTips(draft.surface, stored);
+    return Fitted{std::move(draft), std::move(stored)};
   }
   DraftErrors measured(const Fitted& fitted) const {
     return measureDraft(layout_, fitted.draft, data_, fitted.solution);

@@ -190,6 +190,25 @@ TEST(Convert, bendsNothingWhereFacesHaveManyCorners) {
   EXPECT_LT(normalRms(converted->rig, rig), 1);
 }
 
+/// A strip one quad wide that bends and ends in a triangle, flat in one expression.
+TEST(Convert, hasNormalsAtTheTipsOfLashes) {
+  constexpr Index kLong = 5;
+  PolygonMesh lash;
+  for (Index k = 0; k < kLong; ++k) {
+    for (const double side : {-1.0, 1.0})
+      lash.positions.push_back({side * (1 - 0.15 * k), 1.0 * k, 0.08 * k * k});
+    if (k > 0) addFace(lash, {2 * k - 2, 2 * k - 1, 2 * k + 1, 2 * k});
+  }
+  lash.positions.push_back({0, kLong, 0.08 * kLong * kLong});
+  addFace(lash, {2 * kLong - 2, 2 * kLong - 1, 2 * kLong});
+  MeshRig rig{lash, {{"flat", lash.positions}}};
+  for (Vec3& p : rig.targets[0].positions) p.z = 0;
+  const auto converted = convert(rig);
+  ASSERT_TRUE(converted) << converted.error().message;
+  EXPECT_LE(worstDistance(converted->rig, rig), converted->rig.tolerance);
+  EXPECT_LT(normalRms(converted->rig, rig), 3);
+}
+
 TEST(Convert, givesLooseVerticesBackExactly) {
   MeshRig source = withTargets(plane(5, 4));
   const Vec3 lonely{1.0 / 3, 1e-7, -123.456789};
