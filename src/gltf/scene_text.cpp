@@ -54,8 +54,10 @@ std::vector<ByteTable> tablesOf(std::string_view glb) {
 
 std::string formatScene(const std::string& glb) {
   const std::string planes = toPlanes(glb, tablesOf(glb));
-  const std::string stream = planes.empty() ? deflated(glb) : planesMark + deflated(planes);
-  return glb.size() <= mostInflated(stream.size()) ? stream : glb;
+  const std::string& text = planes.empty() ? glb : planes;
+  const std::string stream = deflated(text);
+  if (text.size() > mostInflated(stream.size())) return glb;
+  return planes.empty() ? stream : planesMark + stream;
 }
 
 Result<std::string> glbOf(std::string_view scene) {
