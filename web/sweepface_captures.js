@@ -72,7 +72,8 @@ function clipOf(names, rows, weights, rate, name, fail) {
     if (time < before) throw fail(line, `the timecode '${timecode}' is before the one above; sort the rows by time`);
     if (time === before) repeated.push(line.number);
     else times.push(time);
-    for (let k = 0; k < n; ++k) weights[(times.length - 1) * n + k] = weights[row * n + k];
+    const place = times.length - 1;
+    if (place < row) for (let k = 0; k < n; ++k) weights[place * n + k] = weights[row * n + k];
   });
   const clip = new Clip(names, new Float64Array(times), new Float64Array(weights.slice(0, times.length * n)));
   if (repeated.length > 0)

@@ -13,11 +13,16 @@
 namespace sweepface::gltf {
 namespace {
 
-/// Advice on the glTF that the scene once was helps nobody.
 std::unexpected<Error> doesNotFit(std::string_view why) {
-  why = why.substr(0, why.find(';'));
-  if (why.ends_with('.')) why.remove_suffix(1);
   return fail(fmt::format("The face and its scene do not fit: {}; convert the source again.", why));
+}
+
+/// Of an error that may advise on the glTF that the scene once was, which helps nobody.
+std::unexpected<Error> cannotBeRead(const Error& error) {
+  std::string_view why = error.message;
+  why = why.substr(0, why.rfind(';'));
+  if (why.ends_with('.')) why.remove_suffix(1);
+  return doesNotFit(why);
 }
 
 /// Targets of the rig that its scene came without.
@@ -61,9 +66,9 @@ std::vector<Index> shownMeshes(const BoundScene& scene) {
 
 Result<BoundScene> sceneOf(const Rig& rig) {
   auto document = parseScene(rig.scene);
-  if (!document) return doesNotFit(document.error().message);
+  if (!document) return cannotBeRead(document.error());
   auto parts = findParts(*document);
-  if (!parts) return doesNotFit(parts.error().message);
+  if (!parts) return cannotBeRead(parts.error());
   if (document->buffers.size() > 1) return doesNotFit("it has several buffers");
   // What its accessors may claim counts on what was taken out as well: shapes, triangles and
   // texture coordinates.
@@ -71,9 +76,9 @@ Result<BoundScene> sceneOf(const Rig& rig) {
   const std::size_t vertices = rig.source.gridVertex.size();
   document->sourceBytes += (12 + 8) * vertices + 2 * polygons.corners.size();
   if (const auto more = newTargets(rig, parts->targets); !more.empty()) {
-    if (auto ok = addTargets(*document, *parts, more); !ok) return doesNotFit(ok.error().message);
+    if (auto ok = addTargets(*document, *parts, more); !ok) return cannotBeRead(ok.error());
     parts = findParts(*document);
-    if (!parts) return doesNotFit(parts.error().message);
+    if (!parts) return cannotBeRead(parts.error());
   }
   if (parts->vertexCount != vertices)
     return doesNotFit(fmt::format("they have {} and {} vertices", vertices, parts->vertexCount));
@@ -84,10 +89,10 @@ Result<BoundScene> sceneOf(const Rig& rig) {
   scene.vertices.resize(vertices);
   std::iota(scene.vertices.begin(), scene.vertices.end(), 0);
   auto faces = partsOfFaces(scene.document, scene.parts, polygons);
-  if (!faces) return doesNotFit(faces.error().message);
+  if (!faces) return cannotBeRead(faces.error());
   scene.facePart = std::move(*faces);
   if (auto ok = takeFromFace(scene.document, scene.parts, polygons, scene.facePart); !ok)
-    return doesNotFit(ok.error().message);
+    return cannotBeRead(ok.error());
   return scene;
 }
 

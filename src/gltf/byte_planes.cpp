@@ -1,10 +1,10 @@
 #include "gltf/byte_planes.hpp"
 
 #include <algorithm>
-#include <cstdint>
 #include <vector>
 
 #include "gltf/deflate.hpp"
+#include "gltf/fixed32.hpp"
 
 namespace sweepface::gltf {
 namespace {
@@ -53,10 +53,6 @@ std::string inPlanes(std::string_view rows, std::string_view steps) {
   return planes;
 }
 
-void append32(std::string& bytes, std::size_t value) {
-  for (int k = 0; k < 4; ++k) bytes += static_cast<char>(value >> (8 * k) & 255);
-}
-
 /// Takes numbers and bytes from the front of a text.
 class Front {
  public:
@@ -69,13 +65,8 @@ class Front {
     return taken;
   }
   std::size_t number() {
-    std::uint32_t value = 0;
-    int shift = 0;
-    for (const char byte : bytes(4)) {
-      value |= std::uint32_t{static_cast<unsigned char>(byte)} << shift;
-      shift += 8;
-    }
-    return value;
+    const std::string_view four = bytes(4);
+    return ok_ ? fixed32(four, 0) : 0;
   }
   std::string_view rest() const { return text_; }
   bool ok() const { return ok_; }

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "gltf/bounds.hpp"
+#include "gltf/fixed32.hpp"
 #include "gltf/meshopt.hpp"
 #include "gltf/resources.hpp"
 #include "io/text.hpp"
@@ -26,17 +27,6 @@ struct Container {
   std::optional<std::string_view> binary;
   bool more = false;  ///< chunks that the format does not define
 };
-
-std::uint32_t fixed32(std::string_view bytes, std::size_t at) {
-  std::uint32_t value = 0;
-  for (std::size_t k = 0; k < 4; ++k)
-    value |= std::uint32_t{static_cast<unsigned char>(bytes[at + k])} << (8 * k);
-  return value;
-}
-
-void append32(std::string& bytes, std::size_t value) {
-  for (int k = 0; k < 4; ++k) bytes += static_cast<char>(value >> (8 * k) & 255);
-}
 
 /// Takes a GLB apart.
 Result<Container> readContainer(std::string_view bytes) {

@@ -14,15 +14,15 @@ namespace {
 
 /// Whether steps of a quantisation are undone by a skin, which the rig knows nothing of.
 bool hasStepsThatASkinUndoes(const gltf::Document& document, const gltf::Parts& parts) {
-  const auto isSkinned = [&](std::size_t mesh) {
-    return std::ranges::any_of(document.list("nodes"), [&](const gltf::Json& node) {
-      return gltf::find(node, "skin") && gltf::findIndex(node, "mesh", mesh + 1) == mesh;
-    });
-  };
+  std::vector<bool> isSkinned(document.list("meshes").size());
+  for (const gltf::Json& node : document.list("nodes"))
+    if (const auto mesh = gltf::findIndex(node, "mesh", isSkinned.size());
+        mesh && gltf::find(node, "skin"))
+      isSkinned[*mesh] = true;
   return std::ranges::any_of(parts.runs, [&](const gltf::Run& run) {
     const auto position = gltf::accessorAt(document, run.position);
     return position && position->type != gltf::Component::float32 &&
-           isSkinned(parts.meshes[run.rigMesh].mesh);
+           isSkinned[parts.meshes[run.rigMesh].mesh];
   });
 }
 
@@ -41,8 +41,7 @@ Result<RigSource> readGltf(std::string_view bytes, const std::filesystem::path& 
   if (hasStepsThatASkinUndoes(*document, *parts))
     source.warnings.push_back(
         "The face is quantized, and its skin undoes that: sizes, distances and the tolerance are "
-        "in "
-        "units of the quantization, not of the scene.");
+        "in units of the quantization, not of the scene.");
   auto scene = gltf::makeScene(std::move(*document), *parts, source.rig.neutral.polygons, folder);
   if (!scene) return std::unexpected(scene.error());
   source.scene = gltf::formatScene(scene->glb);

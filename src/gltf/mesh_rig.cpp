@@ -170,8 +170,8 @@ class RigReader {
   std::vector<Index> facePart_;
   io::NameIndex materials_, groups_;
   std::size_t corners_ = 0;
-  std::map<std::pair<Json, TextureTransform>, Index>
-      texcoords_;  // first of each accessor so changed
+  // The first of each accessor, as a transform changes them.
+  std::map<std::pair<Json, TextureTransform>, Index> texcoords_;
 };
 
 }  // namespace

@@ -156,9 +156,8 @@ sweepface_status sweepface_clip_read(const sweepface_rig* rig, const void* bytes
   const auto asked = options ? *options : sweepface_clip_usual_options();
   if (const auto hold = Trajectory::spring({}, 0, {asked.frequency, asked.damping}); !hold)
     return refuse("The spring on which heavy regions hang: ", hold.error().message);
-  if (asked.frames_per_second != 0)
-    if (auto ok = io::checkFrameRate(asked.frames_per_second); !ok)
-      return refuse(ok.error().message);
+  if (auto ok = io::checkFrameRateIfGiven(asked.frames_per_second); !ok)
+    return refuse(ok.error().message);
   auto recording =
       readForRegions(*rig->division, {static_cast<const char*>(bytes), size}, called, asked);
   if (!recording) return refuse(SWEEPFACE_BAD_DATA, recording.error().message);

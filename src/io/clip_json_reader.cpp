@@ -203,8 +203,7 @@ class ClipJsonReader {
 }  // namespace
 
 Result<Clip> parseClipJson(std::string_view text, std::string_view name, double framesPerSecond) {
-  if (framesPerSecond != 0)
-    if (auto ok = io::checkFrameRate(framesPerSecond); !ok) return std::unexpected(ok.error());
+  if (auto ok = io::checkFrameRateIfGiven(framesPerSecond); !ok) return std::unexpected(ok.error());
   const auto json = io::parseJson(text, name);
   if (!json) return std::unexpected(json.error());
   return ClipJsonReader(name, framesPerSecond).read(*json);

@@ -184,7 +184,8 @@ class LiveLinkReader {
       } else {
         clip_.times.push_back(*time);
       }
-      std::copy_n(&clip_.weights[row * n], n, &clip_.weights[(clip_.times.size() - 1) * n]);
+      if (const std::size_t place = clip_.times.size() - 1; place < row)
+        std::copy_n(&clip_.weights[row * n], n, &clip_.weights[place * n]);
     }
     clip_.weights.resize(clip_.times.size() * n);
     if (again > 0)
@@ -229,8 +230,7 @@ class LiveLinkReader {
 
 Result<Clip> parseLiveLinkCsv(std::string_view text, std::string_view name,
                               double framesPerSecond) {
-  if (framesPerSecond != 0)
-    if (auto ok = io::checkFrameRate(framesPerSecond); !ok) return std::unexpected(ok.error());
+  if (auto ok = io::checkFrameRateIfGiven(framesPerSecond); !ok) return std::unexpected(ok.error());
   return LiveLinkReader(text, name, framesPerSecond).read();
 }
 

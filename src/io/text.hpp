@@ -124,6 +124,10 @@ inline Result<void> checkFrameRate(double framesPerSecond) {
   if (std::isfinite(framesPerSecond) && framesPerSecond > 0) return {};
   return fail("The frames per second of a recording must be greater than 0.");
 }
+/// The same where 0 says that nobody gave any.
+inline Result<void> checkFrameRateIfGiven(double framesPerSecond) {
+  return framesPerSecond == 0 ? Result<void>{} : checkFrameRate(framesPerSecond);
+}
 
 /// A word for a message: in quotes, printable and short. Where what is shown is not UTF-8, it is
 /// shown as far as it is ASCII. Of a long word no more is looked at.
