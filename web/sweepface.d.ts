@@ -72,9 +72,8 @@ export interface Pose {
 export interface LoadOptions {
   /** 0: the source's own vertices; N: every edge of the source cut into N, up to 64. */
   lod?: number | undefined;
-  /** One of these instead of `lod`, as fine as it asks: no curve has a segment longer than `edgeLength` or is further
-   * than `error` from its segments (both in model units; between curves triangles may be, several times), or the best
-   * with so many points. */
+  /** One of these instead of `lod`, as fine as it asks: no curve has a segment longer than `edgeLength`, no edge of
+   * a triangle is further than `error` from the surface (both in model units), or the best with so many points. */
   edgeLength?: number | undefined;
   error?: number | undefined;
   vertices?: number | undefined;

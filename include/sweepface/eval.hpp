@@ -19,10 +19,10 @@ struct Density {
 struct Budget {
   enum class Kind {
     edgeLength,  ///< no arc has a segment longer than this, in model units
-    error,       ///< no segment is further than this from its arc, in model units, as seven points
-                 ///< of its way tell (one, where an edge is cut into more than four): a few
-                 ///< hundredths more where they miss the most. Between curves triangles may be
-                 ///< several times further
+    error,       ///< no edge of a triangle is further than this from the surface at its middle, in
+                 ///< model units, and no segment further from its arc, as seven points of its way
+                 ///< tell (one, where an edge is cut into more than four): triangles hardly
+                 ///< further (on the ICT head by a third at most)
     vertices     ///< as near to the surface as so many vertices allow
   };
   Kind kind = Kind::vertices;
@@ -101,7 +101,6 @@ class Tessellation {
 
  private:
   Index sideVertex(Index patch, int side, Index steps) const;
-  std::vector<PatchMesh::Point> sidePoints(Index patch, int side) const;
   void placeAll();
   bool separateEdges();
   void placeArcs();

@@ -109,8 +109,8 @@ SWEEPFACE_API sweepface_status sweepface_mesh_create(const sweepface_rig* rig, u
 typedef int32_t sweepface_budget;
 enum {
   SWEEPFACE_EDGE_LENGTH = 0, /* no curve has a segment longer than this, in model units */
-  SWEEPFACE_ERROR = 1,       /* no segment is further than this from its curve, in model units;
-                                between curves triangles may be, several times (docs/evaluation.md) */
+  SWEEPFACE_ERROR = 1,       /* no edge of a triangle is further than this from the surface, in
+                                model units */
   SWEEPFACE_VERTICES = 2     /* as near to the surface as so many points allow */
 };
 

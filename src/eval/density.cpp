@@ -3,15 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "eval/sag.hpp"
 #include "eval/stitching.hpp"
-#include "surface/segment.hpp"
+#include "surface/distances.hpp"
 
 namespace sweepface {
 namespace {
 
-constexpr Index kFinest = 64;  // segments an edge of the source
-constexpr int kSamples = 8;    // a segment, to measure by; 2 where they are short
-constexpr Index kMostVertices = 1 << 24;
+constexpr int kSamples = 8;           // a segment, to measure by; 2 where they are short
 constexpr double kLeastError = 1e-9;  // of the longest line
 
 /// The lines that a surface is judged by: its arcs, then two through the middle of every patch.
@@ -24,18 +23,20 @@ class Lines {
         arcs_(static_cast<Index>(surface.wireframe().arcs.size())),
         coarsest_{std::vector<Index>(arcs_, 1),
                   std::vector(surface.patchCount(), std::array{1, 1})},
-        measured_(arcs_ + 2 * surface.patchCount()) {
+        measured_(arcs_ + 2 * surface.patchCount()),
+        inside_(surface, vectors) {
     refineToShape(surface, coarsest_);
   }
 
   const Density& coarsest() const { return coarsest_; }
 
-  Density cut(double value) {
-    Density density = coarsest_;
+  /// On from a density that is too coarse, not beyond so many vertices.
+  Density cut(Density density, double value, std::int64_t most) {
     for (Index a = 0; a < arcs_; ++a) refine(density.arcs[a], a, value);
     for (Index p = 0; p < surface_.patchCount(); ++p)
       for (int d = 0; d < 2; ++d) refine(density.patches[p][d], arcs_ + 2 * p + d, value);
     refineToShape(surface_, density);
+    if (kind_ != Budget::Kind::edgeLength) inside_.refine(density, value, most);
     return density;
   }
 
@@ -55,25 +56,12 @@ class Lines {
       double length = 0;
       for (int k = 0; k < kSamples; ++k)
         length += norm(at(line, (k + 1) * edges / kSamples) - at(line, k * edges / kSamples));
-      return std::max(0.0, std::min(length / edgeLength, kFinest * edges) - 1);
+      return std::max(0.0, std::min(length / edgeLength, double(mostSegments(edgesOf(line)))) - 1);
     };
     double count = 0;
     for (Index a = 0; a < arcs_; ++a) count += insideOf(a);
     for (Index p = 0; p < surface_.patchCount(); ++p)
       count += insideOf(arcs_ + 2 * p) * insideOf(arcs_ + 2 * p + 1);
-    return count;
-  }
-
-  /// Vertices of a tessellation with this density.
-  std::int64_t count(const Density& density) const {
-    const Wireframe& w = surface_.wireframe();
-    std::vector<char> seen(w.points, 0);
-    std::int64_t count = 0;
-    for (const Node& node : w.nodes) count += node.point < 0 || !std::exchange(seen[node.point], 1);
-    for (std::size_t a = 0; a < w.arcs.size(); ++a)
-      if (!w.arcs[a].collapsed) count += density.arcs[a] - 1;
-    for (const auto& [columns, rows] : density.patches)
-      count += std::int64_t(columns - 1) * (rows - 1);
     return count;
   }
 
@@ -126,7 +114,7 @@ class Lines {
   /// By doubling, and then by halving what the last doubling added: more segments are hardly ever
   /// worse.
   void refine(Index& segments, Index line, double value) {
-    const Index most = kFinest * edgesOf(line);
+    const Index most = mostSegments(edgesOf(line));
     Index few = segments - 1;
     while (segments < most && !fits(line, segments, value))
       few = std::exchange(segments, std::min(2 * segments, most));
@@ -149,17 +137,18 @@ class Lines {
   Index arcs_;
   Density coarsest_;
   std::vector<std::vector<Measured>> measured_;  // [lines]
+  SagMeter inside_;
 };
 
 /// The smallest error, to a hundredth of it, that so many vertices allow; the coarsest density if
 /// they are too few even for that. From above, as finer densities take longer to measure.
-Density finest(Lines& lines, double vertices) {
+Density finest(const Surface& surface, Lines& lines, double vertices) {
   double error = lines.longest();  // no sag is longer than its line
   const double least = kLeastError * error;
   Density best = lines.coarsest();
   for (double step = 4; step > 1.01 && error > least;) {
-    Density density = lines.cut(error / step);
-    if (static_cast<double>(lines.count(density)) <= vertices)
+    Density density = lines.cut(best, error / step, static_cast<std::int64_t>(vertices));
+    if (static_cast<double>(vertexCountOf(surface.wireframe(), density)) <= vertices)
       best = std::move(density), error /= step;
     else
       step = std::sqrt(step);
@@ -172,7 +161,7 @@ Result<Density> within(const Surface& surface, Lines& lines, double vertices) {
   const Index fewest = Tessellation(surface, lines.coarsest()).vertexCount();
   if (fewest > vertices) return fail("The face has ", fewest, " vertices at least; allow so many.");
   for (double allowed = vertices;;) {
-    Density found = finest(lines, allowed);
+    Density found = finest(surface, lines, allowed);
     const double excess = Tessellation(surface, found).vertexCount() - vertices;
     if (!(excess > 0)) return found;
     allowed -= excess;
@@ -206,8 +195,8 @@ Result<Density> densityFor(const Surface& surface, std::span<const Vec3> vectors
     if (const double count = lines.countWith(budget.value); count > kMostVertices)
       return tooFine(count);
   const double least = byError ? kLeastError * lines.longest() : 0;
-  Density density = lines.cut(std::max(budget.value, least));
-  const auto count = static_cast<double>(lines.count(density));
+  Density density = lines.cut(lines.coarsest(), std::max(budget.value, least), kMostVertices);
+  const auto count = static_cast<double>(vertexCountOf(surface.wireframe(), density));
   if (count > kMostVertices) return tooFine(count);
   return density;
 }

@@ -15,6 +15,17 @@ Index sideSegments(const Wireframe& w, const Density& density, Index patch, int 
   return count;
 }
 
+std::int64_t vertexCountOf(const Wireframe& w, const Density& density) {
+  std::vector<char> seen(w.points, 0);
+  std::int64_t count = 0;
+  for (const Node& node : w.nodes) count += node.point < 0 || !std::exchange(seen[node.point], 1);
+  for (std::size_t a = 0; a < w.arcs.size(); ++a)
+    if (!w.arcs[a].collapsed) count += density.arcs[a] - 1;
+  for (const auto& [columns, rows] : density.patches)
+    count += std::int64_t(columns - 1) * (rows - 1);
+  return count;
+}
+
 namespace {
 
 // A point or, below 0, a node that stands at none.
@@ -112,12 +123,11 @@ void addStrip(const Line& right, const Line& left, PatchMesh& mesh) {
   }
 }
 
-}  // namespace
-
 // The points of a side from its first corner to its last.
-std::vector<Point> Tessellation::sidePoints(Index patch, int side) const {
-  const Wireframe& w = surface_->wireframe();
-  const Index m = surface_->edgesU(patch), n = surface_->edgesV(patch);
+std::vector<Point> sidePoints(const Surface& surface, const Density& density,
+                              const Numbering& numbers, Index patch, int side) {
+  const Wireframe& w = surface.wireframe();
+  const Index m = surface.edgesU(patch), n = surface.edgesV(patch);
   std::vector<Point> points;
   Index before = 0;
   const auto add = [&](Index vertex, Place along) {
@@ -130,19 +140,22 @@ std::vector<Point> Tessellation::sidePoints(Index patch, int side) const {
   };
   for (const HalfArc h : w.side(patch, side)) {
     const Arc& arc = w.arcs[arcOf(h)];
-    const Index segments = density_.arcs[arcOf(h)];
-    add(nodeVertex_[w.start(h)], {});
+    const Index segments = density.arcs[arcOf(h)];
+    add(numbers.nodes[w.start(h)], {});
     for (Index k = 1; k < segments && !arc.collapsed; ++k)
-      add(arcVertex_[arcOf(h)] + (h & 1 ? segments - k : k) - 1, placeAt(k, segments, arc.edges));
+      add(numbers.arcs[arcOf(h)] + (h & 1 ? segments - k : k) - 1, placeAt(k, segments, arc.edges));
     before += arc.edges;
   }
-  add(nodeVertex_[w.end(w.side(patch, side).back())], {});
+  add(numbers.nodes[w.end(w.side(patch, side).back())], {});
   return points;
 }
 
-PatchMesh Tessellation::patchMesh(Index patch) const {
-  const Index m = surface_->edgesU(patch), n = surface_->edgesV(patch);
-  const auto [columns, rows] = density_.patches[patch];
+}  // namespace
+
+PatchMesh stitch(const Surface& surface, const Density& density, const Numbering& numbers,
+                 Index patch) {
+  const Index m = surface.edgesU(patch), n = surface.edgesV(patch);
+  const auto [columns, rows] = density.patches[patch];
   PatchMesh mesh;
   const auto along = [](const Point& p, int side) {
     const double x = (side % 2 == 0 ? p.u : p.v).value();
@@ -150,7 +163,7 @@ PatchMesh Tessellation::patchMesh(Index patch) const {
   };
   std::array<Line, 4> sides;
   for (int s = 0; s < 4; ++s)
-    for (const Point& p : sidePoints(patch, s)) {
+    for (const Point& p : sidePoints(surface, density, numbers, patch, s)) {
       sides[s].points.push_back(static_cast<Index>(mesh.points.size()));
       sides[s].along.push_back(along(p, s));
       mesh.points.push_back(p);
@@ -166,7 +179,7 @@ PatchMesh Tessellation::patchMesh(Index patch) const {
   const auto first = static_cast<Index>(mesh.points.size());
   for (Index j = 1; j < rows; ++j)
     for (Index i = 1; i < columns; ++i)
-      mesh.points.push_back({patchVertex_[patch] + (j - 1) * (columns - 1) + i - 1,
+      mesh.points.push_back({numbers.inside + (j - 1) * (columns - 1) + i - 1,
                              placeAt(i, columns, m), placeAt(j, rows, n)});
   const auto inner = [&](Index i, Index j) { return first + (j - 1) * (columns - 1) + i - 1; };
   for (int s = 0; s < 4; ++s) {
@@ -189,6 +202,10 @@ PatchMesh Tessellation::patchMesh(Index patch) const {
       mesh.triangles.push_back({inner(i, j), inner(i + 1, j + 1), inner(i, j + 1)});
     }
   return mesh;
+}
+
+PatchMesh Tessellation::patchMesh(Index patch) const {
+  return stitch(*surface_, density_, {nodeVertex_, arcVertex_, patchVertex_[patch]}, patch);
 }
 
 namespace {

@@ -10,7 +10,7 @@
 
 #include "rig/shortest_ways.hpp"
 #include "rig/source_quads.hpp"
-#include "surface/segment.hpp"
+#include "surface/distances.hpp"
 
 namespace sweepface {
 namespace {

@@ -1,10 +1,11 @@
 #include <gtest/gtest.h>
+#include <map>
 #include <random>
 
 #include "sweepface/eval.hpp"
 #include "sweepface/evaluator.hpp"
 
-#include "surface/segment.hpp"
+#include "surface/distances.hpp"
 #include "surface/surfaces.hpp"
 
 namespace sweepface {
@@ -150,6 +151,48 @@ TEST_P(EveryDensity, hasNoChordFurtherFromItsArcThanItsBudget) {
   }
 }
 
+/// How far the triangles of a patch are from it, at three points inside each. Those at a side that
+/// is one point, which has no place along it, are left out.
+double worstTriangle(const Surface& surface, std::span<const Vec3> vectors,
+                     const Tessellation& grid, Index patch) {
+  const auto positions = grid.positions(vectors);
+  const PatchMesh mesh = grid.patchMesh(patch);
+  std::map<Index, int> uses;
+  for (const auto& point : mesh.points) ++uses[point.vertex];
+  double worst = 0;
+  for (const auto& triangle : mesh.triangles) {
+    std::array<Vec3, 3> at;
+    std::array<Vec2, 3> place;
+    bool isPole = false;
+    for (int k = 0; k < 3; ++k) {
+      const auto& [vertex, u, v] = mesh.points[triangle[k]];
+      at[k] = positions[vertex], place[k] = {u.value(), v.value()};
+      isPole |= uses[vertex] > 2;
+    }
+    for (int k = 0; k < 3 && !isPole; ++k) {
+      const Vec2 &a = place[k], &b = place[(k + 1) % 3], &c = place[(k + 2) % 3];
+      const Site site{patch, (2 * a.x + b.x + c.x) / 4, (2 * a.y + b.y + c.y) / 4};
+      const Vec3 on = surface.evaluate(vectors, site);
+      worst = std::max(worst, distanceToTriangle(on, at[0], at[1], at[2]));
+    }
+  }
+  return worst;
+}
+
+TEST_P(EveryDensity, hasNoTriangleMuchFurtherFromTheSurfaceThanItsBudget) {
+  const Surface surface = surfaceOf(GetParam().rig, 2);
+  const auto vectors = neutral(surface);
+  for (const double most : {0.2, 0.05, 0.01}) {
+    const auto density = densityFor(surface, vectors, {Budget::Kind::error, most}).value();
+    const Tessellation grid(surface, density);
+    for (Index p = 0; p < surface.patchCount(); ++p) {
+      const auto [columns, rows] = density.patches[p];
+      if (columns == 64 * surface.edgesU(p) || rows == 64 * surface.edgesV(p)) continue;
+      EXPECT_LE(worstTriangle(surface, vectors, grid, p), 1.5 * most) << "patch " << p;
+    }
+  }
+}
+
 TEST(Density, refusesABudgetThatIsNone) {
   const Surface surface = Surface::make(onePatch(2, 3)).value();
   const auto vectors = neutral(surface);
@@ -181,11 +224,28 @@ TEST(Density, makesUseOfABudgetOnCurvesOfManyEdges) {
 }
 
 TEST(Density, takesNoErrorForLessThanABillionthOfTheLongestCurve) {
-  const Surface surface = Surface::make(onePatch(4000, 2)).value();
+  const Surface surface = Surface::make(onePatch(2000, 20)).value();
   const auto vectors = neutral(surface);
-  const auto fine = densityFor(surface, vectors, {Budget::Kind::error, 1e-10}).value();
-  EXPECT_EQ(densityFor(surface, vectors, {Budget::Kind::error, 1e-300}).value().arcs, fine.arcs);
-  EXPECT_LT(fine.arcs[0], 64 * 4000);
+  const auto refusal = [&](double error) {  // says how many vertices there would be
+    const auto density = densityFor(surface, vectors, {Budget::Kind::error, error});
+    return density ? "none" : density.error().message;
+  };
+  EXPECT_EQ(refusal(1e-300), refusal(1e-10));
+  EXPECT_NE(refusal(1e-300), refusal(100));
+}
+
+TEST(Density, cutsNoFurtherAcrossWhereAnEdgeIsAsFineAsItMayBe) {
+  const Surface surface = Surface::make(onePatch(600, 1)).value();
+  const auto density = densityFor(surface, neutral(surface), {Budget::Kind::error, 1e-4}).value();
+  EXPECT_EQ(density.patches[0][1], 64);
+  EXPECT_LT(density.patches[0][0], 64 * 600);
+}
+
+TEST(Density, cutsPatchesOfMoreEdgesThanAMeshHasVertices) {
+  const Surface surface = Surface::make(onePatch(40'000'000, 1)).value();
+  const auto density = densityFor(surface, neutral(surface), {Budget::Kind::error, 1e5});
+  ASSERT_TRUE(density) << density.error().message;
+  EXPECT_GT(density->patches[0][0], 3);
 }
 
 TEST(Density, knowsWhatAPixelIs) {
