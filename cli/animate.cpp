@@ -255,7 +255,10 @@ Result<void> checkArguments(const AnimateArguments& a, bool glb) {
 /// What only a performance can tell of its options.
 Result<void> checkKeys(const AnimateArguments& a, const Performance& performance) {
   if (a.keys == "exact" && !performance.motion)
-    return fail(fmt::format("Keys cannot hold {} exactly; leave --keys out.", performance.called));
+    return fail(fmt::format("Keys cannot hold {} exactly{}; leave --keys out.", performance.called,
+                            timeLawFromName(a.what.law) && a.what.clip.empty()
+                                ? " where other options change it"
+                                : ""));
   if (a.namesFrames() && (a.keys == "exact" || a.keys == "few"))
     return fail(
         fmt::format("Keys that are {} have no frames; leave --frames and --fps out.", a.keys));

@@ -143,6 +143,15 @@ CLI::Validator positiveNumber(double high) {
   return CLI::Validator(check, "", "");
 }
 
+CLI::Validator numberFromZero() {
+  const auto check = [](const std::string& text) -> std::string {
+    double number = 0;
+    if (parse(text, number) && number >= 0) return {};
+    return fmt::format("This must be a finite number of at least 0, not '{}'.", text);
+  };
+  return CLI::Validator(check, "", "");
+}
+
 CLI::Validator finiteNumber() {
   const auto check = [](const std::string& text) -> std::string {
     double number = 0;

@@ -77,6 +77,7 @@ std::string cannotBeListed(const std::string& name);
 CLI::Validator wholeNumber(std::int64_t low, std::int64_t high);
 /// A finite number > 0, and at most `high` if that is given.
 CLI::Validator positiveNumber(double high = 0);
+CLI::Validator numberFromZero();
 CLI::Validator finiteNumber();
 /// Anything but what an empty variable of a script leaves.
 CLI::Validator notEmpty();

@@ -108,7 +108,7 @@ struct Recording {
 };
 
 Result<Recording> readClip(const PerformanceArguments& a, const Region& region,
-                           std::size_t regions) {
+                           std::span<const Region> regions) {
   const Result<std::string> text = readFile(a.clip);
   if (!text) return std::unexpected(text.error());
   const bool isJson = isOfKind(a.clip, ".json");
@@ -120,8 +120,11 @@ Result<Recording> readClip(const PerformanceArguments& a, const Region& region,
                       a.clip));
     const Result<Timeline> timeline = parseTimeline(*text, a.clip);
     if (!timeline) return std::unexpected(timeline.error());
+    double end = 0;
+    for (const Region& each : regions)
+      end = std::max(end, endIn(*timeline, each.name, each.matter));
     const auto bakedIn = [&](const Matter& matter) -> Result<Baked> {
-      auto baked = bakeToPlay(*timeline, region.name, matter, regions);
+      auto baked = bakeToPlay(*timeline, region.name, matter, regions.size(), end);
       if (!baked) return fail(fmt::format("{}: {}", a.clip, baked.error().message));
       return baked;
     };
@@ -146,8 +149,11 @@ Result<Recording> readClip(const PerformanceArguments& a, const Region& region,
               : gltf ? parseGltfClip(*text, a.clip, folderOf(a.clip), a.animation)
                      : parseLiveLinkCsv(*text, a.clip, a.clipRate);
   if (!clip) return std::unexpected(clip.error());
+  if (isJson && a.tellsRate && parseClipJson(*text, a.clip))
+    clip->warnings.push_back(
+        fmt::format("{} tells when its frames are, so --clip-fps changes nothing.", a.clip));
   if (a.smooth) smooth(*clip);
-  Clip played = inMatter(*clip, region.matter, {a.frequency, a.damping}, regions);
+  Clip played = inMatter(*clip, region.matter, {a.frequency, a.damping}, regions.size());
   return Recording{std::move(*clip), std::move(played)};
 }
 
@@ -173,7 +179,7 @@ std::vector<std::string> notesOn(const ClipMatch& match, const Clip& clip,
 }
 
 Result<Performance> byClip(const PerformanceArguments& a, const Rig& rig, const Region& region,
-                           std::size_t regions) {
+                           std::span<const Region> regions) {
   Result<Recording> recording = readClip(a, region, regions);
   if (!recording) return std::unexpected(recording.error());
   Clip& clip = recording->played;
@@ -293,7 +299,7 @@ void addPerformance(CLI::App& app, PerformanceArguments& a) {
       ->capture_default_str()
       ->type_name("HZ");
   app.add_option("--damping", a.damping, "Of a spring: below 1 overshoots, above 1 creeps")
-      ->check(positiveNumber())
+      ->check(numberFromZero())
       ->capture_default_str()
       ->type_name("Z");
   app.add_option("--restitution", a.restitution, "Of a bounce: the part of the speed that is left")
@@ -328,7 +334,7 @@ void addPerformance(CLI::App& app, PerformanceArguments& a) {
 }
 
 Result<Performance> makePerformance(const PerformanceArguments& a, const Rig& rig,
-                                    const Region& region, std::size_t regions) {
+                                    const Region& region, std::span<const Region> regions) {
   return a.clip.empty() ? byLaw(a, rig, region.matter) : byClip(a, rig, region, regions);
 }
 

@@ -32,7 +32,7 @@ Result<std::vector<Region>> readRegions(const PerformanceArguments& what, const 
 Result<void> checkNames(const std::string& file, const std::vector<Region>& regions) {
   if (!isOfKind(file, ".json")) return {};
   const Result<std::string> text = readFile(file);
-  if (!text || text->find("\"region\"") == std::string::npos) return {};
+  if (!text || !isTimeline(*text)) return {};
   const auto timeline = parseTimeline(*text, file);
   if (!timeline) return {};  // reported when it is played
   std::vector<std::string> names;
@@ -141,14 +141,14 @@ Result<std::vector<Region>> regionsOf(const PerformanceArguments& what, const Re
 
 Result<Performance> perform(const PerformanceArguments& what, const RegionArguments& a,
                             const FollowingArguments& following, Rig& rig) {
-  const auto regions = regionsOf(what, a, rig);
+  auto regions = regionsOf(what, a, rig);
   if (!regions) return std::unexpected(regions.error());
   // Combinations may show what moves nothing by itself.
   std::vector<std::string> still;
   if (what.clip.empty() && !following.combine) still = notesOnStill(what, rig);
   Parts parts;
   for (const Region& region : *regions) {
-    auto performance = makePerformance(what, rig, region, regions->size());
+    auto performance = makePerformance(what, rig, region, *regions);
     if (!performance) return std::unexpected(performance.error());
     if (performance->clipWeights > kMostClipWeights / regions->size())
       return fail(fmt::format("{} is too long for {} regions; cut it, or play it with fewer.",
@@ -157,6 +157,7 @@ Result<Performance> perform(const PerformanceArguments& what, const RegionArgume
   }
   const Result<Following> followed = follow(following, rig);
   if (!followed) return std::unexpected(followed.error());
+  followed->eyes.keepWhole(rig.surface, *regions);
   for (Performance& performance : parts.performances)
     performance = withFollowing(std::move(performance), *followed);
   Performance whole = parts.performances.size() == 1 ? std::move(parts.performances.front())

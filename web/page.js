@@ -129,12 +129,11 @@ function wake() {
 }
 
 function frame(now) {
-  draw(Math.min(Math.max(now - last, 0) / 1000, 0.1));
+  attempt(() => {
+    draw(Math.min(Math.max(now - last, 0) / 1000, 0.1));
+    if (mesh && now - told > 250) tellFigures(figures(), told = now);
+  });
   last = now;
-  if (mesh && now - told > 250) {
-    tellFigures(figures());
-    told = now;
-  }
   running = now < awakeUntil;
   if (running) requestAnimationFrame(frame);
 }

@@ -24,14 +24,15 @@ export function readTimeline(source, options) {
     throw fail('\'loops\'', 'must be a whole number from 1 to 10000');
   if (!Array.isArray(events) || events.length === 0) throw fail('\'events\'', 'must be a list of at least one event');
   if (regions !== undefined && !Array.isArray(regions)) throw fail('\'regions\'', 'are not a list');
-  const read = events.map((event, k) => readEvent(event, poses, `events[${k}]`, fail))
-                   .sort((a, b) => a.at - b.at);
-  if (read.at(-1).at > seconds) throw fail('\'events\'', 'hold one that is later than \'seconds\'');
   const end = seconds * loops * (1 + 1e-9);  // 0.1 + 0.2 is more than 0.3
-  for (const {at, drive: {delay = 0}} of read)
-    if (at + delay > end)
-      throw fail('\'events\'', 'hold one whose \'delay\' leads beyond the end, so that it never plays');
-  return {seconds, loops, events: read, regions};
+  const read = events.map((json, k) => {
+    const place = `events[${k}]`, event = readEvent(json, poses, place, fail);
+    if (event.at > seconds) throw fail(place, 'is later than \'seconds\'');
+    if (event.at + (event.drive.delay ?? 0) > end)
+      throw fail(place, 'has a \'delay\' that leads beyond the end, so that it never plays');
+    return event;
+  });
+  return {seconds, loops, events: read.sort((a, b) => a.at - b.at), regions};
 }
 
 function readEvent(event, poses, place, failAt) {

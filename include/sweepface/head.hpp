@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sweepface/clip.hpp"
+#include "sweepface/regions.hpp"
 #include "sweepface/rig.hpp"
 
 namespace sweepface {
@@ -91,6 +92,11 @@ class EyeTurns {
 
   bool empty() const noexcept { return eyes_.empty(); }
 
+  /// Gives every eyeball wholly to the region that has most of it, as parts of a ball that turn by
+  /// different angles are none. The same for influences [R][storedCount].
+  void keepWhole(const Surface& surface, std::span<Region> regions) const;
+  void keepWhole(std::span<std::vector<float>> influences) const;
+
   /// Sets the weights [K] of the turns from those of the eyeLook targets.
   void apply(std::span<double> weights) const noexcept;
   /// Sets them from angles instead, as a tracker gives them; roll does not count.
@@ -105,7 +111,10 @@ class EyeTurns {
     Index first = -1;  // of its targets
     bool left = true;
     std::vector<Look> looks;
+    std::vector<Index> stored;
   };
+  template <typename Share>
+  void keepWhole(std::size_t regions, const Share& share) const;
   static void set(const Turning& eye, double x, double y, std::span<double> weights) noexcept;
   static void addLooks(Rig& rig, const Eye& eye, Turning& turning);
 

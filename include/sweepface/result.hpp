@@ -3,6 +3,7 @@
 #include <concepts>
 #include <expected>
 #include <initializer_list>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -26,13 +27,16 @@ struct Error {
 template <typename T>
 using Result = std::expected<T, Error>;
 
-/// A part of a sentence: text, or a whole number.
+/// A part of a sentence: text, or a whole number (of those that are too large the largest).
 struct TextPart {
+  static constexpr long long kMost = std::numeric_limits<long long>::max();
+
   std::string_view text;
   long long number = 0;
 
   template <std::integral T>
-  [[gnu::always_inline]] TextPart(T x) : number(static_cast<long long>(x)) {}
+  [[gnu::always_inline]] TextPart(T x)
+      : number(std::in_range<long long>(x) ? static_cast<long long>(x) : kMost) {}
   template <std::convertible_to<std::string_view> T>
   [[gnu::always_inline]] TextPart(const T& x) : text(x) {}
 };

@@ -43,6 +43,10 @@ Result<Clip> bake(const Timeline& timeline, double framesPerSecond);
 Result<Clip> bake(const Timeline& timeline, double framesPerSecond, std::string_view region,
                   const Matter& matter);
 
+/// Until when a region has something to do: to the end, so much later as it is late, and until its
+/// drives have arrived that elsewhere have by then. What swings or bounces ends with the timeline.
+double endIn(const Timeline& timeline, std::string_view region, const Matter& matter);
+
 struct Baked {
   Clip clip;
   double missed = 0;  ///< the most that straight lines between frames miss of a weight; jumps aside
@@ -50,8 +54,9 @@ struct Baked {
 /// The same to be played: 240 frames a second, and where something swings or bounces quickly so
 /// many more that straight lines between them are within 1e-4 of what is meant, as far as four
 /// million weights more and `regions` such clips within kMostClipWeights allow; none more where a
-/// million events set out. A jump takes a 1024th of a frame.
+/// million events set out. A jump takes a 1024th of a frame. It goes on until `end`, if that is
+/// later than its own: regions that are played together end together.
 Result<Baked> bakeToPlay(const Timeline& timeline, std::string_view region, const Matter& matter,
-                         std::size_t regions = 1);
+                         std::size_t regions = 1, double end = 0);
 
 }  // namespace sweepface

@@ -20,6 +20,7 @@
 // them.
 
 struct sweepface_face;
+struct sweepface_rig;
 
 namespace sweepface::capi {
 
@@ -39,7 +40,9 @@ struct Division {
 };
 
 /// A face divided into these regions.
-std::shared_ptr<const Division> divisionOf(const Rig& rig, const std::vector<Region>& regions);
+Division divisionOf(const Rig& rig, const std::vector<Region>& regions);
+/// Divides a rig, so that eyes which turn stay whole.
+void divide(sweepface_rig& rig, Division division);
 
 /// What sets weights by others, where something does: most faces do without, and a module that has
 /// none of it does not bring it along.

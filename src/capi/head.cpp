@@ -37,6 +37,7 @@ sweepface_status sweepface_rig_turn_eyes(sweepface_rig* rig, uint32_t* eyes) {
   if (found.empty()) return SWEEPFACE_OK;
   rig->following.eyes = std::make_shared<const EyeTurns>(EyeTurns::addTo(*rig->rig, found));
   rig->following.apply = followAll;
+  divide(*rig, *rig->division);
   return SWEEPFACE_OK;
 }
 

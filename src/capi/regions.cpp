@@ -54,15 +54,19 @@ Result<std::vector<std::vector<double>>> paintAll(const Rig& rig, const Brush& b
 
 }  // namespace
 
-std::shared_ptr<const Division> capi::divisionOf(const Rig& rig,
-                                                 const std::vector<Region>& regions) {
-  auto division = std::make_shared<Division>();
+Division capi::divisionOf(const Rig& rig, const std::vector<Region>& regions) {
+  Division division;
   for (const Region& region : regions) {
-    division->names.push_back(region.name);
-    division->matters.push_back(region.matter);
+    division.names.push_back(region.name);
+    division.matters.push_back(region.matter);
   }
-  division->influences = influencesOf(rig.surface, regions);
+  division.influences = influencesOf(rig.surface, regions);
   return division;
+}
+
+void capi::divide(sweepface_rig& rig, Division division) {
+  if (rig.following.eyes) rig.following.eyes->keepWhole(division.influences);
+  rig.division = std::make_shared<const Division>(std::move(division));
 }
 
 uint32_t sweepface_rig_node_count(const sweepface_rig* rig) {
@@ -98,7 +102,7 @@ sweepface_status sweepface_rig_divide(sweepface_rig* rig, const char* const* nam
     painted.push_back({text(names[r]), {}, {shares + r * nodes, shares + (r + 1) * nodes}});
   const auto regions = dividedFace(*rig->rig, std::move(painted));
   if (!regions) return refuse(regions.error().message);
-  rig->division = divisionOf(*rig->rig, *regions);
+  divide(*rig, divisionOf(*rig->rig, *regions));
   return SWEEPFACE_OK;
 }
 

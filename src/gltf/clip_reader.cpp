@@ -136,6 +136,8 @@ class ClipReader {
                             times->size(), track.names.size()));
     if (std::ranges::adjacent_find(*times, std::greater_equal()) != times->end())
       in.refuse("its times do not increase");
+    if (!times->empty() && !(isPlausibleTime(times->front()) && isPlausibleTime(times->back())))
+      in.refuse("its times are not within 300 years");
     if (!in.ok()) return in.error();
     track.times = std::move(*times), track.values = std::move(*values);
     if (cubic) track.cubic = keysOf(track), track.values = {};

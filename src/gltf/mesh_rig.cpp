@@ -65,7 +65,7 @@ class RigReader {
   Result<void> addNeutral(const Run& run) {
     const auto accessor = accessorAt(document_, run.position);
     if (!accessor) return std::unexpected(accessor.error());
-    if (!accessor->view)
+    if (!accessor->hasData())
       return fail(
           fmt::format("accessor {}: the POSITION of a mesh has no data; export the file "
                       "again.",

@@ -116,7 +116,11 @@ class PartFinder {
     if (!names) return std::unexpected(names.error());
     parts_.meshes.push_back({mesh, std::move(*names), world});
     addRuns(primitives);
-    if (parts_.vertexCount <= io::maxFileBytes) return {};
+    if (parts_.vertexCount > io::maxFileBytes) return tooMany();
+    return {};
+  }
+
+  static std::unexpected<Error> tooMany() {
     return fail("it has more vertices than an index can count; export only the face.");
   }
 
@@ -137,6 +141,7 @@ class PartFinder {
     const auto position = accessorAt(document_, primitive.position);
     if (!position) return std::unexpected(position.error());
     primitive.count = position->count;
+    if (primitive.count > io::maxFileBytes) return tooMany();
     if (auto ok = checkAttributes(in.object("attributes"), primitive, here); !ok)
       return std::unexpected(ok.error());
 

@@ -40,7 +40,7 @@ Result<std::vector<Index>> readIndices(const Document& document, Members& in,
   const auto accessor = accessorAt(document, *given);
   if (!accessor) return std::unexpected(accessor.error());
   if (accessor->components() != 1 || !isOfIndices(accessor->type) || accessor->normalized ||
-      !accessor->view)
+      !accessor->hasData())
     in.refuse(fmt::format("its indices, accessor {}, are not data of unsigned integers", *given));
   if (!in.ok()) return in.error();
   const auto values = decode(document, *accessor);

@@ -88,8 +88,11 @@ Result<Recording> readForRegions(const Division& division, std::string_view byte
   const std::vector<std::string> undivided{"rest"};
   const auto& names = division.names.empty() ? undivided : division.names;
   if (auto ok = checkRegions(*timeline, names); !ok) return fail(name, ": ", ok.error().message);
+  double end = 0;
+  for (std::size_t r = 0; r < division.count(); ++r)
+    end = std::max(end, endIn(*timeline, names[r], matterOf(division, r)));
   for (std::size_t r = 0; r < division.count(); ++r) {
-    auto baked = bakeToPlay(*timeline, names[r], matterOf(division, r), division.count());
+    auto baked = bakeToPlay(*timeline, names[r], matterOf(division, r), division.count(), end);
     if (!baked) return fail(name, ": ", baked.error().message);
     if (auto ok = checkRoom(baked->clip, division.count(), name); !ok)
       return std::unexpected(ok.error());
@@ -100,7 +103,7 @@ Result<Recording> readForRegions(const Division& division, std::string_view byte
   if (matterOf(division, 0) == Matter{} ||
       std::ranges::none_of(recording.clip.names, ClipAngles::tells))
     return recording;
-  auto whole = bakeToPlay(*timeline, names.front(), {}, division.count());
+  auto whole = bakeToPlay(*timeline, names.front(), {}, division.count(), end);
   if (!whole) return fail(name, ": ", whole.error().message);
   recording.clip = std::move(whole->clip);
   return recording;
@@ -129,7 +132,7 @@ sweepface_status sweepface_rig_divide_by(sweepface_rig* rig, const void* text, s
   if (painted->empty()) return sweepface_rig_divide(rig, nullptr, nullptr, 0);
   const auto regions = paintRegions(*rig->rig, *painted);
   if (!regions) return refuse(called, ": ", regions.error().message);
-  rig->division = divisionOf(*rig->rig, *regions);
+  divide(*rig, divisionOf(*rig->rig, *regions));
   return SWEEPFACE_OK;
 }
 

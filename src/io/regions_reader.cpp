@@ -1,5 +1,6 @@
 #include "sweepface/region_file.hpp"
 
+#include "codec/utf8.hpp"
 #include "io/json_fields.hpp"
 #include "io/json_text.hpp"
 
@@ -74,6 +75,7 @@ Result<PaintedRegion> readRegion(const JsonFields& at) {
   PaintedRegion region;
   double bands = 1;
   if (auto ok = at.text("name", region.name, true); !ok) return std::unexpected(ok.error());
+  if (!codec::isUtf8(region.name)) return at.fail("has control characters in its 'name'");
   for (const auto& [key, value] : {std::pair{"mass", &region.matter.mass},
                                    {"stiffness", &region.matter.stiffness},
                                    {"delay", &region.matter.delay},
@@ -81,7 +83,8 @@ Result<PaintedRegion> readRegion(const JsonFields& at) {
     if (auto ok = at.number(key, *value); !ok) return std::unexpected(ok.error());
   if (auto ok = check(region.matter); !ok) return at.pass(ok.error());
   if (!(bands >= 1 && bands <= kMostRegions && bands == std::floor(bands)))
-    return at.fail(fmt::format("has 'bands' that are not a number from 1 to {}", kMostRegions));
+    return at.fail(
+        fmt::format("has 'bands' that are not a whole number from 1 to {}", kMostRegions));
   region.bands = static_cast<int>(bands);
   if (auto ok = readBrush(at, region.brush); !ok) return std::unexpected(ok.error());
   return region;

@@ -46,20 +46,18 @@ class TimelineReader {
     const auto events = json_.find("events");
     if (events == json_.end() || !events->is_array() || events->empty())
       return failAt("'events'", "must be a list of at least one event");
+    const double end = timeline.seconds * loops * (1 + 1e-9);  // 0.1 + 0.2 is more than 0.3
     std::multimap<double, TimelineEvent> inOrder;  // events of one time stay as they stand
     for (std::size_t k = 0; k < events->size(); ++k) {
-      auto event = readEvent((*events)[k], fmt::format("events[{}]", k));
+      const std::string place = fmt::format("events[{}]", k);
+      auto event = readEvent((*events)[k], place);
       if (!event) return std::unexpected(event.error());
+      if (event->time > timeline.seconds) return failAt(place, "is later than 'seconds'");
+      if (event->time + event->drive.delay > end)
+        return failAt(place, "has a 'delay' that leads beyond the end, so that it never plays");
       inOrder.emplace(event->time, std::move(*event));
     }
     for (auto& [time, event] : inOrder) timeline.events.push_back(std::move(event));
-    if (timeline.events.back().time > timeline.seconds)
-      return failAt("'events'", "hold one that is later than 'seconds'");
-    const double end = timeline.seconds * loops * (1 + 1e-9);  // 0.1 + 0.2 is more than 0.3
-    for (const TimelineEvent& event : timeline.events)
-      if (event.time + event.drive.delay > end)
-        return failAt("'events'",
-                      "hold one whose 'delay' leads beyond the end, so that it never plays");
     return timeline;
   }
 

@@ -144,7 +144,7 @@ Clip inMatter(const Clip& clip, const Matter& matter, const Spring& hold, std::s
   Clip late = excess > 0 ? hanging(clip,
                                    {hold.frequency * std::sqrt(matter.stiffness / excess),
                                     hold.damping / std::sqrt(matter.stiffness * excess)},
-                                   kMostClipWeights / regions)
+                                   kMostClipWeights / std::max<std::size_t>(regions, 1))
                          : clip;
   if (matter.delay > 0) delay(late, matter.delay);
   return late;

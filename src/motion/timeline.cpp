@@ -43,6 +43,34 @@ Result<void> checkRegions(const Timeline& timeline, std::span<const std::string>
 
 namespace {
 
+bool isFor(const TimelineEvent& event, std::string_view region) {
+  return event.region.empty() || event.region == region;
+}
+
+// When a drive is there; those that swing have no such time.
+double arrivalOf(const Drive& drive) {
+  const bool isTimed = drive.kind == Drive::Kind::newton ||
+                       drive.kind == Drive::Kind::linearForce ||
+                       drive.kind == Drive::Kind::accelerateBrake;
+  return drive.delay + (isTimed ? drive.seconds : 0);
+}
+
+}  // namespace
+
+double endIn(const Timeline& timeline, std::string_view region, const Matter& matter) {
+  const double whole = timeline.seconds * timeline.loops;
+  double end = whole;
+  for (const TimelineEvent& event : timeline.events) {
+    const double meant = arrivalOf(event.drive);
+    const double at = event.time + (timeline.loops - 1) * timeline.seconds + meant;
+    if (isFor(event, region) && at <= whole * (1 + 1e-9))
+      end = std::max(end, std::min(at, whole) + arrivalOf(inMatter(event.drive, matter)) - meant);
+  }
+  return end + matter.delay;
+}
+
+namespace {
+
 /// A timeline on its way.
 struct Playing {
   MotionState state;
@@ -52,8 +80,11 @@ struct Playing {
 
 class Baker {
  public:
-  Baker(const Timeline& timeline, std::string_view region, const Matter& matter)
-      : timeline_(timeline), region_(region), matter_(matter) {
+  Baker(const Timeline& timeline, std::string_view region, const Matter& matter, double end = 0)
+      : timeline_(timeline),
+        region_(region),
+        matter_(matter),
+        end_(std::max(end, endIn(timeline, region, matter))) {
     for (const TimelineEvent& event : timeline.events)
       for (const auto& [name, goal] : event.goals)
         if (places_.try_emplace(name, clip_.names.size()).second) clip_.names.push_back(name);
@@ -64,7 +95,7 @@ class Baker {
   /// 0: nobody asks how good they are.
   Result<Baked> bake(double framesPerSecond, std::size_t most) {
     // The last one is at the end, even where that is no whole number of frames.
-    const double frames = std::ceil(seconds() * framesPerSecond - 1e-6);
+    const double frames = std::ceil(end_ * framesPerSecond - 1e-6);
     if (auto ok = check(framesPerSecond, frames); !ok) return std::unexpected(ok.error());
     auto state = MotionState::make(std::vector<double>(clip_.names.size(), 0.0));
     if (!state) return std::unexpected(state.error());
@@ -77,8 +108,8 @@ class Baker {
     if (auto ok = goTo(playing, 0); !ok) return std::unexpected(ok.error());
     append(playing, 0);
     for (double frame = 1; frame <= frames; ++frame)
-      if (auto ok = add(playing, clip_.times.back(),
-                        frame < frames ? frame / framesPerSecond : seconds());
+      if (auto ok =
+              add(playing, clip_.times.back(), frame < frames ? frame / framesPerSecond : end_);
           !ok)
         return std::unexpected(ok.error());
     return Baked{std::move(clip_), missed_};
@@ -86,15 +117,12 @@ class Baker {
 
  private:
   static constexpr std::size_t kMostMore = std::size_t{1} << 22;
-  static constexpr double kMiss = 1e-4;
-
-  // A late region does all of it later.
-  double seconds() const { return timeline_.seconds * timeline_.loops + matter_.delay; }
+  static constexpr double kMiss = 6.9e-5;  // seen at a look; at a kink between two of them 1e-4
 
   Result<void> check(double framesPerSecond, double frames) const {
     if (framesPerSecond > 0 && frames < 1)
       return failCall("A timeline must last longer than a millionth of a frame; make it longer.");
-    if (!(framesPerSecond > 0) || !(frames <= 1e6) || seconds() > kMostSeconds)
+    if (!(framesPerSecond > 0) || !(frames <= 1e6) || end_ > kMostSeconds)
       return failCall(
           "A timeline has 1 to 1,000,000 frames, which at 240 a second are 4,166 s with its loops; "
           "make it shorter, or bake it at another rate.");
@@ -118,11 +146,10 @@ class Baker {
       }
       const TimelineEvent& event = timeline_.events[playing.next];
       const double start = event.time + playing.loop * timeline_.seconds + matter_.delay;
-      if (start > time && time < seconds()) break;
+      if (start > time && time < end_) break;
       playing.state.advance(start - playing.state.now());
-      const bool here = event.region.empty() || event.region == region_;
-      if (auto ok = here ? play(event, places_, matter_, playing.state) : Result<void>{}; !ok)
-        return ok;
+      if (isFor(event, region_))
+        if (auto ok = play(event, places_, matter_, playing.state); !ok) return ok;
       ++playing.next;
     }
     playing.state.advance(time - playing.state.now());
@@ -186,6 +213,7 @@ class Baker {
   const Timeline& timeline_;
   std::string_view region_;
   const Matter& matter_;
+  double end_;  // seconds
   Places places_;
   Clip clip_;
   std::array<std::vector<double>, 4> looks_;  // [names] each
@@ -209,9 +237,9 @@ Result<Clip> bake(const Timeline& timeline, double framesPerSecond, std::string_
 }
 
 Result<Baked> bakeToPlay(const Timeline& timeline, std::string_view region, const Matter& matter,
-                         std::size_t regions) {
+                         std::size_t regions, double end) {
   constexpr double kRate = 240;
-  return Baker(timeline, region, matter)
+  return Baker(timeline, region, matter, end)
       .bake(kRate, kMostClipWeights / std::max<std::size_t>(1, regions));
 }
 

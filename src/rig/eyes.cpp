@@ -170,6 +170,7 @@ EyeTurns EyeTurns::addTo(Rig& rig, std::span<const Eye> eyes) {
   for (const Eye& eye : eyes) {
     Turning turning;
     turning.left = eye.centre.x >= 0;
+    turning.stored = eye.stored;
     addLooks(rig, eye, turning);
     turning.first = static_cast<Index>(rig.targets.size());
     for (const auto& [name, term, sign] : kTurnTargets) {
@@ -211,6 +212,33 @@ void EyeTurns::addLooks(Rig& rig, const Eye& eye, Turning& turning) {
           for (const Index v : eye.stored) rig.targets[arc].difference[v] = {};
       }
     }
+}
+
+/// `share` of a region and a stored vector.
+template <typename Share>
+void EyeTurns::keepWhole(std::size_t regions, const Share& share) const {
+  for (const Turning& eye : eyes_) {
+    std::size_t home = 0;
+    double most = 0;
+    for (std::size_t r = 0; r < regions; ++r) {
+      double sum = 0;
+      for (const Index v : eye.stored) sum += share(r, v);
+      if (sum > most) home = r, most = sum;
+    }
+    for (std::size_t r = 0; r < regions; ++r)
+      for (const Index v : eye.stored) share(r, v) = r == home ? 1 : 0;
+  }
+}
+
+void EyeTurns::keepWhole(const Surface& surface, std::span<Region> regions) const {
+  keepWhole(regions.size(), [&](std::size_t region, Index v) -> double& {
+    return regions[region].shares[surface.stored(v).node];
+  });
+}
+
+void EyeTurns::keepWhole(std::span<std::vector<float>> influences) const {
+  keepWhole(influences.size(),
+            [&](std::size_t region, Index v) -> float& { return influences[region][v]; });
 }
 
 void EyeTurns::set(const Turning& eye, double x, double y, std::span<double> weights) noexcept {

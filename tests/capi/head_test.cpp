@@ -7,6 +7,7 @@
 #include "sweepface/codec.hpp"
 #include "sweepface/fit.hpp"
 #include "sweepface/sweepface_head.h"
+#include "sweepface/sweepface_regions.h"
 
 #include "codec/rigs.hpp"
 #include "faces.hpp"
@@ -106,6 +107,34 @@ TEST_F(Eyes, TurnRigidlyByAnglesAndByWeights) {
     EXPECT_EQ(sweepface_face_look(face, &wild), SWEEPFACE_BAD_ARGUMENT);
   });
   EXPECT_EQ(again, down1);
+}
+
+// Whichever is said first.
+TEST_F(Eyes, StayWholeWhereARegionEndsInABall) {
+  const double below[] = {3, 2.5, -1};
+  sweepface_brush brush{};
+  brush.points = below, brush.point_count = 1;
+  brush.whole = 1, brush.fade = 1.5, brush.through_space = 1;
+  std::vector<double> shares(sweepface_rig_node_count(rig));
+  ASSERT_EQ(sweepface_rig_paint(rig, &brush, 0, shares.data(), shares.size()), SWEEPFACE_OK);
+  const char* const names[] = {"below"};
+  uint32_t eyes = 0, down = 0;
+  ASSERT_EQ(sweepface_rig_find_target(rig, "eyeLookDown_L", &down), SWEEPFACE_OK);
+  for (int round = 0; round < 2; ++round) {
+    ASSERT_EQ(sweepface_rig_divide(rig, names, shares.data(), 1), SWEEPFACE_OK);
+    if (round == 0) {
+      ASSERT_EQ(sweepface_rig_turn_eyes(rig, &eyes), SWEEPFACE_OK);
+    }
+    const auto looked = played([&](sweepface_face* face) {
+      std::vector<double> weights(sweepface_rig_target_count(rig));
+      weights[down] = 1;
+      EXPECT_EQ(sweepface_face_set_region_weights(face, 0, weights.data(), weights.size()),
+                SWEEPFACE_OK);
+    });
+    for (std::size_t v = first; v < second; ++v)
+      EXPECT_NEAR(norm(vertex(looked, v) - vertex(looked, first)),
+                  norm(vertex(rest, v) - vertex(rest, first)), 0.01);
+  }
 }
 
 TEST_F(Eyes, LeaveTheNamesOfTargetsWhereTheyAre) {

@@ -250,6 +250,15 @@ TEST_F(PlayClip, TimelinesHaveNoFramesASecond) {
   EXPECT_EQ(run(command + ".csv").code, 0) << "which is the recording's";
 }
 
+TEST_F(PlayClip, SaysWhereAFileTellsItsTimesItself) {
+  convertRig();
+  write("take.json", R"({"exportFps": 30, "facsNames": ["jawOpen"], "weightMat": [[0], [1]]})");
+  const Outcome told = run("animate face.sweep --clip take.json --clip-fps 10 -o take.glb");
+  EXPECT_NE(told.err.find("--clip-fps changes nothing"), std::string::npos) << told.err;
+  const Outcome written = run("animate face.sweep --clip take.json --clip-fps 10 -o take.csv");
+  EXPECT_EQ(written.err.find("--clip-fps"), std::string::npos) << "which is the recording's";
+}
+
 TEST_F(PlayClip, SaysWhatItMendedInAFile) {
   convertRig();
   write("take.csv", "Timecode,JawOpen\n0,0\n1,0.5\n1,1\n");

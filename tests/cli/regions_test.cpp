@@ -127,6 +127,9 @@ TEST_F(RegionsOnTheFace, SayWhatIsWrong) {
   folder.file("line.json", R"({"seconds": 1, "events": [
     {"at": 0, "to": {"smile": 1}, "region": "nose"}]})");
   EXPECT_TRUE(fails("animate face.sweep -o out.glb --clip line.json", "a region 'nose'"));
+  folder.file("line.json", R"({"seconds": 1, "events": [
+    {"at": 0, "to": {"smile": 1}, "r\u0065gion": "nose"}]})");
+  EXPECT_TRUE(fails("animate face.sweep -o out.glb --clip line.json", "a region 'nose'"));
 }
 
 TEST_F(RegionsOnTheFace, SpringsAreToldOnlyWhereHeavyPartsOfAClipHangOnThem) {

@@ -106,6 +106,34 @@ TEST(EyeTurns, AreRigidAtEveryWeightAndOnlyThere) {
   }
 }
 
+TEST(EyeTurns, StayWholeWhereARegionEndsInABall) {
+  const MeshRig mesh = faceWithEyes(false);
+  Rig rig = converted(mesh);
+  Brush brush;
+  brush.points = {kLeft - Vec3{0, kRadius, 0}};
+  brush.whole = 1, brush.fade = kRadius, brush.alongSurface = false;
+  auto regions = dividedFace(rig, {{"below", {}, paint(rig, brush).value()}}).value();
+  const auto rest = shown(rig, {});
+  const EyeTurns turns = EyeTurns::addTo(rig, findEyes(rig));
+  // Turned in one region only, as where the other is late.
+  std::vector<double> weights(2 * rig.targets.size());
+  const auto late = std::span(weights).subspan(rig.targets.size());
+  late[rig.find("eyeLookDown_L")] = 1;
+  turns.apply(late);
+  const auto stretched = [&] {
+    std::vector<Vec3> vectors(rig.surface.vectorCount());
+    blend(rig, regions, weights, vectors);
+    const auto now = sourcePositions(rig, Tessellation(rig.surface, 1), vectors, {});
+    return stretch(rest, now, 99, 99 + 218);
+  };
+  EXPECT_GT(stretched(), 0.05);
+  auto influences = influencesOf(rig.surface, regions);
+  turns.keepWhole(influences);
+  turns.keepWhole(rig.surface, regions);
+  EXPECT_LE(stretched(), 1e-12);
+  EXPECT_EQ(influences, influencesOf(rig.surface, regions));
+}
+
 TEST(EyeTurns, GoAsFarAsTheTargetWent) {
   const Rig plain = converted(faceWithEyes(true));
   Rig rig = plain;

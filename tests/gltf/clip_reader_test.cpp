@@ -257,6 +257,8 @@ TEST(GltfClip, SaysWhatIsWrong) {
   EXPECT_TRUE(fails(smallFace(), "no animation of morph targets"));
   EXPECT_TRUE(fails(moving("LINEAR", {0, 1}, {0, 0, 1, 1}), "named 'walk'", "walk"));
   EXPECT_TRUE(fails(moving("LINEAR", {1, 1}, {0, 0, 1, 1}), "do not increase"));
+  EXPECT_TRUE(fails(moving("LINEAR", {0, 1e20f}, {0, 0, 1, 1}), "within 300 years"));
+  EXPECT_TRUE(fails(moving("LINEAR", {-1e20f, 1}, {0, 0, 1, 1}), "within 300 years"));
   EXPECT_TRUE(fails(moving("LINEAR", {0, 1}, {0, 0, 1}), "3 values for 2 keys of 2 targets"));
   EXPECT_TRUE(fails(moving("CUBICSPLINE", {0, 1}, {0, 0, 1, 1}), "4 values"));
   EXPECT_TRUE(fails(moving("SPLINE", {0, 1}, {0, 0, 1, 1}), "interpolation"));

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <numeric>
 #include <set>
 
 #include "gltf/glb.hpp"
@@ -59,6 +60,20 @@ TEST(GltfReader, ReadsTheNeutralAndItsTargets) {
   EXPECT_EQ(source.rig.targets[0].positions, open);
   EXPECT_EQ(source.rig.targets[1].positions, wink);
   EXPECT_TRUE(source.warnings.empty());
+}
+
+/// As the standard allows: zeros where nothing else is said.
+TEST(GltfReader, PositionsMayBeSparseAlone) {
+  const Glb dense = smallFace();
+  Glb glb = smallFace();
+  std::vector<std::uint16_t> all(9);
+  std::iota(all.begin(), all.end(), 0);
+  const std::size_t sparse = glb.addSparse(9, all, sheetPositions());
+  glb.primitive()["attributes"]["POSITION"] = sparse;
+  EXPECT_EQ(read(glb).rig.neutral.positions, read(dense).rig.neutral.positions);
+  glb.accessor(sparse).erase("sparse");
+  EXPECT_TRUE(
+      failsWith(parseGltf(glb.bytes(), "face.glb", {}), {"POSITION of a mesh has no data"}));
 }
 
 TEST(GltfReader, WeightsOfTheMeshAreAPoseAndNoShape) {

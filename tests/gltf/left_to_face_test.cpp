@@ -259,6 +259,29 @@ TEST(LeftToFace, RefusesIndicesThatCannotBeHeld) {
   EXPECT_TRUE(failsWith(formatGlb(rig, {}), {"do not fit", "cannot hold indices"}));
 }
 
+/// Accessors without data may claim any number of vertices: these come to as many as there are, and
+/// 2^64.
+TEST(LeftToFace, RefusesMoreVerticesThanCanBeCounted) {
+  Rig rig = converted(smallFace());
+  const Written scene = sceneOf(rig);
+  Json json = scene.json;
+  Json& primitives = json["meshes"][0]["primitives"];
+  Json other = primitives[0];
+  other.erase("targets");
+  json["meshes"][0].erase("weights");
+  other["attributes"] = {{"POSITION", json["accessors"].size()}};
+  json["accessors"].push_back(
+      {{"componentType", 5126}, {"type", "VEC3"}, {"count", std::uint64_t{1} << 52}});
+  primitives[0].erase("targets");
+  for (int k = 0; k < 1 << 12; ++k) {
+    primitives.push_back(other);
+    json["accessors"].push_back(json["accessors"].back());
+    other["attributes"]["POSITION"] = json["accessors"].size() - 1;
+  }
+  rig.scene = gltf::formatContainer(json, scene.binary);
+  EXPECT_TRUE(failsWith(formatGlb(rig, {}), {"do not fit", "more vertices than an index"}));
+}
+
 /// Few bytes can name the same vertices again and again.
 TEST(LeftToFace, RefusesFarMoreIndicesThanAFaceCanMean) {
   Rig rig = converted(smallFace());

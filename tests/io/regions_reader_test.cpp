@@ -48,6 +48,7 @@ TEST(RegionsJson, SayWhatIsWrongAndWhere) {
   expectError("1", "regions[0] is not an object");
   expectError(R"({"points": [[1, 2, 3]]})", "has no 'name'");
   expectError(R"({"name": "a"})", "says nowhere where it is");
+  expectError(R"({"name": "a\nb", "parts": ["skin"]})", "regions[0] has control characters");
   expectError(R"({"name": "a", "points": [1, 2, 3]})", "[[x, y, z]]");
   expectError(R"({"name": "a", "parts": "skin"})", "'parts' that are not a list");
   expectError(R"({"name": "a", "parts": [1]})", "'parts' that are not names");
@@ -55,7 +56,7 @@ TEST(RegionsJson, SayWhatIsWrongAndWhere) {
   expectError(R"({"name": "a", "parts": ["b"], "over": "air"})", "neither surface nor space");
   expectError(R"({"name": "a", "parts": ["b"], "mass": 0})", "regions[0]: A mass");
   expectError(R"({"name": "a", "parts": ["b"], "mass": "x"})", "'mass' that is not a number");
-  expectError(R"({"name": "a", "parts": ["b"], "bands": 1.5})", "'bands'");
+  expectError(R"({"name": "a", "parts": ["b"], "bands": 1.5})", "a whole number from 1");
   expectError(R"({"name": "a", "parts": ["b"], "fade": -1})", "below 0");
   expectError(R"({"name": "a", "parts": ["b"], "radius": 1})", "unknown key 'radius'");
 }

@@ -256,6 +256,7 @@ TEST(RegionalClip, AHeavyRegionFollowsLate) {
     return at;
   };
   EXPECT_GT(peak(heavy), peak(clip) + 0.04);
+  EXPECT_EQ(inMatter(clip, {8, 1, 0}, {3, 0.7}, 0).weights, heavy.weights);  // none is one
   // A little more than nothing is little more than nothing.
   const Clip hardly = inMatter(clip, {1 + 1e-4, 1, 0}, {3, 0.7});
   std::vector<double> recorded(1);

@@ -78,6 +78,44 @@ TEST(PlayedTimeline, HasStraightLinesAsGoodAsExactWhereSpringsSwing) {
   }
 }
 
+TEST(PlayedTimeline, HasStraightLinesAsGoodAsExactWhereADriveArrivesBetweenFrames) {
+  for (double late = 0.05; late < 1; late += 0.05) {
+    const double seconds = (25 + late) / 240;
+    const Baked baked =
+        toPlay(R"({"seconds": 1, "events": [{"at": 0, "to": {"a": 1}, "drive": "newton",
+                   "seconds": )" +
+               std::to_string(seconds) + "}]}");
+    EXPECT_NEAR(weight(baked.clip, seconds, "a"), 1, 1e-4) << late;
+  }
+}
+
+TEST(PlayedTimeline, OfALateRegionLastsSoMuchLongerForAll) {
+  const Timeline timeline = parseTimeline(swinging(2), "line.json").value();
+  const double end = endIn(timeline, "late", {1, 1, 1.5});
+  EXPECT_EQ(end, 2.5);
+  const Clip clip = bakeToPlay(timeline, "rest", {}, 2, end)->clip;
+  EXPECT_EQ(clip.seconds(), end);
+  const auto spring = Trajectory::spring({0, 0}, 1, {2, 0.1});
+  for (double t = 1; t < end; t += 0.01)
+    EXPECT_NEAR(weight(clip, t, "a"), spring->at(t - 0.1).position, 1.2e-4) << t;
+}
+
+TEST(PlayedTimeline, LastsUntilWhatIsHeavyHasArrived) {
+  const Timeline timeline = parseTimeline(R"({"seconds": 2, "loops": 2, "events": [
+      {"at": 0, "to": {"a": 1, "b": 1}, "drive": "cut"},
+      {"at": 1, "to": {"a": 0}, "drive": "accelerate-brake", "seconds": 1},
+      {"at": 1.5, "to": {"b": 0}, "drive": "newton", "seconds": 1}]})",
+                                          "line.json")
+                                .value();
+  EXPECT_EQ(endIn(timeline, "rest", {}), 4);
+  const double end = endIn(timeline, "heavy", {16, 1, 0});
+  EXPECT_EQ(end, 4 + 3) << "b is not there elsewhere either";
+  const Clip clip = bakeToPlay(timeline, "heavy", {16, 1, 0})->clip;
+  EXPECT_EQ(clip.seconds(), end);
+  EXPECT_GT(weight(clip, end - 1, "a"), 0.05);
+  EXPECT_EQ(weight(clip, end, "a"), 0);
+}
+
 TEST(PlayedTimeline, SaysWhatItMissesWhereThereIsNoRoom) {
   const Baked baked = toPlay(swinging(40), kMostClipWeights / 400);
   EXPECT_LE(baked.clip.weights.size(), 400u);
@@ -195,8 +233,9 @@ TEST(Timeline, SaysWhatIsWrongAndWhere) {
   expectError(event(R"({"at": 0, "to": "p", "drive": "newton", "seconds": 0})"),
               "events[0] cannot");
   expectError(event(R"({"at": -1, "to": "p"})"), "before 0");
-  expectError(event(R"({"at": 2, "to": "p"})"), "later than 'seconds'");
-  expectError(event(R"({"at": 0.5, "to": "p", "delay": 0.6})"), "so that it never plays");
+  expectError(event(R"({"at": 2, "to": "p"})"), "events[0] is later than 'seconds'");
+  expectError(event(R"({"at": 0.5, "to": "p", "delay": 0.6})"),
+              "events[0] has a 'delay' that leads beyond the end");
   expectError(event(R"({"at": 0, "to": "p", "seconds": 1.5})"),
               "has a 'seconds', which the drive 'spring' has no use for");
   expectError(event(R"({"at": 0, "to": "p", "drive": "cut", "seconds": 1})"), "'seconds'");
