@@ -33,6 +33,7 @@ struct ConvertArguments {
   std::optional<int> uvBits;
   int threads = 0;
   bool pack = false, arcs = false, noShapes = false, bare = false, quiet = false, json = false;
+  bool packs() const { return pack || maxBytes > 0; }
 };
 
 void addOptions(CLI::App& app, ConvertArguments& a) {
@@ -249,6 +250,7 @@ Result<int> convertAndWrite(const ConvertArguments& a) {
   const auto refused = [&](const Error& error) {
     return fail(fmt::format("{}: {}.", a.neutral, error.message));
   };
+  if (a.packs()) source->scene = packedScene(std::move(source->scene));
   const bool bringsScene = !a.bare && !parts->scene && !source->scene.empty();
   if (a.maxBytes > 0 && bringsScene && !parts->order && source->scene.size() >= a.maxBytes)
     return fail(
@@ -306,8 +308,7 @@ Result<int> runConvert(const ConvertArguments& a) {
   inputs.push_back(a.neutral);
   if (auto ok = checkOutput(a.output, inputs, {".sweep"}, a.json || !a.quiet); !ok)
     return std::unexpected(ok.error());
-  const bool packs = a.pack || a.maxBytes > 0;
-  if (!packs && (a.uvBits || a.normalTolerance > 0))
+  if (!a.packs() && (a.uvBits || a.normalTolerance > 0))
     return fail(fmt::format("{} is for packed files; give --pack or --max-bytes as well.",
                             a.uvBits ? "--uv-bits" : "--normal-tolerance"));
   std::optional<tbb::global_control> limit;

@@ -26,6 +26,11 @@ Result<RigSource> parseGltf(std::string_view bytes, std::string_view name,
 Result<Clip> parseGltfClip(std::string_view bytes, std::string_view name,
                            const std::filesystem::path& folder, std::string_view animation = {});
 
+/// A scene whose skins have their weights in 16 bits, where they are shares of one in single
+/// precision: off by 1/131070 at most but for the largest of a vertex, which keeps their sum. The
+/// same one where nothing is to be rounded.
+std::string packedScene(std::string scene);
+
 /// How a whole model turns about a point.
 struct HeadTrack {
   std::vector<double> times;          ///< [F] seconds, increasing

@@ -65,6 +65,14 @@ std::vector<bool> usedAccessors(const Document& document, const Parts& parts,
   return used;
 }
 
+std::vector<std::size_t> accessorUseCounts(const Document& document) {
+  std::vector<std::size_t> counts(document.list("accessors").size());
+  visitAll(document, [&](const Json& reference, std::string_view, const Json*) {
+    if (const auto index = asIndex(reference, counts.size())) ++counts[*index];
+  });
+  return counts;
+}
+
 Result<void> checkAccessorUses(const Document& document) {
   const std::size_t count = document.list("accessors").size();
   Result<void> result;

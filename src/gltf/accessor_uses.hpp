@@ -17,6 +17,9 @@ using CountsInParts = std::function<bool(std::string_view, const Json&)>;
 std::vector<bool> usedAccessors(const Document& document, const Parts& parts,
                                 const CountsInParts& counts);
 
+/// [accessors] how often each is referred to.
+std::vector<std::size_t> accessorUseCounts(const Document& document);
+
 /// Whether everything that uses an accessor names one that exists: else it would come to name one
 /// that is added.
 Result<void> checkAccessorUses(const Document& document);

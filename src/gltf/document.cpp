@@ -290,6 +290,15 @@ bool isHarmlessExtension(std::string_view name) {
          std::ranges::find(names, name) != names.end();
 }
 
+std::size_t Document::addBuffer(std::string bytes) {
+  const std::size_t size = bytes.size(), buffer = buffers.size();
+  views.push_back({buffer, 0, size, 0});
+  buffers.push_back(std::move(bytes));
+  json["buffers"].push_back({{"byteLength", size}});
+  json["bufferViews"].push_back({{"buffer", buffer}, {"byteLength", size}});
+  return views.size() - 1;
+}
+
 Result<Document> parseDocument(std::string_view bytes, const fs::path& folder) {
   if (bytes.size() > io::maxFileBytes)
     return fail("it is larger than 2 GiB; export only the face.");

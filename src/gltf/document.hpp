@@ -40,6 +40,8 @@ struct Document {
   /// are compressed.
   std::size_t mostClaimed() const { return (1 << 16) + 32 * sourceBytes; }
   const Json& list(std::string_view key) const { return listOf(json, key); }
+  /// Adds bytes as a buffer with one view; returns the view.
+  std::size_t addBuffer(std::string bytes);
 };
 
 /// Reads a .glb or .gltf with its buffers. Other files are read from `folder` alone, and none if it

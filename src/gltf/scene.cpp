@@ -206,13 +206,8 @@ class ImageEmbedder {
                                                           : given;
     if (fetched->bytes.empty() || type.empty())
       return {0, {}, fmt::format("the file {} is no image of a known kind.", io::inQuotes(uri))};
-    const std::size_t size = fetched->bytes.size(), buffer = document_.buffers.size();
-    total_ += size;
-    document_.views.push_back({buffer, 0, size, 0});
-    document_.buffers.push_back(std::move(fetched->bytes));
-    document_.json["buffers"].push_back({{"byteLength", size}});
-    document_.json["bufferViews"].push_back({{"buffer", buffer}, {"byteLength", size}});
-    return {document_.views.size() - 1, type, {}};
+    total_ += fetched->bytes.size();
+    return {document_.addBuffer(std::move(fetched->bytes)), type, {}};
   }
 
   Document& document_;

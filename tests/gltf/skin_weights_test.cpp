@@ -1,0 +1,112 @@
+#include <cmath>
+#include <random>
+
+#include "gltf/accessor.hpp"
+#include "gltf/scene.hpp"
+#include "gltf/written.hpp"
+
+namespace sweepface {
+namespace {
+
+using namespace testing;
+
+/// As many random shares as vertices of the small face, `sets` × 4 that sum to one.
+std::vector<std::vector<float>> anyShares(std::size_t sets, unsigned seed = 1) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<float> uniform(0, 1);
+  std::vector<std::vector<float>> shares(sets);
+  for (int v = 0; v < 9; ++v) {
+    std::vector<float> all(4 * sets);
+    float sum = 0;
+    for (float& w : all) sum += w = uniform(random) < 0.4 ? 0 : uniform(random);
+    if (sum == 0) sum = all[0] = 1;
+    for (std::size_t k = 0; k < all.size(); ++k) shares[k / 4].push_back(all[k] / sum);
+  }
+  return shares;
+}
+
+std::size_t addShares(Glb& glb, const std::vector<float>& shares) {
+  return glb.addAccessor(glb.addView(bytesOf(shares)), 5126, "VEC4", shares.size() / 4);
+}
+
+/// The small face with weights.
+Glb weighted(const std::vector<std::vector<float>>& shares) {
+  Glb glb = smallFace();
+  for (std::size_t k = 0; k < shares.size(); ++k)
+    glb.primitive()["attributes"]["WEIGHTS_" + std::to_string(k)] = addShares(glb, shares[k]);
+  return glb;
+}
+
+std::vector<double> valuesOf(const gltf::Document& document, const char* name,
+                             std::size_t part = 0) {
+  const Json& reference = document.json["meshes"][0]["primitives"][part]["attributes"][name];
+  return gltf::decode(document, *gltf::accessorAt(document, reference.get<std::size_t>())).value();
+}
+gltf::Document packed(const Glb& glb) {
+  return gltf::parseScene(packedScene(gltf::formatScene(glb.bytes()))).value();
+}
+
+TEST(SkinWeights, OfSeveralSetsStaySharesOfOne) {
+  for (const std::size_t sets : {1, 2}) {
+    const auto shares = anyShares(sets);
+    const gltf::Document document = packed(weighted(shares));
+    for (int v = 0; v < 9; ++v) {
+      double sum = 0, most = 0;
+      for (std::size_t k = 0; k < 4 * sets; ++k) {
+        const std::string name = "WEIGHTS_" + std::to_string(k / 4);
+        const double now = valuesOf(document, name.c_str())[4 * v + k % 4];
+        EXPECT_NEAR(now, shares[k / 4][4 * v + k % 4], static_cast<double>(4 * sets) / 131070);
+        sum += now, most = std::max(most, now);
+      }
+      EXPECT_NEAR(sum, 1, 1e-12);
+      EXPECT_LE(most, 1);
+    }
+  }
+}
+
+TEST(SkinWeights, TakeHalfTheBytesAndNothingElseChanges) {
+  const Glb glb = weighted(anyShares(1));
+  const gltf::Document before = gltf::parseDocument(glb.bytes(), {}).value();
+  const gltf::Document after = packed(glb);
+  EXPECT_EQ(before.buffers[0].size() - after.buffers[0].size(), 9 * 4 * 2u);
+  EXPECT_EQ(valuesOf(after, "POSITION"), valuesOf(before, "POSITION"));
+  const auto weights = after.json["meshes"][0]["primitives"][0]["attributes"]["WEIGHTS_0"];
+  EXPECT_EQ(after.json["accessors"][weights.get<std::size_t>()]["normalized"], true);
+  const std::string scene = packedScene(gltf::formatScene(glb.bytes()));
+  EXPECT_EQ(packedScene(scene), scene);
+}
+
+TEST(SkinWeights, OfPrimitivesThatShareThemAreRoundedOnce) {
+  Glb glb = weighted(anyShares(1));
+  glb.json["meshes"][0]["primitives"].push_back(glb.primitive());
+  const gltf::Document document = packed(glb);
+  const auto once = valuesOf(document, "WEIGHTS_0", 0);
+  EXPECT_EQ(valuesOf(document, "WEIGHTS_0", 1), once);
+  EXPECT_EQ(std::fmod(65535 * once[1], 1), 0);
+}
+
+TEST(SkinWeights, ThatAreNoSharesStayAsTheyAre) {
+  const auto stays = [](const Glb& glb) {
+    const std::string scene = gltf::formatScene(glb.bytes());
+    return packedScene(scene) == scene;
+  };
+  EXPECT_TRUE(stays(smallFace()));
+  auto shares = anyShares(1);
+  shares[0][0] += 0.1f;
+  EXPECT_TRUE(stays(weighted(shares)));
+  shares[0][0] = -1, shares[0][1] = 2;
+  EXPECT_TRUE(stays(weighted(shares)));
+  // Something else counts on them.
+  Glb glb = weighted(anyShares(1));
+  glb.primitive()["attributes"]["_OWN"] = glb.primitive()["attributes"]["WEIGHTS_0"];
+  EXPECT_TRUE(stays(glb));
+  // Shares together with two different others.
+  Glb two = weighted(anyShares(2));
+  two.json["meshes"][0]["primitives"].push_back(two.primitive());
+  two.primitive(0, 1)["attributes"]["WEIGHTS_1"] = addShares(two, anyShares(2)[1]);
+  EXPECT_TRUE(stays(two));
+  EXPECT_EQ(packedScene("no scene"), "no scene");
+}
+
+}  // namespace
+}  // namespace sweepface
