@@ -2,6 +2,7 @@
 
 #include "cli/tool.hpp"
 #include "gltf/glb.hpp"
+#include "gltf/written.hpp"
 
 namespace sweepface {
 namespace {
@@ -44,6 +45,26 @@ TEST_F(GltfSource, ItsSceneIsKeptUnlessTheFaceIsToBeBare) {
       run("convert face.glb -o face.sweep --tolerance 0.1")
           .out.find(fmt::format("{} of them are what face.glb holds besides", scene.size() + 2)),
       std::string::npos);
+}
+
+TEST_F(GltfSource, HasWeightsOf16BitsWherePacked) {
+  Glb glb = smallFace();
+  std::vector<float> shares;
+  for (int v = 0; v < 9; ++v) shares.insert(shares.end(), {0.7f, 0.2f, 0.1f, 0});
+  glb.primitive()["attributes"]["WEIGHTS_0"] =
+      glb.addAccessor(glb.addView(bytesOf(shares)), 5126, "VEC4", 9);
+  folder.file("face.glb", glb.bytes());
+  const auto written = [&](const std::string& options) {
+    EXPECT_EQ(run("convert face.glb -o face.sweep --tolerance 0.1 " + options).code, 0);
+    EXPECT_EQ(run("export face.sweep -o out.glb").code, 0);
+    const Written out(contents(folder / "out.glb"));
+    const std::size_t weights = out.attribute("WEIGHTS_0");
+    EXPECT_NEAR(out.numbers(weights)[0], 0.7, 1e-4);
+    return out.json["accessors"][weights]["componentType"].get<int>();
+  };
+  EXPECT_EQ(written(""), 5126);
+  EXPECT_EQ(written("--pack"), 5123);
+  EXPECT_EQ(written("--max-bytes 2000"), 5123);
 }
 
 TEST_F(GltfSource, ItsSceneGoesWithItsOrder) {
