@@ -8,6 +8,7 @@
 
 #include "sweepface/box.hpp"
 #include "sweepface/eval.hpp"
+#include "sweepface/gltf.hpp"
 
 #include "command.hpp"
 #include "output.hpp"
@@ -28,7 +29,8 @@ void addOptions(CLI::App& app, CheckArguments& a) {
   app.footer(
       "\nLooks at the neutral, at every target and at a random mixture of all. Ends with 1 and "
       "names what is\nbroken if there is a gap between patches, a kink where there must be "
-      "none, or a number that is\nnot finite.\n\nExample:\n  sweepface check face.sweep");
+      "none, a number that is\nnot finite, or a scene that does not fit the face.\n\nExample:\n  "
+      "sweepface check face.sweep");
 }
 
 // What a sound file may show from rounding: gaps in units of the model's size, jumps of derivatives
@@ -36,6 +38,12 @@ void addOptions(CLI::App& app, CheckArguments& a) {
 constexpr double kLargestGap = 1e-12, kLargestJump = 1e-9;
 constexpr int kSamples = 5;
 constexpr std::array kClassNames{"boundary", "C2", "spoke", "crease"};
+
+/// What is said of a problem is a part of a sentence.
+std::string withoutStop(std::string text) {
+  if (text.ends_with('.')) text.pop_back();
+  return text;
+}
 
 /// A face to look at.
 struct Pose {
@@ -103,6 +111,7 @@ class Checker {
       bar.show("checking", static_cast<double>(++done) / static_cast<double>(poses_.size()));
     });
     for (std::size_t k = 0; k < looks.size(); ++k) judge(poses_[k].name, looks[k]);
+    if (auto ok = checkScene(rig_); !ok) problems_.push_back(withoutStop(ok.error().message));
     for (const JoinReport& join : looks[0].joins)
       if (!join.collapsed) neutral_[static_cast<std::size_t>(join.joinClass)].add(join);
   }

@@ -31,6 +31,10 @@ Result<Clip> parseGltfClip(std::string_view bytes, std::string_view name,
 /// same one where nothing is to be rounded.
 std::string packedScene(std::string scene);
 
+/// Whether the scene that came with a rig can take it, as formatGlb() will ask; a rig without one
+/// needs none.
+Result<void> checkScene(const Rig& rig);
+
 /// How a whole model turns about a point.
 struct HeadTrack {
   std::vector<double> times;          ///< [F] seconds, increasing

@@ -6,6 +6,8 @@
 #include <numeric>
 #include <set>
 
+#include "sweepface/gltf.hpp"
+
 #include "gltf/left_to_face.hpp"
 #include "gltf/more_targets.hpp"
 #include "gltf/scene.hpp"
@@ -97,3 +99,13 @@ Result<BoundScene> sceneOf(const Rig& rig) {
 }
 
 }  // namespace sweepface::gltf
+
+namespace sweepface {
+
+Result<void> checkScene(const Rig& rig) {
+  if (rig.scene.empty()) return {};
+  const auto scene = gltf::sceneOf(rig);
+  return scene ? Result<void>{} : std::unexpected(scene.error());
+}
+
+}  // namespace sweepface

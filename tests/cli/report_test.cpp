@@ -105,6 +105,18 @@ TEST_F(Check, FailsForNumbersBeyondReckoning) {
       << r.out << r.err;
 }
 
+TEST_F(Check, FailsForASceneThatDoesNotFit) {
+  Rig rig;
+  rig.surface = Surface::make(onePatch(2, 2)).value();
+  rig.neutral.resize(rig.surface.storedCount(), {1, 2, 3});
+  for (const std::string scene : {"glTF", "{\"asset\": {\"version\": \"2.0\"}}"}) {
+    rig.scene = scene;
+    folder.file("odd.sweep", encode(rig));
+    EXPECT_TRUE(
+        fails("check odd.sweep -q", "odd.sweep is broken: The face and its scene do not fit"));
+  }
+}
+
 TEST_F(Check, RefusesADamagedFile) {
   convertRig();
   std::string bytes = contents(folder / "face.sweep");
