@@ -62,6 +62,7 @@ struct PatchMesh {
 /// there is exactly one vertex for every welded source vertex.
 class Tessellation {
  public:
+  /// Of a level of at least 1. It looks at the surface as long as it lives.
   Tessellation(const Surface& surface, Index level);
   /// With a density of its own for every arc and patch; has triangles and no faces.
   Tessellation(const Surface& surface, Density density);

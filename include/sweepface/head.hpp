@@ -81,6 +81,7 @@ std::vector<Eye> findEyes(const Rig& rig);
 class EyeTurns {
  public:
   static constexpr std::size_t kTargets = 8;  ///< of an eye
+  static constexpr std::size_t kTerms = 5;    ///< of the rotation
 
   EyeTurns() = default;
 
@@ -115,7 +116,8 @@ class EyeTurns {
   };
   template <typename Share>
   void keepWhole(std::size_t regions, const Share& share) const;
-  static void set(const Turning& eye, double x, double y, std::span<double> weights) noexcept;
+  using Factors = std::array<double, kTerms>;
+  static void set(const Turning& eye, const Factors& factors, std::span<double> weights) noexcept;
   static void addLooks(Rig& rig, const Eye& eye, Turning& turning);
 
   std::vector<Turning> eyes_;

@@ -10,6 +10,7 @@
 #include "gltf/binary.hpp"
 #include "gltf/left_to_face.hpp"
 #include "gltf/resources.hpp"
+#include "gltf/same_vertices.hpp"
 #include "io/text.hpp"
 
 namespace sweepface::gltf {
@@ -19,11 +20,6 @@ namespace fs = std::filesystem;
 
 // ---- Taking out what the rig stands for ----
 
-/// Whether a part keeps an attribute as it is, wherever it has it.
-bool isKept(std::string_view attribute) {
-  return attribute != "POSITION" && attribute != "NORMAL" && attribute != "TANGENT";
-}
-
 class Emptier {
  public:
   Emptier(Document& document, const Parts& parts, const LeftToFace& left)
@@ -32,7 +28,7 @@ class Emptier {
         left_(left),
         others_(usedAccessors(document, parts,
                               [&](std::string_view name, const Json& reference) {
-                                return isKept(name) && !left.indices.contains(&reference) &&
+                                return !isGeometry(name) && !left.indices.contains(&reference) &&
                                        !left.texcoords.contains(&reference);
                               })),
         touched_(document.views.size()) {}
@@ -71,7 +67,7 @@ class Emptier {
   void emptyAttributes(Json& attributes, std::size_t run, std::size_t shape) {
     for (const char* name : {"POSITION", "NORMAL", "TEXCOORD_0"})
       if (Json* const reference = find(attributes, name))
-        if (!isKept(name) || left_.texcoords.contains(reference))
+        if (isGeometry(name) || left_.texcoords.contains(reference))
           *reference = claim({named(*reference), run, shape, name}, floats);
     if (const Json* const reference = find(attributes, "TANGENT")) {
       tangents_.insert(named(*reference));

@@ -5,6 +5,8 @@
 #include <numbers>
 #include <tuple>
 
+#include "ode/elementary.hpp"
+
 namespace sweepface {
 
 Drive inMatter(Drive drive, const Matter& matter) {
@@ -114,7 +116,7 @@ Clip hanging(const Clip& clip, const Spring& spring, std::size_t most) {
     for (double at = step; at + step / 4 <= span && at <= kLongest; at += step) {
       goTo(from + at);
       if (!any(swings)) return;
-      step = std::min(step * std::exp(settles * step / 2), piece);
+      step = std::min(step * ode::exponential(settles * step / 2), piece);
     }
   };
   for (std::size_t f = 1; f < clip.times.size(); ++f) {

@@ -4,6 +4,8 @@
 #include "sweepface/arcs.hpp"
 #include "sweepface/head.hpp"
 
+#include "ode/elementary.hpp"
+
 namespace sweepface {
 namespace {
 
@@ -12,7 +14,7 @@ constexpr double kUsualLook = 0.5;  // radians at weight 1, where a target turns
 Vec3 acrossX(const Vec3& v) { return cross({1, 0, 0}, v); }
 Vec3 acrossY(const Vec3& v) { return cross({0, 1, 0}, v); }
 
-constexpr std::size_t kTerms = 5;
+constexpr std::size_t kTerms = EyeTurns::kTerms;
 
 /// A target: a term of the rotation, with a sign.
 struct TurnTarget {
@@ -31,10 +33,10 @@ constexpr std::array<TurnTarget, EyeTurns::kTargets> kTurnTargets{{{".down", 0, 
 
 /// Factors of the terms for a rotation vector (x, y, 0).
 std::array<double, kTerms> factorsOf(double x, double y) {
-  const double angle = std::hypot(x, y);
+  const double angle = std::sqrt(x * x + y * y);
   // sin θ / θ and (1 − cos θ) / θ², both smooth at 0.
-  const double half = std::sin(angle / 2);
-  const double s = angle > 1e-8 ? std::sin(angle) / angle : 1;
+  const double half = ode::sineCosine(angle / 2).sine;
+  const double s = angle > 1e-8 ? ode::sineCosine(angle).sine / angle : 1;
   const double c = angle > 1e-8 ? 2 * half * half / (angle * angle) : 0.5;
   return {s * x, s * y, c * x * x, c * y * y, c * x * y};
 }
@@ -98,7 +100,7 @@ Fit fitTurn(const Rig& rig, const Eye& eye, const Target& target) {
     if (!(determinant > 0)) break;
     const double x = (rx * yy - ry * xy) / determinant, y = (ry * xx - rx * xy) / determinant;
     fit.x += x, fit.y += y;
-    if (std::hypot(x, y) < 1e-12) break;
+    if (x * x + y * y < 1e-24) break;
   }
   fit.left = squaresLeft(rig, eye, target, fit.x, fit.y);
   return fit;
@@ -107,9 +109,9 @@ Fit fitTurn(const Rig& rig, const Eye& eye, const Target& target) {
 }  // namespace
 
 Quaternion quaternionOf(const Angles& angles) {
-  const double cy = std::cos(angles.yaw / 2), sy = std::sin(angles.yaw / 2);
-  const double cp = std::cos(angles.pitch / 2), sp = std::sin(angles.pitch / 2);
-  const double cr = std::cos(angles.roll / 2), sr = std::sin(angles.roll / 2);
+  const auto [sy, cy] = ode::sineCosine(angles.yaw / 2);
+  const auto [sp, cp] = ode::sineCosine(angles.pitch / 2);
+  const auto [sr, cr] = ode::sineCosine(angles.roll / 2);
   return {cy * sp * cr + sy * cp * sr, sy * cp * cr - cy * sp * sr, cy * cp * sr - sy * sp * cr,
           cy * cp * cr + sy * sp * sr};
 }
@@ -202,7 +204,7 @@ void EyeTurns::addLooks(Rig& rig, const Eye& eye, Turning& turning) {
       const Fit fit = fitTurn(rig, eye, target);
       constexpr double kMoves = 1e-3, kRigid = 0.1;  // of the radius, and of the way
       const double count = static_cast<double>(eye.stored.size());
-      if (!(fit.moves > count * std::pow(kMoves * eye.radius, 2) / 9)) {
+      if (!(fit.moves > count * kMoves * kMoves * eye.radius * eye.radius / 9)) {
         turning.looks.push_back({index, kUsualLook * usual[k][0], kUsualLook * usual[k][1]});
       } else if (fit.left <= kRigid * kRigid * fit.moves) {
         turning.looks.push_back({index, fit.x, fit.y});
@@ -241,8 +243,7 @@ void EyeTurns::keepWhole(std::span<std::vector<float>> influences) const {
             [&](std::size_t region, Index v) -> float& { return influences[region][v]; });
 }
 
-void EyeTurns::set(const Turning& eye, double x, double y, std::span<double> weights) noexcept {
-  const auto factors = factorsOf(x, y);
+void EyeTurns::set(const Turning& eye, const Factors& factors, std::span<double> weights) noexcept {
   for (std::size_t k = 0; k < kTargets; ++k)
     if (const auto t = static_cast<std::size_t>(eye.first) + k; t < weights.size())
       weights[t] = std::max(0.0, kTurnTargets[k].sign * factors[kTurnTargets[k].term]);
@@ -254,7 +255,7 @@ void EyeTurns::apply(std::span<double> weights) const noexcept {
     for (const Look& look : eye.looks)
       if (const auto t = static_cast<std::size_t>(look.target); t < weights.size())
         x += weights[t] * look.x, y += weights[t] * look.y;
-    set(eye, x, y, weights);
+    set(eye, factorsOf(x, y), weights);
   }
 }
 
@@ -263,9 +264,9 @@ void EyeTurns::apply(const HeadPose& pose, std::span<double> weights) const noex
     const Angles& angles = eye.left ? pose.leftEye : pose.rightEye;
     // The rotation across the view that looks the same way.
     const Vec3 view = turned(quaternionOf({angles.yaw, angles.pitch, 0}), {0, 0, 1});
-    const double across = std::hypot(view.x, view.y), angle = std::atan2(across, view.z);
-    const double scale = across > 1e-12 ? angle / across : 1;
-    set(eye, -view.y * scale, view.x * scale, weights);
+    const double x = -view.y, y = view.x;              // sin θ times the axis
+    const double c = 1 / std::max(1 + view.z, 1e-12);  // (1 − cos θ) / sin² θ
+    set(eye, {x, y, c * x * x, c * y * y, c * x * y}, weights);
   }
 }
 
