@@ -199,15 +199,19 @@ function timeIn(frame, f, framesPerSecond, fail) {
   return time / 1000;
 }
 
+// Beside the time, or of the first of the faces found: an object in JavaScript, the list itself in Python. A frame
+// without a face has none.
+function categoriesOf(frame) {
+  if (frame?.categories !== undefined) return frame.categories;
+  const [face = []] = [frame?.faceBlendshapes, frame?.face_blendshapes].find(Array.isArray) ?? [null];
+  return Array.isArray(face) ? face : face?.categories;
+}
+
 function scoresOf(frame, f, fail) {
-  // Beside the time, or of the first of the faces found: an object in JavaScript, the list itself in Python. A frame
-  // without a face has none.
-  const {faceBlendshapes: faces = frame?.face_blendshapes} = frame ?? {};
-  const face = Array.isArray(faces) && faces.length === 0 ? [] : faces?.[0];
-  const {categories = Array.isArray(face) ? face : face?.categories} = frame ?? {};
+  const categories = categoriesOf(frame);
   if (!Array.isArray(categories)) throw fail(`has no 'categories' in frame ${f}`);
   return new Map(categories.map((category) => {
-    const shape = category?.categoryName ?? category?.category_name;
+    const {categoryName: shape = category?.category_name} = category ?? {};
     if (typeof shape !== 'string' || !isNumber(category.score))
       throw fail(`has a category without 'categoryName' and 'score' in frame ${f}`);
     if (!isWeight(category.score)) throw fail(`has a score in frame ${f} that is not within ±1,000,000`);

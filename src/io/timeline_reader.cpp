@@ -46,6 +46,8 @@ class TimelineReader {
     const auto events = json_.find("events");
     if (events == json_.end() || !events->is_array() || events->empty())
       return failAt("'events'", "must be a list of at least one event");
+    if (const auto regions = json_.find("regions"); regions != json_.end() && !regions->is_array())
+      return failAt("'regions'", "are not a list");
     const double end = timeline.seconds * loops * (1 + 1e-9);  // 0.1 + 0.2 is more than 0.3
     std::multimap<double, TimelineEvent> inOrder;  // events of one time stay as they stand
     for (std::size_t k = 0; k < events->size(); ++k) {

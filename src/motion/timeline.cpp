@@ -61,10 +61,13 @@ double endIn(const Timeline& timeline, std::string_view region, const Matter& ma
   const double whole = timeline.seconds * timeline.loops;
   double end = whole;
   for (const TimelineEvent& event : timeline.events) {
-    const double meant = arrivalOf(event.drive);
-    const double at = event.time + (timeline.loops - 1) * timeline.seconds + meant;
-    if (isFor(event, region) && at <= whole * (1 + 1e-9))
-      end = std::max(end, std::min(at, whole) + arrivalOf(inMatter(event.drive, matter)) - meant);
+    const double meant = arrivalOf(event.drive), first = event.time + meant;
+    if (!isFor(event, region) || first > whole * (1 + 1e-9)) continue;
+    // The last time that it is there.
+    const double loop =
+        std::min(std::floor((whole - first) / timeline.seconds * (1 + 1e-9)), timeline.loops - 1.0);
+    const double at = std::min(first + std::max(loop, 0.0) * timeline.seconds, whole);
+    end = std::max(end, at + arrivalOf(inMatter(event.drive, matter)) - meant);
   }
   return end + matter.delay;
 }

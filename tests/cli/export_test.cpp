@@ -225,6 +225,34 @@ TEST_F(Export, CarriesTextureAndMaterialsOver) {
   }
 }
 
+TEST_F(Export, CarriesGroupsAndFacesWithoutTextureOverWithinABudget) {
+  folder.file("two.obj",
+              "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 1 0\nv 1 1 0\nv 2 1 0\nvt 0 0\nvt 1 0\nvt 1 1\n"
+              "vt 0 1\ng left\nf 1/1 2/2 5/3 4/4\ng right\nf 2 3 6 5\n");
+  ASSERT_EQ(run("convert two.obj -o face.sweep --tolerance 0.01 -q").code, 0);
+  ASSERT_EQ(run("export face.sweep -o out.obj --edge-length 0.4").code, 0);
+  const PolygonMesh out = mesh("out.obj");
+  const Polygons& p = out.polygons;
+  ASSERT_EQ(p.cornerTexcoords.size(), p.corners.size());
+  std::map<std::string, int> faces;
+  for (Index f = 0; f < p.faceCount(); ++f) {
+    double x = 0;
+    for (Index c = p.faceStart[f]; c < p.faceStart[f + 1]; ++c) {
+      const Vec3& at = out.positions[p.corners[c]];
+      const Index t = p.cornerTexcoords[c];
+      x += at.x / 3;
+      EXPECT_EQ(t >= 0, p.groups[p.faceGroup[f]] == "left");
+      if (t >= 0) {
+        EXPECT_NEAR(p.texcoords[t].x, at.x, 0.02);
+      }
+    }
+    EXPECT_EQ(p.groups[p.faceGroup[f]], x < 1 ? "left" : "right");
+    ++faces[p.groups[p.faceGroup[f]]];
+  }
+  EXPECT_GT(faces["left"], 8);
+  EXPECT_GT(faces["right"], 8);
+}
+
 TEST_F(Export, HasTrianglesAtCollapsedSides) {
   // A fan of six triangles round a raised middle.
   std::string text = "v 0 0 0.5\n";

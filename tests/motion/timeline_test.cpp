@@ -110,6 +110,11 @@ TEST(PlayedTimeline, LastsUntilWhatIsHeavyHasArrived) {
   EXPECT_EQ(endIn(timeline, "rest", {}), 4);
   const double end = endIn(timeline, "heavy", {16, 1, 0});
   EXPECT_EQ(end, 4 + 3) << "b is not there elsewhere either";
+  const Timeline late = parseTimeline(R"({"seconds": 1, "loops": 3, "events": [
+      {"at": 0.5, "to": {"a": 1}, "drive": "newton", "seconds": 0.25, "delay": 1}]})",
+                                      "line.json")
+                            .value();
+  EXPECT_EQ(endIn(late, "heavy", {16, 1, 0}), 2.75 + 0.75) << "in the second loop the last time";
   const Clip clip = bakeToPlay(timeline, "heavy", {16, 1, 0})->clip;
   EXPECT_EQ(clip.seconds(), end);
   EXPECT_GT(weight(clip, end - 1, "a"), 0.05);
@@ -233,6 +238,8 @@ TEST(Timeline, SaysWhatIsWrongAndWhere) {
   expectError(event(R"({"at": 0, "to": "p", "drive": "newton", "seconds": 0})"),
               "events[0] cannot");
   expectError(event(R"({"at": -1, "to": "p"})"), "before 0");
+  expectError(R"({"seconds": 1, "regions": 5, "events": [{"at": 0, "to": {"a": 1}}]})",
+              "'regions' are not a list");
   expectError(event(R"({"at": 2, "to": "p"})"), "events[0] is later than 'seconds'");
   expectError(event(R"({"at": 0.5, "to": "p", "delay": 0.6})"),
               "events[0] has a 'delay' that leads beyond the end");

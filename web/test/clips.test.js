@@ -45,7 +45,7 @@ const mediaPipe = JSON.stringify(frames.map((f) => ({
 })));
 const python = JSON.stringify(frames.map((f) => ({
   timestamp_ms: 33 * f + 5,
-  face_blendshapes: [few.map((name, k) => ({index: k, category_name: name, score: wave(f, k)}))]
+  faceBlendshapes: null, face_blendshapes: [few.map((name, k) => ({index: k, category_name: name, score: wave(f, k)}))]
 })));
 const at30 = (f) => `00:00:0${Math.floor((f + 7) / 10)};${String((f + 7) % 10 * 3).padStart(2, '0')}.500`;
 const sheet = 'sep=,\n' + [['Timecode', 'BlendshapeCount', ...shapes], ...frames.flatMap((f) => [
@@ -389,6 +389,9 @@ for (const [file, text, words] of [
        ['a.json', '[{"timestampMs": 1e300, "categories": []}]', 'has a time in frame 0'],
        ['a.json', '[{"timestampMs": 0, "categories": null, "faceBlendshapes": []}]', 'has no \'categories\' in frame 0'],
        ['a.json', '[{"timestampMs": 0, "faceBlendshapes": ""}]', 'has no \'categories\' in frame 0'],
+       ['a.json', '[{"timestampMs": 0, "faceBlendshapes": {"0": {"categories": []}}}]', 'has no \'categories\' in frame 0'],
+       ['a.json', '[{"timestampMs": 0, "categories": [{"categoryName": null, "category_name": "a", "score": 1}]}]',
+        'has a category without'],
        ['a.json', '[{"timestampMs": null, "timestamp": 5, "categories": []}]', 'has no \'timestampMs\' in frame 0'],
        ['a.json', scattered, 'has 8200 names in 8200 frames, more than a clip can hold; name the same ones in every frame.'],
        ['t.json', '{"events": []}', 'the file has no \'seconds\''],
@@ -397,7 +400,7 @@ for (const [file, text, words] of [
        ['t.json', '{"seconds": 1, "loops": 1.5, "events": []}', '\'loops\' must be a whole number from 1 to 10000'],
        ['t.json', '{"seconds": 1, "speed": 1, "events": []}', 'the file has an unknown key \'speed\''],
        ['t.json', '{"seconds": 1, "events": [{"to": {}}]}', 'events[0] has no \'at\''],
-       ['t.json', '{"seconds": 1, "events": [{"at": 2, "to": {}}]}', '\'events\' hold one that is later than \'seconds\''],
+       ['t.json', '{"seconds": 1, "events": [{"at": 2, "to": {}}]}', 'events[0] is later than \'seconds\''],
        ['t.json', '{"seconds": 1, "events": [{"at": 0, "to": {}, "delay": 1.5}]}', 'so that it never plays'],
        ['t.json', '{"seconds": 1, "events": [{"at": 0, "to": {}, "seconds": 1.5}]}',
         'events[0] has a \'seconds\', which the drive \'spring\' has no use for'],
