@@ -1,6 +1,6 @@
 // A .sweep file in a module: what it is opened with, and what all its faces share.
 import {divider} from './sweepface_regions.js';
-import {bytesOf, known} from './sweepface_values.js';
+import {bytesOf, known, told} from './sweepface_values.js';
 import {compile, instantiate, MemoryError, Runtime, UNSAID} from './sweepface_wasm.js';
 
 /** What a level of detail may be asked for by, in the order of the C interface. */
@@ -19,7 +19,9 @@ function read(options) {
     throw new TypeError(`A level of detail is asked for in one way, not by ${details.join(' and ')}.`);
   if (!Number.isInteger(lod) || lod < 0 || lod >= 2 ** 32)
     throw new RangeError('The level of detail must be a whole number from 0 to 64.');
-  const [budget] = BUDGETS.flatMap((kind, k) => (given[kind] === undefined ? [] : [[k, Number(given[kind])]]));
+  const [budget] = BUDGETS.flatMap((kind, k) => (given[kind] === undefined ? [] : [[k, given[kind]]]));
+  if (budget && typeof budget[1] !== 'number')
+    throw new TypeError(`The budget of a level of detail must be a number, not ${told(budget[1])}.`);
   const divide = regions?.length !== 0 && regions && divider(regions);
   const follow = (arcs ? FOLLOW.arcs : 0) + (combine ? FOLLOW.combine : 0);
   const needsFull = Boolean(follow || eyes || divide || budget);

@@ -408,6 +408,8 @@ test('options are those that there are, and one level of detail', async () => {
     await assert.rejects(Sweepface.load(bytes, {lod}), {name: 'RangeError', message: /from 0 to 64/});
   await assert.rejects(load({lods: 2}), {message: /^Sweepface.load has no option 'lods'; it has lod, .*\.$/});
   await assert.rejects(load({lod: 2, vertices: 500}), {message: /in one way, not by lod and vertices\.$/});
+  await assert.rejects(load({vertices: '500'}), {message: /must be a number, not the text '500'\.$/});
+  await assert.rejects(load({error: null}), {message: /must be a number, not null\.$/});
   const nothing = Object.fromEntries(['lod', 'edgeLength', 'error', 'vertices', 'regions', 'wasm'].map((key) => [key]));
   const face = await load(nothing, packed());
   face.moveTo({jawOpen: 1}, {kind: 'cut', delay: undefined, seconds: undefined});
