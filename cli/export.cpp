@@ -41,8 +41,9 @@ void addOptions(CLI::App& app, ExportArguments& a) {
   };
   CLI::Option* vertices = addBudget("--vertices", a.vertices, "N",
                                     "Write the best mesh of at most so many vertices (.obj)");
-  CLI::Option* error = addBudget("--error", a.error, "E",
-                                 "Write a mesh whose edges are no further from the surface than this (.obj)");
+  CLI::Option* error =
+      addBudget("--error", a.error, "E",
+                "Write a mesh whose edges are no further from the surface than this (.obj)");
   addBudget("--edge-length", a.edgeLength, "L",
             "Write a mesh without longer edges along curves (.obj)")
       ->excludes(vertices)

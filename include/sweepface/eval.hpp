@@ -22,7 +22,7 @@ struct Budget {
     error,       ///< no edge of a triangle is further than this from the surface at its middle, in
                  ///< model units, and no segment further from its arc, as seven points of its way
                  ///< tell (one, where an edge is cut into more than four): triangles hardly
-                 ///< further (on the ICT head by a third at most)
+                 ///< further (on the ICT head by an eighth at most)
     vertices     ///< as near to the surface as so many vertices allow
   };
   Kind kind = Kind::vertices;
