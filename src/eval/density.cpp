@@ -1,5 +1,6 @@
 // How finely to cut, from the pose itself: by the lengths of its arcs or by how far their chords
-// are from them. Inside a patch the lines through its middle say the same.
+// are from them. Inside a patch the lines through its middle say the same, and of an error then its
+// triangles.
 #include <algorithm>
 #include <cmath>
 
@@ -31,8 +32,7 @@ class Lines {
   const Density& coarsest() const { return coarsest_; }
 
   /// On from a density that is too coarse, not beyond so many vertices. Lines take half of an
-  /// error: where they took all of it, nothing were left for triangles beside them, and many small
-  /// ones cost more than somewhat shorter lines.
+  /// error: if they took all of it, triangles beside them would have to be far smaller.
   Density cut(Density density, double value, std::int64_t most) {
     const bool byLength = kind_ == Budget::Kind::edgeLength;
     const double ofLines = byLength ? value : value / 2;
@@ -67,6 +67,11 @@ class Lines {
     for (Index p = 0; p < surface_.patchCount(); ++p)
       count += insideOf(arcs_ + 2 * p) * insideOf(arcs_ + 2 * p + 1);
     return count;
+  }
+
+  /// Vertices of a tessellation with this density.
+  std::int64_t count(const Density& density) const {
+    return vertexCountOf(surface_.wireframe(), density);
   }
 
  private:
@@ -146,13 +151,13 @@ class Lines {
 
 /// The smallest error, to a hundredth of it, that so many vertices allow; the coarsest density if
 /// they are too few even for that. From above, as finer densities take longer to measure.
-Density finest(const Surface& surface, Lines& lines, double vertices) {
+Density finest(Lines& lines, double vertices) {
   double error = lines.longest();  // no sag is longer than its line
   const double least = kLeastError * error;
   Density best = lines.coarsest();
   for (double step = 4; step > 1.01 && error > least;) {
     Density density = lines.cut(best, error / step, static_cast<std::int64_t>(vertices));
-    if (static_cast<double>(vertexCountOf(surface.wireframe(), density)) <= vertices)
+    if (static_cast<double>(lines.count(density)) <= vertices)
       best = std::move(density), error /= step;
     else
       step = std::sqrt(step);
@@ -165,7 +170,7 @@ Result<Density> within(const Surface& surface, Lines& lines, double vertices) {
   const Index fewest = Tessellation(surface, lines.coarsest()).vertexCount();
   if (fewest > vertices) return fail("The face has ", fewest, " vertices at least; allow so many.");
   for (double allowed = vertices;;) {
-    Density found = finest(surface, lines, allowed);
+    Density found = finest(lines, allowed);
     const double excess = Tessellation(surface, found).vertexCount() - vertices;
     if (!(excess > 0)) return found;
     allowed -= excess;
@@ -200,7 +205,7 @@ Result<Density> densityFor(const Surface& surface, std::span<const Vec3> vectors
       return tooFine(count);
   const double least = byError ? kLeastError * lines.longest() : 0;
   Density density = lines.cut(lines.coarsest(), std::max(budget.value, least), kMostVertices);
-  const auto count = static_cast<double>(vertexCountOf(surface.wireframe(), density));
+  const auto count = static_cast<double>(lines.count(density));
   if (count > kMostVertices) return tooFine(count);
   return density;
 }
