@@ -93,7 +93,8 @@ class Tessellation {
   };
   Terms terms(Index vertex) const;
 
-  /// Positions of all vertices [vertexCount] of a settled pose. Linear in `vectors`.
+  /// Positions of all vertices [vertexCount] of a settled pose, [Surface::vectorCount]. Linear in
+  /// `vectors`.
   void positions(std::span<const Vec3> vectors, std::span<Vec3> out) const;
   std::vector<Vec3> positions(std::span<const Vec3> vectors) const;
   /// The surface's own unit normals [vertexCount].
@@ -139,7 +140,9 @@ struct CurveNetwork {
 /// The curves of a settled pose with `perEdge` ≥ 1 points on every source edge.
 CurveNetwork curveNetwork(const Surface& surface, std::span<const Vec3> vectors, Index perEdge);
 
-/// Vertices in the source's own order [V] and their normals.
+/// Vertices in the source's own order [V] and their unit normals, of a settled pose [vectorCount]
+/// and a tessellation of level 1. Vertices of no face go by `weights` [targets], where missing ones
+/// are 0, and have a normal along z.
 std::vector<Vec3> sourcePositions(const Rig& rig, const Tessellation& level1,
                                   std::span<const Vec3> vectors, std::span<const double> weights);
 std::vector<Vec3> sourceNormals(const Rig& rig, const Tessellation& level1,

@@ -66,7 +66,8 @@ std::string extensionOf(const std::filesystem::path& path);
 /// The folder that a file is in, "." where its path names none.
 std::filesystem::path folderOf(const std::filesystem::path& path);
 
-/// Writes beside `path` and renames, so that the file is either whole or as it was.
+/// Writes beside `path` and renames, so that the file is either whole or as it was; other names of
+/// the old one (hard links) keep that.
 Result<void> writeFile(const std::filesystem::path& path, std::string_view bytes);
 
 }  // namespace sweepface
