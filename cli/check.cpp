@@ -40,7 +40,7 @@ constexpr int kSamples = 5;
 constexpr std::array kClassNames{"boundary", "C2", "spoke", "crease"};
 
 /// What is said of a problem is a part of a sentence.
-std::string withoutStop(std::string text) {
+std::string withoutPeriod(std::string text) {
   if (text.ends_with('.')) text.pop_back();
   return text;
 }
@@ -111,7 +111,7 @@ class Checker {
       bar.show("checking", static_cast<double>(++done) / static_cast<double>(poses_.size()));
     });
     for (std::size_t k = 0; k < looks.size(); ++k) judge(poses_[k].name, looks[k]);
-    if (auto ok = checkScene(rig_); !ok) problems_.push_back(withoutStop(ok.error().message));
+    if (auto ok = checkScene(rig_); !ok) problems_.push_back(withoutPeriod(ok.error().message));
     for (const JoinReport& join : looks[0].joins)
       if (!join.collapsed) neutral_[static_cast<std::size_t>(join.joinClass)].add(join);
   }

@@ -9,6 +9,7 @@
 #include "sweepface/arcs.hpp"
 #include "sweepface/codec.hpp"
 #include "sweepface/fit.hpp"
+#include "sweepface/gltf.hpp"
 #include "sweepface/io.hpp"
 #include "sweepface/measure.hpp"
 #include "sweepface/strip.hpp"

@@ -120,9 +120,14 @@ Result<Recording> readClip(const PerformanceArguments& a, const Region& region,
                       a.clip));
     const Result<Timeline> timeline = parseTimeline(*text, a.clip);
     if (!timeline) return std::unexpected(timeline.error());
+    std::vector<std::string> names;
     double end = 0;
-    for (const Region& each : regions)
+    for (const Region& each : regions) {
+      names.push_back(each.name);
       end = std::max(end, endIn(*timeline, each.name, each.matter));
+    }
+    if (auto ok = checkRegions(*timeline, names); !ok)
+      return fail(fmt::format("{}: {}", a.clip, ok.error().message));
     const auto bakedIn = [&](const Matter& matter) -> Result<Baked> {
       auto baked = bakeToPlay(*timeline, region.name, matter, regions.size(), end);
       if (!baked) return fail(fmt::format("{}: {}", a.clip, baked.error().message));

@@ -48,9 +48,10 @@ struct Performance {
   std::vector<Index> wholes;       ///< of what each is a part then, as RegionalTargets has it
   std::vector<std::string> notes;  ///< what the user should know, in sentences
 };
-/// By the matter of a region, one of so many, and without what a timeline means for others.
+/// By the matter of a region, one of these, and without what a timeline means for others. Fails
+/// where a timeline speaks of regions that there are not.
 Result<Performance> makePerformance(const PerformanceArguments& a, const Rig& rig,
-                                    const Region& region = {}, std::size_t regions = 1);
+                                    const Region& region, std::span<const Region> regions);
 
 /// Sentences on targets that change their weight between the two expressions and yet move nothing.
 std::vector<std::string> notesOnStill(const PerformanceArguments& a, const Rig& rig);

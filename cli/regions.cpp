@@ -6,7 +6,6 @@
 
 #include "sweepface/io.hpp"
 #include "sweepface/region_file.hpp"
-#include "sweepface/timeline.hpp"
 
 namespace sweepface::cli {
 namespace {
@@ -26,20 +25,6 @@ Result<std::vector<Region>> readRegions(const PerformanceArguments& what, const 
   auto regions = paintRegions(rig, *painted);
   if (!regions) return fail(fmt::format("{}: {}", file, regions.error().message));
   return regions;
-}
-
-/// Whether the timeline speaks of regions that there are not.
-Result<void> checkNames(const std::string& file, const std::vector<Region>& regions) {
-  if (!isOfKind(file, ".json")) return {};
-  const Result<std::string> text = readFile(file);
-  if (!text || !isTimeline(*text)) return {};
-  const auto timeline = parseTimeline(*text, file);
-  if (!timeline) return {};  // reported when it is played
-  std::vector<std::string> names;
-  for (const Region& region : regions) names.push_back(region.name);
-  if (auto ok = checkRegions(*timeline, names); !ok)
-    return fail(fmt::format("{}: {}", file, ok.error().message));
-  return {};
 }
 
 /// What --regions takes the place of.
@@ -129,7 +114,6 @@ Result<std::vector<Region>> regionsOf(const PerformanceArguments& what, const Re
                                       const Rig& rig) {
   auto regions = readRegions(what, a, rig);
   if (!regions) return regions;
-  if (auto ok = checkNames(what.clip, *regions); !ok) return std::unexpected(ok.error());
   const auto isHeavy = [](const Region& region) { return region.matter.mass > 1; };
   if (!what.clip.empty() && what.tellsSpring && std::ranges::none_of(*regions, isHeavy))
     return fail(

@@ -131,7 +131,10 @@ function wake() {
 function frame(now) {
   attempt(() => {
     draw(Math.min(Math.max(now - last, 0) / 1000, 0.1));
-    if (mesh && now - told > 250) tellFigures(figures(), told = now);
+    if (mesh && now - told > 250) {
+      tellFigures(figures());
+      told = now;
+    }
   });
   last = now;
   running = now < awakeUntil;

@@ -11,6 +11,7 @@
 #include "gltf/left_to_face.hpp"
 #include "gltf/more_targets.hpp"
 #include "gltf/scene.hpp"
+#include "io/text.hpp"
 
 namespace sweepface::gltf {
 namespace {
@@ -21,10 +22,7 @@ std::unexpected<Error> doesNotFit(std::string_view why) {
 
 /// Of an error that may advise on the glTF that the scene once was, which helps nobody.
 std::unexpected<Error> cannotBeRead(const Error& error) {
-  std::string_view why = error.message;
-  why = why.substr(0, why.rfind(';'));
-  if (why.ends_with('.')) why.remove_suffix(1);
-  return doesNotFit(why);
+  return doesNotFit(io::withoutPeriod(error.message.substr(0, error.message.rfind(';'))));
 }
 
 /// Targets of the rig that its scene came without.
