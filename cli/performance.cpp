@@ -2,15 +2,12 @@
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
-#include <map>
 #include <memory>
 
-#include "sweepface/filter.hpp"
-#include "sweepface/gltf.hpp"
 #include "sweepface/io.hpp"
-#include "sweepface/live_motion.hpp"
-#include "sweepface/timeline.hpp"
+#include "sweepface/regional_motion.hpp"
+
+#include "played_clip.hpp"
 
 namespace sweepface::cli {
 namespace {
@@ -97,127 +94,6 @@ Result<Performance> byLaw(const PerformanceArguments& a, const Rig& rig, const M
   if (!from) return std::unexpected(from.error());
   if (!to) return std::unexpected(to.error());
   return between(a, *from, *to, matter);
-}
-
-// ---- Clips ----
-
-/// A clip as it was recorded, and as a region plays it.
-struct Recording {
-  Clip clip, played;
-  double missed = 0;  // by straight lines between its frames
-};
-
-Result<Recording> readClip(const PerformanceArguments& a, const Region& region,
-                           std::span<const Region> regions) {
-  const Result<std::string> text = readFile(a.clip);
-  if (!text) return std::unexpected(text.error());
-  const bool isJson = isOfKind(a.clip, ".json");
-  if (isJson && isTimeline(*text)) {
-    if (a.smooth || !a.animation.empty() || a.tellsSpring || a.tellsRate)
-      return fail(
-          fmt::format("{} is a timeline; leave --smooth, --animation, --clip-fps, --frequency and "
-                      "--damping out.",
-                      a.clip));
-    const Result<Timeline> timeline = parseTimeline(*text, a.clip);
-    if (!timeline) return std::unexpected(timeline.error());
-    std::vector<std::string> names;
-    double end = 0;
-    for (const Region& each : regions) {
-      names.push_back(each.name);
-      end = std::max(end, endIn(*timeline, each.name, each.matter));
-    }
-    if (auto ok = checkRegions(*timeline, names); !ok)
-      return fail(fmt::format("{}: {}", a.clip, ok.error().message));
-    const auto bakedIn = [&](const Matter& matter) -> Result<Baked> {
-      auto baked = bakeToPlay(*timeline, region.name, matter, regions.size(), end);
-      if (!baked) return fail(fmt::format("{}: {}", a.clip, baked.error().message));
-      return baked;
-    };
-    auto played = bakedIn(region.matter);
-    if (!played) return std::unexpected(played.error());
-    Recording recording{played->clip, played->clip, played->missed};
-    // The head is of the whole face, whatever its regions are made of.
-    if (region.matter == Matter{} || std::ranges::none_of(played->clip.names, ClipAngles::tells))
-      return recording;
-    auto whole = bakedIn({});
-    if (!whole) return std::unexpected(whole.error());
-    recording.clip = std::move(whole->clip);
-    return recording;
-  }
-  const bool gltf = isGltf(a.clip);
-  if (!isJson && !gltf && !isOfKind(a.clip, ".csv"))
-    return fail(fmt::format("{} is neither a .csv, a .json nor a .glb clip.", a.clip));
-  if (!gltf && !a.animation.empty())
-    return fail(fmt::format(
-        "{} has no animations to choose from, as a .glb has; leave --animation out.", a.clip));
-  auto clip = isJson ? parseClipJson(*text, a.clip, a.clipRate)
-              : gltf ? parseGltfClip(*text, a.clip, folderOf(a.clip), a.animation)
-                     : parseLiveLinkCsv(*text, a.clip, a.clipRate);
-  if (!clip) return std::unexpected(clip.error());
-  if (isJson && a.tellsRate && parseClipJson(*text, a.clip))
-    clip->warnings.push_back(
-        fmt::format("{} tells when its frames are, so --clip-fps changes nothing.", a.clip));
-  if (a.smooth) smooth(*clip);
-  Clip played = inMatter(*clip, region.matter, {a.frequency, a.damping}, regions.size());
-  return Recording{std::move(*clip), std::move(played)};
-}
-
-std::vector<std::string> notesOn(const ClipMatch& match, const Clip& clip,
-                                 const std::vector<std::string>& targets, const std::string& file) {
-  std::vector<std::string> notes;
-  std::vector<std::string> idle = match.unmatched;
-  std::erase_if(idle, ClipAngles::tells);
-  if (!idle.empty())
-    notes.push_back(fmt::format("{}: {} of {} names drive no target of the face: {}.", file,
-                                idle.size(), clip.names.size(), fmt::join(idle, ", ")));
-  if (!match.undriven.empty())
-    notes.push_back(
-        fmt::format("{}: nothing drives the targets {}.", file, fmt::join(match.undriven, ", ")));
-  std::map<Index, std::vector<std::string>> drivers;
-  for (std::size_t k = 0; k < clip.names.size(); ++k)
-    for (const Index target : match.targets[k]) drivers[target].push_back(clip.names[k]);
-  for (const auto& [target, names] : drivers)
-    if (names.size() > 1)
-      notes.push_back(fmt::format("{}: {} drive the target {}, whichever is largest.", file,
-                                  fmt::join(names, " and "), targets[target]));
-  return notes;
-}
-
-Result<Performance> byClip(const PerformanceArguments& a, const Rig& rig, const Region& region,
-                           std::span<const Region> regions) {
-  Result<Recording> recording = readClip(a, region, regions);
-  if (!recording) return std::unexpected(recording.error());
-  Clip& clip = recording->played;
-  std::vector<std::string> targets;
-  for (const Target& target : rig.targets) targets.push_back(target.name);
-  ClipMatch match = matchClip(clip, targets);
-  if (!movesAnything(clip, match))
-    return fail(
-        fmt::format("{}: none of its {} names is a target of the face; `sweepface info` "
-                    "lists the targets.",
-                    a.clip, clip.names.size()));
-  Performance performance;
-  performance.name = std::filesystem::path(a.clip).stem().string();
-  performance.called = a.clip;
-  performance.seconds = clip.seconds();
-  performance.clipWeights = clip.weights.size();
-  performance.frameMiss = recording->missed;
-  performance.notes = recording->clip.warnings;
-  std::ranges::move(notesOn(match, clip, targets, a.clip), std::back_inserter(performance.notes));
-  for (const double time : clip.times) performance.frameTimes.push_back(time - clip.times.front());
-  const ClipAngles angles(clip);
-  performance.hasHead = angles.head(), performance.turnsHead = angles.turnsHead();
-  performance.hasEyes = angles.eyes();
-  // Of the whole head, whatever its regions are made of.
-  if (performance.hasHead || performance.hasEyes)
-    performance.pose = [whole = std::make_shared<const Clip>(std::move(recording->clip)),
-                        angles](double time) { return angles.at(*whole, time); };
-  const auto shared = std::make_shared<const Clip>(std::move(clip));
-  performance.at = [shared, match = std::move(match)](double time, std::span<double> weights) {
-    match.spread(*shared, time, weights);
-  };
-  performance.kinematicsAt = byDifferences(performance.at);
-  return performance;
 }
 
 }  // namespace
@@ -338,9 +214,16 @@ void addPerformance(CLI::App& app, PerformanceArguments& a) {
   });
 }
 
-Result<Performance> makePerformance(const PerformanceArguments& a, const Rig& rig,
-                                    const Region& region, std::span<const Region> regions) {
-  return a.clip.empty() ? byLaw(a, rig, region.matter) : byClip(a, rig, region, regions);
+Result<std::vector<Performance>> makePerformances(const PerformanceArguments& a, const Rig& rig,
+                                                  std::span<const Region> regions) {
+  if (!a.clip.empty()) return byClip(a, rig, regions);
+  std::vector<Performance> performances;
+  for (const Region& region : regions) {
+    auto performance = byLaw(a, rig, region.matter);
+    if (!performance) return std::unexpected(performance.error());
+    performances.push_back(std::move(*performance));
+  }
+  return performances;
 }
 
 Clip sample(const Performance& performance, const Rig& rig, std::vector<double> times) {

@@ -40,7 +40,6 @@ struct Performance {
   std::optional<Motion> motion;    ///< where keys can hold it exactly
   std::vector<double> frameTimes;  ///< a clip's own frames, from 0
   double frameMiss = 0;            ///< what straight lines between them miss of what is meant
-  std::size_t clipWeights = 0;     ///< what it keeps of a clip
   /// Null unless a clip tells how head or eyes stand.
   std::function<HeadPose(double time)> pose;
   bool hasHead = false, turnsHead = false, hasEyes = false;  ///< as ClipAngles has them
@@ -48,10 +47,10 @@ struct Performance {
   std::vector<Index> wholes;       ///< of what each is a part then, as RegionalTargets has it
   std::vector<std::string> notes;  ///< what the user should know, in sentences
 };
-/// By the matter of a region, one of these, and without what a timeline means for others. Fails
-/// where a timeline speaks of regions that there are not.
-Result<Performance> makePerformance(const PerformanceArguments& a, const Rig& rig,
-                                    const Region& region, std::span<const Region> regions);
+/// One for every region [R], by its matter and by what a timeline means for it. Fails
+/// where it speaks of regions that there are not.
+Result<std::vector<Performance>> makePerformances(const PerformanceArguments& a, const Rig& rig,
+                                                  std::span<const Region> regions);
 
 /// Sentences on targets that change their weight between the two expressions and yet move nothing.
 std::vector<std::string> notesOnStill(const PerformanceArguments& a, const Rig& rig);

@@ -85,8 +85,6 @@ Performance together(Parts parts, const std::vector<Region>& regions, Rig& rig) 
   whole.seconds = parts.seconds();
   whole.frameTimes = parts.frameTimes();
   const auto targets = RegionalTargets::addTo(rig, regions, parts.uneven(whole.frameTimes));
-  for (const Performance& part : parts.performances)
-    whole.frameMiss = std::max(whole.frameMiss, part.frameMiss);
   whole.motion.reset();  // keys would not hold it exactly
   whole.isDivided = true;
   whole.wholes = targets.wholes();
@@ -130,15 +128,9 @@ Result<Performance> perform(const PerformanceArguments& what, const RegionArgume
   // Combinations may show what moves nothing by itself.
   std::vector<std::string> still;
   if (what.clip.empty() && !following.combine) still = notesOnStill(what, rig);
-  Parts parts;
-  for (const Region& region : *regions) {
-    auto performance = makePerformance(what, rig, region, *regions);
-    if (!performance) return std::unexpected(performance.error());
-    if (performance->clipWeights > kMostClipWeights / regions->size())
-      return fail(fmt::format("{} is too long for {} regions; cut it, or play it with fewer.",
-                              what.clip, regions->size()));
-    parts.performances.push_back(std::move(*performance));
-  }
+  auto performances = makePerformances(what, rig, *regions);
+  if (!performances) return std::unexpected(performances.error());
+  Parts parts{std::move(*performances)};
   const Result<Following> followed = follow(following, rig);
   if (!followed) return std::unexpected(followed.error());
   followed->eyes.keepWhole(rig.surface, *regions);

@@ -5,9 +5,8 @@
 #include "sweepface/filter.hpp"
 #include "sweepface/gltf.hpp"
 #include "sweepface/region_file.hpp"
+#include "sweepface/regional_clips.hpp"
 #include "sweepface/sweepface_clips.h"
-#include "sweepface/timeline.hpp"
-#include "sweepface/trajectory.hpp"
 
 #include "capi/handles.hpp"
 #include "capi/message.hpp"
@@ -16,18 +15,8 @@
 using namespace sweepface;
 using namespace sweepface::capi;
 
-namespace {
-
-/// A clip as it was recorded, and as every region plays it.
-struct Recording {
-  Clip clip;
-  std::vector<Clip> ofRegions;  // [R]
-};
-
-}  // namespace
-
 struct sweepface_clip {
-  Recording recording;
+  RegionalClips clips;
   ClipMatch match;
   ClipAngles angles;
   std::size_t targets;
@@ -37,8 +26,11 @@ namespace {
 
 // ---- Regions ----
 
-Matter matterOf(const Division& division, std::size_t region) {
-  return region < division.matters.size() ? division.matters[region] : Matter{};
+/// [R]
+std::vector<Matter> mattersOf(const Division& division) {
+  std::vector<Matter> matters = division.matters;
+  matters.resize(division.count());
+  return matters;
 }
 
 // ---- Clips ----
@@ -61,52 +53,23 @@ Result<Clip> readCapture(Kind kind, std::string_view bytes, const char* name,
   return clip;
 }
 
-/// Whether as many regions as there are can each have a clip like this.
-Result<void> checkRoom(const Clip& clip, std::size_t regions, const char* name) {
-  if (clip.weights.size() <= kMostClipWeights / regions) return {};
-  return fail(name, " is too long for ", regions, " regions; cut it, or play it with fewer.");
-}
-
-Result<Recording> readForRegions(const Division& division, std::string_view bytes, const char* name,
-                                 const sweepface_clip_options& options) {
+Result<RegionalClips> readForRegions(const Division& division, std::string_view bytes,
+                                     const char* name, const sweepface_clip_options& options) {
+  const std::vector<Matter> matters = mattersOf(division);
+  const auto named = [name](Result<RegionalClips> clips) -> Result<RegionalClips> {
+    if (!clips) return fail(name, ": ", clips.error().message);
+    return clips;
+  };
   const Kind kind = kindOf(bytes);
-  Recording recording;
-  std::vector<Clip>& clips = recording.ofRegions;
   if (kind != Kind::timeline) {
     auto capture = readCapture(kind, bytes, name, options);
     if (!capture) return std::unexpected(capture.error());
-    if (auto ok = checkRoom(*capture, division.count(), name); !ok)
-      return std::unexpected(ok.error());
-    for (std::size_t r = 0; r < division.count(); ++r)
-      clips.push_back(inMatter(*capture, matterOf(division, r),
-                               {options.frequency, options.damping}, division.count()));
-    recording.clip = std::move(*capture);
-    return recording;
+    return named(inRegions(std::move(*capture), matters, {options.frequency, options.damping}));
   }
   const auto timeline = parseTimeline(bytes, name);
   if (!timeline) return std::unexpected(timeline.error());
   const std::vector<std::string> undivided{"rest"};
-  const auto& names = division.names.empty() ? undivided : division.names;
-  if (auto ok = checkRegions(*timeline, names); !ok) return fail(name, ": ", ok.error().message);
-  double end = 0;
-  for (std::size_t r = 0; r < division.count(); ++r)
-    end = std::max(end, endIn(*timeline, names[r], matterOf(division, r)));
-  for (std::size_t r = 0; r < division.count(); ++r) {
-    auto baked = bakeToPlay(*timeline, names[r], matterOf(division, r), division.count(), end);
-    if (!baked) return fail(name, ": ", baked.error().message);
-    if (auto ok = checkRoom(baked->clip, division.count(), name); !ok)
-      return std::unexpected(ok.error());
-    clips.push_back(std::move(baked->clip));
-  }
-  // The head and the eyes are of the whole face, whatever its regions are made of.
-  recording.clip = clips.front();
-  if (matterOf(division, 0) == Matter{} ||
-      std::ranges::none_of(recording.clip.names, ClipAngles::tells))
-    return recording;
-  auto whole = bakeToPlay(*timeline, names.front(), {}, division.count(), end);
-  if (!whole) return fail(name, ": ", whole.error().message);
-  recording.clip = std::move(whole->clip);
-  return recording;
+  return named(inRegions(*timeline, division.names.empty() ? undivided : division.names, matters));
 }
 
 std::vector<std::string> shownTargets(const sweepface_rig& rig) {
@@ -140,7 +103,7 @@ sweepface_status sweepface_rig_region_matter(const sweepface_rig* rig, uint32_t 
                                              sweepface_matter* matter) {
   if (!rig || !matter) return refuse("A region's matter needs a rig and a place for it.");
   if (region >= rig->division->count()) return noSuch("region", region, rig->division->count());
-  const Matter found = matterOf(*rig->division, region);
+  const Matter found = mattersOf(*rig->division)[region];
   *matter = {found.mass, found.stiffness, found.delay};
   return SWEEPFACE_OK;
 }
@@ -161,10 +124,10 @@ sweepface_status sweepface_clip_read(const sweepface_rig* rig, const void* bytes
     return refuse("The spring on which heavy regions hang: ", hold.error().message);
   if (auto ok = io::checkFrameRateIfGiven(asked.frames_per_second); !ok)
     return refuse(ok.error().message);
-  auto recording =
+  auto clips =
       readForRegions(*rig->division, {static_cast<const char*>(bytes), size}, called, asked);
-  if (!recording) return refuse(SWEEPFACE_BAD_DATA, recording.error().message);
-  const Clip& whole = recording->clip;
+  if (!clips) return refuse(SWEEPFACE_BAD_DATA, clips.error().message);
+  const Clip& whole = clips->whole;
   ClipMatch match = matchClip(whole, shownTargets(*rig));
   if (!movesAnything(whole, match))
     return refuse(SWEEPFACE_BAD_DATA, std::string(called) + ": none of its " +
@@ -172,7 +135,7 @@ sweepface_status sweepface_clip_read(const sweepface_rig* rig, const void* bytes
                                           " names is a target of the face.");
   std::erase_if(match.unmatched, ClipAngles::tells);
   const ClipAngles angles(whole);
-  *clip = new sweepface_clip{std::move(*recording), std::move(match), angles, rig->shown};
+  *clip = new sweepface_clip{std::move(*clips), std::move(match), angles, rig->shown};
   return SWEEPFACE_OK;
 }
 
@@ -181,7 +144,7 @@ void sweepface_clip_free(sweepface_clip* clip) { delete clip; }
 double sweepface_clip_seconds(const sweepface_clip* clip) {
   if (!clip) return 0;
   double longest = 0;
-  for (const Clip& each : clip->recording.ofRegions) longest = std::max(longest, each.seconds());
+  for (const Clip& each : clip->clips.ofRegions) longest = std::max(longest, each.seconds());
   return longest;
 }
 
@@ -194,13 +157,13 @@ const char* sweepface_clip_undriven(const sweepface_clip* clip, uint32_t index) 
 }
 
 const char* sweepface_clip_warning(const sweepface_clip* clip, uint32_t index) {
-  return clip ? nameAt(clip->recording.clip.warnings, index) : nullptr;
+  return clip ? nameAt(clip->clips.whole.warnings, index) : nullptr;
 }
 
 sweepface_status sweepface_clip_weights(const sweepface_clip* clip, double seconds, double* out,
                                         size_t count) {
   if (!clip || (!out && count > 0)) return refuse("Reading a clip needs one and a place.");
-  const std::vector<Clip>& ofRegions = clip->recording.ofRegions;
+  const std::vector<Clip>& ofRegions = clip->clips.ofRegions;
   const std::size_t all = ofRegions.size() * clip->targets;
   if (count > all) return refuse("The clip has only ", all, " weights, not ", count, ".");
   for (std::size_t r = 0, first = 0; first < count; ++r, first += clip->targets)
@@ -215,7 +178,7 @@ int32_t sweepface_clip_has_eyes(const sweepface_clip* clip) { return clip && cli
 sweepface_status sweepface_clip_pose(const sweepface_clip* clip, double seconds,
                                      sweepface_pose* pose) {
   if (!clip || !pose) return refuse("A pose needs a clip and a place for it.");
-  const HeadPose found = clip->angles.at(clip->recording.clip, seconds);
+  const HeadPose found = clip->angles.at(clip->clips.whole, seconds);
   *pose = {anglesOf(found.head), anglesOf(found.leftEye), anglesOf(found.rightEye)};
   return SWEEPFACE_OK;
 }

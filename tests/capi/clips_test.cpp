@@ -119,7 +119,7 @@ TEST_F(Clips, OfAllRegionsHoldNoMoreThanOneMay) {
       << sweepface_message();
   for (int k = 0; k < 39; ++k) goals += ",\"n" + std::to_string(k) + "\": 1";
   EXPECT_TRUE(refuses(R"({"seconds": 1000, "events": [{"at": 0, "to": {)" + goals + R"(}}]})",
-                      "take is too long for 9 regions"));
+                      "take: it is too long for 9 regions"));
 }
 
 TEST_F(Clips, LoseTheirNoise) {

@@ -1,0 +1,130 @@
+#include "played_clip.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <map>
+#include <memory>
+
+#include "sweepface/filter.hpp"
+#include "sweepface/gltf.hpp"
+#include "sweepface/io.hpp"
+#include "sweepface/regional_clips.hpp"
+#include "sweepface/timeline.hpp"
+
+namespace sweepface::cli {
+namespace {
+
+Result<Timeline> readTimeline(const PerformanceArguments& a, const std::string& text) {
+  if (a.smooth || !a.animation.empty() || a.tellsSpring || a.tellsRate)
+    return fail(
+        fmt::format("{} is a timeline; leave --smooth, --animation, --clip-fps, --frequency and "
+                    "--damping out.",
+                    a.clip));
+  return parseTimeline(text, a.clip);
+}
+
+Result<Clip> readCapture(const PerformanceArguments& a, const std::string& text) {
+  const bool isJson = isOfKind(a.clip, ".json"), gltf = isGltf(a.clip);
+  if (!isJson && !gltf && !isOfKind(a.clip, ".csv"))
+    return fail(fmt::format("{} is neither a .csv, a .json nor a .glb clip.", a.clip));
+  if (!gltf && !a.animation.empty())
+    return fail(fmt::format(
+        "{} has no animations to choose from, as a .glb has; leave --animation out.", a.clip));
+  auto clip = isJson ? parseClipJson(text, a.clip, a.clipRate)
+              : gltf ? parseGltfClip(text, a.clip, folderOf(a.clip), a.animation)
+                     : parseLiveLinkCsv(text, a.clip, a.clipRate);
+  if (clip && isJson && a.tellsRate && parseClipJson(text, a.clip))
+    clip->warnings.push_back(
+        fmt::format("{} tells when its frames are, so --clip-fps changes nothing.", a.clip));
+  if (clip && a.smooth) smooth(*clip);
+  return clip;
+}
+
+Result<RegionalClips> readClip(const PerformanceArguments& a, std::span<const Region> regions) {
+  const Result<std::string> text = readFile(a.clip);
+  if (!text) return std::unexpected(text.error());
+  std::vector<std::string> names;
+  std::vector<Matter> matters;
+  for (const Region& region : regions) {
+    names.push_back(region.name);
+    matters.push_back(region.matter);
+  }
+  const auto called = [&](Result<RegionalClips> clips) -> Result<RegionalClips> {
+    if (!clips) return fail(fmt::format("{}: {}", a.clip, clips.error().message));
+    return clips;
+  };
+  if (isOfKind(a.clip, ".json") && isTimeline(*text)) {
+    const auto timeline = readTimeline(a, *text);
+    if (!timeline) return std::unexpected(timeline.error());
+    return called(inRegions(*timeline, names, matters));
+  }
+  auto capture = readCapture(a, *text);
+  if (!capture) return std::unexpected(capture.error());
+  return called(inRegions(std::move(*capture), matters, {a.frequency, a.damping}));
+}
+
+std::vector<std::string> notesOn(const ClipMatch& match, const Clip& clip,
+                                 const std::vector<std::string>& targets, const std::string& file) {
+  std::vector<std::string> notes;
+  std::vector<std::string> idle = match.unmatched;
+  std::erase_if(idle, ClipAngles::tells);
+  if (!idle.empty())
+    notes.push_back(fmt::format("{}: {} of {} names drive no target of the face: {}.", file,
+                                idle.size(), clip.names.size(), fmt::join(idle, ", ")));
+  if (!match.undriven.empty())
+    notes.push_back(
+        fmt::format("{}: nothing drives the targets {}.", file, fmt::join(match.undriven, ", ")));
+  std::map<Index, std::vector<std::string>> drivers;
+  for (std::size_t k = 0; k < clip.names.size(); ++k)
+    for (const Index target : match.targets[k]) drivers[target].push_back(clip.names[k]);
+  for (const auto& [target, names] : drivers)
+    if (names.size() > 1)
+      notes.push_back(fmt::format("{}: {} drive the target {}, whichever is largest.", file,
+                                  fmt::join(names, " and "), targets[target]));
+  return notes;
+}
+
+}  // namespace
+
+Result<std::vector<Performance>> byClip(const PerformanceArguments& a, const Rig& rig,
+                                        std::span<const Region> regions) {
+  Result<RegionalClips> clips = readClip(a, regions);
+  if (!clips) return std::unexpected(clips.error());
+  const auto whole = std::make_shared<const Clip>(std::move(clips->whole));
+  std::vector<std::string> targets;
+  for (const Target& target : rig.targets) targets.push_back(target.name);
+  const ClipMatch match = matchClip(*whole, targets);
+  if (!movesAnything(*whole, match))
+    return fail(
+        fmt::format("{}: none of its {} names is a target of the face; `sweepface info` "
+                    "lists the targets.",
+                    a.clip, whole->names.size()));
+  Performance shared;
+  shared.name = std::filesystem::path(a.clip).stem().string();
+  shared.called = a.clip;
+  shared.frameMiss = clips->missed;
+  shared.notes = whole->warnings;
+  std::ranges::move(notesOn(match, *whole, targets, a.clip), std::back_inserter(shared.notes));
+  const ClipAngles angles(*whole);
+  shared.hasHead = angles.head(), shared.turnsHead = angles.turnsHead();
+  shared.hasEyes = angles.eyes();
+  if (shared.hasHead || shared.hasEyes)
+    shared.pose = [whole, angles](double time) { return angles.at(*whole, time); };
+  std::vector<Performance> performances(regions.size(), shared);
+  for (std::size_t r = 0; r < regions.size(); ++r) {
+    Performance& performance = performances[r];
+    const auto clip = std::make_shared<const Clip>(std::move(clips->ofRegions[r]));
+    performance.seconds = clip->seconds();
+    for (const double time : clip->times)
+      performance.frameTimes.push_back(time - clip->times.front());
+    performance.at = [clip, match](double time, std::span<double> weights) {
+      match.spread(*clip, time, weights);
+    };
+    performance.kinematicsAt = byDifferences(performance.at);
+  }
+  return performances;
+}
+
+}  // namespace sweepface::cli

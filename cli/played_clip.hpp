@@ -1,0 +1,14 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "performance.hpp"
+
+namespace sweepface::cli {
+
+/// What the file of --clip tells, as every region [R] plays it.
+Result<std::vector<Performance>> byClip(const PerformanceArguments& a, const Rig& rig,
+                                        std::span<const Region> regions);
+
+}  // namespace sweepface::cli

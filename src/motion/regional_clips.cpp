@@ -1,0 +1,52 @@
+#include "sweepface/regional_clips.hpp"
+
+#include <algorithm>
+
+#include "sweepface/head.hpp"
+
+namespace sweepface {
+namespace {
+
+/// Whether as many regions as there are can each have a clip like this.
+Result<void> checkRoom(const Clip& clip, std::size_t regions) {
+  if (clip.weights.size() <= kMostClipWeights / regions) return {};
+  return fail("it is too long for ", regions, " regions; cut it, or play it with fewer.");
+}
+
+}  // namespace
+
+Result<RegionalClips> inRegions(Clip capture, std::span<const Matter> matters, const Spring& hold) {
+  if (auto ok = checkRoom(capture, matters.size()); !ok) return std::unexpected(ok.error());
+  RegionalClips clips;
+  for (const Matter& matter : matters)
+    clips.ofRegions.push_back(inMatter(capture, matter, hold, matters.size()));
+  clips.whole = std::move(capture);
+  return clips;
+}
+
+Result<RegionalClips> inRegions(const Timeline& timeline, std::span<const std::string> names,
+                                std::span<const Matter> matters) {
+  if (auto ok = checkRegions(timeline, names); !ok) return std::unexpected(ok.error());
+  double end = 0;
+  for (std::size_t r = 0; r < matters.size(); ++r)
+    end = std::max(end, endIn(timeline, names[r], matters[r]));
+  RegionalClips clips;
+  for (std::size_t r = 0; r < matters.size(); ++r) {
+    auto baked = bakeToPlay(timeline, names[r], matters[r], matters.size(), end);
+    if (!baked) return std::unexpected(baked.error());
+    if (auto ok = checkRoom(baked->clip, matters.size()); !ok) return std::unexpected(ok.error());
+    clips.missed = std::max(clips.missed, baked->missed);
+    clips.ofRegions.push_back(std::move(baked->clip));
+  }
+  const Clip& first = clips.ofRegions.front();
+  if (matters.front() == Matter{} || std::ranges::none_of(first.names, ClipAngles::tells)) {
+    clips.whole = first;
+    return clips;
+  }
+  auto whole = bakeToPlay(timeline, names.front(), {}, matters.size(), end);
+  if (!whole) return std::unexpected(whole.error());
+  clips.whole = std::move(whole->clip);
+  return clips;
+}
+
+}  // namespace sweepface

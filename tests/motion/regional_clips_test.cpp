@@ -1,0 +1,83 @@
+#include "sweepface/regional_clips.hpp"
+
+#include <gtest/gtest.h>
+
+namespace sweepface {
+namespace {
+
+const std::vector<std::string> kNames{"rest", "cheeks"};
+const std::vector<Matter> kMatters{{}, {4, 1, 0.5}};
+
+Timeline timelineOf(std::string_view text) { return parseTimeline(text, "line.json").value(); }
+
+Clip captureOf(std::size_t frames, std::size_t names) {
+  Clip clip;
+  clip.names.resize(names);
+  for (std::size_t f = 0; f < frames; ++f) clip.times.push_back(static_cast<double>(f) / 60);
+  clip.weights.resize(frames * names, 1);
+  return clip;
+}
+
+TEST(RegionalClips, OfACaptureAreItInEveryMatter) {
+  Clip capture = captureOf(60, 1);
+  for (std::size_t f = 0; f < 30; ++f) capture.weights[f] = 0;
+  const Spring hold{3, 0.5};
+  const RegionalClips clips = inRegions(capture, kMatters, hold).value();
+  EXPECT_EQ(clips.whole.weights, capture.weights);
+  ASSERT_EQ(clips.ofRegions.size(), 2u);
+  EXPECT_EQ(clips.ofRegions[0].weights, capture.weights);
+  EXPECT_EQ(clips.ofRegions[1].weights, inMatter(capture, kMatters[1], hold, 2).weights);
+  EXPECT_EQ(clips.missed, 0);
+}
+
+TEST(RegionalClips, HoldNoMoreInAllThanOneMay) {
+  const Clip capture = captureOf(kMostClipWeights / 1024 / 2 + 1, 1024);
+  EXPECT_TRUE(inRegions(capture, {kMatters.data(), 1}, {}));
+  const auto refused = inRegions(capture, kMatters, {});
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().message,
+            "it is too long for 2 regions; cut it, or play it with fewer.");
+}
+
+TEST(RegionalClips, OfATimelineEndTogether) {
+  const RegionalClips clips = inRegions(timelineOf(R"({"seconds": 1, "events": [
+      {"at": 0, "to": {"a": 1}, "drive": "newton", "seconds": 1}]})"),
+                                        kNames, kMatters)
+                                  .value();
+  ASSERT_EQ(clips.ofRegions.size(), 2u);
+  EXPECT_EQ(clips.ofRegions[0].seconds(), 2.5) << "twice as long, and half a second late";
+  EXPECT_EQ(clips.ofRegions[1].seconds(), 2.5);
+  EXPECT_EQ(clips.whole.weights, clips.ofRegions[0].weights);
+}
+
+TEST(RegionalClips, OfATimelineMissAsMuchAsTheWorst) {
+  const Timeline timeline = timelineOf(R"({"seconds": 1, "events": [
+      {"at": 0, "to": {"a": 1}, "drive": "newton", "seconds": 1},
+      {"at": 0, "to": {"a": 1}, "drive": "spring", "frequency": 40, "region": "cheeks"}]})");
+  EXPECT_EQ(inRegions(timeline, kNames, kMatters)->missed,
+            bakeToPlay(timeline, "cheeks", kMatters[1], 2, 2.5)->missed);
+}
+
+TEST(RegionalClips, TurnHeadsAtOnceWhereEvenTheFirstRegionIsHeavy) {
+  const Timeline timeline = timelineOf(R"({"seconds": 1, "events": [
+      {"at": 0, "to": {"HeadYaw": 1}, "drive": "linear-force", "seconds": 1}]})");
+  const std::vector<Matter> heavy{{4, 1, 0}, {4, 1, 0}};
+  const RegionalClips clips = inRegions(timeline, kNames, heavy).value();
+  const auto yawAt = [](const Clip& clip, double seconds) {
+    return clip.weight(clip.momentAt(seconds), 0);
+  };
+  EXPECT_EQ(yawAt(clips.whole, 1), 1);
+  EXPECT_NEAR(yawAt(clips.ofRegions[0], 1), 0.5, 1e-4);
+}
+
+TEST(RegionalClips, AreRefusedWhereAnEventIsForARegionThatThereIsNot) {
+  const auto refused = inRegions(timelineOf(R"({"seconds": 1, "events": [
+      {"at": 0, "to": {"a": 1}, "drive": "newton", "region": "nose"}]})"),
+                                 kNames, kMatters);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().message,
+            "an event is for a region 'nose' that there is not; there is rest, cheeks.");
+}
+
+}  // namespace
+}  // namespace sweepface
