@@ -6,13 +6,14 @@
 #include "gltf/mesh_rig.hpp"
 #include "gltf/same_vertices.hpp"
 #include "gltf/scene.hpp"
+#include "gltf/skins.hpp"
 #include "mesh/quads.hpp"
 #include "mesh/weld.hpp"
 
 namespace sweepface {
 namespace {
 
-/// Whether steps of a quantisation are undone by a skin, which the rig knows nothing of.
+/// Whether steps of a quantization are undone by a skin that could not place the mesh.
 bool hasStepsThatASkinUndoes(const gltf::Document& document, const gltf::Parts& parts) {
   std::vector<bool> isSkinned(document.list("meshes").size());
   for (const gltf::Json& node : document.list("nodes"))
@@ -21,16 +22,18 @@ bool hasStepsThatASkinUndoes(const gltf::Document& document, const gltf::Parts& 
       isSkinned[*mesh] = true;
   return std::ranges::any_of(parts.runs, [&](const gltf::Run& run) {
     const auto position = gltf::accessorAt(document, run.position);
-    return position && position->type != gltf::Component::float32 &&
-           isSkinned[parts.meshes[run.rigMesh].mesh];
+    const gltf::RigMesh& mesh = parts.meshes[run.rigMesh];
+    return position && position->type != gltf::Component::float32 && isSkinned[mesh.mesh] &&
+           mesh.world == gltf::Affine{};
   });
 }
 
 Result<RigSource> readGltf(std::string_view bytes, const std::filesystem::path& folder) {
   auto document = gltf::parseDocument(bytes, folder);
   if (!document) return std::unexpected(document.error());
-  const auto parts = gltf::findParts(*document);
+  auto parts = gltf::findParts(*document);
   if (!parts) return std::unexpected(parts.error());
+  gltf::placeBySkins(*document, *parts);
   auto read = gltf::readMeshRig(*document, *parts);
   if (!read) return std::unexpected(read.error());
   auto& [rig, facePart] = *read;

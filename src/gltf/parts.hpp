@@ -18,7 +18,7 @@ inline constexpr std::size_t listMode = 4, stripMode = 5, fanMode = 6;
 struct RigMesh {
   std::size_t mesh = 0;              ///< in the list of meshes
   std::vector<std::size_t> targets;  ///< [its targets] the rig's target of the same name
-  Affine world;                      ///< how its first node places it in the scene
+  Affine world;                      ///< how its first node, or its skin, places it in the scene
 };
 
 /// Vertices that primitives of one mesh share: those that agree in the accessors of POSITION and of

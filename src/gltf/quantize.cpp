@@ -9,6 +9,8 @@
 
 #include "sweepface/box.hpp"
 
+#include "gltf/skins.hpp"
+
 namespace sweepface::gltf {
 namespace {
 
@@ -199,34 +201,16 @@ class Undoer {
 
   Result<std::size_t> boundAgain(std::size_t number, const Encoding& e) {
     Json skin = json_["skins"][number];
-    const std::size_t joints = listOf(skin, "joints").size();
-    std::vector<double> matrices;
-    if (find(skin, "inverseBindMatrices")) {
-      const auto index =
-          findIndex(skin, "inverseBindMatrices", scene_.document.list("accessors").size());
-      if (!index) return cannot("a skin of its scene has no matrices");
-      const auto accessor = accessorAt(scene_.document, *index);
-      if (!accessor) return std::unexpected(accessor.error());
-      if (accessor->components() != 16) return cannot("a skin of its scene has no matrices");
-      auto values = decode(scene_.document, *accessor);
-      if (!values) return std::unexpected(values.error());
-      matrices = std::move(*values);
-    } else {
-      for (std::size_t k = 0; k < 16 * joints; ++k) matrices.push_back(k % 16 % 5 == 0);
-    }
-    for (std::size_t m = 0; m + 16 <= matrices.size(); m += 16) enlarge(&matrices[m], e);
-    skin["inverseBindMatrices"] = builder_.add(pack(matrices, 16), Use::other);
+    auto matrices = inverseBindMatrices(scene_.document, number);
+    if (!matrices) return cannot(matrices.error().message);
+    for (Affine& matrix : *matrices) matrix = matrix * fromCube(e);
+    skin["inverseBindMatrices"] = builder_.add(packMatrices(*matrices), Use::other);
     json_["skins"].push_back(std::move(skin));
     return json_["skins"].size() - 1;
   }
 
-  /// A matrix, column after column, times scaling and moving into the cube.
-  static void enlarge(double* matrix, const Encoding& e) {
-    for (int row = 0; row < 4; ++row) {
-      matrix[12 + row] +=
-          matrix[row] * e.middle.x + matrix[4 + row] * e.middle.y + matrix[8 + row] * e.middle.z;
-      for (int column = 0; column < 3; ++column) matrix[4 * column + row] *= e.half;
-    }
+  static Affine fromCube(const Encoding& e) {
+    return {{{{e.half, 0, 0}, {0, e.half, 0}, {0, 0, e.half}}}, e.middle};
   }
 
   void addExtension(const char* list) {

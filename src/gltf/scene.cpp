@@ -11,6 +11,7 @@
 #include "gltf/left_to_face.hpp"
 #include "gltf/resources.hpp"
 #include "gltf/same_vertices.hpp"
+#include "gltf/skins.hpp"
 #include "io/text.hpp"
 
 namespace sweepface::gltf {
@@ -272,6 +273,7 @@ Result<Scene> makeScene(Document document, const Parts& parts, const Polygons& p
   Emptier emptier(document, parts, *left);
   emptier.run();
   std::vector<bool> touched = emptier.touched();
+  bindWherePlaced(document, parts, touched);
   if (auto ok = ImageEmbedder(document, folder, scene.warnings).run(); !ok)
     return std::unexpected(ok.error());
   touched.resize(document.views.size());

@@ -1,0 +1,222 @@
+// Meshes that are bound from elsewhere than where their skins show them.
+#include "gltf/skins.hpp"
+
+#include "gltf/written.hpp"
+
+namespace sweepface {
+namespace {
+
+using namespace sweepface::testing;
+
+struct Joint {
+  Vec3 place;
+  double size = 1;
+  double turn = 0;  // about z
+};
+
+Json nodeOf(const Joint& joint) {
+  const Vec3& p = joint.place;
+  return {{"translation", {p.x, p.y, p.z}},
+          {"rotation", {0, 0, std::sin(joint.turn / 2), std::cos(joint.turn / 2)}},
+          {"scale", {joint.size, joint.size, joint.size}}};
+}
+
+/// Takes what is shown at size · p + shift to joints that only moved there.
+std::vector<float> bindingOf(const std::vector<Joint>& joints, double size, const Vec3& shift) {
+  std::vector<float> numbers;
+  for (const Joint& joint : joints) {
+    const Vec3 t = shift - joint.place;
+    for (const double number :
+         {size, 0.0, 0.0, 0.0, 0.0, size, 0.0, 0.0, 0.0, 0.0, size, 0.0, t.x, t.y, t.z, 1.0})
+      numbers.push_back(static_cast<float>(number));
+  }
+  return numbers;
+}
+
+/// Shows a mesh with a skin of its own, of these joints. Returns the skin.
+std::size_t addSkin(Glb& glb, std::size_t node, const std::vector<Joint>& joints,
+                    const std::vector<float>& binding) {
+  Json numbers = Json::array();
+  for (const Joint& joint : joints) numbers.push_back(glb.add("nodes", nodeOf(joint)));
+  const std::size_t matrices =
+      glb.addAccessor(glb.addView(bytesOf(binding)), 5126, "MAT4", binding.size() / 16);
+  const std::size_t skin =
+      glb.add("skins", {{"joints", std::move(numbers)}, {"inverseBindMatrices", matrices}});
+  glb.json["nodes"][node]["skin"] = skin;
+  return skin;
+}
+
+const std::vector<Joint> kJoints{{{2, 0, 0}}, {{2, 3, 0}}};
+
+/// The sheet in steps of a 64th, as a skin shows it `away` from where it is.
+Glb quantizedFace(const Vec3& away = {}) {
+  Glb glb = smallFace();
+  std::vector<std::int16_t> steps, deltas;
+  for (const Vec3& p : sheetPositions())
+    for (const double x : {p.x, p.y, p.z, 0.0}) steps.push_back(static_cast<std::int16_t>(64 * x));
+  for (const Vec3& d : openDeltas())
+    for (const double x : {d.x, d.y, d.z, 0.0}) deltas.push_back(static_cast<std::int16_t>(64 * x));
+  glb.primitive()["attributes"]["POSITION"] =
+      glb.addAccessor(glb.addView(bytesOf(steps), 8), 5122, "VEC3", 9);
+  const std::size_t open = glb.addAccessor(glb.addView(bytesOf(deltas), 8), 5122, "VEC3", 9);
+  glb.primitive()["targets"] = Json::array({Json::object({{"POSITION", open}})});
+  glb.json["meshes"][0]["extras"]["targetNames"] = {"open"};
+  addSkin(glb, 0, kJoints, bindingOf(kJoints, 1.0 / 64, away));
+  return glb;
+}
+
+std::vector<Vec3> moved(std::vector<Vec3> positions, const Vec3& by) {
+  for (Vec3& p : positions) p += by;
+  return positions;
+}
+
+void expectNear(const std::vector<Vec3>& found, const std::vector<Vec3>& expected) {
+  ASSERT_EQ(found.size(), expected.size());
+  for (std::size_t v = 0; v < found.size(); ++v)
+    EXPECT_LE(norm(found[v] - expected[v]), 1e-5) << "vertex " << v;
+}
+
+/// Where a skin shows a mesh that hangs on one of its joints, at rest.
+std::vector<Vec3> shown(const Written& glb, std::size_t node, std::size_t joint) {
+  const std::size_t skin = glb.json["nodes"][node]["skin"], mesh = glb.json["nodes"][node]["mesh"];
+  const Json& json = glb.json["skins"][skin];
+  const auto m = glb.numbers(json["inverseBindMatrices"]);
+  const Json& t = glb.json["nodes"][json["joints"][joint].get<std::size_t>()]["translation"];
+  std::vector<Vec3> list = glb.vectors(glb.attribute("POSITION", mesh));
+  for (Vec3& p : list) {
+    const double* c = &m[16 * joint];
+    p = {c[0] * p.x + c[12] + t[0].get<double>(), c[5] * p.y + c[13] + t[1].get<double>(),
+         c[10] * p.z + c[14] + t[2].get<double>()};
+  }
+  return list;
+}
+
+TEST(Skins, PlaceWhatTheyAloneUndo) {
+  const RigSource source = read(quantizedFace({5, 6, 7}));
+  const auto expected = moved(sheetPositions(), {5, 6, 7});
+  expectNear(source.rig.neutral.positions, expected);
+  std::vector<Vec3> open = expected;
+  for (std::size_t v = 0; v < 9; ++v) open[v] += openDeltas()[v];
+  expectNear(source.rig.targets[0].positions, open);
+  EXPECT_TRUE(source.warnings.empty()) << source.warnings[0];
+}
+
+TEST(Skins, OfSeveralMeshesPlaceThemInOneScene) {
+  Glb glb = quantizedFace({5, 6, 7});
+  Json eye = glb.json["meshes"][0];
+  eye["name"] = "eye";
+  glb.add("meshes", std::move(eye));
+  const std::size_t node = glb.add("nodes", {{"mesh", 1}});
+  addSkin(glb, node, kJoints, bindingOf(kJoints, 1.0 / 32, {-9, 0, 0}));
+  std::vector<Vec3> expected = moved(sheetPositions(), {5, 6, 7});
+  for (const Vec3& p : sheetPositions()) expected.push_back(2 * p - Vec3{9, 0, 0});
+  expectNear(read(glb).rig.neutral.positions, expected);
+}
+
+TEST(Skins, ShowWhatIsWrittenWhereItWas) {
+  for (const bool quantize : {false, true}) {
+    const Rig rig = converted(quantizedFace({5, 6, 7}));
+    const Written glb = write(rig, {.quantize = quantize});
+    for (const std::size_t joint : {0u, 1u}) {
+      const auto places = shown(glb, 0, joint), surface = surfacePositions(rig);
+      ASSERT_EQ(places.size(), surface.size());
+      for (std::size_t v = 0; v < places.size(); ++v)
+        EXPECT_LE(norm(places[v] - surface[v]), 1e-4) << "vertex " << v;
+    }
+  }
+}
+
+TEST(Skins, OfTheSceneTakeTheirMatricesPlaces) {
+  const Glb source = quantizedFace({5, 6, 7});
+  const Written glb = write(converted(source));
+  EXPECT_EQ(glb.json["skins"][0]["inverseBindMatrices"],
+            source.json["skins"][0]["inverseBindMatrices"]);
+  EXPECT_EQ(glb.json["skins"].size(), 1u);
+  EXPECT_EQ(glb.numbers(glb.json["skins"][0]["inverseBindMatrices"]),
+            (std::vector<double>{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -2, 0,  0, 1,  //
+                                 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -2, -3, 0, 1}));
+}
+
+TEST(Skins, ThatShowOtherMeshesTooStayForThem) {
+  Glb glb = quantizedFace();
+  const std::size_t shirt = glb.add(
+      "meshes", {{"primitives",
+                  Json::array({{{"attributes", {{"POSITION", glb.addVectors({{}, {}, {}})}}}}})}});
+  const std::size_t node = glb.add("nodes", {{"mesh", shirt}, {"skin", 0}});
+  const Json before = glb.json["skins"][0];
+  const Written written = write(converted(glb));
+  ASSERT_EQ(written.json["skins"].size(), 2u);
+  EXPECT_EQ(written.json["skins"][0], before);
+  EXPECT_EQ(written.numbers(before["inverseBindMatrices"])[0], 1.0 / 64);
+  EXPECT_EQ(written.json["nodes"][node]["skin"], 0);
+  EXPECT_EQ(written.json["nodes"][0]["skin"], 1);
+  EXPECT_EQ(written.numbers(written.json["skins"][1]["inverseBindMatrices"])[0], 1);
+}
+
+TEST(Skins, WithoutMatricesPlaceByTheirJoints) {
+  Glb glb = smallFace();
+  glb.add("nodes", nodeOf({{0, 0, 4}, 2}));
+  glb.add("skins", {{"joints", {1}}});
+  glb.json["nodes"][0]["skin"] = 0;
+  std::vector<Vec3> expected = sheetPositions();
+  for (Vec3& p : expected) p = 2 * p + Vec3{0, 0, 4};
+  expectNear(read(glb).rig.neutral.positions, expected);
+  const Written written = write(converted(glb));
+  EXPECT_EQ(written.numbers(written.json["skins"][0]["inverseBindMatrices"]),
+            (std::vector<double>{0.5, 0, 0, 0, 0, 0.5, 0, 0, 0, 0, 0.5, 0, 0, 0, -2, 1}));
+}
+
+TEST(Skins, ThatRoundALittlePlaceNothing) {
+  Glb glb = smallFace();
+  auto binding = bindingOf(kJoints, 1 + 2e-5, {1e-5, 0, 0});
+  addSkin(glb, 0, kJoints, binding);
+  EXPECT_EQ(read(glb).rig.neutral.positions, sheetPositions());
+}
+
+TEST(Skins, WhoseJointsHaveTurnedPlaceWhatIsOfAnotherSize) {
+  const std::vector<Joint> turned{{{2, 0, 0}, 1, 0.5}, {{2, 3, 0}}};
+  for (const double size : {1.0, 0.01}) {
+    Glb glb = smallFace();
+    addSkin(glb, 0, turned, bindingOf(kJoints, size, {}));
+    std::vector<Vec3> expected = sheetPositions();
+    for (Vec3& p : expected)
+      if (size != 1) {
+        const Vec3 q = size * p - Vec3{2, 0, 0};
+        p = Vec3{std::cos(0.5) * q.x - std::sin(0.5) * q.y,
+                 std::sin(0.5) * q.x + std::cos(0.5) * q.y, q.z} +
+            Vec3{2, 0, 0};
+      }
+    expectNear(read(glb).rig.neutral.positions, expected);
+  }
+}
+
+/// What could be placed in more than one way, or in none, stays as it stands.
+TEST(Skins, ThatCannotPlaceLeaveAMeshAsItStands) {
+  const std::vector<std::function<void(Glb&)>> faults{
+      [](Glb& glb) { glb.add("nodes", {{"mesh", 0}}); },
+      [](Glb& glb) {
+        const std::size_t node = glb.add("nodes", {{"mesh", 0}});
+        addSkin(glb, node, kJoints, bindingOf(kJoints, 3, {}));
+      },
+      [](Glb& glb) { glb.json["nodes"][1]["scale"] = {-1, 1, 1}; },
+      [](Glb& glb) { glb.json["nodes"][1]["scale"] = {0, 1, 1}; },
+      [](Glb& glb) { glb.json["skins"][0]["joints"] = {77}; },
+      [](Glb& glb) { glb.json["skins"][0]["joints"] = Json::array(); },
+      [](Glb& glb) { glb.json["skins"][0]["joints"] = {1, 2, 1}; },
+      [](Glb& glb) {
+        const auto many = bindingOf(std::vector<Joint>(300), 3, {});
+        glb.json["skins"][0]["inverseBindMatrices"] =
+            glb.addAccessor(glb.addView(bytesOf(many)), 5126, "MAT4", 300);
+      },
+      [](Glb& glb) { glb.json["skins"][0]["inverseBindMatrices"] = glb.addVectors({{}, {}}); },
+      [](Glb& glb) { glb.json["nodes"][0]["skin"] = 5; }};
+  for (std::size_t k = 0; k < faults.size(); ++k) {
+    Glb glb = smallFace();
+    addSkin(glb, 0, kJoints, bindingOf(kJoints, 0.25, {1, 1, 1}));
+    faults[k](glb);
+    EXPECT_EQ(read(glb).rig.neutral.positions, sheetPositions()) << "fault " << k;
+  }
+}
+
+}  // namespace
+}  // namespace sweepface
