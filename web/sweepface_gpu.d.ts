@@ -9,8 +9,8 @@ import type {FaceMesh} from './sweepface_mesh.js';
  */
 export const SWEEPFACE_GLSL: string;
 
-/** A face in a scene whose vertices are evaluated by the vertex shader of its materials, which are its own until it is
- * disposed of. For `WebGLRenderer`; exporters see the neutral. */
+/** A face in a scene whose vertices are evaluated by the vertex shader of its materials, which are its own as
+ * long as it has them; `update` sees to those that were put in since. For `WebGLRenderer`; exporters see the neutral. */
 export class SweepfaceGpuMesh extends FaceMesh {
   constructor(face: Sweepface, materials?: Material | Material[]);
   /** Bytes of textures on the graphics card, and of them those that change every frame. */

@@ -116,7 +116,7 @@ function check(material) {
 /** A face in a scene that follows its weights without its vertices leaving the graphics card. */
 export class SweepfaceGpuMesh extends FaceMesh {
   #textures;
-  #followers;  // its materials, each once
+  #followers = new Set();  // materials
 
   constructor(face, materials) {
     const positions = faceFrom(face).shaderTables(), tangents = face.shaderTables(true);
@@ -134,10 +134,17 @@ export class SweepfaceGpuMesh extends FaceMesh {
     this.#textures = textures;
     this.customDepthMaterial = new MeshDepthMaterial({depthPacking: RGBADepthPacking});  // for shadows
     this.customDistanceMaterial = new MeshDistanceMaterial();
-    this.#followers = new Set([this.material, this.customDepthMaterial, this.customDistanceMaterial].flat());
-    this.#followers.forEach(check);  // all before the first is changed
-    for (const material of this.#followers) this.#patch(material);
     this.update();
+  }
+
+  /** Has the face followed by the materials that it has now, and by no others. */
+  prepare() {
+    const {material, customDepthMaterial, customDistanceMaterial} = this;
+    const all = new Set([material, customDepthMaterial, customDistanceMaterial].flat().filter(Boolean));
+    const fresh = [...all].filter((each) => !this.#followers.has(each));
+    fresh.forEach(check);  // all before the first is changed
+    for (const each of this.#followers) if (!all.has(each)) this.#release(each);
+    for (const each of fresh) this.#patch(each);
   }
 
   #patch(material) {
@@ -145,6 +152,7 @@ export class SweepfaceGpuMesh extends FaceMesh {
     material.dispose();  // what a renderer made of it before knows no face, or another
     const {onBeforeCompile, customProgramCacheKey} = material;
     const follow = {customProgramCacheKey: () => 'sweepface' + onBeforeCompile + customProgramCacheKey.call(material)};
+    this.#followers.add(material);
     own.set(material, {before: {onBeforeCompile, customProgramCacheKey}, follow});
     follow.onBeforeCompile = (shader, renderer) => {
       onBeforeCompile.call(material, shader, renderer);
@@ -163,6 +171,15 @@ export class SweepfaceGpuMesh extends FaceMesh {
           transformed = sweepfacePosition(position, sweepPlace, sweepBasis, sweepModes, sweepFactor);`);
     };
     Object.assign(material, follow);
+  }
+
+  #release(material) {
+    material.dispose();
+    const {before, follow} = own.get(material);
+    for (const hook of Object.keys(follow))  // what was put in its place later stays
+      if (material[hook] === follow[hook]) material[hook] = before[hook];
+    own.delete(material);
+    this.#followers.delete(material);
   }
 
   /** Bytes of textures on the graphics card, and of them those that change every frame. */
@@ -187,20 +204,16 @@ export class SweepfaceGpuMesh extends FaceMesh {
 
   /** Materials follow one face each. */
   materialsOfClone() {
-    const clone = (material) => Object.assign(material.clone(), own.get(material).before);
+    const clone = (material) => {
+      const {onBeforeCompile, customProgramCacheKey} = own.get(material)?.before ?? material;
+      return Object.assign(material.clone(), {onBeforeCompile, customProgramCacheKey});
+    };
     return Array.isArray(this.material) ? this.material.map(clone) : clone(this.material);
   }
 
   dispose() {
     this.#textures.dispose();
     super.dispose();
-    for (const material of this.#followers) {
-      material.dispose();
-      const {before, follow} = own.get(material);
-      for (const hook of Object.keys(follow))  // what was put in its place later stays
-        if (material[hook] === follow[hook]) material[hook] = before[hook];
-      own.delete(material);
-    }
-    this.#followers.clear();
+    for (const material of this.#followers) this.#release(material);
   }
 }

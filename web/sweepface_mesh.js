@@ -37,8 +37,8 @@ function addTo(geometry, {name, userData, attributes, groups, drawRange}) {
 }
 
 /**
- * A face in a scene. Weights are set at any time; `update` has `show` bring them to the screen, and `raycast` has `meet`
- * tell where rays meet it.
+ * A face in a scene. Weights are set at any time; `update` has `show` bring them to the screen, `prepare` see to what has
+ * changed otherwise, and `raycast` has `meet` tell where rays meet it.
  */
 export class FaceMesh extends Mesh {
   #stale = true;
@@ -91,9 +91,12 @@ export class FaceMesh extends Mesh {
   update(seconds = 0) {
     if (this.#isGone) return;
     if ((this.#moving && seconds > 0) || !Number.isFinite(seconds)) this.advance(seconds);
+    this.prepare();
     if (this.#stale) this.show();
     this.#stale = false;
   }
+
+  prepare() {}
 
   raycast(raycaster, hits) {
     if (!this.#isGone) this.meet(raycaster, hits);

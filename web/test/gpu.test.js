@@ -284,4 +284,47 @@ test('the vertex shader', options, (t) => withPage('blank.html', {files}, async 
     for (const name of ['hash', 'changed']) assert.ok(found[name][1][0] < 0.9 * found.plain[1][0], name);
     assert.deepEqual(complaints, []);
   });
+
+  await t.test('goes with materials that are put in later', async () => {
+    const found = await page.evaluate(async () => {
+      const THREE = await import('three');
+      const {SweepfaceGpuMesh} = await import('./sweepface_gpu.js');
+      const {pose, load} = globalThis, size = 256, scene = new THREE.Scene();
+      const renderer = new THREE.WebGLRenderer({canvas: new OffscreenCanvas(size, size), antialias: false});
+      const target = new THREE.WebGLRenderTarget(size, size), camera = new THREE.PerspectiveCamera(30, 1, 1, 1000);
+      const draw = (mesh) => {
+        mesh.geometry.computeBoundingSphere();
+        const {center, radius} = mesh.geometry.boundingSphere, pixels = new Uint8Array(4 * size * size);
+        camera.position.copy(center).add(new THREE.Vector3(0, 0, 4.2 * radius));
+        scene.add(mesh);
+        renderer.setRenderTarget(target);
+        renderer.render(scene, camera);
+        renderer.readRenderTargetPixels(target, 0, 0, size, size, pixels);
+        scene.remove(mesh);
+        return pixels;
+      };
+      const differing = (a, b) => a.filter((value, k) => value !== b[k]).length;
+      const given = new SweepfaceGpuMesh(await load(), new THREE.MeshNormalMaterial());
+      const late = new SweepfaceGpuMesh(await load()), put = new THREE.MeshNormalMaterial();
+      const neutral = draw(given);
+      for (const mesh of [given, late]) mesh.setWeights(pose);
+      late.update();
+      late.material = put;
+      for (const mesh of [given, late]) mesh.update();
+      const posed = draw(given), result = {moved: differing(posed, neutral), off: differing(posed, draw(late))};
+      const refused = (act) => { try { act(); } catch (error) { return error.message; } };
+      given.material = put;
+      result.message = refused(() => given.update());
+      late.material = new THREE.MeshBasicMaterial();
+      late.update();
+      given.update();
+      result.again = differing(posed, draw(given));
+      return result;
+    });
+    assert.ok(found.moved > 1000, `${found.moved}`);
+    assert.equal(found.off, 0);
+    assert.match(found.message, /follows a face already/);
+    assert.equal(found.again, 0, 'a material that a face has left follows another');
+    assert.deepEqual(complaints, []);
+  });
 }));
