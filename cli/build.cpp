@@ -35,24 +35,29 @@ void addOptions(CLI::App& app, BuildArguments& a) {
       "  sweepface wireframe face.sweep -o face.wire.json   # the way back");
 }
 
+std::string inExpression(const Built& built) {
+  return built.missedIn.empty() ? "" : fmt::format(" in '{}'", built.missedIn);
+}
+
 void printSummary(const BuildArguments& a, const Built& built, std::size_t bytes) {
   const Rig& rig = built.rig;
   fmt::print("{}: {} patches, {} points, {} targets, {} bytes\n", a.output,
              rig.surface.patchCount(), rig.surface.storedCount(), rig.targets.size(), bytes);
   if (!built.missed.empty())
     fmt::print("curves pass within {:.4g} of their points; the furthest is {}{}\n",
-               built.largestMiss, built.missed,
-               built.missedIn.empty() ? "" : fmt::format(" in '{}'", built.missedIn));
+               built.largestMiss, built.missed, inExpression(built));
 }
 
 // A point that is far off is most often one out of order, or a control of another patch.
 void warnOfMisses(const BuildArguments& a, const Built& built) {
   constexpr double kFar = 0.01;
   if (built.largestMiss <= kFar * built.diagonal) return;
-  printWarning(fmt::format(
-      "{}: {} misses one of its points by {:.3g}. Are its points in the order of the curve, with "
-      "enough nodes between?",
-      a.drawing, built.missed, built.largestMiss));
+  printWarning(
+      fmt::format("{}: {} misses one of its points by {:.3g}{}. {}", a.drawing, built.missed,
+                  built.largestMiss, inExpression(built),
+                  built.missedIn.empty()
+                      ? "Are its points in the order of the curve, with enough nodes between?"
+                      : "Does all that meets there move with it?"));
 }
 
 Result<int> runBuild(const BuildArguments& a) {

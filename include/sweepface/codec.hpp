@@ -38,8 +38,8 @@ class TargetsToCome {
   ~TargetsToCome();
 
   bool any() const { return rest_ != nullptr; }
-  /// Fills in the differences of the targets of the rig that came with this; after an error they
-  /// are as empty as before.
+  /// Fills in the differences of the targets of the rig that came with this, whose neutral and
+  /// surface must still be as they came; after an error they are as empty as before.
   Result<void> decode(Rig& rig);
 
  private:

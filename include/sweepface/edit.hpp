@@ -11,7 +11,7 @@ namespace sweepface {
 
 // Edits of a model. Each answers with the patches that may be others now, ascending; all other
 // patches evaluate to the same bits as before, in every pose. Where an edit fails the rig stays as
-// it was.
+// it was. One whose targets are not decoded yet is refused.
 using Patches = std::vector<Index>;
 
 /// Gives a ribbon other shape parameters. Fails beside a resonance (docs/mathematics.md).

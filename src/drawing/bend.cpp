@@ -112,6 +112,9 @@ class Bender {
   Result<void> factorise() {
     Eigen::SparseMatrix<double> matrix(unknowns_, unknowns_);
     matrix.setFromTriplets(entries_.begin(), entries_.end());
+    // What moves nothing, as the derivatives of a node where two patches meet, stays zero.
+    for (Index k = 0; k < unknowns_; ++k)
+      if (matrix.coeff(k, k) == 0) matrix.coeffRef(k, k) = 1;
     // Derivatives of every order come to the same scale.
     Eigen::VectorXd scale(unknowns_);
     for (Index k = 0; k < unknowns_; ++k)

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <limits>
+#include <set>
 
 #include "sweepface/box.hpp"
 #include "sweepface/eval.hpp"
@@ -27,6 +28,8 @@ namespace {
 constexpr double kDefaultTolerance = 0.0002;
 // An expression's derivatives below this share of the diagonal are none.
 constexpr double kTrace = 1e-5;
+// Nodes at one point may stand apart by such a share of the diagonal: models round each.
+constexpr double kSamePoint = 0.01;
 
 class Builder {
  public:
@@ -129,6 +132,12 @@ class Builder {
   }
 
   Result<void> placeNodes() {
+    for (const Drawing::Node& node : d_.nodes)
+      if (!node.with.empty() && node.at &&
+          norm(*node.at - *d_.nodes[woven_.nodes.at(node.with)].at) > kSamePoint * diagonal())
+        return refuse(node.place, fmt::format("node '{}' stands with '{}', but is drawn at another "
+                                              "place; leave out one of 'at' and 'with'",
+                                              node.name, node.with));
     for (Index n = 0; n < nodeCount(); ++n) {
       if (kind(n) == NodeKind::hanging) continue;
       const Drawing::Node& node = d_.nodes[n];
@@ -149,6 +158,10 @@ class Builder {
     const Drawing::Node& node = d_.nodes[n];
     const auto fan = fanOf(n, f);
     if (!fan) return leavesNot(n, f);
+    for (std::size_t other = 0; other < f; ++other)
+      if (fanOf(n, other) == fan)
+        return refuse(node.place, fmt::format("two jets of node '{}' are of the part along '{}'",
+                                              node.name, node.jets[f].along));
     std::string needed, unknown;
     for (int k = 1; k < 9; ++k) {
       const std::string word = fmt::format(" {}", kJetWords[static_cast<std::size_t>(k)]);
@@ -183,8 +196,11 @@ class Builder {
     const int fan = fanOf(n, f).value_or(0);
     for (int k = 1; k < 9; ++k) {
       const Turned axis = kind(n) == NodeKind::crossing ? axes_[n][k] : Turned{k, 1};
-      if (given[k] && jets_->at(n, axis.component, fan) >= 0)
+      if (!given[k]) continue;
+      if (jets_->at(n, axis.component, fan) >= 0)
         set(pose, n, axis.component, axis.sign * *given[k], fan);
+      else if (kind(n) == NodeKind::creased && woven_.connectivity.fans[n][fan].regular)
+        repeated_.push_back({pose, n, f, k, *given[k]});
     }
     return {};
   }
@@ -225,17 +241,19 @@ class Builder {
     return {};
   }
 
-  // Nodes at one point move together.
+  // Nodes at one point move together; those with places of their own, as models have them, but for
+  // a little.
   Result<void> shareMoves(const Drawing::Expression& expression, Offsets& offsets) const {
     for (Index n = 0; n < nodeCount(); ++n) {
-      if (d_.nodes[n].with.empty() || d_.nodes[n].at) continue;
+      if (d_.nodes[n].with.empty()) continue;
       auto &own = offsets.nodes[n], &host = offsets.nodes[woven_.nodes.at(d_.nodes[n].with)];
-      if (own && host && *own != *host)
+      const double apart = norm(own.value_or(Vec3{}) - host.value_or(Vec3{}));
+      if (d_.nodes[n].at ? apart > kSamePoint * diagonal() : own && host && apart > 0)
         return refuse(expression.place,
                       fmt::format("nodes '{}' and '{}' are one point and cannot move to different "
                                   "places",
                                   d_.nodes[n].with, d_.nodes[n].name));
-      if (own && !host) host = own;
+      if (own && !host && !d_.nodes[n].at) host = own;
     }
     for (Index n = 0; n < nodeCount(); ++n)
       if (!d_.nodes[n].with.empty() && !offsets.nodes[n])
@@ -268,6 +286,7 @@ class Builder {
     if (!drawn) return std::unexpected(drawn.error());
     if (auto ok = bendLeast(plain_, patchSizes(d_, woven_), known_, drawn->wishes, poses_); !ok)
       return refuse({}, ok.error().message);
+    if (auto ok = checkRepeated(); !ok) return ok;
     forgetTraces();
     for (const Pose& pose : poses_)
       for (const Vec3& v : pose)
@@ -275,6 +294,25 @@ class Builder {
           if (!(std::abs(x) <= std::numeric_limits<float>::max()))
             return refuse({}, "a vector of the model is beyond what a float can hold");
     return measureMiss(*drawn);
+  }
+
+  // What a creased node's jet has from the part beside it must be said the same in both.
+  Result<void> checkRepeated() const {
+    std::vector<Vec3> vectors(plain_.vectorCount());
+    std::size_t settled = poses_.size();
+    for (const Repeated& r : repeated_) {
+      if (r.pose != settled) plain_.settle(poses_[settled = r.pose], vectors);
+      const Index v = jetVector(plain_, *jets_, r.node, r.component, *fanOf(r.node, r.jet));
+      const double apart = norm(vectors[v] - r.value);
+      if (apart <= 1e-6 * std::max(norm(r.value), diagonal())) continue;
+      const Drawing::Node& node = d_.nodes[r.node];
+      return refuse(r.pose == 0 ? node.place : d_.expressions[r.pose - 1].place,
+                    fmt::format("the jet of node '{}' along '{}' has its '{}' from the part of the "
+                                "node before it, which says another; change it there, too",
+                                node.name, node.jets[r.jet].along,
+                                kJetWords[static_cast<std::size_t>(r.component)]));
+    }
+    return {};
   }
 
   // Bending dies away along the curves and is never nothing. What moves nobody visibly is not kept:
@@ -320,6 +358,8 @@ class Builder {
     Box box;
     for (const Drawing::Node& node : d_.nodes)
       if (node.at) box.include(*node.at);
+    for (const Drawing::Curve& curve : d_.curves)
+      for (const Vec3& point : curve.points) box.include(point);
     return norm(box.size());
   }
 
@@ -333,13 +373,35 @@ class Builder {
   std::vector<bool> known_;       // [storedCount]
   std::vector<Pose> poses_;       // the neutral, then what every expression adds
   std::vector<Offsets> offsets_;  // [expressions]
+  // What jets tell that other ones decide, in the order of poses.
+  struct Repeated {
+    std::size_t pose;
+    Index node;
+    std::size_t jet;
+    int component;
+    Vec3 value;
+  };
+  std::vector<Repeated> repeated_;
   Built built_;
 };
 
 }  // namespace
 }  // namespace drawing
 
-Result<Built> build(const Drawing& d) {
+namespace {
+
+/// Without the ribbons that no curve belongs to: a drawing may declare more than it uses.
+Drawing withoutIdleRibbons(Drawing d) {
+  std::set<std::string_view> used;
+  for (const Drawing::Curve& curve : d.curves) used.insert(curve.ribbon);
+  std::erase_if(d.ribbons, [&](const Drawing::Ribbon& r) { return !used.contains(r.name); });
+  return d;
+}
+
+}  // namespace
+
+Result<Built> build(const Drawing& whole) {
+  const Drawing d = withoutIdleRibbons(whole);
   auto woven = drawing::weave(d);
   if (!woven) return std::unexpected(woven.error());
   return drawing::Builder(d, std::move(*woven)).build();

@@ -74,16 +74,8 @@ class Drawer {
     return std::max(1, static_cast<int>(s_.connectivity().fans[n].size()));
   }
 
-  // A derivative of a node, or of a fan of it; -1 if it is predicted. A regular fan's first sector
-  // has those too that other fans give it.
-  Index vectorOf(Index n, int k, int f) const {
-    const Index stored = jets_.at(n, k, f);
-    const Connectivity& c = s_.connectivity();
-    if (stored >= 0 || c.kinds[n] != NodeKind::creased || !c.fans[n][f].regular) return stored;
-    const auto& sectors = c.stars[n].sectors;
-    const Index corner = sectors[static_cast<std::size_t>(c.fans[n][f].first) % sectors.size()];
-    return s_.cornerJet(corner / 4, corner % 4, k / 3, k % 3).vector;
-  }
+  // A derivative of a node, or of a fan of it; -1 if it is predicted.
+  Index vectorOf(Index n, int k, int f) const { return jetVector(s_, jets_, n, k, f); }
 
   bool isFirst(Index n) const { return nodesAt_[w_.nodes[n].point][0] == n; }
 

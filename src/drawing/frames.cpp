@@ -37,4 +37,15 @@ Jet turnedJet(const Jet& jet, double angle) {
   return result;
 }
 
+Index jetVector(const Surface& surface, const StoredJets& jets, Index node, int component,
+                int fan) {
+  const Index stored = jets.at(node, component, fan);
+  const Connectivity& c = surface.connectivity();
+  if (stored >= 0 || c.kinds[node] != NodeKind::creased || !c.fans[node][fan].regular)
+    return stored;
+  const auto& sectors = c.stars[node].sectors;
+  const Index corner = sectors[static_cast<std::size_t>(c.fans[node][fan].first) % sectors.size()];
+  return surface.cornerJet(corner / 4, corner % 4, component / 3, component % 3).vector;
+}
+
 }  // namespace sweepface::drawing

@@ -20,4 +20,8 @@ double chartAngle(const Surface& surface, const StoredJets& jets, Index node, Ha
 /// of the chart if the jet's own x axis lies at `angle` there.
 Jet turnedJet(const Jet& jet, double angle);
 
+/// The vector of a node's derivative, or of a fan's of it; -1 if it is predicted. A regular fan's
+/// first sector has those too that other fans give it.
+Index jetVector(const Surface& surface, const StoredJets& jets, Index node, int component, int fan);
+
 }  // namespace sweepface::drawing

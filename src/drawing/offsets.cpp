@@ -63,12 +63,13 @@ class Mover {
     return {};
   }
 
-  // A node that is moved itself stays where that puts it.
+  // A node that is moved itself stays where that puts it. One on a side that is not drawn at a
+  // place goes where the surface takes it.
   Result<void> takeAlong(const Drawing::Move& move, Index curve, Index node) {
     auto& offset = offsets_.nodes[node];
-    const bool onASide = woven_.wireframe.nodes[node].point < 0;  // and goes with it
-    if (onASide || taken_[node] == kItself) return {};
-    if (offset && *offset != move.by)
+    if (taken_[node] == kItself) return {};
+    const bool isDrawn = d_.nodes[node].at || !d_.nodes[node].with.empty();
+    if (isDrawn && offset && *offset != move.by)
       return failAt(d_, move.place,
                     fmt::format("curves '{}' and '{}' take node '{}' to different places; move the "
                                 "node itself",

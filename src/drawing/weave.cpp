@@ -223,9 +223,8 @@ class Weaver {
     }
     for (const Drawing::Curve& curve : d_.curves) {
       const Index start = find(woven_.nodes, curve.from), end = find(woven_.nodes, curve.to);
-      const Drawing::Node &from = d_.nodes[start], &to = d_.nodes[end];
       const auto first = woven_.placeOf(d_, start), second = woven_.placeOf(d_, end);
-      const bool drawn = !curve.points.empty() || from.jets.empty() || to.jets.empty();
+      const bool drawn = !curve.points.empty() || !hasJets(start) || !hasJets(end);
       if (curve.collapsed || !drawn || !first || !second) continue;
       Vec3 last = *first;
       std::size_t number = 0;
@@ -243,6 +242,12 @@ class Weaver {
                                                curve.name));
     }
     return {};
+  }
+  // Of the point that a node stands with, if it has none of its own.
+  bool hasJets(Index node) const {
+    const Drawing::Node& n = d_.nodes[node];
+    return !n.jets.empty() ||
+           (!n.with.empty() && !d_.nodes[find(woven_.nodes, n.with)].jets.empty());
   }
   Result<void> setEdges() { return chooseEdges(d_, woven_); }
 

@@ -12,7 +12,7 @@
 #include "sweepface/edit.hpp"
 
 #include "edit/affected.hpp"
-#include "edit/check_index.hpp"
+#include "edit/checks.hpp"
 #include "edit/rest.hpp"
 #include "surface/stored_jets.hpp"
 
@@ -49,7 +49,11 @@ class ControlMover {
     const StoredJets jets(rig_.surface);
     for (Index node : rewritten_)
       for (int k = 1; k < 9; ++k) affected.addVector(jets.at(node, k));
-    return std::pair(std::move(rig_), affected.patches());
+    Patches patches = affected.patches();
+    if (patches.empty())
+      return fail("Nothing stored moves the control curves of curve " + curveName() +
+                  "; move its nodes.");
+    return std::pair(std::move(rig_), std::move(patches));
   }
 
  private:
@@ -173,6 +177,7 @@ class ControlMover {
     const std::vector<Index> unknowns(stored.begin(), stored.end());
     const auto height = static_cast<Index>(rows.size()),
                width = static_cast<Index>(unknowns.size());
+    if (width == 0) return;
     Eigen::MatrixXd composed = Eigen::MatrixXd::Zero(height, width);
     Eigen::MatrixXd wanted(height, 3);
     for (Index r = 0; r < height; ++r) {
@@ -284,6 +289,7 @@ Result<Patches> moveControls(Rig& rig, const ControlMove& move, Index target) {
   if (target >= 0)
     if (auto ok = edit::checkIndex(target, rig.targets.size(), "target"); !ok)
       return std::unexpected(ok.error());
+  if (auto ok = edit::checkWhole(rig); !ok) return std::unexpected(ok.error());
   if (!isFinite(move.second) || !isFinite(move.third))
     return fail("A control curve cannot move by what is not finite.");
   auto moved = ControlMover(rig, move).run(target);

@@ -3,7 +3,7 @@
 #include <map>
 
 #include "edit/affected.hpp"
-#include "edit/check_index.hpp"
+#include "edit/checks.hpp"
 #include "edit/rest.hpp"
 #include "surface/stored_jets.hpp"
 
@@ -15,6 +15,7 @@ using edit::checkIndex;
 Result<Patches> setShape(Rig& rig, Index ribbon, const Shape& shape) {
   if (auto ok = checkIndex(ribbon, rig.surface.wireframe().ribbons.size(), "ribbon"); !ok)
     return std::unexpected(ok.error());
+  if (auto ok = edit::checkWhole(rig); !ok) return std::unexpected(ok.error());
   Wireframe wireframe = rig.surface.wireframe();
   if (wireframe.ribbons[ribbon] == shape) return Patches{};
   wireframe.ribbons[ribbon] = shape;
@@ -55,6 +56,7 @@ Result<Patches> moveNodes(Rig& rig, std::span<const NodeMove> moves, Index targe
   if (target >= 0)
     if (auto ok = checkIndex(target, rig.targets.size(), "target"); !ok)
       return std::unexpected(ok.error());
+  if (auto ok = edit::checkWhole(rig); !ok) return std::unexpected(ok.error());
   // Several nodes may stand at one point, which moves once and takes all of them along.
   const Wireframe& w = rig.surface.wireframe();
   std::map<Index, NodeMove> ofPoint;

@@ -132,8 +132,9 @@ class ClipReader {
           "the channels of its animation have more values than a clip can hold; export it in "
           "parts.");
     if (times->empty() || values->size() != times->size() * track.names.size() * (cubic ? 3 : 1))
-      in.refuse(fmt::format("it has {} values for {} keys of {} targets", values->size(),
-                            times->size(), track.names.size()));
+      in.refuse(fmt::format("it has {} values for {} keys of {} targets{}", values->size(),
+                            times->size(), track.names.size(),
+                            cubic ? ", and a cubic spline three for each" : ""));
     if (std::ranges::adjacent_find(*times, std::greater_equal()) != times->end())
       in.refuse("its times do not increase");
     if (!times->empty() && !(isPlausibleTime(times->front()) && isPlausibleTime(times->back())))

@@ -31,38 +31,82 @@ std::vector<std::optional<std::size_t>> skinsOfMeshes(const Document& document) 
   return found;
 }
 
-bool isNear(const Affine& a, const Affine& b, double tolerance) {
-  for (std::size_t k = 0; k < 3; ++k)
-    if (norm(a.axes[k] - b.axes[k]) > tolerance * norm(b.axes[k])) return false;
-  return true;
-}
-
-double sizeOf(const Affine& a) {
-  return std::cbrt(std::abs(dot(cross(a.axes[0], a.axes[1]), a.axes[2])));
-}
-
-/// How a skin places what is bound to it; nothing where that is as it stands.
-std::optional<Affine> placeAtRest(const Document& document, const std::vector<Affine>& world,
-                                  std::size_t skin) {
-  const auto matrices = inverseBindMatrices(document, skin);
-  const Json& joints = listOf(document.list("skins")[skin], "joints");
-  if (!matrices || joints.empty()) return std::nullopt;
-  std::vector<Affine> shown;
-  double reach = 0;
-  for (std::size_t j = 0; j < joints.size(); ++j) {
-    const auto joint = asIndex(joints[j], world.size());
-    if (!joint) return std::nullopt;
-    shown.push_back(world[*joint] * (*matrices)[j]);
-    reach = std::max(reach, norm(world[*joint].origin));
-    if (!shown[j].isFinite() || shown[j].isSingular() || shown[j].mirrors()) return std::nullopt;
+/// How much of all vertices hangs on each joint of a mesh [joints].
+std::vector<double> weightsOfJoints(const Document& document, const Parts& parts,
+                                    std::size_t rigMesh, std::size_t joints) {
+  std::vector<double> sums(joints, 0.0);
+  const std::size_t accessors = document.list("accessors").size();
+  std::size_t left = document.mostElements();
+  for (const Part& part : parts.parts) {
+    if (parts.runs[part.run].rigMesh != rigMesh) continue;
+    const Json& attributes = primitiveOf(document, parts, part)["attributes"];
+    for (int set = 0;; ++set) {
+      const auto joint = findIndex(attributes, "JOINTS_" + std::to_string(set), accessors),
+                 weight = findIndex(attributes, "WEIGHTS_" + std::to_string(set), accessors);
+      if (!joint || !weight) break;
+      const auto of = [&](std::size_t index) -> std::vector<double> {
+        const auto accessor = accessorAt(document, index);
+        if (!accessor || accessor->count > left) return {};
+        return decode(document, *accessor).value_or(std::vector<double>{});
+      };
+      const std::vector<double> numbers = of(*joint), shares = of(*weight);
+      left -= std::min(left, numbers.size() / 4);
+      for (std::size_t k = 0; k < numbers.size() && k < shares.size(); ++k)
+        if (numbers[k] >= 0 && numbers[k] < static_cast<double>(joints))
+          sums[static_cast<std::size_t>(numbers[k])] += shares[k];
+    }
   }
-  const Affine& first = shown.front();
-  const auto agrees = [&](const Affine& other) { return isNear(other, first, 1e-3); };
-  if (std::abs(sizeOf(first) - 1) < 1e-3 && !std::ranges::all_of(shown, agrees))
-    return std::nullopt;
-  if (isNear(first, {}, 1e-4) && norm(first.origin) <= 1e-4 * reach) return std::nullopt;
-  return first;
+  return sums;
 }
+
+/// But for what rounding does to places as far from the origin as `reach`.
+bool isNear(const Affine& a, const Affine& b, double reach) {
+  constexpr double kRounding = 1e-5;
+  for (std::size_t k = 0; k < 3; ++k)
+    if (norm(a.axes[k] - b.axes[k]) > kRounding * norm(b.axes[k])) return false;
+  return norm(a.origin - b.origin) <= kRounding * reach;
+}
+
+/// Places what is bound to one skin.
+class Placer {
+ public:
+  Placer(const Document& document, const std::vector<Affine>& world, std::size_t skin) {
+    const auto matrices = inverseBindMatrices(document, skin);
+    const Json& joints = listOf(document.list("skins")[skin], "joints");
+    for (std::size_t j = 0; matrices && j < joints.size(); ++j) {
+      const auto joint = asIndex(joints[j], world.size());
+      shown_.push_back(joint ? std::optional(world[*joint] * (*matrices)[j]) : std::nullopt);
+      if (!joint || !shown_[j]->isFinite()) continue;
+      reach_ = std::max({reach_, norm(world[*joint].origin), norm(shown_[j]->origin)});
+    }
+  }
+
+  std::size_t jointCount() const { return shown_.size(); }
+
+  /// By the joint on which most of it hangs, of those that keep its shape.
+  Affine place(const std::vector<double>& weights) {
+    const Affine* heaviest = nullptr;
+    double most = 0;
+    for (std::size_t j = 0; j < shown_.size(); ++j)
+      if (weights[j] > most && shown_[j] && shown_[j]->isFinite() && !shown_[j]->isSingular() &&
+          !shown_[j]->mirrors())
+        most = weights[j], heaviest = &*shown_[j];
+    if (!heaviest) return {};
+    // What agrees but for rounding is the same, so that meshes go on sharing the skin.
+    for (const Affine& known : places_)
+      if (isNear(*heaviest, known, reach_)) return known;
+    // A few bytes could ask for a skin of many joints for each of many meshes.
+    if (places_.size() >= kMostPlaces) return {};
+    return places_.emplace_back(*heaviest);
+  }
+
+ private:
+  static constexpr std::size_t kMostPlaces = 64;
+
+  std::vector<std::optional<Affine>> shown_;  // [joints] how each would place it alone
+  double reach_ = 0;
+  std::vector<Affine> places_{{}};
+};
 
 // ---- What is bound ----
 
@@ -77,44 +121,54 @@ class Binder {
 
   void run() {
     if (placed_.empty()) return;
-    std::map<std::size_t, Users> users;
+    std::map<std::size_t, std::vector<Place>> places;  // of each skin
     const Json& nodes = document_.list("nodes");
     for (std::size_t n = 0; n < nodes.size(); ++n) {
       const auto skin = findIndex(nodes[n], "skin", document_.list("skins").size());
       const auto mesh = findIndex(nodes[n], "mesh", document_.list("meshes").size());
       if (!skin || !mesh) continue;
       const auto placed = placed_.find(*mesh);
-      if (placed == placed_.end())
-        users[*skin].others = true;
-      else
-        users[*skin].nodes.push_back(n), users[*skin].world = placed->second;
+      const Affine world = placed == placed_.end() ? Affine{} : placed->second;
+      std::vector<Place>& known = places[*skin];
+      const auto same = std::ranges::find(known, world, &Place::world);
+      (same == known.end() ? known.emplace_back(world) : *same).nodes.push_back(n);
     }
-    for (const auto& [skin, of] : users)
-      if (!of.nodes.empty()) bind(skin, of);
+    for (const auto& [skin, of] : places) {
+      // What it places nowhere keeps it as it is, or else the first place gets it, after copies.
+      const auto keeps = std::ranges::find(of, Affine{}, &Place::world);
+      const auto owner = keeps == of.end() ? of.begin() : keeps;
+      for (auto place = of.begin(); place != of.end(); ++place)
+        if (place != owner) bind(copied(skin, place->nodes), place->world);
+      if (keeps == of.end()) bind(skin, owner->world);
+    }
   }
 
  private:
-  /// Nodes that show what is placed by a skin, all by the same matrix, and whether there are other
-  /// ones.
-  struct Users {
-    std::vector<std::size_t> nodes;
+  /// Nodes that show what a skin places in one way.
+  struct Place {
     Affine world;
-    bool others = false;
+    std::vector<std::size_t> nodes{};
   };
 
-  void bind(std::size_t skin, const Users& users) {
+  /// A copy of a skin, for these nodes.
+  std::size_t copied(std::size_t skin, const std::vector<std::size_t>& nodes) {
+    Json& skins = document_.json["skins"];
+    skins.push_back(Json(skins[skin]));
+    for (const std::size_t node : nodes) document_.json["nodes"][node]["skin"] = skins.size() - 1;
+    if (const auto shared = findIndex(skins[skin], "inverseBindMatrices", uses_.size()))
+      ++uses_[*shared];
+    return skins.size() - 1;
+  }
+
+  void bind(std::size_t skin, const Affine& world) {
     auto matrices = inverseBindMatrices(document_, skin);
     if (!matrices) return;  // nothing would have been placed by them
-    for (Affine& matrix : *matrices) matrix = matrix * users.world.inverse();
-    Json& skins = document_.json["skins"];
-    if (users.others) {
-      skins.push_back(Json(skins[skin]));
-      skin = skins.size() - 1;
-      for (const std::size_t node : users.nodes) document_.json["nodes"][node]["skin"] = skin;
-    }
+    for (Affine& matrix : *matrices) matrix = matrix * world.inverse();
+    Json& json = document_.json["skins"][skin];
     Json& accessors = document_.json["accessors"];
-    const auto known = findIndex(skins[skin], "inverseBindMatrices", accessors.size());
-    const bool isOwn = known && !users.others && uses_[*known] == 1;
+    const auto known = findIndex(json, "inverseBindMatrices", uses_.size());
+    const bool isOwn = known && uses_[*known] == 1;
+    if (known) --uses_[*known];
     if (isOwn && find(accessors[*known], "bufferView"))
       touched_[*asIndex(accessors[*known]["bufferView"], touched_.size())] = true;
     if (!isOwn) accessors.push_back(Json::object());
@@ -125,7 +179,7 @@ class Binder {
     accessor["componentType"] = 5126;
     accessor["count"] = matrices->size();
     accessor["type"] = "MAT4";
-    skins[skin]["inverseBindMatrices"] = isOwn ? *known : accessors.size() - 1;
+    json["inverseBindMatrices"] = isOwn ? *known : accessors.size() - 1;
   }
 
   Document& document_;
@@ -174,13 +228,12 @@ void placeBySkins(const Document& document, Parts& parts) {
   const auto world = worldMatrices(document);
   if (!world) return;
   const auto skins = skinsOfMeshes(document);
-  std::map<std::size_t, std::optional<Affine>> places;
-  for (RigMesh& mesh : parts.meshes) {
-    const auto skin = skins[mesh.mesh];
+  std::map<std::size_t, Placer> placers;
+  for (std::size_t m = 0; m < parts.meshes.size(); ++m) {
+    const auto skin = skins[parts.meshes[m].mesh];
     if (!skin) continue;
-    const auto [known, isNew] = places.try_emplace(*skin);
-    if (isNew) known->second = placeAtRest(document, *world, *skin);
-    if (known->second) mesh.world = *known->second;
+    Placer& placer = placers.try_emplace(*skin, document, *world, *skin).first->second;
+    parts.meshes[m].world = placer.place(weightsOfJoints(document, parts, m, placer.jointCount()));
   }
 }
 

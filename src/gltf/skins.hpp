@@ -14,10 +14,10 @@ Result<std::vector<Affine>> inverseBindMatrices(const Document& document, std::s
 
 Column packMatrices(const std::vector<Affine>& matrices);
 
-/// Places meshes where their skins show them at rest. They may be bound from anywhere: quantized
-/// ones often have their steps undone by the skin alone. Where joints have turned away from where
-/// the mesh was bound, so that no one place is that of all, it stays as it stands unless it is of
-/// another size; then the first joint places it.
+/// Places each mesh where its skin shows it at rest: by the joint on which most of it hangs, of
+/// those that neither flatten nor mirror it. Meshes may be bound from anywhere: quantized ones
+/// often have their steps undone by the skin alone. One that nodes show with several skins, or
+/// without one too, stays as it stands.
 void placeBySkins(const Document& document, Parts& parts);
 
 /// Lets skins begin where meshes were placed by them: in a scene from which positions are taken, to

@@ -87,6 +87,7 @@ bool Layout::isFull(Index v) const {
 bool Layout::isNode(Index v) const { return isFull(v) || (!boundary_[v] && marks(v) >= 3); }
 
 Index Layout::beyond(Index vertex, Index neighbour) const {
+  if (!isRegular(vertex)) return -1;
   for (int k = 0; k < armCount(vertex); ++k)
     if (target(vertex, k) == neighbour) {
       const int on = opposite(vertex, k);

@@ -6,6 +6,7 @@
 #include "sweepface/picture.hpp"
 
 #include "eval/cells.hpp"
+#include "eval/triangulate.hpp"
 #include "fit/corner_places.hpp"
 #include "fit/vertex_normals.hpp"
 #include "picture/lowered.hpp"
@@ -236,8 +237,8 @@ Scene FaceScenes::original(std::span<const Vec3> positions) const {
   std::vector<Index> faceOfTriangle;
   for (Index f = 0; f < polygons.faceCount(); ++f) {
     const auto corner = [&](Index k) { return places[polygons.faceStart[f] + k]; };
-    for (Index k = 1; k + 1 < polygons.faceSize(f); ++k) {
-      scene.triangles.push_back({corner(0), corner(k), corner(k + 1)});
+    for (const auto& [a, b, c] : triangulate(cornerPositions(polygons, positions, f))) {
+      scene.triangles.push_back({corner(a), corner(b), corner(c)});
       faceOfTriangle.push_back(f);
     }
   }

@@ -106,7 +106,12 @@ Result<JetTable> orderJets(const JetNumbers& numbers, const JetRows& rows,
   if (table.stored.size() + ready.size() == static_cast<std::size_t>(vectors)) return table;
   const std::vector<Index> breakers = Circles(numbers, rows, connectivity, place).breakers();
   if (circle) *circle = breakers;
-  return fail("the derivatives at node ", breakers.front(),
+  const Index node = breakers.front();
+  if (connectivity.kinds[node] == NodeKind::hanging)
+    return fail("the derivatives at node ", node,
+                " are derived from themselves: nodes on sides stand on each other's in a circle; "
+                "make one of them a corner on both sides");
+  return fail("the derivatives at node ", node,
               " are derived from themselves; let it store its own");
 }
 

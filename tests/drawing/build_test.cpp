@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sweepface/codec.hpp"
+
 #include "drawing/drawings.hpp"
 
 namespace sweepface {
@@ -245,6 +247,50 @@ TEST(TNodes, goWithWhicheverCurvesMove) {
   EXPECT_TRUE(buildJson(drawing));
 }
 
+TEST(TNodes, drawnAtAPlaceGoAlongWithTheirCurves) {
+  Json drawing = withTNode();
+  drawing["nodes"][4]["at"] = {2, 4.5, 0.3};
+  Json moves;
+  for (const Json& curve : drawing["curves"])
+    moves[curve["name"].get<std::string>()] = Json::array({0, 0, 1});
+  drawing["expressions"] = Json::array({{{"name", "up"}, {"moves", moves}}});
+  const Rig rig = made(drawing);
+  for (const double share : {0.25, 0.5, 1.0})
+    EXPECT_LT(norm(middleOf(rig, "de", share, {1}) - middleOf(rig, "de", share) - Vec3{0, 0, 1}),
+              1e-9);
+  drawing["expressions"][0]["moves"]["ec"][2] = 2;
+  EXPECT_NE(refusal(drawing).find("take node 'e' to different places"), std::string::npos);
+}
+
+TEST(TNodes, inACircleAreRefusedInWordsThatHelp) {
+  Json drawing = Json::parse(R"({"format": "sweepface wireframe 1", "nodes": [], "curves": [],
+      "patches": [{"sides": ["i0", "i1", "i2", "i3"]}]})");
+  const std::vector<std::pair<int, int>> inner{{1, 1}, {2, 1}, {2, 2}, {1, 2}},
+      outer{{0, 0}, {1, 0}, {3, 0}, {3, 1}, {3, 3}, {2, 3}, {0, 3}, {0, 2}};
+  const auto add = [&](const std::string& name, const std::string& from, const std::string& to) {
+    drawing["curves"].push_back({{"name", name}, {"from", from}, {"to", to}});
+  };
+  for (std::size_t k = 0; k < 8; ++k)
+    drawing["nodes"].push_back(
+        {{"name", "o" + std::to_string(k)}, {"at", {outer[k].first, outer[k].second, 0}}});
+  for (std::size_t k = 0; k < 4; ++k) {
+    const std::string own = std::to_string(k), next = std::to_string((k + 1) % 4);
+    drawing["nodes"].push_back({{"name", "n" + own}, {"at", {inner[k].first, inner[k].second, 0}}});
+    add("i" + own, "n" + own, "n" + next);
+    // A rectangle runs from the outside past one corner of the square to the next.
+    add("s" + own, "o" + std::to_string(2 * k + 1), "n" + own);
+    add("a" + own, "o" + std::to_string(2 * k), "o" + std::to_string(2 * k + 1));
+    add("b" + own, "o" + std::to_string(2 * k + 1), "o" + std::to_string((2 * k + 2) % 8));
+  }
+  for (std::size_t k = 0; k < 4; ++k) {
+    const std::string own = std::to_string(k), next = std::to_string((k + 1) % 4);
+    drawing["patches"].push_back(
+        {{"sides", {"b" + own, "a" + next, Json::array({"s" + next, "-i" + own}), "-s" + own}}});
+  }
+  const std::string why = refusal(drawing);
+  EXPECT_NE(why.find("stand on each other's in a circle"), std::string::npos) << why;
+}
+
 TEST(Names, ofOneThingAreNotWhatAnotherGoesBy) {
   Json drawing = withTNode();
   drawing["patches"][0]["name"] = "p1";  // as the second goes by
@@ -311,6 +357,17 @@ TEST(Tips, areNodesAtOnePointWithCollapsedCurvesBetween) {
     EXPECT_LT(join.positionGap, 1e-12);
 }
 
+TEST(Tips, areWhereAllTheirNodesAreDrawn) {
+  Json drawing = cone();
+  const auto other = std::ranges::find_if(drawing["nodes"],
+                                          [](const Json& node) { return node.contains("with"); });
+  (*other)["at"] = {0, 3, 0};
+  EXPECT_EQ(refusal(drawing), "");
+  (*other)["at"] = {0, 4, 0};
+  EXPECT_NE(refusal(drawing).find("is drawn at another place"), std::string::npos)
+      << refusal(drawing);
+}
+
 TEST(Tips, moveAsOne) {
   Json drawing = cone();
   drawing["expressions"] = Json::parse(
@@ -336,6 +393,83 @@ TEST(Creases, areSharpWhereTheyAreDeclared) {
     EXPECT_LT(join.positionGap, 1e-12);
     EXPECT_GT(join.normalJump, 10);
   }
+}
+
+/// A cube all of whose edges are sharp, as it is written: three jets at every corner, each of which
+/// has a derivative of the next.
+Json writtenCube() {
+  Json drawing = Json::parse(R"({"format": "sweepface wireframe 1", "nodes": [], "curves": [],
+      "patches": [], "creases": []})");
+  const auto name = [](int x, int y, int z) {
+    return "n" + std::to_string(x) + std::to_string(y) + std::to_string(z);
+  };
+  for (int k = 0; k < 8; ++k) {
+    const int x = k & 1, y = k >> 1 & 1, z = k >> 2;
+    drawing["nodes"].push_back({{"name", name(x, y, z)}, {"at", {x, y, z}}});
+    for (int axis = 0; axis < 3; ++axis) {
+      if (k >> axis & 1) continue;
+      const int to = k | 1 << axis;
+      const std::string end = name(to & 1, to >> 1 & 1, to >> 2);
+      drawing["curves"].push_back(
+          {{"name", name(x, y, z) + "-" + end}, {"from", name(x, y, z)}, {"to", end}});
+      drawing["creases"].push_back(name(x, y, z) + "-" + end);
+    }
+  }
+  const auto patch = [&](std::array<const char*, 4> corners) {
+    Json sides = Json::array();
+    for (std::size_t s = 0; s < 4; ++s) {
+      const std::string a = std::string("n") + corners[s],
+                        b = std::string("n") + corners[(s + 1) % 4];
+      sides.push_back(a < b ? a + "-" + b : "-" + b + "-" + a);
+    }
+    drawing["patches"].push_back({{"sides", std::move(sides)}});
+  };
+  patch({"000", "010", "110", "100"}), patch({"001", "101", "111", "011"});
+  patch({"000", "100", "101", "001"}), patch({"010", "011", "111", "110"});
+  patch({"000", "001", "011", "010"}), patch({"100", "110", "111", "101"});
+  return Json::parse(formatDrawing(draw(made(drawing))));
+}
+
+TEST(Creases, haveJetsThatAgree) {
+  Json drawing = writtenCube();
+  EXPECT_TRUE(buildJson(drawing));
+  int refused = 0;
+  for (const char* word : {"x", "y"})
+    for (std::size_t jet = 0; jet < 3; ++jet) {
+      Json edited = drawing;
+      edited["nodes"][0]["jets"][jet][word] = {0, 0, 5};
+      const auto built = buildJson(edited);
+      if (built) continue;
+      ++refused;
+      EXPECT_NE(built.error().message.find("which says another"), std::string::npos)
+          << built.error().message;
+    }
+  EXPECT_EQ(refused, 6) << "each is a derivative of two parts";
+  drawing["nodes"][0]["jets"][1]["along"] = drawing["nodes"][0]["jets"][0]["along"];
+  EXPECT_NE(refusal(drawing).find("two jets of node"), std::string::npos) << refusal(drawing);
+}
+
+TEST(Nodes, whereTwoPatchesMeetInsideTheSurfaceMayBeDrawn) {
+  const Rig rig = made(Json::parse(R"({"format": "sweepface wireframe 1",
+      "nodes": [{"name": "a", "at": [0, 0, 0]}, {"name": "b", "at": [4, 0, 0]},
+                {"name": "c", "at": [4, 4, 0]}, {"name": "d", "at": [0, 4, 0]},
+                {"name": "x", "at": [2, 2, 0]}],
+      "curves": [{"name": "ab", "from": "a", "to": "b"}, {"name": "bc", "from": "b", "to": "c"},
+                 {"name": "cd", "from": "c", "to": "d"}, {"name": "da", "from": "d", "to": "a"},
+                 {"name": "ax", "from": "a", "to": "x"}, {"name": "xc", "from": "x", "to": "c"}],
+      "patches": [{"sides": ["ab", "bc", "-xc", "-ax"]}, {"sides": ["ax", "xc", "cd", "da"]}]})"));
+  EXPECT_EQ(rig.surface.patchCount(), 2);
+  for (const Vec3& v : rig.neutral) EXPECT_TRUE(isFinite(v));
+  EXPECT_LT(norm(middleOf(rig, "xc", 0) - Vec3{2, 2, 0}), 1e-12);
+}
+
+TEST(Ribbons, thatNoCurveBelongsToAreLeftOut) {
+  Json drawing = vase();
+  const std::string bytes = encode(made(drawing));
+  for (const char* name : {"tight", "loose", "wavy"})
+    drawing["ribbons"].insert(drawing["ribbons"].begin(),
+                              Json::object({{"name", name}, {"eta", -1}}));
+  EXPECT_TRUE(encode(made(drawing)) == bytes);
 }
 
 TEST(Ribbons, pullAtWhatIsDrawn) {
@@ -385,6 +519,10 @@ TEST(Expressions, thatMissTheirPointsAreTold) {
   ASSERT_TRUE(built);
   EXPECT_GT(built->largestMiss, 0.3);
   EXPECT_EQ(built->missedIn, "taller");
+}
+
+TEST(Misses, areSharesOfAllThatIsDrawn) {
+  EXPECT_NEAR(buildJson(tube())->diagonal, norm(Vec3{4, 5, 4}), 1e-12);
 }
 
 TEST(Expressions, areLinear) {

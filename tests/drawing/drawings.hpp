@@ -37,6 +37,12 @@ inline Result<Built> buildText(const std::string& text) {
 }
 inline Result<Built> buildJson(const Json& json) { return buildText(json.dump(1)); }
 
+/// Why a drawing cannot be built; empty if it can.
+inline std::string refusal(const Json& json) {
+  const auto built = buildJson(json);
+  return built ? "" : built.error().message;
+}
+
 /// The model of a drawing that must be sound.
 inline Rig made(const Json& json) {
   auto built = buildJson(json);

@@ -248,6 +248,32 @@ TEST(EveryEdit, OfWhatThereIsNotIsRefused) {
   EXPECT_FALSE(endsOf(rig, 1000));
 }
 
+/// Nothing stored moves the derivatives of a node where two patches meet.
+TEST(ControlCurves, MoveWhatThereIsToMove) {
+  const Rig before = rigOf(Surface::make(wheel(2, {})).value());
+  Rig after = before;
+  const auto changed = moveControls(after, {0, 0, {0, 0, 0.1}, {}});
+  ASSERT_TRUE(changed) << changed.error().message;
+  EXPECT_FALSE(changed->empty());
+  EXPECT_TRUE(movesOnly(*changed, before, after));
+}
+
+TEST(EveryEdit, WaitsForTheTargets) {
+  Rig rig = sheet();
+  rig.targets.push_back({"to come", {}, {}});
+  const Rig before = rig;
+  const std::string why = "The targets of the face are not decoded yet";
+  const Index patch = 0, curve = arcOf(rig.surface.wireframe().side(patch, 0)[0]);
+  for (const auto& edit :
+       {setShape(rig, 0, {2, 0, 0}), moveNodes(rig, std::vector<NodeMove>{{0, {1, 0, 0}}}),
+        moveNodes(rig, std::vector<NodeMove>{{0, {1, 0, 0}}}, 0),
+        moveControls(rig, {curve, patch, {1, 0, 0}, {}})}) {
+    ASSERT_FALSE(edit);
+    EXPECT_TRUE(edit.error().message.starts_with(why)) << edit.error().message;
+  }
+  EXPECT_EQ(rig.neutral, before.neutral);
+}
+
 TEST(Nodes, OfATargetMoveInItAlone) {
   const auto [name, surface] = everySurface().front();
   const Rig before = rigOf(surface);

@@ -33,6 +33,20 @@ std::vector<float> bindingOf(const std::vector<Joint>& joints, double size, cons
   return numbers;
 }
 
+/// Hangs the nine vertices of the sheet on joints.
+void hang(Glb& glb, std::size_t mesh, const std::vector<std::uint8_t>& jointsOfVertices) {
+  std::vector<std::uint8_t> joints;
+  std::vector<float> weights;
+  for (const std::uint8_t joint : jointsOfVertices) {
+    joints.insert(joints.end(), {joint, 0, 0, 0});
+    weights.insert(weights.end(), {1, 0, 0, 0});
+  }
+  Json& attributes = glb.primitive(mesh)["attributes"];
+  attributes["JOINTS_0"] = glb.addAccessor(glb.addView(bytesOf(joints)), 5121, "VEC4", 9);
+  attributes["WEIGHTS_0"] = glb.addAccessor(glb.addView(bytesOf(weights)), 5126, "VEC4", 9);
+}
+const std::vector<std::uint8_t> kOnFirst(9, 0), kMostOnSecond{0, 0, 1, 1, 1, 1, 1, 1, 1};
+
 /// Shows a mesh with a skin of its own, of these joints. Returns the skin.
 std::size_t addSkin(Glb& glb, std::size_t node, const std::vector<Joint>& joints,
                     const std::vector<float>& binding) {
@@ -61,6 +75,7 @@ Glb quantizedFace(const Vec3& away = {}) {
   const std::size_t open = glb.addAccessor(glb.addView(bytesOf(deltas), 8), 5122, "VEC3", 9);
   glb.primitive()["targets"] = Json::array({Json::object({{"POSITION", open}})});
   glb.json["meshes"][0]["extras"]["targetNames"] = {"open"};
+  hang(glb, 0, kOnFirst);
   addSkin(glb, 0, kJoints, bindingOf(kJoints, 1.0 / 64, away));
   return glb;
 }
@@ -155,6 +170,7 @@ TEST(Skins, ThatShowOtherMeshesTooStayForThem) {
 
 TEST(Skins, WithoutMatricesPlaceByTheirJoints) {
   Glb glb = smallFace();
+  hang(glb, 0, kOnFirst);
   glb.add("nodes", nodeOf({{0, 0, 4}, 2}));
   glb.add("skins", {{"joints", {1}}});
   glb.json["nodes"][0]["skin"] = 0;
@@ -168,25 +184,63 @@ TEST(Skins, WithoutMatricesPlaceByTheirJoints) {
 
 TEST(Skins, ThatRoundALittlePlaceNothing) {
   Glb glb = smallFace();
-  auto binding = bindingOf(kJoints, 1 + 2e-5, {1e-5, 0, 0});
-  addSkin(glb, 0, kJoints, binding);
+  hang(glb, 0, kOnFirst);
+  addSkin(glb, 0, kJoints, bindingOf(kJoints, 1 + 2e-6, {1e-6, 0, 0}));
   EXPECT_EQ(read(glb).rig.neutral.positions, sheetPositions());
 }
 
-TEST(Skins, WhoseJointsHaveTurnedPlaceWhatIsOfAnotherSize) {
-  const std::vector<Joint> turned{{{2, 0, 0}, 1, 0.5}, {{2, 3, 0}}};
+/// Two vertices hang on the first joint, seven on the second.
+TEST(Skins, PlaceByTheJointOnWhichMostHangs) {
   for (const double size : {1.0, 0.01}) {
     Glb glb = smallFace();
-    addSkin(glb, 0, turned, bindingOf(kJoints, size, {}));
+    hang(glb, 0, kMostOnSecond);
+    // Odd ones on which nothing hangs count for nothing, whatever they are.
+    const std::vector<Joint> bound{{{2, 0, 0}}, {{2, 3, 0}}, {{0, 0, 0}}, {{0, 0, 0}}},
+        posed{{{2, 0, 9}}, {{2, 3, 0}, 1, 0.5}, {{70, 0, 0}, 1e-4}, {{0, 0, 0}, 0}};
+    addSkin(glb, 0, posed, bindingOf(bound, size, {}));
     std::vector<Vec3> expected = sheetPositions();
-    for (Vec3& p : expected)
-      if (size != 1) {
-        const Vec3 q = size * p - Vec3{2, 0, 0};
-        p = Vec3{std::cos(0.5) * q.x - std::sin(0.5) * q.y,
-                 std::sin(0.5) * q.x + std::cos(0.5) * q.y, q.z} +
-            Vec3{2, 0, 0};
-      }
+    for (Vec3& p : expected) {
+      const Vec3 q = size * p - Vec3{2, 3, 0};
+      p = Vec3{std::cos(0.5) * q.x - std::sin(0.5) * q.y, std::sin(0.5) * q.x + std::cos(0.5) * q.y,
+               q.z} +
+          Vec3{2, 3, 0};
+    }
     expectNear(read(glb).rig.neutral.positions, expected);
+  }
+}
+
+TEST(Skins, PlaceByTheNextJointWhereTheFirstHidesWhatHangsOnIt) {
+  Glb glb = smallFace();
+  hang(glb, 0, kMostOnSecond);
+  addSkin(glb, 0, {{{2, 0, 0}}, {{2, 3, 0}, 0}}, bindingOf(kJoints, 0.5, {1, 1, 1}));
+  std::vector<Vec3> expected = sheetPositions();
+  for (Vec3& p : expected) p = 0.5 * p + Vec3{1, 1, 1};
+  expectNear(read(glb).rig.neutral.positions, expected);
+}
+
+/// A face and an eye of one skin: on joints that agree, or of which one has moved.
+TEST(Skins, AreSharedByMeshesThatTheyPlaceAlike) {
+  for (const bool moves : {false, true}) {
+    Glb glb = smallFace();
+    hang(glb, 0, kOnFirst);
+    const Json& face = glb.json["meshes"][0];
+    glb.add("meshes", Json(face));
+    hang(glb, 1, kMostOnSecond);
+    const auto bound = bindingOf(kJoints, 0.1, {});
+    const std::size_t skin = addSkin(glb, 0, {{{2, 0, 0}}, {{2, 3, moves ? 1.0 : 1e-6}}}, bound);
+    const std::size_t eye = glb.add("nodes", {{"mesh", 1}, {"skin", skin}});
+    const Written written = write(converted(glb));
+    EXPECT_EQ(written.json["skins"].size(), moves ? 2u : 1u);
+    const auto positions = [&](std::size_t mesh) {
+      return written.vectors(written.attribute("POSITION", mesh));
+    };
+    for (std::size_t v = 0; v < 9; ++v)
+      EXPECT_LE(norm(positions(1)[v] - positions(0)[v] - Vec3{0, 0, moves ? 1.0 : 0.0}), 1e-4);
+    for (const std::size_t node : {std::size_t{0}, eye}) {
+      const auto places = shown(written, node, node == 0 ? 0 : 1);
+      for (std::size_t v = 0; v < 9; ++v)
+        EXPECT_LE(norm(places[v] - positions(node == 0 ? 0 : 1)[v]), 1e-5) << "vertex " << v;
+    }
   }
 }
 
@@ -209,9 +263,12 @@ TEST(Skins, ThatCannotPlaceLeaveAMeshAsItStands) {
             glb.addAccessor(glb.addView(bytesOf(many)), 5126, "MAT4", 300);
       },
       [](Glb& glb) { glb.json["skins"][0]["inverseBindMatrices"] = glb.addVectors({{}, {}}); },
-      [](Glb& glb) { glb.json["nodes"][0]["skin"] = 5; }};
+      [](Glb& glb) { glb.json["nodes"][0]["skin"] = 5; },
+      [](Glb& glb) { glb.primitive()["attributes"].erase("WEIGHTS_0"); },
+      [](Glb& glb) { hang(glb, 0, std::vector<std::uint8_t>(9, 7)); }};
   for (std::size_t k = 0; k < faults.size(); ++k) {
     Glb glb = smallFace();
+    hang(glb, 0, kOnFirst);
     addSkin(glb, 0, kJoints, bindingOf(kJoints, 0.25, {1, 1, 1}));
     faults[k](glb);
     EXPECT_EQ(read(glb).rig.neutral.positions, sheetPositions()) << "fault " << k;

@@ -175,6 +175,27 @@ PolygonMesh withALine(PolygonMesh mesh) {
   return mesh;
 }
 
+/// An L, seen from above: no triangle of it lies in the notch.
+TEST(Originals, AreCutWhereTheyBowIn) {
+  PolygonMesh mesh;
+  mesh.positions = {{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}, {1, 2, 0}, {0, 2, 0}};
+  for (std::size_t first = 0; first < 6; ++first) {
+    mesh.polygons.corners.clear();
+    for (std::size_t k = 0; k < 6; ++k)
+      mesh.polygons.corners.push_back(static_cast<Index>((first + k) % 6));
+    mesh.polygons.faceStart = {0, 6};
+    const Scene scene = FaceScenes(converted({mesh, {}}), 1).original(mesh.positions);
+    double area = 0;
+    for (const auto& t : scene.triangles) {
+      const Vec3 n = cross(scene.positions[t[1]] - scene.positions[t[0]],
+                           scene.positions[t[2]] - scene.positions[t[0]]);
+      EXPECT_GE(n.z, 0);
+      area += norm(n) / 2;
+    }
+    EXPECT_NEAR(area, 3, 1e-9) << "from corner " << first;
+  }
+}
+
 TEST(Originals, ShowFacesThatAreOnNoPatch) {
   const MeshRig source{withALine(plane(12, 10)), {}};
   const Rig rig = converted(source);

@@ -242,10 +242,11 @@ TEST(Circles, areRefusedAndNameANodeThatBreaksThem) {
     std::vector<Index> circle;
     const auto surface = Surface::make(w, &circle);
     ASSERT_FALSE(surface);
-    EXPECT_TRUE(
-        surface.error().message.ends_with("are derived from themselves; let it store its own"))
-        << surface.error().message;
     ASSERT_FALSE(circle.empty());
+    EXPECT_TRUE(surface.error().message.ends_with(
+        circle.front() < 8 ? "are derived from themselves; let it store its own"
+                           : "make one of them a corner on both sides"))
+        << surface.error().message;
     for (Index node : circle) {
       if (node >= 8) return;  // a T-node: it must become a crossing
       EXPECT_NE(w.nodes[node].stored, kWholeJet) << "node " << node;
