@@ -83,13 +83,13 @@ class Placer {
 
   std::size_t jointCount() const { return shown_.size(); }
 
-  /// By the joint on which most of it hangs, of those that keep its shape.
+  /// By the joint on which most of it hangs, or by any: a part that is hidden by a joint of no size
+  /// is not far from the others.
   Affine place(const std::vector<double>& weights) {
     const Affine* heaviest = nullptr;
-    double most = 0;
+    double most = -1;
     for (std::size_t j = 0; j < shown_.size(); ++j)
-      if (weights[j] > most && shown_[j] && shown_[j]->isFinite() && !shown_[j]->isSingular() &&
-          !shown_[j]->mirrors())
+      if (weights[j] > most && shown_[j] && shown_[j]->isFinite() && !shown_[j]->isSingular())
         most = weights[j], heaviest = &*shown_[j];
     if (!heaviest) return {};
     // What agrees but for rounding is the same, so that meshes go on sharing the skin.

@@ -15,7 +15,7 @@ Result<std::vector<Affine>> inverseBindMatrices(const Document& document, std::s
 Column packMatrices(const std::vector<Affine>& matrices);
 
 /// Places each mesh where its skin shows it at rest: by the joint on which most of it hangs, of
-/// those that neither flatten nor mirror it. Meshes may be bound from anywhere: quantized ones
+/// those that do not flatten it. Meshes may be bound from anywhere: quantized ones
 /// often have their steps undone by the skin alone. One that nodes show with several skins, or
 /// without one too, stays as it stands.
 void placeBySkins(const Document& document, Parts& parts);
