@@ -11,6 +11,8 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # GCC 12 reports these inside its own standard library.
   target_compile_options(sweepface_options INTERFACE -Wno-maybe-uninitialized -Wno-restrict
     -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread -Wno-dangling-pointer)
+  # Where GCC 12 works on two doubles at once it takes rounding to float and back for nothing.
+  target_compile_options(sweepface_options INTERFACE -fno-tree-slp-vectorize)
   # Every file of a unity build looks like a header to it.
   target_compile_options(sweepface_options INTERFACE
     $<$<BOOL:$<TARGET_PROPERTY:UNITY_BUILD>>:-Wno-subobject-linkage>)

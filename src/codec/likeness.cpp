@@ -15,10 +15,13 @@ std::vector<std::uint64_t> movedBits(const Coefficients& q) {
   return bits;
 }
 
-// Bits that it takes to tell which `some` of `all` it is.
+// Bits that it takes to tell which `some` of `all` it is; rounded, as logarithms are others by a
+// rounding elsewhere.
 double entropy(double some, double all) {
   if (some <= 0 || some >= all) return 0;
-  return all * std::log2(all) - some * std::log2(some) - (all - some) * std::log2(all - some);
+  const double bits =
+      all * std::log2(all) - some * std::log2(some) - (all - some) * std::log2(all - some);
+  return std::round(1024 * bits) / 1024;
 }
 
 }  // namespace

@@ -58,6 +58,10 @@ class LoopCoder {
         images_(w, seeds, nodes, arcs) {
     w_.nodes.resize(nodes);
     w_.arcs.resize(arcs);
+    if constexpr (kWrites<Coder>) {
+      bounds_.resize(2 * arcs);
+      for (const HalfArc h : whole_->loops) bounds_[h] = true;
+    }
   }
 
   void run(std::size_t patches) {
@@ -89,13 +93,13 @@ class LoopCoder {
   void dropBorders() {
     for (HalfArc h = front_.oldest(); h >= 0; h = front_.oldest()) {
       const std::uint32_t start = front_.degree(w_.start(h)), end = front_.degree(w_.end(h));
-      if (!s_.bit(kBorder, start + 16 * borderHint(h), end, kWrites<Coder> && bordersNothing(h)))
-        return;
+      if (!s_.bit(kBorder, start + 16 * borderHint(h), end, bordersNothing(h))) return;
       front_.take(h);
     }
   }
   bool bordersNothing(HalfArc h) const {
-    return std::find(whole_->loops.begin(), whole_->loops.end(), h) == whole_->loops.end();
+    if constexpr (kWrites<Coder>) return !bounds_[h];
+    return false;
   }
 
   void codePatch(Index p) {
@@ -348,6 +352,9 @@ class LoopCoder {
   Front front_;
   LoopImages images_;
   std::vector<Told> told_;  // of the patch at hand
+  // [half-arcs] of the writer: whether a patch is on their side.
+  struct None {};
+  [[no_unique_address]] std::conditional_t<kWrites<Coder>, std::vector<bool>, None> bounds_;
   std::vector<LoopPiece> loop_;
   std::array<std::int64_t, 4> length_{};  // of its sides, as far as they were told, in source edges
   int side_ = 0;

@@ -26,6 +26,10 @@ constexpr double kDefaultTolerance = 0.0002;
 constexpr double kRounding = 1e-6, kRoundingShare = 1.0 / 64;
 // The fit's share of the tolerance where the rest is left to packing.
 constexpr double kFitShare = 0.9;
+// Solving leaves traces of an expression everywhere, which move nobody visibly and would make every
+// expression as large as the neutral: below this share of the tolerance they are none. Packing
+// rounds them away by itself.
+constexpr double kTrace = 0.001;
 // What packing does to normals is more than a limit on the fit's could mend.
 constexpr double kNormalShare = 1.25;
 // Predicted slopes overshoot where an edge is this many times as long as the next along its line.
@@ -130,7 +134,8 @@ class Converter {
   Result<Conversion> fitWithin(const GridMesh& mesh, double angle) {
     const RefineLimits limits{.distance = (options_.pack ? kFitShare : 1) * aim_,
                               .angle = std::min(180.0, (options_.pack ? kNormalShare : 1) * angle),
-                              .smooth = angle < 180};
+                              .smooth = angle < 180,
+                              .trace = options_.pack ? 0 : kTrace * aim_};
     SourceData data = gatherSource(source_, mesh, tolerance_);
     Layout layout(mesh, source_.neutral.positions, options_.pack);
     for (Index v = 0; v < mesh.vertexCount(); ++v)

@@ -17,20 +17,22 @@ constexpr int kMostRounds = 60;
 constexpr int kMostForNormals = 8;
 
 // The stored vectors as they will be after the file: neutral and differences rounded each to single
-// precision. What is verified is what will be read back.
-Solution asStored(const Solution& solution) {
-  const auto rounded = [](const auto& x) {
-    return x.template cast<float>().template cast<double>();
+// precision, without traces. What is verified is what will be read back.
+Solution asStored(const Solution& solution, double trace) {
+  const auto rounded = [](const Vec3& v) {
+    const auto single = [](double x) { return static_cast<double>(static_cast<float>(x)); };
+    return Vec3{single(v.x), single(v.y), single(v.z)};
   };
+  const auto poses = static_cast<Index>(solution.cols() / 3);
   Solution stored(solution.rows(), solution.cols());
   parallelRanges(solution.rows(), [&](Eigen::Index first, Eigen::Index end) {
-    for (Eigen::Index v = first; v < end; ++v) {
-      const auto fitted = solution.row(v);
-      auto row = stored.row(v);
-      row.leftCols<3>() = rounded(fitted.leftCols<3>());
-      for (Eigen::Index k = 3; k < solution.cols(); k += 3)
-        row.segment<3>(k) =
-            row.leftCols<3>() + rounded(fitted.segment<3>(k) - fitted.leftCols<3>());
+    for (auto v = static_cast<Index>(first); v < end; ++v) {
+      const Vec3 fitted = SourceData::at(solution, v, 0), neutral = rounded(fitted);
+      for (Index pose = 0; pose < poses; ++pose) {
+        const Vec3 moved = rounded(SourceData::at(solution, v, pose) - fitted);
+        const Vec3 there = norm(moved) < trace ? neutral : neutral + moved;
+        stored.row(v).segment<3>(3 * pose) << there.x, there.y, there.z;
+      }
     }
   });
   return stored;
@@ -87,7 +89,7 @@ class SurfaceFitter {
   Result<Fitted> solved(Draft draft) const {
     const auto solution = solve(layout_, draft, data_);
     if (!solution) return std::unexpected(solution.error());
-    Solution stored = asStored(*solution);
+    Solution stored = asStored(*solution, limits_.trace);
     dropSlopesAtTips(draft.surface, stored);
     return Fitted{std::move(draft), std::move(stored)};
   }

@@ -8,6 +8,7 @@ struct RefineLimits {
   double distance;  ///< model units
   double angle;     ///< degrees
   bool smooth;      ///< normals matter: tangents may not be given up for points
+  double trace;     ///< what an expression does to a vector counts from here on; model units
 };
 
 /// Splits every patch that breaks a limit where that promises most, and lets vertices count more

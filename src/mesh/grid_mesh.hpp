@@ -35,7 +35,7 @@ struct GridMesh {
 };
 
 /// Builds the grid mesh of a rig. Vertices within `rounding` of each other in all poses may become
-/// one (weldRounded()). Fails only where no face is left.
+/// one (weldRounded()). Fails where a face has thousands of corners, or no face is left.
 Result<GridMesh> makeGridMesh(const MeshRig& rig, double rounding = 0);
 
 }  // namespace sweepface

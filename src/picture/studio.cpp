@@ -145,11 +145,11 @@ class Photograph {
     return shade(scene_.finish, p, lamps_);
   }
 
-  /// Whether nothing is between a point and the eye. The first bit of the way does not count: lines
-  /// lie on the surface, whose triangles cut its corners.
   /// Of the eye, whose pictures show what is behind it upside down.
   bool isAhead(const Vec3& p) const { return dot(p - camera_.eye, camera_.forward) > 0; }
 
+  /// Whether nothing is between a point and the eye. The first bit of the way does not count: lines
+  /// lie on the surface, whose triangles cut its corners.
   bool sees(const Vec3& p) const {
     const double slack = 0.0025 * studio_.obstacles.size();
     const Vec3 way = camera_.eye - p;

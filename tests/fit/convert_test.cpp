@@ -119,6 +119,26 @@ TEST_P(EveryFit, meetsItsToleranceWhateverIsDamaged) {
   }
 }
 
+/// Floats, so that files hold them in half the bytes, and none that moves nothing.
+TEST_P(EveryFit, storesSingleNumbersWithoutTraces) {
+  const auto conversion = convert(source());
+  ASSERT_TRUE(conversion);
+  const Rig& rig = conversion->rig;
+  const auto isSingle = [](const Vec3& v) {
+    for (const double x : {v.x, v.y, v.z}) {
+      const volatile float narrow = static_cast<float>(x);
+      if (static_cast<double>(narrow) != x) return false;
+    }
+    return true;
+  };
+  EXPECT_TRUE(std::ranges::all_of(rig.neutral, isSingle));
+  for (const Target& target : rig.targets) {
+    EXPECT_TRUE(std::ranges::all_of(target.difference, isSingle)) << target.name;
+    for (const Vec3& v : target.difference)
+      EXPECT_TRUE(v == Vec3{} || norm(v) >= 0.00099 * rig.tolerance) << target.name;
+  }
+}
+
 TEST_P(EveryFit, keepsTheSourcesFaces) {
   const auto conversion = convert(source());
   ASSERT_TRUE(conversion) << conversion.error().message;
