@@ -31,12 +31,12 @@ std::vector<std::optional<std::size_t>> skinsOfMeshes(const Document& document) 
   return found;
 }
 
-/// How much of all vertices hangs on each joint of a mesh [joints].
+/// How much of all vertices hangs on each joint of a mesh [joints]. `left` is how many elements may
+/// still be read.
 std::vector<double> weightsOfJoints(const Document& document, const Parts& parts,
-                                    std::size_t rigMesh, std::size_t joints) {
+                                    std::size_t rigMesh, std::size_t joints, std::size_t& left) {
   std::vector<double> sums(joints, 0.0);
   const std::size_t accessors = document.list("accessors").size();
-  std::size_t left = document.mostElements();
   for (const Part& part : parts.parts) {
     if (parts.runs[part.run].rigMesh != rigMesh) continue;
     const Json& attributes = primitiveOf(document, parts, part)["attributes"];
@@ -104,8 +104,8 @@ class Placer {
   static constexpr std::size_t kMostPlaces = 64;
 
   std::vector<std::optional<Affine>> shown_;  // [joints] how each would place it alone
-  double reach_ = 0;
-  std::vector<Affine> places_{{}};
+  double reach_ = 0;                          // how far from the origin joints are
+  std::vector<Affine> places_ = {Affine{}};
 };
 
 // ---- What is bound ----
@@ -164,6 +164,7 @@ class Binder {
     auto matrices = inverseBindMatrices(document_, skin);
     if (!matrices) return;  // nothing would have been placed by them
     for (Affine& matrix : *matrices) matrix = matrix * world.inverse();
+    const std::size_t view = document_.addBuffer(packMatrices(*matrices).bytes);
     Json& json = document_.json["skins"][skin];
     Json& accessors = document_.json["accessors"];
     const auto known = findIndex(json, "inverseBindMatrices", uses_.size());
@@ -175,7 +176,7 @@ class Binder {
     Json& accessor = isOwn ? accessors[*known] : accessors.back();
     for (const char* key : {"byteOffset", "sparse", "min", "max", "normalized"})
       accessor.erase(key);
-    accessor["bufferView"] = document_.addBuffer(packMatrices(*matrices).bytes);
+    accessor["bufferView"] = view;
     accessor["componentType"] = 5126;
     accessor["count"] = matrices->size();
     accessor["type"] = "MAT4";
@@ -229,11 +230,13 @@ void placeBySkins(const Document& document, Parts& parts) {
   if (!world) return;
   const auto skins = skinsOfMeshes(document);
   std::map<std::size_t, Placer> placers;
+  std::size_t left = document.mostElements();
   for (std::size_t m = 0; m < parts.meshes.size(); ++m) {
     const auto skin = skins[parts.meshes[m].mesh];
     if (!skin) continue;
     Placer& placer = placers.try_emplace(*skin, document, *world, *skin).first->second;
-    parts.meshes[m].world = placer.place(weightsOfJoints(document, parts, m, placer.jointCount()));
+    parts.meshes[m].world =
+        placer.place(weightsOfJoints(document, parts, m, placer.jointCount(), left));
   }
 }
 
