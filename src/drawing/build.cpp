@@ -31,10 +31,22 @@ constexpr double kTrace = 1e-5;
 // Nodes at one point may stand apart by such a share of the diagonal: models round each.
 constexpr double kSamePoint = 0.01;
 
+double diagonalOf(const Drawing& d) {
+  Box box;
+  for (const Drawing::Node& node : d.nodes)
+    if (node.at) box.include(*node.at);
+  for (const Drawing::Curve& curve : d.curves)
+    for (const Vec3& point : curve.points) box.include(point);
+  return norm(box.size());
+}
+
 class Builder {
  public:
   Builder(const Drawing& drawing, Woven woven)
-      : d_(drawing), woven_(std::move(woven)), w_(woven_.wireframe) {}
+      : d_(drawing),
+        woven_(std::move(woven)),
+        w_(woven_.wireframe),
+        diagonal_(diagonalOf(drawing)) {}
 
   Result<Built> build() {
     for (const auto step : {&Builder::chooseStored, &Builder::makeSurfaces, &Builder::placeNodes,
@@ -134,7 +146,7 @@ class Builder {
   Result<void> placeNodes() {
     for (const Drawing::Node& node : d_.nodes)
       if (!node.with.empty() && node.at &&
-          norm(*node.at - *d_.nodes[woven_.nodes.at(node.with)].at) > kSamePoint * diagonal())
+          norm(*node.at - *d_.nodes[woven_.nodes.at(node.with)].at) > kSamePoint * diagonal_)
         return refuse(node.place, fmt::format("node '{}' stands with '{}', but is drawn at another "
                                               "place; leave out one of 'at' and 'with'",
                                               node.name, node.with));
@@ -247,13 +259,13 @@ class Builder {
     for (Index n = 0; n < nodeCount(); ++n) {
       if (d_.nodes[n].with.empty()) continue;
       auto &own = offsets.nodes[n], &host = offsets.nodes[woven_.nodes.at(d_.nodes[n].with)];
-      const double apart = norm(own.value_or(Vec3{}) - host.value_or(Vec3{}));
-      if (d_.nodes[n].at ? apart > kSamePoint * diagonal() : own && host && apart > 0)
+      const double least = d_.nodes[n].at ? kSamePoint * diagonal_ : 0;
+      if (own && host && norm(*own - *host) > least)
         return refuse(expression.place,
                       fmt::format("nodes '{}' and '{}' are one point and cannot move to different "
                                   "places",
                                   d_.nodes[n].with, d_.nodes[n].name));
-      if (own && !host && !d_.nodes[n].at) host = own;
+      if (own && !host && norm(*own) > least) host = own;
     }
     for (Index n = 0; n < nodeCount(); ++n)
       if (!d_.nodes[n].with.empty() && !offsets.nodes[n])
@@ -304,7 +316,7 @@ class Builder {
       if (r.pose != settled) plain_.settle(poses_[settled = r.pose], vectors);
       const Index v = jetVector(plain_, *jets_, r.node, r.component, *fanOf(r.node, r.jet));
       const double apart = norm(vectors[v] - r.value);
-      if (apart <= 1e-6 * std::max(norm(r.value), diagonal())) continue;
+      if (apart <= 1e-6 * std::max(norm(r.value), diagonal_)) continue;
       const Drawing::Node& node = d_.nodes[r.node];
       return refuse(r.pose == 0 ? node.place : d_.expressions[r.pose - 1].place,
                     fmt::format("the jet of node '{}' along '{}' has its '{}' from the part of the "
@@ -318,7 +330,7 @@ class Builder {
   // Bending dies away along the curves and is never nothing. What moves nobody visibly is not kept:
   // it would make every expression as large as the neutral.
   void forgetTraces() {
-    const double trace = kTrace * diagonal();
+    const double trace = kTrace * diagonal_;
     for (std::size_t pose = 1; pose < poses_.size(); ++pose)
       for (std::size_t v = 0; v < known_.size(); ++v)
         if (!known_[v] && norm(poses_[pose][v]) < trace) poses_[pose][v] = {};
@@ -340,7 +352,7 @@ class Builder {
 
   Result<void> assemble() {
     Rig& rig = built_.rig;
-    built_.diagonal = diagonal();
+    built_.diagonal = diagonal_;
     rig.neutral = std::move(poses_[0]);
     for (std::size_t e = 0; e < d_.expressions.size(); ++e)
       rig.targets.push_back({d_.expressions[e].name, std::move(poses_[1 + e]), {}});
@@ -351,21 +363,13 @@ class Builder {
   }
 
   double defaultTolerance() const {
-    return std::max(built_.largestMiss, kDefaultTolerance * diagonal());
-  }
-
-  double diagonal() const {
-    Box box;
-    for (const Drawing::Node& node : d_.nodes)
-      if (node.at) box.include(*node.at);
-    for (const Drawing::Curve& curve : d_.curves)
-      for (const Vec3& point : curve.points) box.include(point);
-    return norm(box.size());
+    return std::max(built_.largestMiss, kDefaultTolerance * diagonal_);
   }
 
   const Drawing& d_;
   Woven woven_;
   Wireframe& w_;
+  double diagonal_;
   std::vector<std::array<Turned, 9>>
       axes_;  // [nodes] where a crossing stores its jet's derivatives
   Surface plain_;

@@ -368,6 +368,25 @@ TEST(Tips, areWhereAllTheirNodesAreDrawn) {
       << refusal(drawing);
 }
 
+TEST(Tips, drawnTwiceMoveAsOne) {
+  Json drawing = cone();
+  const auto other = std::ranges::find_if(drawing["nodes"],
+                                          [](const Json& node) { return node.contains("with"); });
+  (*other)["at"] = {0, 3, 0};
+  const std::string name = (*other)["name"], host = (*other)["with"];
+  const auto moving = [&](Json moves) {
+    drawing["expressions"] = Json::array({Json::object({{"name", "up"}, {"moves", moves}})});
+    return drawing;
+  };
+  const Json up = {0, 1, 0};
+  const Rig one = made(moving({{name, up}})), both = made(moving({{name, up}, {host, up}})),
+            hosts = made(moving({{host, up}}));
+  EXPECT_EQ(one.targets[0].difference, both.targets[0].difference);
+  EXPECT_EQ(hosts.targets[0].difference, both.targets[0].difference);
+  EXPECT_NE(refusal(moving({{name, up}, {host, {0, 2, 0}}})).find("are one point"),
+            std::string::npos);
+}
+
 TEST(Tips, moveAsOne) {
   Json drawing = cone();
   drawing["expressions"] = Json::parse(
