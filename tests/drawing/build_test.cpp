@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "sweepface/codec.hpp"
+#include "sweepface/fit.hpp"
 
 #include "drawing/drawings.hpp"
 
@@ -466,6 +467,26 @@ TEST(Creases, haveJetsThatAgree) {
   EXPECT_EQ(refused, 6) << "each is a derivative of two parts";
   drawing["nodes"][0]["jets"][1]["along"] = drawing["nodes"][0]["jets"][0]["along"];
   EXPECT_NE(refusal(drawing).find("two jets of node"), std::string::npos) << refusal(drawing);
+}
+
+/// Two corners of a triangle at one place: the curve between them has no length, and jets at both
+/// ends say all there is of it.
+TEST(Nodes, withJetsMayHaveACurveOfNoLengthBetween) {
+  MeshRig ring;
+  ring.neutral.positions = {{0, 0, 0}, {1, 0, 0.3}, {0, 0, 0}, {1, 1, 0.3}};
+  ring.neutral.polygons.corners = {0, 1, 3, 0, 3, 2};
+  ring.neutral.polygons.faceStart = {0, 3, 6};
+  ring.targets = {{"apart", ring.neutral.positions}};
+  ring.targets[0].positions[0].x = 0.1;
+  ring.targets[0].positions[3].z = 0.5;
+  ConvertOptions options;
+  options.tolerance = 0.01;
+  options.pack = true;
+  const auto conversion = convert(ring, options);
+  ASSERT_TRUE(conversion) << conversion.error().message;
+  const auto built = buildText(formatDrawing(draw(conversion->rig)));
+  ASSERT_TRUE(built) << built.error().message;
+  EXPECT_EQ(built->rig.neutral, conversion->rig.neutral);
 }
 
 TEST(Nodes, whereTwoPatchesMeetInsideTheSurfaceMayBeDrawn) {
