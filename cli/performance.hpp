@@ -47,8 +47,8 @@ struct Performance {
   std::vector<Index> wholes;       ///< of what each is a part then, as RegionalTargets has it
   std::vector<std::string> notes;  ///< what the user should know, in sentences
 };
-/// One for every region [R], by its matter and by what a timeline means for it. Fails
-/// where it speaks of regions that there are not.
+/// One for every region [R], by its matter and by what a timeline means for it. Fails where that
+/// speaks of regions that there are not.
 Result<std::vector<Performance>> makePerformances(const PerformanceArguments& a, const Rig& rig,
                                                   std::span<const Region> regions);
 

@@ -12,12 +12,13 @@ namespace sweepface::gltf {
 /// unit matrices as it has joints.
 Result<std::vector<Affine>> inverseBindMatrices(const Document& document, std::size_t skin);
 
+/// As accessors hold them, column after column.
 Column packMatrices(const std::vector<Affine>& matrices);
 
 /// Places each mesh where its skin shows it at rest: by the joint on which most of it hangs, of
-/// those that do not flatten it. Meshes may be bound from anywhere: quantized ones
-/// often have their steps undone by the skin alone. One that nodes show with several skins, or
-/// without one too, stays as it stands.
+/// those that do not flatten it. Meshes may be bound from anywhere: quantized ones often have their
+/// steps undone by the skin alone. One that nodes show with several skins, or without one too,
+/// stays as it stands.
 void placeBySkins(const Document& document, Parts& parts);
 
 /// Lets skins begin where meshes were placed by them: in a scene from which positions are taken, to
