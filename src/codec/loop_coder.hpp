@@ -4,6 +4,7 @@
 #include <array>
 #include <limits>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "sweepface/surface.hpp"

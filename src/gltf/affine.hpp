@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <span>
 
 #include "sweepface/vec.hpp"
 
@@ -49,6 +50,11 @@ struct Affine {
 
   friend bool operator==(const Affine&, const Affine&) = default;
 };
+
+/// Of a matrix as glTF has it, column after column; its last row does not count.
+inline Affine affineOf(std::span<const double, 16> m) {
+  return {{{{m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}}}, {m[12], m[13], m[14]}};
+}
 
 /// First b, then a.
 inline Affine operator*(const Affine& a, const Affine& b) {

@@ -12,7 +12,7 @@ std::string placeOf(std::size_t node) { return fmt::format("node {}", node); }
 Affine fromMatrix(Members& in, const std::array<double, 16>& m) {
   if (m[3] != 0 || m[7] != 0 || m[11] != 0 || m[15] != 1)
     in.refuse("the last row of its matrix is not 0 0 0 1");
-  return {{{{m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}}}, {m[12], m[13], m[14]}};
+  return affineOf(m);
 }
 
 Affine fromParts(const std::array<double, 3>& move, const std::array<double, 4>& turn,

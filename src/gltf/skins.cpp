@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <span>
 
 #include "gltf/accessor_uses.hpp"
 #include "gltf/column.hpp"
@@ -113,7 +114,7 @@ class Placer {
 class Binder {
  public:
   Binder(Document& document, const Parts& parts, std::vector<bool>& touched)
-      : document_(document), touched_(touched), uses_(accessorUseCounts(document)) {
+      : document_(document), touched_(touched) {
     const auto skins = skinsOfMeshes(document);
     for (const RigMesh& mesh : parts.meshes)
       if (skins[mesh.mesh] && !(mesh.world == Affine{})) placed_[mesh.mesh] = mesh.world;
@@ -121,6 +122,7 @@ class Binder {
 
   void run() {
     if (placed_.empty()) return;
+    uses_ = accessorUseCounts(document_);
     std::map<std::size_t, std::vector<Place>> places;  // of each skin
     const Json& nodes = document_.list("nodes");
     for (std::size_t n = 0; n < nodes.size(); ++n) {
@@ -185,7 +187,7 @@ class Binder {
 
   Document& document_;
   std::vector<bool>& touched_;
-  std::vector<std::size_t> uses_;
+  std::vector<std::size_t> uses_;         // of accessors
   std::map<std::size_t, Affine> placed_;  // by mesh
 };
 
@@ -207,11 +209,10 @@ Result<std::vector<Affine>> inverseBindMatrices(const Document& document, std::s
   if (!values) return std::unexpected(values.error());
   std::vector<Affine> matrices;
   for (std::size_t at = 0; at + kMatrix <= values->size(); at += kMatrix) {
-    const double* m = values->data() + at;
+    const auto m = std::span(*values).subspan(at).first<kMatrix>();
     const double lastRow = std::abs(m[3]) + std::abs(m[7]) + std::abs(m[11]) + std::abs(m[15] - 1);
     if (!(lastRow <= 1e-5)) return fail("a skin has a matrix whose last row is not 0 0 0 1");
-    matrices.push_back(
-        {{{{m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}}}, {m[12], m[13], m[14]}});
+    matrices.push_back(affineOf(m));
   }
   return matrices;
 }
@@ -226,9 +227,10 @@ Column packMatrices(const std::vector<Affine>& matrices) {
 }
 
 void placeBySkins(const Document& document, Parts& parts) {
+  const auto skins = skinsOfMeshes(document);
+  if (std::ranges::none_of(skins, [](const auto& skin) { return skin.has_value(); })) return;
   const auto world = worldMatrices(document);
   if (!world) return;
-  const auto skins = skinsOfMeshes(document);
   std::map<std::size_t, Placer> placers;
   std::size_t left = document.mostElements();
   for (std::size_t m = 0; m < parts.meshes.size(); ++m) {
