@@ -104,6 +104,24 @@ void addThreads(CLI::App& app, int& threads) {
       ->type_name("N");
 }
 
+std::unique_ptr<tbb::global_control> limitThreads(int threads) {
+  if (threads == 0) return nullptr;
+  return std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
+                                               static_cast<std::size_t>(threads));
+}
+
+void addStrip(CLI::App& app, std::string& strip) {
+  app.add_option("--strip", strip,
+                 "Leave parts out of the file, with commas between: order (of the source's "
+                 "vertices and faces), uv, groups, scene")
+      ->check(notEmpty())
+      ->type_name("PARTS");
+}
+
+void addUvBits(CLI::App& app, std::optional<int>& bits, const std::string& description) {
+  app.add_option("--uv-bits", bits, description)->transform(wholeNumber(8, 16))->type_name("N");
+}
+
 void addGlb(CLI::App& app, GlbArguments& glb) {
   app.add_flag("--morph-normals", glb.morphNormals,
                "For .glb: normals of the morph targets too; larger, and better shaded");

@@ -5,7 +5,9 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
+#include <tbb/global_control.h>
 #include <vector>
 
 #include "sweepface/io.hpp"
@@ -36,6 +38,7 @@ Command addPlot(CLI::App& tool);
 Command addLaws(CLI::App& tool);
 Command addBuild(CLI::App& tool);
 Command addEdit(CLI::App& tool);
+Command addPack(CLI::App& tool);
 
 /// Help that breaks long descriptions into lines.
 class HelpFormatter : public CLI::Formatter {
@@ -62,6 +65,10 @@ void addWeights(CLI::App& app, std::string& weights);
 CLI::Option* addLod(CLI::App& app, int& lod, const std::string& description);
 void addMeshes(CLI::App& app, std::string& neutral, std::vector<std::string>& targets);
 void addThreads(CLI::App& app, int& threads);
+/// As long as it lives; 0: all cores.
+std::unique_ptr<tbb::global_control> limitThreads(int threads);
+void addStrip(CLI::App& app, std::string& strip);
+void addUvBits(CLI::App& app, std::optional<int>& bits, const std::string& description);
 
 /// What only .glb files can have.
 struct GlbArguments {

@@ -4,7 +4,6 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <optional>
-#include <tbb/global_control.h>
 
 #include "sweepface/arcs.hpp"
 #include "sweepface/codec.hpp"
@@ -19,11 +18,10 @@
 #include "interrupts.hpp"
 #include "output.hpp"
 #include "parallel.hpp"
+#include "verified.hpp"
 
 namespace sweepface::cli {
 namespace {
-
-namespace fs = std::filesystem;
 
 struct ConvertArguments {
   std::string neutral, output;
@@ -53,22 +51,15 @@ void addOptions(CLI::App& app, ConvertArguments& a) {
   app.add_flag("--pack", a.pack,
                "Spend the tolerance on the size of the file: about a hundredth of the bytes, more "
                "time, and normals less near to the mesh's");
-  app.add_option("--strip", a.strip,
-                 "Leave parts out of the file, with commas between: order (of the source's "
-                 "vertices and faces), uv, groups, scene")
-      ->check(notEmpty())
-      ->type_name("PARTS");
+  addStrip(app, a.strip);
   app.add_option("--normal-tolerance", a.normalTolerance,
                  "Packed: largest allowed angle between the surface's normals and the mesh's, in "
                  "degrees: root mean square over all vertices of all expressions")
       ->check(positiveNumber(90))
       ->type_name("DEGREES");
-  app.add_option(
-         "--uv-bits", a.uvBits,
-         "Packed: texture coordinates become multiples of 1/2^N of the texture, N from 8 to 16; "
-         "14 if not given")
-      ->transform(wholeNumber(8, 16))
-      ->type_name("N");
+  addUvBits(app, a.uvBits,
+            "Packed: texture coordinates become multiples of 1/2^N of the texture, N from 8 to "
+            "16; 14 if not given");
   app.add_option(
          "--max-bytes", a.maxBytes,
          "Pack, and look for the smallest tolerance whose file takes at most N bytes, none finer "
@@ -94,59 +85,6 @@ void addOptions(CLI::App& app, ConvertArguments& a) {
       "  sweepface convert head.glb -o head.sweep");
 }
 
-// ---- Verification ----
-
-std::string nameOfShape(const Rig& rig, Index target) {
-  return target < 0 ? "the neutral" : rig.targets[target].name;
-}
-
-/// What a reader of the bytes will see, compared with the source.
-struct Verified {
-  FurthestVertex worst;
-  double angleRms = 0;
-  std::vector<Index> folds;  // of the neutral and every target
-  std::vector<double> kept;  // of every target's movement
-};
-
-/// Where the order was left out, the conversion tells where the source's vertices are.
-Result<Verified> verify(std::string_view bytes, const std::string& name, const MeshRig& source,
-                        const Rig& converted) {
-  Result<Rig> rig = readBack(bytes, name);
-  if (!rig) return std::unexpected(rig.error());
-  const double tolerance = converted.tolerance;
-  if (!rig->source.ownOrder && rig->targets.size() == converted.targets.size()) {
-    rig->source = converted.source;
-    for (std::size_t k = 0; k < rig->targets.size(); ++k)
-      rig->targets[k].looseDifference = converted.targets[k].looseDifference;
-  }
-  if (rig->targets.size() != source.targets.size() ||
-      rig->source.gridVertex.size() != source.neutral.positions.size())
-    return fail(
-        "The encoded face lacks vertices or targets of the source; nothing was written. "
-        "This is a fault of sweepface, please report it.");
-  const FurthestVertex worst = furthestVertex(*rig, source);
-  if (worst.distance <= tolerance)
-    return Verified{worst, normalRms(*rig, source), countFolds(*rig, source),
-                    keptMovement(*rig, source)};
-  return fail(
-      fmt::format("Vertex {} of {} would be {:.6g} away from the source, beyond the "
-                  "tolerance of {:.6g}; nothing was written. This is a fault of sweepface, "
-                  "please report it.",
-                  worst.vertex, nameOfShape(*rig, worst.target), worst.distance, tolerance));
-}
-
-/// Writes and makes sure that the disk holds what was meant.
-Result<void> writeAndReadBack(const fs::path& path, std::string_view bytes) {
-  if (auto written = writeFile(path, bytes); !written) return written;
-  std::error_code ignored;
-  if (!fs::is_regular_file(path, ignored)) return {};
-  const Result<std::string> back = readFile(path);
-  if (!back) return std::unexpected(back.error());
-  if (*back == bytes) return {};
-  return fail(fmt::format("{} reads back differently from what was written; check the disk.",
-                          path.string()));
-}
-
 // ---- The summary ----
 
 struct Summary {
@@ -159,16 +97,16 @@ struct Summary {
 
 nlohmann::ordered_json toJson(const Summary& s) {
   const Rig& rig = s.conversion.rig;
-  const auto& [worst, angleRms, folds, kept] = s.verified;
+  const auto& [tolerance, worst, worstShape, angleRms, folds, kept] = s.verified;
   return {{"file", s.arguments.output},
           {"patches", rig.surface.patchCount()},
           {"vectors", rig.surface.storedCount()},
           {"vertices", s.vertices},
           {"targets", rig.targets.size()},
-          {"tolerance", rig.tolerance},
+          {"tolerance", tolerance},
           {"worstDistance", worst.distance},
           {"worstVertex", worst.vertex},
-          {"worstShape", nameOfShape(rig, worst.target)},
+          {"worstShape", worstShape},
           {"angleRms", angleRms},
           {"folds", folds},
           {"kept", kept},
@@ -180,22 +118,21 @@ nlohmann::ordered_json toJson(const Summary& s) {
 
 void printText(const Summary& s) {
   const Rig& rig = s.conversion.rig;
-  const FurthestVertex& worst = s.verified.worst;
-  const std::vector<Index>& folds = s.verified.folds;
   const Index points = rig.surface.storedCount();
   fmt::print("{}: {} patches, {} points ({:.1f} % of the source's {} vertices), {} targets\n",
              s.arguments.output, rig.surface.patchCount(), points,
              100.0 * points / static_cast<double>(s.vertices), s.vertices, rig.targets.size());
-  fmt::print("worst distance {:.4g} of {:.4g} allowed, at vertex {} of {}\n", worst.distance,
-             rig.tolerance, worst.vertex, nameOfShape(rig, worst.target));
+  printDistance(s.verified);
   fmt::print("normals {:.4g} {}, RMS over all expressions\n", s.verified.angleRms,
              s.arguments.normalTolerance > 0
                  ? fmt::format("of {:.4g} degrees allowed", s.arguments.normalTolerance)
                  : "degrees off");
+  const std::vector<Index>& folds = s.verified.folds;
   if (const auto most = std::ranges::max_element(folds); *most > 0)
     fmt::print("{} triangles fold over, most in {} ({}); sweepface measure tells more\n",
                std::reduce(folds.begin(), folds.end()),
-               nameOfShape(rig, static_cast<Index>(most - folds.begin()) - 1), *most);
+               most == folds.begin() ? "the neutral" : rig.targets[most - folds.begin() - 1].name,
+               *most);
   fmt::print("{} bytes in {:.1f} s\n", s.bytes, s.seconds);
   if (s.sceneBytes > 0)
     fmt::print("{} of them are what {} holds besides the face; --bare leaves it out\n",
@@ -274,7 +211,8 @@ Result<int> convertAndWrite(const ConvertArguments& a) {
   Rig finished = conversion->rig;
   if (auto ok = finish(finished); !ok) return refused(ok.error());
   const std::string bytes = encode(finished);
-  const Result<Verified> verified = verify(bytes, a.output, source->rig, conversion->rig);
+  const Result<Verified> verified =
+      verify(bytes, a.output, source->rig, conversion->rig, conversion->rig.tolerance);
   if (!verified) return std::unexpected(verified.error());
   catchInterrupts();  // writing is not to end in the middle
   if (interrupted) return kInterrupted;
@@ -312,14 +250,8 @@ Result<int> runConvert(const ConvertArguments& a) {
   if (!a.packs() && (a.uvBits || a.normalTolerance > 0))
     return fail(fmt::format("{} is for packed files; give --pack or --max-bytes as well.",
                             a.uvBits ? "--uv-bits" : "--normal-tolerance"));
-  std::optional<tbb::global_control> limit;
-  if (a.threads > 0)
-    limit.emplace(tbb::global_control::max_allowed_parallelism,
-                  static_cast<std::size_t>(a.threads));
-  catchInterrupts(Patience::twoSeconds);
-  Result<int> code = convertAndWrite(a);
-  // Whatever failed after Ctrl-C failed because of it.
-  return interrupted && code != 0 ? endInterrupted() : code;
+  const auto limit = limitThreads(a.threads);
+  return endingEarly([&] { return convertAndWrite(a); });
 }
 
 }  // namespace

@@ -40,6 +40,13 @@ void catchInterrupts(Patience patience) {
   if (before.sa_handler != SIG_IGN) sigaction(SIGINT, &action, nullptr);
 }
 
+Result<int> endingEarly(const std::function<Result<int>()>& work) {
+  catchInterrupts(Patience::twoSeconds);
+  Result<int> code = work();
+  // Whatever failed after Ctrl-C failed because of it.
+  return interrupted && code != 0 ? endInterrupted() : code;
+}
+
 int endInterrupted() {
   printError("Interrupted; nothing was written.");
   return kInterrupted;

@@ -1,6 +1,9 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
+
+#include "sweepface/result.hpp"
 
 namespace sweepface::cli {
 
@@ -13,6 +16,9 @@ enum class Patience { endless, twoSeconds };
 /// From here on the first Ctrl-C asks the work to stop, and a second one ends the program. So does
 /// the end of patience, for work that asks seldom and has nothing to clear away.
 void catchInterrupts(Patience patience = Patience::endless);
+
+/// Does long work, which gives up where `interrupted` is set or fails within two seconds.
+Result<int> endingEarly(const std::function<Result<int>()>& work);
 
 /// Says that the work was stopped and nothing written; the exit code.
 int endInterrupted();

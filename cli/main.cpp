@@ -44,7 +44,7 @@ int run(int argc, char** argv) {
       "  sweepface COMMAND --help tells more about a command.");
   std::vector<Command> commands;
   for (auto add : {addConvert, addInfo, addCheck, addMeasure, addExport, addAnimate, addWireframe,
-                   addRender, addReport, addPlot, addLaws, addBuild, addEdit})
+                   addRender, addReport, addPlot, addLaws, addBuild, addEdit, addPack})
     commands.push_back(add(tool));
 
   // As other tools have it: help COMMAND.

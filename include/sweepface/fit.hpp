@@ -52,6 +52,29 @@ Result<void> checkTolerance(double tolerance, double diagonal);
 /// a face has more than 4096 corners.
 Result<Conversion> convert(const MeshRig& source, const ConvertOptions& options = {});
 
+/// The meshes that a rig answers with, in its source's order: what it was made from, as nearly as
+/// it has them.
+MeshRig meshesOf(const Rig& rig);
+
+struct PackOptions {
+  /// Largest distance by which a source vertex may move, in model units, in the neutral and in
+  /// every target at weight 1; 0: the rig's own tolerance, or if it has none 0.02 % of `diagonal`.
+  double tolerance = 0;
+  /// As in ConvertOptions; 0: as many as the rig is packed with, or 14.
+  int textureBits = 0;
+  /// As in ConvertOptions.
+  std::function<void(std::string_view what, double done)> progress{};
+  /// Set by another thread to give up; pack then fails.
+  const std::atomic<bool>* cancel = nullptr;
+};
+
+/// Packs a rig as it is, after an edit for example or made from a drawing: vectors become small
+/// whole numbers, of which most are zero. Its tolerance grows by that of packing. The file is
+/// larger than where `convert` packs, which leaves room for it and traces mirror images alike. Uses
+/// all cores, and the result does not depend on how many. Returns the tolerance it kept to; where
+/// it fails the rig stays as it was.
+Result<double> pack(Rig& rig, const PackOptions& options = {});
+
 /// What a rig gets or loses before it is written.
 using FinishRig = std::function<Result<void>(Rig&)>;
 

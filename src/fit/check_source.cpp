@@ -68,6 +68,11 @@ Result<void> checkPrecision(const MeshRig& source, double tolerance) {
   return {};
 }
 
+Result<void> checkTextureBits(int bits) {
+  if (bits >= 8 && bits <= 16) return {};
+  return fail("packed texture coordinates have 8 to 16 bits, not ", bits);
+}
+
 namespace {
 
 /// Files tell targets apart by their names, which are UTF-8.

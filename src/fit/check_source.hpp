@@ -18,4 +18,7 @@ Reach reachOf(const PolygonMesh& mesh);
 /// Fails where single precision tells places or ways less finely than the tolerance.
 Result<void> checkPrecision(const MeshRig& source, double tolerance);
 
+/// Fails where texture coordinates cannot be packed to so many bits.
+Result<void> checkTextureBits(int bits);
+
 }  // namespace sweepface

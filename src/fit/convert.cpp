@@ -12,6 +12,7 @@
 #include "codec/limits.hpp"
 #include "fit/assemble.hpp"
 #include "fit/check_source.hpp"
+#include "fit/defaults.hpp"
 #include "fit/doubts.hpp"
 #include "fit/normals_out_of_reach.hpp"
 #include "fit/quantise.hpp"
@@ -20,8 +21,6 @@ namespace sweepface {
 
 namespace {
 
-// Of the diagonal, where nobody says.
-constexpr double kDefaultTolerance = 0.0002;
 // Vertices that rounding left so near each other become one: of the diagonal, and of the tolerance.
 constexpr double kRounding = 1e-6, kRoundingShare = 1.0 / 64;
 // The fit's share of the tolerance where the rest is left to packing.
@@ -34,10 +33,6 @@ constexpr double kTrace = 0.001;
 constexpr double kNormalShare = 1.25;
 // Predicted slopes overshoot where an edge is this many times as long as the next along its line.
 constexpr double kUneven = 3;
-// At the default tolerance normals may be this far off, in degrees.
-constexpr double kNormalLimitAtDefault = 2.8;
-// What packing aims at, of the limit.
-constexpr double kAngleShare = 0.2;
 // What packing aims at next, of what it aimed at last, where nothing tells it better.
 constexpr double kSmaller = 0.35;
 // Normals that come no nearer than this, of where they were, are as near as packing brings them.
@@ -84,8 +79,7 @@ class Converter {
 
   Result<Conversion> run() {
     if (auto ok = checkSource(source_); !ok) return std::unexpected(ok.error());
-    if (options_.textureBits < 8 || options_.textureBits > 16)
-      return fail("packed texture coordinates have 8 to 16 bits, not ", options_.textureBits);
+    if (auto ok = checkTextureBits(options_.textureBits); !ok) return std::unexpected(ok.error());
     const double size = diagonal(source_.neutral);
     tolerance_ = options_.tolerance > 0 ? options_.tolerance : kDefaultTolerance * size;
     if (auto ok = checkTolerance(tolerance_, size); !ok) return std::unexpected(ok.error());
@@ -94,8 +88,7 @@ class Converter {
     if (!mesh) return std::unexpected(mesh.error());
     aim_ = tolerance_ - mesh->rounding;
     std::ranges::move(doubtsAbout(source_, tolerance_), std::back_inserter(mesh->warnings));
-    usualLimit_ =
-        std::clamp(kNormalLimitAtDefault * tolerance_ / (kDefaultTolerance * size), 2.0, 60.0);
+    usualLimit_ = usualNormalLimit(tolerance_, size);
     const bool limitsNormals = options_.pack && options_.normalTolerance > 0;
     std::optional<Error> failure;
     for (const NormalTry& next : normalTries(options_, usualLimit_)) {

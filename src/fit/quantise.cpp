@@ -79,7 +79,7 @@ class Quantiser {
       if (!goesOn()) return;
       met[pose] = packPose(poses_, pose, bounds);
     });
-    if (!goesOn()) return fail("the conversion was interrupted");
+    if (!goesOn()) return fail("packing was interrupted");
     if (const auto bad = std::ranges::find(met, false); bad != met.end())
       return failed("'" + rig_.targets[bad - met.begin() - 1].name + "'");
     return {};

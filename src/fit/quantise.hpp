@@ -15,9 +15,9 @@ struct PackAims {
 };
 
 /// Moves the vectors of a fitted rig to what a file can hold in few bytes: coefficients that the
-/// tolerance does not need become zero, and the others as small as it allows. The fit must have
-/// left room. `proceed` hears how far it is and answers whether to go on; it is called from several
-/// threads.
+/// tolerance does not need become zero, and the others as small as it allows. The rig must be
+/// nearer to the source than that, to leave room. `proceed` hears how far it is and answers whether
+/// to go on; it is called from several threads.
 Result<void> quantise(Rig& rig, const MeshRig& source, const PackAims& aims,
                       const std::function<bool(double done)>& proceed);
 

@@ -72,6 +72,58 @@ TEST_F(Pack, KeepsTextureCoordinatesThatAreTooFarForStepsExactly) {
               source.texcoords[source.cornerTexcoords[c]]);
 }
 
+TEST_F(Pack, MakesAnEditedFaceSmall) {
+  convertRig();
+  ASSERT_EQ(run("edit face.sweep --move n0 0,0,0.5 -o edited.sweep").code, 0);
+  const Outcome r = run("pack edited.sweep -o small.sweep --tolerance 0.05");
+  ASSERT_EQ(r.code, 0) << r.err;
+  EXPECT_TRUE(r.out.starts_with("small.sweep: ")) << r.out;
+  EXPECT_NE(r.out.find(" of 0.05 allowed"), std::string::npos) << r.out;
+  EXPECT_LT(contents(folder / "small.sweep").size(), contents(folder / "edited.sweep").size() / 5);
+  for (const char* weights : {"", "--weights smile", "--weights jawOpen"}) {
+    for (const char* face : {"edited", "small"})
+      ASSERT_EQ(
+          run(fmt::format("export {0}.sweep -o {0}.obj --source-order {1}", face, weights)).code,
+          0);
+    EXPECT_LE(largestDistance(mesh("edited.obj").positions, mesh("small.obj").positions), 0.0501);
+  }
+  EXPECT_EQ(run("check small.sweep").code, 0);
+  const auto info = nlohmann::json::parse(run("info small.sweep --json").out);
+  EXPECT_NEAR(info["tolerance"].get<double>(), 0.06, 1e-12);
+}
+
+TEST_F(Pack, MakesADrawnFaceSmallAndKeepsItsNames) {
+  ASSERT_EQ(
+      run(fmt::format("build '{}/examples/sheet.wire.json' -o drawn.sweep", SWEEPFACE_SOURCE_DIR))
+          .code,
+      0);
+  ASSERT_EQ(run("pack drawn.sweep -o small.sweep --tolerance 0.01 --quiet").out, "");
+  EXPECT_LT(contents(folder / "small.sweep").size(), contents(folder / "drawn.sweep").size() / 4);
+  EXPECT_NE(run("info small.sweep --list").out.find("curve b3-c3"), std::string::npos);
+}
+
+TEST_F(Pack, LeavesPartsOutOfAFace) {
+  convertRig();
+  ASSERT_EQ(run("pack face.sweep -o small.sweep").code, 0);
+  ASSERT_EQ(run("pack face.sweep -o bare.sweep --strip order,uv").code, 0);
+  EXPECT_EQ(nlohmann::json::parse(run("info small.sweep --json").out)["bareBytes"],
+            contents(folder / "bare.sweep").size());
+  // And again, of a face without an order.
+  ASSERT_EQ(run("pack bare.sweep -o again.sweep --tolerance 0.1").code, 0);
+  EXPECT_LT(contents(folder / "again.sweep").size(), contents(folder / "bare.sweep").size());
+}
+
+TEST_F(Pack, RefusesWhatCannotBePackedAndLeavesFilesAlone) {
+  convertRig();
+  folder.file("kept.sweep", "kept");
+  EXPECT_TRUE(fails("pack face.sweep -o kept.sweep --tolerance 1e9", "larger than the mesh"));
+  EXPECT_TRUE(fails("pack face.sweep -o kept.sweep --strip hair", "no part 'hair'"));
+  EXPECT_TRUE(fails("pack face.sweep -o kept.sweep --uv-bits 7", "--uv-bits", 2));
+  EXPECT_TRUE(fails("pack neutral.obj -o kept.sweep", "neutral.obj"));
+  EXPECT_TRUE(fails("pack face.sweep -o face.sweep", "face.sweep"));
+  EXPECT_EQ(contents(folder / "kept.sweep"), "kept");
+}
+
 TEST_F(Pack, WithoutItsOrderAFaceStillExportsButSaysSo) {
   makeRig();
   ASSERT_EQ(run("convert neutral.obj targets -o bare.sweep --tolerance 0.01 --strip order").code,

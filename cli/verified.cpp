@@ -1,0 +1,58 @@
+#include "verified.hpp"
+
+#include <fmt/format.h>
+
+#include "command.hpp"
+
+namespace sweepface::cli {
+
+namespace fs = std::filesystem;
+
+Result<Verified> verify(std::string_view bytes, const std::string& name, const MeshRig& source,
+                        const Rig& made, double tolerance) {
+  Result<Rig> rig = readBack(bytes, name);
+  if (!rig) return std::unexpected(rig.error());
+  if (!rig->source.ownOrder && rig->targets.size() == made.targets.size()) {
+    rig->source = made.source;
+    for (std::size_t k = 0; k < rig->targets.size(); ++k)
+      rig->targets[k].looseDifference = made.targets[k].looseDifference;
+  }
+  if (rig->targets.size() != source.targets.size() ||
+      rig->source.gridVertex.size() != source.neutral.positions.size())
+    return fail(
+        "The encoded face lacks vertices or targets of the source; nothing was written. "
+        "This is a fault of sweepface, please report it.");
+  const FurthestVertex worst = furthestVertex(*rig, source);
+  std::string shape = worst.target < 0 ? "the neutral" : rig->targets[worst.target].name;
+  if (worst.distance <= tolerance)
+    return Verified{tolerance,
+                    worst,
+                    std::move(shape),
+                    normalRms(*rig, source),
+                    countFolds(*rig, source),
+                    keptMovement(*rig, source)};
+  return fail(
+      fmt::format("Vertex {} of {} would be {:.6g} away from the source, beyond the "
+                  "tolerance of {:.6g}; nothing was written. This is a fault of sweepface, "
+                  "please report it.",
+                  worst.vertex, shape, worst.distance, tolerance));
+}
+
+void printDistance(const Verified& verified) {
+  const auto& [tolerance, worst, shape, angleRms, folds, kept] = verified;
+  fmt::print("worst distance {:.4g} of {:.4g} allowed, at vertex {} of {}\n", worst.distance,
+             tolerance, worst.vertex, shape);
+}
+
+Result<void> writeAndReadBack(const fs::path& path, std::string_view bytes) {
+  if (auto written = writeFile(path, bytes); !written) return written;
+  std::error_code ignored;
+  if (!fs::is_regular_file(path, ignored)) return {};
+  const Result<std::string> back = readFile(path);
+  if (!back) return std::unexpected(back.error());
+  if (*back == bytes) return {};
+  return fail(fmt::format("{} reads back differently from what was written; check the disk.",
+                          path.string()));
+}
+
+}  // namespace sweepface::cli

@@ -1,0 +1,125 @@
+#include <optional>
+#include <tbb/global_control.h>
+
+#include "sweepface/codec.hpp"
+#include "sweepface/edit.hpp"
+#include "sweepface/fit.hpp"
+#include "sweepface/measure.hpp"
+
+#include "faces.hpp"
+
+namespace sweepface {
+namespace {
+
+using namespace sweepface::testing;
+
+Rig converted(const MeshRig& source, double tolerance) {
+  ConvertOptions options;
+  options.tolerance = tolerance;
+  auto conversion = convert(source, options);
+  EXPECT_TRUE(conversion) << conversion.error().message;
+  return conversion ? std::move(conversion->rig) : Rig{};
+}
+
+Rig readBack(const Rig& rig) {
+  auto back = decode(encode(rig), "it");
+  EXPECT_TRUE(back) << back.error().message;
+  return back ? std::move(*back) : Rig{};
+}
+
+class EveryPack : public ::testing::TestWithParam<Face> {
+ protected:
+  const MeshRig& source() const { return GetParam().rig; }
+};
+INSTANTIATE_TEST_SUITE_P(Pack, EveryPack, eachFace(), faceName);
+
+TEST_P(EveryPack, staysNearTheFaceAndIsSmall) {
+  const double size = diagonal(source().neutral);
+  const Rig before = converted(source(), 0.001 * size);
+  Rig rig = before;
+  const auto tolerance = pack(rig, {.tolerance = 0.002 * size});
+  ASSERT_TRUE(tolerance) << tolerance.error().message;
+  EXPECT_EQ(*tolerance, 0.002 * size);
+  EXPECT_EQ(rig.tolerance, 0.001 * size + 0.002 * size);
+  const Rig read = readBack(rig);
+  EXPECT_LE(furthestVertex(read, meshesOf(before)).distance, 0.002 * size);
+  EXPECT_LE(furthestVertex(read, source()).distance, rig.tolerance);
+  EXPECT_LT(encode(rig).size(), encode(before).size() / 4);
+  EXPECT_EQ(encode(read), encode(rig));
+}
+
+TEST(Pack, meshesAreTheSourceAsTheRigHasIt) {
+  const MeshRig source = withTargets(torus());
+  const Rig rig = converted(source, 0.01);
+  const MeshRig meshes = meshesOf(rig);
+  EXPECT_EQ(meshes.neutral.polygons.corners, source.neutral.polygons.corners);
+  ASSERT_EQ(meshes.targets.size(), source.targets.size());
+  for (Index pose = 0; pose <= static_cast<Index>(source.targets.size()); ++pose)
+    for (std::size_t v = 0; v < source.neutral.positions.size(); ++v)
+      EXPECT_LE(norm(meshes.positionsOf(pose)[v] - source.positionsOf(pose)[v]), 0.01);
+  EXPECT_EQ(meshes.targets[0].name, source.targets[0].name);
+  EXPECT_EQ(furthestVertex(rig, meshes).distance, 0);
+}
+
+TEST(Pack, keepsEdits) {
+  Rig rig = converted(withTargets(plane()), 0.01);
+  Index node = 0;  // one that may be moved
+  while (!moveNodes(rig, std::vector{NodeMove{node, {0, 0, 1}}})) ++node;
+  const MeshRig edited = meshesOf(rig);
+  ASSERT_TRUE(pack(rig, {.tolerance = 0.02}));
+  EXPECT_LE(furthestVertex(readBack(rig), edited).distance, 0.02);
+}
+
+TEST(Pack, goesByTheToleranceAndTheBitsOfTheFaceUnlessTold) {
+  Rig rig = converted(withTargets(plane()), 0.03);
+  EXPECT_EQ(pack(rig), 0.03);
+  EXPECT_EQ(rig.packing.textureBits, 14);
+  ASSERT_TRUE(pack(rig, {.tolerance = 0.01, .textureBits = 9}));
+  EXPECT_EQ(rig.packing.textureBits, 9);
+  ASSERT_TRUE(pack(rig, {.tolerance = 0.01}));
+  EXPECT_EQ(rig.packing.textureBits, 9);
+  rig.tolerance = 0;
+  EXPECT_EQ(pack(rig), 0.0002 * diagonal(meshesOf(rig).neutral));
+}
+
+TEST(Pack, isTheSameOnOneThreadAsOnMany) {
+  const Rig before = converted(withTargets(torus()), 0.01);
+  std::string bytes[2];
+  for (const int threads : {1, 4}) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                    static_cast<std::size_t>(threads));
+    Rig rig = before;
+    ASSERT_TRUE(pack(rig));
+    bytes[threads > 1] = encode(rig);
+  }
+  EXPECT_EQ(bytes[0], bytes[1]);
+}
+
+TEST(Pack, leavesTheFaceAsItWasWhereItFails) {
+  Rig rig = converted(withTargets(torus()), 0.01);
+  const std::string before = encode(rig);
+  const auto refusal = [&](const PackOptions& options) {
+    const auto packed = pack(rig, options);
+    EXPECT_EQ(encode(rig), before);
+    return packed ? "" : packed.error().message;
+  };
+  std::atomic<bool> cancel = false;
+  EXPECT_EQ(refusal({.progress = [&](auto, double done) { cancel = done > 0; }, .cancel = &cancel}),
+            "packing was interrupted");
+  EXPECT_EQ(refusal({.textureBits = 7}), "packed texture coordinates have 8 to 16 bits, not 7");
+  EXPECT_TRUE(refusal({.tolerance = 1e9}).contains("larger than the mesh"));
+  EXPECT_TRUE(refusal({.tolerance = 1e-12}).contains("finer than a file's numbers"));
+}
+
+TEST(Pack, needsTheTargets) {
+  Rig whole = converted(withTargets(plane()), 0.01);
+  ASSERT_TRUE(pack(whole));
+  auto neutral = decodeNeutral(encode(whole), "it");
+  ASSERT_TRUE(neutral) << neutral.error().message;
+  const auto packed = pack(neutral->rig);
+  ASSERT_FALSE(packed);
+  EXPECT_TRUE(packed.error().message.contains("not decoded yet"));
+}
+
+}  // namespace
+}  // namespace sweepface
