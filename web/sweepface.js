@@ -1,13 +1,11 @@
 // Plays .sweep faces in browsers and in Node.
 import {DRIVE_SIZE, secondsOf, writeDrive} from './sweepface_drives.js';
 import {open, Shared} from './sweepface_file.js';
-import {isFloats, kindOf, known, told} from './sweepface_values.js';
+import {isFloats, kindOf, known, passed, told} from './sweepface_values.js';
 import {MemoryError} from './sweepface_wasm.js';
 
 /** How far a weight may be from 0. */
 const MOST = 1e6;
-/** Of more at once no time passes, as in the module. */
-const MOST_SECONDS = 1e10;
 
 const copyOf = ({leftEye, rightEye}) => ({leftEye: {...leftEye}, rightEye: {...rightEye}});
 
@@ -118,8 +116,8 @@ export class Sweepface {
     const {runtime, eyeCount} = this.#open();
     if (eyeCount === 0) throw new Error('The face has no eyes that turn; load it with the option eyes, if it has any.');
     const angles = (eye, name) => {
-      const {yaw = 0, pitch = 0} = known(eye, ['yaw', 'pitch', 'roll'], `look's ${name}`);  // as clips have it
-      for (const angle of [yaw, pitch])
+      const {yaw = 0, pitch = 0, roll = 0} = known(eye, ['yaw', 'pitch', 'roll'], `look's ${name}`);  // as clips have it
+      for (const angle of [yaw, pitch, roll])
         if (!Number.isFinite(angle)) throw new TypeError(`look's ${name} takes finite numbers, not ${told(angle)}.`);
       return [yaw, pitch, 0];
     };
@@ -222,7 +220,7 @@ export class Sweepface {
     if (!Number.isFinite(seconds))
       throw new RangeError(`Time passes by a finite number of seconds, not ${told(seconds)}.`);
     if (!this.#motion) return false;
-    const passing = seconds > 0 && seconds <= MOST_SECONDS ? seconds : 0;
+    const passing = passed(seconds);
     const still = 1e-6, before = this.#copyWeights().slice();
     const isDriven = this.#drives.size > 0;
     wasm.sweepface_motion_advance(this.#motion, seconds);

@@ -181,8 +181,8 @@ function readMediaPipe(frames, framesPerSecond, name, fail) {
   const clip = new Clip(names, Float64Array.from(kept, (f) => times[f]), weights);
   const step = 1000 * (times[last] - times[0]) / last, lost = found.filter((has) => !has).length;
   if (step < 1 || step > 5000)  // what no camera does
-    clip.warnings.push(`${name}: frames are ${Number(step.toPrecision(3))} ms apart; are the times milliseconds, as they ` +
-                       'should be?');
+    clip.warnings.push(`${name}: frames are ${step > 1 ? Math.round(step) : Number(step.toPrecision(3))} ms apart; are the ` +
+                       'times milliseconds, as they should be?');
   if (lost > 0)
     clip.warnings.push(`${name}: ${lost} of ${frames.length} frames found no face; weights go on from the frames around ` +
                        'them.');
@@ -192,11 +192,11 @@ function readMediaPipe(frames, framesPerSecond, name, fail) {
 /** Seconds. */
 function timeIn(frame, f, framesPerSecond, fail) {
   const time = frame?.[['timestampMs', 'timestamp_ms', 'timestamp'].find((key) => frame[key] !== undefined)];
-  if (time === undefined && framesPerSecond) return f / framesPerSecond;
-  if (typeof time !== 'number')
+  if (typeof time !== 'number' && !(time === undefined && framesPerSecond))
     throw fail(`has no 'timestampMs' in frame ${f}; add the milliseconds, or give the frames a second`);
-  if (!(Math.abs(time / 1000) <= MOST_TIME)) throw fail(`has a time in frame ${f} that is not within 300 years`);
-  return time / 1000;
+  const seconds = time === undefined ? f / framesPerSecond : time / 1000;
+  if (!(Math.abs(seconds) <= MOST_TIME)) throw fail(`has a time in frame ${f} that is not within 300 years`);
+  return seconds;
 }
 
 // Beside the time, or of the first of the faces found: an object in JavaScript, the list itself in Python. A frame

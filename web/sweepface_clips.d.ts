@@ -91,6 +91,6 @@ export class TimelinePlayer {
   readonly timeline: Timeline;
   readonly match: Match;
   readonly seconds: number;
-  /** Lets seconds pass; says whether anything is still to come or moves. */
+  /** Lets seconds pass, of more than 10¹⁰ at once none; says whether anything is still to come or moves. */
   advance(seconds: number): boolean;
 }

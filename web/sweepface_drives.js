@@ -20,31 +20,29 @@ export const goesBy = (kind, number) => GO_BY[number].includes(kind);
 /** Bytes of the struct. */
 export const DRIVE_SIZE = 56;
 
-/** Further off and faster than weights ever are. */
+/** Further off than goals ever are, and faster than weights. */
 const FAR = 1e12;
 
-/**
- * What keeps a drive from setting out, in the library's words: to a goal so far off, or of a weight that is so fast.
- */
-export function faultOf(drive, way = 1, speed = 0) {
+/** What keeps a drive from setting out, wherever its weights are, in the library's words. */
+export function faultOf(drive) {
   const {kind = 'spring', seconds = 1, turn = 0.5, frequency = 1, damping = 1, restitution = 0} = drive;
   const tooMuch = (...numbers) => (numbers.every(Number.isFinite) ? undefined
     : 'A motion needs finite numbers; its goal, time or frequency is beyond what they hold');
   if (kind === 'cut') return;
   if (kind === 'spring') {
     const omega = 2 * Math.PI * frequency, sigma = damping * omega, force = omega ** 2 + sigma ** 2;
-    return tooMuch(force, force * way, 2 * sigma * speed) ??
+    return tooMuch(force, force * FAR, 2 * sigma * FAR) ??
            (frequency > 0 && damping >= 0 ? undefined
                                           : 'A spring needs a frequency greater than 0 and a damping of at least 0');
   }
   if (kind === 'bounce' && !(restitution >= 0 && restitution <= 1 - 1e-9))
     return 'A bounce keeps a part of its speed: the restitution lies in [0, 1 - 1e-9]';
   if (!(seconds > 0)) return 'The motion must last a finite time greater than 0 seconds';
-  const peak = 2 * way / seconds + speed;
+  const peak = 2 * FAR / seconds + FAR;
   if (kind === 'linear-force') return tooMuch(6 * peak / seconds / seconds);  // how fast the force changes
   if (kind !== 'accelerate-brake') return tooMuch(2 * peak / seconds);
   if (!(turn > 0 && turn < 1)) return 'The force must turn after the start and before the end: between 0 and 1';
-  return tooMuch(peak / Math.min(turn, 1 - turn) / seconds, speed * seconds);
+  return tooMuch(peak / Math.min(turn, 1 - turn) / seconds, FAR * seconds);
 }
 
 /** By how much weights of a region take longer. */
@@ -81,7 +79,7 @@ export function writeDrive(runtime, at, drive, matters) {
   }
   if (numbers[0] < 0) throw new RangeError('The delay of a motion must be at least 0 seconds.');
   for (const matter of matters) {
-    const fault = faultOf({...inMatter(numbers, matter), kind: name}, FAR, FAR);
+    const fault = faultOf({...inMatter(numbers, matter), kind: name});
     if (fault) throw new RangeError(`${fault}.`);
   }
 }

@@ -47,6 +47,7 @@ function isPacked(bytes) {
 export class Shared {
   constructor(instance, bytes, {name, follow, eyes, divide, lod, budget}) {
     const runtime = this.runtime = new Runtime(instance), {wasm} = runtime;
+    this.name = name;
     this.rig = runtime.loadRig(bytes, name);
     if (follow || eyes) this.loadTargets();
     if (follow) runtime.check(wasm.sweepface_rig_follow(this.rig, follow));
@@ -66,13 +67,15 @@ export class Shared {
 
   /** Reads what targets do, once; that waits until the face is to move, so that it shows sooner. */
   loadTargets() {
-    this.runtime.check(this.runtime.wasm.sweepface_rig_load_targets(this.rig));
+    this.runtime.check(this.runtime.wasm.sweepface_rig_load_targets(this.rig),
+                       `${this.name}: what its targets do cannot be read; convert the source again.`);
   }
 
   target(name) {
     const index = this.indexOf.get(name);
     if (index !== undefined) return index;
-    const known = this.names.length > 0 ? `its targets are ${this.names.join(', ')}` : 'this face has no targets';
+    const listed = this.names.slice(0, 60).concat(this.names.length > 60 ? ['...'] : []).join(', ');
+    const known = this.names.length > 0 ? `its targets are ${listed}` : 'this face has no targets';
     throw new Error(`There is no target named '${name}'; ${known}.`);
   }
 

@@ -1,4 +1,5 @@
 // Regions of a face (docs/regions.md), painted by the C interface (include/sweepface/sweepface_regions.h).
+import {kindOf} from './sweepface_values.js';
 
 const MATTER = {mass: 1, stiffness: 1, delay: 0};
 const PLACES = ['parts', 'points', 'line', 'curves', 'nodes'];
@@ -18,7 +19,7 @@ class Copies {
     return at;
   }
   text(text) { return this.bytes(new TextEncoder().encode(text + '\0')); }
-  texts(list) { return this.bytes(new Uint32Array(list.map((text) => this.text(String(text))))); }
+  texts(list) { return this.bytes(new Uint32Array(list.map((text) => this.text(text)))); }
   numbers(list) { return this.bytes(new Float64Array(list)); }
 
   free() {
@@ -33,23 +34,24 @@ function check(regions) {
   if (!Array.isArray(regions)) throw new TypeError('Regions are a list of objects with a name each.');
   for (const region of regions) {
     if (typeof region?.name !== 'string') throw new TypeError('A region needs a name.');
-    if (/\0|\p{Surrogate}/u.test(region.name))
+    if (/[\0-\x1f]|\p{Surrogate}/u.test(region.name))
       throw new TypeError('A region needs a name that is text all through.');
     const wrong = (what) => new TypeError(`Region '${region.name}' ${what}.`);
     for (const key of Object.keys(region))
       if (!MEMBERS.includes(key)) throw wrong(`has an unknown '${key}'; it has ${MEMBERS.join(', ')}`);
     const told = (keys) => keys.filter((key) => region[key] !== undefined);
     for (const key of told(['parts', 'curves']))
-      if (!Array.isArray(region[key])) throw wrong(`has '${key}' that are no list of names`);
+      if (!Array.isArray(region[key]) || !region[key].every((name) => typeof name === 'string'))
+        throw wrong(`has '${key}' that are no list of names`);
     const {nodes = {}, bands = 1, mass = 1, stiffness = 1, delay = 0} = region;
-    if (typeof nodes !== 'object' || !nodes || !Object.values(nodes).every(Number.isFinite))
+    if (kindOf(nodes) !== 'Object' || !Object.values(nodes).every(Number.isFinite))
       throw wrong('has \'nodes\' that are no shares by name');
     for (const key of told(['points', 'line']))
       if (!Array.isArray(region[key]) || !region[key].every(isPlace))
         throw wrong(`has '${key}' that are not like [[x, y, z]]`);
     if (told(PLACES).every((key) => Object.keys(region[key]).length === 0))
       throw wrong(`says nowhere where it is; give it ${PLACES.join(', ')}`);
-    if (!['surface', 'space'].includes(region.over ?? 'surface'))
+    if (!['surface', 'space', undefined].includes(region.over))
       throw wrong(`is over '${region.over}', which is neither surface nor space`);
     for (const key of told([...Object.keys(MATTER), 'whole', 'fade']))
       if (!Number.isFinite(region[key])) throw wrong(`has a '${key}' that is not a number`);
@@ -61,12 +63,18 @@ function check(regions) {
   }
 }
 
+function copyOf({parts = [], points = [], line = [], curves = [], nodes = {}, ...others}) {
+  const placesOf = (list) => list.map((place) => [...place]);
+  return {...others, parts: [...parts], points: placesOf(points), line: placesOf(line), curves: [...curves],
+          nodes: {...nodes}};
+}
+
 /** The C struct of a brush. */
 function brush(copies, region) {
-  const {parts = [], points = [], line = [], curves = [], nodes = {}, whole = 0, fade = 0, over} = region;
+  const {parts, points, line, curves, nodes, whole = 0, fade = 0, over} = region;
   const struct = new DataView(new ArrayBuffer(72)), shares = Object.values(nodes);
-  const words = [copies.texts(parts), parts.length, copies.numbers(points.flatMap((p) => [...p])), points.length,
-                 copies.numbers(line.flatMap((p) => [...p])), line.length, copies.texts(curves), curves.length,
+  const words = [copies.texts(parts), parts.length, copies.numbers(points.flat()), points.length,
+                 copies.numbers(line.flat()), line.length, copies.texts(curves), curves.length,
                  copies.texts(Object.keys(nodes)), copies.numbers(shares), shares.length];
   words.forEach((word, k) => struct.setUint32(4 * k, word, true));
   struct.setFloat64(48, whole, true);
@@ -99,8 +107,9 @@ function paint(runtime, rig, region) {
 }
 
 /** What divides a rig into regions and tells them, the rest first. */
-export function divider(regions) {
-  check(regions);
+export function divider(given) {
+  check(given);
+  const regions = given.map(copyOf);  // their owner may change them while the module comes
   return (runtime, rig) => {
     const {wasm} = runtime, copies = new Copies(runtime);
     const painted = regions.flatMap((region) => paint(runtime, rig, region));

@@ -2,7 +2,7 @@
 import {faultOf, goesBy, KINDS, NUMBERS} from './sweepface_drives.js';
 import {matchNames, turnsEyes} from './sweepface_names.js';
 import {isNumber, isObject, isWeight, parseJson, textOf} from './sweepface_text.js';
-import {known, told} from './sweepface_values.js';
+import {known, passed, told} from './sweepface_values.js';
 
 const EVENT = ['at', 'to', 'only', 'drive', 'region', ...NUMBERS];
 const TIMELINE = ['seconds', 'loops', 'poses', 'events', 'regions'];
@@ -109,7 +109,7 @@ export class TimelinePlayer {
   advance(seconds) {
     if (!Number.isFinite(seconds))
       throw new RangeError(`Time passes by a finite number of seconds, not ${told(seconds)}.`);
-    const {seconds: length, loops} = this.timeline, events = this.#events, until = this.#now + Math.max(seconds, 0);
+    const {seconds: length, loops} = this.timeline, events = this.#events, until = this.#now + passed(seconds);
     let moves = false;
     while (this.#next < loops * events.length) {
       const event = events[this.#next % events.length], loop = Math.floor(this.#next / events.length);

@@ -7,7 +7,14 @@ export const kindOf = (it) => Object.prototype.toString.call(it).slice(8, -1);
 export const isFloats = (it) => ['Float32Array', 'Float64Array'].includes(kindOf(it));
 
 /** How a message calls what is no number. */
-export const told = (value) => (typeof value === 'string' ? `the text '${value}'` : String(value));
+export function told(value) {
+  if (typeof value === 'string') return `the text '${value}'`;
+  if (typeof value === 'bigint') return `${value}n`;
+  return typeof value === 'object' && value && !value.toString ? kindOf(value) : String(value);
+}
+
+/** How much time passes: where a clock is wrong, none, so that it ends no motion. */
+export const passed = (seconds) => (seconds > 0 && seconds <= 1e10 ? seconds : 0);
 
 /** The bytes that are given, if any are. */
 export function bytesOf(source) {

@@ -154,8 +154,9 @@ export class Runtime {
 
   lendText(text, use) { return this.lend(encoder.encode(text + '\0'), use); }
 
-  check(status) {
-    if (status !== 0) throw new Error(this.text(this.wasm.sweepface_message()) || UNSAID);
+  /** `unsaid` is what to say where the usual module has no words. */
+  check(status, unsaid = UNSAID) {
+    if (status !== 0) throw new Error(this.text(this.wasm.sweepface_message()) || unsaid);
   }
 
   /** What a function with a trailing out-parameter of 32 bits writes there. */

@@ -20,7 +20,8 @@ static int play(const sweepface_rig* rig, const sweepface_clip* clip, sweepface_
     sweepface_pose pose;
     if (sweepface_clip_weights(clip, frame * step, weights, targets) ||
         sweepface_clip_pose(clip, frame * step, &pose) ||
-        sweepface_face_set_weights(face, weights, targets) || sweepface_face_look(face, &pose))
+        sweepface_face_set_weights(face, weights, targets) ||
+        sweepface_face_look(face, sweepface_clip_has_eyes(clip) ? &pose : NULL))
       return refused();
     uint32_t most = 0;
     for (uint32_t k = 1; k < targets; ++k)

@@ -44,7 +44,7 @@ class Evaluator {
   /// where options and rig do not fit.
   static Result<Evaluator> make(const Rig& rig, const EvaluatorOptions& options = {});
   /// The same where a tessellation of that level (level 0: 1) is at hand; or one with a density,
-  /// whose vertices are then played.
+  /// whose vertices are then played, whatever the level.
   static Result<Evaluator> make(const Rig& rig, const Tessellation& grid,
                                 const EvaluatorOptions& options);
 
@@ -61,7 +61,8 @@ class Evaluator {
   std::size_t normalBytes() const;
   /// How far any vertex may be from the surface under these weights, in model units: what was
   /// dropped of each target, as measured when the tables were made, and rounding. Weights beyond
-  /// ±10⁶ are scaled back to that, and the bound does not hold.
+  /// ±10⁶ are scaled back to that, and the bound does not hold; nor where a target moves anything
+  /// by more than 10³⁰.
   double positionBound(std::span<const double> weights) const;
   /// The same for a derivative, as a share of the same.
   double derivativeBound(std::span<const double> weights) const;

@@ -118,7 +118,8 @@ struct Connectivity {
   std::vector<Rail> rails;             ///< [half-arcs] the rest of the rail from each on
   std::vector<std::vector<Fan>> fans;  ///< [nodes] of those that are creased
 
-  /// Fails with the place where the loops do not form a surface.
+  /// Fails with the place where the loops do not form a surface. They must follow each other
+  /// without a gap, as Surface::make makes sure.
   static Result<Connectivity> make(const Wireframe& wireframe);
   /// The arm opposite to `arm` of a node's star: the line runs straight on; -1 if it ends here.
   int opposite(Index node, int arm) const;
@@ -157,7 +158,7 @@ class Surface {
   /// Fails where the wireframe is inconsistent, naming the place. Where derivatives are derived
   /// from themselves, `circle` (if given) receives for each circle one node that could break it.
   static Result<Surface> make(Wireframe wireframe, std::vector<Index>* circle = nullptr);
-  /// The same where it is known who meets whom in that wireframe.
+  /// The same where it is known who meets whom in that wireframe, and that it is consistent.
   static Result<Surface> make(Wireframe wireframe, Connectivity connectivity,
                               std::vector<Index>* circle = nullptr);
 

@@ -28,7 +28,7 @@ SWEEPFACE_API sweepface_status sweepface_rig_region_matter(const sweepface_rig* 
  * read it. */
 typedef struct sweepface_clip sweepface_clip;
 
-/* How a clip is read. */
+/* How a clip is read; a timeline goes by none of it. */
 typedef struct sweepface_clip_options {
   double frames_per_second; /* of the timecodes of a CSV; 0: as these tell, or else 60. Of frames of
                                MediaPipe without times, which need it */
@@ -70,7 +70,8 @@ SWEEPFACE_API sweepface_status sweepface_clip_weights(const sweepface_clip* clip
  * without one eyes look by their weights. */
 SWEEPFACE_API int32_t sweepface_clip_has_head(const sweepface_clip* clip);
 SWEEPFACE_API int32_t sweepface_clip_has_eyes(const sweepface_clip* clip);
-/* All angles at a time; what the clip lacks is 0. */
+/* All angles at a time; what the clip lacks is 0. A clip without angles of the eyes is no reason to
+ * hold them straight: give sweepface_face_look() NULL then. */
 SWEEPFACE_API sweepface_status sweepface_clip_pose(const sweepface_clip* clip, double seconds,
                                                    sweepface_pose* pose);
 

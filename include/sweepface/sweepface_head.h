@@ -18,7 +18,7 @@ typedef struct sweepface_pose {
   sweepface_angles head, left_eye, right_eye;
 } sweepface_pose;
 
-/* x, y, z and w of the quaternion that turns the model so: by Ry * Rx * Rz. */
+/* x, y, z and w of the quaternion that turns the model so: by Ry * Rx * Rz. Angles are finite. */
 SWEEPFACE_API void sweepface_rotation(const sweepface_angles* angles, double quaternion[4]);
 
 /* From now on eyeballs turn rigidly about their centres. To be said before the rig has meshes,

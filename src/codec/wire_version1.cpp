@@ -1,22 +1,11 @@
 #include "codec/wire_version1.hpp"
 
-#include <algorithm>
-
 #include "codec/grid_size.hpp"
+#include "surface/wireframe_checks.hpp"
 
 namespace sweepface::codec {
 
 namespace {
-
-// A set that is closed downwards: whoever has ∂x^i ∂y^j has all that comes before.
-bool isClosed(JetMask mask) {
-  for (int k = 0; k < 9; ++k) {
-    if (!(mask >> k & 1)) continue;
-    if (k >= 3 && !(mask >> (k - 3) & 1)) return false;
-    if (k % 3 > 0 && !(mask >> (k - 1) & 1)) return false;
-  }
-  return true;
-}
 
 void readNodes(Reader& in, Wireframe& w) {
   const std::size_t count = in.count(2, "nodes");
@@ -72,12 +61,6 @@ void readPatches(Reader& in, Wireframe& w) {
   }
 }
 
-bool allArcsBound(const Wireframe& w) {
-  std::vector<char> bounds(w.arcs.size());
-  for (HalfArc h : w.loops) bounds[arcOf(h)] = 1;
-  return std::ranges::find(bounds, 0) == bounds.end();
-}
-
 }  // namespace
 
 Wireframe readWireframe(Reader& in) {
@@ -88,7 +71,7 @@ Wireframe readWireframe(Reader& in) {
   readPatches(in, w);
   if (in.ok() && !isSmallEnough(w, kMostGridVertices))
     in.refuse("the patches have too many vertices");
-  if (in.ok() && !allArcsBound(w)) in.refuse("an arc bounds no patch");
+  if (in.ok() && idleArc(w) >= 0) in.refuse("an arc bounds no patch");
   return w;
 }
 

@@ -18,6 +18,7 @@
 #include "drawing/words.hpp"
 #include "mesh/grid_source.hpp"
 #include "surface/jet_numbers.hpp"
+#include "surface/wireframe_checks.hpp"
 
 namespace sweepface {
 
@@ -106,14 +107,6 @@ class Builder {
                   fmt::format("a jet of node '{}' runs along '{}', which is no curve that leaves "
                               "it so; a '-' stands before a curve that arrives",
                               d_.nodes[n].name, d_.nodes[n].jets[jet].along));
-  }
-
-  static bool isClosed(JetMask mask) {
-    for (int k = 1; k < 9; ++k)
-      if (mask >> k & 1)
-        if ((k >= 3 && !(mask >> (k - 3) & 1)) || (k % 3 > 0 && !(mask >> (k - 1) & 1)))
-          return false;
-    return true;
   }
 
   // The jets are those of plain ribbons: shape parameters then bend what has been drawn.

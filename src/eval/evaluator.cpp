@@ -218,8 +218,6 @@ double bound(const TableErrors& errors, std::span<const double> weights) {
 bool isShare(double x) { return x >= 0 && std::isfinite(x); }
 
 Result<void> check(const Rig& rig, const EvaluatorOptions& options) {
-  if (options.level < 0 || options.level > kMostLevel)
-    return fail("The level of an evaluator must be 0 to ", kMostLevel, ".");
   if (options.level == 0 && rig.source.gridVertex.empty())
     return fail("The face came without its source's vertices; ask for level 1.");
   if (!isShare(options.tolerance) ||
@@ -243,19 +241,19 @@ Result<void> check(const Rig& rig, const EvaluatorOptions& options) {
 }  // namespace
 
 Result<Evaluator> Evaluator::make(const Rig& rig, const EvaluatorOptions& options) {
-  if (auto ok = check(rig, options); !ok) return std::unexpected(ok.error());
+  if (options.level < 0 || options.level > kMostLevel)
+    return fail("The level of an evaluator must be 0 to ", kMostLevel, ".");
   return make(rig, Tessellation(rig.surface, std::max<Index>(1, options.level)), options);
 }
 
 Result<Evaluator> Evaluator::make(const Rig& rig, const Tessellation& grid,
                                   const EvaluatorOptions& options) {
   if (auto ok = check(rig, options); !ok) return std::unexpected(ok.error());
-  if (grid.level() != 0 && grid.level() != std::max<Index>(1, options.level))
-    return fail("The tessellation of an evaluator must be of its level.");
-  const auto isKnown = [&](Index vertex) { return vertex < grid.vertexCount(); };
-  if (!grid.fits(rig.surface) ||
-      (options.level == 0 && !std::ranges::all_of(rig.source.gridVertex, isKnown)))
-    return fail("The tessellation of an evaluator must be of its rig's surface.");
+  const bool hasLevel = grid.level() > 0, inSourceOrder = hasLevel && options.level == 0;
+  const auto isKnown = [count = grid.vertexCount()](Index vertex) { return vertex < count; };
+  if (!grid.fits(rig.surface) || (hasLevel && grid.level() != std::max<Index>(1, options.level)) ||
+      (inSourceOrder && !std::ranges::all_of(rig.source.gridVertex, isKnown)))
+    return fail("The tessellation of an evaluator must be of its rig's surface and of its level.");
   Evaluator made;
   made.tables_ = std::make_shared<const EvaluatorTables>(Compiler(rig, grid, options).compile());
   return made;

@@ -29,7 +29,6 @@ class EyeFinder {
 
   std::vector<Eye> find() {
     collect();
-    std::ranges::sort(eyeballs_, std::greater(), [](const Eyeball& e) { return e.ball.radius; });
     if (eyeballs_.size() > 2) eyeballs_.resize(2);
     if (eyeballs_.size() == 2 && eyeballs_[1].ball.radius < kPair * eyeballs_[0].ball.radius)
       eyeballs_.pop_back();
@@ -41,7 +40,8 @@ class EyeFinder {
   }
 
  private:
-  /// Balls, those of one eye (sclera and cornea) taken together by the larger one.
+  /// Balls, those of one eye (sclera and cornea) taken together by the larger one; large ones
+  /// first.
   void collect() {
     std::vector<Eyeball> found;
     for (std::size_t p = 0; p < parts_.size(); ++p)

@@ -34,8 +34,7 @@ struct Sizes {
 // The largest shift with which steps are no longer than `step`.
 int shiftFor(double step, double unit, int targets) {
   int shift = 0;
-  while (shift < kMostShift && unit * (2 << shift) <= step &&
-         double(targets) * (2 << shift) <= kMostSum)
+  while (shift < kMostShift && unit * (2 << shift) <= step && targets * (2 << shift) < kMostSum)
     ++shift;
   return shift;
 }

@@ -2,37 +2,52 @@
 #include "eval/triangulate.hpp"
 
 #include <algorithm>
-#include <limits>
-#include <numeric>
 
 namespace sweepface {
 namespace {
 
-// Cutting takes time with the third power of the corners; larger polygons become fans.
-constexpr std::size_t kMostCorners = 64;
+// Cutting takes time with the square of the corners; larger polygons become fans.
+constexpr std::size_t kMostCorners = 4096;
 
 class EarCutter {
  public:
   explicit EarCutter(std::span<const Vec3> polygon)
       : polygon_(polygon), normal_(meanNormal(polygon)), left_(polygon.size()) {
-    std::iota(left_.begin(), left_.end(), 0);
+    for (std::size_t k = 0; k < left_.size(); ++k) left_[k].index = static_cast<Index>(k);
+    for (std::size_t k = 0; k < left_.size(); ++k) weigh(k);
   }
 
   std::vector<Triangle> cut() {
     std::vector<Triangle> triangles;
     while (left_.size() > 3) {
-      const std::size_t ear = bestEar();
-      triangles.push_back(corner(ear));
-      left_.erase(left_.begin() + static_cast<std::ptrdiff_t>(ear));
+      const auto ear = std::ranges::min_element(left_, {}, &Corner::cost);
+      const auto k = static_cast<std::size_t>(ear - left_.begin());
+      triangles.push_back(corner(k));
+      left_.erase(ear);
+      weigh(k + left_.size() - 1);
+      weigh(k);
     }
     triangles.push_back(corner(1));
     return triangles;
   }
 
  private:
+  /// One that is left, and what speaks against cutting it off: ears come first, where a twisted
+  /// polygon has none any corner, and the shortest cut. Only neighbours of what is cut off change.
+  struct Corner {
+    Index index;
+    double cost;
+  };
+
+  void weigh(std::size_t k) {
+    const Triangle t = corner(k);
+    const double length = norm(polygon_[t[2]] - polygon_[t[0]]);
+    left_[k % left_.size()].cost = isEar(t) ? -1 / length : length;
+  }
+
   Triangle corner(std::size_t k) const {
     const std::size_t n = left_.size();
-    return {left_[(k + n - 1) % n], left_[k], left_[(k + 1) % n]};
+    return {left_[(k + n - 1) % n].index, left_[k % n].index, left_[(k + 1) % n].index};
   }
 
   /// Twice the area of a triangle along the mean normal, in no particular unit.
@@ -45,7 +60,7 @@ class EarCutter {
     const auto isCorner = [&](Index p) {
       return std::ranges::any_of(t, [&](Index c) { return polygon_[c] == polygon_[p]; });
     };
-    for (const Index p : left_) {
+    for (const auto& [p, cost] : left_) {
       if (isCorner(p)) continue;
       if (area(t[0], t[1], p) >= 0 && area(t[1], t[2], p) >= 0 && area(t[2], t[0], p) >= 0)
         return false;
@@ -53,24 +68,9 @@ class EarCutter {
     return true;
   }
 
-  /// The ear with the shortest cut; any corner counts where a twisted polygon has no ear.
-  std::size_t bestEar() const {
-    std::size_t best = 0;
-    double shortest = std::numeric_limits<double>::infinity();
-    bool found = false;
-    for (std::size_t k = 0; k < left_.size(); ++k) {
-      const Triangle t = corner(k);
-      const bool ear = isEar(t);
-      const double length = norm(polygon_[t[2]] - polygon_[t[0]]);
-      if (ear < found || (ear == found && !(length < shortest))) continue;
-      best = k, shortest = length, found = ear;
-    }
-    return best;
-  }
-
   std::span<const Vec3> polygon_;
   Vec3 normal_;
-  std::vector<Index> left_;
+  std::vector<Corner> left_;
 };
 
 std::vector<Triangle> fan(Index corners) {

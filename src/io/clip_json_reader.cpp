@@ -111,12 +111,13 @@ class ClipJsonReader {
     const Json* time = nullptr;
     for (const char* key : {"timestampMs", "timestamp_ms", "timestamp"})
       if (!time) time = member(frame, key);
-    if (!time && framesPerSecond_ > 0) return static_cast<double>(f) / framesPerSecond_;
-    if (!time || !time->is_number())
+    const bool isCounted = !time && framesPerSecond_ > 0;
+    if (!isCounted && (!time || !time->is_number()))
       return failFile(fmt::format(
           "has no 'timestampMs' in frame {}; add the milliseconds, or give the frames a second",
           f));
-    const double seconds = time->get<double>() / 1000;
+    const double seconds =
+        isCounted ? static_cast<double>(f) / framesPerSecond_ : time->get<double>() / 1000;
     if (isPlausibleTime(seconds)) return seconds;
     return failFile(fmt::format("has a time in frame {} that is not within 300 years", f));
   }
@@ -126,8 +127,8 @@ class ClipJsonReader {
     const double step =
         1000 * (times.back() - times.front()) / static_cast<double>(times.size() - 1);
     if (step < 1 || step > 5000)
-      warn(fmt::format("frames are {:.3g} ms apart; are the times milliseconds, as they should be?",
-                       step));
+      warn(fmt::format("frames are {} ms apart; are the times milliseconds, as they should be?",
+                       step > 1 ? fmt::format("{:.0f}", step) : fmt::format("{:.3g}", step)));
   }
 
   Result<Clip> clipOf(const std::vector<double>& times, const std::vector<Scores>& scores) {

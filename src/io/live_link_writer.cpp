@@ -105,27 +105,6 @@ std::vector<Column> columnsOf(const Clip& clip) {
   return columns;
 }
 
-Result<void> check(const Clip& clip, const std::vector<Column>& columns, double framesPerSecond) {
-  if (auto ok = io::checkFrameRate(framesPerSecond); !ok) return ok;
-  if (clip.times.empty()) return fail("The clip has no frames.");
-  if (!(clip.times.front() >= 0 && clip.times.back() < 86400))
-    return fail("The times of a recording lie from 0 to below a day; cut the clip.");
-  std::set<std::string> headings;
-  for (const Column& column : columns) {
-    const std::string read(io::trimmed(column.heading));
-    if (io::sameLetters(read, "Timecode") || io::sameLetters(read, "BlendShapeCount"))
-      return fail(
-          fmt::format("'{}' cannot be a shape of a recording; rename the target.", column.heading));
-    if (read.empty() || column.heading.find_first_of(",\r\n") != std::string::npos)
-      return fail(fmt::format("'{}' cannot be the heading of a column; rename the target.",
-                              column.heading));
-    if (!headings.insert(read).second)
-      return fail(fmt::format("There would be two columns '{}'; rename the target, or one of them.",
-                              column.heading));
-  }
-  return {};
-}
-
 /// HH:MM:SS:FF.fff, rounded to a thousandth of a frame.
 struct Timecode {
   double seconds, frames;
@@ -144,6 +123,28 @@ struct Timecode {
                        frames);
   }
 };
+
+Result<void> check(const Clip& clip, const std::vector<Column>& columns, double framesPerSecond) {
+  if (auto ok = io::checkFrameRate(framesPerSecond); !ok) return ok;
+  if (clip.times.empty()) return fail("The clip has no frames.");
+  if (!(clip.times.front() >= 0 && Timecode(clip.times.back(), framesPerSecond).seconds < 86400))
+    return fail("The times of a recording lie from 0 to below a day; cut the clip.");
+  std::set<std::string> headings;
+  for (const Column& column : columns) {
+    const std::string read(io::trimmed(column.heading));
+    if (io::sameLetters(read, "Timecode") || io::sameLetters(read, "BlendShapeCount"))
+      return fail(
+          fmt::format("'{}' cannot be a shape of a recording; rename the target.", column.heading));
+    if (read.empty() || read.starts_with('"') ||
+        column.heading.find_first_of(",\r\n") != std::string::npos)
+      return fail(fmt::format("'{}' cannot be the heading of a column; rename the target.",
+                              column.heading));
+    if (!headings.insert(read).second)
+      return fail(fmt::format("There would be two columns '{}'; rename the target, or one of them.",
+                              column.heading));
+  }
+  return {};
+}
 
 }  // namespace
 

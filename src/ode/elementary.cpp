@@ -80,7 +80,7 @@ double exponential(double x) {
 }
 
 double exponentialLess1(double x) {
-  if (!(x <= kLargest) || x < -50) return exponential(x) - 1;
+  if (!(x < 709) || x < -50) return exponential(x) - 1;
   const auto [k, q] = powerOf(x);
   const double power = powerOf2(k);
   return power * q + (power - 1);

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "sweepface/arcs.hpp"
 #include "sweepface/head.hpp"
@@ -264,8 +265,10 @@ void EyeTurns::apply(const HeadPose& pose, std::span<double> weights) const noex
     const Angles& angles = eye.left ? pose.leftEye : pose.rightEye;
     // The rotation across the view that looks the same way.
     const Vec3 view = turned(quaternionOf({angles.yaw, angles.pitch, 0}), {0, 0, 1});
-    const double x = -view.y, y = view.x;              // sin θ times the axis
-    const double c = 1 / std::max(1 + view.z, 1e-12);  // (1 − cos θ) / sin² θ
+    const double x = -view.y, y = view.x;  // sin θ times the axis
+    // (1 − cos θ) / sin² θ; on the side where that has no digits to lose.
+    constexpr double kLeast = std::numeric_limits<double>::min();
+    const double c = view.z > 0 ? 1 / (1 + view.z) : (1 - view.z) / std::max(x * x + y * y, kLeast);
     set(eye, {x, y, c * x * x, c * y * y, c * x * y}, weights);
   }
 }

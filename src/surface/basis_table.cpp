@@ -43,9 +43,13 @@ Result<BasisTable> BasisTable::make(const std::vector<Shape>& ribbons,
   }
   sortSmall(std::span(table.keys_));
   table.keys_.erase(std::ranges::unique(table.keys_).begin(), table.keys_.end());
-  for (auto [ribbon, edges] : table.keys_) {
-    auto basis = SweepBasis::make(ribbons[ribbon], edges);
-    if (!basis) return fail("ribbon ", ribbon, ": ", basis.error().message);
+  for (const auto& key : table.keys_) {
+    auto basis = SweepBasis::make(ribbons[key[0]], key[1]);
+    if (!basis) {  // which ribbon of that shape it is that has this length
+      std::size_t k = 0;
+      while (table.keyOf(ribbonsAndEdges[k][0], ribbonsAndEdges[k][1]) != key) ++k;
+      return fail("ribbon ", ribbonsAndEdges[k][0], ": ", basis.error().message);
+    }
     table.bases_.push_back(*basis);
   }
   table.tabulate();

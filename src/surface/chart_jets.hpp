@@ -9,7 +9,7 @@ namespace sweepface {
 
 /// The jets of all corners at irregular points. Near one the surface is F(x, y) = p + A x + B y +
 /// ½ (C x² + 2 D x y + E y²) over the chart of its valence; corners have the jets of F composed
-/// with the chart's corner maps (docs/mathematics.md). Fails at a point around which no corner has
+/// with the chart's corner maps (docs/wireframe.md). Fails at a point around which no corner has
 /// an angle, as all have a side that is one point.
 Result<void> chartHubs(const Wireframe& wireframe, const Connectivity& connectivity,
                        const JetNumbers& numbers, JetRows& rows);

@@ -47,7 +47,7 @@ class Predictor {
     int alongX = 0, alongY = 0;
     while (known(alongX, j)) ++alongX;
     while (known(i, alongY)) ++alongY;
-    const int d = alongX >= alongY && (alongX > 0 || i > 0) ? 0 : 1;
+    const int d = alongX >= alongY ? 0 : 1;
     const int order = d == 0 ? i : j, other = d == 0 ? j : i;
     const int count = std::max(1, d == 0 ? alongX : alongY);
     const auto own = [&](int a) {

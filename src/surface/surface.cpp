@@ -55,12 +55,6 @@ Result<void> checkRibbons(const Wireframe& w, const Connectivity& c) {
 
 }  // namespace
 
-Result<Surface> Surface::make(Wireframe wireframe, std::vector<Index>* circle) {
-  auto connectivity = Connectivity::make(wireframe);
-  if (!connectivity) return std::unexpected(connectivity.error());
-  return make(std::move(wireframe), std::move(*connectivity), circle);
-}
-
 Result<Surface> Surface::make(Wireframe wireframe, Connectivity connectivity,
                               std::vector<Index>* circle) {
   if (auto ok = checkRibbons(wireframe, connectivity); !ok) return std::unexpected(ok.error());

@@ -334,7 +334,8 @@ TEST(Hostile, WhatSaysTheSameTwiceIsRefused) {
 
 std::string refusalOf(Wireframe wireframe) {
   Rig rig;
-  rig.surface = Surface::make(std::move(wireframe)).value();
+  Connectivity connectivity = Connectivity::make(wireframe).value();
+  rig.surface = Surface::make(std::move(wireframe), std::move(connectivity)).value();
   rig.neutral.resize(rig.surface.storedCount());
   const auto back = decode(encodeVersion1(rig), "a.sweep");
   return back ? "" : back.error().message;

@@ -369,6 +369,20 @@ TEST(Evaluator, fillsExactlyItsVertices) {
   }
 }
 
+TEST(Evaluator, playsTheVerticesOfADensityWhateverTheLevel) {
+  const Rig rig = makeRig(onePatch(4, 4));
+  const Tessellation coarse(rig.surface, Density{std::vector<Index>(4, 1), {{1, 1}}});
+  ASSERT_LT(coarse.vertexCount(), Tessellation(rig.surface, 1).vertexCount());
+  for (const Index level : {0, 1, 5}) {
+    const auto evaluator = Evaluator::make(rig, coarse, {.level = level});
+    ASSERT_TRUE(evaluator) << evaluator.error().message;
+    const auto weights = anyWeights(*evaluator, 4);
+    EXPECT_LE(
+        largestDistance(play(*evaluator, weights).positions, coarse.positions(blend(rig, weights))),
+        evaluator->positionBound(weights));
+  }
+}
+
 TEST(Evaluator, countsMissingWeightsAsZero) {
   const auto evaluator = Evaluator::make(largeRig()).value();
   auto weights = anyWeights(evaluator, 2);

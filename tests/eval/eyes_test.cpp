@@ -184,8 +184,13 @@ TEST(EyeTurns, LookWhereTheAnglesSay) {
   std::size_t front = skin;
   for (std::size_t v = skin; v < skin + 218; ++v)
     if (rest[v].z > rest[front].z) front = v;
-  for (const auto& [yaw, pitch] :
-       {std::pair{0.5, 0.0}, {-0.3, 0.0}, {0.0, 0.4}, {0.3, -0.6}, {0.0, 0.0}}) {
+  for (const auto& [yaw, pitch] : {std::pair{0.5, 0.0},
+                                   {-0.3, 0.0},
+                                   {0.0, 0.4},
+                                   {0.3, -0.6},
+                                   {0.0, 0.0},
+                                   {2.5, 0.5},
+                                   {std::numbers::pi, 0.0}}) {
     std::vector<double> weights(rig.targets.size());
     turns.apply(HeadPose{{}, {yaw, pitch, 0.7}, {}}, weights);
     const auto now = shown(rig, weights);

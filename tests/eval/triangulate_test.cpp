@@ -24,7 +24,7 @@ void expectCovers(const std::vector<Vec3>& polygon) {
     EXPECT_GT(signedArea(polygon, t), 0);
     sum += signedArea(polygon, t);
   }
-  EXPECT_NEAR(sum, whole, 1e-12);
+  EXPECT_NEAR(sum, whole, 1e-11);
 }
 
 TEST(Triangulate, CutsAQuadAlongItsShorterDiagonal) {
@@ -50,12 +50,14 @@ TEST(Triangulate, LeavesNoSliverWhereACornerIsStraight) {
 }
 
 TEST(Triangulate, CutsStars) {
-  std::vector<Vec3> star;
-  for (int k = 0; k < 24; ++k) {
-    const double a = std::numbers::pi * k / 12, r = k % 2 ? 1 : 3;
-    star.push_back({r * std::cos(a), r * std::sin(a), 0});
+  for (const int corners : {24, 66, 1000}) {
+    std::vector<Vec3> star;
+    for (int k = 0; k < corners; ++k) {
+      const double a = 2 * std::numbers::pi * k / corners, r = k % 2 ? 1 : 3;
+      star.push_back({r * std::cos(a), r * std::sin(a), 0});
+    }
+    expectCovers(star);
   }
-  expectCovers(star);
 }
 
 /// Whatever the polygon, its edges border its triangles once each.

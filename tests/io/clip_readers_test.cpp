@@ -185,6 +185,15 @@ TEST(ClipJson, ReadsMediaPipeFromPython) {
   EXPECT_FALSE(parseClipJson(text, "take.json", -1));
 }
 
+TEST(ClipJson, FramesAreNotCountedBeyondAllTimes) {
+  const std::string frame = R"({"categories": [{"categoryName": "a", "score": 1}]})";
+  const auto read = [&](double rate) {
+    return parseClipJson("[" + frame + "," + frame + "]", "a.json", rate);
+  };
+  EXPECT_TRUE(read(0.1));
+  for (const double rate : {1e-300, 1e-308}) expectError(read(rate), "not within 300 years");
+}
+
 TEST(ClipJson, WarnsOfTimesThatAreNoMilliseconds) {
   for (const char* step : {"0.033", "33000"}) {
     const auto clip =

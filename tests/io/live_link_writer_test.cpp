@@ -78,9 +78,11 @@ TEST(LiveLinkWriter, RefusesWhatTimecodesCannotTell) {
   EXPECT_TRUE(refuses({}));
   EXPECT_TRUE(refuses({-1}));
   EXPECT_TRUE(refuses({86400}));
+  EXPECT_TRUE(refuses({86399.999999}));  // rounded, the next day's first
   EXPECT_TRUE(refuses({1, 1 + 1e-7}));
   EXPECT_TRUE(refuses({0}, 0));
   EXPECT_TRUE(refuses({0}, 60, "a,b"));
+  EXPECT_TRUE(refuses({0}, 60, "\"quoted\""));  // which readers leave out
   for (const char* name : {"timecode", " Timecode", "blendshapecount ", " "})
     EXPECT_TRUE(refuses({0}, 60, name)) << name;
   EXPECT_FALSE(formatLiveLinkCsv({{"beard", "beard "}, {0}, {0, 1}}, 60));

@@ -63,6 +63,7 @@ TEST(Elementary, isFiniteWhereItCanBe) {
   EXPECT_EQ(exponential(800), kInfinity);
   EXPECT_GT(exponential(-744), 0);  // below the normal numbers
   EXPECT_EQ(exponentialLess1(-800), -1);
+  EXPECT_NEAR(exponentialLess1(709.5) / std::exp(709.5), 1, 1e-13);
   EXPECT_EQ(exponentialLess1(0), 0);
   EXPECT_EQ(logarithm(1), 0);
   EXPECT_EQ(logarithm(0), -kInfinity);

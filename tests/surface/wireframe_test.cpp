@@ -139,6 +139,25 @@ const Broken broken[] = {
      "patch 0 lacks a side"},
     {"noArc", with(onePatch(2, 2), [](Wireframe& w) { w.loops[1] = 8; }),
      "a patch is bounded by an arc that does not exist"},
+    {"jetWithGaps", with(onePatch(2, 2), [](Wireframe& w) { w.nodes[1].stored = 0b101; }),
+     "node 1 stores a derivative without those before it"},
+    {"tooLong",
+     with(onePatch(2, 2),
+          [](Wireframe& w) {
+            for (Arc& a : w.arcs) a.edges = 1 << 30;
+          }),
+     "the arcs are too long, together 4294967296 edges"},
+    {"gapInLoops",
+     with(onePatch(2, 2),
+          [](Wireframe& w) {
+            w.loops.insert(w.loops.begin(), 1);
+            for (Index& s : w.patches[0].sides) ++s;
+          }),
+     "patch 0 does not begin where the one before it ends"},
+    {"loopsWithoutPatch", with(onePatch(2, 2), [](Wireframe& w) { w.loops.push_back(1); }),
+     "the loops go on after all patches"},
+    {"idleArc", with(onePatch(2, 2), [](Wireframe& w) { w.arcs.push_back(w.arcs[0]); }),
+     "arc 4 bounds no patch"},
     {"halfT",
      [] {  // a side of two arcs on the boundary: no third arc arrives
        Wireframe w = onePatch(2, 2);
@@ -173,6 +192,9 @@ const Broken broken[] = {
     {"refusedShape",
      with(onePatch(2, 2), [](Wireframe& w) { w.ribbons[0] = {1, 80.7836 / 4, 1.0 / 16}; }),
      "ribbon 0: "},
+    {"refusedLength",  // two ribbons of one shape, of which one is too long for it
+     with(onePatch(3, 40), [](Wireframe& w) { w.ribbons[0] = w.ribbons[1] = {1, 1000, 0}; }),
+     "ribbon 1: "},
     {"noShape", with(onePatch(2, 2), [](Wireframe& w) { w.ribbons[1] = {0, 0, 0}; }), "ribbon 1: "},
 };
 

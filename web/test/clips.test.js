@@ -74,6 +74,12 @@ for (const [title, file, text] of [['Live Link Face', 'take.csv', csv],
       assert.ok(face.weights.jawOpen > 0);
     });
 
+test('frames so seldom that their times are none are refused', () => {
+  const text = JSON.stringify([0, 1].map((score) => ({categories: [{categoryName: 'jawOpen', score}]})));
+  assert.throws(() => readClip(text, {name: 'a.json', framesPerSecond: 1e-300}),
+                {message: 'a.json has a time in frame 1 that is not within 300 years.'});
+});
+
 test('a timeline that is read as a capture is told from one', () => {
   for (const more of ['', ', "weightMat": [[0]]', ', "frames": []'])
     assert.throws(() => readClip(`{"seconds": 1, "events": []${more}}`, {name: 'talk.json'}),
@@ -244,6 +250,7 @@ test('time that is no number plays nothing', async () => {
   const player = new TimelinePlayer(face, readTimeline(JSON.stringify(timeline)));
   for (const seconds of [NaN, Infinity, undefined])
     assert.throws(() => player.advance(seconds), {message: /finite number of seconds/});
+  assert.equal(player.advance(1e11), true);  // a wrong clock
   assert.equal(face.weights.jawOpen, 0);
   player.advance(0.4);
   assert.ok(face.weights.jawOpen > 0);

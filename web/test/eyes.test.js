@@ -88,7 +88,7 @@ test('eyes that do not turn cannot look', async () => {
   assert.equal(face.eyeCount, 0);
   assert.throws(() => face.look(null), /no eyes that turn/);
   for (const angle of [NaN, '0.1', null])
-    for (const eye of [{yaw: angle}, {pitch: angle}])
+    for (const eye of [{yaw: angle}, {pitch: angle}, {roll: angle}])
       assert.throws(() => eyes.look({leftEye: eye}), {name: 'TypeError', message: /leftEye takes finite numbers, not /});
   assert.throws(() => eyes.look({left: {yaw: 1}}), /look has no option 'left'; it has leftEye, rightEye/);
   assert.throws(() => eyes.look({leftEye: {up: 1}}), /look's leftEye has no option 'up'/);

@@ -94,16 +94,25 @@ test('regions go with arcs, a level of detail and clones', async () => {
   assert.ok(difference(positionsOf(face), positionsOf(other)).most > 0.01);
 });
 
+test('regions are what they were when they were given', async () => {
+  const region = {...above, points: above.points.map((place) => [...place])}, loading = load([region]);
+  region.mass = -5;
+  region.points[0][0] = 1e9;
+  const face = await loading;
+  assert.deepEqual(face.regions, ['rest', 'above']);
+  face.moveTo({jawOpen: 1});
+});
+
 test('what is no region is refused with a sentence', async () => {
   const refused = async (regions, sentence) => assert.rejects(load(regions), sentence);
   await refused({}, /Regions are a list/);
   await refused([{points: [[0, 0, 0]]}], /A region needs a name\./);
-  for (const name of ['a\0b', 'a\ud800']) await refused([{...above, name}], /A region needs a name that is text/);
+  for (const name of ['a\0b', 'a\n', 'a\ud800']) await refused([{...above, name}], /A region needs a name that is text/);
   await refused([{...above, weight: 1}], /Region 'above' has an unknown 'weight'/);
   for (const nowhere of [{}, {parts: []}, {points: []}, {nodes: {}}])
     await refused([{name: 'above', ...nowhere}], /says nowhere where it is/);
   await refused([{...above, points: [[0, 0]]}], /not like \[\[x, y, z\]\]/);
-  await refused([{...above, over: 'land'}], /over 'land'/);
+  for (const over of ['land', null]) await refused([{...above, over}], /which is neither surface nor space/);
   await refused([{...above, bands: 1.5}], /1\.5 bands/);
   await refused([{...above, fade: -1}], /finite and at least 0/);
   await refused([above, above], /Two regions are named 'above'/);
@@ -112,9 +121,10 @@ test('what is no region is refused with a sentence', async () => {
   await refused([{...above, mass: 1e9}], /from 0\.0001 to 10000/);
   await refused([{...above, mass: 'heavy'}], /Region 'above' has a 'mass' that is not a number\./);
   await refused([{...above, delay: -1}], /from 0 to 60 seconds/);
-  await refused([{...above, parts: 'lips'}], /'parts' that are no list of names/);
+  for (const parts of ['lips', [undefined], [0]]) await refused([{...above, parts}], /'parts' that are no list of names/);
+  await refused([{...above, curves: [0]}], /'curves' that are no list of names/);
   await refused([{...above, points: null}], /'points' that are not like/);
-  await refused([{...above, nodes: null}], /'nodes' that are no shares/);
+  for (const nodes of [null, [1], []]) await refused([{...above, nodes}], /'nodes' that are no shares/);
   await refused([{...above, bands: 1e9}], /whole number from 1 to 32/);
   assert.deepEqual((await load([{...above, mass: undefined}])).regions, ['rest', 'above']);
 });
