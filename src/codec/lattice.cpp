@@ -12,12 +12,9 @@ namespace sweepface::codec {
 
 namespace {
 
-// Far beyond any face, and sums of a few still fit.
-constexpr double kMostSteps = 1 << 26;
-
 std::int32_t nearest(double steps) {
   if (!(steps == steps)) return 0;
-  return static_cast<std::int32_t>(std::lround(std::clamp(steps, -kMostSteps, kMostSteps)));
+  return static_cast<std::int32_t>(std::lround(std::clamp<double>(steps, -kFarthest, kFarthest)));
 }
 
 Vec3 predict(std::span<const Term> terms, std::span<const Vec3> known) {

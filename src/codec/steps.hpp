@@ -44,13 +44,16 @@ inline Steps3 reflected(Steps3 v, int sign, int axis) {
   return v;
 }
 
+/// How many steps a coefficient may have: far more than any face needs, and sums of a few still
+/// fit.
+inline constexpr std::int32_t kFarthest = 1 << 26;
+
 /// The same in steps that are 2^finer times smaller, or larger where `finer` is negative.
 inline Steps3 inFinerSteps(Steps3 v, int finer) {
-  constexpr std::int64_t kMostSteps = 1 << 26;
   for (std::int32_t& x : v) {
     const std::int64_t y =
         finer >= 0 ? x * (std::int64_t{1} << std::min(finer, 30)) : x >> std::min(-finer, 30);
-    x = static_cast<std::int32_t>(std::clamp(y, -kMostSteps, kMostSteps));
+    x = static_cast<std::int32_t>(std::clamp<std::int64_t>(y, -kFarthest, kFarthest));
   }
   return v;
 }

@@ -5,14 +5,13 @@
 #include <deque>
 #include <fmt/format.h>
 
+#include "codec/grid_size.hpp"
 #include "drawing/weave.hpp"
 #include "surface/union_find.hpp"
 
 namespace sweepface::drawing {
 
 namespace {
-
-constexpr Index kMostEdges = 65535;
 
 class EdgeChooser {
  public:
@@ -98,7 +97,7 @@ class EdgeChooser {
                              ? std::round(length.value() / edgeLength_)
                              : kUsualEdges;
     const double least = w_.arcs[a].from == w_.arcs[a].to && !w_.arcs[a].collapsed ? 3 : 1;
-    return static_cast<Index>(std::clamp(edges, least, double{kMostEdges}));
+    return static_cast<Index>(std::clamp(edges, least, double{codec::kLongestArc}));
   }
 
   void setLast(Index patch, int s, Index edges) {
@@ -114,7 +113,7 @@ class EdgeChooser {
         const int open = side(p, s).unknowns > 0 ? s : s + 2, told = 2 * s + 2 - open;
         if (side(p, told).unknowns != 0 || side(p, open).unknowns != 1) continue;
         const std::int64_t left = side(p, told).known - side(p, open).known;
-        if (left < 1 || left > kMostEdges) return mismatch(p, s);
+        if (left < 1 || left > codec::kLongestArc) return mismatch(p, s);
         setLast(p, open, static_cast<Index>(left));
       }
     return {};

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <functional>
 
+#include "codec/grid_size.hpp"
 #include "codec/limits.hpp"
 #include "drawing/json_reader.hpp"
 #include "drawing/words.hpp"
@@ -178,7 +179,7 @@ class DrawingReader {
   }
 
   Index edges() {
-    constexpr Index most = 65535;
+    constexpr Index most = codec::kLongestArc;
     const TextPlace at = in_.place();
     const double edges = in_.number("the number of edges");
     const bool fits = edges >= 1 && edges <= most && edges == static_cast<Index>(edges);

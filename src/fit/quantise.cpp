@@ -88,8 +88,8 @@ class Quantiser {
   bool goesOn() const { return proceed_(static_cast<double>(begun_) / poses_.count()); }
 
   std::unexpected<Error> failed(const std::string& pose) const {
-    // Files count steps from the origin, to 2²⁶ (src/codec/lattice.cpp); those of roots are halved.
-    const double farthest = (1 << 26) * rig_.packing.neutralStep / 2;
+    // Files count steps from the origin; those of roots are halved.
+    const double farthest = codec::kFarthest * rig_.packing.neutralStep / 2;
     const double away = reachOf(source_.neutral).away;
     if (away > farthest)
       return fail(fmt::format(

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
-#include <cstdlib>
 #include <fmt/format.h>
 #include <span>
 
@@ -240,7 +240,10 @@ namespace {
 /// Of what framed() made.
 double heightOf(std::string_view plot) {
   const std::string before = fmt::format("viewBox=\"0 0 {} ", kPlotWidth);
-  return std::strtod(plot.data() + plot.find(before) + before.size(), nullptr);
+  double height = 0;
+  std::from_chars(plot.data() + plot.find(before) + before.size(), plot.data() + plot.size(),
+                  height);
+  return height;
 }
 
 }  // namespace
