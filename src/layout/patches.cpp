@@ -2,8 +2,8 @@
 #include <cmath>
 #include <string>
 
+#include "codec/wireframe_rules.hpp"
 #include "layout/layout.hpp"
-#include "surface/union_find.hpp"
 
 namespace sweepface {
 
@@ -114,40 +114,27 @@ struct ArcBuilder {
   }
 };
 
-// One ribbon for each set of arcs that must share their shape parameters: those of a rail, and the
-// two sides along which a patch sweeps. A patch sweeps the way that joins the smaller sets.
-void chooseSweeps(Wireframe& w, std::vector<GridPatch>& patches, const Connectivity& c) {
-  UnionFind sets(w.arcs.size());
-  for (std::size_t n = 0; n < w.nodes.size(); ++n)
-    if (c.kinds[n] == NodeKind::hanging)
-      for (int k = 0; k < 3; ++k)
-        if (const int on = c.opposite(static_cast<Index>(n), k); on >= 0)
-          sets.join(arcOf(c.stars[n].arms[k]), arcOf(c.stars[n].arms[on]));
+// Patches sweep and curves share ribbons as the codec expects, which then has nothing to tell.
+void chooseSweeps(Wireframe& w, std::vector<GridPatch>& patches) {
+  codec::SweepRule rule(w);
   for (Index p = 0; p < static_cast<Index>(w.patches.size()); ++p) {
-    const auto first = [&](int s) { return sets.find(arcOf(w.side(p, s)[0])); };
-    const auto cost = [&](int s) {
-      return first(s) == first(s + 2) ? 0 : sets.size(first(s)) + sets.size(first(s + 2));
-    };
-    const bool turn = cost(1) < cost(0);
-    sets.join(first(turn ? 1 : 0), first(turn ? 3 : 2));
-    if (!turn) continue;
-    auto& sides = w.patches[p].sides;
-    const Index begin = sides[0], moved = sides[1] - begin;
-    std::rotate(w.loops.begin() + begin, w.loops.begin() + sides[1], w.loops.begin() + sides[4]);
-    for (int s = 0; s < 3; ++s) sides[s + 1] = sides[s + 2] - moved;
-    sides[4] = sides[3] + moved;
-    patches[p] = turned(patches[p]);
-  }
-  w.ribbons.clear();
-  std::vector<Index> ribbon(w.arcs.size(), -1);
-  for (std::size_t a = 0; a < w.arcs.size(); ++a) {
-    Index& r = ribbon[sets.find(static_cast<Index>(a))];
-    if (r < 0) {
-      r = static_cast<Index>(w.ribbons.size());
-      w.ribbons.push_back({});
+    if (rule.turns(p, 0)) {
+      auto& sides = w.patches[p].sides;
+      const Index begin = sides[0], moved = sides[1] - begin;
+      std::rotate(w.loops.begin() + begin, w.loops.begin() + sides[1], w.loops.begin() + sides[4]);
+      for (int s = 0; s < 3; ++s) sides[s + 1] = sides[s + 2] - moved;
+      sides[4] = sides[3] + moved;
+      patches[p] = turned(patches[p]);
     }
-    w.arcs[a].ribbon = r;
+    rule.sweep(p);
   }
+  const std::vector<Index> ribbons = codec::expectedRibbons(w);
+  Index count = 0;
+  for (std::size_t a = 0; a < w.arcs.size(); ++a) {
+    w.arcs[a].ribbon = ribbons[a];
+    count = std::max(count, ribbons[a] + 1);
+  }
+  w.ribbons.assign(count, {});
 }
 
 // How many derivatives the source vertices along one line of a node can determine: one stored
@@ -247,7 +234,7 @@ Wireframe Layout::wireframe(std::vector<GridPatch>& patches) const {
   w.ribbons.emplace_back();  // one for all until the sweeps are chosen
   const auto connectivity = Connectivity::make(w);
   if (!connectivity) return w;  // Surface::make will say why
-  chooseSweeps(w, patches, *connectivity);
+  chooseSweeps(w, patches);
   for (Index n = 0; n < static_cast<Index>(w.nodes.size()); ++n) {
     if (connectivity->kinds[n] != NodeKind::crossing) continue;
     const int x = determined(w, *connectivity, n, 0), y = determined(w, *connectivity, n, 1);
