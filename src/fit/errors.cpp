@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "fit/distinct_poses.hpp"
+#include "fit/sound_face.hpp"
 #include "parallel/parallel.hpp"
 
 namespace sweepface {
@@ -134,18 +135,10 @@ class PatchMeter {
     return cross(corner(i, j, 2, pose) - corner(i, j, 0, pose),
                  corner(i, j, 3, pose) - corner(i, j, 1, pose));
   }
-  // Says the face which way is out? See docs/error-metric.md on folds.
   bool soundFace(Index i, Index j, Index pose) const {
-    const Vec3 n = faceNormal(i, j, pose);
-    double longest = 0;
-    for (int k = 0; k < 4; ++k) {
-      const Vec3 a = corner(i, j, (k + 1) % 4, pose) - corner(i, j, k, pose);
-      const Vec3 b = corner(i, j, (k + 3) % 4, pose) - corner(i, j, k, pose);
-      longest = std::max(longest, norm(a));
-      if (dot(cross(a, b), n) <= 0.05 * dot(n, n) / 4) return false;
-      if (dot(data_.normal(pointAt(i, j, k), pose), n) < 0) return false;
-    }
-    return norm(n) / 2 > data_.tolerance * longest;
+    return isSoundFace(
+        4, faceNormal(i, j, pose), data_.tolerance, [&](Index k) { return corner(i, j, k, pose); },
+        [&](Index k) { return data_.normal(pointAt(i, j, k), pose); });
   }
 
   const GridMesh& mesh_;

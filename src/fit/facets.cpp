@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fit/sound_face.hpp"
 #include "rig/source_quads.hpp"
 #include "surface/distances.hpp"
 
@@ -92,21 +93,11 @@ double Facets::sag(Index face) const {
   return rise[0] + rise[1] + rim;
 }
 
-// A face that is folded, thinner than its vertices may move, or turned against the source's own
-// normal at a corner says nothing about which way is out. Larger faces may have corners in line, or
-// inwards.
 bool Facets::isSound(Index face) const {
-  const Vec3 n = normal(face);
-  const Index begin = polygons_.faceStart[face], size = polygons_.faceSize(face);
-  double longest = 0;
-  for (Index k = 0; k < size; ++k) {
-    const Vec3 p = at(begin + k), next = at(begin + (k + 1) % size) - p;
-    longest = std::max(longest, norm(next));
-    const Vec3 corner = cross(next, at(begin + (k + size - 1) % size) - p);
-    if (size <= 4 && dot(corner, n) <= 0.05 * dot(n, n) / size) return false;
-    if (dot(normalAt(begin + k), n) < 0) return false;
-  }
-  return norm(n) / 2 > tolerance_ * longest;
+  const Index begin = polygons_.faceStart[face];
+  return isSoundFace(
+      polygons_.faceSize(face), normal(face), tolerance_, [&](Index k) { return at(begin + k); },
+      [&](Index k) { return normalAt(begin + k); });
 }
 
 int Facets::folds(const std::array<Index, 4>& q, std::span<const Vec3> x, Index face) const {

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <algorithm>
+
+#include "sweepface/vec.hpp"
+
+namespace sweepface {
+
+/// Whether a face says which way is out (docs/error-metric.md on folds). One that is folded,
+/// thinner than its vertices may move, or turned against the source's own normal at a corner does
+/// not. Larger ones than quads may have corners in line, or inwards. `at` and `normalAt` tell
+/// corners 0 … size − 1; `normal` is as long as twice the face's area.
+template <typename At, typename NormalAt>
+bool isSoundFace(Index size, const Vec3& normal, double tolerance, const At& at,
+                 const NormalAt& normalAt) {
+  double longest = 0;
+  for (Index k = 0; k < size; ++k) {
+    const Vec3 p = at(k), next = at((k + 1) % size) - p, before = at((k + size - 1) % size) - p;
+    longest = std::max(longest, norm(next));
+    const double turn = dot(cross(next, before), normal);
+    if (size <= 4 && turn <= 0.05 * dot(normal, normal) / size) return false;
+    if (dot(normalAt(k), normal) < 0) return false;
+  }
+  return norm(normal) / 2 > tolerance * longest;
+}
+
+}  // namespace sweepface
