@@ -56,8 +56,13 @@ class ClipReader {
       if (!tracks_.empty()) return clipOf();
     }
     if (wanted.empty()) return fail("it has no animation of morph targets.");
-    return fail(
-        fmt::format("it has no animation of morph targets named {}.", io::inQuotes(wanted)));
+    std::string named;
+    for (const Json& animation : animations)
+      if (const Json* const name = find(animation, "name"); name && name->is_string())
+        named += (named.empty() ? "; there are " : ", ") +
+                 io::inQuotes(name->get_ref<const std::string&>());
+    return fail(fmt::format("it has no animation of morph targets named {}{}.",
+                            io::inQuotes(wanted), named));
   }
 
  private:
@@ -241,7 +246,7 @@ Result<Clip> readClip(std::string_view bytes, const std::filesystem::path& folde
                       std::string_view animation) {
   const auto document = parseDocument(bytes, folder);
   if (!document) return std::unexpected(document.error());
-  const auto parts = findParts(*document);
+  const auto parts = findPartsAnywhere(*document);
   if (!parts) return std::unexpected(parts.error());
   return ClipReader(*document, *parts).read(animation);
 }

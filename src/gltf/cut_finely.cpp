@@ -92,7 +92,7 @@ class Cutter {
         const Index g = grid_.vertex(patch, i * level_ + a, j * level_ + b);
         cell_[b * (level_ + 1) + a] = {vertexAt(vertices_[number], g, vertices, a, b), g};
       }
-    const bool mirrored = scene_.parts.meshes[run.rigMesh].world.mirrors();
+    const bool mirrored = scene_.parts.meshes[run.rigMesh].mirrors;
     for (Index b = 0; b < level_; ++b)
       for (Index a = 0; a < level_; ++a) addCell(a, b, mirrored, mesh_.triangles[part]);
     return {};

@@ -73,6 +73,16 @@ struct Roots {
   }
 };
 
+/// A joint may have the name already, by which animations and programs find it.
+std::string freeName(const Json& nodes, std::string name) {
+  const auto isTaken = [&](const Json& node) {
+    const Json* const own = find(node, "name");
+    return own && *own == name;
+  };
+  while (std::ranges::any_of(nodes, isTaken)) name = "sweepface." + name;
+  return name;
+}
+
 }  // namespace
 
 Result<void> addHeadTrack(Document& document, const HeadTrack& track, double tolerance,
@@ -89,12 +99,13 @@ Result<void> addHeadTrack(Document& document, const HeadTrack& track, double tol
         "turns out (--head), or convert the face from a file that shows it.");
   Json& nodes = json["nodes"];
   const std::size_t head = nodes.size();
+  const std::string name = freeName(nodes, "head");
   const auto place = [](const Vec3& p) { return Json::array({p.x, p.y, p.z}); };
-  nodes.push_back({{"name", "head"},
-                   {"translation", place(track.pivot)},
-                   {"children", Json::array({head + 1})}});
   nodes.push_back(
-      {{"name", "head.contents"}, {"translation", place(-track.pivot)}, {"children", roots.below}});
+      {{"name", name}, {"translation", place(track.pivot)}, {"children", Json::array({head + 1})}});
+  nodes.push_back({{"name", name + ".contents"},
+                   {"translation", place(-track.pivot)},
+                   {"children", roots.below}});
   roots.beside.insert(roots.beside.begin(), head);
   json["scenes"][0]["nodes"] = roots.beside;
   const std::vector<Quaternion> rotations = untwisted(track.rotations);

@@ -38,7 +38,7 @@ std::vector<Index> fans(const Parts& parts, const Part& part, const Polygons& po
                         std::span<const Index> faces) {
   const Run& run = parts.runs[part.run];
   // A mirrored mesh shows the side from which its corners go clockwise.
-  const bool mirrored = parts.meshes[run.rigMesh].world.mirrors();
+  const bool mirrored = parts.meshes[run.rigMesh].mirrors;
   std::vector<Index> vertices;
   for (const Index face : faces) {
     const Index* const corners = &polygons.corners[polygons.faceStart[face]];

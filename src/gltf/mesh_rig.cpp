@@ -156,7 +156,7 @@ class RigReader {
   void addFace(const Triangle& triangle, const Run& run, Index texcoords) {
     Polygons& polygons = rig_.neutral.polygons;
     // A mirrored mesh shows the side from which its corners go clockwise.
-    const bool mirrored = meshOf(run).world.mirrors();
+    const bool mirrored = meshOf(run).mirrors;
     for (const Index v : {triangle[0], triangle[mirrored ? 2 : 1], triangle[mirrored ? 1 : 2]}) {
       polygons.corners.push_back(static_cast<Index>(run.first) + v);
       polygons.cornerTexcoords.push_back(texcoords < 0 ? -1 : texcoords + v);

@@ -1,6 +1,7 @@
 #include "gltf/nodes.hpp"
 
 #include <fmt/format.h>
+#include <optional>
 
 namespace sweepface::gltf {
 namespace {
@@ -85,6 +86,28 @@ Result<std::vector<Affine>> worldMatrices(const Document& document) {
     world[n] = parent == nobody ? *local : world[parent] * *local;
   }
   return world;
+}
+
+std::vector<bool> nodesOfScene(const Document& document) {
+  const std::size_t count = document.list("nodes").size();
+  const Json& scenes = document.list("scenes");
+  const auto scene = find(document.json, "scene") ? findIndex(document.json, "scene", scenes.size())
+                     : scenes.empty()             ? std::nullopt
+                                                  : std::optional<std::size_t>(0);
+  if (!scene) return std::vector<bool>(count, true);
+  std::vector<bool> found(count);
+  std::vector<std::size_t> nodes;
+  const auto add = [&](const Json& list) {
+    for (const Json& entry : list)
+      if (const auto node = asIndex(entry, count); node && !found[*node]) {
+        found[*node] = true;
+        nodes.push_back(*node);
+      }
+  };
+  add(listOf(scenes[*scene], "nodes"));
+  for (std::size_t k = 0; k < nodes.size(); ++k)
+    add(listOf(document.list("nodes")[nodes[k]], "children"));
+  return found;
 }
 
 }  // namespace sweepface::gltf

@@ -19,22 +19,30 @@ std::string meshPlace(const Document& document, std::size_t mesh) {
   return fmt::format("mesh {} {}", mesh, io::inQuotes(name->get_ref<const std::string&>()));
 }
 
-/// How the first node that shows each mesh places it. A skin ignores where its node is.
-Result<std::vector<Affine>> placements(const Document& document) {
+struct Placement {
+  Affine world;
+  bool mirrors = false;
+};
+
+/// How the first node that shows each mesh places it, of the file's scene if one does. A skin
+/// ignores where its node is, though not whether that mirrors (glTF 2.0, 3.7.2.1).
+Result<std::vector<Placement>> placements(const Document& document) {
   const Json& nodes = document.list("nodes");
   const std::size_t count = document.list("meshes").size();
   const auto world = worldMatrices(document);
   if (!world) return std::unexpected(world.error());
-  std::vector<Affine> placed(count);
+  std::vector<Placement> placed(count);
   std::vector<bool> seen(count);
-  for (std::size_t n = 0; n < nodes.size(); ++n) {
-    Members in(nodes[n], fmt::format("node {}", n));
-    const auto mesh = in.optionalIndex("mesh", count, "meshes");
-    if (!in.ok()) return in.error();
-    if (!mesh || seen[*mesh]) continue;
-    seen[*mesh] = true;
-    if (!in.has("skin")) placed[*mesh] = (*world)[n];
-  }
+  const std::vector<bool> isShown = nodesOfScene(document);
+  for (const bool shown : {true, false})
+    for (std::size_t n = 0; n < nodes.size(); ++n) {
+      Members in(nodes[n], fmt::format("node {}", n));
+      const auto mesh = in.optionalIndex("mesh", count, "meshes");
+      if (!in.ok()) return in.error();
+      if (isShown[n] != shown || !mesh || seen[*mesh]) continue;
+      seen[*mesh] = true;
+      placed[*mesh] = {in.has("skin") ? Affine{} : (*world)[n], (*world)[n].mirrors()};
+    }
   return placed;
 }
 
@@ -46,8 +54,8 @@ struct Primitive {
 
 class PartFinder {
  public:
-  explicit PartFinder(const Document& document)
-      : document_(document), meshes_(document.list("meshes")) {}
+  PartFinder(const Document& document, bool anywhere)
+      : document_(document), meshes_(document.list("meshes")), anywhere_(anywhere) {}
 
   Result<Parts> find() {
     const auto placed = placements(document_);
@@ -92,11 +100,11 @@ class PartFinder {
     return false;
   }
 
-  Result<void> addMesh(std::size_t mesh, const Affine& world, bool morphing) {
+  Result<void> addMesh(std::size_t mesh, const Placement& placed, bool morphing) {
     const auto found = triangles(mesh, morphing);
     if (!found) return std::unexpected(found.error());
     if (found->empty()) return {};
-    if (!world.isFinite() || world.isSingular())
+    if (!anywhere_ && (!placed.world.isFinite() || placed.world.isSingular()))
       return fail(
           fmt::format("{}: its node flattens it or has no finite matrix; apply its "
                       "transform and export the file again.",
@@ -114,7 +122,7 @@ class PartFinder {
     }
     auto names = nameTargets(mesh, primitives[0]);
     if (!names) return std::unexpected(names.error());
-    parts_.meshes.push_back({mesh, std::move(*names), world});
+    parts_.meshes.push_back({mesh, std::move(*names), placed.world, placed.mirrors});
     addRuns(primitives);
     if (parts_.vertexCount > io::maxFileBytes) return tooMany();
     return {};
@@ -234,6 +242,7 @@ class PartFinder {
 
   const Document& document_;
   const Json& meshes_;
+  bool anywhere_;
   Parts parts_;
   std::map<std::string, std::size_t> numbers_;  // of target names
 };
@@ -259,6 +268,9 @@ bool countsOnOrder(std::string_view extension) {
   return std::ranges::find(names, extension) == names.end();
 }
 
-Result<Parts> findParts(const Document& document) { return PartFinder(document).find(); }
+Result<Parts> findParts(const Document& document) { return PartFinder(document, false).find(); }
+Result<Parts> findPartsAnywhere(const Document& document) {
+  return PartFinder(document, true).find();
+}
 
 }  // namespace sweepface::gltf

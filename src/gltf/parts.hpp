@@ -19,6 +19,8 @@ struct RigMesh {
   std::size_t mesh = 0;              ///< in the list of meshes
   std::vector<std::size_t> targets;  ///< [its targets] the rig's target of the same name
   Affine world;                      ///< how its first node, or its skin, places it in the scene
+  bool mirrors = false;  ///< whether that node does: faces then show the side from which their
+                         ///< corners go clockwise, also where a skin places them
 };
 
 /// Vertices that primitives of one mesh share: those that agree in the accessors of POSITION and of
@@ -49,6 +51,8 @@ struct Parts {
 /// All attributes of a part and of its targets are accessors with as many elements as the part has
 /// vertices, POSITIONs are VEC3, and every world matrix can be inverted. Accessors may lack data.
 Result<Parts> findParts(const Document& document);
+/// The same wherever nodes place it.
+Result<Parts> findPartsAnywhere(const Document& document);
 
 /// The JSON of a part's primitive.
 const Json& primitiveOf(const Document& document, const Parts& parts, const Part& part);

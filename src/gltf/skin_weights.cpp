@@ -19,17 +19,25 @@ namespace {
 constexpr int kUint16 = 5123;
 constexpr double kOne = 65535;
 
-/// The accessors of WEIGHTS_0, WEIGHTS_1 ... of a primitive: those of a vertex sum to one together.
-using WeightSets = std::vector<std::size_t>;
+/// The accessors of WEIGHTS_0, WEIGHTS_1 ... of a primitive, of which those of a vertex sum to one
+/// together, and of JOINTS_0, JOINTS_1 ...
+struct Binding {
+  std::vector<std::size_t> weights, joints;
+  friend auto operator<=>(const Binding&, const Binding&) = default;
+};
 
-WeightSets weightSetsOf(const Json& primitive, std::size_t accessors) {
-  WeightSets sets;
+Binding bindingOf(const Json& primitive, std::size_t accessors) {
+  Binding binding;
   const Json* const attributes = find(primitive, "attributes");
-  if (!attributes || !attributes->is_object()) return sets;
-  for (const auto& [name, reference] : attributes->items())
-    if (name.starts_with("WEIGHTS_"))
-      if (const auto index = asIndex(reference, accessors)) sets.push_back(*index);
-  return sets;
+  if (!attributes || !attributes->is_object()) return binding;
+  for (const auto& [name, reference] : attributes->items()) {
+    if (!name.starts_with("WEIGHTS_")) continue;
+    const std::string joints = "JOINTS_" + name.substr(8);
+    if (const auto index = asIndex(reference, accessors)) binding.weights.push_back(*index);
+    if (const auto index = findIndex(*attributes, joints, accessors))
+      binding.joints.push_back(*index);
+  }
+  return binding;
 }
 
 /// Rounds the weights of a vertex so that their sum is rounded, too: the largest takes what the
@@ -51,13 +59,20 @@ class WeightRounder {
 
   /// Whether anything changes.
   bool run() {
-    std::map<WeightSets, std::size_t> uses;
+    std::map<Binding, std::size_t> uses;
     for (const Json& mesh : document_.list("meshes"))
       for (const Json& primitive : listOf(mesh, "primitives"))
-        ++uses[weightSetsOf(primitive, document_.list("accessors").size())];
+        ++uses[bindingOf(primitive, document_.list("accessors").size())];
     const std::vector<std::size_t> all = accessorUseCounts(document_);
-    for (const auto& [sets, count] : uses)
-      if (std::ranges::all_of(sets, [&](std::size_t a) { return all[a] == count; })) round(sets);
+    for (const auto& [binding, count] : uses) {
+      const auto isOwn = [&](std::size_t a) { return all[a] == count; };
+      if (!std::ranges::all_of(binding.weights, isOwn)) continue;
+      const auto weights = rounded(binding.weights);
+      for (std::size_t k = 0; k < weights.size(); ++k)
+        replace(binding.weights[k], weights[k], kUint16, true);
+      if (weights.size() == binding.joints.size() && std::ranges::all_of(binding.joints, isOwn))
+        for (std::size_t k = 0; k < weights.size(); ++k) letGo(binding.joints[k], weights[k]);
+    }
     return isChanged_;
   }
 
@@ -67,41 +82,58 @@ class WeightRounder {
   }
 
  private:
-  void round(const WeightSets& sets) {
+  /// Four plain numbers a vertex, or nothing.
+  std::vector<double> plain(std::size_t index, std::initializer_list<Component> types) const {
+    const auto accessor = accessorAt(document_, index);
+    const bool isPlain = accessor && std::ranges::find(types, accessor->type) != types.end() &&
+                         accessor->view && !accessor->sparse && accessor->rows == 4 &&
+                         accessor->columns == 1;
+    return isPlain ? decode(document_, *accessor).value_or(std::vector<double>{})
+                   : std::vector<double>{};
+  }
+
+  /// In 65535ths, of each of the accessors; nothing where they stay as they are.
+  std::vector<std::vector<double>> rounded(const std::vector<std::size_t>& sets) const {
     std::vector<std::vector<double>> values;
     for (const std::size_t a : sets) {
-      const auto accessor = accessorAt(document_, a);
-      const bool isPlain = accessor && accessor->type == Component::float32 && accessor->view &&
-                           !accessor->sparse && accessor->rows == 4 && accessor->columns == 1;
-      auto decoded = isPlain ? decode(document_, *accessor) : std::vector<double>{};
+      values.push_back(plain(a, {Component::float32}));
       const auto isWeight = [](double w) { return w >= 0 && w <= 1; };
-      if (!decoded || decoded->empty() || !std::ranges::all_of(*decoded, isWeight)) return;
-      if (!values.empty() && decoded->size() != values.front().size()) return;
-      values.push_back(std::move(*decoded));
+      if (values.back().empty() || !std::ranges::all_of(values.back(), isWeight)) return {};
+      if (values.back().size() != values.front().size()) return {};
     }
-    if (values.empty()) return;
+    if (values.empty()) return {};
     std::vector<double> vertex(4 * sets.size());
     for (std::size_t at = 0; at < values.front().size(); at += 4) {
       for (std::size_t k = 0; k < vertex.size(); ++k) vertex[k] = values[k / 4][at + k % 4];
       // Weights that are no shares are somebody's own.
-      if (std::abs(std::accumulate(vertex.begin(), vertex.end(), 0.0) - 1) > 0.01) return;
+      if (std::abs(std::accumulate(vertex.begin(), vertex.end(), 0.0) - 1) > 0.01) return {};
       roundTogether(vertex);
       for (std::size_t k = 0; k < vertex.size(); ++k) values[k / 4][at + k % 4] = vertex[k];
     }
-    for (std::size_t k = 0; k < sets.size(); ++k) replace(sets[k], values[k]);
+    return values;
   }
 
-  void replace(std::size_t accessor, const std::vector<double>& values) {
+  /// A joint that moves nothing is to be the first one.
+  void letGo(std::size_t joints, const std::vector<double>& weights) {
+    std::vector<double> values = plain(joints, {Component::uint8, Component::uint16});
+    if (values.size() != weights.size()) return;
+    for (std::size_t k = 0; k < values.size(); ++k)
+      if (weights[k] == 0) values[k] = 0;
+    replace(joints, values, document_.json["accessors"][joints]["componentType"], false);
+  }
+
+  void replace(std::size_t accessor, const std::vector<double>& values, int type, bool normalized) {
     std::string bytes;
     for (const double value : values) {
       const auto whole = static_cast<unsigned>(value);
-      bytes += {static_cast<char>(whole & 0xff), static_cast<char>(whole >> 8)};
+      bytes += static_cast<char>(whole & 0xff);
+      if (type == kUint16) bytes += static_cast<char>(whole >> 8);
     }
     Json& json = document_.json["accessors"][accessor];
     touched_[*asIndex(json["bufferView"], touched_.size())] = true;
     for (const char* key : {"byteOffset", "min", "max"}) json.erase(key);
-    json["componentType"] = kUint16;
-    json["normalized"] = true;
+    json["componentType"] = type;
+    if (normalized) json["normalized"] = true;
     json["bufferView"] = document_.addBuffer(std::move(bytes));
     isChanged_ = true;
   }

@@ -17,19 +17,34 @@ constexpr std::size_t kMatrix = 16;
 
 // ---- Where meshes are ----
 
-/// [meshes] the skin with which every node shows it, if it is the same.
+/// [meshes] the skin with which every node shows it, if it is the same: those of the file's scene,
+/// or where none of these does any.
 std::vector<std::optional<std::size_t>> skinsOfMeshes(const Document& document) {
   const std::size_t meshes = document.list("meshes").size(), skins = document.list("skins").size();
   std::vector<std::optional<std::size_t>> found(meshes);
-  std::vector<bool> isShown(meshes);
-  for (const Json& node : document.list("nodes")) {
-    const auto mesh = findIndex(node, "mesh", meshes);
-    if (!mesh) continue;
-    const auto skin = findIndex(node, "skin", skins);
-    found[*mesh] = isShown[*mesh] && found[*mesh] != skin ? std::nullopt : skin;
-    isShown[*mesh] = true;
+  std::vector<bool> isKnown(meshes);
+  const std::vector<bool> inScene = nodesOfScene(document);
+  for (const bool ofScene : {true, false}) {
+    std::vector<bool> isShown(meshes);
+    for (std::size_t n = 0; n < inScene.size(); ++n) {
+      const Json& node = document.list("nodes")[n];
+      const auto mesh = findIndex(node, "mesh", meshes);
+      if (inScene[n] != ofScene || !mesh || isKnown[*mesh]) continue;
+      const auto skin = findIndex(node, "skin", skins);
+      found[*mesh] = isShown[*mesh] && found[*mesh] != skin ? std::nullopt : skin;
+      isShown[*mesh] = true;
+    }
+    isKnown = std::move(isShown);
   }
   return found;
+}
+
+/// Whether all primitives of a mesh are parts of the rig: others would stay where they are bound.
+bool isAllOfParts(const Document& document, const Parts& parts, std::size_t rigMesh) {
+  const auto own = std::ranges::count(
+      parts.parts, rigMesh, [&](const Part& part) { return parts.runs[part.run].rigMesh; });
+  const Json& mesh = document.list("meshes")[parts.meshes[rigMesh].mesh];
+  return static_cast<std::size_t>(own) == listOf(mesh, "primitives").size();
 }
 
 /// How much of all vertices hangs on each joint of a mesh [joints]. `left` is how many elements may
@@ -235,7 +250,7 @@ void placeBySkins(const Document& document, Parts& parts) {
   std::size_t left = document.mostElements();
   for (std::size_t m = 0; m < parts.meshes.size(); ++m) {
     const auto skin = skins[parts.meshes[m].mesh];
-    if (!skin) continue;
+    if (!skin || !isAllOfParts(document, parts, m)) continue;
     Placer& placer = placers.try_emplace(*skin, document, *world, *skin).first->second;
     parts.meshes[m].world =
         placer.place(weightsOfJoints(document, parts, m, placer.jointCount(), left));

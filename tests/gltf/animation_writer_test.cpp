@@ -197,6 +197,16 @@ TEST(AnimationWriter, TurnsTheJointsOfSkinnedMeshesAlone) {
   EXPECT_EQ(json["nodes"][4]["children"], Json({1, 2}));
 }
 
+TEST(AnimationWriter, LeavesJointsTheirNames) {
+  Glb source = smallFace();
+  source.json["nodes"] = {{{"mesh", 0}}, {{"name", "head"}}};
+  source.add("scenes", {{"nodes", {0, 1}}});
+  const Json nodes = Written(turning(converted(source)).value()).json["nodes"];
+  EXPECT_EQ(nodes[1]["name"], "head");
+  EXPECT_EQ(nodes[2]["name"], "sweepface.head");
+  EXPECT_EQ(nodes[3]["name"], "sweepface.head.contents");
+}
+
 TEST(AnimationWriter, SaysWhereThereIsNothingToTurn) {
   Glb source = smallFace();
   source.add("scenes", {{"name", "empty"}});

@@ -76,6 +76,24 @@ TEST(SkinWeights, TakeHalfTheBytesAndNothingElseChanges) {
   EXPECT_EQ(packedScene(scene), scene);
 }
 
+TEST(SkinWeights, ThatAreRoundedAwayLetTheirJointsGo) {
+  const std::vector<std::uint16_t> joints(36, 7);
+  for (const bool isShared : {false, true}) {
+    std::vector<float> shares(36, 0.25f);
+    shares[0] = 1 - 4e-6f, shares[1] = 4e-6f, shares[2] = shares[3] = 0;
+    Glb glb = weighted({shares});
+    const std::size_t accessor = glb.addAccessor(glb.addView(bytesOf(joints)), 5123, "VEC4", 9);
+    glb.primitive()["attributes"]["JOINTS_0"] = accessor;
+    if (isShared) {  // with other weights
+      glb.json["meshes"].push_back(Json(glb.json["meshes"][0]));
+      glb.primitive(1)["attributes"]["WEIGHTS_0"] = addShares(glb, std::vector<float>(36, 0.25f));
+    }
+    std::vector<double> expected(36, 7);
+    if (!isShared) expected[1] = expected[2] = expected[3] = 0;
+    EXPECT_EQ(valuesOf(packed(glb), "JOINTS_0"), expected);
+  }
+}
+
 TEST(SkinWeights, OfPrimitivesThatShareThemAreRoundedOnce) {
   Glb glb = weighted(anyShares(1));
   glb.json["meshes"][0]["primitives"].push_back(glb.primitive());

@@ -230,20 +230,59 @@ TEST(Skins, PlaceByAnyJointWhatHangsOnNone) {
   }
 }
 
-TEST(Skins, ThatMirrorHaveFacesTurned) {
+/// Which way faces look goes by whether their node mirrors, wherever a skin places them.
+TEST(Skins, ThatMirrorTurnFacesOnlyBelowNodesThatDo) {
   Glb glb = smallFace();
   hang(glb, 0, kOnFirst);
   addSkin(glb, 0, kJoints, bindingOf(kJoints, 1, {}));
-  const MeshRig plain = read(glb).rig;
-  glb.json["nodes"][1]["scale"] = {-1, 1, 1};
-  const MeshRig mirrored = read(glb).rig;
+  const auto plain = read(glb).rig.neutral.positions;
   const auto normal = [](const MeshRig& rig) {
     const auto at = [&](int k) { return rig.neutral.positions[rig.neutral.polygons.corners[k]]; };
-    return cross(at(1) - at(0), at(2) - at(0));
+    return cross(at(1) - at(0), at(2) - at(0)).z;
   };
-  EXPECT_GT(normal(plain).z, 0);
-  EXPECT_GT(normal(mirrored).z, 0);
-  EXPECT_NEAR(mirrored.neutral.positions[2].x, 4 - plain.neutral.positions[2].x, 1e-9);
+  for (const int node : {1, -1})
+    for (const int joint : {1, -1}) {
+      glb.json["nodes"][0]["scale"] = {node, 1, 1};
+      glb.json["nodes"][1]["scale"] = {joint, 1, 1};
+      const RigSource source = read(glb);
+      EXPECT_NEAR(source.rig.neutral.positions[2].x, joint > 0 ? plain[2].x : 4 - plain[2].x, 1e-9);
+      EXPECT_EQ(normal(source.rig) > 0, node == joint);
+      // What is written goes round as it did.
+      const Written written = write(converted(glb));
+      const auto positions = written.vectors(written.attribute("POSITION"));
+      const auto t = written.numbers(written.primitive()["indices"]);
+      const auto at = [&](int k) { return positions[static_cast<std::size_t>(t[k])]; };
+      EXPECT_EQ(cross(at(1) - at(0), at(2) - at(0)).z > 0, joint > 0);
+    }
+}
+
+TEST(Skins, LeaveAMeshAsItStandsThatHasMoreThanTheFace) {
+  Glb glb = quantizedFace({5, 6, 7});
+  Json& primitives = glb.json["meshes"][0]["primitives"];
+  const Json before = glb.json["skins"];
+  primitives.push_back({{"mode", 0}, {"attributes", {{"POSITION", glb.addVectors({{}, {}, {}})}}}});
+  const RigSource source = read(glb);
+  EXPECT_EQ(source.rig.neutral.positions[2].x, 64 * sheetPositions()[2].x);
+  EXPECT_FALSE(source.warnings.empty());
+  EXPECT_EQ(write(converted(glb)).json["skins"], before);
+}
+
+TEST(Skins, AndNodesCountThatTheSceneShows) {
+  Glb glb = smallFace();
+  hang(glb, 0, kOnFirst);
+  addSkin(glb, 0, kJoints, bindingOf(kJoints, 0.5, {}));
+  const auto placed = read(glb).rig.neutral.positions;
+  const std::size_t orphan = glb.add("nodes", {{"mesh", 0}, {"scale", {9, 9, 9}}});
+  EXPECT_NE(read(glb).rig.neutral.positions, placed);  // one of two ways
+  glb.json["scenes"] = Json::array({{{"nodes", {0, 1, 2}}}});
+  EXPECT_EQ(read(glb).rig.neutral.positions, placed);
+  // So where nothing is skinned.
+  Glb plain = smallFace();
+  const auto own = read(plain).rig.neutral.positions;
+  plain.json["nodes"].insert(plain.json["nodes"].begin(), glb.json["nodes"][orphan]);
+  EXPECT_NE(read(plain).rig.neutral.positions, own);
+  plain.json["scenes"] = Json::array({{{"nodes", {1}}}});
+  EXPECT_EQ(read(plain).rig.neutral.positions, own);
 }
 
 /// A face and an eye of one skin: on joints that agree, or of which one has moved.
