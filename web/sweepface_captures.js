@@ -228,12 +228,14 @@ export function readClip(source, options) {
   const name = given || 'The clip', text = textOf(source, 'clip', name);
   if (framesPerSecond !== undefined && !(framesPerSecond > 0 && Number.isFinite(framesPerSecond)))
     throw new RangeError('The frames per second of a recording must be greater than 0.');
+  if (text.startsWith('glTF')) throw new Error(`${name} is a .glb, of which three.js plays the animations.`);
   if (!/^[ \t-\r]*[{[]/.test(text)) return readLiveLink(text, name, framesPerSecond);
   const json = parseJson(text, name), fail = (what) => new Error(`${name} ${what}.`);
   if (isObject(json) && json.events !== undefined) throw fail('is a timeline; readTimeline reads it');
   if (isObject(json) && json.weightMat !== undefined) return readAudio2Face(json, name, fail);
   const frames = Array.isArray(json) ? json : json.frames;
   if (Array.isArray(frames)) return readMediaPipe(frames, framesPerSecond, name, fail);
+  if (isObject(json) && json.asset !== undefined) throw fail('is a .gltf, of which three.js plays the animations');
   throw fail('is neither of Audio2Face (\'facsNames\' and \'weightMat\'), nor of MediaPipe (a list of frames ' +
              'with \'categories\'), nor a timeline (\'seconds\' and \'events\')');
 }

@@ -35,13 +35,14 @@ typedef struct sweepface_clip_options {
   int32_t smooth;           /* takes a tracker's noise out, by the one-euro filter */
   double frequency;         /* of the spring on which heavy regions hang, */
   double damping;           /* and its damping */
+  const char* animation;    /* of a .glb, by its name; NULL: the first that has weights */
 } sweepface_clip_options;
 
 /* The usual numbers. */
 SWEEPFACE_API sweepface_clip_options sweepface_clip_usual_options(void);
 
 /* Reads a clip from memory, which may be reused afterwards: a CSV of Live Link Face, a JSON of
- * MediaPipe or Audio2Face, a timeline (JSON) or the first animation of a .glb that has weights;
+ * MediaPipe or Audio2Face, a timeline (JSON) or an animation of a .glb that has weights;
  * told apart by what they hold. Names are matched with the rig's targets; none that matches is an
  * error, unless all are angles of head and eyes. `options` may be NULL; `name` is what messages
  * call it, NULL or empty: "The clip". */

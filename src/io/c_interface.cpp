@@ -46,7 +46,8 @@ Kind kindOf(std::string_view bytes) {
 
 Result<Clip> readCapture(Kind kind, std::string_view bytes, const char* name,
                          const sweepface_clip_options& options) {
-  auto clip = kind == Kind::gltf      ? parseGltfClip(bytes, name, {}, "")
+  const std::string_view animation = options.animation ? options.animation : "";
+  auto clip = kind == Kind::gltf      ? parseGltfClip(bytes, name, {}, animation)
               : kind == Kind::capture ? parseClipJson(bytes, name, options.frames_per_second)
                                       : parseLiveLinkCsv(bytes, name, options.frames_per_second);
   if (clip && options.smooth) smooth(*clip);
@@ -110,7 +111,7 @@ sweepface_status sweepface_rig_region_matter(const sweepface_rig* rig, uint32_t 
 
 sweepface_clip_options sweepface_clip_usual_options(void) {
   const Spring hold;
-  return {0, 0, hold.frequency, hold.damping};
+  return {0, 0, hold.frequency, hold.damping, nullptr};
 }
 
 sweepface_status sweepface_clip_read(const sweepface_rig* rig, const void* bytes, size_t size,

@@ -31,10 +31,11 @@ class ClipJsonReader {
     if (member(json, "weightMat")) return readAudio2Face(json);
     const Json* frames = json.is_array() ? &json : member(json, "frames");
     if (frames && frames->is_array()) return readMediaPipe(*frames);
+    if (member(json, "asset"))
+      return failFile("is a .gltf, which leads to other files; give a .glb, which holds them");
     return failFile(
         "is neither of Audio2Face ('facsNames' and 'weightMat'), nor of MediaPipe (a list of "
-        "frames "
-        "with 'categories'), nor a timeline ('seconds' and 'events')");
+        "frames with 'categories'), nor a timeline ('seconds' and 'events')");
   }
 
  private:

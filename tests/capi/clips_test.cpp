@@ -9,6 +9,7 @@
 #include "sweepface/timeline.hpp"
 
 #include "codec/rigs.hpp"
+#include "gltf/glb.hpp"
 
 namespace sweepface {
 namespace {
@@ -129,8 +130,34 @@ TEST_F(Clips, LoseTheirNoise) {
   Clip same = *parseLiveLinkCsv(kCsv, "take");
   smooth(same);
   EXPECT_EQ(at(0.5)[0], same.weights[same.names.size()]);
-  const sweepface_clip_options nothing{60, 0, 0, 0};
+  const sweepface_clip_options nothing{60, 0, 0, 0, nullptr};
   EXPECT_EQ(read(kCsv, &nothing), SWEEPFACE_BAD_ARGUMENT);
+}
+
+TEST_F(Clips, OfAGlbAreChosenByTheirNames) {
+  Glb glb = smallFace();
+  const std::size_t times =
+      glb.addAccessor(glb.addView(bytesOf(std::vector<float>{0, 1})), 5126, "SCALAR", 2);
+  for (const auto& [name, open] : {std::pair{"idle", 0.25f}, {"talk", 0.75f}}) {
+    const std::vector<float> weights{open, 0, open, 0};
+    const std::size_t output = glb.addAccessor(glb.addView(bytesOf(weights)), 5126, "SCALAR", 4);
+    glb.add("animations",
+            {{"name", name},
+             {"samplers", Json::array({{{"input", times}, {"output", output}}})},
+             {"channels",
+              Json::array({{{"sampler", 0}, {"target", {{"node", 0}, {"path", "weights"}}}}})}});
+  }
+  sweepface_clip_options options = sweepface_clip_usual_options();
+  for (const auto& [name, open] : {std::pair<const char*, double>{nullptr, 0.25}, {"talk", 0.75}}) {
+    options.animation = name;
+    ASSERT_EQ(read(glb.bytes(), &options), SWEEPFACE_OK) << sweepface_message();
+    EXPECT_EQ(at(0.5)[0], open);
+  }
+  options.animation = "walk";
+  EXPECT_EQ(read(glb.bytes(), &options), SWEEPFACE_BAD_DATA);
+  EXPECT_STREQ(sweepface_message(),
+               "take: it has no animation of morph targets named 'walk'; there are 'idle', "
+               "'talk'.");
 }
 
 TEST_F(Clips, OfTimelinesGoByTheirRegions) {

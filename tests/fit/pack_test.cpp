@@ -79,7 +79,8 @@ TEST(Pack, goesByTheToleranceAndTheBitsOfTheFaceUnlessTold) {
   ASSERT_TRUE(pack(rig, {.tolerance = 0.01}));
   EXPECT_EQ(rig.packing.textureBits, 9);
   rig.tolerance = 0;
-  EXPECT_EQ(pack(rig), 0.0002 * diagonal(meshesOf(rig).neutral));
+  const double size = diagonal(meshesOf(rig).neutral);
+  EXPECT_EQ(pack(rig), 0.0002 * size);
 }
 
 TEST(Pack, isTheSameOnOneThreadAsOnMany) {

@@ -80,6 +80,13 @@ test('frames so seldom that their times are none are refused', () => {
                 {message: 'a.json has a time in frame 1 that is not within 300 years.'});
 });
 
+test('animations of glTF files are left to three.js', () => {
+  const fails = (source, words) => assert.throws(
+    () => readClip(source, {name: 'a'}), {message: `a ${words}, of which three.js plays the animations.`});
+  fails(Uint8Array.from('glTF\x02\0\0\0\xff\x01\0\0', (letter) => letter.charCodeAt(0)), 'is a .glb');
+  fails('{"asset": {"version": "2.0"}}', 'is a .gltf');
+});
+
 test('a timeline that is read as a capture is told from one', () => {
   for (const more of ['', ', "weightMat": [[0]]', ', "frames": []'])
     assert.throws(() => readClip(`{"seconds": 1, "events": []${more}}`, {name: 'talk.json'}),
@@ -377,6 +384,7 @@ for (const [file, text, words] of [
        ['a.json', '{\n"frames": 1,}', ', line 2: this is not JSON'],
        ['a.json', '{\n"frames": 1.,\n"a": 1}', ', line 2: this is not JSON'],
        ['a.json', '{"frames": 1}', 'is neither of Audio2Face'],
+       ['a.json', '{"asset": {}}', 'is a .gltf'],
        ['a.json', '[]', 'has no frames'],
        ['a.json', '[{"categories": []}]', 'has no \'timestampMs\' in frame 0'],
        ['a.json', '[{"timestampMs": 0}]', 'has no \'categories\' in frame 0'],
