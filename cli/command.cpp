@@ -104,6 +104,10 @@ void addThreads(CLI::App& app, int& threads) {
       ->type_name("N");
 }
 
+std::string sceneIsLost(const std::string& file) {
+  return "What " + file + " holds besides the face is left out with the order, which it counts on.";
+}
+
 std::unique_ptr<tbb::global_control> limitThreads(int threads) {
   if (threads == 0) return nullptr;
   return std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,

@@ -81,6 +81,9 @@ void addGlb(CLI::App& app, GlbArguments& glb);
 bool canBeListed(const std::string& name);
 std::string cannotBeListed(const std::string& name);
 
+/// What is said where a face loses what its file held besides it, of the file it comes from.
+std::string sceneIsLost(const std::string& file);
+
 CLI::Validator wholeNumber(std::int64_t low, std::int64_t high);
 /// A finite number > 0, and at most `high` if that is given.
 CLI::Validator positiveNumber(double high = 0);

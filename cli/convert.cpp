@@ -167,9 +167,7 @@ std::vector<std::string> warningsOf(const ConvertArguments& a, const RigSource& 
                                     const Strip& parts, bool losesScene) {
   std::vector<std::string> warnings;
   if (!a.bare && !parts.scene && !losesScene) warnings = source.warnings;
-  if (losesScene)
-    warnings.push_back("What " + a.neutral +
-                       " holds besides the face is left out with the order, which it counts on.");
+  if (losesScene) warnings.push_back(sceneIsLost(a.neutral));
   if (isGltf(a.neutral) && source.rig.targets.empty())
     warnings.push_back(a.neutral + " has no morph targets, so the face has no expressions.");
   for (const MeshTarget& target : source.rig.targets)

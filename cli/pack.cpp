@@ -26,9 +26,10 @@ struct PackArguments {
 void addOptions(CLI::App& app, PackArguments& a) {
   addFace(app, a.face);
   addOutput(app, a.output, "The .sweep file to write");
-  app.add_option("--tolerance", a.tolerance,
-                 "Largest distance by which a vertex may move, in the face's units; the face's own "
-                 "tolerance if not given, or if it has none 0.02 % of its diagonal")
+  app.add_option(
+         "--tolerance", a.tolerance,
+         "Largest distance by which a vertex may move, in the face's units; if not given the "
+         "face's own tolerance, or where it is packed already what that was allowed")
       ->check(positiveNumber())
       ->type_name("T");
   addStrip(app, a.strip);
@@ -68,24 +69,27 @@ void printLooks(const Looks& now, const Looks& before) {
 Result<int> packAndWrite(const PackArguments& a) {
   const Result<Strip> parts = a.strip.empty() ? Strip{} : parseStrip(a.strip);
   if (!parts) return std::unexpected(parts.error());
-  const Result<std::string> before = readFile(a.face);
+  const Result<std::string> file = readFile(a.face);
+  if (!file) return std::unexpected(file.error());
+  const Result<Rig> before = opened(*file, a.face);
   if (!before) return std::unexpected(before.error());
-  Result<Rig> rig = opened(*before, a.face);
-  if (!rig) return std::unexpected(rig.error());
   const auto refused = [&](const Error& error) {
     return fail(fmt::format("{}: {}.", a.face, error.message));
   };
   std::optional<ProgressBar> bar(std::in_place, a.quiet);
-  const MeshRig meshes = meshesOf(*rig);
-  const Looks looks{normalRms(*rig, meshes), sumOf(countFolds(*rig, meshes))};
-  const Result<double> tolerance = pack(*rig, optionsOf(a, *bar));
+  bar->show("packing", 0);
+  const MeshRig meshes = meshesOf(*before);
+  const Looks looks{normalRms(*before, meshes), sumOf(countFolds(*before, meshes))};
+  if (interrupted) return kInterrupted;
+  Rig rig = *before;
+  const Result<double> tolerance = pack(rig, optionsOf(a, *bar));
   if (!tolerance) return refused(tolerance.error());
   bar->show("verifying", 1);
-  rig->scene = packedScene(std::move(rig->scene));
-  Rig finished = *rig;
+  rig.scene = packedScene(std::move(rig.scene));
+  Rig finished = rig;
   if (auto ok = strip(finished, *parts); !ok) return refused(ok.error());
   const std::string bytes = encode(finished);
-  const Result<Verified> verified = verify(bytes, a.output, meshes, *rig, *tolerance);
+  const Result<Verified> verified = verify(bytes, a.output, meshes, rig, *tolerance, &*before);
   if (!verified) return std::unexpected(verified.error());
   catchInterrupts();  // writing is not to end in the middle
   if (interrupted) return kInterrupted;
@@ -93,10 +97,13 @@ Result<int> packAndWrite(const PackArguments& a) {
     return std::unexpected(written.error());
   bar.reset();
   if (auto lost = lostMovement(meshes, verified->kept); !lost.empty()) printWarning(lost);
+  if (parts->order && !parts->scene && !before->scene.empty()) printWarning(sceneIsLost(a.face));
+  if (bytes.size() >= file->size())
+    printWarning(fmt::format("{} is no smaller than {}; a larger --tolerance makes it so.",
+                             a.output, a.face));
   if (a.quiet) return 0;
   fmt::print("{}: {} bytes, {:.1f} % of {}\n", a.output, bytes.size(),
-             100.0 * static_cast<double>(bytes.size()) / static_cast<double>(before->size()),
-             a.face);
+             100.0 * static_cast<double>(bytes.size()) / static_cast<double>(file->size()), a.face);
   printDistance(*verified);
   printLooks({verified->angleRms, sumOf(verified->folds)}, looks);
   return 0;

@@ -9,7 +9,7 @@ namespace sweepface::cli {
 namespace fs = std::filesystem;
 
 Result<Verified> verify(std::string_view bytes, const std::string& name, const MeshRig& source,
-                        const Rig& made, double tolerance) {
+                        const Rig& made, double tolerance, const Rig* before) {
   Result<Rig> rig = readBack(bytes, name);
   if (!rig) return std::unexpected(rig.error());
   if (!rig->source.ownOrder && rig->targets.size() == made.targets.size()) {
@@ -22,7 +22,8 @@ Result<Verified> verify(std::string_view bytes, const std::string& name, const M
     return fail(
         "The encoded face lacks vertices or targets of the source; nothing was written. "
         "This is a fault of sweepface, please report it.");
-  const FurthestVertex worst = furthestVertex(*rig, source);
+  const FurthestVertex worst =
+      before ? furthestVertex(*rig, *before) : furthestVertex(*rig, source);
   std::string shape = worst.target < 0 ? "the neutral" : rig->targets[worst.target].name;
   if (worst.distance <= tolerance)
     return Verified{tolerance,

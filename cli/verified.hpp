@@ -19,10 +19,11 @@ struct Verified {
   std::vector<double> kept;  // of every target's movement
 };
 
-/// Fails where a vertex is further from the source's than the tolerance. `made` is what the bytes
-/// were made of and tells where the source's vertices are, if its order was left out.
+/// Fails where a vertex is further from the source's than the tolerance, or if there is a face
+/// `before`, from where that has it. `made` is what the bytes were made of and tells where the
+/// source's vertices are, if its order was left out.
 Result<Verified> verify(std::string_view bytes, const std::string& name, const MeshRig& source,
-                        const Rig& made, double tolerance);
+                        const Rig& made, double tolerance, const Rig* before = nullptr);
 
 void printDistance(const Verified& verified);
 

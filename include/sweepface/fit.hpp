@@ -57,8 +57,9 @@ Result<Conversion> convert(const MeshRig& source, const ConvertOptions& options 
 MeshRig meshesOf(const Rig& rig);
 
 struct PackOptions {
-  /// Largest distance by which a source vertex may move, in model units, in the neutral and in
-  /// every target at weight 1; 0: the rig's own tolerance, or if it has none 0.02 % of `diagonal`.
+  /// Largest distance by which a vertex of level 1 may move, in model units, in the neutral and in
+  /// every target at weight 1; 0: the rig's own tolerance (if it has none 0.02 % of `diagonal`), or
+  /// where it is packed already what that was allowed.
   double tolerance = 0;
   /// As in ConvertOptions; 0: as many as the rig is packed with, or 14.
   int textureBits = 0;

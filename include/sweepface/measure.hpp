@@ -60,6 +60,10 @@ struct FurthestVertex {
 /// the source's order.
 FurthestVertex furthestVertex(const Rig& rig, const MeshRig& source);
 
+/// The same between two rigs of one surface, over the vertices of level 1 and those of no face.
+/// `vertex` is one of the source that stands there, or where none does, that of level 1.
+FurthestVertex furthestVertex(const Rig& rig, const Rig& before);
+
 /// The angle between the surface's normal and the source's vertex normal: the root of its mean
 /// square over all vertices of the neutral and of every target, in degrees. `source` is what the
 /// rig was made from, with its targets in the same order, and the rig knows the source's order.

@@ -179,7 +179,8 @@ class Converter {
       return !progress_.cancelled();
     };
     const double stepShare = std::clamp(2 * angle / (kAngleShare * usualLimit_), kFinestSteps, 1.0);
-    const Result<void> ok = quantise(rig, source_, {aim_, angle, stepShare}, proceed);
+    const Result<void> ok =
+        quantise(rig, source_, goalsOf(rig, source_), {aim_, angle, stepShare}, proceed);
     rig.packing.textureBits = options_.textureBits;
     return ok;
   }

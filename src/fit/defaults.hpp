@@ -12,6 +12,10 @@ inline double usualNormalLimit(double tolerance, double diagonal) {
   return std::clamp(2.8 * tolerance / (kDefaultTolerance * diagonal), 2.0, 60.0);
 }
 
+/// The neutral's steps, of the tolerance of packing, for vectors that few vertices follow; the
+/// hierarchy makes those of others finer.
+inline constexpr double kNeutralStep = 0.25;
+
 /// The angle that packing aims at, of the limit on normals.
 inline constexpr double kAngleShare = 0.2;
 

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <numeric>
 
 #include "sweepface/measure.hpp"
 
@@ -9,21 +10,35 @@ namespace sweepface {
 
 namespace {
 
+void look(FurthestVertex& furthest, double distance, std::size_t vertex) {
+  // Also true where the distance is not a number, and that is the furthest.
+  if (!std::isnan(furthest.distance) && !(distance <= furthest.distance))
+    furthest.distance = distance, furthest.vertex = vertex;
+}
+
 FurthestVertex furthestIn(const Rig& rig, const Tessellation& grid,
-                          const std::vector<OtherPlace>& others, Index target,
+                          const std::vector<OtherPlace>& others, Index pose,
                           const std::vector<Vec3>& source) {
-  const Weights weights = rig.weightsOf(target + 1);
+  const Weights weights = rig.weightsOf(pose);
   const std::vector<Vec3> places = grid.positions(blend(rig, weights)),
                           loose = blendLoose(rig, weights);
-  FurthestVertex furthest{.target = target};
-  const auto look = [&](std::size_t v, Index place) {
-    const double distance = norm((place >= 0 ? places[place] : loose[-1 - place]) - source[v]);
-    // Also true where the distance is not a number, and that is the furthest.
-    if (!std::isnan(furthest.distance) && !(distance <= furthest.distance))
-      furthest = {distance, v, target};
+  FurthestVertex furthest{.target = pose - 1};
+  const auto compare = [&](std::size_t v, Index place) {
+    look(furthest, norm((place >= 0 ? places[place] : loose[-1 - place]) - source[v]), v);
   };
-  for (std::size_t v = 0; v < source.size(); ++v) look(v, rig.source.gridVertex[v]);
-  for (const auto& [vertex, place] : others) look(static_cast<std::size_t>(vertex), place);
+  for (std::size_t v = 0; v < source.size(); ++v) compare(v, rig.source.gridVertex[v]);
+  for (const auto& [vertex, place] : others) compare(static_cast<std::size_t>(vertex), place);
+  return furthest;
+}
+
+template <typename InPose>
+FurthestVertex furthestOf(const Rig& rig, const InPose& inPose) {
+  std::vector<FurthestVertex> each(rig.targets.size() + 1);
+  parallelFor(Index{0}, static_cast<Index>(each.size()),
+              [&](Index pose) { each[pose] = inPose(pose); });
+  FurthestVertex furthest = each[0];
+  for (const FurthestVertex& f : each)
+    if (!std::isnan(furthest.distance) && !(f.distance <= furthest.distance)) furthest = f;
   return furthest;
 }
 
@@ -32,14 +47,30 @@ FurthestVertex furthestIn(const Rig& rig, const Tessellation& grid,
 FurthestVertex furthestVertex(const Rig& rig, const MeshRig& source) {
   const Tessellation grid(rig.surface, 1);
   const auto others = otherPlaces(rig.source, cornerPlaces(rig.source, grid));
-  std::vector<FurthestVertex> each(rig.targets.size() + 1);
-  parallelFor(Index{0}, static_cast<Index>(each.size()), [&](Index pose) {
-    each[pose] = furthestIn(rig, grid, others, pose - 1, source.positionsOf(pose));
+  return furthestOf(rig, [&](Index pose) {
+    return furthestIn(rig, grid, others, pose, source.positionsOf(pose));
   });
-  FurthestVertex furthest = each[0];
-  for (const FurthestVertex& f : each)
-    if (!std::isnan(furthest.distance) && !(f.distance <= furthest.distance)) furthest = f;
-  return furthest;
+}
+
+FurthestVertex furthestVertex(const Rig& rig, const Rig& before) {
+  const Tessellation grid(rig.surface, 1);
+  std::vector<std::size_t> vertexAt(static_cast<std::size_t>(grid.vertexCount()));
+  std::iota(vertexAt.begin(), vertexAt.end(), 0);
+  const auto& where = rig.source.gridVertex;
+  for (std::size_t s = 0; s < where.size(); ++s)
+    if (where[s] >= 0) vertexAt[where[s]] = s;
+  return furthestOf(rig, [&](Index pose) {
+    const Weights weights = rig.weightsOf(pose);
+    const auto places = grid.positions(blend(rig, weights)),
+               goals = grid.positions(blend(before, weights));
+    FurthestVertex furthest{.target = pose - 1};
+    for (std::size_t v = 0; v < places.size(); ++v)
+      look(furthest, norm(places[v] - goals[v]), vertexAt[v]);
+    const auto loose = blendLoose(rig, weights), looseGoals = blendLoose(before, weights);
+    for (std::size_t s = 0; s < where.size(); ++s)
+      if (where[s] < 0) look(furthest, norm(loose[-1 - where[s]] - looseGoals[-1 - where[s]]), s);
+    return furthest;
+  });
 }
 
 }  // namespace sweepface

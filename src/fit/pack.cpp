@@ -1,3 +1,5 @@
+#include <mutex>
+
 #include "sweepface/eval.hpp"
 #include "sweepface/fit.hpp"
 
@@ -23,6 +25,16 @@ MeshRig meshesOf(const Rig& rig) {
   return meshes;
 }
 
+namespace {
+
+// Of what is packed already what that was allowed, so that its tolerance does not double each time.
+double ownTolerance(const Rig& rig, double size) {
+  if (rig.packing.neutralStep > 0) return rig.packing.neutralStep / kNeutralStep;
+  return rig.tolerance > 0 ? rig.tolerance : kDefaultTolerance * size;
+}
+
+}  // namespace
+
 Result<double> pack(Rig& rig, const PackOptions& options) {
   if (!rig.knowsTargets())
     return fail("the targets of the face are not decoded yet; decode them before it is packed");
@@ -31,19 +43,21 @@ Result<double> pack(Rig& rig, const PackOptions& options) {
                           : before > 0            ? before
                                                   : ConvertOptions{}.textureBits;
   if (auto ok = checkTextureBits(textureBits); !ok) return std::unexpected(ok.error());
-  const MeshRig meshes = meshesOf(rig);
-  const double size = diagonal(meshes.neutral),
-               own = rig.tolerance > 0 ? rig.tolerance : kDefaultTolerance * size,
-               tolerance = options.tolerance > 0 ? options.tolerance : own;
-  if (auto ok = checkTolerance(tolerance, size); !ok) return std::unexpected(ok.error());
-  if (auto ok = checkPrecision(meshes, tolerance); !ok) return std::unexpected(ok.error());
+  std::mutex telling;
   const auto proceed = [&](double done) {
+    const std::scoped_lock lock(telling);
     if (options.progress) options.progress("packing", done);
     return !(options.cancel && options.cancel->load());
   };
+  proceed(0);
+  const MeshRig meshes = meshesOf(rig);
+  const double size = diagonal(meshes.neutral),
+               tolerance = options.tolerance > 0 ? options.tolerance : ownTolerance(rig, size);
+  if (auto ok = checkTolerance(tolerance, size); !ok) return std::unexpected(ok.error());
+  if (auto ok = checkPrecision(meshes, tolerance); !ok) return std::unexpected(ok.error());
   const double angle = kAngleShare * usualNormalLimit(tolerance, size);
   Rig packed = rig;
-  if (auto ok = quantise(packed, meshes, {tolerance, angle}, proceed); !ok)
+  if (auto ok = quantise(packed, meshes, goalsOf(rig), {tolerance, angle}, proceed); !ok)
     return std::unexpected(ok.error());
   packed.packing.textureBits = textureBits;
   packed.tolerance += tolerance;

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "fit/bones.hpp"
-#include "fit/corner_places.hpp"
 #include "surface/terms.hpp"
 
 namespace sweepface {
@@ -29,8 +28,8 @@ std::vector<Vec3> difference(std::vector<Vec3> a, std::span<const Vec3> b) {
 
 }  // namespace
 
-PackedPoses::PackedPoses(Rig& rig, const MeshRig& source, codec::Lattice lattice, double tolerance,
-                         double angle)
+PackedPoses::PackedPoses(Rig& rig, const MeshRig& source, PackGoals goals, codec::Lattice lattice,
+                         double tolerance, double angle)
     : rig_(rig),
       source_(source),
       lattice_(std::move(lattice)),
@@ -40,27 +39,9 @@ PackedPoses::PackedPoses(Rig& rig, const MeshRig& source, codec::Lattice lattice
       folds_(rig, grid_),
       inStored_(inStoredVectors(rig.surface)),
       columns_(columnsOf(rig.surface, grid_, lattice_.prediction(0))),
+      goals_(std::move(goals)),
       kept_(rig.packing.poses.size()),
-      fittedNeutral_(rig.neutral) {
-  gatherGoals();
-}
-
-// Where the source's vertices are in each pose, at the vertices of level 1.
-void PackedPoses::gatherGoals() {
-  known_.assign(vertexCount(), 0);
-  goals_.assign(count(), std::vector<Vec3>(vertexCount()));
-  const auto aim = [&](std::size_t vertex, Index place) {
-    known_[place] = 1;
-    const Vec3& neutral = goals_[0][place] = source_.neutral.positions[vertex];
-    for (Index pose = 1; pose < count(); ++pose)
-      goals_[pose][place] = source_.positionsOf(pose)[vertex] - neutral;
-  };
-  const auto& where = rig_.source.gridVertex;
-  for (std::size_t s = 0; s < where.size(); ++s)
-    if (where[s] >= 0) aim(s, where[s]);
-  for (const auto& [vertex, place] : otherPlaces(rig_.source, cornerPlaces(rig_.source, grid_)))
-    aim(static_cast<std::size_t>(vertex), place);
-}
+      fittedNeutral_(rig.neutral) {}
 
 void PackedPoses::keep(Index pose, Coefficients q) {
   rig_.vectorsOf(pose) = restored(pose, q);
@@ -115,9 +96,9 @@ std::vector<Vec3> PackedPoses::settled(std::vector<Vec3> stored) const {
 std::vector<Vec3> PackedPoses::errors(Index pose, std::vector<Vec3> vectors) const {
   std::vector<Vec3> errors = grid_.positions(settled(std::move(vectors)));
   for (std::size_t v = 0; v < errors.size(); ++v) {
-    errors[v] -= goals_[pose][v];
+    errors[v] -= goals_.places[pose][v];
     if (pose > 0) errors[v] += neutralErrors_[v];
-    if (!known_[v]) errors[v] = {};
+    if (!isKnown(static_cast<Index>(v))) errors[v] = {};
   }
   return errors;
 }
@@ -131,7 +112,7 @@ Slopes PackedPoses::slopes(Index pose, const std::vector<Vec3>& vectors) const {
   if (pose > 0) add(whole, neutralOff_);
   const double limit = angle_ * std::numbers::pi / 180;
   const double weight = (pose == 0 ? kNeutralBits : kTargetBits) / (limit * limit);
-  return slopesOf(rig_.surface, grid_, known_, {form, off, whole}, 0.5 * tolerance_,
+  return slopesOf(rig_.surface, grid_, goals_.isKnown, {form, off, whole}, 0.5 * tolerance_,
                   static_cast<float>(weight));
 }
 

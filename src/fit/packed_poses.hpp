@@ -10,6 +10,7 @@
 #include "codec/lattice.hpp"
 #include "fit/columns.hpp"
 #include "fit/folds.hpp"
+#include "fit/pack_goals.hpp"
 #include "fit/slopes.hpp"
 
 namespace sweepface {
@@ -18,9 +19,10 @@ namespace sweepface {
 /// from the fit and from the source. The neutral comes first; targets are told beyond it.
 class PackedPoses {
  public:
-  /// Tangents shall lean by about `angle` degrees. The lattice is that of the rig's packing.
-  PackedPoses(Rig& rig, const MeshRig& source, codec::Lattice lattice, double tolerance,
-              double angle);
+  /// Tangents shall lean by about `angle` degrees. The lattice is that of the rig's packing; the
+  /// source tells where faces fold.
+  PackedPoses(Rig& rig, const MeshRig& source, PackGoals goals, codec::Lattice lattice,
+              double tolerance, double angle);
 
   Index count() const { return static_cast<Index>(kept_.size()); }
   Index vertexCount() const { return grid_.vertexCount(); }
@@ -28,7 +30,7 @@ class PackedPoses {
   const codec::Lattice& lattice() const { return lattice_; }
   const Columns& columns() const { return columns_; }
   /// Whether a source vertex stands at one of level 1.
-  bool isKnown(Index vertex) const { return known_[vertex] != 0; }
+  bool isKnown(Index vertex) const { return goals_.isKnown[vertex] != 0; }
 
   Packing::Pose& form(Index pose) { return rig_.packing.poses[pose]; }
   double step(Index pose) const { return codec::stepOf(rig_.packing, pose); }
@@ -64,7 +66,6 @@ class PackedPoses {
   void learnNeutral();
 
  private:
-  void gatherGoals();
   std::vector<Vec3> settled(std::vector<Vec3> stored) const;
   std::span<const Packing::Carry> carries(Index pose) const {
     return rig_.packing.poses[pose].carries;
@@ -79,8 +80,7 @@ class PackedPoses {
   std::vector<std::vector<Term>> inStored_;  // every vector as a combination of stored ones
   Columns columns_;
   codec::Bones bones_;
-  std::vector<std::vector<Vec3>> goals_;   // [poses][vertices] the neutral, then differences
-  std::vector<char> known_;                // [vertices]
+  PackGoals goals_;
   std::vector<codec::Coefficients> kept_;  // [poses]
   std::vector<Vec3> fittedNeutral_, neutralErrors_;
   std::vector<Vec3> neutralOff_;     // settled: how far the neutral is off the fit

@@ -21,8 +21,10 @@ constexpr int kMostForFolds = 2;
 
 class PosePacker {
  public:
-  PosePacker(PackedPoses& poses, Index pose, const std::vector<float>& bounds)
-      : poses_(poses),
+  PosePacker(PackedPoses& poses, Index pose, const std::vector<float>& bounds,
+             const std::function<bool()>& goesOn)
+      : goesOn_(goesOn),
+        poses_(poses),
         pose_(pose),
         form_(poses.form(pose)),
         symmetry_(codec::symmetryOf(form_, pose)),
@@ -37,7 +39,7 @@ class PosePacker {
       if (symmetry_ != Symmetry::none) done = search(Start::image);
       if (!done) done = search(Start::fit);
     }
-    if (!found_) return false;
+    if (!found_ || !goesOn_()) return false;
     form_.finer = foundFiner_;
     poses_.keep(pose_, std::move(*found_));
     return true;
@@ -100,7 +102,7 @@ class PosePacker {
     constexpr std::size_t kFew = 32;
     constexpr float kNarrower = 0.85f;
     const Coefficients first = q_;
-    for (int trial = 0; trial < kTrials; ++trial) {
+    for (int trial = 0; trial < kTrials && goesOn_(); ++trial) {
       q_ = first;
       const std::vector<Index> beyond = improve(q_);
       if (beyond.empty()) return true;
@@ -144,7 +146,7 @@ class PosePacker {
       Coefficients trial = first;
       std::vector<Index> folds = before;
       task_.frozen.assign(stays ? q_.size() : 0, 0);
-      for (int round = 0; round < kRounds && least > few; ++round) {
+      for (int round = 0; round < kRounds && least > few && goesOn_(); ++round) {
         trial = backToFit(fit, poses_.corners(folds), trial);
         const bool met = improve(trial).empty();
         folds = foldsBeyond(own, trial);
@@ -177,6 +179,7 @@ class PosePacker {
     return poses_.rounded(pose_, vectors);
   }
 
+  const std::function<bool()>& goesOn_;
   PackedPoses& poses_;
   Index pose_;
   Packing::Pose& form_;
@@ -190,8 +193,9 @@ class PosePacker {
 
 }  // namespace
 
-bool packPose(PackedPoses& poses, Index pose, const std::vector<float>& bounds) {
-  return PosePacker(poses, pose, bounds).run();
+bool packPose(PackedPoses& poses, Index pose, const std::vector<float>& bounds,
+              const std::function<bool()>& goesOn) {
+  return PosePacker(poses, pose, bounds, goesOn).run();
 }
 
 }  // namespace sweepface

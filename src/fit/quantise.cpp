@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "fit/check_source.hpp"
+#include "fit/defaults.hpp"
 #include "fit/images.hpp"
 #include "fit/pose_packer.hpp"
 #include "parallel/parallel.hpp"
@@ -14,9 +15,8 @@ namespace sweepface {
 
 namespace {
 
-// Steps, as shares of the tolerance, of vectors that few vertices follow; the hierarchy makes those
-// of others finer.
-constexpr double kNeutralStep = 0.25, kTargetStep = 1;
+// The targets' step, as kNeutralStep.
+constexpr double kTargetStep = 1;
 // The neutral spends this share of the tolerance, so that its poses have room.
 constexpr double kNeutralShare = 0.5;
 // What the search keeps to, of the tolerance: it counts in single precision.
@@ -38,16 +38,18 @@ codec::Lattice latticeFor(Rig& rig, const PackAims& aims) {
 
 class Quantiser {
  public:
-  Quantiser(Rig& rig, const MeshRig& source, const PackAims& aims,
+  Quantiser(Rig& rig, const MeshRig& source, PackGoals goals, const PackAims& aims,
             const std::function<bool(double)>& proceed)
       : rig_(rig),
         source_(source),
         tolerance_(aims.tolerance),
         proceed_(proceed),
-        poses_(rig, source, latticeFor(rig, aims), aims.tolerance, aims.angle) {}
+        poses_(rig, source, std::move(goals), latticeFor(rig, aims), aims.tolerance, aims.angle) {}
 
   Result<void> run() {
-    if (!packPose(poses_, 0, neutralBounds())) return failed("the neutral");
+    const bool met = packPose(poses_, 0, neutralBounds(), [this] { return goesOn(); });
+    if (!goesOn()) return fail("packing was interrupted");
+    if (!met) return failed("the neutral");
     poses_.learnNeutral();
     // Images first: what is compared with them needs them.
     for (const bool images : {true, false})
@@ -77,7 +79,7 @@ class Quantiser {
       if (images != (image < 0 || image == pose)) return;
       ++begun_;
       if (!goesOn()) return;
-      met[pose] = packPose(poses_, pose, bounds);
+      met[pose] = packPose(poses_, pose, bounds, [this] { return goesOn(); });
     });
     if (!goesOn()) return fail("packing was interrupted");
     if (const auto bad = std::ranges::find(met, false); bad != met.end())
@@ -112,9 +114,9 @@ class Quantiser {
 
 }  // namespace
 
-Result<void> quantise(Rig& rig, const MeshRig& source, const PackAims& aims,
+Result<void> quantise(Rig& rig, const MeshRig& source, PackGoals goals, const PackAims& aims,
                       const std::function<bool(double)>& proceed) {
-  return Quantiser(rig, source, aims, proceed).run();
+  return Quantiser(rig, source, std::move(goals), aims, proceed).run();
 }
 
 }  // namespace sweepface

@@ -113,6 +113,19 @@ TEST_F(Pack, LeavesPartsOutOfAFace) {
   EXPECT_LT(contents(folder / "again.sweep").size(), contents(folder / "bare.sweep").size());
 }
 
+TEST_F(Pack, WarnsOfAFileThatGrowsAndOfASceneThatIsLost) {
+  convertRig("--pack");
+  EXPECT_NE(run("pack face.sweep -o large.sweep --tolerance 0.0001").err.find("no smaller than"),
+            std::string::npos);
+  ASSERT_EQ(run("export face.sweep -o face.glb").code, 0);
+  ASSERT_EQ(run("convert face.glb -o scene.sweep").code, 0);
+  EXPECT_EQ(run("pack scene.sweep -o small.sweep").err, "");
+  EXPECT_EQ(run("pack scene.sweep -o small.sweep --strip order,scene").err, "");
+  EXPECT_NE(
+      run("pack scene.sweep -o small.sweep --strip order").err.find("left out with the order"),
+      std::string::npos);
+}
+
 TEST_F(Pack, RefusesWhatCannotBePackedAndLeavesFilesAlone) {
   convertRig();
   folder.file("kept.sweep", "kept");
