@@ -56,16 +56,21 @@ class ClipReader {
       if (!tracks_.empty()) return clipOf();
     }
     if (wanted.empty()) return fail("it has no animation of morph targets.");
-    std::string named;
-    for (const Json& animation : animations)
-      if (const Json* const name = find(animation, "name"); name && name->is_string())
-        named += (named.empty() ? "; there are " : ", ") +
-                 io::inQuotes(name->get_ref<const std::string&>());
     return fail(fmt::format("it has no animation of morph targets named {}{}.",
-                            io::inQuotes(wanted), named));
+                            io::inQuotes(wanted), listed(animations)));
   }
 
  private:
+  static std::string listed(const Json& animations) {
+    constexpr std::size_t kMost = 10;
+    std::string names;
+    for (std::size_t a = 0; a < std::min(animations.size(), kMost); ++a)
+      if (const Json* const name = find(animations[a], "name"); name && name->is_string())
+        names += (names.empty() ? "; its animations are " : ", ") +
+                 io::inQuotes(name->get_ref<const std::string&>());
+    return animations.size() > kMost ? names + ", ..." : names;
+  }
+
   Result<void> readAnimation(Members& in) {
     const Json &channels = in.array("channels"), &samplers = in.array("samplers");
     if (!in.ok()) return in.error();

@@ -39,12 +39,16 @@ std::vector<std::optional<std::size_t>> skinsOfMeshes(const Document& document) 
   return found;
 }
 
+/// Those of a mesh, as they come in the order of meshes.
+std::span<const Part> partsOf(const Parts& parts, std::size_t rigMesh) {
+  return std::ranges::equal_range(parts.parts, rigMesh, {},
+                                  [&](const Part& part) { return parts.runs[part.run].rigMesh; });
+}
+
 /// Whether all primitives of a mesh are parts of the rig: others would stay where they are bound.
 bool isAllOfParts(const Document& document, const Parts& parts, std::size_t rigMesh) {
-  const auto own = std::ranges::count(
-      parts.parts, rigMesh, [&](const Part& part) { return parts.runs[part.run].rigMesh; });
   const Json& mesh = document.list("meshes")[parts.meshes[rigMesh].mesh];
-  return static_cast<std::size_t>(own) == listOf(mesh, "primitives").size();
+  return partsOf(parts, rigMesh).size() == listOf(mesh, "primitives").size();
 }
 
 /// How much of all vertices hangs on each joint of a mesh [joints]. `left` is how many elements may
@@ -53,8 +57,7 @@ std::vector<double> weightsOfJoints(const Document& document, const Parts& parts
                                     std::size_t rigMesh, std::size_t joints, std::size_t& left) {
   std::vector<double> sums(joints, 0.0);
   const std::size_t accessors = document.list("accessors").size();
-  for (const Part& part : parts.parts) {
-    if (parts.runs[part.run].rigMesh != rigMesh) continue;
+  for (const Part& part : partsOf(parts, rigMesh)) {
     const Json& attributes = primitiveOf(document, parts, part)["attributes"];
     for (int set = 0;; ++set) {
       const auto joint = findIndex(attributes, "JOINTS_" + std::to_string(set), accessors),

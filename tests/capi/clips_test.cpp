@@ -156,8 +156,8 @@ TEST_F(Clips, OfAGlbAreChosenByTheirNames) {
   options.animation = "walk";
   EXPECT_EQ(read(glb.bytes(), &options), SWEEPFACE_BAD_DATA);
   EXPECT_STREQ(sweepface_message(),
-               "take: it has no animation of morph targets named 'walk'; there are 'idle', "
-               "'talk'.");
+               "take: it has no animation of morph targets named 'walk'; its animations are "
+               "'idle', 'talk'.");
 }
 
 TEST_F(Clips, OfTimelinesGoByTheirRegions) {
