@@ -59,7 +59,8 @@ MeshRig meshesOf(const Rig& rig);
 struct PackOptions {
   /// Largest distance by which a vertex of level 1 may move, in model units, in the neutral and in
   /// every target at weight 1; 0: the rig's own tolerance (if it has none 0.02 % of `diagonal`), or
-  /// where it is packed already what that was allowed.
+  /// where it is packed already what its steps stand for: what that was allowed, or less where
+  /// normals were limited.
   double tolerance = 0;
   /// As in ConvertOptions; 0: as many as the rig is packed with, or 14.
   int textureBits = 0;

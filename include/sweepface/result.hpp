@@ -31,12 +31,15 @@ using Result = std::expected<T, Error>;
 struct TextPart {
   static constexpr long long kMost = std::numeric_limits<long long>::max();
 
-  std::string_view text;  ///< of a number without characters, but not empty as texts are then
+  static constexpr char kIsNumber = 0;
+
+  std::string_view text;  ///< of a number that mark, and no characters
   long long number = 0;
 
   template <std::integral T>
   [[gnu::always_inline]] TextPart(T x)
-      : text(nullptr, 1), number(std::in_range<long long>(x) ? static_cast<long long>(x) : kMost) {}
+      : text(&kIsNumber, 0),
+        number(std::in_range<long long>(x) ? static_cast<long long>(x) : kMost) {}
   template <std::convertible_to<std::string_view> T>
   [[gnu::always_inline]] TextPart(const T& x) : text(x) {}
 };

@@ -218,8 +218,6 @@ double bound(const TableErrors& errors, std::span<const double> weights) {
 bool isShare(double x) { return x >= 0 && std::isfinite(x); }
 
 Result<void> check(const Rig& rig, const EvaluatorOptions& options) {
-  if (options.level == 0 && rig.source.gridVertex.empty())
-    return fail("The face came without its source's vertices; ask for level 1.");
   if (!isShare(options.tolerance) ||
       !(isShare(options.derivativeTolerance) && options.derivativeTolerance > 0))
     return fail("The tolerances of an evaluator must be positive.");
@@ -250,6 +248,8 @@ Result<Evaluator> Evaluator::make(const Rig& rig, const Tessellation& grid,
                                   const EvaluatorOptions& options) {
   if (auto ok = check(rig, options); !ok) return std::unexpected(ok.error());
   const bool hasLevel = grid.level() > 0, inSourceOrder = hasLevel && options.level == 0;
+  if (inSourceOrder && rig.source.gridVertex.empty())
+    return fail("The face came without its source's vertices; ask for level 1.");
   const auto isKnown = [count = grid.vertexCount()](Index vertex) { return vertex < count; };
   if (!grid.fits(rig.surface) || (hasLevel && grid.level() != std::max<Index>(1, options.level)) ||
       (inSourceOrder && !std::ranges::all_of(rig.source.gridVertex, isKnown)))

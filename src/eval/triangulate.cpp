@@ -7,7 +7,7 @@ namespace sweepface {
 namespace {
 
 // Cutting takes time with the square of the corners; larger polygons become fans.
-constexpr std::size_t kMostCorners = 4096;
+constexpr std::size_t kMostCorners = 512;
 
 class EarCutter {
  public:
@@ -97,9 +97,8 @@ Vec3 meanNormal(std::span<const Vec3> polygon) {
 }
 
 std::vector<Triangle> triangulate(std::span<const Vec3> polygon) {
-  if (polygon.size() < 4 || polygon.size() > kMostCorners)
-    return fan(static_cast<Index>(polygon.size()));
-  return EarCutter(polygon).cut();
+  if (polygon.size() > 3 && polygon.size() <= kMostCorners) return EarCutter(polygon).cut();
+  return fan(static_cast<Index>(polygon.size()));
 }
 
 }  // namespace sweepface

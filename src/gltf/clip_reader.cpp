@@ -68,7 +68,7 @@ class ClipReader {
       if (const Json* const name = find(animations[a], "name"); name && name->is_string())
         names += (names.empty() ? "; its animations are " : ", ") +
                  io::inQuotes(name->get_ref<const std::string&>());
-    return animations.size() > kMost ? names + ", ..." : names;
+    return !names.empty() && animations.size() > kMost ? names + ", ..." : names;
   }
 
   Result<void> readAnimation(Members& in) {

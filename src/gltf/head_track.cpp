@@ -77,7 +77,7 @@ struct Roots {
 std::string freeName(const Json& nodes, std::string name) {
   const auto isTaken = [&](const Json& node) {
     const Json* const own = find(node, "name");
-    return own && *own == name;
+    return own && (*own == name || *own == name + ".contents");
   };
   while (std::ranges::any_of(nodes, isTaken)) name = "sweepface." + name;
   return name;

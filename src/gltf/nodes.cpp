@@ -1,7 +1,6 @@
 #include "gltf/nodes.hpp"
 
 #include <fmt/format.h>
-#include <optional>
 
 namespace sweepface::gltf {
 namespace {
@@ -88,13 +87,10 @@ Result<std::vector<Affine>> worldMatrices(const Document& document) {
   return world;
 }
 
-std::vector<bool> nodesOfScene(const Document& document) {
+std::vector<bool> nodesOfScenes(const Document& document) {
   const std::size_t count = document.list("nodes").size();
   const Json& scenes = document.list("scenes");
-  const auto scene = find(document.json, "scene") ? findIndex(document.json, "scene", scenes.size())
-                     : scenes.empty()             ? std::nullopt
-                                                  : std::optional<std::size_t>(0);
-  if (!scene) return std::vector<bool>(count, true);
+  if (scenes.empty()) return std::vector<bool>(count, true);
   std::vector<bool> found(count);
   std::vector<std::size_t> nodes;
   const auto add = [&](const Json& list) {
@@ -104,7 +100,7 @@ std::vector<bool> nodesOfScene(const Document& document) {
         nodes.push_back(*node);
       }
   };
-  add(listOf(scenes[*scene], "nodes"));
+  for (const Json& scene : scenes) add(listOf(scene, "nodes"));
   for (std::size_t k = 0; k < nodes.size(); ++k)
     add(listOf(document.list("nodes")[nodes[k]], "children"));
   return found;

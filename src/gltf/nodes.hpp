@@ -11,7 +11,7 @@ namespace sweepface::gltf {
 /// parents.
 Result<std::vector<Affine>> worldMatrices(const Document& document);
 
-/// Whether the scene that the file shows first has each node [nodes]; where there is none, all.
-std::vector<bool> nodesOfScene(const Document& document);
+/// Whether any scene has each node [nodes]; where there are no scenes, all.
+std::vector<bool> nodesOfScenes(const Document& document);
 
 }  // namespace sweepface::gltf

@@ -24,8 +24,8 @@ struct Placement {
   bool mirrors = false;
 };
 
-/// How the first node that shows each mesh places it, of the file's scene if one does. A skin
-/// ignores where its node is, though not whether that mirrors (glTF 2.0, 3.7.2.1).
+/// How the first node that shows each mesh places it, of those in a scene if one does. A skin
+/// ignores where its node is, though not whether that mirrors (glTF 2.0, 3.7.4).
 Result<std::vector<Placement>> placements(const Document& document) {
   const Json& nodes = document.list("nodes");
   const std::size_t count = document.list("meshes").size();
@@ -33,7 +33,7 @@ Result<std::vector<Placement>> placements(const Document& document) {
   if (!world) return std::unexpected(world.error());
   std::vector<Placement> placed(count);
   std::vector<bool> seen(count);
-  const std::vector<bool> isShown = nodesOfScene(document);
+  const std::vector<bool> isShown = nodesOfScenes(document);
   for (const bool shown : {true, false})
     for (std::size_t n = 0; n < nodes.size(); ++n) {
       Members in(nodes[n], fmt::format("node {}", n));

@@ -59,19 +59,29 @@ class WeightRounder {
 
   /// Whether anything changes.
   bool run() {
-    std::map<Binding, std::size_t> uses;
+    std::map<std::vector<std::size_t>, std::size_t> uses;
+    std::map<Binding, std::size_t> bindings;
     for (const Json& mesh : document_.list("meshes"))
-      for (const Json& primitive : listOf(mesh, "primitives"))
-        ++uses[bindingOf(primitive, document_.list("accessors").size())];
+      for (const Json& primitive : listOf(mesh, "primitives")) {
+        const Binding binding = bindingOf(primitive, document_.list("accessors").size());
+        ++uses[binding.weights];
+        ++bindings[binding];
+      }
     const std::vector<std::size_t> all = accessorUseCounts(document_);
-    for (const auto& [binding, count] : uses) {
-      const auto isOwn = [&](std::size_t a) { return all[a] == count; };
-      if (!std::ranges::all_of(binding.weights, isOwn)) continue;
-      const auto weights = rounded(binding.weights);
-      for (std::size_t k = 0; k < weights.size(); ++k)
-        replace(binding.weights[k], weights[k], kUint16, true);
-      if (weights.size() == binding.joints.size() && std::ranges::all_of(binding.joints, isOwn))
-        for (std::size_t k = 0; k < weights.size(); ++k) letGo(binding.joints[k], weights[k]);
+    const auto areOwn = [&](const std::vector<std::size_t>& accessors, std::size_t count) {
+      return std::ranges::all_of(accessors, [&](std::size_t a) { return all[a] == count; });
+    };
+    std::map<std::vector<std::size_t>, std::vector<std::vector<double>>> weights;
+    for (const auto& [sets, count] : uses) {
+      if (!areOwn(sets, count)) continue;
+      const auto& values = weights[sets] = rounded(sets);
+      for (std::size_t k = 0; k < values.size(); ++k) replace(sets[k], values[k], kUint16, true);
+    }
+    for (const auto& [binding, count] : bindings) {
+      const auto& [sets, joints] = binding;
+      const auto& values = weights[sets];
+      if (values.size() == joints.size() && areOwn(joints, count))
+        for (std::size_t k = 0; k < values.size(); ++k) letGo(joints[k], values[k]);
     }
     return isChanged_;
   }
@@ -116,10 +126,11 @@ class WeightRounder {
   /// A joint that moves nothing is to be the first one.
   void letGo(std::size_t joints, const std::vector<double>& weights) {
     std::vector<double> values = plain(joints, {Component::uint8, Component::uint16});
-    if (values.size() != weights.size()) return;
+    Json& json = document_.json["accessors"][joints];
+    if (values.size() != weights.size() || json.value("normalized", Json()) == true) return;
     for (std::size_t k = 0; k < values.size(); ++k)
       if (weights[k] == 0) values[k] = 0;
-    replace(joints, values, document_.json["accessors"][joints]["componentType"], false);
+    replace(joints, values, json["componentType"], false);
   }
 
   void replace(std::size_t accessor, const std::vector<double>& values, int type, bool normalized) {

@@ -17,13 +17,13 @@ constexpr std::size_t kMatrix = 16;
 
 // ---- Where meshes are ----
 
-/// [meshes] the skin with which every node shows it, if it is the same: those of the file's scene,
-/// or where none of these does any.
+/// [meshes] the skin with which every node shows it, if it is the same: those in a scene, or where
+/// none of these does any.
 std::vector<std::optional<std::size_t>> skinsOfMeshes(const Document& document) {
   const std::size_t meshes = document.list("meshes").size(), skins = document.list("skins").size();
   std::vector<std::optional<std::size_t>> found(meshes);
   std::vector<bool> isKnown(meshes);
-  const std::vector<bool> inScene = nodesOfScene(document);
+  const std::vector<bool> inScene = nodesOfScenes(document);
   for (const bool ofScene : {true, false}) {
     std::vector<bool> isShown(meshes);
     for (std::size_t n = 0; n < inScene.size(); ++n) {

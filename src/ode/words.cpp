@@ -23,7 +23,7 @@ void appendNumber(std::vector<char>& sentence, long long number) {
 std::string joined(std::initializer_list<TextPart> parts) {
   std::vector<char> sentence;
   for (const TextPart& part : parts)
-    if (part.text.data() || part.text.empty())
+    if (part.text.data() != &TextPart::kIsNumber)
       sentence.insert(sentence.end(), part.text.begin(), part.text.end());
     else
       appendNumber(sentence, part.number);

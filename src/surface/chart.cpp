@@ -21,7 +21,7 @@ struct RingPoints {
 RingPoints characteristicRings(double angle) {
   const double c = ode::sineCosine(angle).cosine;
   const double lambda = (c + 5 + std::sqrt((c + 9) * (c + 1))) / 16;
-  if (lambda <= 0.25) return {};  // two patches alone: no map, and nothing moves
+  if (!(lambda > 0.25)) return {};  // two patches alone: no map, and nothing moves
   const Complex w = onCircle(angle), back = std::conj(w);
   const Complex face = (1.0 + w) / (4 * lambda - 1);
 

@@ -205,6 +205,8 @@ TEST(AnimationWriter, LeavesJointsTheirNames) {
   EXPECT_EQ(nodes[1]["name"], "head");
   EXPECT_EQ(nodes[2]["name"], "sweepface.head");
   EXPECT_EQ(nodes[3]["name"], "sweepface.head.contents");
+  source.json["nodes"][1]["name"] = "head.contents";
+  EXPECT_EQ(Written(turning(converted(source)).value()).json["nodes"][2]["name"], "sweepface.head");
 }
 
 TEST(AnimationWriter, SaysWhereThereIsNothingToTurn) {

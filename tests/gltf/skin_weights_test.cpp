@@ -94,6 +94,19 @@ TEST(SkinWeights, ThatAreRoundedAwayLetTheirJointsGo) {
   }
 }
 
+TEST(SkinWeights, AreRoundedWhateverTheJoints) {
+  Glb glb = weighted(anyShares(1));
+  glb.json["meshes"][0]["primitives"].push_back(Json(glb.primitive()));
+  for (std::size_t part : {0, 1}) {
+    const std::vector<std::uint8_t> joints(36, static_cast<std::uint8_t>(part + 1));
+    Json& attributes = glb.json["meshes"][0]["primitives"][part]["attributes"];
+    attributes["JOINTS_0"] = glb.addAccessor(glb.addView(bytesOf(joints)), 5121, "VEC4", 9);
+  }
+  const gltf::Document document = packed(glb);
+  const auto weights = document.json["meshes"][0]["primitives"][0]["attributes"]["WEIGHTS_0"];
+  EXPECT_EQ(document.json["accessors"][weights.get<std::size_t>()]["componentType"], 5123);
+}
+
 TEST(SkinWeights, OfPrimitivesThatShareThemAreRoundedOnce) {
   Glb glb = weighted(anyShares(1));
   glb.json["meshes"][0]["primitives"].push_back(glb.primitive());

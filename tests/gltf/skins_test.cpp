@@ -267,7 +267,7 @@ TEST(Skins, LeaveAMeshAsItStandsThatHasMoreThanTheFace) {
   EXPECT_EQ(write(converted(glb)).json["skins"], before);
 }
 
-TEST(Skins, AndNodesCountThatTheSceneShows) {
+TEST(Skins, AndNodesCountThatAreInScenes) {
   Glb glb = smallFace();
   hang(glb, 0, kOnFirst);
   addSkin(glb, 0, kJoints, bindingOf(kJoints, 0.5, {}));
@@ -276,6 +276,8 @@ TEST(Skins, AndNodesCountThatTheSceneShows) {
   EXPECT_NE(read(glb).rig.neutral.positions, placed);  // one of two ways
   glb.json["scenes"] = Json::array({{{"nodes", {0, 1, 2}}}});
   EXPECT_EQ(read(glb).rig.neutral.positions, placed);
+  glb.json["scenes"].push_back({{"nodes", {orphan}}});
+  EXPECT_NE(read(glb).rig.neutral.positions, placed);
   // So where nothing is skinned.
   Glb plain = smallFace();
   const auto own = read(plain).rig.neutral.positions;
