@@ -108,12 +108,6 @@ std::string sceneIsLost(const std::string& file) {
   return "What " + file + " holds besides the face is left out with the order, which it counts on.";
 }
 
-std::unique_ptr<tbb::global_control> limitThreads(int threads) {
-  if (threads == 0) return nullptr;
-  return std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
-                                               static_cast<std::size_t>(threads));
-}
-
 void addStrip(CLI::App& app, std::string& strip) {
   app.add_option("--strip", strip,
                  "Leave parts out of the file, with commas between: order (of the source's "

@@ -7,7 +7,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <tbb/global_control.h>
 #include <vector>
 
 #include "sweepface/io.hpp"
@@ -65,8 +64,6 @@ void addWeights(CLI::App& app, std::string& weights);
 CLI::Option* addLod(CLI::App& app, int& lod, const std::string& description);
 void addMeshes(CLI::App& app, std::string& neutral, std::vector<std::string>& targets);
 void addThreads(CLI::App& app, int& threads);
-/// As long as it lives; 0: all cores.
-std::unique_ptr<tbb::global_control> limitThreads(int threads);
 void addStrip(CLI::App& app, std::string& strip);
 void addUvBits(CLI::App& app, std::optional<int>& bits, const std::string& description);
 

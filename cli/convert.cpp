@@ -131,8 +131,7 @@ void printText(const Summary& s) {
   if (const auto most = std::ranges::max_element(folds); *most > 0)
     fmt::print("{} triangles fold over, most in {} ({}); sweepface measure tells more\n",
                std::reduce(folds.begin(), folds.end()),
-               most == folds.begin() ? "the neutral" : rig.targets[most - folds.begin() - 1].name,
-               *most);
+               nameOfShape(rig, static_cast<Index>(most - folds.begin()) - 1), *most);
   fmt::print("{} bytes in {:.1f} s\n", s.bytes, s.seconds);
   if (s.sceneBytes > 0)
     fmt::print("{} of them are what {} holds besides the face; --bare leaves it out\n",
@@ -248,8 +247,7 @@ Result<int> runConvert(const ConvertArguments& a) {
   if (!a.packs() && (a.uvBits || a.normalTolerance > 0))
     return fail(fmt::format("{} is for packed files; give --pack or --max-bytes as well.",
                             a.uvBits ? "--uv-bits" : "--normal-tolerance"));
-  const auto limit = limitThreads(a.threads);
-  return endingEarly([&] { return convertAndWrite(a); });
+  return doLongWork(a.threads, [&] { return convertAndWrite(a); });
 }
 
 }  // namespace

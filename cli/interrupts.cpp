@@ -1,7 +1,9 @@
 #include "interrupts.hpp"
 
 #include <csignal>
+#include <optional>
 #include <string_view>
+#include <tbb/global_control.h>
 #include <tuple>
 #include <unistd.h>
 
@@ -40,7 +42,10 @@ void catchInterrupts(Patience patience) {
   if (before.sa_handler != SIG_IGN) sigaction(SIGINT, &action, nullptr);
 }
 
-Result<int> endingEarly(const std::function<Result<int>()>& work) {
+Result<int> doLongWork(int threads, const std::function<Result<int>()>& work) {
+  std::optional<tbb::global_control> limit;
+  if (threads > 0)
+    limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
   catchInterrupts(Patience::twoSeconds);
   Result<int> code = work();
   // Whatever failed after Ctrl-C failed because of it.

@@ -17,8 +17,9 @@ enum class Patience { endless, twoSeconds };
 /// the end of patience, for work that asks seldom and has nothing to clear away.
 void catchInterrupts(Patience patience = Patience::endless);
 
-/// Does long work, which gives up where `interrupted` is set or fails within two seconds.
-Result<int> endingEarly(const std::function<Result<int>()>& work);
+/// Does long work on so many threads, 0: on all cores. It gives up where `interrupted` is set, or
+/// is ended two seconds later.
+Result<int> doLongWork(int threads, const std::function<Result<int>()>& work);
 
 /// Says that the work was stopped and nothing written; the exit code.
 int endInterrupted();

@@ -112,8 +112,7 @@ Result<int> packAndWrite(const PackArguments& a) {
 Result<int> runPack(const PackArguments& a) {
   if (auto ok = checkOutput(a.output, {a.face}, {".sweep"}, !a.quiet); !ok)
     return std::unexpected(ok.error());
-  const auto limit = limitThreads(a.threads);
-  return endingEarly([&] { return packAndWrite(a); });
+  return doLongWork(a.threads, [&] { return packAndWrite(a); });
 }
 
 }  // namespace

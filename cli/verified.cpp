@@ -8,6 +8,10 @@ namespace sweepface::cli {
 
 namespace fs = std::filesystem;
 
+std::string nameOfShape(const Rig& rig, Index target) {
+  return target < 0 ? "the neutral" : rig.targets[target].name;
+}
+
 Result<Verified> verify(std::string_view bytes, const std::string& name, const MeshRig& source,
                         const Rig& made, double tolerance, const Rig* before) {
   Result<Rig> rig = readBack(bytes, name);
@@ -24,7 +28,7 @@ Result<Verified> verify(std::string_view bytes, const std::string& name, const M
         "This is a fault of sweepface, please report it.");
   const FurthestVertex worst =
       before ? furthestVertex(*rig, *before) : furthestVertex(*rig, source);
-  std::string shape = worst.target < 0 ? "the neutral" : rig->targets[worst.target].name;
+  std::string shape = nameOfShape(*rig, worst.target);
   if (worst.distance <= tolerance)
     return Verified{tolerance,
                     worst,

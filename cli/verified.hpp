@@ -13,7 +13,7 @@ namespace sweepface::cli {
 struct Verified {
   double tolerance = 0;
   FurthestVertex worst;
-  std::string worstShape;  // "the neutral", or the name of a target
+  std::string worstShape;
   double angleRms = 0;
   std::vector<Index> folds;  // of the neutral and every target
   std::vector<double> kept;  // of every target's movement
@@ -24,6 +24,9 @@ struct Verified {
 /// source's vertices are, if its order was left out.
 Result<Verified> verify(std::string_view bytes, const std::string& name, const MeshRig& source,
                         const Rig& made, double tolerance, const Rig* before = nullptr);
+
+/// "the neutral", or the name of a target.
+std::string nameOfShape(const Rig& rig, Index target);
 
 void printDistance(const Verified& verified);
 

@@ -16,6 +16,7 @@
 #include "drawing/weave.hpp"
 #include "drawing/wishes.hpp"
 #include "drawing/words.hpp"
+#include "fit/defaults.hpp"
 #include "mesh/grid_source.hpp"
 #include "surface/jet_numbers.hpp"
 #include "surface/wireframe_checks.hpp"
@@ -25,8 +26,6 @@ namespace sweepface {
 namespace drawing {
 namespace {
 
-// As for conversion: a share of the diagonal of the bounding box.
-constexpr double kDefaultTolerance = 0.0002;
 // An expression's derivatives below this share of the diagonal are none.
 constexpr double kTrace = 1e-5;
 // Nodes at one point may stand apart by such a share of the diagonal: models round each.

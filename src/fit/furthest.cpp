@@ -10,10 +10,13 @@ namespace sweepface {
 
 namespace {
 
+// Also true where the distance is not a number, and that is the furthest.
+bool isFurther(double distance, const FurthestVertex& known) {
+  return !std::isnan(known.distance) && !(distance <= known.distance);
+}
+
 void look(FurthestVertex& furthest, double distance, std::size_t vertex) {
-  // Also true where the distance is not a number, and that is the furthest.
-  if (!std::isnan(furthest.distance) && !(distance <= furthest.distance))
-    furthest.distance = distance, furthest.vertex = vertex;
+  if (isFurther(distance, furthest)) furthest.distance = distance, furthest.vertex = vertex;
 }
 
 FurthestVertex furthestIn(const Rig& rig, const Tessellation& grid,
@@ -38,7 +41,7 @@ FurthestVertex furthestOf(const Rig& rig, const InPose& inPose) {
               [&](Index pose) { each[pose] = inPose(pose); });
   FurthestVertex furthest = each[0];
   for (const FurthestVertex& f : each)
-    if (!std::isnan(furthest.distance) && !(f.distance <= furthest.distance)) furthest = f;
+    if (isFurther(f.distance, furthest)) furthest = f;
   return furthest;
 }
 
