@@ -161,9 +161,28 @@ ConvertOptions optionsOf(const ConvertArguments& a, ProgressBar& bar) {
   return options;
 }
 
+bool bringsScene(const ConvertArguments& a, const Strip& parts, const RigSource& source) {
+  return !a.bare && !parts.scene && !source.scene.empty();
+}
+
+/// The meshes, and the scene as the file is to hold it.
+Result<RigSource> readSource(const ConvertArguments& a, const Strip& parts, ProgressBar& bar) {
+  Result<RigSource> source = readMeshes(a.neutral, a.targets, bar);
+  if (!source) return source;
+  if (a.packs()) source->scene = packedScene(std::move(source->scene));
+  if (a.maxBytes > 0 && bringsScene(a, parts, *source) && !parts.order &&
+      source->scene.size() >= a.maxBytes)
+    return fail(
+        fmt::format("What {} holds besides the face takes {} bytes; leave it out with "
+                    "--bare, or allow more.",
+                    a.neutral, source->scene.size()));
+  return source;
+}
+
 /// What the user should know of the source, and of its scene if that is lost.
-std::vector<std::string> warningsOf(const ConvertArguments& a, const RigSource& source,
-                                    const Strip& parts, bool losesScene) {
+std::vector<std::string> warningsOf(const ConvertArguments& a, const Strip& parts,
+                                    const RigSource& source) {
+  const bool losesScene = parts.order && bringsScene(a, parts, source);
   std::vector<std::string> warnings;
   if (!a.bare && !parts.scene && !losesScene) warnings = source.warnings;
   if (losesScene) warnings.push_back(sceneIsLost(a.neutral));
@@ -179,19 +198,12 @@ Result<int> convertAndWrite(const ConvertArguments& a) {
   const Result<Strip> parts = a.strip.empty() ? Strip{} : parseStrip(a.strip);
   if (!parts) return std::unexpected(parts.error());
   std::optional<ProgressBar> bar(std::in_place, a.quiet);
-  Result<RigSource> source = readMeshes(a.neutral, a.targets, *bar);
+  Result<RigSource> source = readSource(a, *parts, *bar);
   if (!source) return std::unexpected(source.error());
   if (interrupted) return kInterrupted;
   const auto refused = [&](const Error& error) {
     return fail(fmt::format("{}: {}.", a.neutral, error.message));
   };
-  if (a.packs()) source->scene = packedScene(std::move(source->scene));
-  const bool bringsScene = !a.bare && !parts->scene && !source->scene.empty();
-  if (a.maxBytes > 0 && bringsScene && !parts->order && source->scene.size() >= a.maxBytes)
-    return fail(
-        fmt::format("What {} holds besides the face takes {} bytes; leave it out with "
-                    "--bare, or allow more.",
-                    a.neutral, source->scene.size()));
   const auto finish = [&](Rig& rig) {
     std::vector<Turn> turns;
     if (a.arcs) turns = findTurns(rig);
@@ -218,8 +230,7 @@ Result<int> convertAndWrite(const ConvertArguments& a) {
   bar.reset();
 
   std::vector<std::string>& warnings = conversion->warnings;
-  std::ranges::move(warningsOf(a, *source, *parts, bringsScene && parts->order),
-                    std::back_inserter(warnings));
+  std::ranges::move(warningsOf(a, *parts, *source), std::back_inserter(warnings));
   if (auto lost = lostMovement(source->rig, verified->kept); !lost.empty())
     warnings.push_back(std::move(lost));
   if (a.arcs && finished.turns.empty()) warnings.push_back(kNoTurns);

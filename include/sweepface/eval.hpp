@@ -104,6 +104,7 @@ class Tessellation {
  private:
   Index sideVertex(Index patch, int side, Index steps) const;
   void placeAll();
+  void forgetPlaces();
   bool separateEdges();
   void placeArcs();
   void placePatches();
@@ -116,9 +117,10 @@ class Tessellation {
   std::vector<Index> arcVertex_;    // [arcs] first interior vertex
   std::vector<Index> patchVertex_;  // [patches] first interior vertex
   std::vector<Site> sites_;
-  Index onArcs_ = 0;                             // vertices of nodes and arcs come first
-  std::vector<Surface::ArcWeights> arcWeights_;  // [onArcs_]
-  std::vector<Surface::Weights> patchWeights_;   // [vertexCount - onArcs_]
+  Index onArcs_ = 0;                                  // vertices of nodes and arcs come first
+  std::vector<Surface::ArcWeights> arcWeights_;       // [onArcs_]
+  std::vector<std::array<Index, 36>> patchVectors_;   // [patches], where there are vertices inside
+  std::vector<std::array<double, 36>> patchFactors_;  // [vertexCount - onArcs_]
 };
 
 /// A line through points of a CurveNetwork.

@@ -23,9 +23,7 @@ Tessellation::Tessellation(const Surface& surface, Index level)
       level_(level),
       vectors_(surface.vectorCount()),
       density_(densityOf(surface, level)) {
-  placeArcs();
-  onArcs_ = vertexCount();
-  placePatches();
+  placeAll();
 }
 
 Tessellation::Tessellation(const Surface& surface, Density density)
@@ -35,6 +33,7 @@ Tessellation::Tessellation(const Surface& surface, Density density)
   for (int round = 0; round < kMostRounds; ++round) {
     placeAll();
     if (!separateEdges()) return;
+    forgetPlaces();
   }
   placeAll();
 }
@@ -45,9 +44,12 @@ bool Tessellation::fits(const Surface& surface) const {
          patchVertex_.size() == w.patches.size() && vectors_ == surface.vectorCount();
 }
 
+void Tessellation::forgetPlaces() {
+  arcVertex_.clear(), patchVertex_.clear();
+  sites_.clear(), arcWeights_.clear(), patchFactors_.clear();
+}
+
 void Tessellation::placeAll() {
-  for (auto* list : {&nodeVertex_, &arcVertex_, &patchVertex_}) list->clear();
-  sites_.clear(), arcWeights_.clear(), patchWeights_.clear();
   placeArcs();
   onArcs_ = vertexCount();
   placePatches();
@@ -60,25 +62,22 @@ void Tessellation::placeArcs() {
   std::vector<Index> ofPoint(w.points, -1);
   const auto add = [&](Index arc, Index step) {
     const HalfArc h = c.patchOf[2 * arc] >= 0 ? 2 * arc : 2 * arc + 1;
-    const double t = level_ > 0
-                         ? static_cast<double>(step) / level_
-                         : static_cast<double>(step) * w.arcs[arc].edges / density_.arcs[arc];
+    const double t = static_cast<double>(step) * w.arcs[arc].edges / density_.arcs[arc];
     sites_.push_back(surface_->siteOnArc(h, h & 1 ? w.arcs[arc].edges - t : t));
     arcWeights_.push_back(surface_->arcWeights(arc, t));
     return vertexCount() - 1;
   };
   for (std::size_t n = 0; n < w.nodes.size(); ++n) {
     const Index point = w.nodes[n].point;
-    if (point >= 0 && ofPoint[point] >= 0) {
-      nodeVertex_[n] = ofPoint[point];
-      continue;
+    Index& vertex = point >= 0 ? ofPoint[point] : nodeVertex_[n];
+    if (vertex < 0) {
+      const auto& arms = c.stars[n].arms;
+      const auto open =
+          std::ranges::find_if(arms, [&](HalfArc h) { return !w.arcs[arcOf(h)].collapsed; });
+      const HalfArc arm = open == arms.end() ? arms[0] : *open;
+      vertex = add(arcOf(arm), arm & 1 ? density_.arcs[arcOf(arm)] : 0);
     }
-    const auto& arms = c.stars[n].arms;
-    const auto open = std::find_if(arms.begin(), arms.end(),
-                                   [&](HalfArc h) { return !w.arcs[arcOf(h)].collapsed; });
-    const HalfArc arm = open == arms.end() ? arms[0] : *open;
-    nodeVertex_[n] = add(arcOf(arm), arm & 1 ? density_.arcs[arcOf(arm)] : 0);
-    if (point >= 0) ofPoint[point] = nodeVertex_[n];
+    nodeVertex_[n] = vertex;
   }
   for (Index a = 0; a < static_cast<Index>(w.arcs.size()); ++a) {
     arcVertex_.push_back(vertexCount());
@@ -90,16 +89,18 @@ void Tessellation::placeArcs() {
 void Tessellation::placePatches() {
   for (Index p = 0; p < surface_->patchCount(); ++p) {
     patchVertex_.push_back(vertexCount());
-    const auto [columns, rows] = density_.patches[p];
+    const auto& [columns, rows] = density_.patches[p];
     for (Index j = 1; j < rows; ++j)
-      for (Index i = 1; i < columns; ++i) {
-        const auto at = [&](Index k, Index of, Index edges) {
-          return level_ > 0 ? static_cast<double>(k) / level_ : static_cast<double>(k) * edges / of;
-        };
-        sites_.push_back(
-            {p, at(i, columns, surface_->edgesU(p)), at(j, rows, surface_->edgesV(p))});
-        patchWeights_.push_back(surface_->weights(sites_.back()));
-      }
+      for (Index i = 1; i < columns; ++i)
+        sites_.push_back({p, static_cast<double>(i) * surface_->edgesU(p) / columns,
+                          static_cast<double>(j) * surface_->edgesV(p) / rows});
+  }
+  patchVectors_.resize(patchVertex_.size());
+  patchFactors_.reserve(sites_.size() - onArcs_);
+  for (Index v = onArcs_; v < vertexCount(); ++v) {
+    const auto [vectors, factors] = surface_->weights(sites_[v]);
+    patchVectors_[sites_[v].patch] = vectors;
+    patchFactors_.push_back(factors);
   }
 }
 
@@ -140,8 +141,7 @@ std::vector<std::array<Index, 4>> Tessellation::faces() const {
 
 Tessellation::Terms Tessellation::terms(Index vertex) const {
   if (vertex < onArcs_) return {arcWeights_[vertex].vectors, arcWeights_[vertex].factors};
-  const Surface::Weights& w = patchWeights_[vertex - onArcs_];
-  return {w.vectors, w.factors};
+  return {patchVectors_[sites_[vertex].patch], patchFactors_[vertex - onArcs_]};
 }
 
 void Tessellation::positions(std::span<const Vec3> vectors, std::span<Vec3> out) const {

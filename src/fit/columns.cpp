@@ -15,11 +15,9 @@ namespace {
 // Every vertex of level 1 as a combination of coefficients, taken apart by coefficient.
 class ColumnBuilder {
  public:
-  ColumnBuilder(const Surface& surface, const Tessellation& grid, const Prediction& prediction)
-      : surface_(surface),
-        grid_(grid),
-        prediction_(prediction),
-        expanded_(inStoredVectors(surface)) {
+  ColumnBuilder(const Surface& surface, const Tessellation& grid, const Prediction& prediction,
+                const std::vector<std::vector<Term>>& inStored)
+      : surface_(surface), grid_(grid), prediction_(prediction), inStored_(inStored) {
     stepOf_.resize(surface.storedCount());
     for (std::size_t k = 0; k < prediction.steps.size(); ++k)
       stepOf_[prediction.steps[k].vector] = static_cast<Index>(k);
@@ -39,6 +37,8 @@ class ColumnBuilder {
     for (Index v = 0; v < surface_.storedCount(); ++v) columns.start[v + 1] += columns.start[v];
     columns.vertex.resize(columns.start.back());
     columns.weight.resize(columns.start.back());
+    columns.rowVector.reserve(columns.start.back());
+    columns.rowWeight.reserve(columns.start.back());
     columns.rowStart.push_back(0);
     std::vector<Index> at = columns.start;
     for (Index v = 0; v < vertices; ++v) {
@@ -49,6 +49,7 @@ class ColumnBuilder {
         columns.rowWeight.push_back(e.weight[0]);
       }
       columns.rowStart.push_back(static_cast<Index>(columns.rowVector.size()));
+      rows[v] = {};
     }
     return columns;
   }
@@ -79,7 +80,7 @@ class ColumnBuilder {
       unit[part] = 1;
       for (int k = 0; k < 36; ++k)
         if (weights.factors[k] != 0)
-          for (const Term& t : expanded_[weights.vectors[k]])
+          for (const Term& t : inStored_[weights.vectors[k]])
             add(t.vector, unit, t.factor * weights.factors[k]);
     }
     std::vector<Entry> row;
@@ -102,20 +103,22 @@ class ColumnBuilder {
       for (int k = 0; k < 3; ++k) entry.weight[k] = static_cast<float>(factors[k] / step.reach);
       row.push_back(entry);
     }
+    row.shrink_to_fit();
     return row;
   }
 
   const Surface& surface_;
   const Tessellation& grid_;
   const Prediction& prediction_;
-  std::vector<std::vector<Term>> expanded_;
+  const std::vector<std::vector<Term>>& inStored_;
   std::vector<Index> stepOf_;
 };
 
 }  // namespace
 
-Columns columnsOf(const Surface& surface, const Tessellation& grid, const Prediction& prediction) {
-  return ColumnBuilder(surface, grid, prediction).build();
+Columns columnsOf(const Surface& surface, const Tessellation& grid, const Prediction& prediction,
+                  const std::vector<std::vector<Term>>& inStored) {
+  return ColumnBuilder(surface, grid, prediction, inStored).build();
 }
 
 }  // namespace sweepface

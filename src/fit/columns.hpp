@@ -23,9 +23,10 @@ struct Columns {
   Index length(Index vector) const { return start[vector + 1] - start[vector]; }
 };
 
-/// Uses all cores; memory and time grow with the number of coefficients that move a vertex, about
-/// 150 each.
+/// `inStored` is every vector as a combination of stored ones (surface/terms.hpp). Uses all cores;
+/// memory and time grow with the number of coefficients that move a vertex, about 150 each.
 Columns columnsOf(const Surface& surface, const Tessellation& grid,
-                  const codec::Prediction& prediction);
+                  const codec::Prediction& prediction,
+                  const std::vector<std::vector<Term>>& inStored);
 
 }  // namespace sweepface

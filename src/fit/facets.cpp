@@ -10,19 +10,17 @@
 namespace sweepface {
 
 FaceMap::FaceMap(const Rig& rig, std::vector<Index> places)
-    : faceOfQuad(faceOfQuads(rig)), cornerPlaces(std::move(places)) {
-  const Polygons& p = rig.source.polygons;
-  facesAt.resize(rig.source.gridVertex.size());
-  for (Index f = 0; f < p.faceCount(); ++f)
-    for (Index c = p.faceStart[f]; c < p.faceStart[f + 1]; ++c) facesAt[p.corners[c]].push_back(f);
-  findRims(p);
-}
+    : faceOfQuad(faceOfQuads(rig)), cornerPlaces(std::move(places)) {}
 
 FaceMap::FaceMap(const Rig& rig, std::vector<Index> places, std::span<const Vec3> neutral)
     : FaceMap(rig, std::move(places)) {
   const Polygons& p = rig.source.polygons;
-  for (Index f = 0; f < p.faceCount(); ++f)
+  facesAt.resize(rig.source.gridVertex.size());
+  for (Index f = 0; f < p.faceCount(); ++f) {
+    for (Index c = p.faceStart[f]; c < p.faceStart[f + 1]; ++c) facesAt[p.corners[c]].push_back(f);
     if (p.faceSize(f) > 4) cuts[f] = triangulate(cornerPositions(p, neutral, f));
+  }
+  findRims(p);
 }
 
 // The edges that one face alone has, each with the vertices before and after it along the

@@ -12,18 +12,19 @@
 
 namespace sweepface {
 
-/// Which source face each quad of the tessellation at level 1 belongs to, and which faces lie round
-/// each vertex.
+/// Which source face each quad of the tessellation at level 1 belongs to, and what lies round each
+/// face.
 struct FaceMap {
-  std::vector<Index> faceOfQuad;            ///< [grid quads]; empty where the rig does not know
-  std::vector<Index> cornerPlaces;          ///< [C] as cornerPlaces() tells (fit/corner_places.hpp)
+  std::vector<Index> faceOfQuad;    ///< [grid quads]; empty where the rig does not know
+  std::vector<Index> cornerPlaces;  ///< [C] as cornerPlaces() tells (fit/corner_places.hpp)
+  // Without these there are neither distances nor sags.
   std::vector<std::vector<Index>> facesAt;  ///< [V] faces that have the vertex
   std::map<std::pair<Index, Index>, std::pair<Index, Index>>
       rims;                                     ///< boundary edge → corners before and after
   std::map<Index, std::vector<Triangle>> cuts;  ///< faces of more than four corners → triangles
 
   FaceMap(const Rig& rig, std::vector<Index> cornerPlaces);
-  /// Also cuts the larger faces, as the neutral's positions say: distances from them need that.
+  /// Also knows what lies round faces; larger ones are cut as the neutral's positions say.
   FaceMap(const Rig& rig, std::vector<Index> cornerPlaces, std::span<const Vec3> neutral);
 
  private:

@@ -38,7 +38,7 @@ PackedPoses::PackedPoses(Rig& rig, const MeshRig& source, PackGoals goals, codec
       grid_(rig.surface, 1),
       folds_(rig, grid_),
       inStored_(inStoredVectors(rig.surface)),
-      columns_(columnsOf(rig.surface, grid_, lattice_.prediction(0))),
+      columns_(columnsOf(rig.surface, grid_, lattice_.prediction(0), inStored_)),
       goals_(std::move(goals)),
       kept_(rig.packing.poses.size()),
       fittedNeutral_(rig.neutral) {}
@@ -55,7 +55,8 @@ void PackedPoses::learnNeutral() {
   lattice_.learn(rig_.surface, rig_.neutral, step(0));
   findBones(rig_, lattice_, rig_.neutral, tolerance_, rig_.packing);
   bones_ = codec::Bones(rig_.surface, rig_.packing, rig_.neutral);
-  columns_ = columnsOf(rig_.surface, grid_, lattice_.prediction(1));
+  columns_ = {};  // before there are others: they are large
+  columns_ = columnsOf(rig_.surface, grid_, lattice_.prediction(1), inStored_);
 }
 
 Coefficients PackedPoses::expected(Index pose) const {
