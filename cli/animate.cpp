@@ -58,6 +58,7 @@ void addOptions(CLI::App& app, AnimateArguments& a) {
                  "default where the law can be held so), few (as few keys with tangents as keep "
                  "--key-tolerance; the default otherwise) or sampled (a key a frame without, for "
                  "programs that ignore tangents; the default with --frames or --fps)")
+      ->check(notEmpty())
       ->type_name("KIND");
   app.add_option("--key-tolerance", a.keyTolerance,
                  "How far few keys may take a weight from what is played; 0.002 if not given")
@@ -141,6 +142,11 @@ Result<void> writeFrames(const AnimateArguments& a, const Rig& rig, const Perfor
   return result;
 }
 
+void printFrames(const AnimateArguments& a, std::size_t count, const Performance& performance) {
+  fmt::print("{}: {} frame{} of {:.6g} s, {}\n", a.output, count, count == 1 ? "" : "s",
+             performance.seconds, performance.name);
+}
+
 Result<void> animateMeshes(const AnimateArguments& a, const Rig& rig,
                            const Performance& performance) {
   if (auto ok = checkLod(rig, a.lod); !ok) return ok;
@@ -151,9 +157,7 @@ Result<void> animateMeshes(const AnimateArguments& a, const Rig& rig,
   if (auto made = makeFolder(a.output); !made) return made;
   catchInterrupts();
   if (auto written = writeFrames(a, rig, performance, *times, *head); !written) return written;
-  if (!a.quiet)
-    fmt::print("{}: {} frames of {:.6g} s, {}\n", a.output, times->size(), performance.seconds,
-               performance.name);
+  if (!a.quiet) printFrames(a, times->size(), performance);
   return {};
 }
 
@@ -177,6 +181,12 @@ Result<void> animateGlb(const AnimateArguments& a, const Rig& rig, const Perform
   if (keys == "exact") {
     options.motion = &*performance.motion;
   } else if (keys == "few") {
+    constexpr double kLongest = 86400;
+    if (performance.seconds > kLongest)
+      return fail(
+          fmt::format("{:.6g} s are too long to look for few keys in; give it a day at most, or "
+                      "say --keys sampled and --frames.",
+                      performance.seconds));
     const double tolerance = a.keyTolerance > 0 ? a.keyTolerance : 0.002;
     KeyFrames frames = keyFrames(performance, rig, tolerance);
     if (frames.missed > tolerance)
@@ -223,9 +233,7 @@ Result<void> animateCsv(const AnimateArguments& a, const Rig& rig, const Perform
   const Result<std::string> text = formatLiveLinkCsv(clip, a.what.writtenRate());
   if (!text) return std::unexpected(text.error());
   if (auto written = writeFile(a.output, *text); !written) return written;
-  if (!a.quiet)
-    fmt::print("{}: {} frames of {:.6g} s, {}\n", a.output, clip.times.size(), performance.seconds,
-               performance.name);
+  if (!a.quiet) printFrames(a, clip.times.size(), performance);
   return {};
 }
 

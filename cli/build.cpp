@@ -24,6 +24,7 @@ void addOptions(CLI::App& app, BuildArguments& a) {
   app.add_option("--source", a.source,
                  "Keep the source mesh of this .sweep file, whose wireframe `sweepface wireframe` "
                  "wrote; else the source is the surface's own grid")
+      ->check(notEmpty())
       ->type_name("FACE");
   app.add_flag(
       "--arcs", a.arcs,

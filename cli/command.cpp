@@ -19,10 +19,21 @@ namespace fs = std::filesystem;
 
 /// Whether all of a text is a number; inf and nan are none.
 template <typename Number>
-bool parse(const std::string& text, Number& number) {
+bool parse(std::string_view text, Number& number) {
   const char* const end = text.data() + text.size();
   const auto [stop, error] = std::from_chars(text.data(), end, number);
   return error == std::errc{} && stop == end && std::isfinite(static_cast<double>(number));
+}
+
+/// Takes numbers that are allowed; of others it is said what they must be.
+template <typename Allowed>
+CLI::Validator number(Allowed isAllowed, const std::string& what) {
+  const auto check = [=](const std::string& text) -> std::string {
+    double value = 0;
+    if (parse(text, value) && isAllowed(value)) return {};
+    return fmt::format("This must be {}, not '{}'.", what, text);
+  };
+  return CLI::Validator(check, "", "");
 }
 
 /// Whether what is written there would mix with the report in one pipe.
@@ -120,6 +131,13 @@ void addUvBits(CLI::App& app, std::optional<int>& bits, const std::string& descr
   app.add_option("--uv-bits", bits, description)->transform(wholeNumber(8, 16))->type_name("N");
 }
 
+Result<void> checkUvBits(const std::optional<int>& bits, const Strip& parts) {
+  if (!bits || !parts.uv) return {};
+  return fail(
+      "--uv-bits says how texture coordinates are stored, and --strip uv leaves them out; give one "
+      "of the two.");
+}
+
 void addGlb(CLI::App& app, GlbArguments& glb) {
   app.add_flag("--morph-normals", glb.morphNormals,
                "For .glb: normals of the morph targets too; larger, and better shaded");
@@ -150,30 +168,21 @@ CLI::Validator wholeNumber(std::int64_t low, std::int64_t high) {
 }
 
 CLI::Validator positiveNumber(double high) {
-  const auto check = [=](const std::string& text) -> std::string {
-    double number = 0;
-    if (parse(text, number) && number > 0 && (high == 0 || number <= high)) return {};
-    const std::string limit = high > 0 ? fmt::format(" and at most {}", high) : "";
-    return fmt::format("This must be a finite number greater than 0{}, not '{}'.", limit, text);
-  };
-  return CLI::Validator(check, "", "");
+  const std::string limit = high > 0 ? fmt::format(" and at most {}", high) : "";
+  return number([=](double x) { return x > 0 && (high == 0 || x <= high); },
+                "a finite number greater than 0" + limit);
 }
 
 CLI::Validator numberFromZero() {
-  const auto check = [](const std::string& text) -> std::string {
-    double number = 0;
-    if (parse(text, number) && number >= 0) return {};
-    return fmt::format("This must be a finite number of at least 0, not '{}'.", text);
-  };
-  return CLI::Validator(check, "", "");
+  return number([](double x) { return x >= 0; }, "a finite number of at least 0");
 }
 
 CLI::Validator finiteNumber() {
-  const auto check = [](const std::string& text) -> std::string {
-    double number = 0;
-    return parse(text, number) ? "" : fmt::format("This must be a number, not '{}'.", text);
-  };
-  return CLI::Validator(check, "", "");
+  return number([](double) { return true; }, "a number");
+}
+
+CLI::Validator partOfOne() {
+  return number([](double x) { return x >= 0 && x < 1; }, "a number from 0 to below 1");
 }
 
 CLI::Validator notEmpty() {
@@ -181,15 +190,6 @@ CLI::Validator notEmpty() {
     return text.find_first_not_of(" ,") == std::string::npos
                ? "This is empty; give it something, or leave it out."
                : "";
-  };
-  return CLI::Validator(check, "", "");
-}
-
-CLI::Validator partOfOne() {
-  const auto check = [](const std::string& text) -> std::string {
-    double number = 0;
-    if (parse(text, number) && number >= 0 && number < 1) return {};
-    return fmt::format("This must be a number from 0 to below 1, not '{}'.", text);
   };
   return CLI::Validator(check, "", "");
 }
@@ -239,6 +239,16 @@ Result<std::string> encodeReadable(const Rig& rig, const std::string& path) {
   std::string bytes = encode(rig);
   if (const auto back = readBack(bytes, path); !back) return std::unexpected(back.error());
   return bytes;
+}
+
+std::optional<Vec3> parsePoint(std::string_view text) {
+  std::array<double, 3> p{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t end = k < 2 ? text.find(',') : text.size();
+    if (end == text.npos || !parse(text.substr(0, end), p[k])) return {};
+    text.remove_prefix(k < 2 ? end + 1 : end);
+  }
+  return Vec3{p[0], p[1], p[2]};
 }
 
 bool isOfKind(const fs::path& path, std::string_view kind) { return extensionOf(path) == kind; }

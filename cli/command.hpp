@@ -12,6 +12,7 @@
 #include "sweepface/io.hpp"
 #include "sweepface/result.hpp"
 #include "sweepface/rig.hpp"
+#include "sweepface/strip.hpp"
 
 #include "output.hpp"
 
@@ -66,6 +67,8 @@ void addMeshes(CLI::App& app, std::string& neutral, std::vector<std::string>& ta
 void addThreads(CLI::App& app, int& threads);
 void addStrip(CLI::App& app, std::string& strip);
 void addUvBits(CLI::App& app, std::optional<int>& bits, const std::string& description);
+/// Fails where nothing has those bits.
+Result<void> checkUvBits(const std::optional<int>& bits, const Strip& parts);
 
 /// What only .glb files can have.
 struct GlbArguments {
@@ -95,6 +98,9 @@ CLI::Validator onOrOff();
 /// An option that takes one value, or list of values with commas between, each time it is given, so
 /// that what follows is no more of it.
 CLI::Option* oneEachTime(CLI::Option* option);
+
+/// "X,Y,Z": three finite numbers and nothing else.
+std::optional<Vec3> parsePoint(std::string_view text);
 
 // ---- Files ----
 

@@ -197,6 +197,7 @@ Result<int> convertAndWrite(const ConvertArguments& a) {
   const auto start = std::chrono::steady_clock::now();
   const Result<Strip> parts = a.strip.empty() ? Strip{} : parseStrip(a.strip);
   if (!parts) return std::unexpected(parts.error());
+  if (auto ok = checkUvBits(a.uvBits, *parts); !ok) return std::unexpected(ok.error());
   std::optional<ProgressBar> bar(std::in_place, a.quiet);
   Result<RigSource> source = readSource(a, *parts, *bar);
   if (!source) return std::unexpected(source.error());

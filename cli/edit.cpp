@@ -1,7 +1,6 @@
 #include "sweepface/edit.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <fmt/format.h>
 #include <map>
@@ -31,6 +30,7 @@ void addOptions(CLI::App& app, EditArguments& a) {
   CLI::Option* ribbon = app.add_option("--ribbon", a.ribbon,
                                        "The ribbon that gets other shape parameters, by name or "
                                        "number as `sweepface info --list` shows them")
+                            ->check(notEmpty())
                             ->type_name("RIBBON");
   app.add_option("--rho", a.rho, "Its rho; as it was if not given")
       ->check(finiteNumber())
@@ -55,6 +55,7 @@ void addOptions(CLI::App& app, EditArguments& a) {
       ->type_name("CURVE PATCH second|third DX,DY,DZ");
   app.add_option("--target", a.target,
                  "Move what an expression adds, instead of the neutral with all its expressions")
+      ->check(notEmpty())
       ->type_name("NAME");
   addQuiet(app, a.quiet);
   app.footer(
@@ -65,18 +66,11 @@ void addOptions(CLI::App& app, EditArguments& a) {
 }
 
 Result<Vec3> parseOffset(const std::string& text) {
-  double values[3]{};
-  const char* at = text.data();
-  const char* const end = at + text.size();
-  for (int k = 0; k < 3; ++k) {
-    const auto [stop, error] = std::from_chars(at, end, values[k]);
-    const bool ends = k < 2 ? stop != end && *stop == ',' : stop == end;
-    if (error != std::errc{} || !ends || !(std::abs(values[k]) < 1e30))
-      return fail(
-          fmt::format("An offset must be three numbers below 1e30 like 0,0.1,-2, not '{}'.", text));
-    at = stop + (k < 2);
-  }
-  return Vec3{values[0], values[1], values[2]};
+  const auto isSound = [](double x) { return std::abs(x) < 1e30; };
+  if (const auto p = parsePoint(text); p && isSound(p->x) && isSound(p->y) && isSound(p->z))
+    return *p;
+  return fail(
+      fmt::format("An offset must be three numbers below 1e30 like 0,0.1,-2, not '{}'.", text));
 }
 
 /// Edits a rig and remembers what changed.

@@ -1,6 +1,5 @@
 #include "head.hpp"
 
-#include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
@@ -16,13 +15,9 @@ Result<Vec3> pivotOf(const HeadArguments& a, const Rig& rig) {
     const Tessellation grid(rig.surface, 1);
     return Box(grid.positions(blend(rig, {}))).centre();
   }
-  const std::vector<std::string> parts = CLI::detail::split(a.pivot, ',');
-  std::array<double, 3> p{};
-  bool whole = parts.size() == 3;
-  for (std::size_t k = 0; whole && k < 3; ++k)
-    whole = CLI::detail::lexical_cast(parts[k], p[k]) &&
-            std::abs(p[k]) <= std::numeric_limits<float>::max();
-  if (whole) return Vec3{p[0], p[1], p[2]};
+  const auto isSound = [](double x) { return std::abs(x) <= std::numeric_limits<float>::max(); };
+  if (const auto p = parsePoint(a.pivot); p && isSound(p->x) && isSound(p->y) && isSound(p->z))
+    return *p;
   return fail(fmt::format("--pivot is a point like 0,1.5,-2, not '{}'.", a.pivot));
 }
 

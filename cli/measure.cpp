@@ -36,8 +36,8 @@ void addOptions(CLI::App& app, MeasureArguments& a) {
       "\nDistances are in the mesh's units, angles in degrees. The distance is that of the "
       "vertices from the\nsurface, a displacement's error that of their way from the neutral, the "
       "facets' distance that of the surface\nfrom the flat faces, the excess what of it the "
-      "faces' own coarseness does not explain. Folds are places where "
-      "the surface looks the other way than the mesh.\n\n"
+      "faces' own coarseness does not explain. Folds are places "
+      "where\nthe surface looks the other way than the mesh.\n\n"
       "Example:\n  sweepface measure face.sweep neutral.obj expressions/");
 }
 

@@ -69,6 +69,7 @@ void printLooks(const Looks& now, const Looks& before) {
 Result<int> packAndWrite(const PackArguments& a) {
   const Result<Strip> parts = a.strip.empty() ? Strip{} : parseStrip(a.strip);
   if (!parts) return std::unexpected(parts.error());
+  if (auto ok = checkUvBits(a.uvBits, *parts); !ok) return std::unexpected(ok.error());
   const Result<std::string> file = readFile(a.face);
   if (!file) return std::unexpected(file.error());
   const Result<Rig> before = opened(*file, a.face);

@@ -198,6 +198,7 @@ void addPerformance(CLI::App& app, PerformanceArguments& a) {
       ->type_name("FILE");
   app.add_option("--animation", a.animation,
                  "Which animation of a .glb; the first with weights if not given")
+      ->check(notEmpty())
       ->needs("--clip")
       ->type_name("NAME");
   app.add_option("--clip-fps", a.clipRate,

@@ -41,6 +41,7 @@ void addOptions(CLI::App& app, PlotArguments& a) {
   oneEachTime(
       app.add_option("--weight", a.weights,
                      "Targets whose weight is shown; the first that moves if nothing is named"))
+      ->check(notEmpty())
       ->delimiter(',')
       ->type_name("NAME,...");
   oneEachTime(app.add_option("--vertex", a.vertices,
@@ -260,10 +261,11 @@ Result<Plotted> curvesOf(const PlotArguments& a, Rig& rig) {
                 : subjects->size() == 1 ? laws[k]
                                         : laws[k] + ", " + subject.name,
                 a.mass);
+  constexpr double kLargest = 1e300;  // axes end at rounder numbers
   for (const auto& panel : curves)
     for (const Series& series : panel)
       for (const Vec2& p : series.points)
-        if (!std::isfinite(p.y))
+        if (!(std::abs(p.y) < kLargest))
           return fail(
               "The motion or its force is beyond what numbers hold; give it other seconds, "
               "weights or another --mass.");

@@ -29,7 +29,7 @@ Result<std::vector<Region>> readRegions(const PerformanceArguments& what, const 
 
 /// What --regions takes the place of.
 std::vector<std::string> notesOnOwn(const std::string& clip, const RegionArguments& a) {
-  if (a.file.empty() || !isOfKind(clip, ".json")) return {};
+  if (a.file.empty() || a.file == clip || !isOfKind(clip, ".json")) return {};
   const Result<std::string> text = readFile(clip);
   const auto own = text ? parseRegions(*text, clip) : std::vector<PaintedRegion>{};
   if (!own || own->empty()) return {};

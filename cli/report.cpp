@@ -45,12 +45,14 @@ void addOptions(CLI::App& app, ReportArguments& a) {
   app.add_option("--gltfpack", a.gltfpack,
                  "The program that packs GLBs for the plot of error against bytes; the one on the "
                  "PATH if not given")
+      ->check(notEmpty())
       ->needs(meshes)
       ->excludes(none)
       ->type_name("PATH");
   oneEachTime(app.add_option("--box", a.regions,
                              "Draw a box round what the targets move whose names contain NAME; "
                              "mouth and eye if not given"))
+      ->check(notEmpty())
       ->type_name("NAME");
   addQuiet(app, a.quiet);
   app.footer(

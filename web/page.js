@@ -1,6 +1,6 @@
 // The page: shows a .sweep face and lets its expressions be tried.
 import {Sweepface} from 'sweepface';
-import {at, complain, say} from './page_message.js';
+import {at, complain, dismiss, hush, say} from './page_message.js';
 import {average, buildSliders, filterSliders, followWeights, tellFigures} from './page_panel.js';
 import {
   controls, linesOver, meshOf, placeCamera, removeLines, render, resize, scene, stage, view
@@ -8,25 +8,35 @@ import {
 
 let bytes, mesh, lines;  // the file, the face on show and, if wanted, its edges
 let loading = 0;         // milliseconds from the bytes to the first frame
-let asked = 0;           // how often a file was asked for; the last is shown, whichever is there first
+let asked = 0, shown = 0;  // how often a file was asked for, and which of those times is on show
+let waiting = 0;           // for so many of them
+let aim = [{}];            // where the face on show is to go, as moveTo() takes it
 
-/** Shows a file, from its bytes or what will be its bytes, or says why it cannot be. */
+/**
+ * Shows a file, from its bytes or what will be its bytes, or says why it cannot be. Of several that were asked for the
+ * last sound one is shown, whichever is there first.
+ */
 async function show(source, name, keepView = false) {
   const mine = ++asked;
+  ++waiting;
+  say('Loading…');
   try {
     const buffer = await source;
-    if (mine !== asked) return;
+    if (mine < shown) return;
     if (!buffer) return invite();
+    if (mesh) await painted();
     const began = performance.now();
     const face = await Sweepface.load(buffer, {name, lod: Number(at('lod').value)});
-    if (mine !== asked) return face.dispose();
+    if (mine < shown) return face.dispose();
     const next = standing(face, mesh && keepView ? mesh.face.weights : {});
     remove();
+    shown = mine;
     bytes = buffer;
     mesh = next;
     scene.add(mesh);
+    if (keepView) mesh.moveTo(...aim);
+    else aim = [{}];
     if (!keepView) placeCamera(mesh);
-    say('');
     tellName(name);
     buildSliders(mesh, setWeight);
     drawLines();
@@ -34,12 +44,19 @@ async function show(source, name, keepView = false) {
     loading = performance.now() - began;
     tellFigures(figures());
     setTimeout(() => prepare(face), 50);  // once the first frame is on the screen
+    wake();
   } catch (error) {
-    if (mine !== asked) return;
-    if (mesh) at('lod').value = mesh.face.lod;  // what is still on show
-    complain(error);
+    if (mine === asked) complain(error);
+  } finally {
+    if (--waiting === 0 && mesh) {
+      hush();
+      at('lod').value = mesh.face.lod;
+    }
   }
 }
+
+/** Once what the page says is on the screen. */
+const painted = () => new Promise((done) => { setTimeout(done, 50); });
 
 /** A mesh of a face that stands so; a face that cannot is disposed of. */
 function standing(face, weights) {
@@ -89,20 +106,29 @@ function drawLines() {
 }
 
 function setWeight(name, weight) {
+  aim[0][name] = weight;
   attempt(() => mesh.setWeights({[name]: weight}));
   wake();
 }
+
+/** Moves the face by a spring, or at once for who would rather not see things move. */
+function moveTo(goals, spring) {
+  const cut = matchMedia('(prefers-reduced-motion: reduce)').matches;
+  aim = [goals, cut ? {kind: 'cut'} : {kind: 'spring', ...spring}];
+  mesh.moveTo(...aim);
+  wake();
+}
+
+const still = () => Object.fromEntries(mesh.face.names.map((name) => [name, 0]));
 
 function figures() {
   return {file: bytes.byteLength, vertices: mesh.face.vertexCount, loading, memory: mesh.face.memoryBytes};
 }
 
 function surprise() {
-  const names = mesh.face.names, chosen = names.filter(() => Math.random() < 3 / names.length);
-  const goals = Object.fromEntries(names.map((name) => [name, 0]));
+  const names = mesh.face.names, chosen = names.filter(() => Math.random() < 3 / names.length), goals = still();
   for (const name of chosen.length ? chosen : names.slice(0, 1)) goals[name] = 0.5 + Math.random() / 2;
-  mesh.moveTo(goals, {kind: 'spring', frequency: 1.8, damping: 0.6});
-  wake();
+  moveTo(goals, {frequency: 1.8, damping: 0.6});
 }
 
 function draw(seconds) {
@@ -146,8 +172,28 @@ function fit() {
   wake();
 }
 
-async function open(file) {
-  if (file) await show(file.arrayBuffer(), file.name);
+/** Pictures stay sharp where there come to be more points in the same room. */
+function watchDensity() {
+  const same = matchMedia(`(resolution: ${devicePixelRatio}dppx)`);
+  same.addEventListener('change', () => {
+    fit();
+    watchDensity();
+  }, {once: true});
+}
+
+/** Of several files the first that is named as a face. */
+async function open(files) {
+  const [file] = [...files].sort((a, b) => b.name.endsWith('.sweep') - a.name.endsWith('.sweep'));
+  if (file) await show(bytesOf(file), file.name);
+}
+
+async function bytesOf(file) {
+  try {
+    return await file.arrayBuffer();
+  } catch (error) {
+    const advice = file.size > 1e9 ? 'it is too large for this browser' : 'it may have been moved; choose it again';
+    throw new Error(`${file.name} cannot be read; ${advice}.`, {cause: error});
+  }
 }
 
 /** The bytes behind a URL; of one that nobody asked for, nothing if it is not there. */
@@ -160,14 +206,13 @@ async function download(url, isWanted) {
 }
 
 at('file').addEventListener('change', ({target}) => {
-  open(target.files[0]);
+  open(target.files);
   target.value = '';  // so that the same file, converted again, may be chosen again
 });
 at('filter').addEventListener('input', filterSliders);
 at('surprise').addEventListener('click', () => attempt(() => mesh && surprise()));
 at('rest').addEventListener('click', () => {
-  attempt(() => mesh?.moveTo(Object.fromEntries(mesh.face.names.map((name) => [name, 0]))));
-  wake();
+  attempt(() => mesh && moveTo(still()));
 });
 at('lod').addEventListener('change', () => bytes && show(bytes, stage.dataset.face, true));
 at('lines').addEventListener('change', () => {
@@ -175,21 +220,31 @@ at('lines').addEventListener('change', () => {
   wake();
 });
 controls.addEventListener('change', wake);
-view.addEventListener('webglcontextrestored', wake);
+view.addEventListener('webglcontextlost', () => {
+  complain(new Error('The graphics card is not there for this page; if it does not come back, load the page again.'));
+});
+view.addEventListener('webglcontextrestored', () => {
+  dismiss();
+  wake();
+});
 new ResizeObserver(fit).observe(stage);
+watchDensity();
 
 // What was said of another file is over once the face on show is used.
-for (const type of ['pointerdown', 'keydown']) addEventListener(type, () => mesh && say(''));
+const PASSING = ['Tab', 'Shift', 'Control', 'Alt', 'AltGraph', 'Meta', 'CapsLock'];
+addEventListener('pointerdown', () => mesh && dismiss());
+addEventListener('keydown', ({key}) => mesh && !PASSING.includes(key) && dismiss());
 
 for (const type of ['dragover', 'dragleave', 'drop'])
   addEventListener(type, (event) => {
+    if (!event.dataTransfer.types.includes('Files')) return;
     event.preventDefault();
     document.body.classList.toggle('dropping', type === 'dragover');
-    if (type === 'drop') open(event.dataTransfer.files[0]);
+    if (type === 'drop') open(event.dataTransfer.files);
   });
 
 fit();
-const wanted = new URLSearchParams(location.search).get('face'), start = wanted ?? 'sample.sweep';
+const wanted = new URLSearchParams(location.search).get('face') || null, start = wanted ?? 'sample.sweep';
 await show(download(start, wanted !== null), start.split('/').pop());
 
 /** For the console. */

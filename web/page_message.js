@@ -11,3 +11,15 @@ export function say(text, className = '') {
 export function complain(error) {
   say(error.message, 'error');
 }
+
+const isError = () => message.className === 'error';
+
+/** Takes an error away, and nothing else. */
+export function dismiss() {
+  if (isError()) say('');
+}
+
+/** Takes anything away but an error. */
+export function hush() {
+  if (!isError()) say('');
+}

@@ -5,22 +5,19 @@ const sliders = new Map();  // by name: the input and what shows its number
 
 /** A slider for every expression of a mesh; `moved` hears of each that is moved, and where to. */
 export function buildSliders(mesh, moved) {
+  const focused = [...sliders].find(([, {input}]) => input === document.activeElement)?.[0];
   sliders.clear();
   at('sliders').replaceChildren(...mesh.face.names.map((name) => {
-    const slider = sliderOf(name);
-    slider.input.addEventListener('input', () => {
-      const weight = slider.input.valueAsNumber;
-      slider.number.textContent = weight.toFixed(2);
-      moved(name, weight);
-    });
+    const slider = sliderOf(name, (weight) => moved(name, weight));
     sliders.set(name, slider);
     return slider.row;
   }));
   followWeights(mesh);
   filterSliders();
+  sliders.get(focused)?.input.focus();
 }
 
-function sliderOf(name) {
+function sliderOf(name, moved) {
   const row = document.createElement('label'), text = document.createElement('span');
   const number = document.createElement('span'), input = document.createElement('input');
   row.className = 'slider';
@@ -28,6 +25,18 @@ function sliderOf(name) {
   number.className = 'number';
   number.ariaHidden = 'true';  // the slider says it, and its name is the text alone
   Object.assign(input, {type: 'range', min: 0, max: 1, step: 0.01, name});
+  const tell = () => {
+    number.textContent = input.valueAsNumber.toFixed(2);
+    moved(input.valueAsNumber);
+  };
+  input.addEventListener('input', tell);
+  // A finger that goes on to scroll the list has moved nothing.
+  let before = 0;
+  input.addEventListener('pointerdown', () => { before = input.value; });
+  input.addEventListener('pointercancel', () => {
+    input.value = before;
+    tell();
+  });
   row.append(text, number, input);
   return {row, input, number};
 }
@@ -43,6 +52,7 @@ export function followWeights(mesh) {
 export function filterSliders() {
   const wanted = at('filter').value.trim().toLowerCase();
   for (const [name, {row}] of sliders) row.hidden = !name.toLowerCase().includes(wanted);
+  at('unfound').hidden = sliders.size === 0 || [...sliders.values()].some(({row}) => !row.hidden);
 }
 
 const averages = {};  // smoothed milliseconds

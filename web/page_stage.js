@@ -11,7 +11,6 @@ import {at, complain} from './page_message.js';
 export const stage = at('stage'), view = at('view');
 
 const renderer = makeRenderer();
-renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
 export const scene = new Scene();
 const camera = new PerspectiveCamera(26, 1, 0.1, 1000);
 export const controls = new OrbitControls(camera, view);
@@ -110,22 +109,28 @@ export function removeLines(lines) {
 /** Fits the picture to the page. */
 export function resize() {
   const {clientWidth, clientHeight} = stage;
+  renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
   renderer.setSize(clientWidth, clientHeight, false);
   camera.aspect = clientWidth / Math.max(clientHeight, 1);
   camera.updateProjectionMatrix();
   if (unplaced) placeCamera(unplaced);
 }
 
-const TURNS = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1]};
+/** How keys move the eye: to the right, down, and how many times as far away. */
+const MOVES = {
+  ArrowLeft: [-0.1, 0, 1], ArrowRight: [0.1, 0, 1], ArrowUp: [0, -0.1, 1], ArrowDown: [0, 0.1, 1],
+  '+': [0, 0, 0.9], '=': [0, 0, 0.9], '-': [0, 0, 1 / 0.9], '_': [0, 0, 1 / 0.9]
+};
 
-/** Turns the face by the arrow keys, as the pointer does. */
+/** Turns the face by keys and comes nearer, as the pointer does. */
 view.addEventListener('keydown', (event) => {
-  const turn = TURNS[event.key];
-  if (!turn) return;
+  const move = MOVES[event.key];
+  if (!move || event.ctrlKey || event.metaKey || event.altKey) return;
   event.preventDefault();
   const from = new Spherical().setFromVector3(camera.position.clone().sub(controls.target));
-  from.theta += 0.1 * turn[0];
-  from.phi += 0.1 * turn[1];
+  from.theta += move[0];
+  from.phi += move[1];
+  from.radius *= move[2];
   camera.position.setFromSpherical(from.makeSafe()).add(controls.target);
   controls.update();
 });

@@ -1,7 +1,7 @@
 // A .sweep file in a module: what it is opened with, and what all its faces share.
 import {divider} from './sweepface_regions.js';
 import {bytesOf, known, told} from './sweepface_values.js';
-import {compile, instantiate, MemoryError, Runtime, UNSAID} from './sweepface_wasm.js';
+import {compile, instantiate, isCompiled, MemoryError, Runtime, UNSAID} from './sweepface_wasm.js';
 
 /** What a level of detail may be asked for by, in the order of the C interface. */
 const BUDGETS = ['edgeLength', 'error', 'vertices'];
@@ -22,7 +22,7 @@ function read(options) {
   const [budget] = BUDGETS.flatMap((kind, k) => (given[kind] === undefined ? [] : [[k, given[kind]]]));
   if (budget && typeof budget[1] !== 'number')
     throw new TypeError(`The budget of a level of detail must be a number, not ${told(budget[1])}.`);
-  const divide = regions?.length !== 0 && regions && divider(regions);
+  const divide = regions && !(Array.isArray(regions) && regions.length === 0) && divider(regions);
   const follow = (arcs ? FOLLOW.arcs : 0) + (combine ? FOLLOW.combine : 0);
   const needsFull = Boolean(follow || eyes || divide || budget);
   return {name: String(name || 'The face'), follow, eyes, divide, lod, budget, wasm, needsFull};
@@ -130,8 +130,12 @@ export async function open(given, givenOptions) {
   if (!bytes)
     throw new TypeError('Sweepface.load needs the bytes of a .sweep file: an ArrayBuffer or a typed array.');
   const options = read(givenOptions), {wasm} = options;
-  if (wasm || options.needsFull || !isPacked(bytes)) return openIn(await compile(wasm, 'full'), bytes, options);
-  const usual = await compile(wasm, 'usual');
+  const isGiven = (wasm ?? undefined) !== undefined;
+  if (isGiven || options.needsFull || !isPacked(bytes)) return openIn(await compile(wasm, 'full'), bytes, options);
+  const usual = await compile(wasm, 'usual').catch((error) => {
+    if (isCompiled('full')) return compile(wasm, 'full');  // which can be had, perhaps since there was a network
+    throw error;
+  });
   try {
     return await openIn(usual, bytes, options);
   } catch (error) {

@@ -9,7 +9,7 @@ import type {FaceMesh} from './sweepface_mesh.js';
  */
 export const SWEEPFACE_GLSL: string;
 
-/** A face in a scene whose vertices are evaluated by the vertex shader of its materials, which are its own as
+/** A face in a scene whose vertices are evaluated by the vertex shader of its materials, which no other mesh can have, as
  * long as it has them; `update` sees to those that were put in since. For `WebGLRenderer`; exporters see the neutral. */
 export class SweepfaceGpuMesh extends FaceMesh {
   constructor(face: Sweepface, materials?: Material | Material[]);

@@ -63,6 +63,10 @@ export class SweepfaceLoader extends Loader {
     return this;
   }
 
+  parse() {
+    throw new Error('Bytes of a face are parsed by parseAsync, as its module has to be there.');
+  }
+
   async parseAsync(bytes, options = {}) {
     return new SweepfaceMesh(await Sweepface.load(bytes, {...this.options, ...options}));
   }

@@ -45,9 +45,9 @@ const MODULES = {
 };
 
 function urlOf(wasm) {
-  const text = typeof wasm === 'string' ? wasm : wasm.href;
+  const text = typeof wasm === 'string' ? wasm : wasm?.href;
   try {
-    if (typeof text === 'string') return new URL(text, globalThis.document?.baseURI ?? globalThis.location?.href);
+    if (text && typeof text === 'string') return new URL(text, globalThis.document?.baseURI ?? globalThis.location?.href);
   } catch {}  // it is relative to nothing
   throw new TypeError(`The option wasm is an absolute URL, bytes or a WebAssembly.Module, not ${told(wasm)}.`);
 }
@@ -73,13 +73,15 @@ export function compile(wasm, kind) {
   if (kindOf(wasm) === 'WebAssembly.Module') return wasm;
   const code = bytesOf(wasm);  // not all engines compile a DataView
   if (code) return compileBytes(code);
-  if (wasm) return compileUrl(urlOf(wasm));
+  if ((wasm ?? undefined) !== undefined) return compileUrl(urlOf(wasm));
   compiled[kind] ??= compileUrl(besideThisFile(kind)).catch((error) => {
     delete compiled[kind];
     throw error;
   });
   return compiled[kind];
 }
+
+export const isCompiled = (kind) => compiled[kind] !== undefined;
 
 /** Browsers have room for about a hundred memories at once, however small. */
 export async function instantiate(module) {

@@ -277,8 +277,10 @@ class FaceScenes {
   std::vector<Vec3> points(std::span<const double> weights) const;
   /// Of all that are drawn, to frame it: the surface may bulge beyond its source's vertices.
   std::vector<Vec3> drawn(std::span<const double> weights) const;
-  /// Which of these move most under the targets whose names contain `name`, in whatever case.
-  Result<std::vector<Index>> region(std::string_view name) const;
+  /// Which of these move most under the targets whose names contain `name`, in whatever case; of
+  /// the first `count` targets, if what follows others comes after them.
+  Result<std::vector<Index>> region(std::string_view name,
+                                    std::size_t count = static_cast<std::size_t>(-1)) const;
   /// The corners of all quads of level 1 that have one of these vertices, in ascending order: what
   /// the surface moves where they do.
   std::vector<Index> around(std::span<const Index> vertices) const;

@@ -71,6 +71,8 @@ class LoopCoder {
       s_.refuse("a node or an arc bounds no patch");
   }
 
+  std::vector<int> bases;  // [patches] the side of the patch from which its loop was told
+
  private:
   // What the writer tells: a half-arc, and whether its side ends there.
   struct Told {
@@ -342,10 +344,6 @@ class LoopCoder {
     return rest == 0 ? node : -1;
   }
 
- public:
-  std::vector<int> bases;  // [patches] the side of the patch from which its loop was told
-
- private:
   Symbols<Coder>& s_;
   Wireframe& w_;
   const Wireframe* whole_;

@@ -6,17 +6,17 @@ namespace {
 
 // Lines that end at T-nodes run on; other nodes store their jets. Whether a line did, so that there
 // are other patches now.
-bool breakCircles(const std::vector<Index>& breakers, Wireframe& wireframe, Layout& layout,
+bool breakCircles(const std::vector<Index>& breakers, MeshWireframe& on, Layout& layout,
                   ExtraJets& extra) {
   bool extended = false;
   for (const Index n : breakers) {
-    const Index vertex = layout.nodeVertices()[n];
-    if (wireframe.nodes[n].point < 0) {
+    const Index vertex = on.nodeVertices[n];
+    if (on.wireframe.nodes[n].point < 0) {
       layout.extend(vertex);
       extended = true;
       continue;
     }
-    wireframe.nodes[n].stored = kWholeJet;
+    on.wireframe.nodes[n].stored = kWholeJet;
     extra[vertex] = kWholeJet;
     if (const Index image = layout.image(vertex); image >= 0) extra[image] = kWholeJet;
   }
@@ -29,17 +29,17 @@ Result<Draft> makeDraft(Layout& layout, ExtraJets& extra) {
   while (true) {
     auto patches = layout.patches();
     if (!patches) return std::unexpected(patches.error());
-    Wireframe wireframe = layout.wireframe(*patches);
-    for (std::size_t n = 0; n < wireframe.nodes.size(); ++n)
-      if (wireframe.nodes[n].point >= 0)
-        wireframe.nodes[n].stored |= extra[layout.nodeVertices()[n]];
+    MeshWireframe on = layout.wireframe(*patches);
+    for (std::size_t n = 0; n < on.nodeVertices.size(); ++n)
+      if (Node& node = on.wireframe.nodes[n]; node.point >= 0)
+        node.stored |= extra[on.nodeVertices[n]];
     std::vector<Index> breakers;
     do {
       breakers.clear();
-      auto surface = Surface::make(wireframe, &breakers);
+      auto surface = Surface::make(on.wireframe, &breakers);
       if (surface) return Draft{std::move(*patches), std::move(*surface)};
       if (breakers.empty()) return std::unexpected(surface.error());
-    } while (!breakCircles(breakers, wireframe, layout, extra));
+    } while (!breakCircles(breakers, on, layout, extra));
   }
 }
 

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "fit/distinct_poses.hpp"
+#include "fit/facets.hpp"
 #include "fit/sound_face.hpp"
 #include "parallel/parallel.hpp"
 
@@ -59,16 +60,16 @@ class PatchMeter {
     return result;
   }
 
-  // The faces, as (i, j), against which a triangle of the level-4 surface looks the other way in a
+  // The faces, as (i, j), against which a triangle of the fine surface looks the other way in a
   // pose where the face is sound.
   std::vector<std::pair<Index, Index>> folds() const {
     std::vector<std::pair<Index, Index>> found;
-    const Index across = kLevel * grid_.m + 1;
+    const Index across = kFineLevel * grid_.m + 1;
     for (Index j = 0; j < grid_.n; ++j) {
       std::vector<Asked> asked;
-      for (int b = 0; b <= kLevel; ++b)
+      for (Index b = 0; b <= kFineLevel; ++b)
         for (Index a = 0; a < across; ++a)
-          asked.push_back({a / double{kLevel}, j + b / double{kLevel}, 0, 0});
+          asked.push_back({a / double{kFineLevel}, j + b / double{kFineLevel}, 0, 0});
       const PoseMatrix x = at(asked);
       for (Index i = 0; i < grid_.m; ++i)
         if (foldsOver(i, j, x, across)) found.emplace_back(i, j);
@@ -77,8 +78,6 @@ class PatchMeter {
   }
 
  private:
-  static constexpr int kLevel = 4;
-
   Vec3 vec(const PoseMatrix& rows, Index row, Index pose) const {
     const double* const x = &rows(row, poses_.column(pose));
     return {x[0], x[1], x[2]};
@@ -87,9 +86,9 @@ class PatchMeter {
     for (Index k = 0; k < data_.poses; ++k) {
       if (!soundFace(i, j, k)) continue;
       const Vec3 n = faceNormal(i, j, k);
-      for (int b = 0; b < kLevel; ++b)
-        for (int a = 0; a < kLevel; ++a) {
-          const Index first = b * across + kLevel * i + a;
+      for (Index b = 0; b < kFineLevel; ++b)
+        for (Index a = 0; a < kFineLevel; ++a) {
+          const Index first = b * across + kFineLevel * i + a;
           const Vec3 p = vec(x, first, k), q = vec(x, first + 1, k),
                      r = vec(x, first + across + 1, k), s = vec(x, first + across, k);
           if (dot(cross(q - p, r - p), n) < 0 || dot(cross(r - p, s - p), n) < 0) return true;

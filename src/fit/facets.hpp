@@ -12,6 +12,9 @@
 
 namespace sweepface {
 
+/// Of the tessellation that is compared with the facets, and whose triangles may fold.
+inline constexpr Index kFineLevel = 4;
+
 /// Which source face each quad of the tessellation at level 1 belongs to, and what lies round each
 /// face.
 struct FaceMap {

@@ -11,15 +11,11 @@
 
 namespace sweepface {
 
-namespace {
-constexpr Index kFoldLevel = 4;  // of the tessellation whose triangles are looked at
-}
-
 FoldFinder::FoldFinder(const Rig& rig, const Tessellation& grid)
     : rig_(rig),
       vertexCount_(grid.vertexCount()),
       corners_(grid.faces()),
-      fine_(rig.surface, kFoldLevel),
+      fine_(rig.surface, kFineLevel),
       fineFaces_(fine_.faces()),
       map_(rig, cornerPlaces(rig.source, grid)) {}
 
@@ -30,7 +26,7 @@ void FoldFinder::visit(std::span<const Vec3> vectors, std::span<const Vec3> sour
                                      rig_.source.quadCorners);
   const Facets facets(rig_.source, map_, source, normals, rig_.tolerance);
   const std::vector<Vec3> positions = fine_.positions(vectors);
-  forEachCell(rig_.surface, kFoldLevel, [&](const Cell& cell) {
+  forEachCell(rig_.surface, kFineLevel, [&](const Cell& cell) {
     const Index face = map_.faceOfQuad[cell.quad];
     if (const int folds = facets.folds(fineFaces_[cell.face], positions, face); folds > 0)
       visit(cell.quad, folds);

@@ -17,8 +17,6 @@ namespace sweepface {
 
 namespace {
 
-constexpr Index kLevel = 4;  // of the tessellation that is compared with the facets
-
 struct PoseSamples {
   PoseErrors errors;
   // From the source's vertices to their points on the surface; those of other sheets come last.
@@ -55,7 +53,7 @@ class Meter {
       : facets_(facets),
         rig_(rig),
         grid_(rig.surface, 1),
-        fine_(rig.surface, kLevel),
+        fine_(rig.surface, kFineLevel),
         fineFaces_(fine_.faces()),
         map_(rig, cornerPlaces(rig.source, grid_), neutral),
         others_(otherPlaces(rig.source, map_.cornerPlaces)) {}
@@ -90,7 +88,7 @@ class Meter {
 
   void betweenVertices(PoseSamples& s, std::span<const Vec3> vectors, const Facets& facets) const {
     const auto positions = fine_.positions(vectors);
-    forEachCell(rig_.surface, kLevel, [&](const Cell& cell) {
+    forEachCell(rig_.surface, kFineLevel, [&](const Cell& cell) {
       s.errors.folds += facets.folds(fineFaces_[cell.face], positions, map_.faceOfQuad[cell.quad]);
     });
     forEachCell(rig_.surface, 1,
@@ -101,9 +99,9 @@ class Meter {
                     const Facets& facets) const {
     const Index face = map_.faceOfQuad[at.quad];
     const double sag = facets.sag(face);
-    for (Index b = 0; b <= kLevel; ++b)
-      for (Index a = 0; a <= kLevel; ++a) {
-        const Index vertex = fine_.vertex(at.patch, kLevel * at.i + a, kLevel * at.j + b);
+    for (Index b = 0; b <= kFineLevel; ++b)
+      for (Index a = 0; a <= kFineLevel; ++a) {
+        const Index vertex = fine_.vertex(at.patch, kFineLevel * at.i + a, kFineLevel * at.j + b);
         const double distance = facets.distance(positions[vertex], face);
         e.facetDistance = std::max(e.facetDistance, distance);
         e.facetExcess = std::max(e.facetExcess, distance - sag);

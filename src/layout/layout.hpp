@@ -18,6 +18,12 @@ struct GridPatch {
   Index vertex(Index i, Index j) const { return vertices[j * (m + 1) + i]; }
 };
 
+/// A wireframe on a mesh.
+struct MeshWireframe {
+  Wireframe wireframe;
+  std::vector<Index> nodeVertices;  ///< [nodes] where they are on the mesh
+};
+
 /// Curves on a grid mesh: a set of marked edges whose regions are grids of quads.
 class Layout {
  public:
@@ -33,9 +39,7 @@ class Layout {
   /// ribbons stay short. Masks store as much as the vertices around a node can determine.
   /// Patches, nodes and arcs are numbered as they come when patch is glued to patch, which files
   /// hold for nothing.
-  Wireframe wireframe(std::vector<GridPatch>& patches) const;
-  /// The mesh vertex of each node of the latest wireframe.
-  const std::vector<Index>& nodeVertices() const { return nodeVertices_; }
+  MeshWireframe wireframe(std::vector<GridPatch>& patches) const;
 
   /// Marks the line from `vertex` through arm `arm` up to the first line it meets.
   void trace(Index vertex, int arm);
@@ -89,7 +93,6 @@ class Layout {
   std::vector<Index> ringStart_;  // [vertices + 1]
   std::vector<HalfEdge> ring_;    // half-edges leaving each vertex, counter-clockwise
   std::vector<char> boundary_;    // [vertices]
-  mutable std::vector<Index> nodeVertices_;
 };
 
 }  // namespace sweepface

@@ -201,11 +201,11 @@ std::vector<GridPatch> Layout::glued(std::vector<GridPatch> patches) const {
   return result;
 }
 
-Wireframe Layout::wireframe(std::vector<GridPatch>& patches) const {
+MeshWireframe Layout::wireframe(std::vector<GridPatch>& patches) const {
   patches = glued(std::move(patches));
   Wireframe w;
+  std::vector<Index> nodeVertices;
   std::vector<Index> nodeOf(mesh_.vertexCount(), -1), pointOf(mesh_.pointCount(), -1);
-  nodeVertices_.clear();
   const auto number = [&](Index v) {
     if (nodeOf[v] >= 0 || !isNode(v)) return;
     nodeOf[v] = static_cast<Index>(w.nodes.size());
@@ -216,7 +216,7 @@ Wireframe Layout::wireframe(std::vector<GridPatch>& patches) const {
       point = p;
     }
     w.nodes.push_back({point, kPosition});
-    nodeVertices_.push_back(v);
+    nodeVertices.push_back(v);
   };
   for (const GridPatch& p : patches)
     for (int s = 0; s < 4; ++s)
@@ -233,7 +233,7 @@ Wireframe Layout::wireframe(std::vector<GridPatch>& patches) const {
   }
   w.ribbons.emplace_back();  // one for all until the sweeps are chosen
   const auto connectivity = Connectivity::make(w);
-  if (!connectivity) return w;  // Surface::make will say why
+  if (!connectivity) return {w, nodeVertices};  // Surface::make will say why
   chooseSweeps(w, patches);
   for (Index n = 0; n < static_cast<Index>(w.nodes.size()); ++n) {
     if (connectivity->kinds[n] != NodeKind::crossing) continue;
@@ -243,7 +243,7 @@ Wireframe Layout::wireframe(std::vector<GridPatch>& patches) const {
       for (int j = 0; j < y && i + j <= 2; ++j) mask |= static_cast<JetMask>(1 << (3 * i + j));
     w.nodes[n].stored = mask;
   }
-  return w;
+  return {std::move(w), std::move(nodeVertices)};
 }
 
 }  // namespace sweepface

@@ -105,10 +105,6 @@ std::string plural(Index count, const char* one, const char* many) {
   return std::to_string(count) + " " + (count == 1 ? one : many);
 }
 
-}  // namespace
-
-namespace {
-
 // Whether a face goes around the vertices of one before it, the other way or the same.
 enum class Kind { alone, back, again };
 std::vector<Kind> kindsOf(const Polygons& faces) {

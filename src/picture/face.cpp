@@ -247,11 +247,11 @@ Scene FaceScenes::original(std::span<const Vec3> positions) const {
   return scene;
 }
 
-Result<std::vector<Index>> FaceScenes::region(std::string_view name) const {
+Result<std::vector<Index>> FaceScenes::region(std::string_view name, std::size_t count) const {
   constexpr double share = 0.5;  // of the largest way that a vertex goes
   const std::vector<Vec3> rest = points(rig_.weightsOf(0));
   std::vector<Index> moved;
-  for (std::size_t k = 0; k < rig_.targets.size(); ++k) {
+  for (std::size_t k = 0; k < std::min(count, rig_.targets.size()); ++k) {
     if (lowered(rig_.targets[k].name).find(lowered(name)) == std::string::npos) continue;
     const std::vector<Vec3> pose = points(rig_.weightsOf(static_cast<Index>(k) + 1));
     double furthest = 0;

@@ -47,13 +47,8 @@ Result<void> checkScene(const Scene& scene) {
 }
 
 template <typename Value>
-Value between(const std::vector<Value>& values, const std::array<Index, 3>& at,
-              const std::array<double, 3>& w) {
-  return w[0] * values[at[0]] + w[1] * values[at[1]] + w[2] * values[at[2]];
-}
-
-double between(const std::vector<float>& values, const std::array<Index, 3>& at,
-               const std::array<double, 3>& w) {
+auto between(const std::vector<Value>& values, const std::array<Index, 3>& at,
+             const std::array<double, 3>& w) {
   return w[0] * values[at[0]] + w[1] * values[at[1]] + w[2] * values[at[2]];
 }
 

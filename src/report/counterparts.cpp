@@ -4,6 +4,8 @@
 #include <limits>
 #include <numeric>
 
+#include "sweepface/box.hpp"
+
 #include "report/peers.hpp"
 
 namespace sweepface {
@@ -38,18 +40,22 @@ Result<std::vector<Index>> counterparts(const MeshRig& source, const MeshRig& fo
   const auto from = shapesLike(source, source), to = shapesLike(source, found);
   if (!to) return std::unexpected(to.error());
   const std::vector<Vec3>& places = found.neutral.positions;
-  std::vector<Index> byX(places.size());
-  std::iota(byX.begin(), byX.end(), 0);
-  const auto x = [&](Index w) { return places[w].x; };
-  std::ranges::sort(byX, {}, x);
+  const Vec3 size = Box(places).size();
+  const auto along = [&](const Vec3& p) {
+    return size.x >= size.y && size.x >= size.z ? p.x : size.y >= size.z ? p.y : p.z;
+  };
+  const auto place = [&](Index w) { return along(places[w]); };
+  std::vector<Index> sorted(places.size());
+  std::iota(sorted.begin(), sorted.end(), 0);
+  std::ranges::sort(sorted, {}, place);
 
   std::vector<Index> result(source.neutral.positions.size(), -1);
   for (const Index v : source.neutral.polygons.corners) {
     if (result[v] >= 0) continue;
     const Vec3& p = source.neutral.positions[v];
     double best = std::numeric_limits<double>::infinity();
-    for (auto w = std::ranges::lower_bound(byX, p.x - radius, {}, x);
-         w != byX.end() && x(*w) <= p.x + radius; ++w) {
+    for (auto w = std::ranges::lower_bound(sorted, along(p) - radius, {}, place);
+         w != sorted.end() && place(*w) <= along(p) + radius; ++w) {
       if (norm(places[*w] - p) > radius) continue;
       const double worst = worstDistance(*from, v, *to, *w, best);
       if (worst < best) best = worst, result[v] = *w;

@@ -47,8 +47,9 @@ std::string ReportMaker::errorPlot() const {
     most.points.push_back({e.distance.p999, 0});
     rms.points.push_back({e.distance.rms, 0});
   }
-  return rowPlot("Distance of each shape", "distance (dashed: allowed)", names, {rms, most, worst},
-                 rig_.tolerance);
+  return fmt::format("<div class=\"wide\">{}</div>\n",
+                     rowPlot("Distance of each shape", "distance (dashed: allowed)", names,
+                             {rms, most, worst}, rig_.tolerance));
 }
 
 std::string ReportMaker::errorTable() const {

@@ -12,7 +12,7 @@ namespace {
 constexpr std::string_view kStyle = R"(
 :root { --ink: #24262b; --soft: #6b6f78; --line: #dcdad6; --paper: #f4f2f0; --blue: #1a6aa8; }
 * { box-sizing: border-box; }
-body { margin: 0 auto; max-width: 1080px; padding: 0 20px 60px; color: var(--ink); background: #fff;
+body { margin: 0 auto; max-width: 1080px; padding: 0 20px 60px; color: var(--ink); background: #fff; overflow-wrap: anywhere;
   font: 16px/1.55 system-ui, "Segoe UI", Roboto, "Helvetica Neue", sans-serif; }
 h1 { font-size: 1.9rem; line-height: 1.2; margin: 2.2rem 0 .3rem; }
 h2 { font-size: 1.3rem; margin: 3rem 0 .4rem; padding-top: .8rem; border-top: 1px solid var(--line); }
@@ -52,11 +52,15 @@ svg { display: block; width: 100%; max-width: 600px; height: auto; font: 13px sy
   .row.four { grid-template-columns: 1fr 1fr; }
   th, td { padding: 4px 8px; }
 }
+@media (prefers-reduced-motion: reduce) {
+  .law i { animation: none !important; }
+  .moving { display: none; }
+}
 @media print {
   body { max-width: none; padding: 0; font-size: 10.5pt; }
   h2 { break-after: avoid; margin-top: 1.6rem; }
-  figure, svg, tr, .facts { break-inside: avoid; }
-  figure, .facts div, .scale i, .legend i { -webkit-print-color-adjust: exact; print-color-adjust: exact; }
+  figure, svg, tr, .facts, .law { break-inside: avoid; }
+  figure, .facts div, .scale i, .legend i, .law i { -webkit-print-color-adjust: exact; print-color-adjust: exact; }
   .wide { overflow: visible; }
   table { font-size: 8.5pt; }
   th, td { padding: 2px 6px; }

@@ -67,7 +67,7 @@ std::string moving(std::string_view attribute, const Trajectory& path, auto valu
 }
 
 std::string ball(std::string_view attributes, const std::string& movements) {
-  return fmt::format("<circle {}>{}</circle>\n", attributes, movements);
+  return fmt::format("<circle class=\"moving\" {}>{}</circle>\n", attributes, movements);
 }
 
 std::string cell(const ShownLaw& law, double x, double y) {

@@ -55,7 +55,7 @@ class ReportMaker {
   // picture_sections.cpp
   void frame();
   Result<std::string> picture(Scene scene, const Camera& camera, std::string_view caption,
-                              PictureSize size = kPanel, std::span<const PictureBox> boxes = {});
+                              PictureSize size = kPanel);
   Result<std::string> comparison();
   Result<std::string> network();
   Result<std::string> continuity();

@@ -185,10 +185,10 @@ Result<std::string> MotionSections::everyLaw() const {
   const Result<std::string> sheet = sprites();
   if (!sheet) return sheet;
   std::string style = fmt::format(
-      ".law{{display:inline-block;width:{}px;margin:0 8px 12px 0;vertical-align:top}}"
-      ".law i{{display:block;width:{}px;height:{}px;background:url(data:image/png;base64,{}) 0 0;"
-      "animation:{}s step-end infinite}}\n",
-      kSprite.width, kSprite.width, kSprite.height, *sheet, kSeconds);
+      ".law{{display:inline-block;width:{0}px;margin:0 8px 12px 0;vertical-align:top}}"
+      ".law i{{display:block;width:{0}px;height:{1}px;"
+      "background:url(data:image/png;base64,{2}) -{3}px 0;animation:{4}s step-end infinite}}\n",
+      kSprite.width, kSprite.height, *sheet, poseAt(1) * kSprite.width, kSeconds);
   std::string cells;
   const std::vector<ShownLaw> laws = sweepface::everyLaw();
   for (std::size_t k = 0; k < laws.size(); ++k) {

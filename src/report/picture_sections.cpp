@@ -16,13 +16,11 @@ void ReportMaker::Figures::add(Result<std::string> figure) {
 }
 
 Result<std::string> ReportMaker::picture(Scene scene, const Camera& camera,
-                                         std::string_view caption, PictureSize size,
-                                         std::span<const PictureBox> boxes) {
+                                         std::string_view caption, PictureSize size) {
   if (auto ok = proceed("rendering"); !ok) return std::unexpected(ok.error());
-  Result<Image> image = render(std::move(scene), camera, size);
+  const Result<Image> image = render(std::move(scene), camera, size);
   if (!image) return std::unexpected(image.error());
   done_ += 1;
-  drawBoxes(*image, boxes);
   return html::figure(*image, caption);
 }
 

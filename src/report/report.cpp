@@ -13,24 +13,6 @@
 namespace sweepface {
 namespace {
 
-/// The target that moves the most of the mesh furthest.
-Weights strongest(const MeshRig& source, const Rig& rig) {
-  const std::vector<Vec3>& rest = source.neutral.positions;
-  Weights weights(rig.targets.size(), 0.0);
-  double most = 0;
-  Index best = -1;
-  for (const MeshTarget& target : source.targets) {
-    double sum = 0;
-    for (std::size_t v = 0; v < std::min(rest.size(), target.positions.size()); ++v) {
-      const Vec3 way = target.positions[v] - rest[v];
-      sum += dot(way, way);
-    }
-    if (sum > most) most = sum, best = rig.find(target.name);
-  }
-  if (best >= 0) weights[best] = 1;
-  return weights;
-}
-
 // What other formats are compared with holds the face alone.
 std::size_t bytesWithoutScene(const Rig& rig, std::size_t bytes) {
   if (rig.scene.empty()) return bytes;
@@ -67,7 +49,7 @@ ReportMaker::ReportMaker(const Rig& rig, const MeshRig& source, const ReportOpti
       options_(options),
       bytes_(bytesWithoutScene(rig, options.bytes)),
       rest_(rig.targets.size(), 0.0),
-      expression_(options.expression.empty() ? strongest(source, rig) : options.expression),
+      expression_(options.expression.empty() ? strongestOf(rig) : options.expression),
       moves_(expression_ != rest_),
       scenes_(rig, lodFor(rig.surface, Style::shaded, kPanel)) {
   // A picture counts one, so does a shape that is converted; one that is measured counts two.

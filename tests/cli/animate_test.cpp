@@ -207,6 +207,12 @@ TEST_F(Animate, HasAToleranceForFewKeysOnly) {
     EXPECT_EQ(run(command + "a.glb" + keys).code, 0) << keys;
 }
 
+TEST_F(Animate, TellsOneFrame) {
+  convertRig();
+  const Outcome r = run("animate face.sweep --to smile=1 --fps 0.5 -o frames");
+  EXPECT_EQ(r.out.find("frames: 1 frame of 1 s"), 0u) << r.out;
+}
+
 TEST_F(Animate, RefusesWhatCannotBe) {
   convertRig();
   const std::string command = "animate face.sweep -o frames ";

@@ -84,7 +84,11 @@ TEST_F(Export, RefusesWhatAnEmptyVariableLeaves) {
   for (const std::string command :
        {"export face.sweep -o out.obj --limits ''", "convert neutral.obj -o f.sweep --strip ','",
         "render face.sweep -o out.png --size ' '", "render face.sweep -o out.png --close ''",
-        "animate face.sweep -o out.glb --to jawOpen --regions ''"})
+        "animate face.sweep -o out.glb --to jawOpen --regions ''",
+        "animate face.sweep -o out.glb --to jawOpen --keys ''",
+        "build face.wire.json -o f.sweep --source ''", "edit face.sweep -o f.sweep --ribbon ''",
+        "edit face.sweep -o f.sweep --target ''", "report face.sweep -o r.html --box ''",
+        "plot face.sweep -o p.svg --to jawOpen --weight ''"})
     EXPECT_TRUE(fails(command, "This is empty", 2)) << command;
 }
 

@@ -126,6 +126,8 @@ TEST_F(Following, PicturesGoOnArcsAndShowWhatTheyChange) {
   EXPECT_NE(picture("--to jawOpen=1"), picture("--to jawOpen=1 --arcs on"));
   EXPECT_NE(picture("--weights jawOpen=0.5 --arcs on --style error"),
             picture("--weights jawOpen=1 --arcs on --style error"));
+  EXPECT_TRUE(fails("render face.sweep -o out.png --arcs on --weights jawOpen.arc=1",
+                    "no target named 'jawOpen.arc'"));
   const Outcome both = run("render face.sweep -o out.png --arcs on --compare neutral.obj");
   EXPECT_EQ(both.code, 1);
   EXPECT_NE(both.err.find("leave --compare out"), std::string::npos) << both.err;

@@ -155,6 +155,7 @@ TEST_F(ToolGlb, RefusesOptionsThatDoNotGoTogether) {
   EXPECT_TRUE(fails(animate + "-o frames --keys exact", "are for .glb files"));
   EXPECT_TRUE(fails(animate + "-o frames --quantize", "are for .glb files"));
   EXPECT_TRUE(fails(animate + "-o out.glb --keys few --frames 10", "leave --frames and --fps out"));
+  EXPECT_TRUE(fails(animate + "-o out.glb --law spring --seconds 1e7", "too long to look for"));
   EXPECT_TRUE(
       fails(animate + "-o out.glb --keys exact --frames 10", "leave --frames and --fps out"));
   EXPECT_TRUE(fails(animate + "-o out.glb --keys some", "exact, few or sampled, not 'some'"));

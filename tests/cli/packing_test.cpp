@@ -48,6 +48,8 @@ TEST_F(Pack, RoundsTextureCoordinatesAsToldAndNoFurther) {
   }
   EXPECT_TRUE(fails("convert neutral.obj -o face.sweep --pack --uv-bits 7", "--uv-bits", 2));
   EXPECT_TRUE(fails("convert neutral.obj -o face.sweep --uv-bits 12", "--pack or --max-bytes"));
+  EXPECT_TRUE(fails("convert neutral.obj -o face.sweep --pack --uv-bits 12 --strip uv",
+                    "--strip uv leaves them out"));
   EXPECT_TRUE(
       fails("convert neutral.obj -o face.sweep --normal-tolerance 1", "--pack or --max-bytes"));
 }
@@ -132,6 +134,8 @@ TEST_F(Pack, RefusesWhatCannotBePackedAndLeavesFilesAlone) {
   EXPECT_TRUE(fails("pack face.sweep -o kept.sweep --tolerance 1e9", "larger than the mesh"));
   EXPECT_TRUE(fails("pack face.sweep -o kept.sweep --strip hair", "no part 'hair'"));
   EXPECT_TRUE(fails("pack face.sweep -o kept.sweep --uv-bits 7", "--uv-bits", 2));
+  EXPECT_TRUE(
+      fails("pack face.sweep -o kept.sweep --uv-bits 9 --strip uv", "--strip uv leaves them out"));
   EXPECT_TRUE(fails("pack neutral.obj -o kept.sweep", "neutral.obj"));
   EXPECT_TRUE(fails("pack face.sweep -o face.sweep", "face.sweep"));
   EXPECT_EQ(contents(folder / "kept.sweep"), "kept");

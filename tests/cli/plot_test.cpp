@@ -155,7 +155,8 @@ TEST_F(Plot, SaysWhatIsWrong) {
   refused("-o plot.svg --to jawOpen=1 --weight frown", "frown");
   refused("-o plot.svg --to jawOpen=1 --laws magic", "There is no law 'magic'");
   refused("-o plot.svg --to jawOpen=0", "Nothing moves");
-  refused("-o plot.svg --to jawOpen=1 --mass 1e308 --seconds 0.001", "beyond what numbers hold");
+  for (const std::string much : {"--mass 1e308 --seconds 0.001", "--mass 1e300"})
+    refused("-o plot.svg --to jawOpen=1 " + much, "beyond what numbers hold");
   refused("-o plot.svg --to jawOpen=1 --law spring --frequency 1e5 --damping 1e-9",
           "more than a plot can show");
   refused("-o plot.svg --to jawOpen=1 --law bounce --restitution 0.9999999",

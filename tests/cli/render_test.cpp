@@ -113,13 +113,26 @@ TEST_F(Render, ShowsTheWayToAnExpression) {
   EXPECT_EQ(sizeOf(contents(folder / "out.png")), (std::pair{600u, 300u}));
   EXPECT_TRUE(fails("render face.sweep -o out.png --to jawOpen=1 --box ear", "'ear'"));
   EXPECT_TRUE(fails("render face.sweep -o out.png --to jawOpen=1 --box 1,2,3", "no box"));
-  EXPECT_TRUE(fails("render face.sweep -o out.png --to jawOpen=1 --law up", "up"));
+  EXPECT_TRUE(fails("render face.sweep -o out.png --to jawOpen=1 --box ''", "--box", 2));
+  EXPECT_TRUE(fails("render face.sweep -o out.png --to jawOpen=1 --law spring",
+                    "There is no strip of a law 'spring'"));
   EXPECT_TRUE(fails("render face.sweep -o out.png --to jawOpen=1 --views front,side", "one view"));
   EXPECT_TRUE(fails("render face.sweep -o out.png --frames 4", "--to", 2));
   EXPECT_TRUE(fails("render face.sweep -o out.png --to jawOpen=1 --frames 1", "--frames", 2));
   EXPECT_TRUE(
       fails("render face.sweep -o out.png --to jawOpen=1 --compare neutral.obj", "--to", 2));
   EXPECT_TRUE(fails("render face.sweep -o out.png --to jawOpen=1 --weights smile=1", "--to", 2));
+}
+
+TEST_F(Render, FramesWhatLimitsLeaveOfTheWay) {
+  convertRig();
+  const auto strip = [&](const std::string& more) {
+    const Outcome r =
+        run("render face.sweep -o out.png --size 300x200 --frames 2 --box jaw " + more);
+    EXPECT_EQ(r.code, 0) << r.err;
+    return contents(folder / "out.png");
+  };
+  EXPECT_EQ(strip("--to jawOpen=4 --limits 0:0.5"), strip("--to jawOpen=0.5"));
 }
 
 TEST_F(Render, TheWayMayEndAtTheNeutral) {

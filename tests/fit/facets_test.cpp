@@ -61,7 +61,7 @@ TEST(FaceMap, OfAFanTakesRoomForItsCornersAlone) {
   rig.source.polygons = fan.polygons;
   rig.source.gridVertex.resize(kTriangles + 2);
   std::size_t entries = 0;
-  const FaceMap map(rig, fan.polygons.corners);
+  const FaceMap map(rig, fan.polygons.corners, std::vector<Vec3>(kTriangles + 2));
   for (const std::vector<Index>& faces : map.facesAt) entries += faces.size();
   EXPECT_EQ(entries, fan.polygons.corners.size());
 }

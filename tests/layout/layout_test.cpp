@@ -42,14 +42,14 @@ void expectGrids(const Laid& laid) {
 
 void expectSurface(const Laid& laid) {
   auto patches = laid.patches();
-  const Wireframe w = laid.layout.wireframe(patches);
+  const auto [w, nodeVertices] = laid.layout.wireframe(patches);
   const auto connectivity = Connectivity::make(w);
   ASSERT_TRUE(connectivity) << connectivity.error().message;
   ASSERT_EQ(w.patches.size(), patches.size());
   for (Index p = 0; p < static_cast<Index>(patches.size()); ++p) {
     EXPECT_EQ(w.sideEdges(p, 0), patches[p].m);
     EXPECT_EQ(w.sideEdges(p, 1), patches[p].n);
-    EXPECT_EQ(laid.layout.nodeVertices()[w.start(w.side(p, 0)[0])], patches[p].vertex(0, 0));
+    EXPECT_EQ(nodeVertices[w.start(w.side(p, 0)[0])], patches[p].vertex(0, 0));
   }
 }
 

@@ -15,8 +15,7 @@ inline Surface surfaceOf(Layout& layout) {
   std::set<Index> whole;
   while (true) {
     auto patches = layout.patches().value();
-    Wireframe w = layout.wireframe(patches);
-    const std::vector<Index> vertexOf = layout.nodeVertices();
+    auto [w, vertexOf] = layout.wireframe(patches);
     for (std::size_t n = 0; n < w.nodes.size(); ++n)
       if (w.nodes[n].point >= 0 && whole.contains(vertexOf[n])) w.nodes[n].stored = kWholeJet;
     std::vector<Index> circle;

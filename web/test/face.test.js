@@ -363,7 +363,8 @@ test('a relative URL of the module goes by the base of the page', async () => {
     globalThis.document = {baseURI: 'https://example.org/b/'};
     await load({wasm: 'm.wasm'});
     assert.deepEqual(asked, ['https://example.org/a/m.wasm', 'https://example.org/b/m.wasm']);
-    await assert.rejects(load({wasm: 5}), {name: 'TypeError', message: /^The option wasm is an absolute URL/});
+    for (const wasm of [5, 0, '', false])
+      await assert.rejects(load({wasm}), {name: 'TypeError', message: /^The option wasm is an absolute URL/});
   } finally {
     Object.assign(globalThis, {fetch, document, location});
   }

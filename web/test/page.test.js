@@ -3,7 +3,7 @@ import {readFileSync} from 'node:fs';
 import test from 'node:test';
 import {Sweepface} from '../sweepface.js';
 import {skip, withPage} from './browser.js';
-import {positionsOf, sample} from './native.js';
+import {packed, positionsOf, sample} from './native.js';
 
 const bytes = readFileSync(sample);
 const visit = {files: {'sample.sweep': bytes}, viewport: {width: 1000, height: 700}};
@@ -192,17 +192,104 @@ test('the page', options, (t) => withPage('index.html', visit, async (page, comp
     await page.unroute('**/sample.sweep');
   });
 
+  await t.test('shows a sound file although a broken one was opened after it', async () => {
+    await page.route('**/sample.sweep', async (route) => {
+      await page.waitForTimeout(1000);
+      await route.continue();
+    });
+    const begun = page.waitForRequest('**/sample.sweep');
+    await page.reload({waitUntil: 'commit'});
+    await begun;
+    await page.locator('#file').setInputFiles({name: 'bad.sweep', mimeType: 'text/plain', buffer: Buffer.from('GIF89a')});
+    await page.waitForSelector('#message.error');
+    await until(() => document.title.startsWith('sample.sweep'));
+    assert.match(await page.locator('#message').textContent(), /^bad\.sweep /);  // which is not forgotten for it
+    await page.keyboard.press('Shift');
+    assert.match(await page.locator('#message').textContent(), /^bad\.sweep /);
+    await page.unroute('**/sample.sweep');
+  });
+
+  await t.test('goes on moving in another level of detail', async () => {
+    await page.reload();
+    await settle();
+    await page.evaluate(() => { Math.random = () => 0; });  // every expression
+    await page.locator('#surprise').click();
+    await page.locator('#lod').selectOption('2');
+    await until(() => globalThis.sweepface.mesh.face.lod === 2);
+    await until(() => Object.values(globalThis.sweepface.mesh.face.weights).every((weight) => weight > 0.49));
+    await page.locator('#lod').selectOption('0');
+    await page.locator('#rest').click();
+    await until(() => globalThis.sweepface.mesh.face.lod === 0);
+    await until(() => Object.values(globalThis.sweepface.mesh.face.weights).every((weight) => weight < 0.001));
+  });
+
+  await t.test('moves at once for who would rather see nothing move', async () => {
+    await page.emulateMedia({reducedMotion: 'reduce'});
+    assert.ok(await page.evaluate(async () => {
+      Math.random = () => 0;
+      document.getElementById('surprise').click();
+      for (let frames = 0; frames < 3; ++frames) await new Promise(requestAnimationFrame);
+      return Object.values(globalThis.sweepface.mesh.face.weights).every((weight) => weight === 0.5);
+    }));
+    await page.emulateMedia({reducedMotion: null});
+    await page.locator('#rest').click();
+  });
+
+  await t.test('comes nearer by a key', async () => {
+    const distance = () => page.evaluate(() => {
+      const {children} = globalThis.sweepface.mesh.parent, {position} = children.find((child) => child.isCamera);
+      return Math.hypot(position.x, position.y, position.z);
+    });
+    const before = await distance();
+    await page.locator('#view').focus();
+    await page.keyboard.press('+');
+    assert.ok(await distance() < before);
+    await page.keyboard.press('-');
+  });
+
+  await t.test('moves nothing when a finger scrolls the expressions', async () => {
+    await slide('jawOpen', 0.2);
+    await page.locator('input[name="jawOpen"]').evaluate((input) => {
+      input.dispatchEvent(new PointerEvent('pointerdown', {bubbles: true}));
+      input.value = 0.9;  // where the finger came down
+      input.dispatchEvent(new Event('input', {bubbles: true}));
+      input.dispatchEvent(new PointerEvent('pointercancel', {bubbles: true}));
+    });
+    assert.equal(await weight('jawOpen'), 0.2);
+    assert.equal(await page.locator('input[name="jawOpen"]').inputValue(), '0.2');
+  });
+
+  await t.test('plays a packed file by the module that is there where there is no network', async () => {
+    await page.route('**/sweepface.wasm', (route) => route.abort());
+    await page.locator('#file').setInputFiles(packed());
+    await until(() => document.title.startsWith('packed'));
+    await page.unroute('**/sweepface.wasm');
+    complaints.splice(0);  // that there is none
+  });
+
+  await t.test('says where no expression has a name', async () => {
+    await page.locator('#filter').fill('trunk');
+    assert.ok(await page.locator('#unfound').isVisible());
+    await page.locator('#filter').fill('');
+    assert.ok(!await page.locator('#unfound').isVisible());
+  });
+
   await t.test('draws again when the graphics card comes back', async () => {
     await page.reload();
     await settle();
     const before = await picture(), told = complaints.length;
-    await page.evaluate(async () => {
+    const said = await page.evaluate(async () => {
       const card = document.getElementById('view').getContext('webgl2').getExtension('WEBGL_lose_context');
       card.loseContext();
       await new Promise((done) => setTimeout(done, 500));
+      const lost = document.getElementById('message').textContent;
       card.restoreContext();
       await new Promise((done) => setTimeout(done, 1000));
+      return [lost, document.getElementById('message').textContent];
     });
+    assert.deepEqual(said, [
+      'The graphics card is not there for this page; if it does not come back, load the page again.', ''
+    ]);
     const after = await changed(before, await picture());
     assert.ok(after < 0.01, `${after} of the pixels differ`);
     complaints.splice(told);  // that it was lost
@@ -247,6 +334,13 @@ test('the page', options, (t) => withPage('index.html', visit, async (page, comp
     const neutral = await picture();
     await slide('mouthPucker', 1);
     assert.ok(await changed(neutral, await picture()) > 0.001);
+  });
+
+  await t.test('can be used where a screen is small or much enlarged', async () => {
+    await page.setViewportSize({width: 320, height: 256});
+    await page.locator('input[name="mouthPucker"]').scrollIntoViewIfNeeded();
+    const {y, height} = await page.locator('input[name="mouthPucker"]').boundingBox();
+    assert.ok(height > 16 && y > 0 && y + height <= 256, `${y}, ${height}`);
   });
 
   await t.test('has complained about nothing', () => {

@@ -105,7 +105,7 @@ test('regions are what they were when they were given', async () => {
 
 test('what is no region is refused with a sentence', async () => {
   const refused = async (regions, sentence) => assert.rejects(load(regions), sentence);
-  await refused({}, /Regions are a list/);
+  for (const none of [{}, () => 1]) await refused(none, /Regions are a list/);
   await refused([{points: [[0, 0, 0]]}], /A region needs a name\./);
   for (const name of ['a\0b', 'a\n', 'a\ud800']) await refused([{...above, name}], /A region needs a name that is text/);
   await refused([{...above, weight: 1}], /Region 'above' has an unknown 'weight'/);
