@@ -340,7 +340,9 @@ test('the page', options, (t) => withPage('index.html', visit, async (page, comp
     await page.setViewportSize({width: 320, height: 256});
     await page.locator('input[name="mouthPucker"]').scrollIntoViewIfNeeded();
     const {y, height} = await page.locator('input[name="mouthPucker"]').boundingBox();
-    assert.ok(height > 16 && y > 0 && y + height <= 256, `${y}, ${height}`);
+    const below = await page.locator('#stage').evaluate((stage) => stage.getBoundingClientRect().bottom);
+    assert.ok(below > 100 && below < 130, 'the face stays where it is seen');
+    assert.ok(height > 16 && y > below && y + height <= 256, `${y}, ${height}`);
   });
 
   await t.test('has complained about nothing', () => {
