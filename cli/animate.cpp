@@ -171,10 +171,7 @@ std::string keysOf(const AnimateArguments& a, const Performance& performance) {
 
 Result<void> animateGlb(const AnimateArguments& a, const Rig& rig, const Performance& performance) {
   if (auto ok = checkFineness(rig.surface, a.lod); !ok) return ok;
-  GlbOptions options;
-  options.lod = a.lod;
-  options.morphNormals = a.glb.morphNormals;
-  options.quantize = a.glb.quantize;
+  GlbOptions options = a.glb.options(a.lod);
   options.animationName = performance.name;
   const std::string keys = keysOf(a, performance);
   Clip clip;

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "sweepface/gltf.hpp"
 #include "sweepface/io.hpp"
 #include "sweepface/result.hpp"
 #include "sweepface/rig.hpp"
@@ -74,6 +75,9 @@ Result<void> checkUvBits(const std::optional<int>& bits, const Strip& parts);
 struct GlbArguments {
   bool morphNormals = false, quantize = false;
   bool any() const { return morphNormals || quantize; }
+  GlbOptions options(Index lod) const {
+    return {.lod = lod, .morphNormals = morphNormals, .quantize = quantize};
+  }
 };
 void addGlb(CLI::App& app, GlbArguments& glb);
 

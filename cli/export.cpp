@@ -84,10 +84,7 @@ Result<void> writeObj(const ExportArguments& a, const Rig& rig, const Weights& w
 }
 
 Result<void> writeGlb(const ExportArguments& a, const Rig& rig, const Weights& weights) {
-  GlbOptions options;
-  options.lod = a.lod;
-  options.morphNormals = a.glb.morphNormals;
-  options.quantize = a.glb.quantize;
+  GlbOptions options = a.glb.options(a.lod);
   if (!a.weights.empty()) options.weights = weights;
   if (auto ok = checkFineness(rig.surface, a.lod); !ok) return ok;
   const Result<std::string> bytes = formatGlb(rig, options);

@@ -6,8 +6,8 @@ import {
   controls, linesOver, meshOf, placeCamera, removeLines, render, resize, scene, stage, view
 } from './page_stage.js';
 
-let bytes, mesh, lines;  // the file, the face on show and, if wanted, its edges
-let loading = 0;         // milliseconds from the bytes to the first frame
+let bytes, mesh, lines;    // the file, the face on show and, if wanted, its edges
+let loading = 0;           // milliseconds from the bytes to the first frame
 let asked = 0, shown = 0;  // how often a file was asked for, and which of those times is on show
 let waiting = 0;           // for so many of them
 let aim = [{}];            // where the face on show is to go, as moveTo() takes it
