@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <limits>
+#include <map>
 #include <set>
 
 #include "sweepface/box.hpp"
@@ -145,7 +146,7 @@ class Builder {
     for (Index n = 0; n < nodeCount(); ++n) {
       if (kind(n) == NodeKind::hanging) continue;
       const Drawing::Node& node = d_.nodes[n];
-      set(0, n, 0, *woven_.placeOf(d_, n));
+      if (node.with.empty()) set(0, n, 0, *woven_.placeOf(d_, n));
       for (std::size_t f = 0; f < node.jets.size(); ++f) {
         if (auto ok = checkComplete(n, f); !ok) return ok;
         if (auto ok = setJet(0, n, f, node.jets[f].vectors); !ok) return ok;
@@ -215,9 +216,27 @@ class Builder {
     Jet jet{};
     for (int k = 1; k < 9; ++k) jet[k] = given[k].value_or(Vec3{});
     jet = turnedJet(jet, *angle);
-    for (int k = 1; k < 9; ++k)
-      if (jets_->at(n, k) >= 0) set(pose, n, k, jet[k]);
+    for (int k = 1; k < 9; ++k) {
+      const Index v = jets_->at(n, k);
+      if (v < 0) continue;
+      const auto [told, isFirst] = irregular_.try_emplace({pose, v}, n);
+      if (!isFirst && !isSame(poses_[pose][v], jet[k]))
+        return refuse(placeIn(pose, n),
+                      fmt::format("nodes '{}' and '{}' are one point and their jets say different "
+                                  "things of it; give it one jet",
+                                  d_.nodes[told->second].name, d_.nodes[n].name));
+      set(pose, n, k, jet[k]);
+    }
     return {};
+  }
+
+  /// Whether vectors of a jet differ by rounding alone.
+  bool isSame(const Vec3& a, const Vec3& b) const {
+    return norm(a - b) <= 1e-6 * std::max(norm(b), diagonal_);
+  }
+  /// Where it is said how a node stands in a pose.
+  TextPlace placeIn(std::size_t pose, Index n) const {
+    return pose == 0 ? d_.nodes[n].place : d_.expressions[pose - 1].place;
   }
 
   // Where the x axis of an irregular node's jet lies in the chart; nothing if its curve leaves none
@@ -307,10 +326,9 @@ class Builder {
     for (const Repeated& r : repeated_) {
       if (r.pose != settled) plain_.settle(poses_[settled = r.pose], vectors);
       const Index v = jetVector(plain_, *jets_, r.node, r.component, *fanOf(r.node, r.jet));
-      const double apart = norm(vectors[v] - r.value);
-      if (apart <= 1e-6 * std::max(norm(r.value), diagonal_)) continue;
+      if (isSame(vectors[v], r.value)) continue;
       const Drawing::Node& node = d_.nodes[r.node];
-      return refuse(r.pose == 0 ? node.place : d_.expressions[r.pose - 1].place,
+      return refuse(placeIn(r.pose, r.node),
                     fmt::format("the jet of node '{}' along '{}' has its '{}' from the part of the "
                                 "node before it, which says another; change it there, too",
                                 node.name, node.jets[r.jet].along,
@@ -378,6 +396,8 @@ class Builder {
     Vec3 value;
   };
   std::vector<Repeated> repeated_;
+  std::map<std::pair<std::size_t, Index>, Index>
+      irregular_;  // pose and vector → the node that said it
   Built built_;
 };
 

@@ -105,6 +105,7 @@ class TargetAdder {
   void widenWeights(Json& holder, std::size_t before) const {
     Json& weights = holder["weights"];
     if (!weights.is_array()) weights = Json::array();
+    while (weights.size() > before) weights.erase(weights.size() - 1);  // of targets that are none
     while (weights.size() < before + names_.size()) weights.push_back(0.0);
   }
 

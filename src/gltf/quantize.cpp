@@ -44,12 +44,17 @@ std::vector<Encoding> chooseEncodings(const BoundScene& scene, const Shapes& sha
       half[mesh] = std::max(half[mesh], largestOf(fromScene[mesh].direction(moves[place])));
     });
   }
-  std::vector<Encoding> encodings;
+  // What no node shows has nothing to undo it.
+  std::vector<char> isShown(half.size(), false);
+  for (const Index mesh : shownMeshes(scene))
+    if (mesh >= 0) isShown[mesh] = true;
+  std::vector<Encoding> encodings(half.size());
   for (std::size_t m = 0; m < half.size(); ++m) {
+    if (!isShown[m]) continue;
     const Vec3 c = boxes[m].centre();
     const Vec3 middle{single(c.x), single(c.y), single(c.z)};
     // Rounding the middle moves the cube by a little.
-    encodings.push_back({true, middle, roomy(half[m] + largestOf(c - middle))});
+    encodings[m] = {true, middle, roomy(half[m] + largestOf(c - middle))};
   }
   return encodings;
 }
@@ -92,6 +97,7 @@ class Undoer {
     std::vector<std::size_t> own(encodings_.size());
     for (const Part& part : scene_.parts.parts) ++own[scene_.parts.runs[part.run].rigMesh];
     for (std::size_t m = 0; m < own.size(); ++m) {
+      if (!encodings_[m].quantized) continue;
       const std::size_t mesh = scene_.parts.meshes[m].mesh;
       if (own[m] != listOf(scene_.document.list("meshes")[mesh], "primitives").size())
         return cannot(fmt::format("its mesh {} has points, lines or triangles besides it", mesh));

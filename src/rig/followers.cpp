@@ -37,7 +37,7 @@ class NameReader {
     if (name.size() < 3 || !isDigit(name.back()) || !isDigit(name[name.size() - 2])) return {};
     const int percent = 10 * (name[name.size() - 2] - '0') + name.back() - '0';
     name.remove_suffix(2);
-    Index leader = find(name);
+    Index leader = isDigit(name.back()) ? -1 : find(name);  // target_110 is none of target_1
     if (leader < 0 && (name.back() == '_' || name.back() == '.'))
       leader = find(name.substr(0, name.size() - 1));
     if (leader < 0 || percent == 0) return {};

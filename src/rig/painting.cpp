@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <utility>
 
 #include "sweepface/regions.hpp"
@@ -55,6 +56,7 @@ class Painter {
       const double share = brush_.fade > 0 ? fading(beyond / brush_.fade) : beyond <= 0 ? 1 : 0;
       own_[n] = std::max(own_[n], share);
     }
+    std::set<Index> told;
     for (const auto& [name, share] : brush_.nodes) {
       const Result<Index> node = rig_.find(Thing::node, name);
       if (!node) return std::unexpected(node.error());
@@ -64,6 +66,8 @@ class Painter {
         return fail(
             "Node '" + name +
             "' stands on the side of a patch and goes with it; name the nodes at its ends.");
+      if (!told.insert(keeperOf(*node)).second)
+        return fail("Node '" + name + "', or one at the same point, is told twice; tell it once.");
       for (Index n = 0; n < static_cast<Index>(own_.size()); ++n)
         if (keeperOf(n) == keeperOf(*node)) own_[n] = share;
     }
@@ -85,6 +89,8 @@ class Painter {
 
   Result<void> fromParts() {
     if (brush_.parts.empty()) return {};
+    if (!brush_.alongSurface && brush_.whole + brush_.fade > 0)
+      return fail("Parts reach over the surface; take them without 'over', or paint by points.");
     const Polygons& polygons = rig_.source.polygons;
     if (!knowsQuads(rig_) || polygons.faceCount() == 0)
       return fail("The face does not tell of its source's materials and groups; paint by points.");
@@ -120,6 +126,7 @@ class Painter {
   /// A node on the seam belongs to the part as far as the quads around it do.
   void shareCorners(const std::vector<bool>& within) {
     const Surface& surface = rig_.surface;
+    const std::vector<Index> faces = faceOfQuads(rig_);
     std::vector<double> inside(own_.size(), 0.0), all(own_.size(), 0.0);
     Index first = 0;
     for (Index p = 0; p < surface.patchCount(); ++p) {
@@ -129,7 +136,7 @@ class Painter {
         const Index quad = first + quads[corner];
         const Index node = keeperOf(surface.connectivity().cornerNode[4 * p + corner]);
         all[node] += 1;
-        inside[node] += within[faceOf(rig_.source.quadCorners[4 * quad])] ? 1 : 0;
+        inside[node] += within[faces[quad]] ? 1 : 0;
       }
       first += m * n;
     }
@@ -141,11 +148,6 @@ class Painter {
     // What is only partly inside is wholly so where a brush goes farther, and else stays as it is.
     for (std::size_t n = 0; n < own_.size(); ++n)
       if (own_[n] < 1 && brush_.fade == 0 && brush_.whole == 0) distances_[n] = kFar;
-  }
-
-  Index faceOf(Index corner) const {
-    const auto& starts = rig_.source.polygons.faceStart;
-    return static_cast<Index>(std::ranges::upper_bound(starts, corner) - starts.begin()) - 1;
   }
 
   /// The first node at the same point: their jets are stored once.
@@ -176,7 +178,9 @@ class Painter {
       const Result<Index> arc = rig_.find(Thing::curve, name);
       if (!arc) return std::unexpected(arc.error());
       if (std::exchange(isTold[*arc], 1)) continue;  // once is enough
-      const Index pieces = 4 * wireframe_.arcs[*arc].edges;
+      const Arc& curve = wireframe_.arcs[*arc];
+      if (brush_.alongSurface) distances_[curve.from] = distances_[curve.to] = 0;
+      const Index pieces = brush_.alongSurface ? 0 : 4 * curve.edges;
       for (Index k = 0; k < pieces; ++k)
         segments_.push_back({onArc(*arc, k / 4.0), onArc(*arc, (k + 1) / 4.0)});
     }
@@ -192,12 +196,19 @@ class Painter {
         distances_[n] = std::min(distances_[n], distanceToSegment(places_[n], a, b));
   }
 
-  /// The nodes nearest to the line, from which ways begin.
+  /// The nodes nearest to the line, from which ways begin: looked for so often that none on it is
+  /// missed, but some thousand times at most.
   void seed() {
+    constexpr double kMost = 4096;
+    double shortest = kFar;
+    for (const Arc& arc : wireframe_.arcs)
+      if (const double chord = norm(places_[arc.to] - places_[arc.from]); chord > 0)
+        shortest = std::min(shortest, chord);
+    const double most = std::max(1.0, kMost / static_cast<double>(segments_.size() + 1));
     for (const auto& [a, b] : segments_) {
-      const int pieces = norm(b - a) > 0 ? 16 : 0;
-      for (int k = 0; k <= pieces; ++k) {
-        const Vec3 p = pieces == 0 ? a : a + (double(k) / pieces) * (b - a);
+      const double pieces = std::min(most, std::ceil(2 * norm(b - a) / shortest));
+      for (double k = 0; k <= pieces; ++k) {
+        const Vec3 p = pieces == 0 ? a : a + (k / pieces) * (b - a);
         std::size_t nearest = 0;
         for (std::size_t n = 1; n < places_.size(); ++n)
           if (norm(places_[n] - p) < norm(places_[nearest] - p)) nearest = n;

@@ -369,6 +369,21 @@ TEST(Tips, areWhereAllTheirNodesAreDrawn) {
       << refusal(drawing);
 }
 
+TEST(Tips, haveOneJet) {
+  Json drawing = cone();
+  const auto jet = [](double x) {
+    return Json{{"along", "ray0"}, {"x", {x, -x, 0}}, {"y", {0, -x, x}},
+                {"xx", {0, 0, 0}}, {"xy", {0, 0, 0}}, {"yy", {0, 0, 0}}};
+  };
+  for (Json& node : drawing["nodes"])
+    if (node["name"] == "tip0" || node["name"] == "tip1") node["jet"] = jet(0.25);
+  EXPECT_EQ(refusal(drawing), "");
+  for (Json& node : drawing["nodes"])
+    if (node["name"] == "tip1") node["jet"] = jet(0.75);
+  EXPECT_NE(refusal(drawing).find("their jets say different things"), std::string::npos)
+      << refusal(drawing);
+}
+
 TEST(Tips, drawnTwiceMoveAsOne) {
   Json drawing = cone();
   const auto other = std::ranges::find_if(drawing["nodes"],

@@ -193,6 +193,19 @@ TEST(QuantizeWriter, LeavesJointsOfOtherMeshesAsTheyAre) {
   EXPECT_TRUE(nodes[1].contains("scale"));
 }
 
+TEST(QuantizeWriter, LeavesWhatNoNodeShowsAsItIs) {
+  Glb source = smallFace();
+  source.add("meshes", source.json["meshes"][0]);  // after the one that is on a node
+  const Rig rig = converted(source);
+  const Written glb = write(rig, {.quantize = true});
+  const auto componentOf = [&](std::size_t mesh) {
+    const Json& attributes = glb.json["meshes"][mesh]["primitives"][0]["attributes"];
+    return glb.accessor(attributes["POSITION"].get<std::size_t>())["componentType"];
+  };
+  EXPECT_EQ(componentOf(0), 5122);
+  EXPECT_EQ(componentOf(1), 5126);
+}
+
 TEST(QuantizeWriter, RefusesWhatItWouldEnlarge) {
   const auto refuses = [](const Glb& source, std::string_view why) {
     EXPECT_TRUE(

@@ -35,8 +35,9 @@ TEST(FollowerNames, numbersAreInBetweens) {
 }
 
 TEST(FollowerNames, otherNamesSayNothing) {
-  const std::vector<std::string> names{"eye_L",  "eye",     "viseme10", "jaw_", "_jaw", "jaw",
-                                       "eye_00", "jaw_jaw", "",         "_",    "50",   "eye_1"};
+  const std::vector<std::string> names{"eye_L", "eye",    "viseme10", "jaw_",     "_jaw",
+                                       "jaw",   "eye_00", "jaw_jaw",  "",         "_",
+                                       "50",    "eye_1",  "shape_1",  "shape_110"};
   EXPECT_TRUE(Followers::named(names).empty());
 }
 

@@ -116,6 +116,38 @@ TEST(Regions, FadeWithTheDistanceFromALine) {
   }
 }
 
+// Sheets side by side, a twentieth of an edge apart.
+TEST(Regions, CurvesReachAlongTheSurfaceAlone) {
+  const Rig rig = converted(joined(plane(6, 5), plane(6, 5), {0.02, 0.02, 0.05}));
+  const auto& arcs = rig.surface.wireframe().arcs;
+  const auto places = nodePlaces(rig);
+  for (std::size_t a = 0; a < arcs.size(); ++a) {
+    Brush brush;
+    brush.curves = {"c" + std::to_string(a)};
+    brush.whole = 0.2;
+    const auto shares = painted(rig, brush);
+    for (std::size_t n = 0; n < shares.size(); ++n) {
+      const bool isItsEnd = places[n] == places[arcs[a].from] || places[n] == places[arcs[a].to];
+      EXPECT_EQ(shares[n], isItsEnd ? 1 : 0) << "curve " << a << ", node " << n;
+    }
+  }
+}
+
+TEST(Regions, LinesMissNoNodeOnThem) {
+  PolygonMesh squares;
+  for (int k = 0; k < 40; ++k)
+    squares = joined(std::move(squares),
+                     grid(1, 1, [](double x, double y) { return Vec3{x, y, 0}; }), {2.0 * k, 0, 0});
+  const Rig rig = converted(squares);
+  Brush brush;
+  brush.line = {{0, 0, 0}, {80, 0, 0}};
+  brush.whole = 0.2;
+  const auto places = nodePlaces(rig);
+  const auto shares = painted(rig, brush);
+  for (std::size_t n = 0; n < shares.size(); ++n)
+    EXPECT_EQ(shares[n], std::abs(places[n].y) < 0.2 ? 1 : 0) << places[n].x << " " << places[n].y;
+}
+
 // Through the middle of a ball its far side is 8 away, around it 12.6 and more.
 TEST(Regions, WaysAlongTheSurfaceAreLonger) {
   const auto places = nodePlaces(ball());
@@ -167,6 +199,9 @@ TEST(Regions, MaterialsAndGroupsArePainted) {
   }
   EXPECT_GT(inside, 0);
   EXPECT_GT(between, 0);
+  brush.alongSurface = false;
+  EXPECT_FALSE(paint(rig, brush)) << "parts reach over the surface";
+  brush.alongSurface = true;
   brush.parts = {"middle"};
   const auto none = paint(rig, brush);
   ASSERT_FALSE(none);
@@ -184,6 +219,10 @@ TEST(Regions, NodesHaveTheSharesTheyAreGiven) {
   EXPECT_FALSE(paint(hill(), brush));
   brush.nodes = {{"nobody", 1}};
   EXPECT_FALSE(paint(hill(), brush));
+  brush.nodes = {{"n1", 0.25}, {"1", 1}};
+  const auto twice = paint(hill(), brush);
+  ASSERT_FALSE(twice);
+  EXPECT_NE(twice.error().message.find("told twice"), std::string::npos);
 }
 
 TEST(Regions, NodesOnTheSideOfAPatchHaveNoShareOfTheirOwn) {
