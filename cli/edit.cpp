@@ -59,7 +59,7 @@ void addOptions(CLI::App& app, EditArguments& a) {
       ->type_name("NAME");
   addQuiet(app, a.quiet);
   app.footer(
-      "\nExamples:\n  sweepface edit vase.sweep --ribbon belly --eta -200 -o tight.sweep\n"
+      "\nExamples:\n  sweepface edit vase.sweep --ribbon body --eta -1 -o tight.sweep\n"
       "  sweepface edit face.sweep --move c12 0,0.1,0 --control c12 p3 second 0,0,0.05 -o "
       "other.sweep\n\nOnly the patches that own what is edited change. The file's tolerance "
       "speaks of the meshes it was\nconverted from, not of the edits.");

@@ -115,16 +115,21 @@ std::vector<std::string> notesOnStill(const PerformanceArguments& a, const Rig& 
 }
 
 std::function<void(double, std::span<Kinematics>)> byDifferences(
-    const std::function<void(double, std::span<double>)>& at) {
-  return [at](double time, std::span<Kinematics> weights) {
+    const std::function<void(double, std::span<double>)>& at, double seconds) {
+  return [at, seconds](double time, std::span<Kinematics> weights) {
     constexpr double h = 1 / 60.0;
-    std::vector<double> before(weights.size()), now(before), after(before);
-    at(time - h, before);
-    at(time, now);
-    at(time + h, after);
-    for (std::size_t k = 0; k < weights.size(); ++k)
-      weights[k] = {now[k], (after[k] - before[k]) / (2 * h),
-                    (after[k] - 2 * now[k] + before[k]) / (h * h)};
+    // What comes before and after it stands still.
+    const double middle = seconds > 2 * h ? std::clamp(time, h, seconds - h) : time;
+    std::vector<double> before(weights.size()), now(before), after(before), here(before);
+    at(middle - h, before);
+    at(middle, now);
+    at(middle + h, after);
+    at(time, here);
+    for (std::size_t k = 0; k < weights.size(); ++k) {
+      const double acceleration = (after[k] - 2 * now[k] + before[k]) / (h * h);
+      weights[k] = {here[k], (after[k] - before[k]) / (2 * h) + acceleration * (time - middle),
+                    acceleration};
+    }
   };
 }
 

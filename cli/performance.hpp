@@ -55,9 +55,10 @@ Result<std::vector<Performance>> makePerformances(const PerformanceArguments& a,
 /// Sentences on targets that change their weight between the two expressions and yet move nothing.
 std::vector<std::string> notesOnStill(const PerformanceArguments& a, const Rig& rig);
 
-/// Velocities and accelerations by central differences over a frame at 60 frames a second.
+/// Velocities and accelerations by differences over a frame at 60 frames a second, of what plays
+/// for so many seconds.
 std::function<void(double, std::span<Kinematics>)> byDifferences(
-    const std::function<void(double, std::span<double>)>& at);
+    const std::function<void(double, std::span<double>)>& at, double seconds);
 
 /// The performance at these times, with a weight for every target.
 Clip sample(const Performance& performance, const Rig& rig, std::vector<double> times);

@@ -122,7 +122,7 @@ Result<std::vector<Performance>> byClip(const PerformanceArguments& a, const Rig
     performance.at = [clip, match](double time, std::span<double> weights) {
       match.spread(*clip, time, weights);
     };
-    performance.kinematicsAt = byDifferences(performance.at);
+    performance.kinematicsAt = byDifferences(performance.at, performance.seconds);
   }
   return performances;
 }

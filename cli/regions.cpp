@@ -94,7 +94,7 @@ Performance together(Parts parts, const std::vector<Region>& regions, Rig& rig) 
     shared->at(time, ofRegions);
     targets.spread(ofRegions, weights);
   };
-  whole.kinematicsAt = byDifferences(whole.at);
+  whole.kinematicsAt = byDifferences(whole.at, whole.seconds);
   return whole;
 }
 

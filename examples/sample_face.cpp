@@ -65,7 +65,7 @@ Result<void> writeAll(const fs::path& folder) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 2) {
+  if (argc != 2 || argv[1][0] == '-') {
     fmt::print(stderr, "usage: sample_face OUTDIR\n");
     return 2;
   }

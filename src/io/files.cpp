@@ -28,7 +28,12 @@ using File = std::unique_ptr<std::FILE, CloseFile>;
 std::string reason(int code) { return std::generic_category().message(code); }
 
 std::unexpected<Error> cannotWrite(const fs::path& path, int code) {
-  return fail(fmt::format("Cannot write {}: {}.", path.string(), reason(code)));
+  const char* const advice = code == ENOSPC || code == EDQUOT
+                                 ? "; make room there, or choose another place"
+                             : code == EACCES || code == EPERM || code == EROFS
+                                 ? "; choose another place, or change its permissions"
+                                 : "";
+  return fail(fmt::format("Cannot write {}: {}{}.", path.string(), reason(code), advice));
 }
 
 /// Writes and closes; 0 or the errno of what went wrong.

@@ -139,6 +139,16 @@ TEST_F(Plot, SaysWhatAClipDoesNotDrive) {
   EXPECT_NE(r.out.find("plot.svg: 1 curve\n"), std::string::npos) << r.out;
 }
 
+// Nothing is known of what comes before and after it.
+TEST_F(Plot, ClipsEndInMotion) {
+  convertRig();
+  ASSERT_EQ(run("animate face.sweep --to jawOpen=1 -o take.csv --quiet").code, 0);
+  ASSERT_EQ(run("plot face.sweep --to jawOpen=1 -o law.svg --quiet").code, 0);
+  ASSERT_EQ(run("plot face.sweep --clip take.csv --weight jawOpen -o clip.svg --quiet").code, 0);
+  for (const std::string plot : {"law.svg", "clip.svg"})
+    EXPECT_EQ(contents(folder / plot).find(">-"), std::string::npos) << "nothing is below 0";
+}
+
 TEST_F(Plot, SaysWhatIsWrong) {
   convertRig();
   const auto refused = [&](const std::string& options, const std::string& words) {
