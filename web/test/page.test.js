@@ -338,7 +338,7 @@ test('the page', options, (t) => withPage('index.html', visit, async (page, comp
 
   await t.test('can be used where a screen is small or much enlarged', async () => {
     await page.setViewportSize({width: 320, height: 256});
-    await page.locator('input[name="mouthPucker"]').evaluate((input) => input.scrollIntoView({block: 'nearest'}));
+    await page.locator('input[name="mouthPucker"]').evaluate((input) => input.scrollIntoView({block: 'center'}));
     const {y, height} = await page.locator('input[name="mouthPucker"]').boundingBox();
     const below = await page.locator('#stage').evaluate((stage) => stage.getBoundingClientRect().bottom);
     assert.ok(below > 100 && below < 130, 'the face stays where it is seen');
