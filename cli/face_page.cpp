@@ -1,5 +1,7 @@
 #include "face_page.hpp"
 
+#include "lod_mesh.hpp"
+
 namespace sweepface::cli {
 
 Result<void> FacePage::layOut(const Page::Plan& plan, PictureSize panel) {
