@@ -130,6 +130,8 @@ export async function open(given, givenOptions) {
   if (!bytes)
     throw new TypeError('Sweepface.load needs the bytes of a .sweep file: an ArrayBuffer or a typed array.');
   const options = read(givenOptions), {wasm} = options;
+  if (/^\s*<(!doctype|html)/i.test(String.fromCharCode(...bytes.subarray(0, 64))))
+    throw new Error(`${options.name} is a page of HTML, as servers send for what they do not have; check the address.`);
   const isGiven = (wasm ?? undefined) !== undefined;
   if (isGiven || options.needsFull || !isPacked(bytes)) return openIn(await compile(wasm, 'full'), bytes, options);
   const usual = await compile(wasm, 'usual').catch((error) => {

@@ -142,6 +142,11 @@ test('bytes that are no face are refused with the library\'s sentence', async ()
   }
 });
 
+test('a server\'s page in place of a face is called one', async () => {
+  for (const page of ['<!doctype html>\n<title>404</title>', '\n<HTML><body>'])
+    await assert.rejects(Sweepface.load(Buffer.from(page), {name: 'a.sweep'}), {message: /^a\.sweep is a page of HTML, /});
+});
+
 test('a large file that is no face is refused in little memory', async () => {
   const before = process.memoryUsage().heapUsed;
   const refused = assert.rejects(Sweepface.load(new Uint8Array(3e7)), /does not begin with SWEEPFC/);
