@@ -127,7 +127,7 @@ test('a refused goal or drive leaves all as it moves', async () => {
 
 test('bytes that are no face are refused with the library\'s sentence', async () => {
   const bytes = readFileSync(sample);
-  await assert.rejects(Sweepface.load(new TextEncoder().encode('<!doctype html>'), {name: 'face.sweep'}),
+  await assert.rejects(Sweepface.load(new TextEncoder().encode('GIF89a'), {name: 'face.sweep'}),
                        {message: 'face.sweep does not begin with SWEEPFC; check that it is a .sweep file.'});
   for (const options of [undefined, {name: undefined}, {name: ''}])
     await assert.rejects(Sweepface.load(bytes.subarray(0, bytes.length / 2), options),
