@@ -113,9 +113,11 @@ class TargetAdder {
     if (!json_.contains("animations")) return {};
     Builder builder(document_);
     for (Json& animation : json_["animations"])
-      if (isList(animation, "channels") && isList(animation, "samplers"))
+      if (isList(animation, "channels") && isList(animation, "samplers")) {
+        WideSamplers wide;
         for (Json& channel : animation["channels"])
-          if (auto ok = widenChannel(animation["samplers"], channel, builder); !ok) return ok;
+          if (auto ok = widenChannel(animation["samplers"], wide, channel, builder); !ok) return ok;
+      }
     builder.finish();
     return {};
   }
@@ -157,23 +159,29 @@ class TargetAdder {
     return error == std::errc() && alone && number < count ? std::optional(number) : std::nullopt;
   }
 
-  Result<void> widenChannel(Json& samplers, Json& channel, Builder& builder) {
+  /// By sampler and how many targets there were.
+  using WideSamplers = std::map<std::pair<std::size_t, std::size_t>, std::size_t>;
+
+  Result<void> widenChannel(Json& samplers, WideSamplers& known, Json& channel, Builder& builder) {
     const Json* const target = find(channel, "target");
     const auto mesh = target ? meshMovedBy(*target) : std::nullopt;
     const auto sampler = findIndex(channel, "sampler", samplers.size());
     if (!mesh || !sampler || !samplers[*sampler].is_object()) return {};
     // Weights of no targets mean nothing that could be kept.
-    if (meshes_.at(*mesh) == 0) return {};
+    const std::size_t before = meshes_.at(*mesh);
+    if (before == 0) return {};
     // A sampler of another node's keeps its width.
     Json wide = samplers[*sampler];
     const auto output = findIndex(wide, "output", document_.list("accessors").size());
     if (!output) return {};
+    const auto [own, isNew] = known.try_emplace({*sampler, before}, samplers.size());
+    channel["sampler"] = own->second;
+    if (!isNew) return {};
     const auto accessor = accessorAt(document_, *output);
     if (!accessor) return std::unexpected(accessor.error());
     const auto values = decode(document_, *accessor);
     if (!values) return std::unexpected(values.error());
-    wide["output"] = builder.add(pack(widened(*values, meshes_.at(*mesh)), 1), Use::other);
-    channel["sampler"] = samplers.size();
+    wide["output"] = builder.add(pack(widened(*values, before), 1), Use::other);
     samplers.push_back(std::move(wide));
     return {};
   }

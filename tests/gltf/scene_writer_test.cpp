@@ -398,6 +398,16 @@ std::vector<double> animated(const Written& glb, std::size_t channel) {
   return glb.numbers(animation["samplers"][sampler]["output"].get<std::size_t>());
 }
 
+TEST(SceneWriter, MakesRoomOnceForWhatSeveralNodesShare) {
+  Glb source = smallFace();
+  const std::size_t other = source.add("nodes", {{"mesh", 0}});
+  const auto weightsOf = [](std::size_t node) { return Json{{"node", node}, {"path", "weights"}}; };
+  animate(source, std::vector<Json>{weightsOf(0), weightsOf(other)}, {0.1f, 0.2f, 0.3f, 0.4f});
+  const Written glb = write(withFrown(converted(source)), {});
+  EXPECT_EQ(glb.json["animations"][0]["samplers"].size(), 2u);
+  for (const std::size_t channel : {0u, 1u}) EXPECT_EQ(animated(glb, channel).size(), 6u);
+}
+
 TEST(SceneWriter, MakesRoomForNewTargetsWherePointersMoveTheWeights) {
   Glb source = smallFace();
   std::vector<Json> targets;
