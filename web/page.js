@@ -9,7 +9,7 @@ import {
 let bytes, mesh, lines;    // the file, the face on show and, if wanted, its edges
 let loading = 0;           // milliseconds from the bytes to the first frame
 let asked = 0, shown = 0;  // how often a file was asked for, and which of those times is on show
-let waiting = 0;           // for so many of them
+let waiting = 0;           // how many of those times are not over
 let aim = [{}];            // where the face on show is to go, as moveTo() takes it
 
 /**
@@ -34,9 +34,12 @@ async function show(source, name, keepView = false) {
     bytes = buffer;
     mesh = next;
     scene.add(mesh);
-    if (keepView) mesh.moveTo(...aim);
-    else aim = [{}];
-    if (!keepView) placeCamera(mesh);
+    if (keepView) {
+      mesh.moveTo(...aim);
+    } else {
+      aim = [{}];
+      placeCamera(mesh);
+    }
     tellName(name);
     buildSliders(mesh, setWeight);
     drawLines();

@@ -1,7 +1,7 @@
 // A .sweep file in a module: what it is opened with, and what all its faces share.
 import {divider} from './sweepface_regions.js';
 import {bytesOf, known, told} from './sweepface_values.js';
-import {compile, instantiate, isCompiled, MemoryError, Runtime, UNSAID} from './sweepface_wasm.js';
+import {compile, instantiate, isCompiled, isGiven, MemoryError, Runtime, UNSAID} from './sweepface_wasm.js';
 
 /** What a level of detail may be asked for by, in the order of the C interface. */
 const BUDGETS = ['edgeLength', 'error', 'vertices'];
@@ -132,8 +132,7 @@ export async function open(given, givenOptions) {
   const options = read(givenOptions), {wasm} = options;
   if (/^\s*<(!doctype|html)/i.test(String.fromCharCode(...bytes.subarray(0, 64))))
     throw new Error(`${options.name} is a page of HTML, as servers send for what they do not have; check the address.`);
-  const isGiven = (wasm ?? undefined) !== undefined;
-  if (isGiven || options.needsFull || !isPacked(bytes)) return openIn(await compile(wasm, 'full'), bytes, options);
+  if (isGiven(wasm) || options.needsFull || !isPacked(bytes)) return openIn(await compile(wasm, 'full'), bytes, options);
   const usual = await compile(wasm, 'usual').catch((error) => {
     if (isCompiled('full')) return compile(wasm, 'full');  // which can be had, perhaps since there was a network
     throw error;

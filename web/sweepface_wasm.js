@@ -45,7 +45,7 @@ const MODULES = {
 };
 
 function urlOf(wasm) {
-  const text = typeof wasm === 'string' ? wasm : wasm?.href;
+  const text = typeof wasm === 'string' ? wasm : wasm.href;
   try {
     if (text && typeof text === 'string') return new URL(text, globalThis.document?.baseURI ?? globalThis.location?.href);
   } catch {}  // it is relative to nothing
@@ -68,12 +68,14 @@ async function compileBytes(code) {
   }
 }
 
+export const isGiven = (wasm) => wasm !== undefined && wasm !== null;
+
 const compiled = {};  // each once
 export function compile(wasm, kind) {
   if (kindOf(wasm) === 'WebAssembly.Module') return wasm;
   const code = bytesOf(wasm);  // not all engines compile a DataView
   if (code) return compileBytes(code);
-  if ((wasm ?? undefined) !== undefined) return compileUrl(urlOf(wasm));
+  if (isGiven(wasm)) return compileUrl(urlOf(wasm));
   compiled[kind] ??= compileUrl(besideThisFile(kind)).catch((error) => {
     delete compiled[kind];
     throw error;
