@@ -42,7 +42,7 @@ Result<Following> follow(const FollowingArguments& a, Rig& rig) {
   following.count = rig.targets.size();
   if (!a.limits.empty()) {
     auto limits = Limits::parse(rig, a.limits);
-    if (!limits) return fail("--limits: " + limits.error().message + ".");
+    if (!limits) return fail("--limits: " + limits.error().message);
     following.limits = std::move(*limits);
   }
   std::vector<Follower> followers;

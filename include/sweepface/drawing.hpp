@@ -109,7 +109,8 @@ struct Built {
 /// Makes the model. Its source mesh is the surface's own grid: every curve cut into its edges.
 Result<Built> build(const Drawing& drawing);
 /// Gives a model the source mesh of another over the same wireframe, so that it answers in the
-/// order of the mesh which that one was converted from. Fails where the wireframes differ.
+/// order of the mesh which that one was converted from; what build() made a patch of, the faces on
+/// it become. Fails where the wireframes differ, and where nobody knows which faces those are.
 Result<void> adoptSource(Rig& rig, const Rig& like);
 
 /// The drawing of a model: every stored vector in the jet of a node, every target as an expression.

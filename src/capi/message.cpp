@@ -29,11 +29,6 @@ sweepface_status noSuch(const char* what, std::size_t index, std::size_t count) 
   return refuse("There is no ", what, " ", index, "; there are ", count, ", counted from 0.");
 }
 
-std::string sentence(std::string message) {
-  if (!message.empty() && message[0] >= 'a' && message[0] <= 'z') message[0] += 'A' - 'a';
-  return std::move(message) + ".";
-}
-
 sweepface_status statusOf(Result<void> result) {
   return result ? SWEEPFACE_OK : refuse(result.error().message);
 }

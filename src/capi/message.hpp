@@ -34,9 +34,6 @@ inline const char* calledOr(const char* name, const char* usual) {
   return name && *name ? name : usual;
 }
 
-/// Begun with a capital and ended with a period.
-std::string sentence(std::string message);
-
 /// The status of a result without a value.
 sweepface_status statusOf(Result<void> result);
 

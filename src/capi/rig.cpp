@@ -75,8 +75,8 @@ const char* sweepface_rig_target_name(const sweepface_rig* rig, uint32_t target)
 sweepface_status sweepface_rig_find_target(const sweepface_rig* rig, const char* name,
                                            uint32_t* target) {
   if (!rig || !name || !target) return refuse("Finding a target needs a rig, a name and a place.");
-  Result<Index> found = findTarget(*rig->rig, name, rig->shown);
-  if (!found) return refuse(sentence(std::move(found.error().message)));
+  const Result<Index> found = findTarget(*rig->rig, name, rig->shown);
+  if (!found) return refuse(found.error().message);
   *target = static_cast<uint32_t>(*found);
   return SWEEPFACE_OK;
 }

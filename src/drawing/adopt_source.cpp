@@ -1,6 +1,40 @@
+#include <algorithm>
+#include <utility>
+
 #include "sweepface/drawing.hpp"
 
+#include "rig/source_quads.hpp"
+
 namespace sweepface {
+namespace {
+
+// The number of a material's name, which is new if it has to be.
+Index numberOf(const std::string& name, Polygons& faces) {
+  const auto found = std::ranges::find(faces.materials, name);
+  const auto number = static_cast<Index>(found - faces.materials.begin());
+  if (found == faces.materials.end()) faces.materials.push_back(name);
+  return number;
+}
+
+// What a drawing makes a patch of, all of the source's faces on it are made of. `grid` is the
+// source that build() made: its faces are the quads of the patches.
+Result<void> takeMaterials(const Polygons& grid, const std::vector<Index>& faceOfQuad,
+                           Polygons& faces) {
+  if (grid.faceMaterial.empty()) return {};
+  if (faceOfQuad.empty())
+    return fail(
+        "The drawing names materials, and the file whose source is to be kept does not say which "
+        "of its faces lie on which patch; leave the materials out, or build without it.");
+  faces.faceMaterial.resize(faces.faceCount(), -1);
+  std::vector<Index> numbers;
+  for (const std::string& name : grid.materials) numbers.push_back(numberOf(name, faces));
+  for (std::size_t quad = 0; quad < faceOfQuad.size(); ++quad)
+    if (const Index material = grid.faceMaterial[quad]; material >= 0)
+      faces.faceMaterial[faceOfQuad[quad]] = numbers[material];
+  return {};
+}
+
+}  // namespace
 
 Result<void> adoptSource(Rig& rig, const Rig& like) {
   Wireframe own = rig.surface.wireframe(), other = like.surface.wireframe();
@@ -13,7 +47,10 @@ Result<void> adoptSource(Rig& rig, const Rig& like) {
     return fail(
         "The curves or patches are others than those of the file whose source is to be "
         "kept; build without it.");
-  rig.source = like.source;
+  SourceMesh source = like.source;
+  if (auto ok = takeMaterials(rig.source.polygons, faceOfQuads(like), source.polygons); !ok)
+    return ok;
+  rig.source = std::move(source);
   rig.scene = like.scene;
   for (Target& target : rig.targets) {
     const Index same = like.find(target.name);

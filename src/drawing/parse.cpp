@@ -204,8 +204,10 @@ class DrawingReader {
     const TextPlace at = in_.place();
     std::vector<double> u;
     in_.array("the spacing, two numbers,", [&] { u.push_back(in_.number("a number")); });
-    if (u.size() == 2 && u[0] > 0 && u[1] > u[0]) return {u[0], u[1]};
-    in_.refuse(at, "the spacing must be two numbers greater than 0, the smaller one first");
+    if (u.size() == 2 && u[0] > 0 && u[1] > u[0] && u[1] <= 1) return {u[0], u[1]};
+    in_.refuse(at,
+               "the spacing must be two shares of the way across, above 0 and at most 1, the "
+               "smaller one first");
     return {};
   }
 

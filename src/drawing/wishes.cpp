@@ -57,7 +57,7 @@ class WishGatherer {
   }
 
   Result<void> wishPoints(Index c) {
-    const auto line = polyline(c);
+    const auto line = polyline(c, fmt::format("curve '{}' is drawn by points", d_.curves[c].name));
     if (!line) return std::unexpected(line.error());
     const std::vector<double> at = parameters(*line, w_.arcs[c].edges);
     for (std::size_t k = 0; k < d_.curves[c].points.size(); ++k) {
@@ -68,17 +68,15 @@ class WishGatherer {
     return {};
   }
 
-  // The ends of a curve and the points between.
-  Result<std::vector<Vec3>> polyline(Index c) const {
+  // The ends of a curve and the points between; `why` their places are needed.
+  Result<std::vector<Vec3>> polyline(Index c, const std::string& why) const {
     std::vector<Vec3> line;
     const Drawing::Curve& curve = d_.curves[c];
     for (const Index node : {w_.arcs[c].from, w_.arcs[c].to}) {
       const Drawing::Node& end = d_.nodes[node];
       const auto at = woven_.placeOf(d_, node);
       if (!at)
-        return failAt(d_, end.place,
-                      fmt::format("node '{}' needs 'at', since curve '{}' is drawn by points",
-                                  end.name, curve.name));
+        return failAt(d_, end.place, fmt::format("node '{}' needs 'at', since {}", end.name, why));
       line.push_back(*at);
       if (line.size() == 1) line.insert(line.end(), curve.points.begin(), curve.points.end());
     }
@@ -130,7 +128,8 @@ class WishGatherer {
                                 control.beside, control.in));
     if (w_.arcs[c].collapsed)
       return refuse(fmt::format("curve '{}' is one point; nothing runs beside it", control.beside));
-    const auto line = polyline(c);
+    const auto line =
+        polyline(c, fmt::format("control curves stand beside curve '{}'", control.beside));
     if (!line) return std::unexpected(line.error());
     if (control.second.size() != line->size() || control.third.size() != line->size())
       return refuse(
@@ -152,7 +151,10 @@ class WishGatherer {
     for (const int s : {(way.side + 1) % 4, (way.side + 3) % 4}) {
       double length = 0;
       for (HalfArc h : w_.side(patch, s)) {
-        const auto side = polyline(arcOf(h));
+        const auto side = polyline(
+            arcOf(h),
+            fmt::format("the control curves beside '{}' have no 'spacing' and curve '{}' tells it",
+                        control.beside, d_.curves[arcOf(h)].name));
         if (!side) return std::unexpected(side.error());
         for (std::size_t k = 1; k < side->size(); ++k) length += norm((*side)[k] - (*side)[k - 1]);
       }

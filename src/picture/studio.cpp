@@ -85,6 +85,7 @@ class Photograph {
         camera_(camera),
         size_(size),
         lamps_(camera),
+        background_(toLight(scene_.background)),
         raster_(scene_, camera, size) {
     if (!studio.sky.empty())
       lamp_ = lampExposure(studio.obstacles, scene_.positions, scene_.normals, lamps_.key,
@@ -103,20 +104,37 @@ class Photograph {
   void develop(Index tile, Image& image) const {
     std::vector<Hit> hits;
     raster_.look(tile, hits);
-    const Light background = toLight(scene_.background);
     const Index left = raster_.tileX(tile), top = raster_.tileY(tile);
     for (Index y = top; y < std::min(top + kTile, size_.height); ++y)
       for (Index x = left; x < std::min(left + kTile, size_.width); ++x) {
         const Hit* const hit = &hits[((y - top) * kTile + x - left) * kSamples];
-        Light sum;
-        bool empty = true;
-        for (int s = 0; s < kSamples; ++s) {
-          const auto& [dx, dy] = kSamplePlaces[s];
-          sum += hit[s].triangle < 0 ? background : lightAt(hit[s].triangle, x + dx, y + dy);
-          empty = empty && hit[s].triangle < 0;
-        }
-        if (!empty) setPixel(image, x, y, toColour(sum * (1.0 / kSamples)));
+        const PixelHits seen(hit, kSamples);
+        if (!std::ranges::all_of(seen, [](const Hit& h) { return h.triangle < 0; }))
+          setPixel(image, x, y, toColour(lightOf(seen, x, y)));
       }
+  }
+
+  using PixelHits = std::span<const Hit, kSamples>;
+
+  /// The mean of what a pixel's samples see. A triangle is lit once, in the middle of those that
+  /// see it, as light changes little within a pixel; but stripes may end there.
+  Light lightOf(PixelHits hits, Index x, Index y) const {
+    const bool isStriped = scene_.finish == Finish::zebra;
+    Light sum;
+    std::array<bool, kSamples> isLit{};
+    for (int s = 0; s < kSamples; ++s) {
+      if (isLit[s]) continue;
+      const Index triangle = hits[s].triangle;
+      double dx = 0, dy = 0, count = 0;
+      for (int k = s; k < (isStriped ? s + 1 : kSamples); ++k) {
+        if (hits[k].triangle != triangle) continue;
+        dx += kSamplePlaces[k][0], dy += kSamplePlaces[k][1], ++count;
+        isLit[k] = true;
+      }
+      sum +=
+          count * (triangle < 0 ? background_ : lightAt(triangle, x + dx / count, y + dy / count));
+    }
+    return sum * (1.0 / kSamples);
   }
 
   static void setPixel(Image& image, Index x, Index y, const Colour& c) {
@@ -244,6 +262,7 @@ class Photograph {
   const Camera& camera_;
   PictureSize size_;
   Lamps lamps_;
+  Light background_;
   Raster raster_;
   std::vector<float> lamp_;  // [V]
 };

@@ -33,11 +33,11 @@ Result<Limits> Limits::parse(const Rig& rig, std::string_view text) {
     const bool all = equals == std::string_view::npos;
     const auto range = rangeOf(all ? item : item.substr(equals + 1));
     if (!range)
-      return fail("limits are like 0:1 or jawOpen=0:0.8, the lower one first, not '" +
-                  std::string(item) + "'");
+      return fail("Limits are like 0:1 or jawOpen=0:0.8, the lower one first, not '" +
+                  std::string(item) + "'.");
     if (all) {
       if (std::exchange(isTold.back(), 1))
-        return fail("limits for all are told twice; tell them once");
+        return fail("Limits for all are told twice; tell them once.");
       for (std::size_t k = 0; k < ranges.size(); ++k)
         if (!isTold[k]) ranges[k] = *range;
       continue;
@@ -45,8 +45,8 @@ Result<Limits> Limits::parse(const Rig& rig, std::string_view text) {
     const Result<Index> target = findTarget(rig, trimmed(item.substr(0, equals)));
     if (!target) return std::unexpected(target.error());
     if (std::exchange(isTold[*target], 1))
-      return fail("the limits of '" + rig.targets[*target].name +
-                  "' are told twice; tell them once");
+      return fail("The limits of '" + rig.targets[*target].name +
+                  "' are told twice; tell them once.");
     ranges[*target] = *range;
   }
   return Limits(std::move(ranges));

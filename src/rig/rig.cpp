@@ -31,13 +31,12 @@ Index Rig::find(std::string_view name) const {
 namespace {
 
 std::string listNames(const Rig& rig, std::size_t count) {
-  if (count == 0) return "this face has no targets";
+  if (count == 0) return "this face has no targets.";
   constexpr std::size_t most = 60;
   std::string list = "its targets are ";
   for (std::size_t k = 0; k < std::min(count, most); ++k)
     list += (k ? ", " : "") + rig.targets[k].name;
-  if (count > most) list += ", ...";
-  return list;
+  return list + (count > most ? ", ..." : ".");
 }
 
 }  // namespace
@@ -45,7 +44,7 @@ std::string listNames(const Rig& rig, std::size_t count) {
 Result<Index> findTarget(const Rig& rig, std::string_view name, std::size_t count) {
   const Index target = rig.find(name);
   if (target >= 0 && static_cast<std::size_t>(target) < count) return target;
-  return failCall("there is no target named '", name, "'; ", listNames(rig, count));
+  return failCall("There is no target named '", name, "'; ", listNames(rig, count));
 }
 
 Result<Index> findTarget(const Rig& rig, std::string_view name) {
@@ -63,14 +62,14 @@ Result<Weights> parseWeights(const Rig& rig, std::string_view text) {
     const Result<Index> target = findTarget(rig, name);
     if (!target) return std::unexpected(target.error());
     if (std::exchange(isTold[*target], 1))
-      return failCall("the weight of '", name, "' is told twice; tell it once");
+      return failCall("The weight of '", name, "' is told twice; tell it once.");
     double value = 1;
     if (equals != std::string_view::npos) {
       const std::string_view digits = trimmed(item.substr(equals + 1));
       const std::optional<double> number = numberOf(digits);
       if (!number || !isPlausibleWeight(*number))
-        return failCall("the weight of '", name, "' must be a number within ±1,000,000, not '",
-                        digits, "'");
+        return failCall("The weight of '", name, "' must be a number within ±1,000,000, not '",
+                        digits, "'.");
       value = *number;
     }
     weights[*target] = value;

@@ -72,6 +72,31 @@ TEST_F(Build, GivesBackWhatWireframeWrote) {
   }
 }
 
+TEST_F(Build, KeepsTheSourceAndItsMaterialsButForThoseThatTheTextChanged) {
+  convertRig();
+  ASSERT_EQ(run("wireframe face.sweep -o face.wire.json").code, 0);
+  ASSERT_EQ(run("build face.wire.json -o same.sweep --source face.sweep").code, 0);
+  const Rig before = face("face.sweep");
+  EXPECT_EQ(face("same.sweep").source.polygons.faceMaterial, before.source.polygons.faceMaterial);
+
+  Json drawing = Json::parse(contents(folder / "face.wire.json"));
+  Json& patch = drawing["patches"][0];
+  const std::string was = patch["material"];
+  patch["material"] = "paint";
+  folder.file("painted.wire.json", drawing.dump());
+  ASSERT_EQ(run("build painted.wire.json -o painted.sweep --source face.sweep").code, 0);
+  const Rig after = face("painted.sweep");
+  const auto facesOf = [](const Rig& rig, const std::string& material) {
+    const Polygons& faces = rig.source.polygons;
+    return std::ranges::count_if(faces.faceMaterial,
+                                 [&](Index m) { return m >= 0 && faces.materials[m] == material; });
+  };
+  const Index quads = after.surface.edgesU(0) * after.surface.edgesV(0);
+  EXPECT_EQ(facesOf(after, "paint"), quads);
+  EXPECT_EQ(facesOf(after, was), facesOf(before, was) - quads);
+  EXPECT_EQ(after.source.polygons.corners, before.source.polygons.corners);
+}
+
 // Names of materials are bytes in an OBJ file, but texts in a drawing.
 TEST_F(Build, ReadsWhateverWireframeWrote) {
   const std::string tooLong(5000, 'x');

@@ -143,7 +143,7 @@ TEST_F(HeadAndEyes, SayWhatIsMissing) {
   EXPECT_TRUE(fails("animate face.sweep --clip take.csv --head yes -o a.glb",
                     "--head: This must be on or off, not 'yes'.", 2));
   EXPECT_TRUE(fails("animate face.sweep --clip take.csv --eyes on -o a.glb", "no eyeballs"));
-  EXPECT_TRUE(fails("export face.sweep --limits 2 -o a.obj", "--limits: limits are like"));
+  EXPECT_TRUE(fails("export face.sweep --limits 2 -o a.obj", "--limits: Limits are like"));
 }
 
 TEST_F(HeadAndEyes, GlbsAreLimitedWhereTheyShowAnExpression) {

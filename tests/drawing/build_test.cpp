@@ -93,6 +93,16 @@ TEST(Controls, standOncePerCurveAndPatch) {
             std::string::npos);
 }
 
+TEST(Controls, haveSharesOfTheWayAcrossForSpacing) {
+  Json drawing = vase();
+  for (const Json& spacing : {Json{10, 25}, Json{0, 0.5}, Json{0.5, 0.2}, Json{0.5}}) {
+    drawing["controls"][0]["spacing"] = spacing;
+    EXPECT_NE(refusal(drawing).find("two shares of the way across, above 0 and at most 1"),
+              std::string::npos)
+        << refusal(drawing);
+  }
+}
+
 TEST(Controls, outOfOrderAreNamedAsWhatIsMissed) {
   Json drawing = vase();
   std::ranges::reverse(drawing["controls"][2]["second"]);
@@ -239,6 +249,21 @@ TEST(TNodes, chooseEdgesThatFitBothSides) {
   const Rig rig = made(withTNode());
   EXPECT_EQ(rig.surface.edgesU(0), rig.surface.edgesU(1) + rig.surface.edgesU(2));
   EXPECT_LT(norm(middleOf(rig, "de", 1) - Vec3{4.0 / 3, 4, 0}), 0.1);
+}
+
+TEST(TNodes, withoutAPlaceAskForTheSpacingOfControlsThatTheyShouldTell) {
+  Json drawing = withTNode();
+  drawing["patches"][1]["name"] = "left";
+  Json control{{"beside", "df"}, {"in", "left"}};
+  control["second"] = {{0.3, 4, 0.1}, {0.3, 8, 0.1}};
+  control["third"] = {{0.8, 4, 0.2}, {0.8, 8, 0.2}};
+  drawing["controls"] = Json::array({control});
+  EXPECT_NE(refusal(drawing).find("node 'e' needs 'at', since the control curves beside 'df' have "
+                                  "no 'spacing' and curve 'de' tells it"),
+            std::string::npos)
+      << refusal(drawing);
+  drawing["controls"][0]["spacing"] = {0.2, 0.6};
+  EXPECT_EQ(refusal(drawing), "");
 }
 
 TEST(TNodes, goWithWhicheverCurvesMove) {

@@ -78,6 +78,25 @@ TEST(Materials, areThoseOfTheFacesOnAPatch) {
   EXPECT_EQ(again->patches[2].material, "glass");
 }
 
+TEST(Materials, areGivenToTheFacesOfASourceOnlyWhereItSaysWhichLieOnAPatch) {
+  Json drawing = strip({{0, 0}, {1, 0}, {2, 0}, {3, 0}});
+  Rig like = made(drawing);
+  drawing["patches"][1]["material"] = "glass";
+  Rig rig = made(drawing);
+  ASSERT_TRUE(adoptSource(rig, like));
+  EXPECT_EQ(rig.source.polygons.materials, std::vector<std::string>{"glass"});
+  const Index third = rig.source.polygons.faceCount() / 3;
+  EXPECT_EQ(std::ranges::count(rig.source.polygons.faceMaterial, 0), third);
+  EXPECT_EQ(rig.source.polygons.faceMaterial[third], 0);
+
+  like.source.quadCorners.clear();
+  const SourceMesh before = rig.source;
+  const auto refused = adoptSource(rig, like);
+  ASSERT_FALSE(refused);
+  EXPECT_TRUE(refused.error().message.starts_with("The drawing names materials"));
+  EXPECT_EQ(rig.source.quadCorners, before.quadCorners);
+}
+
 TEST(Materials, areNoneWhereNobodyNamesOne) {
   EXPECT_TRUE(made(square()).source.polygons.faceMaterial.empty());
 }

@@ -40,13 +40,13 @@ TEST(Limits, OfOneTargetCountWhereverTheyAreTold) {
 TEST(Limits, AreToldOnce) {
   const auto limits = Limits::parse(makeRig(onePatch(1, 1)), "rest=0:1,rest=0:2");
   ASSERT_FALSE(limits);
-  EXPECT_EQ(limits.error().message, "the limits of 'rest' are told twice; tell them once");
+  EXPECT_EQ(limits.error().message, "The limits of 'rest' are told twice; tell them once.");
 }
 
 TEST(Limits, ForAllAreToldOnce) {
   const auto limits = Limits::parse(makeRig(onePatch(1, 1)), "0:1,rest=0:2,0:2");
   ASSERT_FALSE(limits);
-  EXPECT_EQ(limits.error().message, "limits for all are told twice; tell them once");
+  EXPECT_EQ(limits.error().message, "Limits for all are told twice; tell them once.");
 }
 
 TEST(Limits, AreListedAsWeightsAre) {

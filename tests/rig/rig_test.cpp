@@ -37,14 +37,14 @@ TEST(WeightText, takesTheLastEqualsSign) {
 
 TEST(WeightText, refusesWhatItDoesNotKnowAndSaysWhatThereIs) {
   EXPECT_EQ(refusal(named(), "jawopen=1"),
-            "there is no target named 'jawopen'; its targets are jawOpen, a=b, rest");
+            "There is no target named 'jawopen'; its targets are jawOpen, a=b, rest.");
   EXPECT_EQ(refusal(named(), "jawOpen=1, r est=1"),
-            "there is no target named 'r est'; its targets are jawOpen, a=b, rest");
+            "There is no target named 'r est'; its targets are jawOpen, a=b, rest.");
   EXPECT_EQ(refusal(named(), "jawOpen=1,rest,jawOpen=1"),
-            "the weight of 'jawOpen' is told twice; tell it once");
+            "The weight of 'jawOpen' is told twice; tell it once.");
   Rig none = named();
   none.targets.clear();
-  EXPECT_EQ(refusal(none, "x"), "there is no target named 'x'; this face has no targets");
+  EXPECT_EQ(refusal(none, "x"), "There is no target named 'x'; this face has no targets.");
   Rig many;
   many.targets.resize(61, {"t", {}, {}});
   const std::string list = refusal(many, "x");
@@ -55,8 +55,8 @@ TEST(WeightText, refusesWhatItDoesNotKnowAndSaysWhatThereIs) {
 TEST(WeightText, refusesWhatIsNoFiniteNumber) {
   for (const char* text : {"nan", "inf", "-inf", "1e999", "", "1x", "1 1", "0x1", "1.5.2"})
     EXPECT_EQ(refusal(named(), std::string("jawOpen=") + text),
-              std::string("the weight of 'jawOpen' must be a number within ±1,000,000, not '") +
-                  text + "'");
+              std::string("The weight of 'jawOpen' must be a number within ±1,000,000, not '") +
+                  text + "'.");
 }
 
 TEST(Rig, atRestAsksNothingOfTargets) {
