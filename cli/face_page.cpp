@@ -17,7 +17,10 @@ Result<void> FacePage::layOut(const Page::Plan& plan, PictureSize panel) {
   page_ = std::move(*page);
   const Surface& surface = what_.rig.surface;
   if (auto ok = checkFineness(surface, a.lod); !ok) return ok;
-  Index lod = a.lod > 0 ? a.lod : lodFor(surface, what_.style, page_->panel());
+  // What is close would be a part of a larger picture; finer than twice, shadows take too long.
+  const int scale = a.close.empty() ? 1 : 2;
+  const PictureSize whole{scale * page_->panel().width, scale * page_->panel().height};
+  Index lod = a.lod > 0 ? a.lod : lodFor(surface, what_.style, whole);
   while (lod > 1 && !checkFineness(surface, lod)) --lod;
   scenes_.emplace(what_.rig, lod);
   pictures_ = plan.columns * plan.rows;

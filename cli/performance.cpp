@@ -104,6 +104,8 @@ std::vector<std::string> notesOnStill(const PerformanceArguments& a, const Rig& 
     return std::ranges::all_of(ways, [](const Vec3& way) { return way == Vec3{}; });
   };
   std::vector<std::string> notes;
+  if (from && to && *from == *to)
+    notes.push_back("Nothing moves: --to is the expression that it starts from.");
   for (std::size_t k = 0; from && to && k < rig.targets.size(); ++k)
     if (const Target& target = rig.targets[k];
         (*from)[k] != (*to)[k] && isStill(target.difference) && isStill(target.looseDifference))

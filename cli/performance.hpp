@@ -52,7 +52,8 @@ struct Performance {
 Result<std::vector<Performance>> makePerformances(const PerformanceArguments& a, const Rig& rig,
                                                   std::span<const Region> regions);
 
-/// Sentences on targets that change their weight between the two expressions and yet move nothing.
+/// Sentences on what does not move: all of it where both expressions are the same, and targets that
+/// change their weight and yet move nothing.
 std::vector<std::string> notesOnStill(const PerformanceArguments& a, const Rig& rig);
 
 /// Velocities and accelerations by differences over a frame at 60 frames a second, of what plays

@@ -31,7 +31,8 @@ void addOptions(CLI::App& app, RenderArguments& a) {
       ->check(notEmpty())
       ->type_name("NAME");
   addFollowing(app, a.following);
-  addLod(app, a.lod, "Cut every edge of the source into N; by the size if not given");
+  addLod(app, a.lod,
+         "Cut every edge of the source into N; by the size if not given, and finer with --close");
   app.add_option(
          "--compare", a.compare,
          "Show the meshes that it was made from beside it: the neutral, then expressions or "

@@ -77,6 +77,9 @@ TEST_F(Animate, SaysWhichTargetsMoveNothing) {
     EXPECT_TRUE(run(command + " --to jawOpen=1,wink=1 --law newton")
                     .err.starts_with("sweepface: warning: wink moves nothing in this face"));
   }
+  for (const std::string still : {"--to ''", "--to jawOpen=0", "--from smile=1 --to smile"})
+    EXPECT_EQ(run("animate face.sweep -o move.glb " + still).err,
+              "sweepface: warning: Nothing moves: --to is the expression that it starts from.\n");
   EXPECT_FALSE(run("animate face.sweep -o move.glb --to wink=1 --law newton --combine")
                    .err.contains("moves nothing"))
       << "what is combined with it may";
