@@ -251,6 +251,12 @@ std::optional<Vec3> parsePoint(std::string_view text) {
   return Vec3{p[0], p[1], p[2]};
 }
 
+Result<Weights> weightsGiven(std::string_view option, std::string_view text, const Rig& rig) {
+  Result<Weights> weights = parseWeights(rig, text);
+  if (!weights) return fail(fmt::format("{}: {}", option, weights.error().message));
+  return weights;
+}
+
 bool isOfKind(const fs::path& path, std::string_view kind) { return extensionOf(path) == kind; }
 
 bool isGltf(const fs::path& path) { return isOfKind(path, ".glb") || isOfKind(path, ".gltf"); }

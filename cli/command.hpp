@@ -106,6 +106,9 @@ CLI::Option* oneEachTime(CLI::Option* option);
 /// "X,Y,Z": three finite numbers and nothing else.
 std::optional<Vec3> parsePoint(std::string_view text);
 
+/// The weights that an option tells; the error begins with its name.
+Result<Weights> weightsGiven(std::string_view option, std::string_view text, const Rig& rig);
+
 // ---- Files ----
 
 Result<Rig> readFace(const std::string& path);

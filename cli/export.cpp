@@ -112,7 +112,7 @@ Result<int> runExport(const ExportArguments& a) {
     return fail(a.face +
                 " has no source order, it was left out; leave --source-order out, or convert the "
                 "source again without --strip order.");
-  Result<Weights> weights = parseWeights(*rig, a.weights);
+  Result<Weights> weights = weightsGiven("--weights", a.weights, *rig);
   if (!weights) return std::unexpected(weights.error());
   if (auto ok = checkOutput(a.output, {a.face}, {".obj", ".glb"}, !a.quiet); !ok)
     return std::unexpected(ok.error());

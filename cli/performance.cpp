@@ -90,7 +90,8 @@ Result<Performance> between(const PerformanceArguments& a, const Weights& from, 
 }
 
 Result<Performance> byLaw(const PerformanceArguments& a, const Rig& rig, const Matter& matter) {
-  const Result<Weights> from = parseWeights(rig, a.from), to = parseWeights(rig, a.to.value_or(""));
+  const Result<Weights> from = weightsGiven("--from", a.from, rig),
+                        to = weightsGiven("--to", a.to.value_or(""), rig);
   if (!from) return std::unexpected(from.error());
   if (!to) return std::unexpected(to.error());
   return between(a, *from, *to, matter);
@@ -99,7 +100,8 @@ Result<Performance> byLaw(const PerformanceArguments& a, const Rig& rig, const M
 }  // namespace
 
 std::vector<std::string> notesOnStill(const PerformanceArguments& a, const Rig& rig) {
-  const Result<Weights> from = parseWeights(rig, a.from), to = parseWeights(rig, a.to.value_or(""));
+  const Result<Weights> from = weightsGiven("--from", a.from, rig),
+                        to = weightsGiven("--to", a.to.value_or(""), rig);
   const auto isStill = [](const std::vector<Vec3>& ways) {
     return std::ranges::all_of(ways, [](const Vec3& way) { return way == Vec3{}; });
   };

@@ -42,7 +42,12 @@ Result<Clip> readCapture(const PerformanceArguments& a, const std::string& text)
   return clip;
 }
 
-Result<RegionalClips> readClip(const PerformanceArguments& a, std::span<const Region> regions) {
+struct ReadClip {
+  RegionalClips clips;
+  bool isAuthored = false;  // by somebody who knows which targets are to move
+};
+
+Result<ReadClip> readClip(const PerformanceArguments& a, std::span<const Region> regions) {
   const Result<std::string> text = readFile(a.clip);
   if (!text) return std::unexpected(text.error());
   std::vector<std::string> names;
@@ -51,18 +56,24 @@ Result<RegionalClips> readClip(const PerformanceArguments& a, std::span<const Re
     names.push_back(region.name);
     matters.push_back(region.matter);
   }
-  const auto called = [&](Result<RegionalClips> clips) -> Result<RegionalClips> {
+  const auto called = [&](Result<RegionalClips> clips, bool isAuthored) -> Result<ReadClip> {
     if (!clips) return fail(fmt::format("{}: {}", a.clip, clips.error().message));
-    return clips;
+    return ReadClip{std::move(*clips), isAuthored};
   };
   if (isOfKind(a.clip, ".json") && isTimeline(*text)) {
     const auto timeline = readTimeline(a, *text);
     if (!timeline) return std::unexpected(timeline.error());
-    return called(inRegions(*timeline, names, matters));
+    return called(inRegions(*timeline, names, matters), true);
   }
   auto capture = readCapture(a, *text);
   if (!capture) return std::unexpected(capture.error());
-  return called(inRegions(std::move(*capture), matters, {a.frequency, a.damping}));
+  return called(inRegions(std::move(*capture), matters, {a.frequency, a.damping}), false);
+}
+
+std::string firstOf(std::span<const std::string> names) {
+  constexpr std::size_t most = 6;
+  if (names.size() <= most) return fmt::format("{}", fmt::join(names, ", "));
+  return fmt::format("{} and {} more", fmt::join(names.first(most), ", "), names.size() - most);
 }
 
 std::vector<std::string> notesOn(const ClipMatch& match, const Clip& clip,
@@ -72,10 +83,7 @@ std::vector<std::string> notesOn(const ClipMatch& match, const Clip& clip,
   std::erase_if(idle, ClipAngles::tells);
   if (!idle.empty())
     notes.push_back(fmt::format("{}: {} of {} names drive no target of the face: {}.", file,
-                                idle.size(), clip.names.size(), fmt::join(idle, ", ")));
-  if (!match.undriven.empty())
-    notes.push_back(
-        fmt::format("{}: nothing drives the targets {}.", file, fmt::join(match.undriven, ", ")));
+                                idle.size(), clip.names.size(), firstOf(idle)));
   std::map<Index, std::vector<std::string>> drivers;
   for (std::size_t k = 0; k < clip.names.size(); ++k)
     for (const Index target : match.targets[k]) drivers[target].push_back(clip.names[k]);
@@ -90,23 +98,28 @@ std::vector<std::string> notesOn(const ClipMatch& match, const Clip& clip,
 
 Result<std::vector<Performance>> byClip(const PerformanceArguments& a, const Rig& rig,
                                         std::span<const Region> regions) {
-  Result<RegionalClips> clips = readClip(a, regions);
-  if (!clips) return std::unexpected(clips.error());
+  Result<ReadClip> read = readClip(a, regions);
+  if (!read) return std::unexpected(read.error());
+  RegionalClips* const clips = &read->clips;
   const auto whole = std::make_shared<const Clip>(std::move(clips->whole));
   std::vector<std::string> targets;
   for (const Target& target : rig.targets) targets.push_back(target.name);
   const ClipMatch match = matchClip(*whole, targets);
   if (!movesAnything(*whole, match))
     return fail(
-        fmt::format("{}: none of its {} names is a target of the face; `sweepface info` "
+        fmt::format("{}: none of its {} names is a target of the face: {}; `sweepface info` "
                     "lists the targets.",
-                    a.clip, whole->names.size()));
+                    a.clip, whole->names.size(), firstOf(whole->names)));
   Performance shared;
   shared.name = std::filesystem::path(a.clip).stem().string();
   shared.called = a.clip;
   shared.frameMiss = clips->missed;
   shared.notes = whole->warnings;
   std::ranges::move(notesOn(match, *whole, targets, a.clip), std::back_inserter(shared.notes));
+  if (!read->isAuthored && !match.undriven.empty())
+    shared.notes.push_back(fmt::format("{}: nothing drives {} of {} targets: {}.", a.clip,
+                                       match.undriven.size(), targets.size(),
+                                       firstOf(match.undriven)));
   const ClipAngles angles(*whole);
   shared.hasHead = angles.head(), shared.turnsHead = angles.turnsHead();
   shared.hasEyes = angles.eyes();

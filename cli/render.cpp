@@ -100,8 +100,9 @@ Result<int> runRender(const RenderArguments& a) {
   Result<Rig> rig = readFace(a.face);
   if (!rig) return std::unexpected(rig.error());
   // Before there are targets beside the face's own.
-  Result<Weights> weights = parseWeights(*rig, a.to ? *a.to : a.weights),
-                  from = parseWeights(*rig, a.from);
+  Result<Weights> weights = a.to ? weightsGiven("--to", *a.to, *rig)
+                                 : weightsGiven("--weights", a.weights, *rig),
+                  from = weightsGiven("--from", a.from, *rig);
   if (!weights || !from) return std::unexpected((weights ? from : weights).error());
   const Result<Following> following = follow(a.following, *rig);
   if (!following) return std::unexpected(following.error());

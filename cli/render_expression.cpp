@@ -49,6 +49,9 @@ class ExpressionPage {
 
   /// What arcs and the like change of the plain blend.
   Result<Image> besideStraight(const Weights& plain, const Weights& weights) {
+    const FollowingArguments& following = what_.arguments.following;
+    const bool followsArcsOnly =
+        following.arcs == "on" && following.eyes != "on" && !following.combine;
     const Tessellation grid(what_.rig.surface, 1);
     const auto places = [&](const Weights& w) {
       return sourcePositions(what_.rig, grid, blend(what_.rig, w), w);
@@ -56,7 +59,7 @@ class ExpressionPage {
     PolygonMesh rest;
     rest.positions = places({});
     return beside({"straight", places(plain), diagonal(rest)},
-                  what_.arguments.following.arcs == "on" ? "on arcs" : "followed", weights);
+                  followsArcsOnly ? "on arcs" : "followed", weights);
   }
 
  private:

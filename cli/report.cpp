@@ -68,7 +68,7 @@ Result<ReportOptions> optionsOf(const ReportArguments& a, const Rig& rig, std::s
   options.name = std::filesystem::path(a.face).filename().string();
   options.bytes = bytes;
   if (!a.weights.empty()) {
-    const Result<Weights> weights = parseWeights(rig, a.weights);
+    const Result<Weights> weights = weightsGiven("--weights", a.weights, rig);
     if (!weights) return std::unexpected(weights.error());
     options.expression = *weights;
   }

@@ -71,7 +71,7 @@ Result<int> writeDrawing(const WireframeArguments& a, const Rig& rig) {
 Result<int> runWireframe(const WireframeArguments& a) {
   const Result<Rig> rig = readFace(a.face);
   if (!rig) return std::unexpected(rig.error());
-  const Result<Weights> weights = parseWeights(*rig, a.weights);
+  const Result<Weights> weights = weightsGiven("--weights", a.weights, *rig);
   if (!weights) return std::unexpected(weights.error());
   if (auto ok = checkOutput(a.output, {a.face}, {".obj", ".json"}, !a.quiet); !ok)
     return std::unexpected(ok.error());

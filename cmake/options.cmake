@@ -2,6 +2,7 @@
 add_library(sweepface_options INTERFACE)
 target_compile_options(sweepface_options INTERFACE
   -Wall -Wextra -Wpedantic -Wconversion -Wno-sign-conversion -Wshadow
+  -fno-fast-math     # not even where flags of a project around this one ask for it: NaNs are refused
   -ffp-contract=off  # the same bytes with every compiler
   -fno-math-errno)   # a square root is one instruction
 if(SWEEPFACE_WARNINGS_AS_ERRORS)

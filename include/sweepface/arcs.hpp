@@ -9,9 +9,9 @@
 namespace sweepface {
 
 /// The turns of those targets that are turns, from the model alone (docs/arcs.md). Of the library
-/// that converts.
+/// that converts; none while targets are not decoded.
 std::vector<Turn> findTurns(const Rig& rig);
-/// Those that the rig knows, or else those that are found.
+/// Those that the rig knows, or else those that are found. Of the same library.
 std::vector<Turn> turnsOf(const Rig& rig);
 
 /// Where a point is half-way on the arc from `from` to `to`, minus where it is half-way on the

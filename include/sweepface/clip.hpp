@@ -56,15 +56,19 @@ struct ClipMatch {
 };
 ClipMatch matchClip(const Clip& clip, std::span<const std::string> targets);
 
+// ---- Of the library that converts ----
+
 /// A capture of the Live Link Face app: a CSV with a timecode, a count and a column a shape, found
-/// by their headings. `framesPerSecond` is what its timecodes count in; 0: 60, or 24, 25, 30, 48 or
-/// 50 where the frames of whole seconds say so. Of rows at the same time the last one counts.
+/// by their headings. `framesPerSecond` is what its timecodes count in, at 29.97 as at 30; 0: 60,
+/// or 24, 25, 30, 48 or 50 where the frames of whole seconds say so. Of rows at the same time the
+/// last one counts.
 Result<Clip> parseLiveLinkCsv(std::string_view text, std::string_view name,
                               double framesPerSecond = 0);
 
 /// The same from a clip: first the 52 shapes of ARKit and nine angles, as the app has them, then
 /// whatever else the clip names. Shapes go by matchClip(), what drives none is 0. Refuses times
-/// that are not from 0 up to a day, or nearer to each other than a timecode tells apart.
+/// that are not from 0 up to a day, or nearer to each other than a timecode tells apart, and
+/// weights beyond ±1,000,000.
 Result<std::string> formatLiveLinkCsv(const Clip& clip, double framesPerSecond = 60);
 
 /// A JSON of Audio2Face (`exportFps`, `facsNames`, `weightMat`) or of MediaPipe's face landmarker

@@ -50,7 +50,7 @@ class TargetsToCome {
 };
 
 /// A rig that can show its neutral only: its targets have names, and empty differences until they
-/// are decoded.
+/// are decoded. Until then they move nothing.
 struct NeutralFirst {
   Rig rig;
   TargetsToCome targets;

@@ -113,8 +113,8 @@ Result<Built> build(const Drawing& drawing);
 /// it become. Fails where the wireframes differ, and where nobody knows which faces those are.
 Result<void> adoptSource(Rig& rig, const Rig& like);
 
-/// The drawing of a model: every stored vector in the jet of a node, every target as an expression.
-/// build() makes the same model of it.
+/// The drawing of a model: every stored vector in the jet of a node, every target that is decoded
+/// as an expression. build() makes the same model of it.
 Drawing draw(const Rig& rig);
 
 }  // namespace sweepface

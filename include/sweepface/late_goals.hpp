@@ -19,6 +19,7 @@ class LateGoals {
     Drive drive;
   };
 
+  /// Where the delay, ≥ 0 s, is 0 no goal waits: none may be added.
   LateGoals(std::size_t weights, double delay);
 
   /// Not before the last.

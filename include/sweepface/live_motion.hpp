@@ -23,7 +23,7 @@ struct Drive {
   Kind kind = Kind::spring;
   double seconds = 0.3;      ///< until it arrives: newton, linearForce, accelerateBrake, bounce
   double turn = 0.5;         ///< accelerateBrake: when the second force takes over, as a fraction
-  Spring spring;             ///< spring
+  Spring spring{};           ///< spring
   double restitution = 0.4;  ///< bounce
   double delay = 0;          ///< seconds before it sets out
 };

@@ -21,7 +21,8 @@ struct Axis {
   bool logarithmic = false;  ///< what is not positive is left out then
 };
 
-/// Curves over a common axis; empty where there is nothing to show.
+/// Curves over a common axis, without points that are not finite; empty where there is nothing to
+/// show.
 std::string linePlot(const std::string& title, const Axis& x, const Axis& y,
                      std::vector<Series> series);
 

@@ -27,10 +27,11 @@ struct Timeline {
   std::vector<TimelineEvent> events;
 };
 
-/// Whether a JSON text is of a timeline, not of a capture: an object that has "events".
+/// Whether a JSON text is of a timeline, not of a capture: an object that has "events". Of the
+/// library that converts.
 bool isTimeline(std::string_view text);
 
-/// A timeline in its JSON form (docs/clips.md).
+/// A timeline in its JSON form (docs/clips.md). Of the same library.
 Result<Timeline> parseTimeline(std::string_view text, std::string_view name);
 
 /// Fails where an event is for a region that is not among these.

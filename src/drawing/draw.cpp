@@ -39,7 +39,8 @@ class Drawer {
       drawing_.ribbons.push_back({rig_.nameOf(Thing::ribbon, r), w_.ribbons[r], {}});
     for (Index a = 0; a < static_cast<Index>(w_.arcs.size()); ++a)
       if (w_.arcs[a].crease) drawing_.creases.push_back({rig_.nameOf(Thing::curve, a), {}});
-    for (const Target& target : rig_.targets) drawExpression(target);
+    for (const Target& target : rig_.targets)
+      if (rig_.knows(target)) drawExpression(target);
     return std::move(drawing_);
   }
 

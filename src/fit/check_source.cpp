@@ -11,6 +11,7 @@
 #include "codec/limits.hpp"
 #include "codec/utf8.hpp"
 #include "io/text.hpp"
+#include "mesh/check_indices.hpp"
 
 namespace sweepface {
 
@@ -68,6 +69,11 @@ Result<void> checkPrecision(const MeshRig& source, double tolerance) {
   return {};
 }
 
+Result<void> checkFromZero(double value, std::string_view what) {
+  if (value >= 0 && std::isfinite(value)) return {};
+  return fail(fmt::format("{} is a number from 0, not {}", what, value));
+}
+
 Result<void> checkTextureBits(int bits) {
   if (bits >= 8 && bits <= 16) return {};
   return fail("packed texture coordinates have 8 to 16 bits, not ", bits);
@@ -108,6 +114,9 @@ Result<void> checkDifferences(const MeshRig& source) {
 Result<void> checkSource(const MeshRig& source) {
   if (source.neutral.positions.empty())
     return fail("the neutral has no vertices; there is no surface to fit");
+  if (auto ok = checkIndices(source); !ok) return ok;
+  if (!std::ranges::all_of(source.neutral.positions, [](const Vec3& p) { return io::isUsable(p); }))
+    return fail("a vertex of the neutral is no place that a file could hold; scale the mesh down");
   if (auto ok = checkNames(source.targets); !ok) return ok;
   if (auto ok = checkDifferences(source); !ok) return ok;
   if (!(diagonal(source.neutral) > 0))

@@ -18,6 +18,9 @@ Reach reachOf(const PolygonMesh& mesh);
 /// Fails where single precision tells places or ways less finely than the tolerance.
 Result<void> checkPrecision(const MeshRig& source, double tolerance);
 
+/// Fails where an option, which messages call `what`, is no number from 0.
+Result<void> checkFromZero(double value, std::string_view what);
+
 /// Fails where texture coordinates cannot be packed to so many bits.
 Result<void> checkTextureBits(int bits);
 

@@ -79,7 +79,7 @@ class Converter {
 
   Result<Conversion> run() {
     if (auto ok = checkSource(source_); !ok) return std::unexpected(ok.error());
-    if (auto ok = checkTextureBits(options_.textureBits); !ok) return std::unexpected(ok.error());
+    if (auto ok = checkOptions(); !ok) return std::unexpected(ok.error());
     const double size = diagonal(source_.neutral);
     tolerance_ = options_.tolerance > 0 ? options_.tolerance : kDefaultTolerance * size;
     if (auto ok = checkTolerance(tolerance_, size); !ok) return std::unexpected(ok.error());
@@ -111,6 +111,14 @@ class Converter {
   }
 
  private:
+  Result<void> checkOptions() const {
+    for (const auto& [value, what] : {std::pair(options_.tolerance, "the tolerance"),
+                                      {options_.normalLimit, "the limit on normals"},
+                                      {options_.normalTolerance, "the tolerance for normals"}})
+      if (auto ok = checkFromZero(value, what); !ok) return ok;
+    return checkTextureBits(options_.textureBits);
+  }
+
   // Sets normalRms_ where there is a tolerance for normals.
   Result<Conversion> convertWithin(const GridMesh& mesh, const NormalTry& normals) {
     auto found = fits_.find(normals.limit);

@@ -118,6 +118,8 @@ class Meter {
 
 Result<std::vector<std::pair<Weights, const std::vector<Vec3>*>>> matchShapes(
     const Rig& rig, const MeshRig& source) {
+  if (!rig.knowsTargets())
+    return fail("the targets of the face are not decoded yet; decode them before it is measured");
   const std::size_t vertices = rig.source.gridVertex.size();
   if (source.neutral.positions.size() != vertices)
     return fail("the neutral has " + std::to_string(source.neutral.positions.size()) +
@@ -130,6 +132,9 @@ Result<std::vector<std::pair<Weights, const std::vector<Vec3>*>>> matchShapes(
     if (k < 0)
       return fail("the model has no target named '" + t.name +
                   "'; give the targets it was converted from");
+    if (t.positions.size() != vertices)
+      return fail("the target '" + t.name + "' has " + std::to_string(t.positions.size()) +
+                  " vertices, and the neutral " + std::to_string(vertices));
     shapes.emplace_back(rig.weightsOf(k + 1), &t.positions);
   }
   return shapes;

@@ -44,6 +44,8 @@ Result<double> pack(Rig& rig, const PackOptions& options) {
                           : before > 0            ? before
                                                   : ConvertOptions{}.textureBits;
   if (auto ok = checkTextureBits(textureBits); !ok) return std::unexpected(ok.error());
+  if (auto ok = checkFromZero(options.tolerance, "the tolerance"); !ok)
+    return std::unexpected(ok.error());
   std::mutex telling;
   const auto proceed = [&](double done) {
     const std::scoped_lock lock(telling);

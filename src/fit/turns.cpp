@@ -190,6 +190,7 @@ class TurnFinder {
 }  // namespace
 
 std::vector<Turn> findTurns(const Rig& rig) {
+  if (!rig.knowsTargets()) return {};
   const TurnFinder finder(rig);
   std::vector<Turn> turns;
   for (Index k = 0; k < static_cast<Index>(rig.targets.size()); ++k)

@@ -7,6 +7,7 @@
 #include "gltf/binary.hpp"
 #include "gltf/fine_mesh.hpp"
 #include "gltf/quantize.hpp"
+#include "mesh/check_indices.hpp"
 #include "mesh/grid_source.hpp"
 #include "rig/source_quads.hpp"
 
@@ -24,6 +25,8 @@ Result<void> check(const Clip& clip) {
 }
 
 Result<void> check(const Rig& rig, const GlbOptions& options) {
+  if (!rig.knowsTargets())
+    return fail("The targets of the face are not decoded yet; decode them before it is written.");
   const std::size_t targets = rig.targets.size();
   const auto differ = [&](std::string_view what, std::size_t count) {
     return fail(
@@ -172,6 +175,8 @@ void takeFacesOfSurface(Rig& rig) {
 }  // namespace gltf
 
 Result<std::string> formatGlb(const MeshRig& meshes) {
+  if (auto ok = checkIndices(meshes); !ok)
+    return fail("The meshes are at odds: " + ok.error().message + ".");
   const Rig rig = gltf::looseRig(meshes);
   const GlbOptions options;
   return gltf::GlbWriter(rig, options).write();

@@ -9,6 +9,7 @@
 #include "sweepface/clip.hpp"
 #include "sweepface/weights.hpp"
 
+#include "io/frame_clock.hpp"
 #include "io/text.hpp"
 
 namespace sweepface {
@@ -16,16 +17,26 @@ namespace {
 
 using io::inQuotes, io::sameLetters, io::toNumber, io::trimmed;
 
+/// Where the quotes that a cell begins with close again: two together are one of the text.
+std::size_t closingQuote(std::string_view cell) {
+  std::size_t at = cell.find('"', 1);
+  while (at != std::string_view::npos && cell.substr(at + 1).starts_with('"'))
+    at = cell.find('"', at + 2);
+  return at;
+}
+
 /// Cells between commas, without blanks and quotes around them.
 std::vector<std::string_view> cells(std::string_view line) {
+  constexpr auto none = std::string_view::npos;
   std::vector<std::string_view> found;
   while (true) {
-    const std::size_t comma = line.find(',');
+    line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
+    const std::size_t close = line.starts_with('"') ? closingQuote(line) : none;
+    const std::size_t comma = line.find(',', close == none ? 0 : close);
     std::string_view cell = trimmed(line.substr(0, comma));
-    if (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"')
-      cell = trimmed(cell.substr(1, cell.size() - 2));
+    if (close != none && cell.size() == close + 1) cell = trimmed(cell.substr(1, close - 1));
     found.push_back(cell);
-    if (comma == std::string_view::npos) return found;
+    if (comma == none) return found;
     line.remove_prefix(comma + 1);
   }
 }
@@ -35,7 +46,7 @@ struct RowTime {
   std::string_view text;
   std::size_t line = 0;
   double seconds = 0, frames = 0;
-  bool isClock = false;
+  bool isClock = false, dropsFrames = false;
 };
 
 constexpr double kUsualRate = 60;
@@ -136,17 +147,20 @@ class LiveLinkReader {
     const Result<RowTime> time = timecode(row[timeColumn_]);
     if (!time) return std::unexpected(time.error());
     timecodes_.push_back(*time);
-    for (const std::size_t c : shapeColumns_) {
-      const auto value = toNumber<double>(row[c]);
+    for (std::size_t k = 0; k < shapeColumns_.size(); ++k) {
+      const std::string_view cell = row[shapeColumns_[k]];
+      const auto value = toNumber<double>(cell);
       if (!value || !isPlausibleWeight(*value))
-        return failLine(fmt::format("{} in column {} is not a number within ±1,000,000",
-                                    inQuotes(row[c]), c + 1));
+        return failLine(
+            fmt::format("{} in column {}, {}, is not a number within ±1,000,000; take "
+                        "the column out if it is no shape",
+                        inQuotes(cell), shapeColumns_[k] + 1, inQuotes(clip_.names[k])));
       clip_.weights.push_back(*value);
     }
     return {};
   }
 
-  // HH:MM:SS:FF.fff, the last in frames, after ';' in some; or plain seconds.
+  // HH:MM:SS:FF.fff, the last in frames, after ';' where some are dropped; or plain seconds.
   Result<RowTime> timecode(std::string_view text) const {
     if (const auto seconds = toNumber<double>(text); seconds && isPlausibleTime(*seconds)) {
       if (*seconds < 0) return failLine(fmt::format("the time {} is below 0", inQuotes(text)));
@@ -154,6 +168,7 @@ class LiveLinkReader {
     }
     std::array<double, 4> parts{};
     std::string_view rest = text;
+    bool dropsFrames = false;
     for (std::size_t k = 0; k < 4; ++k) {
       const std::size_t end = k < 2    ? rest.find(':')
                               : k == 2 ? rest.find_first_of(":;")
@@ -163,13 +178,14 @@ class LiveLinkReader {
       if (!part || !(*part >= 0) || *part > 1e6)
         return failLine(fmt::format("{} is not a timecode like 12:59:59:23.500", inQuotes(text)));
       parts[k] = *part;
+      if (k == 2) dropsFrames = rest[end] == ';';
       if (k < 3) rest.remove_prefix(end + 1);
     }
     if (parts[1] >= 60 || parts[2] >= 60)
       return failLine(
           fmt::format("the timecode {} has more than 59 minutes or seconds", inQuotes(text)));
     return RowTime{text, lines_.number(), (parts[0] * 60 + parts[1]) * 60 + parts[2], parts[3],
-                   true};
+                   true, dropsFrames};
   }
 
   /// Of rows at the same time the last one stays.
@@ -197,15 +213,16 @@ class LiveLinkReader {
   }
   /// At midnight the clock begins anew.
   Result<double> timeOf(const RowTime& at) {
-    if (at.frames >= framesPerSecond_)
+    const io::FrameClock clock(framesPerSecond_, at.dropsFrames);
+    if (at.frames >= clock.counted())
       return failAt(at.line, fmt::format("the timecode {} counts more than {} frames a second; "
-                                         "give the recording's own rate, a whole number",
-                                         inQuotes(at.text), framesPerSecond_));
-    constexpr double kDay = 86400;
-    double time = at.seconds + at.frames / framesPerSecond_;
+                                         "give the recording's own rate",
+                                         inQuotes(at.text), clock.counted()));
+    double time = at.isClock ? clock.timeOf(at.seconds, at.frames) : at.seconds;
     const bool isFirst = clip_.times.empty();
-    if (at.isClock && !isFirst && time + midnights_ < clip_.times.back() - kDay / 2)
-      midnights_ += kDay;
+    const double day = clock.timeOf(86400, 0);
+    if (at.isClock && !isFirst && time + midnights_ < clip_.times.back() - day / 2)
+      midnights_ += day;
     if (at.isClock) time += midnights_;
     if (!isFirst && time < clip_.times.back())
       return failAt(at.line,

@@ -5,7 +5,9 @@
 #include <set>
 
 #include "sweepface/clip.hpp"
+#include "sweepface/weights.hpp"
 
+#include "io/frame_clock.hpp"
 #include "io/text.hpp"
 
 namespace sweepface {
@@ -109,10 +111,10 @@ std::vector<Column> columnsOf(const Clip& clip) {
 struct Timecode {
   double seconds, frames;
 
-  Timecode(double time, double framesPerSecond)
-      : seconds(std::floor(time)),
-        frames(std::round((time - seconds) * framesPerSecond * 1000) / 1000) {
-    if (frames >= framesPerSecond) ++seconds, frames = 0;
+  Timecode(double time, const io::FrameClock& clock)
+      : seconds(std::floor(clock.secondsAt(time))),
+        frames(std::round((clock.secondsAt(time) - seconds) * clock.counted() * 1000) / 1000) {
+    if (frames >= clock.counted()) ++seconds, frames = 0;
   }
   bool isAfter(const Timecode& other) const {
     return seconds != other.seconds ? seconds > other.seconds : frames > other.frames;
@@ -127,7 +129,8 @@ struct Timecode {
 Result<void> check(const Clip& clip, const std::vector<Column>& columns, double framesPerSecond) {
   if (auto ok = io::checkFrameRate(framesPerSecond); !ok) return ok;
   if (clip.times.empty()) return fail("The clip has no frames.");
-  if (!(clip.times.front() >= 0 && Timecode(clip.times.back(), framesPerSecond).seconds < 86400))
+  if (!(clip.times.front() >= 0 &&
+        Timecode(clip.times.back(), io::FrameClock(framesPerSecond)).seconds < 86400))
     return fail("The times of a recording lie from 0 to below a day; cut the clip.");
   std::set<std::string> headings;
   for (const Column& column : columns) {
@@ -151,11 +154,12 @@ Result<void> check(const Clip& clip, const std::vector<Column>& columns, double 
 Result<std::string> formatLiveLinkCsv(const Clip& clip, double framesPerSecond) {
   const std::vector<Column> columns = columnsOf(clip);
   if (auto ok = check(clip, columns, framesPerSecond); !ok) return std::unexpected(ok.error());
+  const io::FrameClock clock(framesPerSecond);
   std::string text = "Timecode,BlendShapeCount";
   for (const Column& column : columns) text += "," + column.heading;
   for (std::size_t f = 0; f < clip.times.size(); ++f) {
-    const Timecode time(clip.times[f], framesPerSecond);
-    if (f > 0 && !time.isAfter({clip.times[f - 1], framesPerSecond}))
+    const Timecode time(clip.times[f], clock);
+    if (f > 0 && !time.isAfter({clip.times[f - 1], clock}))
       return fail(
           fmt::format("Frames {} and {} of the clip are too near to each other for a "
                       "timecode at {:.6g} frames a second; ask for fewer, or for another rate.",
@@ -165,6 +169,11 @@ Result<std::string> formatLiveLinkCsv(const Clip& clip, double framesPerSecond) 
       double value = column.sources.empty() ? 0 : -HUGE_VAL;
       for (const std::size_t k : column.sources)
         value = std::max(value, clip.weights[f * clip.names.size() + k]);
+      if (!isPlausibleWeight(value))
+        return fail(
+            fmt::format("Frame {} of the clip gives '{}' the weight {:.6g}, which is no "
+                        "number within ±1,000,000.",
+                        f, column.heading, value));
       text += fmt::format(",{}", value == 0 ? 0.0 : value);
     }
   }

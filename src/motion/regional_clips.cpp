@@ -9,6 +9,7 @@ namespace {
 
 /// Whether as many regions as there are can each have a clip like this.
 Result<void> checkRoom(const Clip& clip, std::size_t regions) {
+  if (regions == 0) return fail("it needs a region to be played in.");
   if (clip.weights.size() <= kMostClipWeights / regions) return {};
   return fail("it is too long for ", regions, " regions; cut it, or play it with fewer.");
 }
@@ -27,6 +28,8 @@ Result<RegionalClips> inRegions(Clip capture, std::span<const Matter> matters, c
 Result<RegionalClips> inRegions(const Timeline& timeline, std::span<const std::string> names,
                                 std::span<const Matter> matters) {
   if (auto ok = checkRegions(timeline, names); !ok) return std::unexpected(ok.error());
+  if (matters.empty() || names.size() != matters.size())
+    return fail("it needs a region to be played in, with a name and a matter each.");
   double end = 0;
   for (std::size_t r = 0; r < matters.size(); ++r)
     end = std::max(end, endIn(timeline, names[r], matters[r]));

@@ -18,10 +18,12 @@ Result<PictureBox> parseBox(std::string_view text) {
             (last ? stop == end : stop != end && *stop == ',');
     at = sound && !last ? stop + 1 : stop;
   }
-  if (sound && values[2] > 0 && values[3] > 0)
+  constexpr double kAll = 1 + 1e-9;  // sums of decimals are rounded
+  if (sound && values[2] > 0 && values[3] > 0 && values[0] + values[2] <= kAll &&
+      values[1] + values[3] <= kAll)
     return PictureBox{values[0], values[1], values[2], values[3]};
   return fail(fmt::format(
-      "'{}' is no box; give X,Y,WIDTH,HEIGHT as shares of the picture from 0 to 1.", text));
+      "'{}' is no box in the picture; give X,Y,WIDTH,HEIGHT as shares of it from 0 to 1.", text));
 }
 
 PictureBox boxAround(std::span<const Vec3> points, const Camera& camera, PictureSize size) {

@@ -23,12 +23,12 @@ Index footHeight(PictureSize panel) {
   return static_cast<Index>(std::lround(4.4 * textHeight(panel)));
 }
 
-/// Draws a text as high as it may be without being too wide.
+/// Draws a text as high as it may be without being too wide, if anybody can read it then.
 void drawFitting(Image& image, std::string_view text, double x, double y, double height,
                  double width) {
-  const double needed = textWidth(text, height);
-  drawText(image, text, x, y, needed > width ? height * width / needed : height, kInk,
-           Align::centre);
+  constexpr double kReadable = 5;  // pixels
+  const double fitting = std::min(height, height * width / std::max(textWidth(text, height), 1.0));
+  if (fitting >= kReadable) drawText(image, text, x, y, fitting, kInk, Align::centre);
 }
 
 }  // namespace
@@ -40,6 +40,8 @@ PictureSize Page::sizeFor(PictureSize panel, const Plan& plan) {
 
 Result<Page> Page::make(PictureSize size, const Plan& plan) {
   if (auto ok = checkSize(size); !ok) return std::unexpected(ok.error());
+  if (plan.columns < 1 || plan.rows < 1)
+    return fail("A page has at least one column and one row of pictures.");
   // The text's size follows the pictures', which have what the text leaves.
   PictureSize panel{size.width / plan.columns, size.height / plan.rows};
   while (panel.height > 0 && sizeFor(panel, plan).height > size.height) --panel.height;

@@ -18,6 +18,10 @@ namespace sweepface {
 
 Result<std::string> encodePng(const Image& image) {
   if (auto ok = checkSize({image.width, image.height}); !ok) return std::unexpected(ok.error());
+  if (image.rgb.size() != 3 * static_cast<std::size_t>(image.width) * image.height)
+    return fail(std::to_string(image.width) + " × " + std::to_string(image.height) +
+                " pixels need three bytes each; the picture has " +
+                std::to_string(image.rgb.size()) + ".");
   // Looks further for repetitions than it would by itself. Set once: threads may write together.
   [[maybe_unused]] static const int level = stbi_write_png_compression_level = 24;
   int size = 0;

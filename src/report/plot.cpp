@@ -68,7 +68,8 @@ std::string linePlot(const std::string& title, const Axis& x, const Axis& y,
                      std::vector<Series> series) {
   for (Series& s : series)
     std::erase_if(s.points, [&](const Vec2& p) {
-      return (x.logarithmic && !(p.x > 0)) || (y.logarithmic && !(p.y > 0));
+      return !std::isfinite(p.x) || !std::isfinite(p.y) || (x.logarithmic && !(p.x > 0)) ||
+             (y.logarithmic && !(p.y > 0));
     });
   if (std::ranges::all_of(series, [](const Series& s) { return s.points.empty(); })) return {};
   Scale across = scaleOf(series, &Vec2::x, x), up = scaleOf(series, &Vec2::y, y);

@@ -90,7 +90,9 @@ class Painter {
   Result<void> fromParts() {
     if (brush_.parts.empty()) return {};
     if (!brush_.alongSurface && brush_.whole + brush_.fade > 0)
-      return fail("Parts reach over the surface; take them without 'over', or paint by points.");
+      return fail(
+          "Parts do not reach through space; let them reach along the surface, or paint by "
+          "points.");
     const Polygons& polygons = rig_.source.polygons;
     if (!knowsQuads(rig_) || polygons.faceCount() == 0)
       return fail("The face does not tell of its source's materials and groups; paint by points.");

@@ -81,8 +81,8 @@ void blend(const Rig& rig, std::span<const double> weights, std::span<Vec3> vect
   const std::size_t stored = rig.neutral.size();
   for (std::size_t v = 0; v < stored; ++v) vectors[v] = rig.neutral[v];
   for (std::size_t k = 0; k < rig.targets.size() && k < weights.size(); ++k) {
-    if (weights[k] == 0) continue;
     const auto& difference = rig.targets[k].difference;
+    if (weights[k] == 0 || difference.empty()) continue;
     for (std::size_t v = 0; v < stored; ++v) vectors[v] += weights[k] * difference[v];
   }
   rig.surface.settle(vectors.first(stored), vectors);

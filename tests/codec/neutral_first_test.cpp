@@ -21,6 +21,7 @@ TEST(NeutralFirst, ShowsBeforeItsTargetsAreDecoded) {
       EXPECT_EQ(opened.rig.targets[k].name, rig.targets[k].name);
       EXPECT_TRUE(opened.rig.targets[k].difference.empty());
     }
+    EXPECT_EQ(blend(opened.rig, Weights(rig.targets.size(), 1)), blend(rig, {}));
     ASSERT_TRUE(opened.targets.decode(opened.rig));
     EXPECT_FALSE(opened.targets.any());
     expectEqual(opened.rig, decode(bytes, "a.sweep").value());

@@ -420,6 +420,47 @@ TEST(Search, forAToleranceGoesOnWithLargerOnesWhereTheFirstCannotBeMet) {
       << none.error().message;
 }
 
+TEST(Convert, RefusesMeshesWhoseIndicesDoNotBelongTogether) {
+  const MeshRig sound = withTargets(plane(4, 4));
+  const auto broken = [&](auto&& change) {
+    MeshRig meshes = sound;
+    change(meshes, meshes.neutral.polygons);
+    return refusal(meshes);
+  };
+  const auto expect = [&](std::string_view part, auto&& change) {
+    const std::string why = broken(change);
+    EXPECT_NE(why.find(part), std::string::npos) << why;
+  };
+  expect("0 vertices, and the neutral", [](auto& m, auto&) { m.targets[1].positions.clear(); });
+  expect("vertices, and the neutral", [](auto& m, auto&) { m.targets[0].positions.pop_back(); });
+  for (const Index corner : {-3, 99, 100'000'000})
+    expect("corner 0 of the mesh is of number", [&](auto&, Polygons& p) { p.corners[0] = corner; });
+  for (const std::vector<Index>& start :
+       {std::vector<Index>{}, {0, 99}, {1, 64}, {0, 8, 4, 64}, {0}})
+    expect("do not divide its corners", [&](auto&, Polygons& p) { p.faceStart = start; });
+  expect("among 0 materials", [](auto&, Polygons& p) { p.faceMaterial.assign(16, 5); });
+  expect("give one for each", [](auto&, Polygons& p) { p.faceGroup.assign(7, -1); });
+  expect("among 0 texture", [](auto&, Polygons& p) { p.cornerTexcoords.assign(64, 3); });
+  expect("no place that a file", [](auto& m, auto&) { m.neutral.positions[2].y = std::nan(""); });
+}
+
+TEST(Convert, RefusesOptionsThatAreNoNumbersFromZero) {
+  const MeshRig source = withTargets(plane(4, 4));
+  for (const double value : {-1.0, std::nan(""), HUGE_VAL}) {
+    for (double ConvertOptions::* option :
+         {&ConvertOptions::tolerance, &ConvertOptions::normalLimit,
+          &ConvertOptions::normalTolerance}) {
+      ConvertOptions options;
+      options.*option = value;
+      EXPECT_NE(refusal(source, options).find("is a number from 0, not"), std::string::npos);
+    }
+    Rig rig = convert(source)->rig;
+    PackOptions options;
+    options.tolerance = value;
+    EXPECT_FALSE(pack(rig, options));
+  }
+}
+
 TEST(Refusal, isASentenceOfWhatIsWrong) {
   MeshRig flat = withTargets(plane(2, 2), 0);
   for (Vec3& p : flat.neutral.positions) p = {1, 2, 3};

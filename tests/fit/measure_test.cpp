@@ -204,6 +204,13 @@ TEST(Measure, refusesWhatDoesNotBelongTogether) {
   renamed.targets[1].name = "frown";
   EXPECT_EQ(measure(rig, renamed).error().message,
             "the model has no target named 'frown'; give the targets it was converted from");
+  MeshRig cut = source;
+  cut.targets[0].positions.pop_back();
+  EXPECT_EQ(measure(rig, cut).error().message,
+            "the target '" + cut.targets[0].name + "' has 98 vertices, and the neutral 99");
+  Rig undecoded = rig;
+  undecoded.targets[0].difference.clear();
+  EXPECT_NE(measure(undecoded, source).error().message.find("not decoded yet"), std::string::npos);
   EXPECT_EQ(measure(rig, withTargets(plane(3, 3))).error().message,
             "the neutral has 16 vertices, the model was made from 99; give the mesh it was "
             "converted from");

@@ -81,7 +81,7 @@ TEST(LiveLinkCsv, OfRowsAtTheSameTimeTheLastCounts) {
 
 TEST(LiveLinkCsv, MayComeFromASpreadsheet) {
   const auto clip = csv(
-      "\xef\xbb\xbfsep=,\n\"Timecode\",\"JawOpen\", \"a b\" ,\n\"0:0:0;30\",\"0.5\",1,\n1,0,0,\n");
+      "\xef\xbb\xbfsep=,\n\"Timecode\",\"JawOpen\", \"a b\" ,\n\"0:0:0:30\",\"0.5\",1,\n1,0,0,\n");
   ASSERT_TRUE(clip) << clip.error().message;
   EXPECT_EQ(clip->names, (std::vector<std::string>{"JawOpen", "a b"}));
   EXPECT_EQ(clip->times, (std::vector<double>{0.5, 1}));
@@ -90,6 +90,58 @@ TEST(LiveLinkCsv, MayComeFromASpreadsheet) {
   expectError(csv("Timecode\ta\n1\t0\n"),
               "the columns are separated by tabs; save them with commas");
   expectError(csv("Timecode,a,\n1,0,2\n"), "there are 3 values under 2 headings");
+}
+
+TEST(LiveLinkCsv, CellsInQuotesMayHoldCommasAndQuotes) {
+  const auto clip = csv("Timecode,jawOpen,\"a, \"\"b\"\"\"\n\"00:00:01:00\" , \"0.5\" ,\"2\"\n");
+  ASSERT_TRUE(clip) << clip.error().message;
+  EXPECT_EQ(clip->names.size(), 2u);
+  EXPECT_EQ(clip->names[1], "a, \"\"b\"\"");
+  EXPECT_EQ(clip->weights, (std::vector<double>{0.5, 2}));
+  expectError(
+      csv("Timecode,jawOpen\n0,\"0,5\"\n"),
+      "'0,5' in column 2, 'jawOpen', is not a number within ±1,000,000; take the column out");
+}
+
+// 29.97 frames a second are counted as 30: numbers that are left out keep the clock to the day.
+TEST(LiveLinkCsv, DroppedFrameNumbersAreNoGap) {
+  for (const int rate : {30, 60}) {
+    std::string text = "Timecode,jawOpen\n";
+    std::vector<int> counted;
+    // Into the minutes 9, 10 and 11, of which the second drops none.
+    for (int minute = 8; minute < 12; ++minute)
+      for (int second = 0; second < 60; ++second)
+        for (int frame = minute % 10 && second == 0 ? rate / 15 : 0; frame < rate; ++frame)
+          text += "01:" + std::to_string(minute) + ":" + std::to_string(second) + ";" +
+                  std::to_string(frame) + ",0\n";
+    for (const double asked : {0.0, rate / 1.001, static_cast<double>(rate)}) {
+      const auto clip = parseLiveLinkCsv(text, "take.csv", asked);
+      ASSERT_TRUE(clip) << clip.error().message;
+      ASSERT_EQ(clip->times.size(), static_cast<std::size_t>(4 * 60 * rate - 3 * rate / 15));
+      for (std::size_t f = 1; f < clip->times.size(); ++f)
+        EXPECT_NEAR(clip->times[f] - clip->times[f - 1], 1.001 / rate, 1e-9) << f;
+    }
+  }
+  const auto hour =
+      csv("Timecode,jawOpen\n00:00:00;00,0\n01:00:00;00,1\n23:59:59;29,1\n00:00:00;00,0");
+  ASSERT_TRUE(hour) << hour.error().message;
+  EXPECT_NEAR(hour->times[1], 3599.9964, 1e-9);  // 107,892 frames
+  EXPECT_GT(hour->times[3], hour->times[2]) << "past midnight";
+}
+
+TEST(LiveLinkCsv, RatesBetweenWholeOnesCountWholeFrames) {
+  for (const auto& [rate, counted] :
+       {std::pair{29.97, 30}, {59.94, 60}, {23.976, 24}, {47.952, 48}}) {
+    std::string text = "Timecode,jawOpen\n";
+    for (int f = 0; f < 3 * counted; ++f)
+      text += "00:00:" + std::to_string(f / counted) + ":" + std::to_string(f % counted) + ",0\n";
+    const auto clip = parseLiveLinkCsv(text, "take.csv", rate);
+    ASSERT_TRUE(clip) << clip.error().message;
+    for (std::size_t f = 0; f < clip->times.size(); ++f)
+      EXPECT_NEAR(clip->times[f], static_cast<double>(f) * 1.001 / counted, 1e-9);
+  }
+  EXPECT_NEAR(parseLiveLinkCsv("Timecode,a\n00:00:01:05,0", "take.csv", 12.5)->times[0], 1.4,
+              1e-12);
 }
 
 TEST(LiveLinkCsv, GoesOnPastMidnight) {
@@ -111,8 +163,9 @@ TEST(LiveLinkCsv, SaysWhatIsWrongAndWhere) {
   expectError(csv("Timecode,,a\n"), "column 2 has no heading");
   expectError(csv("Timecode,a\n1,2,3\n"), "line 2: there are 3 values under 2 headings");
   expectError(csv("Timecode,a\n1\n"), "there are 1 values under 2 headings");
-  expectError(csv("Timecode,a\n1,nan\n"), "'nan' in column 2 is not a number");
-  expectError(csv("Timecode,a\n1,1e7\n"), "'1e7' in column 2 is not a number within ±1,000,000");
+  expectError(csv("Timecode,a\n1,nan\n"), "'nan' in column 2, 'a', is not a number");
+  expectError(csv("Timecode,a\n1,1e7\n"),
+              "'1e7' in column 2, 'a', is not a number within ±1,000,000");
   expectError(csv("Timecode,a\n1,x\n"), "'x' in column 2");
   expectError(csv("Timecode,a\n1,\n"), "'' in column 2");
   expectError(csv("Timecode,a\n2,0\n1,0\n"), "line 3: the timecode '1' is before the one above");
@@ -124,7 +177,7 @@ TEST(LiveLinkCsv, SaysWhatIsWrongAndWhere) {
   expectError(csv("Timecode,a\n12:59:60:1,0\n"), "more than 59 minutes or seconds");
   expectError(csv("Timecode,a\n12:60:59:1,0\n"), "more than 59 minutes or seconds");
   expectError(csv("Timecode,a\n0:0:0:60,0\n"),
-              "more than 60 frames a second; give the recording's own rate, a whole");
+              "more than 60 frames a second; give the recording's own rate");
   EXPECT_FALSE(parseLiveLinkCsv("Timecode,a\n1,2\n", "x", -1));
 }
 

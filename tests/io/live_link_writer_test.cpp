@@ -38,6 +38,14 @@ TEST(LiveLinkWriter, WhatItWritesIsReadAgain) {
   }
 }
 
+TEST(LiveLinkWriter, RefusesWeightsThatNobodyReadsAgain) {
+  for (const double weight : {1e7, std::nan(""), HUGE_VAL}) {
+    const auto text = formatLiveLinkCsv({{"jawOpen"}, {0}, {weight}});
+    ASSERT_FALSE(text) << weight;
+    EXPECT_NE(text.error().message.find("Frame 0 of the clip gives"), std::string::npos);
+  }
+}
+
 TEST(LiveLinkWriter, ColumnsAreTheAppsOwn) {
   const auto text = formatLiveLinkCsv(
       {{"browInnerUp_L", "browInnerUp_R", "eyeBlink_R", "cheekRaiser"}, {0}, {0.25, 0.5, 1, 0.75}});

@@ -33,6 +33,7 @@ TEST(RegionalClips, OfACaptureAreItInEveryMatter) {
 TEST(RegionalClips, HoldNoMoreInAllThanOneMay) {
   const Clip capture = captureOf(kMostClipWeights / 1024 / 2 + 1, 1024);
   EXPECT_TRUE(inRegions(capture, {kMatters.data(), 1}, {}));
+  EXPECT_FALSE(inRegions(capture, {}, {}));
   const auto refused = inRegions(capture, kMatters, {});
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().message,
@@ -54,6 +55,8 @@ TEST(RegionalClips, OfATimelineMissAsMuchAsTheWorst) {
   const Timeline timeline = timelineOf(R"({"seconds": 1, "events": [
       {"at": 0, "to": {"a": 1}, "drive": "newton", "seconds": 1},
       {"at": 0, "to": {"a": 1}, "drive": "spring", "frequency": 40, "region": "cheeks"}]})");
+  EXPECT_FALSE(inRegions(timeline, {}, {}));
+  EXPECT_FALSE(inRegions(timeline, kNames, {kMatters.data(), 1}));
   EXPECT_EQ(inRegions(timeline, kNames, kMatters)->missed,
             bakeToPlay(timeline, "cheeks", kMatters[1], 2, 2.5)->missed);
 }

@@ -92,6 +92,8 @@ TEST(Boxes, AreReadAndFound) {
   for (const std::string_view text :
        {"", "0.1,0.2,0.3", "0.1,0.2,0.3,0.4,0.5", "0,0,0,1", "2,0,1,1", "a,b,c,d"})
     EXPECT_TRUE(failsWith(parseBox(text), {"no box"})) << text;
+  EXPECT_TRUE(failsWith(parseBox("0.9,0.9,0.5,0.1"), {"no box in the picture"}));
+  EXPECT_TRUE(parseBox("0.7,0.9,0.3,0.1"));
   const std::array corners{Vec3{-1, -1, 0}, Vec3{1, 1, 0}};
   const PictureBox around = boxAround(corners, before(), {200, 200});
   // At distance 10 a length of 1 is 60 pixels of 200.

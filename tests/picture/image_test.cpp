@@ -112,6 +112,10 @@ TEST(Drawing, FramesAndPastes) {
   paste(image, Image::filled({20, 20}, kRed), -100, 300);
 }
 
+TEST(Png, NeedsAllPixels) {
+  EXPECT_TRUE(failsWith(encodePng(Image{100, 100, {}}), {"100 × 100 pixels", "has 0"}));
+}
+
 TEST(Png, ReadsBackAsTheSamePixels) {
   const Image image = picture(sphere(), before(), {123, 77});
   const auto png = encodePng(image);

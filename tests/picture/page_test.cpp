@@ -30,6 +30,7 @@ TEST(Pages, TakeAnySizeThatHasRoom) {
     EXPECT_LE(2 * page->panel().width, size.width);
   }
   EXPECT_TRUE(failsWith(Page::make({0, 0}, {}), {"cannot be made"}));
+  EXPECT_TRUE(failsWith(Page::make({300, 300}, {0, 1, false, false}), {"at least one column"}));
   EXPECT_TRUE(failsWith(Page::make({100, 40}, {1, 1, true, true}), {"no room"}));
   EXPECT_TRUE(failsWith(Page::make({64, 64}, {32, 1, false, false}), {"no room"}));
 }

@@ -164,6 +164,9 @@ TEST(Plots, LeaveOutWhatHasNoLogarithm) {
   EXPECT_EQ(svg.find("inf"), std::string::npos);
   EXPECT_EQ(svg.find("nan"), std::string::npos);
   EXPECT_EQ(linePlot("t", {"x", true}, {"y", true}, {{"none", "#123456", {{0, 0}}}}), "");
+  Series holes = some;
+  for (const double y : {std::nan(""), HUGE_VAL}) holes.points.push_back({1, y});
+  EXPECT_EQ(linePlot("t", {"x", true}, {"y", true}, {holes}), svg);
 }
 
 TEST(Plots, HaveARowForEachName) {
