@@ -75,6 +75,17 @@ void playWireframe(std::string_view payload) {
 
 }  // namespace
 
+void requireSame(const SourceMesh& a, const SourceMesh& b) {
+  const Polygons &p = a.polygons, &q = b.polygons;
+  require(a.gridVertex == b.gridVertex && a.ownOrder == b.ownOrder && a.loose == b.loose);
+  require(a.quadCorners == b.quadCorners);
+  require(p.faceStart == q.faceStart && p.corners == q.corners);
+  require(p.cornerTexcoords == q.cornerTexcoords);
+  require(p.materials == q.materials && p.faceMaterial == q.faceMaterial);
+  require(p.groups == q.groups && p.faceGroup == q.faceGroup);
+  require(p.materialFiles == q.materialFiles);
+}
+
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string bytes = repaired({reinterpret_cast<const char*>(data), size});
   if (const auto chunks = codec::readChunks(bytes, "input.sweep"))
@@ -102,7 +113,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto back = decode(again, "again.sweep");
   require(back.has_value());
   require(back->neutral == rig->neutral && back->targets == rig->targets);
-  require(back->turns == rig->turns);
+  require(back->turns == rig->turns && back->scene == rig->scene);
+  requireSame(back->source, rig->source);
   require(encode(*back) == again);
   return 0;
 }

@@ -14,7 +14,8 @@ namespace sweepface {
 /// Vectors are held bit for bit: as multiples of the packing's steps where they are, else as they
 /// are. Numbers must be finite, and names of targets all different, of 1 to 4096 bytes of UTF-8
 /// without control characters: decode() refuses what was written of another rig, or reads less of
-/// it. Targets that are still to come (NeutralFirst) are written as if they did not move.
+/// it. Indices of the source must be in range. Targets that are still to come (NeutralFirst) are
+/// written as if they did not move.
 std::string encode(const Rig& rig);
 
 /// What reading a file may take. What is still takes hardly any bytes, so that a small file may ask
@@ -38,8 +39,8 @@ class TargetsToCome {
   ~TargetsToCome();
 
   bool any() const { return rest_ != nullptr; }
-  /// Fills in the differences of the targets of the rig that came with this, whose neutral and
-  /// surface must still be as they came; after an error they are as empty as before.
+  /// Fills in the differences of the targets of the rig that came with this, whose neutral,
+  /// surface and packing must still be as they came; after an error they are as empty as before.
   Result<void> decode(Rig& rig);
 
  private:

@@ -178,10 +178,12 @@ std::string turnList(const std::vector<Turn>& turns) {
 
 std::string encode(const Rig& rig) {
   using namespace codec;
-  const auto isToCome = [&](const Target& t) { return t.difference.size() != rig.neutral.size(); };
-  if (std::ranges::any_of(rig.targets, isToCome)) {
+  if (!rig.knowsTargets()) {
     Rig still = rig;
-    for (Target& target : still.targets) target.difference.resize(rig.neutral.size());
+    for (Target& target : still.targets) {
+      target.difference.resize(rig.neutral.size());
+      target.looseDifference.resize(rig.source.loose.size());
+    }
     return encode(still);
   }
   Writer out;

@@ -94,6 +94,12 @@ bool countsUp(const LevelOne& grid, const SourceMesh& source) {
   return true;
 }
 
+bool haveCorners(const Polygons& faces) {
+  for (Index f = 0; f < faces.faceCount(); ++f)
+    if (faces.faceSize(f) < 3) return false;
+  return true;
+}
+
 /// What the grid of the patches tells of the source.
 struct ByGrid {
   std::string order, faces;
@@ -101,23 +107,29 @@ struct ByGrid {
   bool countsUp = false;      ///< the vertices are those of the grid in its order
 };
 
-// Nothing where there is so much that a reader would not trust so few bytes.
+// Nothing where there is so much that a reader would not trust so few bytes, and for faces that
+// none takes.
 std::optional<ByGrid> byGrid(const Rig& rig, const Mirror& mirror) {
   const SourceMesh& source = rig.source;
   const std::size_t quads = rig.surface.wireframe().quadCount();
-  if (quads > kMostQuads) return std::nullopt;
+  if (quads > kMostQuads || !haveCorners(source.polygons)) return std::nullopt;
   const LevelOne grid(rig.surface, mirror);
   ByGrid told;
   told.order = ranged([&](auto& out) { writeOrder(out, grid, source); });
   told.faces = ranged([&](auto& out) { writeFaces(out, grid, source); });
+  told.countsUp = countsUp(grid, source);
   SourceMesh again;  // as a reader has it
   again.loose = source.loose;
-  if (quads > mostEntries(std::min(told.order.size(), told.faces.size())) ||
-      !isReadable(told.order, [&](auto& in, auto most) { readOrder(in, grid, most, again); }) ||
-      !isReadable(told.faces, [&](auto& in, auto most) { readFaces(in, grid, most, again); }))
+  const auto isTaken = [&](const std::string& bytes, auto read) {
+    return quads <= mostEntries(bytes.size()) && isReadable(bytes, read);
+  };
+  if (told.countsUp && hasFaces(source.polygons))
+    again.gridVertex = source.gridVertex;
+  else if (!isTaken(told.order, [&](auto& in, auto most) { readOrder(in, grid, most, again); }))
+    return std::nullopt;
+  if (!isTaken(told.faces, [&](auto& in, auto most) { readFaces(in, grid, most, again); }))
     return std::nullopt;
   if (hasFaces(source.polygons)) told.images = cornerImages(grid.mirror(), source);
-  told.countsUp = countsUp(grid, source);
   return told;
 }
 
@@ -139,7 +151,8 @@ void writeTexcoords(Writer& out, const Polygons& faces, std::span<const Index> i
 void writeSource(Writer& out, const Rig& rig, const Mirror& mirror, int textureBits) {
   const SourceMesh& source = rig.source;
   const Polygons& faces = source.polygons;
-  const std::optional<ByGrid> grid = byGrid(rig, mirror);
+  // Without an order of vertices faces by the grid would bring that of the grid.
+  const std::optional<ByGrid> grid = source.gridVertex.empty() ? std::nullopt : byGrid(rig, mirror);
   if (!source.gridVertex.empty()) {
     if (!grid)
       writeChunk(out, "ordr", sourceOrder(source.gridVertex));

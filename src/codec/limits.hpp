@@ -32,7 +32,7 @@ inline constexpr std::size_t kMostMirrorPairs = 64;
 
 /// Quads of the grid at level 1 that the source's order and faces may be told by.
 inline constexpr std::size_t kMostQuads = std::size_t{1} << 22, kQuadsAByte = 1024,
-                             kQuadsAnyway = std::size_t{1} << 18;
+                             kQuadsAnyway = std::size_t{1} << 20;
 
 /// Entries of the source's order, faces or texture, told by so many bytes.
 constexpr std::size_t mostEntries(std::size_t bytes) {

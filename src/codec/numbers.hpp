@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "sweepface/mesh.hpp"
+#include "sweepface/vec.hpp"
 
 namespace sweepface::codec {
 

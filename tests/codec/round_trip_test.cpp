@@ -3,6 +3,7 @@
 #include <string>
 
 #include "codec/rigs.hpp"
+#include "mesh/grid_source.hpp"
 
 namespace sweepface {
 namespace {
@@ -68,7 +69,7 @@ TEST(RoundTrip, KeepsARigWithoutSourceOrTargets) {
 
 // More than a reader expects of so few bytes.
 TEST(RoundTrip, KeepsASourceOfMuchThatIsAlike) {
-  constexpr std::size_t kMany = 600'000;
+  constexpr std::size_t kMany = 1'200'000;
   Rig many = makeRig(onePatch(1, 1)), textured = many;
   many.source.loose.resize(kMany);
   for (Target& target : many.targets) target.looseDifference.resize(kMany);
@@ -81,6 +82,46 @@ TEST(RoundTrip, KeepsASourceOfMuchThatIsAlike) {
     ASSERT_TRUE(back) << back.error().message;
     expectEqual(*back, rig);
   }
+}
+
+// A regular sheet takes next to nothing, however large.
+TEST(RoundTrip, KeepsThatALargeSheetHasNoOrderOfItsOwn) {
+  Rig rig = makeRig(onePatch(800, 800));
+  rig.source = gridSource(rig.surface);
+  rig.source.ownOrder = false;
+  const std::string bytes = encode(rig);
+  EXPECT_LT(bytes.size(), 2000u);
+  const auto back = decode(bytes, "a.sweep");
+  ASSERT_TRUE(back) << back.error().message;
+  expectEqual(*back, rig);
+  EXPECT_FALSE(back->source.ownOrder);
+}
+
+TEST(RoundTrip, WritesTargetsThatSayNothingOfLooseVerticesAsIfTheyLeftThem) {
+  Rig rig = makeRig(onePatch(1, 1));
+  rig.source.loose = {{1, 2, 3}, {4, 5, 6}};
+  for (Target& target : rig.targets) target.looseDifference.assign(2, {0, 1, 0});
+  rig.targets[1].looseDifference.clear();
+  const auto back = decode(encode(rig), "a.sweep");
+  ASSERT_TRUE(back) << back.error().message;
+  rig.targets[1].looseDifference.assign(2, {});
+  expectEqual(*back, rig);
+}
+
+TEST(RoundTrip, KeepsMaterialsOfASourceWithoutVertices) {
+  Rig rig = makeRig(onePatch(2, 1));
+  rig.source = {};
+  rig.source.polygons.materials = {"skin"};
+  expectEqual(decode(encode(rig), "a.sweep").value(), rig);
+}
+
+// The grid's own coder knows no such face; who reads it is told.
+TEST(RoundTrip, IsRefusedOfFacesOfTwoCorners) {
+  Rig rig = makeRig(onePatch(2, 1));
+  rig.source.polygons.faceStart = {0, 4, 6, 8};
+  rig.source.polygons.corners = {0, 1, 2, 3, 4, 5, 1, 2};
+  rig.source.quadCorners.clear();
+  EXPECT_FALSE(decode(encode(rig), "a.sweep"));
 }
 
 TEST(RoundTrip, KeepsFacesThatAreNotQuadsAndQuadsThatAreNotFaces) {
