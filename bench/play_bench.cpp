@@ -44,9 +44,6 @@ const Frames& frames(Active active) {
   return active == Active::all ? all : ten;
 }
 
-/// Vertices that differ by more than this from the exact blend are too bad to be compared.
-double allowed() { return std::max(0.01 * face().tolerance, face().tolerance); }
-
 Evaluator makeEvaluator(bool normals, Index level = 0) {
   EvaluatorOptions options;
   options.normals = normals;
@@ -194,7 +191,8 @@ bool registerPlayers() {
   const Player plain = evaluatorPlayer(evaluator, false);
   const double off = worstTarget(plain);
   fmt::print("evaluator: {:.5f} off at worst, {} bytes\n", off, plain.bytes);
-  if (!(off <= 1.31 * allowed())) {  // what the evaluator drops comes on top
+  // Beyond its tolerance it is too bad to be compared; what the evaluator drops comes on top.
+  if (!(off <= 1.31 * face().tolerance)) {
     fmt::print(stderr, "sweepface_bench: The evaluator is {} off, more than the tolerance {}.\n",
                off, face().tolerance);
     return false;

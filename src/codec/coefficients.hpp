@@ -153,16 +153,9 @@ class CoefficientCoder {
     for (Index up = sites[s].parent; up >= 0 && !below[up]; up = sites[up].parent) below[up] = 1;
   }
 
-  static std::uint32_t hash(std::uint32_t a, std::uint32_t b) {
-    std::uint32_t x = a * 0x9e3779b1u + b * 0x85ebca6bu;
-    x ^= x >> 15;
-    x *= 0x2c1b3c6du;
-    x ^= x >> 13;
-    return x;
-  }
   bool bit(BitKind kind, int sub, bool value, std::array<std::uint32_t, kInputs> contexts) {
     for (int k = 0; k < kInputs; ++k)
-      contexts[k] = hash(contexts[k] * kInputs + k, kind * 64 + sub) & mask_;
+      contexts[k] = hashOf(contexts[k] * kInputs + k, kind * 64 + sub) & mask_;
     value = model_.code(value, contexts, (phase_ * 6 + kind) * 8 + std::min(sub, 7));
     recent_ = recent_ << 4 ^ static_cast<std::uint32_t>(2 * (kind ^ sub) + value);
     return value;

@@ -10,6 +10,15 @@
 // Integers only: every machine sees the same probabilities.
 namespace sweepface::codec {
 
+/// Spreads two numbers over all of 32 bits.
+constexpr std::uint32_t hashOf(std::uint32_t a, std::uint32_t b) {
+  std::uint32_t x = a * 0x9e3779b1u + b * 0x85ebca6bu;
+  x ^= x >> 15;
+  x *= 0x2c1b3c6du;
+  x ^= x >> 13;
+  return x;
+}
+
 /// 65536 / (1 + e^(-x / 256)) for x in [-3072, 3072], by straight pieces.
 [[gnu::always_inline]] inline std::int32_t squash(std::int32_t x) {
   static constexpr std::array<std::int32_t, 49> kAt{

@@ -73,11 +73,7 @@ class Symbols : public Refusal {
   static constexpr std::size_t kSlots = std::size_t{1} << 15, kSets = 64;
 
   static std::uint32_t slot(std::uint32_t tag, std::uint32_t context, std::uint32_t input) {
-    std::uint32_t x = (context * 3 + input) * 0x9e3779b1u + tag * 0x85ebca6bu;
-    x ^= x >> 15;
-    x *= 0x2c1b3c6du;
-    x ^= x >> 13;
-    return x & (kSlots - 1);
+    return hashOf(context * 3 + input, tag) & (kSlots - 1);
   }
 
   Model<Coder, 3> model_;
