@@ -283,7 +283,7 @@ Result<int> runAnimate(const AnimateArguments& a) {
         "Cannot write {}: its name must end in .glb or .csv, or be a folder's, without an ending.",
         a.output));
   if (a.output == "-")
-    return fail("A standard output takes no meshes; name a folder, ./- if it is called so.");
+    return fail("Standard output takes no meshes; name a folder, ./- if it is called so.");
   if (auto ok = checkArguments(a, glb); !ok) return std::unexpected(ok.error());
   Result<Rig> rig = readFace(a.face);
   if (!rig) return std::unexpected(rig.error());

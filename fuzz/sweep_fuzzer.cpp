@@ -73,8 +73,6 @@ void playWireframe(std::string_view payload) {
   if (surface) play(*surface, std::vector<Vec3>(surface->vectorCount()));
 }
 
-}  // namespace
-
 void requireSame(const SourceMesh& a, const SourceMesh& b) {
   const Polygons &p = a.polygons, &q = b.polygons;
   require(a.gridVertex == b.gridVertex && a.ownOrder == b.ownOrder && a.loose == b.loose);
@@ -85,6 +83,8 @@ void requireSame(const SourceMesh& a, const SourceMesh& b) {
   require(p.groups == q.groups && p.faceGroup == q.faceGroup);
   require(p.materialFiles == q.materialFiles);
 }
+
+}  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string bytes = repaired({reinterpret_cast<const char*>(data), size});
