@@ -1,9 +1,8 @@
 #include "mesh/check_indices.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <fmt/format.h>
-
-#include "io/text.hpp"
 
 namespace sweepface {
 namespace {
@@ -58,9 +57,8 @@ Result<void> checkIndices(const MeshRig& meshes) {
       return ok;
   for (const MeshTarget& target : meshes.targets)
     if (target.positions.size() != positions.size())
-      return fail(fmt::format("the target {} has {} vertices, and the neutral {}",
-                              io::inQuotes(target.name), target.positions.size(),
-                              positions.size()));
+      return fail(fmt::format("the target '{}' has {} vertices, and the neutral {}", target.name,
+                              target.positions.size(), positions.size()));
   return {};
 }
 
