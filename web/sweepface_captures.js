@@ -3,7 +3,7 @@ import {Clip} from './sweepface_clip.js';
 import {isNumber, isObject, isWeight, lowered, parseJson, textOf} from './sweepface_text.js';
 import {known} from './sweepface_values.js';
 
-const DAY = 86400, MOST_TIME = 1e10;  // seconds
+const MOST_TIME = 1e10;  // seconds
 const USUAL_RATE = 60;  // of timecodes
 /** Weights that a clip can hold: frames times names. */
 const MOST_WEIGHTS = 2 ** 26;
@@ -23,10 +23,43 @@ function trimmed(text) {
   return text.slice(from, to);
 }
 
+/** Where the quotes that a cell begins with close again: two together are one of the text. */
+function closingQuote(line, from) {
+  let at = line.indexOf('"', from + 1);
+  while (at >= 0 && line[at + 1] === '"') at = line.indexOf('"', at + 2);
+  return at;
+}
+
 /** Cells between commas, without blanks and quotes around them. */
 function cellsOf(line) {
-  return line.split(',').map(trimmed)
-      .map((cell) => (/^".*"$/s.test(cell) && cell.length > 1 ? trimmed(cell.slice(1, -1)) : cell));
+  const cells = [];
+  for (let from = 0;;) {
+    while (line[from] === ' ' || line[from] === '\t') ++from;
+    const close = line[from] === '"' ? closingQuote(line, from) : -1;
+    const comma = line.indexOf(',', close < 0 ? from : close);
+    const cell = trimmed(line.slice(from, comma < 0 ? line.length : comma));
+    cells.push(close >= 0 && from + cell.length === close + 1 ? trimmed(cell.slice(1, -1)) : cell);
+    if (comma < 0) return cells;
+    from = comma + 1;
+  }
+}
+
+/**
+ * A clock that counts frames (SMPTE ST 12-1). At 23.976, 29.97, 47.952 and 59.94 frames a second a second of the clock
+ * has as many as at 24, 30, 48 and 60, and is a thousandth longer; one that drops frames leaves out the numbers of the
+ * first two of 30, or four of 60, of every minute but each tenth.
+ */
+function clockOf(framesPerSecond, dropsFrames) {
+  const longer = 1.001, whole = Math.round(framesPerSecond * longer);
+  const isBetween = !Number.isInteger(framesPerSecond) && Math.abs(framesPerSecond * longer - whole) < 0.0045;
+  const counted = isBetween ? whole : framesPerSecond;
+  const dropped = dropsFrames && (counted === 30 || counted === 60) ? counted / 15 : 0;
+  const length = isBetween || dropped > 0 ? longer : 1;
+  const timeOf = (seconds, frames) => {
+    const minutes = Math.floor(seconds / 60);
+    return (seconds + (frames - dropped * (minutes - Math.floor(minutes / 10))) / counted) * length;
+  };
+  return {counted, timeOf};
 }
 
 function readLiveLink(text, name, framesPerSecond) {
@@ -47,9 +80,11 @@ function readLiveLink(text, name, framesPerSecond) {
     if (cells.length !== expected)
       throw fail(line, `there are ${cells.length} values under ${expected} headings; the file may be cut short`);
     const time = timeOf(cells[timeColumn], (what) => fail(line, what));
-    for (const c of shapes.values()) {
+    for (const [shape, c] of shapes) {
       const value = numberIn(cells[c]);
-      if (!isWeight(value)) throw fail(line, `'${cells[c]}' in column ${c + 1} is not a number within ±1,000,000`);
+      if (!isWeight(value))
+        throw fail(line, `'${cells[c]}' in column ${c + 1}, '${shape}', is not a number within ±1,000,000; take the ` +
+                         'column out if it is no shape');
       weights.push(value);
     }
     return {...time, timecode: cells[timeColumn], line};
@@ -61,14 +96,15 @@ function readLiveLink(text, name, framesPerSecond) {
 function clipOf(names, rows, weights, rate, name, fail) {
   const n = names.length, times = [], repeated = [];
   let midnights = 0;  // in seconds
-  rows.forEach(({seconds, frames, isClock, timecode, line}, row) => {
-    if (frames >= rate)
-      throw fail(line, `the timecode '${timecode}' counts more than ${rate} frames a second; ` +
-                       'give the recording\'s own rate, a whole number');
-    const before = times.at(-1), clock = seconds + frames / rate;
+  rows.forEach(({seconds, frames, isClock, dropsFrames, timecode, line}, row) => {
+    const {counted, timeOf: clock} = clockOf(rate, dropsFrames);
+    if (frames >= counted)
+      throw fail(line, `the timecode '${timecode}' counts more than ${counted} frames a second; ` +
+                       'give the recording\'s own rate');
+    const before = times.at(-1), shown = isClock ? clock(seconds, frames) : seconds, day = clock(86400, 0);
     // At midnight the clock begins anew.
-    if (isClock && clock + midnights < before - DAY / 2) midnights += DAY;
-    const time = clock + (isClock ? midnights : 0);
+    if (isClock && shown + midnights < before - day / 2) midnights += day;
+    const time = shown + (isClock ? midnights : 0);
     if (time < before) throw fail(line, `the timecode '${timecode}' is before the one above; sort the rows by time`);
     if (time === before) repeated.push(line.number);
     else times.push(time);
@@ -120,17 +156,18 @@ function columnsOf(headings, line, fail) {
   return {timeColumn, shapes};
 }
 
-/** HH:MM:SS:FF.fff, the last in frames, after ';' in some; or plain seconds. */
+/** HH:MM:SS:FF.fff, the last in frames, after ';' where some are dropped; or plain seconds. */
 function timeOf(timecode, fail) {
   const seconds = numberIn(timecode);
   if (seconds < 0 && seconds >= -MOST_TIME) throw fail(`the time '${timecode}' is below 0`);
   if (Math.abs(seconds) <= MOST_TIME) return {seconds, frames: 0, isClock: false};
-  const parts = timecode.replace(/^([^:;]*:[^:;]*:[^:;]*);/, '$1:').split(':').map(numberIn);
+  const plain = timecode.replace(/^([^:;]*:[^:;]*:[^:;]*);/, '$1:'), parts = plain.split(':').map(numberIn);
   if (parts.length !== 4 || !parts.every((part) => part >= 0 && part <= 1e6))
     throw fail(`'${timecode}' is not a timecode like 12:59:59:23.500`);
   if (parts[1] >= 60 || parts[2] >= 60)
     throw fail(`the timecode '${timecode}' has more than 59 minutes or seconds`);
-  return {seconds: (parts[0] * 60 + parts[1]) * 60 + parts[2], frames: parts[3], isClock: true};
+  const [hours, minutes, rest, frames] = parts;
+  return {seconds: (hours * 60 + minutes) * 60 + rest, frames, isClock: true, dropsFrames: plain !== timecode};
 }
 
 function readAudio2Face(json, name, fail) {

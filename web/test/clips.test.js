@@ -52,7 +52,14 @@ const sheet = 'sep=,\n' + [['Timecode', 'BlendshapeCount', ...shapes], ...frames
   [at30(f), 52, ...shapes.map(() => 0.25)], [at30(f), 52, ...shapes.map((_, k) => wave(f, k))]])]
     .map((cells) => cells.map((cell) => `"${cell}"`).join(',') + ',').join('\n');
 
-for (const [title, file, text] of [['Live Link Face', 'take.csv', csv],
+// From the 55th second into a minute whose first frames have no numbers, and a note that has a comma.
+const dropped = (f) => `00:0${Math.floor((1650 + f) / 1800)}:${String(Math.floor((1650 + f) / 30) % 60).padStart(2, '0')};` +
+                       String((1650 + f) % 30).padStart(2, '0');
+const slow = [['Timecode', ...shapes, '"a, ""b"""'],
+              ...Array.from({length: 240}, (_, f) => f).filter((f) => f < 150 || f > 151)
+                  .map((f) => [dropped(f), ...shapes.map((_, k) => wave(f, k)), '"1"'])].map((cells) => cells.join(',')).join('\n');
+
+for (const [title, file, text] of [['Live Link Face', 'take.csv', csv], ['drop frames', 'take.csv', slow],
                                    ['lines that end in returns', 'take.csv', csv.replaceAll('\r\n', '\r')], ['Audio2Face', 'take.json', audio2Face],
                                    ['a spreadsheet, with rows twice', 'take.csv', sheet],
                                    ['MediaPipe', 'take.json', mediaPipe], ['its Python', 'take.json', python]])
@@ -374,8 +381,8 @@ for (const [file, text, words] of [
        ['a.csv', 'Timecode,JawOpen,\n1,0,2', ', line 2: there are 3 values under 2 headings'],
        ['a.json', '[{"categories": []}]', ' has no \'timestampMs\' in frame 0; add the milliseconds, or give the frames a second'],
        ['a.json', '[{"timestampMs": 1e300, "categories": []}]', ' has a time in frame 0 that is not within 300 years'],
-       ['a.csv', 'Timecode,JawOpen\n0,nan', ', line 2: \'nan\' in column 2 is not a number within ±1,000,000'],
-       ['a.csv', 'Timecode,JawOpen\n0,1\u00A0', ', line 2: \'1\u00A0\' in column 2 is not a number within ±1,000,000'],
+       ['a.csv', 'Timecode,JawOpen\n0,nan', ', line 2: \'nan\' in column 2, \'JawOpen\', is not a number within ±1,000,000'],
+       ['a.csv', 'Timecode,JawOpen\n0,1\u00A0', ', line 2: \'1\u00A0\' in column 2, \'JawOpen\', is not a number within ±1,000,000'],
        ['a.csv', 'Timecode\u00A0,JawOpen\n0,1', ', line 1: there is no column \'Timecode\''],
        ['a.csv', '\u00A0{}', ', line 1: there is no column \'Timecode\''],
        ['a.csv', 'Timecode,JawOpen\n0:0:1,1', '\'0:0:1\' is not a timecode'],
