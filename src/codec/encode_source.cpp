@@ -102,9 +102,9 @@ bool haveCorners(const Polygons& faces) {
 
 /// What the grid of the patches tells of the source.
 struct ByGrid {
-  std::string order, faces;
+  std::optional<std::string> order;  ///< none where there are faces on the grid's own vertices
+  std::string faces;
   std::vector<Index> images;  ///< of corners, where there are faces
-  bool countsUp = false;      ///< the vertices are those of the grid in its order
 };
 
 // Nothing where there is so much that a reader would not trust so few bytes, and for faces that
@@ -115,18 +115,19 @@ std::optional<ByGrid> byGrid(const Rig& rig, const Mirror& mirror) {
   if (quads > kMostQuads || !haveCorners(source.polygons)) return std::nullopt;
   const LevelOne grid(rig.surface, mirror);
   ByGrid told;
-  told.order = ranged([&](auto& out) { writeOrder(out, grid, source); });
-  told.faces = ranged([&](auto& out) { writeFaces(out, grid, source); });
-  told.countsUp = countsUp(grid, source);
   SourceMesh again;  // as a reader has it
   again.loose = source.loose;
   const auto isTaken = [&](const std::string& bytes, auto read) {
     return quads <= mostEntries(bytes.size()) && isReadable(bytes, read);
   };
-  if (told.countsUp && hasFaces(source.polygons))
+  if (hasFaces(source.polygons) && countsUp(grid, source)) {
     again.gridVertex = source.gridVertex;
-  else if (!isTaken(told.order, [&](auto& in, auto most) { readOrder(in, grid, most, again); }))
-    return std::nullopt;
+  } else {
+    told.order = ranged([&](auto& out) { writeOrder(out, grid, source); });
+    if (!isTaken(*told.order, [&](auto& in, auto most) { readOrder(in, grid, most, again); }))
+      return std::nullopt;
+  }
+  told.faces = ranged([&](auto& out) { writeFaces(out, grid, source); });
   if (!isTaken(told.faces, [&](auto& in, auto most) { readFaces(in, grid, most, again); }))
     return std::nullopt;
   if (hasFaces(source.polygons)) told.images = cornerImages(grid.mirror(), source);
@@ -156,8 +157,8 @@ void writeSource(Writer& out, const Rig& rig, const Mirror& mirror, int textureB
   if (!source.gridVertex.empty()) {
     if (!grid)
       writeChunk(out, "ordr", sourceOrder(source.gridVertex));
-    else if (!hasFaces(faces) || !grid->countsUp)
-      writeChunk(out, "walk", grid->order);
+    else if (grid->order)
+      writeChunk(out, "walk", *grid->order);
   }
   if (hasFaces(faces))
     grid ? writeChunk(out, "face", grid->faces) : writeChunk(out, "poly", polygons(faces));

@@ -219,8 +219,10 @@ TEST_F(Animate, TellsOneFrame) {
 TEST_F(Animate, RefusesWhatCannotBe) {
   convertRig();
   const std::string command = "animate face.sweep -o frames ";
-  EXPECT_TRUE(fails(command + "--to frown=1", "no target named 'frown'"));
-  EXPECT_TRUE(fails(command + "--from frown=1 --to smile=1", "no target named 'frown'"));
+  EXPECT_TRUE(fails(command + "--to frown=1", "--to: There is no target named 'frown'"));
+  EXPECT_TRUE(
+      fails(command + "--from frown=1 --to smile=1", "--from: There is no target named 'frown'"));
+  EXPECT_TRUE(fails("animate face.sweep --to smile=1 -o -", "Standard output takes no meshes"));
   EXPECT_TRUE(fails(command + "--to smile=1 --law magic", "accelerate-brake"));
   EXPECT_TRUE(fails(command + "--to smile=1 --frames 1",
                     "--frames: This must be a whole number from 2", 2));

@@ -27,6 +27,21 @@ class PlayClip : public Tool {
   }
 };
 
+TEST_F(PlayClip, NamesTheFirstOfMany) {
+  convertRig();
+  write("take.csv", "Timecode,JawOpen,a,b,c,d,e,f,g\n0,0,1,1,1,1,1,1,1\n1,1,1,1,1,1,1,1,1\n");
+  const Outcome r = run("animate face.sweep --clip take.csv -o take.glb");
+  EXPECT_NE(r.err.find("7 of 8 names drive no target of the face: a, b, c, d, e, f and 1 more."),
+            std::string::npos)
+      << r.err;
+}
+
+TEST_F(PlayClip, DoesNotTellATimelineWhatItLeavesAlone) {
+  convertRig();
+  write("line.json", R"({"seconds": 1, "events": [{"at": 0, "to": {"smile": 1}}]})");
+  EXPECT_EQ(run("animate face.sweep --clip line.json -o line.glb").err, "");
+}
+
 TEST_F(PlayClip, PlaysACaptureByName) {
   convertRig();
   write("take.csv",

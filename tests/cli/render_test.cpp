@@ -1,5 +1,8 @@
 #include <fmt/format.h>
 
+#include "sweepface/codec.hpp"
+#include "sweepface/picture.hpp"
+
 #include "cli/tool.hpp"
 
 namespace sweepface {
@@ -57,6 +60,10 @@ TEST_F(Render, GoesClose) {
   };
   EXPECT_NE(rendered("--close smile"), rendered(""));
   EXPECT_NE(rendered("--close smile --to smile=1"), rendered("--to smile=1"));
+  // As fine as a picture of twice the size.
+  const Rig face = decode(contents(folder / "face.sweep"), "face.sweep").value();
+  const Index lod = lodFor(face.surface, Style::shaded, {200, 200});
+  EXPECT_EQ(rendered("--close smile --lod " + std::to_string(lod)), rendered("--close smile"));
   const Outcome r = run("render face.sweep -o out.png --close beard");
   EXPECT_EQ(r.code, 1);
   EXPECT_NE(r.err.find("beard"), std::string::npos) << r.err;

@@ -578,6 +578,13 @@ TEST(Ribbons, reachAllCurvesAlongASweepAndNoOthers) {
   EXPECT_EQ(rig.nameOf(Thing::ribbon, 0), "body");
 }
 
+TEST(Expressions, thatAreNotDecodedAreNotDrawn) {
+  Rig rig = made(vase());
+  ASSERT_EQ(draw(rig).expressions.size(), 1u);
+  rig.targets[0].difference.clear();
+  EXPECT_TRUE(draw(rig).expressions.empty());
+}
+
 TEST(Expressions, moveSinglePointsOnTop) {
   Json drawing = square();
   drawing["curves"][0]["points"] = {{1, 0, 0.5}, {2, 0, 0.7}, {3, 0, 0.5}};

@@ -44,6 +44,15 @@ TEST_P(EveryFace, HoldsTheSurfaceInSinglePrecision) {
                2 * largest(neutral) / (1 << 24));
 }
 
+TEST(GlbWriter, RefusesWhatDoesNotBelongTogether) {
+  MeshRig meshes = withTargets(plane(3, 3));
+  meshes.targets[0].positions.pop_back();
+  EXPECT_TRUE(failsWith(formatGlb(meshes), {"at odds", "15 vertices, and the neutral 16"}));
+  Rig rig = converted(withTargets(plane(3, 3)), 0.2);
+  rig.targets[0].difference.clear();
+  EXPECT_TRUE(failsWith(formatGlb(rig, {}), {"not decoded yet"}));
+}
+
 TEST_P(EveryFace, HoldsMeshesInSinglePrecision) {
   const MeshRig& source = GetParam().rig;
   const Result<std::string> bytes = formatGlb(source);

@@ -81,10 +81,10 @@ TEST(LiveLinkCsv, OfRowsAtTheSameTimeTheLastCounts) {
 
 TEST(LiveLinkCsv, MayComeFromASpreadsheet) {
   const auto clip = csv(
-      "\xef\xbb\xbfsep=,\n\"Timecode\",\"JawOpen\", \"a b\" ,\n\"0:0:0:30\",\"0.5\",1,\n1,0,0,\n");
+      "\xef\xbb\xbfsep=,\n\"Timecode\",\"JawOpen\", \"a b\" ,\n\"0:0:0;30\",\"0.5\",1,\n1,0,0,\n");
   ASSERT_TRUE(clip) << clip.error().message;
   EXPECT_EQ(clip->names, (std::vector<std::string>{"JawOpen", "a b"}));
-  EXPECT_EQ(clip->times, (std::vector<double>{0.5, 1}));
+  EXPECT_EQ(clip->times, (std::vector<double>{0.5005, 1}));
   EXPECT_EQ(clip->weights, (std::vector<double>{0.5, 1, 0, 0}));
   expectError(csv("Timecode;a\n1;0,5\n"), "line 1: the columns are separated by semicolons; save");
   expectError(csv("Timecode\ta\n1\t0\n"),
@@ -107,7 +107,6 @@ TEST(LiveLinkCsv, CellsInQuotesMayHoldCommasAndQuotes) {
 TEST(LiveLinkCsv, DroppedFrameNumbersAreNoGap) {
   for (const int rate : {30, 60}) {
     std::string text = "Timecode,jawOpen\n";
-    std::vector<int> counted;
     // Into the minutes 9, 10 and 11, of which the second drops none.
     for (int minute = 8; minute < 12; ++minute)
       for (int second = 0; second < 60; ++second)

@@ -51,8 +51,10 @@ TEST(Pages, HaveCaptions) {
   };
   EXPECT_EQ(ink(withCaption("")), 0);
   EXPECT_GT(ink(withCaption("front")), 20);
-  // However long, it stays within the page.
-  const Image wide = withCaption(std::string(300, 'm'));
+  // However long, it stays within the page, and where nobody could read it there is none.
+  EXPECT_EQ(ink(withCaption(std::string(300, 'm'))), 0);
+  const Image wide = withCaption(std::string(24, 'm'));
+  EXPECT_GT(ink(wide), 20);
   for (Index y = 200; y < wide.height; ++y) {
     EXPECT_TRUE(near(wide.at(0, y), kPaper));
     EXPECT_TRUE(near(wide.at(199, y), kPaper));
