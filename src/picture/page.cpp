@@ -26,7 +26,7 @@ Index footHeight(PictureSize panel) {
 /// Draws a text as high as it may be without being too wide, if anybody can read it then.
 void drawFitting(Image& image, std::string_view text, double x, double y, double height,
                  double width) {
-  constexpr double kReadable = 5;  // pixels
+  constexpr double kReadable = 4;  // pixels of a capital
   const double fitting = std::min(height, height * width / std::max(textWidth(text, height), 1.0));
   if (fitting >= kReadable) drawText(image, text, x, y, fitting, kInk, Align::centre);
 }
