@@ -44,9 +44,10 @@ void addOptions(CLI::App& app, AnimateArguments& a) {
   addPerformance(app, a.what);
   addRegions(app, a.regions);
   addFollowing(app, a.following);
-  app.add_option("--frames", a.frames,
-                 "How many meshes or sampled keys, the first and the last included; 31 if neither "
-                 "this nor --fps is given")
+  app.add_option(
+         "--frames", a.frames,
+         "How many meshes or sampled keys, the first and the last included; if neither this "
+         "nor --fps is given 31, of a clip 30 a second, in a .csv 60 a second")
       ->transform(wholeNumber(2, 100'000))
       ->type_name("N");
   app.add_option("--fps", a.framesPerSecond, "Meshes or sampled keys a second, instead of --frames")

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <ranges>
 #include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
@@ -77,9 +78,7 @@ void addJson(CLI::App& app, bool& json) {
 }
 
 void addFace(CLI::App& app, std::string& face) {
-  app.add_option("FACE", face, "The face, a .sweep file made by `sweepface convert`")
-      ->required()
-      ->type_name("");
+  app.add_option("FACE", face, "The face, a .sweep file")->required()->type_name("");
 }
 
 void addOutput(CLI::App& app, std::string& output, const std::string& description) {
@@ -216,6 +215,11 @@ Result<Rig> readFace(const std::string& path) {
 
 Result<Rig> opened(std::string_view bytes, const std::string& path) {
   Result<Rig> rig = decode(bytes, path);
+  if (!rig && (isGltf(path) || isOfKind(path, ".obj") || isOfKind(path, ".ply")))
+    return fail(
+        fmt::format("{} is a file of meshes, not a face; make one of it first: `sweepface convert "
+                    "{} -o face.sweep`.",
+                    path, path));
   if (!rig) return rig;
   // Files of a few bytes can have patches of any number of quads.
   const double quads = static_cast<double>(rig->surface.wireframe().quadCount());
@@ -251,10 +255,23 @@ std::optional<Vec3> parsePoint(std::string_view text) {
   return Vec3{p[0], p[1], p[2]};
 }
 
+namespace {
+
+/// Whether something between commas is nothing but digits: the 5 of "jawOpen=0,5".
+bool hasDecimalComma(std::string_view text) {
+  return std::ranges::any_of(text | std::views::split(',') | std::views::drop(1), [](auto part) {
+    return !part.empty() && std::ranges::all_of(part, [](char c) { return c >= '0' && c <= '9'; });
+  });
+}
+
+}  // namespace
+
 Result<Weights> weightsGiven(std::string_view option, std::string_view text, const Rig& rig) {
   Result<Weights> weights = parseWeights(rig, text);
-  if (!weights) return fail(fmt::format("{}: {}", option, weights.error().message));
-  return weights;
+  if (weights) return weights;
+  return fail(fmt::format("{}: {}{}", option,
+                          hasDecimalComma(text) ? "Numbers have a point, as in 0.5. " : "",
+                          weights.error().message));
 }
 
 bool isOfKind(const fs::path& path, std::string_view kind) { return extensionOf(path) == kind; }

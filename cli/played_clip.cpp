@@ -112,6 +112,7 @@ Result<std::vector<Performance>> byClip(const PerformanceArguments& a, const Rig
                     a.clip, whole->names.size(), firstOf(whole->names)));
   Performance shared;
   shared.name = std::filesystem::path(a.clip).stem().string();
+  if (!whole->title.empty()) shared.name += " " + whole->title;
   shared.called = a.clip;
   shared.frameMiss = clips->missed;
   shared.notes = whole->warnings;

@@ -17,6 +17,7 @@ struct Clip {
   std::vector<double> times;            ///< [F] seconds, increasing
   std::vector<double> weights;          ///< [F × N]
   std::vector<std::string> warnings{};  ///< what was mended or may be wrong in the file, sentences
+  std::string title{};                  ///< of the animation in its file, or empty
 
   double seconds() const { return times.empty() ? 0 : times.back() - times.front(); }
   /// The weights at `seconds` after the first frame, straight between frames and held at the ends:

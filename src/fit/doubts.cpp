@@ -133,6 +133,13 @@ TargetDoubt doubtAbout(const Outline& outline, const std::vector<Vec3>& neutral,
   return {};
 }
 
+bool isCalledNeutral(std::string name) {
+  std::ranges::transform(name, name.begin(), [](char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
+  });
+  return name == "neutral" || name == "basis" || name == "rest";
+}
+
 }  // namespace
 
 std::vector<std::string> doubtsAbout(const MeshRig& source, double tolerance) {
@@ -165,6 +172,15 @@ std::vector<std::string> doubtsAbout(const MeshRig& source, double tolerance) {
   };
   const Doubts still = of(TargetDoubt::neutral), away = of(TargetDoubt::origin);
   tell(still, "are the same as the neutral");
+  Doubts neutrals;
+  for (std::size_t t = 0; t < doubts.size(); ++t)
+    if (doubts[t].kind != TargetDoubt::neutral && isCalledNeutral(source.targets[t].name))
+      neutrals.emplace_back(source.targets[t].name, "");
+  if (!neutrals.empty())
+    sentences.push_back(
+        fmt::format("Targets that are called like a neutral but are others: {}; the neutral may be "
+                    "an expression that was given instead.",
+                    listed(neutrals)));
   tell(of(TargetDoubt::units), "may be in other units, or have their vertices in another order");
   tell(of(TargetDoubt::axes), "may have other axes");
   // Lower teeth go far for their size, but hardly in most targets.

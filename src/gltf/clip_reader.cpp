@@ -53,7 +53,7 @@ class ClipReader {
       if (!in.ok()) return in.error();
       if (!wanted.empty() && name != wanted) continue;
       if (auto ok = readAnimation(in); !ok) return std::unexpected(ok.error());
-      if (!tracks_.empty()) return clipOf();
+      if (!tracks_.empty()) return clipOf(name);
     }
     if (wanted.empty()) return fail("it has no animation of morph targets.");
     return fail(fmt::format("it has no animation of morph targets named {}{}.",
@@ -65,10 +65,19 @@ class ClipReader {
     constexpr std::size_t kMost = 10;
     std::string names;
     for (std::size_t a = 0; a < std::min(animations.size(), kMost); ++a)
-      if (const Json* const name = find(animations[a], "name"); name && name->is_string())
-        names += (names.empty() ? "; its animations are " : ", ") +
+      if (const Json* const name = find(animations[a], "name");
+          name && name->is_string() && hasWeights(animations[a]))
+        names += (names.empty() ? "; those that it has are " : ", ") +
                  io::inQuotes(name->get_ref<const std::string&>());
     return !names.empty() && animations.size() > kMost ? names + ", ..." : names;
+  }
+
+  static bool hasWeights(const Json& animation) {
+    return std::ranges::any_of(listOf(animation, "channels"), [](const Json& channel) {
+      const Json* const target = find(channel, "target");
+      const Json* const path = target ? find(*target, "path") : nullptr;
+      return path && *path == "weights";
+    });
   }
 
   Result<void> readAnimation(Members& in) {
@@ -220,13 +229,14 @@ class ClipReader {
     return times;
   }
 
-  Result<Clip> clipOf() const {
+  Result<Clip> clipOf(std::string_view name) const {
     auto times = frames();
     if (!times) return std::unexpected(times.error());
     // Players hold the first key from the beginning.
     if (times->front() > 0) times->insert(times->begin(), 0.0);
     if (times->size() > mostFrames()) return tooLong();
-    Clip clip{names_, std::move(*times), {}};
+    Clip clip{
+        .names = names_, .times = std::move(*times), .weights = {}, .title = std::string(name)};
     std::vector<std::vector<double>> now;
     for (const Track& track : tracks_) now.emplace_back(track.names.size());
     for (const double time : clip.times) {

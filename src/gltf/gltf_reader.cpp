@@ -3,6 +3,7 @@
 #include "sweepface/gltf.hpp"
 
 #include "gltf/accessor.hpp"
+#include "gltf/hard_normals.hpp"
 #include "gltf/mesh_rig.hpp"
 #include "gltf/same_vertices.hpp"
 #include "gltf/scene.hpp"
@@ -37,14 +38,18 @@ Result<RigSource> readGltf(std::string_view bytes, const std::filesystem::path& 
   auto read = gltf::readMeshRig(*document, *parts);
   if (!read) return std::unexpected(read.error());
   auto& [rig, facePart] = *read;
-  const auto same = gltf::sameVertices(*document, *parts, weld(rig));
+  const std::vector<Index> places = weld(rig);
+  const auto same = gltf::sameVertices(*document, *parts, places);
   if (!same) return std::unexpected(same.error());
+  const auto hard = gltf::hardNormals(*document, *parts, places);
+  if (!hard) return std::unexpected(hard.error());
   rig.neutral.polygons = recoverQuads(rig, *same, facePart).polygons;
   RigSource source{std::move(rig), {}, document->warnings};
   if (hasStepsThatASkinUndoes(*document, *parts))
     source.warnings.push_back(
         "The face is quantized, and its skin undoes that: sizes, distances and the tolerance are "
         "in units of the quantization, not of the scene.");
+  if (!hard->empty()) source.warnings.push_back(*hard);
   auto scene = gltf::makeScene(std::move(*document), *parts, source.rig.neutral.polygons, folder);
   if (!scene) return std::unexpected(scene.error());
   source.scene = gltf::formatScene(scene->glb);

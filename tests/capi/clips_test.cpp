@@ -156,7 +156,7 @@ TEST_F(Clips, OfAGlbAreChosenByTheirNames) {
   options.animation = "walk";
   EXPECT_EQ(read(glb.bytes(), &options), SWEEPFACE_BAD_DATA);
   EXPECT_STREQ(sweepface_message(),
-               "take: it has no animation of morph targets named 'walk'; its animations are "
+               "take: it has no animation of morph targets named 'walk'; those that it has are "
                "'idle', 'talk'.");
 }
 

@@ -222,6 +222,9 @@ TEST_F(Animate, RefusesWhatCannotBe) {
   EXPECT_TRUE(fails(command + "--to frown=1", "--to: There is no target named 'frown'"));
   EXPECT_TRUE(
       fails(command + "--from frown=1 --to smile=1", "--from: There is no target named 'frown'"));
+  EXPECT_TRUE(fails(command + "--to smile=0,5", "--to: Numbers have a point, as in 0.5. There is"));
+  EXPECT_TRUE(
+      fails("animate neutral.obj --to smile=1 -o frames", "not a face; make one of it first"));
   EXPECT_TRUE(fails("animate face.sweep --to smile=1 -o -", "Standard output takes no meshes"));
   EXPECT_TRUE(fails(command + "--to smile=1 --law magic", "accelerate-brake"));
   EXPECT_TRUE(fails(command + "--to smile=1 --frames 1",

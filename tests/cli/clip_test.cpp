@@ -180,6 +180,9 @@ TEST_F(PlayClip, PlaysAnAnimationOfAGlb) {
   EXPECT_LE(largestDistance(frame(1), exported("jawOpen=0.25,smile=0.125")), 1e-4);
   EXPECT_LE(largestDistance(frame(2), exported("jawOpen=1,smile=0.5")), 1e-6);
   EXPECT_TRUE(fails("animate face.sweep --clip move.glb --animation walk -o frames", "'walk'"));
+  // Its name tells which of several it was.
+  ASSERT_EQ(run("animate face.sweep --clip move.glb -o again.glb").code, 0);
+  EXPECT_EQ(Written(contents(folder / "again.glb")).json["animations"][0]["name"], "move newton");
 }
 
 TEST_F(PlayClip, PlaysAnAnimationOfAGltfOfTheCurrentFolder) {

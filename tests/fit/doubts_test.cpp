@@ -105,6 +105,12 @@ TEST(Doubts, AreOfTargetsThatAreTheNeutral) {
             std::vector<std::string>{"Targets that are the same as the neutral: 'still'."});
 }
 
+TEST(Doubts, AreOfTargetsThatAreCalledLikeANeutral) {
+  const auto doubts = doubtsAbout(rigWith({{"open", opened()}, {"Neutral", opened()}}), 0.01);
+  ASSERT_EQ(doubts.size(), 1u);
+  EXPECT_NE(doubts[0].find("called like a neutral but are others: 'Neutral';"), std::string::npos);
+}
+
 TEST(Doubts, NameSixTargetsAtMost) {
   MeshRig rig = rigWith({});
   for (int k = 0; k < 9; ++k)

@@ -263,6 +263,12 @@ TEST(GltfClip, SaysWhatIsWrong) {
   EXPECT_TRUE(fails(moving("CUBICSPLINE", {0, 1}, {0, 0, 1, 1}), "4 values"));
   EXPECT_TRUE(fails(moving("SPLINE", {0, 1}, {0, 0, 1, 1}), "interpolation"));
   Glb glb = moving("LINEAR", {0, 1}, {0, 0, 1, 1});
+  glb.json["animations"][0]["name"] = "talk";
+  Json nod = glb.json["animations"][0];
+  nod["name"] = "nod", nod["channels"][0]["target"]["path"] = "rotation";
+  glb.json["animations"].push_back(nod);
+  EXPECT_TRUE(fails(glb, "named 'nod'; those that it has are 'talk'.", "nod"));
+  EXPECT_EQ(clipOf(glb)->title, "talk");
   glb.json["animations"][0]["samplers"][0]["input"] = 99;
   EXPECT_TRUE(fails(glb, "'input' is 99"));
   EXPECT_TRUE(failsWith(parseGltfClip("glTF", "move.glb", {}), {"move.glb"}));

@@ -412,6 +412,23 @@ TEST(GltfReader, WarnsWhereASkinUndoesAQuantization) {
   EXPECT_NE(warnings[0].find("units of the quantization, not of the scene"), std::string::npos);
 }
 
+TEST(GltfReader, WarnsOfFlatShading) {
+  std::vector<Vec3> positions = zigzag(3);
+  std::ranges::copy(zigzag(3), std::back_inserter(positions));
+  const auto warnings = [&](const Vec3& first, const Vec3& second) {
+    Glb glb = points(positions);
+    std::vector<Vec3> normals(3, first);
+    normals.resize(6, second);
+    glb.primitive()["attributes"]["NORMAL"] = glb.addVectors(normals);
+    return read(glb).warnings;
+  };
+  ASSERT_EQ(warnings({0, 0, 1}, {1, 0, 0}).size(), 1u);
+  EXPECT_EQ(warnings({0, 0, 1}, {1, 0, 0})[0].find("At 3 of 3 places"), 0u);
+  EXPECT_TRUE(warnings({0, 0, 1}, {0.3, 0, 0.95}).empty());
+  EXPECT_TRUE(warnings({0, 0, 1}, {0, 0, -1}).empty());  // a sheet that is doubled
+  EXPECT_TRUE(warnings({0, 0, 0}, {1, 0, 0}).empty());   // the first have none
+}
+
 TEST(GltfReader, AMeshThatNoNodeShowsStaysWhereItIs) {
   Glb glb = smallFace();
   glb.json.erase("nodes");

@@ -11,8 +11,8 @@ import { inWork, realFaces, run, sampleFace, sweepface, targetNames } from './to
 const gltfpack = fileURLToPath(new URL('node_modules/gltfpack/cli.js', import.meta.url));
 const pack = (from, to, options) => run(process.execPath, gltfpack, '-i', from, '-o', to, ...options);
 
-const few = [['-cc'], ['-c', '-noq'], ['-cc', '-vpn']];
-const ways = [...few, ['-c'], ['-cc', '-noq'], ['-noq'], ['-cc', '-kn', '-ke', '-vp', '16']];
+const few = [['-cc', '-vpn']];
+const ways = [...few, ['-cc'], ['-c', '-noq'], ['-c'], ['-cc', '-noq'], ['-noq'], ['-cc', '-kn', '-ke', '-vp', '16']];
 
 function facesOf(obj) {
   const faces = { 3: 0, 4: 0 };
