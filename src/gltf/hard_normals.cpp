@@ -17,30 +17,29 @@ bool areApart(const Vec3& a, const Vec3& b) {
   return cosine < kFar * lengths && cosine > kOpposite * lengths;
 }
 
-/// The normals of the vertices of a run; none where its primitives have none.
-Result<std::vector<double>> normalsOf(const Document& document, const Json& primitive) {
+/// The normals of a primitive's vertices; none where it has none, or some are no numbers: the face
+/// can do without.
+std::vector<double> normalsOf(const Document& document, const Json& primitive) {
   const Json* const number = find(*find(primitive, "attributes"), "NORMAL");
   if (!number) return {};
   const auto accessor = accessorAt(document, number->get<std::size_t>());
-  if (!accessor) return std::unexpected(accessor.error());
-  if (!accessor->hasData()) return {};
-  return decode(document, *accessor);
+  if (!accessor || !accessor->hasData()) return {};
+  return decode(document, *accessor).value_or(std::vector<double>{});
 }
 
 }  // namespace
 
-Result<std::string> hardNormals(const Document& document, const Parts& parts,
-                                std::span<const Index> places) {
+std::string hardNormals(const Document& document, const Parts& parts,
+                        std::span<const Index> places) {
   std::vector<Vec3> first(places.size());  // [places] a normal there, 0 if there is none yet
   std::vector<bool> isHard(places.size()), isRead(parts.runs.size());
   for (const Part& part : parts.parts) {
     if (isRead[part.run]) continue;
     isRead[part.run] = true;
-    const auto normals = normalsOf(document, primitiveOf(document, parts, part));
-    if (!normals) return std::unexpected(normals.error());
+    const std::vector<double> normals = normalsOf(document, primitiveOf(document, parts, part));
     const std::size_t begin = parts.runs[part.run].first;
-    for (std::size_t v = 0; v < normals->size() / 3; ++v) {
-      const double* const n = normals->data() + 3 * v;
+    for (std::size_t v = 0; v < normals.size() / 3; ++v) {
+      const double* const n = normals.data() + 3 * v;
       const Vec3 normal{n[0], n[1], n[2]};
       const auto place = static_cast<std::size_t>(places[begin + v]);
       if (norm(first[place]) == 0) first[place] = normal;

@@ -425,8 +425,9 @@ TEST(GltfReader, WarnsOfFlatShading) {
   ASSERT_EQ(warnings({0, 0, 1}, {1, 0, 0}).size(), 1u);
   EXPECT_EQ(warnings({0, 0, 1}, {1, 0, 0})[0].find("At 3 of 3 places"), 0u);
   EXPECT_TRUE(warnings({0, 0, 1}, {0.3, 0, 0.95}).empty());
-  EXPECT_TRUE(warnings({0, 0, 1}, {0, 0, -1}).empty());  // a sheet that is doubled
-  EXPECT_TRUE(warnings({0, 0, 0}, {1, 0, 0}).empty());   // the first have none
+  EXPECT_TRUE(warnings({0, 0, 1}, {0, 0, -1}).empty());   // a sheet that is doubled
+  EXPECT_TRUE(warnings({0, 0, 0}, {1, 0, 0}).empty());    // the first have none
+  EXPECT_TRUE(warnings({0, 0, 1}, {NAN, 0, 0}).empty());  // nobody needs them
 }
 
 TEST(GltfReader, AMeshThatNoNodeShowsStaysWhereItIs) {
