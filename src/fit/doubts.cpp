@@ -79,8 +79,8 @@ Vec3 centreOf(const Outline& outline, const std::vector<Vec3>& positions) {
 struct Attitude {
   bool mirrored = false;
   bool swapsAxes = false;  ///< nearly a turn that brings axes onto others: heads turn otherwise
-  double degrees = 0;
-  double left = 0;  ///< of the target's movement about its centre, squared
+  double degrees = 0;      ///< to the nearest 30, as such turns are, by 90, 120 or 180
+  double left = 0;         ///< of the target's movement about its centre, squared
 };
 Attitude attitudeOf(const Outline& outline, const std::vector<Vec3>& neutral,
                     const std::vector<Vec3>& target) {
@@ -106,7 +106,8 @@ Attitude attitudeOf(const Outline& outline, const std::vector<Vec3>& neutral,
   const Eigen::Matrix3d turn = u * svd.matrixV().transpose();
   attitude.swapsAxes = (turn.cwiseAbs().rowwise().maxCoeff().array() > kNearly).all();
   const double cosine = (turn.trace() - 1) / 2;
-  attitude.degrees = std::acos(std::clamp(cosine, -1.0, 1.0)) * 180 / std::numbers::pi;
+  attitude.degrees =
+      30 * std::round(std::acos(std::clamp(cosine, -1.0, 1.0)) * 6 / std::numbers::pi);
   attitude.left = movement > 0 ? (sizes - 2 * fit) / movement : 1;
   return attitude;
 }

@@ -114,7 +114,7 @@ TEST_F(GltfSource, StandsAlone) {
   makeRig();
   EXPECT_TRUE(fails("convert face.glb targets -o face.sweep",
                     "face.glb holds a face and its expressions; name it without targets."));
-  EXPECT_TRUE(fails("measure face.glb face.glb", "face.glb does not begin with SWEEPFC"));
+  EXPECT_TRUE(fails("measure face.glb face.glb", "face.glb is a file of meshes, not a face"));
   EXPECT_TRUE(fails("convert neutral.obj face.glb -o face.sweep",
                     "face.glb cannot be read as one mesh of several"));
 }

@@ -68,6 +68,10 @@ TEST(Doubts, AreOfTargetsInAnotherOrder) {
 TEST(Doubts, AreOfTargetsOfOtherAxes) {
   EXPECT_EQ(doubtAbout(placed([](const Vec3& p) { return Vec3{p.x, -p.z, p.y}; })),
             "Targets that may have other axes: 'odd' (turned by 90 degrees).");
+  std::vector<Vec3> alsoOpen = opened();  // by 90 degrees and a little
+  for (Vec3& p : alsoOpen) p = {p.x, 0.02 * p.y - p.z, p.y + 0.02 * p.z};
+  EXPECT_EQ(doubtAbout(alsoOpen),
+            "Targets that may have other axes: 'odd' (turned by 90 degrees).");
   MeshRig ball{cubeSphere(), {}};
   std::vector<Vec3> mirrored = ball.neutral.positions;
   for (Vec3& p : mirrored) p.x = -p.x;
