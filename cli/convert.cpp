@@ -183,8 +183,9 @@ Result<RigSource> readSource(const ConvertArguments& a, const Strip& parts, Prog
 std::vector<std::string> warningsOf(const ConvertArguments& a, const Strip& parts,
                                     const RigSource& source) {
   const bool losesScene = parts.order && bringsScene(a, parts, source);
-  std::vector<std::string> warnings;
-  if (!a.bare && !parts.scene && !losesScene) warnings = source.warnings;
+  std::vector<std::string> warnings = source.faceWarnings;
+  if (!a.bare && !parts.scene && !losesScene)
+    std::ranges::copy(source.warnings, std::back_inserter(warnings));
   if (losesScene) warnings.push_back(sceneIsLost(a.neutral));
   if (isGltf(a.neutral) && source.rig.targets.empty())
     warnings.push_back(a.neutral + " has no morph targets, so the face has no expressions.");

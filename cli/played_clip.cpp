@@ -113,6 +113,7 @@ Result<std::vector<Performance>> byClip(const PerformanceArguments& a, const Rig
   Performance shared;
   shared.name = std::filesystem::path(a.clip).stem().string();
   if (!whole->title.empty()) shared.name += " " + whole->title;
+  // It is told on a line of its own, whatever the file calls it.
   std::ranges::replace_if(shared.name, [](unsigned char c) { return c < ' '; }, ' ');
   shared.called = a.clip;
   shared.frameMiss = clips->missed;

@@ -24,8 +24,8 @@ Result<std::size_t> convertFiles(const std::filesystem::path& neutral,
   options.pack = true;
   auto made = convert(source->rig, options);
   if (!made) return std::unexpected(made.error());
-  for (const std::string& warning : source->warnings) fmt::print(stderr, "warning: {}\n", warning);
-  for (const std::string& warning : made->warnings) fmt::print(stderr, "warning: {}\n", warning);
+  for (const auto& list : {source->faceWarnings, source->warnings, made->warnings})
+    for (const std::string& warning : list) fmt::print(stderr, "warning: {}\n", warning);
 
   const FurthestVertex furthest = furthestVertex(made->rig, source->rig);
   fmt::print("{} targets, at most {:.4f} of {:.4f} off\n", made->rig.targets.size(),

@@ -38,7 +38,9 @@ struct RigSource {
   /// What the file holds besides the rig, for Rig::scene (docs/glb.md); empty for files without
   /// one.
   std::string scene;
-  std::vector<std::string> warnings;  ///< what could not be carried over, in sentences
+  std::vector<std::string> warnings;  ///< what of that could not be carried over, in sentences
+  /// On the face itself, with or without a scene.
+  std::vector<std::string> faceWarnings{};
 };
 
 /// The same from any files: a .glb or .gltf alone, which holds its targets, or as readRig does.

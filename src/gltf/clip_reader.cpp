@@ -64,12 +64,15 @@ class ClipReader {
   static std::string listed(const Json& animations) {
     constexpr std::size_t kMost = 10;
     std::string names;
-    for (std::size_t a = 0; a < std::min(animations.size(), kMost); ++a)
-      if (const Json* const name = find(animations[a], "name");
-          name && name->is_string() && hasWeights(animations[a]))
+    std::size_t count = 0;
+    for (const Json& animation : animations)
+      if (const Json* const name = find(animation, "name");
+          name && name->is_string() && hasWeights(animation)) {
+        if (++count > kMost) return names + ", ...";
         names += (names.empty() ? "; those that it has are " : ", ") +
                  io::inQuotes(name->get_ref<const std::string&>());
-    return !names.empty() && animations.size() > kMost ? names + ", ..." : names;
+      }
+    return names;
   }
 
   static bool hasWeights(const Json& animation) {

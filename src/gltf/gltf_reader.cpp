@@ -45,10 +45,10 @@ Result<RigSource> readGltf(std::string_view bytes, const std::filesystem::path& 
   rig.neutral.polygons = recoverQuads(rig, *same, facePart).polygons;
   RigSource source{std::move(rig), {}, document->warnings};
   if (hasStepsThatASkinUndoes(*document, *parts))
-    source.warnings.push_back(
+    source.faceWarnings.push_back(
         "The face is quantized, and its skin undoes that: sizes, distances and the tolerance are "
         "in units of the quantization, not of the scene.");
-  if (!hard.empty()) source.warnings.push_back(hard);
+  if (!hard.empty()) source.faceWarnings.push_back(hard);
   auto scene = gltf::makeScene(std::move(*document), *parts, source.rig.neutral.polygons, folder);
   if (!scene) return std::unexpected(scene.error());
   source.scene = gltf::formatScene(scene->glb);

@@ -100,6 +100,26 @@ TEST_F(GltfSource, WarnsOfWhatIsNotCarriedOver) {
               "");
 }
 
+TEST_F(GltfSource, WarnsOfFlatShadingWithAndWithoutAScene) {
+  Glb glb;
+  std::vector<Vec3> positions, normals;
+  std::vector<std::uint16_t> indices;
+  for (const std::uint16_t corner : sheetIndices()) {
+    normals.push_back(positions.size() / 3 % 2 == 0 ? Vec3{0, 0, 1} : Vec3{1, 0, 0});
+    indices.push_back(static_cast<std::uint16_t>(positions.size()));
+    positions.push_back(sheetPositions()[corner]);
+  }
+  const Json attributes = {{"POSITION", glb.addVectors(positions)},
+                           {"NORMAL", glb.addVectors(normals)}};
+  const Json primitive = {{"attributes", attributes}, {"indices", glb.addIndices(indices)}};
+  glb.add("meshes", {{"primitives", Json::array({primitive})}});
+  folder.file("flat.glb", glb.bytes());
+  for (const std::string options : {"", " --bare", " --strip order"}) {
+    const Outcome r = run("convert flat.glb -o flat.sweep --tolerance 0.01" + options);
+    EXPECT_NE(r.err.find("places the vertices have normals"), std::string::npos) << r.err;
+  }
+}
+
 TEST_F(GltfSource, WarnsOfAFaceWithoutExpressions) {
   Glb glb = smallFace();
   for (auto& mesh : glb.json["meshes"])

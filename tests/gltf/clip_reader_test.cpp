@@ -269,6 +269,12 @@ TEST(GltfClip, SaysWhatIsWrong) {
   glb.json["animations"].push_back(nod);
   EXPECT_TRUE(fails(glb, "named 'nod'; those that it has are 'talk'.", "nod"));
   EXPECT_EQ(clipOf(glb)->title, "talk");
+  // Ten are told, wherever they stand.
+  Glb many = glb;
+  many.json["animations"] = Json::array();
+  for (int k = 0; k < 12; ++k) many.json["animations"].push_back(nod);
+  many.json["animations"].push_back(glb.json["animations"][0]);
+  EXPECT_TRUE(fails(many, "are 'talk'.", "nod"));
   glb.json["animations"][0]["samplers"][0]["input"] = 99;
   EXPECT_TRUE(fails(glb, "'input' is 99"));
   EXPECT_TRUE(failsWith(parseGltfClip("glTF", "move.glb", {}), {"move.glb"}));

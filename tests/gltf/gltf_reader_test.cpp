@@ -60,6 +60,7 @@ TEST(GltfReader, ReadsTheNeutralAndItsTargets) {
   EXPECT_EQ(source.rig.targets[0].positions, open);
   EXPECT_EQ(source.rig.targets[1].positions, wink);
   EXPECT_TRUE(source.warnings.empty());
+  EXPECT_TRUE(source.faceWarnings.empty());
 }
 
 /// As the standard allows: zeros where nothing else is said.
@@ -405,9 +406,9 @@ TEST(GltfReader, WarnsWhereASkinUndoesAQuantization) {
   glb.primitive()["attributes"]["POSITION"] =
       glb.addAccessor(glb.addView(bytesOf(values), 8), 5122, "VEC3", 3);
   glb.add("nodes", {{"mesh", 0}});
-  EXPECT_TRUE(read(glb).warnings.empty());
+  EXPECT_TRUE(read(glb).faceWarnings.empty());
   glb.json["nodes"][0]["skin"] = 0;
-  const auto warnings = read(glb).warnings;
+  const auto warnings = read(glb).faceWarnings;
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_NE(warnings[0].find("units of the quantization, not of the scene"), std::string::npos);
 }
@@ -420,7 +421,7 @@ TEST(GltfReader, WarnsOfFlatShading) {
     std::vector<Vec3> normals(3, first);
     normals.resize(6, second);
     glb.primitive()["attributes"]["NORMAL"] = glb.addVectors(normals);
-    return read(glb).warnings;
+    return read(glb).faceWarnings;
   };
   ASSERT_EQ(warnings({0, 0, 1}, {1, 0, 0}).size(), 1u);
   EXPECT_EQ(warnings({0, 0, 1}, {1, 0, 0})[0].find("At 3 of 3 places"), 0u);

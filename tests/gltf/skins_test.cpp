@@ -114,6 +114,7 @@ TEST(Skins, PlaceWhatTheyAloneUndo) {
   for (std::size_t v = 0; v < 9; ++v) open[v] += openDeltas()[v];
   expectNear(source.rig.targets[0].positions, open);
   EXPECT_TRUE(source.warnings.empty()) << source.warnings[0];
+  EXPECT_TRUE(source.faceWarnings.empty()) << source.faceWarnings[0];
 }
 
 TEST(Skins, OfSeveralMeshesPlaceThemInOneScene) {
@@ -263,7 +264,7 @@ TEST(Skins, LeaveAMeshAsItStandsThatHasMoreThanTheFace) {
   primitives.push_back({{"mode", 0}, {"attributes", {{"POSITION", glb.addVectors({{}, {}, {}})}}}});
   const RigSource source = read(glb);
   EXPECT_EQ(source.rig.neutral.positions[2].x, 64 * sheetPositions()[2].x);
-  EXPECT_FALSE(source.warnings.empty());
+  EXPECT_FALSE(source.faceWarnings.empty());
   EXPECT_EQ(write(converted(glb)).json["skins"], before);
 }
 
