@@ -9,6 +9,8 @@
 #include "sweepface/fit.hpp"
 #include "sweepface/io.hpp"
 
+#include "give_up.hpp"
+
 namespace sweepface::bench {
 namespace {
 
@@ -71,14 +73,7 @@ const char* facePath() {
 }  // namespace
 
 const Rig& face() {
-  static const Rig rig = [] {
-    Result<Rig> loaded = loadFace(facePath());
-    if (!loaded) {
-      fmt::print(stderr, "sweepface_bench: {}\n", loaded.error().message);
-      std::exit(1);
-    }
-    return std::move(*loaded);
-  }();
+  static const Rig rig = orEnd(loadFace(facePath()));
   return rig;
 }
 

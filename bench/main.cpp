@@ -10,19 +10,17 @@
 #include <string_view>
 
 #include "bench_face.hpp"
+#include "give_up.hpp"
 #include "play_bench.hpp"
 
 namespace {
 
-bool chooseVectors() {
+void chooseVectors() {
   const char* wanted = std::getenv("SWEEPFACE_BENCH_SIMD");
-  if (wanted == nullptr || *wanted == '\0') return true;
-  if (std::string_view(wanted) != "avx2") {
-    fmt::print(stderr, "sweepface_bench: SWEEPFACE_BENCH_SIMD may be avx2, not '{}'.\n", wanted);
-    return false;
-  }
+  if (wanted == nullptr || *wanted == '\0') return;
+  if (std::string_view(wanted) != "avx2")
+    sweepface::bench::giveUp(fmt::format("SWEEPFACE_BENCH_SIMD may be avx2, not '{}'.", wanted));
   hwy::DisableTargets(HWY_AVX3 | HWY_AVX3_DL);
-  return true;
 }
 
 }  // namespace
@@ -30,7 +28,7 @@ bool chooseVectors() {
 int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
-  if (!chooseVectors()) return 2;
+  chooseVectors();
   const sweepface::Rig& rig = sweepface::bench::face();
   benchmark::AddCustomContext("face", sweepface::bench::faceName());
   benchmark::AddCustomContext("vertices", fmt::format("{}", rig.source.gridVertex.size()));
@@ -40,7 +38,7 @@ int main(int argc, char** argv) {
   benchmark::AddCustomContext("targets", fmt::format("{}", rig.targets.size()));
   benchmark::AddCustomContext("vectors of",
                               hwy::TargetName(hwy::SupportedTargets() & -hwy::SupportedTargets()));
-  if (!sweepface::bench::registerPlayers()) return 1;
+  sweepface::bench::registerPlayers();
   sweepface::bench::Ratios ratios;
   benchmark::RunSpecifiedBenchmarks(&ratios);
   benchmark::Shutdown();

@@ -9,6 +9,7 @@
 #include "sweepface/io.hpp"
 
 #include "bench_face.hpp"
+#include "give_up.hpp"
 
 namespace sweepface::bench {
 namespace {
@@ -71,19 +72,15 @@ std::vector<std::filesystem::path> pathsOf(const char* list) {
 }
 
 std::vector<Pose> posesOfSource(const char* neutral) {
-  const auto source = readRig(neutral, pathsOf(std::getenv("SWEEPFACE_BENCH_TARGETS")));
-  const auto stop = [](const std::string& why) {
-    fmt::print(stderr, "sweepface_bench: {}\n", why);
-    std::exit(1);
-  };
-  if (!source) stop(source.error().message);
-  const auto& [positions, polygons] = source->neutral;
+  const auto source = orEnd(readRig(neutral, pathsOf(std::getenv("SWEEPFACE_BENCH_TARGETS"))));
+  const auto& [positions, polygons] = source.neutral;
   if (positions.size() != face().source.gridVertex.size())
-    stop("The neutral and the face are not of the same number of vertices.");
+    giveUp("The neutral and the face are not of the same number of vertices.");
   std::vector<Pose> poses{{positions, meshNormals(positions, polygons)}};
   for (const Target& target : face().targets) {
-    const auto found = std::ranges::find(source->targets, target.name, &MeshTarget::name);
-    if (found == source->targets.end()) stop("There is no mesh of the target " + target.name + ".");
+    const auto found = std::ranges::find(source.targets, target.name, &MeshTarget::name);
+    if (found == source.targets.end())
+      giveUp("There is no mesh of the target " + target.name + ".");
     poses.push_back({found->positions, meshNormals(found->positions, polygons)});
   }
   return poses;

@@ -18,6 +18,9 @@ inline constexpr std::size_t kChunk = 64;
 /// Targets that the kernels have room for.
 inline constexpr std::size_t kMostTargets = 1024;
 
+/// Floats that they have room for: blocks of 16 are counted in 16 bits.
+inline constexpr std::size_t kMostFloats = 16 * 65536;
+
 /// 64-byte aligned memory.
 template <typename T>
 class Aligned {

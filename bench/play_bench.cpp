@@ -14,6 +14,7 @@
 
 #include "add.hpp"
 #include "bench_face.hpp"
+#include "give_up.hpp"
 #include "peers.hpp"
 
 namespace sweepface::bench {
@@ -48,12 +49,7 @@ Evaluator makeEvaluator(bool normals, Index level = 0) {
   EvaluatorOptions options;
   options.normals = normals;
   options.level = level;
-  auto made = Evaluator::make(face(), options);
-  if (!made) {
-    fmt::print(stderr, "sweepface_bench: {}\n", made.error().message);
-    std::exit(1);
-  }
-  return std::move(*made);
+  return orEnd(Evaluator::make(face(), options));
 }
 
 /// As near to the surface as half the source's vertices allow; a face may have more corners.
@@ -181,22 +177,21 @@ void addPeers(bool equalError) {
 
 }  // namespace
 
-bool registerPlayers() {
-  if (face().targets.size() > kMostTargets) {
-    fmt::print(stderr, "sweepface_bench: The face has {} targets; the kernels take {} at most.\n",
-               face().targets.size(), kMostTargets);
-    return false;
-  }
+void registerPlayers() {
+  if (face().targets.size() > kMostTargets)
+    giveUp(fmt::format("The face has {} targets; the kernels take {} at most.",
+                       face().targets.size(), kMostTargets));
+  if (morphs().floats() > kMostFloats)
+    giveUp(fmt::format("The face has {} vertices; the kernels take {} at most.",
+                       morphs().floats() / 3, kMostFloats / 3));
   static const Evaluator evaluator = makeEvaluator(true);
   const Player plain = evaluatorPlayer(evaluator, false);
   const double off = worstTarget(plain);
   fmt::print("evaluator: {:.5f} off at worst, {} bytes\n", off, plain.bytes);
   // Beyond its tolerance it is too bad to be compared; what the evaluator drops comes on top.
-  if (!(off <= 1.31 * face().tolerance)) {
-    fmt::print(stderr, "sweepface_bench: The evaluator is {} off, more than the tolerance {}.\n",
-               off, face().tolerance);
-    return false;
-  }
+  if (!(off <= 1.31 * face().tolerance))
+    giveUp(
+        fmt::format("The evaluator is {} off, more than the tolerance {}.", off, face().tolerance));
   addWarm("all", plain, Active::all);
   addWarm("ten", plain, Active::ten);
   addWarm("normals", evaluatorPlayer(evaluator, true), Active::all);
@@ -214,7 +209,6 @@ bool registerPlayers() {
   });
   addPeers(false);
   addPeers(true);
-  return true;
 }
 
 void Ratios::ReportRuns(const std::vector<Run>& runs) {

@@ -8,8 +8,8 @@
 
 namespace sweepface::bench {
 
-/// Registers the evaluator and what it is compared with; false where it is not worth comparing.
-bool registerPlayers();
+/// Registers the evaluator and what it is compared with; ends the program where that says nothing.
+void registerPlayers();
 
 /// Prints as usual and remembers what ratios need.
 class Ratios : public benchmark::ConsoleReporter {

@@ -1,7 +1,6 @@
 // What regions cost: a frame of their motion and of their blend, beside the plain ones.
 #include <algorithm>
 #include <benchmark/benchmark.h>
-#include <cstdlib>
 #include <fmt/format.h>
 #include <vector>
 
@@ -10,18 +9,12 @@
 
 #include "add.hpp"
 #include "bench_face.hpp"
+#include "give_up.hpp"
 
 namespace sweepface::bench {
 namespace {
 
 constexpr int kRegions = 8;
-
-template <typename T>
-T orEnd(Result<T> result) {
-  if (result) return std::move(*result);
-  fmt::print(stderr, "sweepface_bench: {}\n", result.error().message);
-  std::exit(1);
-}
 
 /// Places of the nodes.
 std::vector<Vec3> nodes() {

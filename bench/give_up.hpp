@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstdlib>
+#include <fmt/format.h>
+#include <string>
+
+#include "sweepface/result.hpp"
+
+namespace sweepface::bench {
+
+/// Says why nothing can be measured, and ends the program.
+[[noreturn]] inline void giveUp(const std::string& why) {
+  fmt::print(stderr, "sweepface_bench: {}\n", why);
+  std::exit(1);
+}
+
+/// What the result holds; ends the program where that is an error.
+template <typename T>
+T orEnd(Result<T> result) {
+  if (!result) giveUp(result.error().message);
+  return std::move(*result);
+}
+
+}  // namespace sweepface::bench
