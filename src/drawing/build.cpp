@@ -2,25 +2,24 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <limits>
-#include <map>
+#include <optional>
+#include <ranges>
 #include <set>
 
-#include "sweepface/box.hpp"
 #include "sweepface/eval.hpp"
 
 #include "codec/limits.hpp"
 #include "drawing/bend.hpp"
-#include "drawing/frames.hpp"
+#include "drawing/jet_axes.hpp"
 #include "drawing/materials.hpp"
 #include "drawing/misses.hpp"
 #include "drawing/naming.hpp"
+#include "drawing/told_jets.hpp"
 #include "drawing/weave.hpp"
 #include "drawing/wishes.hpp"
 #include "drawing/words.hpp"
 #include "fit/defaults.hpp"
 #include "mesh/grid_source.hpp"
-#include "surface/jet_numbers.hpp"
-#include "surface/wireframe_checks.hpp"
 
 namespace sweepface {
 
@@ -32,15 +31,6 @@ constexpr double kTrace = 1e-5;
 // Nodes at one point may stand apart by such a share of the diagonal: models round each.
 constexpr double kSamePoint = 0.01;
 
-double diagonalOf(const Drawing& d) {
-  Box box;
-  for (const Drawing::Node& node : d.nodes)
-    if (node.at) box.include(*node.at);
-  for (const Drawing::Curve& curve : d.curves)
-    for (const Vec3& point : curve.points) box.include(point);
-  return norm(box.size());
-}
-
 class Builder {
  public:
   Builder(const Drawing& drawing, Woven woven)
@@ -50,8 +40,8 @@ class Builder {
         diagonal_(diagonalOf(drawing)) {}
 
   Result<Built> build() {
-    for (const auto step : {&Builder::chooseStored, &Builder::makeSurfaces, &Builder::placeNodes,
-                            &Builder::addExpressions, &Builder::bend, &Builder::assemble})
+    for (const auto step : {&Builder::makeSurfaces, &Builder::placeNodes, &Builder::addExpressions,
+                            &Builder::bend, &Builder::assemble})
       if (auto ok = (this->*step)(); !ok) return std::unexpected(ok.error());
     return std::move(built_);
   }
@@ -64,53 +54,10 @@ class Builder {
     return failAt(d_, place, what);
   }
 
-  // A crossing stores what its jet gives, or all there is where the curves must say it.
-  Result<void> chooseStored() {
-    axes_.resize(w_.nodes.size());
-    for (Index n = 0; n < nodeCount(); ++n) {
-      if (auto ok = checkJets(n); !ok) return ok;
-      if (kind(n) != NodeKind::crossing) continue;
-      if (d_.nodes[n].jets.empty()) {
-        w_.nodes[n].stored = kWholeJet;
-        continue;
-      }
-      const auto quarter = placeInStar(woven_.connectivity, n, armOf(d_.nodes[n].jets[0]));
-      if (!quarter) return leavesNot(n, 0);
-      for (int k = 0; k < 9; ++k) {
-        axes_[n][k] = turned(*quarter, k / 3, k % 3);
-        if (k > 0 && d_.nodes[n].jets[0].vectors[k])
-          w_.nodes[n].stored |= static_cast<JetMask>(1 << axes_[n][k].component);
-      }
-      if (!isClosed(w_.nodes[n].stored))
-        return refuse(d_.nodes[n].place,
-                      fmt::format("the jet of node '{}' has a derivative without those before it: "
-                                  "xx needs x, xy needs x and y",
-                                  d_.nodes[n].name));
-    }
-    return {};
-  }
-
-  Result<void> checkJets(Index n) const {
-    const auto given = d_.nodes[n].jets.size();
-    const auto fans = std::max<std::size_t>(1, woven_.connectivity.fans[n].size());
-    if (given == 0 || given == fans) return {};
-    return refuse(d_.nodes[n].place,
-                  fmt::format("node '{}' has {} jets and needs {}; only creases that meet cut a "
-                              "node into parts with a jet each",
-                              d_.nodes[n].name, given, fans));
-  }
-
-  HalfArc armOf(const Drawing::Jet& jet) const { return woven_.halfArc(jet.along); }
-
-  std::unexpected<Error> leavesNot(Index n, std::size_t jet) const {
-    return refuse(d_.nodes[n].place,
-                  fmt::format("a jet of node '{}' runs along '{}', which is no curve that leaves "
-                              "it so; a '-' stands before a curve that arrives",
-                              d_.nodes[n].name, d_.nodes[n].jets[jet].along));
-  }
-
   // The jets are those of plain ribbons: shape parameters then bend what has been drawn.
   Result<void> makeSurfaces() {
+    auto axes = chooseStored(d_, woven_);
+    if (!axes) return std::unexpected(axes.error());
     auto surface = Surface::make(w_);
     if (!surface) return failNamed(d_, w_, surface.error().message);
     built_.rig.surface = std::move(*surface);
@@ -124,16 +71,8 @@ class Builder {
       return refuse({}, fmt::format("it stores {} vectors in each of {} shapes, together more than "
                                     "the {} of a file; give fewer expressions",
                                     plain_.storedCount(), poses, codec::kMostVectors));
-    jets_.emplace(plain_);
-    known_.assign(plain_.storedCount(), false);
-    poses_.assign(poses, Pose(plain_.storedCount()));
+    told_.emplace(d_, woven_, plain_, std::move(*axes));
     return {};
-  }
-
-  void set(std::size_t pose, Index node, int component, const Vec3& value, int fan = 0) {
-    const Index v = jets_->at(node, component, fan);
-    poses_[pose][v] = value;
-    known_[v] = true;
   }
 
   Result<void> placeNodes() {
@@ -146,108 +85,11 @@ class Builder {
     for (Index n = 0; n < nodeCount(); ++n) {
       if (kind(n) == NodeKind::hanging) continue;
       const Drawing::Node& node = d_.nodes[n];
-      if (node.with.empty()) set(0, n, 0, *woven_.placeOf(d_, n));
-      for (std::size_t f = 0; f < node.jets.size(); ++f) {
-        if (auto ok = checkComplete(n, f); !ok) return ok;
-        if (auto ok = setJet(0, n, f, node.jets[f].vectors); !ok) return ok;
-      }
+      if (node.with.empty()) told_->place(0, n, *woven_.placeOf(d_, n));
+      for (std::size_t f = 0; f < node.jets.size(); ++f)
+        if (auto ok = told_->tellNeutral(n, f); !ok) return ok;
     }
     return {};
-  }
-
-  using Derivatives = std::array<std::optional<Vec3>, 9>;
-
-  // Where nothing is predicted a jet has all its vectors.
-  Result<void> checkComplete(Index n, std::size_t f) const {
-    if (kind(n) == NodeKind::crossing) return {};
-    const Drawing::Node& node = d_.nodes[n];
-    const auto fan = fanOf(n, f);
-    if (!fan) return leavesNot(n, f);
-    for (std::size_t other = 0; other < f; ++other)
-      if (fanOf(n, other) == fan)
-        return refuse(node.place, fmt::format("two jets of node '{}' are of the part along '{}'",
-                                              node.name, node.jets[f].along));
-    std::string needed, unknown;
-    for (int k = 1; k < 9; ++k) {
-      const std::string word = fmt::format(" {}", kJetWords[static_cast<std::size_t>(k)]);
-      const bool stored = jets_->at(n, k, *fan) >= 0;
-      if (stored && !node.jets[f].vectors[k]) needed += word;
-      if (!stored && kind(n) == NodeKind::irregular && node.jets[f].vectors[k]) unknown += word;
-    }
-    if (!needed.empty())
-      return refuse(node.place, fmt::format("the jet of node '{}' along '{}' lacks{}", node.name,
-                                            node.jets[f].along, needed));
-    if (!unknown.empty())
-      return refuse(
-          node.place,
-          fmt::format("other than four patches meet at node '{}', so that its jet has no{}",
-                      node.name, unknown));
-    return {};
-  }
-
-  // The fan of a creased node that a jet is of; 0 elsewhere. Nothing if its curve begins none.
-  std::optional<int> fanOf(Index n, std::size_t f) const {
-    if (kind(n) != NodeKind::creased) return 0;
-    const auto place = placeInStar(woven_.connectivity, n, armOf(d_.nodes[n].jets[f]));
-    const auto& fans = woven_.connectivity.fans[n];
-    const int arms = static_cast<int>(woven_.connectivity.stars[n].arms.size());
-    for (std::size_t k = 0; place && k < fans.size(); ++k)
-      if (fans[k].first % arms == *place) return static_cast<int>(k);
-    return std::nullopt;
-  }
-
-  Result<void> setJet(std::size_t pose, Index n, std::size_t f, const Derivatives& given) {
-    if (kind(n) == NodeKind::irregular) return setIrregular(pose, n, given);
-    const int fan = fanOf(n, f).value_or(0);
-    for (int k = 1; k < 9; ++k) {
-      const Turned axis = kind(n) == NodeKind::crossing ? axes_[n][k] : Turned{k, 1};
-      if (!given[k]) continue;
-      if (jets_->at(n, axis.component, fan) >= 0)
-        set(pose, n, axis.component, axis.sign * *given[k], fan);
-      else if (kind(n) == NodeKind::creased && woven_.connectivity.fans[n][fan].regular)
-        repeated_.push_back({pose, n, f, k, *given[k]});
-    }
-    return {};
-  }
-
-  Result<void> setIrregular(std::size_t pose, Index n, const Derivatives& given) {
-    const auto angle = angleAt(n);
-    if (!angle) return leavesNot(n, 0);
-    Jet jet{};
-    for (int k = 1; k < 9; ++k) jet[k] = given[k].value_or(Vec3{});
-    jet = turnedJet(jet, *angle);
-    for (int k = 1; k < 9; ++k) {
-      const Index v = jets_->at(n, k);
-      if (v < 0) continue;
-      const auto [told, isFirst] = irregular_.try_emplace({pose, v}, n);
-      if (!isFirst && !isSame(poses_[pose][v], jet[k]))
-        return refuse(placeIn(pose, n),
-                      fmt::format("nodes '{}' and '{}' are one point and their jets say different "
-                                  "things of it; give it one jet",
-                                  d_.nodes[told->second].name, d_.nodes[n].name));
-      set(pose, n, k, jet[k]);
-    }
-    return {};
-  }
-
-  /// Whether vectors of a jet differ by rounding alone.
-  bool isSame(const Vec3& a, const Vec3& b) const {
-    return norm(a - b) <= 1e-6 * std::max(norm(b), diagonal_);
-  }
-  /// Where it is said how a node stands in a pose.
-  TextPlace placeIn(std::size_t pose, Index n) const {
-    return pose == 0 ? d_.nodes[n].place : d_.expressions[pose - 1].place;
-  }
-
-  // Where the x axis of an irregular node's jet lies in the chart; nothing if its curve leaves none
-  // of the nodes at the point.
-  std::optional<double> angleAt(Index n) const {
-    const HalfArc arm = armOf(d_.nodes[n].jets[0]);
-    if (arm < 0 || w_.arcs[arcOf(arm)].collapsed) return std::nullopt;
-    const Index start = w_.start(arm);
-    if (kind(start) != NodeKind::irregular || jets_->home(start) != jets_->home(n))
-      return std::nullopt;
-    return chartAngle(plain_, *jets_, n, arm);
   }
 
   Result<void> addExpressions() {
@@ -256,7 +98,8 @@ class Builder {
       if (!offsets) return std::unexpected(offsets.error());
       if (auto ok = shareMoves(d_.expressions[e], *offsets); !ok) return ok;
       for (Index n = 0; n < nodeCount(); ++n)
-        if (offsets->nodes[n] && kind(n) != NodeKind::hanging) set(1 + e, n, 0, *offsets->nodes[n]);
+        if (offsets->nodes[n] && kind(n) != NodeKind::hanging)
+          told_->place(1 + e, n, *offsets->nodes[n]);
       for (const Drawing::Move& move : d_.expressions[e].moves)
         if (auto ok = moveJets(1 + e, move); !ok) return ok;
       offsets_.push_back(std::move(*offsets));
@@ -292,14 +135,14 @@ class Builder {
       return refuse(move.place, fmt::format("node '{}' has {} jets and {} move", move.name,
                                             jets.size(), move.jets.size()));
     for (std::size_t f = 0; f < jets.size(); ++f) {
-      Derivatives offsets;
+      ToldJets::Derivatives offsets;
       for (const auto& [k, offset] : move.jets[f]) {
         if (!jets[f].vectors[k])
           return refuse(move.place, fmt::format("the jet of node '{}' has no '{}' that could move",
                                                 move.name, kJetWords[static_cast<std::size_t>(k)]));
         offsets[k] = offset;
       }
-      if (auto ok = setJet(pose, n, f, offsets); !ok) return ok;
+      if (auto ok = told_->tell(pose, n, f, offsets); !ok) return ok;
     }
     return {};
   }
@@ -307,11 +150,13 @@ class Builder {
   Result<void> bend() {
     auto drawn = gatherWishes(d_, woven_, plain_, offsets_);
     if (!drawn) return std::unexpected(drawn.error());
-    if (auto ok = bendLeast(plain_, patchSizes(d_, woven_), known_, drawn->wishes, poses_); !ok)
+    if (auto ok = bendLeast(plain_, patchSizes(d_, woven_), told_->isTold(), drawn->wishes,
+                            told_->poses());
+        !ok)
       return refuse({}, ok.error().message);
-    if (auto ok = checkRepeated(); !ok) return ok;
+    if (auto ok = told_->checkRepeated(); !ok) return ok;
     forgetTraces();
-    for (const Pose& pose : poses_)
+    for (const Pose& pose : told_->poses())
       for (const Vec3& v : pose)
         for (const double x : {v.x, v.y, v.z})
           if (!(std::abs(x) <= std::numeric_limits<float>::max()))
@@ -319,35 +164,17 @@ class Builder {
     return measureMiss(*drawn);
   }
 
-  // What a creased node's jet has from the part beside it must be said the same in both.
-  Result<void> checkRepeated() const {
-    std::vector<Vec3> vectors(plain_.vectorCount());
-    std::size_t settled = poses_.size();
-    for (const Repeated& r : repeated_) {
-      if (r.pose != settled) plain_.settle(poses_[settled = r.pose], vectors);
-      const Index v = jetVector(plain_, *jets_, r.node, r.component, *fanOf(r.node, r.jet));
-      if (isSame(vectors[v], r.value)) continue;
-      const Drawing::Node& node = d_.nodes[r.node];
-      return refuse(placeIn(r.pose, r.node),
-                    fmt::format("the jet of node '{}' along '{}' has its '{}' from the part of the "
-                                "node before it, which says another; change it there, too",
-                                node.name, node.jets[r.jet].along,
-                                kJetWords[static_cast<std::size_t>(r.component)]));
-    }
-    return {};
-  }
-
   // Bending dies away along the curves and is never nothing. What moves nobody visibly is not kept:
   // it would make every expression as large as the neutral.
   void forgetTraces() {
     const double trace = kTrace * diagonal_;
-    for (std::size_t pose = 1; pose < poses_.size(); ++pose)
-      for (std::size_t v = 0; v < known_.size(); ++v)
-        if (!known_[v] && norm(poses_[pose][v]) < trace) poses_[pose][v] = {};
+    for (Pose& pose : told_->poses() | std::views::drop(1))
+      for (std::size_t v = 0; v < pose.size(); ++v)
+        if (!told_->isTold()[v] && norm(pose[v]) < trace) pose[v] = {};
   }
 
   Result<void> measureMiss(const DrawnWishes& drawn) {
-    const Miss miss = largestMiss(drawn, plain_, poses_);
+    const Miss miss = largestMiss(drawn, plain_, told_->poses());
     if (miss.wish < 0) return {};
     built_.largestMiss = miss.by;
     built_.missed = nameOf(d_, drawn, miss.wish);
@@ -362,10 +189,11 @@ class Builder {
 
   Result<void> assemble() {
     Rig& rig = built_.rig;
+    std::vector<Pose>& poses = told_->poses();
     built_.diagonal = diagonal_;
-    rig.neutral = std::move(poses_[0]);
+    rig.neutral = std::move(poses[0]);
     for (std::size_t e = 0; e < d_.expressions.size(); ++e)
-      rig.targets.push_back({d_.expressions[e].name, std::move(poses_[1 + e]), {}});
+      rig.targets.push_back({d_.expressions[e].name, std::move(poses[1 + e]), {}});
     rig.source = gridSource(rig.surface);
     addMaterials(rig.source, rig.surface, d_);
     rig.tolerance = d_.tolerance > 0 ? d_.tolerance : defaultTolerance();
@@ -380,24 +208,9 @@ class Builder {
   Woven woven_;
   Wireframe& w_;
   double diagonal_;
-  std::vector<std::array<Turned, 9>>
-      axes_;  // [nodes] where a crossing stores its jet's derivatives
   Surface plain_;
-  std::optional<StoredJets> jets_;
-  std::vector<bool> known_;       // [storedCount]
-  std::vector<Pose> poses_;       // the neutral, then what every expression adds
+  std::optional<ToldJets> told_;
   std::vector<Offsets> offsets_;  // [expressions]
-  // What jets tell that other ones decide, in the order of poses.
-  struct Repeated {
-    std::size_t pose;
-    Index node;
-    std::size_t jet;
-    int component;
-    Vec3 value;
-  };
-  std::vector<Repeated> repeated_;
-  std::map<std::pair<std::size_t, Index>, Index>
-      irregular_;  // pose and vector → the node that said it
   Built built_;
 };
 

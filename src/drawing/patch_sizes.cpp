@@ -1,8 +1,19 @@
-// How long and how wide patches are drawn.
+// How large things are drawn.
+#include "sweepface/box.hpp"
+
 #include "drawing/bend.hpp"
 #include "drawing/weave.hpp"
 
 namespace sweepface::drawing {
+
+double diagonalOf(const Drawing& d) {
+  Box box;
+  for (const Drawing::Node& node : d.nodes)
+    if (node.at) box.include(*node.at);
+  for (const Drawing::Curve& curve : d.curves)
+    for (const Vec3& point : curve.points) box.include(point);
+  return norm(box.size());
+}
 
 namespace {
 

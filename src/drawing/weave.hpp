@@ -32,6 +32,9 @@ struct Woven {
   double lengthOf(const Drawing& drawing, Index curve) const;
 };
 
+/// The diagonal of the box round everything that is drawn.
+double diagonalOf(const Drawing& drawing);
+
 /// Looks up all names and checks that the curves meet and the patches have four sides.
 Result<Woven> weave(const Drawing& drawing);
 
