@@ -126,6 +126,13 @@ struct Timecode {
   }
 };
 
+bool hasComma(std::string_view heading) { return heading.contains(','); }
+
+/// In quotes where a comma would end it.
+std::string cellOf(const std::string& heading) {
+  return hasComma(heading) ? fmt::format("\"{}\"", heading) : heading;
+}
+
 Result<void> check(const Clip& clip, const std::vector<Column>& columns, double framesPerSecond) {
   if (auto ok = io::checkFrameRate(framesPerSecond); !ok) return ok;
   if (clip.times.empty()) return fail("The clip has no frames.");
@@ -138,8 +145,8 @@ Result<void> check(const Clip& clip, const std::vector<Column>& columns, double 
     if (io::sameLetters(read, "Timecode") || io::sameLetters(read, "BlendShapeCount"))
       return fail(
           fmt::format("'{}' cannot be a shape of a recording; rename the target.", column.heading));
-    if (read.empty() || read.starts_with('"') ||
-        column.heading.find_first_of(",\r\n") != std::string::npos)
+    const bool isQuoted = read.starts_with('"') || (hasComma(read) && read.contains('"'));
+    if (read.empty() || isQuoted || column.heading.find_first_of("\r\n") != std::string::npos)
       return fail(fmt::format("'{}' cannot be the heading of a column; rename the target.",
                               column.heading));
     if (!headings.insert(read).second)
@@ -156,7 +163,7 @@ Result<std::string> formatLiveLinkCsv(const Clip& clip, double framesPerSecond) 
   if (auto ok = check(clip, columns, framesPerSecond); !ok) return std::unexpected(ok.error());
   const io::FrameClock clock(framesPerSecond);
   std::string text = "Timecode,BlendShapeCount";
-  for (const Column& column : columns) text += "," + column.heading;
+  for (const Column& column : columns) text += "," + cellOf(column.heading);
   for (std::size_t f = 0; f < clip.times.size(); ++f) {
     const Timecode time(clip.times[f], clock);
     if (f > 0 && !time.isAfter({clip.times[f - 1], clock}))

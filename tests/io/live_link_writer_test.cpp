@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <random>
@@ -76,6 +77,16 @@ TEST(LiveLinkWriter, SidesThatAreAlikeAreOneColumn) {
   EXPECT_EQ(text->find("cheekPuff"), std::string::npos);
 }
 
+TEST(LiveLinkWriter, NamesMayHoldCommas) {
+  const auto text = formatLiveLinkCsv({{"lips, upper", "beard"}, {0}, {0.25, 0.5}}, 60);
+  ASSERT_TRUE(text);
+  const auto again = parseLiveLinkCsv(*text, "take.csv");
+  ASSERT_TRUE(again) << again.error().message;
+  const auto column = std::ranges::find(again->names, "lips, upper");
+  ASSERT_NE(column, again->names.end());
+  EXPECT_EQ(again->weights[static_cast<std::size_t>(column - again->names.begin())], 0.25);
+}
+
 TEST(LiveLinkWriter, RefusesWhatTimecodesCannotTell) {
   const auto refuses = [](std::vector<double> times, double rate = 60,
                           std::string name = "jawOpen") {
@@ -89,8 +100,9 @@ TEST(LiveLinkWriter, RefusesWhatTimecodesCannotTell) {
   EXPECT_TRUE(refuses({86399.999999}));  // rounded, the next day's first
   EXPECT_TRUE(refuses({1, 1 + 1e-7}));
   EXPECT_TRUE(refuses({0}, 0));
-  EXPECT_TRUE(refuses({0}, 60, "a,b"));
+  EXPECT_TRUE(refuses({0}, 60, "a\nb"));
   EXPECT_TRUE(refuses({0}, 60, "\"quoted\""));  // which readers leave out
+  EXPECT_TRUE(refuses({0}, 60, "a \"b\", c"));  // in quotes of its own
   for (const char* name : {"timecode", " Timecode", "blendshapecount ", " "})
     EXPECT_TRUE(refuses({0}, 60, name)) << name;
   EXPECT_FALSE(formatLiveLinkCsv({{"beard", "beard "}, {0}, {0, 1}}, 60));
