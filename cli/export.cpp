@@ -116,7 +116,7 @@ Result<int> runExport(const ExportArguments& a) {
   if (!weights) return std::unexpected(weights.error());
   if (auto ok = checkOutput(a.output, {a.face}, {".obj", ".glb"}, !a.quiet); !ok)
     return std::unexpected(ok.error());
-  const Result<Following> following = follow(a.following, *rig);
+  const Result<Following> following = follow(a.following, *rig, {*weights});
   if (!following) return std::unexpected(following.error());
   weights->resize(rig->targets.size());
   following->apply(*weights);

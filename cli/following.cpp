@@ -1,5 +1,9 @@
 #include "following.hpp"
 
+#include <algorithm>
+#include <fmt/ranges.h>
+#include <ranges>
+
 #include "sweepface/arcs.hpp"
 
 #include "output.hpp"
@@ -37,7 +41,27 @@ void Following::apply(std::span<double> weights, const HeadPose* pose) const {
   followers.apply(weights);
 }
 
-Result<Following> follow(const FollowingArguments& a, Rig& rig) {
+namespace {
+
+/// What the names of the targets say.
+std::vector<Follower> combined(const Rig& rig, const std::vector<Weights>& told) {
+  std::vector<std::string> names;
+  for (const Target& target : rig.targets) names.push_back(target.name);
+  std::vector<Follower> followers = Followers::named(names);
+  if (followers.empty())
+    printWarning("No target is named after others, so --combine changes nothing.");
+  for (const Follower& f : followers)
+    if (std::ranges::any_of(told, [&](const Weights& w) { return w[f.target] != 0; }))
+      printWarning(fmt::format(
+          "--combine: {} follows {}, so that its own weight counts for nothing.", names[f.target],
+          fmt::join(f.leaders | std::views::transform([&](Index k) { return names[k]; }),
+                    " and ")));
+  return followers;
+}
+
+}  // namespace
+
+Result<Following> follow(const FollowingArguments& a, Rig& rig, const std::vector<Weights>& told) {
   Following following;
   following.count = rig.targets.size();
   if (!a.limits.empty()) {
@@ -46,13 +70,7 @@ Result<Following> follow(const FollowingArguments& a, Rig& rig) {
     following.limits = std::move(*limits);
   }
   std::vector<Follower> followers;
-  if (a.combine) {
-    std::vector<std::string> names;
-    for (const Target& target : rig.targets) names.push_back(target.name);
-    followers = Followers::named(names);
-    if (followers.empty())
-      printWarning("No target is named after others, so --combine changes nothing.");
-  }
+  if (a.combine) followers = combined(rig, told);
   // Eyeballs tell what lids turn about, so turns are found while they still move by the targets.
   const auto turns = a.arcs == "on" ? turnsOf(rig) : std::vector<Turn>{};
   if (a.arcs == "on" && turns.empty()) printWarning(kNoTurns);

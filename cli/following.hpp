@@ -32,8 +32,10 @@ struct Following {
 inline constexpr const char* kNoTurns =
     "No target turns about anything, so --arcs changes nothing.";
 
-/// What was asked for; arcs and turning eyes are added to the targets of the rig.
-Result<Following> follow(const FollowingArguments& a, Rig& rig);
+/// What was asked for; arcs and turning eyes are added to the targets of the rig. Warns of weights
+/// that were told of what follows, each [targets].
+Result<Following> follow(const FollowingArguments& a, Rig& rig,
+                         const std::vector<Weights>& told = {});
 
 /// A performance whose weights take followers along.
 Performance withFollowing(Performance performance, const Following& following);

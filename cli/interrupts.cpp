@@ -16,8 +16,11 @@ static_assert(std::atomic<bool>::is_always_lock_free, "signal handlers may not l
 
 namespace {
 
+bool leavesBar = false;  // behind which a line begins
+
 void endAnyway(int) {
-  constexpr std::string_view text = "\nsweepface: Interrupted.\n";
+  std::string_view text = "\nsweepface: Interrupted.\n";
+  if (!leavesBar) text.remove_prefix(1);
   std::ignore = ::write(STDERR_FILENO, text.data(), text.size());
   ::_exit(kInterrupted);
 }
@@ -33,6 +36,7 @@ void askForTwoSeconds(int) {
 
 void catchInterrupts(Patience patience) {
   ::alarm(0);
+  leavesBar = ::isatty(STDERR_FILENO) != 0;
   std::signal(SIGALRM, endAnyway);
   struct sigaction action{};
   action.sa_handler = patience == Patience::endless ? ask : askForTwoSeconds;

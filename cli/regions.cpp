@@ -98,6 +98,16 @@ Performance together(Parts parts, const std::vector<Region>& regions, Rig& rig) 
   return whole;
 }
 
+/// Of a law the expressions at both ends; a clip may drive anything.
+std::vector<Weights> toldWeights(const PerformanceArguments& what, const Rig& rig) {
+  std::vector<Weights> told;
+  if (!what.clip.empty()) return told;
+  for (const auto& [option, text] :
+       {std::pair("--from", what.from), std::pair("--to", what.to.value_or(""))})
+    if (auto weights = weightsGiven(option, text, rig)) told.push_back(std::move(*weights));
+  return told;
+}
+
 }  // namespace
 
 void addRegions(CLI::App& app, RegionArguments& a) {
@@ -131,7 +141,7 @@ Result<Performance> perform(const PerformanceArguments& what, const RegionArgume
   auto performances = makePerformances(what, rig, *regions);
   if (!performances) return std::unexpected(performances.error());
   Parts parts{std::move(*performances)};
-  const Result<Following> followed = follow(following, rig);
+  const Result<Following> followed = follow(following, rig, toldWeights(what, rig));
   if (!followed) return std::unexpected(followed.error());
   followed->eyes.keepWhole(rig.surface, *regions);
   for (Performance& performance : parts.performances)

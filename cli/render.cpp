@@ -104,7 +104,7 @@ Result<int> runRender(const RenderArguments& a) {
                                  : weightsGiven("--weights", a.weights, *rig),
                   from = weightsGiven("--from", a.from, *rig);
   if (!weights || !from) return std::unexpected((weights ? from : weights).error());
-  const Result<Following> following = follow(a.following, *rig);
+  const Result<Following> following = follow(a.following, *rig, {*weights, *from});
   if (!following) return std::unexpected(following.error());
   for (Weights* w : {&*weights, &*from}) w->resize(rig->targets.size());
   const Rendering what{a, *rig, *following, *style, *views};

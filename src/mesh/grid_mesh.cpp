@@ -173,9 +173,9 @@ Result<GridMesh> build(const MeshRig& rig, const std::vector<Kind>& kinds,
         plural(without, "face has", "faces have") +
         " fewer than three different corners and no surface; the source order keeps them.");
   if (const auto again = static_cast<Index>(std::ranges::count(kinds, Kind::again)); again > 0)
-    mesh.warnings.push_back(
-        plural(again, "face has", "faces have") +
-        " the corners of another one and no surface of their own; leave them out.");
+    mesh.warnings.push_back(plural(
+        again, "face has the corners of another one and no surface of its own; leave it out.",
+        "faces have the corners of another one and no surface of their own; leave them out."));
   return mesh;
 }
 

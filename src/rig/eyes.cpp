@@ -203,7 +203,7 @@ void EyeTurns::addLooks(Rig& rig, const Eye& eye, Turning& turning) {
     for (const Index index : match.targets[k]) {
       Target& target = rig.targets[index];
       const Fit fit = fitTurn(rig, eye, target);
-      constexpr double kMoves = 1e-3, kRigid = 0.1;  // of the radius, and of the way
+      constexpr double kMoves = 0.02, kRigid = 0.1;  // of the radius, and of the way
       const double count = static_cast<double>(eye.stored.size());
       if (!(fit.moves > count * kMoves * kMoves * eye.radius * eye.radius / 9)) {
         turning.looks.push_back({index, kUsualLook * usual[k][0], kUsualLook * usual[k][1]});

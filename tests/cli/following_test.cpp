@@ -76,6 +76,20 @@ TEST_F(Following, CombinedTargetsFollow) {
   EXPECT_LE(norm(shift("--weights A=0.5,B=1") - Vec3{0.5, 1, 0}), 0.01);
 }
 
+TEST_F(Following, SaysWhatCountsForNothing) {
+  convertWith({{"A", [](const Vec3& p) { return p + Vec3{1, 0, 0}; }},
+               {"B", [](const Vec3& p) { return p + Vec3{0, 1, 0}; }},
+               {"A_B", [](const Vec3& p) { return p + Vec3{0, 0, 4}; }}});
+  const std::string warning = "--combine: A_B follows A and B, so that its own weight counts for";
+  for (const std::string command : {"export face.sweep -o out.obj --weights A_B=1 ",
+                                    "render face.sweep -o out.png --weights A_B=1 ",
+                                    "animate face.sweep -o out.glb --from A_B=1 --to A=1 "}) {
+    EXPECT_TRUE(run(command + "--combine").err.contains(warning)) << command;
+    EXPECT_FALSE(run(command).err.contains(warning)) << command;
+  }
+  EXPECT_EQ(run("export face.sweep -o out.obj --weights A=1 --combine").err, "");
+}
+
 TEST_F(Following, SaysWhereNothingTurnsOrIsCombined) {
   convertWith({{"A", [](const Vec3& p) { return p + Vec3{1, 0, 0}; }}});
   const Outcome arcs = run("export face.sweep -o out.obj --arcs on");

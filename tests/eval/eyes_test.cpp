@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <functional>
 #include <numbers>
 
 #include "sweepface/arcs.hpp"
@@ -157,6 +158,29 @@ TEST(EyeTurns, GoAsFarAsTheTargetWent) {
     }
   }
   EXPECT_GT(sagged, 0.02);  // what the straight way loses
+}
+
+TEST(EyeTurns, GoTheUsualWayWhereTheBallMovesByATraceAlone) {
+  const auto leave = [](const Vec3& p) { return p + 0.01 * Vec3{std::sin(9 * p.x), 0, 0}; };
+  const auto turn = [](const Vec3& p) {
+    return kLeft + turned(quaternionOf({0, 0.003, 0}), p - kLeft);
+  };
+  for (const std::function<Vec3(const Vec3&)>& trace :
+       {std::function(leave), std::function(turn)}) {
+    MeshRig mesh = faceWithEyes(false);
+    auto& looking = mesh.targets.back().positions;
+    std::transform(looking.begin() + 99, looking.end(), looking.begin() + 99, trace);
+    Rig rig = converted(mesh);
+    const auto rest = shown(rig, {});
+    const EyeTurns turns = EyeTurns::addTo(rig, findEyes(rig));
+    std::vector<double> weights(rig.targets.size());
+    weights[rig.find("eyeLookDown_L")] = 1;
+    turns.apply(weights);
+    const auto now = shown(rig, weights);
+    double way = 0;
+    for (std::size_t v = 99; v < 99 + 218; ++v) way = std::max(way, norm(now[v] - rest[v]));
+    EXPECT_NEAR(way, 2 * kRadius * std::sin(0.25), 0.03);
+  }
 }
 
 TEST(EyeTurns, AreNotBentByArcsThatAreThereAlready) {
