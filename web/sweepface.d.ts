@@ -39,13 +39,13 @@ export interface Region {
   /** Seconds by which it sets out later. */
   delay?: number | undefined;
   /** Materials and groups of the source, by name. */
-  parts?: string[] | undefined;
+  parts?: readonly string[] | undefined;
   /** Places, each by itself, or joined by a line; model units. */
-  points?: [number, number, number][] | undefined;
-  line?: [number, number, number][] | undefined;
+  points?: readonly (readonly [number, number, number])[] | undefined;
+  line?: readonly (readonly [number, number, number])[] | undefined;
   /** Curves of the wireframe, and shares of single nodes, by name or number. */
-  curves?: string[] | undefined;
-  nodes?: Record<string, number> | undefined;
+  curves?: readonly string[] | undefined;
+  nodes?: Readonly<Record<string, number>> | undefined;
   /** All of it up to this distance, and from there less and less over so much more. */
   whole?: number | undefined;
   fade?: number | undefined;
@@ -86,7 +86,7 @@ export interface LoadOptions {
   /** Eyeballs turn rigidly about their centres. */
   eyes?: boolean | undefined;
   /** Divides the face. */
-  regions?: Region[] | undefined;
+  regions?: readonly Region[] | undefined;
   wasm?: ModuleSource | undefined;
 }
 
@@ -141,7 +141,8 @@ export class Sweepface {
 
   /** Sends weights to goals from where they stand, everywhere or in one region; `advance` moves them. */
   moveTo(goals: Weights, drive?: DriveKind | Drive, region?: string): void;
-  /** A blow: adds up to 1,000,000 to the velocity of a weight (per second), which drag (per second, 8 unless given) takes away. */
+  /** A blow: adds up to 1,000,000 to the velocity of a weight (per second), which drag (per second, 8 unless given) takes
+   * away. The weight comes to rest where that leaves it: where it was going, or waited to go, is forgotten. */
   push(name: string, velocityChange: number, drag?: number): void;
   /** Lets seconds pass for the weights in motion; says whether anything goes on moving or waits to. Of less than 0, or
    * more than 1e10 at once, none pass. */

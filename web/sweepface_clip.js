@@ -15,6 +15,9 @@ export class Clip {
     if (weights.length !== names.length * times.length)
       throw new RangeError(`A clip of ${names.length} names and ${times.length} times has as many weights as their ` +
                            `product, not ${weights.length}.`);
+    if (!times.every((time, k) => Number.isFinite(time) && (k === 0 || time >= times[k - 1])))
+      throw new RangeError('The times of a clip are finite numbers of seconds, none before the last.');
+    if (!weights.every(Number.isFinite)) throw new RangeError('The weights of a clip are finite numbers.');
     this.names = names;
     this.times = times;
     this.weights = weights;

@@ -1,7 +1,7 @@
 import type {Bytes, Drive, Region, Sweepface, Weights} from './sweepface.js';
 
 /** A face, or a mesh of sweepface/three or sweepface/gpu. */
-type Playable = Pick<Sweepface, 'names' | 'eyeCount' | 'setWeights' | 'moveTo' | 'advance' | 'look'> &
+export type Playable = Pick<Sweepface, 'names' | 'eyeCount' | 'setWeights' | 'moveTo' | 'advance' | 'look'> &
   Partial<Pick<Sweepface, 'regions'>>;
 
 /** Which target each name of a clip drives. */
@@ -13,7 +13,7 @@ export interface Match {
   /** Targets that nothing drives. */
   undriven: string[];
 }
-export function matchNames(names: string[], targets: string[]): Match;
+export function matchNames(names: readonly string[], targets: readonly string[]): Match;
 
 /** How the one-euro filter trades noise for lag, in hertz. */
 export interface OneEuro {
@@ -25,19 +25,21 @@ export interface OneEuro {
   speedCutoff?: number | undefined;
 }
 
-/** Weights over time. */
+type Floats = Float32Array | Float64Array;
+
+/** Weights over time; all numbers are finite. */
 export class Clip {
-  constructor(names: string[], times: Float64Array, weights: Float64Array);
+  constructor(names: string[], times: Floats, weights: Floats);
   readonly names: string[];
-  /** [frames] seconds, increasing. */
-  readonly times: Float64Array;
+  /** [frames] seconds, none before the last. */
+  readonly times: Floats;
   /** [frames × names] */
-  readonly weights: Float64Array;
+  readonly weights: Floats;
   readonly seconds: number;
   /** What was mended or may be wrong in the file that it was read from, in sentences. */
   readonly warnings: string[];
   /** The weights at so many seconds after the first frame, straight between frames and held at the ends. */
-  at<Floats extends Float32Array | Float64Array = Float64Array>(seconds: number, out?: Floats): Floats;
+  at<Out extends Floats = Float64Array>(seconds: number, out?: Out): Out;
   /** The clip without the noise of a tracker; nothing is late. */
   smooth(settings?: OneEuro): Clip;
 }
@@ -51,9 +53,9 @@ export interface ReadOptions {
 export function readClip(source: string | Bytes, options?: ReadOptions & {framesPerSecond?: number | undefined}): Clip;
 
 /** Plays a clip on a face, in all regions alike: what they are made of is for `moveTo` and timelines. */
-export class ClipPlayer {
-  constructor(face: Playable, clip: Clip);
-  readonly face: Playable;
+export class ClipPlayer<Face extends Playable = Playable> {
+  constructor(face: Face, clip: Clip);
+  readonly face: Face;
   readonly clip: Clip;
   readonly match: Match;
   readonly seconds: number;
@@ -85,12 +87,13 @@ export function readTimeline(source: string | Bytes, options?: ReadOptions): Tim
 
 /** Plays a timeline on a face, which must have the regions that it moves. What it says of eyes counts instead of an
  * earlier `look`. */
-export class TimelinePlayer {
-  constructor(face: Playable, timeline: Timeline);
-  readonly face: Playable;
+export class TimelinePlayer<Face extends Playable = Playable> {
+  constructor(face: Face, timeline: Timeline);
+  readonly face: Face;
   readonly timeline: Timeline;
   readonly match: Match;
   readonly seconds: number;
-  /** Lets seconds pass, of more than 10¹⁰ at once none; says whether anything is still to come or moves. */
+  /** Lets seconds pass, of more than 10¹⁰ at once none; says whether anything is still to come or moves. A mesh is then
+   * shown by `update()` without seconds, which would pass twice. */
   advance(seconds: number): boolean;
 }

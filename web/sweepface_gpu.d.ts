@@ -1,4 +1,4 @@
-import type {Material} from 'three';
+import type {Material, MeshStandardMaterial} from 'three';
 import type {Sweepface} from './sweepface.js';
 import type {FaceMesh} from './sweepface_mesh.js';
 
@@ -11,8 +11,9 @@ export const SWEEPFACE_GLSL: string;
 
 /** A face in a scene whose vertices are evaluated by the vertex shader of its materials, which no other mesh can have, as
  * long as it has them; `update` sees to those that were put in since. For `WebGLRenderer`; exporters see the neutral. */
-export class SweepfaceGpuMesh extends FaceMesh {
-  constructor(face: Sweepface, materials?: Material | Material[]);
+export class SweepfaceGpuMesh<Materials extends Material | Material[] = MeshStandardMaterial[]>
+    extends FaceMesh<Materials> {
+  constructor(face: Sweepface, materials?: Materials);
   /** Bytes of textures on the graphics card, and of them those that change every frame. */
   readonly textureBytes: number;
   readonly frameBytes: number;

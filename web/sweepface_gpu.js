@@ -4,7 +4,7 @@ import {
   BufferAttribute, DataTexture, GLSL3, MeshDepthMaterial, MeshDistanceMaterial, NearestFilter, RGBADepthPacking,
   RGBAIntegerFormat, ShortType, Vector3
 } from 'three';
-import {FaceMesh, faceFrom, geometryOf} from './sweepface_mesh.js';
+import {FaceMesh, faceFrom, follow, geometryOf, materialsOfClone, meet, share, show} from './sweepface_mesh.js';
 
 /** GLSL ES 3: what moves a vertex from its neutral. Texel k of a texture is at (k mod 1024, k / 1024). */
 export const SWEEPFACE_GLSL = `
@@ -121,7 +121,7 @@ export class SweepfaceGpuMesh extends FaceMesh {
   constructor(face, materials) {
     const positions = faceFrom(face).shaderTables(), tangents = face.shaderTables(true);
     const textures = new Textures(positions, tangents);
-    const geometry = geometryOf(face, {
+    const geometry = geometryOf(face, {}, {
       position: spread(face, positions.neutral, 3),
       sweepPlace: spread(face, positions.places, 3),
       sweepTangentPlace: spread(face, tangents.places, 3),
@@ -138,7 +138,7 @@ export class SweepfaceGpuMesh extends FaceMesh {
   }
 
   /** Has the face followed by the materials that it has now, and by no others. */
-  prepare() {
+  [follow]() {
     const {material, customDepthMaterial, customDistanceMaterial} = this;
     const all = new Set([material, customDepthMaterial, customDistanceMaterial].flat().filter(Boolean));
     const fresh = [...all].filter((each) => !this.#followers.has(each));
@@ -148,15 +148,15 @@ export class SweepfaceGpuMesh extends FaceMesh {
   }
 
   #patch(material) {
-    const {basis, modes, factor} = this.#textures;
+    const textures = this.#textures, {modes, factor} = textures;
     material.dispose();  // what a renderer made of it before knows no face, or another
     const {onBeforeCompile, customProgramCacheKey} = material;
-    const follow = {customProgramCacheKey: () => 'sweepface' + onBeforeCompile + customProgramCacheKey.call(material)};
+    const hooks = {customProgramCacheKey: () => 'sweepface' + onBeforeCompile + customProgramCacheKey.call(material)};
     this.#followers.add(material);
-    own.set(material, {before: {onBeforeCompile, customProgramCacheKey}, follow});
-    follow.onBeforeCompile = (shader, renderer) => {
+    own.set(material, {before: {onBeforeCompile, customProgramCacheKey}, hooks});
+    hooks.onBeforeCompile = (shader, renderer) => {
       onBeforeCompile.call(material, shader, renderer);
-      Object.assign(shader.uniforms, {sweepBasis: {value: basis}, sweepModes: {value: modes}, sweepFactor: factor});
+      Object.assign(shader.uniforms, {sweepBasis: {value: textures.basis}, sweepModes: {value: modes}, sweepFactor: factor});
       shader.vertexShader = `
         uniform highp isampler2D sweepBasis, sweepModes;
         uniform float sweepFactor;
@@ -170,14 +170,14 @@ export class SweepfaceGpuMesh extends FaceMesh {
         .replace('#include <begin_vertex>', `$&
           transformed = sweepfacePosition(position, sweepPlace, sweepBasis, sweepModes, sweepFactor);`);
     };
-    Object.assign(material, follow);
+    Object.assign(material, hooks);
   }
 
   #release(material) {
     material.dispose();
-    const {before, follow} = own.get(material);
-    for (const hook of Object.keys(follow))  // what was put in its place later stays
-      if (material[hook] === follow[hook]) material[hook] = before[hook];
+    const {before, hooks} = own.get(material);
+    for (const hook of Object.keys(hooks))  // what was put in its place later stays
+      if (material[hook] === hooks[hook]) material[hook] = before[hook];
     own.delete(material);
     this.#followers.delete(material);
   }
@@ -186,24 +186,30 @@ export class SweepfaceGpuMesh extends FaceMesh {
   get textureBytes() { return this.#textures.basis.image.data.byteLength + this.frameBytes; }
   get frameBytes() { return this.#textures.modes.image.data.byteLength; }
 
-  show() { this.#textures.update(this.face); }
+  [show]() { this.#textures.update(this.face); }
 
   /** Rays meet the face as it stands, which the attributes do not tell: it is evaluated for them. */
-  meet(raycaster, hits) {
+  [meet](raycaster, hits) {
     const {geometry} = this, {attributes, boundingSphere, boundingBox} = geometry;
     const stands = ['position', 'normal'].map((name) => new Float32Array(attributes[name].array.length));
     this.face.evaluate(...stands);
     const [position, normal] = stands.map((array) => new BufferAttribute(array, 3));
     Object.assign(geometry, {attributes: {...attributes, position, normal}, boundingSphere: null, boundingBox: null});
     try {
-      super.meet(raycaster, hits);
+      super[meet](raycaster, hits);
     } finally {
       Object.assign(geometry, {attributes, boundingSphere, boundingBox});
     }
   }
 
+  /** Also the basis, whose textures have one image, which three.js keeps until the last of them goes. */
+  [share](original) {
+    super[share](original);
+    this.#textures.basis = original.#textures.basis.clone();
+  }
+
   /** Materials follow one face each. */
-  materialsOfClone() {
+  [materialsOfClone]() {
     const clone = (material) => {
       const {onBeforeCompile, customProgramCacheKey} = own.get(material)?.before ?? material;
       return Object.assign(material.clone(), {onBeforeCompile, customProgramCacheKey});

@@ -7,10 +7,10 @@ function materialsOf(face) {
 }
 
 /** The materials that are given, if they can be drawn. */
-function materialsFrom(materials) {
-  const all = [materials].flat();
-  if (all.length > 0 && all.every((material) => material?.isMaterial)) return materials;
-  throw new TypeError('A mesh takes a material, or one for each part of the face.');
+function materialsFrom(materials, {parts}) {
+  const all = [materials].flat(), isEnough = !Array.isArray(materials) || all.length >= parts.length;
+  if (isEnough && all.every((material) => material?.isMaterial)) return materials;
+  throw new TypeError(`A mesh takes a material, or one for each part of the face, of which there are ${parts.length}.`);
 }
 
 /** The face that is given, not what Sweepface.load promises or takes. */
@@ -19,41 +19,90 @@ export function faceFrom(face) {
   throw new TypeError('A mesh is made of a face; await Sweepface.load for it.');
 }
 
-/** The triangles of a face, its texture coordinates and a group for each part, with attributes by name. */
-export function geometryOf(face, attributes) {
-  const geometry = new BufferGeometry(), {texcoords} = face;
-  geometry.setIndex(new BufferAttribute(face.triangles, 1));
-  for (const [name, attribute] of Object.entries(attributes)) geometry.setAttribute(name, attribute);
-  if (texcoords) geometry.setAttribute('uv', new BufferAttribute(texcoords, 2));
-  face.parts.forEach(({start, count}, k) => geometry.addGroup(start, count, k));
-  return geometry;
-}
+/**
+ * The geometry of a face. What of it stays as it was made, clones have together with it: on the graphics card it is there
+ * once, and goes with the last of them.
+ */
+class FaceGeometry extends BufferGeometry {
+  #changing = [];  // names of attributes that follow the weights
+  #fixed = {all: new Set(), users: 1};  // the other ones and the index, and how many geometries have them
+  #isUser = true;
 
-/** Gives a geometry what was put into another of the same face: attributes, groups and what of it is drawn. */
-function addTo(geometry, {name, userData, attributes, groups, drawRange}) {
-  for (const [key, attribute] of Object.entries(attributes))
-    if (!geometry.hasAttribute(key)) geometry.setAttribute(key, attribute.clone());
-  Object.assign(geometry, {name, userData, groups: groups.map((group) => ({...group})), drawRange: {...drawRange}});
+  /** Everything that is there is fixed, but for attributes that follow the weights. */
+  fix(changing) {
+    const others = Object.keys(this.attributes).filter((name) => !changing.includes(name));
+    this.#changing = changing;
+    this.#fixed.all = new Set([this.index, ...others.map((name) => this.attributes[name])]);
+    return this;
+  }
+
+  /** Takes what another geometry of the same file has: what is fixed itself, of what was put into it copies. */
+  take(original) {
+    const {name, userData, index, attributes, groups, drawRange} = original;
+    if (#fixed in original) {
+      this.#fixed = original.#fixed;
+      ++this.#fixed.users;
+    }
+    const own = (attribute) => (this.#fixed.all.has(attribute) ? attribute : attribute?.clone() ?? null);
+    this.setIndex(own(index));
+    for (const [key, attribute] of Object.entries(attributes))
+      if (!this.#changing.includes(key)) this.setAttribute(key, own(attribute));
+    Object.assign(this, {name, userData, groups: groups.map((group) => ({...group})), drawRange: {...drawRange}});
+  }
+
+  /** Gives back all but what others have: three.js would take that away from them. */
+  dispose() {
+    const {index, attributes} = this, {all} = this.#fixed;
+    if (this.#isUser) --this.#fixed.users;
+    this.#isUser = false;
+    if (this.#fixed.users > 0) {
+      this.attributes = Object.fromEntries(Object.entries(attributes).filter(([, attribute]) => !all.has(attribute)));
+      if (all.has(index)) this.index = null;
+    }
+    super.dispose();
+    Object.assign(this, {index, attributes});
+  }
 }
 
 /**
- * A face in a scene. Weights are set at any time; `update` has `show` bring them to the screen, `prepare` see to what has
- * changed otherwise, and `raycast` has `meet` tell where rays meet it.
+ * The triangles of a face, its texture coordinates and a group for each part, with attributes by name, those that follow
+ * the weights and others.
  */
+export function geometryOf(face, changing, fixed = {}) {
+  const geometry = new FaceGeometry(), {texcoords} = face;
+  geometry.setIndex(new BufferAttribute(face.triangles, 1));
+  for (const [name, attribute] of Object.entries({...changing, ...fixed})) geometry.setAttribute(name, attribute);
+  if (texcoords) geometry.setAttribute('uv', new BufferAttribute(texcoords, 2));
+  face.parts.forEach(({start, count}, k) => geometry.addGroup(start, count, k));
+  return geometry.fix(Object.keys(changing));
+}
+
+/**
+ * What the meshes do each in their own way, under names that no class made of them has: bring weights to the screen, see
+ * to what has changed otherwise, tell where rays meet the face, and have of a mesh what its clone needs not have again.
+ */
+export const show = Symbol('show'), follow = Symbol('follow'), meet = Symbol('meet'), share = Symbol('share');
+export const materialsOfClone = Symbol('materialsOfClone');
+
+/** A face in a scene. Weights are set at any time; `update` brings them to the screen. */
 export class FaceMesh extends Mesh {
   #stale = true;
   #moving;
   #isGone = false;
 
   constructor(face, geometry, materials = materialsOf(face)) {
-    super(geometry, materialsFrom(materials));
+    super(geometry, materialsFrom(materials, face));
     this.face = face;
     this.#moving = face.advance(0);
   }
 
   get names() { return this.face.names; }
+  get weights() { return this.face.weights; }
+  get pose() { return this.face.pose; }
   get eyeCount() { return this.face.eyeCount; }
   get regions() { return this.face.regions; }
+
+  weightsIn(region) { return this.face.weightsIn(region); }
 
   look(pose) {
     this.face.look(pose);
@@ -91,18 +140,21 @@ export class FaceMesh extends Mesh {
   update(seconds = 0) {
     if (this.#isGone) return;
     if ((this.#moving && seconds > 0) || !Number.isFinite(seconds)) this.advance(seconds);
-    this.prepare();
-    if (this.#stale) this.show();
+    this[follow]();
+    if (this.#stale) this[show]();
     this.#stale = false;
   }
 
-  prepare() {}
+  /** Makes ready to move, which else happens when it first does and takes a few frames. */
+  prepare() { this.face.prepare(); }
+
+  [follow]() {}
 
   raycast(raycaster, hits) {
-    if (!this.#isGone) this.meet(raycaster, hits);
+    if (!this.#isGone) this[meet](raycaster, hits);
   }
 
-  meet(raycaster, hits) { super.raycast(raycaster, hits); }
+  [meet](raycaster, hits) { super.raycast(raycaster, hits); }
 
   /** Another face of the same file that stands as this one, and moves by itself. */
   clone(recursive) {
@@ -113,15 +165,17 @@ export class FaceMesh extends Mesh {
       face.setWeights(Object.fromEntries(set), region);
     }
     if (this.face.pose) face.look(this.face.pose);
-    const twin = new this.constructor(face, this.materialsOfClone()).copy(this, recursive);
-    addTo(twin.geometry, this.geometry);
+    const twin = new this.constructor(face, this[materialsOfClone]()).copy(this, recursive);
+    twin[share](this);
     twin.traverse((part) => {
       if (part.geometry === this.geometry) part.geometry = twin.geometry;
     });
     return twin;
   }
 
-  materialsOfClone() { return Array.isArray(this.material) ? this.material.slice() : this.material; }
+  [share](original) { this.geometry.take(original.geometry); }
+
+  [materialsOfClone]() { return Array.isArray(this.material) ? this.material.slice() : this.material; }
 
   /** What three.js copies of a mesh, but for what follows this face. */
   copy(source, recursive) {
@@ -133,7 +187,7 @@ export class FaceMesh extends Mesh {
   dispose() {
     this.#isGone = true;
     this.geometry.dispose();
-    for (const material of [this.material].flat()) material.dispose();
+    for (const material of [this.material].flat()) material?.dispose();
     this.face.dispose();
   }
 }

@@ -1,10 +1,10 @@
-import type {Loader, LoadingManager, Material} from 'three';
+import type {Loader, LoadingManager, Material, MeshStandardMaterial} from 'three';
 import type {Bytes, LoadOptions, Sweepface} from './sweepface.js';
 import type {FaceMesh} from './sweepface_mesh.js';
 
 /** A face in a scene whose geometry follows its weights. */
-export class SweepfaceMesh extends FaceMesh {
-  constructor(face: Sweepface, materials?: Material | Material[]);
+export class SweepfaceMesh<Materials extends Material | Material[] = MeshStandardMaterial[]> extends FaceMesh<Materials> {
+  constructor(face: Sweepface, materials?: Materials);
 }
 
 /** Loads .sweep files, as three.js's own loaders do. */

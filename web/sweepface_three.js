@@ -1,7 +1,7 @@
 // .sweep faces for three.js: a loader, and a mesh whose geometry follows the weights.
 import {BufferAttribute, DynamicDrawUsage, FileLoader, Loader} from 'three';
 import {Sweepface} from './sweepface.js';
-import {FaceMesh, faceFrom, geometryOf} from './sweepface_mesh.js';
+import {FaceMesh, faceFrom, geometryOf, show} from './sweepface_mesh.js';
 
 /** Room for three numbers a vertex that change every frame. */
 function vectors(face) {
@@ -15,11 +15,14 @@ export class SweepfaceMesh extends FaceMesh {
     this.update();
   }
 
-  show() {
-    const {geometry} = this, {position, normal} = geometry.attributes;
-    this.face.evaluate(position.array, normal.array);
-    position.needsUpdate = normal.needsUpdate = true;
-    geometry.computeBoundingSphere();
+  [show]() {
+    const {geometry, face} = this, {position, normal} = geometry.attributes;
+    if (position?.count !== face.vertexCount)
+      throw new Error(`The geometry must have the ${face.vertexCount} vertices of the face; change a copy of it.`);
+    face.evaluate(position.array, normal?.array);
+    for (const attribute of [position, normal]) if (attribute) attribute.needsUpdate = true;
+    if (this.frustumCulled) geometry.computeBoundingSphere();
+    else geometry.boundingSphere = null;  // made when somebody asks for it
     if (geometry.boundingBox) geometry.computeBoundingBox();
   }
 }

@@ -177,6 +177,10 @@ test('clips have a weight for every name and time, and are asked for them in flo
     assert.throws(() => new Clip(...numbers), {name: 'RangeError', message: /^A clip of \d names and 2 times has as many/});
   for (const numbers of [[], ['ab', times, weights], [['a', 'b'], [0, 1], weights], [['a', 'b'], times]])
     assert.throws(() => new Clip(...numbers), {name: 'TypeError', message: /^A clip is made of a list of names/});
+  for (const no of [[0, NaN], [1, 0], [0, Infinity]])
+    assert.throws(() => new Clip(['a', 'b'], Float64Array.from(no), weights), {name: 'RangeError', message: /^The times of a/});
+  assert.throws(() => new Clip(['a', 'b'], times, Float64Array.of(0, 1, NaN, 3)), {name: 'RangeError', message: /weights/});
+  assert.throws(() => matchNames(['a']), {name: 'TypeError', message: /^Names of a clip are matched/});
   assert.throws(() => clip.at(0, new Float64Array(1)), {name: 'RangeError', message: 'There must be room for 2 weights, not 1.'});
   for (const out of [null, [0, 0], new Int8Array(2)])
     assert.throws(() => clip.at(0, out), {name: 'TypeError', message: /^Weights are written to a Float32Array or/});

@@ -269,8 +269,9 @@ test('the vertex shader', options, (t) => withPage('blank.html', {files}, async 
         const mesh = new Made(await load(), materials);
         mesh.setWeights(pose);
         mesh.update();
-        const twin = mesh.clone();
-        return [bright(mesh), bright(twin)];
+        const twin = mesh.clone(), both = [bright(mesh), bright(twin)];
+        mesh.dispose();  // and leaves the twin what they shared
+        return [...both, bright(twin)];
       };
       const result = {};
       for (const [name, make] of [['plain', white], ['hash', hash], ['changed', wide], ['shader', shader], ['raw', raw]])
@@ -282,6 +283,46 @@ test('the vertex shader', options, (t) => withPage('blank.html', {files}, async 
       for (const all of [...cpu, ...gpu]) assert.ok(Math.abs(all / cpu[0] - 1) < 0.05, `${name}: ${all} of ${cpu[0]}`);
     }
     for (const name of ['hash', 'changed']) assert.ok(found[name][1][0] < 0.9 * found.plain[1][0], name);
+    assert.deepEqual(complaints, []);
+  });
+
+  await t.test('has once on the card what clones share', async () => {
+    const found = await page.evaluate(async () => {
+      const THREE = await import('three');
+      const {SweepfaceMesh} = await import('./sweepface_three.js');
+      const {SweepfaceGpuMesh} = await import('./sweepface_gpu.js');
+      const {pose, load} = globalThis, canvas = new OffscreenCanvas(64, 64);
+      const renderer = new THREE.WebGLRenderer({canvas}), gl = renderer.getContext();
+      const bufferData = gl.bufferData.bind(gl), createTexture = gl.createTexture.bind(gl);
+      let bytes = 0, textures = 0;
+      gl.bufferData = (target, data, usage) => {
+        bytes += data.byteLength ?? data;
+        bufferData(target, data, usage);
+      };
+      gl.createTexture = () => (++textures, createTexture());
+      const camera = new THREE.PerspectiveCamera(30, 1, 1, 1000);
+      camera.position.z = 100;
+      const sent = (mesh) => {
+        const before = {bytes, textures}, scene = new THREE.Scene();
+        mesh.frustumCulled = false;
+        scene.add(mesh);
+        renderer.render(scene, camera);
+        return {bytes: bytes - before.bytes, textures: textures - before.textures};
+      };
+      const result = {};
+      for (const Made of [SweepfaceMesh, SweepfaceGpuMesh]) {
+        const mesh = new Made(await load());
+        mesh.setWeights(pose);
+        mesh.update();
+        result[Made.name] = {first: sent(mesh), twin: sent(mesh.clone().clone()), vertices: mesh.face.vertexCount};
+      }
+      return result;
+    });
+    const {SweepfaceMesh: cpu, SweepfaceGpuMesh: gpu} = found;
+    assert.ok(cpu.first.bytes > 24 * cpu.vertices);
+    assert.equal(cpu.twin.bytes, 24 * cpu.vertices);  // positions and normals
+    assert.ok(gpu.first.bytes > 72 * gpu.vertices);
+    assert.deepEqual(gpu.twin, {bytes: 0, textures: gpu.first.textures - 1});  // only the modes are its own
     assert.deepEqual(complaints, []);
   });
 

@@ -6,6 +6,9 @@ import {difference, played, sample} from './native.js';
 const three = await import('three').catch(() => undefined);
 const options = {skip: three ? false : 'three is not installed; try npm ci'};
 
+/** Materials for all parts of a face, the last one for the rest of them. */
+const each = ({parts}, ...few) => parts.map((_, k) => few[Math.min(k, few.length - 1)]);
+
 async function load() {
   const {SweepfaceLoader} = await import('../sweepface_three.js');
   return new SweepfaceLoader().parseAsync(readFileSync(sample));
@@ -88,6 +91,68 @@ for (const [name, module] of [['SweepfaceMesh', 'three'], ['SweepfaceGpuMesh', '
     assert.equal(mesh.clone(false).children.length, 0);
   });
 
+for (const [name, module] of [['SweepfaceMesh', 'three'], ['SweepfaceGpuMesh', 'gpu']])
+  test(`clones of a ${name} have once what is fixed, and what was put in its place`, options, async () => {
+    const {Sweepface} = await import('../sweepface.js'), Made = (await import(`../sweepface_${module}.js`))[name];
+    const mesh = new Made(await Sweepface.load(readFileSync(sample))), {geometry} = mesh, {uv, position} = geometry.attributes;
+    const twin = mesh.clone().clone().geometry;
+    assert.equal(twin.index, geometry.index);
+    assert.equal(twin.attributes.uv, uv);
+    assert.equal(twin.attributes.position === position, name === 'SweepfaceGpuMesh');
+    geometry.setAttribute('uv', uv.clone());
+    geometry.attributes.uv.array.fill(0.5);
+    geometry.setIndex([0, 1, 2]);
+    const other = mesh.clone().geometry;
+    for (const [own, theirs] of [[geometry.attributes.uv, other.attributes.uv], [geometry.index, other.index]]) {
+      assert.deepEqual(theirs.array, own.array);
+      assert.notEqual(theirs, own);
+    }
+    assert.equal(twin.attributes.uv, uv);
+  });
+
+for (const [name, module] of [['SweepfaceMesh', 'three'], ['SweepfaceGpuMesh', 'gpu']])
+  test(`classes made of ${name} may have methods of any name`, options, async () => {
+    const {Sweepface} = await import('../sweepface.js'), Made = (await import(`../sweepface_${module}.js`))[name];
+    class Mine extends Made {
+      show() { this.visible = true; }
+      follow() { throw new Error('follows somebody'); }
+      meet() { throw new Error('meets somebody'); }
+      share() { throw new Error('shares something'); }
+    }
+    const mesh = new Mine(await Sweepface.load(readFileSync(sample))), usual = await load();
+    mesh.setWeights({jawOpen: 1});
+    mesh.update();
+    mesh.raycast(new three.Raycaster(), []);
+    mesh.clone();
+    assert.deepEqual(mesh.weights, mesh.face.weights);
+    assert.equal(mesh.weights.jawOpen, 1);
+    usual.setWeights({jawOpen: 1});
+    usual.update();
+    if (name === 'SweepfaceMesh')
+      assert.deepEqual(mesh.geometry.attributes.position.array, usual.geometry.attributes.position.array);
+  });
+
+test('a mesh makes ready to move', options, async () => {
+  const mesh = await load(), before = mesh.face.memoryBytes;
+  mesh.prepare();
+  const ready = mesh.face.memoryBytes;
+  assert.ok(ready > before);
+  mesh.setWeights({jawOpen: 1});
+  mesh.update();
+  assert.equal(mesh.face.memoryBytes, ready);
+});
+
+test('a geometry of other vertices is refused, and bounds are made for those who look', options, async () => {
+  const mesh = await load();
+  mesh.frustumCulled = false;
+  mesh.setWeights({jawOpen: 1});
+  mesh.update();
+  assert.equal(mesh.geometry.boundingSphere, null);
+  mesh.geometry = mesh.geometry.toNonIndexed();
+  mesh.setWeights({jawOpen: 0});
+  assert.throws(() => mesh.update(), /^Error: The geometry must have the \d+ vertices of the face/);
+});
+
 test('clones have what was put into a geometry', options, async () => {
   const mesh = await load(), {geometry} = mesh, colour = new three.BufferAttribute(new Float32Array(3), 3);
   geometry.setAttribute('color', colour);
@@ -134,8 +199,10 @@ test('other materials see the neutral of a face on the graphics card', options, 
 for (const [name, module] of [['SweepfaceMesh', 'three'], ['SweepfaceGpuMesh', 'gpu']])
   test(`${name} takes materials, and at least one`, options, async () => {
     const {face} = await load(), Made = (await import(`../sweepface_${module}.js`))[name];
-    for (const no of [null, [null], [], 'red', new three.Texture(), [new three.MeshBasicMaterial(), undefined]])
-      assert.throws(() => new Made(face, no), {name: 'TypeError', message: /^A mesh takes a material, or one/});
+    const basic = new three.MeshBasicMaterial();
+    for (const no of [null, [null], [], 'red', new three.Texture(), each(face, basic, undefined), [basic]])
+      assert.throws(() => new Made(face, no), {name: 'TypeError', message: /^A mesh takes a material, or one .* are \d+\.$/});
+    assert.equal(new Made(face, basic).material, basic);
   });
 
 test('shaders that cannot follow a face are refused, and nothing changes', options, async () => {
@@ -147,18 +214,18 @@ test('shaders that cannot follow a face are refused, and nothing changes', optio
          [ShaderMaterial, {vertexShader: stays}, /^The material 'mine' has no `#include <begin_vertex>` in/],
          [RawShaderMaterial, {vertexShader: stays, glslVersion: GLSL3}, /has no `#include <begin_vertex>`/],
          [RawShaderMaterial, {vertexShader: follows}, /^The material 'mine' is written in GLSL ES 1/]]) {
-    const materials = [plain, new Shader({...given, name: 'mine'})];
+    const materials = each(face, plain, new Shader({...given, name: 'mine'}));
     assert.throws(() => new SweepfaceGpuMesh(face, materials), {name: 'TypeError', message: sentence});
     assert.equal(plain.onBeforeCompile, onBeforeCompile);
   }
-  new SweepfaceGpuMesh(face, [plain, new ShaderMaterial({vertexShader: follows}),
-                              new RawShaderMaterial({vertexShader: follows, glslVersion: GLSL3})]);
+  new SweepfaceGpuMesh(face, each(face, plain, new ShaderMaterial({vertexShader: follows}),
+                                  new RawShaderMaterial({vertexShader: follows, glslVersion: GLSL3})));
 });
 
 test('materials on the graphics card follow one face at a time', options, async () => {
   const {SweepfaceGpuMesh} = await import('../sweepface_gpu.js');
   const material = new three.MeshNormalMaterial(), {onBeforeCompile} = material;
-  const mesh = new SweepfaceGpuMesh((await load()).face, [material, material]), {face} = await load();
+  const {face} = await load(), mesh = new SweepfaceGpuMesh((await load()).face, each(face, material));
   assert.throws(() => new SweepfaceGpuMesh(face, material),
                 {name: 'TypeError', message: /^The material 'MeshNormalMaterial' follows a face already; .* clone\(\)/});
   mesh.material = new three.MeshBasicMaterial();  // the mesh made the other its own all the same
@@ -212,7 +279,7 @@ test('materials keep what they do to a shader, and their clones too', options, a
     onBeforeCompile: (shader, renderer) => { shader.vertexShader += `// ${key} by ${renderer}`; },
     customProgramCacheKey: () => key
   }));
-  const mesh = new SweepfaceGpuMesh(face, [mine, mine, other]), [twin] = mesh.clone().material;
+  const mesh = new SweepfaceGpuMesh(face, each(face, mine, mine, other)), [twin] = mesh.clone().material;
   for (const material of [mine, twin]) {
     const shader = {uniforms: {}, vertexShader: '#include <begin_vertex>'};
     material.onBeforeCompile(shader, 'me');

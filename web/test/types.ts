@@ -1,7 +1,7 @@
 // Compiles if the types say what the package offers. Never run.
-import {Scene} from 'three';
+import {type Material, MeshBasicMaterial, Scene} from 'three';
 import {Sweepface, type Drive, type LoadOptions, type Part, type Pose, type Region} from 'sweepface';
-import {type Clip, ClipPlayer, type OneEuro, readClip, readTimeline, TimelinePlayer} from 'sweepface/clips';
+import {Clip, ClipPlayer, type OneEuro, readClip, readTimeline, TimelinePlayer} from 'sweepface/clips';
 import {SWEEPFACE_GLSL, SweepfaceGpuMesh} from 'sweepface/gpu';
 import {SweepfaceLoader, SweepfaceMesh} from 'sweepface/three';
 
@@ -33,13 +33,18 @@ export async function useThree(scene: Scene): Promise<void> {
   mesh.moveTo({jawOpen: 0}, 'spring');
   mesh.update(1 / 60);
   const twin: SweepfaceMesh = mesh.clone();
+  mesh.material.find(({name}) => name === 'skin')?.color.set(0xe8b89a);
+  const other: SweepfaceMesh<Material | Material[]> = mesh;
+  other.material = new MeshBasicMaterial();
+  mesh.prepare();
+  console.log(new SweepfaceMesh(mesh.face, new MeshBasicMaterial()).material.color, mesh.weights.jawOpen, mesh.pose);
   console.log(twin.regions.length, new SweepfaceLoader(undefined, {wasm: {href: 'a.wasm'}}).abort().options);
   mesh.dispose();
 }
 
 export async function onTheCard(bytes: ArrayBuffer): Promise<number> {
   const mesh = new SweepfaceGpuMesh(await Sweepface.load(bytes, {vertices: 5000}));
-  mesh.face.prepare();
+  mesh.prepare();
   mesh.setWeights({jawOpen: 0.5});
   mesh.update(1 / 60);
   return mesh.textureBytes + mesh.frameBytes + SWEEPFACE_GLSL.length;
@@ -47,11 +52,14 @@ export async function onTheCard(bytes: ArrayBuffer): Promise<number> {
 
 export async function useClips(bytes: ArrayBuffer, csv: string): Promise<void> {
   const timeline = readTimeline(csv), clip: Clip = readClip(csv, {framesPerSecond: 30}).smooth();
-  const cheeks: Region = {name: 'cheeks', points: [[1, 2, 3]], fade: 3, over: 'space', mass: 4};
+  const places = [[1, 2, 3]] as const;
+  const cheeks: Region = {name: 'cheeks', points: places, fade: 3, over: 'space', mass: 4};
   const face = await Sweepface.load(bytes, {regions: timeline.regions ?? [cheeks], eyes: true});
   if (face.eyeCount > 0) face.look({leftEye: {yaw: 0.1}});
   face.look(null);
   const player = new ClipPlayer(face, clip), head = player.seek(0.5);
+  const single = new Clip(['jawOpen'], new Float32Array(2), new Float32Array(2));
+  new ClipPlayer(new SweepfaceMesh(face), single).face.update();
   const few: Float32Array = clip.at(0.5, new Float32Array(clip.names.length)), all: Float64Array = clip.at(0.5);
   face.moveTo({jawOpen: 1}, {seconds: 1}, face.regions[0]);
   face.setWeights(face.weightsIn('cheeks'), 'cheeks');
