@@ -25,8 +25,8 @@ export function faceFrom(face) {
  */
 class FaceGeometry extends BufferGeometry {
   #changing = [];  // names of attributes that follow the weights
-  #fixed = {all: new Set(), users: 1};  // the other ones and the index, and how many geometries have them
-  #isUser = true;
+  #fixed = {all: new Set(), users: 0};  // the other ones and the index, and how many geometries show them
+  #isUser = false;
 
   /** Everything that is there is fixed, but for attributes that follow the weights. */
   fix(changing) {
@@ -39,10 +39,7 @@ class FaceGeometry extends BufferGeometry {
   /** Takes what another geometry of the same file has: what is fixed itself, of what was put into it copies. */
   take(original) {
     const {name, userData, index, attributes, groups, drawRange} = original;
-    if (#fixed in original) {
-      this.#fixed = original.#fixed;
-      ++this.#fixed.users;
-    }
+    if (#fixed in original) this.#fixed = original.#fixed;
     const own = (attribute) => (this.#fixed.all.has(attribute) ? attribute : attribute?.clone() ?? null);
     this.setIndex(own(index));
     for (const [key, attribute] of Object.entries(attributes))
@@ -50,7 +47,15 @@ class FaceGeometry extends BufferGeometry {
     Object.assign(this, {name, userData, groups: groups.map((group) => ({...group})), drawRange: {...drawRange}});
   }
 
-  /** Gives back all but what others have: three.js would take that away from them. */
+  /** Renderers listen to what they show. */
+  addEventListener(type, listener) {
+    super.addEventListener(type, listener);
+    if (type !== 'dispose' || this.#isUser) return;
+    this.#isUser = true;
+    ++this.#fixed.users;
+  }
+
+  /** Gives back all but what others show: three.js would take that away from them. */
   dispose() {
     const {index, attributes} = this, {all} = this.#fixed;
     if (this.#isUser) --this.#fixed.users;

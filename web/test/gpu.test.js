@@ -326,6 +326,48 @@ test('the vertex shader', options, (t) => withPage('blank.html', {files}, async 
     assert.deepEqual(complaints, []);
   });
 
+  await t.test('goes on where clones go, in any order', async () => {
+    const found = await page.evaluate(async () => {
+      const THREE = await import('three');
+      const {SweepfaceMesh} = await import('./sweepface_three.js');
+      const {SweepfaceGpuMesh} = await import('./sweepface_gpu.js');
+      const {pose, load} = globalThis, canvas = new OffscreenCanvas(64, 64), renderer = new THREE.WebGLRenderer({canvas});
+      const camera = new THREE.PerspectiveCamera(30, 1, 1, 1000), result = [];
+      camera.position.z = 100;
+      for (const Made of [SweepfaceMesh, SweepfaceGpuMesh])
+        for (const order of [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]])
+          for (const isWhole of [true, false]) {
+            const scene = new THREE.Scene(), model = new Made(await load());
+            const meshes = [model, model.clone()], triangles = [];
+            meshes.push(meshes[1].clone());
+            scene.add(...meshes);
+            for (const mesh of meshes) mesh.frustumCulled = false;
+            const draw = () => {
+              for (const mesh of scene.children) mesh.setWeights(pose), mesh.update();
+              renderer.render(scene, camera);
+              triangles.push(renderer.info.render.triangles);
+            };
+            draw();
+            for (const k of order) {
+              // Or the geometry alone, as what clears up scenes does: it is drawn again all the same.
+              if (isWhole) scene.remove(meshes[k]), meshes[k].dispose();
+              else meshes[k].geometry.dispose();
+              draw();
+            }
+            for (const mesh of meshes) mesh.dispose();
+            const {geometries, textures} = renderer.info.memory;
+            result.push({triangles: triangles.map((count) => count / triangles[0]), isWhole, geometries, textures});
+          }
+      return result;
+    });
+    for (const {triangles, isWhole, geometries, textures} of found) {
+      assert.deepEqual(triangles.map((share) => Math.round(3 * share)), isWhole ? [3, 2, 1, 0] : [3, 3, 3, 3]);
+      assert.equal(geometries, 0);
+      assert.equal(textures, found[0].textures);  // of the renderer itself: that mesh has none
+    }
+    assert.deepEqual(complaints, []);
+  });
+
   await t.test('goes with materials that are put in later', async () => {
     const found = await page.evaluate(async () => {
       const THREE = await import('three');
