@@ -25,23 +25,26 @@ export function faceFrom(face) {
  */
 class FaceGeometry extends BufferGeometry {
   #changing = [];  // names of attributes that follow the weights
-  #fixed = {all: new Set(), users: 0};  // the other ones and the index, and how many geometries show them
+  #fixed = {all: new Set(), users: 0};  // the other ones, and how many geometries show them
   #isUser = false;
 
   /** Everything that is there is fixed, but for attributes that follow the weights. */
   fix(changing) {
     const others = Object.keys(this.attributes).filter((name) => !changing.includes(name));
     this.#changing = changing;
-    this.#fixed.all = new Set([this.index, ...others.map((name) => this.attributes[name])]);
+    this.#fixed.all = new Set(others.map((name) => this.attributes[name]));
     return this;
   }
 
   /** Takes what another geometry of the same file has: what is fixed itself, of what was put into it copies. */
   take(original) {
     const {name, userData, index, attributes, groups, drawRange} = original;
-    if (#fixed in original) this.#fixed = original.#fixed;
-    const own = (attribute) => (this.#fixed.all.has(attribute) ? attribute : attribute?.clone() ?? null);
-    this.setIndex(own(index));
+    if (#fixed in original) {
+      if (this.#isUser) ++original.#fixed.users;
+      this.#fixed = original.#fixed;
+    }
+    const own = (attribute) => (this.#fixed.all.has(attribute) ? attribute : attribute.clone());
+    this.setIndex(index?.clone() ?? null);  // which some put into an order of their own
     for (const [key, attribute] of Object.entries(attributes))
       if (!this.#changing.includes(key)) this.setAttribute(key, own(attribute));
     Object.assign(this, {name, userData, groups: groups.map((group) => ({...group})), drawRange: {...drawRange}});
@@ -57,15 +60,13 @@ class FaceGeometry extends BufferGeometry {
 
   /** Gives back all but what others show: three.js would take that away from them. */
   dispose() {
-    const {index, attributes} = this, {all} = this.#fixed;
+    const {attributes} = this, {all} = this.#fixed;
     if (this.#isUser) --this.#fixed.users;
     this.#isUser = false;
-    if (this.#fixed.users > 0) {
+    if (this.#fixed.users > 0)
       this.attributes = Object.fromEntries(Object.entries(attributes).filter(([, attribute]) => !all.has(attribute)));
-      if (all.has(index)) this.index = null;
-    }
     super.dispose();
-    Object.assign(this, {index, attributes});
+    this.attributes = attributes;
   }
 }
 
@@ -170,7 +171,10 @@ export class FaceMesh extends Mesh {
       face.setWeights(Object.fromEntries(set), region);
     }
     if (this.face.pose) face.look(this.face.pose);
-    const twin = new this.constructor(face, this[materialsOfClone]()).copy(this, recursive);
+    const materials = this[materialsOfClone](), lacks = face.parts.length - materials.length;  // where groups are others
+    const filled = lacks > 0 ? [...materials, ...Array(lacks).fill(materials.at(-1))] : materials;
+    const twin = new this.constructor(face, filled).copy(this, recursive);
+    if (lacks > 0) twin.material = materials;
     twin[share](this);
     twin.traverse((part) => {
       if (part.geometry === this.geometry) part.geometry = twin.geometry;
@@ -178,7 +182,7 @@ export class FaceMesh extends Mesh {
     return twin;
   }
 
-  [share](original) { this.geometry.take(original.geometry); }
+  [share](original) { this.geometry.take?.(original.geometry); }
 
   [materialsOfClone]() { return Array.isArray(this.material) ? this.material.slice() : this.material; }
 

@@ -314,15 +314,16 @@ test('the vertex shader', options, (t) => withPage('blank.html', {files}, async 
         const mesh = new Made(await load());
         mesh.setWeights(pose);
         mesh.update();
-        result[Made.name] = {first: sent(mesh), twin: sent(mesh.clone().clone()), vertices: mesh.face.vertexCount};
+        result[Made.name] = {first: sent(mesh), twin: sent(mesh.clone().clone()), vertices: mesh.face.vertexCount,
+                             index: mesh.geometry.index.array.byteLength};
       }
       return result;
     });
     const {SweepfaceMesh: cpu, SweepfaceGpuMesh: gpu} = found;
     assert.ok(cpu.first.bytes > 24 * cpu.vertices);
-    assert.equal(cpu.twin.bytes, 24 * cpu.vertices);  // positions and normals
+    assert.equal(cpu.twin.bytes, 24 * cpu.vertices + cpu.index);  // positions and normals
     assert.ok(gpu.first.bytes > 72 * gpu.vertices);
-    assert.deepEqual(gpu.twin, {bytes: 0, textures: gpu.first.textures - 1});  // only the modes are its own
+    assert.deepEqual(gpu.twin, {bytes: gpu.index, textures: gpu.first.textures - 1});  // only the modes are its own
     assert.deepEqual(complaints, []);
   });
 

@@ -96,7 +96,8 @@ for (const [name, module] of [['SweepfaceMesh', 'three'], ['SweepfaceGpuMesh', '
     const {Sweepface} = await import('../sweepface.js'), Made = (await import(`../sweepface_${module}.js`))[name];
     const mesh = new Made(await Sweepface.load(readFileSync(sample))), {geometry} = mesh, {uv, position} = geometry.attributes;
     const twin = mesh.clone().clone().geometry;
-    assert.equal(twin.index, geometry.index);
+    assert.notEqual(twin.index, geometry.index);
+    assert.deepEqual(twin.index.array, geometry.index.array);
     assert.equal(twin.attributes.uv, uv);
     assert.equal(twin.attributes.position === position, name === 'SweepfaceGpuMesh');
     geometry.setAttribute('uv', uv.clone());
@@ -108,6 +109,9 @@ for (const [name, module] of [['SweepfaceMesh', 'three'], ['SweepfaceGpuMesh', '
       assert.notEqual(theirs, own);
     }
     assert.equal(twin.attributes.uv, uv);
+    mesh.material.pop();
+    geometry.groups.pop();
+    assert.equal(mesh.clone().material.length, mesh.material.length);
   });
 
 for (const [name, module] of [['SweepfaceMesh', 'three'], ['SweepfaceGpuMesh', 'gpu']])
