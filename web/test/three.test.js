@@ -136,6 +136,21 @@ for (const [name, module] of [['SweepfaceMesh', 'three'], ['SweepfaceGpuMesh', '
       assert.deepEqual(mesh.geometry.attributes.position.array, usual.geometry.attributes.position.array);
   });
 
+test('what clones share stays while another is shown, whoever listens from the start', options, async () => {
+  const {Sweepface} = await import('../sweepface.js'), {SweepfaceMesh} = await import('../sweepface_three.js');
+  const gone = [];  // what three.js would take from the graphics card
+  class Mine extends SweepfaceMesh {
+    constructor(face, materials) {
+      super(face, materials);
+      this.geometry.addEventListener('dispose', ({target}) => gone.push('uv' in target.attributes));
+    }
+  }
+  const mesh = new Mine(await Sweepface.load(readFileSync(sample))), twin = mesh.clone();
+  twin.dispose();
+  mesh.dispose();
+  assert.deepEqual(gone, [false, true]);
+});
+
 test('a mesh makes ready to move', options, async () => {
   const mesh = await load(), before = mesh.face.memoryBytes;
   mesh.prepare();
