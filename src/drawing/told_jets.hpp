@@ -23,7 +23,6 @@ class ToldJets {
   ToldJets(const Drawing& drawing, const Woven& woven, const Surface& plain, JetAxes axes);
 
   std::vector<Pose>& poses() { return poses_; }
-  const std::vector<Pose>& poses() const { return poses_; }
   /// Which vectors are told in some pose [storedCount].
   const std::vector<bool>& isTold() const { return isTold_; }
 
