@@ -28,20 +28,20 @@ export interface OneEuro {
 type Floats = Float32Array | Float64Array;
 
 /** Weights over time; all numbers are finite. */
-export class Clip {
-  constructor(names: string[], times: Floats, weights: Floats);
+export class Clip<Numbers extends Floats = Floats> {
+  constructor(names: string[], times: Numbers, weights: Numbers);
   readonly names: string[];
   /** [frames] seconds, none before the last. */
-  readonly times: Floats;
+  readonly times: Numbers;
   /** [frames × names] */
-  readonly weights: Floats;
+  readonly weights: Numbers;
   readonly seconds: number;
   /** What was mended or may be wrong in the file that it was read from, in sentences. */
   readonly warnings: string[];
   /** The weights at so many seconds after the first frame, straight between frames and held at the ends. */
   at<Out extends Floats = Float64Array>(seconds: number, out?: Out): Out;
   /** The clip without the noise of a tracker; nothing is late. */
-  smooth(settings?: OneEuro): Clip;
+  smooth(settings?: OneEuro): Clip<Numbers>;
 }
 
 export interface ReadOptions {
@@ -50,7 +50,8 @@ export interface ReadOptions {
 }
 
 /** A capture: a CSV of Live Link Face, or a JSON of Audio2Face or MediaPipe. Throws a sentence about what is wrong. */
-export function readClip(source: string | Bytes, options?: ReadOptions & {framesPerSecond?: number | undefined}): Clip;
+export function readClip(source: string | Bytes, options?: ReadOptions & {framesPerSecond?: number | undefined}):
+  Clip<Float64Array>;
 
 /** Plays a clip on a face, in all regions alike: what they are made of is for `moveTo` and timelines. */
 export class ClipPlayer<Face extends Playable = Playable> {
@@ -96,4 +97,6 @@ export class TimelinePlayer<Face extends Playable = Playable> {
   /** Lets seconds pass, of more than 10¹⁰ at once none; says whether anything is still to come or moves. A mesh is then
    * shown by `update()` without seconds, which would pass twice. */
   advance(seconds: number): boolean;
+  /** From the beginning again, at the next `advance`, from where the face stands then. */
+  restart(): void;
 }

@@ -14,6 +14,10 @@ export class FaceMesh<Materials extends Material | Material[] = MeshStandardMate
   readonly regions: string[];
   /** Weights and eyes as they are. */
   readonly weights: Weights;
+  /** The weights by the place of their names, as other meshes have them; what is set here counts from the next `update`
+   * on, in all regions. To export what the mesh stands as, give GLTFExporter a Mesh of its geometry and material. */
+  morphTargetInfluences: number[];
+  morphTargetDictionary: Record<string, number>;
   weightsIn(region: string): Weights;
   readonly pose: Pose | null;
   /** How the eyes stand; null: by the weights of eyeLook targets. */

@@ -90,16 +90,23 @@ export function geometryOf(face, changing, fixed = {}) {
 export const show = Symbol('show'), follow = Symbol('follow'), meet = Symbol('meet'), share = Symbol('share');
 export const materialsOfClone = Symbol('materialsOfClone');
 
-/** A face in a scene. Weights are set at any time; `update` brings them to the screen. */
+/**
+ * A face in a scene. Weights are set at any time; `update` brings them to the screen. They stand in
+ * `morphTargetInfluences`, too, and are taken from there, so that what moves morph targets moves a face.
+ */
 export class FaceMesh extends Mesh {
   #stale = true;
   #moving;
   #isGone = false;
+  #known = [];  // the influences, as the face has them
 
   constructor(face, geometry, materials = materialsOf(face)) {
     super(geometry, materialsFrom(materials, face));
     this.face = face;
     this.#moving = face.advance(0);
+    this.morphTargetDictionary = Object.fromEntries(face.names.map((name, k) => [name, k]));
+    this.morphTargetInfluences = [];
+    this.#tellInfluences();
   }
 
   get names() { return this.face.names; }
@@ -116,35 +123,58 @@ export class FaceMesh extends Mesh {
   }
 
   setWeights(weights, region) {
+    this.#takeInfluences();
     this.face.setWeights(weights, region);
-    this.#stale = true;
+    this.#tellInfluences();
   }
 
   reset() {
     this.face.reset();
-    this.#stale = true;
+    this.#tellInfluences();
   }
 
   moveTo(goals, drive, region) {
+    this.#takeInfluences();
     this.face.moveTo(goals, drive, region);
     this.#moving = true;
   }
 
   push(name, velocityChange, drag) {
+    this.#takeInfluences();
     this.face.push(name, velocityChange, drag);
     this.#moving = true;
   }
 
   /** Lets time pass without showing it; says whether anything goes on moving. */
   advance(seconds) {
+    this.#takeInfluences();
     const moving = this.face.advance(seconds);
-    this.#stale ||= moving || this.#moving;  // once more where it stopped
+    if (moving || this.#moving) this.#tellInfluences();  // once more where it stopped
     return this.#moving = moving;
+  }
+
+  /** Sets the weights whose influences were set. */
+  #takeInfluences() {
+    const influences = this.morphTargetInfluences ?? [], {face} = this;
+    const isSet = (known, k) => (influences[k] ?? known) !== known;
+    if (!this.#known.some(isSet)) return;
+    const set = face.names.map((name, k) => [name, influences[k]]).filter((_, k) => isSet(this.#known[k], k));
+    face.setWeights(Object.fromEntries(set));
+    this.#tellInfluences();
+  }
+
+  /** Weights have changed: they are to be shown, and the influences are what they are. */
+  #tellInfluences() {
+    const {weights, names} = this.face;
+    this.#known = names.map((name) => weights[name]);
+    Object.assign(this.morphTargetInfluences ?? [], this.#known);
+    this.#stale = true;
   }
 
   /** Call it once a frame with the seconds since the last; costs nothing where nothing moves. */
   update(seconds = 0) {
     if (this.#isGone) return;
+    this.#takeInfluences();
     if ((this.#moving && seconds > 0) || !Number.isFinite(seconds)) this.advance(seconds);
     this[follow]();
     if (this.#stale) this[show]();

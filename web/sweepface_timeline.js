@@ -105,6 +105,9 @@ export class TimelinePlayer {
 
   get seconds() { return this.timeline.seconds * this.timeline.loops; }
 
+  /** From the beginning again; the face goes on from where it stands, as it does from loop to loop. */
+  restart() { this.#now = this.#next = 0; }
+
   /** Says whether anything is still to come or moves. */
   advance(seconds) {
     if (!Number.isFinite(seconds))

@@ -263,6 +263,17 @@ test('a timeline plays as the tool plays it, whatever the frame rate', async () 
   }
 });
 
+test('a timeline plays again from where the face stands', async () => {
+  const face = await Sweepface.load(readFileSync(sample));
+  const events = [{at: 0, to: {jawOpen: 1}, drive: 'cut'}, {at: 0.5, to: {jawOpen: 0.5}, drive: 'cut'}];
+  const player = new TimelinePlayer(face, readTimeline(JSON.stringify({seconds: 1, events})));
+  const play = (seconds) => [player.advance(seconds), face.weights.jawOpen];
+  assert.deepEqual([play(0.1), play(0.9), play(0.1)], [[true, 1], [true, 0.5], [false, 0.5]]);
+  player.restart();
+  assert.equal(face.weights.jawOpen, 0.5);
+  assert.deepEqual([play(0.1), play(0.9)], [[true, 1], [true, 0.5]]);
+});
+
 test('time that is no number plays nothing', async () => {
   const face = await Sweepface.load(readFileSync(sample));
   const player = new TimelinePlayer(face, readTimeline(JSON.stringify(timeline)));

@@ -35,6 +35,47 @@ test('a mesh goes back to its neutral', options, async () => {
   assert.deepEqual(array, neutral);
 });
 
+test('what moves morph targets moves a mesh', options, async () => {
+  const mesh = await load(), {morphTargetDictionary: places, morphTargetInfluences: influences} = mesh;
+  assert.deepEqual(Object.keys(places), mesh.names);
+  influences[places.jawOpen] = 0.7;
+  mesh.update();
+  assert.equal(mesh.weights.jawOpen, 0.7);
+  const native = played(sample, mesh.weights, 0);
+  assert.ok(difference(native.positions, mesh.geometry.attributes.position.array).most <= native.error);
+  mesh.setWeights({mouthSmileLeft: 0.5});
+  assert.equal(influences[places.mouthSmileLeft], 0.5);
+  influences[places.mouthSmileLeft] = 0.25;  // and what is said before it is shown leaves it
+  mesh.setWeights({jawOpen: 0});
+  assert.deepEqual([mesh.weights.mouthSmileLeft, influences[places.jawOpen]], [0.25, 0]);
+  mesh.moveTo({jawOpen: 1}, {kind: 'linear-force', seconds: 0.1});
+  for (let k = 0; k < 20; ++k) mesh.update(1 / 60);
+  assert.equal(influences[places.jawOpen], 1);
+  influences[places.jawOpen] = 0.5;
+  assert.equal(mesh.clone().morphTargetInfluences[places.jawOpen], 0.5);
+  influences[places.jawOpen] = NaN;
+  assert.throws(() => mesh.update(), {message: "The weight of 'jawOpen' must be a finite number, not NaN."});
+  mesh.reset();
+  assert.deepEqual(influences, mesh.names.map(() => 0));
+});
+
+test("three.js's mixer plays clips on a mesh, by name and of all targets together", options, async () => {
+  const mesh = await load(), {position} = mesh.geometry.attributes;
+  const byName = new three.NumberKeyframeTrack('.morphTargetInfluences[jawOpen]', [0, 1], [0, 1]);
+  const all = new three.NumberKeyframeTrack('.morphTargetInfluences', [0, 1], [0, 1].flatMap((w) => mesh.names.map(() => w)));
+  for (const [track, others] of [[byName, 0], [all, 0.5]]) {
+    mesh.reset();
+    mesh.update();
+    const {version} = position, mixer = new three.AnimationMixer(mesh);
+    mixer.clipAction(new three.AnimationClip('take', 1, [track])).play();
+    mixer.update(0.5);
+    mesh.update();
+    assert.ok(position.version > version);
+    assert.deepEqual(Object.values(mesh.weights), mesh.names.map((name) => (name === 'jawOpen' ? 0.5 : others)));
+    mixer.stopAllAction();
+  }
+});
+
 test('an update costs nothing where nothing moves', options, async () => {
   const mesh = await load(), {position} = mesh.geometry.attributes;
   const {version} = position;

@@ -37,6 +37,7 @@ export async function useThree(scene: Scene): Promise<void> {
   const other: SweepfaceMesh<Material | Material[]> = mesh;
   other.material = new MeshBasicMaterial();
   mesh.prepare();
+  mesh.morphTargetInfluences[mesh.morphTargetDictionary.jawOpen ?? 0] = 0.5;
   console.log(new SweepfaceMesh(mesh.face, new MeshBasicMaterial()).material.color, mesh.weights.jawOpen, mesh.pose);
   console.log(twin.regions.length, new SweepfaceLoader(undefined, {wasm: {href: 'a.wasm'}}).abort().options);
   mesh.dispose();
@@ -52,6 +53,7 @@ export async function onTheCard(bytes: ArrayBuffer): Promise<number> {
 
 export async function useClips(bytes: ArrayBuffer, csv: string): Promise<void> {
   const timeline = readTimeline(csv), clip: Clip = readClip(csv, {framesPerSecond: 30}).smooth();
+  const smooth: Float64Array = readClip(csv).smooth().weights;
   const places = [[1, 2, 3]] as const;
   const cheeks: Region = {name: 'cheeks', points: places, fade: 3, over: 'space', mass: 4};
   const face = await Sweepface.load(bytes, {regions: timeline.regions ?? [cheeks], eyes: true});
@@ -63,7 +65,7 @@ export async function useClips(bytes: ArrayBuffer, csv: string): Promise<void> {
   const few: Float32Array = clip.at(0.5, new Float32Array(clip.names.length)), all: Float64Array = clip.at(0.5);
   face.moveTo({jawOpen: 1}, {seconds: 1}, face.regions[0]);
   face.setWeights(face.weightsIn('cheeks'), 'cheeks');
-  console.log(few, all, player.match.unmatched, head?.yaw, new TimelinePlayer(face, timeline).advance(0.1));
+  console.log(smooth, few, all, player.match.unmatched, head?.yaw, new TimelinePlayer(face, timeline).advance(0.1));
 }
 
 export function withoutSaying(csv: string, seconds: number | undefined): [Drive, LoadOptions, Pose, Region] {
