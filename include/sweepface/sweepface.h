@@ -21,11 +21,17 @@
 #define SWEEPFACE_VERSION_MAJOR 0
 #define SWEEPFACE_VERSION_MINOR 1
 #define SWEEPFACE_VERSION_PATCH 0
+/* The same as sweepface_version() tells it. */
+#define SWEEPFACE_VERSION                                                \
+  (SWEEPFACE_VERSION_MAJOR * 10000u + SWEEPFACE_VERSION_MINOR * 100u + \
+   SWEEPFACE_VERSION_PATCH)
 
+#ifndef SWEEPFACE_API
 #if defined(__GNUC__)
 #define SWEEPFACE_API __attribute__((visibility("default")))
 #else
 #define SWEEPFACE_API
+#endif
 #endif
 
 #ifdef __cplusplus
@@ -40,7 +46,8 @@ typedef struct sweepface_motion sweepface_motion;
 typedef int32_t sweepface_status;
 enum {
   SWEEPFACE_OK = 0,
-  SWEEPFACE_BAD_DATA = 1,    /* bytes that are no sound .sweep file */
+  SWEEPFACE_BAD_DATA = 1,    /* bytes that are no sound .sweep file, or need more memory than they
+                                may have; the message says which */
   SWEEPFACE_BAD_ARGUMENT = 2 /* something asked for that there is not, or a number out of range */
 };
 
@@ -97,6 +104,8 @@ SWEEPFACE_API double sweepface_rig_tolerance(const sweepface_rig* rig);
 
 /* ---- Meshes ---- */
 
+/* The arrays that a mesh tells are its own, and stay while it does. */
+
 /* The finest level of detail. */
 #define SWEEPFACE_MOST_LOD 64
 
@@ -108,10 +117,12 @@ SWEEPFACE_API sweepface_status sweepface_mesh_create(const sweepface_rig* rig, u
  * at most, even where that is too few for a length or an error. */
 typedef int32_t sweepface_budget;
 enum {
-  SWEEPFACE_EDGE_LENGTH = 0, /* no curve has a segment longer than this, in model units */
-  SWEEPFACE_ERROR = 1,       /* no edge of a triangle is further than this from the surface, in
-                                model units */
-  SWEEPFACE_VERTICES = 2     /* as near to the surface as so many points allow */
+  SWEEPFACE_EDGE_LENGTH = 0, /* no curve has a segment longer than this, in model units; diagonals
+                                of what lies between curves may be longer */
+  SWEEPFACE_ERROR = 1,       /* edges of triangles are no further than this from the surface, in
+                                model units, nearly everywhere (docs/evaluation.md) */
+  SWEEPFACE_VERTICES = 2     /* as near to the surface as so many points allow; vertices are more,
+                                where points have several texture coordinates */
 };
 
 /* The surface as fine as a budget asks, curve by curve: without a crack, and with the same points
@@ -175,7 +186,8 @@ SWEEPFACE_API const double* sweepface_face_weights(const sweepface_face* face);
 /* How far any vertex may be from the exact surface under the weights as they are, in model units:
  * three tenths of the rig's tolerance (or 1e-5 of the neutral's diagonal, if that is more) for every
  * target of weight 1, in a divided face for every such target of every region, and rounding, which
- * grows with how far all targets together can move a place: of hundreds it is the larger part. */
+ * grows with how far all targets together can move a place: of hundreds it is the larger part. Not
+ * for every frame: it allocates. */
 SWEEPFACE_API double sweepface_face_error(const sweepface_face* face);
 
 /* Where to write an array of three floats a vertex. */
@@ -187,7 +199,8 @@ typedef struct sweepface_vectors {
 
 /* Positions in model units and unit normals of the first `count` vertices under the face's weights.
  * Allocates nothing once the mesh is prepared. Seen through floats, the points of a mesh are free
- * of cracks. */
+ * of cracks. Vertices that repeat points are read from where these were written: into memory that is
+ * slow to read write the points alone, and repeat them as sweepface_mesh_copies tells. */
 SWEEPFACE_API sweepface_status sweepface_face_evaluate(sweepface_face* face, size_t count,
                                                        sweepface_vectors positions,
                                                        sweepface_vectors normals);
@@ -263,8 +276,9 @@ SWEEPFACE_API sweepface_status sweepface_motion_move_to(sweepface_motion* motion
 SWEEPFACE_API sweepface_status sweepface_motion_move_all(sweepface_motion* motion,
                                                          const double* goals, size_t count,
                                                          const sweepface_drive* drive);
-/* A blow: adds to a weight's velocity (per second), which drag (per second) then takes away. Pushes
- * beyond 1,000,000 may lead to weights that a face refuses. */
+/* A blow: adds to a weight's velocity (per second), which drag (per second) then takes away. Where
+ * it leads, as where a goal or a start is, may be beyond what a face takes (SWEEPFACE_MOST_WEIGHT):
+ * the velocity over the drag, and without drag any distance. */
 SWEEPFACE_API sweepface_status sweepface_motion_push(sweepface_motion* motion, uint32_t weight,
                                                      double velocity_change, double drag);
 

@@ -39,13 +39,15 @@ SWEEPFACE_API uint32_t sweepface_rig_node_count(const sweepface_rig* rig);
 SWEEPFACE_API sweepface_status sweepface_rig_paint(const sweepface_rig* rig,
                                                    const sweepface_brush* brush, uint32_t bands,
                                                    double* shares, size_t count);
+/* How many regions a face may have, "rest" included. */
+#define SWEEPFACE_MOST_REGIONS 32
 /* Divides the face into regions with weights of their own, for meshes made from now on: `count`
  * painted ones, shares [count x nodes], of which overlapping ones get less in proportion, behind a
  * first one, "rest", of what is left, if anything is: find a region's number by its name. Vertices of
  * no face go with the first region. 0: one region again, as after loading. */
 SWEEPFACE_API sweepface_status sweepface_rig_divide(sweepface_rig* rig, const char* const* names,
                                                     const double* shares, size_t count);
-/* 1 and NULL where the face is not divided. */
+/* 1 and NULL where the face is not divided. Names belong to the rig until it is next divided. */
 SWEEPFACE_API uint32_t sweepface_rig_region_count(const sweepface_rig* rig);
 SWEEPFACE_API const char* sweepface_rig_region_name(const sweepface_rig* rig, uint32_t region);
 
@@ -57,8 +59,8 @@ SWEEPFACE_API sweepface_status sweepface_face_set_region_weights(sweepface_face*
                                                                  const double* weights,
                                                                  size_t count);
 
-/* How a region moves: how heavy and how stiff it is compared with the rest, 1, and how many seconds
- * later it sets out. */
+/* How a region moves: how heavy and how stiff it is compared with the rest, 1, from 0.0001 to 10,000,
+ * and how many seconds later it sets out, up to 60. */
 typedef struct sweepface_matter {
   double mass;
   double stiffness;

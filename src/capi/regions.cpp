@@ -6,6 +6,8 @@
 using namespace sweepface;
 using namespace sweepface::capi;
 
+static_assert(kMostRegions == SWEEPFACE_MOST_REGIONS);
+
 namespace {
 
 std::string text(const char* from) { return from ? from : ""; }

@@ -626,10 +626,7 @@ TEST(Messages, EndWithAWholeCharacter) {
   EXPECT_EQ(std::string(sweepface_message()), name.substr(0, 2046));
 }
 
-TEST(Version, IsTheHeaders) {
-  EXPECT_EQ(sweepface_version(), SWEEPFACE_VERSION_MAJOR * 10000u + SWEEPFACE_VERSION_MINOR * 100 +
-                                     SWEEPFACE_VERSION_PATCH);
-}
+TEST(Version, IsTheHeaders) { EXPECT_EQ(sweepface_version(), SWEEPFACE_VERSION); }
 
 }  // namespace
 }  // namespace sweepface
