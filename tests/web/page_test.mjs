@@ -6,6 +6,8 @@ import test from 'node:test';
 import { difference, pixels, withPage } from './browser.mjs';
 import { inWork, sampleFace, sweepface, work } from './tool.mjs';
 
+const later = !process.env.SWEEPFACE_LONG && 'runs in the long tests';
+
 const example = fileURLToPath(new URL('../../examples/three', import.meta.url));
 
 // Pictures for a person to look at, if they name a folder for them.
@@ -14,7 +16,7 @@ function keep(name, png) {
 }
 
 for (const [name, options] of Object.entries({ exact: [], quantized: ['--quantize', '--lod', '2'] }))
-  test(`the example plays a face, ${name}`, async () => {
+  test(`the example plays a face, ${name}`, { skip: name !== 'exact' && later }, async () => {
     sweepface('animate', sampleFace().sweep, '--to', 'jawOpen=1,browInnerUp=1', '--law', 'newton',
               '--seconds', '10', '-o', inWork(`${name}.glb`), '-q', ...options);
     await withPage([example, work], `?file=${name}.glb`, async (page, said) => {
