@@ -59,6 +59,13 @@ std::vector<Follower> combined(const Rig& rig, const std::vector<Weights>& told)
   return followers;
 }
 
+/// Whether eyes that turn have taken all that it moved.
+bool isStill(const Rig& rig, const Target& target) {
+  const auto isNothing = [&](const Vec3& d) { return norm(d) <= rig.tolerance; };
+  return std::ranges::all_of(target.difference, isNothing) &&
+         std::ranges::all_of(target.looseDifference, isNothing);
+}
+
 }  // namespace
 
 Result<Following> follow(const FollowingArguments& a, Rig& rig, const std::vector<Weights>& told) {
@@ -72,12 +79,13 @@ Result<Following> follow(const FollowingArguments& a, Rig& rig, const std::vecto
   std::vector<Follower> followers;
   if (a.combine) followers = combined(rig, told);
   // Eyeballs tell what lids turn about, so turns are found while they still move by the targets.
-  const auto turns = a.arcs == "on" ? turnsOf(rig) : std::vector<Turn>{};
+  auto turns = a.arcs == "on" ? turnsOf(rig) : std::vector<Turn>{};
   if (a.arcs == "on" && turns.empty()) printWarning(kNoTurns);
   if (a.eyes == "on") {
     const std::vector<Eye> eyes = findEyes(rig);
     if (eyes.empty()) return fail("The face has no eyeballs that could turn; leave --eyes out.");
     following.eyes = EyeTurns::addTo(rig, eyes);
+    std::erase_if(turns, [&](const Turn& turn) { return isStill(rig, rig.targets[turn.target]); });
   }
   const std::vector<Follower> arcs = addArcs(rig, turns);
   followers.insert(followers.end(), arcs.begin(), arcs.end());

@@ -1,11 +1,8 @@
 // Plays .sweep faces in browsers and in Node.
 import {DRIVE_SIZE, secondsOf, writeDrive} from './sweepface_drives.js';
 import {open, Shared} from './sweepface_file.js';
-import {isFloats, kindOf, known, passed, told} from './sweepface_values.js';
+import {isFloats, kindOf, known, MOST, passed, told} from './sweepface_values.js';
 import {MemoryError} from './sweepface_wasm.js';
-
-/** How far a weight may be from 0. */
-const MOST = 1e6;
 
 const copyOf = ({leftEye, rightEye}) => ({leftEye: {...leftEye}, rightEye: {...rightEye}});
 

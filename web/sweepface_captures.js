@@ -1,7 +1,7 @@
 // Captures: CSVs of Live Link Face, JSONs of Audio2Face and MediaPipe.
 import {Clip} from './sweepface_clip.js';
-import {isNumber, isObject, isWeight, lowered, parseJson, textOf} from './sweepface_text.js';
-import {known} from './sweepface_values.js';
+import {isNumber, isObject, lowered, parseJson, textOf} from './sweepface_text.js';
+import {isWeight, known} from './sweepface_values.js';
 
 const MOST_TIME = 1e10;  // seconds
 const USUAL_RATE = 60;  // of timecodes

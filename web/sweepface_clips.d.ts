@@ -97,6 +97,6 @@ export class TimelinePlayer<Face extends Playable = Playable> {
   /** Lets seconds pass, of more than 10¹⁰ at once none; says whether anything is still to come or moves. A mesh is then
    * shown by `update()` without seconds, which would pass twice. */
   advance(seconds: number): boolean;
-  /** From the beginning again, at the next `advance`, from where the face stands then. */
+  /** From the beginning again, from where the face stands; what moves or waits there goes on, unless it is reset. */
   restart(): void;
 }

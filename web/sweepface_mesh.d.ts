@@ -14,8 +14,8 @@ export class FaceMesh<Materials extends Material | Material[] = MeshStandardMate
   readonly regions: string[];
   /** Weights and eyes as they are. */
   readonly weights: Weights;
-  /** The weights by the place of their names, as other meshes have them; what is set here counts from the next `update`
-   * on, in all regions. To export what the mesh stands as, give GLTFExporter a Mesh of its geometry and material. */
+  /** The weights by the place of their names, as other meshes have them, of several regions those of the first. A number
+   * that is set to another one here counts from the next `update` on, in all regions; what is no number changes nothing. */
   morphTargetInfluences: number[];
   morphTargetDictionary: Record<string, number>;
   weightsIn(region: string): Weights;

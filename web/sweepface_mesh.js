@@ -1,5 +1,6 @@
 // What the meshes of sweepface/three and sweepface/gpu have in common.
 import {BufferAttribute, BufferGeometry, DoubleSide, Mesh, MeshStandardMaterial} from 'three';
+import {isWeight} from './sweepface_values.js';
 
 /** Plain materials, named as in the source. Mouths and lashes are seen from both sides. */
 function materialsOf(face) {
@@ -98,14 +99,14 @@ export class FaceMesh extends Mesh {
   #stale = true;
   #moving;
   #isGone = false;
-  #known = [];  // the influences, as the face has them
+  #told = [];  // the influences, as they were told last
 
   constructor(face, geometry, materials = materialsOf(face)) {
     super(geometry, materialsFrom(materials, face));
     this.face = face;
     this.#moving = face.advance(0);
     this.morphTargetDictionary = Object.fromEntries(face.names.map((name, k) => [name, k]));
-    this.morphTargetInfluences = [];
+    this.morphTargetInfluences = face.names.map(() => 0);
     this.#tellInfluences();
   }
 
@@ -153,21 +154,23 @@ export class FaceMesh extends Mesh {
     return this.#moving = moving;
   }
 
-  /** Sets the weights whose influences were set. */
+  /** Sets the weights whose influences were set. What is no number changes nothing: others may write it. */
   #takeInfluences() {
     const influences = this.morphTargetInfluences ?? [], {face} = this;
-    const isSet = (known, k) => (influences[k] ?? known) !== known;
-    if (!this.#known.some(isSet)) return;
-    const set = face.names.map((name, k) => [name, influences[k]]).filter((_, k) => isSet(this.#known[k], k));
+    const isSet = (told, k) => influences[k] !== told && isWeight(influences[k]);
+    if (!this.#told.some(isSet)) return;
+    const set = face.names.map((name, k) => [name, influences[k]]).filter((_, k) => isSet(this.#told[k], k));
     face.setWeights(Object.fromEntries(set));
     this.#tellInfluences();
   }
 
-  /** Weights have changed: they are to be shown, and the influences are what they are. */
+  /** Weights have changed: they are to be shown, and the influences are what they are, as far as there are any. */
   #tellInfluences() {
-    const {weights, names} = this.face;
-    this.#known = names.map((name) => weights[name]);
-    Object.assign(this.morphTargetInfluences ?? [], this.#known);
+    const {weights, names} = this.face, influences = this.morphTargetInfluences ?? [];
+    this.#told = names.map((name, k) => {
+      if (k < influences.length) Reflect.set(influences, k, weights[name]);  // a frozen one stays as it is
+      return influences[k];  // or rounded, or none
+    });
     this.#stale = true;
   }
 
@@ -194,6 +197,7 @@ export class FaceMesh extends Mesh {
 
   /** Another face of the same file that stands as this one, and moves by itself. */
   clone(recursive) {
+    this.#takeInfluences();
     const face = this.face.clone(), regions = face.regions.length > 0 ? face.regions : [undefined];
     for (const region of regions) {
       const weights = region === undefined ? this.face.weights : this.face.weightsIn(region);
@@ -218,9 +222,9 @@ export class FaceMesh extends Mesh {
 
   /** What three.js copies of a mesh, but for what follows this face. */
   copy(source, recursive) {
-    const {geometry, material} = this;
+    const {geometry, material, morphTargetDictionary, morphTargetInfluences} = this;
     super.copy(source, recursive);
-    return Object.assign(this, {geometry, material});
+    return Object.assign(this, {geometry, material, morphTargetDictionary, morphTargetInfluences});
   }
 
   dispose() {

@@ -1,4 +1,4 @@
-import type {Loader, LoadingManager, Material, MeshStandardMaterial} from 'three';
+import type {AnimationClip, Loader, LoadingManager, Material, MeshStandardMaterial, Object3D} from 'three';
 import type {Bytes, LoadOptions, Sweepface} from './sweepface.js';
 import type {FaceMesh} from './sweepface_mesh.js';
 
@@ -15,3 +15,9 @@ export class SweepfaceLoader extends Loader<SweepfaceMesh> {
   abort(): this;
   parseAsync(bytes: Bytes, options?: LoadOptions): Promise<SweepfaceMesh>;
 }
+
+/** An animation that GLTFLoader read, the first unless given, as a clip for an AnimationMixer of a face: a track for each
+ * target that the face has and that ever leaves 0, by its name. */
+export function animationFor(
+  face: {readonly names: readonly string[]}, gltf: {scene: Object3D; animations: AnimationClip[]}, animation?: AnimationClip):
+  AnimationClip;

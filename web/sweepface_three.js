@@ -3,6 +3,8 @@ import {BufferAttribute, DynamicDrawUsage, FileLoader, Loader} from 'three';
 import {Sweepface} from './sweepface.js';
 import {FaceMesh, faceFrom, geometryOf, show} from './sweepface_mesh.js';
 
+export {animationFor} from './sweepface_animation.js';
+
 /** Room for three numbers a vertex that change every frame. */
 function vectors(face) {
   return new BufferAttribute(new Float32Array(3 * faceFrom(face).vertexCount), 3).setUsage(DynamicDrawUsage);

@@ -1,8 +1,8 @@
 // Timelines: what an animator wrote down, and what plays it on a face.
 import {faultOf, goesBy, KINDS, NUMBERS} from './sweepface_drives.js';
 import {matchNames, turnsEyes} from './sweepface_names.js';
-import {isNumber, isObject, isWeight, parseJson, textOf} from './sweepface_text.js';
-import {known, passed, told} from './sweepface_values.js';
+import {isNumber, isObject, parseJson, textOf} from './sweepface_text.js';
+import {isWeight, known, passed, told} from './sweepface_values.js';
 
 const EVENT = ['at', 'to', 'only', 'drive', 'region', ...NUMBERS];
 const TIMELINE = ['seconds', 'loops', 'poses', 'events', 'regions'];

@@ -3,6 +3,10 @@
 /** What kind of object something is, of any realm: frames and Node's vm have an ArrayBuffer of their own. */
 export const kindOf = (it) => Object.prototype.toString.call(it).slice(8, -1);
 
+/** How far a weight may be from 0. */
+export const MOST = 1e6;
+export const isWeight = (value) => Number.isFinite(value) && Math.abs(value) <= MOST;
+
 /** Whether it holds numbers as the module has them. */
 export const isFloats = (it) => ['Float32Array', 'Float64Array'].includes(kindOf(it));
 

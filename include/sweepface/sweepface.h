@@ -22,7 +22,7 @@
 #define SWEEPFACE_VERSION_MINOR 1
 #define SWEEPFACE_VERSION_PATCH 0
 /* The same as sweepface_version() tells it. */
-#define SWEEPFACE_VERSION                                                \
+#define SWEEPFACE_VERSION_NUMBER                                         \
   (SWEEPFACE_VERSION_MAJOR * 10000u + SWEEPFACE_VERSION_MINOR * 100u + \
    SWEEPFACE_VERSION_PATCH)
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <limits>
 #include <map>
+#include <set>
 
 #include "sweepface/keys.hpp"
 
@@ -111,7 +112,8 @@ class Animator {
     }
     // A key with tangents is as large as three without.
     if (few_ && 3 * few_->times.size() > options_.clip->times.size()) few_.reset();
-    animation_ = {{"name", name}, {"channels", Json::array()}, {"samplers", Json::array()}};
+    animation_ = {
+        {"name", freeName(name)}, {"channels", Json::array()}, {"samplers", Json::array()}};
     const std::vector<Index> shown = shownMeshes(scene_);
     for (std::size_t n = 0; n < shown.size(); ++n)
       if (shown[n] >= 0)
@@ -127,6 +129,17 @@ class Animator {
   }
 
  private:
+  /// The name, with a number where the scene has an animation of that name.
+  std::string freeName(const std::string& name) const {
+    std::set<std::string> taken;
+    for (const Json& animation : scene_.document.list("animations"))
+      if (const Json* const known = find(animation, "name"); known && known->is_string())
+        taken.insert(known->get<std::string>());
+    std::string free = name;
+    for (int k = 2; taken.contains(free); ++k) free = fmt::format("{} {}", name, k);
+    return free;
+  }
+
   Result<void> addNode(std::size_t node, Index mesh) {
     if (scene_.parts.meshes[mesh].targets.empty()) return {};
     const auto sampler = samplerOf(mesh);

@@ -10,6 +10,7 @@
 
 #include "gltf/left_to_face.hpp"
 #include "gltf/more_targets.hpp"
+#include "gltf/references.hpp"
 #include "gltf/scene.hpp"
 #include "io/text.hpp"
 
@@ -22,7 +23,7 @@ std::unexpected<Error> doesNotFit(std::string_view why) {
 
 /// Of an error that may advise on the glTF that the scene once was, which helps nobody.
 std::unexpected<Error> cannotBeRead(const Error& error) {
-  return doesNotFit(io::withoutPeriod(error.message.substr(0, error.message.rfind(';'))));
+  return doesNotFit(io::withoutAdvice(error.message));
 }
 
 /// Targets of the rig that its scene came without.
@@ -70,6 +71,7 @@ Result<BoundScene> sceneOf(const Rig& rig) {
   auto parts = findParts(*document);
   if (!parts) return cannotBeRead(parts.error());
   if (document->buffers.size() > 1) return doesNotFit("it has several buffers");
+  if (auto ok = checkReferences(*document); !ok) return cannotBeRead(ok.error());
   // What its accessors may claim counts on what was taken out as well: shapes, triangles and
   // texture coordinates.
   const Polygons& polygons = rig.source.polygons;

@@ -53,7 +53,14 @@ class ClipReader {
       if (!in.ok()) return in.error();
       if (!wanted.empty() && name != wanted) continue;
       if (auto ok = readAnimation(in); !ok) return std::unexpected(ok.error());
-      if (!tracks_.empty()) return clipOf(name);
+      if (tracks_.empty()) continue;
+      auto clip = clipOf(name);
+      if (clip && !wanted.empty() && isAgainFrom(a + 1, name))
+        clip->warnings.push_back(
+            fmt::format("Several of its animations are named {}; this is the "
+                        "first of them.",
+                        io::inQuotes(name)));
+      return clip;
     }
     if (wanted.empty()) return fail("it has no animation of morph targets.");
     return fail(fmt::format("it has no animation of morph targets named {}{}.",
@@ -61,6 +68,15 @@ class ClipReader {
   }
 
  private:
+  bool isAgainFrom(std::size_t first, std::string_view name) const {
+    const Json& animations = document_.list("animations");
+    return std::any_of(animations.begin() + static_cast<std::ptrdiff_t>(first), animations.end(),
+                       [&](const Json& animation) {
+                         const Json* const other = find(animation, "name");
+                         return other && *other == name && hasWeights(animation);
+                       });
+  }
+
   static std::string listed(const Json& animations) {
     constexpr std::size_t kMost = 10;
     std::string names;

@@ -10,6 +10,7 @@
 #include "sweepface/box.hpp"
 
 #include "gltf/skins.hpp"
+#include "io/text.hpp"
 
 namespace sweepface::gltf {
 namespace {
@@ -208,7 +209,7 @@ class Undoer {
   Result<std::size_t> boundAgain(std::size_t number, const Encoding& e) {
     Json skin = json_["skins"][number];
     auto matrices = inverseBindMatrices(scene_.document, number);
-    if (!matrices) return cannot(matrices.error().message);
+    if (!matrices) return cannot(io::withoutAdvice(matrices.error().message));
     for (Affine& matrix : *matrices) matrix = matrix * fromCube(e);
     skin["inverseBindMatrices"] = builder_.add(packMatrices(*matrices), Use::other);
     json_["skins"].push_back(std::move(skin));

@@ -9,6 +9,7 @@
 #include "gltf/accessor_uses.hpp"
 #include "gltf/binary.hpp"
 #include "gltf/left_to_face.hpp"
+#include "gltf/references.hpp"
 #include "gltf/resources.hpp"
 #include "gltf/same_vertices.hpp"
 #include "gltf/skins.hpp"
@@ -241,21 +242,6 @@ bool losesTangents(const Document& document, const Parts& parts) {
     return material && find(primitive["attributes"], "TANGENT") &&
            hasNormalMap(materials[*material]);
   });
-}
-
-/// What the rig does not use is passed on unread, but what it names must exist: else it would come
-/// to name what is added.
-Result<void> checkReferences(const Document& document) {
-  for (const char* list : {"images", "accessors"}) {
-    const Json& holders = document.list(list);
-    for (std::size_t k = 0; k < holders.size(); ++k)
-      if (const Json* const view = find(holders[k], "bufferView"))
-        if (!asIndex(*view, document.views.size()))
-          return fail(fmt::format(
-              "{} {}: its bufferView does not exist (there are {}); export the glTF again.", list,
-              k, document.views.size()));
-  }
-  return checkAccessorUses(document);
 }
 
 }  // namespace

@@ -152,6 +152,11 @@ inline std::string withoutPeriod(std::string sentence) {
   return sentence;
 }
 
+/// The same of a sentence whose advice would help nobody there: "what is wrong; what to do."
+inline std::string withoutAdvice(const std::string& sentence) {
+  return withoutPeriod(sentence.substr(0, sentence.rfind(';')));
+}
+
 /// Numbers names in the order in which they first come up.
 class NameIndex {
  public:

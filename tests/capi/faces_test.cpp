@@ -626,7 +626,7 @@ TEST(Messages, EndWithAWholeCharacter) {
   EXPECT_EQ(std::string(sweepface_message()), name.substr(0, 2046));
 }
 
-TEST(Version, IsTheHeaders) { EXPECT_EQ(sweepface_version(), SWEEPFACE_VERSION); }
+TEST(Version, IsTheHeaders) { EXPECT_EQ(sweepface_version(), SWEEPFACE_VERSION_NUMBER); }
 
 }  // namespace
 }  // namespace sweepface

@@ -63,6 +63,30 @@ TEST_F(Following, AnimationsTakeArcsAlong) {
   EXPECT_NE(r.err.find("cannot hold newton exactly"), std::string::npos) << r.err;
 }
 
+/// Eyes that turn take all that a target moved, so that no arc is left to it.
+TEST_F(Following, EyesLeaveNoEmptyArcs) {
+  const Vec3 left{3, 4, -1}, right{-3, 4, -1};
+  PolygonMesh neutral = joined(plane(), cubeSphere(6, 1.5), left);
+  const std::size_t end = neutral.positions.size();
+  neutral = joined(neutral, cubeSphere(6, 1.5), right);
+  PolygonMesh looking = neutral;
+  for (std::size_t v = plane().positions.size(); v < end; ++v) {
+    const Vec3 arm = neutral.positions[v] - left;
+    looking.positions[v] = left + turnedAboutX(arm + Vec3{0, 0, kHinge}, 30) - Vec3{0, 0, kHinge};
+  }
+  EXPECT_TRUE(
+      writeFile(folder / "neutral.obj", formatObj({neutral.positions, {}, neutral.polygons})));
+  EXPECT_TRUE(writeFile(folder / "turns/eyeLookDownLeft.obj",
+                        formatObj({looking.positions, {}, looking.polygons})));
+  ASSERT_EQ(run("convert neutral.obj turns -o face.sweep --tolerance 0.001 --quiet").code, 0);
+  const auto hasArc = [&](const std::string& options) {
+    EXPECT_EQ(run("export face.sweep -o out.glb " + options).code, 0);
+    return contents(folder / "out.glb").find("eyeLookDownLeft.arc") != std::string::npos;
+  };
+  EXPECT_TRUE(hasArc("--arcs on"));
+  EXPECT_FALSE(hasArc("--arcs on --eyes on"));
+}
+
 TEST_F(Following, CombinedTargetsFollow) {
   const auto along = [](Vec3 by) { return [by](const Vec3& p) { return p + by; }; };
   convertWith({{"A", along({1, 0, 0})},

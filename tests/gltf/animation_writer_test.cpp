@@ -142,6 +142,9 @@ TEST(AnimationWriter, LeavesOtherAnimationsAsTheyAre) {
   ASSERT_EQ(glb.json["animations"].size(), 2u);
   EXPECT_EQ(glb.json["animations"][0], blink);
   EXPECT_EQ(glb.json["animations"][1]["name"], "newton");
+  for (const auto& [name, free] : {std::pair("blink", "blink 2"), std::pair("wink", "wink")})
+    EXPECT_EQ(write(rig, {.motion = &motion, .animationName = name}).json["animations"][1]["name"],
+              free);
 }
 
 TEST(AnimationWriter, RefusesWhatCannotMove) {

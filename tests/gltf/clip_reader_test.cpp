@@ -269,6 +269,12 @@ TEST(GltfClip, SaysWhatIsWrong) {
   glb.json["animations"].push_back(nod);
   EXPECT_TRUE(fails(glb, "named 'nod'; those that it has are 'talk'.", "nod"));
   EXPECT_EQ(clipOf(glb)->title, "talk");
+  EXPECT_TRUE(clipOf(glb, "talk")->warnings.empty());
+  Glb twice = glb;
+  twice.json["animations"].push_back(glb.json["animations"][0]);
+  ASSERT_EQ(clipOf(twice, "talk")->warnings.size(), 1u);
+  EXPECT_TRUE(
+      clipOf(twice, "talk")->warnings[0].starts_with("Several of its animations are named 'talk'"));
   // Ten are told, wherever they stand.
   Glb many = glb;
   many.json["animations"] = Json::array();

@@ -394,9 +394,12 @@ TEST(GltfReader, VerticesAreWhereTheFirstNodeShowsThem) {
   expectNear(source.rig.targets[0].positions, open);
 }
 
+void addSkin(Glb& glb) { glb.json["skins"] = {{{"joints", {glb.add("nodes", Json::object())}}}}; }
+
 TEST(GltfReader, ASkinIgnoresWhereItsNodeIs) {
   Glb glb = smallFace();
   glb.json["nodes"] = {{{"mesh", 0}, {"skin", 0}, {"translation", {7, 7, 7}}}};
+  addSkin(glb);
   EXPECT_EQ(read(glb).rig.neutral.positions, sheetPositions());
 }
 
@@ -407,6 +410,7 @@ TEST(GltfReader, WarnsWhereASkinUndoesAQuantization) {
       glb.addAccessor(glb.addView(bytesOf(values), 8), 5122, "VEC3", 3);
   glb.add("nodes", {{"mesh", 0}});
   EXPECT_TRUE(read(glb).faceWarnings.empty());
+  addSkin(glb);
   glb.json["nodes"][0]["skin"] = 0;
   const auto warnings = read(glb).faceWarnings;
   ASSERT_EQ(warnings.size(), 1u);

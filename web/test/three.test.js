@@ -1,7 +1,9 @@
 import assert from 'node:assert/strict';
+import {execFileSync} from 'node:child_process';
 import {readFileSync} from 'node:fs';
+import {join} from 'node:path';
 import test from 'node:test';
-import {difference, played, sample} from './native.js';
+import {difference, newFolder, played, sample, tool} from './native.js';
 
 const three = await import('three').catch(() => undefined);
 const options = {skip: three ? false : 'three is not installed; try npm ci'};
@@ -53,10 +55,37 @@ test('what moves morph targets moves a mesh', options, async () => {
   assert.equal(influences[places.jawOpen], 1);
   influences[places.jawOpen] = 0.5;
   assert.equal(mesh.clone().morphTargetInfluences[places.jawOpen], 0.5);
-  influences[places.jawOpen] = NaN;
-  assert.throws(() => mesh.update(), {message: "The weight of 'jawOpen' must be a finite number, not NaN."});
+  for (const odd of [NaN, Infinity, -2e6, '0.25', undefined]) {
+    influences[places.jawOpen] = odd;
+    mesh.update();
+    assert.equal(mesh.weights.jawOpen, 0.5);
+  }
   mesh.reset();
   assert.deepEqual(influences, mesh.names.map(() => 0));
+});
+
+test('influences may be an array of another kind', options, async () => {
+  const mesh = await load(), {jawOpen} = mesh.morphTargetDictionary;
+  const end = () => {
+    mesh.reset();
+    mesh.moveTo({jawOpen: 0.7}, {kind: 'linear-force', seconds: 0.1});
+    for (let k = 0; k < 20; ++k) mesh.update(1 / 60);
+    return mesh.weights.jawOpen;
+  };
+  mesh.morphTargetInfluences = new Float32Array(mesh.names.length);  // where 0.7 is another number
+  assert.equal(end(), 0.7);
+  mesh.morphTargetInfluences[jawOpen] = 0.25;
+  mesh.update();
+  assert.equal(mesh.weights.jawOpen, 0.25);
+  for (const odd of [Object.freeze(mesh.names.map(() => 0)), [0], undefined]) {
+    mesh.morphTargetInfluences = odd;
+    assert.equal(end(), 0.7);
+    assert.ok(mesh.morphTargetInfluences === odd && odd?.length !== 2);
+  }
+  const twin = mesh.clone();
+  assert.equal(twin.morphTargetInfluences[jawOpen], 0.7);
+  twin.copy(new three.Mesh());
+  assert.equal(twin.morphTargetInfluences[twin.morphTargetDictionary.jawOpen], 0.7);
 });
 
 test("three.js's mixer plays clips on a mesh, by name and of all targets together", options, async () => {
@@ -74,6 +103,43 @@ test("three.js's mixer plays clips on a mesh, by name and of all targets togethe
     assert.deepEqual(Object.values(mesh.weights), mesh.names.map((name) => (name === 'jawOpen' ? 0.5 : others)));
     mixer.stopAllAction();
   }
+});
+
+test('animations of glTF files move the targets that they name', options, async () => {
+  const {animationFor} = await import('../sweepface_three.js');
+  const {GLTFLoader} = await import('three/examples/jsm/loaders/GLTFLoader.js');
+  globalThis.self ??= globalThis;  // as the loader expects it
+  const take = join(newFolder(), 'take.glb');
+  execFileSync(tool, ['animate', sample, '--to', 'jawOpen=1', '--law', 'newton', '-o', take, '--quiet']);
+  const gltf = await new GLTFLoader().parseAsync(new Uint8Array(readFileSync(take)).buffer, '');
+  const mesh = await load(), clip = animationFor(mesh, gltf), mixer = new three.AnimationMixer(mesh);
+  assert.deepEqual(clip.tracks.map(({name}) => name), ['.morphTargetInfluences[jawOpen]']);
+  mixer.clipAction(clip).play();
+  mesh.moveTo({mouthSmileLeft: 1}, {kind: 'linear-force', seconds: 0.2});  // which goes on
+  for (const seconds of [0.25, 0.25]) {
+    mixer.update(seconds);
+    mesh.update(seconds);
+  }
+  assert.ok(Math.abs(mesh.weights.jawOpen - 0.25) < 1e-6);
+  assert.equal(mesh.weights.mouthSmileLeft, 1);
+  assert.throws(() => animationFor(mesh, {scene: gltf.scene, animations: []}), {message: /^animationFor takes a face/});
+});
+
+test('of meshes with targets of their own each is played by name, the first that has it', options, async () => {
+  const {animationFor} = await import('../sweepface_three.js');
+  const meshOf = (name, ...targets) => {
+    const dictionary = Object.fromEntries(targets.map((target, k) => [target, k]));
+    return Object.assign(new three.Mesh(), {name, morphTargetDictionary: dictionary});
+  };
+  const scene = new three.Group().add(meshOf('teeth', 'smile', 'jawOpen'), meshOf('head', 'jawOpen', 'blink', 'other'));
+  const tracks = [new three.NumberKeyframeTrack('teeth.morphTargetInfluences', [0, 1], [0, 0, 0.5, 1]),
+                  new three.NumberKeyframeTrack('head.morphTargetInfluences', [0, 1], [9, 2, 3, 9, 4, 5]),
+                  new three.VectorKeyframeTrack('head.position', [0], [1, 2, 3])];
+  const clip = animationFor({names: ['jawOpen', 'blink', 'smile']},
+                            {scene, animations: [new three.AnimationClip('talk', 1, tracks)]});
+  assert.deepEqual(clip.tracks.map(({name, values}) => [name, ...values]),
+                   [['.morphTargetInfluences[smile]', 0, 0.5], ['.morphTargetInfluences[jawOpen]', 0, 1],
+                    ['.morphTargetInfluences[blink]', 2, 4]]);
 });
 
 test('an update costs nothing where nothing moves', options, async () => {

@@ -3,7 +3,7 @@ import {type Material, MeshBasicMaterial, Scene} from 'three';
 import {Sweepface, type Drive, type LoadOptions, type Part, type Pose, type Region} from 'sweepface';
 import {Clip, ClipPlayer, type OneEuro, readClip, readTimeline, TimelinePlayer} from 'sweepface/clips';
 import {SWEEPFACE_GLSL, SweepfaceGpuMesh} from 'sweepface/gpu';
-import {SweepfaceLoader, SweepfaceMesh} from 'sweepface/three';
+import {animationFor, SweepfaceLoader, SweepfaceMesh} from 'sweepface/three';
 
 export async function useFace(bytes: ArrayBuffer | Uint8Array): Promise<void> {
   const wasm = new URL('https://example.org/a.wasm');
@@ -37,6 +37,7 @@ export async function useThree(scene: Scene): Promise<void> {
   const other: SweepfaceMesh<Material | Material[]> = mesh;
   other.material = new MeshBasicMaterial();
   mesh.prepare();
+  console.log(animationFor(mesh, {scene, animations: []}).tracks.length);
   mesh.morphTargetInfluences[mesh.morphTargetDictionary.jawOpen ?? 0] = 0.5;
   console.log(new SweepfaceMesh(mesh.face, new MeshBasicMaterial()).material.color, mesh.weights.jawOpen, mesh.pose);
   console.log(twin.regions.length, new SweepfaceLoader(undefined, {wasm: {href: 'a.wasm'}}).abort().options);
