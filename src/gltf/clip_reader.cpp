@@ -11,6 +11,7 @@
 #include "sweepface/weights.hpp"
 
 #include "gltf/accessor.hpp"
+#include "gltf/moved_weights.hpp"
 #include "gltf/parts.hpp"
 #include "io/text.hpp"
 
@@ -77,7 +78,7 @@ class ClipReader {
                        });
   }
 
-  static std::string listed(const Json& animations) {
+  std::string listed(const Json& animations) const {
     constexpr std::size_t kMost = 10;
     std::string names;
     std::size_t count = 0;
@@ -91,11 +92,10 @@ class ClipReader {
     return names;
   }
 
-  static bool hasWeights(const Json& animation) {
-    return std::ranges::any_of(listOf(animation, "channels"), [](const Json& channel) {
+  bool hasWeights(const Json& animation) const {
+    return std::ranges::any_of(listOf(animation, "channels"), [this](const Json& channel) {
       const Json* const target = find(channel, "target");
-      const Json* const path = target ? find(*target, "path") : nullptr;
-      return path && *path == "weights";
+      return target && movedWeights(document_, *target);
     });
   }
 
@@ -106,17 +106,18 @@ class ClipReader {
       const RigMesh* mesh;
       std::size_t node, number, sampler;
     };
+    constexpr std::size_t behindNodes = -1;
     std::vector<Channel> found;
     for (std::size_t c = 0; c < channels.size(); ++c) {
       Members channel(channels[c], fmt::format("{}, channel {}", in.place(), c));
       Members target(channel.object("target"), channel.place());
-      const bool weights = target.text("path") == "weights";
       const std::size_t sampler = channel.index("sampler", samplers.size(), "samplers");
-      const auto node = target.optionalIndex("node", document_.list("nodes").size(), "nodes");
+      target.optionalIndex("node", document_.list("nodes").size(), "nodes");
+      const auto moved = movedWeights(document_, channel.object("target"));
       if (!channel.ok()) return channel.error();
       if (!target.ok()) return target.error();
-      if (!weights || !node) continue;
-      if (const RigMesh* const mesh = meshOf(*node)) found.push_back({mesh, *node, c, sampler});
+      const RigMesh* const mesh = moved ? meshOf(*moved) : nullptr;
+      if (mesh) found.push_back({mesh, moved->ofNode ? moved->number : behindNodes, c, sampler});
     }
     // The order of channels means nothing: of each mesh the first node that shows it counts.
     std::ranges::sort(found, {},
@@ -131,9 +132,10 @@ class ClipReader {
     return {};
   }
 
-  const RigMesh* meshOf(std::size_t node) const {
-    const auto mesh =
-        findIndex(document_.list("nodes")[node], "mesh", document_.list("meshes").size());
+  const RigMesh* meshOf(const MovedWeights& moved) const {
+    const auto mesh = moved.ofNode ? findIndex(document_.list("nodes")[moved.number], "mesh",
+                                               document_.list("meshes").size())
+                                   : std::optional(moved.number);
     const auto found = std::ranges::find_if(
         parts_.meshes, [&](const RigMesh& m) { return mesh && m.mesh == *mesh; });
     return found == parts_.meshes.end() || found->targets.empty() ? nullptr : &*found;

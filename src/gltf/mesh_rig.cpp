@@ -57,6 +57,9 @@ class RigReader {
   Result<std::vector<Vec3>> vectors(std::size_t index) const {
     const auto accessor = accessorAt(document_, index);
     if (!accessor) return std::unexpected(accessor.error());
+    if (accessor->type == Component::uint32)
+      return fail(fmt::format(
+          "accessor {}: positions cannot be integers of 32 bits; export the file again.", index));
     const auto values = decode(document_, *accessor);
     if (!values) return std::unexpected(values.error());
     return asVectors(*values);

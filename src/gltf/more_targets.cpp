@@ -1,11 +1,11 @@
 #include "gltf/more_targets.hpp"
 
-#include <charconv>
 #include <map>
 #include <set>
 #include <string_view>
 
 #include "gltf/builder.hpp"
+#include "gltf/moved_weights.hpp"
 
 namespace sweepface::gltf {
 namespace {
@@ -129,34 +129,10 @@ class TargetAdder {
 
   /// The mesh all of whose weights a channel moves.
   std::optional<std::size_t> meshMovedBy(const Json& target) const {
-    const Json* const path = find(target, "path");
-    if (!path || (*path != "weights" && *path != "pointer")) return std::nullopt;
-    if (*path == "weights") return meshOfNode(findIndex(target, "node", nodes()));
-    const Json* const extensions = find(target, "extensions");
-    const Json* const extension = extensions ? find(*extensions, "KHR_animation_pointer") : nullptr;
-    const Json* const pointer = extension ? find(*extension, "pointer") : nullptr;
-    if (!pointer || !pointer->is_string()) return std::nullopt;
-    const std::string_view text = pointer->get_ref<const std::string&>();
-    if (const auto node = numberIn(text, "/nodes/", nodes())) return meshOfNode(node);
-    const auto mesh = numberIn(text, "/meshes/", document_.list("meshes").size());
-    return mesh && meshes_.contains(*mesh) ? mesh : std::nullopt;
-  }
-
-  std::size_t nodes() const { return document_.list("nodes").size(); }
-  std::optional<std::size_t> meshOfNode(std::optional<std::size_t> node) const {
-    return node ? meshOf(document_.list("nodes")[*node]) : std::nullopt;
-  }
-
-  /// N of "/nodes/N/weights", if there are more.
-  static std::optional<std::size_t> numberIn(std::string_view pointer, std::string_view start,
-                                             std::size_t count) {
-    constexpr std::string_view end = "/weights";
-    if (!pointer.starts_with(start) || !pointer.ends_with(end)) return std::nullopt;
-    std::size_t number = 0;
-    const char* const digits = pointer.data() + start.size();
-    const auto [after, error] = std::from_chars(digits, pointer.data() + pointer.size(), number);
-    const bool alone = std::string_view(after, pointer.data() + pointer.size()) == end;
-    return error == std::errc() && alone && number < count ? std::optional(number) : std::nullopt;
+    const auto moved = movedWeights(document_, target);
+    if (!moved) return std::nullopt;
+    if (moved->ofNode) return meshOf(document_.list("nodes")[moved->number]);
+    return meshes_.contains(moved->number) ? std::optional(moved->number) : std::nullopt;
   }
 
   /// By sampler and how many targets there were.

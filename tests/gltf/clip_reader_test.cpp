@@ -128,6 +128,18 @@ TEST(GltfClip, OfSeveralMeshesTheFirstOneCounts) {
   }
 }
 
+TEST(GltfClip, IsToldByPointersAsWell) {
+  const Glb plain = moving("LINEAR", {0, 1}, {0, 0, 1, 0.5f});
+  for (const char* pointer : {"/nodes/0/weights", "/meshes/0/weights"}) {
+    Glb glb = plain;
+    glb.json["animations"][0]["channels"][0]["target"] = {
+        {"path", "pointer"}, {"extensions", {{"KHR_animation_pointer", {{"pointer", pointer}}}}}};
+    const auto clip = clipOf(glb);
+    ASSERT_TRUE(clip) << clip.error().message;
+    EXPECT_EQ(clip->weights, clipOf(plain)->weights);
+  }
+}
+
 TEST(GltfClip, WhatIsWrittenIsReadAgain) {
   const Rig rig = converted(withTargets(plane(4, 4), 2));
   const auto spring = Trajectory::spring({}, 1, {2, 0.3});

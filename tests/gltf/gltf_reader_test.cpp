@@ -133,6 +133,13 @@ TEST(GltfReader, ReadsQuantisedPositionsAndDeltas) {
   expectNear(source.rig.targets[1].positions, second);
 }
 
+TEST(GltfReader, PositionsAreNoLongIntegers) {
+  Glb glb = smallFace();
+  glb.attribute("POSITION")["componentType"] = 5125;
+  EXPECT_TRUE(failsWith(parseGltf(glb.bytes(), "face.glb", {}),
+                        {"face.glb: accessor", "positions cannot be integers of 32 bits"}));
+}
+
 TEST(GltfReader, NormalisedPositionsGoFromMinusOneToOne) {
   Glb glb = points(zigzag(3));
   const std::vector<std::int16_t> values{32767, -32767, 0, 0, 16384, 0, 0, 0, 0, 0, -32768, 0};
