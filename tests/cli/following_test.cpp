@@ -1,6 +1,7 @@
 #include <numbers>
 
 #include "cli/tool.hpp"
+#include "faces.hpp"
 
 namespace sweepface {
 namespace {

@@ -1,7 +1,9 @@
 // What the rig does not use is passed on unread, but what it names must be there.
 #include "gltf/references.hpp"
 
+#include <fmt/format.h>
 #include <functional>
+#include <limits>
 
 #include "gltf/written.hpp"
 
