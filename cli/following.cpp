@@ -84,12 +84,11 @@ Result<Following> follow(const FollowingArguments& a, Rig& rig, const std::vecto
   if (a.eyes == "on") {
     const std::vector<Eye> eyes = findEyes(rig);
     if (eyes.empty()) return fail("The face has no eyeballs that could turn; leave --eyes out.");
-    for (const Eye& eye : eyes)
-      if (const std::string name = eye.name + ".down"; rig.find(name) >= 0)
-        printWarning(
-            fmt::format("The face has a target '{}', as an earlier --eyes on adds it; those "
-                        "that are added now end in '_'. Convert a file without them.",
-                        name));
+    if (std::ranges::any_of(eyes,
+                            [&](const Eye& eye) { return rig.find(eye.name + ".down") >= 0; }))
+      printWarning(
+          "The face has targets as an earlier --eyes on adds them, like 'eyeLeft.down'; those that "
+          "are added now end in '_'. Convert a file without them.");
     following.eyes = EyeTurns::addTo(rig, eyes);
     std::erase_if(turns, [&](const Turn& turn) { return isStill(rig, rig.targets[turn.target]); });
   }

@@ -1,38 +1,48 @@
 // Animations of glTF files, as three.js's own loader reads them, for faces.
 import {AnimationClip, NumberKeyframeTrack, PropertyBinding} from 'three';
 
-/** The rows that a track has for each key: a value, or three where it is a cubic spline, [rows][targets]. */
-function column(track, target, count) {
-  const stride = track.getValueSize(), rows = stride / count, {times, values} = track;
-  return Float32Array.from({length: rows * times.length}, (_, k) => {
-    return values[Math.floor(k / rows) * stride + (k % rows) * count + target];
+/** Of a track of `count` targets together a track for one: for each key a value, or three where it is a cubic spline. */
+function trackFor(name, track, place, count) {
+  const {times, values} = track, stride = track.getValueSize(), rows = stride / count;
+  const own = Float32Array.from({length: rows * times.length}, (_, k) => {
+    return values[Math.floor(k / rows) * stride + (k % rows) * count + place];
   });
+  const made = new NumberKeyframeTrack(`.morphTargetInfluences[${name}]`, times, own);
+  made.createInterpolant = track.createInterpolant;  // steps, straight lines or splines
+  return made;
 }
 
-/** Of all targets together a track for one. */
-function trackFor(name, track, values) {
-  const own = new NumberKeyframeTrack(`.morphTargetInfluences[${name}]`, track.times, values, track.getInterpolation());
-  if (Object.hasOwn(track, 'createInterpolant')) own.createInterpolant = track.createInterpolant;
-  return own;
+/** The targets that a track moves, [name, place], and how many it holds. */
+function targetsOf(track, scene) {
+  const {nodeName, propertyName, propertyIndex: one} = PropertyBinding.parseTrackName(track.name);
+  const mesh = propertyName === 'morphTargetInfluences' ? PropertyBinding.findNode(scene, nodeName) : undefined;
+  const places = mesh?.morphTargetDictionary ?? {};
+  if (one === undefined) return {targets: Object.entries(places), count: mesh?.morphTargetInfluences?.length};
+  const name = one in places ? one : Object.keys(places).find((key) => String(places[key]) === one);
+  return {targets: name === undefined ? [] : [[name, 0]], count: 1};
+}
+
+/** Tracks for the targets of a face; nothing where an animation is none of theirs. */
+function tracksFor(face, scene, animation) {
+  const unmoved = new Set(face.names), tracks = [];
+  for (const track of animation.tracks) {
+    const {targets, count} = targetsOf(track, scene);
+    for (const [name, place] of targets)
+      if (unmoved.delete(name)) tracks.push(trackFor(name, track, place, count));
+  }
+  return tracks.length > 0 ? tracks.filter(({values}) => values.some((value) => value !== 0)) : undefined;
 }
 
 /**
- * An animation of a glTF file as a clip for a face: a track for each target that the face has and that ever leaves 0.
- * Where several meshes have a target, the first counts.
+ * An animation of a glTF file as a clip for a face, the first of its targets unless given: a track for each target that
+ * the face has and that ever leaves 0. Of several tracks for a target the first counts.
  */
-export function animationFor(face, gltf, animation = gltf?.animations?.[0]) {
-  if (!Array.isArray(face?.names) || !gltf?.scene || !Array.isArray(animation?.tracks))
-    throw new TypeError('animationFor takes a face and what GLTFLoader read, and which of its animations.');
-  const known = new Set(face.names), tracks = [];
-  for (const track of animation.tracks) {
-    const {nodeName, propertyName} = PropertyBinding.parseTrackName(track.name);
-    const places = PropertyBinding.findNode(gltf.scene, nodeName)?.morphTargetDictionary;
-    if (propertyName !== 'morphTargetInfluences' || !places) continue;
-    for (const [name, place] of Object.entries(places)) {
-      const values = column(track, place, Object.keys(places).length);
-      if (!known.delete(name) || !values.some((value) => value !== 0)) continue;
-      tracks.push(trackFor(name, track, values));
-    }
+export function animationFor(face, gltf, animation) {
+  if (!Array.isArray(face?.names) || !Array.isArray(gltf?.animations))
+    throw new TypeError('animationFor takes a face and what GLTFLoader read.');
+  for (const each of animation ? [animation] : gltf.animations) {
+    const tracks = gltf.scene && tracksFor(face, gltf.scene, each);
+    if (tracks) return new AnimationClip(each.name, each.duration, tracks);
   }
-  return new AnimationClip(animation.name, animation.duration, tracks);
+  throw new Error('The file has no animation of targets that the face has; they are matched by name.');
 }

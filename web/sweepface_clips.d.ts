@@ -29,10 +29,10 @@ type Floats = Float32Array | Float64Array;
 
 /** Weights over time; all numbers are finite. */
 export class Clip<Numbers extends Floats = Floats> {
-  constructor(names: string[], times: Numbers, weights: Numbers);
+  constructor(names: string[], times: Floats, weights: Numbers);
   readonly names: string[];
   /** [frames] seconds, none before the last. */
-  readonly times: Numbers;
+  readonly times: Floats;
   /** [frames × names] */
   readonly weights: Numbers;
   readonly seconds: number;

@@ -198,6 +198,7 @@ export class FaceMesh extends Mesh {
   /** Another face of the same file that stands as this one, and moves by itself. */
   clone(recursive) {
     this.#takeInfluences();
+    this.morphTargetInfluences ??= undefined;  // null is not what three.js copies
     const face = this.face.clone(), regions = face.regions.length > 0 ? face.regions : [undefined];
     for (const region of regions) {
       const weights = region === undefined ? this.face.weights : this.face.weightsIn(region);

@@ -14,7 +14,6 @@ export function textOf(source, what, name) {
 }
 
 export const isNumber = (value) => typeof value === 'number' && Number.isFinite(value);
-/** Whether a text can mean this as a weight; more is a slip. */
 export const isObject = (value) => typeof value === 'object' && value !== null && !Array.isArray(value);
 
 /** Small letters, of A to Z alone. */

@@ -16,8 +16,8 @@ export class SweepfaceLoader extends Loader<SweepfaceMesh> {
   parseAsync(bytes: Bytes, options?: LoadOptions): Promise<SweepfaceMesh>;
 }
 
-/** An animation that GLTFLoader read, the first unless given, as a clip for an AnimationMixer of a face: a track for each
- * target that the face has and that ever leaves 0, by its name. */
+/** An animation that GLTFLoader read, the first of targets that the face has unless given, as a clip for an AnimationMixer
+ * of the face: a track for each target that it has and that ever leaves 0, by its name. Throws where there is none. */
 export function animationFor(
   face: {readonly names: readonly string[]}, gltf: {scene: Object3D; animations: AnimationClip[]}, animation?: AnimationClip):
   AnimationClip;

@@ -3,7 +3,7 @@
 /** What kind of object something is, of any realm: frames and Node's vm have an ArrayBuffer of their own. */
 export const kindOf = (it) => Object.prototype.toString.call(it).slice(8, -1);
 
-/** How far a weight may be from 0. */
+/** How far a weight may be from 0; more is a slip. */
 export const MOST = 1e6;
 export const isWeight = (value) => Number.isFinite(value) && Math.abs(value) <= MOST;
 

@@ -71,12 +71,12 @@ Result<BoundScene> sceneOf(const Rig& rig) {
   auto parts = findParts(*document);
   if (!parts) return cannotBeRead(parts.error());
   if (document->buffers.size() > 1) return doesNotFit("it has several buffers");
-  if (auto ok = checkReferences(*document); !ok) return cannotBeRead(ok.error());
   // What its accessors may claim counts on what was taken out as well: shapes, triangles and
   // texture coordinates.
   const Polygons& polygons = rig.source.polygons;
   const std::size_t vertices = rig.source.gridVertex.size();
   document->sourceBytes += (12 + 8) * vertices + 2 * polygons.corners.size();
+  if (auto ok = checkReferences(*document); !ok) return cannotBeRead(ok.error());
   if (const auto more = newTargets(rig, parts->targets); !more.empty()) {
     if (auto ok = addTargets(*document, *parts, more); !ok) return cannotBeRead(ok.error());
     parts = findParts(*document);

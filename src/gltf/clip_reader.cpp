@@ -113,6 +113,7 @@ class ClipReader {
       Members target(channel.object("target"), channel.place());
       const std::size_t sampler = channel.index("sampler", samplers.size(), "samplers");
       target.optionalIndex("node", document_.list("nodes").size(), "nodes");
+      target.text("path");
       const auto moved = movedWeights(document_, channel.object("target"));
       if (!channel.ok()) return channel.error();
       if (!target.ok()) return target.error();

@@ -7,6 +7,7 @@
 
 #include "gltf/accessor.hpp"
 #include "gltf/accessor_uses.hpp"
+#include "gltf/skins.hpp"
 
 namespace sweepface::gltf {
 namespace {
@@ -39,23 +40,40 @@ constexpr Reference kReferences[] = {
 constexpr Reference kLists[] = {{"scene", "scenes", "nodes", "nodes"},
                                 {"skin", "skins", "joints", "nodes"}};
 
-Result<void> checkLists(const Document& document) {
+Result<void> checkIndices(const Document& document) {
   Members top(document.json, "its root");
   top.optionalIndex("scene", document.list("scenes").size(), "scenes");
   if (!top.ok()) return top.error();
-  for (const auto& [holder, holders, key, things] : kReferences)
-    for (std::size_t k = 0; k < document.list(holders).size(); ++k) {
-      Members in(document.list(holders)[k], fmt::format("{} {}", holder, k));
-      in.optionalIndex(key, document.list(things).size(), things);
+  for (const auto& [holder, holders, key, things] : kReferences) {
+    const Json& list = document.list(holders);
+    const std::size_t count = document.list(things).size();
+    for (std::size_t k = 0; k < list.size(); ++k) {
+      Members in(list[k], fmt::format("{} {}", holder, k));
+      in.optionalIndex(key, count, things);
       if (!in.ok()) return in.error();
     }
-  for (const auto& [holder, holders, key, things] : kLists)
-    for (std::size_t k = 0; k < document.list(holders).size(); ++k) {
-      Members in(document.list(holders)[k], fmt::format("{} {}", holder, k));
-      const std::size_t count = document.list(things).size();
+  }
+  for (const auto& [holder, holders, key, things] : kLists) {
+    const Json& list = document.list(holders);
+    const std::size_t count = document.list(things).size();
+    for (std::size_t k = 0; k < list.size(); ++k) {
+      Members in(list[k], fmt::format("{} {}", holder, k));
       for (const Json& entry : in.array(key))
         if (!asIndex(entry, count))
           in.refuse(fmt::format("one of its {} is none of the {} {}", key, count, things));
+      if (!in.ok()) return in.error();
+    }
+  }
+  return {};
+}
+
+Result<void> checkMaterials(const Document& document) {
+  const Json& meshes = document.list("meshes");
+  const std::size_t count = document.list("materials").size();
+  for (std::size_t m = 0; m < meshes.size(); ++m)
+    for (const Json& primitive : listOf(meshes[m], "primitives")) {
+      Members in(primitive, fmt::format("mesh {}", m));
+      in.optionalIndex("material", count, "materials");
       if (!in.ok()) return in.error();
     }
   return {};
@@ -65,31 +83,30 @@ Result<void> checkLists(const Document& document) {
 
 class AnimationChecker {
  public:
-  AnimationChecker(const Document& document, std::size_t number)
-      : document_(document), in_(document.list("animations")[number], placeOf(number)) {}
+  explicit AnimationChecker(const Document& document)
+      : accessors_(document.list("accessors")), nodes_(document.list("nodes").size()) {}
 
-  Result<void> run() {
-    const Json &samplers = in_.array("samplers"), &channels = in_.array("channels");
-    if (!in_.ok()) return in_.error();
+  Result<void> check(const Json& animation, const std::string& place) const {
+    Members in(animation, place);
+    const Json &samplers = in.array("samplers"), &channels = in.array("channels");
+    if (!in.ok()) return in.error();
     for (std::size_t c = 0; c < channels.size(); ++c) {
-      Members channel(channels[c], fmt::format("{}, channel {}", in_.place(), c));
+      Members channel(channels[c], fmt::format("{}, channel {}", place, c));
       Members target(channel.object("target"), channel.place());
       const std::size_t sampler = channel.index("sampler", samplers.size(), "samplers");
-      target.optionalIndex("node", document_.list("nodes").size(), "nodes");
+      target.optionalIndex("node", nodes_, "nodes");
       const std::string_view path = target.text("path");
       if (!channel.ok()) return channel.error();
       if (!target.ok()) return target.error();
-      if (auto ok = checkValues(samplers[sampler], sampler, path); !ok) return ok;
+      Members values(samplers[sampler], fmt::format("{}, sampler {}", place, sampler));
+      if (auto ok = checkValues(values, path); !ok) return ok;
     }
     return {};
   }
 
  private:
-  static std::string placeOf(std::size_t number) { return fmt::format("animation {}", number); }
-
   /// One value for each key, or three with tangents; of weights, and what extensions move, several.
-  Result<void> checkValues(const Json& json, std::size_t number, std::string_view path) {
-    Members in(json, fmt::format("{}, sampler {}", in_.place(), number));
+  Result<void> checkValues(Members& in, std::string_view path) const {
     const std::size_t keys = countOf(in, "input"), values = countOf(in, "output");
     const std::size_t row = (in.text("interpolation") == "CUBICSPLINE" ? 3 : 1) * keys;
     const bool isOne = path == "translation" || path == "rotation" || path == "scale";
@@ -99,16 +116,23 @@ class AnimationChecker {
   }
 
   std::size_t countOf(Members& in, std::string_view key) const {
-    const Json& accessors = document_.list("accessors");
-    const auto index = in.index(key, accessors.size(), "accessors");
+    const std::size_t index = in.index(key, accessors_.size(), "accessors");
     if (!in.ok()) return 0;
-    Members accessor(accessors[index], fmt::format("accessor {}", index));
+    Members accessor(accessors_[index], fmt::format("accessor {}", index));
     return accessor.size("count");
   }
 
-  const Document& document_;
-  Members in_;
+  const Json& accessors_;
+  std::size_t nodes_;
 };
+
+Result<void> checkAnimations(const Document& document) {
+  const AnimationChecker checker(document);
+  const Json& animations = document.list("animations");
+  for (std::size_t a = 0; a < animations.size(); ++a)
+    if (auto ok = checker.check(animations[a], fmt::format("animation {}", a)); !ok) return ok;
+  return {};
+}
 
 // ---- Skins ----
 
@@ -116,24 +140,23 @@ class AnimationChecker {
 class SkinChecker {
  public:
   explicit SkinChecker(const Document& document)
-      : document_(document), left_(document.mostElements()) {}
+      : document_(document),
+        meshes_(document.list("meshes")),
+        skins_(document.list("skins")),
+        accessors_(document.list("accessors").size()),
+        left_(document.mostElements()) {}
 
   Result<void> run() {
-    const std::size_t accessors = document_.list("accessors").size();
-    std::set<std::size_t> matrices;
-    for (const Json& skin : document_.list("skins"))
-      if (const auto index = findIndex(skin, "inverseBindMatrices", accessors))
-        if (matrices.insert(*index).second)
-          if (const auto read = numbers(*index); !read) return std::unexpected(read.error());
+    if (auto ok = checkMatrices(); !ok) return ok;
     std::map<std::size_t, double> lastJoints;  // of meshes
     for (const Json& node : document_.list("nodes")) {
-      const auto mesh = findIndex(node, "mesh", document_.list("meshes").size()),
-                 skin = findIndex(node, "skin", document_.list("skins").size());
+      const auto mesh = findIndex(node, "mesh", meshes_.size()),
+                 skin = findIndex(node, "skin", skins_.size());
       if (!mesh || !skin) continue;
       const auto [last, isNew] = lastJoints.try_emplace(*mesh, -1.0);
       if (isNew)
         if (auto ok = findLastJoint(*mesh, last->second); !ok) return ok;
-      const std::size_t joints = listOf(document_.list("skins")[*skin], "joints").size();
+      const std::size_t joints = listOf(skins_[*skin], "joints").size();
       if (last->second >= static_cast<double>(joints))
         return fail(fmt::format(
             "mesh {}: a vertex hangs on joint {} of skin {}, which has {}; export the file again.",
@@ -143,28 +166,31 @@ class SkinChecker {
   }
 
  private:
-  Result<void> findLastJoint(std::size_t mesh, double& last) {
-    for (const Json& primitive : listOf(document_.list("meshes")[mesh], "primitives"))
-      for (int set = 0;; ++set) {
-        const auto found = lastJoint(primitive, set);
-        if (!found) return std::unexpected(found.error());
-        if (*found < 0) break;
-        last = std::max(last, *found);
-      }
+  Result<void> checkMatrices() {
+    std::set<std::size_t> known;
+    for (const Json& skin : skins_)
+      if (const auto index = findIndex(skin, "inverseBindMatrices", accessors_))
+        if (known.insert(*index).second)
+          if (const auto read = numbers(*index); !read) return std::unexpected(read.error());
     return {};
   }
 
-  /// The last joint that counts in a set of four; -1 where there is no such set.
-  Result<double> lastJoint(const Json& primitive, int set) {
-    const Json* const attributes = find(primitive, "attributes");
-    if (!attributes) return -1;
-    const std::size_t accessors = document_.list("accessors").size();
-    const auto joint = findIndex(*attributes, fmt::format("JOINTS_{}", set), accessors),
-               weight = findIndex(*attributes, fmt::format("WEIGHTS_{}", set), accessors);
-    if (!joint || !weight) return -1;
-    const auto [known, isNew] = lastJoints_.try_emplace(std::pair(*joint, *weight), 0.0);
+  Result<void> findLastJoint(std::size_t mesh, double& last) {
+    for (const Json& primitive : listOf(meshes_[mesh], "primitives"))
+      if (const Json* const attributes = find(primitive, "attributes"))
+        for (const auto& [joints, weights] : jointSets(*attributes, accessors_)) {
+          const auto found = lastJoint(joints, weights);
+          if (!found) return std::unexpected(found.error());
+          last = std::max(last, *found);
+        }
+    return {};
+  }
+
+  /// The last joint on which anything hangs.
+  Result<double> lastJoint(std::size_t joint, std::size_t weight) {
+    const auto [known, isNew] = lastJoints_.try_emplace(std::pair(joint, weight), 0.0);
     if (!isNew) return known->second;
-    const auto joints = numbers(*joint), weights = numbers(*weight);
+    const auto joints = numbers(joint), weights = numbers(weight);
     if (!joints) return std::unexpected(joints.error());
     if (!weights) return std::unexpected(weights.error());
     for (std::size_t k = 0; k < std::min(joints->size(), weights->size()); ++k)
@@ -175,24 +201,24 @@ class SkinChecker {
   Result<std::vector<double>> numbers(std::size_t index) {
     const auto accessor = accessorAt(document_, index);
     if (!accessor) return std::unexpected(accessor.error());
-    if (accessor->count > left_) return std::vector<double>{};
-    left_ -= accessor->count;
+    if (accessor->count > left_ / accessor->components()) return std::vector<double>{};
+    left_ -= accessor->count * accessor->components();
     return decode(document_, *accessor);
   }
 
   const Document& document_;
-  std::size_t left_;                                                  // elements that may be read
+  const Json &meshes_, &skins_;
+  std::size_t accessors_;
+  std::size_t left_;                                                  // numbers that may be read
   std::map<std::pair<std::size_t, std::size_t>, double> lastJoints_;  // by joints and weights
 };
 
 }  // namespace
 
 Result<void> checkReferences(const Document& document) {
-  if (auto ok = checkViews(document); !ok) return ok;
-  if (auto ok = checkAccessorUses(document); !ok) return ok;
-  if (auto ok = checkLists(document); !ok) return ok;
-  for (std::size_t a = 0; a < document.list("animations").size(); ++a)
-    if (auto ok = AnimationChecker(document, a).run(); !ok) return ok;
+  for (const auto check :
+       {checkViews, checkAccessorUses, checkIndices, checkMaterials, checkAnimations})
+    if (auto ok = check(document); !ok) return ok;
   return SkinChecker(document).run();
 }
 

@@ -4,10 +4,10 @@
 
 namespace sweepface::gltf {
 
-/// Whether what is passed on unread names what exists, in the lists of glTF itself: else it would
-/// come to name what is added, or stop the programs that open the face. Also that animations have
-/// as many values as their keys need, and that skins have finite matrices and all joints that
-/// vertices hang on.
+/// Whether scenes, nodes, skins, animations, textures, and what accessors and materials are named
+/// by, name what exists: it is passed on unread, and would come to name what is added, or stop the
+/// programs that open the face. Also that animations have as many values as their keys need, and
+/// that skins have finite matrices and all joints that vertices hang on.
 Result<void> checkReferences(const Document& document);
 
 }  // namespace sweepface::gltf

@@ -59,16 +59,13 @@ std::vector<double> weightsOfJoints(const Document& document, const Parts& parts
   const std::size_t accessors = document.list("accessors").size();
   for (const Part& part : partsOf(parts, rigMesh)) {
     const Json& attributes = primitiveOf(document, parts, part)["attributes"];
-    for (int set = 0;; ++set) {
-      const auto joint = findIndex(attributes, "JOINTS_" + std::to_string(set), accessors),
-                 weight = findIndex(attributes, "WEIGHTS_" + std::to_string(set), accessors);
-      if (!joint || !weight) break;
+    for (const auto& [joint, weight] : jointSets(attributes, accessors)) {
       const auto of = [&](std::size_t index) -> std::vector<double> {
         const auto accessor = accessorAt(document, index);
         if (!accessor || accessor->count > left) return {};
         return decode(document, *accessor).value_or(std::vector<double>{});
       };
-      const std::vector<double> numbers = of(*joint), shares = of(*weight);
+      const std::vector<double> numbers = of(joint), shares = of(weight);
       left -= std::min(left, numbers.size() / 4);
       for (std::size_t k = 0; k < numbers.size() && k < shares.size(); ++k)
         if (numbers[k] >= 0 && numbers[k] < static_cast<double>(joints))
@@ -233,6 +230,18 @@ Result<std::vector<Affine>> inverseBindMatrices(const Document& document, std::s
     matrices.push_back(affineOf(m));
   }
   return matrices;
+}
+
+std::vector<std::pair<std::size_t, std::size_t>> jointSets(const Json& attributes,
+                                                           std::size_t accessors) {
+  std::vector<std::pair<std::size_t, std::size_t>> sets;
+  for (;;) {
+    const std::string number = std::to_string(sets.size());
+    const auto joint = findIndex(attributes, "JOINTS_" + number, accessors),
+               weight = findIndex(attributes, "WEIGHTS_" + number, accessors);
+    if (!joint || !weight) return sets;
+    sets.emplace_back(*joint, *weight);
+  }
 }
 
 Column packMatrices(const std::vector<Affine>& matrices) {

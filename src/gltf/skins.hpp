@@ -1,5 +1,6 @@
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "gltf/affine.hpp"
@@ -11,6 +12,10 @@ namespace sweepface::gltf {
 /// The matrices of a skin that take its mesh to each joint: those that its file has, or as many
 /// unit matrices as it has joints.
 Result<std::vector<Affine>> inverseBindMatrices(const Document& document, std::size_t skin);
+
+/// The accessors of joints and of weights of each set of four, from the attributes of a primitive.
+std::vector<std::pair<std::size_t, std::size_t>> jointSets(const Json& attributes,
+                                                           std::size_t accessors);
 
 /// As accessors hold them, column after column.
 Column packMatrices(const std::vector<Affine>& matrices);

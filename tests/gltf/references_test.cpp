@@ -83,6 +83,11 @@ TEST(References, WhatIsPassedOnNamesWhatThereIs) {
       {[](Json& j) { j["nodes"][0]["skin"] = 3; }, "node 0: 'skin' is 3, but the file has 1 skins"},
       {[](Json& j) { j["nodes"][1]["camera"] = 0; }, "node 1: 'camera' is 0"},
       {[](Json& j) { j["textures"] = {{{"source", 0}}}; }, "texture 0: 'source' is 0"},
+      {[](Json& j) { j["textures"] = {{{"sampler", 0}}}; }, "texture 0: 'sampler' is 0"},
+      {[](Json& j) { j["nodes"][1]["mesh"] = 4; }, "node 1: 'mesh' is 4"},
+      {[](Json& j) { j["skins"][0]["skeleton"] = 9; }, "skin 0: 'skeleton' is 9"},
+      {[](Json& j) { j["meshes"].push_back({{"primitives", {{{"material", 9}}}}}); },
+       "mesh 1: 'material' is 9"},
       {[](Json& j) { j["skins"][0]["joints"] = {1, 77}; }, "skin 0: one of its joints is none"},
       {[](Json& j) { j["skins"][0]["joints"] = Json::array(); },
        "mesh 0: a vertex hangs on joint 0 of skin 0, which has 0"},
@@ -111,6 +116,13 @@ TEST(References, SkinsHaveMatricesThatAreFinite) {
   const std::size_t accessor = glb.addAccessor(glb.addView(bytesOf(matrix)), 5126, "MAT4", 1);
   glb.json["skins"][0]["inverseBindMatrices"] = accessor;
   expectRefused(glb, fmt::format("accessor {}: element 0 is not finite", accessor));
+}
+
+TEST(References, MatricesMayNotClaimMoreThanTheFileCanMean) {
+  Glb glb = animatedFace();
+  glb.json["skins"][0]["inverseBindMatrices"] = glb.add(
+      "accessors", {{"componentType", 5126}, {"type", "MAT4"}, {"count", std::size_t{1} << 40}});
+  EXPECT_TRUE(parseGltf(glb.bytes(), "face.glb", {}).has_value());  // they are not looked at
 }
 
 /// Exporters leave numbers of joints where nothing hangs.

@@ -77,7 +77,7 @@ test('influences may be an array of another kind', options, async () => {
   mesh.morphTargetInfluences[jawOpen] = 0.25;
   mesh.update();
   assert.equal(mesh.weights.jawOpen, 0.25);
-  for (const odd of [Object.freeze(mesh.names.map(() => 0)), [0], undefined]) {
+  for (const odd of [Object.freeze(mesh.names.map(() => 0)), [0], undefined, null]) {
     mesh.morphTargetInfluences = odd;
     assert.equal(end(), 0.7);
     assert.ok(mesh.morphTargetInfluences === odd && odd?.length !== 2);
@@ -122,24 +122,34 @@ test('animations of glTF files move the targets that they name', options, async 
   }
   assert.ok(Math.abs(mesh.weights.jawOpen - 0.25) < 1e-6);
   assert.equal(mesh.weights.mouthSmileLeft, 1);
-  assert.throws(() => animationFor(mesh, {scene: gltf.scene, animations: []}), {message: /^animationFor takes a face/});
+  assert.throws(() => animationFor(mesh, undefined), {message: /^animationFor takes a face/});
 });
 
-test('of meshes with targets of their own each is played by name, the first that has it', options, async () => {
+test('animations are matched by names, whichever meshes and tracks have them', options, async () => {
   const {animationFor} = await import('../sweepface_three.js');
   const meshOf = (name, ...targets) => {
-    const dictionary = Object.fromEntries(targets.map((target, k) => [target, k]));
-    return Object.assign(new three.Mesh(), {name, morphTargetDictionary: dictionary});
+    const morphTargetDictionary = Object.fromEntries(targets.map((target, k) => [target, k]));
+    return Object.assign(new three.Mesh(), {name, morphTargetDictionary, morphTargetInfluences: targets.map(() => 0)});
   };
-  const scene = new three.Group().add(meshOf('teeth', 'smile', 'jawOpen'), meshOf('head', 'jawOpen', 'blink', 'other'));
-  const tracks = [new three.NumberKeyframeTrack('teeth.morphTargetInfluences', [0, 1], [0, 0, 0.5, 1]),
-                  new three.NumberKeyframeTrack('head.morphTargetInfluences', [0, 1], [9, 2, 3, 9, 4, 5]),
-                  new three.VectorKeyframeTrack('head.position', [0], [1, 2, 3])];
-  const clip = animationFor({names: ['jawOpen', 'blink', 'smile']},
-                            {scene, animations: [new three.AnimationClip('talk', 1, tracks)]});
-  assert.deepEqual(clip.tracks.map(({name, values}) => [name, ...values]),
-                   [['.morphTargetInfluences[smile]', 0, 0.5], ['.morphTargetInfluences[jawOpen]', 0, 1],
-                    ['.morphTargetInfluences[blink]', 2, 4]]);
+  // Of two targets without a name three.js knows the last alone.
+  const scene = new three.Group().add(meshOf('teeth', 'smile', 'jawOpen'), meshOf('head', '', '', 'jawOpen', 'blink'));
+  const track = (name, values, times = [0, 1]) => new three.NumberKeyframeTrack(name, times, values);
+  const animations = [
+    new three.AnimationClip('walk', 1, [new three.VectorKeyframeTrack('head.position', [0], [1, 2, 3])]),
+    new three.AnimationClip('talk', 1, [track('teeth.morphTargetInfluences', [0, 0, 0.5, 1]),
+                                        track('head.morphTargetInfluences', [7, 8, 9, 2, 7, 8, 9, 4])]),
+    new three.AnimationClip('wink', 1, [track('head.morphTargetInfluences[3]', [0, 0.5]),
+                                        track('teeth.morphTargetInfluences[smile]', [0, 0])])
+  ];
+  const face = {names: ['jawOpen', 'blink', 'smile']}, gltf = {scene, animations};
+  const told = (clip) => clip.tracks.map(({name, values}) => [name, ...values]);
+  assert.deepEqual(told(animationFor(face, gltf)), [['.morphTargetInfluences[smile]', 0, 0.5],
+                                                    ['.morphTargetInfluences[jawOpen]', 0, 1],
+                                                    ['.morphTargetInfluences[blink]', 2, 4]]);
+  assert.deepEqual(told(animationFor(face, gltf, animations[2])), [['.morphTargetInfluences[blink]', 0, 0.5]]);
+  const lacks = {message: /^The file has no animation of targets that the face has/};
+  assert.throws(() => animationFor(face, gltf, animations[0]), lacks);
+  assert.throws(() => animationFor({names: ['frown']}, gltf), lacks);
 });
 
 test('an update costs nothing where nothing moves', options, async () => {
