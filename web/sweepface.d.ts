@@ -134,6 +134,8 @@ export class Sweepface {
   /** The weights as they are; of several regions, those of the first. */
   readonly weights: Weights;
   weightsIn(region: string): Weights;
+  /** `weights` as numbers alone, in the order of `names`, which takes less time every frame; a copy. */
+  readonly weightValues: Float64Array;
   /** Sets the weights that are named, at once, everywhere or in one region; the others stay. */
   setWeights(weights: Weights, region?: string): void;
   /** All weights to 0, at once. */

@@ -55,10 +55,17 @@ export class Sweepface {
   get weights() { return this.#weightsOf(0); }
   weightsIn(region) { return this.#weightsOf(this.#open().region(region)); }
 
+  /** The same in the order of the names, which takes less time every frame. */
+  get weightValues() { return this.#valuesOf(0); }
+
   #weightsOf(region) {
-    const {runtime, names} = this.#open(), all = runtime.wasm.sweepface_face_weights(this.#face);
-    const values = runtime.doubles(all + 8 * names.length * region, names.length);
-    return Object.fromEntries(names.map((name, k) => [name, values[k]]));
+    const values = this.#valuesOf(region);
+    return Object.fromEntries(this.#shared.names.map((name, k) => [name, values[k]]));
+  }
+
+  #valuesOf(region) {
+    const {runtime, names: {length}} = this.#open(), all = runtime.wasm.sweepface_face_weights(this.#face);
+    return runtime.doubles(all + 8 * length * region, length).slice();
   }
 
   /** Sets the weights that are named, everywhere or in a region, and leaves the others; those in motion stop. */

@@ -166,9 +166,9 @@ export class FaceMesh extends Mesh {
 
   /** Weights have changed: they are to be shown, and the influences are what they are, as far as there are any. */
   #tellInfluences() {
-    const {weights, names} = this.face, influences = this.morphTargetInfluences ?? [];
-    this.#told = names.map((name, k) => {
-      if (k < influences.length) Reflect.set(influences, k, weights[name]);  // a frozen one stays as it is
+    const influences = this.morphTargetInfluences ?? [];
+    this.#told = Array.from(this.face.weightValues, (weight, k) => {
+      if (k < influences.length) Reflect.set(influences, k, weight);  // a frozen one stays as it is
       return influences[k];  // or rounded, or none
     });
     this.#stale = true;

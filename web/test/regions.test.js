@@ -33,6 +33,7 @@ test('a weight of one region moves nothing outside it', async () => {
   face.setWeights({jawOpen: 1}, 'mouth');
   assert.equal(face.weights.jawOpen, 0);
   assert.equal(face.weightsIn('mouth').jawOpen, 1);
+  assert.deepEqual([...face.weightValues], face.names.map((name) => face.weights[name]));
   const inside = difference(positionsOf(face), rest);
   face.setWeights({jawOpen: 1});
   const whole = difference(positionsOf(face), rest);

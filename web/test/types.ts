@@ -17,7 +17,7 @@ export async function useFace(bytes: ArrayBuffer | Uint8Array): Promise<void> {
   const moving: boolean = face.advance(1 / 60);
   face.evaluate(positions);
   face.evaluate(null, positions);
-  console.log(face.names[0], face.weights.jawOpen, parts[0].material, face.texcoords?.length, face.memoryBytes, moving);
+  console.log(face.names[0], face.weights.jawOpen, face.weightValues[0], parts[0].material, face.texcoords?.length, face.memoryBytes, moving);
   // @ts-expect-error There is no such drive.
   face.moveTo({jawOpen: 0}, 'jump');
   // @ts-expect-error Faces are made by load.
