@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <map>
 #include <set>
+#include <span>
 
 #include "gltf/accessor.hpp"
 #include "gltf/accessor_uses.hpp"
@@ -40,31 +41,35 @@ constexpr Reference kReferences[] = {
 constexpr Reference kLists[] = {{"scene", "scenes", "nodes", "nodes"},
                                 {"skin", "skins", "joints", "nodes"}};
 
-Result<void> checkIndices(const Document& document) {
-  Members top(document.json, "its root");
-  top.optionalIndex("scene", document.list("scenes").size(), "scenes");
-  if (!top.ok()) return top.error();
-  for (const auto& [holder, holders, key, things] : kReferences) {
-    const Json& list = document.list(holders);
-    const std::size_t count = document.list(things).size();
+/// Calls `check(members, count of the other list, reference)` for every object that may refer.
+template <typename Check>
+Result<void> checkHolders(const Document& document, std::span<const Reference> references,
+                          Check check) {
+  for (const Reference& reference : references) {
+    const Json& list = document.list(reference.holders);
+    const std::size_t count = document.list(reference.things).size();
     for (std::size_t k = 0; k < list.size(); ++k) {
-      Members in(list[k], fmt::format("{} {}", holder, k));
-      in.optionalIndex(key, count, things);
-      if (!in.ok()) return in.error();
-    }
-  }
-  for (const auto& [holder, holders, key, things] : kLists) {
-    const Json& list = document.list(holders);
-    const std::size_t count = document.list(things).size();
-    for (std::size_t k = 0; k < list.size(); ++k) {
-      Members in(list[k], fmt::format("{} {}", holder, k));
-      for (const Json& entry : in.array(key))
-        if (!asIndex(entry, count))
-          in.refuse(fmt::format("one of its {} is none of the {} {}", key, count, things));
+      Members in(list[k], fmt::format("{} {}", reference.holder, k));
+      check(in, count, reference);
       if (!in.ok()) return in.error();
     }
   }
   return {};
+}
+
+Result<void> checkIndices(const Document& document) {
+  Members top(document.json, "its root");
+  top.optionalIndex("scene", document.list("scenes").size(), "scenes");
+  if (!top.ok()) return top.error();
+  const auto one = [](Members& in, std::size_t count, const Reference& to) {
+    in.optionalIndex(to.key, count, to.things);
+  };
+  if (auto ok = checkHolders(document, kReferences, one); !ok) return ok;
+  return checkHolders(document, kLists, [](Members& in, std::size_t count, const Reference& to) {
+    for (const Json& entry : in.array(to.key))
+      if (!asIndex(entry, count))
+        in.refuse(fmt::format("one of its {} is none of the {} {}", to.key, count, to.things));
+  });
 }
 
 Result<void> checkMaterials(const Document& document) {
