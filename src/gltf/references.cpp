@@ -57,7 +57,7 @@ Result<void> checkHolders(const Document& document, std::span<const Reference> r
   return {};
 }
 
-Result<void> checkIndices(const Document& document) {
+Result<void> checkObjects(const Document& document) {
   Members top(document.json, "its root");
   top.optionalIndex("scene", document.list("scenes").size(), "scenes");
   if (!top.ok()) return top.error();
@@ -153,12 +153,12 @@ class SkinChecker {
 
   Result<void> run() {
     if (auto ok = checkMatrices(); !ok) return ok;
-    std::map<std::size_t, double> lastJoints;  // of meshes
+    std::map<std::size_t, double> lastOfMeshes;  // joints
     for (const Json& node : document_.list("nodes")) {
       const auto mesh = findIndex(node, "mesh", meshes_.size()),
                  skin = findIndex(node, "skin", skins_.size());
       if (!mesh || !skin) continue;
-      const auto [last, isNew] = lastJoints.try_emplace(*mesh, -1.0);
+      const auto [last, isNew] = lastOfMeshes.try_emplace(*mesh, -1.0);
       if (isNew)
         if (auto ok = findLastJoint(*mesh, last->second); !ok) return ok;
       const std::size_t joints = listOf(skins_[*skin], "joints").size();
@@ -193,7 +193,7 @@ class SkinChecker {
 
   /// The last joint on which anything hangs.
   Result<double> lastJoint(std::size_t joint, std::size_t weight) {
-    const auto [known, isNew] = lastJoints_.try_emplace(std::pair(joint, weight), 0.0);
+    const auto [known, isNew] = lastOfSets_.try_emplace(std::pair(joint, weight), 0.0);
     if (!isNew) return known->second;
     const auto joints = numbers(joint), weights = numbers(weight);
     if (!joints) return std::unexpected(joints.error());
@@ -215,14 +215,14 @@ class SkinChecker {
   const Json &meshes_, &skins_;
   std::size_t accessors_;
   std::size_t left_;                                                  // numbers that may be read
-  std::map<std::pair<std::size_t, std::size_t>, double> lastJoints_;  // by joints and weights
+  std::map<std::pair<std::size_t, std::size_t>, double> lastOfSets_;  // joints, by accessors
 };
 
 }  // namespace
 
 Result<void> checkReferences(const Document& document) {
   for (const auto check :
-       {checkViews, checkAccessorUses, checkIndices, checkMaterials, checkAnimations})
+       {checkViews, checkAccessorUses, checkObjects, checkMaterials, checkAnimations})
     if (auto ok = check(document); !ok) return ok;
   return SkinChecker(document).run();
 }
