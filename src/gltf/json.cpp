@@ -56,10 +56,15 @@ std::optional<std::size_t> asSize(const Json& value) {
 
 Result<Json> parseJson(std::string_view text) {
   if (auto ok = checkNesting(text); !ok) return std::unexpected(ok.error());
-  Json json = Json::parse(text, nullptr, false);
-  if (json.is_discarded()) return fail("its JSON is not valid; export the file again.");
-  if (!json.is_object()) return fail("its JSON is not an object; export the file again.");
-  return json;
+  try {
+    Json json = Json::parse(text);
+    if (!json.is_object()) return fail("its JSON is not an object; export the file again.");
+    return json;
+  } catch (const Json::parse_error& error) {
+    return fail("its JSON, " + io::whereNoJson(text, error.byte));
+  } catch (const Json::out_of_range&) {
+    return fail("its JSON has a number that is too large to be held; export the file again.");
+  }
 }
 
 const Json& listOf(const Json& gltf, std::string_view key) {

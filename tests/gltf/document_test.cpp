@@ -79,7 +79,8 @@ TEST(Container, MessagesSayWhatIsWrong) {
   says(with(8, 0), "its header says that it has ");
   says(with(16, 'X'), "its first chunk is not the JSON");
   says(with(15, 1), "the file ends within a chunk");
-  says(readBytes("v 0 0 0\n"), "its JSON is not valid");
+  says(readBytes("v 0 0 0\n"), "its JSON, line 1: this is not JSON, at column 1: 'v 0 0 0");
+  says(readBytes("{\n\"asset\": {,}"), "its JSON, line 2: this is not JSON, at column 11: ',}'.");
   says(readBytes("[]"), "its JSON is not an object");
 }
 
@@ -114,9 +115,9 @@ TEST(Text, AnObjectOfVeryManyMembersIsRefusedAtOnce) {
 }
 
 TEST(Text, NumbersThatNoDoubleHoldsAreRefused) {
-  EXPECT_NE(readBytes(R"({"asset":{"version":"2.0"},"extras":1e999})").find("not valid"),
+  EXPECT_NE(readBytes(R"({"asset":{"version":"2.0"},"extras":1e999})").find("too large to be held"),
             std::string::npos);
-  EXPECT_NE(readBytes(R"({"asset":{"version":"2.0"},"extras":NaN})").find("not valid"),
+  EXPECT_NE(readBytes(R"({"asset":{"version":"2.0"},"extras":NaN})").find("this is not JSON, at column 37: 'NaN}'"),
             std::string::npos);
 }
 
