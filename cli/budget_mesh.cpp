@@ -2,6 +2,7 @@
 
 #include <map>
 
+#include "sweepface/evaluator.hpp"
 #include "sweepface/io.hpp"
 #include "sweepface/render_mesh.hpp"
 
@@ -81,18 +82,28 @@ Polygons polygonsOf(const Rig& rig, const Tessellation& grid) {
   return result;
 }
 
+Index cutMost(const Wireframe& wireframe, const Density& density) {
+  Index count = 0;
+  for (std::size_t a = 0; a < wireframe.arcs.size(); ++a)
+    count +=
+        !wireframe.arcs[a].collapsed && density.arcs[a] >= kMostLevel * wireframe.arcs[a].edges;
+  return count;
+}
+
 }  // namespace
 
 Result<BudgetMesh> meshWithin(const Rig& rig, const Budget& budget,
                               std::span<const double> weights) {
   auto density = densityFor(rig.surface, blend(rig, {}), budget);
   if (!density) return std::unexpected(density.error());
+  const bool isBound = budget.kind != Budget::Kind::vertices;
+  const Index most = isBound ? cutMost(rig.surface.wireframe(), *density) : 0;
   const Tessellation grid(rig.surface, std::move(*density));
   const Polygons polygons = polygonsOf(rig, grid);
   const std::vector<Vec3> vectors = blend(rig, weights);
   const std::vector<Vec3> positions = grid.positions(vectors), normals = grid.normals(vectors);
   return BudgetMesh{formatObj({positions, normals, polygons}), grid.vertexCount(),
-                    polygons.faceCount()};
+                    polygons.faceCount(), most};
 }
 
 }  // namespace sweepface::cli

@@ -10,6 +10,7 @@ namespace sweepface::cli {
 struct BudgetMesh {
   std::string obj;
   Index vertices = 0, triangles = 0;
+  Index cutMost = 0;  ///< curves that are cut as finely as there is, and may need to be finer
 };
 Result<BudgetMesh> meshWithin(const Rig& rig, const Budget& budget,
                               std::span<const double> weights);

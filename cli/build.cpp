@@ -76,7 +76,8 @@ Result<int> runBuild(const BuildArguments& a) {
   if (!a.source.empty()) {
     const Result<Rig> like = readFace(a.source);
     if (!like) return std::unexpected(like.error());
-    if (auto ok = adoptSource(built->rig, *like); !ok) return std::unexpected(ok.error());
+    if (auto ok = adoptSource(built->rig, *like); !ok)
+      return fail(a.drawing + ": " + ok.error().message);
     hasArcs |= !like->turns.empty();
   }
   if (hasArcs) built->rig.turns = findTurns(built->rig);

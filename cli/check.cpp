@@ -213,9 +213,11 @@ void Checker::print(const std::string& file) const {
     const JoinSummary &rest = neutral_[k], &c = all_[k];
     fmt::print("  {:<9} {:>7} {:>11.4f} {:>5.1f} %", kClassNames[k], rest.count, rest.length,
                100 * rest.length / totalLength());
+    const auto digits = [](double angle) { return angle < 99.5 ? 2 : 3; };
     if (static_cast<JoinClass>(k) != JoinClass::boundary)
-      fmt::print("   {:>9.1e} {:>9.1e} {:>9.1e} {:>7.2g} ° {:>7.2g} °", c.positionGap, c.firstJump,
-                 c.secondJump, c.normalJump, c.normalRms());
+      fmt::print("   {:>9.1e} {:>9.1e} {:>9.1e} {:>7.{}g} ° {:>7.{}g} °", c.positionGap,
+                 c.firstJump, c.secondJump, c.normalJump, digits(c.normalJump), c.normalRms(),
+                 digits(c.normalRms()));
     fmt::print("\n");
   }
 }

@@ -145,7 +145,7 @@ void addGlb(CLI::App& app, GlbArguments& glb) {
 }
 
 bool canBeListed(const std::string& name) {
-  return name.find_first_of(",=") == name.npos && !name.starts_with(' ') && !name.ends_with(' ');
+  return !name.contains(',') && !name.starts_with(' ') && !name.ends_with(' ');
 }
 
 std::string cannotBeListed(const std::string& name) {
@@ -153,6 +153,23 @@ std::string cannotBeListed(const std::string& name) {
       "'{}' is no name for a list of weights; rename the target to set it with --weights and the "
       "like.",
       name);
+}
+
+void warnOfOtherMeshes(const Rig& rig, const Measurement& measured) {
+  constexpr double kRounding = 1.001;
+  const auto furthest = std::ranges::max_element(
+      measured.shapes, {}, [](const PoseErrors& e) { return e.distance.max; });
+  if (furthest == measured.shapes.end() || !(furthest->distance.max > kRounding * rig.tolerance))
+    return;
+  printWarning(
+      fmt::format("{} is up to {:.3g} away, beyond the tolerance of the face, {:.3g}: the face was "
+                  "edited or drawn, or these are not the meshes that it was made from.",
+                  furthest->name, furthest->distance.max, rig.tolerance));
+}
+
+void warnOfOtherMeshes(const Rig& rig, const MeshRig& source) {
+  if (const auto measured = measure(rig, source, {.mixtures = 0, .facets = false}))
+    warnOfOtherMeshes(rig, *measured);
 }
 
 CLI::Validator wholeNumber(std::int64_t low, std::int64_t high) {

@@ -11,6 +11,7 @@
 
 #include "sweepface/gltf.hpp"
 #include "sweepface/io.hpp"
+#include "sweepface/measure.hpp"
 #include "sweepface/result.hpp"
 #include "sweepface/rig.hpp"
 #include "sweepface/strip.hpp"
@@ -84,6 +85,11 @@ void addGlb(CLI::App& app, GlbArguments& glb);
 /// Whether a list of weights, NAME=W,..., can hold the name of a target, and what is said if not.
 bool canBeListed(const std::string& name);
 std::string cannotBeListed(const std::string& name);
+
+/// Warns of meshes that a face was hardly made from: those are within its tolerance.
+void warnOfOtherMeshes(const Rig& rig, const Measurement& measured);
+/// The same where they can be compared at all.
+void warnOfOtherMeshes(const Rig& rig, const MeshRig& source);
 
 /// What is said where a face loses what its file held besides it, of the file it comes from.
 std::string sceneIsLost(const std::string& file);

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "sweepface/evaluator.hpp"
 #include "sweepface/gltf.hpp"
 #include "sweepface/io.hpp"
 
@@ -71,6 +72,11 @@ Result<void> writeWithin(const ExportArguments& a, const Rig& rig, const Weights
   if (auto written = writeFile(a.output, mesh->obj); !written) return written;
   if (!a.quiet)
     fmt::print("{}: {} vertices, {} triangles\n", a.output, mesh->vertices, mesh->triangles);
+  if (mesh->cutMost > 0)
+    printWarning(fmt::format(
+        "{}: {} curves are cut as finely as can be, into {} for every edge of the "
+        "source, and may still be coarser than {} asks.",
+        a.output, mesh->cutMost, kMostLevel, a.error > 0 ? "--error" : "--edge-length"));
   return {};
 }
 
@@ -110,8 +116,8 @@ Result<int> runExport(const ExportArguments& a) {
   if (!rig) return std::unexpected(rig.error());
   if (a.sourceOrder && !rig->source.ownOrder)
     return fail(a.face +
-                " has no source order, it was left out; leave --source-order out, or convert the "
-                "source again without --strip order.");
+                " has no source order, it was left out; leave --source-order out, or make the "
+                "file again without --strip order.");
   Result<Weights> weights = weightsGiven("--weights", a.weights, *rig);
   if (!weights) return std::unexpected(weights.error());
   if (auto ok = checkOutput(a.output, {a.face}, {".obj", ".glb"}, !a.quiet); !ok)

@@ -15,7 +15,6 @@ class FacePage {
 
   PictureSize panel() const { return page_->panel(); }
   const FaceScenes& scenes() const { return *scenes_; }
-  ProgressBar& bar() { return bar_; }
 
   /// The vertices that move most under the targets whose names contain `name`.
   Result<std::vector<Index>> region(std::string_view name) const {

@@ -98,18 +98,6 @@ nlohmann::ordered_json toJson(const MeasureArguments& a, const Rig& rig, const M
   return report;
 }
 
-/// Meshes that a face was made from are within its tolerance.
-void warnOfOtherMeshes(const Rig& rig, const Measurement& m) {
-  constexpr double kRounding = 1.001;
-  const auto furthest =
-      std::ranges::max_element(m.shapes, {}, [](const PoseErrors& e) { return e.distance.max; });
-  if (furthest == m.shapes.end() || !(furthest->distance.max > kRounding * rig.tolerance)) return;
-  printWarning(
-      fmt::format("{} is up to {:.3g} away, beyond the tolerance of the face, {:.3g}: the face was "
-                  "edited or drawn, or these are not the meshes that it was made from.",
-                  furthest->name, furthest->distance.max, rig.tolerance));
-}
-
 Result<int> runMeasure(const MeasureArguments& a) {
   const Result<Rig> rig = readFace(a.face);
   if (!rig) return std::unexpected(rig.error());

@@ -98,9 +98,10 @@ Result<std::vector<double>> looksAt(const PerformanceArguments& what,
   const double seconds = performance.seconds;
   std::vector<double> times = performance.frameTimes;
   for (double k = 0; k <= kEvenly; ++k) times.push_back(seconds * k / kEvenly);
+  const bool bouncing = what.clip.empty() && what.law == "bounce";
   Repeats repeats;
   if (what.clip.empty() && what.law == "spring") repeats = swings(what, seconds);
-  if (what.clip.empty() && what.law == "bounce") repeats = bounces(what, seconds);
+  if (bouncing) repeats = bounces(what, seconds);
   if (repeats.count > kMost)
     return fail(fmt::format("{:.4g} swings or bounces are more than a plot can show; give it {}.",
                             repeats.count, repeats.remedy));
@@ -110,6 +111,8 @@ Result<std::vector<double>> looksAt(const PerformanceArguments& what,
     for (const double share : {1e-9, 1 - 1e-9})  // on both sides of where a bounce turns
       times.push_back(std::lerp(start, end, share));
   }
+  if (bouncing)  // it is at rest in the end, and nowhere before
+    for (double& time : times) time = std::min(time, seconds * (1 - 1e-9));
   std::ranges::sort(times);
   times.erase(std::ranges::unique(times).begin(), times.end());
   return times;
@@ -180,7 +183,7 @@ Result<std::vector<Subject>> subjectsOf(const PlotArguments& a, const Rig& rig,
   if (!a.vertices.empty() && !rig.source.ownOrder)
     return fail(a.face +
                 " has no source order, it was left out, so that nobody knows which vertex is "
-                "which; leave --vertex out, or convert the source again without --strip order.");
+                "which; leave --vertex out, or make the file again without --strip order.");
   const auto count = static_cast<int>(rig.source.gridVertex.size());
   for (const int vertex : a.vertices)
     if (vertex >= count)

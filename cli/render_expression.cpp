@@ -40,8 +40,12 @@ class ExpressionPage {
   Result<Image> besideMeshes(const Weights& weights) {
     const std::vector<std::string>& paths = what_.arguments.compare;
     const std::vector<std::string> targets(paths.begin() + 1, paths.end());
-    const Result<RigSource> read = readMeshes(paths.front(), targets, page_.bar());
+    const Result<RigSource> read = [&] {
+      ProgressBar bar(what_.arguments.quiet);
+      return readMeshes(paths.front(), targets, bar);
+    }();
     if (!read) return std::unexpected(read.error());
+    warnOfOtherMeshes(what_.rig, read->rig);
     const Result<std::vector<Vec3>> positions = originalPositions(what_.rig, read->rig, weights);
     if (!positions) return std::unexpected(positions.error());
     return beside({"original", *positions, diagonal(read->rig.neutral)}, "recreated", weights);

@@ -92,11 +92,13 @@ Result<std::string> reportOf(const ReportArguments& a) {
   Result<ReportOptions> options = optionsOf(a, *rig, bytes->size());
   if (!options) return std::unexpected(options.error());
   options->cancel = &interrupted;
-  ProgressBar bar(a.quiet);
-  options->progress = [&](std::string_view what, double done) { bar.show(what, done); };
+  std::optional<ProgressBar> bar(a.quiet);
+  options->progress = [&](std::string_view what, double done) { bar->show(what, done); };
   if (a.neutral.empty()) return makeMotionReport(*rig, *options);
-  const Result<RigSource> source = readMeshes(a.neutral, a.targets, bar);
+  const Result<RigSource> source = readMeshes(a.neutral, a.targets, *bar);
+  bar.emplace(a.quiet);  // a warning begins a line
   if (!source) return std::unexpected(source.error());
+  warnOfOtherMeshes(*rig, source->rig);
   const double size = diagonal(source->rig.neutral);
   if (a.tolerances.empty() && !a.noTolerances && rig->tolerance > 0)
     for (const double times : {2, 4, 8})

@@ -103,7 +103,7 @@ struct Built {
   double largestMiss = 0;  ///< how far a curve passes from the points it is drawn by, in any pose
   std::string missed;      ///< what does, e.g. "curve 'rim'", or empty
   double diagonal = 0;     ///< of the box around the drawing's nodes and the points of its curves
-  std::string missedIn;    ///< the expression in which it does, or empty for the neutral
+  std::string missedIn;    ///< the expression that misses most of it, or empty for the neutral
 };
 
 /// Makes the model. Its source mesh is the surface's own grid: every curve cut into its edges.

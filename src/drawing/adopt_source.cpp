@@ -34,6 +34,25 @@ Result<void> takeMaterials(const Polygons& grid, const std::vector<Index>& faceO
   return {};
 }
 
+// The first thing that is another one in the other wireframe, by what it is called.
+std::string difference(const Rig& rig, const Wireframe& own, const Wireframe& other) {
+  const auto differs = [](const auto& a, const auto& b, std::size_t k) {
+    return k >= b.size() || a[k] != b[k];
+  };
+  for (std::size_t a = 0; a < own.arcs.size(); ++a)
+    if (differs(own.arcs, other.arcs, a))
+      return "Curve '" + rig.nameOf(Thing::curve, static_cast<Index>(a)) + "'";
+  for (std::size_t p = 0; p < own.patches.size(); ++p)
+    for (int s = 0; s < 4; ++s)
+      if (p >= other.patches.size() || !std::ranges::equal(own.side(static_cast<Index>(p), s),
+                                                           other.side(static_cast<Index>(p), s)))
+        return "Patch '" + rig.nameOf(Thing::patch, static_cast<Index>(p)) + "'";
+  for (std::size_t n = 0; n < own.nodes.size(); ++n)
+    if (differs(own.nodes, other.nodes, n))
+      return "Node '" + rig.nameOf(Thing::node, static_cast<Index>(n)) + "'";
+  return "The number of nodes, curves or patches";
+}
+
 }  // namespace
 
 Result<void> adoptSource(Rig& rig, const Rig& like) {
@@ -45,8 +64,10 @@ Result<void> adoptSource(Rig& rig, const Rig& like) {
   }
   if (own != other)
     return fail(
-        "The curves or patches are others than those of the file whose source is to be "
-        "kept; build without it.");
+        difference(rig, own, other) +
+        " is not as in the file whose source is to be kept: nodes, curves and patches must "
+        "be the same, in the same order and directions; go on from what wireframe writes of "
+        "that file, or build without --source.");
   SourceMesh source = like.source;
   if (auto ok = takeMaterials(rig.source.polygons, faceOfQuads(like), source.polygons); !ok)
     return ok;

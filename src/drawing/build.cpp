@@ -131,6 +131,10 @@ class Builder {
     if (move.jets.empty()) return {};
     const Index n = woven_.nodes.at(move.name);
     const auto& jets = d_.nodes[n].jets;
+    if (jets.empty())
+      return refuse(move.place, fmt::format("node '{}' has no jet that could move; give it one, or "
+                                            "move it 'by' a vector alone",
+                                            move.name));
     if (move.jets.size() != jets.size())
       return refuse(move.place, fmt::format("node '{}' has {} jets and {} move", move.name,
                                             jets.size(), move.jets.size()));
@@ -182,7 +186,7 @@ class Builder {
     if (d_.tolerance == 0 || miss.by <= d_.tolerance) return {};
     const std::string in = built_.missedIn.empty() ? "" : fmt::format(" in '{}'", built_.missedIn);
     return refuse(placeOf(d_, drawn, miss.wish),
-                  fmt::format("{} misses a point by {:.3g}{} and the tolerance is {:.3g}; put a "
+                  fmt::format("{} misses a point by {:.4g}{} and the tolerance is {:.4g}; put a "
                               "node between, or another point",
                               built_.missed, miss.by, in, d_.tolerance));
   }

@@ -128,7 +128,10 @@ std::string JsonReader::text(std::string_view what) {
   for (++at_; at_ < text_.size() && text_[at_] != '"' && ok();) {
     const char c = text_[at_];
     if (static_cast<unsigned char>(c) < ' ') {
-      refuse(place(), "a text in quotes goes over the end of its line");
+      refuse(place(), c == '\n' || c == '\r'
+                          ? "a text in quotes goes over the end of its line"
+                          : "a text in quotes has a tab or another control character; write \\t or "
+                            "a space");
     } else if (c == '\\') {
       escape(out);
     } else {

@@ -31,6 +31,8 @@ Miss largestMiss(const DrawnWishes& drawn, const Surface& surface, const std::ve
       if (by > largest.by) largest = {by, static_cast<Index>(k), pose};
     }
   }
+  // An expression is told of what it adds.
+  if (largest.wish >= 0 && norm(neutral[largest.wish]) > largest.by / 2) largest.pose = 0;
   return largest;
 }
 

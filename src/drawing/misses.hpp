@@ -8,7 +8,7 @@ namespace sweepface::drawing {
 struct Miss {
   double by = 0;
   Index wish = -1;
-  std::size_t pose = 0;  ///< 0: the neutral, 1 + e: expression e
+  std::size_t pose = 0;  ///< what misses most of it: 0, the neutral, or 1 + e, expression e
 };
 Miss largestMiss(const DrawnWishes& drawn, const Surface& surface, const std::vector<Pose>& poses);
 

@@ -68,9 +68,8 @@ class DrawingReader {
 
   static std::string listOf(const std::vector<Member>& known) {
     std::string list;
-    for (const Member& member : known)
-      list += fmt::format("{}'{}'", list.empty() ? "" : ", ", member.key);
-    return list;
+    for (const Member& member : known) list += fmt::format("'{}', ", member.key);
+    return list + "'comment'";
   }
 
   void list(std::string_view what, const std::function<void()>& element) {
@@ -96,7 +95,8 @@ class DrawingReader {
   std::string text(std::string_view what) {
     const TextPlace at = in_.place();
     std::string text = in_.text(fmt::format("{}, a text in quotes,", what));
-    if (!isName(text)) in_.refuse(at, fmt::format("{} is empty or no clean UTF-8 text", what));
+    if (!isName(text))
+      in_.refuse(at, fmt::format("{} is empty, has control characters or is no UTF-8", what));
     if (text.size() > codec::kLongestName)
       in_.refuse(at, fmt::format("{} is longer than {} bytes", what, codec::kLongestName));
     return text;

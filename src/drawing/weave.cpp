@@ -133,7 +133,7 @@ class Weaver {
 
   std::string quoted(Index patch) const {
     const std::string& name = d_.patches[patch].name;
-    return name.empty() ? fmt::format("patch {}", patch) : fmt::format("patch '{}'", name);
+    return name.empty() ? fmt::format("patch 'p{}'", patch) : fmt::format("patch '{}'", name);
   }
 
   Result<void> addToLoop(Index p, const std::string& reference) {

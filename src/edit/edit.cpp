@@ -24,7 +24,7 @@ Result<Patches> setShape(Rig& rig, Index ribbon, const Shape& shape) {
     const std::string& why = surface.error().message;
     const std::size_t colon = why.find(": ");
     return fail("Ribbon '" + rig.nameOf(Thing::ribbon, ribbon) +
-                "' cannot have these parameters. " +
+                "' cannot have these parameters: " +
                 why.substr(colon == std::string::npos ? 0 : colon + 2));
   }
   rig.surface = std::move(*surface);

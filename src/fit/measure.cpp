@@ -198,7 +198,7 @@ Result<Measurement> measure(const Rig& rig, const MeshRig& source, const Measure
   if (!rig.source.ownOrder)
     return fail(
         "the face has no source order, it was left out, so that nobody knows which vertex is "
-        "which; convert the source again without --strip order");
+        "which; make the file again without --strip order");
   if (options.facets && !knowsQuads(rig))
     return fail(
         "the face does not tell which of its source's polygons lies where, so that its surface "

@@ -23,6 +23,10 @@ class BinaryBody {
 
   bool beginRow() { return true; }
   bool endRow() { return true; }
+  /// Whether nothing but a line break or padding is left.
+  bool isAtEnd() const {
+    return bytes_.find_first_not_of(std::string_view("\0\r\n ", 4), at_) == bytes_.npos;
+  }
   std::size_t bytesLeft() const { return bytes_.size() - at_; }
   std::string place() const { return "byte " + std::to_string(at_); }
   std::string problem() const { return "the file ends within it"; }
@@ -91,6 +95,9 @@ class AsciiBody {
   bool endRow() {
     return words_.rest().empty() || failed("there are more values than the header's properties");
   }
+
+  /// Whether no row is left; if one is, this is its place().
+  bool isAtEnd() { return !beginRow(); }
 
   std::size_t bytesLeft() const { return words_.bytesLeft() + lines_.rest().size(); }
   std::string place() const { return "line " + std::to_string(headerLines_ + lines_.number()); }

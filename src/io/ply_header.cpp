@@ -45,6 +45,8 @@ class HeaderReader {
 
   Result<PlyHeader> read() {
     if (bytes_.empty()) return fail(fmt::format("{} is empty; export the mesh again.", name_));
+    if (isUtf16(bytes_))
+      return fail(fmt::format("{} is a text in UTF-16; save it in UTF-8.", name_));
     if (!lines_.next() || trimmed(lines_.line()) != "ply")
       return fail(
           fmt::format("{} does not begin with a line 'ply'; check that it is a PLY file.", name_));

@@ -1,5 +1,8 @@
+#include <array>
 #include <fmt/format.h>
+#include <map>
 #include <utility>
+#include <vector>
 
 #include "sweepface/io.hpp"
 
@@ -29,7 +32,7 @@ class PlyReader {
       if (!checkRoom(element)) return false;
       if (!readElement(element)) return false;
     }
-    return true;
+    return checkEnd();
   }
 
   Error error() { return {std::move(error_)}; }
@@ -53,7 +56,8 @@ class PlyReader {
       return failFile("has no vertices (element 'vertex'); export the mesh again");
     vertexCount_ = static_cast<double>(vertex->count);
     slots_ = {vertex->find({"x"}), vertex->find({"y"}), vertex->find({"z"}),
-              vertex->find({"s", "u", "texture_u"}), vertex->find({"t", "v", "texture_v"})};
+              vertex->find({"s", "u", "texture_u", "texture_s", "texcoord_u"}),
+              vertex->find({"t", "v", "texture_v", "texture_t", "texcoord_v"})};
     for (int axis = 0; axis < 3; ++axis)
       if (slots_[axis] < 0 || vertex->properties[slots_[axis]].countType)
         return failFile(
@@ -73,6 +77,16 @@ class PlyReader {
         "is cut short: its header promises {} of element {}, but only {} bytes are left for them; "
         "export the mesh again or copy the file again",
         element.count, inQuotes(element.name), body_.bytesLeft()));
+  }
+
+  /// Rows that the header does not count would be lost without a word.
+  bool checkEnd() {
+    if (body_.isAtEnd()) return true;
+    const PlyElement& last = header_.elements.back();
+    return failFile(
+        fmt::format("goes on ({}) behind the {} of element {} that its header counts; export the "
+                    "mesh again",
+                    body_.place(), last.count, inQuotes(last.name)));
   }
 
   bool readElement(const PlyElement& element) {
@@ -102,9 +116,10 @@ class PlyReader {
   bool readCount(const PlyProperty& list, double& count) {
     if (!readValue(*list.countType, count)) return false;
     const double least = static_cast<double>(Body::leastSize(list.type));
-    if (count < 0 || count * least > static_cast<double>(body_.bytesLeft()))
-      return failRow(fmt::format("the list {} claims {} values", inQuotes(list.name), count));
-    return true;
+    const bool isShort = count * least > static_cast<double>(body_.bytesLeft());
+    return (count >= 0 && !isShort) ||
+           failRow(fmt::format("the list {} claims {} values{}", inQuotes(list.name), count,
+                               isShort ? ", but the file ends before them" : ""));
   }
 
   bool skip(std::size_t index) {
@@ -117,7 +132,8 @@ class PlyReader {
   }
 
   bool readVertices(const PlyElement& element) {
-    const bool textured = isNumber(element, slots_[3]) && isNumber(element, slots_[4]);
+    const bool textured =
+        !cornersAreTextured() && isNumber(element, slots_[3]) && isNumber(element, slots_[4]);
     mesh.positions.reserve(element.count);
     std::vector<double> row(element.properties.size());
     return readRows(element, [&](std::size_t property) {
@@ -150,10 +166,59 @@ class PlyReader {
         !isInteger(element.properties[list].type))
       return failFile(
           "has faces without a list 'vertex_indices' of integers; export the mesh again");
+    const Index texcoords = texcoordList(element);
     return readRows(element, [&](std::size_t property) {
-      return static_cast<Index>(property) == list ? readFace(element.properties[property])
-                                                  : skip(property);
+      const PlyProperty& values = element.properties[property];
+      const auto index = static_cast<Index>(property);
+      const bool isRead = index == list        ? readFace(values)
+                          : index == texcoords ? readTexcoords(values)
+                                               : skip(property);
+      const bool isLast = property + 1 == element.properties.size();
+      return isRead && (!isLast || texcoords < 0 || addTexcoords());
     });
+  }
+
+  /// Where faces list texture coordinates of their corners, as MeshLab and scanners write them.
+  static Index texcoordList(const PlyElement& face) {
+    const Index list = face.find({"texcoord"});
+    return list >= 0 && face.properties[list].countType ? list : -1;
+  }
+  bool cornersAreTextured() const {
+    const PlyElement* const face = header_.find("face");
+    return face && texcoordList(*face) >= 0;
+  }
+
+  bool readTexcoords(const PlyProperty& list) {
+    double count = 0, value = 0;
+    if (!readCount(list, count)) return false;
+    faceTexcoords_.clear();
+    for (double i = 0; i < count; ++i) {
+      if (!readValue(list.type, value)) return false;
+      if (!isUsable(value))
+        return failRow(fmt::format("the coordinate {} is not finite or too large", value));
+      faceTexcoords_.push_back(value);
+    }
+    return true;
+  }
+
+  /// A pair for each corner of the face, or none at all; equal ones are one.
+  bool addTexcoords() {
+    Polygons& polygons = mesh.polygons;
+    const auto corners = static_cast<std::size_t>(polygons.faceStart.back()) -
+                         static_cast<std::size_t>(*(polygons.faceStart.end() - 2));
+    if (faceTexcoords_.empty())
+      polygons.cornerTexcoords.insert(polygons.cornerTexcoords.end(), corners, -1);
+    else if (faceTexcoords_.size() != 2 * corners)
+      return failRow(fmt::format("the list 'texcoord' has {} numbers for {} corners",
+                                 faceTexcoords_.size(), corners));
+    for (std::size_t k = 0; k < faceTexcoords_.size(); k += 2) {
+      const auto [known, isNew] =
+          texcoords_.try_emplace({faceTexcoords_[k], faceTexcoords_[k + 1]},
+                                 static_cast<Index>(polygons.texcoords.size()));
+      if (isNew) polygons.texcoords.push_back({faceTexcoords_[k], faceTexcoords_[k + 1]});
+      polygons.cornerTexcoords.push_back(known->second);
+    }
+    return true;
   }
 
   bool readFace(const PlyProperty& list) {
@@ -178,7 +243,9 @@ class PlyReader {
   const PlyHeader& header_;
   Body body_;
   double vertexCount_ = 0;
-  std::array<Index, 5> slots_{};  // of x, y, z and the texture coordinates in a vertex row
+  std::array<Index, 5> slots_{};       // of x, y, z and the texture coordinates in a vertex row
+  std::vector<double> faceTexcoords_;  // of a face
+  std::map<std::pair<double, double>, Index> texcoords_;  // of all faces
   const PlyElement* element_ = nullptr;
   std::uint64_t row_ = 0;
   std::string error_;
@@ -189,9 +256,12 @@ Result<PolygonMesh> readBody(std::string_view bytes, std::string_view name,
                              const PlyHeader& header) {
   PlyReader<Body> reader(bytes, name, header);
   if (!reader.read()) return std::unexpected(reader.error());
-  // Texture coordinates are a vertex's here, so corners share its index.
+  // Where texture coordinates are a vertex's, corners share its index.
   Polygons& polygons = reader.mesh.polygons;
-  if (!polygons.texcoords.empty()) polygons.cornerTexcoords = polygons.corners;
+  if (polygons.texcoords.empty())
+    polygons.cornerTexcoords.clear();
+  else if (polygons.cornerTexcoords.empty())
+    polygons.cornerTexcoords = polygons.corners;
   return std::move(reader.mesh);
 }
 
@@ -208,15 +278,15 @@ Result<PolygonMesh> readPly(std::string_view bytes, std::string_view name) {
 }  // namespace
 
 Result<PolygonMesh> parsePly(std::string_view bytes, std::string_view name) {
-  Result<PolygonMesh> mesh = readPly(bytes, name);
-  if (mesh && mesh->polygons.faceCount() == 0)
-    return fail(
-        fmt::format("{} has no faces (element 'face'); export the mesh with its faces.", name));
-  return mesh;
+  Result<PolygonMesh> mesh = readPly(withoutMark(bytes), name);
+  if (!mesh || mesh->polygons.faceCount() > 0) return mesh;
+  const auto header = parsePlyHeader(withoutMark(bytes), name);
+  return fail(fmt::format("{} has no faces (element 'face'){}; export the mesh with its faces.",
+                          name, header->find("tristrips") ? ", but strips of triangles" : ""));
 }
 
 Result<io::TargetShape> io::parsePlyTarget(std::string_view bytes, std::string_view name) {
-  Result<PolygonMesh> mesh = readPly(bytes, name);
+  Result<PolygonMesh> mesh = readPly(withoutMark(bytes), name);
   if (!mesh) return std::unexpected(mesh.error());
   const Index faceCount = mesh->polygons.faceCount();
   return TargetShape{std::move(mesh->positions), faceCount};

@@ -288,7 +288,7 @@ Result<std::vector<Vec3>> originalPositions(const Rig& rig, const MeshRig& sourc
   if (!rig.source.ownOrder)
     return fail(
         "The face has no source order, it was left out, so that nobody knows which vertex is "
-        "which; convert the source again without --strip order.");
+        "which; make the file again without --strip order.");
   const std::size_t vertices = rig.source.gridVertex.size();
   if (source.neutral.positions.size() != vertices)
     return fail(

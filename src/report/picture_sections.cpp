@@ -121,7 +121,7 @@ std::string ReportMaker::joinTable() const {
       cells.push_back(fmt::format("{:.1e}", x));
     for (const double x :
          {std::max(r.normalJump, m.normalJump), std::max(r.normalRms(), m.normalRms())})
-      cells.push_back(fmt::format("{:.2g}°", x));
+      cells.push_back(fmt::format("{:.{}g}°", x, x < 99.5 ? 2 : 3));
     // There is nothing on the other side of a boundary to compare with.
     if (c == JoinClass::boundary) std::fill(cells.begin() + 4, cells.end(), "");
     table.add(cells);

@@ -12,8 +12,12 @@ using Convert = Tool;
 TEST_F(Convert, WarnsOfNamesThatCommandsCannotTake) {
   makeRig();
   folder.file("p,q.obj", sheet(opened));
-  const Outcome r = run("convert neutral.obj 'p,q.obj' targets -o face.sweep --tolerance 0.1");
+  folder.file("r=s.obj", sheet(opened));
+  const Outcome r =
+      run("convert neutral.obj 'p,q.obj' 'r=s.obj' targets -o face.sweep --tolerance 0.1");
   EXPECT_EQ(r.code, 0);
+  EXPECT_EQ(r.err.find("'r=s'"), std::string::npos) << r.err;
+  EXPECT_EQ(run("export face.sweep -o out.obj --weights r=s=1").code, 0);
   EXPECT_NE(r.err.find("'p,q' is no name for a list of weights"), std::string::npos) << r.err;
   EXPECT_EQ(r.err.find("'smile'"), std::string::npos) << r.err;
 }

@@ -118,7 +118,14 @@ TEST_F(Export, WritesAMeshWithinABudget) {
     before = out.positions.size();
   }
   EXPECT_EQ(run("export face.sweep -o out.obj --error 0.01").code, 0);
-  EXPECT_EQ(run("export face.sweep -o out.obj --edge-length 0.5").code, 0);
+  EXPECT_EQ(run("export face.sweep -o out.obj --edge-length 0.5").err, "");
+  for (const char* option : {"--edge-length", "--error"}) {
+    const Outcome r = run(fmt::format("export face.sweep -o out.obj {} 1e-9", option));
+    EXPECT_EQ(r.code, 0);
+    EXPECT_NE(r.err.find(fmt::format("may still be coarser than {} asks", option)),
+              std::string::npos)
+        << r.err;
+  }
   EXPECT_NE(run("export face.sweep -o out.obj --vertices 2").code, 0);
   EXPECT_NE(run("export face.sweep -o out.glb --vertices 500").code, 0);
   EXPECT_NE(run("export face.sweep -o out.obj --vertices 500 --lod 2").code, 0);

@@ -91,6 +91,19 @@ TEST_F(Plot, FollowsABounceHoweverLively) {
   }
 }
 
+// A bounce is at rest in the end, which would be a line down the edge of the picture, or none as
+// the time rounds.
+TEST_F(Plot, EndsABounceInTheAir) {
+  convertRig();
+  for (const char* seconds : {"0.7", "1", "3"}) {
+    const std::string svg =
+        plotted(fmt::format("--to jawOpen=1 --law bounce --seconds {}", seconds));
+    const auto way = positionsIn(svg.substr(svg.find(">Acceleration<")), 1, 1);
+    ASSERT_GT(way.size(), 240u);
+    EXPECT_EQ(way.back().y, way.front().y) << seconds;
+  }
+}
+
 // The speed after a hit is e of the speed before: the curve's lowest points.
 TEST_F(Plot, ShowsHowFastABounceComesBack) {
   convertRig();

@@ -99,7 +99,12 @@ TEST_F(Render, ComparesWithTheMeshes) {
         run("render face.sweep -o out.png --size 400x300 --weights smile=0.5 --style " + style +
             " --compare neutral.obj targets");
     ASSERT_EQ(r.code, 0) << r.err;
+    EXPECT_EQ(r.err, "");
   }
+  folder.file("far.obj", sheet([](Vec3 p) { return p + Vec3{0, 0, 9}; }));
+  EXPECT_NE(run("render face.sweep -o out.png --size 400x300 --compare far.obj")
+                .err.find("or these are not the meshes that it was made from"),
+            std::string::npos);
   ASSERT_EQ(run("render face.sweep -o out.png --size 400x400 --views front,side --style error "
                 "--compare neutral.obj")
                 .code,

@@ -608,6 +608,30 @@ TEST(Expressions, thatMissTheirPointsAreTold) {
   EXPECT_EQ(built->missedIn, "taller");
 }
 
+TEST(Expressions, areNotBlamedForWhatTheNeutralMisses) {
+  Json drawing = vase();
+  for (Json& curve : drawing["curves"])
+    if (curve["name"] == "rim right")
+      curve["points"][1][0] = curve["points"][1][0].get<double>() + 5;
+  Json still = drawing;
+  still.erase("expressions");
+  drawing["expressions"][0]["moves"] =
+      Json::parse(R"({"rim right": {"points": [[0, 0, 0], [1, 0, 0], [0, 0, 0]]}})");
+  const auto built = buildJson(drawing);
+  ASSERT_TRUE(built);
+  EXPECT_GT(built->largestMiss, buildJson(still)->largestMiss + 0.1);
+  EXPECT_EQ(built->missedIn, "");
+}
+
+TEST(Expressions, moveOnlyJetsThatThereAre) {
+  Json drawing = vase();
+  const std::string node = drawing["nodes"][0]["name"];
+  drawing["expressions"][0]["moves"] = {{node, {{"by", {0, 0, 1}}, {"x", {1, 0, 0}}}}};
+  EXPECT_NE(refusal(drawing).find("node '" + node + "' has no jet that could move"),
+            std::string::npos)
+      << refusal(drawing);
+}
+
 TEST(Misses, areSharesOfAllThatIsDrawn) {
   EXPECT_NEAR(buildJson(tube())->diagonal, norm(Vec3{4, 5, 4}), 1e-12);
 }

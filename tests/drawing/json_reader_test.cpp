@@ -50,6 +50,15 @@ TEST(JsonTexts, haveTheEscapesOfJson) {
   EXPECT_EQ(textIn("\"\xC3\xA9\""), "\xC3\xA9");
 }
 
+TEST(JsonTexts, tellBreaksFromTabs) {
+  for (const auto& [text, says] : {std::pair{"\"a\nb\"", "over the end of its line"},
+                                   {"\"a\tb\"", "a tab or another control character"}}) {
+    JsonReader in(text);
+    in.text("a text");
+    EXPECT_NE(in.problem().find(says), std::string::npos) << in.problem();
+  }
+}
+
 TEST(JsonTexts, areRefusedWhereTheyAreNone) {
   for (const char* text :
        {"\"open", "\"a\nb\"", R"("\x")", R"("\u12")", R"("\u12g4")", R"("\ud800")", R"("\udc00")",

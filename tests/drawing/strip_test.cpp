@@ -97,6 +97,24 @@ TEST(Materials, areGivenToTheFacesOfASourceOnlyWhereItSaysWhichLieOnAPatch) {
   EXPECT_EQ(rig.source.quadCorners, before.quadCorners);
 }
 
+TEST(Sources, areKeptOfTheSameCurvesAndPatchesOnly) {
+  const Json drawing = strip({{0, 0}, {1, 0}, {2, 0}, {3, 0}});
+  const Rig like = made(drawing);
+  const auto refusal = [&](const Json& other) {
+    Rig rig = made(other);
+    const auto kept = adoptSource(rig, like);
+    return kept ? "" : kept.error().message;
+  };
+  EXPECT_EQ(refusal(drawing), "");
+  Json turned = drawing;
+  std::rotate(turned["patches"].begin(), turned["patches"].begin() + 1, turned["patches"].end());
+  EXPECT_TRUE(refusal(turned).starts_with("Patch '")) << refusal(turned);
+  Json swapped = drawing;
+  std::swap(swapped["curves"][0], swapped["curves"][1]);
+  EXPECT_TRUE(refusal(swapped).starts_with("Curve '")) << refusal(swapped);
+  EXPECT_FALSE(refusal(strip({{0, 0}, {1, 0}, {2, 0}})).empty());
+}
+
 TEST(Materials, areNoneWhereNobodyNamesOne) {
   EXPECT_TRUE(made(square()).source.polygons.faceMaterial.empty());
 }

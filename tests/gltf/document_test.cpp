@@ -117,7 +117,8 @@ TEST(Text, AnObjectOfVeryManyMembersIsRefusedAtOnce) {
 TEST(Text, NumbersThatNoDoubleHoldsAreRefused) {
   EXPECT_NE(readBytes(R"({"asset":{"version":"2.0"},"extras":1e999})").find("too large to be held"),
             std::string::npos);
-  EXPECT_NE(readBytes(R"({"asset":{"version":"2.0"},"extras":NaN})").find("this is not JSON, at column 37: 'NaN}'"),
+  EXPECT_NE(readBytes(R"({"asset":{"version":"2.0"},"extras":NaN})")
+                .find("this is not JSON, at column 37: 'NaN}'"),
             std::string::npos);
 }
 

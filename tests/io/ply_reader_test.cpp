@@ -101,7 +101,7 @@ TEST(PlyReader, SkipsOtherElementsAndProperties) {
       "element vertex 3\nproperty uchar red\nproperty list int int ring\n" +
       xyz +
       "element face 1\nproperty float area\n"
-      "property list uint uint vertex_index\nproperty list uchar float texcoord\n"
+      "property list uint uint vertex_index\nproperty list uchar float normals\n"
       "element edge 1\nproperty int a\n";
   const std::string body =
       "2 0.5 0.5 7\n0 8\n9 0 1 2 3\n9 1 5 4 5 6\n9 2 5 5 7 8 9\n"
@@ -112,7 +112,11 @@ TEST(PlyReader, SkipsOtherElementsAndProperties) {
 }
 
 TEST(PlyReader, ReadsTextureCoordinatesOfVertices) {
-  for (const auto& [u, v] : {std::pair{"s", "t"}, {"u", "v"}, {"texture_u", "texture_v"}}) {
+  for (const auto& [u, v] : {std::pair{"s", "t"},
+                             {"u", "v"},
+                             {"texture_u", "texture_v"},
+                             {"texture_s", "texture_t"},
+                             {"texcoord_u", "texcoord_v"}}) {
     const std::string header = "element vertex 3\n" + xyz + "property float " + u +
                                "\nproperty float " + v + "\nelement face 1\n" + faceList;
     const Polygons polygons =
@@ -120,6 +124,31 @@ TEST(PlyReader, ReadsTextureCoordinatesOfVertices) {
     EXPECT_EQ(polygons.texcoords, (std::vector<Vec2>{{0, 0}, {1, 0}, {0, 1}}));
     EXPECT_EQ(polygons.cornerTexcoords, (std::vector<Index>{2, 1, 0}));
   }
+}
+
+// The second face has none; vertices have others, which count less.
+TEST(PlyReader, ReadsTextureCoordinatesOfCorners) {
+  const std::string vertices =
+      "element vertex 3\n" + xyz + "property float s\nproperty float t\nelement face 3\n";
+  const std::string places = "0 0 0 9 9\n1 0 0 9 9\n0 1 0 9 9\n";
+  const std::string texcoords = "property list uchar float texcoord\n";
+  const std::string before = "6 0 0 1 0 0 1 3 0 1 2\n0 3 2 1 0\n6 0 1 1 0 0.5 0 3 2 1 0\n";
+  const std::string behind = "3 0 1 2 6 0 0 1 0 0 1\n3 2 1 0 0\n3 2 1 0 6 0 1 1 0 0.5 0\n";
+  for (const std::string& mesh : {ply(vertices + texcoords + faceList, places + before),
+                                  ply(vertices + faceList + texcoords, places + behind)}) {
+    const Polygons polygons = plyMesh(mesh).polygons;
+    EXPECT_EQ(polygons.texcoords, (std::vector<Vec2>{{0, 0}, {1, 0}, {0, 1}, {0.5, 0}}));
+    EXPECT_EQ(polygons.cornerTexcoords, (std::vector<Index>{0, 1, 2, -1, -1, -1, 2, 1, 3}));
+  }
+}
+
+TEST(PlyReader, PassesOverAByteOrderMark) {
+  expectQuad("\xef\xbb\xbf" + ply(quadElements, quadRows));
+}
+
+TEST(PlyReader, MayEndInBlankLinesOrABreak) {
+  expectQuad(ply(quadElements, quadRows + "\n \n"));
+  expectQuad(ply(quadElements, quadBytes(false) + "\n", "binary_little_endian"));
 }
 
 struct BadPly {
@@ -140,7 +169,12 @@ TEST_P(PlyErrors, NameTheFileThePlaceAndWhatIsWrong) {
 INSTANTIATE_TEST_SUITE_P(
     Header, PlyErrors,
     ::testing::Values(
-        BadPly{"EmptyFile", "", {"is empty"}},
+        BadPly{"EmptyFile", "", {"is empty"}}, BadPly{"Utf16", "\xff\xfep", {"UTF-16"}},
+        BadPly{"StripsOnly",
+               ply("element vertex 3\n" + xyz +
+                       "element tristrips 1\nproperty list int int vertex_indices\n",
+                   "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"),
+               {"has no faces (element 'face'), but strips of triangles"}},
         BadPly{"NotAPly", "v 0 0 0\n", {"does not begin with a line 'ply'"}},
         BadPly{"HeaderCutShort",
                "ply\nformat ascii 1.0\nelement vertex 3\n",
@@ -222,7 +256,23 @@ INSTANTIATE_TEST_SUITE_P(
                {"element 'a'"}},
         BadPly{"BinaryCutShort",
                binary(quadElements, quadBytes(false).substr(0, 77)),
-               {"face 1", "byte", "claims 4 values"}},
+               {"face 1", "byte", "claims 4 values, but the file ends before them"}},
+        BadPly{"AsciiGoesOn",
+               rows(quadRows + "3 0 1 2\n"),
+               {"goes on (line 17) behind the 2 of element 'face'"}},
+        BadPly{"BinaryGoesOn",
+               binary(quadElements, quadBytes(false) + quadBytes(false)),
+               {"goes on (byte", "behind the 2 of element 'face'"}},
+        BadPly{"TexcoordsOfOtherCorners",
+               ply("element vertex 3\n" + xyz + "element face 1\n" + faceList +
+                       "property list uchar float texcoord\n",
+                   "0 0 0\n1 0 0\n0 1 0\n3 0 1 2 4 0 0 1 0\n"),
+               {"face 0", "line 15", "'texcoord' has 4 numbers for 3 corners"}},
+        BadPly{"NoTexcoord",
+               ply("element vertex 3\n" + xyz + "element face 1\n" + faceList +
+                       "property list uchar float texcoord\n",
+                   "0 0 0\n1 0 0\n0 1 0\n3 0 1 2 6 0 0 1 0 nan 1\n"),
+               {"face 0", "not finite"}},
         BadPly{"BinaryFacesMissing",
                binary(quadElements, quadBytes(false).substr(0, 48)),
                {"element 'face'", "0 bytes"}},
