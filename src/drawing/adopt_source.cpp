@@ -67,7 +67,7 @@ Result<void> adoptSource(Rig& rig, const Rig& like) {
         difference(rig, own, other) +
         " is not as in the file whose source is to be kept: nodes, curves and patches must "
         "be the same, in the same order and directions; go on from what wireframe writes of "
-        "that file, or build without --source.");
+        "that file, or build without it.");
   SourceMesh source = like.source;
   if (auto ok = takeMaterials(rig.source.polygons, faceOfQuads(like), source.polygons); !ok)
     return ok;

@@ -163,6 +163,12 @@ class WishGatherer {
     }
     const auto spacing =
         spacingFromChords(line, control.second, control.third, sum / std::max(1, lines));
+    if (spacing && spacing->u3 > 1)
+      return failAt(d_, control.place,
+                    fmt::format("the control curves beside '{}' stand up to {:.3g} times as far "
+                                "away as their patch is wide; move them nearer or give their "
+                                "'spacing'",
+                                control.beside, spacing->u3));
     if (spacing) return spacing;
     return failAt(d_, control.place,
                   fmt::format("the control curves beside '{}': {}", control.beside,

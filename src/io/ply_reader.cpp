@@ -36,7 +36,8 @@ class PlyReader {
   }
 
   Error error() { return {std::move(error_)}; }
-  PolygonMesh mesh;
+  PolygonMesh mesh;                   // its texture coordinates are those of vertices
+  std::vector<Vec2> cornerTexcoords;  // what its corners refer to where faces tell it
 
  private:
   bool failFile(std::string_view what) {
@@ -132,8 +133,7 @@ class PlyReader {
   }
 
   bool readVertices(const PlyElement& element) {
-    const bool textured =
-        !cornersAreTextured() && isNumber(element, slots_[3]) && isNumber(element, slots_[4]);
+    const bool textured = isNumber(element, slots_[3]) && isNumber(element, slots_[4]);
     mesh.positions.reserve(element.count);
     std::vector<double> row(element.properties.size());
     return readRows(element, [&](std::size_t property) {
@@ -183,10 +183,6 @@ class PlyReader {
     const Index list = face.find({"texcoord"});
     return list >= 0 && face.properties[list].countType ? list : -1;
   }
-  bool cornersAreTextured() const {
-    const PlyElement* const face = header_.find("face");
-    return face && texcoordList(*face) >= 0;
-  }
 
   bool readTexcoords(const PlyProperty& list) {
     double count = 0, value = 0;
@@ -212,10 +208,9 @@ class PlyReader {
       return failRow(fmt::format("the list 'texcoord' has {} numbers for {} corners",
                                  faceTexcoords_.size(), corners));
     for (std::size_t k = 0; k < faceTexcoords_.size(); k += 2) {
-      const auto [known, isNew] =
-          texcoords_.try_emplace({faceTexcoords_[k], faceTexcoords_[k + 1]},
-                                 static_cast<Index>(polygons.texcoords.size()));
-      if (isNew) polygons.texcoords.push_back({faceTexcoords_[k], faceTexcoords_[k + 1]});
+      const auto [known, isNew] = texcoords_.try_emplace(
+          {faceTexcoords_[k], faceTexcoords_[k + 1]}, static_cast<Index>(cornerTexcoords.size()));
+      if (isNew) cornerTexcoords.push_back({faceTexcoords_[k], faceTexcoords_[k + 1]});
       polygons.cornerTexcoords.push_back(known->second);
     }
     return true;
@@ -256,12 +251,13 @@ Result<PolygonMesh> readBody(std::string_view bytes, std::string_view name,
                              const PlyHeader& header) {
   PlyReader<Body> reader(bytes, name, header);
   if (!reader.read()) return std::unexpected(reader.error());
-  // Where texture coordinates are a vertex's, corners share its index.
   Polygons& polygons = reader.mesh.polygons;
-  if (polygons.texcoords.empty())
+  if (!reader.cornerTexcoords.empty())
+    polygons.texcoords = std::move(reader.cornerTexcoords);
+  else if (!polygons.texcoords.empty())
+    polygons.cornerTexcoords = polygons.corners;  // they are a vertex's
+  else
     polygons.cornerTexcoords.clear();
-  else if (polygons.cornerTexcoords.empty())
-    polygons.cornerTexcoords = polygons.corners;
   return std::move(reader.mesh);
 }
 

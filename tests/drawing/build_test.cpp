@@ -103,6 +103,13 @@ TEST(Controls, haveSharesOfTheWayAcrossForSpacing) {
   }
 }
 
+TEST(Controls, standWithinTheirPatch) {
+  Json drawing = vase();
+  for (Json& point : drawing["controls"][0]["third"]) point[1] = point[1].get<double>() + 30;
+  EXPECT_NE(refusal(drawing).find("times as far away as their patch is wide"), std::string::npos)
+      << refusal(drawing);
+}
+
 TEST(Controls, outOfOrderAreNamedAsWhatIsMissed) {
   Json drawing = vase();
   std::ranges::reverse(drawing["controls"][2]["second"]);

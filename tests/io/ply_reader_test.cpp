@@ -126,7 +126,7 @@ TEST(PlyReader, ReadsTextureCoordinatesOfVertices) {
   }
 }
 
-// The second face has none; vertices have others, which count less.
+// The second face has none; vertices have others, which count where no face has any.
 TEST(PlyReader, ReadsTextureCoordinatesOfCorners) {
   const std::string vertices =
       "element vertex 3\n" + xyz + "property float s\nproperty float t\nelement face 3\n";
@@ -140,6 +140,11 @@ TEST(PlyReader, ReadsTextureCoordinatesOfCorners) {
     EXPECT_EQ(polygons.texcoords, (std::vector<Vec2>{{0, 0}, {1, 0}, {0, 1}, {0.5, 0}}));
     EXPECT_EQ(polygons.cornerTexcoords, (std::vector<Index>{0, 1, 2, -1, -1, -1, 2, 1, 3}));
   }
+  const Polygons ofVertices =
+      plyMesh(ply(vertices + texcoords + faceList, places + "0 3 0 1 2\n0 3 2 1 0\n0 3 2 1 0\n"))
+          .polygons;
+  EXPECT_EQ(ofVertices.texcoords, (std::vector<Vec2>{{9, 9}, {9, 9}, {9, 9}}));
+  EXPECT_EQ(ofVertices.cornerTexcoords, ofVertices.corners);
 }
 
 TEST(PlyReader, PassesOverAByteOrderMark) {
