@@ -7,6 +7,7 @@
 #include "sweepface/gltf.hpp"
 #include "sweepface/io.hpp"
 
+#include "codec/utf8.hpp"
 #include "io/target_shape.hpp"
 #include "io/text.hpp"
 #include "mesh/quads.hpp"
@@ -99,6 +100,11 @@ Result<std::vector<std::string>> targetNames(const Paths& files) {
     if (io::trimmed(name).empty() || (!file.has_extension() && isMesh("x" + name)))
       return fail(fmt::format("The target {} has no name before its extension; rename the file.",
                               io::inQuotes(file.string())));
+    if (!codec::isUtf8(name))
+      return fail(
+          fmt::format("The name of the target {} has control characters or is not UTF-8; "
+                      "rename the file.",
+                      io::inQuotes(file.filename().string())));
     const auto [owner, isNew] = owners.emplace(name, &file);
     std::error_code ignored;
     if (!isNew && fs::equivalent(*owner->second, file, ignored))

@@ -119,6 +119,12 @@ TEST_F(RigReader, RefusesTargetsWithoutAName) {
   EXPECT_TRUE(failsWith(read({folder.file(" .obj", triangle)}), {"no name before its extension"}));
 }
 
+TEST_F(RigReader, RefusesNamesThatNoFileHolds) {
+  for (const char* name : {"a\nb.obj", "sm\xeele.obj"})
+    EXPECT_TRUE(failsWith(read({folder.file(name, triangle)}),
+                          {"The name of the target", ".obj", "rename the file"}));
+}
+
 TEST_F(RigReader, SaysWhichFileIsMissingOrNoMesh) {
   EXPECT_TRUE(failsWith(read({folder / "none.obj"}), {"none.obj", "no such file"}));
   EXPECT_TRUE(
