@@ -98,10 +98,10 @@ Result<std::vector<double>> looksAt(const PerformanceArguments& what,
   const double seconds = performance.seconds;
   std::vector<double> times = performance.frameTimes;
   for (double k = 0; k <= kEvenly; ++k) times.push_back(seconds * k / kEvenly);
-  const bool bouncing = what.clip.empty() && what.law == "bounce";
+  const std::string law = what.clip.empty() ? what.law : "";
   Repeats repeats;
-  if (what.clip.empty() && what.law == "spring") repeats = swings(what, seconds);
-  if (bouncing) repeats = bounces(what, seconds);
+  if (law == "spring") repeats = swings(what, seconds);
+  if (law == "bounce") repeats = bounces(what, seconds);
   if (repeats.count > kMost)
     return fail(fmt::format("{:.4g} swings or bounces are more than a plot can show; give it {}.",
                             repeats.count, repeats.remedy));
@@ -111,7 +111,7 @@ Result<std::vector<double>> looksAt(const PerformanceArguments& what,
     for (const double share : {1e-9, 1 - 1e-9})  // on both sides of where a bounce turns
       times.push_back(std::lerp(start, end, share));
   }
-  if (bouncing)  // it is at rest in the end, and nowhere before
+  if (law == "bounce")  // it is at rest in the end, and nowhere before
     for (double& time : times) time = std::min(time, seconds * (1 - 1e-9));
   std::ranges::sort(times);
   times.erase(std::ranges::unique(times).begin(), times.end());

@@ -36,20 +36,16 @@ Result<void> takeMaterials(const Polygons& grid, const std::vector<Index>& faceO
 
 // The first thing that is another one in the other wireframe, by what it is called.
 std::string difference(const Rig& rig, const Wireframe& own, const Wireframe& other) {
-  const auto differs = [](const auto& a, const auto& b, std::size_t k) {
-    return k >= b.size() || a[k] != b[k];
+  const auto firstOther = [](const auto& a, const auto& b) {
+    return static_cast<Index>(std::ranges::mismatch(a, b).in1 - a.begin());
   };
-  for (std::size_t a = 0; a < own.arcs.size(); ++a)
-    if (differs(own.arcs, other.arcs, a))
-      return "Curve '" + rig.nameOf(Thing::curve, static_cast<Index>(a)) + "'";
-  for (std::size_t p = 0; p < own.patches.size(); ++p)
+  const Index arc = firstOther(own.arcs, other.arcs), node = firstOther(own.nodes, other.nodes);
+  if (arc < std::ssize(own.arcs)) return "Curve '" + rig.nameOf(Thing::curve, arc) + "'";
+  for (Index p = 0; p < std::ssize(own.patches); ++p)
     for (int s = 0; s < 4; ++s)
-      if (p >= other.patches.size() || !std::ranges::equal(own.side(static_cast<Index>(p), s),
-                                                           other.side(static_cast<Index>(p), s)))
-        return "Patch '" + rig.nameOf(Thing::patch, static_cast<Index>(p)) + "'";
-  for (std::size_t n = 0; n < own.nodes.size(); ++n)
-    if (differs(own.nodes, other.nodes, n))
-      return "Node '" + rig.nameOf(Thing::node, static_cast<Index>(n)) + "'";
+      if (p >= std::ssize(other.patches) || !std::ranges::equal(own.side(p, s), other.side(p, s)))
+        return "Patch '" + rig.nameOf(Thing::patch, p) + "'";
+  if (node < std::ssize(own.nodes)) return "Node '" + rig.nameOf(Thing::node, node) + "'";
   return "The number of nodes, curves or patches";
 }
 

@@ -150,10 +150,14 @@ class PlyReader {
     return property >= 0 && !element.properties[property].countType;
   }
 
+  bool checkCoordinate(double value) {
+    return isUsable(value) ||
+           failRow(fmt::format("the coordinate {} is not finite or too large", value));
+  }
+
   bool addVertex(const std::vector<double>& row, bool textured) {
     for (int i = 0; i < (textured ? 5 : 3); ++i)
-      if (!isUsable(row[slots_[i]]))
-        return failRow(fmt::format("the coordinate {} is not finite or too large", row[slots_[i]]));
+      if (!checkCoordinate(row[slots_[i]])) return false;
     mesh.positions.push_back({row[slots_[0]], row[slots_[1]], row[slots_[2]]});
     if (textured) mesh.polygons.texcoords.push_back({row[slots_[3]], row[slots_[4]]});
     return true;
@@ -189,9 +193,7 @@ class PlyReader {
     if (!readCount(list, count)) return false;
     faceTexcoords_.clear();
     for (double i = 0; i < count; ++i) {
-      if (!readValue(list.type, value)) return false;
-      if (!isUsable(value))
-        return failRow(fmt::format("the coordinate {} is not finite or too large", value));
+      if (!readValue(list.type, value) || !checkCoordinate(value)) return false;
       faceTexcoords_.push_back(value);
     }
     return true;
@@ -274,9 +276,10 @@ Result<PolygonMesh> readPly(std::string_view bytes, std::string_view name) {
 }  // namespace
 
 Result<PolygonMesh> parsePly(std::string_view bytes, std::string_view name) {
-  Result<PolygonMesh> mesh = readPly(withoutMark(bytes), name);
+  bytes = withoutMark(bytes);
+  Result<PolygonMesh> mesh = readPly(bytes, name);
   if (!mesh || mesh->polygons.faceCount() > 0) return mesh;
-  const auto header = parsePlyHeader(withoutMark(bytes), name);
+  const auto header = parsePlyHeader(bytes, name);
   return fail(fmt::format("{} has no faces (element 'face'){}; export the mesh with its faces.",
                           name, header->find("tristrips") ? ", but strips of triangles" : ""));
 }
