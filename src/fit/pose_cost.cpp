@@ -10,9 +10,9 @@ using Four = PoseCost::Four;
 
 // A penalty in bits: hardly any well within the bound, steep beyond it.
 constexpr float kInside = 2, kBeyond = 400;
-[[gnu::always_inline]] inline Four penalty(const Four& square, float beyond) {
-  const Four s2 = square * square;
-  return kInside * s2 * s2 * square + beyond * (square - 1).max(0.0f);
+[[gnu::always_inline]] inline Four penalty(Four square, float beyond) {
+  const Four s2 = square * square, past = square - 1;
+  return kInside * s2 * s2 * square + beyond * (past > 0 ? past : Four{});
 }
 float slope(float square, float beyond) {
   const float s2 = square * square;
@@ -21,8 +21,9 @@ float slope(float square, float beyond) {
 
 // A tangent that is off by about half of its length may turn the surface over.
 constexpr float kMostStrain = 0.2f, kTorn = 4, kOverturn = 40;
-[[gnu::always_inline]] inline Four overturn(const Four& strain) {
-  return kOverturn * (strain.min(kTorn) - kMostStrain).max(0.0f);
+[[gnu::always_inline]] inline Four overturn(Four strain) {
+  const Four past = (strain < kTorn ? strain : Four{} + kTorn) - kMostStrain;
+  return kOverturn * (past > 0 ? past : Four{});
 }
 float overturn(float strain) {
   return kOverturn * std::max(0.0f, std::min(strain, kTorn) - kMostStrain);
@@ -69,9 +70,9 @@ void PoseCost::refresh(Index u) {
   Vertex& x = at_[u];
   Pull& pull = pulls_[u];
   const auto squared = [](const float* v) { return v[0] * v[0] + v[1] * v[1] + v[2] * v[2]; };
-  const auto four = [](const float* v) { return Four(v[0], v[1], v[2], 0); };
+  const auto four = [](const float* v) { return Four{v[0], v[1], v[2], 0}; };
   x.square = squared(x.error) * x.perSquare;
-  x.penalty = penalty(Four(x.square), beyond_)[0];
+  x.penalty = penalty(Four{x.square}, beyond_)[0];
   pull.place = slope(x.square, beyond_) * x.perSquare * four(x.error);
   for (int side = 0; side < 2; ++side) {
     Tangent& t = x.tangent[side];
@@ -89,9 +90,9 @@ float PoseCost::tilt(Index u) const {
   return sum;
 }
 
-PoseCost::Four PoseCost::growth(Index v, int a, const Four& steps) const {
+PoseCost::Four PoseCost::growth(Index v, int a, Four steps) const {
   const Four x = steps * step_;
-  Four sum = Four::Zero(), tilted = Four::Zero(), over = Four::Zero();
+  Four sum = {}, tilted = {}, over = {};
   for (Index p = columns_.start[v]; p < columns_.start[v + 1]; ++p) {
     const Vertex& at = at_[columns_.vertex[p]];
     const auto& weight = columns_.weight[p];
@@ -109,7 +110,7 @@ PoseCost::Four PoseCost::growth(Index v, int a, const Four& steps) const {
 }
 
 PoseCost::Four PoseCost::gradient(Index v) const {
-  Four sum = Four::Zero();
+  Four sum = {};
   for (Index p = columns_.start[v]; p < columns_.start[v + 1]; ++p) {
     const Pull& pull = pulls_[columns_.vertex[p]];
     const auto& weight = columns_.weight[p];

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <vector>
 
 #include "fit/columns.hpp"
@@ -13,7 +12,7 @@ namespace sweepface {
 /// the further they lean or turn over.
 class PoseCost {
  public:
-  using Four = Eigen::Array4f;
+  using Four [[gnu::vector_size(16)]] = float;
 
   PoseCost(const Columns& columns, const PoseTask& task);
 
@@ -29,8 +28,8 @@ class PoseCost {
 
   /// How much the cost grows when coordinate a of a coefficient grows by so many steps: four
   /// numbers of them at once.
-  Four growth(Index v, int a, const Four& steps) const;
-  float growth(Index v, int a, float steps) const { return growth(v, a, Four(steps))[0]; }
+  Four growth(Index v, int a, Four steps) const;
+  float growth(Index v, int a, float steps) const { return growth(v, a, Four{steps})[0]; }
   /// Its derivatives by the three coordinates of a coefficient.
   Four gradient(Index v) const;
   void move(Index v, int a, float steps);

@@ -291,7 +291,7 @@ class PoseQuantiser {
 
   std::int32_t best(Index v, int a, const Hierarchy::Image& image, std::int32_t before,
                     std::span<const std::int32_t> tries) const {
-    Four by = Four::Zero();
+    Four by = {};
     for (std::size_t k = 0; k < tries.size(); ++k) by[k] = static_cast<float>(tries[k] - before);
     Four growth = errors_.growth(v, a, by);
     if (image.vector >= 0)
