@@ -11,6 +11,7 @@ elseif(CMAKE_SYSTEM_NAME STREQUAL "WASI")
   target_include_directories(sweepface_runtime SYSTEM PRIVATE ${PROJECT_BINARY_DIR}/highway)
   # What runs every frame is built for speed.
   set_property(SOURCE ${kernels} APPEND PROPERTY COMPILE_OPTIONS -O2)
+  set_property(SOURCE ${kernels} PROPERTY SKIP_PRECOMPILE_HEADERS ON)
 else()
   find_package(hwy 1 REQUIRED)
   target_link_libraries(sweepface_runtime PRIVATE hwy::hwy)
