@@ -10,8 +10,8 @@
 namespace sweepface::io {
 namespace {
 
-/// Far more than a mesh has; finding an element goes through all of them.
-constexpr std::size_t maxElements = 100;
+/// Far more than a mesh has; finding one goes through all of them.
+constexpr std::size_t maxElements = 100, maxProperties = 1000;
 
 std::optional<PlyScalar> scalarNamed(std::string_view name) {
   static constexpr std::array<std::pair<std::string_view, PlyScalar>, 16> names{{
@@ -127,7 +127,14 @@ class HeaderReader {
     property.type = *scalar;
     property.name = words.next();
     if (property.name.empty()) return failLine("the property has no name");
-    header_.elements.back().properties.push_back(std::move(property));
+    PlyElement& element = header_.elements.back();
+    if (element.find({property.name}) >= 0)
+      return failLine(fmt::format("there is a second property {} of the element {}",
+                                  inQuotes(property.name), inQuotes(element.name)));
+    if (element.properties.size() == maxProperties)
+      return failLine(fmt::format("the element {} has more than {} properties",
+                                  inQuotes(element.name), maxProperties));
+    element.properties.push_back(std::move(property));
     return true;
   }
 

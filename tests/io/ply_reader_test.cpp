@@ -203,6 +203,9 @@ INSTANTIATE_TEST_SUITE_P(
         BadPly{"SecondVertexElement",
                ply("element vertex 1\nelement vertex 1\n", ""),
                {"line 5", "second element 'vertex'"}},
+        BadPly{"SecondX",
+               ply("element vertex 1\nproperty float x\nproperty int x\n", ""),
+               {"line 6", "second property 'x' of the element 'vertex'"}},
         BadPly{"NoVertexElement", ply("element face 1\n" + faceList, "3 0 1 2\n"), {"no vertices"}},
         BadPly{"NoVertices", ply("element vertex 0\n" + xyz, ""), {"no vertices"}},
         BadPly{"NoZ",
@@ -332,6 +335,12 @@ TEST(PlyErrors, NameTooManyElements) {
   std::string elements;
   for (int i = 0; i < 101; ++i) elements += "element e" + std::to_string(i) + " 0\n";
   EXPECT_TRUE(failsWith(parsePly(ply(elements, ""), "a.ply"), {"line 104", "more than 100"}));
+}
+
+TEST(PlyErrors, NameTooManyProperties) {
+  std::string properties = "element vertex 0\n";
+  for (int i = 0; i < 1001; ++i) properties += "property int p" + std::to_string(i) + "\n";
+  EXPECT_TRUE(failsWith(parsePly(ply(properties, ""), "a.ply"), {"line 1005", "more than 1000"}));
 }
 
 TEST(PlyErrors, NameNonFiniteBinaryCoordinates) {
