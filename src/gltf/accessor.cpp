@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -20,65 +19,6 @@ constexpr std::array<Shape, 7> kShapes{{{"SCALAR", 1, 1},
                                         {"MAT2", 2, 2},
                                         {"MAT3", 3, 3},
                                         {"MAT4", 4, 4}}};
-
-std::optional<Component> componentOf(std::size_t number) {
-  switch (number) {
-    case 5120:
-    case 5121:
-    case 5122:
-    case 5123:
-    case 5125:
-    case 5126:
-      return static_cast<Component>(number);
-    default:
-      return std::nullopt;
-  }
-}
-
-template <typename T>
-T littleEndian(const char* bytes) {
-  T value = 0;
-  for (std::size_t k = 0; k < sizeof(T); ++k)
-    value = static_cast<T>(value | static_cast<T>(static_cast<unsigned char>(bytes[k])) << (8 * k));
-  return value;
-}
-
-double component(Component type, const char* bytes) {
-  switch (type) {
-    case Component::int8:
-      return static_cast<std::int8_t>(*bytes);
-    case Component::uint8:
-      return static_cast<std::uint8_t>(*bytes);
-    case Component::int16:
-      return static_cast<std::int16_t>(littleEndian<std::uint16_t>(bytes));
-    case Component::uint16:
-      return littleEndian<std::uint16_t>(bytes);
-    case Component::uint32:
-      return littleEndian<std::uint32_t>(bytes);
-    case Component::float32:
-      return std::bit_cast<float>(littleEndian<std::uint32_t>(bytes));
-  }
-  return 0;
-}
-
-/// What 1 is stored as; 1 for floats.
-double one(Component type) {
-  switch (type) {
-    case Component::int8:
-      return 127;
-    case Component::uint8:
-      return 255;
-    case Component::int16:
-      return 32767;
-    case Component::uint16:
-      return 65535;
-    case Component::uint32:
-      return 4294967295.0;
-    case Component::float32:
-      return 1;
-  }
-  return 1;
-}
 
 /// Whether `count` elements lie within a view of `length` bytes; sizes are below 2^53.
 bool fits(std::size_t offset, std::size_t count, std::size_t stride, std::size_t size,
@@ -153,13 +93,14 @@ Result<Accessor::Sparse> readSparse(const Json& json, const Document& document,
 /// Reads elements into values.
 class Elements {
  public:
-  explicit Elements(const Accessor& accessor) : accessor_(accessor), one_(one(accessor.type)) {}
+  explicit Elements(const Accessor& accessor)
+      : accessor_(accessor), one_(rangeOf(accessor.type).high) {}
 
   void read(const char* bytes, double* values) const {
     const std::size_t size = sizeOf(accessor_.type);
     for (std::size_t c = 0; c < accessor_.columns; ++c)
       for (std::size_t r = 0; r < accessor_.rows; ++r)
-        *values++ = value(component(accessor_.type, bytes + c * accessor_.columnSize() + r * size));
+        *values++ = value(load(accessor_.type, bytes + c * accessor_.columnSize() + r * size));
   }
 
  private:
@@ -168,7 +109,7 @@ class Elements {
   }
 
   const Accessor& accessor_;
-  double one_;
+  double one_;  // what a normalised 1 is stored as
 };
 
 void readDense(const Document& document, const Accessor& accessor, std::vector<double>& values) {
@@ -188,7 +129,7 @@ Result<void> overwrite(const Document& document, const Accessor& accessor,
   const char* what = &document.bytesOf(sparse.valueView)[sparse.valueOffset];
   double last = -1;
   for (std::size_t k = 0; k < sparse.count; ++k) {
-    const double index = component(sparse.indexType, where);
+    const double index = load(sparse.indexType, where);
     if (index <= last || index >= static_cast<double>(accessor.count))
       return fail(fmt::format(
           "accessor {}, sparse indices: number {} is {}, but they must increase and stay below "
@@ -203,21 +144,6 @@ Result<void> overwrite(const Document& document, const Accessor& accessor,
 }
 
 }  // namespace
-
-std::size_t sizeOf(Component component) {
-  switch (component) {
-    case Component::int8:
-    case Component::uint8:
-      return 1;
-    case Component::int16:
-    case Component::uint16:
-      return 2;
-    case Component::uint32:
-    case Component::float32:
-      return 4;
-  }
-  return 4;
-}
 
 std::size_t Accessor::columnSize() const {
   const std::size_t size = sizeOf(type) * rows;

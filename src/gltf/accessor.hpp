@@ -1,28 +1,12 @@
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <vector>
 
+#include "gltf/component.hpp"
 #include "gltf/document.hpp"
 
 namespace sweepface::gltf {
-
-enum class Component {
-  int8 = 5120,
-  uint8 = 5121,
-  int16 = 5122,
-  uint16 = 5123,
-  uint32 = 5125,
-  float32 = 5126
-};
-
-/// Bytes of a component.
-std::size_t sizeOf(Component component);
-/// Whether indices may be of this type.
-constexpr bool isOfIndices(Component type) {
-  return type == Component::uint8 || type == Component::uint16 || type == Component::uint32;
-}
 
 /// An accessor whose data lie within their buffer views.
 struct Accessor {

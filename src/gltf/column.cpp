@@ -1,82 +1,12 @@
 #include "gltf/column.hpp"
 
 #include <algorithm>
-#include <bit>
-#include <cmath>
-#include <limits>
-#include <utility>
+#include <vector>
 
 namespace sweepface::gltf {
-namespace {
-
-template <typename T>
-void append(std::string& bytes, T value) {
-  for (std::size_t k = 0; k < sizeof(T); ++k)
-    bytes += static_cast<char>(static_cast<unsigned char>(value >> (8 * k)));
-}
-
-template <typename T>
-T load(const char* bytes) {
-  T value = 0;
-  for (std::size_t k = 0; k < sizeof(T); ++k)
-    value = static_cast<T>(value | static_cast<T>(static_cast<unsigned char>(bytes[k])) << (8 * k));
-  return value;
-}
-
-std::pair<double, double> rangeOf(Component type) {
-  switch (type) {
-    case Component::int8:
-      return {-128, 127};
-    case Component::uint8:
-      return {0, 255};
-    case Component::int16:
-      return {-32768, 32767};
-    case Component::uint16:
-      return {0, 65535};
-    case Component::uint32:
-      return {0, 4294967295.0};
-    case Component::float32:
-      break;
-  }
-  constexpr double most = std::numeric_limits<float>::max();
-  return {-most, most};
-}
-
-void appendAs(std::string& bytes, Component type, double value) {
-  const auto whole = [&] { return static_cast<std::int64_t>(std::llround(value)); };
-  switch (type) {
-    case Component::int8:
-    case Component::uint8:
-      return append(bytes, static_cast<std::uint8_t>(whole()));
-    case Component::int16:
-    case Component::uint16:
-      return append(bytes, static_cast<std::uint16_t>(whole()));
-    case Component::uint32:
-      return append(bytes, static_cast<std::uint32_t>(whole()));
-    case Component::float32:
-      return append(bytes, std::bit_cast<std::uint32_t>(static_cast<float>(value) + 0.0f));
-  }
-}
-
-}  // namespace
 
 double Column::stored(std::size_t component) const {
-  const char* const at = &bytes[component * sizeOf(type)];
-  switch (type) {
-    case Component::int8:
-      return static_cast<std::int8_t>(load<std::uint8_t>(at));
-    case Component::uint8:
-      return load<std::uint8_t>(at);
-    case Component::int16:
-      return static_cast<std::int16_t>(load<std::uint16_t>(at));
-    case Component::uint16:
-      return load<std::uint16_t>(at);
-    case Component::uint32:
-      return load<std::uint32_t>(at);
-    case Component::float32:
-      return std::bit_cast<float>(load<std::uint32_t>(at));
-  }
-  return 0;
+  return load(type, &bytes[component * sizeOf(type)]);
 }
 
 Column pack(std::span<const double> values, std::size_t width, Component type, bool normalized) {
@@ -88,7 +18,7 @@ Column pack(std::span<const double> values, std::size_t width, Component type, b
     value *= one;
     const bool fits = value >= low && value <= high;  // not so for what is no number
     column.sound = column.sound && fits;
-    appendAs(column.bytes, type, fits ? value : value > high ? high : value < low ? low : 0);
+    append(column.bytes, type, fits ? value : value > high ? high : value < low ? low : 0);
   }
   return column;
 }

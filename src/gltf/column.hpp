@@ -5,7 +5,7 @@
 
 #include "sweepface/vec.hpp"
 
-#include "gltf/accessor.hpp"
+#include "gltf/component.hpp"
 
 namespace sweepface::gltf {
 
