@@ -88,11 +88,14 @@ Result<std::vector<double>> sampleTimes(const AnimateArguments& a, const Perform
                     performance.seconds, rate, kMostFrames));
   const int last = rate > 0 ? static_cast<int>(std::floor(performance.seconds * rate + 1e-6))
                             : (a.frames > 0 ? a.frames : 31) - 1;
+  const bool isCsv = isOfKind(a.output, ".csv"), hasKeys = isCsv || isOfKind(a.output, ".glb");
+  if (hasKeys && last > 0 && performance.seconds == 0)
+    return fail(
+        fmt::format("{} has one frame, which is one key; leave --frames out.", performance.called));
   std::vector<double> times;
   for (int k = 0; k <= last; ++k)
     times.push_back(rate > 0 ? k / rate : performance.seconds * (static_cast<double>(k) / last));
   // Keys hold on for ever: the end is one even between two frames. A mesh is for a frame.
-  const bool isCsv = isOfKind(a.output, ".csv"), hasKeys = isCsv || isOfKind(a.output, ".glb");
   // A timecode tells thousandths of a frame.
   const double same =
       std::max(std::min(1e-4, 0.5 * performance.seconds), isCsv ? 1e-3 / a.what.writtenRate() : 0);
@@ -114,7 +117,8 @@ Result<void> makeFolder(const fs::path& folder) {
   if (fs::is_directory(folder, ignored)) return {};
   const bool isFile = fs::exists(folder, ignored) || !error;
   return fail(fmt::format("Cannot make the folder {}: {}.", folder.string(),
-                          isFile ? "a file is in its place" : error.message()));
+                          isFile ? "a file is in its place; choose another name"
+                                 : error.message() + "; choose another place"));
 }
 
 /// Writes the frames in parallel; the answer is that of the first one that failed.

@@ -327,7 +327,8 @@ Result<void> checkOutput(const fs::path& output, const std::vector<std::string>&
   if (!device && !fs::is_directory(folder, ignored))
     return cannot(fmt::format("there is no folder {}; create it first", folder.string()));
   if (access((device ? output : folder).c_str(), W_OK) != 0)
-    return cannot(std::generic_category().message(errno));
+    return cannot(fmt::format("{}; choose another place, or change the permissions of this one",
+                              std::generic_category().message(errno)));
   return {};
 }
 

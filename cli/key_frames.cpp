@@ -25,11 +25,10 @@ std::vector<double> coarseTimes(const Performance& performance) {
 /// Halves stretches of time until straight lines over them are near enough.
 class Halver {
  public:
-  /// What a line misses between two times, and what is beyond both its ends: not a jump's.
-  struct Miss {
-    double all = 0, butJumps = 0;
+  /// What a line misses between two times: all, and all but what a jump there does.
+  struct Missed {
+    std::function<double(double from, double to)> all, butJumps;
   };
-  using Missed = std::function<Miss(double from, double to)>;
 
   Halver(Missed missed, double allowed, double seconds)
       : missed_(std::move(missed)),
@@ -49,15 +48,14 @@ class Halver {
  private:
   /// Adds the end of a stretch, and before it what is needed in between.
   void add(double from, double to) {
-    const Miss miss = missed_(from, to);
-    const double middle = written(std::midpoint(from, to));
+    const double miss = missed_.all(from, to), middle = written(std::midpoint(from, to));
     const bool isShortest = to - from <= shortest_ || from >= middle || middle >= to;
-    if (miss.all > allowed_ && !isShortest && static_cast<double>(cut_.size()) < kMostFrames) {
+    if (miss > allowed_ && !isShortest && static_cast<double>(cut_.size()) < kMostFrames) {
       add(from, middle);
       add(middle, to);
     } else {
       cut_.push_back(to);
-      worst_ = std::max(worst_, isShortest ? miss.butJumps : miss.all);
+      if (miss > worst_) worst_ = std::max(worst_, isShortest ? missed_.butJumps(from, to) : miss);
     }
   }
 
@@ -67,30 +65,72 @@ class Halver {
 };
 
 /// What lines miss of the weights.
-Halver::Missed ofWeights(const Performance& performance, std::size_t targets) {
-  return [&performance, start = Weights(targets), end = Weights(targets), now = Weights(targets)](
-             double from, double to) mutable {
+class WeightLines {
+ public:
+  WeightLines(const Performance& performance, std::size_t targets)
+      : performance_(performance),
+        start_(targets),
+        end_(targets),
+        now_(targets),
+        missed_(targets),
+        beyond_(targets) {}
+
+  double all(double from, double to) {
+    look(from, to);
+    return missed_.empty() ? 0 : std::ranges::max(missed_);
+  }
+
+  double butJumps(double from, double to) {
+    look(from, to);
+    double most = 0;
+    for (std::size_t k = 0; k < missed_.size(); ++k)
+      if (missed_[k] > most) most = std::max(most, jumps(k, from, to) ? beyond_[k] : missed_[k]);
+    return most;
+  }
+
+ private:
+  /// What is missed of every weight, and how much of that is beyond both ends of its line.
+  void look(double from, double to) {
     constexpr double kGolden = 0.6180339887;  // not in step, as zeros of a swing are
     const int looks = static_cast<int>(std::clamp(30 * (to - from), 3.0, 100.0));
-    performance.at(from, start);
-    performance.at(to, end);
-    Halver::Miss most;
+    performance_.at(from, start_);
+    performance_.at(to, end_);
+    std::ranges::fill(missed_, 0.0);
+    std::ranges::fill(beyond_, 0.0);
     for (int look = 1; look <= looks; ++look) {
       const double s = std::fmod(look * kGolden, 1);
-      performance.at(std::lerp(from, to, s), now);
-      for (std::size_t k = 0; k < now.size(); ++k) {
-        most.all = std::max(most.all, std::abs(now[k] - std::lerp(start[k], end[k], s)));
-        const auto [low, high] = std::minmax(start[k], end[k]);
-        most.butJumps = std::max({most.butJumps, low - now[k], now[k] - high});
+      performance_.at(std::lerp(from, to, s), now_);
+      for (std::size_t k = 0; k < now_.size(); ++k) {
+        missed_[k] = std::max(missed_[k], std::abs(now_[k] - std::lerp(start_[k], end_[k], s)));
+        const auto [low, high] = std::minmax(start_[k], end_[k]);
+        beyond_[k] = std::max({beyond_[k], low - now_[k], now_[k] - high});
       }
     }
-    return most;
-  };
-}
+  }
+
+  /// Whether a weight goes somewhere more steeply than any slope that is meant: a cut of a timeline
+  /// takes some microseconds.
+  bool jumps(std::size_t k, double from, double to) {
+    constexpr double kShort = 4e-6, kSteepest = 200;  // seconds, weights a second
+    double before = start_[k], after = end_[k];
+    while (to - from > kShort) {
+      const double middle = std::midpoint(from, to);
+      performance_.at(middle, now_);
+      const bool isLater = std::abs(after - now_[k]) > std::abs(now_[k] - before);
+      (isLater ? from : to) = middle;
+      (isLater ? before : after) = now_[k];
+    }
+    return std::abs(after - before) > kSteepest * (to - from);
+  }
+
+  const Performance& performance_;
+  Weights start_, end_, now_;
+  std::vector<double> missed_, beyond_;
+};
 
 /// Radians that a turn at constant speed misses in the middle, where it misses most of angles that
 /// change at constant speed.
-Halver::Miss ofTurn(const Performance& performance, double from, double to) {
+double ofTurn(const Performance& performance, double from, double to) {
   const auto at = [&](double time) { return quaternionOf(performance.pose(time).head); };
   const Quaternion start = at(from), end = at(to), middle = at(std::midpoint(from, to));
   double along = 0, square = 0;
@@ -98,8 +138,7 @@ Halver::Miss ofTurn(const Performance& performance, double from, double to) {
     const double sum = start[k] + end[k];
     along += sum * middle[k], square += sum * sum;
   }
-  const double miss = 2 * std::acos(std::min(1.0, std::abs(along) / std::sqrt(square)));
-  return {miss, miss};
+  return 2 * std::acos(std::min(1.0, std::abs(along) / std::sqrt(square)));
 }
 
 }  // namespace
@@ -118,18 +157,21 @@ std::vector<double> ownKeyTimes(const Performance& performance) {
 
 KeyFrames keyFrames(const Performance& performance, const Rig& rig, double tolerance) {
   const std::vector<double>& own = performance.frameTimes;
-  Halver halver(ofWeights(performance, rig.targets.size()), tolerance / 16, performance.seconds);
+  WeightLines lines(performance, rig.targets.size());
+  Halver halver({[&](double from, double to) { return lines.all(from, to); },
+                 [&](double from, double to) { return lines.butJumps(from, to); }},
+                tolerance / 16, performance.seconds);
   std::vector<double> times = halver.cut(own.empty() ? coarseTimes(performance) : own);
   // Single precision may end before the last event does.
   times.back() = std::max(times.back(), performance.seconds);
   Clip clip = sample(performance, rig, times);
   const double missed = performance.frameMiss + halver.worst();
-  return {std::move(clip), std::max(tolerance - missed, tolerance / 2), halver.worst()};
+  return {std::move(clip), missed < tolerance ? tolerance - missed : tolerance / 2, halver.worst()};
 }
 
 std::vector<double> turningTimes(const Performance& performance) {
-  Halver halver([&](double from, double to) { return ofTurn(performance, from, to); },
-                kHeadTolerance / 16, performance.seconds);
+  const auto missed = [&](double from, double to) { return ofTurn(performance, from, to); };
+  Halver halver({missed, missed}, kHeadTolerance / 16, performance.seconds);
   return halver.cut(performance.frameTimes);
 }
 

@@ -51,7 +51,7 @@ function cellsOf(line) {
  */
 function clockOf(framesPerSecond, dropsFrames) {
   const longer = 1.001, whole = Math.round(framesPerSecond * longer);
-  const isBetween = !Number.isInteger(framesPerSecond) && Math.abs(framesPerSecond * longer - whole) < 0.0045;
+  const isBetween = whole > 0 && !Number.isInteger(framesPerSecond) && Math.abs(framesPerSecond * longer - whole) < 0.0045;
   const counted = isBetween ? whole : framesPerSecond;
   const dropped = dropsFrames && (counted === 30 || counted === 60) ? counted / 15 : 0;
   const length = isBetween || dropped > 0 ? longer : 1;
@@ -67,7 +67,7 @@ function readLiveLink(text, name, framesPerSecond) {
   const filled = lines.filter(({text: line}, k) => line !== '' && !(k === 0 && lowered(line) === 'sep=,'));
   if (filled.length === 0) throw new Error(`${name} is empty; record again.`);
   const fail = (line, what) => new Error(`${name}, line ${line.number}: ${what}.`);
-  const [first, ...rest] = filled, headings = cellsOf(first.text);
+  const [first, ...rest] = filled, headings = cellsOf(first.text).map((cell) => cell.replaceAll('""', '"'));
   // Spreadsheets end every line with a comma.
   const endsEmpty = headings.length > 1 && headings.at(-1) === '';
   if (endsEmpty) headings.pop();

@@ -24,6 +24,7 @@ export function readTimeline(source, options) {
     throw fail('\'loops\'', 'must be a whole number from 1 to 10000');
   if (!Array.isArray(events) || events.length === 0) throw fail('\'events\'', 'must be a list of at least one event');
   if (regions !== undefined && !Array.isArray(regions)) throw fail('\'regions\'', 'are not a list');
+  if (!isObject(poses)) throw fail('\'poses\'', 'are not an object');
   const end = seconds * loops * (1 + 1e-9);  // 0.1 + 0.2 is more than 0.3
   const read = events.map((json, k) => {
     const place = `events[${k}]`, event = readEvent(json, poses, place, fail);
@@ -64,7 +65,7 @@ function readEvent(event, poses, place, failAt) {
 /** Weights by name, or by the name of a pose that has them. */
 function readGoals(wanted, poses, place, failAt) {
   if (typeof wanted === 'string') {
-    if (!(isObject(poses) && Object.keys(poses).includes(wanted)))
+    if (!Object.keys(poses).includes(wanted))
       throw failAt(place, `goes to a pose '${wanted}' that 'poses' does not have`);
     const pose = `pose '${wanted}'`;
     if (!isObject(poses[wanted])) throw failAt(pose, 'is not an object of weights');

@@ -188,7 +188,7 @@ Result<std::string> readFile(const fs::path& path) {
     return cannotRead("there is no such file; check the name");
   if (fs::is_directory(status)) return cannotRead("it is a folder; name a file in it");
   const File file(std::fopen(path.string().c_str(), "rb"));
-  if (!file) return cannotRead(reason(errno));
+  if (!file) return cannotRead(reason(errno) + (errno == EACCES ? "; change its permissions" : ""));
 
   std::string bytes;
   const auto size = fs::file_size(path, error);

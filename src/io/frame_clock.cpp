@@ -7,7 +7,7 @@ namespace sweepface::io {
 FrameClock::FrameClock(double framesPerSecond, bool dropsFrames) : counted_(framesPerSecond) {
   constexpr double kLonger = 1.001, kSame = 0.0045;
   const double whole = std::round(framesPerSecond * kLonger);
-  const bool isBetween = framesPerSecond != std::round(framesPerSecond) &&
+  const bool isBetween = whole > 0 && framesPerSecond != std::round(framesPerSecond) &&
                          std::abs(framesPerSecond * kLonger - whole) < kSame;
   if (isBetween) counted_ = whole;
   if (dropsFrames && (counted_ == 30 || counted_ == 60)) dropped_ = counted_ / 15;

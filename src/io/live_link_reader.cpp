@@ -41,6 +41,16 @@ std::vector<std::string_view> cells(std::string_view line) {
   }
 }
 
+/// The text of a cell: two quotes together are one.
+std::string textOf(std::string_view cell) {
+  std::string text;
+  for (std::size_t k = 0; k < cell.size(); ++k) {
+    text += cell[k];
+    if (cell.substr(k).starts_with("\"\"")) ++k;
+  }
+  return text;
+}
+
 /// When a row was recorded: seconds and frames of a clock, or seconds alone.
 struct RowTime {
   std::string_view text;
@@ -111,7 +121,7 @@ class LiveLinkReader {
     if (endsEmpty_) headings.pop_back();
     columns_ = headings.size();
     for (std::size_t c = 0; c < columns_; ++c)
-      if (auto ok = readHeading(headings[c], c); !ok) return ok;
+      if (auto ok = readHeading(textOf(headings[c]), c); !ok) return ok;
     if (timeColumn_ >= columns_) return failLine(lackOfTimes(line));
     if (clip_.names.empty()) return failLine("there is no column of a shape");
     return {};
@@ -122,7 +132,7 @@ class LiveLinkReader {
         return fmt::format("the columns are separated by {}; save them with commas", called);
     return "there is no column 'Timecode'; this may be no recording of Live Link Face";
   }
-  Result<void> readHeading(std::string_view heading, std::size_t column) {
+  Result<void> readHeading(const std::string& heading, std::size_t column) {
     if (sameLetters(heading, "Timecode")) {
       if (timeColumn_ < columns_) return failLine("there are two columns 'Timecode'");
       timeColumn_ = column;
@@ -238,8 +248,8 @@ class LiveLinkReader {
   std::size_t columns_ = 0, timeColumn_ = static_cast<std::size_t>(-1);
   bool endsEmpty_ = false;  // every line may
   std::vector<std::size_t> shapeColumns_;
-  std::set<std::string_view> known_;  // headings of shapes
-  std::vector<RowTime> timecodes_;    // [rows]
+  std::set<std::string> known_;     // headings of shapes
+  std::vector<RowTime> timecodes_;  // [rows]
   Clip clip_;
 };
 

@@ -126,11 +126,12 @@ struct Timecode {
   }
 };
 
-bool hasComma(std::string_view heading) { return heading.contains(','); }
-
-/// In quotes where a comma would end it.
+/// In quotes where a comma would end it, or where it has some, each of which is doubled.
 std::string cellOf(const std::string& heading) {
-  return hasComma(heading) ? fmt::format("\"{}\"", heading) : heading;
+  if (heading.find_first_of(",\"") == std::string::npos) return heading;
+  std::string cell = "\"";
+  for (const char c : heading) cell.append(c == '"' ? 2 : 1, c);
+  return cell + '"';
 }
 
 Result<void> check(const Clip& clip, const std::vector<Column>& columns, double framesPerSecond) {
@@ -145,8 +146,7 @@ Result<void> check(const Clip& clip, const std::vector<Column>& columns, double 
     if (io::sameLetters(read, "Timecode") || io::sameLetters(read, "BlendShapeCount"))
       return fail(
           fmt::format("'{}' cannot be a shape of a recording; rename the target.", column.heading));
-    const bool isQuoted = read.starts_with('"') || (hasComma(read) && read.contains('"'));
-    if (read.empty() || isQuoted || column.heading.find_first_of("\r\n") != std::string::npos)
+    if (read.empty() || column.heading.find_first_of("\r\n") != std::string::npos)
       return fail(fmt::format("'{}' cannot be the heading of a column; rename the target.",
                               column.heading));
     if (!headings.insert(read).second)

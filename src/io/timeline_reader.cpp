@@ -48,6 +48,8 @@ class TimelineReader {
       return failAt("'events'", "must be a list of at least one event");
     if (const auto regions = json_.find("regions"); regions != json_.end() && !regions->is_array())
       return failAt("'regions'", "are not a list");
+    if (const auto poses = json_.find("poses"); poses != json_.end() && !poses->is_object())
+      return failAt("'poses'", "are not an object");
     const double end = timeline.seconds * loops * (1 + 1e-9);  // 0.1 + 0.2 is more than 0.3
     std::multimap<double, TimelineEvent> inOrder;  // events of one time stay as they stand
     for (std::size_t k = 0; k < events->size(); ++k) {
@@ -125,7 +127,7 @@ class TimelineReader {
     if (json.is_string()) {
       const auto poses = json_.find("poses");
       const std::string pose = json.get<std::string>();
-      if (poses == json_.end() || !poses->is_object() || !poses->contains(pose))
+      if (poses == json_.end() || !poses->contains(pose))
         return failAt(place, fmt::format("goes to a pose '{}' that 'poses' does not have", pose));
       if (!(*poses)[pose].is_object())
         return failAt(fmt::format("pose '{}'", pose), "is not an object of weights");

@@ -21,6 +21,9 @@ Drive inMatter(Drive drive, const Matter& matter) {
 
 namespace {
 
+// Frames that are nearer than this are one, as the speed between them has no digits.
+constexpr double kJump = 1e-7;  // seconds
+
 /// What hangs on one recorded weight g: x″ = −2ζω (x′ − g′) − ω² (x − g). Its distance e = x − g
 /// swings freely between two frames, where g is straight, and gets a blow where g changes speed.
 class Hanging {
@@ -42,9 +45,6 @@ class Hanging {
   bool swingsOn() const { return isMuch(distance_.velocity + speed_); }
 
  private:
-  // Frames that are nearer than this are one, as the speed between them has no digits.
-  static constexpr double kJump = 1e-7;
-
   // All that a jump leaves behind is what the damper made of it: it takes no time.
   double jump(const Spring& spring, double way) {
     distance_.position -= way;
@@ -92,10 +92,13 @@ Clip hanging(const Clip& clip, const Spring& spring, std::size_t most) {
   // them. What settles sooner than the shortest has not gone far, and clocks may tell no less
   // apart.
   constexpr double kMiss = 4e-5, kShortest = 1e-4;
-  const auto [bends, settles] = Settling(spring);
-  const double first =
-      std::max({kShortest, std::sqrt(8 * kMiss / bends),
-                room > 0 ? 2 * frames / (std::max(settles, 1 / kLongest) * room) : HUGE_VAL});
+  const Settling rates(spring);
+  const double bends = rates.bends, settles = rates.settles;
+  const double least = std::max(
+      kShortest, room > 0 ? 2 * frames / (std::max(settles, 1 / kLongest) * room) : HUGE_VAL);
+  const auto firstAfter = [&](double blow) {
+    return std::max(least, std::sqrt(8 * kMiss / (bends * std::max(blow, 1.0))));
+  };
 
   std::vector<double> before(clip.weights.begin(), clip.weights.begin() + std::ssize(clip.names));
   std::vector<double> now(n);
@@ -111,21 +114,34 @@ Clip hanging(const Clip& clip, const Spring& spring, std::size_t most) {
   };
   const auto any = [&](auto swings) { return std::ranges::any_of(hangs, swings); };
   // One piece at least, and then as long as anything swings; the last is a quarter longer at most.
-  const auto goOn = [&](double from, double span, double piece, auto swings) {
-    double step = std::min(first, piece);
+  const auto goOn = [&](double from, double span, double piece, double blow, auto swings) {
+    double step = std::min(firstAfter(blow), piece);
     for (double at = step; at + step / 4 <= span && at <= kLongest; at += step) {
       goTo(from + at);
       if (!any(swings)) return;
       step = std::min(step * ode::exponential(settles * step / 2), piece);
     }
   };
+  // What has not settled of the largest blow so far.
+  double blow = 0;
+  std::vector<double> speeds(n);
+  const auto hit = [&](std::size_t k, double speed) {
+    blow = std::max(blow, std::abs(speed - std::exchange(speeds[k], speed)));
+  };
   for (std::size_t f = 1; f < clip.times.size(); ++f) {
     const double from = clip.times[f - 1], span = clip.times[f] - from;
     const double piece = span / std::ceil(span / frame);
-    goOn(from, span, piece, &Hanging::swings);
+    for (std::size_t k = 0; k < n; ++k) {
+      const double way = clip.weights[f * n + k] - clip.weights[(f - 1) * n + k];
+      hit(k, span < kJump ? bends * way : way / span);
+      if (span < kJump) speeds[k] = 0;
+    }
+    goOn(from, span, piece, blow, &Hanging::swings);
     goTo(clip.times[f]);
+    blow *= ode::exponential(-settles * span);
   }
-  if (any(&Hanging::swingsOn)) goOn(clip.times.back(), kLongest, frame, &Hanging::swingsOn);
+  for (std::size_t k = 0; k < n; ++k) hit(k, 0);
+  if (any(&Hanging::swingsOn)) goOn(clip.times.back(), kLongest, frame, blow, &Hanging::swingsOn);
   return result;
 }
 

@@ -160,6 +160,17 @@ TEST_F(PlayClip, KeysHoldATimelineThatJumps) {
     }
 }
 
+// Single precision tells thousandths of a second apart there.
+TEST_F(PlayClip, SaysWhatKeysCannotHoldLateInALongTake) {
+  convertRig();
+  write("take.csv", "Timecode,JawOpen\n0,0\n9000,0\n9000.016,1\n9000.032,0\n9001,0\n");
+  const std::string command = "animate face.sweep --clip take.csv -o take.glb --key-tolerance ";
+  const Outcome told = run(command + "0.002");
+  ASSERT_EQ(told.code, 0) << told.err;
+  EXPECT_TRUE(told.err.contains("take.csv swings more quickly than keys can tell")) << told.err;
+  EXPECT_FALSE(run(command + "0.1").err.contains("quickly"));
+}
+
 TEST_F(PlayClip, KeysTellWhatHappensBetweenFrames) {
   convertRig();
   write("take.csv", "Timecode,JawOpen\n0,0\n1,1\n61,0\n");

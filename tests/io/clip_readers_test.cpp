@@ -96,7 +96,7 @@ TEST(LiveLinkCsv, CellsInQuotesMayHoldCommasAndQuotes) {
   const auto clip = csv("Timecode,jawOpen,\"a, \"\"b\"\"\"\n\"00:00:01:00\" , \"0.5\" ,\"2\"\n");
   ASSERT_TRUE(clip) << clip.error().message;
   EXPECT_EQ(clip->names.size(), 2u);
-  EXPECT_EQ(clip->names[1], "a, \"\"b\"\"");
+  EXPECT_EQ(clip->names[1], "a, \"b\"");
   EXPECT_EQ(clip->weights, (std::vector<double>{0.5, 2}));
   expectError(
       csv("Timecode,jawOpen\n0,\"0,5\"\n"),

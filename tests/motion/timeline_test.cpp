@@ -218,6 +218,8 @@ TEST(Timeline, SaysWhatIsWrongAndWhere) {
   expectError("[]", "is not an object");
   expectError(R"({"events": []})", "has no 'seconds'");
   expectError(R"({"seconds": 0, "events": [1]})", "'seconds' must be greater than 0");
+  expectError(R"({"seconds": 1, "poses": [1], "events": [{"at": 0, "to": {}}]})",
+              "'poses' are not an object");
   expectError(R"({"seconds": 1})", "'events' must be a list");
   expectError(R"({"seconds": 1, "loops": 1.5, "events": [1]})", "'loops'");
   expectError(R"({"seconds": 1, "evnts": []})", "unknown key 'evnts'");

@@ -446,7 +446,7 @@ for (const [file, text, words] of [
        ['t.json', '{"seconds": 1, "events": [{"at": 0, "to": {}, "restitution": 0.5}]}', '\'restitution\''],
        ['t.json', '{"seconds": 1, "events": [{"at": 0}]}', 'events[0] needs one of \'to\' and \'only\''],
        ['t.json', '{"seconds": 1, "events": [{"at": 0, "to": "grin"}]}', 'goes to a pose \'grin\''],
-       ['t.json', '{"seconds": 1, "poses": null, "events": [{"at": 0, "to": "grin"}]}', 'goes to a pose \'grin\''],
+       ['t.json', '{"seconds": 1, "poses": null, "events": [{"at": 0, "to": "grin"}]}', '\'poses\' are not an object'],
        ['t.json', '{"seconds": 1, "poses": {}, "events": [{"at": 0, "to": "__proto__"}]}', 'goes to a pose \'__proto__\''],
        ['t.json', '{"seconds": 1, "poses": {"p": 5}, "events": [{"at": 0, "to": "p"}]}', 'pose \'p\' is not an object of weights'],
        ['t.json', '{"seconds": 1, "poses": {"p": {"a": "x"}}, "events": [{"at": 0, "to": "p"}]}', 'pose \'p\' has a weight \'a\' that is not a number'],
