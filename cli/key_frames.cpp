@@ -76,12 +76,12 @@ class WeightLines {
         beyond_(targets) {}
 
   double all(double from, double to) {
-    look(from, to);
+    compare(from, to);
     return missed_.empty() ? 0 : std::ranges::max(missed_);
   }
 
   double butJumps(double from, double to) {
-    look(from, to);
+    compare(from, to);
     double most = 0;
     for (std::size_t k = 0; k < missed_.size(); ++k)
       if (missed_[k] > most) most = std::max(most, jumps(k, from, to) ? beyond_[k] : missed_[k]);
@@ -90,7 +90,7 @@ class WeightLines {
 
  private:
   /// What is missed of every weight, and how much of that is beyond both ends of its line.
-  void look(double from, double to) {
+  void compare(double from, double to) {
     constexpr double kGolden = 0.6180339887;  // not in step, as zeros of a swing are
     const int looks = static_cast<int>(std::clamp(30 * (to - from), 3.0, 100.0));
     performance_.at(from, start_);
