@@ -186,7 +186,8 @@ function watchDensity() {
 
 /** Of several files the first that is named as a face. */
 async function open(files) {
-  const [file] = [...files].sort((a, b) => b.name.endsWith('.sweep') - a.name.endsWith('.sweep'));
+  const isNamedAsFace = ({name}) => name.toLowerCase().endsWith('.sweep');
+  const [file] = [...files].sort((a, b) => isNamedAsFace(b) - isNamedAsFace(a));
   if (file) await show(bytesOf(file), file.name);
 }
 
