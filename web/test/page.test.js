@@ -139,6 +139,17 @@ test('the page', options, (t) => withPage('index.html', visit, async (page, comp
     await page.locator('#filter').fill('');
   });
 
+  await t.test('opens of several dropped files the one that is named as a face', async () => {
+    await page.evaluate((bytes) => {
+      const dataTransfer = new DataTransfer();
+      dataTransfer.items.add(new File(['read me'], 'readme.txt'));
+      dataTransfer.items.add(new File([new Uint8Array(bytes)], 'DROPPED.SWEEP'));
+      dispatchEvent(new DragEvent('drop', {dataTransfer}));
+    }, [...bytes]);
+    await until(() => document.title.startsWith('DROPPED.SWEEP'));
+    assert.equal(await page.locator('#message').textContent(), '');
+  });
+
   await t.test('opens a file, and says why another is none', async () => {
     const mimeType = 'application/octet-stream';
     const open = (name, buffer) => page.locator('#file').setInputFiles({name, mimeType, buffer});
