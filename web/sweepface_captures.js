@@ -51,7 +51,8 @@ function cellsOf(line) {
  */
 function clockOf(framesPerSecond, dropsFrames) {
   const longer = 1.001, whole = Math.round(framesPerSecond * longer);
-  const isBetween = whole > 0 && !Number.isInteger(framesPerSecond) && Math.abs(framesPerSecond * longer - whole) < 0.0045;
+  const isBetween = whole > 0 && !Number.isInteger(framesPerSecond) &&
+      Math.abs(framesPerSecond * longer - whole) < 0.0045;
   const counted = isBetween ? whole : framesPerSecond;
   const dropped = dropsFrames && (counted === 30 || counted === 60) ? counted / 15 : 0;
   const length = isBetween || dropped > 0 ? longer : 1;

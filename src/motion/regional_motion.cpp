@@ -92,8 +92,7 @@ Clip hanging(const Clip& clip, const Spring& spring, std::size_t most) {
   // them. What settles sooner than the shortest has not gone far, and clocks may tell no less
   // apart.
   constexpr double kMiss = 4e-5, kShortest = 1e-4;
-  const Settling rates(spring);
-  const double bends = rates.bends, settles = rates.settles;
+  const auto [bends, settles] = Settling(spring);
   const double least = std::max(
       kShortest, room > 0 ? 2 * frames / (std::max(settles, 1 / kLongest) * room) : HUGE_VAL);
   const auto firstAfter = [&](double blow) {

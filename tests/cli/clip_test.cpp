@@ -171,6 +171,16 @@ TEST_F(PlayClip, SaysWhatKeysCannotHoldLateInALongTake) {
   EXPECT_FALSE(run(command + "0.1").err.contains("quickly"));
 }
 
+TEST_F(PlayClip, OfOneFrameHasOneKey) {
+  convertRig();
+  write("take.csv", "Timecode,JawOpen\n0,0.5\n");
+  const std::string command = "animate face.sweep --clip take.csv -o again";
+  for (const char* kind : {".glb", ".csv"}) {
+    EXPECT_EQ(run(command + kind).code, 0);
+    EXPECT_TRUE(fails(command + kind + " --frames 5", "take.csv has one frame, which is one key"));
+  }
+}
+
 TEST_F(PlayClip, KeysTellWhatHappensBetweenFrames) {
   convertRig();
   write("take.csv", "Timecode,JawOpen\n0,0\n1,1\n61,0\n");

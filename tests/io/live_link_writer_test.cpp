@@ -39,6 +39,14 @@ TEST(LiveLinkWriter, WhatItWritesIsReadAgain) {
   }
 }
 
+TEST(LiveLinkWriter, MinutesMayPassBetweenFrames) {
+  const auto text = formatLiveLinkCsv({{"jawOpen"}, {0, 3}, {0, 1}}, 0.001);
+  ASSERT_TRUE(text) << text.error().message;
+  const auto again = parseLiveLinkCsv(*text, "take.csv", 0.001);
+  ASSERT_TRUE(again) << again.error().message;
+  EXPECT_EQ(again->times, (std::vector<double>{0, 3}));
+}
+
 TEST(LiveLinkWriter, RefusesWeightsThatNobodyReadsAgain) {
   for (const double weight : {1e7, std::nan(""), HUGE_VAL}) {
     const auto text = formatLiveLinkCsv({{"jawOpen"}, {0}, {weight}});
