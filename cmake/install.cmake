@@ -16,6 +16,10 @@ if(SWEEPFACE_SIMD AND NOT CMAKE_SYSTEM_NAME STREQUAL "WASI")
   list(APPEND installed_archives -lhwy)
 endif()
 set(absent_headers)
+if(TARGET sweepface_shared)
+  list(PREPEND installed_libraries sweepface_shared)
+  list(APPEND installed_components shared)
+endif()
 if(TARGET sweepface_convert)
   list(PREPEND installed_libraries sweepface_convert)
   list(APPEND installed_components convert)
@@ -37,13 +41,14 @@ if(SWEEPFACE_BUILD_TOOL AND NOT SWEEPFACE_RUNTIME_ONLY)
   install(TARGETS sweepface RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()
 
-install(TARGETS ${installed_libraries} EXPORT sweepfaceTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(TARGETS ${installed_libraries} EXPORT sweepfaceTargets
+        ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/sweepface DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
         FILES_MATCHING PATTERN *.hpp PATTERN *.h ${skipped_headers})
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
-# find_package(sweepface): targets sweepface::runtime and, unless built without, sweepface::convert and
-# sweepface::picture.
+# find_package(sweepface): targets sweepface::runtime and, unless built without, sweepface::shared, sweepface::convert
+# and sweepface::picture.
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/sweepface)
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/sweepfaceConfig.cmake.in
   ${PROJECT_BINARY_DIR}/sweepfaceConfig.cmake INSTALL_DESTINATION ${package_dir})

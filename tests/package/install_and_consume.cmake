@@ -24,12 +24,16 @@ endfunction()
 
 consume(by_cmake -DCMAKE_PREFIX_PATH=${prefix})
 
+function(refuse_exports file matching)
+  execute_process(COMMAND nm -D --defined-only ${file} OUTPUT_VARIABLE exported COMMAND_ERROR_IS_FATAL ANY)
+  if(exported MATCHES ${matching})
+    message(FATAL_ERROR "${file} exports what is inside the library: ${CMAKE_MATCH_0}")
+  endif()
+endfunction()
+
 # Plugins with versions of their own must not share what is inside.
-execute_process(COMMAND nm -D --defined-only ${WORK}/by_cmake/libplugin.so OUTPUT_VARIABLE exported
-                COMMAND_ERROR_IS_FATAL ANY)
-if(exported MATCHES "[^\n]* u [^\n]*|[^\n]*N9sweepface[^\n]*")
-  message(FATAL_ERROR "A plugin exports what is inside the library: ${CMAKE_MATCH_0}")
-endif()
+refuse_exports(${WORK}/by_cmake/libplugin.so "[^\n]* u [^\n]*|[^\n]*N9sweepface[^\n]*")
+refuse_exports(${prefix}/${LIBDIR}/libsweepface.so " [A-Za-z] ([^s]|s[^w]|sw[^e])[^\n]*")
 
 set(ENV{PKG_CONFIG_PATH} ${prefix}/${LIBDIR}/pkgconfig)
 consume(by_pkg_config -DFIND_BY_PKG_CONFIG=ON)
