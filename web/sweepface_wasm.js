@@ -25,16 +25,25 @@ async function fetchModule(url) {
   const response = await fetch(url);
   if (!response.ok) throw new Error(`the server answered ${response.status}.`);
   const type = response.headers.get('content-type') ?? '';
-  if (/^text\/html/i.test(type)) throw new Error('the server sent a page of HTML instead.');
-  const mayStream = type === 'application/wasm' && WebAssembly.compileStreaming;  // which refuses parameters
-  return mayStream ? WebAssembly.compileStreaming(response) : WebAssembly.compile(await response.arrayBuffer());
+  if (type === 'application/wasm' && WebAssembly.compileStreaming)  // which refuses parameters
+    return WebAssembly.compileStreaming(response);
+  const code = await response.arrayBuffer();
+  if (/^text\/html/i.test(type) && !isModule(code)) throw new Error('the server sent a page of HTML instead.');
+  return WebAssembly.compile(code);
 }
+
+/** Servers that know no modules may call them anything. */
+const isModule = (code) => decoder.decode(code.slice(0, 4)) === '\0asm';
+
+/** Why a module was not compiled: browsers ask for 'unsafe-eval', which allows far more than it needs. */
+const reason = ({message}) => /unsafe-eval|blocked by CSP/.test(message)
+  ? "the page's Content-Security-Policy forbids it; add 'wasm-unsafe-eval' to its script-src." : message;
 
 async function compileUrl(url) {
   try {
     return await fetchModule(url);
   } catch (error) {
-    throw new Error(`Could not load ${url}: ${error.message}`, {cause: error});
+    throw new Error(`Could not load ${url}: ${reason(error)}`, {cause: error});
   }
 }
 
@@ -64,7 +73,8 @@ async function compileBytes(code) {
   try {
     return await WebAssembly.compile(code);
   } catch (error) {
-    throw new Error(`The option wasm holds no module of WebAssembly: ${error.message}`, {cause: error});
+    const what = isModule(code) ? 'a module of WebAssembly that does not compile' : 'no module of WebAssembly';
+    throw new Error(`The option wasm holds ${what}: ${reason(error)}`, {cause: error});
   }
 }
 

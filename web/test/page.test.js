@@ -384,3 +384,10 @@ test('the page says when there is no WebGL', options, async () => {
     '<script>HTMLCanvasElement.prototype.getContext = () => null;</script><script>');
   assert.match(await told('other.html', {files: {'other.html': html}}), /WebGL 2/);
 });
+
+test('the page says what its Content-Security-Policy lacks', options, async () => {
+  const html = readFileSync(new URL('../index.html', import.meta.url), 'utf8').replace('<meta',
+    `<meta http-equiv="Content-Security-Policy" content="script-src 'self' 'unsafe-inline'"><meta`);
+  assert.match(await told('other.html', {files: {...visit.files, 'other.html': html}}),
+               /forbids it; add 'wasm-unsafe-eval' to its script-src\.$/);
+});
