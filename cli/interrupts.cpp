@@ -19,7 +19,7 @@ namespace {
 bool leavesBar = false;  // behind which a line begins
 
 void endAnyway(int) {
-  std::string_view text = "\nsweepface: Interrupted.\n";
+  std::string_view text = "\nsweepface: Interrupted; nothing was written.\n";
   if (!leavesBar) text.remove_prefix(1);
   std::ignore = ::write(STDERR_FILENO, text.data(), text.size());
   ::_exit(kInterrupted);

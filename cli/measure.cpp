@@ -98,6 +98,21 @@ nlohmann::ordered_json toJson(const MeasureArguments& a, const Rig& rig, const M
   return report;
 }
 
+/// The face may have been given meshes of some targets only.
+void warnOfTargetsLeftOut(const Rig& rig, const MeshRig& source) {
+  const auto isLeftOut = [&](const Target& target) {
+    return std::ranges::find(source.targets, target.name, &MeshTarget::name) ==
+           source.targets.end();
+  };
+  const auto count = std::ranges::count_if(rig.targets, isLeftOut);
+  if (count == 0) return;
+  const bool isOne = count == 1;
+  printWarning(fmt::format(
+      "{} of the {} targets of the face {} not compared, as no mesh is named like {}: '{}'{}.",
+      count, rig.targets.size(), isOne ? "was" : "were", isOne ? "it" : "them",
+      std::ranges::find_if(rig.targets, isLeftOut)->name, isOne ? "" : " and others"));
+}
+
 Result<int> runMeasure(const MeasureArguments& a) {
   const Result<Rig> rig = readFace(a.face);
   if (!rig) return std::unexpected(rig.error());
@@ -113,6 +128,7 @@ Result<int> runMeasure(const MeasureArguments& a) {
   else if (!a.quiet)
     printText(*measurement);
   warnOfOtherMeshes(*rig, *measurement);
+  warnOfTargetsLeftOut(*rig, source->rig);
   return 0;
 }
 

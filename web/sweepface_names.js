@@ -16,7 +16,8 @@ function plain(name) {
  * nothing, `undriven` targets that nothing drives.
  */
 export function matchNames(names, targets) {
-  if (![names, targets].every(Array.isArray)) throw new TypeError('Names of a clip are matched with those of a face.');
+  const areTexts = (list) => Array.isArray(list) && list.every((name) => typeof name === 'string');
+  if (![names, targets].every(areTexts)) throw new TypeError('Names of a clip are matched with those of a face.');
   const byName = new Map(), byPlain = new Map(), driven = new Set();
   targets.forEach((target, k) => {
     if (!byName.has(target)) byName.set(target, k);

@@ -14,7 +14,7 @@ export const isFloats = (it) => ['Float32Array', 'Float64Array'].includes(kindOf
 export function told(value) {
   if (typeof value === 'string') return `the text '${value}'`;
   if (typeof value === 'bigint') return `${value}n`;
-  return typeof value === 'object' && value && !value.toString ? kindOf(value) : String(value);
+  return typeof value === 'object' && value && !value.toString ? kindOf(value) : String(value) || kindOf(value);
 }
 
 /** How much time passes: where a clock is wrong, none, so that it ends no motion. */

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <fmt/format.h>
 #include <optional>
 
 #include "sweepface/codec.hpp"
@@ -14,6 +15,7 @@ namespace {
 
 constexpr int kMostTries = 12, kMostBracketHalvings = 4, kMostFailures = 4;
 constexpr double kCloseEnough = 0.98;  // of the bytes
+constexpr double kPower = 0.8;         // bytes fall by, as the tolerance grows
 constexpr double kAway = 4;            // from a first tolerance that cannot be met
 
 struct Try {
@@ -21,8 +23,7 @@ struct Try {
   std::size_t bytes = 0;  // SIZE_MAX: it cannot be met
 };
 
-// Bytes fall as the tolerance grows, about as its power -0.8: from the first try outwards until one
-// is too large and one fits, then between them.
+// From the first try outwards until one is too large and one fits, then between them.
 struct Bracket {
   Try coarse, fine;
   int halvings = 0;
@@ -33,11 +34,22 @@ struct Bracket {
       return std::sqrt(coarse.tolerance * fine.tolerance);
     }
     const double ratio = static_cast<double>(last.bytes) / static_cast<double>(mostBytes);
-    const double factor = std::pow(ratio, 1.25);
+    const double factor = std::pow(ratio, 1 / kPower);
     return last.tolerance *
            (ratio > 1 ? std::clamp(factor, 2.0, 8.0) : std::clamp(factor, 0.125, 0.5));
   }
 };
+
+/// Whether two tries tell that none will do, however coarse: what does not depend on the tolerance
+/// is too much by itself. What is left to save goes by that power; three times as much may be.
+bool isHopeless(const Try& finer, const Try& coarser, std::size_t mostBytes) {
+  if (finer.bytes == SIZE_MAX || coarser.bytes == SIZE_MAX || coarser.bytes >= finer.bytes)
+    return false;
+  const double saved = static_cast<double>(finer.bytes - coarser.bytes);
+  const double left = saved / (std::pow(coarser.tolerance / finer.tolerance, kPower) - 1);
+  constexpr double kMargin = 1.1;  // bytes of small meshes go up and down
+  return static_cast<double>(coarser.bytes) - 3 * left > kMargin * static_cast<double>(mostBytes);
+}
 
 Result<std::size_t> bytesOf(Rig rig, const FinishRig& finish) {
   if (auto ok = finish ? finish(rig) : Result<void>{}; !ok) return std::unexpected(ok.error());
@@ -56,6 +68,7 @@ Result<Conversion> convertToBytes(const MeshRig& source, ConvertOptions options,
   std::optional<Conversion> best;
   std::optional<Error> first;  // why the first tolerance cannot be met
   Bracket bracket;
+  Try smallest{0, SIZE_MAX};
   int failures = 0;
   // Nobody knows how many tries it takes: each has a part of what is left.
   int number = 0;
@@ -83,6 +96,7 @@ Result<Conversion> convertToBytes(const MeshRig& source, ConvertOptions options,
       const auto bytes = bytesOf(conversion->rig, finish);
       if (!bytes) return std::unexpected(bytes.error());
       now.bytes = *bytes;
+      if (now.bytes < smallest.bytes) smallest = now;
     }
     if (conversion && now.bytes <= mostBytes) {
       bracket.coarse = now;
@@ -90,6 +104,7 @@ Result<Conversion> convertToBytes(const MeshRig& source, ConvertOptions options,
       if (static_cast<double>(now.bytes) > kCloseEnough * static_cast<double>(mostBytes)) break;
       if (isFinest && attempt == 0) break;
     } else if (conversion || best) {
+      if (!best && isHopeless(bracket.fine, now, mostBytes)) break;
       bracket.fine = now;  // what cannot be met is too fine as well
     } else {
       bracket.coarse = now;  // what cannot be met though a finer one could be is too coarse
@@ -98,8 +113,10 @@ Result<Conversion> convertToBytes(const MeshRig& source, ConvertOptions options,
   }
   if (progress) progress("done", 1);
   if (best) return std::move(*best);
-  return fail("the face does not fit into " + std::to_string(mostBytes) +
-              " bytes at any tolerance tried; allow more or strip parts");
+  return fail(
+      fmt::format("the face does not fit into {} bytes; the smallest of {} tries takes {}, with a "
+                  "tolerance of {:.2g}: allow more or strip parts",
+                  mostBytes, number, smallest.bytes, smallest.tolerance));
 }
 
 }  // namespace sweepface

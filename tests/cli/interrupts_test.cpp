@@ -16,7 +16,7 @@ namespace {
 
 TEST(Interrupts, EndWorkThatDoesNotAsk) {
   EXPECT_EXIT(workWithoutAsking(), ::testing::ExitedWithCode(kInterrupted),
-              "sweepface: Interrupted");
+              "sweepface: Interrupted; nothing was written.");
 }
 
 [[noreturn]] void workThatClearsAway() {

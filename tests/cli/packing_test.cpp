@@ -187,7 +187,10 @@ TEST_F(Pack, FindsTheToleranceThatFitsIntoSoManyBytes) {
   }
   const Outcome r = run("convert neutral.obj targets -o face.sweep --max-bytes 100");
   EXPECT_EQ(r.code, 1);
-  EXPECT_NE(r.err.find("does not fit into 100 bytes"), std::string::npos) << r.err;
+  // What does not depend on the tolerance is too much: two tries tell.
+  EXPECT_NE(r.err.find("does not fit into 100 bytes; the smallest of 2 tries takes "),
+            std::string::npos)
+      << r.err;
   // Nothing turns, so that nothing has to be left for it.
   const auto sizeWith = [&](const std::string& more) {
     const Outcome o =

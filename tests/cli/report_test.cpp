@@ -174,6 +174,21 @@ TEST_F(Measure, SaysThatMeshesAreHardlyTheFaces) {
   EXPECT_TRUE(r.err.starts_with("sweepface: warning: jawOpen is up to ")) << r.err;
 }
 
+TEST_F(Measure, SaysWhichTargetsWereLeftOut) {
+  convertRig();
+  const Outcome r = run("measure face.sweep neutral.obj targets/smile.obj --mixtures 0");
+  EXPECT_EQ(r.code, 0);
+  EXPECT_EQ(r.err,
+            "sweepface: warning: 1 of the 2 targets of the face was not compared, as no mesh is "
+            "named like it: 'jawOpen'.\n");
+  EXPECT_NE(
+      run("measure face.sweep neutral.obj --mixtures 0")
+          .err.find(
+              "2 of the 2 targets of the face were not compared, as no mesh is named like them: "
+              "'jawOpen' and others."),
+      std::string::npos);
+}
+
 TEST_F(Measure, RefusesForeignMeshes) {
   convertRig();
   folder.file("cube.obj", cube(2));

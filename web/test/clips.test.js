@@ -180,7 +180,8 @@ test('clips have a weight for every name and time, and are asked for them in flo
   for (const no of [[0, NaN], [1, 0], [0, Infinity]])
     assert.throws(() => new Clip(['a', 'b'], Float64Array.from(no), weights), {name: 'RangeError', message: /^The times of a/});
   assert.throws(() => new Clip(['a', 'b'], times, Float64Array.of(0, 1, NaN, 3)), {name: 'RangeError', message: /weights/});
-  assert.throws(() => matchNames(['a']), {name: 'TypeError', message: /^Names of a clip are matched/});
+  for (const names of [[['a']], [['a', 5], ['a']], [['a'], [null]]])
+    assert.throws(() => matchNames(...names), {name: 'TypeError', message: /^Names of a clip are matched/});
   assert.throws(() => clip.at(0, new Float64Array(1)), {name: 'RangeError', message: 'There must be room for 2 weights, not 1.'});
   for (const out of [null, [0, 0], new Int8Array(2)])
     assert.throws(() => clip.at(0, out), {name: 'TypeError', message: /^Weights are written to a Float32Array or/});

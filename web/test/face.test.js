@@ -468,7 +468,7 @@ test('weights and drives of another shape are refused, not passed over', async (
     assert.throws(() => face.setWeights(weights), {name: 'TypeError', message: /^Weights are given by name/});
   for (const drive of [0.5, true, [], ['spring']])
     assert.throws(() => face.moveTo({jawOpen: 1}, drive), {name: 'TypeError', message: /^A drive is a name, or numbers/});
-  for (const [weight, told] of [['0.5', 'the text \'0.5\''], [1n, '1n'], [Object.create(null), 'Object']])
+  for (const [weight, told] of [['0.5', 'the text \'0.5\''], [1n, '1n'], [Object.create(null), 'Object'], [[], 'Array']])
     assert.throws(() => face.setWeights({jawOpen: weight}), ({message}) => message.endsWith(`a finite number, not ${told}.`));
   assert.throws(() => face.advance('0.5'), {message: /seconds, not the text '0\.5'\.$/});
 });
