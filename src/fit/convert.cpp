@@ -84,7 +84,8 @@ class Converter {
     tolerance_ = options_.tolerance > 0 ? options_.tolerance : kDefaultTolerance * size;
     if (auto ok = checkTolerance(tolerance_, size); !ok) return std::unexpected(ok.error());
     if (auto ok = checkPrecision(source_, tolerance_); !ok) return std::unexpected(ok.error());
-    auto mesh = makeGridMesh(source_, std::min(kRounding * size, kRoundingShare * tolerance_));
+    auto mesh = makeGridMesh(source_, std::min(kRounding * size, kRoundingShare * tolerance_),
+                             std::min(kDefaultTolerance * size, tolerance_));
     if (!mesh) return std::unexpected(mesh.error());
     aim_ = tolerance_ - mesh->rounding;
     std::ranges::move(doubtsAbout(source_, tolerance_), std::back_inserter(mesh->warnings));

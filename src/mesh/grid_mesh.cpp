@@ -1,6 +1,7 @@
 #include "mesh/grid_mesh.hpp"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <set>
 #include <tuple>
 
@@ -179,17 +180,27 @@ Result<GridMesh> build(const MeshRig& rig, const std::vector<Kind>& kinds,
   return mesh;
 }
 
+std::string warningOf(const OpenSeams& seams) {
+  return fmt::format(
+      "The surface is open along {}, from which others are no further than {:.2g} in any "
+      "expression, "
+      "like {} from {} (counted from 0); merge them if it is meant to be closed there.",
+      plural(seams.vertices, "vertex", "vertices"), seams.widest, seams.one, seams.other);
+}
+
 }  // namespace
 
-Result<GridMesh> makeGridMesh(const MeshRig& rig, double rounding) {
+Result<GridMesh> makeGridMesh(const MeshRig& rig, double rounding, double gap) {
   const std::vector<Kind> kinds = kindsOf(rig.neutral.polygons);
   std::vector<Index> first = weld(rig);
   if (rounding > 0) rounding = weldRounded(rig, rounding, first);
+  const OpenSeams seams = gap > 0 ? openSeams(rig, gap, first) : OpenSeams{};
   while (true) {
     std::vector<std::pair<Index, Index>> cut;
     auto mesh = build(rig, kinds, first, cut);
     if (!mesh) return mesh;
     mesh->rounding = rounding;
+    if (seams.vertices > 0) mesh->warnings.push_back(warningOf(seams));
     if (cut.empty()) return mesh;
     if (takeApart(first, cut)) continue;
     mesh->warnings.push_back(

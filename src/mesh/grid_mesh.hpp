@@ -35,7 +35,8 @@ struct GridMesh {
 };
 
 /// Builds the grid mesh of a rig. Vertices within `rounding` of each other in all poses may become
-/// one (weldRounded()). Fails where a face has thousands of corners, or no face is left.
-Result<GridMesh> makeGridMesh(const MeshRig& rig, double rounding = 0);
+/// one (weldRounded()); a warning tells of open edges no further apart than `gap`. Fails where a
+/// face has thousands of corners, or no face is left.
+Result<GridMesh> makeGridMesh(const MeshRig& rig, double rounding = 0, double gap = 0);
 
 }  // namespace sweepface

@@ -25,15 +25,16 @@ std::vector<double> shortestEdges(const PolygonMesh& mesh, double least, double 
   return shortest;
 }
 
-/// Which vertices are next to each other in all poses: no further than `within`, nor than a
-/// thousandth of the edges of either that are longer than that.
+// The share of edges that rounding may be, and that a gap is at most between what was meant as one.
+constexpr double kRoundingOfEdges = 1e-3, kGapOfEdges = 0.05;
+
+/// Which vertices are next to each other in all poses: no further than `within`, nor than a share
+/// of the edges of either that are longer than that.
 class Neighbours {
  public:
-  Neighbours(const MeshRig& rig, double within)
-      : rig_(rig),
-        within_(within),
-        allowed_(shortestEdges(rig.neutral, within, within / kOfEdges)) {
-    for (double& distance : allowed_) distance *= kOfEdges;
+  Neighbours(const MeshRig& rig, double within, double ofEdges)
+      : rig_(rig), within_(within), allowed_(shortestEdges(rig.neutral, within, within / ofEdges)) {
+    for (double& distance : allowed_) distance *= ofEdges;
   }
 
   /// The largest distance of two vertices in any pose.
@@ -43,7 +44,11 @@ class Neighbours {
       most = std::max(most, norm(t.positions[a] - t.positions[b]));
     return most;
   }
-  bool areNear(Index a, Index b) const { return apart(a, b) <= std::min(allowed_[a], allowed_[b]); }
+  bool areNear(Index a, Index b) const {
+    const double most = std::min(allowed_[a], allowed_[b]);
+    const std::vector<Vec3>& neutral = rig_.neutral.positions;
+    return norm(neutral[a] - neutral[b]) <= most && apart(a, b) <= most;  // few get as far as that
+  }
 
   /// Sets of some vertices, of which each is near to another one.
   UnionFind sets(const std::vector<Index>& vertices) const {
@@ -64,7 +69,6 @@ class Neighbours {
   }
 
  private:
-  static constexpr double kOfEdges = 1e-3;
   using Cell = std::array<double, 3>;
 
   /// Of the mean over all poses, no two of which count the same: what is near in all poses is near
@@ -157,12 +161,17 @@ void closeSlits(const Polygons& faces, const Neighbours& neighbours, UnionFind& 
   });
 }
 
+UnionFind setsOf(const std::vector<Index>& first) {
+  UnionFind sets(first.size());
+  for (Index v = 0; v < std::ssize(first); ++v) sets.join(v, first[v]);
+  return sets;
+}
+
 }  // namespace
 
 double weldRounded(const MeshRig& rig, double within, std::vector<Index>& first) {
-  const Neighbours neighbours(rig, within);
-  UnionFind sets(first.size());
-  for (Index v = 0; v < std::ssize(first); ++v) sets.join(v, first[v]);
+  const Neighbours neighbours(rig, within, kRoundingOfEdges);
+  UnionFind sets = setsOf(first);
   closePoints(rig.neutral.polygons, neighbours, sets);
   closeSlits(rig.neutral.polygons, neighbours, sets);
   first = firstOf(sets);
@@ -170,6 +179,19 @@ double weldRounded(const MeshRig& rig, double within, std::vector<Index>& first)
   for (Index v = 0; v < std::ssize(first); ++v)
     if (first[v] != v) furthest = std::max(furthest, neighbours.apart(v, first[v]));
   return furthest;
+}
+
+OpenSeams openSeams(const MeshRig& rig, double within, const std::vector<Index>& first) {
+  const Neighbours neighbours(rig, within, kGapOfEdges);
+  UnionFind sets = setsOf(first);
+  closeSlits(rig.neutral.polygons, neighbours, sets);
+  OpenSeams seams;
+  for (Index v = 0; v < std::ssize(first); ++v)
+    if (const Index other = sets.find(v); first[v] == v && other != v) {
+      if (seams.vertices++ == 0) seams.one = v, seams.other = other;
+      seams.widest = std::max(seams.widest, neighbours.apart(v, other));
+    }
+  return seams;
 }
 
 }  // namespace sweepface

@@ -86,6 +86,27 @@ TEST(Welding, joinsWhatRoundingParted) {
   EXPECT_EQ(makeGridMesh(seam, 0.1)->pointCount(), 13 * 5) << "too far for its edges";
 }
 
+/// What was mirrored and not joined, or joined and then moved.
+TEST(Welding, tellsOfSeamsThatStayOpen) {
+  MeshRig seam = withTargets(cylinder(12, 4, true));
+  const auto move = [&](double way) {
+    for (std::size_t v = 0; v < seam.neutral.positions.size(); v += 13)
+      seam.targets[1].positions[v].x += way;
+  };
+  move(0.001);
+  const GridMesh mesh = makeGridMesh(seam, 1e-6, 0.002).value();
+  EXPECT_EQ(mesh.pointCount(), 13 * 5) << "they stay open";
+  ASSERT_EQ(mesh.warnings.size(), 1u);
+  EXPECT_EQ(mesh.warnings[0],
+            "The surface is open along 5 vertices, from which others are no further than 0.001 in "
+            "any expression, like 12 from 0 (counted from 0); merge them if it is meant to be "
+            "closed there.");
+  EXPECT_TRUE(makeGridMesh(seam, 1e-6, 0.0009)->warnings.empty()) << "further apart";
+  EXPECT_TRUE(makeGridMesh(seam, 0.002, 0.002)->warnings.empty()) << "joined";
+  move(0.1);
+  EXPECT_TRUE(makeGridMesh(seam, 1e-6, 1)->warnings.empty()) << "too far for its edges";
+}
+
 /// Two sheets of 40 x 40 that meet in an edge of which each has vertices of its own.
 TEST(Welding, joinsWhatRoundingPartedHoweverItStands) {
   PolygonMesh sheets =
