@@ -25,8 +25,11 @@ test('bundlers have no scripts to split, which those for workers may not', () =>
 });
 
 test('what knows no exports finds the package, too', () => {
-  const {main, exports} = JSON.parse(readFileSync(join(folder, 'package.json'), 'utf8'));
+  const {main, types, typesVersions, exports} = JSON.parse(readFileSync(join(folder, 'package.json'), 'utf8'));
   assert.equal(main, exports['.'].default);
+  assert.equal(types, exports['.'].types);
+  const others = Object.entries(exports).filter(([name, it]) => name !== '.' && it.types);
+  assert.deepEqual(typesVersions['*'], Object.fromEntries(others.map(([name, it]) => [name.slice(2), [it.types]])));
 });
 
 test('what was bundled as no module asks where the module is', async () => {
