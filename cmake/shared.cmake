@@ -8,6 +8,8 @@ set_target_properties(sweepface_shared PROPERTIES EXPORT_NAME shared OUTPUT_NAME
 target_include_directories(sweepface_shared PUBLIC
   $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
 target_link_libraries(sweepface_shared PRIVATE $<LINK_LIBRARY:WHOLE_ARCHIVE,sweepface_runtime>)
+# Where a project asks for fast mathematics GCC would link what rounds small numbers to 0 in the whole program.
+target_link_options(sweepface_shared PRIVATE -O2 -fno-fast-math -fno-unsafe-math-optimizations)
 if(NOT APPLE)
   target_link_options(sweepface_shared PRIVATE -Wl,--version-script=${exports})
 endif()

@@ -4,6 +4,7 @@ It needs Python alone, and the shared library of the C interface (docs/c-interfa
 Usage: play.py libsweepface.so FACE.sweep EXPRESSION
 """
 
+import os
 import sys
 from array import array
 from ctypes import CDLL, POINTER, Structure, byref, c_char_p, c_double, c_int32, c_size_t, c_uint32, c_void_p
@@ -42,7 +43,7 @@ class Library:
     """The functions by their names without `sweepface_`; those that return a status raise its message."""
 
     def __init__(self, path):
-        library = CDLL(path)
+        library = CDLL(os.path.abspath(path) if os.path.exists(path) else path)
         for name, (result, *arguments) in FUNCTIONS.items():
             function = getattr(library, "sweepface_" + name)
             function.restype, function.argtypes = result, arguments
@@ -51,7 +52,7 @@ class Library:
     def checked(self, function):
         def call(*arguments):
             if function(*arguments):
-                raise ValueError(self.message().decode())
+                raise ValueError(self.message().decode(errors="replace"))
 
         return call
 
@@ -71,8 +72,8 @@ def farthest(a, b):
 def play(library, path, expression):
     with open(path, "rb") as file:
         data = file.read()
-    rig = library.made(library.rig_load, data, len(data), path.encode())
-    target = library.made(library.rig_find_target, rig, expression.encode(), kind=c_uint32)
+    rig = library.made(library.rig_load, data, len(data), os.fsencode(path))
+    target = library.made(library.rig_find_target, rig, os.fsencode(expression), kind=c_uint32)
     mesh = library.made(library.mesh_create, rig, 0)
     face = library.made(library.face_create, mesh)
     weight = c_double(0)
@@ -102,5 +103,5 @@ if __name__ == "__main__":
         sys.exit("play.py: give libsweepface.so, a .sweep file and the name of an expression.")
     try:
         play(Library(sys.argv[1]), *sys.argv[2:])
-    except (OSError, ValueError) as error:
+    except (AttributeError, OSError, ValueError) as error:
         sys.exit(f"play.py: {error}")

@@ -54,8 +54,8 @@ enum {
 /* The version of the library: major * 10000 + minor * 100 + patch. */
 SWEEPFACE_API uint32_t sweepface_version(void);
 
-/* Why the last failing call on this thread failed: one sentence in UTF-8, of its first 2,047 bytes,
- * valid until the next fails. Empty if none has. */
+/* Why the last failing call on this thread failed: one sentence in UTF-8, in which names stand as
+ * they were given, of its first 2,047 bytes, valid until the next fails. Empty if none has. */
 SWEEPFACE_API const char* sweepface_message(void);
 
 /* ---- Rigs ---- */
