@@ -17,7 +17,6 @@ if(SWEEPFACE_SIMD AND NOT CMAKE_SYSTEM_NAME STREQUAL "WASI")
 endif()
 set(absent_headers)
 if(TARGET sweepface_shared)
-  list(PREPEND installed_libraries sweepface_shared)
   list(APPEND installed_components shared)
 endif()
 if(TARGET sweepface_convert)
@@ -41,8 +40,7 @@ if(SWEEPFACE_BUILD_TOOL AND NOT SWEEPFACE_RUNTIME_ONLY)
   install(TARGETS sweepface RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()
 
-install(TARGETS ${installed_libraries} EXPORT sweepfaceTargets
-        ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(TARGETS ${installed_libraries} EXPORT sweepfaceTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/sweepface DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
         FILES_MATCHING PATTERN *.hpp PATTERN *.h ${skipped_headers})
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
@@ -57,6 +55,10 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/sweepfaceConfigVersion.cm
 install(FILES ${PROJECT_BINARY_DIR}/sweepfaceConfig.cmake ${PROJECT_BINARY_DIR}/sweepfaceConfigVersion.cmake
         DESTINATION ${package_dir})
 install(EXPORT sweepfaceTargets NAMESPACE sweepface:: DESTINATION ${package_dir})
+if(TARGET sweepface_shared)  # which is found without the archives, too
+  install(TARGETS sweepface_shared EXPORT sweepfaceSharedTargets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  install(EXPORT sweepfaceSharedTargets NAMESPACE sweepface:: DESTINATION ${package_dir})
+endif()
 
 # pkg-config: `--libs` links what plays; add `--static` to link what converts with what it needs.
 # Its folders go by where it lies, unless they were told to be elsewhere.

@@ -182,9 +182,8 @@ Result<GridMesh> build(const MeshRig& rig, const std::vector<Kind>& kinds,
 
 std::string warningOf(const OpenSeams& seams) {
   return fmt::format(
-      "The surface is open along {}, from which others are no further than {:.2g} in any "
-      "expression, "
-      "like {} from {} (counted from 0); merge them if it is meant to be closed there.",
+      "The surface is open along {} within {:.2g} of others in every expression, like {} and {} "
+      "(counted from 0); merge them if it is meant to be closed there.",
       plural(seams.vertices, "vertex", "vertices"), seams.widest, seams.one, seams.other);
 }
 

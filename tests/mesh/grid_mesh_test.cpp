@@ -98,9 +98,8 @@ TEST(Welding, tellsOfSeamsThatStayOpen) {
   EXPECT_EQ(mesh.pointCount(), 13 * 5) << "they stay open";
   ASSERT_EQ(mesh.warnings.size(), 1u);
   EXPECT_EQ(mesh.warnings[0],
-            "The surface is open along 5 vertices, from which others are no further than 0.001 in "
-            "any expression, like 12 from 0 (counted from 0); merge them if it is meant to be "
-            "closed there.");
+            "The surface is open along 5 vertices within 0.001 of others in every expression, like "
+            "12 and 0 (counted from 0); merge them if it is meant to be closed there.");
   EXPECT_TRUE(makeGridMesh(seam, 1e-6, 0.0009)->warnings.empty()) << "further apart";
   EXPECT_TRUE(makeGridMesh(seam, 0.002, 0.002)->warnings.empty()) << "joined";
   move(0.1);

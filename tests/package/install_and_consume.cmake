@@ -12,8 +12,8 @@ if(SANITIZE)  # programs in C as well: they load a plugin that is
   list(APPEND compile -DCMAKE_C_COMPILER=${C_COMPILER} -DCMAKE_C_FLAGS=${flags} -DCMAKE_CXX_FLAGS=${flags})
 endif()
 
-function(consume folder)
-  run(${CMAKE_COMMAND} -S ${CONSUMER} -B ${WORK}/${folder} ${compile} ${ARGN})
+function(consume source folder)
+  run(${CMAKE_COMMAND} -S ${source} -B ${WORK}/${folder} ${compile} ${ARGN})
   run(${CMAKE_COMMAND} --build ${WORK}/${folder})
   file(GLOB programs ${WORK}/${folder}/plays* ${WORK}/${folder}/converts*
        ${WORK}/${folder}/pictures*)
@@ -22,7 +22,7 @@ function(consume folder)
   endforeach()
 endfunction()
 
-consume(by_cmake -DCMAKE_PREFIX_PATH=${prefix})
+consume(${CONSUMER} by_cmake -DCMAKE_PREFIX_PATH=${prefix})
 
 function(refuse_exports file matching)
   execute_process(COMMAND nm -D --defined-only ${file} OUTPUT_VARIABLE exported COMMAND_ERROR_IS_FATAL ANY)
@@ -36,7 +36,20 @@ refuse_exports(${WORK}/by_cmake/libplugin.so "[^\n]* u [^\n]*|[^\n]*N9sweepface[
 refuse_exports(${prefix}/${LIBDIR}/libsweepface.so " [A-Za-z] ([^s]|s[^w]|sw[^e])[^\n]*")
 
 set(ENV{PKG_CONFIG_PATH} ${prefix}/${LIBDIR}/pkgconfig)
-consume(by_pkg_config -DFIND_BY_PKG_CONFIG=ON)
+consume(${CONSUMER} by_pkg_config -DFIND_BY_PKG_CONFIG=ON)
+
+# C alone finds and links the shared library, which may be shipped without the archives, however old a CMake it asks for.
+file(GLOB archives ${prefix}/${LIBDIR}/*.a)
+file(REMOVE ${archives})
+file(WRITE ${WORK}/alone/CMakeLists.txt [[
+  cmake_minimum_required(VERSION 3.25)
+  project(alone LANGUAGES C)
+  cmake_policy(SET CMP0057 OLD)
+  set(CMAKE_DISABLE_FIND_PACKAGE_hwy ON)
+  find_package(sweepface 0.1 REQUIRED COMPONENTS shared)
+  add_executable(plays ${CONSUMER}/main.c)
+  target_link_libraries(plays PRIVATE sweepface::shared)]])
+consume(${WORK}/alone by_shared -DCMAKE_PREFIX_PATH=${prefix} -DCONSUMER=${CONSUMER})
 
 # As a folder of another project it has libraries and nothing else.
 file(MAKE_DIRECTORY ${WORK}/parent)
