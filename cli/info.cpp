@@ -76,8 +76,11 @@ void printText(const nlohmann::ordered_json& r) {
   fmt::print("  tolerance  {:.6g}\n", r["tolerance"].get<double>());
   fmt::print("  targets    {}{}{}\n", names.size(), names.empty() ? "" : ": ",
              fmt::join(names, ", "));
-  fmt::print("  bytes      {}, {} without the source's order{} and texture coordinates\n",
-             number("bytes"), number("bareBytes"), r["parts"].contains("scene") ? ", scene" : "");
+  fmt::print("  bytes      {}", number("bytes"));
+  if (number("bareBytes") < number("bytes"))
+    fmt::print(", {} without the source's order{} and texture coordinates", number("bareBytes"),
+               r["parts"].contains("scene") ? ", scene" : "");
+  fmt::print("\n");
   for (const auto& [part, bytes] : r["parts"].items())
     fmt::print("    {:<22} {:>10}\n", part, bytes.get<std::size_t>());
 }

@@ -104,10 +104,12 @@ Result<int> runRender(const RenderArguments& a) {
                                  : weightsGiven("--weights", a.weights, *rig),
                   from = weightsGiven("--from", a.from, *rig);
   if (!weights || !from) return std::unexpected((weights ? from : weights).error());
+  std::vector<Vec3> straight;
+  if (isHeat(*style) && a.compare.empty()) straight = sourceVertices(*rig, *weights);
   const Result<Following> following = follow(a.following, *rig, {*weights, *from});
   if (!following) return std::unexpected(following.error());
   for (Weights* w : {&*weights, &*from}) w->resize(rig->targets.size());
-  const Rendering what{a, *rig, *following, *style, *views};
+  const Rendering what{a, *rig, *following, *style, *views, std::move(straight)};
   const Result<Image> image =
       a.to ? drawStrips(what, *from, *weights) : drawExpression(what, *weights);
   if (!image) return std::unexpected(image.error());

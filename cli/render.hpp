@@ -28,9 +28,13 @@ struct Rendering {
   const Following& following;
   Style style;
   std::vector<View> views;
+  std::vector<Vec3> straight;  ///< the plain blend, for such styles as have need of it
 };
 
 inline bool isHeat(Style style) { return style == Style::error || style == Style::angle; }
+
+/// Where a face has the vertices of its source.
+std::vector<Vec3> sourceVertices(const Rig& rig, const Weights& weights);
 
 /// One expression, or it beside what it is compared with, from all sides. The weights are those
 /// that are set.

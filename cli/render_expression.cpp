@@ -52,17 +52,13 @@ class ExpressionPage {
   }
 
   /// What arcs and the like change of the plain blend.
-  Result<Image> besideStraight(const Weights& plain, const Weights& weights) {
+  Result<Image> besideStraight(const Weights& weights) {
     const FollowingArguments& following = what_.arguments.following;
     const bool followsArcsOnly =
         following.arcs == "on" && following.eyes != "on" && !following.combine;
-    const Tessellation grid(what_.rig.surface, 1);
-    const auto places = [&](const Weights& w) {
-      return sourcePositions(what_.rig, grid, blend(what_.rig, w), w);
-    };
     PolygonMesh rest;
-    rest.positions = places({});
-    return beside({"straight", places(plain), diagonal(rest)},
+    rest.positions = sourceVertices(what_.rig, {});
+    return beside({"straight", what_.straight, diagonal(rest)},
                   followsArcsOnly ? "on arcs" : "followed", weights);
   }
 
@@ -122,12 +118,15 @@ class ExpressionPage {
 
 }  // namespace
 
+std::vector<Vec3> sourceVertices(const Rig& rig, const Weights& weights) {
+  return sourcePositions(rig, Tessellation(rig.surface, 1), blend(rig, weights), weights);
+}
+
 Result<Image> drawExpression(const Rendering& what, Weights weights) {
-  const Weights plain = weights;
   what.following.apply(weights);
   ExpressionPage page(what);
   if (!what.arguments.compare.empty()) return page.besideMeshes(weights);
-  return isHeat(what.style) ? page.besideStraight(plain, weights) : page.portraits(weights);
+  return isHeat(what.style) ? page.besideStraight(weights) : page.portraits(weights);
 }
 
 }  // namespace sweepface::cli

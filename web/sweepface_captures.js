@@ -124,13 +124,13 @@ function clipOf(names, rows, weights, rate, name, fail) {
  * another one's.
  */
 function rateOf(rows) {
-  let most = 0, inASecond = 0, count = 0, isFirst = true;
+  let most = 0, inASecond = 0, count = 0, isWhole = rows[0].frames < 1;
   rows.forEach(({seconds, frames}, row) => {
     most = Math.max(most, Math.floor(frames));
     ++count;
     if (row + 1 === rows.length || rows[row + 1].seconds === seconds) return;
-    if (!isFirst) inASecond = Math.max(inASecond, count);  // one between two others
-    isFirst = false;
+    if (isWhole) inASecond = Math.max(inASecond, count);
+    isWhole = true;
     count = 0;
   });
   return [24, 25, 30, 48, 50].find((rate) => most < rate && inASecond >= 0.8 * rate) ?? USUAL_RATE;
@@ -275,5 +275,5 @@ export function readClip(source, options) {
   if (Array.isArray(frames)) return readMediaPipe(frames, framesPerSecond, name, fail);
   if (isObject(json) && json.asset !== undefined) throw fail('is a .gltf, of which three.js plays the animations');
   throw fail('is neither of Audio2Face (\'facsNames\' and \'weightMat\'), nor of MediaPipe (a list of frames ' +
-             'with \'categories\'), nor a timeline (\'seconds\' and \'events\')');
+             'with \'categories\'), nor a timeline (\'seconds\' and \'events\'); export it as one of them');
 }

@@ -48,8 +48,8 @@ double diagonal(const PolygonMesh& mesh);
 Result<void> checkTolerance(double tolerance, double diagonal);
 
 /// Turns a mesh rig into a rig of ODE sweeping surfaces. Uses all cores that the calling TBB arena
-/// allows; the result does not depend on how many. Fails if the tolerance cannot be met, and where
-/// a face has more than 4096 corners.
+/// allows; the result does not depend on how many. Fails if the tolerance cannot be met, where
+/// a face has fewer than 3 corners or more than 4096, and where a number is not finite.
 Result<Conversion> convert(const MeshRig& source, const ConvertOptions& options = {});
 
 /// The meshes that a rig answers with, in its source's order: what it was made from, as nearly as

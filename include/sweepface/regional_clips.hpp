@@ -18,8 +18,8 @@ struct RegionalClips {
   double missed = 0;            ///< as Baked has it, the most of any region
 };
 
-/// A capture by the matters of R ≥ 1 regions, which hang on it by `hold`. Refuses more than
-/// kMostClipWeights in all.
+/// A capture by the matters of R ≥ 1 regions, which hang on it by `hold`. Refuses matters that
+/// check() refuses, springs that Trajectory::spring does, and more than kMostClipWeights in all.
 Result<RegionalClips> inRegions(Clip capture, std::span<const Matter> matters, const Spring& hold);
 
 /// A timeline in R ≥ 1 regions, which end together. Refuses events for regions that are not among

@@ -15,11 +15,11 @@ namespace sweepface {
 /// drive's: its own delay stays.
 Drive inMatter(Drive drive, const Matter& matter);
 
-/// What a clip becomes there. The recorded face has the mass 1 already; what is beyond that hangs
-/// on the recorded weights by a spring and a damper, follows late and swings on. Where it swings it
-/// has so many frames that straight lines between them are as good as exact, as far as `regions`
-/// such clips together hold kMostClipWeights, and it goes on until all of it has arrived: until
-/// what swings hangs still, or for ten seconds.
+/// What a clip becomes in a matter that check() takes, with a spring. The recorded face has the
+/// mass 1 already; what is beyond that hangs on the recorded weights by a spring and a damper,
+/// follows late and swings on. Where it swings it has so many frames that straight lines between
+/// them are as good as exact, as far as `regions` such clips together hold kMostClipWeights, and it
+/// goes on until all of it has arrived: until what swings hangs still, or for ten seconds.
 Clip inMatter(const Clip& clip, const Matter& matter, const Spring& hold = {},
               std::size_t regions = 1);
 

@@ -8,6 +8,10 @@
 #include <string_view>
 #include <utility>
 
+#ifndef __cpp_lib_expected
+#error "sweepface takes C++23: compile with -std=c++23, with the library of GCC 12 or later"
+#endif
+
 namespace sweepface {
 
 /// Why a call failed: one sentence that a user can act on.

@@ -256,7 +256,7 @@ typedef struct sweepface_drive {
   double turn;        /* ACCELERATE_BRAKE: when the second force takes over, as a fraction */
   double frequency;   /* SPRING: oscillations a second if there were no damper */
   double damping;     /* SPRING: below 1 it overshoots, above it creeps */
-  double restitution; /* BOUNCE: the share of the speed that is left, in [0, 1) */
+  double restitution; /* BOUNCE: the share of the speed that is left, in [0, 1 - 1e-9] */
 } sweepface_drive;
 
 /* A drive with the usual numbers; of an unknown kind: a spring. */

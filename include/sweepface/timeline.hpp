@@ -20,7 +20,7 @@ struct TimelineEvent {
   Drive drive;
 };
 
-/// What an animator writes down: events in the order of their times.
+/// What an animator writes down: events in the order of their times, from 0 to `seconds`.
 struct Timeline {
   double seconds = 0;  ///< how long it lasts
   int loops = 1;       ///< how often it is played, each time from where the last one left off
@@ -37,8 +37,9 @@ Result<Timeline> parseTimeline(std::string_view text, std::string_view name);
 /// Fails where an event is for a region that is not among these.
 Result<void> checkRegions(const Timeline& timeline, std::span<const std::string> regions);
 
-/// The timeline as a clip of `framesPerSecond`, from rest at 0: both ends included. Refuses more
-/// than kMostClipWeights, in its frames or for all its events to send off.
+/// The timeline as a clip of `framesPerSecond`, from rest at 0: both ends included. Refuses events
+/// out of order, matters that check() refuses and more than kMostClipWeights, in its frames or for
+/// all its events to send off.
 Result<Clip> bake(const Timeline& timeline, double framesPerSecond);
 /// The same in one region: without what is meant for others, and by its own matter.
 Result<Clip> bake(const Timeline& timeline, double framesPerSecond, std::string_view region,

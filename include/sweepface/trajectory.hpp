@@ -108,8 +108,8 @@ class Trajectory {
   static Result<Trajectory> twoForces(Start start, double to, double seconds, double turn = 0.5);
   /// Swings or creeps into the goal; never arrives exactly.
   static Result<Trajectory> spring(Start start, double to, Spring spring);
-  /// Falls to the goal by a constant force and bounces off it, each time with `restitution` (in
-  /// [0, 1)) of the speed.
+  /// Falls to the goal by a constant force and bounces off it, each time with `restitution`, in
+  /// [0, 1 - 1e-9], of the speed.
   static Result<Trajectory> bounce(Start start, double to, double seconds, double restitution);
   /// A blow adds `velocityChange` at once; drag (per second, ≥ 0) takes the speed away again.
   static Result<Trajectory> impulse(Start start, double velocityChange, double drag);

@@ -122,7 +122,8 @@ class WishGatherer {
     const HalfArc h = patchOf[2 * c] == p ? 2 * c : 2 * c + 1;
     if (patchOf[h] != p)
       return refuse(
-          fmt::format("curve '{}' does not bound patch '{}'", control.beside, control.in));
+          fmt::format("curve '{}' does not bound patch '{}'; name a patch on either side of it",
+                      control.beside, control.in));
     if (!controlled_.insert(h).second)
       return refuse(fmt::format("curve '{}' has control curves in patch '{}' already",
                                 control.beside, control.in));

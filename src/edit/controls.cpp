@@ -68,7 +68,8 @@ class ControlMover {
     const HalfArc forward = 2 * move_.curve;
     half_ = c.patchOf[forward] == move_.patch ? forward : twin(forward);
     if (c.patchOf[half_] != move_.patch)
-      return fail("Curve " + curveName() + " does not bound patch " + patchName() + ".");
+      return fail("Curve " + curveName() + " does not bound patch " + patchName() +
+                  "; name a patch on either side of it.");
     if (rig_.surface.wireframe().arcs[move_.curve].collapsed)
       return fail("Curve " + curveName() + " is one point; nothing runs beside it.");
     if (auto ends = endsOf(rig_, move_.curve); !ends) return std::unexpected(ends.error());

@@ -98,6 +98,15 @@ Result<void> checkNames(const std::vector<MeshTarget>& targets) {
   return {};
 }
 
+/// Files hold finite numbers.
+Result<void> checkTexcoords(const std::vector<Vec2>& texcoords) {
+  const auto isFinite = [](const Vec2& t) { return std::isfinite(t.x) && std::isfinite(t.y); };
+  const auto bad = std::ranges::find_if_not(texcoords, isFinite);
+  if (bad == texcoords.end()) return {};
+  return fail("texture coordinate ", bad - texcoords.begin(),
+              " of the mesh is not finite; give it a place in the texture");
+}
+
 /// Files hold what targets add to the neutral in single precision.
 Result<void> checkDifferences(const MeshRig& source) {
   for (const MeshTarget& target : source.targets)
@@ -117,6 +126,7 @@ Result<void> checkSource(const MeshRig& source) {
   if (auto ok = checkIndices(source); !ok) return ok;
   if (!std::ranges::all_of(source.neutral.positions, [](const Vec3& p) { return io::isUsable(p); }))
     return fail("a vertex of the neutral is no place that a file could hold; scale the mesh down");
+  if (auto ok = checkTexcoords(source.neutral.polygons.texcoords); !ok) return ok;
   if (auto ok = checkNames(source.targets); !ok) return ok;
   if (auto ok = checkDifferences(source); !ok) return ok;
   if (!(diagonal(source.neutral) > 0))

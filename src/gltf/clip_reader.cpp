@@ -63,7 +63,7 @@ class ClipReader {
                         io::inQuotes(name)));
       return clip;
     }
-    if (wanted.empty()) return fail("it has no animation of morph targets.");
+    if (wanted.empty()) return fail("it has no animation of morph targets; export it with one.");
     return fail(fmt::format("it has no animation of morph targets named {}{}.",
                             io::inQuotes(wanted), listed(animations)));
   }

@@ -35,7 +35,8 @@ class ClipJsonReader {
       return failFile("is a .gltf, which leads to other files; give a .glb, which holds them");
     return failFile(
         "is neither of Audio2Face ('facsNames' and 'weightMat'), nor of MediaPipe (a list of "
-        "frames with 'categories'), nor a timeline ('seconds' and 'events')");
+        "frames with 'categories'), nor a timeline ('seconds' and 'events'); "
+        "export it as one of them");
   }
 
  private:

@@ -65,14 +65,14 @@ constexpr double kUsualRate = 60;
 /// goes no further than another one's.
 double rateOf(const std::vector<RowTime>& timecodes) {
   double most = 0;                      // frames
-  std::size_t rows = 0, inASecond = 0;  // of the densest second between two others
-  bool isFirst = true;
+  std::size_t rows = 0, inASecond = 0;  // of the densest second that is there from end to end
+  bool isWhole = timecodes.front().frames < 1;
   for (std::size_t k = 0; k < timecodes.size(); ++k) {
     most = std::max(most, std::floor(timecodes[k].frames));
     ++rows;
     if (k + 1 == timecodes.size() || timecodes[k + 1].seconds == timecodes[k].seconds) continue;
-    if (!isFirst) inASecond = std::max(inASecond, rows);
-    isFirst = false;
+    if (isWhole) inASecond = std::max(inASecond, rows);
+    isWhole = true;
     rows = 0;
   }
   constexpr double kDense = 0.8;

@@ -174,13 +174,15 @@ Result<std::string> formatLiveLinkCsv(const Clip& clip, double framesPerSecond) 
     text += fmt::format("\n{},{}", time.text(), columns.size());
     for (const Column& column : columns) {
       double value = column.sources.empty() ? 0 : -HUGE_VAL;
-      for (const std::size_t k : column.sources)
-        value = std::max(value, clip.weights[f * clip.names.size() + k]);
-      if (!isPlausibleWeight(value))
-        return fail(
-            fmt::format("Frame {} of the clip gives '{}' the weight {:.6g}, which is no "
-                        "number within ±1,000,000.",
-                        f, column.heading, value));
+      for (const std::size_t k : column.sources) {
+        const double weight = clip.weights[f * clip.names.size() + k];
+        if (!isPlausibleWeight(weight))
+          return fail(
+              fmt::format("Frame {} of the clip gives '{}' the weight {:.6g}, which is no "
+                          "number within ±1,000,000.",
+                          f, column.heading, weight));
+        value = std::max(value, weight);
+      }
       text += fmt::format(",{}", value == 0 ? 0.0 : value);
     }
   }

@@ -41,6 +41,11 @@ Result<void> checkIndices(const MeshRig& meshes) {
     return fail(
         "the faces of the mesh do not divide its corners; they start at 0, go on where the one "
         "before ends, and end with the last corner");
+  for (Index f = 0; f < faces.faceCount(); ++f)
+    if (faces.faceSize(f) < 3)
+      return fail("face ", f, " of the mesh has ", faces.faceSize(f),
+                  faces.faceSize(f) == 1 ? " corner" : " corners",
+                  "; leave out what has fewer than 3");
   const std::size_t corners = faces.corners.size(),
                     count = static_cast<std::size_t>(faces.faceCount());
   for (const References& list : {

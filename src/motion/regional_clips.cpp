@@ -18,6 +18,10 @@ Result<void> checkRoom(const Clip& clip, std::size_t regions) {
 
 Result<RegionalClips> inRegions(Clip capture, std::span<const Matter> matters, const Spring& hold) {
   if (auto ok = checkRoom(capture, matters.size()); !ok) return std::unexpected(ok.error());
+  if (const auto ok = Trajectory::spring({}, 0, hold); !ok)
+    return fail("the spring on which heavy regions hang: ", ok.error().message);
+  for (const Matter& matter : matters)
+    if (auto ok = check(matter); !ok) return std::unexpected(ok.error());
   RegionalClips clips;
   for (const Matter& matter : matters)
     clips.ofRegions.push_back(inMatter(capture, matter, hold, matters.size()));

@@ -28,11 +28,13 @@ constexpr double kJump = 1e-7;  // seconds
 /// swings freely between two frames, where g is straight, and gets a blow where g changes speed.
 class Hanging {
  public:
-  double step(const Spring& spring, double seconds, double way) {
-    if (seconds < kJump) return jump(spring, way);
+  explicit Hanging(const Spring& spring) : spring_(spring) {}
+
+  double step(double seconds, double way) {
+    if (seconds < kJump) return jump(way);
     const double speed = way / seconds;
     const Start start{distance_.position, distance_.velocity + speed_ - speed};
-    if (const auto swing = Trajectory::spring(start, 0, spring))
+    if (const auto swing = Trajectory::spring(start, 0, spring_))
       distance_ = swing->at(seconds);
     else
       distance_ = {};
@@ -40,107 +42,103 @@ class Hanging {
     return distance_.position;
   }
 
+  /// What its way bends by at most from now on, where what it hangs on goes on at a speed. With
+  /// ω² x and v its energy falls; of two decays the slower one alone bends the way by s² x.
+  double bend(double speed) const {
+    const double omega = pull(), sigma = spring_.damping * omega;
+    const double x = distance_.position, v = distance_.velocity + speed_ - speed;
+    if (sigma < omega) return std::hypot(2 * sigma, omega) * std::hypot(v, omega * x);
+    const double s = omega * omega / (sigma + std::sqrt((sigma - omega) * (sigma + omega)));
+    return 2 * sigma * std::abs(v + s * x) + s * s * std::abs(x);
+  }
+
   /// Whether it swings about what it hangs on, and whether it would if that stopped.
   bool swings() const { return isMuch(distance_.velocity); }
   bool swingsOn() const { return isMuch(distance_.velocity + speed_); }
 
  private:
+  double pull() const { return 2 * std::numbers::pi * spring_.frequency; }
+
   // All that a jump leaves behind is what the damper made of it: it takes no time.
-  double jump(const Spring& spring, double way) {
+  double jump(double way) {
     distance_.position -= way;
-    distance_.velocity += speed_ + 4 * std::numbers::pi * spring.frequency * spring.damping * way;
+    distance_.velocity += speed_ + 2 * spring_.damping * pull() * way;
     speed_ = 0;
     return distance_.position;
   }
 
   bool isMuch(double speed) const {
-    constexpr double kSmall = 1e-3;
-    return std::abs(distance_.position) > kSmall || std::abs(speed) > kSmall;
+    constexpr double kSmall = 3e-5;
+    return std::abs(distance_.position) > kSmall || std::abs(speed) > kSmall * pull();
   }
 
+  Spring spring_;
   Kinematics distance_;
   double speed_ = 0;  // of what it hangs on
 };
 
-/// Rates, per second, of what bends the way most after a blow, and of how soon that settles.
-struct Settling {
-  double bends, settles;
-
-  explicit Settling(const Spring& spring) {
-    const double omega = 2 * std::numbers::pi * spring.frequency;
-    bends = omega * std::max(1.0, 2 * spring.damping);
-    settles = spring.damping < 1 ? omega * spring.damping : bends;
-  }
-};
-
 /// Where anything swings there are so many frames that straight lines between them are as good as
-/// exact, for ten seconds after each of the clip's and no more than `most` weights in all: half of
-/// them for even frames, half for closer ones after a blow. It goes on until it hangs still, or for
+/// exact, for ten seconds after each of the clip's and no more than `mostWeights` weights in all:
+/// half of them for even frames, the rest for closer ones. It goes on until it hangs still, or for
 /// as long.
-Clip hanging(const Clip& clip, const Spring& spring, std::size_t most) {
+Clip hanging(const Clip& clip, const Spring& spring, std::size_t mostWeights) {
   constexpr double kFrame = 1.0 / 120, kLongest = 10;
   const std::size_t n = clip.names.size();
   if (clip.times.empty() || n == 0) return clip;
   double swinging = kLongest;
   for (std::size_t f = 1; f < clip.times.size(); ++f)
     swinging += std::min(clip.times[f] - clip.times[f - 1], kLongest);
-  const auto frames = static_cast<double>(clip.times.size());
-  const double room = (static_cast<double>(most / n) - 2 * frames) / 2;
-  const double frame = std::max(kFrame, room > 0 ? swinging / room : HUGE_VAL);
-  // A blow g' is off its straight line by g' r h² / 8 in a piece h at first, where r bends, and
-  // later by less: with pieces h exp(s t / 2), where s settles, always by as much, in 2 / (s h) of
-  // them. What settles sooner than the shortest has not gone far, and clocks may tell no less
-  // apart.
-  constexpr double kMiss = 4e-5, kShortest = 1e-4;
-  const auto [bends, settles] = Settling(spring);
-  const double least = std::max(
-      kShortest, room > 0 ? 2 * frames / (std::max(settles, 1 / kLongest) * room) : HUGE_VAL);
-  const auto firstAfter = [&](double blow) {
-    return std::max(least, std::sqrt(8 * kMiss / (bends * std::max(blow, 1.0))));
-  };
+  // For frames beyond the clip's own.
+  double room = static_cast<double>(mostWeights / n) - 2 * static_cast<double>(clip.times.size());
+  const double frame = std::max(kFrame, room > 0 ? 2 * swinging / room : HUGE_VAL);
 
   std::vector<double> before(clip.weights.begin(), clip.weights.begin() + std::ssize(clip.names));
   std::vector<double> now(n);
-  std::vector<Hanging> hangs(n);
+  std::vector<Hanging> hangs(n, Hanging(spring));
   Clip result{clip.names, {clip.times.front()}, before};
   const auto goTo = [&](double time) {
     const double seconds = time - result.times.back();
     clip.at(time - clip.times.front(), now);
     result.times.push_back(time);
     for (std::size_t k = 0; k < n; ++k)
-      result.weights.push_back(now[k] + hangs[k].step(spring, seconds, now[k] - before[k]));
+      result.weights.push_back(now[k] + hangs[k].step(seconds, now[k] - before[k]));
     before.swap(now);
   };
   const auto any = [&](auto swings) { return std::ranges::any_of(hangs, swings); };
   // One piece at least, and then as long as anything swings; the last is a quarter longer at most.
-  const auto goOn = [&](double from, double span, double piece, double blow, auto swings) {
-    double step = std::min(firstAfter(blow), piece);
+  // A way that bends by b is off its straight line by b h² / 8 in a piece h. What settles sooner
+  // than the shortest has not gone far, and clocks may tell no less apart.
+  const auto goOn = [&](double from, double span, double piece, double share, auto speedOf,
+                        auto swings) {
+    constexpr double kMiss = 6e-5, kShortest = 1e-4;
+    const double least = room > 0 ? std::max(kShortest, span / (share * room)) : HUGE_VAL;
+    const auto next = [&] {
+      double bend = 0;
+      for (std::size_t k = 0; k < n; ++k) bend = std::max(bend, hangs[k].bend(speedOf(k)));
+      return std::min(std::max(least, std::sqrt(8 * kMiss / bend)), piece);
+    };
+    double step = next();
     for (double at = step; at + step / 4 <= span && at <= kLongest; at += step) {
       goTo(from + at);
+      --room;
       if (!any(swings)) return;
-      step = std::min(step * ode::exponential(settles * step / 2), piece);
+      step = next();
     }
   };
-  // What has not settled of the largest blow so far.
-  double blow = 0;
-  std::vector<double> speeds(n);
-  const auto hit = [&](std::size_t k, double speed) {
-    blow = std::max(blow, std::abs(speed - std::exchange(speeds[k], speed)));
-  };
-  for (std::size_t f = 1; f < clip.times.size(); ++f) {
+  const std::size_t count = clip.times.size();
+  for (std::size_t f = 1; f < count; ++f) {
     const double from = clip.times[f - 1], span = clip.times[f] - from;
     const double piece = span / std::ceil(span / frame);
-    for (std::size_t k = 0; k < n; ++k) {
-      const double way = clip.weights[f * n + k] - clip.weights[(f - 1) * n + k];
-      hit(k, span < kJump ? bends * way : way / span);
-      if (span < kJump) speeds[k] = 0;
-    }
-    goOn(from, span, piece, blow, &Hanging::swings);
+    const auto speedOf = [&](std::size_t k) {
+      return (clip.weights[f * n + k] - clip.weights[(f - 1) * n + k]) / span;
+    };
+    if (span >= kJump)
+      goOn(from, span, piece, 1 / static_cast<double>(count - f + 1), speedOf, &Hanging::swings);
     goTo(clip.times[f]);
-    blow *= ode::exponential(-settles * span);
   }
-  for (std::size_t k = 0; k < n; ++k) hit(k, 0);
-  if (any(&Hanging::swingsOn)) goOn(clip.times.back(), kLongest, frame, blow, &Hanging::swingsOn);
+  if (any(&Hanging::swingsOn))
+    goOn(
+        clip.times.back(), kLongest, frame, 1, [](std::size_t) { return 0.0; }, &Hanging::swingsOn);
   return result;
 }
 

@@ -262,7 +262,8 @@ Result<std::vector<Index>> FaceScenes::region(std::string_view name, std::size_t
         moved.push_back(static_cast<Index>(v));
   }
   if (!moved.empty()) return moved;
-  return fail(fmt::format("No target whose name contains '{}' moves anything.", name));
+  return fail(fmt::format(
+      "No target whose name contains '{}' moves anything; give the name of one that does.", name));
 }
 
 std::vector<Index> FaceScenes::around(std::span<const Index> vertices) const {

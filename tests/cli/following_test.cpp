@@ -64,22 +64,30 @@ TEST_F(Following, AnimationsTakeArcsAlong) {
   EXPECT_NE(r.err.find("cannot hold newton exactly"), std::string::npos) << r.err;
 }
 
-/// Eyes that turn take all that a target moved, so that no arc is left to it.
-TEST_F(Following, EyesLeaveNoEmptyArcs) {
-  const Vec3 left{3, 4, -1}, right{-3, 4, -1};
-  PolygonMesh neutral = joined(plane(), cubeSphere(6, 1.5), left);
-  const std::size_t end = neutral.positions.size();
-  neutral = joined(neutral, cubeSphere(6, 1.5), right);
-  PolygonMesh looking = neutral;
-  for (std::size_t v = plane().positions.size(); v < end; ++v) {
-    const Vec3 arm = neutral.positions[v] - left;
-    looking.positions[v] = left + turnedAboutX(arm + Vec3{0, 0, kHinge}, 30) - Vec3{0, 0, kHinge};
+/// A face `face.sweep` of two eyeballs before a plane, of which eyeLookDownLeft turns the left one.
+class Eyeballs : public Following {
+ protected:
+  void SetUp() override {
+    Following::SetUp();
+    const Vec3 left{3, 4, -1}, right{-3, 4, -1};
+    PolygonMesh neutral = joined(plane(), cubeSphere(6, 1.5), left);
+    const std::size_t end = neutral.positions.size();
+    neutral = joined(neutral, cubeSphere(6, 1.5), right);
+    PolygonMesh looking = neutral;
+    for (std::size_t v = plane().positions.size(); v < end; ++v) {
+      const Vec3 arm = neutral.positions[v] - left;
+      looking.positions[v] = left + turnedAboutX(arm + Vec3{0, 0, kHinge}, 30) - Vec3{0, 0, kHinge};
+    }
+    EXPECT_TRUE(
+        writeFile(folder / "neutral.obj", formatObj({neutral.positions, {}, neutral.polygons})));
+    EXPECT_TRUE(writeFile(folder / "turns/eyeLookDownLeft.obj",
+                          formatObj({looking.positions, {}, looking.polygons})));
+    ASSERT_EQ(run("convert neutral.obj turns -o face.sweep --tolerance 0.001 --quiet").code, 0);
   }
-  EXPECT_TRUE(
-      writeFile(folder / "neutral.obj", formatObj({neutral.positions, {}, neutral.polygons})));
-  EXPECT_TRUE(writeFile(folder / "turns/eyeLookDownLeft.obj",
-                        formatObj({looking.positions, {}, looking.polygons})));
-  ASSERT_EQ(run("convert neutral.obj turns -o face.sweep --tolerance 0.001 --quiet").code, 0);
+};
+
+/// Eyes that turn take all that a target moved, so that no arc is left to it.
+TEST_F(Eyeballs, LeaveNoEmptyArcs) {
   const auto hasArc = [&](const std::string& options) {
     EXPECT_EQ(run("export face.sweep -o out.glb " + options).code, 0);
     return contents(folder / "out.glb").find("eyeLookDownLeft.arc") != std::string::npos;
@@ -91,6 +99,18 @@ TEST_F(Following, EyesLeaveNoEmptyArcs) {
   const Outcome again = run("export again.sweep --eyes on -o again.glb");
   EXPECT_EQ(again.code, 0);
   EXPECT_NE(again.err.find("like 'eyeLeft.down'"), std::string::npos) << again.err;
+}
+
+TEST_F(Eyeballs, AreComparedWithWhereTheirTargetsLeadStraight) {
+  const auto rendered = [&](const std::string& more) {
+    const Outcome r =
+        run("render face.sweep -o out.png --size 300x200 --style error --limits 0:0 " + more);
+    EXPECT_EQ(r.code, 0) << r.err;
+    return contents(folder / "out.png");
+  };
+  const std::string down = "--weights eyeLookDownLeft=1";
+  EXPECT_EQ(rendered(down + " --eyes on"), rendered(down));
+  EXPECT_NE(rendered(down), rendered(""));
 }
 
 TEST_F(Following, CombinedTargetsFollow) {

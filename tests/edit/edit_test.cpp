@@ -175,7 +175,8 @@ TEST(ControlCurves, OfAnotherPatchOrWithoutLengthAreRefused) {
                                           {0, 1, 0},
                                           {0, 2, 0}});
   ASSERT_FALSE(refused);
-  EXPECT_EQ(refused.error().message, "Curve 'a0-b0' does not bound patch 'b1 c2'.");
+  EXPECT_EQ(refused.error().message,
+            "Curve 'a0-b0' does not bound patch 'b1 c2'; name a patch on either side of it.");
 }
 
 TEST(ControlCurves, BesideAClosedCurveMoveOnce) {

@@ -441,6 +441,14 @@ TEST(Convert, RefusesMeshesWhoseIndicesDoNotBelongTogether) {
   expect("among 0 materials", [](auto&, Polygons& p) { p.faceMaterial.assign(16, 5); });
   expect("give one for each", [](auto&, Polygons& p) { p.faceGroup.assign(7, -1); });
   expect("among 0 texture", [](auto&, Polygons& p) { p.cornerTexcoords.assign(64, 3); });
+  for (const Index size : {0, 1, 2})
+    expect("face 16 of the mesh has " + std::to_string(size), [&](auto&, Polygons& p) {
+      for (Index v = 0; v < size; ++v) p.corners.push_back(v);
+      p.faceStart.push_back(static_cast<Index>(p.corners.size()));
+    });
+  for (const Vec2 bad : {Vec2{HUGE_VAL, 0}, Vec2{0, std::nan("")}})
+    expect("texture coordinate 1 of the mesh is not finite",
+           [&](auto&, Polygons& p) { p.texcoords = {{0, 0}, bad}; });
   expect("no place that a file", [](auto& m, auto&) { m.neutral.positions[2].y = std::nan(""); });
 }
 

@@ -44,22 +44,30 @@ TEST(LiveLinkCsv, AnyRateOfFrames) {
   EXPECT_NEAR(parseLiveLinkCsv("Timecode,a\n0:0:0:12,1\n", "x", 24)->times[0], 0.5, 1e-15);
 }
 
-/// Three and a half seconds of a take that counts so many frames a second, of which every `step`th
-/// is there, from the middle of a second on.
-std::string take(int rate, double step = 1) {
+/// The frames `first` to `last` of a take that counts so many a second, of which every `step`th is
+/// there.
+std::string frames(int rate, double first, double last, double step = 1) {
   std::string text = "Timecode,a\n";
-  for (double f = rate / 2; f < 4 * rate; f += step) {
+  for (double f = first; f < last; f += step) {
     const int second = static_cast<int>(f) / rate;
     text += "1:02:0" + std::to_string(second) + ":" + std::to_string(f - second * rate) + ",0\n";
   }
   return text;
 }
 
+/// Three and a half seconds from the middle of a second on.
+std::string take(int rate, double step = 1) { return frames(rate, rate / 2, 4 * rate, step); }
+
 TEST(LiveLinkCsv, TellsItsRateWhereWholeSecondsAreThere) {
   for (const int rate : {24, 25, 30, 48, 50, 60})
     EXPECT_NEAR(csv(take(rate))->seconds(), (4 * rate - rate / 2 - 1.0) / rate, 1e-9) << rate;
   EXPECT_NEAR(csv(take(30, 0.5))->seconds(), 3.5 - 0.5 / 30, 1e-9) << "60 rows a second";
   EXPECT_NEAR(csv(take(60, 2))->seconds(), 3.5 - 2.0 / 60, 1e-9) << "30 rows a second";
+  // A first second is whole from its first frame on; the last one may have gone on.
+  for (const int rate : {24, 25, 30, 48, 50}) {
+    EXPECT_NEAR(csv(frames(rate, 0, 2 * rate))->seconds(), 2 - 1.0 / rate, 1e-9) << rate;
+    EXPECT_NEAR(csv(frames(rate, 1, 2 * rate))->seconds(), 1 + (rate - 2) / 60., 1e-9) << rate;
+  }
   // Few rows tell nothing, nor do those of less than a second.
   EXPECT_NEAR(csv("Timecode,a\n0:0:0:0,0\n0:0:1:15,0\n0:0:2:0,0\n")->times[1], 1.25, 1e-12);
   EXPECT_NEAR(csv("Timecode,a\n0:0:0:0,0\n0:0:0:15,0\n")->times[1], 0.25, 1e-12);

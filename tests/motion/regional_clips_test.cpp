@@ -1,6 +1,7 @@
 #include "sweepface/regional_clips.hpp"
 
 #include <gtest/gtest.h>
+#include <limits>
 
 namespace sweepface {
 namespace {
@@ -38,6 +39,23 @@ TEST(RegionalClips, HoldNoMoreInAllThanOneMay) {
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().message,
             "it is too long for 2 regions; cut it, or play it with fewer.");
+}
+
+TEST(RegionalClips, AreRefusedWhereMattersOrSpringsAreNone) {
+  const Clip capture = captureOf(2, 1);
+  const Timeline timeline = timelineOf(R"({"seconds": 2, "events": [{"at": 0, "to": {"a": 1}}]})");
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  for (const Matter& bad :
+       {Matter{kNone, 1, 0}, {-3, 1, 0}, {1, 1, -1}, {1, 1, kNone}, {1, 0, 0}}) {
+    const std::vector<Matter> matters{{}, bad};
+    EXPECT_EQ(inRegions(capture, matters, {}).error().message, check(bad).error().message);
+    EXPECT_EQ(inRegions(timeline, kNames, matters).error().message, check(bad).error().message);
+  }
+  for (const Spring& hold : {Spring{0, 1}, {kNone, 1}, {2, -1}}) {
+    const auto refused = inRegions(capture, kMatters, hold);
+    ASSERT_FALSE(refused);
+    EXPECT_TRUE(refused.error().message.starts_with("the spring on which heavy regions hang: "));
+  }
 }
 
 TEST(RegionalClips, OfATimelineEndTogether) {

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 #include <random>
+#include <tuple>
 
 #include "sweepface/timeline.hpp"
 
@@ -350,6 +351,28 @@ TEST(RegionalClip, StraightLinesAreAsGoodWhereAStiffRegionSwings) {
     EXPECT_LT(furthestApart(inMatter(rise, matter), inMatter(cutFinely(rise, 4000), matter), 0.99),
               3e-4)
         << stiffness;
+  }
+}
+
+// Blows that come in step with the swing add up.
+TEST(RegionalClip, StraightLinesAreAsGoodWhereBlowsAddUp) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> any(0, 1);
+  for (const auto& [rate, matter, hold] : {std::tuple{30.0, Matter{2, 9, 0}, Spring{20, 0.1}},
+                                           {30.0, {1.2, 1, 0}, {20, 0.1}},
+                                           {10.0, {2, 9, 0}, {20, 0.1}},
+                                           {10.0, {1.01, 1, 0}, {2, 0}},
+                                           {30.0, {4, 1, 0}, {6, 0.1}}}) {
+    Clip clip{{"jawOpen"}, {}, {}};
+    for (int f = 0; f < 60; ++f) {
+      clip.times.push_back(f / rate);
+      clip.weights.push_back(hold.frequency == 6 ? f / 4 % 2 : any(random));
+    }
+    const double end = clip.times.back();
+    EXPECT_LT(furthestApart(inMatter(clip, matter, hold),
+                            inMatter(cutFinely(clip, 1000), matter, hold), end - 1 / rate),
+              1e-4)
+        << rate << ' ' << matter.mass;
   }
 }
 

@@ -133,6 +133,20 @@ TEST(PlayedTimeline, SaysWhatItMissesOfSpringsQuickerThanItsFrames) {
   EXPECT_LE(toPlay(swinging(1e8)).missed, 1e-4) << "it is there within a frame, as a jump is";
 }
 
+TEST(PlayedTimeline, SaysWhatItMissesOfSpringsThatDoNotOvershoot) {
+  for (const double frequency : {1500.0, 3000.0, 20000.0}) {
+    const Baked baked = toPlay(R"({"seconds": 1, "events": [{"at": 0.1, "to": {"a": 1},
+                                   "drive": "spring", "frequency": )" +
+                               std::to_string(frequency) + "}]}");
+    const auto spring = Trajectory::spring({0, 0}, 1, {frequency, 1});
+    double most = 0;
+    for (double t = 0; t < 20 / frequency; t += 0.01 / frequency)
+      most = std::max(most, std::abs(weight(baked.clip, 0.1 + t, "a") - spring->at(t).position));
+    EXPECT_GT(most, 1e-4) << frequency;
+    EXPECT_NEAR(baked.missed, most, 0.4 * most) << frequency;
+  }
+}
+
 TEST(PlayedTimeline, HasNoMoreFramesWhereNothingSwings) {
   const Baked baked = toPlay(R"({"seconds": 2, "events": [
     {"at": 0.5, "to": {"a": 1}, "drive": "accelerate-brake", "seconds": 1},
@@ -190,6 +204,22 @@ TEST(Timeline, SendsWeightsOffNoMoreOftenThanAClipCanTell) {
   const auto clip = bake(*timeline, 100);
   ASSERT_FALSE(clip);
   EXPECT_NE(clip.error().message.find("repeat it less"), std::string::npos) << clip.error().message;
+}
+
+TEST(Timeline, HasItsEventsInTheOrderOfTheirTimes) {
+  const auto bakes = [](std::vector<double> times, double seconds = 2, int loops = 1) {
+    Timeline timeline{seconds, loops, {}};
+    for (const double time : times) timeline.events.push_back({time, {{"a", 1}}, false, {}, {}});
+    return bake(timeline, 60).has_value();
+  };
+  EXPECT_TRUE(bakes({}));
+  EXPECT_TRUE(bakes({0, 0, 0.5, 2}, 2, 3));
+  EXPECT_FALSE(bakes({1, 0.5}));
+  EXPECT_FALSE(bakes({-1}));
+  EXPECT_FALSE(bakes({2.1}));
+  EXPECT_FALSE(bakes({std::nan("")}));
+  EXPECT_FALSE(bakes({}, -1));
+  EXPECT_FALSE(bakes({0}, 2, 0));
 }
 
 TEST(Timeline, IsToldFromACaptureByItsOwnKeys) {

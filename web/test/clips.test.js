@@ -127,13 +127,15 @@ test('what was mended in a file is told', () => {
   assert.match(warnings(audio2Face.replace('{', '{"numFrames": 41,'))[0], /'numFrames' is 41, but 'weightMat' has 40 frames/);
 });
 
-/** A take that counts so many frames a second, from the middle of a second on. */
-const take = (rate) => 'Timecode,a\n' + Array.from({length: 4 * rate}, (_, k) => k + (rate >> 1))
+/** A take that counts so many frames a second, from the middle of a second on if nothing else is said. */
+const take = (rate, length = 4 * rate, first = rate >> 1) => 'Timecode,a\n' + Array.from({length}, (_, k) => k + first)
     .map((f) => `1:02:0${Math.floor(f / rate)}:${f % rate},0`).join('\n');
 
 test('timecodes tell their rate where whole seconds are there', () => {
   for (const rate of [24, 25, 30, 48, 50, 60])
     assert.ok(Math.abs(readClip(take(rate)).seconds - (4 - 1 / rate)) < 1e-9, `${rate}`);
+  assert.ok(Math.abs(readClip(take(24, 48, 0)).seconds - 47 / 24) < 1e-9);
+  assert.ok(Math.abs(readClip(take(24, 47, 1)).seconds - (1 + 22 / 60)) < 1e-9, 'no second is whole');
   assert.ok(Math.abs(readClip('Timecode,a\n0:0:0:0,0\n0:0:1:15,0\n0:0:2:0,0\n').times[1] - 1.25) < 1e-12);
 });
 
