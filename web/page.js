@@ -6,7 +6,8 @@ import {
   controls, linesOver, meshOf, placeCamera, removeLines, render, resize, scene, stage, view
 } from './page_stage.js';
 
-let bytes, mesh, lines;    // the file, the face on show and, if wanted, its edges
+let mesh, lines;           // the face on show and, if wanted, its edges
+let file, latest;          // the one on show and the one asked for last: the bytes, or what will be those, and the name
 let loading = 0;           // milliseconds from the bytes to the first frame
 let asked = 0, shown = 0;  // how often a file was asked for, and which of those times is on show
 let waiting = 0;           // how many of those times are not over
@@ -18,6 +19,7 @@ let aim = [{}];            // where the face on show is to go, as moveTo() takes
  */
 async function show(source, name, keepView = false) {
   const mine = ++asked;
+  latest = {source, name};
   ++waiting;
   say('Loading…');
   try {
@@ -31,7 +33,7 @@ async function show(source, name, keepView = false) {
     const next = standing(face, mesh && keepView ? mesh.face.weights : {});
     remove();
     shown = mine;
-    bytes = buffer;
+    file = {source: buffer, name};
     mesh = next;
     scene.add(mesh);
     if (keepView) {
@@ -51,6 +53,7 @@ async function show(source, name, keepView = false) {
   } catch (error) {
     if (mine === asked) complain(error);
   } finally {
+    if (mine === asked) latest = file;
     if (--waiting === 0 && mesh) {
       hush();
       at('lod').value = mesh.face.lod;
@@ -125,7 +128,7 @@ function moveTo(goals, spring) {
 const still = () => Object.fromEntries(mesh.face.names.map((name) => [name, 0]));
 
 function figures() {
-  return {file: bytes.byteLength, vertices: mesh.face.vertexCount, loading, memory: mesh.face.memoryBytes};
+  return {file: file.source.byteLength, vertices: mesh.face.vertexCount, loading, memory: mesh.face.memoryBytes};
 }
 
 function surprise() {
@@ -218,7 +221,7 @@ at('surprise').addEventListener('click', () => attempt(() => mesh && surprise())
 at('rest').addEventListener('click', () => {
   attempt(() => mesh && moveTo(still()));
 });
-at('lod').addEventListener('change', () => bytes && show(bytes, stage.dataset.face, true));
+at('lod').addEventListener('change', () => latest && show(latest.source, latest.name, latest === file));
 at('lines').addEventListener('change', () => {
   drawLines();
   wake();

@@ -17,7 +17,7 @@ export interface Drive {
   frequency?: number | undefined;
   /** 'spring': below 1 it overshoots, above it creeps. */
   damping?: number | undefined;
-  /** 'bounce': the share of the speed that is left, in [0, 1). */
+  /** 'bounce': the share of the speed that is left, in [0, 1 - 1e-9]. */
   restitution?: number | undefined;
 }
 

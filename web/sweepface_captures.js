@@ -65,7 +65,8 @@ function clockOf(framesPerSecond, dropsFrames) {
 
 function readLiveLink(text, name, framesPerSecond) {
   const lines = text.split(text.includes('\n') ? '\n' : '\r').map((line, k) => ({number: k + 1, text: trimmed(line)}));
-  const filled = lines.filter(({text: line}, k) => line !== '' && !(k === 0 && lowered(line) === 'sep=,'));
+  const filled = lines.filter(({text: line}) => line !== '');
+  while (filled.length > 0 && lowered(filled[0].text) === 'sep=,') filled.shift();
   if (filled.length === 0) throw new Error(`${name} is empty; record again.`);
   const fail = (line, what) => new Error(`${name}, line ${line.number}: ${what}.`);
   const [first, ...rest] = filled, headings = cellsOf(first.text).map((cell) => cell.replaceAll('""', '"'));

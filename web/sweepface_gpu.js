@@ -191,10 +191,11 @@ export class SweepfaceGpuMesh extends FaceMesh {
   /** Rays meet the face as it stands, which the attributes do not tell: it is evaluated for them. */
   [meet](raycaster, hits) {
     const {geometry} = this, {attributes, boundingSphere, boundingBox} = geometry;
-    const stands = ['position', 'normal'].map((name) => new Float32Array(attributes[name].array.length));
-    this.face.evaluate(...stands);
-    const [position, normal] = stands.map((array) => new BufferAttribute(array, 3));
-    Object.assign(geometry, {attributes: {...attributes, position, normal}, boundingSphere: null, boundingBox: null});
+    const standing = {};
+    for (const name of ['position', 'normal'])
+      if (attributes[name]) standing[name] = new BufferAttribute(new Float32Array(attributes[name].array.length), 3);
+    this.face.evaluate(standing.position.array, standing.normal?.array);
+    Object.assign(geometry, {attributes: {...attributes, ...standing}, boundingSphere: null, boundingBox: null});
     try {
       super[meet](raycaster, hits);
     } finally {

@@ -46,6 +46,7 @@ class FaceGeometry extends BufferGeometry {
     }
     const own = (attribute) => (this.#fixed.all.has(attribute) ? attribute : attribute.clone());
     this.setIndex(index?.clone() ?? null);  // which some put into an order of their own
+    for (const key of Object.keys(this.attributes)) if (!attributes[key]) this.deleteAttribute(key);
     for (const [key, attribute] of Object.entries(attributes))
       if (!this.#changing.includes(key)) this.setAttribute(key, own(attribute));
     Object.assign(this, {name, userData, groups: groups.map((group) => ({...group})), drawRange: {...drawRange}});

@@ -10,6 +10,9 @@ function vectors(face) {
   return new BufferAttribute(new Float32Array(3 * faceFrom(face).vertexCount), 3).setUsage(DynamicDrawUsage);
 }
 
+/** The face of a file in a scene. */
+const meshOf = async (bytes, options) => new SweepfaceMesh(await Sweepface.load(bytes, options));
+
 /** A face in a scene. Weights are set at any time; `update` brings the geometry up to date. */
 export class SweepfaceMesh extends FaceMesh {
   constructor(face, materials) {
@@ -42,11 +45,11 @@ export class SweepfaceLoader extends Loader {
   }
 
   load(url, onLoad, onProgress, onError) {
-    const {manager} = this, loader = new FileLoader(manager);
+    const {manager, options} = this, loader = new FileLoader(manager);
     loader.setPath(this.path).setResponseType('arraybuffer');
     loader.setRequestHeader(this.requestHeader).setWithCredentials(this.withCredentials);
-    const tell = onError ?? console.error, name = this.options.name || url;
-    const parse = (bytes) => this.parseAsync(bytes, {name}).then(onLoad).catch((error) => {
+    const tell = onError ?? console.error, name = options.name || url;
+    const parse = (bytes) => meshOf(bytes, {...options, name}).then(onLoad).catch((error) => {
       manager.itemError(url);
       tell(error);
     }).finally(() => manager.itemEnd(url));
@@ -73,6 +76,6 @@ export class SweepfaceLoader extends Loader {
   }
 
   async parseAsync(bytes, options = {}) {
-    return new SweepfaceMesh(await Sweepface.load(bytes, {...this.options, ...options}));
+    return meshOf(bytes, {...this.options, ...options});
   }
 }

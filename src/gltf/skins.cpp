@@ -216,8 +216,9 @@ Result<std::vector<Affine>> inverseBindMatrices(const Document& document, std::s
   if (!index) return fail("the matrices of a skin are not in the file");
   const auto accessor = accessorAt(document, *index);
   if (!accessor) return std::unexpected(accessor.error());
-  if (accessor->rows != 4 || accessor->columns != 4 || accessor->count < joints)
-    return fail("a skin has too few matrices");
+  if (accessor->rows != 4 || accessor->columns != 4)
+    return fail("the inverseBindMatrices of a skin are no matrices of 4 x 4");
+  if (accessor->count < joints) return fail("a skin has too few matrices");
   // Skins may share them, but a few bytes could claim many for each of many skins.
   if (accessor->count > 256 + 4 * joints) return fail("a skin has too many matrices");
   const auto values = decode(document, *accessor);

@@ -103,8 +103,8 @@ TEST_F(Eyeballs, LeaveNoEmptyArcs) {
 
 TEST_F(Eyeballs, AreComparedWithWhereTheirTargetsLeadStraight) {
   const auto rendered = [&](const std::string& more) {
-    const Outcome r =
-        run("render face.sweep -o out.png --size 300x200 --style error --limits 0:0 " + more);
+    const Outcome r = run(
+        "render face.sweep -o out.png --size 300x200 --style error --combine --limits 0:0 " + more);
     EXPECT_EQ(r.code, 0) << r.err;
     return contents(folder / "out.png");
   };

@@ -131,6 +131,10 @@ test('what was mended in a file is told', () => {
 const take = (rate, length = 4 * rate, first = rate >> 1) => 'Timecode,a\n' + Array.from({length}, (_, k) => k + first)
     .map((f) => `1:02:0${Math.floor(f / rate)}:${f % rate},0`).join('\n');
 
+test('a separator is told after blank lines, too', () => {
+  assert.equal(readClip('\nsep=,\n\nsep=,\nTimecode,a\n0,1\n').weights[0], 1);
+});
+
 test('timecodes tell their rate where whole seconds are there', () => {
   for (const rate of [24, 25, 30, 48, 50, 60])
     assert.ok(Math.abs(readClip(take(rate)).seconds - (4 - 1 / rate)) < 1e-9, `${rate}`);

@@ -203,6 +203,32 @@ test('the page', options, (t) => withPage('index.html', visit, async (page, comp
     await page.unroute('**/sample.sweep');
   });
 
+  await t.test('shows the file that was asked for last in a level that is chosen before it is there', async () => {
+    await page.reload();
+    await settle();
+    await page.evaluate(() => {
+      const late = new File([], 'late.sweep'), {arrayBuffer} = Blob.prototype;
+      globalThis.come = new Promise((resolve) => globalThis.arrive = resolve);
+      late.arrayBuffer = async () => {
+        await globalThis.come;
+        return arrayBuffer.call(globalThis.mine);
+      };
+      Object.defineProperty(document.getElementById('file'), 'files', {value: [late], configurable: true});
+    });
+    await page.evaluate((text) => {
+      globalThis.mine = new Blob([Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0))]);
+      document.getElementById('file').dispatchEvent(new Event('change'));
+    }, bytes.toString('base64'));
+    await page.locator('#lod').selectOption('2');
+    await page.evaluate(() => globalThis.arrive());
+    await until(() => globalThis.sweepface.mesh.face.lod === 2);
+    await page.waitForTimeout(800);
+    assert.ok((await page.title()).startsWith('late.sweep'));
+    assert.equal(await page.locator('#message').textContent(), '');
+    await page.reload();
+    await settle();
+  });
+
   await t.test('shows a sound file although a broken one was opened after it', async () => {
     await page.route('**/sample.sweep', async (route) => {
       await page.waitForTimeout(1000);

@@ -229,6 +229,12 @@ for (const [name, module] of [['SweepfaceMesh', 'three'], ['SweepfaceGpuMesh', '
     mesh.material.pop();
     geometry.groups.pop();
     assert.equal(mesh.clone().material.length, mesh.material.length);
+    for (const key of ['uv', 'normal']) geometry.deleteAttribute(key);
+    const bare = mesh.clone();
+    assert.deepEqual(Object.keys(bare.geometry.attributes), Object.keys(geometry.attributes));
+    bare.geometry.setIndex(null);
+    bare.material = bare.material[0];
+    assert.ok(new three.Raycaster(new three.Vector3(0, 0, 99), new three.Vector3(0, 0, -1)).intersectObject(bare));
   });
 
 for (const [name, module] of [['SweepfaceMesh', 'three'], ['SweepfaceGpuMesh', 'gpu']])
@@ -501,14 +507,16 @@ test('a loader aborts its downloads', {...options, timeout: 10_000}, async () =>
   }
 });
 
-test('a load tells the manager that it began with', {...options, timeout: 10_000}, async () => {
+test('a load tells the manager that it began with, and has the options of then', {...options, timeout: 10_000}, async () => {
   const {fetch} = globalThis, {SweepfaceLoader} = await import('../sweepface_three.js'), seen = [];
   const managers = ['first', 'second'].map((name) => new three.LoadingManager(() => seen.push(name)));
   globalThis.fetch = async () => new Response(readFileSync(sample));
   try {
-    const loader = new SweepfaceLoader(managers[0]), one = loader.loadAsync('http://a/one');
+    const loader = new SweepfaceLoader(managers[0], {lod: 1}), one = loader.loadAsync('http://a/one');
     loader.manager = managers[1];
-    await Promise.all([one, loader.loadAsync('http://a/two')]);
+    loader.options = {lod: 2};
+    const meshes = await Promise.all([one, loader.loadAsync('http://a/two')]);
+    assert.deepEqual(meshes.map(({face}) => face.lod), [1, 2]);
     await new Promise((resolve) => setTimeout(resolve));
     assert.deepEqual(seen.sort(), ['first', 'second']);
   } finally {
