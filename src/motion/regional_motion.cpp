@@ -4,9 +4,6 @@
 #include <cmath>
 #include <numbers>
 #include <tuple>
-
-#include "ode/elementary.hpp"
-
 namespace sweepface {
 
 Drive inMatter(Drive drive, const Matter& matter) {
@@ -42,12 +39,14 @@ class Hanging {
     return distance_.position;
   }
 
-  /// What its way bends by at most from now on, where what it hangs on goes on at a speed. With
-  /// ω² x and v its energy falls; of two decays the slower one alone bends the way by s² x.
+  /// How much its way bends at most from now on, where what it hangs on goes on at a speed. What
+  /// swings loses energy, v² + ω² x²; beyond critical damping the way bends by 2σ (v + s x) and
+  /// s² x, where s is the slower of two decays.
   double bend(double speed) const {
     const double omega = pull(), sigma = spring_.damping * omega;
     const double x = distance_.position, v = distance_.velocity + speed_ - speed;
-    if (sigma < omega) return std::hypot(2 * sigma, omega) * std::hypot(v, omega * x);
+    if (sigma < omega)
+      return std::sqrt((4 * sigma * sigma + omega * omega) * (v * v + omega * omega * x * x));
     const double s = omega * omega / (sigma + std::sqrt((sigma - omega) * (sigma + omega)));
     return 2 * sigma * std::abs(v + s * x) + s * s * std::abs(x);
   }
@@ -88,9 +87,10 @@ Clip hanging(const Clip& clip, const Spring& spring, std::size_t mostWeights) {
   double swinging = kLongest;
   for (std::size_t f = 1; f < clip.times.size(); ++f)
     swinging += std::min(clip.times[f] - clip.times[f - 1], kLongest);
-  // For frames beyond the clip's own.
-  double room = static_cast<double>(mostWeights / n) - 2 * static_cast<double>(clip.times.size());
-  const double frame = std::max(kFrame, room > 0 ? 2 * swinging / room : HUGE_VAL);
+  // Left for either kind of frames beyond the clip's own.
+  double room =
+      (static_cast<double>(mostWeights / n) - 2 * static_cast<double>(clip.times.size())) / 2;
+  const double frame = std::max(kFrame, room > 0 ? swinging / room : HUGE_VAL);
 
   std::vector<double> before(clip.weights.begin(), clip.weights.begin() + std::ssize(clip.names));
   std::vector<double> now(n);

@@ -449,6 +449,19 @@ TEST(RegionalClip, SharesTheRoomWithOtherRegions) {
   EXPECT_LE(inMatter(clip, {4, 1, 0}, {}, regions).weights.size(), 100u);
 }
 
+TEST(RegionalClip, HoldsNoMoreThanItsShareHoweverMuchSwings) {
+  Clip clip{{}, {}, {}};
+  clip.names.resize(4);
+  for (int f = 0; f < 6000; ++f) {
+    clip.times.push_back(f / 30.0);
+    for (int k = 0; k < 4; ++k) clip.weights.push_back(f / (4 + k) % 2);
+  }
+  constexpr std::size_t kRegions = 800;  // three frames for each that there is
+  const Clip heavy = inMatter(clip, {4, 1, 0}, {6, 0}, kRegions);
+  EXPECT_LE(heavy.weights.size(), kMostClipWeights / kRegions);
+  EXPECT_GT(heavy.weights.size(), kMostClipWeights / kRegions / 2);
+}
+
 TEST(RegionalClip, ALateRegionShowsTheClipLater) {
   const Clip clip = wave(40), late = inMatter(clip, {1, 1, 0.25});
   std::vector<double> found(1);
