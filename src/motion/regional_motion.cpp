@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <tuple>
+
 namespace sweepface {
 
 Drive inMatter(Drive drive, const Matter& matter) {
