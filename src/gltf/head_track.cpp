@@ -60,12 +60,19 @@ std::vector<std::size_t> keysOf(const HeadTrack& track, const std::vector<Quater
 /// their joints carry. A node above these would not move them.
 struct Roots {
   Json below = Json::array(), beside = Json::array();
+  bool areElsewhere = false;  ///< some are children as well, or told twice
 
   explicit Roots(const Document& document) {
     const Json& nodes = document.list("nodes");
     const std::vector<bool> joints = jointsOf(document);
+    std::vector<bool> seen(nodes.size(), false);
+    for (const Json& parent : nodes)
+      for (const Json& child : listOf(parent, "children"))
+        if (const auto node = asIndex(child, nodes.size())) seen[*node] = true;
     for (const Json& root : listOf(document.list("scenes")[0], "nodes")) {
       const auto node = asIndex(root, nodes.size());
+      if (node && seen[*node]) areElsewhere = true;
+      if (node) seen[*node] = true;
       const bool isCarried = node && find(nodes[*node], "skin") && !joints[*node] &&
                              listOf(nodes[*node], "children").empty();
       (isCarried ? beside : below).push_back(root);
@@ -97,6 +104,11 @@ Result<void> addHeadTrack(Document& document, const HeadTrack& track, double tol
     return fail(
         "The scene of the face's file shows nothing that its head could hold; leave the head's "
         "turns out (--head), or convert the face from a file that shows it.");
+  if (roots.areElsewhere)
+    return fail(
+        "The scene of the face's file lists a node twice, or one that is another's child, so that "
+        "its head would hold it twice; leave the head's turns out (--head), or convert the face "
+        "from a file that lists each root once.");
   Json& nodes = json["nodes"];
   const std::size_t head = nodes.size();
   const std::string name = freeName(nodes, "head");

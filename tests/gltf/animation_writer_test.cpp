@@ -212,6 +212,21 @@ TEST(AnimationWriter, LeavesJointsTheirNames) {
   EXPECT_EQ(Written(turning(converted(source)).value()).json["nodes"][2]["name"], "sweepface.head");
 }
 
+TEST(AnimationWriter, TurnsNoNodeThatHangsElsewhereToo) {
+  Glb source = smallFace();
+  source.json["nodes"] = {{{"children", {1}}}, {{"mesh", 0}}};
+  source.add("scenes", {{"nodes", {1}}});
+  const auto refuses = [&] {
+    const auto bytes = turning(converted(source));
+    return !bytes && bytes.error().message.contains("lists a node twice");
+  };
+  EXPECT_TRUE(refuses()) << "a child of another";
+  source.json["scenes"][0]["nodes"] = {0};
+  EXPECT_FALSE(refuses());
+  source.json["scenes"][0]["nodes"] = {0, 0};
+  EXPECT_TRUE(refuses()) << "twice";
+}
+
 TEST(AnimationWriter, SaysWhereThereIsNothingToTurn) {
   Glb source = smallFace();
   source.add("scenes", {{"name", "empty"}});
