@@ -10,9 +10,6 @@ function vectors(face) {
   return new BufferAttribute(new Float32Array(3 * faceFrom(face).vertexCount), 3).setUsage(DynamicDrawUsage);
 }
 
-/** The face of a file in a scene. */
-const meshOf = async (bytes, options) => new SweepfaceMesh(await Sweepface.load(bytes, options));
-
 /** A face in a scene. Weights are set at any time; `update` brings the geometry up to date. */
 export class SweepfaceMesh extends FaceMesh {
   constructor(face, materials) {
@@ -45,11 +42,11 @@ export class SweepfaceLoader extends Loader {
   }
 
   load(url, onLoad, onProgress, onError) {
-    const {manager, options} = this, loader = new FileLoader(manager);
+    const {manager} = this, usual = {...this.options}, loader = new FileLoader(manager);
     loader.setPath(this.path).setResponseType('arraybuffer');
     loader.setRequestHeader(this.requestHeader).setWithCredentials(this.withCredentials);
-    const tell = onError ?? console.error, name = options.name || url;
-    const parse = (bytes) => meshOf(bytes, {...options, name}).then(onLoad).catch((error) => {
+    const tell = onError ?? console.error, name = usual.name || url;
+    const parse = (bytes) => this.parseAsync(bytes, {name}, usual).then(onLoad).catch((error) => {
       manager.itemError(url);
       tell(error);
     }).finally(() => manager.itemEnd(url));
@@ -75,7 +72,8 @@ export class SweepfaceLoader extends Loader {
     throw new Error('Bytes of a face are parsed by parseAsync, as its module has to be there.');
   }
 
-  async parseAsync(bytes, options = {}) {
-    return meshOf(bytes, {...this.options, ...options});
+  /** `usual` are the loader's options of when a load began. */
+  async parseAsync(bytes, options = {}, usual = this.options) {
+    return new SweepfaceMesh(await Sweepface.load(bytes, {...usual, ...options}));
   }
 }

@@ -210,7 +210,8 @@ class Baker {
   };
 
   Result<Miss> missedBy(const Playing& playing, double from, double to) {
-    constexpr std::array kLooks{0.0, 0.191, 0.5, 0.691, 1.0};  // not in step, as zeros of a swing
+    // Uneven, unlike the zeros of a swing.
+    constexpr std::array kLooks{0.0, 0.191, 0.5, 0.691, 1.0};
     ahead_ = playing;
     for (std::size_t k = 0; k < kLooks.size(); ++k) {
       const double time = k + 1 < kLooks.size() ? std::lerp(from, to, kLooks[k]) : to;
