@@ -221,7 +221,7 @@ at('surprise').addEventListener('click', () => attempt(() => mesh && surprise())
 at('rest').addEventListener('click', () => {
   attempt(() => mesh && moveTo(still()));
 });
-at('lod').addEventListener('change', () => latest && show(latest.source, latest.name, latest === file));
+at('lod').addEventListener('change', () => latest && show(latest.source, latest.name, latest.source === file?.source));
 at('lines').addEventListener('change', () => {
   drawLines();
   wake();

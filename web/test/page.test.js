@@ -260,6 +260,17 @@ test('the page', options, (t) => withPage('index.html', visit, async (page, comp
     await until(() => Object.values(globalThis.sweepface.mesh.face.weights).every((weight) => weight < 0.001));
   });
 
+  await t.test('keeps the weights where one level is chosen soon after another', async () => {
+    await slide('jawOpen', 0.7);
+    for (const level of ['2', '4']) await page.locator('#lod').selectOption(level);
+    await until(() => globalThis.sweepface.mesh.face.lod === 4);
+    await page.waitForTimeout(800);
+    assert.ok(Math.abs(await weight('jawOpen') - 0.7) < 1e-6);
+    await page.locator('#lod').selectOption('0');
+    await until(() => globalThis.sweepface.mesh.face.lod === 0);
+    await slide('jawOpen', 0);
+  });
+
   await t.test('moves at once for who would rather see nothing move', async () => {
     await page.emulateMedia({reducedMotion: 'reduce'});
     assert.ok(await page.evaluate(async () => {
