@@ -224,9 +224,10 @@ void addPerformance(CLI::App& app, PerformanceArguments& a) {
   });
 }
 
-Result<std::vector<Performance>> makePerformances(const PerformanceArguments& a, const Rig& rig,
+Result<std::vector<Performance>> makePerformances(const PerformanceArguments& a,
+                                                  const std::string& clip, const Rig& rig,
                                                   std::span<const Region> regions) {
-  if (!a.clip.empty()) return byClip(a, rig, regions);
+  if (!a.clip.empty()) return byClip(a, clip, rig, regions);
   std::vector<Performance> performances;
   for (const Region& region : regions) {
     auto performance = byLaw(a, rig, region.matter);

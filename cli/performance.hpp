@@ -47,9 +47,10 @@ struct Performance {
   std::vector<Index> wholes;       ///< of what each is a part then, as RegionalTargets has it
   std::vector<std::string> notes;  ///< what the user should know, in sentences
 };
-/// One for every region [R], by its matter and by what a timeline means for it. Fails where that
-/// speaks of regions that there are not.
-Result<std::vector<Performance>> makePerformances(const PerformanceArguments& a, const Rig& rig,
+/// One for every region [R], by its matter and by what a timeline means for it; `clip` is what the
+/// file of --clip holds. Fails where a timeline speaks of regions that there are not.
+Result<std::vector<Performance>> makePerformances(const PerformanceArguments& a,
+                                                  const std::string& clip, const Rig& rig,
                                                   std::span<const Region> regions);
 
 /// Sentences on what does not move: all of it where both expressions are the same, and targets that

@@ -49,9 +49,8 @@ struct ReadClip {
   bool isAuthored = false;  // by somebody who knows which targets are to move
 };
 
-Result<ReadClip> readClip(const PerformanceArguments& a, std::span<const Region> regions) {
-  const Result<std::string> text = readFile(a.clip);
-  if (!text) return std::unexpected(text.error());
+Result<ReadClip> readClip(const PerformanceArguments& a, const std::string& text,
+                          std::span<const Region> regions) {
   std::vector<std::string> names;
   std::vector<Matter> matters;
   for (const Region& region : regions) {
@@ -62,12 +61,12 @@ Result<ReadClip> readClip(const PerformanceArguments& a, std::span<const Region>
     if (!clips) return fail(fmt::format("{}: {}", a.clip, clips.error().message));
     return ReadClip{std::move(*clips), isAuthored};
   };
-  if (isOfKind(a.clip, ".json") && isTimeline(*text)) {
-    const auto timeline = readTimeline(a, *text);
+  if (isOfKind(a.clip, ".json") && isTimeline(text)) {
+    const auto timeline = readTimeline(a, text);
     if (!timeline) return std::unexpected(timeline.error());
     return called(inRegions(*timeline, names, matters), true);
   }
-  auto capture = readCapture(a, *text);
+  auto capture = readCapture(a, text);
   if (!capture) return std::unexpected(capture.error());
   return called(inRegions(std::move(*capture), matters, {a.frequency, a.damping}), false);
 }
@@ -98,9 +97,9 @@ std::vector<std::string> notesOn(const ClipMatch& match, const Clip& clip,
 
 }  // namespace
 
-Result<std::vector<Performance>> byClip(const PerformanceArguments& a, const Rig& rig,
-                                        std::span<const Region> regions) {
-  Result<ReadClip> read = readClip(a, regions);
+Result<std::vector<Performance>> byClip(const PerformanceArguments& a, const std::string& text,
+                                        const Rig& rig, std::span<const Region> regions) {
+  Result<ReadClip> read = readClip(a, text, regions);
   if (!read) return std::unexpected(read.error());
   RegionalClips* const clips = &read->clips;
   const auto whole = std::make_shared<const Clip>(std::move(clips->whole));

@@ -11,12 +11,12 @@ namespace sweepface::cli {
 namespace {
 
 /// Those of --regions or else of the timeline that is played; without either the whole face.
-Result<std::vector<Region>> readRegions(const PerformanceArguments& what, const RegionArguments& a,
-                                        const Rig& rig) {
+Result<std::vector<Region>> readRegions(const PerformanceArguments& what, const std::string& clip,
+                                        const RegionArguments& a, const Rig& rig) {
   const bool own = a.file.empty() && isOfKind(what.clip, ".json");
   const std::string& file = own ? what.clip : a.file;
   if (file.empty()) return dividedFace(rig, {});
-  const Result<std::string> text = readFile(file);
+  const Result<std::string> text = file == what.clip ? clip : readFile(file);
   if (!text) return std::unexpected(text.error());
   const auto painted = parseRegions(*text, file);
   if (!painted) return std::unexpected(painted.error());
@@ -28,12 +28,12 @@ Result<std::vector<Region>> readRegions(const PerformanceArguments& what, const 
 }
 
 /// What --regions takes the place of.
-std::vector<std::string> notesOnOwn(const std::string& clip, const RegionArguments& a) {
-  if (a.file.empty() || a.file == clip || !isOfKind(clip, ".json")) return {};
-  const Result<std::string> text = readFile(clip);
-  const auto own = text ? parseRegions(*text, clip) : std::vector<PaintedRegion>{};
+std::vector<std::string> notesOnOwn(const PerformanceArguments& what, const std::string& clip,
+                                    const RegionArguments& a) {
+  if (a.file.empty() || a.file == what.clip || !isOfKind(what.clip, ".json")) return {};
+  const auto own = parseRegions(clip, what.clip);
   if (!own || own->empty()) return {};
-  return {fmt::format("{}: its own regions are not used, but those of {}.", clip, a.file)};
+  return {fmt::format("{}: its own regions are not used, but those of {}.", what.clip, a.file)};
 }
 
 /// Everything that regions do: a performance each, of K weights.
@@ -108,19 +108,9 @@ std::vector<Weights> toldWeights(const PerformanceArguments& what, const Rig& ri
   return told;
 }
 
-}  // namespace
-
-void addRegions(CLI::App& app, RegionArguments& a) {
-  app.add_option("--regions", a.file,
-                 "A .json with 'regions': parts of the face that are heavier, stiffer or later "
-                 "than the rest; a timeline may have its own")
-      ->check(notEmpty())
-      ->type_name("FILE");
-}
-
-Result<std::vector<Region>> regionsOf(const PerformanceArguments& what, const RegionArguments& a,
-                                      const Rig& rig) {
-  auto regions = readRegions(what, a, rig);
+Result<std::vector<Region>> regionsOf(const PerformanceArguments& what, const std::string& clip,
+                                      const RegionArguments& a, const Rig& rig) {
+  auto regions = readRegions(what, clip, a, rig);
   if (!regions) return regions;
   const auto isHeavy = [](const Region& region) { return region.matter.mass > 1; };
   if (!what.clip.empty() && what.tellsSpring && std::ranges::none_of(*regions, isHeavy))
@@ -131,14 +121,27 @@ Result<std::vector<Region>> regionsOf(const PerformanceArguments& what, const Re
   return regions;
 }
 
+}  // namespace
+
+void addRegions(CLI::App& app, RegionArguments& a) {
+  app.add_option("--regions", a.file,
+                 "A .json with 'regions': parts of the face that are heavier, stiffer or later "
+                 "than the rest; a timeline may have its own")
+      ->check(notEmpty())
+      ->type_name("FILE");
+}
+
 Result<Performance> perform(const PerformanceArguments& what, const RegionArguments& a,
                             const FollowingArguments& following, Rig& rig) {
-  auto regions = regionsOf(what, a, rig);
+  // Read once, as it may be a pipe.
+  const Result<std::string> clip = what.clip.empty() ? std::string() : readFile(what.clip);
+  if (!clip) return std::unexpected(clip.error());
+  auto regions = regionsOf(what, *clip, a, rig);
   if (!regions) return std::unexpected(regions.error());
   // Combinations may show what moves nothing by itself.
   std::vector<std::string> still;
   if (what.clip.empty() && !following.combine) still = notesOnStill(what, rig);
-  auto performances = makePerformances(what, rig, *regions);
+  auto performances = makePerformances(what, *clip, rig, *regions);
   if (!performances) return std::unexpected(performances.error());
   Parts parts{std::move(*performances)};
   const Result<Following> followed = follow(following, rig, toldWeights(what, rig));
@@ -149,7 +152,7 @@ Result<Performance> perform(const PerformanceArguments& what, const RegionArgume
   Performance whole = parts.performances.size() == 1 ? std::move(parts.performances.front())
                                                      : together(std::move(parts), *regions, rig);
   std::ranges::move(still, std::back_inserter(whole.notes));
-  std::ranges::move(notesOnOwn(what.clip, a), std::back_inserter(whole.notes));
+  std::ranges::move(notesOnOwn(what, *clip, a), std::back_inserter(whole.notes));
   if (whole.frameMiss > 1e-4)
     whole.notes.push_back(
         fmt::format("{}: it moves more quickly, or for longer, than frames can tell: between them "

@@ -13,13 +13,8 @@ struct RegionArguments {
 };
 void addRegions(CLI::App& app, RegionArguments& a);
 
-/// The regions in which that is played: those of the file, or else of a timeline, or the whole
-/// face.
-Result<std::vector<Region>> regionsOf(const PerformanceArguments& what,
-                                      const RegionArguments& regions, const Rig& rig);
-
-/// What is played, with its regions and followers: their targets are added to the rig, and the
-/// performance has a weight for each of them.
+/// What is played, with its followers and the regions of the file, or else of a timeline: their
+/// targets are added to the rig, and the performance has a weight for each of them.
 Result<Performance> perform(const PerformanceArguments& what, const RegionArguments& regions,
                             const FollowingArguments& following, Rig& rig);
 

@@ -1,6 +1,7 @@
 #include "sweepface/clip.hpp"
 
 #include <fstream>
+#include <sys/stat.h>
 
 #include "sweepface/gltf.hpp"
 #include "sweepface/trajectory.hpp"
@@ -65,6 +66,19 @@ TEST_F(PlayClip, PlaysATimeline) {
   ASSERT_EQ(run("animate face.sweep --clip scene.json --frames 5 --quiet -o frames").code, 0);
   EXPECT_EQ(frame(1), exported("jawOpen=0.25"));
   EXPECT_EQ(frame(4), exported("smile=1"));
+}
+
+/// Which tells what it holds once.
+TEST_F(PlayClip, PlaysATimelineFromAPipe) {
+  convertRig();
+  write("scene.json", R"({"seconds": 1, "events": [{"at": 0, "to": {"smile": 1}}]})");
+  ASSERT_EQ(mkfifo((folder / "pipe.json").c_str(), 0600), 0);
+  const Outcome r =
+      run("animate face.sweep --clip scene.json --frames 2 --quiet -o frames && "
+          "(cat scene.json > pipe.json & timeout 60 '" SWEEPFACE_TOOL
+          "' animate face.sweep --clip pipe.json --frames 2 --quiet -o again)");
+  EXPECT_EQ(r.code, 0) << r.err;
+  EXPECT_EQ(contents(folder / "again/frame_0001.obj"), contents(folder / "frames/frame_0001.obj"));
 }
 
 TEST_F(PlayClip, SaysWhereSeveralNamesDriveOneTarget) {
