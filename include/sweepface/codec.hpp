@@ -14,8 +14,9 @@ namespace sweepface {
 /// Vectors are held bit for bit: as multiples of the packing's steps where they are, else as they
 /// are. Numbers must be finite, and names of targets all different, of 1 to 4096 bytes of UTF-8
 /// without control characters: decode() refuses what was written of another rig, or reads less of
-/// it. Indices of the source must be in range. Targets that are still to come (NeutralFirst) are
-/// written as if they did not move.
+/// it. Indices of the source must be in range, and no more curves may meet at a node than readers
+/// search (some ten thousand, docs/file-format.md). Targets that are still to come (NeutralFirst)
+/// are written as if they did not move.
 std::string encode(const Rig& rig);
 
 /// What reading a file may take. What is still takes hardly any bytes, so that a small file may ask

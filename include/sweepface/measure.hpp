@@ -79,7 +79,8 @@ std::string lostMovement(const MeshRig& source, const std::vector<double>& kept)
 
 /// How many level-4 triangles of a rig's surface look the other way than their source facet, in the
 /// neutral and after it in every target: [1 + K]. `source` is what the rig was made from, with its
-/// targets in the same order, and the rig knows the source's order.
+/// targets in the same order, and the rig knows the source's order. None in a rig that does not
+/// know which quad is of which face.
 std::vector<Index> countFolds(const Rig& rig, const MeshRig& source);
 
 }  // namespace sweepface

@@ -111,6 +111,7 @@ class Bender {
 
   Result<void> factorise() {
     Eigen::SparseMatrix<double> matrix(unknowns_, unknowns_);
+    for (Index k = 0; k < unknowns_; ++k) entries_.emplace_back(k, k, 0);  // room to write into
     matrix.setFromTriplets(entries_.begin(), entries_.end());
     // What moves nothing, as the derivatives of a node where two patches meet, stays zero.
     for (Index k = 0; k < unknowns_; ++k)

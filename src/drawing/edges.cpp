@@ -57,6 +57,7 @@ class EdgeChooser {
   };
   Side& side(Index patch, int s) { return sides_[4 * patch + s]; }
   const Side& side(Index patch, int s) const { return sides_[4 * patch + s]; }
+  const Side& opposite(Index k) const { return side(k / 4, (k + 2) % 4); }
 
   void set(Index arc, Index edges) {
     w_.arcs[arc].edges = edges;
@@ -91,13 +92,25 @@ class EdgeChooser {
     double value() const { return count > 0 ? sum / count : 0; }
   };
 
-  Index usualEdges(Index a) {
+  double edgesByLength(Index a) {
     const Mean& length = lengths_[like_.find(a)];
-    const double edges = length.count > 0 && edgeLength_ > 0
-                             ? std::round(length.value() / edgeLength_)
-                             : kUsualEdges;
+    return length.count > 0 && edgeLength_ > 0 ? length.value() / edgeLength_ : kUsualEdges;
+  }
+
+  // By its length; where the side opposite is known, the share of what that leaves.
+  Index usualEdges(Index a) {
+    double edges = edgesByLength(a), most = codec::kLongestArc;
+    for (const Index k : sidesOf_[a]) {
+      if (opposite(k).unknowns > 0) continue;
+      const auto left = static_cast<double>(opposite(k).known - sides_[k].known);
+      double all = 0;
+      for (const HalfArc h : w_.side(k / 4, k % 4))
+        if (w_.arcs[arcOf(h)].edges == 0) all += edgesByLength(arcOf(h));
+      if (all > 0) edges = left * edgesByLength(a) / all;
+      most = std::min(most, left - (sides_[k].unknowns - 1));
+    }
     const double least = w_.arcs[a].from == w_.arcs[a].to && !w_.arcs[a].collapsed ? 3 : 1;
-    return static_cast<Index>(std::clamp(edges, least, double{codec::kLongestArc}));
+    return static_cast<Index>(std::clamp(std::round(edges), least, std::max(least, most)));
   }
 
   void setLast(Index patch, int s, Index edges) {
@@ -113,19 +126,29 @@ class EdgeChooser {
         const int open = side(p, s).unknowns > 0 ? s : s + 2, told = 2 * s + 2 - open;
         if (side(p, told).unknowns != 0 || side(p, open).unknowns != 1) continue;
         const std::int64_t left = side(p, told).known - side(p, open).known;
-        if (left < 1 || left > codec::kLongestArc) return mismatch(p, s);
+        if (left < 1) return tooFew(p, open);
+        if (left > codec::kLongestArc) return mismatch(p, s);
         setLast(p, open, static_cast<Index>(left));
       }
     return {};
   }
 
   std::unexpected<Error> mismatch(Index p, int s) const {
-    const std::string& name = d_.patches[p].name;
+    return failAt(
+        d_, d_.patches[p].place,
+        fmt::format("sides {} and {} of {} have {} and {} edges; opposite sides need as "
+                    "many: give their curves 'edges' that agree",
+                    s + 1, s + 3, quotedPatch(d_, p), side(p, s).known, side(p, s + 2).known));
+  }
+
+  // Side `s` leaves nothing for the last of its curves.
+  std::unexpected<Error> tooFew(Index p, int s) const {
     return failAt(d_, d_.patches[p].place,
-                  fmt::format("sides {} and {} of patch {} have {} and {} edges; opposite sides "
-                              "need as many: give their curves 'edges' that agree",
-                              s + 1, s + 3, name.empty() ? std::to_string(p) : "'" + name + "'",
-                              side(p, s).known, side(p, s + 2).known));
+                  fmt::format("side {} of {} has {} edges, not counting a curve without 'edges', "
+                              "and side {} has {}; opposite sides need as many: give their curves "
+                              "'edges' that agree",
+                              s + 1, quotedPatch(d_, p), side(p, s).known, (s + 2) % 4 + 1,
+                              side(p, (s + 2) % 4).known));
   }
 
   Result<void> check() const {

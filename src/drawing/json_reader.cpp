@@ -1,8 +1,8 @@
 // JSON as RFC 8259 has it; a byte order mark before it is passed over.
 #include "drawing/json_reader.hpp"
 
+#include <algorithm>
 #include <charconv>
-#include <cmath>
 
 #include "codec/utf8.hpp"
 #include "io/text.hpp"

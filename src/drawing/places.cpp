@@ -1,5 +1,5 @@
 // Sentences about places in a drawing.
-#include <array>
+#include <algorithm>
 #include <cctype>
 #include <fmt/format.h>
 

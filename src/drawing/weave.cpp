@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 #include <utility>
 
+#include "surface/union_find.hpp"
+
 namespace sweepface::drawing {
 
 namespace {
@@ -131,10 +133,7 @@ class Weaver {
     return {};
   }
 
-  std::string quoted(Index patch) const {
-    const std::string& name = d_.patches[patch].name;
-    return name.empty() ? fmt::format("patch 'p{}'", patch) : fmt::format("patch '{}'", name);
-  }
+  std::string quoted(Index patch) const { return quotedPatch(d_, patch); }
 
   Result<void> addToLoop(Index p, const std::string& reference) {
     const Place& place = d_.patches[p].place;
@@ -256,7 +255,29 @@ class Weaver {
     auto connectivity = Connectivity::make(w_);
     if (!connectivity) return failNamed(d_, w_, connectivity.error().message);
     woven_.connectivity = std::move(*connectivity);
+    if (auto ok = checkPoints(); !ok) return ok;
     return chooseRibbons(d_, woven_);
+  }
+
+  // Patches around a point follow each other across curves that leave it or are collapsed there:
+  // what no curve leads to would be left without derivatives.
+  Result<void> checkPoints() const {
+    UnionFind around(w_.nodes.size());
+    for (const Arc& arc : w_.arcs)
+      if (arc.collapsed) around.join(arc.from, arc.to);
+    std::vector<Index> first(w_.points, -1);
+    for (Index n = 0; n < static_cast<Index>(w_.nodes.size()); ++n) {
+      if (w_.nodes[n].point < 0) continue;
+      Index& known = first[w_.nodes[n].point];
+      if (known < 0) known = n;
+      if (around.find(known) != around.find(n))
+        return refuse(d_.nodes[n].place,
+                      fmt::format("nodes '{}' and '{}' stand at one point, but no collapsed curve "
+                                  "leads from one to the other; give one of them an 'at' of its "
+                                  "own instead of 'with'",
+                                  nodeName(known), nodeName(n)));
+    }
+    return {};
   }
 
   Result<void> addCreases() {
@@ -296,6 +317,11 @@ class Weaver {
 };
 
 }  // namespace
+
+std::string quotedPatch(const Drawing& drawing, Index patch) {
+  const std::string& name = drawing.patches[patch].name;
+  return name.empty() ? fmt::format("patch 'p{}'", patch) : fmt::format("patch '{}'", name);
+}
 
 HalfArc Woven::halfArc(std::string_view reference) const {
   const bool backwards = reference.starts_with('-');

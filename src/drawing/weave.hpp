@@ -13,6 +13,8 @@ namespace sweepface::drawing {
 /// A sentence about a place in a drawing.
 std::unexpected<Error> failAt(const Drawing& drawing, const TextPlace& place,
                               const std::string& what);
+/// A patch in a sentence, by its name or number: "patch 'p3'".
+std::string quotedPatch(const Drawing& drawing, Index patch);
 /// A sentence of the surface's own, which counts nodes, arcs, patches and ribbons, with their names
 /// and the place of the first of them.
 std::unexpected<Error> failNamed(const Drawing& drawing, const Wireframe& wireframe,

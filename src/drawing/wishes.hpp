@@ -1,7 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <string>
 
 #include "drawing/bend.hpp"
 #include "drawing/weave.hpp"

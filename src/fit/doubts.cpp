@@ -10,7 +10,9 @@
 
 #include "sweepface/fit.hpp"
 
+#include "fit/coarseness.hpp"
 #include "fit/listed.hpp"
+#include "fit/median.hpp"
 #include "mesh/each_edge.hpp"
 #include "parallel/parallel.hpp"
 
@@ -24,6 +26,12 @@ constexpr double kStretch = 2;
 // Other axes leave only such a share of a target's movement, squared. Nothing that is meant moves
 // the most targets by such a share of the diagonal.
 constexpr double kLeft = 0.25, kWay = 0.5;
+
+// What is hidden between vertices shows where half of the faces lean so far from their normals, in
+// degrees, and the tolerance is no more than so many times as large as that makes them stand out.
+// Of few faces nobody expects more.
+constexpr double kLean = 2.5, kSmoothly = 5;
+constexpr Index kManyFaces = 1000;
 
 /// Edges of faces, and vertices of faces.
 struct Outline {
@@ -42,13 +50,6 @@ struct Outline {
     list.erase(std::ranges::unique(list).begin(), list.end());
   }
 };
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
-}
 
 /// Of those of any length; 0 if there is none.
 double medianEdge(const Outline& outline, const std::vector<Vec3>& positions) {
@@ -134,6 +135,21 @@ TargetDoubt doubtAbout(const Outline& outline, const std::vector<Vec3>& neutral,
   return {};
 }
 
+/// Empty where a surface is smooth between the vertices that it follows.
+std::string doubtBetweenVertices(const PolygonMesh& neutral, double tolerance) {
+  if (neutral.polygons.faceCount() < kManyFaces) return {};
+  const Coarseness coarse = coarsenessOf(neutral);
+  const double smooth = kSmoothly * coarse.height;
+  if (!(coarse.degrees > kLean && tolerance < smooth)) return {};
+  const double digit = std::pow(10, std::floor(std::log10(smooth)));
+  return fmt::format(
+      "The mesh is coarse for its shape, as if it were made to be subdivided: half of its faces "
+      "lean {:.2g} degrees or more from the normals of their vertices. A surface within {:.3g} of "
+      "every vertex may look creased between them; compare pictures, and try a tolerance of "
+      "{:.3g}.",
+      coarse.degrees, tolerance, std::ceil(smooth / digit) * digit);
+}
+
 bool isCalledNeutral(std::string name) {
   std::ranges::transform(name, name.begin(), [](char c) {
     return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
@@ -155,6 +171,8 @@ std::vector<std::string> doubtsAbout(const MeshRig& source, double tolerance) {
         "edges, so that finer forms are lost; give a finer one if it was meant in other units, or "
         "if some part makes the mesh look large.",
         tolerance, 100 * tolerance / size, edge > 0 ? tolerance / edge : 0));
+  if (auto sentence = doubtBetweenVertices(source.neutral, tolerance); !sentence.empty())
+    sentences.push_back(std::move(sentence));
 
   std::vector<TargetDoubt> doubts(source.targets.size());
   parallelFor(std::size_t{0}, doubts.size(), [&](std::size_t t) {

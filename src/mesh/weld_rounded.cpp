@@ -33,7 +33,7 @@ constexpr double kRoundingOfEdges = 1e-3, kGapOfEdges = 0.05;
 class Neighbours {
  public:
   Neighbours(const MeshRig& rig, double within, double ofEdges)
-      : rig_(rig), within_(within), allowed_(shortestEdges(rig.neutral, within, within / ofEdges)) {
+      : rig_(rig), allowed_(shortestEdges(rig.neutral, within, within / ofEdges)) {
     for (double& distance : allowed_) distance *= ofEdges;
   }
 
@@ -53,9 +53,12 @@ class Neighbours {
   /// Sets of some vertices, of which each is near to another one.
   UnionFind sets(const std::vector<Index>& vertices) const {
     UnionFind sets(rig_.neutral.positions.size());
+    double size = 0;
+    for (const Index v : vertices) size = std::max(size, allowed_[v]);
+    if (!(size > 0)) size = 1;  // only those at one place are near
     std::map<Cell, std::vector<Index>> cells;
     for (const Index v : vertices) {
-      const Cell here = cellOf(v);
+      const Cell here = cellOf(v, size);
       for (double x : {-1, 0, 1})
         for (double y : {-1, 0, 1})
           for (double z : {-1, 0, 1})
@@ -73,7 +76,7 @@ class Neighbours {
 
   /// Of the mean over all poses, no two of which count the same: what is near in all poses is near
   /// there, and what one of them parts is not.
-  Cell cellOf(Index v) const {
+  Cell cellOf(Index v, double size) const {
     double sum = 1, share = 0;
     Vec3 mean = rig_.neutral.positions[v];
     for (const MeshTarget& target : rig_.targets) {
@@ -81,12 +84,11 @@ class Neighbours {
       mean += (1 + share) * target.positions[v];
       sum += 1 + share;
     }
-    const double cells = 1 / (sum * within_);
+    const double cells = 1 / (sum * size);
     return {std::floor(mean.x * cells), std::floor(mean.y * cells), std::floor(mean.z * cells)};
   }
 
   const MeshRig& rig_;
-  double within_;
   std::vector<double> allowed_;  // [vertices]
 };
 

@@ -8,6 +8,7 @@
 #include "sweepface/picture.hpp"
 #include "sweepface/report.hpp"
 
+#include "report/subject.hpp"
 #include "report/words.hpp"
 
 namespace sweepface {
@@ -86,6 +87,7 @@ class ReportMaker {
   const std::size_t bytes_;  // of the file, without a scene
   Weights rest_, expression_;
   bool moves_;
+  Subject subject_;
   FaceScenes scenes_;
   std::vector<Vec3> moved_;  // the source under the expression
   Measurement measured_;

@@ -78,16 +78,16 @@ Weights strongestOf(const Rig& rig) {
   return weights;
 }
 
-MotionSections::MotionSections(const Rig& rig, const FaceScenes& scenes, const Weights& expression,
-                               const Camera& front, std::span<const std::string> regions,
+MotionSections::MotionSections(const Rig& rig, const Subject& subject, const FaceScenes& scenes,
+                               const Weights& expression, std::span<const std::string> regions,
                                std::function<Result<void>()> drawing)
     : rig_(rig),
       scenes_(scenes),
       expression_(expression),
-      front_(front),
+      front_(subject.cameras(scenes, expression, std::array{View{0, 0}})[0]),
       regions_(regions),
       drawing_(std::move(drawing)),
-      fine_(rig, lodFor(rig.surface, Style::shaded, kFrame)),
+      fine_(rig, lodFor(rig.surface, Style::shaded, subject.cutFor(kFrame))),
       rest_(rig.targets.size(), 0.0) {}
 
 int MotionSections::pictures() {

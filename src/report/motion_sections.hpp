@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "sweepface/picture.hpp"
+#include "report/subject.hpp"
 
 namespace sweepface {
 
@@ -13,8 +13,8 @@ class MotionSections {
  public:
   /// Everything must outlive the sections. Boxes are drawn round what the targets move whose names
   /// contain one of `regions`; `drawing` is called before every picture and may refuse it.
-  MotionSections(const Rig& rig, const FaceScenes& scenes, const Weights& expression,
-                 const Camera& front, std::span<const std::string> regions,
+  MotionSections(const Rig& rig, const Subject& subject, const FaceScenes& scenes,
+                 const Weights& expression, std::span<const std::string> regions,
                  std::function<Result<void>()> drawing);
 
   /// How many pictures there are.
@@ -36,7 +36,7 @@ class MotionSections {
   const Rig& rig_;
   const FaceScenes& scenes_;
   const Weights& expression_;
-  const Camera& front_;
+  Camera front_;
   std::span<const std::string> regions_;
   std::function<Result<void>()> drawing_;
   FaceScenes fine_;

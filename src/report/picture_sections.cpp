@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <fmt/format.h>
-#include <iterator>
 
 #include "sweepface/fit.hpp"
 
@@ -25,10 +24,8 @@ Result<std::string> ReportMaker::picture(Scene scene, const Camera& camera,
 }
 
 void ReportMaker::frame() {
-  std::vector<Vec3> all = scenes_.drawn(rest_);
-  if (moves_) std::ranges::copy(scenes_.drawn(expression_), std::back_inserter(all));
   const std::array views{View{0, 0}, View{35, 6}};
-  const std::vector<Camera> cameras = frameCameras(all, views, kPanel);
+  const std::vector<Camera> cameras = subject_.cameras(scenes_, expression_, views);
   front_ = cameras[0];
   threeQuarter_ = cameras[1];
 }
@@ -91,7 +88,7 @@ double ReportMaker::shareOf(JoinClass c) const {
 Result<std::string> ReportMaker::continuity() {
   Figures figures;
   figures.add(picture(scenes_.scene(rest_, Style::joins), threeQuarter_, "Joins by their class"));
-  const FaceScenes fine(rig_, lodFor(rig_.surface, Style::zebra, kPanel));
+  const FaceScenes fine(rig_, lodFor(rig_.surface, Style::zebra, subject_.cutFor(kPanel)));
   figures.add(picture(fine.scene(rest_, Style::zebra), threeQuarter_,
                       "Reflected stripes: a kink of the surface would be a jump of the stripes"));
   if (figures.error) return std::unexpected(*figures.error);

@@ -51,7 +51,8 @@ ReportMaker::ReportMaker(const Rig& rig, const MeshRig& source, const ReportOpti
       rest_(rig.targets.size(), 0.0),
       expression_(options.expression.empty() ? strongestOf(rig) : options.expression),
       moves_(expression_ != rest_),
-      scenes_(rig, lodFor(rig.surface, Style::shaded, kPanel)) {
+      subject_(rig),
+      scenes_(rig, lodFor(rig.surface, Style::shaded, subject_.cutFor(kPanel))) {
   // A picture counts one, so does a shape that is converted; one that is measured counts two.
   const auto targets = static_cast<double>(source.targets.size());
   work_ = 18 + MotionSections::pictures() + 2 * targets +
@@ -104,7 +105,7 @@ std::string ReportMaker::mixture() const { return mixtureOf(rig_, expression_); 
 
 Result<std::string> ReportMaker::motion() {
   if (!moves_) return "";
-  const MotionSections sections(rig_, scenes_, expression_, front_, options_.regions, [this] {
+  const MotionSections sections(rig_, subject_, scenes_, expression_, options_.regions, [this] {
     const Result<void> ok = proceed("rendering");
     done_ += 1;
     return ok;
@@ -185,12 +186,10 @@ Result<std::string> makeMotionReport(const Rig& rig, const ReportOptions& option
         "The face has no expressions that could move; give the meshes it was made from as well.");
   if (expression == rest)
     return fail("The face does not move; name an expression to which it should.");
-  const FaceScenes scenes(rig, lodFor(rig.surface, Style::shaded, kPanel));
-  std::vector<Vec3> all = scenes.drawn(rest);
-  std::ranges::copy(scenes.drawn(expression), std::back_inserter(all));
-  const Camera front = frameCameras(all, std::array{View{0, 0}}, kPanel)[0];
+  const Subject subject(rig);
+  const FaceScenes scenes(rig, lodFor(rig.surface, Style::shaded, subject.cutFor(kPanel)));
   int done = 0;
-  const MotionSections sections(rig, scenes, expression, front, options.regions, [&] {
+  const MotionSections sections(rig, subject, scenes, expression, options.regions, [&] {
     return proceed(options, "rendering", static_cast<double>(done++) / MotionSections::pictures());
   });
   const auto experiment = sections.experiment();

@@ -1,6 +1,5 @@
 #include "surface/jet_numbers.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 

@@ -258,6 +258,21 @@ TEST(TNodes, chooseEdgesThatFitBothSides) {
   EXPECT_LT(norm(middleOf(rig, "de", 1) - Vec3{4.0 / 3, 4, 0}), 0.1);
 }
 
+TEST(TNodes, shareTheEdgesThatTheSideOppositeIsSaidToHave) {
+  Json drawing = withTNode();
+  drawing["curves"][0]["edges"] = 10;  // ab
+  drawing["curves"][1]["edges"] = 40;  // bc: so short are edges that tell of themselves
+  const Rig rig = made(drawing);
+  EXPECT_EQ(rig.surface.edgesU(1), 3);  // a third of the way, as is drawn opposite
+  EXPECT_EQ(rig.surface.edgesU(2), 7);
+  drawing["curves"][0]["edges"] = 1;
+  drawing["curves"][1].erase("edges");
+  EXPECT_NE(refusal(drawing).find("side 3 of patch 'p0' has 1 edges, not counting a curve without "
+                                  "'edges', and side 1 has 1"),
+            std::string::npos)
+      << refusal(drawing);
+}
+
 TEST(TNodes, withoutAPlaceAskForTheSpacingOfControlsThatTheyShouldTell) {
   Json drawing = withTNode();
   drawing["patches"][1]["name"] = "left";
@@ -398,6 +413,27 @@ TEST(Tips, areWhereAllTheirNodesAreDrawn) {
   EXPECT_EQ(refusal(drawing), "");
   (*other)["at"] = {0, 4, 0};
   EXPECT_NE(refusal(drawing).find("is drawn at another place"), std::string::npos)
+      << refusal(drawing);
+}
+
+/// A bow tie: what no curve leads to would be left without tangents.
+TEST(Tips, atOnePointHangTogether) {
+  Json drawing = Json::parse(R"({"format": "sweepface wireframe 1",
+    "nodes": [{"name": "p1", "at": [0, 0, 0]}, {"name": "p2", "with": "p1"},
+              {"name": "p3", "at": [0, 0, 0]}, {"name": "p4", "with": "p3"},
+              {"name": "a", "at": [4, -1, 0]}, {"name": "b", "at": [4, 1, 0]},
+              {"name": "c", "at": [-4, 1, 0]}, {"name": "d", "at": [-4, -1, 0]}],
+    "curves": [{"name": "t1", "from": "p2", "to": "p1", "collapsed": true},
+               {"name": "t2", "from": "p4", "to": "p3", "collapsed": true},
+               {"name": "p1a", "from": "p1", "to": "a"}, {"name": "ab", "from": "a", "to": "b"},
+               {"name": "bp2", "from": "b", "to": "p2"}, {"name": "p3c", "from": "p3", "to": "c"},
+               {"name": "cd", "from": "c", "to": "d"}, {"name": "dp4", "from": "d", "to": "p4"}],
+    "patches": [{"sides": ["p1a", "ab", "bp2", "t1"]}, {"sides": ["p3c", "cd", "dp4", "t2"]}]})");
+  EXPECT_EQ(refusal(drawing), "");
+  for (const std::size_t n : {2u, 3u})
+    drawing["nodes"][n] = {{"name", "p" + std::to_string(n + 1)}, {"with", "p1"}};
+  EXPECT_NE(refusal(drawing).find("nodes 'p1' and 'p3' stand at one point, but no collapsed curve"),
+            std::string::npos)
       << refusal(drawing);
 }
 

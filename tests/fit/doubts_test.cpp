@@ -1,12 +1,15 @@
 #include "fit/doubts.hpp"
 
+#include <cmath>
 #include <functional>
 #include <gtest/gtest.h>
+#include <numbers>
 #include <random>
 
 #include "sweepface/fit.hpp"
 
 #include "faces.hpp"
+#include "fit/coarseness.hpp"
 
 namespace sweepface {
 namespace {
@@ -143,6 +146,25 @@ TEST(Doubts, AreOfAToleranceFarAboveEdges) {
   for (Vec3& p : rig.neutral.positions)
     if (std::abs(p.x) < 100) p = {};
   EXPECT_TRUE(doubtsAbout(rig, 0.0002 * diagonal(rig.neutral)).empty());
+}
+
+/// A sheet of 32 x 32 quads whose every other row of vertices is `height` above the others.
+PolygonMesh corrugated(double height) {
+  return grid(32, 32, [&](double i, double j) { return Vec3{i, j, std::fmod(j, 2) * height}; });
+}
+
+TEST(Doubts, AreOfAToleranceTooFineForACoarseMesh) {
+  const double lean = std::atan(0.1) * 180 / std::numbers::pi;
+  const Coarseness coarse = coarsenessOf(corrugated(0.1));
+  EXPECT_NEAR(coarse.degrees, lean, 1e-9);
+  EXPECT_NEAR(coarse.height, 0.1 / std::pow(1.01, 0.25), 1e-9);  // a face is a little longer than 1
+  const MeshRig rig{corrugated(0.1), {}};
+  const auto doubts = doubtsAbout(rig, 0.4);
+  ASSERT_EQ(doubts.size(), 1u);
+  EXPECT_NE(doubts[0].find("lean 5.7 degrees"), std::string::npos) << doubts[0];
+  EXPECT_TRUE(doubts[0].ends_with("try a tolerance of 0.5.")) << doubts[0];
+  EXPECT_TRUE(doubtsAbout(rig, 0.5).empty());
+  EXPECT_TRUE(doubtsAbout({corrugated(0.04), {}}, 0.01).empty());  // as good as smooth
 }
 
 TEST(Doubts, AreToldByConvert) {

@@ -48,6 +48,17 @@ TEST_P(EveryPack, staysNearTheFaceAndIsSmall) {
   EXPECT_EQ(encode(read), encode(rig));
 }
 
+/// Which of them lies where is optional in files, and folds are not looked for without.
+TEST(Pack, needsNotKnowTheFacesOfTheSource) {
+  const MeshRig source = withTargets(torus());
+  Rig rig = converted(source, 0.01);
+  rig.source.quadCorners.clear();
+  const Rig before = rig;
+  EXPECT_EQ(countFolds(rig, source), std::vector<Index>(1 + source.targets.size(), 0));
+  ASSERT_TRUE(pack(rig, {.tolerance = 0.02}));
+  EXPECT_LE(furthestVertex(readBack(rig), before).distance, 0.02);
+}
+
 TEST(Pack, meshesAreTheSourceAsTheRigHasIt) {
   const MeshRig source = withTargets(torus());
   const Rig rig = converted(source, 0.01);
