@@ -60,6 +60,11 @@ void Page::place(Index column, Index row, const Image& image, std::string_view c
   const Index height = panel_.height + (plan_.captions ? captionHeight(panel_) : 0);
   const Index x = column * panel_.width, y = row * height;
   paste(image_, image, x, y);
+  // Pictures that are full up to their sides do not run together.
+  const Index gap = std::max<Index>(2, panel_.width / 150);
+  for (const Index side : {column, column + 1})
+    if (side > 0 && side < plan_.columns)
+      fillRectangle(image_, side * panel_.width - gap / 2, y, gap, panel_.height, kPaper);
   const double text = textHeight(panel_);
   drawFitting(image_, caption, x + 0.5 * panel_.width, y + panel_.height + 1.6 * text, text,
               0.94 * panel_.width);

@@ -21,8 +21,10 @@ Scale scaleOf(const std::vector<Series>& series, double Vec2::* along, const Axi
       low = std::min(low, p.*along);
       high = std::max(high, p.*along);
     }
-  // Lengths start at 0, if that is not far away, and so does what never changes.
-  if (!axis.logarithmic && low > 0 && (low < 0.5 * high || isSame(low, high))) low = 0;
+  // Lengths start at 0, if that is not far away, and so does what hardly changes, or by rounding.
+  constexpr double kHardly = 1e-4;
+  if (!axis.logarithmic && low > 0 && (low < 0.5 * high || high - low < kHardly * high)) low = 0;
+  if (!axis.logarithmic && high < 0 && high - low < kHardly * -low) high = 0;
   return {niceTicks(low, high, axis.logarithmic), axis.logarithmic};
 }
 

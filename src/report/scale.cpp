@@ -14,10 +14,6 @@ double Scale::at(double value) const {
   return std::lerp(start, end, (place(value) - low) / (high - low));
 }
 
-bool isSame(double low, double high) {
-  return !(high - low > 1e-12 * std::max(std::abs(low), std::abs(high)));
-}
-
 std::vector<std::string> labelsOf(const Scale& scale) {
   const std::vector<double>& ticks = scale.ticks;
   const double most = std::max(std::abs(ticks.front()), std::abs(ticks.back())),
@@ -34,6 +30,11 @@ std::vector<std::string> labelsOf(const Scale& scale) {
 }
 
 namespace {
+
+// Whether numbers differ by no more than rounding: steps as small could not be counted.
+bool isSame(double low, double high) {
+  return !(high - low > 1e-12 * std::max(std::abs(low), std::abs(high)));
+}
 
 // Powers of ten, seven intervals at most.
 std::vector<double> decadeTicks(double low, double high) {

@@ -14,9 +14,6 @@ struct Scale {
   double at(double value) const;
 };
 
-/// Whether numbers differ by no more than rounding: steps as small could not be counted.
-bool isSame(double low, double high);
-
 /// What stands at the ticks: as short as they can be and still differ, without an exponent for the
 /// sizes of ordinary things.
 std::vector<std::string> labelsOf(const Scale& scale);
