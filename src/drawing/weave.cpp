@@ -259,22 +259,22 @@ class Weaver {
     return chooseRibbons(d_, woven_);
   }
 
-  // Patches around a point follow each other across curves that leave it or are collapsed there:
-  // what no curve leads to would be left without derivatives.
+  // Around an irregular point patches follow each other across curves that leave it or are
+  // collapsed there: what no curve leads to would be left without derivatives.
   Result<void> checkPoints() const {
     UnionFind around(w_.nodes.size());
     for (const Arc& arc : w_.arcs)
       if (arc.collapsed) around.join(arc.from, arc.to);
     std::vector<Index> first(w_.points, -1);
     for (Index n = 0; n < static_cast<Index>(w_.nodes.size()); ++n) {
-      if (w_.nodes[n].point < 0) continue;
+      if (woven_.connectivity.kinds[n] != NodeKind::irregular) continue;
       Index& known = first[w_.nodes[n].point];
       if (known < 0) known = n;
       if (around.find(known) != around.find(n))
         return refuse(d_.nodes[n].place,
-                      fmt::format("nodes '{}' and '{}' stand at one point, but no collapsed curve "
-                                  "leads from one to the other; give one of them an 'at' of its "
-                                  "own instead of 'with'",
+                      fmt::format("nodes '{}' and '{}' are tips at one point, but no collapsed "
+                                  "curve leads from one to the other; give one of them an 'at' of "
+                                  "its own instead of 'with'",
                                   nodeName(known), nodeName(n)));
     }
     return {};

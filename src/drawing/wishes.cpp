@@ -6,6 +6,7 @@
 #include <set>
 
 #include "io/text.hpp"
+#include "surface/inward.hpp"
 
 namespace sweepface::drawing {
 
@@ -93,22 +94,6 @@ class WishGatherer {
     return at;
   }
 
-  // The way from a curve into a patch beside it.
-  struct Inward {
-    int side = 0;
-    bool alongV = false;   // moving into the patch is moving along v, else along u
-    double direction = 1;  // with u or v, or against it
-    double edges = 1;      // of the patch that way
-  };
-  Inward inward(HalfArc h, Index patch) const {
-    Inward way;
-    while (std::ranges::count(w_.side(patch, way.side), h) == 0) ++way.side;
-    way.alongV = way.side == 0 || way.side == 2;
-    way.direction = way.side == 0 || way.side == 3 ? 1 : -1;
-    way.edges = way.alongV ? s_.edgesV(patch) : s_.edgesU(patch);
-    return way;
-  }
-
   Result<void> wishControls(const Drawing::Control& control) {
     const auto refuse = [&](const std::string& what) { return failAt(d_, control.place, what); };
     const auto curve = woven_.curves.find(control.beside);
@@ -137,7 +122,7 @@ class WishGatherer {
           fmt::format("the control curves beside '{}' need {} points each, one beside "
                       "each point of it with its ends, and have {} and {}",
                       control.beside, line->size(), control.second.size(), control.third.size()));
-    const Inward way = inward(h, p);
+    const Inward way(s_, h);
     const auto spacing = spacingOf(control, *line, p, way);
     if (!spacing) return std::unexpected(spacing.error());
     addControls(control, c, h, way, *spacing, parameters(*line, w_.arcs[c].edges));

@@ -14,6 +14,7 @@
 #include "edit/affected.hpp"
 #include "edit/checks.hpp"
 #include "edit/rest.hpp"
+#include "surface/inward.hpp"
 #include "surface/stored_jets.hpp"
 
 namespace sweepface {
@@ -91,13 +92,9 @@ class ControlMover {
 
   // By how much the derivatives across change, per source edge.
   Result<void> findDerivatives() {
-    const auto side = [&](int s) {
-      const auto arcs = rig_.surface.wireframe().side(move_.patch, s);
-      return std::ranges::count(arcs, half_) > 0;
-    };
-    edgesAlong_ = rig_.surface.edgesU(move_.patch);
-    edgesAcross_ = rig_.surface.edgesV(move_.patch);
-    if (!side(0) && !side(2)) std::swap(edgesAlong_, edgesAcross_);
+    const Inward way(rig_.surface, half_);
+    edgesAcross_ = way.edges;
+    edgesAlong_ = way.alongV ? rig_.surface.edgesU(move_.patch) : rig_.surface.edgesV(move_.patch);
     const auto across = derivativesFromControls({}, move_.second, move_.third, kControlSpacing);
     if (!across) return std::unexpected(across.error());
     first_ = across->first * (1 / edgesAcross_);

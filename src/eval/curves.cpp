@@ -3,26 +3,13 @@
 #include "sweepface/eval.hpp"
 #include "sweepface/ode.hpp"
 
+#include "surface/inward.hpp"
+
 namespace sweepface {
 namespace {
 
 /// How far the control curves lie from the boundary, as shares of the patch's length across.
 constexpr double kSecond = 0.1, kThird = 0.25;
-
-/// An arc as seen from the patch on the left of a half-arc.
-struct Across {
-  bool alongV;    ///< leaving the arc is moving along v, else along u
-  double length;  ///< of the patch, in source edges; negative where the way in is against u or v
-};
-
-Across acrossArc(const Surface& surface, HalfArc h) {
-  const Index patch = surface.connectivity().patchOf[h];
-  int side = 0;
-  while (std::ranges::count(surface.wireframe().side(patch, side), h) == 0) ++side;
-  const bool alongV = side == 0 || side == 2;
-  const double length = alongV ? surface.edgesV(patch) : surface.edgesU(patch);
-  return {alongV, side == 0 || side == 3 ? length : -length};
-}
 
 class CurveMaker {
  public:
@@ -90,14 +77,14 @@ class CurveMaker {
   }
 
   std::pair<Vec3, Vec3> controlsAt(HalfArc h, double t) const {
-    const Across across = acrossArc(surface_, h);
+    const Inward way(surface_, h);
+    const double length = way.direction * way.edges;
     const Site site = surface_.siteOnArc(h, t);
     const auto derivative = [&](int order) {
-      return surface_.evaluate(vectors_, site, across.alongV ? 0 : order,
-                               across.alongV ? order : 0);
+      return surface_.evaluate(vectors_, site, way.alongV ? 0 : order, way.alongV ? order : 0);
     };
     return controlsFromDerivatives(derivative(0), {derivative(1), derivative(2)},
-                                   {kSecond * across.length, kThird * across.length});
+                                   {kSecond * length, kThird * length});
   }
 
   Index steps(Index arc) const { return perEdge_ * wires_.arcs[arc].edges; }

@@ -4,6 +4,7 @@
 #include "sweepface/surface.hpp"
 
 #include "surface/creases.hpp"
+#include "surface/inward.hpp"
 
 namespace sweepface {
 
@@ -17,17 +18,12 @@ struct CrossJet {
 
 CrossJet crossJet(const Surface& surface, std::span<const Vec3> vectors, HalfArc h, double t) {
   const Site site = surface.siteOnArc(h, t);
-  const auto& w = surface.wireframe();
-  const auto on = [&](int s) {
-    const auto side = w.side(site.patch, s);
-    return std::find(side.begin(), side.end(), h) != side.end();
-  };
-  const bool acrossV = on(0) || on(2);
-  const double inward = on(0) || on(3) ? 1 : -1;
+  const Inward way(surface, h);
   CrossJet jet;
   jet.position = surface.evaluate(vectors, site);
-  jet.first = inward * surface.evaluate(vectors, site, acrossV ? 0 : 1, acrossV ? 1 : 0);
-  jet.second = surface.evaluate(vectors, site, acrossV ? 0 : 2, acrossV ? 2 : 0);
+  jet.first =
+      way.direction * surface.evaluate(vectors, site, way.alongV ? 0 : 1, way.alongV ? 1 : 0);
+  jet.second = surface.evaluate(vectors, site, way.alongV ? 0 : 2, way.alongV ? 2 : 0);
   jet.normal = surface.normal(vectors, site);
   return jet;
 }

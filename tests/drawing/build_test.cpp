@@ -432,7 +432,7 @@ TEST(Tips, atOnePointHangTogether) {
   EXPECT_EQ(refusal(drawing), "");
   for (const std::size_t n : {2u, 3u})
     drawing["nodes"][n] = {{"name", "p" + std::to_string(n + 1)}, {"with", "p1"}};
-  EXPECT_NE(refusal(drawing).find("nodes 'p1' and 'p3' stand at one point, but no collapsed curve"),
+  EXPECT_NE(refusal(drawing).find("nodes 'p1' and 'p3' are tips at one point, but no collapsed"),
             std::string::npos)
       << refusal(drawing);
 }
