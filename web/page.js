@@ -7,7 +7,8 @@ import {
 } from './page_stage.js';
 
 let mesh, lines;           // the face on show and, if wanted, its edges
-let file, latest;          // the one on show and the one asked for last: the bytes, or what will be those, and the name
+let file, latest;          // the one on show and the one asked for last: the bytes, or what will be those, the name
+                           // and, until it is shown, the one `before`
 let loading = 0;           // milliseconds from the bytes to the first frame
 let asked = 0, shown = 0;  // how often a file was asked for, and which of those times is on show
 let waiting = 0;           // how many of those times are not over
@@ -19,7 +20,7 @@ let aim = [{}];            // where the face on show is to go, as moveTo() takes
  */
 async function show(source, name, keepView = false) {
   const mine = ++asked;
-  latest = {source, name};
+  const own = latest = {source, name, before: latest};
   ++waiting;
   say('Loading…');
   try {
@@ -33,7 +34,7 @@ async function show(source, name, keepView = false) {
     const next = standing(face, mesh && keepView ? mesh.face.weights : {});
     remove();
     shown = mine;
-    file = {source: buffer, name};
+    file = Object.assign(own, {source: buffer, before: undefined});
     mesh = next;
     scene.add(mesh);
     if (keepView) {
@@ -53,7 +54,8 @@ async function show(source, name, keepView = false) {
   } catch (error) {
     if (mine === asked) complain(error);
   } finally {
-    if (mine === asked) latest = file;
+    own.isOver = file !== own;
+    while (latest?.isOver) latest = latest.before;
     if (--waiting === 0 && mesh) {
       hush();
       at('lod').value = mesh.face.lod;

@@ -31,9 +31,11 @@ function sliderOf(name, moved) {
   };
   input.addEventListener('input', tell);
   // A finger that goes on to scroll the list has moved nothing.
-  let before = 0;
-  input.addEventListener('pointerdown', () => { before = input.value; });
+  let before = 0, hasMoved = false;
+  input.addEventListener('input', () => { hasMoved = true; });
+  input.addEventListener('pointerdown', () => { before = input.value, hasMoved = false; });
   input.addEventListener('pointercancel', () => {
+    if (!hasMoved) return;
     input.value = before;
     tell();
   });

@@ -59,6 +59,8 @@ export interface Region {
 export interface Look {
   yaw?: number | undefined;
   pitch?: number | undefined;
+  /** As clips have it; eyes do not use it. */
+  roll?: number | undefined;
 }
 
 /** How the eyes stand. */

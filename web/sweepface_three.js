@@ -43,6 +43,7 @@ export class SweepfaceLoader extends Loader {
 
   load(url, onLoad, onProgress, onError) {
     const {manager} = this, usual = {...this.options}, loader = new FileLoader(manager);
+    if (usual.regions) usual.regions = structuredClone(usual.regions);
     loader.setPath(this.path).setResponseType('arraybuffer');
     loader.setRequestHeader(this.requestHeader).setWithCredentials(this.withCredentials);
     const tell = onError ?? console.error, name = usual.name || url;

@@ -1,5 +1,3 @@
-#include <algorithm>
-
 #include "sweepface/eval.hpp"
 #include "sweepface/ode.hpp"
 

@@ -118,8 +118,10 @@ class Animator {
     for (std::size_t n = 0; n < shown.size(); ++n)
       if (shown[n] >= 0)
         if (auto ok = addNode(n, shown[n]); !ok) return ok;
-    if (animation_["channels"].empty())
-      return fail("The face has no target in its scene that an animation could move.");
+    if (animation_["channels"].empty() && !options_.head)
+      return fail(
+          "The face has no target in its scene that an animation could move; convert it with the "
+          "meshes of its expressions.");
     if (options_.head)
       if (auto ok = addHead(); !ok) return ok;
     Json& animations = scene_.document.json["animations"];

@@ -10,8 +10,15 @@ double dot(const Quaternion& a, const Quaternion& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
 }
 
-/// Along the great circle, as players interpolate rotations (glTF 2.0, appendix C.4).
-Quaternion between(const Quaternion& a, const Quaternion& b, double s) {
+/// That of q and -q, which are one rotation, which is nearer to another one.
+Quaternion nearer(const Quaternion& q, const Quaternion& to) {
+  return dot(q, to) < 0 ? Quaternion{-q[0], -q[1], -q[2], -q[3]} : q;
+}
+
+/// Along the great circle, the shorter way, as players interpolate rotations (glTF 2.0, appendix
+/// C.4).
+Quaternion between(const Quaternion& a, const Quaternion& to, double s) {
+  const Quaternion b = nearer(to, a);
   const double cosine = std::clamp(dot(a, b), -1.0, 1.0), angle = std::acos(cosine);
   const double sine = std::sin(angle);
   const double p = sine > 1e-9 ? std::sin((1 - s) * angle) / sine : 1 - s;
@@ -22,17 +29,17 @@ Quaternion between(const Quaternion& a, const Quaternion& b, double s) {
 }
 
 /// Radians from one rotation to another.
-double angleBetween(const Quaternion& a, const Quaternion& b) {
+double angleBetween(const Quaternion& a, const Quaternion& to) {
+  const Quaternion b = nearer(to, a);
   double square = 0;
   for (std::size_t k = 0; k < 4; ++k) square += (a[k] - b[k]) * (a[k] - b[k]);
   return 4 * std::asin(std::min(1.0, std::sqrt(square) / 2));
 }
 
-/// Half of all quaternions say the same as the others: neighbours take the shorter way.
+/// With neighbours that programs may interpolate number by number.
 std::vector<Quaternion> untwisted(std::vector<Quaternion> rotations) {
   for (std::size_t k = 1; k < rotations.size(); ++k)
-    if (dot(rotations[k - 1], rotations[k]) < 0)
-      for (double& x : rotations[k]) x = -x;
+    rotations[k] = nearer(rotations[k], rotations[k - 1]);
   return rotations;
 }
 
@@ -49,8 +56,12 @@ std::vector<std::size_t> keysOf(const HeadTrack& track, const std::vector<Quater
     return true;
   };
   for (std::size_t from = 0; from + 1 < rotations.size();) {
-    std::size_t to = from + 1;
-    while (to + 1 < rotations.size() && to - from < 1000 && isNear(from, to + 1)) ++to;
+    // In strides that grow and then shrink: frame by frame long rests would take long.
+    std::size_t to = from + 1, stride = 1;
+    const auto goesOn = [&] { return to + stride < rotations.size() && isNear(from, to + stride); };
+    for (; goesOn(); stride *= 2) to += stride;
+    for (; stride > 0; stride /= 2)
+      if (goesOn()) to += stride;
     keys.push_back(from = to);
   }
   return keys;

@@ -112,11 +112,13 @@ class TargetAdder {
   Result<void> widenAnimations() {
     if (!json_.contains("animations")) return {};
     Builder builder(document_);
+    WideOutputs outputs;
     for (Json& animation : json_["animations"])
       if (isList(animation, "channels") && isList(animation, "samplers")) {
         WideSamplers wide;
         for (Json& channel : animation["channels"])
-          if (auto ok = widenChannel(animation["samplers"], wide, channel, builder); !ok) return ok;
+          if (auto ok = widenChannel(animation["samplers"], wide, channel, outputs, builder); !ok)
+            return ok;
       }
     builder.finish();
     return {};
@@ -135,10 +137,12 @@ class TargetAdder {
     return meshes_.contains(moved->number) ? std::optional(moved->number) : std::nullopt;
   }
 
-  /// By sampler and how many targets there were.
+  /// By sampler of an animation, or by accessor, and how many targets there were.
   using WideSamplers = std::map<std::pair<std::size_t, std::size_t>, std::size_t>;
+  using WideOutputs = WideSamplers;
 
-  Result<void> widenChannel(Json& samplers, WideSamplers& known, Json& channel, Builder& builder) {
+  Result<void> widenChannel(Json& samplers, WideSamplers& known, Json& channel,
+                            WideOutputs& outputs, Builder& builder) {
     const Json* const target = find(channel, "target");
     const auto mesh = target ? meshMovedBy(*target) : std::nullopt;
     const auto sampler = findIndex(channel, "sampler", samplers.size());
@@ -153,11 +157,15 @@ class TargetAdder {
     const auto [own, isNew] = known.try_emplace({*sampler, before}, samplers.size());
     channel["sampler"] = own->second;
     if (!isNew) return {};
-    const auto accessor = accessorAt(document_, *output);
-    if (!accessor) return std::unexpected(accessor.error());
-    const auto values = decode(document_, *accessor);
-    if (!values) return std::unexpected(values.error());
-    wide["output"] = builder.add(pack(widened(*values, before), 1), Use::other);
+    const auto [place, isFirst] = outputs.try_emplace({*output, before}, 0);
+    if (isFirst) {
+      const auto accessor = accessorAt(document_, *output);
+      if (!accessor) return std::unexpected(accessor.error());
+      const auto values = decode(document_, *accessor);
+      if (!values) return std::unexpected(values.error());
+      place->second = builder.add(pack(widened(*values, before), 1), Use::other);
+    }
+    wide["output"] = place->second;
     samplers.push_back(std::move(wide));
     return {};
   }

@@ -52,7 +52,7 @@ class Emptier {
   const std::vector<bool>& touched() const { return touched_; }
 
  private:
-  static constexpr int floats = 5126;
+  static constexpr int floats = static_cast<int>(Component::float32);
 
   /// Their number stays, of triangles one by one.
   void emptyIndices(Json& primitive, std::size_t part) {

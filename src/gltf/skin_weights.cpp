@@ -16,7 +16,7 @@ namespace sweepface {
 namespace gltf {
 namespace {
 
-constexpr int kUint16 = 5123;
+constexpr int kUint16 = static_cast<int>(Component::uint16);
 constexpr double kOne = 65535;
 
 /// The accessors of WEIGHTS_0, WEIGHTS_1 ... of a primitive, of which those of a vertex sum to one
@@ -41,15 +41,17 @@ Binding bindingOf(const Json& primitive, std::size_t accessors) {
 }
 
 /// Rounds the weights of a vertex so that their sum is rounded, too: the largest takes what the
-/// others leave.
-void roundTogether(std::span<double> weights) {
+/// others leave. False where that is no weight.
+bool roundTogether(std::span<double> weights) {
   double sum = 0, rounded = 0;
   for (double& w : weights) {
     sum += w;
     w = std::round(w * kOne);
     rounded += w;
   }
-  *std::ranges::max_element(weights) += std::min(std::round(sum * kOne), kOne) - rounded;
+  double& largest = *std::ranges::max_element(weights);
+  largest += std::min(std::round(sum * kOne), kOne) - rounded;
+  return largest >= 0 && largest <= kOne;
 }
 
 class WeightRounder {
@@ -117,7 +119,7 @@ class WeightRounder {
       for (std::size_t k = 0; k < vertex.size(); ++k) vertex[k] = values[k / 4][at + k % 4];
       // Weights that are no shares are somebody's own.
       if (std::abs(std::accumulate(vertex.begin(), vertex.end(), 0.0) - 1) > 0.01) return {};
-      roundTogether(vertex);
+      if (!roundTogether(vertex)) return {};
       for (std::size_t k = 0; k < vertex.size(); ++k) values[k / 4][at + k % 4] = vertex[k];
     }
     return values;

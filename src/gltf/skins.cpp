@@ -194,7 +194,7 @@ class Binder {
     for (const char* key : {"byteOffset", "sparse", "min", "max", "normalized"})
       accessor.erase(key);
     accessor["bufferView"] = view;
-    accessor["componentType"] = 5126;
+    accessor["componentType"] = static_cast<int>(Component::float32);
     accessor["count"] = matrices->size();
     accessor["type"] = "MAT4";
     json["inverseBindMatrices"] = isOwn ? *known : accessors.size() - 1;

@@ -20,7 +20,6 @@ class JsonFields {
       : file_(file), object_(object), place_(std::move(place)) {}
 
   const Json& json() const { return object_; }
-  bool has(const char* key) const { return object_.contains(key); }
 
   std::unexpected<Error> fail(std::string_view what) const { return failAt(place_, what); }
   std::unexpected<Error> failAt(std::string_view place, std::string_view what) const {

@@ -29,7 +29,9 @@ Result<void> checkMeshes(const Rig& rig, const MeshRig& source) {
   return {};
 }
 
-Result<void> checkExpression(const Rig& rig, const ReportOptions& options) {
+Result<void> checkRig(const Rig& rig, const ReportOptions& options) {
+  if (!rig.knowsTargets())
+    return fail("The targets of the face are not decoded yet; decode them before a report.");
   if (options.expression.empty() || options.expression.size() == rig.targets.size()) return {};
   return fail(fmt::format("The expression has {} weights, but the face has {} targets.",
                           options.expression.size(), rig.targets.size()));
@@ -82,6 +84,8 @@ Result<void> ReportMaker::prepare() {
   if (!moved) return std::unexpected(moved.error());
   if (auto ok = checkMeshes(rig_, source_); !ok) return ok;
   moved_ = std::move(*moved);
+  for (const std::string& name : options_.regions)
+    if (const auto region = scenes_.region(name); !region) return std::unexpected(region.error());
   if (auto ok = proceed("measuring"); !ok) return ok;
   Result<Measurement> measured =
       measure(rig_, source_, {.mixtures = 5, .seed = 1, .cancel = options_.cancel});
@@ -173,12 +177,12 @@ Result<std::string> ReportMaker::sizes() {
 
 Result<std::string> makeReport(const Rig& rig, const MeshRig& source,
                                const ReportOptions& options) {
-  if (auto ok = checkExpression(rig, options); !ok) return std::unexpected(ok.error());
+  if (auto ok = checkRig(rig, options); !ok) return std::unexpected(ok.error());
   return ReportMaker(rig, source, options).make();
 }
 
 Result<std::string> makeMotionReport(const Rig& rig, const ReportOptions& options) {
-  if (auto ok = checkExpression(rig, options); !ok) return std::unexpected(ok.error());
+  if (auto ok = checkRig(rig, options); !ok) return std::unexpected(ok.error());
   const Weights rest(rig.targets.size(), 0.0);
   const Weights expression = options.expression.empty() ? strongestOf(rig) : options.expression;
   if (rig.targets.empty())

@@ -202,7 +202,7 @@ void EyeTurns::addLooks(Rig& rig, const Eye& eye, Turning& turning) {
   for (std::size_t k = 0; k < usual.size(); ++k)
     for (const Index index : match.targets[k]) {
       Target& target = rig.targets[index];
-      const Fit fit = fitTurn(rig, eye, target);
+      const Fit fit = rig.knows(target) ? fitTurn(rig, eye, target) : Fit{};
       constexpr double kMoves = 0.02, kRigid = 0.1;  // of the radius, and of the way
       const double count = static_cast<double>(eye.stored.size());
       if (!(fit.moves > count * kMoves * kMoves * eye.radius * eye.radius / 9)) {

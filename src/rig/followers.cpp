@@ -116,7 +116,9 @@ Followers::Followers(std::vector<Follower> followers) {
     } else {
       auto chain = std::ranges::find(chains_, follower.leaders[0], &Chain::leader);
       if (chain == chains_.end()) chain = chains_.insert(chain, {follower.leaders[0], {}, 0});
-      chain->stops.push_back(follower);
+      // Of two ways to write one stop the first target counts.
+      if (chain->stops.empty() || chain->stops.back().at != follower.at)
+        chain->stops.push_back(follower);
     }
   }
   for (const Follower& product : followers)

@@ -104,7 +104,7 @@ void blend(const Rig& rig, std::span<const Region> regions, std::span<const doub
     // What is the same everywhere is so bit for bit, whatever shares add up to.
     bool even = true;
     for (std::size_t r = 1; r < regions.size(); ++r) even &= at(r * count + k) == at(k);
-    if (even && at(k) == 0) continue;
+    if ((even && at(k) == 0) || rig.targets[k].difference.empty()) continue;
     const auto weightAt = [&](Index node) {
       double weight = 0;
       for (std::size_t r = 0; r < regions.size(); ++r)
@@ -155,7 +155,11 @@ RegionalTargets RegionalTargets::addTo(Rig& rig, std::span<const Region> regions
     for (std::size_t r = 0; r < regions.size(); ++r) {
       Target part = partOf(rig, rig.targets[target], regions[r], r == 0);
       if (!moves(part, rig.tolerance)) continue;
-      while (rig.find(part.name) >= 0) part.name += '_';
+      const auto isTaken = [&] {
+        return rig.find(part.name) >= 0 ||
+               std::ranges::find(parts, part.name, &Target::name) != parts.end();
+      };
+      while (isTaken()) part.name += '_';
       parts.push_back(std::move(part));
       split.regions.push_back(r);
     }

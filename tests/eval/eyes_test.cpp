@@ -107,6 +107,18 @@ TEST(EyeTurns, AreRigidAtEveryWeightAndOnlyThere) {
   }
 }
 
+TEST(EyeTurns, AreUsualOnesOfTargetsThatAreStillToCome) {
+  Rig rig = converted(faceWithEyes(false));
+  const auto eyes = findEyes(rig);
+  const Index down = rig.find("eyeLookDown_L");
+  for (Target& target : rig.targets) target.difference.clear();
+  const EyeTurns turns = EyeTurns::addTo(rig, eyes);
+  std::vector<double> weights(rig.targets.size());
+  weights[down] = 1;
+  turns.apply(weights);
+  EXPECT_NEAR(weights[rig.find("eyeLeft.down")], std::sin(0.5), 1e-12);
+}
+
 TEST(EyeTurns, StayWholeWhereARegionEndsInABall) {
   const MeshRig mesh = faceWithEyes(false);
   Rig rig = converted(mesh);

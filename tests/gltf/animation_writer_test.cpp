@@ -1,3 +1,5 @@
+#include <cmath>
+#include <numbers>
 #include <random>
 
 #include "gltf/written.hpp"
@@ -198,6 +200,55 @@ TEST(AnimationWriter, TurnsTheJointsOfSkinnedMeshesAlone) {
   ASSERT_EQ(shown, Json({3, 0})) << "a node above a skinned mesh means nothing";
   EXPECT_EQ(json["nodes"][3]["name"], "head");
   EXPECT_EQ(json["nodes"][4]["children"], Json({1, 2}));
+}
+
+/// The angle about y of a rotation that players find between the keys of a track, the shorter way.
+double yawBetweenKeys(const std::vector<double>& times, const std::vector<double>& values,
+                      double time) {
+  std::size_t k = 1;
+  while (k + 1 < times.size() && times[k] < time) ++k;
+  const auto yaw = [&](std::size_t key) {
+    return 2 * std::atan2(values[4 * key + 1], values[4 * key + 3]);
+  };
+  const double way = std::remainder(yaw(k) - yaw(k - 1), 2 * std::numbers::pi);
+  return yaw(k - 1) + way * (time - times[k - 1]) / (times[k] - times[k - 1]);
+}
+
+TEST(AnimationWriter, TurnsTheHeadTheWayItGoesHoweverFar) {
+  Glb source = smallFace();
+  source.add("scenes", {{"nodes", {0}}});
+  const Rig rig = converted(source);
+  const Clip clip{{"open", "wink"}, {0, 2}, {0, 0, 1, 0}};
+  HeadTrack head;
+  for (int f = 0; f <= 120; ++f) {
+    head.times.push_back(f / 60.0);
+    head.rotations.push_back(quaternionOf({4 * f / 120.0, 0, 0}));
+  }
+  GlbOptions options;
+  options.clip = &clip, options.head = &head, options.keyTolerance = 0.001;
+  const auto bytes = formatGlb(rig, options);
+  ASSERT_TRUE(bytes) << bytes.error().message;
+  const Written glb(*bytes);
+  const Json& animation = glb.json["animations"][0];
+  const Json& sampler = animation["samplers"][animation["channels"].size() - 1];
+  const auto times = glb.numbers(sampler["input"]), values = glb.numbers(sampler["output"]);
+  EXPECT_LT(times.size(), 5u);
+  for (double time = 0; time <= 2; time += 0.05)
+    EXPECT_NEAR(
+        std::remainder(yawBetweenKeys(times, values, time) - 2 * time, 2 * std::numbers::pi), 0,
+        1.1e-3)
+        << time;
+}
+
+TEST(AnimationWriter, TurnsTheHeadOfAFaceWithoutTargets) {
+  Glb source = smallFace();
+  source.add("scenes", {{"nodes", {0}}});
+  source.primitive().erase("targets");
+  const HeadTrack head{{0, 1}, {{0, 0, 0, 1}, {0, 1, 0, 0}}, {}};
+  const Clip clip{{}, {0, 1}, {}};
+  const auto bytes = formatGlb(converted(source), {.clip = &clip, .head = &head});
+  ASSERT_TRUE(bytes) << bytes.error().message;
+  EXPECT_EQ(Written(*bytes).json["animations"][0]["channels"].size(), 1u);
 }
 
 TEST(AnimationWriter, LeavesJointsTheirNames) {

@@ -368,6 +368,25 @@ TEST(SceneWriter, MakesRoomForNewTargets) {
   }
 }
 
+/// Exporters that find what is there twice write it once.
+TEST(SceneWriter, MakesRoomOnceForWhatAnimationsShare) {
+  Glb source = smallFace();
+  const std::vector<float> times{0, 1}, moves{0.1f, 0.2f, 0.3f, 0.4f};
+  const std::size_t input = source.addAccessor(source.addView(bytesOf(times)), 5126, "SCALAR", 2);
+  const std::size_t output = source.addAccessor(source.addView(bytesOf(moves)), 5126, "SCALAR", 4);
+  for (int k = 0; k < 3; ++k)
+    source.add("animations",
+               {{"samplers", Json::array({{{"input", input}, {"output", output}}})},
+                {"channels",
+                 Json::array({{{"sampler", 0}, {"target", {{"node", 0}, {"path", "weights"}}}}})}});
+  const Written glb = write(withFrown(converted(source)));
+  std::set<std::size_t> outputs;
+  for (const Json& animation : glb.json["animations"])
+    outputs.insert(animation["samplers"].back()["output"].get<std::size_t>());
+  ASSERT_EQ(outputs.size(), 1u);
+  EXPECT_EQ(glb.numbers(*outputs.begin()).size(), 6u);
+}
+
 TEST(SceneWriter, MakesRoomForNewTargetsInAllPrimitives) {
   Glb source = smallFace();
   const std::size_t dots = source.addVectors({{0, 0, 0}, {1, 0, 0}});

@@ -390,7 +390,12 @@ TEST(Report, FailsWhereFaceAndMeshesDoNotBelongTogether) {
   EXPECT_TRUE(failsWith(makeReport(rig, part, {}), {"no mesh of 'mouth & \"eye\"'"}));
   options = {};
   options.regions = {"nose"};
+  options.progress = [](std::string_view, double) { ADD_FAILURE() << "before any work"; };
   EXPECT_TRUE(failsWith(makeReport(rig, source, options), {"No target", "'nose'"}));
+  Rig coming = rig;
+  for (Target& target : coming.targets) target.difference.clear();
+  EXPECT_TRUE(failsWith(makeReport(coming, source, {}), {"not decoded yet"}));
+  EXPECT_TRUE(failsWith(makeMotionReport(coming, {}), {"not decoded yet"}));
 }
 
 // Neither meshes nor the formats that it is compared with have one.

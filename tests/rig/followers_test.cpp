@@ -82,6 +82,14 @@ TEST(Followers, inBetweensHandOver) {
   EXPECT_EQ(at(1.25), (std::vector<double>{2, 0, -1}));
 }
 
+TEST(Followers, inBetweensThatAreThereTwiceHandOverOnce) {
+  const std::vector<Follower> followers{{Kind::inBetween, 1, {0}, 0.5},
+                                        {Kind::inBetween, 2, {0}, 0.5}};
+  const auto at = [&](double w) { return applied(followers, {w, 9, 0}); };
+  EXPECT_EQ(at(0.5), (std::vector<double>{0, 1, 0}));
+  EXPECT_EQ(at(0.75), (std::vector<double>{0.5, 0.5, 0}));
+}
+
 TEST(Followers, productsGoByTheWeightsThatWereSet) {
   const std::vector<Follower> followers{{Kind::inBetween, 1, {0}, 0.5},
                                         {Kind::product, 3, {0, 2}, 0}};

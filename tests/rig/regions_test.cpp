@@ -1,6 +1,7 @@
 #include "sweepface/regions.hpp"
 
 #include <random>
+#include <set>
 
 #include "sweepface/eval.hpp"
 #include "sweepface/evaluator.hpp"
@@ -379,6 +380,27 @@ TEST(Regions, AnEvaluatorBlendsThemAlike) {
 }
 
 // ---- Parts as targets ----
+
+TEST(Regions, OfTargetsThatAreStillToComeMoveNothing) {
+  Rig rig = hill();
+  const auto regions = someRegions(rig);
+  rig.targets[0].difference.clear();
+  auto weights = anyWeights(regions.size() * rig.targets.size());
+  const auto without = blended(rig, regions, weights);
+  for (std::size_t k = 0; k < weights.size(); k += rig.targets.size()) weights[k] = 0;
+  EXPECT_EQ(blended(rig, regions, weights), without);
+}
+
+TEST(Regions, PartsOfTargetsHaveNamesOfTheirOwn) {
+  Rig rig = hill();
+  auto regions = someRegions(rig);
+  regions[0].name = "rest", regions[1].name = "rest_";
+  rig.targets[1].name = partName(rig.targets[0].name, "rest");
+  RegionalTargets::addTo(rig, regions, std::vector<Index>{0});
+  std::set<std::string> names;
+  for (const Target& target : rig.targets) names.insert(target.name);
+  EXPECT_EQ(names.size(), rig.targets.size());
+}
 
 TEST(Regions, PartsOfTargetsAddUpToTheSamePose) {
   for (const Rig* original : {&hill(), &ball()}) {

@@ -244,6 +244,12 @@ test('the page', options, (t) => withPage('index.html', visit, async (page, comp
     await page.keyboard.press('Shift');
     assert.match(await page.locator('#message').textContent(), /^bad\.sweep /);
     await page.unroute('**/sample.sweep');
+    // Levels are of that face again.
+    await page.locator('#lod').selectOption('2');
+    await until(() => globalThis.sweepface.mesh.face.lod === 2);
+    assert.ok((await page.title()).startsWith('sample.sweep'));
+    await page.locator('#lod').selectOption('0');
+    await until(() => globalThis.sweepface.mesh.face.lod === 0);
   });
 
   await t.test('goes on moving in another level of detail', async () => {
@@ -305,6 +311,12 @@ test('the page', options, (t) => withPage('index.html', visit, async (page, comp
     });
     assert.equal(await weight('jawOpen'), 0.2);
     assert.equal(await page.locator('input[name="jawOpen"]').inputValue(), '0.2');
+    // Nor does it stop what moves by itself.
+    await page.evaluate(() => globalThis.sweepface.mesh.setWeights({jawOpen: 0.3}));
+    await page.locator('input[name="jawOpen"]').evaluate((input) => {
+      for (const what of ['pointerdown', 'pointercancel']) input.dispatchEvent(new PointerEvent(what, {bubbles: true}));
+    });
+    assert.ok(Math.abs(await weight('jawOpen') - 0.3) < 1e-6);
   });
 
   await t.test('plays a packed file by the module that is there where there is no network', async () => {
