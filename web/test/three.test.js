@@ -512,11 +512,14 @@ test('a load tells the manager that it began with, and has the options of then',
   const managers = ['first', 'second'].map((name) => new three.LoadingManager(() => seen.push(name)));
   globalThis.fetch = async () => new Response(readFileSync(sample));
   try {
-    const loader = new SweepfaceLoader(managers[0]), one = loader.loadAsync('http://a/one');
+    const regions = [{name: 'above', points: [[0, 8, 9]], whole: 5}];
+    const loader = new SweepfaceLoader(managers[0], {regions}), one = loader.loadAsync('http://a/one');
     loader.manager = managers[1];
     loader.options.lod = 2;
+    regions[0].name = 'brows';
     const meshes = await Promise.all([one, loader.loadAsync('http://a/two')]);
     assert.deepEqual(meshes.map(({face}) => face.lod), [0, 2]);
+    assert.deepEqual(meshes.map(({face}) => face.regions[1]), ['above', 'brows']);
     await new Promise((resolve) => setTimeout(resolve));
     assert.deepEqual(seen.sort(), ['first', 'second']);
   } finally {
