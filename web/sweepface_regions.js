@@ -69,6 +69,16 @@ function copyOf({parts = [], points = [], line = [], curves = [], nodes = {}, ..
           nodes: {...nodes}};
 }
 
+/** Regions that their owner may go on changing; what are none stay as they are, to be refused where they are used. */
+export function ownRegions(given) {
+  try {
+    check(given);
+  } catch {
+    return given;
+  }
+  return given.map(copyOf);
+}
+
 /** The C struct of a brush. */
 function brush(copies, region) {
   const {parts, points, line, curves, nodes, whole = 0, fade = 0, over} = region;

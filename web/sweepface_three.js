@@ -2,6 +2,7 @@
 import {BufferAttribute, DynamicDrawUsage, FileLoader, Loader} from 'three';
 import {Sweepface} from './sweepface.js';
 import {FaceMesh, faceFrom, geometryOf, show} from './sweepface_mesh.js';
+import {ownRegions} from './sweepface_regions.js';
 
 export {animationFor} from './sweepface_animation.js';
 
@@ -43,7 +44,7 @@ export class SweepfaceLoader extends Loader {
 
   load(url, onLoad, onProgress, onError) {
     const {manager} = this, usual = {...this.options}, loader = new FileLoader(manager);
-    if (usual.regions) usual.regions = structuredClone(usual.regions);
+    if (usual.regions) usual.regions = ownRegions(usual.regions);
     loader.setPath(this.path).setResponseType('arraybuffer');
     loader.setRequestHeader(this.requestHeader).setWithCredentials(this.withCredentials);
     const tell = onError ?? console.error, name = usual.name || url;

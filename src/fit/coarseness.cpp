@@ -1,8 +1,6 @@
 #include "fit/coarseness.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include "fit/median.hpp"
@@ -23,11 +21,9 @@ Coarseness coarsenessOf(const PolygonMesh& mesh) {
       area += 0.5 * cross(at(c) - at(first), at(c + 1 < end ? c + 1 : first) - at(first));
       mean += normals[faces.corners[c]];
     }
-    const double size = norm(area) * norm(mean);
-    if (!(size > 0)) continue;
-    const double cosine = std::clamp(dot(area, mean) / size, -1.0, 1.0);
-    angles.push_back(std::acos(cosine) * 180 / std::numbers::pi);
-    heights.push_back(std::sqrt(norm(area) * (1 - cosine * cosine)));
+    if (!(norm(area) > 0 && norm(mean) > 0)) continue;
+    angles.push_back(angleDegrees(area, mean));
+    heights.push_back(norm(cross(area, normalized(mean))) / std::sqrt(norm(area)));
   }
   return {median(std::move(angles)), median(std::move(heights))};
 }

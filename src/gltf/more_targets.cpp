@@ -112,10 +112,10 @@ class TargetAdder {
   Result<void> widenAnimations() {
     if (!json_.contains("animations")) return {};
     Builder builder(document_);
-    WideOutputs outputs;
+    Widened outputs;
     for (Json& animation : json_["animations"])
       if (isList(animation, "channels") && isList(animation, "samplers")) {
-        WideSamplers wide;
+        Widened wide;
         for (Json& channel : animation["channels"])
           if (auto ok = widenChannel(animation["samplers"], wide, channel, outputs, builder); !ok)
             return ok;
@@ -138,11 +138,10 @@ class TargetAdder {
   }
 
   /// By sampler of an animation, or by accessor, and how many targets there were.
-  using WideSamplers = std::map<std::pair<std::size_t, std::size_t>, std::size_t>;
-  using WideOutputs = WideSamplers;
+  using Widened = std::map<std::pair<std::size_t, std::size_t>, std::size_t>;
 
-  Result<void> widenChannel(Json& samplers, WideSamplers& known, Json& channel,
-                            WideOutputs& outputs, Builder& builder) {
+  Result<void> widenChannel(Json& samplers, Widened& known, Json& channel, Widened& outputs,
+                            Builder& builder) {
     const Json* const target = find(channel, "target");
     const auto mesh = target ? meshMovedBy(*target) : std::nullopt;
     const auto sampler = findIndex(channel, "sampler", samplers.size());

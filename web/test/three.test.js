@@ -513,7 +513,9 @@ test('a load tells the manager that it began with, and has the options of then',
   globalThis.fetch = async () => new Response(readFileSync(sample));
   try {
     const regions = [{name: 'above', points: [[0, 8, 9]], whole: 5}];
-    const loader = new SweepfaceLoader(managers[0], {regions}), one = loader.loadAsync('http://a/one');
+    // Some frameworks wrap what is to be watched.
+    const loader = new SweepfaceLoader(managers[0], {regions: new Proxy(regions, {})});
+    const one = loader.loadAsync('http://a/one');
     loader.manager = managers[1];
     loader.options.lod = 2;
     regions[0].name = 'brows';
@@ -522,6 +524,8 @@ test('a load tells the manager that it began with, and has the options of then',
     assert.deepEqual(meshes.map(({face}) => face.regions[1]), ['above', 'brows']);
     await new Promise((resolve) => setTimeout(resolve));
     assert.deepEqual(seen.sort(), ['first', 'second']);
+    loader.options.regions = [{name: 'a', whole: () => 1}];
+    await assert.rejects(loader.loadAsync('http://a/one'), /^TypeError: Region 'a' says nowhere where it is/);
   } finally {
     globalThis.fetch = fetch;
   }
