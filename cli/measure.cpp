@@ -34,26 +34,27 @@ void addOptions(CLI::App& app, MeasureArguments& a) {
   addJson(app, a.json);
   app.footer(
       "\nDistances are in the mesh's units, angles in degrees. The distance is that of the "
-      "vertices from the\nsurface, a displacement's error that of their way from the neutral, the "
-      "facets' distance that of the surface\nfrom the flat faces, the excess what of it the "
-      "faces' own coarseness does not explain. Folds are places "
-      "where\nthe surface looks the other way than the mesh.\n\n"
+      "vertices from the\nsurface, a displacement's error that of their way from the neutral, the angle that of the "
+      "normals at the\nvertices, in between (shading) from those that smooth shading blends there, "
+      "RMS. The facets' distance is that\nof the surface from the flat faces, the excess what of "
+      "it the faces' own coarseness does not explain. Folds are\nplaces where the surface looks "
+      "the other way than the mesh.\n\n"
       "Example:\n  sweepface measure face.sweep neutral.obj expressions/");
 }
 
 void printHead(std::size_t width) {
-  fmt::print("{:<{}}  {:^29}  {:^31}  {:^19}\n", "", width, "distance", "angle", "facets");
-  fmt::print("{:<{}}  {:>9} {:>9} {:>9}  {:>7} {:>7} {:>7} {:>7}  {:>9} {:>9} {:>6}\n", "shape",
-             width, "max", "99.9 %", "RMS", "RMS", "99 %", "99.9 %", "max", "distance", "excess",
-             "folds");
+  fmt::print("{:<{}}  {:^29}  {:^39}  {:^19}\n", "", width, "distance", "angle", "facets");
+  fmt::print("{:<{}}  {:>9} {:>9} {:>9}  {:>7} {:>7} {:>7} {:>7} {:>7}  {:>9} {:>9} {:>6}\n",
+             "shape", width, "max", "99.9 %", "RMS", "RMS", "99 %", "99.9 %", "max", "shading",
+             "distance", "excess", "folds");
 }
 
 void printRow(std::string_view name, const PoseErrors& e, std::size_t width) {
   fmt::print(
-      "{:<{}}  {:>9.3g} {:>9.3g} {:>9.3g}  {:>7.3f} {:>7.3f} {:>7.3f} {:>7.3f}  {:>9.3g} {:>9.3g} "
-      "{:>6}\n",
+      "{:<{}}  {:>9.3g} {:>9.3g} {:>9.3g}  {:>7.3f} {:>7.3f} {:>7.3f} {:>7.3f} {:>7.3f}  {:>9.3g} "
+      "{:>9.3g} {:>6}\n",
       name, width, e.distance.max, e.distance.p999, e.distance.rms, e.angle.rms, e.angle.p99,
-      e.angle.p999, e.angle.max, e.facetDistance, e.facetExcess, e.folds);
+      e.angle.p999, e.angle.max, e.shadingRms, e.facetDistance, e.facetExcess, e.folds);
 }
 
 void printText(const Measurement& m) {
@@ -82,6 +83,7 @@ nlohmann::ordered_json toJson(const PoseErrors& e) {
           {"angle99", e.angle.p99},
           {"angle999", e.angle.p999},
           {"angleMax", e.angle.max},
+          {"shadingRms", e.shadingRms},
           {"facetDistance", e.facetDistance},
           {"facetExcess", e.facetExcess},
           {"folds", e.folds}};

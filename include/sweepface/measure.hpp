@@ -22,6 +22,7 @@ struct PoseErrors {
   ErrorSummary distance;      ///< of source vertices from their points on the surface
   ErrorSummary displacement;  ///< of their ways from the neutral; zeros for the neutral itself
   ErrorSummary angle;         ///< surface normal to source vertex normal
+  double shadingRms = 0;      ///< surface normal to the source's normals blended across its faces
   double facetDistance = 0;   ///< largest distance of the level-4 surface to the source's facets
   double facetExcess = 0;     ///< the same beyond the facets' own sag
   Index folds = 0;            ///< level-4 triangles that look the other way than their source facet
@@ -39,7 +40,7 @@ struct Measurement {
 struct MeasureOptions {
   int mixtures = 10;
   unsigned seed = 1;
-  bool facets = true;  ///< also between vertices: facets and folds, which take most of the time
+  bool facets = true;  ///< also between vertices: shading, facets, folds; takes most of the time
   const std::atomic<bool>* cancel = nullptr;  ///< asked before each shape; true: fails soon
 };
 

@@ -218,7 +218,7 @@ enum class Style {
   wireframe,  ///< boundary curves and control curves
   joins,      ///< boundary curves coloured by the class of their join
   error,      ///< distance of the vertices from the meshes, as a heat map
-  angle,      ///< angle between the surface's normals and the meshes', as a heat map
+  angle,      ///< angle between the surface's normals and the meshes', blended across their faces
   normals,    ///< the surface's normals as colours
   zebra,      ///< reflected stripes
 };
@@ -230,12 +230,6 @@ std::string_view nameOf(Style style);
 
 /// From pale to dark with `share` from 0 to 1.
 Colour heatColour(double share);
-
-/// How far a pose is from the meshes at every vertex of the tessellation at level 1.
-struct VertexErrors {
-  std::vector<double> distances;  ///< model units
-  std::vector<double> angles;     ///< degrees; 0 where the meshes have no normal
-};
 
 /// What the source's meshes say under some weights: their own linear blend [V]. Fails with a
 /// sentence where the meshes do not belong to the rig or lack a target whose weight is not 0.
@@ -266,8 +260,6 @@ class FaceScenes {
   /// where.
   HeatMap heatMap(std::span<const double> weights, std::span<const Vec3> original, Style style,
                   double top = 0) const;
-  /// How far the face is from the positions of its source's vertices.
-  VertexErrors errors(std::span<const double> weights, std::span<const Vec3> original) const;
   /// The source's own polygons with other positions.
   Scene original(std::span<const Vec3> positions) const;
 
@@ -286,8 +278,11 @@ class FaceScenes {
   std::vector<Index> around(std::span<const Index> vertices) const;
 
  private:
-  /// Colours for all vertices from values at those of level 1.
-  std::vector<Colour> heatColours(std::span<const double> values, double top) const;
+  /// From the positions of the source's vertices, at those of level 1.
+  std::vector<double> distances(std::span<const double> weights,
+                                std::span<const Vec3> original) const;
+  /// Of the normals that are drawn, in degrees; 0 where the source has none.
+  std::vector<double> angles(std::span<const Vec3> normals, std::span<const Vec3> original) const;
 
   const Rig& rig_;
   Tessellation grid_, source_;

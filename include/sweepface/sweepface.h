@@ -2,14 +2,15 @@
  *
  * A rig is what a file holds; a mesh is its surface at one level of detail; a face is one set of
  * weights on a mesh; a motion moves weights. What is made from something keeps it alive: handles
- * may be freed in any order, and NULL may be freed. Rigs change only in calls that say so (loading
- * targets, following, dividing, turning eyes), beside which nothing else may use them; apart from
- * that rigs and meshes may be read by any number of threads. A face or a motion belongs to one
- * thread at a time.
+ * may be freed in any order, on any thread, and NULL may be freed. Rigs change only in calls that
+ * take one that is not const (loading targets, following, dividing, turning eyes), beside which
+ * nothing else may use the rig; apart from that rigs and meshes may be read by any number of
+ * threads. A face or a motion belongs to one thread at a time. Faces may be evaluated whatever is
+ * done with their rig.
  *
  * A function that can fail returns a status; sweepface_message() then has one sentence about it,
  * and what was to be written is untouched. Others answer 0 or NULL where there is nothing. Where
- * memory runs out the program ends. */
+ * memory runs out the program ends: C++ must not catch what is thrown then. */
 #ifndef SWEEPFACE_SWEEPFACE_H
 #define SWEEPFACE_SWEEPFACE_H
 
@@ -44,7 +45,7 @@ typedef struct sweepface_face sweepface_face;
 typedef struct sweepface_motion sweepface_motion;
 
 typedef int32_t sweepface_status;
-enum {
+enum sweepface_statuses {
   SWEEPFACE_OK = 0,
   SWEEPFACE_BAD_DATA = 1,    /* bytes that are no sound .sweep file, or need more memory than they
                                 may have; the message says which */
@@ -66,7 +67,9 @@ SWEEPFACE_API sweepface_status sweepface_rig_load(const void* bytes, size_t size
                                                   sweepface_rig** rig);
 /* The same in two steps, so that a face shows before it can move. The first reads all but what
  * the targets of a packed file do, about half of it: until the second every weight stays 0. The second
- * does nothing where all is read; nothing made from the rig may be in use meanwhile. */
+ * does nothing where all is read. Meanwhile faces of the rig may be evaluated, but their weights not
+ * set. What follows weights and how eyes turn is said before there are meshes, and needs targets:
+ * those that showed the neutral are freed first. */
 SWEEPFACE_API sweepface_status sweepface_rig_load_neutral(const void* bytes, size_t size,
                                                           const char* name, sweepface_rig** rig);
 SWEEPFACE_API sweepface_status sweepface_rig_load_targets(sweepface_rig* rig);
@@ -85,18 +88,26 @@ SWEEPFACE_API const char* sweepface_rig_target_name(const sweepface_rig* rig, ui
 SWEEPFACE_API sweepface_status sweepface_rig_find_target(const sweepface_rig* rig, const char* name,
                                                          uint32_t* target);
 
+/* The targets that a tracker's name drives, as in clips (docs/clips.md): EyeBlinkLeft eyeBlink_L,
+ * browInnerUp those of both sides. Writes the first `room` and answers how many there are. */
+SWEEPFACE_API uint32_t sweepface_rig_match_targets(const sweepface_rig* rig, const char* name,
+                                                   uint32_t* targets, uint32_t room);
+
 /* How many targets turn about something that the file tells: the jaw about its hinge, lids about
  * the eyeball. */
 SWEEPFACE_API uint32_t sweepface_rig_turn_count(const sweepface_rig* rig);
 
 /* Weights that follow from those that are set (docs/arcs.md), in all meshes of the rig: it is said
  * while there are none. */
-enum {
+enum sweepface_followings {
   SWEEPFACE_ARCS = 1,   /* targets that turn go on arcs instead of straight lines */
   SWEEPFACE_COMBINE = 2 /* A_B goes by the product of A and B, A_50 stands in for A at 0.5 */
 };
 /* `what` is a sum of the above; 0: none, as after loading. */
 SWEEPFACE_API sweepface_status sweepface_rig_follow(sweepface_rig* rig, uint32_t what);
+
+/* The corners of the box round the neutral, in model units: zeros if it has no vertex. */
+SWEEPFACE_API void sweepface_rig_box(const sweepface_rig* rig, double low[3], double high[3]);
 
 /* How far any source vertex may be off in any expression, in model units. What is played may be off
  * by sweepface_face_error more. */
@@ -116,13 +127,13 @@ SWEEPFACE_API sweepface_status sweepface_mesh_create(const sweepface_rig* rig, u
 /* What a level of detail may cost or must reach, in the neutral. Edges of the source are cut into 64
  * at most, even where that is too few for a length or an error. */
 typedef int32_t sweepface_budget;
-enum {
-  SWEEPFACE_EDGE_LENGTH = 0, /* no curve has a segment longer than this, in model units; diagonals
-                                of what lies between curves may be longer */
-  SWEEPFACE_ERROR = 1,       /* edges of triangles are no further than this from the surface, in
-                                model units, nearly everywhere (docs/evaluation.md) */
-  SWEEPFACE_VERTICES = 2     /* as near to the surface as so many points allow; vertices are more,
-                                where points have several texture coordinates */
+enum sweepface_budgets {
+  SWEEPFACE_BUDGET_EDGE_LENGTH = 0, /* no curve has a segment longer than this, in model units;
+                                       diagonals of what lies between curves may be longer */
+  SWEEPFACE_BUDGET_ERROR = 1,       /* edges of triangles are no further than this from the surface,
+                                       in model units, nearly everywhere (docs/evaluation.md) */
+  SWEEPFACE_BUDGET_VERTICES = 2     /* as near to the surface as so many points allow; vertices are
+                                       more, where points have several texture coordinates */
 };
 
 /* The surface as fine as a budget asks, curve by curve: without a crack, and with the same points
@@ -179,8 +190,8 @@ SWEEPFACE_API sweepface_status sweepface_face_set_weight(sweepface_face* face, u
 /* The first `count` weights. */
 SWEEPFACE_API sweepface_status sweepface_face_set_weights(sweepface_face* face,
                                                           const double* weights, size_t count);
-/* [targets] the weights as they are; the face's own memory. Where the face is divided into regions
- * (sweepface_regions.h): [regions x targets]. */
+/* [targets] the weights as they are; the face's own memory. Where the mesh is divided into regions
+ * (sweepface_mesh_region_count in sweepface_regions.h): [regions x targets]. */
 SWEEPFACE_API const double* sweepface_face_weights(const sweepface_face* face);
 
 /* How far any vertex may be from the exact surface under the weights as they are, in model units:
@@ -205,8 +216,8 @@ SWEEPFACE_API sweepface_status sweepface_face_evaluate(sweepface_face* face, siz
                                                        sweepface_vectors positions,
                                                        sweepface_vectors normals);
 /* The same, with the same result, where each output still holds what the last call for this face
- * wrote there: only what weights have moved since is written again. An output in another place, of
- * another stride or count is written in full. */
+ * wrote there: only what weights have moved since is written again. It remembers three places of each
+ * output, for buffers in turn; one in another place, of another stride or count is written in full. */
 SWEEPFACE_API sweepface_status sweepface_face_update(sweepface_face* face, size_t count,
                                                      sweepface_vectors positions,
                                                      sweepface_vectors normals);
@@ -240,7 +251,7 @@ SWEEPFACE_API sweepface_status sweepface_face_modes(sweepface_face* face, int32_
 
 /* How a weight goes from where it stands, with the velocity it has, to a goal (docs/motion.md). */
 typedef int32_t sweepface_drive_kind;
-enum {
+enum sweepface_drive_kinds {
   SWEEPFACE_CUT = 0,              /* is there at once */
   SWEEPFACE_NEWTON = 1,           /* a constant force, arriving at speed */
   SWEEPFACE_LINEAR_FORCE = 2,     /* a force linear in time, arriving at rest */
@@ -259,12 +270,15 @@ typedef struct sweepface_drive {
   double restitution; /* BOUNCE: the share of the speed that is left, in [0, 1 - 1e-9] */
 } sweepface_drive;
 
-/* A drive with the usual numbers; of an unknown kind: a spring. */
+/* A drive with the usual numbers, to be changed from there; of an unknown kind: a spring. */
 SWEEPFACE_API sweepface_drive sweepface_drive_of(sweepface_drive_kind kind);
 
 /* `count` weights at rest. Afterwards nothing allocates. */
 SWEEPFACE_API sweepface_status sweepface_motion_create(const double* weights, size_t count,
                                                        sweepface_motion** motion);
+/* Another in the same state, which goes on by itself: to look ahead, or to come back to it. */
+SWEEPFACE_API sweepface_status sweepface_motion_copy(const sweepface_motion* motion,
+                                                     sweepface_motion** copy);
 SWEEPFACE_API void sweepface_motion_free(sweepface_motion* motion);
 
 /* Lets time pass; negative, not a number or more than 1e10 seconds at once: none. */

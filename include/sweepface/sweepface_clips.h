@@ -33,8 +33,8 @@ typedef struct sweepface_clip_options {
   double frames_per_second; /* of the timecodes of a CSV; 0: as these tell, or else 60. Of frames of
                                MediaPipe without times, which need it */
   int32_t smooth;           /* takes a tracker's noise out, by the one-euro filter */
-  double frequency;         /* of the spring on which heavy regions hang, */
-  double damping;           /* and its damping */
+  double frequency;         /* of the spring on which heavy regions hang, and its damping; */
+  double damping;           /* 0 and 0: the usual ones */
   const char* animation;    /* of a .glb, by its name; NULL: the first that has weights */
 } sweepface_clip_options;
 
@@ -61,7 +61,9 @@ SWEEPFACE_API const char* sweepface_clip_undriven(const sweepface_clip* clip, ui
 SWEEPFACE_API const char* sweepface_clip_warning(const sweepface_clip* clip, uint32_t index);
 
 /* The weights at so many seconds after the first frame, straight between frames and held at the
- * ends: `count` of [regions x targets], of the regions that the rig had when the clip was read. */
+ * ends: `count` of [regions x targets], of the regions that the rig had when the clip was read,
+ * sweepface_clip_region_count. */
+SWEEPFACE_API uint32_t sweepface_clip_region_count(const sweepface_clip* clip);
 SWEEPFACE_API sweepface_status sweepface_clip_weights(const sweepface_clip* clip, double seconds,
                                                       double* out, size_t count);
 

@@ -43,13 +43,15 @@ SWEEPFACE_API sweepface_status sweepface_rig_paint(const sweepface_rig* rig,
 #define SWEEPFACE_MOST_REGIONS 32
 /* Divides the face into regions with weights of their own, for meshes made from now on: `count`
  * painted ones, shares [count x nodes], of which overlapping ones get less in proportion, behind a
- * first one, "rest", of what is left, if anything is: find a region's number by its name. Vertices of
- * no face go with the first region. 0: one region again, as after loading. */
+ * first one, "rest" ("rest_" beside one of that name), of what is left, if anything is: find a
+ * region's number by its name. Vertices of no face go with the first region. 0: one region again, as after loading. */
 SWEEPFACE_API sweepface_status sweepface_rig_divide(sweepface_rig* rig, const char* const* names,
                                                     const double* shares, size_t count);
 /* 1 and NULL where the face is not divided. Names belong to the rig until it is next divided. */
 SWEEPFACE_API uint32_t sweepface_rig_region_count(const sweepface_rig* rig);
 SWEEPFACE_API const char* sweepface_rig_region_name(const sweepface_rig* rig, uint32_t region);
+/* Those that a mesh was made with, and its faces have weights for. */
+SWEEPFACE_API uint32_t sweepface_mesh_region_count(const sweepface_mesh* mesh);
 
 /* ---- Weights ---- */
 

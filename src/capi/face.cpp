@@ -10,8 +10,6 @@ using namespace sweepface::capi;
 
 namespace {
 
-constexpr std::size_t kTight = 3 * sizeof(float);
-
 bool isWeight(double w) { return std::abs(w) <= SWEEPFACE_MOST_WEIGHT; }  // false for NaN
 
 sweepface_status refuseWeight(const sweepface_face& face, std::size_t target) {
@@ -135,8 +133,11 @@ void write(sweepface_face& face, const Weights& weights, What what, const sweepf
   auto& written = ofPositions ? face.positions : face.normals;
   auto& other = ofPositions ? face.normals : face.positions;
   if (other.data == to.data) other.data = nullptr;  // it is written over
-  const bool isThere =
-      written.data == to.data && written.stride == to.stride && written.count == count;
+#ifndef __wasm__
+  (ofPositions ? face.normalsBefore : face.positionsBefore).forget(to.data);
+  (ofPositions ? face.positionsBefore : face.normalsBefore).bringBack(written, to, count);
+#endif
+  const bool isThere = written.is(to, count);
   Evaluation job;
   job.evaluator = isNeutral(weights) ? &mesh.neutral
                   : ofPositions      ? &mesh.positions()

@@ -14,6 +14,7 @@
 #include "sweepface/render_mesh.hpp"
 #include "sweepface/sweepface_regions.h"
 
+#include "capi/written.hpp"
 #include "eval/shader_tables.hpp"
 
 // What the handles of the C interface stand for. Rigs and meshes are shared by what is made from
@@ -65,6 +66,12 @@ struct sweepface_rig {
 };
 
 namespace sweepface::capi {
+
+inline std::vector<std::string> shownNames(const sweepface_rig& rig) {
+  std::vector<std::string> names;
+  for (std::size_t t = 0; t < rig.shown; ++t) names.push_back(rig.rig->targets[t].name);
+  return names;
+}
 
 struct Mesh {
   std::shared_ptr<const Rig> rig;
@@ -125,14 +132,11 @@ struct sweepface_face {
   sweepface::Weights followed;  // [regions × targets] with followers
   std::vector<std::byte> scratch;
 
-  /// What an output holds, and where.
-  struct Written {
-    float* data = nullptr;
-    std::size_t stride = 0, count = 0;
-    sweepface::Weights weights;
-  };
-  Written positions, normals;
+  sweepface::capi::Written positions, normals;
   std::optional<sweepface::HeadPose> looks = {};
+#ifndef __wasm__  // the module has one buffer, and is to be small
+  sweepface::capi::WrittenBefore positionsBefore{followed}, normalsBefore{followed};
+#endif
 };
 
 namespace sweepface::capi {

@@ -21,9 +21,9 @@ sweepface_status makeMesh(const sweepface_rig& rig, Index lod, Tessellation grid
   return SWEEPFACE_OK;
 }
 
-static_assert(static_cast<int>(Budget::Kind::edgeLength) == SWEEPFACE_EDGE_LENGTH &&
-              static_cast<int>(Budget::Kind::error) == SWEEPFACE_ERROR &&
-              static_cast<int>(Budget::Kind::vertices) == SWEEPFACE_VERTICES);
+static_assert(static_cast<int>(Budget::Kind::edgeLength) == SWEEPFACE_BUDGET_EDGE_LENGTH &&
+              static_cast<int>(Budget::Kind::error) == SWEEPFACE_BUDGET_ERROR &&
+              static_cast<int>(Budget::Kind::vertices) == SWEEPFACE_BUDGET_VERTICES);
 
 }  // namespace
 
@@ -46,9 +46,9 @@ sweepface_status sweepface_mesh_create(const sweepface_rig* rig, uint32_t lod,
 sweepface_status sweepface_mesh_create_within(const sweepface_rig* rig, sweepface_budget budget,
                                               double value, sweepface_mesh** mesh) {
   if (!rig || !mesh) return refuse("Making a mesh needs a rig and a place for it.");
-  if (budget < SWEEPFACE_EDGE_LENGTH || budget > SWEEPFACE_VERTICES)
+  if (budget < SWEEPFACE_BUDGET_EDGE_LENGTH || budget > SWEEPFACE_BUDGET_VERTICES)
     return refuse("There is no budget of kind ", budget, "; kinds are 0 to ",
-                  int(SWEEPFACE_VERTICES), ".");
+                  int(SWEEPFACE_BUDGET_VERTICES), ".");
   const auto density = densityFor(rig->rig->surface, blend(*rig->rig, {}),
                                   {static_cast<Budget::Kind>(budget), value});
   if (!density) return refuse(density.error().message);

@@ -70,6 +70,12 @@ sweepface_status sweepface_motion_create_regions(const double* weights, size_t c
   return SWEEPFACE_OK;
 }
 
+sweepface_status sweepface_motion_copy(const sweepface_motion* motion, sweepface_motion** copy) {
+  if (!motion || !copy) return refuse("Copying a motion needs one and a place for the copy.");
+  *copy = new sweepface_motion{*motion};
+  return SWEEPFACE_OK;
+}
+
 void sweepface_motion_free(sweepface_motion* motion) { delete motion; }
 
 void sweepface_motion_advance(sweepface_motion* motion, double seconds) {

@@ -116,3 +116,7 @@ const char* sweepface_rig_region_name(const sweepface_rig* rig, uint32_t region)
   if (!rig || region >= rig->division->names.size()) return nullptr;
   return rig->division->names[region].c_str();
 }
+
+uint32_t sweepface_mesh_region_count(const sweepface_mesh* mesh) {
+  return mesh ? static_cast<uint32_t>(mesh->mesh->division->count()) : 0;
+}

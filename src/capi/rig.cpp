@@ -1,4 +1,9 @@
+#include <algorithm>
+#include <array>
+
 #include "sweepface/arcs.hpp"
+#include "sweepface/box.hpp"
+#include "sweepface/clip.hpp"
 #include "sweepface/codec.hpp"
 
 #include "capi/handles.hpp"
@@ -81,6 +86,17 @@ sweepface_status sweepface_rig_find_target(const sweepface_rig* rig, const char*
   return SWEEPFACE_OK;
 }
 
+uint32_t sweepface_rig_match_targets(const sweepface_rig* rig, const char* name, uint32_t* targets,
+                                     uint32_t room) {
+  if (!rig || !name) return 0;
+  Clip clip;
+  clip.names = {name};
+  const std::vector<Index> driven = matchClip(clip, shownNames(*rig)).targets.front();
+  const auto count = static_cast<uint32_t>(driven.size());
+  if (targets) std::copy_n(driven.begin(), std::min(room, count), targets);
+  return count;
+}
+
 uint32_t sweepface_rig_turn_count(const sweepface_rig* rig) {
   return rig ? static_cast<uint32_t>(rig->rig->turns.size()) : 0;
 }
@@ -91,18 +107,14 @@ sweepface_status sweepface_rig_follow(sweepface_rig* rig, uint32_t what) {
     return refuse("Weights follow by SWEEPFACE_ARCS, SWEEPFACE_COMBINE or both.");
   if (rig->rig.use_count() > 1)
     return refuse(
-        "What follows must be said before a rig has meshes; free them, or load it again.");
+        "What follows must be said before a rig has meshes; free its meshes and faces, or load it again.");
   if (const auto status = needTargets(*rig->rig)) return status;
   if (rig->following.eyes)
     return refuse("What follows must be said before eyes turn; load the rig again.");
   Rig& made = *rig->rig;
   made.targets.resize(rig->shown);
   std::vector<Follower> followers;
-  if (what & SWEEPFACE_COMBINE) {
-    std::vector<std::string> names;
-    for (const Target& target : made.targets) names.push_back(target.name);
-    followers = Followers::named(names);
-  }
+  if (what & SWEEPFACE_COMBINE) followers = Followers::named(shownNames(*rig));
   if (what & SWEEPFACE_ARCS) {
     const std::vector<Follower> arcs = addArcs(made, made.turns);
     followers.insert(followers.end(), arcs.begin(), arcs.end());
@@ -113,6 +125,18 @@ sweepface_status sweepface_rig_follow(sweepface_rig* rig, uint32_t what) {
     rig->following.apply = followAll;
   }
   return SWEEPFACE_OK;
+}
+
+void sweepface_rig_box(const sweepface_rig* rig, double low[3], double high[3]) {
+  if (!low || !high) return;
+  Box box;
+  if (rig) {
+    box = Box(Tessellation(rig->rig->surface, 1).positions(rig->rig->neutral));
+    for (const Vec3& loose : rig->rig->source.loose) box.include(loose);
+  }
+  if (box.isEmpty()) box = Box(std::array{Vec3{}});
+  std::ranges::copy(std::array{box.low.x, box.low.y, box.low.z}, low);
+  std::ranges::copy(std::array{box.high.x, box.high.y, box.high.z}, high);
 }
 
 double sweepface_rig_tolerance(const sweepface_rig* rig) { return rig ? rig->rig->tolerance : 0; }

@@ -7,6 +7,7 @@
 #include "sweepface/eval.hpp"
 
 #include "eval/cells.hpp"
+#include "eval/interpolated.hpp"
 #include "fit/corner_places.hpp"
 #include "fit/facets.hpp"
 #include "fit/vertex_normals.hpp"
@@ -22,6 +23,7 @@ struct PoseSamples {
   // From the source's vertices to their points on the surface; those of other sheets come last.
   std::vector<Vec3> offsets;
   std::vector<double> distances, displacements, angles;
+  double shadingSquares = 0, shadingCount = 0;  // of angles between the vertices
 };
 
 /// Those of ascending errors.
@@ -37,6 +39,8 @@ ErrorSummary summaryOfSorted(std::span<const double> errors) {
   return {std::sqrt(sum / static_cast<double>(errors.size())), quantile(0.99), quantile(0.999),
           errors.back()};
 }
+
+double rootOfMean(double sum, double count) { return count > 0 ? std::sqrt(sum / count) : 0; }
 
 /// What moves by d in the source moves by d + offset - offset of the neutral.
 void summarize(PoseSamples& s, std::span<const Vec3> neutralOffsets) {
@@ -66,8 +70,10 @@ class Meter {
     const auto expected = vertexNormals(rig_.source.polygons, source, map_.cornerPlaces,
                                         grid_.vertexCount(), rig_.source.quadCorners);
     atVertices(s, weights, vectors, source, expected);
-    if (facets_)
+    if (facets_) {
       betweenVertices(s, vectors, Facets(rig_.source, map_, source, expected, rig_.tolerance));
+      compareShading(s, vectors, expected);
+    }
     return s;
   }
 
@@ -106,6 +112,16 @@ class Meter {
         e.facetDistance = std::max(e.facetDistance, distance);
         e.facetExcess = std::max(e.facetExcess, distance - sag);
       }
+  }
+
+  void compareShading(PoseSamples& s, std::span<const Vec3> vectors,
+                      std::span<const Vec3> expected) const {
+    const auto drawn = interpolated(rig_.surface, grid_, fine_, expected);
+    for (const double angle : normalAngles(drawn, fine_.normals(vectors))) {
+      s.shadingSquares += angle * angle;
+      ++s.shadingCount;
+    }
+    s.errors.shadingRms = rootOfMean(s.shadingSquares, s.shadingCount);
   }
 
   bool facets_;
@@ -165,6 +181,7 @@ Weights randomWeights(const Rig& rig, const MeshRig& source, std::mt19937& rando
 Measurement sumUp(std::vector<PoseSamples>& samples) {
   Measurement result;
   std::vector<double> distances, angles;
+  double shadingSquares = 0, shadingCount = 0;
   PoseErrors& worst = result.worst;
   const auto append = [](std::vector<double>& all, const std::vector<double>& more) {
     all.insert(all.end(), more.begin(), more.end());
@@ -174,6 +191,8 @@ Measurement sumUp(std::vector<PoseSamples>& samples) {
     append(distances, s.distances);
     append(angles, s.angles);
     if (&s != samples.data()) append(result.displacements, s.displacements);
+    shadingSquares += s.shadingSquares;
+    shadingCount += s.shadingCount;
     worst.facetDistance = std::max(worst.facetDistance, s.errors.facetDistance);
     worst.facetExcess = std::max(worst.facetExcess, s.errors.facetExcess);
     worst.folds += s.errors.folds;
@@ -183,6 +202,7 @@ Measurement sumUp(std::vector<PoseSamples>& samples) {
   worst.distance = summaryOf(std::move(distances));
   worst.displacement = summaryOfSorted(result.displacements);
   worst.angle = summaryOf(std::move(angles));
+  worst.shadingRms = rootOfMean(shadingSquares, shadingCount);
   worst.name = "all";
   return result;
 }

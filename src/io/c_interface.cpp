@@ -73,12 +73,6 @@ Result<RegionalClips> readForRegions(const Division& division, std::string_view 
   return named(inRegions(*timeline, division.names.empty() ? undivided : division.names, matters));
 }
 
-std::vector<std::string> shownTargets(const sweepface_rig& rig) {
-  std::vector<std::string> names;
-  for (std::size_t t = 0; t < rig.shown; ++t) names.push_back(rig.rig->targets[t].name);
-  return names;
-}
-
 const char* nameAt(const std::vector<std::string>& names, uint32_t index) {
   return index < names.size() ? names[index].c_str() : nullptr;
 }
@@ -120,7 +114,10 @@ sweepface_status sweepface_clip_read(const sweepface_rig* rig, const void* bytes
   if (!rig || !clip || (!bytes && size > 0))
     return refuse("Reading a clip needs a rig, bytes and a place for it.");
   const char* const called = calledOr(name, "The clip");
-  const auto asked = options ? *options : sweepface_clip_usual_options();
+  const auto usual = sweepface_clip_usual_options();
+  auto asked = options ? *options : usual;
+  if (asked.frequency == 0 && asked.damping == 0)
+    asked.frequency = usual.frequency, asked.damping = usual.damping;
   if (const auto hold = Trajectory::spring({}, 0, {asked.frequency, asked.damping}); !hold)
     return refuse("The spring on which heavy regions hang: ", hold.error().message);
   if (auto ok = io::checkFrameRateIfGiven(asked.frames_per_second); !ok)
@@ -129,7 +126,7 @@ sweepface_status sweepface_clip_read(const sweepface_rig* rig, const void* bytes
       readForRegions(*rig->division, {static_cast<const char*>(bytes), size}, called, asked);
   if (!clips) return refuse(SWEEPFACE_BAD_DATA, clips.error().message);
   const Clip& whole = clips->whole;
-  ClipMatch match = matchClip(whole, shownTargets(*rig));
+  ClipMatch match = matchClip(whole, shownNames(*rig));
   if (!movesAnything(whole, match))
     return refuse(SWEEPFACE_BAD_DATA, std::string(called) + ": none of its " +
                                           std::to_string(whole.names.size()) +
@@ -159,6 +156,10 @@ const char* sweepface_clip_undriven(const sweepface_clip* clip, uint32_t index) 
 
 const char* sweepface_clip_warning(const sweepface_clip* clip, uint32_t index) {
   return clip ? nameAt(clip->clips.whole.warnings, index) : nullptr;
+}
+
+uint32_t sweepface_clip_region_count(const sweepface_clip* clip) {
+  return clip ? static_cast<uint32_t>(clip->clips.ofRegions.size()) : 0;
 }
 
 sweepface_status sweepface_clip_weights(const sweepface_clip* clip, double seconds, double* out,

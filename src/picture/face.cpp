@@ -6,6 +6,7 @@
 #include "sweepface/picture.hpp"
 
 #include "eval/cells.hpp"
+#include "eval/interpolated.hpp"
 #include "eval/triangulate.hpp"
 #include "fit/corner_places.hpp"
 #include "fit/vertex_normals.hpp"
@@ -21,11 +22,11 @@ namespace {
 constexpr Colour kClay{0.90f, 0.875f, 0.85f};
 constexpr Colour kLabel{0.15f, 0.15f, 0.17f};
 
-/// The end of a scale that all but the thousandth largest values are on: a number whose quarters
+/// The end of a scale that all but a hundredth of the values are on: a number whose quarters
 /// are easy to read.
 double scaleEnd(std::vector<double> values) {
   if (values.empty()) return 1;
-  const auto k = static_cast<std::ptrdiff_t>(0.999 * static_cast<double>(values.size() - 1));
+  const auto k = static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(values.size() - 1));
   std::ranges::nth_element(values, values.begin() + k);
   if (!(values[k] > 0)) return 1;
   const double decade = std::pow(10, std::floor(std::log10(values[k])));
@@ -161,63 +162,51 @@ Scene FaceScenes::scene(std::span<const double> weights, Style style) const {
   return scene;
 }
 
-std::vector<Colour> FaceScenes::heatColours(std::span<const double> values, double top) const {
-  std::vector<Colour> colours(grid_.vertexCount());
-  const Index level = grid_.level();
-  for (Index p = 0; p < rig_.surface.patchCount(); ++p) {
-    const Index m = rig_.surface.edgesU(p), n = rig_.surface.edgesV(p);
-    for (Index j = 0; j <= level * n; ++j)
-      for (Index i = 0; i <= level * m; ++i) {
-        const Index column = std::min(i / level, m - 1), row = std::min(j / level, n - 1);
-        const double s = static_cast<double>(i) / level - column;
-        const double t = static_cast<double>(j) / level - row;
-        const auto at = [&](Index di, Index dj) {
-          return values[source_.vertex(p, column + di, row + dj)];
-        };
-        const double value =
-            std::lerp(std::lerp(at(0, 0), at(1, 0), s), std::lerp(at(0, 1), at(1, 1), s), t);
-        colours[grid_.vertex(p, i, j)] = heatColour(top > 0 ? value / top : 0);
-      }
-  }
-  return colours;
-}
-
 HeatMap FaceScenes::heatMap(std::span<const double> weights, std::span<const Vec3> original,
                             Style style, double top) const {
-  VertexErrors errors = this->errors(weights, original);
   const bool angles = style == Style::angle;
-  const std::vector<double>& values = angles ? errors.angles : errors.distances;
+  HeatMap map{scene(weights, style), 0, 0, {}};
+  const std::vector<double> values =
+      angles ? this->angles(map.scene.normals, original)
+             : interpolated<double>(rig_.surface, source_, grid_, distances(weights, original));
   const auto worst = std::ranges::max_element(values);
-  HeatMap map{scene(weights, style), 0, worst == values.end() ? 0 : *worst, {}};
+  if (worst != values.end()) map.worst = *worst;
   map.top = top > 0 ? top : angles ? scaleEnd(values) : std::max(map.worst, rig_.tolerance);
   map.title =
       angles
           ? fmt::format("angle between the normals in degrees, {} at worst", number(map.worst))
           : fmt::format("distance from the original in its units, {} at worst", number(map.worst));
-  map.scene.vertexColours = heatColours(values, map.top);
+  for (const double value : values)
+    map.scene.vertexColours.push_back(heatColour(map.top > 0 ? value / map.top : 0));
   if (worst != values.end())
     map.scene.labels.push_back(
-        {points(weights)[worst - values.begin()], number(map.worst), kLabel});
+        {map.scene.positions[worst - values.begin()], number(map.worst), kLabel});
   return map;
 }
 
-VertexErrors FaceScenes::errors(std::span<const double> weights,
-                                std::span<const Vec3> original) const {
-  const SourceMesh& source = rig_.source;
-  const std::vector<Vec3> vectors = blend(rig_, weights);
-  const std::vector<Vec3> places = source_.positions(vectors), normals = source_.normals(vectors);
-  const std::vector<Vec3> expected = vertexNormals(source.polygons, original, cornerPlaces_,
-                                                   source_.vertexCount(), source.quadCorners);
-  VertexErrors errors;
-  errors.distances.assign(places.size(), 0);
+std::vector<double> FaceScenes::distances(std::span<const double> weights,
+                                          std::span<const Vec3> original) const {
+  const std::vector<Vec3> places = points(weights);
+  std::vector<double> distances(places.size(), 0);
+  const auto compare = [&](std::size_t vertex, Index place) {
+    distances[place] = std::max(distances[place], norm(places[place] - original[vertex]));
+  };
   for (std::size_t v = 0; v < original.size(); ++v)
-    if (const Index g = source.gridVertex[v]; g >= 0)
-      errors.distances[g] = std::max(errors.distances[g], norm(places[g] - original[v]));
-  for (const auto& [v, g] : otherPlaces(source, cornerPlaces_))
-    errors.distances[g] = std::max(errors.distances[g], norm(places[g] - original[v]));
-  for (std::size_t g = 0; g < places.size(); ++g)
-    errors.angles.push_back(norm(expected[g]) > 0 ? angleDegrees(normals[g], expected[g]) : 0);
-  return errors;
+    if (const Index place = rig_.source.gridVertex[v]; place >= 0) compare(v, place);
+  for (const auto& [v, place] : otherPlaces(rig_.source, cornerPlaces_)) compare(v, place);
+  return distances;
+}
+
+std::vector<double> FaceScenes::angles(std::span<const Vec3> normals,
+                                       std::span<const Vec3> original) const {
+  const SourceMesh& source = rig_.source;
+  const std::vector<Vec3> corners = vertexNormals(source.polygons, original, cornerPlaces_,
+                                                  source_.vertexCount(), source.quadCorners);
+  const auto expected = interpolated<Vec3>(rig_.surface, source_, grid_, corners);
+  std::vector<double> angles;
+  for (std::size_t v = 0; v < expected.size(); ++v)
+    angles.push_back(norm(expected[v]) > 0 ? angleDegrees(normals[v], expected[v]) : 0);
+  return angles;
 }
 
 Scene FaceScenes::original(std::span<const Vec3> positions) const {

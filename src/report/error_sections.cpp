@@ -34,7 +34,8 @@ Result<std::string> ReportMaker::errors() {
   return section("Errors",
                  "Distances between the source's vertices and their points on the surface, in the "
                  "source's units, and angles between the surface's normals and the source's "
-                 "vertex normals, in degrees; the neutral and every expression at weight 1, then "
+                 "vertex normals, between vertices those that smooth shading blends (shading), in "
+                 "degrees; the neutral and every expression at weight 1, then "
                  "random mixtures against the same blend of the meshes.") +
          *distances + *angles + errorPlot() + errorTable();
 }
@@ -55,12 +56,12 @@ std::string ReportMaker::errorPlot() const {
 
 std::string ReportMaker::errorTable() const {
   html::Table table({"shape", "distance max", "99.9 %", "RMS", "angle RMS", "99 %", "99.9 %", "max",
-                     "beyond sag", "folds"});
+                     "shading RMS", "beyond sag", "folds"});
   const auto add = [&](const PoseErrors& e, bool strong) {
     table.add({e.name, number(e.distance.max), number(e.distance.p999), number(e.distance.rms),
                fmt::format("{:.2f}°", e.angle.rms), fmt::format("{:.1f}°", e.angle.p99),
                fmt::format("{:.1f}°", e.angle.p999), fmt::format("{:.1f}°", e.angle.max),
-               number(e.facetExcess), std::to_string(e.folds)},
+               fmt::format("{:.2f}°", e.shadingRms), number(e.facetExcess), std::to_string(e.folds)},
               strong);
   };
   for (const PoseErrors& e : measured_.shapes) add(e, false);

@@ -186,6 +186,7 @@ TEST_F(Clips, OfTimelinesGoByTheirRegions) {
   EXPECT_GT(at(2, 6)[5], 0.5);
   ASSERT_EQ(sweepface_rig_divide_by(handle, "{}", 2, nullptr), SWEEPFACE_OK);
   EXPECT_EQ(sweepface_rig_region_count(handle), 1U);
+  EXPECT_EQ(sweepface_clip_region_count(clip), 2U) << "as it was read";
 }
 
 TEST_F(Clips, OfTimelinesTurnTheHeadWhateverTheFaceIsMadeOf) {
@@ -203,6 +204,19 @@ TEST_F(Clips, OfTimelinesTurnTheHeadWhateverTheFaceIsMadeOf) {
   sweepface_pose pose{};
   ASSERT_EQ(sweepface_clip_pose(clip, 1, &pose), SWEEPFACE_OK);
   EXPECT_EQ(pose.head.yaw, -0.5);
+}
+
+TEST_F(Clips, HangOnTheUsualSpringWhereItsOptionsAreZeros) {
+  ASSERT_EQ(sweepface_rig_divide_by(handle, kTimeline.data(), kTimeline.size(), "scene"),
+            SWEEPFACE_OK);
+  ASSERT_EQ(read(kCsv), SWEEPFACE_OK);
+  const std::vector<double> usual = at(0.3, 6);
+  sweepface_clip_options options{};
+  ASSERT_EQ(read(kCsv, &options), SWEEPFACE_OK) << sweepface_message();
+  EXPECT_EQ(at(0.3, 6), usual);
+  options.frequency = 1, options.damping = 1;
+  ASSERT_EQ(read(kCsv, &options), SWEEPFACE_OK);
+  EXPECT_NE(at(0.3, 6), usual);
 }
 
 TEST_F(Clips, HaveThePoseOfTheHead) {

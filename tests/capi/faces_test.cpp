@@ -391,11 +391,82 @@ TEST_F(Faces, AreWrittenInFullWhereTheyHaveNotBeenBefore) {
   }
 }
 
+TEST_F(Faces, AreUpdatedInThreeBuffersInTurn) {
+  make(2);
+  const std::size_t count = sweepface_mesh_vertex_count(mesh);
+  std::array<std::vector<float>, 4> buffers;
+  buffers.fill(std::vector<float>(3 * count));
+  const auto update = [&](std::vector<float>& to) {
+    ASSERT_EQ(sweepface_face_update(face, count, {to.data(), 0}, kUnwanted), SWEEPFACE_OK);
+  };
+  for (int frame = 0; frame < 12; ++frame) {
+    ASSERT_EQ(sweepface_face_set_weight(face, frame % 2, 0.1 * frame + 0.1), SWEEPFACE_OK);
+    update(buffers[frame % 3]);
+    EXPECT_EQ(buffers[frame % 3], evaluate()) << frame;
+  }
+  for (std::size_t k = 0; k < 3; ++k) update(buffers[k]);
+  constexpr float mark = 1e9f;
+  for (auto& buffer : buffers) buffer[0] = mark;
+  for (std::size_t k = 0; k < 3; ++k) {
+    update(buffers[k]);
+    EXPECT_EQ(buffers[k][0], mark) << "nothing has moved";
+  }
+  update(buffers[3]);
+  update(buffers[0]);
+  for (const std::size_t k : {3, 0}) EXPECT_EQ(buffers[k], evaluate()) << "of four one is forgotten";
+}
+
+TEST_F(Faces, AreUpdatedWhereTheirBuffersOverlap) {
+  make(1);
+  const std::size_t count = sweepface_mesh_vertex_count(mesh);
+  ASSERT_EQ(sweepface_face_set_weight(face, 0, 0.5), SWEEPFACE_OK);
+  const std::vector<float> all = evaluate();
+  std::vector<float> shared(3 * count + 3);
+  for (const std::size_t first : {0, 3, 0, 3}) {
+    ASSERT_EQ(sweepface_face_update(face, count, {shared.data() + first, 0}, kUnwanted),
+              SWEEPFACE_OK);
+    EXPECT_TRUE(std::ranges::equal(all, std::span(shared).subspan(first, 3 * count)));
+  }
+}
+
+TEST_F(Faces, AreMatchedWithTrackersNames) {
+  Rig sided = makeRig(tee());
+  for (const int k : {0, 1, 2}) sided.targets[k].name = std::array{"blink_L", "blink_R", "jawOpen"}[k];
+  load(sided);
+  uint32_t found[3] = {9, 9, 9};
+  EXPECT_EQ(sweepface_rig_match_targets(handle, "BlinkRight", found, 3), 1U);
+  EXPECT_EQ(found[0], 1U);
+  EXPECT_EQ(sweepface_rig_match_targets(handle, "blink", found, 1), 2U);
+  EXPECT_EQ(found[0], 0U);
+  EXPECT_EQ(found[1], 9U) << "there is room for one";
+  EXPECT_EQ(sweepface_rig_match_targets(handle, "blink", nullptr, 3), 2U);
+  for (const char* none : {"tongueOut", ""})
+    EXPECT_EQ(sweepface_rig_match_targets(handle, none, found, 3), 0U);
+  EXPECT_EQ(sweepface_rig_match_targets(nullptr, "blink", found, 3), 0U);
+}
+
+TEST_F(Faces, AreInABox) {
+  make(0);
+  double low[3], high[3];
+  sweepface_rig_box(handle, low, high);
+  const std::vector<float> positions = evaluate();
+  for (std::size_t c = 0; c < 3; ++c) {
+    float least = positions[c], most = positions[c];
+    for (std::size_t k = c; k < positions.size(); k += 3)
+      least = std::min(least, positions[k]), most = std::max(most, positions[k]);
+    EXPECT_FLOAT_EQ(static_cast<float>(low[c]), least);
+    EXPECT_FLOAT_EQ(static_cast<float>(high[c]), most);
+  }
+  sweepface_rig_box(nullptr, low, high);
+  EXPECT_EQ(low[0], 0);
+  EXPECT_EQ(high[2], 0);
+}
+
 TEST_F(Faces, AreAsFineAsABudgetAsks) {
   make(0);
   for (const uint32_t most : {40u, 400u}) {
     sweepface_mesh* within = nullptr;
-    ASSERT_EQ(sweepface_mesh_create_within(handle, SWEEPFACE_VERTICES, most, &within), SWEEPFACE_OK)
+    ASSERT_EQ(sweepface_mesh_create_within(handle, SWEEPFACE_BUDGET_VERTICES, most, &within), SWEEPFACE_OK)
         << sweepface_message();
     EXPECT_LE(sweepface_mesh_point_count(within), most);
     EXPECT_GT(sweepface_mesh_point_count(within), most / 3);
@@ -416,9 +487,9 @@ TEST_F(Faces, AreAsFineAsABudgetAsks) {
   }
   sweepface_mesh* none = nullptr;
   EXPECT_TRUE(refuses(sweepface_mesh_create_within(handle, 3, 1, &none), "no budget of kind 3"));
-  EXPECT_TRUE(refuses(sweepface_mesh_create_within(handle, SWEEPFACE_ERROR, -1, &none), "greater"));
+  EXPECT_TRUE(refuses(sweepface_mesh_create_within(handle, SWEEPFACE_BUDGET_ERROR, -1, &none), "greater"));
   EXPECT_TRUE(
-      refuses(sweepface_mesh_create_within(handle, SWEEPFACE_VERTICES, 1e12, &none), "at most"));
+      refuses(sweepface_mesh_create_within(handle, SWEEPFACE_BUDGET_VERTICES, 1e12, &none), "at most"));
 }
 
 TEST_F(Faces, KeepAliveWhatTheyAreMadeOf) {
@@ -537,6 +608,14 @@ class FacesThatShowFirst : public Faces {
     EXPECT_EQ(sweepface_rig_load_neutral(bytes.data(), bytes.size(), "tee", &handle), SWEEPFACE_OK);
   }
 };
+
+TEST_F(FacesThatShowFirst, AreEvaluatedWhileTheirTargetsCome) {
+  make(1);
+  const std::vector<float> neutral = evaluate();
+  std::thread loads([&] { EXPECT_EQ(sweepface_rig_load_targets(handle), SWEEPFACE_OK); });
+  for (int frame = 0; frame < 20; ++frame) EXPECT_EQ(evaluate(), neutral);
+  loads.join();
+}
 
 TEST_F(FacesThatShowFirst, MoveOnceTheirTargetsAreLoaded) {
   make(1);

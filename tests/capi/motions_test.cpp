@@ -91,6 +91,22 @@ TEST_F(Motions, TakeBlows) {
   EXPECT_LT(velocity(0), 2);
 }
 
+TEST_F(Motions, AreCopiedWithTheirVelocities) {
+  ASSERT_EQ(sweepface_motion_move_to(motion, 0, 1, nullptr), SWEEPFACE_OK);
+  sweepface_motion_advance(motion, 0.1);
+  sweepface_motion* copy = nullptr;
+  ASSERT_EQ(sweepface_motion_copy(motion, &copy), SWEEPFACE_OK);
+  sweepface_motion_advance(motion, 0.1);
+  const double later = weight(0);
+  double of[2];
+  ASSERT_EQ(sweepface_motion_positions(copy, of, 2), SWEEPFACE_OK);
+  EXPECT_LT(of[0], later);
+  sweepface_motion_advance(copy, 0.1);
+  ASSERT_EQ(sweepface_motion_positions(copy, of, 2), SWEEPFACE_OK);
+  EXPECT_EQ(of[0], later);
+  sweepface_motion_free(copy);
+}
+
 TEST_F(Motions, RefuseAndChangeNothing) {
   const double goals[] = {1, 2, 3};
   sweepface_drive odd = sweepface_drive_of(SWEEPFACE_NEWTON);
@@ -117,6 +133,7 @@ TEST(NoMotion, IsAnAnswer) {
   double room[1];
   sweepface_motion_advance(nullptr, 1);
   EXPECT_TRUE(refuses(sweepface_motion_move_to(nullptr, 0, 0, nullptr), "needs a motion"));
+  EXPECT_TRUE(refuses(sweepface_motion_copy(nullptr, nullptr), "needs one"));
   EXPECT_TRUE(refuses(sweepface_motion_push(nullptr, 0, 0, 0), "needs a motion"));
   EXPECT_TRUE(refuses(sweepface_motion_positions(nullptr, room, 1), "needs one"));
 }

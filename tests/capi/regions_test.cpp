@@ -95,6 +95,7 @@ TEST_F(DividedFaces, HaveWeightsOfEachRegion) {
   EXPECT_STREQ(sweepface_rig_region_name(handle, 0), "rest");
   EXPECT_STREQ(sweepface_rig_region_name(handle, 1), "part");
   EXPECT_EQ(sweepface_rig_region_name(handle, 2), nullptr);
+  EXPECT_EQ(sweepface_mesh_region_count(mesh), 2U);
 
   const double everywhere[] = {0.5, -0.3, 0}, here[] = {1, 0.7};
   ASSERT_EQ(sweepface_face_set_weights(face, everywhere, 3), SWEEPFACE_OK);
@@ -128,6 +129,7 @@ TEST_F(DividedFaces, HaveNoRestWhereARegionCoversAll) {
 TEST_F(DividedFaces, AreOfOnePieceAgainWhereMeshesAreMadeLater) {
   divide();
   ASSERT_EQ(sweepface_rig_divide(handle, nullptr, nullptr, 0), SWEEPFACE_OK);
+  EXPECT_EQ(sweepface_mesh_region_count(mesh), 2U) << "as it was made";
   EXPECT_EQ(sweepface_rig_region_count(handle), 1U);
   EXPECT_EQ(sweepface_rig_region_name(handle, 0), nullptr);
   const double one[] = {1};

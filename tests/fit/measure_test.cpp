@@ -89,6 +89,7 @@ TEST(Measure, findsNoAngleOnAPlane) {
   const auto m = measure(roughly(flat), flat);
   ASSERT_TRUE(m) << m.error().message;
   EXPECT_LT(m->worst.angle.max, 1e-6);
+  EXPECT_LT(m->worst.shadingRms, 1e-6);
   EXPECT_LT(m->worst.facetDistance, 1e-6);
   EXPECT_EQ(m->worst.folds, 0);
   EXPECT_TRUE(m->mixtures.empty());
@@ -105,6 +106,24 @@ TEST(Measure, showsAKnownTiltAsThatAngle) {
   ASSERT_TRUE(m) << m.error().message;
   EXPECT_NEAR(m->worst.angle.max, 5, 1e-4);
   EXPECT_NEAR(m->worst.angle.rms, 5, 1e-4);
+  EXPECT_NEAR(m->worst.shadingRms, 5, 1e-4);
+}
+
+// Every vertex of a pleated sheet is on a crest, where its normal is that of a plane.
+TEST(Measure, seesWavesBetweenVertices) {
+  const auto pleated = [](double x, double y) {
+    return Vec3{x, y, std::lround(x) % 2 == 0 ? 0.2 : -0.2};
+  };
+  const MeshRig source = withTargets(grid(12, 6, pleated), 1);
+  ConvertOptions options;
+  options.tolerance = 0.001;
+  const auto m = measure(convert(source, options).value().rig, source);
+  ASSERT_TRUE(m) << m.error().message;
+  for (const PoseErrors* e : {&m->shapes[0], &m->worst}) {
+    EXPECT_LT(e->angle.rms, 3);
+    EXPECT_GT(e->shadingRms, 15);
+    EXPECT_LT(e->shadingRms, 32) << "a sine of this height is 22 degrees steep, RMS";
+  }
 }
 
 TEST(Measure, seesAnOutlierInTheMaximumOnly) {

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <utility>
+
+#include "sweepface/rig.hpp"
+#include "sweepface/sweepface.h"
+
+namespace sweepface::capi {
+
+inline constexpr std::size_t kTight = 3 * sizeof(float);
+
+/// What an output holds, and where; at NULL: nothing.
+struct Written {
+  float* data = nullptr;
+  std::size_t stride = 0, count = 0;
+  Weights weights;
+
+  bool is(const sweepface_vectors& to, std::size_t vertices) const {
+    return data == to.data && stride == to.stride && count == vertices;
+  }
+  bool overlaps(const sweepface_vectors& to, std::size_t vertices) const {
+    const Written other{to.data, to.stride, vertices, {}};
+    const std::less<> before;
+    return before(begin(), other.end()) && before(other.begin(), end());
+  }
+
+ private:
+  const char* begin() const { return reinterpret_cast<const char*>(data); }
+  const char* end() const { return begin() + (stride ? stride : kTight) * count; }
+};
+
+/// Where an output was written before the last time: buffers are often written in turn.
+class WrittenBefore {
+ public:
+  explicit WrittenBefore(const Weights& rest) {
+    for (Written& place : places_) place.weights = rest;
+  }
+
+  /// Makes the place of an output the last one, if it is among these.
+  void bringBack(Written& last, const sweepface_vectors& to, std::size_t count) {
+    if (last.is(to, count)) return;
+    auto place = std::ranges::find_if(places_, [&](const Written& w) { return w.is(to, count); });
+    const bool isNew = place == places_.end();
+    if (isNew) --place;
+    std::rotate(places_.begin(), place, place + 1);
+    std::swap(places_.front(), last);
+    if (!isNew) return;
+    for (Written& w : places_)
+      if (w.overlaps(to, count)) w.data = nullptr;
+  }
+
+  /// Something else is written there.
+  void forget(const float* data) {
+    for (Written& w : places_)
+      if (w.data == data) w.data = nullptr;
+  }
+
+ private:
+  std::array<Written, 2> places_;
+};
+
+}  // namespace sweepface::capi
