@@ -33,12 +33,14 @@ endfunction()
 
 # Plugins with versions of their own must not share what is inside.
 refuse_exports(${WORK}/by_cmake/libplugin.so "[^\n]* u [^\n]*|[^\n]*N9sweepface[^\n]*")
-refuse_exports(${prefix}/${LIBDIR}/libsweepface.so " [A-Za-z] ([^s]|s[^w]|sw[^e])[^\n]*")
+foreach(library IN ITEMS sweepface sweepface_clips)
+  refuse_exports(${prefix}/${LIBDIR}/lib${library}.so " [A-Za-z] ([^s]|s[^w]|sw[^e])[^\n]*")
+endforeach()
 
 set(ENV{PKG_CONFIG_PATH} ${prefix}/${LIBDIR}/pkgconfig)
 consume(${CONSUMER} by_pkg_config -DFIND_BY_PKG_CONFIG=ON)
 
-# C alone finds and links the shared library, which may be shipped without the archives, however old a CMake it asks for.
+# C alone finds and links the shared libraries, which may be shipped without the archives, however old a CMake it asks for.
 file(GLOB archives ${prefix}/${LIBDIR}/*.a)
 file(REMOVE ${archives})
 file(WRITE ${WORK}/alone/CMakeLists.txt [[
@@ -46,9 +48,11 @@ file(WRITE ${WORK}/alone/CMakeLists.txt [[
   project(alone LANGUAGES C)
   cmake_policy(SET CMP0057 OLD)
   set(CMAKE_DISABLE_FIND_PACKAGE_hwy ON)
-  find_package(sweepface 0.1 REQUIRED COMPONENTS shared)
+  find_package(sweepface 0.1 REQUIRED COMPONENTS shared shared_clips)
   add_executable(plays ${CONSUMER}/main.c)
-  target_link_libraries(plays PRIVATE sweepface::shared)]])
+  target_link_libraries(plays PRIVATE sweepface::shared)
+  add_executable(plays_clips ${CONSUMER}/clips.c)
+  target_link_libraries(plays_clips PRIVATE sweepface::shared_clips)]])
 consume(${WORK}/alone by_shared -DCMAKE_PREFIX_PATH=${prefix} -DCONSUMER=${CONSUMER})
 
 # As a folder of another project it has libraries and nothing else.

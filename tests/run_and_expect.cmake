@@ -1,0 +1,23 @@
+# Runs a program that must end well, or with FAILS=ON must not, and say what PATTERN matches. CTest's own
+# PASS_REGULAR_EXPRESSION takes no heed of how a program ends.
+#   cmake -DPATTERN=... [-DFAILS=ON] -P run_and_expect.cmake -- PROGRAM ARGUMENT...
+set(command)
+set(is_command FALSE)
+math(EXPR last "${CMAKE_ARGC} - 1")
+foreach(k RANGE ${last})
+  if(is_command)
+    list(APPEND command ${CMAKE_ARGV${k}})
+  elseif(CMAKE_ARGV${k} STREQUAL "--")
+    set(is_command TRUE)
+  endif()
+endforeach()
+execute_process(COMMAND ${command} RESULT_VARIABLE result OUTPUT_VARIABLE said ERROR_VARIABLE said)
+message("${said}")
+if(NOT said MATCHES "${PATTERN}")
+  message(FATAL_ERROR "It does not say: ${PATTERN}")
+endif()
+if(FAILS AND NOT result STREQUAL "1")
+  message(FATAL_ERROR "It should have ended with 1, and ended with ${result}.")
+elseif(NOT FAILS AND NOT result STREQUAL "0")
+  message(FATAL_ERROR "It ended with ${result}.")
+endif()
