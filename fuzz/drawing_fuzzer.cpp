@@ -2,7 +2,8 @@
 
 #include "mesh_properties.hpp"
 
-// Reads a wireframe text and, where it is small, builds it: what comes out is finite.
+// Reads a wireframe text, which is the same when written and read again, and where it is small
+// builds it: what comes out is finite.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace sweepface;
   using fuzzing::require;
@@ -12,12 +13,18 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     require(message.starts_with("input.json") && message.ends_with('.'));
     return 0;
   }
+  const std::string text = formatDrawing(*drawing);
+  const auto again = parseDrawing(text, "again.json");
+  require(again.has_value() && formatDrawing(*again) == text);
   long edges = 0;
   for (const auto& curve : drawing->curves) edges += curve.edges;
   constexpr std::size_t kFew = 20;
   if (drawing->curves.size() > kFew || edges > 100) return 0;
-  const auto built = build(*drawing);
+  const auto built = build(*drawing), builtAgain = build(*again);
+  require(built.has_value() == builtAgain.has_value());
   if (!built) return 0;
+  require(builtAgain->rig.neutral == built->rig.neutral &&
+          builtAgain->rig.targets == built->rig.targets);
   for (const Vec3& v : built->rig.neutral) require(isFinite(v));
   for (const Target& target : built->rig.targets)
     for (const Vec3& v : target.difference) require(isFinite(v));

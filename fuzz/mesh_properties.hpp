@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -8,6 +10,7 @@
 #include "sweepface/io.hpp"
 
 #include "io/target_shape.hpp"
+#include "io/text.hpp"
 
 /// What must hold of whatever a mesh reader accepts.
 namespace sweepface::fuzzing {
@@ -45,12 +48,30 @@ inline void requireWhole(const PolygonMesh& mesh) {
   for (const Vec2& t : polygons.texcoords) require(std::isfinite(t.x) && std::isfinite(t.y));
 }
 
+/// Names that an OBJ keeps as they are.
+inline bool isPlain(std::string_view name) {
+  return !name.empty() && name == io::trimmed(name) && name.back() != '\\' &&
+         std::ranges::all_of(name, [](char c) { return static_cast<unsigned char>(c) >= ' '; });
+}
+
+inline void requireNames(const std::vector<std::string>& names, const std::vector<Index>& ofFace,
+                         const std::vector<std::string>& again,
+                         const std::vector<Index>& ofFaceAgain) {
+  for (std::size_t f = 0; f < ofFace.size(); ++f)
+    if (ofFace[f] >= 0 && isPlain(names[ofFace[f]]))
+      require(f < ofFaceAgain.size() && ofFaceAgain[f] >= 0 &&
+              again[ofFaceAgain[f]] == names[ofFace[f]]);
+}
+
 inline void requireSame(const PolygonMesh& a, const PolygonMesh& b) {
   require(a.positions == b.positions);
   require(a.polygons.faceStart == b.polygons.faceStart);
   require(a.polygons.corners == b.polygons.corners);
   require(a.polygons.texcoords == b.polygons.texcoords);
   require(a.polygons.cornerTexcoords == b.polygons.cornerTexcoords);
+  requireNames(a.polygons.groups, a.polygons.faceGroup, b.polygons.groups, b.polygons.faceGroup);
+  requireNames(a.polygons.materials, a.polygons.faceMaterial, b.polygons.materials,
+               b.polygons.faceMaterial);
 }
 
 /// An error is a sentence; a mesh is whole and is the same when written and read again.

@@ -1,44 +1,19 @@
-#include <cmath>
 #include <cstdint>
-#include <cstdlib>
 
 #include "sweepface/arcs.hpp"
 #include "sweepface/codec.hpp"
 #include "sweepface/eval.hpp"
 
 #include "codec/chunks.hpp"
-#include "codec/crc.hpp"
 #include "codec/grid_size.hpp"
 #include "codec/wire_version1.hpp"
+#include "repaired.hpp"
 
 namespace {
 
 using namespace sweepface;
-
-std::uint32_t fixed32(std::string_view bytes) {
-  std::uint32_t value = 0;
-  for (std::size_t k = 0; k < 4; ++k)
-    value |= std::uint32_t{static_cast<unsigned char>(bytes[k])} << (8 * k);
-  return value;
-}
-
-/// Makes every checksum right, or no mutation would get past it.
-std::string repaired(std::string bytes) {
-  for (std::size_t at = 8; at + 12 <= bytes.size();) {
-    const std::string_view frame = std::string_view(bytes).substr(at);
-    const std::size_t size = fixed32(frame.substr(4));
-    if (size > frame.size() - 12) break;
-    const std::uint32_t sum =
-        codec::crc32(frame.substr(12, size), codec::crc32(frame.substr(0, 4)));
-    for (std::size_t k = 0; k < 4; ++k) bytes[at + 8 + k] = static_cast<char>(sum >> (8 * k) & 255);
-    at += 12 + size;
-  }
-  return bytes;
-}
-
-void require(bool condition) {
-  if (!condition) std::abort();
-}
+using fuzzing::repaired;
+using fuzzing::require;
 
 void play(const Surface& surface, const std::vector<Vec3>& vectors) {
   double sum = 0;  // whatever the vectors are: nothing may be read that is not there
@@ -78,7 +53,7 @@ void requireSame(const SourceMesh& a, const SourceMesh& b) {
   require(a.gridVertex == b.gridVertex && a.ownOrder == b.ownOrder && a.loose == b.loose);
   require(a.quadCorners == b.quadCorners);
   require(p.faceStart == q.faceStart && p.corners == q.corners);
-  require(p.cornerTexcoords == q.cornerTexcoords);
+  require(p.texcoords == q.texcoords && p.cornerTexcoords == q.cornerTexcoords);
   require(p.materials == q.materials && p.faceMaterial == q.faceMaterial);
   require(p.groups == q.groups && p.faceGroup == q.faceGroup);
   require(p.materialFiles == q.materialFiles);
@@ -114,6 +89,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   require(back.has_value());
   require(back->neutral == rig->neutral && back->targets == rig->targets);
   require(back->turns == rig->turns && back->scene == rig->scene);
+  require(back->names == rig->names && back->tolerance == rig->tolerance);
   requireSame(back->source, rig->source);
   require(encode(*back) == again);
   return 0;

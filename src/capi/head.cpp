@@ -28,7 +28,8 @@ sweepface_status sweepface_rig_turn_eyes(sweepface_rig* rig, uint32_t* eyes) {
   if (!rig || !eyes) return refuse("Turning eyes needs a rig and a place for their number.");
   if (rig->following.eyes) return refuse("The eyes turn already.");
   if (rig->rig.use_count() > 1)
-    return refuse("Eyes must turn before a rig has meshes; free its meshes and faces, or load it again.");
+    return refuse(
+        "Eyes must turn before a rig has meshes; free its meshes and faces, or load it again.");
   if (const auto status = needTargets(*rig->rig)) return status;
   if (static_cast<double>(rig->rig->surface.wireframe().quadCount()) > kMostVertices)
     return refuse("The face has too many vertices to look for eyes.");

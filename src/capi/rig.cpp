@@ -107,7 +107,8 @@ sweepface_status sweepface_rig_follow(sweepface_rig* rig, uint32_t what) {
     return refuse("Weights follow by SWEEPFACE_ARCS, SWEEPFACE_COMBINE or both.");
   if (rig->rig.use_count() > 1)
     return refuse(
-        "What follows must be said before a rig has meshes; free its meshes and faces, or load it again.");
+        "What follows must be said before a rig has meshes; free its meshes and faces, or load it "
+        "again.");
   if (const auto status = needTargets(*rig->rig)) return status;
   if (rig->following.eyes)
     return refuse("What follows must be said before eyes turn; load the rig again.");

@@ -25,8 +25,8 @@ std::vector<Value> interpolated(const Surface& surface, const Tessellation& leve
         const auto at = [&](Index di, Index dj) {
           return values[level1.vertex(p, column + di, row + dj)];
         };
-        between[fine.vertex(p, i, j)] = (1 - t) * ((1 - s) * at(0, 0) + s * at(1, 0)) +
-                                        t * ((1 - s) * at(0, 1) + s * at(1, 1));
+        between[fine.vertex(p, i, j)] =
+            (1 - t) * ((1 - s) * at(0, 0) + s * at(1, 0)) + t * ((1 - s) * at(0, 1) + s * at(1, 1));
       }
   }
   return between;

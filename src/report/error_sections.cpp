@@ -58,11 +58,12 @@ std::string ReportMaker::errorTable() const {
   html::Table table({"shape", "distance max", "99.9 %", "RMS", "angle RMS", "99 %", "99.9 %", "max",
                      "shading RMS", "beyond sag", "folds"});
   const auto add = [&](const PoseErrors& e, bool strong) {
-    table.add({e.name, number(e.distance.max), number(e.distance.p999), number(e.distance.rms),
-               fmt::format("{:.2f}°", e.angle.rms), fmt::format("{:.1f}°", e.angle.p99),
-               fmt::format("{:.1f}°", e.angle.p999), fmt::format("{:.1f}°", e.angle.max),
-               fmt::format("{:.2f}°", e.shadingRms), number(e.facetExcess), std::to_string(e.folds)},
-              strong);
+    table.add(
+        {e.name, number(e.distance.max), number(e.distance.p999), number(e.distance.rms),
+         fmt::format("{:.2f}°", e.angle.rms), fmt::format("{:.1f}°", e.angle.p99),
+         fmt::format("{:.1f}°", e.angle.p999), fmt::format("{:.1f}°", e.angle.max),
+         fmt::format("{:.2f}°", e.shadingRms), number(e.facetExcess), std::to_string(e.folds)},
+        strong);
   };
   for (const PoseErrors& e : measured_.shapes) add(e, false);
   add(measured_.worst, true);

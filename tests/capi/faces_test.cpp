@@ -413,7 +413,8 @@ TEST_F(Faces, AreUpdatedInThreeBuffersInTurn) {
   }
   update(buffers[3]);
   update(buffers[0]);
-  for (const std::size_t k : {3, 0}) EXPECT_EQ(buffers[k], evaluate()) << "of four one is forgotten";
+  for (const std::size_t k : {3, 0})
+    EXPECT_EQ(buffers[k], evaluate()) << "of four one is forgotten";
 }
 
 TEST_F(Faces, AreUpdatedWhereTheirBuffersOverlap) {
@@ -431,7 +432,8 @@ TEST_F(Faces, AreUpdatedWhereTheirBuffersOverlap) {
 
 TEST_F(Faces, AreMatchedWithTrackersNames) {
   Rig sided = makeRig(tee());
-  for (const int k : {0, 1, 2}) sided.targets[k].name = std::array{"blink_L", "blink_R", "jawOpen"}[k];
+  for (const int k : {0, 1, 2})
+    sided.targets[k].name = std::array{"blink_L", "blink_R", "jawOpen"}[k];
   load(sided);
   uint32_t found[3] = {9, 9, 9};
   EXPECT_EQ(sweepface_rig_match_targets(handle, "BlinkRight", found, 3), 1U);
@@ -466,7 +468,8 @@ TEST_F(Faces, AreAsFineAsABudgetAsks) {
   make(0);
   for (const uint32_t most : {40u, 400u}) {
     sweepface_mesh* within = nullptr;
-    ASSERT_EQ(sweepface_mesh_create_within(handle, SWEEPFACE_BUDGET_VERTICES, most, &within), SWEEPFACE_OK)
+    ASSERT_EQ(sweepface_mesh_create_within(handle, SWEEPFACE_BUDGET_VERTICES, most, &within),
+              SWEEPFACE_OK)
         << sweepface_message();
     EXPECT_LE(sweepface_mesh_point_count(within), most);
     EXPECT_GT(sweepface_mesh_point_count(within), most / 3);
@@ -487,9 +490,10 @@ TEST_F(Faces, AreAsFineAsABudgetAsks) {
   }
   sweepface_mesh* none = nullptr;
   EXPECT_TRUE(refuses(sweepface_mesh_create_within(handle, 3, 1, &none), "no budget of kind 3"));
-  EXPECT_TRUE(refuses(sweepface_mesh_create_within(handle, SWEEPFACE_BUDGET_ERROR, -1, &none), "greater"));
   EXPECT_TRUE(
-      refuses(sweepface_mesh_create_within(handle, SWEEPFACE_BUDGET_VERTICES, 1e12, &none), "at most"));
+      refuses(sweepface_mesh_create_within(handle, SWEEPFACE_BUDGET_ERROR, -1, &none), "greater"));
+  EXPECT_TRUE(refuses(sweepface_mesh_create_within(handle, SWEEPFACE_BUDGET_VERTICES, 1e12, &none),
+                      "at most"));
 }
 
 TEST_F(Faces, KeepAliveWhatTheyAreMadeOf) {
