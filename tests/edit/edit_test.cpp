@@ -2,6 +2,9 @@
 
 #include <numbers>
 
+#include "sweepface/codec.hpp"
+
+#include "codec/files.hpp"
 #include "drawing/drawings.hpp"
 #include "surface/surfaces.hpp"
 
@@ -191,6 +194,14 @@ TEST(ControlCurves, BesideAClosedCurveMoveOnce) {
   EXPECT_NEAR(most, 2.5 / before.surface.edgesU(0), 1e-9);
 }
 
+TEST(ControlCurves, TowardsAPoleLeaveItAsItIs) {
+  const Rig before = rigOf(Surface::make(fan(4)).value());
+  Rig after = before;
+  ASSERT_TRUE(moveControls(after, {1, 0, {0, 0, 0.1}, {0, 0, 0.2}}));
+  for (Index v = 0; after.surface.stored(v).node == 0; ++v)
+    EXPECT_EQ(after.neutral[v], before.neutral[v]) << v;
+}
+
 TEST(Nodes, AtOnePointMoveTogether) {
   Json drawing = square();  // and another one that touches it at a corner
   drawing["nodes"].push_back({{"name", "e"}, {"with", "c"}});
@@ -222,6 +233,13 @@ TEST(Nodes, TakeWhatMeetsThereAlong) {
   EXPECT_GT(moved(before, after)[changed->front()], 0.1);
 }
 
+TEST(Nodes, OfACurveAreWhereItBeginsAndWhereItEnds) {
+  const Rig rig = sheet();
+  EXPECT_EQ(
+      endsOf(rig, rig.find(Thing::curve, "b1-c1").value()).value(),
+      (std::vector{rig.find(Thing::node, "b1").value(), rig.find(Thing::node, "c1").value()}));
+}
+
 TEST(Nodes, ListedTwiceMoveOnce) {
   Rig once = sheet(), twice = sheet();
   const NodeMove move{once.find(Thing::node, "b1").value(), {0, 0.3, 0}};
@@ -245,8 +263,10 @@ TEST(EveryEdit, OfWhatThereIsNotIsRefused) {
   EXPECT_FALSE(moveControls(rig, {1000, 0, {}, {}}));
   EXPECT_FALSE(moveControls(rig, {0, -1, {}, {}}));
   EXPECT_FALSE(moveControls(rig, {0, 0, {}, {}}, 1000));
-  EXPECT_FALSE(moveControls(rig, {0, 0, {nan, 0, 0}, {}}));
   EXPECT_FALSE(endsOf(rig, 1000));
+  for (const ControlMove& move : {ControlMove{0, 0, {nan, 0, 0}, {}}, {0, 0, {}, {nan, 0, 0}}})
+    EXPECT_EQ(moveControls(rig, move).error().message,
+              "A control curve cannot move by what is not finite.");
 }
 
 /// Nothing stored moves the derivatives of a node where two patches meet.
@@ -282,6 +302,17 @@ TEST(Nodes, OfATargetMoveInItAlone) {
   ASSERT_TRUE(moveNodes(after, std::array{NodeMove{0, {1, 2, 3}}}, 0));
   EXPECT_EQ(after.neutral, before.neutral);
   EXPECT_NE(after.targets[0].difference, before.targets[0].difference);
+}
+
+// What targets are counted from stays as it was. (Where nodes store more, what predicts the others
+// may change all the same: not beside curve 3.)
+TEST(EveryEdit, LeavesTheTargetsOfAPackedFaceSmall) {
+  const Rig before = decode(goldenFile("golden_sample.sweep"), "sample").value();
+  Rig nodes = before, controls = before;
+  ASSERT_TRUE(moveNodes(nodes, std::array{NodeMove{0, {0.3, 0.2, 0.4}}}));
+  ASSERT_TRUE(moveControls(controls, {3, 0, {0.1, 0.2, 0.3}, {}}));
+  for (const Rig* after : {&nodes, &controls})
+    EXPECT_LT(encode(*after).size(), 2 * encode(before).size());
 }
 
 // Whatever the wireframe: T-nodes, irregular nodes, creases, collapsed sides.

@@ -47,7 +47,8 @@ TEST(ClipMatch, ANameWithoutASideDrivesBoth) {
 }
 
 TEST(ClipMatch, AFinalLetterIsNotASide) {
-  EXPECT_EQ(matched({"curl"}, {"cur_L"}), (std::vector<std::vector<Index>>{{}}));
+  EXPECT_EQ(matched({"curl", "PURL"}, {"cur_L", "pur_L"}),
+            (std::vector<std::vector<Index>>{{}, {}}));
 }
 
 TEST(ClipMatch, SaysWhatDrivesNothingAndWhatNothingDrives) {

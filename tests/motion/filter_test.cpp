@@ -78,5 +78,21 @@ TEST(OneEuro, TheFirstFrameAndOneAfterNoTimePass) {
   EXPECT_EQ(weight[0], 0.9);
 }
 
+TEST(OneEuro, AFrameAfterNoTimeBeginsAnew) {
+  constexpr double kFrame = 1.0 / 60;
+  OneEuroFilter quick(1), fresh(1);
+  std::array<double, 1> weight{}, wanted{};
+  for (int f = 0; f < 30; ++f) {
+    weight[0] = 0.1 * f;
+    quick.apply(kFrame, weight);
+  }
+  for (const auto& [seconds, value] : {std::pair{0.0, 0.0}, {kFrame, 0.05}}) {
+    weight[0] = wanted[0] = value;
+    quick.apply(seconds, weight);
+    fresh.apply(seconds, wanted);
+  }
+  EXPECT_EQ(weight, wanted);
+}
+
 }  // namespace
 }  // namespace sweepface

@@ -19,6 +19,15 @@ Drive drive(Drive::Kind kind, double seconds = 0.4) {
   return {.kind = kind, .seconds = seconds, .spring = {}};
 }
 
+void expectNoJumpAfter(MotionState& state, double seconds) {
+  state.advance(seconds - 1e-12);
+  const Kinematics before = state.sample(0);
+  state.advance(2e-12);
+  const Kinematics after = state.sample(0);
+  EXPECT_NEAR(before.position, after.position, 1e-9);
+  EXPECT_NEAR(before.velocity, after.velocity, 1e-9);
+}
+
 TEST(MotionState, InterruptedAtAnyMomentItDoesNotJump) {
   std::mt19937 engine(3);
   std::uniform_real_distribution unit(0.0, 1.0);
@@ -43,13 +52,31 @@ TEST(MotionState, ADelayedDriveSetsOutWithoutAJump) {
   Drive late = drive(Drive::Kind::linearForce);
   late.delay = 0.1;
   ASSERT_TRUE(state.moveTo(0, 0, late));
-  state.advance(0.1 - 1e-12);
-  const Kinematics before = state.sample(0);
-  state.advance(2e-12);
-  const Kinematics after = state.sample(0);
-  EXPECT_NEAR(before.position, after.position, 1e-9);
-  EXPECT_NEAR(before.velocity, after.velocity, 1e-9);
+  expectNoJumpAfter(state, 0.1);
   state.advance(1);
+  EXPECT_EQ(state.sample(0).position, 0);
+}
+
+TEST(MotionState, ADelayedDriveInPlaceOfOneThatWaitsSetsOutWithoutAJump) {
+  MotionState state = still(1);
+  ASSERT_TRUE(state.moveTo(0, 1, drive(Drive::Kind::linearForce, 1)));
+  Drive replaced = drive(Drive::Kind::cut), late = drive(Drive::Kind::newton);
+  replaced.delay = 0.2;
+  ASSERT_TRUE(state.moveTo(0, -5, replaced));
+  late.delay = 0.4;
+  ASSERT_TRUE(state.moveTo(0, 1, late));
+  expectNoJumpAfter(state, 0.4);
+}
+
+TEST(MotionState, ADelayedDriveLeavesTimeToOneOfTheSameMoment) {
+  MotionState state = still(1);
+  Drive late = drive(Drive::Kind::cut);
+  late.delay = 1;
+  ASSERT_TRUE(state.moveTo(0, 1, drive(Drive::Kind::cut)));
+  ASSERT_TRUE(state.moveTo(0, 0, late));
+  state.advance(0.5);
+  EXPECT_EQ(state.sample(0).position, 1);
+  state.advance(0.5);
   EXPECT_EQ(state.sample(0).position, 0);
 }
 
@@ -124,8 +151,10 @@ TEST(MotionState, RefusesWithoutChange) {
   EXPECT_FALSE(state.moveTo(0, nan));
   EXPECT_FALSE(state.moveTo(0, nan, drive(Drive::Kind::cut)));
   Drive late = drive(Drive::Kind::spring);
-  late.delay = -1;
-  EXPECT_FALSE(state.moveTo(0, 1, late));
+  for (const double delay : {-1.0, nan, std::numeric_limits<double>::infinity()}) {
+    late.delay = delay;
+    EXPECT_FALSE(state.moveTo(0, 1, late)) << delay;
+  }
   EXPECT_FALSE(state.moveTo(std::array{1.0}));
   EXPECT_FALSE(state.moveTo(std::array{1.0, nan}));
   EXPECT_FALSE(state.push(5, 1, 1));

@@ -1,5 +1,6 @@
 #include "sweepface/regional_clips.hpp"
 
+#include <algorithm>
 #include <gtest/gtest.h>
 #include <limits>
 
@@ -39,6 +40,18 @@ TEST(RegionalClips, HoldNoMoreInAllThanOneMay) {
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().message,
             "it is too long for 2 regions; cut it, or play it with fewer.");
+}
+
+TEST(RegionalClips, ShareTheRoomHoweverMuchSwings) {
+  Clip rise = captureOf(2, 64);
+  std::fill_n(rise.weights.begin(), 64, 0.0);
+  const Matter heavy{4, 1, 0};
+  const Spring hold{3, 0.05};
+  std::vector<Matter> matters(2000);
+  matters.back() = heavy;
+  const std::size_t share = kMostClipWeights / matters.size();
+  EXPECT_GT(inMatter(rise, heavy, hold).weights.size(), share) << "alone";
+  EXPECT_LE(inRegions(rise, matters, hold)->ofRegions.back().weights.size(), share);
 }
 
 TEST(RegionalClips, AreRefusedWhereMattersOrSpringsAreNone) {

@@ -150,6 +150,27 @@ TEST(RegionalMotion, GoalsOfOneInstantBecomeTheLast) {
   EXPECT_EQ(motion->sample(0, 1).position, 1);
 }
 
+TEST(RegionalMotion, GoalsThatBecomeOneHaveTheDriveOfTheLast) {
+  RegionalMotion motion = motionOf({0.0}, {{1, 1, 1}});
+  for (int k = 0; k < 2000; ++k)
+    ASSERT_TRUE(motion.moveTo(0, 0.5, {.kind = Drive::Kind::cut, .spring = {}}));
+  ASSERT_TRUE(motion.moveTo(0, 1, {.kind = Drive::Kind::newton, .seconds = 1, .spring = {}}));
+  motion.advance(1.5);
+  EXPECT_NEAR(motion.sample(0, 0).position, std::lerp(0.5, 1, 0.25), 1e-12);
+}
+
+// m q″ = −c q′ after a blow of the same momentum everywhere.
+TEST(RegionalMotion, ABlowMovesHeavyRegionsByNewtonsLaw) {
+  const std::vector<Matter> matters{{}, {4, 1, 0}};
+  const double blow = 2, drag = 4, seconds = 0.1;
+  RegionalMotion motion = motionOf({0.0}, matters);
+  ASSERT_TRUE(motion.push(0, blow, drag));
+  motion.advance(seconds);
+  for (std::size_t r = 0; r < 2; ++r)
+    EXPECT_NEAR(matters[r].mass * motion.sample(r, 0).velocity,
+                blow * std::exp(-drag / matters[r].mass * seconds), 1e-12);
+}
+
 TEST(RegionalMotion, LateRegionsFeelABlowAtOnce) {
   RegionalMotion motion = motionOf({0.0}, {{}, {1, 1, 0.5}});
   ASSERT_TRUE(motion.moveTo(0, 1, spring(3, 1)));
@@ -224,6 +245,10 @@ TEST(RegionalMotion, RefusesWithoutAChange) {
   RegionalMotion uneven = motionOf({0.0}, {{1, 1, 0}, {1e-4, 1, 0}});
   EXPECT_FALSE(uneven.push(0, 1e306, 0));  // too much for the light one
   EXPECT_EQ(uneven.sample(0, 0).velocity, 0);
+  EXPECT_FALSE(uneven.moveTo(0, 1, spring(9e151, 1)));  // so is this
+  uneven.advance(1);
+  EXPECT_EQ(uneven.sample(0, 0).position, 0);
+  EXPECT_FALSE(motionOf({0.0}, {{1, 1, 0.5}}).moveTo(0, 0, std::nan(""), {}));
   motion.advance(1);
   EXPECT_EQ(motion.sample(1, 0).position, 0);
 }
@@ -472,6 +497,9 @@ TEST(RegionalClip, ALateRegionShowsTheClipLater) {
   // And goes on until all of it was shown.
   EXPECT_NEAR(late.seconds(), clip.seconds() + 0.25, 1e-12);
   EXPECT_NEAR(late.weights.back(), clip.weights.back(), 1e-12);
+  // A heavy one as much later.
+  EXPECT_NEAR(inMatter(clip, {4, 1, 0.25}).seconds(), inMatter(clip, {4, 1, 0}).seconds() + 0.25,
+              1e-12);
 }
 
 TEST(RegionalClip, OfManyNamesIsNotStretchedBeyondWhatAClipHolds) {

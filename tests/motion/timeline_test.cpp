@@ -115,6 +115,12 @@ TEST(PlayedTimeline, LastsUntilWhatIsHeavyHasArrived) {
                                       "line.json")
                             .value();
   EXPECT_EQ(endIn(late, "heavy", {16, 1, 0}), 2.75 + 0.75) << "in the second loop the last time";
+  for (const auto kind :
+       {Drive::Kind::newton, Drive::Kind::linearForce, Drive::Kind::accelerateBrake}) {
+    const Drive drive{.kind = kind, .seconds = 1, .spring = {}};
+    const Timeline once{1, 1, {{0, {{"a", 1}}, false, "", drive}}};
+    EXPECT_EQ(endIn(once, "heavy", {16, 1, 0}), 4) << nameOf(kind);
+  }
   const Clip clip = bakeToPlay(timeline, "heavy", {16, 1, 0})->clip;
   EXPECT_EQ(clip.seconds(), end);
   EXPECT_GT(weight(clip, end - 1, "a"), 0.05);

@@ -250,6 +250,7 @@ TEST(Trajectory, RefusesWhatHasNoMeaning) {
   EXPECT_FALSE(Trajectory::linearForce({0, 0}, 1, 1, nan));
   EXPECT_FALSE(Trajectory::twoForces({0, 0}, 1, 1, 0));
   EXPECT_FALSE(Trajectory::twoForces({0, 0}, 1, 1, 1));
+  EXPECT_FALSE(Trajectory::twoForces({0, 0}, 1e308, 1e-300, 0.5));
   EXPECT_FALSE(Trajectory::spring({0, 0}, 1, {0, 1}));
   EXPECT_FALSE(Trajectory::spring({0, 0}, 1, {1, -0.1}));
   EXPECT_FALSE(Trajectory::bounce({0, 0}, 1, 1, 1));
