@@ -86,6 +86,8 @@ TEST(Bulge, isNoneWhereNothingTurns) {
   EXPECT_EQ(bulge(turn, {1, 0, 0}, {-0.9, 0.1, 0}), Vec3{});  // nearly
   EXPECT_LE(norm(bulge(turn, {1, 0, 0}, {2, 0, 0})), 1e-15);  // straight away from the axis
   EXPECT_LE(norm(bulge(turn, {1, 0, 0}, {1, 0, 3})), 1e-15);  // along it
+  // From a third of a full turn on.
+  EXPECT_EQ(bulge(turn, {1, 0, 0}, turnedAboutZ({1, 0, 0}, {}, 130)), Vec3{});
 }
 
 // ---- Rigs ----
@@ -108,19 +110,21 @@ Rig turning(const Vec3& pivot, double degrees, const Wireframe& wireframe = oneP
 
 TEST(Arcs, turnTheSurfaceHalfWay) {
   const Vec3 pivot{-20, -30, 0};
-  Rig rig = turning(pivot, 30);
-  const Turn turn{0, pivot, {0, 0, 1}};
-  const Followers followers(addArcs(rig, {&turn, 1}));
-  ASSERT_EQ(rig.targets.size(), 2u);
-  EXPECT_EQ(rig.targets[1].name, rig.targets[0].name + ".arc");
-  Weights weights{0.5, 0};
-  followers.apply(weights);
-  const auto half = blend(rig, weights), neutral = blend(rig, {});
-  const Tessellation grid(rig.surface, 3);
-  const auto places = grid.positions(half), before = grid.positions(neutral);
-  for (std::size_t v = 0; v < places.size(); ++v)
-    EXPECT_LE(norm(places[v] - turnedAboutZ(before[v], pivot, 15)), 1e-12) << v;
-  EXPECT_LE(norm(blendLoose(rig, weights)[0] - turnedAboutZ({1, 2, 3}, pivot, 15)), 1e-12);
+  for (const Wireframe& wireframe : {onePatch(3, 2), fan(3), fan(5)}) {
+    Rig rig = turning(pivot, 30, wireframe);
+    const Turn turn{0, pivot, {0, 0, 1}};
+    const Followers followers(addArcs(rig, {&turn, 1}));
+    ASSERT_EQ(rig.targets.size(), 2u);
+    EXPECT_EQ(rig.targets[1].name, rig.targets[0].name + ".arc");
+    Weights weights{0.5, 0};
+    followers.apply(weights);
+    const auto half = blend(rig, weights), neutral = blend(rig, {});
+    const Tessellation grid(rig.surface, 3);
+    const auto places = grid.positions(half), before = grid.positions(neutral);
+    for (std::size_t v = 0; v < places.size(); ++v)
+      EXPECT_LE(norm(places[v] - turnedAboutZ(before[v], pivot, 15)), 1e-12) << v;
+    EXPECT_LE(norm(blendLoose(rig, weights)[0] - turnedAboutZ({1, 2, 3}, pivot, 15)), 1e-12);
+  }
 }
 
 TEST(Arcs, turnFoldedSurfacesHalfWayToo) {

@@ -82,6 +82,18 @@ std::vector<Vec3> blended(const Rig& rig, std::span<const Region> regions,
   return vectors;
 }
 
+/// Two patches that touch in one corner: nodes 2 and 4 are at the same point.
+Rig touching() {
+  Wireframe w = onePatch(2, 2);
+  const Wireframe other = w;
+  w.points = 7;
+  for (Index point : {2, 4, 5, 6}) w.nodes.push_back({point, kWholeJet});
+  for (const Arc& a : other.arcs) w.arcs.push_back(arc(a.from + 4, a.to + 4, a.edges, a.ribbon));
+  w.patches.push_back({{4, 5, 6, 7, 8}});
+  for (const HalfArc h : other.loops) w.loops.push_back(h + 8);
+  return makeRig(w);
+}
+
 // ---- Painting ----
 
 TEST(Regions, FadeWithTheDistanceFromAPoint) {
@@ -115,6 +127,13 @@ TEST(Regions, FadeWithTheDistanceFromALine) {
       EXPECT_TRUE(shares[n] > 0 && shares[n] < 1);
     }
   }
+}
+
+TEST(Regions, ALineOfOnePointIsThatPoint) {
+  const Brush point = around(nodePlaces(hill())[0], 2, 4, false);
+  Brush line = point;
+  std::swap(line.points, line.line);
+  EXPECT_EQ(painted(hill(), line), painted(hill(), point));
 }
 
 // Sheets side by side, a twentieth of an edge apart.
@@ -173,40 +192,63 @@ TEST(Regions, MaterialsAndGroupsArePainted) {
   PolygonMesh mesh = cubeSphere(8);
   Polygons& faces = mesh.polygons;
   faces.materials = {"left", "right"};
+  faces.groups = {"back", "front"};
   for (Index f = 0; f < faces.faceCount(); ++f) {
-    double x = 0;
+    Vec3 sum;
     for (Index c = faces.faceStart[f]; c < faces.faceStart[f + 1]; ++c)
-      x += mesh.positions[faces.corners[c]].x;
-    faces.faceMaterial.push_back(x < 0 ? 0 : 1);
+      sum += mesh.positions[faces.corners[c]];
+    faces.faceMaterial.push_back(sum.x < 0 ? 0 : 1);
+    faces.faceGroup.push_back(sum.z < 0 ? 0 : 1);
   }
   const Rig rig = converted(mesh);
-  Brush brush;
-  brush.parts = {"left"};
   const auto places = nodePlaces(rig);
-  const auto shares = painted(rig, brush);
-  brush.fade = 6;
-  const auto soft = painted(rig, brush);
-  int inside = 0, between = 0;
-  for (std::size_t n = 0; n < places.size(); ++n) {
-    if (places[n].x < -1) {
-      EXPECT_EQ(shares[n], 1);
-      ++inside;
+  Brush brush;
+  for (const auto& [part, inwards] : {std::pair{"left", Vec3{-1, 0, 0}},
+                                      {"right", Vec3{1, 0, 0}},
+                                      {"back", Vec3{0, 0, -1}},
+                                      {"front", Vec3{0, 0, 1}}}) {
+    brush.parts = {part};
+    brush.fade = 0;
+    const auto shares = painted(rig, brush);
+    brush.fade = 6;
+    const auto soft = painted(rig, brush);
+    int inside = 0, between = 0;
+    for (std::size_t n = 0; n < places.size(); ++n) {
+      const double depth = dot(places[n], inwards);
+      if (depth > 1) {
+        EXPECT_EQ(shares[n], 1) << part;
+        ++inside;
+      }
+      if (depth < -1) {
+        EXPECT_EQ(shares[n], 0) << part;
+      }
+      EXPECT_GE(soft[n], shares[n]);
+      between += soft[n] > 0 && soft[n] < 1;
     }
-    if (places[n].x > 1) {
-      EXPECT_EQ(shares[n], 0);
-    }
-    EXPECT_GE(soft[n], shares[n]);
-    between += soft[n] > 0 && soft[n] < 1;
+    EXPECT_GT(inside, 0);
+    EXPECT_GT(between, 0);
   }
-  EXPECT_GT(inside, 0);
-  EXPECT_GT(between, 0);
   brush.alongSurface = false;
   EXPECT_FALSE(paint(rig, brush)) << "parts reach over the surface";
   brush.alongSurface = true;
   brush.parts = {"middle"};
   const auto none = paint(rig, brush);
   ASSERT_FALSE(none);
-  EXPECT_NE(none.error().message.find("'middle'; it has left, right"), std::string::npos);
+  EXPECT_NE(none.error().message.find("'middle'; it has left, right, back, front"),
+            std::string::npos);
+}
+
+// Patches of 3 × 2 and 2 × 2 quads; of the four quads at the ends of the seam, one is in the part.
+TEST(Regions, NodesOnASeamBelongToAPartAsFarAsTheQuadsAroundThemDo) {
+  Rig rig = makeRig(twoPatches());
+  rig.source.polygons.materials = {"skin", "lips"};
+  rig.source.polygons.faceMaterial = {0, 0, 1, 0, 0, 0, 0, 0, 0, 0};
+  Brush brush;
+  brush.parts = {"lips"};
+  EXPECT_EQ(painted(rig, brush), (std::vector<double>{0, 0.5, 0, 0, 0, 0}));
+  brush.whole = 1e-9;
+  EXPECT_EQ(painted(rig, brush), (std::vector<double>{0, 1, 0, 0, 0, 0}))
+      << "wholly where the brush goes farther";
 }
 
 TEST(Regions, NodesHaveTheSharesTheyAreGiven) {
@@ -224,6 +266,19 @@ TEST(Regions, NodesHaveTheSharesTheyAreGiven) {
   const auto twice = paint(hill(), brush);
   ASSERT_FALSE(twice);
   EXPECT_NE(twice.error().message.find("told twice"), std::string::npos);
+}
+
+TEST(Regions, NodesAtOnePointHaveOneShare) {
+  const Rig rig = touching();
+  Brush brush;
+  brush.nodes = {{"n4", 0.25}};
+  EXPECT_EQ(painted(rig, brush), (std::vector<double>{0, 0, 0.25, 0, 0.25, 0, 0, 0}));
+}
+
+TEST(Regions, WaysAlongTheSurfaceGoOnThroughAPoint) {
+  const Rig rig = touching();
+  const Brush brush = around(nodePlaces(rig)[0], 1e3, 0, true);
+  EXPECT_EQ(painted(rig, brush), std::vector<double>(8, 1.0));
 }
 
 TEST(Regions, NodesOnTheSideOfAPatchHaveNoShareOfTheirOwn) {
@@ -251,6 +306,13 @@ TEST(Regions, BandsFollowEachOther) {
     EXPECT_NEAR(middle, std::min(4.0, norm(places[n] - places[0]) / 3), 0.5);
   }
   EXPECT_EQ((*bands)[0][0], 1);
+  // Up to any band they are a brush that fades over the way to the next.
+  std::vector<double> sums(places.size());
+  for (int b = 0; b < 4; ++b) {
+    const auto shares = painted(hill(), around(places[0], 3 * b, 3, false));
+    for (std::size_t n = 0; n < places.size(); ++n)
+      EXPECT_NEAR(sums[n] += (*bands)[b][n], shares[n], 1e-12) << b;
+  }
   EXPECT_FALSE(paintBands(hill(), around(places[0], 1, 0, false), 5));
   EXPECT_FALSE(paintBands(hill(), around({1e6, 0, 0}, 0, 12, false), 5)) << "reaches nothing";
   Brush named = around(places[0], 0, 12, false);
@@ -405,6 +467,9 @@ TEST(Regions, PartsOfTargetsHaveNamesOfTheirOwn) {
 TEST(Regions, PartsOfTargetsAddUpToTheSamePose) {
   for (const Rig* original : {&hill(), &ball()}) {
     Rig rig = *original;
+    rig.source.loose = {{1, 2, 3}};  // of no face: as in the first region
+    for (Target& target : rig.targets) target.looseDifference = {{1, 1, 0}};
+    const Rig before = rig;
     const auto regions = someRegions(rig);
     const std::size_t count = rig.targets.size();
     const auto targets = RegionalTargets::addTo(rig, regions, std::vector<Index>{0, 1});
@@ -413,8 +478,10 @@ TEST(Regions, PartsOfTargetsAddUpToTheSamePose) {
     const auto weights = anyWeights(regions.size() * count);
     std::vector<double> all(rig.targets.size());
     targets.spread(weights, all);
-    const auto a = blend(rig, all), b = blended(*original, regions, weights);
+    const auto a = blend(rig, all), b = blended(before, regions, weights);
     for (std::size_t v = 0; v < a.size(); ++v) EXPECT_LE(norm(a[v] - b[v]), 1e-12);
+    const auto first = std::span(weights).first(count);
+    EXPECT_LE(norm(blendLoose(rig, all)[0] - blendLoose(before, first)[0]), 1e-12);
     // No part is behind: some programs stop at 0.
     for (std::size_t k = count; k < all.size(); ++k) EXPECT_GE(all[k], 0);
     const auto wholes = targets.wholes();
@@ -425,7 +492,20 @@ TEST(Regions, PartsOfTargetsAddUpToTheSamePose) {
                             : rig.targets[k].name.starts_with(partName(whole.name, "")));
     }
     // By itself a whole target is what it was.
-    EXPECT_EQ(rig.targets[0], original->targets[0]);
+    EXPECT_EQ(rig.targets[0], before.targets[0]);
+  }
+}
+
+TEST(Regions, PartsThatNobodySeesMoveAreLeftOut) {
+  const std::vector<Region> regions{{"a", {}, {1, 0, 0, 0, 0, 0}},
+                                    {"rest", {}, {0, 1, 1, 1, 1, 1}}};
+  for (const auto& [tolerances, isKept] : {std::pair{0.5, true}, {5e-4, false}}) {
+    Rig rig = makeRig(twoPatches());
+    for (Index v = 0; v < rig.surface.storedCount(); ++v)
+      if (rig.surface.stored(v).node == 0)
+        rig.targets[0].difference[v] = {tolerances * rig.tolerance, 0, 0};
+    RegionalTargets::addTo(rig, regions, std::vector<Index>{0});
+    EXPECT_EQ(rig.find(partName(rig.targets[0].name, "a")) >= 0, isKept) << tolerances;
   }
 }
 

@@ -73,6 +73,17 @@ TEST(Find, answersByExactName) {
   EXPECT_EQ(rig.find("Rest"), -1);
 }
 
+TEST(Find, thingsWithoutANameHaveTheirLetterAndNumber) {
+  Rig rig = named();
+  rig.names.nodes = {"", "tip"};
+  EXPECT_EQ(rig.nameOf(Thing::node, 0), "n0");
+  EXPECT_EQ(rig.nameOf(Thing::node, 1), "tip");
+  for (const auto& [name, node] : {std::pair{"n0", 0}, {"0", 0}, {"tip", 1}, {"n1", 1}, {"3", 3}})
+    EXPECT_EQ(rig.find(Thing::node, name).value(), node) << name;
+  for (const char* name : {"", "n", "n4", "c0", "n4294967296", "n-1"})
+    EXPECT_FALSE(rig.find(Thing::node, name)) << name;
+}
+
 class Blend : public ::testing::TestWithParam<std::size_t> {
  protected:
   Rig rig() const { return someRigs()[GetParam()]; }
