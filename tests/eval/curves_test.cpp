@@ -29,6 +29,15 @@ TEST_P(Curves, StartAndEndAtNodes) {
   }
 }
 
+TEST(CurveNetwork, OfAFanMeetsInItsPole) {
+  const Surface surface = Surface::make(fan(4)).value();
+  const CurveNetwork net = curveNetwork(surface, anyPose(surface), 3);
+  EXPECT_EQ(net.nodes.size(), 5u);
+  EXPECT_EQ(std::ranges::count(net.boundary, net.nodes[0],
+                               [](const Curve& curve) { return curve.points.front(); }),
+            4);
+}
+
 /// Two control curves and the boundary between them say what the derivatives across are.
 TEST_P(Curves, HoldTheDerivativesAcross) {
   const Surface surface = surfaceOf(GetParam().rig, 3);

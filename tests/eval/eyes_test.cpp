@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <functional>
 #include <numbers>
+#include <set>
 
 #include "sweepface/arcs.hpp"
 #include "sweepface/eval.hpp"
@@ -10,6 +11,8 @@
 #include "sweepface/head.hpp"
 #include "sweepface/io.hpp"
 
+#include "codec/rigs.hpp"
+#include "eval/balls.hpp"
 #include "faces.hpp"
 
 namespace sweepface {
@@ -84,6 +87,47 @@ TEST(Eyes, WithoutABallThereAreNone) {
               findEyes(converted(withTargets(uvSphere()))).size() == 1);
 }
 
+TEST(Eyes, AreMostOfABallAndRound) {
+  const auto isBall = [](const PolygonMesh& mesh) { return ballOf(mesh.positions).has_value(); };
+  EXPECT_TRUE(isBall(cubeSphere(3)));
+  EXPECT_FALSE(isBall(cubeSphere(2))) << "26 vertices";
+  PolygonMesh cube = cubeSphere(4);
+  for (Vec3& p : cube.positions) p *= 1 / std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  EXPECT_FALSE(isBall(cube));
+}
+
+/// The eyes of a face of balls; each of a centre and a radius.
+std::vector<Eye> eyesOf(const std::vector<std::pair<Vec3, double>>& balls) {
+  PolygonMesh mesh;
+  for (const auto& [centre, radius] : balls) mesh = joined(mesh, cubeSphere(3, radius), centre);
+  ConvertOptions options;
+  options.tolerance = 0.05;
+  return findEyes(convert(MeshRig{mesh, {}}, options).value().rig);
+}
+
+TEST(Eyes, AreAPairOfTheLargestBalls) {
+  const Vec3 brow{0, 9, 0};
+  const auto three = eyesOf({{brow, 1}, {kLeft, kRadius}, {kRight, kRadius}});
+  EXPECT_EQ(three.size(), 2u);
+  EXPECT_TRUE(named(three, "eyeLeft") && named(three, "eyeRight"));
+  const auto unequal = eyesOf({{kLeft, kRadius / 2}, {kRight, kRadius}});
+  ASSERT_EQ(unequal.size(), 1u);
+  EXPECT_EQ(unequal[0].name, "eyeRight");
+  EXPECT_TRUE(eyesOf({{kLeft, kRadius}, {kLeft + brow, kRadius}}).empty()) << "on one side";
+}
+
+TEST(Eyes, AreTheirCorneaTooButNotWhatIsBesideThem) {
+  const auto storedWith = [](std::vector<std::pair<Vec3, double>> balls) {
+    balls.insert(balls.end(), {{kLeft, kRadius}, {kRight, kRadius}});
+    const auto eyes = eyesOf(balls);
+    const Eye* left = named(eyes, "eyeLeft");
+    return left ? left->stored.size() : 0;
+  };
+  const std::size_t alone = storedWith({});
+  EXPECT_GT(storedWith({{kLeft + Vec3{0, 0, 0.1 * kRadius}, 0.95 * kRadius}}), alone) << "a cornea";
+  EXPECT_EQ(storedWith({{kLeft + Vec3{0, 0, 1.25 * kRadius}, 0.2 * kRadius}}), alone) << "a lash";
+}
+
 TEST(EyeTurns, AreRigidAtEveryWeightAndOnlyThere) {
   const MeshRig mesh = faceWithEyes(false);
   const Rig plain = converted(mesh);
@@ -117,6 +161,35 @@ TEST(EyeTurns, AreUsualOnesOfTargetsThatAreStillToCome) {
   weights[down] = 1;
   turns.apply(weights);
   EXPECT_NEAR(weights[rig.find("eyeLeft.down")], std::sin(0.5), 1e-12);
+}
+
+TEST(EyeTurns, GoTheUsualWayThatTheTargetIsNamedAfter) {
+  // By the face's sides: out is left for the left eye.
+  const std::vector<std::pair<std::string, std::string>> ways{
+      {"eyeLookUp_L", "eyeLeft.up"},    {"eyeLookDown_L", "eyeLeft.down"},
+      {"eyeLookOut_L", "eyeLeft.left"}, {"eyeLookIn_L", "eyeLeft.right"},
+      {"eyeLookUp_R", "eyeRight.up"},   {"eyeLookDown_R", "eyeRight.down"},
+      {"eyeLookIn_R", "eyeRight.left"}, {"eyeLookOut_R", "eyeRight.right"}};
+  Rig rig = makeRig(onePatch(1, 1));
+  rig.targets.clear();
+  for (const auto& [look, turn] : ways) rig.targets.push_back({look, {}, {}});
+  const EyeTurns turns = EyeTurns::addTo(
+      rig, std::vector<Eye>{{"eyeLeft", kLeft, kRadius, {}}, {"eyeRight", kRight, kRadius, {}}});
+  for (const auto& [look, turn] : ways) {
+    std::vector<double> weights(rig.targets.size());
+    weights[rig.find(look)] = 1;
+    turns.apply(weights);
+    EXPECT_NEAR(weights[rig.find(turn)], std::sin(0.5), 1e-12) << look;
+  }
+}
+
+TEST(EyeTurns, HaveNamesOfTheirOwn) {
+  Rig rig = makeRig(onePatch(1, 1));
+  rig.targets[1].name = "eyeLeft.down";
+  EyeTurns::addTo(rig, std::vector<Eye>{{"eyeLeft", kLeft, kRadius, {}}});
+  std::set<std::string> names;
+  for (const Target& target : rig.targets) names.insert(target.name);
+  EXPECT_EQ(names.size(), rig.targets.size());
 }
 
 TEST(EyeTurns, StayWholeWhereARegionEndsInABall) {

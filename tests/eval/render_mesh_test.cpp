@@ -1,5 +1,6 @@
 #include "sweepface/render_mesh.hpp"
 
+#include <functional>
 #include <numeric>
 
 #include "surface/surfaces.hpp"
@@ -58,12 +59,13 @@ TEST_P(EveryFace, HasTheTessellationsShapeAtAnyLevel) {
   }
 }
 
-/// A sheet of 2 × 2 unit quads in the plane, as a rig whose surface is that sheet.
-Rig sheet() {
+/// A sheet of n × n unit quads in the plane, as a rig whose surface is that sheet.
+Rig sheet(Index n = 2) {
   Rig rig;
-  rig.surface = Surface::make(onePatch(2, 2)).value();
+  rig.surface = Surface::make(onePatch(n, n)).value();
   rig.neutral.resize(rig.surface.storedCount());
-  const Vec3 corners[4] = {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}};
+  const double size = n;
+  const Vec3 corners[4] = {{0, 0, 0}, {size, 0, 0}, {size, size, 0}, {0, size, 0}};
   for (Index v = 0; v < rig.surface.storedCount(); ++v) {
     const StoredVector& s = rig.surface.stored(v);
     if (s.i == 0 && s.j == 0) rig.neutral[v] = corners[s.node];
@@ -72,7 +74,7 @@ Rig sheet() {
       const auto& arms = rig.surface.connectivity().stars[s.node].arms;
       const HalfArc arm = arms[s.i == 1 ? 0 : 1];
       const Vec3 way = corners[rig.surface.wireframe().end(arm)] - corners[s.node];
-      rig.neutral[v] = 0.5 * way;
+      rig.neutral[v] = (1 / size) * way;
     }
   }
   rig.source = makeSource(rig.surface);
@@ -127,26 +129,35 @@ TEST(RenderMesh, CutsQuadsWhereTheyAreShorter) {
   EXPECT_LT(longest(renderGrid(rig, grid), grid.positions(blend(rig, {}))), 1.2);
 }
 
-/// Texture coordinates that are the vertices' places, with a seam along x = 1.
-void texture(Rig& rig) {
+/// The sheet as so many triangles each way.
+Tessellation cut(const Rig& rig, Index segments) {
+  return {rig.surface, Density{std::vector<Index>(4, segments), {{segments, segments}}}};
+}
+
+/// The vertices' places, with a seam along x = 1.
+Vec2 withSeam(const Vec3& place, const Vec3& middle) {
+  return {place.x + (middle.x > 1 ? 10 : 0), place.y};
+}
+
+/// Texture coordinates by a corner's place and the middle of its face.
+void texture(Rig& rig, const std::function<Vec2(const Vec3& place, const Vec3& middle)>& at) {
   const Tessellation grid(rig.surface, 1);
   const auto places = neutralOf(rig, grid);
   Polygons& faces = rig.source.polygons;
   for (Index f = 0; f < faces.faceCount(); ++f) {
-    double middle = 0;
+    Vec3 middle;
     for (Index c = faces.faceStart[f]; c < faces.faceStart[f + 1]; ++c)
-      middle += places[faces.corners[c]].x / faces.faceSize(f);
+      middle += (1.0 / faces.faceSize(f)) * places[faces.corners[c]];
     for (Index c = faces.faceStart[f]; c < faces.faceStart[f + 1]; ++c) {
       faces.cornerTexcoords.push_back(static_cast<Index>(faces.texcoords.size()));
-      const Vec3& p = places[faces.corners[c]];
-      faces.texcoords.push_back({p.x + (middle > 1 ? 10 : 0), p.y});
+      faces.texcoords.push_back(at(places[faces.corners[c]], middle));
     }
   }
 }
 
 TEST(RenderMesh, RepeatsPointsOnlyAlongSeams) {
   Rig rig = sheet();
-  texture(rig);
+  texture(rig, withSeam);
   for (Index level : {0, 1, 3}) {
     const Tessellation grid(rig.surface, std::max(level, 1));
     const RenderMesh mesh = level == 0 ? renderSource(rig, grid) : renderGrid(rig, grid);
@@ -170,10 +181,9 @@ TEST(RenderMesh, RepeatsPointsOnlyAlongSeams) {
 // is on.
 TEST(RenderMesh, OfADensityGoesOnBeyondSeamsInsidePatches) {
   Rig rig = sheet();
-  texture(rig);
+  texture(rig, withSeam);
   for (const Index segments : {1, 3, 5}) {
-    const Tessellation grid(rig.surface,
-                            Density{std::vector<Index>(4, segments), {{segments, segments}}});
+    const Tessellation grid = cut(rig, segments);
     const RenderMesh mesh = renderDensity(rig, grid);
     const auto points = grid.positions(blend(rig, {}));
     ASSERT_EQ(mesh.triangles.size(), 6u * segments * segments);
@@ -188,6 +198,38 @@ TEST(RenderMesh, OfADensityGoesOnBeyondSeamsInsidePatches) {
       }
     }
   }
+}
+
+// A slit along x = 1 from y = 1 to 3, which gapes in its middle. Two triangles are all of the sheet
+// and have the source's own texture coordinates at every corner: there are ways around the ends.
+TEST(RenderMesh, OfADensityGoesAroundTheEndsOfSeams) {
+  Rig rig = sheet(4);
+  const auto slit = [](const Vec3& place, const Vec3& middle) {
+    const bool gapes = middle.x < 1 && norm(place - Vec3{1, 2, 0}) < 1e-9;
+    return Vec2{place.x * place.x - (gapes ? 0.5 : 0), place.y * place.y};
+  };
+  texture(rig, slit);
+  const Tessellation grid = cut(rig, 1);
+  const RenderMesh mesh = renderDensity(rig, grid);
+  const auto places = grid.positions(blend(rig, {}));
+  ASSERT_EQ(mesh.vertexCount(), 4);
+  for (std::size_t v = 0; v < 4; ++v) {
+    const Vec2 expected = slit(places[v], places[v]);
+    EXPECT_NEAR(mesh.texcoords[2 * v], expected.x, 1e-6) << v;
+    EXPECT_NEAR(mesh.texcoords[2 * v + 1], expected.y, 1e-6) << v;
+  }
+}
+
+TEST(RenderMesh, OneCornerAloneMayHaveATextureCoordinate) {
+  Rig rig = sheet();
+  Polygons& faces = rig.source.polygons;
+  faces.texcoords = {{0.25, 0.75}};
+  faces.cornerTexcoords.assign(faces.corners.size(), -1);
+  faces.cornerTexcoords[0] = 0;
+  const RenderMesh mesh = renderSource(rig, Tessellation(rig.surface, 1));
+  std::vector<float> expected(2 * mesh.points);
+  expected[2 * faces.corners[0]] = 0.25f, expected[2 * faces.corners[0] + 1] = 0.75f;
+  EXPECT_EQ(mesh.texcoords, expected);
 }
 
 // At a pole every other triangle may have a texture coordinate of its own.
@@ -214,14 +256,14 @@ TEST(RenderMesh, KeepsTheTrianglesOfAMaterialTogether) {
   Rig rig = sheet();
   rig.source.polygons.materials = {"skin", "lips"};
   rig.source.polygons.faceMaterial = {1, -1, 1, 0};
-  for (Index level : {0, 1, 2}) {
-    const Tessellation grid(rig.surface, std::max(level, 1));
-    const RenderMesh mesh = level == 0 ? renderSource(rig, grid) : renderGrid(rig, grid);
-    const auto each = static_cast<std::uint32_t>(2 * grid.level() * grid.level());
-    const std::vector<RenderMesh::Part> expected{
-        {-1, 0, each}, {0, each, each}, {1, 2 * each, 2 * each}};
-    EXPECT_EQ(mesh.parts, expected);
-  }
+  const auto parts = [](std::uint32_t each) {
+    return std::vector<RenderMesh::Part>{{-1, 0, each}, {0, each, each}, {1, 2 * each, 2 * each}};
+  };
+  const Tessellation once(rig.surface, 1), twice(rig.surface, 2);
+  EXPECT_EQ(renderSource(rig, once).parts, parts(2));
+  EXPECT_EQ(renderGrid(rig, once).parts, parts(2));
+  EXPECT_EQ(renderGrid(rig, twice).parts, parts(8));
+  EXPECT_EQ(renderDensity(rig, cut(rig, 4)).parts, parts(8));
 }
 
 TEST(RenderMesh, LeavesOutTrianglesWithoutThreePoints) {
