@@ -25,7 +25,8 @@ constexpr std::string_view kTimeline = R"({
   "seconds": 2,
   "events": [{"at": 0, "to": {"open": 1}, "drive": "accelerate-brake", "seconds": 1},
              {"at": 0.5, "to": {"rest": 1}, "region": "part"}],
-  "regions": [{"name": "part", "nodes": {"0": 1, "2": 0.25}, "mass": 4, "delay": 0.25}]
+  "regions": [{"name": "part", "nodes": {"0": 1, "2": 0.25}, "mass": 4, "stiffness": 2,
+               "delay": 0.25}]
 })";
 
 /// A face with the targets open, "wink é" and rest.
@@ -89,6 +90,18 @@ TEST_F(Clips, AreOfManyKinds) {
                "take: 1 of 3 frames found no face; weights go on from the frames around them.");
   EXPECT_EQ(sweepface_clip_warning(clip, 1), nullptr);
   EXPECT_TRUE(refuses("glTF\x02", "take"));
+}
+
+TEST_F(Clips, OfNumberedFramesGoAtTheRateOfTheirOptions) {
+  sweepface_clip_options options = sweepface_clip_usual_options();
+  options.frames_per_second = 20;
+  for (const std::string_view text :
+       {R"([{"categories": [{"categoryName": "open", "score": 0}]}, {"categories": []},
+            {"categories": [{"categoryName": "open", "score": 1}]}])",
+        "Timecode,open\n0:0:0:0,0\n0:0:0:2,1\n"}) {
+    ASSERT_EQ(read(text, &options), SWEEPFACE_OK) << sweepface_message();
+    EXPECT_EQ(sweepface_clip_seconds(clip), 0.1);
+  }
 }
 
 TEST_F(Clips, AreToldApartBehindAByteOrderMark) {
@@ -171,11 +184,12 @@ TEST_F(Clips, OfTimelinesGoByTheirRegions) {
   sweepface_matter matter{};
   ASSERT_EQ(sweepface_rig_region_matter(handle, 1, &matter), SWEEPFACE_OK);
   EXPECT_EQ(matter.mass, 4);
+  EXPECT_EQ(matter.stiffness, 2);
   EXPECT_EQ(matter.delay, 0.25);
   ASSERT_EQ(read(kTimeline), SWEEPFACE_OK) << sweepface_message();
   const auto timeline = *parseTimeline(kTimeline, "take");
   const Clip rest = *bake(timeline, 240, "rest", {}),
-             part = *bake(timeline, 240, "part", {4, 1, 0.25});
+             part = *bake(timeline, 240, "part", {4, 2, 0.25});
   for (const double time : {0.1, 0.5, 1.3, 2.0}) {
     const std::vector<double> weights = at(time, 6);
     std::vector<double> a(2), b(2);
@@ -210,13 +224,16 @@ TEST_F(Clips, HangOnTheUsualSpringWhereItsOptionsAreZeros) {
   ASSERT_EQ(sweepface_rig_divide_by(handle, kTimeline.data(), kTimeline.size(), "scene"),
             SWEEPFACE_OK);
   ASSERT_EQ(read(kCsv), SWEEPFACE_OK);
+  EXPECT_GE(sweepface_clip_seconds(clip), 1.25) << "until the last region is there";
   const std::vector<double> usual = at(0.3, 6);
   sweepface_clip_options options{};
   ASSERT_EQ(read(kCsv, &options), SWEEPFACE_OK) << sweepface_message();
   EXPECT_EQ(at(0.3, 6), usual);
-  options.frequency = 1, options.damping = 1;
-  ASSERT_EQ(read(kCsv, &options), SWEEPFACE_OK);
-  EXPECT_NE(at(0.3, 6), usual);
+  for (const auto& [frequency, damping] : {std::pair(1, 1.0), {2, 0.2}}) {
+    options.frequency = frequency, options.damping = damping;
+    ASSERT_EQ(read(kCsv, &options), SWEEPFACE_OK);
+    EXPECT_NE(at(0.3, 6), usual) << damping;
+  }
 }
 
 TEST_F(Clips, HaveThePoseOfTheHead) {

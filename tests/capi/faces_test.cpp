@@ -2,8 +2,11 @@
 #include <array>
 #include <bit>
 #include <limits>
+#include <map>
 #include <pthread.h>
+#include <set>
 #include <thread>
+#include <tuple>
 
 #include "sweepface/arcs.hpp"
 #include "sweepface/eval.hpp"
@@ -142,6 +145,7 @@ TEST(FacesThatFollow, GoOnArcsAndCombine) {
   EXPECT_EQ(sweepface_rig_turn_count(handle), 1u);
   const std::vector<std::string> names{"open", "rest_open", "rest"};
   const double weights[] = {0.5, 0.3, 0.25};
+  std::map<uint32_t, double> errors;
   for (const uint32_t what : {0u, 1u, 2u, 3u, 0u}) {  // arcs, combine, both
     Rig all = rig;
     std::vector<Follower> followers;
@@ -170,6 +174,8 @@ TEST(FacesThatFollow, GoOnArcsAndCombine) {
               SWEEPFACE_OK);
     expectNear(Tessellation(all.surface, 1).positions(blend(all, expected)), out,
                sweepface_face_error(face));
+    const double first = errors.emplace(what, sweepface_face_error(face)).first->second;
+    EXPECT_EQ(sweepface_face_error(face), first) << "nothing is left of what followed before";
     sweepface_face_free(face);
     sweepface_mesh_free(mesh);
   }
@@ -201,6 +207,21 @@ TEST_F(Faces, RepeatPointsAtSeams) {
       repeats |= std::equal(&positions[3 * v], &positions[3 * v] + 3, &positions[3 * p]);
     EXPECT_TRUE(repeats) << v;
   }
+}
+
+TEST_F(Faces, HaveAPartForEachMaterial) {
+  make(0);
+  std::multiset<std::string> materials;
+  uint32_t triangles = 0;
+  for (uint32_t p = 0; p < sweepface_mesh_part_count(mesh); ++p) {
+    sweepface_part part;
+    ASSERT_EQ(sweepface_mesh_part(mesh, p, &part), SWEEPFACE_OK);
+    EXPECT_EQ(part.first_triangle, triangles);
+    triangles += part.triangle_count;
+    materials.insert(part.material);
+  }
+  EXPECT_EQ(triangles, sweepface_mesh_triangle_count(mesh));
+  EXPECT_EQ(materials, (std::multiset<std::string>{"", "", "skin"})) << "none, and one of no name";
 }
 
 TEST_F(Faces, FillBuffersOfAnyStride) {
@@ -348,6 +369,24 @@ TEST_F(Faces, AreWhatAShaderMakesOfItsTables) {
   }
 }
 
+// As large as they may be, too, where a product would be beyond that.
+TEST_F(Faces, ThatCombineAreThoseWhoseProductIsSetByHand) {
+  rig.targets[1].name = "rest_open";
+  const auto played = [&](uint32_t follow, const std::array<double, 3>& weights) {
+    load(rig);
+    EXPECT_EQ(sweepface_rig_follow(handle, follow), SWEEPFACE_OK);
+    make(1);
+    EXPECT_EQ(sweepface_face_set_weights(face, weights.data(), 3), SWEEPFACE_OK);
+    std::tuple all(evaluate(), shaderRows(mesh, face, false), shaderRows(mesh, face, true));
+    sweepface_face_free(std::exchange(face, nullptr));
+    sweepface_mesh_free(std::exchange(mesh, nullptr));
+    return all;
+  };
+  constexpr double most = SWEEPFACE_MOST_WEIGHT;
+  for (const auto& [weight, product] : {std::pair(0.5, 0.25), {-0.5, 0.25}, {most, most}})
+    EXPECT_EQ(played(SWEEPFACE_COMBINE, {weight, 0, weight}), played(0, {weight, product, weight}));
+}
+
 TEST_F(Faces, AreUpdatedToWhatAWholeEvaluationWrites) {
   make(2);
   expectUpdatesToBeWhole(
@@ -388,6 +427,21 @@ TEST_F(Faces, AreWrittenInFullWhereTheyHaveNotBeenBefore) {
   for (auto* out : {&first, &second}) {
     ASSERT_EQ(sweepface_face_update(face, count, {out->data(), 0}, kUnwanted), SWEEPFACE_OK);
     EXPECT_EQ(*out, all);
+  }
+}
+
+TEST_F(Faces, AreWrittenInFullAtAnotherStrideOrCount) {
+  make(2);
+  ASSERT_EQ(sweepface_face_set_weight(face, 0, 0.5), SWEEPFACE_OK);
+  const std::vector<float> all = evaluate();
+  const std::size_t count = all.size() / 3;
+  std::vector<float> out(4 * count);
+  for (const auto& [vertices, floats] : {std::pair(std::size_t{4}, 3), {count, 3}, {count, 4}}) {
+    ASSERT_EQ(
+        sweepface_face_update(face, vertices, {out.data(), floats * sizeof(float)}, kUnwanted),
+        SWEEPFACE_OK);
+    for (std::size_t v = 0; v < vertices; ++v)
+      EXPECT_TRUE(std::equal(&out[floats * v], &out[floats * v] + 3, &all[3 * v])) << v;
   }
 }
 
@@ -559,6 +613,8 @@ TEST_F(Faces, RefuseBuffersThatCannotBeMeant) {
 
 TEST_F(Faces, RefuseLevelsThatThereAreNot) {
   EXPECT_TRUE(refuses(sweepface_mesh_create(handle, 65, &mesh), "must be 0 to 64, not 65"));
+  load(makeRig(onePatch(65, 65)));
+  EXPECT_TRUE(refuses(sweepface_mesh_create(handle, 64, &mesh), "too many vertices"));
   EXPECT_EQ(mesh, nullptr);
 }
 

@@ -103,10 +103,21 @@ TEST_F(Eyes, TurnRigidlyByAnglesAndByWeights) {
     EXPECT_EQ(sweepface_face_look(face, &ahead), SWEEPFACE_OK);
     EXPECT_EQ(sweepface_face_look(face, nullptr), SWEEPFACE_OK);
     EXPECT_EQ(sweepface_face_set_weight(face, down, 1), SWEEPFACE_OK);
-    const sweepface_pose wild{{}, {NAN, 0, 0}, {}};
-    EXPECT_EQ(sweepface_face_look(face, &wild), SWEEPFACE_BAD_ARGUMENT);
+    for (const sweepface_pose& wild : {sweepface_pose{{}, {NAN, 0, 0}, {}}, {{}, {}, {0, NAN, 0}}})
+      EXPECT_EQ(sweepface_face_look(face, &wild), SWEEPFACE_BAD_ARGUMENT);
   });
   EXPECT_EQ(again, down1);
+}
+
+TEST_F(Eyes, ThatLookAsideAreFurtherFromTheSurface) {
+  uint32_t eyes = 0;
+  ASSERT_EQ(sweepface_rig_turn_eyes(rig, &eyes), SWEEPFACE_OK);
+  played([](sweepface_face* face) {
+    const double ahead = sweepface_face_error(face);
+    const sweepface_pose aside{{}, {0.4, 0.3, 0}, {}};
+    EXPECT_EQ(sweepface_face_look(face, &aside), SWEEPFACE_OK);
+    EXPECT_GT(sweepface_face_error(face), ahead);
+  });
 }
 
 // Whichever is said first.

@@ -69,10 +69,13 @@ TEST_F(DividedFaces, ArePaintedByTheLibrary) {
   brush = {};
   brush.points = points, brush.point_count = 1;
   brush.line = points, brush.line_count = 2;
+  const char* const curve = "3";
+  brush.curves = &curve, brush.curve_count = 1;
   brush.whole = 0.2, brush.fade = 3, brush.through_space = 1;
   same = {};
   same.points = {{0.1, 0.2, 0.3}};
   same.line = {{0.1, 0.2, 0.3}, {1, 1, 1}};
+  same.curves = {curve};
   same.whole = 0.2, same.fade = 3, same.alongSurface = false;
   EXPECT_EQ(paint(), *sweepface::paint(rig, same));
   const std::vector<double> bands = paint(3);
@@ -98,12 +101,16 @@ TEST_F(DividedFaces, HaveWeightsOfEachRegion) {
   EXPECT_EQ(sweepface_mesh_region_count(mesh), 2U);
 
   const double everywhere[] = {0.5, -0.3, 0}, here[] = {1, 0.7};
+  const auto weights = [&] {
+    const double* const all = sweepface_face_weights(face);
+    return std::vector(all, all + 6);
+  };
   ASSERT_EQ(sweepface_face_set_weights(face, everywhere, 3), SWEEPFACE_OK);
+  EXPECT_EQ(weights(), (std::vector{0.5, -0.3, 0.0, 0.5, -0.3, 0.0}));
   ASSERT_EQ(sweepface_face_set_region_weights(face, 1, here, 2), SWEEPFACE_OK);
   ASSERT_EQ(sweepface_face_set_weight(face, 2, 0.1), SWEEPFACE_OK);
-  const double* weights = sweepface_face_weights(face);
   const std::vector<double> expected{0.5, -0.3, 0.1, 1, 0.7, 0.1};
-  EXPECT_EQ(std::vector(weights, weights + 6), expected);
+  EXPECT_EQ(weights(), expected);
 
   Brush same;
   same.nodes = {{"0", 1}, {"2", 0.25}};
@@ -143,10 +150,10 @@ TEST_F(DividedFaces, AreOfOnePieceAgainWhereMeshesAreMadeLater) {
 
 TEST_F(DividedFaces, MoveByTheMatterOfEachRegion) {
   const double rest[] = {0, 0.5};
-  const sweepface_matter matters[] = {{1, 1, 0}, {4, 1, 0.1}};
+  const sweepface_matter matters[] = {{1, 1, 0}, {4, 2, 0.1}};
   sweepface_motion* motion = nullptr;
   ASSERT_EQ(sweepface_motion_create_regions(rest, 2, matters, 2, &motion), SWEEPFACE_OK);
-  auto expected = *RegionalMotion::make(rest, std::vector<Matter>{{1, 1, 0}, {4, 1, 0.1}});
+  auto expected = *RegionalMotion::make(rest, std::vector<Matter>{{1, 1, 0}, {4, 2, 0.1}});
   ASSERT_EQ(sweepface_motion_move_to(motion, 0, 1, nullptr), SWEEPFACE_OK);
   ASSERT_EQ(sweepface_motion_move_in(motion, 1, 1, -1, nullptr), SWEEPFACE_OK);
   ASSERT_EQ(sweepface_motion_put_in(motion, 0, 1, 0.25), SWEEPFACE_OK);

@@ -193,6 +193,21 @@ TEST_P(EveryDensity, hasNoTriangleMuchFurtherFromTheSurfaceThanItsBudget) {
   }
 }
 
+// Errors fall with the square of the cuts, and vertices are in proportion to 1 / error. There would
+// be more if a side that is one point had a length, or if lines took all of an error.
+TEST(Density, takesFewVerticesWhicheverSideIsAPoint) {
+  for (std::ptrdiff_t turn = 0; turn < 4; ++turn) {
+    Wireframe turned = slice();
+    std::rotate(turned.loops.begin(), turned.loops.begin() + turn, turned.loops.end());
+    const Surface surface = Surface::make(turned).value();
+    for (const double error : {0.05, 0.002}) {
+      const auto density =
+          densityFor(surface, neutral(surface), {Budget::Kind::error, error}).value();
+      EXPECT_LT(Tessellation(surface, density).vertexCount() * error, 8) << turn;
+    }
+  }
+}
+
 TEST(Density, refusesABudgetThatIsNone) {
   const Surface surface = Surface::make(onePatch(2, 3)).value();
   const auto vectors = neutral(surface);

@@ -114,8 +114,9 @@ TEST(Evaluator, staysWithinItsBoundOfTheSurfaceAtAnyWeights) {
 
 TEST(Evaluator, dropsNoMoreOfATargetThanItsTolerance) {
   for (const Rig& rig : everyRig())
-    for (const double tolerance : {1e-3, 1e-2}) {
-      const auto evaluator = Evaluator::make(rig, {.tolerance = tolerance}).value();
+    for (const double asked : {1e-3, 1e-2, 0.0}) {
+      const auto evaluator = Evaluator::make(rig, {.tolerance = asked}).value();
+      const double tolerance = asked > 0 ? asked : 0.3 * rig.tolerance;
       std::vector<double> weights(evaluator.weightCount());
       for (double& weight : weights) {
         weight = 1;
@@ -275,6 +276,20 @@ TEST(Evaluator, blendsEachRegionByItsOwnWeights) {
   }
 }
 
+// Whichever it is: weights are told in units of the largest.
+TEST(Evaluator, bearsOneLargeWeight) {
+  const Rig rig = makeRig(onePatch(3, 2));
+  const std::vector<float> everywhere(rig.surface.storedCount(), 1.0f);
+  const auto evaluator = Evaluator::make(rig, {.influences = {2, everywhere}}).value();
+  for (std::size_t k = 0; k < 6; ++k) {
+    std::vector<double> weights(6), sums(3);
+    weights[k] = sums[k % 3] = 20;
+    EXPECT_LE(largestDistance(play(evaluator, weights).positions, surfacePositions(rig, 0, sums)),
+              evaluator.positionBound(weights))
+        << k;
+  }
+}
+
 /// A face of enough tiles to go round.
 const Rig& largeRig() {
   static const Rig rig = makeRig(onePatch(17, 13));
@@ -353,6 +368,22 @@ TEST(Evaluator, writesAtAnyStrideAndNothingBesides) {
           EXPECT_EQ(normals[floats * v + c], written ? tight.normals[3 * v + c] : kUntouched);
         }
     }
+}
+
+TEST(Evaluator, writesEachOutputAlone) {
+  const auto evaluator = Evaluator::make(largeRig()).value();
+  const auto weights = anyWeights(evaluator, 2);
+  const Played all = play(evaluator, weights);
+  std::vector<std::byte> scratch(evaluator.scratchBytes());
+  for (const auto& [output, expected] : {std::pair(&Evaluation::positions, &all.positions),
+                                         {&Evaluation::normals, &all.normals},
+                                         {&Evaluation::tangents, &all.tangents}}) {
+    std::vector<float> alone(expected->size());
+    Evaluation job{&evaluator, weights, scratch, {}, {}, {}};
+    job.*output = {alone.data(), evaluator.vertexCount()};
+    job.run();
+    EXPECT_EQ(alone, *expected);
+  }
 }
 
 TEST(Evaluator, fillsExactlyItsVertices) {
@@ -443,12 +474,16 @@ TEST(Evaluator, refusesWhatDoesNotFit) {
   EXPECT_TRUE(refuses([](auto& job) { job.positions.stride = 8; }, "stride"));
   EXPECT_TRUE(refuses([](auto& job) { job.positions.stride = kMostStride + 1; }, "stride"));
   EXPECT_TRUE(refuses([](auto& job) { job.part = 1; }, "no part 1 of 1"));
+  EXPECT_TRUE(refuses([](auto& job) { job.part = -1; }, "no part -1 of 1"));
   EXPECT_TRUE(refuses([](auto& job) { job.parts = 0; }, "no part"));
   EXPECT_TRUE(refuses([&](auto& job) { job.evaluator = &bare, job.normals = job.positions; },
                       "without normals"));
+  EXPECT_TRUE(refuses([&](auto& job) { job.evaluator = &bare, job.tangents = job.positions; },
+                      "without normals"));
   EXPECT_TRUE(refuses([&](auto& job) { job.evaluator = &directions; }, "without positions"));
-  weights[1] = std::nan("");
-  EXPECT_TRUE(refuses([](auto&) {}, "Weight 1 is not finite"));
+  const std::vector<double> odd{0, std::nan("")};
+  EXPECT_TRUE(refuses([&](auto& job) { job.weights = odd; }, "Weight 1 is not finite"));
+  EXPECT_TRUE(refuses([&](auto& job) { job.previous = odd; }, "Weight 1 is not finite"));
 }
 
 TEST(Evaluator, bearsAnyTolerance) {

@@ -42,6 +42,8 @@ TEST(Triangulate, KeepsInsideConcavePolygons) {
   expectCovers({{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {2, 0.5, 0}, {0, 4, 0}});
   expectCovers(
       {{0, 0, 0}, {3, 0, 0}, {3, 3, 0}, {0, 3, 0}, {0, 2, 0}, {2, 2, 0}, {2, 1, 0}, {0, 1, 0}});
+  // Its corners -1, 4 and -6, -3 are ears until one beside them is cut off.
+  expectCovers({{8, 0, 0}, {1, 2, 0}, {-1, 4, 0}, {-4, 2, 0}, {-6, -3, 0}, {0, -1, 0}, {1, -2, 0}});
 }
 
 TEST(Triangulate, LeavesNoSliverWhereACornerIsStraight) {

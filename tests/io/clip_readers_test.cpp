@@ -284,6 +284,8 @@ TEST(ClipJson, SaysWhatIsWrong) {
   expectError(json("[1]"), "no 'timestampMs' in frame 0");
   expectError(json(R"([{"timestampMs": 0}])"), "no 'categories' in frame 0");
   expectError(json(R"([{"timestampMs": 0, "categories": [{"score": 1}]}])"), "categoryName");
+  expectError(json(R"([{"timestampMs": 0, "categories": [{"categoryName": "a", "score": 1e9}]}])"),
+              "a score in frame 0 that is not within ±1,000,000");
   expectError(
       json(R"([{"timestampMs": 5, "categories": []}, {"timestampMs": 5, "categories": []}])"),
       "frame 1 that is not after the one before");
