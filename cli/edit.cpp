@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fmt/format.h>
 #include <map>
 #include <optional>
@@ -195,6 +196,16 @@ void printSummary(const EditArguments& a, const Editor& editor) {
              editor.changed().size() > most ? ", ..." : "");
 }
 
+/// A packed file may become a hundred times as large.
+void warnOfSize(const EditArguments& a, std::uintmax_t before, std::size_t now) {
+  constexpr std::size_t muchLarger = 4;
+  if (before > 0 && now / before >= muchLarger)
+    printWarning(fmt::format(
+        "{} is {} times as large as {}, since what was packed no longer fits its steps; make it "
+        "small again with sweepface pack.",
+        a.output, now / before, a.face));
+}
+
 Result<int> runEdit(const EditArguments& a) {
   if (auto ok = checkOutput(a.output, {a.face}, {".sweep"}, !a.quiet); !ok)
     return std::unexpected(ok.error());
@@ -208,8 +219,11 @@ Result<int> runEdit(const EditArguments& a) {
   if (auto ok = editor.edit(a); !ok) return std::unexpected(ok.error());
   const Result<std::string> bytes = encodeReadable(editor.rig(), a.output);
   if (!bytes) return std::unexpected(bytes.error());
+  std::error_code unknown;
+  const auto size = std::filesystem::file_size(a.face, unknown);
   if (auto written = writeFile(a.output, *bytes); !written) return std::unexpected(written.error());
   if (!a.quiet) printSummary(a, editor);
+  if (!unknown) warnOfSize(a, size, bytes->size());
   return 0;
 }
 

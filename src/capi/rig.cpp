@@ -132,7 +132,7 @@ void sweepface_rig_box(const sweepface_rig* rig, double low[3], double high[3]) 
   if (!low || !high) return;
   Box box;
   if (rig) {
-    box = Box(Tessellation(rig->rig->surface, 1).positions(rig->rig->neutral));
+    box = Box(Tessellation(rig->rig->surface, 1).positions(blend(*rig->rig, {})));
     for (const Vec3& loose : rig->rig->source.loose) box.include(loose);
   }
   if (box.isEmpty()) box = Box(std::array{Vec3{}});

@@ -143,7 +143,7 @@ TEST_F(Clips, LoseTheirNoise) {
   Clip same = *parseLiveLinkCsv(kCsv, "take");
   smooth(same);
   EXPECT_EQ(at(0.5)[0], same.weights[same.names.size()]);
-  const sweepface_clip_options nothing{60, 0, 0, 0, nullptr};
+  const sweepface_clip_options nothing{60, 0, 0, 1, nullptr};
   EXPECT_EQ(read(kCsv, &nothing), SWEEPFACE_BAD_ARGUMENT);
 }
 

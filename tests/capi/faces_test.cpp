@@ -510,8 +510,8 @@ TEST_F(Faces, AreInABox) {
     float least = positions[c], most = positions[c];
     for (std::size_t k = c; k < positions.size(); k += 3)
       least = std::min(least, positions[k]), most = std::max(most, positions[k]);
-    EXPECT_FLOAT_EQ(static_cast<float>(low[c]), least);
-    EXPECT_FLOAT_EQ(static_cast<float>(high[c]), most);
+    EXPECT_NEAR(low[c], least, sweepface_face_error(face));
+    EXPECT_NEAR(high[c], most, sweepface_face_error(face));
   }
   sweepface_rig_box(nullptr, low, high);
   EXPECT_EQ(low[0], 0);

@@ -48,6 +48,17 @@ TEST_F(Edit, ByNothingChangesNothing) {
   }
 }
 
+TEST_F(Edit, WarnsWhereAPackedFileGrows) {
+  const std::string packed =
+      fmt::format("'{}/tests/codec/golden_sample.sweep'", SWEEPFACE_SOURCE_DIR);
+  const Outcome grown =
+      run("edit " + packed + " --control c0 p0 second 0.1,0.2,0.3 -o grown.sweep");
+  EXPECT_EQ(grown.code, 0) << grown.err;
+  EXPECT_NE(grown.err.find("times as large"), std::string::npos) << grown.err;
+  EXPECT_NE(grown.err.find("small again with sweepface pack."), std::string::npos) << grown.err;
+  EXPECT_EQ(run("edit " + packed + " --move n0 0.3,0.2,0.4 -o small.sweep").err, "");
+}
+
 TEST_F(Edit, RefusesWhatItCannotDo) {
   const std::string out = " -o other.sweep";
   EXPECT_TRUE(fails("edit sheet.sweep" + out, "nothing to edit"));
