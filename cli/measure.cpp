@@ -35,11 +35,10 @@ void addOptions(CLI::App& app, MeasureArguments& a) {
   app.footer(
       "\nDistances are in the mesh's units, angles in degrees. The distance is that of the "
       "vertices from the\nsurface, a displacement's error that of their way from the neutral, the "
-      "angle that of the "
-      "normals at the\nvertices, in between (shading) from those that smooth shading blends there, "
-      "RMS. The facets' distance is that\nof the surface from the flat faces, the excess what of "
-      "it the faces' own coarseness does not explain. Folds are\nplaces where the surface looks "
-      "the other way than the mesh.\n\n"
+      "angle that of the normals at the\nvertices, in between (shading) from those that smooth "
+      "shading blends there, RMS. The facets' distance is that\nof the surface from the flat "
+      "faces, the excess what of it the faces' own coarseness does not explain. Folds are\nplaces "
+      "where the surface looks the other way than the mesh.\n\n"
       "Example:\n  sweepface measure face.sweep neutral.obj expressions/");
 }
 

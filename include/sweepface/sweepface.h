@@ -106,7 +106,8 @@ enum sweepface_followings {
 /* `what` is a sum of the above; 0: none, as after loading. */
 SWEEPFACE_API sweepface_status sweepface_rig_follow(sweepface_rig* rig, uint32_t what);
 
-/* The corners of the box round the neutral, in model units: zeros if it has no vertex. */
+/* The corners of the box round the neutral, in model units: zeros if it has no vertex, or more than a
+ * mesh may have. */
 SWEEPFACE_API void sweepface_rig_box(const sweepface_rig* rig, double low[3], double high[3]);
 
 /* How far any source vertex may be off in any expression, in model units. What is played may be off

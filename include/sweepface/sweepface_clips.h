@@ -60,10 +60,10 @@ SWEEPFACE_API const char* sweepface_clip_undriven(const sweepface_clip* clip, ui
 /* What was mended or may be wrong in the file, in sentences; NULL where there are no more. */
 SWEEPFACE_API const char* sweepface_clip_warning(const sweepface_clip* clip, uint32_t index);
 
-/* The weights at so many seconds after the first frame, straight between frames and held at the
- * ends: `count` of [regions x targets], of the regions that the rig had when the clip was read,
- * sweepface_clip_region_count. */
+/* How many regions the rig had when the clip was read. */
 SWEEPFACE_API uint32_t sweepface_clip_region_count(const sweepface_clip* clip);
+/* The weights at so many seconds after the first frame, straight between frames and held at the
+ * ends: `count` of [regions x targets]. */
 SWEEPFACE_API sweepface_status sweepface_clip_weights(const sweepface_clip* clip, double seconds,
                                                       double* out, size_t count);
 

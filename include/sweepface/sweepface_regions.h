@@ -44,7 +44,8 @@ SWEEPFACE_API sweepface_status sweepface_rig_paint(const sweepface_rig* rig,
 /* Divides the face into regions with weights of their own, for meshes made from now on: `count`
  * painted ones, shares [count x nodes], of which overlapping ones get less in proportion, behind a
  * first one, "rest" ("rest_" beside one of that name), of what is left, if anything is: find a
- * region's number by its name. Vertices of no face go with the first region. 0: one region again, as after loading. */
+ * region's number by its name. Vertices of no face go with the first region. 0: one region again,
+ * as after loading. */
 SWEEPFACE_API sweepface_status sweepface_rig_divide(sweepface_rig* rig, const char* const* names,
                                                     const double* shares, size_t count);
 /* 1 and NULL where the face is not divided. Names belong to the rig until it is next divided. */

@@ -131,7 +131,7 @@ sweepface_status sweepface_rig_follow(sweepface_rig* rig, uint32_t what) {
 void sweepface_rig_box(const sweepface_rig* rig, double low[3], double high[3]) {
   if (!low || !high) return;
   Box box;
-  if (rig) {
+  if (rig && static_cast<double>(rig->rig->surface.wireframe().quadCount()) <= kMostVertices) {
     box = Box(Tessellation(rig->rig->surface, 1).positions(blend(*rig->rig, {})));
     for (const Vec3& loose : rig->rig->source.loose) box.include(loose);
   }
