@@ -77,20 +77,13 @@ std::string firstOf(std::span<const std::string> names) {
   return fmt::format("{} and {} more", fmt::join(names.first(most), ", "), names.size() - most);
 }
 
-/// Whether a clip ever has anything but 0 in a column.
-bool moves(const Clip& clip, std::size_t column) {
-  for (std::size_t at = column; at < clip.weights.size(); at += clip.names.size())
-    if (clip.weights[at] != 0) return true;
-  return false;
-}
-
 std::vector<std::string> notesOn(const ClipMatch& match, const Clip& clip,
                                  const std::vector<std::string>& targets, const std::string& file) {
   std::vector<std::string> notes;
   // Recordings have columns for all shapes of the app, whatever the face has.
   std::vector<std::string> idle;
   for (std::size_t k = 0; k < clip.names.size(); ++k)
-    if (match.targets[k].empty() && moves(clip, k) && !ClipAngles::tells(clip.names[k]))
+    if (match.targets[k].empty() && clip.moves(k) && !ClipAngles::tells(clip.names[k]))
       idle.push_back(clip.names[k]);
   if (!idle.empty())
     notes.push_back(fmt::format("{}: {} of {} names drive no target of the face: {}.", file,

@@ -32,6 +32,8 @@ struct Clip {
   Moment momentAt(double seconds) const noexcept;
   /// The weight of a name then.
   double weight(const Moment& moment, std::size_t name) const noexcept;
+  /// Whether the weight of a name is ever anything but 0.
+  bool moves(std::size_t name) const noexcept;
 };
 
 /// Whether a time can be that of a frame: within 300 years, so that seconds stay exact to

@@ -53,6 +53,12 @@ double Clip::weight(const Moment& moment, std::size_t name) const noexcept {
                    moment.share);
 }
 
+bool Clip::moves(std::size_t name) const noexcept {
+  for (std::size_t at = name; at < weights.size(); at += names.size())
+    if (weights[at] != 0) return true;
+  return false;
+}
+
 void Clip::at(double seconds, std::span<double> out) const noexcept {
   const Moment moment = momentAt(seconds);
   for (std::size_t k = 0; k < std::min(names.size(), out.size()); ++k) out[k] = weight(moment, k);

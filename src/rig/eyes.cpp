@@ -138,8 +138,7 @@ ClipAngles::ClipAngles(const Clip& clip) {
   for (std::size_t k = 0; k < match.targets.size(); ++k)
     for (const Index angle : match.targets[k]) {
       columns_[angle] = static_cast<std::ptrdiff_t>(k);
-      for (std::size_t at = k; at < clip.weights.size(); at += clip.names.size())
-        if (clip.weights[at] != 0) turns_[angle] = true;
+      turns_[angle] = turns_[angle] || clip.moves(k);
     }
 }
 
