@@ -144,6 +144,15 @@ TEST(BonesOfAFile, MustBeThere) {
   EXPECT_NE(refused.error().message.find("no such bone"), std::string::npos);
 }
 
+TEST(BonesOfAFile, MustNotCarryBeyondAFloat) {
+  Rig rig = withBones();
+  rig.packing.targetStep = 1e26;
+  const auto refused = decode(encode(rig), "a.sweep");
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("a coordinate is too large"), std::string::npos)
+      << refused.error().message;
+}
+
 TEST(BonesOfAFile, AreMadeSound) {
   Rig rig = withBones();
   rig.packing.bones[3] = 1 << 20;

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "codec/files.hpp"
+#include "codec/packed.hpp"
 #include "codec/rigs.hpp"
 #include "codec/version1.hpp"
 
@@ -131,6 +132,7 @@ TEST(Damage, MessagesSayWhatIsWrongAndWhatToDo) {
                 "a.sweep does not begin with SWEEPFC; check that it is a .sweep file.");
   expectRefused("SWEEPFC",
                 "a.sweep, byte 7: the file ends before its version; copy the file again");
+  expectRefused(at(7, 0), "a.sweep is of version 0 and this program reads versions 1 to 2");
   expectRefused(at(7, 3),
                 "a.sweep is of version 3 and this program reads versions 1 to 2; get a program");
   expectRefused(bytes.substr(0, 30),
@@ -179,6 +181,38 @@ TEST(Damage, ChunksThatAreMissingTwiceThereOrOutOfOrderAreRefused) {
   }
 }
 
+TEST(Damage, WhatIsAnnouncedMustFollow) {
+  Rig rig = makeRig(onePatch(1, 1));
+  rig.source = {};
+  rig.source.loose = {{1, 2, 3}};
+  for (Target& target : rig.targets) target.looseDifference = {{0, 1, 0}};
+  const auto chunks = takeApart(encode(packed(std::move(rig))));
+  const auto without = [&](std::initializer_list<std::string_view> codes) {
+    auto left = chunks;
+    std::erase_if(left, [&](const FileChunk& chunk) {
+      return std::ranges::find(codes, chunk.code) != codes.end();
+    });
+    return putTogether(left);
+  };
+  EXPECT_TRUE(decode(without({}), "a.sweep"));
+  expectRefused(without({"TNAM"}), "the targets have no names");
+  expectRefused(without({"MOVE"}), "the targets' vectors are missing");
+  expectRefused(without({"TNAM", "MOVE", "drif"}), "targets are missing");
+  expectRefused(without({"loos", "drif"}), "the loose vertices are missing");
+}
+
+TEST(Damage, WhatIsNotAnnouncedMustNotFollow) {
+  const std::string bytes = encode(makeRig(onePatch(1, 1)));  // with three targets
+  const std::string ofAFourth = payloadOf([](codec::Writer& out) { out.number(4); });
+  expectRefused(withPayload(bytes, "EXAC", ofAFourth), "there are more poses than announced");
+  auto chunks = takeApart(bytes);
+  const auto isLater = [](const FileChunk& chunk) {
+    return codec::rankOf(chunk.code) > codec::rankOf("drif");
+  };
+  chunks.insert(std::ranges::find_if(chunks, isLater), {"drif", std::string(3, '\0')});
+  expectRefused(putTogether(chunks), "there are no loose vertices that could move");
+}
+
 TEST(Damage, TargetsMustHaveNamesAndDifferentOnes) {
   Rig rig = makeRig(onePatch(1, 1));
   for (const char* name :
@@ -200,6 +234,56 @@ TEST(Damage, WhatIsNotFiniteIsRefused) {
   rig = makeRig(onePatch(1, 1));
   rig.tolerance = -1;
   expectRefused(encodeVersion1(rig), "the tolerance is negative");
+}
+
+TEST(Damage, ToleranceAndStepsMustNotBeNegative) {
+  const std::string bytes = encode(makeRig(onePatch(1, 1)));
+  for (int wrong = 0; wrong < 3; ++wrong) {
+    const std::string base = payloadOf([&](codec::Writer& out) {
+      for (int k = 0; k < 3; ++k) out.f64(k == wrong ? -1 : 1);
+      out.number(3), out.number(0);
+    });
+    expectRefused(withPayload(bytes, "BASE", base),
+                  wrong == 0 ? "the tolerance is negative" : "a step is negative");
+  }
+}
+
+TEST(Damage, NamesMustBeTextsAndOneForEachThing) {
+  const auto named = [](const Names& names) {
+    Rig rig = makeRig(onePatch(1, 1));
+    rig.names = names;
+    return encode(rig);
+  };
+  EXPECT_TRUE(decode(named({"cm", {"a", "b", "", ""}, {}, {}, {}}), "a.sweep"));
+  expectRefused(named({"\xFF", {}, {}, {}, {}}), "the units are not UTF-8");
+  expectRefused(named({"", {"a", "\xFF", "", ""}, {}, {}, {}}), "a name is not UTF-8");
+  expectRefused(named({"", {"a", "b", "c"}, {}, {}, {}}), "there are too many or too few names");
+}
+
+TEST(Damage, BlocksMustBeOfAKnownFormAndEndWhereTheyEnd) {
+  const std::string bytes = encodeVersion1(dressed(makeRig(onePatch(1, 1))));
+  const auto loose = [&](const std::string& block) { return withPayload(bytes, "loos", block); };
+  EXPECT_TRUE(decode(loose({1, 0}), "a.sweep"));  // two of zeros, by a mask
+  expectRefused(loose({1, 4}), "a mask has bits beyond its end");
+  expectRefused(loose('\x8' + std::string(24, '\0')),
+                "vectors are held in a form this program does not know");
+  const std::string emptyRun =
+      payloadOf([](codec::Writer& out) { out.number(1), out.signedNumber(4), out.number(0); });
+  expectRefused(withPayload(bytes, "poly", emptyRun), "a run has a wrong length");
+}
+
+TEST(Damage, QuadsMustGoAroundFacesOfFourCorners) {
+  Rig rig = makeRig(onePatch(1, 1));
+  const auto around = [&](std::int64_t corner) {
+    return withPayload(encodeVersion1(rig), "quad",
+                       payloadOf([&](codec::Writer& out) { out.signedNumber(2 * corner); }));
+  };
+  EXPECT_TRUE(decode(around(0), "a.sweep"));
+  expectRefused(around(4), "a corner is out of range");
+  rig.source.polygons.faceStart = {0, 3};
+  rig.source.polygons.corners = {0, 1, 2};
+  rig.source.quadCorners = {0, 1, 2, 2};
+  expectRefused(around(0), "a quad goes around a face that has not four corners");
 }
 
 TEST(Damage, IndicesOutOfRangeAreRefused) {

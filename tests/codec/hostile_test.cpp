@@ -42,6 +42,9 @@ TEST(Hostile, CountsAreRefusedBeforeRoomIsMadeForThem) {
   expectRefusedInLittleMemory(bytes, "poly",
                               [](codec::Writer& out) { out.number(1), out.number(8); });
   expectRefusedInLittleMemory(bytes, "poly", [](codec::Writer& out) { out.number(1); });
+  expectRefusedInLittleMemory(bytes, "poly", [](codec::Writer& out) {
+    out.number(1), out.signedNumber(1'000'000), out.number(1);
+  });
   for (int skipped = 0; skipped < 3; ++skipped)
     expectRefusedInLittleMemory(bytes, "HEAD", [&](codec::Writer& out) {
       out.f64(1);
@@ -191,6 +194,36 @@ TEST(Hostile, FacesOfTwoCornersAreRefused) {
     EXPECT_NE(refused.error().message.find("too many corners"), std::string::npos)
         << refused.error().message;
   }
+}
+
+TEST(Hostile, CornersAndNamesOfFacesThatThereAreNotAreRefused) {
+  const std::string bytes = encode(packed(everything()));
+  const auto problemOf = [&](auto write) {
+    const std::string payload = codec::ranged(write) + std::string(50, 'U');
+    return decode(withPayload(bytes, "face", payload), "a.sweep").error().message;
+  };
+  const auto begin = [](auto& out, std::uint32_t faces, bool hasQuads) {
+    out.number(0, 1, 0, faces);
+    out.bit(37, 0, 0, true);
+    out.bit(36, 0, 0, hasQuads);
+  };
+  const std::string quad = problemOf([&](auto& out) {
+    begin(out, 0, true);
+    for (std::uint32_t k = 0; k < 8 * 4; ++k) out.signedNumber(19, k % 4, 0, 0);
+  });
+  EXPECT_NE(quad.find("a corner is out of range"), std::string::npos) << quad;
+  const std::string name = problemOf([&](auto& out) {
+    begin(out, 1, false);
+    out.bit(11, 1, 0, false);
+    out.number(15, 0, 0, 0);
+    for (std::uint32_t k = 0; k < 3; ++k) out.signedNumber(17, k, 0, 0);
+    out.number(0, 2, 0, 1);  // one material, without letters
+    out.number(0, 3, 0, 0);
+    out.bit(21, 8, 0, true);
+    out.bit(21, 0, 0, false);
+    out.signedNumber(22, 0, 0, 2);
+  });
+  EXPECT_NE(name.find("the name of a face is out of range"), std::string::npos) << name;
 }
 
 // What bones carry takes room and time, where it is always the same hardly any bytes.
@@ -433,15 +466,31 @@ TEST(Hostile, StepsMustNotBeTooFine) {
   }
 }
 
-std::string problemWith(const Wireframe& wireframe) {
+std::string problemWith(const Wireframe& wireframe, const codec::MirrorSeeds& seeds = {}) {
   codec::RangeEncoder encoder;
   codec::Symbols<codec::RangeEncoder> out(encoder);
-  codec::writeWireframe(out, wireframe, {});
+  codec::writeWireframe(out, wireframe, seeds);
   const std::string bytes = encoder.finish();
   codec::RangeDecoder decoder(bytes);
   codec::Symbols<codec::RangeDecoder> in(decoder);
   codec::readWireframe(in, std::size_t{1} << 20, std::int64_t{1} << 30);
   return in.ok() ? "" : std::string(in.problem());
+}
+
+TEST(Hostile, WireframesOfMoreThanTheyCanUseAreRefused) {
+  const Wireframe good = onePatch(1, 1);
+  const codec::MirrorSeeds mirror{0, {64, {0, 0}}}, tooMany{0, {65, {0, 0}}};
+  EXPECT_EQ(problemWith(good, mirror), "");
+  EXPECT_NE(problemWith(good, tooMany).find("begins in too many places"), std::string::npos);
+  Wireframe wireframe = good;
+  wireframe.points = 9;
+  EXPECT_NE(problemWith(wireframe).find("more points than nodes"), std::string::npos);
+  wireframe = good;
+  wireframe.ribbons.resize(9);
+  EXPECT_NE(problemWith(wireframe).find("more ribbons than arcs"), std::string::npos);
+  wireframe = good;
+  wireframe.ribbons[0].lambda = 1.0 / 0.0;
+  EXPECT_NE(problemWith(wireframe).find("a value is not finite"), std::string::npos);
 }
 
 // A file of a few bytes could keep a reader busy for hours.

@@ -61,7 +61,7 @@ TEST(NeutralFirst, KeepsNothingOfTheBytesNorOfThePlaceOfTheRig) {
 }
 
 TEST(NeutralFirst, IsAllThereIsOfAFileWithVectorsAsTheyAre) {
-  for (const Rig& rig : {everything(), makeRig(tee()), dressed(makeRig(tee()))}) {
+  for (const Rig& rig : {everything(), makeRig(tee()), packed(dressed(makeRig(tee())))}) {
     const NeutralFirst opened = decodeNeutral(encode(rig), "a.sweep").value();
     EXPECT_FALSE(opened.targets.any());
     expectEqual(opened.rig, rig);
@@ -85,6 +85,9 @@ TEST(NeutralFirst, SaysWhereItsTargetsAreWrongAndLeavesThemEmpty) {
 TEST(NeutralFirst, RefusesTheTargetsOfAnotherRig) {
   NeutralFirst opened = decodeNeutral(encode(packed(makeRig(tee()))), "a.sweep").value();
   Rig other = packed(makeRig(fan(5)));
+  EXPECT_FALSE(opened.targets.decode(other));
+  other = opened.rig;
+  other.targets.push_back({"another", {}, {}});
   EXPECT_FALSE(opened.targets.decode(other));
   EXPECT_TRUE(opened.targets.decode(opened.rig));
 }

@@ -316,12 +316,16 @@ TEST(Packing, FormsThatCannotBeAreMadeSound) {
   rig.packing.poses = {{-3, 7}, {99, 0}, {0, 2}};
   rig.packing.axis = 9;
   rig.packing.textureBits = 99;
-  rig.packing.mirror = {{-1, 0}, {0, 1 << 20}};
+  rig.packing.mirror = {{-1, 0}, {0, 20}, {0, 1 << 20}};  // of half-arcs 0 to 19
+  rig.packing.rest = {{1, 2, 3}};
   const std::string bytes = encode(rig);
   const auto back = decode(bytes, "a.sweep");
   ASSERT_TRUE(back) << back.error().message;
   expectEqual(*back, rig);
   EXPECT_EQ(encode(*back), bytes);
+  EXPECT_TRUE(back->packing.mirror.empty());
+  rig.packing.mirror.assign(100, {0, 0});
+  EXPECT_TRUE(decode(encode(rig), "a.sweep"));
 }
 
 // Two patches side by side, mirrored at the arc between them.

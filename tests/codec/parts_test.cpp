@@ -2,6 +2,7 @@
 #include <map>
 
 #include "codec/files.hpp"
+#include "codec/packed.hpp"
 #include "codec/rigs.hpp"
 #include "codec/version1.hpp"
 
@@ -37,6 +38,15 @@ TEST(Parts, HaveTheNamesOfWhatTheyHold) {
     EXPECT_TRUE(parts.contains(name)) << name;
   EXPECT_EQ(parts.size(), 11u);
   EXPECT_EQ(partsOf(encode(makeRig(onePatch(1, 1)))).contains("loose vertices"), false);
+}
+
+TEST(Parts, OfWhatVersion2HoldsHaveTheirNames) {
+  const auto parts = partsOf(encode(withTurns(everything())));
+  for (const char* name :
+       {"container", "wireframe", "names", "neutral", "targets", "exact vectors", "loose vertices",
+        "source order", "polygons", "texture coordinates", "scene", "turns"})
+    EXPECT_TRUE(parts.contains(name)) << name;
+  EXPECT_EQ(parts.size(), 12u);
 }
 
 TEST(Parts, CountWhatIsUnknown) {

@@ -142,8 +142,11 @@ TEST(RoundTrip, KeepsVectorsExactlyWhateverTheyAre) {
 TEST(RoundTrip, KeepsTheSignOfZero) {
   Rig rig = makeRig(onePatch(1, 1));
   rig.targets[2].difference[3] = {0, -0.0, 0};
+  rig.source.loose.resize(3);
+  rig.targets[0].looseDifference = {{}, {0, -0.0, 0}, {1.0 / 3, 0, 0}};
   const Rig back = decode(encode(rig), "a.sweep").value();
   EXPECT_TRUE(std::signbit(back.targets[2].difference[3].y));
+  EXPECT_TRUE(std::signbit(back.targets[0].looseDifference[1].y));
 }
 
 TEST(RoundTrip, KeepsTextureCoordinatesAndLooseVerticesInDoublePrecision) {
@@ -152,6 +155,15 @@ TEST(RoundTrip, KeepsTextureCoordinatesAndLooseVerticesInDoublePrecision) {
   rig.source.loose[1] = {1.0 / 7, 1e200, 0};
   rig.targets[0].looseDifference[0] = {1.0 / 9, 0, 0};
   expectEqual(decode(encode(rig), "a.sweep").value(), rig);
+}
+
+TEST(RoundTrip, KeepsTextureCoordinatesThatAreTooFarAwayForSteps) {
+  Rig rig = makeRig(onePatch(1, 1));
+  rig.packing.textureBits = 12;
+  for (const Vec2 far : {Vec2{1 << 20, 0}, Vec2{0, 1 << 20}}) {
+    rig.source.polygons.texcoords = {far};
+    expectEqual(decode(encode(rig), "a.sweep").value(), rig);
+  }
 }
 
 TEST(RoundTrip, KeepsDecimalsOfATextExactlyAndInFewBytes) {

@@ -4,6 +4,7 @@
 #include "sweepface/codec.hpp"
 #include "sweepface/fit.hpp"
 
+#include "codec/grid_size.hpp"
 #include "drawing/drawings.hpp"
 
 namespace sweepface {
@@ -62,10 +63,10 @@ TEST(Vase, hasItsExpression) {
   }
 }
 
-// The third control curve reaches further into a patch than the second.
-TEST(Controls, giveTheSurfaceItsDerivativesAcross) {
+/// The square with control curves beside ab that rise into it. The third one reaches further than
+/// the second.
+Json withControls() {
   Json drawing = square();
-  drawing["curves"][1]["edges"] = 5;  // the way from ab to dc
   drawing["curves"][0]["points"] = {{1, 0, 0}, {2, 0, 0}, {3, 0, 0}};
   Json control{{"beside", "ab"}, {"in", "square"}, {"spacing", {0.1, 0.3}}};
   for (int x = 0; x <= 4; ++x) {
@@ -73,6 +74,12 @@ TEST(Controls, giveTheSurfaceItsDerivativesAcross) {
     control["third"].push_back({x, 1.4, 0.6});
   }
   drawing["controls"] = Json::array({control});
+  return drawing;
+}
+
+TEST(Controls, giveTheSurfaceItsDerivativesAcross) {
+  Json drawing = withControls();
+  drawing["curves"][1]["edges"] = 5;  // the way from ab to dc
   const Rig rig = made(drawing);
   const auto expected =
       derivativesFromControls({}, {0, 0.5, 0.1}, {0, 1.4, 0.6}, {0.1, 0.3}).value();
@@ -133,6 +140,30 @@ TEST(Controls, standWhereTheirMeanDistancesSay) {
   const Rig a = made(vase()), b = made(spaced);
   for (Index v = 0; v < a.surface.storedCount(); ++v)
     EXPECT_LT(norm(a.neutral[v] - b.neutral[v]), 2e-3);
+}
+
+TEST(Controls, goWithTheirBoundary) {
+  Json drawing = withControls();
+  drawing["curves"][0]["edges"] = 4;
+  drawing["expressions"] = Json::parse(R"([{"name": "tilt", "moves": {"b": [0, 0, 1]}},
+      {"name": "wave", "moves": {"ab": {"points": [[0, 0, 0.1], [0, 0, 0.3], [0, 0, 0.2]]}}}])");
+  const Rig rig = made(drawing);
+  const auto slopeAt = [&](double u, const Weights& weights) {
+    return rig.surface.evaluate(blend(rig, weights), {0, u, 0}, 0, 1);
+  };
+  for (const double u : {1.0, 2.0, 3.0, 4.0})
+    for (const Weights& weights : {Weights{1, 0}, Weights{0, 1}})
+      EXPECT_LT(norm(slopeAt(u, weights) - slopeAt(u, {0, 0})), 1e-4) << u;
+}
+
+TEST(Controls, needAPointBesideEachOfTheirBoundary) {
+  for (const char* which : {"second", "third"}) {
+    Json drawing = withControls();
+    drawing["controls"][0][which].erase(4);
+    EXPECT_NE(refusal(drawing).find("the control curves beside 'ab' need 5 points each"),
+              std::string::npos)
+        << refusal(drawing);
+  }
 }
 
 TEST(Points, areWhereTheCurveGoes) {
@@ -211,6 +242,16 @@ TEST(Edges, areAsManyAsACurveIsLong) {
   drawing["curves"][0]["edges"] = 8;  // two a unit
   rig = made(drawing);
   EXPECT_EQ(rig.surface.edgesV(0), 24);
+}
+
+TEST(Edges, areWholeNumbersThatAFileHolds) {
+  Json drawing = square();
+  for (const Json& none : {Json(0), Json(2.5), Json(codec::kLongestArc + 1)}) {
+    drawing["curves"][0]["edges"] = none;
+    EXPECT_NE(refusal(drawing).find("the edges must be a whole number from 1 to 65535"),
+              std::string::npos)
+        << refusal(drawing);
+  }
 }
 
 /// The square with a second row of two patches on top: e stands on dc.
@@ -295,6 +336,14 @@ TEST(TNodes, goWithWhicheverCurvesMove) {
   EXPECT_TRUE(buildJson(drawing));
 }
 
+TEST(TNodes, withoutAPlaceAreNotMovedThemselves) {
+  Json drawing = withTNode();
+  drawing["expressions"] = Json::parse(R"([{"name": "up", "moves": {"e": [0, 0, 1]}}])");
+  EXPECT_NE(refusal(drawing).find("node 'e' stands on the side of a patch and goes with it"),
+            std::string::npos)
+      << refusal(drawing);
+}
+
 TEST(TNodes, drawnAtAPlaceGoAlongWithTheirCurves) {
   Json drawing = withTNode();
   drawing["nodes"][4]["at"] = {2, 4.5, 0.3};
@@ -351,6 +400,16 @@ TEST(Names, ofOneThingAreNotWhatAnotherGoesBy) {
   EXPECT_TRUE(buildJson(drawing));
 }
 
+TEST(Names, areNeitherNumbersNorTooLong) {
+  Json drawing = square();
+  for (const auto& [name, why] : {std::pair{std::string("12"), "must not be a number"},
+                                  {"-x", "must not be a number or begin with '-'"},
+                                  {std::string(4097, 'x'), "is longer than 4096 bytes"}}) {
+    drawing["patches"][0]["name"] = name;
+    EXPECT_NE(refusal(drawing).find(why), std::string::npos) << refusal(drawing);
+  }
+}
+
 TEST(Rings, mayBeOnePatchAndOneCurve) {
   const Rig rig = made(tube());
   EXPECT_EQ(rig.surface.connectivity().kinds, std::vector<NodeKind>(2, NodeKind::crossing));
@@ -403,6 +462,16 @@ TEST(Tips, areNodesAtOnePointWithCollapsedCurvesBetween) {
             3 * rig.surface.wireframe().arcs[rig.find(Thing::curve, "arc0").value()].edges);
   for (const JoinReport& join : examineJoins(rig.surface, neutralPose(rig)))
     EXPECT_LT(join.positionGap, 1e-12);
+}
+
+TEST(Tips, haveNothingThatRunsBesideThem) {
+  Json drawing = cone();
+  const Json points = {{0, 3, 0}, {0, 3, 0}};
+  drawing["controls"] =
+      Json::array({{{"beside", "turn0"}, {"in", "slice0"}, {"second", points}, {"third", points}}});
+  EXPECT_NE(refusal(drawing).find("curve 'turn0' is one point; nothing runs beside it"),
+            std::string::npos)
+      << refusal(drawing);
 }
 
 TEST(Tips, areWhereAllTheirNodesAreDrawn) {
@@ -639,6 +708,16 @@ TEST(Expressions, moveSinglePointsOnTop) {
   EXPECT_LT(norm(middleOf(rig, "ab", 0.5, {0, 1}) - Vec3{2, 0, 3.2}), 1e-4);
   EXPECT_LT(norm(middleOf(rig, "ab", 0, {1, 0})), 1e-12);
   EXPECT_LT(norm(middleOf(rig, "ab", 0, {0, 1}) - Vec3{0, 0, 2}), 1e-12);
+}
+
+TEST(Expressions, moveAllPointsOfACurveOrNone) {
+  Json drawing = square();
+  drawing["curves"][0]["points"] = {{1, 0, 0.5}, {2, 0, 0.7}, {3, 0, 0.5}};
+  drawing["expressions"] = Json::parse(
+      R"([{"name": "bulge", "moves": {"ab": {"points": [[0, 0, 0.3], [0, 0, 0.5]]}}}])");
+  EXPECT_NE(refusal(drawing).find("2 offsets are given for the 3 points of curve 'ab'"),
+            std::string::npos)
+      << refusal(drawing);
 }
 
 TEST(Expressions, thatMissTheirPointsAreTold) {

@@ -34,6 +34,33 @@ TEST(Joins, knowTheirClass) {
     EXPECT_EQ(joinClass(two, a), a == 5 ? JoinClass::c2 : JoinClass::boundary);
   const Surface cube = surfaceOf(MeshRig{cubeSphere(2), {}});
   for (Index a = 0; a < 12; ++a) EXPECT_EQ(joinClass(cube, a), JoinClass::spoke);
+  const Surface umbrella = Surface::make(fan(5)).value();
+  for (Index a = 1; a < 15; a += 3) EXPECT_EQ(joinClass(umbrella, a), JoinClass::c2);  // its rays
+}
+
+TEST(Joins, measureJumpsAsSharesWhateverTheSize) {
+  const Surface cube = surfaceOf(MeshRig{cubeSphere(4), {}});
+  auto pose = anyPose(cube);
+  const auto small = examineJoins(cube, pose, 5);
+  for (Vec3& v : pose) v = 1000 * v;
+  const auto large = examineJoins(cube, pose, 5);
+  double most = 0;
+  for (std::size_t a = 0; a < small.size(); ++a) {
+    EXPECT_NEAR(large[a].firstJump, small[a].firstJump, 1e-9);
+    EXPECT_NEAR(large[a].secondJump, small[a].secondJump, 1e-9);
+    most = std::max(most, small[a].secondJump);
+  }
+  EXPECT_GT(most, 1e-3);
+}
+
+TEST(Joins, countTowardsTheMeanByTheirLength) {
+  JoinSummary sum;
+  JoinReport bent, flat;
+  bent.length = 4, bent.normalJump = 3;
+  flat.length = 5;
+  sum.add(bent);
+  sum.add(flat);
+  EXPECT_DOUBLE_EQ(sum.normalRms(), 2);
 }
 
 TEST(Joins, aSpokeIsC2AtItsEndsInItsNodesChart) {

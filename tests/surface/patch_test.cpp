@@ -55,6 +55,29 @@ TEST(Patch, reproducesPolynomialsOfDegreeFive) {
       }
 }
 
+TEST(Patch, isAParabolaWhereItsCornersTellOnlyTheirSlopes) {
+  Wireframe w = onePatch(3, 2);
+  for (Node& node : w.nodes) node.stored = 1 | 1 << 1 | 1 << 3;
+  w.ribbons = {{}, {}};
+  const Surface surface = Surface::make(w).value();
+  std::vector<Vec3> pose(surface.vectorCount());
+  for (int k = 0; k < 4; ++k) {
+    const CornerAxes& c = corners[k];
+    const double u = 3 * c.u, v = 2 * c.v;
+    const auto tell = [&](int i, int j, const Vec3& value) {
+      const JetRef ref = surface.cornerJet(0, k, i, j);
+      pose[ref.vector] = ref.sign * value;
+    };
+    const Vec3 alongU{2 * u, 0, 0}, alongV{0, 2 * v, 0};
+    tell(0, 0, {u * u, v * v, 0});
+    tell(1, 0, c.alphaSign * (c.alphaIsU ? alongU : alongV));
+    tell(0, 1, c.betaSign * (c.alphaIsU ? alongV : alongU));
+  }
+  surface.settle({pose.data(), static_cast<std::size_t>(surface.storedCount())}, pose);
+  for (const Site& s : sitesOf(surface, 0))
+    EXPECT_LT(norm(surface.evaluate(pose, s) - Vec3{s.u * s.u, s.v * s.v, 0}), 1e-12);
+}
+
 TEST(Patch, hasTheSameWeightsFromTheTableOfItsBases) {
   Wireframe w = onePatch(5, 40);  // of which one is long
   const Surface surface = Surface::make(w).value();

@@ -119,6 +119,8 @@ const Broken broken[] = {
      "arc 0 is used twice in the same direction"},
     {"differentLengths", with(onePatch(2, 2), [](Wireframe& w) { w.arcs[2].edges = 3; }),
      "patch 0 has opposite sides of different length"},
+    {"differentWidths", with(onePatch(2, 2), [](Wireframe& w) { w.arcs[1].edges = 3; }),
+     "patch 0 has opposite sides of different length"},
     {"missingNode", with(onePatch(2, 2), [](Wireframe& w) { w.arcs[1].to = 4; }),
      "arc 1 ends at a node that does not exist"},
     {"negativeNode", with(onePatch(2, 2), [](Wireframe& w) { w.arcs[3].from = -1; }),
@@ -170,6 +172,21 @@ const Broken broken[] = {
        return w;
      },
      "node 4 stands on the side of a patch but is no T of three arcs"},
+    {"boundaryT", with(tee(), [](Wireframe& w) { w.patches.pop_back(), w.loops.resize(9); }),
+     "node 3 stands on the side of a patch but is no T of three arcs"},
+    {"ringOfTNodes",
+     [] {  // two patches around a tube, whose seams end on the ring between them
+       Wireframe w;
+       w.points = 2;
+       w.nodes = {{0, kPosition}, {-1, kPosition}, {-1, kPosition}, {1, kPosition}};
+       w.arcs = {arc(1, 2, 2, 0), arc(2, 1, 2, 0), arc(0, 0, 4, 0),
+                 arc(0, 1, 1, 0), arc(3, 3, 4, 0), arc(2, 3, 1, 0)};
+       w.patches = {{{0, 1, 2, 4, 5}}, {{5, 7, 8, 9, 10}}};
+       w.loops = {4, 6, 3, 1, 7, 2, 0, 10, 9, 11};
+       w.ribbons = {{}};
+       return w;
+     },
+     "arc 0 lies on a ring of T-nodes; cut it at a node"},
     {"touching",
      [] {  // two patches that share one node and nothing else
        Wireframe w = onePatch(1, 1), other = onePatch(1, 1);
