@@ -433,7 +433,7 @@ TEST(Convert, RefusesMeshesWhoseIndicesDoNotBelongTogether) {
   };
   expect("0 vertices, and the neutral", [](auto& m, auto&) { m.targets[1].positions.clear(); });
   expect("vertices, and the neutral", [](auto& m, auto&) { m.targets[0].positions.pop_back(); });
-  for (const Index corner : {-3, 99, 100'000'000})
+  for (const Index corner : {-3, -1, 99, 100'000'000})
     expect("corner 0 of the mesh is of number", [&](auto&, Polygons& p) { p.corners[0] = corner; });
   for (const std::vector<Index>& start :
        {std::vector<Index>{}, {0, 99}, {1, 64}, {0, 8, 4, 64}, {0}})

@@ -81,6 +81,13 @@ TEST(Doubts, AreOfTargetsOfOtherAxes) {
   ball.targets.push_back({"odd", mirrored});
   EXPECT_EQ(doubtsAbout(ball, 0.01),
             std::vector<std::string>{"Targets that may have other axes: 'odd' (mirrored)."});
+  // A flat face might as well be turned.
+  MeshRig flat{grid(4, 4, [](double i, double j) { return Vec3{i - 2, 2 * j - 4, 0}; }), {}};
+  flat.targets.push_back({"odd", flat.neutral.positions});
+  for (Vec3& p : flat.targets[0].positions) p.x = -p.x;
+  EXPECT_EQ(
+      doubtsAbout(flat, 0.01),
+      std::vector<std::string>{"Targets that may have other axes: 'odd' (turned by 180 degrees)."});
 }
 
 std::vector<Vec3> farAway() {
@@ -91,6 +98,12 @@ TEST(Doubts, AreOfMostTargetsOfAnotherOrigin) {
   EXPECT_EQ(doubtsAbout(rigWith({{"a", farAway()}, {"b", farAway()}, {"open", opened()}}), 0.01),
             std::vector<std::string>{
                 "Targets that may have another origin: 'a' (50 away), 'b' (50 away)."});
+  // Those that do not move do not count.
+  EXPECT_EQ(
+      doubtsAbout(rigWith({{"a", farAway()}, {"b", plane().positions}, {"c", plane().positions}}),
+                  0.01)
+          .back(),
+      "Targets that may have another origin: 'a' (50 away).");
   // The jaw takes the teeth with it.
   EXPECT_TRUE(doubtsAbout(rigWith({{"jaw", farAway()}, {"open", opened()}}), 0.01).empty());
 }
@@ -104,12 +117,12 @@ TEST(Doubts, AreNoneOfTurningHeads) {
 }
 
 TEST(Doubts, AreOfTargetsThatAreTheNeutral) {
-  MeshRig rig = rigWith({{"open", opened()}, {"still", plane().positions}});
+  MeshRig rig = rigWith({{"open", opened()}, {"rest", plane().positions}});
   // A vertex of no face does not count.
   rig.neutral.positions.push_back({});
   for (MeshTarget& target : rig.targets) target.positions.push_back({5, 5, 5});
   EXPECT_EQ(doubtsAbout(rig, 0.01),
-            std::vector<std::string>{"Targets that are the same as the neutral: 'still'."});
+            std::vector<std::string>{"Targets that are the same as the neutral: 'rest'."});
 }
 
 TEST(Doubts, AreOfTargetsThatAreCalledLikeANeutral) {
@@ -148,9 +161,9 @@ TEST(Doubts, AreOfAToleranceFarAboveEdges) {
   EXPECT_TRUE(doubtsAbout(rig, 0.0002 * diagonal(rig.neutral)).empty());
 }
 
-/// A sheet of 32 x 32 quads whose every other row of vertices is `height` above the others.
-PolygonMesh corrugated(double height) {
-  return grid(32, 32, [&](double i, double j) { return Vec3{i, j, std::fmod(j, 2) * height}; });
+/// A sheet of quads whose every other row of vertices is `height` above the others.
+PolygonMesh corrugated(double height, Index size = 32) {
+  return grid(size, size, [&](double i, double j) { return Vec3{i, j, std::fmod(j, 2) * height}; });
 }
 
 TEST(Doubts, AreOfAToleranceTooFineForACoarseMesh) {
@@ -164,7 +177,8 @@ TEST(Doubts, AreOfAToleranceTooFineForACoarseMesh) {
   EXPECT_NE(doubts[0].find("lean 5.7 degrees"), std::string::npos) << doubts[0];
   EXPECT_TRUE(doubts[0].ends_with("try a tolerance of 0.5.")) << doubts[0];
   EXPECT_TRUE(doubtsAbout(rig, 0.5).empty());
-  EXPECT_TRUE(doubtsAbout({corrugated(0.04), {}}, 0.01).empty());  // as good as smooth
+  EXPECT_TRUE(doubtsAbout({corrugated(0.04), {}}, 0.01).empty());   // as good as smooth
+  EXPECT_TRUE(doubtsAbout({corrugated(0.1, 4), {}}, 0.1).empty());  // too few faces to tell by
 }
 
 TEST(Doubts, AreToldByConvert) {

@@ -31,7 +31,8 @@ TEST(KeptMovement, IsTheShareThatTheRigHas) {
   EXPECT_EQ(lostMovement(source, kept),
             "Most of the movement is within the tolerance and lost in '" + source.targets[0].name +
                 "' (25 % left), '" + source.targets[1].name + "' (0 % left).");
-  EXPECT_EQ(lostMovement(source, {1, 0.6}), "");
+  EXPECT_EQ(lostMovement(source, {1, 0.51}), "");
+  EXPECT_TRUE(lostMovement(source, {1, -0.25}).ends_with("(0 % left).")) << "the other way";
 }
 
 }  // namespace

@@ -147,6 +147,7 @@ TEST(Pack, leavesTheFaceAsItWasWhereItFails) {
   std::atomic<bool> cancel = false;
   EXPECT_EQ(refusal({.progress = [&](auto, double done) { cancel = done > 0; }, .cancel = &cancel}),
             "packing was interrupted");
+  EXPECT_EQ(refusal({.textureBits = 17}), "packed texture coordinates have 8 to 16 bits, not 17");
   EXPECT_EQ(refusal({.textureBits = 7}), "packed texture coordinates have 8 to 16 bits, not 7");
   EXPECT_TRUE(refusal({.tolerance = 1e9}).contains("larger than the mesh"));
   EXPECT_TRUE(refusal({.tolerance = 1e-12}).contains("finer than a file's numbers"));

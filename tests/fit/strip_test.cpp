@@ -64,12 +64,14 @@ TEST(Strip, LeavesOutWhatItIsAskedTo) {
   faces.cornerTexcoords.assign(faces.corners.size(), 0);
   faces.materials = {"skin"};
   faces.faceMaterial.assign(faces.faceCount(), 0);
+  faces.materialFiles = {"skin.mtl"};
   rig.scene = "scene";
   Rig bare = rig;
   ASSERT_TRUE(strip(bare, parseStrip("uv,groups,scene").value()));
   EXPECT_TRUE(bare.source.polygons.texcoords.empty());
   EXPECT_TRUE(bare.source.polygons.cornerTexcoords.empty());
   EXPECT_TRUE(bare.source.polygons.materials.empty());
+  EXPECT_TRUE(bare.source.polygons.materialFiles.empty());
   EXPECT_TRUE(bare.scene.empty());
   EXPECT_EQ(bare.source.gridVertex, rig.source.gridVertex);
 }
@@ -112,21 +114,33 @@ TEST(Strip, TextureCoordinatesComeInTheOrderOfTheirCorners) {
 }
 
 TEST(Strip, FacesWithoutASurfaceGoWithTheOrder) {
-  MeshRig source = withTargets(plane(2, 2), 0);
+  MeshRig source = withTargets(plane(2, 2), 1);
   source.neutral.positions.push_back({5, 5, 5});  // of no other face
+  source.targets[0].positions.push_back({5, 6, 5});
   PolygonMesh& mesh = source.neutral;
   mesh.polygons = {};
   addFace(mesh, {9, 9, 9});
   for (const Loop& face : loopsOf(plane(2, 2).polygons)) addFace(mesh, face);
-  mesh.polygons.materials = {"a", "b"};
-  mesh.polygons.faceMaterial = {0, 1, 1, 1, 1};
+  mesh.polygons.materials = mesh.polygons.groups = {"a", "b"};
+  mesh.polygons.faceMaterial = mesh.polygons.faceGroup = {0, 1, 1, 1, 1};
   Rig rig = convert(source).value().rig;
   EXPECT_GT(bareBytes(rig), 0u);
   ASSERT_TRUE(strip(rig, {.order = true}));
   EXPECT_EQ(rig.source.polygons.faceMaterial, (std::vector<Index>{1, 1, 1, 1}));
+  EXPECT_EQ(rig.source.polygons.faceGroup, (std::vector<Index>{1, 1, 1, 1}));
+  EXPECT_TRUE(rig.targets[0].looseDifference.empty());
   const Rig back = decode(encode(rig), "face").value();
   EXPECT_EQ(back.source.polygons.faceCount(), 4);
   EXPECT_EQ(back.source.gridVertex.size(), 9u);
+}
+
+TEST(Strip, RefusesFacesThatAreOnlyPartlyOnTheSurface) {
+  Rig rig = convert(withTargets(plane())).value().rig;
+  rig.source.quadCorners.clear();
+  rig.source.gridVertex[rig.source.polygons.corners[0]] = -1;
+  const auto stripped = strip(rig, {.order = true});
+  ASSERT_FALSE(stripped);
+  EXPECT_EQ(stripped.error().message, "a face has a corner that is on no patch; keep the order");
 }
 
 // Left by whoever dissolved edges: the face runs out to a vertex of no other face and back.

@@ -1,5 +1,6 @@
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <random>
 
 #include "gltf/written.hpp"
@@ -165,9 +166,11 @@ TEST(AnimationWriter, RefusesWhatCannotMove) {
   refuses(rig, motion(0, 1, 1e39), 0, "single precision");
   refuses(rig, motion(0, 1e39, 1), 0, "single precision");
   refuses(rig, motion(0, 1, 1e-44), 100, "single precision");
-  const Clip empty{{"t0"}, {}, {}}, other, near{{"t0"}, {20000, 20000.0005}, {0, 1}};
+  const Clip empty{{"t0"}, {}, {}}, other, early{{"t0"}, {-1, 1}, {0, 1}},
+      near{{"t0"}, {20000, 20000.0005}, {0, 1}};
   EXPECT_TRUE(failsWith(formatGlb(rig, {.clip = &near}), {"Keys about 20000.0005 s", "parts"}));
   EXPECT_TRUE(failsWith(formatGlb(rig, {.clip = &empty}), {"no frames"}));
+  EXPECT_TRUE(failsWith(formatGlb(rig, {.clip = &early}), {"starts before 0"}));
   EXPECT_TRUE(failsWith(formatGlb(rig, {.clip = &other}), {"clip has 0 weights"}));
   Rig unseen = converted(scene());
   Rig nowhere = rig;
@@ -180,11 +183,20 @@ TEST(AnimationWriter, RefusesWhatCannotMove) {
   refuses(unseen, both, 0, "no target in its scene");
 }
 
+TEST(AnimationWriter, WritesTheFramesWhereCurvesWouldBeLarger) {
+  const Rig rig = converted(withTargets(plane(4, 4), 1));
+  const Clip clip{{rig.targets[0].name}, {0, 1, 2, 3, 4}, {0, 1, 0.25, 0.875, 0}};
+  const Written glb = write(rig, {.clip = &clip, .keyTolerance = 1e-3});
+  const Json& sampler = lastAnimation(glb)["samplers"][0];
+  EXPECT_EQ(sampler["interpolation"], "LINEAR");
+  EXPECT_EQ(glb.numbers(sampler["output"]), clip.weights);
+}
+
 // ---- The head ----
 
-Result<std::string> turning(const Rig& rig) {
+Result<std::string> turning(const Rig& rig, double until = 1) {
   const Clip clip{{"open", "wink"}, {0, 1}, {0, 0, 1, 0}};
-  const HeadTrack head{{0, 1}, {{0, 0, 0, 1}, {0, 1, 0, 0}}, {}};
+  const HeadTrack head{{0, until}, {{0, 0, 0, 1}, {0, 1, 0, 0}}, {}};
   return formatGlb(rig, {.clip = &clip, .head = &head});
 }
 
@@ -200,6 +212,19 @@ TEST(AnimationWriter, TurnsTheJointsOfSkinnedMeshesAlone) {
   ASSERT_EQ(shown, Json({3, 0})) << "a node above a skinned mesh means nothing";
   EXPECT_EQ(json["nodes"][3]["name"], "head");
   EXPECT_EQ(json["nodes"][4]["children"], Json({1, 2}));
+}
+
+TEST(AnimationWriter, TurnsSkinnedMeshesThatCarryOthers) {
+  for (const int joint : {0, 1}) {
+    Glb source = smallFace();
+    source.json["nodes"] = {{{"mesh", 0}, {"skin", 0}}, {{"name", "hip"}}};
+    if (joint == 1) source.json["nodes"][0]["children"] = {1};
+    source.add("skins", {{"joints", {joint}}});
+    source.add("scenes", {{"nodes", {0}}});
+    const Json json = Written(turning(converted(source)).value()).json;
+    EXPECT_EQ(json["scenes"][0]["nodes"], Json({2}));
+    EXPECT_EQ(json["nodes"][3]["children"], Json({0}));
+  }
 }
 
 /// The angle about y of a rotation that players find between the keys of a track, the shorter way.
@@ -224,6 +249,7 @@ TEST(AnimationWriter, TurnsTheHeadTheWayItGoesHoweverFar) {
     head.times.push_back(f / 60.0);
     head.rotations.push_back(quaternionOf({4 * f / 120.0, 0, 0}));
   }
+  for (double& q : head.rotations.back()) q = -q;  // the same rotation
   GlbOptions options;
   options.clip = &clip, options.head = &head, options.keyTolerance = 0.001;
   const auto bytes = formatGlb(rig, options);
@@ -233,6 +259,8 @@ TEST(AnimationWriter, TurnsTheHeadTheWayItGoesHoweverFar) {
   const Json& sampler = animation["samplers"][animation["channels"].size() - 1];
   const auto times = glb.numbers(sampler["input"]), values = glb.numbers(sampler["output"]);
   EXPECT_LT(times.size(), 5u);
+  for (std::size_t k = 4; k < values.size(); k += 4)
+    EXPECT_GT(std::inner_product(&values[k - 4], &values[k], &values[k], 0.0), 0) << "a long way";
   for (double time = 0; time <= 2; time += 0.05)
     EXPECT_NEAR(
         std::remainder(yawBetweenKeys(times, values, time) - 2 * time, 2 * std::numbers::pi), 0,
@@ -276,6 +304,14 @@ TEST(AnimationWriter, TurnsNoNodeThatHangsElsewhereToo) {
   EXPECT_FALSE(refuses());
   source.json["scenes"][0]["nodes"] = {0, 0};
   EXPECT_TRUE(refuses()) << "twice";
+}
+
+TEST(AnimationWriter, TurnsTheHeadAtIncreasingTimesAlone) {
+  Glb source = smallFace();
+  source.add("scenes", {{"nodes", {0}}});
+  EXPECT_TRUE(turning(converted(source), 1e-9));
+  for (const double until : {0.0, -1.0})
+    EXPECT_TRUE(failsWith(turning(converted(source), until), {"increasing times"}));
 }
 
 TEST(AnimationWriter, SaysWhereThereIsNothingToTurn) {

@@ -119,10 +119,17 @@ TEST(GltfClip, OfSeveralMeshesTheFirstOneCounts) {
     channels.push_back(channels[0]);
     channels.back()["target"]["node"] = glb.add("nodes", {{"mesh", mesh}});
   }
+  // The second one has the same targets; not even its keys count.
+  Json& samplers = glb.json["animations"][0]["samplers"];
+  samplers.push_back(samplers[0]);
+  samplers[1]["input"] =
+      glb.addAccessor(glb.addView(bytesOf(std::vector<float>{0, 0.5})), 5126, "SCALAR", 2);
+  channels[1]["sampler"] = 1;
   for (int order = 0; order < 2; ++order) {  // that of channels means nothing
     const auto clip = clipOf(glb);
     ASSERT_TRUE(clip) << clip.error().message;
     EXPECT_EQ(clip->names, (std::vector<std::string>{"open", "wink", "smile"}));
+    EXPECT_EQ(clip->times, (std::vector<double>{0, 1}));
     EXPECT_EQ(clip->weights, (std::vector<double>{0, 0, 0, 1, 0.5, 0.5}));
     std::ranges::reverse(channels);
   }
@@ -282,6 +289,9 @@ TEST(GltfClip, SaysWhatIsWrong) {
   EXPECT_TRUE(fails(glb, "named 'nod'; those that it has are 'talk'.", "nod"));
   EXPECT_EQ(clipOf(glb)->title, "talk");
   EXPECT_TRUE(clipOf(glb, "talk")->warnings.empty());
+  Glb both = glb;  // a nod may have the same name
+  both.json["animations"][1]["name"] = "talk";
+  EXPECT_TRUE(clipOf(both, "talk")->warnings.empty());
   Glb twice = glb;
   twice.json["animations"].push_back(glb.json["animations"][0]);
   ASSERT_EQ(clipOf(twice, "talk")->warnings.size(), 1u);

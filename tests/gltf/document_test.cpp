@@ -46,6 +46,12 @@ TEST(Container, ChunksOfUnknownKindsArePassedOverWithAWarning) {
   EXPECT_NE(source->warnings[0].find("unknown kinds"), std::string::npos);
 }
 
+TEST(Container, OnlyASecondChunkOfBytesIsThatOfTheBuffer) {
+  std::string bytes = smallFace().bytes();
+  bytes.replace(bytes.find(std::string("BIN\0", 4)), 4, "HAIR");
+  EXPECT_TRUE(failsWith(parseGltf(bytes, "face.glb", {}), {"beyond the 0 bytes of buffer 0"}));
+}
+
 TEST(Container, EveryTruncationIsRefused) {
   const std::string bytes = smallFace().bytes();
   for (std::size_t size = 0; size < bytes.size(); ++size)

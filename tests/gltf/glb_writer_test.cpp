@@ -307,6 +307,8 @@ TEST(GlbWriter, RefusesWhatDoesNotGoTogether) {
   refuses({.weights = {1}}, "1 weights, but the face 2 targets");
   refuses({.weights = {1, 1e300}}, "not a number that a glTF can hold");
   refuses({.lod = -1}, "0 or more");
+  for (const double tolerance : {-1e-3, std::nan(""), 1e9})
+    refuses({.keyTolerance = tolerance}, "tolerance of keys");
   refuses({.lod = 30'000}, "4 GiB");
   const auto motion = Motion::make(std::vector{0.0}, std::vector{1.0}, TimeLaw::newton, 1);
   refuses({.motion = &*motion}, "1 weights, but the face 2 targets");

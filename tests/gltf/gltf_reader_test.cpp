@@ -314,7 +314,7 @@ TEST(GltfReader, TextureCoordinatesMustBePairs) {
 
 TEST(GltfReader, FacesHaveTheNamesOfMaterialsAndMeshes) {
   Glb glb = smallFace();
-  glb.add("materials", Json::object());
+  glb.add("materials", {{"name", ""}});
   Json second = glb.primitive(), third = glb.primitive();
   second["material"] = 1;
   third.erase("material");
@@ -437,9 +437,14 @@ TEST(GltfReader, WarnsOfFlatShading) {
   ASSERT_EQ(warnings({0, 0, 1}, {1, 0, 0}).size(), 1u);
   EXPECT_EQ(warnings({0, 0, 1}, {1, 0, 0})[0].find("At 3 of 3 places"), 0u);
   EXPECT_TRUE(warnings({0, 0, 1}, {0.3, 0, 0.95}).empty());
-  EXPECT_TRUE(warnings({0, 0, 1}, {0, 0, -1}).empty());   // a sheet that is doubled
-  EXPECT_TRUE(warnings({0, 0, 0}, {1, 0, 0}).empty());    // the first have none
-  EXPECT_TRUE(warnings({0, 0, 1}, {NAN, 0, 0}).empty());  // nobody needs them
+  EXPECT_TRUE(warnings({0, 0, 1}, {0, 0, -1}).empty());          // a sheet that is doubled
+  EXPECT_TRUE(warnings({0, 0, 0}, {1, 0, 0}).empty());           // the first have none
+  EXPECT_TRUE(warnings({0, 0, 1}, {NAN, 0, 0}).empty());         // nobody needs them
+  std::vector<Vec3> rim = zigzag(200), normals(200, {0, 0, 1});  // at one of many places
+  rim.push_back(rim[0]), normals.push_back({1, 0, 0});
+  Glb smooth = points(rim);
+  smooth.primitive()["attributes"]["NORMAL"] = smooth.addVectors(normals);
+  EXPECT_TRUE(read(smooth).faceWarnings.empty());
 }
 
 TEST(GltfReader, AMeshThatNoNodeShowsStaysWhereItIs) {

@@ -447,11 +447,13 @@ TEST(SceneWriter, LeavesWeightsOfNoTargetsAsTheyWere) {
   Glb source = smallFace();
   source.primitive().erase("targets");
   source.json["meshes"][0].erase("extras");
+  source.json["meshes"][0]["weights"] = {0.5};
   animate(source, {Json{{"node", 0}, {"path", "weights"}}}, {0.25f, 0.5f});
   Rig rig = converted(source);
   rig.targets.push_back({"frown", rig.neutral, {}});
   const Written glb = write(rig);
   EXPECT_EQ(glb.primitive()["targets"].size(), 1u);
+  EXPECT_EQ(glb.json["meshes"][0]["weights"], Json::array({0.0})) << "the new one is at rest";
   EXPECT_EQ(animated(glb, 0), (std::vector<double>{0.25, 0.5}));
 }
 

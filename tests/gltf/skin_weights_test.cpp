@@ -132,6 +132,15 @@ TEST(SkinWeights, ThatAreNoSharesStayAsTheyAre) {
   EXPECT_TRUE(stays(weighted(many)));
   shares[0][0] = -1, shares[0][1] = 2;
   EXPECT_TRUE(stays(weighted(shares)));
+  // Some are told apart from the others.
+  Glb sparse = weighted(anyShares(1));
+  const std::size_t where = sparse.addView(bytesOf(std::vector<std::uint16_t>{0})),
+                    what = sparse.addView(bytesOf(std::vector<float>{0, 1, 0, 0}));
+  sparse.attribute("WEIGHTS_0")["sparse"] = {
+      {"count", 1},
+      {"indices", {{"bufferView", where}, {"componentType", 5123}}},
+      {"values", {{"bufferView", what}}}};
+  EXPECT_TRUE(stays(sparse));
   // Something else counts on them.
   Glb glb = weighted(anyShares(1));
   glb.primitive()["attributes"]["_OWN"] = glb.primitive()["attributes"]["WEIGHTS_0"];

@@ -143,14 +143,26 @@ TEST(Skins, ShowWhatIsWrittenWhereItWas) {
 }
 
 TEST(Skins, OfTheSceneTakeTheirMatricesPlaces) {
-  const Glb source = quantizedFace({5, 6, 7});
-  const Written glb = write(converted(source));
-  EXPECT_EQ(glb.json["skins"][0]["inverseBindMatrices"],
-            source.json["skins"][0]["inverseBindMatrices"]);
-  EXPECT_EQ(glb.json["skins"].size(), 1u);
-  EXPECT_EQ(glb.numbers(glb.json["skins"][0]["inverseBindMatrices"]),
-            (std::vector<double>{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -2, 0,  0, 1,  //
-                                 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -2, -3, 0, 1}));
+  Glb source = quantizedFace({5, 6, 7});
+  const std::size_t number = source.json["skins"][0]["inverseBindMatrices"];
+  const auto arePlaced = [&] {
+    const Written glb = write(converted(source));
+    EXPECT_EQ(glb.json["skins"].size(), 1u);
+    EXPECT_EQ(glb.json["skins"][0]["inverseBindMatrices"], number);
+    EXPECT_EQ(glb.numbers(number),
+              (std::vector<double>{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -2, 0,  0, 1,  //
+                                   1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -2, -3, 0, 1}));
+  };
+  arePlaced();
+  // Nothing is left of sparse ones.
+  const std::string first = bytesOf(bindingOf({kJoints[0]}, 1.0 / 64, {5, 6, 7}));
+  const std::size_t where = source.addView(bytesOf(std::vector<std::uint16_t>{0})),
+                    what = source.addView(first);
+  source.accessor(number)["sparse"] = {
+      {"count", 1},
+      {"indices", {{"bufferView", where}, {"componentType", 5123}}},
+      {"values", {{"bufferView", what}}}};
+  arePlaced();
 }
 
 TEST(Skins, ThatShowOtherMeshesTooStayForThem) {
@@ -322,6 +334,12 @@ TEST(Skins, ThatCannotPlaceLeaveAMeshAsItStands) {
       },
       [](Glb& glb) { glb.json["nodes"][1]["scale"] = glb.json["nodes"][2]["scale"] = {0, 1, 1}; },
       [](Glb& glb) { glb.json["skins"][0]["joints"] = {1, 2, 1}; },
+      [](Glb& glb) {
+        auto odd = bindingOf(kJoints, 3, {});
+        odd[3] = 0.25;  // in the last row
+        glb.json["skins"][0]["inverseBindMatrices"] =
+            glb.addAccessor(glb.addView(bytesOf(odd)), 5126, "MAT4", kJoints.size());
+      },
       [](Glb& glb) {
         const auto many = bindingOf(std::vector<Joint>(300), 3, {});
         glb.json["skins"][0]["inverseBindMatrices"] =

@@ -173,6 +173,7 @@ TEST(Halves, needAConvexOutline) {
 TEST(Halves, mustNotBeFolded) {
   EXPECT_TRUE(joins(halves({1, 0, 0}, {0.4, 0.6, 0.6})));
   EXPECT_FALSE(joins(halves({1, 0, 0}, {0.9, 0.1, 0.2})));
+  EXPECT_FALSE(joins(halves({1, 0, 0}, {0.93, 0.07, 0.35}))) << "by 150 degrees";
 }
 
 TEST(Halves, needAnArea) {
