@@ -140,7 +140,31 @@ test('timecodes tell their rate where whole seconds are there', () => {
     assert.ok(Math.abs(readClip(take(rate)).seconds - (4 - 1 / rate)) < 1e-9, `${rate}`);
   assert.ok(Math.abs(readClip(take(24, 48, 0)).seconds - 47 / 24) < 1e-9);
   assert.ok(Math.abs(readClip(take(24, 47, 1)).seconds - (1 + 22 / 60)) < 1e-9, 'no second is whole');
+  const [first, second] = readClip(take(24).split('\n').filter((_, k) => k === 0 || k % 2 === 1).join('\n')).times;
+  assert.ok(Math.abs(second - first - 2 / 60) < 1e-9, 'half of the rows');
   assert.ok(Math.abs(readClip('Timecode,a\n0:0:0:0,0\n0:0:1:15,0\n0:0:2:0,0\n').times[1] - 1.25) < 1e-12);
+});
+
+test('clocks between whole rates go slower, and those that drop frames skip them in all minutes but each tenth', () => {
+  const hour = (mark, framesPerSecond) =>
+    readClip(`Timecode,a\n0:0:0${mark}0,0\n1:0:0${mark}0,0\n`, {framesPerSecond}).seconds;
+  assert.ok(Math.abs(hour(':', 29.97) - 3603.6) < 1e-6);
+  for (const rate of [29.97, 30, 59.94, 60]) assert.ok(Math.abs(hour(';', rate) - 3599.9964) < 1e-6, `${rate}`);
+  for (const rate of [0, -1, NaN, Infinity, '30'])
+    assert.throws(() => hour(':', rate), {name: 'RangeError', message: /greater than 0/});
+});
+
+test('frames of MediaPipe may lack a face or a name, and the neutral is none', () => {
+  const score = (categoryName, score) => ({categoryName, score});
+  const frames = [[score('_neutral', 1), score('a', 0.5)], [score('b', 0.25)], []];
+  const clip = readClip(JSON.stringify(frames.map((categories, f) => ({timestamp: 6000 * f, categories}))));
+  assert.deepEqual(clip.names, ['a', 'b']);
+  assert.deepEqual([...clip.weights], [0.5, 0, 0, 0.25, 0, 0.25]);
+  assert.match(clip.warnings[0], /frames are 6000 ms apart/);
+});
+
+test('numbers may have a sign and an exponent', () => {
+  assert.deepEqual([...readClip('Timecode,a\n0,+.5\n1,-5E-1\n').weights], [0.5, -0.5]);
 });
 
 test('options that there are not are refused', () => {
@@ -175,6 +199,10 @@ test('captures are read by browsers that have no Object.hasOwn', () => {
 
 test('a clip without frames has weights of 0', () => {
   assert.deepEqual(new Clip(['a'], new Float64Array(), new Float64Array()).at(1, Float64Array.of(5)), Float64Array.of(0));
+});
+
+test('of frames at one time the last counts', () => {
+  assert.equal(new Clip(['a'], Float64Array.of(0, 1, 1), Float64Array.of(0, 1, 2)).at(1)[0], 2);
 });
 
 test('clips have a weight for every name and time, and are asked for them in floats', () => {
@@ -221,6 +249,9 @@ test('names are matched and reported', async () => {
   assert.deepEqual(targets, [[0, 1], [2], [], [4]]);
   // A side that has a name of its own goes by that.
   assert.deepEqual(matchNames(['up', 'upLeft'], ['up_L', 'up_R']).targets, [[1], [0]]);
+  assert.deepEqual(matchNames(['eye.blink.left', 'jaw_l'], ['jawLeft', 'eyeBlinkLeft']).targets, [[1], [0]]);
+  assert.deepEqual(matchNames(['jaw', 'mouth'], ['jawLeft', 'jawRight', 'mouthLeft', 'mouthRight']).targets, [[], []]);
+  assert.deepEqual(matchNames(['jawOpen', 'jaw_open'], ['JawOpen', 'jawOpen']).targets, [[1], [0]]);
   assert.deepEqual(matchNames(['ÄUGE'], ['äuge']).unmatched, ['ÄUGE']);  // case is that of A to Z
 });
 
@@ -242,6 +273,8 @@ test('the head has the angles of the app', async () => {
   const spelt = new ClipPlayer(face, readClip('Timecode,head_yaw,Head Pitch,jawOpen\n0,0.25,0.5,1'));
   assert.deepEqual(spelt.seek(0), {yaw: -0.25, pitch: 0.5, roll: 0});
   assert.deepEqual(spelt.match.unmatched, []);
+  const ahead = new ClipPlayer(face, readClip('Timecode,HeadYaw,jawOpen\n0,0,1'));
+  assert.deepEqual(ahead.seek(0), {yaw: 0, pitch: 0, roll: 0});
 });
 
 const timeline = {
@@ -286,7 +319,7 @@ test('time that is no number plays nothing', async () => {
   const player = new TimelinePlayer(face, readTimeline(JSON.stringify(timeline)));
   for (const seconds of [NaN, Infinity, undefined])
     assert.throws(() => player.advance(seconds), {message: /finite number of seconds/});
-  assert.equal(player.advance(1e11), true);  // a wrong clock
+  for (const wrong of [1e11, -1]) assert.equal(player.advance(wrong), true);  // a wrong clock
   assert.equal(face.weights.jawOpen, 0);
   player.advance(0.4);
   assert.ok(face.weights.jawOpen > 0);
@@ -304,11 +337,18 @@ test('captures go on past midnight and below 0, as for the tool', async () => {
   assert.throws(() => readClip('Timecode,a\n10:0:0:0,0\n9:59:59:0,1\n'), {message: /is before the one above/});
 });
 
-test('the rest of a face of one piece is all of it, and of two names in an event for a target the larger counts', async () => {
+test('a delay may lead to the end of all loops', () => {
+  for (const [seconds, loops, at, delay] of [[1, 2, 0.5, 1], [0.3, 1, 0.1, 0.2]])
+    assert.equal(readTimeline(JSON.stringify({seconds, loops, events: [{at, to: {}, delay}]})).events.length, 1);
+});
+
+test('the rest of a face of one piece is all of it, and of two names for a target the larger counts', async () => {
   const face = await Sweepface.load(readFileSync(sample));
   const events = [{at: 0, to: {jawOpen: 0.75, JawOpen: 0.25}, drive: 'cut', region: 'rest'}];
   new TimelinePlayer(face, readTimeline(JSON.stringify({seconds: 1, events}))).advance(0.1);
   assert.equal(face.weights.jawOpen, 0.75);
+  new ClipPlayer(face, readClip('Timecode,jawOpen,JawOpen\n0,0.5,0.25')).seek(0);
+  assert.equal(face.weights.jawOpen, 0.5);
 });
 
 test('shared memory is read, and that of another realm', () => {
@@ -408,7 +448,7 @@ for (const [file, text, words] of [
        ['a.csv', 'Timecode\u00A0,JawOpen\n0,1', ', line 1: there is no column \'Timecode\''],
        ['a.csv', '\u00A0{}', ', line 1: there is no column \'Timecode\''],
        ['a.csv', 'Timecode,JawOpen\n0:0:1,1', '\'0:0:1\' is not a timecode'],
-       ['a.csv', 'Timecode,JawOpen\n0:0:1:75,1', 'counts more than 60 frames a second'],
+       ['a.csv', 'Timecode,JawOpen\n0:0:1:60,1', 'counts more than 60 frames a second'],
        ['a.json', '{\n', ', line 2: this is not JSON; was the file cut short?'],
        ['a.json', '{\n"frames": 1,}', ', line 2: this is not JSON'],
        ['a.json', '{\n"frames": 1.,\n"a": 1}', ', line 2: this is not JSON'],
@@ -430,6 +470,10 @@ for (const [file, text, words] of [
        ['a.json', '[{"timestampMs": 0, "categories": [{"categoryName": "a", "score": 1e30}]}]', 'has a score in frame 0 that is not within'],
        ['a.json', '[{"timestampMs": 0, "categories": [{"categoryName": "a", "score": "x"}]}]', 'has a category without'],
        ['a.csv', 'Timecode,a\n12:59:60:1,0\n', 'has more than 59 minutes or seconds'],
+       ['a.csv', 'Timecode,a\n12:60:59:1,0\n', 'has more than 59 minutes or seconds'],
+       ['a.csv', 'Timecode,a\n1e7:0:0:0,0\n', '\'1e7:0:0:0\' is not a timecode'],
+       ['a.json', '[{"timestampMs": 5, "categories": []}, {"timestampMs": 5, "categories": []}]',
+        'has a time in frame 1 that is not after the one before'],
        ['a.json', '[{"timestampMs": 1e300, "categories": []}]', 'has a time in frame 0'],
        ['a.json', '[{"timestampMs": 0, "categories": null, "faceBlendshapes": []}]', 'has no \'categories\' in frame 0'],
        ['a.json', '[{"timestampMs": 0, "faceBlendshapes": ""}]', 'has no \'categories\' in frame 0'],
@@ -441,7 +485,10 @@ for (const [file, text, words] of [
        ['t.json', '{"events": []}', 'the file has no \'seconds\''],
        ['t.json', '{"seconds": 1, "events": []}', '\'events\' must be a list of at least one event'],
        ['t.json', '{"seconds": 0, "events": []}', '\'seconds\' must be greater than 0'],
-       ['t.json', '{"seconds": 1, "loops": 1.5, "events": []}', '\'loops\' must be a whole number from 1 to 10000'],
+       ...[0, 1.5, 10001].map((loops) => {
+         const text = `{"seconds": 1, "loops": ${loops}, "events": []}`;
+         return ['t.json', text, '\'loops\' must be a whole number from 1 to 10000'];
+       }),
        ['t.json', '{"seconds": 1, "speed": 1, "events": []}', 'the file has an unknown key \'speed\''],
        ['t.json', '{"seconds": 1, "events": [{"to": {}}]}', 'events[0] has no \'at\''],
        ['t.json', '{"seconds": 1, "events": [{"at": 2, "to": {}}]}', 'events[0] is later than \'seconds\''],
@@ -452,6 +499,9 @@ for (const [file, text, words] of [
        ['t.json', '{"seconds": 1, "events": [{"at": 0, "to": {}, "drive": "cut", "damping": 1}]}', '\'damping\''],
        ['t.json', '{"seconds": 1, "events": [{"at": 0, "to": {}, "restitution": 0.5}]}', '\'restitution\''],
        ['t.json', '{"seconds": 1, "events": [{"at": 0}]}', 'events[0] needs one of \'to\' and \'only\''],
+       ['t.json', '{"seconds": 1, "events": [{"at": 0, "to": {}, "only": {}}]}', 'events[0] needs one of \'to\' and \'only\''],
+       ['t.json', '{"seconds": 1, "events": [{"at": -0.5, "to": {}}]}', 'events[0] is before 0'],
+       ['t.json', '{"seconds": 1, "events": [{"at": 0, "to": {}, "delay": -0.5}]}', 'events[0] has a negative \'delay\''],
        ['t.json', '{"seconds": 1, "events": [{"at": 0, "to": "grin"}]}', 'goes to a pose \'grin\''],
        ['t.json', '{"seconds": 1, "poses": null, "events": [{"at": 0, "to": "grin"}]}', '\'poses\' are not an object'],
        ['t.json', '{"seconds": 1, "poses": {}, "events": [{"at": 0, "to": "__proto__"}]}', 'goes to a pose \'__proto__\''],

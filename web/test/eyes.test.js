@@ -70,6 +70,12 @@ test('a clip moves the eyes by its weights after another whose angles did', asyn
   assert.equal(difference(positionsOf(other), positionsOf(face)).most, 0);
 });
 
+test('names of weights for the eyes may be spelt in any way', () => {
+  const looks = [], face = {names: ['eye_look_down'], eyeCount: 2, setWeights() {}, look: (pose) => looks.push(pose)};
+  new ClipPlayer(face, readClip('Timecode,eyeLookDown\n0,1\n')).seek(0);
+  assert.deepEqual(looks, [null]);
+});
+
 test('a timeline moves the eyes by its weights after a clip whose angles did', async () => {
   const face = await load({eyes: true}), other = await load({eyes: true});
   const playing = (goal) =>
@@ -87,6 +93,10 @@ test('eyes that do not turn cannot look', async () => {
   const face = await load(), eyes = await load({eyes: true});
   assert.equal(face.eyeCount, 0);
   assert.throws(() => face.look(null), /no eyes that turn/);
+  new ClipPlayer(face, readClip('Timecode,LeftEyeYaw,EyeLookDownLeft\n0,0.4,1\n')).seek(0);
+  const down = {seconds: 1, events: [{at: 0, to: {eyeLookDownLeft: 0.5}, drive: 'cut'}]};
+  new TimelinePlayer(face, readTimeline(JSON.stringify(down))).advance(0);
+  assert.equal(face.weights.eyeLookDownLeft, 0.5);
   for (const angle of [NaN, '0.1', null])
     for (const eye of [{yaw: angle}, {pitch: angle}, {roll: angle}])
       assert.throws(() => eyes.look({leftEye: eye}), {name: 'TypeError', message: /leftEye takes finite numbers, not /});
@@ -96,6 +106,7 @@ test('eyes that do not turn cannot look', async () => {
     assert.throws(() => eyes.look(no), {name: 'TypeError', message: /takes an object of/});
   assert.equal(eyes.pose, null);
   eyes.look({leftEye: null, rightEye: undefined});
+  eyes.pose.leftEye.yaw = 1;  // it is the caller's
   assert.deepEqual(eyes.pose, {leftEye: {}, rightEye: {}});
   eyes.look(null);
   assert.equal(eyes.pose, null);

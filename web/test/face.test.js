@@ -43,6 +43,7 @@ test('weights are set by name, and others stay', async () => {
 
 test('what turns goes on arcs, if the file tells', async () => {
   const file = withArcs(), plain = await load({}, file), arcs = await load({arcs: true}, file);
+  const combined = await load({combine: true}, file);
   assert.ok(plain.turnCount > 0);
   assert.equal((await load({arcs: true})).turnCount, 0);
   assert.deepEqual(arcs.names, plain.names);
@@ -53,6 +54,8 @@ test('what turns goes on arcs, if the file tells', async () => {
     assert.ok(difference(exact.positions, evaluate(face).positions).most <= 0.01);
   }
   assert.ok(difference(evaluate(plain).positions, evaluate(arcs).positions).most > 0.03);
+  combined.setWeights(weights);
+  assert.deepEqual(evaluate(combined), evaluate(plain));
   weights.jawOpen = 1;  // where both end alike
   plain.setWeights(weights);
   arcs.setWeights(weights);
@@ -79,8 +82,9 @@ test('what there is not is refused with the library\'s sentence, and nothing cha
   const face = await load();
   assert.throws(() => face.setWeights({jawOpen: 1, jawOpn: 1}),
                 {message: /^There is no target named 'jawOpn'; its targets are eyeBlinkLeft, .*\.$/});
-  assert.throws(() => face.setWeights({jawOpen: 1, browInnerUp: 1e9}),
-                {message: 'The weight of \'browInnerUp\' must lie within 1000000 of 0.'});
+  for (const browInnerUp of [1e9, -1e9])
+    assert.throws(() => face.setWeights({jawOpen: 1, browInnerUp}),
+                  {message: 'The weight of \'browInnerUp\' must lie within 1000000 of 0.'});
   assert.throws(() => face.setWeights({jawOpen: NaN}), {message: /'jawOpen' must be a finite number, not NaN/});
   assert.throws(() => face.moveTo({jawOpen: 1}, 'jump'), {message: /no drive 'jump'; there are cut, newton/});
   assert.throws(() => face.moveTo({jawOpen: 1}, {speed: 1}), {message: /has no 'speed'; it has kind, delay/});
@@ -91,7 +95,7 @@ test('what there is not is refused with the library\'s sentence, and nothing cha
   assert.throws(() => face.evaluate(new Float32Array(6)), {message: /There must be room for \d+ vertices/});
   assert.throws(() => face.setWeights(), {message: /^Weights are given by name/});
   assert.throws(() => face.moveTo({jawOpen: 1e9}), {message: /'jawOpen' must lie within 1000000 of 0\.$/});
-  for (const push of [1e8, NaN, undefined, '3', true, [5]])
+  for (const push of [1e8, -1e8, NaN, undefined, '3', true, [5]])
     assert.throws(() => face.push('jawOpen', push), {message: /push on 'jawOpen' must lie within 1000000 of 0/});
   for (const drag of [-1, NaN, Infinity, null, '8'])
     assert.throws(() => face.push('jawOpen', 1, drag), {name: 'RangeError', message: /drag on a blow must be a finite number/});
@@ -181,6 +185,19 @@ test('a motion says when it is over', async () => {
   face.advance(0.3);
   assert.equal(face.advance(0.1), false);
   assert.equal(face.weights.jawOpen, 1);
+  face.moveTo({jawOpen: 0}, {frequency: 20});
+  face.advance(0.6);
+  assert.equal(face.advance(0.1), false);
+});
+
+test('a wrong clock neither ends a motion nor makes it longer', async () => {
+  const face = await load();
+  face.moveTo({jawOpen: 1}, {kind: 'accelerate-brake', seconds: 0.5});
+  for (const wrong of [-60, 1e11]) assert.equal(face.advance(wrong), true);
+  assert.equal(face.weights.jawOpen, 0);
+  face.advance(0.6);
+  assert.equal(face.advance(0.1), false);
+  assert.equal(face.weights.jawOpen, 1);
 });
 
 test('a motion that has just begun goes on', async () => {
@@ -239,9 +256,12 @@ test('a weight that swings or is pushed out of its range stops at its end', asyn
   face.moveTo({jawOpen: 1e6}, {frequency: 1, damping: 0});
   for (let k = 0; k < 20; ++k) face.advance(0.1);
   assert.ok(Math.abs(face.weights.jawOpen) <= 1e6);
-  for (let k = 0; k < 20; ++k) face.push('jawOpen', 1e6, 0.1);
-  face.advance(60);
-  assert.equal(face.weights.jawOpen, 1e6);
+  for (const way of [1, -1]) {
+    face.setWeights({jawOpen: 0});
+    for (let k = 0; k < 20; ++k) face.push('jawOpen', 1e6 * way, 0.1);
+    face.advance(60);
+    assert.equal(face.weights.jawOpen, 1e6 * way);
+  }
 });
 
 test('setting a weight ends its motion, and its alone', async () => {
@@ -256,9 +276,21 @@ test('setting a weight ends its motion, and its alone', async () => {
 
 test('a blow moves a weight until drag stops it', async () => {
   const face = await load();
-  face.push('jawOpen', 2, 4);
-  face.advance(5);
-  assert.ok(Math.abs(face.weights.jawOpen - 0.5) < 1e-6);
+  for (const [way, end] of [[1, 0.5], [-1, 0]]) {
+    face.push('jawOpen', 2 * way, 4);
+    for (const seconds of [0, 5]) assert.equal(face.advance(seconds), true);
+    assert.ok(Math.abs(face.weights.jawOpen - end) < 1e-6);
+    assert.equal(face.advance(1), false);
+  }
+});
+
+test('what a face tells is the caller\'s to change', async () => {
+  const face = await load();
+  for (const key of ['names', 'triangles', 'texcoords', 'weightValues']) {
+    const before = [...face[key]];
+    face[key].fill(1);
+    assert.deepEqual([...face[key]], before, key);
+  }
 });
 
 test('faces of one file share it and are disposed of one by one', async () => {
@@ -277,13 +309,15 @@ test('faces of one file share it and are disposed of one by one', async () => {
 
 test('memory does not grow by making and disposing of faces, nor by evaluating', async () => {
   const face = await load({lod: 1});
-  const positions = new Float32Array(3 * face.vertexCount);
+  const positions = new Float32Array(3 * face.vertexCount), modes = new Int16Array(4 * face.shaderTables().modes);
+  face.shaderModes(modes);
   face.clone().dispose();
   const before = face.memoryBytes;
   for (let k = 0; k < 200; ++k) {
     const twin = face.clone();
     twin.moveTo({jawOpen: 1});
     twin.evaluate(positions);
+    face.shaderModes(modes);
     twin.dispose();
   }
   assert.equal(face.memoryBytes, before);
@@ -424,6 +458,13 @@ test('options are those that there are, and one level of detail', async () => {
   face.moveTo({jawOpen: 0.5}, null);
 });
 
+test('a level of detail goes by the budget that is given', async () => {
+  const faces = await Promise.all([{edgeLength: 0.5}, {error: 0.5}, {vertices: 5000}].map((budget) => load(budget)));
+  const [short, near, few] = faces.map(({pointCount}) => pointCount);
+  assert.ok(short > 2 * near, `${short}, ${near}`);
+  assert.ok(few > 2500 && few <= 5000, `${few}`);
+});
+
 test('browsers that make no instance of a large module at once can load a face', async () => {
   const {Instance} = WebAssembly;
   WebAssembly.Instance = () => { throw new RangeError('WebAssembly.Instance is disallowed on the main thread'); };
@@ -455,6 +496,8 @@ test('arrays that cannot hold what is written are refused', async () => {
   face.evaluate(doubles);
   face.evaluate(floats);
   assert.deepEqual(Float32Array.from(doubles), floats);
+  face.evaluate(null, floats);
+  assert.deepEqual(floats, evaluate(face).normals);
   for (const out of [new Int16Array(count), new Array(count).fill(0), new ArrayBuffer(4 * count), 'x'.repeat(count), 5])
     for (const write of [() => face.evaluate(out), () => face.evaluate(null, out)])
       assert.throws(write, {name: 'TypeError', message: /written to a Float32Array, a Float64Array or null, not to (\w+)\.$/});
@@ -525,6 +568,8 @@ test('a module is compiled while it comes only if the server calls it by its ver
     });
     globalThis.fetch = async () => new Response('', {headers: {'content-type': 'application/wasm'}});
     await assert.rejects(load({wasm: 'https://example.org/a.wasm'}), /^Error: Could not load https:\/\/example\.org\/a\.wasm: /);
+    globalThis.fetch = async () => new Response(code, {status: 404});
+    await assert.rejects(load({wasm: 'https://example.org/a.wasm'}), /a\.wasm: the server answered 404\.$/);
   } finally {
     globalThis.fetch = fetch;
   }
@@ -573,9 +618,13 @@ function fetched(...loads) {
     import {readFileSync} from 'node:fs';
     import {Sweepface} from ${JSON.stringify(new URL('../sweepface.js', import.meta.url))};
     const {compile} = WebAssembly, told = [];
-    WebAssembly.compile = (code) => (told.at(-1).push(code.length), compile(code));
-    for (const [file, length, options] of ${JSON.stringify(loads)}) {
+    for (const [file, length, options, fault] of ${JSON.stringify(loads)}) {
       told.push([]);
+      WebAssembly.compile = async (code) => {
+        if (fault) throw new Error(fault);
+        told.at(-1).push(code.length);
+        return compile(code);
+      };
       await Sweepface.load(readFileSync(file).subarray(0, length), options).catch(({message}) => told.at(-1).push(message));
     }
     console.log(JSON.stringify(told));`;
@@ -585,7 +634,9 @@ function fetched(...loads) {
 test('the full module is fetched where it is needed, and by itself where that is known before', async () => {
   const file = packed(), {size} = statSync(file), [usual, full] = ['sweepface.wasm', 'sweepface_full.wasm'].map(
       (name) => statSync(new URL(`../${name}`, import.meta.url)).size);
-  assert.deepEqual(fetched([file]), [[usual]]);
+  const [[message], again] = fetched([file, size, {}, 'Cut.'], [file]);
+  assert.match(message, /^Could not load .*sweepface\.wasm: Cut\.$/);
+  assert.deepEqual(again, [usual]);
   const [first, half] = fetched([file], [file, size - 1, {name: 'Half'}]);
   assert.deepEqual([first, half.slice(0, 1)], [[usual], [full]]);
   assert.match(half[1], /^Half, byte \d+: the file ends/);

@@ -43,7 +43,9 @@ test('a weight of one region moves nothing outside it', async () => {
 
 // The tool moves the same regions in double precision.
 const wave = {name: 'wave', points: [[0, 8, 9]], fade: 16, over: 'space', bands: 4, delay: 0.3};
-for (const [title, regions] of [['a painted region', [above]], ['bands', [wave]]])
+const drawn = {name: 'drawn', line: [[0, -5, 9], [0, 0, 9]], curves: ['face 0.0 - left face 0.1'],
+               nodes: {'left face 0.2': 0.5}, fade: 3, stiffness: 4};
+for (const [title, regions] of [['a painted region', [above]], ['bands', [wave]], ['what is drawn', [drawn]]])
   test(`${title} moves as the tool moves it`, async () => {
     const folder = newFolder(), file = join(folder, 'regions.json');
     writeFileSync(file, JSON.stringify({regions}));
@@ -75,16 +77,55 @@ test('a late region goes after goals of every frame', async () => {
   }
 });
 
+test('a late region is waited for although it stands at its goal', async () => {
+  const face = await load([{...above, mass: 1, delay: 0.5}]);
+  for (const jawOpen of [1, 0]) {
+    face.moveTo({jawOpen}, 'cut');
+    assert.equal(face.advance(0.1), true);
+  }
+  for (let k = 0; k < 2; ++k) assert.equal(face.advance(0.1), true);
+  face.advance(0.15);
+  assert.equal(face.weightsIn('above').jawOpen, 1);
+});
+
+test('what is set or pushed is no longer waited for in any region', async () => {
+  for (const stop of [(face) => face.setWeights({jawOpen: 0.5}, 'above'), (face) => face.reset(),
+                      (face) => face.push('jawOpen', 0)]) {
+    const face = await load([above]);
+    face.setWeights({jawOpen: 1});
+    face.moveTo({jawOpen: 0}, {delay: 60}, 'above');
+    stop(face);
+    face.advance(0.1);
+    assert.equal(face.advance(0.1), false);
+  }
+});
+
+test('all regions go back to 0', async () => {
+  const face = await load([above]);
+  face.setWeights({jawOpen: 1});
+  face.reset();
+  for (const region of face.regions) assert.equal(face.weightsIn(region).jawOpen, 0);
+});
+
+test('what only a light region cannot follow is refused', async () => {
+  const face = await load([{...above, mass: 1e-4}]);
+  for (const drive of [{frequency: 2e146}, {kind: 'newton', seconds: 1e-147}])
+    assert.throws(() => face.moveTo({jawOpen: 1}, drive), {name: 'RangeError', message: /needs finite numbers/});
+});
+
 test('no regions are no division', async () => {
   assert.deepEqual((await load([])).regions, []);
 });
 
 test('a goal of one region is its own', async () => {
   const face = await load([above]);
+  face.setWeights({browInnerUp: 0.5}, 'above');
   face.moveTo({jawOpen: 1}, {kind: 'accelerate-brake', seconds: 0.2}, 'above');
-  while (face.advance(0.05));
+  let frames = 0;
+  while (face.advance(0.05)) assert.ok(++frames < 100);
   assert.equal(face.weights.jawOpen, 0);
   assert.equal(face.weightsIn('above').jawOpen, 1);
+  assert.deepEqual([face.weights.browInnerUp, face.weightsIn('above').browInnerUp], [0, 0.5]);
 });
 
 test('regions go with arcs, a level of detail and clones', async () => {
@@ -96,9 +137,12 @@ test('regions go with arcs, a level of detail and clones', async () => {
 });
 
 test('regions are what they were when they were given', async () => {
-  const region = {...above, points: above.points.map((place) => [...place])}, loading = load([region]);
+  const region = {...above, points: [[0, 8, 9]], line: [[0, 8, 9]], parts: [], curves: [], nodes: {}};
+  const loading = load([region]);
   region.mass = -5;
-  region.points[0][0] = 1e9;
+  for (const places of [region.points, region.line]) places[0][0] = NaN;
+  for (const names of [region.parts, region.curves]) names.push('nothing');
+  region.nodes.nothing = 1;
   const face = await loading;
   assert.deepEqual(face.regions, ['rest', 'above']);
   face.moveTo({jawOpen: 1});
@@ -114,14 +158,14 @@ test('what is no region is refused with a sentence', async () => {
     await refused([{name: 'above', ...nowhere}], /says nowhere where it is/);
   await refused([{...above, points: [[0, 0]]}], /not like \[\[x, y, z\]\]/);
   for (const over of ['land', null]) await refused([{...above, over}], /which is neither surface nor space/);
-  await refused([{...above, bands: 1.5}], /1\.5 bands/);
+  for (const bands of [0, 1.5]) await refused([{...above, bands}], new RegExp(`${bands} bands`));
   await refused([{...above, fade: -1}], /finite and at least 0/);
   await refused([above, above], /Two regions are named 'above'/);
   await refused([{name: 'x', parts: ['beard']}], /Region 'x': .*beard/);
   await refused([{...above, points: [[1e6, 0, 0]]}], /Region 'above': The brush reaches no node/);
-  await refused([{...above, mass: 1e9}], /from 0\.0001 to 10000/);
+  for (const matter of [{mass: 1e9}, {stiffness: 0}]) await refused([{...above, ...matter}], /from 0\.0001 to 10000/);
   await refused([{...above, mass: 'heavy'}], /Region 'above' has a 'mass' that is not a number\./);
-  await refused([{...above, delay: -1}], /from 0 to 60 seconds/);
+  for (const delay of [-1, 61]) await refused([{...above, delay}], /from 0 to 60 seconds/);
   for (const parts of ['lips', [undefined], [0]]) await refused([{...above, parts}], /'parts' that are no list of names/);
   await refused([{...above, curves: [0]}], /'curves' that are no list of names/);
   await refused([{...above, points: null}], /'points' that are not like/);

@@ -64,6 +64,24 @@ test('what moves morph targets moves a mesh', options, async () => {
   assert.deepEqual(influences, mesh.names.map(() => 0));
 });
 
+test('forces set out from where the influences were set to', options, async () => {
+  const mesh = await load(), {morphTargetInfluences: influences} = mesh, {jawOpen: k} = mesh.morphTargetDictionary;
+  influences[k] = 0.5;
+  mesh.moveTo({jawOpen: 1}, {kind: 'linear-force', seconds: 0.1});
+  mesh.update(0.2);
+  assert.equal(mesh.weights.jawOpen, 1);
+  influences[k] = 0.5;
+  mesh.update();
+  influences[k] = 0.25;
+  mesh.push('jawOpen', 1, 4);
+  mesh.update(5);
+  assert.ok(Math.abs(mesh.weights.jawOpen - 0.5) < 1e-6);
+  mesh.moveTo({browInnerUp: 1});
+  influences[k] = 0.75;
+  mesh.advance(0.1);
+  assert.equal(mesh.weights.jawOpen, 0.75);
+});
+
 test('influences may be an array of another kind', options, async () => {
   const mesh = await load(), {jawOpen} = mesh.morphTargetDictionary;
   const end = () => {
@@ -147,6 +165,11 @@ test('animations are matched by names, whichever meshes and tracks have them', o
                                                     ['.morphTargetInfluences[jawOpen]', 0, 1],
                                                     ['.morphTargetInfluences[blink]', 2, 4]]);
   assert.deepEqual(told(animationFor(face, gltf, animations[2])), [['.morphTargetInfluences[blink]', 0, 0.5]]);
+  const spline = track('teeth.morphTargetInfluences', [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11]);  // tangents beside values
+  spline.createInterpolant = () => 'cubic';
+  const [smile, open] = animationFor(face, {scene, animations: [new three.AnimationClip('talk', 1, [spline])]}).tracks;
+  assert.deepEqual([[...smile.values], [...open.values]], [[0, 2, 4, 6, 8, 10], [1, 3, 5, 7, 9, 11]]);
+  assert.equal(smile.createInterpolant(), 'cubic');
   const lacks = {message: /^The file has no animation of targets that the face has/};
   assert.throws(() => animationFor(face, gltf, animations[0]), lacks);
   assert.throws(() => animationFor({names: ['frown']}, gltf), lacks);
@@ -269,9 +292,18 @@ test('what clones share stays while another is shown, whoever listens from the s
     }
   }
   const mesh = new Mine(await Sweepface.load(readFileSync(sample))), twin = mesh.clone();
+  for (let twice = 0; twice < 2; ++twice) twin.geometry.dispose();
   twin.dispose();
   mesh.dispose();
-  assert.deepEqual(gone, [false, true]);
+  assert.deepEqual(gone, [false, false, false, true]);
+});
+
+test('who listens to something else does not show what clones share', options, async () => {
+  const mesh = await load(), gone = [];
+  mesh.clone().geometry.addEventListener('renamed', () => {});
+  mesh.geometry.addEventListener('dispose', ({target}) => gone.push('uv' in target.attributes));
+  mesh.geometry.dispose();
+  assert.deepEqual(gone, [true]);
 });
 
 test('a mesh makes ready to move', options, async () => {
@@ -333,6 +365,7 @@ for (const [name, module] of [['SweepfaceMesh', 'three'], ['SweepfaceGpuMesh', '
 test('other materials see the neutral of a face on the graphics card', options, async () => {
   const {SweepfaceGpuMesh} = await import('../sweepface_gpu.js');
   const usual = await load(), mesh = new SweepfaceGpuMesh((await load()).face);
+  assert.equal(mesh.frustumCulled, false);  // bounds are of the neutral, too
   const {normal: {array}} = mesh.geometry.attributes, expected = usual.geometry.attributes.normal.array;
   assert.ok(array.every((x, k) => Math.abs(x - expected[k]) < 1e-3));
   assert.throws(() => new SweepfaceGpuMesh(usual.face, [null]), {name: 'TypeError', message: /takes a material/});
@@ -370,6 +403,11 @@ test('materials on the graphics card follow one face at a time', options, async 
   const {face} = await load(), mesh = new SweepfaceGpuMesh((await load()).face, each(face, material));
   assert.throws(() => new SweepfaceGpuMesh(face, material),
                 {name: 'TypeError', message: /^The material 'MeshNormalMaterial' follows a face already; .* clone\(\)/});
+  for (const put of [new three.MeshBasicMaterial(), material]) {  // away, and back again
+    mesh.material = put;
+    mesh.update();
+    assert.equal(material.onBeforeCompile === onBeforeCompile, put !== material);
+  }
   mesh.material = new three.MeshBasicMaterial();  // the mesh made the other its own all the same
   mesh.dispose();
   assert.equal(material.onBeforeCompile, onBeforeCompile);
@@ -395,10 +433,12 @@ test('rays meet a face on the graphics card where they meet one that is not', op
   const {Sweepface} = await import('../sweepface.js'), {SweepfaceGpuMesh} = await import('../sweepface_gpu.js');
   const usual = await load(), mesh = new SweepfaceGpuMesh(await Sweepface.load(readFileSync(sample)));
   const {position} = mesh.geometry.attributes, neutral = position.array.slice(), down = new three.Vector3(0, 0, -1);
-  let moved = 0;
-  for (let y = -10; y <= 10; ++y) {
+  mesh.geometry.computeBoundingSphere();  // of the neutral
+  mesh.geometry.computeBoundingBox();
+  let moved = 0, lowest = 0;
+  for (let y = -30; y <= 10; y += 2) {
     const rays = new three.Raycaster(new three.Vector3(0.3, y, 100), down);
-    const hits = [{jawOpen: 0}, {jawOpen: 1}].map((weights) => {
+    const hits = [{jawOpen: 0}, {jawOpen: 8}].map((weights) => {
       const [here, there] = [usual, mesh].map((each) => {
         each.setWeights(weights);
         each.update();
@@ -408,8 +448,10 @@ test('rays meet a face on the graphics card where they meet one that is not', op
       return here;
     });
     moved += JSON.stringify(hits[0]) !== JSON.stringify(hits[1]);
+    if (hits[1].length > 0) lowest = Math.min(lowest, y);
   }
   assert.ok(moved > 3);
+  assert.ok(lowest < mesh.geometry.boundingBox.min.y);
   assert.equal(mesh.geometry.attributes.position, position);
   assert.deepEqual(position.array, neutral);
 });
@@ -421,7 +463,11 @@ test('materials keep what they do to a shader, and their clones too', options, a
     onBeforeCompile: (shader, renderer) => { shader.vertexShader += `// ${key} by ${renderer}`; },
     customProgramCacheKey: () => key
   }));
-  const mesh = new SweepfaceGpuMesh(face, each(face, mine, mine, other)), [twin] = mesh.clone().material;
+  const [one, two] = [() => 1, () => 2].map((onBeforeCompile) => {
+    return Object.assign(new three.MeshBasicMaterial(), {onBeforeCompile});
+  });
+  const mesh = new SweepfaceGpuMesh(face, each(face, mine, mine, other, one, two)), [twin] = mesh.clone().material;
+  assert.notEqual(one.customProgramCacheKey(), two.customProgramCacheKey());
   for (const material of [mine, twin]) {
     const shader = {uniforms: {}, vertexShader: '#include <begin_vertex>'};
     material.onBeforeCompile(shader, 'me');
@@ -507,6 +553,26 @@ test('a loader aborts its downloads', {...options, timeout: 10_000}, async () =>
   }
 });
 
+test('a loader asks as it was told, and tells how far it is', {...options, timeout: 10_000}, async () => {
+  const {fetch} = globalThis, {SweepfaceLoader} = await import('../sweepface_three.js'), loader = new SweepfaceLoader();
+  const far = [];
+  let asked;
+  globalThis.ProgressEvent ??= class { constructor(type, more) { Object.assign(this, {type}, more); } };
+  globalThis.fetch = async (request) => {
+    asked = request;
+    return new Response(readFileSync(sample));
+  };
+  try {
+    loader.setPath('http://a/faces/').setRequestHeader({authorization: 'me'}).setWithCredentials(true);
+    await loader.loadAsync('face.sweep', (event) => far.push(event));
+    assert.deepEqual([asked.url, asked.headers.get('authorization'), asked.credentials],
+                     ['http://a/faces/face.sweep', 'me', 'include']);
+    assert.ok(far.length > 0);
+  } finally {
+    globalThis.fetch = fetch;
+  }
+});
+
 test('a load tells the manager that it began with, and has the options of then', {...options, timeout: 10_000}, async () => {
   const {fetch} = globalThis, {SweepfaceLoader} = await import('../sweepface_three.js'), seen = [];
   const managers = ['first', 'second'].map((name) => new three.LoadingManager(() => seen.push(name)));
@@ -535,6 +601,7 @@ test('materials are plain, one a part, named as in the source', options, async (
   const mesh = await load();
   assert.deepEqual(mesh.material.map(({name}) => name), mesh.face.parts.map(({material}) => material));
   assert.ok(mesh.material.every((material) => material instanceof three.MeshStandardMaterial));
+  assert.ok(mesh.material.every(({side}) => side === three.DoubleSide));
   assert.deepEqual(mesh.geometry.groups,
                    mesh.face.parts.map(({start, count}, materialIndex) => ({start, count, materialIndex})));
 });
@@ -578,16 +645,20 @@ test('a bounding box that was asked for follows the face', options, async () => 
   const mesh = await load(), {geometry} = mesh;
   assert.equal(geometry.boundingBox, null);
   geometry.computeBoundingBox();
-  const before = geometry.boundingBox.clone();
+  const before = geometry.boundingBox.clone(), {radius} = geometry.boundingSphere;
   mesh.setWeights({jawOpen: 20});
   mesh.update();
+  assert.ok(geometry.boundingSphere.radius > 1.1 * radius);
   assert.notDeepEqual(geometry.boundingBox, before);
   assert.deepEqual(geometry.boundingBox, new three.Box3().setFromBufferAttribute(geometry.attributes.position));
 });
 
-test('a disposed mesh gives its face back', options, async () => {
-  const mesh = await load();
+test('a disposed mesh gives its materials and its face back', options, async () => {
+  const mesh = await load(), {material: materials} = mesh;
+  let gone = 0;
+  for (const material of materials) material.addEventListener('dispose', () => { ++gone; });
   mesh.dispose();
+  assert.equal(gone, materials.length);
   assert.throws(() => mesh.face.names, {message: 'The face was disposed of.'});
 });
 
