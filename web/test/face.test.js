@@ -82,9 +82,8 @@ test('what there is not is refused with the library\'s sentence, and nothing cha
   const face = await load();
   assert.throws(() => face.setWeights({jawOpen: 1, jawOpn: 1}),
                 {message: /^There is no target named 'jawOpn'; its targets are eyeBlinkLeft, .*\.$/});
-  for (const browInnerUp of [1e9, -1e9])
-    assert.throws(() => face.setWeights({jawOpen: 1, browInnerUp}),
-                  {message: 'The weight of \'browInnerUp\' must lie within 1000000 of 0.'});
+  assert.throws(() => face.setWeights({jawOpen: 1, browInnerUp: 1e9}),
+                {message: 'The weight of \'browInnerUp\' must lie within 1000000 of 0.'});
   assert.throws(() => face.setWeights({jawOpen: NaN}), {message: /'jawOpen' must be a finite number, not NaN/});
   assert.throws(() => face.moveTo({jawOpen: 1}, 'jump'), {message: /no drive 'jump'; there are cut, newton/});
   assert.throws(() => face.moveTo({jawOpen: 1}, {speed: 1}), {message: /has no 'speed'; it has kind, delay/});
@@ -94,7 +93,8 @@ test('what there is not is refused with the library\'s sentence, and nothing cha
     assert.throws(() => face.moveTo({jawOpen: 1}, drive), {message: new RegExp(`has no use for '${idle}'; leave it out`)});
   assert.throws(() => face.evaluate(new Float32Array(6)), {message: /There must be room for \d+ vertices/});
   assert.throws(() => face.setWeights(), {message: /^Weights are given by name/});
-  assert.throws(() => face.moveTo({jawOpen: 1e9}), {message: /'jawOpen' must lie within 1000000 of 0\.$/});
+  for (const jawOpen of [1e9, -1e9])
+    assert.throws(() => face.moveTo({jawOpen}), {message: /'jawOpen' must lie within 1000000 of 0\.$/});
   for (const push of [1e8, -1e8, NaN, undefined, '3', true, [5]])
     assert.throws(() => face.push('jawOpen', push), {message: /push on 'jawOpen' must lie within 1000000 of 0/});
   for (const drag of [-1, NaN, Infinity, null, '8'])
@@ -185,19 +185,21 @@ test('a motion says when it is over', async () => {
   face.advance(0.3);
   assert.equal(face.advance(0.1), false);
   assert.equal(face.weights.jawOpen, 1);
-  face.moveTo({jawOpen: 0}, {frequency: 20});
-  face.advance(0.6);
-  assert.equal(face.advance(0.1), false);
+  face.moveTo({jawOpen: 0}, {frequency: 100});
+  face.advance(0.1);
+  assert.equal(face.advance(0.01), false);
 });
 
 test('a wrong clock neither ends a motion nor makes it longer', async () => {
-  const face = await load();
-  face.moveTo({jawOpen: 1}, {kind: 'accelerate-brake', seconds: 0.5});
-  for (const wrong of [-60, 1e11]) assert.equal(face.advance(wrong), true);
-  assert.equal(face.weights.jawOpen, 0);
-  face.advance(0.6);
-  assert.equal(face.advance(0.1), false);
-  assert.equal(face.weights.jawOpen, 1);
+  for (const wrong of [-60, 1e11]) {
+    const face = await load();
+    face.moveTo({jawOpen: 1}, {kind: 'accelerate-brake', seconds: 0.5});
+    assert.equal(face.advance(wrong), true);
+    assert.equal(face.weights.jawOpen, 0);
+    face.advance(0.6);
+    assert.equal(face.advance(0.1), false);
+    assert.equal(face.weights.jawOpen, 1);
+  }
 });
 
 test('a motion that has just begun goes on', async () => {
@@ -309,15 +311,15 @@ test('faces of one file share it and are disposed of one by one', async () => {
 
 test('memory does not grow by making and disposing of faces, nor by evaluating', async () => {
   const face = await load({lod: 1});
-  const positions = new Float32Array(3 * face.vertexCount), modes = new Int16Array(4 * face.shaderTables().modes);
-  face.shaderModes(modes);
+  const positions = new Float32Array(3 * face.vertexCount), tooMany = new Int16Array(1e5);
+  assert.throws(() => face.shaderModes(tooMany), /^Error: There are \d+ modes, not 25000\.$/);
   face.clone().dispose();
   const before = face.memoryBytes;
   for (let k = 0; k < 200; ++k) {
     const twin = face.clone();
     twin.moveTo({jawOpen: 1});
     twin.evaluate(positions);
-    face.shaderModes(modes);
+    assert.throws(() => face.shaderModes(tooMany));
     twin.dispose();
   }
   assert.equal(face.memoryBytes, before);

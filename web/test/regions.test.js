@@ -3,6 +3,7 @@ import {execFileSync} from 'node:child_process';
 import {readdirSync, readFileSync, writeFileSync} from 'node:fs';
 import {join} from 'node:path';
 import test from 'node:test';
+import {readTimeline, TimelinePlayer} from '../sweepface_clips.js';
 import {Sweepface} from '../sweepface.js';
 import {difference, newFolder, positionsOf, readObj, sample, someWeights, tool} from './native.js';
 
@@ -126,6 +127,12 @@ test('a goal of one region is its own', async () => {
   assert.equal(face.weights.jawOpen, 0);
   assert.equal(face.weightsIn('above').jawOpen, 1);
   assert.deepEqual([face.weights.browInnerUp, face.weightsIn('above').browInnerUp], [0, 0.5]);
+});
+
+test('a timeline moves a region alone', async () => {
+  const face = await load([above]), events = [{at: 0, to: {jawOpen: 1}, drive: 'cut', region: 'above'}];
+  new TimelinePlayer(face, readTimeline(JSON.stringify({seconds: 1, events}))).advance(0.5);
+  assert.deepEqual([face.weights.jawOpen, face.weightsIn('above').jawOpen], [0, 1]);
 });
 
 test('regions go with arcs, a level of detail and clones', async () => {

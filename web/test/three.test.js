@@ -68,10 +68,8 @@ test('forces set out from where the influences were set to', options, async () =
   const mesh = await load(), {morphTargetInfluences: influences} = mesh, {jawOpen: k} = mesh.morphTargetDictionary;
   influences[k] = 0.5;
   mesh.moveTo({jawOpen: 1}, {kind: 'linear-force', seconds: 0.1});
-  mesh.update(0.2);
+  for (let twice = 0; twice < 2; ++twice) mesh.update(0.2);  // until it rests
   assert.equal(mesh.weights.jawOpen, 1);
-  influences[k] = 0.5;
-  mesh.update();
   influences[k] = 0.25;
   mesh.push('jawOpen', 1, 4);
   mesh.update(5);
