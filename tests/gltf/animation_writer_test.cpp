@@ -223,7 +223,7 @@ TEST(AnimationWriter, TurnsSkinnedMeshesThatCarryOthers) {
     source.add("scenes", {{"nodes", {0}}});
     const Json json = Written(turning(converted(source)).value()).json;
     EXPECT_EQ(json["scenes"][0]["nodes"], Json({2}));
-    EXPECT_EQ(json["nodes"][3]["children"], Json({0}));
+    EXPECT_EQ(json["nodes"][3]["children"], Json::array({0}));
   }
 }
 
