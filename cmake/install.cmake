@@ -65,9 +65,8 @@ foreach(component IN LISTS shared_components)  # each is found without the archi
   install(EXPORT ${targets} NAMESPACE sweepface:: DESTINATION ${package_dir})
 endforeach()
 
-# pkg-config: `--libs` links what plays; add `--static` to link what converts with what it needs. The shared libraries
-# have files of their own.
-# Their folders go by where it lies, unless they were told to be elsewhere.
+# pkg-config: `--libs` links what plays; add `--static` to link what converts with what it needs. Each shared library has
+# a file of its own. Their folders go by where the file lies, unless they were told to be elsewhere.
 if(IS_ABSOLUTE "${CMAKE_INSTALL_LIBDIR}")
   set(pc_prefix ${CMAKE_INSTALL_PREFIX})
 else()

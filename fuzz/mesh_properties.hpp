@@ -4,23 +4,19 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <string_view>
 
 #include "sweepface/io.hpp"
 
 #include "io/target_shape.hpp"
 #include "io/text.hpp"
+#include "require.hpp"
 
 /// What must hold of whatever a mesh reader accepts.
 namespace sweepface::fuzzing {
 
 inline std::string_view asText(const std::uint8_t* data, std::size_t size) {
   return {reinterpret_cast<const char*>(data), size};
-}
-
-inline void require(bool holds) {
-  if (!holds) std::abort();
 }
 
 inline void requireIndices(const std::vector<Index>& indices, std::size_t size, std::size_t count,

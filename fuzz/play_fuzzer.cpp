@@ -7,6 +7,7 @@
 #include "sweepface/sweepface_regions.h"
 
 #include "repaired.hpp"
+#include "require.hpp"
 
 // What an engine does with a file of strangers, through the C interface. The last byte says what.
 namespace {

@@ -1,17 +1,12 @@
 #pragma once
 
 #include <cstdint>
-#include <cstdlib>
 #include <string>
 #include <string_view>
 
 #include "codec/crc.hpp"
 
 namespace sweepface::fuzzing {
-
-inline void require(bool condition) {
-  if (!condition) std::abort();
-}
 
 inline std::uint32_t fixed32(std::string_view bytes) {
   std::uint32_t value = 0;

@@ -8,6 +8,7 @@
 #include "codec/grid_size.hpp"
 #include "codec/wire_version1.hpp"
 #include "repaired.hpp"
+#include "require.hpp"
 
 namespace {
 
