@@ -140,12 +140,12 @@ test('the page', options, (t) => withPage('index.html', visit, async (page, comp
   });
 
   await t.test('opens of several dropped files the one that is named as a face', async () => {
-    await page.evaluate((bytes) => {
-      const dataTransfer = new DataTransfer();
+    await page.evaluate((text) => {
+      const dataTransfer = new DataTransfer(), bytes = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
       dataTransfer.items.add(new File(['read me'], 'readme.txt'));
-      dataTransfer.items.add(new File([new Uint8Array(bytes)], 'DROPPED.SWEEP'));
+      dataTransfer.items.add(new File([bytes], 'DROPPED.SWEEP'));
       dispatchEvent(new DragEvent('drop', {dataTransfer}));
-    }, [...bytes]);
+    }, bytes.toString('base64'));
     await until(() => document.title.startsWith('DROPPED.SWEEP'));
     assert.equal(await page.locator('#message').textContent(), '');
   });
