@@ -22,6 +22,7 @@ class LateGoals {
   /// Where the delay, ≥ 0 s, is 0 no goal waits: none may be added.
   LateGoals(std::size_t weights, double delay);
 
+  bool isEmpty() const noexcept { return count_ == 0; }
   /// Not before the last.
   void add(const Goal& goal) noexcept;
   /// The first, if it has set out by then.

@@ -72,6 +72,9 @@ class MotionState {
   /// All weights or velocities, as many as `out` takes.
   void positions(std::span<double> out) const noexcept;
   void velocities(std::span<double> out) const noexcept;
+  /// Whether any weight waits to set out, or may yet be further than `tolerance` from where it
+  /// comes to rest. Where none does, nothing is to be evaluated until something new is asked of it.
+  bool moves(double tolerance = 1e-6) const noexcept;
 
  private:
   // What a weight does now and what it does from `switchAt` on.

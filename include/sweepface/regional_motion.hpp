@@ -52,6 +52,8 @@ class RegionalMotion {
   /// All weights [R × K], as an Evaluation of the same regions takes them.
   void positions(std::span<double> out) const noexcept;
   void velocities(std::span<double> out) const noexcept;
+  /// Like MotionState::moves, in any region.
+  bool moves(double tolerance = 1e-6) const noexcept;
 
  private:
   struct Region {

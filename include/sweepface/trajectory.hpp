@@ -50,10 +50,12 @@ struct Pieces {
   Cubic first, second;
   double turn, end, goal;
   Kinematics at(double t) const noexcept;
+  bool moves(double t, double tolerance) const noexcept;
 };
 struct Swing {
   double goal, x, v, sigma, omega;
   Kinematics at(double t) const noexcept;
+  bool moves(double t, double tolerance) const noexcept;
   // What position and velocity at the start have become: the same for all alike springs.
   struct Decay {
     double c, s;
@@ -71,10 +73,12 @@ struct Bounces {
   Cubic fall;
   double end, goal, speed, restitution;
   Kinematics at(double t) const noexcept;
+  bool moves(double t, double tolerance) const noexcept;
 };
 struct Coasting {
   double x, v, drag;
   Kinematics at(double t) const noexcept;
+  bool moves(double t, double tolerance) const noexcept;
 };
 struct Driven {
   Cubic mean;
@@ -82,6 +86,7 @@ struct Driven {
   std::size_t count;
   std::array<Harmonic, kMostHarmonics> harmonics;
   Kinematics at(double t) const noexcept;
+  bool moves(double t, double tolerance) const noexcept;
   Kinematics periodic(double t) const noexcept;
 };
 
@@ -119,6 +124,10 @@ class Trajectory {
                                           std::span<const Harmonic> harmonics);
 
   Kinematics at(double time) const noexcept;
+  /// Whether it may be further than `tolerance` from where it comes to rest, at `time` or later.
+  /// What arrives does until it has, or has bounced for the last time; a spring until its energy
+  /// reaches no further.
+  bool moves(double time, double tolerance) const noexcept;
 
   /// Null unless a spring pulls.
   const path::Swing* swing() const noexcept { return std::get_if<path::Swing>(&path_); }

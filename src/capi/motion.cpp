@@ -132,3 +132,7 @@ sweepface_status sweepface_motion_velocities(const sweepface_motion* motion, dou
   motion->state.velocities({out, count});
   return SWEEPFACE_OK;
 }
+
+int32_t sweepface_motion_moves(const sweepface_motion* motion, double tolerance) {
+  return motion && motion->state.moves(tolerance);
+}

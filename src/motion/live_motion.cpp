@@ -186,4 +186,10 @@ void MotionState::velocities(std::span<double> out) const noexcept {
     if (!springs_.pulls(k)) out[k] = coordinates_[k].at(now_).velocity;
 }
 
+bool MotionState::moves(double tolerance) const noexcept {
+  return std::ranges::any_of(coordinates_, [&](const Coordinate& c) {
+    return now_ < c.switchAt || c.next.moves(now_ - c.switchAt, tolerance);
+  });
+}
+
 }  // namespace sweepface

@@ -278,4 +278,10 @@ void RegionalMotion::velocities(std::span<double> out) const noexcept {
     regions_[r].state.velocities(out.subspan(std::min(out.size(), r * size())));
 }
 
+bool RegionalMotion::moves(double tolerance) const noexcept {
+  return std::ranges::any_of(regions_, [&](const Region& region) {
+    return !region.late.isEmpty() || region.state.moves(tolerance);
+  });
+}
+
 }  // namespace sweepface

@@ -28,6 +28,11 @@ Result<void> check(Start start, double to, double seconds) {
   return checkNumbers({start.position, start.velocity, to});
 }
 
+// Not a number counts as before the start, and for ever as very long.
+double sinceStart(double time) {
+  return time > 0 ? std::fmin(time, std::numeric_limits<double>::max()) : 0;
+}
+
 }  // namespace
 
 using path::Cubic;
@@ -100,9 +105,34 @@ Kinematics path::Coasting::at(double t) const noexcept {
 }
 
 Kinematics Trajectory::at(double time) const noexcept {
-  // Not a number counts as before the start, and for ever as very long.
-  const double t = time > 0 ? std::fmin(time, std::numeric_limits<double>::max()) : 0;
+  const double t = sinceStart(time);
   return std::visit([t](const auto& form) { return form.at(t); }, path_);
+}
+
+// ---- Rest ----
+
+bool path::Pieces::moves(double t, double) const noexcept { return t < end; }
+
+// Its energy only falls, so that no later way is longer than √(y² + (y′/ω)²).
+bool path::Swing::moves(double t, double tolerance) const noexcept {
+  const Kinematics way = wayAfter(decay(t), {x - goal, v});
+  const double swing = way.velocity / omega;
+  return way.position * way.position + swing * swing > tolerance * tolerance;
+}
+
+bool path::Bounces::moves(double t, double) const noexcept {
+  return t < end || at(t).acceleration != 0;
+}
+
+bool path::Coasting::moves(double t, double tolerance) const noexcept {
+  return drag > 0 ? std::abs(v) * ode::exponential(-drag * t) / drag > tolerance : v != 0;
+}
+
+bool path::Driven::moves(double t, double) const noexcept { return t < end; }
+
+bool Trajectory::moves(double time, double tolerance) const noexcept {
+  const double t = sinceStart(time), least = std::fmax(tolerance, 0);
+  return std::visit([=](const auto& form) { return form.moves(t, least); }, path_);
 }
 
 // ---- Making ----

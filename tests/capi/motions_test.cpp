@@ -91,6 +91,18 @@ TEST_F(Motions, TakeBlows) {
   EXPECT_LT(velocity(0), 2);
 }
 
+TEST_F(Motions, TellWhetherTheyMove) {
+  EXPECT_EQ(sweepface_motion_moves(motion, 0.001), 0);
+  ASSERT_EQ(sweepface_motion_move_to(motion, 1, 1, nullptr), SWEEPFACE_OK);
+  int frames = 0;
+  for (; sweepface_motion_moves(motion, 0.001); ++frames)
+    sweepface_motion_advance(motion, 1.0 / 60);
+  EXPECT_NEAR(weight(1), 1, 0.001);
+  EXPECT_GT(frames, 20);
+  EXPECT_LT(frames, 60);
+  EXPECT_EQ(sweepface_motion_moves(motion, 1e-9), 1);
+}
+
 TEST_F(Motions, AreCopiedWithTheirVelocities) {
   ASSERT_EQ(sweepface_motion_move_to(motion, 0, 1, nullptr), SWEEPFACE_OK);
   sweepface_motion_advance(motion, 0.1);
@@ -132,6 +144,7 @@ TEST_F(Motions, RefuseAndChangeNothing) {
 TEST(NoMotion, IsAnAnswer) {
   double room[1];
   sweepface_motion_advance(nullptr, 1);
+  EXPECT_EQ(sweepface_motion_moves(nullptr, 0), 0);
   EXPECT_TRUE(refuses(sweepface_motion_move_to(nullptr, 0, 0, nullptr), "needs a motion"));
   EXPECT_TRUE(refuses(sweepface_motion_copy(nullptr, nullptr), "needs one"));
   EXPECT_TRUE(refuses(sweepface_motion_push(nullptr, 0, 0, 0), "needs a motion"));

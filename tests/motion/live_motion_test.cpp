@@ -124,6 +124,33 @@ TEST(MotionState, ABlowAddsVelocity) {
   EXPECT_NEAR(state.sample(0).position, 0.5, 1e-12);
 }
 
+TEST(MotionState, MovesWhileAnyWeightDoes) {
+  MotionState state = still(3);
+  EXPECT_FALSE(state.moves());
+  ASSERT_TRUE(state.moveTo(1, 1, drive(Drive::Kind::newton, 0.5)));
+  ASSERT_TRUE(state.moveTo(2, 1, {.kind = Drive::Kind::spring, .spring = {2, 1}}));
+  EXPECT_TRUE(state.moves());
+  state.advance(0.6);
+  EXPECT_TRUE(state.moves());  // the spring
+  while (state.moves(0.01)) state.advance(0.01);
+  EXPECT_NEAR(state.sample(2).position, 1, 0.01);
+  EXPECT_LT(state.now(), 1);
+  EXPECT_TRUE(state.moves());
+}
+
+TEST(MotionState, MovesWhileAWeightWaitsToSetOut) {
+  MotionState state = still(1);
+  Drive late = drive(Drive::Kind::newton, 0.5);
+  late.delay = 1;
+  ASSERT_TRUE(state.moveTo(0, 1, late));
+  state.advance(0.9);
+  EXPECT_TRUE(state.moves(10));
+  state.advance(0.3);
+  EXPECT_TRUE(state.moves());
+  state.advance(0.4);
+  EXPECT_FALSE(state.moves());
+}
+
 TEST(MotionState, TimeNeverRunsBackwards) {
   MotionState state = still(1);
   state.advance(1);

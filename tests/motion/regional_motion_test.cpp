@@ -179,6 +179,21 @@ TEST(RegionalMotion, LateRegionsFeelABlowAtOnce) {
   EXPECT_NEAR(motion.sample(1, 0).position, 0.5, 1e-9) << "where drag stops it";
 }
 
+TEST(RegionalMotion, MovesWhileAnyRegionDoesOrWillSetOut) {
+  RegionalMotion motion = motionOf({0}, {{}, {1, 1, 0.5}});
+  EXPECT_FALSE(motion.moves());
+  Drive brief;
+  brief.kind = Drive::Kind::newton, brief.seconds = 0.2;
+  ASSERT_TRUE(motion.moveTo(0, 1, brief));
+  for (const double seconds : {0.1, 0.2, 0.3, 0.05}) {
+    EXPECT_TRUE(motion.moves()) << seconds;
+    motion.advance(seconds);
+  }
+  EXPECT_TRUE(motion.moves());  // the late region until 0.7
+  motion.advance(0.06);
+  EXPECT_FALSE(motion.moves());
+}
+
 TEST(RegionalMotion, WhatIsPutSomewhereStaysThere) {
   RegionalMotion motion = motionOf({0.0, 0.0}, {{}, {1, 1, 0.5}});
   ASSERT_TRUE(motion.moveTo(0, 1, spring(3, 1)));

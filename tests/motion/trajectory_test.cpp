@@ -234,6 +234,76 @@ TEST(Trajectory, PeriodsFarLongerThanTheMoveKeepTheirDigits) {
   }
 }
 
+TEST(Trajectory, ASpringMovesUntilItStaysWithinATolerance) {
+  constexpr double tolerance = 0.01, step = 1e-3, goal = 2;
+  for (const double damping : {0.1, 0.5, 0.9, 1.0, 3.0}) {
+    for (const Start start : {Start{0, 0}, Start{2, -9}, Start{1, 30}}) {
+      const Trajectory t = made(Trajectory::spring(start, goal, {1.5, damping}));
+      double lastMoving = 0, lastOutside = 0;
+      for (double time = 0; time < 20; time += step) {
+        if (t.moves(time, tolerance)) lastMoving = time;
+        if (std::abs(t.at(time).position - goal) > tolerance) lastOutside = time;
+      }
+      EXPECT_GE(lastMoving, lastOutside) << damping;
+      // No later than its next turn; and where it creeps, within √2 of the tolerance.
+      if (damping < 1)
+        EXPECT_LE(lastMoving, lastOutside + step + 0.5 / 1.5 / std::sqrt(1 - damping * damping));
+      else
+        EXPECT_GT(std::abs(t.at(lastMoving).position - goal), tolerance / 1.5) << damping;
+    }
+  }
+}
+
+TEST(Trajectory, ASpringWithoutADamperMovesForEver) {
+  const Trajectory t = made(Trajectory::spring({0, 0}, 0.01, {2, 0}));
+  for (const double time : {0.0, 0.125, 0.25, 1e3, 1e9}) {
+    EXPECT_TRUE(t.moves(time, 0.00999)) << time;
+    EXPECT_FALSE(t.moves(time, 0.01001)) << time;
+  }
+}
+
+TEST(Trajectory, WhatArrivesMovesUntilThen) {
+  const std::array<Harmonic, 1> sine{{{0, 6}}};
+  for (const Trajectory& t :
+       {made(Trajectory::constantForce({0, 3}, 1, 0.5)),
+        made(Trajectory::linearForce({1, 3}, 1, 0.5)), made(Trajectory::twoForces({0, 3}, 1, 0.5)),
+        made(Trajectory::bounce({0, 0}, 1, 0.5, 0)),
+        made(Trajectory::periodicForce({0, 0}, 1, 0.5, 0.1, sine))}) {
+    EXPECT_TRUE(t.moves(-1, 1e-6));
+    EXPECT_TRUE(t.moves(0.499, 1e-6));
+    EXPECT_FALSE(t.moves(0.5, 1e-6));
+    EXPECT_FALSE(t.moves(std::numeric_limits<double>::infinity(), 0));
+  }
+  EXPECT_FALSE(Trajectory(3).moves(0, 0));
+}
+
+TEST(Trajectory, WhatBouncesMovesUntilTheLastTime) {
+  // It falls with 8 and arrives with 4; each flight lasts half as long as the one before.
+  const Trajectory t = made(Trajectory::bounce({0, 0}, 1, 0.5, 0.5));
+  const double rest = 0.5 + 2 * 0.5 * 4 / 8 / (1 - 0.5);
+  EXPECT_TRUE(t.moves(0.5, 1e-6));
+  EXPECT_TRUE(t.moves(rest - 1e-3, 1e-6));
+  EXPECT_FALSE(t.moves(rest + 1e-9, 1e-6));
+}
+
+TEST(Trajectory, ABlowMovesAsFarAsItsDragLets) {
+  const Trajectory t = made(Trajectory::impulse({0, 1}, 1, 4));
+  const double reach = t.at(1e9).position;
+  for (const double time : {0.0, 0.5, 2.0}) {
+    const double left = reach - t.at(time).position;
+    EXPECT_TRUE(t.moves(time, 0.999 * left)) << time;
+    EXPECT_FALSE(t.moves(time, 1.001 * left)) << time;
+  }
+  EXPECT_TRUE(made(Trajectory::impulse({0, 0}, -1e-9, 0)).moves(1e9, 1));
+  EXPECT_FALSE(made(Trajectory::impulse({0, 1}, -1, 0)).moves(0, 0));
+}
+
+TEST(Trajectory, NoToleranceIsNone) {
+  const Trajectory t = made(Trajectory::spring({0, 0}, 1, {}));
+  for (const double none : {-1.0, std::numeric_limits<double>::quiet_NaN()})
+    EXPECT_TRUE(t.moves(3, none));
+}
+
 TEST(Trajectory, TimesBeforeTheStartAndNoTimeAtAllAreTheStart) {
   const Trajectory t = made(Trajectory::spring({0.25, 1}, 1, {}));
   EXPECT_EQ(t.at(-3).position, 0.25);
