@@ -303,7 +303,7 @@ SWEEPFACE_API sweepface_status sweepface_motion_positions(const sweepface_motion
 SWEEPFACE_API sweepface_status sweepface_motion_velocities(const sweepface_motion* motion,
                                                            double* out, size_t count);
 /* 1 while any weight waits to set out, or may yet be further than `tolerance` from where it comes to
- * rest; 0.001 is less than anyone sees. Then 0: nothing is to be evaluated until something new is
+ * rest (0.001 is less than anyone sees), then 0: nothing is to be evaluated until something new is
  * asked of the motion. */
 SWEEPFACE_API int32_t sweepface_motion_moves(const sweepface_motion* motion, double tolerance);
 
