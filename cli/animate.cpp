@@ -83,8 +83,8 @@ Result<std::vector<double>> sampleTimes(const AnimateArguments& a, const Perform
   if (rate == 0 && a.frames == 0 && !a.what.clip.empty()) rate = 30;
   if (performance.seconds * rate > kMostFrames)
     return fail(
-        fmt::format("{:.6g} s at {:.6g} frames a second are more than {:.0f} frames; cut "
-                    "the clip, or ask for fewer a second.",
+        fmt::format("{:.6g} s at {:.6g} frames a second are more than {:.0f} frames; play "
+                    "less of it, or ask for fewer a second.",
                     performance.seconds, rate, kMostFrames));
   const int last = rate > 0 ? static_cast<int>(std::floor(performance.seconds * rate + 1e-6))
                             : (a.frames > 0 ? a.frames : 31) - 1;

@@ -215,6 +215,14 @@ void addPerformance(CLI::App& app, PerformanceArguments& a) {
                  "given; of a MediaPipe .json without times")
       ->check(positiveNumber(1000))
       ->type_name("N");
+  app.add_option("--clip-from", a.clipFrom, "Begin so many seconds after the clip does")
+      ->check(numberFromZero())
+      ->needs("--clip")
+      ->type_name("S");
+  app.add_option("--clip-to", a.clipTo, "End so many seconds after the clip begins")
+      ->check(positiveNumber())
+      ->needs("--clip")
+      ->type_name("S");
   app.add_flag("--smooth", a.smooth, "Take a tracker's noise out of the clip")->needs("--clip");
   app.parse_complete_callback([&app, &a] {
     checkUse(app, a);

@@ -18,7 +18,9 @@ struct PerformanceArguments {
   std::string from, law = "newton", clip, animation;
   std::optional<std::string> to;
   double seconds = 1, frequency = 2, damping = 1, restitution = 0.4;
-  double clipRate = 0;  ///< frames a second of the clip's timecodes; 0: as they tell
+  double clipRate = 0;           ///< frames a second of the clip's timecodes; 0: as they tell
+  double clipFrom = 0;           ///< seconds of the clip that are left out before
+  std::optional<double> clipTo;  ///< seconds of the clip after which it ends
   bool smooth = false;
   bool tellsSpring = false;  ///< its frequency or damping
   bool tellsRate = false;    ///< of the clip, not of a recording that is written

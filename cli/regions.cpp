@@ -7,6 +7,8 @@
 #include "sweepface/io.hpp"
 #include "sweepface/region_file.hpp"
 
+#include "clip_part.hpp"
+
 namespace sweepface::cli {
 namespace {
 
@@ -158,7 +160,7 @@ Result<Performance> perform(const PerformanceArguments& what, const RegionArgume
         fmt::format("{}: it moves more quickly, or for longer, than frames can tell: between them "
                     "weights are off by {:.2g}.",
                     what.clip, whole.frameMiss));
-  return whole;
+  return partOf(std::move(whole), what);
 }
 
 }  // namespace sweepface::cli

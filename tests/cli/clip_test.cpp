@@ -314,6 +314,68 @@ TEST_F(PlayClip, SaysWhereAFileTellsItsTimesItself) {
   EXPECT_EQ(written.err.find("--clip-fps"), std::string::npos) << "which is the recording's";
 }
 
+TEST_F(PlayClip, PlaysAPartOfAClip) {
+  convertRig();
+  write("take.csv", "Timecode,JawOpen,HeadYaw\n5,0,0\n6,1,0.1\n7,0,0.3\n");
+  const std::string part = "animate face.sweep --clip take.csv --clip-from 0.5 --clip-to 1.75 ";
+  ASSERT_EQ(run(part + "--fps 2 -o frames").code, 0);
+  EXPECT_EQ(frame(0), exported("jawOpen=0.5"));
+  EXPECT_EQ(frame(1), exported("jawOpen=1"));
+  EXPECT_EQ(frame(2), exported("jawOpen=0.5"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "frames/frame_0003.obj"));
+  // Its own frame, and one at each end; the head with them.
+  ASSERT_EQ(run(part + "-o part.csv").code, 0);
+  const Clip clip = *parseLiveLinkCsv(contents(folder / "part.csv"), "part.csv");
+  ASSERT_EQ(clip.times, (std::vector{0.0, 0.5, 1.25}));
+  const auto column = [&](std::string_view name) {
+    return static_cast<std::size_t>(std::ranges::find(clip.names, name) - clip.names.begin());
+  };
+  std::vector<double> row(clip.names.size());
+  for (const auto& [time, jaw, yaw] :
+       {std::tuple{0.0, 0.5, 0.05}, {0.5, 1, 0.1}, {1.25, 0.25, 0.25}}) {
+    clip.at(time, row);
+    EXPECT_NEAR(row[column("JawOpen")], jaw, 1e-6) << time;
+    EXPECT_NEAR(row[column("HeadYaw")], yaw, 1e-6) << time;
+  }
+  EXPECT_NE(run(part + "-o part.glb").out.find("part.glb: 1.25 s"), std::string::npos);
+}
+
+// What is smoothed, heavy or late is so because of what comes before.
+TEST_F(PlayClip, APartIsPlayedAsInTheWhole) {
+  convertRig();
+  write("take.csv", "Timecode,JawOpen\n0,0\n1,1\n1.5,0.2\n2,1\n3,0\n");
+  write("heavy.json", R"({"regions": [{"name": "side", "points": [[6, 0, 0]], "fade": 3, "mass": 4,
+                                       "delay": 0.1}]})");
+  const std::string whole =
+      "animate face.sweep --clip take.csv --smooth --regions heavy.json --fps 2 -o ";
+  ASSERT_EQ(run(whole + "whole").code, 0);
+  ASSERT_EQ(run(whole + "frames --clip-from 1 --clip-to 2.5").code, 0);
+  for (int k = 0; k < 4; ++k) {
+    const auto wanted = mesh(fmt::format("whole/frame_{:04}.obj", k + 2)).positions;
+    const auto found = frame(k);
+    for (std::size_t v = 0; v < wanted.size(); ++v)
+      EXPECT_LE(norm(found[v] - wanted[v]), 1e-9) << k;
+  }
+}
+
+TEST_F(PlayClip, SaysWhereAPartIsNone) {
+  convertRig();
+  write("take.csv", "Timecode,JawOpen\n0,0\n1,1\n2,0\n");
+  const std::string command = "animate face.sweep --clip take.csv -o part.glb ";
+  EXPECT_TRUE(
+      fails(command + "--clip-from 2", "take.csv lasts 2 s, of which nothing is left from"));
+  EXPECT_TRUE(fails(command + "--clip-from 1 --clip-to 1",
+                    "--clip-to 1 is no later than --clip-from 1; give a later one"));
+  EXPECT_TRUE(fails(command + "--clip-from -1", "--clip-from", 2));
+  EXPECT_TRUE(fails("animate face.sweep --to smile=1 --clip-to 1 -o part.glb",
+                    "--clip-to requires --clip", 2));
+  EXPECT_FALSE(std::filesystem::exists(folder / "part.glb"));
+  const Outcome r = run(command + "--clip-from 1.5 --clip-to 9");
+  EXPECT_EQ(r.code, 0);
+  EXPECT_NE(r.err.find("take.csv ends after 2 s, before --clip-to 9."), std::string::npos) << r.err;
+  EXPECT_NE(r.out.find("part.glb: 0.5 s"), std::string::npos) << r.out;
+}
+
 TEST_F(PlayClip, SaysWhatItMendedInAFile) {
   convertRig();
   write("take.csv", "Timecode,JawOpen\n0,0\n1,0.5\n1,1\n");

@@ -162,6 +162,16 @@ TEST_F(Plot, ClipsEndInMotion) {
     EXPECT_EQ(contents(folder / plot).find(">-"), std::string::npos) << "nothing is below 0";
 }
 
+TEST_F(Plot, APartOfAClipBeginsAtNought) {
+  convertRig();
+  std::ofstream(folder / "take.csv") << "Timecode,JawOpen\n0,0\n2,0\n3,1\n";
+  const auto way = positionsIn(plotted("--clip take.csv --clip-from 2"), 1, 1);
+  ASSERT_GT(way.size(), 200u);
+  EXPECT_NEAR(way.front().x, 0, 0.01);
+  EXPECT_NEAR(way.back().x, 1, 0.01);
+  for (const Vec2& p : way) EXPECT_NEAR(p.y, p.x, 0.01);
+}
+
 TEST_F(Plot, SaysWhatIsWrong) {
   convertRig();
   const auto refused = [&](const std::string& options, const std::string& words) {
