@@ -8,7 +8,7 @@ namespace {
 
 /// Frames within it, and one at each end.
 std::vector<double> framesWithin(const std::vector<double>& times, double from, double to) {
-  constexpr double kSame = 1e-4;  // seconds: frames nearer to an end than that are left to it
+  constexpr double kSame = 1e-4;  // seconds: a frame so near to an end is that end
   std::vector<double> within{0};
   for (const double time : times)
     if (time - from > kSame && to - time > kSame) within.push_back(time - from);

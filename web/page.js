@@ -3,7 +3,7 @@ import {Sweepface} from 'sweepface';
 import {at, complain, dismiss, hush, say} from './page_message.js';
 import {average, buildSliders, filterSliders, followWeights, tellFigures} from './page_panel.js';
 import {
-  controls, linesOver, meshOf, placeCamera, removeLines, render, resize, scene, stage, view
+  controls, isLost, linesOver, meshOf, placeCamera, removeLines, render, resize, scene, stage, view
 } from './page_stage.js';
 
 let mesh, lines;           // the face on show and, if wanted, its edges
@@ -26,7 +26,7 @@ async function show(source, name, keepView = false) {
   try {
     const buffer = await source;
     if (mine < shown) return;
-    if (!buffer) return invite();
+    if (!buffer) return mine === asked && invite();
     if (mesh) await painted();
     const began = performance.now();
     const face = await Sweepface.load(buffer, {name, lod: Number(at('lod').value)});
@@ -239,10 +239,11 @@ view.addEventListener('webglcontextrestored', () => {
 new ResizeObserver(fit).observe(stage);
 watchDensity();
 
-// What was said of another file is over once the face on show is used.
+// What was said of another file is over once the face on show is used, but not that there is none to be seen.
 const PASSING = ['Tab', 'Shift', 'Control', 'Alt', 'AltGraph', 'Meta', 'CapsLock'];
-addEventListener('pointerdown', () => mesh && dismiss());
-addEventListener('keydown', ({key}) => mesh && !PASSING.includes(key) && dismiss());
+const isSeen = () => mesh && !isLost();
+addEventListener('pointerdown', () => isSeen() && dismiss());
+addEventListener('keydown', ({key}) => isSeen() && !PASSING.includes(key) && dismiss());
 
 for (const type of ['dragover', 'dragleave', 'drop'])
   addEventListener(type, (event) => {

@@ -46,7 +46,7 @@ function sliderOf(name, moved) {
 export function followWeights(mesh) {
   for (const [name, weight] of Object.entries(mesh.face.weights)) {
     const {input, number} = sliders.get(name);
-    if (document.activeElement !== input || number.textContent === '') input.value = weight;
+    input.value = weight;
     number.textContent = weight.toFixed(2);
   }
 }
@@ -54,7 +54,8 @@ export function followWeights(mesh) {
 export function filterSliders() {
   const wanted = at('filter').value.trim().toLowerCase();
   for (const [name, {row}] of sliders) row.hidden = !name.toLowerCase().includes(wanted);
-  at('unfound').hidden = sliders.size === 0 || [...sliders.values()].some(({row}) => !row.hidden);
+  const isFound = sliders.size === 0 || [...sliders.values()].some(({row}) => !row.hidden);
+  at('unfound').textContent = isFound ? '' : 'No expression has that in its name.';
 }
 
 const averages = {};  // smoothed milliseconds

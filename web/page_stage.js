@@ -135,6 +135,9 @@ view.addEventListener('keydown', (event) => {
   controls.update();
 });
 
+/** Whether the graphics card is not there for now. */
+export const isLost = () => renderer.getContext().isContextLost();
+
 export function render() {
   renderer.render(scene, camera);
 }

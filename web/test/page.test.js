@@ -8,18 +8,19 @@ import {packed, positionsOf, sample} from './native.js';
 const bytes = readFileSync(sample);
 const visit = {files: {'sample.sweep': bytes}, viewport: {width: 1000, height: 700}};
 
-const options = {skip, timeout: 240_000};
+const options = {skip, timeout: 480_000};
 test('the page', options, (t) => withPage('index.html', visit, async (page, complaints) => {
   const until = (test, given) => page.waitForFunction(test, given, {timeout: 60_000});
 
   async function settle() {
     await until(() => globalThis.sweepface?.mesh);
-    await page.addStyleTag({content: '#figures { visibility: hidden }'});  // its numbers change by themselves
-    await page.waitForTimeout(800);                                        // until nothing moves
+    await page.addStyleTag({content: '#figures { opacity: 0 }'});  // its numbers change by themselves
+    await page.waitForTimeout(800);                                // until nothing moves
   }
 
   const positions = () => page.evaluate(() => [...globalThis.sweepface.mesh.geometry.attributes.position.array]);
   const weight = (name) => page.evaluate((name) => globalThis.sweepface.mesh.face.weights[name], name);
+  const said = () => page.locator('#message').textContent();
   const picture = async () => (await page.locator('#view').screenshot()).toString('base64');
 
   /** The share of pixels that two pictures differ in. */
@@ -33,6 +34,19 @@ test('the page', options, (t) => withPage('index.html', visit, async (page, comp
     return first.reduce((count, pixel, k) => count + (pixel !== second[k]), 0) / first.length;
   }, [a, b]);
 
+  /** Where the camera is, the shape of what it sees, and whether all of the face is in that. */
+  const view = () => page.evaluate(() => {
+    const {mesh} = globalThis.sweepface, {array} = mesh.geometry.attributes.position;
+    const camera = mesh.parent.children.find((child) => child.isCamera), point = mesh.position.clone();
+    let isWhole = true;
+    for (let k = 0; k < array.length; k += 3) {
+      const {x, y} = point.fromArray(array, k).project(camera);
+      isWhole &&= Math.abs(x) < 1 && Math.abs(y) < 1;
+    }
+    const [across, , , , , up] = camera.projectionMatrix.elements;
+    return {eye: camera.position.toArray(), aspect: up / across, isWhole};
+  });
+
   async function slide(name, value) {
     await page.locator(`input[name="${name}"]`).fill(String(value));
     await page.waitForTimeout(800);
@@ -40,8 +54,19 @@ test('the page', options, (t) => withPage('index.html', visit, async (page, comp
 
   await t.test('shows the sample face, and its picture changes when a slider moves', async () => {
     await settle();
-    const neutral = await picture();
+    const neutral = await picture(), [told] = await page.locator('#figures').allInnerTexts();
+    const size = (bytes.length / 1e6).toFixed(1), vertices = ((await positions()).length / 3).toLocaleString('en');
+    assert.match(told, new RegExp(`^file\\s+${size} MB\\s+vertices\\s+${vertices}\\s+loaded in\\s+[1-9]\\d* ms\\s`));
+    await page.evaluate(() => {
+      const {requestAnimationFrame} = globalThis;
+      globalThis.frames = 0;
+      globalThis.requestAnimationFrame = (callback) => {
+        ++globalThis.frames;
+        return requestAnimationFrame(callback);
+      };
+    });
     assert.equal(await changed(neutral, await picture()), 0);
+    assert.equal(await page.evaluate(() => globalThis.frames), 0);  // where nothing moves, nothing is drawn
     await slide('jawOpen', 1);
     assert.equal(await weight('jawOpen'), 1);
     assert.ok(await changed(neutral, await picture()) > 0.01);
@@ -101,9 +126,9 @@ test('the page', options, (t) => withPage('index.html', visit, async (page, comp
 
   await t.test('turns when it is dragged', async () => {
     const neutral = await picture();
-    await page.mouse.move(300, 300);
+    await page.mouse.move(50, 650);  // where the figures are
     await page.mouse.down();
-    await page.mouse.move(420, 320, {steps: 4});
+    await page.mouse.move(170, 670, {steps: 4});
     await page.mouse.up();
     await page.waitForTimeout(1000);
     assert.ok(await changed(neutral, await picture()) > 0.05);
@@ -111,22 +136,34 @@ test('the page', options, (t) => withPage('index.html', visit, async (page, comp
 
   await t.test('relaxes by a spring, and sliders follow', async () => {
     await page.locator('#rest').click();
+    await page.locator('input[name="jawOpen"]').focus();  // one that is about to be moved follows as well
     await until(() => globalThis.sweepface.mesh.face.weights.jawOpen < 0.001);
     assert.ok(await page.locator('input[name="jawOpen"]').inputValue() < 0.05);
   });
 
   await t.test('surprises', async () => {
+    await page.evaluate(() => {
+      Math.random = () => 0.9;  // no expression, so that it is the first
+      globalThis.sweepface.mesh.setWeights({mouthSmileRight: 1});
+    });
     await page.locator('#surprise').click();
-    await until(() => Object.values(globalThis.sweepface.mesh.face.weights).some((weight) => weight > 0.4));
+    await until(() => {
+      const [first, ...others] = Object.values(globalThis.sweepface.mesh.face.weights);
+      return first > 0.9 && others.every((weight) => Math.abs(weight) < 0.1);
+    });
   });
 
   await t.test('shows finer levels with the same weights', async () => {
     await page.locator('#rest').click();
     await slide('jawOpen', 0.5);
-    const vertices = (await positions()).length / 3;
+    const vertices = (await positions()).length / 3, {eye} = await view();
+    await page.evaluate(() => { globalThis.coarse = globalThis.sweepface.mesh.face; });
     await page.locator('#lod').selectOption('2');
     await until((vertices) => globalThis.sweepface.mesh.face.vertexCount > 3 * vertices, vertices);
     assert.equal(await weight('jawOpen'), 0.5);
+    const {eye: now} = await view();
+    assert.ok(eye.every((x, k) => Math.abs(x - now[k]) < 1), `${eye} and ${now}`);
+    await assert.rejects(page.evaluate(() => globalThis.coarse.names), /disposed of/);  // its memory is free
     await page.locator('#lines').check();
     await page.waitForTimeout(300);
     await page.locator('#lines').uncheck();
@@ -134,20 +171,44 @@ test('the page', options, (t) => withPage('index.html', visit, async (page, comp
 
   await t.test('finds expressions by a part of their name', async () => {
     await page.locator('#filter').fill('SMILE');
-    const found = await page.locator('.slider:not([hidden]) span:first-child').allTextContents();
+    const found = await page.locator('.slider:visible span:first-child').allTextContents();
     assert.deepEqual(found, ['mouthSmileLeft', 'mouthSmileRight']);
-    await page.locator('#filter').fill('');
+  });
+
+  await t.test('takes files that are dragged over it, and no text', async () => {
+    const dragged = await page.evaluate(() => {
+      const files = new DataTransfer(), text = new DataTransfer();
+      files.items.add(new File([], 'face.sweep'));
+      text.setData('text/plain', 'face');
+      return [['dragover', files], ['dragleave', files], ['dragover', text]].map(([type, dataTransfer]) => {
+        const isTaken = !dispatchEvent(new DragEvent(type, {dataTransfer, cancelable: true}));
+        return [isTaken, getComputedStyle(document.body, '::after').content !== 'none'];
+      });
+    });
+    assert.deepEqual(dragged, [[true, true], [true, false], [false, false]]);
   });
 
   await t.test('opens of several dropped files the one that is named as a face', async () => {
-    await page.evaluate((text) => {
+    await page.locator('input[name="mouthSmileRight"]').focus();
+    const dropped = await page.evaluate((text) => {
       const dataTransfer = new DataTransfer(), bytes = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
       dataTransfer.items.add(new File(['read me'], 'readme.txt'));
       dataTransfer.items.add(new File([bytes], 'DROPPED.SWEEP'));
-      dispatchEvent(new DragEvent('drop', {dataTransfer}));
+      dispatchEvent(new DragEvent('dragover', {dataTransfer}));
+      const isTaken = !dispatchEvent(new DragEvent('drop', {dataTransfer, cancelable: true}));
+      dispatchEvent(new PointerEvent('pointerdown'));  // which is no answer to what is said
+      return [isTaken, document.getElementById('message').textContent];
     }, bytes.toString('base64'));
+    assert.deepEqual(dropped, [true, 'Loading…']);
     await until(() => document.title.startsWith('DROPPED.SWEEP'));
-    assert.equal(await page.locator('#message').textContent(), '');
+    assert.equal(await said(), '');
+    assert.equal(await page.evaluate(() => document.body.className), '');
+    // The view is what it was at first; the panel is as it was left.
+    const {eye: [x, y, z], isWhole} = await view();
+    assert.ok(isWhole && Math.abs(x) < z / 2 && Math.abs(y) < z / 2, `${x}, ${y}, ${z}`);
+    assert.equal(await page.evaluate(() => document.activeElement.name), 'mouthSmileRight');
+    assert.equal(await page.locator('.slider:visible').count(), 2);
+    await page.locator('#filter').fill('');
   });
 
   await t.test('opens a file, and says why another is none', async () => {
@@ -163,17 +224,37 @@ test('the page', options, (t) => withPage('index.html', visit, async (page, comp
     await page.waitForSelector('#message.error');
     const {x, width} = await page.locator('#message').boundingBox();
     assert.ok(x >= 0 && x + width <= 660);
+    // Files that went away, or do not fit.
+    const moved = 'it may have been moved; choose it again', large = 'it is too large for this browser';
+    for (const [size, advice] of [[1000, moved], [2e9, large]]) {
+      await page.evaluate((size) => {
+        const gone = {name: 'gone.sweep', size, arrayBuffer: () => Promise.reject(new DOMException('It is gone.'))};
+        Object.defineProperty(document.getElementById('file'), 'files', {value: [gone], configurable: true});
+        document.getElementById('file').dispatchEvent(new Event('change'));
+        delete document.getElementById('file').files;
+      }, size);
+      await until(() => document.getElementById('message').className === 'error');
+      assert.equal(await said(), `gone.sweep cannot be read; ${advice}.`);
+    }
     await open('again.sweep', bytes);
     await until(() => document.title.startsWith('again.sweep'));
     assert.equal(await page.locator('#message').textContent(), '');
     assert.equal(await page.locator('#file').inputValue(), '');  // so that the same one can be chosen again
   });
 
-  await t.test('names its sliders', async () => {
+  await t.test('names its sliders, and what else there is to use', async () => {
     assert.ok(await page.evaluate(() => [...document.querySelectorAll('.slider')].every((row) => {
       const [input] = row.getElementsByTagName('input');
       return row.control === input && row.querySelector('span:not([aria-hidden])').textContent === input.name;
     })));
+    for (const [role, name] of [['img', /^The face; drag it, or press arrow keys/], ['button', 'Surprise me'],
+                                ['button', 'Relax'], ['combobox', 'Detail'], ['checkbox', 'Lines'],
+                                ['searchbox', 'Filter expressions']])
+      assert.equal(await page.getByRole(role, {name}).count(), 1, role);
+    await page.getByLabel('Open .sweep').focus();  // as keys do
+    assert.equal(await page.evaluate(() => document.activeElement.id), 'file');
+    await page.locator('#message[role="status"]:not(.error)').waitFor({state: 'attached'});
+    assert.equal(await page.locator('#message').evaluate((message) => getComputedStyle(message).display), 'block');
   });
 
   await t.test('keeps the face where another cannot be shown', async () => {
@@ -181,6 +262,18 @@ test('the page', options, (t) => withPage('index.html', visit, async (page, comp
     broken.fill(0, bytes.length / 2);
     await page.locator('#file').setInputFiles({name: 'broken.sweep', mimeType: 'application/octet-stream', buffer: broken});
     await page.waitForSelector('#message.error');
+    // A level of another that does not come is not that of the one on show.
+    assert.deepEqual(await page.evaluate(async () => {
+      let fail;
+      const lod = document.getElementById('lod'), coming = new Promise((_, reject) => { fail = reject; });
+      const asked = globalThis.sweepface.show(coming, 'gone.sweep');
+      lod.value = '4';
+      lod.dispatchEvent(new Event('change'));
+      fail(new Error('It is gone.'));
+      await asked;
+      await new Promise((done) => { setTimeout(done, 50); });
+      return [document.getElementById('message').textContent, lod.value];
+    }), ['It is gone.', '2']);
     await slide('jawOpen', 0.3);
     assert.equal(await weight('jawOpen'), 0.3);
     assert.ok((await page.title()).startsWith('again.sweep'));
@@ -215,10 +308,13 @@ test('the page', options, (t) => withPage('index.html', visit, async (page, comp
       };
       Object.defineProperty(document.getElementById('file'), 'files', {value: [late], configurable: true});
     });
-    await page.evaluate((text) => {
+    const meanwhile = await page.evaluate((text) => {
       globalThis.mine = new Blob([Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0))]);
+      globalThis.sweepface.show(Promise.reject(new Error('Nobody asks for it any more.')), 'early.sweep');
       document.getElementById('file').dispatchEvent(new Event('change'));
+      return new Promise((done) => { setTimeout(() => done(document.getElementById('message').textContent), 50); });
     }, bytes.toString('base64'));
+    assert.equal(meanwhile, 'Loading…');
     await page.locator('#lod').selectOption('2');
     await page.evaluate(() => globalThis.arrive());
     await until(() => globalThis.sweepface.mesh.face.lod === 2);
@@ -243,6 +339,8 @@ test('the page', options, (t) => withPage('index.html', visit, async (page, comp
     assert.match(await page.locator('#message').textContent(), /^bad\.sweep /);  // which is not forgotten for it
     await page.keyboard.press('Shift');
     assert.match(await page.locator('#message').textContent(), /^bad\.sweep /);
+    await page.keyboard.press('Escape');
+    assert.equal(await said(), '');
     await page.unroute('**/sample.sweep');
     // Levels are of that face again.
     await page.locator('#lod').selectOption('2');
@@ -289,16 +387,43 @@ test('the page', options, (t) => withPage('index.html', visit, async (page, comp
     await page.locator('#rest').click();
   });
 
-  await t.test('comes nearer by a key', async () => {
-    const distance = () => page.evaluate(() => {
+  await t.test('comes nearer by a key, and neither into the face nor out of sight', async () => {
+    /** How far away presses of a key take the eye, and whether the key is taken from the browser. */
+    const press = (init, times = 1) => page.evaluate(([init, times]) => {
+      const canvas = document.getElementById('view');
+      let isTaken;
+      for (let k = 0; k < times; ++k)
+        isTaken = !canvas.dispatchEvent(new KeyboardEvent('keydown', {...init, cancelable: true}));
       const {children} = globalThis.sweepface.mesh.parent, {position} = children.find((child) => child.isCamera);
-      return Math.hypot(position.x, position.y, position.z);
+      return [Math.hypot(position.x, position.y, position.z), isTaken];
+    }, [init, times]);
+    const [before] = await press({key: 'a'}), [after, isTaken] = await press({key: '+'});
+    assert.ok(after < before && isTaken);
+    for (const which of ['ctrlKey', 'metaKey', 'altKey'])
+      assert.deepEqual(await press({key: '+', [which]: true}), [after, false]);
+    const [nearest] = await press({key: '+'}, 50), [farthest] = await press({key: '-'}, 50);
+    assert.ok(nearest > before / 10 && farthest < 5 * before, `${nearest}, ${before}, ${farthest}`);
+    await press({key: '+'}, 10);
+  });
+
+  await t.test('says what goes wrong while the face moves, and goes on', async () => {
+    await page.evaluate(() => {
+      globalThis.sweepface.mesh.update = () => {
+        delete globalThis.sweepface.mesh.update;
+        throw new Error('There is no memory left.');
+      };
+      document.getElementById('view').dispatchEvent(new KeyboardEvent('keydown', {key: 'ArrowLeft'}));
     });
-    const before = await distance();
-    await page.locator('#view').focus();
-    await page.keyboard.press('+');
-    assert.ok(await distance() < before);
-    await page.keyboard.press('-');
+    await page.waitForSelector('#message.error');
+    assert.equal(await said(), 'There is no memory left.');
+    const version = await page.evaluate(() => {
+      const {mesh} = globalThis.sweepface;
+      mesh.setWeights({jawOpen: 0.4});
+      document.getElementById('view').dispatchEvent(new KeyboardEvent('keydown', {key: 'ArrowRight'}));
+      return mesh.geometry.attributes.position.version;
+    });
+    await until((version) => globalThis.sweepface.mesh.geometry.attributes.position.version > version, version);
+    await page.keyboard.press('Escape');
   });
 
   await t.test('moves nothing when a finger scrolls the expressions', async () => {
@@ -324,6 +449,9 @@ test('the page', options, (t) => withPage('index.html', visit, async (page, comp
     await page.route('**/sweepface.wasm', (route) => route.abort());
     await page.locator('#file').setInputFiles(packed());
     await until(() => document.title.startsWith('packed'));
+    await page.locator('#lod').selectOption('2');  // in which it is to go where it stands, not where the last one went
+    await until(() => globalThis.sweepface.mesh.face.lod === 2);
+    assert.equal(await said(), '');
     await page.unroute('**/sweepface.wasm');
     complaints.splice(told);  // that there is none
   });
@@ -343,6 +471,7 @@ test('the page', options, (t) => withPage('index.html', visit, async (page, comp
       const card = document.getElementById('view').getContext('webgl2').getExtension('WEBGL_lose_context');
       card.loseContext();
       await new Promise((done) => setTimeout(done, 500));
+      dispatchEvent(new PointerEvent('pointerdown'));  // which changes nothing about it
       const lost = document.getElementById('message').textContent;
       card.restoreContext();
       await new Promise((done) => setTimeout(done, 1000));
@@ -382,7 +511,23 @@ test('the page', options, (t) => withPage('index.html', visit, async (page, comp
     const heightOf = (id) => document.getElementById(id).clientHeight;
     const heights = [await page.evaluate(heightOf, 'view'), await page.evaluate(heightOf, 'sliders')];
     assert.equal(heights[0], 375);
+    assert.ok(await page.evaluate(() => document.documentElement.scrollHeight <= 375), 'the sliders are what scrolls');
     assert.ok(heights[1] > 120, `sliders have ${heights[1]} pixels`);
+  });
+
+  await t.test('is as sharp as the screen, and not stretched', async () => {
+    const session = await page.context().newCDPSession(page);
+    const sizes = [[660, 1.5, 1.5], [650, 3, 2], [640, 1, 1]];  // points beyond two are not seen
+    for (const [width, deviceScaleFactor, points] of sizes) {
+      await session.send('Emulation.setDeviceMetricsOverride', {width, height: 375, deviceScaleFactor, mobile: false});
+      await until((points) => {
+        const {width, clientWidth} = document.getElementById('view');
+        return width === Math.floor(points * clientWidth);
+      }, points);
+    }
+    const {width, height} = await page.locator('#view').boundingBox();
+    assert.ok(Math.abs((await view()).aspect - width / height) < 0.01);
+    await session.detach();
   });
 
   await t.test('fits a phone', async () => {
@@ -391,6 +536,7 @@ test('the page', options, (t) => withPage('index.html', visit, async (page, comp
     await settle();
     const wide = await page.evaluate(() => document.documentElement.scrollWidth);
     assert.ok(wide <= 390);
+    assert.ok((await view()).isWhole);
     for (const id of ['#view', '#surprise', 'input[name="jawOpen"]']) assert.ok(await page.locator(id).isVisible());
     const neutral = await picture();
     await slide('mouthPucker', 1);
@@ -419,8 +565,34 @@ function told(name, visit) {
   });
 }
 
-test('the page says which file is missing', options, async () => {
-  assert.equal(await told('index.html?face=typo.sweep', visit), 'typo.sweep cannot be had: the server answers 404.');
+test('the page says which file is missing, and without any asks for one', options, () => {
+  return withPage('index.html?face=typo.sweep', {...visit, files: {}}, async (page, complaints) => {
+    const message = page.locator('#message'), done = () => page.waitForFunction(() => globalThis.sweepface);
+    const missing = 'typo.sweep cannot be had: the server answers 404.';
+    await done();
+    assert.equal(await message.textContent(), missing);
+    // What is there for faces does nothing, and nobody has used another face yet.
+    for (const id of ['surprise', 'rest', 'lines', 'lines']) await page.locator(`#${id}`).click();
+    await page.locator('#filter').fill('jaw');
+    await page.keyboard.press('a');
+    assert.equal(await message.textContent(), missing);
+    assert.equal(await message.getAttribute('class'), 'error');
+    assert.ok(!await page.locator('#unfound').isVisible());
+    await page.goto(page.url().replace(/\?.*/, ''));
+    await done();
+    assert.equal(await message.textContent(), 'Drop a .sweep file here, or open one.');
+    assert.equal(await message.getAttribute('class'), '');
+    await page.locator('#lod').selectOption('2');
+    // What is said is of the file that was asked for last.
+    await page.evaluate(async () => {
+      const {show} = globalThis.sweepface;
+      const late = show(new Promise((done) => { setTimeout(done, 500); }), 'sample.sweep');
+      await show(new ArrayBuffer(6), 'bad.sweep');
+      await late;
+    });
+    assert.match(await message.textContent(), /^bad\.sweep /);
+    assert.deepEqual(complaints.filter((complaint) => !complaint.includes('404')), []);
+  });
 });
 
 test('the page says when three.js is missing', options, async () => {
