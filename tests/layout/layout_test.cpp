@@ -12,10 +12,16 @@ using namespace sweepface::testing;
 struct Laid {
   GridMesh mesh;
   Layout layout;
-  explicit Laid(const MeshRig& rig)
-      : mesh(makeGridMesh(rig).value()), layout(mesh, rig.neutral.positions) {}
+  explicit Laid(const MeshRig& rig, bool symmetric = false)
+      : mesh(makeGridMesh(rig).value()), layout(mesh, rig.neutral.positions, symmetric) {}
   Laid(const Laid&) = delete;
   std::vector<GridPatch> patches() const { return layout.patches().value(); }
+  Index sourceOf(Index v) const { return mesh.source[mesh.point[v]]; }
+  Index at(Index source) const {  // the last of them, where a point has several vertices
+    for (Index v = mesh.vertexCount(); v-- > 0;)
+      if (sourceOf(v) == source) return v;
+    return -1;
+  }
 };
 
 // Every quad belongs to one patch, as a grid whose columns and rows run straight on.
@@ -129,18 +135,61 @@ TEST(Layout, doesNotDependOnTheOrderOfTheTargets) {
 
 TEST(Layout, runsStraightThroughRegularVertices) {
   const Laid laid(MeshRig{plane(4, 4), {}});
-  // vertices of the grid mesh in order of its quads; find the middle one by its source
-  Index middle = -1;
-  for (Index v = 0; v < laid.mesh.vertexCount(); ++v)
-    if (laid.mesh.source[laid.mesh.point[v]] == 12) middle = v;
-  const auto sourceOf = [&](Index v) { return laid.mesh.source[laid.mesh.point[v]]; };
-  for (Index v = 0; v < laid.mesh.vertexCount(); ++v) {
-    if (sourceOf(v) == 11) {
-      EXPECT_EQ(sourceOf(laid.layout.beyond(middle, v)), 13);
+  const auto beyond = [&](Index vertex, Index neighbour) {
+    const Index v = laid.layout.beyond(laid.at(vertex), laid.at(neighbour));
+    return v < 0 ? -1 : laid.sourceOf(v);
+  };
+  EXPECT_EQ(beyond(12, 11), 13);
+  EXPECT_EQ(beyond(12, 6), -1);  // no neighbour
+  EXPECT_EQ(beyond(10, 5), 15);
+  EXPECT_EQ(beyond(10, 11), -1);  // ends at the boundary
+}
+
+TEST(Layout, seesWhereEdgesChangeTheirLength) {
+  const PolygonMesh mesh = grid(4, 4, [](double i, double j) { return Vec3{i < 3 ? i : 5, j, 0}; });
+  const Laid laid(MeshRig{mesh, {}});
+  const auto isUneven = [&](Index v, double ratio) {
+    return laid.layout.isUneven(laid.at(v), mesh.positions, ratio);
+  };
+  EXPECT_TRUE(isUneven(12, 2.9));
+  EXPECT_FALSE(isUneven(12, 3.1));
+  EXPECT_FALSE(isUneven(11, 1.1));
+  std::vector<Vec3> met = mesh.positions;
+  for (Index j = 0; j < 5; ++j) met[5 * j + 1] = met[5 * j];
+  EXPECT_FALSE(laid.layout.isUneven(laid.at(11), met, 3));  // beside an edge without length
+}
+
+// One line runs up 3 from a concave corner, another runs left 4 columns from the other corner.
+TEST(Layout, endsALineWhereAnotherHasCrossedAfterAShorterWay) {
+  const auto largest = [](double width) {
+    const Laid laid(
+        MeshRig{only(grid(8, 8, [=](double i, double j) { return Vec3{i * width, j, 0}; }),
+                     [=](const Vec3& p) {
+                       const double i = p.x / width;
+                       return (i > 1.5 || p.y > 1.5) && (i < 6.5 || p.y > 4.5);
+                     }),
+                {}});
+    std::size_t most = 0;
+    for (const GridPatch& p : laid.patches()) most = std::max(most, p.quads.size());
+    return most;
+  };
+  EXPECT_EQ(largest(0.8), 12u);
+  EXPECT_EQ(largest(0.7), 18u);
+}
+
+TEST(Layout, ofAMirroredFaceIsCutOnBothSides) {
+  const MeshRig rig{
+      grid(12, 5, [](double i, double j) { return Vec3{i - 6, j + i * (12 - i) / 9, j * j / 9}; }),
+      {}};
+  for (const bool symmetric : {true, false}) {
+    Laid laid(rig, symmetric);
+    for (Index i = 0; i <= 12; ++i) {
+      const Index image = laid.layout.image(laid.at(i));
+      EXPECT_EQ(image, symmetric ? laid.at(12 - i) : -1);
     }
-    if (sourceOf(v) == 6) {
-      EXPECT_EQ(laid.layout.beyond(middle, v), -1);  // no neighbour
-    }
+    laid.layout.split(laid.patches()[0], true, 3);
+    EXPECT_EQ(laid.patches().size(), symmetric ? 3u : 2u);
+    expectSurface(laid);
   }
 }
 

@@ -1,5 +1,7 @@
 #include "layout/mirror.hpp"
 
+#include <random>
+
 #include "faces.hpp"
 
 namespace sweepface {
@@ -62,7 +64,66 @@ TEST(Mirror, EndsWhereOneSideHasAQuadThatTheOtherHasNot) {
 TEST(Mirror, IsNotSeenWhereFewPlacesAgree) {
   PolygonMesh mesh = sheetAcross();
   for (std::size_t v = 0; v < mesh.positions.size(); ++v)
-    if (mesh.positions[v].x > 0) mesh.positions[v].z += 0.1;
+    if (mesh.positions[v].x > 0) mesh.positions[v].z += 0.02;  // of a diagonal of 15
+  EXPECT_TRUE(isNowhere(mirrorOf(mesh)));
+}
+
+TEST(Mirror, IsSeenWhereEveryPlaceIsALittleOff) {
+  PolygonMesh mesh = sheetAcross();
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> off(-0.004, 0.004);
+  for (Vec3& p : mesh.positions) p += Vec3{off(random), off(random), off(random)};
+  EXPECT_TRUE(isWhole(mirrorOf(mesh)));
+}
+
+TEST(Mirror, StandsAcrossAnyAxisAndAnywhere) {
+  PolygonMesh mesh = sheetAcross();
+  for (int axis = 0; axis < 3; ++axis) {
+    for (Vec3& p : mesh.positions) p = {p.z + 5, p.x - 7, p.y + 30};
+    EXPECT_TRUE(isWhole(mirrorOf(mesh))) << axis;
+  }
+}
+
+TEST(Mirror, StandsWhereMostPlacesAgree) {
+  PolygonMesh mesh = grid(12, 6, [](double i, double j) { return Vec3{i - 6, j - 3, 0}; });
+  for (Vec3& p : mesh.positions)
+    if (p.y == 1 || p.x == 0) p.z = 0.5;
+  const GridMesh quads = makeGridMesh({mesh, {}}).value();
+  const std::vector<HalfEdge> mirror = findMirror(quads, mesh.positions);
+  ASSERT_TRUE(isWhole(mirror));
+  const auto place = [&](HalfEdge h) {
+    return mesh.positions[quads.source[quads.point[quads.from(h)]]];
+  };
+  for (HalfEdge h = 0; h < static_cast<HalfEdge>(mirror.size()); ++h)
+    EXPECT_EQ(place(h).x, -place(nextIn(mirror[h])).x);
+}
+
+TEST(Mirror, OfAPartIsLeftOutWhereFewOfItsPlacesAgree) {
+  const PolygonMesh sheet = sheetAcross();
+  PolygonMesh part = grid(6, 5, [](double i, double j) { return Vec3{i, j, i > 4 ? 1.5 : 1}; });
+  const std::vector<HalfEdge> mirror = mirrorOf(joined(sheet, part, {-3, 1, 0.3}));
+  EXPECT_EQ(std::ranges::count_if(mirror, [](HalfEdge h) { return h >= 0; }),
+            4 * sheet.polygons.faceCount());
+}
+
+TEST(Mirror, DoesNotTakeATriangleForAQuad) {
+  PolygonMesh mesh = sheetAcross();
+  std::ranges::replace(mesh.polygons.corners, 0, 1);
+  mesh.polygons.corners.erase(mesh.polygons.corners.begin());
+  for (Index& start : mesh.polygons.faceStart) start -= start > 0;
+  EXPECT_TRUE(isNowhere(mirrorOf(mesh)));
+}
+
+TEST(Mirror, IsLeftOutOfATorus) {
+  EXPECT_TRUE(isWhole(mirrorOf(cubeSphere())));
+  EXPECT_TRUE(isNowhere(mirrorOf(torus())));
+}
+
+TEST(Mirror, OfASmallPartIsNotThatOfTheMesh) {
+  PolygonMesh mesh = joined(sheetAcross(), plane(20, 15), {-10, 20, 0});
+  std::mt19937 random(2);
+  for (std::size_t v = sheetAcross().positions.size(); v < mesh.positions.size(); ++v)
+    mesh.positions[v].z += std::uniform_real_distribution<double>(0, 1)(random);
   EXPECT_TRUE(isNowhere(mirrorOf(mesh)));
 }
 

@@ -111,6 +111,13 @@ TEST_P(Basis, dependsOnQuotientsAndLengthAlone) {
   for (double u = 0; u <= 1; u += 0.125) EXPECT_EQ(same.at(u), basis().at(u));
 }
 
+TEST_P(Basis, staysAtItsEndsBeyondThem) {
+  for (int order = 0; order < 4; ++order) {
+    EXPECT_EQ(basis().at(-0.5, order), basis().at(0, order));
+    EXPECT_EQ(basis().at(1.5, order), basis().at(1, order));
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Equations, Basis, testing::ValuesIn(equations),
                          [](const auto& test) { return std::string(test.param.name); });
 
@@ -198,8 +205,22 @@ TEST(TangentBasis, solvesTheFourthOrderEquation) {
   }
 }
 
+TEST(TangentBasis, dependsOnTheQuotientAndLengthAloneAndStaysAtItsEndsBeyondThem) {
+  for (const double s : {-30.0, 3.0, 900.0}) {
+    const auto basis = TangentBasis::make({0, 1, -s}).value();
+    const auto same = TangentBasis::make({5, -2, 2 * s / 16}, 4).value();
+    for (int order = 0; order < 4; ++order) {
+      for (double u = 0; u <= 1; u += 0.125) EXPECT_EQ(same.at(u, order), basis.at(u, order));
+      EXPECT_EQ(basis.at(-0.5, order), basis.at(0, order));
+      EXPECT_EQ(basis.at(1.5, order), basis.at(1, order));
+    }
+  }
+}
+
 TEST(LinearBasis, joinsTheEndsByALine) {
   const LinearBasis basis;
+  EXPECT_EQ(basis.at(-0.5), (std::array{1.0, 0.0}));
+  EXPECT_EQ(basis.at(1.5), (std::array{0.0, 1.0}));
   EXPECT_EQ(basis.at(0.25), (std::array{0.75, 0.25}));
   EXPECT_EQ(basis.at(0.25, 1), (std::array{-1.0, 1.0}));
   EXPECT_EQ(basis.at(0.25, 2), (std::array{0.0, 0.0}));

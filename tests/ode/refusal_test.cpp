@@ -91,7 +91,14 @@ TEST(SafeRegime, alwaysAnswersWithASmallBasis) {
 
 TEST(Roots, thatOscillateFasterThanTheGridAreRefused) {
   EXPECT_TRUE(isRefused(1001.0 * 1001, 0));
-  EXPECT_NE(SweepBasis::make({1, 1e8, 0}).error().message.find("too fast"), std::string::npos);
+  for (const auto& reason : {SweepBasis::make({1, 1e8, 0}).error().message,
+                             SweepBasis::make({1, 0, -1e16}).error().message,
+                             TangentBasis::make({0, 1, 1e8}).error().message}) {
+    EXPECT_NE(reason.find("too fast"), std::string::npos) << reason;
+    EXPECT_NE(reason.find("(roots near 10000, at most 1000)"), std::string::npos) << reason;
+  }
+  const auto message = SweepBasis::make({1, 1e20, 0}).error().message;
+  EXPECT_NE(message.find("near more than 1000000000,"), std::string::npos) << message;
   EXPECT_FALSE(isRefused(-1e8, 0));
 }
 
@@ -115,6 +122,10 @@ TEST(TangentResonance, isRefused) {
   const double pi = std::acos(-1.0);
   EXPECT_FALSE(TangentBasis::make({0, 1, 4 * pi * pi}));
   EXPECT_FALSE(TangentBasis::make({0, 1, 80.763}));
+  EXPECT_FALSE(TangentBasis::make({0, 1, 80.763 / 9}, 3));
+  const auto message = TangentBasis::make({0, 1, 81}).error().message;
+  EXPECT_NE(message.find("lambda/eta <= 0"), std::string::npos) << message;
+  EXPECT_NE(message.find("reaches 24, at most 10)"), std::string::npos) << message;
   EXPECT_TRUE(TangentBasis::make({0, 1, 30}));
   EXPECT_TRUE(TangentBasis::make({0, -1, 1e8}));
 }
