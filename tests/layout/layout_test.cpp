@@ -2,6 +2,7 @@
 
 #include <random>
 
+#include "codec/wireframe_rules.hpp"
 #include "faces.hpp"
 
 namespace sweepface {
@@ -56,7 +57,25 @@ void expectSurface(const Laid& laid) {
     EXPECT_EQ(w.sideEdges(p, 0), patches[p].m);
     EXPECT_EQ(w.sideEdges(p, 1), patches[p].n);
     EXPECT_EQ(nodeVertices[w.start(w.side(p, 0)[0])], patches[p].vertex(0, 0));
+    EXPECT_EQ(w.arcs[w.side(p, 0)[0] >> 1].collapsed,
+              laid.mesh.collapsed[patches[p].bottoms[0]] != 0);
   }
+  // Files hold nothing for how patches sweep and which arcs share a ribbon.
+  codec::SweepRule rule(w);
+  for (Index p = 0; p < static_cast<Index>(w.patches.size()); ++p) {
+    EXPECT_FALSE(rule.turns(p, 0)) << p;
+    rule.sweep(p);
+  }
+  std::vector<Index> ribbons;
+  for (const Arc& arc : w.arcs) ribbons.push_back(arc.ribbon);
+  EXPECT_EQ(ribbons, codec::expectedRibbons(w));
+  std::map<Index, Index> nodePoint;  // by the point of the mesh
+  for (std::size_t n = 0; n < w.nodes.size(); ++n)
+    if (w.nodes[n].point >= 0) {
+      const auto at = nodePoint.emplace(laid.mesh.point[nodeVertices[n]], w.nodes[n].point).first;
+      EXPECT_EQ(at->second, w.nodes[n].point);
+    }
+  EXPECT_EQ(static_cast<Index>(nodePoint.size()), w.points);
 }
 
 class EveryLayout : public ::testing::TestWithParam<Face> {};
@@ -157,6 +176,64 @@ TEST(Layout, seesWhereEdgesChangeTheirLength) {
   std::vector<Vec3> met = mesh.positions;
   for (Index j = 0; j < 5; ++j) met[5 * j + 1] = met[5 * j];
   EXPECT_FALSE(laid.layout.isUneven(laid.at(11), met, 3));  // beside an edge without length
+}
+
+struct Sheet : Laid {
+  Index columns;
+  Sheet(Index width, Index height) : Laid(MeshRig{plane(width, height), {}}), columns(width) {}
+  /// Cuts the patches that are so wide.
+  void cut(Index width, bool alongV, Index at) {
+    for (const GridPatch& p : patches())
+      if (p.m == width) layout.split(p, alongV, at);
+  }
+  /// Expects that a node stores so many derivatives across and up, position included, and mixed
+  /// ones to the second.
+  void expectStored(Index column, Index row, int across, int up) const {
+    auto all = patches();
+    const auto [w, vertices] = layout.wireframe(all);
+    const Index source = row * (columns + 1) + column;
+    const auto node = std::ranges::find(vertices, at(source)) - vertices.begin();
+    const auto connectivity = Connectivity::make(w).value();
+    const Index next = sourceOf(vertices[w.end(connectivity.stars[node].arms[0])]);
+    const bool beginsAcross = std::abs(next - source) <= columns;
+    const int x = beginsAcross ? across : up, y = beginsAcross ? up : across;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        EXPECT_EQ(w.nodes[node].stored >> (3 * i + j) & 1, i < x && j < y && i + j <= 2)
+            << column << ", " << row << ": " << i << ", " << j;
+  }
+};
+
+/// One of four patches, about a node that is so many edges from its boundary.
+struct CutSheet : Sheet {
+  CutSheet(Index left, Index right, Index below, Index above) : Sheet(left + right, below + above) {
+    layout.split(patches()[0], true, left);
+    for (const GridPatch& p : patches()) layout.split(p, false, below);
+  }
+};
+
+TEST(Layout, storesAtACrossingWhatTheVerticesNearestToItDetermine) {
+  CutSheet(1, 1, 1, 1).expectStored(1, 1, 1, 1);
+  CutSheet(1, 2, 2, 1).expectStored(1, 2, 1, 1);
+  CutSheet(2, 2, 2, 2).expectStored(2, 2, 2, 2);
+  CutSheet(2, 3, 3, 3).expectStored(2, 3, 2, 3);
+  CutSheet(1, 1, 3, 4).expectStored(1, 3, 1, 3);
+  CutSheet(1, 12, 12, 12).expectStored(1, 12, 2, 3);  // a long side alone determines no more
+}
+
+// A line that ends at another has no vertex of its own there.
+TEST(Layout, storesAtACrossingWhatVerticesUpToAnotherLineDetermine) {
+  Sheet sheet(8, 6);
+  sheet.cut(8, true, 5);
+  sheet.cut(5, false, 3);
+  sheet.cut(5, true, 3);
+  sheet.expectStored(3, 3, 3, 3);
+}
+
+TEST(Layout, storesASlopeAtLeastWhereALineEnds) {
+  CutSheet(3, 3, 1, 3).expectStored(3, 0, 3, 2);
+  CutSheet(3, 3, 4, 3).expectStored(3, 0, 3, 2);
+  CutSheet(3, 3, 5, 3).expectStored(3, 0, 3, 3);
 }
 
 // One line runs up 3 from a concave corner, another runs left 4 columns from the other corner.
