@@ -18,32 +18,33 @@ std::vector<double> framesWithin(const std::vector<double>& times, double from, 
 
 }  // namespace
 
-Result<Performance> partOf(Performance whole, const PerformanceArguments& a) {
-  const double from = a.clipFrom, asked = a.clipTo.value_or(whole.seconds);
-  const double to = std::min(asked, whole.seconds);
+Result<Performance> partOf(Performance played, const PerformanceArguments& a) {
+  const double from = a.clipFrom, asked = a.clipTo.value_or(played.seconds);
+  const double to = std::min(asked, played.seconds);
   if (asked <= from && a.clipTo)
     return fail(fmt::format(
         "--clip-to {:.6g} is no later than --clip-from {:.6g}; give a later one.", asked, from));
-  if (from > 0 && from >= whole.seconds)
+  if (from > 0 && from >= played.seconds)
     return fail(
         fmt::format("{} lasts {:.6g} s, of which nothing is left from {:.6g} s on; give "
                     "less --clip-from.",
-                    whole.called, whole.seconds, from));
-  if (asked > whole.seconds)
-    whole.notes.push_back(fmt::format("{} ends after {:.6g} s, before --clip-to {:.6g}.",
-                                      whole.called, whole.seconds, asked));
-  if (from == 0 && to == whole.seconds) return whole;
-  Performance part = whole;
-  part.seconds = to - from;
-  part.frameTimes = framesWithin(whole.frameTimes, from, to);
-  part.at = [at = whole.at, from](double time, std::span<double> weights) {
+                    played.called, played.seconds, from));
+  if (asked > played.seconds)
+    played.notes.push_back(fmt::format("{} ends after {:.6g} s, before --clip-to {:.6g}.",
+                                       played.called, played.seconds, asked));
+  if (from == 0 && to == played.seconds) return played;
+  played.seconds = to - from;
+  played.frameTimes = framesWithin(played.frameTimes, from, to);
+  played.at = [at = std::move(played.at), from](double time, std::span<double> weights) {
     at(from + time, weights);
   };
-  part.kinematicsAt = [at = whole.kinematicsAt, from](double time, std::span<Kinematics> weights) {
+  played.kinematicsAt = [at = std::move(played.kinematicsAt), from](double time,
+                                                                    std::span<Kinematics> weights) {
     at(from + time, weights);
   };
-  if (whole.pose) part.pose = [at = whole.pose, from](double time) { return at(from + time); };
-  return part;
+  if (played.pose)
+    played.pose = [at = std::move(played.pose), from](double time) { return at(from + time); };
+  return played;
 }
 
 }  // namespace sweepface::cli

@@ -5,6 +5,6 @@
 namespace sweepface::cli {
 
 /// What --clip-from and --clip-to leave of a performance, as one that begins at 0 s.
-Result<Performance> partOf(Performance whole, const PerformanceArguments& a);
+Result<Performance> partOf(Performance played, const PerformanceArguments& a);
 
 }  // namespace sweepface::cli

@@ -198,15 +198,15 @@ test('the page', options, (t) => withPage('index.html', visit, async (page, comp
 
   await t.test('opens of several dropped files the one that is named as a face', async () => {
     await page.locator('input[name="mouthSmileRight"]').focus();
-    const dropped = await page.evaluate((text) => {
-      const dataTransfer = new DataTransfer(), bytes = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
+    const dropped = await page.evaluate(async () => {
+      const dataTransfer = new DataTransfer(), bytes = await (await fetch('sample.sweep')).arrayBuffer();
       dataTransfer.items.add(new File(['read me'], 'readme.txt'));
       dataTransfer.items.add(new File([bytes], 'DROPPED.SWEEP'));
       dispatchEvent(new DragEvent('dragover', {dataTransfer}));
       const isTaken = !dispatchEvent(new DragEvent('drop', {dataTransfer, cancelable: true}));
       dispatchEvent(new PointerEvent('pointerdown'));  // which is no answer to what is said
       return [isTaken, document.getElementById('message').textContent];
-    }, bytes.toString('base64'));
+    });
     assert.deepEqual(dropped, [true, 'Loading…']);
     await until(() => document.title.startsWith('DROPPED.SWEEP'));
     assert.equal(await said(), '');
@@ -224,10 +224,9 @@ test('the page', options, (t) => withPage('index.html', visit, async (page, comp
     const open = (name, buffer) => page.locator('#file').setInputFiles({name, mimeType, buffer});
     await open('holiday.sweep', Buffer.from('GIF89a'));
     await page.waitForSelector('#message.error');
-    assert.equal(await page.locator('#message').textContent(),
-                 'holiday.sweep does not begin with SWEEPFC; check that it is a .sweep file.');
+    assert.equal(await said(), 'holiday.sweep does not begin with SWEEPFC; check that it is a .sweep file.');
     await page.locator('#filter').click();  // the face that was there is used on
-    assert.equal(await page.locator('#message').textContent(), '');
+    assert.equal(await said(), '');
     await open(`${'B'.repeat(400)}.sweep`, Buffer.from('GIF89a'));
     await page.waitForSelector('#message.error');
     const {x, width} = await page.locator('#message').boundingBox();
@@ -246,7 +245,7 @@ test('the page', options, (t) => withPage('index.html', visit, async (page, comp
     }
     await open('again.sweep', bytes);
     await until(() => document.title.startsWith('again.sweep'));
-    assert.equal(await page.locator('#message').textContent(), '');
+    assert.equal(await said(), '');
     assert.equal(await page.locator('#file').inputValue(), '');  // so that the same one can be chosen again
   });
 
@@ -300,7 +299,7 @@ test('the page', options, (t) => withPage('index.html', visit, async (page, comp
     await late;
     await page.waitForTimeout(800);
     assert.ok((await page.title()).startsWith('mine.sweep'));
-    assert.equal(await page.locator('#message').textContent(), '');
+    assert.equal(await said(), '');
     await page.unroute('**/sample.sweep');
   });
 
@@ -316,19 +315,19 @@ test('the page', options, (t) => withPage('index.html', visit, async (page, comp
       };
       Object.defineProperty(document.getElementById('file'), 'files', {value: [late], configurable: true});
     });
-    const meanwhile = await page.evaluate((text) => {
-      globalThis.mine = new Blob([Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0))]);
+    const meanwhile = await page.evaluate(async () => {
+      globalThis.mine = await (await fetch('sample.sweep')).blob();
       globalThis.sweepface.show(Promise.reject(new Error('Nobody asks for it any more.')), 'early.sweep');
       document.getElementById('file').dispatchEvent(new Event('change'));
       return new Promise((done) => { setTimeout(() => done(document.getElementById('message').textContent), 50); });
-    }, bytes.toString('base64'));
+    });
     assert.equal(meanwhile, 'Loading…');
     await page.locator('#lod').selectOption('2');
     await page.evaluate(() => globalThis.arrive());
     await until(() => globalThis.sweepface.mesh.face.lod === 2);
     await page.waitForTimeout(800);
     assert.ok((await page.title()).startsWith('late.sweep'));
-    assert.equal(await page.locator('#message').textContent(), '');
+    assert.equal(await said(), '');
     await page.reload();
     await settle();
   });
@@ -344,9 +343,9 @@ test('the page', options, (t) => withPage('index.html', visit, async (page, comp
     await page.locator('#file').setInputFiles({name: 'bad.sweep', mimeType: 'text/plain', buffer: Buffer.from('GIF89a')});
     await page.waitForSelector('#message.error');
     await until(() => document.title.startsWith('sample.sweep'));
-    assert.match(await page.locator('#message').textContent(), /^bad\.sweep /);  // which is not forgotten for it
+    assert.match(await said(), /^bad\.sweep /);  // which is not forgotten for it
     await page.keyboard.press('Shift');
-    assert.match(await page.locator('#message').textContent(), /^bad\.sweep /);
+    assert.match(await said(), /^bad\.sweep /);
     await page.keyboard.press('Escape');
     assert.equal(await said(), '');
     await page.unroute('**/sample.sweep');
