@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sweepface/eval.hpp"
+#include "sweepface/tangents.hpp"
 
 namespace sweepface {
 
@@ -47,6 +48,11 @@ class Evaluator {
   /// whose vertices are then played, whatever the level.
   static Result<Evaluator> make(const Rig& rig, const Tessellation& grid,
                                 const EvaluatorOptions& options);
+  /// The same for all vertices of a render mesh of that tessellation (level 0: of the source), with
+  /// tangents for normal maps: in the neutral they are `tangents`, and in every pose the directions
+  /// into which the surface takes these. Where there is none they go along the sweep.
+  static Result<Evaluator> make(const Rig& rig, const Tessellation& grid, const RenderMesh& mesh,
+                                const Tangents& tangents, const EvaluatorOptions& options);
 
   /// Whether it came from make(): one that did not may only be assigned to.
   bool isMade() const { return tables_ != nullptr; }
@@ -70,6 +76,9 @@ class Evaluator {
   const EvaluatorTables& tables() const { return *tables_; }
 
  private:
+  static Result<void> check(const Rig& rig, const Tessellation& grid,
+                            const EvaluatorOptions& options);
+
   std::shared_ptr<const EvaluatorTables> tables_;
 };
 
@@ -93,7 +102,7 @@ struct Evaluation {
   std::span<std::byte> scratch;  ///< [scratchBytes], uninitialised
   VectorsOut positions;          ///< model units
   VectorsOut normals;            ///< outward, unit length; zero where a pose has none
-  VectorsOut tangents;           ///< unit length, along the sweep of each vertex' patch
+  VectorsOut tangents;           ///< unit length, along the sweep of each vertex' patch or as given
   Index part = 0, parts = 1;     ///< only this part of the vertices
   /// Where the outputs hold what an evaluation with these weights wrote, only vertices that other
   /// weights move are written again, with the same result. Not used: all are written.

@@ -22,6 +22,7 @@ struct RenderMesh {
   std::vector<float> texcoords;          ///< [vertices × 2], or empty where there are none
   std::vector<Part> parts;
 
+  Index pointOf(Index vertex) const { return vertex < points ? vertex : copies[vertex - points]; }
   Index vertexCount() const { return points + static_cast<Index>(copies.size()); }
 };
 

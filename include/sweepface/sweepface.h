@@ -223,6 +223,23 @@ SWEEPFACE_API sweepface_status sweepface_face_update(sweepface_face* face, size_
                                                      sweepface_vectors positions,
                                                      sweepface_vectors normals);
 
+/* ---- Tangents ---- */
+
+/* Makes what moves tangents and the normals that go with them, now rather than when they are first
+ * asked for: that takes as long as for normals. Fails where the mesh has no texture coordinates. */
+SWEEPFACE_API sweepface_status sweepface_mesh_prepare_tangents(const sweepface_mesh* mesh);
+
+/* What normal maps are relative to, at the first `count` vertices under the face's weights: unit
+ * normals, and tangents of four floats (a stride of 0 is 16 bytes, the least). x, y and z are the
+ * direction along u of the texture coordinates into which the surface takes MikkTSpace's tangent of
+ * the neutral, of unit length and perpendicular to the normal; w is 1 or -1: w * cross(normal,
+ * tangent) goes along v, upwards. Vertices are not doubled where mirrored texture coordinates meet.
+ * These normals are the surface's own as those of sweepface_face_evaluate are, but not the same to
+ * the bit. Allocates nothing once tangents are prepared. */
+SWEEPFACE_API sweepface_status sweepface_face_tangents(sweepface_face* face, size_t count,
+                                                       sweepface_vectors normals,
+                                                       sweepface_vectors tangents);
+
 /* ---- Shaders ---- */
 
 /* A mesh as a vertex shader evaluates it (docs/evaluation.md). Row r of point p is

@@ -17,14 +17,6 @@ sweepface_status refuseWeight(const sweepface_face& face, std::size_t target) {
                     static_cast<int>(SWEEPFACE_MOST_WEIGHT), " of 0.");
 }
 
-bool fits(const sweepface_vectors& out) {
-  return out.stride == 0 || (out.stride >= kTight && out.stride <= kMostStride);
-}
-
-bool isNeutral(const Weights& weights) {
-  return std::ranges::all_of(weights, [](double w) { return w == 0; });
-}
-
 VectorsOut pointsOf(const Mesh& mesh, const sweepface_vectors& out, std::size_t count) {
   const auto points = std::min(count, static_cast<std::size_t>(mesh.render.points));
   return {out.data, static_cast<Index>(points), out.stride ? out.stride : kTight};
@@ -49,7 +41,7 @@ sweepface_status sweepface_face_create(const sweepface_mesh* mesh, sweepface_fac
   *face = new sweepface_face{mesh->mesh,
                              Weights(made.division->count() * made.shown, 0.0),
                              rest,
-                             std::vector<std::byte>(made.neutral.scratchBytes()),
+                             std::vector<std::byte>(made.scratchBytes()),
                              {.weights = rest},
                              {.weights = rest}};
   return SWEEPFACE_OK;

@@ -90,6 +90,26 @@ struct Mesh {
   mutable std::once_flag shaderOnce = {};
   mutable ShaderTables shaderPositions = {}, shaderTangents = {};
 
+#ifndef __wasm__  // where shaders find tangents themselves
+  /// Of all vertices, for normal maps: with targets, or of the neutral alone while they are to
+  /// come.
+  struct MapTangents {
+    std::once_flag once = {};
+    Evaluator evaluator = {};
+  };
+  mutable std::once_flag tangentsOnce = {};
+  mutable Tangents neutralTangents = {};
+  mutable MapTangents neutralMap = {}, movingMap = {};
+
+  const Evaluator& mapTangents(bool moving) const;
+  /// Enough for those, too.
+  std::size_t scratchBytes() const {
+    return neutral.scratchBytes() + sizeof(Index) * (render.copies.size() / kTileVertices + 1);
+  }
+#else
+  std::size_t scratchBytes() const { return neutral.scratchBytes(); }
+#endif
+
   void makeShaderTables() const {
     std::call_once(shaderOnce, [&] {
       prepareBoth();
@@ -140,6 +160,10 @@ struct sweepface_face {
 };
 
 namespace sweepface::capi {
+inline bool isNeutral(const Weights& weights) {
+  return std::ranges::all_of(weights, [](double w) { return w == 0; });
+}
+
 /// The face's weights with what follows them.
 inline const Weights& follow(sweepface_face& face) {
   const Following& following = face.mesh->following;

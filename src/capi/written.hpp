@@ -5,12 +5,16 @@
 #include <functional>
 #include <utility>
 
-#include "sweepface/rig.hpp"
+#include "sweepface/evaluator.hpp"
 #include "sweepface/sweepface.h"
 
 namespace sweepface::capi {
 
 inline constexpr std::size_t kTight = 3 * sizeof(float);
+
+inline bool fits(const sweepface_vectors& out, std::size_t tight = kTight) {
+  return out.stride == 0 || (out.stride >= tight && out.stride <= kMostStride);
+}
 
 /// What an output holds, and where; at NULL: nothing.
 struct Written {

@@ -39,7 +39,8 @@ class Builder {
   }
 
   void addTriangle(Index material, Index a, Index b, Index c) {
-    if (pointOf(a) == pointOf(b) || pointOf(b) == pointOf(c) || pointOf(c) == pointOf(a)) return;
+    const Index p = mesh_.pointOf(a), q = mesh_.pointOf(b), r = mesh_.pointOf(c);
+    if (p == q || q == r || r == p) return;
     for (const Index v : {a, b, c})
       trianglesOf_[material + 1].push_back(static_cast<std::uint32_t>(v));
   }
@@ -75,10 +76,7 @@ class Builder {
   }
 
  private:
-  Index pointOf(Index vertex) const {
-    return vertex < mesh_.points ? vertex : mesh_.copies[vertex - mesh_.points];
-  }
-  const Vec3& place(Index vertex) const { return neutral_[pointOf(vertex)]; }
+  const Vec3& place(Index vertex) const { return neutral_[mesh_.pointOf(vertex)]; }
 
   Index addCopy(Index point, const Vec2& texcoord) {
     mesh_.copies.push_back(point);

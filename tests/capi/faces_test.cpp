@@ -256,13 +256,18 @@ TEST_F(Faces, EvaluateWithoutAllocating) {
   make(2);
   std::vector<float> out(3 * sweepface_mesh_vertex_count(mesh)), normals(out.size());
   const double weights[] = {0.1, 0.2, 0.3};
+  std::vector<float> tangents(out.size() / 3 * 4);
   EXPECT_EQ(sweepface_mesh_prepare(mesh, 1), SWEEPFACE_OK);
+  EXPECT_EQ(sweepface_mesh_prepare_tangents(mesh), SWEEPFACE_OK);
   if (!watchesAllocations) GTEST_SKIP() << "allocations cannot be watched here";
   const std::size_t before = allocations.count;
   EXPECT_EQ(sweepface_face_set_weights(face, weights, 3), SWEEPFACE_OK);
   EXPECT_EQ(sweepface_face_set_weight(face, 0, 0.5), SWEEPFACE_OK);
   EXPECT_EQ(sweepface_face_evaluate(face, out.size() / 3, {out.data(), 0}, {normals.data(), 0}),
             SWEEPFACE_OK);
+  EXPECT_EQ(
+      sweepface_face_tangents(face, out.size() / 3, {normals.data(), 0}, {tangents.data(), 0}),
+      SWEEPFACE_OK);
   EXPECT_EQ(allocations.count, before);
   sweepface_face* another = nullptr;
   EXPECT_EQ(sweepface_face_create(mesh, &another), SWEEPFACE_OK);

@@ -9,6 +9,7 @@
 #include "sweepface/io.hpp"
 
 #include "codec/rigs.hpp"
+#include "eval/play.hpp"
 #include "eval/shader_tables.hpp"
 #include "eval/tile_kernels.hpp"
 #include "faces.hpp"
@@ -53,36 +54,6 @@ std::vector<double> anyWeights(const Evaluator& evaluator, unsigned seed, double
   std::vector<double> weights(evaluator.weightCount());
   for (double& w : weights) w = uniform(random);
   return weights;
-}
-
-struct Played {
-  std::vector<float> positions, normals, tangents;
-  friend bool operator==(const Played&, const Played&) = default;
-};
-
-Played play(const Evaluator& evaluator, const std::vector<double>& weights, Index parts = 1) {
-  const Index count = evaluator.vertexCount();
-  Played out;
-  out.positions.resize(3 * count);
-  if (evaluator.hasNormals()) out.normals.resize(3 * count), out.tangents.resize(3 * count);
-  std::vector<std::byte> scratch(evaluator.scratchBytes());
-  for (Index part = 0; part < parts; ++part) {
-    const Evaluation job{&evaluator,
-                         weights,
-                         scratch,
-                         {out.positions.data(), count},
-                         {out.normals.data(), count},
-                         {out.tangents.data(), count},
-                         part,
-                         parts};
-    EXPECT_TRUE(job.validate());
-    job.run();
-  }
-  return out;
-}
-
-Vec3 vectorOf(const std::vector<float>& floats, std::size_t v) {
-  return {floats[3 * v], floats[3 * v + 1], floats[3 * v + 2]};
 }
 
 std::vector<Vec3> surfacePositions(const Rig& rig, Index level,

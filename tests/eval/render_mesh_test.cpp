@@ -1,8 +1,6 @@
 #include "sweepface/render_mesh.hpp"
 
-#include <functional>
-#include <numeric>
-
+#include "eval/textured.hpp"
 #include "surface/surfaces.hpp"
 
 namespace sweepface {
@@ -10,17 +8,12 @@ namespace {
 
 using namespace sweepface::testing;
 
-Index pointOf(const RenderMesh& mesh, std::uint32_t vertex) {
-  const auto v = static_cast<Index>(vertex);
-  return v < mesh.points ? v : mesh.copies[v - mesh.points];
-}
-
 /// The triangles as loops of points.
 std::vector<Loop> trianglesOf(const RenderMesh& mesh) {
   std::vector<Loop> loops;
   for (std::size_t k = 0; k < mesh.triangles.size(); k += 3) {
     loops.emplace_back();
-    for (int c = 0; c < 3; ++c) loops.back().push_back(pointOf(mesh, mesh.triangles[k + c]));
+    for (int c = 0; c < 3; ++c) loops.back().push_back(mesh.pointOf(mesh.triangles[k + c]));
   }
   return loops;
 }
@@ -30,10 +23,6 @@ double areaOf(const std::vector<Loop>& triangles, const std::vector<Vec3>& place
   for (const Loop& t : triangles)
     area += 0.5 * norm(cross(places[t[1]] - places[t[0]], places[t[2]] - places[t[0]]));
   return area;
-}
-
-std::vector<Vec3> neutralOf(const Rig& rig, const Tessellation& grid) {
-  return sourcePositions(rig, grid, blend(rig, {}), {});
 }
 
 class EveryFace : public ::testing::TestWithParam<Face> {};
@@ -59,31 +48,8 @@ TEST_P(EveryFace, HasTheTessellationsShapeAtAnyLevel) {
   }
 }
 
-/// A sheet of n × n unit quads in the plane, as a rig whose surface is that sheet.
-Rig sheet(Index n = 2) {
-  Rig rig;
-  rig.surface = Surface::make(onePatch(n, n)).value();
-  rig.neutral.resize(rig.surface.storedCount());
-  const double size = n;
-  const Vec3 corners[4] = {{0, 0, 0}, {size, 0, 0}, {size, size, 0}, {0, size, 0}};
-  for (Index v = 0; v < rig.surface.storedCount(); ++v) {
-    const StoredVector& s = rig.surface.stored(v);
-    if (s.i == 0 && s.j == 0) rig.neutral[v] = corners[s.node];
-    if (s.i + s.j == 1) {
-      // Slopes along the sheet's sides; a node's own axes are its first arms.
-      const auto& arms = rig.surface.connectivity().stars[s.node].arms;
-      const HalfArc arm = arms[s.i == 1 ? 0 : 1];
-      const Vec3 way = corners[rig.surface.wireframe().end(arm)] - corners[s.node];
-      rig.neutral[v] = (1 / size) * way;
-    }
-  }
-  rig.source = makeSource(rig.surface);
-  std::iota(rig.source.quadCorners.begin(), rig.source.quadCorners.end(), 0);
-  return rig;
-}
-
 TEST(RenderMesh, CutsTheSourcesPolygonsIntoTrianglesOfTheSameArea) {
-  const Rig rig = sheet();
+  const Rig rig = plainSheet();
   const Tessellation grid(rig.surface, 1);
   const RenderMesh mesh = renderSource(rig, grid);
   EXPECT_EQ(mesh.points, 9);
@@ -95,7 +61,7 @@ TEST(RenderMesh, CutsTheSourcesPolygonsIntoTrianglesOfTheSameArea) {
 }
 
 TEST(RenderMesh, CutsConcavePolygonsInside) {
-  Rig rig = sheet();
+  Rig rig = plainSheet();
   const Tessellation grid(rig.surface, 1);
   const auto places = neutralOf(rig, grid);
   // All but one quad as a single polygon of seven corners, three quads of area.
@@ -114,7 +80,7 @@ TEST(RenderMesh, CutsConcavePolygonsInside) {
 }
 
 TEST(RenderMesh, CutsQuadsWhereTheyAreShorter) {
-  Rig rig = sheet();
+  Rig rig = plainSheet();
   for (Index v = 0; v < rig.surface.storedCount(); ++v)  // shear: diagonals differ
     rig.neutral[v].x += 0.5 * rig.neutral[v].y;
   const Tessellation grid(rig.surface, 1);
@@ -139,24 +105,8 @@ Vec2 withSeam(const Vec3& place, const Vec3& middle) {
   return {place.x + (middle.x > 1 ? 10 : 0), place.y};
 }
 
-/// Texture coordinates by a corner's place and the middle of its face.
-void texture(Rig& rig, const std::function<Vec2(const Vec3& place, const Vec3& middle)>& at) {
-  const Tessellation grid(rig.surface, 1);
-  const auto places = neutralOf(rig, grid);
-  Polygons& faces = rig.source.polygons;
-  for (Index f = 0; f < faces.faceCount(); ++f) {
-    Vec3 middle;
-    for (Index c = faces.faceStart[f]; c < faces.faceStart[f + 1]; ++c)
-      middle += (1.0 / faces.faceSize(f)) * places[faces.corners[c]];
-    for (Index c = faces.faceStart[f]; c < faces.faceStart[f + 1]; ++c) {
-      faces.cornerTexcoords.push_back(static_cast<Index>(faces.texcoords.size()));
-      faces.texcoords.push_back(at(places[faces.corners[c]], middle));
-    }
-  }
-}
-
 TEST(RenderMesh, RepeatsPointsOnlyAlongSeams) {
-  Rig rig = sheet();
+  Rig rig = plainSheet();
   texture(rig, withSeam);
   for (Index level : {0, 1, 3}) {
     const Tessellation grid(rig.surface, std::max(level, 1));
@@ -167,9 +117,9 @@ TEST(RenderMesh, RepeatsPointsOnlyAlongSeams) {
     for (std::size_t k = 0; k < mesh.triangles.size(); k += 3) {
       const auto vertex = [&](int c) { return mesh.triangles[k + c]; };
       double middle = 0;
-      for (int c = 0; c < 3; ++c) middle += points[pointOf(mesh, vertex(c))].x / 3;
+      for (int c = 0; c < 3; ++c) middle += points[mesh.pointOf(vertex(c))].x / 3;
       for (int c = 0; c < 3; ++c) {
-        const Vec3& p = points[pointOf(mesh, vertex(c))];
+        const Vec3& p = points[mesh.pointOf(vertex(c))];
         EXPECT_NEAR(mesh.texcoords[2 * vertex(c)], p.x + (middle > 1 ? 10 : 0), 1e-6);
         EXPECT_NEAR(mesh.texcoords[2 * vertex(c) + 1], p.y, 1e-6);
       }
@@ -180,7 +130,7 @@ TEST(RenderMesh, RepeatsPointsOnlyAlongSeams) {
 // A column lies across the seam: its triangles have the coordinates of the side that their middle
 // is on.
 TEST(RenderMesh, OfADensityGoesOnBeyondSeamsInsidePatches) {
-  Rig rig = sheet();
+  Rig rig = plainSheet();
   texture(rig, withSeam);
   for (const Index segments : {1, 3, 5}) {
     const Tessellation grid = cut(rig, segments);
@@ -188,7 +138,7 @@ TEST(RenderMesh, OfADensityGoesOnBeyondSeamsInsidePatches) {
     const auto points = grid.positions(blend(rig, {}));
     ASSERT_EQ(mesh.triangles.size(), 6u * segments * segments);
     for (std::size_t k = 0; k < mesh.triangles.size(); k += 3) {
-      const auto place = [&](int c) { return points[pointOf(mesh, mesh.triangles[k + c])]; };
+      const auto place = [&](int c) { return points[mesh.pointOf(mesh.triangles[k + c])]; };
       const double middle = (place(0).x + place(1).x + place(2).x) / 3;
       for (int c = 0; c < 3; ++c) {
         EXPECT_NEAR(mesh.texcoords[2 * mesh.triangles[k + c]], place(c).x + (middle > 1 ? 10 : 0),
@@ -203,7 +153,7 @@ TEST(RenderMesh, OfADensityGoesOnBeyondSeamsInsidePatches) {
 // A slit along x = 1 from y = 1 to 3, which gapes in its middle. Two triangles are all of the sheet
 // and have the source's own texture coordinates at every corner: there are ways around the ends.
 TEST(RenderMesh, OfADensityGoesAroundTheEndsOfSeams) {
-  Rig rig = sheet(4);
+  Rig rig = plainSheet(4);
   const auto slit = [](const Vec3& place, const Vec3& middle) {
     const bool gapes = middle.x < 1 && norm(place - Vec3{1, 2, 0}) < 1e-9;
     return Vec2{place.x * place.x - (gapes ? 0.5 : 0), place.y * place.y};
@@ -221,7 +171,7 @@ TEST(RenderMesh, OfADensityGoesAroundTheEndsOfSeams) {
 }
 
 TEST(RenderMesh, OneCornerAloneMayHaveATextureCoordinate) {
-  Rig rig = sheet();
+  Rig rig = plainSheet();
   Polygons& faces = rig.source.polygons;
   faces.texcoords = {{0.25, 0.75}};
   faces.cornerTexcoords.assign(faces.corners.size(), -1);
@@ -234,7 +184,7 @@ TEST(RenderMesh, OneCornerAloneMayHaveATextureCoordinate) {
 
 // At a pole every other triangle may have a texture coordinate of its own.
 TEST(RenderMesh, APointMayHaveHundredsOfTextureCoordinates) {
-  Rig rig = sheet();
+  Rig rig = plainSheet();
   Polygons& faces = rig.source.polygons = {};
   faces.texcoords = {{0, 0}};
   faces.faceStart = {0};
@@ -253,7 +203,7 @@ TEST(RenderMesh, APointMayHaveHundredsOfTextureCoordinates) {
 }
 
 TEST(RenderMesh, KeepsTheTrianglesOfAMaterialTogether) {
-  Rig rig = sheet();
+  Rig rig = plainSheet();
   rig.source.polygons.materials = {"skin", "lips"};
   rig.source.polygons.faceMaterial = {1, -1, 1, 0};
   const auto parts = [](std::uint32_t each) {
@@ -278,7 +228,7 @@ TEST(RenderMesh, LeavesOutTrianglesWithoutThreePoints) {
 }
 
 TEST(RenderMesh, OfAFileWithoutPolygonsHasNoTriangles) {
-  Rig rig = sheet();
+  Rig rig = plainSheet();
   rig.source.polygons = {};
   rig.source.quadCorners.clear();
   const Tessellation grid(rig.surface, 1);

@@ -1,0 +1,85 @@
+#ifndef __wasm__
+#include <cstring>
+
+#include "capi/handles.hpp"
+#include "capi/message.hpp"
+
+using namespace sweepface;
+using namespace sweepface::capi;
+
+const Evaluator& Mesh::mapTangents(bool moving) const {
+  std::call_once(tangentsOnce, [&] {
+    const auto vectors = blend(*rig, {});
+    neutralTangents = lod == 0 ? tangentsOf(render, sourcePositions(*rig, grid, vectors, {}),
+                                            sourceNormals(*rig, grid, vectors))
+                               : tangentsOf(render, grid.positions(vectors), grid.normals(vectors));
+  });
+  MapTangents& map = moving ? movingMap : neutralMap;
+  std::call_once(map.once, [&] {
+    map.evaluator = *Evaluator::make(
+        *rig, grid, render, neutralTangents,
+        {.level = lod, .positions = false, .targets = moving, .influences = division->influences});
+  });
+  return map.evaluator;
+}
+
+namespace {
+
+constexpr std::size_t kTightTangents = 4 * sizeof(float);
+
+sweepface_status needTexcoords(const Mesh& mesh) {
+  if (!mesh.render.texcoords.empty()) return SWEEPFACE_OK;
+  return refuse("The mesh has no texture coordinates, along which tangents would go.");
+}
+
+void writeSigns(const std::vector<float>& signs, const VectorsOut& tangents) {
+  auto* place = reinterpret_cast<char*>(tangents.data) + kTight;
+  for (Index v = 0; v < tangents.count; ++v, place += tangents.stride)
+    std::memcpy(place, &signs[v], sizeof(float));
+}
+
+/// What the face wrote there is written over.
+void forget(sweepface_face& face, const float* data) {
+  for (Written* const last : {&face.positions, &face.normals})
+    if (last->data == data) last->data = nullptr;
+  face.positionsBefore.forget(data);
+  face.normalsBefore.forget(data);
+}
+
+}  // namespace
+
+sweepface_status sweepface_mesh_prepare_tangents(const sweepface_mesh* mesh) {
+  if (!mesh) return refuse("Preparing needs a mesh.");
+  if (const auto status = needTexcoords(*mesh->mesh)) return status;
+  if (const auto status = needTargets(*mesh->mesh->rig)) return status;
+  mesh->mesh->mapTangents(false);
+  mesh->mesh->mapTangents(true);
+  return SWEEPFACE_OK;
+}
+
+sweepface_status sweepface_face_tangents(sweepface_face* face, size_t count,
+                                         sweepface_vectors normals, sweepface_vectors tangents) {
+  if (!face) return refuse("Tangents need a face.");
+  const Mesh& mesh = *face->mesh;
+  if (const auto status = needTexcoords(mesh)) return status;
+  const auto vertices = static_cast<std::size_t>(mesh.render.vertexCount());
+  if (count > vertices) return refuse("There are only ", vertices, " vertices, not ", count, ".");
+  if (!fits(normals)) return refuse("The stride of normals must be 0 or 12 bytes to a gigabyte.");
+  if (!fits(tangents, kTightTangents))
+    return refuse("The stride of tangents must be 0 or 16 bytes, four floats, to a gigabyte.");
+  const auto to = [&](const sweepface_vectors& out, std::size_t tight) {
+    return VectorsOut{out.data, static_cast<Index>(count), out.stride ? out.stride : tight};
+  };
+  const Weights& weights = follow(*face);
+  Evaluation job;
+  job.evaluator = &mesh.mapTangents(!isNeutral(weights));
+  job.weights = weights;
+  job.scratch = face->scratch;
+  job.normals = to(normals, kTight);
+  job.tangents = to(tangents, kTightTangents);
+  job.run();
+  if (tangents.data) writeSigns(mesh.neutralTangents.signs, job.tangents);
+  for (float* const data : {normals.data, tangents.data}) forget(*face, data);
+  return SWEEPFACE_OK;
+}
+#endif

@@ -1,0 +1,186 @@
+#include "sweepface/tangents.hpp"
+
+#include <cmath>
+#include <gtest/gtest.h>
+#include <thread>
+
+#include "sweepface/codec.hpp"
+#include "sweepface/evaluator.hpp"
+#include "sweepface/sweepface.h"
+
+#include "codec/packed.hpp"
+#include "eval/textured.hpp"
+
+namespace sweepface {
+namespace {
+
+using namespace testing;
+
+/// Texture coordinates with a seam, beyond which they are mirrored.
+Rig seamed(Rig rig) {
+  texture(rig, [](const Vec3& p, const Vec3& middle) {
+    return middle.x > 0 ? Vec2{p.x, p.y} : Vec2{5 - p.x, p.y + 0.5 * p.z};
+  });
+  return rig;
+}
+
+class FacesWithTangents : public ::testing::Test {
+ protected:
+  FacesWithTangents() : rig(seamed(makeRig(tee()))) { load(encode(rig)); }
+  ~FacesWithTangents() override { free(); }
+
+  void free() {
+    sweepface_face_free(face);
+    sweepface_mesh_free(mesh);
+    sweepface_rig_free(handle);
+    face = nullptr, mesh = nullptr, handle = nullptr;
+  }
+  void load(const std::string& bytes, uint32_t lod = 0) {
+    free();
+    ASSERT_EQ(sweepface_rig_load_neutral(bytes.data(), bytes.size(), "tee", &handle), SWEEPFACE_OK);
+    ASSERT_EQ(sweepface_mesh_create(handle, lod, &mesh), SWEEPFACE_OK) << sweepface_message();
+    ASSERT_EQ(sweepface_face_create(mesh, &face), SWEEPFACE_OK);
+    count = sweepface_mesh_vertex_count(mesh);
+  }
+
+  static bool refuses(sweepface_status status, std::string_view part) {
+    return status == SWEEPFACE_BAD_ARGUMENT &&
+           std::string_view(sweepface_message()).find(part) != std::string_view::npos;
+  }
+
+  struct Written {
+    std::vector<float> normals, tangents;
+    friend bool operator==(const Written&, const Written&) = default;
+  };
+  Written tangents() {
+    Written out{std::vector<float>(3 * count), std::vector<float>(4 * count)};
+    EXPECT_EQ(
+        sweepface_face_tangents(face, count, {out.normals.data(), 0}, {out.tangents.data(), 0}),
+        SWEEPFACE_OK)
+        << sweepface_message();
+    return out;
+  }
+  std::vector<float> normals() {
+    std::vector<float> out(3 * count);
+    EXPECT_EQ(sweepface_face_evaluate(face, count, {}, {out.data(), 0}), SWEEPFACE_OK);
+    return out;
+  }
+
+  Rig rig;
+  sweepface_rig* handle = nullptr;
+  sweepface_mesh* mesh = nullptr;
+  sweepface_face* face = nullptr;
+  std::size_t count = 0;
+  const double weights[3] = {0.5, -0.25, 1};
+};
+
+TEST_F(FacesWithTangents, AreTheLibrarysOwn) {
+  for (const uint32_t lod : {0u, 2u}) {
+    load(encode(rig), lod);
+    ASSERT_GT(count, sweepface_mesh_point_count(mesh)) << "there is a seam";
+    const Tessellation grid(rig.surface, lod == 0 ? 1 : 2);
+    const RenderMesh render = lod == 0 ? renderSource(rig, grid) : renderGrid(rig, grid);
+    const auto neutral = blend(rig, {});
+    const Tangents expected =
+        lod == 0 ? tangentsOf(render, sourcePositions(rig, grid, neutral, {}),
+                              sourceNormals(rig, grid, neutral))
+                 : tangentsOf(render, grid.positions(neutral), grid.normals(neutral));
+    const Written still = tangents();
+    for (std::size_t v = 0; v < count; ++v) {
+      for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(still.tangents[4 * v + c], coordinate(expected.directions[v], c), 1e-3);
+      EXPECT_EQ(still.tangents[4 * v + 3], expected.signs[v]);
+    }
+    ASSERT_EQ(sweepface_face_set_weights(face, weights, 3), SWEEPFACE_OK);
+    const Written moved = tangents();
+    EXPECT_NE(moved.tangents, still.tangents);
+    const auto evaluator =
+        Evaluator::make(rig, grid, render, expected, {.level = static_cast<Index>(lod)}).value();
+    std::vector<float> directions(3 * count);
+    std::vector<std::byte> scratch(evaluator.scratchBytes());
+    Evaluation job;
+    job.evaluator = &evaluator, job.weights = weights, job.scratch = scratch;
+    job.tangents = {directions.data(), static_cast<Index>(count)};
+    job.run();
+    for (std::size_t v = 0; v < count; ++v)
+      for (int c = 0; c < 3; ++c) EXPECT_EQ(moved.tangents[4 * v + c], directions[3 * v + c]) << v;
+  }
+}
+
+TEST_F(FacesWithTangents, HaveTheNormalsOfEvaluation) {
+  ASSERT_EQ(sweepface_face_set_weights(face, weights, 3), SWEEPFACE_OK);
+  const auto expected = normals(), found = tangents().normals;
+  for (std::size_t k = 0; k < found.size(); ++k) EXPECT_NEAR(found[k], expected[k], 0.06) << k;
+}
+
+TEST_F(FacesWithTangents, FillBuffersOfAnyStrideAndNoMoreThanAskedFor) {
+  const Written all = tangents();
+  struct Vertex {
+    float normal[3], tangent[4], untouched;
+  };
+  std::vector<Vertex> mixed(count, {{7, 7, 7}, {7, 7, 7, 7}, 7});
+  ASSERT_EQ(sweepface_face_tangents(face, count - 1, {mixed[0].normal, sizeof(Vertex)},
+                                    {mixed[0].tangent, sizeof(Vertex)}),
+            SWEEPFACE_OK);
+  for (std::size_t v = 0; v < count - 1; ++v) {
+    EXPECT_TRUE(std::equal(mixed[v].normal, mixed[v].normal + 3, &all.normals[3 * v]));
+    EXPECT_TRUE(std::equal(mixed[v].tangent, mixed[v].tangent + 4, &all.tangents[4 * v]));
+    EXPECT_EQ(mixed[v].untouched, 7);
+  }
+  EXPECT_EQ(mixed[count - 1].normal[0], 7);
+  EXPECT_EQ(mixed[count - 1].tangent[3], 7);
+  std::vector<float> alone(3 * count);
+  ASSERT_EQ(sweepface_face_tangents(face, count, {alone.data(), 0}, {}), SWEEPFACE_OK);
+  EXPECT_EQ(alone, all.normals);
+}
+
+// An update must not take what tangents wrote for what it wrote itself.
+TEST_F(FacesWithTangents, AreKeptApartFromWhatIsUpdated) {
+  ASSERT_EQ(sweepface_face_set_weight(face, 0, 0.5), SWEEPFACE_OK);
+  const auto expected = normals();
+  std::vector<float> buffers[2] = {expected, std::vector<float>(4 * count)};
+  const auto update = [&](std::vector<float>& into) {
+    EXPECT_EQ(sweepface_face_update(face, count, {}, {into.data(), 0}), SWEEPFACE_OK);
+    into.resize(3 * count);
+  };
+  update(buffers[0]), update(buffers[1]);
+  for (auto& buffer : buffers) {
+    buffer.resize(4 * count);
+    ASSERT_EQ(sweepface_face_tangents(face, count, {}, {buffer.data(), 0}), SWEEPFACE_OK);
+    update(buffer);
+    EXPECT_EQ(buffer, expected);
+  }
+}
+
+TEST_F(FacesWithTangents, AreThereBeforeTheirTargets) {
+  load(encode(packed(rig)));
+  const Written neutral = tangents();
+  EXPECT_TRUE(refuses(sweepface_mesh_prepare_tangents(mesh), "sweepface_rig_load_targets first"));
+  std::thread loads([&] { EXPECT_EQ(sweepface_rig_load_targets(handle), SWEEPFACE_OK); });
+  for (int frame = 0; frame < 20; ++frame) EXPECT_EQ(tangents(), neutral);
+  loads.join();
+  EXPECT_EQ(sweepface_mesh_prepare_tangents(mesh), SWEEPFACE_OK);
+  EXPECT_EQ(tangents(), neutral);
+  ASSERT_EQ(sweepface_face_set_weight(face, 0, 0.5), SWEEPFACE_OK);
+  EXPECT_NE(tangents(), neutral);
+}
+
+TEST_F(FacesWithTangents, RefuseWhatCannotBeMeant) {
+  float out[4] = {7, 7, 7, 7};
+  EXPECT_TRUE(refuses(sweepface_face_tangents(nullptr, 0, {}, {}), "need a face"));
+  EXPECT_TRUE(refuses(sweepface_mesh_prepare_tangents(nullptr), "needs a mesh"));
+  EXPECT_TRUE(
+      refuses(sweepface_face_tangents(face, count + 1, {out, 0}, {out, 0}), "There are only"));
+  EXPECT_TRUE(refuses(sweepface_face_tangents(face, 1, {out, 8}, {out, 0}), "stride of normals"));
+  EXPECT_TRUE(refuses(sweepface_face_tangents(face, 1, {out, 0}, {out, 12}), "16 bytes"));
+  EXPECT_TRUE(
+      refuses(sweepface_face_tangents(face, 1, {out, 0}, {out, (1u << 30) + 1}), "gigabyte"));
+  EXPECT_EQ(out[0], 7);
+  load(encode(makeRig(tee())));
+  constexpr auto kNone = "no texture coordinates";
+  EXPECT_TRUE(refuses(sweepface_mesh_prepare_tangents(mesh), kNone));
+  EXPECT_TRUE(refuses(sweepface_face_tangents(face, 1, {out, 0}, {out, 0}), kNone));
+}
+
+}  // namespace
+}  // namespace sweepface

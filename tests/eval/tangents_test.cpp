@@ -1,0 +1,231 @@
+#include "sweepface/tangents.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "sweepface/evaluator.hpp"
+
+#include "eval/play.hpp"
+#include "eval/textured.hpp"
+
+namespace sweepface {
+namespace {
+
+using namespace sweepface::testing;
+
+/// A level's tessellation, its render mesh and the tangents of the neutral; 0: the source.
+struct Level {
+  Index level;
+  Tessellation grid;
+  RenderMesh mesh;
+  std::vector<Vec3> neutral;
+  Tangents tangents;
+
+  Level(const Rig& rig, Index number)
+      : level(number),
+        grid(rig.surface, std::max<Index>(1, level)),
+        mesh(level == 0 ? renderSource(rig, grid) : renderGrid(rig, grid)),
+        neutral(blend(rig, {})),
+        tangents(tangentsOf(
+            mesh, level == 0 ? sourcePositions(rig, grid, neutral, {}) : grid.positions(neutral),
+            normals(rig, neutral))) {}
+
+  std::vector<Vec3> normals(const Rig& rig, std::span<const Vec3> vectors) const {
+    return level == 0 ? sourceNormals(rig, grid, vectors) : grid.normals(vectors);
+  }
+  Result<Evaluator> evaluator(const Rig& rig, double tolerance = 0.03) const {
+    return Evaluator::make(rig, grid, mesh, tangents,
+                           {.level = level, .positions = false, .derivativeTolerance = tolerance});
+  }
+};
+
+/// u = 2 x + y, v = y - x / 2: the inverse has ∂P/∂u = (1, 1/2) / 2.5.
+Vec2 slanted(const Vec3& p, const Vec3&) { return {2 * p.x + p.y, p.y - 0.5 * p.x}; }
+
+TEST(Tangents, GoAlongUOfTextureCoordinates) {
+  Rig rig = plainSheet();
+  texture(rig, slanted);
+  const Vec3 expected = normalized({1, 0.5, 0});
+  for (const Index level : {0, 1, 3}) {
+    const Level at(rig, level);
+    const Tangents& found = at.tangents;
+    ASSERT_EQ(static_cast<Index>(found.directions.size()), at.grid.vertexCount());
+    for (const Vec3& t : found.directions) EXPECT_LE(norm(t - expected), 1e-6);
+    EXPECT_EQ(found.signs, std::vector<float>(found.directions.size(), 1));
+  }
+}
+
+TEST(Tangents, TellWhereTextureCoordinatesAreMirrored) {
+  Rig rig = plainSheet();
+  texture(rig, [](const Vec3& p, const Vec3&) { return Vec2{-p.x, p.y}; });
+  const Tangents found = Level(rig, 0).tangents;
+  for (const Vec3& t : found.directions) EXPECT_LE(norm(t - Vec3{-1, 0, 0}), 1e-6);
+  EXPECT_EQ(found.signs, std::vector<float>(9, -1));
+}
+
+// Beyond x = 1 they are turned by a right angle.
+TEST(Tangents, DifferOnBothSidesOfASeam) {
+  Rig rig = plainSheet();
+  texture(rig, [](const Vec3& p, const Vec3& middle) {
+    return middle.x < 1 ? Vec2{p.x, p.y} : Vec2{10 + p.y, -p.x};
+  });
+  const Level source(rig, 0);
+  const RenderMesh& mesh = source.mesh;
+  const Tangents& found = source.tangents;
+  ASSERT_EQ(mesh.copies.size(), 3u);
+  for (std::size_t v = 0; v < found.directions.size(); ++v) {
+    const Vec3 expected = mesh.texcoords[2 * v] < 5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
+    EXPECT_LE(norm(found.directions[v] - expected), 1e-6) << v;
+  }
+}
+
+/// A fan of triangles round vertex 0, whose rims are at these angles, all of one orientation.
+struct Fan {
+  RenderMesh mesh;
+  std::vector<Vec3> positions{{}}, normals{{0, 0, 1}};
+
+  explicit Fan(const std::vector<double>& angles) {
+    mesh.texcoords = {0, 0};
+    for (const double angle : angles) {
+      positions.push_back({std::cos(angle), std::sin(angle), 0.2});
+      normals.push_back({0, 0, 1});
+    }
+    mesh.points = static_cast<Index>(positions.size());
+  }
+  void texcoord(float u, float v) { mesh.texcoords.insert(mesh.texcoords.end(), {u, v}); }
+  void triangle(std::uint32_t a, std::uint32_t b) {
+    mesh.triangles.insert(mesh.triangles.end(), {0, a, b});
+  }
+  Tangents tangents() const { return tangentsOf(mesh, positions, normals); }
+};
+
+// MikkTSpace's: each triangle's own tangent in the plane of the normal, weighted by its angle
+// there.
+TEST(Tangents, AreAverages) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  for (int run = 0; run < 200; ++run) {
+    const double first = 0.05 + 2.9 * uniform(random), second = 0.05 + 2.9 * uniform(random);
+    Fan fan({0, first, first + second});
+    // The first has u along its first side; the second's is turned by less than a right angle.
+    const double turn = 1.5 * uniform(random), inSecond = first - turn;
+    fan.texcoord(1, 0);
+    fan.texcoord(static_cast<float>(std::cos(first)), static_cast<float>(std::sin(first)));
+    fan.triangle(1, 2);
+    fan.positions.push_back(fan.positions[2]), fan.normals.push_back({0, 0, 1});
+    ++fan.mesh.points;
+    std::swap(fan.positions[3], fan.positions[4]);
+    // Vertex 3 is where vertex 2 is, with texture coordinates of its own.
+    fan.texcoord(static_cast<float>(std::cos(inSecond)), static_cast<float>(std::sin(inSecond)));
+    fan.texcoord(static_cast<float>(std::cos(inSecond + second)),
+                 static_cast<float>(std::sin(inSecond + second)));
+    fan.triangle(3, 4);
+    const double x = first + second * std::cos(turn), y = second * std::sin(turn);
+    const Vec3 found = fan.tangents().directions[0];
+    EXPECT_LE(std::abs(std::remainder(std::atan2(found.y, found.x) - std::atan2(y, x),
+                                      2 * std::numbers::pi)),
+              2e-4);
+    EXPECT_NEAR(found.z, 0, 1e-12);
+  }
+}
+
+TEST(Tangents, AreThoseOfTheLargerAngleWhereMirroredOnesMeet) {
+  for (const double angle : {1.0, 2.0}) {
+    Fan fan({0, angle, 3.0});
+    fan.texcoord(1, 0);
+    fan.texcoord(static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle)));
+    fan.texcoord(static_cast<float>(std::cos(2 * angle - 3)),
+                 static_cast<float>(std::sin(2 * angle - 3)));  // mirrored about what they share
+    fan.triangle(1, 2), fan.triangle(2, 3);
+    const Tangents found = fan.tangents();
+    const double turned = angle < 1.5 ? 2 * angle : 0;
+    EXPECT_LE(norm(found.directions[0] - Vec3{std::cos(turned), std::sin(turned), 0}), 1e-5);
+    EXPECT_EQ(found.signs[0], angle < 1.5 ? -1 : 1);
+  }
+}
+
+TEST(Tangents, AreNoneWhereNoTriangleTells) {
+  Fan fan({0, 1, 2});
+  for (int k = 0; k < 3; ++k) fan.texcoord(static_cast<float>(k), 0);  // all on a line
+  fan.triangle(1, 2), fan.triangle(2, 3);
+  const Tangents found = fan.tangents();
+  EXPECT_EQ(found.directions, std::vector<Vec3>(4));
+  EXPECT_EQ(found.signs, std::vector<float>(4, 1));
+}
+
+/// A linear map by its columns.
+using Linear = std::array<Vec3, 3>;
+Vec3 operator*(const Linear& map, const Vec3& p) {
+  return p.x * map[0] + p.y * map[1] + p.z * map[2];
+}
+
+/// The rig with one target, which maps all of space.
+Rig mappedBy(Rig rig, const Linear& map) {
+  Target target{"map", {}, {}};
+  for (const Vec3& p : rig.neutral) target.difference.push_back(map * p - p);
+  for (const Vec3& p : rig.source.loose) target.looseDifference.push_back(map * p - p);
+  rig.targets = {target};
+  return rig;
+}
+
+constexpr Linear kShear{{{1.3, 0, 0.2}, {0.5, 0.8, 0}, {0, -0.4, 1.1}}};
+
+/// Rigs of every sort whose texture coordinates are their places seen from above.
+std::vector<Rig> texturedRigs() {
+  std::vector<Rig> rigs;
+  for (Rig rig :
+       {plainSheet(), makeRig(onePatch(3, 2)), makeRig(tee()), makeRig(slice()), makeRig(fan(4))}) {
+    texture(rig, [](const Vec3& p, const Vec3& middle) {
+      return Vec2{p.x - 0.2 * p.z + (middle.x > 0.3 ? 9 : 0), p.y};
+    });
+    rigs.push_back(rig);
+  }
+  return rigs;
+}
+
+// Whatever maps all of space takes tangents along.
+TEST(EvaluatorOfTangents, TakesThemWhereTheSurfaceDoes) {
+  for (const Rig& plain : texturedRigs())
+    for (const Index level : {0, 1, 3}) {
+      const Rig rig = mappedBy(plain, kShear);
+      const Level at(rig, level);
+      const RenderMesh& mesh = at.mesh;
+      const auto evaluator = at.evaluator(rig, 1e-4).value();
+      ASSERT_EQ(evaluator.vertexCount(), mesh.vertexCount());
+      const auto normals = at.normals(rig, blend(rig, Weights{1.0}));
+      const Played still = play(evaluator, {}), moved = play(evaluator, {1.0});
+      for (Index v = 0; v < mesh.vertexCount(); ++v) {
+        const Vec3& tangent = at.tangents.directions[v];
+        if (norm(tangent) == 0) continue;
+        EXPECT_LE(norm(vectorOf(still.tangents, v) - tangent), 2e-4)
+            << v << " " << level << " " << rig.neutral.size();
+        EXPECT_LE(norm(vectorOf(moved.tangents, v) - normalized(kShear * tangent)), 5e-3) << v;
+        EXPECT_LE(norm(vectorOf(moved.normals, v) - normals[mesh.pointOf(v)]), 5e-3) << v;
+      }
+    }
+}
+
+TEST(EvaluatorOfTangents, GoesAlongTheSweepWhereThereAreNone) {
+  const Rig rig = makeRig(onePatch(3, 2));
+  const Level at(rig, 1);
+  EXPECT_EQ(at.tangents.directions, std::vector<Vec3>(12)) << "there are no texture coordinates";
+  const auto without = Evaluator::make(rig, at.grid, {.level = 1}).value();
+  EXPECT_EQ(play(at.evaluator(rig).value(), {}).tangents, play(without, {}).tangents);
+}
+
+TEST(EvaluatorOfTangents, RefusesAnotherMesh) {
+  Rig rig = plainSheet();
+  texture(rig, slanted);
+  Level once(rig, 1), twice(rig, 2);
+  EXPECT_TRUE(once.evaluator(rig));
+  twice.mesh = once.mesh;
+  EXPECT_FALSE(twice.evaluator(rig)) << "of another level";
+  twice.tangents = once.tangents;
+  EXPECT_FALSE(twice.evaluator(rig));
+  once.tangents.directions.pop_back();
+  EXPECT_FALSE(once.evaluator(rig));
+}
+
+}  // namespace
+}  // namespace sweepface
