@@ -6,6 +6,8 @@ import {
   controls, isLost, linesOver, meshOf, placeCamera, removeLines, render, resize, scene, stage, view
 } from './page_stage.js';
 
+const LOST = 'The graphics card is not there for this page; if it does not come back, load the page again.';
+
 let mesh, lines;           // the face on show and, if wanted, its edges
 let file, latest;          // the one on show and the one asked for last: the bytes, or what will be those, the name
                            // and, until it is shown, the one `before`
@@ -57,7 +59,7 @@ async function show(source, name, keepView = false) {
     own.isOver = file !== own;
     while (latest?.isOver) latest = latest.before;
     if (--waiting === 0 && mesh) {
-      hush();
+      hush(isLost() ? LOST : '');
       at('lod').value = mesh.face.lod;
     }
   }
@@ -229,11 +231,9 @@ at('lines').addEventListener('change', () => {
   wake();
 });
 controls.addEventListener('change', wake);
-view.addEventListener('webglcontextlost', () => {
-  complain(new Error('The graphics card is not there for this page; if it does not come back, load the page again.'));
-});
+view.addEventListener('webglcontextlost', () => complain(new Error(LOST)));
 view.addEventListener('webglcontextrestored', () => {
-  dismiss();
+  dismiss(LOST);
   wake();
 });
 new ResizeObserver(fit).observe(stage);

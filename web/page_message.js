@@ -14,12 +14,12 @@ export function complain(error) {
 
 const isError = () => message.className === 'error';
 
-/** Takes an error away, and nothing else. */
-export function dismiss() {
-  if (isError()) say('');
+/** Takes an error away, and nothing else; with a text that one alone. */
+export function dismiss(text = message.textContent) {
+  if (isError() && message.textContent === text) say('');
 }
 
-/** Takes anything away but an error. */
-export function hush() {
-  if (!isError()) say('');
+/** Takes anything away but an error; there may be one to tell instead. */
+export function hush(error) {
+  if (!isError()) say(error, error && 'error');
 }

@@ -12,7 +12,8 @@ export const stage = at('stage'), view = at('view');
 
 const renderer = makeRenderer();
 export const scene = new Scene();
-const camera = new PerspectiveCamera(26, 1, 0.1, 1000);
+const FIELD = 26;  // degrees from below to above, where a face was placed
+const camera = new PerspectiveCamera(FIELD, 1, 0.1, 1000);
 export const controls = new OrbitControls(camera, view);
 controls.enableDamping = true;
 controls.enablePan = false;
@@ -52,24 +53,38 @@ export function meshOf(face) {
   return mesh;
 }
 
-let unplaced;  // a face that came while there was no room to show it
+let unplaced;         // a face that came while there was no room to show it
+let size, placedFor;  // of the face on show, and how high the picture was that the camera is placed for, in its units
+
+const radians = (degrees) => degrees * Math.PI / 180;
+
+/** How high a picture of this shape must be for all of the face. */
+const heightFor = (aspect) => Math.max(size.y, size.x / aspect);
 
 /** The camera in front of the face, at a distance from which all of it is seen. */
 export function placeCamera(mesh) {
   unplaced = camera.aspect > 0 ? undefined : mesh;
   if (unplaced) return;
   const box = new Box3().setFromBufferAttribute(mesh.geometry.attributes.position);
-  const size = box.getSize(new Vector3()), middle = box.getCenter(new Vector3());
-  const reach = Math.max(size.y, size.x / camera.aspect) / 2 / Math.tan(camera.fov / 2 * Math.PI / 180);
-  const distance = 1.15 * reach + size.z / 2;
+  const middle = box.getCenter(new Vector3());
+  size = box.getSize(new Vector3());
+  placedFor = heightFor(camera.aspect);
+  const distance = 1.15 * placedFor / 2 / Math.tan(radians(FIELD / 2)) + size.z / 2;
   controls.target.copy(middle);
   camera.position.copy(middle).add(new Vector3(0.25, 0.06, 1).setLength(distance));
   camera.near = distance / 100;
   camera.far = 10 * distance;
-  camera.updateProjectionMatrix();
+  widen();
   controls.minDistance = distance / 6;
   controls.maxDistance = 3 * distance;
   controls.update();
+}
+
+/** Sees as much of the face as where it was placed, in a picture of another shape. */
+function widen() {
+  const share = camera.aspect > 0 && placedFor > 0 ? heightFor(camera.aspect) / placedFor : 1;
+  camera.fov = 2 * Math.atan(share * Math.tan(radians(FIELD / 2))) / radians(1);
+  camera.updateProjectionMatrix();
 }
 
 /** The edges of triangles among `count` vertices, each once, as two of them. */
@@ -112,7 +127,7 @@ export function resize() {
   renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
   renderer.setSize(clientWidth, clientHeight, false);
   camera.aspect = clientWidth / Math.max(clientHeight, 1);
-  camera.updateProjectionMatrix();
+  widen();
   if (unplaced) placeCamera(unplaced);
 }
 

@@ -479,14 +479,15 @@ test('the page', options, (t) => withPage('index.html', visit, async (page, comp
       card.loseContext();
       await new Promise((done) => setTimeout(done, 500));
       dispatchEvent(new PointerEvent('pointerdown'));  // which changes nothing about it
-      const lost = document.getElementById('message').textContent;
+      const said = [document.getElementById('message').textContent], {show} = globalThis.sweepface;
+      await show(fetch('sample.sweep').then((response) => response.arrayBuffer()), 'sample.sweep', true);
+      said.push(document.getElementById('message').textContent);
       card.restoreContext();
       await new Promise((done) => setTimeout(done, 1000));
-      return [lost, document.getElementById('message').textContent];
+      return [...said, document.getElementById('message').textContent];
     });
-    assert.deepEqual(said, [
-      'The graphics card is not there for this page; if it does not come back, load the page again.', ''
-    ]);
+    const lost = 'The graphics card is not there for this page; if it does not come back, load the page again.';
+    assert.deepEqual(said, [lost, lost, '']);
     const after = await changed(before, await picture());
     assert.ok(after < 0.01, `${after} of the pixels differ`);
     complaints.splice(told);  // that it was lost
@@ -544,6 +545,13 @@ test('the page', options, (t) => withPage('index.html', visit, async (page, comp
     const wide = await page.evaluate(() => document.documentElement.scrollWidth);
     assert.ok(wide <= 390);
     assert.ok((await view()).isWhole);
+    await page.setViewportSize({width: 320, height: 1400});  // as where the page shares the screen
+    await page.waitForTimeout(800);
+    const narrow = await view(), {width, height} = await page.locator('#view').boundingBox();
+    assert.ok(narrow.isWhole);
+    assert.ok(Math.abs(narrow.aspect - width / height) < 1e-3 && width === 320);
+    await page.setViewportSize({width: 390, height: 844});
+    await page.waitForTimeout(800);
     for (const id of ['#view', '#surprise', 'input[name="jawOpen"]']) assert.ok(await page.locator(id).isVisible());
     const neutral = await picture();
     await slide('mouthPucker', 1);
