@@ -24,11 +24,12 @@ export const blank = `<!doctype html><link rel="icon" href="data:,"><script type
   {"imports": {"three": "./node_modules/three/build/three.module.js",
                "sweepface/three": "./sweepface_three.js"}}</script>`;
 
-/** Serves web/ and, by their names, more files. */
+/** Serves web/ and, by their names, more files, or calls what answers instead of one. */
 function serve(files) {
   const server = createServer((request, response) => {
     const name = new URL(request.url, 'http://localhost').pathname.slice(1);
     const path = join(folder, name);
+    if (files[name] instanceof Function) return files[name](response);
     if (!(name in files) && !existsSync(path)) return response.writeHead(404).end();
     response.setHeader('content-type', types[extname(name)] ?? 'application/octet-stream');
     response.end(files[name] ?? readFileSync(path));

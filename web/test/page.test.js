@@ -610,6 +610,15 @@ test('the page says which file is missing, and without any asks for one', option
   });
 });
 
+test('the page says when a download breaks off', options, async () => {
+  const breakOff = (response) => {
+    response.writeHead(200, {'content-length': bytes.length});
+    response.write(bytes.subarray(0, bytes.length / 2), () => response.destroy());
+  };
+  assert.equal(await told('index.html?face=half.sweep', {files: {'half.sweep': breakOff}}),
+               'half.sweep cannot be had: the server breaks off.');
+});
+
 test('the page says when three.js is missing', options, async () => {
   const html = readFileSync(new URL('../index.html', import.meta.url), 'utf8').replace('three.module.js', 'nothing.js');
   assert.match(await told('other.html', {files: {'other.html': html}}), /npm ci/);
