@@ -1,6 +1,6 @@
 import type {Material, MeshStandardMaterial} from 'three';
 import type {Sweepface} from './sweepface.js';
-import type {FaceMesh} from './sweepface_mesh.js';
+import type {CardMesh} from './sweepface_card.js';
 
 /**
  * GLSL ES 3, for textures of 1024 texels a row:
@@ -9,12 +9,8 @@ import type {FaceMesh} from './sweepface_mesh.js';
  */
 export const SWEEPFACE_GLSL: string;
 
-/** A face in a scene whose vertices are evaluated by the vertex shader of its materials, which no other mesh can have, as
- * long as it has them; `update` sees to those that were put in since. For `WebGLRenderer`; exporters see the neutral. */
+/** A face that the graphics card evaluates, for `WebGLRenderer`. */
 export class SweepfaceGpuMesh<Materials extends Material | Material[] = MeshStandardMaterial[]>
-    extends FaceMesh<Materials> {
+    extends CardMesh<Materials> {
   constructor(face: Sweepface, materials?: Materials);
-  /** Bytes of textures on the graphics card, and of them those that change every frame. */
-  readonly textureBytes: number;
-  readonly frameBytes: number;
 }

@@ -41,7 +41,7 @@ export class FaceMesh<Materials extends Material | Material[] = MeshStandardMate
   /** Makes ready to move, which else happens when it first does and takes a few frames. */
   prepare(): void;
   /** Another face of the same file with the same weights, which moves by itself. What of the geometry is the same for all
-   * is shared, and so are materials, but of a SweepfaceGpuMesh, whose are clones. */
+   * is shared, and so are materials, but of meshes that the graphics card evaluates, whose are clones. */
   clone(recursive?: boolean): this;
   /** Frees geometry, materials and the face. */
   dispose(): void;

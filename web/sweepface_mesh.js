@@ -1,4 +1,4 @@
-// What the meshes of sweepface/three and sweepface/gpu have in common.
+// What the meshes of sweepface/three, sweepface/gpu and sweepface/webgpu have in common.
 import {BufferAttribute, BufferGeometry, DoubleSide, Mesh, MeshStandardMaterial} from 'three';
 import {isWeight} from './sweepface_values.js';
 
@@ -19,6 +19,9 @@ export function faceFrom(face) {
   if (typeof face?.evaluate === 'function') return face;
   throw new TypeError('A mesh is made of a face; await Sweepface.load for it.');
 }
+
+/** Nothing that is on the graphics card: some renderers look for every attribute that they have drawn. */
+const NOTHING = new BufferAttribute(new Float32Array(0), 3);
 
 /**
  * The geometry of a face. What of it stays as it was made, clones have together with it: on the graphics card it is there
@@ -65,8 +68,10 @@ class FaceGeometry extends BufferGeometry {
     const {attributes} = this, {all} = this.#fixed;
     if (this.#isUser) --this.#fixed.users;
     this.#isUser = false;
-    if (this.#fixed.users > 0)
-      this.attributes = Object.fromEntries(Object.entries(attributes).filter(([, attribute]) => !all.has(attribute)));
+    if (this.#fixed.users > 0) {
+      const given = ([name, attribute]) => [name, all.has(attribute) ? NOTHING : attribute];
+      this.attributes = Object.fromEntries(Object.entries(attributes).map(given));
+    }
     super.dispose();
     this.attributes = attributes;
   }

@@ -7,7 +7,7 @@ import {fileURLToPath} from 'node:url';
 const folder = fileURLToPath(new URL('..', import.meta.url));
 const executablePath = process.env.SWEEPFACE_CHROMIUM ?? '/usr/bin/chromium';
 const {chromium} = await import('playwright-core').catch(() => ({}));
-const inSoftware = '--use-angle=swiftshader --enable-unsafe-swiftshader';
+const inSoftware = '--use-angle=swiftshader --enable-unsafe-swiftshader --enable-unsafe-webgpu --use-webgpu-adapter=swiftshader';
 const launchOptions = {
   executablePath, args: ['--no-sandbox', ...(process.env.SWEEPFACE_CHROMIUM_ARGS ?? inSoftware).split(' ')]
 };

@@ -3,6 +3,7 @@ import {type Material, MeshBasicMaterial, Scene} from 'three';
 import {Sweepface, type Drive, type LoadOptions, type Part, type Pose, type Region} from 'sweepface';
 import {Clip, ClipPlayer, type OneEuro, readClip, readTimeline, TimelinePlayer} from 'sweepface/clips';
 import {SWEEPFACE_GLSL, SweepfaceGpuMesh} from 'sweepface/gpu';
+import {SweepfaceNodeMesh} from 'sweepface/webgpu';
 import {animationFor, SweepfaceLoader, SweepfaceMesh} from 'sweepface/three';
 
 export async function useFace(bytes: ArrayBuffer | Uint8Array): Promise<void> {
@@ -49,7 +50,8 @@ export async function onTheCard(bytes: ArrayBuffer): Promise<number> {
   mesh.prepare();
   mesh.setWeights({jawOpen: 0.5});
   mesh.update(1 / 60);
-  return mesh.textureBytes + mesh.frameBytes + SWEEPFACE_GLSL.length;
+  const nodes: SweepfaceNodeMesh<MeshBasicMaterial> = new SweepfaceNodeMesh(mesh.face, new MeshBasicMaterial()).clone();
+  return mesh.textureBytes + mesh.frameBytes + SWEEPFACE_GLSL.length + nodes.textureBytes;
 }
 
 export async function useClips(bytes: ArrayBuffer, csv: string): Promise<void> {

@@ -1,0 +1,186 @@
+// What the meshes of sweepface/gpu and sweepface/webgpu have in common: tables in textures, the attributes that point into
+// them, and materials that follow one face each.
+import {BufferAttribute, DataTexture, NearestFilter, Vector3} from 'three';
+import {FaceMesh, faceFrom, follow, geometryOf, materialsOfClone, meet, share, show} from './sweepface_mesh.js';
+
+/** Texels in a row: texel k of a texture is at (k mod 1024, k / 1024). */
+const WIDTH = 1024;
+
+/** A texture of four 16-bit integers a texel, filled up to whole rows; `kind` is how it holds them. */
+function texture({Data, perTexel, ...settings}, count, ...parts) {
+  const height = Math.max(1, Math.ceil(count / (4 * WIDTH))), data = new Data(perTexel * WIDTH * height);
+  const made = Object.assign(new DataTexture(data, WIDTH, height), settings);
+  made.minFilter = made.magFilter = NearestFilter;
+  made.needsUpdate = true;
+  const numbers = numbersOf(made);
+  parts.reduce((at, part) => (numbers.set(part, at), at + part.length), 0);
+  return made;
+}
+
+const numbersOf = ({image: {data}}) => new Int16Array(data.buffer, data.byteOffset, data.byteLength / 2);
+
+/** What the shader reads: the tables of positions and, behind them in the same textures, those of tangents. */
+class Textures {
+  constructor({positions, tangents}, kind) {
+    this.between = 4 * positions.modes;
+    this.end = this.between + 4 * tangents.modes;
+    this.basis = texture(kind, positions.basis.length + tangents.basis.length, positions.basis, tangents.basis);
+    this.modes = texture(kind, this.end);
+    this.factor = 0;  // of the weights, and so the same for both
+  }
+
+  update(face) {
+    const numbers = numbersOf(this.modes);
+    this.factor = face.shaderModes(numbers.subarray(0, this.between));
+    face.shaderModes(numbers.subarray(this.between, this.end), true);
+    this.modes.needsUpdate = true;
+  }
+
+  dispose() {
+    this.basis.dispose();
+    this.modes.dispose();
+  }
+}
+
+/** The tables of positions and of tangents, whose places are those behind the former. */
+function tablesOf(face) {
+  const positions = faceFrom(face).shaderTables(), tangents = face.shaderTables(true);
+  for (let k = 0; k < tangents.places.length; k += 3) {
+    tangents.places[k] += positions.basis.length / 4;
+    tangents.places[k + 1] += 64 * positions.modes;
+  }
+  return {positions, tangents};
+}
+
+/** For every vertex the numbers of its point. */
+function spread(face, perPoint, size, from = 0, stride = size) {
+  const points = face.pointCount, copies = face.copies, out = new perPoint.constructor(size * face.vertexCount);
+  for (let v = 0; v < face.vertexCount; ++v) {
+    const point = v < points ? v : copies[v - points];
+    for (let k = 0; k < size; ++k) out[size * v + k] = perPoint[stride * point + from + k];
+  }
+  return new BufferAttribute(out, size);
+}
+
+/** The normals of points whose tangents lie behind each other. */
+function normalsOf(tangents) {
+  const normals = new Float32Array(tangents.length / 2), along = new Vector3(), across = new Vector3();
+  for (let at = 0; at < normals.length; at += 3) {
+    along.fromArray(tangents, 2 * at);
+    across.fromArray(tangents, 2 * at + 3);
+    along.normalize().cross(across.normalize()).normalize().toArray(normals, at);
+  }
+  return normals;
+}
+
+const attributesOf = (face, {positions, tangents}) => ({
+  position: spread(face, positions.neutral, 3),
+  sweepPlace: spread(face, positions.places, 3),
+  sweepTangentPlace: spread(face, tangents.places, 3),
+  normal: spread(face, normalsOf(tangents.neutral), 3),  // for materials that do not follow the face
+  sweepAlong: spread(face, tangents.neutral, 3, 0, 6),
+  sweepAcross: spread(face, tangents.neutral, 3, 3, 6)
+});
+
+/** What materials that follow a face were told of their own before. */
+const own = new WeakMap();
+
+export function refuse(material, what) {
+  throw new TypeError(`The material '${material.name || material.type}' ${what}.`);
+}
+
+/**
+ * What each kind of mesh has in its own way: the names of what it puts on a material that is to follow the face, what that
+ * is, by these names, and which materials it refuses.
+ */
+export const hookNames = Symbol('hookNames'), hooksFor = Symbol('hooksFor'), check = Symbol('check');
+
+/** A face in a scene whose vertices are evaluated where they are drawn. */
+export class CardMesh extends FaceMesh {
+  #textures;
+  #followers = new Set();  // materials
+
+  /** `kind` is how textures hold integers: {Data, perTexel} and what is set on them. */
+  constructor(face, materials, kind) {
+    const tables = tablesOf(face), textures = new Textures(tables, kind);
+    super(face, geometryOf(face, {}, attributesOf(face, tables)), materials);
+    this.frustumCulled = false;  // bounds are those of the neutral
+    this.#textures = textures;
+  }
+
+  /** Has the face followed by the materials that it has now, and by no others. */
+  [follow]() {
+    const {material, customDepthMaterial, customDistanceMaterial} = this;
+    const all = new Set([material, customDepthMaterial, customDistanceMaterial].flat().filter(Boolean));
+    const fresh = [...all].filter((each) => !this.#followers.has(each));
+    for (const each of fresh) {  // all before the first is changed
+      if (own.has(each)) refuse(each, 'follows a face already; give each mesh a clone() of it');
+      this[check](each);
+    }
+    for (const each of this.#followers) if (!all.has(each)) this.#release(each);
+    for (const each of fresh) this.#patch(each);
+  }
+
+  [check]() {}
+
+  /** What a material has of its own in the places of the mesh's hooks. */
+  #hooksOf(material) {
+    return own.get(material)?.before ?? Object.fromEntries(this[hookNames].map((name) => [name, material[name] ?? null]));
+  }
+
+  #patch(material) {
+    material.dispose();  // what a renderer made of it before knows no face, or another
+    const before = this.#hooksOf(material), hooks = this[hooksFor](material, this.#textures);
+    this.#followers.add(material);
+    own.set(material, {before, hooks});
+    Object.assign(material, hooks);
+  }
+
+  #release(material) {
+    material.dispose();
+    const {before, hooks} = own.get(material);
+    for (const hook of this[hookNames])  // what was put in its place later stays
+      if (material[hook] === hooks[hook]) material[hook] = before[hook];
+    own.delete(material);
+    this.#followers.delete(material);
+  }
+
+  /** Bytes of textures on the graphics card, and of them those that change every frame. */
+  get textureBytes() { return this.#textures.basis.image.data.byteLength + this.frameBytes; }
+  get frameBytes() { return this.#textures.modes.image.data.byteLength; }
+
+  [show]() { this.#textures.update(this.face); }
+
+  /** Rays meet the face as it stands, which the attributes do not tell: it is evaluated for them. */
+  [meet](raycaster, hits) {
+    const {geometry} = this, {attributes, boundingSphere, boundingBox} = geometry;
+    const standing = {};
+    for (const name of ['position', 'normal'])
+      if (attributes[name]) standing[name] = new BufferAttribute(new Float32Array(attributes[name].array.length), 3);
+    this.face.evaluate(standing.position.array, standing.normal?.array);
+    Object.assign(geometry, {attributes: {...attributes, ...standing}, boundingSphere: null, boundingBox: null});
+    try {
+      super[meet](raycaster, hits);
+    } finally {
+      Object.assign(geometry, {attributes, boundingSphere, boundingBox});
+    }
+  }
+
+  /** Also the basis, whose textures have one image, which three.js keeps until the last of them goes. */
+  [share](original) {
+    super[share](original);
+    this.#textures.basis = original.#textures.basis.clone();
+  }
+
+  /** Materials follow one face each. */
+  [materialsOfClone]() {
+    const clone = (material) => Object.assign(material.clone(), this.#hooksOf(material));
+    return Array.isArray(this.material) ? this.material.map(clone) : clone(this.material);
+  }
+
+  dispose() {
+    this.#textures.dispose();
+    super.dispose();
+    for (const material of this.#followers) this.#release(material);
+  }
+}

@@ -1,0 +1,130 @@
+import assert from 'node:assert/strict';
+import {readFileSync} from 'node:fs';
+import test from 'node:test';
+import {skip, withPage} from './browser.js';
+import {sample} from './native.js';
+
+const blank = `<!doctype html><link rel="icon" href="data:,"><script type="importmap">
+  {"imports": {"three": "./node_modules/three/build/three.module.js",
+               "three/webgpu": "./node_modules/three/build/three.webgpu.js",
+               "three/tsl": "./node_modules/three/build/three.tsl.js"}}</script>`;
+const files = {'blank.html': blank, 'face.sweep': readFileSync(process.env.SWEEPFACE_GPU_FACE ?? sample)};
+
+/** In the page: meshes, and their pictures by WebGPURenderer with one of its backends. */
+async function prepare(forceWebGL) {
+  const THREE = globalThis.THREE = await import('three/webgpu');
+  const {Sweepface} = await import('./sweepface.js'), {SweepfaceMesh} = await import('./sweepface_three.js');
+  const {SweepfaceNodeMesh} = await import('./sweepface_webgpu.js');
+  const bytes = await (await fetch('./face.sweep')).arrayBuffer(), size = 256;
+  const renderer = new THREE.WebGPURenderer({canvas: document.createElement('canvas'), forceWebGL});
+  await renderer.init();
+  renderer.shadowMap.enabled = true;
+  const target = new THREE.RenderTarget(size, size), scene = globalThis.scene = new THREE.Scene();
+  const {center, radius} = globalThis.sphere = new SweepfaceMesh(await Sweepface.load(bytes)).geometry.boundingSphere;
+  const camera = new THREE.PerspectiveCamera(30, 1, radius, 9 * radius), light = new THREE.DirectionalLight(0xffffff, 3);
+  camera.position.copy(center).add(new THREE.Vector3(0, 0, 4.2 * radius));
+  light.position.copy(center).add(new THREE.Vector3(1, 0, 2).multiplyScalar(radius));
+  light.target.position.copy(center);
+  scene.add(light, light.target, new THREE.AmbientLight(0xffffff, 0.5));
+  Object.assign(globalThis, {
+    light,
+    make: async (materials) => Promise.all([SweepfaceMesh, SweepfaceNodeMesh].map(
+      async (Made) => new Made(await Sweepface.load(bytes), materials?.()))),
+    async draw(mesh) {
+      await new Promise(requestAnimationFrame);  // once a frame shadows are made anew
+      scene.add(mesh);
+      renderer.setRenderTarget(target);
+      renderer.render(scene, camera);
+      scene.remove(mesh);
+      return renderer.readRenderTargetPixelsAsync(target, 0, 0, size, size);
+    },
+    /** The share of pixels that anyone would tell apart. */
+    differ(a, b) {
+      let count = 0;
+      for (let k = 0; k < a.length; k += 4) count += [0, 1, 2].some((c) => Math.abs(a[k + c] - b[k + c]) > 24);
+      return 4 * count / a.length;
+    },
+    /** The pictures of meshes, all in the same pose. */
+    async posed(...meshes) {
+      const pictures = [];
+      for (const mesh of meshes) {
+        mesh.setWeights(Object.fromEntries(mesh.names.map((name, k) => [name, ((7 * k) % 10) / 20])));
+        mesh.update();
+        pictures.push(await globalThis.draw(mesh));
+      }
+      return pictures;
+    }
+  });
+  return renderer.backend.isWebGPUBackend === true;
+}
+
+const options = {skip, timeout: 240_000};
+for (const backend of ['WebGPU', 'WebGL'])
+  test(`nodes, with ${backend}`, options, (t) => withPage('blank.html', {files}, async (page, complaints) => {
+    const isThere = backend === 'WebGL' || await page.evaluate(() => navigator.gpu?.requestAdapter().then(Boolean));
+    if (!isThere) return t.skip('this browser has no WebGPU');
+    await page.evaluate(`globalThis.prepare = ${prepare}`);
+    assert.equal(await page.evaluate((forceWebGL) => globalThis.prepare(forceWebGL), backend === 'WebGL'), backend === 'WebGPU');
+
+    await t.test('draw what the processor draws', async () => {
+      const found = await page.evaluate(async () => {
+        const {make, draw, differ, posed} = globalThis, [onCpu, onCard] = await make();
+        const rest = [await draw(onCpu), await draw(onCard)], pose = await posed(onCpu, onCard);
+        return {moved: differ(rest[0], pose[0]), rest: differ(...rest), posed: differ(...pose),
+                bytes: [onCard.textureBytes, onCard.frameBytes]};
+      });
+      assert.ok(found.moved > 0.005, 'the pose changes nothing');
+      assert.ok(found.rest < 0.001 && found.posed < 0.001, `${found.posed} of the pixels differ`);
+      assert.ok(found.bytes[0] > found.bytes[1] && found.bytes[1] > 0);
+    });
+
+    await t.test('cast the same shadows', async () => {
+      const found = await page.evaluate(async () => {
+        const {THREE, scene, sphere: {center, radius}, light, make, draw, differ, posed} = globalThis;
+        const wall = new THREE.Mesh(new THREE.PlaneGeometry(9 * radius, 9 * radius), new THREE.MeshStandardMaterial());
+        wall.position.copy(center).add(new THREE.Vector3(0, 0, -radius));
+        wall.receiveShadow = light.castShadow = true;
+        Object.assign(light.shadow.camera, {near: 0.1 * radius, far: 9 * radius, left: -1.5 * radius, right: 1.5 * radius,
+                                            bottom: -1.5 * radius, top: 1.5 * radius});
+        light.shadow.camera.updateProjectionMatrix();
+        scene.add(wall);
+        const meshes = await make(() => new THREE.MeshStandardMaterial({colorWrite: false, depthWrite: false}));
+        for (const mesh of meshes) mesh.castShadow = true;
+        const rest = await draw(meshes[0]), pictures = await posed(...meshes);
+        scene.remove(wall);
+        light.castShadow = false;
+        return {moved: differ(rest, pictures[0]), off: differ(...pictures)};
+      });
+      assert.ok(found.moved > 0.0002 && found.off < 0.1 * found.moved, JSON.stringify(found));
+    });
+
+    await t.test('go with materials that move vertices themselves, with clones, and with what is put in later', async () => {
+      const found = await page.evaluate(async () => {
+        const {THREE, make, draw, differ, posed} = globalThis, {positionLocal, vec3} = await import('three/tsl');
+        const wide = () => Object.assign(new THREE.MeshNormalNodeMaterial(), {positionNode: positionLocal.mul(vec3(0.5, 1, 1))});
+        const [onCpu, onCard] = await make(wide), [cpu, card] = await posed(onCpu, onCard), result = {own: differ(cpu, card)};
+        const twin = onCard.clone();
+        result.twin = differ(cpu, await draw(twin));
+        onCard.dispose();  // and leaves the twin what they shared
+        result.left = differ(cpu, await draw(twin));
+        const put = new THREE.MeshNormalMaterial(), [plain] = await make(() => put.clone());
+        result.other = differ(cpu, (await posed(plain))[0]);
+        twin.material = put;
+        twin.update();
+        result.late = differ(await draw(plain), await draw(twin));
+        const [, another] = await make();
+        another.material = put;
+        try { another.update(); } catch (error) { result.message = error.message; }
+        twin.material = new THREE.MeshBasicMaterial();
+        twin.update();
+        result.freed = put.positionNode;
+        return result;
+      });
+      const {other, message, freed, ...off} = found;
+      for (const [name, share] of Object.entries(off)) assert.ok(share < 0.001, `${name}: ${share} of the pixels differ`);
+      assert.ok(other > 0.01);
+      assert.match(message, /follows a face already/);
+      assert.equal(freed, null);
+      assert.deepEqual(complaints, []);
+    });
+  }));
