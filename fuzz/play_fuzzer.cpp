@@ -64,6 +64,18 @@ void requireWhole(const sweepface_mesh* mesh) {
   require(inParts == triangles);
 }
 
+void requireTangents(sweepface_face* face, const sweepface_mesh* mesh) {
+  const std::size_t vertices = sweepface_mesh_vertex_count(mesh);
+  std::vector<float> normals(3 * vertices), tangents(4 * vertices);
+  const auto status =
+      sweepface_face_tangents(face, vertices, {normals.data(), 0}, {tangents.data(), 0});
+  require((status == SWEEPFACE_OK) == (sweepface_mesh_texcoords(mesh) != nullptr));
+  for (const float number : normals) require(std::abs(number) < 1.001F);
+  for (const float number : tangents) require(std::abs(number) < 1.001F);
+  for (std::size_t k = 3; status == SWEEPFACE_OK && k < tangents.size(); k += 4)
+    require(std::abs(tangents[k]) == 1);
+}
+
 /// Positions and normals, which updating writes as evaluating does.
 std::vector<float> played(sweepface_face* face, std::size_t vertices) {
   std::vector<float> whole(6 * vertices), updated(6 * vertices);
@@ -95,6 +107,7 @@ std::vector<float> played(const Rig& rig, unsigned how) {
   sweepface_face_set_weights(made, weights.data(), weights.size());
   sweepface_shader_tables tables;
   sweepface_mesh_shader_tables(mesh.get(), how % 2, &tables);
+  requireTangents(made, mesh.get());
   return played(made, sweepface_mesh_vertex_count(mesh.get()));
 }
 

@@ -15,17 +15,20 @@ struct AlongTangents {
   Index point(Index vertex) const { return mesh.pointOf(vertex); }
 
   void turn(Index vertex, Derivatives& both) const {
-    const Vec3 u = both[0].neutral, v = both[1].neutral, normal = cross(u, v);
-    // Nearly parallel ones would have to cancel each other.
-    constexpr double kLeastSine = 1e-3;
-    if (norm(tangents[vertex]) == 0 || norm(normal) < kLeastSine * norm(u) * norm(v)) return;
     const Derivatives old = both;
+    const double ofU = 1 / norm(old[0].neutral), ofV = 1 / norm(old[1].neutral);
+    const Vec3 u = ofU * old[0].neutral, v = ofV * old[1].neutral, normal = cross(u, v);
+    // Nearly parallel ones would have to cancel each other, and lengths have to be numbers.
+    constexpr double kLeastSine = 1e-3;
+    const double sine = norm(normal);
+    if (norm(tangents[vertex]) == 0 || !(sine > kLeastSine && std::isfinite(sine))) return;
     const auto mix = [&](const Vec3& direction, Derivative& out) {
-      const double ofU = dot(cross(direction, v), normal) / dot(normal, normal),
-                   ofV = dot(cross(u, direction), normal) / dot(normal, normal);
-      out.neutral = ofU * u + ofV * v;
+      const double a = dot(cross(direction, v), normal) / dot(normal, normal),
+                   b = dot(cross(u, direction), normal) / dot(normal, normal);
+      out.neutral = a * u + b * v;
       for (std::size_t k = 0; k < out.weights.factors.size(); ++k)
-        out.weights.factors[k] = ofU * old[0].weights.factors[k] + ofV * old[1].weights.factors[k];
+        out.weights.factors[k] =
+            a * ofU * old[0].weights.factors[k] + b * ofV * old[1].weights.factors[k];
     };
     mix(tangents[vertex], both[0]);
     mix(cross(normalized(normal), tangents[vertex]), both[1]);

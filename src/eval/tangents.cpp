@@ -41,7 +41,8 @@ class Summation {
     Tangents out;
     for (Index v = 0; v < mesh_.vertexCount(); ++v) {
       const bool mirrored = sums_[v].isMirrored();
-      out.directions.push_back(normalized(inPlane(sums_[v].along[mirrored], normal(v))));
+      const Vec3 direction = normalized(inPlane(sums_[v].along[mirrored], normal(v)));
+      out.directions.push_back(isFinite(direction) ? direction : Vec3{});
       out.signs.push_back(mirrored ? -1.0F : 1.0F);
     }
     return out;
