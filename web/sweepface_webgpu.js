@@ -2,8 +2,8 @@
 // (docs/evaluation.md), in the language that becomes WGSL with WebGPU and GLSL without.
 import {IntType, RGIntegerFormat} from 'three';
 import {
-  Fn, Loop, attribute, bitcast, cross, float, int, ivec2, normalLocal, positionGeometry, positionLocal, textureLoad,
-  uniform, vec3, vec4
+  Fn, Loop, attribute, bitcast, cross, float, int, ivec2, materialReference, normalLocal, positionGeometry,
+  positionLocal, textureLoad, uniform, vec3, vec4
 } from 'three/tsl';
 import {CardMesh, hookNames, hooksFor} from './sweepface_card.js';
 
@@ -34,8 +34,15 @@ function sumOf(textures, place, rows) {
 /** A direction, finite at poles. */
 const unit = (a) => a.mul(a.dot(a).max(1e-36).inverseSqrt());
 
+/** What a displacement map adds, which materials have added to the neutral before they ask for its position. */
+function displacement() {
+  const [map, scale, bias] = [['Map', 'texture'], ['Scale', 'float'], ['Bias', 'float']]
+    .map(([name, type]) => materialReference(`displacement${name}`, type));
+  return normalLocal.mul(map.x.mul(scale).add(bias));
+}
+
 /** The position of a vertex, and on the way its normal; `next` goes on from there. */
-const evaluated = (textures, next) => Fn(() => {
+const evaluated = (textures, next) => Fn(({material}) => {
   const factor = uniform(0).onObjectUpdate(() => textures.factor);
   const place = attribute('sweepPlace', 'uvec3'), tangentPlace = attribute('sweepTangentPlace', 'uvec3');
   const scale = (of) => bitcast(of.z, 'float').mul(factor);
@@ -43,6 +50,7 @@ const evaluated = (textures, next) => Fn(() => {
   const row = (name, sum) => unit(attribute(name, 'vec3').add(sum.mul(scale(tangentPlace))));
   positionLocal.assign(positionGeometry.add(moved.mul(scale(place))));
   normalLocal.assign(unit(cross(row('sweepAlong', along), row('sweepAcross', across))));
+  if (material.displacementMap) positionLocal.addAssign(displacement());
   return next ?? positionLocal;
 })();
 

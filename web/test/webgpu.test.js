@@ -100,13 +100,17 @@ for (const backend of ['WebGPU', 'WebGL'])
 
     await t.test('go with materials that move vertices themselves, with clones, and with what is put in later', async () => {
       const found = await page.evaluate(async () => {
-        const {THREE, make, draw, differ, posed} = globalThis, {positionLocal, vec3} = await import('three/tsl');
+        const {THREE, sphere, make, draw, differ, posed} = globalThis, {positionLocal, vec3} = await import('three/tsl');
         const wide = () => Object.assign(new THREE.MeshNormalNodeMaterial(), {positionNode: positionLocal.mul(vec3(0.5, 1, 1))});
         const [onCpu, onCard] = await make(wide), [cpu, card] = await posed(onCpu, onCard), result = {own: differ(cpu, card)};
         const twin = onCard.clone();
         result.twin = differ(cpu, await draw(twin));
         onCard.dispose();  // and leaves the twin what they shared
         result.left = differ(cpu, await draw(twin));
+        const displacementMap = new THREE.DataTexture(new Uint8Array(4).fill(255), 1, 1);
+        displacementMap.needsUpdate = true;
+        const thick = await make(() => new THREE.MeshNormalMaterial({displacementMap, displacementScale: 0.1 * sphere.radius}));
+        result.thick = differ(...await posed(...thick));
         const put = new THREE.MeshNormalMaterial(), [plain] = await make(() => put.clone());
         result.other = differ(cpu, (await posed(plain))[0]);
         twin.material = put;
