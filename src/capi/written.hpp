@@ -28,7 +28,7 @@ struct Written {
   bool overlaps(const sweepface_vectors& to, std::size_t vertices) const {
     const Written other{to.data, to.stride, vertices, {}};
     const std::less<> before;
-    return before(begin(), other.end()) && before(other.begin(), end());
+    return data && before(begin(), other.end()) && before(other.begin(), end());
   }
 
  private:
