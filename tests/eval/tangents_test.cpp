@@ -181,6 +181,8 @@ std::vector<Rig> texturedRigs() {
     });
     rigs.push_back(rig);
   }
+  rigs[0].source.gridVertex.push_back(-1);  // and one of no face
+  rigs[0].source.loose = {{1, 2, 3}};
   return rigs;
 }
 
