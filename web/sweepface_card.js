@@ -19,14 +19,27 @@ function texture({Data, perTexel, ...settings}, count, ...parts) {
 
 const numbersOf = ({image: {data}}) => new Int16Array(data.buffer, data.byteOffset, data.byteLength / 2);
 
-/** What the shader reads: the tables of positions and, behind them in the same textures, those of tangents. */
+/**
+ * What the shader reads: the tables of positions and, behind them in the same textures, those of tangents. The basis is the
+ * same for all clones.
+ */
 class Textures {
+  #basis;
+
   constructor({positions, tangents}, kind) {
     this.between = 4 * positions.modes;
     this.end = this.between + 4 * tangents.modes;
-    this.basis = texture(kind, positions.basis.length + tangents.basis.length, positions.basis, tangents.basis);
+    const basis = texture(kind, positions.basis.length + tangents.basis.length, positions.basis, tangents.basis);
+    this.#basis = {texture: basis, users: 1};
     this.modes = texture(kind, this.end);
     this.factor = 0;  // of the weights, and so the same for both
+  }
+
+  get basis() { return this.#basis.texture; }
+
+  share(original) {
+    this.#basis = original.#basis;
+    ++this.#basis.users;
   }
 
   update(face) {
@@ -37,7 +50,7 @@ class Textures {
   }
 
   dispose() {
-    this.basis.dispose();
+    if (--this.#basis.users === 0) this.basis.dispose();
     this.modes.dispose();
   }
 }
@@ -82,7 +95,10 @@ const attributesOf = (face, {positions, tangents}) => ({
   sweepAcross: spread(face, tangents.neutral, 3, 3, 6)
 });
 
-/** What materials that follow a face were told of their own before. */
+/**
+ * Materials that follow a face: what the mesh put on them (`hooks`, by the names of members), and what was there `before`,
+ * as {hooks: {positionNode: the face's}, before: {positionNode: the material's own or null}}.
+ */
 const own = new WeakMap();
 
 export function refuse(material, what) {
@@ -91,22 +107,26 @@ export function refuse(material, what) {
 
 /**
  * What each kind of mesh has in its own way: the names of what it puts on a material that is to follow the face, what that
- * is, by these names, and which materials it refuses.
+ * is, by these names, and which materials it refuses. And what its shader reads: `basis` becomes another's in a clone.
  */
 export const hookNames = Symbol('hookNames'), hooksFor = Symbol('hooksFor'), check = Symbol('check');
+export const textures = Symbol('textures');
 
 /** A face in a scene whose vertices are evaluated where they are drawn. */
 export class CardMesh extends FaceMesh {
   #textures;
+  #isGone = false;
   #followers = new Set();  // materials
 
   /** `kind` is how textures hold integers: {Data, perTexel} and what is set on them. */
   constructor(face, materials, kind) {
-    const tables = tablesOf(face), textures = new Textures(tables, kind);
+    const tables = tablesOf(face);
     super(face, geometryOf(face, {}, attributesOf(face, tables)), materials);
     this.frustumCulled = false;  // bounds are those of the neutral
-    this.#textures = textures;
+    this.#textures = new Textures(tables, kind);
   }
+
+  get [textures]() { return this.#textures; }
 
   /** Has the face followed by the materials that it has now, and by no others. */
   [follow]() {
@@ -130,10 +150,11 @@ export class CardMesh extends FaceMesh {
 
   #patch(material) {
     material.dispose();  // what a renderer made of it before knows no face, or another
-    const before = this.#hooksOf(material), hooks = this[hooksFor](material, this.#textures);
+    const before = this.#hooksOf(material), hooks = this[hooksFor](material);
     this.#followers.add(material);
     own.set(material, {before, hooks});
     Object.assign(material, hooks);
+    material.needsUpdate = true;
   }
 
   #release(material) {
@@ -141,6 +162,7 @@ export class CardMesh extends FaceMesh {
     const {before, hooks} = own.get(material);
     for (const hook of this[hookNames])  // what was put in its place later stays
       if (material[hook] === hooks[hook]) material[hook] = before[hook];
+    material.needsUpdate = true;
     own.delete(material);
     this.#followers.delete(material);
   }
@@ -166,10 +188,9 @@ export class CardMesh extends FaceMesh {
     }
   }
 
-  /** Also the basis, whose textures have one image, which three.js keeps until the last of them goes. */
   [share](original) {
     super[share](original);
-    this.#textures.basis = original.#textures.basis.clone();
+    this.#textures.share(original.#textures);
   }
 
   /** Materials follow one face each. */
@@ -179,7 +200,8 @@ export class CardMesh extends FaceMesh {
   }
 
   dispose() {
-    this.#textures.dispose();
+    if (!this.#isGone) this.#textures.dispose();
+    this.#isGone = true;
     super.dispose();
     for (const material of this.#followers) this.#release(material);
   }

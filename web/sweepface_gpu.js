@@ -1,7 +1,7 @@
 // .sweep faces that a vertex shader evaluates: a mesh for three.js, and the shader for others. Every frame only the
 // modes of the weights go to the graphics card, less than a tenth of a megabyte (docs/evaluation.md).
 import {GLSL3, MeshDepthMaterial, MeshDistanceMaterial, RGBADepthPacking, RGBAIntegerFormat, ShortType} from 'three';
-import {CardMesh, check, hookNames, hooksFor, refuse} from './sweepface_card.js';
+import {CardMesh, check, hookNames, hooksFor, refuse, textures} from './sweepface_card.js';
 
 /** GLSL ES 3: what moves a vertex from its neutral. Texel k of a texture is at (k mod 1024, k / 1024). */
 export const SWEEPFACE_GLSL = `
@@ -56,13 +56,13 @@ export class SweepfaceGpuMesh extends CardMesh {
 
   get [hookNames]() { return ['onBeforeCompile', 'customProgramCacheKey']; }
 
-  [hooksFor](material, textures) {
-    const {onBeforeCompile, customProgramCacheKey} = material;
+  [hooksFor](material) {
+    const {onBeforeCompile, customProgramCacheKey} = material, own = this[textures];
     return {
       customProgramCacheKey: () => 'sweepface' + onBeforeCompile + customProgramCacheKey.call(material),
       onBeforeCompile(shader, renderer) {
         onBeforeCompile.call(material, shader, renderer);
-        const {basis, modes} = textures, factor = {get value() { return textures.factor; }};
+        const {basis, modes} = own, factor = {get value() { return own.factor; }};
         Object.assign(shader.uniforms, {sweepBasis: {value: basis}, sweepModes: {value: modes}, sweepFactor: factor});
         shader.vertexShader = `
           uniform highp isampler2D sweepBasis, sweepModes;

@@ -20,12 +20,12 @@ export function faceFrom(face) {
   throw new TypeError('A mesh is made of a face; await Sweepface.load for it.');
 }
 
-/** Nothing that is on the graphics card: some renderers look for every attribute that they have drawn. */
+/** Nothing that is on the graphics card: WebGPURenderer looks for every attribute that it has drawn. */
 const NOTHING = new BufferAttribute(new Float32Array(0), 3);
 
 /**
  * The geometry of a face. What of it stays as it was made, clones have together with it: on the graphics card it is there
- * once, and goes with the last of them.
+ * once, and goes with the last of them (but WebGPURenderer takes it away with the first, and sends it again to draw others).
  */
 class FaceGeometry extends BufferGeometry {
   #changing = [];  // names of attributes that follow the weights

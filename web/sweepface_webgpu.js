@@ -1,31 +1,41 @@
 // .sweep faces that a shader of nodes evaluates, for three.js's WebGPURenderer: what sweepface/gpu is for WebGLRenderer
 // (docs/evaluation.md), in the language that becomes WGSL with WebGPU and GLSL without.
-import {IntType, RGIntegerFormat} from 'three';
+import {DataTexture, IntType, RGIntegerFormat} from 'three';
 import {
   Fn, Loop, attribute, bitcast, cross, float, int, ivec2, materialReference, normalLocal, positionGeometry,
-  positionLocal, textureLoad, uniform, vec3, vec4
+  positionLocal, texture, uniform, vec3, vec4
 } from 'three/tsl';
-import {CardMesh, hookNames, hooksFor} from './sweepface_card.js';
+import {CardMesh, hookNames, hooksFor, textures} from './sweepface_card.js';
 
 /** Two 16-bit integers a number, as WebGPURenderer has no textures of such: the lower half is the first. */
 const INTEGERS = {Data: Int32Array, perTexel: 2, format: RGIntegerFormat, type: IntType};
 
+/** What is read without a face, as a shader has some textures from the start. */
+const nothing = () => Object.assign(new DataTexture(new Int32Array(2), 1, 1, RGIntegerFormat, IntType), {needsUpdate: true});
+const NONE = {basis: nothing(), modes: nothing(), factor: 0};
+
+/** What the shader reads, by the mesh or its geometry: one shader serves all faces, and gets theirs when it draws one. */
+const texturesOf = new WeakMap();
+const drawn = ({object}) => texturesOf.get(object) ?? texturesOf.get(object.geometry) ?? NONE;
+const basis = texture(NONE.basis).onObjectUpdate((frame) => drawn(frame).basis);
+const modes = texture(NONE.modes).onObjectUpdate((frame) => drawn(frame).modes);
+
 /** Texel k of a texture of 1024 texels a row: four integers. */
-function fourAt(texture, k) {
-  const pair = textureLoad(texture, ivec2(k.bitAnd(1023), k.shiftRight(10))).xy.toVar();
+function fourAt(table, k) {
+  const pair = table.load(ivec2(k.bitAnd(1023), k.shiftRight(10))).xy.toVar();
   const low = (word) => float(word.shiftLeft(16).shiftRight(16)), high = (word) => float(word.shiftRight(16));
   return vec4(low(pair.x), high(pair.x), low(pair.y), high(pair.y));
 }
 
 /** What the weights add to rows of the neutral: of a point's places, `rows` of them. */
-function sumOf(textures, place, rows) {
+function sumOf(place, rows) {
   const first = int(place.x), at = int(place.y.shiftRight(6)).toVar(), texels = int(place.y.bitAnd(63)).toVar();
   const sums = Array.from({length: rows}, () => vec3(0).toVar());
   Loop({start: int(0), end: texels, type: 'int'}, ({i}) => {
-    const modes = [0, 1, 2, 3].map((k) => fourAt(textures.modes, at.add(i.mul(4)).add(k)).xyz.toVar());
+    const four = [0, 1, 2, 3].map((k) => fourAt(modes, at.add(i.mul(4)).add(k)).xyz.toVar());
     sums.forEach((sum, row) => {
-      const basis = fourAt(textures.basis, first.add(texels.mul(row)).add(i)).toVar();
-      ['x', 'y', 'z', 'w'].forEach((axis, k) => sum.addAssign(modes[k].mul(basis[axis])));
+      const factors = fourAt(basis, first.add(texels.mul(row)).add(i)).toVar();
+      ['x', 'y', 'z', 'w'].forEach((axis, k) => sum.addAssign(four[k].mul(factors[axis])));
     });
   });
   return sums;
@@ -42,11 +52,11 @@ function displacement() {
 }
 
 /** The position of a vertex, and on the way its normal; `next` goes on from there. */
-const evaluated = (textures, next) => Fn(({material}) => {
-  const factor = uniform(0).onObjectUpdate(() => textures.factor);
+const evaluated = (next) => Fn(({material}) => {
+  const factor = uniform(0).onObjectUpdate((frame) => drawn(frame).factor);
   const place = attribute('sweepPlace', 'uvec3'), tangentPlace = attribute('sweepTangentPlace', 'uvec3');
   const scale = (of) => bitcast(of.z, 'float').mul(factor);
-  const [moved] = sumOf(textures, place, 1), [along, across] = sumOf(textures, tangentPlace, 2);
+  const [moved] = sumOf(place, 1), [along, across] = sumOf(tangentPlace, 2);
   const row = (name, sum) => unit(attribute(name, 'vec3').add(sum.mul(scale(tangentPlace))));
   positionLocal.assign(positionGeometry.add(moved.mul(scale(place))));
   normalLocal.assign(unit(cross(row('sweepAlong', along), row('sweepAcross', across))));
@@ -54,14 +64,22 @@ const evaluated = (textures, next) => Fn(({material}) => {
   return next ?? positionLocal;
 })();
 
+const ALONE = evaluated();
+
 /** A face in a scene that follows its weights without its vertices leaving the graphics card. */
 export class SweepfaceNodeMesh extends CardMesh {
   constructor(face, materials) {
     super(face, materials, INTEGERS);
+    texturesOf.set(this, this[textures]).set(this.geometry, this[textures]);
     this.update();
   }
 
-  get [hookNames]() { return ['positionNode']; }
+  get [hookNames]() { return ['positionNode', 'castShadowPositionNode']; }
 
-  [hooksFor](material, textures) { return {positionNode: evaluated(textures, material.positionNode)}; }
+  [hooksFor]({positionNode, castShadowPositionNode}) {
+    return {
+      positionNode: positionNode ? evaluated(positionNode) : ALONE,
+      castShadowPositionNode: castShadowPositionNode ? evaluated(castShadowPositionNode) : null
+    };
+  }
 }

@@ -202,11 +202,11 @@ SWEEPFACE_API const double* sweepface_face_weights(const sweepface_face* face);
  * for every frame: it allocates. */
 SWEEPFACE_API double sweepface_face_error(const sweepface_face* face);
 
-/* Where to write an array of three floats a vertex. */
+/* Where to write an array of three floats a vertex, or of four for tangents. */
 typedef struct sweepface_vectors {
   float* data;   /* NULL: not wanted */
-  size_t stride; /* bytes from one vertex to the next, 12 to 2^30 even where data is NULL;
-                    0: 12, one behind the other */
+  size_t stride; /* bytes from one vertex to the next, 12 (of four floats 16) to 2^30 even where data
+                    is NULL; 0: one behind the other */
 } sweepface_vectors;
 
 /* Positions in model units and unit normals of the first `count` vertices under the face's weights.
@@ -226,7 +226,8 @@ SWEEPFACE_API sweepface_status sweepface_face_update(sweepface_face* face, size_
 /* ---- Tangents ---- */
 
 /* Makes what moves tangents and the normals that go with them, now rather than when they are first
- * asked for: that takes as long as for normals. Fails where the mesh has no texture coordinates. */
+ * asked for: that takes as long as sweepface_mesh_prepare with normals. Fails where the mesh has no
+ * texture coordinates. */
 SWEEPFACE_API sweepface_status sweepface_mesh_prepare_tangents(const sweepface_mesh* mesh);
 
 /* What normal maps are relative to, at the first `count` vertices under the face's weights: unit
@@ -235,7 +236,8 @@ SWEEPFACE_API sweepface_status sweepface_mesh_prepare_tangents(const sweepface_m
  * the neutral, of unit length and perpendicular to the normal; w is 1 or -1: w * cross(normal,
  * tangent) goes along v, upwards. Vertices are not doubled where mirrored texture coordinates meet.
  * These normals are the surface's own as those of sweepface_face_evaluate are, but not the same to
- * the bit. Allocates nothing once tangents are prepared. */
+ * the bit. Allocates nothing once tangents are prepared. Fails where the mesh has no texture
+ * coordinates. */
 SWEEPFACE_API sweepface_status sweepface_face_tangents(sweepface_face* face, size_t count,
                                                        sweepface_vectors normals,
                                                        sweepface_vectors tangents);

@@ -44,14 +44,15 @@ async function prepare(forceWebGL) {
       for (let k = 0; k < a.length; k += 4) count += [0, 1, 2].some((c) => Math.abs(a[k + c] - b[k + c]) > 24);
       return 4 * count / a.length;
     },
+    pose(mesh, step = 7) {
+      mesh.setWeights(Object.fromEntries(mesh.names.map((name, k) => [name, ((step * k) % 10) / 20])));
+      mesh.update();
+      return mesh;
+    },
     /** The pictures of meshes, all in the same pose. */
     async posed(...meshes) {
       const pictures = [];
-      for (const mesh of meshes) {
-        mesh.setWeights(Object.fromEntries(mesh.names.map((name, k) => [name, ((7 * k) % 10) / 20])));
-        mesh.update();
-        pictures.push(await globalThis.draw(mesh));
-      }
+      for (const mesh of meshes) pictures.push(await globalThis.draw(globalThis.pose(mesh)));
       return pictures;
     }
   });
@@ -78,6 +79,36 @@ for (const backend of ['WebGPU', 'WebGL'])
       assert.ok(found.bytes[0] > found.bytes[1] && found.bytes[1] > 0);
     });
 
+    await t.test('draw each face as it stands', async () => {
+      const found = await page.evaluate(async () => {
+        const {THREE, scene, sphere: {radius}, make, draw, differ, pose} = globalThis;
+        const all = (await Promise.all([make(), make()])).flat(), [cpu, card, otherCpu, otherCard] = all;
+        const both = async (...meshes) => {  // side by side
+          const group = new THREE.Group().add(...meshes);
+          meshes.forEach((mesh, k) => { mesh.position.x = (0.6 * k - 0.3) * radius; });
+          return draw(group);
+        };
+        const compared = async (first, second) => differ(await both(...first), await both(...second));
+        for (const mesh of [cpu, card]) pose(mesh);
+        const result = {moved: await compared([cpu, cpu.clone()], [cpu, otherCpu])};
+        result.two = await compared([cpu, otherCpu], [card, otherCard]);
+        scene.overrideMaterial = new THREE.MeshNormalMaterial();
+        result.override = await compared([cpu, otherCpu], [card, otherCard]);
+        scene.overrideMaterial = null;
+        const twins = [cpu.clone(), card.clone()];
+        for (const mesh of twins) pose(mesh, 3);
+        result.twins = await compared([cpu, twins[0]], [card, twins[1]]);
+        card.dispose();
+        result.left = await compared([otherCpu, twins[0]], [otherCard, twins[1]]);
+        const plain = (mesh) => Object.assign(new THREE.Mesh(mesh.geometry, mesh.material), {frustumCulled: false});
+        result.plain = await compared([plain(twins[0]), otherCpu], [plain(twins[1]), otherCard]);
+        return result;
+      });
+      const {moved, ...off} = found;
+      assert.ok(moved > 0.01, 'the poses are alike');
+      for (const [name, share] of Object.entries(off)) assert.ok(share < 0.001, `${name}: ${share} of the pixels differ`);
+    });
+
     await t.test('cast the same shadows', async () => {
       const found = await page.evaluate(async () => {
         const {THREE, scene, sphere: {center, radius}, light, make, draw, differ, posed} = globalThis;
@@ -88,14 +119,28 @@ for (const backend of ['WebGPU', 'WebGL'])
                                             bottom: -1.5 * radius, top: 1.5 * radius});
         light.shadow.camera.updateProjectionMatrix();
         scene.add(wall);
-        const meshes = await make(() => new THREE.MeshStandardMaterial({colorWrite: false, depthWrite: false}));
-        for (const mesh of meshes) mesh.castShadow = true;
-        const rest = await draw(meshes[0]), pictures = await posed(...meshes);
+        const {positionLocal, vec3} = await import('three/tsl');
+        const unseen = (own) => Object.assign(new THREE.MeshStandardNodeMaterial({colorWrite: false, depthWrite: false}), own);
+        const narrow = () => unseen({castShadowPositionNode: positionLocal.mul(vec3(0.7, 1, 1))});
+        const [cpu, card] = await make(unseen), [otherCpu, otherCard] = await make(unseen), narrowed = await make(narrow);
+        for (const mesh of [cpu, card, otherCpu, otherCard, ...narrowed]) mesh.castShadow = true;
+        const rest = await draw(otherCpu), pictures = await posed(cpu, card), result = {moved: differ(rest, pictures[0])};
+        result.off = [differ(...pictures), differ(rest, await draw(otherCard))];
+        const {material} = card;
+        card.material = unseen();
+        card.update();
+        otherCard.material = material;  // of the one that moves
+        otherCard.update();
+        result.off.push(differ(pictures[0], await draw(card)), differ(rest, await draw(otherCard)));
+        const narrowPictures = await posed(...narrowed);
+        result.off.push(differ(...narrowPictures));
+        result.narrow = differ(narrowPictures[0], pictures[0]);
         scene.remove(wall);
         light.castShadow = false;
-        return {moved: differ(rest, pictures[0]), off: differ(...pictures)};
+        return result;
       });
-      assert.ok(found.moved > 0.0002 && found.off < 0.1 * found.moved, JSON.stringify(found));
+      assert.ok(found.moved > 0.0002 && found.narrow > found.moved, JSON.stringify(found));
+      for (const share of found.off) assert.ok(share < 0.1 * found.moved, JSON.stringify(found));
     });
 
     await t.test('go with materials that move vertices themselves, with clones, and with what is put in later', async () => {
