@@ -1,19 +1,8 @@
-#define STB_IMAGE_IMPLEMENTATION
-#define STB_IMAGE_STATIC
-#define STBI_ONLY_PNG
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wall"
-#pragma GCC diagnostic ignored "-Wextra"
-#pragma GCC diagnostic ignored "-Wconversion"
-#pragma GCC diagnostic ignored "-Wshadow"
-#pragma GCC diagnostic ignored "-Wunused-function"
-#include <stb/stb_image.h>
-#pragma GCC diagnostic pop
-
 #include <thread>
 
 #include "io/temporary_folder.hpp"
 #include "picture/font.hpp"
+#include "picture/read_png.hpp"
 #include "picture/scenes.hpp"
 
 namespace sweepface {
@@ -120,16 +109,7 @@ TEST(Png, ReadsBackAsTheSamePixels) {
   const Image image = picture(sphere(), before(), {123, 77});
   const auto png = encodePng(image);
   ASSERT_TRUE(png.has_value());
-  int width = 0, height = 0, channels = 0;
-  std::unique_ptr<unsigned char, decltype(&stbi_image_free)> pixels(
-      stbi_load_from_memory(reinterpret_cast<const unsigned char*>(png->data()),
-                            static_cast<int>(png->size()), &width, &height, &channels, 0),
-      stbi_image_free);
-  ASSERT_TRUE(pixels);
-  EXPECT_EQ(width, 123);
-  EXPECT_EQ(height, 77);
-  ASSERT_EQ(channels, 3);
-  EXPECT_TRUE(std::equal(image.rgb.begin(), image.rgb.end(), pixels.get()));
+  EXPECT_EQ(readPng(*png), image);
   EXPECT_LT(png->size(), image.rgb.size() / 3);
   EXPECT_TRUE(failsWith(encodePng({}), {"cannot be made"}));
 }
