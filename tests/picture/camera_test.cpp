@@ -87,10 +87,10 @@ TEST(Cameras, ShowSeveralViewsAtTheSameSize) {
 TEST(Boxes, AreReadAndFound) {
   const auto box = parseBox("0.1,0.2,0.3,0.4");
   ASSERT_TRUE(box.has_value());
-  EXPECT_EQ(box->x, 0.1);
-  EXPECT_EQ(box->height, 0.4);
+  EXPECT_EQ((std::array{box->x, box->y, box->width, box->height}),
+            (std::array{0.1, 0.2, 0.3, 0.4}));
   for (const std::string_view text :
-       {"", "0.1,0.2,0.3", "0.1,0.2,0.3,0.4,0.5", "0,0,0,1", "2,0,1,1", "a,b,c,d"})
+       {"", "0.1,0.2,0.3", "0.1,0.2,0.3,0.4,0.5", "0,0,0,1", "0,0,1,0", "2,0,1,1", "a,b,c,d"})
     EXPECT_TRUE(failsWith(parseBox(text), {"no box"})) << text;
   EXPECT_TRUE(failsWith(parseBox("0.9,0.9,0.5,0.1"), {"no box in the picture"}));
   EXPECT_TRUE(parseBox("0.7,0.9,0.3,0.1"));
