@@ -135,11 +135,21 @@ for (const backend of ['WebGPU', 'WebGL'])
         const narrowPictures = await posed(...narrowed);
         result.off.push(differ(...narrowPictures));
         result.narrow = differ(narrowPictures[0], pictures[0]);
-        scene.remove(wall);
+        const lamp = new THREE.PointLight(0xffffff, 3, 0, 0), [lit, unlit] = await make(unseen);
+        lamp.position.copy(light.position);
+        Object.assign(lamp.shadow.camera, {near: 0.1 * radius, far: 9 * radius});
+        for (const caster of [lamp, lit, unlit]) caster.castShadow = true;
+        scene.remove(light);
+        scene.add(lamp);
+        const still = await draw(lit), byLamp = await posed(lit, unlit);
+        result.lamp = differ(still, byLamp[0]);
+        result.off.push(differ(...byLamp));
+        scene.remove(lamp, wall);
+        scene.add(light);
         light.castShadow = false;
         return result;
       });
-      assert.ok(found.moved > 0.0002 && found.narrow > found.moved, JSON.stringify(found));
+      assert.ok(found.moved > 0.0002 && found.narrow > found.moved && found.lamp > found.moved, JSON.stringify(found));
       for (const share of found.off) assert.ok(share < 0.1 * found.moved, JSON.stringify(found));
     });
 
