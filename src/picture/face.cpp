@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <map>
 
+#include "sweepface/box.hpp"
 #include "sweepface/picture.hpp"
 
 #include "eval/cells.hpp"
@@ -170,7 +171,8 @@ HeatMap FaceScenes::heatMap(std::span<const double> weights, std::span<const Vec
       angles ? this->angles(map.scene.normals, original)
              : interpolated<double>(rig_.surface, source_, grid_, distances(weights, original));
   const auto worst = std::ranges::max_element(values);
-  if (worst != values.end()) map.worst = *worst;
+  const double rounding = angles ? 1e-6 : 1e-12 * diagonal(map.scene.positions);
+  if (worst != values.end() && *worst > rounding) map.worst = *worst;
   map.top = top > 0 ? top : angles ? scaleEnd(values) : std::max(map.worst, rig_.tolerance);
   map.title =
       angles

@@ -255,6 +255,16 @@ TEST(HeatMaps, ColourEachVertexByItsError) {
   EXPECT_TRUE(near(image.at(x + 80, y), heatColour(0), 40));
 }
 
+TEST(HeatMaps, SayNothingOfRounding) {
+  const Hill hill;
+  const Tessellation grid(hill.rig.surface, 1);
+  auto original = sourcePositions(hill.rig, grid, blend(hill.rig, {}), {});
+  for (Vec3& p : original) p.x += 1e-14;
+  const HeatMap map = FaceScenes(hill.rig, 1).heatMap(hill.rest, original, Style::error);
+  EXPECT_EQ(map.worst, 0);
+  EXPECT_EQ(map.scene.labels.at(0).text, "0");
+}
+
 TEST(HeatMaps, EndAtTheTolerance) {
   const Hill hill;
   const HeatMap map =
