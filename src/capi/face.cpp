@@ -124,9 +124,11 @@ void write(sweepface_face& face, const Weights& weights, What what, const sweepf
   const bool ofPositions = what == What::positions;
   auto& written = ofPositions ? face.positions : face.normals;
   auto& other = ofPositions ? face.normals : face.positions;
+#ifdef __wasm__
   if (other.data == to.data) other.data = nullptr;  // it is written over
-#ifndef __wasm__
-  (ofPositions ? face.normalsBefore : face.positionsBefore).forget(to.data);
+#else
+  if (other.isHitBy(to, count)) other.data = nullptr;
+  (ofPositions ? face.normalsBefore : face.positionsBefore).forget(to, count);
   (ofPositions ? face.positionsBefore : face.normalsBefore).bringBack(written, to, count);
 #endif
   const bool isThere = written.is(to, count);

@@ -39,11 +39,12 @@ void writeSigns(const std::vector<float>& signs, const VectorsOut& tangents) {
 }
 
 /// What the face wrote there is written over.
-void forget(sweepface_face& face, const float* data) {
+void forget(sweepface_face& face, const sweepface_vectors& to, std::size_t count,
+            std::size_t size) {
   for (Written* const last : {&face.positions, &face.normals})
-    if (last->data == data) last->data = nullptr;
-  face.positionsBefore.forget(data);
-  face.normalsBefore.forget(data);
+    if (last->isHitBy(to, count, size)) last->data = nullptr;
+  face.positionsBefore.forget(to, count, size);
+  face.normalsBefore.forget(to, count, size);
 }
 
 }  // namespace
@@ -79,7 +80,8 @@ sweepface_status sweepface_face_tangents(sweepface_face* face, size_t count,
   job.tangents = to(tangents, kTightTangents);
   job.run();
   if (tangents.data) writeSigns(mesh.neutralTangents.signs, job.tangents);
-  for (float* const data : {normals.data, tangents.data}) forget(*face, data);
+  forget(*face, normals, count, kTight);
+  forget(*face, tangents, count, kTightTangents);
   return SWEEPFACE_OK;
 }
 #endif

@@ -28,7 +28,17 @@ struct Written {
   bool overlaps(const sweepface_vectors& to, std::size_t vertices) const {
     const Written other{to.data, to.stride, vertices, {}};
     const std::less<> before;
-    return data && before(begin(), other.end()) && before(other.begin(), end());
+    return data && to.data && before(begin(), other.end()) && before(other.begin(), end());
+  }
+  /// Whether writing another output of `size` bytes a vertex there changes this one: both may be
+  /// parts of the same structs.
+  bool isHitBy(const sweepface_vectors& to, std::size_t vertices, std::size_t size = kTight) const {
+    const std::size_t own = stride ? stride : kTight, theirs = to.stride ? to.stride : size;
+    if (!overlaps({to.data, theirs}, vertices)) return false;
+    const auto period = static_cast<std::ptrdiff_t>(own);
+    const std::ptrdiff_t apart = reinterpret_cast<const char*>(to.data) - begin();
+    const auto from = static_cast<std::size_t>((apart % period + period) % period);
+    return own != theirs || from < kTight || own - from < size;
   }
 
  private:
@@ -57,9 +67,9 @@ class WrittenBefore {
   }
 
   /// Something else is written there.
-  void forget(const float* data) {
+  void forget(const sweepface_vectors& to, std::size_t count, std::size_t size = kTight) {
     for (Written& w : places_)
-      if (w.data == data) w.data = nullptr;
+      if (w.isHitBy(to, count, size)) w.data = nullptr;
   }
 
  private:

@@ -489,6 +489,44 @@ TEST_F(Faces, AreUpdatedWhereTheirBuffersOverlap) {
   }
 }
 
+TEST_F(Faces, AreWrittenInFullWhereAnotherOutputWasWrittenOverThem) {
+  make(1);
+  const std::size_t count = sweepface_mesh_vertex_count(mesh);
+  ASSERT_EQ(sweepface_face_set_weight(face, 0, 0.5), SWEEPFACE_OK);
+  const std::vector<float> positions = evaluate(), normals = evaluate(true);
+  std::vector<float> shared(6 * count + 4);
+  const auto at = [&](std::size_t first, std::size_t floats) {
+    return sweepface_vectors{shared.data() + first, floats * sizeof(float)};
+  };
+  const auto isThere = [&](const std::vector<float>& expected, std::size_t first) {
+    return std::ranges::equal(expected, std::span(shared).subspan(first, 3 * count));
+  };
+  for (const auto& [first, floats] : {std::pair{0, 3}, {1, 3}, {4, 3}, {0, 4}, {2, 6}}) {
+    for (int k = 0; k < 2; ++k) {
+      ASSERT_EQ(sweepface_face_update(face, count, at(0, 3), kUnwanted), SWEEPFACE_OK);
+      EXPECT_TRUE(isThere(positions, 0)) << first << " " << floats;
+      ASSERT_EQ(sweepface_face_update(face, count, kUnwanted, at(first, floats)), SWEEPFACE_OK);
+      EXPECT_TRUE(floats != 3 || isThere(normals, first)) << first;
+    }
+  }
+}
+
+TEST_F(Faces, AreUpdatedInPartsOfTheSameStructs) {
+  make(1);
+  const std::size_t count = sweepface_mesh_vertex_count(mesh);
+  ASSERT_EQ(sweepface_face_set_weight(face, 0, 0.5), SWEEPFACE_OK);
+  std::vector<float> vertices(6 * count);
+  constexpr std::size_t kStride = 6 * sizeof(float);
+  const sweepface_vectors positions{vertices.data() + 3, kStride},
+      normals{vertices.data(), kStride};
+  ASSERT_EQ(sweepface_face_update(face, count, positions, normals), SWEEPFACE_OK);
+  constexpr float kMark = 1e9f;
+  vertices[0] = vertices[3] = kMark;
+  ASSERT_EQ(sweepface_face_update(face, count, positions, normals), SWEEPFACE_OK);
+  EXPECT_EQ(vertices[0], kMark) << "nothing has moved";
+  EXPECT_EQ(vertices[3], kMark);
+}
+
 TEST_F(Faces, AreMatchedWithTrackersNames) {
   Rig sided = makeRig(tee());
   for (const int k : {0, 1, 2})
