@@ -132,16 +132,23 @@ export class CardMesh extends FaceMesh {
   [follow]() {
     const {material, customDepthMaterial, customDistanceMaterial} = this;
     const all = new Set([material, customDepthMaterial, customDistanceMaterial].flat().filter(Boolean));
-    const fresh = [...all].filter((each) => !this.#followers.has(each));
+    const fresh = [...all].filter((each) => !this.#isFollowing(each));
     for (const each of fresh) {  // all before the first is changed
-      if (own.has(each)) refuse(each, 'follows a face already; give each mesh a clone() of it');
+      if (own.has(each) && !this.#followers.has(each)) refuse(each, 'follows a face already; give each mesh a clone() of it');
       this[check](each);
     }
-    for (const each of this.#followers) if (!all.has(each)) this.#release(each);
+    for (const each of this.#followers) if (!all.has(each) || fresh.includes(each)) this.#release(each);
     for (const each of fresh) this.#patch(each);
   }
 
   [check]() {}
+
+  /** Whether a material has all that this mesh put on it. */
+  #isFollowing(material) {
+    if (!this.#followers.has(material)) return false;
+    const {hooks} = own.get(material);
+    return this[hookNames].every((name) => material[name] === hooks[name]);
+  }
 
   /** What a material has of its own in the places of the mesh's hooks. */
   #hooksOf(material) {

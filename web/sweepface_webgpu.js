@@ -3,9 +3,9 @@
 import {DataTexture, IntType, RGIntegerFormat} from 'three';
 import {
   Fn, Loop, attribute, bitcast, cross, float, int, ivec2, materialReference, normalLocal, positionGeometry,
-  positionLocal, texture, uniform, vec3, vec4
+  positionLocal, positionPrevious, texture, uniform, vec3, vec4
 } from 'three/tsl';
-import {CardMesh, hookNames, hooksFor, textures} from './sweepface_card.js';
+import {CardMesh, check, hookNames, hooksFor, refuse, textures} from './sweepface_card.js';
 
 /** Two 16-bit integers a number, as WebGPURenderer has no textures of such: the lower half is the first. */
 const INTEGERS = {Data: Int32Array, perTexel: 2, format: RGIntegerFormat, type: IntType};
@@ -52,7 +52,7 @@ function displacement() {
 }
 
 /** The position of a vertex, and on the way its normal; `next` goes on from there. */
-const evaluated = (next) => Fn(({material}) => {
+const evaluated = (next) => Fn(({material, renderer}) => {
   const factor = uniform(0).onObjectUpdate((frame) => drawn(frame).factor);
   const place = attribute('sweepPlace', 'uvec3'), tangentPlace = attribute('sweepTangentPlace', 'uvec3');
   const scale = (of) => bitcast(of.z, 'float').mul(factor);
@@ -61,6 +61,8 @@ const evaluated = (next) => Fn(({material}) => {
   positionLocal.assign(positionGeometry.add(moved.mul(scale(place))));
   normalLocal.assign(unit(cross(row('sweepAlong', along), row('sweepAcross', across))));
   if (material.displacementMap) positionLocal.addAssign(displacement());
+  // Or what the expression moves would seem to move every frame.
+  if (renderer.getMRT()?.has('velocity')) positionPrevious.assign(positionLocal);
   return next ?? positionLocal;
 })();
 
@@ -72,6 +74,10 @@ export class SweepfaceNodeMesh extends CardMesh {
     super(face, materials, INTEGERS);
     texturesOf.set(this, this[textures]).set(this.geometry, this[textures]);
     this.update();
+  }
+
+  [check](material) {
+    if (material.isShaderMaterial) refuse(material, 'is written in GLSL, which WebGPURenderer does not draw; take one of nodes');
   }
 
   get [hookNames]() { return ['positionNode', 'castShadowPositionNode']; }

@@ -234,9 +234,10 @@ SWEEPFACE_API sweepface_status sweepface_mesh_prepare_tangents(const sweepface_m
  * normals, and tangents of four floats (a stride of 0 is 16 bytes, the least). x, y and z are the
  * direction along u of the texture coordinates into which the surface takes MikkTSpace's tangent of
  * the neutral, of unit length and perpendicular to the normal; w is 1 or -1: w * cross(normal,
- * tangent) goes along v, upwards. Vertices are not doubled where mirrored texture coordinates meet.
- * These normals are the surface's own as those of sweepface_face_evaluate are, but not the same to
- * the bit. Allocates nothing once tangents are prepared. Fails where the mesh has no texture
+ * tangent) goes along v, upwards. Vertices are not doubled where mirrored texture coordinates meet:
+ * there w is that of the side with the larger angle. These normals are as near to the surface's own
+ * as those of sweepface_face_evaluate, but not the same: where the skin folds sharply they may be
+ * tens of degrees apart, so take all from here. Allocates nothing once tangents are prepared. Fails where the mesh has no texture
  * coordinates. */
 SWEEPFACE_API sweepface_status sweepface_face_tangents(sweepface_face* face, size_t count,
                                                        sweepface_vectors normals,

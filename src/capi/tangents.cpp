@@ -38,6 +38,29 @@ void writeSigns(const std::vector<float>& signs, const VectorsOut& tangents) {
     std::memcpy(place, &signs[v], sizeof(float));
 }
 
+/// Copies of points have their normals, so that no seam is seen in the light, and tangents at right
+/// angles to these.
+void repeatNormals(const Mesh& mesh, const VectorsOut& normals, const VectorsOut& tangents) {
+  const auto at = [](const VectorsOut& out, Index vertex) {
+    return reinterpret_cast<char*>(out.data) + out.stride * static_cast<std::size_t>(vertex);
+  };
+  const auto read = [](const char* from) {
+    float xyz[3];
+    std::memcpy(xyz, from, sizeof(xyz));
+    return Vec3{xyz[0], xyz[1], xyz[2]};
+  };
+  for (Index v = mesh.render.points; v < normals.count; ++v) {
+    const char* const normal = at(normals, mesh.render.pointOf(v));
+    std::memcpy(at(normals, v), normal, kTight);
+    if (!tangents.data) continue;
+    const Vec3 n = read(normal), along = read(at(tangents, v)),
+               t = normalized(along - dot(along, n) * n);
+    const float xyz[3] = {static_cast<float>(t.x), static_cast<float>(t.y),
+                          static_cast<float>(t.z)};
+    std::memcpy(at(tangents, v), xyz, sizeof(xyz));
+  }
+}
+
 /// What the face wrote there is written over.
 void forget(sweepface_face& face, const sweepface_vectors& to, std::size_t count,
             std::size_t size) {
@@ -79,6 +102,7 @@ sweepface_status sweepface_face_tangents(sweepface_face* face, size_t count,
   job.normals = to(normals, kTight);
   job.tangents = to(tangents, kTightTangents);
   job.run();
+  if (normals.data) repeatNormals(mesh, job.normals, job.tangents);
   if (tangents.data) writeSigns(mesh.neutralTangents.signs, job.tangents);
   forget(*face, normals, count, kTight);
   forget(*face, tangents, count, kTightTangents);

@@ -27,7 +27,7 @@ async function prepare(forceWebGL) {
   light.target.position.copy(center);
   scene.add(light, light.target, new THREE.AmbientLight(0xffffff, 0.5));
   Object.assign(globalThis, {
-    light,
+    light, renderer, camera, load: () => Sweepface.load(bytes),
     make: async (materials) => Promise.all([SweepfaceMesh, SweepfaceNodeMesh].map(
       async (Made) => new Made(await Sweepface.load(bytes), materials?.()))),
     async draw(mesh) {
@@ -153,9 +153,35 @@ for (const backend of ['WebGPU', 'WebGL'])
       for (const share of found.off) assert.ok(share < 0.1 * found.moved, JSON.stringify(found));
     });
 
+    await t.test('seem to move with what they are part of only', async () => {
+      const moving = await page.evaluate(async () => {
+        const {THREE, scene, renderer, camera, make, posed} = globalThis, {mrt, output, velocity} = await import('three/tsl');
+        const [, card] = await make(), target = new THREE.RenderTarget(64, 64, {count: 2, type: THREE.FloatType});
+        await posed(card);
+        ['output', 'velocity'].forEach((name, k) => { target.textures[k].name = name; });
+        renderer.setMRT(mrt({output, velocity}));
+        const drawn = async () => {
+          await new Promise(requestAnimationFrame);
+          scene.add(card);
+          renderer.setRenderTarget(target);
+          renderer.render(scene, camera);
+          scene.remove(card);
+          const numbers = await renderer.readRenderTargetPixelsAsync(target, 0, 0, 64, 64, 1);
+          return numbers.filter((number, k) => k % 4 < 2 && Math.abs(number) > 1e-5).length;
+        };
+        const still = [await drawn(), await drawn()];
+        card.position.x += 1;
+        const moved = await drawn();
+        renderer.setMRT(null);
+        return [...still, moved];
+      });
+      assert.equal(moving[1], 0);
+      assert.ok(moving[2] > 100, `${moving}`);
+    });
+
     await t.test('go with materials that move vertices themselves, with clones, and with what is put in later', async () => {
       const found = await page.evaluate(async () => {
-        const {THREE, sphere, make, draw, differ, posed} = globalThis, {positionLocal, vec3} = await import('three/tsl');
+        const {THREE, sphere, load, make, draw, differ, posed} = globalThis, {positionLocal, vec3} = await import('three/tsl');
         const wide = () => Object.assign(new THREE.MeshNormalNodeMaterial(), {positionNode: positionLocal.mul(vec3(0.5, 1, 1))});
         const [onCpu, onCard] = await make(wide), [cpu, card] = await posed(onCpu, onCard), result = {own: differ(cpu, card)};
         const twin = onCard.clone();
@@ -166,6 +192,12 @@ for (const backend of ['WebGPU', 'WebGL'])
         displacementMap.needsUpdate = true;
         const thick = await make(() => new THREE.MeshNormalMaterial({displacementMap, displacementScale: 0.1 * sphere.radius}));
         result.thick = differ(...await posed(...thick));
+        const later = await make(() => new THREE.MeshNormalNodeMaterial());
+        await posed(...later);
+        for (const {material} of later) Object.assign(material, {positionNode: positionLocal.mul(vec3(0.5, 1, 1)), needsUpdate: true});
+        const [laterCpu, laterCard] = await posed(...later);
+        result.later = differ(laterCpu, laterCard) + differ(laterCpu, cpu);
+        try { new later[1].constructor(await load(), new THREE.ShaderMaterial()); } catch (error) { result.shader = error.message; }
         const put = new THREE.MeshNormalMaterial(), [plain] = await make(() => put.clone());
         result.other = differ(cpu, (await posed(plain))[0]);
         twin.material = put;
@@ -179,7 +211,8 @@ for (const backend of ['WebGPU', 'WebGL'])
         result.freed = put.positionNode;
         return result;
       });
-      const {other, message, freed, ...off} = found;
+      const {other, message, shader, freed, ...off} = found;
+      assert.match(shader, /^The material 'ShaderMaterial' is written in GLSL/);
       for (const [name, share] of Object.entries(off)) assert.ok(share < 0.001, `${name}: ${share} of the pixels differ`);
       assert.ok(other > 0.01);
       assert.match(message, /follows a face already/);
