@@ -237,8 +237,8 @@ SWEEPFACE_API sweepface_status sweepface_mesh_prepare_tangents(const sweepface_m
  * tangent) goes along v, upwards. Vertices are not doubled where mirrored texture coordinates meet:
  * there w is that of the side with the larger angle. These normals are as near to the surface's own
  * as those of sweepface_face_evaluate, but not the same: where the skin folds sharply they may be
- * tens of degrees apart, so take all from here. Allocates nothing once tangents are prepared. Fails where the mesh has no texture
- * coordinates. */
+ * tens of degrees apart, so take all from here. Allocates nothing once tangents are prepared. Fails
+ * where the mesh has no texture coordinates. */
 SWEEPFACE_API sweepface_status sweepface_face_tangents(sweepface_face* face, size_t count,
                                                        sweepface_vectors normals,
                                                        sweepface_vectors tangents);

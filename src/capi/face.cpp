@@ -19,20 +19,25 @@ sweepface_status refuseWeight(const sweepface_face& face, std::size_t target) {
 
 VectorsOut pointsOf(const Mesh& mesh, const sweepface_vectors& out, std::size_t count) {
   const auto points = std::min(count, static_cast<std::size_t>(mesh.render.points));
-  return {out.data, static_cast<Index>(points), out.stride ? out.stride : kTight};
+  return {out.data, static_cast<Index>(points), strideOf(out)};
 }
 
-// Vertices behind the points repeat them.
-void repeatPoints(const Mesh& mesh, const sweepface_vectors& out, std::size_t count) {
+}  // namespace
+
+sweepface_status capi::needVertices(const Mesh& mesh, std::size_t count) {
+  const auto vertices = static_cast<std::size_t>(mesh.render.vertexCount());
+  if (count <= vertices) return SWEEPFACE_OK;
+  return refuse("There are only ", vertices, " vertices, not ", count, ".");
+}
+
+void capi::repeatPoints(const Mesh& mesh, const sweepface_vectors& out, std::size_t count) {
   if (!out.data) return;
   char* const first = reinterpret_cast<char*>(out.data);
-  const std::size_t stride = out.stride ? out.stride : kTight;
+  const std::size_t stride = strideOf(out);
   for (std::size_t v = mesh.render.points; v < count; ++v)
     std::memcpy(first + stride * v, first + stride * mesh.render.copies[v - mesh.render.points],
                 kTight);
 }
-
-}  // namespace
 
 sweepface_status sweepface_face_create(const sweepface_mesh* mesh, sweepface_face** face) {
   if (!mesh || !face) return refuse("Making a face needs a mesh and a place for it.");
@@ -108,8 +113,7 @@ sweepface_status checkOutputs(const sweepface_face* face, std::size_t count,
                               const sweepface_vectors& positions,
                               const sweepface_vectors& normals) {
   if (!face) return refuse("Evaluating needs a face.");
-  const auto vertices = static_cast<std::size_t>(face->mesh->render.vertexCount());
-  if (count > vertices) return refuse("There are only ", vertices, " vertices, not ", count, ".");
+  if (const auto status = needVertices(*face->mesh, count)) return status;
   if (!fits(positions) || !fits(normals))
     return refuse("A stride must be 0 or 12 bytes, three floats, to a gigabyte.");
   return SWEEPFACE_OK;

@@ -140,6 +140,11 @@ struct Mesh {
   }
 };
 
+/// Refuses more vertices than there are.
+sweepface_status needVertices(const Mesh& mesh, std::size_t count);
+/// Vertices behind the points repeat them, as far as they are among the first `count`.
+void repeatPoints(const Mesh& mesh, const sweepface_vectors& out, std::size_t count);
+
 }  // namespace sweepface::capi
 
 struct sweepface_mesh {

@@ -3,6 +3,7 @@
 
 #include "capi/handles.hpp"
 #include "capi/message.hpp"
+#include "eval/tile_kernels.hpp"
 
 using namespace sweepface;
 using namespace sweepface::capi;
@@ -38,26 +39,20 @@ void writeSigns(const std::vector<float>& signs, const VectorsOut& tangents) {
     std::memcpy(place, &signs[v], sizeof(float));
 }
 
-/// Copies of points have their normals, so that no seam is seen in the light, and tangents at right
-/// angles to these.
-void repeatNormals(const Mesh& mesh, const VectorsOut& normals, const VectorsOut& tangents) {
-  const auto at = [](const VectorsOut& out, Index vertex) {
-    return reinterpret_cast<char*>(out.data) + out.stride * static_cast<std::size_t>(vertex);
-  };
-  const auto read = [](const char* from) {
+/// Copies of points have their normals, so that no seam is seen in the light: their tangents are
+/// turned to be at right angles to these.
+void squareUp(const Mesh& mesh, const VectorsOut& normals, const VectorsOut& tangents) {
+  const auto read = [](const VectorsOut& from, Index vertex) {
     float xyz[3];
-    std::memcpy(xyz, from, sizeof(xyz));
+    std::memcpy(xyz, vectorAt(from, static_cast<std::uint32_t>(vertex)), sizeof(xyz));
     return Vec3{xyz[0], xyz[1], xyz[2]};
   };
-  for (Index v = mesh.render.points; v < normals.count; ++v) {
-    const char* const normal = at(normals, mesh.render.pointOf(v));
-    std::memcpy(at(normals, v), normal, kTight);
-    if (!tangents.data) continue;
-    const Vec3 n = read(normal), along = read(at(tangents, v)),
-               t = normalized(along - dot(along, n) * n);
+  for (Index v = mesh.render.points; v < tangents.count; ++v) {
+    const Vec3 normal = read(normals, v), along = read(tangents, v),
+               t = normalized(along - dot(along, normal) * normal);
     const float xyz[3] = {static_cast<float>(t.x), static_cast<float>(t.y),
                           static_cast<float>(t.z)};
-    std::memcpy(at(tangents, v), xyz, sizeof(xyz));
+    std::memcpy(vectorAt(tangents, static_cast<std::uint32_t>(v)), xyz, sizeof(xyz));
   }
 }
 
@@ -86,13 +81,12 @@ sweepface_status sweepface_face_tangents(sweepface_face* face, size_t count,
   if (!face) return refuse("Tangents need a face.");
   const Mesh& mesh = *face->mesh;
   if (const auto status = needTexcoords(mesh)) return status;
-  const auto vertices = static_cast<std::size_t>(mesh.render.vertexCount());
-  if (count > vertices) return refuse("There are only ", vertices, " vertices, not ", count, ".");
+  if (const auto status = needVertices(mesh, count)) return status;
   if (!fits(normals)) return refuse("The stride of normals must be 0 or 12 bytes to a gigabyte.");
   if (!fits(tangents, kTightTangents))
     return refuse("The stride of tangents must be 0 or 16 bytes, four floats, to a gigabyte.");
   const auto to = [&](const sweepface_vectors& out, std::size_t tight) {
-    return VectorsOut{out.data, static_cast<Index>(count), out.stride ? out.stride : tight};
+    return VectorsOut{out.data, static_cast<Index>(count), strideOf(out, tight)};
   };
   const Weights& weights = follow(*face);
   Evaluation job;
@@ -102,7 +96,8 @@ sweepface_status sweepface_face_tangents(sweepface_face* face, size_t count,
   job.normals = to(normals, kTight);
   job.tangents = to(tangents, kTightTangents);
   job.run();
-  if (normals.data) repeatNormals(mesh, job.normals, job.tangents);
+  repeatPoints(mesh, normals, count);
+  if (normals.data && tangents.data) squareUp(mesh, job.normals, job.tangents);
   if (tangents.data) writeSigns(mesh.neutralTangents.signs, job.tangents);
   forget(*face, normals, count, kTight);
   forget(*face, tangents, count, kTightTangents);

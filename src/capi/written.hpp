@@ -16,6 +16,10 @@ inline bool fits(const sweepface_vectors& out, std::size_t tight = kTight) {
   return out.stride == 0 || (out.stride >= tight && out.stride <= kMostStride);
 }
 
+inline std::size_t strideOf(const sweepface_vectors& out, std::size_t tight = kTight) {
+  return out.stride ? out.stride : tight;
+}
+
 /// What an output holds, and where; at NULL: nothing.
 struct Written {
   float* data = nullptr;
@@ -33,7 +37,7 @@ struct Written {
   /// Whether writing another output of `size` bytes a vertex there changes this one: both may be
   /// parts of the same structs.
   bool isHitBy(const sweepface_vectors& to, std::size_t vertices, std::size_t size = kTight) const {
-    const std::size_t own = stride ? stride : kTight, theirs = to.stride ? to.stride : size;
+    const std::size_t own = strideOf({data, stride}), theirs = strideOf(to, size);
     if (!overlaps({to.data, theirs}, vertices)) return false;
     const auto period = static_cast<std::ptrdiff_t>(own);
     const std::ptrdiff_t apart = reinterpret_cast<const char*>(to.data) - begin();
@@ -43,7 +47,7 @@ struct Written {
 
  private:
   const char* begin() const { return reinterpret_cast<const char*>(data); }
-  const char* end() const { return begin() + (stride ? stride : kTight) * count; }
+  const char* end() const { return begin() + strideOf({data, stride}) * count; }
 };
 
 /// Where an output was written before the last time: buffers are often written in turn.
