@@ -41,9 +41,11 @@ void catchInterrupts(Patience patience) {
   struct sigaction action{};
   action.sa_handler = patience == Patience::endless ? ask : askForTwoSeconds;
   action.sa_flags = static_cast<int>(SA_RESETHAND);
-  struct sigaction before{};
-  sigaction(SIGINT, nullptr, &before);
-  if (before.sa_handler != SIG_IGN) sigaction(SIGINT, &action, nullptr);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    struct sigaction before{};
+    sigaction(signal, nullptr, &before);
+    if (before.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);
+  }
 }
 
 Result<int> doLongWork(int threads, const std::function<Result<int>()>& work) {
@@ -52,7 +54,7 @@ Result<int> doLongWork(int threads, const std::function<Result<int>()>& work) {
     limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
   catchInterrupts(Patience::twoSeconds);
   Result<int> code = work();
-  // Whatever failed after Ctrl-C failed because of it.
+  // Whatever failed after that failed because of it.
   return interrupted && code != 0 ? endInterrupted() : code;
 }
 

@@ -7,13 +7,14 @@
 
 namespace sweepface::cli {
 
-/// Whether Ctrl-C has asked the work to stop.
+/// Whether Ctrl-C has asked the work to stop, or SIGTERM (`timeout` sends it), or SIGHUP, as its
+/// terminal was closed.
 extern std::atomic<bool> interrupted;
 inline constexpr int kInterrupted = 130;  // the exit code then
 
 enum class Patience { endless, twoSeconds };
 
-/// From here on the first Ctrl-C asks the work to stop, and a second one ends the program. So does
+/// From here on the first such signal asks the work to stop, and a second one ends the program. So does
 /// the end of patience, for work that asks seldom and has nothing to clear away.
 void catchInterrupts(Patience patience = Patience::endless);
 

@@ -151,7 +151,7 @@ SWEEPFACE_API void sweepface_mesh_free(sweepface_mesh* mesh);
 SWEEPFACE_API sweepface_status sweepface_mesh_prepare(const sweepface_mesh* mesh, int32_t normals);
 
 /* Vertices are points first (lod 0: the source's vertices in their order) and then copies of points
- * that have several texture coordinates. */
+ * that have several texture coordinates, or where mirrored ones meet others: tangents differ. */
 SWEEPFACE_API uint32_t sweepface_mesh_point_count(const sweepface_mesh* mesh);
 SWEEPFACE_API uint32_t sweepface_mesh_vertex_count(const sweepface_mesh* mesh);
 
@@ -202,7 +202,8 @@ SWEEPFACE_API const double* sweepface_face_weights(const sweepface_face* face);
  * for every frame: it allocates. */
 SWEEPFACE_API double sweepface_face_error(const sweepface_face* face);
 
-/* Where to write an array of three floats a vertex, or of four for tangents. */
+/* Where to write an array of three floats a vertex, or of four for tangents. The outputs of one call
+ * may be parts of the same structs, but not lie over each other. */
 typedef struct sweepface_vectors {
   float* data;   /* NULL: not wanted */
   size_t stride; /* bytes from one vertex to the next, 12 (of four floats 16) to 2^30 even where data
@@ -234,11 +235,10 @@ SWEEPFACE_API sweepface_status sweepface_mesh_prepare_tangents(const sweepface_m
  * normals, and tangents of four floats (a stride of 0 is 16 bytes, the least). x, y and z are the
  * direction along u of the texture coordinates into which the surface takes MikkTSpace's tangent of
  * the neutral, of unit length and perpendicular to the normal; w is 1 or -1: w * cross(normal,
- * tangent) goes along v, upwards. Vertices are not doubled where mirrored texture coordinates meet:
- * there w is that of the side with the larger angle. These normals are as near to the surface's own
- * as those of sweepface_face_evaluate, but not the same: where the skin folds sharply they may be
- * tens of degrees apart, so take all from here. Allocates nothing once tangents are prepared. Fails
- * where the mesh has no texture coordinates. */
+ * tangent) goes along v, upwards. These normals are as near to the surface's own as those of
+ * sweepface_face_evaluate, but not the same: where the skin folds sharply they may be tens of
+ * degrees apart, so take all from here. Allocates nothing once tangents are prepared. Fails where
+ * the mesh has no texture coordinates. */
 SWEEPFACE_API sweepface_status sweepface_face_tangents(sweepface_face* face, size_t count,
                                                        sweepface_vectors normals,
                                                        sweepface_vectors tangents);

@@ -116,6 +116,10 @@ sweepface_status checkOutputs(const sweepface_face* face, std::size_t count,
   if (const auto status = needVertices(*face->mesh, count)) return status;
   if (!fits(positions) || !fits(normals))
     return refuse("A stride must be 0 or 12 bytes, three floats, to a gigabyte.");
+#ifndef __wasm__
+  if (Written{positions.data, positions.stride, count, {}}.isHitBy(normals, count))
+    return refuse("Positions and normals would be written over each other.");
+#endif
   return SWEEPFACE_OK;
 }
 

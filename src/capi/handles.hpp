@@ -98,7 +98,7 @@ struct Mesh {
     Evaluator evaluator = {};
   };
   mutable std::once_flag tangentsOnce = {};
-  mutable Tangents neutralTangents = {};
+  mutable Tangents tangents = {};  // of the neutral
   mutable MapTangents neutralMap = {}, movingMap = {};
 
   const Evaluator& mapTangents(bool moving) const;

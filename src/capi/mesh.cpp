@@ -15,6 +15,9 @@ sweepface_status makeMesh(const sweepface_rig& rig, Index lod, Tessellation grid
       *rig.rig, grid, {.level = lod, .targets = false, .influences = rig.division->influences});
   if (!neutral) return refuse(neutral.error().message);
   RenderMesh render = rendered(*rig.rig, grid);
+#ifndef __wasm__  // where shaders find tangents themselves
+  splitMirrored(render);
+#endif
   *mesh = new sweepface_mesh{std::make_shared<Mesh>(rig.rig, rig.shown, rig.division, rig.following,
                                                     lod, std::move(grid), std::move(*neutral),
                                                     std::move(render))};

@@ -9,16 +9,11 @@ using namespace sweepface;
 using namespace sweepface::capi;
 
 const Evaluator& Mesh::mapTangents(bool moving) const {
-  std::call_once(tangentsOnce, [&] {
-    const auto vectors = blend(*rig, {});
-    neutralTangents = lod == 0 ? tangentsOf(render, sourcePositions(*rig, grid, vectors, {}),
-                                            sourceNormals(*rig, grid, vectors))
-                               : tangentsOf(render, grid.positions(vectors), grid.normals(vectors));
-  });
+  std::call_once(tangentsOnce, [&] { tangents = neutralTangents(*rig, grid, render, lod); });
   MapTangents& map = moving ? movingMap : neutralMap;
   std::call_once(map.once, [&] {
     map.evaluator = *Evaluator::make(
-        *rig, grid, render, neutralTangents,
+        *rig, grid, render, tangents,
         {.level = lod, .positions = false, .targets = moving, .influences = division->influences});
   });
   return map.evaluator;
@@ -85,6 +80,8 @@ sweepface_status sweepface_face_tangents(sweepface_face* face, size_t count,
   if (!fits(normals)) return refuse("The stride of normals must be 0 or 12 bytes to a gigabyte.");
   if (!fits(tangents, kTightTangents))
     return refuse("The stride of tangents must be 0 or 16 bytes, four floats, to a gigabyte.");
+  if (Written{normals.data, normals.stride, count, {}}.isHitBy(tangents, count, kTightTangents))
+    return refuse("Normals and tangents would be written over each other.");
   const auto to = [&](const sweepface_vectors& out, std::size_t tight) {
     return VectorsOut{out.data, static_cast<Index>(count), strideOf(out, tight)};
   };
@@ -98,7 +95,7 @@ sweepface_status sweepface_face_tangents(sweepface_face* face, size_t count,
   job.run();
   repeatPoints(mesh, normals, count);
   if (normals.data && tangents.data) squareUp(mesh, job.normals, job.tangents);
-  if (tangents.data) writeSigns(mesh.neutralTangents.signs, job.tangents);
+  if (tangents.data) writeSigns(mesh.tangents.signs, job.tangents);
   forget(*face, normals, count, kTight);
   forget(*face, tangents, count, kTightTangents);
   return SWEEPFACE_OK;

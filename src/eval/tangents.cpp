@@ -29,6 +29,22 @@ struct Sums {
   bool isMirrored() const { return angle[1] > angle[0]; }
 };
 
+Vec2 texcoord(const RenderMesh& mesh, std::uint32_t vertex) {
+  return {mesh.texcoords[2 * vertex], mesh.texcoords[2 * vertex + 1]};
+}
+
+/// A triangle in the plane of its texture coordinates, from its first corner.
+struct Chart {
+  Vec2 first, second;
+
+  Chart(const RenderMesh& mesh, const std::uint32_t* v) {
+    const Vec2 t0 = texcoord(mesh, v[0]), t1 = texcoord(mesh, v[1]), t2 = texcoord(mesh, v[2]);
+    first = {t1.x - t0.x, t1.y - t0.y};
+    second = {t2.x - t0.x, t2.y - t0.y};
+  }
+  double area() const { return first.x * second.y - second.x * first.y; }
+};
+
 class Summation {
  public:
   Summation(const RenderMesh& mesh, std::span<const Vec3> positions, std::span<const Vec3> normals)
@@ -51,16 +67,13 @@ class Summation {
  private:
   const Vec3& place(std::uint32_t vertex) const { return positions_[mesh_.pointOf(vertex)]; }
   const Vec3& normal(std::uint32_t vertex) const { return normals_[mesh_.pointOf(vertex)]; }
-  Vec2 texcoord(std::uint32_t vertex) const {
-    return {mesh_.texcoords[2 * vertex], mesh_.texcoords[2 * vertex + 1]};
-  }
 
   void addTriangle(const std::uint32_t* v) {
-    const Vec2 t0 = texcoord(v[0]), t1 = texcoord(v[1]), t2 = texcoord(v[2]);
-    const double v1 = t1.y - t0.y, v2 = t2.y - t0.y;
-    const double area = (t1.x - t0.x) * v2 - (t2.x - t0.x) * v1;
+    const Chart chart(mesh_, v);
+    const double area = chart.area();
     if (area == 0) return;
-    const Vec3 scaled = v2 * (place(v[1]) - place(v[0])) - v1 * (place(v[2]) - place(v[0]));
+    const Vec3 scaled = chart.second.y * (place(v[1]) - place(v[0])) -
+                        chart.first.y * (place(v[2]) - place(v[0]));
     const Vec3 tangent = area > 0 ? scaled : -scaled;  // ∂P/∂u but for its length
     for (int c = 0; c < 3; ++c) addCorner(v[c], v[(c + 1) % 3], v[(c + 2) % 3], area < 0, tangent);
   }
@@ -80,9 +93,44 @@ class Summation {
 
 }  // namespace
 
+void splitMirrored(RenderMesh& mesh) {
+  if (mesh.texcoords.empty()) return;
+  const Index count = mesh.vertexCount();
+  const auto forEachCorner = [&](bool mirrored, auto use) {
+    for (std::size_t k = 0; k < mesh.triangles.size(); k += 3) {
+      std::uint32_t* const v = &mesh.triangles[k];
+      const double area = Chart(mesh, v).area();
+      if (mirrored ? area < 0 : area > 0)
+        for (int c = 0; c < 3; ++c) use(v[c]);
+    }
+  };
+  std::vector<char> isPlain(count);
+  forEachCorner(false, [&](std::uint32_t v) { isPlain[v] = true; });
+  std::vector<Index> copy(count, -1);
+  forEachCorner(true, [&](std::uint32_t& v) {
+    if (static_cast<Index>(v) >= count || !isPlain[v]) return;
+    if (copy[v] < 0) {
+      copy[v] = mesh.vertexCount();
+      mesh.copies.push_back(mesh.pointOf(static_cast<Index>(v)));
+      const Vec2 t = texcoord(mesh, v);
+      mesh.texcoords.insert(mesh.texcoords.end(),
+                            {static_cast<float>(t.x), static_cast<float>(t.y)});
+    }
+    v = static_cast<std::uint32_t>(copy[v]);
+  });
+}
+
 Tangents tangentsOf(const RenderMesh& mesh, std::span<const Vec3> positions,
                     std::span<const Vec3> normals) {
   return Summation(mesh, positions, normals).take();
+}
+
+Tangents neutralTangents(const Rig& rig, const Tessellation& grid, const RenderMesh& mesh,
+                         Index level) {
+  const auto vectors = blend(rig, {});
+  if (level > 0) return tangentsOf(mesh, grid.positions(vectors), grid.normals(vectors));
+  return tangentsOf(mesh, sourcePositions(rig, grid, vectors, {}),
+                    sourceNormals(rig, grid, vectors));
 }
 
 }  // namespace sweepface

@@ -654,6 +654,25 @@ TEST_F(Faces, RefuseBuffersThatCannotBeMeant) {
       refuses(sweepface_face_evaluate(face, count, {out.data(), backwards}, kUnwanted), "stride"));
 }
 
+TEST_F(Faces, RefuseOutputsThatLieOverEachOther) {
+  make(0);
+  const std::size_t count = sweepface_mesh_vertex_count(mesh);
+  std::vector<float> out(6 * count, 7);
+  const auto refusesAt = [&](std::size_t normalsAt, std::size_t stride) {
+    const sweepface_vectors positions{out.data(), stride}, normals{out.data() + normalsAt, stride};
+    const bool evaluates = sweepface_face_evaluate(face, count, positions, normals) == SWEEPFACE_OK;
+    return !evaluates &&
+           refuses(sweepface_face_update(face, count, positions, normals), "over each other");
+  };
+  EXPECT_TRUE(refusesAt(0, 0)) << "twice the same buffer";
+  EXPECT_TRUE(refusesAt(3, 0)) << "one vertex on";
+  EXPECT_TRUE(refusesAt(3 * count - 1, 0)) << "before the last float of positions";
+  EXPECT_TRUE(refusesAt(2, 24)) << "in the same structs, but one float too early";
+  EXPECT_EQ(out, std::vector<float>(6 * count, 7)) << "nothing is written";
+  EXPECT_FALSE(refusesAt(3 * count, 0)) << "one behind the other";
+  EXPECT_FALSE(refusesAt(3, 24)) << "in the same structs";
+}
+
 TEST_F(Faces, RefuseLevelsThatThereAreNot) {
   EXPECT_TRUE(refuses(sweepface_mesh_create(handle, 65, &mesh), "must be 0 to 64, not 65"));
   load(makeRig(onePatch(65, 65)));

@@ -17,10 +17,10 @@ namespace {
 
 using namespace testing;
 
-/// Texture coordinates with a seam, beyond which they are mirrored.
+/// Texture coordinates with a seam, and mirrored ones on either side.
 Rig seamed(Rig rig) {
   texture(rig, [](const Vec3& p, const Vec3& middle) {
-    return middle.x > 0 ? Vec2{p.x, p.y} : Vec2{5 - p.x, p.y + 0.5 * p.z};
+    return middle.x > 0 ? Vec2{p.x, std::abs(p.y)} : Vec2{5 - p.x, p.y + 0.5 * p.z};
   });
   return rig;
 }
@@ -80,12 +80,9 @@ TEST_F(FacesWithTangents, AreTheLibrarysOwn) {
     load(encode(rig), lod);
     ASSERT_GT(count, sweepface_mesh_point_count(mesh)) << "there is a seam";
     const Tessellation grid(rig.surface, lod == 0 ? 1 : 2);
-    const RenderMesh render = lod == 0 ? renderSource(rig, grid) : renderGrid(rig, grid);
-    const auto neutral = blend(rig, {});
-    const Tangents expected =
-        lod == 0 ? tangentsOf(render, sourcePositions(rig, grid, neutral, {}),
-                              sourceNormals(rig, grid, neutral))
-                 : tangentsOf(render, grid.positions(neutral), grid.normals(neutral));
+    RenderMesh render = lod == 0 ? renderSource(rig, grid) : renderGrid(rig, grid);
+    splitMirrored(render);
+    const Tangents expected = neutralTangents(rig, grid, render, static_cast<Index>(lod));
     const Written still = tangents();
     for (std::size_t v = 0; v < count; ++v) {
       for (int c = 0; c < 3; ++c)
@@ -106,6 +103,20 @@ TEST_F(FacesWithTangents, AreTheLibrarysOwn) {
     for (Index v = 0; v < render.vertexCount(); ++v)
       for (int c = 0; c < 3; ++c)
         EXPECT_NEAR(moved.tangents[4 * v + c], directions[3 * v + c], v < render.points ? 0 : 0.05);
+  }
+}
+
+// Vertices on y = 0 belong to triangles of both kinds.
+TEST_F(FacesWithTangents, TellMirroredTrianglesFromOthers) {
+  const auto& found = tangents().tangents;
+  const float* const at = sweepface_mesh_texcoords(mesh);
+  const uint32_t* const corners = sweepface_mesh_triangles(mesh);
+  for (uint32_t t = 0; t < sweepface_mesh_triangle_count(mesh); ++t) {
+    const uint32_t* const v = corners + std::size_t{3} * t;
+    const auto side = [&](int corner, int axis) { return at[2 * v[corner] + axis] - at[2 * v[0] + axis]; };
+    const float area = side(1, 0) * side(2, 1) - side(2, 0) * side(1, 1);
+    for (int c = 0; c < 3 && area != 0; ++c)
+      EXPECT_EQ(found[4 * v[c] + 3], area < 0 ? -1 : 1) << t;
   }
 }
 
@@ -187,6 +198,8 @@ TEST_F(FacesWithTangents, RefuseWhatCannotBeMeant) {
   EXPECT_TRUE(refuses(sweepface_face_tangents(face, 1, {out, 0}, {out, 12}), "16 bytes"));
   EXPECT_TRUE(
       refuses(sweepface_face_tangents(face, 1, {out, 0}, {out, (1u << 30) + 1}), "gigabyte"));
+  EXPECT_TRUE(
+      refuses(sweepface_face_tangents(face, 1, {out + 1, 0}, {out, 0}), "over each other"));
   EXPECT_EQ(out[0], 7);
   load(encode(makeRig(tee())));
   constexpr auto kNone = "no texture coordinates";

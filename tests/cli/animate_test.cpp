@@ -168,17 +168,20 @@ TEST_F(Animate, IsNoLongerThanItsMotion) {
 TEST_F(Animate, LeavesOnlyWholeFramesOnInterrupt) {
   convertRig();
   const std::filesystem::path face = folder / "face.sweep", frames = folder / "frames";
-  const pid_t child = start(
-      {"animate", face.string(), "--to", "smile=1", "--frames", "100000", "-o", frames.string()});
-  ASSERT_GE(child, 0);
-  while (!std::filesystem::exists(frames / "frame_0000.obj") &&
-         waitpid(child, nullptr, WNOHANG) == 0)
-    usleep(1000);
-  kill(child, SIGINT);
-  EXPECT_EQ(codeOf(child), 130);
-  EXPECT_TRUE(contents(folder / ".err").starts_with("sweepface: Interrupted after "));
-  for (const auto& file : std::filesystem::directory_iterator(frames))
-    EXPECT_EQ(file.path().extension(), ".obj") << file.path();
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    std::filesystem::remove_all(frames);
+    const pid_t child = start(
+        {"animate", face.string(), "--to", "smile=1", "--frames", "100000", "-o", frames.string()});
+    ASSERT_GE(child, 0);
+    while (!std::filesystem::exists(frames / "frame_0000.obj") &&
+           waitpid(child, nullptr, WNOHANG) == 0)
+      usleep(1000);
+    kill(child, signal);
+    EXPECT_EQ(codeOf(child), 130);
+    EXPECT_TRUE(contents(folder / ".err").starts_with("sweepface: Interrupted after "));
+    for (const auto& file : std::filesystem::directory_iterator(frames))
+      EXPECT_EQ(file.path().extension(), ".obj") << file.path();
+  }
 }
 
 TEST_F(Animate, RefusesWhatWouldChangeNothing) {

@@ -8,6 +8,7 @@ namespace sweepface::cli {
 namespace {
 
 [[noreturn]] void workWithoutAsking() {
+  std::signal(SIGINT, SIG_DFL);  // jobs in the background ignore it
   catchInterrupts(Patience::twoSeconds);
   std::raise(SIGINT);
   if (!interrupted) ::_exit(1);
@@ -20,6 +21,7 @@ TEST(Interrupts, EndWorkThatDoesNotAsk) {
 }
 
 [[noreturn]] void workThatClearsAway() {
+  std::signal(SIGINT, SIG_DFL);
   catchInterrupts(Patience::twoSeconds);
   catchInterrupts();
   std::raise(SIGINT);

@@ -105,8 +105,8 @@ class Tool : public ::testing::Test {
     const std::string errors = (folder / ".err").string();
     const pid_t child = fork();
     if (child != 0) return child;
-    std::signal(SIGINT, SIG_DFL);
-    dup2(open(errors.c_str(), O_CREAT | O_WRONLY, 0600), STDERR_FILENO);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_DFL);
+    dup2(open(errors.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0600), STDERR_FILENO);
     execv(SWEEPFACE_TOOL, words.data());
     _exit(127);
   }

@@ -18,17 +18,25 @@ struct Level {
   Index level;
   Tessellation grid;
   RenderMesh mesh;
-  std::vector<Vec3> neutral;
+  std::vector<Vec3> places;  // of the points
   Tangents tangents;
 
-  Level(const Rig& rig, Index number)
+  Level(const Rig& rig, Index number, void (*change)(RenderMesh&) = [](RenderMesh&) {})
       : level(number),
         grid(rig.surface, std::max<Index>(1, level)),
-        mesh(level == 0 ? renderSource(rig, grid) : renderGrid(rig, grid)),
-        neutral(blend(rig, {})),
-        tangents(tangentsOf(
-            mesh, level == 0 ? sourcePositions(rig, grid, neutral, {}) : grid.positions(neutral),
-            normals(rig, neutral))) {}
+        mesh(level == 0 ? renderSource(rig, grid) : renderGrid(rig, grid)) {
+    change(mesh);
+    tangents = neutralTangents(rig, grid, mesh, level);
+    const auto vectors = blend(rig, {});
+    places = level == 0 ? sourcePositions(rig, grid, vectors, {}) : grid.positions(vectors);
+  }
+
+  Vec3 middleOfTriangle(std::size_t triangle) const {
+    Vec3 middle;
+    for (int c = 0; c < 3; ++c)
+      middle += places[mesh.pointOf(static_cast<Index>(mesh.triangles[3 * triangle + c]))];
+    return (1.0 / 3) * middle;
+  }
 
   std::vector<Vec3> normals(const Rig& rig, std::span<const Vec3> vectors) const {
     return level == 0 ? sourceNormals(rig, grid, vectors) : grid.normals(vectors);
@@ -77,6 +85,44 @@ TEST(Tangents, DifferOnBothSidesOfASeam) {
     const Vec3 expected = mesh.texcoords[2 * v] < 5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
     EXPECT_LE(norm(found.directions[v] - expected), 1e-6) << v;
   }
+}
+
+/// Both halves of a sheet have the same piece of the texture.
+Rig foldedSheet() {
+  Rig rig = plainSheet();
+  texture(rig, [](const Vec3& p, const Vec3&) { return Vec2{std::abs(p.x - 1), p.y}; });
+  return rig;
+}
+
+TEST(SplitMirrored, DoublesWhatBothSidesShare) {
+  const Rig rig = foldedSheet();
+  for (const Index level : {0, 1, 3}) {
+    const Level shared(rig, level);
+    ASSERT_TRUE(shared.mesh.copies.empty());
+    const Level split(rig, level, splitMirrored);
+    const RenderMesh& mesh = split.mesh;
+    EXPECT_EQ(mesh.copies.size(), 2u * std::max(1, level) + 1);
+    ASSERT_EQ(mesh.triangles.size(), shared.mesh.triangles.size());
+    ASSERT_EQ(mesh.texcoords.size(), 2u * mesh.vertexCount());
+    for (std::size_t k = 0; k < mesh.triangles.size(); ++k) {
+      const Index v = static_cast<Index>(mesh.triangles[k]), point = mesh.pointOf(v);
+      EXPECT_EQ(point, static_cast<Index>(shared.mesh.triangles[k]));
+      for (int c = 0; c < 2; ++c)
+        EXPECT_EQ(mesh.texcoords[2 * v + c], shared.mesh.texcoords[2 * point + c]);
+      const float side = split.middleOfTriangle(k / 3).x < 1 ? -1 : 1;
+      EXPECT_EQ(split.tangents.signs[v], side);
+      EXPECT_LE(norm(split.tangents.directions[v] - Vec3{side, 0, 0}), 1e-6);
+    }
+  }
+}
+
+TEST(SplitMirrored, LeavesWhatIsOfOneKind) {
+  for (const double way : {1, -1, 0}) {
+    Rig rig = plainSheet();
+    texture(rig, [&](const Vec3& p, const Vec3&) { return Vec2{way * p.x, p.y}; });
+    EXPECT_TRUE(Level(rig, 0, splitMirrored).mesh.copies.empty()) << way;
+  }
+  EXPECT_TRUE(Level(plainSheet(), 0, splitMirrored).mesh.copies.empty()) << "without a texture";
 }
 
 /// Triangles round vertex 0, whose rim is a cone's.
