@@ -7,13 +7,18 @@ export class SweepfaceMesh<Materials extends Material | Material[] = MeshStandar
   constructor(face: Sweepface, materials?: Materials);
 }
 
+export interface LoaderOptions<M> extends LoadOptions {
+  /** The class of the mesh that is made, SweepfaceMesh unless given: SweepfaceGpuMesh, SweepfaceNodeMesh. */
+  mesh?: (new (face: Sweepface) => M) | undefined;
+}
+
 /** Loads .sweep files, as three.js's own loaders do. */
-export class SweepfaceLoader extends Loader<SweepfaceMesh> {
-  constructor(manager?: LoadingManager, options?: LoadOptions);
-  options: LoadOptions;
+export class SweepfaceLoader<M extends FaceMesh = SweepfaceMesh> extends Loader<M> {
+  constructor(manager?: LoadingManager, options?: LoaderOptions<M>);
+  options: LoaderOptions<M>;
   /** Ends the downloads that are under way. */
   abort(): this;
-  parseAsync(bytes: Bytes, options?: LoadOptions): Promise<SweepfaceMesh>;
+  parseAsync(bytes: Bytes, options?: LoaderOptions<M>): Promise<M>;
 }
 
 /** An animation that GLTFLoader read, the first of targets that the face has unless given, as a clip for an AnimationMixer

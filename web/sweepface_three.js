@@ -30,11 +30,17 @@ export class SweepfaceMesh extends FaceMesh {
   }
 }
 
-/** Loads a .sweep file as a SweepfaceMesh, as three.js's own loaders do. */
+/** The class of meshes that a loader makes. */
+function meshFrom(mesh = SweepfaceMesh) {
+  if (mesh?.prototype instanceof FaceMesh) return mesh;
+  throw new TypeError("The option 'mesh' is a class: SweepfaceMesh, SweepfaceGpuMesh or SweepfaceNodeMesh.");
+}
+
+/** Loads a .sweep file as a mesh, as three.js's own loaders do. */
 export class SweepfaceLoader extends Loader {
   #downloads = new Set();
 
-  /** Options of Sweepface.load. */
+  /** Options of Sweepface.load, and `mesh`, the class of what is made if not a SweepfaceMesh. */
   constructor(manager, options) {
     if (manager && typeof manager.itemStart !== 'function')
       throw new TypeError('A loader takes a LoadingManager, or undefined, and its options after it.');
@@ -76,6 +82,7 @@ export class SweepfaceLoader extends Loader {
 
   /** `usual` are the loader's options of when a load began. */
   async parseAsync(bytes, options = {}, usual = this.options) {
-    return new SweepfaceMesh(await Sweepface.load(bytes, {...usual, ...options}));
+    const {mesh, ...others} = {...usual, ...options}, Made = meshFrom(mesh);
+    return new Made(await Sweepface.load(bytes, others));
   }
 }

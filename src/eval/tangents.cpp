@@ -72,8 +72,8 @@ class Summation {
     const Chart chart(mesh_, v);
     const double area = chart.area();
     if (area == 0) return;
-    const Vec3 scaled = chart.second.y * (place(v[1]) - place(v[0])) -
-                        chart.first.y * (place(v[2]) - place(v[0]));
+    const Vec3 scaled =
+        chart.second.y * (place(v[1]) - place(v[0])) - chart.first.y * (place(v[2]) - place(v[0]));
     const Vec3 tangent = area > 0 ? scaled : -scaled;  // ∂P/∂u but for its length
     for (int c = 0; c < 3; ++c) addCorner(v[c], v[(c + 1) % 3], v[(c + 2) % 3], area < 0, tangent);
   }

@@ -113,10 +113,11 @@ TEST_F(FacesWithTangents, TellMirroredTrianglesFromOthers) {
   const uint32_t* const corners = sweepface_mesh_triangles(mesh);
   for (uint32_t t = 0; t < sweepface_mesh_triangle_count(mesh); ++t) {
     const uint32_t* const v = corners + std::size_t{3} * t;
-    const auto side = [&](int corner, int axis) { return at[2 * v[corner] + axis] - at[2 * v[0] + axis]; };
+    const auto side = [&](int corner, int axis) {
+      return at[2 * v[corner] + axis] - at[2 * v[0] + axis];
+    };
     const float area = side(1, 0) * side(2, 1) - side(2, 0) * side(1, 1);
-    for (int c = 0; c < 3 && area != 0; ++c)
-      EXPECT_EQ(found[4 * v[c] + 3], area < 0 ? -1 : 1) << t;
+    for (int c = 0; c < 3 && area != 0; ++c) EXPECT_EQ(found[4 * v[c] + 3], area < 0 ? -1 : 1) << t;
   }
 }
 
@@ -198,8 +199,7 @@ TEST_F(FacesWithTangents, RefuseWhatCannotBeMeant) {
   EXPECT_TRUE(refuses(sweepface_face_tangents(face, 1, {out, 0}, {out, 12}), "16 bytes"));
   EXPECT_TRUE(
       refuses(sweepface_face_tangents(face, 1, {out, 0}, {out, (1u << 30) + 1}), "gigabyte"));
-  EXPECT_TRUE(
-      refuses(sweepface_face_tangents(face, 1, {out + 1, 0}, {out, 0}), "over each other"));
+  EXPECT_TRUE(refuses(sweepface_face_tangents(face, 1, {out + 1, 0}, {out, 0}), "over each other"));
   EXPECT_EQ(out[0], 7);
   load(encode(makeRig(tee())));
   constexpr auto kNone = "no texture coordinates";

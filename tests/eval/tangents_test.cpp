@@ -21,7 +21,8 @@ struct Level {
   std::vector<Vec3> places;  // of the points
   Tangents tangents;
 
-  Level(const Rig& rig, Index number, void (*change)(RenderMesh&) = [](RenderMesh&) {})
+  Level(
+      const Rig& rig, Index number, void (*change)(RenderMesh&) = [](RenderMesh&) {})
       : level(number),
         grid(rig.surface, std::max<Index>(1, level)),
         mesh(level == 0 ? renderSource(rig, grid) : renderGrid(rig, grid)) {

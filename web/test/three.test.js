@@ -496,6 +496,19 @@ test('a loader tells that its options come second', options, async () => {
   assert.deepEqual(new SweepfaceLoader(undefined, null).options, {});
 });
 
+test('a loader makes the mesh that it is told to', options, async () => {
+  const {SweepfaceLoader, SweepfaceMesh} = await import('../sweepface_three.js'), bytes = readFileSync(sample);
+  const {SweepfaceGpuMesh} = await import('../sweepface_gpu.js');
+  class Mine extends SweepfaceMesh {}
+  const loader = new SweepfaceLoader(undefined, {mesh: SweepfaceGpuMesh, lod: 2}), made = await loader.parseAsync(bytes);
+  assert.ok(made instanceof SweepfaceGpuMesh);
+  assert.equal(made.face.lod, 2);
+  assert.equal((await loader.parseAsync(bytes, {mesh: Mine})).constructor, Mine);
+  assert.equal((await loader.parseAsync(bytes, {mesh: undefined})).constructor, SweepfaceMesh);
+  for (const mesh of [null, 'SweepfaceGpuMesh', three.Mesh, {}])
+    await assert.rejects(loader.parseAsync(bytes, {mesh}), /^TypeError: The option 'mesh' is a class: /);
+});
+
 /** What happens when a loader loads, in order. */
 async function happenings(file, options, fail = () => {}) {
   const {SweepfaceLoader} = await import('../sweepface_three.js'), seen = [];

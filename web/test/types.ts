@@ -51,7 +51,11 @@ export async function onTheCard(bytes: ArrayBuffer): Promise<number> {
   mesh.setWeights({jawOpen: 0.5});
   mesh.update(1 / 60);
   const nodes: SweepfaceNodeMesh<MeshBasicMaterial> = new SweepfaceNodeMesh(mesh.face, new MeshBasicMaterial()).clone();
-  return mesh.textureBytes + mesh.frameBytes + SWEEPFACE_GLSL.length + nodes.textureBytes;
+  const loader = new SweepfaceLoader(undefined, {mesh: SweepfaceGpuMesh, lod: 1}), loaded: SweepfaceGpuMesh = await loader.parseAsync(bytes);
+  loader.options.mesh = undefined;
+  // @ts-expect-error That is no mesh of a face.
+  new SweepfaceLoader(undefined, {mesh: Scene});
+  return loaded.textureBytes + mesh.frameBytes + SWEEPFACE_GLSL.length + nodes.textureBytes;
 }
 
 export async function useClips(bytes: ArrayBuffer, csv: string): Promise<void> {
