@@ -1,7 +1,5 @@
-#include <atomic>
 #include <cmath>
 #include <fmt/format.h>
-#include <mutex>
 #include <optional>
 
 #include "sweepface/gltf.hpp"
@@ -12,8 +10,8 @@
 #include "interrupts.hpp"
 #include "key_frames.hpp"
 #include "lod_mesh.hpp"
+#include "mesh_folder.hpp"
 #include "output.hpp"
-#include "parallel.hpp"
 #include "regions.hpp"
 
 namespace sweepface::cli {
@@ -110,41 +108,18 @@ Result<std::vector<double>> sampleTimes(const AnimateArguments& a, const Perform
 
 // ---- Meshes ----
 
-Result<void> makeFolder(const fs::path& folder) {
-  if (folder.empty()) return fail("The name of the output is empty; name a folder or a file.");
-  std::error_code error, ignored;
-  fs::create_directories(folder, error);
-  if (fs::is_directory(folder, ignored)) return {};
-  const bool isFile = fs::exists(folder, ignored) || !error;
-  return fail(fmt::format("Cannot make the folder {}: {}.", folder.string(),
-                          isFile ? "a file is in its place; choose another name"
-                                 : error.message() + "; choose another place"));
-}
-
-/// Writes the frames in parallel; the answer is that of the first one that failed.
 Result<void> writeFrames(const AnimateArguments& a, const Rig& rig, const Performance& performance,
                          const std::vector<double>& times, const std::optional<HeadTrack>& head) {
   const MeshMaker meshes(rig, a.lod);
-  ProgressBar bar(a.quiet);
-  std::atomic<std::size_t> done = 0;
-  std::atomic<bool> failed = false;
-  std::mutex reporting;
-  Result<void> result;
-  parallelFor(std::size_t{0}, times.size(), [&](std::size_t frame) {
-    if (failed || interrupted) return;
+  const auto text = [&](std::size_t frame) {
     Weights weights(rig.targets.size());
     performance.at(times[frame], weights);
-    const Result<void> written = writeFile(
-        fs::path(a.output) / fmt::format("frame_{:04}.obj", frame),
-        head ? meshes.obj(weights, head->rotations[frame], head->pivot) : meshes.obj(weights));
-    bar.show("writing", static_cast<double>(++done) / static_cast<double>(times.size()));
-    if (written) return;
-    const std::scoped_lock lock(reporting);
-    if (!failed.exchange(true)) result = written;
-  });
-  if (interrupted && result)
-    return fail(fmt::format("Interrupted after {} of {} frames.", done.load(), times.size()));
-  return result;
+    return head ? meshes.obj(weights, head->rotations[frame], head->pivot) : meshes.obj(weights);
+  };
+  const auto path = [&](std::size_t frame) {
+    return fs::path(a.output) / fmt::format("frame_{:04}.obj", frame);
+  };
+  return writeMeshes({times.size(), "frames", path, text}, a.quiet);
 }
 
 void printFrames(const AnimateArguments& a, std::size_t count, const Performance& performance) {
@@ -160,7 +135,6 @@ Result<void> animateMeshes(const AnimateArguments& a, const Rig& rig,
   const auto head = headTrack(a.head, rig, performance, *times);
   if (!head) return std::unexpected(head.error());
   if (auto made = makeFolder(a.output); !made) return made;
-  catchInterrupts();
   if (auto written = writeFrames(a, rig, performance, *times, *head); !written) return written;
   if (!a.quiet) printFrames(a, times->size(), performance);
   return {};
@@ -281,14 +255,10 @@ Result<void> checkKeys(const AnimateArguments& a, const Performance& performance
 
 Result<int> runAnimate(const AnimateArguments& a) {
   const bool glb = isOfKind(a.output, ".glb"), csv = isOfKind(a.output, ".csv");
-  std::error_code ignored;
-  const fs::path output(a.output);
-  if (!glb && !csv && output.has_extension() && !fs::is_directory(output, ignored))
+  if (!glb && !csv && !meansFolder(a.output))
     return fail(fmt::format(
         "Cannot write {}: its name must end in .glb or .csv, or be a folder's, without an ending.",
         a.output));
-  if (a.output == "-")
-    return fail("Standard output takes no meshes; name a folder, ./- if it is called so.");
   if (auto ok = checkArguments(a, glb); !ok) return std::unexpected(ok.error());
   Result<Rig> rig = readFace(a.face);
   if (!rig) return std::unexpected(rig.error());
@@ -307,11 +277,7 @@ Result<int> runAnimate(const AnimateArguments& a) {
   const Result<void> written = (glb   ? animateGlb
                                 : csv ? animateCsv
                                       : animateMeshes)(a, *rig, *performance);
-  if (!written && interrupted) {
-    printError(written.error().message);
-    return kInterrupted;
-  }
-  if (!written) return std::unexpected(written.error());
+  if (!written) return endWith(written.error());
   for (const std::string& note : performance->notes) printWarning(note);
   if (performance->turnsHead && !a.head.on() && !csv)
     printWarning(

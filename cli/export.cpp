@@ -7,7 +7,9 @@
 #include "budget_mesh.hpp"
 #include "command.hpp"
 #include "following.hpp"
+#include "interrupts.hpp"
 #include "lod_mesh.hpp"
+#include "mesh_folder.hpp"
 
 namespace sweepface::cli {
 namespace {
@@ -24,7 +26,8 @@ struct ExportArguments {
 void addOptions(CLI::App& app, ExportArguments& a) {
   addFace(app, a.face);
   addOutput(app, a.output,
-            "The file to write: .obj for one expression, .glb for the face with all its targets");
+            "The file to write: .obj for one expression, .glb for the face with all its targets; "
+            "or a folder, without an ending, for all of them as .obj files");
   addWeights(app, a.weights);
   CLI::Option* lod =
       addLod(app, a.lod, "Write a finer mesh: every edge of the source cut into N, 1 to 64");
@@ -57,7 +60,8 @@ void addOptions(CLI::App& app, ExportArguments& a) {
       "\nExamples:\n  sweepface export face.sweep -o smile.obj --weights smile=0.8,jawOpen=0.2\n"
       "  sweepface export face.sweep -o smooth.obj --lod 4\n"
       "  sweepface export face.sweep -o far.obj --vertices 5000\n"
-      "  sweepface export face.sweep -o face.glb --quantize");
+      "  sweepface export face.sweep -o face.glb --quantize\n"
+      "  sweepface export face.sweep -o meshes/");
 }
 
 Budget budgetOf(const ExportArguments& a) {
@@ -101,17 +105,64 @@ Result<void> writeGlb(const ExportArguments& a, const Rig& rig, const Weights& w
   return {};
 }
 
-Result<int> runExport(const ExportArguments& a) {
-  const bool glb = isOfKind(a.output, ".glb");
+/// Whether file systems take a target's name, and `convert` the file as one of a folder's.
+Result<void> checkFileNames(const Rig& rig) {
+  for (const Target& target : rig.targets)
+    if (target.name.starts_with('.') || target.name.contains('/'))
+      return fail(
+          fmt::format("The target '{}' cannot be the name of a file; write a .glb, or the "
+                      "expression alone by --weights.",
+                      target.name));
+  return {};
+}
+
+/// What `convert` reads: neutral.obj, and every target by its name in expressions/.
+Result<void> writeFolder(const ExportArguments& a, const Rig& rig, const Following& following) {
+  const std::filesystem::path folder(a.output), expressions = folder / "expressions";
+  if (auto ok = checkLod(rig, a.lod); !ok) return ok;
+  if (auto ok = checkFileNames(rig); !ok) return ok;
+  if (auto made = makeFolder(folder); !made) return made;
+  if (following.count > 0)
+    if (auto made = makeFolder(expressions); !made) return made;
+  const MeshMaker meshes(rig, a.lod);
+  const auto path = [&](std::size_t k) {
+    return k == 0 ? folder / "neutral.obj" : expressions / (rig.targets[k - 1].name + ".obj");
+  };
+  const auto text = [&](std::size_t k) {
+    Weights weights(rig.targets.size());
+    if (k > 0) weights[k - 1] = 1;
+    following.apply(weights);
+    return meshes.obj(weights);
+  };
+  if (auto ok = writeMeshes({following.count + 1, "meshes", path, text}, a.quiet); !ok) return ok;
+  if (!a.quiet)
+    fmt::print("{}: {} targets, {} faces each\n", a.output, following.count,
+               meshes.polygons().faceCount());
+  return {};
+}
+
+/// Options that only one of the outputs has.
+Result<void> checkKind(const ExportArguments& a) {
+  const bool glb = isOfKind(a.output, ".glb"), isFolder = meansFolder(a.output);
   if (a.glb.any() && !glb)
     return fail("--morph-normals and --quantize are for .glb files; name the output so.");
-  if (glb && budgetOf(a).value > 0)
+  if ((glb || isFolder) && budgetOf(a).value > 0)
     return fail(
         "A budget of vertices, error or edge length is for .obj files; name the output so.");
-  if (glb && a.weights.empty() && (a.following.combine || !a.following.limits.empty()))
+  if (isFolder && !a.weights.empty())
+    return fail("A folder gets every target by itself; leave --weights out, or name an .obj file.");
+  if ((glb || isFolder) && a.weights.empty() &&
+      (a.following.combine || !a.following.limits.empty()))
     return fail(
-        "A .glb holds all targets, and --combine and --limits change the expression of --weights "
-        "alone; name one, or leave them out.");
+        fmt::format("A {} holds all targets, and --combine and --limits change the "
+                    "expression of --weights alone; {}leave them out.",
+                    glb ? ".glb" : "folder", glb ? "name one, or " : ""));
+  return {};
+}
+
+Result<int> runExport(const ExportArguments& a) {
+  const bool glb = isOfKind(a.output, ".glb"), isFolder = meansFolder(a.output);
+  if (auto ok = checkKind(a); !ok) return std::unexpected(ok.error());
   Result<Rig> rig = readFace(a.face);
   if (!rig) return std::unexpected(rig.error());
   if (a.sourceOrder && !rig->source.ownOrder)
@@ -120,14 +171,16 @@ Result<int> runExport(const ExportArguments& a) {
                 "file again without --strip order.");
   Result<Weights> weights = weightsGiven("--weights", a.weights, *rig);
   if (!weights) return std::unexpected(weights.error());
-  if (auto ok = checkOutput(a.output, {a.face}, {".obj", ".glb"}, !a.quiet); !ok)
-    return std::unexpected(ok.error());
+  if (!isFolder)
+    if (auto ok = checkOutput(a.output, {a.face}, {".obj", ".glb"}, !a.quiet); !ok)
+      return std::unexpected(ok.error());
   const Result<Following> following = follow(a.following, *rig, {*weights});
   if (!following) return std::unexpected(following.error());
   weights->resize(rig->targets.size());
   following->apply(*weights);
-  const Result<void> written = (glb ? writeGlb : writeObj)(a, *rig, *weights);
-  if (!written) return std::unexpected(written.error());
+  const Result<void> written =
+      isFolder ? writeFolder(a, *rig, *following) : (glb ? writeGlb : writeObj)(a, *rig, *weights);
+  if (!written) return endWith(written.error());
   return 0;
 }
 

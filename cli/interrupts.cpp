@@ -63,4 +63,10 @@ int endInterrupted() {
   return kInterrupted;
 }
 
+Result<int> endWith(const Error& error) {
+  if (!interrupted) return std::unexpected(error);
+  printError(error.message);
+  return kInterrupted;
+}
+
 }  // namespace sweepface::cli

@@ -24,5 +24,7 @@ Result<int> doLongWork(int threads, const std::function<Result<int>()>& work);
 
 /// Says that the work was stopped and nothing written; the exit code.
 int endInterrupted();
+/// Ends work that failed and says how far it came where that is because it was stopped.
+Result<int> endWith(const Error& error);
 
 }  // namespace sweepface::cli

@@ -1,4 +1,5 @@
 #include <map>
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "sweepface/codec.hpp"
@@ -47,6 +48,55 @@ TEST_F(Export, WritesTheSourcesOwnPolygons) {
   EXPECT_EQ(contents(folder / "same.obj"), contents(folder / "out.obj"));
 }
 
+TEST_F(Export, WritesAFolderThatConvertReads) {
+  convertRig();
+  const Outcome r = run("export face.sweep -o all/meshes");
+  ASSERT_EQ(r.code, 0) << r.err;
+  EXPECT_EQ(r.out, "all/meshes: 2 targets, 30 faces each\n");
+  for (const std::string command :
+       {"-o one.obj", "-o all/meshes/neutral.obj", "-o two.obj --weights smile=1"})
+    ASSERT_EQ(run("export face.sweep --quiet " + command).code, 0);
+  const auto same = [&](const char* a, const char* b) {
+    return contents(folder / a) == contents(folder / b) && !contents(folder / a).empty();
+  };
+  EXPECT_TRUE(same("all/meshes/neutral.obj", "one.obj"));
+  EXPECT_TRUE(same("all/meshes/expressions/smile.obj", "two.obj"));
+  const auto targetsOf = [&](const char* file) {
+    std::vector<std::string> names;
+    const Rig rig = decode(contents(folder / file), file).value();
+    for (const Target& t : rig.targets) names.push_back(t.name);
+    return names;
+  };
+  const std::string meshes = " all/meshes/neutral.obj all/meshes/expressions";
+  ASSERT_EQ(run("convert" + meshes + " -o again.sweep --quiet").code, 0);
+  EXPECT_EQ(targetsOf("again.sweep"), targetsOf("face.sweep"));
+  const Outcome compared = run("measure face.sweep" + meshes + " --json");
+  EXPECT_LT(nlohmann::json::parse(compared.out)["worst"]["distanceMax"], 1e-6);
+}
+
+TEST_F(Export, WritesAFolderOfFinerMeshes) {
+  convertRig();
+  ASSERT_EQ(run("export face.sweep -o fine --lod 2 --quiet").code, 0);
+  ASSERT_EQ(run("export face.sweep -o fine.obj --lod 2 --weights jawOpen=1 --quiet").code, 0);
+  EXPECT_EQ(contents(folder / "fine/expressions/jawOpen.obj"), contents(folder / "fine.obj"));
+}
+
+TEST_F(Export, RefusesFoldersThatCannotBeMeant) {
+  convertRig();
+  EXPECT_TRUE(fails("export face.sweep -o all --weights smile=1", "leave --weights out"));
+  EXPECT_TRUE(fails("export face.sweep -o all --vertices 9", "is for .obj files"));
+  EXPECT_TRUE(fails("export face.sweep -o all --combine", "A folder holds all targets"));
+  EXPECT_TRUE(fails("export face.sweep -o all --quantize", "are for .glb files"));
+  EXPECT_TRUE(fails("export face.sweep -o face.sweep/all", "Cannot make the folder"));
+  for (const char* name : {"a/b", ".hidden"}) {
+    Rig rig = decode(contents(folder / "face.sweep"), "face").value();
+    rig.targets[0].name = name;
+    folder.file("odd.sweep", encode(rig));
+    EXPECT_TRUE(fails("export odd.sweep -o all", "cannot be the name of a file"));
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder / "all"));
+}
+
 TEST_F(Export, RefusesBudgetsThatAreNone) {
   convertRig();
   for (const char* budget : {"--vertices nan", "--error nan", "--edge-length inf", "--error -1"}) {
@@ -62,7 +112,6 @@ TEST_F(Export, RefusesBudgetsThatAreNone) {
 TEST_F(Export, NamesSayWhatIsWritten) {
   convertRig();
   EXPECT_TRUE(fails("export face.sweep -o smile.png", "must end in .obj or .glb"));
-  EXPECT_TRUE(fails("export face.sweep -o smile", "must end in .obj or .glb"));
   EXPECT_TRUE(fails("wireframe face.sweep -o lines.glb", "must end in .obj or .json"));
   EXPECT_TRUE(fails("render face.sweep -o view.svg", "must end in .png"));
   EXPECT_TRUE(fails("report face.sweep -o page.pdf", "must end in .html"));
