@@ -42,12 +42,14 @@ endif()
 list(TRANSFORM absent_headers REPLACE "(.+)" "PATTERN;\\1;EXCLUDE" OUTPUT_VARIABLE skipped_headers)
 if(SWEEPFACE_BUILD_TOOL AND NOT SWEEPFACE_RUNTIME_ONLY)
   install(TARGETS sweepface RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  install(FILES ${PROJECT_SOURCE_DIR}/blender/sweepface_io.py DESTINATION ${CMAKE_INSTALL_DATADIR}/sweepface/blender)
 endif()
 
 install(TARGETS ${installed_libraries} EXPORT sweepfaceTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/sweepface DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
         FILES_MATCHING PATTERN *.hpp PATTERN *.h ${skipped_headers})
-install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 # find_package(sweepface): targets sweepface::runtime and, unless built without, sweepface::shared, sweepface::convert
 # and sweepface::picture.

@@ -1,0 +1,469 @@
+"""Sweepface in Blender: opens and saves .sweep faces, and moves shape keys by Newton's law, springs and captures.
+
+An add-on in one file: Edit > Preferences > Add-ons > Install... It runs the tool `sweepface`, from PATH unless its
+preferences say where it is. docs/blender.md tells more.
+"""
+
+import json
+import os
+import struct
+import subprocess
+import tempfile
+from itertools import dropwhile, takewhile
+
+import bpy
+import numpy
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, StringProperty
+from bpy_extras.io_utils import ExportHelper, ImportHelper, axis_conversion
+
+bl_info = {
+    "name": "Sweepface",
+    "description": "Opens and saves .sweep faces; moves shape keys by Newton's law, springs and captures",
+    "author": "The Sweepface authors",
+    "version": (0, 1, 0),
+    "blender": (3, 4, 0),
+    "location": "File > Import, File > Export; 3D View > Sidebar > Sweepface",
+    "category": "Import-Export",
+}
+
+# Faces have y upwards, as OBJ and glTF do, Blender z.
+UPRIGHT = axis_conversion(from_forward="-Z", from_up="Y").to_4x4()
+LONGEST_NAME = 63  # bytes of a shape key's name
+SOURCE = "sweepface_file"  # the property of an object that says which face it shows
+
+
+# ---- The tool ----
+
+
+class Preferences(bpy.types.AddonPreferences):
+    bl_idname = __name__
+
+    tool: StringProperty(name="Tool", description="Where the program sweepface is", default="sweepface", subtype="FILE_PATH")
+
+    def draw(self, _context):
+        self.layout.prop(self, "tool")
+
+
+def run_tool(operator, *arguments):
+    """Runs the tool, and reports its warnings. What goes wrong raises its sentence."""
+    addon = bpy.context.preferences.addons.get(__name__)
+    tool = bpy.path.abspath(addon.preferences.tool) if addon else "sweepface"
+    try:
+        run = subprocess.run([tool, *map(str, arguments)], stdin=subprocess.DEVNULL, capture_output=True, encoding="utf-8",
+                             errors="replace", check=False)
+    except OSError as error:
+        raise RuntimeError(f"Cannot run {tool} ({error.strerror}); say in the add-on's preferences where it is.") from error
+    said = [line.removeprefix("sweepface: ") for line in run.stderr.splitlines() if line]
+    if run.returncode:
+        raise RuntimeError(" ".join(said) or f"{tool} ended with {run.returncode}.")
+    for line in said:
+        operator.report({"WARNING"}, line.removeprefix("warning: "))
+    return run.stdout
+
+
+class ToolOperator:
+    """An operator whose errors are sentences."""
+
+    bl_options = {"REGISTER", "UNDO"}
+
+    def execute(self, context):
+        try:
+            with tempfile.TemporaryDirectory() as folder:
+                self.work(context, folder)
+        except (OSError, RuntimeError) as error:
+            self.report({"ERROR"}, str(error))
+            return {"CANCELLED"}
+        return {"FINISHED"}
+
+
+# ---- Meshes as the tool writes and reads them ----
+
+
+def numbers_of(lines, key):
+    """[N x k] the numbers of the lines that begin with a key."""
+    chosen = [line[len(key):] for line in lines if line.startswith(key + " ")]
+    return numpy.fromstring(" ".join(chosen), sep=" ").reshape(len(chosen), -1) if chosen else numpy.empty((0, 3))
+
+
+def places_in(path):
+    """[N x 3] the vertices of an OBJ that the tool wrote, which stand together."""
+    is_vertex = lambda line: line.startswith("v ")
+    with open(path, encoding="utf-8", errors="surrogateescape") as file:
+        vertices = takewhile(is_vertex, dropwhile(lambda line: not is_vertex(line), file))
+        return numpy.fromstring("".join(line[1:] for line in vertices), sep=" ").reshape(-1, 3)
+
+
+def read_lines(path):
+    with open(path, encoding="utf-8", errors="surrogateescape") as file:
+        return file.read().splitlines()
+
+
+def new_mesh(name, lines):
+    """The mesh of an OBJ that the tool wrote: its polygons, texture coordinates and materials."""
+    mesh = bpy.data.meshes.new(name)
+    faces, materials, coordinates = [], [], []
+    slots, current = {}, 0
+    for line in lines:
+        if line.startswith("usemtl "):
+            current = slots.setdefault(line[len("usemtl "):], len(slots))
+        elif line.startswith("f "):
+            corners = [corner.split("/") for corner in line.split()[1:]]
+            faces.append([int(corner[0]) - 1 for corner in corners])
+            coordinates += [int(corner[1] or 0) - 1 if len(corner) > 1 else -1 for corner in corners]
+            materials.append(current)
+    for material in slots:
+        mesh.materials.append(bpy.data.materials.get(material) or bpy.data.materials.new(material))
+    mesh.from_pydata(numbers_of(lines, "v").tolist(), [], faces)
+    mesh.polygons.foreach_set("material_index", materials)
+    mesh.polygons.foreach_set("use_smooth", [True] * len(faces))
+    if max(coordinates, default=-1) >= 0:
+        places = numpy.vstack([numbers_of(lines, "vt")[:, :2], [[0, 0]]])  # -1: at 0, where a corner has none
+        mesh.uv_layers.new(name="UVMap").data.foreach_set("uv", places[coordinates].ravel())
+    mesh.update()
+    return mesh
+
+
+def add_keys(shown, folder, names):
+    """Shape keys of an object, from the meshes of a folder."""
+    shown.shape_key_add(name="Basis", from_mix=False)
+    for name in names:
+        places = places_in(os.path.join(folder, name + ".obj"))
+        shown.shape_key_add(name=name, from_mix=False).data.foreach_set("co", places.ravel())
+
+
+def places_of(points):
+    """[N x 3] where vertices, or the points of a shape key, are."""
+    places = numpy.empty(3 * len(points), dtype=numpy.float32)
+    points.foreach_get("co", places)
+    return places.reshape(-1, 3).astype(numpy.float64)
+
+
+def shapes_of(shown):
+    """The neutral and what shape keys make of it at value 1, by their names: [N x 3] each, in the object's space."""
+    mesh = shown.data
+    if not mesh.shape_keys:
+        return places_of(mesh.vertices), {}
+    if not mesh.shape_keys.use_relative:
+        raise RuntimeError(f"The shape keys of {shown.name} are absolute; make them relative.")
+    neutral, shapes = places_of(mesh.shape_keys.reference_key.data), {}
+    for key in mesh.shape_keys.key_blocks:
+        if key == mesh.shape_keys.reference_key:
+            continue
+        offsets = places_of(key.data) - places_of(key.relative_key.data)
+        if group := shown.vertex_groups.get(key.vertex_group):
+            shares = [next((g.weight for g in vertex.groups if g.group == group.index), 0) for vertex in mesh.vertices]
+            offsets *= numpy.array(shares)[:, None]
+        shapes[key.name] = neutral + offsets
+    return neutral, shapes
+
+
+def faces_text(mesh, turn_over):
+    """The part of an OBJ behind its vertices; `turn_over` where the object is mirrored."""
+    parts, current = [], None
+    layer = mesh.uv_layers.active
+    if layer:
+        corners = numpy.empty(2 * len(mesh.loops), dtype=numpy.float32)
+        layer.data.foreach_get("uv", corners)
+        distinct, numbers = numpy.unique(corners.reshape(-1, 2), axis=0, return_inverse=True)
+        numbers = numbers.ravel()
+        parts += ["vt %.9g %.9g" % tuple(place) for place in distinct]
+    for polygon in mesh.polygons:
+        if mesh.materials and polygon.material_index != current:
+            current = polygon.material_index
+            material = mesh.materials[min(current, len(mesh.materials) - 1)]
+            parts.append(f"usemtl {material.name if material else 'none'}")
+        loops = list(polygon.loop_indices)
+        if turn_over:
+            loops.reverse()
+        vertices = [mesh.loops[loop].vertex_index + 1 for loop in loops]
+        parts.append("f " + " ".join(f"{v}/{numbers[loop] + 1}" if layer else f"{v}" for v, loop in zip(vertices, loops)))
+    return "\n".join(parts) + "\n"
+
+
+def write_obj(path, places, faces, to_world):
+    """`places` [N x 3] in the object's space."""
+    turned = places @ numpy.array(to_world)[:3, :3].T + numpy.array(to_world)[:3, 3]
+    with open(path, "w", encoding="utf-8", errors="surrogateescape") as file:
+        file.writelines("v %.9g %.9g %.9g\n" % tuple(place) for place in turned)
+        file.write(faces)
+
+
+# ---- Import and export ----
+
+
+class ImportSweep(ToolOperator, bpy.types.Operator, ImportHelper):
+    """Open a face as a mesh with a shape key for each of its targets"""
+
+    bl_idname = "import_scene.sweep"
+    bl_label = "Import .sweep"
+    filename_ext = ".sweep"
+
+    filter_glob: StringProperty(default="*.sweep", options={"HIDDEN"})
+    lod: IntProperty(name="Level of detail", description="0: the source's own polygons; N: every edge cut into N", default=0,
+                     min=0, max=16)
+
+    def work(self, context, folder):
+        path = os.path.abspath(self.filepath)
+        names = json.loads(run_tool(self, "info", path, "--json"))["targets"]
+        detail = ["--lod", self.lod] if self.lod else []
+        run_tool(self, "export", path, "-o", os.path.join(folder, "face"), "--quiet", *detail)
+        name = os.path.splitext(os.path.basename(path))[0]
+        shown = bpy.data.objects.new(name, new_mesh(name, read_lines(os.path.join(folder, "face", "neutral.obj"))))
+        context.collection.objects.link(shown)
+        if names:
+            add_keys(shown, os.path.join(folder, "face", "expressions"), names)
+        shown.matrix_world = UPRIGHT
+        shown[SOURCE] = path
+        for other in context.selected_objects:
+            other.select_set(False)
+        shown.select_set(True)
+        context.view_layer.objects.active = shown
+
+
+class ExportSweep(ToolOperator, bpy.types.Operator, ExportHelper):
+    """Save the active mesh and its shape keys as a face"""
+
+    bl_idname = "export_scene.sweep"
+    bl_label = "Export .sweep"
+    bl_options = {"REGISTER"}
+    filename_ext = ".sweep"
+
+    filter_glob: StringProperty(default="*.sweep", options={"HIDDEN"})
+    tolerance: FloatProperty(name="Tolerance", description="How far any vertex may be off, in Blender's units; 0: 0.02 % of "
+                             "the neutral's diagonal", default=0, min=0, precision=5)
+    pack: BoolProperty(name="Pack", description="Make the file small: a hundredth as large, but slower to make", default=True)
+
+    @classmethod
+    def poll(cls, context):
+        return context.active_object is not None and context.active_object.type == "MESH"
+
+    def work(self, context, folder):
+        shown = context.active_object
+        shown.update_from_editmode()
+        neutral, shapes = shapes_of(shown)
+        to_world = UPRIGHT.inverted() @ shown.matrix_world
+        faces = faces_text(shown.data, to_world.determinant() < 0)
+        expressions = os.path.join(folder, "expressions")
+        os.mkdir(expressions)
+        write_obj(os.path.join(folder, "neutral.obj"), neutral, faces, to_world)
+        for name, places in shapes.items():
+            if name.startswith(".") or "/" in name or "\\" in name:
+                raise RuntimeError(f"The shape key '{name}' cannot be the name of a target; rename it.")
+            write_obj(os.path.join(expressions, name + ".obj"), places, faces, to_world)
+        options = (["--pack"] if self.pack else []) + (["--tolerance", self.tolerance] if self.tolerance else [])
+        targets = [expressions] if shapes else []
+        said = run_tool(self, "convert", os.path.join(folder, "neutral.obj"), *targets, "-o", os.path.abspath(self.filepath), *options)
+        shown[SOURCE] = os.path.abspath(self.filepath)
+        self.report({"INFO"}, said.splitlines()[-1])
+
+
+# ---- Motion ----
+
+
+class Animation:
+    """The weights in a GLB that the tool wrote: their names, and keys with tangents."""
+
+    def __init__(self, path):
+        with open(path, "rb") as file:
+            data = file.read()
+        length = struct.unpack_from("<I", data, 12)[0]
+        self.document, self.binary = json.loads(data[20:20 + length]), data[28 + length:]
+        channel = self.document["animations"][0]["channels"][0]
+        sampler = self.document["animations"][0]["samplers"][channel["sampler"]]
+        mesh = self.document["nodes"][channel["target"]["node"]]["mesh"]
+        self.names = self.document["meshes"][mesh]["extras"]["targetNames"]
+        self.has_tangents = sampler["interpolation"] == "CUBICSPLINE"
+        self.times = self.floats(sampler["input"])
+        # [keys x (tangent before, value, tangent behind) x targets], or values alone.
+        self.values = self.floats(sampler["output"]).reshape(len(self.times), 3 if self.has_tangents else 1, len(self.names))
+
+    def floats(self, number):
+        accessor = self.document["accessors"][number]
+        view = self.document["bufferViews"][accessor["bufferView"]]
+        start = view.get("byteOffset", 0) + accessor.get("byteOffset", 0)
+        count = accessor["count"]
+        return numpy.frombuffer(self.binary, dtype="<f4", count=count, offset=start).astype(numpy.float64)
+
+    def moving(self):
+        """The targets that are ever at another weight than 0."""
+        values = self.values[:, 1 if self.has_tangents else 0]
+        return [k for k in range(len(self.names)) if values[:, k].any()]
+
+
+def curves_of(keys):
+    """The F-curves of shape keys; from Blender 4.4 on actions have layers."""
+    data = keys.animation_data
+    if not data or not data.action:
+        return None
+    if hasattr(data.action, "fcurves"):
+        return data.action.fcurves
+    return data.action.layers[0].strips[0].channelbag(data.action_slot).fcurves
+
+
+def curve_of(key):
+    """The F-curve of a shape key's value, or None."""
+    curves = curves_of(key.id_data)
+    return curves.find(key.path_from_id("value")) if curves else None
+
+
+def show(key, times, keys, first, rate):
+    """Puts keys ([N x 3] with tangents or [N x 1]) into the F-curve of a shape key, instead of what was there meanwhile."""
+    frames, values = first + times * rate, keys[:, keys.shape[1] // 2]
+    key.slider_min, key.slider_max = max(min(key.slider_min, values.min()), -10), min(max(key.slider_max, values.max()), 10)
+    key.keyframe_insert("value", frame=frames[0])
+    curve = curve_of(key)
+    for point in reversed(curve.keyframe_points):
+        if frames[0] - 1e-3 < point.co.x < frames[-1] + 1e-3:
+            curve.keyframe_points.remove(point, fast=True)
+    for k, frame in enumerate(frames):
+        point = curve.keyframe_points.insert(frame, values[k], options={"FAST"})
+        point.interpolation = "BEZIER" if keys.shape[1] == 3 else "LINEAR"
+        point.handle_left_type = point.handle_right_type = "FREE"
+        # A cubic by Hermite is one by Bezier whose handles are a third of the way to the next key.
+        before, behind = (times[k] - times[max(k - 1, 0)]) / 3, (times[min(k + 1, len(times) - 1)] - times[k]) / 3
+        slopes = keys[k, [0, -1]] if keys.shape[1] == 3 else (0, 0)
+        point.handle_left = (frame - before * rate, values[k] - before * slopes[0])
+        point.handle_right = (frame + behind * rate, values[k] + behind * slopes[1])
+    curve.update()
+
+
+class MotionOperator(ToolOperator):
+    """What moves the shape keys of a face that was opened or saved."""
+
+    @classmethod
+    def poll(cls, context):
+        shown = context.active_object
+        return bool(shown and shown.type == "MESH" and shown.data.shape_keys and shown.get(SOURCE))
+
+    def play(self, context, folder, *options):
+        """Has the tool animate the face, and shows it from the frame on at which it begins; the last frame of it."""
+        shown, scene = context.active_object, context.scene
+        path, rate = os.path.join(folder, "take.glb"), scene.render.fps / scene.render.fps_base
+        run_tool(self, "animate", shown[SOURCE], "-o", path, *options)
+        animation, first = Animation(path), self.first_frame(scene, rate)
+        blocks = shown.data.shape_keys.key_blocks
+        lacking = []
+        for k in animation.moving():
+            name = animation.names[k].encode()[:LONGEST_NAME].decode(errors="ignore")
+            if name in blocks:
+                show(blocks[name], animation.times, animation.values[:, :, k], first, rate)
+            else:
+                lacking.append(name)
+        if lacking:
+            self.report({"WARNING"}, f"There are no shape keys {', '.join(lacking)}.")
+        return first + animation.times[-1] * rate
+
+
+class MoveToPose(MotionOperator, bpy.types.Operator):
+    """Move to the pose that the sliders show, so that the face arrives there at the current frame"""
+
+    bl_idname = "object.sweepface_move"
+    bl_label = "Move to This Pose"
+
+    law: EnumProperty(name="Law", default="accelerate-brake", items=[
+        ("newton", "Newton", "A constant force from rest, which ends at full speed"),
+        ("brake", "Brake", "Begins at full speed and comes to rest"),
+        ("accelerate-brake", "Accelerate, brake", "A force forwards, then one backwards"),
+        ("linear-force", "Linear force", "A force that turns evenly from forwards to backwards"),
+        ("spring", "Spring", "A damped spring, which may overshoot"),
+        ("bounce", "Bounce", "Falls onto the pose and bounces off"),
+        ("linear", "Linear", "At an even speed")])
+    seconds: FloatProperty(name="Seconds", description="How long it takes", default=0.5, min=0.01, max=3600)
+    frequency: FloatProperty(name="Frequency", description="Of a spring: swings a second", default=2, min=0.01, max=100)
+    damping: FloatProperty(name="Damping", description="Of a spring: below 1 it overshoots", default=0.5, min=0, max=10)
+    restitution: FloatProperty(name="Restitution", description="Of a bounce: the part of the speed that is left", default=0.4,
+                               min=0, max=0.99)
+
+    def first_frame(self, scene, rate):
+        return scene.frame_current - self.seconds * rate
+
+    def invoke(self, context, _event):
+        return context.window_manager.invoke_props_dialog(self)
+
+    def draw(self, _context):
+        names = {"spring": ["frequency", "damping"], "bounce": ["restitution"]}.get(self.law, [])
+        for name in ["law", "seconds", *names]:
+            self.layout.prop(self, name)
+
+    def work(self, context, folder):
+        scene, keys = context.scene, context.active_object.data.shape_keys
+        first = self.first_frame(scene, scene.render.fps / scene.render.fps_base)
+        start, end = {}, {}
+        for key in keys.key_blocks:
+            curve = curve_of(key)
+            if key != keys.reference_key:
+                start[key.name], end[key.name] = curve.evaluate(first) if curve else 0, key.value
+        if start == end:
+            raise RuntimeError("The face is in this pose already; set the sliders to another.")
+        options = ["--law", self.law, "--seconds", self.seconds]
+        if self.law == "spring":
+            options += ["--frequency", self.frequency, "--damping", self.damping]
+        if self.law == "bounce":
+            options += ["--restitution", self.restitution]
+        told = lambda weights: ",".join(f"{name}={weight:.9g}" for name, weight in weights.items() if start[name] or end[name])
+        self.play(context, folder, "--from", told(start), "--to", told(end), *options)
+
+
+class PlayClip(MotionOperator, bpy.types.Operator, ImportHelper):
+    """Play a capture or a timeline from the current frame on"""
+
+    bl_idname = "object.sweepface_clip"
+    bl_label = "Play a Clip"
+
+    filter_glob: StringProperty(default="*.csv;*.json;*.glb;*.gltf", options={"HIDDEN"})
+    smooth: BoolProperty(name="Smooth", description="Take a tracker's noise out of it", default=False)
+    combine: BoolProperty(name="Combine", description="Targets named A_B or A_50 follow A and B", default=False)
+
+    def first_frame(self, scene, _rate):
+        return scene.frame_current
+
+    def work(self, context, folder):
+        options = (["--smooth"] if self.smooth else []) + (["--combine"] if self.combine else [])
+        last = self.play(context, folder, "--clip", os.path.abspath(self.filepath), *options)
+        context.scene.frame_end = max(context.scene.frame_end, int(numpy.ceil(last)))
+
+
+# ---- Where Blender shows them ----
+
+
+class Panel(bpy.types.Panel):
+    bl_idname = "VIEW3D_PT_sweepface"
+    bl_label = "Sweepface"
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "UI"
+    bl_category = "Sweepface"
+
+    def draw(self, context):
+        if not MotionOperator.poll.__func__(MotionOperator, context):
+            self.layout.label(text="Open a .sweep face, or save one", icon="INFO")
+            self.layout.operator(ImportSweep.bl_idname)
+            self.layout.operator(ExportSweep.bl_idname)
+            return
+        self.layout.label(text=os.path.basename(context.active_object[SOURCE]))
+        self.layout.operator(MoveToPose.bl_idname)
+        self.layout.operator(PlayClip.bl_idname)
+
+
+def draw_import(menu, _context):
+    menu.layout.operator(ImportSweep.bl_idname, text="Sweepface (.sweep)")
+
+
+def draw_export(menu, _context):
+    menu.layout.operator(ExportSweep.bl_idname, text="Sweepface (.sweep)")
+
+
+CLASSES = (Preferences, ImportSweep, ExportSweep, MoveToPose, PlayClip, Panel)
+
+
+def register():
+    for each in CLASSES:
+        bpy.utils.register_class(each)
+    bpy.types.TOPBAR_MT_file_import.append(draw_import)
+    bpy.types.TOPBAR_MT_file_export.append(draw_export)
+
+
+def unregister():
+    bpy.types.TOPBAR_MT_file_import.remove(draw_import)
+    bpy.types.TOPBAR_MT_file_export.remove(draw_export)
+    for each in reversed(CLASSES):
+        bpy.utils.unregister_class(each)

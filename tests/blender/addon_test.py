@@ -1,0 +1,201 @@
+"""The add-on in Blender: blender -b --factory-startup --python-exit-code 1 --python addon_test.py -- TOOL"""
+
+import csv
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import bpy
+import numpy
+from mathutils import Vector
+
+sys.path.insert(0, os.path.join(os.path.dirname(__file__), "../../blender"))
+import sweepface_io as addon  # noqa: E402
+
+TOOL = sys.argv[sys.argv.index("--") + 1]
+TOLERANCE = 1e-3
+
+
+def tool(*arguments):
+    return subprocess.run([TOOL, *map(str, arguments)], check=True, capture_output=True, encoding="utf-8").stdout
+
+
+class AddOn(unittest.TestCase):
+    def setUp(self):
+        bpy.ops.wm.read_factory_settings(use_empty=True)
+        bpy.ops.preferences.addon_enable(module=addon.__name__)
+        bpy.context.preferences.addons[addon.__name__].preferences.tool = TOOL
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+
+    def path(self, name):
+        return os.path.join(self.folder.name, name)
+
+    def sheet(self):
+        """A sheet of 6 x 6 quads that stands upright, with shape keys; the active object."""
+        bpy.ops.mesh.primitive_grid_add(x_subdivisions=6, y_subdivisions=6, rotation=(1.5, 0.2, 0.1), scale=(2, 3, 1))
+        shown = bpy.context.active_object
+        for name in ("skin", "lips"):
+            shown.data.materials.append(bpy.data.materials.new(name))
+        shown.data.polygons[7].material_index = 1
+        shown.shape_key_add(name="Basis")
+        for name, height in (("jawOpen", 0.2), ("smile", 0.1)):
+            for point in shown.shape_key_add(name=name, from_mix=False).data:
+                point.co.z += height * (1 - point.co.x**2) * (1 + point.co.y)
+        return shown
+
+    def saved(self, shown, **options):
+        """The face of an object, as a folder of meshes."""
+        bpy.context.view_layer.objects.active = shown
+        face, meshes = self.path("face.sweep"), self.path("meshes")
+        self.assertEqual(bpy.ops.export_scene.sweep(filepath=face, tolerance=TOLERANCE, **options), {"FINISHED"})
+        tool("export", face, "-o", meshes)
+        return meshes
+
+    def assert_near(self, found, expected, within=TOLERANCE):
+        self.assertEqual(numpy.shape(found), numpy.shape(expected))
+        self.assertLessEqual(abs(numpy.subtract(found, expected)).max(), within)
+
+    def assert_refused(self, call, part):
+        with self.assertRaisesRegex(RuntimeError, part):
+            call()
+
+    def expected(self, shown, places):
+        """Where Blender has them, but for its z upwards, which is y in the file."""
+        world = [shown.matrix_world @ vector for vector in map(Vector, places)]
+        return [(p.x, p.z, -p.y) for p in world]
+
+    def test_saves_shape_keys_as_targets(self):
+        shown = self.sheet()
+        for pack in (False, True):
+            meshes = self.saved(shown, pack=pack)
+            self.assertEqual(sorted(os.listdir(os.path.join(meshes, "expressions"))), ["jawOpen.obj", "smile.obj"])
+            keys = shown.data.shape_keys.key_blocks
+            for name, file in (("Basis", "neutral"), ("jawOpen", "expressions/jawOpen"), ("smile", "expressions/smile")):
+                found = addon.places_in(os.path.join(meshes, file + ".obj"))
+                self.assert_near(found, self.expected(shown, [p.co for p in keys[name].data]))
+
+    def test_saves_what_a_key_adds_to_another_and_where_its_group_lets_it(self):
+        shown = self.sheet()
+        keys = shown.data.shape_keys.key_blocks
+        keys["smile"].relative_key = keys["jawOpen"]
+        group = shown.vertex_groups.new(name="left")
+        group.add(range(20, 30), 0.5, "REPLACE")
+        keys["smile"].vertex_group = "left"
+        found = addon.places_in(os.path.join(self.saved(shown, pack=False), "expressions/smile.obj"))
+        expected = []
+        for k, (rest, jaw, smile) in enumerate(zip(*(keys[n].data for n in ("Basis", "jawOpen", "smile")))):
+            expected.append(rest.co + (0.5 if 20 <= k < 30 else 0) * (smile.co - jaw.co))
+        self.assert_near(found, self.expected(shown, expected))
+
+    def test_a_mirrored_object_is_not_inside_out(self):
+        shown = self.sheet()
+        normals = []
+        for scale in (1, -1):
+            shown.scale.x = 2 * scale
+            bpy.context.view_layer.update()
+            neutral = os.path.join(self.saved(shown, pack=False), "neutral.obj")
+            normals.append(addon.numbers_of(addon.read_lines(neutral), "vn").mean(axis=0))
+        self.assertGreater(normals[0] @ normals[1], 0.9)
+
+    def test_opens_what_it_saved(self):
+        shown = self.sheet()
+        meshes = self.saved(shown, pack=False)
+        self.assertEqual(bpy.ops.import_scene.sweep(filepath=self.path("face.sweep")), {"FINISHED"})
+        opened = bpy.context.active_object
+        self.assertIsNot(opened, shown)
+        self.assertEqual([key.name for key in opened.data.shape_keys.key_blocks], ["Basis", "jawOpen", "smile"])
+        self.assertEqual([m.name for m in opened.data.materials], ["skin", "lips"])
+        self.assertEqual([p.material_index for p in opened.data.polygons], [p.material_index for p in shown.data.polygons])
+        for before, after in zip(shown.data.polygons, opened.data.polygons):
+            self.assertEqual(list(before.vertices), list(after.vertices))
+            for k, m in zip(before.loop_indices, after.loop_indices):
+                self.assert_near(opened.data.uv_layers[0].data[m].uv, shown.data.uv_layers[0].data[k].uv, 1e-6)
+        for key in opened.data.shape_keys.key_blocks:
+            file = "neutral" if key.name == "Basis" else f"expressions/{key.name}"
+            self.assert_near([p.co for p in key.data], addon.places_in(os.path.join(meshes, file + ".obj")), 1e-6)
+        for a, b in zip(shown.data.vertices, opened.data.vertices):
+            self.assert_near(opened.matrix_world @ b.co, shown.matrix_world @ a.co)
+
+    def test_opens_finer_meshes(self):
+        self.saved(self.sheet(), pack=False)
+        bpy.ops.import_scene.sweep(filepath=self.path("face.sweep"), lod=3)
+        opened = bpy.context.active_object
+        self.assertEqual(len(opened.data.polygons), 9 * 36)
+        self.assertEqual(len(opened.data.shape_keys.key_blocks), 3)
+
+    def test_says_what_is_wrong(self):
+        shown = self.sheet()
+        with open(self.path("bad.sweep"), "w", encoding="utf-8") as file:
+            file.write("GIF")
+        self.assert_refused(lambda: bpy.ops.import_scene.sweep(filepath=self.path("bad.sweep")), "does not begin with")
+        save = lambda: bpy.ops.export_scene.sweep(filepath=self.path("face.sweep"))
+        key = shown.data.shape_keys.key_blocks["smile"]
+        key.name = "a/b"
+        self.assert_refused(save, "The shape key 'a/b' cannot be the name of a target")
+        shown.data.shape_keys.use_relative = False
+        self.assert_refused(save, "shape keys of Grid are absolute")
+        self.assertFalse(os.path.exists(self.path("face.sweep")))
+        preferences = bpy.context.preferences.addons[addon.__name__].preferences
+        preferences.tool = "/nowhere/sweepface"
+        self.addCleanup(setattr, preferences, "tool", TOOL)
+        self.assert_refused(lambda: bpy.ops.import_scene.sweep(filepath=self.path("bad.sweep")), "Cannot run /nowhere/sweepface")
+
+    def test_moves_to_the_pose_of_the_sliders(self):
+        shown = self.sheet()
+        self.saved(shown, pack=False)
+        self.assertFalse(addon.curve_of(shown.data.shape_keys.key_blocks["smile"]))
+        scene, blocks = bpy.context.scene, shown.data.shape_keys.key_blocks
+        scene.render.fps = 30
+        scene.frame_set(40)
+        blocks["jawOpen"].value = 0.8
+        bpy.ops.object.sweepface_move(law="accelerate-brake", seconds=1)
+        curve = addon.curve_of(blocks["jawOpen"])
+        self.assertFalse(addon.curve_of(blocks["smile"]), "it rests")
+        for frame in range(10, 41):
+            t = (frame - 10) / 30
+            expected = 0.8 * (2 * t * t if t < 0.5 else 1 - 2 * (1 - t) ** 2)
+            self.assertAlmostEqual(curve.evaluate(frame), expected, places=5)
+        scene.frame_set(55)  # from where it stands to another pose
+        blocks["jawOpen"].value, blocks["smile"].value = 0.2, 1
+        bpy.ops.object.sweepface_move(law="newton", seconds=0.5)
+        for frame in range(40, 56):
+            t = (frame - 40) / 15
+            self.assertAlmostEqual(curve.evaluate(frame), 0.8 - 0.6 * t * t, places=5)
+            self.assertAlmostEqual(addon.curve_of(blocks["smile"]).evaluate(frame), t * t, places=5)
+        scene.frame_set(70)
+        self.assert_refused(lambda: bpy.ops.object.sweepface_move(seconds=0.5), "in this pose already")
+
+    def test_a_spring_overshoots(self):
+        shown = self.sheet()
+        self.saved(shown, pack=False)
+        key = shown.data.shape_keys.key_blocks["smile"]
+        bpy.context.scene.frame_set(24)
+        key.value = 1
+        bpy.ops.object.sweepface_move(law="spring", seconds=1, frequency=2, damping=0.2)
+        bpy.context.scene.frame_set(6)  # half a swing
+        self.assertGreater(key.value, 1.4)
+
+    def test_plays_a_clip_instead_of_what_was_there(self):
+        shown = self.sheet()
+        self.saved(shown, pack=False)
+        rows = [[f"{k / 24:.6f}", 2, 0.1 * (k % 7), -0.05 * k] for k in range(25)]
+        with open(self.path("take.csv"), "w", encoding="utf-8", newline="") as file:
+            csv.writer(file).writerows([["Timecode", "BlendShapeCount", "JawOpen", "smile"], *rows])
+        scene, blocks = bpy.context.scene, shown.data.shape_keys.key_blocks
+        scene.frame_end = 20
+        scene.frame_set(10)
+        blocks["jawOpen"].keyframe_insert("value", frame=20)
+        bpy.ops.object.sweepface_clip(filepath=self.path("take.csv"))
+        for k, (_, _, jaw, smile) in enumerate(rows):
+            self.assertAlmostEqual(addon.curve_of(blocks["jawOpen"]).evaluate(10 + k), jaw, delta=0.003)
+            self.assertAlmostEqual(addon.curve_of(blocks["smile"]).evaluate(10 + k), smile, delta=0.003)
+        self.assertEqual(scene.frame_end, 34)
+        scene.frame_set(34)
+        self.assertAlmostEqual(blocks["smile"].value, -1.2, delta=0.003)
+
+
+result = unittest.main(argv=["addon_test"], exit=False, verbosity=2).result
+sys.exit(not result.wasSuccessful())
