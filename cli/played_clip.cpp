@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <map>
 #include <memory>
 
 #include "sweepface/filter.hpp"
@@ -77,10 +76,9 @@ std::string firstOf(std::span<const std::string> names) {
   return fmt::format("{} and {} more", fmt::join(names.first(most), ", "), names.size() - most);
 }
 
-std::vector<std::string> notesOn(const ClipMatch& match, const Clip& clip,
-                                 const std::vector<std::string>& targets, const std::string& file) {
-  std::vector<std::string> notes;
-  // Recordings have columns for all shapes of the app, whatever the face has.
+/// Recordings have columns for all shapes of the app, whatever the face has.
+void noteIdleNames(const ClipMatch& match, const Clip& clip, const std::string& file,
+                   std::vector<std::string>& notes) {
   std::vector<std::string> idle;
   for (std::size_t k = 0; k < clip.names.size(); ++k)
     if (match.targets[k].empty() && clip.moves(k) && !ClipAngles::tells(clip.names[k]))
@@ -88,14 +86,6 @@ std::vector<std::string> notesOn(const ClipMatch& match, const Clip& clip,
   if (!idle.empty())
     notes.push_back(fmt::format("{}: {} of {} names drive no target of the face: {}.", file,
                                 idle.size(), clip.names.size(), firstOf(idle)));
-  std::map<Index, std::vector<std::string>> drivers;
-  for (std::size_t k = 0; k < clip.names.size(); ++k)
-    for (const Index target : match.targets[k]) drivers[target].push_back(clip.names[k]);
-  for (const auto& [target, names] : drivers)
-    if (names.size() > 1)
-      notes.push_back(fmt::format("{}: {} drive the target {}, whichever is largest.", file,
-                                  fmt::join(names, " and "), targets[target]));
-  return notes;
 }
 
 }  // namespace
@@ -122,7 +112,9 @@ Result<std::vector<Performance>> byClip(const PerformanceArguments& a, const std
   shared.called = a.clip;
   shared.frameMiss = clips->missed;
   shared.notes = whole->warnings;
-  std::ranges::move(notesOn(match, *whole, targets, a.clip), std::back_inserter(shared.notes));
+  noteIdleNames(match, *whole, a.clip, shared.notes);
+  std::ranges::move(notesOnClip(*whole, match, clips->missed, targets, a.clip),
+                    std::back_inserter(shared.notes));
   if (!read->isAuthored && !match.undriven.empty())
     shared.notes.push_back(fmt::format("{}: nothing drives {} of {} targets: {}.", a.clip,
                                        match.undriven.size(), targets.size(),

@@ -6,6 +6,7 @@
 
 #include "sweepface/io.hpp"
 #include "sweepface/region_file.hpp"
+#include "sweepface/timeline.hpp"
 
 #include "clip_part.hpp"
 
@@ -15,7 +16,7 @@ namespace {
 /// Those of --regions or else of the timeline that is played; without either the whole face.
 Result<std::vector<Region>> readRegions(const PerformanceArguments& what, const std::string& clip,
                                         const RegionArguments& a, const Rig& rig) {
-  const bool own = a.file.empty() && isOfKind(what.clip, ".json");
+  const bool own = a.file.empty() && isOfKind(what.clip, ".json") && isTimeline(clip);
   const std::string& file = own ? what.clip : a.file;
   if (file.empty()) return dividedFace(rig, {});
   const Result<std::string> text = file == what.clip ? clip : readFile(file);
@@ -155,11 +156,6 @@ Result<Performance> perform(const PerformanceArguments& what, const RegionArgume
                                                      : together(std::move(parts), *regions, rig);
   std::ranges::move(still, std::back_inserter(whole.notes));
   std::ranges::move(notesOnOwn(what, *clip, a), std::back_inserter(whole.notes));
-  if (whole.frameMiss > 1e-4)
-    whole.notes.push_back(
-        fmt::format("{}: it moves more quickly, or for longer, than frames can tell: between them "
-                    "weights are off by {:.2g}.",
-                    what.clip, whole.frameMiss));
   return partOf(std::move(whole), what);
 }
 

@@ -61,6 +61,12 @@ ClipMatch matchClip(const Clip& clip, std::span<const std::string> targets);
 
 // ---- Of the library that converts ----
 
+/// Sentences about what may surprise where a clip, called `name`, drives `targets`: names that drive
+/// one target together, and frames that miss more than a timeline promises (`missed`, as of
+/// RegionalClips).
+std::vector<std::string> notesOnClip(const Clip& clip, const ClipMatch& match, double missed,
+                                     std::span<const std::string> targets, std::string_view name);
+
 /// A capture of the Live Link Face app: a CSV with a timecode, a count and a column a shape, found
 /// by their headings. `framesPerSecond` is what its timecodes count in, at 29.97 as at 30; 0: 60,
 /// or 24, 25, 30, 48 or 50 where the frames of whole seconds say so. Of rows at the same time the

@@ -16,7 +16,7 @@ struct PaintedRegion {
   int bands = 1;  ///< more: as many regions, name1, name2 ..., delayed in equal steps up to `delay`
 };
 
-/// The `regions` of a JSON text, which may be a timeline; none if it has no such member.
+/// The `regions` of a JSON text, of which a timeline and `{}` may have none.
 Result<std::vector<PaintedRegion>> parseRegions(std::string_view text, std::string_view name);
 
 /// The regions of a face, the rest first.

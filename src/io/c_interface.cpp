@@ -125,12 +125,15 @@ sweepface_status sweepface_clip_read(const sweepface_rig* rig, const void* bytes
   auto clips =
       readForRegions(*rig->division, {static_cast<const char*>(bytes), size}, called, asked);
   if (!clips) return refuse(SWEEPFACE_BAD_DATA, clips.error().message);
-  const Clip& whole = clips->whole;
-  ClipMatch match = matchClip(whole, shownNames(*rig));
+  Clip& whole = clips->whole;
+  const std::vector<std::string> targets = shownNames(*rig);
+  ClipMatch match = matchClip(whole, targets);
   if (!movesAnything(whole, match))
     return refuse(SWEEPFACE_BAD_DATA, std::string(called) + ": none of its " +
                                           std::to_string(whole.names.size()) +
                                           " names is a target of the face.");
+  std::ranges::move(notesOnClip(whole, match, clips->missed, targets, called),
+                    std::back_inserter(whole.warnings));
   std::erase_if(match.unmatched, ClipAngles::tells);
   const ClipAngles angles(whole);
   *clip = new sweepface_clip{std::move(*clips), std::move(match), angles, rig->shown};

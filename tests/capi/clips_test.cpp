@@ -77,6 +77,19 @@ TEST_F(Clips, TellWhatMatchesNothing) {
   EXPECT_EQ(sweepface_clip_undriven(clip, 1), nullptr);
 }
 
+TEST_F(Clips, WarnOfNamesForOneTargetAndOfWhatFramesMiss) {
+  ASSERT_EQ(read("Timecode,Open,o_pen\n0,0.3,0.7\n1,0.3,0.7\n"), SWEEPFACE_OK) << sweepface_message();
+  EXPECT_EQ(at(0.5)[0], 0.7);
+  EXPECT_STREQ(sweepface_clip_warning(clip, 0),
+               "take: Open and o_pen drive the target open, whichever is largest.");
+  EXPECT_EQ(sweepface_clip_warning(clip, 1), nullptr);
+  ASSERT_EQ(read(R"({"seconds": 600, "events": [{"at": 0, "to": {"open": 1}, "drive": "spring",
+                     "frequency": 900, "damping": 0}]})"),
+            SWEEPFACE_OK);
+  const std::string_view warned = sweepface_clip_warning(clip, 0);
+  EXPECT_EQ(warned.find("take: it moves more quickly, or for longer, than frames can tell"), 0u);
+}
+
 TEST_F(Clips, AreOfManyKinds) {
   ASSERT_EQ(read(R"({"exportFps": 2, "facsNames": ["open"], "weightMat": [[0], [1]]})"),
             SWEEPFACE_OK);
@@ -277,6 +290,11 @@ TEST_F(Clips, AreRefusedWithASentence) {
   ASSERT_EQ(read(kCsv), SWEEPFACE_OK);
   EXPECT_EQ(sweepface_clip_weights(clip, 0, room, 4), SWEEPFACE_BAD_ARGUMENT);
   EXPECT_EQ(sweepface_rig_divide_by(handle, "[", 1, nullptr), SWEEPFACE_BAD_DATA);
+  for (const std::string_view none : {"5", "null", R"([{"name": "a"}])", R"({"region": []})"}) {
+    EXPECT_EQ(sweepface_rig_divide_by(handle, none.data(), none.size(), "r.json"),
+              SWEEPFACE_BAD_DATA);
+    EXPECT_EQ(std::string_view(sweepface_message()).find("r.json has no 'regions'"), 0u) << none;
+  }
   const std::string_view nowhere = R"({"regions": [{"name": "a", "parts": ["beard"]}]})";
   EXPECT_EQ(sweepface_rig_divide_by(handle, nowhere.data(), nowhere.size(), "r.json"),
             SWEEPFACE_BAD_ARGUMENT);

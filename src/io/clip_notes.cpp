@@ -1,0 +1,28 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <map>
+
+#include "sweepface/clip.hpp"
+
+namespace sweepface {
+
+std::vector<std::string> notesOnClip(const Clip& clip, const ClipMatch& match, double missed,
+                                     std::span<const std::string> targets, std::string_view name) {
+  constexpr double kMissedByMost = 1e-4;  // as timelines promise
+  std::vector<std::string> notes;
+  std::map<Index, std::vector<std::string>> drivers;
+  for (std::size_t k = 0; k < clip.names.size(); ++k)
+    for (const Index target : match.targets[k]) drivers[target].push_back(clip.names[k]);
+  for (const auto& [target, names] : drivers)
+    if (names.size() > 1)
+      notes.push_back(fmt::format("{}: {} drive the target {}, whichever is largest.", name,
+                                  fmt::join(names, " and "), targets[target]));
+  if (missed > kMissedByMost)
+    notes.push_back(
+        fmt::format("{}: it moves more quickly, or for longer, than frames can tell: between them "
+                    "weights are off by {:.2g}.",
+                    name, missed));
+  return notes;
+}
+
+}  // namespace sweepface
