@@ -64,6 +64,10 @@ void addOptions(CLI::App& app, ExportArguments& a) {
       "  sweepface export face.sweep -o meshes/");
 }
 
+bool isOfFolder(const ExportArguments& a) {
+  return !isOfKind(a.output, ".obj") && !isOfKind(a.output, ".glb") && meansFolder(a.output);
+}
+
 Budget budgetOf(const ExportArguments& a) {
   if (a.vertices > 0) return {Budget::Kind::vertices, a.vertices};
   if (a.error > 0) return {Budget::Kind::error, a.error};
@@ -143,7 +147,7 @@ Result<void> writeFolder(const ExportArguments& a, const Rig& rig, const Followi
 
 /// Options that only one of the outputs has.
 Result<void> checkKind(const ExportArguments& a) {
-  const bool glb = isOfKind(a.output, ".glb"), isFolder = meansFolder(a.output);
+  const bool glb = isOfKind(a.output, ".glb"), isFolder = isOfFolder(a);
   if (a.glb.any() && !glb)
     return fail("--morph-normals and --quantize are for .glb files; name the output so.");
   if ((glb || isFolder) && budgetOf(a).value > 0)
@@ -161,7 +165,7 @@ Result<void> checkKind(const ExportArguments& a) {
 }
 
 Result<int> runExport(const ExportArguments& a) {
-  const bool glb = isOfKind(a.output, ".glb"), isFolder = meansFolder(a.output);
+  const bool glb = isOfKind(a.output, ".glb"), isFolder = isOfFolder(a);
   if (auto ok = checkKind(a); !ok) return std::unexpected(ok.error());
   Result<Rig> rig = readFace(a.face);
   if (!rig) return std::unexpected(rig.error());

@@ -61,8 +61,8 @@ ClipMatch matchClip(const Clip& clip, std::span<const std::string> targets);
 
 // ---- Of the library that converts ----
 
-/// Sentences about what may surprise where a clip, called `name`, drives `targets`: names that drive
-/// one target together, and frames that miss more than a timeline promises (`missed`, as of
+/// Sentences about what may surprise where a clip, called `name`, drives `targets`: names that
+/// drive one target together, and frames that miss more than a timeline promises (`missed`, as of
 /// RegionalClips).
 std::vector<std::string> notesOnClip(const Clip& clip, const ClipMatch& match, double missed,
                                      std::span<const std::string> targets, std::string_view name);

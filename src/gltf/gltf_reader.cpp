@@ -4,6 +4,7 @@
 
 #include "gltf/accessor.hpp"
 #include "gltf/hard_normals.hpp"
+#include "gltf/left_out.hpp"
 #include "gltf/mesh_rig.hpp"
 #include "gltf/same_vertices.hpp"
 #include "gltf/scene.hpp"
@@ -44,6 +45,8 @@ Result<RigSource> readGltf(std::string_view bytes, const std::filesystem::path& 
   const std::string hard = gltf::hardNormals(*document, *parts, places);
   rig.neutral.polygons = recoverQuads(rig, *same, facePart).polygons;
   RigSource source{std::move(rig), {}, document->warnings};
+  for (auto& sentences : {parts->warnings, gltf::leftOut(*document, *parts)})
+    source.warnings.insert(source.warnings.end(), sentences.begin(), sentences.end());
   if (hasStepsThatASkinUndoes(*document, *parts))
     source.faceWarnings.push_back(
         "The face is quantized, and its skin undoes that: sizes, distances and the tolerance are "

@@ -11,13 +11,14 @@
 #include "io/text.hpp"
 
 namespace sweepface::gltf {
-namespace {
 
-std::string meshPlace(const Document& document, std::size_t mesh) {
+std::string placeOf(const Document& document, std::size_t mesh) {
   const Json* const name = find(document.list("meshes")[mesh], "name");
   if (!name || !name->is_string()) return fmt::format("mesh {}", mesh);
   return fmt::format("mesh {} {}", mesh, io::inQuotes(name->get_ref<const std::string&>()));
 }
+
+namespace {
 
 struct Placement {
   Affine world;
@@ -71,13 +72,13 @@ class PartFinder {
 
  private:
   std::string place(std::size_t mesh, std::size_t primitive) const {
-    return placeOf(document_, mesh, primitive);
+    return gltf::placeOf(document_, mesh, primitive);
   }
 
   /// The primitives of a mesh that are triangles, with targets if those are asked for.
   Result<std::vector<std::size_t>> triangles(std::size_t mesh, bool morphing) const {
     std::vector<std::size_t> found;
-    Members in(meshes_[mesh], meshPlace(document_, mesh));
+    Members in(meshes_[mesh], placeOf(document_, mesh));
     const Json& primitives = in.array("primitives");
     if (!in.ok()) return in.error();
     for (std::size_t p = 0; p < primitives.size(); ++p) {
@@ -108,7 +109,7 @@ class PartFinder {
       return fail(
           fmt::format("{}: its node flattens it or has no finite matrix; apply its "
                       "transform and export the file again.",
-                      meshPlace(document_, mesh)));
+                      placeOf(document_, mesh)));
     std::vector<Primitive> primitives;
     for (std::size_t p : *found) {
       auto primitive = readPrimitive(mesh, p);
@@ -188,7 +189,7 @@ class PartFinder {
   }
 
   /// Names of a mesh's targets: in its extras, as is the custom, or in those of its primitives.
-  std::vector<std::string> namesOf(std::size_t mesh, const Primitive& primitive) const {
+  std::vector<std::string> namesOf(std::size_t mesh, const Primitive& primitive) {
     const Json* given = nullptr;
     for (const Json* holder : {&meshes_[mesh], &meshes_[mesh]["primitives"][primitive.index]})
       if (const Json* extras = gltf::find(*holder, "extras"); extras && !given)
@@ -197,6 +198,13 @@ class PartFinder {
     std::vector<std::string> names(primitive.targets.size());
     for (std::size_t t = 0; given && t < std::min(names.size(), given->size()); ++t)
       if (const Json& name = (*given)[t]; name.is_string()) names[t] = name.get<std::string>();
+    const auto lacking =
+        std::ranges::count_if(names, [](const auto& name) { return io::trimmed(name).empty(); });
+    if (given && lacking > 0)
+      parts_.warnings.push_back(
+          fmt::format("{}: {} of its {} morph targets have no name in targetNames, and are called "
+                      "by their numbers.",
+                      placeOf(document_, mesh), lacking, names.size()));
     std::set<std::string> taken(names.begin(), names.end());
     std::size_t free = 0;  // the numbers from t up to it are taken
     for (std::size_t t = 0; t < names.size(); ++t) {
@@ -214,12 +222,12 @@ class PartFinder {
     for (const std::string& name : namesOf(mesh, primitive)) {
       if (!own.insert(name).second)
         return fail(fmt::format("{}: two of its morph targets are named {}; rename one of them.",
-                                meshPlace(document_, mesh), io::inQuotes(name)));
+                                placeOf(document_, mesh), io::inQuotes(name)));
       if (!codec::isUtf8(name))
         return fail(
             fmt::format("{}: the name {} of a morph target has control characters; rename "
                         "it.",
-                        meshPlace(document_, mesh), io::inQuotes(name)));
+                        placeOf(document_, mesh), io::inQuotes(name)));
       const auto [known, isNew] = numbers_.emplace(name, parts_.targets.size());
       if (isNew) parts_.targets.push_back(name);
       targets.push_back(known->second);
@@ -250,7 +258,7 @@ class PartFinder {
 }  // namespace
 
 std::string placeOf(const Document& document, std::size_t mesh, std::size_t primitive) {
-  return fmt::format("{}, primitive {}", meshPlace(document, mesh), primitive);
+  return fmt::format("{}, primitive {}", placeOf(document, mesh), primitive);
 }
 
 const Json& primitiveOf(const Document& document, const Parts& parts, const Part& part) {

@@ -46,6 +46,7 @@ struct Parts {
   std::vector<Part> parts;           ///< in the order of meshes and primitives
   std::vector<std::string> targets;  ///< names, in order of first appearance
   std::size_t vertexCount = 0;
+  std::vector<std::string> warnings{};  ///< about names that targets lack, sentences
 };
 
 /// All attributes of a part and of its targets are accessors with as many elements as the part has
@@ -59,7 +60,8 @@ const Json& primitiveOf(const Document& document, const Parts& parts, const Part
 Json& primitiveOf(Document& document, const Parts& parts, const Part& part);
 /// Whether an extension of a primitive may count on the order of its vertices or triangles.
 bool countsOnOrder(std::string_view extension);
-/// "mesh 0 'head', primitive 1", for messages.
+/// "mesh 0 'head'" and "mesh 0 'head', primitive 1", for messages.
+std::string placeOf(const Document& document, std::size_t mesh);
 std::string placeOf(const Document& document, std::size_t mesh, std::size_t primitive);
 
 }  // namespace sweepface::gltf

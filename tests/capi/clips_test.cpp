@@ -78,7 +78,8 @@ TEST_F(Clips, TellWhatMatchesNothing) {
 }
 
 TEST_F(Clips, WarnOfNamesForOneTargetAndOfWhatFramesMiss) {
-  ASSERT_EQ(read("Timecode,Open,o_pen\n0,0.3,0.7\n1,0.3,0.7\n"), SWEEPFACE_OK) << sweepface_message();
+  ASSERT_EQ(read("Timecode,Open,o_pen\n0,0.3,0.7\n1,0.3,0.7\n"), SWEEPFACE_OK)
+      << sweepface_message();
   EXPECT_EQ(at(0.5)[0], 0.7);
   EXPECT_STREQ(sweepface_clip_warning(clip, 0),
                "take: Open and o_pen drive the target open, whichever is largest.");

@@ -1,0 +1,54 @@
+#include "gltf/left_out.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "gltf/nodes.hpp"
+
+namespace sweepface::gltf {
+namespace {
+
+/// How many nodes of scenes show each mesh.
+std::vector<std::size_t> timesShown(const Document& document) {
+  const Json& nodes = document.list("nodes");
+  std::vector<std::size_t> times(document.list("meshes").size());
+  const std::vector<bool> isShown = nodesOfScenes(document);
+  for (std::size_t n = 0; n < nodes.size(); ++n)
+    if (const auto mesh = findIndex(nodes[n], "mesh", times.size()); mesh && isShown[n])
+      ++times[*mesh];
+  return times;
+}
+
+std::string listed(std::vector<std::string> names) {
+  constexpr std::size_t most = 3;
+  const std::size_t count = names.size();
+  if (count > most) names.resize(most);
+  const std::string text = fmt::format("{}", fmt::join(names, ", "));
+  return count > most ? fmt::format("{} and {} more", text, count - most) : text;
+}
+
+}  // namespace
+
+std::vector<std::string> leftOut(const Document& document, const Parts& parts) {
+  const std::vector<std::size_t> times = timesShown(document);
+  std::vector<bool> isOfFace(times.size());
+  for (const RigMesh& mesh : parts.meshes) isOfFace[mesh.mesh] = true;
+  std::vector<std::string> still, again, warnings;
+  for (std::size_t m = 0; m < times.size(); ++m) {
+    if (!isOfFace[m] && times[m] > 0) still.push_back(placeOf(document, m));
+    if (isOfFace[m] && times[m] > 1) again.push_back(placeOf(document, m));
+  }
+  constexpr const char* kWhere = "a .glb of the face shows them, pictures and .obj files do not";
+  if (!still.empty())
+    warnings.push_back(fmt::format("Meshes without morph targets are not part of the face: {}; {}.",
+                                   listed(std::move(still)), kWhere));
+  if (!again.empty())
+    warnings.push_back(
+        fmt::format("Meshes that several nodes show are part of the face once, where the first one "
+                    "stands: {}; as for the others, {}.",
+                    listed(std::move(again)), kWhere));
+  return warnings;
+}
+
+}  // namespace sweepface::gltf
