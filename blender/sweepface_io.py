@@ -412,6 +412,8 @@ class PlayClip(MotionOperator, bpy.types.Operator, ImportHelper):
 
     filter_glob: StringProperty(default="*.csv;*.json;*.glb;*.gltf", options={"HIDDEN"})
     smooth: BoolProperty(name="Smooth", description="Take a tracker's noise out of it", default=False)
+    names: StringProperty(name="Names", description="A .json that says which shape keys the clip's names drive where they are called "
+                          "otherwise", subtype="FILE_PATH")
     combine: BoolProperty(name="Combine", description="Targets named A_B or A_50 follow A and B", default=False)
 
     def first_frame(self, scene, _rate):
@@ -419,6 +421,8 @@ class PlayClip(MotionOperator, bpy.types.Operator, ImportHelper):
 
     def work(self, context, folder):
         options = (["--smooth"] if self.smooth else []) + (["--combine"] if self.combine else [])
+        if self.names:
+            options += ["--clip-names", bpy.path.abspath(self.names)]
         last = self.play(context, folder, "--clip", os.path.abspath(self.filepath), *options)
         context.scene.frame_end = max(context.scene.frame_end, int(numpy.ceil(last)))
 

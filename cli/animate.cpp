@@ -256,9 +256,11 @@ Result<void> checkKeys(const AnimateArguments& a, const Performance& performance
 Result<int> runAnimate(const AnimateArguments& a) {
   const bool glb = isOfKind(a.output, ".glb"), csv = isOfKind(a.output, ".csv");
   if (!glb && !csv && !meansFolder(a.output))
-    return fail(fmt::format(
-        "Cannot write {}: its name must end in .glb or .csv, or be a folder's, without an ending.",
-        a.output));
+    return fail(
+        fmt::format("Cannot write {}: its name must end in .glb or .csv, or be a folder's, without "
+                    "an ending or with a / behind "
+                    "it.",
+                    a.output));
   if (auto ok = checkArguments(a, glb); !ok) return std::unexpected(ok.error());
   Result<Rig> rig = readFace(a.face);
   if (!rig) return std::unexpected(rig.error());

@@ -215,6 +215,12 @@ void addPerformance(CLI::App& app, PerformanceArguments& a) {
                  "given; of a MediaPipe .json without times")
       ->check(positiveNumber(1000))
       ->type_name("N");
+  app.add_option("--clip-names", a.clipNames,
+                 "A .json that says which targets the clip's names drive where they are called "
+                 "otherwise: {\"jawOpen\": \"mouth-open\"}")
+      ->check(notEmpty())
+      ->needs("--clip")
+      ->type_name("FILE");
   app.add_option("--clip-from", a.clipFrom, "Begin so many seconds after the clip does")
       ->check(numberFromZero())
       ->needs("--clip")

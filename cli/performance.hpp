@@ -18,6 +18,7 @@ struct PerformanceArguments {
   std::string from, law = "newton", clip, animation;
   std::optional<std::string> to;
   double seconds = 1, frequency = 2, damping = 1, restitution = 0.4;
+  std::string clipNames;         ///< a file that says which targets its names drive
   double clipRate = 0;           ///< frames a second of the clip's timecodes; 0: as they tell
   double clipFrom = 0;           ///< seconds of the clip that are left out before
   std::optional<double> clipTo;  ///< seconds of the clip after which it ends

@@ -16,10 +16,10 @@ namespace sweepface::cli {
 namespace {
 
 Result<Timeline> readTimeline(const PerformanceArguments& a, const std::string& text) {
-  if (a.smooth || !a.animation.empty() || a.tellsSpring || a.tellsRate)
+  if (a.smooth || !a.animation.empty() || a.tellsSpring || a.tellsRate || !a.clipNames.empty())
     return fail(
-        fmt::format("{} is a timeline; leave --smooth, --animation, --clip-fps, --frequency and "
-                    "--damping out.",
+        fmt::format("{} is a timeline; leave --smooth, --animation, --clip-fps, --clip-names, "
+                    "--frequency and --damping out.",
                     a.clip));
   return parseTimeline(text, a.clip);
 }
@@ -43,13 +43,23 @@ Result<Clip> readCapture(const PerformanceArguments& a, const std::string& text)
   return clip;
 }
 
+Result<Clip> withNames(Clip clip, const PerformanceArguments& a,
+                       std::span<const std::string> targets) {
+  if (a.clipNames.empty()) return clip;
+  const auto text = readFile(a.clipNames);
+  if (!text) return std::unexpected(text.error());
+  const auto map = parseNameMap(*text, a.clipNames);
+  if (!map) return std::unexpected(map.error());
+  return renamed(std::move(clip), *map, targets);
+}
+
 struct ReadClip {
   RegionalClips clips;
   bool isAuthored = false;  // by somebody who knows which targets are to move
 };
 
 Result<ReadClip> readClip(const PerformanceArguments& a, const std::string& text,
-                          std::span<const Region> regions) {
+                          std::span<const std::string> targets, std::span<const Region> regions) {
   std::vector<std::string> names;
   std::vector<Matter> matters;
   for (const Region& region : regions) {
@@ -66,6 +76,7 @@ Result<ReadClip> readClip(const PerformanceArguments& a, const std::string& text
     return called(inRegions(*timeline, names, matters), true);
   }
   auto capture = readCapture(a, text);
+  if (capture) capture = withNames(std::move(*capture), a, targets);
   if (!capture) return std::unexpected(capture.error());
   return called(inRegions(std::move(*capture), matters, {a.frequency, a.damping}), false);
 }
@@ -92,12 +103,12 @@ void noteIdleNames(const ClipMatch& match, const Clip& clip, const std::string& 
 
 Result<std::vector<Performance>> byClip(const PerformanceArguments& a, const std::string& text,
                                         const Rig& rig, std::span<const Region> regions) {
-  Result<ReadClip> read = readClip(a, text, regions);
+  std::vector<std::string> targets;
+  for (const Target& target : rig.targets) targets.push_back(target.name);
+  Result<ReadClip> read = readClip(a, text, targets, regions);
   if (!read) return std::unexpected(read.error());
   RegionalClips* const clips = &read->clips;
   const auto whole = std::make_shared<const Clip>(std::move(clips->whole));
-  std::vector<std::string> targets;
-  for (const Target& target : rig.targets) targets.push_back(target.name);
   const ClipMatch match = matchClip(*whole, targets);
   if (!movesAnything(*whole, match))
     return fail(

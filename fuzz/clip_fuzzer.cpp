@@ -57,10 +57,22 @@ void play(const Timeline& timeline) {
     if (const auto baked = bakeToPlay(timeline, "", matter)) requireSound(baked->clip);
 }
 
+/// A clip that has all names of a map.
+void rename(const NameMap& map) {
+  std::vector<std::string> targets;
+  Clip clip{{"HeadYaw"}, {0, 1}, {}};
+  for (const auto& [name, drives] : map.drives) {
+    clip.names.push_back(name);
+    for (const auto& [target, factor] : drives) targets.push_back(target);
+  }
+  clip.weights.assign(2 * clip.names.size(), 0.5);
+  if (const auto made = renamed(std::move(clip), map, targets); isRead(made)) requireSound(*made);
+}
+
 }  // namespace
 }  // namespace sweepface::fuzzing
 
-// Reads captures, timelines and regions, and plays what is short.
+// Reads captures, timelines, regions and maps of names, and plays what is short.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace sweepface;
   using namespace fuzzing;
@@ -71,5 +83,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (const auto timeline = parseTimeline(text, kName); isRead(timeline)) play(*timeline);
   if (const auto regions = parseRegions(text, kName); isRead(regions))
     for (const PaintedRegion& region : *regions) require(check(region.matter).has_value());
+  if (const auto map = parseNameMap(text, kName); isRead(map)) rename(*map);
   return 0;
 }

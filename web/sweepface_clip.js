@@ -1,11 +1,39 @@
 // Clips: weights over time, and what plays them on a face.
 import {matchNames, turnsEyes} from './sweepface_names.js';
-import {isNumber} from './sweepface_text.js';
+import {isNumber, isObject} from './sweepface_text.js';
 import {isFloats, kindOf, known, told} from './sweepface_values.js';
 
 /** Seconds in which speeds would not stay finite. */
 const NO_TIME = 1e-9;
 const ONE_EURO = ['cutoff', 'speedGain', 'speedCutoff'];
+
+/** What a map of names says: [name of the clip, [[target, factor]]]. */
+function drivesOf(map) {
+  if (!isObject(map))
+    throw new TypeError(`A map of names is an object that has targets by names of a clip, not ${kindOf(map)}.`);
+  const isText = (target) => typeof target === 'string';
+  return Object.entries(map).map(([name, drives]) => {
+    if (drives === null || drives === undefined) return [name, []];
+    const list = [drives].flat();
+    if (list.every(isText)) return [name, list.map((target) => [target, 1])];
+    if (isObject(drives) && Object.values(drives).every(isNumber)) return [name, Object.entries(drives)];
+    throw new TypeError(`'${name}' drives the name of a target, a list of some, an object of numbers by name, or null.`);
+  });
+}
+
+/** The columns of a clip whose names a map changes: of which columns the largest counts, times a factor, and all such together. */
+function mappedColumns(names, drives) {
+  const match = matchNames(drives.map(([name]) => name), names), isMapped = new Set(match.targets.flat());
+  const columns = names.map((name, k) => ({name, sources: [{found: [k], factor: 1}]})).filter((_, k) => !isMapped.has(k));
+  const byTarget = new Map();
+  drives.forEach(([, targets], k) => {
+    const found = match.targets[k];
+    if (found.length === 0) return;
+    for (const [target, factor] of targets)
+      byTarget.set(target, [...(byTarget.get(target) ?? []), {found, factor}]);
+  });
+  return [...columns, ...[...byTarget].map(([name, sources]) => ({name, sources}))];
+}
 
 /** Weights over time: `names` [N], `times` [F] in seconds, `weights` [F x N]. */
 export class Clip {
@@ -63,6 +91,23 @@ export class Clip {
         throw new RangeError(`The one-euro filter needs finite numbers of at least 0, not ${told(number)}.`);
     const [late, early] = [false, true].map((backwards) => this.#filtered(cutoff, speedGain, speedCutoff, backwards));
     const clip = new Clip(this.names, this.times, late.map((weight, k) => (weight + early[k]) / 2));
+    clip.warnings = this.warnings;
+    return clip;
+  }
+
+  /**
+   * With the names of the targets that a map says: {jawOpen: 'mouth-open', mouthPucker: ['kiss', 'pout'],
+   * cheekPuff: {puff: 0.8}, tongueOut: null}, each with the sum of what drives it. Names that are not in the map stay.
+   */
+  renamed(map) {
+    const columns = mappedColumns(this.names, drivesOf(map)), n = this.names.length, width = columns.length;
+    const weights = new Float64Array(this.times.length * width);
+    for (let f = 0; f < this.times.length; ++f)
+      columns.forEach(({sources}, k) => {
+        for (const {found, factor} of sources)
+          weights[f * width + k] += factor * Math.max(...found.map((column) => this.weights[f * n + column]));
+      });
+    const clip = new Clip(columns.map(({name}) => name), this.times, weights);
     clip.warnings = this.warnings;
     return clip;
   }

@@ -25,6 +25,9 @@ export interface OneEuro {
   speedCutoff?: number | undefined;
 }
 
+/** Which targets names of a clip drive, and how much; null: none. Of several that drive one target the sum counts. */
+export type NameMap = Readonly<Record<string, string | readonly string[] | Readonly<Record<string, number>> | null>>;
+
 type Floats = Float32Array | Float64Array;
 
 /** Weights over time; all numbers are finite. */
@@ -42,6 +45,8 @@ export class Clip<Numbers extends Floats = Floats> {
   at<Out extends Floats = Float64Array>(seconds: number, out?: Out): Out;
   /** The clip without the noise of a tracker; nothing is late. */
   smooth(settings?: OneEuro): Clip<Numbers>;
+  /** The clip with the names of the targets that a map says; names that are not in the map stay. */
+  renamed(map: NameMap): Clip<Float64Array>;
 }
 
 export interface ReadOptions {

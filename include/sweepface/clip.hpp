@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "sweepface/result.hpp"
@@ -60,6 +61,23 @@ struct ClipMatch {
 ClipMatch matchClip(const Clip& clip, std::span<const std::string> targets);
 
 // ---- Of the library that converts ----
+
+/// Which targets the names of a clip drive where they are called otherwise, and how much.
+struct NameMap {
+  struct Drive {
+    std::string target;
+    double factor = 1;
+  };
+  std::string called;                                              ///< in messages
+  std::vector<std::pair<std::string, std::vector<Drive>>> drives;  ///< by names of the clip
+};
+/// A JSON object (docs/clips.md): {"jawOpen": "mouth-open", "cheekPuff": {"puff": 0.8}}.
+Result<NameMap> parseNameMap(std::string_view text, std::string_view name);
+
+/// A clip whose names are those of the targets that a map says, each with the sum of what drives
+/// it; names that are not in the map stay. Refuses targets that there are not, and weights beyond
+/// ±1,000,000.
+Result<Clip> renamed(Clip clip, const NameMap& map, std::span<const std::string> targets);
 
 /// Sentences about what may surprise where a clip, called `name`, drives `targets`: names that
 /// drive one target together, and frames that miss more than a timeline promises (`missed`, as of

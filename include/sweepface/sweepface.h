@@ -67,8 +67,8 @@ SWEEPFACE_API sweepface_status sweepface_rig_load(const void* bytes, size_t size
                                                   sweepface_rig** rig);
 /* The same in two steps, so that a face shows before it can move. The first reads all but what
  * the targets of a packed file do, about half of it: until the second every weight stays 0. The second
- * does nothing where all is read. Meanwhile faces of the rig may be evaluated, but their weights not
- * set. What follows weights and how eyes turn is said before there are meshes, and needs targets:
+ * does nothing where all is read. Meanwhile faces of the rig may be evaluated, but neither their weights
+ * set nor meshes prepared or made into shader tables. What follows weights and how eyes turn is said before there are meshes, and needs targets:
  * those that showed the neutral are freed first. */
 SWEEPFACE_API sweepface_status sweepface_rig_load_neutral(const void* bytes, size_t size,
                                                           const char* name, sweepface_rig** rig);
@@ -101,13 +101,15 @@ SWEEPFACE_API uint32_t sweepface_rig_turn_count(const sweepface_rig* rig);
  * while there are none. */
 enum sweepface_followings {
   SWEEPFACE_ARCS = 1,   /* targets that turn go on arcs instead of straight lines */
-  SWEEPFACE_COMBINE = 2 /* A_B goes by the product of A and B, A_50 stands in for A at 0.5 */
+  SWEEPFACE_COMBINE = 2 /* A_B goes by the product of A and B, A_50 stands in for A at 0.5: what is
+                           set for them counts for nothing */
 };
 /* `what` is a sum of the above; 0: none, as after loading. */
 SWEEPFACE_API sweepface_status sweepface_rig_follow(sweepface_rig* rig, uint32_t what);
 
-/* The corners of the box round the neutral, in model units: zeros if it has no vertex, or more than a
- * mesh may have. */
+/* The corners of the box round the neutral's vertices, also those of no face, in model units: zeros if
+ * it has no vertex, or more than a mesh may have. Between vertices, and so in finer meshes, the surface
+ * may bulge beyond it by some hundredths of an edge, and expressions reach beyond it. */
 SWEEPFACE_API void sweepface_rig_box(const sweepface_rig* rig, double low[3], double high[3]);
 
 /* How far any source vertex may be off in any expression, in model units. What is played may be off

@@ -36,6 +36,8 @@ typedef struct sweepface_clip_options {
   double frequency;         /* of the spring on which heavy regions hang, and its damping; */
   double damping;           /* 0 and 0: the usual ones */
   const char* animation;    /* of a .glb, by its name; NULL: the first that has weights */
+  const char* names;        /* a JSON text that says which targets names of the clip drive where they
+                               are called otherwise (docs/clips.md), ended by 0; NULL: none is */
 } sweepface_clip_options;
 
 /* The usual numbers. */

@@ -54,8 +54,17 @@ Result<Clip> readCapture(Kind kind, std::string_view bytes, const char* name,
   return clip;
 }
 
-Result<RegionalClips> readForRegions(const Division& division, std::string_view bytes,
-                                     const char* name, const sweepface_clip_options& options) {
+Result<Clip> withNames(Clip clip, const char* names, const std::vector<std::string>& targets) {
+  if (!names) return clip;
+  const auto map = parseNameMap(names, "The text of names");
+  if (!map) return std::unexpected(map.error());
+  return renamed(std::move(clip), *map, targets);
+}
+
+Result<RegionalClips> readForRegions(const Division& division,
+                                     const std::vector<std::string>& targets,
+                                     std::string_view bytes, const char* name,
+                                     const sweepface_clip_options& options) {
   const std::vector<Matter> matters = mattersOf(division);
   const auto named = [name](Result<RegionalClips> clips) -> Result<RegionalClips> {
     if (!clips) return fail(name, ": ", clips.error().message);
@@ -64,6 +73,7 @@ Result<RegionalClips> readForRegions(const Division& division, std::string_view 
   const Kind kind = kindOf(bytes);
   if (kind != Kind::timeline) {
     auto capture = readCapture(kind, bytes, name, options);
+    if (capture) capture = withNames(std::move(*capture), options.names, targets);
     if (!capture) return std::unexpected(capture.error());
     return named(inRegions(std::move(*capture), matters, {options.frequency, options.damping}));
   }
@@ -105,7 +115,7 @@ sweepface_status sweepface_rig_region_matter(const sweepface_rig* rig, uint32_t 
 
 sweepface_clip_options sweepface_clip_usual_options(void) {
   const Spring hold;
-  return {0, 0, hold.frequency, hold.damping, nullptr};
+  return {0, 0, hold.frequency, hold.damping, nullptr, nullptr};
 }
 
 sweepface_status sweepface_clip_read(const sweepface_rig* rig, const void* bytes, size_t size,
@@ -122,11 +132,11 @@ sweepface_status sweepface_clip_read(const sweepface_rig* rig, const void* bytes
     return refuse("The spring on which heavy regions hang: ", hold.error().message);
   if (auto ok = io::checkFrameRateIfGiven(asked.frames_per_second); !ok)
     return refuse(ok.error().message);
-  auto clips =
-      readForRegions(*rig->division, {static_cast<const char*>(bytes), size}, called, asked);
+  const std::vector<std::string> targets = shownNames(*rig);
+  auto clips = readForRegions(*rig->division, targets, {static_cast<const char*>(bytes), size},
+                              called, asked);
   if (!clips) return refuse(SWEEPFACE_BAD_DATA, clips.error().message);
   Clip& whole = clips->whole;
-  const std::vector<std::string> targets = shownNames(*rig);
   ClipMatch match = matchClip(whole, targets);
   if (!movesAnything(whole, match))
     return refuse(SWEEPFACE_BAD_DATA, std::string(called) + ": none of its " +

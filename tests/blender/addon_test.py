@@ -193,6 +193,11 @@ class AddOn(unittest.TestCase):
             self.assertAlmostEqual(addon.curve_of(blocks["jawOpen"]).evaluate(10 + k), jaw, delta=0.003)
             self.assertAlmostEqual(addon.curve_of(blocks["smile"]).evaluate(10 + k), smile, delta=0.003)
         self.assertEqual(scene.frame_end, 34)
+        with open(self.path("names.json"), "w", encoding="utf-8") as file:
+            file.write('{"jawOpen": "smile", "smile": null}')
+        scene.frame_set(50)
+        bpy.ops.object.sweepface_clip(filepath=self.path("take.csv"), names=self.path("names.json"))
+        self.assertAlmostEqual(addon.curve_of(blocks["smile"]).evaluate(56), 0.6, delta=0.003)
         scene.frame_set(34)
         self.assertAlmostEqual(blocks["smile"].value, -1.2, delta=0.003)
 

@@ -77,6 +77,18 @@ TEST_F(Clips, TellWhatMatchesNothing) {
   EXPECT_EQ(sweepface_clip_undriven(clip, 1), nullptr);
 }
 
+TEST_F(Clips, DriveWhatATextOfNamesSays) {
+  sweepface_clip_options options = sweepface_clip_usual_options();
+  options.names = R"({"TongueOut": {"open": 0.5}})";
+  ASSERT_EQ(read("Timecode,TongueOut\n0,0.4\n1,0.4\n", &options), SWEEPFACE_OK)
+      << sweepface_message();
+  EXPECT_EQ(at(0)[0], 0.2);
+  options.names = R"({"TongueOut": "opn"})";
+  EXPECT_EQ(read(kCsv, &options), SWEEPFACE_BAD_DATA);
+  EXPECT_STREQ(sweepface_message(),
+               "The text of names: 'TongueOut' drives 'opn', which is no target of the face.");
+}
+
 TEST_F(Clips, WarnOfNamesForOneTargetAndOfWhatFramesMiss) {
   ASSERT_EQ(read("Timecode,Open,o_pen\n0,0.3,0.7\n1,0.3,0.7\n"), SWEEPFACE_OK)
       << sweepface_message();
@@ -157,7 +169,7 @@ TEST_F(Clips, LoseTheirNoise) {
   Clip same = *parseLiveLinkCsv(kCsv, "take");
   smooth(same);
   EXPECT_EQ(at(0.5)[0], same.weights[same.names.size()]);
-  const sweepface_clip_options nothing{60, 0, 0, 1, nullptr};
+  const sweepface_clip_options nothing{60, 0, 0, 1, nullptr, nullptr};
   EXPECT_EQ(read(kCsv, &nothing), SWEEPFACE_BAD_ARGUMENT);
 }
 

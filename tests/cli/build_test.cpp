@@ -76,6 +76,9 @@ TEST_F(Build, KeepsTheSourceAndItsMaterialsButForThoseThatTheTextChanged) {
   convertRig();
   ASSERT_EQ(run("wireframe face.sweep -o face.wire.json").code, 0);
   ASSERT_EQ(run("build face.wire.json -o same.sweep --source face.sweep").code, 0);
+  folder.file("cube.obj", cube(3));
+  ASSERT_EQ(run("convert cube.obj -o cube.sweep --quiet").code, 0);
+  EXPECT_TRUE(fails("build face.wire.json -o other.sweep --source cube.sweep", "face.wire.json: "));
   const Rig before = face("face.sweep");
   EXPECT_EQ(face("same.sweep").source.polygons.faceMaterial, before.source.polygons.faceMaterial);
 

@@ -43,6 +43,26 @@ TEST_F(PlayClip, DoesNotTellATimelineWhatItLeavesAlone) {
   EXPECT_EQ(run("animate face.sweep --clip line.json -o line.glb").err, "");
 }
 
+TEST_F(PlayClip, DrivesWhatAFileOfNamesSays) {
+  convertRig();
+  write("take.csv", "Timecode,BlendShapeCount,TongueOut,smile\n0,2,0,0.5\n1,2,0.5,0.5\n");
+  write("names.json", R"({"tongueOut": {"jawOpen": 2}, "beard": "smile"})");
+  const Outcome r =
+      run("animate face.sweep --clip take.csv --clip-names names.json --fps 1 -o frames");
+  ASSERT_EQ(r.code, 0);
+  EXPECT_EQ(r.err, "sweepface: warning: names.json: the clip has no beard.\n");
+  EXPECT_EQ(frame(0), exported("smile=0.5"));
+  EXPECT_EQ(frame(1), exported("smile=0.5,jawOpen=1"));
+  write("wrong.json", R"({"tongueOut": "jaw"})");
+  const std::string animate = "animate face.sweep -o none ";
+  EXPECT_TRUE(fails(animate + "--clip take.csv --clip-names wrong.json",
+                    "wrong.json: 'tongueOut' drives 'jaw', which is no target of the face"));
+  EXPECT_TRUE(fails(animate + "--clip take.csv --clip-names lost.json", "lost.json"));
+  write("line.json", R"({"seconds": 1, "events": [{"at": 0, "to": {"smile": 1}}]})");
+  EXPECT_TRUE(fails(animate + "--clip line.json --clip-names names.json", "is a timeline"));
+  EXPECT_TRUE(fails(animate + "--to smile=1 --clip-names names.json", "--clip", 2));
+}
+
 TEST_F(PlayClip, PlaysACaptureByName) {
   convertRig();
   write("take.csv",

@@ -32,7 +32,8 @@ TEST_F(Export, LeavesNothingBehindWhereItIsKilled) {
 
 TEST_F(Export, WritesTheSourcesOwnPolygons) {
   convertRig();
-  ASSERT_EQ(run("export face.sweep -o out.obj").code, 0);
+  EXPECT_EQ(run("export face.sweep -o out.obj").out, "out.obj: 30 faces\n");
+  EXPECT_EQ(run("export face.sweep -o out.obj --quiet").out, "");
   const PolygonMesh in = mesh("neutral.obj"), out = mesh("out.obj");
   EXPECT_EQ(out.polygons.faceStart, in.polygons.faceStart);
   EXPECT_EQ(out.polygons.corners, in.polygons.corners);

@@ -255,6 +255,30 @@ test('names are matched and reported', async () => {
   assert.deepEqual(matchNames(['ÄUGE'], ['äuge']).unmatched, ['ÄUGE']);  // case is that of A to Z
 });
 
+test('a map of names drives what it drives in the tool', () => {
+  const map = {jawOpen: ['mouthFunnel', 'jawOpen'], eyeBlinkLeft: {jawOpen: 0.5, noseSneerLeft: -0.25},
+               eye_blink_right: 'noseSneerLeft', tongueOut: null, beard: 'jawOpen'};
+  const names = join(newFolder(), 'names.json');
+  writeFileSync(names, JSON.stringify(map));
+  const expected = played('take.csv', csv, ['--clip-names', names]), clip = readClip(csv).renamed(map);
+  assert.deepEqual(new Set(clip.names), new Set(['browInnerUp', 'HeadYaw', 'HeadPitch', 'HeadRoll', 'mouthFunnel',
+                                                 'jawOpen', 'noseSneerLeft']));
+  const {targets} = matchNames(clip.names, expected.names);
+  for (let f = 0; f < clip.times.length; ++f)
+    clip.names.forEach((name, k) => {
+      if (!/^Head/.test(name))
+        assert.ok(Math.abs(clip.weights[f * clip.names.length + k] - expected.weights[f * expected.names.length + targets[k][0]]) < 1e-12, name);
+    });
+});
+
+test('what is no map of names is refused', () => {
+  const clip = readClip(csv);
+  for (const map of [null, undefined, ['jawOpen'], 'jawOpen'])
+    assert.throws(() => clip.renamed(map), /^TypeError: A map of names is an object that has targets/);
+  for (const drives of [1, ['a', 1], {a: 'b'}, {a: NaN}, true])
+    assert.throws(() => clip.renamed({jawOpen: drives}), /^TypeError: 'jawOpen' drives the name of a target, a list/);
+});
+
 test('any text is a name', () => {
   const names = ['constructor', '__proto__'], given = [];
   const face = {names, eyeCount: 0, setWeights: (weights) => given.push(weights), moveTo: (goals) => given.push(goals),

@@ -67,6 +67,9 @@ export async function useClips(bytes: ArrayBuffer, csv: string): Promise<void> {
   if (face.eyeCount > 0) face.look({leftEye: {yaw: 0.1}});
   face.look(null);
   const player = new ClipPlayer(face, clip), head = player.seek(0.5);
+  console.log(clip.renamed({jawOpen: 'mouth-open', puff: ['a', 'b'], smile: {c: 0.5}, tongueOut: null}).names);
+  // @ts-expect-error A target is a name.
+  clip.renamed({jawOpen: 1});
   const single = new Clip(['jawOpen'], new Float32Array(2), new Float32Array(2));
   new ClipPlayer(new SweepfaceMesh(face), single).face.update();
   const few: Float32Array = clip.at(0.5, new Float32Array(clip.names.length)), all: Float64Array = clip.at(0.5);
