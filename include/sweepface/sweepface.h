@@ -160,6 +160,13 @@ SWEEPFACE_API uint32_t sweepface_mesh_vertex_count(const sweepface_mesh* mesh);
 /* [vertices - points] the point that each of the other vertices repeats, or NULL. */
 SWEEPFACE_API const uint32_t* sweepface_mesh_copies(const sweepface_mesh* mesh);
 
+/* Where the first `count` points lie among the source's vertices, those of lod 0: between four, or
+ * fewer, of which `shares` add up to 1 [count x 4 each]. For what hangs on the source's vertices and is
+ * to follow to a level of detail: skin weights, colours. Shares above 0 come first; of a share of 0 the
+ * vertex is the first one again. Takes a while, and allocates. */
+SWEEPFACE_API sweepface_status sweepface_mesh_origins(const sweepface_mesh* mesh, size_t count,
+                                                      uint32_t* vertices, float* shares);
+
 /* [triangles x 3] vertices, counter-clockwise seen from outside; those of a material together. */
 SWEEPFACE_API uint32_t sweepface_mesh_triangle_count(const sweepface_mesh* mesh);
 SWEEPFACE_API const uint32_t* sweepface_mesh_triangles(const sweepface_mesh* mesh);

@@ -10,6 +10,7 @@
 
 #include "sweepface/arcs.hpp"
 #include "sweepface/eval.hpp"
+#include "sweepface/origins.hpp"
 #include "sweepface/sweepface.h"
 #include "sweepface/sweepface_head.h"
 #include "sweepface/sweepface_regions.h"
@@ -654,6 +655,36 @@ TEST_F(Faces, RefuseBuffersThatCannotBeMeant) {
       refuses(sweepface_face_evaluate(face, count, {out.data(), backwards}, kUnwanted), "stride"));
 }
 
+TEST_F(Faces, TellWherePointsOfFinerMeshesLieAmongTheSources) {
+  const auto originsAt = [&](uint32_t lod) {
+    make(lod);
+    const std::size_t points = sweepface_mesh_point_count(mesh);
+    std::vector<uint32_t> vertices(4 * points);
+    std::vector<float> shares(4 * points);
+    EXPECT_EQ(sweepface_mesh_origins(mesh, points, vertices.data(), shares.data()), SWEEPFACE_OK);
+    return std::pair(vertices, shares);
+  };
+  const auto [own, whole] = originsAt(0);
+  for (uint32_t v = 0; v < own.size(); ++v) {
+    EXPECT_EQ(own[v], v / 4);
+    EXPECT_EQ(whole[v], v % 4 == 0 ? 1 : 0);
+  }
+  const auto [vertices, shares] = originsAt(3);
+  const auto expected = originsOf(rig, Tessellation(rig.surface, 3)).value();
+  ASSERT_EQ(vertices.size(), 4 * expected.size());
+  for (std::size_t k = 0; k < vertices.size(); ++k) {
+    EXPECT_EQ(vertices[k], static_cast<uint32_t>(expected[k / 4].vertices[k % 4]));
+    EXPECT_EQ(shares[k], static_cast<float>(expected[k / 4].shares[k % 4]));
+  }
+  uint32_t vertex[4] = {7};
+  float share[4] = {7};
+  EXPECT_TRUE(refuses(sweepface_mesh_origins(nullptr, 0, nullptr, nullptr), "need a mesh"));
+  EXPECT_TRUE(refuses(sweepface_mesh_origins(mesh, 1, vertex, nullptr), "places for vertices"));
+  EXPECT_TRUE(
+      refuses(sweepface_mesh_origins(mesh, expected.size() + 1, vertex, share), "There are only"));
+  EXPECT_EQ(vertex[0], 7u);
+}
+
 TEST_F(Faces, RefuseOutputsThatLieOverEachOther) {
   make(0);
   const std::size_t count = sweepface_mesh_vertex_count(mesh);
@@ -690,6 +721,9 @@ TEST_F(Faces, WithoutASourceHaveOnlyTheSurfacesLevels) {
   EXPECT_EQ(sweepface_mesh_create(bare, 1, &mesh), SWEEPFACE_OK);
   EXPECT_EQ(sweepface_mesh_texcoords(mesh), nullptr);
   EXPECT_GT(sweepface_mesh_triangle_count(mesh), 0u);
+  uint32_t vertex[4];
+  float share[4];
+  EXPECT_TRUE(refuses(sweepface_mesh_origins(mesh, 1, vertex, share), "source's vertices"));
   sweepface_rig_free(bare);
 }
 
