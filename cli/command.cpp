@@ -13,6 +13,8 @@
 
 #include "sweepface/codec.hpp"
 
+#include "near_name.hpp"
+
 namespace sweepface::cli {
 namespace {
 
@@ -281,14 +283,30 @@ bool hasDecimalComma(std::string_view text) {
   });
 }
 
+/// About the first name that is no target.
+std::string hintAtName(std::string_view text, const Rig& rig) {
+  std::vector<std::string> names;
+  for (const Target& target : rig.targets) names.push_back(target.name);
+  for (const auto part : text | std::views::split(',')) {
+    std::string_view name(part.begin(), part.end());
+    name = name.substr(0, name.rfind('='));
+    name.remove_prefix(std::min(name.find_first_not_of(' '), name.size()));
+    name = name.substr(0, name.find_last_not_of(' ') + 1);
+    if (name.empty() || std::ranges::find(names, name) != names.end()) continue;
+    const std::string near = nearName(name, names);
+    return near.empty() ? "" : fmt::format("Did you mean '{}'? ", near);
+  }
+  return "";
+}
+
 }  // namespace
 
 Result<Weights> weightsGiven(std::string_view option, std::string_view text, const Rig& rig) {
   Result<Weights> weights = parseWeights(rig, text);
   if (weights) return weights;
-  return fail(fmt::format("{}: {}{}", option,
-                          hasDecimalComma(text) ? "Numbers have a point, as in 0.5. " : "",
-                          weights.error().message));
+  const std::string hint =
+      hasDecimalComma(text) ? "Numbers have a point, as in 0.5. " : hintAtName(text, rig);
+  return fail(fmt::format("{}: {}{}", option, hint, weights.error().message));
 }
 
 bool isOfKind(const fs::path& path, std::string_view kind) { return extensionOf(path) == kind; }

@@ -98,6 +98,18 @@ TEST_F(Export, RefusesFoldersThatCannotBeMeant) {
   EXPECT_FALSE(std::filesystem::exists(folder / "all"));
 }
 
+TEST_F(Export, GuessesWhichTargetIsMeant) {
+  convertRig();
+  const std::string command = "export face.sweep -o out.obj --weights ";
+  EXPECT_TRUE(fails(command + "jaw_open=1",
+                    "--weights: Did you mean 'jawOpen'? There is no target "
+                    "named 'jaw_open'; its targets are jawOpen, smile."));
+  EXPECT_TRUE(fails(command + "jawOpen=1,smle=0.5", "Did you mean 'smile'? There is no target"));
+  EXPECT_TRUE(fails(command + "'jawOpen=1, smle '", "Did you mean 'smile'? There is no target"));
+  EXPECT_TRUE(fails(command + "frown=1", "--weights: There is no target named 'frown'"));
+  EXPECT_TRUE(fails(command + "smile=1000001", "--weights: The weight of 'smile' must be"));
+}
+
 TEST_F(Export, RefusesBudgetsThatAreNone) {
   convertRig();
   for (const char* budget : {"--vertices nan", "--error nan", "--edge-length inf", "--error -1"}) {
