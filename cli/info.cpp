@@ -2,19 +2,21 @@
 #include <array>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "sweepface/codec.hpp"
 #include "sweepface/io.hpp"
 #include "sweepface/strip.hpp"
 
 #include "command.hpp"
+#include "near_things.hpp"
 #include "output.hpp"
 
 namespace sweepface::cli {
 namespace {
 
 struct InfoArguments {
-  std::string face;
+  std::string face, near;
   bool list = false, quiet = false, json = false;
 };
 
@@ -22,9 +24,16 @@ void addOptions(CLI::App& app, InfoArguments& a) {
   addFace(app, a.face);
   app.add_flag("--list", a.list,
                "List ribbons, patches, curves and nodes by the names that `sweepface edit` takes");
+  app.add_option("--near", a.near,
+                 "List the five patches, curves and nodes of the neutral that come nearest to a "
+                 "point")
+      ->excludes("--list")
+      ->type_name("X,Y,Z");
   addQuiet(app, a.quiet);
   addJson(app, a.json);
-  app.footer("\nExamples:\n  sweepface info face.sweep\n  sweepface info face.sweep --list");
+  app.footer(
+      "\nExamples:\n  sweepface info face.sweep\n  sweepface info face.sweep --list\n"
+      "  sweepface info face.sweep --near 2.4,-5.4,7.5");
 }
 
 nlohmann::ordered_json describe(const InfoArguments& a, const Rig& rig, std::size_t bytes,
@@ -122,25 +131,57 @@ nlohmann::ordered_json list(const Rig& rig) {
   return list;
 }
 
+/// Those that come nearest to a point, nearest first, and where.
+nlohmann::ordered_json nearest(const Rig& rig, const Vec3& point) {
+  constexpr std::size_t kMost = 5;
+  const nlohmann::ordered_json all = list(rig);
+  const NearThings found = nearThings(rig, point);
+  nlohmann::ordered_json near;
+  for (const auto& [kind, places] :
+       {std::pair("patches", &found.patches), std::pair("curves", &found.curves),
+        std::pair("nodes", &found.nodes)}) {
+    near[kind] = nlohmann::ordered_json::array();
+    std::vector<std::size_t> order(places->size());
+    std::iota(order.begin(), order.end(), 0);
+    std::ranges::stable_sort(order, {}, [&](std::size_t k) { return (*places)[k].distance; });
+    order.resize(std::min(order.size(), kMost));
+    for (const std::size_t k : order) {
+      const auto& [at, distance] = (*places)[k];
+      auto& entry = near[kind].emplace_back(all[kind][k]);
+      entry["distance"] = distance;
+      entry["at"] = {at.x, at.y, at.z};
+    }
+  }
+  return near;
+}
+
 void printList(const nlohmann::ordered_json& list) {
   const auto text = [](const nlohmann::ordered_json& value) { return value.get<std::string>(); };
-  for (const auto& r : list["ribbons"])
+  const auto away = [](const nlohmann::ordered_json& thing) -> std::string {
+    if (!thing.contains("distance")) return "";
+    return fmt::format(", {:.4g} away at {:.4g}", thing["distance"].get<double>(),
+                       fmt::join(thing["at"].get<std::vector<double>>(), ","));
+  };
+  for (const auto& r : list.value("ribbons", nlohmann::ordered_json::array()))
     fmt::print("  ribbon {}: rho {}, eta {}, lambda {}\n", text(r["name"]), r["rho"].get<double>(),
                r["eta"].get<double>(), r["lambda"].get<double>());
   for (const auto& p : list["patches"]) {
     fmt::print("  patch {}:", text(p["name"]));
     for (const auto& side : p["sides"])
       fmt::print(" {}", fmt::join(side.get<std::vector<std::string>>(), " + "));
-    fmt::print("\n");
+    fmt::print("{}\n", away(p));
   }
   for (const auto& c : list["curves"])
-    fmt::print("  curve {}: from {} to {}, {} edges, ribbon {}\n", text(c["name"]), text(c["from"]),
-               text(c["to"]), c["edges"].get<Index>(), text(c["ribbon"]));
+    fmt::print("  curve {}: from {} to {}, {} edges, ribbon {}{}\n", text(c["name"]),
+               text(c["from"]), text(c["to"]), c["edges"].get<Index>(), text(c["ribbon"]), away(c));
   for (const auto& n : list["nodes"])
-    fmt::print("  node {}: {}\n", text(n["name"]), text(n["kind"]));
+    fmt::print("  node {}: {}{}\n", text(n["name"]), text(n["kind"]), away(n));
 }
 
 Result<int> runInfo(const InfoArguments& a) {
+  const auto point = a.near.empty() ? Vec3{} : parsePoint(a.near);
+  if (!point || !isFinite(*point))
+    return fail(fmt::format("--near is a point like 0,1.5,-2, not '{}'.", a.near));
   const Result<std::string> bytes = readFile(a.face);
   if (!bytes) return std::unexpected(bytes.error());
   const Result<Rig> rig = opened(*bytes, a.face);
@@ -149,11 +190,13 @@ Result<int> runInfo(const InfoArguments& a) {
   if (!parts) return std::unexpected(parts.error());
   nlohmann::ordered_json report = describe(a, *rig, bytes->size(), *parts);
   if (a.list) report["list"] = list(*rig);
+  if (!a.near.empty()) report["near"] = nearest(*rig, *point);
   if (a.json)
     printJson(report);
   else if (!a.quiet)
     printText(report);
-  if (a.list && !a.json && !a.quiet) printList(report["list"]);
+  for (const char* kind : {"list", "near"})
+    if (report.contains(kind) && !a.json && !a.quiet) printList(report[kind]);
   return 0;
 }
 

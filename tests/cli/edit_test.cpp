@@ -1,3 +1,6 @@
+#include <nlohmann/json.hpp>
+#include <set>
+
 #include "cli/tool.hpp"
 
 namespace sweepface {
@@ -20,6 +23,31 @@ TEST_F(Edit, OfARibbonSaysWhichPatchesChanged) {
   EXPECT_EQ(r.out, "tight.sweep: 3 of 9 patches changed: a1 b2, b1 c2, c1 d2\n");
   EXPECT_NE(run("info tight.sweep --list").out.find("ribbon middle: rho 1, eta -100, lambda 0.01"),
             std::string::npos);
+}
+
+TEST_F(Edit, FindsWhatIsNearAPoint) {
+  const Outcome r = run("info sheet.sweep --near 1,0,2 --json");
+  ASSERT_EQ(r.code, 0) << r.err;
+  const auto near = nlohmann::json::parse(r.out)["near"];
+  const auto touching = [&](const char* kind) {
+    std::set<std::string> names;
+    for (const auto& thing : near[kind])
+      if (thing["distance"] < 1e-6) names.insert(thing["name"]);
+    return names;
+  };
+  using Names = std::set<std::string>;
+  EXPECT_EQ(touching("nodes"), Names{"b2"});
+  EXPECT_EQ(touching("curves"), (Names{"a2-b2", "b2-c2", "b1-b2", "b2-b3"}));
+  EXPECT_EQ(touching("patches"), (Names{"a1 b2", "b1 c2", "a2 b3", "b2 c3"}));
+  EXPECT_NEAR(near["nodes"][1]["distance"], 1, 1e-6);
+  for (const char* kind : {"curves", "nodes", "patches"}) EXPECT_EQ(near[kind].size(), 5u);
+  for (const char* kind : {"curves", "nodes", "patches"})
+    for (std::size_t k = 1; k < 5; ++k)
+      EXPECT_LE(near[kind][k - 1]["distance"], near[kind][k]["distance"]);
+  const std::string text = run("info sheet.sweep --near 1,0,2").out;
+  EXPECT_NE(text.find("node b2: full, 0 away at 1,0,2"), std::string::npos) << text;
+  EXPECT_TRUE(fails("info sheet.sweep --near 1,0", "--near is a point like 0,1.5,-2, not '1,0'"));
+  EXPECT_TRUE(fails("info sheet.sweep --near 1,0,nan", "--near is a point"));
 }
 
 TEST_F(Edit, TakesSeveralCurvesAndControlsAtOnce) {
