@@ -43,6 +43,27 @@ void Following::apply(std::span<double> weights, const HeadPose* pose) const {
 
 namespace {
 
+std::string listed(const std::vector<Index>& targets, const std::vector<std::string>& names) {
+  const auto named = targets | std::views::transform([&](Index k) { return names[k]; });
+  return fmt::format("{}", fmt::join(named, " and "));
+}
+
+/// Warns of targets that would be combinations if names differed in no capitals and separators.
+void warnOfSpellings(const std::vector<std::string>& names,
+                     const std::vector<Follower>& followers) {
+  std::vector<std::string> plain = names;
+  for (std::string& name : plain)
+    for (char& c : name) {
+      if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+      if (c == '-' || c == '.' || c == ' ') c = '_';
+    }
+  for (const Follower& f : Followers::named(plain))
+    if (std::ranges::find(followers, f.target, &Follower::target) == followers.end())
+      printWarning(
+          fmt::format("--combine: {} does not follow {}, as it is not spelt alike; rename it.",
+                      names[f.target], listed(f.leaders, names)));
+}
+
 /// What the names of the targets say.
 std::vector<Follower> combined(const Rig& rig, const std::vector<Weights>& told) {
   std::vector<std::string> names;
@@ -52,10 +73,10 @@ std::vector<Follower> combined(const Rig& rig, const std::vector<Weights>& told)
     printWarning("No target is named after others, so --combine changes nothing.");
   for (const Follower& f : followers)
     if (std::ranges::any_of(told, [&](const Weights& w) { return w[f.target] != 0; }))
-      printWarning(fmt::format(
-          "--combine: {} follows {}, so that its own weight counts for nothing.", names[f.target],
-          fmt::join(f.leaders | std::views::transform([&](Index k) { return names[k]; }),
-                    " and ")));
+      printWarning(
+          fmt::format("--combine: {} follows {}, so that its own weight counts for nothing.",
+                      names[f.target], listed(f.leaders, names)));
+  warnOfSpellings(names, followers);
   return followers;
 }
 

@@ -140,6 +140,22 @@ TEST_F(Following, SaysWhatCountsForNothing) {
   EXPECT_EQ(run("export face.sweep -o out.obj --weights A=1 --combine").err, "");
 }
 
+TEST_F(Following, SaysWhatWouldCombineIfItWereSpeltAlike) {
+  const auto moved = [](const Vec3& p) { return p + Vec3{1, 0, 0}; };
+  convertWith({{"smile", moved},
+               {"jawOpen", moved},
+               {"smile_jawopen", moved},
+               {"smile-50", moved},
+               {"smile_jawOpen", moved}});
+  const std::string said = run("export face.sweep -o out.obj --combine").err;
+  EXPECT_TRUE(
+      said.contains("--combine: smile_jawopen does not follow jawOpen and smile, as it is") ||
+      said.contains("--combine: smile_jawopen does not follow smile and jawOpen, as it is"))
+      << said;
+  EXPECT_TRUE(said.contains("--combine: smile-50 does not follow smile, as it is not spelt alike"));
+  EXPECT_EQ(std::ranges::count(said, '\n'), 2) << said;
+}
+
 TEST_F(Following, SaysWhereNothingTurnsOrIsCombined) {
   convertWith({{"A", [](const Vec3& p) { return p + Vec3{1, 0, 0}; }}});
   const Outcome arcs = run("export face.sweep -o out.obj --arcs on");
