@@ -143,7 +143,8 @@ nlohmann::ordered_json nearest(const Rig& rig, const Vec3& point) {
     near[kind] = nlohmann::ordered_json::array();
     std::vector<std::size_t> order(places->size());
     std::iota(order.begin(), order.end(), 0);
-    std::ranges::stable_sort(order, {}, [&](std::size_t k) { return (*places)[k].distance; });
+    std::ranges::sort(order, {},
+                      [&](std::size_t k) { return std::pair((*places)[k].distance, k); });
     order.resize(std::min(order.size(), kMost));
     for (const std::size_t k : order) {
       const auto& [at, distance] = (*places)[k];
