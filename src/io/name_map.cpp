@@ -5,6 +5,7 @@
 #include <map>
 
 #include "sweepface/clip.hpp"
+#include "sweepface/weights.hpp"
 
 #include "io/json_fields.hpp"
 #include "io/json_text.hpp"
