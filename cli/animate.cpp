@@ -119,7 +119,7 @@ Result<void> writeFrames(const AnimateArguments& a, const Rig& rig, const Perfor
   const auto path = [&](std::size_t frame) {
     return fs::path(a.output) / fmt::format("frame_{:04}.obj", frame);
   };
-  return writeMeshes({times.size(), "frames", path, text}, a.quiet);
+  return writeMeshes({times.size(), "frames", a.face, path, text}, a.quiet);
 }
 
 void printFrames(const AnimateArguments& a, std::size_t count, const Performance& performance) {
@@ -256,11 +256,10 @@ Result<void> checkKeys(const AnimateArguments& a, const Performance& performance
 Result<int> runAnimate(const AnimateArguments& a) {
   const bool glb = isOfKind(a.output, ".glb"), csv = isOfKind(a.output, ".csv");
   if (!glb && !csv && !meansFolder(a.output))
-    return fail(
-        fmt::format("Cannot write {}: its name must end in .glb or .csv, or be a folder's, without "
-                    "an ending or with a / behind "
-                    "it.",
-                    a.output));
+    return fail(fmt::format(
+        "Cannot write {}: its name must end in .glb or .csv, or be a folder's, without an ending "
+        "or with a / behind it.",
+        a.output));
   if (auto ok = checkArguments(a, glb); !ok) return std::unexpected(ok.error());
   Result<Rig> rig = readFace(a.face);
   if (!rig) return std::unexpected(rig.error());

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <fmt/format.h>
 
 #include "sweepface/evaluator.hpp"
@@ -10,6 +11,7 @@
 #include "interrupts.hpp"
 #include "lod_mesh.hpp"
 #include "mesh_folder.hpp"
+#include "output.hpp"
 
 namespace sweepface::cli {
 namespace {
@@ -109,28 +111,38 @@ Result<void> writeGlb(const ExportArguments& a, const Rig& rig, const Weights& w
   return {};
 }
 
-/// Whether file systems take a target's name, and `convert` the file as one of a folder's.
-Result<void> checkFileNames(const Rig& rig) {
-  for (const Target& target : rig.targets)
-    if (target.name.starts_with('.') || target.name.contains('/'))
-      return fail(
-          fmt::format("The target '{}' cannot be the name of a file; write a .glb, or the "
-                      "expression alone by --weights.",
-                      target.name));
-  return {};
+/// What the files of the first targets are called: by their names, as far as file systems take them
+/// and `convert` reads such files of a folder.
+Result<std::vector<std::string>> fileNames(const Rig& rig, std::size_t count) {
+  std::vector<std::string> names;
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::string& target = rig.targets[k].name;
+    std::string name = target + ".obj";
+    std::ranges::replace(name, '/', '_');
+    if (name.starts_with('.')) name[0] = '_';
+    if (const auto twin = std::ranges::find(names, name); twin != names.end())
+      return fail(fmt::format("The targets '{}' and '{}' would both be in {}; write a .glb.",
+                              rig.targets[twin - names.begin()].name, target, name));
+    names.push_back(std::move(name));
+  }
+  for (std::size_t k = 0; k < count; ++k)
+    if (names[k] != rig.targets[k].name + ".obj")
+      printWarning(fmt::format("The target '{}' is in {}.", rig.targets[k].name, names[k]));
+  return names;
 }
 
 /// What `convert` reads: neutral.obj, and every target by its name in expressions/.
 Result<void> writeFolder(const ExportArguments& a, const Rig& rig, const Following& following) {
   const std::filesystem::path folder(a.output), expressions = folder / "expressions";
   if (auto ok = checkLod(rig, a.lod); !ok) return ok;
-  if (auto ok = checkFileNames(rig); !ok) return ok;
+  const auto names = fileNames(rig, following.count);
+  if (!names) return std::unexpected(names.error());
   if (auto made = makeFolder(folder); !made) return made;
   if (following.count > 0)
     if (auto made = makeFolder(expressions); !made) return made;
   const MeshMaker meshes(rig, a.lod);
   const auto path = [&](std::size_t k) {
-    return k == 0 ? folder / "neutral.obj" : expressions / (rig.targets[k - 1].name + ".obj");
+    return k == 0 ? folder / "neutral.obj" : expressions / (*names)[k - 1];
   };
   const auto text = [&](std::size_t k) {
     Weights weights(rig.targets.size());
@@ -138,7 +150,8 @@ Result<void> writeFolder(const ExportArguments& a, const Rig& rig, const Followi
     following.apply(weights);
     return meshes.obj(weights);
   };
-  if (auto ok = writeMeshes({following.count + 1, "meshes", path, text}, a.quiet); !ok) return ok;
+  if (auto ok = writeMeshes({following.count + 1, "meshes", a.face, path, text}, a.quiet); !ok)
+    return ok;
   if (!a.quiet)
     fmt::print("{}: {} targets, {} faces each\n", a.output, following.count,
                meshes.polygons().faceCount());

@@ -14,8 +14,8 @@ inline constexpr int kInterrupted = 130;  // the exit code then
 
 enum class Patience { endless, twoSeconds };
 
-/// From here on the first such signal asks the work to stop, and a second one ends the program. So
-/// does the end of patience, for work that asks seldom and has nothing to clear away.
+/// From here on the first such signal asks the work to stop, and a second of its kind ends the
+/// program. So does the end of patience, for work that asks seldom and has nothing to clear away.
 void catchInterrupts(Patience patience = Patience::endless);
 
 /// Does long work on so many threads, 0: on all cores. It gives up where `interrupted` is set, or

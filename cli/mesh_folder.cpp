@@ -16,8 +16,10 @@ namespace fs = std::filesystem;
 
 bool meansFolder(const fs::path& output) {
   std::error_code ignored;
-  return fs::is_directory(output, ignored) ||
-         (!output.has_extension() && !fs::exists(output, ignored));
+  if (fs::is_directory(output, ignored)) return true;
+  const fs::file_type type = fs::symlink_status(output, ignored).type();
+  return !output.has_extension() &&
+         (type == fs::file_type::not_found || type == fs::file_type::regular);
 }
 
 Result<void> makeFolder(const fs::path& folder) {
@@ -27,13 +29,18 @@ Result<void> makeFolder(const fs::path& folder) {
   std::error_code error, ignored;
   fs::create_directories(folder, error);
   if (fs::is_directory(folder, ignored)) return {};
-  const bool isFile = fs::exists(folder, ignored) || !error;
+  const bool isFile = fs::exists(folder, ignored) || !error || error == std::errc::file_exists;
   return fail(fmt::format("Cannot make the folder {}: {}.", folder.string(),
                           isFile ? "a file is in its place; choose another name"
                                  : error.message() + "; choose another place"));
 }
 
 Result<void> writeMeshes(const MeshFiles& files, bool quiet) {
+  std::error_code ignored;
+  for (std::size_t k = 0; k < files.count; ++k)
+    if (const fs::path path = files.path(k); fs::equivalent(path, files.input, ignored))
+      return fail(fmt::format("Cannot write {}: it is what is read; choose another folder.",
+                              path.string()));
   catchInterrupts();
   ProgressBar bar(quiet);
   std::atomic<std::size_t> done = 0;

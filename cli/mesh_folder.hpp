@@ -8,8 +8,8 @@
 
 namespace sweepface::cli {
 
-/// Whether an output is meant to be a folder: it is one, or is nothing yet and has no ending as
-/// files have.
+/// Whether an output is meant to be a folder: it is one, or has no ending as files have and is no
+/// device.
 bool meansFolder(const std::filesystem::path& output);
 
 /// Makes a folder, and those it is in, where they are not there yet.
@@ -19,6 +19,7 @@ Result<void> makeFolder(const std::filesystem::path& folder);
 struct MeshFiles {
   std::size_t count;
   std::string_view called;
+  std::filesystem::path input;  ///< which none of them may be
   std::function<std::filesystem::path(std::size_t)> path;
   std::function<std::string(std::size_t)> text;
 };

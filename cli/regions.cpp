@@ -6,7 +6,6 @@
 
 #include "sweepface/io.hpp"
 #include "sweepface/region_file.hpp"
-#include "sweepface/timeline.hpp"
 
 #include "clip_part.hpp"
 
@@ -16,7 +15,7 @@ namespace {
 /// Those of --regions or else of the timeline that is played; without either the whole face.
 Result<std::vector<Region>> readRegions(const PerformanceArguments& what, const std::string& clip,
                                         const RegionArguments& a, const Rig& rig) {
-  const bool own = a.file.empty() && isOfKind(what.clip, ".json") && isTimeline(clip);
+  const bool own = a.file.empty() && isOfKind(what.clip, ".json");
   const std::string& file = own ? what.clip : a.file;
   if (file.empty()) return dividedFace(rig, {});
   const Result<std::string> text = file == what.clip ? clip : readFile(file);

@@ -7,32 +7,49 @@ import {isFloats, kindOf, known, told} from './sweepface_values.js';
 const NO_TIME = 1e-9;
 const ONE_EURO = ['cutoff', 'speedGain', 'speedCutoff'];
 
+const MOST_FACTOR = 1000, MOST_WEIGHT = 1e6;
+
 /** What a map of names says: [name of the clip, [[target, factor]]]. */
 function drivesOf(map) {
-  if (!isObject(map))
+  if (!isObject(map) || Object.keys(map).length === 0)
     throw new TypeError(`A map of names is an object that has targets by names of a clip, not ${kindOf(map)}.`);
   const isText = (target) => typeof target === 'string';
   return Object.entries(map).map(([name, drives]) => {
     if (drives === null || drives === undefined) return [name, []];
     const list = [drives].flat();
     if (list.every(isText)) return [name, list.map((target) => [target, 1])];
-    if (isObject(drives) && Object.values(drives).every(isNumber)) return [name, Object.entries(drives)];
-    throw new TypeError(`'${name}' drives the name of a target, a list of some, an object of numbers by name, or null.`);
+    if (isObject(drives) && Object.values(drives).every((factor) => isNumber(factor) && Math.abs(factor) <= MOST_FACTOR))
+      return [name, Object.entries(drives)];
+    throw new TypeError(`'${name}' drives the name of a target, a list of some, an object of numbers within ±1000 by name, or null.`);
   });
 }
 
-/** The columns of a clip whose names a map changes: of which columns the largest counts, times a factor, and all such together. */
+/** Whether two names are one but for how they are spelt; a name without a side means both sides. */
+const areAlike = (a, b) => [[a, b], [b, a]].every(([name, other]) => matchNames([name], [other]).unmatched.length === 0);
+
+/**
+ * The columns of a clip whose names a map changes: `columns` {name, sources}, each source of columns of which the largest
+ * counts, times a factor, and all such together; and the names of the map that the clip `lacks`.
+ */
 function mappedColumns(names, drives) {
-  const match = matchNames(drives.map(([name]) => name), names), isMapped = new Set(match.targets.flat());
-  const columns = names.map((name, k) => ({name, sources: [{found: [k], factor: 1}]})).filter((_, k) => !isMapped.has(k));
-  const byTarget = new Map();
-  drives.forEach(([, targets], k) => {
-    const found = match.targets[k];
-    if (found.length === 0) return;
-    for (const [target, factor] of targets)
-      byTarget.set(target, [...(byTarget.get(target) ?? []), {found, factor}]);
+  const {targets: found, unmatched} = matchNames(drives.map(([name]) => name), names);
+  const mapped = new Map(), byTarget = new Map();
+  const add = (target, source) => byTarget.set(target, [...(byTarget.get(target) ?? []), source]);
+  drives.forEach(([name, targets], k) => {
+    for (const column of found[k]) {
+      if (mapped.has(column)) throw new TypeError(`'${mapped.get(column)}' and '${name}' are one name of the clip; keep one.`);
+      mapped.set(column, name);
+    }
+    if (found[k].length > 0) for (const [target, factor] of targets) add(target, {found: found[k], factor});
   });
-  return [...columns, ...[...byTarget].map(([name, sources]) => ({name, sources}))];
+  const columns = [];
+  names.forEach((name, k) => {
+    const source = {found: [k], factor: 1}, target = [...byTarget.keys()].find((each) => areAlike(each, name));
+    if (mapped.has(k)) return;
+    if (target === undefined) columns.push({name, sources: [source]});
+    else add(target, source);
+  });
+  return {columns: [...columns, ...[...byTarget].map(([name, sources]) => ({name, sources}))], lacks: unmatched};
 }
 
 /** Weights over time: `names` [N], `times` [F] in seconds, `weights` [F x N]. */
@@ -100,15 +117,17 @@ export class Clip {
    * cheekPuff: {puff: 0.8}, tongueOut: null}, each with the sum of what drives it. Names that are not in the map stay.
    */
   renamed(map) {
-    const columns = mappedColumns(this.names, drivesOf(map)), n = this.names.length, width = columns.length;
+    const {columns, lacks} = mappedColumns(this.names, drivesOf(map)), n = this.names.length, width = columns.length;
     const weights = new Float64Array(this.times.length * width);
     for (let f = 0; f < this.times.length; ++f)
       columns.forEach(({sources}, k) => {
         for (const {found, factor} of sources)
           weights[f * width + k] += factor * Math.max(...found.map((column) => this.weights[f * n + column]));
+        if (Math.abs(weights[f * width + k]) > MOST_WEIGHT)
+          throw new RangeError(`'${columns[k].name}' would get a weight beyond ±1,000,000.`);
       });
     const clip = new Clip(columns.map(({name}) => name), this.times, weights);
-    clip.warnings = this.warnings;
+    clip.warnings = lacks.length > 0 ? [...this.warnings, `The clip has no ${lacks.join(', ')}.`] : this.warnings;
     return clip;
   }
 

@@ -16,7 +16,8 @@ struct PaintedRegion {
   int bands = 1;  ///< more: as many regions, name1, name2 ..., delayed in equal steps up to `delay`
 };
 
-/// The `regions` of a JSON text, of which a timeline and `{}` may have none.
+/// The `regions` of a JSON text, which may be a timeline or a capture; none if it has no such
+/// member.
 Result<std::vector<PaintedRegion>> parseRegions(std::string_view text, std::string_view name);
 
 /// The regions of a face, the rest first.

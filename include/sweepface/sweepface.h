@@ -136,7 +136,7 @@ enum sweepface_budgets {
   SWEEPFACE_BUDGET_ERROR = 1,       /* edges of triangles are no further than this from the surface,
                                        in model units, nearly everywhere (docs/evaluation.md) */
   SWEEPFACE_BUDGET_VERTICES = 2     /* as near to the surface as so many points allow; vertices are
-                                       more, where points have several texture coordinates */
+                                       more, as they are copies of points, too */
 };
 
 /* The surface as fine as a budget asks, curve by curve: without a crack, and with the same points

@@ -29,25 +29,45 @@ struct Written {
   bool is(const sweepface_vectors& to, std::size_t vertices) const {
     return data == to.data && stride == to.stride && count == vertices;
   }
-  bool overlaps(const sweepface_vectors& to, std::size_t vertices) const {
-    const Written other{to.data, to.stride, vertices, {}};
+  /// Whether the bytes from the first to the last of another output, of `size` bytes a vertex, and
+  /// those of this one have some in common.
+  bool overlaps(const sweepface_vectors& to, std::size_t vertices,
+                std::size_t size = kTight) const {
+    const char* const other = reinterpret_cast<const char*>(to.data);
     const std::less<> before;
-    return data && to.data && before(begin(), other.end()) && before(other.begin(), end());
+    return data && to.data && count > 0 && vertices > 0 &&
+           before(begin(), endOf(other, strideOf(to, size), vertices, size)) &&
+           before(other, endOf(begin(), strideOf({data, stride}), count, kTight));
   }
-  /// Whether writing another output of `size` bytes a vertex there changes this one: both may be
-  /// parts of the same structs.
+  /// Whether writing the other output changes this one: both may be parts of the same structs.
   bool isHitBy(const sweepface_vectors& to, std::size_t vertices, std::size_t size = kTight) const {
-    const std::size_t own = strideOf({data, stride}), theirs = strideOf(to, size);
-    if (!overlaps({to.data, theirs}, vertices)) return false;
-    const auto period = static_cast<std::ptrdiff_t>(own);
+    if (!overlaps(to, vertices, size)) return false;
+    const auto own = static_cast<std::ptrdiff_t>(strideOf({data, stride})),
+               theirs = static_cast<std::ptrdiff_t>(strideOf(to, size));
     const std::ptrdiff_t apart = reinterpret_cast<const char*>(to.data) - begin();
-    const auto from = static_cast<std::size_t>((apart % period + period) % period);
-    return own != theirs || from < kTight || own - from < size;
+    const auto hits = [&](std::ptrdiff_t from) {  // from where on, after one of this one's vertices
+      return from < static_cast<std::ptrdiff_t>(kTight) ||
+             own - from < static_cast<std::ptrdiff_t>(size);
+    };
+    if (own == theirs) return hits((apart % own + own) % own);
+    const auto last = own * static_cast<std::ptrdiff_t>(count - 1);
+    for (std::size_t v = 0; v < vertices; ++v) {
+      const std::ptrdiff_t at = apart + theirs * static_cast<std::ptrdiff_t>(v);
+      const std::ptrdiff_t vertex = std::clamp(at / own * own, std::ptrdiff_t{0}, last);
+      for (const std::ptrdiff_t each : {vertex, std::min(vertex + own, last)})
+        if (at < each + static_cast<std::ptrdiff_t>(kTight) &&
+            each < at + static_cast<std::ptrdiff_t>(size))
+          return true;
+    }
+    return false;
   }
 
  private:
   const char* begin() const { return reinterpret_cast<const char*>(data); }
-  const char* end() const { return begin() + strideOf({data, stride}) * count; }
+  static const char* endOf(const char* first, std::size_t stride, std::size_t count,
+                           std::size_t size) {
+    return first + stride * (count - 1) + size;
+  }
 };
 
 /// Where an output was written before the last time: buffers are often written in turn.

@@ -108,7 +108,7 @@ void splitMirrored(RenderMesh& mesh) {
   forEachCorner(false, [&](std::uint32_t v) { isPlain[v] = true; });
   std::vector<Index> copy(count, -1);
   forEachCorner(true, [&](std::uint32_t& v) {
-    if (static_cast<Index>(v) >= count || !isPlain[v]) return;
+    if (!isPlain[v]) return;
     if (copy[v] < 0) {
       copy[v] = mesh.vertexCount();
       mesh.copies.push_back(mesh.pointOf(static_cast<Index>(v)));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <set>
 
 #include "gltf/nodes.hpp"
 
@@ -20,6 +21,19 @@ std::vector<std::size_t> timesShown(const Document& document) {
   return times;
 }
 
+/// Triangles without targets in meshes that have others with some.
+std::vector<std::string> stillPrimitives(const Document& document, const Parts& parts) {
+  std::set<std::pair<std::size_t, std::size_t>> ofFace;
+  for (const Part& part : parts.parts)
+    ofFace.emplace(parts.meshes[parts.runs[part.run].rigMesh].mesh, part.primitive);
+  std::vector<std::string> places;
+  for (const RigMesh& mesh : parts.meshes)
+    for (std::size_t p = 0; p < listOf(document.list("meshes")[mesh.mesh], "primitives").size();
+         ++p)
+      if (!ofFace.contains({mesh.mesh, p})) places.push_back(placeOf(document, mesh.mesh, p));
+  return places;
+}
+
 std::string listed(std::vector<std::string> names) {
   constexpr std::size_t most = 3;
   const std::size_t count = names.size();
@@ -34,7 +48,7 @@ std::vector<std::string> leftOut(const Document& document, const Parts& parts) {
   const std::vector<std::size_t> times = timesShown(document);
   std::vector<bool> isOfFace(times.size());
   for (const RigMesh& mesh : parts.meshes) isOfFace[mesh.mesh] = true;
-  std::vector<std::string> still, again, warnings;
+  std::vector<std::string> still = stillPrimitives(document, parts), again, warnings;
   for (std::size_t m = 0; m < times.size(); ++m) {
     if (!isOfFace[m] && times[m] > 0) still.push_back(placeOf(document, m));
     if (isOfFace[m] && times[m] > 1) again.push_back(placeOf(document, m));

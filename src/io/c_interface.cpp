@@ -10,6 +10,7 @@
 
 #include "capi/handles.hpp"
 #include "capi/message.hpp"
+#include "io/json_text.hpp"
 #include "io/text.hpp"
 
 using namespace sweepface;
@@ -31,6 +32,13 @@ std::vector<Matter> mattersOf(const Division& division) {
   std::vector<Matter> matters = division.matters;
   matters.resize(division.count());
   return matters;
+}
+
+/// Whether a text that has no regions was meant to have none: a timeline, or an empty object.
+bool meansNone(std::string_view text) {
+  const auto json = io::parseJson(text, "");
+  return json && json->is_object() &&
+         (json->empty() || json->contains("regions") || json->contains("events"));
 }
 
 // ---- Clips ----
@@ -95,8 +103,12 @@ sweepface_status sweepface_rig_divide_by(sweepface_rig* rig, const void* text, s
                                          const char* name) {
   if (!rig || (!text && size > 0)) return refuse("Dividing a face needs a rig and a text.");
   const char* const called = calledOr(name, "The text");
-  const auto painted = parseRegions({static_cast<const char*>(text), size}, called);
+  const std::string_view given{static_cast<const char*>(text), size};
+  const auto painted = parseRegions(given, called);
   if (!painted) return refuse(SWEEPFACE_BAD_DATA, painted.error().message);
+  if (painted->empty() && !meansNone(given))
+    return refuse(SWEEPFACE_BAD_DATA,
+                  std::string(called) + " has no 'regions'; see docs/regions.md.");
   if (painted->empty()) return sweepface_rig_divide(rig, nullptr, nullptr, 0);
   const auto regions = paintRegions(*rig->rig, *painted);
   if (!regions) return refuse(called, ": ", regions.error().message);

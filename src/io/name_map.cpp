@@ -58,14 +58,27 @@ struct MappedColumn {
   std::vector<std::pair<std::vector<Index>, double>> sources;
 };
 
-std::vector<MappedColumn> mappedColumns(Clip& clip, const NameMap& map) {
+/// Whether two names are one but for how they are spelt.
+bool areAlike(const std::string& a, const std::string& b) {
+  const auto matches = [](const std::string& name, const std::string& with) {
+    return !matchClip({{name}, {}, {}}, std::span(&with, 1)).targets[0].empty();
+  };
+  return matches(a, b) && matches(b, a);  // either, as a name without a side means both sides
+}
+
+Result<std::vector<MappedColumn>> mappedColumns(Clip& clip, const NameMap& map) {
   Clip keys;
   for (const auto& [name, drives] : map.drives) keys.names.push_back(name);
   const ClipMatch match = matchClip(keys, clip.names);
-  std::vector<bool> isMapped(clip.names.size());
+  std::vector<Index> mapped(clip.names.size(), -1);  // by which name of the map
   std::map<std::string, MappedColumn> byTarget;
   for (std::size_t k = 0; k < map.drives.size(); ++k) {
-    for (const Index column : match.targets[k]) isMapped[column] = true;
+    for (const Index column : match.targets[k]) {
+      if (mapped[column] >= 0)
+        return fail(fmt::format("{}: '{}' and '{}' are one name of the clip; keep one.", map.called,
+                                keys.names[mapped[column]], keys.names[k]));
+      mapped[column] = static_cast<Index>(k);
+    }
     if (match.targets[k].empty()) continue;
     for (const auto& [target, factor] : map.drives[k].second)
       byTarget[target].sources.push_back({match.targets[k], factor});
@@ -74,8 +87,16 @@ std::vector<MappedColumn> mappedColumns(Clip& clip, const NameMap& map) {
     clip.warnings.push_back(
         fmt::format("{}: the clip has no {}.", map.called, fmt::join(match.unmatched, ", ")));
   std::vector<MappedColumn> columns;
-  for (std::size_t c = 0; c < clip.names.size(); ++c)
-    if (!isMapped[c]) columns.push_back({clip.names[c], {{{static_cast<Index>(c)}, 1}}});
+  for (std::size_t c = 0; c < clip.names.size(); ++c) {
+    if (mapped[c] >= 0) continue;
+    const MappedColumn own{clip.names[c], {{{static_cast<Index>(c)}, 1}}};
+    const auto target = std::ranges::find_if(
+        byTarget, [&](const auto& each) { return areAlike(each.first, own.name); });
+    if (target == byTarget.end())
+      columns.push_back(own);
+    else
+      target->second.sources.push_back(own.sources[0]);
+  }
   for (auto& [target, column] : byTarget) columns.push_back({target, std::move(column.sources)});
   return columns;
 }
@@ -98,7 +119,9 @@ Result<NameMap> parseNameMap(std::string_view text, std::string_view name) {
 
 Result<Clip> renamed(Clip clip, const NameMap& map, std::span<const std::string> targets) {
   if (auto ok = checkTargets(map, targets); !ok) return std::unexpected(ok.error());
-  const std::vector<MappedColumn> columns = mappedColumns(clip, map);
+  const auto mapped = mappedColumns(clip, map);
+  if (!mapped) return std::unexpected(mapped.error());
+  const std::vector<MappedColumn>& columns = *mapped;
   const std::size_t n = clip.names.size(), frames = clip.times.size();
   if (frames * columns.size() > kMostClipWeights)
     return fail(fmt::format("{}: the clip would have too many weights; cut it.", map.called));

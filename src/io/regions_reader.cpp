@@ -115,10 +115,7 @@ Result<std::vector<PaintedRegion>> parseRegions(std::string_view text, std::stri
   const auto json = io::parseJson(text, name);
   if (!json) return std::unexpected(json.error());
   std::vector<PaintedRegion> regions;
-  if (!json->is_object() || !json->contains("regions")) {
-    if (json->is_object() && (json->empty() || json->contains("events"))) return regions;
-    return fail(fmt::format("{} has no 'regions'; see docs/regions.md.", name));
-  }
+  if (!json->is_object() || !json->contains("regions")) return regions;
   const Json& list = (*json)["regions"];
   if (!list.is_array()) return JsonFields(name, list, "'regions'").fail("are not a list");
   for (std::size_t k = 0; k < list.size(); ++k) {

@@ -689,19 +689,29 @@ TEST_F(Faces, RefuseOutputsThatLieOverEachOther) {
   make(0);
   const std::size_t count = sweepface_mesh_vertex_count(mesh);
   std::vector<float> out(6 * count, 7);
-  const auto refusesAt = [&](std::size_t normalsAt, std::size_t stride) {
-    const sweepface_vectors positions{out.data(), stride}, normals{out.data() + normalsAt, stride};
-    const bool evaluates = sweepface_face_evaluate(face, count, positions, normals) == SWEEPFACE_OK;
+  const auto refusesOf = [&](std::size_t vertices, std::size_t normalsAt, std::size_t stride,
+                             std::size_t stride2) {
+    const sweepface_vectors positions{out.data(), stride}, normals{out.data() + normalsAt, stride2};
+    const bool evaluates =
+        sweepface_face_evaluate(face, vertices, positions, normals) == SWEEPFACE_OK;
     return !evaluates &&
-           refuses(sweepface_face_update(face, count, positions, normals), "over each other");
+           refuses(sweepface_face_update(face, vertices, positions, normals), "over each other");
+  };
+  const auto refusesAt = [&](std::size_t normalsAt, std::size_t stride) {
+    return refusesOf(count, normalsAt, stride, stride);
   };
   EXPECT_TRUE(refusesAt(0, 0)) << "twice the same buffer";
   EXPECT_TRUE(refusesAt(3, 0)) << "one vertex on";
   EXPECT_TRUE(refusesAt(3 * count - 1, 0)) << "before the last float of positions";
   EXPECT_TRUE(refusesAt(2, 24)) << "in the same structs, but one float too early";
+  EXPECT_TRUE(refusesOf(2, 3, 24, 12)) << "the second normal over the second position";
+  EXPECT_TRUE(refusesOf(2, 3, 12, 24)) << "the first normal over the second position";
   EXPECT_EQ(out, std::vector<float>(6 * count, 7)) << "nothing is written";
   EXPECT_FALSE(refusesAt(3 * count, 0)) << "one behind the other";
   EXPECT_FALSE(refusesAt(3, 24)) << "in the same structs";
+  EXPECT_FALSE(refusesOf(1, 3, 24, 12)) << "one vertex each";
+  EXPECT_FALSE(refusesOf(2, 9, 24, 12)) << "right behind the last position";
+  EXPECT_FALSE(refusesOf(0, 0, 0, 0)) << "nothing at all";
 }
 
 TEST_F(Faces, RefuseLevelsThatThereAreNot) {

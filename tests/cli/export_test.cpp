@@ -82,6 +82,27 @@ TEST_F(Export, WritesAFolderOfFinerMeshes) {
   EXPECT_EQ(contents(folder / "fine/expressions/jawOpen.obj"), contents(folder / "fine.obj"));
 }
 
+TEST_F(Export, CallsFilesAsFarAsTheyMayBeCalled) {
+  convertRig();
+  Rig rig = decode(contents(folder / "face.sweep"), "face").value();
+  rig.targets[0].name = "a/b", rig.targets[1].name = ".hidden";
+  folder.file("odd.sweep", encode(rig));
+  const Outcome r = run("export odd.sweep -o all");
+  EXPECT_EQ(r.code, 0);
+  EXPECT_EQ(r.err,
+            "sweepface: warning: The target 'a/b' is in a_b.obj.\n"
+            "sweepface: warning: The target '.hidden' is in _hidden.obj.\n");
+  for (const char* file : {"a_b.obj", "_hidden.obj"})
+    EXPECT_TRUE(std::filesystem::exists(folder / "all/expressions" / file));
+}
+
+TEST_F(Export, KeepsTheFaceThatItReads) {
+  convertRig();
+  folder.file("meshes/neutral.obj", contents(folder / "face.sweep"));
+  EXPECT_TRUE(fails("export meshes/neutral.obj -o meshes", "it is what is read"));
+  EXPECT_TRUE(contents(folder / "meshes/neutral.obj").starts_with("SWEEPFC"));
+}
+
 TEST_F(Export, RefusesFoldersThatCannotBeMeant) {
   convertRig();
   EXPECT_TRUE(fails("export face.sweep -o all --weights smile=1", "leave --weights out"));
@@ -89,12 +110,13 @@ TEST_F(Export, RefusesFoldersThatCannotBeMeant) {
   EXPECT_TRUE(fails("export face.sweep -o all --combine", "A folder holds all targets"));
   EXPECT_TRUE(fails("export face.sweep -o all --quantize", "are for .glb files"));
   EXPECT_TRUE(fails("export face.sweep -o face.sweep/all", "Cannot make the folder"));
-  for (const char* name : {"a/b", ".hidden"}) {
-    Rig rig = decode(contents(folder / "face.sweep"), "face").value();
-    rig.targets[0].name = name;
-    folder.file("odd.sweep", encode(rig));
-    EXPECT_TRUE(fails("export odd.sweep -o all", "cannot be the name of a file"));
-  }
+  folder.file("file", "");
+  for (const char* file : {"file", "file/"})
+    EXPECT_TRUE(fails(std::string("export face.sweep -o ") + file, "a file is in its place"));
+  Rig rig = decode(contents(folder / "face.sweep"), "face").value();
+  rig.targets[0].name = "a/b", rig.targets[1].name = "a_b";
+  folder.file("odd.sweep", encode(rig));
+  EXPECT_TRUE(fails("export odd.sweep -o all", "The targets 'a/b' and 'a_b' would both be in"));
   EXPECT_FALSE(std::filesystem::exists(folder / "all"));
 }
 

@@ -23,6 +23,14 @@ class RegionsOnTheFace : public Tool {
   }
 };
 
+TEST_F(RegionsOnTheFace, AreThoseOfACaptureThatHasSome) {
+  convertRig();
+  folder.file("take.json", R"({"exportFps": 2, "facsNames": ["jawOpen"], "weightMat": [[0], [1]],
+    "regions": [{"name": "side", "points": [[6, 0, 0]], "whole": 1, "fade": 2, "mass": 4}]})");
+  ASSERT_EQ(run("animate face.sweep --clip take.json -o take.glb").code, 0);
+  EXPECT_NE(contents(folder / "take.glb").find("jawOpen@"), std::string::npos);
+}
+
 TEST_F(RegionsOnTheFace, AHeavySideTakesLonger) {
   convertRig();
   heavySide();

@@ -28,6 +28,18 @@ TEST(LeftOut, AreMeshesWithoutTargets) {
             std::string::npos);
 }
 
+TEST(LeftOut, ArePrimitivesWithoutTargets) {
+  Glb glb = smallFace();
+  Json hat = glb.primitive();
+  hat.erase("targets");
+  glb.json["meshes"][0]["primitives"].push_back(hat);
+  const auto warnings = read(glb).warnings;
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("not part of the face: mesh 0 'head', primitive 1;"),
+            std::string::npos)
+      << warnings[0];
+}
+
 TEST(LeftOut, AreNoMeshesThatNoSceneShows) {
   Glb glb = withHats(1);
   glb.add("scenes", {{"nodes", Json::array({0})}});

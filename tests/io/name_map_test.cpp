@@ -56,6 +56,14 @@ TEST(NameMaps, LeaveOtherNamesAlone) {
   EXPECT_EQ(clip.weights, (std::vector{1.0, 0.0, 0.0, 1.0}));
 }
 
+TEST(NameMaps, AddToWhatDrivesATargetByItsOwnName) {
+  const Clip clip = mapped(R"({"jawOpen": {"smile": -0.5}, "mouthSmileRight": null})",
+                           {{"JawOpen", "Smile", "mouthSmileRight"}, {0}, {1, 0.75, 1}})
+                        .value();
+  EXPECT_EQ(clip.names, Texts{"smile"});
+  EXPECT_EQ(clip.weights, std::vector{0.25});
+}
+
 TEST(NameMaps, TellWhichOfTheirNamesTheClipLacks) {
   const Clip clip = mapped(R"({"jawOpen": "smile", "beard": "puff", "tail": null})").value();
   EXPECT_EQ(clip.names, (Texts{"mouthSmile_L", "mouthSmileRight", "smile"}));
@@ -71,6 +79,8 @@ TEST(NameMaps, RefuseWhatCannotBeMeant) {
   refuses("{", "names.json, line 1");
   refuses("[]", "names.json is no object that has targets by names of a clip.");
   refuses("{}", "is no object");
+  refuses(R"({"jawOpen": "smile", "jaw_open": "puff"})",
+          "'jawOpen' and 'jaw_open' are one name of the clip; keep one.");
   refuses(R"({"jawOpen": 1})", "names.json: 'jawOpen' is neither a target's name, a list");
   refuses(R"({"jawOpen": ["smile", 2]})", "'jawOpen' is neither");
   refuses(R"({"jawOpen": {"smile": "much"}})", "drives 'smile' by what is no number within");

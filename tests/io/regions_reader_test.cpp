@@ -36,15 +36,6 @@ TEST(RegionsJson, TimelinesMayHaveNone) {
   EXPECT_TRUE(regions->empty());
 }
 
-TEST(RegionsJson, OthersMustHaveSome) {
-  for (const char* text : {"[]", "5", "null", R"("regions")", R"({"region": []})"}) {
-    const auto regions = parseRegions(text, "r.json");
-    ASSERT_FALSE(regions) << text;
-    EXPECT_EQ(regions.error().message, "r.json has no 'regions'; see docs/regions.md.");
-  }
-  EXPECT_TRUE(parseRegions("{}", "r.json"));
-}
-
 void expectError(std::string_view inside, std::string_view part) {
   const auto regions = parseRegions(R"({"regions": [)" + std::string(inside) + "]}", "r.json");
   ASSERT_FALSE(regions) << inside;

@@ -257,12 +257,13 @@ test('names are matched and reported', async () => {
 
 test('a map of names drives what it drives in the tool', () => {
   const map = {jawOpen: ['mouthFunnel', 'jawOpen'], eyeBlinkLeft: {jawOpen: 0.5, noseSneerLeft: -0.25},
-               eye_blink_right: 'noseSneerLeft', tongueOut: null, beard: 'jawOpen'};
+               eye_blink_right: ['noseSneerLeft', 'browInnerUp'], tongueOut: null, beard: 'jawOpen'};
   const names = join(newFolder(), 'names.json');
   writeFileSync(names, JSON.stringify(map));
   const expected = played('take.csv', csv, ['--clip-names', names]), clip = readClip(csv).renamed(map);
   assert.deepEqual(new Set(clip.names), new Set(['browInnerUp', 'HeadYaw', 'HeadPitch', 'HeadRoll', 'mouthFunnel',
                                                  'jawOpen', 'noseSneerLeft']));
+  assert.deepEqual(clip.warnings, ['The clip has no beard.']);
   const {targets} = matchNames(clip.names, expected.names);
   for (let f = 0; f < clip.times.length; ++f)
     clip.names.forEach((name, k) => {
@@ -273,10 +274,13 @@ test('a map of names drives what it drives in the tool', () => {
 
 test('what is no map of names is refused', () => {
   const clip = readClip(csv);
-  for (const map of [null, undefined, ['jawOpen'], 'jawOpen'])
+  for (const map of [null, undefined, ['jawOpen'], 'jawOpen', {}])
     assert.throws(() => clip.renamed(map), /^TypeError: A map of names is an object that has targets/);
-  for (const drives of [1, ['a', 1], {a: 'b'}, {a: NaN}, true])
+  for (const drives of [1, ['a', 1], {a: 'b'}, {a: NaN}, {a: 1001}, true])
     assert.throws(() => clip.renamed({jawOpen: drives}), /^TypeError: 'jawOpen' drives the name of a target, a list/);
+  assert.throws(() => clip.renamed({jawOpen: 'a', jaw_open: 'b'}), /^TypeError: 'jawOpen' and 'jaw_open' are one name of the clip/);
+  const loud = new Clip(['jawOpen'], new Float64Array(1), new Float64Array([5e3]));
+  assert.throws(() => loud.renamed({jawOpen: {a: 300}}), /^RangeError: 'a' would get a weight beyond/);
 });
 
 test('any text is a name', () => {
