@@ -9,6 +9,7 @@ import os
 import struct
 import subprocess
 import tempfile
+from contextlib import contextmanager
 from itertools import dropwhile, takewhile
 
 import bpy
@@ -28,8 +29,9 @@ bl_info = {
 
 # Faces have y upwards, as OBJ and glTF do, Blender z.
 UPRIGHT = axis_conversion(from_forward="-Z", from_up="Y").to_4x4()
-LONGEST_NAME = 63  # bytes of a shape key's name
-SOURCE = "sweepface_file"  # the property of an object that says which face it shows
+NEAREST = 0.02  # frames: keys that are nearer are one to Blender
+SOURCE = "sweepface_file"  # the property of an object that says which face it shows,
+TARGETS = "sweepface_targets"  # and a JSON of its targets by the names of its shape keys
 
 
 # ---- The tool ----
@@ -123,12 +125,27 @@ def new_mesh(name, lines):
     return mesh
 
 
-def add_keys(shown, folder, names):
-    """Shape keys of an object, from the meshes of a folder."""
+def file_of(target):
+    """What the tool calls the mesh of a target."""
+    name = target.replace("/", "_")
+    return ("_" + name[1:] if name.startswith(".") else name) + ".obj"
+
+
+def add_keys(shown, folder, targets):
+    """Shape keys of an object, from the meshes of a folder. Blender may call them otherwise."""
     shown.shape_key_add(name="Basis", from_mix=False)
-    for name in names:
-        places = places_in(os.path.join(folder, name + ".obj"))
-        shown.shape_key_add(name=name, from_mix=False).data.foreach_set("co", places.ravel())
+    names = {}
+    for target in targets:
+        key = shown.shape_key_add(name=target, from_mix=False)
+        key.data.foreach_set("co", places_in(os.path.join(folder, file_of(target))).ravel())
+        names[key.name] = target
+    shown[TARGETS] = json.dumps(names)
+
+
+def keys_of(shown):
+    """The shape keys of a face, by the names of its targets."""
+    names, keys = json.loads(shown.get(TARGETS, "{}")), shown.data.shape_keys
+    return {names.get(key.name, key.name): key for key in keys.key_blocks if key != keys.reference_key}
 
 
 def places_of(points):
@@ -171,7 +188,8 @@ def faces_text(mesh, turn_over):
         if mesh.materials and polygon.material_index != current:
             current = polygon.material_index
             material = mesh.materials[min(current, len(mesh.materials) - 1)]
-            parts.append(f"usemtl {material.name if material else 'none'}")
+            name = " ".join(material.name.split()).rstrip("\\") if material else ""  # or it would take in the next line
+            parts.append(f"usemtl {name or 'none'}")
         loops = list(polygon.loop_indices)
         if turn_over:
             loops.reverse()
@@ -186,6 +204,19 @@ def write_obj(path, places, faces, to_world):
     with open(path, "w", encoding="utf-8", errors="surrogateescape") as file:
         file.writelines("v %.9g %.9g %.9g\n" % tuple(place) for place in turned)
         file.write(faces)
+
+
+@contextmanager
+def objects_mode(shown):
+    """An object as it is outside of edit mode, in which Blender keeps its mesh elsewhere."""
+    mode = shown.mode
+    if mode != "OBJECT":
+        bpy.ops.object.mode_set(mode="OBJECT")
+    try:
+        yield
+    finally:
+        if mode != "OBJECT":
+            bpy.ops.object.mode_set(mode=mode)
 
 
 # ---- Import and export ----
@@ -239,21 +270,26 @@ class ExportSweep(ToolOperator, bpy.types.Operator, ExportHelper):
 
     def work(self, context, folder):
         shown = context.active_object
-        shown.update_from_editmode()
+        with objects_mode(shown):
+            self.save(shown, folder)
+
+    def save(self, shown, folder):
         neutral, shapes = shapes_of(shown)
         to_world = UPRIGHT.inverted() @ shown.matrix_world
         faces = faces_text(shown.data, to_world.determinant() < 0)
         expressions = os.path.join(folder, "expressions")
         os.mkdir(expressions)
         write_obj(os.path.join(folder, "neutral.obj"), neutral, faces, to_world)
+        targets = []
         for name, places in shapes.items():
             if name.startswith(".") or "/" in name or "\\" in name:
                 raise RuntimeError(f"The shape key '{name}' cannot be the name of a target; rename it.")
-            write_obj(os.path.join(expressions, name + ".obj"), places, faces, to_world)
+            targets.append(os.path.join(expressions, name + ".obj"))
+            write_obj(targets[-1], places, faces, to_world)
         options = (["--pack"] if self.pack else []) + (["--tolerance", self.tolerance] if self.tolerance else [])
-        targets = [expressions] if shapes else []
         said = run_tool(self, "convert", os.path.join(folder, "neutral.obj"), *targets, "-o", os.path.abspath(self.filepath), *options)
         shown[SOURCE] = os.path.abspath(self.filepath)
+        shown[TARGETS] = json.dumps({name: name for name in shapes})
         self.report({"INFO"}, said.splitlines()[-1])
 
 
@@ -261,43 +297,45 @@ class ExportSweep(ToolOperator, bpy.types.Operator, ExportHelper):
 
 
 class Animation:
-    """The weights in a GLB that the tool wrote: their names, and keys with tangents."""
+    """The weights in a GLB that the tool wrote, behind animations of the face's own scene.
+
+    `tracks` has for each target its times [N] and keys [N x 3]: slope before, value, slope behind; or [N x 1], values alone.
+    """
 
     def __init__(self, path):
         with open(path, "rb") as file:
             data = file.read()
         length = struct.unpack_from("<I", data, 12)[0]
         self.document, self.binary = json.loads(data[20:20 + length]), data[28 + length:]
-        channel = self.document["animations"][0]["channels"][0]
-        sampler = self.document["animations"][0]["samplers"][channel["sampler"]]
-        mesh = self.document["nodes"][channel["target"]["node"]]["mesh"]
-        self.names = self.document["meshes"][mesh]["extras"]["targetNames"]
-        self.has_tangents = sampler["interpolation"] == "CUBICSPLINE"
-        self.times = self.floats(sampler["input"])
-        # [keys x (tangent before, value, tangent behind) x targets], or values alone.
-        self.values = self.floats(sampler["output"]).reshape(len(self.times), 3 if self.has_tangents else 1, len(self.names))
+        animation, self.tracks = self.document["animations"][-1], {}
+        for channel in animation["channels"]:
+            if channel["target"]["path"] == "weights":
+                self.read(channel["target"]["node"], animation["samplers"][channel["sampler"]])
+        self.seconds = max(times[-1] for times, _ in self.tracks.values())
+
+    def read(self, node, sampler):
+        mesh = self.document["meshes"][self.document["nodes"][node]["mesh"]]
+        names, times = mesh["extras"]["targetNames"], self.floats(sampler["input"])
+        values = self.floats(sampler["output"]).reshape(len(times), -1, len(names))
+        for k, name in enumerate(names):
+            self.tracks.setdefault(name, (times, values[:, :, k]))
 
     def floats(self, number):
         accessor = self.document["accessors"][number]
-        view = self.document["bufferViews"][accessor["bufferView"]]
-        start = view.get("byteOffset", 0) + accessor.get("byteOffset", 0)
-        count = accessor["count"]
-        return numpy.frombuffer(self.binary, dtype="<f4", count=count, offset=start).astype(numpy.float64)
-
-    def moving(self):
-        """The targets that are ever at another weight than 0."""
-        values = self.values[:, 1 if self.has_tangents else 0]
-        return [k for k in range(len(self.names)) if values[:, k].any()]
+        start = self.document["bufferViews"][accessor["bufferView"]].get("byteOffset", 0) + accessor.get("byteOffset", 0)
+        return numpy.frombuffer(self.binary, dtype="<f4", count=accessor["count"], offset=start).astype(numpy.float64)
 
 
 def curves_of(keys):
-    """The F-curves of shape keys; from Blender 4.4 on actions have layers."""
+    """The F-curves of shape keys, or None. From Blender 4.4 on actions have layers, and slots for what they animate."""
     data = keys.animation_data
     if not data or not data.action:
         return None
-    if hasattr(data.action, "fcurves"):
-        return data.action.fcurves
-    return data.action.layers[0].strips[0].channelbag(data.action_slot).fcurves
+    slot = getattr(data, "action_slot", None)
+    if slot is None:
+        return getattr(data.action, "fcurves", None)
+    bags = (strip.channelbag(slot) for layer in data.action.layers for strip in layer.strips)
+    return next((bag.fcurves for bag in bags if bag), None)
 
 
 def curve_of(key):
@@ -306,25 +344,42 @@ def curve_of(key):
     return curves.find(key.path_from_id("value")) if curves else None
 
 
+def driver_of(key):
+    data = key.id_data.animation_data
+    return data and data.drivers.find(key.path_from_id("value"))
+
+
 def show(key, times, keys, first, rate):
-    """Puts keys ([N x 3] with tangents or [N x 1]) into the F-curve of a shape key, instead of what was there meanwhile."""
+    """Puts keys ([N x 3] with slopes or [N x 1]) into the F-curve of a shape key, instead of what was there meanwhile."""
     frames, values = first + times * rate, keys[:, keys.shape[1] // 2]
-    key.slider_min, key.slider_max = max(min(key.slider_min, values.min()), -10), min(max(key.slider_max, values.max()), 10)
-    key.keyframe_insert("value", frame=frames[0])
+    for k in range(len(frames) - 1, 0, -1):
+        frames[k - 1] = min(frames[k - 1], frames[k] - NEAREST)
     curve = curve_of(key)
+    if curve and curve.keyframe_points:
+        curve.keyframe_points.insert(frames[0], curve.evaluate(frames[0]))  # what was before stays as it was
+    else:
+        key.keyframe_insert("value", frame=frames[0])
+        curve = curve_of(key)
     for point in reversed(curve.keyframe_points):
-        if frames[0] - 1e-3 < point.co.x < frames[-1] + 1e-3:
+        if frames[0] + 1e-3 < point.co.x < frames[-1] + 1e-3:
             curve.keyframe_points.remove(point, fast=True)
+    before = None
     for k, frame in enumerate(frames):
         point = curve.keyframe_points.insert(frame, values[k], options={"FAST"})
+        before = before or tuple(point.handle_left)
+    # Only now, as every key that comes in between changes the handles beside it.
+    points = [point for point in curve.keyframe_points if frames[0] - 1e-3 < point.co.x < frames[-1] + 1e-3]
+    slopes = keys[:, [0, -1]] / rate if keys.shape[1] == 3 else numpy.zeros((len(keys), 2))
+    for k, point in enumerate(points):
         point.interpolation = "BEZIER" if keys.shape[1] == 3 else "LINEAR"
         point.handle_left_type = point.handle_right_type = "FREE"
         # A cubic by Hermite is one by Bezier whose handles are a third of the way to the next key.
-        before, behind = (times[k] - times[max(k - 1, 0)]) / 3, (times[min(k + 1, len(times) - 1)] - times[k]) / 3
-        slopes = keys[k, [0, -1]] if keys.shape[1] == 3 else (0, 0)
-        point.handle_left = (frame - before * rate, values[k] - before * slopes[0])
-        point.handle_right = (frame + behind * rate, values[k] + behind * slopes[1])
+        past, ahead = (frames[k] - frames[max(k - 1, 0)]) / 3, (frames[min(k + 1, len(frames) - 1)] - frames[k]) / 3
+        point.handle_left = (frames[k] - past, values[k] - past * slopes[k, 0]) if k else before
+        point.handle_right = (frames[k] + ahead, values[k] + ahead * slopes[k, 1])
     curve.update()
+    shown = [*values, *map(curve.evaluate, numpy.arange(frames[0], frames[-1], 0.25))]
+    key.slider_min, key.slider_max = max(min(key.slider_min, *shown), -10), min(max(key.slider_max, *shown), 10)
 
 
 class MotionOperator(ToolOperator):
@@ -340,18 +395,24 @@ class MotionOperator(ToolOperator):
         shown, scene = context.active_object, context.scene
         path, rate = os.path.join(folder, "take.glb"), scene.render.fps / scene.render.fps_base
         run_tool(self, "animate", shown[SOURCE], "-o", path, *options)
-        animation, first = Animation(path), self.first_frame(scene, rate)
-        blocks = shown.data.shape_keys.key_blocks
-        lacking = []
-        for k in animation.moving():
-            name = animation.names[k].encode()[:LONGEST_NAME].decode(errors="ignore")
-            if name in blocks:
-                show(blocks[name], animation.times, animation.values[:, :, k], first, rate)
-            else:
-                lacking.append(name)
+        animation, first, keys = Animation(path), self.first_frame(scene, rate), keys_of(shown)
+        if any("@" in name and name.split("@")[0] in animation.tracks for name in animation.tracks):
+            raise RuntimeError("Shape keys cannot show the regions of a timeline; leave them out of it.")
+        moving = {name: track for name, track in animation.tracks.items() if track[1][:, track[1].shape[1] // 2].any()}
+        lacking = [name for name in moving if name not in keys]
         if lacking:
             self.report({"WARNING"}, f"There are no shape keys {', '.join(lacking)}.")
-        return first + animation.times[-1] * rate
+        driven = [name for name in moving if name in keys and driver_of(keys[name])]
+        if driven:
+            self.report({"WARNING"}, f"Drivers move the shape keys {', '.join(driven)}, whatever their keys say.")
+        locked = [name for name, key in keys.items() if (curve := curve_of(key)) and curve.lock]
+        if locked:
+            raise RuntimeError(f"The F-curves of {', '.join(locked)} are locked; unlock them.")
+        for name, (times, values) in animation.tracks.items():
+            key = keys.get(name)
+            if key and (name in moving or curve_of(key) or key.value):  # or it may rest as it does
+                show(key, times, values, first, rate)
+        return first + animation.seconds * rate
 
 
 class MoveToPose(MotionOperator, bpy.types.Operator):
@@ -386,15 +447,18 @@ class MoveToPose(MotionOperator, bpy.types.Operator):
             self.layout.prop(self, name)
 
     def work(self, context, folder):
-        scene, keys = context.scene, context.active_object.data.shape_keys
+        scene = context.scene
         first = self.first_frame(scene, scene.render.fps / scene.render.fps_base)
         start, end = {}, {}
-        for key in keys.key_blocks:
+        for name, key in keys_of(context.active_object).items():
             curve = curve_of(key)
-            if key != keys.reference_key:
-                start[key.name], end[key.name] = curve.evaluate(first) if curve else 0, key.value
+            start[name], end[name] = curve.evaluate(first) if curve else 0, key.value
         if start == end:
             raise RuntimeError("The face is in this pose already; set the sliders to another.")
+        for name in start:
+            if (start[name] or end[name]) and ("," in name or name != name.strip()):
+                raise RuntimeError(f"The name of the shape key '{name}' has a comma or a blank at an end; rename it, and save the "
+                                   "face again.")
         options = ["--law", self.law, "--seconds", self.seconds]
         if self.law == "spring":
             options += ["--frequency", self.frequency, "--damping", self.damping]
@@ -438,7 +502,7 @@ class Panel(bpy.types.Panel):
     bl_category = "Sweepface"
 
     def draw(self, context):
-        if not MotionOperator.poll.__func__(MotionOperator, context):
+        if not MotionOperator.poll(context):
             self.layout.label(text="Open a .sweep face, or save one", icon="INFO")
             self.layout.operator(ImportSweep.bl_idname)
             self.layout.operator(ExportSweep.bl_idname)

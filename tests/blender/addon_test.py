@@ -1,6 +1,7 @@
 """The add-on in Blender: blender -b --factory-startup --python-exit-code 1 --python addon_test.py -- TOOL"""
 
 import csv
+import json
 import os
 import subprocess
 import sys
@@ -167,6 +168,112 @@ class AddOn(unittest.TestCase):
             self.assertAlmostEqual(addon.curve_of(blocks["smile"]).evaluate(frame), t * t, places=5)
         scene.frame_set(70)
         self.assert_refused(lambda: bpy.ops.object.sweepface_move(seconds=0.5), "in this pose already")
+
+    def test_what_was_before_and_behind_a_motion_stays(self):
+        shown = self.sheet()
+        self.saved(shown, pack=False)
+        scene, keys = bpy.context.scene, shown.data.shape_keys.key_blocks
+        scene.frame_set(24)
+        keys["jawOpen"].value = 1
+        bpy.ops.object.sweepface_move(law="accelerate-brake", seconds=1)
+        curve = addon.curve_of(keys["jawOpen"])
+        keys["jawOpen"].keyframe_insert("value", frame=40)
+        before = [curve.evaluate(frame) for frame in range(9)]
+        scene.frame_set(20)
+        keys["jawOpen"].value = 0
+        bpy.ops.object.sweepface_move(law="newton", seconds=0.5)  # from frame 8 on
+        self.assert_near([curve.evaluate(frame) for frame in range(9)], before, 1e-4)
+        self.assertAlmostEqual(curve.evaluate(14), before[8] * 0.75, places=4)
+        self.assertAlmostEqual(curve.evaluate(20), 0, places=5)
+        self.assertAlmostEqual(curve.evaluate(40), 1, places=5)
+
+    def test_what_rests_in_a_motion_has_no_other_keys_meanwhile(self):
+        shown = self.sheet()
+        self.saved(shown, pack=False)
+        scene, keys = bpy.context.scene, shown.data.shape_keys.key_blocks
+        for frame, value in ((0, 0), (12, 1), (24, 0)):
+            keys["jawOpen"].value = value
+            keys["jawOpen"].keyframe_insert("value", frame=frame)
+        scene.frame_set(24)
+        keys["smile"].value = 1
+        bpy.ops.object.sweepface_move(law="linear", seconds=1)
+        self.assertEqual(addon.curve_of(keys["jawOpen"]).evaluate(12), 0)
+        self.assertAlmostEqual(addon.curve_of(keys["smile"]).evaluate(12), 0.5, places=5)
+
+    def test_curves_that_cannot_be_changed_are_told(self):
+        shown = self.sheet()
+        self.saved(shown, pack=False)
+        scene, keys = bpy.context.scene, shown.data.shape_keys.key_blocks
+        keys["jawOpen"].keyframe_insert("value", frame=0)
+        addon.curve_of(keys["jawOpen"]).lock = True
+        scene.frame_set(24)
+        keys["smile"].value = 1
+        self.assert_refused(lambda: bpy.ops.object.sweepface_move(), "The F-curves of jawOpen are locked")
+        self.assertIsNone(addon.curve_of(keys["smile"]))
+
+    def test_faces_of_several_meshes_and_animations_of_their_own_move(self):
+        for name in ("head", "teeth"):
+            shown = self.sheet()
+            shown.name = shown.data.name = name
+            if name == "teeth":
+                shown.data.shape_keys.key_blocks["jawOpen"].name = "bite"
+        keys = bpy.data.objects["teeth"].data.shape_keys
+        keys.key_blocks["bite"].keyframe_insert("value", frame=0)
+        bpy.data.objects["head"].keyframe_insert("location", frame=0)
+        numpy.bool = bool  # Blender 3.4's glTF add-on predates numpy 1.24
+        bpy.ops.preferences.addon_enable(module="io_scene_gltf2")
+        bpy.ops.export_scene.gltf(filepath=self.path("two.glb"))
+        tool("convert", self.path("two.glb"), "-o", self.path("two.sweep"))
+        bpy.ops.import_scene.sweep(filepath=self.path("two.sweep"))
+        opened = addon.keys_of(bpy.context.active_object)
+        self.assertEqual(set(opened), {"jawOpen", "smile", "bite"})
+        bpy.context.scene.frame_set(24)
+        for key in opened.values():
+            key.value = 0.5
+        bpy.ops.object.sweepface_move(law="linear", seconds=1)
+        for key in opened.values():
+            self.assertAlmostEqual(addon.curve_of(key).evaluate(12), 0.25, places=5)
+
+    def test_targets_that_blender_calls_otherwise_move(self):
+        shown, odd = self.sheet(), ["Basis", "j" * 70]
+        self.saved(shown, pack=False)
+        tool("export", self.path("face.sweep"), "-o", self.path("odd"))
+        expressions = [os.path.join(self.path("odd"), "expressions", name + ".obj") for name in ("jawOpen", "smile")]
+        os.rename(expressions[0], os.path.join(self.path("odd"), "expressions", odd[0] + ".obj"))
+        os.rename(expressions[1], os.path.join(self.path("odd"), "expressions", odd[1] + ".obj"))
+        tool("convert", self.path("odd/neutral.obj"), self.path("odd/expressions"), "-o", self.path("odd.sweep"))
+        bpy.ops.import_scene.sweep(filepath=self.path("odd.sweep"))
+        keys = addon.keys_of(bpy.context.active_object)
+        self.assertEqual(set(keys), set(odd))
+        bpy.context.scene.frame_set(24)
+        for key in keys.values():
+            key.value = 1
+        bpy.ops.object.sweepface_move(law="linear", seconds=1)
+        for key in keys.values():
+            self.assertAlmostEqual(addon.curve_of(key).evaluate(12), 0.5, places=5)
+
+    def test_cuts_of_a_timeline_are_between_two_frames(self):
+        shown = self.sheet()
+        self.saved(shown, pack=False)
+        with open(self.path("line.json"), "w", encoding="utf-8") as file:
+            json.dump({"seconds": 2, "events": [{"at": 1, "to": {"smile": 1}, "drive": "cut"},
+                                                {"at": 1.5, "to": {"jawOpen": 1}, "drive": "newton", "seconds": 0.5}]}, file)
+        bpy.context.scene.frame_set(0)
+        bpy.ops.object.sweepface_clip(filepath=self.path("line.json"))
+        smile, jaw = (addon.curve_of(shown.data.shape_keys.key_blocks[name]) for name in ("smile", "jawOpen"))
+        for frame in range(49):
+            self.assertAlmostEqual(smile.evaluate(frame), float(frame >= 24), delta=0.01, msg=frame)
+            self.assertAlmostEqual(jaw.evaluate(frame), max(0, (frame - 36) / 12) ** 2, delta=0.005, msg=frame)
+
+    def test_saves_in_edit_mode_and_in_the_order_of_keys(self):
+        shown = self.sheet()
+        for name in ("zeta", "alpha"):
+            shown.shape_key_add(name=name, from_mix=False).data[24].co.z += 0.5
+        bpy.ops.object.mode_set(mode="EDIT")
+        self.saved(shown, pack=False)
+        self.assertEqual(shown.mode, "EDIT")
+        targets = json.loads(tool("info", self.path("face.sweep"), "--json"))["targets"]
+        self.assertEqual(targets, ["jawOpen", "smile", "zeta", "alpha"])
 
     def test_a_spring_overshoots(self):
         shown = self.sheet()
