@@ -253,6 +253,21 @@ MeshRig hill() {
   return source;
 }
 
+/// The rows of its tables are what measuring tells.
+void expectErrors(const std::string& report, const Measurement& measured) {
+  const auto rowOf = [](const PoseErrors& e) {
+    return fmt::format("{}</td><td>{}</td><td>{}</td><td>{}</td><td>{:.2f}°</td>", e.name,
+                       number(e.distance.max), number(e.distance.p999), number(e.distance.rms),
+                       e.angle.rms);
+  };
+  EXPECT_EQ(countOf(report, "<tr class=\"strong\"><td>" + rowOf(measured.worst)), 1u);
+  EXPECT_EQ(countOf(report, "<tr><td>" + rowOf(measured.shapes[0])), 1u);
+  const auto& all = measured.worst.displacement;
+  EXPECT_EQ(countOf(report, fmt::format("<td>displacements</td><td>{}</td><td>{}</td><td>{}</td>",
+                                        number(all.rms), number(all.p999), number(all.max))),
+            1u);
+}
+
 TEST(Report, TellsAllAboutAFace) {
   const MeshRig source = hill();
   const Rig rig = converted(source, 0.05);
@@ -302,6 +317,7 @@ TEST(Report, TellsAllAboutAFace) {
                                      ".sweep, 0.1<", "GLB, single"})
     EXPECT_NE(report->find(fmt::format("<td>{}", row)), std::string::npos) << row;
   EXPECT_NE(report->find("There is no program './no&lt;such"), std::string::npos);
+  expectErrors(*report, measure(rig, source, {.mixtures = 0}).value());
 }
 
 TEST(MotionReport, NeedsAnExpression) {
