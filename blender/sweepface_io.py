@@ -59,8 +59,14 @@ def run_tool(operator, *arguments):
     if run.returncode:
         raise RuntimeError(" ".join(said) or f"{tool} ended with {run.returncode}.")
     for line in said:
-        operator.report({"WARNING"}, line.removeprefix("warning: "))
+        if "--head on" not in line:  # an option that there is not here
+            operator.report({"WARNING"}, line.removeprefix("warning: "))
     return run.stdout
+
+
+def path_of(operator):
+    """The file that was chosen."""
+    return os.path.abspath(bpy.path.abspath(operator.filepath))
 
 
 class ToolOperator:
@@ -144,8 +150,8 @@ def add_keys(shown, folder, targets):
 
 def keys_of(shown):
     """The shape keys of a face, by the names of its targets."""
-    names, keys = json.loads(shown.get(TARGETS, "{}")), shown.data.shape_keys
-    return {names.get(key.name, key.name): key for key in keys.key_blocks if key != keys.reference_key}
+    names = json.loads(shown.get(TARGETS, "{}"))
+    return {names[key.name]: key for key in shown.data.shape_keys.key_blocks if key.name in names}
 
 
 def places_of(points):
@@ -234,7 +240,9 @@ class ImportSweep(ToolOperator, bpy.types.Operator, ImportHelper):
                      min=0, max=16)
 
     def work(self, context, folder):
-        path = os.path.abspath(self.filepath)
+        if context.mode != "OBJECT":
+            bpy.ops.object.mode_set(mode="OBJECT")
+        path = path_of(self)
         names = json.loads(run_tool(self, "info", path, "--json"))["targets"]
         detail = ["--lod", self.lod] if self.lod else []
         run_tool(self, "export", path, "-o", os.path.join(folder, "face"), "--quiet", *detail)
@@ -256,7 +264,6 @@ class ExportSweep(ToolOperator, bpy.types.Operator, ExportHelper):
 
     bl_idname = "export_scene.sweep"
     bl_label = "Export .sweep"
-    bl_options = {"REGISTER"}
     filename_ext = ".sweep"
 
     filter_glob: StringProperty(default="*.sweep", options={"HIDDEN"})
@@ -287,8 +294,8 @@ class ExportSweep(ToolOperator, bpy.types.Operator, ExportHelper):
             targets.append(os.path.join(expressions, name + ".obj"))
             write_obj(targets[-1], places, faces, to_world)
         options = (["--pack"] if self.pack else []) + (["--tolerance", self.tolerance] if self.tolerance else [])
-        said = run_tool(self, "convert", os.path.join(folder, "neutral.obj"), *targets, "-o", os.path.abspath(self.filepath), *options)
-        shown[SOURCE] = os.path.abspath(self.filepath)
+        said = run_tool(self, "convert", os.path.join(folder, "neutral.obj"), *targets, "-o", path_of(self), *options)
+        shown[SOURCE] = path_of(self)
         shown[TARGETS] = json.dumps({name: name for name in shapes})
         self.report({"INFO"}, said.splitlines()[-1])
 
@@ -349,37 +356,155 @@ def driver_of(key):
     return data and data.drivers.find(key.path_from_id("value"))
 
 
-def show(key, times, keys, first, rate):
-    """Puts keys ([N x 3] with slopes or [N x 1]) into the F-curve of a shape key, instead of what was there meanwhile."""
-    frames, values = first + times * rate, keys[:, keys.shape[1] // 2]
-    for k in range(len(frames) - 1, 0, -1):
-        frames[k - 1] = min(frames[k - 1], frames[k] - NEAREST)
-    curve = curve_of(key)
-    if curve and curve.keyframe_points:
-        curve.keyframe_points.insert(frames[0], curve.evaluate(frames[0]))  # what was before stays as it was
-    else:
-        key.keyframe_insert("value", frame=frames[0])
-        curve = curve_of(key)
-    for point in reversed(curve.keyframe_points):
-        if frames[0] + 1e-3 < point.co.x < frames[-1] + 1e-3:
-            curve.keyframe_points.remove(point, fast=True)
-    before = None
-    for k, frame in enumerate(frames):
-        point = curve.keyframe_points.insert(frame, values[k], options={"FAST"})
-        before = before or tuple(point.handle_left)
-    # Only now, as every key that comes in between changes the handles beside it.
-    points = [point for point in curve.keyframe_points if frames[0] - 1e-3 < point.co.x < frames[-1] + 1e-3]
-    slopes = keys[:, [0, -1]] / rate if keys.shape[1] == 3 else numpy.zeros((len(keys), 2))
-    for k, point in enumerate(points):
-        point.interpolation = "BEZIER" if keys.shape[1] == 3 else "LINEAR"
-        point.handle_left_type = point.handle_right_type = "FREE"
-        # A cubic by Hermite is one by Bezier whose handles are a third of the way to the next key.
-        past, ahead = (frames[k] - frames[max(k - 1, 0)]) / 3, (frames[min(k + 1, len(frames) - 1)] - frames[k]) / 3
-        point.handle_left = (frames[k] - past, values[k] - past * slopes[k, 0]) if k else before
-        point.handle_right = (frames[k] + ahead, values[k] + ahead * slopes[k, 1])
+# What a key of an F-curve is made of: by how many numbers, which are read and written for all keys at once, and words.
+NUMBERS = {"co": 2, "handle_left": 2, "handle_right": 2, "amplitude": 1, "back": 1, "period": 1}
+WORDS = ("interpolation", "easing", "handle_left_type", "handle_right_type")
+
+
+def key_at(frame, value, interpolation):
+    """A key whose handles are itself."""
+    place = numpy.array([frame, value])
+    return {"co": place, "handle_left": place.copy(), "handle_right": place.copy(), "amplitude": 0.8, "back": 1.70158, "period": 4.1,
+            "interpolation": interpolation, "easing": "AUTO", "handle_left_type": "FREE", "handle_right_type": "FREE"}
+
+
+def keys_in(curve):
+    """The keys of an F-curve, in order, each a dictionary of NUMBERS and WORDS."""
+    points, columns = curve.keyframe_points, {}
+    for field, size in NUMBERS.items():
+        columns[field] = numpy.empty(size * len(points), dtype=numpy.float32)
+        points.foreach_get(field, columns[field])
+        if size == 2:
+            columns[field] = columns[field].astype(float).reshape(-1, 2)
+    return [{field: column[k] for field, column in columns.items()} | {word: getattr(point, word) for word in WORDS}
+            for k, point in enumerate(points)]
+
+
+def set_keys(curve, keys):
+    points = curve.keyframe_points
+    for _ in range(len(points) - len(keys)):
+        points.remove(points[-1], fast=True)
+    points.add(max(0, len(keys) - len(points)))
+    for field in NUMBERS:
+        points.foreach_set(field, numpy.array([key[field] for key in keys]).ravel())
+    for point, key in zip(points, keys):
+        for word in WORDS:
+            setattr(point, word, key[word])
     curve.update()
-    shown = [*values, *map(curve.evaluate, numpy.arange(frames[0], frames[-1], 0.25))]
-    key.slider_min, key.slider_max = max(min(key.slider_min, *shown), -10), min(max(key.slider_max, *shown), 10)
+
+
+def split(start, end, frame):
+    """Cuts the Bezier between two keys: changes the first one's handle, and returns a key that leaves it as it was."""
+    corners = numpy.array([start["co"], start["handle_right"], end["handle_left"], end["co"]])
+    low, high = 0.0, 1.0
+    for _ in range(50):
+        t = (low + high) / 2
+        left = [corners]  # de Casteljau
+        while len(left[-1]) > 1:
+            left.append(left[-1][:-1] + t * (left[-1][1:] - left[-1][:-1]))
+        low, high = (t, high) if left[-1][0, 0] < frame else (low, t)
+    start["handle_right"] = left[1][0]
+    key = key_at(frame, left[3][0, 1], "BEZIER")
+    key["handle_left"] = left[2][0]
+    return key
+
+
+def keys_until(curve, frame):
+    """The keys of an F-curve before a frame, and those that keep it as it was up to there."""
+    keys = keys_in(curve)
+    before, behind = ([key for key in keys if (key["co"][0] < frame - NEAREST / 2) == side] for side in (True, False))
+    if not before:
+        return []
+    last, value = before[-1], curve.evaluate(frame)
+    last["handle_left_type"] = last["handle_right_type"] = "FREE"
+    if not behind:
+        last["interpolation"] = "CONSTANT" if curve.extrapolation == "CONSTANT" else "LINEAR"
+        return [*before, key_at(frame, value, "CONSTANT")]
+    if last["interpolation"] == "BEZIER":
+        return [*before, split(last, behind[0], frame)]
+    if last["interpolation"] not in ("CONSTANT", "LINEAR"):  # an easing, which cannot be cut
+        last["interpolation"] = "LINEAR"
+        frames = numpy.arange(numpy.floor(last["co"][0]) + 1, frame - NEAREST / 2)
+        before += [key_at(at, curve.evaluate(at), "LINEAR") for at in frames]
+    return [*before, key_at(frame, value, "LINEAR")]
+
+
+def motion_keys(times, values, first, rate):
+    """Keys ([N x 3] with slopes or [N x 1]) as those of an F-curve. What is nearer to each other than Blender takes is a jump."""
+    has_slopes = values.shape[1] == 3
+
+    def made(k):
+        key = key_at(first + times[k] * rate, values[k, values.shape[1] // 2], "BEZIER" if has_slopes else "LINEAR")
+        return key | {"slopes": list(values[k, [0, -1]] / rate) if has_slopes else [0, 0]}
+
+    keys, k = [], 0
+    while k < len(times):
+        key, last = made(k), k
+        while last + 1 < len(times) and (times[last + 1] - times[k]) * rate < NEAREST:
+            last += 1
+        if last > k:
+            later = made(last)
+            has_room = not keys or keys[-1]["co"][0] < later["co"][0] - 2 * NEAREST
+            if has_room and abs(later["co"][1] - key["co"][1]) > 0.01:
+                key["co"][0] = later["co"][0] - NEAREST if keys else key["co"][0]
+                later["co"][0] = max(later["co"][0], key["co"][0] + NEAREST)
+                key["interpolation"] = "LINEAR"
+                keys.append(key)
+            else:
+                later["slopes"][0] = key["slopes"][0]
+            key = later
+        if not keys or key["co"][0] >= keys[-1]["co"][0] + NEAREST / 2:
+            keys.append(key)
+        k = last + 1
+    for key, following in zip(keys, keys[1:]):
+        # A cubic by Hermite is one by Bezier whose handles are a third of the way to the next key.
+        third = (following["co"][0] - key["co"][0]) / 3
+        key["handle_right"] = key["co"] + [third, third * key["slopes"][1]]
+        following["handle_left"] = following["co"] - [third, third * following["slopes"][0]]
+    return keys
+
+
+def show(key, times, values, first, rate):
+    """Puts a motion into the F-curve of a shape key, instead of what was there meanwhile."""
+    motion = motion_keys(times, values, first, rate)
+    start, end = motion[0]["co"][0], motion[-1]["co"][0]
+    curve = curve_of(key)
+    if not curve:
+        key.keyframe_insert("value", frame=start)
+        curve = curve_of(key)
+        curve.keyframe_points.remove(curve.keyframe_points[0])
+    before = keys_until(curve, start)
+    if before and abs(before[-1]["co"][1] - motion[0]["co"][1]) > 1e-6:  # a jump
+        before = [*keys_until(curve, start - NEAREST)]
+        before[-1]["interpolation"] = "CONSTANT"
+    elif before:
+        motion[0]["handle_left"] = before.pop()["handle_left"]
+    behind = [other for other in keys_in(curve) if other["co"][0] > end + NEAREST / 2]
+    if behind:
+        behind[0]["handle_left_type"] = behind[0]["handle_right_type"] = "FREE"
+    set_keys(curve, [*before, *motion, *behind])
+    heights = [place[1] for each in motion for place in (each["co"], each["handle_left"], each["handle_right"])]
+    key.slider_min, key.slider_max = max(min(key.slider_min, *heights), -10), min(max(key.slider_max, *heights), 10)
+
+
+def check_curves(keys):
+    """Refuses F-curves that do not say by themselves where their keys lead, or are not to be changed."""
+    for name, key in keys.items():
+        if not (curve := curve_of(key)):
+            continue
+        if curve.lock or (curve.group and curve.group.lock):
+            raise RuntimeError(f"The F-curve of {name} is locked; unlock it.")
+        if curve.modifiers:
+            raise RuntimeError(f"The F-curve of {name} has modifiers; apply or remove them.")
+
+
+def check_action(shown):
+    """Refuses shape keys whose animation is not an action of their own file."""
+    data = shown.data.shape_keys.animation_data
+    if shown.library or shown.data.library:
+        raise RuntimeError(f"{shown.name} is linked from another file; make it local.")
+    if data and (data.use_tweak_mode or any(track.strips and not track.mute for track in data.nla_tracks)):
+        raise RuntimeError(f"The shape keys of {shown.name} are moved by NLA strips; bake or mute them.")
 
 
 class MotionOperator(ToolOperator):
@@ -393,10 +518,11 @@ class MotionOperator(ToolOperator):
     def play(self, context, folder, *options):
         """Has the tool animate the face, and shows it from the frame on at which it begins; the last frame of it."""
         shown, scene = context.active_object, context.scene
+        check_action(shown)
         path, rate = os.path.join(folder, "take.glb"), scene.render.fps / scene.render.fps_base
         run_tool(self, "animate", shown[SOURCE], "-o", path, *options)
         animation, first, keys = Animation(path), self.first_frame(scene, rate), keys_of(shown)
-        if any("@" in name and name.split("@")[0] in animation.tracks for name in animation.tracks):
+        if any("@" in name and name not in keys and name.split("@")[0] in animation.tracks for name in animation.tracks):
             raise RuntimeError("Shape keys cannot show the regions of a timeline; leave them out of it.")
         moving = {name: track for name, track in animation.tracks.items() if track[1][:, track[1].shape[1] // 2].any()}
         lacking = [name for name in moving if name not in keys]
@@ -405,9 +531,7 @@ class MotionOperator(ToolOperator):
         driven = [name for name in moving if name in keys and driver_of(keys[name])]
         if driven:
             self.report({"WARNING"}, f"Drivers move the shape keys {', '.join(driven)}, whatever their keys say.")
-        locked = [name for name, key in keys.items() if (curve := curve_of(key)) and curve.lock]
-        if locked:
-            raise RuntimeError(f"The F-curves of {', '.join(locked)} are locked; unlock them.")
+        check_curves(keys)
         for name, (times, values) in animation.tracks.items():
             key = keys.get(name)
             if key and (name in moving or curve_of(key) or key.value):  # or it may rest as it does
@@ -435,8 +559,10 @@ class MoveToPose(MotionOperator, bpy.types.Operator):
     restitution: FloatProperty(name="Restitution", description="Of a bounce: the part of the speed that is left", default=0.4,
                                min=0, max=0.99)
 
+    pose: StringProperty(options={"HIDDEN", "SKIP_SAVE"})  # of the sliders, as JSON: a redo finds them elsewhere
+
     def first_frame(self, scene, rate):
-        return scene.frame_current - self.seconds * rate
+        return scene.frame_current_final - self.seconds * rate
 
     def invoke(self, context, _event):
         return context.window_manager.invoke_props_dialog(self)
@@ -449,10 +575,15 @@ class MoveToPose(MotionOperator, bpy.types.Operator):
     def work(self, context, folder):
         scene = context.scene
         first = self.first_frame(scene, scene.render.fps / scene.render.fps_base)
-        start, end = {}, {}
-        for name, key in keys_of(context.active_object).items():
-            curve = curve_of(key)
-            start[name], end[name] = curve.evaluate(first) if curve else 0, key.value
+        keys = keys_of(context.active_object)
+        check_curves(keys)
+        blocks = context.active_object.data.shape_keys
+        others = [key.name for key in blocks.key_blocks if key.value and key != blocks.reference_key and key not in keys.values()]
+        if others:
+            raise RuntimeError(f"The file of the face has no targets for {', '.join(others)}; save the face again.")
+        self.pose = self.pose or json.dumps({name: key.value for name, key in keys.items()})
+        end = json.loads(self.pose)
+        start = {name: curve.evaluate(first) if (curve := curve_of(key)) else 0 for name, key in keys.items()}
         if start == end:
             raise RuntimeError("The face is in this pose already; set the sliders to another.")
         for name in start:
@@ -481,13 +612,13 @@ class PlayClip(MotionOperator, bpy.types.Operator, ImportHelper):
     combine: BoolProperty(name="Combine", description="Targets named A_B or A_50 follow A and B", default=False)
 
     def first_frame(self, scene, _rate):
-        return scene.frame_current
+        return scene.frame_current_final
 
     def work(self, context, folder):
         options = (["--smooth"] if self.smooth else []) + (["--combine"] if self.combine else [])
         if self.names:
             options += ["--clip-names", bpy.path.abspath(self.names)]
-        last = self.play(context, folder, "--clip", os.path.abspath(self.filepath), *options)
+        last = self.play(context, folder, "--clip", path_of(self), *options)
         context.scene.frame_end = max(context.scene.frame_end, int(numpy.ceil(last)))
 
 

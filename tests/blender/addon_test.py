@@ -187,6 +187,60 @@ class AddOn(unittest.TestCase):
         self.assertAlmostEqual(curve.evaluate(20), 0, places=5)
         self.assertAlmostEqual(curve.evaluate(40), 1, places=5)
 
+    def test_keys_set_by_hand_stay_as_they_were(self):
+        shown = self.sheet()
+        self.saved(shown, pack=False)
+        scene, keys = bpy.context.scene, shown.data.shape_keys.key_blocks
+        for kind in ("AUTO_CLAMPED", "AUTO", "VECTOR", "ALIGNED", "CONSTANT", "LINEAR", "BOUNCE", "ELASTIC", "BACK", "SINE"):
+            shown.data.shape_keys.animation_data_clear()
+            for frame, value in ((0, 0.1), (10, 0.8), (30, 0.2), (60, 0.9), (80, 0.1)):
+                keys["jawOpen"].value = value
+                keys["jawOpen"].keyframe_insert("value", frame=frame)
+            curve = addon.curve_of(keys["jawOpen"])
+            for point in curve.keyframe_points:
+                if kind in ("AUTO_CLAMPED", "AUTO", "VECTOR", "ALIGNED"):
+                    point.handle_left_type = point.handle_right_type = kind
+                else:
+                    point.interpolation = kind
+            curve.update()
+            frames = range(-5, 23)
+            before, behind = [curve.evaluate(frame) for frame in frames], [curve.evaluate(frame) for frame in range(60, 90)]
+            scene.frame_set(46)
+            keys["jawOpen"].value = 0.5
+            bpy.ops.object.sweepface_move(law="linear-force", seconds=1)  # from frame 22 on
+            self.assert_near([curve.evaluate(frame) for frame in frames], before, 1e-3)
+            self.assert_near([curve.evaluate(frame) for frame in range(60, 90)], behind, 1e-5)
+            self.assertAlmostEqual(curve.evaluate(46), 0.5, places=5)
+
+    def test_a_motion_may_begin_right_behind_a_key(self):
+        shown = self.sheet()
+        self.saved(shown, pack=False)
+        scene, key = bpy.context.scene, shown.data.shape_keys.key_blocks["jawOpen"]
+        for seconds in (0.333, 1 / 3, 0.3326):
+            shown.data.shape_keys.animation_data_clear()
+            scene.frame_set(10)
+            key.value = 1
+            bpy.ops.object.sweepface_move(law="accelerate-brake", seconds=0.25)
+            scene.frame_set(18)
+            key.value = 0
+            bpy.ops.object.sweepface_move(law="accelerate-brake", seconds=seconds)
+            curve = addon.curve_of(key)
+            for frame in range(10, 19):
+                t = (frame - 18) / 24 / seconds + 1
+                expected = 1 - (2 * t * t if t < 0.5 else 1 - 2 * (1 - t) ** 2) if t > 0 else 1
+                self.assertAlmostEqual(curve.evaluate(frame), expected, delta=0.004, msg=(seconds, frame))
+
+    def test_a_motion_is_done_again_otherwise(self):
+        shown = self.sheet()
+        self.saved(shown, pack=False)
+        key = shown.data.shape_keys.key_blocks["smile"]
+        bpy.context.scene.frame_set(24)
+        key.value = 0.8
+        pose = json.dumps({"jawOpen": 0, "smile": key.value})
+        key.value = 0  # as undoing leaves it
+        bpy.ops.object.sweepface_move(law="linear", seconds=0.5, pose=pose)
+        self.assertAlmostEqual(addon.curve_of(key).evaluate(18), 0.4, places=5)
+
     def test_what_rests_in_a_motion_has_no_other_keys_meanwhile(self):
         shown = self.sheet()
         self.saved(shown, pack=False)
@@ -200,6 +254,13 @@ class AddOn(unittest.TestCase):
         self.assertEqual(addon.curve_of(keys["jawOpen"]).evaluate(12), 0)
         self.assertAlmostEqual(addon.curve_of(keys["smile"]).evaluate(12), 0.5, places=5)
 
+    def test_keys_that_the_file_lacks_are_told(self):
+        shown = self.sheet()
+        self.saved(shown, pack=False)
+        bpy.context.scene.frame_set(24)
+        shown.shape_key_add(name="wink", from_mix=False).value = 0.5
+        self.assert_refused(lambda: bpy.ops.object.sweepface_move(), "has no targets for wink; save the face again")
+
     def test_curves_that_cannot_be_changed_are_told(self):
         shown = self.sheet()
         self.saved(shown, pack=False)
@@ -208,7 +269,13 @@ class AddOn(unittest.TestCase):
         addon.curve_of(keys["jawOpen"]).lock = True
         scene.frame_set(24)
         keys["smile"].value = 1
-        self.assert_refused(lambda: bpy.ops.object.sweepface_move(), "The F-curves of jawOpen are locked")
+        self.assert_refused(lambda: bpy.ops.object.sweepface_move(), "The F-curve of jawOpen is locked")
+        addon.curve_of(keys["jawOpen"]).lock = False
+        addon.curve_of(keys["jawOpen"]).modifiers.new("NOISE")
+        self.assert_refused(lambda: bpy.ops.object.sweepface_move(), "The F-curve of jawOpen has modifiers")
+        animation = shown.data.shape_keys.animation_data
+        animation.nla_tracks.new().strips.new("old", 0, animation.action)
+        self.assert_refused(lambda: bpy.ops.object.sweepface_clip(filepath="take.csv"), "are moved by NLA strips")
         self.assertIsNone(addon.curve_of(keys["smile"]))
 
     def test_faces_of_several_meshes_and_animations_of_their_own_move(self):
