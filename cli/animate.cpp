@@ -271,8 +271,8 @@ Result<int> runAnimate(const AnimateArguments& a) {
     return fail(fmt::format("{} has regions, which a .csv cannot tell apart; leave them out there.",
                             a.what.clip));
   if (glb || csv)
-    if (auto ok = checkOutput(a.output, {a.face, a.what.clip, a.regions.file}, {".glb", ".csv"},
-                              !a.quiet);
+    if (auto ok = checkOutput(a.output, {a.face, a.what.clip, a.what.clipNames, a.regions.file},
+                              {".glb", ".csv"}, !a.quiet);
         !ok)
       return std::unexpected(ok.error());
   const Result<void> written = (glb   ? animateGlb
