@@ -410,12 +410,12 @@ def split(start, end, frame):
 
 
 def keys_until(curve, frame):
-    """The keys of an F-curve before a frame, and those that keep it as it was up to there."""
-    keys = keys_in(curve)
+    """The keys of an F-curve before a frame, and one there that keeps it as it was until then."""
+    keys, value = keys_in(curve), curve.evaluate(frame)
     before, behind = ([key for key in keys if (key["co"][0] < frame - NEAREST / 2) == side] for side in (True, False))
     if not before:
-        return []
-    last, value = before[-1], curve.evaluate(frame)
+        return [key_at(frame, value, "CONSTANT")]
+    last = before[-1]
     last["handle_left_type"] = last["handle_right_type"] = "FREE"
     if not behind:
         last["interpolation"] = "CONSTANT" if curve.extrapolation == "CONSTANT" else "LINEAR"
@@ -468,17 +468,16 @@ def show(key, times, values, first, rate):
     """Puts a motion into the F-curve of a shape key, instead of what was there meanwhile."""
     motion = motion_keys(times, values, first, rate)
     start, end = motion[0]["co"][0], motion[-1]["co"][0]
-    curve = curve_of(key)
+    curve, before = curve_of(key), []
     if not curve:
         key.keyframe_insert("value", frame=start)
         curve = curve_of(key)
-        curve.keyframe_points.remove(curve.keyframe_points[0])
-    before = keys_until(curve, start)
-    if before and abs(before[-1]["co"][1] - motion[0]["co"][1]) > 1e-6:  # a jump
-        before = [*keys_until(curve, start - NEAREST)]
+    elif abs(curve.evaluate(start) - motion[0]["co"][1]) > 1e-6:  # a jump
+        before = keys_until(curve, start - NEAREST)
         before[-1]["interpolation"] = "CONSTANT"
-    elif before:
-        motion[0]["handle_left"] = before.pop()["handle_left"]
+    else:
+        *before, same = keys_until(curve, start)
+        motion[0]["handle_left"] = same["handle_left"]
     behind = [other for other in keys_in(curve) if other["co"][0] > end + NEAREST / 2]
     if behind:
         behind[0]["handle_left_type"] = behind[0]["handle_right_type"] = "FREE"

@@ -55,6 +55,23 @@ class AddOn(unittest.TestCase):
         tool("export", face, "-o", meshes)
         return meshes
 
+    def face(self):
+        """A sheet that was saved, so that it may move; the active object."""
+        shown = self.sheet()
+        self.saved(shown, pack=False)
+        return shown
+
+    def assert_moves(self, names):
+        """The active object has these targets, and they move."""
+        keys = addon.keys_of(bpy.context.active_object)
+        self.assertEqual(set(keys), names)
+        bpy.context.scene.frame_set(24)
+        for key in keys.values():
+            key.value = 0.5
+        bpy.ops.object.sweepface_move(law="linear", seconds=1)
+        for key in keys.values():
+            self.assertAlmostEqual(addon.curve_of(key).evaluate(12), 0.25, places=5)
+
     def assert_near(self, found, expected, within=TOLERANCE):
         self.assertEqual(numpy.shape(found), numpy.shape(expected))
         self.assertLessEqual(abs(numpy.subtract(found, expected)).max(), within)
@@ -145,8 +162,7 @@ class AddOn(unittest.TestCase):
         self.assert_refused(lambda: bpy.ops.import_scene.sweep(filepath=self.path("bad.sweep")), "Cannot run /nowhere/sweepface")
 
     def test_moves_to_the_pose_of_the_sliders(self):
-        shown = self.sheet()
-        self.saved(shown, pack=False)
+        shown = self.face()
         self.assertFalse(addon.curve_of(shown.data.shape_keys.key_blocks["smile"]))
         scene, blocks = bpy.context.scene, shown.data.shape_keys.key_blocks
         scene.render.fps = 30
@@ -170,8 +186,7 @@ class AddOn(unittest.TestCase):
         self.assert_refused(lambda: bpy.ops.object.sweepface_move(seconds=0.5), "in this pose already")
 
     def test_what_was_before_and_behind_a_motion_stays(self):
-        shown = self.sheet()
-        self.saved(shown, pack=False)
+        shown = self.face()
         scene, keys = bpy.context.scene, shown.data.shape_keys.key_blocks
         scene.frame_set(24)
         keys["jawOpen"].value = 1
@@ -188,8 +203,7 @@ class AddOn(unittest.TestCase):
         self.assertAlmostEqual(curve.evaluate(40), 1, places=5)
 
     def test_keys_set_by_hand_stay_as_they_were(self):
-        shown = self.sheet()
-        self.saved(shown, pack=False)
+        shown = self.face()
         scene, keys = bpy.context.scene, shown.data.shape_keys.key_blocks
         for kind in ("AUTO_CLAMPED", "AUTO", "VECTOR", "ALIGNED", "CONSTANT", "LINEAR", "BOUNCE", "ELASTIC", "BACK", "SINE"):
             shown.data.shape_keys.animation_data_clear()
@@ -212,9 +226,23 @@ class AddOn(unittest.TestCase):
             self.assert_near([curve.evaluate(frame) for frame in range(60, 90)], behind, 1e-5)
             self.assertAlmostEqual(curve.evaluate(46), 0.5, places=5)
 
+    def test_what_was_before_stays_beside_and_without_keys_there(self):
+        key = self.face().data.shape_keys.key_blocks["jawOpen"]
+        with open(self.path("take.csv"), "w", encoding="utf-8") as file:
+            file.write("Timecode,JawOpen\n0,0\n1,0.5\n")
+        for hand, subframe in ((10, 0.02), (10, 0.015), (60, 0)):  # a key right before the clip, or far behind it
+            key.id_data.animation_data_clear()
+            key.value = 0.9
+            key.keyframe_insert("value", frame=hand)
+            bpy.context.scene.frame_set(10, subframe=subframe)
+            bpy.ops.object.sweepface_clip(filepath=self.path("take.csv"))
+            curve = addon.curve_of(key)
+            self.assert_near([curve.evaluate(frame) for frame in (-5, 9, 9.9)], [0.9] * 3, 1e-6)
+            self.assertAlmostEqual(curve.evaluate(22), 0.25, delta=0.003)
+            self.assertAlmostEqual(curve.evaluate(60), 0.9 if hand == 60 else 0.5, places=5)
+
     def test_a_motion_may_begin_right_behind_a_key(self):
-        shown = self.sheet()
-        self.saved(shown, pack=False)
+        shown = self.face()
         scene, key = bpy.context.scene, shown.data.shape_keys.key_blocks["jawOpen"]
         for seconds in (0.333, 1 / 3, 0.3326):
             shown.data.shape_keys.animation_data_clear()
@@ -231,8 +259,7 @@ class AddOn(unittest.TestCase):
                 self.assertAlmostEqual(curve.evaluate(frame), expected, delta=0.004, msg=(seconds, frame))
 
     def test_a_motion_is_done_again_otherwise(self):
-        shown = self.sheet()
-        self.saved(shown, pack=False)
+        shown = self.face()
         key = shown.data.shape_keys.key_blocks["smile"]
         bpy.context.scene.frame_set(24)
         key.value = 0.8
@@ -242,8 +269,7 @@ class AddOn(unittest.TestCase):
         self.assertAlmostEqual(addon.curve_of(key).evaluate(18), 0.4, places=5)
 
     def test_what_rests_in_a_motion_has_no_other_keys_meanwhile(self):
-        shown = self.sheet()
-        self.saved(shown, pack=False)
+        shown = self.face()
         scene, keys = bpy.context.scene, shown.data.shape_keys.key_blocks
         for frame, value in ((0, 0), (12, 1), (24, 0)):
             keys["jawOpen"].value = value
@@ -255,15 +281,13 @@ class AddOn(unittest.TestCase):
         self.assertAlmostEqual(addon.curve_of(keys["smile"]).evaluate(12), 0.5, places=5)
 
     def test_keys_that_the_file_lacks_are_told(self):
-        shown = self.sheet()
-        self.saved(shown, pack=False)
+        shown = self.face()
         bpy.context.scene.frame_set(24)
         shown.shape_key_add(name="wink", from_mix=False).value = 0.5
         self.assert_refused(lambda: bpy.ops.object.sweepface_move(), "has no targets for wink; save the face again")
 
     def test_curves_that_cannot_be_changed_are_told(self):
-        shown = self.sheet()
-        self.saved(shown, pack=False)
+        shown = self.face()
         scene, keys = bpy.context.scene, shown.data.shape_keys.key_blocks
         keys["jawOpen"].keyframe_insert("value", frame=0)
         addon.curve_of(keys["jawOpen"]).lock = True
@@ -292,36 +316,20 @@ class AddOn(unittest.TestCase):
         bpy.ops.export_scene.gltf(filepath=self.path("two.glb"))
         tool("convert", self.path("two.glb"), "-o", self.path("two.sweep"))
         bpy.ops.import_scene.sweep(filepath=self.path("two.sweep"))
-        opened = addon.keys_of(bpy.context.active_object)
-        self.assertEqual(set(opened), {"jawOpen", "smile", "bite"})
-        bpy.context.scene.frame_set(24)
-        for key in opened.values():
-            key.value = 0.5
-        bpy.ops.object.sweepface_move(law="linear", seconds=1)
-        for key in opened.values():
-            self.assertAlmostEqual(addon.curve_of(key).evaluate(12), 0.25, places=5)
+        self.assert_moves({"jawOpen", "smile", "bite"})
 
     def test_targets_that_blender_calls_otherwise_move(self):
-        shown, odd = self.sheet(), ["Basis", "j" * 70]
-        self.saved(shown, pack=False)
+        odd = ["Basis", "j" * 70]
+        self.face()
         tool("export", self.path("face.sweep"), "-o", self.path("odd"))
-        expressions = [os.path.join(self.path("odd"), "expressions", name + ".obj") for name in ("jawOpen", "smile")]
-        os.rename(expressions[0], os.path.join(self.path("odd"), "expressions", odd[0] + ".obj"))
-        os.rename(expressions[1], os.path.join(self.path("odd"), "expressions", odd[1] + ".obj"))
+        for name, other in zip(("jawOpen", "smile"), odd):
+            os.rename(self.path(f"odd/expressions/{name}.obj"), self.path(f"odd/expressions/{other}.obj"))
         tool("convert", self.path("odd/neutral.obj"), self.path("odd/expressions"), "-o", self.path("odd.sweep"))
         bpy.ops.import_scene.sweep(filepath=self.path("odd.sweep"))
-        keys = addon.keys_of(bpy.context.active_object)
-        self.assertEqual(set(keys), set(odd))
-        bpy.context.scene.frame_set(24)
-        for key in keys.values():
-            key.value = 1
-        bpy.ops.object.sweepface_move(law="linear", seconds=1)
-        for key in keys.values():
-            self.assertAlmostEqual(addon.curve_of(key).evaluate(12), 0.5, places=5)
+        self.assert_moves(set(odd))
 
     def test_cuts_of_a_timeline_are_between_two_frames(self):
-        shown = self.sheet()
-        self.saved(shown, pack=False)
+        shown = self.face()
         with open(self.path("line.json"), "w", encoding="utf-8") as file:
             json.dump({"seconds": 2, "events": [{"at": 1, "to": {"smile": 1}, "drive": "cut"},
                                                 {"at": 1.5, "to": {"jawOpen": 1}, "drive": "newton", "seconds": 0.5}]}, file)
@@ -343,8 +351,7 @@ class AddOn(unittest.TestCase):
         self.assertEqual(targets, ["jawOpen", "smile", "zeta", "alpha"])
 
     def test_a_spring_overshoots(self):
-        shown = self.sheet()
-        self.saved(shown, pack=False)
+        shown = self.face()
         key = shown.data.shape_keys.key_blocks["smile"]
         bpy.context.scene.frame_set(24)
         key.value = 1
@@ -353,8 +360,7 @@ class AddOn(unittest.TestCase):
         self.assertGreater(key.value, 1.4)
 
     def test_plays_a_clip_instead_of_what_was_there(self):
-        shown = self.sheet()
-        self.saved(shown, pack=False)
+        shown = self.face()
         rows = [[f"{k / 24:.6f}", 2, 0.1 * (k % 7), -0.05 * k] for k in range(25)]
         with open(self.path("take.csv"), "w", encoding="utf-8", newline="") as file:
             csv.writer(file).writerows([["Timecode", "BlendShapeCount", "JawOpen", "smile"], *rows])
