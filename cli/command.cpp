@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <limits>
 #include <ranges>
 #include <sys/stat.h>
 #include <system_error>
@@ -274,6 +275,19 @@ std::optional<Vec3> parsePoint(std::string_view text) {
   return Vec3{p[0], p[1], p[2]};
 }
 
+Result<Vec3> pointGiven(std::string_view option, std::string_view text) {
+  const auto isSound = [](double x) { return std::abs(x) <= std::numeric_limits<float>::max(); };
+  if (const auto p = parsePoint(text); p && isSound(p->x) && isSound(p->y) && isSound(p->z))
+    return *p;
+  return fail(fmt::format("{} is a point like 0,1.5,-2, not '{}'.", option, text));
+}
+
+std::vector<std::string> targetNames(const Rig& rig) {
+  std::vector<std::string> names;
+  for (const Target& target : rig.targets) names.push_back(target.name);
+  return names;
+}
+
 namespace {
 
 /// Whether something between commas is nothing but digits: the 5 of "jawOpen=0,5".
@@ -285,8 +299,7 @@ bool hasDecimalComma(std::string_view text) {
 
 /// About the first name that is no target.
 std::string hintAtName(std::string_view text, const Rig& rig) {
-  std::vector<std::string> names;
-  for (const Target& target : rig.targets) names.push_back(target.name);
+  const std::vector<std::string> names = targetNames(rig);
   for (const auto part : text | std::views::split(',')) {
     std::string_view name(part.begin(), part.end());
     name = name.substr(0, name.rfind('='));

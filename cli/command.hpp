@@ -112,6 +112,11 @@ CLI::Option* oneEachTime(CLI::Option* option);
 /// "X,Y,Z": three finite numbers and nothing else.
 std::optional<Vec3> parsePoint(std::string_view text);
 
+/// The point that an option tells, whose coordinates a float holds.
+Result<Vec3> pointGiven(std::string_view option, std::string_view text);
+
+std::vector<std::string> targetNames(const Rig& rig);
+
 /// The weights that an option tells; the error begins with its name.
 Result<Weights> weightsGiven(std::string_view option, std::string_view text, const Rig& rig);
 

@@ -66,8 +66,7 @@ void warnOfSpellings(const std::vector<std::string>& names,
 
 /// What the names of the targets say.
 std::vector<Follower> combined(const Rig& rig, const std::vector<Weights>& told) {
-  std::vector<std::string> names;
-  for (const Target& target : rig.targets) names.push_back(target.name);
+  const std::vector<std::string> names = targetNames(rig);
   std::vector<Follower> followers = Followers::named(names);
   if (followers.empty())
     printWarning("No target is named after others, so --combine changes nothing.");

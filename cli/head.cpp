@@ -1,8 +1,6 @@
 #include "head.hpp"
 
-#include <cmath>
 #include <fmt/format.h>
-#include <limits>
 
 #include "sweepface/box.hpp"
 #include "sweepface/eval.hpp"
@@ -15,10 +13,7 @@ Result<Vec3> pivotOf(const HeadArguments& a, const Rig& rig) {
     const Tessellation grid(rig.surface, 1);
     return Box(grid.positions(blend(rig, {}))).centre();
   }
-  const auto isSound = [](double x) { return std::abs(x) <= std::numeric_limits<float>::max(); };
-  if (const auto p = parsePoint(a.pivot); p && isSound(p->x) && isSound(p->y) && isSound(p->z))
-    return *p;
-  return fail(fmt::format("--pivot is a point like 0,1.5,-2, not '{}'.", a.pivot));
+  return pointGiven("--pivot", a.pivot);
 }
 
 }  // namespace

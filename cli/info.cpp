@@ -43,8 +43,6 @@ nlohmann::ordered_json describe(const InfoArguments& a, const Rig& rig, std::siz
   const auto kinds = [&](NodeKind kind) {
     return std::ranges::count(surface.connectivity().kinds, kind);
   };
-  std::vector<std::string> names;
-  for (const Target& target : rig.targets) names.push_back(target.name);
   nlohmann::ordered_json report{
       {"file", a.face},
       {"vertices", rig.source.gridVertex.size()},
@@ -61,7 +59,7 @@ nlohmann::ordered_json describe(const InfoArguments& a, const Rig& rig, std::siz
       {"shapedRibbons",
        std::ranges::count_if(w.ribbons, [](const Shape& s) { return s != Shape{}; })},
       {"tolerance", rig.tolerance},
-      {"targets", names},
+      {"targets", targetNames(rig)},
       {"bytes", bytes},
       {"bareBytes", bareBytes(rig)},
       {"parts", nlohmann::ordered_json::object()}};
@@ -180,9 +178,8 @@ void printList(const nlohmann::ordered_json& list) {
 }
 
 Result<int> runInfo(const InfoArguments& a) {
-  const auto point = a.near.empty() ? Vec3{} : parsePoint(a.near);
-  if (!point || !isFinite(*point))
-    return fail(fmt::format("--near is a point like 0,1.5,-2, not '{}'.", a.near));
+  const auto point = a.near.empty() ? Vec3{} : pointGiven("--near", a.near);
+  if (!point) return std::unexpected(point.error());
   const Result<std::string> bytes = readFile(a.face);
   if (!bytes) return std::unexpected(bytes.error());
   const Result<Rig> rig = opened(*bytes, a.face);

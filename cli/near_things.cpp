@@ -39,23 +39,14 @@ class Search {
     if (distance < nearest.distance) nearest = {positions_[vertex], distance};
   }
 
-  /// The vertex so many steps along a side, counter-clockwise.
-  Index onSide(Index patch, int side, Index steps) const {
-    const Index m = kPerEdge * surface_.edgesU(patch), n = kPerEdge * surface_.edgesV(patch);
-    if (side == 0) return grid_.vertex(patch, steps, 0);
-    if (side == 1) return grid_.vertex(patch, m, steps);
-    if (side == 2) return grid_.vertex(patch, m - steps, n);
-    return grid_.vertex(patch, 0, n - steps);
-  }
-
   void goAlong(Index patch, int side) {
     const Wireframe& w = surface_.wireframe();
     Index first = 0;
     for (const HalfArc h : w.side(patch, side)) {
       const Index steps = kPerEdge * w.arcs[arcOf(h)].edges;
-      see(found_.nodes[w.start(h)], onSide(patch, side, first));
+      see(found_.nodes[w.start(h)], grid_.sideVertex(patch, side, first));
       for (Index k = 0; k <= steps; ++k)
-        see(found_.curves[arcOf(h)], onSide(patch, side, first + k));
+        see(found_.curves[arcOf(h)], grid_.sideVertex(patch, side, first + k));
       first += steps;
     }
   }

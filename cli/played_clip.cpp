@@ -103,8 +103,7 @@ void noteIdleNames(const ClipMatch& match, const Clip& clip, const std::string& 
 
 Result<std::vector<Performance>> byClip(const PerformanceArguments& a, const std::string& text,
                                         const Rig& rig, std::span<const Region> regions) {
-  std::vector<std::string> targets;
-  for (const Target& target : rig.targets) targets.push_back(target.name);
+  const std::vector<std::string> targets = targetNames(rig);
   Result<ReadClip> read = readClip(a, text, targets, regions);
   if (!read) return std::unexpected(read.error());
   RegionalClips* const clips = &read->clips;

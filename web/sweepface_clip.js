@@ -44,8 +44,8 @@ function mappedColumns(names, drives) {
   });
   const columns = [];
   names.forEach((name, k) => {
-    const source = {found: [k], factor: 1}, target = [...byTarget.keys()].find((each) => areAlike(each, name));
     if (mapped.has(k)) return;
+    const source = {found: [k], factor: 1}, target = [...byTarget.keys()].find((each) => areAlike(each, name));
     if (target === undefined) columns.push({name, sources: [source]});
     else add(target, source);
   });

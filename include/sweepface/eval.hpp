@@ -74,6 +74,8 @@ class Tessellation {
   Index vertexCount() const { return static_cast<Index>(sites_.size()); }
   /// The vertex at column i ≤ level·edgesU and row j ≤ level·edgesV of a patch.
   Index vertex(Index patch, Index i, Index j) const;
+  /// The vertex so many steps along a side of a patch, counter-clockwise from its start.
+  Index sideVertex(Index patch, int side, Index steps) const;
   /// A site at which a vertex lies; vertices on arcs and nodes lie on several.
   const Site& site(Index vertex) const { return sites_[vertex]; }
   /// Faces [F], patch by patch in rows of constant v: four vertices, counter-clockwise from (i, j);
@@ -102,7 +104,6 @@ class Tessellation {
   std::vector<Vec3> normals(std::span<const Vec3> vectors) const;
 
  private:
-  Index sideVertex(Index patch, int side, Index steps) const;
   void placeAll();
   void forgetPlaces();
   bool separateEdges();

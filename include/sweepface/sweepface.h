@@ -67,9 +67,9 @@ SWEEPFACE_API sweepface_status sweepface_rig_load(const void* bytes, size_t size
                                                   sweepface_rig** rig);
 /* The same in two steps, so that a face shows before it can move. The first reads all but what
  * the targets of a packed file do, about half of it: until the second every weight stays 0. The second
- * does nothing where all is read. Meanwhile faces of the rig may be evaluated, but neither their weights
- * set nor meshes prepared or made into shader tables. What follows weights and how eyes turn is said before there are meshes, and needs targets:
- * those that showed the neutral are freed first. */
+ * does nothing where all is read. Meanwhile faces of the rig may be evaluated, but neither their
+ * weights set nor meshes prepared or made into shader tables. What follows weights and how eyes turn
+ * is said before there are meshes, and needs targets: those that showed the neutral are freed first. */
 SWEEPFACE_API sweepface_status sweepface_rig_load_neutral(const void* bytes, size_t size,
                                                           const char* name, sweepface_rig** rig);
 SWEEPFACE_API sweepface_status sweepface_rig_load_targets(sweepface_rig* rig);

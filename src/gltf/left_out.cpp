@@ -1,11 +1,10 @@
 #include "gltf/left_out.hpp"
 
-#include <algorithm>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <set>
 
 #include "gltf/nodes.hpp"
+#include "io/text.hpp"
 
 namespace sweepface::gltf {
 namespace {
@@ -34,14 +33,6 @@ std::vector<std::string> stillPrimitives(const Document& document, const Parts& 
   return places;
 }
 
-std::string listed(std::vector<std::string> names) {
-  constexpr std::size_t most = 3;
-  const std::size_t count = names.size();
-  if (count > most) names.resize(most);
-  const std::string text = fmt::format("{}", fmt::join(names, ", "));
-  return count > most ? fmt::format("{} and {} more", text, count - most) : text;
-}
-
 }  // namespace
 
 std::vector<std::string> leftOut(const Document& document, const Parts& parts) {
@@ -53,15 +44,16 @@ std::vector<std::string> leftOut(const Document& document, const Parts& parts) {
     if (!isOfFace[m] && times[m] > 0) still.push_back(placeOf(document, m));
     if (isOfFace[m] && times[m] > 1) again.push_back(placeOf(document, m));
   }
+  constexpr std::size_t kMost = 3;
   constexpr const char* kWhere = "a .glb of the face shows them, pictures and .obj files do not";
   if (!still.empty())
     warnings.push_back(fmt::format("Meshes without morph targets are not part of the face: {}; {}.",
-                                   listed(std::move(still)), kWhere));
+                                   io::fewOf(still, kMost), kWhere));
   if (!again.empty())
     warnings.push_back(
         fmt::format("Meshes that several nodes show are part of the face once, where the first one "
                     "stands: {}; as for the others, {}.",
-                    listed(std::move(again)), kWhere));
+                    io::fewOf(again, kMost), kWhere));
   return warnings;
 }
 

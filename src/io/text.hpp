@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -33,6 +34,15 @@ inline std::string_view trimmed(std::string_view text) {
   while (!text.empty() && isBlank(text.front())) text.remove_prefix(1);
   while (!text.empty() && isBlank(text.back())) text.remove_suffix(1);
   return text;
+}
+
+/// "a, b and 3 more": of the texts `most` are told.
+inline std::string fewOf(std::span<const std::string> texts, std::size_t most) {
+  std::string list;
+  for (const std::string& text : texts.first(std::min(texts.size(), most)))
+    list += (list.empty() ? "" : ", ") + text;
+  return texts.size() <= most ? list
+                              : list + " and " + std::to_string(texts.size() - most) + " more";
 }
 
 /// Without the byte order mark that some programs write before UTF-8.

@@ -47,7 +47,8 @@ TEST_F(Edit, FindsWhatIsNearAPoint) {
   const std::string text = run("info sheet.sweep --near 1,0,2").out;
   EXPECT_NE(text.find("node b2: full, 0 away at 1,0,2"), std::string::npos) << text;
   EXPECT_TRUE(fails("info sheet.sweep --near 1,0", "--near is a point like 0,1.5,-2, not '1,0'"));
-  EXPECT_TRUE(fails("info sheet.sweep --near 1,0,nan", "--near is a point"));
+  for (const char* point : {"1,0,nan", "1e300,0,0"})
+    EXPECT_TRUE(fails(std::string("info sheet.sweep --near ") + point, "--near is a point"));
 }
 
 TEST_F(Edit, TakesSeveralCurvesAndControlsAtOnce) {
