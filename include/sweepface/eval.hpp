@@ -66,11 +66,16 @@ class Tessellation {
   Tessellation(const Surface& surface, Index level);
   /// With a density of its own for every arc and patch; has triangles and no faces.
   Tessellation(const Surface& surface, Density density);
+  /// Of single sites, which are its vertices: there is nothing between them.
+  Tessellation(const Surface& surface, std::vector<Site> sites);
 
   /// Whether it may be of this surface: one with as many nodes, arcs, patches and vectors.
   bool fits(const Surface& surface) const;
-  /// 0 where there is a density instead.
+  /// 0 where there is a density instead, or nothing but sites.
   Index level() const { return level_; }
+  /// Whether anything lies between its vertices: else only vertexCount(), site(), terms(),
+  /// positions() and normals() may be asked.
+  bool hasFaces() const { return !density_.patches.empty(); }
   Index vertexCount() const { return static_cast<Index>(sites_.size()); }
   /// The vertex at column i ≤ level·edgesU and row j ≤ level·edgesV of a patch.
   Index vertex(Index patch, Index i, Index j) const;
@@ -109,6 +114,7 @@ class Tessellation {
   bool separateEdges();
   void placeArcs();
   void placePatches();
+  void weighPatches();
 
   const Surface* surface_;
   Index level_;

@@ -1,5 +1,7 @@
 #include <string>
 
+#include "sweepface/nearest.hpp"
+
 #include "capi/handles.hpp"
 #include "capi/message.hpp"
 
@@ -23,6 +25,14 @@ sweepface_status makeMesh(const sweepface_rig& rig, Index lod, Tessellation grid
                                                     std::move(render))};
   return SWEEPFACE_OK;
 }
+
+#ifndef __wasm__
+RenderMesh renderSites(const Rig&, const Tessellation& sites) {
+  RenderMesh mesh;
+  mesh.points = sites.vertexCount();
+  return mesh;
+}
+#endif
 
 static_assert(static_cast<int>(Budget::Kind::edgeLength) == SWEEPFACE_BUDGET_EDGE_LENGTH &&
               static_cast<int>(Budget::Kind::error) == SWEEPFACE_BUDGET_ERROR &&
@@ -57,6 +67,22 @@ sweepface_status sweepface_mesh_create_within(const sweepface_rig* rig, sweepfac
   if (!density) return refuse(density.error().message);
   return makeMesh(*rig, 1, Tessellation(rig->rig->surface, *density), renderDensity, mesh);
 }
+
+#ifndef __wasm__  // as small as can be
+sweepface_status sweepface_mesh_create_at(const sweepface_rig* rig, const double* points,
+                                          size_t count, sweepface_mesh** mesh) {
+  if (!rig || !mesh || !points || count == 0)
+    return refuse("Making a mesh of points needs a rig, points and a place for it.");
+  if (static_cast<double>(count) > kMostVertices)
+    return refuse("A mesh may have at most ", 1 << 24, " points, not ", count, ".");
+  std::vector<Vec3> places;
+  for (std::size_t k = 0; k < count; ++k, points += 3)
+    places.push_back({points[0], points[1], points[2]});
+  auto sites = nearestSites(rig->rig->surface, blend(*rig->rig, {}), places);
+  if (!sites) return refuse(sites.error().message);
+  return makeMesh(*rig, 1, Tessellation(rig->rig->surface, std::move(*sites)), renderSites, mesh);
+}
+#endif
 
 sweepface_status sweepface_mesh_prepare(const sweepface_mesh* mesh, int32_t normals) {
   if (!mesh) return refuse("Preparing needs a mesh.");

@@ -23,8 +23,8 @@ namespace {
 
 constexpr std::size_t kTightTangents = 4 * sizeof(float);
 
-sweepface_status needTexcoords(const Mesh& mesh) {
-  if (!mesh.render.texcoords.empty()) return SWEEPFACE_OK;
+sweepface_status needDirections(const Mesh& mesh) {
+  if (!mesh.render.texcoords.empty() || !mesh.grid.hasFaces()) return SWEEPFACE_OK;
   return refuse("The mesh has no texture coordinates, along which tangents would go.");
 }
 
@@ -64,7 +64,7 @@ void forget(sweepface_face& face, const sweepface_vectors& to, std::size_t count
 
 sweepface_status sweepface_mesh_prepare_tangents(const sweepface_mesh* mesh) {
   if (!mesh) return refuse("Preparing needs a mesh.");
-  if (const auto status = needTexcoords(*mesh->mesh)) return status;
+  if (const auto status = needDirections(*mesh->mesh)) return status;
   if (const auto status = needTargets(*mesh->mesh->rig)) return status;
   mesh->mesh->mapTangents(false);
   mesh->mesh->mapTangents(true);
@@ -75,7 +75,7 @@ sweepface_status sweepface_face_tangents(sweepface_face* face, size_t count,
                                          sweepface_vectors normals, sweepface_vectors tangents) {
   if (!face) return refuse("Tangents need a face.");
   const Mesh& mesh = *face->mesh;
-  if (const auto status = needTexcoords(mesh)) return status;
+  if (const auto status = needDirections(mesh)) return status;
   if (const auto status = needVertices(mesh, count)) return status;
   if (!fits(normals)) return refuse("The stride of normals must be 0 or 12 bytes to a gigabyte.");
   if (!fits(tangents, kTightTangents))

@@ -20,10 +20,17 @@ class Finder {
     quads_ = once.faces();
     for (auto& quad : quads_)
       for (Index& corner : quad) corner = sourceOf[corner];
+    std::size_t first = 0;
+    for (Index p = 0; p < rig.surface.patchCount(); ++p) {
+      firstQuads_.push_back(first);
+      first += std::size_t(rig.surface.edgesU(p)) * rig.surface.edgesV(p);
+    }
   }
 
   std::vector<Origin> find() {
-    if (grid_.level() > 0)
+    if (!grid_.hasFaces())
+      fromSites();
+    else if (grid_.level() > 0)
       fromCells();
     else
       fromPatches();
@@ -44,16 +51,20 @@ class Finder {
   }
 
   void fromPatches() {
-    const Surface& surface = rig_.surface;
-    std::size_t first = 0;  // quad of the patch
-    for (Index p = 0; p < surface.patchCount(); ++p) {
-      const Index m = surface.edgesU(p), n = surface.edgesV(p);
-      for (const auto& [vertex, u, v] : grid_.patchMesh(p).points) {
-        const Index i = std::min(u.whole, m - 1), j = std::min(v.whole, n - 1);
-        place(vertex, first + std::size_t(j) * m + i, u.value() - i, v.value() - j);
-      }
-      first += std::size_t(m) * n;
-    }
+    for (Index p = 0; p < rig_.surface.patchCount(); ++p)
+      for (const auto& [vertex, u, v] : grid_.patchMesh(p).points)
+        place(vertex, {p, u.value(), v.value()});
+  }
+
+  void fromSites() {
+    for (Index v = 0; v < grid_.vertexCount(); ++v) place(v, grid_.site(v));
+  }
+
+  void place(Index vertex, const Site& site) {
+    const Index m = rig_.surface.edgesU(site.patch), n = rig_.surface.edgesV(site.patch),
+                i = std::min(static_cast<Index>(site.u), m - 1),
+                j = std::min(static_cast<Index>(site.v), n - 1);
+    place(vertex, firstQuads_[site.patch] + std::size_t(j) * m + i, site.u - i, site.v - j);
   }
 
   /// A vertex at u and v, 0 to 1, of a quad.
@@ -78,6 +89,7 @@ class Finder {
   const Rig& rig_;
   const Tessellation& grid_;
   std::vector<std::array<Index, 4>> quads_;  // of level 1: vertices of the source
+  std::vector<std::size_t> firstQuads_;      // [patches]
   std::vector<Origin> origins_;
 };
 

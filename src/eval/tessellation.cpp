@@ -38,6 +38,17 @@ Tessellation::Tessellation(const Surface& surface, Density density)
   placeAll();
 }
 
+Tessellation::Tessellation(const Surface& surface, std::vector<Site> sites)
+    : surface_(&surface),
+      level_(0),
+      vectors_(surface.vectorCount()),
+      nodeVertex_(surface.wireframe().nodes.size(), -1),
+      arcVertex_(surface.wireframe().arcs.size(), -1),
+      patchVertex_(surface.patchCount(), -1),
+      sites_(std::move(sites)) {
+  weighPatches();
+}
+
 bool Tessellation::fits(const Surface& surface) const {
   const Wireframe& w = surface.wireframe();
   return nodeVertex_.size() == w.nodes.size() && arcVertex_.size() == w.arcs.size() &&
@@ -95,6 +106,10 @@ void Tessellation::placePatches() {
         sites_.push_back({p, static_cast<double>(i) * surface_->edgesU(p) / columns,
                           static_cast<double>(j) * surface_->edgesV(p) / rows});
   }
+  weighPatches();
+}
+
+void Tessellation::weighPatches() {
   patchVectors_.resize(patchVertex_.size());
   patchFactors_.reserve(sites_.size() - onArcs_);
   for (Index v = onArcs_; v < vertexCount(); ++v) {

@@ -63,6 +63,20 @@ TEST(Origins, OfBudgetsLieThereToo) {
   }
 }
 
+TEST(Origins, OfSingleSitesLieThereToo) {
+  const Rig rig = plainSheet(3);
+  const auto source = neutralOf(rig, Tessellation(rig.surface, 1));
+  const Tessellation sites(
+      rig.surface,
+      std::vector<Site>{{0, 0, 0}, {0, 0.25, 1.5}, {0, 2, 2.75}, {0, 3, 3}, {0, 3, 1}});
+  const auto origins = originsOf(rig, sites).value();
+  const auto positions = sites.positions(blend(rig, {}));
+  ASSERT_EQ(origins.size(), 5u);
+  expectSound(origins, 16);
+  for (std::size_t v = 0; v < origins.size(); ++v)
+    EXPECT_LE(norm(mixed(origins[v], source) - positions[v]), 1e-12);
+}
+
 // What is bilinear on quads everywhere, also at poles and hanging nodes.
 TEST(Origins, MixWhatHangsOnVerticesAsTextureCoordinatesAre) {
   for (Rig rig : {makeRig(onePatch(3, 2)), makeRig(tee()), makeRig(slice()), makeRig(fan(4))}) {
