@@ -63,6 +63,9 @@ function clockOf(framesPerSecond, dropsFrames) {
   return {counted, timeOf};
 }
 
+/** Whether a recorder stopped while it wrote the last row. */
+const isHalf = (cells, expected) => cells.length < expected || (cells.length === expected && cells.at(-1) === '');
+
 function readLiveLink(text, name, framesPerSecond) {
   const lines = text.split(text.includes('\n') ? '\n' : '\r').map((line, k) => ({number: k + 1, text: trimmed(line)}));
   const filled = lines.filter(({text: line}) => line !== '');
@@ -76,8 +79,11 @@ function readLiveLink(text, name, framesPerSecond) {
   const {timeColumn, shapes} = columnsOf(headings, first.text, (what) => fail(first, what));
   if (rest.length === 0) throw new Error(`${name} has headings but no frames; record again.`);
 
+  const expected = headings.length;
+  const last = rest.length > 1 && rest.at(-1) === lines.at(-1) ? cellsOf(rest.at(-1).text) : null;
+  const half = last && isHalf(last, expected) ? rest.pop() : null;
   const weights = [], rows = rest.map((line) => {
-    const cells = cellsOf(line.text), expected = headings.length;
+    const cells = cellsOf(line.text);
     if (endsEmpty && cells.length === expected + 1 && cells.at(-1) === '') cells.pop();
     if (cells.length !== expected)
       throw fail(line, `there are ${cells.length} values under ${expected} headings; the file may be cut short`);
@@ -91,7 +97,9 @@ function readLiveLink(text, name, framesPerSecond) {
     }
     return {...time, timecode: cells[timeColumn], line};
   });
-  return clipOf([...shapes.keys()], rows, weights, framesPerSecond ?? rateOf(rows), name, fail);
+  const clip = clipOf([...shapes.keys()], rows, weights, framesPerSecond ?? rateOf(rows), name, fail);
+  if (half) clip.warnings.unshift(`${name}: the last row, line ${half.number}, is cut short and left out.`);
+  return clip;
 }
 
 /** Of rows at the same time the last one stays. */

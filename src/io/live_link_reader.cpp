@@ -89,9 +89,14 @@ class LiveLinkReader {
   Result<Clip> read() {
     if (io::isUtf16(lines_.rest())) return failFile("is a text in UTF-16; save it in UTF-8");
     if (auto ok = readHeadings(); !ok) return std::unexpected(ok.error());
-    while (lines_.next())
-      if (!trimmed(lines_.line()).empty())
-        if (auto ok = readRow(); !ok) return std::unexpected(ok.error());
+    while (lines_.next()) {
+      if (trimmed(lines_.line()).empty()) continue;
+      if (isHalfARow())
+        clip_.warnings.push_back(fmt::format(
+            "{}: the last row, line {}, is cut short and left out.", name_, lines_.number()));
+      else if (auto ok = readRow(); !ok)
+        return std::unexpected(ok.error());
+    }
     if (timecodes_.empty()) return failFile("has headings but no frames; record again");
     if (framesPerSecond_ == 0) framesPerSecond_ = rateOf(timecodes_);
     if (auto ok = setTimes(); !ok) return std::unexpected(ok.error());
@@ -145,6 +150,13 @@ class LiveLinkReader {
       shapeColumns_.push_back(column);
     }
     return {};
+  }
+
+  /// What a recorder was writing when it stopped.
+  bool isHalfARow() const {
+    if (!lines_.cutShort() || timecodes_.empty()) return false;
+    const auto row = cells(lines_.line());
+    return row.size() < columns_ || (row.size() == columns_ && row.back().empty());
   }
 
   Result<void> readRow() {

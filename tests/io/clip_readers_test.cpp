@@ -87,6 +87,25 @@ TEST(LiveLinkCsv, OfRowsAtTheSameTimeTheLastCounts) {
                                 "of the one before; of each time the last row counts."});
 }
 
+TEST(LiveLinkCsv, LeavesOutARowThatARecorderStoppedIn) {
+  const std::string whole = "Timecode,a,b\n1,2,3\n2,4,5";
+  for (const std::string half : {"\n3", "\n3,", "\n3,6", "\n3,6,", "\r\n3,"}) {
+    const auto clip = csv(whole + half);
+    ASSERT_TRUE(clip) << clip.error().message;
+    EXPECT_EQ(clip->times, (std::vector<double>{1, 2}));
+    EXPECT_EQ(clip->weights, (std::vector<double>{2, 3, 4, 5}));
+    EXPECT_EQ(clip->warnings, std::vector<std::string>{
+                                  "take.csv: the last row, line 4, is cut short and left out."});
+  }
+  EXPECT_TRUE(csv(whole)->warnings.empty());
+  // What ends in a line break was meant, and what is all there is missed.
+  expectError(csv(whole + "\n3,6\n"), "line 4: there are 2 values under 3 headings");
+  expectError(csv(whole + "\n3,6\n  "), "line 4: there are 2 values under 3 headings");
+  expectError(csv(whole + "\n3,6,x"), "'x' in column 3");
+  expectError(csv(whole + "\n3,6,7,8"), "line 4: there are 4 values under 3 headings");
+  expectError(csv("Timecode,a,b\n1,2"), "line 2: there are 2 values under 3 headings");
+}
+
 TEST(LiveLinkCsv, MayComeFromASpreadsheet) {
   const auto clip = csv(
       "\xef\xbb\xbfsep=,\n\"Timecode\",\"JawOpen\", \"a b\" ,\n\"0:0:0;30\",\"0.5\",1,\n1,0,0,\n");

@@ -122,6 +122,10 @@ test('what was mended in a file is told', () => {
   assert.deepEqual(warnings(csv), []);
   assert.deepEqual(warnings(sheet), ['take: 40 of 80 rows, the first in line 4, have the timecode of the one before; of each ' +
                                      'time the last row counts.']);
+  for (const half of ['1', '1,', '1,2', '1,2,'])
+    assert.deepEqual(readClip(`Timecode,a,b\n0,1,1\n${half}`, {name: 'take'}),
+                     Object.assign(readClip('Timecode,a,b\n0,1,1\n', {name: 'take'}),
+                                   {warnings: ['take: the last row, line 3, is cut short and left out.']}));
   assert.deepEqual(warnings(mediaPipe), ['take: 12 of 40 frames found no face; weights go on from the frames around them.']);
   assert.match(warnings(mediaPipe.replace(/"timestampMs":\d+,/g, ''), {framesPerSecond: 2e4})[0], /frames are 0\.05 ms apart/);
   assert.match(warnings(audio2Face.replace('{', '{"numFrames": 41,'))[0], /'numFrames' is 41, but 'weightMat' has 40 frames/);
@@ -461,7 +465,9 @@ for (const [file, text, words] of [
        ['a.csv', 'Timecode,JawOpen', 'has headings but no frames'],
        ['a.csv', 'Timecode,JawOpen,JawOpen\n0,1,1', ', line 1: there are two columns \'JawOpen\''],
        ['a.csv', 'Timecode,,JawOpen\n0,1,1', ', line 1: column 2 has no heading'],
-       ['a.csv', 'Timecode,JawOpen\n0,1\n1', ', line 3: there are 1 values under 2 headings'],
+       ['a.csv', 'Timecode,JawOpen\n0,1\n1\n', ', line 3: there are 1 values under 2 headings'],
+       ['a.csv', 'Timecode,JawOpen\n0,1\n1\n ', ', line 3: there are 1 values under 2 headings'],
+       ['a.csv', 'Timecode,JawOpen\n1', ', line 2: there are 1 values under 2 headings'],
        ['a.csv', 'Timecode,JawOpen\n-1,1', ', line 2: the time \'-1\' is below 0'],
        ['a.csv', 'Timecode,JawOpen\n\n1,1\n0,1', ', line 4: the timecode \'0\' is before the one above; sort'],
        ['a.csv', 'Timecode;JawOpen\n1;0,5', ', line 1: the columns are separated by semicolons; save them with commas'],
