@@ -97,7 +97,9 @@ function readLiveLink(text, name, framesPerSecond) {
     }
     return {...time, timecode: cells[timeColumn], line};
   });
-  const clip = clipOf([...shapes.keys()], rows, weights, framesPerSecond ?? rateOf(rows), name, fail);
+  const rate = rateOf(rows), clip = clipOf([...shapes.keys()], rows, weights, framesPerSecond ?? rate, name, fail);
+  if (rate < USUAL_RATE && rate < clockOf(framesPerSecond ?? rate, false).counted)
+    clip.warnings.unshift(`${name}: ${framesPerSecond} frames a second were asked for, but its timecodes seem to count ${rate}.`);
   if (half) clip.warnings.unshift(`${name}: the last row, line ${half.number}, is cut short and left out.`);
   return clip;
 }

@@ -98,7 +98,13 @@ class LiveLinkReader {
         return std::unexpected(ok.error());
     }
     if (timecodes_.empty()) return failFile("has headings but no frames; record again");
-    if (framesPerSecond_ == 0) framesPerSecond_ = rateOf(timecodes_);
+    const double rate = rateOf(timecodes_);
+    if (framesPerSecond_ == 0)
+      framesPerSecond_ = rate;
+    else if (rate < kUsualRate && rate < io::FrameClock(framesPerSecond_, false).counted())
+      clip_.warnings.push_back(
+          fmt::format("{}: {} frames a second were asked for, but its timecodes seem to count {}.",
+                      name_, framesPerSecond_, rate));
     if (auto ok = setTimes(); !ok) return std::unexpected(ok.error());
     return std::move(clip_);
   }

@@ -77,6 +77,18 @@ TEST(LiveLinkCsv, TellsItsRateWhereWholeSecondsAreThere) {
       << "what is given counts";
 }
 
+TEST(LiveLinkCsv, WarnsOfARateThatItsTimecodesContradict) {
+  const auto warnings = [](int counted, double given) {
+    return parseLiveLinkCsv(take(counted), "take.csv", given).value().warnings;
+  };
+  EXPECT_EQ(warnings(30, 60), std::vector<std::string>{"take.csv: 60 frames a second were asked "
+                                                       "for, but its timecodes seem to count 30."});
+  EXPECT_EQ(warnings(24, 29.97).size(), 1u);
+  for (const auto& [counted, given] :
+       {std::pair(30, 30.0), std::pair(30, 29.97), std::pair(60, 59.94), std::pair(60, 120.0)})
+    EXPECT_TRUE(warnings(counted, given).empty()) << counted << ' ' << given;
+}
+
 TEST(LiveLinkCsv, OfRowsAtTheSameTimeTheLastCounts) {
   const auto clip = csv("Timecode,a,b\n1,0,9\n2,1,8\n2,2,7\n2,3,6\n3,4,5\n3,5,4\n");
   ASSERT_TRUE(clip) << clip.error().message;

@@ -135,6 +135,14 @@ test('what was mended in a file is told', () => {
 const take = (rate, length = 4 * rate, first = rate >> 1) => 'Timecode,a\n' + Array.from({length}, (_, k) => k + first)
     .map((f) => `1:02:0${Math.floor(f / rate)}:${f % rate},0`).join('\n');
 
+test('a rate that timecodes contradict is told', () => {
+  const warnings = (rate, framesPerSecond) => readClip(take(rate), {name: 'take', framesPerSecond}).warnings;
+  assert.deepEqual(warnings(30, 60), ['take: 60 frames a second were asked for, but its timecodes seem to count 30.']);
+  assert.equal(warnings(24, 29.97).length, 1);
+  for (const [rate, given] of [[30, 30], [30, 29.97], [60, 59.94], [60, 120], [30, undefined]])
+    assert.deepEqual(warnings(rate, given), []);
+});
+
 test('a separator is told after blank lines, too', () => {
   assert.equal(readClip('\nsep=,\n\nsep=,\nTimecode,a\n0,1\n').weights[0], 1);
 });
