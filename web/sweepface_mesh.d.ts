@@ -1,4 +1,4 @@
-import type {BufferGeometry, Material, Mesh, MeshStandardMaterial} from 'three';
+import type {BufferGeometry, Material, Mesh, MeshStandardMaterial, Object3D, Vector3} from 'three';
 import type {Drive, DriveKind, Pose, Sweepface, Weights} from './sweepface.js';
 
 /** A face in a scene. Weights are set at any time; `update` brings them to the screen. */
@@ -38,6 +38,9 @@ export class FaceMesh<Materials extends Material | Material[] = MeshStandardMate
   /** Call it once a frame with the seconds since the last, as `advance` takes them; costs nothing where nothing moves,
    * and does nothing once the mesh is disposed of. */
   update(seconds?: number): void;
+  /** Adds an object that follows the point of the skin nearest to `point`, which is in the face's own coordinates, and
+   * turns with it: what is attached to it stays where it is as long as the face does. To be taken off by `remove`. */
+  pin(point: Vector3): Object3D;
   /** Makes ready to move, which else happens when it first does and takes a few frames. */
   prepare(): void;
   /** Another face of the same file with the same weights, which moves by itself. What of the geometry is the same for all

@@ -1,5 +1,6 @@
 // What the meshes of sweepface/three, sweepface/gpu and sweepface/webgpu have in common.
 import {BufferAttribute, BufferGeometry, DoubleSide, Mesh, MeshStandardMaterial} from 'three';
+import {Pin} from './sweepface_pin.js';
 import {isWeight} from './sweepface_values.js';
 
 /** Plain materials, named as in the source. Mouths and lashes are seen from both sides. */
@@ -92,10 +93,11 @@ export function geometryOf(face, changing, fixed = {}) {
 
 /**
  * What the meshes do each in their own way, under names that no class made of them has: bring weights to the screen, see
- * to what has changed otherwise, tell where rays meet the face, and have of a mesh what its clone needs not have again.
+ * to what has changed otherwise, tell where rays meet the face and where its vertices stand, and have of a mesh what its
+ * clone needs not have again.
  */
 export const show = Symbol('show'), follow = Symbol('follow'), meet = Symbol('meet'), share = Symbol('share');
-export const materialsOfClone = Symbol('materialsOfClone');
+export const materialsOfClone = Symbol('materialsOfClone'), standing = Symbol('standing');
 
 /**
  * A face in a scene. Weights are set at any time; `update` brings them to the screen. They stand in
@@ -106,6 +108,7 @@ export class FaceMesh extends Mesh {
   #moving;
   #isGone = false;
   #told = [];  // the influences, as they were told last
+  #positions;
 
   constructor(face, geometry, materials = materialsOf(face)) {
     super(geometry, materialsFrom(materials, face));
@@ -186,8 +189,31 @@ export class FaceMesh extends Mesh {
     this.#takeInfluences();
     if ((this.#moving && seconds > 0) || !Number.isFinite(seconds)) this.advance(seconds);
     this[follow]();
-    if (this.#stale) this[show]();
+    if (this.#stale) {
+      this[show]();
+      this.#movePins();
+    }
     this.#stale = false;
+  }
+
+  /** Adds an object that follows the point of the skin nearest to a point, and turns with it. */
+  pin(point) {
+    const pin = new Pin().fasten(point, this.face.triangles, this[standing]());
+    this.add(pin);
+    return pin;
+  }
+
+  #movePins() {
+    const pins = this.children.filter((child) => child instanceof Pin);
+    if (pins.length === 0) return;
+    const positions = this[standing]();
+    for (const pin of pins) pin.follow(positions);
+  }
+
+  [standing]() {
+    this.#positions ??= new Float32Array(3 * this.face.vertexCount);
+    this.face.evaluate(this.#positions, null);
+    return this.#positions;
   }
 
   /** Makes ready to move, which else happens when it first does and takes a few frames. */
@@ -220,6 +246,7 @@ export class FaceMesh extends Mesh {
     twin.traverse((part) => {
       if (part.geometry === this.geometry) part.geometry = twin.geometry;
     });
+    twin.#movePins();
     return twin;
   }
 

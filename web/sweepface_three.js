@@ -1,7 +1,7 @@
 // .sweep faces for three.js: a loader, and a mesh whose geometry follows the weights.
 import {BufferAttribute, DynamicDrawUsage, FileLoader, Loader} from 'three';
 import {Sweepface} from './sweepface.js';
-import {FaceMesh, faceFrom, geometryOf, show} from './sweepface_mesh.js';
+import {FaceMesh, faceFrom, geometryOf, show, standing} from './sweepface_mesh.js';
 import {ownRegions} from './sweepface_regions.js';
 
 export {animationFor} from './sweepface_animation.js';
@@ -28,6 +28,8 @@ export class SweepfaceMesh extends FaceMesh {
     else geometry.boundingSphere = null;  // made when somebody asks for it
     if (geometry.boundingBox) geometry.computeBoundingBox();
   }
+
+  [standing]() { return this.geometry.attributes.position.array; }
 }
 
 /** The class of meshes that a loader makes. */

@@ -57,6 +57,7 @@ test('the package holds what is needed, and an application can use it', () => {
                     'sweepface_animation.js', 'sweepface_captures.js', 'sweepface_card.d.ts', 'sweepface_card.js', 'sweepface_clip.js', 'sweepface_clips.d.ts', 'sweepface_clips.js',
                     'sweepface_drives.js', 'sweepface_file.js', 'sweepface_full.wasm', 'sweepface_gpu.d.ts',
                     'sweepface_gpu.js', 'sweepface_mesh.d.ts', 'sweepface_mesh.js', 'sweepface_names.js',
+                    'sweepface_pin.js',
                     'sweepface_regions.js', 'sweepface_text.js', 'sweepface_three.d.ts', 'sweepface_three.js',
                     'sweepface_timeline.js', 'sweepface_values.js', 'sweepface_wasm.js', 'sweepface_webgpu.d.ts',
                     'sweepface_webgpu.js']);

@@ -673,6 +673,71 @@ test('a disposed mesh gives its materials and its face back', options, async () 
   assert.throws(() => mesh.face.names, {message: 'The face was disposed of.'});
 });
 
+/** A vertex that an expression moves as far as any. */
+function farthest(mesh, weights) {
+  const neutral = new Float32Array(3 * mesh.face.vertexCount), moved = neutral.slice();
+  mesh.face.evaluate(neutral, null);
+  mesh.face.setWeights(weights);
+  mesh.face.evaluate(moved, null);
+  mesh.face.reset();
+  const at = (positions, v) => new three.Vector3().fromArray(positions, 3 * v);
+  const distances = Array.from({length: mesh.face.pointCount}, (_, v) => at(neutral, v).distanceTo(at(moved, v)));
+  const vertex = distances.indexOf(Math.max(...distances));
+  return {vertex, rest: at(neutral, vertex), moved: at(moved, vertex)};
+}
+
+for (const [how, kind] of [['processor', 'SweepfaceMesh'], ['graphics card', 'SweepfaceGpuMesh']])
+  test(`a pin follows the skin and turns with it, on the ${how}`, options, async () => {
+    const classes = {...await import('../sweepface_three.js'), ...await import('../sweepface_gpu.js')};
+    const mesh = await new classes.SweepfaceLoader(undefined, {mesh: classes[kind]}).parseAsync(readFileSync(sample));
+    const {rest, moved} = farthest(mesh, {jawOpen: 1}), pin = mesh.pin(rest), near = 1e-5 * rest.length();
+    assert.ok(pin.position.distanceTo(rest) < near && pin.quaternion.angleTo(new three.Quaternion()) < 1e-6);
+    mesh.position.set(10, 0, 0);
+    const glasses = new three.Object3D(), where = () => glasses.getWorldPosition(new three.Vector3());
+    glasses.position.copy(rest).add(new three.Vector3(10, 0, 1));
+    mesh.updateMatrixWorld();
+    pin.attach(glasses);
+    assert.ok(where().distanceTo(rest.clone().add(new three.Vector3(10, 0, 1))) < near, 'it stays where it is');
+    mesh.setWeights({jawOpen: 1});
+    assert.ok(pin.position.distanceTo(rest) < near, 'until it is shown');
+    mesh.update();
+    assert.ok(pin.position.distanceTo(moved) < near);
+    const turn = pin.quaternion.angleTo(new three.Quaternion());
+    assert.ok(turn > 0.05, 'a chin turns');
+    const offset = new three.Vector3(0, 0, 1).applyQuaternion(pin.quaternion);
+    assert.ok(where().distanceTo(moved.clone().add(offset).add(mesh.position)) < near);
+
+    const twin = mesh.clone(), [other] = twin.children;
+    assert.ok(other !== pin && other.position.distanceTo(moved) < near && other.children.length === 1);
+    twin.reset();
+    twin.update();
+    assert.ok(other.position.distanceTo(rest) < near && pin.position.distanceTo(moved) < near);
+    mesh.remove(pin);
+    mesh.reset();
+    mesh.update();
+    assert.ok(pin.position.distanceTo(moved) < near, 'taken off');
+    mesh.morphTargetInfluences[mesh.morphTargetDictionary.jawOpen] = 1;
+    const late = mesh.add(other).clone();  // with what an influence says that was not shown yet
+    assert.ok(late.children.at(-1).position.distanceTo(moved) < near);
+    for (const odd of [undefined, [0, 0, 0], {x: 0, y: NaN, z: 0}])
+      assert.throws(() => mesh.pin(odd), {message: 'A pin takes a point: a Vector3 in the coordinates of the face.'});
+    assert.equal(mesh.children.length, 1);
+  });
+
+test('a pin lies on the nearest triangle', options, async () => {
+  const mesh = await load(), {position: {array}} = mesh.geometry.attributes, index = mesh.face.triangles;
+  const box = new three.Box3().setFromArray(array), size = box.getSize(new three.Vector3());
+  for (let k = 0; k < 5; ++k) {
+    const point = box.min.clone().addScaledVector(size, 0.17 * k + 0.1), triangle = new three.Triangle(), place = new three.Vector3();
+    let least = Infinity;
+    for (let t = 0; t < index.length; t += 3) {
+      ['a', 'b', 'c'].forEach((name, c) => triangle[name].fromArray(array, 3 * index[t + c]));
+      least = Math.min(least, triangle.closestPointToPoint(point, place).distanceTo(point));
+    }
+    assert.ok(Math.abs(mesh.pin(point).position.distanceTo(point) - least) < 1e-5 * size.length());
+  }
+});
+
 test('clips and timelines play on a mesh as well', options, async () => {
   const {ClipPlayer, readClip, readTimeline, TimelinePlayer} = await import('../sweepface_clips.js');
   const mesh = await load(), {position} = mesh.geometry.attributes;

@@ -1,5 +1,5 @@
 // Compiles if the types say what the package offers. Never run.
-import {type Material, MeshBasicMaterial, Scene} from 'three';
+import {type Material, MeshBasicMaterial, type Object3D, Scene, Vector3} from 'three';
 import {Sweepface, type Drive, type LoadOptions, type Part, type Pose, type Region} from 'sweepface';
 import {Clip, ClipPlayer, type OneEuro, readClip, readTimeline, TimelinePlayer} from 'sweepface/clips';
 import {SWEEPFACE_GLSL, SweepfaceGpuMesh} from 'sweepface/gpu';
@@ -38,6 +38,9 @@ export async function useThree(scene: Scene): Promise<void> {
   const other: SweepfaceMesh<Material | Material[]> = mesh;
   other.material = new MeshBasicMaterial();
   mesh.prepare();
+  const pin: Object3D = mesh.pin(new Vector3(0, 1, 2)).attach(scene);
+  // @ts-expect-error That is no point.
+  pin.add(mesh.pin([0, 1, 2]));
   console.log(animationFor(mesh, {scene, animations: []}).tracks.length);
   mesh.morphTargetInfluences[mesh.morphTargetDictionary.jawOpen ?? 0] = 0.5;
   console.log(new SweepfaceMesh(mesh.face, new MeshBasicMaterial()).material.color, mesh.weights.jawOpen, mesh.pose);
