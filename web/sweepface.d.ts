@@ -1,57 +1,57 @@
 /** Weights or goals by the names of expressions. */
 export type Weights = Record<string, number>;
 
-/** How a weight goes from where it stands, with the velocity it has, to a goal. */
+/** How a weight moves to a goal from its current position and velocity. */
 export type DriveKind = 'cut' | 'newton' | 'linear-force' | 'accelerate-brake' | 'spring' | 'bounce';
 
 export interface Drive {
   /** 'spring' unless given. */
   kind?: DriveKind | undefined;
-  /** Seconds before it sets out; what still waits when the next comes for the same weight is left out. */
+  /** Seconds before it sets out; a drive that still waits is dropped when the next comes for the same weight. */
   delay?: number | undefined;
   /** Seconds until it arrives; not for 'cut' and 'spring'. */
   seconds?: number | undefined;
-  /** 'accelerate-brake': when the second force takes over, as a fraction. */
+  /** 'accelerate-brake': when the second force takes over, as a fraction of `seconds`. */
   turn?: number | undefined;
-  /** 'spring': oscillations a second if there were no damper. */
+  /** 'spring': oscillations a second without the damper. */
   frequency?: number | undefined;
-  /** 'spring': below 1 it overshoots, above it creeps. */
+  /** 'spring': below 1 it overshoots, above 1 it creeps. */
   damping?: number | undefined;
-  /** 'bounce': the share of the speed that is left, in [0, 1 - 1e-9]. */
+  /** 'bounce': the share of the speed kept at each bounce, in [0, 1 - 1e-9]. */
   restitution?: number | undefined;
 }
 
 /** A file in memory; also Node's `Buffer`, and views of shared memory. */
 export type Bytes = ArrayBuffer | ArrayBufferView;
 
-/** A `WebAssembly.Module`, where the types of the project know it: those of browsers do. */
+/** A `WebAssembly.Module`, if the project's types declare it, as those of browsers do. */
 type CompiledModule = typeof globalThis extends {WebAssembly: {Module: {prototype: infer Module}}} ? Module : object;
-/** Where the WebAssembly module is, if not beside sweepface.js: a text or a `href` is a URL, in a page relative to its
+/** Where the WebAssembly module is, if not beside sweepface.js. A string or `href` is a URL, in a page relative to its
  * base. */
 export type ModuleSource = string | {readonly href: string} | Bytes | CompiledModule;
 
 /** A part of the face that is heavier or stiffer than the rest or sets out later: docs/regions.md. */
 export interface Region {
   name: string;
-  /** How heavy and how stiff it is; the rest is 1. */
+  /** How heavy and how stiff it is, relative to the rest (1). */
   mass?: number | undefined;
   stiffness?: number | undefined;
-  /** Seconds by which it sets out later. */
+  /** Seconds by which it sets out later than the rest. */
   delay?: number | undefined;
   /** Materials and groups of the source, by name. */
   parts?: readonly string[] | undefined;
-  /** Places, each by itself, or joined by a line; model units. */
+  /** Separate places, or places joined by a line; model units. */
   points?: readonly (readonly [number, number, number])[] | undefined;
   line?: readonly (readonly [number, number, number])[] | undefined;
   /** Curves of the wireframe, and shares of single nodes, by name or number. */
   curves?: readonly string[] | undefined;
   nodes?: Readonly<Record<string, number>> | undefined;
-  /** All of it up to this distance, and from there less and less over so much more. */
+  /** The region takes everything up to the distance `whole`, then less and less over `fade` more. */
   whole?: number | undefined;
   fade?: number | undefined;
-  /** 'surface' unless given: distances along the neutral's curves, or straight through the air. */
+  /** 'surface' unless given: distances along the neutral's curves; 'space': straight through space. */
   over?: 'surface' | 'space' | undefined;
-  /** Cuts what fades into so many regions name1, name2 ..., delayed in equal steps up to `delay`. */
+  /** Cuts the fading part into this many regions, name1, name2 ..., delayed in equal steps up to `delay`. */
   bands?: number | undefined;
 }
 
@@ -74,14 +74,14 @@ export interface Pose {
 export interface LoadOptions {
   /** 0: the source's own vertices; N: every edge of the source cut into N, up to 64. */
   lod?: number | undefined;
-  /** One of these instead of `lod`, as fine as it asks: no curve has a segment longer than `edgeLength`, no edge of
-   * a triangle is further than `error` from the surface (both in model units), or the best with so many points. */
+  /** One of these instead of `lod`, as fine as it demands: no curve has a segment longer than `edgeLength`, no edge of
+   * a triangle is further than `error` from the surface (both in model units), or the best with `vertices` points. */
   edgeLength?: number | undefined;
   error?: number | undefined;
   vertices?: number | undefined;
   /** What messages call the face. */
   name?: string | undefined;
-  /** Targets that turn, the jaw and lids, go on arcs, if the file tells about what they turn. */
+  /** Targets that turn (the jaw, lids) move on arcs, if the file says what they turn about. */
   arcs?: boolean | undefined;
   /** `A_B` goes by the product of A and B, `A_50` stands in for A at 0.5. */
   combine?: boolean | undefined;
@@ -104,9 +104,9 @@ export interface Part {
 export class Sweepface {
   private constructor();
 
-  /** Reads a .sweep file: of a packed one all that the neutral needs, and what targets do when the face first moves.
-   * Rejects with the library's own sentence about what is wrong; what no checksum shows of targets is thrown
-   * when they are read. */
+  /** Reads a .sweep file: of a packed one first all that the neutral needs; what targets do is read when the face first
+   * moves. Rejects with the library's own sentence about what is wrong. Faults in the targets that no checksum shows
+   * are thrown when targets are read. */
   static load(bytes: Bytes, options?: LoadOptions): Promise<Sweepface>;
 
   /** Another face of the same file, at rest; the two share everything but their weights. */
@@ -114,13 +114,13 @@ export class Sweepface {
 
   /** The expressions. */
   readonly names: string[];
-  /** The level that was asked for; 0 where a budget was. */
+  /** The level that was asked for; 0 if a budget was. */
   readonly lod: number;
   /** How far any source vertex may be off in any expression, in model units, not counting what evaluation adds. */
   readonly tolerance: number;
-  /** How many targets turn about something that the file tells: what `arcs` is for. */
+  /** The number of targets for which the file says what they turn about: those that `arcs` affects. */
   readonly turnCount: number;
-  /** Vertices up to here are the source's (or, from lod 1 on, the surface's); others repeat one of them. */
+  /** Vertices below this index are the source's (or, from lod 1 on, the surface's); the others repeat one of them. */
   readonly pointCount: number;
   readonly vertexCount: number;
   /** [triangles × 3] vertices, counter-clockwise seen from outside; a new array every time. */
@@ -131,44 +131,45 @@ export class Sweepface {
   /** Bytes of WebAssembly memory that the file and all its faces hold. */
   readonly memoryBytes: number;
 
-  /** The regions, first 'rest' if they leave anything; none where the face is of one piece. */
+  /** The regions, first 'rest' if they leave anything; empty if the face is not divided. */
   readonly regions: string[];
-  /** The weights as they are; of several regions, those of the first. */
+  /** The current weights; of several regions, those of the first. */
   readonly weights: Weights;
   weightsIn(region: string): Weights;
-  /** `weights` as numbers alone, in the order of `names`, which takes less time every frame; a copy. */
+  /** A copy of `weights` as numbers in the order of `names`: faster if used every frame. */
   readonly weightValues: Float64Array;
-  /** Sets the weights that are named, at once, everywhere or in one region; the others stay. */
+  /** Sets the named weights at once, everywhere or in one region; the others stay. */
   setWeights(weights: Weights, region?: string): void;
-  /** All weights to 0, at once. */
+  /** Sets all weights to 0 at once. */
   reset(): void;
 
-  /** Sends weights to goals from where they stand, everywhere or in one region; `advance` moves them. */
+  /** Sends weights from where they are to goals, everywhere or in one region; `advance` moves them. */
   moveTo(goals: Weights, drive?: DriveKind | Drive, region?: string): void;
-  /** A blow: adds up to 1,000,000 to the velocity of a weight (per second), which drag (per second, 8 unless given) takes
-   * away. The weight comes to rest where that leaves it: where it was going, or waited to go, is forgotten. */
+  /** A blow: adds up to 1,000,000 to the velocity of a weight (per second), which drag (per second, 8 unless given)
+   * then takes away. The weight comes to rest wherever that leaves it: earlier goals, waiting ones included, are
+   * forgotten. */
   push(name: string, velocityChange: number, drag?: number): void;
-  /** Lets seconds pass for the weights in motion; says whether anything goes on moving or waits to. Of less than 0, or
-   * more than 1e10 at once, none pass. */
+  /** Lets time pass for the weights in motion; returns whether anything still moves or waits to. No time passes if
+   * `seconds` is less than 0 or more than 1e10. */
   advance(seconds: number): boolean;
 
   /** How many eyeballs turn: with the option `eyes`, as many as the face has. */
   readonly eyeCount: number;
-  /** How the eyes stand; null, as at the start: by the weights of eyeLook targets. */
+  /** Turns the eyes; null, as at the start: by the weights of eyeLook targets. */
   look(pose: Pose | null): void;
-  /** What `look` was told last. */
+  /** The pose last given to `look`. */
   readonly pose: Pose | null;
 
   /** Writes three floats a vertex: positions in model units, unit normals. Either may be null. */
   evaluate(positions: Float32Array | Float64Array | null, normals?: Float32Array | Float64Array | null): void;
-  /** What a vertex shader evaluates the face from: docs/evaluation.md. */
+  /** The tables from which a vertex shader evaluates the face: docs/evaluation.md. */
   shaderTables(tangents?: boolean): {basis: Int16Array; places: Uint32Array; neutral: Float32Array; modes: number};
-  /** Writes what changes every frame for it, four integers a mode; returns their factor. */
+  /** Writes what changes for such a shader every frame, four integers a mode; returns their factor. */
   shaderModes(out: Int16Array, tangents?: boolean): number;
-  /** For vertices behind the points, the point that each repeats. */
+  /** For each vertex after the points, the point that it repeats. */
   readonly copies: Uint32Array;
-  /** Makes ready to move, which else happens when it first does and takes a few frames: reads what targets do, and
-   * makes the tables of evaluation. */
+  /** Gets the face ready to move: reads what targets do, and builds the tables for evaluation. Otherwise that happens
+   * when the face first moves, and takes a few frames. */
   prepare(): void;
 
   /** Frees the face; it can no longer be used. Memory is given back with the last face of a file. */

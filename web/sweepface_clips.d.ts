@@ -21,11 +21,11 @@ export interface OneEuro {
   cutoff?: number | undefined;
   /** Per unit of speed: higher follows quick moves more closely. 8 unless given. */
   speedGain?: number | undefined;
-  /** Of the speed's own filter: lower misses what goes to and fro. 5 unless given. */
+  /** Of the speed's own filter: lower misses movement to and fro. 5 unless given. */
   speedCutoff?: number | undefined;
 }
 
-/** Which targets names of a clip drive, and how much; null: none. Of several that drive one target the sum counts. */
+/** Which targets names of a clip drive, and how much; null: none. If several drive one target, their sum counts. */
 export type NameMap = Readonly<Record<string, string | readonly string[] | Readonly<Record<string, number>> | null>>;
 
 type Floats = Float32Array | Float64Array;
@@ -34,18 +34,18 @@ type Floats = Float32Array | Float64Array;
 export class Clip<Numbers extends Floats = Floats> {
   constructor(names: string[], times: Floats, weights: Numbers);
   readonly names: string[];
-  /** [frames] seconds, none before the last. */
+  /** [frames] seconds, never decreasing. */
   readonly times: Floats;
   /** [frames × names] */
   readonly weights: Numbers;
   readonly seconds: number;
-  /** What was mended or may be wrong in the file that it was read from, in sentences. */
+  /** What was repaired or may be wrong in the file that it was read from, in sentences. */
   readonly warnings: string[];
-  /** The weights at so many seconds after the first frame, straight between frames and held at the ends. */
+  /** The weights at `seconds` after the first frame, linear between frames and held at the ends. */
   at<Out extends Floats = Float64Array>(seconds: number, out?: Out): Out;
-  /** The clip without the noise of a tracker; nothing is late. */
+  /** The clip without a tracker's noise; nothing lags. */
   smooth(settings?: OneEuro): Clip<Numbers>;
-  /** The clip with the names of the targets that a map says; names that are not in the map stay. */
+  /** The clip with the names of the targets in a map; names that are not in the map stay. */
   renamed(map: NameMap): Clip<Float64Array>;
 }
 
@@ -58,14 +58,14 @@ export interface ReadOptions {
 export function readClip(source: string | Bytes, options?: ReadOptions & {framesPerSecond?: number | undefined}):
   Clip<Float64Array>;
 
-/** Plays a clip on a face, in all regions alike: what they are made of is for `moveTo` and timelines. */
+/** Plays a clip on a face, in all regions alike: their mass, stiffness and delay only affect `moveTo` and timelines. */
 export class ClipPlayer<Face extends Playable = Playable> {
   constructor(face: Face, clip: Clip);
   readonly face: Face;
   readonly clip: Clip;
   readonly match: Match;
   readonly seconds: number;
-  /** Sets the weights of a time, and turns eyes by the clip's angles or else by its weights of theirs, instead of an
+  /** Sets the weights at a time. Turns the eyes by the clip's angles, or else by its eyeLook weights, in place of an
    * earlier `look`. Returns the angles of the head in radians, if the clip has them. */
   seek(seconds: number): {yaw: number; pitch: number; roll: number} | null;
 }
@@ -82,7 +82,7 @@ export interface TimelineEvent {
 export interface Timeline {
   seconds: number;
   loops: number;
-  /** In any order; of two at one time the latter counts. */
+  /** In any order; of two at one time the later in the list counts. */
   events: TimelineEvent[];
   /** For the options of Sweepface.load. */
   regions?: Region[] | undefined;
@@ -91,7 +91,7 @@ export interface Timeline {
 /** A timeline from its JSON (docs/clips.md). Throws a sentence about what is wrong. */
 export function readTimeline(source: string | Bytes, options?: ReadOptions): Timeline;
 
-/** Plays a timeline on a face, which must have the regions that it moves. What it says of eyes counts instead of an
+/** Plays a timeline on a face, which must have the regions that it moves. What it says about the eyes replaces an
  * earlier `look`. */
 export class TimelinePlayer<Face extends Playable = Playable> {
   constructor(face: Face, timeline: Timeline);
@@ -99,9 +99,10 @@ export class TimelinePlayer<Face extends Playable = Playable> {
   readonly timeline: Timeline;
   readonly match: Match;
   readonly seconds: number;
-  /** Lets seconds pass, of more than 10¹⁰ at once none; says whether anything is still to come or moves. A mesh is then
-   * shown by `update()` without seconds, which would pass twice. */
+  /** Lets time pass (none if `seconds` is more than 10¹⁰); returns whether anything still moves or is yet to come. Then
+   * show a mesh by `update()` without seconds, which would pass twice. */
   advance(seconds: number): boolean;
-  /** From the beginning again, from where the face stands; what moves or waits there goes on, unless it is reset. */
+  /** Starts again from the beginning, with the face as it stands; what moves or waits goes on, unless the face is
+   * reset. */
   restart(): void;
 }

@@ -8,7 +8,7 @@ export class SweepfaceMesh<Materials extends Material | Material[] = MeshStandar
 }
 
 export interface LoaderOptions<M> extends LoadOptions {
-  /** The class of the mesh that is made, SweepfaceMesh unless given: SweepfaceGpuMesh, SweepfaceNodeMesh. */
+  /** The class of the mesh to make: SweepfaceMesh unless given, or SweepfaceGpuMesh, SweepfaceNodeMesh. */
   mesh?: (new (face: Sweepface) => M) | undefined;
 }
 
@@ -16,13 +16,14 @@ export interface LoaderOptions<M> extends LoadOptions {
 export class SweepfaceLoader<M extends FaceMesh = SweepfaceMesh> extends Loader<M> {
   constructor(manager?: LoadingManager, options?: LoaderOptions<M>);
   options: LoaderOptions<M>;
-  /** Ends the downloads that are under way. */
+  /** Aborts the downloads under way. */
   abort(): this;
   parseAsync(bytes: Bytes, options?: LoaderOptions<M>): Promise<M>;
 }
 
-/** An animation that GLTFLoader read, the first of targets that the face has unless given, as a clip for an AnimationMixer
- * of the face: a track for each target that it has and that ever leaves 0, by its name. Throws where there is none. */
+/** An animation read by GLTFLoader as a clip for an AnimationMixer of the face; unless given, the first with targets
+ * that the face has. It has a track, by name, for each of the face's targets that ever leaves 0. Throws if there is
+ * none. */
 export function animationFor(
   face: {readonly names: readonly string[]}, gltf: {scene: Object3D; animations: AnimationClip[]}, animation?: AnimationClip):
   AnimationClip;

@@ -8,7 +8,7 @@
 
 namespace sweepface {
 
-/// The smallest box along the axes around what it includes.
+/// The smallest axis-aligned box around what it includes.
 struct Box {
   static constexpr double kNowhere = std::numeric_limits<double>::infinity();
   Vec3 low{kNowhere, kNowhere, kNowhere}, high{-kNowhere, -kNowhere, -kNowhere};
@@ -27,7 +27,7 @@ struct Box {
   /// Zero without points.
   Vec3 size() const { return isEmpty() ? Vec3{} : high - low; }
   Vec3 centre() const { return isEmpty() ? Vec3{} : 0.5 * (low + high); }
-  /// 0, 1 or 2: the first of those as long as any.
+  /// 0, 1 or 2; the first of equally long ones.
   int longestAxis() const {
     const Vec3 s = size();
     return s.x >= std::max(s.y, s.z) ? 0 : s.y >= s.z ? 1 : 2;

@@ -11,27 +11,27 @@
 namespace sweepface {
 
 /// The bytes of a .sweep file (docs/file-format.md). The same rig gives the same bytes everywhere.
-/// Vectors are held bit for bit: as multiples of the packing's steps where they are, else as they
-/// are. Numbers must be finite, and names of targets all different, of 1 to 4096 bytes of UTF-8
-/// without control characters: decode() refuses what was written of another rig, or reads less of
-/// it. Indices of the source must be in range, and no more curves may meet at a node than readers
-/// search (some ten thousand, docs/file-format.md). Targets that are still to come (NeutralFirst)
-/// are written as if they did not move.
+/// Vectors are stored bit for bit: as multiples of the packing's steps if they are such multiples,
+/// otherwise as they are. Numbers must be finite, and names of targets all different, of 1 to 4096
+/// bytes of UTF-8 without control characters: decode() refuses a file of any other rig, or reads
+/// less of it. Indices of the source must be in range, and no more curves may meet at a node than
+/// readers search (some ten thousand, docs/file-format.md). Targets that are not decoded yet
+/// (NeutralFirst) are written as if they moved nothing.
 std::string encode(const Rig& rig);
 
-/// What reading a file may take. What is still takes hardly any bytes, so that a small file may ask
-/// for much memory.
+/// How much reading a file may take. What does not move takes hardly any bytes in a file, so even a
+/// small file may need a lot of memory.
 struct DecodeLimits {
-  std::size_t memory = std::size_t{2} << 30;  ///< bytes, about: of the rig and of its reading
+  std::size_t memory = std::size_t{2} << 30;  ///< about this many bytes, for rig and reading
 };
 
-/// Reads a .sweep file; `name` is what messages call it. Whatever the bytes, the answer is a sound
-/// rig or an error: memory stays in proportion to the bytes given, and below the limit.
+/// Reads a .sweep file; `name` is what messages call it. Whatever the bytes, the result is a valid
+/// rig or an error, and memory is bounded by the number of bytes, by fixed limits and by `limits`.
 Result<Rig> decode(std::string_view bytes, std::string_view name, const DecodeLimits& limits = {});
 
 struct NeutralFirst;
 
-/// What `decodeNeutral` left for later.
+/// What `decodeNeutral` leaves for later.
 class TargetsToCome {
  public:
   TargetsToCome();  ///< none
@@ -40,8 +40,8 @@ class TargetsToCome {
   ~TargetsToCome();
 
   bool any() const { return rest_ != nullptr; }
-  /// Fills in the differences of the targets of the rig that came with this, whose neutral,
-  /// surface and packing must still be as they came; after an error they are as empty as before.
+  /// Fills in the differences of the targets of the rig that came with this. The rig's neutral,
+  /// surface and packing must not have changed. After an error the differences are still empty.
   Result<void> decode(Rig& rig);
 
  private:
@@ -51,19 +51,20 @@ class TargetsToCome {
   std::unique_ptr<Rest> rest_;
 };
 
-/// A rig that can show its neutral only: its targets have names, and empty differences until they
-/// are decoded. Until then they move nothing.
+/// A rig that can only show its neutral: its targets have names, but their differences are empty
+/// and move nothing until they are decoded.
 struct NeutralFirst {
   Rig rig;
   TargetsToCome targets;
 };
 
-/// The same in two steps, so that a face shows before it can move: the first takes about half of
-/// the time. Nothing is to come of a file that holds vectors of targets as they are.
+/// Like decode() in two steps, so that a face can be shown before it can move; the first takes
+/// about half of the time. A file that stores the vectors of targets as they are is read whole:
+/// nothing is left for later.
 Result<NeutralFirst> decodeNeutral(std::string_view bytes, std::string_view name,
                                    const DecodeLimits& limits = {});
 
-/// What a part of a file costs.
+/// The size of a part of a file.
 struct FilePart {
   std::string name;
   std::size_t bytes = 0;

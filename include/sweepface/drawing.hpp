@@ -21,7 +21,7 @@ struct TextPlace {
 /// A wireframe as a person draws it: curves between named nodes, patches within them. The text form
 /// is docs/wire-format.md; everything here has the names and the meaning it has there.
 struct Drawing {
-  /// ∂x^i ∂y^j at index 3i + j; what is not there is predicted. Index 0 is the node's own place.
+  /// ∂x^i ∂y^j at index 3i + j; missing ones are predicted. Index 0 is the node's own place.
   struct Jet {
     std::string along;  ///< x leaves along this curve; "-name" where the curve arrives
     std::array<std::optional<Vec3>, 9> vectors;
@@ -81,7 +81,7 @@ struct Drawing {
 
   std::string source;  ///< what messages call the text
   std::string units;
-  double tolerance = 0;  ///< how far curves may pass from their points; 0: nobody said
+  double tolerance = 0;  ///< how far curves may pass from their points; 0: not given
   std::vector<Node> nodes;
   std::vector<Curve> curves;
   std::vector<Control> controls;
@@ -92,7 +92,7 @@ struct Drawing {
 };
 
 /// Reads a text in the format of docs/wire-format.md; `name` is what messages call it. Whatever the
-/// text, the answer is a drawing or one sentence with the line and column of what is wrong.
+/// text, the result is a drawing or one sentence with the line and column of what is wrong.
 Result<Drawing> parseDrawing(std::string_view text, std::string_view name);
 /// The text of a drawing. Its numbers read back as exactly the same doubles.
 std::string formatDrawing(const Drawing& drawing);
@@ -101,20 +101,21 @@ std::string formatDrawing(const Drawing& drawing);
 struct Built {
   Rig rig;
   double largestMiss = 0;  ///< how far a curve passes from the points it is drawn by, in any pose
-  std::string missed;      ///< what does, e.g. "curve 'rim'", or empty
+  std::string missed;      ///< the curve that does, e.g. "curve 'rim'", or empty
   double diagonal = 0;     ///< of the box around the drawing's nodes and the points of its curves
   std::string missedIn;    ///< the expression that misses most of it, or empty for the neutral
 };
 
 /// Makes the model. Its source mesh is the surface's own grid: every curve cut into its edges.
 Result<Built> build(const Drawing& drawing);
-/// Gives a model the source mesh of another over the same wireframe, so that it answers in the
-/// order of the mesh which that one was converted from; what build() made a patch of, the faces on
-/// it become. Fails where the wireframes differ, and where nobody knows which faces those are.
+/// Gives a model the source mesh of another over the same wireframe, so that its vertices come in
+/// the order of the mesh which that one was converted from. Faces take the material that build()
+/// gave their patch. Fails if the wireframes differ, or if there are such materials and it is
+/// unknown which faces lie on which patch.
 Result<void> adoptSource(Rig& rig, const Rig& like);
 
 /// The drawing of a model: every stored vector in the jet of a node, every target that is decoded
-/// as an expression. build() makes the same model of it.
+/// as an expression. build() makes the same model from it.
 Drawing draw(const Rig& rig);
 
 }  // namespace sweepface

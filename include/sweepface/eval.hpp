@@ -7,35 +7,36 @@
 
 namespace sweepface {
 
-/// How finely a surface is cut: into how many segments every arc, and how many columns and rows
-/// every patch inside. An arc has the same for both its patches, so that they meet without a crack
-/// and without a T-junction, however different they are.
+/// How finely a surface is cut: the number of segments of every arc, and of columns and rows inside
+/// every patch. An arc has one number for both its patches, so that they meet without cracks or
+/// T-junctions, however different they are.
 struct Density {
   std::vector<Index> arcs;                    ///< [arcs] at least 1
-  std::vector<std::array<Index, 2>> patches;  ///< [patches] at least 1; no fewer than their sides
+  std::vector<std::array<Index, 2>> patches;  ///< [patches] columns and rows: at least 1, and no
+                                              ///< fewer than on the sides
 };
 
-/// What a level of detail may cost or must reach.
+/// What a level of detail may cost or must achieve.
 struct Budget {
   enum class Kind {
     edgeLength,  ///< no arc has a segment longer than this, in model units
     error,       ///< no edge of a triangle is further than this from the surface at its middle, in
-                 ///< model units, and no segment further from its arc, as seven points of its way
-                 ///< tell (one, where an edge is cut into more than four): triangles hardly
-                 ///< further (on the ICT head by an eighth at most)
-    vertices     ///< as near to the surface as so many vertices allow
+                 ///< model units, nor an arc from its segments, measured at seven points of each
+                 ///< (one, where an edge is cut into more than four). Triangles are hardly further
+                 ///< (on the ICT head by an eighth at most)
+    vertices     ///< as close to the surface as this many vertices allow
   };
   Kind kind = Kind::vertices;
   double value = 0;
 };
-/// What is seen as `pixels` at a distance: a Budget's error for a camera with a vertical field of
-/// view in radians and a picture of so many pixels.
+/// The length that is `pixels` long on screen at a distance, as the error of a Budget. The camera
+/// has a vertical field of view in radians, the picture a height in pixels.
 double errorOnScreen(double pixels, double distance, double fieldOfView, double height);
 
-/// The density for a budget, measured on a settled pose; the same for the same pose everywhere.
-/// An edge of the source is cut into 64 at most, even where that is too few for a length or an
-/// error. Fails where the face has more corners than vertices are allowed, where more than 2^24
-/// would be needed, and for a budget that is not positive.
+/// The density for a budget, measured on a settled pose. The same pose gives the same density
+/// everywhere. An edge of the source is cut into 64 at most, even where that is too few for a
+/// length or an error. Fails if the patches have more corners than vertices are allowed, if more
+/// than 2^24 would be needed, or if the budget is not positive.
 Result<Density> densityFor(const Surface& surface, std::span<const Vec3> vectors,
                            const Budget& budget);
 
@@ -62,24 +63,24 @@ struct PatchMesh {
 /// there is exactly one vertex for every welded source vertex.
 class Tessellation {
  public:
-  /// Of a level of at least 1. It looks at the surface as long as it lives.
+  /// `level` is at least 1. The surface must outlive the tessellation.
   Tessellation(const Surface& surface, Index level);
-  /// With a density of its own for every arc and patch; has triangles and no faces.
+  /// With a density for every arc and patch instead of a level; has triangles and no faces.
   Tessellation(const Surface& surface, Density density);
-  /// Of single sites, which are its vertices: there is nothing between them.
+  /// The vertices are single sites, with nothing between them.
   Tessellation(const Surface& surface, std::vector<Site> sites);
 
-  /// Whether it may be of this surface: one with as many nodes, arcs, patches and vectors.
+  /// Whether it may belong to this surface: one with as many nodes, arcs, patches and vectors.
   bool fits(const Surface& surface) const;
-  /// 0 where there is a density instead, or nothing but sites.
+  /// 0 if it has a density instead, or nothing but sites.
   Index level() const { return level_; }
-  /// Whether anything lies between its vertices: else only vertexCount(), site(), terms(),
-  /// positions() and normals() may be asked.
+  /// Whether there is anything between its vertices. If not, only vertexCount(), site(), terms(),
+  /// positions() and normals() may be called.
   bool hasFaces() const { return !density_.patches.empty(); }
   Index vertexCount() const { return static_cast<Index>(sites_.size()); }
   /// The vertex at column i ≤ level·edgesU and row j ≤ level·edgesV of a patch.
   Index vertex(Index patch, Index i, Index j) const;
-  /// The vertex so many steps along a side of a patch, counter-clockwise from its start.
+  /// The vertex `steps` steps along a side of a patch, counter-clockwise from its start.
   Index sideVertex(Index patch, int side, Index steps) const;
   /// A site at which a vertex lies; vertices on arcs and nodes lie on several.
   const Site& site(Index vertex) const { return sites_[vertex]; }
@@ -142,16 +143,16 @@ struct Curve {
 struct CurveNetwork {
   std::vector<Vec3> points;     ///< model units
   std::vector<Index> nodes;     ///< points where boundary curves meet; they share them
-  std::vector<Curve> boundary;  ///< one an arc that is not collapsed
-  std::vector<Curve> control;   ///< two a half-arc with a patch
+  std::vector<Curve> boundary;  ///< one for every arc that is not collapsed
+  std::vector<Curve> control;   ///< two for every half-arc with a patch
 };
 
 /// The curves of a settled pose with `perEdge` ≥ 1 points on every source edge.
 CurveNetwork curveNetwork(const Surface& surface, std::span<const Vec3> vectors, Index perEdge);
 
-/// Vertices in the source's own order [V] and their unit normals, of a settled pose [vectorCount]
-/// and a tessellation of level 1. Vertices of no face go by `weights` [targets], where missing ones
-/// are 0, and have a normal along z.
+/// Positions of the vertices in the source's own order [V] and their unit normals, of a settled
+/// pose [vectorCount] and a tessellation of level 1. Vertices of no face move by `weights`
+/// [targets], of which missing ones are 0, and have a normal along z.
 std::vector<Vec3> sourcePositions(const Rig& rig, const Tessellation& level1,
                                   std::span<const Vec3> vectors, std::span<const double> weights);
 std::vector<Vec3> sourceNormals(const Rig& rig, const Tessellation& level1,

@@ -12,18 +12,18 @@ namespace sweepface {
 struct OneEuro {
   double cutoff = 1;       ///< hertz, at rest: lower removes more noise
   double speedGain = 8;    ///< hertz per unit of speed: higher follows quick moves more closely
-  double speedCutoff = 5;  ///< hertz, of the speed's own filter: lower misses what goes to and fro
+  double speedCutoff = 5;  ///< hertz, of the speed's own filter: lower misses movement to and fro
 };
 
-/// Takes the noise of a tracker out of K weights: heavily where they rest, hardly where they move.
+/// Removes a tracker's noise from K weights: strongly where they rest, hardly where they move.
 /// After G. Casiez, N. Roussel, D. Vogel, "1 € Filter: A Simple Speed-based Low-pass Filter for
 /// Noisy Input in Interactive Systems", CHI 2012.
 class OneEuroFilter {
  public:
   explicit OneEuroFilter(std::size_t count, const OneEuro& settings = {});
 
-  /// Replaces the weights [K] of a frame by filtered ones, `seconds` after the last one. The first
-  /// frame, and one after no or unknown time, passes as it is. Allocates nothing.
+  /// Replaces the weights [K] of a frame, `seconds` after the last one, by filtered ones. The first
+  /// frame, and one after no or an unknown time, passes unchanged. Allocates nothing.
   void apply(double seconds, std::span<double> weights) noexcept;
 
  private:
@@ -32,7 +32,7 @@ class OneEuroFilter {
   bool begun_ = false;
 };
 
-/// All frames of a clip, filtered from both its ends and averaged, so that nothing is late.
+/// Filters all frames of a clip from both ends and averages the two, so that nothing lags.
 void smooth(Clip& clip, const OneEuro& settings = {});
 
 }  // namespace sweepface

@@ -8,7 +8,7 @@
 
 namespace sweepface {
 
-/// A target whose weight nobody sets: it follows from the weights of others.
+/// A target whose weight is not set: it follows from the weights of others.
 struct Follower {
   enum class Kind {
     product,    ///< the product of its leaders' weights: a corrective or combination target
@@ -28,8 +28,9 @@ class Followers {
   Followers() = default;
   explicit Followers(std::vector<Follower> followers);
 
-  /// What the names of targets say: `A_B` follows the product of the targets A and B (and so on for
-  /// more, but not of products), `A_50`, `A50` or `A.50` is the in-between of A at 0.5.
+  /// The followers that the names of targets imply: `A_B` follows the product of the targets A and
+  /// B (and so on for more, but not of products), `A_50`, `A50` or `A.50` is the in-between of A at
+  /// 0.5.
   static std::vector<Follower> named(std::span<const std::string> targets);
 
   bool empty() const noexcept {
@@ -37,9 +38,9 @@ class Followers {
   }
 
   /// Replaces the weights [K] of all followers, and of leaders that hand over to in-betweens.
-  /// Products and arcs go by the weights of their leaders as they were set, or as they follow where
-  /// these follow themselves: there may be products of in-betweens, and arcs of both. Allocates
-  /// nothing.
+  /// Products and arcs use the weights of their leaders as they were set, or, for leaders that are
+  /// followers themselves, as they follow: there may be products of in-betweens, and arcs of both.
+  /// Allocates nothing.
   void apply(std::span<double> weights) const noexcept;
 
  private:

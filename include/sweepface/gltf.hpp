@@ -14,10 +14,10 @@
 
 namespace sweepface {
 
-/// The rig in a .glb or .gltf file: all primitives that have morph targets, or all there are where
-/// none has; its vertices are those of the primitives, one after another, in the scene's space.
-/// Quads are recovered from triangles. Messages call the file `name`; buffers and images beside it
-/// are read from `folder` alone, and none if that is empty.
+/// The rig in a .glb or .gltf file: all primitives that have morph targets, or all primitives if
+/// none has. Its vertices are those of the primitives, one after another, in the scene's space.
+/// Quads are recovered from triangles. Messages call the file `name`. External buffers and images
+/// are read only from `folder`, and not at all if that is empty.
 Result<RigSource> parseGltf(std::string_view bytes, std::string_view name,
                             const std::filesystem::path& folder);
 
@@ -26,13 +26,13 @@ Result<RigSource> parseGltf(std::string_view bytes, std::string_view name,
 Result<Clip> parseGltfClip(std::string_view bytes, std::string_view name,
                            const std::filesystem::path& folder, std::string_view animation = {});
 
-/// A scene whose skins have their weights in 16 bits, where they are shares of one in single
-/// precision: off by 1/131070 at most but for the largest of a vertex, which keeps their sum. The
-/// same one where nothing is to be rounded.
+/// The scene with the weights of its skins rounded to 16 bits, where they are shares of one in
+/// single precision. They are off by 1/131070 at most, except for the largest of a vertex, which
+/// keeps their sum. Returns the same scene if there is nothing to round.
 std::string packedScene(std::string scene);
 
-/// Whether the scene that came with a rig can take it, as formatGlb() will ask; a rig without one
-/// needs none.
+/// Whether the scene that came with a rig can take the rig, as formatGlb() requires; succeeds for a
+/// rig without a scene.
 Result<void> checkScene(const Rig& rig);
 
 /// How a whole model turns about a point.
@@ -42,7 +42,7 @@ struct HeadTrack {
   Vec3 pivot;
 };
 
-/// How far as few keys as do may take a head's turn, in radians.
+/// How far a head's turn may be off, in radians, when it is reduced to as few keys as possible.
 inline constexpr double kHeadTolerance = 0.001;
 
 /// What formatGlb writes.
@@ -51,12 +51,12 @@ struct GlbOptions {
   bool morphNormals = false;  ///< normals of the morph targets too
   bool quantize = false;      ///< KHR_mesh_quantization
   Weights weights{};          ///< at which the face is shown; empty: as its scene says, else all 0
-  /// An animation of the weights, or null. Every law is held exactly by its keys.
+  /// An animation of the weights, or null. Its keys hold every law exactly.
   const Motion* motion = nullptr;
-  /// Instead of a motion: a key a frame with straight lines between them. Its names are the rig's
-  /// targets.
+  /// Instead of a motion: one key for each frame, with straight lines between them. Its names are
+  /// the rig's targets.
   const Clip* clip = nullptr;
-  /// Greater than 0: the clip in as few keys with tangents as keep its weights so near.
+  /// Greater than 0: writes the clip in as few keys with tangents as keep its weights within this.
   double keyTolerance = 0;
   /// Beside a motion or a clip: how the model turns.
   const HeadTrack* head = nullptr;

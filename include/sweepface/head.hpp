@@ -31,11 +31,11 @@ struct HeadPose {
   friend bool operator==(const HeadPose&, const HeadPose&) = default;
 };
 
-/// Left-handed angles as right-handed ones, and the other way around.
+/// Turns left-handed angles into right-handed ones, and vice versa.
 Angles betweenHands(const Angles& angles);
 
-/// Where a clip has the angles of Live Link Face: HeadYaw, LeftEyePitch and so on. These are
-/// left-handed: yaw is positive to the face's right, roll to its left.
+/// The columns in which a clip has the angles of Live Link Face: HeadYaw, LeftEyePitch and so on.
+/// These are left-handed: yaw is positive to the face's right, roll to its left.
 class ClipAngles {
  public:
   explicit ClipAngles(const Clip& clip);
@@ -44,10 +44,11 @@ class ClipAngles {
   /// Whether there are any of the head.
   bool head() const { return columns_[0] >= 0 || columns_[1] >= 0 || columns_[2] >= 0; }
   /// Whether any of the head, or a yaw or pitch of an eye, is ever other than 0: recordings have a
-  /// column for each, and 0 in it where nobody told.
+  /// column for each, filled with 0 if it was not recorded.
   bool turnsHead() const { return turns_[0] || turns_[1] || turns_[2]; }
   bool eyes() const { return turns_[3] || turns_[4] || turns_[6] || turns_[7]; }
-  /// The pose at `seconds` after the first frame of the clip, right-handed; what it lacks is 0.
+  /// The pose at `seconds` after the first frame of the clip, right-handed; angles that it lacks
+  /// are 0.
   HeadPose at(const Clip& clip, double seconds) const noexcept;
 
  private:
@@ -55,7 +56,7 @@ class ClipAngles {
   std::array<bool, 9> turns_{};
 };
 
-/// Whether a clip drives any target, or is of nothing but angles: such a one moves the head and the
+/// Whether a clip drives any target, or has nothing but angles, so that it moves the head and the
 /// eyes alone.
 bool movesAnything(const Clip& clip, const ClipMatch& match);
 
@@ -75,9 +76,9 @@ std::vector<Eye> findEyes(const Rig& rig);
 ///
 ///   p + sin θ (a X p + b Y p) + (1 − cos θ) (a² X² p + b² Y² p + ab (XY + YX) p)
 ///
-/// where X and Y are the cross products with the x and y axes. Axes in the plane across the view
-/// are all that eyes use (Listing's law). Terms whose factors may be below 0 have a target for
-/// either sign, since some programs stop weights at 0.
+/// where X and Y are the cross products with the x and y axes. Eyes only use axes in the plane
+/// across the view (Listing's law). Terms whose factors may be below 0 have a target for each sign,
+/// since some programs stop weights at 0.
 class EyeTurns {
  public:
   static constexpr std::size_t kTargets = 8;  ///< of an eye
@@ -85,22 +86,22 @@ class EyeTurns {
 
   EyeTurns() = default;
 
-  /// Adds the targets to a rig, named eyeLeft.down, .up, .left, .right, .xx, .yy, .xy
-  /// and .yx. Targets named like ARKit's
-  /// eyeLook shapes turn the eyes from now on: by as much as they did so far, then without moving
-  /// the ball along a straight line any longer, or by half a radian if they did not.
+  /// Adds the targets to a rig, named eyeLeft.down, .up, .left, .right, .xx, .yy, .xy and .yx.
+  /// Targets named like ARKit's eyeLook shapes turn the eyes from now on. They turn them by as much
+  /// as they did so far, but no longer move the ball along straight lines; those that did not turn
+  /// them do so by half a radian.
   static EyeTurns addTo(Rig& rig, std::span<const Eye> eyes);
 
   bool empty() const noexcept { return eyes_.empty(); }
 
-  /// Gives every eyeball wholly to the region that has most of it, as parts of a ball that turn by
-  /// different angles are none. The same for influences [R][storedCount].
+  /// Gives every eyeball wholly to the region that has most of it: a ball whose parts turn by
+  /// different angles is no ball. The same for influences [R][storedCount].
   void keepWhole(const Surface& surface, std::span<Region> regions) const;
   void keepWhole(std::span<std::vector<float>> influences) const;
 
   /// Sets the weights [K] of the turns from those of the eyeLook targets.
   void apply(std::span<double> weights) const noexcept;
-  /// Sets them from angles instead, as a tracker gives them; roll does not count.
+  /// Sets them from angles instead, as a tracker gives them; roll is ignored.
   void apply(const HeadPose& pose, std::span<double> weights) const noexcept;
 
  private:

@@ -22,7 +22,8 @@ Result<PolygonMesh> parseObj(std::string_view text, std::string_view name);
 /// The mesh in a PLY file (ASCII, binary of either endianness); messages call it `name`.
 Result<PolygonMesh> parsePly(std::string_view bytes, std::string_view name);
 
-/// Hears how many target files of how many are read; one call at a time, from any thread.
+/// Called with the number of target files read so far and in total; one call at a time, from any
+/// thread.
 using ReadProgress = std::function<void(std::size_t done, std::size_t total)>;
 
 /// A neutral mesh and its targets, each named after its file. A target that is a folder stands for
@@ -39,12 +40,12 @@ struct RigSource {
   /// one.
   std::string scene;
   std::vector<std::string> warnings;  ///< what of that could not be carried over, in sentences
-  /// On the face itself, with or without a scene.
+  /// Warnings about the face itself, with or without a scene.
   std::vector<std::string> faceWarnings{};
 };
 
-/// The same from any files: a .glb or .gltf alone, which holds its targets, or as readRig does.
-/// Where all faces are triangles, pairs of them become quads (docs/quads.md).
+/// The same from any files: a single .glb or .gltf, which holds its targets, or files as in
+/// readRig. Where all faces are triangles, pairs of them become quads (docs/quads.md).
 Result<RigSource> readSource(const std::filesystem::path& neutral,
                              std::span<const std::filesystem::path> targets,
                              const ReadProgress& progress = {});
@@ -62,14 +63,14 @@ std::string formatObj(const ObjOutput& output);
 /// All bytes of a file.
 Result<std::string> readFile(const std::filesystem::path& path);
 
-/// The extension of a path with its dot, in small letters; that of a file named ".glb" too.
+/// The extension of a path with its dot, in lower case; a file named ".glb" has one, too.
 std::string extensionOf(const std::filesystem::path& path);
 
-/// The folder that a file is in, "." where its path names none.
+/// The folder that a file is in, "." if its path names none.
 std::filesystem::path folderOf(const std::filesystem::path& path);
 
-/// Writes beside `path` and renames, so that the file is either whole or as it was; other names of
-/// the old one (hard links) keep that.
+/// Writes a file beside `path` and renames it, so that the file at `path` is either complete or
+/// unchanged. Other names of the old file (hard links) keep the old contents.
 Result<void> writeFile(const std::filesystem::path& path, std::string_view bytes);
 
 }  // namespace sweepface

@@ -18,8 +18,9 @@ struct CubicKeys {
   void at(double time, std::span<double> weights) const noexcept;
 };
 
-/// As few keys at times of the clip as keep every weight within `tolerance` > 0 of the clip, at its
-/// frames and at three places between them. Both ends are keys. A clip without frames has none.
+/// As few keys as keep every weight within `tolerance` > 0 of the clip, at its frames and at three
+/// places between them. Keys are at frames of the clip. Both ends are keys. A clip without frames
+/// has none.
 CubicKeys fewestKeys(const Clip& clip, double tolerance);
 
 }  // namespace sweepface

@@ -7,9 +7,9 @@
 
 namespace sweepface {
 
-/// Goals that wait until a late region sets out for them, in the order of their times. Where more
-/// of a weight come than 120 a second, or than 63 while the first waits, some become one: the last
-/// of them at the time of the first. Nothing allocates once it is made.
+/// Goals that wait until a late region sets out for them, in the order of their times. If more than
+/// 120 a second come for a weight, or more than 63 while the first waits, some are merged: the last
+/// of them takes the time of the first. Allocates nothing once made.
 class LateGoals {
  public:
   struct Goal {
@@ -19,16 +19,16 @@ class LateGoals {
     Drive drive;
   };
 
-  /// Where the delay, ≥ 0 s, is 0 no goal waits: none may be added.
+  /// `delay` is at least 0 s. At 0 no goal waits, and none may be added.
   LateGoals(std::size_t weights, double delay);
 
   bool isEmpty() const noexcept { return count_ == 0; }
-  /// Not before the last.
+  /// Its time must not be before that of the last one added.
   void add(const Goal& goal) noexcept;
-  /// The first, if it has set out by then.
+  /// The first goal if it is due by then, else null.
   const Goal* due(double time) const noexcept;
   void removeFirst() noexcept;
-  /// Those of a weight.
+  /// Removes the goals of a weight.
   void forget(std::size_t weight) noexcept;
 
  private:
@@ -36,7 +36,7 @@ class LateGoals {
 
   std::vector<Goal> ring_;
   std::size_t first_ = 0, count_ = 0;
-  double apart_ = 0;  // goals of a weight, where there are many
+  double apart_ = 0;  // time between goals of a weight, where there are many
 };
 
 }  // namespace sweepface

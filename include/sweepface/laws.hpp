@@ -14,11 +14,11 @@ struct ShownLaw {
   Trajectory path;
 };
 
-/// Every law that there is, those from rest to rest in time first.
+/// Every law there is, first those that go from rest to rest in a given time.
 std::vector<ShownLaw> everyLaw();
 
-/// All of them side by side as a moving picture (SVG): position, velocity and force over time, and
-/// a ball that goes that way, again and again.
+/// All of them side by side as an animated picture (SVG): position, velocity and force over time,
+/// and a ball that moves that way, in a loop.
 std::string lawSheet();
 
 }  // namespace sweepface

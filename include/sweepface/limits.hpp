@@ -8,7 +8,7 @@
 
 namespace sweepface {
 
-/// What weights may be at the least and at the most.
+/// The least and the greatest values of weights.
 class Limits {
  public:
   struct Range {
@@ -16,7 +16,7 @@ class Limits {
     friend bool operator==(const Range&, const Range&) = default;
   };
 
-  /// None.
+  /// No limits.
   Limits() = default;
   explicit Limits(std::vector<Range> ranges) : ranges_(std::move(ranges)) {}
   /// "0:1,jawOpen=0:0.8": all targets from 0 to 1, jawOpen no more than 0.8, in any order.
@@ -25,7 +25,7 @@ class Limits {
   bool empty() const noexcept { return ranges_.empty(); }
   std::span<const Range> ranges() const noexcept { return ranges_; }  ///< [K]
 
-  /// Puts weights [K] that are beyond on the limit.
+  /// Clamps weights [K] to their limits.
   void apply(std::span<double> weights) const noexcept;
 
  private:

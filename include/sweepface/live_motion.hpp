@@ -10,10 +10,10 @@
 
 namespace sweepface {
 
-/// How a weight goes from where it stands, with the velocity it has, to a goal.
+/// How a weight moves to a goal from its current position and velocity.
 struct Drive {
   enum class Kind {
-    cut,              ///< is there at once: follows exactly
+    cut,              ///< jumps there at once: follows exactly
     newton,           ///< a constant force, arriving at speed
     linearForce,      ///< a force linear in time, arriving at rest
     accelerateBrake,  ///< one constant force, then another, arriving at rest
@@ -28,22 +28,21 @@ struct Drive {
   double delay = 0;          ///< seconds before it sets out
 };
 
-/// "cut", "newton", "linear-force", "accelerate-brake", "spring" or "bounce" with its defaults; the
-/// error lists them.
+/// The drive called "cut", "newton", "linear-force", "accelerate-brake", "spring" or "bounce", with
+/// its defaults; the error lists the names.
 Result<Drive> driveFromName(std::string_view name);
 std::string_view nameOf(Drive::Kind kind) noexcept;
 
 /// The trajectory of a drive without its delay. A cut keeps no velocity.
 Result<Trajectory> trajectoryOf(const Drive& drive, Start start, double goal);
 
-/// What may pass at once, some 300 years: after more a clock would not tell frames apart. So much
-/// is a clock of other units, or a first frame that no other was before.
+/// The most that may pass at once, some 300 years: beyond that a clock could not tell frames apart.
+/// More comes from a clock in other units, or from a first frame without a frame before it.
 inline constexpr double kMostSeconds = 1e10;
 
-/// K weights in motion that take new goals at any instant and go on from where they are without a
-/// jump in position or velocity (but for cuts). Every path is a closed form of the clock, so what
-/// is seen does not depend on the frame rate. Nothing allocates after `make`, but the texts of
-/// errors.
+/// K weights in motion. They take new goals at any instant and go on from where they are, without a
+/// jump in position or velocity (except for cuts). Every path is a closed form of the time, so the
+/// result does not depend on the frame rate. After `make` nothing allocates except error messages.
 class MotionState {
  public:
   /// Refuses weights that are not finite.
@@ -52,28 +51,29 @@ class MotionState {
   std::size_t size() const noexcept { return coordinates_.size(); }
   double now() const noexcept { return now_; }  ///< seconds since `make`
 
-  /// Lets time pass. Negative, not a number or more than kMostSeconds: none passes.
+  /// Lets time pass: none if `seconds` is negative, not a number or more than kMostSeconds.
   void advance(double seconds) noexcept;
 
-  /// Sends a weight to a goal; what it did before ends when the drive sets out. A drive that still
-  /// waits for that is given up. On an error nothing changes.
+  /// Sends a weight to a goal. What it did before goes on until the drive sets out; an earlier
+  /// drive that is still waiting to set out is dropped. On an error nothing changes.
   Result<void> moveTo(std::size_t weight, double goal, const Drive& drive = {});
-  /// Whether that would be an error.
+  /// Whether that would fail.
   Result<void> check(std::size_t weight, double goal, const Drive& drive) const;
   /// The same for all weights [K].
   Result<void> moveTo(std::span<const double> goals, const Drive& drive = {});
   /// A blow: adds to a weight's velocity, which drag (per second) then takes away.
   Result<void> push(std::size_t weight, double velocityChange, double drag);
-  /// What that makes the weight do.
+  /// The trajectory that a push would give the weight.
   Result<Trajectory> pushed(std::size_t weight, double velocityChange, double drag) const;
 
-  /// Where a weight stands; rest at 0 for one that there is not.
+  /// The state of a weight; at rest at 0 if there is no such weight.
   Kinematics sample(std::size_t weight) const noexcept;
   /// All weights or velocities, as many as `out` takes.
   void positions(std::span<double> out) const noexcept;
   void velocities(std::span<double> out) const noexcept;
-  /// Whether any weight waits to set out, or may yet be further than `tolerance` from where it
-  /// comes to rest. Where none does, nothing is to be evaluated until something new is asked of it.
+  /// Whether any weight waits to set out, or may still be further than `tolerance` from where it
+  /// comes to rest. If none does, there is nothing to evaluate until you ask something new of the
+  /// motion.
   bool moves(double tolerance = 1e-6) const noexcept;
 
  private:

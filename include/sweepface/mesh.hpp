@@ -25,7 +25,7 @@ struct MeshRig {
   PolygonMesh neutral;
   std::vector<MeshTarget> targets;
 
-  /// Of pose 0, the neutral, or of target pose - 1: [V × 3].
+  /// The positions of pose 0, the neutral, or of target pose - 1: [V × 3].
   const std::vector<Vec3>& positionsOf(Index pose) const {
     return pose == 0 ? neutral.positions : targets[pose - 1].positions;
   }

@@ -10,7 +10,7 @@
 
 namespace sweepface {
 
-/// How a motion spends its time: which force moves it.
+/// How a motion progresses over time: which force moves it.
 enum class TimeLaw {
   linear,           ///< no force: constant speed
   newton,           ///< constant force from rest: s²
@@ -46,8 +46,8 @@ struct MotionSample {
 };
 
 /// A motion of K weights from one set to another. Blending is linear in the weights, so every
-/// vertex of the blended face moves by the same law. Evaluating allocates nothing; times outside
-/// [0, seconds] find the weights at rest at the near end.
+/// vertex of the blended face moves by the same law. Evaluating allocates nothing; at times outside
+/// [0, seconds] the weights are at rest at the nearer end.
 class Motion {
  public:
   /// Refuses sets of different sizes, values that are not finite, a duration or a mass that is not

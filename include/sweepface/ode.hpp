@@ -41,7 +41,7 @@ class SweepBasis {
   SweepBasis();
 
   /// `length` is the length h of the sweep in the units of the shape parameters: in u the equation
-  /// has eta h^2 / rho and lambda h^4 / rho. Always answers for eta/rho <= 0 and lambda/rho >= 0;
+  /// has eta h^2 / rho and lambda h^4 / rho. Always succeeds for eta/rho <= 0 and lambda/rho >= 0;
   /// elsewhere it refuses parameters at which the basis grows large.
   static Result<SweepBasis> make(const Shape& shape, double length = 1);
 
@@ -60,7 +60,8 @@ class TangentBasis {
  public:
   /// Without lambda: the cubic Hermite polynomials.
   TangentBasis();
-  /// Always answers for lambda/eta <= 0; elsewhere it refuses where the basis grows large.
+  /// Always succeeds for lambda/eta <= 0; elsewhere it refuses parameters at which the basis grows
+  /// large.
   static Result<TangentBasis> make(const Shape& shape, double length = 1);
   std::array<double, 4> at(double u, int order = 0) const;
 

@@ -18,7 +18,7 @@ namespace sweepface {
 
 // ---- Images ----
 
-/// What a screen shows (sRGB), each from 0 to 1.
+/// A colour in sRGB, each component from 0 to 1.
 struct Colour {
   float r = 0, g = 0, b = 0;
   friend bool operator==(const Colour&, const Colour&) = default;
@@ -68,7 +68,7 @@ void drawRectangle(Image& image, double x, double y, double width, double height
 /// Copies `part` with its upper left corner at (x, y).
 void paste(Image& image, const Image& part, Index x, Index y);
 
-/// A box of the same place in several pictures, to measure by: shares of their width and height
+/// A box at the same place in several pictures, to measure by: shares of their width and height
 /// from the upper left corner.
 struct PictureBox {
   double x = 0, y = 0, width = 0, height = 0;
@@ -94,7 +94,7 @@ class Page {
     Index columns = 1, rows = 1;
     bool captions = false, foot = false;
   };
-  /// Fails where the size is none of a picture or leaves too little room.
+  /// Fails if the size is not that of a picture or leaves too little room.
   static Result<Page> make(PictureSize size, const Plan& plan);
   /// The size of a page whose pictures have the given size.
   static PictureSize sizeFor(PictureSize panel, const Plan& plan);
@@ -103,7 +103,7 @@ class Page {
   PictureSize panel() const { return panel_; }
   void place(Index column, Index row, const Image& image, std::string_view caption = {});
   void addLegend(std::span<const Key> keys);
-  /// From 0 to `top`, `text` says of what.
+  /// A scale from 0 to `top`; `text` says of what.
   void addScale(double top, std::string_view text);
   const Image& image() const { return image_; }
 
@@ -139,7 +139,7 @@ struct Camera {
   Vec3 project(const Vec3& p, PictureSize size) const;
 };
 
-/// The camera of a portrait lens that has all points in the picture. `margin` is the share of the
+/// A camera with a portrait lens that has all points in the picture. `margin` is the share of the
 /// picture left free at each side.
 Camera frameCamera(std::span<const Vec3> points, const View& view, PictureSize size,
                    double margin = 0.05);
@@ -147,7 +147,7 @@ Camera frameCamera(std::span<const Vec3> points, const View& view, PictureSize s
 std::vector<Camera> frameCameras(std::span<const Vec3> points, std::span<const View> views,
                                  PictureSize size, double margin = 0.05);
 
-/// The smallest box round some points as a camera sees them, and a little room.
+/// The smallest box around some points as a camera sees them, with a little room.
 PictureBox boxAround(std::span<const Vec3> points, const Camera& camera, PictureSize size);
 
 // ---- Scenes ----
@@ -156,7 +156,7 @@ enum class Finish {
   skin,   ///< soft, with a little shine
   matte,  ///< colours stay what they are, lit just enough to show the form
   flat,   ///< colours unlit
-  zebra,  ///< a mirror in a room of stripes: kinks of the surface are kinks of the lines
+  zebra,  ///< a mirror in a room of stripes: kinks in the surface show as kinks in the lines
 };
 
 /// A line in space. What lies behind the surface is not drawn.
@@ -193,7 +193,7 @@ struct StudioParts;
 /// once. Pictures are the same for any number of threads.
 class Studio {
  public:
-  /// Fails where the scene makes no sense: an index out of range, a position that is not finite.
+  /// Fails if the scene makes no sense: an index out of range, a position that is not finite.
   static Result<Studio> make(Scene scene);
   Studio(Studio&&) noexcept;
   Studio& operator=(Studio&&) noexcept;
@@ -214,7 +214,7 @@ Result<Image> render(Scene scene, const Camera& camera, PictureSize size);
 
 enum class Style {
   shaded,     ///< skin, eyes, teeth by the names of their materials
-  patches,    ///< patches in tints of which no two neighbours have the same
+  patches,    ///< patches in tints, no two neighbours in the same
   wireframe,  ///< boundary curves and control curves
   joins,      ///< boundary curves coloured by the class of their join
   error,      ///< distance of the vertices from the meshes, as a heat map
@@ -231,8 +231,8 @@ std::string_view nameOf(Style style);
 /// From pale to dark with `share` from 0 to 1.
 Colour heatColour(double share);
 
-/// What the source's meshes say under some weights: their own linear blend [V]. Fails with a
-/// sentence where the meshes do not belong to the rig or lack a target whose weight is not 0.
+/// The positions of the source's meshes under some weights: their own linear blend [V]. Fails with
+/// a sentence if the meshes do not belong to the rig or lack a target whose weight is not 0.
 Result<std::vector<Vec3>> originalPositions(const Rig& rig, const MeshRig& source,
                                             std::span<const double> weights);
 
@@ -244,7 +244,7 @@ struct HeatMap {
   std::string title;
 };
 
-/// Into how many an edge is cut so that a picture of some size looks smooth.
+/// The number of pieces to cut every edge into so that a picture of this size looks smooth.
 Index lodFor(const Surface& surface, Style style, PictureSize size);
 
 /// Makes scenes of one rig.
@@ -256,8 +256,8 @@ class FaceScenes {
   /// Any style but error and angle.
   Scene scene(std::span<const double> weights, Style style) const;
   /// The face coloured by its error or angle (the style) against the positions of its source's
-  /// vertices. The scale of errors ends at the rig's tolerance, unless they go beyond or `top` says
-  /// where.
+  /// vertices. The scale of errors ends at the rig's tolerance, unless errors go beyond it or `top`
+  /// says where.
   HeatMap heatMap(std::span<const double> weights, std::span<const Vec3> original, Style style,
                   double top = 0) const;
   /// The source's own polygons with other positions.
@@ -267,14 +267,15 @@ class FaceScenes {
   std::vector<Key> legend(Style style) const;
   /// Positions of the vertices of level 1 in a pose.
   std::vector<Vec3> points(std::span<const double> weights) const;
-  /// Of all that are drawn, to frame it: the surface may bulge beyond its source's vertices.
+  /// Positions of all vertices that are drawn, for framing: the surface may bulge beyond its
+  /// source's vertices.
   std::vector<Vec3> drawn(std::span<const double> weights) const;
-  /// Which of these move most under the targets whose names contain `name`, in whatever case; of
-  /// the first `count` targets, if what follows others comes after them.
+  /// Which of points() move most under the targets whose names contain `name`, ignoring case. Only
+  /// the first `count` targets are searched, since followers may come after them.
   Result<std::vector<Index>> region(std::string_view name,
                                     std::size_t count = static_cast<std::size_t>(-1)) const;
-  /// The corners of all quads of level 1 that have one of these vertices, in ascending order: what
-  /// the surface moves where they do.
+  /// The corners of all quads of level 1 that have one of these vertices, in ascending order: the
+  /// part of the surface that moves with them.
   std::vector<Index> around(std::span<const Index> vertices) const;
 
  private:

@@ -12,16 +12,16 @@ struct Series {
   std::string name, colour;
   std::vector<Vec2> points;
   bool dots = false;  ///< marks the points
-  int dashes = 0;     ///< 0: a whole line; below kDashes
+  int dashes = 0;     ///< 0: a solid line; below kDashes
 };
 inline constexpr int kDashes = 4;
 
 struct Axis {
   std::string title;
-  bool logarithmic = false;  ///< what is not positive is left out then
+  bool logarithmic = false;  ///< values that are not positive are left out
 };
 
-/// Curves over a common axis, without points that are not finite; empty where there is nothing to
+/// Curves over a common axis, without points that are not finite; empty if there is nothing to
 /// show.
 std::string linePlot(const std::string& title, const Axis& x, const Axis& y,
                      std::vector<Series> series);

@@ -7,7 +7,7 @@
 
 namespace sweepface {
 
-/// The faces of a polygon mesh and what hangs on them, without positions.
+/// The faces of a polygon mesh and their attributes, without positions.
 struct Polygons {
   std::vector<Index> faceStart{0};  ///< [F + 1] first corner of each face
   std::vector<Index> corners;       ///< [C] vertex of each face corner

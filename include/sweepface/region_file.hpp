@@ -13,7 +13,8 @@ struct PaintedRegion {
   std::string name;
   Matter matter;
   Brush brush;
-  int bands = 1;  ///< more: as many regions, name1, name2 ..., delayed in equal steps up to `delay`
+  int bands = 1;  ///< above 1: this many regions, name1, name2 ..., delayed in equal steps up to
+                  ///< `delay`
 };
 
 /// The `regions` of a JSON text, which may be a timeline or a capture; none if it has no such

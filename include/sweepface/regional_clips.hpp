@@ -13,13 +13,14 @@ namespace sweepface {
 
 /// A recording as every region of a face plays it.
 struct RegionalClips {
-  Clip whole;                   ///< of head and eyes, which no region's matter holds back
+  Clip whole;                   ///< for head and eyes, which no region's matter holds back
   std::vector<Clip> ofRegions;  ///< [R]
-  double missed = 0;            ///< as Baked has it, the most of any region
+  double missed = 0;            ///< as in Baked, the most of any region
 };
 
-/// A capture by the matters of R ≥ 1 regions, which hang on it by `hold`. Refuses matters that
-/// check() refuses, springs that Trajectory::spring does, and more than kMostClipWeights in all.
+/// A capture as R ≥ 1 regions of these matters play it, hanging on it by `hold`. Refuses matters
+/// that check() refuses, springs that Trajectory::spring() refuses, and more than kMostClipWeights
+/// weights in all.
 Result<RegionalClips> inRegions(Clip capture, std::span<const Matter> matters, const Spring& hold);
 
 /// A timeline in R ≥ 1 regions, which end together. Refuses events for regions that are not among

@@ -9,23 +9,23 @@
 
 namespace sweepface {
 
-/// What a drive becomes in a part of a face. The pull is that of the rest times the stiffness, and
-/// m q″ = f: everything takes √(mass / stiffness) times as long, and a spring's damping, whose
-/// damper stays the same, is divided by √(mass · stiffness). How late the part sets out is not the
-/// drive's: its own delay stays.
+/// What a drive becomes in a part of a face. The force is that of the rest times the stiffness, and
+/// m q″ = f, so everything takes √(mass / stiffness) times as long. A spring keeps its damper, so
+/// its damping is divided by √(mass · stiffness). The drive keeps its own delay: that of the matter
+/// is not added.
 Drive inMatter(Drive drive, const Matter& matter);
 
-/// What a clip becomes in a matter that check() takes, with a spring. The recorded face has the
-/// mass 1 already; what is beyond that hangs on the recorded weights by a spring and a damper,
-/// follows late and swings on. Where it swings it has so many frames that straight lines between
-/// them are as good as exact, as far as `regions` such clips together hold kMostClipWeights, and it
-/// goes on until all of it has arrived: until what swings hangs still, or for ten seconds.
+/// What a clip becomes in a matter that check() accepts. The recorded face already has a mass of 1;
+/// any mass beyond that hangs on the recorded weights by a spring and a damper (`hold`), follows
+/// late and swings on. Where it swings, frames are added until straight lines between them are as
+/// good as exact, as far as `regions` such clips fit into kMostClipWeights together. The clip goes
+/// on until all of it has arrived: until what swings hangs still, or for ten seconds.
 Clip inMatter(const Clip& clip, const Matter& matter, const Spring& hold = {},
               std::size_t regions = 1);
 
-/// R regions × K weights in motion: a goal sends a weight off everywhere, and each region moves by
-/// its own matter. One region of matter 1 is a MotionState, bit for bit. A late region does all
-/// that it would do at once, later. Nothing allocates after `make`, but the texts of errors.
+/// R regions × K weights in motion: a goal sends a weight off in all regions, and each moves by its
+/// own matter. One region of matter 1 is a MotionState, bit for bit. A late region does everything
+/// that it would do at once, later. After `make` nothing allocates except error messages.
 class RegionalMotion {
  public:
   /// All regions start from the same weights [K]. Refuses what MotionState or check() refuse.
@@ -42,10 +42,10 @@ class RegionalMotion {
   Result<void> moveTo(std::span<const double> goals, const Drive& drive = {});
   /// Only in one region.
   Result<void> moveTo(std::size_t region, std::size_t weight, double goal, const Drive& drive);
-  /// At once, whatever the matter; no goal waits for it any more.
+  /// Puts a weight there at once, whatever the matter. Goals that wait for the weight are dropped.
   Result<void> put(std::size_t region, std::size_t weight, double value);
-  /// A blow, which a heavy region feels less and a late one at once: no goal waits for the weight
-  /// any more. On an error nothing changes.
+  /// A blow, which a heavy region feels less and a late one at once. Goals that wait for the weight
+  /// are dropped. On an error nothing changes.
   Result<void> push(std::size_t weight, double velocityChange, double drag);
 
   Kinematics sample(std::size_t region, std::size_t weight) const noexcept;
@@ -62,7 +62,7 @@ class RegionalMotion {
     LateGoals late;
 
     void advance(double seconds) noexcept;
-    /// Whether moveTo() would be an error.
+    /// Whether moveTo() would fail.
     Result<void> check(std::size_t weight, double goal, const Drive& drive) const;
     Result<void> moveTo(std::size_t weight, double goal, const Drive& drive);
   };

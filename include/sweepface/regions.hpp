@@ -27,15 +27,15 @@ struct Region {
   std::vector<double> shares;  ///< [nodes] how much of each node is its own, in [0, 1]
 };
 
-/// Where a region is: everything that is named, and what is not far from that.
+/// Where a region is: everything that is named, and what is near it.
 struct Brush {
   std::vector<std::string> parts;                     ///< materials and groups of the source
-  std::vector<Vec3> points;                           ///< model units, each by itself
+  std::vector<Vec3> points;                           ///< separate points, model units
   std::vector<Vec3> line;                             ///< through these points
   std::vector<std::string> curves;                    ///< of the wireframe, by name or number
-  std::vector<std::pair<std::string, double>> nodes;  ///< by name or number: their very shares
+  std::vector<std::pair<std::string, double>> nodes;  ///< by name or number: exact shares
   double whole = 0;                                   ///< wholly its own up to this distance
-  double fade = 0;           ///< and less and less up to so much farther, model units
+  double fade = 0;           ///< then less and less over this much more, model units
   bool alongSurface = true;  ///< distances along the curves of the neutral, or through space
 };
 
@@ -47,7 +47,7 @@ Result<std::vector<double>> paint(const Rig& rig, const Brush& brush);
 /// the brush takes wholly, the last what lies beyond its fade. Their shares sum to 1.
 Result<std::vector<std::vector<double>>> paintBands(const Rig& rig, const Brush& brush, int count);
 
-/// As many as Regions may be.
+/// The most regions of a face.
 inline constexpr std::size_t kMostRegions = 32;
 
 /// Regions whose shares sum to 1 at every node. Where painted ones overlap, they get less in
@@ -59,14 +59,14 @@ Result<std::vector<Region>> dividedFace(const Rig& rig, std::vector<Region> pain
 std::vector<std::vector<float>> influencesOf(const Surface& surface,
                                              std::span<const Region> regions);
 
-/// Blends every region by its own weights [R × K], of which missing ones are 0: stored vectors of
-/// the pose, settled: [vectorCount].
+/// Blends every region by its own weights [R × K], of which missing ones are 0, into a settled pose
+/// [vectorCount].
 void blend(const Rig& rig, std::span<const Region> regions, std::span<const double> weights,
            std::span<Vec3> vectors);
 
-/// Parts of targets as targets of their own, for programs that know no regions. The weight of a
-/// whole target is the smallest of all its regions; that of a part tells how far its region is
-/// ahead. So no weight is below 0 if none was: some programs stop there.
+/// Parts of targets as targets of their own, for programs without regions. The weight of a whole
+/// target is the smallest of all its regions; that of a part is how far its region is ahead. So no
+/// weight is below 0 if none was: some programs stop weights there.
 class RegionalTargets {
  public:
   RegionalTargets() = default;
@@ -75,7 +75,7 @@ class RegionalTargets {
   static RegionalTargets addTo(Rig& rig, std::span<const Region> regions,
                                std::span<const Index> targets);
 
-  /// Of each of the rig's targets [K + parts], the one that it is a part of, or itself.
+  /// For each of the rig's targets [K + parts], the target that it is a part of, or itself.
   std::vector<Index> wholes() const;
 
   /// Weights of the regions [R × K] as weights of the rig's targets, `out`.

@@ -19,7 +19,7 @@ struct RenderMesh {
   Index points = 0;           ///< vertices [0, points) are the source's or the tessellation's
   std::vector<Index> copies;  ///< [vertices - points] the point that each further vertex repeats
   std::vector<std::uint32_t> triangles;  ///< [T × 3] counter-clockwise, part by part
-  std::vector<float> texcoords;          ///< [vertices × 2], or empty where there are none
+  std::vector<float> texcoords;          ///< [vertices × 2], or empty if there are none
   std::vector<Part> parts;
 
   Index pointOf(Index vertex) const { return vertex < points ? vertex : copies[vertex - points]; }

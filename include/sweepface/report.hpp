@@ -15,17 +15,17 @@ namespace sweepface {
 struct ReportOptions {
   std::string name;       ///< of the face's file, as the report calls it
   std::size_t bytes = 0;  ///< of that file
-  /// The expression beside the neutral, which the motion leads to; empty: the target that moves
-  /// furthest.
+  /// The expression shown beside the neutral, to which the motion leads; empty: the target that
+  /// moves furthest.
   Weights expression;
   /// The face is converted again with each, packed, for the plots of error against points and
   /// bytes.
   std::vector<double> tolerances;
-  /// The program that packs GLBs for the latter; looked for on the PATH unless it has a slash. The
-  /// page says where it is missing.
+  /// The program that packs GLBs for the plot against bytes; looked for on the PATH unless it has a
+  /// slash. If it is missing, the page says so.
   std::string gltfpack = "gltfpack";
-  /// Boxes are drawn round what the targets move whose names contain one of these; if empty, round
-  /// mouth and eye where there are any.
+  /// Boxes are drawn around what is moved by targets whose names contain one of these; if empty,
+  /// around mouth and eye, if there are any.
   std::vector<std::string> regions;
   /// Called now and then with what is going on and how far all of it is, 0 to 1.
   std::function<void(std::string_view what, double done)> progress;
@@ -34,11 +34,11 @@ struct ReportOptions {
 };
 
 /// A page of HTML about a rig and the meshes it was made from: pictures, tables and plots, with
-/// nothing to load from elsewhere. Fails with a sentence where the two do not belong together.
+/// nothing to load from elsewhere. Fails with a sentence if the two do not belong together.
 Result<std::string> makeReport(const Rig& rig, const MeshRig& source, const ReportOptions& options);
 
-/// The part of it that needs no meshes: linear interpolation beside Newton's law in 31 key frames,
-/// with measuring boxes and plots, and every law as a moving picture.
+/// The part of that page that needs no meshes: linear interpolation beside Newton's law in 31 key
+/// frames, with measuring boxes and plots, and every law as an animated picture.
 Result<std::string> makeMotionReport(const Rig& rig, const ReportOptions& options);
 
 }  // namespace sweepface

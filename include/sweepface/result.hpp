@@ -18,7 +18,8 @@ namespace sweepface {
 struct Error {
   std::string message;
 
-  // Not inlined: failures are many and rare, and a browser loads all that makes them.
+  // Not inlined: failures are made in many places but rarely happen, and a browser loads all that
+  // code.
   [[gnu::noinline]] Error(std::string sentence) : message(std::move(sentence)) {}
   [[gnu::noinline]] Error(const Error& other) : message(other.message) {}
   [[gnu::noinline]] Error(Error&& other) noexcept : message(std::move(other.message)) {}
@@ -31,13 +32,13 @@ struct Error {
 template <typename T>
 using Result = std::expected<T, Error>;
 
-/// A part of a sentence: text, or a whole number (of those that are too large the largest).
+/// A part of a sentence: text, or a whole number (kMost for those that are too large).
 struct TextPart {
   static constexpr long long kMost = std::numeric_limits<long long>::max();
 
   static constexpr char kIsNumber = 0;
 
-  std::string_view text;  ///< of a number that mark, and no characters
+  std::string_view text;  ///< for a number: that mark, and no characters
   long long number = 0;
 
   template <std::integral T>
@@ -51,15 +52,16 @@ struct TextPart {
 /// The parts one after the other.
 std::string joined(std::initializer_list<TextPart> parts);
 
-/// Shorthand for a failed Result. A program that has no use for words may do without them: it links
-/// failWith() of its own (web/src/usual.cpp).
+/// Shorthand for a failed Result. A program that has no use for messages can leave them out by
+/// linking a failWith() of its own (web/src/usual.cpp).
 std::unexpected<Error> failWith(std::initializer_list<TextPart> parts);
 template <typename... Parts>
 [[gnu::always_inline]] inline std::unexpected<Error> fail(const Parts&... parts) {
   return failWith({TextPart(parts)...});
 }
 
-/// The same about what somebody asks for, not about what they have: every program says it.
+/// The same for errors in what the caller asks for rather than in their data: every program reports
+/// these.
 std::unexpected<Error> failCallWith(std::initializer_list<TextPart> parts);
 template <typename... Parts>
 [[gnu::always_inline]] inline std::unexpected<Error> failCall(const Parts&... parts) {

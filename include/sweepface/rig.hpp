@@ -24,11 +24,11 @@ struct Target {
 struct Turn {
   Index target = -1;
   Vec3 pivot;
-  Vec3 axis;  ///< unit, through the pivot; zero where points stay at their distance from the pivot
+  Vec3 axis;  ///< unit, through the pivot; zero where points keep their distance from the pivot
   friend bool operator==(const Turn&, const Turn&) = default;
 };
 
-/// How the model answers in the source's own vertex order.
+/// Maps the model to the source's own order of vertices.
 struct SourceMesh {
   std::vector<Index>
       gridVertex;        ///< [V] vertex of the tessellation at level 1, or -1 - k: loose vertex k
@@ -40,18 +40,19 @@ struct SourceMesh {
   std::vector<Index> quadCorners;
 };
 
-/// How a file holds the vectors of a rig (docs/file-format.md): as whole multiples of steps, each
-/// beyond what its neighbours and mirror images predict. The fit chooses it and `decode` tells what
-/// it found. Vectors that are none, and all where there are no steps, are held as they are.
+/// How a file stores the vectors of a rig (docs/file-format.md): as whole multiples of steps, minus
+/// what neighbours and mirror images predict. The fit chooses it; `decode` returns what it found in
+/// the file. Vectors that are not such multiples, and all if there are no steps, are stored as they
+/// are.
 struct Packing {
   double neutralStep = 0, targetStep = 0;  ///< model units; 0: no steps
   int axis = 0;                            ///< 0, 1, 2: the mirror lies across x, y, z
   /// Half-arcs that mirror each other, each with its patch on the left; one pair for every part of
   /// the wireframe that has a mirror image.
   std::vector<std::array<HalfArc, 2>> mirror;
-  /// How a pose carries all that hangs on a bone, in fractions of the targets' step
-  /// (codec/bones.hpp): by how far its middle moves, and what is away from there along x, y and z
-  /// beyond that.
+  /// How a pose carries everything that hangs on a bone, in fractions of the targets' step
+  /// (codec/bones.hpp): how far the bone's middle moves, then how much further what lies away from
+  /// there along x, y and z.
   struct Carry {
     Index bone = 0;
     std::array<std::array<std::int32_t, 3>, 4> by{};
@@ -60,26 +61,26 @@ struct Packing {
   struct Pose {
     int finer = 0;     ///< its step is divided by 2^finer
     Index image = -1;  ///< the pose whose mirror image it is compared with, itself or an earlier
-                       ///< one; -1: with none
-    std::vector<Carry> carries{};  ///< by bone; what it does is told beyond that
+                       ///< one; -1: none
+    std::vector<Carry> carries{};  ///< by bone; the pose is stored relative to them
     friend bool operator==(const Pose&, const Pose&) = default;
   };
   std::vector<Pose> poses;  ///< the neutral, then the targets
   /// [S] or empty: the bone that carries each stored vector (teeth and lower gums by the jaw, say),
   /// or -1.
   std::vector<Index> bones;
-  /// [S] or empty: the neutral before an edit. What targets are counted from goes by it, so that an
-  /// edit of the neutral leaves their coefficients as they are.
+  /// [S] or empty: the neutral before an edit. Targets are predicted from it, so that an edit of
+  /// the neutral leaves their coefficients as they are.
   std::vector<Vec3> rest;
-  /// Texture coordinates are held as multiples of 1 / 2^textureBits; 0: exactly.
+  /// Texture coordinates are stored as multiples of 1 / 2^textureBits; 0: exactly.
   int textureBits = 0;
   friend bool operator==(const Packing&, const Packing&) = default;
 };
 
-/// What a drawing calls its things (docs/wire-format.md): a name each, empty for those without one,
-/// or no list at all where nothing has a name.
+/// The names that a drawing gives its parts (docs/wire-format.md): one each, empty for those
+/// without one, or an empty list if none has a name.
 struct Names {
-  std::string units;  ///< of all coordinates, e.g. cm; empty where nobody said
+  std::string units;  ///< of all coordinates, e.g. cm; empty: unknown
   std::vector<std::string> nodes, curves, patches, ribbons;
   friend bool operator==(const Names&, const Names&) = default;
 };
@@ -94,15 +95,15 @@ struct Rig {
   std::vector<Target> targets;
   SourceMesh source;
   double tolerance = 0;  ///< the error it was made for, in model units
-  /// What the source's scene held besides the rig, as a GLB, mostly in a zlib stream
-  /// (docs/glb.md), or empty. Opaque to what plays.
+  /// What the source's scene held besides the rig, as a GLB, mostly in a zlib stream (docs/glb.md),
+  /// or empty. Opaque to playback.
   std::string scene;
   Names names{};
 
   Packing packing;
 
-  /// What its targets turn about, by ascending target, each at most once; empty where nobody has
-  /// looked. Files hold them in single precision.
+  /// What its targets turn about, by ascending target, each at most once; empty if they have not
+  /// been looked for. Files store them in single precision.
   std::vector<Turn> turns{};
 
   /// The stored vectors of pose 0, the neutral, or what target pose - 1 adds to them.
@@ -112,22 +113,22 @@ struct Rig {
   const std::vector<Vec3>& vectorsOf(Index pose) const {
     return pose == 0 ? neutral : targets[pose - 1].difference;
   }
-  /// The weights under which a face stands in that pose: [targets].
+  /// The weights that put a face into that pose: [targets].
   Weights weightsOf(Index pose) const;
 
-  /// Whether it is said what every target does: not yet after `decodeNeutral`.
+  /// Whether it is known what every target does: not yet after `decodeNeutral`.
   bool knowsTargets() const;
   bool knows(const Target& target) const;
   /// Index of a target by its name, or -1.
   Index find(std::string_view name) const;
   /// The name of a thing, or its letter and number.
   std::string nameOf(Thing thing, Index index) const;
-  /// A thing by its name, by its letter and number, or by its number alone. The error says what
+  /// A thing by its name, by its letter and number, or by its number alone. The error lists what
   /// there is.
   Result<Index> find(Thing thing, std::string_view name) const;
 };
 
-/// The target of a name; the error says which there are.
+/// The target with this name; the error lists the names there are.
 Result<Index> findTarget(const Rig& rig, std::string_view name);
 /// The same among the first `count`.
 Result<Index> findTarget(const Rig& rig, std::string_view name, std::size_t count);

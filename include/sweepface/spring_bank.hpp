@@ -10,23 +10,23 @@
 
 namespace sweepface {
 
-/// The springs that pull K weights now, a few kinds of them: springs of one frequency and damping.
-/// All of a kind have begun together, so that an exponential and a sine serve them all. What sets
-/// out later makes the others begin again there, from where they are: the same paths to rounding.
-/// Allocates nothing once made.
+/// The springs that pull K weights now, of a few kinds: a kind is one frequency and damping. All
+/// springs of a kind share a starting time, so that one exponential and one sine serve them all.
+/// When another sets out later, those of its kind are restarted then from where they are, on the
+/// same paths up to rounding. Allocates nothing once made.
 class SpringBank {
  public:
   explicit SpringBank(std::size_t weights = 0);
 
-  /// False where there are too many kinds already: nothing pulls the weight then.
+  /// False if there are too many kinds already: then nothing pulls the weight.
   bool pull(std::size_t weight, const path::Swing& swing, double began) noexcept;
   void release(std::size_t weight) noexcept;
   bool pulls(std::size_t weight) const noexcept { return kindOf_[weight] != kNone; }
   bool pullsAll() const noexcept { return pulled_ == kindOf_.size(); }
 
-  /// Of a weight that a spring pulls, at a time since it began.
+  /// The state of a weight that a spring pulls, at a time from its start on.
   Kinematics at(std::size_t weight, double time) const noexcept;
-  /// Of all weights [≤ K] that a spring pulls; others stay as they are.
+  /// Writes those of all weights [≤ K] that a spring pulls and leaves the others as they are.
   void positions(double time, std::span<double> out) const noexcept;
   void velocities(double time, std::span<double> out) const noexcept;
 

@@ -100,13 +100,13 @@ struct Fan {
   friend bool operator==(const Fan&, const Fan&) = default;
 };
 
-/// A straight run of arcs up to the next node that does not merely hang on it.
+/// A straight run of arcs, up to the next node that does not merely hang on it.
 struct Rail {
   HalfArc last = -1;  ///< arrives at the rail's end
   Index edges = 0;
 };
 
-/// Who meets whom in a wireframe; derived, never stored.
+/// The connectivity of a wireframe; derived, never stored.
 struct Connectivity {
   std::vector<Index> patchOf;   ///< [half-arcs] the patch on the left, or -1
   std::vector<Index> cornerAt;  ///< [half-arcs] 4·patch + corner if a side starts with it, or -1
@@ -118,8 +118,8 @@ struct Connectivity {
   std::vector<Rail> rails;             ///< [half-arcs] the rest of the rail from each on
   std::vector<std::vector<Fan>> fans;  ///< [nodes] of those that are creased
 
-  /// Fails with the place where the loops do not form a surface. They must follow each other
-  /// without a gap, as Surface::make makes sure.
+  /// Fails, naming the place, if the loops do not form a surface. Their half-arcs must follow each
+  /// other without a gap, which Surface::make ensures.
   static Result<Connectivity> make(const Wireframe& wireframe);
   /// The arm opposite to `arm` of a node's star: the line runs straight on; -1 if it ends here.
   int opposite(Index node, int arm) const;
@@ -155,10 +155,10 @@ struct Site {
 /// threads may read.
 class Surface {
  public:
-  /// Fails where the wireframe is inconsistent, naming the place. Where derivatives are derived
-  /// from themselves, `circle` (if given) receives for each circle one node that could break it.
+  /// Fails, naming the place, if the wireframe is inconsistent. If derivatives depend on
+  /// themselves, `circle` (if given) receives one node for each such circle that could break it.
   static Result<Surface> make(Wireframe wireframe, std::vector<Index>* circle = nullptr);
-  /// The same where it is known who meets whom in that wireframe, and that it is consistent.
+  /// The same for a wireframe that is known to be consistent, with its connectivity.
   static Result<Surface> make(Wireframe wireframe, Connectivity connectivity,
                               std::vector<Index>* circle = nullptr);
 
@@ -169,7 +169,7 @@ class Surface {
   Index vectorCount() const { return storedCount() + static_cast<Index>(rowStart_.size()) - 1; }
   const StoredVector& stored(Index vector) const { return stored_[vector]; }
 
-  /// Terms of the derived vector `vector` ≥ storedCount(), over vectors before it.
+  /// Terms of the derived vector `vector` ≥ storedCount(), in vectors before it.
   std::span<const Term> derivation(Index vector) const;
 
   /// Completes a pose: the stored vectors [storedCount()] followed by all derived ones
@@ -213,8 +213,8 @@ class Surface {
   /// A point at t ∈ [0, edges] on an arc: computed from the arc alone, never from a patch.
   Vec3 pointOnArc(std::span<const Vec3> vectors, Index arc, double t) const;
 
-  /// A thousandth of the way from a site to the middle of its patch: where a side is collapsed,
-  /// derivatives that vanish on it are there nearly in the directions to which they tend.
+  /// The site a thousandth of the way to the middle of its patch. Derivatives that vanish on a
+  /// collapsed side nearly have, there, the directions to which they tend.
   Site inside(const Site& site) const {
     const Frame& f = frames_[site.patch];
     return {site.patch, site.u + (f.m * 0.5 - site.u) * 1e-3, site.v + (f.n * 0.5 - site.v) * 1e-3};
@@ -274,7 +274,7 @@ struct JoinSummary {
   double normalSquares = 0;  ///< of the angles, times length
 
   void add(const JoinReport& join);
-  /// Of each arc's largest angle, by length.
+  /// The RMS of each arc's largest angle, weighted by length.
   double normalRms() const;
 };
 

@@ -1,5 +1,5 @@
-/* Clips for faces (docs/clips.md). Of the library that converts, since they are other programs'
- * files: link sweepface::convert. What sweepface.h says holds here as well. */
+/* Clips for faces (docs/clips.md). Clips are other programs' files, so these functions are part of
+ * the library that converts: link sweepface::convert. What sweepface.h says holds here as well. */
 #ifndef SWEEPFACE_SWEEPFACE_CLIPS_H
 #define SWEEPFACE_SWEEPFACE_CLIPS_H
 
@@ -13,11 +13,11 @@ extern "C" {
 /* ---- Regions as text ---- */
 
 /* Divides the face by the `regions` of a JSON text, which may be a timeline (docs/regions.md), for
- * meshes made from now on. Without any the face is of one piece. `name` is what messages call the
- * text; NULL: "The text". */
+ * meshes made from now on. If the text has none, the face is one region again. `name` is what
+ * messages call the text; NULL: "The text". */
 SWEEPFACE_API sweepface_status sweepface_rig_divide_by(sweepface_rig* rig, const void* text,
                                                        size_t size, const char* name);
-/* How a region moves; as it said there, or else {1, 1, 0}. */
+/* How a region moves: as that text says, or else {1, 1, 0}. */
 SWEEPFACE_API sweepface_status sweepface_rig_region_matter(const sweepface_rig* rig,
                                                            uint32_t region,
                                                            sweepface_matter* matter);
@@ -28,25 +28,26 @@ SWEEPFACE_API sweepface_status sweepface_rig_region_matter(const sweepface_rig* 
  * read it. */
 typedef struct sweepface_clip sweepface_clip;
 
-/* How a clip is read; a timeline goes by none of it. */
+/* How a clip is read; timelines ignore all of it. */
 typedef struct sweepface_clip_options {
-  double frames_per_second; /* of the timecodes of a CSV; 0: as these tell, or else 60. Of frames of
-                               MediaPipe without times, which need it */
-  int32_t smooth;           /* takes a tracker's noise out, by the one-euro filter */
-  double frequency;         /* of the spring on which heavy regions hang, and its damping; */
-  double damping;           /* 0 and 0: the usual ones */
-  const char* animation;    /* of a .glb, by its name; NULL: the first that has weights */
-  const char* names;        /* a JSON text that says which targets names of the clip drive where they
-                               are called otherwise (docs/clips.md), ended by 0; NULL: none is */
+  double frames_per_second; /* of a CSV's timecodes; 0: as these tell, or else 60. Required for
+                               MediaPipe frames without times */
+  int32_t smooth;           /* removes a tracker's noise, by the one-euro filter */
+  double frequency;         /* of the spring on which heavy regions hang; */
+  double damping;           /* of the same spring; both 0: the defaults */
+  const char* animation;    /* the name of an animation in a .glb; NULL: the first that has
+                               weights */
+  const char* names;        /* a JSON text, ended by 0, that maps names of the clip to targets
+                               called otherwise (docs/clips.md); NULL: no mapping */
 } sweepface_clip_options;
 
-/* The usual numbers. */
+/* The default options. */
 SWEEPFACE_API sweepface_clip_options sweepface_clip_usual_options(void);
 
 /* Reads a clip from memory, which may be reused afterwards: a CSV of Live Link Face, a JSON of
- * MediaPipe or Audio2Face, a timeline (JSON) or an animation of a .glb that has weights;
- * told apart by what they hold. Names are matched with the rig's targets; none that matches is an
- * error, unless all are angles of head and eyes. `options` may be NULL; `name` is what messages
+ * MediaPipe or Audio2Face, a timeline (JSON) or an animation of a .glb that has weights; told apart
+ * by their content. Names are matched with the rig's targets. It is an error if none matches,
+ * unless all are angles of the head and the eyes. `options` may be NULL; `name` is what messages
  * call it, NULL or empty: "The clip". */
 SWEEPFACE_API sweepface_status sweepface_clip_read(const sweepface_rig* rig, const void* bytes,
                                                    size_t size, const char* name,
@@ -56,27 +57,27 @@ SWEEPFACE_API void sweepface_clip_free(sweepface_clip* clip);
 
 SWEEPFACE_API double sweepface_clip_seconds(const sweepface_clip* clip);
 /* Names of the clip that drive no target, and targets that nothing drives, counted from 0; NULL
- * where there are no more. They belong to the clip. Angles of the head and the eyes are neither. */
+ * after the last. They belong to the clip. Angles of the head and the eyes are in neither list. */
 SWEEPFACE_API const char* sweepface_clip_unmatched(const sweepface_clip* clip, uint32_t index);
 SWEEPFACE_API const char* sweepface_clip_undriven(const sweepface_clip* clip, uint32_t index);
-/* What was mended or may be wrong in the file, in sentences; NULL where there are no more. */
+/* What was repaired or may be wrong in the file, in sentences; NULL after the last. */
 SWEEPFACE_API const char* sweepface_clip_warning(const sweepface_clip* clip, uint32_t index);
 
 /* How many regions the rig had when the clip was read. */
 SWEEPFACE_API uint32_t sweepface_clip_region_count(const sweepface_clip* clip);
-/* The weights at so many seconds after the first frame, straight between frames and held at the
- * ends: `count` of [regions x targets]. */
+/* The weights at a time in seconds after the first frame, linear between frames and held at the
+ * ends: the first `count` of [regions x targets]. */
 SWEEPFACE_API sweepface_status sweepface_clip_weights(const sweepface_clip* clip, double seconds,
                                                       double* out, size_t count);
 
 /* ---- Eyes and head ---- */
 
-/* Whether a clip has any angles of the head, and a yaw or pitch of an eye that is ever other than 0:
- * without one eyes look by their weights. */
+/* Whether a clip has any angles of the head, and whether it has a yaw or pitch of an eye that is
+ * ever other than 0: without one, eyes look by their weights. */
 SWEEPFACE_API int32_t sweepface_clip_has_head(const sweepface_clip* clip);
 SWEEPFACE_API int32_t sweepface_clip_has_eyes(const sweepface_clip* clip);
-/* All angles at a time; what the clip lacks is 0. A clip without angles of the eyes is no reason to
- * hold them straight: give sweepface_face_look() NULL then. */
+/* All angles at a time; those that the clip lacks are 0. If the clip has no angles of the eyes,
+ * give sweepface_face_look() NULL instead, so that the eyes are not held straight. */
 SWEEPFACE_API sweepface_status sweepface_clip_pose(const sweepface_clip* clip, double seconds,
                                                    sweepface_pose* pose);
 

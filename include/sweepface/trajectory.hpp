@@ -10,8 +10,8 @@
 
 namespace sweepface {
 
-/// Where a coordinate stands and what moves it: seconds are the unit of time, acceleration is the
-/// force on a unit mass.
+/// The state of a coordinate. Seconds are the unit of time; acceleration is the force on a unit
+/// mass.
 struct Kinematics {
   double position = 0, velocity = 0, acceleration = 0;
 };
@@ -23,8 +23,8 @@ struct Start {
 
 /// A spring with a damper, hung on its goal: x″ = −2ζω x′ − ω² (x − goal), ω = 2π · frequency.
 struct Spring {
-  double frequency = 2;  ///< oscillations a second if there were no damper
-  double damping = 1;    ///< ζ: < 1 overshoots, 1 is the quickest without, > 1 creeps
+  double frequency = 2;  ///< oscillations a second without the damper
+  double damping = 1;    ///< ζ: < 1 overshoots, 1 is the fastest without overshoot, > 1 creeps
 
   /// The spring whose swings halve every `seconds`.
   static Spring withHalfLife(double seconds, double damping);
@@ -35,7 +35,7 @@ struct Harmonic {
   double cosine = 0, sine = 0;
 };
 
-/// A periodic force has at most so many harmonics.
+/// The most harmonics that a periodic force may have.
 inline constexpr std::size_t kMostHarmonics = 8;
 
 /// The closed forms behind a Trajectory.
@@ -56,12 +56,12 @@ struct Swing {
   double goal, x, v, sigma, omega;
   Kinematics at(double t) const noexcept;
   bool moves(double t, double tolerance) const noexcept;
-  // What position and velocity at the start have become: the same for all alike springs.
+  // What becomes of position and velocity at the start: the same for all springs of one kind.
   struct Decay {
     double c, s;
   };
   Decay decay(double t) const noexcept;
-  // What a way from the goal and a velocity have become by then.
+  // What a distance from the goal and a velocity have become by then.
   Kinematics wayAfter(const Decay& d, const Start& y) const noexcept {
     const double pull = omega * omega;
     const double way = d.c * y.position + d.s * (y.velocity + sigma * y.position);
@@ -92,9 +92,9 @@ struct Driven {
 
 }  // namespace path
 
-/// The path of one coordinate under a force, in closed form. A small value: copied freely,
-/// evaluated at any time without allocating; how often it is evaluated does not change it. Before
-/// time 0 it is at its start; one that arrives rests at its goal from then on.
+/// The path of one coordinate under a force, in closed form. It is a small value: copy it freely,
+/// and evaluate it at any time and as often as you like, without allocating or changing it. Before
+/// time 0 it is at its start; a path that arrives rests at its goal from then on.
 ///
 /// Every maker refuses numbers that are not finite and durations that are not greater than 0.
 class Trajectory {
@@ -102,9 +102,9 @@ class Trajectory {
   /// At rest for ever.
   explicit Trajectory(double position = 0);
 
-  /// A law of motion.hpp from rest; its speed at the ends comes and goes with a blow.
+  /// A law of motion.hpp from rest; if it has speed at an end, the velocity jumps there.
   static Result<Trajectory> byLaw(TimeLaw law, double from, double to, double seconds);
-  /// A constant force that arrives in time, from any starting velocity; x″ = 2 (Δ − v₀T) / T².
+  /// A constant force that arrives after `seconds`, from any velocity; x″ = 2 (Δ − v₀T) / T².
   static Result<Trajectory> constantForce(Start start, double to, double seconds);
   /// A force that is linear in time: from any velocity to any velocity, by default to rest.
   static Result<Trajectory> linearForce(Start start, double to, double seconds,
@@ -113,20 +113,20 @@ class Trajectory {
   static Result<Trajectory> twoForces(Start start, double to, double seconds, double turn = 0.5);
   /// Swings or creeps into the goal; never arrives exactly.
   static Result<Trajectory> spring(Start start, double to, Spring spring);
-  /// Falls to the goal by a constant force and bounces off it, each time with `restitution`, in
-  /// [0, 1 - 1e-9], of the speed.
+  /// Falls to the goal by a constant force and bounces off it, each time keeping the share
+  /// `restitution`, in [0, 1 - 1e-9], of its speed.
   static Result<Trajectory> bounce(Start start, double to, double seconds, double restitution);
   /// A blow adds `velocityChange` at once; drag (per second, ≥ 0) takes the speed away again.
   static Result<Trajectory> impulse(Start start, double velocityChange, double drag);
-  /// A periodic force, at most kMostHarmonics harmonics of 1 / `period`, beside the constant one
-  /// that makes it arrive in time.
+  /// A periodic force of at most kMostHarmonics harmonics of 1 / `period`, plus the constant force
+  /// that makes it arrive after `seconds`.
   static Result<Trajectory> periodicForce(Start start, double to, double seconds, double period,
                                           std::span<const Harmonic> harmonics);
 
   Kinematics at(double time) const noexcept;
-  /// Whether it may be further than `tolerance` from where it comes to rest, at `time` or later.
-  /// What arrives does until it has, or has bounced for the last time; a spring until its energy
-  /// reaches no further.
+  /// Whether it may be further than `tolerance` from where it comes to rest, at `time` or later. A
+  /// path that arrives moves until it has arrived or bounced for the last time; a spring, until its
+  /// energy reaches no further.
   bool moves(double time, double tolerance) const noexcept;
 
   /// Null unless a spring pulls.
