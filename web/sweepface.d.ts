@@ -145,7 +145,7 @@ export class Sweepface {
 
   /** Sends weights from where they are to goals, everywhere or in one region; `advance` moves them. */
   moveTo(goals: Weights, drive?: DriveKind | Drive, region?: string): void;
-  /** A blow: adds up to 1,000,000 to the velocity of a weight (per second), which drag (per second, 8 unless given)
+  /** An impulse: adds up to 1,000,000 to the velocity of a weight (per second), which drag (per second, 8 unless given)
    * then takes away. The weight comes to rest wherever that leaves it: earlier goals, waiting ones included, are
    * forgotten. */
   push(name: string, velocityChange: number, drag?: number): void;

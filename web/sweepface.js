@@ -207,13 +207,13 @@ export class Sweepface {
     }
   }
 
-  /** A blow: adds to the velocity of a weight (per second), which drag (per second) takes away. */
+  /** An impulse: adds to the velocity of a weight (per second), which drag (per second) takes away. */
   push(name, velocityChange, drag = 8) {
     const shared = this.#open(), {runtime} = shared, target = shared.target(name);
     if (!Number.isFinite(velocityChange) || Math.abs(velocityChange) > MOST)
       throw new RangeError(`The push on '${name}' must lie within ${MOST} of 0, not be ${told(velocityChange)}.`);
     if (!Number.isFinite(drag) || drag < 0)
-      throw new RangeError(`The drag on a blow must be a finite number of at least 0, not ${told(drag)}.`);
+      throw new RangeError(`The drag on a push must be a finite number of at least 0, not ${told(drag)}.`);
     runtime.check(runtime.wasm.sweepface_motion_push(this.#moving(), target, velocityChange, drag));
     for (const r of shared.places()) this.#drives.delete(shared.names.length * r + target);
   }
@@ -238,7 +238,7 @@ export class Sweepface {
       const isThere = Math.abs(now[place] - drive.goal) <= still && Math.abs(velocities[place]) <= still;
       if (isThere && drive.left <= 0) this.#drives.delete(place);
     }
-    now.set(now.map((weight) => Math.min(Math.max(weight, -MOST), MOST)));  // swings and blows may go further
+    now.set(now.map((weight) => Math.min(Math.max(weight, -MOST), MOST)));  // swings and pushes may go further
     this.#takeWeights();
     return isDriven || velocities.some((velocity) => Math.abs(velocity) > still) ||
            runtime.doubles(weights, count).some((w, k) => Math.abs(w - before[k]) > still);

@@ -30,7 +30,7 @@ export class FaceMesh<Materials extends Material | Material[] = MeshStandardMate
   reset(): void;
   /** Sends weights from where they are to goals, everywhere or in one region; `update` moves them. */
   moveTo(goals: Weights, drive?: DriveKind | Drive, region?: string): void;
-  /** A blow: adds to the velocity of a weight (per second), which drag (per second, 8 unless given) then takes away.
+  /** An impulse: adds to the velocity of a weight (per second), which drag (per second, 8 unless given) then takes away.
    * The weight comes to rest wherever that leaves it, not at an earlier goal. */
   push(name: string, velocityChange: number, drag?: number): void;
   /** Lets time pass without showing it; returns whether anything still moves. No time passes if `seconds` is less than

@@ -61,7 +61,7 @@ class MotionState {
   Result<void> check(std::size_t weight, double goal, const Drive& drive) const;
   /// The same for all weights [K].
   Result<void> moveTo(std::span<const double> goals, const Drive& drive = {});
-  /// A blow: adds to a weight's velocity, which drag (per second) then takes away.
+  /// An impulse: adds to a weight's velocity, which drag (per second) then takes away.
   Result<void> push(std::size_t weight, double velocityChange, double drag);
   /// The trajectory that a push would give the weight.
   Result<Trajectory> pushed(std::size_t weight, double velocityChange, double drag) const;

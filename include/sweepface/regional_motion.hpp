@@ -44,8 +44,8 @@ class RegionalMotion {
   Result<void> moveTo(std::size_t region, std::size_t weight, double goal, const Drive& drive);
   /// Puts a weight there at once, whatever the matter. Goals that wait for the weight are dropped.
   Result<void> put(std::size_t region, std::size_t weight, double value);
-  /// A blow, which a heavy region feels less and a late one at once. Goals that wait for the weight
-  /// are dropped. On an error nothing changes.
+  /// An impulse, which a heavy region feels less and a late one at once. Goals that wait for the
+  /// weight are dropped. On an error nothing changes.
   Result<void> push(std::size_t weight, double velocityChange, double drag);
 
   Kinematics sample(std::size_t region, std::size_t weight) const noexcept;

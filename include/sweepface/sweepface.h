@@ -337,7 +337,7 @@ SWEEPFACE_API sweepface_status sweepface_motion_move_to(sweepface_motion* motion
 SWEEPFACE_API sweepface_status sweepface_motion_move_all(sweepface_motion* motion,
                                                          const double* goals, size_t count,
                                                          const sweepface_drive* drive);
-/* A blow: adds to a weight's velocity (per second), which drag (per second) then takes away. The
+/* An impulse: adds to a weight's velocity (per second), which drag (per second) then takes away. The
  * weight travels the velocity divided by the drag, or without drag any distance. Where it ends may
  * be beyond what a face accepts (SWEEPFACE_MOST_WEIGHT), as may a goal or a start. */
 SWEEPFACE_API sweepface_status sweepface_motion_push(sweepface_motion* motion, uint32_t weight,

@@ -116,7 +116,7 @@ class Trajectory {
   /// Falls to the goal by a constant force and bounces off it, each time keeping the share
   /// `restitution`, in [0, 1 - 1e-9], of its speed.
   static Result<Trajectory> bounce(Start start, double to, double seconds, double restitution);
-  /// A blow adds `velocityChange` at once; drag (per second, ≥ 0) takes the speed away again.
+  /// An impulse: adds `velocityChange` at once; drag (per second, ≥ 0) takes the speed away again.
   static Result<Trajectory> impulse(Start start, double velocityChange, double drag);
   /// A periodic force of at most kMostHarmonics harmonics of 1 / `period`, plus the constant force
   /// that makes it arrive after `seconds`.

@@ -23,7 +23,8 @@ namespace {
 constexpr double kJump = 1e-7;  // seconds
 
 /// What hangs on one recorded weight g: x″ = −2ζω (x′ − g′) − ω² (x − g). Its distance e = x − g
-/// swings freely between two frames, where g is straight, and gets a blow where g changes speed.
+/// swings freely between two frames, where g is straight, and gets an impulse where g changes
+/// speed.
 class Hanging {
  public:
   explicit Hanging(const Spring& spring) : spring_(spring) {}

@@ -217,7 +217,7 @@ Result<Trajectory> Trajectory::bounce(Start start, double to, double seconds, do
 Result<Trajectory> Trajectory::impulse(Start start, double velocityChange, double drag) {
   if (auto ok = checkNumbers({start.position, start.velocity + velocityChange, drag}); !ok)
     return std::unexpected(ok.error());
-  if (drag < 0) return failCall("The drag on a blow must be at least 0.");
+  if (drag < 0) return failCall("The drag must be at least 0.");
   return Trajectory(path::Coasting{start.position, start.velocity + velocityChange, drag});
 }
 

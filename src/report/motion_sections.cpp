@@ -199,7 +199,7 @@ Result<std::string> MotionSections::everyLaw() const {
   }
   return section("Every law",
                  fmt::format("The same way to {} by every law, in a second, again and again; the "
-                             "spring, the bounce and the blow take longer. Below, position, "
+                             "spring, the bounce and the impulse take longer. Below, position, "
                              "velocity and force over time.",
                              mixtureOf(rig_, expression_))) +
          fmt::format("<style>{}</style>\n<div>{}</div>\n<div class=\"wide\">{}</div>\n", style,

@@ -159,16 +159,16 @@ TEST(RegionalMotion, GoalsThatBecomeOneHaveTheDriveOfTheLast) {
   EXPECT_NEAR(motion.sample(0, 0).position, std::lerp(0.5, 1, 0.25), 1e-12);
 }
 
-// m q″ = −c q′ after a blow of the same momentum everywhere.
+// m q″ = −c q′ after an impulse of the same momentum everywhere.
 TEST(RegionalMotion, ABlowMovesHeavyRegionsByNewtonsLaw) {
   const std::vector<Matter> matters{{}, {4, 1, 0}};
-  const double blow = 2, drag = 4, seconds = 0.1;
+  const double impulse = 2, drag = 4, seconds = 0.1;
   RegionalMotion motion = motionOf({0.0}, matters);
-  ASSERT_TRUE(motion.push(0, blow, drag));
+  ASSERT_TRUE(motion.push(0, impulse, drag));
   motion.advance(seconds);
   for (std::size_t r = 0; r < 2; ++r)
     EXPECT_NEAR(matters[r].mass * motion.sample(r, 0).velocity,
-                blow * std::exp(-drag / matters[r].mass * seconds), 1e-12);
+                impulse * std::exp(-drag / matters[r].mass * seconds), 1e-12);
 }
 
 TEST(RegionalMotion, LateRegionsFeelABlowAtOnce) {
@@ -416,7 +416,7 @@ TEST(RegionalClip, StraightLinesAreAsGoodWhereBlowsAddUp) {
   }
 }
 
-// Pieces grow as a blow dies away; the last before a recorded frame is no longer than they.
+// Pieces grow as an impulse dies away; the last before a recorded frame is no longer than they.
 TEST(RegionalClip, StraightLinesAreAsGoodRightBeforeARecordedFrame) {
   Clip jump{{"jawOpen"}, {}, {}};
   for (int f = 0; f < 12; ++f) {

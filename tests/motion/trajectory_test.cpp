@@ -189,10 +189,10 @@ TEST(Trajectory, ABlowIsSlowedByDrag) {
   Random random;
   for (int i = 0; i < 100; ++i) {
     const Start start{random(-1, 1), random(-2, 2)};
-    const double blow = random(-5, 5), drag = i % 5 ? random(0, 8) : 0, time = random(0.01, 3);
-    const Trajectory t = made(Trajectory::impulse(start, blow, drag));
+    const double impulse = random(-5, 5), drag = i % 5 ? random(0, 8) : 0, time = random(0.01, 3);
+    const Trajectory t = made(Trajectory::impulse(start, impulse, drag));
     const Kinematics wanted = integrate([&](Real, Real, Real v) { return -drag * v; },
-                                        {start.position, start.velocity + blow}, time);
+                                        {start.position, start.velocity + impulse}, time);
     expectNear(t.at(time), wanted, 20, 1e-11);
   }
 }

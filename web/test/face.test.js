@@ -98,7 +98,7 @@ test('what there is not is refused with the library\'s sentence, and nothing cha
   for (const push of [1e8, -1e8, NaN, undefined, '3', true, [5]])
     assert.throws(() => face.push('jawOpen', push), {message: /push on 'jawOpen' must lie within 1000000 of 0/});
   for (const drag of [-1, NaN, Infinity, null, '8'])
-    assert.throws(() => face.push('jawOpen', 1, drag), {name: 'RangeError', message: /drag on a blow must be a finite number/});
+    assert.throws(() => face.push('jawOpen', 1, drag), {name: 'RangeError', message: /drag on a push must be a finite number/});
   for (const seconds of [NaN, Infinity, undefined])
     assert.throws(() => face.advance(seconds), {message: /finite number of seconds/});
   assert.equal(face.weights.jawOpen, 0);
@@ -273,7 +273,7 @@ test('setting a weight ends its motion, and its alone', async () => {
   assert.ok(face.weights.browInnerUp > 0.9);
 });
 
-test('a blow moves a weight until drag stops it', async () => {
+test('a push moves a weight until drag stops it', async () => {
   const face = await load();
   for (const [way, end] of [[1, 0.5], [-1, 0]]) {
     face.push('jawOpen', 2 * way, 4);
