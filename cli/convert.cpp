@@ -40,41 +40,39 @@ void addOptions(CLI::App& app, ConvertArguments& a) {
   addOutput(app, a.output, "The .sweep file to write");
   app.add_option("--tolerance", a.tolerance,
                  "Largest allowed distance between a vertex and the surface, in the mesh's units; "
-                 "0.02 % of the diagonal of the box round the neutral's faces if not given")
+                 "default: 0.02 % of the diagonal of the bounding box of the neutral's faces")
       ->check(positiveNumber())
       ->type_name("T");
   app.add_option("--normal-limit", a.normalLimit,
-                 "Aim at normals no further than this from the mesh's, in degrees; 180 to ignore "
-                 "normals; in proportion to the tolerance if not given")
+                 "Aim at normals within this angle of the mesh's, in degrees; 180 ignores normals; "
+                 "default: in proportion to the tolerance")
       ->check(positiveNumber(180))
       ->type_name("DEG");
   app.add_flag("--pack", a.pack,
-               "Spend the tolerance on the size of the file: about a hundredth of the bytes, more "
-               "time, and normals less near to the mesh's");
+               "Spend the tolerance on file size: about a hundredth of the bytes, but more time, "
+               "and normals further from the mesh's");
   addStrip(app, a.strip);
   app.add_option("--normal-tolerance", a.normalTolerance,
-                 "Packed: largest allowed angle between the surface's normals and the mesh's, in "
-                 "degrees: root mean square over all vertices of all expressions")
+                 "With --pack: largest allowed angle between the surface's normals and the mesh's, "
+                 "in degrees, as the root mean square over all vertices of all expressions")
       ->check(positiveNumber(90))
       ->type_name("DEGREES");
   addUvBits(app, a.uvBits,
-            "Packed: texture coordinates become multiples of 1/2^N of the texture, N from 8 to "
-            "16; 14 if not given");
-  app.add_option(
-         "--max-bytes", a.maxBytes,
-         "Pack, and look for the smallest tolerance whose file takes at most N bytes, none finer "
-         "than --tolerance if that is given: several conversions")
+            "With --pack: texture coordinates become multiples of 1/2^N of the texture, N from 8 "
+            "to 16; default: 14");
+  app.add_option("--max-bytes", a.maxBytes,
+                 "Pack, and search for the smallest tolerance (not below --tolerance, if given) "
+                 "whose file takes at most N bytes; converts several times")
       ->transform(wholeNumber(1, std::int64_t{1} << 53))  // as far as doubles count
       ->type_name("N");
-  app.add_flag(
-      "--arcs", a.arcs,
-      "Note in the file what expressions turn about, the jaw about its hinge and lids about "
-      "the eyeball, for programs that play it (some 25 bytes each)");
+  app.add_flag("--arcs", a.arcs,
+               "Store in the file what expressions turn about (the jaw about its hinge, lids about "
+               "the eyeball), for programs that play it; some 25 bytes each");
   addThreads(app, a.threads);
   app.add_flag("--no-shapes", a.noShapes,
-               "Do not look for shape parameters: quicker, a bit larger");
+               "Do not search for shape parameters: faster, slightly larger files");
   app.add_flag("--bare", a.bare,
-               "Leave out what a .glb or .gltf holds besides the face: materials, textures, skins, "
+               "Leave out what a .glb or .gltf has besides the face: materials, textures, skins, "
                "other meshes ...");
   addQuiet(app, a.quiet);
   addJson(app, a.json);

@@ -46,7 +46,7 @@ void addOptions(CLI::App& app, ExportArguments& a) {
         ->excludes(order);
   };
   CLI::Option* vertices = addBudget("--vertices", a.vertices, "N",
-                                    "Write the best mesh of at most so many vertices (.obj)");
+                                    "Write the best mesh with at most N vertices (.obj)");
   CLI::Option* error =
       addBudget("--error", a.error, "E",
                 "Write a mesh whose edges are no further from the surface than this (.obj)");

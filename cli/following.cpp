@@ -11,10 +11,9 @@
 namespace sweepface::cli {
 
 void addFollowing(CLI::App& app, FollowingArguments& a) {
-  app.add_option(
-         "--arcs", a.arcs,
-         "on: what turns moves on arcs instead of straight lines, lids over the eyeball and "
-         "the jaw about its hinge")
+  app.add_option("--arcs", a.arcs,
+                 "on: expressions that turn something move it on arcs instead of straight lines: "
+                 "lids over the eyeball, the jaw about its hinge")
       ->check(onOrOff())
       ->capture_default_str()
       ->type_name("on|off");
@@ -27,10 +26,8 @@ void addFollowing(CLI::App& app, FollowingArguments& a) {
   app.add_flag("--combine", a.combine,
                "Targets named A_B follow the product of the weights of A and B, and those named "
                "A_50 stand in for A at 0.5");
-  app.add_option(
-         "--limits", a.limits,
-         "What weights may be, e.g. 0:1 for all, or 0:1,jawOpen=0:0.8; what is beyond stops "
-         "there")
+  app.add_option("--limits", a.limits,
+                 "Clamp weights to these limits, e.g. 0:1 for all, or 0:1,jawOpen=0:0.8")
       ->check(notEmpty())
       ->type_name("LOW:HIGH,...");
 }

@@ -201,7 +201,8 @@ Result<int> runInfo(const InfoArguments& a) {
 }  // namespace
 
 Command addInfo(CLI::App& tool) {
-  return makeCommand(tool, "info", "Tell what is in a .sweep file and what it costs", runInfo);
+  return makeCommand(tool, "info",
+                     "Show what is in a .sweep file and how many bytes each part takes", runInfo);
 }
 
 }  // namespace sweepface::cli

@@ -33,12 +33,14 @@ void addOptions(CLI::App& app, MeasureArguments& a) {
   addQuiet(app, a.quiet);
   addJson(app, a.json);
   app.footer(
-      "\nDistances are in the mesh's units, angles in degrees. The distance is that of the "
-      "vertices from the\nsurface, a displacement's error that of their way from the neutral, the "
-      "angle that of the normals at the\nvertices, in between (shading) from those that smooth "
-      "shading blends there, RMS. The facets' distance is that\nof the surface from the flat "
-      "faces, the excess what of it the faces' own coarseness does not explain. Folds are\nplaces "
-      "where the surface looks the other way than the mesh.\n\n"
+      "\nDistances are in the mesh's units, angles in degrees:\n"
+      "  distance      from each vertex to the surface\n"
+      "  displacement  error of a vertex's movement from the neutral\n"
+      "  angle         between normals at the vertices; shading: RMS between vertices, from the\n"
+      "                normals that smooth shading blends there\n"
+      "  facets        from the flat faces to the surface; excess: the part that the coarseness\n"
+      "                of the faces does not explain\n"
+      "  folds         where the surface faces the other way than the mesh\n\n"
       "Example:\n  sweepface measure face.sweep neutral.obj expressions/");
 }
 

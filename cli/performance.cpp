@@ -181,18 +181,18 @@ void addPerformance(CLI::App& app, PerformanceArguments& a) {
       ->check(positiveNumber())
       ->capture_default_str()
       ->type_name("S");
-  app.add_option(
-         "--frequency", a.frequency,
-         "Of a spring: swings a second without damping; with --clip, of those on which heavy "
-         "regions hang")
+  app.add_option("--frequency", a.frequency,
+                 "For a spring: oscillations a second without damping; with --clip, for the "
+                 "springs on which heavy regions hang")
       ->check(positiveNumber())
       ->capture_default_str()
       ->type_name("HZ");
-  app.add_option("--damping", a.damping, "Of a spring: below 1 overshoots, above 1 creeps")
+  app.add_option("--damping", a.damping, "For a spring: below 1 it overshoots, above 1 it creeps")
       ->check(numberFromZero())
       ->capture_default_str()
       ->type_name("Z");
-  app.add_option("--restitution", a.restitution, "Of a bounce: the part of the speed that is left")
+  app.add_option("--restitution", a.restitution,
+                 "For a bounce: the share of the speed that is left")
       ->check(partOfOne())
       ->capture_default_str()
       ->type_name("E");
@@ -210,9 +210,10 @@ void addPerformance(CLI::App& app, PerformanceArguments& a) {
       ->check(notEmpty())
       ->needs("--clip")
       ->type_name("NAME");
-  app.add_option("--clip-fps", a.clipRate,
-                 "Frames a second: in the timecodes of a .csv, as these tell or else 60 if not "
-                 "given; of a MediaPipe .json without times")
+  app.add_option(
+         "--clip-fps", a.clipRate,
+         "Frames a second, of a .csv's timecodes (default: as these tell, or else 60) or of "
+         "a MediaPipe .json without times")
       ->check(positiveNumber(1000))
       ->type_name("N");
   app.add_option("--clip-names", a.clipNames,
@@ -221,15 +222,15 @@ void addPerformance(CLI::App& app, PerformanceArguments& a) {
       ->check(notEmpty())
       ->needs("--clip")
       ->type_name("FILE");
-  app.add_option("--clip-from", a.clipFrom, "Begin so many seconds after the clip does")
+  app.add_option("--clip-from", a.clipFrom, "Start S seconds into the clip")
       ->check(numberFromZero())
       ->needs("--clip")
       ->type_name("S");
-  app.add_option("--clip-to", a.clipTo, "End so many seconds after the clip begins")
+  app.add_option("--clip-to", a.clipTo, "End S seconds into the clip")
       ->check(positiveNumber())
       ->needs("--clip")
       ->type_name("S");
-  app.add_flag("--smooth", a.smooth, "Take a tracker's noise out of the clip")->needs("--clip");
+  app.add_flag("--smooth", a.smooth, "Remove a tracker's noise from the clip")->needs("--clip");
   app.parse_complete_callback([&app, &a] {
     checkUse(app, a);
     a.tellsSpring = app.count("--frequency") + app.count("--damping") > 0;

@@ -45,11 +45,11 @@ void addOptions(CLI::App& app, PlotArguments& a) {
       ->delimiter(',')
       ->type_name("NAME,...");
   oneEachTime(app.add_option("--vertex", a.vertices,
-                             "Vertices of the source, counted from 0, whose way is shown"))
+                             "Vertices of the source, counted from 0, whose path is shown"))
       ->delimiter(',')
       ->transform(wholeNumber(0, std::numeric_limits<int>::max()))
       ->type_name("N,...");
-  app.add_option("--mass", a.mass, "What the force is in units of")
+  app.add_option("--mass", a.mass, "The mass that the force moves")
       ->check(positiveNumber())
       ->capture_default_str()
       ->type_name("M");

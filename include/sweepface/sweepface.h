@@ -248,6 +248,14 @@ SWEEPFACE_API sweepface_status sweepface_face_update(sweepface_face* face, size_
                                                      sweepface_vectors positions,
                                                      sweepface_vectors normals);
 
+/* The corners of a box around the face under its weights, in model units, for culling: it contains
+ * every vertex that an evaluation would write, without evaluating. Where targets move different
+ * parts of the face it is larger than needed. The first call for a mesh whose face has a weight
+ * other than 0 evaluates every target once, and allocates; further ones do not. Zeros if there are
+ * no vertices. */
+SWEEPFACE_API sweepface_status sweepface_face_box(sweepface_face* face, double low[3],
+                                                  double high[3]);
+
 /* ---- Tangents ---- */
 
 /* Builds the tables that move tangents and the normals that go with them, now rather than when they

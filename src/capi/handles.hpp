@@ -10,6 +10,7 @@
 #include "sweepface/evaluator.hpp"
 #include "sweepface/followers.hpp"
 #include "sweepface/head.hpp"
+#include "sweepface/pose_box.hpp"
 #include "sweepface/regional_motion.hpp"
 #include "sweepface/render_mesh.hpp"
 #include "sweepface/sweepface_regions.h"
@@ -101,6 +102,14 @@ struct Mesh {
   mutable Tangents tangents = {};  // of the neutral
   mutable MapTangents neutralMap = {}, movingMap = {};
 
+  /// Likewise with targets, or of the neutral alone.
+  struct BoxOnce {
+    std::once_flag once = {};
+    std::optional<PoseBox> made = {};
+  };
+  mutable BoxOnce neutralBox = {}, movingBox = {};
+
+  const PoseBox& poseBox(bool moving) const;
   const Evaluator& mapTangents(bool moving) const;
   /// Enough for those, too.
   std::size_t scratchBytes() const {

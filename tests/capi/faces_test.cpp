@@ -260,6 +260,9 @@ TEST_F(Faces, EvaluateWithoutAllocating) {
   std::vector<float> tangents(out.size() / 3 * 4);
   EXPECT_EQ(sweepface_mesh_prepare(mesh, 1), SWEEPFACE_OK);
   EXPECT_EQ(sweepface_mesh_prepare_tangents(mesh), SWEEPFACE_OK);
+  double low[3], high[3];
+  EXPECT_EQ(sweepface_face_set_weight(face, 0, 0.1), SWEEPFACE_OK);
+  EXPECT_EQ(sweepface_face_box(face, low, high), SWEEPFACE_OK);
   if (!watchesAllocations) GTEST_SKIP() << "allocations cannot be watched here";
   const std::size_t before = allocations.count;
   EXPECT_EQ(sweepface_face_set_weights(face, weights, 3), SWEEPFACE_OK);
@@ -269,6 +272,7 @@ TEST_F(Faces, EvaluateWithoutAllocating) {
   EXPECT_EQ(
       sweepface_face_tangents(face, out.size() / 3, {normals.data(), 0}, {tangents.data(), 0}),
       SWEEPFACE_OK);
+  EXPECT_EQ(sweepface_face_box(face, low, high), SWEEPFACE_OK);
   EXPECT_EQ(allocations.count, before);
   sweepface_face* another = nullptr;
   EXPECT_EQ(sweepface_face_create(mesh, &another), SWEEPFACE_OK);
@@ -562,6 +566,23 @@ TEST_F(Faces, AreInABox) {
   EXPECT_EQ(high[2], 0);
 }
 
+TEST_F(Faces, AreInABoxThatMovesWithThem) {
+  make(2);
+  double low[3], high[3];
+  for (const std::array<double, 3>& weights :
+       {std::array{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {-2.0, 0.5, 1.0}, {1e6, -1e6, 1e6}}) {
+    ASSERT_EQ(sweepface_face_set_weights(face, weights.data(), 3), SWEEPFACE_OK);
+    ASSERT_EQ(sweepface_face_box(face, low, high), SWEEPFACE_OK);
+    const auto positions = evaluate();
+    for (std::size_t k = 0; k < positions.size(); ++k) {
+      EXPECT_GE(positions[k], low[k % 3]);
+      EXPECT_LE(positions[k], high[k % 3]);
+    }
+  }
+  EXPECT_TRUE(refuses(sweepface_face_box(nullptr, low, high), "needs a face"));
+  EXPECT_TRUE(refuses(sweepface_face_box(face, nullptr, high), "needs a face"));
+}
+
 TEST_F(Faces, AreAsFineAsABudgetAsks) {
   make(0);
   for (const uint32_t most : {40u, 400u}) {
@@ -781,6 +802,17 @@ TEST_F(FacesThatShowFirst, AreEvaluatedWhileTheirTargetsCome) {
   std::thread loads([&] { EXPECT_EQ(sweepface_rig_load_targets(handle), SWEEPFACE_OK); });
   for (int frame = 0; frame < 20; ++frame) EXPECT_EQ(evaluate(), neutral);
   loads.join();
+}
+
+TEST_F(FacesThatShowFirst, AreInABoxBeforeAndAfter) {
+  make(1);
+  double low[3], high[3], moved[3];
+  ASSERT_EQ(sweepface_face_box(face, low, high), SWEEPFACE_OK);
+  EXPECT_LT(low[0], high[0]);
+  ASSERT_EQ(sweepface_rig_load_targets(handle), SWEEPFACE_OK);
+  ASSERT_EQ(sweepface_face_set_weight(face, 0, 1), SWEEPFACE_OK);
+  ASSERT_EQ(sweepface_face_box(face, low, moved), SWEEPFACE_OK);
+  EXPECT_GT(moved[0], high[0]);
 }
 
 TEST_F(FacesThatShowFirst, MoveOnceTheirTargetsAreLoaded) {
