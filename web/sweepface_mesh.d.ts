@@ -33,8 +33,8 @@ export class FaceMesh<Materials extends Material | Material[] = MeshStandardMate
   /** An impulse: adds to the velocity of a weight (per second), which drag (per second, 8 unless given) then takes away.
    * The weight comes to rest wherever that leaves it, not at an earlier goal. */
   push(name: string, velocityChange: number, drag?: number): void;
-  /** Lets time pass without showing it; returns whether anything still moves. No time passes if `seconds` is less than
-   * 0 or more than 1e10. */
+  /** Lets time pass without showing it; returns whether anything still moves or waits to. No time passes if `seconds`
+   * is less than 0 or more than 1e10. */
   advance(seconds: number): boolean;
   /** Call it once a frame with the seconds since the last, as for `advance`. It costs nothing while nothing moves, and
    * does nothing once the mesh is disposed of. */

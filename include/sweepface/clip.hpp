@@ -88,7 +88,7 @@ std::vector<std::string> notesOnClip(const Clip& clip, const ClipMatch& match, d
 
 /// Reads a capture of the Live Link Face app: a CSV with a timecode, a count and a column for each
 /// shape, found by their headings. `framesPerSecond` is the rate of its timecodes, which at 29.97
-/// count frames as at 30; 0: 24, 25, 30, 48 or 50 if whole seconds have that many frames, otherwise
+/// count frames as at 30; 0: 24, 25, 30, 48 or 50 if the frames of whole seconds say so, otherwise
 /// 60. Of rows at the same time the last one counts.
 Result<Clip> parseLiveLinkCsv(std::string_view text, std::string_view name,
                               double framesPerSecond = 0);

@@ -109,8 +109,8 @@ struct Evaluation {
   /// weights that differ are written again, with the same result. Not set: all are written.
   std::optional<std::span<const double>> previous = {};
   /// Whether the tables are likely to have left the cache since the last frame, as when many rigs
-  /// take turns. They are then fetched ahead, which takes a third of the time; if they are still in
-  /// the cache, it takes a tenth longer.
+  /// take turns. They are then fetched ahead, and the evaluation takes a third of the time; if they
+  /// are still in the cache, it takes a tenth longer.
   bool cold = false;
 
   Result<void> validate() const;

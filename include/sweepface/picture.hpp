@@ -94,7 +94,7 @@ class Page {
     Index columns = 1, rows = 1;
     bool captions = false, foot = false;
   };
-  /// Fails if the size is not that of a picture or leaves too little room.
+  /// Fails if the size is out of range or leaves too little room.
   static Result<Page> make(PictureSize size, const Plan& plan);
   /// The size of a page whose pictures have the given size.
   static PictureSize sizeFor(PictureSize panel, const Plan& plan);

@@ -69,8 +69,8 @@ struct Packing {
   /// [S] or empty: the bone that carries each stored vector (teeth and lower gums by the jaw, say),
   /// or -1.
   std::vector<Index> bones;
-  /// [S] or empty: the neutral before an edit. Targets are predicted from it, so that an edit of
-  /// the neutral leaves their coefficients as they are.
+  /// [S] or empty: the neutral before an edit. The prediction of targets goes by it, so that an
+  /// edit of the neutral leaves their coefficients as they are.
   std::vector<Vec3> rest;
   /// Texture coordinates are stored as multiples of 1 / 2^textureBits; 0: exactly.
   int textureBits = 0;

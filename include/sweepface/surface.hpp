@@ -213,8 +213,8 @@ class Surface {
   /// A point at t ∈ [0, edges] on an arc: computed from the arc alone, never from a patch.
   Vec3 pointOnArc(std::span<const Vec3> vectors, Index arc, double t) const;
 
-  /// The site a thousandth of the way to the middle of its patch. Derivatives that vanish on a
-  /// collapsed side nearly have, there, the directions to which they tend.
+  /// The site a thousandth of the way to the middle of its patch. There, derivatives that
+  /// vanish on a collapsed side nearly have the directions to which they tend.
   Site inside(const Site& site) const {
     const Frame& f = frames_[site.patch];
     return {site.patch, site.u + (f.m * 0.5 - site.u) * 1e-3, site.v + (f.n * 0.5 - site.v) * 1e-3};
