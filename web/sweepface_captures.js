@@ -63,8 +63,11 @@ function clockOf(framesPerSecond, dropsFrames) {
   return {counted, timeOf};
 }
 
-/** Whether a recorder stopped while it wrote the last row. */
-const isHalf = (cells, expected) => cells.length < expected || (cells.length === expected && cells.at(-1) === '');
+/** Whether a recorder stopped while it wrote the last row: too few values, or the last one a beginning. */
+function isHalf(cells, expected) {
+  if (cells.length !== expected) return cells.length < expected;
+  return Number.isNaN(numberIn(cells.at(-1))) && /^[-+.eE"0-9]*$/.test(cells.at(-1));
+}
 
 function readLiveLink(text, name, framesPerSecond) {
   const lines = text.split(text.includes('\n') ? '\n' : '\r').map((line, k) => ({number: k + 1, text: trimmed(line)}));
@@ -98,7 +101,7 @@ function readLiveLink(text, name, framesPerSecond) {
     return {...time, timecode: cells[timeColumn], line};
   });
   const rate = rateOf(rows), clip = clipOf([...shapes.keys()], rows, weights, framesPerSecond ?? rate, name, fail);
-  if (rate < USUAL_RATE && rate < clockOf(framesPerSecond ?? rate, false).counted)
+  if (rows[0].isClock && rate < USUAL_RATE && rate < clockOf(framesPerSecond ?? rate, false).counted)
     clip.warnings.unshift(`${name}: ${framesPerSecond} frames a second were asked for, but its timecodes seem to count ${rate}.`);
   if (half) clip.warnings.unshift(`${name}: the last row, line ${half.number}, is cut short and left out.`);
   return clip;

@@ -109,6 +109,7 @@ export class FaceMesh extends Mesh {
   #isGone = false;
   #told = [];  // the influences, as they were told last
   #positions;
+  #pose = {};  // another object whenever another pose is shown
 
   constructor(face, geometry, materials = materialsOf(face)) {
     super(geometry, materialsFrom(materials, face));
@@ -191,23 +192,27 @@ export class FaceMesh extends Mesh {
     this[follow]();
     if (this.#stale) {
       this[show]();
-      this.#movePins();
+      this.#pose = {};
     }
     this.#stale = false;
+    this.#movePins();
   }
 
   /** Adds an object that follows the point of the skin nearest to a point, and turns with it. */
   pin(point) {
-    const pin = new Pin().fasten(point, this.face.triangles, this[standing]());
+    this.update();
+    const pin = new Pin().fasten(point, this.face.triangles, this[standing](), this.#pose);
     this.add(pin);
     return pin;
   }
 
+  /** Brings pins to the pose that is shown, which new ones may not have seen. */
   #movePins() {
-    const pins = this.children.filter((child) => child instanceof Pin);
-    if (pins.length === 0) return;
+    const size = 3 * this.face.vertexCount;
+    const behind = this.children.filter((child) => child instanceof Pin && child.isBehind(size, this.#pose));
+    if (behind.length === 0) return;
     const positions = this[standing]();
-    for (const pin of pins) pin.follow(positions);
+    for (const pin of behind) pin.follow(positions, this.#pose);
   }
 
   [standing]() {

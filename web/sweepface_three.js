@@ -18,10 +18,15 @@ export class SweepfaceMesh extends FaceMesh {
     this.update();
   }
 
+  /** The positions that follow the face. */
+  #position() {
+    const {geometry: {attributes: {position}}, face: {vertexCount}} = this;
+    if (position?.count === vertexCount) return position;
+    throw new Error(`The geometry must have the ${vertexCount} vertices of the face; change a copy of it.`);
+  }
+
   [show]() {
-    const {geometry, face} = this, {position, normal} = geometry.attributes;
-    if (position?.count !== face.vertexCount)
-      throw new Error(`The geometry must have the ${face.vertexCount} vertices of the face; change a copy of it.`);
+    const {geometry, face} = this, {normal} = geometry.attributes, position = this.#position();
     face.evaluate(position.array, normal?.array);
     for (const attribute of [position, normal]) if (attribute) attribute.needsUpdate = true;
     if (this.frustumCulled) geometry.computeBoundingSphere();
@@ -29,7 +34,7 @@ export class SweepfaceMesh extends FaceMesh {
     if (geometry.boundingBox) geometry.computeBoundingBox();
   }
 
-  [standing]() { return this.geometry.attributes.position.array; }
+  [standing]() { return this.#position().array; }
 }
 
 /** The class of meshes that a loader makes. */

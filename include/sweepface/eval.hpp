@@ -74,9 +74,9 @@ class Tessellation {
   bool fits(const Surface& surface) const;
   /// 0 if it has a density instead, or nothing but sites.
   Index level() const { return level_; }
-  /// Whether there is anything between its vertices. If not, only vertexCount(), site(), terms(),
-  /// positions() and normals() may be called.
-  bool hasFaces() const { return !density_.patches.empty(); }
+  /// Whether it is of single sites. Then only vertexCount(), site(), terms(), positions() and
+  /// normals() may be called.
+  bool isOfSites() const { return density_.patches.empty(); }
   Index vertexCount() const { return static_cast<Index>(sites_.size()); }
   /// The vertex at column i ≤ level·edgesU and row j ≤ level·edgesV of a patch.
   Index vertex(Index patch, Index i, Index j) const;

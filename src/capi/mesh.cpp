@@ -74,7 +74,8 @@ sweepface_status sweepface_mesh_create_at(const sweepface_rig* rig, const double
   if (!rig || !mesh || !points || count == 0)
     return refuse("Making a mesh of points needs a rig, points and a place for it.");
   if (static_cast<double>(count) > kMostVertices)
-    return refuse("A mesh may have at most ", 1 << 24, " points, not ", count, ".");
+    return refuse("A mesh may have at most ", static_cast<int>(kMostVertices), " points, not ",
+                  count, ".");
   std::vector<Vec3> places;
   for (std::size_t k = 0; k < count; ++k, points += 3)
     places.push_back({points[0], points[1], points[2]});

@@ -24,7 +24,7 @@ namespace {
 constexpr std::size_t kTightTangents = 4 * sizeof(float);
 
 sweepface_status needDirections(const Mesh& mesh) {
-  if (!mesh.render.texcoords.empty() || !mesh.grid.hasFaces()) return SWEEPFACE_OK;
+  if (!mesh.render.texcoords.empty() || mesh.grid.isOfSites()) return SWEEPFACE_OK;
   return refuse("The mesh has no texture coordinates, along which tangents would go.");
 }
 

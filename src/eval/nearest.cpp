@@ -1,6 +1,7 @@
 #include "sweepface/nearest.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -30,6 +31,7 @@ class Descent {
         point_(point),
         lengths_{static_cast<double>(surface.edgesU(start.patch)),
                  static_cast<double>(surface.edgesV(start.patch))},
+        reach_(hasPole(surface.wireframe(), start.patch) ? 0.9 : 1),
         here_{start, squared(at(start, 0, 0) - point)} {}
 
   Found run() {
@@ -80,14 +82,26 @@ class Descent {
     return slope == 0 || (place <= 0 && slope > 0) || (place >= length && slope < 0);
   }
 
+  static bool hasPole(const Wireframe& w, Index patch) {
+    for (int side = 0; side < 4; ++side)
+      for (const HalfArc h : w.side(patch, side))
+        if (w.arcs[arcOf(h)].collapsed) return true;
+    return false;
+  }
+
+  /// On a collapsed side there is no way to turn any more, so that steps end before it.
+  double towards(double place, double from, double length) const {
+    return std::clamp(place, from - reach_ * from, from + reach_ * (length - from));
+  }
+
   /// As far as leads down.
   bool go(const Step& whole) {
     constexpr double kLeastStep = 1e-9;  // edges
     if (!(std::max(std::abs(whole.u), std::abs(whole.v)) > kLeastStep)) return false;
     for (double share = 1; share > 1e-3; share /= 2) {
       Site site = here_.site;
-      site.u = std::clamp(site.u + share * whole.u, 0.0, lengths_[0]);
-      site.v = std::clamp(site.v + share * whole.v, 0.0, lengths_[1]);
+      site.u = towards(site.u + share * whole.u, site.u, lengths_[0]);
+      site.v = towards(site.v + share * whole.v, site.v, lengths_[1]);
       const double distance = squared(at(site, 0, 0) - point_);
       if (!(distance < here_.distance)) continue;
       here_ = {site, distance};
@@ -100,6 +114,7 @@ class Descent {
   std::span<const Vec3> vectors_;
   const Vec3 point_;
   const double lengths_[2];
+  const double reach_;  // the share of the way to a side that a step may go
   Found here_;
 };
 
@@ -120,10 +135,12 @@ class Search {
     Found best{{0, 0, 0}};
     while (!ways_.empty() && ways_.front().distance < best.distance) {
       std::ranges::pop_heap(ways_, isFurther);
-      const Found found =
-          Descent(surface_, vectors_, point, nearestSample(ways_.back().patch, point)).run();
-      if (found.distance < best.distance) best = found;
+      const Index patch = ways_.back().patch;
       ways_.pop_back();
+      for (const Site& start : starts(patch, point)) {
+        const Found found = Descent(surface_, vectors_, point, start).run();
+        if (found.distance < best.distance) best = found;
+      }
     }
     return best.site;
   }
@@ -169,14 +186,21 @@ class Search {
                     beyond(box.low.z, point.z, box.high.z)});
   }
 
-  Site nearestSample(Index patch, const Vec3& point) const {
-    const auto first = samples_.begin() + static_cast<std::ptrdiff_t>(firstSample_[patch]),
-               last = samples_.begin() + static_cast<std::ptrdiff_t>(firstSample_[patch + 1]);
-    const auto found = std::ranges::min_element(
-        first, last, {}, [&](const Vec3& sample) { return squared(sample - point); });
-    const Index columns = kPerEdge * surface_.edgesU(patch) + 1,
-                place = static_cast<Index>(found - first);
-    return siteOf(patch, place % columns, place / columns);
+  /// The nearest sample, and the nearest inside: at a pole many samples coincide, of which most
+  /// look another way, and where a patch meets itself only one of two is on the right side.
+  std::array<Site, 2> starts(Index patch, const Vec3& point) const {
+    const Index columns = kPerEdge * surface_.edgesU(patch),
+                rows = kPerEdge * surface_.edgesV(patch);
+    const Vec3* sample = &samples_[firstSample_[patch]];
+    std::array<Found, 2> nearest;
+    for (Index j = 0; j <= rows; ++j)
+      for (Index i = 0; i <= columns; ++i, ++sample) {
+        const bool isInside = i > 0 && i < columns && j > 0 && j < rows;
+        const double distance = squared(*sample - point);
+        for (Found& best : std::span(nearest).first(isInside ? 2 : 1))
+          if (distance < best.distance) best = {siteOf(patch, i, j), distance};
+      }
+    return {nearest[0].site, nearest[1].site};
   }
 
   const Surface& surface_;

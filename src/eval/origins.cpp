@@ -28,7 +28,7 @@ class Finder {
   }
 
   std::vector<Origin> find() {
-    if (!grid_.hasFaces())
+    if (grid_.isOfSites())
       fromSites();
     else if (grid_.level() > 0)
       fromCells();

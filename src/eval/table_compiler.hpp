@@ -47,7 +47,7 @@ class TableCompiler {
                                          std::max<std::size_t>(1, options_.influences.size()));
     tables_.positionErrors.ofTarget.assign(tables_.weights, 0.0);
     tables_.derivativeErrors.ofTarget.assign(tables_.weights, 0.0);
-    size_ = diagonal(gridPositions_);
+    size_ = sizeOfNeutral();
     tolerance_ = usedTolerance();
     for (const auto& vertices : cluster(positions_, kTileVertices)) addTile(vertices);
     roundPositions();
@@ -79,6 +79,13 @@ class TableCompiler {
       const Index g = gridVertex(v);
       positions_.push_back(g >= 0 ? gridPositions_[g] : rig_.source.loose[-1 - g]);
     }
+  }
+
+  double sizeOfNeutral() const {
+#ifndef __wasm__  // which plays no single sites
+    if (grid_.isOfSites()) return diagonal(Tessellation(rig_.surface, 1).positions(neutral_));
+#endif
+    return diagonal(gridPositions_);
   }
 
   double usedTolerance() const {

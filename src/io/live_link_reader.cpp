@@ -101,7 +101,8 @@ class LiveLinkReader {
     const double rate = rateOf(timecodes_);
     if (framesPerSecond_ == 0)
       framesPerSecond_ = rate;
-    else if (rate < kUsualRate && rate < io::FrameClock(framesPerSecond_, false).counted())
+    else if (timecodes_.front().isClock && rate < kUsualRate &&
+             rate < io::FrameClock(framesPerSecond_, false).counted())
       clip_.warnings.push_back(
           fmt::format("{}: {} frames a second were asked for, but its timecodes seem to count {}.",
                       name_, framesPerSecond_, rate));
@@ -158,11 +159,13 @@ class LiveLinkReader {
     return {};
   }
 
-  /// What a recorder was writing when it stopped.
+  /// What a recorder was writing when it stopped: too few values, or the last one a beginning.
   bool isHalfARow() const {
     if (!lines_.cutShort() || timecodes_.empty()) return false;
     const auto row = cells(lines_.line());
-    return row.size() < columns_ || (row.size() == columns_ && row.back().empty());
+    if (row.size() != columns_) return row.size() < columns_;
+    return !toNumber<double>(row.back()) &&
+           row.back().find_first_not_of("+-.eE\"0123456789") == std::string_view::npos;
   }
 
   Result<void> readRow() {

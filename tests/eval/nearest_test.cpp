@@ -35,15 +35,17 @@ class Anywhere {
   std::mt19937 random_;
 };
 
-/// Smooth ones, open and closed, with poles and irregular nodes.
+/// Smooth ones, open and closed, with poles, irregular nodes, and patches that meet themselves.
 const std::vector<Rig>& smoothRigs() {
   static const std::vector<Rig> rigs = [] {
     ConvertOptions options;
     options.tolerance = 0.05;
+    options.normalLimit = 180;  // large patches
     options.chooseShapes = false;
     std::vector<Rig> list;
     for (const MeshRig& mesh :
-         {withTargets(cubeSphere(4)), withTargets(uvSphere(8, 6)), withTargets(pinwheel(5, 3))})
+         {withTargets(cubeSphere(4)), withTargets(uvSphere(8, 6)), withTargets(uvSphere(24, 16)),
+          withTargets(pinwheel(5, 3)), withTargets(cylinder()), withTargets(torus())})
       list.push_back(convert(mesh, options).value().rig);
     list.push_back(plainSheet(4));
     return list;
@@ -117,6 +119,28 @@ TEST(NearestSites, OfPointsOnTheSurfaceAreThere) {
   }
 }
 
+// Poles are collapsed sides.
+TEST(NearestSites, OfPointsBesideSidesOfPatchesAreThere) {
+  Anywhere anywhere(9);
+  for (const Rig& rig : smoothRigs()) {
+    const auto vectors = blend(rig, {});
+    const double size = diagonal(Tessellation(rig.surface, 1).positions(vectors));
+    std::vector<Vec3> points;
+    for (int k = 0; k < 2000; ++k) {
+      Site site = anywhere.site(rig.surface);
+      const double length[] = {static_cast<double>(rig.surface.edgesU(site.patch)),
+                               static_cast<double>(rig.surface.edgesV(site.patch))};
+      double& across = k % 2 ? site.u : site.v;
+      across = std::min(anywhere.number(0, 0.6), length[k % 2 ? 0 : 1]);
+      if (k % 4 < 2) across = length[k % 2 ? 0 : 1] - across;
+      points.push_back(rig.surface.evaluate(vectors, site));
+    }
+    const auto sites = nearestSites(rig.surface, vectors, points).value();
+    for (std::size_t k = 0; k < sites.size(); ++k)
+      EXPECT_LE(norm(rig.surface.evaluate(vectors, sites[k]) - points[k]), 1e-9 * size) << k;
+  }
+}
+
 TEST(NearestSites, SeePointsAlongTheNormal) {
   int inside = 0;
   for (const Rig& rig : smoothRigs()) {
@@ -157,7 +181,8 @@ TEST(TessellationsOfSites, ArePlayedAsTheSurfaceMoves) {
     std::vector<Site> sites;
     for (int k = 0; k < 100; ++k) sites.push_back(anywhere.site(rig.surface));
     const Tessellation grid(rig.surface, sites);
-    EXPECT_FALSE(grid.hasFaces());
+    EXPECT_TRUE(grid.isOfSites());
+    EXPECT_FALSE(Tessellation(rig.surface, 1).isOfSites());
     const auto evaluator = Evaluator::make(rig, grid, {.level = 1}).value();
     const std::vector<double> weights(rig.targets.size(), 0.4);
     const auto vectors = blend(rig, weights);
@@ -173,6 +198,22 @@ TEST(TessellationsOfSites, ArePlayedAsTheSurfaceMoves) {
       EXPECT_GE(dot(vectorOf(played.tangents, k), along), 0.99);
     }
   }
+}
+
+// What a single point is worth, its own box cannot tell.
+TEST(TessellationsOfSites, AreAsExactWhereTheRigHasNoTolerance) {
+  Rig rig = smoothRigs().front();
+  rig.tolerance = 0;
+  const Site site{0, 0.4, 0.3};
+  const Tessellation grid(rig.surface, std::vector<Site>{site});
+  const auto evaluator = Evaluator::make(rig, grid, {.level = 1}).value();
+  const std::vector<double> weights(rig.targets.size(), 0.4);
+  const auto vectors = blend(rig, weights);
+  const Played played = play(evaluator, weights);
+  EXPECT_LE(norm(vectorOf(played.positions, 0) - rig.surface.evaluate(vectors, site)),
+            evaluator.positionBound(weights));
+  EXPECT_LE(evaluator.positionBound(weights), 1e-3);
+  EXPECT_GE(dot(vectorOf(played.normals, 0), rig.surface.normal(vectors, site)), 0.99);
 }
 
 }  // namespace

@@ -87,6 +87,9 @@ TEST(LiveLinkCsv, WarnsOfARateThatItsTimecodesContradict) {
   for (const auto& [counted, given] :
        {std::pair(30, 30.0), std::pair(30, 29.97), std::pair(60, 59.94), std::pair(60, 120.0)})
     EXPECT_TRUE(warnings(counted, given).empty()) << counted << ' ' << given;
+  std::string seconds = "Timecode,a\n";  // which count no frames
+  for (int row = 0; row < 120; ++row) seconds += fmt::format("{},0\n", row / 30);
+  EXPECT_EQ(parseLiveLinkCsv(seconds, "take.csv", 60).value().warnings.size(), 1u) << "same times";
 }
 
 TEST(LiveLinkCsv, OfRowsAtTheSameTimeTheLastCounts) {
@@ -101,7 +104,8 @@ TEST(LiveLinkCsv, OfRowsAtTheSameTimeTheLastCounts) {
 
 TEST(LiveLinkCsv, LeavesOutARowThatARecorderStoppedIn) {
   const std::string whole = "Timecode,a,b\n1,2,3\n2,4,5";
-  for (const std::string half : {"\n3", "\n3,", "\n3,6", "\n3,6,", "\r\n3,"}) {
+  for (const std::string half : {"\n3", "\n3,", "\n3,6", "\n3,6,", "\r\n3,", "\n3,6,-", "\n3,6,1e-",
+                                 "\n3,6,.", "\n3,6,\"0.5"}) {
     const auto clip = csv(whole + half);
     ASSERT_TRUE(clip) << clip.error().message;
     EXPECT_EQ(clip->times, (std::vector<double>{1, 2}));

@@ -122,7 +122,7 @@ test('what was mended in a file is told', () => {
   assert.deepEqual(warnings(csv), []);
   assert.deepEqual(warnings(sheet), ['take: 40 of 80 rows, the first in line 4, have the timecode of the one before; of each ' +
                                      'time the last row counts.']);
-  for (const half of ['1', '1,', '1,2', '1,2,'])
+  for (const half of ['1', '1,', '1,2', '1,2,', '1,2,-', '1,2,1e-', '1,2,.', '1,2,"0.5'])
     assert.deepEqual(readClip(`Timecode,a,b\n0,1,1\n${half}`, {name: 'take'}),
                      Object.assign(readClip('Timecode,a,b\n0,1,1\n', {name: 'take'}),
                                    {warnings: ['take: the last row, line 3, is cut short and left out.']}));
@@ -141,6 +141,8 @@ test('a rate that timecodes contradict is told', () => {
   assert.equal(warnings(24, 29.97).length, 1);
   for (const [rate, given] of [[30, 30], [30, 29.97], [60, 59.94], [60, 120], [30, undefined]])
     assert.deepEqual(warnings(rate, given), []);
+  const seconds = 'Timecode,a\n' + Array.from({length: 120}, (_, k) => `${Math.floor(k / 30)},0\n`).join('');
+  assert.equal(readClip(seconds, {framesPerSecond: 60}).warnings.length, 1, 'they count no frames');
 });
 
 test('a separator is told after blank lines, too', () => {

@@ -686,9 +686,10 @@ function farthest(mesh, weights) {
   return {vertex, rest: at(neutral, vertex), moved: at(moved, vertex)};
 }
 
-for (const [how, kind] of [['processor', 'SweepfaceMesh'], ['graphics card', 'SweepfaceGpuMesh']])
-  test(`a pin follows the skin and turns with it, on the ${how}`, options, async () => {
-    const classes = {...await import('../sweepface_three.js'), ...await import('../sweepface_gpu.js')};
+for (const kind of ['SweepfaceMesh', 'SweepfaceGpuMesh', 'SweepfaceNodeMesh'])
+  test(`a pin follows the skin of a ${kind} and turns with it`, options, async () => {
+    const classes = {};
+    for (const entry of ['three', 'gpu', 'webgpu']) Object.assign(classes, await import(`../sweepface_${entry}.js`));
     const mesh = await new classes.SweepfaceLoader(undefined, {mesh: classes[kind]}).parseAsync(readFileSync(sample));
     const {rest, moved} = farthest(mesh, {jawOpen: 1}), pin = mesh.pin(rest), near = 1e-5 * rest.length();
     assert.ok(pin.position.distanceTo(rest) < near && pin.quaternion.angleTo(new three.Quaternion()) < 1e-6);
@@ -716,13 +717,38 @@ for (const [how, kind] of [['processor', 'SweepfaceMesh'], ['graphics card', 'Sw
     mesh.reset();
     mesh.update();
     assert.ok(pin.position.distanceTo(moved) < near, 'taken off');
+    mesh.add(pin).update();
+    assert.ok(pin.position.distanceTo(rest) < near, 'put on again');
+    mesh.remove(pin);
     mesh.morphTargetInfluences[mesh.morphTargetDictionary.jawOpen] = 1;
     const late = mesh.add(other).clone();  // with what an influence says that was not shown yet
     assert.ok(late.children.at(-1).position.distanceTo(moved) < near);
-    for (const odd of [undefined, [0, 0, 0], {x: 0, y: NaN, z: 0}])
+    mesh.setWeights({jawOpen: 0});
+    mesh.setWeights({jawOpen: 1});
+    const low = mesh.pin(moved);  // in the pose that it was given, which update() has not shown
+    assert.ok(low.position.distanceTo(moved) < near && low.quaternion.angleTo(new three.Quaternion()) < 1e-6);
+    for (const odd of [undefined, [0, 0, 0], {x: 0, y: NaN, z: 0}, new three.Vector3(1e160, 0, 0)])
       assert.throws(() => mesh.pin(odd), {message: 'A pin takes a point: a Vector3 in the coordinates of the face.'});
-    assert.equal(mesh.children.length, 1);
+    assert.equal(mesh.children.length, 2);
   });
+
+test('a mesh moves its own pins, also behind a Proxy, and leaves others alone', options, async () => {
+  const mesh = await load(), {rest, moved} = farthest(mesh, {jawOpen: 1}), near = 1e-5 * rest.length();
+  const {SweepfaceLoader} = await import('../sweepface_three.js');
+  const fine = await new SweepfaceLoader(undefined, {lod: 2}).parseAsync(readFileSync(sample));
+  const foreign = fine.pin(rest), proxied = new Proxy(mesh.pin(rest), {}), copied = mesh.pin(rest).copy(new three.Object3D());
+  mesh.clear();
+  mesh.add(foreign, proxied, copied, mesh.pin(rest));
+  mesh.setWeights({jawOpen: 1});
+  mesh.update();
+  assert.ok(mesh.children.at(-1).position.distanceTo(moved) < near && proxied.position.distanceTo(moved) < near);
+  assert.ok(foreign.position.distanceTo(rest) < near && copied.position.length() === 0);
+  mesh.geometry = new three.BoxGeometry();
+  assert.throws(() => mesh.pin(rest), {message: /^The geometry must have the \d+ vertices of the face/});
+  fine.dispose();
+  fine.update();
+  assert.throws(() => fine.pin(rest), Error);
+});
 
 test('a pin lies on the nearest triangle', options, async () => {
   const mesh = await load(), {position: {array}} = mesh.geometry.attributes, index = mesh.face.triangles;
