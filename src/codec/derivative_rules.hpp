@@ -33,7 +33,7 @@ void addTerms(List& terms, std::span<const Term> more, double factor) {
 HalfArc oppositeOf(const Wireframe& w, const Connectivity& c, HalfArc h);
 
 /// How stored derivatives follow from positions and from derivatives before them, by the rules of
-/// the surface for those that are not stored (docs/file-format.md, Order).
+/// the surface for those that are not stored (docs/file-format-vectors.md, Prediction).
 class DerivativeRules {
  public:
   /// `sites` in coding order, `siteOf` [nodes] the site of a node or -1.

@@ -1,7 +1,9 @@
 """Parts that targets move as wholes: docs/file-format-vectors.md, "Bones" and "Values"."""
 
+import math
 from typing import NamedTuple
 
+from container import check
 from hierarchy import Hierarchy
 
 Vector = tuple[float, float, float]
@@ -73,5 +75,6 @@ def add_carries(vectors: list[Vector], carries: list[Carry], bones: list[int],
             vector = tuple(
                 vector[c] + unit * (p[0] * x[c] + p[1] * y[c] + p[2] * z[c] +
                                     (t[c] if is_position else 0)) for c in range(3))
+        check(all(map(math.isfinite, vector)), "a coordinate is not finite")
         result.append(vector)
     return result

@@ -7,6 +7,7 @@ import zlib
 ORDER = ["BASE", "GRID", "TNAM", "REST", "MOVE", "EXAC", "loos", "drif", "walk", "ordr", "face",
          "poly", "text", "texc", "quad", "scen", "name", "turn", "END "]
 REQUIRED = ["BASE", "GRID", "REST", "END "]
+TWO_WAYS = [("walk", "ordr"), ("face", "poly"), ("text", "texc"), ("face", "quad")]
 
 
 def check(holds, what: str):
@@ -21,7 +22,7 @@ def chunks_of(file: bytes) -> dict[str, bytes]:
     while "END " not in chunks:
         head = file[at:at + 12]
         check(len(head) == 12, "the file ends before its last chunk")
-        kind = head[:4].decode("ascii")
+        kind = head[:4].decode("latin-1")
         size, checksum = struct.unpack("<II", head[4:])
         payload = file[at + 12:at + 12 + size]
         check(len(payload) == size, "the file ends within a chunk")
@@ -32,10 +33,12 @@ def chunks_of(file: bytes) -> dict[str, bytes]:
             last = ORDER.index(kind)
             chunks[kind] = payload
         else:
-            check("a" <= kind[0] <= "z", f"{kind} is required and unknown")
+            check(not "A" <= kind[0] <= "Z", f"{kind} is required and unknown")
     check(at == len(file), "the file goes on after its last chunk")
     for kind in REQUIRED:
         check(kind in chunks, f"{kind} is missing")
+    for one, other in TWO_WAYS:
+        check(not (one in chunks and other in chunks), f"{one} and {other} hold the same")
     return chunks
 
 

@@ -140,6 +140,7 @@ def read_shapes(s: Symbols, w: Wireframe):
             continue
         if s.bit(30):
             e, l, r = s.number(31), s.number(31, 1), 1 + s.number(33)
+            check(r < 2**32, "a shape parameter is out of range")
             square = float(r) * r
             shape.rho = 1.0
             shape.eta = -e / square if e else 0.0

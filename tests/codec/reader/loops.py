@@ -162,6 +162,7 @@ class Loops:
         arc = self.w.arcs[h >> 1]
         guide = self.w.arcs[self.guide >> 1] if self.guide >= 0 else None
         arc.edges = self.edges(guide)
+        check(arc.edges <= 65535, "the length of an arc is out of range")
         arc.collapsed = bool(self.s.bit(14, self.e(guide and guide.collapsed)))
         self.length[self.side] += arc.edges
         ends = self.side_ends(0, self.side)
@@ -184,9 +185,7 @@ class Loops:
             c = 16 + min(guide.edges, 15)
         else:
             c = 1 + min(self.length[side - 1], 8) if side else 0
-        edges = 1 + self.s.number(12, c, side)
-        check(edges <= 65535, "the length of an arc is out of range")
-        return edges
+        return 1 + self.s.number(12, c, side)
 
     # nodes
 
