@@ -6,7 +6,7 @@ import {
   controls, isLost, linesOver, meshOf, placeCamera, removeLines, render, resize, scene, stage, view
 } from './page_stage.js';
 
-const LOST = 'The graphics card is not there for this page; if it does not come back, load the page again.';
+const LOST = 'The graphics card is not available to this page; if it does not come back, reload the page.';
 
 let mesh, lines;           // the face on show and, if wanted, its edges
 let file, latest;          // the one on show and the one asked for last: the bytes, or what will be those, the name

@@ -55,7 +55,7 @@ export function filterSliders() {
   const wanted = at('filter').value.trim().toLowerCase();
   for (const [name, {row}] of sliders) row.hidden = !name.toLowerCase().includes(wanted);
   const isFound = sliders.size === 0 || [...sliders.values()].some(({row}) => !row.hidden);
-  at('unfound').textContent = isFound ? '' : 'No expression has that in its name.';
+  at('unfound').textContent = isFound ? '' : 'No expression has this in its name.';
 }
 
 const averages = {};  // smoothed milliseconds

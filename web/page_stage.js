@@ -29,7 +29,7 @@ function makeRenderer() {
   try {
     return new WebGLRenderer({canvas: view, antialias: true, alpha: true});
   } catch (error) {
-    complain(new Error('Faces are drawn with WebGL 2, which this browser or its settings do not offer.'));
+    complain(new Error('Drawing faces needs WebGL 2, which this browser or its settings do not offer.'));
     throw error;
   }
 }

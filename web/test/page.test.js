@@ -486,7 +486,7 @@ test('the page', options, (t) => withPage('index.html', visit, async (page, comp
       await new Promise((done) => setTimeout(done, 1000));
       return [...said, document.getElementById('message').textContent];
     });
-    const lost = 'The graphics card is not there for this page; if it does not come back, load the page again.';
+    const lost = 'The graphics card is not available to this page; if it does not come back, reload the page.';
     assert.deepEqual(said, [lost, lost, '']);
     const after = await changed(before, await picture());
     assert.ok(after < 0.01, `${after} of the pixels differ`);
