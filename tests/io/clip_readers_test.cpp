@@ -88,7 +88,7 @@ TEST(LiveLinkCsv, WarnsOfARateThatItsTimecodesContradict) {
        {std::pair(30, 30.0), std::pair(30, 29.97), std::pair(60, 59.94), std::pair(60, 120.0)})
     EXPECT_TRUE(warnings(counted, given).empty()) << counted << ' ' << given;
   std::string seconds = "Timecode,a\n";  // which count no frames
-  for (int row = 0; row < 120; ++row) seconds += fmt::format("{},0\n", row / 30);
+  for (int row = 0; row < 120; ++row) seconds += std::to_string(row / 30) + ",0\n";
   EXPECT_EQ(parseLiveLinkCsv(seconds, "take.csv", 60).value().warnings.size(), 1u) << "same times";
 }
 
