@@ -10,7 +10,7 @@ namespace {
 
 constexpr bool isGap(char c) { return c == '_' || c == '-' || c == '.' || c == ' '; }
 
-/// A name without what spellings differ in: small letters, and a side as a final _l or _r.
+/// A name normalised for comparison: lower case, no separators, a side as a final _l or _r.
 std::string plain(std::string_view name) {
   std::string text;
   for (const char c : name)
@@ -81,7 +81,8 @@ ClipMatch matchClip(const Clip& clip, std::span<const std::string> targets) {
     std::vector<Index>& found = match.targets.emplace_back();
     if (const Index own = ownOf(name); own >= 0) found = {own}, driven[own] = true;
   }
-  // Both sides at once, where they have no names of their own. A jaw that goes left goes not right.
+  // A name drives both sides at once unless they have names of their own. A jaw that goes left does
+  // not go right.
   const std::vector<bool> hasOwn = driven;
   for (std::size_t k = 0; k < clip.names.size(); ++k) {
     if (!match.targets[k].empty()) continue;

@@ -8,7 +8,7 @@
 namespace sweepface {
 namespace {
 
-/// The share of the new value in an exponential filter of a cutoff frequency.
+/// The share of the new value in an exponential filter with the given cutoff frequency.
 double share(double cutoff, double seconds) {
   const double steps = 2 * std::numbers::pi * cutoff * seconds;
   return steps / (steps + 1);
@@ -41,7 +41,7 @@ void OneEuroFilter::apply(double seconds, std::span<double> weights) noexcept {
 
 namespace {
 
-/// The weights of all frames, filtered from the first to the last or the other way.
+/// The weights of all frames, filtered from the first to the last or backwards.
 std::vector<double> filtered(const Clip& clip, const OneEuro& settings, bool backwards) {
   const std::size_t n = clip.names.size(), last = clip.times.size() - 1;
   OneEuroFilter filter(n, settings);

@@ -1,6 +1,6 @@
-// Each piece goes as far as a cubic with free slopes at its ends stays near the clip (the greedy
-// choice is the best one where any part of a good piece is a good piece). The slopes are those of
-// least squares over the frames of the piece, as in P. J. Schneider, "An Algorithm for
+// Each piece extends as far as a cubic with free slopes at its ends stays near the clip (this
+// greedy choice is optimal if any part of a good piece is itself good). The slopes are fitted by
+// least squares over the samples of the piece, as in P. J. Schneider, "An Algorithm for
 // Automatically Fitting Digitized Curves", Graphics Gems, 1990.
 #include "sweepface/keys.hpp"
 
@@ -10,8 +10,8 @@
 namespace sweepface {
 namespace {
 
-/// The four cubics of Hermite at s ∈ [0, 1]: of the values at both ends, and of the slopes there
-/// per length of the piece.
+/// The four cubic Hermite polynomials at s ∈ [0, 1]: for the values at both ends, and for the
+/// slopes there, multiplied by the length of the piece.
 struct Hermite {
   double start, startSlope, end, endSlope;
   explicit Hermite(double s)
@@ -21,7 +21,7 @@ struct Hermite {
         endSlope(s * s * (s - 1)) {}
 };
 
-/// A clip is looked at so often a frame.
+/// Samples of a clip per frame.
 constexpr std::size_t kParts = 4;
 constexpr double shareOf(std::size_t part) { return static_cast<double>(part) / kParts; }
 
@@ -67,7 +67,7 @@ class KeyFinder {
     keys_.out.resize(keys_.values.size(), 0.0);
   }
 
-  /// The last frame that one piece reaches: in growing strides, then by halving.
+  /// The last frame that one piece can reach, found by doubling strides and then by bisection.
   std::size_t farthest(std::size_t from) {
     const std::size_t last = clip_.times.size() - 1;
     std::size_t good = from + 1, stride = 2;
@@ -87,7 +87,7 @@ class KeyFinder {
     return good;
   }
 
-  /// Fits the slopes of a piece, and says whether it is near enough.
+  /// Fits the slopes of a piece and returns whether it is near enough.
   bool fit(std::size_t from, std::size_t to) {
     prepare(from, to);
     for (const std::size_t k : moving_)
@@ -95,7 +95,7 @@ class KeyFinder {
     return true;
   }
 
-  /// What the weights of a piece share: the cubics at its frames and between them.
+  /// Computes what all weights of a piece share: the cubics at its frames and between them.
   void prepare(std::size_t from, std::size_t to) {
     const double start = clip_.times[from];
     length_ = clip_.times[to] - start;
@@ -142,7 +142,7 @@ class KeyFinder {
   std::size_t count_;
   double tolerance_, length_ = 1;
   std::vector<double> slopes_;       // [2 × N] of the last fit, per second
-  std::vector<std::size_t> moving_;  // weights; the others have no slope anywhere
+  std::vector<std::size_t> moving_;  // weights that change; the others have no slope anywhere
   std::vector<Hermite> places_;
   double aa_ = 0, ab_ = 0, bb_ = 0;  // the normal equations
   CubicKeys keys_;

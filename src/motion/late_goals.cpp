@@ -5,8 +5,8 @@
 
 namespace sweepface {
 
-// Up to half of the room is for goals however dense. Those beyond are apart, so that there are no
-// more than `most` of a weight, and one for what rounds.
+// Half of the ring takes goals however dense they are. Beyond that, goals of a weight are at least
+// `apart_` apart, so that there are at most `most` per weight, plus one for rounding.
 LateGoals::LateGoals(std::size_t weights, double delay) {
   if (delay == 0) return;
   constexpr double kPerSecond = 120, kMost = 63;

@@ -109,7 +109,7 @@ Result<Trajectory> MotionState::prepare(std::size_t weight, double goal, const D
   if (auto ok = checkIndex(weight, size()); !ok) return std::unexpected(ok.error());
   if (!(std::isfinite(drive.delay) && drive.delay >= 0))
     return failCall("The delay of a motion must be at least 0 seconds.");
-  // Where it will stand when the drive sets out.
+  // Its state when the drive sets out.
   const Coordinate& coordinate = coordinates_[weight];
   const double start = now_ + drive.delay;
   const Kinematics from = now_ < coordinate.switchAt && !springs_.pulls(weight)
@@ -119,7 +119,7 @@ Result<Trajectory> MotionState::prepare(std::size_t weight, double goal, const D
 }
 
 void MotionState::take(std::size_t weight, const Trajectory& next, double delay) noexcept {
-  // A drive that still waits is replaced; one that has set out is what goes on until the switch.
+  // A drive that still waits is replaced; one that has set out goes on until the switch.
   Coordinate& coordinate = coordinates_[weight];
   if (now_ >= coordinate.switchAt) {
     coordinate.now = coordinate.next;
@@ -145,7 +145,7 @@ Result<void> MotionState::moveTo(std::size_t weight, double goal, const Drive& d
 Result<void> MotionState::moveTo(std::span<const double> goals, const Drive& drive) {
   if (goals.size() != size())
     return failCall("There are ", goals.size(), " goals for ", size(), " weights; give one each.");
-  // All are prepared before the first sets out, so that an error leaves everything as it was.
+  // All are checked before the first sets out, so that an error leaves everything as it was.
   for (std::size_t k = 0; k < size(); ++k)
     if (auto ok = check(k, goals[k], drive); !ok) return ok;
   for (std::size_t k = 0; k < size(); ++k) take(k, *prepare(k, goals[k], drive), drive.delay);

@@ -7,7 +7,7 @@
 namespace sweepface {
 namespace {
 
-// std::lerp never turns back nor overshoots, but may make a −0 at an end +0.
+// std::lerp is monotonic and never overshoots, but may turn a −0 at an end into +0.
 double between(double from, double to, double position) {
   if (position == 0) return from;
   if (position == 1) return to;

@@ -5,7 +5,7 @@
 namespace sweepface {
 namespace {
 
-// t − sin(wt) / w, where s is sin(wt); by its series where that loses its digits.
+// t − sin(wt) / w, where s is sin(wt); by its series where the difference would cancel.
 double beyondSine(double w, double t, double s) {
   const double square = (w * t) * (w * t);
   if (square > 0.01) return t - s / w;
@@ -14,7 +14,7 @@ double beyondSine(double w, double t, double s) {
 
 }  // namespace
 
-// What the harmonics alone do to a coordinate that starts at 0 without velocity.
+// What the harmonics alone do to a coordinate that starts at rest at 0.
 Kinematics path::Driven::periodic(double t) const noexcept {
   Kinematics sum;
   for (std::size_t k = 0; k < count; ++k) {

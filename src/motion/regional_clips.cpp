@@ -7,7 +7,7 @@
 namespace sweepface {
 namespace {
 
-/// Whether as many regions as there are can each have a clip like this.
+/// Whether each of so many regions can have a clip of this size.
 Result<void> checkRoom(const Clip& clip, std::size_t regions) {
   if (regions == 0) return fail("it needs a region to be played in.");
   if (clip.weights.size() <= kMostClipWeights / regions) return {};

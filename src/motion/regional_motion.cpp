@@ -19,12 +19,12 @@ Drive inMatter(Drive drive, const Matter& matter) {
 
 namespace {
 
-// Frames that are nearer than this are one, as the speed between them has no digits.
+// Frames closer than this count as one, as the speed between them has no significant digits.
 constexpr double kJump = 1e-7;  // seconds
 
-/// What hangs on one recorded weight g: x″ = −2ζω (x′ − g′) − ω² (x − g). Its distance e = x − g
-/// swings freely between two frames, where g is straight, and gets an impulse where g changes
-/// speed.
+/// A mass hanging on one recorded weight g: x″ = −2ζω (x′ − g′) − ω² (x − g). Between two frames,
+/// where g is linear, its distance e = x − g swings freely; where g changes speed, it gets an
+/// impulse.
 class Hanging {
  public:
   explicit Hanging(const Spring& spring) : spring_(spring) {}
@@ -41,9 +41,9 @@ class Hanging {
     return distance_.position;
   }
 
-  /// How much its way bends at most from now on, where what it hangs on goes on at a speed. What
-  /// swings loses energy, v² + ω² x²; beyond critical damping the way bends by 2σ (v + s x) and
-  /// s² x, where s is the slower of two decays.
+  /// A bound on the acceleration of the mass from now on, if what it hangs on goes on at a constant
+  /// speed. A swing only loses energy, v² + ω² x². Beyond critical damping the acceleration
+  /// consists of 2σ (v + s x) and s² x, where s is the slower of the two decay rates.
   double bend(double speed) const {
     const double omega = pull(), sigma = spring_.damping * omega;
     const double x = distance_.position, v = distance_.velocity + speed_ - speed;
@@ -53,14 +53,14 @@ class Hanging {
     return 2 * sigma * std::abs(v + s * x) + s * s * std::abs(x);
   }
 
-  /// Whether it swings about what it hangs on, and whether it would if that stopped.
+  /// Whether the mass swings about what it hangs on, and whether it would if that stopped.
   bool swings() const { return isMuch(distance_.velocity); }
   bool swingsOn() const { return isMuch(distance_.velocity + speed_); }
 
  private:
   double pull() const { return 2 * std::numbers::pi * spring_.frequency; }
 
-  // All that a jump leaves behind is what the damper made of it: it takes no time.
+  // A jump takes no time, so that only the damper changes the speed of the mass.
   double jump(double way) {
     distance_.position -= way;
     distance_.velocity += speed_ + 2 * spring_.damping * pull() * way;
@@ -78,10 +78,10 @@ class Hanging {
   double speed_ = 0;  // of what it hangs on
 };
 
-/// Where anything swings there are so many frames that straight lines between them are as good as
-/// exact, for ten seconds after each of the clip's and no more than `mostWeights` weights in all:
-/// half of them for even frames, the rest for closer ones. It goes on until it hangs still, or for
-/// as long.
+/// The clip of the masses that hang on a clip. While anything swings, there are enough frames for
+/// straight lines between them to be as good as exact, up to ten seconds after each frame of the
+/// clip and `mostWeights` weights in all: half of the frames are for even spacing, the rest for
+/// closer ones. The result goes on until all masses hang still, or for ten seconds.
 Clip hanging(const Clip& clip, const Spring& spring, std::size_t mostWeights) {
   constexpr double kFrame = 1.0 / 120, kLongest = 10;
   const std::size_t n = clip.names.size();
@@ -89,7 +89,7 @@ Clip hanging(const Clip& clip, const Spring& spring, std::size_t mostWeights) {
   double swinging = kLongest;
   for (std::size_t f = 1; f < clip.times.size(); ++f)
     swinging += std::min(clip.times[f] - clip.times[f - 1], kLongest);
-  // Left for either kind of frames beyond the clip's own.
+  // Frames left for each of the two kinds, beyond the clip's own.
   double room =
       (static_cast<double>(mostWeights / n) - 2 * static_cast<double>(clip.times.size())) / 2;
   const double frame = std::max(kFrame, room > 0 ? swinging / room : HUGE_VAL);
@@ -107,9 +107,10 @@ Clip hanging(const Clip& clip, const Spring& spring, std::size_t mostWeights) {
     before.swap(now);
   };
   const auto any = [&](auto swings) { return std::ranges::any_of(hangs, swings); };
-  // One piece at least, and then as long as anything swings; the last is a quarter longer at most.
-  // A way that bends by b is off its straight line by b h² / 8 in a piece h. What settles sooner
-  // than the shortest has not gone far, and clocks may tell no less apart.
+  // Adds one piece at least, then more while anything swings; the last is a quarter longer at most.
+  // With an acceleration b, a path is off its straight line by b h² / 8 in a piece of length h.
+  // What settles within the shortest piece has not gone far, and clocks may not resolve shorter
+  // ones.
   const auto goOn = [&](double from, double span, double piece, double share, auto speedOf,
                         auto swings) {
     constexpr double kMiss = 6e-5, kShortest = 1e-4;
@@ -176,7 +177,7 @@ void RegionalMotion::Region::advance(double seconds) noexcept {
     const double step = std::max(0.0, goal->at - state.now());
     state.advance(step);
     left -= step;
-    // Refused is only what no number can hold from where the weight is by now.
+    // This fails only if no number can hold the path from where the weight is by now.
     std::ignore = state.moveTo(goal->weight, goal->value, goal->drive);
   }
   state.advance(left);
@@ -214,7 +215,7 @@ void RegionalMotion::advance(double seconds) noexcept {
 }
 
 Result<void> RegionalMotion::moveTo(std::size_t weight, double goal, const Drive& drive) {
-  // All are asked before the first sets out, so that an error leaves everything as it was.
+  // All are checked before the first sets out, so that an error leaves everything as it was.
   for (const Region& region : regions_)
     if (auto ok = region.check(weight, goal, drive); !ok) return ok;
   for (Region& region : regions_)
@@ -253,7 +254,7 @@ Result<void> RegionalMotion::put(std::size_t region, std::size_t weight, double 
 }
 
 Result<void> RegionalMotion::push(std::size_t weight, double velocityChange, double drag) {
-  // All are asked before the first is pushed.
+  // All are checked before the first is pushed.
   for (const auto& [matter, state, late] : regions_)
     if (auto ok = state.pushed(weight, velocityChange / matter.mass, drag / matter.mass); !ok)
       return std::unexpected(ok.error());

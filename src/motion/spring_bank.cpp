@@ -7,7 +7,7 @@ namespace sweepface {
 SpringBank::SpringBank(std::size_t weights)
     : kindOf_(weights, kNone), goals_(weights), ways_(weights), speeds_(weights) {}
 
-// The kind that a spring is of, or one that nobody is of any more.
+// The kind of a spring: an existing one, else one no longer in use; kNone if there is neither.
 std::uint8_t SpringBank::kindFor(const path::Swing& swing, double began) noexcept {
   std::uint8_t unused = kNone;
   for (std::uint8_t k = 0; k < kMostKinds; ++k) {
@@ -63,7 +63,7 @@ Kinematics SpringBank::at(std::size_t weight, double time) const noexcept {
   return {goals_[weight] + way.position, way.velocity, way.acceleration};
 }
 
-// Neighbours of one kind at a time, without a branch among them.
+// Visits runs of neighbours of one kind, so that there is no branch within a run.
 template <typename Use>
 void SpringBank::eachRun(double time, std::size_t count, const Use& use) const noexcept {
   std::array<path::Swing::Decay, kMostKinds> decays;

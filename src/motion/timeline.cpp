@@ -10,7 +10,7 @@
 namespace sweepface {
 namespace {
 
-/// Where weights stand among the names of a clip.
+/// The positions of weights among the names of a clip.
 using Places = std::map<std::string_view, std::size_t>;
 
 Result<void> play(const TimelineEvent& event, const Places& places, const Matter& matter,
@@ -47,7 +47,7 @@ bool isFor(const TimelineEvent& event, std::string_view region) {
   return event.region.empty() || event.region == region;
 }
 
-// When a drive is there; those that swing have no such time.
+// When a drive arrives; those that swing or bounce have no such time.
 double arrivalOf(const Drive& drive) {
   const bool isTimed = drive.kind == Drive::Kind::newton ||
                        drive.kind == Drive::Kind::linearForce ||
@@ -63,7 +63,7 @@ double endIn(const Timeline& timeline, std::string_view region, const Matter& ma
   for (const TimelineEvent& event : timeline.events) {
     const double meant = arrivalOf(event.drive), first = event.time + meant;
     if (!isFor(event, region) || first > whole * (1 + 1e-9)) continue;
-    // The last time that it is there.
+    // The last time that it arrives.
     const double loop =
         std::min(std::floor((whole - first) / timeline.seconds * (1 + 1e-9)), timeline.loops - 1.0);
     const double at = std::min(first + std::max(loop, 0.0) * timeline.seconds, whole);
@@ -74,7 +74,7 @@ double endIn(const Timeline& timeline, std::string_view region, const Matter& ma
 
 namespace {
 
-/// A timeline on its way.
+/// A timeline while it plays.
 struct Playing {
   MotionState state;
   std::size_t next = 0;  // of its events
@@ -94,10 +94,10 @@ class Baker {
     for (std::vector<double>& weights : looks_) weights.resize(clip_.names.size());
   }
 
-  /// `most` weights in all, where straight lines between so many frames a second are not enough;
-  /// 0: nobody asks how good they are.
+  /// Adds frames, up to `most` weights in all, where straight lines between frames at this rate are
+  /// not good enough; 0: neither adds frames nor measures what the lines miss.
   Result<Baked> bake(double framesPerSecond, std::size_t most) {
-    // The last one is at the end, even where that is no whole number of frames.
+    // The last frame is at the end, even if that is not a whole number of frames.
     const double frames = std::ceil(end_ * framesPerSecond - 1e-6);
     if (auto ok = check(framesPerSecond, frames); !ok) return std::unexpected(ok.error());
     auto state = MotionState::make(std::vector<double>(clip_.names.size(), 0.0));
@@ -105,7 +105,7 @@ class Baker {
     const auto even = static_cast<std::size_t>(frames + 1) * clip_.names.size();
     isExamined_ = most > 0;
     room_ = std::min(kMostMore, most - std::min(most, even));
-    // Every look plays what sets out once more.
+    // Each look ahead plays the events of its stretch again.
     if (static_cast<double>(timeline_.events.size()) * timeline_.loops > 1e6) room_ = 0;
     Playing playing{std::move(*state)};
     if (auto ok = goTo(playing, 0); !ok) return std::unexpected(ok.error());
@@ -120,7 +120,7 @@ class Baker {
 
  private:
   static constexpr std::size_t kMostMore = std::size_t{1} << 22;
-  static constexpr double kMiss = 6.9e-5;  // seen at a look; at a kink between two of them 1e-4
+  static constexpr double kMiss = 6.9e-5;  // where it looks; at a kink in between 1e-4
 
   Result<void> checkTimes() const {
     if (!(timeline_.seconds > 0) || timeline_.loops < 1)
@@ -155,7 +155,8 @@ class Baker {
     return {};
   }
 
-  // Everything that sets out until then does so at its own instant; by the end, all does.
+  // Advances to `time`. Every event until then sets out at its own instant; at the end, all that
+  // are left do.
   Result<void> goTo(Playing& playing, double time) const {
     while (playing.loop < timeline_.loops) {
       if (playing.next == timeline_.events.size()) {
@@ -180,8 +181,8 @@ class Baker {
     clip_.weights.insert(clip_.weights.end(), looks_[0].begin(), looks_[0].end());
   }
 
-  // The frame at the end of a stretch of time that begins where it plays, and before it as many as
-  // straight lines need.
+  // Adds the frame at `to` and, before it, as many as straight lines need. `playing` stands at
+  // `from`.
   Result<void> add(Playing& playing, double from, double to, int halvings = 0) {
     constexpr int kMostHalvings = 10;
     const double middle = std::midpoint(from, to);
@@ -203,14 +204,14 @@ class Baker {
     return {};
   }
 
-  /// What a straight line through a stretch of time misses, and what is beyond both its ends: not a
-  /// jump's.
+  /// The most that a straight line over a stretch of time misses, and the most by which a weight
+  /// leaves the range of its two ends, which a jump does not.
   struct Miss {
     double all = 0, butJumps = 0;
   };
 
   Result<Miss> missedBy(const Playing& playing, double from, double to) {
-    // Uneven, unlike the zeros of a swing.
+    // Unevenly spaced, unlike the zeros of a swing.
     constexpr std::array kLooks{0.0, 0.191, 0.5, 0.691, 1.0};
     ahead_ = playing;
     for (std::size_t k = 0; k < kLooks.size(); ++k) {
@@ -230,7 +231,8 @@ class Baker {
     return most;
   }
 
-  // Whether two straight lines would hardly miss less: four times less if anything bends.
+  // Whether a stretch is a jump: two straight lines hardly miss less than one. On a curve they
+  // would miss four times less.
   Result<bool> jumps(const Playing& playing, double from, double to, double missed) {
     const double middle = std::midpoint(from, to);
     const Result<Miss> first = missedBy(playing, from, middle);
@@ -248,9 +250,9 @@ class Baker {
   Places places_;
   Clip clip_;
   std::array<std::vector<double>, 5> looks_;  // [names] each
-  std::optional<Playing> ahead_;              // while it looks
+  std::optional<Playing> ahead_;              // while looking ahead
   bool isExamined_ = false;
-  std::size_t room_ = 0;  // for weights of frames beyond the rate
+  std::size_t room_ = 0;  // for weights of added frames
   double missed_ = 0;
 };
 

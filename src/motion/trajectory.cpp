@@ -28,7 +28,7 @@ Result<void> check(Start start, double to, double seconds) {
   return checkNumbers({start.position, start.velocity, to});
 }
 
-// Not a number counts as before the start, and for ever as very long.
+// NaN counts as before the start, infinity as a very long time.
 double sinceStart(double time) {
   return time > 0 ? std::fmin(time, std::numeric_limits<double>::max()) : 0;
 }
@@ -38,7 +38,8 @@ double sinceStart(double time) {
 using path::Cubic;
 
 Spring Spring::withHalfLife(double seconds, double damping) {
-  // Swings lie within e^(−ζωt); beyond critical damping the slower of two decays is what is left.
+  // Swings lie within e^(−ζωt); beyond critical damping the slower of two decays is the one that
+  // remains.
   const double slow = damping > 1 ? 1 / (damping + std::sqrt(damping * damping - 1)) : damping;
   return {std::numbers::ln2 / (2 * std::numbers::pi * slow * seconds), damping};
 }
@@ -70,7 +71,7 @@ path::Swing::Decay path::Swing::decay(double t) const noexcept {
     c = shrink * cosine;
     s = shrink * sine / w;
   } else {
-    // σ − w loses its digits when w is nearly σ; ω² / (σ + w) does not.
+    // σ − w cancels when w is nearly σ; ω² / (σ + w) does not.
     const double slow = ode::exponential(-omega * omega / (sigma + w) * t);
     const double shrink = ode::exponential(-2 * angle);
     c = slow * (1 + shrink) / 2;
@@ -89,7 +90,7 @@ Kinematics path::Bounces::at(double t) const noexcept {
   if (t < end) return fall.at(t);
   if (!(speed * fall.a > 0) || restitution == 0) return {goal, 0, 0};
   const double e = restitution, first = 2 * e * speed / fall.a, since = t - end;
-  const double left = 1 - since * (1 - e) / first;  // eⁿ⁻¹ of the bounce, smoothly
+  const double left = 1 - since * (1 - e) / first;  // eⁿ⁻¹ of bounce n, interpolated
   if (!(left > 0)) return {goal, 0, 0};
   const double n = std::floor(ode::logarithm(left) / ode::logarithm(e));
   const double power = ode::exponential(n * ode::logarithm(e)),
@@ -113,7 +114,7 @@ Kinematics Trajectory::at(double time) const noexcept {
 
 bool path::Pieces::moves(double t, double) const noexcept { return t < end; }
 
-// Its energy only falls, so that no later way is longer than √(y² + (y′/ω)²).
+// Its energy only falls, so that no later distance from the goal exceeds √(y² + (y′/ω)²).
 bool path::Swing::moves(double t, double tolerance) const noexcept {
   const Kinematics way = wayAfter(decay(t), {x - goal, v});
   const double swing = way.velocity / omega;
@@ -205,7 +206,7 @@ Result<Trajectory> Trajectory::spring(Start start, double to, Spring spring) {
 }
 
 Result<Trajectory> Trajectory::bounce(Start start, double to, double seconds, double restitution) {
-  constexpr double kMost = 1 - 1e-9;  // beyond, the sum over all bounces loses its digits
+  constexpr double kMost = 1 - 1e-9;  // beyond it the sum over all bounces loses precision
   if (!(restitution >= 0 && restitution <= kMost))
     return failCall("A bounce keeps a part of its speed: the restitution lies in [0, 1 - 1e-9].");
   const Result<Trajectory> fall = constantForce(start, to, seconds);

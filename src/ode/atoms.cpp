@@ -8,7 +8,7 @@
 namespace sweepface::ode {
 namespace {
 
-// Power series about the middle converge to the last bit within seriesTerms up to |r|^2 = 16.
+// Up to |r|^2 = 16, power series about the middle converge to the last bit within seriesTerms.
 constexpr double smallSquare = 16;
 constexpr int seriesTerms = 14;
 
@@ -16,14 +16,14 @@ struct Wave {
   double even, odd;
 };
 
-// cosh(r t) and sinh(r t)/r for r^2 = s. Growing ones are divided by e^(r/2), their value at the
-// ends; the distance to the nearer end keeps boundary layers exact.
+// cosh(r t) and sinh(r t)/r for r^2 = s. Growing ones are divided by e^(r/2), their growth to the
+// ends, and computed from the distance to the nearer end, which keeps boundary layers exact.
 Wave wave(double s, double tail, double u) {
   const double t = u - 0.5;
   if (s == 0) return {1, t};
   const double r = std::sqrt(std::abs(s));
   if (s < 0) {
-    // The phase to more digits than a double has: resonance would multiply its error.
+    // The phase to more digits than a double has: near a resonance its error would be amplified.
     const double phase = r * t, rest = productPlus(r, t, -phase) + tail * t;
     const auto [sine, cosine] = sineCosine(phase);
     return {cosine - rest * sine, (sine + rest * cosine) / r};
@@ -33,7 +33,7 @@ Wave wave(double s, double tail, double u) {
   return {decay * (2 + rest), std::copysign(decay * rest / r, t)};
 }
 
-// (cosh(r t) - 1)/s and (sinh(r t)/r - t)/s: what is left of a wave beside {1, t}, however small s.
+// (cosh(r t) - 1)/s and (sinh(r t)/r - t)/s: what a wave adds to {1, t}, accurate for any small s.
 Wave bend(double s, double u) {
   const double t = u - 0.5;
   double even = 0, odd = 0, term = 1;
@@ -48,7 +48,7 @@ Wave bend(double s, double u) {
 bool isSmall(double s) { return std::abs(s) <= smallSquare; }
 Wave apart(double s, double tail, double u) { return isSmall(s) ? bend(s, u) : wave(s, tail, u); }
 
-// G_m(t) = sum h_k t^(2k+m)/(2k+m)!, m = 2..5, of which each is the derivative of the next.
+// G_m(t) = sum h_k t^(2k+m)/(2k+m)!, m = 2..5. Each is the derivative of the next.
 Atoms<3> series(double a, double b, double u) {
   const double t = u - 0.5;
   double h = 1, previous = 0, power = t * t / 2;
@@ -65,7 +65,7 @@ Atoms<3> series(double a, double b, double u) {
   return {{1, g[0], g[2]}, {t, g[1], g[3]}};
 }
 
-// A double and the little that it lacks of an exact value.
+// An exact value as a double and the remainder.
 struct Exact {
   double value, tail;
 };
@@ -86,7 +86,7 @@ Roots withTails(RootCase kind, Exact first, Exact second) {
   return {kind, first.value, second.value, rootTail(first), rootTail(second)};
 }
 
-// r = p + q and p - q for b >= 0, where p^2 and q^2 are real; this is the one with +-sqrt(b).
+// For b >= 0, r = p + q and p - q with real p^2, q^2 = (-a/2 +- sqrt(b)) / 2; this is one of them.
 Exact closeSquare(double a, double b, double sign) {
   const double root = std::sqrt(b);
   const double rootRest = root > 0 ? productPlus(-root, root, b) / (2 * root) : 0;
@@ -95,7 +95,8 @@ Exact closeSquare(double a, double b, double sign) {
   return {value / 2, tail / 2};
 }
 
-// The larger and the smaller real root s of s^2 + a s + b, one Newton step beyond doubles.
+// The larger and the smaller real root s (by magnitude) of s^2 + a s + b, refined by one Newton
+// step beyond double precision.
 Roots apartRoots(double a, double b, double s1) {
   const auto [other, otherTail] = sum(s1, a);
   const double product = s1 * other;
@@ -114,8 +115,8 @@ Roots findRoots(double a, double b) {
   if (discriminant < 0 ? isSmall(std::sqrt(b)) : isSmall(s1)) return {RootCase::Small, a, b};
   if (b < 0) return apartRoots(a, b, s1);
   const Exact p = closeSquare(a, b, 1), q = closeSquare(a, b, -1);
-  // Real s: two solutions differ by a factor of about e^|q|. Together they are a pair, further
-  // apart each stands for itself.
+  // For real s the two solutions differ by a factor of about e^|q|. Close roots are treated as a
+  // pair, those further apart one by one.
   if (discriminant > 0 && std::min(std::abs(p.value), std::abs(q.value)) >= 1.5)
     return apartRoots(a, b, s1);
   return withTails(RootCase::Close, p, q);

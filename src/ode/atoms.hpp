@@ -5,8 +5,8 @@
 #include "sweepface/ode.hpp"
 
 // The solutions of S'''''' + a S'''' + b S'' = 0 about the middle of the sweep, t = u - 1/2, where
-// even and odd ones separate: S is a sum of three even atoms {1, E1, E2} or of three odd ones
-// {t, O1, O2}. A derivative maps even atoms to odd ones and back, by a constant matrix.
+// they separate into even ones, sums of three even atoms {1, E1, E2}, and odd ones, sums of three
+// odd atoms {t, O1, O2}. A derivative maps even atoms to odd ones and back, by a constant matrix.
 namespace sweepface::ode {
 
 template <std::size_t N>
@@ -24,10 +24,10 @@ struct Derivative {
   Matrix<N> ofEven, ofOdd;
 };
 
-/// Chooses atoms that stay independent of each other at the roots of r^4 + a r^2 + b = 0.
+/// Solves r^4 + a r^2 + b = 0 and chooses atoms that stay linearly independent for its roots.
 Roots findRoots(double a, double b);
 
-/// A bound of |r| for the scaling of equations, at least 1.
+/// About the largest |r|, at least 1; used to scale equations.
 double magnitude(const Roots& roots);
 
 Atoms<3> atomsAt(const Roots& roots, double u);

@@ -24,7 +24,7 @@ Result<CrossDerivatives> derivativesFromControls(const Vec3& boundary, const Vec
     return fail("The control curves must have different finite parameters other than zero.");
   if (!isFinite(boundary) || !isFinite(control2) || !isFinite(control3))
     return fail("The boundary and control points must have finite coordinates.");
-  // Divided differences: slopes of the chords, then how they change.
+  // Divided differences: the slopes of the chords, then their rate of change.
   const auto [u2, u3] = spacing;
   const Vec3 slope2 = (control2 - boundary) * (1 / u2), slope3 = (control3 - boundary) * (1 / u3);
   const Vec3 half = (slope3 - slope2) * (1 / (u3 - u2));

@@ -1,4 +1,4 @@
-// Reduction to a short interval by constants of which the first has so few digits that its
+// Argument reduction to a short interval by split constants, the first with so few digits that its
 // multiples are exact (Cody and Waite 1980), then a power series.
 #include "ode/elementary.hpp"
 
@@ -12,13 +12,13 @@
 namespace sweepface::ode {
 namespace {
 
-/// 2^k as long as that is a normal number.
+/// 2^k, provided that it is a normal number.
 double powerOf2(int k) { return std::bit_cast<double>(std::uint64_t(k + 1023) << 52); }
 
 constexpr int kFactorials = 20;
 constexpr std::array<double, kFactorials> kInverseFactorial = [] {
   std::array<double, kFactorials> inverse{};
-  double factorial = 1;  // all of them are doubles
+  double factorial = 1;  // all of them are exact
   for (int n = 0; n < kFactorials; ++n) inverse[n] = 1 / (factorial *= n > 0 ? n : 1);
   return inverse;
 }();
@@ -75,7 +75,7 @@ double exponential(double x) {
   if (!(x <= kLargest)) return x > 0 ? 1 / (1 - std::fmin(x, 1)) : x;
   if (x < kSmallest) return 0;
   const auto [k, q] = powerOf(x);
-  const int half = k / 2;  // in two steps, as the result may be below the normal numbers
+  const int half = k / 2;  // in two steps, as the result may be subnormal
   return (1 + q) * powerOf2(half) * powerOf2(k - half);
 }
 
@@ -92,14 +92,14 @@ double logarithm(double x) {
   if (!(x < HUGE_VAL)) return x;
   const double up = x < 0x1p-1000 ? 0x1p60 : 1;
   const auto bits = std::bit_cast<std::uint64_t>(x * up);
-  constexpr std::uint64_t kRootHalf = 0x3fe6a09e667f3bcd;  // of 0.5
+  constexpr std::uint64_t kRootHalf = 0x3fe6a09e667f3bcd;  // the bits of sqrt(0.5)
   const auto k = static_cast<std::int64_t>(bits - kRootHalf) >> 52;
   const double m = std::bit_cast<double>(bits - (static_cast<std::uint64_t>(k) << 52)), f = m - 1;
   const double s = f / (m + 1), squared = s * s;
   double sum = 0;
   for (int n = 25; n > 1; n -= 2) sum = (sum + 2.0 / n) * squared;
   const double powers = static_cast<double>(k) - (up > 1 ? 60 : 0);
-  // 2 s = f − f s: the quotient's rounding counts for little then.
+  // 2 s = f − f s: in this form the rounding of the quotient matters little.
   return powers * kHigh + (f - s * (f - sum) + powers * kLow);
 }
 

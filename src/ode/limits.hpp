@@ -10,17 +10,18 @@
 // Which parameters are refused, and what the refusal says.
 namespace sweepface::ode {
 
-/// Beside a resonance of oscillating solutions the basis multiplies every error of the data: no
-/// function may exceed `largestValue` on the grid, which has six places a period at `largestRoot`.
+/// Near a resonance of oscillating solutions the basis amplifies every error in the data, so no
+/// function may exceed `largestValue` on the grid. The grid has six points per period at
+/// `largestRoot`.
 constexpr double largestValue = 10, largestRoot = 1000;
 constexpr int gridSteps = 1024;
 
-// Not by snprintf: it would be a tenth of what a browser has to load.
+// snprintf would be a tenth of what a browser has to load.
 inline TextPart number(double x) {
   return x < 1e9 ? TextPart(std::lround(x)) : TextPart("more than 1000000000");
 }
 
-/// A parameter divided by the leading one, for u in [0,1] instead of lengths.
+/// A parameter divided by the leading one and rescaled from lengths to u in [0,1].
 inline Result<double> scaled(double parameter, double leading, double length, int exponent) {
   const double value = parameter / leading * ode::power(length, exponent);
   if (!(length > 0)) return fail("The length of a sweep must be a positive number.");
@@ -28,7 +29,7 @@ inline Result<double> scaled(double parameter, double leading, double length, in
   return fail("The shape parameters and the length must be finite, also after scaling.");
 }
 
-/// The largest value of any function on the grid, or one that is not finite.
+/// The largest absolute value of any function on the grid; not finite if any value is not.
 template <typename Basis>
 double largestOnGrid(const Basis& basis) {
   double largest = 0;
@@ -38,7 +39,7 @@ double largestOnGrid(const Basis& basis) {
   return largest;
 }
 
-/// The basis, or why it cannot be used. `root` bounds the roots; a safe basis never resonates.
+/// The basis, or why it is refused. `root` bounds the roots; a safe basis never resonates.
 template <typename Basis>
 Result<Basis> accepted(const Basis& basis, double root, bool isSafe, std::string_view safe) {
   for (const double g : basis.at(0.5, 3))

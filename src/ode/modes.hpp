@@ -5,7 +5,7 @@
 
 #include "ode/atoms.hpp"
 
-// From atoms to the functions of the end conditions; N conditions at each end.
+// Turns atoms into the basis functions of the end conditions; N conditions at each end.
 namespace sweepface::ode {
 
 template <std::size_t N>
@@ -23,7 +23,7 @@ std::array<double, N> times(const std::array<double, N>& row, const Matrix<N>& m
   return product;
 }
 
-/// Row c of the result x holds the solution of m x = e_c, by elimination with pivoting.
+/// Row c of the result solves m x = column c of `right`, by elimination with pivoting.
 template <std::size_t N>
 Matrix<N> solutions(Matrix<N> m, Matrix<N> right) {
   for (std::size_t k = 0; k < N; ++k) {
@@ -44,8 +44,8 @@ Matrix<N> solutions(Matrix<N> m, Matrix<N> right) {
   return x;
 }
 
-/// Half of the even and of the odd solutions whose derivative of one order below N is 1 at u = 1
-/// and whose others are 0 there, with their derivatives. `scale` bounds the roots |r|.
+/// Half of the even and of the odd solutions for which, at u = 1, the derivative of one order below
+/// N is 1 and the others are 0; with their derivatives. `scale` is about the largest |r|.
 template <std::size_t N>
 Modes<N> solveModes(const Atoms<N>& end, const Derivative<N>& d, double scale) {
   Modes<N> modes{};
@@ -71,8 +71,8 @@ Modes<N> solveModes(const Atoms<N>& end, const Derivative<N>& d, double scale) {
   return modes;
 }
 
-/// The N functions of the end u = 0, then those of u = 1. By symmetry an even and an odd solution
-/// with the same condition at u = 1 have it with opposite signs at u = 0.
+/// The N functions of the end u = 0, then those of u = 1. By symmetry, an even and an odd solution
+/// with the same value at u = 1 have values of opposite sign at u = 0.
 template <std::size_t N>
 std::array<double, 2 * N> combine(const Modes<N>& modes, const Atoms<N>& atoms, int order) {
   std::array<double, 2 * N> g{};
@@ -87,7 +87,7 @@ std::array<double, 2 * N> combine(const Modes<N>& modes, const Atoms<N>& atoms, 
   return g;
 }
 
-/// What the end conditions ask for at u = 0 or 1, where rounding would open seams.
+/// The exact values that the end conditions demand at u = 0 or 1, where rounding would open seams.
 template <std::size_t N>
 std::array<double, 2 * N> atEnd(double u, int order) {
   std::array<double, 2 * N> g{};

@@ -2,8 +2,8 @@
 
 namespace sweepface::ode {
 
-/// base^exponent by multiplication. Exponents here are small whole numbers, and std::pow answers
-/// differently from library to library.
+/// base^exponent by multiplication, for small exponents. std::pow gives different results in
+/// different libraries.
 constexpr double power(double base, int exponent) {
   double product = 1;
   for (int k = exponent < 0 ? -exponent : exponent; k > 0; --k) product *= base;

@@ -6,7 +6,7 @@ namespace sweepface {
 
 namespace {
 
-// One function for all types, where the standard library has one for each.
+// One function for all integer types; the standard library has one for each.
 void appendNumber(std::vector<char>& sentence, long long number) {
   char digits[20];
   char* first = digits + 20;

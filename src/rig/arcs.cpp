@@ -12,7 +12,7 @@ using Taylor3 = std::array<Taylor, 3>;
 
 Taylor dot(const Taylor3& a, const Taylor3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-/// From the pivot, without what runs along the axis.
+/// The vector from the pivot, without its component along the axis.
 Taylor3 armOf(const Turn& turn, Taylor3 p) {
   const std::array pivot{turn.pivot.x, turn.pivot.y, turn.pivot.z};
   const std::array axis{turn.axis.x, turn.axis.y, turn.axis.z};
@@ -22,7 +22,7 @@ Taylor3 armOf(const Turn& turn, Taylor3 p) {
   return p;
 }
 
-/// 0 up to `low`, 1 from `high` on, and twice continuously differentiable between.
+/// 0 up to `low`, 1 from `high` on, with a twice continuously differentiable transition.
 Taylor faded(const Taylor& x, double low, double high) {
   if (!(x.value() > low)) return {};
   Taylor t = (x + -low) * (1 / (high - low));
@@ -30,8 +30,9 @@ Taylor faded(const Taylor& x, double low, double high) {
   return t * t * t * (t * (t * 6 + -15.0) + 10);
 }
 
-/// The bulge and its derivatives: the middle of both arms, drawn out to their mean length. Beside
-/// the axis directions mean nothing, and half a turn has no middle: there it fades.
+/// The bulge and its derivatives: what must be added to the middle of both arms to stretch it to
+/// their mean length. It is zero at the axis, where directions mean nothing, and fades out towards
+/// half a turn, which has no middle.
 Taylor3 bulgeOf(const Turn& turn, const Taylor3& from, const Taylor3& to) {
   const Taylor3 a = armOf(turn, from), b = armOf(turn, to);
   Taylor3 middle;
@@ -75,7 +76,7 @@ class BulgeMaker {
     if (norm(value) > small_) bulge_[stored] = value;
   }
 
-  /// The bulge of the jet that a corner shows.
+  /// The bulge of the jet at a corner.
   Taylor3 bulgeAt(const Turn& turn, const std::array<JetRef, 9>& refs) const {
     Taylor3 from, to;
     for (int k = 0; k < 9; ++k)
@@ -92,7 +93,7 @@ class BulgeMaker {
     return refs;
   }
 
-  /// Nodes whose jet a corner shows, turned by right angles.
+  /// Nodes whose jet is seen at a corner, turned by right angles.
   void atCorner(const Turn& turn, Index patch, int corner) {
     const auto refs = jetAt(patch, corner);
     const bool isNew = std::ranges::any_of(refs, [&](const JetRef& ref) {
@@ -106,7 +107,7 @@ class BulgeMaker {
         set(refs[k].vector, refs[k].sign * derivative(bulge, k / 3, k % 3));
   }
 
-  /// Fans of right angles at creased nodes: the corner of the first sector has their axes.
+  /// Fans of right angles at creased nodes: the corner of a fan's first sector has the fan's axes.
   void atFans(const Turn& turn) {
     const Connectivity& c = surface_.connectivity();
     for (Index n = 0; n < static_cast<Index>(c.kinds.size()); ++n)

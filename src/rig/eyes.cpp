@@ -10,7 +10,7 @@
 namespace sweepface {
 namespace {
 
-constexpr double kUsualLook = 0.5;  // radians at weight 1, where a target turns no eye itself
+constexpr double kUsualLook = 0.5;  // radians at weight 1, for targets that turn no eye themselves
 
 Vec3 acrossX(const Vec3& v) { return cross({1, 0, 0}, v); }
 Vec3 acrossY(const Vec3& v) { return cross({0, 1, 0}, v); }
@@ -47,7 +47,7 @@ std::array<Vec3, kTerms> termsOf(const Vec3& arm) {
   return {x, y, acrossX(x), acrossY(y), acrossX(y) + acrossY(x)};
 }
 
-/// From the centre, for what is a place; directions as they are.
+/// A position relative to the centre of the eye; a derivative as it is.
 Vec3 armOf(const Rig& rig, const Eye& eye, Index stored) {
   const StoredVector& what = rig.surface.stored(stored);
   const bool isPlace = what.i == 0 && what.j == 0;
@@ -63,11 +63,11 @@ Vec3 added(const Rig& rig, const Eye& eye, Index stored, double x, double y) {
   return sum;
 }
 
-/// The rotation vector that a target turns an eye by: by Newton's method from the infinitesimal
-/// one, on the sum of squares over the places. Both zero if it does not move it.
+/// The rotation vector by which a target turns an eye: a least-squares fit over the positions, both
+/// components zero if the target does not move the eye.
 struct Fit {
   double x = 0, y = 0;
-  double moves = 0, left = 0;  // sums of squares: of the ways, and of what the turn leaves
+  double moves = 0, left = 0;  // sums of squares: of the movements, and of what the turn leaves
 };
 
 double squaresLeft(const Rig& rig, const Eye& eye, const Target& target, double x, double y) {
@@ -84,7 +84,7 @@ Fit fitTurn(const Rig& rig, const Eye& eye, const Target& target) {
   Fit fit;
   fit.moves = fit.left = squaresLeft(rig, eye, target, 0, 0);
   if (!(fit.moves > 0)) return fit;
-  // Gauss-Newton with differences: two unknowns and a smooth function.
+  // Gauss-Newton with finite differences from no turn: two unknowns and a smooth function.
   constexpr double h = 1e-5;
   for (int round = 0; round < 20; ++round) {
     double xx = 0, xy = 0, yy = 0, rx = 0, ry = 0;
@@ -202,21 +202,21 @@ void EyeTurns::addLooks(Rig& rig, const Eye& eye, Turning& turning) {
     for (const Index index : match.targets[k]) {
       Target& target = rig.targets[index];
       const Fit fit = rig.knows(target) ? fitTurn(rig, eye, target) : Fit{};
-      constexpr double kMoves = 0.02, kRigid = 0.1;  // of the radius, and of the way
+      constexpr double kMoves = 0.02, kRigid = 0.1;  // of the radius, and of the movement
       const double count = static_cast<double>(eye.stored.size());
       if (!(fit.moves > count * kMoves * kMoves * eye.radius * eye.radius / 9)) {
         turning.looks.push_back({index, kUsualLook * usual[k][0], kUsualLook * usual[k][1]});
       } else if (fit.left <= kRigid * kRigid * fit.moves) {
         turning.looks.push_back({index, fit.x, fit.y});
         for (const Index v : eye.stored) target.difference[v] -= added(rig, eye, v, fit.x, fit.y);
-        // What bends the straight way into an arc is not for what turns by itself.
+        // The arc target bends straight paths; the eye, which now turns by itself, needs none.
         if (const Index arc = rig.find(arcName(target.name)); arc >= 0)
           for (const Index v : eye.stored) rig.targets[arc].difference[v] = {};
       }
     }
 }
 
-/// `share` of a region and a stored vector.
+/// `share(region, vector)` is the region's share of a stored vector.
 template <typename Share>
 void EyeTurns::keepWhole(std::size_t regions, const Share& share) const {
   for (const Turning& eye : eyes_) {
@@ -262,10 +262,10 @@ void EyeTurns::apply(std::span<double> weights) const noexcept {
 void EyeTurns::apply(const HeadPose& pose, std::span<double> weights) const noexcept {
   for (const Turning& eye : eyes_) {
     const Angles& angles = eye.left ? pose.leftEye : pose.rightEye;
-    // The rotation across the view that looks the same way.
+    // The rotation about an axis across the view that looks in the same direction.
     const Vec3 view = turned(quaternionOf({angles.yaw, angles.pitch, 0}), {0, 0, 1});
     const double x = -view.y, y = view.x;  // sin θ times the axis
-    // (1 − cos θ) / sin² θ; on the side where that has no digits to lose.
+    // (1 − cos θ) / sin² θ, in the form that does not cancel on this side.
     constexpr double kLeast = std::numeric_limits<double>::min();
     const double c = view.z > 0 ? 1 / (1 + view.z) : (1 - view.z) / std::max(x * x + y * y, kLeast);
     set(eye, {x, y, c * x * x, c * y * y, c * x * y}, weights);

@@ -9,7 +9,7 @@
 namespace sweepface {
 namespace {
 
-/// Finds what the names of targets say of each other.
+/// Finds the followers that the names of targets imply.
 class NameReader {
  public:
   explicit NameReader(std::span<const std::string> names) : names_(names) {
@@ -30,14 +30,15 @@ class NameReader {
     return name.empty() || found == sorted_.end() || names_[*found] != name ? -1 : *found;
   }
 
-  /// The leader's name, perhaps a separator, and two digits: per cent of its weight.
+  /// In-betweens: the leader's name, an optional separator, and two digits, the per cent of the
+  /// leader's weight.
   std::optional<Follower> readInBetween(Index target) const {
     std::string_view name = names_[target];
     const auto isDigit = [](char c) { return c >= '0' && c <= '9'; };
     if (name.size() < 3 || !isDigit(name.back()) || !isDigit(name[name.size() - 2])) return {};
     const int percent = 10 * (name[name.size() - 2] - '0') + name.back() - '0';
     name.remove_suffix(2);
-    Index leader = isDigit(name.back()) ? -1 : find(name);  // target_110 is none of target_1
+    Index leader = isDigit(name.back()) ? -1 : find(name);  // target_110 does not follow target_1
     if (leader < 0 && (name.back() == '_' || name.back() == '.'))
       leader = find(name.substr(0, name.size() - 1));
     if (leader < 0 || percent == 0) return {};
@@ -45,7 +46,7 @@ class NameReader {
   }
 
   std::optional<Follower> readProduct(Index target) const {
-    // The ways to split a name double with every underscore.
+    // The number of ways to split a name doubles with every underscore.
     constexpr int kMostUnderscores = 12;
     if (std::ranges::count(names_[target], '_') > kMostUnderscores) return {};
     Follower follower{Follower::Kind::product, target, {}, 0};
@@ -53,8 +54,8 @@ class NameReader {
     return follower;
   }
 
-  /// Splits a name into names of other targets, the shortest first: `eyeBlink_L_jawOpen` is made of
-  /// `eyeBlink_L` and `jawOpen`, and `A_B_C` of A, B and C even where there is an `A_B`.
+  /// Splits a name into names of other targets, trying the shortest first: `eyeBlink_L_jawOpen`
+  /// into `eyeBlink_L` and `jawOpen`, and `A_B_C` into A, B and C even if there is an `A_B`.
   bool split(std::string_view name, Index target, std::vector<Index>& leaders) const {
     for (auto end = name.find('_');; end = name.find('_', end + 1)) {
       const Index leader = find(name.substr(0, end));
@@ -68,7 +69,7 @@ class NameReader {
   }
 
   std::span<const std::string> names_;
-  std::vector<Index> sorted_;  // targets by their names
+  std::vector<Index> sorted_;  // targets, sorted by name
 };
 
 }  // namespace
@@ -103,7 +104,7 @@ Followers::Followers(std::vector<Follower> followers) {
     const auto isBetween = [&](Index t) { return is(t, Follower::Kind::inBetween); };
     if (follower.kind == Follower::Kind::product) {
       products_.push_back(follower);
-      std::erase_if(products_.back().leaders, isBetween);  // factors of chains
+      std::erase_if(products_.back().leaders, isBetween);  // they become factors of chains
     } else if (follower.kind == Follower::Kind::arc) {
       const Index leader = follower.leaders[0];
       const bool hasStops = std::ranges::any_of(followers, [&](const Follower& f) {
@@ -112,11 +113,11 @@ Followers::Followers(std::vector<Follower> followers) {
       const bool follows = isBetween(leader) || is(leader, Follower::Kind::product);
       auto& arcs = follows ? lateArcs_ : arcs_;
       arcs.push_back(follower);
-      if (hasStops) arcs.back().leaders.clear();  // these tell the way: no bulge beside them
+      if (hasStops) arcs.back().leaders.clear();  // in-betweens define the path: no bulge on top
     } else {
       auto chain = std::ranges::find(chains_, follower.leaders[0], &Chain::leader);
       if (chain == chains_.end()) chain = chains_.insert(chain, {follower.leaders[0], {}, 0});
-      // Of two ways to write one stop the first target counts.
+      // If two targets stand for the same stop, the first counts.
       if (chain->stops.empty() || chain->stops.back().at != follower.at)
         chain->stops.push_back(follower);
     }
@@ -133,7 +134,7 @@ bool Followers::Chain::gives(Index target) const {
   return std::ranges::find(stops, target, &Follower::target) != stops.end();
 }
 
-// A chain hands over what its leader is given: after all chains that have a part in that.
+// A chain hands over its leader's weight, so it comes after all chains that contribute to that.
 void Followers::orderChains() {
   const auto isBefore = [](const Chain& a, const Chain& b) {
     return a.gives(b.leader) ||
@@ -173,8 +174,8 @@ void Followers::apply(std::span<double> weights) const noexcept {
   bend(lateArcs_);
 }
 
-// Linear between neighbouring stops, of which the neutral and the leader itself are the outermost;
-// beyond them the first and the last piece go on.
+// Linear between neighbouring stops, the outermost being the neutral and the leader itself; the
+// first and the last piece are extrapolated.
 void Followers::handOver(const Chain& chain, std::span<double> weights) noexcept {
   const double w = weights[chain.leader];
   const std::size_t count = chain.stops.size();

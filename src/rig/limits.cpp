@@ -25,7 +25,7 @@ std::optional<Limits::Range> rangeOf(std::string_view text) {
 Result<Limits> Limits::parse(const Rig& rig, std::string_view text) {
   constexpr double most = std::numeric_limits<double>::infinity();
   std::vector<Range> ranges(rig.targets.size(), Range{-most, most});
-  std::vector<char> isTold(rig.targets.size() + 1, 0);  // the last one: for all
+  std::vector<char> isTold(rig.targets.size() + 1, 0);  // the last entry: limits for all
   while (!text.empty()) {
     const std::string_view item = takeItem(text);
     if (item.empty()) continue;

@@ -32,7 +32,7 @@ std::size_t count(const Wireframe& w, Thing thing) {
   }
 }
 
-/// The number that all of a text spells, below `end`; else -1.
+/// The number that the whole text spells if it is below `end`, else -1.
 Index toIndex(std::string_view digits, std::size_t end) {
   if (digits.empty() || digits.size() > 9) return -1;
   Index number = 0;

@@ -11,7 +11,7 @@ std::optional<double> numberOf(std::string_view text) {
   const bool plain =
       !text.empty() && text[0] != '+' && text.find_first_not_of("0123456789+-.eE") == text.npos;
   if (!plain) return std::nullopt;
-  // Not from_chars, which libc++ 19 has not for floating point. strtod reads the locale's point.
+  // Not from_chars, which libc++ 19 lacks for floating point. strtod expects the locale's point.
   std::string digits(text);
   if (const auto point = digits.find('.'); point != digits.npos)
     digits.replace(point, 1, std::localeconv()->decimal_point);

@@ -5,14 +5,14 @@
 
 namespace sweepface {
 
-/// The decimal number that all of a text spells, with a point in every locale; no infinity and
-/// nothing that is no number.
+/// The finite decimal number that the whole text spells, with a decimal point in every locale;
+/// empty if it spells none.
 std::optional<double> numberOf(std::string_view text);
 
-/// A text without the blanks around it.
+/// A text without leading and trailing blanks.
 std::string_view trimmed(std::string_view text);
 
-/// Cuts what stands before the next comma off a list, and the blanks around it.
+/// Removes the first item of a comma-separated list and returns it, trimmed.
 std::string_view takeItem(std::string_view& list);
 
 }  // namespace sweepface

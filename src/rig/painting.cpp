@@ -1,5 +1,5 @@
-// Shares of nodes by their distance from what a brush names. Distances along the surface are
-// shortest ways over the curves of the neutral (E. W. Dijkstra, "A note on two problems in
+// Shares of nodes by their distance from what a brush names. Distances along the surface are those
+// of shortest paths over the curves of the neutral (E. W. Dijkstra, "A note on two problems in
 // connexion with graphs", 1959).
 #include <algorithm>
 #include <cmath>
@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
-/// From 1 down to 0, without a bend up to the second derivative.
+/// Falls from 1 at t = 0 to 0 at t = 1, twice continuously differentiable.
 double fading(double t) {
   if (!(t > 0)) return 1;
   return t >= 1 ? 0 : 1 - t * t * t * (t * (6 * t - 15) + 10);
@@ -38,7 +38,7 @@ class Painter {
         own_(wireframe_.nodes.size(), 0.0),
         distances_(wireframe_.nodes.size(), kFar) {}
 
-  /// [nodes] of what the brush names; infinity for what cannot be reached.
+  /// [nodes] from what the brush names; infinity for nodes that cannot be reached.
   Result<std::vector<double>> distances() {
     if (!(brush_.whole >= 0 && brush_.fade >= 0) || !std::isfinite(brush_.whole + brush_.fade))
       return fail("The distances of a brush are finite and at least 0.");
@@ -125,7 +125,7 @@ class Painter {
     return list.empty() ? "none" : list;
   }
 
-  /// A node on the seam belongs to the part as far as the quads around it do.
+  /// A node on the seam belongs to the part in proportion to the quads around it that do.
   void shareCorners(const std::vector<bool>& within) {
     const Surface& surface = rig_.surface;
     const std::vector<Index> faces = faceOfQuads(rig_);
@@ -147,12 +147,13 @@ class Painter {
       own_[n] = all[keeper] > 0 ? inside[keeper] / all[keeper] : 0;
       if (own_[n] > 0) distances_[n] = 0;
     }
-    // What is only partly inside is wholly so where a brush goes farther, and else stays as it is.
+    // A node only partly inside counts as inside if the brush reaches farther; otherwise it keeps
+    // its share.
     for (std::size_t n = 0; n < own_.size(); ++n)
       if (own_[n] < 1 && brush_.fade == 0 && brush_.whole == 0) distances_[n] = kFar;
   }
 
-  /// The first node at the same point: their jets are stored once.
+  /// The first node at the same point; the jet of nodes at one point is stored once.
   Index keeperOf(Index node) {
     if (keepers_.empty()) {
       keepers_.resize(wireframe_.nodes.size());
@@ -198,8 +199,8 @@ class Painter {
         distances_[n] = std::min(distances_[n], distanceToSegment(places_[n], a, b));
   }
 
-  /// The nodes nearest to the line, from which ways begin: looked for so often that none on it is
-  /// missed, but some thousand times at most.
+  /// Finds the nodes nearest to the line, from which paths begin. The line is sampled densely
+  /// enough to miss no node on it, but at some thousand points at most.
   void seed() {
     constexpr double kMost = 4096;
     double shortest = kFar;
@@ -221,7 +222,7 @@ class Painter {
     }
   }
 
-  // ---- Ways along the surface ----
+  // ---- Paths along the surface ----
 
   double lengthOf(Index arc) const {
     double length = 0;

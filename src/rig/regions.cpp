@@ -1,6 +1,6 @@
-// A region is a share of every node. What is stored at a node, its position and derivatives, moves
-// by the weights of the regions that it belongs to, in proportion; patches take what is stored from
-// their nodes as ever, so that seams stay closed and joins C².
+// A region is a share of every node. What a node stores, its position and derivatives, moves by the
+// weights of its regions in proportion to their shares. Patches take this from their nodes as
+// usual, so seams stay closed and joins C².
 #include "sweepface/regions.hpp"
 
 #include <algorithm>
@@ -42,7 +42,7 @@ std::string freeName(const std::vector<Region>& regions) {
   return name;
 }
 
-/// What rounding leaves of nothing.
+/// A share this small is a rounding error.
 constexpr double kNothing = 1e-12;
 
 }  // namespace
@@ -101,7 +101,7 @@ void blend(const Rig& rig, std::span<const Region> regions, std::span<const doub
   const auto at = [&](std::size_t k) { return k < weights.size() ? weights[k] : 0; };
   std::ranges::copy(rig.neutral, vectors.begin());
   for (std::size_t k = 0; k < count; ++k) {
-    // What is the same everywhere is so bit for bit, whatever shares add up to.
+    // A weight that is equal in all regions is used bit for bit, whatever the shares add up to.
     bool even = true;
     for (std::size_t r = 1; r < regions.size(); ++r) even &= at(r * count + k) == at(k);
     if ((even && at(k) == 0) || rig.targets[k].difference.empty()) continue;
@@ -127,7 +127,7 @@ std::string partName(std::string_view target, std::string_view region) {
 
 namespace {
 
-/// The part of a target that a region holds; vertices of no face belong to the first.
+/// The part of a target that belongs to a region; vertices of no face go with the first.
 Target partOf(const Rig& rig, const Target& whole, const Region& region, bool isFirst) {
   Target part{partName(whole.name, region.name), whole.difference, whole.looseDifference};
   for (std::size_t v = 0; v < part.difference.size(); ++v)
@@ -136,7 +136,7 @@ Target partOf(const Rig& rig, const Target& whole, const Region& region, bool is
   return part;
 }
 
-/// By more than nobody could see.
+/// Whether a target moves anything farther than a thousandth of the tolerance, which is invisible.
 bool moves(const Target& target, double tolerance) {
   const auto isMore = [&](const Vec3& d) { return norm(d) > 1e-3 * tolerance; };
   return std::ranges::any_of(target.difference, isMore) ||

@@ -10,10 +10,10 @@
 
 namespace sweepface {
 
-/// Where one can go from a node, and how far that is.
+/// The neighbours of a node and the distances to them.
 using Ways = std::vector<std::pair<Index, double>>;
 
-/// Completes distances [nodes] from those that are not infinite (E. W. Dijkstra, "A note on two
+/// Completes distances [nodes], starting from the finite ones (E. W. Dijkstra, "A note on two
 /// problems in connexion with graphs", 1959).
 inline void shortestWays(const std::vector<Ways>& ways, std::vector<double>& distances) {
   using Step = std::pair<double, Index>;

@@ -5,9 +5,9 @@
 
 namespace sweepface {
 
-/// A function of (x, y) around a point, by its Taylor coefficients of x^i y^j, i, j ≤ 2; what is of
-/// higher degree in x or in y is cut off. Values computed from jets of surfaces have exact jets
-/// (Griewank, Walther: Evaluating Derivatives, chapter 13).
+/// A function of (x, y) around a point, by its Taylor coefficients of x^i y^j, i, j ≤ 2; terms of
+/// higher degree in x or in y are dropped. What is computed from jets of surfaces this way has
+/// exact jets (Griewank, Walther: Evaluating Derivatives, chapter 13).
 struct Taylor {
   std::array<double, 9> c{};  ///< [3i + j]
 

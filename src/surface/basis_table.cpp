@@ -12,7 +12,7 @@ namespace sweepface {
 
 namespace {
 
-// The first ribbon of the same shape, for each.
+// For each ribbon the first one of the same shape.
 std::vector<Index> findShapes(const std::vector<Shape>& ribbons) {
   const auto key = [&](Index r) {
     return std::make_tuple(ribbons[r].rho, ribbons[r].eta, ribbons[r].lambda, r);
@@ -29,7 +29,8 @@ std::vector<Index> findShapes(const std::vector<Shape>& ribbons) {
 
 }  // namespace
 
-// Most lengths are short: those that were there are marked by shape, so that few are sorted.
+// Most lengths are short. Those under 64 are marked per shape once seen, so that few keys remain to
+// be sorted.
 Result<BasisTable> BasisTable::make(const std::vector<Shape>& ribbons,
                                     const std::vector<std::array<Index, 2>>& ribbonsAndEdges) {
   BasisTable table;
@@ -45,7 +46,7 @@ Result<BasisTable> BasisTable::make(const std::vector<Shape>& ribbons,
   table.keys_.erase(std::ranges::unique(table.keys_).begin(), table.keys_.end());
   for (const auto& key : table.keys_) {
     auto basis = SweepBasis::make(ribbons[key[0]], key[1]);
-    if (!basis) {  // which ribbon of that shape it is that has this length
+    if (!basis) {  // name a ribbon of that shape that has this length
       std::size_t k = 0;
       while (table.keyOf(ribbonsAndEdges[k][0], ribbonsAndEdges[k][1]) != key) ++k;
       return fail("ribbon ", ribbonsAndEdges[k][0], ": ", basis.error().message);
@@ -56,7 +57,8 @@ Result<BasisTable> BasisTable::make(const std::vector<Shape>& ribbons,
   return table;
 }
 
-// Most of what is asked for: the source's own vertices. There are few bases, but who knows.
+// Tabulates what is asked for most: whole t, the source's own vertices. There are usually few
+// bases; the limits guard against many.
 void BasisTable::tabulate() {
   constexpr Index kMostEdges = 16;
   constexpr std::size_t kMostValues = 1 << 13;

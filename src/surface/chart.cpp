@@ -17,7 +17,7 @@ struct RingPoints {
 };
 
 // The subdominant eigenvector of Catmull–Clark subdivision with rotation by `angle` from sector to
-// sector: each new point of the second ring is λ times the old one it falls on.
+// sector: each new point of the second ring is λ times the old one that it replaces.
 RingPoints characteristicRings(double angle) {
   const double c = ode::sineCosine(angle).cosine;
   const double lambda = (c + 5 + std::sqrt((c + 9) * (c + 1))) / 16;
@@ -26,7 +26,7 @@ RingPoints characteristicRings(double angle) {
   const Complex face = (1.0 + w) / (4 * lambda - 1);
 
   // The second ring: e = (2,0) by the vertex rule, f = (2,1) and g = (1,2) by the edge rule.
-  // f = a + e·k and g = w·(conj-symmetric) by symmetry about the sector's diagonal: g = w·conj(f).
+  // By symmetry about the sector's diagonal, g = w·conj(f).
   const double edge = lambda - 1.0 / 16;
   const Complex f0 = (3.0 / 8 * (1.0 + face) + w / 16.0) / edge;  // f = f0 + e / (16 edge)
   const Complex g0 = (3.0 / 8 * (w + face) + 1.0 / 16) / edge;    // g = g0 + w e / (16 edge)

@@ -11,7 +11,7 @@ namespace sweepface {
 
 namespace {
 
-// Lengths of the chart's unit: a quarter of the geometric mean of `arms` lengths, at least 1.
+// Length of the chart's unit: a quarter of the geometric mean of `arms` lengths, at least 1.
 double scaleOf(double logLengths, std::size_t arms) {
   return std::max(1.0, 0.25 * ode::exponential(logLengths / static_cast<double>(arms)));
 }
@@ -59,7 +59,7 @@ class HubCharts {
     return ring;
   }
 
-  // By how many equal angles the ring goes around.
+  // The number of equal angles around the ring.
   int stepsAround(const std::vector<Index>& ring) const {
     int steps = 0;
     for (Index n : ring) {
@@ -84,7 +84,7 @@ class HubCharts {
   }
 
   // Writes the rows of one node of a hub whose first real spoke stands at `angle`; returns the
-  // angle of the next node's.
+  // angle of the next node's first spoke.
   double chartNode(const Quadratic& f, Index n, double angle, double step, double scale) {
     const Star& star = c_.stars[n];
     for (std::size_t s = 0; s < star.sectors.size(); ++s) {
@@ -103,7 +103,7 @@ class HubCharts {
     return angle;
   }
 
-  // Beside a collapsed side spokes are straight rays.
+  // Next to a collapsed side, spokes are straight rays.
   void writeSpoke(const Quadratic& f, Index n, std::size_t arm, double angle, double step,
                   double scale, bool ray) {
     ray = ray || (arm > 0 && collapsedArm(n, arm - 1));
@@ -137,7 +137,7 @@ class FanCharts {
     return sectors[static_cast<std::size_t>(k) % sectors.size()];
   }
 
-  // One jet in axes that turn with the sectors.
+  // One jet, seen from axes that turn with the sectors.
   void foldRegular(Index n, std::size_t f) {
     const Fan& fan = c_.fans[n][f];
     const auto own = [&](int quarter, int i, int j) {
@@ -179,8 +179,8 @@ class FanCharts {
     }
   }
 
-  // A, C from the derivatives s A, s² C + t A along the first arm; B, E from those along the last
-  // at its angle, unless it runs straight on from the first.
+  // Solves for A, C from the derivatives s A, s² C + t A along the first arm, and for B, E from
+  // those along the last arm at its angle, unless it runs straight on from the first.
   void solveGiven(Index n, std::size_t f, double scale) {
     const Fan& fan = c_.fans[n][f];
     const auto spoke = characteristicSpoke(0, fan.step, scale);

@@ -1,4 +1,4 @@
-// Surfaces of wireframes of which nobody knows that they are consistent.
+// Surfaces of wireframes that are not known to be consistent.
 #include <algorithm>
 #include <cstdint>
 #include <limits>
@@ -11,7 +11,7 @@ namespace sweepface {
 
 namespace {
 
-// What Connectivity takes for granted.
+// Checks what Connectivity takes for granted.
 Result<void> checkLists(const Wireframe& w) {
   for (std::size_t n = 0; n < w.nodes.size(); ++n)
     if (!isClosed(w.nodes[n].stored))

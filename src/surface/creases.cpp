@@ -14,13 +14,13 @@ namespace {
 
 constexpr double kRightAngle = std::numbers::pi / 2;
 
-// Opens a fan by an angle. A single sector joins any two arms.
+// Gives a fan its total angle. A single sector can join any two arms, so it is always regular.
 void open(Fan& fan, double angle) {
   fan.step = angle / fan.sectors;
   fan.regular = fan.sectors == 1 || std::abs(fan.step - kRightAngle) < 1e-9;
 }
 
-// The fans of an open star go from boundary to boundary: each gets its first arm from the one
+// The fans of an open star run from boundary to boundary. Each takes its first arm from the one
 // before it and is otherwise like a node on a boundary.
 void chain(std::vector<Fan>& fans) {
   for (std::size_t k = 0; k < fans.size(); ++k) {
@@ -29,16 +29,16 @@ void chain(std::vector<Fan>& fans) {
   }
 }
 
-// Around a closed star the last fan must meet the first. One with a single sector can join any two
-// arms, so it comes last. Otherwise two fans meet along a straight line, or more share the turn. Of
-// two the regular one gives the line: in the other's chart its halves bend differently, which would
-// cut the regular one in two.
+// Around a closed star the last fan must meet the first. A fan of one sector can join any two arms,
+// so if there is one, it comes last. Otherwise two fans meet along a straight line, and more than
+// two share the full turn equally. Of two fans the regular one gives the line: in the other's chart
+// the halves of the line bend differently, which would cut the regular fan in two.
 void close(std::vector<Fan>& fans, int sectors) {
   const auto single = std::ranges::find(fans, 1, &Fan::sectors);
   const bool joins = single != fans.end();
   const bool isTurned = fans.size() == 2 && fans[0].sectors != 2;
   const auto first = joins ? single - fans.begin() + 1 : isTurned ? 1 : 0;
-  // Not std::rotate: it would be 0.7 KB of what a browser has to load.
+  // std::rotate would be 0.7 KB of what a browser has to load.
   std::vector<Fan> turned(fans.begin() + first, fans.end());
   turned.insert(turned.end(), fans.begin(), fans.begin() + first);
   fans = std::move(turned);

@@ -6,7 +6,7 @@
 
 namespace sweepface {
 
-/// How far a point is from the straight piece between a and b, which may be one point.
+/// Distance from a point to the segment between a and b, which may coincide.
 inline double distanceToSegment(const Vec3& p, const Vec3& a, const Vec3& b) {
   const Vec3 way = b - a;
   const double square = dot(way, way);
@@ -14,7 +14,7 @@ inline double distanceToSegment(const Vec3& p, const Vec3& a, const Vec3& b) {
   return norm(p - (a + s * way));
 }
 
-/// How far a point is from a triangle, which may have no area (Ericson, Real-Time Collision
+/// Distance from a point to a triangle, which may be degenerate (Ericson, Real-Time Collision
 /// Detection, 5.1.5).
 inline double distanceToTriangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 ab = b - a, ac = c - a, ap = p - a;

@@ -8,7 +8,7 @@ Groups::Groups(std::span<const Index> keys, std::size_t groups) : first_(groups 
   Index end = 0;
   for (Index& first : first_) first = end += first;
   all_.resize(end);
-  // From behind: what is counted down ends where its group begins.
+  // Backwards, so that each counter, counted down, ends where its group begins.
   for (std::size_t k = keys.size(); k-- > 0;)
     if (keys[k] >= 0) all_[--first_[keys[k]]] = static_cast<Index>(k);
 }

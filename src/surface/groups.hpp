@@ -7,10 +7,10 @@
 
 namespace sweepface {
 
-/// Numbers 0, 1, 2 ... by the key of each, in ascending order: counted, never compared.
+/// The numbers 0, 1, 2 ... grouped by key, ascending within each group; by counting sort.
 class Groups {
  public:
-  /// Keys are below `groups`; what has a negative one is in none.
+  /// Keys are below `groups`; a number with a negative key is in no group.
   Groups(std::span<const Index> keys, std::size_t groups);
   std::span<const Index> of(Index key) const {
     return {all_.data() + first_[key], all_.data() + first_[key + 1]};

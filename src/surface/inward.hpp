@@ -6,12 +6,12 @@
 
 namespace sweepface {
 
-/// The way from a curve into the patch on the left of a half-arc.
+/// The direction from a half-arc into the patch on its left.
 struct Inward {
-  int side = 0;          ///< of the patch, on which the half-arc lies
-  bool alongV = false;   ///< moving into the patch is moving along v, else along u
-  double direction = 1;  ///< with u or v, or -1 against it
-  double edges = 1;      ///< of the patch that way
+  int side = 0;          ///< the side of the patch on which the half-arc lies
+  bool alongV = false;   ///< inward is along v, else along u
+  double direction = 1;  ///< 1 if inward is towards larger u or v, else -1
+  double edges = 1;      ///< the length of the patch in that direction
 
   Inward(const Surface& surface, HalfArc h) {
     const Index patch = surface.connectivity().patchOf[h];

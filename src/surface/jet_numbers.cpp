@@ -9,7 +9,7 @@ namespace sweepface {
 
 namespace {
 
-// By quarter and component.
+// By quarter and component: the component that it is turned into, and the sign.
 struct Turn {
   signed char component, sign;
 };
@@ -31,7 +31,7 @@ inline JetRef inQuarter(Index base, int quarter, int component) {
   return {base + turn.component, static_cast<double>(turn.sign)};
 }
 
-// What a fan has of its own: what its neighbours do not give, up to the second order in a chart.
+// Whether a fan stores component k: what its neighbours do not give, up to second order in a chart.
 bool fanStores(const Fan& fan, int k) {
   if (!fan.regular && (k == 5 || k >= 7)) return false;
   if (fan.firstGiven && (k == 3 || k == 6)) return false;
@@ -75,7 +75,7 @@ Index JetNumbers::add(StoredVector owner, bool stored) {
   return count() - 1;
 }
 
-// No fewer than there will be.
+// An upper bound on the number of vectors.
 std::size_t JetNumbers::most() const {
   std::size_t count = 9 * w_.nodes.size();
   for (std::size_t n = 0; n < w_.nodes.size(); ++n)
@@ -111,7 +111,7 @@ void JetNumbers::numberCreased(Index n) {
   numberArms(n);
 }
 
-// Nodes without axes of their own have vectors by arm and by corner.
+// Nodes without axes of their own have vectors per arm and per corner.
 void JetNumbers::numberArms(Index n) {
   const Star& star = c_.stars[n];
   armBase_[n] = count();
@@ -137,7 +137,8 @@ std::array<JetRef, 9> JetNumbers::atCorner(Index corner) const {
   return jets;
 }
 
-// How a corner of a crossing or a T-node is turned from the node's axes; -1 at others.
+// The right angles by which a corner of a crossing or a T-node is turned from the node's axes; -1
+// at other nodes.
 int JetNumbers::quarterOf(Index corner) const {
   const Index n = c_.cornerNode[corner];
   const int sector = c_.cornerSector[corner];

@@ -7,24 +7,24 @@
 
 namespace sweepface {
 
-/// ∂α^i ∂β^j of a jet known in axes (x, y) from which (α, β) are turned counter-clockwise by a
-/// number of right angles.
+/// ∂α^i ∂β^j in terms of a jet in axes (x, y), where (α, β) are (x, y) turned counter-clockwise by
+/// a number of right angles.
 struct Turned {
   int component;  ///< 3i + j in the axes (x, y)
   double sign;
 };
 Turned turned(int quarter, int i, int j);
 
-/// The place of ∂x^i ∂y^j in a jet.
+/// The index of ∂x^i ∂y^j in a jet.
 constexpr int jetComponent(int i, int j) { return 3 * i + j; }
 
 /// The vectors of an irregular point and the ring of sectors around it.
 struct Hub {
   Index first = -1;          ///< of its six vectors: p, A, B and the second derivatives C, D, E
-  std::vector<Index> nodes;  ///< several only around collapsed arcs
+  std::vector<Index> nodes;  ///< more than one only around collapsed arcs
 };
 
-/// Numbers of all vectors, stored and derived, by what they are: first come, first numbered.
+/// Numbers all vectors, stored and derived, node by node, and looks them up by what they are.
 class JetNumbers {
  public:
   JetNumbers(const Wireframe& wireframe, const Connectivity& connectivity);
@@ -40,8 +40,7 @@ class JetNumbers {
   Index ofFan(Index node, std::size_t fan, int i, int j) const {
     return fanBase_[node] + 8 * static_cast<Index>(fan) + jetComponent(i, j) - 1;
   }
-  /// ∂^i along an arm of an irregular or creased node, i = 1 or 2; arms are counted round and
-  /// round.
+  /// ∂^i along an arm of an irregular or creased node, i = 1 or 2; `arm` wraps around.
   Index alongArm(Index node, std::size_t arm, int i) const {
     return armBase_[node] + 2 * static_cast<Index>(arm % c_.stars[node].arms.size()) + i - 1;
   }
@@ -70,10 +69,10 @@ class JetNumbers {
   std::vector<StoredVector> owners_;  // [vectors]
   std::vector<char> isStored_;        // [vectors]
   std::vector<Index> base_;           // [nodes] first of nine vectors of a crossing or a T-node
-  std::vector<Index> armBase_;        // [nodes] first of two vectors an arm of an irregular node
-  std::vector<Index> mixedBase_;      // [corners] first of four mixed vectors at such a node
-  std::vector<Index> fanBase_;        // [nodes] first of eight vectors a fan of a creased node
-  std::vector<Hub> hubs_;             // [points]
+  std::vector<Index> armBase_;    // [nodes] first of two vectors per arm, if irregular or creased
+  std::vector<Index> mixedBase_;  // [corners] first of four mixed vectors at such a node
+  std::vector<Index> fanBase_;    // [nodes] first of eight vectors per fan of a creased node
+  std::vector<Hub> hubs_;         // [points]
 };
 
 }  // namespace sweepface

@@ -6,7 +6,7 @@ namespace sweepface {
 
 namespace {
 
-// Which derived vectors need a derived vector, in ascending order.
+// For each derived vector, the derived vectors that need it, in ascending order.
 class Dependents {
  public:
   Dependents(const JetNumbers& numbers, const JetRows& rows)
@@ -34,8 +34,8 @@ class Dependents {
   std::vector<Index> starts_, needs_, all_;
 };
 
-// Where rows run in circles: follows unmet needs until they repeat. Every circle that is met names
-// one node which could break it, one that predicts if there is any, else a T-node.
+// Finds cycles of rows by following unmet needs until they repeat. For each cycle it names one node
+// that could break it: one that predicts if there is any, else a T-node.
 class Circles {
  public:
   Circles(const JetNumbers& numbers, const JetRows& rows, const Connectivity& connectivity,

@@ -8,10 +8,10 @@
 
 namespace sweepface {
 
-/// Puts vectors into an order in which every row needs only earlier ones: the stored first, then
-/// the derived as soon as all they need is there (Kahn 1962). Fails where rows run in a circle, as
-/// `buildJets` says. The corners of the table are left empty; `place` receives the place of every
-/// numbered vector.
+/// Sorts the vectors topologically, so that every row needs only earlier ones: the stored ones
+/// first, then each derived one once all that it needs is there (Kahn 1962). Fails if rows form a
+/// cycle, as documented at `buildJets`. Leaves the corners of the table empty; `place` receives the
+/// position of every numbered vector.
 Result<JetTable> orderJets(const JetNumbers& numbers, const JetRows& rows,
                            const Connectivity& connectivity, std::vector<Index>& place,
                            std::vector<Index>* circle);

@@ -7,18 +7,18 @@
 
 namespace sweepface {
 
-/// What derived vectors are: sums of terms, written one after the other into one list, in which
-/// rows may refer to vectors whose own rows come later.
+/// The rows of the derived vectors: sums of terms, appended to one list. A row may refer to vectors
+/// whose own rows come later.
 class JetRows {
  public:
   explicit JetRows(std::size_t vectors) : ranges_(vectors) { terms_.reserve(4 * vectors); }
 
-  /// What is added from here on belongs to `vector`, until it is closed.
+  /// Begins the row of `vector`; it takes what is added until close().
   void open(Index vector) {
     open_ = vector;
     ranges_[vector].first = static_cast<Index>(terms_.size());
   }
-  /// Terms are kept in the order of their vectors, those of the same one added up. Rows are short.
+  /// Keeps terms sorted by vector and adds up those of the same vector. Rows are short.
   void add(Index vector, double factor) {
     if (factor == 0) return;
     const auto first = terms_.begin() + ranges_[open_].first;
@@ -30,7 +30,7 @@ class JetRows {
       terms_.insert(place, {vector, factor});
   }
   void add(JetRef jet, double factor) { add(jet.vector, jet.sign * factor); }
-  /// Drops what has no factor.
+  /// Ends the row and drops terms whose factor is zero.
   void close() {
     auto& [first, end] = ranges_[open_];
     end = first;
@@ -38,7 +38,7 @@ class JetRows {
       if (t->factor != 0) terms_[end++] = *t;
     terms_.resize(end);
   }
-  /// The row of a vector that is another one.
+  /// Writes the row of a vector that equals another one.
   void follow(Index vector, JetRef other) {
     open(vector);
     add(other, 1);

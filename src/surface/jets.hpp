@@ -15,9 +15,9 @@ struct JetTable {
   std::vector<JetRef> corners;  ///< [patches × 4 × 9], index 3i + j: ∂α^i ∂β^j
 };
 
-/// Works out the jets of all corners of all patches: stored, predicted, of charts and of T-nodes.
-/// Fails where the derivations run in a circle; `circle`, if given, receives a node of each
-/// circle that could break it by storing its whole jet (or, a T-node, by becoming a crossing).
+/// Works out the jets of all corners of all patches: stored, predicted, from charts and of T-nodes.
+/// Fails if the derivations form a cycle; `circle`, if given, then receives one node of each cycle
+/// that could break it by storing its whole jet (or, a T-node, by becoming a crossing).
 Result<JetTable> buildJets(const Wireframe& wireframe, const Connectivity& connectivity,
                            const BasisTable& bases, std::vector<Index>* circle = nullptr);
 

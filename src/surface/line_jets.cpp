@@ -10,7 +10,7 @@ namespace {
 
 double signOf(int power) { return power % 2 ? -1 : 1; }
 
-// ∂^j across a line at a node: what one patch beside it knows, or the mean of two.
+// ∂^j across a line at a node: that of the one patch beside it, or the mean of two.
 struct Across {
   std::array<Term, 2> terms;
   int count = 0;
@@ -64,7 +64,7 @@ class Predictor {
 
   // Derivative 1 or 2 of the parabola through the node and its neighbours.
   void predictFromValues(const Neighbours& at, Index own, int order) {
-    if (!at.has[0] || !at.has[1]) {  // the end of a line: a straight one
+    if (!at.has[0] || !at.has[1]) {  // at the end of a line it is taken as straight
       if (order == 1)
         for (int e = 0; e < 2; ++e)
           if (at.has[e]) {
@@ -111,8 +111,8 @@ class Predictor {
     return result;
   }
 
-  // To the left of travel, at the node where a rail arrives. Patches on both sides differ only at
-  // irregular nodes.
+  // ∂^j to the left of travel, at the node where a rail arrives. The patches on its two sides
+  // differ only at irregular nodes.
   Across acrossAtEnd(const Rail& rail, int j) const {
     Across across;
     const Index left = c_.patchOf[rail.last] < 0 ? -1 : c_.cornerAt[c_.next[rail.last]];

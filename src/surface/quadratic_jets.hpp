@@ -48,7 +48,7 @@ class QuadraticJets {
     const auto d = jet[jetComponent(i, j)];
     const double factors[5] = {d.real(), d.imag(), xx / 2, xy, yy / 2};
     rows_.open(vector);
-    for (int k = 0; k < 5; ++k)  // what is rounding only must not tie patches together
+    for (int k = 0; k < 5; ++k)  // mere rounding must not tie patches together
       if (std::abs(factors[k]) > 1e-14) rows_.add(f[k], factors[k]);
     rows_.close();
   }

@@ -6,11 +6,11 @@
 
 namespace sweepface {
 
-/// Heapsort (Williams 1964): slower than std::sort, but a tenth of its code, of which a browser
-/// would load a copy for every type. Order no two elements alike: it is not stable.
+/// Heapsort (Williams 1964): slower than std::sort, but a tenth of its code, which a browser would
+/// load once per type. It is not stable, so no two elements may compare equal.
 template <typename T, typename Before = std::less<>>
 void sortSmall(std::span<T> items, const Before& before = {}) {
-  std::size_t unsorted = items.size(), heap = unsorted / 2;  // [heap, unsorted) obeys
+  std::size_t unsorted = items.size(), heap = unsorted / 2;  // [heap, unsorted) is a heap
   while (unsorted > 1) {
     if (heap > 0)
       --heap;

@@ -11,16 +11,16 @@ class StoredJets {
  public:
   explicit StoredJets(const Surface& surface);
   /// The stored vector ∂x^i ∂y^j (index 3i + j) of a node, or of all irregular nodes at its point;
-  /// -1 if it is predicted or derived. At a creased node: of one of its fans.
+  /// -1 if it is predicted or derived. At a creased node, that of one fan.
   Index at(Index node, int component, int fan = 0) const {
     return at_[9 * (start_[home_[node]] + fan) + component];
   }
-  /// Of the irregular nodes at a point the one that stands for all; every other node itself.
+  /// The node that stands for all irregular nodes at the same point; any other node itself.
   Index home(Index node) const { return home_[node]; }
 
  private:
   std::vector<Index> home_;   // [nodes]
-  std::vector<Index> start_;  // [nodes] the first fan of each; others count as one
+  std::vector<Index> start_;  // [nodes] first fan of each; a node without any counts as one
   std::vector<Index> at_;     // [9·fans]
 };
 

@@ -30,7 +30,8 @@ std::vector<std::array<Index, 2>> basisKeys(const Wireframe& w, const Connectivi
   return keys;
 }
 
-// A ribbon owns the two sides a patch sweeps along and every arc of a rail.
+// Checks that each side and each rail has one ribbon, and that the two sides along which a patch
+// sweeps share theirs.
 Result<void> checkRibbons(const Wireframe& w, const Connectivity& c) {
   for (Index p = 0; p < static_cast<Index>(w.patches.size()); ++p) {
     const auto ribbon = [&](HalfArc h) { return w.arcs[arcOf(h)].ribbon; };
@@ -116,7 +117,7 @@ JetRef Surface::alongJet(HalfArc h, int i) const {
 
 namespace {
 
-// Where the jets of a corner stand among g₁…g₆ in u and v, and how its axes (α, β) lie there.
+// Which of g₁…g₆ in u and v weight the jet of a corner, and how its axes (α, β) lie in (u, v).
 struct CornerPlace {
   int u, v;          // 0: at u (v) = 0, 3: at the other end
   bool alphaIsU;     // α runs along u

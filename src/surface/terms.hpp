@@ -8,7 +8,7 @@
 
 namespace sweepface {
 
-/// Sorts the terms of a sum by vector and adds up those of the same one.
+/// Sorts the terms of a sum by vector and adds up those of the same vector.
 inline void mergeTerms(std::vector<Term>& terms) {
   std::sort(terms.begin(), terms.end(),
             [](const Term& a, const Term& b) { return a.vector < b.vector; });
@@ -21,7 +21,7 @@ inline void mergeTerms(std::vector<Term>& terms) {
   terms.resize(n);
 }
 
-/// A sum of vectors as a combination of those that they are combinations of.
+/// Expands a sum of vectors, each of which is itself a combination, given by `vectors`.
 inline std::vector<Term> expanded(std::span<const Term> sum,
                                   std::span<const std::vector<Term>> vectors) {
   std::vector<Term> terms;

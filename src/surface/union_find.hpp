@@ -26,7 +26,7 @@ class UnionFind {
     parent_[b] = a;
     size_[a] += size_[b];
   }
-  /// Of the set that holds `a`.
+  /// The size of the set that holds `a`.
   Index size(Index a) { return size_[find(a)]; }
 
  private:

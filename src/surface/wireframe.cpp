@@ -86,7 +86,7 @@ Result<void> linkLoops(const Wireframe& w, Connectivity& c) {
   return {};
 }
 
-// The half-arcs of the loops by the nodes that they leave.
+// Groups the half-arcs of the loops by the node that they leave.
 Groups leavingEach(const Wireframe& w) {
   std::vector<Index> starts;
   starts.reserve(w.loops.size());
@@ -94,8 +94,7 @@ Groups leavingEach(const Wireframe& w) {
   return Groups(starts, w.nodes.size());
 }
 
-// The arms of a node, counter-clockwise, from one of the half-arcs that leave it, by their places
-// in the loops.
+// The star of a node; `leaving` holds the positions in the loops of the half-arcs that leave it.
 Result<Star> starAt(const Wireframe& w, const Connectivity& c, Index node,
                     std::span<const Index> leaving) {
   Star star;
@@ -156,7 +155,7 @@ HalfArc straightOn(const Wireframe& w, const Connectivity& c, HalfArc h) {
   return on < 0 ? -1 : arms[on];
 }
 
-// Adds up every rail from its end, so that all of them take no longer than the arcs are many.
+// Adds up every rail from its end, so that the whole takes time linear in the number of arcs.
 Result<void> followRails(const Wireframe& w, Connectivity& c) {
   c.rails.assign(2 * w.arcs.size(), {});
   for (HalfArc last = 0; last < static_cast<HalfArc>(2 * w.arcs.size()); ++last) {

@@ -7,7 +7,7 @@
 
 namespace sweepface {
 
-/// Whether a set is closed downwards: whoever has ∂x^i ∂y^j has all that comes before.
+/// Whether a set is closed downwards: with ∂x^i ∂y^j it has all lower derivatives.
 inline bool isClosed(JetMask mask) {
   for (int k = 0; k < 9; ++k) {
     if (!(mask >> k & 1)) continue;
