@@ -1,4 +1,4 @@
-# A thin front to CMake's presets and to scripts/. `make` alone says what there is.
+# A thin front end to CMake's presets and to scripts/. `make` alone lists the targets.
 BUILD := build/release
 FUZZ_SECONDS ?= 60
 
@@ -39,7 +39,7 @@ web:
 	cp $(BUILD)/sample/sample.sweep web/
 	@echo 'Now: python3 -m http.server --directory web, and open http://localhost:8000/'
 
-# What the tests with other people's tools need; without it these are skipped.
+# What the tests with other people's tools need; without it they are skipped.
 tests/web/node_modules/.package-lock.json: tests/web/package-lock.json
 	scripts/install-deps wasm web || \
 	  echo 'Some packages could not be installed: the tests that need them are skipped.'

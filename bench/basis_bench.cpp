@@ -1,4 +1,4 @@
-// The basis of a sweep: solved once a ribbon and length, then evaluated at every vertex.
+// The basis of a sweep: solved once per ribbon and length, then evaluated at every vertex.
 #include <benchmark/benchmark.h>
 
 #include "sweepface/ode.hpp"

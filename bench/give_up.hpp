@@ -14,7 +14,7 @@ namespace sweepface::bench {
   std::exit(1);
 }
 
-/// What the result holds; ends the program where that is an error.
+/// The value of a result; an error ends the program.
 template <typename T>
 T orEnd(Result<T> result) {
   if (!result) giveUp(result.error().message);

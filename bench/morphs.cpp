@@ -21,7 +21,7 @@ Floats toFloats(const std::vector<Vec3>& vectors) {
   return out;
 }
 
-/// Normals of a mesh's vertices: those of its triangles by area, as engines compute them.
+/// Normals of a mesh's vertices: its triangles' normals weighted by area, as engines compute them.
 std::vector<Vec3> meshNormals(const std::vector<Vec3>& positions, const Polygons& polygons) {
   std::vector<Vec3> normals(positions.size());
   for (Index f = 0; f < polygons.faceCount(); ++f) {

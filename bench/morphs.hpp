@@ -14,8 +14,8 @@ struct Morphs {
   std::size_t floats() const { return neutral.size(); }
 };
 
-/// Those of `face()`: the source meshes that SWEEPFACE_BENCH_NEUTRAL and SWEEPFACE_BENCH_TARGETS
-/// (paths with ':' between them) name, else what the face itself looks like in every target.
+/// The morph targets of `face()`: from the source meshes that SWEEPFACE_BENCH_NEUTRAL and
+/// SWEEPFACE_BENCH_TARGETS (paths with ':' between them) name, or else from the face itself.
 const Morphs& morphs();
 
 /// neutral + Σ weight · difference in double precision.

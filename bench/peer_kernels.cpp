@@ -1,5 +1,5 @@
-// Kernels that blend morph targets, compiled for every instruction set by Highway as the library's
-// own are.
+// Kernels that blend morph targets, compiled by Highway for every instruction set, like the
+// library's own.
 #include "peer_kernels.hpp"
 
 #include <cmath>
@@ -145,7 +145,7 @@ HWY_INLINE void addProducts(Int& low, Int& high, hn::Vec<Pairs> a, hn::Vec<Pairs
 #endif
 }
 
-/// The weights of a chunk's targets, two by two.
+/// The weights of a chunk's targets, in pairs.
 struct PairWeights {
   static constexpr float kUnit = 1 << 14;
   std::int16_t all[kMostTargets + 64] = {};

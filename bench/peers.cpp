@@ -32,7 +32,7 @@ namespace {
 
 constexpr std::size_t kBlock = 16;
 
-/// The differences, filled up to whole chunks.
+/// The differences, padded to whole chunks.
 class Source {
  public:
   Source(const std::vector<Floats>& differences, std::span<const float> drops)
@@ -122,7 +122,7 @@ void fillChunks(const Source& source, PeerData& data) {
   data.shorts = kept;
 }
 
-/// Two targets side by side, for the dot products of 16-bit integers; an odd one has a partner
+/// Interleaves targets in pairs, for dot products of 16-bit integers; an odd one is paired with one
 /// whose weight is always 0.
 void fillPairs(const Source& source, PeerData& data) {
   std::vector<std::int16_t> kept;
@@ -140,11 +140,11 @@ void fillPairs(const Source& source, PeerData& data) {
     for (const std::size_t k : targets) data.places.push_back(static_cast<std::uint16_t>(k));
     data.starts.push_back(static_cast<std::uint32_t>(data.places.size() / 2));
   }
-  data.places.resize(data.places.size() + 64);  // read in whole vectors
+  data.places.resize(data.places.size() + 64);  // padding, as they are read in whole vectors
   data.shorts = kept;
 }
 
-/// A step for all targets with which no sum of weighted differences overflows 32 bits.
+/// A common step with which no sum of weighted differences overflows 32 bits.
 float commonStep(const Source& source, std::size_t targets, std::size_t floats) {
   float step = 0;
   for (std::size_t k = 0; k < targets; ++k) step = std::max(step, source.largest(k) / 32767);

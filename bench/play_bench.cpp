@@ -1,5 +1,5 @@
-// The Evaluator against kernels that blend morph targets: the same face, the same weights, another
-// set of them every frame.
+// The Evaluator against kernels that blend morph targets: the same face, the same weights, and new
+// weights every frame.
 #include "play_bench.hpp"
 
 #include <algorithm>
@@ -52,7 +52,8 @@ Evaluator makeEvaluator(bool normals, Index level = 0) {
   return orEnd(Evaluator::make(face(), options));
 }
 
-/// As near to the surface as half the source's vertices allow; a face may have more corners.
+/// As close to the surface as half the source's vertices allow; nothing if the face has more
+/// corners than that.
 std::optional<Evaluator> makeHalf() {
   const double vertices = static_cast<double>(face().source.gridVertex.size()) / 2;
   const auto density =
@@ -105,10 +106,11 @@ Player peerPlayer(PeerKind kind, bool normals, double drop, double normalDrop) {
           }};
 }
 
-// On a cache line, as kernels that add to their output need most.
+// Aligned to cache lines, which kernels that add to their output need most.
 Aligned<float> roomForOutput() { return Aligned<float>(2 * morphs().floats() + 2 * kChunk); }
 
-/// How far positions are from the morph targets' exact blend, over all targets at weight 1 alone.
+/// How far positions are at most from the morph targets' exact blend, over all targets, each alone
+/// at weight 1.
 double worstTarget(const Player& player) {
   const Aligned<float> out = roomForOutput();
   Weights weights(face().targets.size(), 0.0);
@@ -155,8 +157,8 @@ void addWarm(const std::string& group, const Player& player, Active active) {
   add(group + "/" + player.name, [=](benchmark::State& state) { playWarm(state, player, active); });
 }
 
-/// Kernels that are compared: with every difference above a hundredth of a millimetre (where the
-/// tolerance is 0.153), and with what the evaluator drops dropped as well.
+/// Adds the kernels to compare with: keeping every difference above a hundredth of a millimetre (if
+/// the tolerance is 0.153), or dropping what the evaluator drops as well.
 void addPeers(bool equalError) {
   const double drop = (equalError ? 0.3 : 0.065) * face().tolerance;
   const double normalDrop = equalError ? 2 * kNormalDrop : kNormalDrop;
@@ -188,7 +190,7 @@ void registerPlayers() {
   const Player plain = evaluatorPlayer(evaluator, false);
   const double off = worstTarget(plain);
   fmt::print("evaluator: {:.5f} off at worst, {} bytes\n", off, plain.bytes);
-  // Beyond its tolerance it is too bad to be compared; what the evaluator drops comes on top.
+  // Beyond its tolerance it is not worth comparing; what the evaluator drops comes on top.
   if (!(off <= 1.31 * face().tolerance))
     giveUp(
         fmt::format("The evaluator is {} off, more than the tolerance {}.", off, face().tolerance));

@@ -8,15 +8,16 @@
 
 namespace sweepface::bench {
 
-/// Registers the evaluator and what it is compared with; ends the program where that says nothing.
+/// Registers the evaluator and what it is compared with; ends the program if that would say
+/// nothing.
 void registerPlayers();
 
-/// Prints as usual and remembers what ratios need.
+/// Prints as usual and remembers what the ratios need.
 class Ratios : public benchmark::ConsoleReporter {
  public:
   void ReportRuns(const std::vector<Run>& runs) override;
-  /// The evaluator's figures as shares of the fastest kernel's: "all=0.62 ten=0.81 ...". Suffix
-  /// "-equal": of those that drop as much as the evaluator.
+  /// The evaluator's figures as shares of the fastest kernel's: "all=0.62 ten=0.81 ...". With the
+  /// suffix "-equal", only kernels that drop as much as the evaluator count.
   std::string line(const std::string& suffix = "") const;
 
  private:

@@ -1,4 +1,4 @@
-// What regions cost: a frame of their motion and of their blend, beside the plain ones.
+// What regions cost: a frame of their motion and of their blend, next to plain ones.
 #include <algorithm>
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
@@ -69,7 +69,7 @@ std::vector<Region> bands() {
   return divided(orEnd(paintBands(face(), brush, kRegions)));
 }
 
-/// Every node of another region than its neighbours: nobody's face, but as bad as it gets.
+/// Every node in another region than its neighbours: not a realistic face, but the worst case.
 std::vector<Region> patchwork() {
   const std::size_t count = nodes().size();
   std::vector<std::vector<double>> shares(kRegions, std::vector<double>(count));
@@ -79,7 +79,7 @@ std::vector<Region> patchwork() {
 
 enum class Goals { together, oneByOne };
 
-/// Springs under all weights of all regions: with new goals for all every four seconds, or for one
+/// Springs on all weights of all regions, with new goals for all every four seconds, or for one
 /// weight every frame.
 void moveRegions(benchmark::State& state, std::size_t count, Goals goals) {
   std::vector<Matter> matters(count);
@@ -108,7 +108,7 @@ void evaluate(benchmark::State& state, const std::vector<Region>& regions, bool 
   options.influences = influencesOf(face().surface, regions);
   const Evaluator evaluator = orEnd(Evaluator::make(face(), options));
   const Weights plain = someWeights(Active::all);
-  Weights weights;  // a little different everywhere, as on the way to a goal
+  Weights weights;  // slightly different in every region, as on the way to a goal
   for (std::size_t r = 0; r < std::max<std::size_t>(1, regions.size()); ++r)
     for (const double w : plain) weights.push_back(w * (1 - 0.05 * static_cast<double>(r)));
   std::vector<float> out(6 * static_cast<std::size_t>(evaluator.vertexCount()));

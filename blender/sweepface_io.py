@@ -1,7 +1,7 @@
 """Sweepface in Blender: opens and saves .sweep faces, and moves shape keys by Newton's law, springs and captures.
 
 An add-on in one file: Edit > Preferences > Add-ons > Install... It runs the tool `sweepface`, from PATH unless its
-preferences say where it is. docs/blender.md tells more.
+preferences say where it is. See docs/blender.md.
 """
 
 import json
@@ -27,11 +27,11 @@ bl_info = {
     "category": "Import-Export",
 }
 
-# Faces have y upwards, as OBJ and glTF do, Blender z.
+# Faces have y up, as OBJ and glTF do; Blender has z up.
 UPRIGHT = axis_conversion(from_forward="-Z", from_up="Y").to_4x4()
-NEAREST = 0.02  # frames: keys that are nearer are one to Blender
-SOURCE = "sweepface_file"  # the property of an object that says which face it shows,
-TARGETS = "sweepface_targets"  # and a JSON of its targets by the names of its shape keys
+NEAREST = 0.02  # frames; Blender treats keys nearer than this as one
+SOURCE = "sweepface_file"  # the property of an object that names the file of the face it shows,
+TARGETS = "sweepface_targets"  # and a JSON of the face's targets by the names of the shape keys
 
 
 # ---- The tool ----
@@ -47,7 +47,7 @@ class Preferences(bpy.types.AddonPreferences):
 
 
 def run_tool(operator, *arguments):
-    """Runs the tool, and reports its warnings. What goes wrong raises its sentence."""
+    """Runs the tool and reports its warnings. Raises its error message if it fails."""
     addon = bpy.context.preferences.addons.get(__name__)
     tool = bpy.path.abspath(addon.preferences.tool) if addon else "sweepface"
     try:
@@ -59,18 +59,18 @@ def run_tool(operator, *arguments):
     if run.returncode:
         raise RuntimeError(" ".join(said) or f"{tool} ended with {run.returncode}.")
     for line in said:
-        if "--head on" not in line:  # an option that there is not here
+        if "--head on" not in line:  # advises an option that the add-on does not have
             operator.report({"WARNING"}, line.removeprefix("warning: "))
     return run.stdout
 
 
 def path_of(operator):
-    """The file that was chosen."""
+    """The file that the user chose."""
     return os.path.abspath(bpy.path.abspath(operator.filepath))
 
 
 class ToolOperator:
-    """An operator whose errors are sentences."""
+    """An operator that runs the tool and reports errors as sentences."""
 
     bl_options = {"REGISTER", "UNDO"}
 
@@ -88,13 +88,13 @@ class ToolOperator:
 
 
 def numbers_of(lines, key):
-    """[N x k] the numbers of the lines that begin with a key."""
+    """The numbers [N x k] in the lines that begin with a key."""
     chosen = [line[len(key):] for line in lines if line.startswith(key + " ")]
     return numpy.fromstring(" ".join(chosen), sep=" ").reshape(len(chosen), -1) if chosen else numpy.empty((0, 3))
 
 
 def places_in(path):
-    """[N x 3] the vertices of an OBJ that the tool wrote, which stand together."""
+    """The vertices [N x 3] of an OBJ that the tool wrote, which are in consecutive lines."""
     is_vertex = lambda line: line.startswith("v ")
     with open(path, encoding="utf-8", errors="surrogateescape") as file:
         vertices = takewhile(is_vertex, dropwhile(lambda line: not is_vertex(line), file))
@@ -107,7 +107,7 @@ def read_lines(path):
 
 
 def new_mesh(name, lines):
-    """The mesh of an OBJ that the tool wrote: its polygons, texture coordinates and materials."""
+    """A mesh from an OBJ that the tool wrote, with its polygons, texture coordinates and materials."""
     mesh = bpy.data.meshes.new(name)
     faces, materials, coordinates = [], [], []
     slots, current = {}, 0
@@ -125,20 +125,20 @@ def new_mesh(name, lines):
     mesh.polygons.foreach_set("material_index", materials)
     mesh.polygons.foreach_set("use_smooth", [True] * len(faces))
     if max(coordinates, default=-1) >= 0:
-        places = numpy.vstack([numbers_of(lines, "vt")[:, :2], [[0, 0]]])  # -1: at 0, where a corner has none
+        places = numpy.vstack([numbers_of(lines, "vt")[:, :2], [[0, 0]]])  # -1, a corner without one, is the last: 0
         mesh.uv_layers.new(name="UVMap").data.foreach_set("uv", places[coordinates].ravel())
     mesh.update()
     return mesh
 
 
 def file_of(target):
-    """What the tool calls the mesh of a target."""
+    """The name that the tool gives the mesh file of a target."""
     name = target.replace("/", "_")
     return ("_" + name[1:] if name.startswith(".") else name) + ".obj"
 
 
 def add_keys(shown, folder, targets):
-    """Shape keys of an object, from the meshes of a folder. Blender may call them otherwise."""
+    """Adds shape keys to an object, from the meshes of a folder. Blender may change their names."""
     shown.shape_key_add(name="Basis", from_mix=False)
     names = {}
     for target in targets:
@@ -155,14 +155,14 @@ def keys_of(shown):
 
 
 def places_of(points):
-    """[N x 3] where vertices, or the points of a shape key, are."""
+    """The positions [N x 3] of vertices, or of the points of a shape key."""
     places = numpy.empty(3 * len(points), dtype=numpy.float32)
     points.foreach_get("co", places)
     return places.reshape(-1, 3).astype(numpy.float64)
 
 
 def shapes_of(shown):
-    """The neutral and what shape keys make of it at value 1, by their names: [N x 3] each, in the object's space."""
+    """The neutral, and by name what each shape key makes of it at value 1: [N x 3] each, in the object's space."""
     mesh = shown.data
     if not mesh.shape_keys:
         return places_of(mesh.vertices), {}
@@ -181,7 +181,7 @@ def shapes_of(shown):
 
 
 def faces_text(mesh, turn_over):
-    """The part of an OBJ behind its vertices; `turn_over` where the object is mirrored."""
+    """The part of an OBJ after its vertices; `turn_over` if the object is mirrored."""
     parts, current = [], None
     layer = mesh.uv_layers.active
     if layer:
@@ -194,7 +194,7 @@ def faces_text(mesh, turn_over):
         if mesh.materials and polygon.material_index != current:
             current = polygon.material_index
             material = mesh.materials[min(current, len(mesh.materials) - 1)]
-            name = " ".join(material.name.split()).rstrip("\\") if material else ""  # or it would take in the next line
+            name = " ".join(material.name.split()).rstrip("\\") if material else ""  # or it would continue the line
             parts.append(f"usemtl {name or 'none'}")
         loops = list(polygon.loop_indices)
         if turn_over:
@@ -205,7 +205,7 @@ def faces_text(mesh, turn_over):
 
 
 def write_obj(path, places, faces, to_world):
-    """`places` [N x 3] in the object's space."""
+    """Writes an OBJ of `places` [N x 3], which are in the object's space."""
     turned = places @ numpy.array(to_world)[:3, :3].T + numpy.array(to_world)[:3, 3]
     with open(path, "w", encoding="utf-8", errors="surrogateescape") as file:
         file.writelines("v %.9g %.9g %.9g\n" % tuple(place) for place in turned)
@@ -214,7 +214,7 @@ def write_obj(path, places, faces, to_world):
 
 @contextmanager
 def objects_mode(shown):
-    """An object as it is outside of edit mode, in which Blender keeps its mesh elsewhere."""
+    """Switches to object mode for a while: in edit mode Blender keeps an object's mesh elsewhere."""
     mode = shown.mode
     if mode != "OBJECT":
         bpy.ops.object.mode_set(mode="OBJECT")
@@ -304,9 +304,9 @@ class ExportSweep(ToolOperator, bpy.types.Operator, ExportHelper):
 
 
 class Animation:
-    """The weights in a GLB that the tool wrote, behind animations of the face's own scene.
+    """The weights in a GLB that the tool wrote: its last animation, after any of the face's own scene.
 
-    `tracks` has for each target its times [N] and keys [N x 3]: slope before, value, slope behind; or [N x 1], values alone.
+    `tracks` has by target its times [N] and keys [N x 3]: slope before, value, slope after; or [N x 1], values alone.
     """
 
     def __init__(self, path):
@@ -334,7 +334,7 @@ class Animation:
 
 
 def curves_of(keys):
-    """The F-curves of shape keys, or None. From Blender 4.4 on actions have layers, and slots for what they animate."""
+    """The F-curves of shape keys, or None. Since Blender 4.4 actions have layers, and slots for what they animate."""
     data = keys.animation_data
     if not data or not data.action:
         return None
@@ -356,20 +356,20 @@ def driver_of(key):
     return data and data.drivers.find(key.path_from_id("value"))
 
 
-# What a key of an F-curve is made of: by how many numbers, which are read and written for all keys at once, and words.
+# The fields of an F-curve's key: NUMBERS with their counts, which are read and written for all keys at once, and WORDS.
 NUMBERS = {"co": 2, "handle_left": 2, "handle_right": 2, "amplitude": 1, "back": 1, "period": 1}
 WORDS = ("interpolation", "easing", "handle_left_type", "handle_right_type")
 
 
 def key_at(frame, value, interpolation):
-    """A key whose handles are itself."""
+    """A key whose handles coincide with it."""
     place = numpy.array([frame, value])
     return {"co": place, "handle_left": place.copy(), "handle_right": place.copy(), "amplitude": 0.8, "back": 1.70158, "period": 4.1,
             "interpolation": interpolation, "easing": "AUTO", "handle_left_type": "FREE", "handle_right_type": "FREE"}
 
 
 def keys_in(curve):
-    """The keys of an F-curve, in order, each a dictionary of NUMBERS and WORDS."""
+    """The keys of an F-curve in order, each a dictionary of NUMBERS and WORDS."""
     points, columns = curve.keyframe_points, {}
     for field, size in NUMBERS.items():
         columns[field] = numpy.empty(size * len(points), dtype=numpy.float32)
@@ -394,7 +394,7 @@ def set_keys(curve, keys):
 
 
 def split(start, end, frame):
-    """Cuts the Bezier between two keys: changes the first one's handle, and returns a key that leaves it as it was."""
+    """Splits the Bezier between two keys: changes the first one's handle, and returns a key that keeps its shape."""
     corners = numpy.array([start["co"], start["handle_right"], end["handle_left"], end["co"]])
     low, high = 0.0, 1.0
     for _ in range(50):
@@ -410,7 +410,7 @@ def split(start, end, frame):
 
 
 def keys_until(curve, frame):
-    """The keys of an F-curve before a frame, and one there that keeps it as it was until then."""
+    """The keys of an F-curve before a frame, and a key there that keeps the curve up to it."""
     keys, value = keys_in(curve), curve.evaluate(frame)
     before, behind = ([key for key in keys if (key["co"][0] < frame - NEAREST / 2) == side] for side in (True, False))
     if not before:
@@ -422,7 +422,7 @@ def keys_until(curve, frame):
         return [*before, key_at(frame, value, "CONSTANT")]
     if last["interpolation"] == "BEZIER":
         return [*before, split(last, behind[0], frame)]
-    if last["interpolation"] not in ("CONSTANT", "LINEAR"):  # an easing, which cannot be cut
+    if last["interpolation"] not in ("CONSTANT", "LINEAR"):  # an easing, which cannot be split
         last["interpolation"] = "LINEAR"
         frames = numpy.arange(numpy.floor(last["co"][0]) + 1, frame - NEAREST / 2)
         before += [key_at(at, curve.evaluate(at), "LINEAR") for at in frames]
@@ -430,7 +430,7 @@ def keys_until(curve, frame):
 
 
 def motion_keys(times, values, first, rate):
-    """Keys ([N x 3] with slopes or [N x 1]) as those of an F-curve. What is nearer to each other than Blender takes is a jump."""
+    """Keys of an F-curve, from `values` [N x 3] with slopes or [N x 1]. Keys nearer than NEAREST become a jump."""
     has_slopes = values.shape[1] == 3
 
     def made(k):
@@ -457,7 +457,7 @@ def motion_keys(times, values, first, rate):
             keys.append(key)
         k = last + 1
     for key, following in zip(keys, keys[1:]):
-        # A cubic by Hermite is one by Bezier whose handles are a third of the way to the next key.
+        # A Hermite cubic is a Bezier cubic whose handles are a third of the way to the next key.
         third = (following["co"][0] - key["co"][0]) / 3
         key["handle_right"] = key["co"] + [third, third * key["slopes"][1]]
         following["handle_left"] = following["co"] - [third, third * following["slopes"][0]]
@@ -465,7 +465,7 @@ def motion_keys(times, values, first, rate):
 
 
 def show(key, times, values, first, rate):
-    """Puts a motion into the F-curve of a shape key, instead of what was there meanwhile."""
+    """Puts a motion into the F-curve of a shape key, in place of the keys during that time."""
     motion = motion_keys(times, values, first, rate)
     start, end = motion[0]["co"][0], motion[-1]["co"][0]
     curve, before = curve_of(key), []
@@ -487,7 +487,7 @@ def show(key, times, values, first, rate):
 
 
 def check_curves(keys):
-    """Refuses F-curves that do not say by themselves where their keys lead, or are not to be changed."""
+    """Refuses F-curves that are locked, or have modifiers, so that their keys alone do not define them."""
     for name, key in keys.items():
         if not (curve := curve_of(key)):
             continue
@@ -498,7 +498,7 @@ def check_curves(keys):
 
 
 def check_action(shown):
-    """Refuses shape keys whose animation is not an action of their own file."""
+    """Refuses shape keys that are linked from another file, or moved by NLA strips."""
     data = shown.data.shape_keys.animation_data
     if shown.library or shown.data.library:
         raise RuntimeError(f"{shown.name} is linked from another file; make it local.")
@@ -507,7 +507,7 @@ def check_action(shown):
 
 
 class MotionOperator(ToolOperator):
-    """What moves the shape keys of a face that was opened or saved."""
+    """An operator that moves the shape keys of a face that was opened or saved."""
 
     @classmethod
     def poll(cls, context):
@@ -515,7 +515,7 @@ class MotionOperator(ToolOperator):
         return bool(shown and shown.type == "MESH" and shown.data.shape_keys and shown.get(SOURCE))
 
     def play(self, context, folder, *options):
-        """Has the tool animate the face, and shows it from the frame on at which it begins; the last frame of it."""
+        """Has the tool animate the face, and keys the result from its first frame on; returns its last frame."""
         shown, scene = context.active_object, context.scene
         check_action(shown)
         path, rate = os.path.join(folder, "take.glb"), scene.render.fps / scene.render.fps_base
@@ -533,7 +533,7 @@ class MotionOperator(ToolOperator):
         check_curves(keys)
         for name, (times, values) in animation.tracks.items():
             key = keys.get(name)
-            if key and (name in moving or curve_of(key) or key.value):  # or it may rest as it does
+            if key and (name in moving or curve_of(key) or key.value):  # others stay at rest as they are
                 show(key, times, values, first, rate)
         return first + animation.seconds * rate
 
@@ -558,7 +558,7 @@ class MoveToPose(MotionOperator, bpy.types.Operator):
     restitution: FloatProperty(name="Restitution", description="Of a bounce: the part of the speed that is left", default=0.4,
                                min=0, max=0.99)
 
-    pose: StringProperty(options={"HIDDEN", "SKIP_SAVE"})  # of the sliders, as JSON: a redo finds them elsewhere
+    pose: StringProperty(options={"HIDDEN", "SKIP_SAVE"})  # of the sliders, as JSON: on redo they have moved
 
     def first_frame(self, scene, rate):
         return scene.frame_current_final - self.seconds * rate

@@ -74,7 +74,7 @@ void addOptions(CLI::App& app, AnimateArguments& a) {
       "  sweepface animate face.sweep --clip take.csv --smooth -o take.glb");
 }
 
-/// When there is a mesh or a key.
+/// The times of the meshes or keys.
 Result<std::vector<double>> sampleTimes(const AnimateArguments& a, const Performance& performance) {
   constexpr double kMostFrames = 1e6;
   double rate = a.framesPerSecond;
@@ -93,12 +93,12 @@ Result<std::vector<double>> sampleTimes(const AnimateArguments& a, const Perform
   std::vector<double> times;
   for (int k = 0; k <= last; ++k)
     times.push_back(rate > 0 ? k / rate : performance.seconds * (static_cast<double>(k) / last));
-  // Keys hold on for ever: the end is one even between two frames. A mesh is for a frame.
-  // A timecode tells thousandths of a frame.
+  // The last key holds for ever, so the end is a key even between two frames; a mesh stands for one
+  // frame. A timecode resolves thousandths of a frame.
   const double same =
       std::max(std::min(1e-4, 0.5 * performance.seconds), isCsv ? 1e-3 / a.what.writtenRate() : 0);
   if (!hasKeys) return times;
-  // Keys have single precision.
+  // Key times have single precision.
   const bool isLater =
       isCsv || static_cast<float>(performance.seconds) > static_cast<float>(times.back());
   if (performance.seconds > times.back() + same && isLater) times.push_back(performance.seconds);
@@ -142,7 +142,7 @@ Result<void> animateMeshes(const AnimateArguments& a, const Rig& rig,
 
 // ---- GLB ----
 
-/// Which kind of keys --keys means, or nobody did.
+/// The kind of keys that --keys names, or the default.
 std::string keysOf(const AnimateArguments& a, const Performance& performance) {
   if (!a.keys.empty()) return a.keys;
   return a.namesFrames() ? "sampled" : performance.motion ? "exact" : "few";
@@ -215,7 +215,7 @@ Result<void> animateCsv(const AnimateArguments& a, const Rig& rig, const Perform
 
 // ---- The command ----
 
-/// Options that do not go with each other.
+/// Refuses options that do not go together.
 Result<void> checkArguments(const AnimateArguments& a, bool glb) {
   if (!a.what.to && a.what.clip.empty())
     return fail("Say where to go with --to, or what to play with --clip.");
@@ -236,7 +236,7 @@ Result<void> checkArguments(const AnimateArguments& a, bool glb) {
   return {};
 }
 
-/// What only a performance can tell of its options.
+/// Checks the options that depend on the performance.
 Result<void> checkKeys(const AnimateArguments& a, const Performance& performance) {
   if (a.keys == "exact" && !performance.motion)
     return fail(fmt::format("Keys cannot hold {} exactly{}; leave --keys out.", performance.called,

@@ -9,14 +9,14 @@
 namespace sweepface::cli {
 namespace {
 
-/// What an OBJ tells of a face.
+/// What an OBJ records about a face.
 struct FaceKind {
   Index material = -1, group = -1;
   bool isTextured = false;
   auto operator<=>(const FaceKind&) const = default;
 };
 
-/// Every face of a source by its kind.
+/// The kind of every face of a source.
 class FaceKinds {
  public:
   explicit FaceKinds(const Polygons& source) {
@@ -46,7 +46,7 @@ class FaceKinds {
   std::vector<Index> ofFace_;
 };
 
-/// A tessellation's triangles, with a part for every kind of face instead of every material.
+/// A tessellation's triangles, with a part for every kind of face rather than for every material.
 RenderMesh renderByKind(const Rig& rig, const FaceKinds& kinds, const Tessellation& grid) {
   Rig painted;
   painted.surface = rig.surface, painted.neutral = rig.neutral, painted.source = rig.source;

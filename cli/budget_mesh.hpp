@@ -6,11 +6,11 @@
 
 namespace sweepface::cli {
 
-/// An expression at the level of detail that a budget asks for: an OBJ text, and what it is of.
+/// An expression at the level of detail that a budget asks for: an OBJ text, and its size.
 struct BudgetMesh {
   std::string obj;
   Index vertices = 0, triangles = 0;
-  Index cutMost = 0;  ///< curves that are cut as finely as there is, and may need to be finer
+  Index cutMost = 0;  ///< curves cut as finely as possible that may still be too coarse
 };
 Result<BudgetMesh> meshWithin(const Rig& rig, const Budget& budget,
                               std::span<const double> weights);

@@ -49,7 +49,7 @@ void printSummary(const BuildArguments& a, const Built& built, std::size_t bytes
                built.largestMiss, built.missed, inExpression(built));
 }
 
-// A point that is far off is most often one out of order, or a control of another patch.
+// A point this far off is usually out of order, or a control of another patch.
 void warnOfMisses(const BuildArguments& a, const Built& built) {
   constexpr double kFar = 0.01;
   if (built.largestMiss <= kFar * built.diagonal) return;

@@ -33,19 +33,19 @@ void addOptions(CLI::App& app, CheckArguments& a) {
       "sweepface check face.sweep");
 }
 
-// What a sound file may show from rounding: gaps in units of the model's size, jumps of derivatives
+// What rounding may cause in a sound file: gaps in units of the model's size, jumps of derivatives
 // relative to the largest one.
 constexpr double kLargestGap = 1e-12, kLargestJump = 1e-9;
 constexpr int kSamples = 5;
 constexpr std::array kClassNames{"boundary", "C2", "spoke", "crease"};
 
-/// What is said of a problem is a part of a sentence.
+/// Problems are reported within a sentence.
 std::string withoutPeriod(std::string text) {
   if (text.ends_with('.')) text.pop_back();
   return text;
 }
 
-/// A face to look at.
+/// An expression to examine.
 struct Pose {
   std::string name;
   Weights weights;
@@ -70,8 +70,8 @@ struct PoseJoins {
   std::vector<JoinReport> joins;
 };
 
-/// The diagonal, or the distance from the origin, if that is more: far from it numbers are coarser
-/// than the model's size would let one think.
+/// The diagonal, or the largest distance from the origin if that is more: far from the origin,
+/// numbers are coarser than the model's size suggests.
 double sizeOf(const Tessellation& grid, const std::vector<Vec3>& vectors) {
   const std::vector<Vec3> places = grid.positions(vectors);
   double size = norm(Box(places).size());
@@ -88,7 +88,7 @@ PoseJoins lookAt(const Rig& rig, const Tessellation& grid, const Pose& pose) {
   const double size = sizeOf(grid, vectors);
   for (JoinReport& join : result.joins) {
     join.positionGap /= size;
-    // Numbers that are finite may be too large to be reckoned with.
+    // Finite numbers may still be too large to compute with.
     result.finite &= std::isfinite(join.positionGap) && std::isfinite(join.firstJump) &&
                      std::isfinite(join.secondJump);
   }

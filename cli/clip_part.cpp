@@ -6,9 +6,9 @@
 namespace sweepface::cli {
 namespace {
 
-/// Frames within it, and one at each end.
+/// The frames between two times, relative to the first, and one at each end.
 std::vector<double> framesWithin(const std::vector<double>& times, double from, double to) {
-  constexpr double kSame = 1e-4;  // seconds: a frame so near to an end is that end
+  constexpr double kSame = 1e-4;  // seconds: a frame this close to an end is that end
   std::vector<double> within{0};
   for (const double time : times)
     if (time - from > kSame && to - time > kSame) within.push_back(time - from);

@@ -4,7 +4,7 @@
 
 namespace sweepface::cli {
 
-/// What --clip-from and --clip-to leave of a performance, as one that begins at 0 s.
+/// The part of a performance between --clip-from and --clip-to, shifted to begin at 0 s.
 Result<Performance> partOf(Performance played, const PerformanceArguments& a);
 
 }  // namespace sweepface::cli

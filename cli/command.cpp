@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Whether all of a text is a number; inf and nan are none.
+/// Parses a text that must be a number from end to end; inf and nan do not count.
 template <typename Number>
 bool parse(std::string_view text, Number& number) {
   const char* const end = text.data() + text.size();
@@ -29,7 +29,7 @@ bool parse(std::string_view text, Number& number) {
   return error == std::errc{} && stop == end && std::isfinite(static_cast<double>(number));
 }
 
-/// Takes numbers that are allowed; of others it is said what they must be.
+/// Accepts the numbers that are allowed; the message for others says what they must be.
 template <typename Allowed>
 CLI::Validator number(Allowed isAllowed, const std::string& what) {
   const auto check = [=](const std::string& text) -> std::string {
@@ -40,15 +40,15 @@ CLI::Validator number(Allowed isAllowed, const std::string& what) {
   return CLI::Validator(check, "", "");
 }
 
-/// Whether what is written there would mix with the report in one pipe.
+/// Whether `path` is the pipe that the report goes to, where the two would mix.
 bool isPipeOfReport(const fs::path& path) {
   struct stat there{}, report{};
   return stat(path.c_str(), &there) == 0 && fstat(STDOUT_FILENO, &report) == 0 &&
          S_ISFIFO(there.st_mode) && there.st_dev == report.st_dev && there.st_ino == report.st_ino;
 }
 
-/// Whether this is another name of a stream, as /dev/stdout, that goes to a file: to put a new file
-/// in its place would not reach it.
+/// Whether this is an alias of a stream, such as /dev/stdout, that is redirected to a file:
+/// replacing the alias by a new file would not reach that one.
 bool leadsToFile(const fs::path& path) {
   const fs::path way = fs::absolute(path).lexically_normal(), folder = way.parent_path();
   const bool isStream = folder == "/dev/fd" || way == "/dev/stdout" || way == "/dev/stderr" ||
@@ -180,7 +180,7 @@ CLI::Validator wholeNumber(std::int64_t low, std::int64_t high) {
     std::int64_t number = 0;
     if (!parse(text, number) || number < low || number > high)
       return fmt::format("This must be a whole number from {} to {}, not '{}'.", low, high, text);
-    text = std::to_string(number);  // CLI11 takes what begins with a zero for octal
+    text = std::to_string(number);  // CLI11 reads a leading zero as octal
     return {};
   };
   return CLI::Validator(check, "", "");
@@ -241,7 +241,7 @@ Result<Rig> opened(std::string_view bytes, const std::string& path) {
                     "{} -o face.sweep`.",
                     path, path));
   if (!rig) return rig;
-  // Files of a few bytes can have patches of any number of quads.
+  // A file of a few bytes can declare patches with any number of quads.
   const double quads = static_cast<double>(rig->surface.wireframe().quadCount());
   if (quads <= kMostQuads) return rig;
   return fail(
@@ -290,14 +290,14 @@ std::vector<std::string> targetNames(const Rig& rig) {
 
 namespace {
 
-/// Whether something between commas is nothing but digits: the 5 of "jawOpen=0,5".
+/// Whether a part between commas consists only of digits: the 5 of "jawOpen=0,5".
 bool hasDecimalComma(std::string_view text) {
   return std::ranges::any_of(text | std::views::split(',') | std::views::drop(1), [](auto part) {
     return !part.empty() && std::ranges::all_of(part, [](char c) { return c >= '0' && c <= '9'; });
   });
 }
 
-/// About the first name that is no target.
+/// A suggestion for the first name that is no target.
 std::string hintAtName(std::string_view text, const Rig& rig) {
   const std::vector<std::string> names = targetNames(rig);
   for (const auto part : text | std::views::split(',')) {
@@ -348,7 +348,7 @@ Result<void> checkOutput(const fs::path& output, const std::vector<std::string>&
     return cannot("it is a folder; name a file");
   if (reports && isPipeOfReport(output)) return cannot("the report goes there; name a file");
   if (leadsToFile(output)) return cannot("it leads into a file; name that file");
-  // A device is written to as it is; any other file is replaced in its folder.
+  // A device is written to directly; any other file is replaced within its folder.
   const bool device = fs::exists(output, ignored) && !fs::is_regular_file(output, ignored);
   if (!device && std::ranges::none_of(kinds, [&](auto kind) { return isOfKind(output, kind); }))
     return cannot(fmt::format("its name must end in {}", fmt::join(kinds, " or ")));

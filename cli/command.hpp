@@ -20,8 +20,8 @@
 
 namespace sweepface::cli {
 
-/// A command of the tool and what it does once its options are parsed: the exit code, or why it
-/// failed.
+/// A command of the tool. `run` is called once its options are parsed and returns the exit code, or
+/// why it failed.
 struct Command {
   CLI::App* app = nullptr;
   std::function<Result<int>()> run;
@@ -42,7 +42,7 @@ Command addBuild(CLI::App& tool);
 Command addEdit(CLI::App& tool);
 Command addPack(CLI::App& tool);
 
-/// Help that breaks long descriptions into lines.
+/// Help with long descriptions wrapped.
 class HelpFormatter : public CLI::Formatter {
   std::string make_option_desc(const CLI::Option* option) const override;
 };
@@ -57,7 +57,7 @@ Command makeCommand(CLI::App& tool, const std::string& name, const std::string& 
   return {app, [options, run] { return run(*options); }};
 }
 
-// ---- Options that several commands have ----
+// ---- Options shared by several commands ----
 
 void addQuiet(CLI::App& app, bool& quiet);
 void addJson(CLI::App& app, bool& json);
@@ -69,10 +69,10 @@ void addMeshes(CLI::App& app, std::string& neutral, std::vector<std::string>& ta
 void addThreads(CLI::App& app, int& threads);
 void addStrip(CLI::App& app, std::string& strip);
 void addUvBits(CLI::App& app, std::optional<int>& bits, const std::string& description);
-/// Fails where nothing has those bits.
+/// Fails if --uv-bits is given for texture coordinates that are stripped.
 Result<void> checkUvBits(const std::optional<int>& bits, const Strip& parts);
 
-/// What only .glb files can have.
+/// Options for .glb files only.
 struct GlbArguments {
   bool morphNormals = false, quantize = false;
   bool any() const { return morphNormals || quantize; }
@@ -82,16 +82,17 @@ struct GlbArguments {
 };
 void addGlb(CLI::App& app, GlbArguments& glb);
 
-/// Whether a list of weights, NAME=W,..., can hold the name of a target, and what is said if not.
+/// Whether a target of this name can appear in a list of weights, NAME=W,...; and the message if it
+/// cannot.
 bool canBeListed(const std::string& name);
 std::string cannotBeListed(const std::string& name);
 
-/// Warns of meshes that a face was hardly made from: those are within its tolerance.
+/// Warns if meshes are beyond the face's tolerance, so that it was hardly made from them.
 void warnOfOtherMeshes(const Rig& rig, const Measurement& measured);
-/// The same where they can be compared at all.
+/// The same, if the two can be compared at all.
 void warnOfOtherMeshes(const Rig& rig, const MeshRig& source);
 
-/// What is said where a face loses what its file held besides it, of the file it comes from.
+/// The message that everything `file` holds besides the face is lost.
 std::string sceneIsLost(const std::string& file);
 
 CLI::Validator wholeNumber(std::int64_t low, std::int64_t high);
@@ -99,53 +100,53 @@ CLI::Validator wholeNumber(std::int64_t low, std::int64_t high);
 CLI::Validator positiveNumber(double high = 0);
 CLI::Validator numberFromZero();
 CLI::Validator finiteNumber();
-/// Anything but what an empty variable of a script leaves.
+/// Refuses what an empty variable of a script leaves.
 CLI::Validator notEmpty();
-/// From 0 to below 1.
+/// A number from 0 to below 1.
 CLI::Validator partOfOne();
 CLI::Validator onOrOff();
 
-/// An option that takes one value, or list of values with commas between, each time it is given, so
-/// that what follows is no more of it.
+/// Makes an option take one value, or one comma-separated list, each time it is given, so that it
+/// does not swallow the arguments that follow.
 CLI::Option* oneEachTime(CLI::Option* option);
 
 /// "X,Y,Z": three finite numbers and nothing else.
 std::optional<Vec3> parsePoint(std::string_view text);
 
-/// The point that an option tells, whose coordinates a float holds.
+/// The point that an option gives; its coordinates must fit in a float.
 Result<Vec3> pointGiven(std::string_view option, std::string_view text);
 
 std::vector<std::string> targetNames(const Rig& rig);
 
-/// The weights that an option tells; the error begins with its name.
+/// The weights that an option gives; an error begins with the option's name.
 Result<Weights> weightsGiven(std::string_view option, std::string_view text, const Rig& rig);
 
 // ---- Files ----
 
 Result<Rig> readFace(const std::string& path);
-/// The face that bytes are, of which messages say where they come from.
+/// Decodes a face. Messages name `path` as the origin of the bytes.
 Result<Rig> opened(std::string_view bytes, const std::string& path);
-/// Quads that a face may have, at whatever level: each takes about a kilobyte while it is made and
-/// written.
+/// The most quads that a face may have, at any level of detail: each takes about a kilobyte while
+/// it is made and written.
 inline constexpr double kMostQuads = 8e6;
 
-/// What a file would hold, read again before it is written.
+/// Decodes the bytes of a file before they are written.
 Result<Rig> readBack(std::string_view bytes, const std::string& path);
-/// The bytes of a face that can be read again.
+/// Encodes a face and makes sure that it can be decoded.
 Result<std::string> encodeReadable(const Rig& rig, const std::string& path);
 
-/// Whether a file's name ends like ".glb", in small or large letters.
+/// Whether a file's name has an ending like ".glb", in lower or upper case.
 bool isOfKind(const std::filesystem::path& path, std::string_view kind);
-/// A .glb or .gltf.
+/// Whether it is a .glb or .gltf.
 bool isGltf(const std::filesystem::path& path);
 
-/// The face that addMeshes() named.
+/// Reads the meshes that the options of addMeshes() name.
 Result<RigSource> readMeshes(const std::string& neutral, const std::vector<std::string>& targets,
                              ProgressBar& bar);
 
-/// Whether a file can be made at `output` without loss of an input, asked before the long work. Its
-/// name ends in one of `kinds`, so that nobody takes it for another kind of file. `reports`:
-/// whether a report goes to the standard output, so that the file cannot.
+/// Checks, before the long work, that a file can be made at `output` without overwriting an input.
+/// Its name must end in one of `kinds`, so that nobody takes it for another kind of file. If
+/// `reports`, a report goes to the standard output, so the file cannot.
 Result<void> checkOutput(const std::filesystem::path& output,
                          const std::vector<std::string>& inputs,
                          std::initializer_list<std::string_view> kinds, bool reports = true);

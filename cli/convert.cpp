@@ -63,7 +63,7 @@ void addOptions(CLI::App& app, ConvertArguments& a) {
   app.add_option("--max-bytes", a.maxBytes,
                  "Pack, and search for the smallest tolerance (not below --tolerance, if given) "
                  "whose file takes at most N bytes; converts several times")
-      ->transform(wholeNumber(1, std::int64_t{1} << 53))  // as far as doubles count
+      ->transform(wholeNumber(1, std::int64_t{1} << 53))  // up to here doubles hold every integer
       ->type_name("N");
   app.add_flag("--arcs", a.arcs,
                "Store in the file what expressions turn about (the jaw about its hinge, lids about "
@@ -136,7 +136,7 @@ void printText(const Summary& s) {
                s.sceneBytes, s.arguments.neutral);
 }
 
-/// What info tells of it too.
+/// The size of the scene, as `info` reports it.
 std::size_t sceneBytesOf(std::string_view bytes) {
   const Result<std::vector<FilePart>> parts = fileParts(bytes, "");
   if (!parts) return 0;
@@ -163,7 +163,7 @@ bool bringsScene(const ConvertArguments& a, const Strip& parts, const RigSource&
   return !a.bare && !parts.scene && !source.scene.empty();
 }
 
-/// The meshes, and the scene as the file is to hold it.
+/// Reads the meshes, and the scene as the file is to hold it.
 Result<RigSource> readSource(const ConvertArguments& a, const Strip& parts, ProgressBar& bar) {
   Result<RigSource> source = readMeshes(a.neutral, a.targets, bar);
   if (!source) return source;
@@ -177,7 +177,7 @@ Result<RigSource> readSource(const ConvertArguments& a, const Strip& parts, Prog
   return source;
 }
 
-/// What the user should know of the source, and of its scene if that is lost.
+/// Warnings about the source, and about its scene if that is lost.
 std::vector<std::string> warningsOf(const ConvertArguments& a, const Strip& parts,
                                     const RigSource& source) {
   const bool losesScene = parts.order && bringsScene(a, parts, source);
@@ -223,7 +223,7 @@ Result<int> convertAndWrite(const ConvertArguments& a) {
   const Result<Verified> verified =
       verify(bytes, a.output, source->rig, conversion->rig, conversion->rig.tolerance);
   if (!verified) return std::unexpected(verified.error());
-  catchInterrupts();  // writing is not to end in the middle
+  catchInterrupts();  // writing must not end half-way
   if (interrupted) return kInterrupted;
   if (auto written = writeAndReadBack(a.output, bytes); !written)
     return std::unexpected(written.error());

@@ -114,11 +114,11 @@ class Editor {
   }
 
   struct Moves {
-    std::map<Index, Vec3> own, taken;  // nodes that are named, and those of curves that are
+    std::map<Index, Vec3> own, taken;  // nodes that are named, and ends of curves that are
     std::set<Index> curves;
   };
 
-  // A node that two curves share moves once; one that is named itself goes where that says.
+  // A node shared by two curves moves once; a move of the node itself takes precedence.
   Result<void> move(const EditArguments& a) {
     Moves all;
     for (const auto& [name, text] : a.moves) {
@@ -196,7 +196,7 @@ void printSummary(const EditArguments& a, const Editor& editor) {
              editor.changed().size() > most ? ", ..." : "");
 }
 
-/// A packed file may become a hundred times as large.
+/// Warns if the file has grown: a packed one may become a hundred times as large.
 void warnOfSize(const EditArguments& a, std::uintmax_t before, std::size_t now) {
   constexpr std::size_t muchLarger = 4;
   if (before > 0 && now / before >= muchLarger)

@@ -111,8 +111,8 @@ Result<void> writeGlb(const ExportArguments& a, const Rig& rig, const Weights& w
   return {};
 }
 
-/// What the files of the first targets are called: by their names, as far as file systems take them
-/// and `convert` reads such files of a folder.
+/// The file names of the first targets: their own names, altered where file systems would refuse
+/// the file or `convert` would skip it in a folder.
 Result<std::vector<std::string>> fileNames(const Rig& rig, std::size_t count) {
   std::vector<std::string> names;
   for (std::size_t k = 0; k < count; ++k) {
@@ -131,7 +131,7 @@ Result<std::vector<std::string>> fileNames(const Rig& rig, std::size_t count) {
   return names;
 }
 
-/// What `convert` reads: neutral.obj, and every target by its name in expressions/.
+/// Writes what `convert` reads: neutral.obj, and every target by its name in expressions/.
 Result<void> writeFolder(const ExportArguments& a, const Rig& rig, const Following& following) {
   const std::filesystem::path folder(a.output), expressions = folder / "expressions";
   if (auto ok = checkLod(rig, a.lod); !ok) return ok;
@@ -158,7 +158,7 @@ Result<void> writeFolder(const ExportArguments& a, const Rig& rig, const Followi
   return {};
 }
 
-/// Options that only one of the outputs has.
+/// Refuses options that this kind of output does not have.
 Result<void> checkKind(const ExportArguments& a) {
   const bool glb = isOfKind(a.output, ".glb"), isFolder = isOfFolder(a);
   if (a.glb.any() && !glb)

@@ -17,7 +17,7 @@ Result<void> FacePage::layOut(const Page::Plan& plan, PictureSize panel) {
   page_ = std::move(*page);
   const Surface& surface = what_.rig.surface;
   if (auto ok = checkFineness(surface, a.lod); !ok) return ok;
-  // What is close would be a part of a larger picture; finer than twice, shadows take too long.
+  // A close-up shows part of a larger picture; more than twice as fine, shadows take too long.
   const int scale = a.close.empty() ? 1 : 2;
   const PictureSize whole{scale * page_->panel().width, scale * page_->panel().height};
   Index lod = a.lod > 0 ? a.lod : lodFor(surface, what_.style, whole);
@@ -33,7 +33,7 @@ Result<std::vector<Vec3>> FacePage::shown(std::span<const double> weights) const
   const std::vector<Vec3> points = scenes_->points(weights);
   const Result<std::vector<Index>> moved = region(close);
   if (!moved) return std::unexpected(moved.error());
-  // A vertex alone has no size that would tell how far the eye must be.
+  // A single vertex has no extent from which to derive the camera's distance.
   std::vector<Vec3> near;
   for (const Index v : scenes_->around(*moved)) near.push_back(points[v]);
   return near;

@@ -5,7 +5,7 @@
 
 namespace sweepface::cli {
 
-/// A page of pictures of one face. It is laid out before anything is drawn.
+/// A page of pictures of one face. Call layOut() before anything is drawn.
 class FacePage {
  public:
   explicit FacePage(const Rendering& what) : what_(what), bar_(what.arguments.quiet) {}

@@ -45,7 +45,7 @@ std::string listed(const std::vector<Index>& targets, const std::vector<std::str
   return fmt::format("{}", fmt::join(named, " and "));
 }
 
-/// Warns of targets that would be combinations if names differed in no capitals and separators.
+/// Warns of targets that would be combinations if names did not differ in capitals and separators.
 void warnOfSpellings(const std::vector<std::string>& names,
                      const std::vector<Follower>& followers) {
   std::vector<std::string> plain = names;
@@ -61,7 +61,7 @@ void warnOfSpellings(const std::vector<std::string>& names,
                       names[f.target], listed(f.leaders, names)));
 }
 
-/// What the names of the targets say.
+/// The followers that the names of the targets define.
 std::vector<Follower> combined(const Rig& rig, const std::vector<Weights>& told) {
   const std::vector<std::string> names = targetNames(rig);
   std::vector<Follower> followers = Followers::named(names);
@@ -76,7 +76,7 @@ std::vector<Follower> combined(const Rig& rig, const std::vector<Weights>& told)
   return followers;
 }
 
-/// Whether eyes that turn have taken all that it moved.
+/// Whether the turning eyes have taken over all that this target moved.
 bool isStill(const Rig& rig, const Target& target) {
   const auto isNothing = [&](const Vec3& d) { return norm(d) <= rig.tolerance; };
   return std::ranges::all_of(target.difference, isNothing) &&
@@ -95,7 +95,7 @@ Result<Following> follow(const FollowingArguments& a, Rig& rig, const std::vecto
   }
   std::vector<Follower> followers;
   if (a.combine) followers = combined(rig, told);
-  // Eyeballs tell what lids turn about, so turns are found while they still move by the targets.
+  // Lids turn about the eyeballs, so turns are found while the targets still move the eyeballs.
   auto turns = a.arcs == "on" ? turnsOf(rig) : std::vector<Turn>{};
   if (a.arcs == "on" && turns.empty()) printWarning(kNoTurns);
   if (a.eyes == "on") {
@@ -117,7 +117,7 @@ Result<Following> follow(const FollowingArguments& a, Rig& rig, const std::vecto
 
 Performance withFollowing(Performance performance, const Following& following) {
   if (following.empty()) return performance;
-  performance.motion.reset();  // keys would not hold it exactly
+  performance.motion.reset();  // keys could not hold it exactly
   performance.at = [at = std::move(performance.at), following, pose = performance.pose,
                     byAngles = performance.hasEyes](double time, std::span<double> weights) {
     at(time, weights.first(following.count));

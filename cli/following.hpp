@@ -9,7 +9,7 @@
 
 namespace sweepface::cli {
 
-/// What happens to weights after they were set.
+/// What happens to weights once they are set.
 struct FollowingArguments {
   std::string arcs = "off", eyes = "off", limits;
   bool combine = false;
@@ -17,27 +17,28 @@ struct FollowingArguments {
 };
 void addFollowing(CLI::App& app, FollowingArguments& a);
 
-/// Limits, and weights that follow from those that are set.
+/// Limits, and weights that follow from the ones that are set.
 struct Following {
   Limits limits;
   Followers followers;
   EyeTurns eyes;
-  std::size_t count = 0;  ///< weights that are set, the first ones
+  std::size_t count = 0;  ///< how many weights are set; they come first
 
   bool empty() const { return limits.empty() && followers.empty() && eyes.empty(); }
-  /// Of all targets. Where the eyes' angles are known, they count instead of eyeLook weights.
+  /// Applies to the weights of all targets. The eyes' angles, if known, replace the eyeLook
+  /// weights.
   void apply(std::span<double> weights, const HeadPose* pose = nullptr) const;
 };
 
 inline constexpr const char* kNoTurns =
     "No target turns about anything, so --arcs changes nothing.";
 
-/// What was asked for; arcs and turning eyes are added to the targets of the rig. Warns of weights
-/// that were told of what follows, each [targets].
+/// Sets up what was asked for and adds arcs and turning eyes to the targets of the rig. Warns of
+/// weights in `told`, each [targets], that were set for targets that follow others.
 Result<Following> follow(const FollowingArguments& a, Rig& rig,
                          const std::vector<Weights>& told = {});
 
-/// A performance whose weights take followers along.
+/// A performance with limits, eyes and followers applied to its weights.
 Performance withFollowing(Performance performance, const Following& following);
 
 }  // namespace sweepface::cli

@@ -7,14 +7,14 @@
 
 namespace sweepface::cli {
 
-/// Whether the model turns as a head, and about what.
+/// Whether the whole model turns with the head, and about which point.
 struct HeadArguments {
   std::string turns = "off", pivot;
   bool on() const { return turns == "on"; }
 };
 void addHead(CLI::App& app, HeadArguments& a);
 
-/// How the head turns at these times, if that is wanted.
+/// The head's rotations at these times, if asked for.
 Result<std::optional<HeadTrack>> headTrack(const HeadArguments& a, const Rig& rig,
                                            const Performance& performance,
                                            const std::vector<double>& times);

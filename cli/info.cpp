@@ -129,7 +129,7 @@ nlohmann::ordered_json list(const Rig& rig) {
   return list;
 }
 
-/// Those that come nearest to a point, nearest first, and where.
+/// The patches, curves and nodes nearest to a point, nearest first, and where they come nearest.
 nlohmann::ordered_json nearest(const Rig& rig, const Vec3& point) {
   constexpr std::size_t kMost = 5;
   const nlohmann::ordered_json all = list(rig);

@@ -16,7 +16,7 @@ static_assert(std::atomic<bool>::is_always_lock_free, "signal handlers may not l
 
 namespace {
 
-bool leavesBar = false;  // behind which a line begins
+bool leavesBar = false;  // messages then start on a new line
 
 void endAnyway(int) {
   std::string_view text = "\nsweepface: Interrupted; nothing was written.\n";
@@ -54,7 +54,7 @@ Result<int> doLongWork(int threads, const std::function<Result<int>()>& work) {
     limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
   catchInterrupts(Patience::twoSeconds);
   Result<int> code = work();
-  // Whatever failed after that failed because of it.
+  // Whatever failed after an interrupt failed because of it.
   return interrupted && code != 0 ? endInterrupted() : code;
 }
 

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kMostFrames = 1e6, kRate = 480;
 
-/// Times of keys have single precision.
+/// A key's time as it is written, in single precision.
 double written(double time) { return static_cast<float>(time); }
 
 std::vector<double> coarseTimes(const Performance& performance) {
@@ -22,10 +22,10 @@ std::vector<double> coarseTimes(const Performance& performance) {
   return times;
 }
 
-/// Halves stretches of time until straight lines over them are near enough.
+/// Halves intervals of time until straight lines across them are close enough.
 class Halver {
  public:
-  /// What a line misses between two times: all, and all but what a jump there does.
+  /// How far a line is off between two times: in all, and apart from jumps.
   struct Missed {
     std::function<double(double from, double to)> all, butJumps;
   };
@@ -35,7 +35,7 @@ class Halver {
         allowed_(allowed),
         shortest_(std::min(1 / kRate, seconds / 64) / 256) {}
 
-  /// Times of keys within all of these, which increase.
+  /// The times of the keys for a series of increasing times.
   std::vector<double> cut(const std::vector<double>& times) {
     cut_ = {written(times.front())};
     for (const double time : times)
@@ -43,10 +43,10 @@ class Halver {
     return std::move(cut_);
   }
 
-  double worst() const { return worst_; }  ///< that a line still misses but for jumps
+  double worst() const { return worst_; }  ///< how far a line is still off, jumps aside
 
  private:
-  /// Adds the end of a stretch, and before it what is needed in between.
+  /// Adds the end of an interval, and before it what is needed in between.
   void add(double from, double to) {
     const double miss = missed_.all(from, to), middle = written(std::midpoint(from, to));
     const bool isShortest = to - from <= shortest_ || from >= middle || middle >= to;
@@ -64,7 +64,7 @@ class Halver {
   std::vector<double> cut_;
 };
 
-/// What lines miss of the weights.
+/// How far lines are off the weights.
 class WeightLines {
  public:
   WeightLines(const Performance& performance, std::size_t targets)
@@ -89,9 +89,9 @@ class WeightLines {
   }
 
  private:
-  /// What is missed of every weight, and how much of that is beyond both ends of its line.
+  /// How far each weight is off its line, and how far it goes beyond both ends of the line.
   void compare(double from, double to) {
-    constexpr double kGolden = 0.6180339887;  // not in step, as zeros of a swing are
+    constexpr double kGolden = 0.6180339887;  // not in step with the zeros of a swing
     const int looks = static_cast<int>(std::clamp(30 * (to - from), 3.0, 100.0));
     performance_.at(from, start_);
     performance_.at(to, end_);
@@ -108,8 +108,8 @@ class WeightLines {
     }
   }
 
-  /// Whether a weight goes somewhere more steeply than any slope that is meant: a cut of a timeline
-  /// takes some microseconds.
+  /// Whether a weight is somewhere steeper than any intended slope: a cut in a timeline takes a few
+  /// microseconds.
   bool jumps(std::size_t k, double from, double to) {
     constexpr double kShort = 4e-6, kSteepest = 200;  // seconds, weights a second
     double before = start_[k], after = end_[k];
@@ -128,8 +128,8 @@ class WeightLines {
   std::vector<double> missed_, beyond_;
 };
 
-/// Radians that a turn at constant speed misses in the middle, where it misses most of angles that
-/// change at constant speed.
+/// How far, in radians, a turn at constant speed is off in its middle, where it is furthest off
+/// angles that change at constant speed.
 double ofTurn(const Performance& performance, double from, double to) {
   const auto at = [&](double time) { return quaternionOf(performance.pose(time).head); };
   const Quaternion start = at(from), end = at(to), middle = at(std::midpoint(from, to));
@@ -162,7 +162,7 @@ KeyFrames keyFrames(const Performance& performance, const Rig& rig, double toler
                  [&](double from, double to) { return lines.butJumps(from, to); }},
                 tolerance / 16, performance.seconds);
   std::vector<double> times = halver.cut(own.empty() ? coarseTimes(performance) : own);
-  // Single precision may end before the last event does.
+  // In single precision the last time may fall short of the last event.
   times.back() = std::max(times.back(), performance.seconds);
   Clip clip = sample(performance, rig, times);
   const double missed = performance.frameMiss + halver.worst();

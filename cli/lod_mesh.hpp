@@ -7,13 +7,14 @@
 
 namespace sweepface::cli {
 
-/// Whether there are not too many quads where every edge is cut into `lod`.
+/// Checks that cutting every edge into `lod` does not make too many quads.
 Result<void> checkFineness(const Surface& surface, Index lod);
-/// Whether the source's polygons can be cut into `lod`: the face knows them, and the parts
-/// are not too many.
+/// Checks that the source's polygons can be cut into `lod`: that the face has them, and that the
+/// quads are not too many.
 Result<void> checkLod(const Rig& rig, Index lod);
 
-/// The meshes of a rig, all over the same polygons: the source's own at lod 0, else a tessellation.
+/// Makes meshes of a rig, all over the same polygons: the source's own at lod 0, else a
+/// tessellation.
 class MeshMaker {
  public:
   /// The rig must outlive the maker.

@@ -9,7 +9,7 @@ namespace sweepface::cli {
 namespace {
 
 /// Texture coordinates inside the source's quads. Quads that share an edge of the texture share its
-/// points: they are numbered by the edge's ends.
+/// points, which are keyed by the edge's ends.
 class QuadTexture {
  public:
   using Corners = std::array<Index, 4>;  ///< texture coordinates at a quad's corners
@@ -90,7 +90,7 @@ class LodPolygons {
   }
 
  private:
-  /// A face (i, j) steps into a quad of the source.
+  /// Adds the face (i, j) steps into a quad of the source.
   void addFace(const std::array<Index, 4>& vertices, Index quad, Index i, Index j) {
     const Index* const corners = &rig_.source.quadCorners[4 * quad];
     const QuadTexture::Corners texcoords = texcoordsOf(corners);

@@ -5,7 +5,7 @@
 namespace sweepface::cli {
 
 /// The polygons of a tessellation with the materials, groups and texture coordinates of the source:
-/// quads, and triangles where a side is collapsed. The rig must know the corners of its quads.
+/// quads, and triangles where a side is collapsed. The rig must have the corners of its quads.
 Polygons lodPolygons(const Rig& rig, const Tessellation& grid);
 
 }  // namespace sweepface::cli

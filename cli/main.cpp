@@ -15,7 +15,7 @@ namespace {
 constexpr int kFailed = 1, kMisused = 2;
 constexpr const char* kReportIsLost = "Cannot write the report: the output is full or closed.";
 
-/// What was misused and where to read on; `app` is the whole tool.
+/// What was misused and where to find help; `app` is the whole tool.
 std::string usageMessage(const CLI::App* app, const CLI::Error& error) {
   const std::vector<const CLI::App*> commands = app->get_subcommands({});
   const auto used = std::ranges::find_if(commands, [](const CLI::App* c) { return c->parsed(); });
@@ -47,7 +47,7 @@ int run(int argc, char** argv) {
                    addRender, addReport, addPlot, addLaws, addBuild, addEdit, addPack})
     commands.push_back(add(tool));
 
-  // As other tools have it: help COMMAND.
+  // `help COMMAND`, as in other tools.
   std::vector<std::string> words(argv + 1, argv + argc);
   if (!words.empty() && words.front() == "help") {
     words.erase(words.begin());
@@ -55,7 +55,7 @@ int run(int argc, char** argv) {
     const auto isKnown = [&](const Command& c) { return c.app->get_name() == words.front(); };
     if (words.empty() || std::ranges::any_of(commands, isKnown)) words.emplace_back("--help");
   }
-  std::ranges::reverse(words);  // in which order CLI11 takes them
+  std::ranges::reverse(words);  // CLI11 takes them in this order
   try {
     tool.parse(std::move(words));
   } catch (const CLI::ParseError& error) {

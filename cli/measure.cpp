@@ -102,7 +102,7 @@ nlohmann::ordered_json toJson(const MeasureArguments& a, const Rig& rig, const M
   return report;
 }
 
-/// The face may have been given meshes of some targets only.
+/// Warns of targets that were not compared, as meshes may have been given for some only.
 void warnOfTargetsLeftOut(const Rig& rig, const MeshRig& source) {
   const auto isLeftOut = [&](const Target& target) {
     return std::ranges::find(source.targets, target.name, &MeshTarget::name) ==

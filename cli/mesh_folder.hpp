@@ -8,24 +8,24 @@
 
 namespace sweepface::cli {
 
-/// Whether an output is meant to be a folder: it is one, or has no ending as files have and is no
+/// Whether an output is meant to be a folder: it is one, or its name has no ending and it is no
 /// device.
 bool meansFolder(const std::filesystem::path& output);
 
-/// Makes a folder, and those it is in, where they are not there yet.
+/// Makes a folder, and its parents, unless they exist.
 Result<void> makeFolder(const std::filesystem::path& folder);
 
-/// The OBJ files of a folder, and how they are called together.
+/// The OBJ files of a folder, and what to call them in messages.
 struct MeshFiles {
   std::size_t count;
   std::string_view called;
-  std::filesystem::path input;  ///< which none of them may be
+  std::filesystem::path input;  ///< none of them may overwrite this file
   std::function<std::filesystem::path(std::size_t)> path;
   std::function<std::string(std::size_t)> text;
 };
 
-/// Writes the files in parallel, behind a bar unless quiet, until Ctrl-C; the answer is that of the
-/// first one that failed.
+/// Writes the files in parallel until Ctrl-C, with a progress bar unless quiet. Returns the first
+/// failure.
 Result<void> writeMeshes(const MeshFiles& files, bool quiet);
 
 }  // namespace sweepface::cli

@@ -10,7 +10,7 @@
 namespace sweepface::cli {
 namespace {
 
-/// How many letters must be put in, left out or changed (Wagner and Fischer, 1974).
+/// How many letters must be inserted, deleted or changed (Wagner and Fischer, 1974).
 std::size_t editDistance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), 0);

@@ -6,8 +6,8 @@
 
 namespace sweepface::cli {
 
-/// Which of the names somebody may have meant who wrote another: one that clips would match with
-/// it, or else the nearest within two letters; empty where there is none.
+/// The one of `names` that a wrong name was probably meant to be: one that clips would match with
+/// it, or else the closest within two letters; empty if there is none.
 std::string nearName(std::string_view name, std::span<const std::string> names);
 
 }  // namespace sweepface::cli

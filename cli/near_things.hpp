@@ -6,13 +6,13 @@
 
 namespace sweepface::cli {
 
-/// The place on a thing that is nearest to a point.
+/// The point on a node, curve or patch that is nearest to a given point.
 struct NearPlace {
   Vec3 at;
   double distance = 0;
 };
 
-/// How near the neutral's nodes, curves and patches come to a point, in model units; to within a
+/// How near the neutral's nodes, curves and patches come to a point, in model units, accurate to a
 /// fraction of an edge.
 struct NearThings {
   std::vector<NearPlace> nodes, curves, patches;

@@ -11,7 +11,7 @@ namespace sweepface::cli {
 
 namespace {
 
-/// Control characters that names have brought along would reach the terminal.
+/// Replaces control characters, so that those in names do not reach the terminal.
 std::string printable(std::string_view sentence) {
   std::string text(sentence);
   for (std::size_t k = 0; k < text.size(); ++k) {
@@ -22,7 +22,7 @@ std::string printable(std::string_view sentence) {
   return text;
 }
 
-/// Whether anybody can hear it or not: there is nowhere else to say so.
+/// Ignores failure: there is nowhere else to report it.
 void tell(const std::string& text) { std::fputs(text.c_str(), stderr); }
 
 }  // namespace
@@ -50,7 +50,7 @@ void ProgressBar::show(std::string_view what, double done) {
   const double share = std::isfinite(done) ? std::clamp(done, 0.0, 1.0) : 0.0;
   const std::scoped_lock lock(drawing_);
   const auto now = std::chrono::steady_clock::now();
-  // Terminals are slow: no more than some frames a second.
+  // Terminals are slow: draw only some frames a second.
   if (share < 1 && now - last_ < std::chrono::milliseconds(50)) return;
   last_ = now;
   const int full = static_cast<int>(share * width);

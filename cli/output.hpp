@@ -8,14 +8,14 @@
 
 namespace sweepface::cli {
 
-/// "sweepface: sentence" on the error stream, with '?' for control characters.
+/// Prints "sweepface: sentence" to the error stream, with '?' for control characters.
 void printError(std::string_view sentence);
 void printWarning(std::string_view sentence);
-/// JSON on the output stream; bytes in names that are no UTF-8 are replaced.
+/// Prints JSON to the output stream; bytes in names that are not UTF-8 are replaced.
 void printJson(const nlohmann::ordered_json& report);
 
-/// A bar on the last line of a terminal, gone when the work is done. Silent where the error stream
-/// is no terminal. Any thread may call it.
+/// A progress bar on the last line of a terminal, erased when the work is done. Silent if the error
+/// stream is no terminal. Any thread may call it.
 class ProgressBar {
  public:
   explicit ProgressBar(bool quiet);
@@ -23,7 +23,7 @@ class ProgressBar {
   ProgressBar& operator=(const ProgressBar&) = delete;
   ~ProgressBar();
 
-  /// Says what is going on and how far it is, 0 to 1.
+  /// Shows what is being done and how far it has got, 0 to 1.
   void show(std::string_view what, double done);
 
  private:

@@ -52,7 +52,7 @@ PackOptions optionsOf(const PackArguments& a, ProgressBar& bar) {
           .cancel = &interrupted};
 }
 
-/// How a face looks beside its mesh.
+/// How a face looks compared with its mesh.
 struct Looks {
   double angleRms = 0;
   Index folds = 0;
@@ -92,7 +92,7 @@ Result<int> packAndWrite(const PackArguments& a) {
   const std::string bytes = encode(finished);
   const Result<Verified> verified = verify(bytes, a.output, meshes, rig, *tolerance, &*before);
   if (!verified) return std::unexpected(verified.error());
-  catchInterrupts();  // writing is not to end in the middle
+  catchInterrupts();  // writing must not end half-way
   if (interrupted) return kInterrupted;
   if (auto written = writeAndReadBack(a.output, bytes); !written)
     return std::unexpected(written.error());

@@ -14,10 +14,10 @@ namespace {
 
 // ---- From one expression to another ----
 
-/// How long a bounce lasts, of its fall: bounce n lasts 2 eⁿ times as long as that.
+/// How long a bouncing motion lasts, in units of its fall: bounce n lasts 2 eⁿ falls.
 double bounceLength(double restitution) { return (1 + restitution) / (1 - restitution); }
 
-/// How long a drive that was asked for is shown: a spring, which never ends, for as long as asked.
+/// How long a drive is shown: a spring, which never ends, for as long as asked.
 double lengthOf(const Drive& drive, double asked) {
   if (drive.kind == Drive::Kind::spring) return asked;
   return drive.seconds * (drive.kind == Drive::Kind::bounce ? bounceLength(drive.restitution) : 1);
@@ -31,7 +31,7 @@ Drive driveOf(const PerformanceArguments& a, Drive drive) {
   return drive;
 }
 
-/// Laws that are not exact in two or three keys: a trajectory for every weight.
+/// A performance by a law that two or three keys cannot hold exactly: a trajectory per weight.
 Result<Performance> driven(const PerformanceArguments& a, const Drive& drive, double delay,
                            const Weights& from, const Weights& to) {
   const auto paths = std::make_shared<std::vector<Trajectory>>();
@@ -122,7 +122,7 @@ std::function<void(double, std::span<Kinematics>)> byDifferences(
     const std::function<void(double, std::span<double>)>& at, double seconds) {
   return [at, seconds](double time, std::span<Kinematics> weights) {
     constexpr double h = 1 / 60.0;
-    // What comes before and after it stands still.
+    // Differences stay within the motion, as it stands still before and after.
     const double middle = seconds > 2 * h ? std::clamp(time, h, seconds - h) : time;
     std::vector<double> before(weights.size()), now(before), after(before), here(before);
     at(middle - h, before);
@@ -150,7 +150,7 @@ void checkUse(const CLI::App& app, const PerformanceArguments& a) {
     const std::vector<std::string> several = laws->results();
     return std::ranges::find(several, law) != several.end();
   };
-  // Heavy regions of a clip hang on springs; it may come with some of its own.
+  // In a clip, heavy regions hang on springs; a clip may bring regions of its own.
   const bool hangs =
       !a.clip.empty() && (app.get_option_no_throw("--regions") || isOfKind(a.clip, ".json"));
   for (const char* option : {"--frequency", "--damping"})

@@ -55,7 +55,7 @@ Result<Clip> withNames(Clip clip, const PerformanceArguments& a,
 
 struct ReadClip {
   RegionalClips clips;
-  bool isAuthored = false;  // by somebody who knows which targets are to move
+  bool isAuthored = false;  // by someone who knows which targets are to move
 };
 
 Result<ReadClip> readClip(const PerformanceArguments& a, const std::string& text,
@@ -87,7 +87,8 @@ std::string firstOf(std::span<const std::string> names) {
   return fmt::format("{} and {} more", fmt::join(names.first(most), ", "), names.size() - most);
 }
 
-/// Recordings have columns for all shapes of the app, whatever the face has.
+/// Notes names that drive nothing: recordings have columns for all shapes of the app, whatever the
+/// face has.
 void noteIdleNames(const ClipMatch& match, const Clip& clip, const std::string& file,
                    std::vector<std::string>& notes) {
   std::vector<std::string> idle;
@@ -117,7 +118,7 @@ Result<std::vector<Performance>> byClip(const PerformanceArguments& a, const std
   Performance shared;
   shared.name = std::filesystem::path(a.clip).stem().string();
   if (!whole->title.empty()) shared.name += " " + whole->title;
-  // It is told on a line of its own, whatever the file calls it.
+  // The name is printed on a single line, whatever the file calls it.
   std::ranges::replace_if(shared.name, [](unsigned char c) { return c < ' '; }, ' ');
   shared.called = a.clip;
   shared.frameMiss = clips->missed;

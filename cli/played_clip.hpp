@@ -7,7 +7,7 @@
 
 namespace sweepface::cli {
 
-/// What the file of --clip, of this text, tells, as every region [R] plays it.
+/// Parses the text of the --clip file; one performance for every region [R].
 Result<std::vector<Performance>> byClip(const PerformanceArguments& a, const std::string& text,
                                         const Rig& rig, std::span<const Region> regions);
 

@@ -63,10 +63,10 @@ void addOptions(CLI::App& app, PlotArguments& a) {
 
 // ---- What is shown ----
 
-// What is smaller than this share of the way cannot be seen.
+// Anything smaller than this share of the way cannot be seen.
 constexpr double kVisible = 1e-3;
 
-/// How often a law swings or bounces visibly, when each begins, and what makes them fewer.
+/// The visible swings or bounces of a law: how many, when each begins, and what makes them fewer.
 struct Repeats {
   double count = 0;
   std::function<double(double repeat)> startOf;
@@ -80,8 +80,8 @@ Repeats swings(const PerformanceArguments& what, double seconds) {
           "fewer --seconds, less --frequency or more --damping"};
 }
 
-/// Bounce n lasts 2 eⁿ falls and begins with eⁿ of their speed; bounce 0 is the second half of one,
-/// the fall itself.
+/// Bounce n lasts 2 eⁿ falls and begins with eⁿ of the fall's speed; bounce 0 is only the second
+/// half of a bounce, the fall itself.
 Repeats bounces(const PerformanceArguments& what, double seconds) {
   const double e = what.restitution, fall = seconds * (1 - e) / (1 + e);
   return {e > 0 ? 1 + std::log(kVisible) / std::log(e) : 1,
@@ -91,7 +91,7 @@ Repeats bounces(const PerformanceArguments& what, double seconds) {
           "less --restitution"};
 }
 
-/// When to look: evenly, often enough for what swings or bounces, and at a clip's own frames.
+/// The times to sample: evenly, often enough for swings and bounces, and at a clip's own frames.
 Result<std::vector<double>> looksAt(const PerformanceArguments& what,
                                     const Performance& performance) {
   constexpr double kEvenly = 240, kMost = 8000, kARepeat = 24;
@@ -111,19 +111,19 @@ Result<std::vector<double>> looksAt(const PerformanceArguments& what,
     for (const double share : {1e-9, 1 - 1e-9})  // on both sides of where a bounce turns
       times.push_back(std::lerp(start, end, share));
   }
-  if (law == "bounce")  // it is at rest in the end, and nowhere before
+  if (law == "bounce")  // it is at rest at the end, and nowhere before
     for (double& time : times) time = std::min(time, seconds * (1 - 1e-9));
   std::ranges::sort(times);
   times.erase(std::ranges::unique(times).begin(), times.end());
   return times;
 }
 
-/// A weight, or a vertex.
+/// What is plotted: a weight or a vertex.
 struct Subject {
   std::string name;
   std::vector<Vec3> differences;  ///< [targets] what a weight of 1 adds to its place
 
-  /// A number for it, of a motion of all weights.
+  /// The number to plot, given that of every weight.
   double measure(std::span<const double> weights) const {
     Vec3 sum;
     for (std::size_t k = 0; k < differences.size(); ++k) sum += weights[k] * differences[k];
@@ -132,19 +132,19 @@ struct Subject {
   bool isWeight = true;
 };
 
-/// The target that a region's part is of, or itself.
+/// The target that this one is a region's part of, or itself.
 Index wholeOf(const Performance& performance, Index target) {
   return performance.isDivided ? performance.wholes[target] : target;
 }
 
-/// A region's weight is that of the whole target and what its part has more.
+/// A region's weight: that of the whole target plus that of its part.
 Subject weightOf(const Rig& rig, const Performance& performance, Index target) {
   Subject subject{rig.targets[target].name, std::vector<Vec3>(rig.targets.size())};
   for (const Index k : {target, wholeOf(performance, target)}) subject.differences[k] = {1, 0, 0};
   return subject;
 }
 
-/// One for every region where they differ.
+/// One for every region if the weight differs between regions.
 std::vector<Subject> weightsOf(const Rig& rig, const Performance& performance, Index target) {
   std::vector<Subject> parts;
   for (Index k = 0; k < static_cast<Index>(rig.targets.size()); ++k)
@@ -214,7 +214,7 @@ using Curves = std::array<std::vector<Series>, 4>;
 void addCurves(Curves& curves, const Performance& performance, std::span<const double> times,
                const Subject& subject, const std::string& name, double mass) {
   const std::size_t place = curves[0].size();
-  const auto round = static_cast<int>(place / kColours.size());  // where colours come again
+  const auto round = static_cast<int>(place / kColours.size());  // goes up when colours recur
   for (auto& panel : curves)
     panel.push_back({name, kColours[place % kColours.size()], {}, false, round % kDashes});
   const std::size_t count = subject.differences.size();
@@ -239,7 +239,7 @@ struct Plotted {
   std::vector<std::string> notes;  // what the user should know
 };
 
-/// Parts of a timeline's regions are added to the rig.
+/// Adds the parts of a timeline's regions to the rig.
 Result<Plotted> curvesOf(const PlotArguments& a, Rig& rig) {
   const std::vector<std::string> laws = a.laws.empty() ? std::vector{a.what.law} : a.laws;
   std::vector<Performance> performances;
@@ -264,7 +264,7 @@ Result<Plotted> curvesOf(const PlotArguments& a, Rig& rig) {
                 : subjects->size() == 1 ? laws[k]
                                         : laws[k] + ", " + subject.name,
                 a.mass);
-  constexpr double kLargest = 1e300;  // axes end at rounder numbers
+  constexpr double kLargest = 1e300;  // axes end at the next round number
   for (const auto& panel : curves)
     for (const Series& series : panel)
       for (const Vec2& p : series.points)

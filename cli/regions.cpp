@@ -12,7 +12,7 @@
 namespace sweepface::cli {
 namespace {
 
-/// Those of --regions or else of the timeline that is played; without either the whole face.
+/// The regions of --regions, or else of the timeline played; without either, the whole face.
 Result<std::vector<Region>> readRegions(const PerformanceArguments& what, const std::string& clip,
                                         const RegionArguments& a, const Rig& rig) {
   const bool own = a.file.empty() && isOfKind(what.clip, ".json");
@@ -29,7 +29,7 @@ Result<std::vector<Region>> readRegions(const PerformanceArguments& what, const 
   return regions;
 }
 
-/// What --regions takes the place of.
+/// Notes that --regions replaces the regions of the timeline.
 std::vector<std::string> notesOnOwn(const PerformanceArguments& what, const std::string& clip,
                                     const RegionArguments& a) {
   if (a.file.empty() || a.file == what.clip || !isOfKind(what.clip, ".json")) return {};
@@ -38,7 +38,7 @@ std::vector<std::string> notesOnOwn(const PerformanceArguments& what, const std:
   return {fmt::format("{}: its own regions are not used, but those of {}.", what.clip, a.file)};
 }
 
-/// Everything that regions do: a performance each, of K weights.
+/// The motion of all regions: a performance each, of K weights.
 struct Parts {
   std::vector<Performance> performances;  // [R]
   std::size_t count = 0;                  // K
@@ -48,7 +48,7 @@ struct Parts {
       performances[r].at(time, weights.subspan(r * count, count));
   }
 
-  /// The targets whose weights are not always the same everywhere.
+  /// The targets whose weights differ between regions at some time.
   std::vector<Index> uneven(std::vector<double> times) const {
     constexpr int kLooks = 240;
     for (int k = 0; k <= kLooks; ++k) times.push_back(seconds() * k / kLooks);
@@ -68,7 +68,7 @@ struct Parts {
   double seconds() const {
     return std::ranges::max_element(performances, {}, &Performance::seconds)->seconds;
   }
-  /// Those of all regions: late ones have others, or the same but for rounding.
+  /// The frame times of all regions: delayed ones have others, or the same but for rounding.
   std::vector<double> frameTimes() const {
     std::vector<double> times;
     for (const Performance& p : performances)
@@ -87,7 +87,7 @@ Performance together(Parts parts, const std::vector<Region>& regions, Rig& rig) 
   whole.seconds = parts.seconds();
   whole.frameTimes = parts.frameTimes();
   const auto targets = RegionalTargets::addTo(rig, regions, parts.uneven(whole.frameTimes));
-  whole.motion.reset();  // keys would not hold it exactly
+  whole.motion.reset();  // keys could not hold it exactly
   whole.isDivided = true;
   whole.wholes = targets.wholes();
   const auto shared = std::make_shared<const Parts>(std::move(parts));
@@ -100,7 +100,7 @@ Performance together(Parts parts, const std::vector<Region>& regions, Rig& rig) 
   return whole;
 }
 
-/// Of a law the expressions at both ends; a clip may drive anything.
+/// For a law, the expressions at both ends; none for a clip, which may drive anything.
 std::vector<Weights> toldWeights(const PerformanceArguments& what, const Rig& rig) {
   std::vector<Weights> told;
   if (!what.clip.empty()) return told;
@@ -140,7 +140,7 @@ Result<Performance> perform(const PerformanceArguments& what, const RegionArgume
   if (!clip) return std::unexpected(clip.error());
   auto regions = regionsOf(what, *clip, a, rig);
   if (!regions) return std::unexpected(regions.error());
-  // Combinations may show what moves nothing by itself.
+  // In combinations, even a target that moves nothing by itself may show.
   std::vector<std::string> still;
   if (what.clip.empty() && !following.combine) still = notesOnStill(what, rig);
   auto performances = makePerformances(what, *clip, rig, *regions);

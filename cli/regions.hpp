@@ -13,8 +13,8 @@ struct RegionArguments {
 };
 void addRegions(CLI::App& app, RegionArguments& a);
 
-/// What is played, with its followers and the regions of the file, or else of a timeline: their
-/// targets are added to the rig, and the performance has a weight for each of them.
+/// What is played, with its followers and with the regions of the file, or else of a timeline.
+/// Their targets are added to the rig, and the performance has a weight for each of them.
 Result<Performance> perform(const PerformanceArguments& what, const RegionArguments& regions,
                             const FollowingArguments& following, Rig& rig);
 

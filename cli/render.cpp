@@ -99,7 +99,7 @@ Result<int> runRender(const RenderArguments& a) {
     return fail("Meshes know neither arcs nor eyes; leave --compare out, or the others.");
   Result<Rig> rig = readFace(a.face);
   if (!rig) return std::unexpected(rig.error());
-  // Before there are targets beside the face's own.
+  // Parsed before targets are added to the face's own.
   Result<Weights> weights = a.to ? weightsGiven("--to", *a.to, *rig)
                                  : weightsGiven("--weights", a.weights, *rig),
                   from = weightsGiven("--from", a.from, *rig);

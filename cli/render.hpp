@@ -21,26 +21,26 @@ struct RenderArguments {
 
 void addOptions(CLI::App& app, RenderArguments& a);
 
-/// What there is to draw.
+/// What to draw.
 struct Rendering {
   const RenderArguments& arguments;
-  const Rig& rig;  ///< with what follows from others among its targets
+  const Rig& rig;  ///< its targets include those that follow others
   const Following& following;
   Style style;
   std::vector<View> views;
-  std::vector<Vec3> straight;  ///< the plain blend, for such styles as have need of it
+  std::vector<Vec3> straight;  ///< the plain blend, for styles that need it
 };
 
 inline bool isHeat(Style style) { return style == Style::error || style == Style::angle; }
 
-/// Where a face has the vertices of its source.
+/// The positions of the source's vertices on the face.
 std::vector<Vec3> sourceVertices(const Rig& rig, const Weights& weights);
 
-/// One expression, or it beside what it is compared with, from all sides. The weights are those
-/// that are set.
+/// Draws one expression, alone or beside what it is compared with, from all views. The weights are
+/// those that are set.
 Result<Image> drawExpression(const Rendering& what, Weights weights);
 
-/// The way from one expression to another, a row for each law.
+/// Draws the way from one expression to another, one row per law.
 Result<Image> drawStrips(const Rendering& what, const Weights& from, const Weights& to);
 
 }  // namespace sweepface::cli

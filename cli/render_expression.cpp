@@ -51,7 +51,7 @@ class ExpressionPage {
     return beside({"original", *positions, diagonal(read->rig.neutral)}, "recreated", weights);
   }
 
-  /// What arcs and the like change of the plain blend.
+  /// Shows what arcs and the like change in the plain blend.
   Result<Image> besideStraight(const Weights& weights) {
     const FollowingArguments& following = what_.arguments.following;
     const bool followsArcsOnly =

@@ -10,7 +10,7 @@
 namespace sweepface::cli {
 namespace {
 
-/// Strips are told in captions by how much of the way is behind.
+/// A law that strips can show: captions say how much of the way is covered.
 Result<TimeLaw> stripLaw(const std::string& name) {
   const Result<TimeLaw> law = timeLawFromName(name);
   if (law) return law;
@@ -98,7 +98,7 @@ class StripPage {
     return boxes;
   }
 
-  /// Given in numbers, or round what some targets move at either end.
+  /// A box given in numbers, or round what some targets move at either end.
   Result<PictureBox> makeBox(const std::string& text, const Camera& camera,
                              std::span<const Weights> ends) const {
     if (text.find(',') != text.npos) return parseBox(text);

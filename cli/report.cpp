@@ -74,7 +74,7 @@ Result<ReportOptions> optionsOf(const ReportArguments& a, const Rig& rig, std::s
   }
   if (!a.regions.empty()) options.regions = a.regions;
   if (!a.gltfpack.empty()) {
-    // A name without a folder is looked for when it is run.
+    // A name without a folder is searched for only when it is run.
     std::error_code ignored;
     if (a.gltfpack.contains('/') && !std::filesystem::is_regular_file(a.gltfpack, ignored))
       return fail(fmt::format("There is no program {}; --gltfpack says where it is.", a.gltfpack));
@@ -96,7 +96,7 @@ Result<std::string> reportOf(const ReportArguments& a) {
   options->progress = [&](std::string_view what, double done) { bar->show(what, done); };
   if (a.neutral.empty()) return makeMotionReport(*rig, *options);
   const Result<RigSource> source = readMeshes(a.neutral, a.targets, *bar);
-  bar.emplace(a.quiet);  // a warning begins a line
+  bar.emplace(a.quiet);  // erases the old bar, so that a warning begins a line
   if (!source) return std::unexpected(source.error());
   warnOfOtherMeshes(*rig, source->rig);
   const double size = diagonal(source->rig.neutral);

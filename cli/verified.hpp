@@ -9,19 +9,19 @@
 
 namespace sweepface::cli {
 
-/// What a reader of the bytes of a face will see, compared with the meshes it is to be near to.
+/// How a face decoded from its bytes compares with the meshes that it must stay close to.
 struct Verified {
   double tolerance = 0;
   FurthestVertex worst;
   std::string worstShape;
   double angleRms = 0;
-  std::vector<Index> folds;  // of the neutral and every target
-  std::vector<double> kept;  // of every target's movement
+  std::vector<Index> folds;  // in the neutral and every target
+  std::vector<double> kept;  // the share of every target's movement
 };
 
-/// Fails where a vertex is further from the source's than the tolerance, or if there is a face
-/// `before`, from where that has it. `made` is what the bytes were made of and tells where the
-/// source's vertices are, if its order was left out.
+/// Fails if a vertex is further than the tolerance from the source's or, given a face `before`,
+/// from where that has it. `made` is the rig that was encoded; it locates the source's vertices if
+/// their order was left out.
 Result<Verified> verify(std::string_view bytes, const std::string& name, const MeshRig& source,
                         const Rig& made, double tolerance, const Rig* before = nullptr);
 
@@ -30,7 +30,7 @@ std::string nameOfShape(const Rig& rig, Index target);
 
 void printDistance(const Verified& verified);
 
-/// Writes and makes sure that the disk holds what was meant.
+/// Writes a file and makes sure that the disk holds the same bytes.
 Result<void> writeAndReadBack(const std::filesystem::path& path, std::string_view bytes);
 
 }  // namespace sweepface::cli

@@ -52,7 +52,7 @@ std::string objLines(const CurveNetwork& net) {
   return text;
 }
 
-/// All of a face as a text: the neutral, its expressions, names and shape parameters.
+/// Writes all of a face as text: the neutral, its expressions, names and shape parameters.
 Result<int> writeDrawing(const WireframeArguments& a, const Rig& rig) {
   if (!a.weights.empty() || a.lod > 0)
     return fail(

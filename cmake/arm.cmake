@@ -1,5 +1,5 @@
-# Builds for 64-bit ARM with Debian's cross compiler and the libraries that scripts/arm-root has put
-# into build/arm-root; what is built runs under QEMU.
+# Builds for 64-bit ARM with Debian's cross compiler and the libraries that scripts/arm-root put into
+# build/arm-root; programs run under QEMU.
 set(CMAKE_SYSTEM_NAME Linux)
 set(CMAKE_SYSTEM_PROCESSOR aarch64)
 set(CMAKE_SYSROOT ${CMAKE_CURRENT_LIST_DIR}/../build/arm-root)

@@ -1,10 +1,10 @@
-# Highway: vector instructions, chosen when the program runs. Only src/eval/tile_kernels.cpp uses it.
+# Highway: vector instructions, chosen at run time. Only src/eval/tile_kernels.cpp uses it.
 set(kernels ${PROJECT_SOURCE_DIR}/src/eval/tile_kernels.cpp)
 if(NOT SWEEPFACE_SIMD)
   set_property(SOURCE ${kernels} APPEND PROPERTY COMPILE_DEFINITIONS SWEEPFACE_PLAIN_KERNELS)
 elseif(CMAKE_SYSTEM_NAME STREQUAL "WASI")
-  # WebAssembly has one set of vector instructions, which needs Highway's headers only. They lie
-  # among headers of the system, which must not be seen.
+  # WebAssembly has one set of vector instructions, for which Highway's headers suffice. They lie among system headers
+  # that must not be found.
   find_path(HIGHWAY_INCLUDE hwy/highway.h PATHS /usr/include NO_CMAKE_FIND_ROOT_PATH REQUIRED)
   file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/highway)
   file(CREATE_LINK ${HIGHWAY_INCLUDE}/hwy ${PROJECT_BINARY_DIR}/highway/hwy SYMBOLIC)

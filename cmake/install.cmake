@@ -1,7 +1,7 @@
-# What `cmake --install` puts in place: libraries, headers, the tool, and how other projects find them.
+# What `cmake --install` installs: libraries, headers, the tool, and the files by which other projects find them.
 include(CMakePackageConfigHelpers)
 
-# Headers of what converts; a runtime-only install goes without them.
+# Headers of the converting library, which a runtime-only install leaves out.
 set(converting_headers mesh.hpp io.hpp gltf.hpp fit.hpp measure.hpp drawing.hpp edit.hpp strip.hpp
     region_file.hpp laws.hpp sweepface_clips.h)
 set(picture_headers picture.hpp report.hpp plot.hpp)
@@ -61,14 +61,14 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/sweepfaceConfigVersion.cm
 install(FILES ${PROJECT_BINARY_DIR}/sweepfaceConfig.cmake ${PROJECT_BINARY_DIR}/sweepfaceConfigVersion.cmake
         DESTINATION ${package_dir})
 install(EXPORT sweepfaceTargets NAMESPACE sweepface:: DESTINATION ${package_dir})
-foreach(component IN LISTS shared_components)  # each is found without the archives, too
+foreach(component IN LISTS shared_components)  # each can be found without the archives, too
   set(targets sweepface_${component}_targets)
   install(TARGETS sweepface_${component} EXPORT ${targets} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
   install(EXPORT ${targets} NAMESPACE sweepface:: DESTINATION ${package_dir})
 endforeach()
 
-# pkg-config: `--libs` links what plays; add `--static` to link what converts with what it needs. Each shared library has
-# a file of its own. Their folders go by where the file lies, unless they were told to be elsewhere.
+# pkg-config: `--libs` links what plays; add `--static` to link what converts and what it needs. Each shared library has
+# a file of its own. Its folders are relative to the file, unless absolute ones were configured.
 if(IS_ABSOLUTE "${CMAKE_INSTALL_LIBDIR}")
   set(pc_prefix ${CMAKE_INSTALL_PREFIX})
 else()

@@ -2,7 +2,7 @@
 add_library(sweepface_options INTERFACE)
 target_compile_options(sweepface_options INTERFACE
   -Wall -Wextra -Wpedantic -Wconversion -Wno-sign-conversion -Wshadow
-  -fno-fast-math     # not even where flags of a project around this one ask for it: NaNs are refused
+  -fno-fast-math     # even if an enclosing project's flags ask for it: NaNs are refused
   -ffp-contract=off  # the same bytes with every compiler
   -fno-math-errno)   # a square root is one instruction
 if(SWEEPFACE_WARNINGS_AS_ERRORS)
@@ -12,14 +12,14 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # GCC 12 reports these inside its own standard library.
   target_compile_options(sweepface_options INTERFACE -Wno-maybe-uninitialized -Wno-restrict
     -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread -Wno-dangling-pointer)
-  # Where GCC 12 works on two doubles at once it takes rounding to float and back for nothing.
+  # When GCC 12 vectorises two doubles it optimises away rounding to float and back.
   target_compile_options(sweepface_options INTERFACE -fno-tree-slp-vectorize)
-  # Every file of a unity build looks like a header to it.
+  # To GCC every file of a unity build looks like a header.
   target_compile_options(sweepface_options INTERFACE
     $<$<BOOL:$<TARGET_PROPERTY:UNITY_BUILD>>:-Wno-subobject-linkage>)
 endif()
 if(SWEEPFACE_SANITIZE)
-  # The runtime has no run-time type information, so the check of virtual pointers cannot work.
+  # The runtime has no RTTI, which the check of virtual pointers needs.
   add_compile_options(-fsanitize=${SWEEPFACE_SANITIZE} -fno-sanitize=vptr -fno-sanitize-recover=all
                       -fno-omit-frame-pointer)
   add_link_options(-fsanitize=${SWEEPFACE_SANITIZE})

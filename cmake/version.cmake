@@ -1,4 +1,4 @@
-# The version stands where others read it, too: everywhere the same.
+# Checks that the version is the same in all files that repeat it for other programs to read.
 function(check_version file pattern)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
   file(READ ${PROJECT_SOURCE_DIR}/${file} text)

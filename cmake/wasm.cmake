@@ -9,6 +9,6 @@ set(CMAKE_RANLIB llvm-ranlib-19)
 set(CMAKE_C_COMPILER_TARGET wasm32-wasi)
 set(CMAKE_CXX_COMPILER_TARGET wasm32-wasi)
 set(CMAKE_CXX_FLAGS_INIT "-stdlib=libc++ -msimd128 -mbulk-memory -mnontrapping-fptoint -msign-ext")
-# Loading counts more than speed. Whatever has SIMD has the other extensions as well.
+# Load time counts more than speed. Every engine that has SIMD has the other extensions as well.
 set(CMAKE_CXX_FLAGS_RELEASE "-Oz -flto -fno-threadsafe-statics -fno-sized-deallocation -fno-math-errno -fcomplex-arithmetic=basic -fno-vectorize -fno-slp-vectorize -DNDEBUG" CACHE STRING "")
 set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)

@@ -23,7 +23,7 @@ bool isRead(const Result<T>& result) {
   return false;
 }
 
-/// Frames come one after the other, and every number is one.
+/// Times increase, and every number is finite.
 void requireSound(const Clip& clip) {
   require(clip.weights.size() == clip.times.size() * clip.names.size());
   for (std::size_t f = 0; f < clip.times.size(); ++f)
@@ -33,7 +33,7 @@ void requireSound(const Clip& clip) {
 
 bool isSmall(const Clip& clip) { return clip.weights.size() <= 200 && clip.seconds() <= 20; }
 
-/// What is written of a capture is read again.
+/// A capture that was written can be read again.
 void requireWritable(const Clip& clip) {
   const auto text = formatLiveLinkCsv(clip);
   if (!text) return;
@@ -57,7 +57,7 @@ void play(const Timeline& timeline) {
     if (const auto baked = bakeToPlay(timeline, "", matter)) requireSound(baked->clip);
 }
 
-/// A clip that has all names of a map.
+/// Renames a clip that has all names of a map.
 void rename(const NameMap& map) {
   std::vector<std::string> targets;
   Clip clip{{"HeadYaw"}, {0, 1}, {}};

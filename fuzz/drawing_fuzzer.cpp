@@ -2,8 +2,8 @@
 
 #include "mesh_properties.hpp"
 
-// Reads a wireframe text, which is the same when written and read again, and where it is small
-// builds it: what comes out is finite.
+// Reads a wireframe text, which must stay the same when written and read again. Builds it if it is
+// small: the result must be finite.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace sweepface;
   using fuzzing::require;

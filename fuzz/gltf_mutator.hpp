@@ -10,8 +10,8 @@
 
 extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t maxSize);
 
-/// Changes a GLB so that it stays one: hardly any change of its bytes would get past the container
-/// and the syntax of JSON.
+/// Mutates a GLB so that it stays one: hardly any change to its raw bytes would get past the
+/// container and the syntax of JSON.
 namespace sweepface::fuzzing {
 
 using gltf::Json;
@@ -21,7 +21,7 @@ struct Pieces {
   std::string binary;
 };
 
-/// A GLB taken apart, however broken; nothing where there is no JSON in it.
+/// Splits a GLB, however broken; nothing if there is no JSON in it.
 inline std::optional<Pieces> takeApart(std::string_view bytes) {
   const auto chunk = [&](std::size_t at) -> std::string_view {
     if (bytes.size() < at + 8) return {};
@@ -47,7 +47,7 @@ class Mutator {
         mutateBytes(pieces.binary);
       else
         mutateJson(pieces.json);
-    // Mostly the buffer is as long as it says.
+    // Usually, keep the buffer as long as it says.
     Json* const buffers = gltf::find(pieces.json, "buffers");
     if (buffers && buffers->is_array() && !buffers->empty() && (*buffers)[0].is_object() &&
         below(8) != 0)

@@ -12,7 +12,7 @@
 #include "io/text.hpp"
 #include "require.hpp"
 
-/// What must hold of whatever a mesh reader accepts.
+/// What must hold for whatever a mesh reader accepts.
 namespace sweepface::fuzzing {
 
 inline std::string_view asText(const std::uint8_t* data, std::size_t size) {
@@ -44,7 +44,7 @@ inline void requireWhole(const PolygonMesh& mesh) {
   for (const Vec2& t : polygons.texcoords) require(std::isfinite(t.x) && std::isfinite(t.y));
 }
 
-/// Names that an OBJ keeps as they are.
+/// Whether an OBJ keeps a name as it is.
 inline bool isPlain(std::string_view name) {
   return !name.empty() && name == io::trimmed(name) && name.back() != '\\' &&
          std::ranges::all_of(name, [](char c) { return static_cast<unsigned char>(c) >= ' '; });
@@ -70,7 +70,7 @@ inline void requireSame(const PolygonMesh& a, const PolygonMesh& b) {
                b.polygons.faceMaterial);
 }
 
-/// An error is a sentence; a mesh is whole and is the same when written and read again.
+/// An error is a sentence; a mesh is whole and stays the same when written and read again.
 inline void requireSound(const Result<PolygonMesh>& mesh) {
   if (!mesh) return require(mesh.error().message.ends_with('.'));
   requireWhole(*mesh);

@@ -9,7 +9,7 @@
 #include "repaired.hpp"
 #include "require.hpp"
 
-// What an engine does with a file of strangers, through the C interface. The last byte says what.
+// What an engine does with a stranger's file, through the C interface. The last byte chooses what.
 namespace {
 
 using sweepface::fuzzing::require;
@@ -76,7 +76,7 @@ void requireTangents(sweepface_face* face, const sweepface_mesh* mesh) {
     require(std::abs(tangents[k]) == 1);
 }
 
-/// Positions and normals, which updating writes as evaluating does.
+/// Positions and normals; updating must write the same as evaluating.
 std::vector<float> played(sweepface_face* face, std::size_t vertices) {
   std::vector<float> whole(6 * vertices), updated(6 * vertices);
   require(sweepface_face_evaluate(face, vertices, {whole.data(), 0},
@@ -135,7 +135,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const Rig later = loadedInTwoSteps(bytes);
   require(later != nullptr);
   require(played(rig, how) == played(later, how));
-  // Meshes are gone: what follows may be said.
+  // The meshes are gone, so followers may be changed.
   require(sweepface_rig_follow(later.get(), how / 4 % 4) == SWEEPFACE_OK);
   std::uint32_t eyes = 0;
   if (how & 16) require(sweepface_rig_turn_eyes(later.get(), &eyes) == SWEEPFACE_OK);

@@ -15,7 +15,7 @@ inline std::uint32_t fixed32(std::string_view bytes) {
   return value;
 }
 
-/// A .sweep file with every checksum right, or no mutation would get past it.
+/// Corrects every checksum of a .sweep file: otherwise no mutation would get past them.
 inline std::string repaired(std::string bytes) {
   for (std::size_t at = 8; at + 12 <= bytes.size();) {
     const std::string_view frame = std::string_view(bytes).substr(at);

@@ -1,4 +1,4 @@
-// Calls a fuzzer for every file in a folder, instead of the library that makes them up.
+// Calls a fuzzer for every file in a folder, in place of the library that makes inputs up.
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
@@ -16,7 +16,7 @@ int main(int argc, char** argv) {
   for (int k = 1; k < argc; ++k)
     for (const auto& entry : std::filesystem::directory_iterator(argv[k])) {
       std::printf("%s\n", entry.path().c_str());
-      std::fflush(stdout);  // the last one told is the one that fails
+      std::fflush(stdout);  // the last one printed is the one that fails
       std::ifstream file(entry.path(), std::ios::binary);
       const std::string bytes{std::istreambuf_iterator<char>(file), {}};
       LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());

@@ -4,7 +4,7 @@
 
 namespace sweepface::fuzzing {
 
-/// What does not hold is what a fuzzer looks for.
+/// Aborts if a property does not hold, which is what a fuzzer looks for.
 inline void require(bool holds) {
   if (!holds) std::abort();
 }

@@ -17,7 +17,7 @@ using fuzzing::repaired;
 using fuzzing::require;
 
 void play(const Surface& surface, const std::vector<Vec3>& vectors) {
-  double sum = 0;  // whatever the vectors are: nothing may be read that is not there
+  double sum = 0;  // whatever the vectors are, nothing may be read out of bounds
   for (Index p = 0; p < surface.patchCount(); ++p)
     for (const double t : {0.0, 0.3, 1.0})
       sum += norm(surface.evaluate(vectors, {p, t * surface.edgesU(p), t * surface.edgesV(p)}));
@@ -26,7 +26,7 @@ void play(const Surface& surface, const std::vector<Vec3>& vectors) {
   require(!(sum < 0));
 }
 
-/// Few bytes may stand for many vertices, which take long and tell nothing more.
+/// A few bytes may stand for many vertices, which take long and reveal nothing more.
 bool isSmall(const Wireframe& wireframe) { return wireframe.quadCount() < 2000; }
 
 void play(const Rig& rig) {
@@ -39,7 +39,8 @@ void play(const Rig& rig) {
   for (Index v : rig.source.gridVertex) require(v < grid.vertexCount());
 }
 
-/// A wireframe on its own gets further than one whose vectors must be as many as it stores.
+/// A wireframe alone gets further than in a file, where the number of vectors must be what it
+/// stores.
 void playWireframe(std::string_view payload) {
   codec::Reader in(payload, 0);
   Wireframe wireframe = codec::readWireframe(in);
@@ -84,7 +85,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     play(turning);
   }
 
-  // Encoded once more, the file stays as it is.
+  // Decoded and encoded once more, the file stays as it is.
   const std::string again = encode(*rig);
   const auto back = decode(again, "again.sweep");
   require(back.has_value());

@@ -1,5 +1,5 @@
-# Runs a program that must end well, or with FAILS=ON must not, and say what PATTERN matches. CTest's own
-# PASS_REGULAR_EXPRESSION takes no heed of how a program ends.
+# Runs a program that must exit with 0, or with 1 if FAILS=ON, and print what PATTERN matches. CTest's own
+# PASS_REGULAR_EXPRESSION ignores the exit status.
 #   cmake -DPATTERN=... [-DFAILS=ON] -P run_and_expect.cmake -- PROGRAM ARGUMENT...
 set(command)
 set(is_command FALSE)

@@ -1,4 +1,4 @@
-// The page: shows a .sweep face and lets its expressions be tried.
+// The page: shows a .sweep face, with sliders to try its expressions.
 import {Sweepface} from 'sweepface';
 import {at, complain, dismiss, hush, say} from './page_message.js';
 import {average, buildSliders, filterSliders, followWeights, tellFigures} from './page_panel.js';
@@ -9,16 +9,16 @@ import {
 const LOST = 'The graphics card is not available to this page; if it does not come back, reload the page.';
 
 let mesh, lines;           // the face on show and, if wanted, its edges
-let file, latest;          // the one on show and the one asked for last: the bytes, or what will be those, the name
-                           // and, until it is shown, the one `before`
+let file, latest;          // the file on show and the file requested last: its bytes or a promise of them, its name
+                           // and, until it is shown, the request `before` it
 let loading = 0;           // milliseconds from the bytes to the first frame
-let asked = 0, shown = 0;  // how often a file was asked for, and which of those times is on show
-let waiting = 0;           // how many of those times are not over
-let aim = [{}];            // where the face on show is to go, as moveTo() takes it
+let asked = 0, shown = 0;  // the number of requests so far, and which of them is on show
+let waiting = 0;           // requests under way
+let aim = [{}];            // where the face on show goes: the arguments of moveTo()
 
 /**
- * Shows a file, from its bytes or what will be its bytes, or says why it cannot be. Of several that were asked for the
- * last sound one is shown, whichever is there first.
+ * Shows a file, given its bytes or a promise of them, or reports why it cannot. Of several requests the last one that
+ * succeeds is shown, in whatever order they arrive.
  */
 async function show(source, name, keepView = false) {
   const mine = ++asked;
@@ -65,10 +65,10 @@ async function show(source, name, keepView = false) {
   }
 }
 
-/** Once what the page says is on the screen. */
+/** Resolves once the page's message is on the screen. */
 const painted = () => new Promise((done) => { setTimeout(done, 50); });
 
-/** A mesh of a face that stands so; a face that cannot is disposed of. */
+/** A mesh of a face with these weights; disposes of the face if that fails. */
 function standing(face, weights) {
   try {
     const made = meshOf(face);
@@ -80,7 +80,7 @@ function standing(face, weights) {
   }
 }
 
-/** Does what was asked for, or says why it cannot be. */
+/** Runs an action, and reports its error if it fails. */
 function attempt(action) {
   try {
     action();
@@ -89,7 +89,7 @@ function attempt(action) {
   }
 }
 
-/** Makes a face ready to move, if it is still on show. */
+/** Prepares a face to move, if it is still on show. */
 function prepare(face) {
   attempt(() => mesh?.face === face && face.prepare());
 }
@@ -121,7 +121,7 @@ function setWeight(name, weight) {
   wake();
 }
 
-/** Moves the face by a spring, or at once for who would rather not see things move. */
+/** Moves the face by a spring, or at once for users who prefer reduced motion. */
 function moveTo(goals, spring) {
   const cut = matchMedia('(prefers-reduced-motion: reduce)').matches;
   aim = [goals, cut ? {kind: 'cut'} : {kind: 'spring', ...spring}];
@@ -154,7 +154,7 @@ function draw(seconds) {
   average('frame', performance.now() - began);
 }
 
-// Frames are drawn as long as something moves, and a little longer.
+// Frames are drawn while something moves, and a little longer.
 let awakeUntil = 0, last = 0, told = 0, running = false;
 function wake() {
   awakeUntil = performance.now() + 500;
@@ -182,7 +182,7 @@ function fit() {
   wake();
 }
 
-/** Pictures stay sharp where there come to be more points in the same room. */
+/** Keeps the picture sharp when the pixel density changes. */
 function watchDensity() {
   const same = matchMedia(`(resolution: ${devicePixelRatio}dppx)`);
   same.addEventListener('change', () => {
@@ -191,7 +191,7 @@ function watchDensity() {
   }, {once: true});
 }
 
-/** Of several files the first that is named as a face. */
+/** Opens the first of several files that is named as a face, or else the first of all. */
 async function open(files) {
   const isNamedAsFace = ({name}) => name.toLowerCase().endsWith('.sweep');
   const [file] = [...files].sort((a, b) => isNamedAsFace(b) - isNamedAsFace(a));
@@ -207,7 +207,7 @@ async function bytesOf(file) {
   }
 }
 
-/** The bytes behind a URL; of one that nobody asked for, nothing if it is not there. */
+/** The bytes at a URL. If they cannot be had, throws if somebody asked for them, or else returns nothing. */
 async function download(url, isWanted) {
   const response = await fetch(url).catch(() => undefined);
   const whole = response?.ok && await response.arrayBuffer().catch(() => undefined);
@@ -239,7 +239,7 @@ view.addEventListener('webglcontextrestored', () => {
 new ResizeObserver(fit).observe(stage);
 watchDensity();
 
-// What was said of another file is over once the face on show is used, but not that there is none to be seen.
+// An error about another file is dismissed once the face on show is used. While no face can be seen, errors stay.
 const PASSING = ['Tab', 'Shift', 'Control', 'Alt', 'AltGraph', 'Meta', 'CapsLock'];
 const isSeen = () => mesh && !isLost();
 addEventListener('pointerdown', () => isSeen() && dismiss());

@@ -1,4 +1,4 @@
-// What the page says where there is no face to show.
+// The page's message line.
 export const at = (id) => document.getElementById(id);
 
 const message = at('message');
@@ -14,12 +14,12 @@ export function complain(error) {
 
 const isError = () => message.className === 'error';
 
-/** Takes an error away, and nothing else; with a text that one alone. */
+/** Removes the message if it is an error; given a text, only if it is that error. */
 export function dismiss(text = message.textContent) {
   if (isError() && message.textContent === text) say('');
 }
 
-/** Takes anything away but an error; there may be one to tell instead. */
+/** Removes the message unless it is an error, and shows `error` instead, if there is one. */
 export function hush(error) {
   if (!isError()) say(error, error && 'error');
 }

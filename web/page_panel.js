@@ -1,9 +1,9 @@
 // The page's panel of sliders, and the figures over the picture.
 import {at} from './page_message.js';
 
-const sliders = new Map();  // by name: the input and what shows its number
+const sliders = new Map();  // by name: the row, its input and the element that shows its number
 
-/** A slider for every expression of a mesh; `moved` hears of each that is moved, and where to. */
+/** Builds a slider for every expression of a mesh; calls `moved` with the name and weight of each that is moved. */
 export function buildSliders(mesh, moved) {
   const focused = [...sliders].find(([, {input}]) => input === document.activeElement)?.[0];
   sliders.clear();
@@ -23,14 +23,14 @@ function sliderOf(name, moved) {
   row.className = 'slider';
   text.textContent = name;
   number.className = 'number';
-  number.ariaHidden = 'true';  // the slider says it, and its name is the text alone
+  number.ariaHidden = 'true';  // the slider itself announces it; its label is the text alone
   Object.assign(input, {type: 'range', min: 0, max: 1, step: 0.01, name});
   const tell = () => {
     number.textContent = input.valueAsNumber.toFixed(2);
     moved(input.valueAsNumber);
   };
   input.addEventListener('input', tell);
-  // A finger that goes on to scroll the list has moved nothing.
+  // A touch that turns into scrolling the list undoes what it moved.
   let before = 0, hasMoved = false;
   input.addEventListener('input', () => { hasMoved = true; });
   input.addEventListener('pointerdown', () => { before = input.value, hasMoved = false; });

@@ -1,4 +1,4 @@
-// What the page draws faces with: a renderer, lights, a camera that turns round them, and colours.
+// The page's view of a face: renderer, lights, orbiting camera and colours.
 import {
   BackSide, Box3, BufferAttribute, BufferGeometry, Color, DirectionalLight, HemisphereLight, LineBasicMaterial,
   LineSegments, Mesh, MeshBasicMaterial, MeshStandardMaterial, PerspectiveCamera, Scene, Spherical, Vector3,
@@ -12,13 +12,13 @@ export const stage = at('stage'), view = at('view');
 
 const renderer = makeRenderer();
 export const scene = new Scene();
-const FIELD = 26;  // degrees from below to above, where a face was placed
+const FIELD = 26;  // vertical field of view in degrees, for the picture in which a face was placed
 const camera = new PerspectiveCamera(FIELD, 1, 0.1, 1000);
 export const controls = new OrbitControls(camera, view);
 controls.enableDamping = true;
 controls.enablePan = false;
 
-// A large soft light, a key from the upper left and a rim from behind; they stay with the viewer.
+// A large soft light; a key light from the upper left and a rim light from behind, both attached to the camera.
 const key = new DirectionalLight(0xfff1e2, 2.4), rim = new DirectionalLight(0xbfd4ff, 1.6);
 key.position.set(-1, 1.2, 1.6);
 rim.position.set(1.4, 0.6, -1.5);
@@ -34,18 +34,18 @@ function makeRenderer() {
   }
 }
 
-/** What is seen of a head's inside, through eyes and mouth; and its edges. */
+/** The materials of a head's inside, seen through eyes and mouth, and of its edges. */
 const inside = new MeshBasicMaterial({color: 0x2b1a14, side: BackSide});
 const ink = new LineBasicMaterial({color: 0x5a2c14, transparent: true, opacity: 0.35});
 
-/** A colour for a material, by what its name says. */
+/** A colour for a material, guessed from its name. */
 function colourOf(name) {
   const known = [[/lip|mouth|tongue|gum/i, 0xb8675c], [/teeth|tooth/i, 0xf0e8d8], [/lash|brow|hair|beard/i, 0x3a2a22],
                  [/iris/i, 0x61757f], [/pupil/i, 0x1f1c1c], [/nostril/i, 0x734539], [/eye|sclera|cornea/i, 0xf4f1ee]];
   return new Color(known.find(([pattern]) => pattern.test(name))?.[1] ?? 0xd9a688);
 }
 
-/** A face in the colours of its materials, with what is seen of its inside. */
+/** A mesh of a face in the colours of its materials, with its inside. */
 export function meshOf(face) {
   const mesh = new SweepfaceMesh(face, face.parts.map(({material}) =>
     new MeshStandardMaterial({name: material, color: colourOf(material), roughness: 0.62})));
@@ -53,15 +53,15 @@ export function meshOf(face) {
   return mesh;
 }
 
-let unplaced;         // a face that came while there was no room to show it
-let size, placedFor;  // of the face on show, and how high the picture was that the camera is placed for, in its units
+let unplaced;         // a face that was loaded while the view had no area
+let size, placedFor;  // size of the face on show, and height in its units of the picture the camera was placed for
 
 const radians = (degrees) => degrees * Math.PI / 180;
 
-/** How high a picture of this shape must be for all of the face. */
+/** The height that a picture of this aspect ratio must have to show the whole face. */
 const heightFor = (aspect) => Math.max(size.y, size.x / aspect);
 
-/** The camera in front of the face, at a distance from which all of it is seen. */
+/** Places the camera in front of the face, far enough away to see all of it. */
 export function placeCamera(mesh) {
   unplaced = camera.aspect > 0 ? undefined : mesh;
   if (unplaced) return;
@@ -80,14 +80,14 @@ export function placeCamera(mesh) {
   controls.update();
 }
 
-/** Sees as much of the face as where it was placed, in a picture of another shape. */
+/** Adapts the field of view to the picture's shape, so that as much of the face is seen as when it was placed. */
 function widen() {
   const share = camera.aspect > 0 && placedFor > 0 ? heightFor(camera.aspect) / placedFor : 1;
   camera.fov = 2 * Math.atan(share * Math.tan(radians(FIELD / 2))) / radians(1);
   camera.updateProjectionMatrix();
 }
 
-/** The edges of triangles among `count` vertices, each once, as two of them. */
+/** The edges of triangles over `count` vertices, each once, as pairs of vertices. */
 function edgesOf(triangles, count) {
   const edges = new Set();
   for (let first = 0; first < triangles.length; first += 3)
@@ -104,18 +104,18 @@ function edgesOf(triangles, count) {
   return ends;
 }
 
-/** The edges of a mesh, over its positions, which they follow. */
+/** Lines along the edges of a mesh; they share its positions and so follow them. */
 export function linesOver(mesh) {
   const edges = new BufferGeometry(), {index, attributes: {position}} = mesh.geometry;
   edges.setIndex(new BufferAttribute(edgesOf(index.array, position.count), 1));
   edges.setAttribute('position', position);
   const lines = new LineSegments(edges, ink);
-  lines.frustumCulled = false;  // bounds would be those of how the face stands now
+  lines.frustumCulled = false;  // bounds would be those of the current pose
   mesh.add(lines);
   return lines;
 }
 
-/** Takes lines away, but not the positions, which are the face's. */
+/** Removes lines, but not the positions, which belong to the face. */
 export function removeLines(lines) {
   lines.removeFromParent();
   lines.geometry.deleteAttribute('position').dispose();
@@ -131,13 +131,13 @@ export function resize() {
   if (unplaced) placeCamera(unplaced);
 }
 
-/** How keys move the eye: to the right, down, and how many times as far away. */
+/** How keys move the camera: radians to the right, radians down, and a factor on its distance. */
 const MOVES = {
   ArrowLeft: [-0.1, 0, 1], ArrowRight: [0.1, 0, 1], ArrowUp: [0, -0.1, 1], ArrowDown: [0, 0.1, 1],
   '+': [0, 0, 0.9], '=': [0, 0, 0.9], '-': [0, 0, 1 / 0.9], '_': [0, 0, 1 / 0.9]
 };
 
-/** Turns the face by keys and comes nearer, as the pointer does. */
+/** Orbits and zooms by keys, as the pointer does. */
 view.addEventListener('keydown', (event) => {
   const move = MOVES[event.key];
   if (!move || event.ctrlKey || event.metaKey || event.altKey) return;
@@ -150,7 +150,7 @@ view.addEventListener('keydown', (event) => {
   controls.update();
 });
 
-/** Whether the graphics card is not there for now. */
+/** Whether the WebGL context is lost for now. */
 export const isLost = () => renderer.getContext().isContextLost();
 
 export function render() {

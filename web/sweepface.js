@@ -11,8 +11,8 @@ export class Sweepface {
   #face;
   #motion = 0;
   #pose = null;
-  #drives = new Map();  // goals, and seconds before which none rests there, by the place of the weight among all
-  #memory;  // in the module, in one piece: arrays of floats and of weights, and C structs: a drive and two vectors
+  #drives = new Map();  // by the weight's place among all: its goal, and seconds left before it can rest there
+  #memory;  // addresses in one block of module memory: float arrays, weights, C structs of a drive and two vectors
 
   /** Use Sweepface.load. */
   constructor(shared) {
@@ -48,14 +48,14 @@ export class Sweepface {
   /** Bytes of WebAssembly memory that the file and all its faces hold. */
   get memoryBytes() { return this.#open().runtime.wasm.memory.buffer.byteLength; }
 
-  /** The regions, in the order in which they have weights; none where the face is of one piece. */
+  /** The regions in the order of their weights; empty if the face is not divided. */
   get regions() { return this.#open().regions?.map(({name}) => name) ?? []; }
 
-  /** The weights by name; of several regions, those of the first. */
+  /** The weights by name; of a divided face, those of the first region. */
   get weights() { return this.#weightsOf(0); }
   weightsIn(region) { return this.#weightsOf(this.#open().region(region)); }
 
-  /** The same in the order of the names, which takes less time every frame. */
+  /** The same in the order of the names, which is cheaper to get every frame. */
   get weightValues() { return this.#valuesOf(0); }
 
   #weightsOf(region) {
@@ -68,7 +68,7 @@ export class Sweepface {
     return runtime.doubles(all + 8 * length * region, length).slice();
   }
 
-  /** Sets the weights that are named, everywhere or in a region, and leaves the others; those in motion stop. */
+  /** Sets the named weights, everywhere or in a region, and stops their motion; leaves the others alone. */
   setWeights(weights, region) {
     const shared = this.#open(), {runtime, names} = shared, {wasm} = runtime, count = names.length;
     const named = this.#resolve(weights), places = shared.places(region);
@@ -88,14 +88,14 @@ export class Sweepface {
                                      : wasm.sweepface_motion_move_to(this.#motion, target, weight, cut));
   }
 
-  /** The weights of all regions as they are, in memory of the module. */
+  /** Copies the current weights of all regions to the face's block of memory. */
   #copyWeights() {
     const {runtime, weightCount} = this.#shared, all = runtime.doubles(this.#memory.weights, weightCount);
     all.set(runtime.doubles(runtime.wasm.sweepface_face_weights(this.#face), weightCount));
     return all;
   }
 
-  /** Makes what is there the face's weights. */
+  /** Sets the face's weights from that copy. */
   #takeWeights() {
     const {runtime, names, regions} = this.#shared, {wasm} = runtime, at = this.#memory.weights, count = names.length;
     if (!regions) return runtime.check(wasm.sweepface_face_set_weights(this.#face, at, count));
@@ -104,7 +104,7 @@ export class Sweepface {
     });
   }
 
-  /** All weights to 0, at once. */
+  /** Sets all weights to 0, at once. */
   reset() {
     this.setWeights(Object.fromEntries(this.#open().names.map((name) => [name, 0])));
   }
@@ -112,10 +112,10 @@ export class Sweepface {
   /** How many eyeballs turn. */
   get eyeCount() { return this.#open().eyeCount; }
 
-  /** How the eyes were told to stand, or null. */
+  /** The pose that `look` was given, or null. */
   get pose() { return this.#open() && this.#pose && copyOf(this.#pose); }
 
-  /** How the eyes stand, {leftEye: {yaw, pitch}, rightEye: {yaw, pitch}} in radians; null: by the eyeLook weights. */
+  /** Turns the eyes: {leftEye: {yaw, pitch}, rightEye: {yaw, pitch}} in radians; null: by the eyeLook weights. */
   look(pose) {
     const {runtime, eyeCount} = this.#open();
     if (eyeCount === 0) throw new Error('The face has no eyes that turn; load it with the option eyes, if it has any.');
@@ -154,7 +154,7 @@ export class Sweepface {
     normals?.set(runtime.floats(memory.normals, count));
   }
 
-  /** What a vertex shader evaluates the face from, instead of `evaluate`: see shaderModes. */
+  /** The constant tables from which a vertex shader evaluates the face, instead of `evaluate`: see shaderModes. */
   shaderTables(tangents = false) {
     const {runtime} = this.#open(), {wasm} = runtime, points = this.pointCount, rows = tangents ? 2 : 1;
     this.#shared.loadTargets();
@@ -170,7 +170,7 @@ export class Sweepface {
     });
   }
 
-  /** Writes what changes every frame, four integers a mode; returns their factor. */
+  /** Writes the modes, which change every frame, as four integers each; returns their common factor. */
   shaderModes(out, tangents = false) {
     const {runtime} = this.#open();
     if (kindOf(out) !== 'Int16Array') throw new TypeError(`Modes are written to an Int16Array, not to ${kindOf(out)}.`);
@@ -184,21 +184,21 @@ export class Sweepface {
     });
   }
 
-  /** For vertices behind the points, the point that each repeats. */
+  /** For each vertex after the points, the point that it duplicates. */
   get copies() { return this.#open().copies(); }
 
-  /** Makes ready to move, which else happens when it first does and takes a few frames. */
+  /** Prepares the face to move. Otherwise that happens at its first move, and takes a few frames. */
   prepare() {
     const {runtime} = this.#open();
     this.#shared.loadTargets();
     runtime.check(runtime.wasm.sweepface_mesh_prepare(this.#shared.mesh, 1));
   }
 
-  /** Sends weights to goals from where they stand, everywhere or in a region; `advance` moves them. */
+  /** Starts moving weights from where they stand to goals, everywhere or in a region; `advance` moves them. */
   moveTo(goals, drive, region) {
     const shared = this.#open(), {runtime} = shared, {wasm} = runtime;
     const all = this.#resolve(goals), places = shared.places(region);
-    const at = this.#drive(drive, places), motion = this.#moving();  // all is checked before the first sets out
+    const at = this.#drive(drive, places), motion = this.#moving();  // all is checked before any sets out
     for (const [target, goal] of all) {
       runtime.check(region === undefined ? wasm.sweepface_motion_move_to(motion, target, goal, at)
                                          : wasm.sweepface_motion_move_in(motion, places[0], target, goal, at));
@@ -207,7 +207,7 @@ export class Sweepface {
     }
   }
 
-  /** An impulse: adds to the velocity of a weight (per second), which drag (per second) takes away. */
+  /** An impulse: adds to a weight's velocity (per second), which drag (per second) then reduces. */
   push(name, velocityChange, drag = 8) {
     const shared = this.#open(), {runtime} = shared, target = shared.target(name);
     if (!Number.isFinite(velocityChange) || Math.abs(velocityChange) > MOST)
@@ -218,7 +218,7 @@ export class Sweepface {
     for (const r of shared.places()) this.#drives.delete(shared.names.length * r + target);
   }
 
-  /** Lets time pass for the weights in motion; says whether anything goes on moving. */
+  /** Advances the weights in motion; returns whether anything still moves. */
   advance(seconds) {
     const {runtime, weightCount: count} = this.#open(), {wasm} = runtime, {weights} = this.#memory;
     if (!Number.isFinite(seconds))
@@ -232,13 +232,13 @@ export class Sweepface {
     const velocities = runtime.doubles(weights, count).slice();
     runtime.check(wasm.sweepface_motion_positions(this.#motion, weights, count));
     const now = runtime.doubles(weights, count);
-    // What sets out or turns back has no velocity, either, but is not at its goal.
+    // A weight that sets out or turns back has no velocity either, but is not at its goal.
     for (const [place, drive] of this.#drives) {
       drive.left -= passing;
       const isThere = Math.abs(now[place] - drive.goal) <= still && Math.abs(velocities[place]) <= still;
       if (isThere && drive.left <= 0) this.#drives.delete(place);
     }
-    now.set(now.map((weight) => Math.min(Math.max(weight, -MOST), MOST)));  // swings and pushes may go further
+    now.set(now.map((weight) => Math.min(Math.max(weight, -MOST), MOST)));  // springs and pushes may overshoot
     this.#takeWeights();
     return isDriven || velocities.some((velocity) => Math.abs(velocity) > still) ||
            runtime.doubles(weights, count).some((w, k) => Math.abs(w - before[k]) > still);
@@ -265,7 +265,7 @@ export class Sweepface {
     return this.#shared;
   }
 
-  /** Targets and numbers; nothing is set before all are known. */
+  /** Pairs of target and value. Throws if any is invalid, so that nothing is set before all are known. */
   #resolve(byName) {
     if (typeof byName !== 'object' || !byName || Symbol.iterator in byName)
       throw new TypeError('Weights are given by name, like {jawOpen: 0.7}.');
@@ -295,7 +295,7 @@ export class Sweepface {
     return motion;
   }
 
-  /** Where the struct of a drive is, until the next. */
+  /** The address of a drive's C struct, valid until the next call. */
   #drive(drive, places = []) {
     const {runtime, regions} = this.#shared, at = this.#memory.drive;
     writeDrive(runtime, at, drive, places.map((r) => regions?.[r]));

@@ -1,7 +1,7 @@
-// Animations of glTF files, as three.js's own loader reads them, for faces.
+// Makes clips for faces from animations of glTF files, as three.js's own loader reads them.
 import {AnimationClip, NumberKeyframeTrack, PropertyBinding} from 'three';
 
-/** Of a track of `count` targets together a track for one: for each key a value, or three where it is a cubic spline. */
+/** Extracts one target's track from a track of `count` targets: a value per key, or three if it is a cubic spline. */
 function trackFor(name, track, place, count) {
   const {times, values} = track, stride = track.getValueSize(), rows = stride / count;
   const own = Float32Array.from({length: rows * times.length}, (_, k) => {
@@ -12,7 +12,7 @@ function trackFor(name, track, place, count) {
   return made;
 }
 
-/** The targets that a track moves, [name, place], and how many it holds. */
+/** The targets that a track moves, as [name, place], and how many targets it holds. */
 function targetsOf(track, scene) {
   const {nodeName, propertyName, propertyIndex: one} = PropertyBinding.parseTrackName(track.name);
   const mesh = propertyName === 'morphTargetInfluences' ? PropertyBinding.findNode(scene, nodeName) : undefined;
@@ -22,7 +22,7 @@ function targetsOf(track, scene) {
   return {targets: name === undefined ? [] : [[name, 0]], count: 1};
 }
 
-/** Tracks for the targets of a face; nothing where an animation is none of theirs. */
+/** Tracks for the targets of a face, or undefined if the animation moves none of them. */
 function tracksFor(face, scene, animation) {
   const unmoved = new Set(face.names), tracks = [];
   for (const track of animation.tracks) {
@@ -34,8 +34,8 @@ function tracksFor(face, scene, animation) {
 }
 
 /**
- * An animation of a glTF file as a clip for a face, the first of its targets unless given: a track for each target that
- * the face has and that ever leaves 0. Of several tracks for a target the first counts.
+ * Makes a clip for a face from an animation of a glTF file, by default the first that moves any of its targets. It has
+ * a track for each target of the face that ever leaves 0. Of several tracks for a target the first counts.
  */
 export function animationFor(face, gltf, animation) {
   if (!Array.isArray(face?.names) || !Array.isArray(gltf?.animations))

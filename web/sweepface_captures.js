@@ -1,19 +1,19 @@
-// Captures: CSVs of Live Link Face, JSONs of Audio2Face and MediaPipe.
+// Reads captures: CSV of Live Link Face, JSON of Audio2Face and MediaPipe.
 import {Clip} from './sweepface_clip.js';
 import {isNumber, isObject, lowered, parseJson, textOf} from './sweepface_text.js';
 import {isWeight, known} from './sweepface_values.js';
 
 const MOST_TIME = 1e10;  // seconds
-const USUAL_RATE = 60;  // of timecodes
-/** Weights that a clip can hold: frames times names. */
+const USUAL_RATE = 60;  // frames a second in timecodes
+/** The most weights that a clip can hold: frames times names. */
 const MOST_WEIGHTS = 2 ** 26;
 
-/** A number that nothing stands beside, or NaN. */
+/** The number that a text is, or NaN if there is anything else in it. */
 function numberIn(text) {
   return /^[+-]?(\d+(\.\d*)?|\.\d+)(e[+-]?\d+)?$/i.test(text) ? Number(text) : NaN;
 }
 
-/** What a cell may have round it: the spaces of ASCII alone. */
+/** Whether a character may surround a cell: ASCII white space only. */
 const isBlank = (c) => c === ' ' || (c >= '\t' && c <= '\r');
 
 function trimmed(text) {
@@ -23,14 +23,14 @@ function trimmed(text) {
   return text.slice(from, to);
 }
 
-/** Where the quotes that a cell begins with close again: two together are one of the text. */
+/** Where the quote at `from` closes, or -1; a doubled quote is part of the text. */
 function closingQuote(line, from) {
   let at = line.indexOf('"', from + 1);
   while (at >= 0 && line[at + 1] === '"') at = line.indexOf('"', at + 2);
   return at;
 }
 
-/** Cells between commas, without blanks and quotes around them. */
+/** Splits a line at commas; strips the blanks and quotes around each cell. */
 function cellsOf(line) {
   const cells = [];
   for (let from = 0;;) {
@@ -45,9 +45,9 @@ function cellsOf(line) {
 }
 
 /**
- * A clock that counts frames (SMPTE ST 12-1). At 23.976, 29.97, 47.952 and 59.94 frames a second a second of the clock
- * has as many as at 24, 30, 48 and 60, and is a thousandth longer; one that drops frames leaves out the numbers of the
- * first two of 30, or four of 60, of every minute but each tenth.
+ * A clock that counts frames (SMPTE ST 12-1). At 23.976, 29.97, 47.952 and 59.94 frames a second, a clock second has as
+ * many frames as at 24, 30, 48 and 60, and is a thousandth longer. A drop-frame clock skips the numbers of the first
+ * two frames (at 30) or four (at 60) of every minute except each tenth.
  */
 function clockOf(framesPerSecond, dropsFrames) {
   const longer = 1.001, whole = Math.round(framesPerSecond * longer);
@@ -63,7 +63,7 @@ function clockOf(framesPerSecond, dropsFrames) {
   return {counted, timeOf};
 }
 
-/** Whether a recorder stopped while it wrote the last row: too few values, or the last one a beginning. */
+/** Whether a recorder stopped while writing the last row: values are missing, or the last one is cut off. */
 function isHalf(cells, expected) {
   if (cells.length !== expected) return cells.length < expected;
   return Number.isNaN(numberIn(cells.at(-1))) && /^[-+.eE"0-9]*$/.test(cells.at(-1));
@@ -107,17 +107,17 @@ function readLiveLink(text, name, framesPerSecond) {
   return clip;
 }
 
-/** Of rows at the same time the last one stays. */
+/** Makes a clip of rows; of those at the same time, the last one counts. */
 function clipOf(names, rows, weights, rate, name, fail) {
   const n = names.length, times = [], repeated = [];
-  let midnights = 0;  // in seconds
+  let midnights = 0;  // seconds of the days that have passed
   rows.forEach(({seconds, frames, isClock, dropsFrames, timecode, line}, row) => {
     const {counted, timeOf: clock} = clockOf(rate, dropsFrames);
     if (frames >= counted)
       throw fail(line, `the timecode '${timecode}' counts more than ${counted} frames a second; ` +
                        'give the recording\'s own rate');
     const before = times.at(-1), shown = isClock ? clock(seconds, frames) : seconds, day = clock(86400, 0);
-    // At midnight the clock begins anew.
+    // The clock starts again at midnight.
     if (isClock && shown + midnights < before - day / 2) midnights += day;
     const time = shown + (isClock ? midnights : 0);
     if (time < before) throw fail(line, `the timecode '${timecode}' is before the one above; sort the rows by time`);
@@ -134,8 +134,8 @@ function clipOf(names, rows, weights, rate, name, fail) {
 }
 
 /**
- * In what the timecodes of a take count: the app's usual rate, unless a whole second of many rows goes no further than
- * another one's.
+ * The rate in which the timecodes of a take count: the first lower one that no frame number reaches, if some whole
+ * second has at least 0.8 times as many rows, or else the app's usual rate.
  */
 function rateOf(rows) {
   let most = 0, inASecond = 0, count = 0, isWhole = rows[0].frames < 1;
@@ -150,7 +150,7 @@ function rateOf(rows) {
   return [24, 25, 30, 48, 50].find((rate) => most < rate && inASecond >= 0.8 * rate) ?? USUAL_RATE;
 }
 
-/** The column of times, and those of shapes by name. */
+/** The index of the column of times, and those of shapes by name. */
 function columnsOf(headings, line, fail) {
   const shapes = new Map();
   let timeColumn = -1;
@@ -171,7 +171,7 @@ function columnsOf(headings, line, fail) {
   return {timeColumn, shapes};
 }
 
-/** HH:MM:SS:FF.fff, the last in frames, after ';' where some are dropped; or plain seconds. */
+/** Parses HH:MM:SS:FF.fff, where FF.fff counts frames and follows a ';' if some are dropped; or plain seconds. */
 function timeOf(timecode, fail) {
   const seconds = numberIn(timecode);
   if (seconds < 0 && seconds >= -MOST_TIME) throw fail(`the time '${timecode}' is below 0`);
@@ -216,12 +216,12 @@ function readMediaPipe(frames, framesPerSecond, name, fail) {
   const shapes = new Set(scores.flatMap((frame) => [...frame.keys()].sort()));
   const names = [...shapes].filter((shape) => shape !== '_neutral');
   if (names.length === 0) throw fail('has no scores in its frames');
-  // Frames that each have names of their own would make many of few.
+  // If every frame had names of its own, a small file would make a huge clip.
   if (names.length > MOST_WEIGHTS / frames.length)
     throw fail(`has ${names.length} names in ${frames.length} frames, more than a clip can hold; ` +
                'name the same ones in every frame');
-  // Frames without a face are left out; those at the ends are as their neighbours, so that the others stay when they
-  // were.
+  // Frames without a face are left out, but the first and last repeat the nearest frame with one, so that the others
+  // keep their times.
   const last = frames.length - 1, found = scores.map(({size}) => size > 0);
   const firstFace = found.indexOf(true), lastFace = found.lastIndexOf(true);
   const kept = found.map((_, f) => f).filter((f) => found[f] || f === 0 || f === last);
@@ -232,7 +232,7 @@ function readMediaPipe(frames, framesPerSecond, name, fail) {
   });
   const clip = new Clip(names, Float64Array.from(kept, (f) => times[f]), weights);
   const step = 1000 * (times[last] - times[0]) / last, lost = found.filter((has) => !has).length;
-  if (step < 1 || step > 5000)  // what no camera does
+  if (step < 1 || step > 5000)  // no camera does that
     clip.warnings.push(`${name}: frames are ${step > 1 ? Math.round(step) : Number(step.toPrecision(3))} ms apart; are the ` +
                        'times milliseconds, as they should be?');
   if (lost > 0)
@@ -241,7 +241,7 @@ function readMediaPipe(frames, framesPerSecond, name, fail) {
   return clip;
 }
 
-/** Seconds. */
+/** The time of a frame in seconds. */
 function timeIn(frame, f, framesPerSecond, fail) {
   const time = frame?.[['timestampMs', 'timestamp_ms', 'timestamp'].find((key) => frame[key] !== undefined)];
   if (typeof time !== 'number' && !(time === undefined && framesPerSecond))
@@ -251,8 +251,8 @@ function timeIn(frame, f, framesPerSecond, fail) {
   return seconds;
 }
 
-// Beside the time, or of the first of the faces found: an object in JavaScript, the list itself in Python. A frame
-// without a face has none.
+// The categories of a frame stand beside its time, or in the first of the faces found: an object in JavaScript, the
+// list itself in Python. A frame without a face has none.
 function categoriesOf(frame) {
   if (frame?.categories !== undefined) return frame.categories;
   const [face = []] = [frame?.faceBlendshapes, frame?.face_blendshapes].find(Array.isArray) ?? [null];
@@ -272,8 +272,8 @@ function scoresOf(frame, f, fail) {
 }
 
 /**
- * A capture, from its text or bytes: a CSV of Live Link Face, whose timecodes count in `framesPerSecond` (or as they
- * tell, or else 60), or a JSON of Audio2Face or MediaPipe. `name` is what messages call it.
+ * Reads a capture from its text or bytes: CSV of Live Link Face, whose timecodes count in `framesPerSecond` (by default
+ * the rate that they imply, or else 60), or JSON of Audio2Face or MediaPipe. `name` is what messages call it.
  */
 export function readClip(source, options) {
   const {name: given, framesPerSecond} = known(options, ['name', 'framesPerSecond'], 'readClip');

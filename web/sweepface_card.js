@@ -1,12 +1,12 @@
-// What the meshes of sweepface/gpu and sweepface/webgpu have in common: tables in textures, the attributes that point into
-// them, and materials that follow one face each.
+// Shared by the meshes of sweepface/gpu and sweepface/webgpu: tables in textures, the attributes that point into them,
+// and materials that follow one face each.
 import {BufferAttribute, DataTexture, NearestFilter, Vector3} from 'three';
 import {FaceMesh, faceFrom, follow, geometryOf, materialsOfClone, meet, share, show} from './sweepface_mesh.js';
 
 /** Texels in a row: texel k of a texture is at (k mod 1024, k / 1024). */
 const WIDTH = 1024;
 
-/** A texture of four 16-bit integers a texel, filled up to whole rows; `kind` is how it holds them. */
+/** A texture of four 16-bit integers per texel, padded to whole rows. Its first parameter is CardMesh's `kind`. */
 function texture({Data, perTexel, ...settings}, count, ...parts) {
   const height = Math.max(1, Math.ceil(count / (4 * WIDTH))), data = new Data(perTexel * WIDTH * height);
   const made = Object.assign(new DataTexture(data, WIDTH, height), settings);
@@ -20,8 +20,8 @@ function texture({Data, perTexel, ...settings}, count, ...parts) {
 const numbersOf = ({image: {data}}) => new Int16Array(data.buffer, data.byteOffset, data.byteLength / 2);
 
 /**
- * What the shader reads: the tables of positions and, behind them in the same textures, those of tangents. The basis is the
- * same for all clones.
+ * What the shader reads: the tables of positions, followed in the same textures by those of tangents. All clones share
+ * the basis.
  */
 class Textures {
   #basis;
@@ -32,7 +32,7 @@ class Textures {
     const basis = texture(kind, positions.basis.length + tangents.basis.length, positions.basis, tangents.basis);
     this.#basis = {texture: basis, users: 1};
     this.modes = texture(kind, this.end);
-    this.factor = 0;  // of the weights, and so the same for both
+    this.factor = 0;  // depends on the weights alone, and so is the same for both
   }
 
   get basis() { return this.#basis.texture; }
@@ -55,7 +55,7 @@ class Textures {
   }
 }
 
-/** The tables of positions and of tangents, whose places are those behind the former. */
+/** The tables of positions and of tangents; places in the latter are those behind the former. */
 function tablesOf(face) {
   const positions = faceFrom(face).shaderTables(), tangents = face.shaderTables(true);
   for (let k = 0; k < tangents.places.length; k += 3) {
@@ -65,7 +65,7 @@ function tablesOf(face) {
   return {positions, tangents};
 }
 
-/** For every vertex the numbers of its point. */
+/** An attribute that gives every vertex the numbers of its point. */
 function spread(face, perPoint, size, from = 0, stride = size) {
   const points = face.pointCount, copies = face.copies, out = new perPoint.constructor(size * face.vertexCount);
   for (let v = 0; v < face.vertexCount; ++v) {
@@ -75,7 +75,7 @@ function spread(face, perPoint, size, from = 0, stride = size) {
   return new BufferAttribute(out, size);
 }
 
-/** The normals of points whose tangents lie behind each other. */
+/** The normals of points, from tangents [points x 2 x 3]. */
 function normalsOf(tangents) {
   const normals = new Float32Array(tangents.length / 2), along = new Vector3(), across = new Vector3();
   for (let at = 0; at < normals.length; at += 3) {
@@ -96,8 +96,8 @@ const attributesOf = (face, {positions, tangents}) => ({
 });
 
 /**
- * Materials that follow a face: what the mesh put on them (`hooks`, by the names of members), and what was there `before`,
- * as {hooks: {positionNode: the face's}, before: {positionNode: the material's own or null}}.
+ * For materials that follow a face: the `hooks` that the mesh put on them, by the names of members, and what was there
+ * `before`, as {hooks: {positionNode: the face's}, before: {positionNode: the material's own or null}}.
  */
 const own = new WeakMap();
 
@@ -106,19 +106,20 @@ export function refuse(material, what) {
 }
 
 /**
- * What each kind of mesh has in its own way: the names of what it puts on a material that is to follow the face, what that
- * is, by these names, and which materials it refuses. And what its shader reads: `basis` becomes another's in a clone.
+ * What each kind of mesh defines for itself: the names of the members that it sets on a material that is to follow the
+ * face, their values by these names, and a check that refuses materials. `textures` are what its shader reads; a clone
+ * takes over their `basis` from its original.
  */
 export const hookNames = Symbol('hookNames'), hooksFor = Symbol('hooksFor'), check = Symbol('check');
 export const textures = Symbol('textures');
 
-/** A face in a scene whose vertices are evaluated where they are drawn. */
+/** A face in a scene whose vertices are evaluated in the vertex shader. */
 export class CardMesh extends FaceMesh {
   #textures;
   #isGone = false;
-  #followers = new Set();  // materials
+  #followers = new Set();  // materials that follow the face
 
-  /** `kind` is how textures hold integers: {Data, perTexel} and what is set on them. */
+  /** `kind` says how textures hold integers: {Data, perTexel} and the members to set on them. */
   constructor(face, materials, kind) {
     const tables = tablesOf(face);
     super(face, geometryOf(face, {}, attributesOf(face, tables)), materials);
@@ -128,12 +129,12 @@ export class CardMesh extends FaceMesh {
 
   get [textures]() { return this.#textures; }
 
-  /** Has the face followed by the materials that it has now, and by no others. */
+  /** Makes the mesh's current materials, and no others, follow the face. */
   [follow]() {
     const {material, customDepthMaterial, customDistanceMaterial} = this;
     const all = new Set([material, customDepthMaterial, customDistanceMaterial].flat().filter(Boolean));
     const fresh = [...all].filter((each) => !this.#isFollowing(each));
-    for (const each of fresh) {  // all before the first is changed
+    for (const each of fresh) {  // check all before changing any
       if (own.has(each) && !this.#followers.has(each)) refuse(each, 'follows a face already; give each mesh a clone() of it');
       this[check](each);
     }
@@ -143,20 +144,20 @@ export class CardMesh extends FaceMesh {
 
   [check]() {}
 
-  /** Whether a material has all that this mesh put on it. */
+  /** Whether a material still has all the hooks that this mesh put on it. */
   #isFollowing(material) {
     if (!this.#followers.has(material)) return false;
     const {hooks} = own.get(material);
     return this[hookNames].every((name) => material[name] === hooks[name]);
   }
 
-  /** What a material has of its own in the places of the mesh's hooks. */
+  /** A material's own members, in place of which the mesh puts its hooks. */
   #hooksOf(material) {
     return own.get(material)?.before ?? Object.fromEntries(this[hookNames].map((name) => [name, material[name] ?? null]));
   }
 
   #patch(material) {
-    material.dispose();  // what a renderer made of it before knows no face, or another
+    material.dispose();  // programs that a renderer made of it before know no face, or another
     const before = this.#hooksOf(material), hooks = this[hooksFor](material);
     this.#followers.add(material);
     own.set(material, {before, hooks});
@@ -167,20 +168,20 @@ export class CardMesh extends FaceMesh {
   #release(material) {
     material.dispose();
     const {before, hooks} = own.get(material);
-    for (const hook of this[hookNames])  // what was put in its place later stays
+    for (const hook of this[hookNames])  // a member that was replaced since stays
       if (material[hook] === hooks[hook]) material[hook] = before[hook];
     material.needsUpdate = true;
     own.delete(material);
     this.#followers.delete(material);
   }
 
-  /** Bytes of textures on the graphics card, and of them those that change every frame. */
+  /** Bytes of all textures on the graphics card, and of the part that changes every frame. */
   get textureBytes() { return this.#textures.basis.image.data.byteLength + this.frameBytes; }
   get frameBytes() { return this.#textures.modes.image.data.byteLength; }
 
   [show]() { this.#textures.update(this.face); }
 
-  /** Rays meet the face as it stands, which the attributes do not tell: it is evaluated for them. */
+  /** Intersects rays with the face in its current pose, evaluated here because the attributes hold the neutral. */
   [meet](raycaster, hits) {
     const {geometry} = this, {attributes, boundingSphere, boundingBox} = geometry;
     const standing = {};
@@ -200,7 +201,7 @@ export class CardMesh extends FaceMesh {
     this.#textures.share(original.#textures);
   }
 
-  /** Materials follow one face each. */
+  /** Clones of the materials, each of which follows one face only. */
   [materialsOfClone]() {
     const clone = (material) => Object.assign(material.clone(), this.#hooksOf(material));
     return Array.isArray(this.material) ? this.material.map(clone) : clone(this.material);

@@ -1,15 +1,15 @@
-// Clips: weights over time, and what plays them on a face.
+// Clips, which are weights over time, and a player for them.
 import {matchNames, turnsEyes} from './sweepface_names.js';
 import {isNumber, isObject} from './sweepface_text.js';
 import {isFloats, kindOf, known, told} from './sweepface_values.js';
 
-/** Seconds in which speeds would not stay finite. */
+/** Seconds between frames up to which speeds would not stay finite. */
 const NO_TIME = 1e-9;
 const ONE_EURO = ['cutoff', 'speedGain', 'speedCutoff'];
 
 const MOST_FACTOR = 1000, MOST_WEIGHT = 1e6;
 
-/** What a map of names says: [name of the clip, [[target, factor]]]. */
+/** The entries of a map of names, as [name of the clip, [[target, factor]]]. */
 function drivesOf(map) {
   if (!isObject(map) || Object.keys(map).length === 0)
     throw new TypeError(`A map of names is an object that has targets by names of a clip, not ${kindOf(map)}.`);
@@ -24,12 +24,12 @@ function drivesOf(map) {
   });
 }
 
-/** Whether two names are one but for how they are spelt; a name without a side means both sides. */
+/** Whether two names differ only in their spelling; a name without a side means both sides. */
 const areAlike = (a, b) => [[a, b], [b, a]].every(([name, other]) => matchNames([name], [other]).unmatched.length === 0);
 
 /**
- * The columns of a clip whose names a map changes: `columns` {name, sources}, each source of columns of which the largest
- * counts, times a factor, and all such together; and the names of the map that the clip `lacks`.
+ * The columns of a clip whose names a map changes. Each of `columns` {name, sources} is the sum of its sources, and a
+ * source is the largest of its columns times a factor. `lacks` are the names of the map that the clip does not have.
  */
 function mappedColumns(names, drives) {
   const {targets: found, unmatched} = matchNames(drives.map(([name]) => name), names);
@@ -66,13 +66,13 @@ export class Clip {
     this.names = names;
     this.times = times;
     this.weights = weights;
-    /** What was mended or may be wrong in the file that it was read from, in sentences. */
+    /** Sentences about what was repaired or may be wrong in the file that it was read from. */
     this.warnings = [];
   }
 
   get seconds() { return this.times.length === 0 ? 0 : this.times.at(-1) - this.times[0]; }
 
-  /** The weights [N] at so many seconds after the first frame, straight between frames and held at the ends. */
+  /** The weights [N] at `seconds` after the first frame: linear between frames, held at the ends. */
   at(seconds, out = new Float64Array(this.names.length)) {
     if (typeof seconds !== 'number' || Number.isNaN(seconds))
       throw new RangeError(`A time is a number of seconds, not ${told(seconds)}.`);
@@ -98,8 +98,8 @@ export class Clip {
   }
 
   /**
-   * Without the noise of a tracker, by the one-euro filter, from both ends so that nothing is late: heavily where
-   * weights rest, hardly where they move.
+   * The clip without a tracker's noise. A one-euro filter smooths heavily where weights rest, hardly where they move.
+   * It runs from both ends, so that nothing is late.
    */
   smooth(settings) {
     const {cutoff = 1, speedGain = 8, speedCutoff = 5} = known(settings, ONE_EURO, 'The one-euro filter');
@@ -113,8 +113,8 @@ export class Clip {
   }
 
   /**
-   * With the names of the targets that a map says: {jawOpen: 'mouth-open', mouthPucker: ['kiss', 'pout'],
-   * cheekPuff: {puff: 0.8}, tongueOut: null}, each with the sum of what drives it. Names that are not in the map stay.
+   * The clip with names replaced by targets as a map says: {jawOpen: 'mouth-open', mouthPucker: ['kiss', 'pout'],
+   * cheekPuff: {puff: 0.8}, tongueOut: null}. A target gets the sum of what drives it. Names not in the map stay.
    */
   renamed(map) {
     const {columns, lacks} = mappedColumns(this.names, drivesOf(map)), n = this.names.length, width = columns.length;
@@ -137,7 +137,7 @@ export class Clip {
     const share = (hertz, seconds) => 1 - 1 / (2 * Math.PI * hertz * seconds + 1);
     for (let i = 1; i < frames; ++i) {
       const f = backwards ? frames - 1 - i : i, seconds = Math.abs(this.times[f] - this.times[f - step]);
-      if (!(seconds > NO_TIME)) {  // the filter begins anew
+      if (!(seconds > NO_TIME)) {  // the filter restarts
         speeds.fill(0);
         continue;
       }
@@ -160,7 +160,7 @@ function isTold({names, weights}, column) {
   return false;
 }
 
-/** Plays a clip on a face: `seek` sets the weights of a time. */
+/** Plays a clip on a face: `seek` sets the weights at a time. */
 export class ClipPlayer {
   #angles = ANGLES.map(() => -1);  // their columns, or -1
   #looks;                          // whether its weights say where the eyes look
@@ -170,11 +170,11 @@ export class ClipPlayer {
       throw new TypeError('A ClipPlayer plays a clip on a face; give it the face, and what readClip returns.');
     this.face = face;
     this.clip = clip;
-    /** What drives what: see matchNames. */
+    /** Which names drive which targets: see matchNames. */
     this.match = matchNames(clip.names, face.names);
     this.match.unmatched = matchNames(this.match.unmatched, ANGLES).unmatched;
     this.#looks = turnsEyes(this.match, face.names);
-    // Recordings have columns for the eyes' angles that are 0 throughout where nobody told them. Eyes use no roll.
+    // Recordings have columns for the eyes' angles that are 0 throughout if nothing tracked them. Eyes use no roll.
     const counts = (angle, k) => angle < 3 || (angle % 3 < 2 && isTold(clip, k));
     matchNames(clip.names, ANGLES).targets.forEach((found, k) => {
       for (const angle of found) if (counts(angle, k)) this.#angles[angle] = k;
@@ -184,9 +184,9 @@ export class ClipPlayer {
   get seconds() { return this.clip.seconds; }
 
   /**
-   * Sets the weights that the clip drives, turns eyes by its angles or else by its weights of theirs, and returns the
-   * angles of the head, {yaw, pitch, roll} in radians, or null where the clip has none: for three.js
-   * `head.rotation.set(pitch, yaw, roll, 'YXZ')`. Where two names drive a target the larger weight counts.
+   * Sets the weights that the clip drives, and turns the eyes by its angles or else by its eyeLook weights. Returns the
+   * angles of the head, {yaw, pitch, roll} in radians, or null if the clip has none; for three.js
+   * `head.rotation.set(pitch, yaw, roll, 'YXZ')`. If two names drive a target, the larger weight counts.
    */
   seek(seconds) {
     const values = this.clip.at(seconds), names = this.face.names, weights = Object.create(null);
@@ -196,12 +196,12 @@ export class ClipPlayer {
     this.face.setWeights(weights);
     const [head, leftEye, rightEye] = [0, 3, 6].map((first) => this.#anglesAt(values, first));
     const pose = leftEye || rightEye ? {leftEye: leftEye ?? {}, rightEye: rightEye ?? {}} : null;
-    // The eyes may still stand as another clip's angles had them, so that weights would not count.
+    // Angles of another clip may still hold the eyes, so that weights would not count.
     if (this.face.eyeCount > 0 && (pose || this.#looks)) this.face.look(pose);
     return head;
   }
 
-  /** Yaw, pitch and roll from a column on, right-handed as they are not in the app, or null where the clip has none. */
+  /** Yaw, pitch and roll from angle `first` on, right-handed unlike in the app, or null if the clip has none. */
   #anglesAt(values, first) {
     const columns = this.#angles.slice(first, first + 3);
     if (columns.every((k) => k < 0)) return null;

@@ -1,6 +1,6 @@
 // Clips for faces: captures of Live Link Face (CSV), MediaPipe and Audio2Face (JSON) and timelines, as docs/clips.md
-// describes them. They are read the way the library in C++ reads them, in plain JavaScript, which parses text and JSON
-// by itself: no module of WebAssembly is fetched.
+// describes them. They are read as the C++ library reads them, but in plain JavaScript, which parses text and JSON
+// itself: no WebAssembly module is fetched.
 export {readClip} from './sweepface_captures.js';
 export {Clip, ClipPlayer} from './sweepface_clip.js';
 export {matchNames} from './sweepface_names.js';

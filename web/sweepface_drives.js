@@ -1,4 +1,4 @@
-// How weights go to their goals: C structs of drives.
+// Drives, which take weights to their goals: their checks and C structs.
 import {kindOf, told} from './sweepface_values.js';
 
 /** In the order of the C interface. */
@@ -6,7 +6,7 @@ export const KINDS = ['cut', 'newton', 'linear-force', 'accelerate-brake', 'spri
 /** In the order of the C struct. */
 export const NUMBERS = ['delay', 'seconds', 'turn', 'frequency', 'damping', 'restitution'];
 
-/** Which drives go by a number; all have a delay. */
+/** Which drives use each number; all have a delay. */
 const GO_BY = {
   seconds: ['newton', 'linear-force', 'accelerate-brake', 'bounce'],
   turn: ['accelerate-brake'],
@@ -20,10 +20,10 @@ export const goesBy = (kind, number) => GO_BY[number].includes(kind);
 /** Bytes of the struct. */
 export const DRIVE_SIZE = 56;
 
-/** Further off than goals ever are, and faster than weights. */
+/** Farther away than any goal, and faster than any weight. */
 const FAR = 1e12;
 
-/** What keeps a drive from setting out, wherever its weights are, in the library's words. */
+/** Why a drive cannot set out, wherever its weights are, in the library's words; undefined if it can. */
 export function faultOf(drive) {
   const {kind = 'spring', seconds = 1, turn = 0.5, frequency = 1, damping = 1, restitution = 0} = drive;
   const tooMuch = (...numbers) => (numbers.every(Number.isFinite) ? undefined
@@ -45,10 +45,10 @@ export function faultOf(drive) {
   return tooMuch(peak / Math.min(turn, 1 - turn) / seconds, FAR * seconds);
 }
 
-/** By how much weights of a region take longer. */
+/** The factor by which weights of a region take longer. */
 const stretchOf = ({mass = 1, stiffness = 1} = {}) => Math.sqrt(mass / stiffness);
 
-/** The numbers of a drive as weights of a region follow it. */
+/** The numbers of a drive, scaled to how weights of a region follow it. */
 function inMatter([, seconds, turn, frequency, damping, restitution], matter) {
   const {mass = 1, stiffness = 1} = matter ?? {}, stretch = stretchOf(matter);
   return {seconds: seconds * stretch, turn, frequency: frequency / stretch,
@@ -56,8 +56,8 @@ function inMatter([, seconds, turn, frequency, damping, restitution], matter) {
 }
 
 /**
- * Writes a drive, its name or its name and numbers, to a place in the memory of a module, if weights of all those
- * matters can follow it.
+ * Writes a drive, given by its name or with numbers, to an address in a module's memory. Throws if weights of any of
+ * the `matters` cannot follow it.
  */
 export function writeDrive(runtime, at, drive, matters) {
   const given = typeof drive === 'string' ? {kind: drive} : drive ?? {};
@@ -84,7 +84,7 @@ export function writeDrive(runtime, at, drive, matters) {
   }
 }
 
-/** Seconds before which a drive that was written brings no weight of such a matter to rest. */
+/** The least seconds in which the drive written at `at` brings a weight of this matter to rest. */
 export function secondsOf(runtime, at, matter) {
   const kind = KINDS[runtime.ints(at, 1)[0]], [delay, seconds] = runtime.doubles(at + 8, 2);
   return delay + (matter?.delay ?? 0) + (goesBy(kind, 'seconds') ? seconds : 0) * stretchOf(matter);

@@ -1,16 +1,16 @@
-// A .sweep file in a module: what it is opened with, and what all its faces share.
+// Opens a .sweep file in a module: the options, and what all faces of the file share.
 import {divider} from './sweepface_regions.js';
 import {bytesOf, known, told} from './sweepface_values.js';
 import {compile, instantiate, isCompiled, isGiven, MemoryError, Runtime, UNSAID} from './sweepface_wasm.js';
 
-/** What a level of detail may be asked for by, in the order of the C interface. */
+/** The budgets that may choose a level of detail, in the order of the C interface. */
 const BUDGETS = ['edgeLength', 'error', 'vertices'];
 const OPTIONS = ['lod', ...BUDGETS, 'name', 'arcs', 'combine', 'eyes', 'regions', 'wasm'];
 
-/** What targets may follow, in the numbers of the C interface. */
+/** What targets may follow, as flags of the C interface. */
 const FOLLOW = {arcs: 1, combine: 2};
 
-/** What sound options ask for: how the file is played, and whether that takes the full module. */
+/** Checks options and reads from them how the file is played, and whether that needs the full module. */
 function read(options) {
   const given = known(options, OPTIONS, 'Sweepface.load');
   const {lod = 0, name, arcs, combine, eyes, regions, wasm} = given;
@@ -28,12 +28,12 @@ function read(options) {
   return {name: String(name || 'The face'), follow, eyes, divide, lod, budget, wasm, needsFull};
 }
 
-/** Chunks that hold things as they are, which takes a hundred times the bytes of a packed face. */
+/** Chunks that hold things unpacked, which takes a hundred times the bytes of a packed face. */
 const AS_THEY_ARE = ['EXAC', 'loos', 'drif', 'ordr', 'poly', 'texc', 'quad'];
 
 const MAGIC = 'SWEEPFC\x02';
 
-/** Whether a file holds nothing but what the usual module reads. */
+/** Whether a file holds only what the usual module reads. */
 function isPacked(bytes) {
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
   const textAt = (from, length) => String.fromCharCode(...bytes.subarray(from, from + length));
@@ -52,7 +52,7 @@ export class Shared {
     if (follow || eyes) this.loadTargets();
     if (follow) runtime.check(wasm.sweepface_rig_follow(this.rig, follow));
     this.eyeCount = eyes ? runtime.get('sweepface_rig_turn_eyes', this.rig) : 0;
-    this.regions = divide ? divide(runtime, this.rig) : null;  // with their matter; null: of one piece
+    this.regions = divide ? divide(runtime, this.rig) : null;  // with their matter; null: not divided
     this.regionCount = this.regions?.length ?? 1;
     this.turnCount = wasm.sweepface_rig_turn_count(this.rig);
     this.mesh = budget ? runtime.get('sweepface_mesh_create_within', this.rig, ...budget)
@@ -65,7 +65,7 @@ export class Shared {
     this.lod = lod;
   }
 
-  /** Reads what targets do, once; that waits until the face is to move, so that it shows sooner. */
+  /** Reads what targets do, once. This is put off until the face is to move, so that it is shown sooner. */
   loadTargets() {
     this.runtime.check(this.runtime.wasm.sweepface_rig_load_targets(this.rig),
                        `${this.name}: what its targets do cannot be read; convert the source again.`);
@@ -86,7 +86,7 @@ export class Shared {
     throw new Error(`There is no region named '${name}'; there are ${names}.`);
   }
 
-  /** The numbers of a region, or of all. */
+  /** The indices of one region, or of all. */
   places(region) {
     return region === undefined ? Array.from({length: this.regionCount}, (_, r) => r) : [this.region(region)];
   }
@@ -126,7 +126,7 @@ async function openIn(module, bytes, options) {
 
 /** Opens a file in the module that it and the options need. */
 export async function open(given, givenOptions) {
-  const bytes = bytesOf(given)?.slice();  // its owner may change it, or send it away, while the module comes
+  const bytes = bytesOf(given)?.slice();  // the caller may change or transfer it while the module loads
   if (!bytes)
     throw new TypeError('Sweepface.load needs the bytes of a .sweep file: an ArrayBuffer or a typed array.');
   const options = read(givenOptions), {wasm} = options;
@@ -134,7 +134,7 @@ export async function open(given, givenOptions) {
     throw new Error(`${options.name} is a page of HTML, as servers send for what they do not have; check the address.`);
   if (isGiven(wasm) || options.needsFull || !isPacked(bytes)) return openIn(await compile(wasm, 'full'), bytes, options);
   const usual = await compile(wasm, 'usual').catch((error) => {
-    if (isCompiled('full')) return compile(wasm, 'full');  // which can be had, perhaps since there was a network
+    if (isCompiled('full')) return compile(wasm, 'full');  // at hand already, perhaps from when there was a network
     throw error;
   });
   try {

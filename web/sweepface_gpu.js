@@ -1,9 +1,9 @@
-// .sweep faces that a vertex shader evaluates: a mesh for three.js, and the shader for others. Every frame only the
-// modes of the weights go to the graphics card, less than a tenth of a megabyte (docs/evaluation.md).
+// .sweep faces evaluated in a vertex shader: a mesh for three.js, and the shader for other engines. Every frame only
+// the modes of the weights are uploaded, less than a tenth of a megabyte (docs/evaluation.md).
 import {GLSL3, MeshDepthMaterial, MeshDistanceMaterial, RGBADepthPacking, RGBAIntegerFormat, ShortType} from 'three';
 import {CardMesh, check, hookNames, hooksFor, refuse, textures} from './sweepface_card.js';
 
-/** GLSL ES 3: what moves a vertex from its neutral. Texel k of a texture is at (k mod 1024, k / 1024). */
+/** GLSL ES 3 that moves a vertex from its neutral. Texel k of a texture is at (k mod 1024, k / 1024). */
 export const SWEEPFACE_GLSL = `
   ivec2 sweepfaceTexel(int k) { return ivec2(k & 1023, k >> 10); }
   vec4 sweepfaceBasis(highp isampler2D basis, int k) { return vec4(texelFetch(basis, sweepfaceTexel(k), 0)); }

@@ -1,39 +1,39 @@
-// What the meshes of sweepface/three, sweepface/gpu and sweepface/webgpu have in common.
+// Shared by the meshes of sweepface/three, sweepface/gpu and sweepface/webgpu.
 import {BufferAttribute, BufferGeometry, DoubleSide, Mesh, MeshStandardMaterial} from 'three';
 import {Pin} from './sweepface_pin.js';
 import {isWeight} from './sweepface_values.js';
 
-/** Plain materials, named as in the source. Mouths and lashes are seen from both sides. */
+/** Plain materials, named as in the source; double-sided, as mouths and lashes are seen from both sides. */
 function materialsOf(face) {
   return face.parts.map(({material}) => new MeshStandardMaterial({name: material, roughness: 0.7, side: DoubleSide}));
 }
 
-/** The materials that are given, if they can be drawn. */
+/** The given materials; throws if they cannot be drawn. */
 function materialsFrom(materials, {parts}) {
   const all = [materials].flat(), isEnough = !Array.isArray(materials) || all.length >= parts.length;
   if (isEnough && all.every((material) => material?.isMaterial)) return materials;
   throw new TypeError(`A mesh takes a material, or one for each part of the face, of which there are ${parts.length}.`);
 }
 
-/** The face that is given, not what Sweepface.load promises or takes. */
+/** The given face; throws if it is what Sweepface.load promises or takes. */
 export function faceFrom(face) {
   if (typeof face?.evaluate === 'function') return face;
   throw new TypeError('A mesh is made of a face; await Sweepface.load for it.');
 }
 
-/** Nothing that is on the graphics card: WebGPURenderer looks for every attribute that it has drawn. */
+/** A stand-in that is not on the graphics card: WebGPURenderer looks for every attribute that it has drawn. */
 const NOTHING = new BufferAttribute(new Float32Array(0), 3);
 
 /**
- * The geometry of a face. What of it stays as it was made, clones have together with it: on the graphics card it is there
- * once, and goes with the last of them (but WebGPURenderer takes it away with the first, and sends it again to draw others).
+ * The geometry of a face. Clones share its fixed attributes: they are on the graphics card once, and are freed with the
+ * last of the clones (but WebGPURenderer frees them with the first, and uploads them again to draw others).
  */
 class FaceGeometry extends BufferGeometry {
   #changing = [];  // names of attributes that follow the weights
-  #fixed = {all: new Set(), users: 0};  // the other ones, and how many geometries show them
+  #fixed = {all: new Set(), users: 0};  // the other attributes, and how many geometries show them
   #isUser = false;
 
-  /** Everything that is there is fixed, but for attributes that follow the weights. */
+  /** Fixes all attributes that are there, except those in `changing`, which follow the weights. */
   fix(changing) {
     const others = Object.keys(this.attributes).filter((name) => !changing.includes(name));
     this.#changing = changing;
@@ -41,7 +41,7 @@ class FaceGeometry extends BufferGeometry {
     return this;
   }
 
-  /** Takes what another geometry of the same file has: what is fixed itself, of what was put into it copies. */
+  /** Takes over another geometry of the same file: shares its fixed attributes, and copies what was added to it. */
   take(original) {
     const {name, userData, index, attributes, groups, drawRange} = original;
     if (#fixed in original) {
@@ -49,14 +49,14 @@ class FaceGeometry extends BufferGeometry {
       this.#fixed = original.#fixed;
     }
     const own = (attribute) => (this.#fixed.all.has(attribute) ? attribute : attribute.clone());
-    this.setIndex(index?.clone() ?? null);  // which some put into an order of their own
+    this.setIndex(index?.clone() ?? null);  // a copy, as some applications reorder it
     for (const key of Object.keys(this.attributes)) if (!attributes[key]) this.deleteAttribute(key);
     for (const [key, attribute] of Object.entries(attributes))
       if (!this.#changing.includes(key)) this.setAttribute(key, own(attribute));
     Object.assign(this, {name, userData, groups: groups.map((group) => ({...group})), drawRange: {...drawRange}});
   }
 
-  /** Renderers listen to what they show. */
+  /** Renderers listen to what they show: this geometry then counts as a user of the fixed attributes. */
   addEventListener(type, listener) {
     super.addEventListener(type, listener);
     if (type !== 'dispose' || this.#isUser) return;
@@ -64,7 +64,7 @@ class FaceGeometry extends BufferGeometry {
     ++this.#fixed.users;
   }
 
-  /** Gives back all but what others show: three.js would take that away from them. */
+  /** Frees all but what other geometries show, which three.js would free as well. */
   dispose() {
     const {attributes} = this, {all} = this.#fixed;
     if (this.#isUser) --this.#fixed.users;
@@ -79,8 +79,8 @@ class FaceGeometry extends BufferGeometry {
 }
 
 /**
- * The triangles of a face, its texture coordinates and a group for each part, with attributes by name, those that follow
- * the weights and others.
+ * The triangles of a face, its texture coordinates and a group for each part, with attributes by name: `changing` ones,
+ * which follow the weights, and `fixed` ones.
  */
 export function geometryOf(face, changing, fixed = {}) {
   const geometry = new FaceGeometry(), {texcoords} = face;
@@ -92,24 +92,24 @@ export function geometryOf(face, changing, fixed = {}) {
 }
 
 /**
- * What the meshes do each in their own way, under names that no class made of them has: bring weights to the screen, see
- * to what has changed otherwise, tell where rays meet the face and where its vertices stand, and have of a mesh what its
- * clone needs not have again.
+ * What each kind of mesh defines for itself, under names that derived classes cannot have: `show` brings weights to the
+ * screen, `follow` handles other changes, `meet` intersects rays with the face, `share` gives a clone what it need not
+ * have twice, `materialsOfClone` makes a clone's materials, and `standing` returns the current positions.
  */
 export const show = Symbol('show'), follow = Symbol('follow'), meet = Symbol('meet'), share = Symbol('share');
 export const materialsOfClone = Symbol('materialsOfClone'), standing = Symbol('standing');
 
 /**
- * A face in a scene. Weights are set at any time; `update` brings them to the screen. They stand in
- * `morphTargetInfluences`, too, and are taken from there, so that what moves morph targets moves a face.
+ * A face in a scene. Weights can be set at any time; `update` brings them to the screen. They are also written to
+ * `morphTargetInfluences` and read back from there, so that whatever moves morph targets moves a face.
  */
 export class FaceMesh extends Mesh {
   #stale = true;
   #moving;
   #isGone = false;
-  #told = [];  // the influences, as they were told last
+  #told = [];  // the influences as they were last written
   #positions;
-  #pose = {};  // another object whenever another pose is shown
+  #pose = {};  // a new object whenever a new pose is shown
 
   constructor(face, geometry, materials = materialsOf(face)) {
     super(geometry, materialsFrom(materials, face));
@@ -156,15 +156,15 @@ export class FaceMesh extends Mesh {
     this.#moving = true;
   }
 
-  /** Lets time pass without showing it; says whether anything goes on moving. */
+  /** Advances the face without showing it; returns whether anything still moves. */
   advance(seconds) {
     this.#takeInfluences();
     const moving = this.face.advance(seconds);
-    if (moving || this.#moving) this.#tellInfluences();  // once more where it stopped
+    if (moving || this.#moving) this.#tellInfluences();  // once more when it has stopped
     return this.#moving = moving;
   }
 
-  /** Sets the weights whose influences were set. What is no number changes nothing: others may write it. */
+  /** Sets the weights whose influences others have set. Ignores values that are no weights, which others may write. */
   #takeInfluences() {
     const influences = this.morphTargetInfluences ?? [], {face} = this;
     const isSet = (told, k) => influences[k] !== told && isWeight(influences[k]);
@@ -174,17 +174,17 @@ export class FaceMesh extends Mesh {
     this.#tellInfluences();
   }
 
-  /** Weights have changed: they are to be shown, and the influences are what they are, as far as there are any. */
+  /** Called when weights have changed: marks the mesh stale, and copies them to the influences, if there are any. */
   #tellInfluences() {
     const influences = this.morphTargetInfluences ?? [];
     this.#told = Array.from(this.face.weightValues, (weight, k) => {
-      if (k < influences.length) Reflect.set(influences, k, weight);  // a frozen one stays as it is
-      return influences[k];  // or rounded, or none
+      if (k < influences.length) Reflect.set(influences, k, weight);  // a frozen array stays as it is
+      return influences[k];  // which may be rounded, or missing
     });
     this.#stale = true;
   }
 
-  /** Call it once a frame with the seconds since the last; costs nothing where nothing moves. */
+  /** Call it once a frame with the seconds since the last; costs nothing while nothing moves. */
   update(seconds = 0) {
     if (this.#isGone) return;
     this.#takeInfluences();
@@ -198,7 +198,7 @@ export class FaceMesh extends Mesh {
     this.#movePins();
   }
 
-  /** Adds an object that follows the point of the skin nearest to a point, and turns with it. */
+  /** Adds an object that follows the skin at its point nearest to `point`, and turns with it. */
   pin(point) {
     this.update();
     const pin = new Pin().fasten(point, this.face.triangles, this[standing](), this.#pose);
@@ -206,7 +206,7 @@ export class FaceMesh extends Mesh {
     return pin;
   }
 
-  /** Brings pins to the pose that is shown, which new ones may not have seen. */
+  /** Brings pins to the pose on show, including new ones that have not followed it yet. */
   #movePins() {
     const size = 3 * this.face.vertexCount;
     const behind = this.children.filter((child) => child instanceof Pin && child.isBehind(size, this.#pose));
@@ -221,7 +221,7 @@ export class FaceMesh extends Mesh {
     return this.#positions;
   }
 
-  /** Makes ready to move, which else happens when it first does and takes a few frames. */
+  /** Prepares the face to move. Otherwise that happens at its first move, and takes a few frames. */
   prepare() { this.face.prepare(); }
 
   [follow]() {}
@@ -232,18 +232,18 @@ export class FaceMesh extends Mesh {
 
   [meet](raycaster, hits) { super.raycast(raycaster, hits); }
 
-  /** Another face of the same file that stands as this one, and moves by itself. */
+  /** Another face of the same file, in the same pose, that moves independently. */
   clone(recursive) {
     this.#takeInfluences();
-    this.morphTargetInfluences ??= undefined;  // null is not what three.js copies
+    this.morphTargetInfluences ??= undefined;  // three.js cannot copy null
     const face = this.face.clone(), regions = face.regions.length > 0 ? face.regions : [undefined];
     for (const region of regions) {
       const weights = region === undefined ? this.face.weights : this.face.weightsIn(region);
-      const set = Object.entries(weights).filter(([, weight]) => weight !== 0);  // none: nothing is to be read for it
+      const set = Object.entries(weights).filter(([, weight]) => weight !== 0);  // if none, no targets need to be read
       face.setWeights(Object.fromEntries(set), region);
     }
     if (this.face.pose) face.look(this.face.pose);
-    const materials = this[materialsOfClone](), lacks = face.parts.length - materials.length;  // where groups are others
+    const materials = this[materialsOfClone](), lacks = face.parts.length - materials.length;  // if groups were changed
     const filled = lacks > 0 ? [...materials, ...Array(lacks).fill(materials.at(-1))] : materials;
     const twin = new this.constructor(face, filled).copy(this, recursive);
     if (lacks > 0) twin.material = materials;
@@ -259,7 +259,7 @@ export class FaceMesh extends Mesh {
 
   [materialsOfClone]() { return Array.isArray(this.material) ? this.material.slice() : this.material; }
 
-  /** What three.js copies of a mesh, but for what follows this face. */
+  /** Copies what three.js copies of a mesh, except what follows this face. */
   copy(source, recursive) {
     const {geometry, material, morphTargetDictionary, morphTargetInfluences} = this;
     super.copy(source, recursive);

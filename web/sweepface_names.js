@@ -1,7 +1,7 @@
-// Which targets the names of clips and timelines mean.
+// Matches the names in clips and timelines with targets.
 import {lowered} from './sweepface_text.js';
 
-/** A name without what spellings differ in: small letters, and a side as a final _l or _r. */
+/** A name without differences of spelling: lower case, no separators, and a side as a final _l or _r. */
 function plain(name) {
   const text = lowered(name.replace(/[_\-. ]/g, ''));
   for (const side of ['left', 'right'])
@@ -24,7 +24,7 @@ export function matchNames(names, targets) {
     if (!byPlain.has(plain(target))) byPlain.set(plain(target), k);
   });
   const own = names.map((name) => byName.get(name) ?? byPlain.get(plain(name)));
-  // Both sides at once, where they have no names of their own. A jaw that goes left goes not right.
+  // A name without a side drives both, unless they have names of their own. A jaw that goes left does not go right.
   const sides = (name) => (/^(jaw|mouth)$/.test(plain(name)) ? [] : ['_l', '_r'])
       .map((side) => byPlain.get(plain(name) + side)).filter((k) => k !== undefined && !own.includes(k));
   const found = names.map((name, k) => (own[k] !== undefined ? [own[k]] : sides(name)));
@@ -36,7 +36,7 @@ export function matchNames(names, targets) {
   };
 }
 
-/** Whether what matchNames found says where eyes look. */
+/** Whether any target that matchNames found says where eyes look. */
 export function turnsEyes({targets: found}, targets) {
   return found.flat().some((k) => /eye.?look/i.test(targets[k]));
 }

@@ -1,16 +1,16 @@
-// What is attached to a face in a scene of three.js: an object that follows a point of the skin and turns with it.
+// Pins: objects in a three.js scene that follow a point of a face's skin and turn with it.
 import {Matrix4, Object3D, Quaternion, Triangle, Vector3} from 'three';
 
-/** Beyond, squares of distances are no numbers. */
+/** The largest coordinate, so that squared distances stay finite. */
 const MOST_COORDINATE = 1e100;
 
-/** Brings the corners of a triangle to where they stand. */
+/** Sets a triangle to the positions of its corners. */
 function placed(triangle, corners, positions) {
   ['a', 'b', 'c'].forEach((name, k) => triangle[name].fromArray(positions, 3 * corners[k]));
   return triangle;
 }
 
-/** The way a triangle is turned, or nothing where it is a line. */
+/** The orientation of a triangle, or undefined if it is degenerate. */
 function turnOf({a, b, c}) {
   const along = b.clone().sub(a), across = c.clone().sub(a), normal = along.clone().cross(across);
   if (!(normal.length() > 1e-5 * Math.max(along.lengthSq(), across.lengthSq()))) return undefined;
@@ -19,7 +19,7 @@ function turnOf({a, b, c}) {
   return new Quaternion().setFromRotationMatrix(new Matrix4().makeBasis(along, normal.clone().cross(along), normal));
 }
 
-/** Of the triangles that are no lines the one nearest to a point, and its point that is. */
+/** The non-degenerate triangle nearest to a point, and the nearest point on it. */
 function nearestTo(point, triangles, positions) {
   const triangle = new Triangle(), place = new Vector3();
   let nearest = {distance: Infinity};
@@ -31,12 +31,12 @@ function nearestTo(point, triangles, positions) {
   return nearest;
 }
 
-/** How a pin hangs on the skin; not private, so that it is there behind a Proxy, too. */
+/** How a pin hangs on the skin. Not a private member, so that it also works behind a Proxy. */
 const anchor = Symbol('anchor');
 
-/** Stands on the skin as the face stands when it is fastened: its axes are then the face's own. */
+/** An object fastened to the skin. When it is fastened, its axes are the face's own. */
 export class Pin extends Object3D {
-  /** To the skin at these positions, which are those of a pose: an object that is no other pose's. */
+  /** Fastens it to the skin at the positions of a pose; `pose` is an object that identifies that pose. */
   fasten(point, triangles, positions, pose) {
     if (![point?.x, point?.y, point?.z].every((x) => Math.abs(x) <= MOST_COORDINATE))
       throw new TypeError('A pin takes a point: a Vector3 in the coordinates of the face.');
@@ -48,10 +48,10 @@ export class Pin extends Object3D {
     return this.follow(positions, pose);
   }
 
-  /** Whether it hangs on this many numbers of positions and was not brought to this pose. */
+  /** Whether it hangs on a skin of `size` position numbers and has not followed it to this pose yet. */
   isBehind(size, pose) { return this[anchor]?.size === size && this[anchor].pose !== pose; }
 
-  /** To where the skin stands in a pose. */
+  /** Moves it to where the skin stands in a pose. */
   follow(positions, pose) {
     const {corners, shares, unturned} = this[anchor], triangle = placed(new Triangle(), corners, positions);
     const {a, b, c} = triangle, turn = turnOf(triangle);

@@ -29,7 +29,7 @@ class Copies {
 
 const isPlace = (place) => place?.length === 3 && Array.from(place).every(Number.isFinite);
 
-/** Refuses what is not as docs/regions.md says, before anything is painted. */
+/** Throws if regions are not as docs/regions.md says, before anything is painted. */
 function check(regions) {
   if (!Array.isArray(regions)) throw new TypeError('Regions are a list of objects with a name each.');
   for (const region of regions) {
@@ -69,7 +69,7 @@ function copyOf({parts = [], points = [], line = [], curves = [], nodes = {}, ..
           nodes: {...nodes}};
 }
 
-/** Regions that their owner may go on changing; what are none stay as they are, to be refused where they are used. */
+/** Copies regions that the caller may go on changing. Invalid ones are returned as given, to be refused when used. */
 export function ownRegions(given) {
   try {
     check(given);
@@ -93,7 +93,7 @@ function brush(copies, region) {
   return copies.bytes(struct);
 }
 
-/** Names, matters and shares of what a region paints: itself, or its bands. */
+/** The name, matter and shares of a painted region, or of each of its bands. */
 function paint(runtime, rig, region) {
   const {bands = 1} = region, copies = new Copies(runtime), {wasm} = runtime;
   try {
@@ -116,10 +116,10 @@ function paint(runtime, rig, region) {
   }
 }
 
-/** What divides a rig into regions and tells them, the rest first. */
+/** A function that divides a rig into regions and returns them, the rest first. */
 export function divider(given) {
   check(given);
-  const regions = given.map(copyOf);  // their owner may change them while the module comes
+  const regions = given.map(copyOf);  // the caller may change them while the module loads
   return (runtime, rig) => {
     const {wasm} = runtime, copies = new Copies(runtime);
     const painted = regions.flatMap((region) => paint(runtime, rig, region));

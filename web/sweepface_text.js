@@ -1,4 +1,4 @@
-// What clips and timelines are read from: text, numbers and JSON.
+// Reads the text, numbers and JSON of clips and timelines.
 import {bytesOf} from './sweepface_values.js';
 
 const decoder = new TextDecoder();
@@ -10,23 +10,23 @@ export function textOf(source, what, name) {
   if (!bytes) throw new TypeError(`A ${what} is read from text or bytes.`);
   if (['255,254', '254,255'].includes(bytes.subarray(0, 2).join()))
     throw new Error(`${name} is a text in UTF-16; save it in UTF-8.`);
-  return decoder.decode(bytes.slice());  // a copy, as browsers do not decode memory that is shared
+  return decoder.decode(bytes.slice());  // a copy, as browsers do not decode shared memory
 }
 
 export const isNumber = (value) => typeof value === 'number' && Number.isFinite(value);
 export const isObject = (value) => typeof value === 'object' && value !== null && !Array.isArray(value);
 
-/** Small letters, of A to Z alone. */
+/** Lower case, of A to Z only. */
 export const lowered = (text) => text.replace(/[A-Z]/g, (letter) => letter.toLowerCase());
 
-/** How engines say that a text ends too soon, where they count no characters. */
+/** How engines that give no position say that a text ends too soon. */
 const CUT_SHORT = /^(JSON.parse: |JSON Parse error: )?(unexpected )?(end|EOF|unterminated)/i;
 
 export function parseJson(text, name) {
   try {
     return JSON.parse(text);
   } catch (error) {
-    // Engines tell the place in words of their own, or not at all.
+    // Engines each word the position in their own way, or do not give it.
     const [, at, , told] = error.message.match(/ at (?:position (\d+)( \(.*\))?|line (\d+) column.*)$/) ?? [];
     const isCut = at === undefined ? CUT_SHORT.test(error.message) : at >= text.length;
     const line = isCut || at ? text.slice(0, isCut ? undefined : at).split('\n').length : told;

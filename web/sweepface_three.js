@@ -6,12 +6,12 @@ import {ownRegions} from './sweepface_regions.js';
 
 export {animationFor} from './sweepface_animation.js';
 
-/** Room for three numbers a vertex that change every frame. */
+/** An attribute of three numbers per vertex that change every frame. */
 function vectors(face) {
   return new BufferAttribute(new Float32Array(3 * faceFrom(face).vertexCount), 3).setUsage(DynamicDrawUsage);
 }
 
-/** A face in a scene. Weights are set at any time; `update` brings the geometry up to date. */
+/** A face in a scene. Weights can be set at any time; `update` brings the geometry up to date. */
 export class SweepfaceMesh extends FaceMesh {
   constructor(face, materials) {
     super(face, geometryOf(face, {position: vectors(face), normal: vectors(face)}), materials);
@@ -30,7 +30,7 @@ export class SweepfaceMesh extends FaceMesh {
     face.evaluate(position.array, normal?.array);
     for (const attribute of [position, normal]) if (attribute) attribute.needsUpdate = true;
     if (this.frustumCulled) geometry.computeBoundingSphere();
-    else geometry.boundingSphere = null;  // made when somebody asks for it
+    else geometry.boundingSphere = null;  // computed when it is needed
     if (geometry.boundingBox) geometry.computeBoundingBox();
   }
 
@@ -47,7 +47,7 @@ function meshFrom(mesh = SweepfaceMesh) {
 export class SweepfaceLoader extends Loader {
   #downloads = new Set();
 
-  /** Options of Sweepface.load, and `mesh`, the class of what is made if not a SweepfaceMesh. */
+  /** `options` are those of Sweepface.load, and `mesh`, the class to make instead of SweepfaceMesh. */
   constructor(manager, options) {
     if (manager && typeof manager.itemStart !== 'function')
       throw new TypeError('A loader takes a LoadingManager, or undefined, and its options after it.');
@@ -66,7 +66,7 @@ export class SweepfaceLoader extends Loader {
       tell(error);
     }).finally(() => manager.itemEnd(url));
     this.#downloads.add(loader);
-    manager.itemStart(url);  // until the mesh is there; the file alone is an item of the other loader
+    manager.itemStart(url);  // until the mesh is made; the file is an item of the FileLoader's own
     loader.load(url, (bytes) => {
       this.#downloads.delete(loader);
       parse(bytes);
@@ -77,7 +77,7 @@ export class SweepfaceLoader extends Loader {
     });
   }
 
-  /** Ends the downloads that are under way, as far as three.js can. */
+  /** Aborts the downloads under way, as far as three.js can. */
   abort() {
     for (const loader of this.#downloads) loader.abort?.();
     return this;
@@ -87,7 +87,7 @@ export class SweepfaceLoader extends Loader {
     throw new Error('Bytes of a face are parsed by parseAsync, as its module has to be there.');
   }
 
-  /** `usual` are the loader's options of when a load began. */
+  /** `usual` are the loader's options at the time when a load began. */
   async parseAsync(bytes, options = {}, usual = this.options) {
     const {mesh, ...others} = {...usual, ...options}, Made = meshFrom(mesh);
     return new Made(await Sweepface.load(bytes, others));

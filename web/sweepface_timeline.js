@@ -1,4 +1,4 @@
-// Timelines: what an animator wrote down, and what plays it on a face.
+// Reads timelines, which animators write, and plays them on a face.
 import {faultOf, goesBy, KINDS, NUMBERS} from './sweepface_drives.js';
 import {matchNames, turnsEyes} from './sweepface_names.js';
 import {isNumber, isObject, parseJson, textOf} from './sweepface_text.js';
@@ -7,7 +7,7 @@ import {isWeight, known, passed, told} from './sweepface_values.js';
 const EVENT = ['at', 'to', 'only', 'drive', 'region', ...NUMBERS];
 const TIMELINE = ['seconds', 'loops', 'poses', 'events', 'regions'];
 
-/** A timeline from its JSON text or bytes: {seconds, loops, events, regions}; `regions` are for Sweepface.load. */
+/** Reads a timeline from JSON text or bytes: {seconds, loops, events, regions}; `regions` are for Sweepface.load. */
 export function readTimeline(source, options) {
   const {name: given} = known(options, ['name'], 'readTimeline');
   const name = given || 'The timeline', json = parseJson(textOf(source, 'timeline', name), name);
@@ -62,7 +62,7 @@ function readEvent(event, poses, place, failAt) {
   return {at: event.at, goals, others: 'only' in event, drive, region: event.region || undefined};
 }
 
-/** Weights by name, or by the name of a pose that has them. */
+/** The goals of an event: weights by name, given directly or by the name of a pose that has them. */
 function readGoals(wanted, poses, place, failAt) {
   if (typeof wanted === 'string') {
     if (!Object.keys(poses).includes(wanted))
@@ -77,16 +77,16 @@ function readGoals(wanted, poses, place, failAt) {
   return wanted;
 }
 
-/** Whether that is all of a face of one piece. */
+/** Whether a region is all of a face that is not divided. */
 const isWhole = (face, region) => region === 'rest' && !face.regions?.length;
 
-/** Plays a timeline on a face: `advance` lets time pass, and what sets out does so at its own instant. */
+/** Plays a timeline on a face: `advance` lets time pass, and every event sets out at its exact time. */
 export class TimelinePlayer {
-  #events;  // by their times
+  #events;  // sorted by time
   #goals;
   #looks;  // whether its weights say where the eyes look
   #now = 0;
-  #next = 0;  // of all events of all loops
+  #next = 0;  // index among all events of all loops
 
   constructor(face, timeline) {
     if (typeof face?.moveTo !== 'function' || !Array.isArray(timeline?.events))
@@ -98,7 +98,7 @@ export class TimelinePlayer {
     this.timeline = timeline;
     this.#events = [...timeline.events].sort((a, b) => a.at - b.at);
     const names = [...new Set(timeline.events.flatMap(({goals}) => Object.keys(goals)))];
-    /** What drives what: see matchNames. */
+    /** Which names drive which targets: see matchNames. */
     this.match = matchNames(names, face.names);
     this.#looks = turnsEyes(this.match, face.names);
     this.#goals = new Map(names.map((name, k) => [name, this.match.targets[k].map((target) => face.names[target])]));
@@ -106,10 +106,10 @@ export class TimelinePlayer {
 
   get seconds() { return this.timeline.seconds * this.timeline.loops; }
 
-  /** From the beginning again; the face goes on from where it stands, as it does from loop to loop. */
+  /** Starts again from the beginning; the face goes on from where it stands, as it does from loop to loop. */
   restart() { this.#now = this.#next = 0; }
 
-  /** Says whether anything is still to come or moves. */
+  /** Lets time pass; returns whether anything is still to come or moves. */
   advance(seconds) {
     if (!Number.isFinite(seconds))
       throw new RangeError(`Time passes by a finite number of seconds, not ${told(seconds)}.`);
@@ -121,7 +121,7 @@ export class TimelinePlayer {
       if (start > until) break;
       this.face.advance(start - this.#now);
       this.#now = start;
-      ++this.#next;  // also where the face refuses it
+      ++this.#next;  // even if the face refuses it
       this.#play(event);
       moves = true;
     }
@@ -135,7 +135,7 @@ export class TimelinePlayer {
     const named = Object.create(null);  // of two names for one target the larger counts
     for (const [name, goal] of Object.entries(goals))
       for (const target of this.#goals.get(name)) named[target] = Math.max(named[target] ?? -Infinity, goal);
-    // The eyes may still stand as a clip's angles had them, so that weights would not count.
+    // Angles of a clip may still hold the eyes, so that weights would not count.
     if (this.#looks && this.face.eyeCount > 0) this.face.look(null);
     this.face.moveTo({...all, ...named}, drive, isWhole(this.face, region) ? undefined : region);
   }

@@ -1,26 +1,26 @@
-// What is given, whatever it may be.
+// Checks of the values that callers pass.
 
-/** What kind of object something is, of any realm: frames and Node's vm have an ArrayBuffer of their own. */
+/** The kind of an object of any realm: frames and Node's vm have an ArrayBuffer of their own. */
 export const kindOf = (it) => Object.prototype.toString.call(it).slice(8, -1);
 
-/** How far a weight may be from 0; more is a slip. */
+/** How far a weight may be from 0; more is a mistake. */
 export const MOST = 1e6;
 export const isWeight = (value) => Number.isFinite(value) && Math.abs(value) <= MOST;
 
-/** Whether it holds numbers as the module has them. */
+/** Whether it is an array of floats or doubles, the number types of the module. */
 export const isFloats = (it) => ['Float32Array', 'Float64Array'].includes(kindOf(it));
 
-/** How a message calls what is no number. */
+/** How messages call a value that is not the number it should be. */
 export function told(value) {
   if (typeof value === 'string') return `the text '${value}'`;
   if (typeof value === 'bigint') return `${value}n`;
   return typeof value === 'object' && value && !value.toString ? kindOf(value) : String(value) || kindOf(value);
 }
 
-/** How much time passes: where a clock is wrong, none, so that it ends no motion. */
+/** How much time passes: none if the clock is wrong, so that it ends no motion. */
 export const passed = (seconds) => (seconds > 0 && seconds <= 1e10 ? seconds : 0);
 
-/** The bytes that are given, if any are. */
+/** The bytes of a buffer or of a view of one; undefined if it is neither. */
 export function bytesOf(source) {
   try {
     if (ArrayBuffer.isView(source)) return new Uint8Array(source.buffer, source.byteOffset, source.byteLength);
@@ -30,7 +30,7 @@ export function bytesOf(source) {
   }
 }
 
-/** Options as they are, of which one that there is not is a slip. */
+/** Returns the options, after throwing if one is not among `keys`. */
 export function known(options, keys, what) {
   if (typeof (options ?? {}) !== 'object' || Symbol.iterator in (options ?? {}))
     throw new TypeError(`${what} takes an object of ${keys.join(', ')}, no ${kindOf(options)}.`);

@@ -1,12 +1,12 @@
-// The WebAssembly modules, and what is called in them: the C interface (include/sweepface/sweepface.h).
+// Loads the WebAssembly modules and calls the C interface in them (include/sweepface/sweepface.h).
 import {bytesOf, kindOf, told} from './sweepface_values.js';
 
-/** Where the usual module, which spares the words, is the only one that was given. */
+/** The message where only the usual module was given, which has no messages of its own. */
 export const UNSAID = 'sweepface.wasm cannot do that with this face; give sweepface_full.wasm, which can or says why.';
 
 const encoder = new TextEncoder(), decoder = new TextDecoder();
 
-/** There is no more memory, which another module does not change. */
+/** Memory ran out, which another module would not change. */
 export class MemoryError extends Error {
   constructor(cause, advice = '') {
     super(`There is not enough memory for the face${advice}.`, {cause});
@@ -14,8 +14,8 @@ export class MemoryError extends Error {
 }
 
 /**
- * The module behind a URL. Browsers keep what they make of one that they compile while it comes; Node's fetch does not
- * read files.
+ * Fetches and compiles the module at a URL. Browsers cache the code of a module that they compile while it streams.
+ * Node's fetch does not read files.
  */
 async function fetchModule(url) {
   if (url.protocol === 'file:' && globalThis.process?.versions?.node) {
@@ -25,17 +25,17 @@ async function fetchModule(url) {
   const response = await fetch(url);
   if (!response.ok) throw new Error(`the server answered ${response.status}.`);
   const type = response.headers.get('content-type') ?? '';
-  if (type === 'application/wasm' && WebAssembly.compileStreaming)  // which refuses parameters
+  if (type === 'application/wasm' && WebAssembly.compileStreaming)  // which refuses parameters in the type
     return WebAssembly.compileStreaming(response);
   const code = await response.arrayBuffer();
   if (/^text\/html/i.test(type) && !isModule(code)) throw new Error('the server sent a page of HTML instead.');
   return WebAssembly.compile(code);
 }
 
-/** Servers that know no modules may call them anything. */
+/** Whether bytes are a module. Servers that do not know modules may give them any type. */
 const isModule = (code) => decoder.decode(code.slice(0, 4)) === '\0asm';
 
-/** Why a module was not compiled: browsers ask for 'unsafe-eval', which allows far more than it needs. */
+/** Why a module was not compiled. Browsers ask for 'unsafe-eval', which allows far more than is needed. */
 const reason = ({message}) => /unsafe-eval|blocked by CSP/.test(message)
   ? "the page's Content-Security-Policy forbids it; add 'wasm-unsafe-eval' to its script-src." : message;
 
@@ -47,7 +47,7 @@ async function compileUrl(url) {
   }
 }
 
-/** The modules beside this file: one for packed faces as they are, and one for all files with all there is. */
+/** The modules beside this file: one that plays packed faces, and one for all files and options. */
 const MODULES = {
   usual: () => new URL('./sweepface.wasm', import.meta.url),
   full: () => new URL('./sweepface_full.wasm', import.meta.url)
@@ -64,7 +64,7 @@ function urlOf(wasm) {
 function besideThisFile(kind) {
   try {
     return MODULES[kind]();
-  } catch (error) {  // bundled as what is no module
+  } catch (error) {  // bundled as something other than a module
     throw new Error('This build does not know where sweepface.wasm is; tell it by the option wasm.', {cause: error});
   }
 }
@@ -80,7 +80,7 @@ async function compileBytes(code) {
 
 export const isGiven = (wasm) => wasm !== undefined && wasm !== null;
 
-const compiled = {};  // each once
+const compiled = {};  // by kind, each compiled once
 export function compile(wasm, kind) {
   if (kindOf(wasm) === 'WebAssembly.Module') return wasm;
   const code = bytesOf(wasm);  // not all engines compile a DataView
@@ -95,7 +95,7 @@ export function compile(wasm, kind) {
 
 export const isCompiled = (kind) => compiled[kind] !== undefined;
 
-/** Browsers have room for about a hundred memories at once, however small. */
+/** Browsers allow about a hundred memories at once, however small. */
 export async function instantiate(module) {
   try {
     return await WebAssembly.instantiate(module);
@@ -105,7 +105,7 @@ export async function instantiate(module) {
   }
 }
 
-/** One instance of the module: a file and the faces made from it. Its memory goes with it. */
+/** One instance of the module: a file and the faces made from it. Its memory is freed with it. */
 export class Runtime {
   constructor(instance) {
     this.wasm = Object.fromEntries(Object.entries(instance.exports).map(([name, it]) => {
@@ -116,7 +116,7 @@ export class Runtime {
     this.isDead = false;
   }
 
-  /** Where memory runs out the module stops amid what it does, and is of no use from then on. */
+  /** Wraps a function of the module. When memory runs out the module traps, and cannot be used from then on. */
   watched(call) {
     return (...parameters) => {
       try {
@@ -148,7 +148,7 @@ export class Runtime {
     return at;
   }
 
-  /** Calls `use` with the address of room for that many bytes. */
+  /** Calls `use` with the address of `size` bytes, freed afterwards. */
   room(size, use) {
     const at = this.allocate(size);
     try {
@@ -168,12 +168,12 @@ export class Runtime {
 
   lendText(text, use) { return this.lend(encoder.encode(text + '\0'), use); }
 
-  /** `unsaid` is what to say where the usual module has no words. */
+  /** Throws the module's message if a call failed; `unsaid` if it is the usual module, which has none. */
   check(status, unsaid = UNSAID) {
     if (status !== 0) throw new Error(this.text(this.wasm.sweepface_message()) || unsaid);
   }
 
-  /** What a function with a trailing out-parameter of 32 bits writes there. */
+  /** Calls a function whose last parameter points to a 32-bit result, and returns that. */
   get(name, ...parameters) {
     return this.room(4, (out) => {
       this.check(this.wasm[name](...parameters, out));

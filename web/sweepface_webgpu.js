@@ -1,5 +1,5 @@
-// .sweep faces that a shader of nodes evaluates, for three.js's WebGPURenderer: what sweepface/gpu is for WebGLRenderer
-// (docs/evaluation.md), in the language that becomes WGSL with WebGPU and GLSL without.
+// .sweep faces evaluated in a node shader, for three.js's WebGPURenderer: what sweepface/gpu is for WebGLRenderer
+// (docs/evaluation.md), in the shading language that compiles to WGSL with WebGPU and to GLSL without.
 import {DataTexture, IntType, RGIntegerFormat} from 'three';
 import {
   Fn, Loop, attribute, bitcast, cross, float, int, ivec2, materialReference, normalLocal, positionGeometry,
@@ -7,14 +7,14 @@ import {
 } from 'three/tsl';
 import {CardMesh, check, hookNames, hooksFor, refuse, textures} from './sweepface_card.js';
 
-/** Two 16-bit integers a number, as WebGPURenderer has no textures of such: the lower half is the first. */
+/** Two 16-bit integers in a 32-bit one, the first in the lower half: WebGPURenderer has no 16-bit integer textures. */
 const INTEGERS = {Data: Int32Array, perTexel: 2, format: RGIntegerFormat, type: IntType};
 
-/** What is read without a face, as a shader has some textures from the start. */
+/** Placeholders that are read without a face, as a shader needs textures from the start. */
 const nothing = () => Object.assign(new DataTexture(new Int32Array(2), 1, 1, RGIntegerFormat, IntType), {needsUpdate: true});
 const NONE = {basis: nothing(), modes: nothing(), factor: 0};
 
-/** What the shader reads, by the mesh or its geometry: one shader serves all faces, and gets theirs when it draws one. */
+/** Textures by mesh or its geometry: one shader serves all faces, and gets the textures of the one that it draws. */
 const texturesOf = new WeakMap();
 const drawn = ({object}) => texturesOf.get(object) ?? texturesOf.get(object.geometry) ?? NONE;
 const basis = texture(NONE.basis).onObjectUpdate((frame) => drawn(frame).basis);
@@ -27,7 +27,7 @@ function fourAt(table, k) {
   return vec4(low(pair.x), high(pair.x), low(pair.y), high(pair.y));
 }
 
-/** What the weights add to rows of the neutral: of a point's places, `rows` of them. */
+/** What the weights add, before scaling, to `rows` rows of the neutral at a point's `place`. */
 function sumOf(place, rows) {
   const first = int(place.x), at = int(place.y.shiftRight(6)).toVar(), texels = int(place.y.bitAnd(63)).toVar();
   const sums = Array.from({length: rows}, () => vec3(0).toVar());
@@ -41,17 +41,17 @@ function sumOf(place, rows) {
   return sums;
 }
 
-/** A direction, finite at poles. */
+/** A unit vector, finite at poles. */
 const unit = (a) => a.mul(a.dot(a).max(1e-36).inverseSqrt());
 
-/** What a displacement map adds, which materials have added to the neutral before they ask for its position. */
+/** What a displacement map adds. Materials have added it to the neutral before they ask for its position. */
 function displacement() {
   const [map, scale, bias] = [['Map', 'texture'], ['Scale', 'float'], ['Bias', 'float']]
     .map(([name, type]) => materialReference(`displacement${name}`, type));
   return normalLocal.mul(map.x.mul(scale).add(bias));
 }
 
-/** The position of a vertex, and on the way its normal; `next` goes on from there. */
+/** The position of a vertex, with its normal set on the way; `next`, a material's own node, goes on from there. */
 const evaluated = (next) => Fn(({material, renderer}) => {
   const factor = uniform(0).onObjectUpdate((frame) => drawn(frame).factor);
   const place = attribute('sweepPlace', 'uvec3'), tangentPlace = attribute('sweepTangentPlace', 'uvec3');
@@ -61,7 +61,7 @@ const evaluated = (next) => Fn(({material, renderer}) => {
   positionLocal.assign(positionGeometry.add(moved.mul(scale(place))));
   normalLocal.assign(unit(cross(row('sweepAlong', along), row('sweepAcross', across))));
   if (material.displacementMap) positionLocal.addAssign(displacement());
-  // Or what the expression moves would seem to move every frame.
+  // Otherwise what the expression has moved would seem to move every frame.
   if (renderer.getMRT()?.has('velocity')) positionPrevious.assign(positionLocal);
   return next ?? positionLocal;
 })();

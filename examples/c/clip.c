@@ -1,5 +1,6 @@
-/* Plays a capture on a face: tells what its names drive, and once a quarter second how the head
- * stands and what the face shows most. Usage: clip FACE.sweep TAKE.csv|TAKE.json|SCENE.json */
+/* Plays a capture on a face: prints what its names drive, and every quarter second the angles of
+ * the head and the target with the largest weight.
+ * Usage: clip FACE.sweep TAKE.csv|TAKE.json|SCENE.json */
 #include "sweepface/sweepface_clips.h"
 
 #define PROGRAM "clip"

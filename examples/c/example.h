@@ -1,4 +1,4 @@
-/* What the programs beside this file share. PROGRAM is the name of the one that includes it. */
+/* Shared by the programs beside this file. PROGRAM is the name of the one that includes it. */
 #include <stdio.h>
 #include <stdlib.h>
 

@@ -5,7 +5,7 @@
 #define PROGRAM "play"
 #include "example.h"
 
-/* The farthest that a vertex stands from where it rested. */
+/* The largest distance of a vertex from where it rested. */
 static double largest_distance(const float* a, const float* b, uint32_t vertices) {
   double largest = 0;
   for (uint32_t v = 0; v < vertices; ++v) {

@@ -7,8 +7,8 @@
 
 namespace sample {
 
-/// The rings of an ear, from its root over the helix and the antihelix into the shell. Shares of
-/// the outline, in front and behind, and how far out of the ear's plane.
+/// The rings of an ear, from its root over the helix and the antihelix into the shell: shares of
+/// the outline in front and behind, and the height above the ear's plane.
 struct EarRing {
   double front, back, height;
 };
@@ -20,7 +20,7 @@ constexpr std::array<EarRing, 7> earRings{{{.96, .72, -.35},
                                            {.44, .46, -.35},
                                            {.32, .32, -.55}}};
 
-/// A point of a ring; angles as for the ear's root.
+/// A point of a ring; angles are those of earRoot().
 inline Vec3 earPoint(const EarRing& ring, double angle) {
   const Vec3 centre{7.75, .3, -.9}, up = normalized({.05, 1, -.2}), back = normalized({.5, 0, -1});
   const Vec3 out = cross(back, up);

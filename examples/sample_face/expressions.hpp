@@ -19,7 +19,8 @@ inline double hill(const Vec3& p, Vec2 top, Vec2 radius) {
   return std::exp(-square((p.x - top.x) / radius.x) - square((p.y - top.y) / radius.y));
 }
 
-/// How far a spot goes with the skin of the face: not the eyes, the teeth and the back of the head.
+/// How far a spot follows the skin of the face: the eyes, the teeth and the back of the head do
+/// not.
 inline double softness(const Spot& s) {
   switch (s.mark.part) {
     case Part::ball:
@@ -38,7 +39,8 @@ inline double softness(const Spot& s) {
 
 // ---- Eyes ----
 
-/// The lids come this share of their way together; the fold above goes a little with the lid.
+/// Moves the lids by these shares of the way to where they meet; the fold above follows its lid a
+/// little.
 inline Vec3 moveLids(const Spot& s, double upper, double lower) {
   if (s.mark.part != Part::lid || s.at.x < 0) return {};
   const LidLine edge = closedBy(upper, lower);
@@ -47,7 +49,7 @@ inline Vec3 moveLids(const Spot& s, double upper, double lower) {
   return lidPoint(s.mark, edge, fold) - lidPoint(s.mark, lidEdge, lidFold);
 }
 
-/// The eyeball turns; angles in degrees.
+/// Turns the eyeball; angles in degrees.
 inline Vec3 turnEye(const Spot& s, double outwards, double upwards) {
   if (s.mark.part != Part::ball || s.at.x < 0) return {};
   constexpr double degree = std::numbers::pi / 180;
@@ -95,7 +97,7 @@ inline Vec3 noseSneer(const Spot& s) {
 
 // ---- Jaw and cheeks ----
 
-/// How far a spot goes with the lower jaw.
+/// How far a spot follows the lower jaw.
 inline double withJaw(const Spot& s) {
   constexpr std::array<double, kLipPlaces> lip{0, 0, 0, .1, .45, .85, 1, 1, 1};
   switch (s.mark.part) {
@@ -118,7 +120,7 @@ inline double withJaw(const Spot& s) {
          (s.mark.ring == throat ? .55 : 1);
 }
 
-/// The jaw turns about the joints before the ears.
+/// Turns the jaw about the joints in front of the ears.
 inline Vec3 jawTurn(const Spot& s) {
   constexpr double angle = 13 * std::numbers::pi / 180;
   const double y = s.at.y + 1, z = s.at.z, c = std::cos(angle) - 1, sine = std::sin(angle);
@@ -156,7 +158,8 @@ inline Vec3 mouthPucker(const Spot& s) {
   const double near = softness(s) * hill(s.at, {0, -5.45}, {3.0, 1.8});
   return {-.42 * near * s.at.x, .2 * near * (s.at.y + 5.47), 1.0 * near};
 }
-/// Lips part: 1 in the middle above, -1 in the middle below, 0 at the corners and away from them.
+/// How the lips part: 1 in the middle above, -1 in the middle below, 0 at the corners and away from
+/// them.
 inline double parting(const Spot& s) {
   constexpr std::array<double, kLipPlaces> share{1, 1, .85, .45, 0, -.45, -.85, -1, -1};
   constexpr std::array<double, 6> ring{.35, .8, 1, 1, 1, .5};
@@ -211,7 +214,7 @@ inline Vec3 moved(const Spot& spot, Motion motion, int of, int side) {
   return by;
 }
 
-constexpr double kStill = .002;  ///< cm that count as no motion
+constexpr double kStill = .002;  ///< less than this, in cm, counts as no motion
 
 inline void addExpression(Drawing& d, const Sketch& sketch, std::string name, Motion motion,
                           int of) {

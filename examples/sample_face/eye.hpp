@@ -35,8 +35,8 @@ constexpr LidLine lidFold{{{-1.8, -.2},
                            {-.42, -1.07},
                            {-1.25, -.82}}};
 
-/// A point in front of the eyeball, `radius` from its centre; beyond its rim the skin runs straight
-/// on.
+/// A point in front of the eyeball, `radius` from its centre; beyond its rim the skin continues
+/// straight.
 inline Vec3 overBall(Vec2 p, double radius) {
   const double away = std::hypot(p.x, p.y), rim = .8 * radius;
   double depth = std::sqrt(radius * radius - std::min(away, rim) * std::min(away, rim));
@@ -78,7 +78,7 @@ inline Vec3 lidPoint(const Mark& mark, const LidLine& edge, const LidLine& fold)
   }
 }
 
-/// Lids that have come `upper` and `lower` of the way to where they meet.
+/// The lids' line when they have come the shares `upper` and `lower` of the way to where they meet.
 inline LidLine closedBy(double upper, double lower) {
   LidLine line = lidEdge;
   constexpr std::array<double, 5> share{0, .14, .18, .25, .4};  // of the way up from the lower lid
@@ -102,7 +102,7 @@ inline void drawLids(Sketch& sketch, const Head& head) {
       line.push_back(
           sketch.add(lidPoint(mark, lidEdge, lidFold), mark, fmt::format("lid {}.{}", ring, k)));
     }
-    // Where the lids meet, their edges have to meet everywhere.
+    // Where the lids meet, their edges must meet along the whole length.
     for (int k = 0; k < kLidPlaces && (ring == 2 || ring == 3); ++k) {
       const Mark mark{Part::lid, ring, k, true};
       sketch.pass(line[k], line[(k + 1) % kLidPlaces], lidPoint(mark, lidEdge, lidFold), mark);

@@ -87,7 +87,8 @@ inline Vec3 earRoot(double angle) {
   return {7.15 + .1 * y + .15 * std::max(0.0, behind), y, z};
 }
 constexpr int kEarPlaces = rowCount + 1;
-/// Where each row, and last the lobe, meets the ear; places between them for what passes there.
+/// The angle at which each row, and last the lobe, meets the ear; places in between are for the
+/// curves from one to the next.
 inline double earAngle(double place) {
   constexpr std::array<double, kEarPlaces + 1> degrees{8,   20,  32,  44,  56,  68,  80,  92,  103,
                                                        114, 125, 136, 147, 158, 170, 183, 197, 212,
@@ -96,7 +97,7 @@ inline double earAngle(double place) {
   return std::lerp(degrees[k], degrees[k + 1], place - std::floor(place)) * std::numbers::pi / 180;
 }
 
-/// The other rows are drawn by a few points.
+/// Any other row, drawn through a few points.
 struct Rib {
   Row row;
   std::vector<Vec3> points;
@@ -145,7 +146,7 @@ struct Head {
 inline bool inOpening(int row, int column) {
   return (row == eye && (column == 4 || column == 5)) || (row == mouth && column < 3);
 }
-/// Cells between a row and the next that rings fill: mouth, nostril, eye.
+/// Whether rings fill a cell between a row and the next: mouth, nostril, eye.
 inline bool isOpen(int row, int column) {
   return ((row == underLip || row == mouth) && column < 3) || (row == noseBase && column == 1) ||
          ((row == underEye || row == eye) && column >= 3 && column < 6);
@@ -160,8 +161,8 @@ inline std::array<Vec3, kColumns> rowPoints(int row) {
   return points;
 }
 
-/// Takes ripples out of cheeks and forehead: fourth differences along the columns go, what is
-/// smooth stays.
+/// Smooths ripples in cheeks and forehead: damps fourth differences along the columns and keeps
+/// what is smooth.
 inline void fair(std::array<std::array<Vec3, kColumns>, rowCount>& points) {
   for (int pass = 0; pass < 8; ++pass) {
     auto next = points;
@@ -234,7 +235,7 @@ inline std::vector<Vec3> neckPoints(const NeckRing& ring, int count) {
   return points;
 }
 
-/// The neck hangs from the throat, the ear lobe and the hollow.
+/// Draws the neck, which hangs from the throat, the ear lobe and the hollow.
 inline void drawNeck(Sketch& sketch, Head& head) {
   head.ear.push_back(sketch.add(earRoot(earAngle(rowCount)), {Part::head, rowCount, kEar}, "lobe"));
   Line above = head.rows[throat];

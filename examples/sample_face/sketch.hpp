@@ -22,7 +22,7 @@ using sweepface::Vec2;
 using sweepface::Vec3;
 
 inline Vec3 mirrored(const Vec3& p) { return {-p.x, p.y, p.z}; }
-/// To a ten-thousandth, which keeps the text short.
+/// Rounded to a ten-thousandth, which keeps the text short.
 inline Vec3 rounded(const Vec3& p) {
   const auto round = [](double x) { return std::round(x * 1e4) / 1e4 + 0.0; };
   return {round(p.x), round(p.y), round(p.z)};
@@ -31,7 +31,7 @@ inline Vec3 between(const Vec3& a, const Vec3& b, double t) { return a + t * (b 
 
 enum class Part { head, lid, ball, lips, bag, upperTeeth, lowerTeeth, nostril, ear, neck };
 
-/// Where a node belongs: which ring of its part, which place on it. Expressions go by this.
+/// Where a node belongs: which ring of its part, which place on it. Expressions depend on this.
 struct Mark {
   Part part;
   int ring, place;
@@ -44,7 +44,7 @@ struct Spot {
   Mark mark;
 };
 
-/// A line of spots by their indices, on which others lie in rings or rows.
+/// A row or ring of spots, by their indices.
 using Line = std::vector<Index>;
 
 class Sketch {
@@ -55,7 +55,7 @@ class Sketch {
     return static_cast<Index>(spots_.size()) - 1;
   }
 
-  /// The curve between two spots passes here on its way.
+  /// Makes the curve between two spots pass through a point.
   void pass(Index from, Index to, const Vec3& point, Mark mark) {
     passes_[std::minmax(from, to)] = {rounded(point), mark};
   }
@@ -70,22 +70,22 @@ class Sketch {
     return inMiddle(i) ? names_[i] : (side > 0 ? "left " : "right ") + names_[i];
   }
 
-  /// The curve between two spots, of which `from` was drawn first.
+  /// The name of the curve between two spots, of which `from` was drawn first.
   std::string curveName(Index from, Index to, int side) const {
     return nodeName(from, side) + " - " + nodeName(to, side);
   }
 
-  /// A patch and its mirror image, by its corners counter-clockwise as seen from outside.
+  /// Adds a patch and its mirror image; corners are counter-clockwise as seen from outside.
   void patch(Index a, Index b, Index c, Index d, std::string_view material) {
     patches_.push_back({{a, b, c, d}, std::string(material)});
   }
-  /// Patches between two lines; `upper` is on the left of who walks along `lower`, seen from
-  /// outside.
+  /// Adds patches between two lines; seen from outside, `upper` is to the left of the direction of
+  /// `lower`.
   void strip(const Line& lower, const Line& upper, std::string_view material) {
     for (std::size_t k = 0; k + 1 < lower.size(); ++k)
       patch(lower[k], lower[k + 1], upper[k + 1], upper[k], material);
   }
-  /// Patches between rings that run clockwise, seen from outside.
+  /// Adds patches between rings that run clockwise, seen from outside.
   void ring(const Line& outer, const Line& inner, std::string_view material, bool closed = true) {
     const std::size_t count = outer.size();
     for (std::size_t k = 0; k + (closed ? 0 : 1) < count; ++k) {
@@ -131,7 +131,7 @@ class Sketch {
     d.patches.push_back(std::move(patch));
   }
 
-  // The curve between two nodes, perhaps backwards; drawn when it is first needed.
+  // Refers to the curve between two nodes, perhaps backwards; adds it when it is first needed.
   std::string curve(Drawing& d, Index a, Index b, int side) const {
     const auto [from, to] = std::pair{std::min(a, b), std::max(a, b)};
     const std::string name = curveName(from, to, side);
@@ -145,7 +145,7 @@ class Sketch {
     return a < b ? name : "-" + name;
   }
 
-  // One curve says how long edges are; the others follow it.
+  // Only the longest curve says how many edges it has; the others follow from it.
   static void setEdges(Drawing& d, double edge) {
     std::map<std::string_view, Vec3> places;
     for (const Drawing::Node& node : d.nodes) places[node.name] = *node.at;

@@ -16,7 +16,7 @@ inline void wrap(sweepface::Polygons& faces, const std::vector<Vec3>& positions)
     const Vec3& p = positions[vertex];
     return std::atan2(p.x, p.z + 1.5) / (2 * std::numbers::pi) + .5;
   };
-  std::map<std::pair<Index, bool>, Index> known;  // a vertex, seen from beyond the seam or not
+  std::map<std::pair<Index, bool>, Index> known;  // by vertex, and whether beyond the seam
   for (Index f = 0; f < faces.faceCount(); ++f) {
     double least = 1, most = 0;
     for (Index c = faces.faceStart[f]; c < faces.faceStart[f + 1]; ++c) {

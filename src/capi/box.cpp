@@ -1,4 +1,4 @@
-#ifndef __wasm__  // as small as can be
+#ifndef __wasm__  // left out to keep the module small
 #include "capi/handles.hpp"
 #include "capi/message.hpp"
 

@@ -133,7 +133,7 @@ void write(sweepface_face& face, const Weights& weights, What what, const sweepf
   auto& written = ofPositions ? face.positions : face.normals;
   auto& other = ofPositions ? face.normals : face.positions;
 #ifdef __wasm__
-  if (other.data == to.data) other.data = nullptr;  // it is written over
+  if (other.data == to.data) other.data = nullptr;  // it is overwritten
 #else
   if (other.isHitBy(to, count)) other.data = nullptr;
   (ofPositions ? face.normalsBefore : face.positionsBefore).forget(to, count);
@@ -144,8 +144,8 @@ void write(sweepface_face& face, const Weights& weights, What what, const sweepf
   job.evaluator = isNeutral(weights) ? &mesh.neutral
                   : ofPositions      ? &mesh.positions()
                                      : &mesh.normals();
-  // The neutral's tables have no targets that could tell what differs, and tell tangents in other
-  // units where a target opens what it holds shut.
+  // The neutral's tables have no targets that would show what differs, and hold derivatives in
+  // other units where a target opens what the neutral holds shut.
   const bool ofTheseTables = !isNeutral(weights) && (ofPositions || !isNeutral(written.weights));
   if (onlyChanges && isThere && ofTheseTables) job.previous = written.weights;
   job.weights = weights;

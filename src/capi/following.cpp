@@ -18,7 +18,7 @@ const Weights& sweepface::capi::followAll(const Following& following, sweepface_
       following.eyes->apply(region);
     if (following.followers) following.followers->apply(region);
   }
-  // Products of large weights are beyond what an evaluation takes.
+  // Products of large weights may exceed what an evaluation accepts.
   for (double& w : face.followed) w = std::clamp(w, -SWEEPFACE_MOST_WEIGHT, SWEEPFACE_MOST_WEIGHT);
   return face.followed;
 }

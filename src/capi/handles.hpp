@@ -18,21 +18,22 @@
 #include "capi/written.hpp"
 #include "eval/shader_tables.hpp"
 
-// What the handles of the C interface stand for. Rigs and meshes are shared by what is made from
-// them.
+// The objects behind the handles of the C interface. Rigs and meshes are shared by what is made
+// from them.
 
 struct sweepface_face;
 struct sweepface_rig;
 
 namespace sweepface::capi {
 
-/// Refuses where a rig shows its neutral only, as what its targets do was not loaded.
+/// Refuses a rig that shows only its neutral, because what its targets do was not loaded.
 sweepface_status needTargets(const Rig& rig);
 
-/// How many vertices a mesh may have, about one a quad: asked before anyone makes room for them.
+/// The most vertices a mesh may have, about one per quad; checked before memory is reserved for
+/// them.
 inline constexpr double kMostVertices = 1 << 24;
 
-/// The regions of a face; none: one that is everywhere.
+/// The regions of a face; if there are none, one that is everywhere.
 struct Division {
   std::vector<std::string> names;
   std::vector<std::vector<float>> influences;
@@ -43,23 +44,23 @@ struct Division {
 
 /// A face divided into these regions.
 Division divisionOf(const Rig& rig, const std::vector<Region>& regions);
-/// Divides a rig, so that eyes which turn stay whole.
+/// Divides a rig, keeping eyes that turn whole.
 void divide(sweepface_rig& rig, Division division);
 
-/// What sets weights by others, where something does: most faces do without, and a module that has
-/// none of it does not bring it along.
+/// Sets weights that depend on others, if there are any. Most faces have none, and a module without
+/// them does not link this in.
 struct Following {
-  std::shared_ptr<const Followers> followers;  // of targets; those added for them are not shown
-  std::shared_ptr<const EyeTurns> eyes;        // where they turn
+  std::shared_ptr<const Followers> followers;  // of targets; targets added for these are not shown
+  std::shared_ptr<const EyeTurns> eyes;        // if they turn
   const Weights& (*apply)(const Following&, sweepface_face&) = nullptr;
 };
-/// All of it, for Following::apply.
+/// Applies all of them; used as Following::apply.
 const Weights& followAll(const Following& following, sweepface_face& face);
 
 }  // namespace sweepface::capi
 
 struct sweepface_rig {
-  std::shared_ptr<sweepface::Rig> rig;  // once there are meshes only its targets may still come
+  std::shared_ptr<sweepface::Rig> rig;  // once there are meshes, only targets may still be loaded
   sweepface::TargetsToCome toCome;
   std::size_t shown = 0;  // targets, the first ones
   std::shared_ptr<const sweepface::capi::Division> division;
@@ -84,7 +85,7 @@ struct Mesh {
   Evaluator neutral;  // with the same options the others cannot fail
   RenderMesh render;
 
-  // Tables are made when they are first asked for: until then a face shows its neutral.
+  // Tables are made on first use; until then a face shows its neutral.
   mutable std::once_flag positionsOnce = {}, normalsOnce = {};
   mutable Evaluator madePositions = {}, madeNormals = {};
 
@@ -92,8 +93,8 @@ struct Mesh {
   mutable ShaderTables shaderPositions = {}, shaderTangents = {};
 
 #ifndef __wasm__  // where shaders find tangents themselves
-  /// Of all vertices, for normal maps: with targets, or of the neutral alone while they are to
-  /// come.
+  /// The tangents of all vertices, for normal maps: with targets, or of the neutral alone, for
+  /// which none need to be loaded.
   struct MapTangents {
     std::once_flag once = {};
     Evaluator evaluator = {};
@@ -102,7 +103,7 @@ struct Mesh {
   mutable Tangents tangents = {};  // of the neutral
   mutable MapTangents neutralMap = {}, movingMap = {};
 
-  /// Likewise with targets, or of the neutral alone.
+  /// With targets or of the neutral alone, likewise.
   struct BoxOnce {
     std::once_flag once = {};
     std::optional<PoseBox> made = {};
@@ -111,7 +112,7 @@ struct Mesh {
 
   const PoseBox& poseBox(bool moving) const;
   const Evaluator& mapTangents(bool moving) const;
-  /// Enough for those, too.
+  /// Enough for the map tangents too.
   std::size_t scratchBytes() const {
     return neutral.scratchBytes() + sizeof(Index) * (render.copies.size() / kTileVertices + 1);
   }
@@ -136,7 +137,7 @@ struct Mesh {
                    [&] { madeNormals = both && both->hasNormals() ? *both : make(false, true); });
     return madeNormals;
   }
-  /// At once they take less than one after the other.
+  /// Making both at once takes less than one after the other.
   void prepareBoth() const { normals(&positions(true)); }
 
  private:
@@ -151,7 +152,8 @@ struct Mesh {
 
 /// Refuses more vertices than there are.
 sweepface_status needVertices(const Mesh& mesh, std::size_t count);
-/// Vertices behind the points repeat them, as far as they are among the first `count`.
+/// Fills in the vertices after the points, which repeat them, as far as they are among the first
+/// `count`.
 void repeatPoints(const Mesh& mesh, const sweepface_vectors& out, std::size_t count);
 
 }  // namespace sweepface::capi
@@ -168,7 +170,7 @@ struct sweepface_face {
 
   sweepface::capi::Written positions, normals;
   std::optional<sweepface::HeadPose> looks = {};
-#ifndef __wasm__  // the module has one buffer, and is to be small
+#ifndef __wasm__  // the module has one buffer, and must be small
   sweepface::capi::WrittenBefore positionsBefore{followed}, normalsBefore{followed};
 #endif
 };
@@ -178,7 +180,7 @@ inline bool isNeutral(const Weights& weights) {
   return std::ranges::all_of(weights, [](double w) { return w == 0; });
 }
 
-/// The face's weights with what follows them.
+/// The face's weights with those that follow from them.
 inline const Weights& follow(sweepface_face& face) {
   const Following& following = face.mesh->following;
   return following.apply ? following.apply(following, face) : face.weights;

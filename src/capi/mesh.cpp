@@ -68,7 +68,7 @@ sweepface_status sweepface_mesh_create_within(const sweepface_rig* rig, sweepfac
   return makeMesh(*rig, 1, Tessellation(rig->rig->surface, *density), renderDensity, mesh);
 }
 
-#ifndef __wasm__  // as small as can be
+#ifndef __wasm__  // left out to keep the module small
 sweepface_status sweepface_mesh_create_at(const sweepface_rig* rig, const double* points,
                                           size_t count, sweepface_mesh** mesh) {
   if (!rig || !mesh || !points || count == 0)

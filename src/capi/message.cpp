@@ -5,7 +5,7 @@
 namespace sweepface::capi {
 
 namespace {
-// No string: its destructor would keep a plugin loaded for as long as the thread lives.
+// Not a std::string: its destructor would keep a plugin loaded for as long as the thread lives.
 constinit thread_local char lastMessage[2048] = "";
 
 bool isWithinCharacter(char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; }

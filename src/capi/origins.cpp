@@ -9,7 +9,7 @@ using namespace sweepface::capi;
 
 namespace {
 
-/// Vertices of the source lie where they are.
+/// Every vertex of the source is its own origin.
 std::vector<Origin> originsOfSource(Index count) {
   std::vector<Origin> origins;
   for (Index v = 0; v < count; ++v) origins.push_back({{v, v, v, v}, {1, 0, 0, 0}});

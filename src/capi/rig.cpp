@@ -13,7 +13,7 @@ using namespace sweepface;
 using namespace sweepface::capi;
 
 sweepface_status capi::needTargets(const Rig& rig) {
-  // What all do comes at once, and many calls ask.
+  // All targets are loaded at once, so it is enough to check the first; many calls ask.
   if (rig.targets.empty() || rig.knows(rig.targets.front())) return SWEEPFACE_OK;
   return refuse("What the targets do was not loaded; call sweepface_rig_load_targets first.");
 }
@@ -27,7 +27,8 @@ sweepface_status loadNeutral(const void* bytes, size_t size, const char* name,
       decodeNeutral({static_cast<const char*>(bytes), size}, calledOr(name, "The face"), limits);
   if (!decoded) return refuse(SWEEPFACE_BAD_DATA, decoded.error().message);
   const std::size_t targets = decoded->rig.targets.size();
-  // Names stay where they are when a target each for arcs and those that turn two eyes are added.
+  // Reserves a target for the arcs of each, and those that turn two eyes, so that adding them does
+  // not move names.
   decoded->rig.targets.reserve(2 * targets + 2 * EyeTurns::kTargets);
   *rig =
       new sweepface_rig{std::make_shared<Rig>(std::move(decoded->rig)), std::move(decoded->targets),

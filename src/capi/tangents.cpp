@@ -34,8 +34,8 @@ void writeSigns(const std::vector<float>& signs, const VectorsOut& tangents) {
     std::memcpy(place, &signs[v], sizeof(float));
 }
 
-/// Copies of points have their normals, so that no seam is seen in the light: their tangents are
-/// turned to be at right angles to these.
+/// Copies of points share the points' normals, so that no seam shows in the light. Their tangents
+/// are turned to be at right angles to these.
 void squareUp(const Mesh& mesh, const VectorsOut& normals, const VectorsOut& tangents) {
   const auto read = [](const VectorsOut& from, Index vertex) {
     float xyz[3];
@@ -51,7 +51,7 @@ void squareUp(const Mesh& mesh, const VectorsOut& normals, const VectorsOut& tan
   }
 }
 
-/// What the face wrote there is written over.
+/// Forgets what the face wrote there, as it is overwritten.
 void forget(sweepface_face& face, const sweepface_vectors& to, std::size_t count,
             std::size_t size) {
   for (Written* const last : {&face.positions, &face.normals})

@@ -20,7 +20,7 @@ inline std::size_t strideOf(const sweepface_vectors& out, std::size_t tight = kT
   return out.stride ? out.stride : tight;
 }
 
-/// What an output holds, and where; at NULL: nothing.
+/// What an output holds, and where; if `data` is NULL, nothing.
 struct Written {
   float* data = nullptr;
   std::size_t stride = 0, count = 0;
@@ -29,8 +29,8 @@ struct Written {
   bool is(const sweepface_vectors& to, std::size_t vertices) const {
     return data == to.data && stride == to.stride && count == vertices;
   }
-  /// Whether the bytes from the first to the last of another output, of `size` bytes a vertex, and
-  /// those of this one have some in common.
+  /// Whether the range of bytes from the first to the last of this output overlaps that of another,
+  /// with `size` bytes per vertex.
   bool overlaps(const sweepface_vectors& to, std::size_t vertices,
                 std::size_t size = kTight) const {
     const char* const other = reinterpret_cast<const char*>(to.data);
@@ -39,13 +39,14 @@ struct Written {
            before(begin(), endOf(other, strideOf(to, size), vertices, size)) &&
            before(other, endOf(begin(), strideOf({data, stride}), count, kTight));
   }
-  /// Whether writing the other output changes this one: both may be parts of the same structs.
+  /// Whether writing the other output changes this one. They may be different members of the same
+  /// structs.
   bool isHitBy(const sweepface_vectors& to, std::size_t vertices, std::size_t size = kTight) const {
     if (!overlaps(to, vertices, size)) return false;
     const auto own = static_cast<std::ptrdiff_t>(strideOf({data, stride})),
                theirs = static_cast<std::ptrdiff_t>(strideOf(to, size));
     const std::ptrdiff_t apart = reinterpret_cast<const char*>(to.data) - begin();
-    const auto hits = [&](std::ptrdiff_t from) {  // from where on, after one of this one's vertices
+    const auto hits = [&](std::ptrdiff_t from) {  // bytes after the start of one of our vertices
       return from < static_cast<std::ptrdiff_t>(kTight) ||
              own - from < static_cast<std::ptrdiff_t>(size);
     };
@@ -70,14 +71,14 @@ struct Written {
   }
 };
 
-/// Where an output was written before the last time: buffers are often written in turn.
+/// Where an output was written before the last time, as buffers are often written in turn.
 class WrittenBefore {
  public:
   explicit WrittenBefore(const Weights& rest) {
     for (Written& place : places_) place.weights = rest;
   }
 
-  /// Makes the place of an output the last one, if it is among these.
+  /// Makes the place of an output the last one, if it is among the earlier ones.
   void bringBack(Written& last, const sweepface_vectors& to, std::size_t count) {
     if (last.is(to, count)) return;
     auto place = std::ranges::find_if(places_, [&](const Written& w) { return w.is(to, count); });
@@ -90,7 +91,7 @@ class WrittenBefore {
       if (w.overlaps(to, count)) w.data = nullptr;
   }
 
-  /// Something else is written there.
+  /// Forgets what is overwritten by something else.
   void forget(const sweepface_vectors& to, std::size_t count, std::size_t size = kTight) {
     for (Written& w : places_)
       if (w.isHitBy(to, count, size)) w.data = nullptr;

@@ -30,7 +30,7 @@ bool fitFloats(const std::vector<V>& vectors) {
   });
 }
 
-// Zero as it would be read back; not -0, which is another number.
+// Whether a value reads back as +0. -0 is a different number.
 bool isZero(double x, bool isDouble) {
   return isDouble ? std::bit_cast<std::uint64_t>(x) == 0
                   : std::bit_cast<std::uint32_t>(rounded(x)) == 0;
@@ -45,8 +45,8 @@ std::vector<char> findNonZero(const std::vector<V>& vectors, bool isDouble) {
   return mask;
 }
 
-// Powers of ten that doubles hold, so that n / 10^digits is the double nearest to the decimal
-// number: the one that a text with so many digits is read as.
+// Powers of ten that are exact as doubles, so that n / 10^digits is the double nearest to the
+// decimal number, the same that its text would be parsed as.
 constexpr std::array<double, 13> kPowersOfTen{1,   1e1, 1e2, 1e3,  1e4,  1e5, 1e6,
                                               1e7, 1e8, 1e9, 1e10, 1e11, 1e12};
 constexpr double kMostDecimal = 9e15;  // whole numbers below are exact
@@ -58,7 +58,7 @@ bool isDecimal(double x, double power) {
          std::bit_cast<std::uint64_t>(x);
 }
 
-// The fewest digits after the point with which all components can be written, or -1.
+// The fewest decimal places with which all components can be written, or -1.
 template <typename V>
 int decimalDigits(const std::vector<V>& vectors) {
   std::size_t digits = 0;

@@ -7,14 +7,14 @@
 #include "codec/reader.hpp"
 #include "codec/writer.hpp"
 
-// What several kinds of chunks are made of, written and read side by side.
+// Building blocks shared by several kinds of chunks, each writer beside its reader.
 namespace sweepface::codec {
 
-/// `exact` holds decimals or doubles where floats would not do.
+/// `exact` stores decimals or doubles where floats would lose bits.
 enum class Precision { single, exact };
 
-/// Vec2 or Vec3. Where it is shorter, a mask says which are not zero and only those follow. Nothing
-/// costs less than a bit, so that memory stays in proportion to the file.
+/// Vec2 or Vec3. Where it saves bytes, a mask marks the non-zero vectors and only those follow.
+/// Every vector takes at least a bit, so memory stays in proportion to the file.
 template <typename V>
 void writeVectors(Writer& out, const std::vector<V>& vectors, Precision precision);
 template <typename V>
@@ -24,7 +24,7 @@ std::vector<V> readVectors(Reader& in, std::size_t count, Precision precision);
 void writeMask(Writer& out, const std::vector<char>& mask);
 std::vector<char> readMask(Reader& in, std::size_t count);
 
-/// Values that rarely change: each with how often it comes in a row.
+/// Run-length coding of values that rarely change.
 void writeRuns(Writer& out, const std::vector<Index>& values);
 /// Values within [low, high), at most `most` of them.
 std::vector<Index> readRuns(Reader& in, Index low, Index high, std::size_t most, const char* what);

@@ -11,7 +11,7 @@ namespace sweepface::codec {
 
 namespace {
 
-// Of the targets' step.
+// As a fraction of the targets' step.
 constexpr double kBoneUnit = 1.0 / 16;
 
 }  // namespace
@@ -24,7 +24,7 @@ void makeBonesSound(Packing& packing, std::size_t vectors) {
     count = std::max(count, bone + 1);
   }
   if (count == 0) packing.bones.clear();
-  if (!packing.poses.empty()) packing.poses.front().carries.clear();  // the neutral's
+  if (!packing.poses.empty()) packing.poses.front().carries.clear();  // the neutral carries nothing
   for (Packing::Pose& pose : packing.poses) {
     Index last = -1;
     std::erase_if(pose.carries, [&](Packing::Carry& carry) {
@@ -69,7 +69,7 @@ bool Bones::add(std::span<const Packing::Carry> carries, double sign,
   std::array<const Packing::Carry*, kMostBones> carryOf{};
   for (const Packing::Carry& carry : carries) carryOf[carry.bone] = &carry;
   const double unit = sign * unit_;
-  double scaled = 0;  // until it meets what is too large: finite
+  double scaled = 0;  // finite until a value is too large
   for (const auto& [vector, bone, isPosition, at] : places_) {
     if (carryOf[bone] == nullptr) continue;
     const auto& by = carryOf[bone]->by;

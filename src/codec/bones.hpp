@@ -15,32 +15,33 @@ namespace sweepface::codec {
 inline constexpr Index kMostBones = 64;
 inline constexpr std::int32_t kMostCarried = 1 << 26;
 
-/// Leaves of the bones and of what they carry what a file can hold, for so many stored vectors.
+/// Drops or clamps whatever a file cannot hold of the bones and their carries, for a rig with
+/// `vectors` stored vectors.
 void makeBonesSound(Packing& packing, std::size_t vectors);
 
-/// The vectors of a site hang on the bone of its position.
+/// Attaches all vectors of a site to the bone of its position.
 void levelOut(const Hierarchy& hierarchy, std::vector<Index>& bones);
 
-/// Parts that some targets move as wholes: teeth and lower gums that hang on the jaw, eyes. Every
-/// bone carries its vectors by an affine map, so that a target has only to tell what it does beyond
-/// that. Linear blend skinning with weights of 0 and 1, in the file alone.
+/// Parts that some targets move as a whole, such as eyes, or teeth and lower gums with the jaw.
+/// Each bone carries its vectors by an affine map, so a target codes only what it does beyond that.
+/// This is linear blend skinning with weights of 0 and 1, used only within the file.
 class Bones {
  public:
   Bones() = default;
-  /// Where the vectors of each bone are in the neutral [S].
+  /// `neutral` [S] places the vectors of each bone.
   Bones(const Surface& surface, const Packing& packing, std::span<const Vec3> neutral);
 
-  /// Adds what carries say, or takes it away, to vectors [S] of a pose. False where one comes out
-  /// that is too large.
+  /// Adds the effect of the carries to vectors [S] of a pose, or subtracts it, by `sign`. False if
+  /// a resulting vector is too large.
   bool add(std::span<const Packing::Carry> carries, double sign, std::span<Vec3> vectors) const;
-  /// What vectors [S] of a pose do beyond what carries say.
+  /// Vectors [S] of a pose less the effect of its carries.
   std::vector<Vec3> beyond(std::span<const Packing::Carry> carries,
                            std::vector<Vec3> vectors) const {
     add(carries, -1, vectors);
     return vectors;
   }
 
-  /// A vector by its bone's middle and size: what maps multiply.
+  /// A neutral vector relative to its bone's centre and size: what the affine maps are applied to.
   struct Place {
     Index vector = -1, bone = -1;
     bool isPosition = false;
@@ -63,7 +64,8 @@ enum BoneTag : std::uint32_t {
   kCarry = 63
 };
 
-/// Which bone each site hangs on: most often that of what predicts it. Answers how many there are.
+/// Codes the bone that each site is attached to, most often that of the site that predicts it.
+/// Returns the number of bones.
 template <typename Coder>
 Index codeBones(Symbols<Coder>& symbols, const Hierarchy& hierarchy, std::vector<Index>& bones) {
   Index count = 0;
@@ -99,7 +101,7 @@ Index codeBones(Symbols<Coder>& symbols, const Hierarchy& hierarchy, std::vector
   return count;
 }
 
-/// Answers how many bits its numbers have.
+/// Returns the total number of bits in the carries' numbers.
 template <typename Coder>
 std::uint64_t codeCarries(Symbols<Coder>& symbols, Index bones,
                           std::vector<Packing::Carry>& carries) {

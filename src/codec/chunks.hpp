@@ -10,13 +10,13 @@
 namespace sweepface::codec {
 
 inline constexpr std::string_view kMagic = "SWEEPFC";
-inline constexpr int kVersion = 2;             // that is written
+inline constexpr int kVersion = 2;             // the version written
 inline constexpr std::size_t kHeaderSize = 8;  // magic and version
 inline constexpr std::size_t kFrameSize = 12;  // kind, length and checksum
 
-/// The registry: the codes of a version in the order in which chunks stand in a file, one behind
-/// the other. A code never changes its meaning. One that begins with a capital is required: who
-/// does not know it must refuse the file.
+/// The registry: the concatenated chunk codes of a version, in the order of the chunks in a file. A
+/// code never changes its meaning. A chunk whose code begins with a capital is critical: a reader
+/// that does not know it must refuse the file.
 constexpr std::string_view codesOf(int version) {
   using namespace std::string_view_literals;
   return version == 1
@@ -26,7 +26,7 @@ constexpr std::string_view codesOf(int version) {
 constexpr std::string_view codeAt(int rank, int version) {
   return codesOf(version).substr(4 * static_cast<std::size_t>(rank), 4);
 }
-/// Place of a code among the kinds of a version, or -1.
+/// Position of a code in the registry of a version, or -1.
 int rankOf(std::string_view code, int version = kVersion);
 
 struct Chunk {
@@ -35,7 +35,7 @@ struct Chunk {
   std::size_t offset = 0;  ///< of the payload in the file
 };
 
-/// All chunks up to and with the last, with their checksums verified.
+/// All chunks up to and including the last, with verified checksums.
 struct Chunks {
   int version = 0;
   std::vector<Chunk> list;

@@ -14,12 +14,12 @@
 
 namespace sweepface::codec {
 
-/// Codes the coefficients of one pose after the other, coarse to fine; learns as it goes. Reader
-/// and writer are the same code over a RangeDecoder or a RangeEncoder.
+/// Codes the coefficients of one pose after another, coarse to fine, with adaptive contexts. Reader
+/// and writer share this code, over a RangeDecoder or a RangeEncoder.
 template <typename Coder>
 class CoefficientCoder {
  public:
-  /// For the neutral or for all targets.
+  /// One coder serves the neutral, another all targets.
   CoefficientCoder(const Hierarchy& hierarchy, Coder& coder, int axis, bool neutral)
       : h_(hierarchy),
         axis_(axis),
@@ -41,8 +41,8 @@ class CoefficientCoder {
     like_.resize(siteOf_.size());
   }
 
-  /// What is read comes to a `q` of zeros. `expected` is what a partner's image predicts. `like`
-  /// tells what else to expect: a pose that moves much the same, or nothing.
+  /// When reading, `q` must be all zeros. `expected` is the prediction by the image of a partner
+  /// pose. `like` is a further hint: a pose that moves similarly, or empty.
   void code(Coefficients& q, Symmetry symmetry, const Sparse& expected, Sparse like) {
     lookAt(std::move(like));
     if constexpr (kWrites<Coder>)
@@ -61,19 +61,19 @@ class CoefficientCoder {
     for (std::size_t s = 0; s < sites.size(); ++s) history_[s] += active_[s];
   }
 
-  /// Reading ends where coefficients have more bits in all.
+  /// Stops reading once the coefficients have more than `most` bits in all.
   void setMostBits(std::uint64_t most) { mostLength_ = most; }
-  /// Of what else counts among them.
+  /// Adds bits of other numbers to that total.
   void countBits(std::uint64_t bits) { length_ += bits; }
   bool hasTooManyBits() const { return length_ > mostLength_; }
 
  private:
-  // Enough that contexts hardly ever share one, and no more than a small rig needs.
+  // Enough that contexts hardly ever share a slot, and no more than a small rig needs.
   static std::uint32_t slotsFor(std::size_t vectors) {
     return static_cast<std::uint32_t>(
         std::bit_ceil(std::clamp<std::size_t>(32 * vectors, 1 << 10, 1 << 18)));
   }
-  // Targets differ from each other: what was learned from some is forgotten sooner than in a
+  // Targets differ from one another, so their statistics are forgotten sooner than those of a
   // neutral.
   static constexpr std::uint16_t kNeutralMemory = 30, kTargetMemory = 16;
   static constexpr std::uint32_t kMostBits = 28;
@@ -81,14 +81,14 @@ class CoefficientCoder {
 
   enum BitKind { kAny, kBelow, kVector, kZero, kSign, kMore };
 
-  // Of a site that came before.
+  // Whether a site mirrors one that was coded before it.
   bool isImage(Index s) const { return h_.sites()[s].mirror >= 0 && h_.sites()[s].mirror < s; }
   Steps3 imageAt(const Coefficients& q, Index v) const {
     const Hierarchy::Image& image = h_.images()[v];
     return image.vector < 0 ? Steps3{} : reflected(q[image.vector], image.sign, axis_);
   }
 
-  // What is coded: the difference from what images predict.
+  // Sets the residuals, which are what is coded: the differences from what images predict.
   void compare(const Coefficients& q, Symmetry symmetry, const Sparse& expected) {
     residual_ = q;
     const auto subtract = [&](Index v, const Steps3& image) {
@@ -119,7 +119,7 @@ class CoefficientCoder {
     for (const Moved& m : expected) q[m.vector] = m.steps;
   }
 
-  // Adds what was read of a site to what its image says, where it `follows` that.
+  // Adds the residuals read for a site to what its image predicts, if it `follows` that image.
   void fillIn(Coefficients& q, Index s, bool follows) {
     const CodedSite& site = h_.sites()[s];
     const bool mirrors = follows && mirrors_[site.mirror];
@@ -142,12 +142,12 @@ class CoefficientCoder {
       if (m.vector == h_.sites()[s].first)
         likeSite_[s] += 2 * std::min(largest(m.steps, 3), 3u);
       else
-        likeSite_[s] += likeSite_[s] & 1;  // slopes: once
+        likeSite_[s] += likeSite_[s] & 1;  // once for all slopes
       passUp(likeBelow_, s);
     }
   }
 
-  // Marks what a site that moves is below.
+  // Marks all ancestors of a site that moves.
   void passUp(std::vector<char>& below, Index s) const {
     const auto& sites = h_.sites();
     for (Index up = sites[s].parent; up >= 0 && !below[up]; up = sites[up].parent) below[up] = 1;
@@ -160,7 +160,7 @@ class CoefficientCoder {
     recent_ = recent_ << 4 ^ static_cast<std::uint32_t>(2 * (kind ^ sub) + value);
     return value;
   }
-  // A context with the last three bits, of whatever kind.
+  // A context combined with the last three bits, of any kind.
   std::uint32_t recently(std::uint32_t context) const { return context << 12 | (recent_ & 0xfff); }
 
   static std::uint32_t bucket(std::int32_t x) {
@@ -204,7 +204,7 @@ class CoefficientCoder {
 
   void codeVectors(Index s, std::uint32_t level) {
     const CodedSite& site = h_.sites()[s];
-    std::uint32_t before = 0;  // which moved, of the last 32
+    std::uint32_t before = 0;  // which of the last 32 vectors moved
     bool some = false;
     for (Index k = 0; k < site.count; ++k) {
       const Index v = site.first + k;
@@ -226,14 +226,14 @@ class CoefficientCoder {
     }
   }
 
-  // The contexts that the numbers of a coefficient share.
+  // The contexts shared by the bits of one coordinate of a coefficient.
   struct Component {
-    std::uint32_t order;    // of the vector: 0 a position, 1 a slope, 2 what is beyond
-    std::uint32_t place;    // with the phase and the axis
+    std::uint32_t order;    // of the vector: 0 position, 1 slope, 2 higher derivative
+    std::uint32_t place;    // order, phase and axis combined
     std::uint32_t id;       // the coefficient
     std::uint32_t level;    // of the site
-    std::uint32_t pattern;  // how large the components before are: 0, 1 or 2
-    std::uint32_t others;   // the largest of them, and of the vector around
+    std::uint32_t pattern;  // sizes of the previous components: 0, 1 or 2 each
+    std::uint32_t others;   // bucket of the largest of those, and of the vector around
     std::int32_t around, like;
   };
 
@@ -257,7 +257,7 @@ class CoefficientCoder {
     }
   }
 
-  // Of each component the largest of the vectors beside.
+  // For each component, the value of largest magnitude among the vectors that predict the site.
   Steps3 largestBeside(Index s) const {
     Steps3 most{};
     for (const Term& t : h_.beside(s))
@@ -274,7 +274,7 @@ class CoefficientCoder {
                 c.id * 8 + phase_, (c.place * 16 + likeSite) * 16 + bucket(c.like)});
   }
 
-  // Not zero.
+  // A component that is not zero.
   std::int32_t codeComponent(std::int32_t value, const Component& c) {
     const std::uint32_t lean = way(c.around);
     const bool negative =
@@ -295,7 +295,7 @@ class CoefficientCoder {
     return bucket(most);
   }
 
-  // At least 1: its length in bits (unary) and then the bits (Elias 1975).
+  // A number of at least 1: its length in bits (unary), then its bits (Elias 1975).
   std::uint32_t magnitude(std::uint32_t size, const Component& c) {
     const std::uint32_t by = bucket(c.around), alike = bucket(c.like);
     std::uint32_t n = 1;
@@ -321,15 +321,15 @@ class CoefficientCoder {
   const Hierarchy& h_;
   int axis_;
   bool neutral_;
-  std::uint32_t mask_;  // of slots
+  std::uint32_t mask_;  // selects a slot
   Model<Coder, kInputs> model_;
   std::uint64_t length_ = 0, mostLength_ = std::numeric_limits<std::uint64_t>::max();
-  std::uint32_t phase_ = 0, recent_ = 0;        // the last bits with their kinds, four each
-  std::vector<Index> siteOf_;                   // [S]
+  std::uint32_t phase_ = 0, recent_ = 0;  // recent_: the last bits with their kinds, four bits each
+  std::vector<Index> siteOf_;             // [S]
   std::vector<char> active_, below_, mirrors_;  // [sites]
-  std::vector<Index> history_;                  // [sites] poses in which it was active
-  Coefficients residual_, like_;                // [S]
-  std::vector<Index> told_;                     // of the residuals, those that were read
+  std::vector<Index> history_;    // [sites] number of poses in which the site was active
+  Coefficients residual_, like_;  // [S]
+  std::vector<Index> told_;       // vectors whose residuals were read
   Sparse likes_;
   std::vector<std::uint32_t> likeSite_;  // [sites]
   std::vector<char> likeBelow_;          // [sites]

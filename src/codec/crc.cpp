@@ -8,8 +8,8 @@ namespace sweepface::codec {
 
 namespace {
 
-/// Entry [k][b]: what a byte b makes of the sum k bytes later. Not constexpr: made when first asked
-/// for, as a browser would load its 8 KB.
+/// Entry [k][b]: the contribution of a byte b to the CRC k bytes later. Computed at first use
+/// rather than constexpr, so that a browser need not load its 8 KB.
 using CrcTables = std::array<std::array<std::uint32_t, 256>, 8>;
 CrcTables makeCrcTables() {
   CrcTables t{};

@@ -22,7 +22,7 @@ bool Decoding::afford(Reader& in, std::size_t count, std::size_t bytesEach) {
 
 bool Decoding::affordVectors(Reader& in, std::size_t eachPose, std::size_t bytesEach) {
   const std::size_t poses = targets + 1, vectors = std::max<std::size_t>(1, eachPose);
-  // What is still costs nothing, so that memory is limited here.
+  // Vectors that do not move cost no bytes, so memory is limited here.
   if (poses > kMostVectors / vectors ||
       poses * vectors > within(kMostVectors, kVectorsAByte, kVectorsAnyway, fileSize)) {
     in.refuse("there are more targets than the file can hold");
@@ -63,7 +63,7 @@ class Decoder {
     return *this;
   }
 
-  /// All chunks but the one that is `toCome`, if any.
+  /// Reads all chunks except `toCome`, if any.
   Result<void> run(const Chunks& chunks, const Chunk* toCome) {
     version_ = chunks.version;
     readers_ = version_ == 1 ? version1() : version2();
@@ -94,7 +94,8 @@ class Decoder {
     return fail(name_, ", chunk '", codeAt(chunk.rank, version_), "', byte ", byte, ": ", what...);
   }
 
-  // Chunks come in the order of the registry; targets of version 1 as many as the head says.
+  // Checks that chunks come in the order of the registry, and in version 1 as many targets as the
+  // head announces.
   Result<void> admit(const Chunk& chunk) {
     if (chunk.rank < rank_ || (chunk.rank == rank_ && !readers_[chunk.rank].repeated))
       return failAt(chunk, chunk.offset, "it comes twice or out of its order", kConvertAgain);
@@ -120,11 +121,11 @@ class Decoder {
   int version_ = 0;
   std::span<const ChunkHandler> readers_;
   int rank_ = -1;           // of the last chunk
-  std::uint32_t seen_ = 0;  // ranks of the chunks so far
+  std::uint32_t seen_ = 0;  // bits of the ranks so far
   Decoding decoding_;
 };
 
-// What targets do, where nothing builds on it.
+// The chunk of the targets' vectors, if no other chunk builds on it.
 const Chunk* movesOf(const Chunks& chunks) {
   const Chunk* moves = nullptr;
   for (const Chunk& chunk : chunks.list) {
@@ -141,7 +142,7 @@ const Chunk* movesOf(const Chunks& chunks) {
 struct TargetsToCome::Rest {
   codec::Decoder decoder;
   std::string payload;
-  codec::Chunk chunk;                   // holds the payload
+  codec::Chunk chunk;                   // views `payload`
   std::size_t stored = 0, targets = 0;  // of the rig
 };
 

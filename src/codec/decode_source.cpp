@@ -1,4 +1,4 @@
-// Chunks that hold things as they are. Packed faces do without them.
+// Chunks that store data verbatim. Packed faces do not need them.
 
 #include "codec/blocks.hpp"
 #include "codec/decoding.hpp"
@@ -9,7 +9,7 @@ namespace sweepface::codec {
 
 namespace {
 
-// One vertex a point, one a T-node, and those within arcs and patches.
+// One vertex for each point and each T-node, and those within arcs and patches.
 std::int64_t gridVertices(const Surface& surface) {
   const Wireframe& w = surface.wireframe();
   std::vector<char> seen(w.points);
@@ -24,7 +24,7 @@ std::int64_t gridVertices(const Surface& surface) {
   return count;
 }
 
-// Every corner takes a byte of what follows, so that many faces need many bytes.
+// Every corner takes a byte of what follows, so many faces need many bytes.
 void readFaceSizes(Reader& in, Polygons& faces) {
   const std::size_t most = in.left();
   const auto sizes = readRuns(in, 3, INT32_MAX, most, "size of a face");
@@ -63,7 +63,7 @@ void readSourceOrder(Decoding& d, Reader& in) {
 }
 
 void readPolygons(Decoding& d, Reader& in) {
-  // A size, a corner or a name takes a byte at least.
+  // A size, a corner or a name takes at least a byte.
   if (!d.afford(in, in.left(), sizeof(std::string))) return;
   Polygons& faces = d.rig->source.polygons;
   readFaceSizes(in, faces);
@@ -118,12 +118,12 @@ void readScene(Decoding& d, Reader& in) {
   if (d.afford(in, in.left(), 1)) d.rig->scene = in.text();
 }
 void readThingNames(Decoding& d, Reader& in) {
-  // A name takes a byte at least, and is looked for among the others.
+  // A name takes at least a byte, and a view for the search for duplicates.
   if (d.afford(in, in.left(), sizeof(std::string) + sizeof(std::string_view)))
     d.rig->names = readNames(in, d.rig->surface.wireframe());
 }
 
-// Vectors that are not whole multiples of steps: by pose, as they are.
+// Vectors that are not whole multiples of steps, verbatim, by pose.
 void readExact(Decoding& d, Reader& in) {
   std::int64_t pose = -1;
   while (in.left() > 0) {
@@ -139,7 +139,7 @@ void readExact(Decoding& d, Reader& in) {
       v = last = in.step(last + 1, 0, static_cast<Index>(vectors.size()), "vector");
     const std::vector<Vec3> values = readVectors<Vec3>(in, places.size(), Precision::exact);
     if (!in.ok()) return;
-    d.memory = memory;  // what was read of this pose is soon given back
+    d.memory = memory;  // what was read of this pose is soon freed
     if (pose == 0) {
       if (!d.afford(in, vectors.size(), sizeof(Vec3))) return;
       d.rig->packing.rest = vectors;

@@ -29,7 +29,7 @@ void readBase(Decoding& d, Reader& in) {
   d.affordTargets(in);
 }
 
-// All that follows of a chunk, through a range decoder.
+// Decodes the rest of a chunk with a range decoder.
 template <typename Read>
 void decodeRest(Reader& in, Read read) {
   const std::string_view payload = in.raw(in.left());
@@ -42,7 +42,7 @@ void decodeRest(Reader& in, Read read) {
 }
 
 void readGrid(Decoding& d, Reader& in) {
-  // A patch, an arc or a node takes a fraction of a bit at best.
+  // A patch, an arc or a node may take only a fraction of a bit.
   const std::size_t most = std::min(
       d.memory / kBytesAPatch, within(kMostPatches, kPatchesAByte, kPatchesAnyway, d.fileSize));
   decodeRest(in, [&](RangeDecoder&, Symbols<RangeDecoder>& symbols) {
@@ -73,7 +73,8 @@ void readTargetNames(Decoding& d, Reader& in) {
   });
 }
 
-// Poses one after the other. All but what is being read is kept as what moves: that is little.
+// Reads poses one after another. All but the current one are kept as sparse lists of what moves,
+// which is little.
 class PoseReader {
  public:
   PoseReader(Decoding& d, Reader& in, RangeDecoder& coder, Symbols<RangeDecoder>& symbols,
@@ -107,7 +108,7 @@ class PoseReader {
     for (const Moved& m : moved_[pose]) current_[m.vector] = {};
   }
 
-  // The vectors of what was read, once there is no more of it.
+  // Restores the vectors, once all poses are read.
   void restore(Index first, Index end) {
     std::vector<Lattice::Restored> poses;
     for (Index pose = first; pose < end; ++pose) {
@@ -128,12 +129,12 @@ class PoseReader {
   const Lattice& lattice_;
   Symbols<RangeDecoder>& symbols_;
   CoefficientCoder<RangeDecoder> vectors_;
-  Coefficients current_;       // [S] of the pose that is being read, else zero
+  Coefficients current_;       // [S] of the pose being read; zero between poses
   std::vector<Sparse> moved_;  // [poses]
   Index bones_ = 0;
 };
 
-// Poses from `first` up to `end`, 0 the neutral.
+// Reads the poses from `first` up to `end`, 0 being the neutral.
 void readPoses(Decoding& d, Reader& in, Index first, Index end) {
   const std::size_t bytes = in.left();
   decodeRest(in, [&](RangeDecoder& coder, Symbols<RangeDecoder>& symbols) {
@@ -153,12 +154,12 @@ void readMoves(Decoding& d, Reader& in) {
   readPoses(d, in, 1, static_cast<Index>(d.targets) + 1);
 }
 
-// Of whatever is told beyond the grid.
+// The number of entries beyond the grid that may be read.
 std::size_t affordable(const Decoding& d, const Reader& in) {
   return std::min(mostEntries(in.left()), d.memory / kBytesAnEntry);
 }
 
-// What is told by the grid of the patches takes less than a bit each; its size is checked here.
+// Entries coded by the grid of the patches take less than a bit each, so its size is checked here.
 template <typename Read>
 void readByGrid(Decoding& d, Reader& in, Read read) {
   if (d.quads > mostEntries(in.left()))
@@ -174,7 +175,7 @@ void readByGrid(Decoding& d, Reader& in, Read read) {
 }
 void readWalk(Decoding& d, Reader& in) { readByGrid(d, in, readOrder); }
 
-// Without an order the vertices are those of the grid.
+// Without a source order the vertices are those of the grid.
 void readGridFaces(Decoding& d, Reader& in) {
   readByGrid(d, in, [](auto& symbols, const LevelOne& grid, std::size_t most, SourceMesh& source) {
     if (source.gridVertex.empty()) {
@@ -196,7 +197,7 @@ void readTextureSteps(Decoding& d, Reader& in) {
 }
 
 void readTargetTurns(Decoding& d, Reader& in) {
-  // A turn takes a byte at least.
+  // A turn takes at least a byte.
   if (d.afford(in, in.left(), sizeof(Turn))) d.rig->turns = readTurns(in, d.rig->targets.size());
 }
 

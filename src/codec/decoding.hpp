@@ -12,44 +12,46 @@
 
 namespace sweepface::codec {
 
-/// A rig while its chunks are read, and what they have announced.
+/// State while the chunks of a rig are read, and what they have announced so far.
 struct Decoding {
   std::size_t fileSize = 0;
-  std::size_t memory = 0;                          ///< that may still be taken
+  std::size_t memory = 0;                          ///< bytes that may still be allocated
   std::size_t stored = 0, targets = 0, loose = 0;  ///< vectors, targets and loose vertices
   std::size_t quads = 0;                           ///< of the grid at level 1
-  Wireframe wireframe;                             ///< until the surface is made of it
-  Connectivity connectivity;                       ///< of that, likewise
-  Mirror mirror;                                   ///< of that
+  Wireframe wireframe;                             ///< until the surface is made from it
+  Connectivity connectivity;                       ///< of the wireframe, likewise
+  Mirror mirror;                                   ///< of the wireframe
   std::optional<Lattice> lattice;
   std::optional<LevelOne> levelOne;
-  bool targetsToCome = false;  ///< what they do is read later
-  Rig* rig = nullptr;          ///< what is read goes there
+  bool targetsToCome = false;  ///< their vectors are read later
+  Rig* rig = nullptr;          ///< receives what is read
 
-  /// Whether so many more bytes may be taken; complains through `in` if not.
+  /// Takes count * bytesEach bytes from `memory`. Refuses through `in` and returns false if too few
+  /// are left.
   bool afford(Reader& in, std::size_t count, std::size_t bytesEach);
-  /// The same for so many vectors of every pose, of which a file may have no more than its size
-  /// lets one expect.
+  /// The same for `eachPose` vectors in every pose. Also refuses more vectors than the size of the
+  /// file allows.
   bool affordVectors(Reader& in, std::size_t eachPose, std::size_t bytesEach);
-  /// Makes sure of room for as many targets and loose vertices as were announced.
+  /// Takes memory for the announced targets and loose vertices.
   void affordTargets(Reader& in);
-  /// Of the wireframe and its connectivity; says how many vectors it stores.
+  /// Makes the surface from the wireframe and its connectivity, and sets `stored`.
   void makeSurface(Reader& in);
-  /// A name that is UTF-8; complains through `in`. That none comes twice is looked at in the end.
+  /// Adds a target. Refuses through `in` a name that is empty or not UTF-8; duplicates are checked
+  /// at the end.
   void addTarget(Reader& in, std::string_view name);
 };
 
-/// How the chunks of a kind are read; the kinds of a version in the order of its registry.
+/// How a kind of chunk is read. Handlers come in the order of their version's registry.
 struct ChunkHandler {
   void (*read)(Decoding&, Reader&);
   bool required = false, repeated = false;
-  const char* instead = nullptr;  ///< the kind beside which it must not stand: it says the same
+  const char* instead = nullptr;  ///< a kind that holds the same data; a file must not have both
 };
-/// None: this program does not read the version (web/src/usual.cpp).
+/// Empty if this program does not read the version (web/src/usual.cpp).
 std::span<const ChunkHandler> version1();
 std::span<const ChunkHandler> version2();
 
-/// Chunks that hold things as they are; most are in both versions.
+/// Chunks that store data verbatim; most occur in both versions.
 void readExact(Decoding& d, Reader& in);
 void readDrift(Decoding& d, Reader& in);
 void readLoose(Decoding& d, Reader& in);

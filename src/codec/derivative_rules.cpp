@@ -63,7 +63,7 @@ bool DerivativeRules::placeAll(Index node, FewTerms& terms) const {
   const Index to = w_.end(a.last), from = w_.end(b.last);
   if (!isSite(to) || !isSite(from)) return false;
   const double length = a.edges + b.edges;
-  // Hermite's cubic where both ends know their slopes along the line, else a straight one.
+  // A Hermite cubic if the slopes along the line are known at both ends, else a straight line.
   const double t = b.edges / length;
   FewTerms slopeTo, slopeFrom;
   if (slope(to, twin(a.last), slopeTo) && slope(from, twin(b.last), slopeFrom)) {

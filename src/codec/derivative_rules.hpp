@@ -11,8 +11,8 @@ namespace sweepface::codec {
 
 using Terms = std::vector<Term>;
 
-/// The few terms of one value at a crossing or a T-node, held where they stand: no more than those
-/// of two places and two slopes.
+/// The few terms of one value at a crossing or a T-node, held inline: at most those of two
+/// positions and two slopes.
 class FewTerms {
  public:
   void push_back(const Term& term) { terms_[size_++] = term; }
@@ -29,18 +29,18 @@ void addTerms(List& terms, std::span<const Term> more, double factor) {
   for (const Term& t : more) terms.push_back({t.vector, factor * t.factor});
 }
 
-/// The half-arc that leads straight on where one leaves a node, on its other side; -1 if none does.
+/// The half-arc that leaves a node opposite to `h`, straight on; -1 if there is none.
 HalfArc oppositeOf(const Wireframe& w, const Connectivity& c, HalfArc h);
 
-/// How stored derivatives follow from positions and from derivatives before them, by the rules of
-/// the surface for those that are not stored (docs/file-format-vectors.md, Prediction).
+/// Predicts stored derivatives from positions and earlier derivatives, by the rules that the
+/// surface applies to derivatives that are not stored (docs/file-format-vectors.md, Prediction).
 class DerivativeRules {
  public:
   /// `sites` in coding order, `siteOf` [nodes] the site of a node or -1.
   DerivativeRules(const Surface& surface, const std::vector<CodedSite>& sites,
                   const std::vector<Index>& siteOf);
 
-  /// Adds what predicts a stored derivative of a site; nothing where it is expected to be zero.
+  /// Adds the terms that predict a stored derivative of a site; none where zero is predicted.
   void predict(const CodedSite& site, const StoredVector& s, Terms& terms) const;
 
  private:
@@ -55,29 +55,30 @@ class DerivativeRules {
     FewTerms value;
   };
   Neighbour neighbour(Index node, int arm) const;
-  // Those along an axis, ahead and behind.
+  // The neighbours along an axis, ahead and behind.
   std::array<Neighbour, 2> neighbours(Index node, int axis) const {
     return {neighbour(node, axis), neighbour(node, axis + 2)};
   }
-  // The position of a site, or of a T-node by what stands on the line it hangs on.
+  // The position of a site, or of a T-node by interpolation along the line that it lies on.
   bool placeAll(Index node, FewTerms& terms) const;
-  // The slope along a half-arc that leaves a node: by the parabola through the node and its
-  // neighbours, both sites.
+  // The slope along a half-arc that leaves a node, by the parabola through the node and its two
+  // neighbours, both of which must be sites.
   bool slope(Index node, HalfArc h, FewTerms& terms) const;
   Index position(Index node) const { return sites_[siteOf_[node]].first; }
   void atCrossing(const CodedSite& site, const StoredVector& s, Terms& terms) const;
-  // Derivative 1 or 2 of the polynomial through the neighbours on a line and what the node knows.
+  // Derivative 1 or 2 of the polynomial through the neighbours on a line and the known values at
+  // the node.
   void along(const std::array<Neighbour, 2>& at, Index own, Index slope, int order,
              Terms& terms) const;
-  // ∂x∂y: how the slope along x changes from neighbour to neighbour along y, and the other way
-  // round; the mean where both are known.
+  // ∂x∂y: the change of the slope along x from neighbour to neighbour along y, and vice versa; the
+  // mean of the two where both are known.
   void mixed(Index node, Terms& terms) const;
-  // How the slope along axis d changes along the other one.
+  // The change of the slope along axis d along the other axis.
   bool changeAcross(Index node, const std::array<Neighbour, 2>& at, int d, FewTerms& terms) const;
-  // The slope at a neighbour to the right of travel, or to the left of it.
+  // The slope at a neighbour towards the right of the direction of travel, or towards the left.
   bool slopeAcross(const Neighbour& n, bool right, FewTerms& terms) const;
-  // First derivatives at an irregular point: least squares over the slopes of its spokes, which are
-  // combinations of A and B.
+  // First derivatives A and B at an irregular point: least squares over the slopes of its spokes,
+  // which are combinations of A and B.
   void atHub(const CodedSite& site, const StoredVector& s, Terms& terms) const;
   std::vector<std::pair<Index, int>> spokes(const CodedSite& site) const;
 
@@ -86,10 +87,10 @@ class DerivativeRules {
   const Connectivity& c_;
   const std::vector<CodedSite>& sites_;
   const std::vector<Index>& siteOf_;
-  std::vector<std::vector<Index>> nodesAt_;  // [points] those that are irregular
+  std::vector<std::vector<Index>> nodesAt_;  // [points] the irregular ones
 };
 
-/// The stored vector that mirrors each [S], and how.
+/// The stored vector that mirrors each stored vector [S], and its sign.
 std::vector<Hierarchy::Image> imagesOf(const Surface& surface, const Mirror& mirror,
                                        const std::vector<CodedSite>& sites);
 

@@ -10,23 +10,23 @@
 
 namespace sweepface::codec {
 
-/// Finds directed edges: counted by where they end and then by where they begin. Files choose edges
-/// freely, and could make any table of hashes slow.
+/// Finds directed edges, which are counting-sorted by their end and then by their start. It is not
+/// a hash table, since a file chooses its edges freely and could slow down any hash table.
 class EdgeMap {
  public:
   struct Edge {
     Index from = -1, to = -1;
   };
 
-  /// Edges go between -1 and `ends` - 1.
+  /// Ends of edges lie between -1 and `ends` - 1.
   EdgeMap(std::span<const Edge> edges, Index ends);
 
-  /// The number of the first such edge, or -1.
+  /// The index of the first such edge, or -1.
   Index find(Index from, Index to) const;
 
  private:
-  std::vector<Index> number_, to_;  // of the edges in the order of where they end
-  std::optional<Groups> leaving_;   // places in these, by where edges begin, from -1 on
+  std::vector<Index> number_, to_;  // of the edges, sorted by their end
+  std::optional<Groups> leaving_;   // positions in these, grouped by start, from -1 on
 };
 
 }  // namespace sweepface::codec

@@ -47,7 +47,7 @@ bool isSame(const Vec3& a, const Vec3& b) {
   return bits(a.x) == bits(b.x) && bits(a.y) == bits(b.y) && bits(a.z) == bits(b.z);
 }
 
-// The coefficients of all poses and the vectors that they do not give.
+// The coefficients of all poses, and the vectors that they do not reproduce.
 struct Poses {
   std::vector<Coefficients> coefficients;
   std::vector<std::vector<Index>> exact;
@@ -78,7 +78,7 @@ struct Poses {
     coded.q = lattice.round(pose, bones_.beyond(carries, vectors), step);
     lattice.restore(pose, coded.q, step, coded.restored);
     bones_.add(carries, 1, coded.restored);
-    // Where hardly anything is a multiple of the steps these only cost.
+    // If most vectors are not multiples of the steps, coefficients only cost bytes.
     if (2 * differing(vectors, coded.restored).size() > vectors.size()) {
       coded.q.assign(vectors.size(), Steps3{});
       coded.restored.assign(vectors.size(), Vec3{});
@@ -97,7 +97,7 @@ struct Poses {
   Bones bones_;
 };
 
-// Poses from `first` up to `end`, 0 the neutral.
+// Writes the poses from `first` up to `end`, 0 being the neutral.
 std::string writePoses(Poses& poses, const Packing& packing, const Lattice& lattice,
                        const Likenesses& likenesses, Index first, Index end) {
   RangeEncoder coder;

@@ -60,7 +60,7 @@ std::string texcoords(const Polygons& polygons) {
   return out.take();
 }
 
-// A quad that goes once around a face of four corners is told by its first one alone.
+// A quad that goes once around a face of four corners is written as its first corner alone.
 std::string quadCorners(const SourceMesh& source) {
   Writer out;
   Index last = 0;
@@ -76,7 +76,7 @@ std::string quadCorners(const SourceMesh& source) {
   return out.take();
 }
 
-// Whether a reader takes so much from so few bytes.
+// Whether a reader accepts this much from so few bytes.
 template <typename Read>
 bool isReadable(const std::string& bytes, Read read) {
   RangeDecoder coder(bytes);
@@ -100,22 +100,21 @@ bool haveCorners(const Polygons& faces) {
   return true;
 }
 
-/// What the grid of the patches tells of the source.
+/// The source as coded by the grid of the patches.
 struct ByGrid {
-  std::optional<std::string> order;  ///< none where there are faces on the grid's own vertices
+  std::optional<std::string> order;  ///< none if there are faces on the grid's own vertices
   std::string faces;
-  std::vector<Index> images;  ///< of corners, where there are faces
+  std::vector<Index> images;  ///< of corners, if there are faces
 };
 
-// Nothing where there is so much that a reader would not trust so few bytes, and for faces that
-// none takes.
+// Nothing if a reader would refuse so much from so few bytes, or would refuse the faces.
 std::optional<ByGrid> byGrid(const Rig& rig, const Mirror& mirror) {
   const SourceMesh& source = rig.source;
   const std::size_t quads = rig.surface.wireframe().quadCount();
   if (quads > kMostQuads || !haveCorners(source.polygons)) return std::nullopt;
   const LevelOne grid(rig.surface, mirror);
   ByGrid told;
-  SourceMesh again;  // as a reader has it
+  SourceMesh again;  // as a reader sees it
   again.loose = source.loose;
   const auto isTaken = [&](const std::string& bytes, auto read) {
     return quads <= mostEntries(bytes.size()) && isReadable(bytes, read);
@@ -134,7 +133,8 @@ std::optional<ByGrid> byGrid(const Rig& rig, const Mirror& mirror) {
   return told;
 }
 
-// In steps, unless they are too fine for some coordinate or a reader would not trust so few bytes.
+// In steps, unless they are too fine for some coordinate or a reader would refuse so much from so
+// few bytes.
 void writeTexcoords(Writer& out, const Polygons& faces, std::span<const Index> images, int bits) {
   if (bits > 0 && holdsTexture(faces, bits)) {
     const std::string bytes = ranged([&](auto& to) { writeTexture(to, faces, images, bits); });
@@ -152,7 +152,7 @@ void writeTexcoords(Writer& out, const Polygons& faces, std::span<const Index> i
 void writeSource(Writer& out, const Rig& rig, const Mirror& mirror, int textureBits) {
   const SourceMesh& source = rig.source;
   const Polygons& faces = source.polygons;
-  // Without an order of vertices faces by the grid would bring that of the grid.
+  // A source without an order of vertices would get that of the grid from faces coded by it.
   const std::optional<ByGrid> grid = source.gridVertex.empty() ? std::nullopt : byGrid(rig, mirror);
   if (!source.gridVertex.empty()) {
     if (!grid)

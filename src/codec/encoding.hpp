@@ -8,7 +8,7 @@
 
 namespace sweepface::codec {
 
-/// The bytes that `write` makes through a range coder.
+/// The bytes that `write` produces through a range coder.
 template <typename Write>
 std::string ranged(Write write) {
   RangeEncoder coder;
@@ -17,7 +17,7 @@ std::string ranged(Write write) {
   return coder.finish();
 }
 
-/// The chunks of the source: its order, faces, texture coordinates and corners of quads.
+/// Writes the chunks of the source: its order, faces, texture coordinates and quad corners.
 void writeSource(Writer& out, const Rig& rig, const Mirror& mirror, int textureBits);
 
 }  // namespace sweepface::codec

@@ -59,8 +59,8 @@ class FaceCoder {
  private:
   static constexpr Index kNone = -1;
 
-  // The corners of a quad of the grid without those that stand where the one before them does: a
-  // quad with a side that is one point is a triangle.
+  // The corners of a grid quad without those that coincide with the previous one: a quad with a
+  // collapsed side is a triangle.
   struct Ring {
     std::array<std::uint32_t, 4> at{};
     std::uint32_t size = 0;
@@ -73,7 +73,7 @@ class FaceCoder {
     return ring;
   }
 
-  // A plain face goes around one quad of the grid, and the quad around it.
+  // Finds the plain faces: those that go around one grid quad that in turn goes around them.
   void findPlain() {
     plainQuad_.assign(faces_.faceCount(), kNone);
     if (source_.quadCorners.empty()) return;
@@ -154,7 +154,8 @@ class FaceCoder {
       faces_.faceStart.push_back(static_cast<Index>(faces_.corners.size()));
   }
 
-  // What mirrors the first corner of the face around the image of a quad, from 1 on; 0: not known.
+  // The corner that mirrors the first corner of the face around the image of a quad, from 1 on; 0
+  // if it is not known.
   std::uint32_t mirroredCorner(Index quad) const {
     const GridMirror& mirror = grid_.mirror();
     const Index image = mirror.quad[quad];
@@ -183,7 +184,7 @@ class FaceCoder {
       faces_.faceStart.push_back(static_cast<Index>(faces_.corners.size()));
   }
 
-  // Quads that no plain face goes around.
+  // Codes the quads that no plain face goes around.
   void codeOtherQuads() {
     std::int64_t last = 0;
     const auto corners = static_cast<std::int64_t>(faces_.corners.size());
@@ -243,8 +244,8 @@ class FaceCoder {
   Groups places_;  // the source's vertices at each vertex of the grid
   std::size_t most_, total_ = 0;
   Walk<Coder> walk_;
-  std::vector<Index> plainQuad_;    // [faces] of a writer
-  std::vector<Index> firstCorner_;  // [quads] of the face around it, once it was told
+  std::vector<Index> plainQuad_;    // [faces] writer only
+  std::vector<Index> firstCorner_;  // [quads] of the face around it, once coded
   bool wasPlain_ = true;
   std::array<std::uint32_t, 2> turn_{};  // of the last triangle and quad
   Index last_ = 0;

@@ -7,8 +7,8 @@
 
 namespace sweepface::codec {
 
-/// The corners around a face of four, from one of them; all -1 where the face has not four or there
-/// is none.
+/// The corners of a quad face in order, starting with `corner`; all -1 if there is no such corner
+/// or its face is not a quad.
 inline std::array<Index, 4> aroundQuad(const Polygons& polygons, Index corner) {
   const auto& starts = polygons.faceStart;
   if (corner < 0 || starts.empty() || corner >= starts.back()) return {-1, -1, -1, -1};

@@ -35,14 +35,14 @@ void FanWalk::around(Index centre, std::span<const Step> steps, std::vector<Inde
   heads_.clear();
 }
 
-// What is left of the steps that start at a vertex, where none leads there.
+// Offers the first remaining step from a vertex as a head, if no remaining step leads there.
 void FanWalk::offerRest(Index vertex) {
   if (arriving_[vertex] > 0 || first_[vertex] < 0) return;
   heads_.push_back(first_[vertex]);
   std::push_heap(heads_.begin(), heads_.end(), std::greater{});
 }
 
-// The first step to begin with; `otherwise` if each that is left has one that leads to it.
+// The first head; `otherwise` if every remaining step has another that leads to it.
 Index FanWalk::takeHead(Index otherwise) {
   while (!heads_.empty()) {
     std::pop_heap(heads_.begin(), heads_.end(), std::greater{});

@@ -4,14 +4,14 @@ namespace sweepface::codec {
 
 namespace {
 
-// The corner of a patch, 4 · patch + corner, that mirrors the first corner of another; -1: none.
+// The corner of a patch, 4 · patch + corner, that mirrors the first corner of another, or -1.
 Index imageOfCorner(const Surface& surface, const Mirror& mirror, Index patch) {
   const Connectivity& c = surface.connectivity();
   const HalfArc image = mirror.halfArc[surface.wireframe().side(patch, 0)[0]];
   if (image < 0 || c.patchOf[twin(image)] < 0) return -1;
   const Index corner = c.cornerAt[c.next[twin(image)]];
   if (corner < 0) return -1;
-  const bool turned = corner % 2 == 0;  // what was along u is along v
+  const bool turned = corner % 2 == 0;  // u maps to v
   const Index m = surface.edgesU(corner / 4), n = surface.edgesV(corner / 4);
   const bool fits =
       surface.edgesU(patch) == (turned ? n : m) && surface.edgesV(patch) == (turned ? m : n);
@@ -22,7 +22,7 @@ Index imageOfCorner(const Surface& surface, const Mirror& mirror, Index patch) {
 
 GridMirror mirrorGrid(const Surface& surface, std::span<const std::array<Index, 4>> quads,
                       Index vertices, const Mirror& mirror) {
-  std::vector<Index> first{0};  // quad of each patch
+  std::vector<Index> first{0};  // the first quad of each patch
   for (Index p = 0; p < surface.patchCount(); ++p)
     first.push_back(first.back() + surface.edgesU(p) * surface.edgesV(p));
   GridMirror found{std::vector<Index>(vertices, -1), std::vector<Index>(quads.size(), -1),
@@ -35,7 +35,7 @@ GridMirror mirrorGrid(const Surface& surface, std::span<const std::array<Index, 
     for (Index quad = first[p]; quad < first[p + 1]; ++quad) {
       const Index i = (quad - first[p]) % surface.edgesU(p),
                   j = (quad - first[p]) / surface.edgesU(p);
-      // Back along the side before the corner, on along the side behind it.
+      // u runs back along the side that ends at the corner, v on along the side that begins there.
       const std::array<std::array<Index, 2>, 4> byTurn{
           {{j, i}, {m - 1 - i, j}, {m - 1 - j, n - 1 - i}, {i, n - 1 - j}}};
       const auto [u, v] = byTurn[turn];

@@ -9,7 +9,7 @@
 
 namespace sweepface::codec {
 
-/// Where the mirror image of a wireframe takes the vertices and the quads at level 1.
+/// Maps the vertices and quads at level 1 to their mirror images.
 struct GridMirror {
   std::vector<Index> vertex;  ///< [vertices] or -1
   std::vector<Index> quad;    ///< [quads] or -1

@@ -36,8 +36,8 @@ class HierarchyBuilder {
   using Terms = std::vector<Term>;
   using Link = Lines::Link;
 
-  // What many vertices follow is told more precisely: errors there would have to be made up for at
-  // all of them.
+  // Vectors that many vertices depend on get finer steps, since an error there would have to be
+  // corrected at all of those vertices.
   double finer(Index vector, Index span) const {
     const StoredVector& s = surface_.stored(vector);
     if (s.i + s.j > 0) return 3;
@@ -53,7 +53,7 @@ class HierarchyBuilder {
     CodedSite site;
     Terms terms;
     Index image = -1;
-    Index atLeast = 0;  // its span cannot be less
+    Index atLeast = 0;  // lower bound of its span
   };
 
   void gatherSites() {
@@ -72,7 +72,7 @@ class HierarchyBuilder {
       const bool creased = c_.kinds[c.site.node] == NodeKind::creased;
       c.image = image < 0 || creased ? -1 : lines_.siteOf(image);
     }
-    // A mirror is one only if it leads back.
+    // Images count only if they are mutual.
     for (std::size_t s = 0; s < all_.size(); ++s) {
       Index& image = all_[s].image;
       if (image >= 0 && (all_[image].image != static_cast<Index>(s) ||
@@ -84,7 +84,7 @@ class HierarchyBuilder {
   bool isGuessed(Index node) const { return node == guessed_ || node == guessedToo_; }
   Index position(Index node) const { return all_[lines_.siteOf(node)].site.first; }
 
-  // The position of a site, or of a T-node by what stands on the line it hangs on.
+  // The position of a site, or of a T-node by interpolation along the line that it lies on.
   bool place(Index node, Terms& terms, int depth = 0) {
     if (lines_.isSite(node)) {
       terms.push_back({position(node), 1});
@@ -96,8 +96,8 @@ class HierarchyBuilder {
     return between(ahead, behind, terms, span, depth + 1);
   }
 
-  // Interpolates at the place from which two half-arcs leave along a line, from one or two sites on
-  // both sides: appends the terms of each site, and then multiplies them by its factor.
+  // Interpolates along a line at the node that two half-arcs leave, from one or two sites on each
+  // side: appends the terms of each site, then multiplies them by its Lagrange factor.
   bool between(HalfArc ahead, HalfArc behind, Terms& terms, Index& span, int depth = 0) {
     std::array<double, 4> at;
     std::array<std::size_t, 5> first;  // of the terms of each site
@@ -136,8 +136,7 @@ class HierarchyBuilder {
     for (std::size_t k = first; k < end; ++k) terms[k].factor *= factor;
   }
 
-  // How a crossing follows from what stands beside it on its lines: those that are shorter count
-  // more.
+  // The prediction of a crossing from its neighbours on its lines; shorter lines count more.
   struct Guess {
     Terms terms;
     Index span = 0;  // of the shortest line; 0 if there is none
@@ -181,8 +180,8 @@ class HierarchyBuilder {
     return star.closed ? 2 : star.sectors.size() == 2 ? 1 : 0;
   }
 
-  // Whether the nearest neighbours on no line are near enough for a guess. They only ever move
-  // away.
+  // Whether the nearest neighbours are too far apart for a guess on every line. The distance never
+  // decreases, so it is kept as a lower bound.
   bool isTooWide(Candidate& c, Index most) {
     if (c.atLeast > most) return true;
     const Star& star = c_.stars[c.site.node];
@@ -196,7 +195,7 @@ class HierarchyBuilder {
     return least > most;
   }
 
-  // Only nodes that stand on lines through them can be taken out.
+  // Only nodes with lines running through them can be removed.
   bool isRemovable(Index s) const {
     const Candidate& c = all_[s];
     if (!lines_.isLeft(s) || c_.kinds[c.site.node] != NodeKind::crossing) return false;
@@ -243,7 +242,7 @@ class HierarchyBuilder {
     lines_.takeOut(s);
     for (const Index b : g.beside)
       if (b >= 0) blocked[b] = 1;
-    double most = 0;  // the parent counts most
+    double most = 0;  // the parent has the largest factor
     for (const Term& t : c.terms)
       if (std::abs(t.factor) > most + 1e-9) {
         most = std::abs(t.factor);
@@ -254,8 +253,8 @@ class HierarchyBuilder {
 
   Index siteOfVector(Index vector) const { return lines_.siteOf(surface_.stored(vector).node); }
 
-  // What is left is predicted from its neighbours among what is left, in the order in which it is
-  // reached from the first; mirror images together.
+  // Orders the remaining sites breadth first, mirror images together, and predicts each from those
+  // of its remaining neighbours that were placed before it.
   void orderRoots() {
     std::vector<Index> roots;
     std::vector<char> reached(all_.size(), 0);
@@ -309,7 +308,7 @@ class HierarchyBuilder {
     for (Term& t : c.terms) t.factor /= sum;
   }
 
-  // Numbers sites in coding order and writes the steps of their positions.
+  // Numbers sites in coding order and adds the prediction steps of their positions.
   void arrange() {
     std::vector<Index> rank(all_.size());
     for (std::size_t k = 0; k < order_.size(); ++k) rank[order_[k]] = static_cast<Index>(k);
@@ -355,12 +354,12 @@ class HierarchyBuilder {
   const Mirror& mirror_;
   Hierarchy& out_;
   Lines lines_;
-  std::vector<Candidate> all_;  // [sites] as the lines number them
-  std::vector<Index> siteOf_;   // [nodes] by the order of coding
+  std::vector<Candidate> all_;  // [sites] in the numbering of lines_
+  std::vector<Index> siteOf_;   // [nodes] in coding order
   std::vector<Index> order_;
   std::vector<double> reach_;             // [vectors]
-  Index guessed_ = -1, guessedToo_ = -1;  // nodes that may not predict themselves or each other
-  std::vector<char> placed_;              // [sites] roots that have their place in the order
+  Index guessed_ = -1, guessedToo_ = -1;  // nodes that must not predict themselves or each other
+  std::vector<char> placed_;              // [sites] roots already placed in the order
 };
 
 Hierarchy::Hierarchy(const Surface& surface, const Mirror& mirror) {

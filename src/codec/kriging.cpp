@@ -9,7 +9,7 @@ namespace sweepface::codec {
 
 namespace {
 
-// A place on the neutral and the way it faces.
+// A position on the neutral and the normal there.
 struct Stand {
   Vec3 position, facing;
 };
@@ -18,7 +18,7 @@ std::vector<Stand> standsOf(const Surface& surface, const Hierarchy& hierarchy,
                             std::span<const Vec3> neutral) {
   std::vector<Vec3> vectors(surface.vectorCount());
   surface.settle(neutral, vectors);
-  std::vector<Vec3> facing(surface.storedCount());  // by the vector of the position
+  std::vector<Vec3> facing(surface.storedCount());  // by position vector
   const auto jet = [&](Index patch, int corner, int i, int j) {
     const JetRef ref = surface.cornerJet(patch, corner, i, j);
     return ref.sign * vectors[ref.vector];
@@ -38,7 +38,7 @@ std::vector<Stand> standsOf(const Surface& surface, const Hierarchy& hierarchy,
   return stands;
 }
 
-// The power 1.5 of the distance.
+// The variogram: the distance to the power 1.5.
 double apart(const Stand& a, const Stand& b, double turned) {
   const Vec3 way = a.position - b.position, turn = a.facing - b.facing;
   const double r = std::sqrt(dot(way, way) + turned * turned * dot(turn, turn));
@@ -48,15 +48,15 @@ double apart(const Stand& a, const Stand& b, double turned) {
 constexpr std::size_t kMost = NearSites::kMost;
 using Weights = std::array<double, kMost>;
 
-// What follows from a row that is known is taken from others at once: numbers beside each other,
-// which processors take by twos and more.
+// Subtracts a multiple of a known row. It works on adjacent numbers, so that compilers can
+// vectorise it.
 void subtract(Weights& from, const Weights& row, double factor, std::size_t first,
               std::size_t end) {
   for (std::size_t k = first; k < end; ++k) from[k] -= row[k] * factor;
 }
 
-// Weights that sum to 1, by Cholesky's factors of what the differences from the place itself have
-// in common. False where they cannot be told.
+// Computes weights that sum to 1, by Cholesky factorisation of the covariances of the differences
+// from the place itself. False if there are none.
 bool weigh(const Stand& own, std::span<const Stand> stands, std::span<const Index> near,
            double turned, Weights& weights) {
   const std::size_t n = near.size();
@@ -88,7 +88,7 @@ bool weigh(const Stand& own, std::span<const Stand> stands, std::span<const Inde
     for (std::size_t k = i + 1; k < n; ++k) weights[i] -= columns[i][k] * weights[k];
     total += weights[i] /= columns[i][i];
   }
-  // Rounded so that no last digit counts; the nearest makes up for it.
+  // Round the weights so that last digits do not matter; the nearest site takes up the remainder.
   constexpr double kUnit = 65536, kLargest = 4;
   double others = 0;
   for (std::size_t i = n; i-- > 0;) {

@@ -57,19 +57,20 @@ bool Lattice::restore(Index pose, const Coefficients& coefficients, double step,
 
 namespace {
 
-// A vector of four poses side by side, so that one walk over the terms serves them all: x of all
-// of them, y and z.
+// The same vector in four poses, so that one pass over the terms serves all of them: the four x,
+// then y, then z.
 constexpr std::size_t kAbreast = 4;
 using Abreast = std::array<Two, 6>;
 
-// Compilers let a vector be looked at as its numbers.
+// Compilers allow a SIMD vector to be accessed through its element type.
 double* numberOf(Abreast& vector, std::size_t pose, std::size_t axis) {
   return reinterpret_cast<double*>(vector.data()) + kAbreast * axis + pose;
 }
 
-// `known` are the steps of all vectors, and then what they are. False if any is too large.
+// `known` holds the steps of all vectors on entry and their values on return. False if any is too
+// large.
 bool complete(const Prediction& prediction, const std::array<Two, 2>& step, Abreast* known) {
-  Two scaled{};  // until it meets what is too large: finite
+  Two scaled{};  // finite until a value is too large
   for (const Prediction::Step& s : prediction.steps) {
     const std::array<Two, 2> unit{step[0] / s.reach, step[1] / s.reach};
     Abreast sum{}, &own = known[s.vector];

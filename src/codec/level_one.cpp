@@ -43,7 +43,7 @@ class Numbering {
   }
 
  private:
-  // From one corner up to the next.
+  // Fills a side from one corner up to, but not including, the next.
   void fillSide(Index p, int s, Index* at, std::ptrdiff_t stride) const {
     for (const HalfArc h : w_.side(p, s)) {
       const Arc& arc = w_.arcs[arcOf(h)];
@@ -92,7 +92,7 @@ Neighbours LevelOne::quadNeighbours() const {
   neighbours.first.reserve(quads_.size() + 1);
   neighbours.all.reserve(4 * quads_.size());
   for (Index corner = 0; corner < corners; ++corner) {
-    // The one that has the same side the other way round.
+    // The quad that has the same side in the opposite direction.
     const Index other = sides.find(at(corner, 1), at(corner, 0));
     neighbours.all.push_back(other < 0 ? -1 : other / 4);
     if (corner % 4 == 3) neighbours.first.push_back(corner + 1);

@@ -11,9 +11,9 @@
 
 namespace sweepface::codec {
 
-/// What is beside each of many items, in one list.
+/// Adjacency lists of many items, stored in one array.
 struct Neighbours {
-  std::vector<Index> first{0};  ///< [items + 1] where those of each begin
+  std::vector<Index> first{0};  ///< [items + 1] where each item's neighbours begin
   std::vector<Index> all;
 
   std::size_t items() const { return first.size() - 1; }
@@ -22,9 +22,10 @@ struct Neighbours {
   }
 };
 
-/// The vertices and quads of the patches at level 1, without where they are. Vertices are numbered
-/// nodes first (one a point and one a T-node, in the order of nodes), then the inner ones of arcs
-/// that are not collapsed, then those of patches in rows of constant v: as in Tessellation.
+/// The topology of the patches at level 1: vertices and quads, without positions. Vertices are
+/// numbered as in Tessellation: first the nodes (one vertex for each point and each T-node, in the
+/// order of nodes), then the inner vertices of arcs that are not collapsed, then those of patches,
+/// in rows of constant v.
 class LevelOne {
  public:
   LevelOne(const Surface& surface, const Mirror& mirror);
@@ -35,8 +36,8 @@ class LevelOne {
 
   const GridMirror& mirror() const { return mirror_; }
 
-  /// Vertices that share an edge with each, and quads that share one with each side of each: a
-  /// quad's by its sides, counter-clockwise, -1 at the boundary.
+  /// The vertices that share an edge with each vertex, and the quads across each side of each quad,
+  /// counter-clockwise, -1 at the boundary.
   Neighbours vertexNeighbours() const;
   Neighbours quadNeighbours() const;
 

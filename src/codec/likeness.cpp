@@ -15,8 +15,8 @@ std::vector<std::uint64_t> movedBits(const Coefficients& q) {
   return bits;
 }
 
-// Bits that it takes to tell which `some` of `all` it is; rounded, as logarithms are others by a
-// rounding elsewhere.
+// Bits needed to code which `some` of `all` are meant. Rounded, since the last digits of logarithms
+// differ between platforms.
 double entropy(double some, double all) {
   if (some <= 0 || some >= all) return 0;
   const double bits =
@@ -32,7 +32,7 @@ Likenesses::Likenesses(const Lattice& lattice, const std::vector<Coefficients>& 
 }
 
 Likeness Likenesses::of(Index pose) const {
-  constexpr Index kMostBack = 256;  // so that thousands of targets take no longer each
+  constexpr Index kMostBack = 256;  // so that the time for each of thousands of targets is bounded
   const Bits& own = moved_[pose][0];
   const auto all = static_cast<double>(poses_[pose].size());
   double count = 0;

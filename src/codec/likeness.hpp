@@ -6,15 +6,15 @@
 
 namespace sweepface::codec {
 
-/// An earlier target that moves much the same as one: what it does tells what to expect.
+/// An earlier target that moves similarly, whose coefficients serve as context.
 struct Likeness {
-  Index pose = -1;        ///< or none
-  bool mirrored = false;  ///< it is the mirror image that is like it
-  bool negated = false;   ///< moved the other way
+  Index pose = -1;        ///< -1 if there is none
+  bool mirrored = false;  ///< its mirror image is meant
+  bool negated = false;   ///< in the opposite direction
 };
 
-/// The one of the 256 targets before `pose` that says most about which of its vectors move: with
-/// the least entropy of that, given which of the other's do.
+/// Finds, among the 256 targets before a pose, the one that says most about which of its vectors
+/// move: the one that minimises the conditional entropy of that set.
 class Likenesses {
  public:
   Likenesses(const Lattice& lattice, const std::vector<Coefficients>& poses);
@@ -24,10 +24,10 @@ class Likenesses {
   using Bits = std::vector<std::uint64_t>;
   const Lattice& lattice_;
   const std::vector<Coefficients>& poses_;
-  std::vector<std::array<Bits, 2>> moved_;  // [poses] by itself and in its image
+  std::vector<std::array<Bits, 2>> moved_;  // [poses] which vectors move, as is and mirrored
 };
 
-/// What moves in a likeness, nothing where there is none. Poses are Coefficients or Sparse.
+/// The moved vectors of a likeness; empty if there is none. Poses are Coefficients or Sparse.
 template <typename Steps>
 Sparse movedIn(const Likeness& like, const Lattice& lattice, const std::vector<Steps>& poses) {
   if (like.pose < 0) return {};

@@ -5,21 +5,21 @@
 
 namespace sweepface::codec {
 
-/// So much for each byte and something anyway, but no more than the most.
+/// `eachByte` for each of `bytes` plus `anyway`, but at most `most`.
 constexpr std::size_t within(std::size_t most, std::size_t eachByte, std::size_t anyway,
                              std::size_t bytes) {
   return bytes > (most - anyway) / eachByte ? most : eachByte * bytes + anyway;
 }
 
-/// Vectors of all poses that a file may ask for: still ones take no bytes.
+/// Vectors of all poses that a file may ask for, since vectors that do not move take no bytes.
 inline constexpr std::size_t kMostVectors = std::size_t{1} << 25, kVectorsAByte = 1024,
                              kVectorsAnyway = std::size_t{1} << 20;
 
-/// Bits of all coefficients and carries of a chunk, without leading zeros: where all are alike they
-/// take hardly any bytes, but time.
+/// Bits of all coefficients and carries of a chunk, without leading zeros. If all are alike they
+/// take hardly any bytes, but they do take time.
 inline constexpr std::uint64_t kBitsAByte = 1024, kBitsAnyway = std::uint64_t{1} << 22;
 
-/// Letters of all targets' names: what comes again takes hardly any bytes, but time.
+/// Letters of all targets' names. Repeated text takes hardly any bytes, but it does take time.
 inline constexpr std::size_t kMostLetters = std::size_t{1} << 28, kLettersAByte = 128,
                              kLettersAnyway = std::size_t{1} << 20;
 
@@ -30,33 +30,33 @@ inline constexpr std::size_t kMostPatches = std::size_t{1} << 19, kPatchesAByte 
 /// Pairs of half-arcs from which a mirror image spreads: one for each part that has two sides.
 inline constexpr std::size_t kMostMirrorPairs = 64;
 
-/// Quads of the grid at level 1 that the source's order and faces may be told by.
+/// Quads of the grid at level 1 by which the source's order and faces may be coded.
 inline constexpr std::size_t kMostQuads = std::size_t{1} << 22, kQuadsAByte = 1024,
                              kQuadsAnyway = std::size_t{1} << 20;
 
-/// Entries of the source's order, faces or texture, told by so many bytes.
+/// Entries of the source's order, faces or texture that so many bytes may hold.
 constexpr std::size_t mostEntries(std::size_t bytes) {
   return within(kMostQuads, kQuadsAByte, kQuadsAnyway, bytes);
 }
 
-/// What these take while a file is read, in bytes, rounded up from measurements: a patch with its
-/// nodes and arcs, a stored vector of a pose, a quad at level 1 with its corners, a letter of a
-/// name, and what a bone carries in a pose.
+/// Memory in bytes while a file is read, rounded up from measurements, of a patch with its nodes
+/// and arcs, a stored vector of a pose, a quad at level 1 with its corners, a letter of a name, and
+/// what a bone carries in a pose.
 inline constexpr std::size_t kBytesAPatch = 4000, kBytesAVector = 40, kBytesAQuad = 400,
                              kBytesALetter = 4, kBytesACarry = 128;
 
-/// The same for whatever else the source's order, faces and texture have; a name takes as much as
-/// some letters.
+/// The same for any other entry of the source's order, faces and texture. A name counts as this
+/// many letters.
 inline constexpr std::size_t kBytesAnEntry = 64, kLettersAName = 8;
 
-/// Of texture coordinates.
+/// Most bits of texture coordinates.
 inline constexpr int kMostTextureBits = 24;
 
-/// Vectors that are told in steps and come out beyond some 10²⁵ are refused, as weights would take
-/// them beyond what a float holds: so much times a sum of theirs is infinite.
+/// Vectors coded in steps are refused if they exceed some 10²⁵, since weights could take them
+/// beyond the range of a float. The test is that a sum of them times this factor is infinite.
 inline constexpr double kScaleToMost = 1e283;
 
-/// Bytes of a target's name.
+/// Most bytes of a target's name.
 inline constexpr std::size_t kLongestName = 4096;
 
 }  // namespace sweepface::codec

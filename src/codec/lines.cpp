@@ -33,8 +33,8 @@ Lines::Lines(const Surface& surface)
   }
 }
 
-// What was taken out stays out: the next walk begins where this one ends. A ring on which nothing
-// is left ends when the walk comes to where it was after 1, 2, 4 ... steps (Brent 1980).
+// Removed sites stay out, so the next walk begins where this one ends. On a ring where nothing is
+// left, the walk ends when it returns to where it was after 1, 2, 4 ... steps (Brent 1980).
 void Lines::walkOn(Link& link) const {
   HalfArc mark = -1;
   for (std::size_t steps = 1, marked = 1; link.back >= 0 && isOut_[link.node]; ++steps) {

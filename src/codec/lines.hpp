@@ -10,13 +10,14 @@
 
 namespace sweepface::codec {
 
-/// What is left of the lines of a wireframe while sites are taken out of them. A site is a node
-/// with stored vectors, or all nodes at an irregular point; T-nodes are none.
+/// The lines of a wireframe, from which sites are removed one by one. A site is a node with stored
+/// vectors, or all nodes at an irregular point; T-nodes are not sites.
 class Lines {
  public:
   explicit Lines(const Surface& surface);
 
-  /// The site of each node [nodes], -1 for T-nodes; sites are numbered as their vectors are.
+  /// The site of each node [nodes], -1 for T-nodes; sites are numbered in the order of their
+  /// vectors.
   const std::vector<Index>& siteOf() const { return siteOf_; }
   Index siteOf(Index node) const { return siteOf_[node]; }
   bool isSite(Index node) const { return siteOf_[node] >= 0; }
@@ -29,15 +30,15 @@ class Lines {
     for (const Index node : nodesOf(site)) isOut_[node] = 1;
   }
 
-  /// Where a line leads from a half-arc: to the half-arc that comes back from the next node that is
-  /// left; -1 where there is none.
+  /// Where a line leads from a half-arc: the next remaining node, and the half-arc that leads back
+  /// from it; -1 if there is none.
   struct Link {
     HalfArc back = -1;
     Index node = -1;
     Index distance = 0;
-    bool collapsed = false;  ///< it begins with an arc that is one point
+    bool collapsed = false;  ///< it begins with a collapsed arc
   };
-  /// The first T-node or site that is left along a line.
+  /// The first T-node or remaining site along a line.
   const Link& walk(HalfArc h) {
     static constexpr Link kNone;
     if (h < 0) return kNone;
@@ -45,9 +46,9 @@ class Lines {
     if (link.back >= 0 && isOut_[link.node]) walkOn(link);
     return link;
   }
-  /// One more site beyond one that is left, on the same line.
+  /// The next site on the same line beyond a remaining one.
   Link beyond(const Link& link);
-  /// The longest distance along a line to the next node while all are left.
+  /// The longest distance to the next node on a line while no site has been removed.
   Index longest() const { return longest_; }
 
  private:
@@ -60,9 +61,9 @@ class Lines {
   std::vector<Index> siteOf_;      // [nodes]
   std::vector<char> isOut_;        // [nodes]
   std::vector<Site> sites_;        // [sites]
-  std::optional<Groups> nodes_;    // by sites
-  std::vector<Link> links_;        // [half-arcs] what was taken out stays out
-  std::vector<HalfArc> opposite_;  // [half-arcs] that go straight on, behind where one begins
+  std::optional<Groups> nodes_;    // [sites] the nodes of each
+  std::vector<Link> links_;        // [half-arcs] as far as walked: removed sites stay out
+  std::vector<HalfArc> opposite_;  // [half-arcs] the opposite one at its start, straight on
   Index longest_ = 0;
 };
 

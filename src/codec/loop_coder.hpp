@@ -17,7 +17,7 @@
 
 namespace sweepface::codec {
 
-// Numbers take two tags. Those of the other parts of a wireframe are in wireframe_coder.cpp.
+// Numbers take two tags. The tags of the other parts of a wireframe are in wireframe_coder.cpp.
 enum LoopTag : std::uint32_t {
   kFresh = 2,
   kRank = 3,
@@ -41,13 +41,13 @@ enum LoopTag : std::uint32_t {
   kWaiting = 56
 };
 
-/// The loops of the patches, one after the other, each glued to those told before it
-/// (docs/file-format.md, GRID). Numbers nodes and arcs as they come. Where the mirror image of a
-/// patch was told before, it tells what to expect.
+/// Codes the loops of the patches one after another, each glued to earlier patches
+/// (docs/file-format.md, GRID). Nodes and arcs are numbered as they come. A patch is predicted from
+/// its mirror image if that was coded before.
 template <typename Coder>
 class LoopCoder {
  public:
-  /// `seeds` are pairs of half-arcs from which the mirror image spreads.
+  /// `seeds` are pairs of half-arcs from which the mirror spreads.
   LoopCoder(Symbols<Coder>& symbols, Wireframe& w, const Wireframe* whole,
             std::span<const std::array<HalfArc, 2>> seeds, std::size_t nodes, std::size_t arcs)
       : s_(symbols),
@@ -71,16 +71,16 @@ class LoopCoder {
       s_.refuse("a node or an arc bounds no patch");
   }
 
-  std::vector<int> bases;  // [patches] the side of the patch from which its loop was told
+  std::vector<int> bases;  // [patches] the side at which the loop of the patch begins
 
  private:
-  // What the writer tells: a half-arc, and whether its side ends there.
+  // What the writer codes: a half-arc, and whether its side ends there.
   struct Told {
     HalfArc h = -1;
     bool corner = false;
   };
 
-  // The side from which the loop is told: the one whose first half-arc has waited longest.
+  // The side at which the loop begins: the one whose first half-arc has waited longest.
   int baseOf(Index p) const {
     int best = 0;
     std::uint32_t least = std::numeric_limits<std::uint32_t>::max();
@@ -92,7 +92,8 @@ class LoopCoder {
     return best;
   }
 
-  // What has waited longest is where the next patch is glued, unless no patch ever is.
+  // Drops the half-arcs that have waited longest and bound no patch, up to the first that a patch
+  // will be glued to.
   void dropBorders() {
     for (HalfArc h = front_.oldest(); h >= 0; h = front_.oldest()) {
       const std::uint32_t start = front_.degree(w_.start(h)), end = front_.degree(w_.end(h));
@@ -119,7 +120,7 @@ class LoopCoder {
     }
     codeLoop();
     if (!s_.ok()) return;
-    // Loops are kept as they are told until the turns are known.
+    // Loops are kept as coded until the turns are known.
     Patch patch;
     patch.sides[0] = static_cast<Index>(w_.loops.size());
     int side = 0;
@@ -134,7 +135,7 @@ class LoopCoder {
     images_.tell(p, loop_);
   }
 
-  // Contexts: 0 where no image tells anything.
+  // Contexts: 0 where there is no image to predict from.
   std::uint32_t borderHint(HalfArc open) const {
     const HalfArc image = images_.across(open);
     return image < 0 ? 0 : images_.isTold(image) ? 1 : front_.isTaken(image) ? 2 : 3;
@@ -175,7 +176,7 @@ class LoopCoder {
     }
   }
 
-  // Sets current_ to a known half-arc and answers true, or prepares for a new one.
+  // Sets current_ to a known half-arc and returns true, or to one of a new arc and returns false.
   bool codeFirst(HalfArc h) {
     const HalfArc first = front_.oldest();
     if (first >= 0 && !s_.bit(kFresh, 0, 0, kWrites<Coder> && !front_.isOpen(h))) {
@@ -218,7 +219,7 @@ class LoopCoder {
                               "there are more arcs than announced", "an arc comes twice");
     current_ = 2 * arc + s_.bit(kBackwards, 0, 0, kWrites<Coder> && (h & 1));
   }
-  // What comes for the first time: the next number, as a rule.
+  // The number of a new node or arc, as a rule the next free one.
   Index codeNew(Numbers& numbers, LoopTag isNext, LoopTag which, Index number, const char* tooMany,
                 const char* twice) {
     const Index expected = numbers.next();
@@ -233,8 +234,8 @@ class LoopCoder {
     return number;
   }
 
-  // Whether the side ends with the current half-arc. On sides 2 and 3 the lengths of the opposite
-  // ones tell.
+  // Whether the side ends with the current half-arc. On sides 2 and 3 this follows from the length
+  // of the opposite side.
   bool codeCorner(bool told, std::uint32_t context, std::uint32_t more) {
     const bool expected = image_ >= 0 && images_.startsSide(image_);
     if (side_ < 2) return s_.bit(kCorner, context + 32 * hint(expected), more, told);
@@ -262,7 +263,8 @@ class LoopCoder {
     if (corner && side_ == 3) {
       end_ = start_;
     } else {
-      // A node on the way back from the start, where the rest of the loop is as long as it must be.
+      // Look for a node on the way back from the start at which the rest of the loop has the right
+      // length.
       std::int64_t rest = -1;
       if (side_ == 1 && corner) rest = length_[0] + length_[1];
       if (side_ == 2) rest = length_[0] - length_[2] + length_[1];
@@ -321,7 +323,8 @@ class LoopCoder {
                    "a node comes twice");
   }
 
-  // A node from which an open half-arc leaves, by how many have waited longer; -1 if there is none.
+  // A node that an open half-arc leaves, coded by the place of that half-arc in the queue; -1 if
+  // there is none.
   Index codeWaiting(Index node) {
     HalfArc h = kWrites<Coder> ? front_.waitingAt(node) : -1;
     const std::uint32_t place = s_.number(kWaiting, 0, 0, h < 0 ? 0 : 1 + front_.rankOf(h));
@@ -331,7 +334,7 @@ class LoopCoder {
     return h < 0 ? -1 : w_.start(h);
   }
 
-  // Back along what is open from the start of the loop.
+  // The node `rest` edges back from the start of the loop along open half-arcs, or -1.
   Index nodeBefore(std::int64_t rest) const {
     if (rest <= 0 || start_ < 0) return -1;
     Index node = start_;
@@ -347,19 +350,19 @@ class LoopCoder {
   Symbols<Coder>& s_;
   Wireframe& w_;
   const Wireframe* whole_;
-  Numbers nodes_, arcs_;  // that were told
+  Numbers nodes_, arcs_;  // which ones are known
   Front front_;
   LoopImages images_;
-  std::vector<Told> told_;  // of the patch at hand
-  // [half-arcs] of the writer: whether a patch is on their side.
+  std::vector<Told> told_;  // of the current patch
+  // [half-arcs] Writer only: whether each bounds a patch.
   struct None {};
   [[no_unique_address]] std::conditional_t<kWrites<Coder>, std::vector<bool>, None> bounds_;
   std::vector<LoopPiece> loop_;
-  std::array<std::int64_t, 4> length_{};  // of its sides, as far as they were told, in source edges
+  std::array<std::int64_t, 4> length_{};  // [sides] lengths coded so far, in source edges
   int side_ = 0;
-  Index start_ = -1;      // where its loop starts
-  HalfArc image_ = -1;    // mirrors the half-arc at hand, in a loop that was told
-  HalfArc current_ = -1;  // the half-arc at hand
+  Index start_ = -1;      // where the loop starts
+  HalfArc image_ = -1;    // the mirror image of the current half-arc, in an earlier loop
+  HalfArc current_ = -1;  // the current half-arc
   Index startOfNew_ = -1, end_ = -1;
 };
 

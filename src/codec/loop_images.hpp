@@ -8,18 +8,19 @@
 
 namespace sweepface::codec {
 
-/// A half-arc of the loop of a patch, and on which side it is.
+/// A half-arc of the loop of a patch, and its side.
 struct LoopPiece {
   HalfArc h;
   int side;
 };
 
-/// The mirror image of a wireframe on itself as far as its patches were told.
+/// The mirror of a wireframe onto itself, as far as its patches have been coded.
 class LoopImages {
  public:
   using Seeds = std::span<const std::array<HalfArc, 2>>;
 
-  /// Views `wireframe`, whose arcs are known once a patch with them is told, and `seeds`.
+  /// Keeps references to `wireframe`, whose arcs are known once a patch with them is coded, and to
+  /// `seeds`.
   LoopImages(const Wireframe& wireframe, Seeds seeds, std::size_t nodes, std::size_t arcs)
       : seeds_(seeds),
         next_(2 * arcs, -1),
@@ -40,18 +41,18 @@ class LoopImages {
       if (const HalfArc image = across(piece.h); image >= 0) spread(piece.h, image);
   }
 
-  /// Whether a half-arc bounds a patch that was told.
+  /// Whether a half-arc bounds a coded patch.
   bool isTold(HalfArc h) const { return next_[h] >= 0; }
   bool startsSide(HalfArc h) const { return cornerAt_[h] >= 0; }
   HalfArc before(HalfArc h) const { return prev_[h]; }
   HalfArc behind(HalfArc h) const { return next_[h]; }
 
-  /// What mirrors a half-arc by what the patch on its other side mirrors, or -1.
+  /// The mirror image of a half-arc, known from the patch on its other side, or -1.
   HalfArc across(HalfArc h) const {
     const HalfArc beside = mirror_.bound(twin(h));
     return beside < 0 ? -1 : twin(beside);
   }
-  /// The same if it bounds a patch that was told.
+  /// The same if the image bounds a coded patch, else -1.
   HalfArc of(HalfArc h) const {
     const HalfArc image = across(h);
     return image >= 0 && isTold(image) ? image : -1;
@@ -65,7 +66,7 @@ class LoopImages {
   }
 
   Seeds seeds_;
-  std::vector<HalfArc> next_, prev_;  // [half-arcs] in loops that were told, else -1
+  std::vector<HalfArc> next_, prev_;  // [half-arcs] in coded loops, else -1
   std::vector<Index> cornerAt_;       // [half-arcs]
   std::vector<Index> node_;           // [nodes] the image of each, or -1
   MirrorSpreader mirror_;

@@ -26,8 +26,8 @@ std::vector<Vec3> nodePositions(const Surface& surface, std::span<const Vec3> ne
   return positions;
 }
 
-// The nearest node to the image of each across the middle of one axis, no further than `reach`; the
-// first of those that are as near.
+// For each node, the node nearest to its image across the middle of an axis, within `reach`; the
+// first of several equally near, -1 if there is none.
 std::vector<Index> imagesAcross(const std::vector<Vec3>& positions, const Box& box, int axis,
                                 double reach) {
   const double twice = coordinate(box.low, axis) + coordinate(box.high, axis);
@@ -98,7 +98,7 @@ MirrorSeeds findMirror(const Surface& surface, std::span<const Vec3> neutral) {
   std::map<std::array<Index, 2>, HalfArc> between;
   for (HalfArc h = 0; h < static_cast<HalfArc>(c.patchOf.size()); ++h)
     if (c.patchOf[h] >= 0) between[{w.start(h), w.end(h)}] = h;
-  constexpr std::size_t kWorthwhile = 16;  // half-arcs for the bytes of a pair
+  constexpr std::size_t kWorthwhile = 16;  // half-arcs that pay for the bytes of a pair
   MirrorSpreader spreader(w, loopsOf(c));
   for (HalfArc h = 0; h < static_cast<HalfArc>(c.patchOf.size()); ++h) {
     if (c.patchOf[h] < 0 || spreader.bound(h) >= 0) continue;
@@ -109,7 +109,8 @@ MirrorSeeds findMirror(const Surface& surface, std::span<const Vec3> neutral) {
       spreader.undo();
       continue;
     }
-    // From where a reader of the wireframe knows both sides first: arcs are numbered as they come.
+    // Choose the pair of which a reader of the wireframe knows both sides first. Arcs are numbered
+    // as they come.
     const auto bothKnown = [&](HalfArc a) { return std::max(a, spreader.bound(a)); };
     const HalfArc first = *std::ranges::min_element(spread, {}, bothKnown);
     seeds.pairs.push_back({first, spreader.bound(first)});

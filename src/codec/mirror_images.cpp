@@ -11,7 +11,7 @@ class ImageFinder {
   ImageFinder(const Surface& surface, const Mirror& mirror)
       : surface_(surface), c_(surface.connectivity()), mirror_(mirror) {}
 
-  // Frames of mirrored nodes: their x axes are images of each other, or x is the image of y.
+  // In the frames of mirrored nodes, the x axes are images of each other, or x is the image of y.
   Hierarchy::Image imageOf(const CodedSite& site, const CodedSite& other, int i, int j) const {
     if (i == 0 && j == 0) return {other.first, 1};
     const auto& arms = c_.stars[site.node].arms;
@@ -22,12 +22,13 @@ class ImageFinder {
     const auto arm = std::ranges::find(there, x) - there.begin();
     if (arm == static_cast<std::ptrdiff_t>(there.size())) return {};
     if (c_.kinds[site.node] == NodeKind::irregular) {
-      // The chart turns with the first spoke: an image only where that is the image of the other's.
+      // The chart is aligned with the first spoke, so there is an image only if the first spokes
+      // mirror each other.
       if (arm != 0 || !c_.stars[site.node].closed) return {};
       const Index k = vectorAt(other, i, j);
       return {k, j % 2 ? -1 : 1};
     }
-    // x becomes the direction of arm `arm` there, y the one a quarter turn clockwise from it.
+    // x maps to the direction of arm `arm` there, y to the one a quarter turn clockwise from it.
     const auto axis = [&](std::ptrdiff_t a) {
       a = (a % 4 + 4) % 4;
       return std::pair<int, int>(static_cast<int>(a % 2), a < 2 ? 1 : -1);

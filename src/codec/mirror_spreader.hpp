@@ -7,29 +7,29 @@
 
 namespace sweepface::codec {
 
-/// The loops around patches, as far as they are known: -1 at half-arcs that bound no patch.
+/// The loops around patches, as far as they are known; -1 for half-arcs that bound no patch.
 struct Loops {
   std::span<const HalfArc> next, prev;  ///< [half-arcs]
   std::span<const Index> cornerAt;      ///< [half-arcs] -1 unless a side starts with it
 };
 
-/// Pairs half-arcs that bound mirrored patches on mirrored arcs. They run in opposite directions:
-/// walking on from one is walking back from the other. Stops where the two sides differ.
+/// Pairs half-arcs that bound mirrored patches on mirrored arcs. They run in opposite directions: a
+/// step forwards from one is a step backwards from the other. Stops where the two sides differ.
 class MirrorSpreader {
  public:
-  /// Views `wireframe` and `loops`, which may grow; half-arcs are as many as `loops` has.
+  /// Keeps references to `wireframe` and to the arrays of `loops`, which may be filled in later;
+  /// their size is the number of half-arcs.
   MirrorSpreader(const Wireframe& wireframe, const Loops& loops)
       : w_(wireframe), loops_(loops), bound_(loops.next.size(), -1) {}
 
-  /// Pairs two half-arcs and all that follows; the half-arcs that have a partner now and had none
-  /// before, without those partners.
+  /// Pairs two half-arcs and all that follow from them. Returns one half-arc of each new pair.
   std::span<const HalfArc> spread(HalfArc h, HalfArc g);
-  /// Takes back what was spread last.
+  /// Undoes the last spread.
   void undo();
 
-  /// The half-arc that bounds the image of the patch there, or -1.
+  /// The partner of a half-arc, which bounds the image of its patch, or -1.
   HalfArc bound(HalfArc h) const { return bound_[h]; }
-  /// Notes the images [nodes] of both ends of a half-arc that has a partner.
+  /// Enters the images of both ends of a half-arc that has a partner into `images` [nodes].
   void noteEnds(HalfArc h, std::span<Index> images) const;
 
  private:

@@ -5,12 +5,12 @@
 #include <cstdint>
 #include <vector>
 
-// Probabilities of bits from several contexts at once, mixed in the logistic domain by weights that
-// learn (Mahoney, Adaptive Weighing of Context Models for Lossless Data Compression, 2005).
-// Integers only: every machine sees the same probabilities.
+// Logistic mixing of the bit probabilities of several contexts, with adaptive weights (Mahoney,
+// Adaptive Weighing of Context Models for Lossless Data Compression, 2005). Integers only, so that
+// every machine computes the same probabilities.
 namespace sweepface::codec {
 
-/// Spreads two numbers over all of 32 bits.
+/// Hashes two numbers to 32 bits.
 constexpr std::uint32_t hashOf(std::uint32_t a, std::uint32_t b) {
   std::uint32_t x = a * 0x9e3779b1u + b * 0x85ebca6bu;
   x ^= x >> 15;
@@ -19,7 +19,7 @@ constexpr std::uint32_t hashOf(std::uint32_t a, std::uint32_t b) {
   return x;
 }
 
-/// 65536 / (1 + e^(-x / 256)) for x in [-3072, 3072], by straight pieces.
+/// 65536 / (1 + e^(-x / 256)) for x in [-3072, 3072], piecewise linear.
 [[gnu::always_inline]] inline std::int32_t squash(std::int32_t x) {
   static constexpr std::array<std::int32_t, 49> kAt{
       1,     1,     1,     2,     3,     5,     8,     13,    22,    36,    60,    98,    162,
@@ -33,7 +33,7 @@ constexpr std::uint32_t hashOf(std::uint32_t a, std::uint32_t b) {
 }
 
 /// The inverse of squash for probabilities in 4096ths: the least x with squash(x) / 16 >= p.
-/// Not constexpr: made when first asked for, as a browser would load its 8 KB.
+/// Computed at first use rather than constexpr, so that a browser need not load its 8 KB.
 using StretchTable = std::array<std::int16_t, 4096>;
 inline StretchTable makeStretchTable() {
   StretchTable t{};
@@ -49,18 +49,18 @@ inline const StretchTable& stretchTable() {
   return table;
 }
 
-/// What one context knows about the next bit: its probability in 65536ths and how often it was
-/// asked.
+/// What one context knows about the next bit: the probability of a 1 in 65536ths, and how many bits
+/// it has seen.
 struct Slot {
   std::uint16_t one = 32768, seen = 0;
 };
 
 /// Codes bits through `Coder`, a RangeEncoder or a RangeDecoder, with the slots of several contexts
-/// and a set of weights chosen by one more.
+/// and a set of weights selected by one more.
 template <typename Coder, int kInputs>
 class Model {
  public:
-  /// What came more than `memory` times ago counts less and less.
+  /// Bits seen more than `memory` times ago count less and less.
   Model(Coder& coder, std::size_t slots, std::size_t sets, std::uint16_t memory = kMostSeen)
       : coder_(&coder),
         stretch_(stretchTable().data()),
@@ -69,7 +69,7 @@ class Model {
     weights_.assign(sets * kInputs, (1 << 18) / 3 / (kInputs + 1));
   }
 
-  /// `contexts` are a slot for each input.
+  /// `contexts` selects a slot for each input, `set` the weights.
   bool code(bool bit, const std::array<std::uint32_t, kInputs>& contexts, std::uint32_t set) {
     std::int32_t stretched[kInputs];
     std::int32_t* weight = &weights_[std::size_t{set} * kInputs];
@@ -92,7 +92,7 @@ class Model {
   }
 
  private:
-  // The more a context has seen, the more it is trusted and the slower it moves.
+  // The more bits a context has seen, the more it is trusted and the more slowly it adapts.
   static constexpr std::uint16_t kMostSeen = 30;
   static constexpr int kRate = 14;
   static constexpr std::array<std::int32_t, 64> kTrust = [] {
@@ -101,8 +101,8 @@ class Model {
     return t;
   }();
 
-  // 2^32 / (2 n + 3), rounded up: what is below 2^17 times it, without the lower 32 bits, is the
-  // quotient.
+  // 2^32 / (2 n + 3), rounded up. For numerators below 2^17 the product with it, shifted right by
+  // 32 bits, is the quotient.
   static constexpr std::array<std::uint32_t, kMostSeen + 1> kShare = [] {
     std::array<std::uint32_t, kMostSeen + 1> t{};
     for (std::uint32_t n = 0; n <= kMostSeen; ++n) t[n] = 0xffffffffu / (2 * n + 3) + 1;

@@ -10,8 +10,8 @@
 
 namespace sweepface::codec {
 
-/// What the field calls its expressions: ARKit's blend shapes, in the order of the alphabet. What a
-/// comma ends has a left one and a right one.
+/// The usual names of expressions: ARKit's blend shapes in alphabetical order. A name that ends
+/// with a comma has a left and a right variant.
 inline constexpr char kUsualNames[] =
     "browDown,browInnerUp browOuterUp,cheekPuff cheekSquint,eyeBlink,eyeLookDown,eyeLookIn,"
     "eyeLookOut,eyeLookUp,eyeSquint,eyeWide,jawForward jawLeft jawOpen jawRight mouthClose "
@@ -19,9 +19,10 @@ inline constexpr char kUsualNames[] =
     "mouthRollLower mouthRollUpper mouthShrugLower mouthShrugUpper mouthSmile,mouthStretch,"
     "mouthUpperUp,noseSneer,tongueOut ";
 
-/// Names, one after the other. Each letter is first asked whether it is the one that came where the
-/// letters before it came last, in the names so far or the usual ones (as what repeats is found by
-/// Ziv and Lempel, 1977); if not, it is told by those before it.
+/// Codes names one after another. Each letter is first compared with the one that followed the
+/// latest occurrence of the preceding letters, in the usual names or the names so far (a match
+/// model, after Ziv and Lempel, 1977). If they differ, it is coded in the context of the preceding
+/// letters.
 template <typename Coder>
 class NameCoder {
  public:
@@ -87,7 +88,7 @@ class NameCoder {
     before_ = placeOf(past_);
     placeOf(past_) = static_cast<std::uint32_t>(text_.size());
   }
-  // Where what was told last came before, if enough of it did.
+  // Finds the previous occurrence of the latest letters, if enough of them match.
   void seek() {
     follows_ = before_;
     for (alike_ = 0; alike_ < std::min(kMost, follows_); ++alike_)
@@ -96,11 +97,11 @@ class NameCoder {
   }
 
   Symbols<Coder>& s_;
-  std::vector<char> text_;                // the usual names and all so far, each with a zero
-  std::vector<std::uint32_t> lastAfter_;  // [2^kBits] by three letters, the place after the last
-  std::uint32_t past_ = 0, before_ = 0;   // the last four letters; the place after the same three
+  std::vector<char> text_;                // the usual names and all so far, zero-terminated
+  std::vector<std::uint32_t> lastAfter_;  // [2^kBits] by three letters: where they ended last
+  std::uint32_t past_ = 0, before_ = 0;   // the last four letters; where the three ended before
   std::uint32_t follows_ = 0;             // the place of the next guess, or 0
-  std::uint32_t alike_ = 0;               // as many letters before it are as the last ones
+  std::uint32_t alike_ = 0;               // how many letters before it match the last ones
 };
 
 }  // namespace sweepface::codec

@@ -9,9 +9,10 @@ namespace sweepface::codec {
 
 bool hasNames(const Names& names);
 void writeNames(Writer& out, const Names& names);
-/// Complains where two of the names are the same, unless they are empty; `what` they name.
+/// Refuses duplicate names, except empty ones; `what` are the things they name.
 void refuseTwins(Reader& in, std::vector<std::string_view> names, const char* what);
-/// As many names of a kind as the wireframe has things, or none; no two the same.
+/// For each kind of thing, either a name for each of them in the wireframe or none at all; no two
+/// names are the same.
 Names readNames(Reader& in, const Wireframe& wireframe);
 
 }  // namespace sweepface::codec

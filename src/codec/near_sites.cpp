@@ -53,11 +53,11 @@ NearTable::NearTable(const Surface& surface, const Hierarchy& hierarchy) {
   const auto& sites = hierarchy.sites();
   Lines lines(surface);
   NearSites search(surface, lines);
-  std::vector<Index> rank(sites.size());  // by their numbers in `lines`
+  std::vector<Index> rank(sites.size());  // by site number in `lines`
   const auto numbered = [&](Index s) { return s < 0 ? -1 : lines.siteOf(sites[s].node); };
   for (Index s = 0; s < static_cast<Index>(sites.size()); ++s) rank[numbered(s)] = s;
   range_.resize(sites.size());
-  // Once more from the last to the first: images go together.
+  // Remove the sites once more, from the last to the first, images together.
   for (auto s = static_cast<Index>(sites.size()) - 1; s >= 0 && sites[s].span > 0;) {
     const Index first = sites[s].mirror == s - 1 ? s - 1 : s;
     for (Index k = first; k <= s; ++k) {

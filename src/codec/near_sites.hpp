@@ -10,19 +10,20 @@
 
 namespace sweepface::codec {
 
-/// Searches for the sites that are nearest along what is left of the lines (Dijkstra 1959). However
-/// many T-nodes and spokes there are, a search is short.
+/// Searches for the nearest sites along what is left of the lines (Dijkstra 1959). The length of a
+/// search is bounded, however many T-nodes and spokes there are.
 class NearSites {
  public:
   NearSites(const Surface& surface, Lines& lines) : c_(surface.connectivity()), lines_(lines) {}
 
   static constexpr std::size_t kMost = 16;
-  /// At least 12 sites where there are as many, and those as far away as the last. Without the
-  /// site's own mirror image (or -1), so that both see the same. Until the next search.
+  /// The 12 nearest sites, if there are that many, and those at the distance of the last, up to
+  /// kMost. Leaves out `image`, the site's own mirror image (or -1), so that both find the same
+  /// sites. Valid until the next search.
   std::span<const Index> around(Index site, Index image);
 
  private:
-  // A node that the search will come to, the nearest first.
+  // A node waiting to be visited, the nearest first.
   struct Waiting {
     std::uint64_t key;
     Waiting(Index distance, Index node) : key(static_cast<std::uint64_t>(distance) << 32 | node) {}
@@ -40,13 +41,13 @@ class NearSites {
   const Connectivity& c_;
   Lines& lines_;
   std::vector<Waiting> queue_;    // a heap
-  std::vector<Index> reachedBy_;  // [sites, then nodes] the last search that was there
+  std::vector<Index> reachedBy_;  // [sites, then nodes] the last search that reached it
   std::vector<Index> found_;
   Index search_ = 0;
 };
 
-/// The sites before each site of a hierarchy that were nearest to it along what was left of the
-/// lines when it was taken out; none for a root.
+/// For each site of a hierarchy, the earlier sites nearest to it along the lines at the time when
+/// it was removed; none for a root.
 class NearTable {
  public:
   NearTable(const Surface& surface, const Hierarchy& hierarchy);
@@ -57,7 +58,7 @@ class NearTable {
   }
 
  private:
-  std::vector<std::array<Index, 2>> range_;  // [sites] of each in `near_`
+  std::vector<std::array<Index, 2>> range_;  // [sites] each site's range in `near_`
   std::vector<Index> near_;
 };
 

@@ -6,7 +6,7 @@
 
 namespace sweepface::codec {
 
-/// Which of the numbers from 0 on are taken.
+/// Keeps track of which numbers, from 0 on, are taken.
 class Numbers {
  public:
   explicit Numbers(std::size_t count) : taken_(count, 0) {}
@@ -14,7 +14,7 @@ class Numbers {
   Index count() const { return static_cast<Index>(taken_.size()); }
   bool has(Index number) const { return taken_[number]; }
   void take(Index number) { taken_[number] = 1; }
-  /// The first that is free; count() if none is.
+  /// The first free number; count() if there is none.
   Index next() {
     while (next_ < count() && has(next_)) ++next_;
     return next_;

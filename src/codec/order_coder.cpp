@@ -21,7 +21,7 @@ void codeOrder(Symbols<Coder>& s, const LevelOne& grid, std::vector<Index>& orde
       nextLoose = static_cast<Index>(k) + 1;
       v = -nextLoose;
     } else if (s.bit(kStays, 0, 0, kWrites<Coder> && v >= 0 && walk.visited(v))) {
-      // Somewhere it has been before: seams have several vertices at one place.
+      // A grid vertex that was visited before: at seams, several source vertices share one.
       const std::int64_t there =
           before + std::int64_t{s.signedNumber(kFar, 1, 0, std::int64_t{v} - before)};
       if (there < 0 || there >= grid.vertexCount()) return s.refuse("a vertex is out of range");

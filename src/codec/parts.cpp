@@ -9,7 +9,7 @@ namespace sweepface {
 namespace codec {
 namespace {
 
-/// The part of a file that chunks of a kind count for.
+/// The part of a file that a kind of chunk counts towards.
 struct KindPart {
   std::string_view code, part;
 };

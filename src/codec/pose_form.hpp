@@ -6,7 +6,7 @@
 #include "codec/likeness.hpp"
 #include "codec/symbols.hpp"
 
-// Small things that stand between the large ones, the same for reader and writer.
+// The small values coded for each pose before its coefficients, shared by reader and writer.
 namespace sweepface::codec {
 
 /// Tags beyond those of the wireframe.
@@ -21,7 +21,8 @@ enum RigTag : std::uint32_t {
   kLikeNegated = 55
 };
 
-/// What a pose is like: the image that it is compared with, or else what is told.
+/// Codes what a pose is like: the image that it is compared with, which is implied, or else a coded
+/// pose.
 template <typename Coder>
 void codeLikeness(Symbols<Coder>& symbols, const Packing::Pose& form, Likeness& like, Index pose) {
   if (symmetryOf(form, pose) == Symmetry::partner) {
@@ -46,7 +47,7 @@ void codePose(Symbols<Coder>& symbols, Packing::Pose& form, Index pose) {
     form.image = -1;
   } else if (symbols.bit(kOwnImage, 0, 0, form.image == pose)) {
     form.image = pose;
-  } else {  // most often the pose before
+  } else {  // most often the previous pose
     const std::uint32_t back = symbols.number(
         kImageOf, 0, 0, static_cast<std::uint64_t>(std::max(0, pose - 1 - form.image)));
     if (pose < 2 || back > static_cast<std::uint32_t>(pose - 2)) {

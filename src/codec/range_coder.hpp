@@ -7,8 +7,9 @@
 namespace sweepface::codec {
 
 /// Binary range coder: each bit narrows an interval of 32-bit numbers in proportion to its
-/// probability; bytes leave as soon as both ends agree on them (Martin 1979; in the carryless form
-/// of Mahoney's PAQ). `one` is the probability of a 1 in 65536ths, within (0, 65536).
+/// probability, and bytes are output as soon as both ends agree on them (Martin 1979, in the
+/// carryless form of Mahoney's PAQ). `one` is the probability of a 1 in 65536ths, within (0,
+/// 65536).
 class RangeEncoder {
  public:
   bool code(bool bit, std::uint32_t one) {
@@ -19,9 +20,10 @@ class RangeEncoder {
     return bit;
   }
 
-  /// The bytes so far, with as many more as tell the last interval from all others.
+  /// The bytes so far, followed by as few more as identify the final interval.
   std::string finish() {
-    // Missing bytes read as zero: the shortest number in the interval that ends in zeros.
+    // Missing bytes read as zero, so find the number in the interval with the fewest bytes before
+    // its zeros.
     for (int bytes = 1; low_ > 0; ++bytes) {
       const std::uint32_t mask = bytes >= 4 ? 0 : 0xffffffffu >> (8 * bytes);
       const std::uint64_t number = (std::uint64_t{low_} + mask) & ~std::uint64_t{mask};
@@ -42,7 +44,8 @@ class RangeEncoder {
   std::string bytes_;
 };
 
-/// Reads what RangeEncoder has written; beyond the end it reads zeros, as far as they were cut off.
+/// Reads what RangeEncoder has written. Beyond the end it reads zeros, since the encoder cuts them
+/// off.
 class RangeDecoder {
  public:
   explicit RangeDecoder(std::string_view bytes) : bytes_(bytes) {
@@ -58,7 +61,7 @@ class RangeDecoder {
     return bit;
   }
 
-  /// Whether all bytes have been looked at.
+  /// Whether all bytes have been consumed.
   bool exhausted() const { return at_ == bytes_.size(); }
 
  private:

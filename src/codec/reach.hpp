@@ -6,11 +6,11 @@
 
 namespace sweepface::codec {
 
-/// How far one unit of each vector [V] moves the surface: what it does to the corners of patches,
-/// by the largest values of the basis there, and to what is derived from it.
+/// How far one unit of each vector [V] moves the surface: directly at the corners of patches, by
+/// the largest values of the basis there, and through the vectors derived from it.
 std::vector<double> reachOf(const Surface& surface);
 
-/// Two values an octave: no rounding in the last digit can tip them.
+/// Rounds to two values per octave, so that a rounding error in the last digit does not matter.
 double roundedReach(double reach);
 
 }  // namespace sweepface::codec

@@ -9,13 +9,13 @@
 namespace sweepface::codec {
 
 inline constexpr std::string_view kConvertAgain = "; convert the source again.";
-/// What the limit of memory may be to blame for.
+/// Problems that the memory limit may have caused.
 inline constexpr std::string_view kTooMuchMemory = "it needs more memory than it is allowed",
                                   kTooLarge =
                                       "the wireframe is larger than its bytes or the memory allow";
 
-/// Whether what is read holds, and if not, what was wrong first. A program without words links its
-/// own (web/src/usual.cpp).
+/// Whether the data read so far is valid, and if not, the first problem. A program without messages
+/// links its own implementation (web/src/usual.cpp).
 class Refusal {
  public:
   bool ok() const { return ok_; }
@@ -25,9 +25,9 @@ class Refusal {
 
   void refuse(std::string_view problem);
   void refuseWith(std::initializer_list<TextPart> parts);
-  /// A number that is no `what`.
+  /// Refuses a number that is not a valid `what`.
   void refuseNumber(const char* what, long long number);
-  /// More entries than there can be.
+  /// Refuses a number of entries that cannot fit.
   void refuseCount(const char* what, long long entries);
 
  private:

@@ -14,16 +14,16 @@ namespace sweepface::codec {
 /// A vector in steps.
 using Steps3 = std::array<std::int32_t, 3>;
 inline bool isMoved(const Steps3& v) { return (v[0] | v[1] | v[2]) != 0; }
-/// About how many bits it takes to tell a vector where another is expected.
+/// Roughly how many bits it takes to code a vector where `expected` is predicted.
 inline double bitsOf(const Steps3& v, const Steps3& expected = {}) {
   double sum = 0;
   for (std::size_t k = 0; k < 3; ++k) sum += 2 * std::log2(1.0 + std::abs(v[k] - expected[k]));
   return sum;
 }
-/// The stored vectors of a pose [S] as multiples of their steps beyond their predictions.
+/// The stored vectors of a pose [S] less their predictions, in steps.
 using Coefficients = std::vector<Steps3>;
 
-/// The vectors of a pose that are not zero.
+/// A coefficient of a pose that is not zero.
 struct Moved {
   Index vector;
   Steps3 steps;
@@ -33,22 +33,21 @@ using Sparse = std::vector<Moved>;
 /// What the coefficients of a pose are compared with before they are coded.
 enum class Symmetry {
   none,    ///< with nothing
-  self,    ///< with the mirror image of the half that came before
+  self,    ///< with the mirror image of its own half that came before
   partner  ///< with the mirror image of an earlier pose
 };
 
-/// What the mirror image of a vector says of it.
+/// The value of a vector according to its mirror image `v`.
 inline Steps3 reflected(Steps3 v, int sign, int axis) {
   for (int k = 0; k < 3; ++k)
     if ((k == axis) == (sign > 0)) v[k] = -v[k];
   return v;
 }
 
-/// How many steps a coefficient may have: far more than any face needs, and sums of a few still
-/// fit.
+/// Most steps of a coefficient: far more than any face needs, yet sums of a few still fit.
 inline constexpr std::int32_t kFarthest = 1 << 26;
 
-/// The same in steps that are 2^finer times smaller, or larger where `finer` is negative.
+/// Converts a vector to steps that are 2^finer times smaller, or larger if `finer` is negative.
 inline Steps3 inFinerSteps(Steps3 v, int finer) {
   for (std::int32_t& x : v) {
     const std::int64_t y =

@@ -10,12 +10,14 @@
 
 namespace sweepface::codec {
 
-/// Whether a coder writes: what it is given counts, else it answers.
+/// Whether a coder writes. A writer takes the values it is given; a reader ignores them and returns
+/// those read.
 template <typename Coder>
 inline constexpr bool kWrites = std::is_same_v<Coder, RangeEncoder>;
 
-/// Bits and whole numbers of a payload through adaptive contexts. `tag` says what is coded, `a` and
-/// `b` what it may depend on. A reader that meets what cannot be stops answering: see ok().
+/// Codes bits and whole numbers of a payload with adaptive contexts. `tag` says what is coded, `a`
+/// and `b` what it may depend on. After invalid data the values that a reader returns mean nothing:
+/// see ok().
 template <typename Coder>
 class Symbols : public Refusal {
  public:
@@ -30,7 +32,7 @@ class Symbols : public Refusal {
     return value;
   }
 
-  /// Below 2^32, by the length in bits (unary) and then the bits (Elias 1975).
+  /// A number below 2^32: the length in bits (unary), then the bits (Elias 1975).
   std::uint32_t number(std::uint32_t tag, std::uint32_t a, std::uint32_t b, std::uint64_t value) {
     const int length = static_cast<int>(std::bit_width(value + 1));
     int n = 1;
@@ -53,7 +55,7 @@ class Symbols : public Refusal {
     return n >> 1 ^ -(n & 1);
   }
 
-  /// One of `count`, all alike.
+  /// One of `count` values, all equally likely.
   std::uint32_t index(std::uint32_t tag, std::uint32_t count, std::uint32_t value) {
     std::uint32_t result = 0;
     const int length = static_cast<int>(std::bit_width(count > 0 ? count - 1 : 0u));
@@ -62,7 +64,7 @@ class Symbols : public Refusal {
     return ok() ? result : 0;
   }
 
-  /// Eight bytes as they are.
+  /// Eight bytes verbatim.
   std::uint64_t raw(std::uint32_t tag, std::uint64_t value) {
     std::uint64_t result = 0;
     for (int k = 64; k-- > 0;) result = result << 1 | bit(tag, k, 0, value >> k & 1);

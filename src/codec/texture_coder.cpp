@@ -25,9 +25,9 @@ enum TextureTag : std::uint32_t {
   kResidual = 34
 };
 
-// Beyond any texture that repeats, and far from where whole numbers end.
+// Larger than any repeating texture needs, and far below integer overflow.
 constexpr std::int32_t kMostTexture = 1 << 26;
-// What a guess that is further off counts.
+// Larger errors of a guess count as this much.
 constexpr std::int64_t kMostOff = 1 << 20;
 
 template <typename Coder>
@@ -75,7 +75,7 @@ class TextureCoder {
       p_.cornerTexcoords[c] = codeIndex(c, p_.cornerTexcoords[c]);
   }
 
-  // The next new one, the one this vertex had last, or any.
+  // The texture coordinate of a corner: the one its vertex had last, the next new one, or any.
   Index codeIndex(std::size_t corner, Index t) {
     const Index vertex = p_.corners[corner];
     const Index image = images_.empty() ? -1 : images_[corner];
@@ -101,7 +101,7 @@ class TextureCoder {
     return had = t;
   }
 
-  // From face to face across the edges that they share in the texture.
+  // Codes values from face to face across the edges that faces share in the texture.
   void codeByFaces() {
     std::vector<EdgeMap::Edge> edges;
     edges.reserve(p_.corners.size());
@@ -135,8 +135,8 @@ class TextureCoder {
     Index face = -1, corner = 0;  // from this corner to the next
   };
   struct Entry {
-    Index face, corner;  // entered across the side from this corner
-    Side from;           // the same side as the face before has it
+    Index face, corner;  // entered across the side that begins here
+    Side from;           // the same side in the previous face
   };
 
   Index cornerOf(Index face, Index k) const {
@@ -146,13 +146,13 @@ class TextureCoder {
   Index at(Index face, Index k) const { return p_.cornerTexcoords[cornerOf(face, k)]; }
   bool knows(Index t) const { return t >= 0 && known_[t]; }
 
-  // The same side as the face beyond it has it.
+  // The same side in the face beyond it.
   const Side* across(const Side& side) const {
     const Index other = map_->find(at(side.face, side.corner + 1), at(side.face, side.corner));
     return other < 0 ? nullptr : &sides_[other];
   }
-  // The side opposite to a side in the quad beyond it: first what is beside the side's own first
-  // corner. Nothing where there is no quad, or not all of it is known.
+  // The opposite side of the quad beyond a side, beginning beside the side's own first corner.
+  // Empty if there is no quad or that side is not fully known.
   std::optional<std::array<Index, 2>> beyond(const Side& side) const {
     const Side* const other = across(side);
     if (!other || p_.faceSize(other->face) != 4) return {};
@@ -180,8 +180,8 @@ class TextureCoder {
       last_ = whole_[t];
     }
   }
-  // What comes before the shared side in the face it was entered from: the side's other end there
-  // is where the next corner continues.
+  // The corner before the shared side in the face it was entered from. The line from it through the
+  // start of that side leads to the next corner.
   Index cornerBefore(const Side& side) const {
     return side.face < 0 ? -1 : at(side.face, side.corner - 1);
   }
@@ -191,7 +191,8 @@ class TextureCoder {
     std::uint32_t how = 0, active = 0;  // contexts
   };
 
-  // By the mirror image, the way that has been best of late, where that was better than without.
+  // Predicts from the mirror image, in the way that has worked best of late, if that was better
+  // than without it.
   void codeCorner(Index f, Index k, const Guess& guess) {
     const Index t = at(f, k), image = imageAt(f, k);
     const std::optional<Pair> beside = knows(image) ? knownBeside(f, k) : std::nullopt;
@@ -204,7 +205,7 @@ class TextureCoder {
       codeValue(t, guess);
     else
       codeValue(t, {guesses[best], 4, static_cast<std::uint32_t>(std::bit_width(misses_[best]))});
-    for (std::size_t way = 0; way <= kWays; ++way)  // older ones count less and less
+    for (std::size_t way = 0; way <= kWays; ++way)  // older misses decay
       misses_[way] += offBy(t, guesses[way]) - (misses_[way] >> 4);
     if (best < kWays) off_[t] = off_[image];
   }
@@ -214,7 +215,7 @@ class TextureCoder {
     return static_cast<std::uint32_t>(std::min(sum, kMostOff));
   }
 
-  // What is known beside a corner of a face, and its mirror image.
+  // A known value beside a corner of a face, and the one at its mirror image.
   struct Pair {
     Index here, there;
   };
@@ -229,8 +230,9 @@ class TextureCoder {
     const Index image = images_.empty() ? -1 : images_[cornerOf(face, k)];
     return image < 0 ? -1 : p_.cornerTexcoords[image];
   }
-  // As far from what is beside as the images are from each other, as islands of a texture lie
-  // anywhere: across its width, as most faces do, or any of the ways a square can be turned.
+  // The offset between the images, transformed and added to the known value beside, since islands
+  // of a texture may lie anywhere. Way 0 mirrors across the width of the texture, as most faces do;
+  // the others are the remaining symmetries of a square.
   Whole mirrored(Index image, const Pair& beside, std::size_t way) const {
     Whole step;
     for (int a = 0; a < 2; ++a) step[a] = whole_[image][a] - whole_[beside.there][a];
@@ -239,8 +241,8 @@ class TextureCoder {
             whole_[beside.here][1] + (way & 2 ? -step[1] : step[1])};
   }
 
-  // The fourth corner of a quad: that of a parallelogram, and as far from it as the quads beyond
-  // the known sides are from one.
+  // The fourth corner of a quad: that of a parallelogram, corrected by how far the quads beyond the
+  // known sides deviate from one.
   Guess fourth(Index f, Index k) const {
     const Index after = at(f, k + 1), middle = at(f, k + 2), before = at(f, k + 3);
     Whole guess, bent{};
@@ -258,7 +260,7 @@ class TextureCoder {
     return {guess, 0, activity({before, middle, after})};
   }
 
-  // The first corner beyond a side: where a line through two or three corners before it leads.
+  // The first corner beyond a side, extrapolated from two or three corners before it.
   Guess next(const Side& from, Index before, Index back) const {
     Whole guess;
     for (int a = 0; a < 2; ++a) guess[a] = 2 * whole_[before][a] - whole_[back][a];
@@ -269,7 +271,7 @@ class TextureCoder {
     return {guess, 1, activity({before, back})};
   }
 
-  // How far off the guesses of some were.
+  // How far off the guesses of some known values were, as a context.
   std::uint32_t activity(std::initializer_list<Index> known) const {
     std::uint32_t sum = 0;
     for (const Index t : known) sum += off_[t];
@@ -300,12 +302,12 @@ class TextureCoder {
   std::vector<std::uint32_t> off_;  // how far off the guess of each was
   std::vector<Side> sides_;         // [corners]
   std::optional<EdgeMap> map_;
-  std::vector<Index> ofVertex_;         // the texture coordinates that each had last, or -2
+  std::vector<Index> ofVertex_;         // the one that each vertex had last, or -2
   std::vector<std::uint8_t> asBefore_;  // [corners] 1 + whether it has what its vertex had, else 0
   Index next_ = 0;
   Whole last_{};
   static constexpr std::size_t kWays = 8;
-  std::array<std::uint32_t, kWays + 1> misses_{};  // of the ways to mirror, and without
+  std::array<std::uint32_t, kWays + 1> misses_{};  // by way to mirror, then without
 };
 
 }  // namespace

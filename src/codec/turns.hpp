@@ -7,7 +7,7 @@
 
 namespace sweepface::codec {
 
-/// Those turns that a file can hold, as it holds them: of targets that there are, in their order.
+/// The turns that a file can hold, as it holds them: those of existing targets, in order.
 std::vector<Turn> storedTurns(const Rig& rig);
 void writeTurns(Writer& out, const std::vector<Turn>& turns);
 std::vector<Turn> readTurns(Reader& in, std::size_t targets);

@@ -2,7 +2,7 @@
 
 namespace sweepface::codec {
 
-/// Two numbers that processors of all kinds reckon with at once, each as it would be alone.
+/// Two doubles for SIMD on any processor; each lane computes exactly what a scalar would.
 using Two [[gnu::vector_size(16)]] = double;
 
 }  // namespace sweepface::codec

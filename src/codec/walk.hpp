@@ -13,8 +13,8 @@
 
 namespace sweepface::codec {
 
-// What the coders of the source's parts share. Their tags are one list, since the parts were coded
-// by one model once: numbers stay what they are.
+// Tags shared by the coders of the source's parts. They form one list because one model used to
+// code all parts, and numbers never change.
 enum SharedTag : std::uint32_t {
   kCount = 0,
   kNear = 3,
@@ -24,13 +24,14 @@ enum SharedTag : std::uint32_t {
   kMirroredStep = 40
 };
 
-/// Items that are visited one after the other, most of them beside one that was visited not long
-/// ago: told by their place among the neighbours of those, the latest first and there straight on
-/// first. Before that comes what mirrors the way that was gone from the mirror image of the last.
+/// Codes a sequence of items, most of which neighbour a recently visited one. An item is coded by
+/// its place among the unvisited neighbours of recent items, the latest item first and its
+/// neighbour straight ahead first. The next number, and the image of the step that was taken from
+/// the mirror image of the last item, are tried before that.
 template <typename Coder>
 class Walk {
  public:
-  /// `images` [items] are kept by the caller.
+  /// `images` [items] must outlive the walk.
   Walk(Symbols<Coder>& symbols, Neighbours neighbours, std::span<const Index> images)
       : s_(symbols),
         neighbours_(std::move(neighbours)),
@@ -69,8 +70,8 @@ class Walk {
 
  private:
   static constexpr std::size_t kTrail = 64;
-  // What the last step was, if not a place fewer than 14 back: further back, far away, to the next
-  // in number, as the mirror image went.
+  // The kind of the last step. Values below 14 are places among the neighbours; the others are, in
+  // order: a later place, a jump to any number, the next number, the step of the mirror image.
   static constexpr std::uint32_t kFurther = 14, kFarStep = 15, kFollows = 16, kMirrors = 17;
 
   struct Step {
@@ -98,7 +99,7 @@ class Walk {
     return item;
   }
 
-  // Calls `use` with every unvisited neighbour of what was visited last, until it answers true.
+  // Calls `use` with every unvisited neighbour of recently visited items, until it returns true.
   template <typename Use>
   void candidates(Use use) const {
     const std::size_t end = trail_.size() > kTrail ? trail_.size() - kTrail : 0;
@@ -146,13 +147,13 @@ class Walk {
   Neighbours neighbours_;
   std::span<const Index> images_;
   std::vector<char> visited_;
-  std::vector<Index> after_;  // [items] the one visited next
+  std::vector<Index> after_;  // [items] the item visited next
   std::vector<Index> trail_;
   std::uint32_t last_ = kFarStep;
   Index far_ = 0;
 };
 
-/// A count of entries, of which there may be so many.
+/// A number of entries, at most `most`.
 template <typename Coder>
 std::size_t codeCount(Symbols<Coder>& s, std::uint32_t what, std::size_t count, std::size_t most) {
   const std::size_t n = s.number(kCount, what, 0, count);

@@ -6,8 +6,8 @@
 
 namespace sweepface::codec {
 
-/// The wireframe of chunk WIRE, without its ribbons. What Surface::make relies on beyond what it
-/// checks itself is checked here.
+/// Reads the wireframe of chunk WIRE, without its ribbons. Checks everything that Surface::make
+/// relies on but does not check itself.
 Wireframe readWireframe(Reader& in);
 
 }  // namespace sweepface::codec

@@ -34,7 +34,7 @@ enum WireframeTag : std::uint32_t {
   kMirrorArc = 43
 };
 
-// Turns the loop of a patch so that the side `base` comes first.
+// Rotates the loop of a patch so that the side `base` comes first.
 void turn(Wireframe& w, Index patch, int base, std::vector<HalfArc>& loop) {
   if (base == 0) return;
   auto& sides = w.patches[patch].sides;
@@ -77,7 +77,7 @@ class WireframeCoder {
   }
 
   MirrorSeeds seeds;
-  // Of what was coded: no shape or mask changes them.
+  // Derived from what was coded; shapes and masks do not change them.
   Connectivity connectivity;
   Mirror mirror;
 
@@ -98,7 +98,8 @@ class WireframeCoder {
         h = static_cast<HalfArc>(s_.index(kMirrorArc, halves, static_cast<std::uint32_t>(h)));
   }
 
-  // Every loop was told from side `base` of the patch on: side 4 - base of the loop comes first.
+  // Each loop was coded from side `base` of the patch on, so side 4 - base of the loop must come
+  // first.
   void codeTurns(const std::vector<int>& bases) {
     SweepRule rule(w_);
     std::vector<HalfArc> loop;
@@ -165,8 +166,7 @@ class WireframeCoder {
       w_.arcs[a].crease = last = s_.bit(kCrease, last, 0, whole_ && whole_->arcs[a].crease);
   }
 
-  // What the mirror image of a node stores, in the frame of the node; 0 where that is not known
-  // yet.
+  // The mask of the mirror image of a node, in the frame of the node; 0 if it is not known yet.
   JetMask imageMask(const Connectivity& c, Index node) const {
     const Index image = mirror.node[node];
     if (image < 0 || image >= node || c.stars[node].arms.empty()) return 0;
@@ -180,7 +180,7 @@ class WireframeCoder {
     return turned;
   }
 
-  // A set that is closed downwards, component by component.
+  // Codes masks, which are closed downwards, component by component.
   void codeMasks() {
     auto made = Connectivity::make(w_);
     if (!made) return s_.refuseWith({"the wireframe is unsound: ", made.error().message});
@@ -205,8 +205,8 @@ class WireframeCoder {
     }
   }
 
-  // ρ = 1, η = λ = 0 for most; else η = -c / l² and λ = d / l⁴ with whole numbers where that gives
-  // exactly what is meant; else as they are.
+  // Most ribbons have ρ = 1, η = λ = 0. Others are coded as whole numbers c, d and l if η = -c / l²
+  // and λ = d / l⁴ give the exact values, else verbatim.
   void codeShapes() {
     for (std::size_t r = 0; r < w_.ribbons.size() && s_.ok(); ++r) {
       const Shape shape = whole_ ? whole_->ribbons[r] : Shape{};

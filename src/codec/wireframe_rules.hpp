@@ -7,14 +7,14 @@
 
 #include "surface/union_find.hpp"
 
-// What usually holds of a wireframe, and is told only where it does not.
+// Rules that usually hold for a wireframe, so that only exceptions are coded.
 namespace sweepface::codec {
 
-/// The arcs at T-nodes that run straight on: a T-node is where a patch's side has a node inside.
+/// Joins the arcs that run straight on at T-nodes, which are the nodes within a side of a patch.
 void joinRails(const Wireframe& w, UnionFind& sets);
 
-/// Whether a patch sweeps along the other pair of its sides than the one its loop begins with: the
-/// way that joins smaller sets of arcs that share their shape parameters.
+/// Whether a patch sweeps along the other pair of sides than the one its loop begins with. The rule
+/// chooses the pair that joins the smaller sets of arcs with shared shape parameters.
 struct SweepRule {
   explicit SweepRule(const Wireframe& wireframe) : w(wireframe), sets(wireframe.arcs.size()) {
     joinRails(w, sets);
@@ -33,15 +33,15 @@ struct SweepRule {
   UnionFind sets;
 };
 
-/// One ribbon a set, numbered by their first arcs.
+/// One ribbon for each set of arcs, numbered in the order of their first arcs.
 std::vector<Index> expectedRibbons(const Wireframe& w);
 
-/// One point a node, numbered as the nodes; nodes joined by collapsed arcs share theirs; T-nodes
-/// have none.
+/// One point for each node, numbered in the order of nodes. Nodes joined by collapsed arcs share a
+/// point; T-nodes have none.
 std::vector<Index> expectedPoints(const Wireframe& w, std::size_t nodes);
 
-/// How many derivatives the lengths of a node's lines speak for, along both of its axes: context
-/// for what it stores.
+/// A class of how many derivatives along `axis` the lengths of a node's lines suggest: a context
+/// for what the node stores.
 std::uint32_t lineClass(const Wireframe& w, const Connectivity& c, Index node, int axis);
 
 }  // namespace sweepface::codec

@@ -12,7 +12,7 @@ class Writer {
  public:
   void byte(unsigned value) { bytes_ += static_cast<char>(value); }
 
-  /// LEB128: seven bits a byte, low ones first, the top bit set on all bytes but the last.
+  /// LEB128: seven bits per byte, low ones first, with the top bit set in all bytes but the last.
   void number(std::uint64_t value) {
     for (; value >= 128; value >>= 7) byte(static_cast<unsigned>(value & 127) | 128);
     byte(static_cast<unsigned>(value));

@@ -8,7 +8,7 @@
 namespace sweepface {
 namespace {
 
-// The number of a material's name, which is new if it has to be.
+// The index of a material by its name, which is added if it is new.
 Index numberOf(const std::string& name, Polygons& faces) {
   const auto found = std::ranges::find(faces.materials, name);
   const auto number = static_cast<Index>(found - faces.materials.begin());
@@ -16,8 +16,8 @@ Index numberOf(const std::string& name, Polygons& faces) {
   return number;
 }
 
-// What a drawing makes a patch of, all of the source's faces on it are made of. `grid` is the
-// source that build() made: its faces are the quads of the patches.
+// Gives all of the source's faces on a patch the material that the drawing gives the patch. `grid`
+// is the source that build() made: its faces are the quads of the patches.
 Result<void> takeMaterials(const Polygons& grid, const std::vector<Index>& faceOfQuad,
                            Polygons& faces) {
   if (grid.faceMaterial.empty()) return {};
@@ -34,7 +34,7 @@ Result<void> takeMaterials(const Polygons& grid, const std::vector<Index>& faceO
   return {};
 }
 
-// The first thing that is another one in the other wireframe, by what it is called.
+// The name of the first thing that differs in the other wireframe.
 std::string difference(const Rig& rig, const Wireframe& own, const Wireframe& other) {
   const auto firstOther = [](const auto& a, const auto& b) {
     return static_cast<Index>(std::ranges::mismatch(a, b).in1 - a.begin());

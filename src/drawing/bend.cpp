@@ -1,8 +1,8 @@
-// What nobody drew bends least: the sum over the patches of the integral of
-// |S_uu|^2 + 2 |S_uv|^2 + |S_vv|^2, u and v from 0 to the square root of
-// how long the patch is drawn: centripetal, as E. T. Y. Lee (1989) spaces the knots of a spline.
-// From 0 to 1 narrow patches would take the bends of long ones; at full length long curves would
-// waver.
+// What is not drawn bends least. Bending is the sum over the patches of the integral of |S_uu|^2 +
+// 2 |S_uv|^2 + |S_vv|^2, where u and v run from 0 to the square roots of the drawn length and width
+// of the patch. This is the centripetal spacing of E. T. Y. Lee (1989) for the knots of splines. If
+// they ran to 1, narrow patches would take the bends of long ones; at full length, long curves
+// would waver.
 #include "drawing/bend.hpp"
 
 #include <Eigen/Sparse>
@@ -22,7 +22,7 @@ using Row = std::vector<Term>;
 // Small enough that curves keep to their points, large enough that rounding does not decide.
 constexpr double kBending = 1e-8;
 
-// Gauss's points and weights on [0, 1]: exact for the squares of quintics' second derivatives.
+// Gauss-Legendre points and weights on [0, 1], exact for squares of second derivatives of quintics.
 constexpr std::array<double, 5> kGauss{0.046910077030668, 0.230765344947158, 0.5, 0.769234655052842,
                                        0.953089922969332};
 constexpr std::array<double, 5> kGaussWeight{
@@ -96,7 +96,8 @@ class Bender {
     return samples.transpose() * samples;
   }
 
-  // An entry of the normal equations; what belongs to a known vector goes to the other side.
+  // Adds an entry of the normal equations. What belongs to a known vector goes to the right-hand
+  // side.
   void add(Index a, Index b, double value) {
     if (column_[a] < 0 || value == 0) return;
     if (column_[b] >= 0) return entries_.emplace_back(column_[a], column_[b], value), void();
@@ -111,12 +112,13 @@ class Bender {
 
   Result<void> factorise() {
     Eigen::SparseMatrix<double> matrix(unknowns_, unknowns_);
-    for (Index k = 0; k < unknowns_; ++k) entries_.emplace_back(k, k, 0);  // room to write into
+    for (Index k = 0; k < unknowns_; ++k) entries_.emplace_back(k, k, 0);  // room for the diagonal
     matrix.setFromTriplets(entries_.begin(), entries_.end());
-    // What moves nothing, as the derivatives of a node where two patches meet, stays zero.
+    // Vectors that move nothing, such as the derivatives of a node where two patches meet, stay
+    // zero.
     for (Index k = 0; k < unknowns_; ++k)
       if (matrix.coeff(k, k) == 0) matrix.coeffRef(k, k) = 1;
-    // Derivatives of every order come to the same scale.
+    // Bring derivatives of every order to the same scale.
     Eigen::VectorXd scale(unknowns_);
     for (Index k = 0; k < unknowns_; ++k)
       scale[k] = 1 / std::sqrt(std::max(matrix.coeff(k, k), 1e-300));
@@ -125,7 +127,7 @@ class Bender {
     if (factor.info() != Eigen::Success) return fail("the curves do not determine the surface");
     const Eigen::MatrixXd scaled = scale.asDiagonal() * rhs_;
     Eigen::MatrixXd solution = factor.solve(scaled);
-    solution += factor.solve(scaled - matrix * solution);  // what rounding has left
+    solution += factor.solve(scaled - matrix * solution);  // one step of iterative refinement
     solution = scale.asDiagonal() * solution;
     if (!solution.allFinite()) return fail("the curves do not determine the surface");
     for (std::size_t v = 0; v < column_.size(); ++v)
@@ -139,7 +141,7 @@ class Bender {
   const Surface& surface_;
   const std::vector<PatchSize>& sizes_;
   std::vector<Pose>& poses_;
-  std::vector<Index> column_;  // [storedCount] of an unknown, or -1
+  std::vector<Index> column_;  // [storedCount] the column of an unknown, or -1
   Index unknowns_ = 0;
   std::vector<Row> rows_;  // [vectorCount]
   std::vector<Eigen::Triplet<double>> entries_;

@@ -1,4 +1,4 @@
-// From a drawing to a model: the jets that nobody gave are found from the curves.
+// Builds a model from a drawing. Jets that are not given are found from the curves.
 #include <algorithm>
 #include <fmt/format.h>
 #include <limits>
@@ -26,9 +26,9 @@ namespace sweepface {
 namespace drawing {
 namespace {
 
-// An expression's derivatives below this share of the diagonal are none.
+// Derivatives of an expression below this fraction of the diagonal are dropped.
 constexpr double kTrace = 1e-5;
-// Nodes at one point may stand apart by such a share of the diagonal: models round each.
+// Nodes at one point may be this fraction of the diagonal apart, since models round each of them.
 constexpr double kSamePoint = 0.01;
 
 class Builder {
@@ -54,7 +54,8 @@ class Builder {
     return failAt(d_, place, what);
   }
 
-  // The jets are those of plain ribbons: shape parameters then bend what has been drawn.
+  // The jets are those of a surface with plain ribbons; shape parameters then bend what has been
+  // drawn.
   Result<void> makeSurfaces() {
     auto axes = chooseStored(d_, woven_);
     if (!axes) return std::unexpected(axes.error());
@@ -107,8 +108,8 @@ class Builder {
     return {};
   }
 
-  // Nodes at one point move together; those with places of their own, as models have them, but for
-  // a little.
+  // Nodes at one point move together. Those with positions of their own, as drawings of models
+  // have, may differ a little.
   Result<void> shareMoves(const Drawing::Expression& expression, Offsets& offsets) const {
     for (Index n = 0; n < nodeCount(); ++n) {
       if (d_.nodes[n].with.empty()) continue;
@@ -168,8 +169,8 @@ class Builder {
     return measureMiss(*drawn);
   }
 
-  // Bending dies away along the curves and is never nothing. What moves nobody visibly is not kept:
-  // it would make every expression as large as the neutral.
+  // Bending dies away along the curves but never becomes zero. What does not visibly move anything
+  // is not kept, as it would make every expression as large as the neutral.
   void forgetTraces() {
     const double trace = kTrace * diagonal_;
     for (Pose& pose : told_->poses() | std::views::drop(1))
@@ -223,7 +224,7 @@ class Builder {
 
 namespace {
 
-/// Without the ribbons that no curve belongs to: a drawing may declare more than it uses.
+/// A drawing without the ribbons that no curve belongs to, since it may declare more than it uses.
 Drawing withoutIdleRibbons(Drawing d) {
   std::set<std::string_view> used;
   for (const Drawing::Curve& curve : d.curves) used.insert(curve.ribbon);

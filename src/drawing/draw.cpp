@@ -1,4 +1,4 @@
-// The drawing of a model: everything that is stored, by names.
+// Makes the drawing of a model: everything that is stored, by name.
 #include <algorithm>
 #include <set>
 #include <span>
@@ -75,7 +75,7 @@ class Drawer {
     return std::max(1, static_cast<int>(s_.connectivity().fans[n].size()));
   }
 
-  // A derivative of a node, or of a fan of it; -1 if it is predicted.
+  // The vector of a derivative of a node, or of one of its fans; -1 if it is predicted.
   Index vectorOf(Index n, int k, int f) const { return jetVector(s_, jets_, n, k, f); }
 
   bool isFirst(Index n) const { return nodesAt_[w_.nodes[n].point][0] == n; }
@@ -118,8 +118,8 @@ class Drawer {
     drawing_.patches.push_back(std::move(patch));
   }
 
-  // What all source faces on a patch are made of; empty where they differ, where nobody knows, and
-  // where the name is no text that could be read again. Patches come in order.
+  // The material of all source faces on a patch; empty if they differ, if it is not known, or if
+  // the name is not a text that could be read again. Call this for the patches in order.
   std::string materialOf(Index p) {
     const Polygons& faces = rig_.source.polygons;
     if (faceOfQuad_.empty() || faces.faceMaterial.empty()) return {};

@@ -1,5 +1,6 @@
-// How many edges a curve has where nobody says: opposite sides of a patch have as many, and edges
-// are as long as others, since derivatives are per edge and are shared where curves run on.
+// Chooses numbers of edges where none are given. Opposite sides of a patch have the same number,
+// and edges are about equally long, since derivatives are per edge and are shared where curves run
+// on.
 #include <algorithm>
 #include <cmath>
 #include <deque>
@@ -34,7 +35,8 @@ class EdgeChooser {
   Result<void> choose() {
     if (auto ok = settle(); !ok) return ok;
     measure();
-    // Curves that share a side first: the curve opposite to them is as long as they are together.
+    // Curves that share a side come first, since the curve opposite has as many edges as they have
+    // together.
     for (const bool shared : {true, false})
       for (Index p = 0; p < patchCount(); ++p)
         for (int s = 0; s < 4; ++s)
@@ -50,7 +52,7 @@ class EdgeChooser {
   Index arcCount() const { return static_cast<Index>(w_.arcs.size()); }
   Index patchCount() const { return static_cast<Index>(w_.patches.size()); }
 
-  // What a side's curves are known to have together, and how many of them say nothing.
+  // The known edges of a side's curves together, and how many of the curves are still unknown.
   struct Side {
     std::int64_t known = 0;
     int unknowns = 0;
@@ -68,7 +70,8 @@ class EdgeChooser {
     }
   }
 
-  // The mean length of every set of curves that must have as many edges, and of an edge.
+  // Computes the mean length of each set of curves that must have equally many edges, and that of
+  // an edge.
   void measure() {
     for (Index p = 0; p < patchCount(); ++p)
       for (int s = 0; s < 2; ++s)
@@ -97,7 +100,8 @@ class EdgeChooser {
     return length.count > 0 && edgeLength_ > 0 ? length.value() / edgeLength_ : kUsualEdges;
   }
 
-  // By its length; where the side opposite is known, the share of what that leaves.
+  // The edges of a curve by its length; if the opposite side is known, its share of what that
+  // leaves.
   Index usualEdges(Index a) {
     double edges = edgesByLength(a), most = codec::kLongestArc;
     for (const Index k : sidesOf_[a]) {
@@ -118,7 +122,7 @@ class EdgeChooser {
       if (w_.arcs[arcOf(h)].edges == 0) return set(arcOf(h), edges);
   }
 
-  // Whatever follows from what is known.
+  // Sets whatever follows from what is known.
   Result<void> settle() {
     for (; !due_.empty(); due_.pop_front())
       for (int s = 0; s < 2; ++s) {
@@ -141,7 +145,7 @@ class EdgeChooser {
                     s + 1, s + 3, quotedPatch(d_, p), side(p, s).known, side(p, s + 2).known));
   }
 
-  // Side `s` leaves nothing for the last of its curves.
+  // The error that side `s` leaves nothing for the last of its curves.
   std::unexpected<Error> tooFew(Index p, int s) const {
     return failAt(d_, d_.patches[p].place,
                   fmt::format("side {} of {} has {} edges, not counting a curve without 'edges', "
@@ -170,12 +174,12 @@ class EdgeChooser {
   const Drawing& d_;
   const Woven& woven_;
   Wireframe& w_;
-  UnionFind like_;             // curves that must have as many edges
+  UnionFind like_;             // curves that must have equally many edges
   std::vector<Mean> lengths_;  // [sets of curves]
   double edgeLength_ = 0;
   std::vector<Side> sides_;                  // [4·patches]
-  std::vector<std::vector<Index>> sidesOf_;  // [arcs] places in sides_
-  std::deque<Index> due_;                    // patches to look at
+  std::vector<std::vector<Index>> sidesOf_;  // [arcs] indices into sides_
+  std::deque<Index> due_;                    // patches to examine
 };
 
 }  // namespace

@@ -1,4 +1,5 @@
-// The text of a drawing: one thing a line, so that people find it and tools compare it.
+// Writes a drawing as text, one thing per line, so that people can find it and tools can compare
+// it.
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>

@@ -20,7 +20,7 @@ Result<void> checkJetCount(const Drawing& d, const Woven& woven, Index n) {
                             d.nodes[n].name, given, fans));
 }
 
-/// Lets a crossing store what its jet gives.
+/// Makes a crossing store the derivatives that its jet gives.
 Result<std::array<Turned, 9>> storeGiven(const Drawing& d, Woven& woven, Index n) {
   const Drawing::Jet& jet = d.nodes[n].jets[0];
   const auto quarter = placeInStar(woven.connectivity, n, woven.halfArc(jet.along));

@@ -8,13 +8,14 @@
 
 namespace sweepface::drawing {
 
-/// Where crossings store the derivatives of the jets that a drawing gives them [nodes].
+/// For each crossing [nodes], the stored component and sign of each derivative of its drawn jet.
 using JetAxes = std::vector<std::array<Turned, 9>>;
 
-/// Lets every crossing store what its jet gives, or all there is where the curves must say it.
+/// Makes every crossing store the derivatives that its jet gives, or the whole jet if it is to be
+/// found from the curves.
 Result<JetAxes> chooseStored(const Drawing& drawing, Woven& woven);
 
-/// A jet's curve does not leave its node.
+/// The error that a jet's curve does not leave its node.
 std::unexpected<Error> leavesNot(const Drawing& drawing, Index node, std::size_t jet);
 
 }  // namespace sweepface::drawing

@@ -1,4 +1,4 @@
-// JSON as RFC 8259 has it; a byte order mark before it is passed over.
+// JSON according to RFC 8259; a byte order mark before it is skipped.
 #include "drawing/json_reader.hpp"
 
 #include <algorithm>
@@ -75,7 +75,7 @@ void JsonReader::skipBlanks() {
   }
 }
 
-// What stands at the current place, for messages.
+// What is found at the current place, for messages.
 std::string JsonReader::found() const {
   if (at_ >= text_.size()) return "the text ends";
   constexpr std::string_view ends = " \t\r\n,:[]{}\"";
@@ -146,7 +146,7 @@ std::string JsonReader::text(std::string_view what) {
   return out;
 }
 
-// At a backslash.
+// Reads an escape sequence, starting at its backslash.
 void JsonReader::escape(std::string& out) {
   constexpr std::string_view letters = "\"\\/bfnrt", meanings = "\"\\/\b\f\n\r\t";
   const TextPlace start = place();

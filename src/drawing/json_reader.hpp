@@ -10,10 +10,10 @@
 
 namespace sweepface::drawing {
 
-/// Takes values from a JSON text one after another, as the caller expects them: nothing is kept but
-/// the keys of open objects, so that neither size nor depth of a text costs memory. The first
-/// failure sticks: from then on everything reads as empty, so that callers ask ok() only before
-/// they trust what they have read.
+/// A pull parser for JSON: the caller takes the values that it expects, one after another. Only the
+/// keys of open objects are kept, so neither the size nor the depth of a text costs memory. The
+/// first failure sticks: from then on everything reads as empty, so callers need to check ok() only
+/// before they rely on what they have read.
 class JsonReader {
  public:
   explicit JsonReader(std::string_view text) : text_(text) { skipBlanks(); }
@@ -54,7 +54,7 @@ class JsonReader {
     for (bool more = !closes(']'); more && ok(); more = continues(']')) visit();
   }
 
-  /// Nothing may follow.
+  /// Fails if anything follows.
   void finish();
 
  private:

@@ -6,7 +6,7 @@ namespace sweepface::drawing {
 
 namespace {
 
-// From what was wished to what came out: for an expression, of what it adds.
+// The difference between each wish and the result; for an expression, that of what it adds.
 std::vector<Vec3> missesOf(const Wishes& wishes, const Surface& surface,
                            const std::vector<Pose>& poses, std::size_t pose) {
   std::vector<Vec3> vectors(surface.vectorCount()), misses;
@@ -31,7 +31,7 @@ Miss largestMiss(const DrawnWishes& drawn, const Surface& surface, const std::ve
       if (by > largest.by) largest = {by, static_cast<Index>(k), pose};
     }
   }
-  // An expression is told of what it adds.
+  // An expression is blamed only for what it adds.
   if (largest.wish >= 0 && norm(neutral[largest.wish]) > largest.by / 2) largest.pose = 0;
   return largest;
 }

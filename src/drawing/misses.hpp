@@ -4,15 +4,15 @@
 
 namespace sweepface::drawing {
 
-/// The wish that a pose misses furthest; none where all are met to the last bit.
+/// The wish that is missed by the largest distance in any pose; none if all are met exactly.
 struct Miss {
   double by = 0;
   Index wish = -1;
-  std::size_t pose = 0;  ///< what misses most of it: 0, the neutral, or 1 + e, expression e
+  std::size_t pose = 0;  ///< to blame for most of it: 0, the neutral, or 1 + e, expression e
 };
 Miss largestMiss(const DrawnWishes& drawn, const Surface& surface, const std::vector<Pose>& poses);
 
-/// What a wish is of: "curve 'rim'", "the control of 'rim' in 'lip'".
+/// What a wish belongs to: "curve 'rim'", "the control of 'rim' in 'lip'".
 std::string nameOf(const Drawing& drawing, const DrawnWishes& drawn, Index wish);
 TextPlace placeOf(const Drawing& drawing, const DrawnWishes& drawn, Index wish);
 

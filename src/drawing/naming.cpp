@@ -21,7 +21,7 @@ void keep(const Rig& rig, Thing kind, const Things& things, std::vector<std::str
   if (any) names = std::move(own);
 }
 
-// What has no name goes by its letter and number, which are then nobody else's.
+// A thing without a name goes by its letter and number, which no other thing may be named.
 template <typename Things>
 Result<void> check(const Drawing& drawing, const Rig& rig, Thing kind, const Things& things,
                    const std::vector<std::string>& names) {

@@ -4,8 +4,9 @@
 
 namespace sweepface::drawing {
 
-/// The names and units of a drawing, for the rig that was built of it. Names that are what a thing
-/// without one is called anyway are not kept. An error if another thing goes by a name.
+/// Gives a rig the names and units of the drawing that it was built from. Names that equal the
+/// default name of their thing are not kept. Fails if a name is the default name of another thing
+/// that has none.
 Result<void> nameThings(const Drawing& drawing, Rig& rig);
 
 }  // namespace sweepface::drawing

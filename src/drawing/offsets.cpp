@@ -1,4 +1,4 @@
-// What an expression moves.
+// Resolves what an expression moves.
 #include <fmt/format.h>
 
 #include "drawing/wishes.hpp"
@@ -17,7 +17,7 @@ class Mover {
   }
 
   Result<Offsets> move(const std::vector<Drawing::Move>& moves) {
-    // Nodes first: what is said of a node itself counts.
+    // Nodes first, since a node's own entry takes precedence.
     for (const bool nodes : {true, false})
       for (const Drawing::Move& move : moves)
         if (woven_.nodes.contains(move.name) == nodes)
@@ -63,8 +63,8 @@ class Mover {
     return {};
   }
 
-  // A node that is moved itself stays where that puts it. One on a side that is not drawn at a
-  // place goes where the surface takes it.
+  // A node with an entry of its own moves by that alone. A node on a side without a drawn position
+  // goes where the surface takes it.
   Result<void> takeAlong(const Drawing::Move& move, Index curve, Index node) {
     auto& offset = offsets_.nodes[node];
     if (taken_[node] == kItself) return {};

@@ -1,4 +1,4 @@
-// The text of a drawing, member by member: docs/wire-format.md.
+// Parses the text of a drawing, member by member (docs/wire-format.md).
 #include <algorithm>
 #include <fmt/format.h>
 #include <functional>
@@ -45,7 +45,7 @@ class DrawingReader {
     bool required = false;
   };
 
-  // An object with some of the members given, and a comment wherever people want one.
+  // Reads an object with any of the `known` members, and possibly a comment.
   void members(std::string_view what, const std::vector<Member>& known) {
     const TextPlace start = in_.place();
     std::vector<bool> seen(known.size());
@@ -91,7 +91,7 @@ class DrawingReader {
       in_.refuse(at, "the tolerance is not above 0; leave it out to be told how far curves pass");
   }
 
-  // Something to be quoted in messages and in the file.
+  // A text that may be quoted in messages and in the file.
   std::string text(std::string_view what) {
     const TextPlace at = in_.place();
     std::string text = in_.text(fmt::format("{}, a text in quotes,", what));
@@ -102,7 +102,7 @@ class DrawingReader {
     return text;
   }
 
-  // A name that nobody takes for a number or for a curve run backwards.
+  // A name that cannot be taken for a number or for a curve run backwards.
   std::string name(std::string_view what) {
     const TextPlace at = in_.place();
     std::string name = text(what);
@@ -112,7 +112,7 @@ class DrawingReader {
     return name;
   }
 
-  // The same, perhaps with a '-' before it.
+  // A reference to a name, possibly with a '-' before it.
   std::string reference(std::string_view what) {
     const TextPlace at = in_.place();
     std::string name = in_.text(fmt::format("{}, a name in quotes,", what));

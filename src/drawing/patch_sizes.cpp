@@ -1,4 +1,4 @@
-// How large things are drawn.
+// The sizes of things as drawn.
 #include "sweepface/box.hpp"
 
 #include "drawing/bend.hpp"
@@ -31,7 +31,8 @@ class PatchMeter {
   PatchSize sizeOf(Index patch) const { return {between(patch, 0), between(patch, 1)}; }
 
  private:
-  // The mean length of a side and the one opposite, of those that are known; else their edges say.
+  // The mean length of a side and the opposite one, of those that are known; else a length by their
+  // edges.
   double between(Index patch, int side) const {
     double sum = 0, known = 0, edges = 0;
     for (const int s : {side, side + 2}) {

@@ -1,4 +1,4 @@
-// Sentences about places in a drawing.
+// Error messages about places in a drawing.
 #include <algorithm>
 #include <cctype>
 #include <fmt/format.h>
@@ -15,8 +15,8 @@ struct Spoken {
   TextPlace place;
 };
 
-// What the surface calls `word` and a number, as the drawing calls it; without a name if it means
-// something else.
+// The drawing's name for what the surface calls `word` and a number; empty if that means something
+// else.
 Spoken spoken(const Drawing& d, const Wireframe& w, std::string_view word, std::size_t number) {
   const auto named = [number](const char* kind, const auto& things) -> Spoken {
     if (number >= things.size()) return {};
@@ -26,7 +26,7 @@ Spoken spoken(const Drawing& d, const Wireframe& w, std::string_view word, std::
   if (word == "arc") return named("curve", d.curves);
   if (word == "patch") return named("patch", d.patches);
   if (word == "ribbon" && number < d.ribbons.size()) return named("ribbon", d.ribbons);
-  // A ribbon that the drawing does not name: it is known by its first curve.
+  // A ribbon that the drawing does not name is identified by its first curve.
   if (word == "ribbon")
     for (std::size_t a = 0; a < w.arcs.size() && a < d.curves.size(); ++a)
       if (w.arcs[a].ribbon == static_cast<Index>(number))

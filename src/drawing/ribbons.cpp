@@ -1,5 +1,5 @@
-// Which ribbon a curve belongs to. Curves that must share their shape parameters are those of a
-// side, those along which a patch sweeps, and those that run on at a node on a side.
+// Chooses the ribbon that each curve belongs to. Curves must share their shape parameters if they
+// are on one side, if a patch sweeps along both, or if one continues the other at a node on a side.
 #include <fmt/format.h>
 
 #include "codec/wireframe_rules.hpp"

@@ -66,7 +66,8 @@ Result<void> ToldJets::checkComplete(Index n, std::size_t f) const {
   return {};
 }
 
-// The fan of a creased node that a jet is of; 0 elsewhere. Nothing if its curve begins none.
+// The fan of a creased node that a jet belongs to; 0 at other nodes. None if no fan begins at its
+// curve.
 std::optional<int> ToldJets::fanOf(Index n, std::size_t f) const {
   if (kind(n) != NodeKind::creased) return 0;
   const auto place = placeInStar(woven_.connectivity, n, armOf(d_.nodes[n].jets[f]));
@@ -111,8 +112,8 @@ Result<void> ToldJets::tellIrregular(std::size_t pose, Index n, const Derivative
   return {};
 }
 
-// Where the x axis of an irregular node's jet lies in the chart; nothing if its curve leaves none
-// of the nodes at the point.
+// The angle in the chart of the x axis of an irregular node's jet; none if its curve leaves none of
+// the nodes at the point.
 std::optional<double> ToldJets::angleAt(Index n) const {
   const HalfArc arm = armOf(d_.nodes[n].jets[0]);
   if (arm < 0 || woven_.wireframe.arcs[arcOf(arm)].collapsed) return std::nullopt;

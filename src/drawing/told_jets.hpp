@@ -13,33 +13,33 @@
 
 namespace sweepface::drawing {
 
-/// The stored vectors that a drawing tells, in every pose: the neutral, and what each expression
-/// adds to it. Refers to what it is made of.
+/// The stored vectors that a drawing specifies, in every pose: the neutral, and what each
+/// expression adds to it. Keeps references to `drawing`, `woven` and `plain`.
 class ToldJets {
  public:
   using Derivatives = std::array<std::optional<Vec3>, 9>;
 
-  /// `plain`: the surface with plain ribbons, whose jets a drawing tells.
+  /// `plain` is the surface with plain ribbons, whose jets a drawing specifies.
   ToldJets(const Drawing& drawing, const Woven& woven, const Surface& plain, JetAxes axes);
 
   std::vector<Pose>& poses() { return poses_; }
-  /// Which vectors are told in some pose [storedCount].
+  /// Which vectors are specified in some pose [storedCount].
   const std::vector<bool>& isTold() const { return isTold_; }
 
-  /// Where a node stands, or how far it moves.
+  /// Sets the position of a node, or how far it moves.
   void place(std::size_t pose, Index node, const Vec3& at) { set(pose, node, 0, at, 0); }
-  /// A jet of a node in the neutral; where nothing is predicted it has all its vectors.
+  /// Sets a jet of a node in the neutral. It must be complete where nothing is predicted.
   Result<void> tellNeutral(Index node, std::size_t jet);
-  /// A jet of a node, or what an expression adds to it.
+  /// Sets a jet of a node, or what an expression adds to it.
   Result<void> tell(std::size_t pose, Index node, std::size_t jet, const Derivatives& given);
-  /// What a creased node's jet has from the part beside it must be said the same in both; to be
-  /// asked when all poses are whole.
+  /// Checks that derivatives which a creased node's jet takes from the fan beside it are the same
+  /// in both. To be called when all poses are complete.
   Result<void> checkRepeated() const;
 
  private:
   NodeKind kind(Index n) const { return woven_.connectivity.kinds[n]; }
   HalfArc armOf(const Drawing::Jet& jet) const { return woven_.halfArc(jet.along); }
-  /// Where it is said how a node stands in a pose.
+  /// Where the drawing specifies a node in a pose.
   TextPlace placeIn(std::size_t pose, Index n) const;
   /// Whether vectors of a jet differ by rounding alone.
   bool isSame(const Vec3& a, const Vec3& b) const;
@@ -58,7 +58,7 @@ class ToldJets {
   double diagonal_;
   std::vector<bool> isTold_;
   std::vector<Pose> poses_;
-  // What jets tell that other ones decide, in the order of poses.
+  // Derivatives given by jets but determined by others, in the order of poses.
   struct Repeated {
     std::size_t pose;
     Index node;
@@ -67,7 +67,7 @@ class ToldJets {
     Vec3 value;
   };
   std::vector<Repeated> repeated_;
-  // Of irregular points: pose and vector → the node that told it.
+  // For irregular points: pose and vector → the node that specified it.
   std::map<std::pair<std::size_t, Index>, Index> irregular_;
 };
 

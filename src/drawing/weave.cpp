@@ -1,4 +1,4 @@
-// From names to a wireframe.
+// Turns a drawing into a wireframe: names become indices.
 #include "drawing/weave.hpp"
 
 #include <algorithm>
@@ -65,8 +65,8 @@ class Weaver {
     return found == numbers.end() ? -1 : found->second;
   }
 
-  // Every node has a point of its own or shares one, until the patches say which ones stand on
-  // their sides.
+  // At first every node has a point of its own or shares one. checkUse() removes those of nodes
+  // that turn out to lie on sides of patches.
   Result<void> addNodes() {
     for (const Drawing::Node& node : d_.nodes) {
       if (node.at && !isFinite(*node.at))
@@ -173,7 +173,8 @@ class Weaver {
     return {};
   }
 
-  // Everything belongs to a patch; who stands on a side has no place of its own, all others do.
+  // Checks that everything belongs to a patch, and removes the points of nodes within sides. All
+  // other nodes need a position.
   Result<void> checkUse() {
     for (std::size_t a = 0; a < w_.arcs.size(); ++a)
       if (usedBy_[2 * a] < 0 && usedBy_[2 * a + 1] < 0)
@@ -211,7 +212,7 @@ class Weaver {
     return {};
   }
 
-  // Points that say where a curve runs must differ from their neighbours on it.
+  // Checks that points that determine where a curve runs differ from their neighbours on it.
   Result<void> checkPlaces() {
     double size = 0;
     const Drawing::Node* reference = nullptr;
@@ -242,7 +243,7 @@ class Weaver {
     }
     return {};
   }
-  // Of the point that a node stands with, if it has none of its own.
+  // Whether a node has jets, its own or those of the node it is with.
   bool hasJets(Index node) const {
     const Drawing::Node& n = d_.nodes[node];
     return !n.jets.empty() ||
@@ -251,7 +252,7 @@ class Weaver {
   Result<void> setEdges() { return chooseEdges(d_, woven_); }
 
   Result<void> connect() {
-    w_.ribbons = {{}};  // one for all, only to connect
+    w_.ribbons = {{}};  // one for all, just to connect
     auto connectivity = Connectivity::make(w_);
     if (!connectivity) return failNamed(d_, w_, connectivity.error().message);
     woven_.connectivity = std::move(*connectivity);
@@ -260,7 +261,7 @@ class Weaver {
   }
 
   // Around an irregular point patches follow each other across curves that leave it or are
-  // collapsed there: what no curve leads to would be left without derivatives.
+  // collapsed there. Nodes that no such curve leads to would be left without derivatives.
   Result<void> checkPoints() const {
     UnionFind around(w_.nodes.size());
     for (const Arc& arc : w_.arcs)
@@ -296,7 +297,8 @@ class Weaver {
     return {};
   }
 
-  // A crease that cuts neither end's star would not be one.
+  // Checks that each crease cuts the star of at least one of its ends; otherwise it would have no
+  // effect.
   Result<void> checkCreases() {
     for (const Drawing::Crease& crease : d_.creases) {
       const Arc& arc = w_.arcs[find(woven_.curves, crease.curve)];

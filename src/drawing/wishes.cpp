@@ -1,4 +1,4 @@
-// What a drawing says of where the surface runs.
+// What a drawing says about where the surface runs.
 #include "drawing/wishes.hpp"
 
 #include <algorithm>
@@ -69,7 +69,8 @@ class WishGatherer {
     return {};
   }
 
-  // The ends of a curve and the points between; `why` their places are needed.
+  // The ends of a curve and the points between. `why` says in messages why their positions are
+  // needed.
   Result<std::vector<Vec3>> polyline(Index c, const std::string& why) const {
     std::vector<Vec3> line;
     const Drawing::Curve& curve = d_.curves[c];
@@ -84,7 +85,7 @@ class WishGatherer {
     return line;
   }
 
-  // Where the points stand on a curve: by the length of the chords up to them.
+  // The parameters of the points on a curve, by the length of the chords up to them.
   static std::vector<double> parameters(const std::vector<Vec3>& line, double edges) {
     std::vector<double> at{0};
     for (std::size_t k = 1; k < line.size(); ++k)
@@ -182,7 +183,7 @@ class WishGatherer {
     }
   }
 
-  // Control curves go with their boundary: with its points, and with its ends where they move.
+  // Control curves move with their boundary: with its points, and with its ends if those move.
   Vec3 controlOffset(std::size_t e, Index c, std::size_t k, const std::vector<double>& at) const {
     const bool inner = k > 0 && k + 1 < at.size();
     if (inner) return e_[e].curves[c] + (e_[e].points[c] ? (*e_[e].points[c])[k - 1] : Vec3{});

@@ -6,14 +6,14 @@
 
 namespace sweepface::edit {
 
-/// The patches that an edit reaches: those whose jets depend on what changed, or whose curves do.
+/// The patches affected by an edit: those whose jets or curves depend on what changed.
 class Affected {
  public:
   explicit Affected(const Surface& surface)
       : surface_(surface), vectors_(surface.vectorCount()), patches_(surface.patchCount()) {}
 
   void addVector(Index vector) { vectors_[vector] = true; }
-  /// The patches along a ribbon, and those at T-nodes that stand on it.
+  /// Adds the patches along a ribbon, and those at T-nodes that lie on it.
   void addRibbon(Index ribbon);
   std::vector<Index> patches();
 

@@ -7,13 +7,13 @@
 
 namespace sweepface::edit {
 
-/// Refuses what there is none of.
+/// Refuses an index that is out of range.
 inline Result<void> checkIndex(Index k, std::size_t count, std::string_view what) {
   if (k >= 0 && static_cast<std::size_t>(k) < count) return {};
   return fail("There is no ", what, " ", k, "; there are ", count, ".");
 }
 
-/// Refuses a rig whose targets are still to come: what the file says of them goes by the rest as it
+/// Refuses a rig whose targets are not decoded yet, since decoding them needs the rest of it as it
 /// was.
 inline Result<void> checkWhole(const Rig& rig) {
   if (rig.knowsTargets()) return {};

@@ -1,6 +1,7 @@
-// Moving the control curves beside a boundary curve. With both moved by constants, the derivatives
-// across change by constants all along the curve: at its ends by just these, and mixed ones not at
-// all, since the basis reproduces constants. Irregular nodes come as near to that as they can.
+// Moves the control curves beside a boundary curve. If both move by constants, the derivatives
+// across change by constants all along the curve: at its ends by just these, while mixed
+// derivatives do not change, since the basis reproduces constants. Irregular nodes approximate that
+// as closely as they can.
 #include <Eigen/Dense>
 #include <algorithm>
 #include <array>
@@ -32,7 +33,7 @@ class ControlMover {
  public:
   ControlMover(const Rig& rig, const ControlMove& move) : rig_(rig), move_(move) {}
 
-  /// The rig with the change, and what it reaches.
+  /// The changed rig, and the patches that the change affects.
   Result<std::pair<Rig, Patches>> run(Index target) {
     if (auto ok = findEnds(); !ok) return std::unexpected(ok.error());
     if (move_.second == Vec3{} && move_.third == Vec3{})
@@ -90,7 +91,7 @@ class ControlMover {
     return collapsed(sector) || collapsed(sector + 1);
   }
 
-  // By how much the derivatives across change, per source edge.
+  // Computes by how much the derivatives across change, per source edge.
   Result<void> findDerivatives() {
     const Inward way(rig_.surface, half_);
     edgesAcross_ = way.edges;
@@ -102,7 +103,7 @@ class ControlMover {
     return {};
   }
 
-  // What the nodes at the ends predict they store from now on, so that it can be changed.
+  // Makes the nodes at the ends store what they predict, so that it can be changed.
   Result<void> storeWholeJets() {
     Wireframe wireframe = rig_.surface.wireframe();
     for (const CornerChange& end : ends_) {
@@ -121,7 +122,7 @@ class ControlMover {
     return {};
   }
 
-  // The stored vectors of a pose for a surface that stores more of the same.
+  // The stored vectors of a pose for the same surface with more of its vectors stored.
   std::vector<Vec3> restored(const Surface& surface, const std::vector<Vec3>& stored) const {
     std::vector<Vec3> vectors(rig_.surface.vectorCount()), result;
     rig_.surface.settle(stored, vectors);
@@ -140,7 +141,7 @@ class ControlMover {
     return rig_.surface.cornerJet(corner / 4, corner % 4, i, j).vector;
   }
 
-  // At the ends that meet at one node.
+  // Changes a pose at the ends that meet at one node.
   void change(std::span<const CornerChange> ends, std::vector<Vec3>& pose,
               edit::Affected& affected) const {
     if (connectivity().kinds[nodeAt(ends[0])] != NodeKind::crossing)
@@ -156,11 +157,11 @@ class ControlMover {
       }
   }
 
-  // Where a corner's derivatives are sums of what is stored: the smallest change that gives those
-  // across what they want and leaves the others up to the second order alone. At irregular nodes,
-  // whose corners share a few vectors, that would bring mixed derivatives that throw the curves far
-  // off: there the change by which the curve stays and the controls beside it move as nearly as can
-  // be like what is wanted all along.
+  // For corners whose derivatives are sums of stored vectors. Finds the smallest change that gives
+  // the derivatives across their wanted values and leaves the others, up to the second order,
+  // alone. At irregular nodes, whose corners share a few vectors, that would produce mixed
+  // derivatives that throw the curves far off. There it finds the change that keeps the curve in
+  // place and moves the controls beside it as nearly as possible as wanted, all along the curve.
   void solve(std::span<const CornerChange> ends, std::vector<Vec3>& pose,
              edit::Affected& affected) const {
     Rows rows;
@@ -185,7 +186,8 @@ class ControlMover {
         if (const auto term = row.sum.find(unknowns[k]); term != row.sum.end())
           composed(r, k) = term->second;
     }
-    // Vectors by how far they move places, whatever their order and the edges they are per.
+    // Scale vectors by how far they move points, whatever their order and the edges that they are
+    // per.
     Eigen::VectorXd reach = composed.colwise().norm();
     for (double& r : reach) r = r > 0 ? 1 / r : 0;
     composed *= reach.asDiagonal();
@@ -206,7 +208,7 @@ class ControlMover {
   };
   using Rows = std::vector<Row>;
 
-  // What a derivative at an end is the sum of, by stored vectors.
+  // A derivative at an end as a sum of stored vectors.
   std::map<Index, double> sumOf(const CornerChange& end, int along, int across) const {
     const JetRef ref = rig_.surface.cornerJet(
         end.corner / 4, end.corner % 4, end.byAlpha ? across : along, end.byAlpha ? along : across);
@@ -222,10 +224,10 @@ class ControlMover {
                                                                : second_});
   }
 
-  // By how much an end moves points along the curve and along the controls beside it, with the
-  // vectors that the derivatives up to the second order go by.
+  // Adds rows for how an end moves points along the curve and along the controls beside it, in
+  // terms of the vectors that determine the derivatives up to the second order.
   void addPlaces(const CornerChange& end, Rows& rows) const {
-    constexpr double held = 1e6;  // rather than its controls, the curve itself stays
+    constexpr double held = 1e6;  // keeping the curve in place outweighs its controls
     constexpr int points = 8;
     const SweepBasis hermite;
     std::set<Index> own;
@@ -263,7 +265,7 @@ class ControlMover {
     for (const Term& t : rig_.surface.derivation(vector)) expand(t.vector, factor * t.factor, sum);
   }
 
-  // Of the derivatives along and across the curve.
+  // Orders of the derivatives along and across the curve.
   static constexpr std::array<std::array<int, 2>, 5> kOrders{
       {{1, 0}, {0, 1}, {2, 0}, {1, 1}, {0, 2}}};
 

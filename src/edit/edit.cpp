@@ -57,7 +57,7 @@ Result<Patches> moveNodes(Rig& rig, std::span<const NodeMove> moves, Index targe
     if (auto ok = checkIndex(target, rig.targets.size(), "target"); !ok)
       return std::unexpected(ok.error());
   if (auto ok = edit::checkWhole(rig); !ok) return std::unexpected(ok.error());
-  // Several nodes may stand at one point, which moves once and takes all of them along.
+  // Several nodes may share one point, which moves once and takes all of them along.
   const Wireframe& w = rig.surface.wireframe();
   std::map<Index, NodeMove> ofPoint;
   for (const NodeMove& move : moves) {

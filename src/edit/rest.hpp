@@ -4,7 +4,8 @@
 
 namespace sweepface::edit {
 
-/// To be called before the neutral changes: what targets are counted from stays.
+/// Call this before the neutral changes. It keeps the neutral that the coding of targets is based
+/// on.
 inline void keepRest(Rig& rig) {
   if (rig.packing.neutralStep > 0 && rig.packing.rest.empty()) rig.packing.rest = rig.neutral;
 }

@@ -11,12 +11,12 @@
 namespace sweepface {
 namespace {
 
-constexpr double kRound = 0.05;  // RMS distance from a sphere, of its radius
+constexpr double kRound = 0.05;  // RMS distance from a sphere, relative to its radius
 
 using Equation = std::array<double, 4>;
 
-/// The x of m x = right by elimination; m is a symmetric matrix of sums of squares. Nothing where
-/// the squares do not tell.
+/// Solves m x = right by elimination; m is a symmetric matrix of sums of squares. Returns nothing
+/// if m is singular.
 std::optional<Equation> solved(std::array<Equation, 4> m, Equation right) {
   double largest = 0;
   for (std::size_t k = 0; k < 4; ++k) largest = std::max(largest, m[k][k]);
@@ -51,7 +51,7 @@ std::vector<Part> partsOf(const Tessellation& grid) {
   return parts;
 }
 
-/// |p|² = 2 c · p + (r² − |c|²) is linear in c and in what is in brackets.
+/// |p|² = 2 c · p + (r² − |c|²) is linear in c and in the bracket.
 std::optional<Ball> ballOf(std::span<const Vec3> points) {
   if (points.size() < 50) return {};
   Vec3 middle;
@@ -81,7 +81,7 @@ std::optional<Ball> ballOf(std::span<const Vec3> points) {
     const double off = norm(p - ball.centre) - ball.radius;
     squares += off * off;
   }
-  // A lens is round as well, but it is not most of a ball.
+  // A lens is round too, but not most of a ball.
   if (!(std::sqrt(squares / count) <= kRound * ball.radius) ||
       !(std::min({box.x, box.y, box.z}) > 1.5 * ball.radius))
     return {};

@@ -8,7 +8,7 @@
 
 namespace sweepface {
 
-/// Vertices of a tessellation that hang together.
+/// A connected component of a tessellation: its vertices.
 using Part = std::vector<Index>;
 std::vector<Part> partsOf(const Tessellation& grid);
 
@@ -17,7 +17,7 @@ struct Ball {
   double radius = 0;
 };
 
-/// The ball that points lie on, if they are most of one.
+/// The ball on whose surface the points lie, if they cover most of it.
 std::optional<Ball> ballOf(std::span<const Vec3> points);
 
 }  // namespace sweepface

@@ -6,7 +6,7 @@
 
 namespace sweepface {
 
-/// A face of the tessellation at some level, and where it is.
+/// A face of a tessellation with a level, and where it lies.
 struct Cell {
   std::size_t face = 0;  ///< as Tessellation::faces() counts
   Index patch = 0;
@@ -14,11 +14,11 @@ struct Cell {
   Index i = 0, j = 0;  ///< its column and row in the patch
 };
 
-/// Calls `visit(cell)` for all in the order of their faces.
+/// Calls `visit(cell)` for every cell, in the order of the faces.
 template <typename Visit>
 void forEachCell(const Surface& surface, Index level, Visit visit) {
   Cell cell;
-  Index first = 0;  // quad of the patch
+  Index first = 0;  // the patch's first quad
   for (cell.patch = 0; cell.patch < surface.patchCount(); ++cell.patch) {
     const Index m = surface.edgesU(cell.patch), n = surface.edgesV(cell.patch);
     for (cell.j = 0; cell.j < level * n; ++cell.j)

@@ -31,7 +31,7 @@ class Halving {
     if (part.empty()) return;
     const auto count = static_cast<Index>(part.size());
     if (count <= size_) {
-      sortSmall(part);  // writing goes upwards
+      sortSmall(part);  // ascending, so that results are written in order
       clusters_.emplace_back(part.begin(), part.end());
       return;
     }
@@ -46,10 +46,10 @@ class Halving {
     halve(part.subspan(first));
   }
 
-  // Puts the `first` items that come before all others in front of them (Hoare, Algorithm 65: find,
-  // 1961). Not std::nth_element, which is four times as long. After very many bad guesses it stops,
-  // in any order: points can be made so that it would take the square of their number. Clusters are
-  // less compact then, nothing else.
+  // Moves the `first` items that come before all others to the front (Hoare, Algorithm 65: find,
+  // 1961). Not std::nth_element, which is four times as long. Points can be crafted that would take
+  // quadratic time, so it stops after very many bad guesses and leaves them in any order. That only
+  // makes clusters less compact.
   template <typename Before>
   static void divide(std::span<Index> items, Index first, const Before& before) {
     constexpr int kGuesses = 100;

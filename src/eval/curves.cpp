@@ -35,7 +35,7 @@ class CurveMaker {
     return static_cast<Index>(net_.points.size()) - 1;
   }
 
-  /// Nodes that share a point are one; curves end at the same points.
+  /// Nodes that share a point become one, so that their curves end at the same point.
   void addNodes() {
     std::vector<Index> ofPoint(wires_.points, -1);
     for (std::size_t n = 0; n < wires_.nodes.size(); ++n) {

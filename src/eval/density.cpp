@@ -1,6 +1,6 @@
-// How finely to cut, from the pose itself: by the lengths of its arcs or by how far their chords
-// are from them. Inside a patch the lines through its middle say the same, and of an error then its
-// triangles.
+// Chooses a density for a pose, by the lengths of its arcs or by how far their chords are from
+// them. Inside a patch, the two lines through its middle are measured likewise; for an error, its
+// triangles are measured after that.
 #include <algorithm>
 #include <cmath>
 
@@ -11,10 +11,10 @@
 namespace sweepface {
 namespace {
 
-constexpr int kSamples = 8;           // a segment, to measure by; 2 where they are short
-constexpr double kLeastError = 1e-9;  // of the longest line
+constexpr int kSamples = 8;           // samples per segment; 2 where segments are short
+constexpr double kLeastError = 1e-9;  // relative to the longest line
 
-/// The lines that a surface is judged by: its arcs, then two through the middle of every patch.
+/// The lines that a surface is measured by: its arcs, then two through the middle of every patch.
 class Lines {
  public:
   Lines(const Surface& surface, std::span<const Vec3> vectors, Budget::Kind kind)
@@ -31,8 +31,8 @@ class Lines {
 
   const Density& coarsest() const { return coarsest_; }
 
-  /// On from a density that is too coarse, not beyond so many vertices. Lines take half of an
-  /// error: if they took all of it, triangles beside them would have to be far smaller.
+  /// Refines a density that is too coarse, stopping beyond `most` vertices. Lines are allowed half
+  /// of an error: if they took all of it, the triangles beside them would have to be far smaller.
   Density cut(Density density, double value, std::int64_t most) {
     const bool byLength = kind_ == Budget::Kind::edgeLength;
     const double ofLines = byLength ? value : value / 2;
@@ -44,7 +44,7 @@ class Lines {
     return density;
   }
 
-  /// About as long as the longest.
+  /// About the length of the longest line.
   double longest() const {
     double longest = 0;
     for (Index l = 0; l < std::ssize(measured_); ++l)
@@ -53,7 +53,7 @@ class Lines {
   }
 
   /// A lower bound of count(cut(edgeLength)), without cutting: a line has at least as many segments
-  /// as fit into its length, here that of eight chords.
+  /// as fit into its length, approximated by eight chords.
   double countWith(double edgeLength) const {
     const auto insideOf = [&](Index line) {
       const double edges = edgesOf(line);
@@ -75,7 +75,7 @@ class Lines {
   }
 
  private:
-  /// None where an arc is one point.
+  /// 0 if an arc is a single point.
   Index edgesOf(Index line) const {
     if (line >= arcs_) {
       const Index patch = (line - arcs_) / 2;
@@ -93,7 +93,8 @@ class Lines {
         vectors_, (line - arcs_) % 2 == 0 ? Site{patch, x, n / 2} : Site{patch, m / 2, x});
   }
 
-  /// The longest of so many segments, or how far the line is from any.
+  /// The length of the longest of this many segments, or the largest distance of the line from
+  /// them.
   double measure(Budget::Kind kind, Index line, Index segments) const {
     const double edges = edgesOf(line);
     const int samples = segments > 4 * edges ? 2 : kSamples;
@@ -120,8 +121,7 @@ class Lines {
     return found->most <= value;
   }
 
-  /// By doubling, and then by halving what the last doubling added: more segments are hardly ever
-  /// worse.
+  /// Doubles, then bisects the last doubling: more segments are hardly ever worse.
   void refine(Index& segments, Index line, double value) {
     const Index most = mostSegments(edgesOf(line));
     Index few = segments - 1;
@@ -134,7 +134,7 @@ class Lines {
     }
   }
 
-  /// What measure() says of so many segments.
+  /// The result of measure() for a number of segments.
   struct Measured {
     Index segments;
     double most;
@@ -149,8 +149,9 @@ class Lines {
   SagMeter inside_;
 };
 
-/// The smallest error, to a hundredth of it, that so many vertices allow; the coarsest density if
-/// they are too few even for that. From above, as finer densities take longer to measure.
+/// The density for the smallest error, to a hundredth of it, that this many vertices allow; the
+/// coarsest one if they are too few even for that. Approaches the error from above, as finer
+/// densities take longer to measure.
 Density finest(Lines& lines, double vertices) {
   double error = lines.longest();  // no sag is longer than its line
   const double least = kLeastError * error;
@@ -165,7 +166,7 @@ Density finest(Lines& lines, double vertices) {
   return best;
 }
 
-/// A tessellation may need some vertices more to keep edges apart.
+/// A tessellation may need a few more vertices than its density, to keep edges apart.
 Result<Density> within(const Surface& surface, Lines& lines, double vertices) {
   const Index fewest = Tessellation(surface, lines.coarsest()).vertexCount();
   if (fewest > vertices) return fail("The face has ", fewest, " vertices at least; allow so many.");

@@ -6,19 +6,19 @@
 namespace sweepface {
 namespace {
 
-/// Whole vectors are read and written.
+/// Rounded up, as whole registers are read and written.
 std::size_t weightBytes(const EvaluatorTables& tables) {
   return sizeof(std::int16_t) * roundUp64(static_cast<std::size_t>(tables.weights) + 1);
 }
 
 std::size_t pairsRoom(const EvaluatorTables& tables) {
-  return roundUp64(static_cast<std::size_t>(tables.weights) / 2 + 1);  // odd ones of either width
+  return roundUp64(static_cast<std::size_t>(tables.weights) / 2 + 1);  // either count may be odd
 }
 
-constexpr double kMostFactor = 1e6;  // beyond, normals are more than single precision bears
+constexpr double kMostFactor = 1e6;  // beyond it, normals overflow single precision
 
-/// The largest size of a weight, but at least 1: four at a time, as a maximum waits for the one
-/// before.
+/// The largest absolute value of a weight, but at least 1. Keeps four maxima, as each waits for the
+/// one before.
 double largest(std::span<const double> weights) {
   double most[4] = {1, 1, 1, 1};
   std::size_t k = 0;
@@ -28,9 +28,9 @@ double largest(std::span<const double> weights) {
   return std::max({most[0], most[1], most[2], most[3]});
 }
 
-/// Weights in units of 2⁻¹⁴, and what they were divided by.
+/// Writes weights in units of 2⁻¹⁴; returns what they were divided by.
 float quantise(std::span<const double> weights, std::span<std::int16_t> out) {
-  constexpr int kUp = 1 << 15;  // what is above 0 is rounded by cutting it off
+  constexpr int kUp = 1 << 15;  // truncation rounds what is above 0
   const double most = largest(weights), scale = kWeightUnit / most;
   for (std::size_t k = 0; k < weights.size(); ++k)
     out[k] = static_cast<std::int16_t>(static_cast<int>(weights[k] * scale + (kUp + 0.5)) - kUp);
@@ -69,7 +69,7 @@ struct Scratch {
   }
 };
 
-/// The tiles with a target whose weight is another than before.
+/// The tiles with a target whose weight has changed.
 TileRange changed(const TileRange& all, const Scratch& scratch) {
   Index count = 0;
   for (Index k = 0; k < all.count; ++k) {

@@ -8,9 +8,9 @@
 namespace sweepface {
 namespace {
 
-constexpr double kSameCentre = 0.3;  // between balls of one eye, of the radius
-constexpr double kInside = 0.99;     // what lies in a ball, of its radius
-constexpr double kPair = 0.7;        // the smaller eye's radius, of the larger one's
+constexpr double kSameCentre = 0.3;  // distance between balls of one eye, relative to the radius
+constexpr double kInside = 0.99;     // distance of what lies in a ball, relative to its radius
+constexpr double kPair = 0.7;        // the smaller eye's radius, relative to the larger one's
 
 struct Eyeball {
   Ball ball;
@@ -40,8 +40,8 @@ class EyeFinder {
   }
 
  private:
-  /// Balls, those of one eye (sclera and cornea) taken together by the larger one; large ones
-  /// first.
+  /// Collects balls, large ones first; the larger ball of an eye takes in its others (sclera and
+  /// cornea).
   void collect() {
     std::vector<Eyeball> found;
     for (std::size_t p = 0; p < parts_.size(); ++p)

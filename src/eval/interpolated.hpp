@@ -8,8 +8,8 @@
 
 namespace sweepface {
 
-/// What stands at the vertices of the tessellation at level 1, carried on into its quads as a
-/// renderer does between corners: at the vertices of a finer one of the same surface.
+/// Carries values at the vertices of the tessellation at level 1 over to those of a finer one of
+/// the same surface, interpolating within each quad as a renderer does between corners.
 template <typename Value>
 std::vector<Value> interpolated(const Surface& surface, const Tessellation& level1,
                                 const Tessellation& fine, std::span<const Value> values) {

@@ -1,6 +1,6 @@
-// A truncated singular value decomposition by deflation: one mode after the other is found by power
-// iteration and taken away from what is left. A target whose remainder is small enough everywhere
-// takes no further part, so that later modes serve those that still need them.
+// A truncated singular value decomposition by deflation: modes are found one after another by power
+// iteration and subtracted from the remainder. A target whose remainder is small enough everywhere
+// drops out, so that later modes serve those that still need them.
 #include "eval/low_rank.hpp"
 
 #include <algorithm>
@@ -45,8 +45,8 @@ class Deflation {
     return true;
   }
 
-  /// Targets that are near enough go: their columns are zeroed, and taken out once that makes the
-  /// others fewer registers wide.
+  /// Drops targets that are near enough: zeroes their columns, and removes these once the others
+  /// fit into fewer registers.
   void letGo() {
     kept_.clear();
     for (int k = 0; k < left_.targets; ++k)
@@ -114,11 +114,11 @@ class Deflation {
     }
   }
 
-  Planes& left_;  // of the targets that are not finished
+  Planes& left_;  // remainders of the unfinished targets
   int lane_;
   float squared_;
   LowRank found_;
-  std::vector<int> unfinished_;  // [columns] whose they are; -1: nobody's any more
+  std::vector<int> unfinished_;  // [columns] their targets; -1: dropped
   std::vector<int> kept_;
   std::vector<float> mode_, coefficients_, sums_, most_;
 };

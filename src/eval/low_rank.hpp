@@ -7,7 +7,7 @@
 namespace sweepface {
 
 /// Differences as a sum of modes: difference(r, k) ≈ Σ_m basis[m][r] · coefficients[m][k]. The
-/// modes are orthonormal; a target has coefficients in as many of them as it needs.
+/// modes are orthonormal; a target uses only the first few, as many as it needs.
 struct LowRank {
   int modes = 0;
   std::vector<float> basis;         ///< [modes][rows]
@@ -15,7 +15,7 @@ struct LowRank {
   std::vector<int> modesOf;         ///< [targets]
 };
 
-/// The fewest modes, roughly, that leave no more than `tolerance` of any target in any row.
+/// Finds roughly the fewest modes that leave no target further off than `tolerance` in any row.
 LowRank factorise(Planes differences, float tolerance);
 
 }  // namespace sweepface

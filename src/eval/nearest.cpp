@@ -20,8 +20,8 @@ struct Found {
   double distance = std::numeric_limits<double>::infinity();  // squared
 };
 
-/// Goes from a site to where a patch is nearest to a point, without leaving the patch: Newton's
-/// method on the squared distance, or along its slope where that does not lead down.
+/// Descends from a site to where a patch is nearest to a point, without leaving the patch: by
+/// Newton's method on the squared distance, or along its slope where that does not lead down.
 class Descent {
  public:
   Descent(const Surface& surface, std::span<const Vec3> vectors, const Vec3& point,
@@ -50,7 +50,7 @@ class Descent {
     return surface_.evaluate(vectors_, site, du, dv);
   }
 
-  /// Whether it led anywhere.
+  /// Returns whether it got nearer.
   bool step() {
     const Site& site = here_.site;
     const Vec3 off = at(site, 0, 0) - point_, u = at(site, 1, 0), v = at(site, 0, 1);
@@ -65,7 +65,8 @@ class Descent {
     };
     const Step apart{alone(freeU, slope.u, bentU, uu), alone(freeV, slope.v, bentV, vv)};
     if (!freeU || !freeV) return go(apart);
-    // Where the distance curves upwards all round, else as if the surface were flat.
+    // Newton's step where the distance curves upwards in all directions, else as if the surface
+    // were flat.
     if (bentU > 0 && bentU * bentV > bentUV * bentUV)
       return go(solved(bentU, bentUV, bentV, slope)) || go(apart);
     return go(solved(uu, uv, vv, slope)) || go(apart);
@@ -89,12 +90,12 @@ class Descent {
     return false;
   }
 
-  /// On a collapsed side there is no way to turn any more, so that steps end before it.
+  /// Steps end before a collapsed side, as they could not turn on it.
   double towards(double place, double from, double length) const {
     return std::clamp(place, from - reach_ * from, from + reach_ * (length - from));
   }
 
-  /// As far as leads down.
+  /// Halves a step until it leads down.
   bool go(const Step& whole) {
     constexpr double kLeastStep = 1e-9;  // edges
     if (!(std::max(std::abs(whole.u), std::abs(whole.v)) > kLeastStep)) return false;
@@ -114,7 +115,7 @@ class Descent {
   std::span<const Vec3> vectors_;
   const Vec3 point_;
   const double lengths_[2];
-  const double reach_;  // the share of the way to a side that a step may go
+  const double reach_;  // the largest share of the way to a side that a step may go
   Found here_;
 };
 
@@ -147,12 +148,12 @@ class Search {
 
  private:
   struct Way {
-    double distance;  // squared, to the box of the patch
+    double distance;  // squared, to the patch's box
     Index patch;
   };
 
-  /// Samples, and a box that the patch does not leave: between samples it hardly bulges further
-  /// than they are apart.
+  /// Samples a patch, and finds a box that it does not leave: between samples it hardly bulges
+  /// further than they are apart.
   void samplePatch(Index p) {
     firstSample_.push_back(samples_.size());
     const Index columns = kPerEdge * surface_.edgesU(p), rows = kPerEdge * surface_.edgesV(p);
@@ -186,8 +187,8 @@ class Search {
                     beyond(box.low.z, point.z, box.high.z)});
   }
 
-  /// The nearest sample, and the nearest inside: at a pole many samples coincide, of which most
-  /// look another way, and where a patch meets itself only one of two is on the right side.
+  /// The nearest sample, and the nearest inside. At a pole many samples coincide, most of them
+  /// facing another way; and where a patch meets itself, only one of two is on the right side.
   std::array<Site, 2> starts(Index patch, const Vec3& point) const {
     const Index columns = kPerEdge * surface_.edgesU(patch),
                 rows = kPerEdge * surface_.edgesV(patch);

@@ -67,7 +67,7 @@ class Finder {
     place(vertex, firstQuads_[site.patch] + std::size_t(j) * m + i, site.u - i, site.v - j);
   }
 
-  /// A vertex at u and v, 0 to 1, of a quad.
+  /// Places a vertex at u and v, 0 to 1, of a quad.
   void place(Index vertex, std::size_t quad, double u, double v) {
     Origin& origin = origins_[vertex];
     if (origin.shares[0] > 0) return;

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-// Where the linker can choose by processor, loops exist for wider registers as well.
+// Where the linker can choose by processor, loops are also compiled for wider registers.
 #if defined(__x86_64__) && defined(__gnu_linux__) && !defined(__SANITIZE_ADDRESS__) && \
     !defined(__SANITIZE_THREAD__) && !defined(SWEEPFACE_PLAIN_KERNELS)
 #if defined(__has_feature)
@@ -20,8 +20,8 @@
 namespace sweepface {
 namespace {
 
-// Numbers that processors reckon with at once, wherever they lie: as many as WebAssembly can, and
-// elsewhere as AVX can; others take them by halves.
+// As many floats as WebAssembly, or elsewhere AVX, processes at once; other processors take them in
+// halves. In memory they need no alignment.
 #ifdef __wasm__
 constexpr int kWide = 4;
 #else
@@ -37,17 +37,17 @@ using WideShorts [[gnu::vector_size(2 * kWide), gnu::aligned(2), gnu::may_alias]
   return *reinterpret_cast<const WideThere*>(p);
 }
 
-// However wide, eight sums are added up in one order.
+// Whatever the width, eight sums are added up in the same order.
 constexpr int kSums = 8;
 
-// Each to the larger of the two.
+// Raises each lane of `most` to that of x.
 [[gnu::always_inline]] inline void raise(Wide& most, const Wide& x) { most = most < x ? x : most; }
 
-// In here, as GCC lets a shared library show every function that has clones to all others. Clang
-// does not emit inline functions that such functions alone call: iterators of spans, constructors.
+// In here, as GCC makes every function that has clones visible outside its shared library. Clang
+// does not emit inline functions that only such functions call: iterators of spans, constructors.
 namespace loops {
 
-// Three at once: sums of one wait for each other.
+// Three registers at once, as additions to a single one wait for each other.
 SWEEPFACE_CLONES
 void sumRows(const Scaled* terms, std::size_t count, int width, float* out) {
   for (int c = 0; c < width; c += 3 * kWide) {
@@ -176,7 +176,7 @@ Extent extentOf(std::span<const float> values) {
 
 SWEEPFACE_CLONES
 void roundAll(std::span<const float> values, float factor, std::int16_t* out) {
-  constexpr float kWhole = 3 << 22;  // numbers near this one are whole: their last bits say which
+  constexpr float kWhole = 3 << 22;  // floats near this are whole, and their last bits say which
   for (std::size_t k = 0; k < values.size(); k += kWide) {
     const Wide rounded = at(values.data() + k) * factor + kWhole;
     const auto bits = (WideInts)rounded;

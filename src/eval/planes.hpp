@@ -7,8 +7,8 @@
 
 namespace sweepface {
 
-/// Vectors of a few rows for some targets, a plane for each coordinate: [rows][3][lane], where lane
-/// is the number of targets rounded up to what a register holds; what is beyond them is 0.
+/// Vectors of a few rows for some targets, in a plane for each coordinate: [rows][3][lane], where
+/// lane is the number of targets rounded up to whole registers; the padding is 0.
 struct Planes {
   int rows = 0, targets = 0, lane = 0;
   std::vector<float> values;
@@ -16,7 +16,7 @@ struct Planes {
   Planes() = default;
   Planes(int rowCount, int targetCount) { reshape(rowCount, targetCount); }
 
-  /// All zero.
+  /// Sets everything to zero.
   void reshape(int rowCount, int targetCount) {
     rows = rowCount, targets = targetCount, lane = laneOf(targetCount);
     values.clear();
@@ -29,7 +29,7 @@ struct Planes {
   static int laneOf(int targets) { return (targets + 7) / 8 * 8; }
 };
 
-// Loops over planes, by far most of what making an Evaluator takes. Rows and spans are
+// Loops over planes, which take by far the most time in making an Evaluator. Rows and spans are
 // multiples of 8 long, and sums are taken in the same order on every machine.
 
 struct Scaled {
@@ -42,23 +42,24 @@ void sumRows(std::span<const Scaled> terms, int width, float* out);
 void project(const Planes& planes, const float* factors, float* out);
 /// out[r] = row r · vector
 void dotRows(const Planes& planes, const float* vector, float* out);
-/// Takes factors[r] · vector away from each row r.
+/// Subtracts factors[r] · vector from each row r.
 void takeAway(Planes& planes, const float* factors, const float* vector);
-/// The squares of columns added up over the rows [3 × lane], and the largest square of a target's
-/// vector in a row [lane].
+/// Sets `sums` to the squares of each column summed over the rows [3 × lane], and `largest` to the
+/// largest square of each target's vector in a row [lane].
 void measureSquares(const Planes& planes, float* sums, float* largest);
-/// The largest square of a target's vector in a row of `wanted` − Σ_m basis[m][r] · coefficients[m]
-/// [lane]; `coefficients` is [modes][3 × lane]. Beyond `enough` the others are left as they are.
+/// Sets `largest` to the largest square of each target's vector in a row of `wanted` − Σ_m
+/// basis[m][r] · coefficients[m] [lane]; `coefficients` is [modes][3 × lane]. Stops once one
+/// exceeds `enough`, leaving the others as they are.
 void measureRest(const Planes& wanted, std::span<const float> basis, const float* coefficients,
                  float enough, float* largest);
-/// To what lies within `most` of 0.
+/// Clamps to within `most` of 0.
 void clampAll(std::span<float> values, float most);
-/// The largest size of a number, and the sum of all sizes.
+/// The largest absolute value, and the sum of the absolute values.
 struct Extent {
   float most = 0, sum = 0;
 };
 Extent extentOf(std::span<const float> values);
-/// The nearest whole numbers to values · factor, which 16 bits hold.
+/// Rounds values · factor to the nearest integers, which must fit 16 bits.
 void roundAll(std::span<const float> values, float factor, std::int16_t* out);
 
 }  // namespace sweepface

@@ -10,8 +10,9 @@
 namespace sweepface {
 namespace {
 
-/// Collects triangles and tells vertices apart by point and texture coordinate. The first texture
-/// coordinate that comes up at a point stays with it; others get vertices behind all points.
+/// Collects triangles, and makes a vertex for each pair of point and texture coordinate. The first
+/// texture coordinate at a point goes to the point's own vertex; others get vertices after all
+/// points.
 class Builder {
  public:
   Builder(std::vector<Vec3> neutral, const Polygons& source)
@@ -25,7 +26,7 @@ class Builder {
 
   Index vertex(Index point) const { return point; }
   Index vertex(Index point, const Vec2& texcoord) {
-    // Where a pole has thousands, faces that follow each other share one: a few looks do.
+    // A pole may have thousands, but consecutive faces share one: a few looks suffice.
     constexpr int kLooks = 16;
     int looks = 0;
     for (Index v = point; v >= 0 && looks < kLooks; v = next_[v], ++looks) {
@@ -89,8 +90,8 @@ class Builder {
   RenderMesh mesh_;
   std::vector<Vec3> neutral_;    // [points]
   std::vector<Vec2> texcoords_;  // [vertices]
-  std::vector<char> textured_;   // [vertices] whether it has one of its own
-  std::vector<Index> next_;      // [vertices] of the same point, the latest copy first, or -1
+  std::vector<char> textured_;   // [vertices] whether it has a texture coordinate
+  std::vector<Index> next_;      // [vertices] next of the same point, the latest copy first, or -1
   std::vector<std::vector<std::uint32_t>> trianglesOf_;  // by material + 1
   std::vector<Vec3> corners_;
 };
@@ -119,14 +120,14 @@ RenderMesh renderSource(const Rig& rig, const Tessellation& grid) {
 
 namespace {
 
-// The same number from either end.
+// Interpolates to the same numbers from either end.
 Vec2 between(const Vec2& a, const Vec2& b, std::int64_t step, Index level) {
   if (std::pair(b.x, b.y) < std::pair(a.x, a.y)) return between(b, a, level - step, level);
   const double t = static_cast<double>(step) / level;
   return {std::lerp(a.x, b.x, t), std::lerp(a.y, b.y, t)};
 }
 
-/// What hangs on the quads of level 1.
+/// Materials and texture coordinates of the quads of level 1.
 class Quads {
  public:
   explicit Quads(const Rig& rig)
@@ -145,7 +146,8 @@ class Quads {
                                [&](Index c) { return faces_.cornerTexcoords[c] >= 0; });
   }
 
-  /// i steps of m and j of n from the first corner of a textured quad, or straight on from there.
+  /// The texture coordinate i of m and j of n steps from the first corner of a textured quad;
+  /// extrapolated beyond the quad.
   Vec2 texcoord(std::size_t quad, std::int64_t i, Index m, std::int64_t j, Index n) const {
     const auto at = [&](int k) { return texcoordAt(quad, k); };
     if (i == 0) return between(at(0), at(3), j, n);
@@ -153,8 +155,8 @@ class Quads {
     return between(between(at(0), at(1), i, m), between(at(3), at(2), i, m), j, n);
   }
 
-  /// Goes from a textured quad, number `at` of its row or column, towards a place on that, as far
-  /// as no seam is in the way. The next quad is `stride` on, behind the corner `next`.
+  /// Steps from a textured quad, at position `at` in its row or column, towards `goal` in that,
+  /// until a seam is in the way. The next quad is `stride` further on, beyond the corner `next`.
   void follow(std::size_t& quad, Index& at, const Place& goal, Index stride, int next) const {
     while (goal.value() > at + 1 && areJoined(quad, quad + stride, next)) quad += stride, ++at;
     while (goal.value() < at && areJoined(quad - stride, quad, next)) quad -= stride, --at;
@@ -171,7 +173,7 @@ class Quads {
 
   const Polygons& faces_;
   const std::vector<Index>& corners_;
-  std::vector<Index> faceOfQuad_;  // empty where nobody knows
+  std::vector<Index> faceOfQuad_;  // empty if unknown
 };
 
 }  // namespace
@@ -193,8 +195,8 @@ RenderMesh renderGrid(const Rig& rig, const Tessellation& grid) {
   return builder.take();
 }
 
-// A triangle has the texture coordinates of the quad in its middle. What lies beyond a seam has
-// them as if that quad went on.
+// A triangle takes its texture coordinates from the quad at its centroid. What lies beyond a seam
+// gets them as if that quad continued.
 RenderMesh renderDensity(const Rig& rig, const Tessellation& grid) {
   const Surface& surface = rig.surface;
   Builder builder(grid.positions(blend(rig, {})), rig.source.polygons);

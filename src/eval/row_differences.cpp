@@ -25,7 +25,7 @@ RowDifferences::RowDifferences(const Rig& rig, std::span<const std::vector<float
   listMoves(influences);
 }
 
-// Counted first, so that all lie in one piece.
+// Counts first, so that all moves lie in one piece.
 void RowDifferences::listMoves(std::span<const std::vector<float>> influences) {
   const auto stored = static_cast<std::size_t>(rig_.surface.storedCount());
   const auto each = [&](const auto& use) {
@@ -62,7 +62,7 @@ void RowDifferences::need(Index vector) {
   stack_.push_back(vector);
 }
 
-// Vectors are derived from those before them, so that ascending is the order to settle them in.
+// Vectors are derived from earlier ones, so they are settled in ascending order.
 void RowDifferences::collect(std::span<const Row> rows) {
   const Index storedCount = rig_.surface.storedCount();
   for (const Row& row : rows)

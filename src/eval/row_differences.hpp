@@ -10,23 +10,24 @@
 
 namespace sweepface {
 
-/// A row as a sum over the vectors of a settled pose, or a vertex of no face.
+/// A row: a weighted sum over the vectors of a settled pose, or a vertex of no face.
 struct Row {
   std::span<const Index> vectors;
   std::span<const double> factors;
-  double scale = 1;  ///< of all factors
+  double scale = 1;  ///< multiplies all factors
   Index loose = -1;
 };
 
-/// What the weights of a rig move, and by how much: for a few rows at a time, so that no table of
-/// all targets at all vertices is ever made.
+/// Computes what the weights of a rig move, and by how much. Works on a few rows at a time, so that
+/// no table of all targets at all vertices is ever made.
 class RowDifferences {
  public:
-  /// Target k of region r is column r · K + k; no influences: one region that is everywhere.
+  /// Column r · K + k is target k of region r; no influences means one region that is everywhere.
   /// Vertices of no face follow the first region.
   RowDifferences(const Rig& rig, std::span<const std::vector<float>> influences);
 
-  /// The columns that move any of the rows, and the differences of the rows times `scale`.
+  /// Sets `moving` to the columns that move any of the rows, and `out` to the differences of the
+  /// rows times `scale`.
   void of(std::span<const Row> rows, double scale, std::vector<std::uint16_t>& moving, Planes& out);
 
  private:
@@ -46,11 +47,11 @@ class RowDifferences {
   Index targets_, columns_;
   std::vector<std::size_t> firstMove_;  // [stored + 1]
   std::vector<Move> moves_;             // of each stored vector
-  // Of the rows at hand:
+  // For the current rows:
   std::vector<Index> needed_;            // vectors the rows are made of, directly or not, ascending
   std::vector<std::uint64_t> isNeeded_;  // [vectors] a bit for each
   std::vector<Index> stack_;
-  std::vector<Index> placeOf_;  // [vectors] in needed_, where it is needed
+  std::vector<Index> placeOf_;  // [vectors] index in needed_, if needed
   std::vector<int> columnAt_;   // [columns] among those that move, or -1
   std::vector<Scaled> terms_;
   Planes settled_;  // [needed_]

@@ -9,8 +9,8 @@
 namespace sweepface {
 namespace {
 
-// An edge in the coordinates of its patch. A side that is one point has no place along itself: it
-// is met straight across.
+// An edge in the coordinates of its patch. A side that is a single point has no position along
+// itself, so it is met straight across.
 struct FlatEdge {
   FlatEdge(const PatchMesh::Point& from, const PatchMesh::Point& to, Vec2 size,
            const std::array<bool, 4>& isPoint)
@@ -24,8 +24,8 @@ struct FlatEdge {
   Vec2 a, b;
 };
 
-// Errors fall with the square of the number of cuts; half of what that asks for, on a scale of
-// ratios, as it is measured again, but no step so small that many follow.
+// Errors fall with the square of the number of cuts. Takes half of what that asks for, on a
+// logarithmic scale, as the result is measured again, but no step so small that many would follow.
 Index somewhatMore(Index count, double tooFar, Index most) {
   const double more = count * std::clamp(std::sqrt(std::sqrt(tooFar)), 1.1, 2.0);
   return std::min(most, std::max(count + 1, static_cast<Index>(more)));
@@ -42,7 +42,7 @@ SagMeter::SagMeter(const Surface& surface, std::span<const Vec3> vectors)
     nodes_.push_back(node.point >= 0 ? node.point : -1 - static_cast<Index>(nodes_.size()));
 }
 
-// A numbering that tells the vertices of one patch apart.
+// Uses a numbering that tells the vertices of one patch apart.
 PatchMesh SagMeter::stitched(const Density& density, Index patch) {
   const Wireframe& w = surface_.wireframe();
   Index next = w.points;
@@ -52,8 +52,9 @@ PatchMesh SagMeter::stitched(const Density& density, Index patch) {
   return stitch(surface_, density, {nodes_, arcs_, next}, patch);
 }
 
-// To second order no place of a triangle is further away than its edges are. An edge inside belongs
-// to two triangles, one either way round; those around the patch are the arcs', and measured.
+// To second order, no point of a triangle is further away than its edges are. An edge inside
+// belongs to two triangles, once in each direction, and is measured once. Those around the patch
+// belong to the arcs, and are measured with them.
 SagMeter::Sag SagMeter::sagOf(const Density& density, Index patch) {
   const PatchMesh mesh = stitched(density, patch);
   const Vec2 size{double(surface_.edgesU(patch)), double(surface_.edgesV(patch))};
@@ -91,7 +92,7 @@ const SagMeter::Sag& SagMeter::measure(const Density& density, Index patch) {
   return known.back().sag;
 }
 
-// Finer along the edge where it is worst; no finer across it, even where that one can't be.
+// Refines along the worst edge; never across it, even where refining along it is impossible.
 std::array<Index, 2> SagMeter::finer(const Density& density, Index patch, double error) {
   std::array<Index, 2> cells = density.patches[patch];
   const Sag& sag = measure(density, patch);

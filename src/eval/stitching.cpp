@@ -1,4 +1,4 @@
-// Patches of any density as triangles: a grid inside, and around it strips to the points of the
+// Triangulates patches of any density: a grid inside, surrounded by strips to the points of the
 // four sides, which belong to the arcs.
 #include "eval/stitching.hpp"
 
@@ -28,7 +28,7 @@ std::int64_t vertexCountOf(const Wireframe& w, const Density& density) {
 
 namespace {
 
-// A point or, below 0, a node that stands at none.
+// The ends as points or, below 0, nodes without a point.
 std::array<Index, 2> endsOf(const Wireframe& w, const Arc& arc) {
   const auto vertex = [&](Index node) {
     const Index point = w.nodes[node].point;
@@ -92,7 +92,7 @@ Place fromTheEnd(const Place& p, Index edges) {
   return {edges - p.whole - 1, p.of - p.step, p.of};
 }
 
-/// A row of points of a patch and how far along each lies.
+/// A row of points of a patch, and how far along it each lies.
 struct Line {
   std::vector<Index> points;
   std::vector<double> along;
@@ -106,8 +106,8 @@ struct Line {
   }
 };
 
-/// Triangles between two lines that run the same way, the second to the left of the first: always
-/// on from the line whose next point comes first.
+/// Adds the triangles between two lines that run in the same direction, the second to the left of
+/// the first. Always advances on the line whose next point comes first.
 void addStrip(const Line& right, const Line& left, PatchMesh& mesh) {
   std::size_t a = 0, b = 0;
   while (a + 1 < right.points.size() || b + 1 < left.points.size()) {
@@ -210,7 +210,7 @@ PatchMesh Tessellation::patchMesh(Index patch) const {
 
 namespace {
 
-/// Calls `use` with the three vertices of every triangle that is one.
+/// Calls `use` with the three vertices of every triangle that is not degenerate.
 template <typename Use>
 void eachTriangle(const PatchMesh& mesh, const Use& use) {
   for (const auto& [a, b, c] : mesh.triangles) {
@@ -221,8 +221,8 @@ void eachTriangle(const PatchMesh& mesh, const Use& use) {
 
 }  // namespace
 
-// Two patches that have two corners in common may have the same edge across; both are then cut more
-// finely. Says whether any is.
+// Two patches with two corners in common may have the same edge across; both are then refined.
+// Returns whether any was.
 bool Tessellation::separateEdges() {
   std::vector<std::array<Index, 3>> edges;  // from, to, patch
   for (Index p = 0; p < surface_->patchCount(); ++p)

@@ -17,15 +17,16 @@
 
 namespace sweepface {
 
-/// A first derivative at a vertex: of the neutral, and what it is made of in every pose.
+/// A first derivative at a vertex: its value in the neutral, and the weights that give it in any
+/// pose.
 struct Derivative {
   Vec3 neutral;
   Surface::Weights weights;
 };
 using Derivatives = std::array<Derivative, 2>;  // ∂u, ∂v
 
-/// Compiles a rig into the tables of src/eval/tiles.hpp, tile by tile. `Vertices` says of which
-/// point a vertex is, and may turn its derivatives into others that span the same plane.
+/// Compiles a rig into the tables of src/eval/tiles.hpp, tile by tile. `Vertices` maps a vertex to
+/// its point, and may replace its derivatives by others that span the same plane.
 template <class Vertices>
 class TableCompiler {
  public:
@@ -82,7 +83,7 @@ class TableCompiler {
   }
 
   double sizeOfNeutral() const {
-#ifndef __wasm__  // which plays no single sites
+#ifndef __wasm__  // which has no tessellations of single sites
     if (grid_.isOfSites()) return diagonal(Tessellation(rig_.surface, 1).positions(neutral_));
 #endif
     return diagonal(gridPositions_);
@@ -91,14 +92,14 @@ class TableCompiler {
   double usedTolerance() const {
     const double wanted = options_.tolerance;
     if (!(wanted > 0)) return std::max({0.3 * rig_.tolerance, 1e-5 * size_, 1e-30});
-    // What single precision bears, squared.
+    // The range whose squares fit single precision.
     return std::clamp(wanted, std::max(1e-8 * size_, 1e-30), std::max(1e12 * size_, 1.0));
   }
   double usedDerivativeTolerance() const {
     return std::clamp(options_.derivativeTolerance, 1e-8, 1e12);
   }
 
-  /// Single precision: what a coordinate of the neutral may be off.
+  /// Adds the error of the neutral's coordinates in single precision.
   void roundPositions() {
     double largest = 0;
     for (const Vec3& p : positions_) largest = std::max(largest, norm(p));
@@ -135,7 +136,7 @@ class TableCompiler {
 
   void pack(TileSource& tile, double unit, TileTable& table, TableErrors& errors) {
     tile.unit = unit;
-    // Rows that no vertex takes are as the first.
+    // Rows without a vertex repeat the first one.
     for (auto first = tile.neutral.begin(); first != tile.neutral.end(); first += kTileVertices)
       std::fill(first + std::ssize(tile.vertices), first + kTileVertices, *first);
     tile.targets.clear();
@@ -163,7 +164,7 @@ class TableCompiler {
     return both;
   }
 
-  /// Where the neutral has no normal, at a collapsed side, a little inside the patch.
+  /// Where the neutral has no normal, at a collapsed side, takes those a little further inside.
   Derivatives regularDerivatives(const Site& site) const {
     const Derivatives here = derivatives(site);
     const Vec3 &u = here[0].neutral, &v = here[1].neutral;
@@ -171,9 +172,9 @@ class TableCompiler {
     return derivatives(rig_.surface.inside(site));
   }
 
-  /// Only their directions count, so that derivatives which a target makes a hundred times as long,
-  /// as it does where it opens what the neutral holds shut, may be told in larger units. By powers
-  /// of two: what nothing moves stays as it is to the last bit.
+  /// Stores derivatives that a target makes more than a hundred times as long, as happens where it
+  /// opens what the neutral holds shut, in larger units; only their directions count. The units are
+  /// powers of two, so that what nothing moves stays the same to the last bit.
   static void tellInLargerUnits(TileSource& tile) {
     constexpr double kMost = 100;
     const auto width = static_cast<std::size_t>(tile.differences.width());
@@ -189,8 +190,8 @@ class TableCompiler {
     }
   }
 
-  /// ∂u and ∂v of vertices in units of their neutral lengths, unless these are nothing but
-  /// rounding. Loose vertices look along z.
+  /// ∂u and ∂v of vertices in units of their neutral lengths, unless these are nothing but rounding
+  /// errors. The normals of loose vertices point along z.
   void addDerivatives(std::span<const Index> vertices, TileSource& tile) {
     start(tile, kMostRows);
     derivatives_.resize(vertices.size());

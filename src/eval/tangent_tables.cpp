@@ -5,8 +5,8 @@
 namespace sweepface {
 namespace {
 
-/// Vertices are those of a render mesh, and their derivatives go along tangents and, at a right
-/// angle in the neutral, across.
+/// Vertices are those of a render mesh. Their derivatives are turned to go along the tangent and,
+/// at a right angle in the neutral, across it.
 struct AlongTangents {
   const RenderMesh& mesh;
   std::span<const Vec3> tangents;
@@ -18,7 +18,7 @@ struct AlongTangents {
     const Derivatives old = both;
     const double ofU = 1 / norm(old[0].neutral), ofV = 1 / norm(old[1].neutral);
     const Vec3 u = ofU * old[0].neutral, v = ofV * old[1].neutral, normal = cross(u, v);
-    // Nearly parallel ones would have to cancel each other, and lengths have to be numbers.
+    // Nearly parallel derivatives would have to cancel each other, and lengths have to be finite.
     constexpr double kLeastSine = 1e-3;
     const double sine = norm(normal);
     if (norm(tangents[vertex]) == 0 || !(sine > kLeastSine && std::isfinite(sine))) return;

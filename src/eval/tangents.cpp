@@ -8,7 +8,7 @@ namespace {
 
 Vec3 inPlane(const Vec3& a, const Vec3& normal) { return a - dot(a, normal) * normal; }
 
-/// The angle between unit vectors to within 7e-5 (Abramowitz and Stegun, Handbook of Mathematical
+/// The angle between unit vectors, to within 7e-5 (Abramowitz and Stegun, Handbook of Mathematical
 /// Functions, 4.4.45), the same on every machine.
 double angleBetween(const Vec3& a, const Vec3& b) {
   const double cosine = dot(a, b), x = std::min(std::abs(cosine), 1.0);
@@ -17,7 +17,8 @@ double angleBetween(const Vec3& a, const Vec3& b) {
   return cosine >= 0 ? angle : 3.14159265358979 - angle;
 }
 
-/// Of the triangles round a vertex, apart by whether their texture coordinates are mirrored.
+/// Sums over the triangles round a vertex, kept apart by whether their texture coordinates are
+/// mirrored.
 struct Sums {
   Vec3 along[2];
   double angle[2] = {};

@@ -6,7 +6,7 @@
 namespace sweepface {
 
 std::int16_t toShort(double x, int shift) {
-  constexpr int kUp = 1 << 15;  // what is above 0 is rounded by cutting it off
+  constexpr int kUp = 1 << 15;  // truncation rounds what is above 0
   const double steps = x * (1.0 / (1 << shift)), most = 32767 >> shift;
   const int rounded = static_cast<int>(std::clamp(steps, -most, most) + (kUp + 0.5)) - kUp;
   return static_cast<std::int16_t>(rounded * (1 << shift));
@@ -22,16 +22,16 @@ struct Sizes {
     for (int axis = 0; axis < 3; ++axis, coefficients += lane) {
       const Extent extent = extentOf({coefficients, static_cast<std::size_t>(lane)});
       most = std::max(most, double(extent.most));
-      sum = std::max(sum, 1.0001 * extent.sum);  // added up in single precision
+      sum = std::max(sum, 1.0001 * extent.sum);  // summed in single precision
     }
   }
-  // The smallest unit with which nothing overflows, where rounding may add `room` to each.
+  // The smallest unit in which nothing overflows, if rounding may add `room` to each number.
   double unit(double room, int targets) const {
     return std::max({most / (kMostShort - room), sum / (kMostSum - room * targets), 1e-30});
   }
 };
 
-// The largest shift with which steps are no longer than `step`.
+// The largest shift whose steps are no longer than `step`.
 int shiftFor(double step, double unit, int targets) {
   int shift = 0;
   while (shift < kMostShift && unit * (2 << shift) <= step && targets * (2 << shift) < kMostSum)
@@ -39,7 +39,7 @@ int shiftFor(double step, double unit, int targets) {
   return shift;
 }
 
-// Rounds a target's coefficients to what 8 bits hold, if they do.
+// Rounds a target's coefficients to 8 bits, if they fit.
 bool narrow(TileIntegers& integers, int target) {
   const auto each = [&](const auto& use) {
     for (int m = 0; m < integers.modes; ++m)
@@ -65,7 +65,7 @@ TileIntegers toIntegers(const LowRank& found, const Planes& wanted, TileForms fo
   out.coefficients.resize(std::size_t(found.modes) * width);
   out.basis.resize(std::size_t(found.modes) * rows);
   out.isNarrow.assign(wanted.targets, 0);
-  std::vector<double> stepOf(found.modes);  // what 1 of c_m is
+  std::vector<double> stepOf(found.modes);  // what a c_m of 1 stands for
   std::vector<double> sums(rows);
   double most = 0;
   for (int m = 0; m < found.modes; ++m) {
@@ -97,7 +97,7 @@ TileIntegers toIntegers(const LowRank& found, const Planes& wanted, TileForms fo
   return out;
 }
 
-// Errors of single precision are far below the unit.
+// Computes in single precision, whose errors are far below the unit.
 std::vector<double> errorsOf(const TileIntegers& integers, const Planes& wanted, double enough) {
   const double scale = integers.scale * kWeightUnit / 65536;
   std::vector<float> basis(integers.basis.size()), squares(wanted.lane);
@@ -111,8 +111,8 @@ std::vector<double> errorsOf(const TileIntegers& integers, const Planes& wanted,
   return worst;
 }
 
-// Each c_m is off by 1/2 from rounding it and by 1 from rounding weights, as coefficients add up
-// to no more than 2¹⁷; single precision adds less than a hundredth of that.
+// Each c_m is off by 1/2 from its own rounding and by 1 from the rounding of weights, as
+// coefficients add up to no more than 2¹⁷. Single precision adds less than a hundredth of that.
 double roundingOf(const TileIntegers& integers) {
   double most = 0;
   for (int r = 0; r < integers.rows; ++r) {

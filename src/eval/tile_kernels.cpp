@@ -1,4 +1,4 @@
-// The kernels of src/eval/tile_kernels_plain.cpp for vectors of 4, 8 or 16 numbers, compiled once
+// The kernels of src/eval/tile_kernels_plain.cpp for registers of 4, 8 or 16 numbers, compiled once
 // for every instruction set by Highway.
 #include "eval/tile_kernels.hpp"
 
@@ -35,7 +35,7 @@ void blendModes(const TileRange& tiles, const FrameWeights& frame, std::int16_t*
 HWY_BEFORE_NAMESPACE();
 namespace sweepface {
 namespace HWY_NAMESPACE {
-#if HWY_TARGET == HWY_SCALAR  // a processor that has nothing to offer
+#if HWY_TARGET == HWY_SCALAR  // a processor without vector instructions
 
 void evaluatePositions(const TileRange& tiles, const FrameWeights& frame, const VectorsOut& out,
                        bool) {
@@ -52,7 +52,7 @@ void blendModes(const TileRange& tiles, const FrameWeights& frame, std::int16_t*
 #else
 namespace {
 
-/// A tile on its way.
+/// A tile in the pipeline.
 struct Stage {
   Tile tile;
   std::uint32_t* pairs;
@@ -61,15 +61,15 @@ struct Stage {
   Waiting first, second;
 };
 
-/// Asks for a tile's record before its turn comes.
+/// Prefetches a tile's record before its turn comes.
 HWY_INLINE void prefetch(const TileTable& table, Index tile) {
   const std::byte* const record = table.record(tile);
   const std::byte* const end = tile + 1 < table.tileCount() ? table.record(tile + 1) : record;
   for (const std::byte* line = record; line < end; line += 64) hwy::Prefetch(line);
 }
 
-/// Calls `combine` and `write` with every tile. Each step waits for the one before; so four tiles
-/// are on their way at once, each a step behind the next.
+/// Calls `combine` and `write` with every tile. Each step waits for the one before, so four tiles
+/// are in the pipeline at once, each a step behind the one before it.
 template <typename Combine, typename Write>
 HWY_INLINE void eachTile(const TileRange& tiles, const FrameWeights& frame, const Combine& combine,
                          const Write& write) {

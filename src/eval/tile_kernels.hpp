@@ -4,21 +4,21 @@
 
 #include "eval/tiles.hpp"
 
-// What evaluates tiles: one plain version that says what is right, and one for every instruction
-// set. All give the same bits.
+// The kernels that evaluate tiles: a plain one that serves as the reference, and one for every
+// instruction set. All give the same bits.
 namespace sweepface {
 
-/// The weights of a frame. What follows the last weight is 0.
+/// The weights of a frame, followed by zeros.
 struct FrameWeights {
   const std::int16_t* shorts;  ///< [roundUp64(W + 1)]
   std::uint32_t* pairs;        ///< [4 × pairsRoom] scratch
   std::size_t pairsRoom;       ///< roundUp64(W / 2 + 1)
   float factor;                ///< what weights were divided by to lie within [-1, 1]
   Index count;                 ///< W + 1
-  bool cold = false;           ///< whether to fetch tables ahead
+  bool cold = false;           ///< whether to prefetch the tables
 };
 
-/// Some tiles of a table: `count` from `first` on, or those that are listed.
+/// Some tiles of a table: `count` of them from `first` on, or those listed.
 struct TileRange {
   const TileTable& table;
   Index first, count;
@@ -27,7 +27,7 @@ struct TileRange {
   Index operator[](Index k) const { return listed ? listed[k] : first + k; }
 };
 
-/// The weights of a frame in the scratch memory of an evaluation.
+/// Quantises the weights of a frame into the scratch memory of an evaluation.
 FrameWeights frameWeights(const EvaluatorTables& tables, std::span<const double> weights,
                           std::span<std::byte> scratch);
 
@@ -38,15 +38,15 @@ void evaluateNormals(const TileRange& tiles, const FrameWeights& frame, const Ve
 void blendModes(const TileRange& tiles, const FrameWeights& frame, std::int16_t* out);
 }  // namespace plain
 
-/// `vertices`: of the whole evaluator.
+/// `vertices` is the vertex count of the whole evaluator.
 void evaluatePositions(const TileRange& tiles, const FrameWeights& frame, const VectorsOut& out,
                        Index vertices);
 void evaluateNormals(const TileRange& tiles, const FrameWeights& frame, const VectorsOut& normals,
                      const VectorsOut& tangents, Index vertices);
-/// The modes of the tiles under the frame's weights, as shaders want them: see ShaderTables.
+/// The modes of the tiles under the frame's weights, laid out for shaders: see ShaderTables.
 void blendModes(const TileRange& tiles, const FrameWeights& frame, std::int16_t* out);
 
-/// Weights of a tile's targets side by side, as the dot products of 16-bit integers want them.
+/// Writes the weights of a tile's targets in pairs, as dot products of 16-bit integers take them.
 inline void pairWeights(const Tile& tile, const FrameWeights& frame, std::uint32_t* pairs) {
   const auto weight = [&](int k) {
     return static_cast<std::uint32_t>(static_cast<std::uint16_t>(frame.shorts[tile.targets[k]]));
@@ -54,12 +54,12 @@ inline void pairWeights(const Tile& tile, const FrameWeights& frame, std::uint32
   for (int p = 0; p < tile.head->pairs; ++p) pairs[p] = weight(2 * p) | weight(2 * p + 1) << 16;
 }
 
-/// How many texels of a shader's texture a row of a tile's basis takes, a number for each of four
-/// modes.
+/// Texels that a row of a tile's basis takes in a shader's texture, with numbers for four modes in
+/// each.
 inline int texelsOf(const TileHead& head) { return (head.modePairs + 1) / 2; }
 
-/// Writes a tile's modes, which its blocks hold in pairs, by themselves, four numbers each. Returns
-/// where the next tile's go.
+/// Writes a tile's modes, which its blocks hold in pairs, one by one as four numbers each. Returns
+/// where the modes of the next tile go.
 inline std::int16_t* putModes(const Tile& tile, const std::int16_t* c, std::int16_t* to) {
   const int modes = 2 * tile.head->modePairs;
   for (int m = 0; m < 4 * texelsOf(*tile.head); ++m)
@@ -72,8 +72,8 @@ inline char* vectorAt(const VectorsOut& out, std::uint32_t vertex) {
   return reinterpret_cast<char*>(out.data) + std::size_t(vertex) * out.stride;
 }
 
-/// The inverse square root by Newton's method from a first guess (Lomont 2003), so that it is the
-/// same everywhere; better than 5·10⁻⁶. Finite for 0.
+/// The inverse square root by Newton's method from an initial guess (Lomont 2003), so that it is
+/// the same on every machine; accurate to better than 5·10⁻⁶. Finite for 0.
 inline constexpr std::int32_t kInverseRootGuess = 0x5f375a86;
 inline constexpr int kInverseRootSteps = 2;
 

@@ -1,4 +1,4 @@
-// What the kernels compute, without regard to speed.
+// The reference for what the kernels compute, without regard to speed.
 #include <algorithm>
 #include <bit>
 #include <cstring>
@@ -14,7 +14,7 @@ std::int16_t half(std::uint32_t pair, int side) {
   return static_cast<std::int16_t>(pair >> (16 * side) & 0xffff);
 }
 
-/// The next number, of 16 or of 8 bits.
+/// Reads the next number, of 16 or of 8 bits.
 std::int16_t take(const std::byte*& from, bool isWide) {
   if (!isWide) return static_cast<std::int8_t>(*from++);
   std::int16_t x;

@@ -11,10 +11,10 @@
 namespace sweepface {
 namespace {
 
-constexpr double kMostScale = 1e19;  // times 2³¹ and large weights it stays finite
+constexpr double kMostScale = 1e19;  // stays finite when multiplied by 2³¹ and large weights
 
 constexpr int pairsOf(std::ptrdiff_t count) { return static_cast<int>(count + 1) / 2; }
-/// The first mode of which a block has a coefficient.
+/// The first mode with a coefficient in a block.
 constexpr int firstModeOf(int block) { return kGroup * block / 6 * 2; }
 /// The mode of coefficient i.
 constexpr int modeOf(int i) { return i / 6 * 2 + i % 2; }
@@ -32,7 +32,7 @@ class Packer {
       });
   }
 
-  /// Gives what the neutral is rounded to.
+  /// Returns the step that the neutral is rounded to.
   float write(std::uint16_t nobody, TileTable& table) {
     const TileHead head = makeHead(table.groups());
     std::byte* const record = table.add(head.bytes);
@@ -193,7 +193,8 @@ bool isEnough(const std::vector<double>& errors) {
 }  // namespace
 
 PackedErrors packTile(const TileSource& source, std::uint16_t nobody, TileTable& table) {
-  // Rounding the modes takes its share; where that is too much, more modes make up for it.
+  // Rounding the modes uses up part of the tolerance; where that is too much, more modes make up
+  // for it.
   constexpr TileForms kForms[] = {
       {1.4, 4}, {1.0, kMostRows}, {0.5, kMostRows}, {}};  // the smallest first
   const Planes& wanted = source.differences;

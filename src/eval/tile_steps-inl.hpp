@@ -1,5 +1,5 @@
-// What happens to one tile, for vectors of 4, 8 or 16 numbers. Included once for every instruction
-// set by tile_kernels.cpp.
+// The steps of evaluating one tile, for registers of 4, 8 or 16 numbers. Included once for every
+// instruction set by tile_kernels.cpp.
 #if defined(SWEEPFACE_TILE_STEPS) == defined(HWY_TARGET_TOGGLE)
 #ifdef SWEEPFACE_TILE_STEPS
 #undef SWEEPFACE_TILE_STEPS
@@ -18,7 +18,7 @@ namespace HWY_NAMESPACE {
 #if HWY_TARGET != HWY_SCALAR
 namespace {
 
-// A browser loads every copy, so that there it is one of each step.
+// A browser downloads every inlined copy, so there each step exists only once.
 #if HWY_TARGET == HWY_WASM
 #define SWEEPFACE_STEP HWY_NOINLINE
 #else
@@ -44,8 +44,8 @@ constexpr Floats kFloats;
 constexpr int kLanes = static_cast<int>(hn::MaxLanes(kInts));
 constexpr int kParts = kGroup / kLanes;  // vectors in a group
 
-/// A sum of products of 16-bit integers, two by two. Where an instruction adds up other products
-/// than neighbouring ones, the rest is kept beside until the end.
+/// A sum of products of 16-bit integers, pair by pair. Where the instruction does not add up
+/// neighbouring products, `high` holds the rest until the end.
 struct Sum {
   Int low, high;
 
@@ -79,7 +79,7 @@ HWY_INLINE void Sum::addPair(Short a, const void* pair) {
 #endif
 }
 
-/// The weights of a tile's targets, two by two.
+/// The weights of a tile's targets, in pairs.
 class TileWeights {
  public:
   HWY_INLINE explicit TileWeights(const FrameWeights& frame) : frame_(frame) {
@@ -112,20 +112,20 @@ class TileWeights {
     __m512i number, low, high;
 
     HWY_INLINE Window(const std::int16_t* shorts, std::uint64_t windows) {
-      const auto w = _tzcnt_u64(windows) & 63;  // of no windows at all: one that does no harm
+      const auto w = _tzcnt_u64(windows) & 63;  // 0 if there are no windows, which does no harm
       number = _mm512_set1_epi16(static_cast<short>(w));
       low = _mm512_loadu_si512(shorts + 64 * w);
       high = _mm512_loadu_si512(shorts + 64 * w + 32);
     }
-    /// Weights of targets in this window, and what was `chosen` before of others.
+    /// The weights of those targets that are in this window; for others, what was `chosen` before.
     HWY_INLINE __m512i choose(__m512i targets, __m512i chosen) const {
       const __mmask32 here = _mm512_cmpeq_epi16_mask(_mm512_srli_epi16(targets, 6), number);
       return _mm512_mask_mov_epi16(chosen, here, _mm512_permutex2var_epi16(low, targets, high));
     }
   };
 
-  /// Among many weights those of a tile lie in a few windows: four at a time, as how many there are
-  /// cannot be foreseen.
+  /// Among many weights, a tile's lie in a few windows. Takes four at a time, as the number of
+  /// windows cannot be predicted.
   HWY_INLINE void chooseByWindows(const Tile& tile, std::uint32_t* pairs) const {
     const std::uint64_t first = tile.head->windows, second = first & (first - 1),
                         third = second & (second - 1), fourth = third & (third - 1);
@@ -149,13 +149,13 @@ class TileWeights {
 #endif
 };
 
-/// Numbers of 16 bits, or of 8.
+/// Loads numbers of 16 bits, or of 8.
 HWY_INLINE Short load(const std::int16_t* from) { return hn::LoadU(kShorts, from); }
 HWY_INLINE Short load(const std::int8_t* from) {
   return hn::PromoteTo(kShorts, hn::LoadU(kBytes, from));
 }
 
-/// The coefficients of some pairs of targets times their weights, added up.
+/// Adds the coefficients of some pairs of targets times their weights.
 template <typename Number>
 HWY_INLINE const Number* addPairs(const Number* from, int count, const std::uint32_t* pairs,
                                   Sum* sums) {
@@ -185,7 +185,7 @@ SWEEPFACE_STEP void blend(const Tile& tile, const std::uint32_t* pairs, std::int
   }
 }
 
-/// As many vectors as fit, a register for each coordinate.
+/// As many vectors as fit in three registers, one for each coordinate.
 struct Vectors {
   Float x, y, z;
 };
@@ -194,7 +194,8 @@ struct Combined {
   Vectors first, second;
 };
 
-/// Two registers of rows at once: lanes from `part` on of groups a and b.
+/// The place of a register of rows: its group, and which part of that. Two registers, a and b, are
+/// combined at once.
 struct Place {
   int group, part;
 };
@@ -223,8 +224,8 @@ HWY_INLINE Short loadRows(const std::int8_t* from) {
   return hn::ShiftLeft<kBasisShift>(load(from));
 }
 
-/// Adds pairs of modes, the first at c and at rows a and b. Sums go in and out by value: they stay
-/// in registers.
+/// Adds pairs of modes, whose coefficients start at c and whose rows start at a and b. Sums are
+/// passed and returned by value, so that they stay in registers.
 template <typename Number>
 HWY_INLINE Sums addModes(Sums sums, const std::int16_t* c, const Number* a, const Number* b,
                          int pairs) {
@@ -277,9 +278,9 @@ HWY_INLINE Vectors unit(const Vectors& a) {
   return {hn::Mul(a.x, r), hn::Mul(a.y, r), hn::Mul(a.z, r)};
 }
 
-/// Where the vectors of a tile wait to be written, four floats each. Every four lanes of three
-/// registers become four vectors, so that in a register's share of the memory vector 4j + i stands
-/// at place kRows · i + j.
+/// Holds the vectors of a tile until they are written, four floats each. Every four lanes of three
+/// registers become four vectors, so that within the share of one register, vector 4j + i is at
+/// place kRows · i + j.
 struct Waiting {
   static constexpr int kRows = kLanes / 4;
   HWY_ALIGN float xyz[4 * kTileVertices];

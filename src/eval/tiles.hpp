@@ -7,35 +7,36 @@
 
 #include "sweepface/vec.hpp"
 
-// The tables of an Evaluator. Rows (positions or derivatives of vertices) are cut into tiles of 32
-// vertices that are near each other. In a tile the rows of all poses are combinations of a few
-// modes:
+// The tables of an Evaluator. Rows (positions or derivatives of vertices) are divided into tiles of
+// 32 vertices that are near each other. Within a tile, the rows of all poses are combinations of a
+// few modes:
 //
 //   row(v) = neutral(v) + scale · Σ_m basis(v, m) · c_m,   c_m = Σ_k weight_k · coefficient(m, k)
 //
-// Basis, coefficients and weights are 16-bit integers and their sums exact in 32 bits, so that
-// every instruction set gives the same bits. Where that is enough, targets that move a tile little
-// have coefficients of 8 bits, and so has the basis of later modes, which add little.
+// Basis, coefficients and weights are 16-bit integers and their sums are exact in 32 bits, so that
+// every instruction set gives the same bits. Where 8 bits suffice, they are used for the
+// coefficients of targets that move a tile little, and for the basis of later modes, which add
+// little.
 namespace sweepface {
 
 inline constexpr int kTileVertices = 32;
-inline constexpr int kGroup = 16;  // rows or coefficients that are handled together
+inline constexpr int kGroup = 16;  // rows or coefficients processed together
 inline constexpr int kMostRows = 64;
 inline constexpr int kMostBlocks = 3 * kMostRows / kGroup;
 
-// Weights within [-1, 1] in units of 2⁻¹⁴. Coefficients of a mode's component add up to no more
-// than kMostSum over all targets, so that their weighted sum fits 32 bits; after a shift by 16 bits
-// that sum is c_m. The basis of a row adds up to no more than kMostBasis over all modes.
+// Weights within [-1, 1] are in units of 2⁻¹⁴. The coefficients of a mode's component add up to no
+// more than kMostSum over all targets, so that their weighted sum fits 32 bits; shifted right by 16
+// bits, that sum is c_m. The basis of a row adds up to no more than kMostBasis over all modes.
 inline constexpr int kWeightUnit = 1 << 14;
 inline constexpr double kMostSum = 131000, kMostBasis = 65000, kMostShort = 32767;
-inline constexpr int kMostShift = 12;  // of coefficients of 8 bits
-inline constexpr int kBasisShift = 8;  // of a basis of 8 bits
+inline constexpr int kMostShift = 12;  // of 8-bit coefficients
+inline constexpr int kBasisShift = 8;  // of an 8-bit basis
 
-/// The head of a tile's record, which goes on with
+/// The head of a tile's record, followed by
 ///   pairs         [blocks] BlockPairs
-///   shifts        [blocks][16] uint8: of coefficients of 8 bits
-///   targets       [2 × pairs] uint16, those of 16 bits first
-///   coefficients  [blocks]: those from 16b to 16b + 15 in block b, for two targets side by side:
+///   shifts        [blocks][16] uint8: of 8-bit coefficients
+///   targets       [2 × pairs] uint16, those with 16-bit coefficients first
+///   coefficients  [blocks]: coefficients 16b to 16b + 15 in block b, two targets side by side:
 ///                 [wide][16 × 2] int16 and then [narrow][16 × 2] int8 · 2^shift;
 ///                 coefficient 6p + 2c + h is component c of mode 2p + h
 ///   basis         [groups][modePairs][16 × 2], two modes side by side: int16, and from
@@ -45,19 +46,20 @@ inline constexpr int kBasisShift = 8;  // of a basis of 8 bits
 struct TileHead {
   std::uint32_t bytes = 0;  ///< of the whole record
   float scale = 0;
-  std::uint32_t coefficientsAt = 0, basisAt = 0, neutralAt = 0;  ///< in the record
+  std::uint32_t coefficientsAt = 0, basisAt = 0, neutralAt = 0;  ///< offsets in the record
   std::uint16_t pairs = 0, widePairs = 0;                        ///< of targets
   std::uint8_t vertices = 0, groups = 0;
   std::uint8_t modePairs = 0, wideModePairs = 0;
-  std::uint8_t blocks = 0, wideVertices = 0;  ///< whether those are uint32
+  std::uint8_t blocks = 0, wideVertices = 0;  ///< whether vertices are uint32
   std::array<std::uint8_t, 2> unused{};
   float step = 0;
   std::array<float, 3> origin{};
-  std::uint64_t windows = 0;  ///< bit k: a target is one of 64k ... 64k + 63; 0 where one is beyond
+  std::uint64_t windows = 0;  ///< bit k: a target is in 64k ... 64k + 63; 0 if any is beyond
 };
 static_assert(sizeof(TileHead) == 56);
 
-/// The pairs of targets that have coefficients in a block: the first of the wide and of the narrow.
+/// How many pairs of targets have coefficients in a block: the first `wide` of those with 16 bits,
+/// and the first `narrow` of those with 8.
 struct BlockPairs {
   std::uint16_t wide = 0, narrow = 0;
 };
@@ -69,7 +71,7 @@ inline std::size_t basisBytes(const TileHead& head) {
   return 2 * kGroup * (std::size_t(head.modePairs) + head.wideModePairs);
 }
 
-/// A tile's record taken apart.
+/// Pointers to the parts of a tile's record.
 struct Tile {
   const TileHead* head = nullptr;
   const BlockPairs* pairs = nullptr;
@@ -103,7 +105,7 @@ inline Tile tileAt(const std::byte* record) {
           record + head->neutralAt + kNeutralBytes * head->groups};
 }
 
-/// Records one after the other, the first beginning with a cache line once the table is finished.
+/// Records, one after another. Once the table is finished, the first starts at a cache line.
 class TileTable {
  public:
   explicit TileTable(int groups = 0) : groups_(groups) {}
@@ -114,7 +116,7 @@ class TileTable {
   const std::byte* record(Index tile) const { return memory_.data() + first_ + starts_[tile]; }
   std::size_t bytes() const { return size_; }
 
-  /// Room for one more record, all zero.
+  /// Adds room for one more record, all zero, and returns it.
   std::byte* add(std::size_t bytes);
   void finish();
 
@@ -125,17 +127,17 @@ class TileTable {
   std::vector<std::size_t> starts_;
 };
 
-/// How far what the tables say may be from what they stand for.
+/// How far the tables may be from what they represent.
 struct TableErrors {
   std::vector<double> ofTarget;  ///< [weights] at weight 1
-  double rounding = 0;           ///< on top, for weights within [-1, 1]
+  double rounding = 0;           ///< in addition, for weights within [-1, 1]
 };
 
-/// What an Evaluator holds.
+/// The data of an Evaluator.
 struct EvaluatorTables {
   Index vertices = 0, weights = 0;
   TileTable positions{2};
-  TileTable derivatives{4};  ///< 32 rows ∂u and 32 rows ∂v a tile
+  TileTable derivatives{4};  ///< 32 rows of ∂u and 32 of ∂v per tile
   TableErrors positionErrors, derivativeErrors;
 };
 

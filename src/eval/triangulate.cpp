@@ -6,7 +6,7 @@
 namespace sweepface {
 namespace {
 
-// Cutting takes time with the square of the corners; larger polygons become fans.
+// Cutting takes time quadratic in the corners; larger polygons become fans.
 constexpr std::size_t kMostCorners = 512;
 
 class EarCutter {
@@ -32,8 +32,9 @@ class EarCutter {
   }
 
  private:
-  /// One that is left, and what speaks against cutting it off: ears come first, where a twisted
-  /// polygon has none any corner, and the shortest cut. Only neighbours of what is cut off change.
+  /// A remaining corner, and the cost of cutting it off. Ears come before other corners, which are
+  /// cut only if a twisted polygon has no ear; among each, the shortest cut comes first. Only the
+  /// neighbours of a cut corner are weighed again.
   struct Corner {
     Index index;
     double cost;

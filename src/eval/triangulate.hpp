@@ -11,15 +11,16 @@ namespace sweepface {
 /// Three corners of a polygon, counted from 0.
 using Triangle = std::array<Index, 3>;
 
-/// Where the corners of a face are.
+/// The positions of a face's corners.
 std::vector<Vec3> cornerPositions(const Polygons& polygons, std::span<const Vec3> positions,
                                   Index face);
 
-/// A polygon's normal, as long as twice its area seen along it; zero where there is none.
+/// A polygon's normal, whose length is twice the polygon's area seen along it; zero if there is
+/// none.
 Vec3 meanNormal(std::span<const Vec3> polygon);
 
-/// Cuts a polygon into its n − 2 triangles, which keep its winding: one corner after another that
-/// sticks out and holds no other, the one with the shortest cut first.
+/// Cuts a polygon into n − 2 triangles with its winding. One by one, cuts off convex corners whose
+/// triangle contains no other corner, the one with the shortest cut first.
 std::vector<Triangle> triangulate(std::span<const Vec3> polygon);
 
 }  // namespace sweepface

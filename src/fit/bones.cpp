@@ -14,13 +14,13 @@ namespace {
 
 using codec::CodedSite;
 
-// What a place and 1 are multiplied by.
+// An affine map of places in homogeneous coordinates.
 using Map = Eigen::Matrix<double, 3, 4>;
 
 Eigen::Vector3d vectorOf(const Vec3& v) { return {v.x, v.y, v.z}; }
 Eigen::Vector4d homogeneous(const Vec3& v) { return vectorOf(v).homogeneous(); }
 
-// The map from places to moves that leaves least squares; the smallest where they lie in a plane.
+// The least-squares map from places to moves; the smallest such map if the places lie in a plane.
 class LeastSquares {
  public:
   void add(const Vec3& place, const Vec3& move, double weight = 1) {
@@ -43,7 +43,7 @@ class BoneFinder {
              double tolerance)
       : rig_(rig), sites_(hierarchy.sites()), neutral_(neutral), near_(0.5 * tolerance) {
     for (const CodedSite& site : sites_) places_.push_back(neutral[site.first]);
-    // About the middle, where sums of squares keep their digits.
+    // Relative to the middle, where sums of squares keep their digits.
     Vec3 middle;
     double size = 0;
     for (const Vec3& p : places_) middle += (1.0 / static_cast<double>(places_.size())) * p;
@@ -82,7 +82,7 @@ class BoneFinder {
     return (map * homogeneous(places_[site]) - vectorOf(move(target, site))).norm();
   }
 
-  // Sites that arcs join, the largest part first.
+  // Groups the sites that arcs join into parts, the largest first.
   void gatherParts() {
     const Wireframe& w = rig_.surface.wireframe();
     UnionFind joined(static_cast<Index>(w.nodes.size()));
@@ -98,7 +98,7 @@ class BoneFinder {
     });
   }
 
-  // The map that most of what moves follows (iteratively reweighted least squares).
+  // The map that most of the sites follow (iteratively reweighted least squares).
   Map mapOf(Index target, std::span<const Index> sites) const {
     constexpr int kRounds = 12;
     std::vector<double> weights(sites.size(), 1);
@@ -114,8 +114,8 @@ class BoneFinder {
     return map;
   }
 
-  // What of a part moves as a whole in the target that moves it most, if that is a good deal of it,
-  // and the targets that move it so.
+  // The sites of a part that move as a whole in the target that moves it most, if they are a good
+  // deal of it, with the maps of all targets that move them as a whole.
   Bone boneOf(const std::vector<Index>& part) const {
     constexpr std::size_t kFewest = 8;
     Bone bone;
@@ -173,7 +173,7 @@ class BoneFinder {
           packing.poses[carried.target + 1].carries.push_back(*carry);
   }
 
-  // By the places that the file knows; nothing where that takes larger numbers than it can hold.
+  // Fitted to the places that the file knows; nothing if it cannot hold numbers that large.
   std::optional<Packing::Carry> carryOf(Index bone, Index target, const codec::Bones& bones) const {
     LeastSquares sums;
     for (const auto& [vector, its, isPosition, at] : bones.places())
@@ -201,7 +201,7 @@ double bitsOf(std::span<const codec::Steps3> vectors) {
   return sum;
 }
 
-// Bones that carry nothing are none.
+// Removes the bones that carry nothing.
 void dropUnused(Packing& packing) {
   std::vector<Index> number(codec::kMostBones, -1);
   for (const Packing::Pose& pose : packing.poses)
@@ -216,7 +216,7 @@ void dropUnused(Packing& packing) {
   if (count == 0) packing.bones.clear();
 }
 
-// Takes back what tells more than it spares.
+// Removes carries that cost more bits than they save.
 void dropIdle(const Rig& rig, const codec::Lattice& lattice, std::span<const Vec3> neutral,
               Packing& packing) {
   const codec::Bones bones(rig.surface, packing, neutral);

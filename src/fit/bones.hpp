@@ -6,8 +6,9 @@
 
 namespace sweepface {
 
-/// Finds what targets move as wholes, to within half of the tolerance, and puts into the packing
-/// what hangs on which bone and how targets carry it. `neutral` [S] is what the file will hold.
+/// Finds the parts that targets move as a whole, to within half of the tolerance, and stores in the
+/// packing which vectors each bone carries and how targets move the bones. `neutral` [S] is the
+/// neutral as the file will hold it.
 void findBones(const Rig& rig, const codec::Lattice& lattice, std::span<const Vec3> neutral,
                double tolerance, Packing& packing);
 

@@ -22,7 +22,7 @@ double diagonal(const PolygonMesh& mesh) {
 }
 
 Result<void> checkTolerance(double tolerance, double diagonal) {
-  // Of the diagonal: what single precision rounds off at its end.
+  // Share of the diagonal: the rounding error of single precision at its far end.
   constexpr double kLeast = 0x1p-25;
   if (tolerance > diagonal)
     return fail(fmt::format(

@@ -4,24 +4,24 @@
 
 namespace sweepface {
 
-/// Fails where there is no surface to fit, or what a file cannot hold.
+/// Fails if there is no surface to fit, or if a file cannot hold the source.
 Result<void> checkSource(const MeshRig& source);
 
-/// The largest coordinate, and the most that single precision is off of one.
+/// The largest absolute coordinate, and the largest error of one in single precision.
 struct Reach {
   double away = 0, off = 0;
   void include(const Vec3& v);
 };
-/// Of what faces use.
+/// The reach of the vertices that faces use.
 Reach reachOf(const PolygonMesh& mesh);
 
-/// Fails where single precision tells places or ways less finely than the tolerance.
+/// Fails if single precision resolves positions or movements less finely than the tolerance.
 Result<void> checkPrecision(const MeshRig& source, double tolerance);
 
-/// Fails where an option, which messages call `what`, is no number from 0.
+/// Fails unless an option, which messages call `what`, is finite and not negative.
 Result<void> checkFromZero(double value, std::string_view what);
 
-/// Fails where texture coordinates cannot be packed to so many bits.
+/// Fails if texture coordinates cannot be packed to this many bits.
 Result<void> checkTextureBits(int bits);
 
 }  // namespace sweepface

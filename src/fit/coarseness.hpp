@@ -4,11 +4,11 @@
 
 namespace sweepface {
 
-/// How far the faces of a mesh lean from the normals of their vertices, in the middle of all. A
-/// surface near all vertices that has their normals must make up for it in between.
+/// How far the faces of a mesh lean from the normals of their vertices: the median. A surface that
+/// follows all vertices and has their normals must make up for it in between.
 struct Coarseness {
   double degrees = 0;  ///< from the mean normal of a face's vertices
-  double height = 0;   ///< by how much a face stands out across its width, in model units
+  double height = 0;   ///< how far a face stands out across its width, in model units
 };
 Coarseness coarsenessOf(const PolygonMesh& mesh);
 

@@ -12,7 +12,7 @@ using codec::Prediction;
 
 namespace {
 
-// Every vertex of level 1 as a combination of coefficients, taken apart by coefficient.
+// Expands every vertex of level 1 in coefficients and sorts the terms by coefficient.
 class ColumnBuilder {
  public:
   ColumnBuilder(const Surface& surface, const Tessellation& grid, const Prediction& prediction,
@@ -61,10 +61,10 @@ class ColumnBuilder {
   };
   using Sums = std::array<double, 3>;  // position, tangents along u and v
 
-  // From the finest to the coarsest, what a vector counts goes on to what predicts it. `sum` is
-  // zero before and after.
+  // From the finest vector to the coarsest, adds the weights of each to the vectors that predict
+  // it. `sum` is zero before and after.
   std::vector<Entry> coefficientRow(Index vertex, std::vector<Sums>& sum) const {
-    constexpr double kNothing = 1e-4;  // of a step: verified anyway
+    constexpr double kNothing = 1e-4;  // of a step: results are verified anyway
     std::vector<Index> heap;
     const auto add = [&](Index vector, const Sums& more, double factor) {
       Sums& own = sum[vector];
@@ -89,7 +89,7 @@ class ColumnBuilder {
       std::ranges::pop_heap(heap);
       const Index top = heap.back();
       heap.pop_back();
-      if (top == last) continue;  // sums that had cancelled come twice
+      if (top == last) continue;  // a sum that had cancelled is in the heap twice
       last = top;
       const Prediction::Step& step = prediction_.steps[top];
       const Sums factors = sum[step.vector];

@@ -9,13 +9,13 @@
 
 namespace sweepface {
 
-/// What a step of each coefficient does to the vertices of level 1, as sparse columns and rows.
+/// The effect of a step of each coefficient on the vertices of level 1, as sparse columns and rows.
 struct Columns {
   std::vector<Index> start;  ///< [S + 1]
   std::vector<Index> vertex;
-  /// For a step of 1: how it moves the vertex, and how it turns the tangents along u and v there.
+  /// For a step of 1: the factors on the vertex's position and on its tangents along u and v.
   std::vector<std::array<float, 3>> weight;
-  /// The same the other way round: the coefficients that move a vertex, and how far.
+  /// The transpose: the coefficients that move a vertex, and how far.
   std::vector<Index> rowStart;  ///< [vertices + 1]
   std::vector<Index> rowVector;
   std::vector<float> rowWeight;
@@ -24,7 +24,7 @@ struct Columns {
 };
 
 /// `inStored` is every vector as a combination of stored ones (surface/terms.hpp). Uses all cores;
-/// memory and time grow with the number of coefficients that move a vertex, about 150 each.
+/// memory and time grow with the number of coefficients that move each vertex, about 150.
 Columns columnsOf(const Surface& surface, const Tessellation& grid,
                   const codec::Prediction& prediction,
                   const std::vector<std::vector<Term>>& inStored);

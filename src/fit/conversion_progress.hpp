@@ -8,13 +8,13 @@
 
 namespace sweepface {
 
-/// Tells who asked for a conversion how far it is, which never becomes less; from any thread.
+/// Reports the progress of a conversion to its caller. Never goes backwards; thread-safe.
 class ConversionProgress {
  public:
   explicit ConversionProgress(const ConvertOptions& options) : options_(options) {}
 
   bool cancelled() const { return options_.cancel && options_.cancel->load(); }
-  /// How far the fit is, and packing after it.
+  /// Progress of the fit, and of packing after it.
   void reportFit(std::string_view what, double done) { report(what, fitShare() * done); }
   void reportPacking(std::string_view what, double done) {
     report(what, std::lerp(fitShare(), 1, done));
@@ -22,7 +22,7 @@ class ConversionProgress {
   void end() { report("done", 1); }
 
  private:
-  double fitShare() const { return options_.pack ? 0.3 : 1; }  // of the time that heads take
+  double fitShare() const { return options_.pack ? 0.3 : 1; }  // of the time, measured on heads
 
   void report(std::string_view what, double done) {
     const std::scoped_lock lock(telling_);

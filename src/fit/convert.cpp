@@ -21,40 +21,41 @@ namespace sweepface {
 
 namespace {
 
-// Vertices that rounding left so near each other become one: of the diagonal, and of the tolerance.
+// Vertices that rounding left this near each other become one: shares of diagonal and tolerance.
 constexpr double kRounding = 1e-6, kRoundingShare = 1.0 / 64;
 // The fit's share of the tolerance where the rest is left to packing.
 constexpr double kFitShare = 0.9;
-// Solving leaves traces of an expression everywhere, which move nobody visibly and would make every
-// expression as large as the neutral: below this share of the tolerance they are none. Packing
-// rounds them away by itself.
+// Solving leaves traces of an expression everywhere, which move nothing visibly but would make
+// every expression as large as the neutral: below this share of the tolerance they are dropped.
+// Packing rounds them away by itself.
 constexpr double kTrace = 0.001;
-// What packing does to normals is more than a limit on the fit's could mend.
+// Factor on the fit's limit on normals before packing, which changes normals by more than a tighter
+// limit could make up for.
 constexpr double kNormalShare = 1.25;
 // Predicted slopes overshoot where an edge is this many times as long as the next along its line.
 constexpr double kUneven = 3;
-// What packing aims at next, of what it aimed at last, where nothing tells it better.
+// The next angle that packing aims at, relative to the last one, if nothing guides it.
 constexpr double kSmaller = 0.35;
-// Normals that come no nearer than this, of where they were, are as near as packing brings them.
+// If the error of normals stays above this share of the last one, packing can do no more for them.
 constexpr double kGain = 0.97;
-// Where less than half of what is usual is aimed at steps are finer, in proportion, to this share:
-// steps too large for the angle make normals worse and the search long.
+// If packing aims at less than half of the usual angle, steps are finer in proportion, down to this
+// share: steps too large for the angle make normals worse and the search long.
 constexpr double kFinestSteps = 1.0 / 64;
-// The limit that leads to normals within a tolerance, root mean square.
+// This times the tolerance for normals, which is an RMS, is the limit that most likely meets it.
 constexpr double kLimitForTolerance = 2.5;
-// The tightest limit of those that are tried; nearly every edge of the mesh is a curve by then.
+// The tightest limit that is tried, in degrees; nearly every edge of the mesh is a curve by then.
 constexpr double kTightest = 0.3;
 
-/// A way to normals as near as they must be.
+/// An attempt to meet the tolerance for normals.
 struct NormalTry {
-  double limit = 0;       ///< on the fit's; 180: none
-  bool isGuided = false;  ///< whether what packing aims at goes by the tolerance for normals
+  double limit = 0;       ///< on the fit's normals; 180: none
+  bool isGuided = false;  ///< whether the angle packing aims at follows the tolerance for normals
 };
 
-/// Those to be tried in turn: first what most likely leads to the tolerance for normals. A tighter
-/// limit brings normals nearer, but now and then its fit is one to which packing does more harm. So
-/// where none of these leads there, the same limits are tried whatever the tolerance for normals
-/// is: who is told how near they came can have that.
+/// The attempts in turn, first those that most likely meet the tolerance for normals. A tighter
+/// limit brings normals nearer, but now and then packing does more harm to its fit. If none of
+/// these succeeds, limits follow that do not depend on the tolerance for normals, so that the
+/// figure in a refusal can be reached by asking for it.
 std::vector<NormalTry> normalTries(const ConvertOptions& options, double usual) {
   const double limit = options.normalLimit > 0 ? options.normalLimit : usual;
   if (!(options.normalTolerance > 0)) return {{limit, false}};
@@ -66,7 +67,7 @@ std::vector<NormalTry> normalTries(const ConvertOptions& options, double usual) 
   return tries;
 }
 
-/// To four digits, so that nothing less is written.
+/// Rounded up to four digits, so that what is written is never too small.
 double roundedUp(double x) {
   const double unit = std::pow(10, std::floor(std::log10(x)) - 3);
   return std::ceil(x / unit * (1 + 1e-12)) * unit;
@@ -120,7 +121,7 @@ class Converter {
     return checkTextureBits(options_.textureBits);
   }
 
-  // Sets normalRms_ where there is a tolerance for normals.
+  // Sets normalRms_ if there is a tolerance for normals.
   Result<Conversion> convertWithin(const GridMesh& mesh, const NormalTry& normals) {
     auto found = fits_.find(normals.limit);
     if (found == fits_.end())
@@ -155,8 +156,9 @@ class Converter {
     return conversion;
   }
 
-  // Aims at smaller angles until normals are as near as they must be, or that helps no more. The
-  // rig is that of the last try, normalRms_ the least: no less than the fit's, to speak of.
+  // Aims at smaller and smaller angles until normals are within their tolerance or that no longer
+  // helps. The rig is that of the last try, normalRms_ the least of all; packing hardly ever makes
+  // it less than the fit's, so a fit whose own is too large is not packed.
   Result<void> pack(Rig& rig, const Rig& fitted, const NormalTry& normals) {
     double angle = kAngleShare * normals.limit;
     if (!(options_.normalTolerance > 0)) return packOnce(rig, angle);
@@ -167,7 +169,7 @@ class Converter {
     for (int attempt = 0; attempt < kTries; ++attempt) {
       rig = fitted;
       if (auto ok = packOnce(rig, angle); !ok) {
-        if (attempt > 0 && !progress_.cancelled()) break;  // it was the angle that was too small
+        if (attempt > 0 && !progress_.cancelled()) break;  // only the angle was too small
         return ok;
       }
       const double rms = normalRms(rig, source_),
@@ -198,10 +200,10 @@ class Converter {
   const ConvertOptions& options_;
   ConversionProgress progress_;
   double tolerance_ = 0, usualLimit_ = 0;
-  double aim_ = 0;  // the tolerance where one vertex of several stands for all
+  double aim_ = 0;                             // the tolerance less the rounding of merged vertices
   std::map<double, Result<Conversion>> fits_;  // by their limits on normals
   double normalRms_ = 0;
-  double nearest_ = std::numeric_limits<double>::infinity();  // of what is not guided
+  double nearest_ = std::numeric_limits<double>::infinity();  // of the attempts not guided
 };
 
 }  // namespace

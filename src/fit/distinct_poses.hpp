@@ -6,8 +6,8 @@
 
 namespace sweepface {
 
-/// The poses of a matrix [rows × 3·poses] but for those that are the first once more: most
-/// expressions leave most of a face still, and what is the same is reckoned with once.
+/// The poses of a matrix [rows × 3·poses] without those equal to the first. Most expressions leave
+/// most of a face still, so equal poses are computed only once.
 class DistinctPoses {
  public:
   DistinctPoses() = default;
@@ -27,7 +27,7 @@ class DistinctPoses {
     return result;
   }
 
-  /// Where x of a pose is among those.
+  /// The column of a pose's x in that matrix.
   Index column(Index pose) const { return columns_[pose]; }
 
  private:

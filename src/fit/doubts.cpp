@@ -19,21 +19,21 @@
 namespace sweepface {
 namespace {
 
-// A tolerance of more than this share of the diagonal, about a head's nose, or of so many edges.
+// A tolerance is doubtful above this share of the diagonal, about a head's nose, or so many edges.
 constexpr double kOfSize = 0.05, kOfEdges = 4;
-// No expression makes most edges so many times as long, or as short.
+// No expression makes most edges this many times as long, or as short.
 constexpr double kStretch = 2;
-// Other axes leave only such a share of a target's movement, squared. Nothing that is meant moves
-// the most targets by such a share of the diagonal.
+// If a target has other axes, changing them leaves less than this share of its squared movement. No
+// sensible rig moves most targets by this share of the diagonal.
 constexpr double kLeft = 0.25, kWay = 0.5;
 
-// What is hidden between vertices shows where half of the faces lean so far from their normals, in
-// degrees, and the tolerance is no more than so many times as large as that makes them stand out.
-// Of few faces nobody expects more.
+// Creases between vertices show if half of the faces lean this many degrees from their normals and
+// the tolerance is below this many times the height by which that makes them stand out. Meshes of
+// fewer faces than this are not expected to be smooth.
 constexpr double kLean = 2.5, kSmoothly = 5;
 constexpr Index kManyFaces = 1000;
 
-/// Edges of faces, and vertices of faces.
+/// The edges and the vertices of faces, each once.
 struct Outline {
   std::vector<std::pair<Index, Index>> edges;
   std::vector<Index> vertices;
@@ -51,7 +51,7 @@ struct Outline {
   }
 };
 
-/// Of those of any length; 0 if there is none.
+/// The median length of edges longer than 0; 0 if there are none.
 double medianEdge(const Outline& outline, const std::vector<Vec3>& positions) {
   std::vector<double> lengths;
   for (const auto& [a, b] : outline.edges)
@@ -60,7 +60,7 @@ double medianEdge(const Outline& outline, const std::vector<Vec3>& positions) {
   return median(std::move(lengths));
 }
 
-/// How many times as long edges are in a target, in the middle of all of any length.
+/// The median factor by which a target stretches edges, of those longer than 0 in the neutral.
 double stretchOf(const Outline& outline, const std::vector<Vec3>& neutral,
                  const std::vector<Vec3>& target) {
   std::vector<double> stretches;
@@ -76,16 +76,17 @@ Vec3 centreOf(const Outline& outline, const std::vector<Vec3>& positions) {
   return sum * (1.0 / static_cast<double>(outline.vertices.size()));
 }
 
-/// How a target stands to the neutral as a whole: what brings that nearest to it (Kabsch 1976).
+/// How a target lies relative to the neutral as a whole: the motion that brings the neutral nearest
+/// to it (Kabsch 1976).
 struct Attitude {
   bool mirrored = false;
-  bool swapsAxes = false;  ///< nearly a turn that brings axes onto others: heads turn otherwise
-  double degrees = 0;      ///< to the nearest 30, as such turns are, by 90, 120 or 180
-  double left = 0;         ///< of the target's movement about its centre, squared
+  bool swapsAxes = false;  ///< nearly a turn that maps axes to axes; heads do not turn like that
+  double degrees = 0;      ///< to the nearest 30: such turns are by 90, 120 or 180
+  double left = 0;         ///< share of the target's squared movement about its centre that is left
 };
 Attitude attitudeOf(const Outline& outline, const std::vector<Vec3>& neutral,
                     const std::vector<Vec3>& target) {
-  constexpr double kClearly = 0.02;  // flat faces are no worse mirrored
+  constexpr double kClearly = 0.02;  // flat faces fit as well mirrored
   constexpr double kNearly = 0.99;   // the cosine of 8 degrees
   const Vec3 from = centreOf(outline, neutral), to = centreOf(outline, target);
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
@@ -135,7 +136,7 @@ TargetDoubt doubtAbout(const Outline& outline, const std::vector<Vec3>& neutral,
   return {};
 }
 
-/// Empty where a surface is smooth between the vertices that it follows.
+/// Empty if a surface is smooth between the vertices that it follows.
 std::string doubtBetweenVertices(const PolygonMesh& neutral, double tolerance) {
   if (neutral.polygons.faceCount() < kManyFaces) return {};
   const Coarseness coarse = coarsenessOf(neutral);
@@ -202,7 +203,7 @@ std::vector<std::string> doubtsAbout(const MeshRig& source, double tolerance) {
                     listed(neutrals)));
   tell(of(TargetDoubt::units), "may be in other units, or have their vertices in another order");
   tell(of(TargetDoubt::axes), "may have other axes");
-  // Lower teeth go far for their size, but hardly in most targets.
+  // Lower teeth move far for their size, but hardly in most targets.
   if (2 * away.size() > doubts.size() - still.size()) tell(away, "may have another origin");
   return sentences;
 }

@@ -7,9 +7,10 @@
 
 namespace sweepface {
 
-/// Sentences on what can be converted but is hardly meant: a tolerance like the mesh's size or far
-/// above its edges or too fine for a coarse mesh, and targets that are the neutral, or seem to have
-/// other units, axes or another origin or order of vertices, or are called like a neutral.
+/// Warnings, in sentences, about input that can be converted but is probably a mistake: a tolerance
+/// close to the mesh's size, far above its edge lengths or too fine for a coarse mesh; and targets
+/// that equal the neutral, seem to have other units, axes or another origin or vertex order, or are
+/// named like a neutral.
 std::vector<std::string> doubtsAbout(const MeshRig& source, double tolerance);
 
 }  // namespace sweepface

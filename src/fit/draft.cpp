@@ -4,8 +4,8 @@ namespace sweepface {
 
 namespace {
 
-// Lines that end at T-nodes run on; other nodes store their jets. Whether a line did, so that there
-// are other patches now.
+// Extends the lines that end at T-nodes and lets other nodes store their jets. Returns whether a
+// line was extended, so that there are other patches now.
 bool breakCircles(const std::vector<Index>& breakers, MeshWireframe& on, Layout& layout,
                   ExtraJets& extra) {
   bool extended = false;

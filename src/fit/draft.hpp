@@ -12,14 +12,14 @@ struct Draft {
   Surface surface;
 };
 
-/// What a vertex of the mesh stores as a node beyond what the layout grants it: its slopes where
-/// lines pass from a long edge to a short one, because predicted slopes overshoot there; its whole
-/// jet where its prediction would run in a circle.
+/// What each vertex of the mesh, if it is a node, stores beyond what the layout grants it: its
+/// slopes where lines pass from a long edge to a short one, because predicted slopes overshoot
+/// there; its whole jet where its prediction would be circular.
 using ExtraJets = std::vector<JetMask>;
 inline constexpr JetMask kSlopes = kPosition | 1 << 1 | 1 << 3;
 
-/// Reads the patches and the surface off a layout. Circles of derivations are broken by letting
-/// nodes store their jets or by running lines on; both are remembered in the layout and in `extra`.
+/// Reads the patches and the surface off a layout. Breaks circular derivations by letting nodes
+/// store their jets or by extending lines, and records this in `extra` and in the layout.
 Result<Draft> makeDraft(Layout& layout, ExtraJets& extra);
 
 }  // namespace sweepface

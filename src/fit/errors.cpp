@@ -60,8 +60,8 @@ class PatchMeter {
     return result;
   }
 
-  // The faces, as (i, j), against which a triangle of the fine surface looks the other way in a
-  // pose where the face is sound.
+  // The faces, as (i, j), from which a triangle of the fine surface faces away in a pose where the
+  // face is sound.
   std::vector<std::pair<Index, Index>> folds() const {
     std::vector<std::pair<Index, Index>> found;
     const Index across = kFineLevel * grid_.m + 1;
@@ -97,7 +97,7 @@ class PatchMeter {
     return false;
   }
 
-  // All at once: a product of matrices takes far less than one of rows after the other.
+  // All at once: one matrix product takes far less time than one row after the other.
   struct Asked {
     double u, v;
     int du, dv;
@@ -111,7 +111,7 @@ class PatchMeter {
     }
     return factors * vectors_;
   }
-  // At a collapsed side one derivative vanishes; its limit is what it grows to inside.
+  // At a collapsed side one derivative vanishes; its direction is taken from just inside.
   void addDerivatives(Index i, Index j, std::vector<Asked>& asked) const {
     const Site corner{patch_, double(i), double(j)},
         site = touchesCollapsed(i, j) ? surface_.inside(corner) : corner;

@@ -23,8 +23,7 @@ FaceMap::FaceMap(const Rig& rig, std::vector<Index> places, std::span<const Vec3
   findRims(p);
 }
 
-// The edges that one face alone has, each with the vertices before and after it along the
-// boundary.
+// Finds the edges of one face only, each with the vertices before and after it along the boundary.
 void FaceMap::findRims(const Polygons& p) {
   std::map<std::pair<Index, Index>, std::pair<Index, Index>> edges;  // welded ends → corners
   for (Index f = 0; f < p.faceCount(); ++f)
@@ -44,7 +43,7 @@ void FaceMap::findRims(const Polygons& p) {
       rims[{corners.first, corners.second}] = {before[ends.first], after[ends.second]};
 }
 
-// Faces across an edge are at both of its ends; the first one is enough.
+// A face across an edge is listed at both of its ends; once is enough.
 double Facets::distance(const Vec3& p, Index face) const {
   const Index* const corners = &polygons_.corners[polygons_.faceStart[face]];
   double best = distanceToFace(p, face);

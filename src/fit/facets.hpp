@@ -12,22 +12,21 @@
 
 namespace sweepface {
 
-/// Of the tessellation that is compared with the facets, and whose triangles may fold.
+/// Level of the tessellation that is compared with the facets and whose triangles may fold.
 inline constexpr Index kFineLevel = 4;
 
-/// Which source face each quad of the tessellation at level 1 belongs to, and what lies round each
-/// face.
+/// The source face of each quad of the tessellation at level 1, and what surrounds each face.
 struct FaceMap {
-  std::vector<Index> faceOfQuad;    ///< [grid quads]; empty where the rig does not know
-  std::vector<Index> cornerPlaces;  ///< [C] as cornerPlaces() tells (fit/corner_places.hpp)
-  // Without these there are neither distances nor sags.
+  std::vector<Index> faceOfQuad;    ///< [grid quads]; empty if the rig does not know
+  std::vector<Index> cornerPlaces;  ///< [C] see cornerPlaces() (fit/corner_places.hpp)
+  // Needed for distances and sags; only the second constructor fills them.
   std::vector<std::vector<Index>> facesAt;  ///< [V] faces that have the vertex
   std::map<std::pair<Index, Index>, std::pair<Index, Index>>
       rims;                                     ///< boundary edge → corners before and after
   std::map<Index, std::vector<Triangle>> cuts;  ///< faces of more than four corners → triangles
 
   FaceMap(const Rig& rig, std::vector<Index> cornerPlaces);
-  /// Also knows what lies round faces; larger ones are cut as the neutral's positions say.
+  /// Also finds what surrounds faces; larger faces are cut by the neutral's positions.
   FaceMap(const Rig& rig, std::vector<Index> cornerPlaces, std::span<const Vec3> neutral);
 
  private:
@@ -45,14 +44,14 @@ class Facets {
         gridNormals_(gridNormals),
         tolerance_(tolerance) {}
 
-  /// From a point to the nearest of a face and those round it.
+  /// Distance of a point from a face or from its neighbours, whichever is nearest.
   double distance(const Vec3& p, Index face) const;
   /// Twice the vector area.
   Vec3 normal(Index face) const;
   /// How far a smooth surface with the source's vertex normals rises above the flat face.
   double sag(Index face) const;
-  /// How many triangles of a small quad look the other way than the face that it lies on; 0 where
-  /// that does not say which way is out (docs/error-metric.md).
+  /// How many triangles of a small quad face away from the source face it lies on; 0 if that face
+  /// does not say which way is out (docs/error-metric.md).
   int folds(const std::array<Index, 4>& quad, std::span<const Vec3> positions, Index face) const;
 
  private:

@@ -14,16 +14,16 @@ namespace sweepface {
 namespace {
 
 constexpr int kMostTries = 12, kMostBracketHalvings = 4, kMostFailures = 4;
-constexpr double kCloseEnough = 0.98;  // of the bytes
-constexpr double kPower = 0.8;         // bytes fall by, as the tolerance grows
-constexpr double kAway = 4;            // from a first tolerance that cannot be met
+constexpr double kCloseEnough = 0.98;  // of the bytes allowed
+constexpr double kPower = 0.8;         // bytes fall with this power of the tolerance
+constexpr double kAway = 4;            // factor away from a first tolerance that cannot be met
 
 struct Try {
   double tolerance = 0;
   std::size_t bytes = 0;  // SIZE_MAX: it cannot be met
 };
 
-// From the first try outwards until one is too large and one fits, then between them.
+// Searches outwards from the first try until one is too large and one fits, then between them.
 struct Bracket {
   Try coarse, fine;
   int halvings = 0;
@@ -40,14 +40,15 @@ struct Bracket {
   }
 };
 
-/// Whether two tries tell that none will do, however coarse: what does not depend on the tolerance
-/// is too much by itself. What is left to save goes by that power; three times as much may be.
+/// Whether two tries show that no tolerance will do, however coarse, because the bytes that do not
+/// depend on it are too many by themselves. What is left to save is estimated by kPower, with a
+/// factor of three to be safe.
 bool isHopeless(const Try& finer, const Try& coarser, std::size_t mostBytes) {
   if (finer.bytes == SIZE_MAX || coarser.bytes == SIZE_MAX || coarser.bytes >= finer.bytes)
     return false;
   const double saved = static_cast<double>(finer.bytes - coarser.bytes);
   const double left = saved / (std::pow(coarser.tolerance / finer.tolerance, kPower) - 1);
-  constexpr double kMargin = 1.1;  // bytes of small meshes go up and down
+  constexpr double kMargin = 1.1;  // the bytes of small meshes fluctuate
   return static_cast<double>(coarser.bytes) - 3 * left > kMargin * static_cast<double>(mostBytes);
 }
 
@@ -58,8 +59,8 @@ Result<std::size_t> bytesOf(Rig rig, const FinishRig& finish) {
 
 }  // namespace
 
-// Where the first tolerance cannot be met, some others are tried before anything else: smaller ones
-// bring normals nearer, larger ones are met where distances were too great.
+// If the first tolerance cannot be met, some others are tried before anything else: smaller ones if
+// normals were out of reach, larger ones if distances were.
 Result<Conversion> convertToBytes(const MeshRig& source, ConvertOptions options,
                                   std::size_t mostBytes, const FinishRig& finish) {
   options.pack = true;
@@ -70,7 +71,7 @@ Result<Conversion> convertToBytes(const MeshRig& source, ConvertOptions options,
   Bracket bracket;
   Try smallest{0, SIZE_MAX};
   int failures = 0;
-  // Nobody knows how many tries it takes: each has a part of what is left.
+  // The number of tries is not known in advance: each gets a share of the progress that is left.
   int number = 0;
   double begun = 0, part = 0;
   const auto progress = std::move(options.progress);
@@ -105,9 +106,9 @@ Result<Conversion> convertToBytes(const MeshRig& source, ConvertOptions options,
       if (isFinest && attempt == 0) break;
     } else if (conversion || best) {
       if (!best && isHopeless(bracket.fine, now, mostBytes)) break;
-      bracket.fine = now;  // what cannot be met is too fine as well
+      bracket.fine = now;  // a tolerance that cannot be met is too fine as well
     } else {
-      bracket.coarse = now;  // what cannot be met though a finer one could be is too coarse
+      bracket.coarse = now;  // cannot be met although a finer one could be: too coarse
     }
     options.tolerance = bracket.next(now, mostBytes);
   }

@@ -13,11 +13,11 @@ namespace sweepface {
 namespace {
 
 constexpr int kMostRounds = 60;
-// Of them for the sake of normals alone.
+// Rounds of these for the sake of normals alone.
 constexpr int kMostForNormals = 8;
 
-// The stored vectors as they will be after the file: neutral and differences rounded each to single
-// precision, without traces. What is verified is what will be read back.
+// The stored vectors as they will be read back from the file: neutral and differences each rounded
+// to single precision, without traces. So what is verified is what will be read.
 Solution asStored(const Solution& solution, double trace) {
   const auto rounded = [](const Vec3& v) {
     const auto single = [](double x) { return static_cast<double>(static_cast<float>(x)); };
@@ -52,7 +52,7 @@ class SurfaceFitter {
   Result<Fitted> run() {
     ExtraJets extra = slopesWhereUneven();
     double nearest = std::numeric_limits<double>::infinity();
-    int smoothing = 0;  // rounds since the promise holds
+    int smoothing = 0;  // rounds in which the promise held
     for (int round = 0; round < kMostRounds; ++round) {
       if (progress_.cancelled()) return fail("the conversion was interrupted");
       auto draft = makeDraft(layout_, extra);
@@ -97,7 +97,7 @@ class SurfaceFitter {
     return measureDraft(layout_, fitted.draft, data_, fitted.solution);
   }
 
-  // With other shape parameters, if the fit that follows is better and still within the limits.
+  // With other shape parameters, if the new fit is better and still within the limit on distance.
   Fitted reshaped(Fitted fitted, const DraftErrors& errors) const {
     if (!choosesShapes_) return fitted;
     progress_.reportFit("shape parameters", 0.92);

@@ -22,7 +22,7 @@ FoldFinder::FoldFinder(const Rig& rig, const Tessellation& grid)
 template <typename Visit>
 void FoldFinder::visit(std::span<const Vec3> vectors, std::span<const Vec3> source,
                        Visit visit) const {
-  if (map_.faceOfQuad.empty()) return;  // nobody knows of which facet a quad is
+  if (map_.faceOfQuad.empty()) return;  // it is not known which facet a quad belongs to
   const auto normals = vertexNormals(rig_.source.polygons, source, map_.cornerPlaces, vertexCount_,
                                      rig_.source.quadCorners);
   const Facets facets(rig_.source, map_, source, normals, rig_.tolerance);

@@ -11,11 +11,11 @@ class FoldFinder {
  public:
   explicit FoldFinder(const Rig& rig, const Tessellation& grid);
 
-  /// The quads of `grid` (level 1) that fold in a pose of the rig whose source has its vertices at
-  /// `source`; in order, each as often as sixteenths of it do.
+  /// The quads of `grid` (level 1) that fold in a pose of the rig whose source vertices are at
+  /// `source`. Ascending; each is listed once for every sixteenth of it that folds.
   std::vector<Index> quads(std::span<const Vec3> vectors, std::span<const Vec3> source) const;
 
-  /// How many triangles of level 4 fold there, two to a sixteenth of a quad.
+  /// The number of level-4 triangles that fold in that pose, two to a sixteenth of a quad.
   Index count(std::span<const Vec3> vectors, std::span<const Vec3> source) const;
 
   /// The vertices of such a quad.

@@ -10,7 +10,7 @@ namespace sweepface {
 
 namespace {
 
-// Also true where the distance is not a number, and that is the furthest.
+// A distance that is NaN counts as the furthest.
 bool isFurther(double distance, const FurthestVertex& known) {
   return !std::isnan(known.distance) && !(distance <= known.distance);
 }

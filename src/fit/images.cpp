@@ -9,7 +9,7 @@ namespace {
 
 using codec::Coefficients;
 
-// About how many bits it takes to tell coefficients where others are expected.
+// About how many bits coefficients take if others are expected.
 double bitsOf(const Coefficients& q, const Coefficients& expected) {
   double sum = 0;
   for (std::size_t v = 0; v < q.size(); ++v) sum += codec::bitsOf(q[v], expected[v]);
@@ -52,7 +52,7 @@ void chooseImages(const Rig& rig, const codec::Lattice& lattice, Packing& packin
     double least = 0.9 * bitsOf(own, Coefficients(own.size()));
     Index& image = packing.poses[pose].image;
     image = -1;
-    // Its own image tells the second half only.
+    // Its own image predicts only the second half.
     if (const double s = 0.5 * least + 0.5 * bitsOf(own, lattice.image(own)); s < least)
       least = s, image = pose;
     if (pose == 0) continue;

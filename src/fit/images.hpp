@@ -8,13 +8,13 @@
 
 namespace sweepface {
 
-/// "Left" for "Right", "_L" for "_R", and the other way round, where a name first says a side; the
-/// same name if it says none. The other side of the other side is the name itself.
+/// Replaces "Left" by "Right", "_L" by "_R" and vice versa where a name first says a side; returns
+/// a name that says none unchanged. Applied twice, it gives the name itself.
 std::string otherSide(std::string name);
 
-/// For each pose the mirror image that leaves least to be told: none, its own, or that of the
-/// target whose name says the other side. Names go by twos, so what is compared with another pose
-/// is never itself what a third is compared with.
+/// Chooses for each pose the mirror image that leaves the fewest bits to store: none, its own, or
+/// that of the target whose name says the other side. Names come in pairs, so a pose that is
+/// compared with another one is never itself what a third is compared with.
 void chooseImages(const Rig& rig, const codec::Lattice& lattice, Packing& packing);
 
 }  // namespace sweepface

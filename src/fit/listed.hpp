@@ -6,8 +6,8 @@
 
 namespace sweepface {
 
-/// Names in quotes, each with what is to be said of it, of which six are told at most: "'a'
-/// (twice), 'b' (thrice) and 3 more"; empty if there is none.
+/// Names in quotes, each followed by its detail, six of them at most: "'a' (twice), 'b' (thrice)
+/// and 3 more"; empty if there are none.
 std::string listed(const std::vector<std::pair<std::string, std::string>>& namesAndDetails);
 
 }  // namespace sweepface

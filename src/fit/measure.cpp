@@ -23,10 +23,10 @@ struct PoseSamples {
   // From the source's vertices to their points on the surface; those of other sheets come last.
   std::vector<Vec3> offsets;
   std::vector<double> distances, displacements, angles;
-  double shadingSquares = 0, shadingCount = 0;  // of angles between the vertices
+  double shadingSquares = 0, shadingCount = 0;  // of the angles at places between vertices
 };
 
-/// Those of ascending errors.
+/// The summary of errors in ascending order.
 ErrorSummary summaryOfSorted(std::span<const double> errors) {
   if (errors.empty()) return {};
   // The smallest error that at least this share of them do not exceed.
@@ -42,7 +42,7 @@ ErrorSummary summaryOfSorted(std::span<const double> errors) {
 
 double rootOfMean(double sum, double count) { return count > 0 ? std::sqrt(sum / count) : 0; }
 
-/// What moves by d in the source moves by d + offset - offset of the neutral.
+/// A vertex that moves by d in the source moves by d + offset - offset of the neutral.
 void summarize(PoseSamples& s, std::span<const Vec3> neutralOffsets) {
   for (std::size_t v = 0; v < s.offsets.size(); ++v)
     s.displacements.push_back(norm(s.offsets[v] - neutralOffsets[v]));
@@ -177,7 +177,7 @@ Weights randomWeights(const Rig& rig, const MeshRig& source, std::mt19937& rando
   return weights;
 }
 
-/// Of the neutral and the targets after it.
+/// Sums up the samples of the neutral and of the targets after it.
 Measurement sumUp(std::vector<PoseSamples>& samples) {
   Measurement result;
   std::vector<double> distances, angles;

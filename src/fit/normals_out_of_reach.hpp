@@ -4,8 +4,8 @@
 
 namespace sweepface {
 
-/// How the sentence begins that says that the tolerance for distances could be met, but not the one
-/// for normals: a smaller one may bring both.
+/// The beginning of the error message for a conversion that met the tolerance for distances but not
+/// the one for normals: a smaller one for distances may meet both.
 inline constexpr std::string_view kNormalsOutOfReach = "normals came no nearer to the mesh's than";
 
 }  // namespace sweepface

@@ -27,8 +27,8 @@ MeshRig meshesOf(const Rig& rig) {
 
 namespace {
 
-// Of what is packed already what its steps stand for, so that its tolerance does not double each
-// time.
+// For a rig that is already packed, the tolerance that its steps imply, so that its tolerance does
+// not double each time.
 double ownTolerance(const Rig& rig, double size) {
   if (rig.packing.neutralStep > 0) return rig.packing.neutralStep / kNeutralStep;
   return rig.tolerance > 0 ? rig.tolerance : kDefaultTolerance * size;

@@ -7,15 +7,15 @@
 
 namespace sweepface {
 
-/// Where packing is to leave the vertices of level 1.
+/// Where packing should leave the vertices of level 1.
 struct PackGoals {
-  std::vector<char> isKnown;              ///< [vertices] whether it is to be anywhere
-  std::vector<std::vector<Vec3>> places;  ///< [poses][vertices] the neutral, then ways from it
+  std::vector<char> isKnown;              ///< [vertices] whether there is a goal
+  std::vector<std::vector<Vec3>> places;  ///< [poses][vertices] the neutral, then moves from it
 };
 
-/// Where a source has its vertices; one at which sheets touch has a place on each of them.
+/// The positions of the source's vertices; one at which sheets touch is a goal on each of them.
 PackGoals goalsOf(const Rig& rig, const MeshRig& source);
-/// Where they are.
+/// The positions that the vertices have now.
 PackGoals goalsOf(const Rig& rig);
 
 }  // namespace sweepface

@@ -14,8 +14,8 @@ using codec::Coefficients;
 
 namespace {
 
-// What a tangent that leans by the angle aimed at counts, in bits. The neutral's errors are in
-// every pose, those of a target only where it moves.
+// The cost in bits of a tangent that leans by the angle aimed at. The neutral's errors are in every
+// pose, those of a target only where it moves.
 constexpr double kNeutralBits = 1.5, kTargetBits = 0.1;
 
 void add(std::vector<Vec3>& sums, std::span<const Vec3> more) {
@@ -55,7 +55,7 @@ void PackedPoses::learnNeutral() {
   lattice_.learn(rig_.surface, rig_.neutral, step(0));
   findBones(rig_, lattice_, rig_.neutral, tolerance_, rig_.packing);
   bones_ = codec::Bones(rig_.surface, rig_.packing, rig_.neutral);
-  columns_ = {};  // before there are others: they are large
+  columns_ = {};  // freed before the new ones are made: they are large
   columns_ = columnsOf(rig_.surface, grid_, lattice_.prediction(1), inStored_);
 }
 

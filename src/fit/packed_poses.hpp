@@ -15,12 +15,12 @@
 
 namespace sweepface {
 
-/// The poses of a rig while they are packed: what coefficients say of each, and how far that is
-/// from the fit and from the source. The neutral comes first; targets are told beyond it.
+/// The poses of a rig while they are packed: the vectors that coefficients stand for, and how far
+/// these are from the fit and from the source. The neutral comes first; targets are relative to it.
 class PackedPoses {
  public:
-  /// Tangents shall lean by about `angle` degrees. The lattice is that of the rig's packing; the
-  /// source tells where faces fold.
+  /// Tangents may lean by about `angle` degrees. `lattice` is that of the rig's packing;
+  /// `source` is needed to find folds.
   PackedPoses(Rig& rig, const MeshRig& source, PackGoals goals, codec::Lattice lattice,
               double tolerance, double angle);
 
@@ -29,7 +29,7 @@ class PackedPoses {
   double tolerance() const { return tolerance_; }
   const codec::Lattice& lattice() const { return lattice_; }
   const Columns& columns() const { return columns_; }
-  /// Whether a source vertex stands at one of level 1.
+  /// Whether a vertex of level 1 has a goal.
   bool isKnown(Index vertex) const { return goals_.isKnown[vertex] != 0; }
 
   Packing::Pose& form(Index pose) { return rig_.packing.poses[pose]; }
@@ -37,32 +37,31 @@ class PackedPoses {
   /// What the image of a pose predicts [S], for Symmetry::partner.
   codec::Coefficients expected(Index pose) const;
 
-  /// The stored vectors [S] of the fit, until the pose is kept; of targets their differences.
+  /// The stored vectors [S] of the fit, until the pose is kept; for targets, their differences.
   const std::vector<Vec3>& fitted(Index pose) const { return rig_.vectorsOf(pose); }
-  /// What brings a target to where the fit has it, the neutral being off.
+  /// The vectors that put a target where the fit has it, making up for the packed neutral's errors.
   std::vector<Vec3> compensated(Index pose) const;
 
   codec::Coefficients rounded(Index pose, const std::vector<Vec3>& vectors) const;
-  /// The same for those [S] that are free, given the others.
+  /// The same for the vectors [S] that are free, given the others.
   codec::Coefficients rounded(Index pose, const std::vector<Vec3>& vectors,
                               codec::Coefficients given, std::span<const char> isFree) const;
   std::vector<Vec3> restored(Index pose, const codec::Coefficients& q) const;
 
-  /// How far off the source a pose with these vectors is [vertices]; nothing where that is not
-  /// known.
+  /// [vertices] How far a pose with these vectors is off its goals; zero where there is no goal.
   std::vector<Vec3> errors(Index pose, std::vector<Vec3> vectors) const;
   /// How far its tangents are off the fit's.
   Slopes slopes(Index pose, const std::vector<Vec3>& vectors) const;
-  /// The quads that fold then; in order, each as often as sixteenths of it do.
+  /// The quads that fold then, listed as by FoldFinder::quads.
   std::vector<Index> folds(Index pose, std::vector<Vec3> vectors) const;
   const std::vector<Index>& neutralFolds() const { return neutralFolds_; }
-  /// The vertices of quads, and the stored vectors that the surface around vertices is made of.
+  /// The vertices of quads, and the stored vectors that the surface at vertices depends on.
   std::vector<Index> corners(std::span<const Index> quads) const;
   std::set<Index> behind(std::span<const Index> vertices) const;
 
-  /// Puts what coefficients say into the rig. Poses may be kept at the same time.
+  /// Puts the vectors that coefficients stand for into the rig. Poses may be kept concurrently.
   void keep(Index pose, codec::Coefficients q);
-  /// From here on targets are predicted by the neutral that is kept, and bones carry them.
+  /// Finds the bones. From then on they carry targets, and the kept neutral predicts them.
   void learnNeutral();
 
  private:
@@ -83,7 +82,7 @@ class PackedPoses {
   PackGoals goals_;
   std::vector<codec::Coefficients> kept_;  // [poses]
   std::vector<Vec3> fittedNeutral_, neutralErrors_;
-  std::vector<Vec3> neutralOff_;     // settled: how far the neutral is off the fit
+  std::vector<Vec3> neutralOff_;     // settled: how far the kept neutral is off the fit
   std::vector<Index> neutralFolds_;  // quads, in order
 };
 

@@ -9,7 +9,7 @@ namespace {
 
 using Dense = PatchEquations::Matrix;
 
-// How much a sample counts beside a vertex.
+// Weights of samples relative to a vertex.
 constexpr double kOneSidedTangent = 0.1;
 constexpr double kBetweenWeight = 0.05;
 constexpr double kSmoothWeight = 1e-4;
@@ -110,8 +110,8 @@ class PatchAssembler {
     }
   }
 
-  // Where a short edge follows a long one the mean slope is several times the short edge, and a
-  // curve with that slope turns back on itself. Twice the shorter edge is as steep as it may be.
+  // Where a short edge follows a long one, the mean slope is several times the short edge, and a
+  // curve with that slope turns back on itself. So slopes are capped at twice the shorter edge.
   void limitLength(PoseRow& slope, Index vertex, Index ahead, Index behind) const {
     for (Index k = 0; k < data_.poses; ++k) {
       const auto at = [&](Index v) { return valueOf(v).template segment<3>(3 * k); };
@@ -176,7 +176,7 @@ class PatchAssembler {
     e.unknowns = unknowns(expanded);
     const Dense spread = spreadOver(e.unknowns, expanded);
     const auto count = static_cast<Index>(rows_.size());
-    // Those that ask for smoothness come last; they ask for zeros.
+    // The samples for smoothness come last; their values are zero.
     const auto valued = static_cast<Index>(
         std::ranges::find_if(rows_, [](const Sample& s) { return s.value.size() == 0; }) -
         rows_.begin());
@@ -205,7 +205,7 @@ class PatchAssembler {
     stored.erase(same.begin(), same.end());
     return stored;
   }
-  // The 36 by these.
+  // The 36 vectors as combinations of these.
   Dense spreadOver(const std::vector<Index>& stored,
                    std::span<const std::vector<Term>> expanded) const {
     const auto& vectors = rows_.front().weights.vectors;

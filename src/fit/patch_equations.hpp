@@ -9,8 +9,8 @@
 
 namespace sweepface {
 
-/// The normal equations of a patch in the stored vectors that it depends on: what its source
-/// vertices, the tangents there and what lies between them ask of it, and of its smoothness.
+/// The normal equations of a patch in the stored vectors that it depends on. They ask for the
+/// positions of its source vertices, the tangents there, estimates in between, and smoothness.
 struct PatchEquations {
   using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   std::vector<Index> unknowns;
@@ -19,8 +19,8 @@ struct PatchEquations {
   DistinctPoses poses;
 };
 
-/// `owner` [vertices] is the patch that speaks for each vertex; `expanded` is every vector as a
-/// combination of stored ones.
+/// `owner` [vertices] is the patch whose equations include each vertex; `expanded` is every vector
+/// as a combination of stored ones.
 PatchEquations patchEquations(const Layout& layout, const Draft& draft, const SourceData& data,
                               Index patch, const std::vector<Index>& owner,
                               std::span<const std::vector<Term>> expanded);

@@ -7,8 +7,8 @@
 
 namespace sweepface {
 
-/// How far off a pose is at every vertex while its coefficients change, and what that costs in
-/// bits: hardly anything well within the bounds, steeply more beyond them, and for tangents more
+/// Tracks how far off a pose is at every vertex while its coefficients change, and what that costs
+/// in bits: hardly anything well within the bounds, steeply more beyond them. Tangents cost more
 /// the further they lean or turn over.
 class PoseCost {
  public:
@@ -17,24 +17,23 @@ class PoseCost {
   PoseCost(const Columns& columns, const PoseTask& task);
 
   Index vertexCount() const { return static_cast<Index>(at_.size()); }
-  /// The square of how far off a vertex is, as a share of its bound's.
+  /// The squared error of a vertex, relative to the square of its bound.
   float square(Index u) const { return at_[u].square; }
   /// What the tangents of a vertex cost.
   float tilt(Index u) const;
-  /// How much nearer to its bound a vertex comes if coordinate a of its place changes.
+  /// How much `square` falls if coordinate a of the vertex's position changes.
   float nearer(Index u, int a, float change) const {
     return -(2 * at_[u].error[a] + change) * change * at_[u].perSquare;
   }
 
-  /// How much the cost grows when coordinate a of a coefficient grows by so many steps: four
-  /// numbers of them at once.
+  /// How much the cost grows if coordinate a of a coefficient grows by each of four `steps`.
   Four growth(Index v, int a, Four steps) const;
   float growth(Index v, int a, float steps) const { return growth(v, a, Four{steps})[0]; }
-  /// Its derivatives by the three coordinates of a coefficient.
+  /// Its derivatives with respect to the three coordinates of a coefficient.
   Four gradient(Index v) const;
   void move(Index v, int a, float steps);
 
-  /// From here on what is beyond a bound counts so many times more.
+  /// From now on, errors beyond a bound count `times` as much as they do at first.
   void press(float times);
 
  private:
@@ -46,7 +45,7 @@ class PoseCost {
     float error[3], perSquare, square, penalty;
     Tangent tangent[2];
   };
-  // By what the cost grows with the place of a vertex and with its tangents.
+  // Half the gradient of the cost with respect to a vertex's position and to its tangents.
   struct Pull {
     Four place, along[2];
   };

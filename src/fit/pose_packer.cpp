@@ -14,9 +14,9 @@ using codec::Symmetry;
 namespace {
 
 constexpr int kMostHalvings = 8;
-// From this many halvings on a target starts where the fit has the pose, whatever that costs.
+// From this many halvings on, a target starts from the fit's absolute pose, whatever that costs.
 constexpr int kFaithful = 2;
-// Steps are halved this often for the sake of folds alone.
+// Steps are halved at most this often for the sake of folds alone.
 constexpr int kMostForFolds = 2;
 
 class PosePacker {
@@ -30,8 +30,8 @@ class PosePacker {
         symmetry_(codec::symmetryOf(form_, pose)),
         bounds_(bounds) {}
 
-  // From its image, then from itself, in ever finer steps: those of its partner to begin with. In
-  // the end they are as good as the fit.
+  // Searches from the pose's image, then from the pose itself, in ever finer steps, which begin
+  // with those of its partner. The finest are as good as the fit.
   bool run() {
     bool done = false;
     form_.finer = symmetry_ == Symmetry::partner ? poses_.form(form_.image).finer : 0;
@@ -48,7 +48,7 @@ class PosePacker {
  private:
   enum class Start { image, fit };
 
-  // Whether what is found needs no finer steps.
+  // Returns whether the result needs no finer steps.
   bool search(Start start) {
     task_ = {};
     task_.step = poses_.step(pose_);
@@ -65,7 +65,7 @@ class PosePacker {
     return isGood || form_.finer >= kMostForFolds;
   }
 
-  // The image, but where it is far off: there what the fit has.
+  // Starts from the image, except where it is far off: there from the fit.
   void startFromImage() {
     constexpr int kRounds = 3;
     constexpr double kFar = 2;  // tolerances
@@ -95,8 +95,8 @@ class PosePacker {
     }
   }
 
-  // Vertices that end up beyond the tolerance begin again with narrower bounds, if they are few.
-  // Whether none is left.
+  // If a few vertices end up beyond the tolerance, begins again with narrower bounds there. Returns
+  // whether none is left.
   bool improveWithRoom() {
     constexpr int kTrials = 4;
     constexpr std::size_t kFew = 32;
@@ -112,7 +112,7 @@ class PosePacker {
     return false;
   }
 
-  // The vertices that are beyond the tolerance then.
+  // Quantises and returns the vertices that are then beyond the tolerance.
   std::vector<Index> improve(Coefficients& q) const {
     const std::vector<Vec3> vectors = poses_.restored(pose_, q);
     PoseTask task = task_;
@@ -130,9 +130,9 @@ class PosePacker {
     return vertices;
   }
 
-  // Where the surface turned over it goes back to the fit, and stays there; if that does not do,
-  // tangents count more there. Whether it hardly turns over then but where the fit or the neutral
-  // does.
+  // Where the surface turned over, it goes back to the fit and stays there; if that is not enough,
+  // tangents count more there. Returns whether hardly any folds are left besides those of the fit
+  // and of the neutral.
   bool unfold() {
     constexpr int kRounds = 4;
     const std::vector<Vec3> fit = poses_.compensated(pose_);
@@ -165,7 +165,8 @@ class PosePacker {
     return folds;
   }
 
-  // Round these vertices; where nothing is frozen tangents count more there.
+  // Puts the vectors around these vertices back to the fit. Freezes them, or, if nothing is to be
+  // frozen, lets tangents count more there.
   Coefficients backToFit(const std::vector<Vec3>& fit, const std::vector<Index>& vertices,
                          const Coefficients& q) {
     constexpr float kMore = 1.5f;

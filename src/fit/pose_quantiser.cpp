@@ -39,15 +39,15 @@ class PoseQuantiser {
   void run() {
     search(6);
     repair();
-    // Repairs are dear: what they brought about is looked at once more.
+    // Repairs cost many bits, so sweeps follow once more.
     errors_.press(1);
     search(3);
     repair();
   }
 
  private:
-  // Bits are dear to begin with and become cheaper from sweep to sweep, so that few coefficients do
-  // what many small ones would else have done a little of each: annealing without chance.
+  // Bits are expensive at first and become cheaper from sweep to sweep, so that a few coefficients
+  // do what many small ones would otherwise have shared: annealing without chance.
   void search(double dearest) {
     constexpr int kCooling = 6, kSweeps = 8;
     touched_.assign(vertexCount(), -1);
@@ -60,8 +60,8 @@ class PoseQuantiser {
     }
   }
 
-  // Coefficients that are zero may be wanted only where an error is well on its way to the bound or
-  // the surface is tilted.
+  // Coefficients that are zero are considered only where an error is well on its way to the bound
+  // or the surface is tilted.
   void findWanted() {
     constexpr float kOnItsWay = 0.3f, kTilted = 0.3f;
     wanted_.assign(q_.size(), 0);
@@ -71,8 +71,8 @@ class PoseQuantiser {
           wanted_[columns_.rowVector[r]] = 1;
   }
 
-  // Vertices that are still beyond their bounds: whatever move helps most there, bits hardly
-  // counting. Given up where they are many or do not become fewer: other steps must do.
+  // At vertices that are still beyond their bounds, makes whatever move helps most, with bits
+  // hardly counting. Gives up if they are many or do not become fewer: other steps are needed then.
   void repair() {
     errors_.press(100);
     constexpr int kRounds = 40;
@@ -95,8 +95,8 @@ class PoseQuantiser {
     double cost = 0;
   };
 
-  // Of the moves that bring the vertex itself nearer, those are tried that move few others; where
-  // none helps by itself, each with what then helps most where it does harm.
+  // Of the moves that bring the vertex itself nearer, tries those that move few others. If none
+  // helps by itself, tries each together with the move that helps most where it did harm.
   bool repairAt(Index u) {
     constexpr double kHelps = -1e-3;
     std::vector<Move> moves = movesAt(u);
@@ -130,7 +130,7 @@ class PoseQuantiser {
     return best;
   }
 
-  // The vertex that a coefficient moves and that is the furthest off.
+  // Of the vertices that a coefficient moves, the one furthest off.
   Index worstAround(Index v) const {
     Index worst = columns_.vertex[columns_.start[v]];
     for (Index p = columns_.start[v]; p < columns_.start[v + 1]; ++p)
@@ -163,7 +163,7 @@ class PoseQuantiser {
     return moves;
   }
 
-  // Moves a coefficient and what follows it.
+  // Moves a coefficient and the one that follows it.
   void change(Index v, int a, std::int32_t d) {
     const std::int32_t before = q_[v][a] - expected(v, a);
     const Hierarchy::Image image = follower(v);
@@ -174,7 +174,7 @@ class PoseQuantiser {
     inVector_[v] += more;
   }
 
-  // Which vector follows by itself when one changes, and the sign for a coordinate.
+  // The vector that changes along with another, if any, and the sign for a coordinate.
   Hierarchy::Image follower(Index v) const {
     const CodedSite& site = h_.sites()[siteOf_[v]];
     if (task_.symmetry != Symmetry::self || site.mirror <= siteOf_[v]) return {-1, 1};
@@ -203,8 +203,8 @@ class PoseQuantiser {
         if (q_[v][a] != expected(v, a)) ++inSite_[siteOf_[v]], ++inVector_[v];
   }
 
-  // About how many bits a first coefficient in a site takes: the fewer, the more of what predicts
-  // the site moves.
+  // About how many bits the first coefficient in a site takes: the more of the positions that
+  // predict the site move, the fewer.
   double siteBits(Index site) const {
     constexpr std::array<double, 5> kBits{8, 6, 5, 4.5, 4};
     std::size_t moved = 0;
@@ -212,8 +212,8 @@ class PoseQuantiser {
     return kBits[std::min(moved, kBits.size() - 1)];
   }
 
-  // About how many bits a coefficient takes: a first one in a site or a vector also pays for
-  // saying that there is one.
+  // About how many bits a coefficient takes. The first one in a site or a vector also pays for the
+  // information that there is one.
   static double magnitude(std::int32_t d) {
     d = std::abs(d);
     return d == 0 ? 0 : 1.2 + 1.7 * std::log2(static_cast<double>(d)) + (d > 1 ? 0.3 : 0);
@@ -234,7 +234,7 @@ class PoseQuantiser {
       touched_[columns_.vertex[p]] = sweep_;
   }
 
-  // Whether anything that a coefficient moves has moved in this sweep or the last.
+  // Whether any vertex that a coefficient affects has moved in this sweep or the last.
   bool isTouched(Index v) const {
     if (sweep_ == 0) return true;
     for (Index p = columns_.start[v]; p < columns_.start[v + 1]; ++p)
@@ -242,13 +242,13 @@ class PoseQuantiser {
     return false;
   }
 
-  // How many coordinates of a coefficient change.
+  // Returns how many coordinates of a coefficient changed.
   int improve(Index v) {
     if (!task_.frozen.empty() && task_.frozen[v]) return 0;
     const Hierarchy::Image image = follower(v);
     if (!isTouched(v) && (image.vector < 0 || !isTouched(image.vector))) return 0;
     int changed = 0;
-    std::optional<Four> gradient;  // as long as nothing changes
+    std::optional<Four> gradient;  // valid until something changes
     for (int a = 0; a < 3; ++a) {
       const std::int32_t before = q_[v][a] - expected(v, a);
       const std::int32_t best =
@@ -261,7 +261,8 @@ class PoseQuantiser {
     return changed;
   }
 
-  // What a coordinate had better be that is not zero: nearer to it, zero, or further away.
+  // The best value for a coordinate that is not zero: itself, a step nearer to or further from
+  // zero, or zero.
   std::int32_t better(Index v, int a, const Hierarchy::Image& image, std::int32_t before) const {
     const int out = before > 0 ? 1 : -1;
     std::array<std::int32_t, 3> tries{before - out, before + out};
@@ -270,7 +271,7 @@ class PoseQuantiser {
     return best(v, a, image, before, std::span(tries).first(count));
   }
 
-  // The same of one that is zero.
+  // The same for one that is zero.
   std::int32_t opened(Index v, int a, const Hierarchy::Image& image,
                       std::optional<Four>& gradient) const {
     if (!wanted_[v] && (image.vector < 0 || !wanted_[image.vector])) return 0;
@@ -282,7 +283,7 @@ class PoseQuantiser {
           (*gradient)[k] += static_cast<float>(signFor(image, k)) * its[k];
       }
     }
-    // What is convex grows by no less than its slope says.
+    // A convex cost grows by no less than its slope.
     const float g = (*gradient)[a];
     const std::int32_t towards = g > 0 ? -1 : 1;
     if (std::abs(g) < bits(v, 0, towards)) return 0;

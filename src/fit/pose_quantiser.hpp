@@ -8,21 +8,21 @@
 
 namespace sweepface {
 
-/// What is asked of one pose.
+/// One pose to be quantised.
 struct PoseTask {
   double step = 0;
   codec::Symmetry symmetry = codec::Symmetry::none;
   codec::Coefficients expected;  ///< what an image predicts, for Symmetry::partner
-  std::vector<Vec3> errors;      ///< [vertices] how far off the pose is to begin with
+  std::vector<Vec3> errors;      ///< [vertices] how far off the pose is at first
   std::vector<float> bounds;     ///< [vertices] how far off it may be
   Slopes slopes;
-  std::vector<float> stress;  ///< [vertices] or empty: times that tangents count there
-  std::vector<char> frozen;   ///< [S] or empty: stays unless a bound is passed
+  std::vector<float> stress;  ///< [vertices] or empty: factor on the tangents' errors there
+  std::vector<char> frozen;   ///< [S] or empty: stays unless a bound is exceeded
 };
 
 /// Looks for coefficients that cost few bits while vertex errors stay within their bounds:
-/// coordinate descent on  bits + penalty(errors), one coefficient after the other, from those
-/// given. Whether they do stay within is for the caller to check.
+/// coordinate descent on bits + penalty(errors), one coefficient after the other, from those
+/// given. The caller must check that the errors did stay within their bounds.
 void quantisePose(const codec::Lattice& lattice, const Columns& columns, PoseTask task,
                   codec::Coefficients& q);
 

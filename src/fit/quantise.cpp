@@ -14,11 +14,11 @@ namespace sweepface {
 
 namespace {
 
-// The targets' step, as kNeutralStep.
+// The targets' step, a share of the tolerance like kNeutralStep.
 constexpr double kTargetStep = 1;
-// The neutral spends this share of the tolerance, so that its poses have room.
+// The neutral spends this share of the tolerance, to leave room for the other poses.
 constexpr double kNeutralShare = 0.5;
-// What the search keeps to, of the tolerance: it counts in single precision.
+// The share of the tolerance that the search keeps to: it computes in single precision.
 constexpr double kBound = 0.995;
 
 // Chooses steps, mirror and images.
@@ -50,14 +50,14 @@ class Quantiser {
     if (!goesOn()) return fail("packing was interrupted");
     if (!met) return failed("the neutral");
     poses_.learnNeutral();
-    // Images first: what is compared with them needs them.
+    // Images first: the poses compared with them need them.
     for (const bool images : {true, false})
       if (auto ok = packTargets(images); !ok) return ok;
     return {};
   }
 
  private:
-  // The neutral leaves room for its poses, but no less than the fit itself needs.
+  // The neutral leaves room for the other poses, but gets no less than the fit itself needs.
   std::vector<float> neutralBounds() const {
     constexpr double kMore = 0.15, kMost = 0.98;
     const std::vector<Vec3> errors = poses_.errors(0, poses_.fitted(0));

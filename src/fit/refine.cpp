@@ -30,7 +30,7 @@ class Refiner {
  private:
   struct Beyond {
     Index patch;
-    double excess;  // the worst error there, of its limit
+    double excess;  // the worst error there, relative to its limit
   };
 
   // The worst first.
@@ -59,9 +59,9 @@ class Refiner {
       for (const Index v : grid.vertices) improveNode(v, folded);
   }
 
-  // A patch that is nearly within the limits may get there without more points if what is wrong at
-  // its worst vertices counts more (Lawson's way from least squares to least maximum). That costs
-  // smoothness: where normals matter it is tried less.
+  // A patch that is nearly within the limits may get there without more points if the errors at its
+  // worst vertices count more (Lawson's way from least squares to least maximum). That costs
+  // smoothness: where normals matter, it is tried less.
   bool isNearly(double excess) const { return excess < (limits_.smooth ? 1.5 : 3); }
   bool emphasize(const GridPatch& grid) {
     const double most = limits_.smooth ? 4 : 64;
@@ -78,8 +78,8 @@ class Refiner {
     return any;
   }
 
-  // In a patch too small to split T-nodes become crossings; near folds slopes are stored, and then
-  // kept short.
+  // In a patch too small to split, T-nodes become crossings. Near folds, slopes are stored, and if
+  // they already are, they are kept short.
   void improveNode(Index v, bool folded) {
     if (layout_.isNode(v) && !layout_.isFull(v)) {
       layout_.extend(v);
@@ -95,7 +95,7 @@ class Refiner {
     count(true);
   }
 
-  // Little is left to cut: positions that are too far off count more than what surrounds them.
+  // Little is left to cut: positions that are too far off get more weight than their surroundings.
   void emphasizePlaces() {
     for (Index v = 0; v < layout_.mesh().vertexCount(); ++v)
       if (errors_.distance[v] > limits_.distance) {

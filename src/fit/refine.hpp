@@ -8,11 +8,11 @@ struct RefineLimits {
   double distance;  ///< model units
   double angle;     ///< degrees
   bool smooth;      ///< normals matter: tangents may not be given up for points
-  double trace;     ///< what an expression does to a vector counts from here on; model units
+  double trace;     ///< an expression's smaller changes of a vector are dropped; model units
 };
 
-/// Splits every patch that breaks a limit where that promises most, and lets vertices count more
-/// that no split can help. Returns how much it changed.
+/// Splits every patch that breaks a limit where that promises most, and gives more weight to
+/// vertices that no split can help. Returns the number of changes.
 Index refine(Layout& layout, const Draft& draft, SourceData& data, const DraftErrors& errors,
              const RefineLimits& limits, ExtraJets& extra);
 

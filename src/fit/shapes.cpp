@@ -10,8 +10,8 @@ namespace sweepface {
 namespace {
 
 // The squared errors of a patch at its vertices as a quadratic form in the 36 basis values, summed
-// over all poses: |b·Q − y|² = b QQᵀ b − 2 b Qyᵀ + yyᵀ. Once made, trying another basis costs no
-// pose any more.
+// over all poses: |b·Q − y|² = b QQᵀ b − 2 b Qyᵀ + yyᵀ. Once it is made, the cost of trying another
+// basis does not depend on the number of poses.
 class PatchForm {
  public:
   PatchForm(const Layout& layout, const Draft& draft, const SourceData& data, Index patch,
@@ -52,7 +52,7 @@ class PatchForm {
 };
 
 // Stiffness of the candidates over the ribbon's longest sweep: −η/ρ and λ/ρ of the unit interval.
-// Less than this does nothing visible.
+// Less than this has no visible effect.
 constexpr std::pair<double, double> kCandidates[] = {
     {40, 0}, {200, 0}, {1000, 0}, {0, 1e3}, {0, 2e4}};
 

@@ -12,7 +12,7 @@ namespace sweepface {
 
 namespace {
 
-// The first patch that holds a vertex speaks for it.
+// The first patch that has a vertex owns it.
 std::vector<Index> vertexOwners(const Draft& draft, Index vertexCount) {
   std::vector<Index> owner(vertexCount, -1);
   for (std::size_t p = 0; p < draft.patches.size(); ++p)
@@ -26,8 +26,8 @@ using SparseMatrix = Eigen::SparseMatrix<double>;
 constexpr Index kBlock = 12;  // columns that are solved for at once
 using Block = Eigen::Matrix<double, Eigen::Dynamic, kBlock, Eigen::RowMajor>;
 
-// L D Lᵀ x = what is there, in all columns at once: Eigen's own walks through L for each of them. L
-// is held without its diagonal of ones.
+// Solves L D Lᵀ x = b in place, for all columns at once; Eigen's own traverses L for each of them.
+// L is stored without its diagonal of ones.
 void substitute(const Eigen::SimplicialLDLT<SparseMatrix>& factor, Block& x) {
   const auto& lower = factor.matrixL().nestedExpression();
   for (Eigen::Index k = 0; k < lower.cols(); ++k)
@@ -92,7 +92,7 @@ Result<Solution> solve(const Layout& layout, const Draft& draft, const SourceDat
                                e.matrix(static_cast<Index>(a), static_cast<Index>(b)));
       }
   }
-  // What moves nothing is nothing: second derivatives where two patches meet back to back.
+  // Unknowns that move nothing become 0: second derivatives where two patches meet back to back.
   for (Index k = 0; k < unknowns; ++k) entries.emplace_back(k, k, 0);
   SparseMatrix matrix(unknowns, unknowns);
   matrix.setFromTriplets(entries.begin(), entries.end());

@@ -8,8 +8,8 @@ namespace sweepface {
 
 /// Whether a face says which way is out (docs/error-metric.md on folds). One that is folded,
 /// thinner than its vertices may move, or turned against the source's own normal at a corner does
-/// not. Larger ones than quads may have corners in line, or inwards. `at` and `normalAt` tell
-/// corners 0 … size − 1; `normal` is as long as twice the face's area.
+/// not. Faces larger than quads may have collinear or reflex corners. `at` and `normalAt` return
+/// the position and the normal of corners 0 … size − 1; `normal` is as long as twice the area.
 template <typename At, typename NormalAt>
 bool isSoundFace(Index size, const Vec3& normal, double tolerance, const At& at,
                  const NormalAt& normalAt) {

@@ -9,9 +9,9 @@ namespace sweepface {
 
 namespace {
 
-/// The shortest edge at every point, but no less than a part of what its neighbours have. A row of
-/// faces far thinner than those beside it would count so much more than them that what it asks of
-/// derivatives, which are its neighbours' too, would bend these out of shape.
+/// The shortest edge at every point, but no less than a part of that of any neighbour. Otherwise a
+/// row of faces far thinner than those beside it would dominate the derivatives that it shares with
+/// them, and bend them out of shape.
 std::vector<double> shortestEdges(const GridMesh& mesh, const SourceData& data) {
   constexpr double kLeastPart = 0.1;
   std::vector<double> shortest(mesh.pointCount(), std::numeric_limits<double>::infinity());
@@ -33,7 +33,7 @@ std::vector<double> shortestEdges(const GridMesh& mesh, const SourceData& data) 
   return shortest;
 }
 
-/// Sheets that touch at a vertex have a point each there.
+/// Sheets that touch at a vertex each have a point of their own there.
 std::vector<Index> pointsOfCorners(const Polygons& polygons, const GridMesh& mesh) {
   std::vector<Index> points;
   for (const Index v : polygons.corners) points.push_back(mesh.pointOfSource[v]);
@@ -68,7 +68,7 @@ SourceData gatherSource(const MeshRig& rig, const GridMesh& mesh, double toleran
   data.placeEmphasis.assign(points, 1);
   data.slopeEmphasis.assign(points, 1);
   const std::vector<double> lengths = shortestEdges(mesh, data);
-  // Points move by a good part of the tolerance anyway: shorter edges than that mean nothing.
+  // Points move by a good part of the tolerance anyway, so edges shorter than that mean nothing.
   const double least = tolerance / 2;
   for (const double length : lengths) data.weight.push_back(1 / (length * length + least * least));
   return data;

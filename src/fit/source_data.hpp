@@ -22,7 +22,7 @@ struct SourceData {
   PoseMatrix points;           ///< [points × 3·poses]
   PoseMatrix normals;          ///< [points × 3·poses] unit vertex normals
   std::vector<double> weight;  ///< [points] 1 / edge²: an error counts relative to the mesh there
-  double slopeWeight = 1;      ///< of a tangent beside a position
+  double slopeWeight = 1;      ///< of a tangent, relative to a position
   std::vector<char> uneven;    ///< [vertices] a line passes from a long edge to a short one
   std::vector<double> placeEmphasis;  ///< [points] factor on the weight of the position there
   std::vector<double> slopeEmphasis;  ///< [points] factor on the weight of the tangents there

@@ -13,8 +13,8 @@ class PatchSplitter {
   PatchSplitter(const Layout& layout, const GridPatch& grid, const SourceData& data)
       : layout_(layout), grid_(grid), data_(data) {}
 
-  // The best grid line of constant u (alongV) or v, -1 where there is none. Lines that continue
-  // others are best: they turn T-nodes into crossings; lines beside existing nodes only crowd them.
+  // The best grid line of constant u (alongV) or v, -1 if there is none. Lines that continue others
+  // are best: they turn T-nodes into crossings. Lines beside existing nodes only crowd them.
   Index best(bool alongV) const {
     const Index n = alongV ? grid_.m : grid_.n;
     Index best = -1;

@@ -14,8 +14,7 @@ namespace sweepface {
 
 namespace {
 
-// Where a face goes and which of its corners comes first: as the first quad that it is part of
-// says.
+// Where a face goes and which of its corners comes first, both given by the first of its quads.
 struct Place {
   std::size_t quad = SIZE_MAX;
   Index face = 0, first = 0;
@@ -32,7 +31,7 @@ std::vector<Place> placesOf(const SourceMesh& source) {
     if (place.quad == SIZE_MAX) place = {q, place.face, corner - faces.faceStart[faceOf[corner]]};
   }
   std::ranges::sort(places, {}, [](const Place& p) { return std::pair(p.quad, p.face); });
-  // What has no quad has no surface; but where nobody knows the quads, no face has any.
+  // A face without a quad has no surface, unless the rig does not know the quads of any face.
   if (!source.quadCorners.empty())
     std::erase_if(places, [](const Place& p) { return p.quad == SIZE_MAX; });
   return places;
@@ -69,7 +68,7 @@ void reorderFaces(SourceMesh& source, const std::vector<Place>& places) {
   for (Index& corner : source.quadCorners) corner = newCorner[corner];
 }
 
-// In the order in which corners have them, without those that none has.
+// Puts texture coordinates in the order in which corners use them and drops unused ones.
 void reorderTexcoords(Polygons& faces) {
   std::vector<Index> number(faces.texcoords.size(), -1);
   std::vector<Vec2> texcoords;
@@ -98,7 +97,7 @@ Result<void> stripOrder(Rig& rig) {
   source.ownOrder = false;
   source.loose.clear();
   for (Target& target : rig.targets) target.looseDifference.clear();
-  rig.scene.clear();  // its indices, textures and joints count on the order
+  rig.scene.clear();  // its indices, textures and joints depend on the order
   return {};
 }
 

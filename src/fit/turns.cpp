@@ -17,14 +17,14 @@ using Matrix = Eigen::Matrix3d;
 Vector toEigen(const Vec3& p) { return {p.x, p.y, p.z}; }
 Vec3 fromEigen(const Vector& p) { return {p.x(), p.y(), p.z()}; }
 
-// When a target is taken for a turn. Lids of the ICT face have 0.05, 40° and 12°, its jaw 0.08, 25°
-// and 5°; a smile has 0.15, a pucker 0.4.
-constexpr double kMoves = 0.02;      // a point moves: this share of the largest way
-constexpr double kRadial = 0.15;     // RMS change of distance from the axis, of the RMS way
+// When a target is taken for a turn. Lids of the ICT face have a radial change of 0.05, an angle of
+// 40° and a spread of 12°, its jaw 0.08, 25° and 5°; a smile has 0.15, a pucker 0.4.
+constexpr double kMoves = 0.02;      // least movement of a point that counts / largest movement
+constexpr double kRadial = 0.15;     // RMS change of distance from the axis / RMS movement
 constexpr double kSmallestTurn = 3;  // degrees
-constexpr double kSpread = 0.45;     // standard deviation of the angles, of their mean
-constexpr double kRigid = 0.01;      // RMS of what a rigid motion leaves, of the RMS way
-constexpr double kOffCentre = 0.5;   // between an axis and a ball's centre, of the ball's radius
+constexpr double kSpread = 0.45;     // standard deviation of the angles / their mean
+constexpr double kRigid = 0.01;      // RMS of what a rigid motion leaves / RMS movement
+constexpr double kOffCentre = 0.5;   // distance of an axis from a ball's centre / its radius
 
 /// A point of the neutral and where it goes.
 struct Way {
@@ -39,9 +39,9 @@ double squares(std::span<const Way> ways) {
 
 // ---- Axes ----
 
-/// A line that all points stay at their distance from, as near as can be. |to − c| = |from − c| is
-/// linear in c: d · c = ½(|to|² − |from|²) with d = to − from. Along the axis no c is better than
-/// another, so it is the direction that the ways have least of. Those that go far count most.
+/// The line from which all points keep their distances as nearly as possible. |to − c| = |from − c|
+/// is linear in c: d · c = ½(|to|² − |from|²) with d = to − from. Along the axis no c is better
+/// than another, so it is the direction in which points move least. Long movements count most.
 struct Axis {
   Vector pivot, direction;
 };
@@ -59,7 +59,7 @@ std::optional<Axis> fitAxis(std::span<const Way> ways) {
     weights += weight;
   }
   const Eigen::SelfAdjointEigenSolver<Matrix> eigen(m);
-  if (!(eigen.eigenvalues()[1] > 1e-6 * eigen.eigenvalues()[2])) return {};  // all go one way
+  if (!(eigen.eigenvalues()[1] > 1e-6 * eigen.eigenvalues()[2])) return {};  // all are parallel
   Axis axis{Vector::Zero(), eigen.eigenvectors().col(0)};
   for (int k : {1, 2}) {
     const Vector v = eigen.eigenvectors().col(k);
@@ -69,7 +69,7 @@ std::optional<Axis> fitAxis(std::span<const Way> ways) {
   return axis;
 }
 
-/// Whether points turn about an axis, and all by about as much.
+/// Whether points turn about an axis, all by about the same angle.
 bool isTurn(std::span<const Way> ways, const Axis& axis) {
   double weights = 0, angles = 0, angleSquares = 0, radial = 0, all = 0;
   for (const Way& w : ways) {
@@ -93,7 +93,7 @@ bool isTurn(std::span<const Way> ways, const Axis& axis) {
          radial <= kRadial * kRadial * all;
 }
 
-/// What the best rigid motion leaves of the ways (Kabsch 1976).
+/// Whether the best rigid motion (Kabsch 1976) leaves next to nothing of the movement.
 bool isRigid(std::span<const Way> ways) {
   Vector from = Vector::Zero(), to = Vector::Zero();
   for (const Way& w : ways) from += w.from, to += w.to;
@@ -137,7 +137,7 @@ class TurnFinder {
     return points;
   }
 
-  /// Of parts that move rigidly, such as teeth, if there are any; else of all points that move.
+  /// The movements of parts that turn rigidly, such as teeth, if any; else of all points that move.
   std::vector<Way> waysThatTell(Index target) const {
     const std::vector<Vector> moved = pointsOf(rig_.weightsOf(target + 1));
     double longest = 0;

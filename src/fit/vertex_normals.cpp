@@ -10,14 +10,14 @@ namespace sweepface {
 
 namespace {
 
-/// Adds up what corners say.
+/// Adds up the contributions of face corners.
 class Normals {
  public:
   Normals(const Polygons& polygons, std::span<const Vec3> positions, std::span<const Index> pointOf,
           Index pointCount)
       : polygons_(polygons), positions_(positions), pointOf_(pointOf), sums_(pointCount) {}
 
-  /// A loop of face corners, which may be there twice in a row.
+  /// A loop of face corners, each of which may occur twice in a row.
   void add(std::span<const Index> loop, const Vec3& up = {}) {
     const std::size_t size = loop.size();
     for (std::size_t k = 0; k < size; ++k) {
@@ -59,7 +59,7 @@ std::vector<Vec3> vertexNormals(const Polygons& polygons, std::span<const Vec3> 
     if (size > 4 && !quadCorners.empty()) continue;
     loop.resize(size);
     std::iota(loop.begin(), loop.end(), begin);
-    // Reflex corners look the other way than their face; of quads and triangles none counts as one.
+    // The products at reflex corners point the other way; in quads and triangles that is ignored.
     normals.add(loop, size > 4 ? meanNormal(cornerPositions(polygons, positions, f)) : Vec3{});
   }
   for (std::size_t k = 0; k < quadCorners.size(); k += 4)

@@ -25,17 +25,18 @@ struct Accessor {
   std::optional<Sparse> sparse;
 
   std::size_t components() const { return rows * columns; }
-  /// Bytes from a column to the next: those of small matrices begin at multiples of four.
+  /// Bytes from one column to the next: columns of small matrices begin at multiples of four.
   std::size_t columnSize() const;
   std::size_t elementSize() const { return columnSize() * columns; }
   bool hasData() const { return view || sparse; }
 };
 
-/// The accessor of a number that is in the list. Without a buffer view its count is only a claim.
+/// Reads the accessor at an index, which must be in the list. Without a buffer view its count is
+/// only a claim.
 Result<Accessor> accessorAt(const Document& document, std::size_t index);
 
-/// All values, component after component, normalised where the accessor says so. All are finite.
-/// Refuses more zeros than a file of this size can mean.
+/// All values, component by component, normalised if the accessor says so. All are finite. Refuses
+/// more zeros than a file of this size can mean.
 Result<std::vector<double>> decode(const Document& document, const Accessor& accessor);
 
 }  // namespace sweepface::gltf

@@ -9,7 +9,7 @@ namespace sweepface::gltf {
 namespace {
 
 /// Called with every reference to an accessor; `attribute` is its name within a primitive, and
-/// `primitive` is null for what is not of a mesh.
+/// `primitive` is null outside meshes.
 using Visit =
     std::function<void(const Json& reference, std::string_view attribute, const Json* primitive)>;
 
@@ -31,7 +31,7 @@ void visitPrimitive(const Json& primitive, const Visit& visit) {
     visitAttributes(target, &primitive, visit);
 }
 
-/// The attributes of many copies of a mesh.
+/// The attributes of a node's instances of a mesh, or null.
 const Json* instancesOf(const Json& node) {
   const Json* const extensions = find(node, "extensions");
   const Json* const instances = extensions ? find(*extensions, "EXT_mesh_gpu_instancing") : nullptr;

@@ -8,20 +8,20 @@
 
 namespace sweepface::gltf {
 
-/// Whether the use of an accessor in a part counts: by the attribute's name, or "indices", and the
-/// JSON that refers to it.
+/// Whether the use of an accessor in a part counts, given the attribute's name, or "indices", and
+/// the JSON that refers to it.
 using CountsInParts = std::function<bool(std::string_view, const Json&)>;
 
-/// [accessors] those that something uses. Attributes and indices of parts count if asked for,
-/// everything else always does.
+/// [accessors] whether something uses each. Attributes and indices of parts count if `counts` says
+/// so; everything else always does.
 std::vector<bool> usedAccessors(const Document& document, const Parts& parts,
                                 const CountsInParts& counts);
 
 /// [accessors] how often each is referred to.
 std::vector<std::size_t> accessorUseCounts(const Document& document);
 
-/// Whether everything that uses an accessor names one that exists: else it would come to name one
-/// that is added.
+/// Checks that every reference to an accessor names one that exists: otherwise it would come to
+/// name one that is added later.
 Result<void> checkAccessorUses(const Document& document);
 
 }  // namespace sweepface::gltf

@@ -15,12 +15,12 @@ struct Affine {
 
   Vec3 direction(const Vec3& v) const { return v.x * axes[0] + v.y * axes[1] + v.z * axes[2]; }
   Vec3 point(const Vec3& p) const { return direction(p) + origin; }
-  /// The transposed linear part times v: takes the normals of the image to those of the original,
-  /// but for their length.
+  /// The transposed linear part times v: takes normals of the image to those of the original, up to
+  /// their length.
   Vec3 transposed(const Vec3& v) const {
     return {dot(axes[0], v), dot(axes[1], v), dot(axes[2], v)};
   }
-  /// Whether right hands become left ones.
+  /// Whether it reverses orientation.
   bool mirrors() const { return dot(cross(axes[0], axes[1]), axes[2]) < 0; }
 
   bool isFinite() const {
@@ -29,13 +29,14 @@ struct Affine {
     return sweepface::isFinite(origin);
   }
 
-  /// Whether two different points become one, or nearly so. Sizes do not matter, directions do.
+  /// Whether different points become one, or nearly so: judged by the directions of the axes, not
+  /// by their lengths.
   bool isSingular() const {
     const Vec3 a = normalized(axes[0]), b = normalized(axes[1]), c = normalized(axes[2]);
     return !(std::abs(dot(cross(a, b), c)) > 1e-9);
   }
 
-  /// Undoes this, unless it is singular.
+  /// The inverse; this must not be singular.
   Affine inverse() const {
     // The rows of the inverse are the cross products of the columns over the determinant.
     const Vec3 x = cross(axes[1], axes[2]), y = cross(axes[2], axes[0]),
@@ -51,7 +52,7 @@ struct Affine {
   friend bool operator==(const Affine&, const Affine&) = default;
 };
 
-/// Of a matrix as glTF has it, column after column; its last row does not count.
+/// From a matrix as glTF has it, column by column; its last row is ignored.
 inline Affine affineOf(std::span<const double, 16> m) {
   return {{{{m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}}}, {m[12], m[13], m[14]}};
 }

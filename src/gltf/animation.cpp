@@ -13,21 +13,21 @@
 namespace sweepface::gltf {
 namespace {
 
-/// Times, and at each of them the weights; with tangents in a cubic spline.
+/// Times and the weights at each of them; with tangents if they form a cubic spline.
 struct Keys {
   bool cubic = false;
   std::vector<double> times;            ///< [keys]
   std::vector<double> in, values, out;  ///< [keys × targets]
 };
 
-/// A law as a cubic Hermite spline: a parabola between two keys is one with the right speeds.
+/// A law as a cubic Hermite spline, which between two keys is a parabola if the speeds are right.
 Keys exactKeys(const Motion& motion, const std::vector<std::size_t>& targets) {
   const bool turns = motion.law() == TimeLaw::accelerateBrake;
   const std::vector<double> shares = turns ? std::vector{0.0, 0.5, 1.0} : std::vector{0.0, 1.0};
   Keys keys;
   keys.cubic = motion.law() != TimeLaw::linear;
   for (const double share : shares) {
-    // Players multiply speeds with the times that they read.
+    // Players multiply speeds by the times that they read.
     const double seconds = single(motion.seconds());
     keys.times.push_back(share * seconds);
     const Progress done = progress(motion.law(), share);
@@ -56,7 +56,7 @@ Keys columnsOf(const CubicKeys& all, const std::vector<std::size_t>& targets) {
   keys.cubic = true;
   for (const double time : all.times) keys.times.push_back(single(time));
   for (std::size_t k = 0; k < all.times.size(); ++k) {
-    // Players multiply slopes with the times that they read.
+    // Players multiply slopes by the times that they read.
     const auto stretch = [&](std::size_t a, std::size_t b) {
       return (all.times[b] - all.times[a]) / (keys.times[b] - keys.times[a]);
     };
@@ -72,7 +72,8 @@ Keys columnsOf(const CubicKeys& all, const std::vector<std::size_t>& targets) {
   return keys;
 }
 
-/// What is before the first and after the last key does not count, but must be a number.
+/// The values as glTF stores them. Tangents before the first and after the last key have no effect,
+/// but must be numbers.
 std::vector<double> interleaved(const Keys& keys) {
   if (!keys.cubic) return keys.values;
   std::vector<double> all;
@@ -83,7 +84,8 @@ std::vector<double> interleaved(const Keys& keys) {
   return all;
 }
 
-/// The first key that is not after the one before it in single precision; their number if none is.
+/// The first key that is no later than the one before it in single precision, or the number of
+/// keys.
 std::size_t sameAsBefore(const std::vector<double>& times) {
   std::size_t k = 1;
   while (k < times.size() && static_cast<float>(times[k]) > static_cast<float>(times[k - 1])) ++k;
@@ -131,7 +133,7 @@ class Animator {
   }
 
  private:
-  /// The name, with a number where the scene has an animation of that name.
+  /// The name, with a number appended if the scene has an animation of that name.
   std::string freeName(const std::string& name) const {
     std::set<std::string> taken;
     for (const Json& animation : scene_.document.list("animations"))
@@ -225,7 +227,7 @@ void setWeights(BoundScene& scene, const std::vector<double>& weights) {
     for (const std::size_t t : mesh.targets) list.push_back(weights[scene.targets[t]]);
     json["meshes"][mesh.mesh]["weights"] = std::move(list);
   }
-  // A node's weights would count instead of its mesh's.
+  // A node's weights would override its mesh's.
   const std::vector<Index> shown = shownMeshes(scene);
   for (std::size_t n = 0; n < shown.size(); ++n)
     if (shown[n] >= 0 && !scene.parts.meshes[shown[n]].targets.empty())

@@ -8,16 +8,16 @@
 namespace sweepface::gltf {
 namespace {
 
-constexpr std::size_t word = 4;  // nothing in a glTF asks for a wider alignment
+constexpr std::size_t word = 4;  // nothing in a glTF needs a wider alignment
 
 std::size_t aligned(std::size_t bytes) { return (bytes + word - 1) / word * word; }
 
-/// Whether the keys below this one are names of a file's own: attributes, or what users put there.
+/// Whether the keys inside this member are a file's own names: of attributes, or of user data.
 bool holdsNames(std::string_view key) {
   return key == "attributes" || key == "targets" || key == "extras";
 }
 
-/// Hands every "bufferView" in a JSON to `visit`.
+/// Calls `visit` with every "bufferView" in a JSON.
 void eachReferenceIn(Json& json, const std::function<void(Json&)>& visit) {
   if (json.is_array())
     for (Json& entry : json) eachReferenceIn(entry, visit);
@@ -28,7 +28,7 @@ void eachReferenceIn(Json& json, const std::function<void(Json&)>& visit) {
   }
 }
 
-/// All of a glTF's, without what views and buffers may say of themselves: that keeps no view alive.
+/// The same for all of a glTF, except inside views and buffers, which keep no view alive.
 void eachReference(Json& gltf, const std::function<void(Json&)>& visit) {
   for (auto& [key, value] : gltf.items())
     if (key != "bufferViews" && key != "buffers") eachReferenceIn(value, visit);
@@ -39,7 +39,7 @@ struct Range {
   std::size_t begin = 0, end = 0;
 };
 
-/// The union of ranges, moved together: each piece begins at a multiple of `unit`.
+/// The union of ranges, packed together: each piece begins at a multiple of `unit`.
 class Pieces {
  public:
   Pieces(std::vector<Range> ranges, std::size_t unit) {
@@ -57,7 +57,7 @@ class Pieces {
 
   const std::vector<Range>& pieces() const { return pieces_; }
   std::size_t size() const { return size_; }
-  /// Where a place within one of the ranges is now.
+  /// The new position of a place within one of the ranges.
   std::size_t moved(std::size_t place) const {
     const auto after = std::ranges::upper_bound(pieces_, place, {}, &Range::begin);
     const auto k = static_cast<std::size_t>(after - pieces_.begin()) - 1;
@@ -77,8 +77,8 @@ struct ViewUse {
   bool strided = false;
 };
 
-/// A view that only some of its bytes are needed of: rows as long as its stride, of which some rows
-/// and some words are kept.
+/// A view of which only some bytes are needed, as rows as long as its stride: some rows and some
+/// words of each are kept.
 class PartlyUsed {
  public:
   PartlyUsed(std::string_view bytes, std::size_t stride, const std::vector<ViewUse>& uses)
@@ -88,7 +88,7 @@ class PartlyUsed {
     rows_ = Pieces(std::move(rows), 1);
   }
 
-  /// Stays as it is where it is not made of words.
+  /// Whether a view is made of words; otherwise it stays as it is.
   static bool canShrink(std::size_t stride) { return stride % word == 0; }
 
   std::size_t stride() const { return wordsBefore(words_.size()) * word; }
@@ -105,7 +105,7 @@ class PartlyUsed {
   }
 
  private:
-  /// The rows of a use, whose words are marked.
+  /// The rows of a use; marks its words.
   Range mark(const ViewUse& use) {
     const std::size_t first = use.offset / row_, phase = use.offset % row_;
     if (use.strided && phase + use.size <= row_) {
@@ -200,17 +200,17 @@ class Gatherer {
     const bool mayBeNamed = mustKeepNumbers();
     for (std::size_t v = 0; v < views_.size(); ++v) {
       if (references_[v] == 0) {
-        // By something unknown, in its own words.
+        // Something unknown may still refer to it in its own way.
         if (mayBeNamed && !touched_[v]) views_[v].fate = Fate::whole;
         continue;
       }
-      // Not where something unknown refers to it as well.
+      // Not if something unknown refers to it as well.
       const bool shrinks = touched_[v] && references_[v] == uses_[v].size() &&
                            PartlyUsed::canShrink(document_.views[v].stride);
       views_[v].fate = shrinks ? Fate::partly : Fate::whole;
       if (shrinks) partly += partlyUsed(v).size();
     }
-    // Views that lie upon each other would be copied again and again.
+    // Overlapping views would be copied again and again.
     if (partly <= all) return;
     for (View& view : views_)
       if (view.fate == Fate::partly) view.fate = Fate::whole;
@@ -262,7 +262,7 @@ class Gatherer {
       holder["byteOffset"] = offset;
   }
 
-  /// Whether something unknown may count views, and refer to them.
+  /// Whether something unknown may refer to views by number.
   bool mustKeepNumbers() const {
     const Json* const used = find(document_.json, "extensionsUsed");
     return used && std::ranges::any_of(*used, [](const Json& name) {
@@ -297,7 +297,7 @@ class Gatherer {
     return json;
   }
 
-  /// A view must have bytes, so that there must be some.
+  /// A view must have bytes, so there must be some in the buffer.
   Json placeholder() {
     if (binary_.empty()) binary_.resize(word, '\0');
     return {{"buffer", 0}, {"byteLength", 1}};

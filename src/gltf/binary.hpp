@@ -5,8 +5,8 @@
 namespace sweepface::gltf {
 
 /// Moves all bytes that something still refers to into one buffer, buffer 0, and returns them.
-/// `touched` are views of which some bytes are needed no longer. Views that nothing refers to are
-/// removed. Where an unknown extension may count views and refer to them they stay as they are, or
+/// `touched` are views some of whose bytes are no longer needed. Views that nothing refers to are
+/// removed; but where an unknown extension may refer to views by number, they stay as they are, or
 /// shrink to a byte if they were touched.
 std::string gatherBinary(Document& document, const std::vector<bool>& touched);
 

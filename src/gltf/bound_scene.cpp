@@ -21,12 +21,13 @@ std::unexpected<Error> doesNotFit(std::string_view why) {
   return fail(fmt::format("The face and its scene do not fit: {}; convert the source again.", why));
 }
 
-/// Of an error that may advise on the glTF that the scene once was, which helps nobody.
+/// Passes on an error without its advice, which may be about the glTF that the scene once was and
+/// would help nobody.
 std::unexpected<Error> cannotBeRead(const Error& error) {
   return doesNotFit(io::withoutAdvice(error.message));
 }
 
-/// Targets of the rig that its scene came without.
+/// Targets of the rig that its scene lacks.
 std::vector<std::string> newTargets(const Rig& rig, const std::vector<std::string>& known) {
   const std::set<std::string_view> names(known.begin(), known.end());
   std::vector<std::string> more;
@@ -35,7 +36,7 @@ std::vector<std::string> newTargets(const Rig& rig, const std::vector<std::strin
   return more;
 }
 
-/// The rig's target of each of the scene's.
+/// The rig's target for each of the scene's.
 Result<std::vector<Index>> matchTargets(const Rig& rig, const std::vector<std::string>& names) {
   std::map<std::string_view, Index> numbers;
   for (std::size_t k = 0; k < rig.targets.size(); ++k)
@@ -71,8 +72,8 @@ Result<BoundScene> sceneOf(const Rig& rig) {
   auto parts = findParts(*document);
   if (!parts) return cannotBeRead(parts.error());
   if (document->buffers.size() > 1) return doesNotFit("it has several buffers");
-  // What its accessors may claim counts on what was taken out as well: shapes, triangles and
-  // texture coordinates.
+  // What its accessors may claim also depends on what was taken out: shapes, triangles and texture
+  // coordinates.
   const Polygons& polygons = rig.source.polygons;
   const std::size_t vertices = rig.source.gridVertex.size();
   document->sourceBytes += (12 + 8) * vertices + 2 * polygons.corners.size();

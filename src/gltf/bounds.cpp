@@ -26,7 +26,7 @@ void correctBounds(Document& document, const std::vector<bool>& rounded) {
     Json& json = document.json["accessors"][a];
     if (!find(json, "min") && !find(json, "max")) continue;
     const auto accessor = accessorAt(document, a);
-    // What is wrong with an accessor is for who reads it to say.
+    // Faults of an accessor are reported when it is read.
     if (!accessor || accessor->type != Component::float32 || !accessor->view ||
         !rounded[*accessor->view])
       continue;

@@ -6,8 +6,8 @@
 
 namespace sweepface::gltf {
 
-/// Filters round what they compress, and files tell the bounds from before: makes `min` and `max`,
-/// where an accessor of floats in a rounded view [views] has them, those of its numbers.
+/// Recomputes `min` and `max`, where given, of float accessors in rounded views [views]: filters
+/// round what they compress, but files state the bounds from before.
 void correctBounds(Document& document, const std::vector<bool>& rounded);
 
 }  // namespace sweepface::gltf

@@ -9,7 +9,7 @@ namespace sweepface::gltf {
 namespace {
 
 constexpr int vertexBuffer = 34962, indexBuffer = 34963;
-// What an accessor's JSON grows by when it is sparse, roughly.
+// Roughly how much an accessor's JSON grows when it is sparse.
 constexpr std::size_t sparseOverhead = 128;
 
 void align(std::string& bytes, std::size_t size) {
@@ -24,7 +24,7 @@ const char* shapeOf(std::size_t width) {
   return width < names.size() ? names[width] : "MAT4";
 }
 
-/// Exactly what is stored: whole numbers stay whole, floats are told to their last digit.
+/// Exactly what is stored: integers stay integers, floats keep all their digits.
 Json numberOf(Component type, double value) {
   if (type == Component::float32) return value;
   return static_cast<std::int64_t>(value);
@@ -66,7 +66,7 @@ constexpr std::array grownLists{"accessors", "bufferViews"};
 
 }  // namespace
 
-// A JSON object moves all that it holds when it gets another member: so both lists are made now.
+// A JSON object moves all its members when it gets another one, so both lists are made now.
 Builder::Builder(Document& document) : document_(document) {
   if (document.buffers.empty()) document.buffers.emplace_back();
   for (const char* list : grownLists)
@@ -141,7 +141,7 @@ void Builder::setDense(Json& accessor, const Column& column, Use use) {
 
 void Builder::setSparse(Json& accessor, const Column& column, std::span<const double> rows) {
   if (sparseIndices_.empty()) {
-    // Their places in the list; what they hold is known at the end.
+    // Reserves their places in the list; their contents are known only at the end.
     sparseIndexView_ = addView({}, 0, 0);
     sparseValueView_ = addView({}, 0, 0);
   }

@@ -9,10 +9,10 @@
 namespace sweepface::gltf {
 namespace {
 
-/// Bytes by which tables are judged.
+/// How many bytes of a table are tried to judge it.
 constexpr std::size_t kEnough = std::size_t{1} << 18;
 
-/// A plane of a table, whose bytes stand one after another in planes, and `width` apart in rows.
+/// A plane of a table: bytes that are `width` apart in its rows, made contiguous.
 std::string planeOf(std::string_view rows, std::size_t plane, std::size_t width) {
   std::string bytes;
   bytes.reserve(rows.size() / width);
@@ -34,7 +34,7 @@ void undoDifferences(std::string& plane) {
                                  static_cast<unsigned char>(plane[k - 1]));
 }
 
-/// Which planes deflate better as differences, a byte each.
+/// For each plane a byte that says whether it deflates better as differences.
 std::string stepsOf(std::string_view rows, std::size_t width) {
   std::string steps;
   for (std::size_t p = 0; p < width; ++p) {
@@ -93,7 +93,7 @@ std::string toPlanes(std::string_view bytes, std::span<const ByteTable> tables) 
   std::size_t count = 0;
   for (const ByteTable& table : tables) {
     const std::string_view rows = bytes.substr(table.begin, table.size());
-    // Of many rows the first ones tell.
+    // Large tables are judged by their first rows.
     const std::string_view some =
         rows.substr(0, std::max<std::size_t>(kEnough / table.width, 1) * table.width);
     const std::string steps = stepsOf(some, table.width);

@@ -7,9 +7,9 @@
 
 #include "sweepface/result.hpp"
 
-// Numbers deflate badly: of a float the first bytes are much as those of its neighbours, and the
-// last ones noise. A table of numbers deflates better plane by plane: the first bytes of all its
-// rows, then the second ones, and so on.
+// Numbers deflate badly: the first bytes of a float are much like those of its neighbours, and the
+// last ones are noise. A table of numbers deflates better plane by plane: the first bytes of all
+// its rows, then the second ones, and so on.
 namespace sweepface::gltf {
 
 /// Rows of bytes one after another.
@@ -20,12 +20,12 @@ struct ByteTable {
   std::uint64_t end() const { return begin + size(); }
 };
 
-/// The bytes with those of the tables that then deflate better in planes, each as it is or as
-/// differences from row to row, and a head that says which. Nothing if none do. Tables are in
-/// ascending order and apart.
+/// The bytes, with the tables that deflate better that way in planes, each plane as it is or as
+/// differences from row to row, and a head that says which. Empty if no table does. Tables must be
+/// in ascending order and not overlap.
 std::string toPlanes(std::string_view bytes, std::span<const ByteTable> tables);
 
-/// What was made planes of. Refuses tables that are not in order or beyond the bytes.
+/// Undoes toPlanes(). Refuses tables that are out of order or reach beyond the bytes.
 Result<std::string> fromPlanes(std::string_view planes);
 
 }  // namespace sweepface::gltf

@@ -19,15 +19,15 @@ namespace sweepface {
 namespace gltf {
 namespace {
 
-/// Curves between keys become straight lines between so many places a second, at the least.
+/// Curves between keys become straight lines between at least this many places a second.
 constexpr double kCurveRate = 120;
 
 /// One channel: the weights of a mesh.
 struct Track {
   std::vector<std::string> names;
   std::string interpolation;
-  std::vector<double> times, values;  // a row, or three with tangents, of names a key
-  CubicKeys cubic;                    // where it is one
+  std::vector<double> times, values;  // per key a row of names, or three with tangents
+  CubicKeys cubic;                    // if it is one
 
   void at(double time, std::span<double> out) const {
     if (interpolation == "CUBICSPLINE") return cubic.at(time, out);
@@ -120,7 +120,7 @@ class ClipReader {
       const RigMesh* const mesh = moved ? meshOf(*moved) : nullptr;
       if (mesh) found.push_back({mesh, moved->ofNode ? moved->number : behindNodes, c, sampler});
     }
-    // The order of channels means nothing: of each mesh the first node that shows it counts.
+    // The order of channels means nothing: for each mesh, the first node that shows it counts.
     std::ranges::sort(found, {},
                       [](const Channel& c) { return std::tuple(c.mesh->mesh, c.node, c.number); });
     const auto others = std::ranges::unique(found, {}, &Channel::mesh);
@@ -155,7 +155,7 @@ class ClipReader {
                       output = in.index("output", accessors, "accessors");
     Track track;
     for (const std::size_t t : mesh.targets) track.names.push_back(parts_.targets[t]);
-    // Where several meshes have a target, the first one's weight counts.
+    // If several meshes have a target, the first one's weight counts.
     const auto isKnown = [&](const std::string& name) { return known_.contains(name); };
     if (std::ranges::all_of(track.names, isKnown)) return {};
     track.interpolation = in.has("interpolation") ? in.text("interpolation") : "LINEAR";
@@ -166,7 +166,7 @@ class ClipReader {
     auto times = numbers(input), values = numbers(output);
     if (!times) return std::unexpected(times.error());
     if (!values) return std::unexpected(values.error());
-    // Channels may all play the same few bytes.
+    // Many channels may play the same few bytes.
     held_ += values->size();
     if (held_ > kMostClipWeights)
       return fail(
@@ -204,7 +204,8 @@ class ClipReader {
     return keys;
   }
 
-  /// When what held since a span ago ends: as late as floats can tell from `time`.
+  /// The end of a step that lasted for `span` before `time`: as late as floats can tell from
+  /// `time`.
   static double justBefore(double time, double span) {
     constexpr float kPast = -std::numeric_limits<float>::infinity();
     const float last = std::nextafter(static_cast<float>(time), kPast);
@@ -225,7 +226,7 @@ class ClipReader {
     times.erase(std::unique(times.begin(), times.end(), same), times.end());
   }
 
-  /// All keys; more on curves, and just before what holds changes.
+  /// The times of all keys, with more on curves and just before steps change.
   Result<std::vector<double>> frames() const {
     std::vector<double> times;
     for (const Track& track : tracks_)
@@ -273,7 +274,7 @@ class ClipReader {
   const Document& document_;
   const Parts& parts_;
   std::vector<Track> tracks_;
-  std::size_t held_ = 0;  // values of them all
+  std::size_t held_ = 0;  // values of all tracks
   std::vector<std::string> names_;
   std::set<std::string> known_;                               // the names
   std::vector<std::pair<std::size_t, std::size_t>> sources_;  // [names] track, and place in it

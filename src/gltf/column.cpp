@@ -16,7 +16,7 @@ Column pack(std::span<const double> values, std::size_t width, Component type, b
   const double one = normalized ? high : 1;
   for (double value : values) {
     value *= one;
-    const bool fits = value >= low && value <= high;  // not so for what is no number
+    const bool fits = value >= low && value <= high;  // false for NaN
     column.sound = column.sound && fits;
     append(column.bytes, type, fits ? value : value > high ? high : value < low ? low : 0);
   }
@@ -39,7 +39,7 @@ Column pack(std::span<const Vec2> values) {
 
 Column packIndices(std::span<const Index> vertices) {
   const Index largest = vertices.empty() ? 0 : std::ranges::max(vertices);
-  // The largest number of a type means that a strip starts anew.
+  // The largest number of a type means primitive restart.
   const Component type = largest < 0xffff ? Component::uint16 : Component::uint32;
   const std::vector<double> numbers(vertices.begin(), vertices.end());
   return pack(numbers, 1, type);

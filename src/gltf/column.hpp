@@ -9,7 +9,7 @@
 
 namespace sweepface::gltf {
 
-/// Values for an accessor, element after element without gaps, little-endian.
+/// Values for an accessor, element by element without gaps, little-endian.
 struct Column {
   std::string bytes;
   Component type = Component::float32;
@@ -24,16 +24,16 @@ struct Column {
   double stored(std::size_t component) const;
 };
 
-/// What is left of a number in single precision, as renderers will have it.
+/// A number rounded to single precision, as renderers will have it.
 inline double single(double value) { return static_cast<double>(static_cast<float>(value)); }
 
-/// Numbers as a type holds them, whole ones rounded. A zero has no sign.
+/// Packs numbers into a type, rounded if it is an integer type. Zeros lose their sign.
 Column pack(std::span<const double> values, std::size_t width, Component type = Component::float32,
             bool normalized = false);
 Column pack(std::span<const Vec3> values, Component type = Component::float32,
             bool normalized = false);
 Column pack(std::span<const Vec2> values);
-/// Vertices of triangles, in the smallest type that every graphics interface has.
+/// Packs vertices of triangles into the smallest type that every graphics API supports.
 Column packIndices(std::span<const Index> vertices);
 
 }  // namespace sweepface::gltf

@@ -6,7 +6,7 @@
 
 namespace sweepface::gltf {
 
-/// The type of a number in a buffer, under glTF's number for it.
+/// The type of a number in a buffer, with glTF's code for it.
 enum class Component {
   int8 = 5120,
   uint8 = 5121,
@@ -24,15 +24,15 @@ constexpr bool isOfIndices(Component type) {
   return type == Component::uint8 || type == Component::uint16 || type == Component::uint32;
 }
 
-/// What a type holds. Where integers are normalised, `high` means 1.
+/// The range of a type. In normalised integers, `high` means 1.
 struct ComponentRange {
   double low, high;
 };
 ComponentRange rangeOf(Component type);
 
-/// The number in little-endian bytes.
+/// Reads a number from little-endian bytes.
 double load(Component type, const char* bytes);
-/// Appends a number within the type's range, rounded to what it holds. A zero has no sign.
+/// Appends a number within the type's range, rounded to the type. Zeros lose their sign.
 void append(std::string& bytes, Component type, double value);
 
 }  // namespace sweepface::gltf

@@ -112,7 +112,7 @@ class Cutter {
     std::vector<Index> loop;
     std::vector<Vec3> polygon;
     for (const Index k : {first, first + 1, first + row + 1, first + row}) {
-      // Where a side is collapsed two neighbours are one.
+      // Where a side is collapsed, two neighbours are one.
       if (!loop.empty() && cell_[loop.back()].gridVertex == cell_[k].gridVertex) continue;
       if (!loop.empty() && cell_[loop.front()].gridVertex == cell_[k].gridVertex) continue;
       loop.push_back(k);
@@ -125,7 +125,8 @@ class Cutter {
     }
   }
 
-  /// A part without any surface stays, as a triangle that is a point: a glTF has no empty ones.
+  /// Keeps a part without any surface as a triangle that is a point: a glTF has no empty
+  /// primitives.
   void addDot(std::size_t part) {
     const std::size_t run = scene_.parts.parts[part].run;
     if (mesh_.runs[run].places.empty()) vertices_[run].add(0, Mix::at(0));
@@ -138,7 +139,7 @@ class Cutter {
   const std::vector<Vec3>& positions_;
   const std::vector<Index>& same_;
   Index level_;
-  std::vector<Corner> cell_;  // [(level + 1)²] of the quad at hand
+  std::vector<Corner> cell_;  // [(level + 1)²] of the current quad
   std::vector<Index> faceOfQuad_;
   std::vector<EdgeVertices> vertices_;  // [runs]
   FineMesh mesh_;

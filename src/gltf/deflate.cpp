@@ -19,14 +19,15 @@ struct EndDeflate {
   void operator()(z_stream* stream) const { deflateEnd(stream); }
 };
 
-/// Calls zlib until it says something else than Z_OK, piece by piece. Nothing beyond `most` bytes.
+/// Calls zlib piece by piece until it returns something other than Z_OK or there are more than
+/// `most` bytes.
 template <typename Step>
 int runPieces(z_stream& stream, std::string_view in, std::string& out, std::size_t most,
               Step step) {
   int said = Z_OK;
   while (said == Z_OK && out.size() <= most) {
     const std::size_t given = std::min<std::size_t>(in.size(), std::numeric_limits<uInt>::max());
-    // zlib reads through this pointer alone.
+    // zlib only reads through this pointer.
     stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(in.data()));
     stream.avail_in = static_cast<uInt>(given);
     const std::size_t before = out.size();

@@ -28,7 +28,7 @@ struct Container {
   bool more = false;  ///< chunks that the format does not define
 };
 
-/// Takes a GLB apart.
+/// Splits a GLB into its chunks.
 Result<Container> readContainer(std::string_view bytes) {
   const auto damaged = [](std::string_view what) {
     return fail(fmt::format("{}; copy the file again or export it again.", what));
@@ -61,7 +61,7 @@ Result<Container> readContainer(std::string_view bytes) {
 
 // ---- The asset ----
 
-/// The lists of a glTF that are looked into.
+/// The lists of a glTF that are read.
 constexpr std::array lists{"accessors", "animations", "buffers", "bufferViews",
                            "images",    "materials",  "meshes",  "nodes",
                            "scenes",    "skins",      "textures"};
@@ -136,7 +136,7 @@ class Loader {
   }
 
  private:
-  /// What a buffer says of itself: its length, and where in the document's its bytes are.
+  /// The length that a buffer states, and which of the document's buffers has its bytes.
   struct Told {
     std::size_t length = 0, place = 0;
   };
@@ -167,7 +167,8 @@ class Loader {
     return {};
   }
 
-  /// A file is read once, however many buffers name it, and all of it: they may have other lengths.
+  /// A file is read once, however many buffers name it, and completely, as their lengths may
+  /// differ.
   Result<void> fetchInto(std::string& bytes, std::string_view uri) {
     auto fetched = fetch(uri, folder_);
     if (!fetched) return std::unexpected(fetched.error());
@@ -208,7 +209,7 @@ class Loader {
     const MeshoptStream stream = readMeshopt(in, document_.buffers.size());
     if (in.ok()) checkRange(in, stream.buffer, stream.offset, stream.length);
     if (!in.ok()) return in.error();
-    // No byte is compressed twice.
+    // No byte belongs to two compressed views.
     compressed_ += stream.length;
     if (compressed_ > total_) in.refuse("its bytes are those of other compressed views");
     if (!in.ok()) return in.error();
@@ -229,7 +230,7 @@ class Loader {
     return {};
   }
 
-  /// Makes a view that was compressed one of the next buffer.
+  /// Makes a view that was compressed refer to the next buffer.
   void pointTo(std::size_t index, std::size_t length) {
     Json& json = document_.json["bufferViews"][index];
     json.erase("byteOffset");
@@ -251,8 +252,8 @@ class Loader {
   std::vector<bool> rounded_;                   // [views] by a filter
 };
 
-/// Takes an extension that nothing uses any longer out of the lists of those that are, and out of
-/// buffers: what stood in for compressed data may come to hold some.
+/// Removes an extension that nothing uses any longer from the lists of extensions and from buffers:
+/// a placeholder for compressed data may come to hold some.
 void forgetExtension(Json& json, std::string_view name) {
   for (const char* key : {"extensionsUsed", "extensionsRequired"}) {
     Json* const list = find(json, key);
@@ -337,7 +338,7 @@ std::vector<bool> jointsOf(const Document& document) {
 }
 
 std::string formatContainer(const Json& json, std::string_view binary) {
-  // Names that are no UTF-8 lose the bytes that make them so.
+  // In names, bytes that are not UTF-8 are replaced.
   std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
   text.resize((text.size() + 3) / 4 * 4, ' ');
   const std::size_t padded = (binary.size() + 3) / 4 * 4;

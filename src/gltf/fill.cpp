@@ -8,12 +8,12 @@
 namespace sweepface::gltf {
 namespace {
 
-// So many targets are evaluated at once; more would only take more memory.
+// How many targets are evaluated at once; more would only take more memory.
 constexpr std::size_t batch = 16;
-// Half of a float's last digit, as a share of the number.
+// Half a unit in a float's last place, as a share of the number.
 constexpr double halfDigit = 0x1p-24;
 
-/// From the space of the scene to what a run's accessors hold.
+/// Converts from the space of the scene to what a run's accessors hold.
 class Packer {
  public:
   Packer(const Affine& world, const Encoding& encoding, const std::vector<Index>& places)
@@ -26,7 +26,7 @@ class Packer {
       return encoding_.quantized ? (p - encoding_.middle) * (1 / encoding_.half) : p;
     });
   }
-  /// What is lost when it is added to a float as large as the mesh counts as no difference.
+  /// A difference that would be lost when added to a float as large as the mesh becomes 0.
   Column differences(const std::vector<Vec3>& vectors) const {
     const double least = halfDigit * largest_;
     return packed([&](Index place) {
@@ -50,7 +50,7 @@ class Packer {
     const auto isFraction = [](const Vec3& d) {
       return std::abs(d.x) <= 1 && std::abs(d.y) <= 1 && std::abs(d.z) <= 1;
     };
-    // Fractions of one cannot tell of a normal that turns by more than 60°.
+    // Normalised integers may not hold the change of a normal that turns by more than 60°.
     if (!encoding_.quantized || !std::ranges::all_of(list, isFraction)) return pack(list);
     return pack(list, Component::int16, true);
   }
@@ -82,7 +82,7 @@ class Packer {
   Affine fromScene_;
   const Encoding& encoding_;
   const std::vector<Index>& places_;
-  double largest_ = 0;  // coordinate of the neutral
+  double largest_ = 0;  // largest coordinate of the neutral
 };
 
 class Filler {
@@ -117,7 +117,7 @@ class Filler {
  private:
   /// What one target does to one run.
   struct Morph {
-    std::size_t run = 0, target = 0;  // the latter among the mesh's
+    std::size_t run = 0, target = 0;  // `target` among the mesh's
     Column positions;
     std::optional<Column> normals;
   };
@@ -132,7 +132,7 @@ class Filler {
     return [target](Json& primitive) -> Json& { return primitive["targets"][target]; };
   }
 
-  /// Gives the parts of a run the same values for an attribute: all parts, or those that have it.
+  /// Gives the parts of a run the same values for an attribute: all of them, or those that have it.
   template <typename Holder>
   void set(std::size_t run, Holder holderOf, const char* attribute, bool all, const Column& column,
            Use use) {
@@ -195,7 +195,7 @@ class Filler {
 
   void write(const Morph& morph) {
     const auto holder = inTarget(morph.target);
-    // What lacked positions because it did not move goes without, unless it moves now.
+    // A target that had no positions because it did not move goes without, unless it moves now.
     const bool moves = morph.positions.bytes.find_first_not_of('\0') != std::string::npos;
     set(morph.run, holder, "POSITION", moves, morph.positions, Use::morphs);
     if (morph.normals)

@@ -10,14 +10,14 @@ namespace sweepface::gltf {
 struct Encoding {
   bool quantized = false;
   Vec3 middle;      ///< of the cube, in the mesh's space
-  double half = 1;  ///< of its edge; differences are shares of it too
+  double half = 1;  ///< of the cube's edge; differences are shares of it too
 };
 
-/// The places of vertices [runs][vertices] among those of the shapes.
+/// [runs][vertices] the place of each vertex among those of the shapes.
 using Places = std::vector<std::vector<Index>>;
 
 /// Gives the parts of a scene their positions, normals and morph targets. With `morphNormals` every
-/// target has normals, else those that had them. Fails where the file outgrows a GLB.
+/// target gets normals, otherwise only those that had them. Fails if the file outgrows a GLB.
 Result<void> fill(BoundScene& scene, const Shapes& shapes, const Places& places,
                   const std::vector<Encoding>& encodings, bool morphNormals, Builder& builder,
                   Slots& slots);

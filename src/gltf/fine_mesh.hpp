@@ -21,14 +21,14 @@ struct FineMesh {
 };
 
 /// Cuts every quad of the source as the tessellation does. Vertices are shared within a run unless
-/// the source's attributes differ there. `positions` are those of the tessellation; the rig knows
-/// its quads.
+/// the source's attributes differ there. `positions` are those of the tessellation; the rig must
+/// know its quads.
 Result<FineMesh> cutFinely(const Rig& rig, const BoundScene& scene, const Tessellation& grid,
                            const std::vector<Vec3>& positions);
 
-/// Gives the parts of a scene the triangles of a fine mesh, and mixes what their vertices have
-/// besides positions and normals. Tangents, matrices and extensions that may speak of the source's
-/// vertices are left out.
+/// Gives the parts of a scene the triangles of a fine mesh, and interpolates their vertices'
+/// attributes other than positions and normals. Tangents, matrices and extensions that may refer to
+/// the source's vertices are left out.
 Result<void> refine(BoundScene& scene, const FineMesh& mesh, Slots& slots);
 
 }  // namespace sweepface::gltf

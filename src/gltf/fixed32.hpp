@@ -7,7 +7,7 @@
 // Numbers of 32 bits, little-endian.
 namespace sweepface::gltf {
 
-/// The four bytes at a place must be there.
+/// Reads the number at a place, where there must be four bytes.
 inline std::uint32_t fixed32(std::string_view bytes, std::size_t at) {
   std::uint32_t value = 0;
   for (std::size_t k = 0; k < 4; ++k)

@@ -49,7 +49,7 @@ Result<void> check(const Rig& rig, const GlbOptions& options) {
   return {};
 }
 
-/// Whether so many vertices of positions and normals alone would outgrow a GLB.
+/// Refuses levels at which positions and normals alone would outgrow a GLB.
 Result<void> checkLod(const Surface& surface, Index lod) {
   const auto quads = static_cast<double>(surface.wireframe().quadCount());
   if (24 * quads * lod * lod < 4e9) return {};
@@ -80,7 +80,7 @@ class GlbWriter {
   }
 
  private:
-  /// A face that came without a scene gets one.
+  /// Makes a scene for a face that came without one.
   Result<BoundScene> makeScene() const {
     if (options_.lod == 0) {
       std::vector<Vec3> positions;
@@ -130,7 +130,7 @@ class GlbWriter {
     if (!buffers.is_array() || buffers.empty()) buffers = Json::array({Json::object()});
     buffers[0].erase("uri");
     buffers[0]["byteLength"] = document.buffers[0].size();
-    if (options_.lod > 0)  // what the source's vertices had is needed no longer
+    if (options_.lod > 0)  // the data of the source's vertices are no longer needed
       document.buffers[0] = gatherBinary(document, touched);
     constexpr std::size_t beyond = std::size_t{1} << 32;
     std::string bytes = formatContainer(document.json, document.buffers[0]);
@@ -162,7 +162,7 @@ Rig looseRig(const MeshRig& meshes) {
   return rig;
 }
 
-/// Replaces polygons that are not known by those of the surface.
+/// Replaces unknown polygons by those of the surface.
 void takeFacesOfSurface(Rig& rig) {
   const auto loose = static_cast<Index>(rig.source.loose.size());
   SourceMesh source = gridSource(rig.surface);

@@ -15,7 +15,7 @@
 namespace sweepface {
 namespace {
 
-/// Whether steps of a quantization are undone by a skin that could not place the mesh.
+/// Whether the steps of a quantized mesh are undone by a skin that could not place it.
 bool hasStepsThatASkinUndoes(const gltf::Document& document, const gltf::Parts& parts) {
   std::vector<bool> isSkinned(document.list("meshes").size());
   for (const gltf::Json& node : document.list("nodes"))

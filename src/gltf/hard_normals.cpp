@@ -7,9 +7,9 @@
 namespace sweepface::gltf {
 namespace {
 
-// Further apart than 30 degrees; not the two sides of a sheet that is doubled.
+// Cosines: more than 30 degrees apart, but not the two sides of a doubled sheet.
 constexpr double kFar = 0.866, kOpposite = -0.999;
-// Fewer are lashes and rims, which a smooth surface may have.
+// A smaller share is lashes and rims, which a smooth surface may have.
 constexpr double kShare = 0.01;
 
 bool areApart(const Vec3& a, const Vec3& b) {
@@ -17,7 +17,7 @@ bool areApart(const Vec3& a, const Vec3& b) {
   return cosine < kFar * lengths && cosine > kOpposite * lengths;
 }
 
-/// The normals of a primitive's vertices; none where it has none, or some are no numbers: the face
+/// The normals of a primitive's vertices; empty if it has none or some are not numbers: the face
 /// can do without.
 std::vector<double> normalsOf(const Document& document, const Json& primitive) {
   const Json* const number = find(*find(primitive, "attributes"), "NORMAL");

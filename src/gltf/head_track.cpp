@@ -10,13 +10,12 @@ double dot(const Quaternion& a, const Quaternion& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
 }
 
-/// That of q and -q, which are one rotation, which is nearer to another one.
+/// Whichever of q and -q, which are the same rotation, is nearer to another one.
 Quaternion nearer(const Quaternion& q, const Quaternion& to) {
   return dot(q, to) < 0 ? Quaternion{-q[0], -q[1], -q[2], -q[3]} : q;
 }
 
-/// Along the great circle, the shorter way, as players interpolate rotations (glTF 2.0, appendix
-/// C.4).
+/// Interpolates along the great circle, the shorter way, as players do (glTF 2.0, appendix C.4).
 Quaternion between(const Quaternion& a, const Quaternion& to, double s) {
   const Quaternion b = nearer(to, a);
   const double cosine = std::clamp(dot(a, b), -1.0, 1.0), angle = std::acos(cosine);
@@ -36,14 +35,15 @@ double angleBetween(const Quaternion& a, const Quaternion& to) {
   return 4 * std::asin(std::min(1.0, std::sqrt(square) / 2));
 }
 
-/// With neighbours that programs may interpolate number by number.
+/// Chooses signs so that programs may interpolate neighbours number by number.
 std::vector<Quaternion> untwisted(std::vector<Quaternion> rotations) {
   for (std::size_t k = 1; k < rotations.size(); ++k)
     rotations[k] = nearer(rotations[k], rotations[k - 1]);
   return rotations;
 }
 
-/// Frames that do as keys: each piece goes as far as all frames on it stay within the tolerance.
+/// Frames that suffice as keys: each piece is as long as all frames on it stay within the
+/// tolerance.
 std::vector<std::size_t> keysOf(const HeadTrack& track, const std::vector<Quaternion>& rotations,
                                 double tolerance) {
   std::vector<std::size_t> keys{0};
@@ -56,7 +56,7 @@ std::vector<std::size_t> keysOf(const HeadTrack& track, const std::vector<Quater
     return true;
   };
   for (std::size_t from = 0; from + 1 < rotations.size();) {
-    // In strides that grow and then shrink: frame by frame long rests would take long.
+    // In strides that grow and then shrink: frame by frame, long rests would take long.
     std::size_t to = from + 1, stride = 1;
     const auto goesOn = [&] { return to + stride < rotations.size() && isNear(from, to + stride); };
     for (; goesOn(); stride *= 2) to += stride;
@@ -68,10 +68,10 @@ std::vector<std::size_t> keysOf(const HeadTrack& track, const std::vector<Quater
 }
 
 /// What the scene shows, as lists of nodes: what goes below the head, and skinned meshes, which
-/// their joints carry. A node above these would not move them.
+/// their joints move and a node above would not.
 struct Roots {
   Json below = Json::array(), beside = Json::array();
-  bool areElsewhere = false;  ///< some are children as well, or told twice
+  bool areElsewhere = false;  ///< some are also children, or listed twice
 
   explicit Roots(const Document& document) {
     const Json& nodes = document.list("nodes");
@@ -91,7 +91,7 @@ struct Roots {
   }
 };
 
-/// A joint may have the name already, by which animations and programs find it.
+/// A name that no node has: a joint may have this one, by which animations and programs find it.
 std::string freeName(const Json& nodes, std::string name) {
   const auto isTaken = [&](const Json& node) {
     const Json* const own = find(node, "name");

@@ -7,8 +7,8 @@
 
 namespace sweepface::gltf {
 
-/// Puts all that the scene shows under a node "head" at the pivot, but for skinned meshes, which
-/// their joints carry, and adds its rotation to an animation.
+/// Puts everything that the scene shows under a node "head" at the pivot, except skinned meshes,
+/// which their joints move, and adds its rotation to an animation.
 Result<void> addHeadTrack(Document& document, const HeadTrack& track, double tolerance,
                           Json& animation, Builder& builder);
 

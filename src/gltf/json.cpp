@@ -9,12 +9,12 @@
 namespace sweepface::gltf {
 namespace {
 
-// Members are found one after the other, so that an object of very many would take very long.
+// Members are searched linearly, so an object with very many would take very long.
 constexpr std::size_t deepest = 128, mostMembers = 4096;
 
-/// Whether a text that may or may not be JSON would keep its parser busy.
+/// Refuses a text, JSON or not, that would keep the parser busy.
 Result<void> checkNesting(std::string_view text) {
-  std::vector<std::size_t> members;  // of each object around
+  std::vector<std::size_t> members;  // of each enclosing object
   Result<void> result;
   io::scanJson(text, [&](std::size_t at) {
     const char c = text[at];

@@ -13,10 +13,11 @@ namespace sweepface::gltf {
 /// Members stay in the order in which they were read.
 using Json = nlohmann::ordered_json;
 
-/// A JSON text. Nesting and objects without bounds are refused before they can cost stack or time.
+/// Parses a JSON text. Unbounded nesting and objects are refused before they can cost stack or
+/// time.
 Result<Json> parseJson(std::string_view text);
 
-/// The member of an object, or null where it lacks it or is no object.
+/// The member of an object, or null if it has none or is not an object.
 inline const Json* find(const Json& object, std::string_view key) {
   const auto found = object.find(key);
   return found == object.end() ? nullptr : &*found;
@@ -26,11 +27,11 @@ inline Json* find(Json& object, std::string_view key) {
   return found == object.end() ? nullptr : &*found;
 }
 
-/// The list at the top of a glTF, e.g. "accessors"; empty where there is none.
+/// A top-level list of a glTF, e.g. "accessors"; empty if there is none.
 const Json& listOf(const Json& gltf, std::string_view key);
 
-/// Looks into an object of a glTF. The first fault sticks: from then on everything reads as absent
-/// or zero, so that callers ask ok() only before they trust what they have read.
+/// Reads an object of a glTF. The first fault sticks: from then on everything reads as absent or
+/// zero, so callers need ok() only before they trust what they have read.
 class Members {
  public:
   /// Messages begin with the place, e.g. "accessor 5".
@@ -38,7 +39,7 @@ class Members {
 
   bool ok() const { return problem_.empty(); }
   std::unexpected<Error> error() const { return fail(problem_); }
-  /// "place: fault; advice.", unless something has failed before.
+  /// Fails with "place: fault; advice.", unless something has failed before.
   void refuse(std::string_view fault, std::string_view advice = "export the file again");
   const std::string& place() const { return place_; }
 
@@ -79,9 +80,9 @@ class Members {
   std::string place_, problem_;
 };
 
-/// The value as an index below `count`, or nothing where it is none.
+/// The value as an index below `count`, if it is one.
 std::optional<std::size_t> asIndex(const Json& value, std::size_t count);
-/// The same of the member of an object.
+/// The same for the member of an object.
 std::optional<std::size_t> findIndex(const Json& object, std::string_view key, std::size_t count);
 
 }  // namespace sweepface::gltf

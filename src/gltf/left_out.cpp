@@ -20,7 +20,7 @@ std::vector<std::size_t> timesShown(const Document& document) {
   return times;
 }
 
-/// Triangles without targets in meshes that have others with some.
+/// Primitives that are not in the face, of meshes that have others in it.
 std::vector<std::string> stillPrimitives(const Document& document, const Parts& parts) {
   std::set<std::pair<std::size_t, std::size_t>> ofFace;
   for (const Part& part : parts.parts)

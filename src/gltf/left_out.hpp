@@ -7,8 +7,8 @@
 
 namespace sweepface::gltf {
 
-/// Sentences about meshes that a GLB of the face shows and nothing else does: those without morph
-/// targets beside some with, and what nodes show once more.
+/// Sentences about meshes that only a GLB of the face shows: those without morph targets if others
+/// have some, and further nodes that show the same mesh.
 std::vector<std::string> leftOut(const Document& document, const Parts& parts);
 
 }  // namespace sweepface::gltf

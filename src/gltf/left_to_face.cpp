@@ -49,7 +49,7 @@ std::vector<Index> fans(const Parts& parts, const Part& part, const Polygons& po
   return vertices;
 }
 
-/// In ascending order, each from its smallest vertex on.
+/// Triangles in ascending order, each beginning with its smallest vertex.
 std::vector<Triangle> sorted(std::vector<Triangle> triangles) {
   for (Triangle& t : triangles) std::ranges::rotate(t, std::ranges::min_element(t));
   std::ranges::sort(triangles);
@@ -69,12 +69,12 @@ std::vector<std::vector<Index>> facesOfParts(const Parts& parts,
   return faces;
 }
 
-/// How many triangles a part has, and vertices that its indices name.
+/// How many triangles a part has, and how many vertices its indices name.
 struct Counts {
   std::size_t triangles = 0, named = 0;
 };
 Result<Counts> countsOf(const Document& document, const Parts& parts, const Part& part) {
-  // Of indices without data only their number is known: they are the face's.
+  // Indices without data are the face's: only their number is known.
   if (const auto left = emptyAccessor(document, indicesOf(primitiveOf(document, parts, part))))
     return Counts{left->count / 3, left->count};
   const auto found = trianglesOf(document, parts, part);
@@ -112,7 +112,7 @@ class Taker {
   }
 
  private:
-  /// What parts of a run share.
+  /// Texture coordinates that parts of a run share.
   struct Texcoords {
     std::size_t accessor = 0;
     std::vector<Json*> holders;
@@ -202,10 +202,10 @@ Result<LeftToFace> leftToFace(const Document& document, const Parts& parts,
     const Json& mesh = document.list("meshes")[parts.meshes[parts.runs[part.run].rigMesh].mesh];
     if (!indices || faces[p].empty() || keepsOrder(primitive) || keepsOrder(mesh)) continue;
     const std::vector<Index> vertices = fans(parts, part, polygons, faces[p]);
-    if (!emptyAccessor(document, indices)) {  // as a scene's own scene has them
+    if (!emptyAccessor(document, indices)) {  // empty if the document is a scene itself
       const auto found = trianglesOf(document, parts, part);
       if (!found) return std::unexpected(found.error());
-      // Quads may have been made across doubled vertices.
+      // Quads may have been made across duplicated vertices.
       if (sorted(found->triangles) != sorted(vertices)) continue;
     }
     left.indices.emplace(indices, vertices.size());

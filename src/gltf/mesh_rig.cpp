@@ -42,7 +42,7 @@ class RigReader {
   }
 
  private:
-  /// Few bytes can claim much: targets without data, accessors that are used again and again.
+  /// A few bytes can claim much: targets without data, accessors that are used again and again.
   Result<void> checkRoom() const {
     const std::size_t shapes = parts_.targets.size() + 1;
     if (parts_.vertexCount <= document_.mostClaimed() / shapes) return {};
@@ -124,7 +124,8 @@ class RigReader {
     return {};
   }
 
-  /// The first texture coordinate of a part's vertices among all, or -1. Parts may share them.
+  /// Adds a part's texture coordinates, unless another part shares them; returns the index of the
+  /// first, or -1.
   Result<Index> addTexcoords(const Json& primitive) {
     const Json* const number = find(primitive["attributes"], "TEXCOORD_0");
     if (!number) return -1;
@@ -173,7 +174,7 @@ class RigReader {
   std::vector<Index> facePart_;
   io::NameIndex materials_, groups_;
   std::size_t corners_ = 0;
-  // The first of each accessor, as a transform changes them.
+  // The first texture coordinate of each accessor, by the transform applied.
   std::map<std::pair<Json, TextureTransform>, Index> texcoords_;
 };
 

@@ -12,7 +12,7 @@ struct PartedRig {
   std::vector<Index> facePart;  ///< [faces] in Parts::parts
 };
 
-/// Of a file's parts. Memory stays in proportion to the bytes that were read.
+/// Reads the rig from a file's parts. Memory stays in proportion to the bytes that were read.
 Result<PartedRig> readMeshRig(const Document& document, const Parts& parts);
 
 }  // namespace sweepface::gltf

@@ -7,8 +7,8 @@
 namespace sweepface::gltf {
 namespace {
 
-// What a byte can stand for at most: vertices have two bits for 16 equal bytes, triangles a byte
-// for three indices, a sequence a byte an index.
+// The most that a byte can stand for: vertices take two bits for 16 equal bytes, triangles a byte
+// for three indices, a sequence a byte per index.
 bool isPlausible(const MeshoptStream& s) {
   const std::size_t bytes = s.count * s.stride;  // below 2^53 · 2^8
   if (s.mode == "ATTRIBUTES") return bytes / 64 <= s.length;

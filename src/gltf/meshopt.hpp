@@ -10,17 +10,17 @@ namespace sweepface::gltf {
 /// The extension of a buffer view that says how it is compressed, or null.
 const Json* meshoptOf(const Json& view);
 
-/// What a compressed view holds; `in` looks into the extension.
+/// What a compressed view holds, as its extension says.
 struct MeshoptStream {
   std::size_t buffer = 0, offset = 0, length = 0;  ///< where the compressed bytes are
   std::size_t count = 0, stride = 0;
   std::string_view mode, filter;
 };
-/// Refuses counts beyond what `length` bytes can stand for.
+/// Reads the extension through `in`. Refuses counts beyond what `length` bytes can stand for.
 MeshoptStream readMeshopt(Members& in, std::size_t buffers);
 
-/// The `count` elements of `stride` bytes; empty, and refused by `in`, where the bytes are damaged
-/// or of a newer version.
+/// Decodes the `count` elements of `stride` bytes; empty, and refused through `in`, if the bytes
+/// are damaged or of a newer version.
 std::string decodeMeshopt(Members& in, const MeshoptStream& stream, std::string_view bytes);
 
 }  // namespace sweepface::gltf

@@ -19,7 +19,7 @@ Index nearest(const Mix& mix) {
   return mix.corners[mix.u < 0.5 ? (mix.v < 0.5 ? 0 : 3) : (mix.v < 0.5 ? 1 : 2)];
 }
 
-/// Influences of one vertex, the strongest first.
+/// A joint that moves a vertex, and its weight.
 struct Influence {
   double joint = 0, weight = 0;
 };
@@ -61,7 +61,7 @@ class Influences {
       known->weight += more.weight;
   }
 
-  /// As many as there is room for, with a sum of one.
+  /// Keeps as many as there is room for and makes them sum to one.
   std::vector<Influence> strongest(std::vector<Influence> sum) const {
     std::ranges::sort(sum, [](const Influence& a, const Influence& b) {
       return a.weight != b.weight ? a.weight > b.weight : a.joint < b.joint;
@@ -77,7 +77,7 @@ class Influences {
   const std::vector<std::vector<double>>& weights_;
 };
 
-/// Makes fractions whole numbers of 1/`one` without changing their sum: those that lose most by
+/// Rounds fractions to multiples of 1/`one` without changing their sum: those that lose most by
 /// rounding down are rounded up.
 void roundTogether(std::vector<Influence>& influences, double one) {
   std::vector<std::size_t> order(influences.size());
@@ -96,12 +96,12 @@ void roundTogether(std::vector<Influence>& influences, double one) {
   for (std::size_t k = 0; k < static_cast<std::size_t>(std::lround(left)); ++k)
     influences[order[k]].weight += 1;
   for (Influence& i : influences) {
-    if (i.weight == 0) i.joint = 0;  // a joint that moves nothing is to be the first one
+    if (i.weight == 0) i.joint = 0;  // a joint that moves nothing should be joint 0
     i.weight /= one;
   }
 }
 
-/// What 1 is stored as in the coarsest of some attributes; 0 where all are floats.
+/// What 1 is stored as in the coarsest of some attributes; 0 if all are floats.
 double coarsest(const std::vector<Accessor>& attributes) {
   double one = 0;
   for (const Accessor& a : attributes) {
@@ -144,7 +144,7 @@ Result<Column> mixed(const Document& document, const Accessor& attribute,
       }
       double sum = 0;
       for (int k = 0; k < 4; ++k) sum += shares[k] * value(mix.corners[k]);
-      // Rounding must not lead out of the fractions of one.
+      // Rounding must not lead out of -1 to 1.
       result.push_back(attribute.normalized ? std::clamp(sum, -1.0, 1.0) : sum);
     }
   }

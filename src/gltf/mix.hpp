@@ -17,7 +17,7 @@ struct Mix {
   double u = 0, v = 0;
 
   static Mix at(Index vertex) { return {{vertex, vertex, vertex, vertex}, 0, 0}; }
-  /// A share of the way along an edge, the same from both of its sides.
+  /// The place `step` / `steps` along an edge; the same from either side of the edge.
   static Mix between(Index from, Index to, Index step, Index steps);
   /// Whether it is just a corner.
   bool isVertex() const { return u == 0 && v == 0; }
@@ -26,19 +26,19 @@ struct Mix {
   }
 };
 
-/// An attribute's values at every place, of the type it has. Whole numbers that are not fractions
-/// of one cannot be mixed: each is that of the nearest corner.
+/// An attribute's values at every place, in its own type. Integers that are not normalised cannot
+/// be interpolated: they are those of the nearest corner.
 Result<Column> mixed(const Document& document, const Accessor& attribute,
                      std::span<const Mix> places);
 
-/// The joints that move a vertex, four to an attribute, and how much.
+/// The joints that move a vertex, four per attribute, and their weights.
 struct SkinAttributes {
-  std::vector<Accessor> joints, weights;  ///< as many of either
+  std::vector<Accessor> joints, weights;  ///< the same number of both
 };
 struct SkinColumns {
   std::vector<Column> joints, weights;
 };
-/// The joints of all corners together at every place; the strongest are kept, as many as there is
+/// The joints of all corners merged at every place: as many of the strongest are kept as there is
 /// room for, and their weights sum to one.
 Result<SkinColumns> mixedSkin(const Document& document, const SkinAttributes& attributes,
                               std::span<const Mix> places);

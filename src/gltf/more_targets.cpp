@@ -46,7 +46,7 @@ class TargetAdder {
     extras["targetNames"] = std::move(list);
   }
 
-  /// Primitives that shared their vertices go on doing so.
+  /// Primitives that shared their vertices keep sharing them.
   void widen(const Part& part) {
     const Run& run = parts_.runs[part.run];
     const std::size_t mesh = meshOf(part);
@@ -64,7 +64,8 @@ class TargetAdder {
     return parts_.meshes[parts_.runs[part.run].rigMesh].mesh;
   }
 
-  /// All primitives of a mesh have as many targets: points and lines get some that move nothing.
+  /// All primitives of a mesh must have the same number of targets: points and lines get some that
+  /// move nothing.
   Result<void> widenOthers() {
     std::set<std::pair<std::size_t, std::size_t>> ofParts;
     for (const Part& part : parts_.parts) ofParts.emplace(meshOf(part), part.primitive);
@@ -105,7 +106,7 @@ class TargetAdder {
   void widenWeights(Json& holder, std::size_t before) const {
     Json& weights = holder["weights"];
     if (!weights.is_array()) weights = Json::array();
-    while (weights.size() > before) weights.erase(weights.size() - 1);  // of targets that are none
+    while (weights.size() > before) weights.erase(weights.size() - 1);  // of missing targets
     while (weights.size() < before + names_.size()) weights.push_back(0.0);
   }
 
@@ -137,7 +138,7 @@ class TargetAdder {
     return meshes_.contains(moved->number) ? std::optional(moved->number) : std::nullopt;
   }
 
-  /// By sampler of an animation, or by accessor, and how many targets there were.
+  /// Keyed by the sampler of an animation, or the accessor, and by how many targets there were.
   using Widened = std::map<std::pair<std::size_t, std::size_t>, std::size_t>;
 
   Result<void> widenChannel(Json& samplers, Widened& known, Json& channel, Widened& outputs,
@@ -146,10 +147,10 @@ class TargetAdder {
     const auto mesh = target ? meshMovedBy(*target) : std::nullopt;
     const auto sampler = findIndex(channel, "sampler", samplers.size());
     if (!mesh || !sampler || !samplers[*sampler].is_object()) return {};
-    // Weights of no targets mean nothing that could be kept.
+    // Weights of no targets hold nothing worth keeping.
     const std::size_t before = meshes_.at(*mesh);
     if (before == 0) return {};
-    // A sampler of another node's keeps its width.
+    // The old sampler keeps its width, as another node may use it.
     Json wide = samplers[*sampler];
     const auto output = findIndex(wide, "output", document_.list("accessors").size());
     if (!output) return {};
@@ -183,7 +184,7 @@ class TargetAdder {
   Json& json_;
   const Parts& parts_;
   const std::vector<std::string>& names_;
-  std::map<std::size_t, std::size_t> meshes_;  // and how many targets they had
+  std::map<std::size_t, std::size_t> meshes_;  // mesh: how many targets it had
   std::map<std::pair<std::size_t, std::size_t>, std::size_t> hollows_;  // by run and name
 };
 

@@ -5,7 +5,7 @@
 namespace sweepface::gltf {
 namespace {
 
-/// N of "/nodes/N/weights", if there are more.
+/// N of "/nodes/N/weights", if it is below `count`.
 std::optional<std::size_t> numberIn(std::string_view pointer, std::string_view start,
                                     std::size_t count) {
   constexpr std::string_view end = "/weights";

@@ -24,7 +24,7 @@ Affine fromParts(const std::array<double, 3>& move, const std::array<double, 4>&
           {move[0], move[1], move[2]}};
 }
 
-/// How a node places things in its parent.
+/// A node's local transform.
 Result<Affine> localMatrix(const Json& node, std::size_t index) {
   Members in(node, placeOf(index));
   const auto matrix = in.numbers<16>("matrix");

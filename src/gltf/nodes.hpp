@@ -7,11 +7,10 @@
 
 namespace sweepface::gltf {
 
-/// For every node how it places things in its scene. Refuses trees with cycles and nodes of two
-/// parents.
+/// [nodes] the global transform of each. Refuses trees with cycles and nodes with two parents.
 Result<std::vector<Affine>> worldMatrices(const Document& document);
 
-/// Whether any scene has each node [nodes]; where there are no scenes, all.
+/// [nodes] whether each is in any scene; without scenes, all are.
 std::vector<bool> nodesOfScenes(const Document& document);
 
 }  // namespace sweepface::gltf

@@ -25,8 +25,8 @@ struct Placement {
   bool mirrors = false;
 };
 
-/// How the first node that shows each mesh places it, of those in a scene if one does. A skin
-/// ignores where its node is, though not whether that mirrors (glTF 2.0, 3.7.4).
+/// [meshes] how the first node that shows each mesh places it, preferably one in a scene. A skin
+/// ignores its node's transform, though not whether that mirrors (glTF 2.0, 3.7.4).
 Result<std::vector<Placement>> placements(const Document& document) {
   const Json& nodes = document.list("nodes");
   const std::size_t count = document.list("meshes").size();
@@ -47,7 +47,7 @@ Result<std::vector<Placement>> placements(const Document& document) {
   return placed;
 }
 
-/// What a primitive says, checked.
+/// What a primitive refers to, checked.
 struct Primitive {
   std::size_t index = 0, count = 0, position = 0;
   std::vector<std::optional<std::size_t>> targets;
@@ -166,7 +166,7 @@ class PartFinder {
     return primitive;
   }
 
-  /// Every attribute has one element a vertex.
+  /// Checks that every attribute has one element per vertex.
   Result<void> checkAttributes(const Json& attributes, const Primitive& primitive,
                                const std::string& where) const {
     Members in(attributes, where);
@@ -188,7 +188,7 @@ class PartFinder {
     return {};
   }
 
-  /// Names of a mesh's targets: in its extras, as is the custom, or in those of its primitives.
+  /// Names of a mesh's targets: in its extras, as is customary, or in those of its primitives.
   std::vector<std::string> namesOf(std::size_t mesh, const Primitive& primitive) {
     const Json* given = nullptr;
     for (const Json* holder : {&meshes_[mesh], &meshes_[mesh]["primitives"][primitive.index]})

@@ -11,7 +11,7 @@
 
 namespace sweepface::gltf {
 
-/// The "mode" of triangles.
+/// The modes of primitives made of triangles.
 inline constexpr std::size_t listMode = 4, stripMode = 5, fanMode = 6;
 
 /// A mesh that has primitives of the rig.
@@ -19,11 +19,11 @@ struct RigMesh {
   std::size_t mesh = 0;              ///< in the list of meshes
   std::vector<std::size_t> targets;  ///< [its targets] the rig's target of the same name
   Affine world;                      ///< how its first node, or its skin, places it in the scene
-  bool mirrors = false;  ///< whether that node does: faces then show the side from which their
-                         ///< corners go clockwise, also where a skin places them
+  bool mirrors = false;  ///< whether that node mirrors: faces then show the side from which their
+                         ///< corners go clockwise, even if a skin places them
 };
 
-/// Vertices that primitives of one mesh share: those that agree in the accessors of POSITION and of
+/// Vertices shared by primitives of one mesh: those with the same accessors for POSITION and for
 /// every target's POSITION.
 struct Run {
   std::size_t rigMesh = 0;                          ///< in Parts::meshes
@@ -38,27 +38,29 @@ struct Part {
   std::size_t primitive = 0;  ///< in the list of its mesh
 };
 
-/// What of a glTF makes the rig (docs/glb.md): every triangle primitive with morph targets, or all
-/// triangle primitives where none has. Found the same way in a source and in the scene made of it.
+/// The parts of a glTF that make the rig (docs/glb.md): every triangle primitive with morph
+/// targets, or all triangle primitives if none has any. They are found the same way in a source and
+/// in the scene made of it.
 struct Parts {
   std::vector<RigMesh> meshes;
   std::vector<Run> runs;
   std::vector<Part> parts;           ///< in the order of meshes and primitives
   std::vector<std::string> targets;  ///< names, in order of first appearance
   std::size_t vertexCount = 0;
-  std::vector<std::string> warnings{};  ///< about names that targets lack, sentences
+  std::vector<std::string> warnings{};  ///< sentences about targets without names
 };
 
-/// All attributes of a part and of its targets are accessors with as many elements as the part has
-/// vertices, POSITIONs are VEC3, and every world matrix can be inverted. Accessors may lack data.
+/// Finds the parts and checks that all attributes of a part and of its targets are accessors with
+/// as many elements as the part has vertices, that POSITIONs are VEC3, and that every world matrix
+/// can be inverted. Accessors may lack data.
 Result<Parts> findParts(const Document& document);
-/// The same wherever nodes place it.
+/// The same, wherever nodes place the parts.
 Result<Parts> findPartsAnywhere(const Document& document);
 
 /// The JSON of a part's primitive.
 const Json& primitiveOf(const Document& document, const Parts& parts, const Part& part);
 Json& primitiveOf(Document& document, const Parts& parts, const Part& part);
-/// Whether an extension of a primitive may count on the order of its vertices or triangles.
+/// Whether an extension of a primitive may depend on the order of its vertices or triangles.
 bool countsOnOrder(std::string_view extension);
 /// "mesh 0 'head'" and "mesh 0 'head', primitive 1", for messages.
 std::string placeOf(const Document& document, std::size_t mesh);

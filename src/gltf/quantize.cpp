@@ -1,6 +1,6 @@
-// Positions are 16-bit shares of a cube, p = middle + half · share. For a mesh without a skin a
-// node undoes this by its scale and translation: its own node where that has nothing else to do,
-// else a new one below it. A skin ignores nodes; its inverse bind matrices undo it.
+// Positions are 16-bit shares of a cube, p = middle + half · share. For a mesh without a skin, a
+// node undoes this by its scale and translation: its own node if that does nothing else, or else a
+// new one below it. A skin ignores nodes; its inverse bind matrices undo it.
 #include "gltf/quantize.hpp"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ constexpr const char* extensionName = "KHR_mesh_quantization";
 
 double largestOf(const Vec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
-/// A bit larger, so that what is rounded stays inside.
+/// Slightly larger, so that rounded values stay inside.
 double roomy(double half) { return half > 0 ? single(half * (1 + 1e-6)) : 1; }
 
 }  // namespace
@@ -45,7 +45,7 @@ std::vector<Encoding> chooseEncodings(const BoundScene& scene, const Shapes& sha
       half[mesh] = std::max(half[mesh], largestOf(fromScene[mesh].direction(moves[place])));
     });
   }
-  // What no node shows has nothing to undo it.
+  // For a mesh that no node shows, nothing would undo it.
   std::vector<char> isShown(half.size(), false);
   for (const Index mesh : shownMeshes(scene))
     if (mesh >= 0) isShown[mesh] = true;
@@ -54,7 +54,7 @@ std::vector<Encoding> chooseEncodings(const BoundScene& scene, const Shapes& sha
     if (!isShown[m]) continue;
     const Vec3 c = boxes[m].centre();
     const Vec3 middle{single(c.x), single(c.y), single(c.z)};
-    // Rounding the middle moves the cube by a little.
+    // Rounding the middle moves the cube a little.
     encodings[m] = {true, middle, roomy(half[m] + largestOf(c - middle))};
   }
   return encodings;
@@ -62,7 +62,7 @@ std::vector<Encoding> chooseEncodings(const BoundScene& scene, const Shapes& sha
 
 namespace {
 
-/// Extensions that do not refer to nodes, so that a mesh may go to another one.
+/// Whether an extension does not refer to nodes, so that a mesh may move to another one.
 bool ignoresNodes(std::string_view extension) {
   constexpr std::array prefixes{"KHR_materials_", "KHR_texture_", "EXT_texture_",
                                 "KHR_lights_",    "KHR_mesh_",    "KHR_xmp"};
@@ -93,7 +93,7 @@ class Undoer {
     return fail(fmt::format("The face cannot be quantized: {}; export it without.", why));
   }
 
-  /// What else a mesh holds would be enlarged with it.
+  /// Refuses meshes with other primitives, which would be scaled with the face.
   Result<void> checkPrimitives() const {
     std::vector<std::size_t> own(encodings_.size());
     for (const Part& part : scene_.parts.parts) ++own[scene_.parts.runs[part.run].rigMesh];
@@ -120,7 +120,7 @@ class Undoer {
     return path && *path == "weights";
   }
 
-  /// Nodes that animations move, and those that move other meshes as joints.
+  /// Notes nodes that animations move, and those that move other meshes as joints.
   void noteUses() {
     used_ = jointsOf(scene_.document);
     eachChannelTarget([&](const Json& target) {
@@ -129,7 +129,7 @@ class Undoer {
     });
   }
 
-  /// Animated weights go with their meshes.
+  /// Makes animations of weights follow their meshes to the new nodes.
   void redirectWeights() {
     eachChannelTarget([&](Json& target) {
       const auto node = findIndex(target, "node", used_.size());
@@ -162,12 +162,12 @@ class Undoer {
                                [&](const Json& name) { return name == extension; });
   }
 
-  /// Hangs the mesh on a node of its own, below the one that had it.
+  /// Moves the mesh to a node of its own, below the one that had it.
   Result<void> moveBelow(std::size_t number, const Encoding& encoding) {
     std::vector<std::string> extensions;
     for (const Json& name : scene_.document.list("extensionsUsed"))
       extensions.push_back(name.is_string() ? name.get<std::string>() : "?");
-    // Files are about that do not tell what they use.
+    // Some files do not declare the extensions that they use.
     if (const Json* const own = find(json_["nodes"][number], "extensions"); own && own->is_object())
       for (const auto& [name, value] : own->items()) extensions.push_back(name);
     for (const std::string& name : extensions)

@@ -28,7 +28,7 @@ Result<void> checkViews(const Document& document) {
 
 // ---- Lists ----
 
-/// The members of the objects of a list that are indices of another one.
+/// A member of the objects of one list that is an index into another.
 struct Reference {
   const char *holder, *holders, *key, *things;
 };
@@ -37,11 +37,11 @@ constexpr Reference kReferences[] = {
     {"node", "nodes", "camera", "cameras"},      {"skin", "skins", "skeleton", "nodes"},
     {"texture", "textures", "source", "images"}, {"texture", "textures", "sampler", "samplers"}};
 
-/// The same where they are lists of indices.
+/// The same for members that are lists of indices.
 constexpr Reference kLists[] = {{"scene", "scenes", "nodes", "nodes"},
                                 {"skin", "skins", "joints", "nodes"}};
 
-/// Calls `check(members, count of the other list, reference)` for every object that may refer.
+/// Calls `check(members, count of the other list, reference)` for every object that may have one.
 template <typename Check>
 Result<void> checkHolders(const Document& document, std::span<const Reference> references,
                           Check check) {
@@ -110,7 +110,8 @@ class AnimationChecker {
   }
 
  private:
-  /// One value for each key, or three with tangents; of weights, and what extensions move, several.
+  /// One value for each key, or three with tangents; several for weights and for what extensions
+  /// animate.
   Result<void> checkValues(Members& in, std::string_view path) const {
     const std::size_t keys = countOf(in, "input"), values = countOf(in, "output");
     const std::size_t row = (in.text("interpolation") == "CUBICSPLINE" ? 3 : 1) * keys;
@@ -191,7 +192,7 @@ class SkinChecker {
     return {};
   }
 
-  /// The last joint on which anything hangs.
+  /// The last joint that has any weight.
   Result<double> lastJoint(std::size_t joint, std::size_t weight) {
     const auto [known, isNew] = lastOfSets_.try_emplace(std::pair(joint, weight), 0.0);
     if (!isNew) return known->second;

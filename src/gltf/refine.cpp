@@ -20,7 +20,7 @@ class Refiner {
       : scene_(scene), mesh_(mesh), slots_(slots) {}
 
   Result<void> refine() {
-    // All is read before anything is overwritten: parts may share accessors.
+    // Everything is read before anything is overwritten: parts may share accessors.
     for (const Part& part : scene_.parts.parts)
       if (auto ok = mix(part); !ok) return ok;
     for (auto& [place, value] : values_)
@@ -30,7 +30,7 @@ class Refiner {
   }
 
  private:
-  /// Run, accessor, and the set of joints and weights that it is part of; 0 for what is in none.
+  /// Run, accessor, and the set of joints and weights that it is part of, or 0 if it is in none.
   using Place = std::tuple<std::size_t, std::size_t, std::size_t>;
   struct Value {
     Column column;
@@ -50,7 +50,7 @@ class Refiner {
   }
 
   Result<void> mixAll(std::size_t run, Json& attributes) {
-    const Json before = attributes;  // some are taken out on the way
+    const Json before = attributes;  // some are erased on the way
     for (const auto& [name, number] : before.items()) {
       if (isSkin(name) || name == "POSITION" || name == "NORMAL") continue;
       const auto accessor = accessorAt(scene_.document, number.get<std::size_t>());
@@ -73,7 +73,7 @@ class Refiner {
     return {};
   }
 
-  /// The sets of joints and weights, 0 and up; those that are not in pairs are left out.
+  /// The sets of joints and weights, from 0 on; attributes that are not in pairs are erased.
   Result<SkinAttributes> takeSkin(Json& attributes) const {
     SkinAttributes skin;
     std::set<std::string> paired;
@@ -96,7 +96,7 @@ class Refiner {
     return skin;
   }
 
-  /// The number of the first set. Joints that are mixed with other weights become others.
+  /// Returns the number of the first set. Joints give other values when mixed with other weights.
   Result<std::size_t> mixSkin(std::size_t run, Json& attributes) {
     const auto skin = takeSkin(attributes);
     if (!skin) return std::unexpected(skin.error());

@@ -21,7 +21,7 @@ std::optional<int> hexDigit(char c) {
   return std::nullopt;
 }
 
-/// A text with %41 and the like replaced by what they stand for; nothing where one is malformed.
+/// A text with %41 and the like replaced by what they stand for; nothing if one is malformed.
 std::optional<std::string> percentDecoded(std::string_view text) {
   std::string decoded;
   for (std::size_t k = 0; k < text.size(); ++k) {
@@ -94,7 +94,7 @@ bool hasScheme(std::string_view uri) {
   return colon != std::string_view::npos && colon < uri.find_first_of("/?#");
 }
 
-/// Whether a path leads nowhere but down.
+/// Whether a path leads only downwards.
 bool leadsDown(const fs::path& path) {
   if (path.empty() || path.has_root_path() || !path.has_filename()) return false;
   return std::ranges::none_of(path, [](const fs::path& part) { return part == ".."; });
@@ -108,7 +108,7 @@ std::unexpected<Error> refuse(std::string_view uri, std::string_view why) {
   return fail(fmt::format("the file {} {}.", io::inQuotes(uri), why));
 }
 
-/// Where the file is that a URI names, free of links.
+/// The path of the file that a URI names, with links resolved.
 Result<fs::path> pathOf(std::string_view uri, const fs::path& folder) {
   const auto decoded = percentDecoded(uri);
   const bool plain = decoded && isPrintable(*decoded) && decoded->find('\\') == std::string::npos;

@@ -15,10 +15,12 @@ struct Resource {
 };
 
 /// The bytes of a data: URI, or of a file in `folder` or below. Everything else is refused: other
-/// schemes, absolute paths, ways up and links that lead out. Messages name the URI, not the glTF.
+/// schemes, absolute paths, paths that lead up and links that lead out. Messages name the URI, not
+/// the glTF.
 Result<Resource> fetch(std::string_view uri, const std::filesystem::path& folder);
 
-/// The same for all URIs that name one file, however they spell it, and for equal data: URIs.
+/// A key that is the same for all URIs of one file, however they spell it, and for equal data:
+/// URIs.
 std::string identityOf(std::string_view uri, const std::filesystem::path& folder);
 
 }  // namespace sweepface::gltf

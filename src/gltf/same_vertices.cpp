@@ -23,7 +23,8 @@ std::vector<std::set<std::size_t>> tellingAccessors(const Document& document, co
   return accessors;
 }
 
-/// Tells vertices apart that are alike so far: `alike` [vertices] are numbers of groups.
+/// Divides vertices that have been alike so far by further values; `alike` [vertices] are numbers
+/// of groups.
 void divide(std::vector<Index>& alike, const std::vector<double>& values) {
   const std::size_t width = values.size() / alike.size();
   std::map<std::vector<double>, Index> groups;
@@ -35,7 +36,8 @@ void divide(std::vector<Index>& alike, const std::vector<double>& values) {
   }
 }
 
-/// For files that use the same data as attributes again and again: comparing them takes too long.
+/// Joins no vertices: for files that use the same data as attributes again and again, comparing
+/// takes too long.
 std::vector<Index> nothingJoined(std::size_t vertices) {
   std::vector<Index> same(vertices);
   std::iota(same.begin(), same.end(), 0);

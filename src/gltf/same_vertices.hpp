@@ -7,13 +7,13 @@
 
 namespace sweepface::gltf {
 
-/// Attributes that the surface gives itself, or that would not fit its normals.
+/// Attributes that the surface provides itself, or that would not fit its normals.
 inline bool isGeometry(std::string_view attribute) {
   return attribute == "POSITION" || attribute == "NORMAL" || attribute == "TANGENT";
 }
 
-/// For every vertex of the parts the first one of its run at the same place that agrees with it in
-/// all other attributes: authors double vertices for the sake of normals.
+/// For every vertex of the parts, the first vertex of its run at the same place that agrees with it
+/// in all other attributes: authors duplicate vertices for the sake of normals.
 Result<std::vector<Index>> sameVertices(const Document& document, const Parts& parts,
                                         std::span<const Index> places);
 

@@ -54,7 +54,7 @@ class Emptier {
  private:
   static constexpr int floats = static_cast<int>(Component::float32);
 
-  /// Their number stays, of triangles one by one.
+  /// Their count is kept, as that of a list of triangles.
   void emptyIndices(Json& primitive, std::size_t part) {
     Json* const reference = find(primitive, "indices");
     const auto left = left_.indices.find(reference);
@@ -88,14 +88,14 @@ class Emptier {
     auto operator<=>(const Claim&) const = default;
   };
 
-  /// The emptied accessor that serves this use alone: the same one, or a new one where it serves
+  /// The emptied accessor that serves this use alone: the same one, or a new one if it serves
   /// others as well.
   std::size_t claim(const Claim& use, const Json& type) {
     const auto known = claims_.find(use);
     if (known != claims_.end()) return known->second;
     std::size_t accessor = use.accessor;
     if (others_[accessor] || !claimed_.insert(accessor).second) {
-      // Its name and extras could be long, and the uses many.
+      // Without its name and extras: they could be long, and the uses many.
       Json copy = Json::object();
       for (const char* key : {"componentType", "count", "type"})
         copy[key] = accessors()[accessor][key];
@@ -211,7 +211,7 @@ class ImageEmbedder {
   Document& document_;
   const fs::path& folder_;
   std::vector<std::string>& warnings_;
-  std::map<std::string, Embedded> embedded_;  // by what tells files apart
+  std::map<std::string, Embedded> embedded_;  // by identityOf()
   std::size_t total_ = 0;                     // bytes of them all
 };
 
@@ -232,7 +232,7 @@ bool hasNormalMap(const Json& material) {
   return false;
 }
 
-/// Whether a normal map of a part counts on tangents of the file.
+/// Whether a normal map of a part relies on tangents in the file.
 bool losesTangents(const Document& document, const Parts& parts) {
   const Json& materials = document.list("materials");
   return std::ranges::any_of(parts.parts, [&](const Part& part) {

@@ -13,15 +13,15 @@ struct Scene {
   std::vector<std::string> warnings;
 };
 
-/// Everything that the document holds but what the rig stands for: POSITION and NORMAL of its parts
-/// and of their targets become accessors without data, one for each run and attribute, and so does
-/// what leftToFace() tells; TANGENT is removed. Images are read from `folder` alone. Parts are
-/// found in it as they are in the document.
+/// Everything in the document except what the rig stands for: POSITION and NORMAL of its parts and
+/// of their targets become accessors without data, one for each run and attribute, and so does what
+/// leftToFace() finds; TANGENT is removed. Images are read only from `folder`. The scene has the
+/// same parts as the document.
 Result<Scene> makeScene(Document document, const Parts& parts, const Polygons& polygons,
                         const std::filesystem::path& folder);
 
-/// A scene's GLB as rigs have it: numbers in planes where that is smaller, deflated, or as it is
-/// where nobody would believe what that holds.
+/// A scene's GLB as rigs store it: deflated, with numbers in planes where that is smaller, or as it
+/// is if the stream would hold more than inflated() accepts.
 std::string formatScene(const std::string& glb);
 Result<std::string> glbOf(std::string_view scene);
 Result<Document> parseScene(std::string_view scene);

@@ -9,8 +9,8 @@
 namespace sweepface::gltf {
 namespace {
 
-/// Vertices told apart by place and texture coordinate. The first texture coordinate that comes up
-/// at a vertex of the source stays with it, others get vertices behind all of them.
+/// Splits vertices by texture coordinate. The first texture coordinate found at a vertex of the
+/// source stays with it; others get new vertices, after all of the source's.
 class VertexSplitter {
  public:
   explicit VertexSplitter(const SourceMesh& source)
@@ -55,7 +55,7 @@ class VertexSplitter {
 };
 
 Json materialNamed(const std::string& name) {
-  // The defaults of glTF make metal; skin is none. Mouths and lashes are seen from both sides.
+  // The defaults of glTF make metal, which skin is not. Mouths and lashes are seen from both sides.
   return {{"name", name},
           {"pbrMetallicRoughness", {{"metallicFactor", 0.0}, {"roughnessFactor", 0.7}}},
           {"doubleSided", true}};
@@ -131,14 +131,14 @@ class SceneMaker {
         mesh["extras"]["targetNames"].push_back(target.name);
     }
     json["meshes"].push_back(std::move(mesh));
-    // Faces that had no triangle need no primitive: they are asked for no vertex.
+    // Faces without a triangle need no primitive: their vertices are never asked for.
     for (const Index material : faceMaterial_) {
       const auto part = partOfMaterial.find(material);
       scene_.facePart.push_back(part == partOfMaterial.end() ? -1 : part->second);
     }
   }
 
-  /// Positions, normals and targets are told by how many there are; they are filled in later.
+  /// Positions, normals and targets get accessors with a count only; they are filled in later.
   void addAccessors(Builder& builder) {
     const auto hollow = [&] {
       Json& accessors = scene_.document.json["accessors"];
@@ -148,7 +148,7 @@ class SceneMaker {
       return accessors.size() - 1;
     };
     attributes_ = {{"POSITION", hollow()}};
-    // Meshes alone have no surface whose normals could be told.
+    // Meshes alone have no surface to give them normals.
     if (rig_.surface.patchCount() > 0) attributes_["NORMAL"] = hollow();
     if (splitter_.hasTexture()) {
       std::vector<Vec2> texcoords = splitter_.texcoords();

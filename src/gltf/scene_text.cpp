@@ -10,10 +10,10 @@
 namespace sweepface::gltf {
 namespace {
 
-/// Before a zlib stream of planes. No zlib stream and no GLB begins with it.
+/// Precedes a zlib stream of planes. No zlib stream and no GLB begins with it.
 constexpr char planesMark = '\1';
 
-/// The rows of numbers that an accessor lies in, those of others between them as well.
+/// The rows of numbers that an accessor lies in, with those of others interleaved with it.
 ByteTable rowsOf(const Document& document, const Accessor& accessor) {
   const BufferView& view = document.views[*accessor.view];
   const std::size_t width = view.stride ? view.stride : accessor.elementSize();
@@ -22,7 +22,8 @@ ByteTable rowsOf(const Document& document, const Accessor& accessor) {
   return {view.offset + accessor.offset, width, std::min(accessor.count, whole)};
 }
 
-/// In ascending order and apart: of those that lie upon each other the first, and then the longest.
+/// Tables in ascending order that do not overlap: of overlapping ones, the first and then the
+/// longest.
 std::vector<ByteTable> tablesOf(const Document& document) {
   std::vector<ByteTable> tables;
   for (std::size_t a = 0; a < document.list("accessors").size(); ++a)
@@ -40,7 +41,7 @@ std::vector<ByteTable> tablesOf(const Document& document) {
   return tables;
 }
 
-/// The same, in a GLB that it came in.
+/// The same, at their places in a GLB.
 std::vector<ByteTable> tablesOf(std::string_view glb) {
   const auto document = parseDocument(glb, {});
   if (!document || document->buffers.empty()) return {};

@@ -23,8 +23,8 @@ Index Shapes::placeOf(Index sourceVertex) const {
 }
 
 ShapeAt Shapes::target(Index target, bool withNormals) const {
-  // Evaluating is linear, so that the difference of the vectors gives that of the vertices, and
-  // zeros stay zeros.
+  // Evaluation is linear, so the difference of the vectors gives that of the vertices, and zeros
+  // stay zeros.
   const Target& t = rig_.targets[target];
   std::vector<Vec3> difference(rig_.surface.vectorCount());
   rig_.surface.settle(t.difference, difference);

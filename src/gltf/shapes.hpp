@@ -8,7 +8,7 @@ namespace sweepface::gltf {
 /// Places on a face: the vertices of a tessellation, then the loose vertices.
 struct ShapeAt {
   std::vector<Vec3> positions;  ///< [vertices + loose]
-  std::vector<Vec3> normals;    ///< [vertices + loose], unit; empty where not asked for
+  std::vector<Vec3> normals;    ///< [vertices + loose], unit; empty if not asked for
 };
 
 /// The neutral, and what each target at weight 1 adds to it.
@@ -17,10 +17,10 @@ class Shapes {
   /// Both must outlive this.
   Shapes(const Rig& rig, const Tessellation& grid);
 
-  /// The place where a vertex of the source is: in the order of ShapeAt.
+  /// The place of a vertex of the source, in the order of ShapeAt.
   Index placeOf(Index sourceVertex) const;
   const ShapeAt& neutral() const { return neutral_; }
-  /// Differences from the neutral, exactly zero where the target moves nothing. Thread-safe.
+  /// Differences from the neutral, exactly zero wherever the target moves nothing. Thread-safe.
   ShapeAt target(Index target, bool withNormals) const;
 
  private:

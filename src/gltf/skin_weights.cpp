@@ -1,4 +1,4 @@
-// Weights of skins in 16 bits.
+// Stores skin weights in 16 bits.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -19,8 +19,8 @@ namespace {
 constexpr int kUint16 = static_cast<int>(Component::uint16);
 constexpr double kOne = 65535;
 
-/// The accessors of WEIGHTS_0, WEIGHTS_1 ... of a primitive, of which those of a vertex sum to one
-/// together, and of JOINTS_0, JOINTS_1 ...
+/// The accessors of WEIGHTS_0, WEIGHTS_1 ... of a primitive, which together sum to one at each
+/// vertex, and of JOINTS_0, JOINTS_1 ...
 struct Binding {
   std::vector<std::size_t> weights, joints;
   friend auto operator<=>(const Binding&, const Binding&) = default;
@@ -40,8 +40,8 @@ Binding bindingOf(const Json& primitive, std::size_t accessors) {
   return binding;
 }
 
-/// Rounds the weights of a vertex so that their sum is rounded, too: the largest takes what the
-/// others leave. False where that is no weight.
+/// Rounds the weights of a vertex and their sum: the largest weight takes the remainder. False if
+/// that makes it no valid weight.
 bool roundTogether(std::span<double> weights) {
   double sum = 0, rounded = 0;
   for (double& w : weights) {
@@ -59,7 +59,7 @@ class WeightRounder {
   explicit WeightRounder(Document& document)
       : document_(document), touched_(document.views.size()) {}
 
-  /// Whether anything changes.
+  /// Returns whether anything changed.
   bool run() {
     std::map<std::vector<std::size_t>, std::size_t> uses;
     std::map<Binding, std::size_t> bindings;
@@ -94,7 +94,7 @@ class WeightRounder {
   }
 
  private:
-  /// Four plain numbers a vertex, or nothing.
+  /// Four plain numbers per vertex, or nothing.
   std::vector<double> plain(std::size_t index, std::initializer_list<Component> types) const {
     const auto accessor = accessorAt(document_, index);
     const bool isPlain = accessor && std::ranges::find(types, accessor->type) != types.end() &&
@@ -104,7 +104,7 @@ class WeightRounder {
                    : std::vector<double>{};
   }
 
-  /// In 65535ths, of each of the accessors; nothing where they stay as they are.
+  /// The weights of each accessor, in 65535ths; nothing if they stay as they are.
   std::vector<std::vector<double>> rounded(const std::vector<std::size_t>& sets) const {
     std::vector<std::vector<double>> values;
     for (const std::size_t a : sets) {
@@ -117,7 +117,7 @@ class WeightRounder {
     std::vector<double> vertex(4 * sets.size());
     for (std::size_t at = 0; at < values.front().size(); at += 4) {
       for (std::size_t k = 0; k < vertex.size(); ++k) vertex[k] = values[k / 4][at + k % 4];
-      // Weights that are no shares are somebody's own.
+      // Weights that do not sum to one have a meaning of their own.
       if (std::abs(std::accumulate(vertex.begin(), vertex.end(), 0.0) - 1) > 0.01) return {};
       if (!roundTogether(vertex)) return {};
       for (std::size_t k = 0; k < vertex.size(); ++k) values[k / 4][at + k % 4] = vertex[k];
@@ -125,7 +125,7 @@ class WeightRounder {
     return values;
   }
 
-  /// A joint that moves nothing is to be the first one.
+  /// Makes joints that move nothing joint 0.
   void letGo(std::size_t joints, const std::vector<double>& weights) {
     std::vector<double> values = plain(joints, {Component::uint8, Component::uint16});
     Json& json = document_.json["accessors"][joints];

@@ -17,8 +17,8 @@ constexpr std::size_t kMatrix = 16;
 
 // ---- Where meshes are ----
 
-/// [meshes] the skin with which every node shows it, if it is the same: those in a scene, or where
-/// none of these does any.
+/// [meshes] the skin with which all nodes in scenes show each mesh, if it is the same one. For
+/// meshes that no node in a scene shows, all other nodes count.
 std::vector<std::optional<std::size_t>> skinsOfMeshes(const Document& document) {
   const std::size_t meshes = document.list("meshes").size(), skins = document.list("skins").size();
   std::vector<std::optional<std::size_t>> found(meshes);
@@ -39,7 +39,7 @@ std::vector<std::optional<std::size_t>> skinsOfMeshes(const Document& document) 
   return found;
 }
 
-/// Those of a mesh, as they come in the order of meshes.
+/// The parts of a mesh; parts are in the order of meshes.
 std::span<const Part> partsOf(const Parts& parts, std::size_t rigMesh) {
   return std::ranges::equal_range(parts.parts, rigMesh, {},
                                   [&](const Part& part) { return parts.runs[part.run].rigMesh; });
@@ -51,8 +51,8 @@ bool isAllOfParts(const Document& document, const Parts& parts, std::size_t rigM
   return partsOf(parts, rigMesh).size() == listOf(mesh, "primitives").size();
 }
 
-/// How much of all vertices hangs on each joint of a mesh [joints]. `left` is how many elements may
-/// still be read.
+/// [joints] the weight of each joint, summed over all vertices of a mesh. `left` is how many
+/// elements may still be read.
 std::vector<double> weightsOfJoints(const Document& document, const Parts& parts,
                                     std::size_t rigMesh, std::size_t joints, std::size_t& left) {
   std::vector<double> sums(joints, 0.0);
@@ -75,7 +75,7 @@ std::vector<double> weightsOfJoints(const Document& document, const Parts& parts
   return sums;
 }
 
-/// But for what rounding does to places as far from the origin as `reach`.
+/// Whether two maps agree but for rounding, at places as far from the origin as `reach`.
 bool isNear(const Affine& a, const Affine& b, double reach) {
   constexpr double kRounding = 1e-5;
   for (std::size_t k = 0; k < 3; ++k)
@@ -99,7 +99,7 @@ class Placer {
 
   std::size_t jointCount() const { return shown_.size(); }
 
-  /// By the joint on which most of it hangs, or by any: a part that is hidden by a joint of no size
+  /// By the joint with the most weight, or by any usable one: a part hidden by a joint of no size
   /// is not far from the others.
   Affine place(const std::vector<double>& weights) {
     const Affine* heaviest = nullptr;
@@ -108,7 +108,7 @@ class Placer {
       if (weights[j] > most && shown_[j] && shown_[j]->isFinite() && !shown_[j]->isSingular())
         most = weights[j], heaviest = &*shown_[j];
     if (!heaviest) return {};
-    // What agrees but for rounding is the same, so that meshes go on sharing the skin.
+    // Places that agree but for rounding are the same, so that meshes keep sharing the skin.
     for (const Affine& known : places_)
       if (isNear(*heaviest, known, reach_)) return known;
     // A few bytes could ask for a skin of many joints for each of many meshes.
@@ -151,7 +151,8 @@ class Binder {
       (same == known.end() ? known.emplace_back(world) : *same).nodes.push_back(n);
     }
     for (const auto& [skin, of] : places) {
-      // What it places nowhere keeps it as it is, or else the first place gets it, after copies.
+      // Meshes that it did not place keep the skin as it is; if there are none, the first place
+      // gets it, after copies for the others.
       const auto keeps = std::ranges::find(of, Affine{}, &Place::world);
       const auto owner = keeps == of.end() ? of.begin() : keeps;
       for (auto place = of.begin(); place != of.end(); ++place)
@@ -161,7 +162,7 @@ class Binder {
   }
 
  private:
-  /// Nodes that show what a skin places in one way.
+  /// Nodes whose meshes a skin places in the same way.
   struct Place {
     Affine world;
     std::vector<std::size_t> nodes{};
@@ -179,7 +180,7 @@ class Binder {
 
   void bind(std::size_t skin, const Affine& world) {
     auto matrices = inverseBindMatrices(document_, skin);
-    if (!matrices) return;  // nothing would have been placed by them
+    if (!matrices) return;  // then they placed nothing
     for (Affine& matrix : *matrices) matrix = matrix * world.inverse();
     const std::size_t view = document_.addBuffer(packMatrices(*matrices).bytes);
     Json& json = document_.json["skins"][skin];

@@ -8,13 +8,13 @@
 
 namespace sweepface::gltf {
 
-/// Places for the values of parts: the accessors that they have, unless something else uses those
-/// too or they were given values before.
+/// Finds accessors for the values of parts: those that they have, unless something else uses them
+/// too or they have been given values before.
 class Slots {
  public:
   Slots(const Document& document, const Parts& parts, Builder& builder);
 
-  /// The accessor in which the values are now.
+  /// Stores the values and returns the accessor that has them now.
   std::size_t put(std::optional<std::size_t> accessor, const Column& column, Use use);
 
  private:

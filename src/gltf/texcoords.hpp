@@ -9,20 +9,20 @@
 
 namespace sweepface::gltf {
 
-/// What the base colour of a primitive's material does to TEXCOORD_0 (KHR_texture_transform;
-/// quantised ones need it): the offset, the scale, and a rotation in radians, counter-clockwise
-/// where v goes down.
+/// What the base colour texture of a primitive's material does to TEXCOORD_0
+/// (KHR_texture_transform; quantised ones need it): the offset, the scale, and a rotation in
+/// radians, counter-clockwise with v pointing down.
 using TextureTransform = std::array<double, 5>;
 inline constexpr TextureTransform kNoTransform{0, 0, 1, 1, 0};
 Result<TextureTransform> textureTransformOf(const Document& document, const Json& primitive);
 
-/// TEXCOORD_0 of a primitive, which has them, as OBJ counts: from the lower left, after a
-/// transform.
+/// TEXCOORD_0 of a primitive, which must have it, after a transform and with the origin at the
+/// lower left, as in OBJ.
 Result<std::vector<Vec2>> readTexcoords(const Document& document, const Json& primitive,
                                         const TextureTransform& transform);
 
-/// Whether a primitive has TEXCOORD_0 of single precision that no transform changes, so that they
-/// can be told from what readTexcoords() gives.
+/// Whether a primitive has TEXCOORD_0 in single precision that no transform changes, so that it can
+/// be recovered from what readTexcoords() gives.
 bool hasPlainTexcoords(const Document& document, const Json& primitive);
 
 }  // namespace sweepface::gltf

@@ -6,10 +6,10 @@
 namespace sweepface::gltf {
 namespace {
 
-/// The corners of triangle t, as numbers in the list of the primitive's indices.
+/// The corners of triangle t, as positions in the list of the primitive's indices.
 std::array<std::size_t, 3> cornersOf(std::size_t mode, std::size_t t) {
   if (mode == listMode) return {3 * t, 3 * t + 1, 3 * t + 2};
-  // Every other triangle of a strip would look the other way.
+  // Every other triangle of a strip would face the other way.
   if (mode == stripMode) return {t, t + 1 + t % 2, t + 2 - t % 2};
   return {0, t + 1, t + 2};
 }

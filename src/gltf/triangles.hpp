@@ -12,9 +12,9 @@ using Triangle = std::array<Index, 3>;
 
 /// What a part is made of.
 struct PartTriangles {
-  /// Without those that name a vertex twice, which strips use to turn corners.
+  /// Without degenerate ones that name a vertex twice, which strips use to turn corners.
   std::vector<Triangle> triangles;
-  std::size_t named = 0;  ///< vertices that its indices name
+  std::size_t named = 0;  ///< how many vertices its indices name
 };
 
 /// The triangles of a part, whether they are a list, a strip or a fan.

@@ -1,5 +1,5 @@
-// The part of the C interface that reads other programs' files (sweepface_clips.h). Only here does
-// it link what converts.
+// The part of the C interface that reads other programs' files (sweepface_clips.h), and the only
+// part that links the conversion code.
 #include <algorithm>
 
 #include "sweepface/filter.hpp"
@@ -34,7 +34,7 @@ std::vector<Matter> mattersOf(const Division& division) {
   return matters;
 }
 
-/// Whether a text that has no regions was meant to have none: a timeline, or an empty object.
+/// Whether a text without regions is meant to have none: a timeline, or an empty object.
 bool meansNone(std::string_view text) {
   const auto json = io::parseJson(text, "");
   return json && json->is_object() &&

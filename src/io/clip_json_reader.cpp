@@ -123,7 +123,7 @@ class ClipJsonReader {
     if (isPlausibleTime(seconds)) return seconds;
     return failFile(fmt::format("has a time in frame {} that is not within 300 years", f));
   }
-  /// Warns of what no camera does.
+  /// Warns of frame intervals that no camera has.
   void checkUnit(const std::vector<double>& times) {
     if (times.size() < 2) return;
     const double step =
@@ -139,13 +139,13 @@ class ClipJsonReader {
       for (const auto& [shape, score] : frame)
         if (known.insert(shape).second) clip_.names.push_back(shape);
     if (clip_.names.empty()) return failFile("has no scores in its frames");
-    // Frames that each have names of their own would make many of few.
+    // If each frame had names of its own, a few scores would become a great many weights.
     if (clip_.names.size() > kMostClipWeights / scores.size())
       return failFile(fmt::format(
           "has {} names in {} frames, more than a clip can hold; name the same ones in every frame",
           clip_.names.size(), scores.size()));
-    // Frames without a face are left out; those at the ends are as their neighbours, so that
-    // the others stay when they were.
+    // Frames without a face are left out, except at the ends: there they repeat their neighbours,
+    // so that the other frames keep their times.
     const auto hasFace = [&](const Scores& frame) { return !frame.empty(); };
     const auto first =
         static_cast<std::size_t>(std::ranges::find_if(scores, hasFace) - scores.begin());
@@ -184,8 +184,8 @@ class ClipJsonReader {
     }
     return {};
   }
-  // Beside the time, or of the first of the faces found: an object in JavaScript, the list itself
-  // in Python. A frame without a face has none.
+  // The categories are beside the time, or belong to the first of the faces found: an object in
+  // JavaScript, the list itself in Python. A frame without a face has none.
   static const Json* categoriesOf(const Json& frame) {
     static const Json none = Json::array();
     if (const Json* direct = member(frame, "categories")) return direct;

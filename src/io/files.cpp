@@ -36,7 +36,7 @@ std::unexpected<Error> cannotWrite(const fs::path& path, int code) {
   return fail(fmt::format("Cannot write {}: {}{}.", path.string(), reason(code), advice));
 }
 
-/// Writes and closes; 0 or the errno of what went wrong.
+/// Writes and closes a file; returns 0 or the errno of what went wrong.
 int writeAll(File file, std::string_view bytes) {
   errno = 0;
   const bool whole = std::fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size();
@@ -48,8 +48,7 @@ int writeAll(File file, std::string_view bytes) {
   return code != 0 ? code : EIO;
 }
 
-/// The n-th name of a file that becomes another one; short because the other's may be as long as
-/// can be.
+/// The n-th name of a temporary file; short, because the final name may be as long as names can be.
 fs::path temporaryName(const fs::path& folder, int number) {
   return folder / fmt::format(".sweepface-{}.tmp", number);
 }
@@ -61,7 +60,7 @@ struct Temporary {
   int code = EEXIST;  ///< why there is no file
 };
 
-/// A new file in the folder.
+/// Creates a new file in the folder.
 Temporary createTemporary(const fs::path& folder) {
   for (int number = 0; number < kMostTemporaries; ++number) {
     fs::path path = temporaryName(folder, number);
@@ -105,8 +104,9 @@ int writeAll(int file, std::string_view bytes) {
   return 0;
 }
 
-/// By a file that has no name until it is whole: nothing is left of it, whatever ends the program
-/// before. Answers 0, the errno of what went wrong, or nothing where there are no such files.
+/// Replaces a file by one that has no name until it is complete, so that nothing is left of it if
+/// the program ends before. Returns 0, the errno of what went wrong, or nothing where there are no
+/// such files.
 std::optional<int> replaceByNameless(const fs::path& path, const fs::path& folder,
                                      std::string_view bytes) {
   const int file = ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
@@ -139,7 +139,7 @@ std::optional<int> replaceByNameless(const fs::path&, const fs::path&, std::stri
 
 Result<void> replaceFile(const fs::path& path, std::string_view bytes) {
   const fs::path folder = folderOf(path);
-  // Folders let anybody replace what is write-protected.
+  // A folder's permissions alone would let a write-protected file be replaced.
   if (::access(path.c_str(), F_OK) == 0 && ::access(path.c_str(), W_OK) != 0)
     return cannotWrite(path, errno);
   if (const auto code = replaceByNameless(path, folder, bytes)) {
@@ -149,7 +149,7 @@ Result<void> replaceFile(const fs::path& path, std::string_view bytes) {
   Temporary temporary = createTemporary(folder);
   if (!temporary.file) return cannotCreate(path, folder, temporary.code);
   std::error_code error, ignored;
-  // Before anything is in it that others may not be allowed to read.
+  // Set before it holds anything that others may not be allowed to read.
   if (const fs::file_status old = fs::status(path, ignored); fs::exists(old))
     fs::permissions(temporary.path, old.permissions() & fs::perms::all, ignored);
   if (const int code = writeAll(std::move(temporary.file), bytes)) {
@@ -162,8 +162,7 @@ Result<void> replaceFile(const fs::path& path, std::string_view bytes) {
   return cannotWrite(path, error.value());
 }
 
-/// What a link points to in the end, which need not exist; no path where links go round in a
-/// circle.
+/// What a link finally points to, which need not exist; an empty path if links form a cycle.
 fs::path pointedTo(fs::path path) {
   constexpr int kMostLinks = 40;  // as many as Linux follows
   std::error_code error;
@@ -221,7 +220,7 @@ Result<void> writeFile(const fs::path& path, std::string_view bytes) {
   if (fs::is_directory(status))
     return fail(fmt::format("Cannot write {}: it is a folder; name a file.", path.string()));
   if (!path.has_filename()) return fail("Cannot write a file without a name.");
-  // A device or a pipe is not to be replaced, nor is a link: what it points to is.
+  // Devices and pipes are written to directly, not replaced; for a link, its target is replaced.
   if (fs::exists(status) && !fs::is_regular_file(status)) return writeDirectly(path, bytes);
   const fs::path pointed = pointedTo(path);
   if (pointed.empty())

@@ -25,12 +25,12 @@ class JsonFields {
   std::unexpected<Error> failAt(std::string_view place, std::string_view what) const {
     return sweepface::fail(fmt::format("{}: {} {}.", file_, place, what));
   }
-  /// Of something else that says what is wrong in a sentence of its own.
+  /// Passes on an error whose message is a sentence of its own.
   std::unexpected<Error> pass(const Error& error) const {
     return sweepface::fail(fmt::format("{}: {}: {}", file_, place_, error.message));
   }
 
-  /// An object with none but these members.
+  /// Checks that this is an object with no other members than these.
   Result<void> isObject(std::initializer_list<std::string_view> keys) const {
     if (!object_.is_object()) return fail("is not an object");
     for (const auto& [key, value] : object_.items())

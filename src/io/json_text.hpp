@@ -17,8 +17,8 @@
 
 namespace sweepface::io {
 
-/// Hands the place of every character of a JSON text that is in no string to `see`, and of the
-/// quote that opens one, until that answers false.
+/// Calls `see` with the position of every character of a JSON text outside strings, and of every
+/// quote that opens a string, until it returns false.
 template <typename See>
 void scanJson(std::string_view text, See see) {
   bool inString = false;
@@ -36,7 +36,8 @@ void scanJson(std::string_view text, See see) {
   }
 }
 
-/// The parser of nlohmann-json keeps a stack of its own, but its values are freed by recursion.
+/// Whether values are nested more than `most` deep. The parser of nlohmann-json keeps a stack of
+/// its own, but frees its values by recursion.
 inline bool isTooDeep(std::string_view text, int most) {
   int depth = 0;
   scanJson(text, [&](std::size_t at) {
@@ -48,7 +49,8 @@ inline bool isTooDeep(std::string_view text, int most) {
   return depth > most;
 }
 
-/// Finds keys that an object has twice, of which a parser silently takes the last.
+/// A parser callback that finds keys that occur twice in an object; the parser silently takes the
+/// last.
 class TwiceNamed {
  public:
   bool operator()(int, nlohmann::json::parse_event_t event, const nlohmann::json& value) {
@@ -60,20 +62,20 @@ class TwiceNamed {
     return true;
   }
 
-  std::optional<std::string> key;  ///< the last of them
+  std::optional<std::string> key;  ///< the last such key
 
  private:
   std::vector<std::set<std::string>> open_;
 };
 
-/// Where a parser that stopped at a byte, counted from 1, found no JSON.
+/// Says where a parser stopped because there was no JSON, given the byte, counted from 1.
 inline std::string whereNoJson(std::string_view text, std::size_t byte) {
   const std::string_view before = text.substr(0, std::max<std::size_t>(byte, 1) - 1);
   const auto line = 1 + std::ranges::count(before, '\n');
   if (byte > text.size())
     return fmt::format("line {}: this is not JSON; was the file cut short?", line);
   const std::size_t column = before.size() - (before.rfind('\n') + 1);
-  // A parser stops within a word, of which all should be shown.
+  // A parser may stop within a word, all of which should be shown.
   std::size_t from = before.size();
   while (from > 0 && before.size() - from < 20 &&
          std::isalpha(static_cast<unsigned char>(text[from - 1])))

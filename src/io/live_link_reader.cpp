@@ -17,7 +17,7 @@ namespace {
 
 using io::inQuotes, io::sameLetters, io::toNumber, io::trimmed;
 
-/// Where the quotes that a cell begins with close again: two together are one of the text.
+/// Where the quote that a cell begins with is closed; a doubled quote is part of the text.
 std::size_t closingQuote(std::string_view cell) {
   std::size_t at = cell.find('"', 1);
   while (at != std::string_view::npos && cell.substr(at + 1).starts_with('"'))
@@ -41,7 +41,7 @@ std::vector<std::string_view> cells(std::string_view line) {
   }
 }
 
-/// The text of a cell: two quotes together are one.
+/// The text of a cell, in which doubled quotes stand for one.
 std::string textOf(std::string_view cell) {
   std::string text;
   for (std::size_t k = 0; k < cell.size(); ++k) {
@@ -61,11 +61,11 @@ struct RowTime {
 
 constexpr double kUsualRate = 60;
 
-/// In what the timecodes of a take count: the app's usual rate, unless a whole second of many rows
-/// goes no further than another one's.
+/// The frame rate that a take's timecodes count in: the app's usual rate, unless frame numbers stay
+/// below another rate and a complete second has about as many rows.
 double rateOf(const std::vector<RowTime>& timecodes) {
   double most = 0;                      // frames
-  std::size_t rows = 0, inASecond = 0;  // of the densest second that is there from end to end
+  std::size_t rows = 0, inASecond = 0;  // of the densest complete second
   bool isWhole = timecodes.front().frames < 1;
   for (std::size_t k = 0; k < timecodes.size(); ++k) {
     most = std::max(most, std::floor(timecodes[k].frames));
@@ -159,7 +159,8 @@ class LiveLinkReader {
     return {};
   }
 
-  /// What a recorder was writing when it stopped: too few values, or the last one a beginning.
+  /// Whether a recorder stopped while writing this row: values are missing, or the last one is
+  /// incomplete.
   bool isHalfARow() const {
     if (!lines_.cutShort() || timecodes_.empty()) return false;
     const auto row = cells(lines_.line());
@@ -191,7 +192,7 @@ class LiveLinkReader {
     return {};
   }
 
-  // HH:MM:SS:FF.fff, the last in frames, after ';' where some are dropped; or plain seconds.
+  // HH:MM:SS:FF.fff, the last in frames, after ';' in drop-frame timecode; or plain seconds.
   Result<RowTime> timecode(std::string_view text) const {
     if (const auto seconds = toNumber<double>(text); seconds && isPlausibleTime(*seconds)) {
       if (*seconds < 0) return failLine(fmt::format("the time {} is below 0", inQuotes(text)));
@@ -219,7 +220,7 @@ class LiveLinkReader {
                    true, dropsFrames};
   }
 
-  /// Of rows at the same time the last one stays.
+  /// Of several rows at the same time, keeps the last.
   Result<void> setTimes() {
     const std::size_t n = clip_.names.size();
     std::size_t again = 0, firstLine = 0;
@@ -242,7 +243,7 @@ class LiveLinkReader {
           name_, again, timecodes_.size(), firstLine));
     return {};
   }
-  /// At midnight the clock begins anew.
+  /// The time of a row; the clock starts again at midnight.
   Result<double> timeOf(const RowTime& at) {
     const io::FrameClock clock(framesPerSecond_, at.dropsFrames);
     if (at.frames >= clock.counted())
@@ -265,9 +266,9 @@ class LiveLinkReader {
   io::LineCursor lines_;
   std::string_view name_;
   double framesPerSecond_;
-  double midnights_ = 0;  // seconds of the days gone by
+  double midnights_ = 0;  // seconds of the days passed
   std::size_t columns_ = 0, timeColumn_ = static_cast<std::size_t>(-1);
-  bool endsEmpty_ = false;  // every line may
+  bool endsEmpty_ = false;  // every line may end in a comma
   std::vector<std::size_t> shapeColumns_;
   std::set<std::string> known_;     // headings of shapes
   std::vector<RowTime> timecodes_;  // [rows]

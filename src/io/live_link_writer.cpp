@@ -76,8 +76,8 @@ constexpr std::array<std::string_view, 61> kColumns{"EyeBlinkLeft",
                                                     "RightEyePitch",
                                                     "RightEyeRoll"};
 
-/// A column and the weights of the clip that it shows, the largest of them. Where they are not
-/// always alike each has a column of its own as well, which counts more when it is read.
+/// A column and the weights of the clip of which it shows the largest. Weights that are not always
+/// equal have columns of their own as well, which take precedence when read.
 struct Column {
   std::string heading;
   std::vector<std::size_t> sources;
@@ -126,7 +126,7 @@ struct Timecode {
   }
 };
 
-/// In quotes where a comma would end it, or where it has some, each of which is doubled.
+/// A heading as a cell: in quotes if it has commas or quotes, and with quotes doubled.
 std::string cellOf(const std::string& heading) {
   if (heading.find_first_of(",\"") == std::string::npos) return heading;
   std::string cell = "\"";

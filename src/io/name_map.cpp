@@ -51,19 +51,19 @@ Result<void> checkTargets(const NameMap& map, std::span<const std::string> targe
   return {};
 }
 
-/// A column of the clip that is made, and of the one that is read.
+/// A column of the clip that is made, and the columns of the clip read that drive it.
 struct MappedColumn {
   std::string name;
-  /// Columns of which the largest counts, times a factor, and all such together.
+  /// Groups of columns and their factors: the sum over groups of the largest times its factor.
   std::vector<std::pair<std::vector<Index>, double>> sources;
 };
 
-/// Whether two names are one but for how they are spelt.
+/// Whether two names differ only in their spelling.
 bool areAlike(const std::string& a, const std::string& b) {
   const auto matches = [](const std::string& name, const std::string& with) {
     return !matchClip({{name}, {}, {}}, std::span(&with, 1)).targets[0].empty();
   };
-  return matches(a, b) && matches(b, a);  // either, as a name without a side means both sides
+  return matches(a, b) && matches(b, a);  // both ways, as a name without a side means both sides
 }
 
 Result<std::vector<MappedColumn>> mappedColumns(Clip& clip, const NameMap& map) {

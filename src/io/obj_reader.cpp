@@ -14,13 +14,13 @@ using namespace io;
 
 constexpr std::string_view corrected = "correct it or export the mesh again";
 
-/// The furthest index that faces use; they may come before what they refer to.
+/// The largest index that faces use; faces may come before what they refer to.
 struct Reach {
   std::int64_t furthest = 0;
   std::size_t line = 0;
 };
 
-/// Reads statement by statement; the first that makes no sense ends it.
+/// Reads statement by statement and stops at the first that makes no sense.
 class ObjReader {
  public:
   enum class Wanted { everything, target };
@@ -59,7 +59,7 @@ class ObjReader {
                                       : corrected);
   }
 
-  /// Moves to the next statement, which goes on in the next line after a '\' outside a comment.
+  /// Moves to the next statement, which continues on the next line after a '\' outside a comment.
   bool nextStatement() {
     if (!lines_.next()) return false;
     statementLine_ = lines_.number();
@@ -79,7 +79,7 @@ class ObjReader {
     return true;
   }
 
-  /// Names run to the end of the line and may have a '#'.
+  /// Whether a statement ends in a name. Names run to the end of the line and may contain a '#'.
   static bool endsInName(std::string_view statement) {
     const std::string_view keyword = Words(statement).next();
     return keyword == "g" || keyword == "o" || keyword == "usemtl" || keyword == "mtllib";
@@ -112,7 +112,7 @@ class ObjReader {
     return true;
   }
 
-  /// The next word of the statement; empty at its end, which a comment is too.
+  /// The next word of the statement; empty at its end or at a comment.
   static std::string_view nextValue(Words& words) {
     const std::string_view word = words.next();
     return word.starts_with('#') ? std::string_view{} : word;

@@ -30,7 +30,7 @@ std::string lineName(std::string_view name) {
   return text;
 }
 
-/// Says which name holds from here on, where another one did before.
+/// Writes which name holds from here on, if it is not the current one.
 void appendSwitch(std::string& text, std::string_view keyword,
                   const std::vector<std::string>& names, Index name, Index& current) {
   if (name == current) return;

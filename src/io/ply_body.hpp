@@ -96,7 +96,7 @@ class AsciiBody {
     return words_.rest().empty() || failed("there are more values than the header's properties");
   }
 
-  /// Whether no row is left; if one is, this is its place().
+  /// Whether no row is left; if one is, place() is now its place.
   bool isAtEnd() { return !beginRow(); }
 
   std::size_t bytesLeft() const { return words_.bytesLeft() + lines_.rest().size(); }

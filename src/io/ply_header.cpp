@@ -10,7 +10,7 @@
 namespace sweepface::io {
 namespace {
 
-/// Far more than a mesh has; finding one goes through all of them.
+/// Far more than a mesh has; a search goes through all of them.
 constexpr std::size_t maxElements = 100, maxProperties = 1000;
 
 std::optional<PlyScalar> scalarNamed(std::string_view name) {

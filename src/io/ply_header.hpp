@@ -24,7 +24,7 @@ constexpr std::size_t byteSize(PlyScalar type) {
 struct PlyProperty {
   std::string name;
   PlyScalar type;
-  std::optional<PlyScalar> countType;  ///< of a list
+  std::optional<PlyScalar> countType;  ///< set for a list
 };
 
 struct PlyElement {
@@ -32,7 +32,7 @@ struct PlyElement {
   std::uint64_t count = 0;
   std::vector<PlyProperty> properties;
 
-  /// Where the first property of one of the names is; -1 where there is none.
+  /// The index of the first property with one of the names, or -1.
   Index find(std::initializer_list<std::string_view> names) const;
 };
 

@@ -15,8 +15,8 @@ namespace {
 
 using namespace io;
 
-/// Reads the elements that a mesh is made of and skips the others; the first value that makes no
-/// sense ends it.
+/// Reads the elements that a mesh is made of, skips the others, and stops at the first value that
+/// makes no sense.
 template <typename Body>
 class PlyReader {
  public:
@@ -25,7 +25,8 @@ class PlyReader {
 
   bool read() {
     if (!checkVertexElement()) return false;
-    // Faces may come first, and an Index can count their corners only if the vertices can be there.
+    // Faces may come first, and their vertex numbers fit an Index only if the file can hold that
+    // many vertices.
     for (const PlyElement& element : header_.elements)
       if (!checkRoom(element)) return false;
     for (const PlyElement& element : header_.elements) {
@@ -36,8 +37,8 @@ class PlyReader {
   }
 
   Error error() { return {std::move(error_)}; }
-  PolygonMesh mesh;                   // its texture coordinates are those of vertices
-  std::vector<Vec2> cornerTexcoords;  // what its corners refer to where faces tell it
+  PolygonMesh mesh;                   // with texture coordinates per vertex
+  std::vector<Vec2> cornerTexcoords;  // what its corners refer to if faces list them
 
  private:
   bool failFile(std::string_view what) {
@@ -80,7 +81,7 @@ class PlyReader {
         element.count, inQuotes(element.name), body_.bytesLeft()));
   }
 
-  /// Rows that the header does not count would be lost without a word.
+  /// Refuses rows that the header does not count, as they would be lost silently.
   bool checkEnd() {
     if (body_.isAtEnd()) return true;
     const PlyElement& last = header_.elements.back();
@@ -113,7 +114,7 @@ class PlyReader {
     return body_.read(type, value) || failRow(body_.problem());
   }
 
-  /// The count of a list whose values the file can still hold.
+  /// Reads the count of a list and checks that the file can still hold its values.
   bool readCount(const PlyProperty& list, double& count) {
     if (!readValue(*list.countType, count)) return false;
     const double least = static_cast<double>(Body::leastSize(list.type));
@@ -182,7 +183,8 @@ class PlyReader {
     });
   }
 
-  /// Where faces list texture coordinates of their corners, as MeshLab and scanners write them.
+  /// The property in which faces list texture coordinates of their corners, as MeshLab and scanners
+  /// write them, or -1.
   static Index texcoordList(const PlyElement& face) {
     const Index list = face.find({"texcoord"});
     return list >= 0 && face.properties[list].countType ? list : -1;
@@ -199,7 +201,7 @@ class PlyReader {
     return true;
   }
 
-  /// A pair for each corner of the face, or none at all; equal ones are one.
+  /// Adds a pair for each corner of the face, or none at all; equal pairs are shared.
   bool addTexcoords() {
     Polygons& polygons = mesh.polygons;
     const auto corners = static_cast<std::size_t>(polygons.faceStart.back()) -
@@ -241,7 +243,7 @@ class PlyReader {
   Body body_;
   double vertexCount_ = 0;
   std::array<Index, 5> slots_{};       // of x, y, z and the texture coordinates in a vertex row
-  std::vector<double> faceTexcoords_;  // of a face
+  std::vector<double> faceTexcoords_;  // of the current face
   std::map<std::pair<double, double>, Index> texcoords_;  // of all faces
   const PlyElement* element_ = nullptr;
   std::uint64_t row_ = 0;
@@ -257,13 +259,13 @@ Result<PolygonMesh> readBody(std::string_view bytes, std::string_view name,
   if (!reader.cornerTexcoords.empty())
     polygons.texcoords = std::move(reader.cornerTexcoords);
   else if (!polygons.texcoords.empty())
-    polygons.cornerTexcoords = polygons.corners;  // they are a vertex's
+    polygons.cornerTexcoords = polygons.corners;  // they are per vertex
   else
     polygons.cornerTexcoords.clear();
   return std::move(reader.mesh);
 }
 
-/// A mesh that may lack faces.
+/// Reads a mesh that may lack faces.
 Result<PolygonMesh> readPly(std::string_view bytes, std::string_view name) {
   if (bytes.size() > maxFileBytes)
     return fail(fmt::format("{} is larger than 2 GiB; export only the face.", name));

@@ -71,7 +71,7 @@ Result<Paths> meshesIn(const fs::path& folder, const fs::path& neutral) {
   return found;
 }
 
-/// Every target's file, folders replaced by what is in them.
+/// The files of all targets, with folders replaced by their contents.
 Result<Paths> targetFiles(std::span<const fs::path> targets, const fs::path& neutral) {
   Paths files;
   for (const fs::path& target : targets) {
@@ -96,7 +96,7 @@ Result<std::vector<std::string>> targetNames(const Paths& files) {
   std::map<std::string, const fs::path*> owners;
   for (const fs::path& file : files) {
     std::string name = file.stem().string();
-    // The stem of ".obj" is ".obj", though what it lacks is the name.
+    // The stem of ".obj" is ".obj", although it is the name that is missing.
     if (io::trimmed(name).empty() || (!file.has_extension() && isMesh("x" + name)))
       return fail(fmt::format("The target {} has no name before its extension; rename the file.",
                               io::inQuotes(file.string())));

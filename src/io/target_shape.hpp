@@ -8,10 +8,10 @@
 
 namespace sweepface::io {
 
-/// What a rig needs of a target's file.
+/// What a rig needs from a target's file.
 struct TargetShape {
   std::vector<Vec3> positions;
-  Index faceCount = 0;  ///< 0 where the file has positions alone
+  Index faceCount = 0;  ///< 0 if the file has only positions
 };
 
 Result<TargetShape> parseObjTarget(std::string_view text, std::string_view name);

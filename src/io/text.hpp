@@ -24,7 +24,7 @@ inline constexpr std::size_t maxFileBytes = std::numeric_limits<Index>::max();
 
 inline bool isBlank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 
-/// Whether small and capital letters alone differ.
+/// Whether two texts are equal but for the case of ASCII letters.
 inline bool sameLetters(std::string_view a, std::string_view b) {
   const auto small = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; };
   return std::ranges::equal(a, b, {}, small, small);
@@ -36,7 +36,7 @@ inline std::string_view trimmed(std::string_view text) {
   return text;
 }
 
-/// "a, b and 3 more": of the texts `most` are told.
+/// "a, b and 3 more": lists at most `most` of the texts.
 inline std::string fewOf(std::span<const std::string> texts, std::size_t most) {
   std::string list;
   for (const std::string& text : texts.first(std::min(texts.size(), most)))
@@ -45,13 +45,13 @@ inline std::string fewOf(std::span<const std::string> texts, std::size_t most) {
                               : list + " and " + std::to_string(texts.size() - most) + " more";
 }
 
-/// Without the byte order mark that some programs write before UTF-8.
+/// Removes the byte order mark that some programs write before UTF-8.
 inline std::string_view withoutMark(std::string_view text) {
   if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
   return text;
 }
 
-/// As some programs of Windows write texts, beginning with its own byte order mark.
+/// Whether a text begins with a byte order mark of UTF-16, as some Windows programs write it.
 inline bool isUtf16(std::string_view text) {
   return text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff");
 }
@@ -59,7 +59,7 @@ inline bool isUtf16(std::string_view text) {
 /// The lines of a text, one after the other, counted from 1.
 class LineCursor {
  public:
-  /// Only texts without any '\n' have lines that end in '\r' alone.
+  /// Lines end in '\r' alone only if the text has no '\n' at all.
   explicit LineCursor(std::string_view text)
       : LineCursor(text, text.find('\n') == std::string_view::npos ? '\r' : '\n') {}
   LineCursor(std::string_view text, char lineBreak) : rest_(text), break_(lineBreak) {}
@@ -80,7 +80,7 @@ class LineCursor {
   char lineBreak() const { return break_; }
   /// What follows the line.
   std::string_view rest() const { return rest_; }
-  /// Whether the text ends within the line, as it does where a file was cut short.
+  /// Whether the line has no line break, as the last one of a file that was cut short.
   bool cutShort() const { return !endsInBreak_; }
 
  private:
@@ -112,7 +112,7 @@ class Words {
   const char* end_;
 };
 
-/// The number a word spells, or nothing where it spells none.
+/// The number that a word spells, if it spells one.
 template <typename Number>
 std::optional<Number> toNumber(std::string_view word) {
   if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
@@ -122,28 +122,28 @@ std::optional<Number> toNumber(std::string_view word) {
   return value;
 }
 
-/// Whether a coordinate is a number that a float can hold, which all that follows counts on.
+/// Whether a float can hold a coordinate, which all later code relies on.
 inline bool isUsable(double coordinate) {
   return std::abs(coordinate) <= std::numeric_limits<float>::max();
 }
 
 inline bool isUsable(const Vec3& p) { return isUsable(p.x) && isUsable(p.y) && isUsable(p.z); }
 
-/// Of a recording with timecodes.
+/// Checks the frame rate of a recording with timecodes.
 inline Result<void> checkFrameRate(double framesPerSecond) {
   if (std::isfinite(framesPerSecond) && framesPerSecond > 0) return {};
   return fail("The frames per second of a recording must be greater than 0.");
 }
-/// The same where 0 says that nobody gave any.
+/// The same, but 0 means that none was given.
 inline Result<void> checkFrameRateIfGiven(double framesPerSecond) {
   return framesPerSecond == 0 ? Result<void>{} : checkFrameRate(framesPerSecond);
 }
 
-/// A word for a message: in quotes, printable and short. Where what is shown is not UTF-8, it is
-/// shown as far as it is ASCII. Of a long word no more is looked at.
+/// A word for a message: in quotes, printable and short. If the part that is shown is not UTF-8,
+/// only its ASCII characters are shown. No more than that part of a long word is looked at.
 inline std::string inQuotes(std::string_view word) {
   constexpr std::size_t longest = 40;
-  const auto isInside = [](char c) { return (c & 0xC0) == 0x80; };  // a character
+  const auto isInside = [](char c) { return (c & 0xC0) == 0x80; };  // of a character
   std::size_t length = std::min(word.size(), longest);
   while (length < word.size() && length + 3 > longest && isInside(word[length])) --length;
   const bool isUtf8 = codec::isUtf8(word.substr(0, length));
@@ -156,18 +156,18 @@ inline std::string inQuotes(std::string_view word) {
   return text += length < word.size() ? "...'" : "'";
 }
 
-/// A sentence that goes on in another one.
+/// A sentence to be continued within another one.
 inline std::string withoutPeriod(std::string sentence) {
   if (sentence.ends_with('.')) sentence.pop_back();
   return sentence;
 }
 
-/// The same of a sentence whose advice would help nobody there: "what is wrong; what to do."
+/// The same without the sentence's advice, "what is wrong; what to do.", where that would not help.
 inline std::string withoutAdvice(const std::string& sentence) {
   return withoutPeriod(sentence.substr(0, sentence.rfind(';')));
 }
 
-/// Numbers names in the order in which they first come up.
+/// Numbers names in the order in which they first appear.
 class NameIndex {
  public:
   explicit NameIndex(std::vector<std::string>& names) : names_(names) {}

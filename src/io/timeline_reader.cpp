@@ -16,7 +16,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// Whether a drive goes by a number; all have the time at which they set out, and its delay.
+/// Whether a kind of drive uses a number; all use the time at which they start, and the delay.
 bool takes(Drive::Kind kind, std::string_view number) {
   using Kind = Drive::Kind;
   if (number == "seconds") return kind != Kind::cut && kind != Kind::spring;
@@ -51,7 +51,7 @@ class TimelineReader {
     if (const auto poses = json_.find("poses"); poses != json_.end() && !poses->is_object())
       return failAt("'poses'", "are not an object");
     const double end = timeline.seconds * loops * (1 + 1e-9);  // 0.1 + 0.2 is more than 0.3
-    std::multimap<double, TimelineEvent> inOrder;  // events of one time stay as they stand
+    std::multimap<double, TimelineEvent> inOrder;  // keeps the order of simultaneous events
     for (std::size_t k = 0; k < events->size(); ++k) {
       const std::string place = fmt::format("events[{}]", k);
       auto event = readEvent((*events)[k], place);
@@ -104,7 +104,7 @@ class TimelineReader {
                                   "out, or name another drive",
                                   key, drive));
     if (event.time < 0) return failAt(place, "is before 0");
-    // A drive that could not even set out from rest is refused here, where its place is known.
+    // A drive that could not even start from rest is refused here, where its place is known.
     if (const auto path = trajectoryOf(event.drive, {}, 1); !path || event.drive.delay < 0)
       return failAt(place, path ? "has a negative 'delay'"
                                 : "cannot be: " + io::withoutPeriod(path.error().message));
@@ -121,7 +121,7 @@ class TimelineReader {
     return event;
   }
 
-  /// Weights by name, or the name of a pose that has them.
+  /// Reads weights by name, or the name of a pose that has them.
   Result<void> readGoals(const Json& json, const std::string& place,
                          std::vector<std::pair<std::string, double>>& goals) const {
     if (json.is_string()) {

@@ -160,11 +160,11 @@ void Layout::traceFromIrregular(std::span<const Vec3> positions) {
   }
 }
 
-// A region without corners is a ring of quads, or a whole torus: a line across opens it.
+// A region without corners is a ring of quads or a whole torus; a line across it cuts it open.
 void Layout::cutRings() {
   const auto quads = static_cast<Index>(mesh_.quads.size());
   std::vector<char> settled(quads, 0);
-  std::vector<Index> inside(quads, 0);  // in which look a quad was found last
+  std::vector<Index> inside(quads, 0);  // the look in which a quad was last found
   Index look = 0;
   for (Index seed = 0; seed < quads; ++seed) {
     if (settled[seed]) continue;
@@ -187,7 +187,7 @@ void Layout::cutRings() {
       for (Index q : region) settled[q] = 1;
       continue;
     }
-    const HalfEdge h = border >= 0 ? prevIn(border) : 4 * seed;  // leaves the border, or runs round
+    const HalfEdge h = border >= 0 ? prevIn(border) : 4 * seed;  // from the border, or all around
     const HalfEdge out = border >= 0 ? mesh_.twin[h] : h;
     const Index v = mesh_.from(out);
     const auto ring = sectors(v);

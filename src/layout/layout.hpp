@@ -29,26 +29,25 @@ class Layout {
  public:
   /// Marks the boundary and traces edge loops from every irregular vertex until they meet (the
   /// motorcycle graph of Eppstein et al. 2008, with chord lengths for time), then cuts rings open.
-  /// Lines are traced alike on both sides of a mesh that is its own mirror image where `symmetric`.
+  /// If `symmetric`, lines are traced alike on both sides of a mesh that is its own mirror image.
   Layout(const GridMesh& mesh, std::span<const Vec3> positions, bool symmetric = false);
 
   const GridMesh& mesh() const { return mesh_; }
   /// Reads the patches off the marks. Fails if a region is not four-sided.
   Result<std::vector<GridPatch>> patches() const;
-  /// The wireframe of the marks, patch by patch in the order of `patches`, which are turned so that
-  /// ribbons stay short. Masks store as much as the vertices around a node can determine.
-  /// Patches, nodes and arcs are numbered as they come when patch is glued to patch, which files
-  /// hold for nothing.
+  /// The wireframe of the marks. Masks store as much as the vertices around a node can determine.
+  /// Patches, nodes and arcs are numbered in the order in which patch is glued to patch, which
+  /// costs files nothing. Puts `patches` in that order and turns them to keep ribbons short.
   MeshWireframe wireframe(std::vector<GridPatch>& patches) const;
 
   /// Marks the line from `vertex` through arm `arm` up to the first line it meets.
   void trace(Index vertex, int arm);
   /// Cuts a patch along the grid line through column i (alongV) or row i.
   void split(const GridPatch& patch, bool alongV, Index i);
-  /// Runs the line that ends at a T-vertex on through the patch it stands at.
+  /// Extends the line that ends at a T-vertex through the patch beyond it.
   void extend(Index vertex);
 
-  /// The mirror image of a vertex, or -1. Whatever is marked is marked on both sides.
+  /// The mirror image of a vertex, or -1. Marks are always set on both sides.
   Index image(Index vertex) const;
 
   bool isNode(Index vertex) const;
@@ -60,8 +59,7 @@ class Layout {
   }
   /// Whether a grid line through a regular vertex passes from an edge to one `ratio` times as long.
   bool isUneven(Index vertex, std::span<const Vec3> positions, double ratio) const;
-  /// The vertices next to `vertex` on the grid line through `vertex` and `neighbour`: the one on
-  /// the other side, or -1.
+  /// The next vertex beyond `vertex` on the grid line from `neighbour` through it, or -1.
   Index beyond(Index vertex, Index neighbour) const;
 
  private:

@@ -15,7 +15,7 @@ namespace sweepface {
 
 namespace {
 
-// Points in cells, for the nearest one within the size of a cell.
+// Points sorted into cells, to find the nearest one within the size of a cell.
 class PointGrid {
  public:
   /// Cells are counted from `origin`, so that their numbers stay small wherever the model stands.
@@ -78,7 +78,7 @@ std::vector<Index> imagesOfPoints(const GridMesh& mesh, std::span<const Vec3> po
   for (const Index v : mesh.source) points.push_back(positions[v]);
   Box box(points);
   constexpr double kNear = 1e-3;  // of the diagonal
-  // No more than an edge, so that a part far away does not make all others one heap.
+  // No more than an edge, so that a part far away does not put all others into a few cells.
   const double cell = std::min(kNear * norm(box.size()), medianEdge(mesh, points));
   if (!(cell > 0) || !std::isfinite(cell)) return {};
   const PointGrid grid(points, box.low, cell);
@@ -121,13 +121,13 @@ std::vector<char> irregularVertices(const GridMesh& mesh) {
   return irregular;
 }
 
-// Walks a mesh and its image at once: on from one half-edge is back from the other.
+// Walks a mesh and its image together: forwards from a half-edge is backwards from its image.
 class MirrorWalk {
  public:
   explicit MirrorWalk(const GridMesh& mesh) : mesh_(mesh), mirror_(mesh.twin.size(), -1) {}
 
-  /// Pairs two half-edges and all that they are connected with; nothing if the two sides differ
-  /// anywhere, or if fewer than half of the pairs are `expected`.
+  /// Pairs two half-edges and all that they are connected to. Pairs nothing and returns false if
+  /// the two sides differ anywhere, or if fewer than half of the pairs are `expected`.
   bool spread(HalfEdge h, HalfEdge g, const std::vector<HalfEdge>& expected) {
     paired_.clear();
     bool same = pair(h, g);
@@ -163,7 +163,7 @@ class MirrorWalk {
   std::vector<HalfEdge> mirror_, paired_;
 };
 
-// Half-edges of each quad and of the quad between the images of its corners.
+// Pairs the half-edges of each quad with those of the quad between the images of its corners.
 std::vector<HalfEdge> mirrorByPlaces(const GridMesh& mesh, const std::vector<Index>& image) {
   std::vector<HalfEdge> mirror(mesh.twin.size(), -1);
   std::map<Corners, Index> quadAt;
@@ -187,8 +187,8 @@ std::vector<HalfEdge> mirrorByPlaces(const GridMesh& mesh, const std::vector<Ind
   return mirror;
 }
 
-// A torus has no vertices for lines to begin at: those across it that are cut on both sides meet
-// nowhere.
+// A torus has no vertices where lines could begin, and the lines that cut it across on both sides
+// would meet nowhere.
 void leaveOutTori(const GridMesh& mesh, std::vector<HalfEdge>& mirror) {
   UnionFind components(static_cast<Index>(mesh.quads.size()));
   for (HalfEdge h = 0; h < static_cast<HalfEdge>(mirror.size()); ++h) {
@@ -214,7 +214,7 @@ std::vector<HalfEdge> findMirror(const GridMesh& mesh, std::span<const Vec3> pos
   UnionFind components(static_cast<Index>(mesh.quads.size()));
   for (HalfEdge h = 0; h < static_cast<HalfEdge>(expected.size()); ++h)
     if (mesh.twin[h] >= 0) components.join(h >> 2, mesh.twin[h] >> 2);
-  constexpr int kMostTries = 8;  // where neighbours lie close together places may deceive
+  constexpr int kMostTries = 8;  // places may mislead where neighbours lie close together
   std::vector<int> tries(mesh.quads.size(), 0);
   for (HalfEdge h = 0; h < static_cast<HalfEdge>(expected.size()); ++h) {
     if (walk.has(h) || expected[h] < 0 || expected[expected[h]] != h) continue;

@@ -114,7 +114,7 @@ struct ArcBuilder {
   }
 };
 
-// Patches sweep and curves share ribbons as the codec expects, which then has nothing to tell.
+// Lets patches sweep and curves share ribbons as the codec expects, so that files need not say how.
 void chooseSweeps(Wireframe& w, std::vector<GridPatch>& patches) {
   codec::SweepRule rule(w);
   for (Index p = 0; p < static_cast<Index>(w.patches.size()); ++p) {
@@ -148,7 +148,7 @@ int determined(const Wireframe& w, const Connectivity& c, Index node, int axis) 
     reach[arms] =
         c.kinds[w.end(rail.last)] == NodeKind::hanging ? rail.edges - 0.5 : rail.edges / 2.0;
   }
-  // Derivatives that only a long side determines would swing on a short one.
+  // Derivatives that only a long side determines would oscillate on a short one.
   constexpr double kUneven = 3;
   const double shorter = std::min(reach[0], reach[1]), longer = std::max(reach[0], reach[1]);
   const double own = arms < 2 ? shorter + longer : shorter + std::min(longer, kUneven * shorter);
@@ -159,7 +159,7 @@ int determined(const Wireframe& w, const Connectivity& c, Index node, int axis) 
 }  // namespace
 
 std::vector<GridPatch> Layout::glued(std::vector<GridPatch> patches) const {
-  std::vector<Index> patchAt(mark_.size(), -1);  // of the half-edges along its sides
+  std::vector<Index> patchAt(mark_.size(), -1);  // the patch at each half-edge along a side
   std::vector<std::array<HalfEdge, 4>> first(patches.size());
   std::vector<std::vector<HalfEdge>> border(patches.size());
   for (Index p = 0; p < static_cast<Index>(patches.size()); ++p)
@@ -170,7 +170,7 @@ std::vector<GridPatch> Layout::glued(std::vector<GridPatch> patches) const {
       border[p].insert(border[p].end(), side.begin(), side.end());
     }
   std::vector<char> placed(patches.size(), 0);
-  std::vector<std::size_t> waiting(mark_.size(), SIZE_MAX);  // since when an open edge waits
+  std::vector<std::size_t> waiting(mark_.size(), SIZE_MAX);  // place of an open edge in the queue
   std::vector<GridPatch> result;
   std::vector<HalfEdge> queue;
   const auto place = [&](Index p) {

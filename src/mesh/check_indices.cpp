@@ -7,12 +7,12 @@
 namespace sweepface {
 namespace {
 
-/// For each of `size` corners or faces one of `count` things.
+/// A list that names one of `count` things for each of `size` corners or faces.
 struct References {
   const std::vector<Index>& numbers;
   std::size_t size, count;
   std::string_view what, things;
-  bool areOptional = true;  ///< there may be no list, or -1 for none
+  bool areOptional = true;  ///< the list may be empty, or have -1 for none
 
   Result<void> check() const {
     if (areOptional && numbers.empty()) return {};

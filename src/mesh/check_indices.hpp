@@ -4,8 +4,7 @@
 
 namespace sweepface {
 
-/// Refuses meshes whose counts and indices do not belong together; a fragment of a sentence says
-/// which.
+/// Refuses meshes whose counts or indices do not match; the error is a fragment of a sentence.
 Result<void> checkIndices(const MeshRig& meshes);
 
 }  // namespace sweepface

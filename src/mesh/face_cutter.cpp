@@ -19,7 +19,7 @@ void simplify(Piece& face) {
       ++k;
 }
 
-// Takes away tips to which the face runs out and back.
+// Removes spikes: tips to which the face runs out and back.
 void dropSpikes(Piece& face) {
   for (std::size_t k = 0; k < face.size() && face.size() > 4;) {
     const std::size_t tip = (k + 1) % face.size(), back = (k + 2) % face.size();
@@ -33,8 +33,8 @@ void dropSpikes(Piece& face) {
   }
 }
 
-// Quads between rungs, so that no corner is in more than two of them, and a triangle at the end
-// where a corner is left.
+// Quads between the rungs of a ladder, so that no corner is in more than two of them, and a
+// triangle at the end if a corner is left.
 std::vector<Piece> ladder(const Piece& face) {
   std::vector<Piece> pieces;
   for (std::size_t low = 0, high = face.size() - 1; high >= low + 2; ++low, --high) {
@@ -45,7 +45,7 @@ std::vector<Piece> ladder(const Piece& face) {
   return pieces;
 }
 
-// Quads that share the first corner, and a triangle where one corner is left.
+// Quads that share the first corner, and a triangle if one corner is left.
 std::vector<Piece> fan(const Piece& face) {
   std::vector<Piece> pieces;
   for (std::size_t k = 1; k + 1 < face.size(); k += 2) {
@@ -66,8 +66,8 @@ void FaceCutter::cut(Piece face) {
   for (Piece& piece : cutLarge(std::move(face))) keep(std::move(piece));
 }
 
-// The first ladder that is good; where none is, as of polygons that are not convex or have corners
-// in line, a fan or triangles, or the best of all.
+// The first good ladder; if there is none, as for polygons that are not convex or have collinear
+// corners, the first good fan, or else the best of all ladders, fans and a triangulation.
 std::vector<Piece> FaceCutter::cutLarge(Piece face) const {
   std::vector<Vec3> polygon;
   for (const Corner& c : face) polygon.push_back(positions_[c.vertex]);
@@ -75,11 +75,11 @@ std::vector<Piece> FaceCutter::cutLarge(Piece face) const {
   std::vector<Piece> best;
   double bestWorth = 0;
   const auto offer = [&](std::vector<Piece> cuts) {
-    // Clearly better ones only, so that rounding has no say.
+    // Only clearly better ones, so that rounding does not decide.
     if (const double worth = worthOf(cuts, normal); worth > 1.01 * bestWorth)
       best = std::move(cuts), bestWorth = worth;
   };
-  constexpr std::size_t kMostPieces = 1 << 20;  // all corners up to a thousand
+  constexpr std::size_t kMostPieces = 1 << 20;  // tries all corners of up to a thousand
   const std::size_t tries = std::min(face.size(), kMostPieces / face.size());
   const double good = 1.5 / static_cast<double>(face.size());  // a quarter of a regular polygon's
   for (const auto& way : {ladder, fan}) {
@@ -98,10 +98,10 @@ std::vector<Piece> FaceCutter::cutLarge(Piece face) const {
   return best.empty() ? triangles : best;
 }
 
-// As seen along the normal: the least that a corner turns by, of one that is straight hardly
-// anything; 0 where one turns inwards, or a piece has next to no area.
+// The smallest sine of a corner of the pieces, as seen along the normal: hardly anything if one is
+// straight, and 0 if one turns inwards or a piece has next to no area.
 double FaceCutter::worthOf(const std::vector<Piece>& cuts, const Vec3& normal) const {
-  // Rounded coordinates may have corners in line lean inwards.
+  // Rounded coordinates may make collinear corners lean inwards.
   constexpr double kInLine = 0.01, kThin = 1e-3;
   const double up = norm(normal);
   double worth = 1;

@@ -7,8 +7,7 @@
 
 namespace sweepface {
 
-/// Cuts faces into convex quads and triangles of distinct vertices. Whatever has four corners or
-/// three stays whole.
+/// Cuts faces into convex quads and triangles of distinct vertices. Triangles and quads stay whole.
 class FaceCutter {
  public:
   /// A face corner with the welded vertex it stands at.

@@ -18,7 +18,7 @@ void goRound(FaceEdges& edges, const Polygons& polygons) {
   }
 }
 
-// Finds the twins; says between which vertices edges are left that more faces share.
+// Finds the twins; returns the ends of the edges that faces share otherwise.
 std::vector<std::pair<Index, Index>> pairUp(FaceEdges& edges) {
   std::vector<EdgeSide> sides;
   for (Index c = 0; c < static_cast<Index>(edges.vertex.size()); ++c) {

@@ -6,9 +6,9 @@
 
 namespace sweepface {
 
-/// The faces of a mesh joined over the edges that exactly two of them share in opposite
-/// directions, with vertices welded that stand at the same place in all poses. An edge is named by
-/// the face corner at which it begins.
+/// The faces of a mesh, joined across the edges that exactly two of them share in opposite
+/// directions. Vertices at the same place in all poses are welded. An edge is named by the face
+/// corner at which it begins.
 struct FaceEdges {
   std::vector<Index> face, next, previous;  ///< [C]
   std::vector<Index> vertex;                ///< [C] welded

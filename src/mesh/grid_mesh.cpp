@@ -16,11 +16,11 @@ namespace {
 
 using Corner = FaceCutter::Corner;
 
-// A face's pieces meet in one of its corners: the time grows with the square of how many they are.
+// The pieces of a face may all meet in one corner: time grows with the square of their number.
 constexpr Index kMostCorners = 4096;
 
-// Which corner of each triangle becomes its collapsed side: the one where most triangles meet, so
-// that fans share their pole, and otherwise the most irregular one.
+// Chooses which corner of each triangle becomes its collapsed side: the one where most triangles
+// meet, so that fans share their pole, and otherwise the most irregular one.
 void rotateTriangles(std::vector<std::vector<Corner>>& pieces, std::size_t vertexCount) {
   std::vector<Index> triangles(vertexCount, 0), faces(vertexCount, 0);
   for (const auto& piece : pieces)
@@ -56,7 +56,8 @@ std::vector<std::pair<Index, Index>> pairEdges(GridMesh& mesh,
 }
 
 // One vertex for each fan of quads around a welded vertex, one point for vertices that collapsed
-// sides tie together. Of those from `count` on, the vertices of backs, the source counts from 0.
+// sides tie together. Welded vertices from `count` on are those of backs; modulo `count` they are
+// source vertices.
 void numberVertices(GridMesh& mesh, const std::vector<std::array<Index, 4>>& welded, Index count) {
   const auto halves = static_cast<HalfEdge>(4 * welded.size());
   UnionFind fans(halves);
@@ -87,8 +88,8 @@ void numberVertices(GridMesh& mesh, const std::vector<std::array<Index, 4>>& wel
   }
 }
 
-// Sheets that touch at a vertex are fans of their own: a source vertex goes with the first of its
-// faces, and one without faces that are left with those it was welded to.
+// Sheets that touch at a vertex are separate fans: a source vertex goes with the first of its
+// faces, or, if none of these is left, with the vertices it was welded to.
 void placeSource(GridMesh& mesh, const Polygons& faces, const std::vector<Index>& first) {
   mesh.pointOfSource.assign(first.size(), -1);
   std::vector<Index> welded(first.size(), -1);
@@ -106,7 +107,7 @@ std::string plural(Index count, const char* one, const char* many) {
   return std::to_string(count) + " " + (count == 1 ? one : many);
 }
 
-// Whether a face goes around the vertices of one before it, the other way or the same.
+// Whether a face goes around the vertices of an earlier one, in the other direction or the same.
 enum class Kind { alone, back, again };
 std::vector<Kind> kindsOf(const Polygons& faces) {
   const auto fromSmallest = [](std::vector<Index> around) {
@@ -132,7 +133,7 @@ Result<GridMesh> build(const MeshRig& rig, const std::vector<Kind>& kinds,
                        const std::vector<Index>& first, std::vector<std::pair<Index, Index>>& cut) {
   const Polygons& faces = rig.neutral.polygons;
   FaceCutter cutter(rig.neutral.positions);
-  Index without = 0;  // a surface
+  Index without = 0;  // faces without a surface
   const auto count = static_cast<Index>(first.size());
   for (Index f = 0; f < faces.faceCount(); ++f) {
     if (faces.faceSize(f) > kMostCorners)
@@ -145,7 +146,7 @@ Result<GridMesh> build(const MeshRig& rig, const std::vector<Kind>& kinds,
     const std::size_t before = cutter.pieces.size();
     cutter.cut(std::move(face));
     without += cutter.pieces.size() == before;
-    // A sheet and its back share no vertex: those of the back count on.
+    // A sheet and its back share no vertex: the back's are numbered from `count` on.
     if (kinds[f] == Kind::back)
       for (std::size_t k = before; k < cutter.pieces.size(); ++k)
         for (Corner& corner : cutter.pieces[k]) corner.vertex += count;

@@ -25,7 +25,7 @@ struct GridMesh {
   std::vector<Index> point;                       ///< [vertices]
   std::vector<Index> source;                      ///< [points] a source vertex at that place
   std::vector<Index> pointOfSource;               ///< [source vertices] or -1 where no face uses it
-  double rounding = 0;  ///< of source vertices from the one of their point, at most, in any pose
+  double rounding = 0;  ///< largest distance of a source vertex from its point's, in any pose
   std::vector<std::string> warnings;  ///< what had to be done to the source, in sentences
 
   Index vertexCount() const { return static_cast<Index>(point.size()); }
@@ -34,9 +34,9 @@ struct GridMesh {
   Index to(HalfEdge h) const { return from(nextIn(h)); }
 };
 
-/// Builds the grid mesh of a rig. Vertices within `rounding` of each other in all poses may become
-/// one (weldRounded()); a warning tells of open edges no further apart than `gap`. Fails where a
-/// face has thousands of corners, or no face is left.
+/// Builds the grid mesh of a rig. Vertices within `rounding` of each other in all poses may be
+/// merged (weldRounded()). Warns of open edges no further apart than `gap`. Fails if a face has
+/// thousands of corners, or if no face is left.
 Result<GridMesh> makeGridMesh(const MeshRig& rig, double rounding = 0, double gap = 0);
 
 }  // namespace sweepface

@@ -10,17 +10,16 @@ namespace sweepface {
 
 namespace {
 
-// What a quad must not exceed to be sound, in degrees. Artists' quads have corners that are not
-// quite convex.
+// The limits of sound quads, in degrees. Artists' quads have corners that are not quite convex.
 constexpr double smallestCorner = 0.5, largestCorner = 185, sharpestFold = 130;
 
 // Logarithms of odds, found by trial on three quad meshes cut in four ways and shuffled.
-constexpr double rightCorners = 2.25;  // of a quad of right angles
+constexpr double rightCorners = 2.25;  // for a quad of right angles
 constexpr double cornerCost = 3;       // of the worst corner, for each 90° off
 constexpr double foldCost = 6;         // for each 90° between the halves
 constexpr double valenceCost = 4;      // of each edge too many or too few at a vertex
 constexpr double bendCost = 3;         // of an edge loop, for each 90° at a vertex
-constexpr double loneCost = 4;         // of a triangle left
+constexpr double loneCost = 4;         // of a triangle left over
 constexpr int mostSpokes = 12;         // larger stars are poles, where anything goes
 
 class Finder {
@@ -67,7 +66,7 @@ class Finder {
            same(faces_.faceGroup) && same(parts_);
   }
 
-  // Not so where a seam runs along the edge.
+  // False where a seam runs along the edge.
   bool sameCorner(Index a, Index b) const {
     const auto vertex = [&](Index c) {
       return copies_.empty() ? faces_.corners[c] : copies_[faces_.corners[c]];
@@ -81,8 +80,8 @@ class Finder {
 
   const Vec3& at(Index corner) const { return positions_[faces_.corners[corner]]; }
 
-  // Of the quad between four face corners, of which the first and third are on the diagonal;
-  // nothing if it would not be sound.
+  // The score of the quad between four face corners, the first and third of which are on the
+  // diagonal; nothing if it would not be sound.
   std::optional<double> shapeScore(const std::array<Index, 4>& quad) const {
     for (int k = 0; k < 4; ++k)
       for (int l = 0; l < k; ++l)

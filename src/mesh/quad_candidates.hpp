@@ -18,8 +18,7 @@ struct QuadCandidates {
   std::vector<std::array<Index, 2>> corners;
 };
 
-/// `copies` and `parts`: see recoverQuads. Of two triangles in a pair the first stands earlier in
-/// the mesh.
+/// `copies` and `parts`: see recoverQuads. The first triangle of a pair comes earlier in the mesh.
 QuadCandidates findQuadCandidates(const MeshRig& rig, std::span<const Index> copies,
                                   std::span<const Index> parts);
 

@@ -1,7 +1,7 @@
 // Which triangles to join is a labelling of edges: each is a diagonal or is not. Pairs, triangles
 // and stars are the factors of its score. The labels are found by max-product linear programming
 // (Globerson, Jaakkola: Fixing max-product, 2007), whose messages travel far: a quad continues the
-// edge loops of its neighbours. What is left between labels that do not fit is repaired along
+// edge loops of its neighbours. Where the labels still do not fit, they are repaired along
 // alternating paths.
 #include "mesh/quad_pairing.hpp"
 
@@ -102,7 +102,7 @@ class Beliefs {
   double change_ = 0;
 };
 
-// A choice of pairs, and what every change of it gains.
+// A choice of pairs, and how much the score gains with every change of it.
 class Pairing {
  public:
   explicit Pairing(const PairingProblem& problem)
@@ -167,13 +167,13 @@ class Pairing {
 
   const PairingProblem& problem_;
   std::vector<char> joined_;
-  std::vector<Index> pairOf_;  // [triangles] the one it is joined in, or -1
+  std::vector<Index> pairOf_;  // [triangles] the pair it is joined in, or -1
   std::vector<unsigned> diagonals_;
   std::vector<std::array<Spoke, 2>> spokesOf_;
 };
 
-// Betters a choice along alternating paths. Such a path begins at a lone triangle: joining it to
-// another one frees that one's partner, where the path goes on.
+// Improves a choice along alternating paths. Such a path begins at a lone triangle: joining it to
+// another one frees that one's partner, where the path continues.
 class Repair {
  public:
   Repair(const PairingProblem& problem, const PairsOfTriangle& pairsOf, Pairing& pairing)
@@ -262,7 +262,7 @@ class Repair {
   const PairingProblem& problem_;
   const PairsOfTriangle& pairsOf_;
   Pairing& pairing_;
-  std::vector<Index> visited_;  // the search that came by last
+  std::vector<Index> visited_;  // [triangles] the last search that came by
   Index search_ = 0;
   std::vector<Step> steps_;
 };

@@ -9,9 +9,9 @@ namespace sweepface {
 
 namespace {
 
-// How a program that cuts quads writes their halves: mostly one after the other, with the diagonal
-// at the same corners. Which ways of standing to each other tell of a quad is learnt from the mesh
-// itself: an order that shapes and edge flow do not confirm has no say.
+// The order in which the program that cut quads wrote their halves: mostly one after the other,
+// with the diagonal at the same corners. Which orders suggest a quad is learnt from the mesh
+// itself: an order that shapes and edge flow do not confirm has no influence.
 class Order {
  public:
   Order(const QuadCandidates& candidates, const Polygons& faces) {
@@ -23,7 +23,7 @@ class Order {
     }
   }
 
-  /// Learns from what is joined; false if that says little.
+  /// Learns from the pairs that are joined; false if they say little.
   bool learn(const std::vector<char>& joined) {
     std::array<double, ways> all{}, yes{};
     for (std::size_t p = 0; p < way_.size(); ++p) all[way_[p]] += 1, yes[way_[p]] += joined[p];
@@ -33,7 +33,7 @@ class Order {
     const double share = joinedCount / count;
     bool any = false;
     for (int w = 0; w < ways; ++w) {
-      // A few cases more of the usual kind keep rare ways from saying much.
+      // A few additional cases with the usual odds keep rare orders from saying much.
       const double odds = (yes[w] + few * share) / (all[w] - yes[w] + few * (1 - share));
       evidence_[w] = std::log(odds * (1 - share) / share);
       any = any || std::abs(evidence_[w]) > slight;
@@ -65,7 +65,7 @@ std::vector<char> choose(const QuadCandidates& candidates, const Polygons& faces
   return joined;
 }
 
-// Copies faces, and quads in the place of their first halves.
+// Copies faces, and puts quads in the place of their first halves.
 class Joiner {
  public:
   Joiner(const Polygons& faces, const QuadCandidates& candidates, const std::vector<char>& joined)
@@ -90,8 +90,7 @@ class Joiner {
   void copyFace(Index f) {
     Polygons& to = result_.polygons;
     const Index pair = pairOf_[f], start = faces_.faceStart[f], size = faces_.faceSize(f);
-    // A quad from where its diagonal ends in the first half, so that a fan from there is the
-    // halves.
+    // A quad starts where its diagonal ends in the first half, so that a fan gives the halves.
     const Index first = pair < 0 ? 0 : candidates_.corners[pair][0] - start + 1;
     for (Index k = 0; k < size; ++k) copyCorner(start + (first + k) % size);
     if (pair >= 0) copyCorner(farCorner(pair));

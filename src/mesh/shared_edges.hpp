@@ -14,13 +14,13 @@ namespace sweepface {
 struct EdgeSide {
   Index low, high;  ///< vertices
   bool isUp;        ///< whether it leads from `low` to `high`
-  Index at;         ///< what the caller names it by
+  Index at;         ///< the caller's name for it
 
   EdgeSide(Index from, Index to, Index name)
       : low(std::min(from, to)), high(std::max(from, to)), isUp(from < to), at(name) {}
 };
 
-/// Sorts `sides` and calls visit(sides) with those of each edge, in the order of their names.
+/// Sorts `sides` and calls visit(sides) for each edge with its sides in the order of their names.
 template <typename Visit>
 void eachSharedEdge(std::vector<EdgeSide>& sides, const Visit& visit) {
   const auto edge = [](const EdgeSide& s) { return std::tie(s.low, s.high); };
@@ -33,8 +33,8 @@ void eachSharedEdge(std::vector<EdgeSide>& sides, const Visit& visit) {
   }
 }
 
-/// Makes the sides of every edge that two faces looking to the same side share each other's
-/// `twin` [names], which is -1 elsewhere. Returns the ends of edges that faces share otherwise.
+/// Sets `twin` [names]: if exactly two faces share an edge, in opposite directions, their sides are
+/// each other's twins; elsewhere it is -1. Returns the ends of edges that faces share otherwise.
 std::vector<std::pair<Index, Index>> pairSides(std::vector<EdgeSide>& sides, std::span<Index> twin);
 
 }  // namespace sweepface

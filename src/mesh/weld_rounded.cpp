@@ -14,7 +14,7 @@ namespace sweepface {
 
 namespace {
 
-/// [vertices] of the edges around each that are longer than `least`, but `most` at most.
+/// [vertices] The length of the shortest edge at each that is above `least`, or `most` if smaller.
 std::vector<double> shortestEdges(const PolygonMesh& mesh, double least, double most) {
   std::vector<double> shortest(mesh.positions.size(), most);
   eachEdge(mesh.polygons, [&](Index a, Index b) {
@@ -25,11 +25,11 @@ std::vector<double> shortestEdges(const PolygonMesh& mesh, double least, double 
   return shortest;
 }
 
-// The share of edges that rounding may be, and that a gap is at most between what was meant as one.
+// The largest rounding, and the largest gap between edges meant as one, as shares of edge lengths.
 constexpr double kRoundingOfEdges = 1e-3, kGapOfEdges = 0.05;
 
-/// Which vertices are next to each other in all poses: no further than `within`, nor than a share
-/// of the edges of either that are longer than that.
+/// Finds vertices that are near each other in all poses: at most `within` apart, and at most a
+/// share of any edge of either that is longer than `within`.
 class Neighbours {
  public:
   Neighbours(const MeshRig& rig, double within, double ofEdges)
@@ -47,15 +47,15 @@ class Neighbours {
   bool areNear(Index a, Index b) const {
     const double most = std::min(allowed_[a], allowed_[b]);
     const std::vector<Vec3>& neutral = rig_.neutral.positions;
-    return norm(neutral[a] - neutral[b]) <= most && apart(a, b) <= most;  // few get as far as that
+    return norm(neutral[a] - neutral[b]) <= most && apart(a, b) <= most;  // few get this far
   }
 
-  /// Sets of some vertices, of which each is near to another one.
+  /// Groups of `vertices` that are near each other, directly or through others.
   UnionFind sets(const std::vector<Index>& vertices) const {
     UnionFind sets(rig_.neutral.positions.size());
     double size = 0;
     for (const Index v : vertices) size = std::max(size, allowed_[v]);
-    if (!(size > 0)) size = 1;  // only those at one place are near
+    if (!(size > 0)) size = 1;  // only vertices at the same place are near
     std::map<Cell, std::vector<Index>> cells;
     for (const Index v : vertices) {
       const Cell here = cellOf(v, size);
@@ -74,8 +74,8 @@ class Neighbours {
  private:
   using Cell = std::array<double, 3>;
 
-  /// Of the mean over all poses, no two of which count the same: what is near in all poses is near
-  /// there, and what one of them parts is not.
+  /// By the mean over all poses, no two of which have the same weight: vertices near each other in
+  /// all poses are near there, and those that one of them separates are not.
   Cell cellOf(Index v, double size) const {
     double sum = 1, share = 0;
     Vec3 mean = rig_.neutral.positions[v];
@@ -92,7 +92,7 @@ class Neighbours {
   std::vector<double> allowed_;  // [vertices]
 };
 
-/// From and to which vertex edges lead that no face has the other way.
+/// The edges, as (from, to), that no face has in the other direction.
 std::vector<std::pair<Index, Index>> openEdges(const Polygons& faces,
                                                const std::vector<Index>& first) {
   std::vector<std::pair<Index, Index>> edges, open;
@@ -109,8 +109,8 @@ std::vector<Index> firstOf(UnionFind& sets) {
   return first;
 }
 
-/// Vertices whose sets are not points: one that is not near the first, or a face that would have
-/// no surface any more.
+/// Marks the first vertices of sets that must not become points: one of their vertices is not near
+/// the first, or a face would lose its surface.
 std::vector<char> notPoints(const Polygons& faces, const Neighbours& neighbours, UnionFind& before,
                             UnionFind& after) {
   std::vector<char> bad(after.size(), 0);
@@ -128,7 +128,7 @@ std::vector<char> notPoints(const Polygons& faces, const Neighbours& neighbours,
   return bad;
 }
 
-/// Joins the ends of open edges that are points together, as around the pole of a sphere.
+/// Joins the ends of open edges that together are one point, as around the pole of a sphere.
 void closePoints(const Polygons& faces, const Neighbours& neighbours, UnionFind& sets) {
   auto open = openEdges(faces, firstOf(sets));
   std::erase_if(open,
@@ -141,7 +141,7 @@ void closePoints(const Polygons& faces, const Neighbours& neighbours, UnionFind&
     if (!bad[closed.find(from)]) sets.join(from, to);
 }
 
-/// Joins open edges that only sets of near vertices pair; what merely touches stays apart.
+/// Joins open edges that pair up once near vertices count as one; what merely touches stays apart.
 void closeSlits(const Polygons& faces, const Neighbours& neighbours, UnionFind& sets) {
   const auto open = openEdges(faces, firstOf(sets));
   std::vector<Index> ends;

@@ -18,7 +18,8 @@ namespace sweepface {
 template <typename Size, typename Body>
 void parallelFor(Size first, Size end, const Body& body) {
 #ifdef SWEEPFACE_PLAIN_THREADS
-  // The thread sanitizer does not see what TBB's library orders, as that is not built for it.
+  // The thread sanitizer does not see the synchronisation in TBB's library, which is not built for
+  // it.
   std::atomic<Size> next = first;
   const auto work = [&] {
     for (Size k = next++; k < end; k = next++) body(k);

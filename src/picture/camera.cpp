@@ -9,13 +9,13 @@
 namespace sweepface {
 namespace {
 
-/// A portrait lens: the height of the picture is seen under 19 degrees.
+/// A portrait lens: the height of the picture spans 19 degrees.
 constexpr double kFocal = 3;
 
 constexpr std::pair<std::string_view, View> kNamedViews[] = {
     {"front", {0, 0}}, {"side", {90, 0}}, {"three-quarter", {35, 6}}, {"back", {180, 0}}};
 
-/// All of a text as a finite number.
+/// Parses all of a text as a finite number.
 bool parseNumber(std::string_view text, double& number) {
   const char* const end = text.data() + text.size();
   const auto [stop, error] = std::from_chars(text.data(), end, number);
@@ -44,7 +44,7 @@ Result<std::vector<View>> parseViews(std::string_view text) {
   for (std::size_t at = 0; at <= text.size();) {
     std::size_t end = std::min(text.find(',', at), text.size());
     double number = 0;
-    // A number is an azimuth, and the elevation follows.
+    // A number is an azimuth; its elevation follows.
     if (parseNumber(text.substr(at, end - at), number) && end < text.size())
       end = std::min(text.find(',', end + 1), text.size());
     const Result<View> view = parseView(text.substr(at, end - at));
@@ -77,8 +77,8 @@ Camera frameCamera(std::span<const Vec3> points, const View& view, PictureSize s
   camera.forward = {-std::sin(a) * std::cos(e), -std::sin(e), -std::cos(a) * std::cos(e)};
   camera.up = cross(camera.right, camera.forward);
   camera.focal = kFocal;
-  // A point is inside where |x - x0| <= (z + back) tan: each side of the picture is a plane that
-  // the points push away from the eye's place.
+  // A point is inside if |x - x0| <= (z + back) tan: each side of the picture is a plane that the
+  // points push outwards from the eye.
   const double tanY = (0.5 - margin) / kFocal, tanX = tanY * size.width / size.height;
   double left = -1e300, right = -1e300, bottom = -1e300, top = -1e300;
   for (const Vec3& p : points) {

@@ -7,7 +7,7 @@
 
 namespace sweepface {
 
-/// Light, linear in intensity.
+/// Light as RGB, linear in intensity.
 struct Light {
   double r = 0, g = 0, b = 0;
 
@@ -22,7 +22,7 @@ inline Light operator*(const Light& a, double s) { return {a.r * s, a.g * s, a.b
 inline Light operator*(double s, const Light& a) { return a * s; }
 inline Light operator*(const Light& a, const Light& b) { return {a.r * b.r, a.g * b.g, a.b * b.b}; }
 
-/// IEC 61966-2-1.
+/// The sRGB transfer functions (IEC 61966-2-1).
 inline double linearFromScreen(double c) {
   return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
 }

@@ -23,8 +23,8 @@ namespace {
 constexpr Colour kClay{0.90f, 0.875f, 0.85f};
 constexpr Colour kLabel{0.15f, 0.15f, 0.17f};
 
-/// The end of a scale that all but a hundredth of the values are on: a number whose quarters
-/// are easy to read.
+/// The end of a scale that holds all but a hundredth of the values: a number whose quarters are
+/// easy to read.
 double scaleEnd(std::vector<double> values) {
   if (values.empty()) return 1;
   const auto k = static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(values.size() - 1));
@@ -36,10 +36,11 @@ double scaleEnd(std::vector<double> values) {
   return 10 * decade;
 }
 
-/// Original meshes are cut into at least so many triangles, so that light is known all over them.
+/// Original meshes are divided into at least this many triangles, so that light is computed all
+/// over them.
 constexpr std::size_t kTrianglesLit = 50'000;
 
-/// Triangles of a scene with the colours of the faces they are part of; clear ones are left out.
+/// Gives the triangles of a scene the colours of the faces they belong to, and removes clear ones.
 void addMaterials(Scene& scene, const std::vector<std::optional<Colour>>& colours,
                   const std::vector<Index>& faceOfTriangle) {
   std::vector<std::array<Index, 3>> kept;
@@ -51,7 +52,7 @@ void addMaterials(Scene& scene, const std::vector<std::optional<Colour>>& colour
   scene.triangles = std::move(kept);
 }
 
-/// The same flat triangles, each cut into four: so that light is known in more places.
+/// Divides each triangle into four in its plane, so that light is computed in more places.
 void refine(Scene& scene) {
   std::map<std::pair<Index, Index>, Index> middles;
   const auto middle = [&](Index a, Index b) {
@@ -80,7 +81,7 @@ void refine(Scene& scene) {
 }  // namespace
 
 Index lodFor(const Surface& surface, Style style, PictureSize size) {
-  // Shading hides corners that are a few pixels long; reflections show them.
+  // Shading hides corners between edges a few pixels long; reflections show them.
   const double pixels = style == Style::zebra ? 1.5 : 6;
   const auto quads = static_cast<double>(surface.wireframe().quadCount());
   const double shown = 0.35 * size.width * size.height / pixels;
@@ -214,7 +215,7 @@ std::vector<double> FaceScenes::angles(std::span<const Vec3> normals,
 Scene FaceScenes::original(std::span<const Vec3> positions) const {
   const SourceMesh& source = rig_.source;
   const Polygons& polygons = source.polygons;
-  // Faces may have loose corners: those vertices come after the grid's.
+  // Faces may have loose corners; their vertices come after the grid's.
   const Index gridCount = source_.vertexCount();
   const Index count = gridCount + static_cast<Index>(source.loose.size());
   std::vector<Index> places = cornerPlaces_;
@@ -239,7 +240,7 @@ Scene FaceScenes::original(std::span<const Vec3> positions) const {
 }
 
 Result<std::vector<Index>> FaceScenes::region(std::string_view name, std::size_t count) const {
-  constexpr double share = 0.5;  // of the largest way that a vertex goes
+  constexpr double share = 0.5;  // relative to the largest distance that a vertex moves
   const std::vector<Vec3> rest = points(rig_.weightsOf(0));
   std::vector<Index> moved;
   for (std::size_t k = 0; k < std::min(count, rig_.targets.size()); ++k) {

@@ -15,7 +15,7 @@ namespace {
 constexpr Index kSmallest = 16, kLargest = 16384;
 constexpr std::int64_t kMostPixels = std::int64_t{1} << 26;
 
-/// Lines of letters are this share of the capitals' height wide.
+/// The width of a letter's strokes, relative to the height of capitals.
 constexpr double kWeight = 0.125;
 
 }  // namespace

@@ -7,7 +7,7 @@
 
 namespace sweepface {
 
-/// With small letters for capitals, so that names are found however they are written.
+/// The text in lower case, so that names are found however they are written.
 inline std::string lowered(std::string_view text) {
   std::string lower(text);
   std::ranges::transform(lower, lower.begin(),

@@ -9,7 +9,7 @@
 namespace sweepface {
 namespace {
 
-/// The pixels from floor(low) to floor(high) that are between two others.
+/// The pixels from floor(low) to floor(high), clipped to [first, last].
 std::pair<Index, Index> pixels(double low, double high, Index first, Index last) {
   const auto whole = [&](double x) {
     return static_cast<Index>(std::clamp(std::floor(x), first - 1.0, last + 1.0));

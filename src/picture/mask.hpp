@@ -7,13 +7,13 @@
 
 namespace sweepface {
 
-/// Which share of each pixel a drawing covers. Where its parts overlap the larger share counts, so
+/// The share of each pixel that a drawing covers. Where parts overlap, the larger share counts, so
 /// that no joint shows.
 class Mask {
  public:
-  /// For the part of an image from (left, top) to (right, bottom), as far as there is one.
+  /// Covers the part of an image from (left, top) to (right, bottom), clipped to the image.
   Mask(const Image& image, double left, double top, double right, double bottom);
-  /// For all of an image.
+  /// Covers all of an image.
   explicit Mask(const Image& image);
 
   /// A line with round ends.

@@ -39,13 +39,13 @@ std::vector<Vec3> disc(int count, const Vec3& centre, double radius) {
   return directions;
 }
 
-/// What arrives at a vertex of the light from some directions.
+/// The light from some directions, and how much of it arrives at a vertex.
 struct Arrival {
   double all = 0, arrived = 0;
-  int above = 0;  ///< how many of the directions are above the vertex's horizon
+  int above = 0;  ///< directions above the vertex's horizon
 };
 
-/// Asks for every vertex how much arrives and stores what `answer` makes of it.
+/// Computes how much light arrives at every vertex, and returns what `answer` makes of it.
 std::vector<float> exposure(const Obstacles& obstacles, std::span<const Vec3> positions,
                             std::span<const Vec3> normals, const std::vector<Vec3>& directions,
                             auto brightness, auto answer) {
@@ -82,7 +82,7 @@ Result<Obstacles> Obstacles::make(std::span<const Vec3> positions,
   if (!o.device_) return noMemory();
   o.scene_.reset(rtcNewScene(o.device_.get()));
   if (!o.scene_) return noMemory();
-  // Whether a ray meets a box is then never decided by rounding.
+  // Rounding then never decides whether a ray meets a box.
   rtcSetSceneFlags(o.scene_.get(), RTC_SCENE_FLAG_ROBUST);
   const std::unique_ptr<RTCGeometryTy, decltype(&rtcReleaseGeometry)> geometry(
       rtcNewGeometry(o.device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE), rtcReleaseGeometry);
@@ -129,7 +129,7 @@ bool Obstacles::blocks(const Vec3& origin, const Vec3& direction, double near, d
 
 std::vector<float> skyExposure(const Obstacles& obstacles, std::span<const Vec3> positions,
                                std::span<const Vec3> normals) {
-  // Brighter above than below, where the light comes back from the ground.
+  // Brighter above than below, where light is reflected by the ground.
   const auto brightness = [](const Vec3& direction) { return 0.65 + 0.35 * direction.y; };
   return exposure(obstacles, positions, normals, sphere(kSkyDirections), brightness,
                   [](std::size_t, const Arrival& a) { return a.all > 0 ? a.arrived / a.all : 1; });

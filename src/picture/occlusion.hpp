@@ -13,14 +13,14 @@ struct RTCSceneTy;
 
 namespace sweepface {
 
-/// Triangles in the way of rays. Whether one is hit does not depend on the number of threads.
+/// Triangles that block rays. Whether one is hit does not depend on the number of threads.
 class Obstacles {
  public:
   static Result<Obstacles> make(std::span<const Vec3> positions,
                                 std::span<const std::array<Index, 3>> triangles);
 
-  /// Whether something lies on the way from `near` to `far` along a unit direction; lengths in
-  /// model units.
+  /// Whether something lies between `near` and `far` along a unit direction; lengths in model
+  /// units.
   bool blocks(const Vec3& origin, const Vec3& direction, double near, double far) const;
   /// Length of the bounding box's diagonal, model units.
   double size() const { return size_; }
@@ -41,8 +41,8 @@ class Obstacles {
 std::vector<float> skyExposure(const Obstacles& obstacles, std::span<const Vec3> positions,
                                std::span<const Vec3> normals);
 
-/// The same of a lamp that is seen under an angle of `radius` around a unit direction. What of the
-/// lamp is behind a vertex's own horizon counts like the sky there.
+/// The same for a lamp with an angular radius of `radius` around a unit direction. The part of the
+/// lamp below a vertex's own horizon counts like the sky there.
 std::vector<float> lampExposure(const Obstacles& obstacles, std::span<const Vec3> positions,
                                 std::span<const Vec3> normals, const Vec3& towards, double radius,
                                 std::span<const float> sky);

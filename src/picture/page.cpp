@@ -12,7 +12,7 @@ namespace {
 
 constexpr Colour kInk{0.20f, 0.20f, 0.22f};
 
-/// Height of capitals, in pixels, beside pictures of a size.
+/// Height of capitals, in pixels, next to pictures of this size.
 double textHeight(PictureSize panel) {
   return std::clamp(0.021 * std::min(panel.width, panel.height), 7.0, 40.0);
 }
@@ -23,10 +23,10 @@ Index footHeight(PictureSize panel) {
   return static_cast<Index>(std::lround(4.4 * textHeight(panel)));
 }
 
-/// Draws a text as high as it may be without being too wide, if anybody can read it then.
+/// Draws a text as large as fits the width, if it is then still readable.
 void drawFitting(Image& image, std::string_view text, double x, double y, double height,
                  double width) {
-  constexpr double kReadable = 4;  // pixels of a capital
+  constexpr double kReadable = 4;  // height of capitals, pixels
   const double fitting = std::min(height, height * width / std::max(textWidth(text, height), 1.0));
   if (fitting >= kReadable) drawText(image, text, x, y, fitting, kInk, Align::centre);
 }
@@ -42,7 +42,7 @@ Result<Page> Page::make(PictureSize size, const Plan& plan) {
   if (auto ok = checkSize(size); !ok) return std::unexpected(ok.error());
   if (plan.columns < 1 || plan.rows < 1)
     return fail("A page has at least one column and one row of pictures.");
-  // The text's size follows the pictures', which have what the text leaves.
+  // The size of the text depends on that of the pictures, which get the room that the text leaves.
   PictureSize panel{size.width / plan.columns, size.height / plan.rows};
   while (panel.height > 0 && sizeFor(panel, plan).height > size.height) --panel.height;
   if (!checkSize(panel))
@@ -60,7 +60,7 @@ void Page::place(Index column, Index row, const Image& image, std::string_view c
   const Index height = panel_.height + (plan_.captions ? captionHeight(panel_) : 0);
   const Index x = column * panel_.width, y = row * height;
   paste(image_, image, x, y);
-  // Pictures that are full up to their sides do not run together.
+  // Keeps pictures that fill their panels from running together.
   const Index gap = std::max<Index>(2, panel_.width / 150);
   for (const Index side : {column, column + 1})
     if (side > 0 && side < plan_.columns)

@@ -22,7 +22,7 @@ Result<std::string> encodePng(const Image& image) {
     return fail(std::to_string(image.width) + " × " + std::to_string(image.height) +
                 " pixels need three bytes each; the picture has " +
                 std::to_string(image.rgb.size()) + ".");
-  // Looks further for repetitions than it would by itself. Set once: threads may write together.
+  // Searches further for repetitions than by default. Set once, as several threads may write.
   [[maybe_unused]] static const int level = stbi_write_png_compression_level = 24;
   int size = 0;
   const std::unique_ptr<unsigned char, decltype(&std::free)> bytes(

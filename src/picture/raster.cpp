@@ -15,7 +15,7 @@ Raster::Raster(const Scene& scene, const Camera& camera, PictureSize size)
     const Vec3 seen = camera.project(p, size);
     screen_.push_back({seen.x, seen.y, seen.z > 0 ? 1 / seen.z : -1});
   }
-  // Twice over all triangles: to count those of each tile, and to list them.
+  // Visits all triangles twice: to count those of each tile, and to list them.
   const auto eachTile = [&](Index triangle, auto visit) {
     const Bounds b = boundsOf(triangle);
     for (Index y = b.top / kTile; y <= b.bottom / kTile && b.top <= b.bottom; ++y)

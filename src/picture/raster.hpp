@@ -8,7 +8,7 @@
 
 namespace sweepface {
 
-/// Where a pixel is looked at: sixteen places, no two in the same sixteenth of a column or row.
+/// The samples of a pixel: sixteen places, no two in the same sixteenth of a column or row.
 inline constexpr int kSamples = 16;
 inline constexpr std::array<std::array<double, 2>, kSamples> kSamplePlaces = [] {
   constexpr int column[kSamples] = {8, 7, 5, 12, 3, 10, 13, 11, 6, 4, 1, 0, 9, 14, 15, 2};
@@ -21,14 +21,14 @@ inline constexpr std::array<std::array<double, 2>, kSamples> kSamplePlaces = [] 
 
 /// What a sample sees.
 struct Hit {
-  Index triangle = -1;  ///< or nothing
+  Index triangle = -1;  ///< -1: none
   float depth = 0;      ///< 1 / distance
 };
 
-/// The square of pixels that is worked on at a time.
+/// The side of a tile, the square of pixels that is processed at a time.
 inline constexpr Index kTile = 32;
 
-/// Triangles as a camera sees them, found by tile.
+/// Triangles as a camera sees them, binned by tile.
 class Raster {
  public:
   Raster(const Scene& scene, const Camera& camera, PictureSize size);
@@ -37,22 +37,22 @@ class Raster {
   Index tileX(Index tile) const { return tile % columns_ * kTile; }
   Index tileY(Index tile) const { return tile / columns_ * kTile; }
 
-  /// The nearest triangle at each sample of a tile: [kTile × kTile × kSamples]. Of two at the same
-  /// distance the first in the scene.
+  /// The nearest triangle at each sample of a tile: [kTile × kTile × kSamples]. At equal distances
+  /// the first in the scene wins.
   void look(Index tile, std::vector<Hit>& hits) const;
 
   struct Place {
     std::array<double, 3> weights;  ///< of the triangle's corners
-    bool front;                     ///< its outer side
+    bool front;                     ///< whether its outer side is seen
   };
-  /// Where in a triangle a sample at (x, y) lies.
+  /// The place in a triangle of a sample at (x, y).
   Place placeIn(Index triangle, double x, double y) const;
 
  private:
   struct Bounds {
     Index left, right, top, bottom;  ///< pixels, inclusive
   };
-  /// Twice the area on the screen of the corners a, b and (x, y).
+  /// Twice the area on the screen of the triangle a, b, (x, y).
   double side(Index a, Index b, double x, double y) const {
     const Vec3 &p = screen_[a], &q = screen_[b];
     return (q.x - p.x) * (y - p.y) - (q.y - p.y) * (x - p.x);

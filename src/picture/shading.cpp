@@ -15,7 +15,7 @@ Light bent(const Light& l, double r, double g, double b) {
   return {std::pow(l.r, r), std::pow(l.g, g), std::pow(l.b, b)};
 }
 
-/// Light that is kept off a hollow comes back from its walls, in their colour (Jimenez et al.,
+/// Light that is occluded in a hollow comes back from its walls, in their colour (Jimenez et al.,
 /// Practical Realtime Strategies for Accurate Indirect Occlusion, 2016).
 Light withBounces(double visible, const Light& colour) {
   const auto channel = [&](double c) {
@@ -30,7 +30,7 @@ Light skyOver(const Vec3& normal) {
   return up * kSkyAbove + (1 - up) * kSkyBelow;
 }
 
-/// How bright a lamp makes a surface that light enters and leaves some way off.
+/// Diffuse lighting by a lamp of a surface that light enters and leaves some way off.
 double wrapped(double cosine, double width) {
   return std::max(0.0, (cosine + width) / ((1 + width) * (1 + width)));
 }
@@ -44,7 +44,7 @@ Light skin(const SurfacePoint& p, const Lamps& lamps) {
   const double key = dot(p.normal, lamps.key), fill = dot(p.normal, lamps.fill);
   // Red light travels further under the skin, into the shadow.
   const Light shadow = bent({p.lamp, p.lamp, p.lamp}, 0.75, 1, 1.1);
-  // However deep a hollow, some light finds its way.
+  // However deep a hollow, some light reaches it.
   Light light = withBounces(0.06 + 0.94 * p.sky, p.colour) * skyOver(p.normal);
   light += kKey * Light{wrapped(key, 0.34), wrapped(key, 0.2), wrapped(key, 0.15)} * shadow;
   light += kFill * (wrapped(fill, 0.5) * p.sky);
@@ -56,7 +56,7 @@ Light skin(const SurfacePoint& p, const Lamps& lamps) {
   return p.colour * light + kKey * shine;
 }
 
-/// White light only, and never much of a shadow.
+/// White light only, and never a deep shadow.
 Light matte(const SurfacePoint& p, const Lamps& lamps) {
   const double key = p.lamp * wrapped(dot(p.normal, lamps.key), 0.5);
   const double facing = std::clamp(dot(p.normal, p.toEye), 0.0, 1.0);
@@ -69,7 +69,7 @@ Light zebra(const SurfacePoint& p, double stripe) {
   return (stripe > 0 ? bright : dark) * form;
 }
 
-/// Stripes round the room from front to back, as reflected: their sine.
+/// The sine of the reflected stripes, which run round the room from front to back.
 double stripeOf(const SurfacePoint& p, const Lamps& lamps) {
   constexpr double stripes = 14;
   const Vec3 r = 2 * dot(p.normal, p.toEye) * p.normal - p.toEye;
@@ -77,7 +77,7 @@ double stripeOf(const SurfacePoint& p, const Lamps& lamps) {
   return std::sin(stripes * std::acos(std::clamp(dot(r, across), -1.0, 1.0)));
 }
 
-/// Keeps what is bright from burning out.
+/// Keeps highlights from clipping.
 double shoulder(double x) {
   constexpr double knee = 0.75;
   return x <= knee ? x : knee + (1 - knee) * (1 - std::exp(-(x - knee) / (1 - knee)));

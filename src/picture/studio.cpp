@@ -14,7 +14,7 @@
 namespace sweepface {
 namespace {
 
-/// One value for each of `count` things, or none.
+/// Refuses colours unless there is one for each of `count` things, or none.
 Result<void> checkColours(const std::vector<Colour>& colours, std::size_t count,
                           std::string_view things) {
   if (colours.empty() || colours.size() == count) return {};
@@ -76,7 +76,7 @@ struct StudioParts {
 
 namespace {
 
-/// A picture in the making.
+/// Takes one picture.
 class Photograph {
  public:
   Photograph(const StudioParts& studio, const Camera& camera, PictureSize size)
@@ -116,8 +116,9 @@ class Photograph {
 
   using PixelHits = std::span<const Hit, kSamples>;
 
-  /// The mean of what a pixel's samples see. A triangle is lit once, in the middle of those that
-  /// see it, as light changes little within a pixel; but stripes may end there.
+  /// The mean of what a pixel's samples see. A triangle is shaded once, in the middle of the
+  /// samples that see it, as light changes little within a pixel. Stripes may end within one, so
+  /// they are shaded at every sample.
   Light lightOf(PixelHits hits, Index x, Index y) const {
     const bool isStriped = scene_.finish == Finish::zebra;
     Light sum;
@@ -158,11 +159,11 @@ class Photograph {
     return shade(scene_.finish, p, lamps_);
   }
 
-  /// Of the eye, whose pictures show what is behind it upside down.
+  /// Whether a point is in front of the eye; what is behind it would be projected upside down.
   bool isAhead(const Vec3& p) const { return dot(p - camera_.eye, camera_.forward) > 0; }
 
-  /// Whether nothing is between a point and the eye. The first bit of the way does not count: lines
-  /// lie on the surface, whose triangles cut its corners.
+  /// Whether nothing lies between a point and the eye. The first bit of the way does not count, as
+  /// lines lie on the surface, whose triangles cut its corners.
   bool sees(const Vec3& p) const {
     const double slack = 0.0025 * studio_.obstacles.size();
     const Vec3 way = camera_.eye - p;
@@ -178,7 +179,7 @@ class Photograph {
 
   void drawStrokes(Image& image) const {
     const auto& strokes = scene_.strokes;
-    // Neighbours that look alike share a mask: where they meet no joint shows.
+    // Neighbours of one colour share a mask, so that no joint shows where they meet.
     for (std::size_t first = 0; first < strokes.size();) {
       std::size_t last = first;
       while (last < strokes.size() && strokes[last].colour == strokes[first].colour) ++last;
@@ -194,7 +195,7 @@ class Photograph {
     }
   }
 
-  /// What of a stroke is seen: pairs of ends.
+  /// The visible parts of a stroke: pairs of ends.
   std::vector<Vec2> seen(const Stroke& stroke) const {
     std::vector<Vec2> ends;
     for (std::size_t k = 1; k < stroke.points.size(); ++k)
@@ -202,7 +203,7 @@ class Photograph {
     return ends;
   }
 
-  /// Asks every few pixels, and then for the very place where the line goes behind something.
+  /// Tests every few pixels, then finds the exact place where the line goes behind something.
   void addSeen(const Vec3& from, const Vec3& to, std::vector<Vec2>& ends) const {
     constexpr double step = 5;
     if (!isAhead(from) || !isAhead(to)) return;
@@ -221,7 +222,7 @@ class Photograph {
     }
   }
 
-  /// How far one sees from a visible point towards a hidden one.
+  /// The last visible point between a visible and a hidden one.
   Vec3 lastSeen(Vec3 visible, Vec3 hidden) const {
     for (int k = 0; k < 6; ++k) {
       const Vec3 middle = 0.5 * (visible + hidden);
@@ -239,7 +240,7 @@ class Photograph {
       const bool left = p.x + 2 * height + width > size_.width;
       const double side = left ? -1 : 1;
       const Vec2 corner{p.x + side * 1.6 * height, p.y - 1.6 * height};
-      // Rimmed in paper, as what is behind may be of any colour.
+      // With a rim in the colour of paper, as the background may be of any colour.
       const double line = std::max(2 * unit, 1.0), point = std::max(8 * unit, 4.0), rim = line;
       const double beside = corner.x + side * 0.4 * height - (left ? width : 0);
       const double begin = std::clamp(beside, rim, std::max(rim, size_.width - width - rim));

@@ -27,7 +27,7 @@ constexpr std::array<Colour, kJoinClasses> kJoinColours{
     {{0.20f, 0.20f, 0.22f}, {0.10f, 0.42f, 0.66f}, {0.84f, 0.25f, 0.16f}, {0.91f, 0.60f, 0.10f}}};
 constexpr std::array<std::string_view, kJoinClasses> kJoinNames{"boundary", "C² join", "spoke",
                                                                 "crease"};
-// The thin ones first: what is drawn later lies on top.
+// Thin ones first: what is drawn later lies on top.
 constexpr std::array kJoinOrder{JoinClass::c2, JoinClass::boundary, JoinClass::spoke,
                                 JoinClass::crease};
 
@@ -100,7 +100,7 @@ std::vector<Colour> patchTints(const Surface& surface) {
     for (Index k = w.patches[p].sides[0]; k < w.patches[p].sides[4]; ++k)
       if (const Index beside = patchOf[twin(w.loops[k])]; beside >= 0 && tint[beside] >= 0)
         taken[tint[beside]] = 1;
-    // The rarest that no neighbour has.
+    // The least used tint that no neighbour has.
     int best = -1;
     for (int t = 0; t < static_cast<int>(used.size()); ++t)
       if (!taken[t] && (best < 0 || used[t] < used[best])) best = t;

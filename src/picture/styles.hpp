@@ -4,7 +4,7 @@
 
 namespace sweepface {
 
-/// A tint for every patch of which no two that share an arc have the same.
+/// A tint for every patch, such that no two patches that share an arc have the same.
 std::vector<Colour> patchTints(const Surface& surface);
 
 /// Boundary and control curves as strokes.
@@ -12,7 +12,7 @@ std::vector<Stroke> wireStrokes(const Surface& surface, std::span<const Vec3> ve
 /// Boundary curves in the colours of their joins.
 std::vector<Stroke> joinStrokes(const Surface& surface, std::span<const Vec3> vectors);
 
-/// What the colours of the curves mean.
+/// The meanings of the curves' colours.
 std::vector<Key> wireLegend();
 std::vector<Key> joinLegend(const Surface& surface);
 

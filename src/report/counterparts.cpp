@@ -13,7 +13,7 @@ namespace {
 
 using Shapes = std::vector<const std::vector<Vec3>*>;
 
-/// The neutral and the targets of `rig` in the order in which `source` has them.
+/// The neutral and the targets of `rig`, in the order of `source`.
 Result<Shapes> shapesLike(const MeshRig& source, const MeshRig& rig) {
   Shapes shapes{&rig.neutral.positions};
   for (const MeshTarget& target : source.targets) {
@@ -25,7 +25,8 @@ Result<Shapes> shapesLike(const MeshRig& source, const MeshRig& rig) {
   return shapes;
 }
 
-/// The largest distance of two vertices over all shapes, or any that is not below `enough`.
+/// The largest distance between two vertices over all shapes, or the first that is not below
+/// `enough`.
 double worstDistance(const Shapes& a, Index v, const Shapes& b, Index w, double enough) {
   double worst = 0;
   for (std::size_t k = 0; k < a.size() && worst < enough; ++k)

@@ -71,7 +71,7 @@ std::string ReportMaker::errorTable() const {
   return table.html();
 }
 
-/// How wrong the ways of the vertices from the neutral are.
+/// How far off the vertices' displacements from the neutral are.
 Result<std::string> ReportMaker::displacements() {
   const std::vector<double>& errors = measured_.displacements;
   if (errors.empty()) return "";

@@ -6,10 +6,11 @@
 
 #include "sweepface/picture.hpp"
 
-// Pieces of HTML. Texts are given as they are to be read and escaped here.
+// Pieces of HTML. Texts are passed unescaped, and escaped here.
 namespace sweepface::html {
 
-/// What is no UTF-8, as names of files may be, is shown as far as it is ASCII.
+/// Escapes a text. If it is not UTF-8, as file names may be, bytes that are not ASCII become
+/// U+FFFD.
 std::string escaped(std::string_view text);
 std::string base64(std::string_view bytes);
 /// "#rrggbb".
@@ -29,9 +30,9 @@ class Table {
   std::string head_, body_;
 };
 
-/// The colours of heat maps from 0 to `top`, and what they stand for.
+/// The colours of heat maps from 0 to `top`, and what they represent.
 std::string scale(double top, std::string_view title);
-/// Lines of colour with what they mean.
+/// Coloured lines and their meanings.
 std::string legend(const std::vector<Key>& keys);
 
 /// The whole page.

@@ -54,7 +54,7 @@ std::string curve(const Trajectory& path, const Curve& c) {
                      points, c.colour, c.width);
 }
 
-/// An attribute that takes these values one after the other, for ever.
+/// An animated attribute that runs through these values in a loop.
 std::string moving(std::string_view attribute, const Trajectory& path, auto value) {
   std::string values;
   for (int k = 0; k <= kFrames; ++k) {

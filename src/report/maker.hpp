@@ -21,13 +21,13 @@ class ReportMaker {
   Result<std::string> make();
 
  private:
-  /// Figures in a row, until one goes wrong.
+  /// Figures in a row, up to the first that fails.
   struct Figures {
     std::string html;
     std::optional<Error> error;
     void add(Result<std::string> figure);
   };
-  /// What a conversion with a tolerance came to.
+  /// The result of a conversion with a tolerance.
   struct Trial {
     double tolerance = 0;
     Index points = 0, patches = 0;
@@ -40,17 +40,17 @@ class ReportMaker {
   Result<void> prepare();
   std::string head() const;
   Result<std::string> sizes();
-  /// Shows what is going on; fails where the report was given up.
+  /// Reports progress; fails if the report was cancelled.
   Result<void> proceed(std::string_view what) const;
-  /// What converting or measuring says, as a sentence.
+  /// An error of converting or measuring, as a sentence.
   std::unexpected<Error> refused(const Error& error) const;
   std::size_t vertices() const { return source_.neutral.positions.size(); }
   Index points() const { return rig_.surface.storedCount(); }
-  /// Of the neutral's and all targets' positions in single precision.
+  /// Bytes of the neutral's and all targets' positions in single precision.
   std::size_t sourceBytes() const { return 12 * vertices() * (1 + source_.targets.size()); }
   /// "jawOpen=0.5, smile=1".
   std::string mixture() const;
-  /// The target's name, or a word where it is a mixture.
+  /// The target's name, or a word for a mixture.
   std::string expressionName() const;
 
   // picture_sections.cpp

@@ -35,7 +35,7 @@ int poseAt(double position) {
   return static_cast<int>(std::clamp(pose, 0.0, kPoses - 1.0));
 }
 
-/// The poses of a law, one after the other, as an animation of a style sheet.
+/// The poses of a law, one after another, as a CSS animation.
 std::string moves(std::size_t number, const Trajectory& path) {
   const int frames = static_cast<int>(kSeconds * kRate);
   std::string steps;

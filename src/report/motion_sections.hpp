@@ -8,20 +8,20 @@
 
 namespace sweepface {
 
-/// What a report shows of a face on its way from the neutral to an expression.
+/// The sections of a report that show a face on its way from the neutral to an expression.
 class MotionSections {
  public:
-  /// Everything must outlive the sections. Boxes are drawn round what the targets move whose names
-  /// contain one of `regions`; `drawing` is called before every picture and may refuse it.
+  /// Everything must outlive the sections. Boxes are drawn round what is moved by targets whose
+  /// names contain one of `regions`; `drawing` is called before every picture and may refuse it.
   MotionSections(const Rig& rig, const Subject& subject, const FaceScenes& scenes,
                  const Weights& expression, std::span<const std::string> regions,
                  std::function<Result<void>()> drawing);
 
-  /// How many pictures there are.
+  /// The number of pictures.
   static int pictures();
 
-  /// The paper's experiment: linear interpolation beside Newton's law in key frames, with measuring
-  /// boxes and plots.
+  /// The paper's experiment: linear interpolation next to Newton's law in key frames, with
+  /// measuring boxes and plots.
   Result<std::string> experiment() const;
   /// Every law side by side: curves, and the face itself, moving.
   Result<std::string> everyLaw() const;
@@ -45,7 +45,8 @@ class MotionSections {
 
 /// "jawOpen=0.5, smile=1".
 std::string mixtureOf(const Rig& rig, const Weights& weights);
-/// The target whose stored vectors' places move furthest in all; none moves: all 0.
+/// The weights of the target whose stored vectors' places move furthest in total; all 0 if none
+/// moves.
 Weights strongestOf(const Rig& rig);
 
 }  // namespace sweepface

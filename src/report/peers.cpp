@@ -12,10 +12,10 @@
 namespace sweepface {
 namespace {
 
-constexpr std::array kBits{10, 12, 14};  // of positions; gltfpack's own choice is 14
+constexpr std::array kBits{10, 12, 14};  // of positions; gltfpack's default is 14
 
-/// Coordinates of so many bits are no further off: gltfpack's grid has room for the neutral and
-/// for what all targets may add to it.
+/// The most that coordinates of this many bits can be off: gltfpack's grid has room for the neutral
+/// and for what all targets may add to it.
 double reachOf(const MeshRig& source, int bits) {
   Box box(source.neutral.positions);
   for (const MeshTarget& target : source.targets)
@@ -54,7 +54,7 @@ Result<void> measureFile(PeerFile& file, std::string_view bytes, const MeshRig& 
   return {};
 }
 
-/// The bytes of a file after brotli, by whichever program has it; 0 if none.
+/// The size of a file compressed by brotli, with whichever program has it; 0 if none has.
 std::size_t brotliBytes(const std::string& file) {
   const std::string out = file + ".br";
   constexpr const char* script =
@@ -68,7 +68,7 @@ std::size_t brotliBytes(const std::string& file) {
   return none ? 0 : size;
 }
 
-/// The source's GLB at so many bits, or why there is none.
+/// The source's GLB packed with this many bits, or why there is none.
 Result<PeerFile> packed(const std::string& gltfpack, const std::filesystem::path& folder,
                         const MeshRig& source, int bits) {
   PeerFile file{fmt::format("-vp {}", bits), 0, 0, {}, {}};

@@ -21,14 +21,14 @@ Scale scaleOf(const std::vector<Series>& series, double Vec2::* along, const Axi
       low = std::min(low, p.*along);
       high = std::max(high, p.*along);
     }
-  // Lengths start at 0, if that is not far away, and so does what hardly changes, or by rounding.
+  // Scales start at 0 if that is not far away, or if the values hardly change, or only by rounding.
   constexpr double kHardly = 1e-4;
   if (!axis.logarithmic && low > 0 && (low < 0.5 * high || high - low < kHardly * high)) low = 0;
   if (!axis.logarithmic && high < 0 && high - low < kHardly * -low) high = 0;
   return {niceTicks(low, high, axis.logarithmic), axis.logarithmic};
 }
 
-/// The lines and numbers round a plot, whose scales say where they lie.
+/// The lines and numbers round a plot, placed by its scales.
 std::string axes(const Scale& across, const Scale& up, const Axis& x, const Axis& y) {
   const double left = across.start, right = across.end, bottom = up.start;
   std::string drawn;
@@ -88,7 +88,7 @@ std::string linePlot(const std::string& title, const Axis& x, const Axis& y,
 
 namespace {
 
-/// Of what svg::framed() made.
+/// The height of a plot made by svg::framed().
 double heightOf(std::string_view plot) {
   const std::string before = fmt::format("viewBox=\"0 0 {} ", kPlotWidth);
   double height = 0;

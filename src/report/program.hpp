@@ -8,11 +8,11 @@ namespace sweepface {
 
 enum class Ran { well, badly, missing };
 
-/// Runs a program with its arguments, without a shell; what it prints is not shown. It is looked
-/// for on the PATH unless its name has a slash.
+/// Runs a program with its arguments, without a shell, and hides its output. It is searched for on
+/// the PATH unless its name has a slash.
 Ran run(const std::vector<std::string>& words);
 
-/// A folder of its own that is gone with it; its path is empty where none can be made.
+/// A temporary folder, removed with the object; its path is empty if none can be made.
 class ScratchFolder {
  public:
   ScratchFolder();

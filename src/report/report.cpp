@@ -13,7 +13,7 @@
 namespace sweepface {
 namespace {
 
-// What other formats are compared with holds the face alone.
+// The size of the file without its scene, as other formats are compared with the face alone.
 std::size_t bytesWithoutScene(const Rig& rig, std::size_t bytes) {
   if (rig.scene.empty()) return bytes;
   Rig face = rig;
@@ -55,7 +55,7 @@ ReportMaker::ReportMaker(const Rig& rig, const MeshRig& source, const ReportOpti
       moves_(expression_ != rest_),
       subject_(rig),
       scenes_(rig, lodFor(rig.surface, Style::shaded, subject_.cutFor(kPanel))) {
-  // A picture counts one, so does a shape that is converted; one that is measured counts two.
+  // A picture counts as one, as does a shape that is converted; one that is measured counts as two.
   const auto targets = static_cast<double>(source.targets.size());
   work_ = 18 + MotionSections::pictures() + 2 * targets +
           static_cast<double>(options.tolerances.size()) * (targets + 3) +
@@ -75,7 +75,7 @@ Result<std::string> ReportMaker::make() {
   return html::page("Sweepface report: " + options_.name, body);
 }
 
-/// What several sections need.
+/// Prepares what several sections need.
 Result<void> ReportMaker::prepare() {
   for (const double tolerance : options_.tolerances)
     if (auto ok = checkTolerance(tolerance, diagonal(source_.neutral)); !ok)

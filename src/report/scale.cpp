@@ -31,7 +31,7 @@ std::vector<std::string> labelsOf(const Scale& scale) {
 
 namespace {
 
-// Whether numbers differ by no more than rounding: steps as small could not be counted.
+// Whether numbers differ by no more than rounding; steps that small could not be counted.
 bool isSame(double low, double high) {
   return !(high - low > 1e-12 * std::max(std::abs(low), std::abs(high)));
 }
@@ -57,7 +57,7 @@ std::vector<double> niceTicks(double low, double high, bool logarithmic) {
     for (int decade = static_cast<int>(std::floor(std::log10(low)));; ++decade)
       for (const double step : {1.0, 2.0, 5.0}) {
         const double tick = step * std::pow(10, decade);
-        // The last one that is not above the smallest value, and all after it.
+        // Keeps the last tick that is not above the smallest value, and all after it.
         if (tick <= low * (1 + 1e-9)) ticks.clear();
         ticks.push_back(tick);
         if (tick >= high * (1 - 1e-9) && ticks.size() > 1) return ticks;

@@ -5,17 +5,17 @@
 
 namespace sweepface {
 
-/// The values of a direction of a plot.
+/// The scale of an axis of a plot.
 struct Scale {
   std::vector<double> ticks;
   bool logarithmic = false;
-  double start = 0, end = 1;  ///< where they lie in the picture
+  double start = 0, end = 1;  ///< its ends in the picture
 
   double at(double value) const;
 };
 
-/// What stands at the ticks: as short as they can be and still differ, without an exponent for the
-/// sizes of ordinary things.
+/// The labels of the ticks: as short as they can be and still differ, without an exponent for
+/// numbers of ordinary size.
 std::vector<std::string> labelsOf(const Scale& scale);
 
 }  // namespace sweepface

@@ -7,8 +7,8 @@
 namespace sweepface {
 namespace {
 
-/// From none to as stiff as a stretched skin: each times the sweep's length to the power of the
-/// derivatives that it has more than S''.
+/// eta h² / rho and lambda h⁴ / rho for a sweep of length h: from none to as stiff as a stretched
+/// skin.
 constexpr std::array<std::pair<double, double>, 4> kShapes{
     {{0, 0}, {-10'000, 0}, {0, 30'000}, {0, 3'000'000}}};
 constexpr Index kSteps = 40;
@@ -22,12 +22,12 @@ class SweptPatch {
         m_(surface.edgesU(patch)),
         n_(surface.edgesV(patch)) {}
 
-  /// The sweep's basis for parameters that hold for its whole length.
+  /// The sweep's basis for parameters relative to its whole length.
   Result<SweepBasis> basis(double eta, double lambda) const {
     return SweepBasis::make({1, eta / (m_ * m_), lambda / (m_ * m_ * m_ * m_)}, m_);
   }
 
-  /// ∂u^du ∂v^dv at shares s, t of the way along u and v.
+  /// ∂u^du ∂v^dv at fractions s, t of the way along u and v.
   Vec3 at(const SweepBasis& sweep, double s, double t, int du = 0, int dv = 0) const {
     Surface::PatchBasis bases = surface_.patchBasis(patch_);
     bases.u = &sweep;
@@ -120,7 +120,7 @@ bool hasFourSides(const Surface& surface, Index patch) {
   return true;
 }
 
-/// Of the larger patches that which strong parameters move most.
+/// Of the larger patches, the one that strong parameters move most.
 Index mostTelling(const Surface& surface, std::span<const Vec3> vectors) {
   const SweepBasis plain;
   double largest = 0;
@@ -143,7 +143,7 @@ Index mostTelling(const Surface& surface, std::span<const Vec3> vectors) {
   return best;
 }
 
-/// From beside, so that one sees how it bulges.
+/// A view from the side, to show how it bulges.
 View viewOf(const Vec3& normal) {
   constexpr double degree = std::numbers::pi / 180;
   const double elevation = std::asin(std::clamp(normal.y, -1.0, 1.0)) / degree;

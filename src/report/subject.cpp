@@ -16,7 +16,7 @@ std::vector<Index> placesOf(const Surface& surface) {
   return places;
 }
 
-/// Round those that any target moves by a good part of its largest way.
+/// A box round the places that any target moves by a good part of its largest displacement.
 Box movedIn(const Rig& rig, const std::vector<Index>& places) {
   constexpr double kPart = 0.1;
   Box moved;
@@ -38,7 +38,7 @@ bool isWithin(const Vec3& p, const Box& box) {
 }  // namespace
 
 Subject::Subject(const Rig& rig) {
-  constexpr double kSmall = 0.4, kRoom = 0.15;  // of the diagonals of all of it, and of the part
+  constexpr double kSmall = 0.4, kRoom = 0.15;  // of the diagonal of the whole, and of the part
   const std::vector<Index> places = placesOf(rig.surface);
   Box all;
   for (const Index v : places) all.include(rig.neutral[v]);
@@ -58,7 +58,7 @@ std::vector<Camera> Subject::cameras(const FaceScenes& scenes, const Weights& ex
 }
 
 PictureSize Subject::cutFor(PictureSize size) const {
-  // Shadows of what is finer than twice take too long.
+  // Twice at most, as shadows of anything finer take too long.
   const int scale = part_.isEmpty() ? 1 : 2;
   return {scale * size.width, scale * size.height};
 }

@@ -8,8 +8,8 @@
 
 namespace sweepface {
 
-/// What pictures of a rig are about: all of it, or where the face is a small part of what there is,
-/// as of a whole body, that which its targets move.
+/// What pictures of a rig show: all of it or, if the face is only a small part, as of a whole body,
+/// the part that its targets move.
 class Subject {
  public:
   explicit Subject(const Rig& rig);
@@ -17,7 +17,7 @@ class Subject {
   /// A camera for each view, all of which show it at the same size at rest and in the expression.
   std::vector<Camera> cameras(const FaceScenes& scenes, const Weights& expression,
                               std::span<const View> views) const;
-  /// The size for which the rig is cut into triangles: that of a larger picture of all of it.
+  /// The picture size for which the rig is tessellated: that of a larger picture of all of it.
   PictureSize cutFor(PictureSize size) const;
 
  private:

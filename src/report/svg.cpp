@@ -39,7 +39,7 @@ std::string_view dashes(const Series& series) {
   return kPatterns[static_cast<std::size_t>(series.dashes)];
 }
 
-// Most letters of three bytes and more are as wide as two.
+// Most letters of three or more bytes are as wide as two.
 double letters(std::string_view text) {
   double sum = 0;
   for (const char c : text)
@@ -66,7 +66,7 @@ namespace {
 
 constexpr double kKeyLetters = 44;
 
-double widthOf(const std::string& key) { return 40 + 8 * letters(key); }  // of wide letters
+double widthOf(const std::string& key) { return 40 + 8 * letters(key); }  // for wide letters
 
 }  // namespace
 

@@ -8,10 +8,10 @@
 
 #include "report/colours.hpp"
 
-// What plots are drawn with.
+// Pieces of SVG that plots are drawn with.
 namespace sweepface::svg {
 
-/// Its content is escaped; `more` are further attributes.
+/// `content` is escaped; `more` are further attributes.
 std::string text(double x, double y, std::string_view anchor, std::string_view content,
                  std::string_view colour = kSoft, std::string_view more = "");
 std::string line(double x1, double y1, double x2, double y2, std::string_view colour,
@@ -19,15 +19,17 @@ std::string line(double x1, double y1, double x2, double y2, std::string_view co
 std::string dot(double x, double y, std::string_view colour, double radius = 3.5);
 std::string framed(double width, double height, const std::string& title, const std::string& body);
 
-/// An attribute, or nothing.
+/// The attribute for a series' dashes, or nothing.
 std::string_view dashes(const Series& series);
 
-/// How wide a text in UTF-8 is, in Latin letters.
+/// The width of a UTF-8 text, in Latin letters.
 double letters(std::string_view text);
-/// As wide as so many letters at most: the middle goes, since names often begin or end alike.
+/// Shortens a name to at most the width of `most` letters. Leaves out the middle, since names often
+/// begin or end alike.
 std::string shortened(const std::string& name, double most);
 
-/// The keys of a plot in lines from `x` to `right`, the first at `y`; returns where the last is.
+/// Draws the keys of a plot in lines from `x` to `right`, the first at `y`; returns where the last
+/// is.
 double addKeys(std::string& drawn, const std::vector<Series>& series, double x, double y,
                double right);
 

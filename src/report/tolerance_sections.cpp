@@ -9,7 +9,7 @@
 #include "report/maker.hpp"
 #include "report/peers.hpp"
 
-// What other tolerances, and other formats, make of the same meshes.
+// What other tolerances and other formats make of the same meshes.
 namespace sweepface {
 namespace {
 
@@ -22,7 +22,7 @@ void addUpright(std::vector<Series>& series, const std::string& name, double x) 
     for (const Vec2& p : s.points) line.points.push_back({x, p.y});
   if (line.points.empty()) return;
   auto [low, high] = std::ranges::minmax(line.points, {}, &Vec2::y);
-  if (low.y == high.y) low.y /= 2, high.y *= 2;  // of a logarithmic axis
+  if (low.y == high.y) low.y /= 2, high.y *= 2;  // for a logarithmic axis
   line.points = {low, high};
   series.push_back(std::move(line));
 }

@@ -35,7 +35,7 @@ class AddOn(unittest.TestCase):
         return os.path.join(self.folder.name, name)
 
     def sheet(self):
-        """A sheet of 6 x 6 quads that stands upright, with shape keys; the active object."""
+        """A sheet of 6 x 6 quads, standing upright, with shape keys; the active object."""
         bpy.ops.mesh.primitive_grid_add(x_subdivisions=6, y_subdivisions=6, rotation=(1.5, 0.2, 0.1), scale=(2, 3, 1))
         shown = bpy.context.active_object
         for name in ("skin", "lips"):
@@ -48,7 +48,7 @@ class AddOn(unittest.TestCase):
         return shown
 
     def saved(self, shown, **options):
-        """The face of an object, as a folder of meshes."""
+        """Saves an object as a face; returns a folder of its meshes."""
         bpy.context.view_layer.objects.active = shown
         face, meshes = self.path("face.sweep"), self.path("meshes")
         self.assertEqual(bpy.ops.export_scene.sweep(filepath=face, tolerance=TOLERANCE, **options), {"FINISHED"})
@@ -56,13 +56,13 @@ class AddOn(unittest.TestCase):
         return meshes
 
     def face(self):
-        """A sheet that was saved, so that it may move; the active object."""
+        """A sheet that was saved as a face, so that it can move; the active object."""
         shown = self.sheet()
         self.saved(shown, pack=False)
         return shown
 
     def assert_moves(self, names):
-        """The active object has these targets, and they move."""
+        """Checks that the active object has these targets, and that they move."""
         keys = addon.keys_of(bpy.context.active_object)
         self.assertEqual(set(keys), names)
         bpy.context.scene.frame_set(24)
@@ -81,7 +81,7 @@ class AddOn(unittest.TestCase):
             call()
 
     def expected(self, shown, places):
-        """Where Blender has them, but for its z upwards, which is y in the file."""
+        """Positions as Blender has them, but with y up as in the file instead of z."""
         world = [shown.matrix_world @ vector for vector in map(Vector, places)]
         return [(p.x, p.z, -p.y) for p in world]
 
@@ -175,7 +175,7 @@ class AddOn(unittest.TestCase):
             t = (frame - 10) / 30
             expected = 0.8 * (2 * t * t if t < 0.5 else 1 - 2 * (1 - t) ** 2)
             self.assertAlmostEqual(curve.evaluate(frame), expected, places=5)
-        scene.frame_set(55)  # from where it stands to another pose
+        scene.frame_set(55)  # from the current pose to another
         blocks["jawOpen"].value, blocks["smile"].value = 0.2, 1
         bpy.ops.object.sweepface_move(law="newton", seconds=0.5)
         for frame in range(40, 56):
@@ -311,7 +311,7 @@ class AddOn(unittest.TestCase):
         keys = bpy.data.objects["teeth"].data.shape_keys
         keys.key_blocks["bite"].keyframe_insert("value", frame=0)
         bpy.data.objects["head"].keyframe_insert("location", frame=0)
-        numpy.bool = bool  # Blender 3.4's glTF add-on predates numpy 1.24
+        numpy.bool = bool  # Blender 3.4's glTF add-on predates numpy 1.24, which removed it
         bpy.ops.preferences.addon_enable(module="io_scene_gltf2")
         bpy.ops.export_scene.gltf(filepath=self.path("two.glb"))
         tool("convert", self.path("two.glb"), "-o", self.path("two.sweep"))

@@ -7,7 +7,7 @@ set(prefix ${WORK}/prefix)
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${prefix})
 
 set(compile -G ${GENERATOR} -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_BUILD_TYPE=Release)
-if(SANITIZE)  # programs in C as well: they load a plugin that is
+if(SANITIZE)  # programs in C as well, as they load a sanitized plugin
   set(flags "-fsanitize=${SANITIZE} -fno-sanitize=vptr")
   list(APPEND compile -DCMAKE_C_COMPILER=${C_COMPILER} -DCMAKE_C_FLAGS=${flags} -DCMAKE_CXX_FLAGS=${flags})
 endif()
@@ -31,7 +31,7 @@ function(refuse_exports file matching)
   endif()
 endfunction()
 
-# Plugins with versions of their own must not share what is inside.
+# Plugins with their own versions of the library must not share its internals.
 refuse_exports(${WORK}/by_cmake/libplugin.so "[^\n]* u [^\n]*|[^\n]*N9sweepface[^\n]*")
 foreach(library IN ITEMS sweepface sweepface_clips)
   refuse_exports(${prefix}/${LIBDIR}/lib${library}.so " [A-Za-z] ([^s]|s[^w]|sw[^e])[^\n]*")
@@ -40,7 +40,8 @@ endforeach()
 set(ENV{PKG_CONFIG_PATH} ${prefix}/${LIBDIR}/pkgconfig)
 consume(${CONSUMER} by_pkg_config -DFIND_BY_PKG_CONFIG=ON)
 
-# C alone finds and links the shared libraries, which may be shipped without the archives, however old a CMake it asks for.
+# A project in C alone finds and links the shared libraries, which may be shipped without the archives, however old the
+# CMake that it asks for.
 file(GLOB archives ${prefix}/${LIBDIR}/*.a)
 file(REMOVE ${archives})
 file(WRITE ${WORK}/alone/CMakeLists.txt [[
@@ -55,7 +56,7 @@ file(WRITE ${WORK}/alone/CMakeLists.txt [[
   target_link_libraries(plays_clips PRIVATE sweepface::shared_clips)]])
 consume(${WORK}/alone by_shared -DCMAKE_PREFIX_PATH=${prefix} -DCONSUMER=${CONSUMER})
 
-# As a folder of another project it has libraries and nothing else.
+# As a subdirectory of another project it adds libraries and nothing else.
 file(MAKE_DIRECTORY ${WORK}/parent)
 file(CREATE_LINK ${SOURCE} ${WORK}/parent/sweepface SYMBOLIC)
 file(WRITE ${WORK}/parent/CMakeLists.txt [[

@@ -1,11 +1,11 @@
-// How long a frame takes where a face is drawn: by three.js's own morph targets, by the processor that evaluates it
-// for SweepfaceMesh, and by the vertex shader of SweepfaceGpuMesh. Every weight changes every frame.
+// Measures how long a frame takes when a face is drawn by three.js's own morph targets, by SweepfaceMesh, which is
+// evaluated on the CPU, and by the vertex shader of SweepfaceGpuMesh. Every weight changes every frame.
 //
 //   npm ci && node bench/gpu.js FACE.sweep [HEADS...]
 //
-// SWEEPFACE_CHROMIUM_ARGS are the switches that give a browser its graphics card; on Linux with NVIDIA's driver
+// SWEEPFACE_CHROMIUM_ARGS are the switches that let the browser use a graphics card; on Linux with NVIDIA's driver
 // "--use-gl=angle --use-angle=gl-egl --ignore-gpu-blocklist --enable-gpu". Without a graphics card the figures are
-// those of software, which proves nothing.
+// those of software rendering, which prove nothing.
 import {readFileSync} from 'node:fs';
 import {blank, withPage} from '../test/browser.js';
 
@@ -17,7 +17,7 @@ if (!file) {
 const counts = heads.length ? heads.map(Number) : [1, 16];
 const files = {'blank.html': blank, 'face.sweep': readFileSync(file)};
 
-/** Runs in the page: the graphics card, and milliseconds a frame of every way. */
+/** Runs in the page. Returns the graphics card, and milliseconds a frame for each way of drawing. */
 async function measure(counts) {
   const THREE = await import('three');
   const {Sweepface} = await import('/sweepface.js'), {SweepfaceMesh} = await import('/sweepface_three.js');
@@ -53,7 +53,7 @@ async function measure(counts) {
   const poses = Array.from({length: 16}, (_, p) =>
     Object.fromEntries(names.map((name, k) => [name, 0.02 + ((7 * k + 3 * p) % 10) / 30])));
 
-  /** Milliseconds a frame: of the script, of the whole, and what the card itself tells. */
+  /** Milliseconds a frame: in the script, in all, and as the card itself measures. */
   const run = async (actors, scene) => {
     const queries = [];
     const frame = (k, timed) => {

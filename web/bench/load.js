@@ -1,9 +1,9 @@
-// How long a browser takes from the bytes of a face and of the module to its first frame: every visit is a new browser
-// without anything in its caches, so that code runs for the first time.
+// Measures how long a browser takes from the bytes of a face and of the module to the first frame. Every visit is a new
+// browser with empty caches, so that code runs for the first time.
 //
 //   npm ci && node bench/load.js FACE.sweep [VISITS [sweepface_full.wasm]]
 //
-// The full module is what a face needs that is not packed.
+// A face that is not packed needs the full module.
 import {readFileSync} from 'node:fs';
 import {blank, withPage} from '../test/browser.js';
 
@@ -14,7 +14,7 @@ if (!file) {
 }
 const files = {'blank.html': blank, 'face.sweep': readFileSync(file)};
 
-/** Runs in the page: milliseconds of each step. */
+/** Runs in the page. Returns the milliseconds of each step. */
 async function measure(module) {
   const {Sweepface} = await import('/sweepface.js'), {SweepfaceMesh} = await import('/sweepface_three.js');
   const bytesOf = async (url) => (await fetch(url)).arrayBuffer();

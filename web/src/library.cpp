@@ -1,4 +1,4 @@
-// What the C library does at length, shorter.
+// Shorter versions of functions that are long in the C library.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -13,7 +13,7 @@ std::size_t strlen(const char* text) {
   return static_cast<std::size_t>(end - text);
 }
 
-// Halves away from zero.
+// Rounds halves away from zero.
 double round(double x) {
   const double whole = __builtin_trunc(x);
   return __builtin_fabs(x - whole) >= 0.5 ? whole + __builtin_copysign(1, x) : whole;

@@ -1,7 +1,8 @@
-// The module's memory: blocks behind one another, each with its own size and that of the one
-// before, so that what is freed joins its free neighbours (Knuth, The Art of Computer Programming
-// 1, 2.5). Free blocks of about one size are in a list. Small ones keep their size, so that most
-// calls take a block from a list or put it back. A tenth of what the C library's allocator takes.
+// The module's allocator. Memory is a row of blocks, each with its own size and that of the one
+// before, so that a freed block merges with its free neighbours (Knuth, The Art of Computer
+// Programming 1, 2.5). Free blocks of about the same size are in a list. Small ones keep their
+// size, so that most calls take a block from a list or put it back. Its code is a tenth of that of
+// the C library's allocator.
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -14,9 +15,9 @@ namespace {
 constexpr std::size_t kAlign = 16, kHead = 8, kLeast = 32, kPage = 65536, kMost = 0x7fff0000;
 
 struct Block {
-  std::size_t before;      // bytes of the block in front of this one; 0: it is the first
-  std::size_t bytesBit;    // its own, and 1 if it is in use
-  Block *next, *previous;  // in the list, while it is free
+  std::size_t before;      // bytes of the block before this one; 0: this is the first
+  std::size_t bytesBit;    // bytes of this block, plus 1 if it is in use
+  Block *next, *previous;  // in its list, while it is free
 
   std::size_t bytes() const { return bytesBit & ~std::size_t(1); }
   bool used() const { return bytesBit & 1; }
@@ -32,8 +33,8 @@ constexpr int kExact = 32, kLists = kExact + 4 * 23;
 constexpr std::size_t kSmall = 256;
 Block* lists[kLists];
 std::uint64_t filled[2];            // a bit for each list that is not empty
-Block* small[kSmall / kAlign + 1];  // freed ones of a size, which count as in use
-Block* last = nullptr;              // where the memory ends; in use and without bytes
+Block* small[kSmall / kAlign + 1];  // freed blocks by size; they count as in use
+Block* last = nullptr;              // marks the end of memory; in use and without bytes
 
 int listOf(std::size_t bytes) {
   if (bytes < kAlign * kExact) return static_cast<int>(bytes / kAlign);
@@ -79,7 +80,7 @@ bool grow(std::size_t bytes) {
   const std::size_t pages = last ? (bytes + kPage) / kPage : bytes / kPage + 1;
   if (__builtin_wasm_memory_grow(0, pages) == SIZE_MAX) return false;
   const std::size_t newEnd = end + pages * kPage;
-  if (!last) {  // blocks begin half a step before what they are for
+  if (!last) {  // blocks begin kHead before the aligned address that malloc returns
     const auto base = reinterpret_cast<std::size_t>(&__heap_base);
     last = reinterpret_cast<Block*>((base + kHead + kAlign - 1) / kAlign * kAlign + kHead);
     last->before = 0;
@@ -97,7 +98,7 @@ Block* find(std::size_t bytes) {
   const int own = listOf(bytes);
   for (Block* block = lists[own]; block; block = block->next)
     if (block->bytes() >= bytes) return block;
-  for (int k = own + 1; k < 128; k = (k / 64 + 1) * 64)  // any of a longer list will do
+  for (int k = own + 1; k < 128; k = (k / 64 + 1) * 64)  // any block of a later list will do
     if (const std::uint64_t left = filled[k / 64] >> k % 64)
       return lists[k + std::countr_zero(left)];
   return nullptr;
@@ -157,7 +158,7 @@ void* realloc(void* memory, std::size_t size) {
   return moved;
 }
 
-// One instruction each, where the C library has loops.
+// One instruction each, instead of the C library's loops.
 void* memcpy(void* to, const void* from, std::size_t size) {
   return __builtin_memcpy(to, from, size);
 }

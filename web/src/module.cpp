@@ -1,5 +1,5 @@
-// What the module does where memory runs out: it stops, and the caller gets a WebAssembly
-// RuntimeError. The standard library's own answer would print first, and bring printf with it.
+// When memory runs out the module traps, and the caller gets a WebAssembly RuntimeError. The
+// standard library would print a message first, and so link printf.
 #include <__verbose_abort>
 #include <cstdlib>
 #include <new>
@@ -23,5 +23,5 @@ void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); 
 
 void std::__libcpp_verbose_abort(const char*, ...) { __builtin_trap(); }
 
-// The module's one thread never ends, so nothing is torn down with it.
+// The module's only thread never ends, so nothing is destroyed at its end.
 extern "C" int __cxa_thread_atexit(void (*)(void*), void*, void*) { return 0; }

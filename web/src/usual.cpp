@@ -1,5 +1,5 @@
-// What the usual module does without: files that are not packed, the words about what is wrong with
-// one, and regions. sweepface.js asks the full module for them.
+// Stubs for what the usual module leaves out: files that are not packed, messages about what is
+// wrong with a file, and regions. sweepface.js uses the full module for them.
 #include "sweepface/late_goals.hpp"
 #include "sweepface/trajectory.hpp"
 
@@ -17,14 +17,14 @@ sweepface_status capi::refuseWith(std::initializer_list<TextPart>) {
   return SWEEPFACE_BAD_ARGUMENT;
 }
 
-// A face of one piece is never late.
+// A face that is not divided has no late goals.
 LateGoals::LateGoals(std::size_t, double) {}
 void LateGoals::add(const Goal&) noexcept {}
 const LateGoals::Goal* LateGoals::due(double) const noexcept { return nullptr; }
 void LateGoals::removeFirst() noexcept {}
 void LateGoals::forget(std::size_t) noexcept {}
 
-// Nothing here makes one.
+// Nothing in this module makes a Driven.
 Kinematics path::Driven::periodic(double) const noexcept { return {}; }
 Kinematics path::Driven::at(double) const noexcept { return {}; }
 
@@ -36,7 +36,7 @@ void Refusal::refuseWith(std::initializer_list<TextPart>) { ok_ = false; }
 void Refusal::refuseNumber(const char*, long long) { ok_ = false; }
 void Refusal::refuseCount(const char*, long long) { ok_ = false; }
 
-// Byte by byte: packed faces have few.
+// Byte by byte, as packed faces have few.
 std::uint32_t crc32(std::string_view bytes, std::uint32_t before) {
   std::uint32_t c = ~before;
   for (const char b : bytes) {
@@ -56,7 +56,7 @@ void readPolygons(Decoding&, Reader& in) { in.refuse({}); }
 void readTexcoords(Decoding&, Reader& in) { in.refuse({}); }
 void readQuadCorners(Decoding&, Reader& in) { in.refuse({}); }
 
-// Of no use to who only plays the face.
+// Skipped, as playing the face does not need them.
 void readScene(Decoding&, Reader& in) { in.raw(in.left()); }
 void readThingNames(Decoding&, Reader& in) { in.raw(in.left()); }
 

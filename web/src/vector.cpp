@@ -1,4 +1,4 @@
-// What vectors of all types do alike.
+// The part of vectors that is the same for all types.
 #include <vector>
 
 namespace sweepface::compact {

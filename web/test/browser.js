@@ -1,4 +1,4 @@
-// Pages of this package in headless Chromium.
+// Opens pages of this package in headless Chromium.
 import {existsSync, readFileSync} from 'node:fs';
 import {createServer} from 'node:http';
 import {extname, join} from 'node:path';
@@ -24,7 +24,7 @@ export const blank = `<!doctype html><link rel="icon" href="data:,"><script type
   {"imports": {"three": "./node_modules/three/build/three.module.js",
                "sweepface/three": "./sweepface_three.js"}}</script>`;
 
-/** Serves web/ and, by their names, more files, or calls what answers instead of one. */
+/** Serves web/ and `files` by name; a function instead of a file answers the request itself. */
 function serve(files) {
   const server = createServer((request, response) => {
     const name = new URL(request.url, 'http://localhost').pathname.slice(1);
@@ -38,8 +38,8 @@ function serve(files) {
 }
 
 /**
- * Opens a page of web/ or of `files`, texts and bytes by their names, in a new browser. Hands it to
- * `use`, with the list of what it complains about.
+ * Opens a page of web/ or of `files`, texts and bytes by name, in a new browser. Calls `use` with the
+ * page and the list of its errors and warnings.
  */
 export async function withPage(name, {files, viewport}, use) {
   if (skip) throw new Error(skip);

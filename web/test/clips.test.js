@@ -8,7 +8,7 @@ import {Clip, ClipPlayer, matchNames, readClip, readTimeline, TimelinePlayer} fr
 import {Sweepface} from '../sweepface.js';
 import {newFolder, sample, tool} from './native.js';
 
-/** What the tool makes of a clip: a recording of its frames, read again. */
+/** A clip as the tool plays it: a recording of its frames, read back. */
 function played(file, text, options = []) {
   const folder = newFolder(), clip = join(folder, file), out = join(folder, 'out.csv');
   writeFileSync(clip, text);
@@ -17,7 +17,7 @@ function played(file, text, options = []) {
   return readClip(readFileSync(out), {name: 'out.csv'});
 }
 
-/** The tool's sentence about a clip. */
+/** The tool's message about a clip. */
 function refusal(file, text) {
   try {
     played(file, text);
@@ -52,7 +52,7 @@ const sheet = 'sep=,\n' + [['Timecode', 'BlendshapeCount', ...shapes], ...frames
   [at30(f), 52, ...shapes.map(() => 0.25)], [at30(f), 52, ...shapes.map((_, k) => wave(f, k))]])]
     .map((cells) => cells.map((cell) => `"${cell}"`).join(',') + ',').join('\n');
 
-// From the 55th second into a minute whose first frames have no numbers, and a note that has a comma.
+// Timecodes from the 55th second into a minute whose first frame numbers are dropped, and a note with a comma.
 const dropped = (f) => `00:0${Math.floor((1650 + f) / 1800)}:${String(Math.floor((1650 + f) / 30) % 60).padStart(2, '0')};` +
                        String((1650 + f) % 30).padStart(2, '0');
 const slow = [['Timecode', ...shapes, '"a, ""b"""'],
@@ -131,7 +131,7 @@ test('what was mended in a file is told', () => {
   assert.match(warnings(audio2Face.replace('{', '{"numFrames": 41,'))[0], /'numFrames' is 41, but 'weightMat' has 40 frames/);
 });
 
-/** A take that counts so many frames a second, from the middle of a second on if nothing else is said. */
+/** A take at `rate` frames a second, by default from the middle of a second on. */
 const take = (rate, length = 4 * rate, first = rate >> 1) => 'Timecode,a\n' + Array.from({length}, (_, k) => k + first)
     .map((f) => `1:02:0${Math.floor(f / rate)}:${f % rate},0`).join('\n');
 
@@ -203,7 +203,7 @@ test('times are numbers', async () => {
 
 test('captures are read by browsers that have no Object.hasOwn', () => {
   const {hasOwn} = Object;
-  delete Object.hasOwn;  // Chrome 92 and Firefox 90 do not
+  delete Object.hasOwn;  // as in Chrome 92 and Firefox 90
   try {
     assert.equal(readClip(python).times.length, frames.length);
   } finally {
@@ -261,12 +261,12 @@ test('names are matched and reported', async () => {
   const {targets} = matchNames(['browInnerUp', 'eye_blink-left', 'curl', 'jawL'],
                                ['browInnerUp_L', 'browInnerUp_R', 'eyeBlinkLeft', 'cur_L', 'jawLeft']);
   assert.deepEqual(targets, [[0, 1], [2], [], [4]]);
-  // A side that has a name of its own goes by that.
+  // A side that has a name of its own is driven by that name.
   assert.deepEqual(matchNames(['up', 'upLeft'], ['up_L', 'up_R']).targets, [[1], [0]]);
   assert.deepEqual(matchNames(['eye.blink.left', 'jaw_l'], ['jawLeft', 'eyeBlinkLeft']).targets, [[1], [0]]);
   assert.deepEqual(matchNames(['jaw', 'mouth'], ['jawLeft', 'jawRight', 'mouthLeft', 'mouthRight']).targets, [[], []]);
   assert.deepEqual(matchNames(['jawOpen', 'jaw_open'], ['JawOpen', 'jawOpen']).targets, [[1], [0]]);
-  assert.deepEqual(matchNames(['ÄUGE'], ['äuge']).unmatched, ['ÄUGE']);  // case is that of A to Z
+  assert.deepEqual(matchNames(['ÄUGE'], ['äuge']).unmatched, ['ÄUGE']);  // case is ignored for A to Z only
 });
 
 test('a map of names drives what it drives in the tool', () => {
@@ -467,7 +467,7 @@ const scattered = JSON.stringify(Array.from({length: 8200}, (_, f) => {
   return {timestampMs: f, categories: [{categoryName: `a${f}`, score: 0}]};
 }));
 
-// The same words from either side.
+// The package and the tool give the same messages.
 for (const [file, text, words] of [
        ['a.csv', '', 'is empty; record again'],
        ['a.csv', 'Time,JawOpen\n0,1', 'there is no column \'Timecode\''],

@@ -1,6 +1,6 @@
-// The digests of a face (tests/codec/digest.hpp), natively or in WebAssembly, where the same file
-// must have the same. Usage: digest FACE > digests; in WebAssembly the bytes are passed to
-// `digest`, which answers with text.
+// The digests of a face (tests/codec/digest.hpp), natively or in WebAssembly; both must give the
+// same for a file. Usage: digest FACE > digests; in WebAssembly, pass the bytes to `digest`, which
+// returns the text.
 #include "codec/digest.hpp"
 
 #include "sweepface/codec.hpp"

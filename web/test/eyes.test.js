@@ -106,7 +106,7 @@ test('eyes that do not turn cannot look', async () => {
     assert.throws(() => eyes.look(no), {name: 'TypeError', message: /takes an object of/});
   assert.equal(eyes.pose, null);
   eyes.look({leftEye: null, rightEye: undefined});
-  eyes.pose.leftEye.yaw = 1;  // it is the caller's
+  eyes.pose.leftEye.yaw = 1;  // a copy, which is the caller's
   assert.deepEqual(eyes.pose, {leftEye: {}, rightEye: {}});
   eyes.look(null);
   assert.equal(eyes.pose, null);

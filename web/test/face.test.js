@@ -14,8 +14,8 @@ function evaluate(face) {
   return {positions, normals};
 }
 
-// The module does the operations of the native library in the same order and without contraction, sine and exponential
-// included, so that all is the same bit for bit.
+// The module does the native library's operations in the same order and without contraction, including sine and
+// exponential, so that results are the same bit for bit.
 for (const file of everyFile())
   for (const lod of [0, 2])
     test(`${basename(file)} at lod ${lod} is what the native library plays`, async () => {
@@ -104,7 +104,7 @@ test('what there is not is refused with the library\'s sentence, and nothing cha
   assert.equal(face.weights.jawOpen, 0);
 });
 
-/** What a face does from now on. */
+/** How a face moves from now on. */
 function goesOn(face) {
   return Array.from({length: 5}, () => [face.advance(0.05), face.weights]);
 }
@@ -355,7 +355,7 @@ test('a face whose module ran out of memory says so from then on', async () => {
     const face = await load({wasm}, packed()), twin = face.clone(), without = {message: /^There is not enough memory/};
     for (let size = 2 ** 30; size >= 8; size /= 2) while (malloc(size));
     assert.throws(() => face.clone(), without);
-    assert.equal(face.names.length, 2);  // it was only asked
+    assert.equal(face.names.length, 2);  // a refused request does not end the module
     assert.throws(() => face.setWeights({jawOpen: 1}), without);
     for (const use of [() => face.names, () => twin.evaluate(new Float32Array(3 * 1e5)), () => twin.clone()])
       assert.throws(use, without);
@@ -611,7 +611,7 @@ test('the full module says what is wrong with targets that cannot be read', asyn
   face.dispose();
 });
 
-/** Sizes of the modules that each of some loads fetches in a process of their own, and what it throws. */
+/** The sizes of the modules that each of `loads` fetches, and what it throws; in a process of their own. */
 function fetched(...loads) {
   const script = `
     import {readFileSync} from 'node:fs';

@@ -1,5 +1,5 @@
 // Evaluates a face natively, for comparison. Usage: frame FACE LOD WEIGHT... > floats
-// Writes positions and then normals of all points, three floats each, and the error as one more.
+// Writes positions and then normals of all points, three floats each, and then the error as one.
 #include <cstdio>
 #include <cstdlib>
 #include <string>

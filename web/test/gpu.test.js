@@ -7,7 +7,7 @@ import {sample} from './native.js';
 const face = readFileSync(process.env.SWEEPFACE_GPU_FACE ?? sample);
 const files = {'blank.html': blank, 'face.sweep': face};
 
-/** In the page: a face, weights for it, and what WebGL is given to upload. */
+/** In the page: a face, weights for it, and a count of the bytes that WebGL uploads. */
 async function prepare() {
   const {Sweepface} = await import('./sweepface.js');
   const bytes = await (await fetch('./face.sweep')).arrayBuffer();
@@ -25,7 +25,7 @@ async function prepare() {
   }
 }
 
-/** In the page: positions and normals of all points as a vertex shader has them, by transform feedback. */
+/** In the page: positions and normals of all points as a vertex shader computes them, read by transform feedback. */
 async function onTheCard() {
   const {SWEEPFACE_GLSL} = await import('./sweepface_gpu.js');
   const {face} = globalThis, count = face.pointCount;
@@ -155,7 +155,7 @@ test('the vertex shader', options, (t) => withPage('blank.html', {files}, async 
         scene.remove(mesh);
         return {pixels, uploaded: globalThis.uploaded - before};
       };
-      const differ = (a, b) => {  // the share of pixels that anyone would tell apart
+      const differ = (a, b) => {  // the share of pixels that differ visibly
         let count = 0;
         for (let k = 0; k < a.length; k += 4)
           count += Math.max(...[0, 1, 2].map((c) => Math.abs(a[k + c] - b[k + c]))) > 24;
@@ -270,7 +270,7 @@ test('the vertex shader', options, (t) => withPage('blank.html', {files}, async 
         mesh.setWeights(pose);
         mesh.update();
         const twin = mesh.clone(), both = [bright(mesh), bright(twin)];
-        mesh.dispose();  // and leaves the twin what they shared
+        mesh.dispose();  // which leaves the twin what they shared
         return [...both, bright(twin)];
       };
       const result = {};
@@ -350,7 +350,7 @@ test('the vertex shader', options, (t) => withPage('blank.html', {files}, async 
             };
             draw();
             for (const k of order) {
-              // Or the geometry alone, as what clears up scenes does: it is drawn again all the same.
+              // Or the geometry alone, as code that clears scenes does: it is drawn again all the same.
               if (isWhole) scene.remove(meshes[k]), meshes[k].dispose();
               else meshes[k].geometry.dispose();
               draw();
@@ -364,7 +364,7 @@ test('the vertex shader', options, (t) => withPage('blank.html', {files}, async 
     for (const {triangles, isWhole, geometries, textures} of found) {
       assert.deepEqual(triangles.map((share) => Math.round(3 * share)), isWhole ? [3, 2, 1, 0] : [3, 3, 3, 3]);
       assert.equal(geometries, 0);
-      assert.equal(textures, found[0].textures);  // of the renderer itself: that mesh has none
+      assert.equal(textures, found[0].textures);  // the renderer's own: that mesh has none
     }
     assert.deepEqual(complaints, []);
   });

@@ -1,4 +1,4 @@
-// A face is the same, bit for bit, wherever it is read: WebAssembly has the digests that every compiler's tests have.
+// A face is the same, bit for bit, wherever it is read: WebAssembly gives the digests that every compiler's tests have.
 import assert from 'node:assert/strict';
 import {execFileSync} from 'node:child_process';
 import {readFileSync} from 'node:fs';

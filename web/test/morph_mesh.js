@@ -1,7 +1,7 @@
-// What SweepfaceGpuMesh is compared with. Runs in pages, from the root of web/.
+// The mesh that SweepfaceGpuMesh is compared with. Runs in pages, from the root of web/.
 import * as THREE from 'three';
 
-/** A face as three.js has it by itself: a mesh with a morph target, with normals, for each of its names. */
+/** A face by three.js's own means: a mesh with a morph target, including normals, for each of its names. */
 export function morphMesh(face, geometry, material) {
   const at = (weights) => {
     const positions = new Float32Array(3 * face.vertexCount), normals = new Float32Array(3 * face.vertexCount);

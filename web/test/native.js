@@ -1,5 +1,5 @@
-// Faces, and what the native tool makes of them, to compare with. SWEEPFACE_TOOL and SWEEPFACE_SAMPLE
-// may name another tool and another sample face than those that `make web` makes.
+// Faces, and the native tool's results for them to compare with. SWEEPFACE_TOOL and SWEEPFACE_SAMPLE
+// may name a tool and a sample face other than those that `make web` makes.
 import {execFileSync} from 'node:child_process';
 import {mkdtempSync, readdirSync, readFileSync, rmSync} from 'node:fs';
 import {tmpdir} from 'node:os';
@@ -14,7 +14,7 @@ const corpus = here('../../fuzz/corpus/sweep');
 const scratch = mkdtempSync(join(tmpdir(), 'sweepface-'));
 process.on('exit', () => rmSync(scratch, {recursive: true}));
 
-/** A folder that goes when the test ends. */
+/** A folder that is removed when the tests end. */
 export function newFolder() {
   return mkdtempSync(join(scratch, 'folder-'));
 }
@@ -26,7 +26,7 @@ export function everyFile() {
 
 const frame = process.env.SWEEPFACE_FRAME ?? here('../../build/release/web/test/web_frame');
 
-/** Positions and normals of an expression as the native C interface plays them, and how far off they may be. */
+/** Positions and normals of an expression as the native C interface evaluates them, and how far off they may be. */
 export function played(file, weights, lod) {
   const bytes = execFileSync(frame, [file, lod, ...Object.values(weights)], {maxBuffer: 1 << 28});
   const floats = new Float32Array(bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.length));
@@ -59,7 +59,7 @@ const once = (make) => {
   return () => made ??= make();
 };
 
-/** The sample face as small as it gets: a file to read. */
+/** A small file: the sample face with two of its targets, packed. */
 export const packed = once(() => {
   const folder = newFolder(), file = join(folder, 'packed.sweep'), names = ['neutral', 'jawOpen', 'mouthSmileLeft'];
   for (const name of names)
@@ -70,7 +70,7 @@ export const packed = once(() => {
   return file;
 });
 
-/** The sample face with what its targets turn about: a file to read. */
+/** A file of the sample face that says what its targets turn about. */
 export const withArcs = once(() => {
   const folder = newFolder(), drawing = join(folder, 'sample.wire.json'), file = join(folder, 'arcs.sweep');
   execFileSync(tool, ['wireframe', sample, '-o', drawing, '--quiet']);
@@ -78,14 +78,14 @@ export const withArcs = once(() => {
   return file;
 });
 
-/** The vertices of a face as it is. */
+/** The vertices of a face in its current pose. */
 export function positionsOf(face) {
   const positions = new Float32Array(3 * face.vertexCount);
   face.evaluate(positions);
   return positions;
 }
 
-/** A weight for every expression, none like another. */
+/** A weight for every expression, varied. */
 export function someWeights(names) {
   return Object.fromEntries(names.map((name, k) => [name, ((7 * k + 3) % 11) / 10 - 0.2]));
 }

@@ -23,7 +23,7 @@ test('the page', options, (t) => withPage('index.html', visit, async (page, comp
   const said = () => page.locator('#message').textContent();
   const picture = async () => (await page.locator('#view').screenshot()).toString('base64');
 
-  /** The share of pixels that two pictures differ in. */
+  /** The share of pixels in which two pictures differ. */
   const changed = (a, b) => page.evaluate(async (pictures) => {
     const [first, second] = await Promise.all(pictures.map(async (picture) => {
       const bitmap = await createImageBitmap(await (await fetch(`data:image/png;base64,${picture}`)).blob());
@@ -34,7 +34,7 @@ test('the page', options, (t) => withPage('index.html', visit, async (page, comp
     return first.reduce((count, pixel, k) => count + (pixel !== second[k]), 0) / first.length;
   }, [a, b]);
 
-  /** Where the camera is, the shape of what it sees, and whether all of the face is in that. */
+  /** The position of the camera, the aspect ratio of its view, and whether the whole face is in it. */
   const view = () => page.evaluate(() => {
     const {mesh} = globalThis.sweepface, {array} = mesh.geometry.attributes.position;
     const camera = mesh.parent.children.find((child) => child.isCamera), point = mesh.position.clone();
@@ -66,7 +66,7 @@ test('the page', options, (t) => withPage('index.html', visit, async (page, comp
       };
     });
     assert.equal(await changed(neutral, await picture()), 0);
-    // Where nothing moves, nothing is drawn.
+    // While nothing moves, nothing is drawn.
     assert.ok(await page.evaluate(async () => {
       for (let tries = 0; tries < 20; ++tries) {
         const before = globalThis.frames;
@@ -101,16 +101,16 @@ test('the page', options, (t) => withPage('index.html', visit, async (page, comp
       return picture();
     };
     const open = await check(true), [follows, share] = await page.evaluate(shared);
-    assert.ok(follows && share > 0.9 && share < 1.1, `${share}`);  // edges, as two vertices, a corner of a triangle
+    assert.ok(follows && share > 0.9 && share < 1.1, `${share}`);  // two vertices per edge, three per triangle
     await slide('jawOpen', 0);
     const followed = await picture();
     assert.ok(await changed(open, followed) > 0.005);
     const plain = await check(false);
     assert.equal(await page.evaluate(shared), undefined);
     assert.ok(await changed(plain, followed) > 0.01);
-    assert.equal(await changed(followed, await check(true)), 0);  // as lines that are drawn anew
+    assert.equal(await changed(followed, await check(true)), 0);  // newly made lines look the same
     await check(false);
-    await slide('jawOpen', 0.6);  // what the lines were over goes on moving
+    await slide('jawOpen', 0.6);  // the face without the lines still moves
     assert.ok(await changed(plain, await picture()) > 0.005);
   });
 
@@ -120,7 +120,7 @@ test('the page', options, (t) => withPage('index.html', visit, async (page, comp
     const after = async (key) => {
       for (let k = 0; k < 3; ++k) await page.keyboard.press(key);
       await page.waitForTimeout(800);
-      await page.locator('#view').blur();  // which takes the frame away
+      await page.locator('#view').blur();  // which removes the outline
       const turned = await picture();
       await page.locator('#view').focus();
       return changed(ahead, turned);
@@ -143,14 +143,14 @@ test('the page', options, (t) => withPage('index.html', visit, async (page, comp
 
   await t.test('relaxes by a spring, and sliders follow', async () => {
     await page.locator('#rest').click();
-    await page.locator('input[name="jawOpen"]').focus();  // one that is about to be moved follows as well
+    await page.locator('input[name="jawOpen"]').focus();  // a focused slider follows as well
     await until(() => globalThis.sweepface.mesh.face.weights.jawOpen < 0.001);
     assert.ok(await page.locator('input[name="jawOpen"]').inputValue() < 0.05);
   });
 
   await t.test('surprises', async () => {
     await page.evaluate(() => {
-      Math.random = () => 0.9;  // no expression, so that it is the first
+      Math.random = () => 0.9;  // chooses no expression, so that the first is taken
       globalThis.sweepface.mesh.setWeights({mouthSmileRight: 1});
     });
     await page.locator('#surprise').click();
@@ -169,7 +169,7 @@ test('the page', options, (t) => withPage('index.html', visit, async (page, comp
     await until((vertices) => globalThis.sweepface.mesh.face.vertexCount > 3 * vertices, vertices);
     assert.equal(await weight('jawOpen'), 0.5);
     const {eye: now} = await view();
-    // It may swing out, but does not look from the front again.
+    // The camera may still swing out, but does not return to the front.
     assert.ok(eye.every((x, k) => Math.abs(x - now[k]) < 10), `${eye} and ${now}`);
     await assert.rejects(page.evaluate(() => globalThis.coarse.names), /disposed of/);  // its memory is free
     await page.locator('#lines').check();
@@ -204,14 +204,14 @@ test('the page', options, (t) => withPage('index.html', visit, async (page, comp
       dataTransfer.items.add(new File([bytes], 'DROPPED.SWEEP'));
       dispatchEvent(new DragEvent('dragover', {dataTransfer}));
       const isTaken = !dispatchEvent(new DragEvent('drop', {dataTransfer, cancelable: true}));
-      dispatchEvent(new PointerEvent('pointerdown'));  // which is no answer to what is said
+      dispatchEvent(new PointerEvent('pointerdown'));  // which does not dismiss the message
       return [isTaken, document.getElementById('message').textContent];
     });
     assert.deepEqual(dropped, [true, 'Loading…']);
     await until(() => document.title.startsWith('DROPPED.SWEEP'));
     assert.equal(await said(), '');
     assert.equal(await page.evaluate(() => document.body.className), '');
-    // The view is what it was at first; the panel is as it was left.
+    // The view is reset; the panel stays as it was left.
     const {eye: [x, y, z], isWhole} = await view();
     assert.ok(isWhole && Math.abs(x) < z / 2 && Math.abs(y) < z / 2, `${x}, ${y}, ${z}`);
     assert.equal(await page.evaluate(() => document.activeElement.name), 'mouthSmileRight');
@@ -225,13 +225,13 @@ test('the page', options, (t) => withPage('index.html', visit, async (page, comp
     await open('holiday.sweep', Buffer.from('GIF89a'));
     await page.waitForSelector('#message.error');
     assert.equal(await said(), 'holiday.sweep does not begin with SWEEPFC; check that it is a .sweep file.');
-    await page.locator('#filter').click();  // the face that was there is used on
+    await page.locator('#filter').click();  // using the previous face dismisses the error
     assert.equal(await said(), '');
     await open(`${'B'.repeat(400)}.sweep`, Buffer.from('GIF89a'));
     await page.waitForSelector('#message.error');
     const {x, width} = await page.locator('#message').boundingBox();
     assert.ok(x >= 0 && x + width <= 660);
-    // Files that went away, or do not fit.
+    // Files that are gone, or too large.
     const moved = 'it may have been moved; choose it again', large = 'it is too large for this browser';
     for (const [size, advice] of [[1000, moved], [2e9, large]]) {
       await page.evaluate((size) => {
@@ -258,7 +258,7 @@ test('the page', options, (t) => withPage('index.html', visit, async (page, comp
                                 ['button', 'Relax'], ['combobox', 'Detail'], ['checkbox', 'Lines'],
                                 ['searchbox', 'Filter expressions']])
       assert.equal(await page.getByRole(role, {name}).count(), 1, role);
-    await page.getByLabel('Open .sweep').focus();  // as keys do
+    await page.getByLabel('Open .sweep').focus();  // as keyboard users do
     assert.equal(await page.evaluate(() => document.activeElement.id), 'file');
     await page.locator('#message[role="status"]:not(.error)').waitFor({state: 'attached'});
     assert.equal(await page.locator('#message').evaluate((message) => getComputedStyle(message).display), 'block');
@@ -269,7 +269,7 @@ test('the page', options, (t) => withPage('index.html', visit, async (page, comp
     broken.fill(0, bytes.length / 2);
     await page.locator('#file').setInputFiles({name: 'broken.sweep', mimeType: 'application/octet-stream', buffer: broken});
     await page.waitForSelector('#message.error');
-    // A level of another that does not come is not that of the one on show.
+    // The level requested for a file that fails to load does not count for the one on show.
     assert.deepEqual(await page.evaluate(async () => {
       let fail;
       const lod = document.getElementById('lod'), coming = new Promise((_, reject) => { fail = reject; });
@@ -343,13 +343,13 @@ test('the page', options, (t) => withPage('index.html', visit, async (page, comp
     await page.locator('#file').setInputFiles({name: 'bad.sweep', mimeType: 'text/plain', buffer: Buffer.from('GIF89a')});
     await page.waitForSelector('#message.error');
     await until(() => document.title.startsWith('sample.sweep'));
-    assert.match(await said(), /^bad\.sweep /);  // which is not forgotten for it
+    assert.match(await said(), /^bad\.sweep /);  // the error outlasts the loading
     await page.keyboard.press('Shift');
     assert.match(await said(), /^bad\.sweep /);
     await page.keyboard.press('Escape');
     assert.equal(await said(), '');
     await page.unroute('**/sample.sweep');
-    // Levels are of that face again.
+    // Levels are those of the sample face again.
     await page.locator('#lod').selectOption('2');
     await until(() => globalThis.sweepface.mesh.face.lod === 2);
     assert.ok((await page.title()).startsWith('sample.sweep'));
@@ -395,7 +395,7 @@ test('the page', options, (t) => withPage('index.html', visit, async (page, comp
   });
 
   await t.test('comes nearer by a key, and neither into the face nor out of sight', async () => {
-    /** How far away presses of a key take the eye, and whether the key is taken from the browser. */
+    /** Presses a key; returns the camera's distance, and whether the key is kept from the browser. */
     const press = (init, times = 1) => page.evaluate(([init, times]) => {
       const canvas = document.getElementById('view');
       let isTaken;
@@ -443,7 +443,7 @@ test('the page', options, (t) => withPage('index.html', visit, async (page, comp
     });
     assert.equal(await weight('jawOpen'), 0.2);
     assert.equal(await page.locator('input[name="jawOpen"]').inputValue(), '0.2');
-    // Nor does it stop what moves by itself.
+    // Nor does it undo what was set by other means.
     await page.evaluate(() => globalThis.sweepface.mesh.setWeights({jawOpen: 0.3}));
     await page.locator('input[name="jawOpen"]').evaluate((input) => {
       for (const what of ['pointerdown', 'pointercancel']) input.dispatchEvent(new PointerEvent(what, {bubbles: true}));
@@ -456,11 +456,11 @@ test('the page', options, (t) => withPage('index.html', visit, async (page, comp
     await page.route('**/sweepface.wasm', (route) => route.abort());
     await page.locator('#file').setInputFiles(packed());
     await until(() => document.title.startsWith('packed'));
-    await page.locator('#lod').selectOption('2');  // in which it is to go where it stands, not where the last one went
+    await page.locator('#lod').selectOption('2');  // in which it keeps its own pose, not the goals of the last face
     await until(() => globalThis.sweepface.mesh.face.lod === 2);
     assert.equal(await said(), '');
     await page.unroute('**/sweepface.wasm');
-    complaints.splice(told);  // that there is none
+    complaints.splice(told);  // about the missing network
   });
 
   await t.test('says where no expression has a name', async () => {
@@ -478,7 +478,7 @@ test('the page', options, (t) => withPage('index.html', visit, async (page, comp
       const card = document.getElementById('view').getContext('webgl2').getExtension('WEBGL_lose_context');
       card.loseContext();
       await new Promise((done) => setTimeout(done, 500));
-      dispatchEvent(new PointerEvent('pointerdown'));  // which changes nothing about it
+      dispatchEvent(new PointerEvent('pointerdown'));  // which does not dismiss the error
       const said = [document.getElementById('message').textContent], {show} = globalThis.sweepface;
       await show(fetch('sample.sweep').then((response) => response.arrayBuffer()), 'sample.sweep', true);
       said.push(document.getElementById('message').textContent);
@@ -490,7 +490,7 @@ test('the page', options, (t) => withPage('index.html', visit, async (page, comp
     assert.deepEqual(said, [lost, lost, '']);
     const after = await changed(before, await picture());
     assert.ok(after < 0.01, `${after} of the pixels differ`);
-    complaints.splice(told);  // that it was lost
+    complaints.splice(told);  // about the lost context
   });
 
   await t.test('shows a face that came while there was no room for it', async () => {
@@ -525,7 +525,7 @@ test('the page', options, (t) => withPage('index.html', visit, async (page, comp
 
   await t.test('is as sharp as the screen, and not stretched', async () => {
     const session = await page.context().newCDPSession(page);
-    const sizes = [[660, 1.5, 1.5], [650, 3, 2], [640, 1, 1]];  // points beyond two are not seen
+    const sizes = [[660, 1.5, 1.5], [650, 3, 2], [640, 1, 1]];  // the pixel ratio is capped at 2
     for (const [width, deviceScaleFactor, points] of sizes) {
       await session.send('Emulation.setDeviceMetricsOverride', {width, height: 375, deviceScaleFactor, mobile: false});
       await until((points) => {
@@ -545,7 +545,7 @@ test('the page', options, (t) => withPage('index.html', visit, async (page, comp
     const wide = await page.evaluate(() => document.documentElement.scrollWidth);
     assert.ok(wide <= 390);
     assert.ok((await view()).isWhole);
-    await page.setViewportSize({width: 320, height: 1400});  // as where the page shares the screen
+    await page.setViewportSize({width: 320, height: 1400});  // as if the page shares the screen
     await page.waitForTimeout(800);
     const narrow = await view(), {width, height} = await page.locator('#view').boundingBox();
     assert.ok(narrow.isWhole);
@@ -572,7 +572,7 @@ test('the page', options, (t) => withPage('index.html', visit, async (page, comp
   });
 }));
 
-/** What the page says where something is amiss. */
+/** The page's error message. */
 function told(name, visit) {
   return withPage(name, visit, async (page) => {
     await page.waitForFunction(() => document.getElementById('message').textContent !== 'Loading…');
@@ -586,7 +586,7 @@ test('the page says which file is missing, and without any asks for one', option
     const missing = 'typo.sweep cannot be had: the server answers 404.';
     await done();
     assert.equal(await message.textContent(), missing);
-    // What is there for faces does nothing, and nobody has used another face yet.
+    // Controls for faces do nothing without one, and do not dismiss the error.
     for (const id of ['surprise', 'rest', 'lines', 'lines']) await page.locator(`#${id}`).click();
     await page.locator('#filter').fill('jaw');
     await page.keyboard.press('a');
@@ -598,7 +598,7 @@ test('the page says which file is missing, and without any asks for one', option
     assert.equal(await message.textContent(), 'Drop a .sweep file here, or open one.');
     assert.equal(await message.getAttribute('class'), '');
     await page.locator('#lod').selectOption('2');
-    // What is said is of the file that was asked for last.
+    // The message is about the file that was requested last.
     await page.evaluate(async () => {
       const {show} = globalThis.sweepface;
       const late = show(new Promise((done) => { setTimeout(done, 500); }), 'sample.sweep');

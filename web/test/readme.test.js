@@ -1,4 +1,4 @@
-// What README.md shows of three.js, run as it stands there in a page that has a scene, a camera and a renderer.
+// Runs README.md's three.js example as it stands in a page that has a scene, a camera and a renderer.
 import assert from 'node:assert/strict';
 import {readFileSync} from 'node:fs';
 import test from 'node:test';

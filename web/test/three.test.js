@@ -47,7 +47,7 @@ test('what moves morph targets moves a mesh', options, async () => {
   assert.ok(difference(native.positions, mesh.geometry.attributes.position.array).most <= native.error);
   mesh.setWeights({mouthSmileLeft: 0.5});
   assert.equal(influences[places.mouthSmileLeft], 0.5);
-  influences[places.mouthSmileLeft] = 0.25;  // and what is said before it is shown leaves it
+  influences[places.mouthSmileLeft] = 0.25;  // which setting others before it is shown leaves alone
   mesh.setWeights({jawOpen: 0});
   assert.deepEqual([mesh.weights.mouthSmileLeft, influences[places.jawOpen]], [0.25, 0]);
   mesh.moveTo({jawOpen: 1}, {kind: 'linear-force', seconds: 0.1});
@@ -88,7 +88,7 @@ test('influences may be an array of another kind', options, async () => {
     for (let k = 0; k < 20; ++k) mesh.update(1 / 60);
     return mesh.weights.jawOpen;
   };
-  mesh.morphTargetInfluences = new Float32Array(mesh.names.length);  // where 0.7 is another number
+  mesh.morphTargetInfluences = new Float32Array(mesh.names.length);  // which rounds 0.7
   assert.equal(end(), 0.7);
   mesh.morphTargetInfluences[jawOpen] = 0.25;
   mesh.update();
@@ -147,7 +147,7 @@ test('animations are matched by names, whichever meshes and tracks have them', o
     const morphTargetDictionary = Object.fromEntries(targets.map((target, k) => [target, k]));
     return Object.assign(new three.Mesh(), {name, morphTargetDictionary, morphTargetInfluences: targets.map(() => 0)});
   };
-  // Of two targets without a name three.js knows the last alone.
+  // Of two targets without a name three.js knows only the last.
   const scene = new three.Group().add(meshOf('teeth', 'smile', 'jawOpen'), meshOf('head', '', '', 'jawOpen', 'blink'));
   const track = (name, values, times = [0, 1]) => new three.NumberKeyframeTrack(name, times, values);
   const animations = [
@@ -212,7 +212,7 @@ for (const [name, module] of [['SweepfaceMesh', 'three'], ['SweepfaceGpuMesh', '
     mesh.setWeights({browInnerUp: 0.25}, 'above');
     mesh.update();
     mesh.position.set(1, 2, 3);
-    mesh.add(new three.Mesh(mesh.geometry));  // as for what is seen of its inside
+    mesh.add(new three.Mesh(mesh.geometry));  // as for showing its inside
     group.add(mesh);
     for (const twin of [mesh.clone(), group.clone().children[0]]) {
       assert.ok(twin instanceof Made && twin.face !== mesh.face && twin.geometry !== mesh.geometry);
@@ -282,7 +282,7 @@ for (const [name, module] of [['SweepfaceMesh', 'three'], ['SweepfaceGpuMesh', '
 
 test('what clones share stays while another is shown, whoever listens from the start', options, async () => {
   const {Sweepface} = await import('../sweepface.js'), {SweepfaceMesh} = await import('../sweepface_three.js');
-  const gone = [];  // what three.js would take from the graphics card
+  const gone = [];  // what three.js would free on the graphics card
   class Mine extends SweepfaceMesh {
     constructor(face, materials) {
       super(face, materials);
@@ -406,7 +406,7 @@ test('materials on the graphics card follow one face at a time', options, async 
     mesh.update();
     assert.equal(material.onBeforeCompile === onBeforeCompile, put !== material);
   }
-  mesh.material = new three.MeshBasicMaterial();  // the mesh made the other its own all the same
+  mesh.material = new three.MeshBasicMaterial();  // without update(), the mesh still owns the other
   mesh.dispose();
   assert.equal(material.onBeforeCompile, onBeforeCompile);
   new SweepfaceGpuMesh(face, material);
@@ -419,7 +419,7 @@ test('clones look where their models look', options, async () => {
   const ahead = places(mesh).slice(), straight = mesh.clone();
   const pose = {leftEye: {yaw: 0.3}, rightEye: {yaw: 0.3}};
   mesh.look(pose);
-  pose.leftEye.yaw = -1;  // it is the caller's
+  pose.leftEye.yaw = -1;  // the mesh has a copy
   const aside = places(mesh), twin = mesh.clone();
   assert.deepEqual(twin.geometry.attributes.position.array, aside);
   assert.deepEqual(twin.clone().geometry.attributes.position.array, aside);
@@ -509,7 +509,7 @@ test('a loader makes the mesh that it is told to', options, async () => {
     await assert.rejects(loader.parseAsync(bytes, {mesh}), /^TypeError: The option 'mesh' is a class: /);
 });
 
-/** What happens when a loader loads, in order. */
+/** The events of a load, in order. */
 async function happenings(file, options, fail = () => {}) {
   const {SweepfaceLoader} = await import('../sweepface_three.js'), seen = [];
   const manager = new three.LoadingManager(() => seen.push('all'), undefined, () => seen.push('amiss'));
@@ -590,7 +590,7 @@ test('a load tells the manager that it began with, and has the options of then',
   globalThis.fetch = async () => new Response(readFileSync(sample));
   try {
     const regions = [{name: 'above', points: [[0, 8, 9]], whole: 5}];
-    // Some frameworks wrap what is to be watched.
+    // Some frameworks wrap in a Proxy what they watch.
     const loader = new SweepfaceLoader(managers[0], {regions: new Proxy(regions, {})});
     const one = loader.loadAsync('http://a/one');
     loader.manager = managers[1];
@@ -673,7 +673,7 @@ test('a disposed mesh gives its materials and its face back', options, async () 
   assert.throws(() => mesh.face.names, {message: 'The face was disposed of.'});
 });
 
-/** A vertex that an expression moves as far as any. */
+/** The vertex that an expression moves farthest. */
 function farthest(mesh, weights) {
   const neutral = new Float32Array(3 * mesh.face.vertexCount), moved = neutral.slice();
   mesh.face.evaluate(neutral, null);
@@ -721,11 +721,11 @@ for (const kind of ['SweepfaceMesh', 'SweepfaceGpuMesh', 'SweepfaceNodeMesh'])
     assert.ok(pin.position.distanceTo(rest) < near, 'put on again');
     mesh.remove(pin);
     mesh.morphTargetInfluences[mesh.morphTargetDictionary.jawOpen] = 1;
-    const late = mesh.add(other).clone();  // with what an influence says that was not shown yet
+    const late = mesh.add(other).clone();  // with an influence that was set but not shown yet
     assert.ok(late.children.at(-1).position.distanceTo(moved) < near);
     mesh.setWeights({jawOpen: 0});
     mesh.setWeights({jawOpen: 1});
-    const low = mesh.pin(moved);  // in the pose that it was given, which update() has not shown
+    const low = mesh.pin(moved);  // in the pose that was set, before update() has shown it
     assert.ok(low.position.distanceTo(moved) < near && low.quaternion.angleTo(new three.Quaternion()) < 1e-6);
     for (const odd of [undefined, [0, 0, 0], {x: 0, y: NaN, z: 0}, new three.Vector3(1e160, 0, 0)])
       assert.throws(() => mesh.pin(odd), {message: 'A pin takes a point: a Vector3 in the coordinates of the face.'});

@@ -10,7 +10,7 @@ const blank = `<!doctype html><link rel="icon" href="data:,"><script type="impor
                "three/tsl": "./node_modules/three/build/three.tsl.js"}}</script>`;
 const files = {'blank.html': blank, 'face.sweep': readFileSync(process.env.SWEEPFACE_GPU_FACE ?? sample)};
 
-/** In the page: meshes, and their pictures by WebGPURenderer with one of its backends. */
+/** In the page: makes meshes, and pictures of them by WebGPURenderer with one of its backends. */
 async function prepare(forceWebGL) {
   const THREE = globalThis.THREE = await import('three/webgpu');
   const {Sweepface} = await import('./sweepface.js'), {SweepfaceMesh} = await import('./sweepface_three.js');
@@ -31,14 +31,14 @@ async function prepare(forceWebGL) {
     make: async (materials) => Promise.all([SweepfaceMesh, SweepfaceNodeMesh].map(
       async (Made) => new Made(await Sweepface.load(bytes), materials?.()))),
     async draw(mesh) {
-      await new Promise(requestAnimationFrame);  // once a frame shadows are made anew
+      await new Promise(requestAnimationFrame);  // shadows are redrawn once a frame
       scene.add(mesh);
       renderer.setRenderTarget(target);
       renderer.render(scene, camera);
       scene.remove(mesh);
       return renderer.readRenderTargetPixelsAsync(target, 0, 0, size, size);
     },
-    /** The share of pixels that anyone would tell apart. */
+    /** The share of pixels that differ visibly. */
     differ(a, b) {
       let count = 0;
       for (let k = 0; k < a.length; k += 4) count += [0, 1, 2].some((c) => Math.abs(a[k + c] - b[k + c]) > 24);
@@ -186,7 +186,7 @@ for (const backend of ['WebGPU', 'WebGL'])
         const [onCpu, onCard] = await make(wide), [cpu, card] = await posed(onCpu, onCard), result = {own: differ(cpu, card)};
         const twin = onCard.clone();
         result.twin = differ(cpu, await draw(twin));
-        onCard.dispose();  // and leaves the twin what they shared
+        onCard.dispose();  // which leaves the twin what they shared
         result.left = differ(cpu, await draw(twin));
         const displacementMap = new THREE.DataTexture(new Uint8Array(4).fill(255), 1, 1);
         displacementMap.needsUpdate = true;
