@@ -37,9 +37,14 @@ Rig loadedInTwoSteps(const std::string& bytes) {
   return made;
 }
 
+bool isOfPoints(unsigned how) { return how % 8 == 7; }
+
 Mesh meshOf(const Rig& rig, unsigned how) {
+  constexpr double kPoints[] = {0, 0, 0, 1, -2, 3, 1e99, 5, -1e-9};
   sweepface_mesh* mesh = nullptr;
-  if (how % 4 == 3)
+  if (isOfPoints(how))
+    sweepface_mesh_create_at(rig.get(), kPoints, 3, &mesh);
+  else if (how % 4 == 3)
     sweepface_mesh_create_within(rig.get(), SWEEPFACE_BUDGET_VERTICES, 50 + how, &mesh);
   else
     sweepface_mesh_create(rig.get(), how % 4, &mesh);
@@ -64,16 +69,23 @@ void requireWhole(const sweepface_mesh* mesh) {
   require(inParts == triangles);
 }
 
-void requireTangents(sweepface_face* face, const sweepface_mesh* mesh) {
+void requireTangents(sweepface_face* face, const sweepface_mesh* mesh, bool isOfPoints) {
   const std::size_t vertices = sweepface_mesh_vertex_count(mesh);
   std::vector<float> normals(3 * vertices), tangents(4 * vertices);
   const auto status =
       sweepface_face_tangents(face, vertices, {normals.data(), 0}, {tangents.data(), 0});
-  require((status == SWEEPFACE_OK) == (sweepface_mesh_texcoords(mesh) != nullptr));
+  require((status == SWEEPFACE_OK) == (sweepface_mesh_texcoords(mesh) || isOfPoints));
   for (const float number : normals) require(std::abs(number) < 1.001F);
   for (const float number : tangents) require(std::abs(number) < 1.001F);
   for (std::size_t k = 3; status == SWEEPFACE_OK && k < tangents.size(); k += 4)
     require(std::abs(tangents[k]) == 1);
+}
+
+void requireBox(sweepface_face* face) {
+  double low[3], high[3];
+  require(sweepface_face_box(face, low, high) == SWEEPFACE_OK);
+  for (int axis = 0; axis < 3; ++axis)
+    require(std::isfinite(low[axis]) && std::isfinite(high[axis]) && low[axis] <= high[axis]);
 }
 
 /// Positions and normals; updating must write the same as evaluating.
@@ -107,7 +119,8 @@ std::vector<float> played(const Rig& rig, unsigned how) {
   sweepface_face_set_weights(made, weights.data(), weights.size());
   sweepface_shader_tables tables;
   sweepface_mesh_shader_tables(mesh.get(), how % 2, &tables);
-  requireTangents(made, mesh.get());
+  requireTangents(made, mesh.get(), isOfPoints(how));
+  requireBox(made);
   return played(made, sweepface_mesh_vertex_count(mesh.get()));
 }
 

@@ -76,7 +76,7 @@ class Tessellation {
   Index level() const { return level_; }
   /// Whether it is of single sites. Then only vertexCount(), site(), terms(), positions() and
   /// normals() may be called.
-  bool isOfSites() const { return density_.patches.empty(); }
+  bool isOfSites() const { return isOfSites_; }
   Index vertexCount() const { return static_cast<Index>(sites_.size()); }
   /// The vertex at column i ≤ level·edgesU and row j ≤ level·edgesV of a patch.
   Index vertex(Index patch, Index i, Index j) const;
@@ -119,6 +119,7 @@ class Tessellation {
 
   const Surface* surface_;
   Index level_;
+  bool isOfSites_ = false;
   Index vectors_;  // of the surface
   Density density_;
   std::vector<Index> nodeVertex_;   // [nodes]

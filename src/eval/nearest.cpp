@@ -193,7 +193,7 @@ class Search {
     const Index columns = kPerEdge * surface_.edgesU(patch),
                 rows = kPerEdge * surface_.edgesV(patch);
     const Vec3* sample = &samples_[firstSample_[patch]];
-    std::array<Found, 2> nearest;
+    std::array<Found, 2> nearest{Found{siteOf(patch, 0, 0)}, Found{siteOf(patch, 1, 1)}};
     for (Index j = 0; j <= rows; ++j)
       for (Index i = 0; i <= columns; ++i, ++sample) {
         const bool isInside = i > 0 && i < columns && j > 0 && j < rows;

@@ -41,6 +41,7 @@ Tessellation::Tessellation(const Surface& surface, Density density)
 Tessellation::Tessellation(const Surface& surface, std::vector<Site> sites)
     : surface_(&surface),
       level_(0),
+      isOfSites_(true),
       vectors_(surface.vectorCount()),
       nodeVertex_(surface.wireframe().nodes.size(), -1),
       arcVertex_(surface.wireframe().arcs.size(), -1),
