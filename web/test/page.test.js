@@ -254,7 +254,7 @@ test('the page', options, (t) => withPage('index.html', visit, async (page, comp
       const [input] = row.getElementsByTagName('input');
       return row.control === input && row.querySelector('span:not([aria-hidden])').textContent === input.name;
     })));
-    for (const [role, name] of [['img', /^The face; drag it, or press arrow keys/], ['button', 'Surprise me'],
+    for (const [role, name] of [['img', /^The face: drag it or press arrow keys/], ['button', 'Surprise me'],
                                 ['button', 'Relax'], ['combobox', 'Detail'], ['checkbox', 'Lines'],
                                 ['searchbox', 'Filter expressions']])
       assert.equal(await page.getByRole(role, {name}).count(), 1, role);
