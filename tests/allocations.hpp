@@ -6,19 +6,19 @@
 #include <malloc.h>
 #include <new>
 
-// Watches every allocation of the test program that includes this, in one of its files.
+// Tracks every allocation of a test program. Include it in exactly one of the program's files.
 
 namespace sweepface::testing {
 
 struct Allocations {
   std::size_t count = 0;
   std::size_t largest = 0;  ///< bytes
-  std::size_t held = 0;     ///< bytes that are not given back yet
-  std::size_t most = 0;     ///< bytes held at any time
+  std::size_t held = 0;     ///< bytes not yet freed
+  std::size_t most = 0;     ///< peak of `held`
 };
 inline Allocations allocations;
 
-// The thread sanitizer brings its own operators, which cannot be replaced.
+// The thread sanitizer defines its own operators, which cannot be replaced.
 #if defined(__has_feature)
 #if __has_feature(thread_sanitizer)
 #define SWEEPFACE_OPERATORS_ARE_TAKEN
@@ -33,7 +33,7 @@ inline constexpr bool watchesAllocations = true;
 }  // namespace sweepface::testing
 
 #ifndef SWEEPFACE_OPERATORS_ARE_TAKEN
-// Kept out of line, or GCC sees malloc meet delete and warns.
+// Kept out of line, or GCC sees memory from malloc passed to delete and warns.
 [[gnu::noinline]] void* operator new(std::size_t size) {
   auto& seen = sweepface::testing::allocations;
   ++seen.count;

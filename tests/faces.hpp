@@ -15,7 +15,7 @@
 
 #include "sweepface/mesh.hpp"
 
-// Meshes made by hand, and what any mesh must answer about its shape.
+// Hand-made meshes, and the topology of any mesh.
 namespace sweepface::testing {
 
 using Loop = std::vector<Index>;
@@ -33,7 +33,7 @@ inline std::vector<Loop> loopsOf(const Polygons& p) {
   return faces;
 }
 
-/// Of quads or triangles as arrays.
+/// The same for quads or triangles stored as arrays.
 template <std::size_t Corners>
 std::vector<Loop> loopsOf(const std::vector<std::array<Index, Corners>>& faces) {
   std::vector<Loop> loops;
@@ -41,7 +41,7 @@ std::vector<Loop> loopsOf(const std::vector<std::array<Index, Corners>>& faces) 
   return loops;
 }
 
-/// Keeps only the vertices that `keep` wants, and the faces between them.
+/// Keeps only the vertices for which `keep` is true, and the faces between them.
 inline PolygonMesh only(const PolygonMesh& mesh, const std::function<bool(const Vec3&)>& keep) {
   PolygonMesh result;
   std::vector<Index> place(mesh.positions.size(), -1);
@@ -57,7 +57,7 @@ inline PolygonMesh only(const PolygonMesh& mesh, const std::function<bool(const 
   return result;
 }
 
-/// A grid of m × n quads, closed in either direction on request, at `place(i, j)`.
+/// A grid of m × n quads with vertices at `place(i, j)`, optionally closed in either direction.
 inline PolygonMesh grid(Index m, Index n, const std::function<Vec3(double, double)>& place,
                         bool closedU = false, bool closedV = false) {
   PolygonMesh mesh;
@@ -167,8 +167,8 @@ inline PolygonMesh windowed() {
               [](const Vec3& p) { return !(p.x > 3.5 && p.x < 6.5 && p.y > 3.5 && p.y < 5.5); });
 }
 
-/// A plane one of whose rows has a face of `corners` (3 or 5) corners, above which there is one
-/// column more.
+/// A plane in which one row contains a face with `corners` (3 or 5) corners; the rows above it
+/// have one more column.
 inline PolygonMesh dart(Index corners, Index m = 8, Index n = 8) {
   PolygonMesh mesh;
   const Index low = n / 2, middle = m / 2;
@@ -193,7 +193,7 @@ inline PolygonMesh dart(Index corners, Index m = 8, Index n = 8) {
   return mesh;
 }
 
-/// `valence` grids of n × n quads around one vertex, the first.
+/// `valence` grids of n × n quads around vertex 0.
 inline PolygonMesh pinwheel(Index valence, Index n = 4) {
   PolygonMesh mesh;
   mesh.positions.push_back(onHill(5, 4));
@@ -230,7 +230,7 @@ inline PolygonMesh joined(PolygonMesh a, const PolygonMesh& b, const Vec3& offse
   return a;
 }
 
-/// A smooth displacement of everything, another for every k; about a twentieth of the size.
+/// Displaces everything smoothly, differently for every k, by about a twentieth of `size`.
 inline std::vector<Vec3> deformed(const std::vector<Vec3>& positions, int k, double size = 10) {
   std::vector<Vec3> result = positions;
   const double f = 3 / size, a = 0.05 * size;
@@ -246,7 +246,7 @@ inline MeshRig withTargets(PolygonMesh mesh, int targets = 2, double size = 10) 
   return rig;
 }
 
-/// The same vertices with faces missing, cut, turned over or sewn together, another way for every
+/// The same vertices, with faces removed, cut, flipped or sewn together, differently for every
 /// seed.
 inline PolygonMesh damaged(const PolygonMesh& mesh, unsigned seed) {
   std::mt19937 random(seed);
@@ -281,7 +281,7 @@ struct Face {
   friend void PrintTo(const Face& face, std::ostream* out) { *out << face.name; }
 };
 
-/// One face of every sort, each with two targets.
+/// One face of every kind, each with two targets.
 inline const std::vector<Face>& everyFace() {
   static const std::vector<Face> faces = [] {
     std::vector<Face> list;
@@ -309,7 +309,7 @@ inline const std::vector<Face>& everyFace() {
 inline auto eachFace() { return ::testing::ValuesIn(everyFace()); }
 inline std::string faceName(const ::testing::TestParamInfo<Face>& info) { return info.param.name; }
 
-/// For every vertex the first that stands at the same place in all poses.
+/// For every vertex, the first vertex that coincides with it in all poses.
 inline std::vector<Index> weldedVertices(const MeshRig& rig) {
   std::map<std::vector<double>, Index> known;
   std::vector<Index> first;
@@ -323,7 +323,7 @@ inline std::vector<Index> weldedVertices(const MeshRig& rig) {
   return first;
 }
 
-/// The faces of a rig's neutral between welded vertices.
+/// The faces of a rig's neutral, with vertices welded.
 inline std::vector<Loop> weldedLoops(const MeshRig& rig) {
   const std::vector<Index> first = weldedVertices(rig);
   std::vector<Loop> faces = loopsOf(rig.neutral.polygons);
@@ -335,7 +335,7 @@ inline std::vector<Loop> weldedLoops(const MeshRig& rig) {
 struct Topology {
   int euler = 0;  ///< V − E + F
   int boundaryLoops = 0;
-  int overfullEdges = 0;  ///< shared by more than two faces, or by two of the same direction
+  int overfullEdges = 0;  ///< shared by more than two faces, or by two in the same direction
   std::size_t vertices = 0;
   friend bool operator==(const Topology&, const Topology&) = default;
   friend void PrintTo(const Topology& t, std::ostream* out) {
@@ -344,7 +344,7 @@ struct Topology {
   }
 };
 
-/// Repeated neighbours in a face count once.
+/// Consecutive repetitions of a vertex in a face count once.
 inline Topology topologyOf(const std::vector<Loop>& faces) {
   Topology t;
   std::set<Index> vertices;
@@ -381,7 +381,7 @@ inline Topology topologyOf(const std::vector<Loop>& faces) {
   return t;
 }
 
-/// The folder of real faces, or nothing; tests skip without it.
+/// The folder of real faces, or an empty string, in which case tests that need it are skipped.
 inline std::string realFaces() {
   const char* folder = std::getenv("SWEEPFACE_DATA");
   return folder ? folder : "";

@@ -29,7 +29,7 @@ constexpr std::string_view kTimeline = R"({
                "delay": 0.25}]
 })";
 
-/// A face with the targets open, "wink é" and rest.
+/// A face with the targets "open", "wink é" and "rest".
 class Clips : public ::testing::Test {
  protected:
   Clips() : rig(dressed(makeRig(tee()))) {

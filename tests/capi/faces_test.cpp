@@ -26,7 +26,7 @@ using namespace testing;
 
 constexpr sweepface_vectors kUnwanted{nullptr, 0};
 
-/// A face with loose vertices, seams and three targets: open, "wink é" and rest.
+/// A face with loose vertices, seams and three targets: "open", "wink é" and "rest".
 class Faces : public ::testing::Test {
  protected:
   Faces() : rig(dressed(makeRig(tee()))) { load(rig); }
@@ -47,7 +47,7 @@ class Faces : public ::testing::Test {
     ASSERT_EQ(sweepface_face_create(mesh, &face), SWEEPFACE_OK);
   }
 
-  /// The call failed, and the message says this.
+  /// Whether the call failed as expected with `part` in its message.
   static ::testing::AssertionResult refuses(sweepface_status status, std::string_view part,
                                             sweepface_status expected = SWEEPFACE_BAD_ARGUMENT) {
     const std::string_view message = sweepface_message();
@@ -66,7 +66,7 @@ class Faces : public ::testing::Test {
     return out;
   }
 
-  /// Poses of three weights, one after the other, into the same buffers.
+  /// Plays poses of three weights one after another into the same buffers.
   void expectUpdatesToBeWhole(const std::vector<std::array<double, 3>>& poses) {
     const std::size_t count = sweepface_mesh_vertex_count(mesh);
     std::vector<float> positions(3 * count), normals(3 * count);
@@ -137,7 +137,7 @@ TEST(FacesThatFollow, LeaveTheNamesOfTargetsWhereTheyAre) {
 
 TEST(FacesThatFollow, GoOnArcsAndCombine) {
   Rig rig = withTurns(dressed(makeRig(tee())));
-  rig.targets[1].name = "rest_open";  // goes by the product of both
+  rig.targets[1].name = "rest_open";  // driven by the product of both
   rig.turns = {{0, {3, 4, 5}, {0, 0, 1}}};
   const std::string bytes = encode(rig);
   rig = decode(bytes, "tee").value();
@@ -169,7 +169,7 @@ TEST(FacesThatFollow, GoOnArcsAndCombine) {
     EXPECT_EQ(sweepface_rig_follow(handle, 0), SWEEPFACE_BAD_ARGUMENT);  // its meshes would change
     ASSERT_EQ(sweepface_face_create(mesh, &face), SWEEPFACE_OK);
     ASSERT_EQ(sweepface_face_set_weights(face, weights, 3), SWEEPFACE_OK);
-    EXPECT_EQ(sweepface_face_weights(face)[1], 0.3);  // as it was set
+    EXPECT_EQ(sweepface_face_weights(face)[1], 0.3);  // still the weight that was set
     std::vector<float> out(3 * sweepface_mesh_vertex_count(mesh));
     ASSERT_EQ(sweepface_face_evaluate(face, out.size() / 3, {out.data(), 0}, kUnwanted),
               SWEEPFACE_OK);
@@ -276,11 +276,11 @@ TEST_F(Faces, EvaluateWithoutAllocating) {
   EXPECT_EQ(allocations.count, before);
   sweepface_face* another = nullptr;
   EXPECT_EQ(sweepface_face_create(mesh, &another), SWEEPFACE_OK);
-  EXPECT_GT(allocations.count, before);  // the counter counts
+  EXPECT_GT(allocations.count, before);  // checks that the counter works
   sweepface_face_free(another);
 }
 
-/// From bytes to vertices, as a thread of its own does it.
+/// Thread function that loads a file and plays its vertices.
 void* playBytes(void* given) {
   const std::string& bytes = *static_cast<const std::string*>(given);
   sweepface_rig* handle = nullptr;
@@ -309,7 +309,7 @@ TEST(Stacks, OfJobSystemsAreLargeEnough) {
     std::string bytes = encode(rig);
     pthread_attr_t small;
     pthread_attr_init(&small);
-    // Where the system has no smaller one.
+    // Some systems have a larger minimum.
     const auto size = std::max<std::size_t>(65536, PTHREAD_STACK_MIN);
     ASSERT_EQ(pthread_attr_setstacksize(&small, size), 0);
     pthread_t thread;
@@ -336,7 +336,7 @@ TEST(FacesWithoutTargets, HaveNoModes) {
   sweepface_rig_free(handle);
 }
 
-/// The rows of all points as the header says that a shader computes them.
+/// The rows of all points, computed as the header tells a shader to.
 std::vector<Vec3> shaderRows(sweepface_mesh* mesh, sweepface_face* face, bool tangents) {
   sweepface_shader_tables tables{};
   EXPECT_EQ(sweepface_mesh_shader_tables(mesh, tangents, &tables), SWEEPFACE_OK);
@@ -379,7 +379,7 @@ TEST_F(Faces, AreWhatAShaderMakesOfItsTables) {
   }
 }
 
-// As large as they may be, too, where a product would be beyond that.
+// Also at the largest allowed weights, whose product would exceed the limit.
 TEST_F(Faces, ThatCombineAreThoseWhoseProductIsSetByHand) {
   rig.targets[1].name = "rest_open";
   const auto played = [&](uint32_t follow, const std::array<double, 3>& weights) {
@@ -785,7 +785,7 @@ TEST_F(Faces, AreReadWithinTheMemoryThatTheyNeed) {
   EXPECT_TRUE(refuses(sweepface_rig_load_within("hello", 5, nullptr, 1000, nullptr), "a place"));
 }
 
-// A packed face, whose targets come later.
+// A packed face whose targets are loaded later.
 class FacesThatShowFirst : public Faces {
  protected:
   FacesThatShowFirst() {
@@ -829,7 +829,8 @@ TEST_F(FacesThatShowFirst, MoveOnceTheirTargetsAreLoaded) {
   EXPECT_EQ(sweepface_rig_load_targets(handle), SWEEPFACE_OK);
 }
 
-/// What targets take is counted with the neutral, so that no face shows that cannot move.
+/// The memory for the targets is counted when the neutral is read, so that no face is shown that
+/// cannot move.
 TEST_F(FacesThatShowFirst, AreReadWithinAnyMemoryWhollyOrNotAtAll) {
   const std::string bytes = encode(rig);
   bool isRead = false;

@@ -19,7 +19,7 @@ using namespace testing;
 
 constexpr double kStill = 1e-3;  // a fifth of the tolerance
 
-/// Skin and two eyeballs, of which eyeLookDown_L moves neither.
+/// Skin and two eyeballs; eyeLookDown_L moves only the skin.
 class Eyes : public ::testing::Test {
  protected:
   Eyes() {
@@ -64,7 +64,7 @@ class Eyes : public ::testing::Test {
     return most;
   }
 
-  std::size_t first = 0, second = 0;  // vertices of the eyes
+  std::size_t first = 0, second = 0;  // the first vertex of each eye
   sweepface_rig* rig = nullptr;
   std::vector<float> rest;
 };
@@ -75,7 +75,7 @@ TEST_F(Eyes, TurnRigidlyByAnglesAndByWeights) {
   ASSERT_EQ(sweepface_rig_find_target(rig, "eyeLookDown_L", &down), SWEEPFACE_OK);
   ASSERT_EQ(sweepface_rig_turn_eyes(rig, &eyes), SWEEPFACE_OK) << sweepface_message();
   EXPECT_EQ(eyes, 2U);
-  EXPECT_EQ(sweepface_rig_target_count(rig), targets);  // what turns them is not shown
+  EXPECT_EQ(sweepface_rig_target_count(rig), targets);  // the targets that turn them stay hidden
   EXPECT_EQ(sweepface_rig_turn_eyes(rig, &eyes), SWEEPFACE_BAD_ARGUMENT);
 
   const auto looked = played([](sweepface_face* face) {
@@ -120,7 +120,7 @@ TEST_F(Eyes, ThatLookAsideAreFurtherFromTheSurface) {
   });
 }
 
-// Whichever is said first.
+// Whichever call comes first: dividing the rig or turning its eyes.
 TEST_F(Eyes, StayWholeWhereARegionEndsInABall) {
   const double below[] = {3, 2.5, -1};
   sweepface_brush brush{};

@@ -12,7 +12,7 @@ namespace {
 
 using namespace testing;
 
-/// A face of three patches and eight nodes, and a brush round its first node.
+/// A face of three patches and eight nodes, and a brush around its first node.
 class DividedFaces : public ::testing::Test {
  protected:
   DividedFaces() : rig(dressed(makeRig(tee()))) {

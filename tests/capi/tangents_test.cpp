@@ -17,7 +17,7 @@ namespace {
 
 using namespace testing;
 
-/// Texture coordinates with a seam, and mirrored ones on either side.
+/// Adds texture coordinates with a seam and with mirrored triangles on either side of it.
 Rig seamed(Rig rig) {
   texture(rig, [](const Vec3& p, const Vec3& middle) {
     return middle.x > 0 ? Vec2{p.x, std::abs(p.y)} : Vec2{5 - p.x, p.y + 0.5 * p.z};
@@ -106,7 +106,7 @@ TEST_F(FacesWithTangents, AreTheLibrarysOwn) {
   }
 }
 
-// Vertices on y = 0 belong to triangles of both kinds.
+// Vertices on y = 0 belong to both mirrored and unmirrored triangles.
 TEST_F(FacesWithTangents, TellMirroredTrianglesFromOthers) {
   const auto& found = tangents().tangents;
   const float* const at = sweepface_mesh_texcoords(mesh);
@@ -162,7 +162,7 @@ TEST_F(FacesWithTangents, FillBuffersOfAnyStrideAndNoMoreThanAskedFor) {
   EXPECT_EQ(alone, all.normals);
 }
 
-// An update must not take what tangents wrote for what it wrote itself.
+// An update must not mistake values written by the tangents call for its own.
 TEST_F(FacesWithTangents, AreKeptApartFromWhatIsUpdated) {
   ASSERT_EQ(sweepface_face_set_weight(face, 0, 0.5), SWEEPFACE_OK);
   const auto expected = normals();

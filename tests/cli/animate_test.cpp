@@ -10,7 +10,7 @@ using namespace testing;
 
 class Animate : public Tool {
  protected:
-  /// What a recording says of a weight.
+  /// The values of a weight in a recording.
   std::vector<double> recorded(const std::string& file, const std::string& weight) {
     const auto clip = parseLiveLinkCsv(contents(folder / file), file);
     std::vector<double> found;
@@ -100,7 +100,7 @@ TEST_F(Animate, ABounceFallsAndComesBack) {
     const auto w = recorded("take.csv", "smile");
     ASSERT_EQ(w.size(), 101u);
     EXPECT_NEAR(w.back(), 1, 1e-6);
-    // It falls for a part of the time, and comes back by the square of what is left of its speed.
+    // It falls for part of the time, and rebounds by the square of the share of speed that is left.
     const double fall = (1 - left) / (1 + left);
     const auto landed = static_cast<std::size_t>(std::lround(100 * fall));
     EXPECT_NEAR(w[landed], 1, 0.06);
@@ -146,7 +146,7 @@ TEST_F(Animate, SaysWhereFramesCannotFollow) {
               std::string::npos)
         << r.err;
   }
-  // Also where it is a stiff region alone.
+  // Also if only a region is stiff.
   folder.file("line.json", R"({"seconds": 1,
     "regions": [{"name": "stiff", "points": [[0, 0, 0]], "whole": 1, "fade": 1, "stiffness": 10000}],
     "events": [{"at": 0, "to": {"jawOpen": 1}, "drive": "spring", "frequency": 50, "damping": 0}]})");

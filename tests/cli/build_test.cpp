@@ -100,7 +100,7 @@ TEST_F(Build, KeepsTheSourceAndItsMaterialsButForThoseThatTheTextChanged) {
   EXPECT_EQ(after.source.polygons.corners, before.source.polygons.corners);
 }
 
-// Names of materials are bytes in an OBJ file, but texts in a drawing.
+// Material names are bytes in an OBJ file, but text in a drawing.
 TEST_F(Build, ReadsWhateverWireframeWrote) {
   const std::string tooLong(5000, 'x');
   for (const std::string& name : {std::string("h\xe9"

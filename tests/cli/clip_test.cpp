@@ -88,7 +88,7 @@ TEST_F(PlayClip, PlaysATimeline) {
   EXPECT_EQ(frame(4), exported("smile=1"));
 }
 
-/// Which tells what it holds once.
+/// A pipe can be read only once.
 TEST_F(PlayClip, PlaysATimelineFromAPipe) {
   convertRig();
   write("scene.json", R"({"seconds": 1, "events": [{"at": 0, "to": {"smile": 1}}]})");
@@ -122,7 +122,7 @@ TEST_F(PlayClip, SaysWhatMatchesNothingEvenWhenQuiet) {
   EXPECT_NE(r.err.find("1 of 2 names drive no target of the face: Beard."), std::string::npos);
 }
 
-// A JSON can spell any character: colours and titles would reach the terminal.
+// JSON can spell any character: escape sequences for colours and titles would reach the terminal.
 TEST_F(PlayClip, ShowsNoControlCharactersOfNames) {
   convertRig();
   write("take.json", R"({"exportFps": 30, "facsNames": ["jawOpen", "\u001b[31mred\u007f\u009b"],
@@ -171,7 +171,7 @@ TEST_F(PlayClip, FewKeysHoldACapture) {
   EXPECT_LT(glb.size() + 10'000, contents(folder / "all.glb").size());
 }
 
-// Late, frames about a jump are closer to each other than times of keys can be.
+// Late in a clip, frames around a jump are closer together than times of keys can be.
 TEST_F(PlayClip, KeysHoldATimelineThatJumps) {
   convertRig();
   for (const double start : {0.4, 300.0})
@@ -194,7 +194,7 @@ TEST_F(PlayClip, KeysHoldATimelineThatJumps) {
     }
 }
 
-// Single precision tells thousandths of a second apart there.
+// Single precision resolves thousandths of a second there.
 TEST_F(PlayClip, SaysWhatKeysCannotHoldLateInALongTake) {
   convertRig();
   write("take.csv", "Timecode,JawOpen\n0,0\n9000,0\n9000.016,1\n9000.032,0\n9001,0\n");
@@ -235,7 +235,7 @@ TEST_F(PlayClip, PlaysAnAnimationOfAGlb) {
   EXPECT_LE(largestDistance(frame(1), exported("jawOpen=0.25,smile=0.125")), 1e-4);
   EXPECT_LE(largestDistance(frame(2), exported("jawOpen=1,smile=0.5")), 1e-6);
   EXPECT_TRUE(fails("animate face.sweep --clip move.glb --animation walk -o frames", "'walk'"));
-  // Its name tells which of several it was.
+  // Its name identifies it among several.
   ASSERT_EQ(run("animate face.sweep --clip move.glb -o again.glb").code, 0);
   EXPECT_EQ(Written(contents(folder / "again.glb")).json["animations"][0]["name"], "move newton");
 }
@@ -343,7 +343,7 @@ TEST_F(PlayClip, PlaysAPartOfAClip) {
   EXPECT_EQ(frame(1), exported("jawOpen=1"));
   EXPECT_EQ(frame(2), exported("jawOpen=0.5"));
   EXPECT_FALSE(std::filesystem::exists(folder / "frames/frame_0003.obj"));
-  // Its own frame, and one at each end; the head with them.
+  // Its own frame and one at each end, with the head.
   ASSERT_EQ(run(part + "-o part.csv").code, 0);
   const Clip clip = *parseLiveLinkCsv(contents(folder / "part.csv"), "part.csv");
   ASSERT_EQ(clip.times, (std::vector{0.0, 0.5, 1.25}));
@@ -360,7 +360,7 @@ TEST_F(PlayClip, PlaysAPartOfAClip) {
   EXPECT_NE(run(part + "-o part.glb").out.find("part.glb: 1.25 s"), std::string::npos);
 }
 
-// What is smoothed, heavy or late is so because of what comes before.
+// Smoothing, mass and delay depend on what comes before the part.
 TEST_F(PlayClip, APartIsPlayedAsInTheWhole) {
   convertRig();
   write("take.csv", "Timecode,JawOpen\n0,0\n1,1\n1.5,0.2\n2,1\n3,0\n");

@@ -34,7 +34,7 @@ TEST_F(Convert, SaysWhatItMade) {
       << r.out;
 }
 
-// A row of faces is a hundredth as wide in a target, and hardly more than the tolerance.
+// In a target, a row of faces is a hundredth as wide: hardly more than the tolerance.
 TEST_F(Convert, SaysWhereTheSurfaceFoldsOver) {
   folder.file("neutral.obj", sheet());
   folder.file("squash.obj",
@@ -52,7 +52,7 @@ TEST_F(Convert, SaysWhereTheSurfaceFoldsOver) {
       << r.out;
 }
 
-// Lashes and cards of hair: faces given from both sides.
+// Lashes and hair cards: faces modelled from both sides.
 TEST_F(Convert, TakesFacesThatLieBackToBack) {
   folder.file("card.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\nf 4 3 2 1\n");
   for (const char* options : {"", " --pack"}) {
@@ -63,7 +63,7 @@ TEST_F(Convert, TakesFacesThatLieBackToBack) {
   }
 }
 
-// Regular as they are, they take hardly any bytes; no limit on what so few may hold is in the way.
+// Such regular parts take hardly any bytes; no limit on what so few bytes may hold gets in the way.
 TEST_F(Convert, TakesMeshesOfManyParts) {
   std::string obj;
   for (int k = 0; k < 2000; ++k) {
@@ -172,7 +172,7 @@ TEST_F(Convert, SaysOfWhichMeshNothingCanBeMade) {
 
 TEST_F(Convert, ChecksItsOutputFirst) {
   makeRig();
-  // The source is not there either, so what is reported was found before reading.
+  // The source does not exist either, so these errors are found before reading.
   EXPECT_TRUE(fails("convert nothing.obj -o no/face.sweep", "there is no folder no"));
   EXPECT_TRUE(fails("convert nothing.obj -o targets", "it is a folder"));
   EXPECT_TRUE(fails("convert nothing.obj -o targets/jawOpen.obj", "must end in"));

@@ -20,7 +20,7 @@ TEST_F(Export, LeavesNothingBehindWhereItIsKilled) {
   const int probe = open(std::filesystem::path(folder / ".").c_str(), O_TMPFILE | O_WRONLY, 0600);
   if (probe < 0) GTEST_SKIP() << "no files without a name in this file system";
   close(probe);
-  // The system ends who writes a file beyond a limit.
+  // The system kills a process that writes a file beyond the limit.
   const std::string command = fmt::format(
       "cd '{}' && ulimit -f 8 && '{}' export face.sweep -o big.obj --lod 16 2>/dev/null",
       (folder / ".").string(), SWEEPFACE_TOOL);
@@ -159,7 +159,7 @@ TEST_F(Export, NamesSayWhatIsWritten) {
 TEST_F(Export, ReachesNoFileThroughAnotherNameOfAStream) {
   convertRig();
   EXPECT_TRUE(fails("export face.sweep --quiet -o /dev/fd/1", "it leads into a file; name that"));
-  for (int time : {1, 2})  // no stream, whatever folder it goes by
+  for (int time : {1, 2})  // no stream, whatever folder leads there
     EXPECT_EQ(run("export face.sweep --quiet -o /proc/self/cwd/out.obj").code, 0) << time;
 }
 
@@ -224,7 +224,7 @@ TEST_F(Export, KeepsLooseVertices) {
   EXPECT_EQ(positions.back(), (Vec3{9, 9, 9}));
 }
 
-// Of 160,000 quads.
+// A face of 160,000 quads.
 TEST_F(Export, RefusesMoreQuadsThanMemoryHolds) {
   folder.file("sheet.wire.json", R"({
     "format": "sweepface wireframe 1",
@@ -249,7 +249,7 @@ TEST_F(Export, RefusesMoreQuadsThanMemoryHolds) {
   EXPECT_FALSE(std::filesystem::exists(folder / "out"));
 }
 
-/// A file of hundreds of bytes can have a patch of any size.
+/// A file of a few hundred bytes can have a patch of any size.
 TEST_F(Export, RefusesAFaceOfMoreQuadsThanMemoryHolds) {
   Rig rig;
   rig.surface = Surface::make(onePatch(3000, 3000)).value();
@@ -265,7 +265,7 @@ TEST_F(Export, RefusesAFaceOfMoreQuadsThanMemoryHolds) {
         << command;
 }
 
-/// How often each edge is used, by its ends in their order.
+/// How often each directed edge is used.
 std::map<std::pair<Index, Index>, int> edgeUses(const Polygons& polygons) {
   std::map<std::pair<Index, Index>, int> uses;
   for (Index f = 0; f < polygons.faceCount(); ++f)
@@ -292,8 +292,8 @@ TEST_F(Export, FinerMeshesStayClosed) {
   }
 }
 
-/// A texture that is an affine image of the sheet stays one at every level, so that each corner's
-/// coordinates follow from the source's face alone.
+/// Texture coordinates that are affine on the sheet stay so at every level, so each corner's follow
+/// from the source's face alone.
 TEST_F(Export, CarriesTextureAndMaterialsOver) {
   convertRig();
   ASSERT_EQ(run("export face.sweep -o out.obj --lod 4").code, 0);
@@ -349,7 +349,7 @@ TEST_F(Export, CarriesGroupsAndFacesWithoutTextureOverWithinABudget) {
 }
 
 TEST_F(Export, HasTrianglesAtCollapsedSides) {
-  // A fan of six triangles round a raised middle.
+  // A fan of six triangles around a raised middle.
   std::string text = "v 0 0 0.5\n";
   for (int k = 0; k < 6; ++k)
     text += fmt::format("v {} {} 0\n", std::cos(1.0472 * k), std::sin(1.0472 * k));

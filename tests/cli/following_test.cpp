@@ -14,7 +14,7 @@ class Following : public Tool {
     Tool::SetUp();
     std::filesystem::create_directory(folder / "turns");
   }
-  /// A face `face.sweep` whose expressions are the neutral, changed by `places`.
+  /// Converts a face.sweep, each of whose expressions is the neutral changed by a function.
   void convertWith(const std::map<std::string, std::function<Vec3(const Vec3&)>>& expressions) {
     EXPECT_TRUE(writeFile(folder / "neutral.obj", sheet()));
     for (const auto& [name, place] : expressions)
@@ -64,7 +64,7 @@ TEST_F(Following, AnimationsTakeArcsAlong) {
   EXPECT_NE(r.err.find("cannot hold newton exactly"), std::string::npos) << r.err;
 }
 
-/// A face `face.sweep` of two eyeballs before a plane, of which eyeLookDownLeft turns the left one.
+/// A face.sweep of two eyeballs in front of a plane; eyeLookDownLeft turns the left one.
 class Eyeballs : public Following {
  protected:
   void SetUp() override {
@@ -86,7 +86,7 @@ class Eyeballs : public Following {
   }
 };
 
-/// Eyes that turn take all that a target moved, so that no arc is left to it.
+/// Eyes that turn take over all the motion of a target, which leaves no arc to it.
 TEST_F(Eyeballs, LeaveNoEmptyArcs) {
   const auto hasArc = [&](const std::string& options) {
     EXPECT_EQ(run("export face.sweep -o out.glb " + options).code, 0);
@@ -94,7 +94,7 @@ TEST_F(Eyeballs, LeaveNoEmptyArcs) {
   };
   EXPECT_TRUE(hasArc("--arcs on"));
   EXPECT_FALSE(hasArc("--arcs on --eyes on"));
-  // What it wrote is no source for it.
+  // Its own output is no source for it.
   ASSERT_EQ(run("convert out.glb -o again.sweep --tolerance 0.001 --quiet").code, 0);
   const Outcome again = run("export again.sweep --eyes on -o again.glb");
   EXPECT_EQ(again.code, 0);
@@ -184,11 +184,11 @@ TEST_F(Following, TheFileMayTellWhatTurns) {
   const auto told = exported("--weights jawOpen=0.5 --arcs on");
   EXPECT_LE(furthest(found, told), 1e-4);
   EXPECT_GT(furthest(told, exported("--weights jawOpen=0.5")), 0.1);
-  // The way through a text finds them again.
+  // A round trip through text finds them again.
   ASSERT_EQ(run("wireframe face.sweep -o face.wire.json").code, 0);
   ASSERT_EQ(run("build face.wire.json -o again.sweep --source face.sweep").code, 0);
   EXPECT_NE(run("info again.sweep").out.find("turns"), std::string::npos);
-  // Plain files of the same face are smaller by what it takes to tell.
+  // A plain file of the same face is smaller only by the description of the turns.
   const std::size_t size = contents(folder / "face.sweep").size();
   ASSERT_EQ(run("convert neutral.obj turns -o plain.sweep --tolerance 0.001").code, 0);
   EXPECT_LE(size - contents(folder / "plain.sweep").size(), 12 + 1 + 25u);

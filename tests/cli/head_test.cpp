@@ -50,7 +50,7 @@ TEST_F(HeadAndEyes, TheHeadIsOfNoRegion) {
   const std::string command = "animate face.sweep --clip take.csv --head on --pivot 1,2,3 ";
   ASSERT_EQ(run(command + "--fps 60 -o plain").code, 0);
   ASSERT_EQ(run(command + "--fps 60 --regions late.json -o late").code, 0);
-  // The jaw has not set out yet, the head turns.
+  // The jaw has not started yet; the head is turning.
   ASSERT_EQ(run("export face.sweep -o rest.obj").code, 0);
   const Vec3 pivot{1, 2, 3};
   const auto rest = mesh("rest.obj").positions, late = mesh("late/frame_0006.obj").positions;
@@ -76,7 +76,7 @@ TEST_F(HeadAndEyes, TheHeadIsANodeOfAGlb) {
   EXPECT_EQ(channels[1]["target"]["node"], head);
 }
 
-// Angles that change together do not turn about one axis.
+// Angles that change together do not add up to a rotation about one axis.
 TEST_F(HeadAndEyes, TheHeadTurnsBetweenFramesOfAGlb) {
   convertRig();
   folder.file("take.csv",

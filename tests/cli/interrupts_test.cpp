@@ -8,7 +8,7 @@ namespace sweepface::cli {
 namespace {
 
 [[noreturn]] void workWithoutAsking() {
-  std::signal(SIGINT, SIG_DFL);  // jobs in the background ignore it
+  std::signal(SIGINT, SIG_DFL);  // background jobs ignore it
   catchInterrupts(Patience::twoSeconds);
   std::raise(SIGINT);
   if (!interrupted) ::_exit(1);

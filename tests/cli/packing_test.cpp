@@ -110,7 +110,7 @@ TEST_F(Pack, LeavesPartsOutOfAFace) {
   ASSERT_EQ(run("pack face.sweep -o bare.sweep --strip order,uv").code, 0);
   EXPECT_EQ(nlohmann::json::parse(run("info small.sweep --json").out)["bareBytes"],
             contents(folder / "bare.sweep").size());
-  // And again, of a face without an order.
+  // The same for a face without a vertex order.
   ASSERT_EQ(run("pack bare.sweep -o again.sweep --tolerance 0.1").code, 0);
   EXPECT_LT(contents(folder / "again.sweep").size(), contents(folder / "bare.sweep").size());
 }
@@ -187,11 +187,11 @@ TEST_F(Pack, FindsTheToleranceThatFitsIntoSoManyBytes) {
   }
   const Outcome r = run("convert neutral.obj targets -o face.sweep --max-bytes 100");
   EXPECT_EQ(r.code, 1);
-  // What does not depend on the tolerance is too much: two tries tell.
+  // The part that does not depend on the tolerance is already too large, as two tries show.
   EXPECT_NE(r.err.find("does not fit into 100 bytes; the smallest of 2 tries takes "),
             std::string::npos)
       << r.err;
-  // Nothing turns, so that nothing has to be left for it.
+  // Nothing turns, so no room has to be left for it.
   const auto sizeWith = [&](const std::string& more) {
     const Outcome o =
         run("convert neutral.obj targets -o face.sweep --json --max-bytes 900" + more);

@@ -8,7 +8,7 @@ namespace {
 using namespace testing;
 using Page = Tool;
 
-/// A browser has nothing to complain about.
+/// A browser reports no errors.
 TEST_F(Page, OpensInABrowser) {
   if (std::system("command -v chromium >/dev/null") != 0) GTEST_SKIP() << "there is no chromium";
   convertRig();
@@ -41,7 +41,7 @@ TEST_F(Page, IsWrittenWholeAndFollowsItsOptions) {
   EXPECT_NE(html.find("There is no program 'not-here'"), std::string::npos);
 }
 
-// Eight times as much would be more than the whole mesh.
+// Eight times the tolerance would be more than the whole mesh.
 TEST_F(Page, ComparesACoarseFaceWithWhatThereCanBe) {
   makeRig();
   ASSERT_EQ(run("convert neutral.obj targets -o face.sweep --tolerance 2").code, 0);
@@ -50,7 +50,7 @@ TEST_F(Page, ComparesACoarseFaceWithWhatThereCanBe) {
   EXPECT_NE(contents(folder / "report.html").find("<td>4</td>"), std::string::npos);
 }
 
-// Before it takes its time: here it ends there, as the targets are missing.
+// It warns before the long part, where it stops here since the targets are missing.
 TEST_F(Page, WarnsOfMeshesThatTheFaceWasHardlyMadeFrom) {
   convertRig();
   folder.file("far.obj", sheet([](Vec3 p) { return p + Vec3{0, 0, 9}; }));

@@ -56,7 +56,7 @@ TEST_F(Plot, ShowsWhatIsShort) {
   EXPECT_GT(points("500 --damping 0.01"), 5 * points("2 --damping 0.01"));
 }
 
-/// The points of the first panel's curve between (0, 0) and (seconds, 1) in its picture.
+/// The points of the first panel's curve, whose axes go from (0, 0) to (seconds, highest).
 std::vector<Vec2> positionsIn(const std::string& svg, double seconds, double highest) {
   std::istringstream points(svg.substr(svg.find("points=\"") + 8));
   std::vector<Vec2> way;
@@ -79,7 +79,7 @@ TEST_F(Plot, FollowsABounceHoweverLively) {
       const Vec2 b = *after, a = after == way.begin() ? b : *(after - 1);
       return b.x > a.x ? std::lerp(a.y, b.y, (time - a.x) / (b.x - a.x)) : b.y;
     };
-    // A pixel is a two-hundredth of a second, in which the liveliest goes a quarter of its way.
+    // A pixel is 1/200 s, in which the liveliest bounce goes a quarter of its way.
     double worst = 0;
     for (double time = 0.001; time < 1.99; time += 0.0037) {
       double miss = 1;
@@ -91,8 +91,8 @@ TEST_F(Plot, FollowsABounceHoweverLively) {
   }
 }
 
-// A bounce is at rest in the end, which would be a line down the edge of the picture, or none as
-// the time rounds.
+// A bounce is at rest in the end. That would draw a line down the edge of the picture, or none,
+// depending on how the time rounds.
 TEST_F(Plot, EndsABounceInTheAir) {
   convertRig();
   for (const char* seconds : {"0.7", "1", "3"}) {
@@ -152,7 +152,7 @@ TEST_F(Plot, SaysWhatAClipDoesNotDrive) {
   EXPECT_NE(r.out.find("plot.svg: 1 curve\n"), std::string::npos) << r.out;
 }
 
-// Nothing is known of what comes before and after it.
+// Nothing is known about what comes before and after a clip.
 TEST_F(Plot, ClipsEndInMotion) {
   convertRig();
   ASSERT_EQ(run("animate face.sweep --to jawOpen=1 -o take.csv --quiet").code, 0);
@@ -227,7 +227,7 @@ TEST_F(Plot, ShowsWhatEveryRegionOfATimelineDoes) {
   EXPECT_NE(weights.find("jawOpen@rest"), std::string::npos);
   EXPECT_NE(weights.find("jawOpen@side"), std::string::npos);
   EXPECT_EQ(countOf(plotted("--clip line.json --weight jawOpen@side"), "<polyline"), 4u);
-  // A vertex of the region goes as it does where the whole face moves so.
+  // A vertex of the region moves as if the whole face did so.
   folder.file("everywhere.json", R"({"seconds": 1,
     "events": [{"at": 0, "to": {"smile": 0.25, "jawOpen": 1}}]})");
   EXPECT_EQ(plotted("--clip line.json --vertex 6"), plotted("--clip everywhere.json --vertex 6"));

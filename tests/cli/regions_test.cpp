@@ -41,7 +41,7 @@ TEST_F(RegionsOnTheFace, AHeavySideTakesLonger) {
   const auto first = frame(0), open = mesh("open.obj").positions;
   EXPECT_NE(r.out.find("2 s"), std::string::npos) << r.out;  // √4 times as long
   EXPECT_EQ(frame(20), open);
-  // After half of the two seconds the light side has arrived, the heavy one has gone a quarter.
+  // After one of the two seconds, the light side has arrived, and the heavy one is a quarter there.
   const auto half = frame(10);
   const std::size_t left = 1, right = 6;  // x = 1 and x = 6 in the first row
   EXPECT_NEAR(way(first, half, left), way(first, open, left), 1e-9);
@@ -68,7 +68,7 @@ TEST_F(RegionsOnTheFace, AGlbHoldsPartsByName) {
   EXPECT_NE(glb.find(R"("jawOpen","smile","jawOpen@rest","jawOpen@side")"), std::string::npos);
 }
 
-// The frames of a late side lie between those of the rest, which loses none of its own.
+// The frames of a late side lie between those of the rest, which keeps all of its own.
 TEST_F(RegionsOnTheFace, LatePartsOfAClipLeaveTheRestItsFrames) {
   convertRig();
   folder.file("late.json", R"({"regions": [{"name": "side", "points": [[6, 0, 0]], "fade": 3,

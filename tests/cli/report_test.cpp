@@ -264,7 +264,7 @@ TEST_F(Usage, DoesNotMixTheReportWithWhatItMakes) {
     const std::string command =
         fmt::format("cd '{}' && '{}' export face.sweep -o {} 2>.err | cat >.out",
                     (folder / "").string(), SWEEPFACE_TOOL, output);
-    EXPECT_EQ(std::system(command.c_str()), 0);  // cat's
+    EXPECT_EQ(std::system(command.c_str()), 0);  // of cat
     return contents(folder / ".out");
   };
   EXPECT_EQ(exportTo("/dev/stdout"), "");
@@ -333,7 +333,7 @@ TEST_F(Usage, LeavesNothingOfAReportOnInterrupt) {
   ASSERT_GE(child, 0);
   while (!std::filesystem::exists(at("runs")) && waitpid(child, nullptr, WNOHANG) == 0)
     usleep(1000);
-  usleep(100'000);  // no signal reaches a thread that still starts a program
+  usleep(100'000);  // a thread that is still starting a program gets no signal
   kill(child, SIGINT);
   EXPECT_EQ(codeOf(child), 130);
   EXPECT_EQ(contents(at(".err")), "sweepface: Interrupted; nothing was written.\n");
@@ -343,7 +343,7 @@ TEST_F(Usage, LeavesNothingOfAReportOnInterrupt) {
     EXPECT_EQ(left.path().filename(), ".keep");
 }
 
-// As CLI11 does by itself.
+// As CLI11 would by default.
 TEST_F(Usage, DoesNotTakeALeadingZeroForOctal) {
   convertRig();
   ASSERT_EQ(run("export face.sweep -o a.obj --lod 010").code, 0);

@@ -85,7 +85,7 @@ inline std::string cube(int n) {
   return vertices + faces;
 }
 
-/// Runs the tool in a folder of its own, which has a small rig.
+/// Runs the tool in a folder of its own with a small rig.
 class Tool : public ::testing::Test {
  protected:
   /// Runs a command line with relative paths in the test's folder.
@@ -97,7 +97,7 @@ class Tool : public ::testing::Test {
             contents(folder / ".err")};
   }
 
-  /// Starts the tool by itself, with paths as they are; its errors go to .err in the folder.
+  /// Starts the tool without a shell, with paths as they are; its errors go to .err in the folder.
   pid_t start(const std::vector<std::string>& arguments) {
     std::vector<char*> words{const_cast<char*>(SWEEPFACE_TOOL)};
     for (const std::string& word : arguments) words.push_back(const_cast<char*>(word.c_str()));
@@ -111,7 +111,7 @@ class Tool : public ::testing::Test {
     _exit(127);
   }
 
-  /// How a started tool ended, or -1.
+  /// The exit code of a started tool, or -1 if it did not exit by itself.
   static int codeOf(pid_t child) {
     int status = 0;
     waitpid(child, &status, 0);
@@ -124,7 +124,7 @@ class Tool : public ::testing::Test {
     folder.file("targets/smile.obj", sheet(smiling));
   }
 
-  /// face.sweep of the rig.
+  /// Converts the rig to face.sweep.
   void convertRig(const std::string& more = "") {
     makeRig();
     const Outcome made = run("convert neutral.obj targets -o face.sweep --tolerance 0.01 " + more);
@@ -137,7 +137,8 @@ class Tool : public ::testing::Test {
     return read ? *read : PolygonMesh{};
   }
 
-  /// One sentence on the error stream, a non-zero exit, and nothing on the output stream.
+  /// Whether the tool exits with `code`, one sentence on the error stream that contains `part`, and
+  /// nothing on the output stream.
   ::testing::AssertionResult fails(const std::string& arguments, std::string_view part,
                                    int code = 1) {
     const Outcome r = run(arguments);

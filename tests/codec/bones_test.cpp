@@ -15,7 +15,7 @@ using namespace sweepface::testing;
 using codec::Bones;
 using Carry = Packing::Carry;
 
-// A sheet that hangs on one bone as a whole.
+// A sheet that one bone carries as a whole.
 class ASheetOnABone : public ::testing::Test {
  protected:
   ASheetOnABone() {
@@ -45,7 +45,7 @@ TEST_F(ASheetOnABone, ShiftsPositionsInSixteenthsOfTheStepAndLeavesDerivatives) 
 
 TEST_F(ASheetOnABone, MovesEveryVectorByOneAffineMap) {
   const auto moves = carried({0, {{{3, 5, -7}, {100, 20, 0}, {-30, 0, 4}, {0, 9, -80}}}});
-  // Differences of positions go the way of derivatives: the map's linear part.
+  // Derivatives follow the map's linear part alone, as differences of positions do.
   Vec3 least = neutral[0], most = neutral[0];
   for (Index v = 0; v < surface.storedCount(); ++v)
     if (isPosition(v)) {
@@ -119,7 +119,7 @@ std::size_t bytesOfTargets(const Rig& rig) {
 }
 
 TEST(BonesOfAFile, MakeATurnOfAPartCheap) {
-  // All of a sheet turns by a quarter about its middle.
+  // The whole sheet makes a quarter turn about its centre.
   Rig rig = makeRig(sheet(8));
   for (Target& target : rig.targets) target.difference.assign(rig.neutral.size(), {});
   rig = packed(std::move(rig));
@@ -166,7 +166,7 @@ TEST(BonesOfAFile, AreMadeSound) {
   expectEqual(*back, rig);
   EXPECT_EQ(encode(*back), bytes);
   EXPECT_EQ(back->packing.poses[1].carries, (std::vector<Carry>{{1, {}}}));
-  rig.packing.bones.pop_back();  // not one for each vector
+  rig.packing.bones.pop_back();  // no longer one for each vector
   EXPECT_TRUE(decode(encode(rig), "a.sweep").value().packing.bones.empty());
 }
 

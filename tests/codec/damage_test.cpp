@@ -27,7 +27,7 @@ void expectRefused(const std::string& bytes, std::string_view because) {
   EXPECT_NE(rig.error().message.find(because), std::string::npos) << rig.error().message;
 }
 
-/// Everything can be asked of the rig that can be asked of any.
+/// The rig can be evaluated and encoded like any other.
 void expectSound(const Rig& rig) {
   const Weights weights(rig.targets.size(), 1.0);
   const Tessellation grid(rig.surface, 1);
@@ -55,7 +55,7 @@ TEST(Damage, EveryFlippedBitIsRefused) {
     }
 }
 
-// Flips every `stride`-th bit of all payloads.
+// Flips every `stride`-th bit of all payloads, one at a time.
 void expectSoundOrNone(const std::vector<std::string>& files, std::size_t stride) {
   std::size_t accepted = 0, refused = 0;
   for (const std::string& bytes : files) {
@@ -69,8 +69,8 @@ void expectSoundOrNone(const std::vector<std::string>& files, std::size_t stride
         chunk.payload[k / 8] ^= static_cast<char>(1 << k % 8);
       }
   }
-  EXPECT_GT(accepted, 1000u);  // bits of coordinates
-  EXPECT_GT(refused, 1000u);   // bits of counts and indices
+  EXPECT_GT(accepted, 1000u);  // such as bits of coordinates
+  EXPECT_GT(refused, 1000u);   // such as bits of counts and indices
 }
 
 TEST(Damage, AFlippedBitUnderAMatchingChecksumLeavesASoundRigOrNone) {
@@ -94,7 +94,7 @@ TEST(Damage, EveryTruncationOfAPayloadIsRefused) {
   }
 }
 
-// Missing bytes of a range coder read as zeros, so that these may still say something.
+// A range decoder reads missing bytes as zeros, so a truncated payload may still be valid.
 TEST(Damage, ATruncatedRangeCodedPayloadLeavesASoundRigOrNone) {
   for (const Rig& rig : someRigs()) {
     auto chunks = takeApart(encode(rig));
@@ -176,7 +176,7 @@ TEST(Damage, ChunksThatAreMissingTwiceThereOrOutOfOrderAreRefused) {
     }
     changed = chunks;
     changed.erase(changed.begin() + static_cast<std::ptrdiff_t>(k));
-    if (chunks[k].code == "texc" || chunks[k].code == "quad") continue;  // nothing builds on them
+    if (chunks[k].code == "texc" || chunks[k].code == "quad") continue;  // nothing depends on them
     EXPECT_FALSE(decode(putTogether(changed), "a.sweep")) << "without: " << chunks[k].code;
   }
 }
@@ -263,7 +263,7 @@ TEST(Damage, NamesMustBeTextsAndOneForEachThing) {
 TEST(Damage, BlocksMustBeOfAKnownFormAndEndWhereTheyEnd) {
   const std::string bytes = encodeVersion1(dressed(makeRig(onePatch(1, 1))));
   const auto loose = [&](const std::string& block) { return withPayload(bytes, "loos", block); };
-  EXPECT_TRUE(decode(loose({1, 0}), "a.sweep"));  // two of zeros, by a mask
+  EXPECT_TRUE(decode(loose({1, 0}), "a.sweep"));  // two zero vectors, as a mask
   expectRefused(loose({1, 4}), "a mask has bits beyond its end");
   expectRefused(loose('\x8' + std::string(24, '\0')),
                 "vectors are held in a form this program does not know");

@@ -9,11 +9,11 @@
 #include "sweepface/eval.hpp"
 #include "sweepface/rig.hpp"
 
-// One number for all that a decoder tells: wherever a face is read the same, bit for bit, it is the
-// same. Needs no more than what plays, so that WebAssembly can be asked as well.
+// One number for everything that a decoder returns: it is the same wherever a face is read the
+// same, bit for bit. Uses only what playback needs, so that it works in WebAssembly as well.
 namespace sweepface::testing {
 
-/// FNV-1a (Fowler, Noll and Vo) over numbers of eight bytes, the lowest byte first.
+/// FNV-1a (Fowler, Noll and Vo) over eight-byte numbers, lowest byte first.
 class Digest {
  public:
   std::uint64_t value() const { return value_; }
@@ -77,7 +77,7 @@ class Digest {
   std::uint64_t value_ = 0xcbf29ce484222325;
 };
 
-/// Of everything that was read.
+/// The digest of everything that was read.
 inline std::uint64_t digestOf(const Rig& rig) {
   Digest digest;
   digest.add(rig.surface.wireframe()), digest.add(rig.neutral), digest.add(rig.targets);
@@ -86,7 +86,8 @@ inline std::uint64_t digestOf(const Rig& rig) {
   return digest.value();
 }
 
-/// Of the surface in an expression: positions and normals in double precision, two to an edge.
+/// The digest of the surface in one expression: positions and normals in double precision, at level
+/// 2.
 inline std::uint64_t digestOfSurface(const Rig& rig) {
   Weights weights;
   for (std::size_t k = 0; k < rig.targets.size(); ++k)
@@ -98,14 +99,14 @@ inline std::uint64_t digestOfSurface(const Rig& rig) {
   return digest.value();
 }
 
-/// As sixteen hexadecimal digits.
+/// The number as sixteen hexadecimal digits.
 inline std::string hexadecimal(std::uint64_t number) {
   std::string digits;
   for (int k = 16; k-- > 0;) digits += "0123456789abcdef"[number >> 4 * k & 15];
   return digits;
 }
 
-/// Both digests of a face, with a space between.
+/// Both digests of a face, separated by a space.
 inline std::string digestsOf(const Rig& rig) {
   return hexadecimal(digestOf(rig)) + ' ' + hexadecimal(digestOfSurface(rig));
 }

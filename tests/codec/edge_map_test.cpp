@@ -21,7 +21,7 @@ TEST(EdgeMap, FindsTheFirstOfEveryDirectedEdge) {
 
 TEST(EdgeMap, IsEmptyWithoutEdges) { EXPECT_EQ(EdgeMap({}, 1).find(0, 0), -1); }
 
-// Square time would take an hour.
+// Quadratic time would take an hour.
 TEST(EdgeMap, IsQuickWhereAllEdgesBeginAtOneVertex) {
   constexpr Index kMany = 1'000'000;
   std::vector<EdgeMap::Edge> edges;

@@ -11,7 +11,7 @@
 namespace sweepface::codec {
 namespace {
 
-// What the header says, word for word.
+// A literal implementation of what the header says.
 std::vector<Index> naive(Index centre, std::vector<FanWalk::Step> left) {
   std::vector<Index> neighbours;
   const auto meet = [&](Index v) {
@@ -51,7 +51,8 @@ TEST(FanWalk, GoesAroundAsItSays) {
   }
 }
 
-// A drawing or a file of a few bytes may have one; searching its corners one by one took hours.
+// A drawing or a file of a few bytes may have such a pole; a linear search of its corners took
+// hours.
 TEST(FanWalk, APoleMayHaveTensOfThousandsOfNeighbours) {
   constexpr Index kEdges = 60'000;
   Wireframe wireframe = testing::slice();

@@ -8,10 +8,10 @@
 
 #include "codec/chunks.hpp"
 
-// Files taken apart and put together again.
+// Splits files into chunks and puts them together again.
 namespace sweepface::testing {
 
-/// A file that is kept beside the tests.
+/// The content of a file stored beside the tests.
 inline std::string goldenFile(const std::string& name) {
   std::ifstream file(SWEEPFACE_SOURCE_DIR "/tests/codec/" + name, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
@@ -21,7 +21,7 @@ struct FileChunk {
   std::string code, payload;
 };
 
-/// The chunks of a file, and what stands before them.
+/// The chunks of a file, and the header before them.
 struct TakenApart : std::vector<FileChunk> {
   std::string header;
 };
@@ -36,7 +36,7 @@ inline TakenApart takeApart(const std::string& bytes) {
   return chunks;
 }
 
-/// With checksums that match.
+/// A file made of the chunks, with matching checksums.
 inline std::string putTogether(const TakenApart& chunks) {
   codec::Writer out;
   out.raw(chunks.header);
@@ -51,7 +51,7 @@ inline FileChunk& chunkOf(TakenApart& chunks, std::string_view code) {
   return chunks.front();
 }
 
-/// The file with the payload of its first chunk of a kind replaced.
+/// The file with the payload of its first chunk with this code replaced.
 inline std::string withPayload(const std::string& bytes, std::string_view code,
                                std::string payload) {
   auto chunks = takeApart(bytes);
@@ -59,7 +59,7 @@ inline std::string withPayload(const std::string& bytes, std::string_view code,
   return putTogether(chunks);
 }
 
-/// The payload that `write` puts into a Writer.
+/// The payload that `write` writes.
 template <typename Write>
 std::string payloadOf(Write write) {
   codec::Writer out;

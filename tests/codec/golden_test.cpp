@@ -12,7 +12,8 @@ namespace {
 
 using namespace sweepface::testing;
 
-// A file of each version with a chunk of nearly every kind. It must be read like this for ever.
+// One file of each version, with a chunk of nearly every kind. They must be read like this for
+// ever.
 std::string goldenVersion1() { return goldenFile("golden_version1.sweep"); }
 std::string goldenVersion2() { return goldenFile("golden_version2.sweep"); }
 
@@ -44,7 +45,8 @@ TEST(Golden, OfVersion2IsWrittenByteForByte) {
   EXPECT_EQ(encode(decode(goldenVersion2(), "golden.sweep").value()), goldenVersion2());
 }
 
-// Every compiler reads the same; web/test/identity.test.js asks WebAssembly for the same numbers.
+// The digests must not depend on the compiler; web/test/identity.test.js expects the same of
+// WebAssembly.
 // The sample is what `convert --pack --tolerance 0.3 --strip order,uv` makes of the sample face
 // with six expressions: predicted from its neutral, mirrored, with T-nodes and curved ribbons.
 TEST(Golden, DigestsAreTheSameEverywhere) {
@@ -59,7 +61,7 @@ TEST(Golden, DigestsAreTheSameEverywhere) {
   EXPECT_EQ(files, 3);
 }
 
-// What turns is told by a chunk that older programs skip: all before and behind it is as it was.
+// Turns are stored in a chunk that older programs skip; nothing before or after it changes.
 TEST(Golden, TurnsAreOneChunkMore) {
   const std::string with = encode(withTurns(everything())), without = encode(everything());
   const std::size_t end = without.rfind("END ");

@@ -20,7 +20,7 @@ using namespace sweepface::testing;
 
 constexpr std::uint64_t kTooMany = std::uint64_t{1} << 31;
 
-// A count of `kTooMany` in the first payload of a kind, after `before`.
+// Replaces the first payload with this code by what `before` writes and a count of `kTooMany`.
 void expectRefusedInLittleMemory(const std::string& bytes, std::string_view code, auto before) {
   const std::string changed = withPayload(bytes, code, payloadOf([&](codec::Writer& out) {
                                             before(out);
@@ -60,7 +60,7 @@ TEST(Hostile, LengthsOfChunksBeyondTheFileAreRefused) {
   EXPECT_LT(allocations.largest, 10'000u);
 }
 
-// The least limit under which a file is read.
+// About the smallest memory limit under which a file is read.
 std::size_t memoryFor(const std::string& bytes) {
   std::size_t little = 1, enough = std::size_t{1} << 32;
   while (enough > little + little / 16) {
@@ -70,7 +70,7 @@ std::size_t memoryFor(const std::string& bytes) {
   return enough;
 }
 
-// Many targets that leave many loose vertices where they are: hardly a byte each.
+// Many targets that move none of many loose vertices: hardly a byte each.
 Rig withManyStillTargets() {
   Rig rig = makeRig(onePatch(1, 1));
   rig.source.loose.resize(3000);
@@ -98,7 +98,7 @@ TEST(Hostile, WhatIsReadTakesNoMoreMemoryThanItIsAllowed) {
   }
 }
 
-// Poses are read one after the other: what is read of one is given back before the next.
+// Poses are read one by one; what reading one takes is freed before the next.
 TEST(Hostile, ManyTargetsAsTheyAreTakeLittleMoreThanTheirRig) {
   Rig rig = makeRig(sheet(8));
   Target exact{"", rig.neutral, rig.source.loose};
@@ -125,7 +125,7 @@ TEST(Hostile, VectorsThatWeightsTakeBeyondAFloatAreRefused) {
   EXPECT_NE(refused.error().message.find("too large"), std::string::npos);
 }
 
-// What announces so many targets and loose vertices.
+// The payload that announces these numbers of targets and loose vertices.
 std::string baseOf(std::size_t targets, std::size_t loose = 0) {
   return payloadOf([&](codec::Writer& out) {
     for (int k = 0; k < 3; ++k) out.f64(1);
@@ -142,7 +142,7 @@ TEST(Hostile, LooseVerticesAreNoMoreThanTheFileCanHold) {
   EXPECT_LT(allocations.largest, 1'000'000u);
 }
 
-// Zeros take a bit each, a scene and an order a byte a letter and a vertex.
+// Zeros take a bit each, letters of a scene and empty names a byte each, turns 13 bytes.
 TEST(Hostile, ChunksThatHoldThingsAsTheyAreTakeNoMoreMemoryThanAllowed) {
   constexpr std::size_t kLimit = 4 << 20, kSome = 8'000'000;
   Rig rig = withScene(dressed(makeRig(onePatch(1, 1))));
@@ -176,7 +176,7 @@ TEST(Hostile, ChunksThatHoldThingsAsTheyAreTakeNoMoreMemoryThanAllowed) {
   });
 }
 
-// A face has three corners at least, whatever the number that is told instead.
+// A face has at least three corners: files store the size minus 3, which wraps for smaller sizes.
 TEST(Hostile, FacesOfTwoCornersAreRefused) {
   const std::string bytes = encode(packed(everything()));
   for (const std::uint32_t size : {0u, 1u, 2u}) {
@@ -217,7 +217,7 @@ TEST(Hostile, CornersAndNamesOfFacesThatThereAreNotAreRefused) {
     out.bit(11, 1, 0, false);
     out.number(15, 0, 0, 0);
     for (std::uint32_t k = 0; k < 3; ++k) out.signedNumber(17, k, 0, 0);
-    out.number(0, 2, 0, 1);  // one material, without letters
+    out.number(0, 2, 0, 1);  // one material, with an empty name
     out.number(0, 3, 0, 0);
     out.bit(21, 8, 0, true);
     out.bit(21, 0, 0, false);
@@ -226,7 +226,7 @@ TEST(Hostile, CornersAndNamesOfFacesThatThereAreNotAreRefused) {
   EXPECT_NE(name.find("the name of a face is out of range"), std::string::npos) << name;
 }
 
-// What bones carry takes room and time, where it is always the same hardly any bytes.
+// What bones carry takes memory and time, but hardly any bytes if it is always the same.
 TEST(Hostile, WhatBonesCarryInAFewBytesIsRefused) {
   Rig rig = makeRig(onePatch(1, 1));
   rig.targets.assign(1, {"a", std::vector<Vec3>(rig.neutral.size()), {}});
@@ -313,8 +313,7 @@ TEST(Hostile, ManyNamesInAFewBytesAreRefused) {
   EXPECT_LT(allocations.most - before, kLimit);
 }
 
-// Large coefficients that are all alike take hardly any bytes either, but as long to read as
-// others.
+// Large coefficients that are all alike take hardly any bytes, but as long to read as others.
 TEST(Hostile, LargeNumbersInAFewBytesAreRefused) {
   constexpr std::int32_t kLarge = (1 << 26) - 1;
   Rig rig = makeRig(sheet(8));
@@ -400,7 +399,7 @@ TEST(Hostile, WireframesThatCannotBeEvaluatedAreRefused) {
   unused.arcs.push_back(unused.arcs[0]);
   EXPECT_NE(refusalOf(unused).find("an arc bounds no patch"), std::string::npos);
 
-  // Between two nodes that other patches surround as well.
+  // Collapses an arc between two inner nodes, which other patches surround as well.
   Wireframe torn = sheet(4);
   const auto isInside = [&](const Arc& a) {
     const Connectivity c = Connectivity::make(torn).value();
@@ -416,7 +415,7 @@ TEST(Hostile, WireframesThatCannotBeEvaluatedAreRefused) {
 
 TEST(Hostile, WhatTheSurfaceRefusesIsPassedOn) {
   auto chunks = takeApart(encodeVersion1(makeRig(onePatch(1, 1))));
-  // The last byte is a step from half-arc to half-arc.
+  // The last byte is the difference between two successive half-arcs.
   std::string& wire = chunkOf(chunks, "WIRE").payload;
   wire.back() = 4;
   const auto rig = decode(putTogether(chunks), "a.sweep");
@@ -426,7 +425,7 @@ TEST(Hostile, WhatTheSurfaceRefusesIsPassedOn) {
       << rig.error().message;
 }
 
-// So many patches around one node, each glued to the one before.
+// `patches` patches around one node, each joined to the one before.
 Wireframe fanOf(Index patches) {
   Wireframe w;
   const auto node = [&] {

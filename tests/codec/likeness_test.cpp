@@ -14,7 +14,8 @@ using codec::Coefficients;
 using codec::Lattice;
 using codec::Likenesses;
 
-/// Coefficients of which every `one` in so many is not zero: which ones, and what they are.
+/// Coefficients of which about one in `one` is not zero. `where` and `values` are the seeds for
+/// which ones these are and for their values.
 Coefficients sparse(std::size_t count, int one, unsigned where, unsigned values) {
   std::mt19937 place(where), value(values);
   Coefficients q(count);
@@ -61,7 +62,7 @@ TEST_F(AFewPoses, MayMoveTheOtherWay) {
   EXPECT_EQ(expected, poses[2]);
 }
 
-// Eight targets, each moving what `where` says.
+// The file of eight targets, read back as a check. Target k moves the vectors with seed `where(k)`.
 std::string fileOf(Rig rig, const Packing& packing,
                    const std::function<unsigned(unsigned)>& where) {
   rig.packing = packing;

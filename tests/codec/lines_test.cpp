@@ -13,7 +13,7 @@ using namespace sweepface::testing;
 using codec::Lines;
 using codec::NearSites;
 
-// 16 x 16 quads: each node is a site, numbered as the nodes are.
+// 16 x 16 quads: every node is a site of the same number.
 class LinesOfASheet : public ::testing::Test {
  protected:
   static constexpr Index kRow = 17;
@@ -52,7 +52,7 @@ TEST_F(LinesOfASheet, EndAtTheBoundary) {
   EXPECT_LT(lines.walk(right(15, 8)).back, 0);
 }
 
-// A tube of so many patches, one after the other around it.
+// A tube: a ring of `around` patches.
 Wireframe tube(Index around) {
   Wireframe w;
   w.points = 2 * around;

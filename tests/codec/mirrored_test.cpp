@@ -15,7 +15,7 @@ namespace {
 using namespace codec;
 using namespace sweepface::testing;
 
-// A face that is the same on both sides, without its source's order.
+// A symmetric face, without its source's vertex order.
 const Rig& face() {
   static const Rig rig = decode(goldenFile("golden_sample.sweep"), "sample").value();
   return rig;
@@ -77,7 +77,7 @@ TEST(Mirrored, OfAWireframeTheSecondHalfCostsLittle) {
   EXPECT_LT(mirrored, 0.9 * bytes());
 }
 
-// Everything on one side in any order, and then their images in the same.
+// The items on one side in random order, then their images in the same order.
 std::vector<Index> oneSideAndThenTheOther(std::span<const Index> images) {
   std::vector<Index> order(images.size());
   std::iota(order.begin(), order.end(), 0);

@@ -98,7 +98,7 @@ TEST(Names, TooLongOnesAreRefused) {
   EXPECT_FALSE(in.ok());
 }
 
-// A letter that comes as it did before takes no bytes to speak of.
+// Letters that repeat as before take hardly any bytes.
 TEST(Names, CountTowardsTheMemoryThatAFileMayTake) {
   Rig rig = makeRig(onePatch(1, 1));
   rig.targets.resize(1);

@@ -8,7 +8,7 @@
 
 namespace sweepface::testing {
 
-/// The rig with its vectors and texture coordinates rounded to steps that a file holds.
+/// The rig with its vectors and texture coordinates rounded to the steps of a file.
 inline Rig packed(Rig rig) {
   rig.packing.neutralStep = 0.01;
   rig.packing.targetStep = 0.02;
@@ -31,7 +31,7 @@ inline Rig packed(Rig rig) {
   return rig;
 }
 
-/// Bones that carry some of the nodes, and two targets that say how.
+/// Adds two bones that carry some of the nodes, in two of the targets.
 inline void addBones(Rig& rig) {
   for (Index v = 0; v < rig.surface.storedCount(); ++v) {
     const Index node = rig.surface.stored(v).node;
@@ -43,7 +43,7 @@ inline void addBones(Rig& rig) {
   rig.packing.poses[2].carries = {{1, {{{1, 2, 3}, {0, 5, 0}, {0, 0, 0}, {-8, 0, 0}}}}};
 }
 
-/// A rig with something of everything that files hold.
+/// A rig with some of everything that files hold.
 inline Rig everything() {
   Wireframe wireframe = twoPatches();
   for (Arc& arc : wireframe.arcs) arc.edges = 2;
@@ -55,7 +55,7 @@ inline Rig everything() {
   addBones(rig);
   rig.names = {"cm", {}, {"brow", "", "", "", "", "", ""}, {}, {}};
   rig = packed(std::move(rig));
-  rig.targets[1].difference[2].x = 1.0 / 3;  // no multiple of any step
+  rig.targets[1].difference[2].x = 1.0 / 3;  // not a multiple of any step
   return rig;
 }
 

@@ -27,8 +27,8 @@ Wireframe creased() {
   return w;
 }
 
-// Patches around a node, all of whose curves are creases: it has a vector for each direction on
-// either side of them.
+// Patches around a node whose curves are all creases: it stores derivatives along each crease and
+// in each patch.
 Wireframe star(Index creases) {
   Wireframe w;
   w.points = 1 + 2 * creases;
@@ -45,7 +45,7 @@ Wireframe star(Index creases) {
   return w;
 }
 
-/// Wireframes of every sort: grids large and small, T-nodes, poles, creases.
+/// Wireframes of every kind: grids large and small, T-nodes, poles, creases.
 std::vector<Wireframe> someWireframes() {
   return {onePatch(1, 1), onePatch(7, 4), twoPatches(), slice(), tee(),
           fan(3),         fan(6),         creased(),    star(6), sheet(8)};
@@ -121,7 +121,7 @@ TEST(NearTable, TellsTheNearestSitesBeforeEachThatIsNoRoot) {
   }
 }
 
-// What is constant is predicted by itself.
+// Predictions keep constants: the factors of positions add up to 1 for positions, else to 0.
 void expectSumsOfOne(const Surface& surface, const Prediction& prediction) {
   std::vector<char> known(surface.storedCount(), 0);
   for (const Prediction::Step& step : prediction.steps) {
@@ -153,7 +153,7 @@ TEST(PredictedMoves, AddUpToOneWhereverTheNeutralIs) {
     }
 }
 
-// A sheet whose nodes stand closer and closer together, and what a bump in space does to it.
+// A sheet whose nodes get denser towards one corner, and how a bump in space moves them.
 struct Bump {
   Rig rig = makeRig(sheet(16));
   std::vector<Vec3> neutral, move;
@@ -191,7 +191,7 @@ TEST(Lattice, RoundsWhatItRestoresToTheSameCoefficients) {
 }
 
 TEST(Lattice, RestoresManyPosesAsEachAlone) {
-  constexpr Index kPoses = 7;  // more than go side by side, and one of them finer
+  constexpr Index kPoses = 7;  // more than are restored side by side; one has a finer step
   for (const Surface& surface : someSurfaces()) {
     const Lattice lattice(surface, {});
     const auto count = static_cast<std::size_t>(surface.storedCount());
@@ -239,7 +239,7 @@ TEST(Lattice, IsNeverMoreThanHalfAStepOff) {
   }
 }
 
-/// A rig all of whose vectors are whole multiples of its steps.
+/// A rig whose vectors all lie on the lattice of its steps.
 Rig packed(Wireframe wireframe, unsigned seed = 1) {
   Rig rig = makeRig(std::move(wireframe));
   rig.packing = someSteps();
@@ -273,7 +273,7 @@ TEST(Packing, VectorsOnTheLatticeComeBackBitForBitWithoutBeingHeldAsTheyAre) {
   }
 }
 
-// More vectors at a node than an integer has bits.
+// The node has more vectors than an integer has bits.
 TEST(Packing, OnlyTheFirstOfManyVectorsOfANodeMoves) {
   Rig rig = packed(star(6));
   const auto isAtTheCentre = [&](Index v) { return rig.surface.stored(v).node == 0; };
@@ -316,7 +316,7 @@ TEST(Packing, FormsThatCannotBeAreMadeSound) {
   rig.packing.poses = {{-3, 7}, {99, 0}, {0, 2}};
   rig.packing.axis = 9;
   rig.packing.textureBits = 99;
-  rig.packing.mirror = {{-1, 0}, {0, 20}, {0, 1 << 20}};  // of half-arcs 0 to 19
+  rig.packing.mirror = {{-1, 0}, {0, 20}, {0, 1 << 20}};  // there are half-arcs 0 to 19
   rig.packing.rest = {{1, 2, 3}};
   const std::string bytes = encode(rig);
   const auto back = decode(bytes, "a.sweep");
@@ -328,14 +328,14 @@ TEST(Packing, FormsThatCannotBeAreMadeSound) {
   EXPECT_TRUE(decode(encode(rig), "a.sweep"));
 }
 
-// Two patches side by side, mirrored at the arc between them.
+// Two patches side by side, mirrored across the arc between them.
 TEST(Packing, AMirroredHalfCostsHardlyAnything) {
   Wireframe w = twoPatches();
   for (Arc& arc : w.arcs) arc.edges = 2;
   Rig rig = makeRig(w);
   rig.targets.clear();
   rig.packing = someSteps();
-  rig.packing.mirror = {{0, 2}};  // 0 to 1 and 2 to 1, each with its patch on the left
+  rig.packing.mirror = {{0, 2}};  // 0 to 1 and 1 to 2, each with its patch on the left
   const Lattice lattice(rig.surface, rig.packing);
   Coefficients q = anyCoefficients(rig.neutral.size(), 5);
   const auto& images = lattice.hierarchy().images();

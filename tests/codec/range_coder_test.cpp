@@ -12,7 +12,7 @@ struct CodedBit {
   std::uint32_t one = 0;
 };
 
-// Bits as likely as they are said to be.
+// Random bits, drawn with the probabilities that the coder is given.
 std::vector<CodedBit> someBits(std::size_t count, std::uint32_t low, std::uint32_t high) {
   std::mt19937 random(7);
   std::vector<CodedBit> bits;
@@ -59,7 +59,7 @@ TEST(Mixing, LearnsWhatIsRegular) {
   RangeEncoder coder;
   Symbols<RangeEncoder> out(coder);
   for (int k = 0; k < 8000; ++k) out.bit(1, 0, 0, k % 50 == 0);
-  // 0.1414 bits each on average, and some to learn that.
+  // The entropy is 0.1414 bits each; learning that takes a few more.
   EXPECT_LE(coder.finish().size(), 8000 * 0.1414 / 8 * 1.1 + 20);
 }
 
@@ -87,7 +87,7 @@ TEST(Symbols, LearnWhatFollowsWhat) {
   Symbols<RangeEncoder> out(coder);
   const std::string_view pattern = "0110100";
   for (std::size_t k = 0; k < 700; ++k) out.bit(1, 0, 0, pattern[k % pattern.size()] == '1');
-  EXPECT_LE(coder.finish().size(), 12u);  // 86 if every bit stood alone
+  EXPECT_LE(coder.finish().size(), 12u);  // 86 if the bits were independent
 }
 
 TEST(Symbols, RefuseAnIndexOutOfRange) {

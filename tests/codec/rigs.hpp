@@ -7,7 +7,7 @@
 #include "sweepface/codec.hpp"
 #include "sweepface/eval.hpp"
 
-// Small rigs made by hand.
+// Small hand-made rigs.
 namespace sweepface::testing {
 
 inline Arc arc(Index from, Index to, Index edges, Index ribbon) {
@@ -75,7 +75,7 @@ inline Wireframe slice() {
   return w;
 }
 
-/// Two patches on top of one: a T-node.
+/// Two patches above one, with a T-node between them.
 inline Wireframe tee() {
   Wireframe w;
   w.points = 7;
@@ -93,7 +93,7 @@ inline Wireframe tee() {
   return w;
 }
 
-/// The slices of a fan around a pole.
+/// A closed fan of slices around a pole.
 inline Wireframe fan(Index slices) {
   Wireframe w;
   w.points = 1 + slices;
@@ -115,13 +115,13 @@ inline Wireframe fan(Index slices) {
   return w;
 }
 
-/// Something between -2 and 2 that single precision holds.
+/// Some number between -2 and 2 that single precision holds exactly.
 inline double anything(Index k) { return std::round(std::sin(1.7 * k) * 2048) / 1024; }
 inline Vec3 anyVector(Index k) {
   return {anything(3 * k), anything(3 * k + 1), anything(3 * k + 2)};
 }
 
-/// A source whose vertices and faces are those of the surface at level 1, its vertices backwards.
+/// A source with the vertices and faces of the surface at level 1, the vertices in reverse order.
 inline SourceMesh makeSource(const Surface& surface) {
   SourceMesh source;
   const Tessellation grid(surface, 1);
@@ -137,7 +137,8 @@ inline SourceMesh makeSource(const Surface& surface) {
   return source;
 }
 
-/// Neutral, source and the targets open (everywhere), wink (here and there), rest (nowhere).
+/// A rig with a neutral, a source and the targets open (moves everything), wink (some vectors) and
+/// rest (nothing).
 inline Rig makeRig(Wireframe wireframe) {
   Rig rig;
   rig.surface = Surface::make(std::move(wireframe)).value();
@@ -154,7 +155,7 @@ inline Rig makeRig(Wireframe wireframe) {
   return rig;
 }
 
-/// Texture coordinates, materials, groups and two loose vertices on top.
+/// Adds texture coordinates, materials, groups and two loose vertices.
 inline Rig dressed(Rig rig) {
   SourceMesh& source = rig.source;
   Polygons& faces = source.polygons;
@@ -177,19 +178,19 @@ inline Rig dressed(Rig rig) {
   return rig;
 }
 
-/// What a scene is does not matter here.
+/// Adds a scene. Its content does not matter here.
 inline Rig withScene(Rig rig) {
   rig.scene = std::string("glTF\0\x02 anything", 15);
   return rig;
 }
 
-/// Two of its targets turn, one about an axis and one about a ball.
+/// Makes two of its targets turn, one about an axis and one about a ball.
 inline Rig withTurns(Rig rig) {
   rig.turns = {{0, {1, -2, 0.5}, {0, 0.6000000238418579, 0.800000011920929}}, {1, {0, 4, 8}, {}}};
   return rig;
 }
 
-/// Small rigs of every sort.
+/// Small rigs of every kind.
 inline std::vector<Rig> someRigs() {
   return {makeRig(onePatch(1, 1)),
           makeRig(onePatch(3, 2)),

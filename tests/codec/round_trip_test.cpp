@@ -35,7 +35,7 @@ TEST(RoundTrip, GivesTheSamePoints) {
   }
 }
 
-/// As hair is made of: however alike they are, so that they take hardly any bytes.
+/// Hair is made of such cards. They are so alike that they take hardly any bytes.
 TEST(RoundTrip, KeepsThousandsOfSeparateCards) {
   constexpr Index kCards = 6000;
   const Wireframe card = onePatch(1, 1);
@@ -67,7 +67,7 @@ TEST(RoundTrip, KeepsARigWithoutSourceOrTargets) {
   expectEqual(decode(encode(rig), "a.sweep").value(), rig);
 }
 
-// More than a reader expects of so few bytes.
+// This is more than a reader expects from so few bytes.
 TEST(RoundTrip, KeepsASourceOfMuchThatIsAlike) {
   constexpr std::size_t kMany = 1'200'000;
   Rig many = makeRig(onePatch(1, 1)), textured = many;
@@ -84,7 +84,7 @@ TEST(RoundTrip, KeepsASourceOfMuchThatIsAlike) {
   }
 }
 
-// A regular sheet takes next to nothing, however large.
+// A regular sheet takes next to no bytes, however large it is.
 TEST(RoundTrip, KeepsThatALargeSheetHasNoOrderOfItsOwn) {
   Rig rig = makeRig(onePatch(800, 800));
   rig.source = gridSource(rig.surface);
@@ -115,7 +115,7 @@ TEST(RoundTrip, KeepsMaterialsOfASourceWithoutVertices) {
   expectEqual(decode(encode(rig), "a.sweep").value(), rig);
 }
 
-// The grid's own coder knows no such face; who reads it is told.
+// The grid's coder cannot hold such faces; reading the file fails.
 TEST(RoundTrip, IsRefusedOfFacesOfTwoCorners) {
   Rig rig = makeRig(onePatch(2, 1));
   rig.source.polygons.faceStart = {0, 4, 6, 8};

@@ -10,7 +10,7 @@ namespace {
 using namespace codec;
 
 constexpr int kBits = 14;
-constexpr Index kQuads = 24;  // in a row and in a column
+constexpr Index kQuads = 24;  // per row and per column
 
 // A sheet of quads with a texture coordinate for each vertex, in whole steps.
 template <typename At>
@@ -65,8 +65,8 @@ TEST(Texture, OfWhatIsEvenlyLaidOutCostsHardlyAnything) {
   EXPECT_LT(written(even).size(), 120u) << "the indices of " << even.corners.size() << " corners";
 }
 
-// Without knowing how the quads before were bent, each of 625 coordinates would cost its own bend,
-// up to 47 and 93 steps.
+// Without learning from the bends of earlier quads, each of 625 coordinates would cost its own
+// bend, up to 47 and 93 steps.
 TEST(Texture, FollowsWhatBendsMoreAndMore) {
   const Polygons bent = sheetWith(
       [](int x, int y) { return std::array{31 * x + x * x * y, 40 * y - 2 * x * y * y}; });
@@ -74,7 +74,7 @@ TEST(Texture, FollowsWhatBendsMoreAndMore) {
   EXPECT_LT(written(bent).size(), 250u);
 }
 
-// The corner of a sheet's face at the mirror image of each, across the sheet.
+// For each face corner of a sheet, the corner at its mirror image across the sheet.
 std::vector<Index> acrossTheSheet() {
   std::vector<Index> images;
   for (Index y = 0; y < kQuads; ++y)
@@ -83,7 +83,7 @@ std::vector<Index> acrossTheSheet() {
   return images;
 }
 
-// A rough sheet whose right half is the left one turned in one of eight ways.
+// A rough sheet whose right half is the left one, flipped and transposed in one of eight ways.
 Polygons mirroredSheet(int way) {
   std::mt19937 random(7);
   std::array<std::array<std::array<int, 2>, kQuads / 2 + 1>, kQuads + 1> half;

@@ -49,9 +49,9 @@ bool isRefused(const std::string& bytes) {
 TEST(TurnsOfAFile, AreRefusedWhereTheyAreUnsound) {
   EXPECT_FALSE(isRefused(payload({1, 1}, {1, 2, 3})));
   EXPECT_FALSE(isRefused(payload({1, 4}, {1, 2, 3, 0, 0, 1})));
-  EXPECT_TRUE(isRefused(payload({1, 7}, {1, 2, 3})));           // of target 3
-  EXPECT_TRUE(isRefused(payload({1, 0}, {1, 2, 3, 0, 0, 2})));  // no unit axis
-  EXPECT_TRUE(isRefused(payload({1, 0}, {1, 2, 3})));           // cut short
+  EXPECT_TRUE(isRefused(payload({1, 7}, {1, 2, 3})));           // no such target: 3
+  EXPECT_TRUE(isRefused(payload({1, 0}, {1, 2, 3, 0, 0, 2})));  // not a unit axis
+  EXPECT_TRUE(isRefused(payload({1, 0}, {1, 2, 3})));           // truncated
   EXPECT_TRUE(isRefused(payload({1, 1}, {1, 2, std::nanf("")})));
   EXPECT_TRUE(isRefused(payload({1000000}, {})));
 }

@@ -11,7 +11,7 @@
 #include "codec/faces.hpp"
 #include "codec/names.hpp"
 
-// Files of version 1, which nobody writes any more and everybody reads.
+// Writes files of version 1. The library still reads them but no longer writes them.
 namespace sweepface::testing {
 
 namespace version1 {
@@ -160,7 +160,7 @@ inline std::string texcoords(const Polygons& polygons) {
   return out.take();
 }
 
-// A quad that goes once around a face of four corners is told by its first one alone.
+// A quad that goes once around a face of four corners is stored as its first corner alone.
 inline std::string quadCorners(const SourceMesh& source) {
   Writer out;
   Index last = 0;

@@ -1,5 +1,5 @@
-/* A program that loads a plugin, uses it and is rid of it afterwards, as where it is built anew meanwhile. Each has a
-   library of its own, and the program exports its. */
+/* A program that loads, uses and unloads a plugin, as if to reload it after a rebuild. Each has its own copy of the
+   library, and the program exports its copy. */
 #include <dlfcn.h>
 #include <stdio.h>
 #include <string.h>

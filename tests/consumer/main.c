@@ -1,4 +1,4 @@
-/* A small program in C that uses an installed Sweepface: it knows its version and refuses no bytes. */
+/* A small program in C that uses an installed Sweepface: it knows its version and refuses an empty file. */
 #include <string.h>
 #include <sweepface/sweepface.h>
 

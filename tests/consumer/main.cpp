@@ -5,7 +5,7 @@
 
 using namespace sweepface;
 
-// A flat square patch of one edge: four corner nodes, four arcs.
+// A flat square patch, one edge a side: four corner nodes, four arcs.
 Wireframe square() {
   Wireframe w;
   w.points = 4;

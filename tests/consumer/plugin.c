@@ -1,4 +1,4 @@
-/* A plugin of a program, with the library in it. */
+/* A plugin that contains the library. */
 #include <sweepface/sweepface.h>
 
 const char* refusal_of_a_bad_file(void) {

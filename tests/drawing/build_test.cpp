@@ -130,8 +130,8 @@ TEST(Controls, standWhereTheirMeanDistancesSay) {
   Json spaced = vase();
   for (Json& control : spaced["controls"]) {
     const bool foot = control["beside"].get<std::string>().starts_with("foot");
-    // The seams are straight: |(0, 10, 0.5)|. A step out of the foot is |(0, 1, 1)|, then |(0, 1,
-    // 0.6)|.
+    // The seams are straight: |(0, 10, 0.5)|. The steps out of the foot are |(0, 1, 1)| and
+    // |(0, 1, 0.6)|.
     const double length = std::hypot(10, 0.5);
     const double first = foot ? std::hypot(1, 1) : std::hypot(1, 0.7),
                  second = foot ? std::hypot(1, 0.6) : std::hypot(1, 0.2);
@@ -239,7 +239,7 @@ TEST(Edges, areAsManyAsACurveIsLong) {
   Rig rig = made(drawing);
   EXPECT_EQ(rig.surface.edgesU(0), 4);
   EXPECT_EQ(rig.surface.edgesV(0), 12);
-  drawing["curves"][0]["edges"] = 8;  // two a unit
+  drawing["curves"][0]["edges"] = 8;  // two per unit
   rig = made(drawing);
   EXPECT_EQ(rig.surface.edgesV(0), 24);
 }
@@ -254,7 +254,7 @@ TEST(Edges, areWholeNumbersThatAFileHolds) {
   }
 }
 
-/// The square with a second row of two patches on top: e stands on dc.
+/// The square with a second row of two patches on top of it; e lies on dc.
 Json withTNode() {
   Json drawing = square();
   drawing["nodes"].push_back({{"name", "e"}});
@@ -302,9 +302,9 @@ TEST(TNodes, chooseEdgesThatFitBothSides) {
 TEST(TNodes, shareTheEdgesThatTheSideOppositeIsSaidToHave) {
   Json drawing = withTNode();
   drawing["curves"][0]["edges"] = 10;  // ab
-  drawing["curves"][1]["edges"] = 40;  // bc: so short are edges that tell of themselves
+  drawing["curves"][1]["edges"] = 40;  // bc: specified edges are this short
   const Rig rig = made(drawing);
-  EXPECT_EQ(rig.surface.edgesU(1), 3);  // a third of the way, as is drawn opposite
+  EXPECT_EQ(rig.surface.edgesU(1), 3);  // a third of ab, as drawn opposite
   EXPECT_EQ(rig.surface.edgesU(2), 7);
   drawing["curves"][0]["edges"] = 1;
   drawing["curves"][1].erase("edges");
@@ -390,7 +390,7 @@ TEST(TNodes, inACircleAreRefusedInWordsThatHelp) {
 
 TEST(Names, ofOneThingAreNotWhatAnotherGoesBy) {
   Json drawing = withTNode();
-  drawing["patches"][0]["name"] = "p1";  // as the second goes by
+  drawing["patches"][0]["name"] = "p1";  // what the second one goes by
   const auto built = buildJson(drawing);
   ASSERT_FALSE(built);
   EXPECT_NE(built.error().message.find("'p1' is what number 1, which has no name, goes by"),
@@ -413,7 +413,7 @@ TEST(Names, areNeitherNumbersNorTooLong) {
 TEST(Rings, mayBeOnePatchAndOneCurve) {
   const Rig rig = made(tube());
   EXPECT_EQ(rig.surface.connectivity().kinds, std::vector<NodeKind>(2, NodeKind::crossing));
-  EXPECT_LT(largestRadiusError(rig, 0, 2), 0.2);  // one quintic is no good circle
+  EXPECT_LT(largestRadiusError(rig, 0, 2), 0.2);  // one quintic is a poor circle
   for (const JoinReport& join : examineJoins(rig.surface, neutralPose(rig)))
     EXPECT_LT(join.secondJump, 1e-12);
   EXPECT_EQ(rig.source.polygons.faceCount(), rig.surface.edgesU(0) * rig.surface.edgesV(0));
@@ -485,7 +485,7 @@ TEST(Tips, areWhereAllTheirNodesAreDrawn) {
       << refusal(drawing);
 }
 
-/// A bow tie: what no curve leads to would be left without tangents.
+/// A bow tie: whatever no curve leads to would have no tangents.
 TEST(Tips, atOnePointHangTogether) {
   Json drawing = Json::parse(R"({"format": "sweepface wireframe 1",
     "nodes": [{"name": "p1", "at": [0, 0, 0]}, {"name": "p2", "with": "p1"},
@@ -552,7 +552,7 @@ TEST(Tips, moveAsOne) {
 TEST(Creases, areSharpWhereTheyAreDeclared) {
   Json drawing = vase();
   drawing["creases"] = {"seam front", "seam back"};
-  for (Json& control : drawing["controls"])  // each half bulges by itself
+  for (Json& control : drawing["controls"])  // each half bulges on its own
     for (const char* which : {"second", "third"})
       for (Json& p : control[which])
         p[0] = 1.5 * p[0].get<double>() + (control["in"] == "right" ? 0.5 : -0.5);
@@ -567,8 +567,8 @@ TEST(Creases, areSharpWhereTheyAreDeclared) {
   }
 }
 
-/// A cube all of whose edges are sharp, as it is written: three jets at every corner, each of which
-/// has a derivative of the next.
+/// A cube with only sharp edges, as it is written: three jets at every corner, each of which shares
+/// a derivative with the next.
 Json writtenCube() {
   Json drawing = Json::parse(R"({"format": "sweepface wireframe 1", "nodes": [], "curves": [],
       "patches": [], "creases": []})");
@@ -621,8 +621,8 @@ TEST(Creases, haveJetsThatAgree) {
   EXPECT_NE(refusal(drawing).find("two jets of node"), std::string::npos) << refusal(drawing);
 }
 
-/// Two corners of a triangle at one place: the curve between them has no length, and jets at both
-/// ends say all there is of it.
+/// Two corners of a triangle at one place: the curve between them has no length, and the jets at
+/// both ends define it completely.
 TEST(Nodes, withJetsMayHaveACurveOfNoLengthBetween) {
   MeshRig ring;
   ring.neutral.positions = {{0, 0, 0}, {1, 0, 0.3}, {0, 0, 0}, {1, 1, 0.3}};
@@ -774,7 +774,7 @@ TEST(Expressions, letANodeGoItsOwnWay) {
   EXPECT_NEAR(middleOf(rig, "rim right", 1, {1}).y, 11, 1e-9);
 }
 
-// The order of the file's lists numbers things; it shapes nothing.
+// The order of the file's lists determines numbers, not shapes.
 TEST(Order, ofPatchesDoesNotTurnAnyJet) {
   Json drawing = Json::parse(formatDrawing(draw(made(vase()))));
   const Rig before = made(drawing);

@@ -20,7 +20,7 @@ inline std::string document(const std::string& name) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// The vase that docs/wire-format.md teaches: its one block of JSON.
+/// The vase of docs/wire-format.md, the only block of JSON there.
 inline std::string vaseText() {
   const std::string page = document("wire-format.md");
   const std::string fence = "```json\n";
@@ -43,7 +43,7 @@ inline std::string refusal(const Json& json) {
   return built ? "" : built.error().message;
 }
 
-/// The model of a drawing that must be sound.
+/// The rig of a drawing that must be valid.
 inline Rig made(const Json& json) {
   auto built = buildJson(json);
   EXPECT_TRUE(built.has_value()) << (built ? "" : built.error().message);
@@ -62,7 +62,7 @@ inline Json square() {
   })");
 }
 
-/// A tube of one patch round the y axis, whose foot and rim are a closed curve each.
+/// A tube of one patch around the y axis; its foot and its rim are closed curves.
 inline Json tube() {
   Json drawing = Json::parse(R"({"format": "sweepface wireframe 1",
     "nodes": [{"name": "low", "at": [2, 0, 0]}, {"name": "high", "at": [2, 5, 0]}],

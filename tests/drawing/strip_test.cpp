@@ -1,4 +1,4 @@
-// Drawings of patches in a row, in which what is far away and what is narrow shows.
+// Drawings of patches in a row, which show the effects of distance and of narrow patches.
 #include <cmath>
 
 #include "drawing/drawings.hpp"
@@ -6,7 +6,7 @@
 namespace sweepface::testing {
 namespace {
 
-/// A band of patches along x, one unit wide, with edges a quarter long; z at each place.
+/// A band of patches along x, one unit wide with four edges across; the places are (x, z).
 Json strip(const std::vector<Vec2>& places) {
   Json drawing = {{"format", "sweepface wireframe 1"},
                   {"nodes", Json::array()},
@@ -30,8 +30,8 @@ Json strip(const std::vector<Vec2>& places) {
   return drawing;
 }
 
-// Four points of an arc, the middle two close together: the narrow patch between them must not take
-// the bend of the wide ones beside it.
+// Four points of an arc, the middle two close together: the narrow patch between them must not
+// absorb the bend of the wide ones beside it.
 TEST(WhatNobodySays, spreadsABendOverNarrowAndWidePatches) {
   const auto onArc = [](double degrees) {
     const double angle = degrees * 3.14159265358979 / 180;

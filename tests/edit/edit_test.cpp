@@ -18,7 +18,7 @@ Rig sheet() {
   return made(Json::parse(file));
 }
 
-/// Any surface as a rig, with a target.
+/// A rig of any surface, with one target.
 Rig rigOf(const Surface& surface) {
   Rig rig;
   rig.surface = surface;
@@ -34,7 +34,7 @@ Rig rigOf(const Surface& surface) {
 
 std::vector<Vec3> poseOf(const Rig& rig) { return blend(rig, Weights(rig.targets.size(), 0.75)); }
 
-/// The largest way that a place of each patch moved; 0 only where all bits are the same.
+/// The largest displacement in each patch; 0 only if all bits are the same.
 std::vector<double> moved(const Rig& before, const Rig& after) {
   const auto x = poseOf(before), y = poseOf(after);
   std::vector<double> result(static_cast<std::size_t>(before.surface.patchCount()));
@@ -147,7 +147,7 @@ Json star() {
   return drawing;
 }
 
-// What the few vectors of the node cannot give must not be thrown far off.
+// Where the few vectors of the node cannot produce the move, the curves must not be thrown far off.
 TEST(ControlCurves, BesideASpokeMoveAboutAsAsked) {
   const Rig before = made(star());
   Rig after = before;
@@ -190,7 +190,7 @@ TEST(ControlCurves, BesideAClosedCurveMoveOnce) {
   double most = 0;
   for (Index v = 0; v < before.surface.storedCount(); ++v)
     most = std::max(most, norm(after.neutral[v] - before.neutral[v]));
-  // Controls a tenth and a quarter of the way across move straight on: 2.5 a whole way.
+  // The moves of the controls, at 0.1 and 0.25 of the way across, are linear: 2.5 for all of it.
   EXPECT_NEAR(most, 2.5 / before.surface.edgesU(0), 1e-9);
 }
 
@@ -269,7 +269,7 @@ TEST(EveryEdit, OfWhatThereIsNotIsRefused) {
               "A control curve cannot move by what is not finite.");
 }
 
-/// Nothing stored moves the derivatives of a node where two patches meet.
+/// At a node where two patches meet, no stored vector moves the derivatives.
 TEST(ControlCurves, MoveWhatThereIsToMove) {
   const Rig before = rigOf(Surface::make(wheel(2, {})).value());
   Rig after = before;
@@ -304,8 +304,8 @@ TEST(Nodes, OfATargetMoveInItAlone) {
   EXPECT_NE(after.targets[0].difference, before.targets[0].difference);
 }
 
-// What targets are counted from stays as it was. (Where nodes store more, what predicts the others
-// may change all the same: not beside curve 3.)
+// The reference that targets are relative to does not change. (Where nodes store more, the
+// predictors of the others may still change, but not beside curve 3.)
 TEST(EveryEdit, LeavesTheTargetsOfAPackedFaceSmall) {
   const Rig before = decode(goldenFile("golden_sample.sweep"), "sample").value();
   Rig nodes = before, controls = before;

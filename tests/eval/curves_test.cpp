@@ -38,7 +38,7 @@ TEST(CurveNetwork, OfAFanMeetsInItsPole) {
             4);
 }
 
-/// Two control curves and the boundary between them say what the derivatives across are.
+/// A boundary curve and its two control curves determine the cross-boundary derivatives.
 TEST_P(Curves, HoldTheDerivativesAcross) {
   const Surface surface = surfaceOf(GetParam().rig, 3);
   const std::vector<Vec3> vectors = anyPose(surface);
@@ -51,7 +51,8 @@ TEST_P(Curves, HoldTheDerivativesAcross) {
         derivativesFromControls(surface.evaluate(vectors, site), net.points[second.points[1]],
                                 net.points[third.points[1]], {0.1, 0.25});
     ASSERT_TRUE(across.has_value());
-    // Across is along u or along v, whichever the arc is not; over the whole patch, not an edge.
+    // The direction across is u or v, whichever the arc does not follow, and is measured over the
+    // whole patch rather than one edge.
     const auto differsBy = [&](bool alongV) {
       const double length = alongV ? surface.edgesV(site.patch) : surface.edgesU(site.patch);
       const auto derivative = [&](int order) {

@@ -34,7 +34,7 @@ Density anyDensity(const Surface& surface, unsigned seed) {
   return density;
 }
 
-/// One segment everywhere: what a part that a budget says nothing of may get.
+/// One segment everywhere, as parts that a budget does not constrain may get.
 Density coarsest(const Surface& surface) {
   return {std::vector<Index>(surface.wireframe().arcs.size(), 1),
           std::vector(surface.patchCount(), std::array{1, 1})};
@@ -43,8 +43,7 @@ Density coarsest(const Surface& surface) {
 class EveryDensity : public ::testing::TestWithParam<Face> {};
 INSTANTIATE_TEST_SUITE_P(Tessellation, EveryDensity, eachFace(), faceName);
 
-// An edge between two triangles is one edge: a T-junction would leave a boundary where there is
-// none.
+// Neighbouring triangles share their edges: a T-junction would show up as an extra boundary.
 TEST_P(EveryDensity, hasTheSourcesShapeWithoutACrackOrATJunction) {
   const Topology source = topologyOf(weldedLoops(GetParam().rig));
   for (const int splits : {0, 10}) {
@@ -85,13 +84,13 @@ TEST_P(EveryDensity, keepsABudgetOfVertices) {
   Index before = 0;
   for (const double most : {20.0, 60.0, 300.0, 3000.0}) {
     const auto density = densityFor(surface, vectors, {Budget::Kind::vertices, most});
-    if (!density) continue;  // it has more corners
+    if (!density) continue;  // the budget is below the number of corners
     const Tessellation grid(surface, *density);
     EXPECT_LE(grid.vertexCount(), most);
     EXPECT_GE(grid.vertexCount(), before);
     before = grid.vertexCount();
   }
-  EXPECT_GT(before, 1000);  // it is made use of
+  EXPECT_GT(before, 1000);  // the budget is actually used
 }
 
 TEST_P(EveryDensity, refusesFewerVerticesThanItHasAndSaysHowManyDo) {
@@ -107,8 +106,8 @@ TEST_P(EveryDensity, refusesFewerVerticesThanItHasAndSaysHowManyDo) {
     EXPECT_TRUE(densityFor(surface, vectors, {Budget::Kind::vertices, most})) << most;
 }
 
-/// What of a density's arcs is worst: `segment` tells it of a curve over [0, 1]. Arcs that are as
-/// fine as they may be are left out.
+/// The largest value of `segment`, which measures a curve over [0, 1], among the segments of all
+/// arcs. Arcs already at the maximum density are left out.
 double worstSegment(const Surface& surface, std::span<const Vec3> vectors, const Density& density,
                     const auto& segment) {
   double worst = 0;
@@ -151,8 +150,8 @@ TEST_P(EveryDensity, hasNoChordFurtherFromItsArcThanItsBudget) {
   }
 }
 
-/// How far the triangles of a patch are from it, at three points inside each. Those at a side that
-/// is one point, which has no place along it, are left out.
+/// The largest distance between a patch and its triangles, sampled at three points inside each.
+/// Triangles at a collapsed side, whose single vertex has no unique parameters, are left out.
 double worstTriangle(const Surface& surface, std::span<const Vec3> vectors,
                      const Tessellation& grid, Index patch) {
   const auto positions = grid.positions(vectors);
@@ -193,8 +192,9 @@ TEST_P(EveryDensity, hasNoTriangleMuchFurtherFromTheSurfaceThanItsBudget) {
   }
 }
 
-// Errors fall with the square of the cuts, and vertices are in proportion to 1 / error. There would
-// be more if a side that is one point had a length, or if lines took all of an error.
+// Errors fall with the square of the number of cuts, so the vertex count is proportional to
+// 1 / error. It would be larger if a collapsed side had a length, or if lines used up the whole
+// error.
 TEST(Density, takesFewVerticesWhicheverSideIsAPoint) {
   for (std::ptrdiff_t turn = 0; turn < 4; ++turn) {
     Wireframe turned = slice();
@@ -241,7 +241,7 @@ TEST(Density, makesUseOfABudgetOnCurvesOfManyEdges) {
 TEST(Density, takesNoErrorForLessThanABillionthOfTheLongestCurve) {
   const Surface surface = Surface::make(onePatch(2000, 20)).value();
   const auto vectors = neutral(surface);
-  const auto refusal = [&](double error) {  // says how many vertices there would be
+  const auto refusal = [&](double error) {  // the message gives the number of vertices needed
     const auto density = densityFor(surface, vectors, {Budget::Kind::error, error});
     return density ? "none" : density.error().message;
   };
@@ -264,7 +264,7 @@ TEST(Density, cutsPatchesOfMoreEdgesThanAMeshHasVertices) {
 }
 
 TEST(Density, knowsWhatAPixelIs) {
-  // 90 degrees: as high as twice the distance.
+  // At 90 degrees the view is twice as high as the distance.
   EXPECT_NEAR(errorOnScreen(1, 50, 1.5707963267948966, 1000), 0.1, 1e-12);
 }
 

@@ -23,7 +23,7 @@ namespace {
 
 using namespace sweepface::testing;
 
-/// Faces as they come from the converter: smooth, with poles and irregular vertices, in two parts.
+/// Faces made by the converter: smooth, with poles and irregular vertices, in two parts.
 const std::vector<Rig>& convertedRigs() {
   static const std::vector<Rig> rigs = [] {
     ConvertOptions options;
@@ -38,7 +38,7 @@ const std::vector<Rig>& convertedRigs() {
   return rigs;
 }
 
-/// These and rigs made by hand.
+/// The converted rigs and those made by hand.
 const std::vector<Rig>& everyRig() {
   static const std::vector<Rig> rigs = [] {
     std::vector<Rig> list = someRigs();
@@ -112,8 +112,8 @@ TEST(Evaluator, playsTheNeutralTo16Bits) {
   }
 }
 
-/// sin of the angle that two derivatives of length 1, each off by `error`, may turn a normal whose
-/// own length is `sine`.
+/// The sine of the largest angle by which a normal of length `sine` may turn when each of its two
+/// unit derivatives is off by `error`.
 double mostTurn(double error, double sine) { return error * (2 + error) / sine; }
 
 TEST(Evaluator, hasTheSurfacesOwnNormals) {
@@ -140,7 +140,7 @@ TEST(Evaluator, hasTheSurfacesOwnNormals) {
   }
 }
 
-// A part that the neutral holds shut, at the skin of one that moves.
+// A part that is closed in the neutral, next to the skin of another part that moves.
 TEST(Evaluator, hasTheNormalsOfWhatATargetOpens) {
   const PolygonMesh skin = cubeSphere(4), part = cubeSphere(2, 0.8);
   for (const double shut : {0.0, 1e-12, 1e-6, 1e-3}) {
@@ -171,7 +171,7 @@ TEST(Evaluator, hasTheNormalsOfWhatATargetOpens) {
   }
 }
 
-// Buffers that hold a frame, with marks where the next one must not write.
+// The buffers already hold the previous frame; an update must leave the result of a full one.
 TEST(Evaluator, writesOnlyWhatOtherWeightsMoveAndTheSameAsAWholeFrame) {
   for (const Rig& rig : everyRig())
     for (const double size : {1.0, 3.0}) {
@@ -247,7 +247,7 @@ TEST(Evaluator, blendsEachRegionByItsOwnWeights) {
   }
 }
 
-// Whichever it is: weights are told in units of the largest.
+// Whichever weight is the large one: weights are scaled by the largest.
 TEST(Evaluator, bearsOneLargeWeight) {
   const Rig rig = makeRig(onePatch(3, 2));
   const std::vector<float> everywhere(rig.surface.storedCount(), 1.0f);
@@ -261,7 +261,7 @@ TEST(Evaluator, bearsOneLargeWeight) {
   }
 }
 
-/// A face of enough tiles to go round.
+/// A face with enough tiles for every part.
 const Rig& largeRig() {
   static const Rig rig = makeRig(onePatch(17, 13));
   return rig;
@@ -358,7 +358,7 @@ TEST(Evaluator, writesEachOutputAlone) {
 }
 
 TEST(Evaluator, fillsExactlyItsVertices) {
-  // One vertex more or fewer than tiles and vectors hold; the sanitizer watches the ends.
+  // Counts just above and below the sizes of tiles and SIMD vectors; sanitizers catch overruns.
   for (const Index n : {1, 2, 3, 4, 5, 6, 7, 10, 11}) {
     const Rig rig = makeRig(onePatch(n, 2));
     for (const Index level : {1, 2}) {
@@ -373,7 +373,7 @@ TEST(Evaluator, fillsExactlyItsVertices) {
 
 TEST(Evaluator, playsTheVerticesOfADensityWhateverTheLevel) {
   Rig rig = makeRig(onePatch(4, 4));
-  rig.source.gridVertex.clear();  // whose order nobody needs
+  rig.source.gridVertex.clear();  // the source order is not needed
   const Tessellation coarse(rig.surface, Density{std::vector<Index>(4, 1), {{1, 1}}});
   ASSERT_LT(coarse.vertexCount(), Tessellation(rig.surface, 1).vertexCount());
   for (const Index level : {0, 1, 5}) {
@@ -499,7 +499,7 @@ TEST(Evaluator, isNotMadeOfWhatDoesNotFit) {
   EXPECT_TRUE(refuses({.level = kMostLevel + 1}, "level"));
   Rig vast;
   vast.surface = Surface::make(onePatch(30000, 30000)).value();
-  EXPECT_FALSE(Evaluator::make(vast, {.level = kMostLevel + 1}));  // before it is cut
+  EXPECT_FALSE(Evaluator::make(vast, {.level = kMostLevel + 1}));  // before it is tessellated
   EXPECT_TRUE(refuses({.tolerance = -1}, "tolerances"));
   EXPECT_TRUE(refuses({.tolerance = std::nan("")}, "tolerances"));
   EXPECT_TRUE(refuses({.derivativeTolerance = 0}, "tolerances"));
@@ -523,7 +523,7 @@ TEST(Evaluator, isNotMadeOfWhatDoesNotFit) {
   EXPECT_TRUE(Evaluator::make(sourceless, {.level = 1}));
 }
 
-/// Any weights of a frame, some of them beyond 1, in scratch memory as large as an evaluation has.
+/// Random frame weights, some beyond 1, in scratch memory of the size that an evaluation has.
 struct AnyFrame {
   explicit AnyFrame(const Evaluator& evaluator) : scratch(evaluator.scratchBytes()) {
     std::mt19937 random(1);
@@ -539,7 +539,7 @@ struct AnyFrame {
 
 TileRange all(const TileTable& table) { return {table, 0, table.tileCount()}; }
 
-/// Positions, normals and tangents straight from the kernels.
+/// Positions, normals and tangents computed directly by the kernels.
 template <typename Positions, typename Normals>
 Played playWith(const Evaluator& evaluator, const Positions& positions, const Normals& normals) {
   const EvaluatorTables& tables = evaluator.tables();
@@ -554,7 +554,7 @@ Played playWith(const Evaluator& evaluator, const Positions& positions, const No
   return out;
 }
 
-/// The modes of a table from a kernel.
+/// A table's modes as a kernel blends them.
 template <typename Blend>
 std::vector<std::int16_t> modesOf(const Evaluator& evaluator, const TileTable& table,
                                   const Blend& blend) {
@@ -568,7 +568,7 @@ bool sameBits(const std::vector<float>& a, const std::vector<float>& b) {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), 4 * a.size()) == 0;
 }
 
-/// On every instruction set what the plain kernels say.
+/// Expects the plain kernels' results on every instruction set.
 void expectSameBits(const Evaluator& evaluator) {
   const Index count = evaluator.vertexCount();
   const EvaluatorTables& tables = evaluator.tables();
@@ -605,7 +605,7 @@ TEST(Kernels, giveTheSameBitsOnEveryInstructionSet) {
   for (const Rig& rig : everyRig()) expectSameBits(Evaluator::make(rig).value());
 }
 
-// Weights are looked up in runs of 64: none, a few, more than are looked at together, too many.
+// Weights are looked up in windows of 64: no windows, a few, more than are read at once, too many.
 TEST(Kernels, giveTheSameBitsForAnyNumberOfRegions) {
   const Rig& rig = convertedRigs().front();
   const std::size_t stored = static_cast<std::size_t>(rig.surface.storedCount()),
@@ -619,14 +619,14 @@ TEST(Kernels, giveTheSameBitsForAnyNumberOfRegions) {
     for (auto& region : options.influences)
       std::ranges::generate(region, [&] { return uniform(random); });
     expectSameBits(Evaluator::make(rig, options).value());
-    for (std::size_t r = 0; r < options.influences.size(); ++r)  // each somewhere else
+    for (std::size_t r = 0; r < options.influences.size(); ++r)  // regions that do not overlap
       for (std::size_t v = 0; v < stored; ++v)
         if (v * options.influences.size() / stored != r) options.influences[r][v] = 0;
     expectSameBits(Evaluator::make(rig, options).value());
   }
 }
 
-// As many pairs of targets of 16 and of 8 bits as there can be in a tile.
+// A tile with the maximum number of 16-bit and 8-bit target pairs.
 TEST(Kernels, giveTheSameBitsWhereEveryTargetMovesEveryTile) {
   Rig rig = convertedRigs().front();
   std::mt19937 random(9);

@@ -23,8 +23,8 @@ using namespace sweepface::testing;
 constexpr double kRadius = 1.5;
 const Vec3 kLeft{3, 4, -1}, kRight{-3, 4, -1};
 
-/// Skin, a left and a right eyeball with a smaller ball in the left one; the eyeLook targets that
-/// are asked for turn the left ball by 0.4.
+/// Skin and two eyeballs, with a smaller ball inside the left one. eyeLookDown_L moves the skin
+/// and, if `looks`, turns the left eyeball and the ball inside it by 0.4 radians.
 MeshRig faceWithEyes(bool looks) {
   PolygonMesh mesh = plane();
   const auto skin = mesh.positions.size();
@@ -53,7 +53,7 @@ std::vector<Vec3> shown(const Rig& rig, const std::vector<double>& weights) {
   return sourcePositions(rig, Tessellation(rig.surface, 1), blend(rig, weights), weights);
 }
 
-/// How much the distances between the vertices [first, last) differ from those at rest.
+/// The largest change from rest in the distances between the vertices [first, last).
 double stretch(const std::vector<Vec3>& rest, const std::vector<Vec3>& now, std::size_t first,
                std::size_t last, std::size_t step = 1) {
   double most = 0;
@@ -96,7 +96,7 @@ TEST(Eyes, AreMostOfABallAndRound) {
   EXPECT_FALSE(isBall(cube));
 }
 
-/// The eyes of a face of balls; each of a centre and a radius.
+/// The eyes found in a face made of balls, each given by its centre and radius.
 std::vector<Eye> eyesOf(const std::vector<std::pair<Vec3, double>>& balls) {
   PolygonMesh mesh;
   for (const auto& [centre, radius] : balls) mesh = joined(mesh, cubeSphere(3, radius), centre);
@@ -141,11 +141,11 @@ TEST(EyeTurns, AreRigidAtEveryWeightAndOnlyThere) {
     turns.apply(weights);
     const auto now = shown(rig, weights);
     EXPECT_LE(stretch(rest, now, skin, skin + 218), 1e-12);
-    // By half a radian at weight 1, downwards.
+    // It turns down by half a radian at weight 1.
     double way = 0;
     for (std::size_t v = skin; v < skin + 218; ++v) way = std::max(way, norm(now[v] - rest[v]));
     EXPECT_NEAR(way, 2 * kRadius * std::sin(0.25 * k / 20.0), 0.01);
-    // Everything else does as it did.
+    // Everything else moves as before.
     const auto before = shown(plain, {0, k / 20.0});
     for (std::size_t v = 0; v < skin; ++v) EXPECT_EQ(now[v], before[v]);
   }
@@ -164,7 +164,7 @@ TEST(EyeTurns, AreUsualOnesOfTargetsThatAreStillToCome) {
 }
 
 TEST(EyeTurns, GoTheUsualWayThatTheTargetIsNamedAfter) {
-  // By the face's sides: out is left for the left eye.
+  // Left and right are the face's own: out is left for the left eye.
   const std::vector<std::pair<std::string, std::string>> ways{
       {"eyeLookUp_L", "eyeLeft.up"},    {"eyeLookDown_L", "eyeLeft.down"},
       {"eyeLookOut_L", "eyeLeft.left"}, {"eyeLookIn_L", "eyeLeft.right"},
@@ -201,7 +201,7 @@ TEST(EyeTurns, StayWholeWhereARegionEndsInABall) {
   auto regions = dividedFace(rig, {{"below", {}, paint(rig, brush).value()}}).value();
   const auto rest = shown(rig, {});
   const EyeTurns turns = EyeTurns::addTo(rig, findEyes(rig));
-  // Turned in one region only, as where the other is late.
+  // Turned in one region only, as when the other lags behind.
   std::vector<double> weights(2 * rig.targets.size());
   const auto late = std::span(weights).subspan(rig.targets.size());
   late[rig.find("eyeLookDown_L")] = 1;
@@ -242,7 +242,7 @@ TEST(EyeTurns, GoAsFarAsTheTargetWent) {
       }
     }
   }
-  EXPECT_GT(sagged, 0.02);  // what the straight way loses
+  EXPECT_GT(sagged, 0.02);  // what linear interpolation loses
 }
 
 TEST(EyeTurns, GoTheUsualWayWhereTheBallMovesByATraceAlone) {
@@ -333,8 +333,8 @@ TEST(HeadAngles, AreFoundByTheirHeadings) {
   EXPECT_FALSE(none.head() || none.eyes());
 }
 
-/// As in takes of the app: where EyeLookOutLeft, EyeLookInRight and EyeLookUp are, yaw and pitch
-/// are below 0 and roll is their product.
+/// As in the app's takes: where EyeLookOutLeft, EyeLookInRight and EyeLookUp are active, yaw and
+/// pitch are negative and roll is their product.
 TEST(HeadAngles, OfCapturesLookWhereItsWeightsDo) {
   const Clip take{{"EyeLookOutLeft", "LeftEyeYaw", "LeftEyePitch", "LeftEyeRoll"},
                   {0},
@@ -354,7 +354,7 @@ TEST(HeadAngles, TurnNothingWhereTheyAreAlways0) {
   const ClipAngles head(Clip{names, {0, 1}, {0, 0, 0, 0.1, 0, 0}});
   EXPECT_TRUE(head.turnsHead() && !head.eyes());
   const ClipAngles roll(Clip{{"LeftEyeYaw", "LeftEyeRoll"}, {0, 1}, {0, 0, 0, 0.1}});
-  EXPECT_FALSE(roll.eyes());  // which no eye uses
+  EXPECT_FALSE(roll.eyes());  // eyes do not use roll
   const ClipAngles eyes(Clip{names, {0, 1}, {0, 0, 0, 0, 0, 0.1}});
   EXPECT_TRUE(eyes.eyes() && !eyes.turnsHead());
   EXPECT_TRUE(ClipAngles::tells("LeftEyeYaw"));
@@ -379,7 +379,7 @@ TEST(EyesLong, OfTheRealFaceTurnRigidly) {
   }
   const EyeTurns turns = EyeTurns::addTo(rig, eyes);
   const auto rest = shown(plain, {});
-  // Source vertices of sclera and iris, left and right.
+  // Ranges of source vertices: sclera and iris of the left and the right eye.
   constexpr std::array<std::size_t, 3> borders{21451, 23021, 24591};
   double most = 0;
   for (int k = 1; k <= 20; ++k) {

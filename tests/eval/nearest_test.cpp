@@ -35,7 +35,7 @@ class Anywhere {
   std::mt19937 random_;
 };
 
-/// Smooth ones, open and closed, with poles, irregular nodes, and patches that meet themselves.
+/// Smooth surfaces, open and closed, with poles, irregular nodes and patches that meet themselves.
 const std::vector<Rig>& smoothRigs() {
   static const std::vector<Rig> rigs = [] {
     ConvertOptions options;
@@ -90,7 +90,7 @@ TEST(NearestSites, AreNoFurtherThanAnythingElseOnTheSurface) {
   }
 }
 
-// Surfaces that bulge as none does that was made from a mesh.
+// Surfaces that bulge more than any converted from a mesh.
 TEST(NearestSites, AreNoFurtherThanPointsAtHalfEdgesWhateverTheSurface) {
   for (const Rig& rig : someRigs()) {
     const auto vectors = blend(rig, {});
@@ -200,7 +200,7 @@ TEST(TessellationsOfSites, ArePlayedAsTheSurfaceMoves) {
   }
 }
 
-// What a single point is worth, its own box cannot tell.
+// The bounding box of a single point cannot supply the default tolerance.
 TEST(TessellationsOfSites, AreAsExactWhereTheRigHasNoTolerance) {
   Rig rig = smoothRigs().front();
   rig.tolerance = 0;

@@ -12,7 +12,7 @@ namespace {
 
 using namespace sweepface::testing;
 
-/// Where points are, as the source's vertices round them say.
+/// An origin's position, interpolated from the source vertices around it.
 Vec3 mixed(const Origin& origin, const std::vector<Vec3>& source) {
   Vec3 sum;
   for (int k = 0; k < 4; ++k) sum += origin.shares[k] * source[origin.vertices[k]];
@@ -34,7 +34,7 @@ void expectSound(const std::vector<Origin>& origins, Index sourceVertices) {
 }
 
 TEST(Origins, LieOnTheSourcesQuads) {
-  const Rig rig = plainSheet(3);  // flat, with edges of one length
+  const Rig rig = plainSheet(3);  // flat, with edges of equal length
   const auto source = neutralOf(rig, Tessellation(rig.surface, 1));
   for (const Index level : {1, 2, 5}) {
     const Tessellation grid(rig.surface, level);
@@ -77,7 +77,7 @@ TEST(Origins, OfSingleSitesLieThereToo) {
     EXPECT_LE(norm(mixed(origins[v], source) - positions[v]), 1e-12);
 }
 
-// What is bilinear on quads everywhere, also at poles and hanging nodes.
+// Attributes are interpolated bilinearly on every quad, even at poles and hanging nodes.
 TEST(Origins, MixWhatHangsOnVerticesAsTextureCoordinatesAre) {
   for (Rig rig : {makeRig(onePatch(3, 2)), makeRig(tee()), makeRig(slice()), makeRig(fan(4))}) {
     std::iota(rig.source.quadCorners.begin(), rig.source.quadCorners.end(), 0);

@@ -52,7 +52,7 @@ TEST(PoseBox, IsThatOfTheNeutralAndOfHowFarATargetMovesAnything) {
     Box ways;
     for (std::size_t v = 0; v < still.size() / 3; ++v)
       ways.include(vectorOf(moved, v) - vectorOf(still, v));
-    const double bound = 14 * evaluator.positionBound(weights);  // eight on each axis
+    const double bound = 14 * evaluator.positionBound(weights);  // eight bounds on each axis
     EXPECT_LE(norm(box.of({}).size() - boxOf(still).size()), bound);
     EXPECT_LE(norm(box.of(weights).size() - (boxOf(still).size() + ways.size())), bound);
     const std::vector<double> back = {-2};

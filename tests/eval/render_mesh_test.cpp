@@ -64,7 +64,7 @@ TEST(RenderMesh, CutsConcavePolygonsInside) {
   Rig rig = plainSheet();
   const Tessellation grid(rig.surface, 1);
   const auto places = neutralOf(rig, grid);
-  // All but one quad as a single polygon of seven corners, three quads of area.
+  // Three of the four quads merged into one polygon with seven corners.
   const auto at = [&](double x, double y) {
     return static_cast<Index>(
         std::ranges::find_if(places,
@@ -81,7 +81,7 @@ TEST(RenderMesh, CutsConcavePolygonsInside) {
 
 TEST(RenderMesh, CutsQuadsWhereTheyAreShorter) {
   Rig rig = plainSheet();
-  for (Index v = 0; v < rig.surface.storedCount(); ++v)  // shear: diagonals differ
+  for (Index v = 0; v < rig.surface.storedCount(); ++v)  // shear it so that the diagonals differ
     rig.neutral[v].x += 0.5 * rig.neutral[v].y;
   const Tessellation grid(rig.surface, 1);
   const auto longest = [](const RenderMesh& mesh, const std::vector<Vec3>& places) {
@@ -95,12 +95,12 @@ TEST(RenderMesh, CutsQuadsWhereTheyAreShorter) {
   EXPECT_LT(longest(renderGrid(rig, grid), grid.positions(blend(rig, {}))), 1.2);
 }
 
-/// The sheet as so many triangles each way.
+/// The sheet cut into `segments` columns and rows.
 Tessellation cut(const Rig& rig, Index segments) {
   return {rig.surface, Density{std::vector<Index>(4, segments), {{segments, segments}}}};
 }
 
-/// The vertices' places, with a seam along x = 1.
+/// Texture coordinates equal to the vertices' positions, with a seam along x = 1.
 Vec2 withSeam(const Vec3& place, const Vec3& middle) {
   return {place.x + (middle.x > 1 ? 10 : 0), place.y};
 }
@@ -127,8 +127,8 @@ TEST(RenderMesh, RepeatsPointsOnlyAlongSeams) {
   }
 }
 
-// A column lies across the seam: its triangles have the coordinates of the side that their middle
-// is on.
+// One column straddles the seam: each of its triangles uses the coordinates of the side that its
+// centre lies on.
 TEST(RenderMesh, OfADensityGoesOnBeyondSeamsInsidePatches) {
   Rig rig = plainSheet();
   texture(rig, withSeam);
@@ -150,8 +150,9 @@ TEST(RenderMesh, OfADensityGoesOnBeyondSeamsInsidePatches) {
   }
 }
 
-// A slit along x = 1 from y = 1 to 3, which gapes in its middle. Two triangles are all of the sheet
-// and have the source's own texture coordinates at every corner: there are ways around the ends.
+// A slit in the texture along x = 1 from y = 1 to 3, open in the middle. Two triangles cover the
+// whole sheet and have the source's own texture coordinates at every corner, as paths lead around
+// the ends.
 TEST(RenderMesh, OfADensityGoesAroundTheEndsOfSeams) {
   Rig rig = plainSheet(4);
   const auto slit = [](const Vec3& place, const Vec3& middle) {
@@ -182,7 +183,7 @@ TEST(RenderMesh, OneCornerAloneMayHaveATextureCoordinate) {
   EXPECT_EQ(mesh.texcoords, expected);
 }
 
-// At a pole every other triangle may have a texture coordinate of its own.
+// At a pole, every other triangle may have its own texture coordinate.
 TEST(RenderMesh, APointMayHaveHundredsOfTextureCoordinates) {
   Rig rig = plainSheet();
   Polygons& faces = rig.source.polygons = {};

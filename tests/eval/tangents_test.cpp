@@ -13,12 +13,12 @@ namespace {
 
 using namespace sweepface::testing;
 
-/// A level's tessellation, its render mesh and the tangents of the neutral; 0: the source.
+/// The tessellation, render mesh and neutral tangents of a level; level 0 is the source.
 struct Level {
   Index level;
   Tessellation grid;
   RenderMesh mesh;
-  std::vector<Vec3> places;  // of the points
+  std::vector<Vec3> places;  // of the neutral's points
   Tangents tangents;
 
   Level(
@@ -72,7 +72,7 @@ TEST(Tangents, TellWhereTextureCoordinatesAreMirrored) {
   EXPECT_EQ(found.signs, std::vector<float>(9, -1));
 }
 
-// Beyond x = 1 they are turned by a right angle.
+// Beyond x = 1 the texture coordinates are turned by a right angle.
 TEST(Tangents, DifferOnBothSidesOfASeam) {
   Rig rig = plainSheet();
   texture(rig, [](const Vec3& p, const Vec3& middle) {
@@ -88,7 +88,7 @@ TEST(Tangents, DifferOnBothSidesOfASeam) {
   }
 }
 
-/// Both halves of a sheet have the same piece of the texture.
+/// A sheet whose halves share the same piece of the texture, mirrored.
 Rig foldedSheet() {
   Rig rig = plainSheet();
   texture(rig, [](const Vec3& p, const Vec3&) { return Vec2{std::abs(p.x - 1), p.y}; });
@@ -126,7 +126,7 @@ TEST(SplitMirrored, LeavesWhatIsOfOneKind) {
   EXPECT_TRUE(Level(plainSheet(), 0, splitMirrored).mesh.copies.empty()) << "without a texture";
 }
 
-/// Triangles round vertex 0, whose rim is a cone's.
+/// Triangles around vertex 0 that form a cone.
 struct Fan {
   RenderMesh mesh;
   std::vector<Vec3> positions{{}}, normals{{0, 0, 1}};
@@ -147,7 +147,8 @@ struct Fan {
   Tangents tangents() const { return tangentsOf(mesh, positions, normals); }
 };
 
-// MikkTSpace's: each triangle's own tangent in the plane of the normal, weighted by its angle.
+// As in MikkTSpace: each triangle's tangent, projected into the normal's plane, is weighted by the
+// triangle's angle.
 TEST(Tangents, AreAverages) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> uniform(0, 1);
@@ -168,7 +169,7 @@ TEST(Tangents, AreThoseOfTheLargerAngleWhereMirroredOnesMeet) {
   for (const double angle : {1.0, 2.0}) {
     Fan fan;
     const auto a = fan.rim(0, 0), b = fan.rim(angle, angle);
-    const auto c = fan.rim(3.0, 2 * angle - 3.0);  // mirrored about what they share
+    const auto c = fan.rim(3.0, 2 * angle - 3.0);  // mirrored about the shared edge
     fan.triangle(a, b), fan.triangle(b, c);
     const Tangents found = fan.tangents();
     const double turned = angle < 1.5 ? 2 * angle : 0;
@@ -179,20 +180,20 @@ TEST(Tangents, AreThoseOfTheLargerAngleWhereMirroredOnesMeet) {
 
 TEST(Tangents, AreNoneWhereNoTriangleTells) {
   Fan fan;
-  const auto a = fan.rim(0, 1), b = fan.rim(1, 1), c = fan.rim(2, 1);  // all on a line
+  const auto a = fan.rim(0, 1), b = fan.rim(1, 1), c = fan.rim(2, 1);  // texcoords in line
   fan.triangle(a, b), fan.triangle(b, c);
   const Tangents found = fan.tangents();
   EXPECT_EQ(found.directions, std::vector<Vec3>(4));
   EXPECT_EQ(found.signs, std::vector<float>(4, 1));
 }
 
-/// A linear map by its columns.
+/// A linear map, stored as its columns.
 using Linear = std::array<Vec3, 3>;
 Vec3 operator*(const Linear& map, const Vec3& p) {
   return p.x * map[0] + p.y * map[1] + p.z * map[2];
 }
 
-/// The rig with one target, which maps all of space.
+/// The rig with a single target that applies a linear map to everything.
 Rig mappedBy(Rig rig, const Linear& map) {
   Target target{"map", {}, {}};
   for (const Vec3& p : rig.neutral) target.difference.push_back(map * p - p);
@@ -203,7 +204,7 @@ Rig mappedBy(Rig rig, const Linear& map) {
 
 constexpr Linear kShear{{{1.3, 0, 0.2}, {0.5, 0.8, 0}, {0, -0.4, 1.1}}};
 
-/// Rigs of every sort whose texture coordinates are their places seen from above.
+/// Rigs of every kind, textured by projection from above.
 std::vector<Rig> texturedRigs() {
   std::vector<Rig> rigs;
   for (Rig rig :
@@ -213,12 +214,12 @@ std::vector<Rig> texturedRigs() {
     });
     rigs.push_back(rig);
   }
-  rigs[0].source.gridVertex.push_back(-1);  // and one of no face
+  rigs[0].source.gridVertex.push_back(-1);  // and a vertex that no face uses
   rigs[0].source.loose = {{1, 2, 3}};
   return rigs;
 }
 
-// Whatever maps all of space takes tangents along.
+// A linear map of the whole space transforms tangents as well.
 TEST(EvaluatorOfTangents, TakesThemWhereTheSurfaceDoes) {
   for (const Rig& plain : texturedRigs())
     for (const Index level : {0, 1, 3}) {

@@ -7,14 +7,14 @@
 
 #include "codec/rigs.hpp"
 
-// Sources with texture coordinates.
+// Helpers for sources with texture coordinates.
 namespace sweepface::testing {
 
 inline std::vector<Vec3> neutralOf(const Rig& rig, const Tessellation& grid) {
   return sourcePositions(rig, grid, blend(rig, {}), {});
 }
 
-/// A sheet of n × n unit quads in the plane, as a rig whose surface is that sheet.
+/// A rig whose surface is a planar sheet of n × n unit quads.
 inline Rig plainSheet(Index n = 2) {
   Rig rig;
   rig.surface = Surface::make(onePatch(n, n)).value();
@@ -25,7 +25,7 @@ inline Rig plainSheet(Index n = 2) {
     const StoredVector& s = rig.surface.stored(v);
     if (s.i == 0 && s.j == 0) rig.neutral[v] = corners[s.node];
     if (s.i + s.j == 1) {
-      // Slopes along the sheet's sides; a node's own axes are its first arms.
+      // Slopes along the sheet's sides; a node's axes are its first two arms.
       const auto& arms = rig.surface.connectivity().stars[s.node].arms;
       const HalfArc arm = arms[s.i == 1 ? 0 : 1];
       const Vec3 way = corners[rig.surface.wireframe().end(arm)] - corners[s.node];
@@ -37,7 +37,7 @@ inline Rig plainSheet(Index n = 2) {
   return rig;
 }
 
-/// Texture coordinates by a corner's place and the middle of its face.
+/// Adds texture coordinates computed from each corner's position and the centre of its face.
 inline void texture(Rig& rig,
                     const std::function<Vec2(const Vec3& place, const Vec3& middle)>& at) {
   const Tessellation grid(rig.surface, 1);

@@ -13,7 +13,7 @@ double signedArea(std::span<const Vec3> polygon, const Triangle& t) {
   return 0.5 * cross(polygon[t[1]] - polygon[t[0]], polygon[t[2]] - polygon[t[0]]).z;
 }
 
-/// The triangles cover a polygon in the plane: no one is turned over, and their areas sum to its.
+/// Expects the triangles to cover a planar polygon: none is flipped, and their areas add up to its.
 void expectCovers(const std::vector<Vec3>& polygon) {
   const std::vector<Triangle> triangles = triangulate(polygon);
   ASSERT_EQ(triangles.size(), polygon.size() - 2);
@@ -42,7 +42,7 @@ TEST(Triangulate, KeepsInsideConcavePolygons) {
   expectCovers({{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {2, 0.5, 0}, {0, 4, 0}});
   expectCovers(
       {{0, 0, 0}, {3, 0, 0}, {3, 3, 0}, {0, 3, 0}, {0, 2, 0}, {2, 2, 0}, {2, 1, 0}, {0, 1, 0}});
-  // Its corners -1, 4 and -6, -3 are ears until one beside them is cut off.
+  // The corners (-1, 4) and (-6, -3) are ears only until an adjacent corner is cut off.
   expectCovers({{8, 0, 0}, {1, 2, 0}, {-1, 4, 0}, {-4, 2, 0}, {-6, -3, 0}, {0, -1, 0}, {1, -2, 0}});
 }
 
@@ -62,7 +62,7 @@ TEST(Triangulate, CutsStars) {
   }
 }
 
-/// Whatever the polygon, its edges border its triangles once each.
+/// For any polygon, each of its edges belongs to exactly one triangle.
 TEST(Triangulate, CoversTwistedAndHugePolygonsOnce) {
   std::vector<Vec3> bow{{0, 0, 0}, {1, 1, 0}, {1, 0, 0}, {0, 1, 0}}, flat(5, Vec3{1, 2, 3}), ring;
   for (int k = 0; k < 1000; ++k)

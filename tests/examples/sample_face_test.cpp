@@ -79,7 +79,7 @@ double farthest(const std::vector<Vec3>& line, const std::vector<Vec3>& other) {
   return far;
 }
 
-/// Quads of the source mesh two of whose corners look away from each other.
+/// The number of quads of the source mesh with two corners that face away from each other.
 int folds(const Weights& weights) {
   const Tessellation grid(face().surface, 1);
   const auto positions = grid.positions(blend(face(), weights));

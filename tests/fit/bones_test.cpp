@@ -14,7 +14,7 @@ using namespace sweepface::testing;
 
 constexpr double kTolerance = 0.01;
 
-// A hill and, above it, a wavy sheet as teeth would be; targets that do things to the sheet.
+// A hill with a wavy sheet above it that stands for teeth; each target moves the sheet alone.
 MeshRig hillAndSheet(const std::vector<std::function<Vec3(const Vec3&)>>& moves) {
   const PolygonMesh hill = plane(),
                     sheet = grid(8, 6, [](double i, double j) {
@@ -43,7 +43,7 @@ Rig packedRig(const MeshRig& source) {
   return convert(source, options).value().rig;
 }
 
-// The farthest that a carry alone leaves a position of its bone from where the target has it.
+// The largest distance between a bone's positions as carried and where the target puts them.
 double farthest(const Rig& rig, Index target) {
   const codec::Bones bones(rig.surface, rig.packing, rig.neutral);
   const auto left =

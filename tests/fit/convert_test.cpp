@@ -119,7 +119,7 @@ TEST_P(EveryFit, meetsItsToleranceWhateverIsDamaged) {
   }
 }
 
-/// Floats, so that files hold them in half the bytes, and none that moves nothing.
+/// Vectors are single precision, which halves their size in files, and negligible ones are 0.
 TEST_P(EveryFit, storesSingleNumbersWithoutTraces) {
   const auto conversion = convert(source());
   ASSERT_TRUE(conversion);
@@ -210,7 +210,7 @@ TEST(Convert, bendsNothingWhereFacesHaveManyCorners) {
   EXPECT_LT(normalRms(converted->rig, rig), 1);
 }
 
-/// A strip one quad wide that bends and ends in a triangle, flat in one expression.
+/// A bent strip, one quad wide, that ends in a triangle and is flat in one expression.
 TEST(Convert, hasNormalsAtTheTipsOfLashes) {
   constexpr Index kLong = 5;
   PolygonMesh lash;
@@ -293,7 +293,7 @@ TEST(Progress, risesToItsEnd) {
     EXPECT_EQ(heard.back(), 1);
     EXPECT_EQ(std::ranges::count(heard, 1), 1);
     if (way == Way::fit) continue;
-    // Packing, which takes the most time, is told as it goes on.
+    // Packing, the slowest step, reports progress as it runs.
     EXPECT_GT(std::ranges::count_if(heard, [](double done) { return done > 0.3 && done < 1; }), 2);
   }
 }
@@ -326,7 +326,7 @@ TEST(Cancel, endsTheSearchForATolerance) {
   EXPECT_EQ(conversion.error().message, "the conversion was interrupted");
 }
 
-/// Normals far nearer than the steps of the tolerance alone could bring them.
+/// Normals far more accurate than the quantisation steps of the tolerance alone would give.
 TEST(Packed, normalsComeAsNearAsIsAskedWithFinerSteps) {
   const MeshRig source = withTargets(torus());
   ConvertOptions options;
@@ -345,7 +345,7 @@ TEST(Packed, normalsComeAsNearAsIsAskedWithFinerSteps) {
       told, [](const std::string& what) { return what.starts_with("packing, normals "); }));
 }
 
-/// Normals that a fine tolerance brings within theirs, and a coarse one does not.
+/// The normals meet their own tolerance with a fine tolerance but not with a coarse one.
 TEST(Search, forAToleranceDoesNotEndWhereOneCannotBeMet) {
   ConvertOptions options;
   options.normalTolerance = 2;
@@ -360,7 +360,7 @@ TEST(Search, forAToleranceDoesNotEndWhereOneCannotBeMet) {
   }
 }
 
-/// Normals that the first tolerance leaves too far off.
+/// The first tolerance leaves the normals too inaccurate.
 TEST(Search, forAToleranceGoesOnWithSmallerOnesWhereNormalsAreTooFarOff) {
   const MeshRig source = withTargets(plane());
   ConvertOptions options;
@@ -407,7 +407,7 @@ TEST(Search, forAToleranceGoesOnWithLargerOnesWhereTheFirstCannotBeMet) {
   const auto conversion = convertToBytes(far, options, 1 << 20);
   ASSERT_TRUE(conversion) << conversion.error().message;
   EXPECT_GT(conversion->rig.tolerance, 0.0457);
-  options.tolerance = 0;  // also where there is one for normals, which is not to blame
+  options.tolerance = 0;  // also with a tolerance for normals, which is not the cause
   options.normalTolerance = 60;
   const auto nearEnough = convertToBytes(far, options, 1 << 20);
   ASSERT_TRUE(nearEnough) << nearEnough.error().message;
@@ -556,7 +556,7 @@ TEST(Refusal, ofAToleranceThatNoCoordinateButTheirDistanceExceeds) {
       << why;
 }
 
-// As those of files of single precision do.
+// As coordinates in single-precision files are.
 TEST(Convert, takesNumbersThatAFileHoldsFarFromTheOrigin) {
   MeshRig far = withTargets(plane(4, 4), 0);
   for (Vec3& p : far.neutral.positions) p.x = static_cast<float>(p.x + 1e6);
@@ -597,7 +597,7 @@ TEST(Diagonal, spansTheBoundingBox) {
   EXPECT_DOUBLE_EQ(diagonal(grid(3, 4, [](double x, double y) { return Vec3{x, y, 0}; })), 5);
 }
 
-// Loops of edges that hold a shape: one row of faces a fiftieth as wide as those beside it.
+// Supporting edge loops: one row of faces is a fiftieth as wide as its neighbours.
 TEST(ThinRows, DoNotBendWhatIsBesideThem) {
   const MeshRig sheet{grid(20, 20,
                            [](double i, double j) {
@@ -628,8 +628,8 @@ TEST(ThinRows, DoNotBendWhatIsBesideThem) {
     }
 }
 
-// Lids and lips that close: a row of faces a fiftieth as wide as in the neutral, one with nothing
-// uneven.
+// Closing lids and lips: a row of faces is a fiftieth as wide as in the neutral, whose rows are
+// even.
 TEST(ThinRows, OfATargetDoNotFoldOver) {
   const auto sheet = [](double row) {
     return grid(10, 10, [=](double x, double y) {

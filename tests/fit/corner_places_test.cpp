@@ -30,7 +30,7 @@ PolygonMesh finned() {
   return mesh;
 }
 
-/// Faces whose middle is on the right wind the other way, as those of a mirrored half do.
+/// Reverses the winding of the faces centred on the right, as in a mirrored half.
 PolygonMesh halfReversed(const PolygonMesh& mesh) {
   PolygonMesh result;
   result.positions = mesh.positions;
@@ -93,7 +93,7 @@ TEST(CornerPlaces, areWhereTheVerticesAreOnASingleSheet) {
   }
 }
 
-/// Else they would be the sum over both windings, which lies in the surface.
+/// Otherwise they would be the sum over both windings, which lies in the surface.
 TEST(CornerPlaces, giveEverySheetNormalsOfItsOwn) {
   const MeshRig whole = withTargets(plane()), reversed = withTargets(halfReversed(plane()));
   EXPECT_LE(normalRms(packed(reversed, 0.02), reversed), 3 * normalRms(packed(whole, 0.02), whole));

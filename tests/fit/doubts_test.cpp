@@ -16,7 +16,7 @@ namespace {
 
 using namespace testing;
 
-/// A face with a target of the same name for each of these.
+/// A face with the given targets.
 MeshRig rigWith(std::initializer_list<std::pair<const char*, std::vector<Vec3>>> targets) {
   MeshRig rig{plane(), {}};
   for (const auto& [name, positions] : targets) rig.targets.push_back({name, positions});
@@ -39,7 +39,7 @@ std::vector<Vec3> placed(const std::function<Vec3(const Vec3&)>& place) {
   for (Vec3& p : positions) p = place(p);
   return positions;
 }
-/// The one sentence about a face with this target beside a good one.
+/// The single warning about a face that has this target in addition to a good one.
 std::string doubtAbout(const std::vector<Vec3>& positions) {
   const auto doubts = doubtsAbout(rigWith({{"open", opened()}, {"odd", positions}}), 0.01);
   EXPECT_EQ(doubts.size(), 1u);
@@ -71,7 +71,7 @@ TEST(Doubts, AreOfTargetsInAnotherOrder) {
 TEST(Doubts, AreOfTargetsOfOtherAxes) {
   EXPECT_EQ(doubtAbout(placed([](const Vec3& p) { return Vec3{p.x, -p.z, p.y}; })),
             "Targets that may have other axes: 'odd' (turned by 90 degrees).");
-  std::vector<Vec3> alsoOpen = opened();  // by 90 degrees and a little
+  std::vector<Vec3> alsoOpen = opened();  // turned by slightly more than 90 degrees
   for (Vec3& p : alsoOpen) p = {p.x, 0.02 * p.y - p.z, p.y + 0.02 * p.z};
   EXPECT_EQ(doubtAbout(alsoOpen),
             "Targets that may have other axes: 'odd' (turned by 90 degrees).");
@@ -81,7 +81,7 @@ TEST(Doubts, AreOfTargetsOfOtherAxes) {
   ball.targets.push_back({"odd", mirrored});
   EXPECT_EQ(doubtsAbout(ball, 0.01),
             std::vector<std::string>{"Targets that may have other axes: 'odd' (mirrored)."});
-  // A flat face might as well be turned.
+  // For a flat face, mirroring cannot be told from turning.
   MeshRig flat{grid(4, 4, [](double i, double j) { return Vec3{i - 2, 2 * j - 4, 0}; }), {}};
   flat.targets.push_back({"odd", flat.neutral.positions});
   for (Vec3& p : flat.targets[0].positions) p.x = -p.x;
@@ -98,7 +98,7 @@ TEST(Doubts, AreOfMostTargetsOfAnotherOrigin) {
   EXPECT_EQ(doubtsAbout(rigWith({{"a", farAway()}, {"b", farAway()}, {"open", opened()}}), 0.01),
             std::vector<std::string>{
                 "Targets that may have another origin: 'a' (50 away), 'b' (50 away)."});
-  // Those that do not move do not count.
+  // Targets that do not move do not count.
   EXPECT_EQ(
       doubtsAbout(rigWith({{"a", farAway()}, {"b", plane().positions}, {"c", plane().positions}}),
                   0.01)
@@ -118,7 +118,7 @@ TEST(Doubts, AreNoneOfTurningHeads) {
 
 TEST(Doubts, AreOfTargetsThatAreTheNeutral) {
   MeshRig rig = rigWith({{"open", opened()}, {"rest", plane().positions}});
-  // A vertex of no face does not count.
+  // A vertex that no face uses does not count.
   rig.neutral.positions.push_back({});
   for (MeshTarget& target : rig.targets) target.positions.push_back({5, 5, 5});
   EXPECT_EQ(doubtsAbout(rig, 0.01),
@@ -147,7 +147,7 @@ TEST(Doubts, AreOfAToleranceLikeTheMesh) {
   EXPECT_NE(doubts[0].find("is 25 % of the mesh's size"), std::string::npos) << doubts[0];
 }
 
-/// A ground plane beside a head makes it look large.
+/// A ground plane next to a head makes the mesh look large.
 TEST(Doubts, AreOfAToleranceFarAboveEdges) {
   MeshRig rig = rigWith({});
   const Index first = static_cast<Index>(rig.neutral.positions.size());
@@ -155,7 +155,7 @@ TEST(Doubts, AreOfAToleranceFarAboveEdges) {
     rig.neutral.positions.push_back(p);
   addFace(rig.neutral, {first, first + 1, first + 2, first + 3});
   EXPECT_EQ(doubtsAbout(rig, 0.0002 * diagonal(rig.neutral)).size(), 1u);
-  // Edges of no length are none.
+  // Edges of zero length do not count.
   for (Vec3& p : rig.neutral.positions)
     if (std::abs(p.x) < 100) p = {};
   EXPECT_TRUE(doubtsAbout(rig, 0.0002 * diagonal(rig.neutral)).empty());
@@ -178,7 +178,7 @@ TEST(Doubts, AreOfAToleranceTooFineForACoarseMesh) {
   EXPECT_TRUE(doubts[0].ends_with("try a tolerance of 0.5.")) << doubts[0];
   EXPECT_TRUE(doubtsAbout(rig, 0.5).empty());
   EXPECT_TRUE(doubtsAbout({corrugated(0.04), {}}, 0.01).empty());   // as good as smooth
-  EXPECT_TRUE(doubtsAbout({corrugated(0.1, 4), {}}, 0.1).empty());  // too few faces to tell by
+  EXPECT_TRUE(doubtsAbout({corrugated(0.1, 4), {}}, 0.1).empty());  // too few faces to judge
 }
 
 TEST(Doubts, AreToldByConvert) {

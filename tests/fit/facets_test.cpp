@@ -27,7 +27,7 @@ TEST_P(EveryFacet, isNoFurtherThanThoseThatShareAVertexWithIt) {
   const Rig rig = convert(GetParam().rig, options).value().rig;
   const std::vector<Vec3>& positions = GetParam().rig.neutral.positions;
   const FaceMap map(rig, placesOf(rig), positions);
-  FaceMap apart = map;  // no face is beside another
+  FaceMap apart = map;  // no face has neighbours
   for (std::vector<Index>& faces : apart.facesAt) faces.clear();
   const Facets facets(rig.source, map, positions, {}, 0),
       alone(rig.source, apart, positions, {}, 0);

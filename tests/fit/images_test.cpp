@@ -17,7 +17,8 @@ TEST(Images, NamesSayTheOtherSide) {
   for (const char* name : {"jawOpen", "L", "XL", ""}) EXPECT_EQ(otherSide(name), name);
 }
 
-// Poses that are compared with images are packed at the same time.
+// Poses compared with the image of another are packed concurrently, so they must not depend on each
+// other.
 TEST(Images, TheOtherSideOfTheOtherSideIsTheNameItself) {
   for (const char* name : {"RightLookLeft", "LeftLookRight", "rightUpLeft", "LEFT_right_L",
                            "leftLeft", "RIGHT.R", "Left_R"}) {

@@ -53,7 +53,7 @@ TEST_P(EveryMeasure, showsAKnownDisplacementAsThatDistance) {
   EXPECT_NEAR(m->worst.distance.rms, 1.3 / std::sqrt(3), 1e-12);
 }
 
-// Ways from the neutral are right wherever the whole face stands.
+// Displacements from the neutral do not depend on where the whole face is.
 TEST_P(EveryMeasure, findsNoErrorInDisplacementsOfAShiftedFace) {
   const Rig rig = roughly(GetParam().rig);
   MeshRig source = exported(rig, GetParam().rig);
@@ -109,7 +109,7 @@ TEST(Measure, showsAKnownTiltAsThatAngle) {
   EXPECT_NEAR(m->worst.shadingRms, 5, 1e-4);
 }
 
-// Every vertex of a pleated sheet is on a crest, where its normal is that of a plane.
+// Every vertex of a pleated sheet lies on a crest, where the normal is that of a plane.
 TEST(Measure, seesWavesBetweenVertices) {
   const auto pleated = [](double x, double y) {
     return Vec3{x, y, std::lround(x) % 2 == 0 ? 0.2 : -0.2};
@@ -154,7 +154,7 @@ TEST(Measure, countsFolds) {
   const MeshRig source{plane(8, 8), {}};
   Rig rig = roughly(source);
   EXPECT_EQ(measure(rig, source)->worst.folds, 0);
-  for (Vec3& v : rig.neutral) v.x = -v.x;  // every triangle of level 4 looks the other way
+  for (Vec3& v : rig.neutral) v.x = -v.x;  // flips every triangle of level 4
   EXPECT_EQ(measure(rig, source)->worst.folds, 2 * 16 * 8 * 8);
 }
 
@@ -186,7 +186,7 @@ TEST(Measure, countsAFoldBetweenVerticesThatFit) {
   ConvertOptions options;
   options.tolerance = 1;
   Rig rig = convert(source, options).value().rig;
-  rig.tolerance = 0.01;  // facets no larger than the tolerance are not looked at
+  rig.tolerance = 0.01;  // facets no larger than the tolerance are ignored
   for (Index v = 0; v < rig.surface.storedCount(); ++v)
     if (const StoredVector& s = rig.surface.stored(v); s.i + s.j == 1) rig.neutral[v] *= 12.0;
   EXPECT_GT(measure(rig, source)->worst.folds, 0);

@@ -17,7 +17,7 @@ TEST_P(EveryNormalError, isWhatIsMeasured) {
   EXPECT_NEAR(normalRms(rig, source), measure(rig, source)->worst.angle.rms, 1e-9);
 }
 
-/// Where a part of the mesh shrinks to a point it has no normals; every other one counts the same.
+/// A part of the mesh that shrinks to a point has no normals; all others count equally.
 TEST(NormalError, isOverAllVerticesOfAllExpressions) {
   MeshRig source = withTargets(plane());
   const Rig rig = roughly(source);

@@ -48,7 +48,7 @@ TEST_P(EveryPack, staysNearTheFaceAndIsSmall) {
   EXPECT_EQ(encode(read), encode(rig));
 }
 
-/// Which of them lies where is optional in files, and folds are not looked for without.
+/// Files need not store where source faces lie on the surface; without this, folds are not sought.
 TEST(Pack, needsNotKnowTheFacesOfTheSource) {
   const MeshRig source = withTargets(torus());
   Rig rig = converted(source, 0.01);
@@ -73,14 +73,14 @@ TEST(Pack, meshesAreTheSourceAsTheRigHasIt) {
   EXPECT_EQ(furthestVertex(rig, rig).distance, 0);
 }
 
-/// Two sheets that touch at a vertex, which has a place on each of them: an edit parts these.
+/// Two sheets that touch at a vertex, which has a place on each of them; an edit separates these.
 TEST(Pack, keepsPlacesOfOneVertexApart) {
   MeshRig bow{plane(3, 3), {}};
   PolygonMesh other = bow.neutral;
   const auto count = static_cast<Index>(bow.neutral.positions.size());
   const Vec3 way = bow.neutral.positions.back() - bow.neutral.positions.front();
   for (Vec3& p : other.positions) bow.neutral.positions.push_back(p + way);
-  for (const Index corner : other.polygons.corners)  // of the other sheet the first is our last
+  for (const Index corner : other.polygons.corners)  // its first vertex is our last
     bow.neutral.polygons.corners.push_back(corner == 0 ? count - 1 : count + corner);
   const Index corners = bow.neutral.polygons.faceStart.back();
   for (std::size_t f = 1; f < other.polygons.faceStart.size(); ++f)
@@ -101,7 +101,7 @@ TEST(Pack, keepsPlacesOfOneVertexApart) {
 
 TEST(Pack, keepsEdits) {
   Rig rig = converted(withTargets(plane()), 0.01);
-  Index node = 0;  // one that may be moved
+  Index node = 0;  // the first that may be moved
   while (!moveNodes(rig, std::vector{NodeMove{node, {0, 0, 1}}})) ++node;
   const MeshRig edited = meshesOf(rig);
   ASSERT_TRUE(pack(rig, {.tolerance = 0.02}));
@@ -116,7 +116,7 @@ TEST(Pack, goesByTheToleranceAndTheBitsOfTheFaceUnlessTold) {
   EXPECT_EQ(rig.packing.textureBits, 9);
   ASSERT_TRUE(pack(rig, {.tolerance = 0.01}));
   EXPECT_EQ(rig.packing.textureBits, 9);
-  EXPECT_EQ(pack(rig), 0.01);  // not what all of them add up to
+  EXPECT_EQ(pack(rig), 0.01);  // not the sum of all tolerances so far
   rig.tolerance = 0;
   rig.packing = {};
   const double size = diagonal(meshesOf(rig).neutral);

@@ -9,7 +9,7 @@ namespace {
 
 constexpr Index kVertices = 40, kVectors = 12;
 
-// Vectors that each move some vertices, and a pose that is off here and there beyond its bounds.
+// Vectors that each move some vertices, and a pose whose errors exceed the bounds in places.
 class RandomErrors : public ::testing::TestWithParam<unsigned> {
  protected:
   RandomErrors() {
@@ -38,7 +38,7 @@ class RandomErrors : public ::testing::TestWithParam<unsigned> {
     const std::array<float, 3> n{0.6f, 0, 0.8f}, e{random(-0.5f, 0.5f), random(-0.5f, 0.5f), 0};
     return {e, e[0] * n[0] + e[2] * n[2], n, random(0.5f, 2)};
   }
-  // What moving a coefficient does to a task.
+  // Moves a coefficient of a task by a number of steps.
   void move(Index v, int a, float steps) {
     for (Index p = columns.start[v]; p < columns.start[v + 1]; ++p) {
       const Index u = columns.vertex[p];
@@ -67,7 +67,7 @@ TEST_P(RandomErrors, GrowAsTheirGradientSays) {
   for (Index v = 0; v < kVectors; ++v) {
     const PoseCost::Four gradient = errors.gradient(v);
     for (int a = 0; a < 3; ++a) {
-      // Where a vertex comes to its bound in between the two sides differ.
+      // The one-sided differences disagree where a vertex reaches its bound in between.
       const float ahead = errors.growth(v, a, kSmall) / kSmall,
                   behind = -errors.growth(v, a, -kSmall) / kSmall;
       const float off = 0.03f * (1 + std::abs(ahead));

@@ -18,11 +18,11 @@ Result<MeshRig> faceIn(const std::filesystem::path& folder, bool expressions) {
   if (expressions) targets.push_back(folder / "expressions");
   return readRig(folder / "neutral.obj", targets);
 }
-// With eyes, teeth, gums and lashes: 26 719 vertices in centimetres with 57 expressions.
+// The full face with eyes, teeth, gums and lashes: 26 719 vertices in centimetres, 57 expressions.
 Result<MeshRig> everything() {
   return faceIn(std::filesystem::path(realFaces()) / "ictface", true);
 }
-// Its skin: a head of 11 248 vertices.
+// Its skin alone: a head of 11 248 vertices.
 Result<MeshRig> head(bool expressions) {
   return faceIn(std::filesystem::path(realFaces()) / "ictface" / "head", expressions);
 }
@@ -84,8 +84,9 @@ TEST(RealFaceLong, aHeadAndItsExpressionsStayWithinTheirTolerance) {
   }
 }
 
-// What packing may spend is the tolerance, not the surface between the vertices. A face packed
-// within 0.2 mm and read again, what it measures, and its bytes with and without order and texture.
+// A face packed within 0.2 mm and read back, its measurement, and its size in bytes with and
+// without order and texture. Packing may use up the tolerance but must not spoil the surface
+// between the vertices.
 struct Packed {
   Rig read;
   Measurement measured;
@@ -121,7 +122,7 @@ TEST(RealFaceLong, aPackedHeadIsSmallAndFoldsNowhere) {
   EXPECT_LE(packed.bare, 20'480u);
 }
 
-// Teeth and gums hang on the jaw; sheets touch; the sockets of the eyes differ.
+// Teeth and gums follow the jaw, sheets touch, and the eye sockets differ.
 TEST(RealFaceLong, aPackedFaceWithAllItsPartsIsSmall) {
   SKIP_WITHOUT_REAL_FACES();
   Packed packed;

@@ -16,7 +16,8 @@ using namespace sweepface::testing;
 class EveryStrip : public ::testing::TestWithParam<Face> {};
 INSTANTIATE_TEST_SUITE_P(Strip, EveryStrip, eachFace(), faceName);
 
-/// The corners of all faces as points, each face from its least corner on, in any order of faces.
+/// The corner positions of all faces, independent of the order of faces and of each face's first
+/// corner.
 std::vector<std::vector<std::array<double, 3>>> facesInSpace(const Rig& rig) {
   const Tessellation grid(rig.surface, 1);
   const Weights still(rig.targets.size(), 0.0);
@@ -115,7 +116,7 @@ TEST(Strip, TextureCoordinatesComeInTheOrderOfTheirCorners) {
 
 TEST(Strip, FacesWithoutASurfaceGoWithTheOrder) {
   MeshRig source = withTargets(plane(2, 2), 1);
-  source.neutral.positions.push_back({5, 5, 5});  // of no other face
+  source.neutral.positions.push_back({5, 5, 5});  // used by no proper face
   source.targets[0].positions.push_back({5, 6, 5});
   PolygonMesh& mesh = source.neutral;
   mesh.polygons = {};
@@ -143,7 +144,8 @@ TEST(Strip, RefusesFacesThatAreOnlyPartlyOnTheSurface) {
   EXPECT_EQ(stripped.error().message, "a face has a corner that is on no patch; keep the order");
 }
 
-// Left by whoever dissolved edges: the face runs out to a vertex of no other face and back.
+// As left behind by dissolving edges: the face runs out to a vertex that no other face uses, and
+// back.
 TEST(Strip, TipsOfSpikesGoWithTheOrder) {
   MeshRig source;
   source.neutral.positions = {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}, {3, 0, 0}};

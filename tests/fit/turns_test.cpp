@@ -30,7 +30,7 @@ double fromLine(const Vec3& p, const Vec3& pivot, const Vec3& axis) {
   return norm(cross(p - pivot, axis));
 }
 
-/// A mesh with one target, in which every vertex goes where `move` says.
+/// A mesh with one target, in which `move` is applied to every vertex.
 MeshRig moved(PolygonMesh mesh, const std::function<Vec3(const Vec3&)>& move) {
   MeshTarget target{"moved", {}};
   for (const Vec3& p : mesh.positions) target.positions.push_back(move(p));
@@ -49,7 +49,7 @@ TEST(Turns, findAnAxis) {
 }
 
 TEST(Turns, aPartThatIsRigidTellsForAll) {
-  // The plane follows a ball less and less, as a chin follows its teeth.
+  // The plane follows the ball less and less towards one side, as a chin follows its teeth.
   const Vec3 pivot{5, 4, -20}, axis{1, 0, 0};
   MeshRig source = moved(joined(plane(), cubeSphere(4, 2), {5, 4, -8}), [&](const Vec3& p) {
     const double share = p.z < -4 ? 1 : 0.1 * p.y;
@@ -83,7 +83,7 @@ TEST(Turns, aLidTurnsAboutItsBall) {
 
 TEST(Turns, areNotSeenWhereThereAreNone) {
   EXPECT_TRUE(findTurns(converted(withTargets(plane(), 3))).empty());
-  // Shifts, growth, nothing, and a turn too small to matter.
+  // A translation, a scaling, no movement, and a turn too small to matter.
   for (const auto& move : std::vector<std::function<Vec3(const Vec3&)>>{
            [](const Vec3& p) { return p + Vec3{1, 2, 3}; }, [](const Vec3& p) { return p * 1.2; },
            [](const Vec3& p) { return p; },
@@ -94,7 +94,7 @@ TEST(Turns, areNotSeenWhereThereAreNone) {
 
 // ---- The full face of ICT-FaceKit ----
 
-/// A target under its arc at 21 weights.
+/// A target at 21 weights, with its arc and without.
 class ArcStudy {
  public:
   ArcStudy(const Rig& plain, const std::string& name) : rig_(plain), target_(plain.find(name)) {
@@ -112,7 +112,7 @@ class ArcStudy {
     }
   }
 
-  /// How far a vertex's distance falls below the straight interpolation of its end distances.
+  /// How far a vertex's distance falls below the linear interpolation of its end distances.
   double sag(const std::vector<std::vector<Vec3>>& way, Index v, auto distance) const {
     double worst = 0;
     const double from = distance(way.front()[v]), to = distance(way.back()[v]);
@@ -127,7 +127,7 @@ class ArcStudy {
     return worst;
   }
 
-  /// Vertices that go further than a share of the longest way.
+  /// The vertices that move further than a given share of the largest displacement.
   std::vector<Index> movers(double share) const {
     double longest = 0;
     for (std::size_t v = 0; v < arc[0].size(); ++v)
@@ -188,7 +188,7 @@ TEST(ArcsLong, lidsGoOverTheEyeballAndTheJawAboutItsHinge) {
   EXPECT_GT(straight, 0.1);
   EXPECT_LE(arc, 0.1 * straight);
 
-  // The lower teeth stay rigid on the way.
+  // The lower teeth stay rigid throughout.
   double stretch = 0, straightStretch = 0;
   for (Index a = kFirstLowerTeeth; a <= kLastLowerTeeth; a += 37)
     for (Index b = a + 37; b <= kLastLowerTeeth; b += 37)

@@ -227,7 +227,8 @@ TEST(AnimationWriter, TurnsSkinnedMeshesThatCarryOthers) {
   }
 }
 
-/// The angle about y of a rotation that players find between the keys of a track, the shorter way.
+/// The angle about y to which players interpolate between the keys of a rotation track, the shorter
+/// way.
 double yawBetweenKeys(const std::vector<double>& times, const std::vector<double>& values,
                       double time) {
   std::size_t k = 1;

@@ -65,7 +65,7 @@ TEST(BoundScene, RefusesFacesOfOtherPartsThanItsOwn) {
   EXPECT_TRUE(failsWith(gltf::sceneOf(rigOf(apart, faces)), {"face 8 is in no mesh of it"}));
 }
 
-/// The shapes that a rig stands for let its file claim as much as it has vertices.
+/// A rig's shapes account for as many elements as it has vertices, so its file may claim them.
 TEST(BoundScene, AttributesWithoutDataMayBeAsLongAsTheFaceIs) {
   constexpr int count = 120'000;
   std::vector<Vec3> positions;

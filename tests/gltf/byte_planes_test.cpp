@@ -13,7 +13,7 @@ namespace {
 
 using gltf::ByteTable, gltf::toPlanes, gltf::fromPlanes, gltf::deflated;
 
-/// Rows of smooth floats, as vertices have them.
+/// Rows of smooth floats, like those of vertices.
 std::string floats(std::size_t rows, std::size_t width) {
   std::vector<float> values;
   for (std::size_t k = 0; k < rows * width; ++k)

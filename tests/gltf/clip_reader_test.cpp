@@ -38,7 +38,7 @@ double weight(const Clip& clip, double seconds, std::size_t k) {
   return all[k];
 }
 
-// As players do; other animations of the file then stay in step.
+// As players do, so that other animations of the file stay in step.
 TEST(GltfClip, HoldTheirFirstKeyFromTheBeginning) {
   const auto clip = clipOf(moving("LINEAR", {1, 2, 4}, {0, 0.5f, 1, 0.25f, 0, 0.75f}));
   ASSERT_TRUE(clip) << clip.error().message;
@@ -119,13 +119,13 @@ TEST(GltfClip, OfSeveralMeshesTheFirstOneCounts) {
     channels.push_back(channels[0]);
     channels.back()["target"]["node"] = glb.add("nodes", {{"mesh", mesh}});
   }
-  // The second one has the same targets; not even its keys count.
+  // The second mesh has the same targets; even its keys are ignored.
   Json& samplers = glb.json["animations"][0]["samplers"];
   samplers.push_back(samplers[0]);
   samplers[1]["input"] =
       glb.addAccessor(glb.addView(bytesOf(std::vector<float>{0, 0.5})), 5126, "SCALAR", 2);
   channels[1]["sampler"] = 1;
-  for (int order = 0; order < 2; ++order) {  // that of channels means nothing
+  for (int order = 0; order < 2; ++order) {  // the order of channels does not matter
     const auto clip = clipOf(glb);
     ASSERT_TRUE(clip) << clip.error().message;
     EXPECT_EQ(clip->names, (std::vector<std::string>{"open", "wink", "smile"}));
@@ -189,7 +189,7 @@ Glb manyTargets(std::size_t targets, std::string_view interpolation, float secon
   return glb;
 }
 
-/// Meshes as the first, each with a target of its own that its channel moves in the same way.
+/// Adds copies of the first mesh, each with a target of its own that a channel moves the same way.
 void addMeshes(Glb& glb, int count) {
   for (int k = 0; k < count; ++k) {
     Json mesh = glb.json["meshes"][0], channel = glb.json["animations"][0]["channels"][0];
@@ -206,7 +206,7 @@ TEST(GltfClip, HoldsNoMoreWeightsThanAClipMay) {
                          "frames that a clip of them can hold"}));
 }
 
-/// Only curves are cut.
+/// Only curves are subdivided.
 TEST(GltfClip, HoldsStraightLinesOfAnyLength) {
   for (const char* interpolation : {"LINEAR", "STEP"})
     EXPECT_TRUE(clipOf(manyTargets(300, interpolation, 1e6f))) << interpolation;
@@ -244,12 +244,12 @@ TEST(GltfClip, CountsFramesThatTracksHaveInCommonOnce) {
   EXPECT_GT(meshes * clip->weights.size(), kMostClipWeights);
 }
 
-// Frames that are just too many are not sorted again at every key.
+// Frames that are slightly too many are not sorted again at every key.
 TEST(GltfClip, RefusesTooManyDifferentFramesSoon) {
   constexpr int meshes = 100;
   constexpr std::size_t keys = 10'001;
   Glb glb = manyTargets(1, "CUBICSPLINE", 1);
-  std::vector<float> times;  // as many frames as twice a clip of so many targets can hold, nearly
+  std::vector<float> times;  // nearly twice the frames that a clip of so many targets can hold
   for (std::size_t k = 0; k < keys; ++k) times.push_back(static_cast<float>(k) * 134.f / 120);
   Json& sampler = glb.json["animations"][0]["samplers"][0];
   sampler["input"] = glb.addAccessor(glb.addView(bytesOf(times)), 5126, "SCALAR", keys);
@@ -297,7 +297,7 @@ TEST(GltfClip, SaysWhatIsWrong) {
   ASSERT_EQ(clipOf(twice, "talk")->warnings.size(), 1u);
   EXPECT_TRUE(
       clipOf(twice, "talk")->warnings[0].starts_with("Several of its animations are named 'talk'"));
-  // Ten are told, wherever they stand.
+  // Up to ten names are listed, wherever their animations are.
   Glb many = glb;
   many.json["animations"] = Json::array();
   for (int k = 0; k < 12; ++k) many.json["animations"].push_back(nod);

@@ -38,7 +38,7 @@ struct Glb {
   Json json = Json::object({{"asset", Json::object({{"version", "2.0"}})}});
   std::string binary;
 
-  /// Appends to a list of the JSON; returns the number.
+  /// Appends to a list of the JSON; returns the entry's index.
   std::size_t add(const char* list, Json entry) {
     json[list].push_back(std::move(entry));
     return json[list].size() - 1;
@@ -71,7 +71,7 @@ struct Glb {
       for (const double x : {t.x, t.y}) values.push_back(static_cast<float>(x));
     return addAccessor(addView(bytesOf(values)), 5126, "VEC2", texcoords.size());
   }
-  /// Zeros but at a few places.
+  /// Zeros except at a few places.
   std::size_t addSparse(std::size_t count, const std::vector<std::uint16_t>& where,
                         const std::vector<Vec3>& what) {
     Json sparse = {{"count", where.size()},
@@ -162,7 +162,7 @@ inline Glb smallFace() {
 
 inline Result<RigSource> parse(const Glb& glb) { return parseGltf(glb.bytes(), "face.glb", {}); }
 
-/// What is read, or a failure that says why it is not.
+/// The source that is read. If it cannot be, adds a failure that says why.
 inline RigSource read(const Glb& glb) {
   auto source = parse(glb);
   if (source) return std::move(*source);

@@ -13,7 +13,7 @@ namespace {
 
 using namespace testing;
 
-/// A sheet whose second target moves a corner only.
+/// A sheet whose second target moves only a corner.
 MeshRig sheetRig() {
   MeshRig rig = withTargets(plane(8, 6), 1);
   MeshTarget corner{"corner", rig.neutral.positions};
@@ -23,7 +23,7 @@ MeshRig sheetRig() {
   return rig;
 }
 
-/// The difference that a target makes, vertex by vertex of the source.
+/// The displacements by a target at the vertices of the source.
 std::vector<Vec3> surfaceDifference(const Rig& rig, std::size_t target) {
   std::vector<Vec3> moved = surfacePositions(rig, oneTarget(rig, target));
   const std::vector<Vec3> neutral = surfacePositions(rig);
@@ -60,7 +60,7 @@ TEST_P(EveryFace, HoldsMeshesInSinglePrecision) {
   const Written glb(*bytes);
   EXPECT_FALSE(glb.primitive()["attributes"].contains("NORMAL"));
   std::vector<Vec3> neutral = glb.vectors(glb.attribute("POSITION"));
-  neutral.resize(source.neutral.positions.size());  // those behind differ in texture alone
+  neutral.resize(source.neutral.positions.size());  // the rest differ only in texture coordinates
   expectSingle(neutral, source.neutral.positions);
   for (std::size_t k = 0; k < source.targets.size(); ++k) {
     std::vector<Vec3> ways = glb.vectors(glb.morph(k)), expected = source.targets[k].positions;
@@ -75,7 +75,7 @@ TEST_P(EveryFace, HasTheSourcesTrianglesInTheirOrder) {
   const MeshRig& source = GetParam().rig;
   const Rig rig = converted(source, 0.2);
   const std::vector<Index> indices = write(rig).indices();
-  // The edges of every face, once around; inner edges of a face cancel.
+  // The triangles of every face run once around it: inner edges cancel.
   std::size_t at = 0;
   for (const Loop& face : loopsOf(source.neutral.polygons)) {
     std::multiset<std::pair<Index, Index>> edges;
@@ -183,7 +183,7 @@ TEST(GlbWriter, KeepsLooseVertices) {
 
 // ---- Texture and materials ----
 
-/// The sheet with a texture that is cut along its middle, and two materials.
+/// The sheet with a texture seam along its middle, and two materials.
 MeshRig texturedRig() {
   MeshRig rig = sheetRig();
   Polygons& p = rig.neutral.polygons;
@@ -229,7 +229,7 @@ TEST(GlbWriter, DoublesVerticesOnlyWhereTheTextureIsCut) {
   EXPECT_EQ(p.texcoords.size(), 4u * 8 * 6);
 }
 
-/// Triangles about one vertex, which has another texture coordinate in each.
+/// Triangles around one vertex, which has a different texture coordinate in each.
 MeshRig texturedFan(Index triangles) {
   MeshRig rig;
   Polygons& p = rig.neutral.polygons;

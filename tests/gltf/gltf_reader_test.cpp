@@ -14,7 +14,7 @@ namespace {
 
 using namespace sweepface::testing;
 
-/// The faces of a mesh, each beginning with its smallest vertex.
+/// The faces of a mesh, each starting at its smallest vertex.
 std::vector<std::vector<Index>> facesOf(const Polygons& polygons) {
   std::vector<std::vector<Index>> faces;
   for (Index f = 0; f < polygons.faceCount(); ++f) {
@@ -34,7 +34,7 @@ Faces trianglesOf(const Glb& glb) {
   return facesOf(gltf::readMeshRig(document, parts).value().rig.neutral.polygons);
 }
 
-/// Vertices without faces that matter.
+/// Vertices whose faces do not matter.
 Glb points(const std::vector<Vec3>& positions, Json primitive = Json::object()) {
   Glb glb;
   primitive["attributes"]["POSITION"] = glb.addVectors(positions);
@@ -63,7 +63,7 @@ TEST(GltfReader, ReadsTheNeutralAndItsTargets) {
   EXPECT_TRUE(source.faceWarnings.empty());
 }
 
-/// As the standard allows: zeros where nothing else is said.
+/// As the standard allows: values that are not given are zero.
 TEST(GltfReader, PositionsMayBeSparseAlone) {
   const Glb dense = smallFace();
   Glb glb = smallFace();
@@ -156,7 +156,7 @@ TEST(GltfReader, ReadsListsStripsAndFans) {
     return trianglesOf(points(zigzag(count), {{"mode", mode}}));
   };
   EXPECT_EQ(facesWith(4, 6), (Faces{{0, 1, 2}, {3, 4, 5}}));
-  EXPECT_EQ(facesWith(4, 8), (Faces{{0, 1, 2}, {3, 4, 5}}));  // what is left over is nothing
+  EXPECT_EQ(facesWith(4, 8), (Faces{{0, 1, 2}, {3, 4, 5}}));  // left-over vertices make no triangle
   EXPECT_EQ(facesWith(5, 5), (Faces{{0, 1, 2}, {1, 3, 2}, {2, 3, 4}}));
   EXPECT_EQ(facesWith(6, 5), (Faces{{0, 1, 2}, {0, 2, 3}, {0, 3, 4}}));
 }
@@ -221,7 +221,7 @@ TEST(GltfReader, MaterialsShareTextureCoordinatesThatTheyDoNotTransform) {
 
 // ---- Quads ----
 
-/// The sheet with vertices of its own for every triangle, and a colour and a normal for each.
+/// The sheet with separate vertices for every triangle, each with a colour and a normal.
 Glb soup(const std::function<float(std::size_t triangle, Vec3 at)>& colour) {
   std::vector<Vec3> positions, normals;
   std::vector<float> colours;
@@ -253,7 +253,7 @@ TEST(GltfReader, AttributesThatAreNotFiniteAreRefused) {
   EXPECT_TRUE(refused(soup([](std::size_t, Vec3) { return NAN; }), {"element 0 is not finite"}));
 }
 
-// ---- What hangs on faces ----
+// ---- Attributes of faces ----
 
 TEST(GltfReader, TextureCoordinatesHaveTheirOriginBelow) {
   const Polygons polygons = read(smallFace()).rig.neutral.polygons;
@@ -339,8 +339,8 @@ TEST(GltfReader, JoinsTrianglesToQuads) {
   EXPECT_EQ(polygons.cornerTexcoords.size(), 16u);
 }
 
-/// The small face with a vertex of its own for every corner of every triangle, and `names` besides
-/// positions.
+/// The small face with a separate vertex for every corner of every triangle, and with `attributes`
+/// besides positions and normals.
 Glb loneTriangles(const std::vector<std::pair<const char*, std::vector<Vec2>>>& attributes) {
   Glb glb;
   std::vector<Vec3> positions, deltas, normals;
@@ -437,9 +437,9 @@ TEST(GltfReader, WarnsOfFlatShading) {
   ASSERT_EQ(warnings({0, 0, 1}, {1, 0, 0}).size(), 1u);
   EXPECT_EQ(warnings({0, 0, 1}, {1, 0, 0})[0].find("At 3 of 3 places"), 0u);
   EXPECT_TRUE(warnings({0, 0, 1}, {0.3, 0, 0.95}).empty());
-  EXPECT_TRUE(warnings({0, 0, 1}, {0, 0, -1}).empty());          // a sheet that is doubled
+  EXPECT_TRUE(warnings({0, 0, 1}, {0, 0, -1}).empty());          // a doubled sheet
   EXPECT_TRUE(warnings({0, 0, 0}, {1, 0, 0}).empty());           // the first have none
-  EXPECT_TRUE(warnings({0, 0, 1}, {NAN, 0, 0}).empty());         // nobody needs them
+  EXPECT_TRUE(warnings({0, 0, 1}, {NAN, 0, 0}).empty());         // they are not needed
   std::vector<Vec3> rim = zigzag(200), normals(200, {0, 0, 1});  // at one of many places
   rim.push_back(rim[0]), normals.push_back({1, 0, 0});
   Glb smooth = points(rim);

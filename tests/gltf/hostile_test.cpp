@@ -10,7 +10,7 @@ namespace {
 
 using namespace sweepface::testing;
 
-/// What reading takes at its worst moment, beyond what is there.
+/// The peak memory of reading, beyond what was allocated before.
 std::size_t memoryOf(const std::string& bytes, bool accepted = false) {
   const std::size_t before = allocations.held;
   allocations.most = before;
@@ -74,7 +74,8 @@ TEST(Hostile, CompressedCountsCostNothing) {
   }
 }
 
-/// Triangles of many vertices whose primitive `change` makes say much in few bytes.
+/// The peak memory of reading triangles of many vertices, after `change` made their primitive claim
+/// much in few bytes.
 std::size_t memoryOfMany(const std::function<void(Glb&)>& change, bool accepted = false) {
   Glb glb;
   std::vector<Vec3> positions;
@@ -121,7 +122,7 @@ TEST(Hostile, VeryManyTextureCoordinatesOfTheSameDataAreRefused) {
 TEST(Hostile, VeryManyViewsOfTheSameDataAreStoredOnce) {
   memoryOfMany(
       [](Glb& glb) {
-        // Each is partly the face's and partly something else's.
+        // Each view is used by the face and by something else.
         const std::size_t size = glb.binary.size();
         for (int k = 0; k < 3000; ++k) {
           const std::size_t view =
@@ -149,7 +150,7 @@ TEST(Hostile, ManyEmptyTargetsOfAFewVerticesAreRead) {
   EXPECT_EQ(read(glb).rig.targets.size(), 302u);
 }
 
-/// Every value of the JSON, one at a time, replaced by each of several others.
+/// Visits the path of every value of the JSON, for replacing one value at a time.
 void replaceEach(const Json& json, Json path, const std::function<void(const Json&)>& visit) {
   visit(path);
   if (!json.is_structured()) return;

@@ -5,7 +5,7 @@ namespace {
 
 using namespace sweepface::testing;
 
-/// The small face beside `count` meshes without morph targets, a node for each.
+/// The small face and `count` meshes without morph targets, each on a node of its own.
 Glb withHats(int count) {
   Glb glb = smallFace();
   Json hat = glb.primitive();

@@ -14,7 +14,7 @@ std::vector<Index> asRead(const std::vector<std::uint16_t>& indices) {
   return {indices.begin(), indices.end()};
 }
 
-/// Triangles that begin with their smallest vertex, in ascending order.
+/// The triangles in ascending order, each starting at its smallest vertex.
 std::vector<Loop> trianglesOf(const std::vector<Index>& indices) {
   std::vector<Loop> triangles;
   for (std::size_t k = 0; k < indices.size(); k += 3) {
@@ -26,7 +26,7 @@ std::vector<Loop> trianglesOf(const std::vector<Index>& indices) {
   std::ranges::sort(triangles);
   return triangles;
 }
-/// Of the sheet of 2 x 2 quads, each cut along either diagonal: those of `across` along the second.
+/// Indices of the sheet of 2 × 2 quads. Bit k of `across` cuts quad k along its second diagonal.
 std::vector<std::uint16_t> sheetCut(unsigned across) {
   std::vector<std::uint16_t> indices;
   for (const std::uint16_t a :
@@ -107,7 +107,7 @@ TEST(LeftToFace, PartsThatSharedIndicesHaveTheirOwn) {
     EXPECT_EQ(written.indices(mesh), asRead(sheetIndices())) << mesh;
 }
 
-/// Before one of them is emptied, an accessor's triangles are counted for both.
+/// An accessor's triangles are counted for both primitives before it is emptied for one of them.
 TEST(LeftToFace, IndicesMayBeThoseOfAListAndOfAFan) {
   Glb glb = smallFace();
   const std::size_t indices = glb.addIndices({0, 1, 4, 3, 0, 4});
@@ -121,7 +121,7 @@ TEST(LeftToFace, IndicesMayBeThoseOfAListAndOfAFan) {
   EXPECT_EQ(trianglesOf(written.indices(0, 1)), trianglesOf({0, 1, 4, 0, 4, 3}));
 }
 
-/// A quad of two triangles that share no vertex, but have the same ones.
+/// A quad of two triangles that share no vertex, but whose vertices coincide.
 Glb halvesApart(bool indexed) {
   Glb glb;
   const std::vector<Index> corners{0, 1, 4, 0, 4, 3};
@@ -141,7 +141,7 @@ Glb halvesApart(bool indexed) {
   return glb;
 }
 
-/// The polygons name the vertices of the first half alone.
+/// Of doubled vertices, the polygons name only those of the first half.
 TEST(LeftToFace, DoubledVerticesKeepTheirTrianglesAndTextureCoordinates) {
   for (const bool indexed : {true, false}) {
     const Glb glb = halvesApart(indexed);
@@ -154,7 +154,7 @@ TEST(LeftToFace, DoubledVerticesKeepTheirTrianglesAndTextureCoordinates) {
   }
 }
 
-/// A JSON object moves all that it holds when it gets another member.
+/// A JSON object moves all its members when it gets another one.
 TEST(LeftToFace, ComesBackHoweverManyMembersTheSceneHas) {
   for (int members = 0; members < 40; ++members) {
     Glb glb = smallFace();
@@ -207,7 +207,7 @@ TEST(LeftToFace, TextureCoordinatesAreZerosOnceTheFaceHasNone) {
   }
 }
 
-/// Two primitives of the same vertices, of which each has texture coordinates of its own for some.
+/// Two primitives of the same vertices, each of which uses the texture coordinates of some.
 TEST(LeftToFace, PartsThatShareTextureCoordinatesGiveTheirsTogether) {
   Glb glb = smallFace();
   const auto indices = sheetIndices();
@@ -222,7 +222,7 @@ TEST(LeftToFace, PartsThatShareTextureCoordinatesGiveTheirsTogether) {
             before.numbers(before.attribute("TEXCOORD_0")));
 }
 
-/// A face has as many as one accessor of its vertices holds.
+/// A face has only as many texture coordinates as one accessor of its vertices holds.
 TEST(LeftToFace, OtherAccessorsOfTheSameVerticesAreKept) {
   Glb glb = smallFace();
   Json other = glb.primitive();
@@ -259,8 +259,7 @@ TEST(LeftToFace, RefusesIndicesThatCannotBeHeld) {
   EXPECT_TRUE(failsWith(formatGlb(rig, {}), {"do not fit", "cannot hold indices"}));
 }
 
-/// Accessors without data may claim any number of vertices: these come to as many as there are, and
-/// 2^64.
+/// Accessors without data may claim any number of vertices: these claim 2^64 more than there are.
 TEST(LeftToFace, RefusesMoreVerticesThanCanBeCounted) {
   Rig rig = converted(smallFace());
   const Written scene = sceneOf(rig);
@@ -282,7 +281,7 @@ TEST(LeftToFace, RefusesMoreVerticesThanCanBeCounted) {
   EXPECT_TRUE(failsWith(formatGlb(rig, {}), {"do not fit", "more vertices than an index"}));
 }
 
-/// Few bytes can name the same vertices again and again.
+/// A few bytes can name the same vertices again and again.
 TEST(LeftToFace, RefusesFarMoreIndicesThanAFaceCanMean) {
   Rig rig = converted(smallFace());
   const Written scene = sceneOf(rig);

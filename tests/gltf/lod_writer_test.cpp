@@ -10,7 +10,7 @@ namespace {
 
 using namespace testing;
 
-/// The triangles of all primitives of a mesh, by places: vertices at one place are one.
+/// The triangles of all primitives of a mesh, with vertices at the same place welded.
 std::vector<Loop> weldedTriangles(const Written& glb, std::size_t mesh = 0) {
   std::map<std::array<double, 3>, Index> places;
   std::vector<Loop> triangles;
@@ -66,8 +66,8 @@ TEST_P(FinerFaces, LieOnTheSurface) {
 }
 
 // ---- Attributes ----
-// All are mixed alike, so that one which tells where a vertex was in the source is the measure of
-// the others: they are linear in it wherever they are so in the source.
+// All attributes are mixed alike. So one of them stores a vertex's place in the source, to check
+// the others by: they are linear in it wherever they are in the source.
 
 void addPlaces(Glb& glb) {
   std::vector<Vec2> places;
@@ -252,7 +252,7 @@ TEST(LodWriter, KeepsTheBytesThatExtensionsMayName) {
 
 // ---- Skins ----
 
-/// The small face, every vertex tied to the joint of its own number, and to a common one.
+/// The small face with every vertex bound to the joint of its own number and to a common one.
 Glb skinnedFace(int component) {
   Glb glb = smallFace();
   std::vector<std::uint8_t> joints;
@@ -348,14 +348,14 @@ Glb twiceSkinnedFace() {
   return glb;
 }
 
-/// All attributes of a primitive have as many elements as it has vertices.
+/// Expects all attributes of a primitive to have as many elements as it has vertices.
 void expectWhole(const Written& glb, std::size_t primitive) {
   const Json& count = glb.accessor(glb.attribute("POSITION", 0, primitive))["count"];
   for (const auto& [name, number] : glb.primitive(0, primitive)["attributes"].items())
     EXPECT_EQ(glb.accessor(number.get<std::size_t>())["count"], count) << name;
 }
 
-/// The least and the most that a joint moves any vertex of a primitive's triangles.
+/// The smallest and the largest weight of a joint at any vertex of a primitive's triangles.
 std::pair<double, double> shareOf(double joint, const Written& glb, std::size_t primitive) {
   const auto joints = glb.stored(glb.attribute("JOINTS_0", 0, primitive));
   const auto weights = glb.stored(glb.attribute("WEIGHTS_0", 0, primitive));

@@ -31,7 +31,7 @@ std::string compressedSequence(const std::vector<unsigned>& indices) {
   return bytesOf(stream);
 }
 
-/// A compressed view, in place of a view of a buffer that does not exist.
+/// Adds a compressed view, which stands in for a view of a buffer that does not exist.
 std::size_t addCompressed(Glb& glb, const std::string& stream, std::size_t count,
                           std::size_t stride, const char* mode = "ATTRIBUTES",
                           const char* filter = nullptr,
@@ -149,7 +149,7 @@ TEST(Meshopt, BoundsAreThoseOfWhatAFilterRounded) {
   EXPECT_FALSE(accessors[1].contains("max") || accessors[3].contains("min"));
 }
 
-/// The small face with its open target's accessor compressed.
+/// The small face with the accessor of its target "open" compressed.
 Glb compressedFace() {
   Glb glb = smallFace();
   const std::size_t open = glb.primitive()["targets"][0]["POSITION"].get<std::size_t>();
@@ -177,7 +177,7 @@ TEST(Meshopt, ASceneIsNotCompressed) {
   EXPECT_EQ(scene->buffers[0], plain);
 }
 
-/// Some exporters put the buffer that stands in for compressed data first.
+/// Some exporters put the fallback buffer of compressed data first.
 TEST(Meshopt, ASceneHasNoBufferThatStandsInForOthers) {
   const Glb glb = compressedFace();
   Json json = glb.json;

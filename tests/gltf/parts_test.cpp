@@ -148,7 +148,7 @@ TEST(TargetNames, AreNumbersWhereThereAreNone) {
   EXPECT_EQ(namesWith({{"targetNames", {"open"}}}), (std::vector<std::string>{"open", "target_1"}));
   EXPECT_EQ(namesWith({{"targetNames", {" ", "b", "c"}}}),
             (std::vector<std::string>{"target_0", "b"}));
-  // A number that is taken is passed over.
+  // A number that is taken is skipped.
   EXPECT_EQ(namesWith({{"targetNames", {"target_1"}}}),
             (std::vector<std::string>{"target_1", "target_2"}));
 }

@@ -8,7 +8,7 @@ namespace {
 
 using namespace testing;
 
-/// Half a step of the cube that a node enlarges.
+/// Half a quantization step of the cube that a node scales.
 double halfStep(const Json& node) { return 0.5 * node["scale"][0].get<double>() / 32767; }
 
 std::vector<Vec3> enlarged(const Json& node, std::vector<Vec3> list, double w) {
@@ -34,7 +34,7 @@ std::vector<Vec3> difference(const Rig& rig, std::size_t target) {
   return list;
 }
 
-/// A node, that of the mesh, shows the surface within half a step.
+/// Expects the mesh's node to show the surface within half a step.
 void expectSurface(const Rig& rig, const Written& glb, const Json& node) {
   const double near = 1.01 * halfStep(node);
   expectWithin(enlarged(node, glb.vectors(glb.attribute("POSITION")), 1), surfacePositions(rig),
@@ -144,7 +144,7 @@ TEST(QuantizeWriter, HangsTheMeshBelowANodeThatIsMoreThanAPlace) {
   expectWithin(placed, surfacePositions(rig), 1.01 * halfStep(nodes[2]));
 }
 
-/// A vertex is where the joint is, after its inverse bind matrix.
+/// A skinned vertex is placed by the inverse bind matrix, then by the joint.
 TEST(QuantizeWriter, ScalesByTheMatricesOfASkin) {
   Glb source = smallFace();
   std::vector<std::uint8_t> joints(36, 0);

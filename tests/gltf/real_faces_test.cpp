@@ -37,7 +37,7 @@ double largestDistance(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
 
 /// The vertices of both are in the same order.
 void expectSameFace(const Both& both, std::size_t vertices) {
-  // Two roundings of 20 units to single precision; small differences were left out besides.
+  // Two roundings of 20 units to single precision; small differences were also left out.
   constexpr double within = 3e-6;
   const auto& neutral = both.fromGlb.neutral.positions;
   ASSERT_EQ(neutral.size(), vertices);
@@ -76,7 +76,7 @@ TEST(RealFace, AWholeFaceOfSparseTargetsIsThatOfItsObjFiles) {
   SKIP_WITHOUT_REAL_FACES();
   const Both both = readBoth("full_sparse.glb", ".");
   expectSameFace(both, 26719);
-  // All quads but three that are folded too far; some of the 548 triangles become quads besides.
+  // All quads but three that are folded too far; some of the 548 triangles become quads, too.
   const auto quads = quadsOf(both.fromObj), found = quadsOf(both.fromGlb);
   std::vector<std::vector<Index>> missing;
   std::ranges::set_difference(quads, found, std::back_inserter(missing));
@@ -84,7 +84,7 @@ TEST(RealFace, AWholeFaceOfSparseTargetsIsThatOfItsObjFiles) {
   EXPECT_LE(found.size(), quads.size() + 548 / 2);
 }
 
-/// Triangles of a document's parts, each from its smallest vertex on, in ascending order.
+/// The triangles of a document's parts in ascending order, each starting at its smallest vertex.
 std::vector<std::vector<gltf::Triangle>> trianglesIn(const gltf::Document& document,
                                                      const gltf::Parts& parts) {
   std::vector<std::vector<gltf::Triangle>> all;

@@ -1,4 +1,4 @@
-// What the rig does not use is passed on unread, but what it names must be there.
+// What the rig does not use is passed on unread, but what it refers to must exist.
 #include "gltf/references.hpp"
 
 #include <fmt/format.h>
@@ -12,7 +12,8 @@ namespace {
 
 using namespace sweepface::testing;
 
-/// Names what is not there, and would come to be there once something is added.
+/// Expects a refusal. A reference to what does not exist could become valid once something is
+/// added.
 void expectRefused(const Glb& glb, std::string_view words) {
   const auto source = parseGltf(glb.bytes(), "face.glb", {});
   ASSERT_FALSE(source.has_value());
@@ -122,10 +123,10 @@ TEST(References, MatricesMayNotClaimMoreThanTheFileCanMean) {
   Glb glb = animatedFace();
   glb.json["skins"][0]["inverseBindMatrices"] = glb.add(
       "accessors", {{"componentType", 5126}, {"type", "MAT4"}, {"count", std::size_t{1} << 40}});
-  EXPECT_TRUE(parseGltf(glb.bytes(), "face.glb", {}).has_value());  // they are not looked at
+  EXPECT_TRUE(parseGltf(glb.bytes(), "face.glb", {}).has_value());  // they are not read
 }
 
-/// Exporters leave numbers of joints where nothing hangs.
+/// Exporters leave joint numbers where the weight is zero.
 TEST(References, JointsWithoutWeightMayBeAny) {
   Glb glb = animatedFace();
   std::vector<std::uint8_t> joints(36, 0);

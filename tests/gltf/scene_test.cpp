@@ -33,7 +33,7 @@ const Json& primitiveOf(const gltf::Document& document, std::size_t mesh = 0) {
   return document.json["meshes"][mesh]["primitives"][0];
 }
 
-/// A mesh without targets that is no part of a face that has some.
+/// Adds a mesh without targets, which is not part of a face that has some.
 std::size_t addHair(Glb& glb) {
   std::vector<Vec3> positions;
   for (int k = 0; k < 9; ++k) positions.push_back({1.0 * k, 2.0 * k, 3.0 * (k % 3)});
@@ -78,7 +78,7 @@ TEST(Scene, EmptiedAccessorsStayWithTheirCounts) {
                 {{"componentType", 5123}, {"type", "SCALAR"}, {"count", sheetIndices().size()}}));
 }
 
-/// Strips leave the triangles that they stand for.
+/// A strip becomes a list of its triangles.
 TEST(Scene, IndicesWithoutDataAreOfTrianglesOneByOne) {
   Glb glb = smallFace();
   glb.primitive()["mode"] = 5;
@@ -154,7 +154,7 @@ TEST(Scene, KeepsIndicesThatExtensionsMayCountOn) {
   expectKept(glb, "indices");
 }
 
-/// The face has them as they are after the transform, which may be that of no number.
+/// The face stores them transformed, and the originals cannot always be recovered.
 TEST(Scene, KeepsTextureCoordinatesThatTheFaceHasOtherwise) {
   Glb glb = smallFace();
   glb.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"] = {
@@ -249,7 +249,7 @@ TEST(Scene, NoTwoShapesOrRunsShareAnEmptiedAccessor) {
 
 constexpr std::size_t texcoordBytes = 9 * 8;
 
-/// The small face with second texture coordinates, which a scene keeps.
+/// The small face with a second set of texture coordinates, which a scene keeps.
 Glb keptFace() {
   Glb glb = smallFace();
   std::vector<Vec2> texcoords;
@@ -381,8 +381,8 @@ TEST(Scene, IsDeflatedUnlessNobodyWouldBelieveIt) {
   for (const std::string& scene : {zeros(10'000), large}) EXPECT_TRUE(gltf::parseScene(scene));
 }
 
-/// Of vertices with joints and weights, one accessor after another or row by row, the first
-/// bytes of all numbers stand together: they deflate to less, and come back the same.
+/// Whether accessors follow each other or are interleaved, the first bytes of all numbers are
+/// stored together: they deflate to less, and come back the same.
 TEST(Scene, NumbersAreDeflatedInPlanes) {
   constexpr std::size_t rows = 400, width = 24;
   for (const bool interleaved : {false, true}) {
@@ -406,7 +406,7 @@ TEST(Scene, NumbersAreDeflatedInPlanes) {
   }
 }
 
-/// What planes add to a scene counts as well where so much is just about believed.
+/// The bytes that planes add count, too, where a scene inflates to just about the most accepted.
 TEST(Scene, CanBeReadHoweverWellItDeflates) {
   std::vector<float> numbers;
   for (int k = 0; k < 1200; ++k) numbers.push_back(std::sin(0.0017f * static_cast<float>(k)));
@@ -419,7 +419,7 @@ TEST(Scene, CanBeReadHoweverWellItDeflates) {
     glb.json["images"] = {{{"bufferView", glb.addView(std::string(zeros, '\0'))}}};
     return gltf::formatScene(glb.bytes());
   };
-  std::size_t low = 0, high = 4'000'000;  // the least that nobody would believe
+  std::size_t low = 0, high = 4'000'000;  // bracket the smallest that is refused
   while (high - low > 4) {
     const std::size_t middle = (low + high) / 2;
     (format(middle).starts_with("glTF") ? high : low) = middle;

@@ -121,7 +121,7 @@ TEST(SceneWriter, ReadsBackAsTheSurface) {
 
 // ---- Transforms ----
 
-using Matrix = std::array<double, 16>;  // column after column
+using Matrix = std::array<double, 16>;  // column-major
 
 Vec3 transformed(const Matrix& m, const Vec3& p, double w = 1) {
   return {m[0] * p.x + m[4] * p.y + m[8] * p.z + m[12] * w,
@@ -129,7 +129,8 @@ Vec3 transformed(const Matrix& m, const Vec3& p, double w = 1) {
           m[2] * p.x + m[6] * p.y + m[10] * p.z + m[14] * w};
 }
 
-/// The written mesh stands in the scene where the surface is, normals at right angles to it.
+/// Expects the written mesh to be where the surface is in the scene, with normals at right angles
+/// to it.
 void expectInScene(const Rig& rig, const Written& glb, const Matrix& matrix) {
   const auto placed = [&](std::vector<Vec3> list, double w) {
     for (Vec3& p : list) p = transformed(matrix, p, w);
@@ -154,8 +155,8 @@ void expectInScene(const Rig& rig, const Written& glb, const Matrix& matrix) {
   }
 }
 
-/// Triangles turn counter-clockwise around the normals. In a scene that mirrors the mesh they turn
-/// clockwise, and so they have to.
+/// Expects triangles to wind counter-clockwise around the normals. In a scene that mirrors the mesh
+/// they wind clockwise, as they must.
 void expectOutwards(const Written& glb) {
   const std::vector<Vec3> p = glb.vectors(glb.attribute("POSITION"));
   const std::vector<Vec3> n = glb.vectors(glb.attribute("NORMAL"));
@@ -216,7 +217,8 @@ TEST(SceneWriter, LeavesSkinnedMeshesWhereTheirNodesAreNot) {
   expectSingle(write(rig).vectors(write(rig).attribute("POSITION")), surfacePositions(rig));
 }
 
-/// Files may hold a scene beside an order that was left out; its vertices are others.
+/// A file may hold a scene although the vertex order was left out; the scene's vertices then
+/// differ.
 TEST(SceneWriter, LeavesOutASceneWhoseOrderIsNotKnown) {
   Rig rig = converted(richFace());
   const std::string scene = rig.scene;
@@ -331,7 +333,7 @@ TEST(SceneWriter, RefusesAnotherFacesScene) {
   refuses("only the latter has the target 'wink'");
 }
 
-/// The rig with a target that its scene came without.
+/// The rig with a target that its scene lacks.
 Rig withFrown(Rig rig) {
   rig.targets.push_back(rig.targets[1]);
   rig.targets.back().name = "frown";
@@ -358,7 +360,7 @@ TEST(SceneWriter, MakesRoomForNewTargets) {
     const auto wink = glb.vectors(targets[1]["POSITION"]),
                frown = glb.vectors(targets[2]["POSITION"]);
     for (std::size_t v = 0; v < wink.size(); ++v) EXPECT_LE(norm(frown[v] - wink[v] * -0.5), 1e-6);
-    // What moved by weights before still does.
+    // Existing animations of weights still work.
     const Json& animation = glb.json["animations"][1];
     const std::size_t sampler = animation["channels"][0]["sampler"];
     const auto widened = glb.numbers(animation["samplers"][sampler]["output"]);
@@ -368,7 +370,7 @@ TEST(SceneWriter, MakesRoomForNewTargets) {
   }
 }
 
-/// Exporters that find what is there twice write it once.
+/// Exporters that find duplicates write them once.
 TEST(SceneWriter, MakesRoomOnceForWhatAnimationsShare) {
   Glb source = smallFace();
   const std::vector<float> times{0, 1}, moves{0.1f, 0.2f, 0.3f, 0.4f};
@@ -400,7 +402,7 @@ TEST(SceneWriter, MakesRoomForNewTargetsInAllPrimitives) {
   }
 }
 
-/// One animation with a channel for each target; each moves by two keys of as many values.
+/// Adds an animation with a channel for each of `targets`, all of which play the same two keys.
 void animate(Glb& glb, const std::vector<Json>& targets, const std::vector<float>& values) {
   const std::vector<float> times{0, 1};
   const std::size_t input = glb.addAccessor(glb.addView(bytesOf(times)), 5126, "SCALAR", 2);
@@ -472,7 +474,7 @@ TEST(SceneWriter, AnswersAnyDamagedScene) {
   }
 }
 
-/// Everything in a JSON, as functions that find it.
+/// Visits every value in a JSON.
 void eachPlace(Json& json, const std::function<void(Json&)>& visit) {
   visit(json);
   if (!json.is_structured()) return;

@@ -10,7 +10,7 @@ namespace {
 
 using namespace testing;
 
-/// As many random shares as vertices of the small face, `sets` × 4 that sum to one.
+/// Random shares for every vertex of the small face: `sets` × 4 that sum to one.
 std::vector<std::vector<float>> anyShares(std::size_t sets, unsigned seed = 1) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<float> uniform(0, 1);
@@ -125,14 +125,14 @@ TEST(SkinWeights, ThatAreNoSharesStayAsTheyAre) {
   auto shares = anyShares(1);
   shares[0][0] += 0.1f;
   EXPECT_TRUE(stays(weighted(shares)));
-  // So many that rounding all of them takes more than the largest has.
+  // So many that rounding them takes more than the largest has.
   std::vector<std::vector<float>> many(32, std::vector<float>(36, 1.009f / 128));
   for (auto& set : many)
     for (std::size_t k = 0; k < set.size(); ++k) set[k] += k % 2 ? 2e-6f : -2e-6f;
   EXPECT_TRUE(stays(weighted(many)));
   shares[0][0] = -1, shares[0][1] = 2;
   EXPECT_TRUE(stays(weighted(shares)));
-  // Some are told apart from the others.
+  // Some are given separately, as sparse values.
   Glb sparse = weighted(anyShares(1));
   const std::size_t where = sparse.addView(bytesOf(std::vector<std::uint16_t>{0})),
                     what = sparse.addView(bytesOf(std::vector<float>{0, 1, 0, 0}));
@@ -141,11 +141,11 @@ TEST(SkinWeights, ThatAreNoSharesStayAsTheyAre) {
       {"indices", {{"bufferView", where}, {"componentType", 5123}}},
       {"values", {{"bufferView", what}}}};
   EXPECT_TRUE(stays(sparse));
-  // Something else counts on them.
+  // Something else uses them, too.
   Glb glb = weighted(anyShares(1));
   glb.primitive()["attributes"]["_OWN"] = glb.primitive()["attributes"]["WEIGHTS_0"];
   EXPECT_TRUE(stays(glb));
-  // Shares together with two different others.
+  // Shares that two primitives combine with different others.
   Glb two = weighted(anyShares(2));
   two.json["meshes"][0]["primitives"].push_back(two.primitive());
   two.primitive(0, 1)["attributes"]["WEIGHTS_1"] = addShares(two, anyShares(2)[1]);

@@ -1,4 +1,4 @@
-// Meshes that are bound from elsewhere than where their skins show them.
+// Meshes whose vertices are stored elsewhere than where their skins show them.
 #include "gltf/skins.hpp"
 
 #include "gltf/written.hpp"
@@ -21,7 +21,7 @@ Json nodeOf(const Joint& joint) {
           {"scale", {joint.size, joint.size, joint.size}}};
 }
 
-/// Takes what is shown at size · p + shift to joints that only moved there.
+/// Inverse bind matrices that show p at size · p + shift if the joints are only translated.
 std::vector<float> bindingOf(const std::vector<Joint>& joints, double size, const Vec3& shift) {
   std::vector<float> numbers;
   for (const Joint& joint : joints) {
@@ -33,7 +33,7 @@ std::vector<float> bindingOf(const std::vector<Joint>& joints, double size, cons
   return numbers;
 }
 
-/// Hangs the nine vertices of the sheet on joints.
+/// Binds each of the nine vertices of the sheet to a joint.
 void hang(Glb& glb, std::size_t mesh, const std::vector<std::uint8_t>& jointsOfVertices) {
   std::vector<std::uint8_t> joints;
   std::vector<float> weights;
@@ -47,7 +47,7 @@ void hang(Glb& glb, std::size_t mesh, const std::vector<std::uint8_t>& jointsOfV
 }
 const std::vector<std::uint8_t> kOnFirst(9, 0), kMostOnSecond{0, 0, 1, 1, 1, 1, 1, 1, 1};
 
-/// Shows a mesh with a skin of its own, of these joints. Returns the skin.
+/// Gives the node of a mesh a skin of its own, of these joints. Returns the skin's index.
 std::size_t addSkin(Glb& glb, std::size_t node, const std::vector<Joint>& joints,
                     const std::vector<float>& binding) {
   Json numbers = Json::array();
@@ -62,7 +62,7 @@ std::size_t addSkin(Glb& glb, std::size_t node, const std::vector<Joint>& joints
 
 const std::vector<Joint> kJoints{{{2, 0, 0}}, {{2, 3, 0}}};
 
-/// The sheet in steps of a 64th, as a skin shows it `away` from where it is.
+/// The sheet in steps of 1/64, which a skin scales back and shows moved by `away`.
 Glb quantizedFace(const Vec3& away = {}) {
   Glb glb = smallFace();
   std::vector<std::int16_t> steps, deltas;
@@ -91,7 +91,7 @@ void expectNear(const std::vector<Vec3>& found, const std::vector<Vec3>& expecte
     EXPECT_LE(norm(found[v] - expected[v]), 1e-5) << "vertex " << v;
 }
 
-/// Where a skin shows a mesh that hangs on one of its joints, at rest.
+/// Where a skin shows a mesh bound to one of its joints, at rest.
 std::vector<Vec3> shown(const Written& glb, std::size_t node, std::size_t joint) {
   const std::size_t skin = glb.json["nodes"][node]["skin"], mesh = glb.json["nodes"][node]["mesh"];
   const Json& json = glb.json["skins"][skin];
@@ -154,7 +154,7 @@ TEST(Skins, OfTheSceneTakeTheirMatricesPlaces) {
                                    1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -2, -3, 0, 1}));
   };
   arePlaced();
-  // Nothing is left of sparse ones.
+  // Sparse matrices leave nothing behind.
   const std::string first = bytesOf(bindingOf({kJoints[0]}, 1.0 / 64, {5, 6, 7}));
   const std::size_t where = source.addView(bytesOf(std::vector<std::uint16_t>{0})),
                     what = source.addView(first);
@@ -202,12 +202,12 @@ TEST(Skins, ThatRoundALittlePlaceNothing) {
   EXPECT_EQ(read(glb).rig.neutral.positions, sheetPositions());
 }
 
-/// Two vertices hang on the first joint, seven on the second.
+/// Two vertices are bound to the first joint, seven to the second.
 TEST(Skins, PlaceByTheJointOnWhichMostHangs) {
   for (const double size : {1.0, 0.01}) {
     Glb glb = smallFace();
     hang(glb, 0, kMostOnSecond);
-    // Odd ones on which nothing hangs count for nothing, whatever they are.
+    // Odd joints to which nothing is bound do not count, whatever they are.
     const std::vector<Joint> bound{{{2, 0, 0}}, {{2, 3, 0}}, {{0, 0, 0}}, {{0, 0, 0}}},
         posed{{{2, 0, 9}}, {{2, 3, 0}, 1, 0.5}, {{70, 0, 0}, 1e-4}, {{0, 0, 0}, 0}};
     addSkin(glb, 0, posed, bindingOf(bound, size, {}));
@@ -231,7 +231,7 @@ TEST(Skins, PlaceByTheNextJointWhereTheFirstHidesWhatHangsOnIt) {
   expectNear(read(glb).rig.neutral.positions, expected);
 }
 
-/// An eye hidden by a joint of no size is still as large as the rest.
+/// An eye hidden by a joint of scale zero is still as large as the rest.
 TEST(Skins, PlaceByAnyJointWhatHangsOnNone) {
   Glb glb = smallFace();
   hang(glb, 0, std::vector<std::uint8_t>(9, 1));
@@ -241,7 +241,7 @@ TEST(Skins, PlaceByAnyJointWhatHangsOnNone) {
   expectNear(read(glb).rig.neutral.positions, expected);
 }
 
-/// Which way faces look goes by whether their node mirrors, wherever a skin places them.
+/// Whether faces are flipped depends on whether their node mirrors, wherever a skin places them.
 TEST(Skins, ThatMirrorTurnFacesOnlyBelowNodesThatDo) {
   Glb glb = smallFace();
   hang(glb, 0, kOnFirst);
@@ -258,7 +258,7 @@ TEST(Skins, ThatMirrorTurnFacesOnlyBelowNodesThatDo) {
       const RigSource source = read(glb);
       EXPECT_NEAR(source.rig.neutral.positions[2].x, joint > 0 ? plain[2].x : 4 - plain[2].x, 1e-9);
       EXPECT_EQ(normal(source.rig) > 0, node == joint);
-      // What is written goes round as it did.
+      // The written triangles keep their winding.
       const Written written = write(converted(glb));
       const auto positions = written.vectors(written.attribute("POSITION"));
       const auto t = written.numbers(written.primitive()["indices"]);
@@ -284,12 +284,12 @@ TEST(Skins, AndNodesCountThatAreInScenes) {
   addSkin(glb, 0, kJoints, bindingOf(kJoints, 0.5, {}));
   const auto placed = read(glb).rig.neutral.positions;
   const std::size_t orphan = glb.add("nodes", {{"mesh", 0}, {"scale", {9, 9, 9}}});
-  EXPECT_NE(read(glb).rig.neutral.positions, placed);  // one of two ways
+  EXPECT_NE(read(glb).rig.neutral.positions, placed);  // shown in two ways
   glb.json["scenes"] = Json::array({{{"nodes", {0, 1, 2}}}});
   EXPECT_EQ(read(glb).rig.neutral.positions, placed);
   glb.json["scenes"].push_back({{"nodes", {orphan}}});
   EXPECT_NE(read(glb).rig.neutral.positions, placed);
-  // So where nothing is skinned.
+  // The same without skins.
   Glb plain = smallFace();
   const auto own = read(plain).rig.neutral.positions;
   plain.json["nodes"].insert(plain.json["nodes"].begin(), glb.json["nodes"][orphan]);
@@ -298,7 +298,7 @@ TEST(Skins, AndNodesCountThatAreInScenes) {
   EXPECT_EQ(read(plain).rig.neutral.positions, own);
 }
 
-/// A face and an eye of one skin: on joints that agree, or of which one has moved.
+/// A face and an eye share a skin. Its joints agree, or one of them has moved.
 TEST(Skins, AreSharedByMeshesThatTheyPlaceAlike) {
   for (const bool moves : {false, true}) {
     Glb glb = smallFace();
@@ -324,7 +324,7 @@ TEST(Skins, AreSharedByMeshesThatTheyPlaceAlike) {
   }
 }
 
-/// What could be placed in more than one way, or in none, stays as it stands.
+/// A mesh that could be placed in more than one way, or in none, stays where it is.
 TEST(Skins, ThatCannotPlaceLeaveAMeshAsItStands) {
   const std::vector<std::function<void(Glb&)>> faults{
       [](Glb& glb) { glb.add("nodes", {{"mesh", 0}}); },

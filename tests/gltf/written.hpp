@@ -16,7 +16,7 @@
 #include "gltf/glb.hpp"
 #include "gltf/scene.hpp"
 
-// What is in a GLB that was written, told by nothing but the words of the glTF specification.
+// Reads written GLBs independently of the library, by the glTF specification alone.
 namespace sweepface::testing {
 
 class Written {
@@ -82,7 +82,7 @@ class Written {
     return values;
   }
 
-  /// What they mean.
+  /// Their values, with normalized integers decoded.
   std::vector<double> numbers(std::size_t number) const {
     std::vector<double> values = stored(number);
     if (!accessor(number).value("normalized", false)) return values;
@@ -226,13 +226,13 @@ inline double largest(const std::vector<Vec3>& list) {
   return most;
 }
 
-/// Equal as far as floats of their size can tell.
 inline void expectNear(const std::vector<Vec3>& found, const std::vector<Vec3>& expected,
                        double within = 1e-12) {
   ASSERT_EQ(found.size(), expected.size());
   for (std::size_t v = 0; v < found.size(); ++v)
     ASSERT_LE(norm(found[v] - expected[v]), within) << "vertex " << v;
 }
+/// Equal within the single precision of numbers as large as theirs.
 inline void expectSingle(const std::vector<Vec3>& found, const std::vector<Vec3>& expected) {
   expectNear(found, expected, 2 * largest(expected) / (1 << 24));
 }

@@ -44,8 +44,7 @@ TEST(LiveLinkCsv, AnyRateOfFrames) {
   EXPECT_NEAR(parseLiveLinkCsv("Timecode,a\n0:0:0:12,1\n", "x", 24)->times[0], 0.5, 1e-15);
 }
 
-/// The frames `first` to `last` of a take that counts so many a second, of which every `step`th is
-/// there.
+/// Every `step`th frame from `first` up to `last` of a take that counts `rate` frames a second.
 std::string frames(int rate, double first, double last, double step = 1) {
   std::string text = "Timecode,a\n";
   for (double f = first; f < last; f += step) {
@@ -55,7 +54,7 @@ std::string frames(int rate, double first, double last, double step = 1) {
   return text;
 }
 
-/// Three and a half seconds from the middle of a second on.
+/// Three and a half seconds, starting in the middle of a second.
 std::string take(int rate, double step = 1) { return frames(rate, rate / 2, 4 * rate, step); }
 
 TEST(LiveLinkCsv, TellsItsRateWhereWholeSecondsAreThere) {
@@ -63,12 +62,12 @@ TEST(LiveLinkCsv, TellsItsRateWhereWholeSecondsAreThere) {
     EXPECT_NEAR(csv(take(rate))->seconds(), (4 * rate - rate / 2 - 1.0) / rate, 1e-9) << rate;
   EXPECT_NEAR(csv(take(30, 0.5))->seconds(), 3.5 - 0.5 / 30, 1e-9) << "60 rows a second";
   EXPECT_NEAR(csv(take(60, 2))->seconds(), 3.5 - 2.0 / 60, 1e-9) << "30 rows a second";
-  // A first second is whole from its first frame on; the last one may have gone on.
+  // The first second is whole if it starts at frame 0; the last one may have been cut short.
   for (const int rate : {24, 25, 30, 48, 50}) {
     EXPECT_NEAR(csv(frames(rate, 0, 2 * rate))->seconds(), 2 - 1.0 / rate, 1e-9) << rate;
     EXPECT_NEAR(csv(frames(rate, 1, 2 * rate))->seconds(), 1 + (rate - 2) / 60., 1e-9) << rate;
   }
-  // Few rows tell nothing, nor do those of less than a second.
+  // Too few rows do not determine the rate, nor do rows of less than a second.
   EXPECT_NEAR(csv("Timecode,a\n0:0:0:0,0\n0:0:1:15,0\n0:0:2:0,0\n")->times[1], 1.25, 1e-12);
   EXPECT_NEAR(csv("Timecode,a\n0:0:0:0,0\n0:0:0:15,0\n")->times[1], 0.25, 1e-12);
   EXPECT_NEAR(
@@ -87,7 +86,7 @@ TEST(LiveLinkCsv, WarnsOfARateThatItsTimecodesContradict) {
   for (const auto& [counted, given] :
        {std::pair(30, 30.0), std::pair(30, 29.97), std::pair(60, 59.94), std::pair(60, 120.0)})
     EXPECT_TRUE(warnings(counted, given).empty()) << counted << ' ' << given;
-  std::string seconds = "Timecode,a\n";  // which count no frames
+  std::string seconds = "Timecode,a\n";  // without frame numbers
   for (int row = 0; row < 120; ++row) seconds += std::to_string(row / 30) + ",0\n";
   EXPECT_EQ(parseLiveLinkCsv(seconds, "take.csv", 60).value().warnings.size(), 1u) << "same times";
 }
@@ -114,7 +113,7 @@ TEST(LiveLinkCsv, LeavesOutARowThatARecorderStoppedIn) {
                                   "take.csv: the last row, line 4, is cut short and left out."});
   }
   EXPECT_TRUE(csv(whole)->warnings.empty());
-  // What ends in a line break was meant, and what is all there is missed.
+  // A bad last row is an error if it ends in a line break, was not cut short, or is the only row.
   expectError(csv(whole + "\n3,6\n"), "line 4: there are 2 values under 3 headings");
   expectError(csv(whole + "\n3,6\n  "), "line 4: there are 2 values under 3 headings");
   expectError(csv(whole + "\n3,6,x"), "'x' in column 3");
@@ -146,11 +145,12 @@ TEST(LiveLinkCsv, CellsInQuotesMayHoldCommasAndQuotes) {
       "'0,5' in column 2, 'jawOpen', is not a number within ±1,000,000; take the column out");
 }
 
-// 29.97 frames a second are counted as 30: numbers that are left out keep the clock to the day.
+// Drop-frame timecode counts 29.97 frames a second as 30; the numbers it skips keep it in step with
+// the time of day.
 TEST(LiveLinkCsv, DroppedFrameNumbersAreNoGap) {
   for (const int rate : {30, 60}) {
     std::string text = "Timecode,jawOpen\n";
-    // Into the minutes 9, 10 and 11, of which the second drops none.
+    // Through the starts of minutes 9, 10 and 11; minute 10 drops no numbers.
     for (int minute = 8; minute < 12; ++minute)
       for (int second = 0; second < 60; ++second)
         for (int frame = minute % 10 && second == 0 ? rate / 15 : 0; frame < rate; ++frame)

@@ -9,7 +9,7 @@
 namespace sweepface {
 namespace {
 
-/// A minute of everything that the app records, and a shape that it does not know.
+/// A minute of everything that the app records, and of a shape unknown to it.
 Clip take(double framesPerSecond = 60) {
   const auto empty = formatLiveLinkCsv({{"jawOpen"}, {0}, {0}});
   Clip clip = *parseLiveLinkCsv(*empty, "empty.csv");
@@ -73,7 +73,7 @@ TEST(LiveLinkWriter, ColumnsAreTheAppsOwn) {
       if (clip->names[k] == name) return clip->weights[k];
     return std::nan("");
   };
-  // Both sides as one for other programs; what reads it here again takes each by its own name.
+  // Other programs get both sides as one column; reading the file here finds each by its own name.
   EXPECT_EQ(weight("BrowInnerUp"), 0.5);
   EXPECT_EQ(weight("browInnerUp_L"), 0.25);
   EXPECT_EQ(weight("browInnerUp_R"), 0.5);
@@ -121,7 +121,7 @@ TEST(LiveLinkWriter, RefusesWhatTimecodesCannotTell) {
   EXPECT_TRUE(refuses({}));
   EXPECT_TRUE(refuses({-1}));
   EXPECT_TRUE(refuses({86400}));
-  EXPECT_TRUE(refuses({86399.999999}));  // rounded, the next day's first
+  EXPECT_TRUE(refuses({86399.999999}));  // rounds to the start of the next day
   EXPECT_TRUE(refuses({1, 1 + 1e-7}));
   EXPECT_TRUE(refuses({0}, 0));
   EXPECT_TRUE(refuses({0}, 60, "a\nb"));

@@ -126,7 +126,7 @@ TEST(PlyReader, ReadsTextureCoordinatesOfVertices) {
   }
 }
 
-// The second face has none; vertices have others, which count where no face has any.
+// The second face has none. The vertices have others, which only count if no face has any.
 TEST(PlyReader, ReadsTextureCoordinatesOfCorners) {
   const std::string vertices =
       "element vertex 3\n" + xyz + "property float s\nproperty float t\nelement face 3\n";
@@ -238,7 +238,7 @@ std::string oneFace(const std::string& countType, const std::string& body) {
       std::string(3, '\0') + body);
 }
 
-/// A face of three corners `corner`, before so many vertices that the file cannot hold.
+/// A face with three corners `corner`, followed by more `vertices` than the file can hold.
 std::string facesFirst(const std::string& vertices, std::uint32_t corner) {
   Bytes bytes;
   bytes << std::uint8_t{3} << corner << corner << corner;

@@ -10,7 +10,7 @@
 
 namespace sweepface::testing {
 
-/// A folder of its own for each test, gone with it.
+/// A separate folder for each test, deleted with it.
 class TemporaryFolder {
  public:
   TemporaryFolder()
@@ -28,7 +28,7 @@ class TemporaryFolder {
 
   std::filesystem::path operator/(std::string_view name) const { return path_ / name; }
 
-  /// Makes a file, and the folders on the way to it.
+  /// Creates a file and its parent folders.
   std::filesystem::path file(std::string_view name, std::string_view bytes) const {
     const std::filesystem::path path = path_ / name;
     std::filesystem::create_directories(path.parent_path());
@@ -45,7 +45,7 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-/// Whether a call failed with a message that says all of these.
+/// Whether a call failed with a message of one sentence that contains all of `parts`.
 ::testing::AssertionResult failsWith(const auto& result,
                                      std::initializer_list<std::string_view> parts) {
   if (result) return ::testing::AssertionFailure() << "it succeeded";

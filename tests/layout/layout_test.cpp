@@ -18,14 +18,14 @@ struct Laid {
   Laid(const Laid&) = delete;
   std::vector<GridPatch> patches() const { return layout.patches().value(); }
   Index sourceOf(Index v) const { return mesh.source[mesh.point[v]]; }
-  Index at(Index source) const {  // the last of them, where a point has several vertices
+  Index at(Index source) const {  // its last vertex, if a point has several
     for (Index v = mesh.vertexCount(); v-- > 0;)
       if (sourceOf(v) == source) return v;
     return -1;
   }
 };
 
-// Every quad belongs to one patch, as a grid whose columns and rows run straight on.
+// Every quad belongs to exactly one patch, and patches are grids of straight columns and rows.
 void expectGrids(const Laid& laid) {
   const auto patches = laid.layout.patches();
   ASSERT_TRUE(patches) << patches.error().message;
@@ -60,7 +60,7 @@ void expectSurface(const Laid& laid) {
     EXPECT_EQ(w.arcs[w.side(p, 0)[0] >> 1].collapsed,
               laid.mesh.collapsed[patches[p].bottoms[0]] != 0);
   }
-  // Files hold nothing for how patches sweep and which arcs share a ribbon.
+  // Files store nothing for how patches sweep and which arcs share a ribbon: rules predict both.
   codec::SweepRule rule(w);
   for (Index p = 0; p < static_cast<Index>(w.patches.size()); ++p) {
     EXPECT_FALSE(rule.turns(p, 0)) << p;
@@ -69,7 +69,7 @@ void expectSurface(const Laid& laid) {
   std::vector<Index> ribbons;
   for (const Arc& arc : w.arcs) ribbons.push_back(arc.ribbon);
   EXPECT_EQ(ribbons, codec::expectedRibbons(w));
-  std::map<Index, Index> nodePoint;  // by the point of the mesh
+  std::map<Index, Index> nodePoint;  // by the mesh's point
   for (std::size_t n = 0; n < w.nodes.size(); ++n)
     if (w.nodes[n].point >= 0) {
       const auto at = nodePoint.emplace(laid.mesh.point[nodeVertices[n]], w.nodes[n].point).first;
@@ -175,19 +175,19 @@ TEST(Layout, seesWhereEdgesChangeTheirLength) {
   EXPECT_FALSE(isUneven(11, 1.1));
   std::vector<Vec3> met = mesh.positions;
   for (Index j = 0; j < 5; ++j) met[5 * j + 1] = met[5 * j];
-  EXPECT_FALSE(laid.layout.isUneven(laid.at(11), met, 3));  // beside an edge without length
+  EXPECT_FALSE(laid.layout.isUneven(laid.at(11), met, 3));  // beside an edge of zero length
 }
 
 struct Sheet : Laid {
   Index columns;
   Sheet(Index width, Index height) : Laid(MeshRig{plane(width, height), {}}), columns(width) {}
-  /// Cuts the patches that are so wide.
+  /// Cuts all patches of the given width.
   void cut(Index width, bool alongV, Index at) {
     for (const GridPatch& p : patches())
       if (p.m == width) layout.split(p, alongV, at);
   }
-  /// Expects that a node stores so many derivatives across and up, position included, and mixed
-  /// ones to the second.
+  /// Expects a node to store the given numbers of derivatives across and up, position included, and
+  /// mixed ones up to second order.
   void expectStored(Index column, Index row, int across, int up) const {
     auto all = patches();
     const auto [w, vertices] = layout.wireframe(all);
@@ -204,7 +204,7 @@ struct Sheet : Laid {
   }
 };
 
-/// One of four patches, about a node that is so many edges from its boundary.
+/// A sheet cut into four patches at a node, given the number of edges to each side.
 struct CutSheet : Sheet {
   CutSheet(Index left, Index right, Index below, Index above) : Sheet(left + right, below + above) {
     layout.split(patches()[0], true, left);
@@ -218,10 +218,10 @@ TEST(Layout, storesAtACrossingWhatTheVerticesNearestToItDetermine) {
   CutSheet(2, 2, 2, 2).expectStored(2, 2, 2, 2);
   CutSheet(2, 3, 3, 3).expectStored(2, 3, 2, 3);
   CutSheet(1, 1, 3, 4).expectStored(1, 3, 1, 3);
-  CutSheet(1, 12, 12, 12).expectStored(1, 12, 2, 3);  // a long side alone determines no more
+  CutSheet(1, 12, 12, 12).expectStored(1, 12, 2, 3);  // one long side does not determine more
 }
 
-// A line that ends at another has no vertex of its own there.
+// A line that ends at another one has no vertex of its own there.
 TEST(Layout, storesAtACrossingWhatVerticesUpToAnotherLineDetermine) {
   Sheet sheet(8, 6);
   sheet.cut(8, true, 5);

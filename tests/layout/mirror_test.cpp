@@ -23,7 +23,7 @@ bool isNowhere(const std::vector<HalfEdge>& mirror) {
   return std::ranges::all_of(mirror, [](HalfEdge h) { return h < 0; });
 }
 
-// Wider than high, so that it is mirrored across x alone.
+// Wider than high, so that it is symmetric across x alone.
 PolygonMesh sheetAcross() {
   return grid(12, 5,
               [](double i, double j) { return Vec3{i - 6, j + i * (12 - i) / 9, j * j / 9}; });
@@ -42,13 +42,13 @@ TEST(Mirror, PairsEveryHalfEdgeOfASheetAndOfTwoThatMirrorEachOther) {
 
 TEST(Mirror, ReachesOverVerticesThatAreNotWhereTheirImagesShouldBe) {
   PolygonMesh mesh = sheetAcross();
-  mesh.positions[30].z += 0.1;  // far beyond what places may differ by
+  mesh.positions[30].z += 0.1;  // far more than positions may differ by
   mesh.positions[31].z -= 0.1;
   EXPECT_TRUE(isWhole(mirrorOf(mesh)));
 }
 
 TEST(Mirror, OfAMeshWithAPartFarAwayIsSoughtAmongNeighbours) {
-  // Within a thousandth of the diagonal of both lies all of the sheet.
+  // The whole sheet fits within a thousandth of the joint diagonal.
   PolygonMesh mesh = joined(sheetAcross(), sheetAcross(), {1e5, 0, 0});
   EXPECT_TRUE(isWhole(mirrorOf(mesh)));
 }
@@ -64,7 +64,7 @@ TEST(Mirror, EndsWhereOneSideHasAQuadThatTheOtherHasNot) {
 TEST(Mirror, IsNotSeenWhereFewPlacesAgree) {
   PolygonMesh mesh = sheetAcross();
   for (std::size_t v = 0; v < mesh.positions.size(); ++v)
-    if (mesh.positions[v].x > 0) mesh.positions[v].z += 0.02;  // of a diagonal of 15
+    if (mesh.positions[v].x > 0) mesh.positions[v].z += 0.02;  // the diagonal is 15
   EXPECT_TRUE(isNowhere(mirrorOf(mesh)));
 }
 

@@ -71,7 +71,7 @@ TEST(Welding, leavesVerticesApartThatOneTargetParts) {
   EXPECT_EQ(openSides(gridOf(seam)), 2 * 12 + 2 * 4);
 }
 
-/// Copies that were rounded otherwise in one pose would leave a slit in all of them.
+/// Copies of a vertex that rounding parts in one pose would leave a slit in every pose.
 TEST(Welding, joinsWhatRoundingParted) {
   MeshRig seam = withTargets(cylinder(12, 4, true));
   for (std::size_t v = 0; v < seam.neutral.positions.size(); v += 13)
@@ -86,7 +86,7 @@ TEST(Welding, joinsWhatRoundingParted) {
   EXPECT_EQ(makeGridMesh(seam, 0.1)->pointCount(), 13 * 5) << "too far for its edges";
 }
 
-/// What was mirrored and not joined, or joined and then moved.
+/// Meshes that were mirrored but not merged, or merged and then moved.
 TEST(Welding, tellsOfSeamsThatStayOpen) {
   MeshRig seam = withTargets(cylinder(12, 4, true));
   const auto move = [&](double way) {
@@ -106,7 +106,7 @@ TEST(Welding, tellsOfSeamsThatStayOpen) {
   EXPECT_TRUE(makeGridMesh(seam, 1e-6, 1)->warnings.empty()) << "too far for its edges";
 }
 
-/// Two sheets of 40 x 40 that meet in an edge of which each has vertices of its own.
+/// Two sheets of 40 × 40 quads that meet along an edge where each has its own vertices.
 TEST(Welding, joinsWhatRoundingPartedHoweverItStands) {
   PolygonMesh sheets =
       joined(grid(40, 40, [](double x, double y) { return Vec3{x, y, 0}; }),
@@ -124,7 +124,7 @@ TEST(Welding, joinsWhatRoundingPartedHoweverItStands) {
   }
 }
 
-/// The sine of pi is not quite 0 in floating point: the last row of a sphere is a ring.
+/// In floating point the sine of pi is not quite 0, so a sphere's last row is a tiny ring.
 TEST(Welding, closesPolesThatRoundingOpened) {
   const auto cone = [](double tip) {
     return grid(12, 4, [tip](double x, double y) {
@@ -138,11 +138,11 @@ TEST(Welding, closesPolesThatRoundingOpened) {
     EXPECT_EQ(mesh.pointCount(), 12 * 4 + 1) << tip;
     EXPECT_EQ(openSides(mesh), 12) << tip;
   }
-  for (double hole : {1e-3, 1e-6})  // each of the latter's edges is shorter than what is rounded
+  for (double hole : {1e-3, 1e-6})  // the latter's edges are shorter than the rounding
     EXPECT_EQ(openSides(makeGridMesh({cone(hole), {}}, 1e-6).value()), 2 * 12) << hole;
 }
 
-/// A ground beside it makes rounding as large as a detail.
+/// Next to a large ground plane, the rounding is as large as a detail.
 TEST(Welding, leavesDetailsThatAreMereRounding) {
   const auto flat = [](double size) {
     return [size](double x, double y) { return Vec3{size * x, size * y, 0}; };
@@ -154,7 +154,7 @@ TEST(Welding, leavesDetailsThatAreMereRounding) {
   }
 }
 
-/// Sides that only a weld makes one are not open, however short they are.
+/// Sides that only a weld joins are not open, however short they are.
 TEST(Welding, leavesShortEdgesWithinASoup) {
   PolygonMesh mesh;
   const Loop around{0, 1, 2, 3};
@@ -165,7 +165,7 @@ TEST(Welding, leavesShortEdgesWithinASoup) {
       mesh.positions.push_back({x + dx, y, 0});
     }
     addFace(mesh, face);
-    for (double y : {-1.0, 1.0}) {  // and what closes the short edges
+    for (double y : {-1.0, 1.0}) {  // and the faces that close the short edges
       face.clear();
       for (const auto& [dx, dy] : {std::pair(0.0, 0.0), {width, 0.0}, {width, 1.0}, {0.0, 1.0}}) {
         face.push_back(static_cast<Index>(mesh.positions.size()));
@@ -179,7 +179,7 @@ TEST(Welding, leavesShortEdgesWithinASoup) {
             openSides(makeGridMesh({mesh, {}}).value()) - 2);
 }
 
-/// Lashes stand on lids by vertices alone; what no face has joins nothing.
+/// Lashes touch lids only at vertices, and vertices that no face uses join nothing.
 TEST(Welding, leavesApartWhatTouchesAlongNoEdge) {
   PolygonMesh mesh;
   mesh.positions = {{0, 0, 0},        {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
@@ -202,7 +202,7 @@ TEST(Welding, takesBothZerosForTheSame) {
   EXPECT_EQ(openSides(gridOf(mesh)), 5);
 }
 
-// Lids and what lies on them: their corners stand at one place, but face different ways.
+// Lids and whatever lies on them: corners coincide but face different ways.
 TEST(Welding, leavesSheetsThatTouchAtAVertexAPointEach) {
   PolygonMesh mesh;
   mesh.positions = {{0, 0, 0}, {1, 0, 0},   {1, 1, 0},  {0, 1, 0},
@@ -238,7 +238,7 @@ const std::vector<Vec3> kL{{2, 0, 0}, {2, 1, 0}, {1, 1, 0}, {1, 2, 0}, {0, 2, 0}
 const std::vector<Vec3> kU{{0, 0, 0}, {3, 0, 0}, {3, 3, 0}, {2, 3, 0},
                            {2, 1, 0}, {1, 1, 0}, {1, 3, 0}, {0, 3, 0}};
 
-/// Of pieces in a plane; twice, and 0 if one is not convex.
+/// Twice the area of the pieces of a planar mesh, or 0 if one of them is not convex.
 double areaOfPieces(const PolygonMesh& mesh) {
   const GridMesh result = gridOf(mesh);
   double sum = 0;
@@ -273,7 +273,7 @@ TEST(Cutting, makesQuadsOfAConcavePolygonWhereACornerSeesThemAll) {
   EXPECT_EQ(gridOf(mesh).quads.size(), 2u);
 }
 
-/// The least sine of a corner of the pieces of one polygon.
+/// The smallest sine of any corner angle among the pieces of one polygon.
 double leastSine(const std::vector<Vec3>& corners) {
   PolygonMesh mesh;
   mesh.positions = corners;
@@ -300,7 +300,7 @@ TEST(Cutting, leavesNoCornerInLine) {
     EXPECT_GT(leastSine(pentagon), 0.4) << first;
     std::ranges::rotate(pentagon, pentagon.begin() + 1);
   }
-  // Three by three quads as one.
+  // The outline of 3 × 3 quads.
   EXPECT_GT(leastSine({{0, 0, 0},
                        {1, 0, 0},
                        {2, 0, 0},
@@ -423,7 +423,7 @@ TEST(Damage, aFaceTurnedOverIsCutOutAndReported) {
   EXPECT_TRUE(result.warnings[0].starts_with("4 edges join")) << result.warnings[0];
 }
 
-/// A sheet and again its faces, perhaps turned over.
+/// A sheet with every face given twice, the second time flipped if `turned`.
 PolygonMesh doubled(const PolygonMesh& once, bool turned) {
   PolygonMesh mesh = once;
   for (Loop face : loopsOf(once.polygons)) {

@@ -32,8 +32,8 @@ bool cutsSecond(const PolygonMesh& mesh, const Loop& quad, Diagonal diagonal,
   return false;
 }
 
-/// The same surface with every quad cut; shuffled, neither vertices nor triangles nor their corners
-/// keep their order.
+/// The same surface with every quad cut into triangles. Shuffling changes the order of vertices,
+/// triangles and their corners.
 MeshRig cut(const MeshRig& rig, Diagonal diagonal, Listed listed = Listed::inOrder) {
   std::mt19937 random(7);
   std::vector<Loop> faces;
@@ -72,7 +72,7 @@ MeshRig cut(const MeshRig& rig, Diagonal diagonal, Listed listed = Listed::inOrd
 
 using Place = std::array<double, 3>;
 
-/// The quads of a mesh, each as the places of its corners.
+/// The quads of a mesh, each as the set of its corner positions.
 std::set<std::set<Place>> quadsOf(const PolygonMesh& mesh) {
   std::set<std::set<Place>> quads;
   for (const Loop& face : loopsOf(mesh.polygons)) {
@@ -84,7 +84,7 @@ std::set<std::set<Place>> quadsOf(const PolygonMesh& mesh) {
   return quads;
 }
 
-/// The share of the quads of `rig` that come back after cutting.
+/// The share of the quads of `rig` that are recovered after cutting.
 double shareRecovered(const MeshRig& rig, Diagonal diagonal, Listed listed) {
   const MeshRig pieces = cut(rig, diagonal, listed);
   const auto before = quadsOf(rig.neutral);
@@ -133,7 +133,7 @@ TEST_P(CutFace, withoutTrianglesStaysAsItIs) {
 
 // ---- What two triangles need to become a quad ----
 
-/// Two triangles with the diagonal from (0, 0, 0) to (1, 1, 0) and other corners where asked.
+/// Two triangles that share the diagonal from (0, 0, 0) to (1, 1, 0), with the given other corners.
 MeshRig halves(const Vec3& right, const Vec3& left) {
   MeshRig rig;
   rig.neutral.positions = {{0, 0, 0}, right, {1, 1, 0}, left};
@@ -150,7 +150,7 @@ bool joins(const MeshRig& rig, std::span<const Index> copies = {}) {
   return result.recovered == 1;
 }
 
-/// A fan from the first corner of the quad is the first half and then the second.
+/// Fanning the quad from its first corner yields the first triangle and then the second.
 TEST(Halves, makeAQuadThatBeginsOnItsDiagonal) {
   EXPECT_EQ(loopsOf(recoverQuads(halves()).polygons), (std::vector<Loop>{{0, 1, 2, 3}}));
   for (const auto& [a, b, quad] : {std::tuple<Loop, Loop, Loop>{{1, 2, 0}, {2, 3, 0}, {0, 1, 2, 3}},
@@ -280,7 +280,8 @@ TEST(Quads, areTheSameForTheSameMesh) {
   EXPECT_EQ(recoverQuads(rig).polygons.corners, recoverQuads(rig).polygons.corners);
 }
 
-// A sphere of triangles only, no two rings of which have the same number of vertices.
+// A sphere made only of triangles, whose rings differ in their number of vertices towards the
+// poles.
 PolygonMesh triangleSphere(Index rings) {
   PolygonMesh mesh;
   std::vector<Index> start, size;
@@ -371,7 +372,7 @@ double realShare(const char* file, Diagonal diagonal, Listed listed) {
 
 TEST_P(RealQuads, ofAHeadComeBack) {
   SKIP_WITHOUT_REAL_FACES();
-  // Two or four of the 11 144 are folded so far along one of their diagonals that they stay cut.
+  // Two or four of the 11 144 quads are folded so sharply along a diagonal that they stay cut.
   for (Listed listed : {Listed::inOrder, Listed::shuffled})
     EXPECT_GE(realShare("ictface/head/neutral.obj", GetParam(), listed), 0.9998);
   EXPECT_EQ(realShare("makehuman/neutral.obj", GetParam(), Listed::shuffled), 1);

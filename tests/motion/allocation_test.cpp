@@ -21,7 +21,7 @@ TEST(Motion, EvaluatesWithoutAllocating) {
     const std::size_t before = allocations.count;
     const Result<Motion> motion = Motion::make(from, to, law, 1);
     const std::size_t made = allocations.count;
-    EXPECT_GT(made, before);  // the counter counts
+    EXPECT_GT(made, before);  // the counter works
     motion->at(0.3, out);
     motion->velocities(0.3, out);
     motion->forces(0.3, out);

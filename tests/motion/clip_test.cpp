@@ -75,9 +75,9 @@ TEST(ClipMatch, SpreadsWeightsOverTargets) {
   match.spread(clip, 0.25, to);
   EXPECT_DOUBLE_EQ(to[0], 0.5);
   EXPECT_DOUBLE_EQ(to[1], 0.15);
-  match.spread(clip, 9, to);  // below 0, as springs swing
+  match.spread(clip, 9, to);  // negative, as when springs overshoot
   EXPECT_EQ(to, (std::array{-0.1, -0.3, 0.0}));
-  // Of several names for one target the largest.
+  // If several names match one target, the largest weight counts.
   const Clip twice{{"jaw", "Jaw"}, {0}, {-0.3, -0.1}};
   matchClip(twice, targets).spread(twice, 0, to);
   EXPECT_EQ(to, (std::array{0.0, 0.0, -0.1}));

@@ -9,7 +9,7 @@
 namespace sweepface {
 namespace {
 
-/// A weight that rests, moves in half a second and rests again, at 60 frames a second.
+/// A weight that rests, moves for half a second and rests again, at 60 frames a second.
 Clip take(double noise) {
   std::mt19937 engine(5);
   std::normal_distribution wobble(0.0, noise);
@@ -44,7 +44,7 @@ TEST(OneEuro, FollowsWhatMoves) {
   EXPECT_NEAR(clip.weights.back(), 1, 0.01);
 }
 
-/// Syllables, and lips that close for a moment.
+/// Syllables, and lips that close briefly.
 TEST(OneEuro, KeepsSpeech) {
   Clip clip{{"jawOpen", "mouthClose"}, {}, {}};
   for (int f = 0; f < 240; ++f) {

@@ -9,7 +9,7 @@
 namespace sweepface {
 namespace {
 
-/// A clip of trajectories.
+/// A clip sampled from trajectories.
 Clip sampled(const std::vector<Trajectory>& paths, double seconds, double framesPerSecond) {
   Clip clip;
   for (std::size_t k = 0; k < paths.size(); ++k) clip.names.push_back(std::to_string(k));
@@ -21,7 +21,7 @@ Clip sampled(const std::vector<Trajectory>& paths, double seconds, double frames
   return clip;
 }
 
-/// Beyond a tolerance, as errors are looked for just where the keys were fitted.
+/// Slack on a tolerance, as errors are measured exactly where the keys were fitted.
 constexpr double kRounding = 1 + 1e-9;
 
 double largestError(const Clip& clip, const CubicKeys& keys) {

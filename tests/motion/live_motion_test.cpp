@@ -196,7 +196,7 @@ TEST(Drive, NamesGoBothWays) {
   EXPECT_NE(driveFromName("jump").error().message.find("accelerate-brake"), std::string::npos);
 }
 
-// Springs are read together for speed; what is read of them must be the same, to the bit.
+// Springs are evaluated together for speed; the results must be the same as one by one, to the bit.
 TEST(MotionState, AllAtOnceIsEachAlone) {
   auto state = MotionState::make(std::vector<double>(5, 0.0));
   ASSERT_TRUE(state);
@@ -222,7 +222,8 @@ TEST(MotionState, AllAtOnceIsEachAlone) {
   }
 }
 
-// Springs that begin again where another sets out share what follows; time must not notice.
+// All springs of a kind are restarted when another sets out. The motion must not depend on that,
+// nor on how time is divided into steps.
 TEST(MotionState, HoweverTimeIsCutSpringsAreInTheSamePlace) {
   std::mt19937 random(17);
   std::uniform_real_distribution<double> uniform(0, 1);

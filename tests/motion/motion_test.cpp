@@ -30,8 +30,8 @@ struct State {
   double position, velocity;
 };
 
-// q'' = a(t) over one step by three-point Gauss quadrature, of sixth order. Its nodes lie inside
-// the step, so a force that jumps where two steps meet does it no harm.
+// Integrates q'' = a(t) over one step by three-point Gauss quadrature, of sixth order. Its nodes
+// lie inside the step, so jumps of the force between steps do no harm.
 template <typename Acceleration>
 State gaussStep(State q, double t, double h, Acceleration acceleration) {
   constexpr std::array<double, 3> weights{5.0 / 18, 8.0 / 18, 5.0 / 18};
@@ -83,7 +83,7 @@ TEST_P(EveryLaw, RestsOutsideItsTime) {
 TEST_P(EveryLaw, NeverTurnsBackNorLeavesTheWay) {
   double last = 0;
   for (int i = 0; i <= 10000; ++i) {
-    // Neighbouring numbers too, where only rounding could turn back.
+    // Adjacent numbers too, between which only rounding could make the position decrease.
     for (double s = i / 10000.0, past = s + 1e-15; s < past; s = std::nextafter(s, 2 * past)) {
       const Progress now = progress(GetParam(), s);
       EXPECT_GE(now.position, last) << "at " << s;
@@ -107,7 +107,7 @@ TEST_P(EveryLaw, KeepsItsVelocityContinuousInside) {
 
 TEST_P(EveryLaw, MovesAsItsOwnForceSays) {
   const Motion motion = motionBy(GetParam());
-  constexpr int steps = 64;  // even: the force may turn in the middle
+  constexpr int steps = 64;  // even: the force may reverse half-way
   constexpr double h = kSeconds / steps;
   for (std::size_t k = 0; k < motion.size(); ++k) {
     const auto acceleration = [&](double time) { return motion.sample(k, time).force / kMass; };
@@ -123,7 +123,7 @@ TEST_P(EveryLaw, MovesAsItsOwnForceSays) {
 }
 
 TEST_P(EveryLaw, HasItsEndsBitForBit) {
-  // Values that from + (to − from) misses, and zeros of both signs.
+  // Values for which from + (to − from) is not exactly `to`, and zeros of both signs.
   const std::vector<double> from{0.1, 1e16, -0.0, 1, 0.3, -0.0, 0.0};
   const std::vector<double> to{0.7, 1.1, 1, -0.0, 1e-300, 0.0, -0.0};
   const Result<Motion> motion = Motion::make(from, to, GetParam(), 0.1);

@@ -106,7 +106,7 @@ TEST(RegionalMotion, LateRegionsDoTheSameLater) {
   }
 }
 
-// Goals of a tracker come more often than the region is late.
+// A tracker sets goals at intervals shorter than the region's delay.
 TEST(RegionalMotion, LateRegionsGoAfterEveryGoal) {
   constexpr int late = 8;
   RegionalMotion motion = motionOf({0.0, 0.0}, {{}, {1, 1, late * 0.015625}});
@@ -137,7 +137,7 @@ TEST(RegionalMotion, MoreGoalsThanCanWaitBecomeFewer) {
   EXPECT_NEAR(motion.sample(1, 1).position, 1, 1e-9) << "and the only one of a weight";
 }
 
-// Nor is any lost where the delay is less than the clock tells apart.
+// No weight loses its goal, even if the delay is below the clock's resolution.
 TEST(RegionalMotion, GoalsOfOneInstantBecomeTheLast) {
   auto motion = RegionalMotion::make(std::vector<double>{0, 0}, std::vector{Matter{1, 1, 1e-17}});
   ASSERT_TRUE(motion);
@@ -189,7 +189,7 @@ TEST(RegionalMotion, MovesWhileAnyRegionDoesOrWillSetOut) {
     EXPECT_TRUE(motion.moves()) << seconds;
     motion.advance(seconds);
   }
-  EXPECT_TRUE(motion.moves());  // the late region until 0.7
+  EXPECT_TRUE(motion.moves());  // the late region moves until 0.7
   motion.advance(0.06);
   EXPECT_FALSE(motion.moves());
 }
@@ -297,8 +297,8 @@ TEST(RegionalClip, AHeavyRegionFollowsLate) {
     return at;
   };
   EXPECT_GT(peak(heavy), peak(clip) + 0.04);
-  EXPECT_EQ(inMatter(clip, {8, 1, 0}, {3, 0.7}, 0).weights, heavy.weights);  // none is one
-  // A little more than nothing is little more than nothing.
+  EXPECT_EQ(inMatter(clip, {8, 1, 0}, {3, 0.7}, 0).weights, heavy.weights);  // 0 regions count as 1
+  // A tiny excess of mass changes little.
   const Clip hardly = inMatter(clip, {1 + 1e-4, 1, 0}, {3, 0.7});
   std::vector<double> recorded(1);
   for (std::size_t k = 0; k < hardly.weights.size(); ++k) {
@@ -307,7 +307,8 @@ TEST(RegionalClip, AHeavyRegionFollowsLate) {
   }
 }
 
-// Against steps so small that the order of the method does not matter (semi-implicit Euler).
+// Compared with semi-implicit Euler, with steps so small that the order of the method does not
+// matter.
 TEST(RegionalClip, ObeysNewtonsLaw) {
   const Clip clip = wave(30);
   const Matter matter{3, 2, 0};
@@ -331,7 +332,7 @@ TEST(RegionalClip, ObeysNewtonsLaw) {
   }
 }
 
-// Clips of few keys, as animations in files are.
+// Clips with few keys, like animations in files.
 TEST(RegionalClip, FewFramesDoAsWellAsMany) {
   const Clip few{{"jawOpen"}, {0, 1, 2}, {0, 1, 0}};
   Clip many{{"jawOpen"}, {}, {}};
@@ -349,7 +350,7 @@ TEST(RegionalClip, FewFramesDoAsWellAsMany) {
   }
 }
 
-// The same frames and so many between any two.
+// Cuts each interval between frames into `pieces`. The last frame is left out.
 Clip cutFinely(const Clip& clip, int pieces) {
   Clip fine{clip.names, {}, {}};
   for (std::size_t f = 1; f < clip.times.size(); ++f)
@@ -371,7 +372,7 @@ double furthestApart(const Clip& a, const Clip& b, double seconds) {
   return most;
 }
 
-// A blink of a recording in a hardly heavier region, against frames 200 times as close.
+// A recorded blink in regions from barely to much heavier, compared with frames 200 times as dense.
 TEST(RegionalClip, StraightLinesAreAsGoodAsExact) {
   const Clip blink{{"eyeBlinkLeft"},
                    {0, 1 / 60., 2 / 60., 3 / 60., 4 / 60., 5 / 60., 6 / 60., 7 / 60., 0.5},
@@ -394,7 +395,7 @@ TEST(RegionalClip, StraightLinesAreAsGoodWhereAStiffRegionSwings) {
   }
 }
 
-// Blows that come in step with the swing add up.
+// Impulses in resonance with the swing add up.
 TEST(RegionalClip, StraightLinesAreAsGoodWhereBlowsAddUp) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> any(0, 1);
@@ -416,7 +417,8 @@ TEST(RegionalClip, StraightLinesAreAsGoodWhereBlowsAddUp) {
   }
 }
 
-// Pieces grow as an impulse dies away; the last before a recorded frame is no longer than they.
+// Pieces get longer as an impulse decays; the last one before a recorded frame is no longer than
+// the others.
 TEST(RegionalClip, StraightLinesAreAsGoodRightBeforeARecordedFrame) {
   Clip jump{{"jawOpen"}, {}, {}};
   for (int f = 0; f < 12; ++f) {
@@ -443,7 +445,7 @@ TEST(RegionalClip, FramesThatAreHardlyApartAreAJump) {
   for (const double weight : inMatter(instant, matter).weights) EXPECT_LE(std::abs(weight), 1);
 }
 
-// At the end of the times that recordings may have, where clocks tell millionths of a second apart.
+// At the largest times that recordings may have, where doubles are about a microsecond apart.
 TEST(RegionalClip, WhatSettlesAtOnceIsThere) {
   const Clip clip{{"jawOpen"}, {1e10, 1e10 + 0.5, 1e10 + 1}, {0, 1, 0}};
   for (const double excess : {1e-15, 1e-12, 1e-9, 1e-6}) {
@@ -464,11 +466,11 @@ TEST(RegionalClip, AHeavyRegionArrives) {
   const Clip heavy = inMatter(clip, {4, 1, 0}, {2, 0.3});
   EXPECT_GT(heavy.seconds(), 2.2);
   EXPECT_NEAR(heavy.weights.back(), 1, 1e-2);
-  // What never stops is shown for a while.
+  // A swing that never stops is shown for a limited time.
   EXPECT_NEAR(inMatter(clip, {4, 1, 0}, {2, 1e-9}).seconds(), 12, 0.1);
 }
 
-// A take with a break of nine hours holds hardly more than one without.
+// A take with a pause of nine hours holds hardly more frames than one without.
 TEST(RegionalClip, AHeavyRegionThatHangsStillNeedsNoFrames) {
   const Clip clip{{"jawOpen"}, {0, 0.1, 32400, 32400.1, 1e9}, {0, 1, 1, 0, 0.5}};
   const Clip heavy = inMatter(clip, {4, 1, 0}, {2, 0.7});
@@ -496,7 +498,7 @@ TEST(RegionalClip, HoldsNoMoreThanItsShareHoweverMuchSwings) {
     clip.times.push_back(f / 30.0);
     for (int k = 0; k < 4; ++k) clip.weights.push_back(f / (4 + k) % 2);
   }
-  constexpr std::size_t kRegions = 800;  // three frames for each that there is
+  constexpr std::size_t kRegions = 800;  // leaves room for three frames per recorded one
   const Clip heavy = inMatter(clip, {4, 1, 0}, {6, 0}, kRegions);
   EXPECT_LE(heavy.weights.size(), kMostClipWeights / kRegions);
   EXPECT_GT(heavy.weights.size(), kMostClipWeights / kRegions / 2);
@@ -509,10 +511,10 @@ TEST(RegionalClip, ALateRegionShowsTheClipLater) {
     late.at(clip.times[f], found);
     EXPECT_NEAR(found[0], clip.weights[f < 10 ? 0 : f - 10], 1e-12);
   }
-  // And goes on until all of it was shown.
+  // It goes on until the whole clip has been shown.
   EXPECT_NEAR(late.seconds(), clip.seconds() + 0.25, 1e-12);
   EXPECT_NEAR(late.weights.back(), clip.weights.back(), 1e-12);
-  // A heavy one as much later.
+  // A heavy region ends later by the same delay.
   EXPECT_NEAR(inMatter(clip, {4, 1, 0.25}).seconds(), inMatter(clip, {4, 1, 0}).seconds() + 0.25,
               1e-12);
 }
@@ -539,7 +541,7 @@ TEST(RegionalTimeline, EventsAreForOneRegionOrForAll) {
   EXPECT_EQ(weight("left", {}, 0.5), 1);
   EXPECT_EQ(weight("rest", {}, 0.5), 0);
   EXPECT_EQ(weight("rest", {}, 1.25), 0.5);
-  EXPECT_NEAR(weight("rest", {4, 1, 0}, 1.25), 0.125, 1e-12);  // half-way in time
+  EXPECT_NEAR(weight("rest", {4, 1, 0}, 1.25), 0.125, 1e-12);  // after half of its time
   EXPECT_EQ(weight("rest", {1, 1, 0.3}, 1.29), 0);
 }
 

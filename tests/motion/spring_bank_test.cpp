@@ -8,7 +8,7 @@
 namespace sweepface {
 namespace {
 
-/// A spring and when it set out: what a bank must agree with.
+/// A single spring and its starting time: the reference for a bank.
 struct Alone {
   path::Swing swing{};
   double began = 0;
@@ -39,7 +39,7 @@ void expectAlike(const SpringBank& bank, const std::vector<Alone>& alone, double
   }
 }
 
-// Each time one sets out the others of its kind begin again, ten thousand times over.
+// Whenever a spring sets out, the others of its kind are restarted, over ten thousand rounds.
 TEST(SpringBank, SpringsThatSetOutOneByOneGoTheirOwnWays) {
   constexpr std::size_t kWeights = 12;
   const std::array kinds{Spring{2, 1}, Spring{3, 0.3}, Spring{1, 4}, Spring{2.5, 0}};
@@ -92,7 +92,7 @@ TEST(SpringBank, OtherWeightsAreNotTouched) {
   SpringBank bank(3);
   ASSERT_TRUE(bank.pull(1, swing(1, {}, {2, 1}), 0));
   EXPECT_FALSE(bank.pullsAll());
-  std::array<double, 2> out{5, 5};  // fewer than there are
+  std::array<double, 2> out{5, 5};  // fewer than the bank has weights
   bank.positions(100, out);
   EXPECT_EQ(out[0], 5);
   EXPECT_NEAR(out[1], 1, 1e-12);

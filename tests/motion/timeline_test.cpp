@@ -198,7 +198,7 @@ TEST(Timeline, HoldsNoMoreWeightsThanAClipMay) {
   EXPECT_NE(clip.error().message.find("more weights than a clip can hold"), std::string::npos);
 }
 
-// Events of no time at all, again and again.
+// Many events at the same instant, repeated in a very short loop.
 TEST(Timeline, SendsWeightsOffNoMoreOftenThanAClipCanTell) {
   std::string events;
   for (int k = 0; k < 100; ++k)

@@ -102,7 +102,7 @@ TEST(Trajectory, TwoForcesDoNotJumpAtTheirTurn) {
 TEST(Trajectory, SpringsAgreeWithIntegration) {
   Random random;
   for (int i = 0; i < 200; ++i) {
-    // Critical damping and its neighbours are the hard part.
+    // Critical and nearly critical damping are the hard cases.
     const double damping = i % 4 == 0 ? 1 : i % 4 == 1 ? 1 + random(-1e-6, 1e-6) : random(0, 4);
     const Spring spring{random(0.2, 3), damping};
     const Start start{random(-2, 2), random(-5, 5)};
@@ -226,7 +226,7 @@ TEST(Trajectory, PeriodsFarLongerThanTheMoveKeepTheirDigits) {
   const std::array<Harmonic, 1> sine{{{0, 6}}};
   for (const double period : {100.0, 1e3, 1e6, 1e12}) {
     const Trajectory t = made(Trajectory::periodicForce({0, 0}, 1, 1, period, sine));
-    // f = a + 6 sin wt, whose sine is as good as its first two terms where it is long.
+    // f = a + 6 sin wt; for long periods the first three terms of the sine's series suffice.
     const double w = 2 * std::numbers::pi / period, mean = t.at(0).acceleration, s = 0.5;
     const double way = w * s * s * s / 6 * (1 - w * w * s * s / 20 * (1 - w * w * s * s / 42));
     EXPECT_NEAR(t.at(s).position, mean * s * s / 2 + 6 * way, 1e-14) << period;
@@ -245,7 +245,8 @@ TEST(Trajectory, ASpringMovesUntilItStaysWithinATolerance) {
         if (std::abs(t.at(time).position - goal) > tolerance) lastOutside = time;
       }
       EXPECT_GE(lastMoving, lastOutside) << damping;
-      // No later than its next turn; and where it creeps, within √2 of the tolerance.
+      // An oscillating spring stops by its next turning point, a creeping one before its distance
+      // is less than tolerance / √2.
       if (damping < 1)
         EXPECT_LE(lastMoving, lastOutside + step + 0.5 / 1.5 / std::sqrt(1 - damping * damping));
       else
@@ -278,7 +279,7 @@ TEST(Trajectory, WhatArrivesMovesUntilThen) {
 }
 
 TEST(Trajectory, WhatBouncesMovesUntilTheLastTime) {
-  // It falls with 8 and arrives with 4; each flight lasts half as long as the one before.
+  // It accelerates by 8 and arrives at speed 4; each flight lasts half as long as the one before.
   const Trajectory t = made(Trajectory::bounce({0, 0}, 1, 0.5, 0.5));
   const double rest = 0.5 + 2 * 0.5 * 4 / 8 / (1 - 0.5);
   EXPECT_TRUE(t.moves(0.5, 1e-6));

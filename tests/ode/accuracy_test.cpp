@@ -7,7 +7,7 @@
 
 #include "ode/oracle.hpp"
 
-// The basis against an oracle of at least 50 digits, over random roots of every kind.
+// Compares the basis with an oracle of at least 50 digits, over random roots of every kind.
 namespace sweepface {
 namespace {
 
@@ -15,7 +15,7 @@ struct Equation {
   double a, b;  // S'''''' + a S'''' + b S'' = 0
 };
 
-/// Random roots of a size between `least` and `most`.
+/// Random roots of magnitude between `least` and `most`.
 struct Roots {
   std::mt19937_64 random;
   double least, most;
@@ -32,7 +32,7 @@ struct Roots {
   bool coin() { return sign() < 0; }
 };
 
-// From squares of the roots.
+// The equation whose roots have these squares.
 Equation squares(double s1, double s2) { return {-(s1 + s2), s1 * s2}; }
 double sq(double x) { return x * x; }
 
@@ -75,7 +75,7 @@ const Kind kinds[] = {
      [](Roots& r) {
        return Equation{r.sign() * r.between(1e-300, 1), r.sign() * r.between(1e-300, 1)};
      }},
-    // Where the library changes from one form of the solutions to another.
+    // Where the library switches from one form of the solutions to another.
     {"border",
      [](Roots& r) {
        const double beside = 1 + r.uniform(-4, 4) * 1e-16, s = r.sign() * sq(r.any());
@@ -105,7 +105,7 @@ Largest compare(const SweepBasis& basis, const Equation& e) {
   const test::Oracle<Digits> oracle(e.a, e.b);
   std::vector<double> places;
   for (int i = 0; i <= 8; ++i) places.push_back(i / 8.0);
-  // Boundary layers are as wide as 1/|r|.
+  // Boundary layers have a width of about 1/|r|.
   const double root = std::sqrt(1 + std::abs(e.a) + std::sqrt(std::abs(e.b)));
   for (const double width : {0.2, 0.7, 1.5, 4.0})
     for (const double u : {width / root, 1 - width / root})

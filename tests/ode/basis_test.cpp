@@ -97,7 +97,7 @@ TEST_P(Basis, solvesTheEquation) {
   }
 }
 
-// Constants and straight lines solve every one of the equations.
+// Constants and straight lines solve each of the equations.
 TEST_P(Basis, keepsStraightLines) {
   for (double u = 0; u <= 1; u += 0.03125) {
     const auto g = basis().at(u);
@@ -121,7 +121,7 @@ TEST_P(Basis, staysAtItsEndsBeyondThem) {
 INSTANTIATE_TEST_SUITE_P(Equations, Basis, testing::ValuesIn(equations),
                          [](const auto& test) { return std::string(test.param.name); });
 
-// Where the roots change their kind, or the library the form in which it writes the solutions.
+// Where the roots change their kind, or the library switches to another form of the solutions.
 TEST(Borders, areCrossedWithoutAStep) {
   const auto squares = [](double s1, double s2) { return std::pair{-(s1 + s2), s1 * s2}; };
   const double close = std::sqrt(1.5);
@@ -226,8 +226,8 @@ TEST(LinearBasis, joinsTheEndsByALine) {
   EXPECT_EQ(basis.at(0.25, 2), (std::array{0.0, 0.0}));
 }
 
-// As rho vanishes the second derivatives at the ends lose their hold beside thin layers, and the
-// sixth-order equation comes to the fourth-order one.
+// As rho tends to 0, the second derivatives at the ends only affect thin boundary layers, and the
+// solutions of the sixth-order equation approach those of the fourth-order one.
 TEST(Orders, comeToEachOtherAsTheLeadingParameterVanishes) {
   const Shape shape{-1e-10, 1, -20};
   const auto six = SweepBasis::make(shape).value();

@@ -28,7 +28,7 @@ TEST(ControlCurves, giveTheirDerivativesBackWithUnequalSpacing) {
     const auto across = derivativesFromControls(boundary, control2, control3, spacing);
     ASSERT_TRUE(across);
     const auto [back2, back3] = controlsFromDerivatives(boundary, *across, spacing);
-    // Rounding of the terms of the parabola.
+    // The scale of rounding errors: the size of the parabola's terms.
     const double terms = norm(boundary) + norm(across->first) * spacing.u3 +
                          norm(across->second) * spacing.u3 * spacing.u3;
     ASSERT_LE(norm(back2 - control2), 8 * epsilon * terms);

@@ -10,14 +10,14 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// In units of the last place of the exact value.
+/// The error in units in the last place (ulp) of the exact value.
 double off(double found, long double exact) {
   const double rounded = std::abs(static_cast<double>(exact));
   return static_cast<double>(std::abs(found - exact)) /
          (std::nextafter(rounded, kInfinity) - rounded);
 }
 
-/// Numbers of all sizes up to `most`.
+/// Calls `check` with numbers of all magnitudes up to `most`.
 template <typename Check>
 void forNumbers(double most, const Check& check) {
   std::mt19937_64 random(3);
@@ -61,7 +61,7 @@ TEST(Elementary, isFiniteWhereItCanBe) {
   EXPECT_EQ(exponential(-800), 0);
   EXPECT_EQ(exponential(kInfinity), kInfinity);
   EXPECT_EQ(exponential(800), kInfinity);
-  EXPECT_GT(exponential(-744), 0);  // below the normal numbers
+  EXPECT_GT(exponential(-744), 0);  // subnormal
   EXPECT_EQ(exponentialLess1(-800), -1);
   EXPECT_NEAR(exponentialLess1(709.5) / std::exp(709.5), 1, 1e-13);
   EXPECT_EQ(exponentialLess1(0), 0);

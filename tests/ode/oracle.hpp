@@ -8,15 +8,15 @@
 
 namespace sweepface::test {
 
-/// The basis of S'''''' + a S'''' + b S'' = 0 in many digits, by another way than the library's:
-/// one power series for all roots, about u = 0 instead of the middle, without cases. The end
-/// conditions lose up to 3 |r| / ln 10 digits; choose `Digits` beyond that.
+/// The basis of S'''''' + a S'''' + b S'' = 0 to many digits, computed differently from the
+/// library: by one power series for all roots, about u = 0 instead of the middle, without case
+/// distinctions. The end conditions lose up to 3 |r| / ln 10 digits; choose `Digits` beyond that.
 template <unsigned Digits>
 class Oracle {
  public:
   using Number = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<Digits>,
                                                boost::multiprecision::et_off>;
-  /// Derivatives 0..5 of six functions: [order][function].
+  /// Derivatives of orders 0..5 of six functions: [order][function].
   using State = std::array<std::array<Number, 6>, 6>;
 
   Oracle(const Number& a, const Number& b) : a_(a), b_(b), end_(from0(1.0 / 16)) {
@@ -32,10 +32,10 @@ class Oracle {
  private:
   static double size(const Number& x) { return std::abs(x.template convert_to<double>()); }
 
-  // Function j starts with its derivative of order j equal to 1 and the others 0. It is made of
-  // G_m = sum h_k u^(2k+m)/(2k+m)!, of which each is the derivative of the next.
+  // At u = 0 the derivative of order j of function j is 1, and its others are 0. The functions are
+  // combinations of G_m = sum h_k u^(2k+m)/(2k+m)!, each of which is the derivative of G_(m+1).
   State from0(double u) const {
-    const double root = std::sqrt(1 + size(a_) + std::sqrt(size(b_)));  // a bound of |r|
+    const double root = std::sqrt(1 + size(a_) + std::sqrt(size(b_)));  // a bound on |r|
     std::vector<Number> powers{1};                                      // u^n/n!
     double digits = 0;
     for (int n = 1; n < 12 || digits < Digits + 40; ++n) {
@@ -67,9 +67,9 @@ class Oracle {
     return c;
   }
 
-  // Third to fifth derivatives at u = 0 from the conditions at u = 1.
+  // Finds the third to fifth derivatives at u = 0 from the conditions at u = 1.
   void solve() {
-    std::array<std::array<Number, 9>, 3> m;  // unknowns, then right sides of g1..g6
+    std::array<std::array<Number, 9>, 3> m;  // unknowns, then right-hand sides of g1..g6
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) {
         m[i][j] = end_[i][3 + j];

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-// The oracle itself, against what is known without it.
+// Tests the oracle itself against known results.
 namespace sweepface::test {
 namespace {
 
@@ -44,7 +44,7 @@ TEST(Oracle, isTheQuinticHermitePolynomialWithoutParameters) {
             1e-150);
 }
 
-// The digits that the tests of accuracy use are enough: many more give the same.
+// The precision used by the accuracy tests suffices: many more digits give the same result.
 template <unsigned Digits, unsigned More>
 void expectSame(double a, double b) {
   const Oracle<Digits> oracle(a, b);

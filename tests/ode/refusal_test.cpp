@@ -17,13 +17,14 @@ bool isRefused(double a, double b) { return !SweepBasis::make({1, a, b}); }
 double largestByOracle(double a, double b, int places = 32) {
   const test::Oracle<72> oracle(a, b);
   double largest = 0;
-  for (int i = 0; i <= places; ++i)  // the other half mirrors this one
+  for (int i = 0; i <= places; ++i)  // the other half mirrors this half
     for (const auto state = oracle.at(0.5 * i / places); const auto& g : state[0])
       largest = std::max(largest, std::abs(g.convert_to<double>()));
   return largest;
 }
 
-// The rule: refused where a function exceeds 10, up to 5% for the oracle's coarser grid.
+// The rule: a shape is refused where a basis function exceeds 10, give or take 5% for the oracle's
+// coarser grid.
 void expectTheRule(double a, double b) {
   const double largest = largestByOracle(a, b);
   if (largest < 9.5 || largest > 10.5) {
@@ -58,7 +59,7 @@ TEST(Resonance, followsItsRuleOnAGrid) {
   EXPECT_GT(refused, 0);
 }
 
-// Parameters on both sides of the whole curve of resonances, found by the largest value.
+// Parameters on both sides of the curve of resonances, which is found by its largest values.
 TEST(Resonance, followsItsRuleAlongItsCurve) {
   for (double b = -3000; b <= 1500; b += 500) {
     double peak = 0, peakAt = 0;

@@ -7,7 +7,7 @@ set(prefix ${WORK}/prefix)
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${prefix})
 
 set(compile -G ${GENERATOR} -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_BUILD_TYPE=Release)
-if(SANITIZE)  # programs in C as well, as they load a sanitized plugin
+if(SANITIZE)  # C programs as well, since they load a sanitized plugin
   set(flags "-fsanitize=${SANITIZE} -fno-sanitize=vptr")
   list(APPEND compile -DCMAKE_C_COMPILER=${C_COMPILER} -DCMAKE_C_FLAGS=${flags} -DCMAKE_CXX_FLAGS=${flags})
 endif()
@@ -40,8 +40,8 @@ endforeach()
 set(ENV{PKG_CONFIG_PATH} ${prefix}/${LIBDIR}/pkgconfig)
 consume(${CONSUMER} by_pkg_config -DFIND_BY_PKG_CONFIG=ON)
 
-# A project in C alone finds and links the shared libraries, which may be shipped without the archives, however old the
-# CMake that it asks for.
+# A C-only project finds and links the shared libraries, which may be shipped without the archives, however old a CMake
+# it asks for.
 file(GLOB archives ${prefix}/${LIBDIR}/*.a)
 file(REMOVE ${archives})
 file(WRITE ${WORK}/alone/CMakeLists.txt [[

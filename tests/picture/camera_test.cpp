@@ -61,7 +61,7 @@ TEST(Cameras, HaveEverythingInThePicture) {
       EXPECT_LE(right, 0.9 * size.width + 1e-6);
       EXPECT_GE(top, 0.1 * size.height - 1e-6);
       EXPECT_LE(bottom, 0.9 * size.height + 1e-6);
-      // One direction decides, and it is used to the margins.
+      // The picture fills one of the two directions up to the margins.
       const double spare = std::min(left - 0.1 * size.width, top - 0.1 * size.height);
       EXPECT_NEAR(spare, 0, 1e-6);
     }

@@ -67,7 +67,7 @@ TEST(FaceScenes, DrawEveryCurve) {
   const FaceScenes scenes(hill.rig, 1);
   const Scene joins = scenes.scene(hill.rest, Style::joins);
   EXPECT_EQ(joins.strokes.size(), net.boundary.size());
-  // Every stroke has a colour of the legend, whose texts count them.
+  // Every stroke has a colour of the legend, whose texts give their counts.
   for (const Key& key : scenes.legend(Style::joins)) {
     const auto drawn = std::ranges::count(joins.strokes, key.colour, &Stroke::colour);
     EXPECT_NE(key.text.find(fmt::format("({})", drawn)), std::string::npos) << key.text;
@@ -110,7 +110,7 @@ TEST(FaceScenes, KnowWhatIsAroundAVertex) {
   const auto points = scenes.points(Weights{0});
   std::vector<Vec3> shown;
   for (const Index v : around) shown.push_back(points[v]);
-  // With them it can be looked at: the eye is outside, and the vertex near the middle.
+  // These points frame the vertex: it lies in front of the eye and near the picture's middle.
   const PictureSize size{200, 200};
   const Vec3 seen = frameCamera(shown, {}, size).project(place, size);
   EXPECT_GT(seen.z, 1);
@@ -154,7 +154,7 @@ TEST(Originals, AreShownAsTheyAre) {
   const Hill hill;
   const Scene scene = FaceScenes(hill.rig, 1).original(hill.source.neutral.positions);
   EXPECT_GE(scene.triangles.size(), 50'000u) << "fine enough to light";
-  // On the facets, and counter-clockwise like them.
+  // Triangles lie on the facets and are counter-clockwise like them.
   const std::array<Index, 3>& t = scene.triangles[scene.triangles.size() / 2];
   const Vec3 n = cross(scene.positions[t[1]] - scene.positions[t[0]],
                        scene.positions[t[2]] - scene.positions[t[0]]);
@@ -166,7 +166,7 @@ TEST(Originals, AreShownAsTheyAre) {
   EXPECT_EQ(top, sourceTop);
 }
 
-/// With a triangle that is a line, far away: it is on no patch.
+/// Adds a distant triangle that is degenerate to a line and so lies on no patch.
 PolygonMesh withALine(PolygonMesh mesh) {
   const auto first = static_cast<Index>(mesh.positions.size());
   mesh.positions.insert(mesh.positions.end(), {{40, 40, 40}, {40, 40, 40}, {41, 40, 40}});
@@ -175,7 +175,7 @@ PolygonMesh withALine(PolygonMesh mesh) {
   return mesh;
 }
 
-/// An L, seen from above: no triangle of it lies in the notch.
+/// An L shape seen from above: none of its triangles lies in the notch.
 TEST(Originals, AreCutWhereTheyBowIn) {
   PolygonMesh mesh;
   mesh.positions = {{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}, {1, 2, 0}, {0, 2, 0}};
@@ -242,7 +242,7 @@ TEST(HeatMaps, ColourEachVertexByItsError) {
   ASSERT_EQ(map.scene.labels.size(), 1u);
   EXPECT_EQ(map.scene.labels[0].at, places[grid]);
 
-  // And so in the picture.
+  // The rendered picture shows the same.
   Scene scene = map.scene;
   scene.finish = Finish::flat;
   scene.labels.clear();
@@ -276,7 +276,7 @@ TEST(HeatMaps, EndAtTheTolerance) {
 
 TEST(HeatMaps, ShowAnglesOfNormals) {
   const Hill hill;
-  // The same hill, tilted by ten degrees: every normal is off by as much.
+  // The same hill tilted by ten degrees, which turns every normal by as much.
   std::vector<Vec3> original = hill.source.neutral.positions;
   const double a = turn(10.0 / 360);
   for (Vec3& p : original)

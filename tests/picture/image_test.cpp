@@ -12,7 +12,7 @@ using namespace testing;
 
 const Colour kBlack{0, 0, 0};
 
-/// The columns and rows that are not paper.
+/// The extent of the pixels that are not paper.
 struct Extent {
   Index left = 1 << 20, right = -1, top = 1 << 20, bottom = -1;
 };

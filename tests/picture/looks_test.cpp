@@ -7,8 +7,8 @@
 #include "picture/read_png.hpp"
 #include "picture/scenes.hpp"
 
-// What pictures look like, of everything that is drawn one: looks.png has them all. Who changes how
-// something looks has it written anew by SWEEPFACE_LOOKS=tests/picture/looks.png, and looks at it.
+// Compares one picture of everything that is drawn with looks.png, which contains them all. After
+// an intended change, regenerate it with SWEEPFACE_LOOKS=tests/picture/looks.png and inspect it.
 namespace sweepface {
 namespace {
 
@@ -17,7 +17,7 @@ using namespace testing;
 constexpr PictureSize kPanel{160, 128};
 constexpr Index kColumns = 4;
 
-/// A hill in stripes of every material that has a colour of its own, with two targets.
+/// A hill with two targets, striped in every material that has its own colour.
 MeshRig stripedHill() {
   MeshRig source = withTargets(plane(12, 10));
   Polygons& polygons = source.neutral.polygons;
@@ -27,7 +27,7 @@ MeshRig stripedHill() {
   return source;
 }
 
-/// A ball before a wall, whose shadows and stripes tell the light, with a stroke and a label.
+/// A ball in front of a wall, whose shadows and stripes show the light, with a stroke and a label.
 Scene still(Finish finish) {
   Scene scene = sphere(1.2);
   scene.finish = finish;

@@ -17,7 +17,7 @@ TEST(Pages, DivideTheirRoom) {
   EXPECT_EQ(page->panel().height, panel.height);
   const std::array colours{kRed, kGreen, kBlue, kBlue, kRed, kGreen};
   for (Index k = 0; k < 6; ++k) page->place(k % 3, k / 3, plain(panel, colours[k]));
-  // None covers another, and two pixels of paper part neighbours.
+  // Panels do not overlap, and two pixels of paper separate neighbours.
   EXPECT_EQ(countNear(page->image(), kRed), (119 + 118) * 150);
   EXPECT_EQ(countNear(page->image(), kGreen), (118 + 119) * 150);
   EXPECT_EQ(countNear(page->image(), kBlue), (119 + 119) * 150);
@@ -53,7 +53,7 @@ TEST(Pages, HaveCaptions) {
   };
   EXPECT_EQ(ink(withCaption("")), 0);
   EXPECT_GT(ink(withCaption("front")), 20);
-  // However long, it stays within the page, and where nobody could read it there is none.
+  // A long caption stays within the page, and one too long to be readable is left out.
   EXPECT_EQ(ink(withCaption(std::string(300, 'm'))), 0);
   const Image wide = withCaption(std::string(24, 'm'));
   EXPECT_GT(ink(wide), 20);
@@ -79,7 +79,7 @@ TEST(Pages, HaveAScaleFromPaleToDark) {
   ASSERT_TRUE(page.has_value());
   page->addScale(0.02, "distance");
   const Image& image = page->image();
-  // The row of the bar: where the darkest colour is.
+  // Find the bar's row by its darkest colour.
   Index row = 0;
   for (Index y = 600; y < image.height; ++y)
     for (Index x = 0; x < image.width; ++x)

@@ -19,7 +19,7 @@
 
 namespace sweepface::testing {
 
-/// The picture in the bytes of a PNG file; an empty one where they are none.
+/// Decodes the bytes of a PNG file; returns an empty image if they are not one.
 inline Image readPng(std::string_view png) {
   Image image;
   int channels = 0;

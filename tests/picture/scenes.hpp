@@ -8,12 +8,12 @@
 
 #include "faces.hpp"
 
-// Scenes made by hand, and what can be read off pictures.
+// Handmade scenes, and helpers that inspect pictures.
 namespace sweepface::testing {
 
 inline constexpr Colour kRed{0.8f, 0.1f, 0.1f}, kGreen{0.1f, 0.7f, 0.2f}, kBlue{0.1f, 0.2f, 0.8f};
 
-/// A sphere of triangles, fine enough to count as round.
+/// A triangulated sphere, fine enough to count as round.
 inline Scene sphere(double radius = 1, const Vec3& centre = {}) {
   constexpr Index around = 128, rings = 64;
   Scene scene;
@@ -35,7 +35,7 @@ inline Scene sphere(double radius = 1, const Vec3& centre = {}) {
   return scene;
 }
 
-/// Adds a square that looks along +z.
+/// Adds a square that faces +z.
 inline void addSquare(Scene& scene, const Vec3& centre, double half, const Colour& colour) {
   const auto first = static_cast<Index>(scene.positions.size());
   for (const auto& [x, y] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}) {
@@ -53,12 +53,12 @@ inline Scene squares() {
   return scene;
 }
 
-/// An eye on the z axis, ten before the origin.
+/// A camera on the z axis, by default 10 in front of the origin.
 inline Camera before(double distance = 10) {
   return {{0, 0, distance}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}, 3};
 }
 
-/// Whether two colours are the same to rounding of the screen's bytes.
+/// Whether two colours are equal up to the rounding of 8-bit channels.
 inline bool near(const Colour& a, const Colour& b, double bytes = 1.01) {
   const auto close = [&](float x, float y) { return std::abs(x - y) <= bytes / 255; };
   return close(a.r, b.r) && close(a.g, b.g) && close(a.b, b.b);

@@ -13,7 +13,8 @@ using namespace testing;
 
 TEST(Studio, SeesTheSilhouetteOfASphere) {
   const Image image = picture(sphere(), before(), {400, 300});
-  // The cone of rays that touch a sphere at distance d has the tangent r / sqrt(d² - r²).
+  // Rays that touch a sphere at distance d form a cone whose half-angle has the tangent
+  // r / sqrt(d² - r²).
   const double radius = 3 * 300 / std::sqrt(99);
   const double all = 400 * 300, inside = std::numbers::pi * radius * radius;
   EXPECT_NEAR(all - countNear(image, kPaper), inside, 2 * std::numbers::pi * radius);
@@ -59,7 +60,7 @@ TEST(Studio, BlendsColoursInLight) {
 }
 
 TEST(Studio, CountsForeshorteningIn) {
-  // A square that leans away: its middle is not the middle of its picture.
+  // A square tilted away: its middle is not the middle of its picture.
   Scene scene = squares();
   addSquare(scene, {}, 1, {0, 0, 0});
   for (const std::size_t far : {2u, 3u}) {
@@ -109,7 +110,7 @@ TEST(Studio, LightsFromTheUpperLeft) {
 }
 
 TEST(Studio, ShadesHollows) {
-  // A plate close above a ground that looks to the eye.
+  // A plate just above a ground that faces the camera.
   const auto ground = [](bool plate) {
     Scene scene = squares();
     for (Index j = -20; j < 20; ++j)
@@ -143,7 +144,7 @@ TEST(Studio, ReflectsStripes) {
 
 // ---- Lines and labels ----
 
-/// The sphere with a line straight through it, from left to right at depth z.
+/// The sphere with a straight line from left to right at depth z.
 Image withLine(double z) {
   Scene scene = sphere();
   scene.strokes.push_back({{{-1.6, 0, z}, {1.6, 0, z}}, kBlue, 10});

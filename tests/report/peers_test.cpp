@@ -17,7 +17,7 @@ using namespace testing;
 
 Result<void> nothing() { return {}; }
 
-/// A program for gltfpack that does what the script says with its input $2 and its output $4.
+/// A stand-in for gltfpack that runs a script; its input is $2 and its output $4.
 std::string program(const TemporaryFolder& folder, const std::string& script) {
   const auto path = folder.file("pack", "#!/bin/sh\n" + script + "\n");
   std::filesystem::permissions(path, std::filesystem::perms::owner_all);
@@ -44,7 +44,7 @@ TEST(Counterparts, FindVerticesInAnyOrder) {
   EXPECT_TRUE(failsWith(counterparts(source, found, 0.02), {"target", "is missing"}));
 }
 
-// Lips lie upon each other until they open.
+// Lips coincide until they open.
 TEST(Counterparts, AreToldApartByTheirTargets) {
   MeshRig source = withTargets(plane(2, 2), 1);
   source.neutral.positions[4] = source.neutral.positions[0];
@@ -112,7 +112,7 @@ TEST(Peers, LeaveNoFilesBehind) {
   EXPECT_EQ(folder.fileCount(), 0u);
 }
 
-// The folder that the program was started in belongs to somebody else.
+// The working directory is not ours to write to.
 TEST(Peers, WriteNowhereElseWithoutTemporaryFiles) {
   const TemporaryFolder folder;
   const auto here = std::filesystem::current_path(),
@@ -128,7 +128,7 @@ TEST(Peers, WriteNowhereElseWithoutTemporaryFiles) {
   EXPECT_TRUE(peers.packed.empty());
 }
 
-// The real one, where it is.
+// The real gltfpack, where it is installed.
 TEST(Peers, ArePackedByGltfpack) {
   const std::string gltfpack = SWEEPFACE_SOURCE_DIR "/tests/web/node_modules/.bin/gltfpack";
   if (!std::filesystem::exists(gltfpack)) GTEST_SKIP() << "there is no gltfpack";

@@ -19,7 +19,7 @@ namespace {
 
 using namespace testing;
 
-/// Whether every tag that opens closes, in order; images, links and the like do not close.
+/// Whether all tags are closed in order, except void elements such as images and links.
 ::testing::AssertionResult isWellFormed(std::string_view html) {
   std::vector<std::string_view> open;
   for (std::size_t at = html.find('<'); at != html.npos; at = html.find('<', at + 1)) {
@@ -43,7 +43,7 @@ using namespace testing;
   return ::testing::AssertionSuccess();
 }
 
-/// A page without the bytes of its pictures, in which any letters may follow each other.
+/// A page without its pictures' Base64 data, which may contain any sequence of letters.
 std::string withoutPictures(std::string page) {
   constexpr std::string_view start = "base64,";
   for (std::size_t at = page.find(start); at != page.npos; at = page.find(start, at + 1))
@@ -112,7 +112,7 @@ TEST(Plots, PutPointsWhereTheyBelong) {
   const Series rising{"rising", "#123456", {{0, 0}, {5, 50}, {10, 100}}, true};
   const std::string svg = linePlot("t", {"x"}, {"y"}, {rising});
   EXPECT_TRUE(isWellFormed(svg));
-  // The legend's dot, then the three points: from the lower left to the upper right corner.
+  // The legend's dot, then the three points from the lower left to the upper right corner.
   EXPECT_EQ(countOf(svg, "<circle"), 4u);
   EXPECT_NE(svg.find("points=\"70.0,278.0 266.0,165.0 462.0,52.0 \""), std::string::npos) << svg;
 }
@@ -122,7 +122,7 @@ TEST(Plots, GrowWithTheirKeys) {
     std::vector<Series> series(keys, {"a name as long as some", "#123456", {{0, 0}, {10, 100}}});
     const std::string plot = linePlot("t", {"x"}, {"y"}, series), sheet = plotSheet({plot});
     EXPECT_TRUE(isWellFormed(sheet));
-    // The curve's ends: the lower left and the upper right corner.
+    // The curve ends at the lower left and the upper right corner.
     double left = 0, bottom = 0, right = 0, top = 0, height = 0;
     const char* const points = plot.c_str() + plot.find("points=");
     EXPECT_EQ(std::sscanf(points, "points=\"%lf,%lf %lf,%lf", &left, &bottom, &right, &top), 4);
@@ -154,7 +154,7 @@ TEST(Plots, TellTicksApart) {
     EXPECT_GE(all.size(), 3u);
     EXPECT_EQ(std::set(all.begin(), all.end()).size(), all.size()) << all.front();
   }
-  // What never changes, but for rounding, stands above 0, not on the axis.
+  // If values are constant up to rounding, the scale includes 0, so that they are off the axis.
   EXPECT_EQ(labels(2, 2).front(), "0");
   EXPECT_EQ(labels(1000, 1000.001).front(), "0");
   EXPECT_EQ(labels(-1000.001, -1000).back(), "0");
@@ -227,12 +227,12 @@ TEST(ShapeStudies, PullTheSweepTowardsItsChord) {
   for (const ShapedPatch& s : study.shapes) {
     EXPECT_NEAR(s.profile.front().y, 0, 1e-9) << "the boundary curves stay";
     EXPECT_NEAR(s.profile.back().y, 0, 1e-9);
-    // The corners too.
+    // So do the corners.
     const auto& first = study.shapes[0].scene.positions;
     EXPECT_LE(norm(s.scene.positions.front() - first.front()), 1e-9);
     EXPECT_LE(norm(s.scene.positions.back() - first.back()), 1e-9);
   }
-  // Without parameters it is the surface itself where that has none.
+  // Without shape parameters it is the surface itself, if that has none either.
   const Surface& surface = rig.surface;
   const std::vector<Shape> none(surface.wireframe().ribbons.size());
   if (surface.wireframe().ribbons == none) {
@@ -243,9 +243,9 @@ TEST(ShapeStudies, PullTheSweepTowardsItsChord) {
   }
 }
 
-// ---- The whole ----
+// ---- The whole report ----
 
-/// A hill with targets of nasty names.
+/// A hill whose target names need escaping.
 MeshRig hill() {
   MeshRig source = withTargets(plane(12, 10));
   source.targets[0].name = "<script>alert(1)</script>";
@@ -253,7 +253,7 @@ MeshRig hill() {
   return source;
 }
 
-/// The rows of its tables are what measuring tells.
+/// Expects the report's table rows to match the measurement.
 void expectErrors(const std::string& report, const Measurement& measured) {
   const auto rowOf = [](const PoseErrors& e) {
     return fmt::format("{}</td><td>{}</td><td>{}</td><td>{}</td><td>{:.2f}°</td>", e.name,
@@ -292,7 +292,7 @@ TEST(Report, TellsAllAboutAFace) {
         "Error against points", "Error against bytes", "Shape parameters", "Linear and Newton",
         "Every law"})
     EXPECT_NE(report->find(fmt::format("<h2>{}</h2>", title)), std::string::npos) << title;
-  // Nothing is loaded from elsewhere: the only address is the name of SVG.
+  // Nothing is loaded from elsewhere: the only URL is the SVG namespace.
   EXPECT_EQ(countOf(*report, "http"), countOf(*report, "xmlns=\"http://www.w3.org/2000/svg\""));
   EXPECT_EQ(countOf(*report, "src="), countOf(*report, "src=\"data:image/png;base64,"));
   // 4 to compare, 2 of the wireframe, 4 heat maps, 2 of continuity, 4 shapes, 12 key frames.
@@ -301,7 +301,7 @@ TEST(Report, TellsAllAboutAFace) {
   EXPECT_EQ(countOf(*report, "<svg "), 9u);
   const std::string words = withoutPictures(*report);
   EXPECT_EQ(countOf(words, "nan") + countOf(words, "inf,"), 0u);
-  // The GLB's upright line has a length beside a single packed file, too.
+  // The GLB's vertical line has a length even next to a single packed file.
   static const std::regex upright(
       R"re(<polyline points="[0-9.]+,([0-9.]+) [0-9.]+,([0-9.]+) "[^>]*stroke-dasharray)re");
   std::size_t lines = 0;
@@ -415,7 +415,7 @@ TEST(Report, FailsWhereFaceAndMeshesDoNotBelongTogether) {
   EXPECT_TRUE(failsWith(makeMotionReport(coming, {}), {"not decoded yet"}));
 }
 
-// Neither meshes nor the formats that it is compared with have one.
+// Neither the meshes nor the formats compared with contain a scene.
 TEST(Report, CountsAFaceWithoutItsScene) {
   const MeshRig source{plane(12, 10), {}};
   Rig rig = converted(source, 0.05);

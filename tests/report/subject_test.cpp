@@ -12,7 +12,7 @@ namespace {
 
 using namespace testing;
 
-/// A tall sheet of which the top rows, `moving` of 40, come forward.
+/// A tall sheet whose top rows, `moving` of 40, move forward.
 Rig standing(double moving) {
   MeshRig source{grid(10, 40, [](double i, double j) { return Vec3{i, j, 0}; }), {}};
   source.targets.push_back({"nod", source.neutral.positions});
@@ -23,7 +23,7 @@ Rig standing(double moving) {
   return conversion ? std::move(conversion->rig) : Rig{};
 }
 
-/// How much of the sheet's height a picture holds.
+/// How much of the sheet's height fits into a picture.
 double heightInPicture(const Rig& rig) {
   const Subject subject(rig);
   const FaceScenes scenes(rig, 1);

@@ -13,7 +13,7 @@ using namespace sweepface::testing;
 
 // ---- Taylor coefficients ----
 
-/// f at (x, y) with all its derivatives, from those of x and y.
+/// f at (x, y) with all its derivatives, computed from those of x and y.
 template <typename F>
 Taylor taylorOf(F f, double x, double y) {
   Taylor a, b;
@@ -30,7 +30,7 @@ TEST(Taylor, hasTheDerivativesOfWhatItComputes) {
   const double x = 0.7, y = -0.4, h = 1e-2;
   const Taylor t = taylorOf(f, x, y);
   EXPECT_NEAR(t.value(), f(x, y), 1e-15);
-  // Central differences over five points, exact to h⁴.
+  // Five-point central differences, with errors of order h⁴.
   constexpr std::array<std::array<double, 5>, 3> rule{
       {{0, 0, 1, 0, 0},
        {1 / 12.0, -8 / 12.0, 0, 8 / 12.0, -1 / 12.0},
@@ -86,7 +86,7 @@ TEST(Bulge, isNoneWhereNothingTurns) {
   EXPECT_EQ(bulge(turn, {1, 0, 0}, {-0.9, 0.1, 0}), Vec3{});  // nearly
   EXPECT_LE(norm(bulge(turn, {1, 0, 0}, {2, 0, 0})), 1e-15);  // straight away from the axis
   EXPECT_LE(norm(bulge(turn, {1, 0, 0}, {1, 0, 3})), 1e-15);  // along it
-  // From a third of a full turn on.
+  // Beyond a third of a full turn.
   EXPECT_EQ(bulge(turn, {1, 0, 0}, turnedAboutZ({1, 0, 0}, {}, 130)), Vec3{});
 }
 
@@ -165,7 +165,7 @@ TEST(Arcs, areNotAddedTwice) {
   Rig rig = turning({-20, -30, 0}, 30);
   const std::vector<Turn> turns{{0, {-20, -30, 0}, {0, 0, 1}}, {1, {-20, -30, 0}, {0, 0, 1}}};
   const auto first = addArcs(rig, std::span(turns).first(1));
-  // The arc itself may look like a turn when such a face comes back.
+  // When such a face is processed again, the arc itself may look like a turn.
   EXPECT_EQ(addArcs(rig, turns), first);
   EXPECT_EQ(rig.targets.size(), 2u);
 }

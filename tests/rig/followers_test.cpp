@@ -50,7 +50,7 @@ TEST(Followers, productsMultiply) {
 }
 
 TEST(Followers, inBetweensOfInBetweensDoNotDependOnTheOrderOfTargets) {
-  // A, the half of its half, its half; and the other way round.
+  // The targets are A, half of A's half, half of A; `plain` swaps the last two.
   const std::vector<Follower> nested{{Kind::inBetween, 1, {2}, 0.5},
                                      {Kind::inBetween, 2, {0}, 0.5}},
       plain{{Kind::inBetween, 1, {0}, 0.5}, {Kind::inBetween, 2, {1}, 0.5}};
@@ -77,7 +77,7 @@ TEST(Followers, inBetweensHandOver) {
   EXPECT_EQ(at(0.75), (std::vector<double>{0, 0, 1}));
   EXPECT_EQ(at(0.875), (std::vector<double>{0.5, 0, 0.5}));
   EXPECT_EQ(at(1), (std::vector<double>{1, 0, 0}));
-  // Beyond its ends the way goes on as it went.
+  // Beyond the ends, weights are extrapolated linearly.
   EXPECT_EQ(at(-0.25), (std::vector<double>{0, -1, 0}));
   EXPECT_EQ(at(1.25), (std::vector<double>{2, 0, -1}));
 }

@@ -82,7 +82,7 @@ std::vector<Vec3> blended(const Rig& rig, std::span<const Region> regions,
   return vectors;
 }
 
-/// Two patches that touch in one corner: nodes 2 and 4 are at the same point.
+/// Two patches that touch at one corner: nodes 2 and 4 share a point.
 Rig touching() {
   Wireframe w = onePatch(2, 2);
   const Wireframe other = w;
@@ -136,7 +136,7 @@ TEST(Regions, ALineOfOnePointIsThatPoint) {
   EXPECT_EQ(painted(hill(), line), painted(hill(), point));
 }
 
-// Sheets side by side, a twentieth of an edge apart.
+// Two nearly coincident sheets, a twentieth of an edge apart.
 TEST(Regions, CurvesReachAlongTheSurfaceAlone) {
   const Rig rig = converted(joined(plane(6, 5), plane(6, 5), {0.02, 0.02, 0.05}));
   const auto& arcs = rig.surface.wireframe().arcs;
@@ -168,7 +168,7 @@ TEST(Regions, LinesMissNoNodeOnThem) {
     EXPECT_EQ(shares[n], std::abs(places[n].y) < 0.2 ? 1 : 0) << places[n].x << " " << places[n].y;
 }
 
-// Through the middle of a ball its far side is 8 away, around it 12.6 and more.
+// The far side of the ball is 8 away through its centre, but at least 12.6 along the surface.
 TEST(Regions, WaysAlongTheSurfaceAreLonger) {
   const auto places = nodePlaces(ball());
   const Vec3 pole{0, 0, 4};
@@ -238,7 +238,7 @@ TEST(Regions, MaterialsAndGroupsArePainted) {
             std::string::npos);
 }
 
-// Patches of 3 × 2 and 2 × 2 quads; of the four quads at the ends of the seam, one is in the part.
+// Patches of 3 × 2 and 2 × 2 quads; one of the four quads at the ends of the seam is in the part.
 TEST(Regions, NodesOnASeamBelongToAPartAsFarAsTheQuadsAroundThemDo) {
   Rig rig = makeRig(twoPatches());
   rig.source.polygons.materials = {"skin", "lips"};
@@ -306,7 +306,7 @@ TEST(Regions, BandsFollowEachOther) {
     EXPECT_NEAR(middle, std::min(4.0, norm(places[n] - places[0]) / 3), 0.5);
   }
   EXPECT_EQ((*bands)[0][0], 1);
-  // Up to any band they are a brush that fades over the way to the next.
+  // Bands 0 to b add up to a brush that fades over the distance to band b + 1.
   std::vector<double> sums(places.size());
   for (int b = 0; b < 4; ++b) {
     const auto shares = painted(hill(), around(places[0], 3 * b, 3, false));
@@ -467,7 +467,7 @@ TEST(Regions, PartsOfTargetsHaveNamesOfTheirOwn) {
 TEST(Regions, PartsOfTargetsAddUpToTheSamePose) {
   for (const Rig* original : {&hill(), &ball()}) {
     Rig rig = *original;
-    rig.source.loose = {{1, 2, 3}};  // of no face: as in the first region
+    rig.source.loose = {{1, 2, 3}};  // on no face: moves as in the first region
     for (Target& target : rig.targets) target.looseDifference = {{1, 1, 0}};
     const Rig before = rig;
     const auto regions = someRegions(rig);
@@ -482,7 +482,7 @@ TEST(Regions, PartsOfTargetsAddUpToTheSamePose) {
     for (std::size_t v = 0; v < a.size(); ++v) EXPECT_LE(norm(a[v] - b[v]), 1e-12);
     const auto first = std::span(weights).first(count);
     EXPECT_LE(norm(blendLoose(rig, all)[0] - blendLoose(before, first)[0]), 1e-12);
-    // No part is behind: some programs stop at 0.
+    // No part has a negative weight: some programs clamp at 0.
     for (std::size_t k = count; k < all.size(); ++k) EXPECT_GE(all[k], 0);
     const auto wholes = targets.wholes();
     ASSERT_EQ(wholes.size(), rig.targets.size());
@@ -491,7 +491,7 @@ TEST(Regions, PartsOfTargetsAddUpToTheSamePose) {
       EXPECT_TRUE(k < count ? whole == rig.targets[k]
                             : rig.targets[k].name.starts_with(partName(whole.name, "")));
     }
-    // By itself a whole target is what it was.
+    // The whole targets themselves are unchanged.
     EXPECT_EQ(rig.targets[0], before.targets[0]);
   }
 }

@@ -61,7 +61,7 @@ TEST(WeightText, refusesWhatIsNoFiniteNumber) {
 
 TEST(Rig, atRestAsksNothingOfTargets) {
   Rig rig = makeRig(onePatch(1, 1));
-  rig.source.loose = {{1, 2, 3}};  // of which no target says anything yet
+  rig.source.loose = {{1, 2, 3}};  // no target has a difference for it yet
   for (Target& target : rig.targets) target.looseDifference.clear();
   EXPECT_FALSE(rig.knowsTargets());
   EXPECT_EQ(blendLoose(rig, Weights(rig.targets.size(), 0.0)), rig.source.loose);

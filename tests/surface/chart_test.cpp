@@ -54,7 +54,7 @@ TEST_P(Valence, keepsItsOrientation) {
   EXPECT_GT((std::conj(jet[3]) * jet[1]).imag(), 0.1);
 }
 
-// With arms dₖ at angles kθ: all are affine images of the regular star.
+// The arms dₖ are affine images of those of the regular star, which lie at angles kθ.
 void expectAffineStar(const Surface& surface, Index node) {
   const auto pose = anyPose(surface);
   const Star& star = surface.connectivity().stars[node];

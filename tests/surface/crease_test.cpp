@@ -5,12 +5,12 @@ namespace {
 
 using namespace sweepface::testing;
 
-/// `sectors` patches round node 0 on a boundary.
+/// `sectors` patches around node 0, which lies on a boundary.
 Wireframe halfWheel(Index sectors, const std::set<Index>& creases) {
   Wireframe w = wheel(sectors + 1, creases);
   w.patches.pop_back();
   w.loops.resize(w.loops.size() - 4);
-  const Index corner = 2 * (sectors + 1);  // the last patch had this node to itself
+  const Index corner = 2 * (sectors + 1);  // only the last patch had this node
   w.nodes.resize(corner);
   w.points = corner;
   w.arcs.resize(3 * sectors + 1);
@@ -41,8 +41,8 @@ INSTANTIATE_TEST_SUITE_P(
                       Case{false, 3, {1}}, Case{false, 4, {2}}, Case{false, 5, {2}},
                       Case{false, 6, {1, 4}}, Case{false, 6, {3}}, Case{false, 3, {1, 2}}));
 
-// Whatever is stored: nothing gapes, what is no crease stays as smooth as it was, and creases
-// break.
+// For any stored vectors: there are no gaps, arcs that are not creases stay as smooth as they were,
+// and the normal breaks at creases.
 TEST_P(Creases, breakTheNormalAndNothingElse) {
   const Case c = GetParam();
   const Surface surface = c.make();
@@ -64,7 +64,7 @@ TEST_P(Creases, breakTheNormalAndNothingElse) {
   }
 }
 
-// Inside a fan all sectors have one tangent plane at the node.
+// All sectors of a fan share one tangent plane at the node.
 TEST_P(Creases, leaveEveryFanSmoothAtTheNode) {
   const Surface surface = GetParam().make();
   const auto pose = anyPose(surface);
@@ -104,20 +104,20 @@ Index storedAtCentre(const Wireframe& w) {
 }
 
 TEST(CreasedNodes, storeWhatTheirFansShareOnce) {
-  // The place, two derivatives along the common line, six vectors on either side of it.
+  // The position, two derivatives along the common line, six vectors on either side of it.
   EXPECT_EQ(storedAtCentre(wheel(4, {0, 2})), 1 + 2 + 2 * 6);
-  // The place, two derivatives along each arm, four mixed ones in each sector.
+  // The position, two derivatives along each arm, four mixed ones in each sector.
   EXPECT_EQ(storedAtCentre(wheel(3, {0, 1, 2})), 1 + 3 * 2 + 3 * 4);
   EXPECT_EQ(storedAtCentre(wheel(4, {0, 1, 2, 3})), 1 + 4 * 2 + 4 * 4);
-  // A chart of five vectors on one side, a single sector between its arms on the other.
+  // The position, a chart of five vectors on one side, four for the single sector on the other.
   EXPECT_EQ(storedAtCentre(wheel(5, {0, 1})), 1 + 5 + 4);
 }
 
 TEST(CreaseEnds, areSmooth) {
-  // One crease alone ends inside a smooth node, and at its other end as well: nothing is cut.
+  // A single crease ends smoothly at an inner node: alone it does not cut the node's star.
   const Surface surface = Surface::make(wheel(4, {0})).value();
   EXPECT_EQ(surface.connectivity().kinds[0], NodeKind::crossing);
-  EXPECT_EQ(surface.connectivity().kinds[1], NodeKind::creased);  // on the boundary one is enough
+  EXPECT_EQ(surface.connectivity().kinds[1], NodeKind::creased);  // one is enough on a boundary
   const auto joins = examineJoins(surface, anyPose(surface), 2);
   EXPECT_EQ(joins[0].joinClass, JoinClass::crease);
 }
@@ -128,14 +128,14 @@ TEST(CreaseEnds, mayNotLieAlongATNode) {
   EXPECT_EQ(Surface::make(w).error().message,
             "node 3 hangs on a crease; run its arc on, or end the crease");
   w.arcs[1].crease = false;
-  w.arcs[8].crease = true;  // the stem may be one
+  w.arcs[8].crease = true;  // the stem may be a crease
   EXPECT_TRUE(Surface::make(w));
   Wireframe collapsed = slice();
   collapsed.arcs[3].crease = true;
   EXPECT_EQ(Surface::make(collapsed).error().message, "arc 3 is one point and cannot be a crease");
 }
 
-// Creases wherever arcs allow them, on surfaces of every sort.
+// Random creases wherever arcs allow them, on surfaces of every kind.
 TEST(AnyCreases, leaveNoGap) {
   int made = 0, creased = 0;
   std::mt19937 random(7);

@@ -5,7 +5,7 @@ namespace {
 
 using namespace sweepface::testing;
 
-// Whatever is stored: what is shared cannot part.
+// For any stored vectors: patches share what lies on their joins, so they cannot separate.
 TEST(Joins, areC2ForAnyPoseOfAnyLayout) {
   int smooth = 0, onTNodes = 0;
   for (const auto& [name, surface] : everySurface()) {

@@ -11,7 +11,8 @@ bool same(const Surface& a, const std::vector<Vec3>& x, const Surface& b,
                              [&](const Site& s) { return a.evaluate(x, s) == b.evaluate(y, s); });
 }
 
-// A chart's factors that should cancel leave traces of rounding, which own but move nothing.
+// At irregular nodes, factors of a chart that should cancel leave rounding residues: their patches
+// count as owners, but do not move.
 bool isIrregular(const Surface& surface) {
   return std::ranges::count(surface.connectivity().kinds, NodeKind::irregular) > 0;
 }
@@ -63,7 +64,7 @@ bool hasTNodes(const Surface& surface) {
   return std::ranges::count(surface.connectivity().kinds, NodeKind::hanging) > 0;
 }
 
-// What reaches further than a ribbon's own patches are the T-nodes that stand on it.
+// Only through T-nodes on its rails does a ribbon affect more than its own patches.
 TEST(Ribbons, areEditedWithoutTouchingOtherPatches) {
   int examined = 0;
   for (const auto& [name, surface] : everySurface()) {
@@ -80,7 +81,7 @@ TEST(Ribbons, areEditedWithoutTouchingOtherPatches) {
 }
 
 TEST(Ribbons, ofARailMoveItsTNodesPatchesToo) {
-  Wireframe w = tee();  // the T-node's rail gets a ribbon of its own, the far sides another
+  Wireframe w = tee();  // ribbon 0 holds the T-node's rail and the sides opposite it
   w.ribbons = {{}, {}, {}};
   for (Index a : {3, 4}) w.arcs[a].ribbon = 0;
   const Surface surface = Surface::make(w).value();

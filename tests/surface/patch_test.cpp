@@ -5,7 +5,7 @@ namespace {
 
 using namespace sweepface::testing;
 
-// A polynomial of degree ≤ 5 in u and in v and its derivatives.
+// A polynomial of degree ≤ 5 in u and in v, and its derivatives.
 struct Polynomial {
   Vec3 coefficient(int a, int b) const { return anyVector(6 * a + b); }
   static double power(double x, int exponent, int order) {
@@ -21,7 +21,7 @@ struct Polynomial {
   }
 };
 
-// The corner's axes (α, β) in (u, v): where it is, which of them runs along u, and which way.
+// A corner's place in (u, v) and its axes (α, β): whether α runs along u, and their directions.
 struct CornerAxes {
   int u, v;
   bool alphaIsU;
@@ -79,7 +79,7 @@ TEST(Patch, isAParabolaWhereItsCornersTellOnlyTheirSlopes) {
 }
 
 TEST(Patch, hasTheSameWeightsFromTheTableOfItsBases) {
-  Wireframe w = onePatch(5, 40);  // of which one is long
+  Wireframe w = onePatch(5, 40);  // one side is long
   const Surface surface = Surface::make(w).value();
   const Surface::PatchBasis basis = surface.patchBasis(0);
   for (const double u : {0.0, 1.0, 2.5, 4.0, 5.0, 5.5, -1.0})
@@ -92,8 +92,8 @@ TEST(Patch, hasTheSameWeightsFromTheTableOfItsBases) {
         }
 }
 
-// φ = x^k (1 − x²)⁴ vanishes at ±1 with three derivatives: integrated by parts against it, the
-// sixth derivative of S becomes the second.
+// φ = x^k (1 − x²)⁴ and its first three derivatives vanish at ±1, so integration by parts against
+// φ reduces the sixth derivative of S to the second.
 class TestFunction {
  public:
   explicit TestFunction(std::size_t k) : coefficients_(k + 9, 0) {

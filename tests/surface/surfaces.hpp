@@ -6,11 +6,11 @@
 #include "faces.hpp"
 #include "layout/layout.hpp"
 
-// Surfaces over the layouts of meshes, and poses that nothing smooths.
+// Surfaces over mesh layouts, and arbitrary poses that nothing smooths.
 namespace sweepface::testing {
 
-/// The surface over a layout. Where derivations run in a circle, nodes store their jets or lines
-/// run on.
+/// The surface over a layout. Circular derivations are broken by storing the whole jets of nodes or
+/// by extending lines.
 inline Surface surfaceOf(Layout& layout) {
   std::set<Index> whole;
   while (true) {
@@ -44,7 +44,7 @@ inline Surface surfaceOf(const MeshRig& rig, int splits = 0, unsigned seed = 1) 
   return surfaceOf(layout);
 }
 
-/// A settled pose of any stored vectors.
+/// A settled pose of arbitrary stored vectors.
 inline std::vector<Vec3> anyPose(const Surface& surface, Index from = 0) {
   std::vector<Vec3> vectors(surface.vectorCount());
   for (Index v = 0; v < surface.storedCount(); ++v) vectors[v] = anyVector(from + v);
@@ -52,7 +52,7 @@ inline std::vector<Vec3> anyPose(const Surface& surface, Index from = 0) {
   return vectors;
 }
 
-/// Sites all over a patch, its corners and sides among them.
+/// Sites all over a patch, including its corners and sides.
 inline std::vector<Site> sitesOf(const Surface& surface, Index patch) {
   std::vector<Site> sites;
   for (double a : {0.0, 0.13, 0.5, 0.81, 1.0})
@@ -67,7 +67,7 @@ inline double largest(const std::vector<Vec3>& vectors) {
   return result;
 }
 
-/// Surfaces of every sort: small ones made by hand, and layouts without and with T-nodes.
+/// Surfaces of every kind: small hand-made ones, and layouts with and without T-nodes.
 inline std::vector<std::pair<std::string, Surface>> everySurface() {
   std::vector<std::pair<std::string, Surface>> list;
   for (const Rig& rig : someRigs())
@@ -79,7 +79,7 @@ inline std::vector<std::pair<std::string, Surface>> everySurface() {
   return list;
 }
 
-/// `valence` patches round node 0; arc 3k leads out to patch k from the right.
+/// `valence` patches around node 0; arc 3k leads out of it, with patch k on its left.
 inline Wireframe wheel(Index valence, const std::set<Index>& creases) {
   Wireframe w;
   w.points = 1 + 2 * valence;

@@ -209,7 +209,7 @@ const Broken broken[] = {
     {"refusedShape",
      with(onePatch(2, 2), [](Wireframe& w) { w.ribbons[0] = {1, 80.7836 / 4, 1.0 / 16}; }),
      "ribbon 0: "},
-    {"refusedLength",  // two ribbons of one shape, of which one is too long for it
+    {"refusedLength",  // two ribbons of one shape, one of them too long for it
      with(onePatch(3, 40), [](Wireframe& w) { w.ribbons[0] = w.ribbons[1] = {1, 1000, 0}; }),
      "ribbon 1: "},
     {"noShape", with(onePatch(2, 2), [](Wireframe& w) { w.ribbons[1] = {0, 0, 0}; }), "ribbon 1: "},
@@ -262,7 +262,8 @@ Wireframe whirl() {
   return w;
 }
 
-// Both patches have the arc between them as a side that is one point: nothing goes around it.
+// The arc between the patches is collapsed: both have a side there that is one point, with nothing
+// that goes around it.
 TEST(Poles, mustHaveAnAngle) {
   Wireframe w = twoPatches();
   const Connectivity c = connect(w);

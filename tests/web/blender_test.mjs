@@ -18,7 +18,7 @@ function blend(script, ...args) {
   run(blender, '-b', '--factory-startup', '--python-exit-code', '1', '--python', file, '--', ...args);
 }
 
-/** What Blender finds in a file; at `weights` with the vertices and a picture, named `picture`. */
+/** What Blender finds in a file; given `weights`, also the vertices and a picture named `picture`. */
 function look(file, weights, picture) {
   const report = inWork('look.json');
   blend('look.py', file, report, ...(weights ? [weights, inWork(`${picture}.png`)] : []));

@@ -33,7 +33,7 @@ async function fromModules(route) {
   return route.fulfill({ body: readFileSync(new URL(`${name}/${file}`, modules)), contentType: 'text/javascript' });
 }
 
-/** Opens `address` of a page served from `folders` and hands it to `use`, with what its console said. */
+/** Opens `address` of a page served from `folders` and passes it to `use`, with its console output. */
 export async function withPage(folders, address, use) {
   const server = await serve(folders);
   const browser = await chromium.launch({
@@ -42,7 +42,7 @@ export async function withPage(folders, address, use) {
   });
   try {
     const page = await browser.newPage({ viewport: { width: 640, height: 480 } });
-    page.setDefaultTimeout(120_000);  // machines may be busy
+    page.setDefaultTimeout(120_000);  // the machine may be busy
     const said = [];
     page.on('console', (message) => said.push(`${message.type()}: ${message.text()}`));
     page.on('pageerror', (error) => said.push(`uncaught: ${error.message}`));

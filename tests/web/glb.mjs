@@ -1,4 +1,4 @@
-// A GLB taken apart, without anyone's help.
+// Parses a GLB without any library.
 import { readFileSync } from 'node:fs';
 
 const componentTypes = { 5120: Int8Array, 5121: Uint8Array, 5122: Int16Array, 5123: Uint16Array,
@@ -50,7 +50,7 @@ export class Glb {
   }
 }
 
-/** The greatest distance between points that stand at the same place in two lists of coordinates. */
+/** The largest distance between corresponding points of two lists of coordinates. */
 export function farthest(a, b) {
   if (a.length !== b.length) return Infinity;
   let most = 0;

@@ -1,4 +1,4 @@
-// Faces that gltfpack packed come in, and faces that go out can be packed.
+// Faces that gltfpack packed can be converted, and exported faces can be packed.
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import path from 'node:path';
@@ -21,7 +21,7 @@ function facesOf(obj) {
   return { triangles: faces[3], quads: faces[4] };
 }
 
-// Converts a packed face; says what became of it.
+// Converts a packed face and describes the result.
 function through(packed, tolerance, name) {
   const sweep = inWork(`${name}.sweep`), obj = inWork(`${name}.obj`);
   sweepface('convert', packed, '-o', sweep, '--tolerance', String(tolerance), '-q');
@@ -40,7 +40,7 @@ for (const options of process.env.SWEEPFACE_LONG ? ways : few)
     const result = through(packed, tolerance, 'again');
     assert.ok(result.worst <= tolerance);
     assert.deepEqual(result.names, targetNames(file));
-    // No triangle is lost; in gltfpack's order some of them pair to other quads, or to none.
+    // No triangle is lost; in gltfpack's order some of them pair into different quads, or into none.
     assert.equal(2 * result.quads + result.triangles, 2 * facesOf(neutral).quads);
     assert.ok(result.quads >= 0.99 * facesOf(neutral).quads);
     const bytes = readFileSync(packed);

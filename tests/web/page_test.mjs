@@ -10,7 +10,7 @@ const later = !process.env.SWEEPFACE_LONG && 'runs in the long tests';
 
 const example = fileURLToPath(new URL('../../examples/three', import.meta.url));
 
-// Pictures for a person to look at, if they name a folder for them.
+// Keeps a picture for inspection if SWEEPFACE_PICTURES names a folder.
 function keep(name, png) {
   if (process.env.SWEEPFACE_PICTURES) writeFileSync(`${process.env.SWEEPFACE_PICTURES}/${name}.png`, png);
 }

@@ -37,7 +37,7 @@ test('every target is found by its name', async () => {
   for (const mesh of meshes) assert.deepEqual(Object.keys(mesh.morphTargetDictionary), names);
 });
 
-// Where three.js puts the vertices of the meshes, in cells of a size.
+// Where three.js puts the vertices of the meshes, rounded to cells of size `cell`.
 function places(meshes, cell) {
   const seen = new Set();
   const point = new THREE.Vector3();
@@ -60,8 +60,8 @@ function isNear(seen, cell, point) {
   return false;
 }
 
-// The face is 28.2 cm high: floats are good for 1e-5 cm, 16 bits for half of 28.2 / 65535 and as much
-// again for a target.
+// The face is 28.2 cm high: floats are accurate to 1e-5 cm, 16 bits to half of 28.2 / 65535, and as
+// much again for a target.
 for (const [name, cell, options] of [['', 1e-5, []], [', refined', 1e-5, ['--lod', '2']],
                                      [', quantized', 4.4e-4, ['--quantize']],
                                      [', refined and quantized', 4.4e-4, ['--lod', '2', '--quantize']]])
@@ -128,7 +128,7 @@ test('sampled keys meet the law where they stand', async () => {
   }
 });
 
-/** Plays the first animation of a file and hands a function that goes to a time to `use`. */
+/** Plays the first animation of a file; passes `use` the glTF and a function that goes to a time. */
 async function playing(file, use) {
   const gltf = await load(file), mixer = new THREE.AnimationMixer(gltf.scene);
   const action = mixer.clipAction(gltf.animations[0]);

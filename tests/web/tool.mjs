@@ -4,7 +4,7 @@ import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import path from 'node:path';
 
-/** A folder that is gone when the tests are. */
+/** A folder that is deleted when the tests end. */
 export const work = mkdtempSync(path.join(tmpdir(), 'sweepface-web-'));
 process.on('exit', () => rmSync(work, { recursive: true, force: true }));
 

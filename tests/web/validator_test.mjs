@@ -1,4 +1,4 @@
-// Khronos' own validator has nothing to say against the files.
+// Khronos' own validator finds no fault with the files.
 import assert from 'node:assert/strict';
 import { readFileSync, writeFileSync } from 'node:fs';
 import path from 'node:path';

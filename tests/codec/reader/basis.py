@@ -39,7 +39,7 @@ def sine_cosine(x: float) -> tuple[float, float]:
 
 
 def power_of_e(x: float) -> tuple[int, float]:
-    """k and q: e^x = 2^k (1 + q)."""
+    """k and q with e^x = 2^k (1 + q)."""
     k = math.floor(x / math.log(2) + 0.5)
     high, low = x - k * LN2_HIGH, k * LN2_LOW
     r, q = high - low, 0.0
@@ -76,7 +76,7 @@ def logarithm(x: float) -> float:
 
 
 def product_plus(a: float, b: float, c: float) -> float:
-    """a b + c where c is nearly -a b."""
+    """a b + c, accurate where c is nearly -a b."""
     def high(x: float) -> float:
         split = 134217729.0 * x
         return split - (split - x)
@@ -160,7 +160,7 @@ def apart_roots(a: float, b: float, s1: float) -> list[tuple[float, float]]:
 
 
 def find_form(a: float, b: float) -> tuple[str, list[tuple[float, float]]]:
-    """The form, and its two numbers with the tails of their roots."""
+    """The form of the solutions, and its two numbers, each with the tail of its root."""
     discriminant = a * a / 4 - b
     s1 = -a / 2 - math.copysign(math.sqrt(max(discriminant, 0.0)), a)
     if (math.sqrt(b) if discriminant < 0 else abs(s1)) <= SMALL:
@@ -189,7 +189,7 @@ def atoms_at(form: str, roots: list[tuple[float, float]], u: float) -> list[list
 
 
 def derivatives(form: str, roots: list[tuple[float, float]]) -> list[list[list[float]]]:
-    """Matrices: row i holds the derivative of even atom i by odd ones, then the reverse."""
+    """Matrices: row i is the derivative of even atom i by the odd atoms, then vice versa."""
     first, second = roots[0][0], roots[1][0]
     same = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]
     if form == "small":
@@ -231,7 +231,7 @@ def solutions(m: list[list[float]], right: list[list[float]]) -> list[list[float
 
 
 def modes_of(form: str, roots: list[tuple[float, float]], parity: int) -> list[list[float]]:
-    """Half of the solution for each condition at u = 1, by atoms."""
+    """Half the solution for each condition at u = 1, in terms of the atoms."""
     end, matrices = atoms_at(form, roots, 1.0), derivatives(form, roots)
     square = SMALL if form == "small" else abs(roots[0][0]) + abs(roots[1][0])
     scale = math.sqrt(max(1.0, square))
@@ -247,7 +247,7 @@ def modes_of(form: str, roots: list[tuple[float, float]], parity: int) -> list[l
 
 
 def sweep_basis(a: float, b: float, u: float) -> list[list[float]]:
-    """g1 to g6 and their first two derivatives, 0 < u < 1."""
+    """g1 to g6 and their first two derivatives at 0 < u < 1."""
     form, roots = find_form(a, b)
     atoms, matrices = atoms_at(form, roots, u), derivatives(form, roots)
     modes = [modes_of(form, roots, parity) for parity in (0, 1)]

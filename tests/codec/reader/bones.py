@@ -1,4 +1,4 @@
-"""Parts that targets move as wholes: docs/file-format-vectors.md, "Bones" and "Values"."""
+"""Parts that targets move as a whole: docs/file-format-vectors.md, "Bones" and "Values"."""
 
 import math
 from typing import NamedTuple
@@ -15,7 +15,7 @@ class Carry(NamedTuple):
 
 
 def read_bones(symbols, hierarchy: Hierarchy) -> tuple[int, list[int]]:
-    """How many there are, and that of each stored vector, -1 for none; no list without any."""
+    """The number of bones, and each stored vector's bone or -1 (an empty list without bones)."""
     count = symbols.number(57)
     if count > 64:
         raise ValueError("there are too many bones")
@@ -48,7 +48,7 @@ def read_carries(symbols, count: int) -> list[Carry]:
 
 
 def bone_places(model, bones: list[int], neutral: list[Vector]) -> list[tuple[bool, Vector]]:
-    """Of each stored vector whether it is a position, and where it is by its bone's box."""
+    """For each stored vector: whether it is a position, and its coordinates in its bone's box."""
     is_position = [model.owners[number][1:3] == (0, 0) for number in model.stored]
     places, boxes = [], {}
     for bone in set(bones):

@@ -101,7 +101,7 @@ def scale_of(m: Model, arms: list[int]) -> float:
 
 
 def last_edges(m: Model, n: int) -> int:
-    """Those of the last arm of an open star where it is collapsed."""
+    """The edges of the last arm of an open star if that arm is collapsed, else 0."""
     star = m.c.stars[n]
     if star.closed or not is_collapsed(m, n, -1):
         return 0
@@ -125,7 +125,7 @@ def chart_point(m: Model, nodes: list[int]):
 
 
 def chart_node(m: Model, n: int, angle: float, step: float, scale: float) -> float:
-    """The angle behind the node's last sector."""
+    """Writes the sums of one node. Returns the angle after its last sector."""
     star, quadratic = m.c.stars[n], [m.first[n] + k for k in range(1, 6)]
 
     def write_arm(k, is_ray):

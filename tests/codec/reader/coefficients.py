@@ -1,4 +1,4 @@
-"""Coefficients of one pose after the other: docs/file-format-vectors.md, "Coefficients"."""
+"""The coefficients of successive poses: docs/file-format-vectors.md, "Coefficients"."""
 
 from hierarchy import Hierarchy
 from symbols import MASK, Model, mixed
@@ -25,7 +25,7 @@ def reflected(steps: Steps, sign: int, axis: int) -> Steps:
 
 
 class Coefficients:
-    """Of the neutral or of all targets."""
+    """Reads the coefficients of the neutral or of all targets."""
 
     def __init__(self, hierarchy: Hierarchy, coder, axis: int, neutral: bool):
         self.sites, self.images, self.axis = hierarchy.sites, hierarchy.images, axis
@@ -40,7 +40,7 @@ class Coefficients:
         self.history = [0] * len(self.sites)
 
     def read(self, expected: list[Steps], compared: str, like: list[Steps] | None) -> list[Steps]:
-        """`compared` with its "own" image, that of "another" or "none"."""
+        """`compared`: with the pose's "own" image, that of "another" pose, or "none"."""
         self.look_at(like)
         self.residual = [NOTHING] * self.count
         self.active, self.below = [0] * len(self.sites), [0] * len(self.sites)

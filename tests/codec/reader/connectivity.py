@@ -1,4 +1,4 @@
-"""Who meets whom in a wireframe: docs/wireframe.md, "Half-arcs, stars and lines"."""
+"""The connectivity of a wireframe: docs/wireframe.md, "Half-arcs, stars and lines"."""
 
 import math
 from dataclasses import dataclass, field
@@ -7,18 +7,18 @@ from typing import NamedTuple
 from wireframe import Wireframe
 
 CROSSING, IRREGULAR, HANGING, CREASED = range(4)  # kinds of nodes
-STRAIGHT = -1  # a sector where the side of a patch runs through
+STRAIGHT = -1  # a sector where the side of a patch runs straight through
 
 
 @dataclass
 class Star:
     arms: list[int]  # half-arcs that leave the node, counter-clockwise
-    sectors: list[int]  # sector k lies counter-clockwise of arm k: 4 * patch + corner, or STRAIGHT
+    sectors: list[int]  # sector k follows arm k counter-clockwise: 4 * patch + corner, or STRAIGHT
     closed: bool
 
 
 class Rail(NamedTuple):
-    last: int  # half-arc that arrives at its end
+    last: int  # the half-arc that arrives at its end
     edges: int
 
 
@@ -36,17 +36,17 @@ class Fan:
 class Connectivity:
     patch_of: list[int]  # [half-arcs] the patch on the left, or -1
     corner_at: list[int]  # [half-arcs] 4 * patch + side where a side starts with it, or -1
-    next: list[int]  # [half-arcs] in the loop of the patch on the left, or -1
+    next: list[int]  # [half-arcs] the next one in the loop of the patch on the left, or -1
     prev: list[int]
     stars: list[Star] = field(default_factory=list)  # [nodes]
     kinds: list[int] = field(default_factory=list)  # [nodes]
-    fans: list[list[Fan]] = field(default_factory=list)  # [nodes] of creased ones
-    corner_sector: list[int] = field(default_factory=list)  # [4 * patches] its place in the star
+    fans: list[list[Fan]] = field(default_factory=list)  # [nodes] empty unless creased
+    corner_sector: list[int] = field(default_factory=list)  # [4 * patches] the place in the star
     corner_node: list[int] = field(default_factory=list)  # [4 * patches]
-    rails: list[Rail] = field(default_factory=list)  # [half-arcs] the run from it straight on
+    rails: list[Rail] = field(default_factory=list)  # [half-arcs] the straight run from it
 
     def opposite(self, node: int, arm: int) -> int:
-        """The arm that goes straight on from an arm of a node, or -1."""
+        """The arm that continues an arm straight on across the node, or -1."""
         star, kind = self.stars[node], self.kinds[node]
         if kind in (IRREGULAR, CREASED):
             return -1
@@ -61,7 +61,7 @@ class Connectivity:
 
 
 def linked(w: Wireframe) -> Connectivity:
-    """The loops alone."""
+    """Connectivity with the loops only."""
     halves = 2 * len(w.arcs)
     c = Connectivity(*([-1] * halves for _ in range(4)))
     for p, sides in enumerate(w.patches):
@@ -76,7 +76,7 @@ def linked(w: Wireframe) -> Connectivity:
 
 
 def star_at(c: Connectivity, leaving: list[int]) -> Star:
-    """`leaving`: half-arcs of loops that leave the node, in the order of the loops."""
+    """`leaving`: the half-arcs of loops that leave the node, in the order of the loops."""
     first = ([leaving[0]] + [h for h in leaving if c.patch_of[h ^ 1] < 0])[-1]
     arms, sectors, h = [], [], first
     while True:
@@ -97,7 +97,7 @@ def is_crease(w: Wireframe, c: Connectivity, h: int) -> bool:
 
 
 def fans_of(w: Wireframe, c: Connectivity, star: Star) -> list[Fan]:
-    """None where creases do not cut the star."""
+    """The fans of a star, an empty list if creases do not cut it."""
     cuts = [k for k, h in enumerate(star.arms) if is_crease(w, c, h)]
     if len(cuts) < (2 if star.closed else 1):
         return []
@@ -124,7 +124,7 @@ def fans_of(w: Wireframe, c: Connectivity, star: Star) -> list[Fan]:
 
 
 def in_turn(fans: list[Fan]) -> list[Fan]:
-    """The fans of a closed star, the last one where it can join any two arms."""
+    """The fans of a closed star, rotated so that the last one can join any two arms if possible."""
     sizes = [fan.sectors for fan in fans]
     if 1 in sizes:
         first = sizes.index(1) + 1
@@ -147,7 +147,7 @@ def kind_of(w: Wireframe, c: Connectivity, star: Star) -> int:
 
 
 def straight_on(w: Wireframe, c: Connectivity, h: int) -> int:
-    """The half-arc on from a T-node at which `h` arrives, or -1."""
+    """The half-arc that continues `h` beyond the T-node where it arrives, or -1."""
     node = w.end(h)
     if c.kinds[node] != HANGING:
         return -1

@@ -16,7 +16,7 @@ def check(holds, what: str):
 
 
 def chunks_of(file: bytes) -> dict[str, bytes]:
-    """The payloads of the known chunks, in their order."""
+    """The payloads of the known chunks, in file order."""
     check(file[:7] == b"SWEEPFC" and file[7:8] == b"\2", "this is no .sweep file of version 2")
     chunks, at, last = {}, 8, -1
     while "END " not in chunks:
@@ -43,7 +43,7 @@ def chunks_of(file: bytes) -> dict[str, bytes]:
 
 
 class Data:
-    """The values of a payload, one after the other."""
+    """Reads the values of a payload in sequence."""
 
     def __init__(self, payload: bytes):
         self.payload, self.at = payload, 0

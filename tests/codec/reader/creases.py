@@ -20,14 +20,14 @@ def opening(fan: Fan) -> float:
 
 
 def fold(m: Model, n: int):
-    """All sums of a creased node."""
+    """Writes all sums of a creased node."""
     scale = scale_of(m, m.c.stars[n].arms)
     for f, fan in enumerate(m.c.fans[n]):
         (fold_regular if fan.regular else fold_chart)(m, n, f, fan, scale)
 
 
 def owned_arms(fan: Fan) -> range:
-    """Those that get their derivatives from the fan, counted from its first."""
+    """The arms that get their derivatives from the fan, counted from its first arm."""
     return range(fan.first_given, fan.sectors + (not fan.last_given))
 
 
@@ -37,7 +37,7 @@ def corner_of(m: Model, n: int, sector: int) -> int:
 
 
 def fold_regular(m: Model, n: int, f: int, fan: Fan, _):
-    """One jet in axes that turn with the sectors."""
+    """Writes the sums of a fan with one jet, in axes that turn with the sectors."""
     def own(q, i, j):
         x, y, sign = turned(q, i, j)
         return m.fan_vector(n, f, x, y), sign
@@ -55,7 +55,7 @@ def fold_regular(m: Model, n: int, f: int, fan: Fan, _):
 
 
 def fold_chart(m: Model, n: int, f: int, fan: Fan, scale: float):
-    """A jet of second order in a chart."""
+    """Writes the sums of a fan with a second-order jet in a chart."""
     quadratic = [m.fan_vector(n, f, i, j) for i, j in SECOND_ORDER[1:]]
     solve_given(m, n, fan, quadratic, scale)
     for k in owned_arms(fan):
@@ -67,7 +67,7 @@ def fold_chart(m: Model, n: int, f: int, fan: Fan, scale: float):
 
 
 def solve_given(m: Model, n: int, fan: Fan, quadratic: list[int], scale: float):
-    """What of A to E other fans give."""
+    """Writes those of A to E that other fans determine."""
     ca, cb, cc, cd, ce = quadratic
     jet = spoke(0.0, fan.step, scale)
     s, t = jet[1, 0].real, jet[2, 0].real

@@ -1,4 +1,4 @@
-"""What predicts stored derivatives: docs/file-format-vectors.md, "Prediction"."""
+"""Predictions of stored derivatives: docs/file-format-vectors.md, "Prediction"."""
 
 from typing import NamedTuple
 
@@ -15,7 +15,7 @@ class Neighbour(NamedTuple):
 
 
 class Derivatives:
-    """`predict` tells the terms of a stored derivative of a site."""
+    """`predict` returns the terms that predict a stored derivative of a site."""
 
     def __init__(self, model, sites):
         self.model, self.w, self.c = model, model.w, model.c
@@ -35,7 +35,7 @@ class Derivatives:
         return self.second(node, axis) if i + j == 2 else []
 
     def own(self, node: int, i: int, j: int) -> int | None:
-        """The stored vector of the site of a node, if it has that one."""
+        """The stored vector of derivative (i, j) at the node's site, or None."""
         return find_derivative(self.model, self.site_of[node].vectors, i, j)
 
     def position(self, node: int) -> int:
@@ -69,7 +69,7 @@ class Derivatives:
                 *scaled(at_q, t * s * s * edges), *scaled(at_p, s * t * t * edges)]
 
     def slope(self, h: int) -> list | None:
-        """At the start of a half-arc along it."""
+        """The derivative along a half-arc at its start."""
         node = self.w.start(h)
         back = opposite_of(self.w, self.c, h) if self.c.kinds[node] == CROSSING else None
         if back is None:
@@ -89,7 +89,7 @@ class Derivatives:
 
     @staticmethod
     def change(ahead, behind, own: int) -> list:
-        """The first derivative of what is known at neighbours and here."""
+        """The first derivative of a value that is known at the neighbours and here."""
         if ahead and behind:
             return parabola_slope(ahead.distance, behind.distance, ahead.value, behind.value, own)
         for n, sign in (ahead, 1), (behind, -1):
@@ -154,7 +154,7 @@ class Derivatives:
         return scaled(along_x, x / d) + scaled(along_y, y / d)
 
     def spoke(self, site, node: int, arm: int) -> list[float]:
-        """The factors of A and B in the derivative along it."""
+        """The factors of A and B in the derivative along an arm."""
         factors = dict(self.model.sums.get(self.model.arm_vector(node, arm, 1), []))
         return [nearest(factors.get(self.model.stored[site.vectors[k]], 0.0) * 2**20) / 2**20
                 for k in (1, 2)]

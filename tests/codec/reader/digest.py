@@ -1,5 +1,5 @@
-"""One number for all that a file says: tests/codec/digest.hpp, digestOf, of which this is the
-second version."""
+"""One number for everything in a file: a second implementation of digestOf in
+tests/codec/digest.hpp."""
 
 import struct
 
@@ -7,13 +7,13 @@ from parts import Rig
 
 
 class Digest:
-    """FNV-1a over numbers of eight bytes, the lowest byte first."""
+    """FNV-1a over eight-byte numbers, lowest byte first."""
 
     def __init__(self):
         self.value = 0xCBF29CE484222325
 
     def add(self, thing):
-        """A whole number, a truth value, a double, a text, or several of these."""
+        """Adds an integer, a boolean, a double, a text, or several of these."""
         if isinstance(thing, int):
             self.add_bytes((thing & 2**64 - 1).to_bytes(8, "little"))
         elif isinstance(thing, float):

@@ -4,7 +4,7 @@ from container import check
 
 
 def read_ordr(data, vertices, loose):
-    """The order; `vertices` are those of level 1, `loose` those of no face."""
+    """The order. `vertices`: their number at level 1; `loose`: the number of those on no face."""
     order, last = [], -1
     for _ in range(data.number()):
         last += 1 + data.signed()
@@ -57,7 +57,7 @@ def read_texc(data, source):
 
 
 def read_quad(data, source, quads):
-    """`quads`: how many there are at level 1."""
+    """`quads`: their number at level 1."""
     face_at = [(first, len(face)) for first, face in with_first_corners(source.faces) for _ in face]
     first = 0
     for _ in range(quads):

@@ -1,4 +1,4 @@
-"""The chunk GRID but for its loops: docs/file-format.md, "GRID"."""
+"""The chunk GRID except for its loops: docs/file-format.md, "GRID"."""
 
 import math
 import struct
@@ -12,7 +12,7 @@ from wireframe import Arc, Node, Shape, Wireframe
 
 
 class Sets:
-    """Disjoint sets: slow and short."""
+    """Disjoint sets, in a slow but short implementation."""
 
     def __init__(self, size: int):
         self.of = [{k} for k in range(size)]
@@ -24,13 +24,13 @@ class Sets:
                 self.of[k] = self.of[a]
 
     def numbered(self, members) -> dict[int, int]:
-        """The number of the set of each member, in the order of their first ones."""
+        """The number of each member's set, with sets numbered by their first members."""
         numbers = {}
         return {k: numbers.setdefault(id(self.of[k]), len(numbers)) for k in members}
 
 
 def turn_loops(s: Symbols, w: Wireframe) -> Sets:
-    """Answers with the sets of arcs."""
+    """Turns the loops. Returns the sets of arcs."""
     sets = Sets(len(w.arcs))
     for p in range(len(w.patches)):
         for side in range(4):
@@ -111,8 +111,8 @@ def line_class(w: Wireframe, c: Connectivity, n: int, axis: int) -> int:
 
 
 def image_stores(w: Wireframe, c: Connectivity, image: int, x: int) -> list[int]:
-    """By component in the frame of a node: whether its image stores it; x is the image of its
-    first arm."""
+    """For each component in a node's frame: whether the node's image stores it. x is the image of
+    the node's first arm."""
     arms = c.stars[image].arms
     q = arms.index(x) if x in arms else len(arms)
     places = [k if q % 2 == 0 else 3 * (k % 3) + k // 3 for k in range(9)]
@@ -153,8 +153,8 @@ def read_shapes(s: Symbols, w: Wireframe):
 
 
 def read_grid(s: Symbols):
-    """The wireframe; its connectivity; the axis and the pairs of the mirror; the images of
-    half-arcs and nodes."""
+    """The wireframe, its connectivity, the mirror's axis and pairs, and the images of half-arcs and
+    nodes."""
     nodes, arcs, patches = s.number(0), s.number(0), s.number(0)
     axis = s.index(40, 3)
     pairs = [(s.index(43, 2 * arcs), s.index(43, 2 * arcs)) for _ in range(s.number(41))]

@@ -1,4 +1,4 @@
-"""Sites, their order, what predicts them, steps and images: docs/file-format-vectors.md, "Sites",
+"""Sites, their order, predictions, steps and images: docs/file-format-vectors.md, "Sites",
 "Order of sites", "Steps", "Mirror images"."""
 
 import math
@@ -16,16 +16,16 @@ Terms = list[tuple[int, float]]  # stored vectors and their factors
 @dataclass
 class Site:
     nodes: list[int]
-    vectors: list[int]  # stored ones, the position first
+    vectors: list[int]  # the stored ones, the position first
     image: int = -1
     parent: int = -1
     span: int = 0
     leaf: bool = True
-    terms: Terms = field(default_factory=list)  # of its position
+    terms: Terms = field(default_factory=list)  # that predict its position
 
 
 class Step(NamedTuple):
-    """How a stored vector is made."""
+    """How a stored vector is reconstructed."""
     vector: int
     site: int
     terms: Terms
@@ -43,11 +43,11 @@ class Guess(NamedTuple):
 class Hierarchy:
     sites: list[Site]
     steps: list[Step]
-    images: list[tuple[int, int] | None]  # of each stored vector, with the sign
+    images: list[tuple[int, int] | None]  # [stored vectors] the image and its sign
 
 
 def make_hierarchy(model, mirror: tuple[list[int], list[int]]) -> Hierarchy:
-    """`mirror`: images of half-arcs and of nodes, -1 without one."""
+    """`mirror`: the images of half-arcs and of nodes, -1 for none."""
     sites = find_sites(model)
     find_site_images(model, mirror[1], sites)
     sites = Order(model, sites).renumbered()
@@ -82,7 +82,7 @@ def find_sites(model) -> list[Site]:
 
 
 def site_of_nodes(model, sites: list[Site]) -> list[int]:
-    """-1 for T-nodes."""
+    """The site of each node, -1 for T-nodes."""
     site_of = [-1] * len(model.w.nodes)
     for s, site in enumerate(sites):
         for n in site.nodes:
@@ -106,12 +106,12 @@ def find_site_images(model, node_images: list[int], sites: list[Site]):
 # Order of sites
 
 class Order:
-    """Takes sites out of their lines and puts all into order."""
+    """Takes sites out of their lines and orders all sites."""
 
     def __init__(self, model, sites: list[Site]):
         self.model, self.sites = model, sites
         self.lines = Lines(model.w, model.c, site_of_nodes(model, sites))
-        self.taken = []  # out, one after the other
+        self.taken = []  # sites in the order in which they were taken out
         self.take_out()
         self.order = self.roots() + self.taken[::-1]
 
@@ -187,7 +187,7 @@ class Order:
     # Guesses
 
     def guess(self, s: int) -> Guess | None:
-        """None if no line says anything."""
+        """None if no line predicts the site."""
         site = self.sites[s]
         barred = {site.nodes[0]}
         if site.image >= 0:
@@ -204,12 +204,12 @@ class Order:
         return Guess(terms, min(span for _, span in found), beside) if found else None
 
     def between(self, ahead: int, behind: int, barred: set[int], depth: int = 0):
-        """Terms and the span, or None."""
+        """The terms and the span, or None."""
         near = [self.lines.next(ahead), self.lines.next(behind)]
         if not all(n and n.node not in barred for n in near):
             return None
         span = near[0].distance + near[1].distance
-        added = []  # places on the line with their terms
+        added = []  # places on the line, with their terms
         for n, sign in zip(near, (1, -1)):
             terms = self.placed(n, barred, depth)
             if not terms:
@@ -260,7 +260,7 @@ class Order:
         return result
 
     def neighbours(self, s: int) -> list[tuple[int, int]]:
-        """The sites that the lines of a site lead to, and how far away they are."""
+        """The sites that a site's lines lead to, and their distances."""
         ends = [self.lines.next(arm) for n in self.sites[s].nodes
                 for arm in self.model.c.stars[n].arms if not self.model.w.arcs[arm >> 1].collapsed]
         found = [(self.lines.site_of[end.node], end.distance) for end in ends if end]
@@ -289,7 +289,7 @@ def make_step(model, reach: list[float], sites: list[Site], s: int, v: int, term
 
 
 def reach_of(model) -> list[float]:
-    """Of all vectors, by their numbers."""
+    """The reach of every vector, by number."""
     reach = [0.0] * len(model.owners)
     on_curve = [lambda edges: 1, lambda edges: 0.16 * edges,
                 lambda edges: 0.0173 * edges * edges]

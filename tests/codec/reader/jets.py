@@ -1,4 +1,4 @@
-"""Which vectors a model has and which one each jet is: docs/wireframe.md, "Vectors"."""
+"""The vectors of a model, and which of them each jet is: docs/wireframe.md, "Vectors"."""
 
 from collections import defaultdict
 from dataclasses import dataclass, field
@@ -25,14 +25,14 @@ class Owner(NamedTuple):
 class Model:
     w: Wireframe
     c: Connectivity
-    owners: list[Owner] = field(default_factory=list)  # of all vectors by their numbers
-    stored: list[int] = field(default_factory=list)  # what a pose holds, in this order
+    owners: list[Owner] = field(default_factory=list)  # [vectors]
+    stored: list[int] = field(default_factory=list)  # the vectors in a pose, in this order
     is_stored: list[bool] = field(default_factory=list)
-    sums: dict[int, Sum] = field(default_factory=dict)  # what the other vectors are
-    order: list[int] = field(default_factory=list)  # the other vectors, each behind all it needs
-    first: list[int] = field(default_factory=list)  # of each node its first vector, or its point's
-    arms: list[int] = field(default_factory=list)  # of each node the first vector of its arms
-    mixed: dict[int, int] = field(default_factory=dict)  # of corners the first vector
+    sums: dict[int, Sum] = field(default_factory=dict)  # define the derived vectors
+    order: list[int] = field(default_factory=list)  # the derived vectors, each after all it needs
+    first: list[int] = field(default_factory=list)  # [nodes] its first vector, or its point's
+    arms: list[int] = field(default_factory=list)  # [nodes] the first vector of its arms
+    mixed: dict[int, int] = field(default_factory=dict)  # the first mixed vector of corners
 
     def add(self, owner: Owner, stored: bool = False) -> int:
         vector = len(self.owners)
@@ -43,7 +43,7 @@ class Model:
         return vector
 
     def write(self, vector: int, *terms: tuple[int, float]):
-        """Says what sum a vector is."""
+        """Defines a vector as a sum of others."""
         factors = defaultdict(float)
         for other, factor in terms:
             factors[other] += factor
@@ -76,12 +76,12 @@ class Model:
         return (self.arm_vector(n, k + 1, j) if i == 0 else self.mixed_vector(corner, i, j)), 1
 
     def rail_jet(self, h: int, i: int, j: int) -> tuple[int, int]:
-        """At the node where h arrives: derivative i to the left of h, j back along it."""
+        """The jet at the node where h arrives: derivative i to the left of h, j back along it."""
         return self.corner_jet(self.c.corner_at[self.c.next[h]], i, j)
 
 
 def turned(q: int, i: int, j: int) -> tuple[int, int, int]:
-    """x, y and the sign of the component that is (i, j) in axes turned by q right angles."""
+    """The component (x, y) that is (i, j) in axes turned by q right angles, and its sign."""
     flips = (j if q in (1, 2) else 0) + (i if q >= 2 else 0)
     return (j, i, (-1) ** flips) if q % 2 else (i, j, (-1) ** flips)
 

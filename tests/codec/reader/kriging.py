@@ -1,4 +1,4 @@
-"""What predicts the moves of targets: docs/file-format-vectors.md, "Moves"."""
+"""Predictions of the moves of targets: docs/file-format-vectors.md, "Moves"."""
 
 import heapq
 import math
@@ -12,13 +12,13 @@ Vector = tuple[float, float, float]
 
 
 class Stand(NamedTuple):
-    """A place on the neutral and the way it faces."""
+    """A place on the neutral and its normal."""
     position: Vector
     normal: Vector
 
 
 def move_steps(model, hierarchy: Hierarchy, neutral: list[Vector], step: float) -> list[Step]:
-    """`step` is that of the neutral pose."""
+    """`step`: that of the neutral pose."""
     if step == 0:
         return hierarchy.steps
     stands = stands_of(model, hierarchy.sites, neutral)
@@ -91,7 +91,7 @@ def go_on(model, lines: Lines, node: int, distance: int, reached: set, waiting: 
 
 def stands_of(model, sites: list[Site], neutral: list[Vector]) -> list[Stand]:
     vectors = all_vectors(model, neutral)
-    facing = {}  # by vectors that are positions
+    facing = {}  # by position vectors
     for corner in range(4 * len(model.w.patches)):
         alpha, beta = (signed(vectors, model.corner_jet(corner, i, j)) for i, j in [(1, 0), (0, 1)])
         position, _ = model.corner_jet(corner, 0, 0)
@@ -137,7 +137,7 @@ def apart(a: Stand, b: Stand, turned: float) -> float:
 
 
 def weigh(own: Stand, near: list[Stand], turned: float) -> list[float] | None:
-    """None where they cannot be told."""
+    """The weights of the near sites, None if they cannot be determined."""
     n = len(near)
     v = [apart(own, stand, turned) for stand in near]
     mean = total(v) / n
@@ -157,7 +157,7 @@ def weigh(own: Stand, near: list[Stand], turned: float) -> list[float] | None:
 
 
 def solve_ones(c: list[list[float]]) -> list[float] | None:
-    """C w = 1 by Cholesky's factors, from the lower half of C."""
+    """Solves C w = 1 by Cholesky factorisation, from the lower half of C."""
     n = len(c)
     w = [1.0] * n
     for j in range(n):

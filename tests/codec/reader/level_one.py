@@ -13,7 +13,7 @@ class LevelOne:
 
 
 def level_one(wireframe, connectivity, half_arc_images) -> LevelOne:
-    """`half_arc_images`: of each half-arc, -1 for none."""
+    """`half_arc_images`: the image of each half-arc, -1 for none."""
     vertices, grids = number_vertices(wireframe)
     grid = LevelOne(vertices, [q for rows in grids for q in quads_of(rows)], [], [], [])
     find_images(grid, [(len(rows[0]) - 1, len(rows) - 1) for rows in grids], wireframe,
@@ -22,7 +22,7 @@ def level_one(wireframe, connectivity, half_arc_images) -> LevelOne:
 
 
 def number_vertices(w):
-    """How many there are, and for each patch its rows of vertices."""
+    """The number of vertices, and for each patch its rows of vertices."""
     at_node, at_point, count = [], {}, 0
     for node, n in enumerate(w.nodes):
         key = ("point", n.point) if n.point >= 0 else ("node", node)
@@ -53,7 +53,7 @@ def number_vertices(w):
 
 
 def side_vertices(w, patch, side, at_node, within_arc):
-    """Without the last one."""
+    """The vertices of a side, without the last one."""
     vertices = []
     for h in w.side(patch, side):
         first = at_node[w.start(h)]
@@ -71,7 +71,7 @@ def quads_of(rows):
 
 
 def corners_at(grid):
-    """For each vertex the (quad, corner) at it, ascending."""
+    """For each vertex, its (quad, corner) pairs in ascending order."""
     at = [[] for _ in range(grid.vertices)]
     for q, quad in enumerate(grid.quads):
         for k, v in enumerate(quad):
@@ -80,7 +80,7 @@ def corners_at(grid):
 
 
 def quad_neighbours(grid):
-    first = {}  # quad by the ends of a side
+    first = {}  # the first quad with a side, by the ends of the side
     for q, quad in enumerate(grid.quads):
         for k in range(4):
             first.setdefault((quad[k], quad[(k + 1) % 4]), q)
@@ -106,7 +106,7 @@ def around(v, pairs):
 
 def find_images(grid, sizes, w, c, half_arc_images):
     """`sizes`: m and n of each patch."""
-    first = [0]  # quad of each patch
+    first = [0]  # the first quad of each patch
     for m, n in sizes:
         first.append(first[-1] + m * n)
     grid.quad_images, grid.turns = [-1] * len(grid.quads), [0] * len(grid.quads)
@@ -127,7 +127,7 @@ def find_images(grid, sizes, w, c, half_arc_images):
 
 
 def image_of_patch(patch, sizes, w, c, half_arc_images):
-    """The patch and the side t; (-1, 0): none."""
+    """The image patch and the side t, or (-1, 0) for none."""
     image = half_arc_images[w.side(patch, 0)[0]]
     if image < 0 or c.patch_of[image ^ 1] < 0:
         return -1, 0

@@ -1,4 +1,4 @@
-"""What is left of lines while sites are taken out: docs/file-format-vectors.md, "Lines"."""
+"""Lines, as sites are taken out of them: docs/file-format-vectors.md, "Lines"."""
 
 from typing import NamedTuple
 
@@ -8,24 +8,24 @@ from connectivity import STRAIGHT
 class Next(NamedTuple):
     node: int
     distance: int
-    back: int  # the half-arc that leaves the node against the way
+    back: int  # the half-arc that leaves the node backwards along the line
 
 
 class Lines:
-    """`site_of` are the sites of nodes, -1 for T-nodes."""
+    """`site_of`: the sites of nodes, -1 for T-nodes."""
 
     def __init__(self, w, c, site_of: list[int]):
         self.w, self.c, self.site_of = w, c, site_of
         self.out = set()  # sites
-        self.known = {}  # by half-arcs; what is out stays out
+        self.known = {}  # by half-arcs; sites never come back
 
     def next(self, h: int) -> Next | None:
-        """The next node along a line that is not taken out."""
+        """The next node along a line that has not been taken out."""
         end, passed = self.known_end(h), set()
         while end and self.site_of[end.node] in self.out:
             on = opposite_of(self.w, self.c, end.back)
             more = None if on is None or on in passed else self.known_end(on)
-            passed.add(on)  # a line may be a ring with nothing left
+            passed.add(on)  # a line may be a ring with no sites left
             end = more and Next(more.node, end.distance + more.distance, more.back)
         self.known[h] = end
         return end
@@ -38,7 +38,7 @@ class Lines:
         return Next(self.w.end(rail.last), rail.edges, rail.last ^ 1)
 
     def beyond(self, near: Next) -> Next | None:
-        """One more site on the same line."""
+        """The site after `near` on the same line."""
         on = opposite_of(self.w, self.c, near.back)
         end = on is not None and self.site_of[near.node] >= 0 and self.next(on)
         if not end or self.site_of[end.node] < 0:
@@ -47,7 +47,7 @@ class Lines:
 
 
 def opposite_of(w, c, h: int) -> int | None:
-    """The half-arc that a line follows behind the start of h, on its other side."""
+    """The half-arc that continues the line of h across the start of h, or None."""
     node = w.start(h)
     arms = c.stars[node].arms
     on = c.opposite(node, arms.index(h))
@@ -55,7 +55,7 @@ def opposite_of(w, c, h: int) -> int | None:
 
 
 def host_arms(c, node: int) -> tuple[int, int]:
-    """The arms of a T-node along the side that it stands on, in their order."""
+    """The arms of a T-node along the side that it lies on, in order."""
     star = c.stars[node]
     k = star.sectors.index(STRAIGHT)
     return star.arms[k], star.arms[(k + 1) % 3]

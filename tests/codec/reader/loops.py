@@ -7,19 +7,19 @@ from wireframe import Arc, Wireframe
 
 
 class Loops:
-    """What is known while the loops of the patches are told."""
+    """Reads the loops of the patches, with all that is known so far."""
 
     def __init__(self, symbols: Symbols, w: Wireframe, pairs: list[tuple[int, int]]):
         self.s, self.w, self.pairs = symbols, w, pairs
         halves, nodes = 2 * len(w.arcs), len(w.nodes)
-        self.next, self.prev, self.begins = ([-1] * halves for _ in range(3))  # complete patches
+        self.next, self.prev, self.begins = ([-1] * halves for _ in range(3))  # of complete patches
         self.mirror = Spreader(w, self.next, self.prev, self.begins)
         self.used = [False] * halves
         self.queue = []
         self.arc_known, self.node_known = [False] * len(w.arcs), [False] * nodes
         self.arms = [[] for _ in w.nodes]
         self.within, self.corners = [0] * nodes, [0] * nodes
-        # of the loop at hand
+        # of the current loop
         self.side, self.length, self.guide, self.start = 0, [0] * 4, -1, -1
 
     # contexts
@@ -28,7 +28,7 @@ class Loops:
         return self.arc_known[h >> 1] and self.used[h ^ 1] and not self.used[h]
 
     def opened(self) -> list[int]:
-        """The queue, without what is not open any more."""
+        """The queue, without half-arcs that are no longer open."""
         self.queue = [h for h in self.queue if self.is_open(h)]
         return self.queue
 
@@ -47,7 +47,7 @@ class Loops:
         return -1 if partner < 0 else partner ^ 1
 
     def told_across(self, h: int) -> int:
-        """The same if it bounds a complete patch."""
+        """The same if that half-arc bounds a complete patch, else -1."""
         g = self.across(h)
         return g if g >= 0 and self.next[g] >= 0 else -1
 
@@ -109,7 +109,7 @@ class Loops:
             if (g := self.across(h)) >= 0:
                 self.mirror.spread(h, g)
 
-    # half-arcs: each with the node that it starts from
+    # half-arcs, each with the node that it starts from
 
     def first(self) -> tuple[int, int]:
         waiting = self.opened()

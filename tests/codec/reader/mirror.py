@@ -1,4 +1,4 @@
-"""The mirror image of a wireframe on itself: docs/file-format.md, "The mirror"."""
+"""The mirror symmetry of a wireframe: docs/file-format.md, "The mirror"."""
 
 from connectivity import Connectivity
 from wireframe import Wireframe
@@ -15,7 +15,7 @@ class Spreader:
     def spread(self, h: int, g: int):
         pairs = []
         self.pair(h, g, pairs)
-        for h, g in pairs:  # which grow
+        for h, g in pairs:  # the list grows
             self.pair(self.next[h], self.prev[g], pairs)
             self.pair(self.prev[h], self.next[g], pairs)
             self.pair(h ^ 1, g ^ 1, pairs)
@@ -37,7 +37,7 @@ class Spreader:
 
 
 def mirror_images(w: Wireframe, c: Connectivity, seeds: list[tuple[int, int]]):
-    """The image of each half-arc and of each node, or -1: `seeds` are the pairs told."""
+    """The image of each half-arc and of each node, or -1. `seeds`: the pairs in the file."""
     spreader = Spreader(w, c.next, c.prev, c.corner_at)
     for h, g in seeds:
         spreader.spread(h, g)

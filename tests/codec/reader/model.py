@@ -63,7 +63,7 @@ def derive_all(m: Model):
 
 
 def arrange(m: Model):
-    """Puts derived vectors into an order in which each needs only what is before it."""
+    """Orders derived vectors so that each depends only on earlier ones."""
     needs, behind = {}, defaultdict(list)
     for vector, stored in enumerate(m.is_stored):
         if not stored:

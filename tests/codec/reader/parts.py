@@ -22,7 +22,7 @@ class Target:
 class Turn:
     target: int
     pivot: Vector
-    axis: Vector = (0.0, 0.0, 0.0)  # none: a ball
+    axis: Vector = (0.0, 0.0, 0.0)  # zero for a ball
 
 
 @dataclass
@@ -35,10 +35,10 @@ class Rig:
     axis: int = 0
     pairs: list[tuple[int, int]] = field(default_factory=list)
     neutral: list[Vector] = field(default_factory=list)
-    rest: list[Vector] = field(default_factory=list)  # the neutral before EXAC, if that changes it
+    rest: list[Vector] = field(default_factory=list)  # the neutral before EXAC, if EXAC changes it
     targets: list[Target] = field(default_factory=list)
-    forms: list = field(default_factory=list)  # of the poses: see vectors.py
-    bones: list[int] = field(default_factory=list)  # of the stored vectors, if there are any
+    forms: list = field(default_factory=list)  # [poses] see vectors.py
+    bones: list[int] = field(default_factory=list)  # [stored vectors] empty without bones
     loose: list[Vector] = field(default_factory=list)
     source: Source = field(default_factory=Source)
     scene: bytes = b""
@@ -53,7 +53,7 @@ def check_name(name: bytes, what: str):
 
 
 def read_base(data: Data, rig: Rig) -> int:
-    """How many targets there are."""
+    """Reads BASE. Returns the number of targets."""
     rig.tolerance, rig.neutral_step, rig.target_step = data.f64(), data.f64(), data.f64()
     check(min(rig.tolerance, rig.neutral_step, rig.target_step) >= 0, "a step is negative")
     targets, rig.loose_count = data.number(), data.number()

@@ -9,7 +9,7 @@ def scaled(terms: Sum, factor: float) -> Sum:
 
 
 def across_at_end(m: Model, last: int, order: int) -> Sum:
-    """A derivative to the left of where a rail arrives."""
+    """A derivative to the left of a rail, at the node where the rail arrives."""
     terms = []
     if m.c.patch_of[last] >= 0:
         terms.append(m.rail_jet(last, order, 0))
@@ -20,7 +20,7 @@ def across_at_end(m: Model, last: int, order: int) -> Sum:
 
 
 def neighbours(m: Model, n: int, on_y: bool, across: int) -> dict[int, tuple[float, Sum]]:
-    """Ahead (0) and behind (1) on a line: the distance, and the derivative across the line."""
+    """Neighbours ahead (0) and behind (1) on a line: distance and derivative across the line."""
     arms, result = m.c.stars[n].arms, {}
     for e in (0, 1):
         if on_y + 2 * e < len(arms):
@@ -31,7 +31,7 @@ def neighbours(m: Model, n: int, on_y: bool, across: int) -> dict[int, tuple[flo
 
 
 def predict(m: Model, n: int, i: int, j: int):
-    """The component (i, j) of a crossing."""
+    """Writes the component (i, j) of a crossing."""
     on_x = ([m.is_stored[m.component(n, x, j)] for x in range(3)] + [False]).index(False)
     on_y = ([m.is_stored[m.component(n, i, y)] for y in range(3)] + [False]).index(False)
     turn = on_y > on_x

@@ -1,8 +1,8 @@
-"""Reads a .sweep file of version 2 and prints the number of all that it says.
+"""Reads a .sweep file of version 2 and prints the digest of everything in it.
 
     python3 read_sweep.py FILE
 
-Written from docs/file-format.md and the pages that it names, section by section."""
+Written from docs/file-format.md and the pages it refers to, section by section."""
 
 import sys
 
@@ -20,7 +20,7 @@ from vectors import Vectors
 
 
 def coded(payload: bytes, read):
-    """What `read` makes of a range coded payload, of which it leaves nothing."""
+    """What `read` reads from a range coded payload, which it must use up."""
     coder = RangeDecoder(payload)
     result = read(coder, Symbols(coder))
     coder.finish()
@@ -35,7 +35,7 @@ def plain(payload: bytes, read):
 
 
 def read_grid_chunk(payload: bytes, rig: Rig):
-    """The connectivity and the images of half-arcs and nodes."""
+    """Reads GRID. Returns the connectivity and the images of half-arcs and nodes."""
     rig.wireframe, c, rig.axis, rig.pairs, half_images, node_images = coded(
         payload, lambda _, symbols: read_grid(symbols))
     return c, (half_images, node_images)

@@ -1,10 +1,10 @@
-"""Sums and rounding as docs/file-format-vectors.md has them."""
+"""Sums and rounding as docs/file-format-vectors.md defines them."""
 
 import math
 
 
 def total(numbers) -> float:
-    """One after the other: sum() is more exact from Python 3.12 on."""
+    """Adds in sequence with plain rounding. From Python 3.12 on, sum() is more exact."""
     result = 0.0
     for x in numbers:
         result += x
@@ -12,7 +12,7 @@ def total(numbers) -> float:
 
 
 def nearest(x: float) -> float:
-    """Halves away from 0; what is not finite stays as it is."""
+    """Rounds halves away from 0 and leaves what is not finite unchanged."""
     if not math.isfinite(x):
         return x
     down = math.floor(abs(x))

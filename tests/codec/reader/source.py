@@ -1,4 +1,4 @@
-"""Where source vertices lie, and faces: docs/file-format-source.md, "Walks" to "face"."""
+"""The places of source vertices, and faces: docs/file-format-source.md, "Walks" to "face"."""
 
 from dataclasses import dataclass, field
 
@@ -21,13 +21,13 @@ class Source:
     groups: list[bytes] = field(default_factory=list)
     face_groups: list[int] = field(default_factory=list)
     material_files: list[bytes] = field(default_factory=list)
-    quad_corners: list[list[int]] = field(default_factory=list)  # four a quad
+    quad_corners: list[list[int]] = field(default_factory=list)  # four per quad
 
 
 class Walk:
     def __init__(self, symbols, neighbours, images):
         self.symbols, self.neighbours, self.images = symbols, neighbours, images
-        self.trail, self.after = [], {}  # after: what was visited just after each
+        self.trail, self.after = [], {}  # after: the item visited right after each
         self.far, self.last = 0, 15
 
     def visited(self, item):
@@ -46,7 +46,7 @@ class Walk:
         return item
 
     def guessed(self):
-        """By an answer 1, or -1."""
+        """The guess that is confirmed by a bit 1, or -1."""
         guesses = [(40, 17, self.mirrored()), (38, 16, self.following())]
         for tag, kind, item in guesses[::-1] if self.last == 16 else guesses:
             if item >= 0 and not self.visited(item) and self.symbols.bit(tag, self.last == kind):
@@ -86,7 +86,7 @@ class Walk:
 
 
 def read_walk(symbols, grid, loose):
-    """The order; `loose` is how many loose vertices there are."""
+    """The order. `loose`: the number of loose vertices."""
     walk = Walk(symbols, vertex_neighbours(grid), grid.vertex_images)
     order, before, next_loose = [], 0, 0
     for _ in range(symbols.number(0, 0)):
@@ -109,7 +109,7 @@ def read_face(symbols, grid, source):
     source.own_order = bool(symbols.bit(37))
     has_quads = symbols.bit(36)
     walk = Walk(symbols, quad_neighbours(grid), grid.quad_images)
-    corners = {}  # of the quads that plain faces go around
+    corners = {}  # the face corners of quads that plain faces go around
     read_faces(symbols, grid, source, count, has_quads, walk, corners)
     if has_quads:
         read_other_quads(symbols, grid, source, corners)
@@ -125,8 +125,8 @@ def read_faces(symbols, grid, source, count, has_quads, walk, corners):
     for vertex, place in enumerate(source.order):
         if place >= 0:
             here[place].append(vertex)
-    begins = {}  # quad: its corner at which its face begins
-    last_place = {3: 0, 4: 0}  # of the ring, by its size
+    begins = {}  # by quad: the corner at which its face begins
+    last_place = {3: 0, 4: 0}  # in the ring, by its size
     plain, last, total = 1, 0, 0
     for _ in range(count):
         plain = symbols.bit(11, plain)
@@ -144,7 +144,7 @@ def read_faces(symbols, grid, source, count, has_quads, walk, corners):
 
 
 def turned_ring(symbols, grid, quad, begins, last_place):
-    """Corners of a quad in the order of its face."""
+    """The corners of a quad in the order of its face."""
     vertices = grid.quads[quad]
     ring = [k for k in range(4) if vertices[k] != vertices[k - 1]]
     check(len(ring) >= 3, "a face goes around a line")
@@ -167,7 +167,7 @@ def chosen(symbols, vertices):
 
 
 def quad_corners(ring, first):
-    """The face corners at a quad whose face's first corner is `first`."""
+    """The face corners at the corners of a quad whose face has `first` as its first corner."""
     at = {k: first + place for place, k in enumerate(ring)}
     return [at[k] if k in at else at[(k - 1) % 4] for k in range(4)]
 

@@ -1,4 +1,4 @@
-"""Coded bits and what they make: docs/file-format.md, "Range coder" to "Names"."""
+"""Coded bits and the values made of them: docs/file-format.md, "Range coder" to "Names"."""
 
 MASK = 0xFFFFFFFF
 
@@ -64,12 +64,12 @@ def toward_zero(a: int, b: int) -> int:
 
 STRETCH = stretch_table()
 TRUST = [0] + [16 * n // (n + 1) + 4 for n in range(1, 31)]
-# what an input says: [count][probability / 16]
+# the output of an input: [count][probability / 16]
 SAYS = [[toward_zero(s * trust, 16) for s in STRETCH] for trust in TRUST]
 
 
 class Model:
-    """Bits with the slots of several contexts and one of several sets of weights."""
+    """Decodes bits by the slots of several contexts and one of several sets of weights."""
 
     def __init__(self, coder: RangeDecoder, inputs: int, slots: int, sets: int, most: int = 30):
         self.coder, self.most = coder, most
@@ -105,7 +105,7 @@ def mixed(y: int) -> int:
 
 
 class Symbols:
-    """What all parts but coefficients are made of. Tags and contexts are plain whole numbers."""
+    """The values of all parts but coefficients. Tags and contexts are plain integers."""
 
     def __init__(self, coder: RangeDecoder):
         self.model = Model(coder, 3, 1 << 15, 64)
@@ -163,14 +163,14 @@ def usual_names(left: str, right: str) -> list[str]:
 
 
 class Names:
-    """Names one after the other, told by a text of names that grows."""
+    """Reads successive names, predicted from a growing text of names."""
 
     def __init__(self, symbols: Symbols):
         self.symbols = symbols
         self.text = bytearray()
-        self.last_after = {}  # by a place of the table: the length of the text then
+        self.last_after = {}  # by table entry: the length of the text at that time
         self.found = 0  # F
-        self.guess_at, self.alike = 0, 0  # none while guess_at is 0
+        self.guess_at, self.alike = 0, 0  # no guess while guess_at is 0
         for name in usual_names("_L", "_R") + usual_names("Left", "Right"):
             for letter in name.encode() + b"\0":
                 self.add(letter)

@@ -6,7 +6,7 @@ MOST_VALUE, MOST_OFF = 1 << 26, 1 << 20
 
 
 def read_text(symbols, grid, source):
-    """`grid` may be missing where `source` has no quad corners."""
+    """`grid` may be missing if `source` has no quad corners."""
     source.texture_bits = bits = symbols.number(32)
     check(1 <= bits <= 24, "texture coordinates have too many bits")
     count = symbols.number(0, 4)
@@ -62,7 +62,7 @@ class Values:
 
 
 class Faces:
-    """References around faces."""
+    """The references at the corners of faces."""
 
     def __init__(self, faces, references):
         self.size = [len(face) for face in faces]
@@ -82,7 +82,7 @@ class Faces:
         return self.references[self.corner(face, k)]
 
     def across(self, face, k):
-        """The side there, as its face and the corner that begins it, or None."""
+        """The side across side k, as its face and the corner where it begins, or None."""
         return self.sides.get((self.at(face, k + 1), self.at(face, k)))
 
     def beyond(self, face, k, known):
@@ -96,7 +96,7 @@ class Faces:
 
 
 def plus(*terms):
-    """The sum of (factor, value)."""
+    """The sum of factor · value over pairs (factor, value)."""
     return tuple(sum(factor * value[axis] for factor, value in terms) for axis in range(2))
 
 
@@ -130,7 +130,7 @@ def read_corner(values, faces, images, misses, face, k, place, entered):
 
 
 def guess_without_image(values, faces, face, k, place, entered):
-    """The guess, how and active."""
+    """The guess, `how` and `active`."""
     known, at = values.known, faces.at
     a, c, d = at(face, k - 1), at(face, k + 1), at(face, k + 2)
     if faces.size[face] == 4 and a in known and c in known and d in known:
@@ -165,7 +165,7 @@ def activity(values, *around):
 
 
 def pair_beside(values, faces, images, face, k):
-    """The references t', v and v'; None if the guess by an image is not tried."""
+    """The references t', v and v', or None if the image gives no guess."""
     def image_at(place):
         image = images[faces.corner(face, place)]
         return faces.references[image] if image >= 0 else -1

@@ -1,4 +1,4 @@
-"""The neutral and what targets add to it: docs/file-format-vectors.md, "REST and MOVE" to
+"""The neutral and the differences of targets: docs/file-format-vectors.md, "REST and MOVE" to
 "Forms", and "Values"."""
 
 import math
@@ -16,7 +16,7 @@ Vector = tuple[float, float, float]
 @dataclass
 class Form:
     finer: int = 0
-    image: int = -1  # the pose whose image it is compared with
+    image: int = -1  # the pose with whose image it is compared
     like: tuple[int, int, int] | None = None  # pose, mirrored, negated
     carries: list[Carry] = field(default_factory=list)
 
@@ -25,10 +25,10 @@ class Form:
 
 
 class Vectors:
-    """Reads the chunks into a rig, of which it needs the steps, the axis and the targets."""
+    """Reads the chunks into a rig, whose steps, axis and targets must be known."""
 
     def __init__(self, model, images: tuple[list[int], list[int]], rig):
-        """`images` of half-arcs and of nodes, -1 without one."""
+        """`images`: those of half-arcs and of nodes, -1 for none."""
         self.model, self.rig = model, rig
         self.hierarchy = make_hierarchy(model, images)
 
@@ -84,7 +84,7 @@ def in_finer_steps(steps: Steps, finer: int) -> Steps:
 
 
 def image_of(pose: list[Steps], images: list, v: int, axis: int, finer: int = 0) -> Steps:
-    """What the mirror image of a pose says of a vector."""
+    """The coefficient that the mirror image of a pose gives a vector."""
     if images[v] is None:
         return NOTHING
     vector, sign = images[v]
@@ -93,7 +93,7 @@ def image_of(pose: list[Steps], images: list, v: int, axis: int, finer: int = 0)
 
 def read_coefficients(coefficients: Coefficients, forms: list[Form], steps: list[list[Steps]],
                       pose: int) -> list[Steps]:
-    """`steps` are those of the poses before."""
+    """`steps`: those of earlier poses."""
     form, every = forms[pose], range(coefficients.count)
     images, axis = coefficients.images, coefficients.axis
     expected, compared = [[0, 0, 0] for _ in every], "none"

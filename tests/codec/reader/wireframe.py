@@ -1,8 +1,6 @@
-"""What a wireframe is (docs/wireframe.md): plain lists of numbers, which all parts of the reader
-share.
+"""A wireframe (docs/wireframe.md) as plain lists of numbers, shared by all parts of the reader.
 
-A half-arc is 2 * arc, plus 1 when travelled from the arc's end to its start; its twin is
-`h ^ 1`."""
+A half-arc is 2 * arc, plus 1 if it runs from the arc's end to its start; its twin is `h ^ 1`."""
 
 from dataclasses import dataclass, field
 
@@ -10,7 +8,7 @@ from dataclasses import dataclass, field
 @dataclass
 class Node:
     point: int = -1  # place in the numbering of points; -1 for a T-node
-    stored: int = 1  # set of jet components: bit 3 i + j is the derivative by x^i y^j
+    stored: int = 1  # the stored jet components: bit 3 i + j is the derivative by x^i y^j
 
 
 @dataclass
@@ -35,7 +33,7 @@ class Wireframe:
     points: int = 0
     nodes: list[Node] = field(default_factory=list)
     arcs: list[Arc] = field(default_factory=list)
-    # Five places in `loops` each: side s is [s, s + 1).
+    # Five places in `loops` each: side s is the range from place s to place s + 1.
     patches: list[list[int]] = field(default_factory=list)
     loops: list[int] = field(default_factory=list)  # half-arcs
     ribbons: list[Shape] = field(default_factory=list)

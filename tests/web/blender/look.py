@@ -28,7 +28,7 @@ for each in meshes:
         "frames": [],
     }
 if not rest:
-    for each in meshes:  # the importer puts all animations but the first aside
+    for each in meshes:  # the importer sets aside all animations but the first
         keys = each.data.shape_keys
         if keys and keys.animation_data and keys.animation_data.nla_tracks:
             keys.animation_data.action = keys.animation_data.nla_tracks[0].strips[0].action
