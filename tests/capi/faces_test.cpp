@@ -43,6 +43,8 @@ class Faces : public ::testing::Test {
   }
 
   void make(uint32_t lod) {
+    sweepface_face_free(face);
+    sweepface_mesh_free(mesh);
     ASSERT_EQ(sweepface_mesh_create(handle, lod, &mesh), SWEEPFACE_OK) << sweepface_message();
     ASSERT_EQ(sweepface_face_create(mesh, &face), SWEEPFACE_OK);
   }

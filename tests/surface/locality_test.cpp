@@ -81,12 +81,14 @@ TEST(Ribbons, areEditedWithoutTouchingOtherPatches) {
 }
 
 TEST(Ribbons, ofARailMoveItsTNodesPatchesToo) {
-  Wireframe w = tee();  // ribbon 0 holds the T-node's rail and the sides opposite it
-  w.ribbons = {{}, {}, {}};
-  for (Index a : {3, 4}) w.arcs[a].ribbon = 0;
-  const Surface surface = Surface::make(w).value();
-  const auto pose = anyPose(surface);
-  EXPECT_EQ(changedByRibbon(surface, pose, 0), (std::set<Index>{0, 1, 2}));
+  int further = 0;
+  for (const auto& [name, surface] : everySurface()) {
+    if (!hasTNodes(surface)) continue;
+    const auto pose = anyPose(surface);
+    for (Index r = 0; r < static_cast<Index>(surface.wireframe().ribbons.size()); ++r)
+      further += !std::ranges::includes(patchesOn(surface, r), changedByRibbon(surface, pose, r));
+  }
+  EXPECT_GE(further, 4);
 }
 
 TEST(Ribbons, keepTheJoinsSmoothWhenEdited) {
