@@ -17,7 +17,7 @@ class PoseBox {
 
   /// Contains every vertex of an evaluation with these weights, within ±10⁶, and every vertex of
   /// the exact surface. Where targets move different parts of the face it is larger than needed.
-  /// Empty if there are no vertices. Allocates nothing.
+  /// Empty if there are no vertices, infinite where positionBound() is. Allocates nothing.
   Box of(std::span<const double> weights) const;
 
  private:

@@ -252,7 +252,7 @@ SWEEPFACE_API sweepface_status sweepface_face_update(sweepface_face* face, size_
  * every vertex that an evaluation would write, without evaluating. Where targets move different
  * parts of the face it is larger than needed. The first call for a mesh whose face has a weight
  * other than 0 evaluates every target once, and allocates; further ones do not. Zeros if there are
- * no vertices. */
+ * no vertices; infinite where sweepface_face_error is, as of targets that move by 10^30. */
 SWEEPFACE_API sweepface_status sweepface_face_box(sweepface_face* face, double low[3],
                                                   double high[3]);
 
