@@ -75,6 +75,15 @@ bool isInside(const Surface& surface, const Site& site) {
          site.u <= surface.edgesU(site.patch) && site.v <= surface.edgesV(site.patch);
 }
 
+/// Points of the neutral's surface are their own nearest.
+void expectThere(const Rig& rig, const std::vector<Vec3>& points) {
+  const auto vectors = blend(rig, {});
+  const double size = diagonal(Tessellation(rig.surface, 1).positions(vectors));
+  const auto sites = nearestSites(rig.surface, vectors, points).value();
+  for (std::size_t k = 0; k < sites.size(); ++k)
+    EXPECT_LE(norm(rig.surface.evaluate(vectors, sites[k]) - points[k]), 1e-9 * size) << k;
+}
+
 TEST(NearestSites, AreNoFurtherThanAnythingElseOnTheSurface) {
   for (const Rig& rig : smoothRigs()) {
     const auto vectors = blend(rig, {});
@@ -109,13 +118,10 @@ TEST(NearestSites, OfPointsOnTheSurfaceAreThere) {
   Anywhere anywhere(5);
   for (const Rig& rig : smoothRigs()) {
     const auto vectors = blend(rig, {});
-    const double size = diagonal(Tessellation(rig.surface, 1).positions(vectors));
     std::vector<Vec3> points;
     for (int k = 0; k < 300; ++k)
       points.push_back(rig.surface.evaluate(vectors, anywhere.site(rig.surface)));
-    const auto sites = nearestSites(rig.surface, vectors, points).value();
-    for (std::size_t k = 0; k < sites.size(); ++k)
-      EXPECT_LE(norm(rig.surface.evaluate(vectors, sites[k]) - points[k]), 1e-9 * size) << k;
+    expectThere(rig, points);
   }
 }
 
@@ -124,7 +130,6 @@ TEST(NearestSites, OfPointsBesideSidesOfPatchesAreThere) {
   Anywhere anywhere(9);
   for (const Rig& rig : smoothRigs()) {
     const auto vectors = blend(rig, {});
-    const double size = diagonal(Tessellation(rig.surface, 1).positions(vectors));
     std::vector<Vec3> points;
     for (int k = 0; k < 2000; ++k) {
       Site site = anywhere.site(rig.surface);
@@ -135,9 +140,7 @@ TEST(NearestSites, OfPointsBesideSidesOfPatchesAreThere) {
       if (k % 4 < 2) across = length[k % 2 ? 0 : 1] - across;
       points.push_back(rig.surface.evaluate(vectors, site));
     }
-    const auto sites = nearestSites(rig.surface, vectors, points).value();
-    for (std::size_t k = 0; k < sites.size(); ++k)
-      EXPECT_LE(norm(rig.surface.evaluate(vectors, sites[k]) - points[k]), 1e-9 * size) << k;
+    expectThere(rig, points);
   }
 }
 
