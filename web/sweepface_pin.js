@@ -31,8 +31,8 @@ function nearestTo(point, triangles, positions) {
   return nearest;
 }
 
-/** How a pin hangs on the skin. Not a private member, so that it also works behind a Proxy. */
-const anchor = Symbol('anchor');
+/** How a pin hangs on the skin, and the pose that it was last moved to. Not private, so that they work behind a Proxy, too. */
+const anchor = Symbol('anchor'), shown = Symbol('shown');
 
 /** An object fastened to the skin. When it is fastened, its axes are the face's own. */
 export class Pin extends Object3D {
@@ -49,7 +49,7 @@ export class Pin extends Object3D {
   }
 
   /** Whether it hangs on a skin of `size` position numbers and has not followed it to this pose yet. */
-  isBehind(size, pose) { return this[anchor]?.size === size && this[anchor].pose !== pose; }
+  isBehind(size, pose) { return this[anchor]?.size === size && this[shown] !== pose; }
 
   /** Moves it to where the skin stands in a pose. */
   follow(positions, pose) {
@@ -57,7 +57,7 @@ export class Pin extends Object3D {
     const {a, b, c} = triangle, turn = turnOf(triangle);
     if (turn) this.quaternion.copy(turn).multiply(unturned);
     this.position.copy(a).multiplyScalar(shares[0]).addScaledVector(b, shares[1]).addScaledVector(c, shares[2]);
-    this[anchor] = {...this[anchor], pose};
+    this[shown] = pose;
     return this;
   }
 

@@ -6,7 +6,7 @@ using namespace sweepface;
 using namespace sweepface::capi;
 
 const PoseBox& Mesh::poseBox(bool moving) const {
-  BoxOnce& box = moving ? movingBox : neutralBox;
+  Late<PoseBox>& box = moving ? movingBox : neutralBox;
   std::call_once(box.once, [&] { box.made.emplace(moving ? positions() : neutral); });
   return *box.made;
 }

@@ -95,23 +95,21 @@ struct Mesh {
 #ifndef __wasm__  // where shaders find tangents themselves
   /// The tangents of all vertices, for normal maps: with targets, or of the neutral alone, for
   /// which none need to be loaded.
-  struct MapTangents {
+  const Evaluator& mapTangents(bool moving) const;
+  /// The box of any pose, likewise.
+  const PoseBox& poseBox(bool moving) const;
+
+  /// What is made when it is first asked for.
+  template <typename T>
+  struct Late {
     std::once_flag once = {};
-    Evaluator evaluator = {};
+    std::optional<T> made = {};
   };
   mutable std::once_flag tangentsOnce = {};
   mutable Tangents tangents = {};  // of the neutral
-  mutable MapTangents neutralMap = {}, movingMap = {};
+  mutable Late<Evaluator> neutralMap = {}, movingMap = {};
+  mutable Late<PoseBox> neutralBox = {}, movingBox = {};
 
-  /// With targets or of the neutral alone, likewise.
-  struct BoxOnce {
-    std::once_flag once = {};
-    std::optional<PoseBox> made = {};
-  };
-  mutable BoxOnce neutralBox = {}, movingBox = {};
-
-  const PoseBox& poseBox(bool moving) const;
-  const Evaluator& mapTangents(bool moving) const;
   /// Enough for the map tangents too.
   std::size_t scratchBytes() const {
     return neutral.scratchBytes() + sizeof(Index) * (render.copies.size() / kTileVertices + 1);

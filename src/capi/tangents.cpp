@@ -10,13 +10,13 @@ using namespace sweepface::capi;
 
 const Evaluator& Mesh::mapTangents(bool moving) const {
   std::call_once(tangentsOnce, [&] { tangents = neutralTangents(*rig, grid, render, lod); });
-  MapTangents& map = moving ? movingMap : neutralMap;
+  Late<Evaluator>& map = moving ? movingMap : neutralMap;
   std::call_once(map.once, [&] {
-    map.evaluator = *Evaluator::make(
+    map.made = *Evaluator::make(
         *rig, grid, render, tangents,
         {.level = lod, .positions = false, .targets = moving, .influences = division->influences});
   });
-  return map.evaluator;
+  return *map.made;
 }
 
 namespace {
