@@ -113,7 +113,7 @@ std::vector<ShownLaw> everyLaw() {
       shown("bounce", "lids and jaws that fall shut", Trajectory::bounce(rest, 1, 0.7, 0.5)),
       shown("linear", "timed elsewhere; for comparison",
             Trajectory::byLaw(TimeLaw::linear, 0, 1, 1)),
-      shown("impulse", "a twitch, a nod: an impulse and drag", Trajectory::impulse(rest, 5, 5)),
+      shown("impulse", "a twitch, a nod; drag stops it", Trajectory::impulse(rest, 5, 5)),
       shown("periodic force", "shivers, breath, chewing",
             Trajectory::periodicForce(rest, 1, 1, 1 / 3.0, periodic)),
   };
