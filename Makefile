@@ -2,12 +2,13 @@
 BUILD := build/release
 FUZZ_SECONDS ?= 60
 
-.PHONY: help deps build demo web test test-long test-arm bench fuzz format clean
+.PHONY: help deps build demo web python test test-long test-arm bench fuzz format clean
 
 help:
 	@echo 'make build      build the tool, build/release/sweepface'
 	@echo 'make demo       install what is missing, build, and show the tool on a sample face'
 	@echo 'make web        build the page in web/ and what it shows'
+	@echo 'make python     build the package for Python'
 	@echo 'make test       install what is missing, build everything, run the tests'
 	@echo 'make test-long  the long tests, the benchmarks briefly, and all tests under sanitizers and with clang'
 	@echo 'make test-arm   the tests of what plays, built for 64-bit ARM and run in an emulator'
@@ -39,6 +40,12 @@ web:
 	cp $(BUILD)/sample/sample.sweep web/
 	@echo 'Now: python3 -m http.server --directory web, and open http://localhost:8000/'
 
+python:
+	scripts/install-deps python
+	cmake --preset release
+	cmake --build $(BUILD) --target sweepface_python
+	@echo 'Now: PYTHONPATH=$(BUILD)/python python3, and import sweepface'
+
 # What the tests with other people's tools need; without it they are skipped.
 tests/web/node_modules/.package-lock.json: tests/web/package-lock.json
 	scripts/install-deps wasm web || \
@@ -47,6 +54,8 @@ tests/web/node_modules/.package-lock.json: tests/web/package-lock.json
 	  echo 'The npm packages could not be installed: the tests that need them are skipped.'
 
 test: deps tests/web/node_modules/.package-lock.json
+	scripts/install-deps python || \
+	  echo 'Some packages could not be installed: the package for Python is neither built nor tested.'
 	cmake --preset release
 	cmake --build $(BUILD)
 	ctest --preset release --label-exclude '^long$$'

@@ -116,6 +116,7 @@ class Editor {
   struct Moves {
     std::map<Index, Vec3> own, taken;  // nodes that are named, and ends of curves that are
     std::set<Index> curves;
+    std::set<Index> disputed;  // nodes that two curves take to different places
   };
 
   // A node shared by two curves moves once; a move of the node itself takes precedence.
@@ -126,6 +127,12 @@ class Editor {
       if (!by) return std::unexpected(by.error());
       if (auto ok = gather(name, *by, all); !ok) return ok;
     }
+    for (const Index node : all.disputed)
+      if (!all.own.contains(node))
+        return fail(
+            fmt::format("Two curves take node '{}' to different places; move the node "
+                        "itself as well.",
+                        rig_.nameOf(Thing::node, node)));
     all.own.merge(all.taken);  // keeps what is in `own`
     std::vector<NodeMove> moves;
     for (const auto& [node, by] : all.own) moves.push_back({node, by});
@@ -153,10 +160,7 @@ class Editor {
     for (Index node : *ends)
       if (const auto [place, isNew] = all.taken.try_emplace(node, by);
           !isNew && place->second != by)
-        return fail(
-            fmt::format("Two curves take node '{}' to different places; move the node "
-                        "itself as well.",
-                        rig_.nameOf(Thing::node, node)));
+        all.disputed.insert(node);
     return {};
   }
 

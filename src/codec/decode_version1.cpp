@@ -43,7 +43,8 @@ void readShapes(Decoding& d, Reader& in) {
     return in.refuseWith({"the wireframe is unsound: ", connectivity.error().message});
   d.connectivity = std::move(*connectivity);
   d.makeSurface(in);
-  if (in.ok()) d.afford(in, (d.targets + 1) * d.stored, kBytesAVector);
+  for (std::size_t pose = 0; pose <= d.targets && in.ok(); ++pose)
+    d.afford(in, d.stored, kBytesAVector);
   if (in.ok() && d.stored != announced)
     in.refuseWith({"the wireframe stores ", d.stored, " vectors and the file ", announced});
 }

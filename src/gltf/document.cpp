@@ -183,7 +183,7 @@ class Loader {
     if (meshoptOf(json)) return decompressView(index);
     Members in(json, placeOf("buffer view", index));
     BufferView view;
-    view.buffer = in.index("buffer", document_.buffers.size(), "buffers");
+    view.buffer = in.index("buffer", told_.size(), "buffers");
     view.offset = in.size("byteOffset", 0);
     view.length = in.size("byteLength");
     view.stride = in.size("byteStride", 0);
@@ -206,7 +206,7 @@ class Loader {
   Result<void> decompressView(std::size_t index) {
     const Json& json = document_.list("bufferViews")[index];
     Members in(*meshoptOf(json), placeOf("buffer view", index));
-    const MeshoptStream stream = readMeshopt(in, document_.buffers.size());
+    const MeshoptStream stream = readMeshopt(in, told_.size());
     if (in.ok()) checkRange(in, stream.buffer, stream.offset, stream.length);
     if (!in.ok()) return in.error();
     // No byte belongs to two compressed views.
@@ -225,7 +225,6 @@ class Loader {
     rounded_.back() = in.has("filter");
     pointTo(index, elements.size());
     document_.views.push_back({document_.buffers.size(), 0, elements.size(), stride});
-    told_.push_back({elements.size(), document_.buffers.size()});
     document_.buffers.push_back(std::move(elements));
     return {};
   }

@@ -44,9 +44,18 @@ class Refiner {
     firstSets_.push_back(*set);
     if (auto ok = mixAll(part.run, primitive["attributes"]); !ok) return ok;
     if (Json* const targets = find(primitive, "targets"))
-      for (Json& target : *targets)
+      for (Json& target : *targets) {
+        eraseSkin(target);
         if (auto ok = mixAll(part.run, target); !ok) return ok;
+      }
     return {};
+  }
+
+  /// A morph target has none, whatever a file says.
+  static void eraseSkin(Json& target) {
+    const Json before = target;
+    for (const auto& [name, number] : before.items())
+      if (isSkin(name)) target.erase(name);
   }
 
   Result<void> mixAll(std::size_t run, Json& attributes) {

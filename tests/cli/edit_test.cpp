@@ -67,6 +67,14 @@ TEST_F(Edit, TakesSeveralCurvesAndControlsAtOnce) {
   EXPECT_EQ(heights, (std::set<double>{0.2, 0.3}));
 }
 
+TEST_F(Edit, MovesANodeWhereItIsToldThoughCurvesDisagree) {
+  const std::string curves = "--move a1-b1 0,0,1 --move b1-c1 0,0,2", node = " --move b1 0,0,3 ";
+  for (const std::string& moves : {curves + node, node + curves}) {
+    const Outcome r = run("edit sheet.sweep " + moves + " -o other.sweep");
+    EXPECT_EQ(r.code, 0) << r.err;
+  }
+}
+
 TEST_F(Edit, ByNothingChangesNothing) {
   ASSERT_EQ(run("edit sheet.sweep --ribbon middle --eta -100 -o before.sweep").code, 0);
   for (const char* nothing :
@@ -107,7 +115,8 @@ TEST_F(Edit, RefusesWhatItCannotDo) {
   EXPECT_TRUE(fails("edit sheet.sweep --control b1-c1 'b1 c2' first 0,0,1" + out, "'first'"));
   EXPECT_TRUE(fails("edit sheet.sweep --move b1 0,0,1 --target smile" + out, "'smile'"));
   EXPECT_TRUE(
-      fails("edit sheet.sweep --move a1-b1 0,0,1 --move b1-c1 0,0,2" + out, "different places"));
+      fails("edit sheet.sweep --move a1-b1 0,0,1 --move b1-c1 0,0,2" + out,
+            "Two curves take node 'b1' to different places; move the node itself as well."));
   EXPECT_TRUE(fails("edit sheet.sweep --move b1 0,0,1 --move b1 1,0,0" + out,
                     "Node 'b1' is moved twice; give the sum of both."));
   EXPECT_TRUE(fails("edit sheet.sweep --move a1-b1 0,0,1 --move a1-b1 0,0,1" + out,

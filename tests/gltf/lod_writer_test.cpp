@@ -404,6 +404,15 @@ TEST(LodWriter, LeavesOutJointsWithoutWeights) {
   EXPECT_FALSE(glb.primitive()["attributes"].contains("WEIGHTS_2"));
 }
 
+TEST(LodWriter, LeavesOutJointsAndWeightsOfTargets) {
+  Glb source = skinnedFace(5126);
+  const Json weights = source.primitive()["attributes"]["WEIGHTS_0"];
+  source.primitive()["targets"][0]["WEIGHTS_0"] = weights;
+  const Written glb = write(converted(source, 0.001), {.lod = 3});
+  EXPECT_TRUE(glb.primitive()["targets"][0].contains("POSITION"));
+  EXPECT_FALSE(glb.primitive()["targets"][0].contains("WEIGHTS_0"));
+}
+
 // ---- Mixtures ----
 
 TEST(Mix, IsTheSameFromBothEndsOfAnEdge) {

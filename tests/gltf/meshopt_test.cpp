@@ -222,6 +222,12 @@ TEST(Meshopt, WhatTheExtensionSaysMustMakeSense) {
   expectRefused("filter", 1, "'filter' is not a text");
 }
 
+TEST(Meshopt, NoViewCanBeOfWhatAnotherHoldsCompressed) {
+  Glb glb = compressedFace();
+  glb.add("bufferViews", {{"buffer", 2}, {"byteLength", 4}});
+  EXPECT_TRUE(refused(glb, {"'buffer' is 2, but the file has 2 buffers"}));
+}
+
 TEST(Meshopt, TriangleCountsAndFiltersAreChecked) {
   const auto refusedWith = [](std::size_t count, const char* filter, std::string_view why) {
     Glb glb = smallFace();

@@ -24,6 +24,12 @@ endfunction()
 
 consume(${CONSUMER} by_cmake -DCMAKE_PREFIX_PATH=${prefix})
 
+# The package for Python needs nothing of the build folder.
+if(PYTHON)
+  run(${CMAKE_COMMAND} -E env PYTHONPATH=${prefix}/${PYTHON_DIR} PYTHONDONTWRITEBYTECODE=1
+      ${PYTHON} -c "import sweepface; assert '${prefix}' in sweepface.__file__")
+endif()
+
 function(refuse_exports file matching)
   execute_process(COMMAND nm -D --defined-only ${file} OUTPUT_VARIABLE exported COMMAND_ERROR_IS_FATAL ANY)
   if(exported MATCHES ${matching})

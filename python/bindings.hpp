@@ -1,0 +1,20 @@
+#pragma once
+
+#include "values.hpp"
+
+namespace sweepface::python {
+
+// Each adds its classes and functions to the module.
+void addEquation(py::module_& m);
+void addMeshes(py::module_& m);
+void addPose(py::module_& m);
+void addRig(py::module_& m);
+void addConversion(py::module_& m);
+void addMeasurement(py::module_& m);
+void addFace(py::module_& m);
+void addTrajectory(py::module_& m);
+void addMotion(py::module_& m);
+void addLiveMotion(py::module_& m);
+void addClip(py::module_& m);
+
+}  // namespace sweepface::python

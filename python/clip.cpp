@@ -1,0 +1,194 @@
+#include "clip.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <fmt/format.h>
+
+#include "sweepface/filter.hpp"
+#include "sweepface/gltf.hpp"
+#include "sweepface/io.hpp"
+#include "sweepface/keys.hpp"
+#include "sweepface/regional_clips.hpp"
+
+#include "bindings.hpp"
+
+namespace sweepface::python {
+namespace {
+
+// ---- Reading and making ----
+
+Result<Clip> played(const Timeline& timeline) {
+  auto clips = inRegions(timeline, std::vector<std::string>{"rest"}, std::vector<Matter>(1));
+  if (!clips) return std::unexpected(clips.error());
+  return std::move(clips->whole);
+}
+
+Result<Clip> parsedClip(const std::filesystem::path& path, const std::string& text,
+                        double framesPerSecond, const std::string& animation) {
+  const std::string kind = extensionOf(path), name = path.string();
+  if (kind == ".glb" || kind == ".gltf")
+    return parseGltfClip(text, name, folderOf(path), animation);
+  if (kind == ".csv") return parseLiveLinkCsv(text, name, framesPerSecond);
+  if (kind != ".json")
+    return fail(fmt::format("{} is neither a .csv, a .json, a .glb nor a .gltf.", name));
+  if (!isTimeline(text)) return parseClipJson(text, name, framesPerSecond);
+  const auto timeline = parseTimeline(text, name);
+  if (!timeline) return std::unexpected(timeline.error());
+  auto clip = played(*timeline);
+  if (!clip) return fail(fmt::format("{}: {}", name, clip.error().message));
+  return clip;
+}
+
+Clip readClip(const std::filesystem::path& path, double framesPerSecond,
+              const std::string& animation) {
+  if (!(framesPerSecond >= 0 && framesPerSecond <= 1000))
+    throw Failure(
+        fmt::format("frames_per_second must be between 0 and 1000, not {}.", framesPerSecond));
+  auto clip = valueOf(parsedClip(path, valueOf(readFile(path)), framesPerSecond, animation));
+  warn(clip.warnings);
+  return clip;
+}
+
+Clip clipFrom(const std::vector<std::string>& names, const Doubles& times, const Doubles& weights) {
+  const auto at = numbersIn(times, "The times");
+  if (weights.ndim() != 2 || weights.shape(0) != times.size() ||
+      weights.shape(1) != static_cast<py::ssize_t>(names.size()))
+    throw Failure(fmt::format("The weights of {} times and {} names must be an array [{}, {}].",
+                              at.size(), names.size(), at.size(), names.size()));
+  if (!std::ranges::all_of(at, isPlausibleTime) ||
+      std::ranges::adjacent_find(at, std::greater_equal{}) != at.end())
+    throw Failure("The times must be seconds that increase from frame to frame.");
+  const std::span<const double> given{weights.data(), static_cast<std::size_t>(weights.size())};
+  checkWeights(given);
+  return {names, {at.begin(), at.end()}, {given.begin(), given.end()}};
+}
+
+// ---- Other clips made of one ----
+
+Clip smoothed(Clip clip, double cutoff, double speedGain, double speedCutoff) {
+  for (const double hertz : {cutoff, speedCutoff})
+    if (!(hertz > 0 && hertz <= 1e6))
+      throw Failure("The cutoffs must be greater than 0 hertz, and at most a million.");
+  if (!(speedGain >= 0 && speedGain <= 1e6))
+    throw Failure("The gain of the speed must be between 0 and a million.");
+  smooth(clip, {cutoff, speedGain, speedCutoff});
+  return clip;
+}
+
+Clip withNames(const Clip& clip, const py::dict& drives, const Rig& rig) {
+  NameMap map{"The map of names", {}};
+  for (const auto& [name, driven] : drives) {
+    auto& [from, to] =
+        map.drives.emplace_back(py::cast<std::string>(name), std::vector<NameMap::Drive>());
+    if (py::isinstance<py::str>(driven)) {
+      to.push_back({py::cast<std::string>(driven)});
+      continue;
+    }
+    for (const auto& [target, factor] : py::cast<py::dict>(driven))
+      to.push_back({py::cast<std::string>(target), py::cast<double>(factor)});
+  }
+  return valueOf(renamed(clip, map, targetNamesOf(rig)));
+}
+
+// ---- Weights ----
+
+py::array_t<double> weightsOver(const Clip& clip, const Rig& rig, const py::object& times) {
+  const ClipMatch match = matchClip(clip, targetNamesOf(rig));
+  const double first = clip.times.empty() ? 0 : clip.times.front();
+  const Doubles at = times.is_none() ? Doubles(arrayOf(clip.times)) : py::cast<Doubles>(times);
+  return rowsAt(at, rig.targets.size(),
+                [&](double time, std::span<double> row) { match.spread(clip, time - first, row); });
+}
+
+py::dict matchOf(const Clip& clip, const Rig& rig) {
+  const ClipMatch match = matchClip(clip, targetNamesOf(rig));
+  py::dict driven;
+  for (std::size_t k = 0; k < clip.names.size(); ++k) {
+    py::list names;
+    for (const Index target : match.targets[k]) names.append(rig.targets[target].name);
+    driven[py::str(clip.names[k])] = names;
+  }
+  return driven;
+}
+
+py::dict keysOf(const Clip& clip, double tolerance) {
+  if (!(tolerance > 0)) throw Failure("The tolerance of keys must be greater than 0.");
+  const CubicKeys keys = fewestKeys(clip, tolerance);
+  const std::vector<py::ssize_t> shape{static_cast<py::ssize_t>(keys.times.size()),
+                                       static_cast<py::ssize_t>(keys.names.size())};
+  py::dict table;
+  table["times"] = arrayOf(keys.times);
+  table["values"] = arrayOf(std::span<const double>(keys.values), shape);
+  table["slopes_in"] = arrayOf(std::span<const double>(keys.in), shape);
+  table["slopes_out"] = arrayOf(std::span<const double>(keys.out), shape);
+  return table;
+}
+
+}  // namespace
+
+Clip clipOfTargets(const Rig& rig, const Clip& clip) {
+  const std::vector<std::string> targets = targetNamesOf(rig);
+  const ClipMatch match = matchClip(clip, targets);
+  warn(notesOnClip(clip, match, 0, targets, "The clip"));
+  Clip spread{targets, clip.times, {}, {}, clip.title};
+  std::vector<double> row(targets.size());
+  for (const double time : clip.times) {
+    match.spread(clip, time - clip.times.front(), row);
+    spread.weights.insert(spread.weights.end(), row.begin(), row.end());
+  }
+  return spread;
+}
+
+void addClip(py::module_& m) {
+  using namespace py::literals;
+  const OneEuro usual;
+  py::class_<Clip>(m, "Clip", "Weights over time, as a tracker or an animator gives them.")
+      .def(py::init(&clipFrom), "names"_a, "times"_a, "weights"_a,
+           "names [N], times [F] in seconds that increase, weights [F, N].")
+      .def_readonly("names", &Clip::names)
+      .def_readonly("title", &Clip::title, "Of the animation in its file, or empty.")
+      .def_property_readonly(
+          "times", [](const Clip& clip) { return arrayOf(clip.times); }, "[F] seconds.")
+      .def_property_readonly(
+          "weights",
+          [](const Clip& clip) {
+            return arrayOf(std::span<const double>(clip.weights),
+                           {static_cast<py::ssize_t>(clip.times.size()),
+                            static_cast<py::ssize_t>(clip.names.size())});
+          },
+          "[F, N]")
+      .def("weights_of", &weightsOver, "rig"_a, "times"_a = py::none(),
+           "Weights of the rig's targets at times (those of the frames if not given), linear "
+           "between frames and held at the ends: [T, K]. Names match as in `match`; targets that "
+           "nothing drives are at 0.")
+      .def("match", &matchOf, "rig"_a,
+           "The targets that each name drives. Case, '_', '-', '.', ' ' and whether a side is "
+           "spelt out do not count; a name without a side drives both.")
+      .def("smoothed", &smoothed, "cutoff"_a = usual.cutoff, "speed_gain"_a = usual.speedGain,
+           "speed_cutoff"_a = usual.speedCutoff,
+           "Without a tracker's noise, by the one-euro filter from both ends, so that nothing "
+           "lags.")
+      .def("renamed", &withNames, "names"_a, "rig"_a,
+           "For rigs whose targets are called otherwise: {'jawOpen': 'mouth-open', 'cheekPuff': "
+           "{'puff': 0.8}}.")
+      .def("keys", &keysOf, "tolerance"_a,
+           "As few cubic keys as keep every weight within the tolerance: times [T], values, "
+           "slopes_in and slopes_out [T, N].")
+      .def(
+          "save_csv",
+          [](const Clip& clip, const std::filesystem::path& path, double framesPerSecond) {
+            valueOf(writeFile(path, valueOf(formatLiveLinkCsv(clip, framesPerSecond))));
+          },
+          "path"_a, "frames_per_second"_a = 60, "Writes a capture of the Live Link Face app.")
+      .def("__repr__", [](const Clip& clip) {
+        return fmt::format("<sweepface.Clip: {} frames of {} weights, {:.2f} s>", clip.times.size(),
+                           clip.names.size(), clip.seconds());
+      });
+  m.def("read_clip", &readClip, "path"_a, py::kw_only(), "frames_per_second"_a = 0,
+        "animation"_a = "",
+        "Reads a capture of Live Link Face (.csv), Audio2Face or MediaPipe (.json), an animation "
+        "of morph targets (.glb, .gltf; the first, or that of the name), or a timeline (.json). "
+        "frames_per_second, if given, is that of captures that do not tell.");
+}
+
+}  // namespace sweepface::python

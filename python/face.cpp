@@ -1,0 +1,229 @@
+#include <algorithm>
+#include <fmt/format.h>
+#include <optional>
+
+#include "sweepface/evaluator.hpp"
+#include "sweepface/render_mesh.hpp"
+
+#include "bindings.hpp"
+#include "parallel/parallel.hpp"
+
+namespace sweepface::python {
+namespace {
+
+// ---- Made once ----
+
+/// A rig prepared for playing.
+struct Face {
+  std::shared_ptr<const Rig> rig;
+  RenderMesh mesh;
+  Evaluator evaluator;
+
+  std::size_t vertices() const { return static_cast<std::size_t>(evaluator.vertexCount()); }
+};
+
+std::optional<Budget> budgetFrom(const py::object& vertices, const py::object& edgeLength,
+                                 const py::object& error) {
+  std::optional<Budget> budget;
+  for (const auto& [kind, value] :
+       {std::pair(Budget::Kind::vertices, vertices),
+        std::pair(Budget::Kind::edgeLength, edgeLength), std::pair(Budget::Kind::error, error)}) {
+    if (value.is_none()) continue;
+    if (budget) throw Failure("Give one of vertices, edge_length and error.");
+    budget = Budget{kind, py::cast<double>(value)};
+  }
+  return budget;
+}
+
+Face withMesh(std::shared_ptr<const Rig> rig, const Tessellation& grid, RenderMesh mesh,
+              Index level, bool normals) {
+  EvaluatorOptions options;
+  options.level = level, options.normals = normals;
+  auto evaluator = valueOf(Evaluator::make(*rig, grid, options));
+  return {std::move(rig), std::move(mesh), std::move(evaluator)};
+}
+
+Face faceOf(const std::shared_ptr<Rig>& rig, Index level, const py::object& vertices,
+            const py::object& edgeLength, const py::object& error, bool normals) {
+  const auto budget = budgetFrom(vertices, edgeLength, error);
+  if (budget && level != 0) throw Failure("Give either a level or a budget.");
+  if (level < 0 || level > kMostLevel)
+    throw Failure(fmt::format("A level is between 0 and {}, not {}.", kMostLevel, level));
+  const py::gil_scoped_release others;
+  if (budget) {
+    const Tessellation grid(rig->surface,
+                            valueOf(densityFor(rig->surface, blend(*rig, {}), *budget)));
+    return withMesh(rig, grid, renderDensity(*rig, grid), 1, normals);
+  }
+  const Tessellation grid(rig->surface, std::max(level, 1));
+  return withMesh(rig, grid, level == 0 ? renderSource(*rig, grid) : renderGrid(*rig, grid), level,
+                  normals);
+}
+
+// ---- Every frame ----
+
+/// Where the vectors of all frames are written: an array [V × 3], or [F × V × 3].
+struct Output {
+  py::object array = py::none();
+  char* data = nullptr;                     // null: not wanted
+  std::size_t frameStride = 0, stride = 0;  // bytes
+
+  Output() = default;
+  explicit Output(py::array to) : array(to), data(static_cast<char*>(to.mutable_data())) {
+    const py::ssize_t* const last = to.strides() + to.ndim();
+    stride = static_cast<std::size_t>(last[-2]);
+    if (to.ndim() == 3) frameStride = static_cast<std::size_t>(last[-3]);
+  }
+  VectorsOut of(std::size_t frame, std::size_t vertices) const {
+    if (!data) return {};
+    return {reinterpret_cast<float*>(data + frame * frameStride), static_cast<Index>(vertices),
+            stride};
+  }
+};
+
+/// Whether an array has room for three floats a vertex, side by side, frames and vertices forwards.
+bool hasRoom(const py::array& array, const std::vector<py::ssize_t>& shape) {
+  constexpr py::ssize_t number = sizeof(float);
+  if (!py::isinstance<py::array_t<float>>(array) || !array.writeable() ||
+      !std::equal(shape.begin(), shape.end(), array.shape(), array.shape() + array.ndim()))
+    return false;
+  const std::span strides(array.strides(), shape.size());
+  return strides.back() == number &&
+         std::ranges::all_of(strides.first(shape.size() - 1), [](py::ssize_t bytes) {
+           return bytes >= 3 * number && bytes % number == 0;
+         });
+}
+
+/// Nothing, a new array, or the one that was given.
+Output outputFrom(const py::object& given, const std::vector<py::ssize_t>& shape,
+                  const char* what) {
+  if (py::isinstance<py::bool_>(given) && py::cast<bool>(given))
+    return Output(py::array_t<float>(shape));
+  if (py::isinstance<py::bool_>(given) || given.is_none()) return {};
+  const auto array = py::cast<py::array>(given);
+  if (!hasRoom(array, shape))
+    throw Failure(fmt::format(
+        "{} must be written to a float32 array of shape {}, with the numbers of a vertex side by "
+        "side.",
+        what, py::cast<std::string>(py::str(py::cast(shape)))));
+  return Output(array);
+}
+
+/// Weights of one frame, or of many: [F × K].
+struct Frames {
+  std::vector<double> weights;
+  std::size_t count = 1, targets = 0;
+  bool isOne = true;
+
+  Frames(const Rig& rig, const py::object& given) : targets(rig.targets.size()) {
+    if (!py::isinstance<py::array>(given) || py::cast<py::array>(given).ndim() != 2) {
+      weights = weightsFrom(rig, given);
+      return;
+    }
+    const auto rows = py::cast<Doubles>(given);
+    if (static_cast<std::size_t>(rows.shape(1)) != targets)
+      throw Failure(
+          fmt::format("There are {} weights a frame for {} targets.", rows.shape(1), targets));
+    weights.assign(rows.data(), rows.data() + rows.size());
+    count = static_cast<std::size_t>(rows.shape(0));
+    isOne = false;
+    checkWeights(weights);
+  }
+  std::span<const double> of(std::size_t frame) const {
+    return std::span(weights).subspan(frame * targets, targets);
+  }
+};
+
+void evaluateAll(const Face& face, const Frames& frames, const Output& positions,
+                 const Output& normals) {
+  const py::gil_scoped_release others;
+  parallelRanges(frames.count, [&](std::size_t first, std::size_t end) {
+    std::vector<std::byte> scratch(face.evaluator.scratchBytes());
+    for (std::size_t f = first; f < end; ++f) {
+      Evaluation frame;
+      frame.evaluator = &face.evaluator;
+      frame.weights = frames.of(f);
+      frame.scratch = scratch;
+      frame.positions = positions.of(f, face.vertices());
+      frame.normals = normals.of(f, face.vertices());
+      valueOf(frame.validate());
+      frame.run();
+    }
+  });
+}
+
+py::object evaluate(const Face& face, const py::object& weights, const py::object& positions,
+                    const py::object& normals) {
+  const Frames frames(*face.rig, weights);
+  std::vector<py::ssize_t> shape{static_cast<py::ssize_t>(face.vertices()), 3};
+  if (!frames.isOne) shape.insert(shape.begin(), static_cast<py::ssize_t>(frames.count));
+  const Output places = outputFrom(positions, shape, "Positions");
+  const Output directions = outputFrom(normals, shape, "Normals");
+  if (directions.data && !face.evaluator.hasNormals())
+    throw Failure("The face was made without normals; make it with them.");
+  evaluateAll(face, frames, places, directions);
+  if (places.data && directions.data) return py::make_tuple(places.array, directions.array);
+  return places.data ? places.array : directions.array;
+}
+
+// ---- Its mesh ----
+
+py::array_t<Index> pointsOf(const Face& face) {
+  std::vector<Index> points;
+  for (Index v = 0; v < face.mesh.vertexCount(); ++v) points.push_back(face.mesh.pointOf(v));
+  return arrayOf(points);
+}
+
+py::object texcoordsOf(const Face& face) {
+  if (face.mesh.texcoords.empty()) return py::none();
+  return arrayOf(std::span<const float>(face.mesh.texcoords),
+                 {static_cast<py::ssize_t>(face.mesh.texcoords.size() / 2), 2});
+}
+
+}  // namespace
+
+void addFace(py::module_& m) {
+  using namespace py::literals;
+  py::class_<Face>(m, "Face",
+                   "A rig prepared for playing: a linear map from weights to vertices in tables "
+                   "small enough for the cache. It never changes; any number of threads may use "
+                   "it.")
+      .def(py::init(&faceOf), "rig"_a, "level"_a = 0, py::kw_only(), "vertices"_a = py::none(),
+           "edge_length"_a = py::none(), "error"_a = py::none(), "normals"_a = true,
+           "level 0 has the source's vertices in their order; level N every edge of the source cut "
+           "into N. Instead of a level, a budget: as close to the surface as a number of vertices "
+           "allows, edges no longer than a length, or triangles no further from the surface than "
+           "an error. Without normals it is made in half the time.")
+      .def("evaluate", &evaluate, "weights"_a = py::none(), py::kw_only(), "positions"_a = true,
+           "normals"_a = false,
+           "Vertices under weights: None, a dict of names and weights, or an array [K]; an array "
+           "[F, K] evaluates F frames on all cores. positions and normals are whether they are "
+           "wanted, or float32 arrays to write them to, [V, 3] or [F, V, 3]. Returns the array, or "
+           "both.")
+      .def_property_readonly("vertex_count", &Face::vertices)
+      .def_property_readonly(
+          "triangles",
+          [](const Face& face) {
+            return arrayOf(std::span<const std::uint32_t>(face.mesh.triangles),
+                           {static_cast<py::ssize_t>(face.mesh.triangles.size() / 3), 3});
+          },
+          "[T, 3], counter-clockwise, of corners that have one texture coordinate each: "
+          "positions[points] are where they are.")
+      .def_property_readonly("points", &pointsOf, "The vertex that each corner repeats: [C].")
+      .def_property_readonly("texcoords", &texcoordsOf, "Of the corners, [C, 2], or None.")
+      .def_property_readonly(
+          "bytes",
+          [](const Face& face) {
+            return face.evaluator.positionBytes() + face.evaluator.normalBytes();
+          },
+          "What is read to evaluate it.")
+      .def(
+          "bound",
+          [](const Face& face, const py::object& weights) {
+            return face.evaluator.positionBound(weightsFrom(*face.rig, weights));
+          },
+          "weights"_a = py::none(),
+          "How far any vertex may be from the surface under weights, in model units.");
+}
+
+}  // namespace sweepface::python

@@ -1,0 +1,82 @@
+#include "sweepface/live_motion.hpp"
+
+#include "bindings.hpp"
+
+namespace sweepface::python {
+namespace {
+
+/// A drive by its name, and what else was told of it.
+Drive driveFrom(const std::string& name, const py::kwargs& told) {
+  Drive drive = valueOf(driveFromName(name));
+  for (const auto& [key, value] : told) {
+    const auto what = py::cast<std::string>(key);
+    double* const number = what == "seconds"       ? &drive.seconds
+                           : what == "turn"        ? &drive.turn
+                           : what == "frequency"   ? &drive.spring.frequency
+                           : what == "damping"     ? &drive.spring.damping
+                           : what == "restitution" ? &drive.restitution
+                           : what == "delay"       ? &drive.delay
+                                                   : nullptr;
+    if (!number)
+      throw Failure("A drive has no '" + what +
+                    "'; it has seconds, turn, frequency, damping, restitution and delay.");
+    *number = py::cast<double>(value);
+  }
+  return drive;
+}
+
+using WriteState = void (MotionState::*)(std::span<double>) const noexcept;
+
+template <WriteState write>
+py::array_t<double> stateOf(const MotionState& state) {
+  py::array_t<double> out(static_cast<py::ssize_t>(state.size()));
+  (state.*write)({out.mutable_data(), state.size()});
+  return out;
+}
+
+}  // namespace
+
+void addLiveMotion(py::module_& m) {
+  using namespace py::literals;
+  py::class_<MotionState>(
+      m, "LiveMotion",
+      "Weights [K] that take new goals at any instant and go on from where they are, without a "
+      "jump in position or velocity. Every path is a closed form of the time, so the frame rate "
+      "changes nothing.")
+      .def(py::init([](const Doubles& weights) {
+             return valueOf(MotionState::make(numbersIn(weights, "Weights")));
+           }),
+           "weights"_a, "At rest there.")
+      .def("advance", &MotionState::advance, "seconds"_a, "Lets time pass.")
+      .def(
+          "move_to",
+          [](MotionState& state, const Doubles& goals, const std::string& drive,
+             const py::kwargs& told) {
+            valueOf(state.moveTo(numbersIn(goals, "Goals"), driveFrom(drive, told)));
+          },
+          "goals"_a, "drive"_a = "spring",
+          "Sends all weights to goals [K] by a drive: cut, newton, linear-force, accelerate-brake, "
+          "spring or bounce, with seconds, turn, frequency, damping, restitution, delay as "
+          "keywords.")
+      .def(
+          "move_one",
+          [](MotionState& state, std::size_t weight, double goal, const std::string& drive,
+             const py::kwargs& told) {
+            valueOf(state.moveTo(weight, goal, driveFrom(drive, told)));
+          },
+          "weight"_a, "goal"_a, "drive"_a = "spring", "The same for a single weight.")
+      .def(
+          "push",
+          [](MotionState& state, std::size_t weight, double velocityChange, double drag) {
+            valueOf(state.push(weight, velocityChange, drag));
+          },
+          "weight"_a, "velocity_change"_a, "drag"_a,
+          "An impulse: adds to a weight's velocity, which drag, per second, takes away again.")
+      .def_property_readonly("now", &MotionState::now, "Seconds since it was made.")
+      .def_property_readonly("positions", &stateOf<&MotionState::positions>, "[K]")
+      .def_property_readonly("velocities", &stateOf<&MotionState::velocities>, "[K], per second")
+      .def("moves", &MotionState::moves, "tolerance"_a = 1e-6,
+           "Whether any weight may still be further than a tolerance from where it comes to rest.");
+}
+
+}  // namespace sweepface::python

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <future>
+#include <mutex>
+#include <string>
+#include <string_view>
+
+#include "values.hpp"
+
+namespace sweepface::python {
+
+/// Work that takes seconds, done by another thread, while this one calls `progress(what, done)` now
+/// and then (unless it is None) and lets Ctrl-C, or an exception of `progress`, end the work.
+class LongWork {
+ public:
+  explicit LongWork(py::object progress) : progress_(std::move(progress)) {}
+
+  /// For the options of the work.
+  std::function<void(std::string_view, double)> report();
+  const std::atomic<bool>* cancel() const { return &cancelled_; }
+
+  /// What `work()` returns; it must not touch Python.
+  template <typename Work>
+  auto run(const Work& work) {
+    auto result = std::async(std::launch::async, work);
+    const auto isDone = [&] {
+      const py::gil_scoped_release others;
+      return result.wait_for(std::chrono::milliseconds(50)) == std::future_status::ready;
+    };
+    try {
+      while (!isDone()) attend();
+    } catch (...) {
+      cancelled_ = true;
+      const py::gil_scoped_release others;
+      result.wait();
+      throw;
+    }
+    return result.get();
+  }
+
+ private:
+  void attend();
+
+  py::object progress_;
+  std::atomic<bool> cancelled_ = false;
+  std::mutex telling_;
+  std::string what_;  // the latest report
+  double done_ = 0;
+  bool isNew_ = false;
+};
+
+}  // namespace sweepface::python

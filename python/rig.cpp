@@ -1,0 +1,196 @@
+#include <filesystem>
+#include <fmt/format.h>
+
+#include "sweepface/codec.hpp"
+#include "sweepface/fit.hpp"
+#include "sweepface/gltf.hpp"
+#include "sweepface/io.hpp"
+#include "sweepface/strip.hpp"
+
+#include "bindings.hpp"
+#include "clip.hpp"
+#include "long_work.hpp"
+#include "picture.hpp"
+#include "pose.hpp"
+
+namespace sweepface::python {
+namespace {
+
+using SharedRig = std::shared_ptr<Rig>;  // never changes once Python has it
+
+// ---- Files ----
+
+SharedRig decoded(const std::string_view bytes, const std::string& name, std::size_t memory) {
+  const py::gil_scoped_release others;
+  return std::make_shared<Rig>(valueOf(decode(bytes, name, {memory})));
+}
+
+SharedRig loaded(const std::filesystem::path& path, std::size_t memory) {
+  return decoded(valueOf(readFile(path)), path.string(), memory);
+}
+
+void saveGlb(const Rig& rig, const std::filesystem::path& path, Index level, bool morphNormals,
+             bool quantize, const py::object& weights, const Clip* clip, double keyTolerance) {
+  GlbOptions options;
+  options.lod = level;
+  options.morphNormals = morphNormals, options.quantize = quantize;
+  if (!weights.is_none()) options.weights = weightsFrom(rig, weights);
+  Clip played;
+  if (clip) played = clipOfTargets(rig, *clip), options.clip = &played;
+  options.keyTolerance = keyTolerance;
+  const py::gil_scoped_release others;
+  valueOf(writeFile(path, valueOf(formatGlb(rig, options))));
+}
+
+// ---- Other rigs made of one ----
+
+SharedRig packed(const Rig& rig, double tolerance, int textureBits, const py::object& progress) {
+  auto copy = std::make_shared<Rig>(rig);
+  LongWork work(progress);
+  const PackOptions options{tolerance, textureBits, work.report(), work.cancel()};
+  valueOf(work.run([&] { return pack(*copy, options); }));
+  return copy;
+}
+
+SharedRig stripped(const Rig& rig, const std::string& parts) {
+  auto copy = std::make_shared<Rig>(rig);
+  valueOf(strip(*copy, valueOf(parseStrip(parts))));
+  return copy;
+}
+
+// ---- What it holds ----
+
+py::array_t<double> storedVectors(const Rig& rig, const py::object& target) {
+  if (target.is_none()) return arrayOfPoints(rig.neutral);
+  const Index found = valueOf(findTarget(rig, py::cast<std::string>(target)));
+  return arrayOfPoints(rig.targets[found].difference);
+}
+
+/// An array [rows × columns] of whole numbers.
+template <std::size_t columns, typename Row>
+py::array_t<Index> table(std::size_t rows, const Row& row) {
+  std::vector<Index> numbers;
+  for (std::size_t k = 0; k < rows; ++k)
+    for (const Index number : row(static_cast<Index>(k))) numbers.push_back(number);
+  return arrayOf(std::span<const Index>(numbers),
+                 {static_cast<py::ssize_t>(rows), static_cast<py::ssize_t>(columns)});
+}
+
+py::array_t<Index> arcsOf(const Rig& rig) {
+  const std::vector<Arc>& arcs = rig.surface.wireframe().arcs;
+  return table<2>(arcs.size(), [&](Index a) { return std::array{arcs[a].from, arcs[a].to}; });
+}
+
+py::array_t<Index> patchEdgesOf(const Rig& rig) {
+  return table<2>(rig.surface.wireframe().patches.size(), [&](Index p) {
+    return std::array{rig.surface.edgesU(p), rig.surface.edgesV(p)};
+  });
+}
+
+py::array_t<double> ribbonsOf(const Rig& rig) {
+  std::vector<Vec3> shapes;
+  for (const Shape& shape : rig.surface.wireframe().ribbons)
+    shapes.push_back({shape.rho, shape.eta, shape.lambda});
+  return arrayOfPoints(shapes);
+}
+
+py::list patchSides(const Rig& rig, Index patch) {
+  if (patch < 0 || patch >= rig.surface.patchCount())
+    throw Failure(fmt::format("There is no patch {}; there are {}, from 0 on.", patch,
+                              rig.surface.patchCount()));
+  py::list sides;
+  for (int s = 0; s < 4; ++s) {
+    py::list side;
+    for (const HalfArc h : rig.surface.wireframe().side(patch, s))
+      side.append(py::make_tuple(arcOf(h), h % 2 == 0));
+    sides.append(side);
+  }
+  return sides;
+}
+
+void addFiles(py::class_<Rig, SharedRig>& rig) {
+  using namespace py::literals;
+  rig.def(
+         "encode", [](const Rig& r) { return py::bytes(encode(r)); },
+         "The bytes of a .sweep file. The same rig gives the same bytes everywhere.")
+      .def(
+          "save",
+          [](const Rig& r, const std::filesystem::path& path) {
+            valueOf(writeFile(path, encode(r)));
+          },
+          "path"_a, "Writes a .sweep file beside the path, then renames it.")
+      .def("save_glb", &saveGlb, "path"_a, py::kw_only(), "level"_a = 0, "morph_normals"_a = false,
+           "quantize"_a = false, "weights"_a = py::none(), "clip"_a = nullptr,
+           "key_tolerance"_a = 0,
+           "Writes a GLB with the targets as morph targets, in the scene that came with the rig, "
+           "if one did. level 0: the source's vertices; N: every edge cut into N. A clip becomes "
+           "an animation, in as few keys as keep its weights within key_tolerance, if that is "
+           "given.")
+      .def("packed", &packed, "tolerance"_a = 0, py::kw_only(), "texture_bits"_a = 0,
+           "progress"_a = py::none(),
+           "This rig packed: vectors become small whole numbers, most of them zero, and the file "
+           "several times smaller. No vertex moves by more than the tolerance in any target (0: "
+           "the rig's own). convert(pack=True) makes smaller files still.")
+      .def("stripped", &stripped, "parts"_a,
+           "This rig without parts of its file: order, uv, groups, scene, with commas between.");
+}
+
+void addContents(py::class_<Rig, SharedRig>& rig) {
+  using namespace py::literals;
+  rig.def_property_readonly("target_names", &targetNamesOf, "[K]")
+      .def_readonly("tolerance", &Rig::tolerance, "The error it was made for, in model units.")
+      .def_property_readonly("units", [](const Rig& r) { return r.names.units; })
+      .def_property_readonly(
+          "vertex_count", [](const Rig& r) { return r.source.gridVertex.size(); },
+          "Vertices of the source.")
+      .def_property_readonly("patch_count", [](const Rig& r) { return r.surface.patchCount(); })
+      .def("vectors", &storedVectors, "target"_a = py::none(),
+           "The stored vectors [S, 3]: of the neutral, or what a target adds to them.")
+      .def_property_readonly("arcs", &arcsOf, "The nodes at both ends of every curve: [A, 2].")
+      .def_property_readonly("patch_edges", &patchEdgesOf,
+                             "How many edges of the source a patch is long in u and in v: [P, 2].")
+      .def("patch_sides", &patchSides, "patch"_a,
+           "The curves along v = 0, u = 1, v = 1 and u = 0, counter-clockwise: lists of (arc, "
+           "whether it is travelled from its first node).")
+      .def_property_readonly("ribbons", &ribbonsOf,
+                             "The shape parameters rho, eta, lambda in use, per edge: [R, 3].")
+      .def("__repr__", [](const Rig& r) {
+        return fmt::format("<sweepface.Rig: {} vertices, {} patches, {} targets>",
+                           r.source.gridVertex.size(), r.surface.patchCount(), r.targets.size());
+      });
+}
+
+}  // namespace
+
+void addRig(py::module_& m) {
+  using namespace py::literals;
+  constexpr std::size_t memory = DecodeLimits{}.memory;
+  py::class_<Rig, SharedRig> rig(m, "Rig",
+                                 "A neutral face and its targets, as ODE sweeping surfaces. It "
+                                 "never changes; any number of threads may use it.");
+  addFiles(rig);
+  addContents(rig);
+  rig.def(
+         "pose", [](const SharedRig& r, const py::object& weights) { return Pose(r, weights); },
+         "weights"_a = py::none(),
+         "The face under weights: None, a dict of names and weights, or an array [K].")
+      .def(
+          "meshes", [](const Rig& r) { return RigSource{meshesOf(r), r.scene, {}}; },
+          "The neutral and its targets as meshes, in the source's order.")
+      .def("render", &renderRig, "weights"_a = py::none(), py::kw_only(), "width"_a = 640,
+           "height"_a = 800, "view"_a = "front", "style"_a = "shaded",
+           "A picture [height, width, 3] of 8 bits. Views are front, side, three-quarter, back or "
+           "'AZIMUTH,ELEVATION' in degrees; styles shaded, patches, wireframe, joins, normals and "
+           "zebra.");
+  m.def("load", &loaded, "path"_a, py::kw_only(), "memory"_a = memory,
+        "Reads a .sweep file, for which it takes about `memory` bytes at most.");
+  m.def(
+      "decode",
+      [](const py::bytes& bytes, const std::string& name, std::size_t most) {
+        return decoded(std::string_view(bytes), name, most);
+      },
+      "bytes"_a, "name"_a = "The face", py::kw_only(), "memory"_a = memory,
+      "The same from the bytes of a file, which messages call by the name.");
+}
+
+}  // namespace sweepface::python

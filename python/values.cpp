@@ -1,0 +1,73 @@
+#include "values.hpp"
+
+#include <algorithm>
+
+namespace sweepface::python {
+
+void warn(std::span<const std::string> sentences) {
+  for (const std::string& sentence : sentences)
+    if (PyErr_WarnEx(PyExc_UserWarning, sentence.c_str(), 1) != 0) throw py::error_already_set();
+}
+
+std::vector<Vec3> pointsFrom(const Doubles& array, const char* what) {
+  if (array.ndim() != 2 || array.shape(1) != 3)
+    throw Failure(std::string(what) + " must be an array of three numbers a row, [N, 3].");
+  std::vector<Vec3> points(static_cast<std::size_t>(array.shape(0)));
+  const double* x = array.data();
+  for (Vec3& p : points) p = {x[0], x[1], x[2]}, x += 3;
+  return points;
+}
+
+std::span<const double> numbersIn(const Doubles& array, const char* what) {
+  if (array.ndim() > 1) throw Failure(std::string(what) + " must be an array of numbers, [N].");
+  return {array.data(), static_cast<std::size_t>(array.size())};
+}
+
+py::array_t<double> arrayOfPoints(std::span<const Vec3> points) {
+  py::array_t<double> array({points.size(), std::size_t{3}});
+  double* x = array.mutable_data();
+  for (const Vec3& p : points) x[0] = p.x, x[1] = p.y, x[2] = p.z, x += 3;
+  return array;
+}
+
+void checkWeights(std::span<const double> weights) {
+  if (!std::ranges::all_of(weights, isPlausibleWeight))
+    throw Failure("Weights must be numbers between -1,000,000 and 1,000,000.");
+}
+
+namespace {
+
+Weights weightsByName(const Rig& rig, const py::dict& given) {
+  Weights weights(rig.targets.size());
+  for (const auto& [name, weight] : given)
+    weights[static_cast<std::size_t>(valueOf(findTarget(rig, py::cast<std::string>(name))))] =
+        py::cast<double>(weight);
+  return weights;
+}
+
+}  // namespace
+
+Weights weightsFrom(const Rig& rig, const py::object& given) {
+  Weights weights(rig.targets.size());
+  if (py::isinstance<py::dict>(given)) {
+    weights = weightsByName(rig, given);
+  } else if (!given.is_none()) {
+    const auto array = py::cast<Doubles>(given);
+    const std::span<const double> numbers = numbersIn(array, "Weights");
+    if (numbers.size() != weights.size())
+      throw Failure("There are " + std::to_string(numbers.size()) + " weights for " +
+                    std::to_string(weights.size()) +
+                    " targets; give one each, or a dict of their names.");
+    std::ranges::copy(numbers, weights.begin());
+  }
+  checkWeights(weights);
+  return weights;
+}
+
+std::vector<std::string> targetNamesOf(const Rig& rig) {
+  std::vector<std::string> names;
+  for (const Target& target : rig.targets) names.push_back(target.name);
+  return names;
+}
+
+}  // namespace sweepface::python

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sweepface/rig.hpp"
+
+namespace sweepface::python {
+
+namespace py = pybind11;
+
+/// What Python sees as sweepface.Error.
+struct Failure : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// The value of a result; its error becomes an exception, as Python expects.
+template <typename T>
+T valueOf(Result<T> result) {
+  if (!result) throw Failure(result.error().message);
+  if constexpr (!std::is_void_v<T>) return std::move(*result);
+}
+
+/// Warns as Python's own libraries do, so that programs can filter the sentences.
+void warn(std::span<const std::string> sentences);
+
+// ---- Arrays: whatever NumPy can turn into them goes in, new arrays come out ----
+
+using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
+/// The rows of an array [N × 3]; messages call it `what`.
+std::vector<Vec3> pointsFrom(const Doubles& array, const char* what);
+/// The numbers of an array [N].
+std::span<const double> numbersIn(const Doubles& array, const char* what);
+
+/// [N × 3]
+py::array_t<double> arrayOfPoints(std::span<const Vec3> points);
+
+/// An array of a shape whose sizes multiply to the number of values.
+template <typename T>
+py::array_t<T> arrayOf(std::span<const T> values, std::vector<py::ssize_t> shape) {
+  return py::array_t<T>(std::move(shape), values.data());
+}
+template <typename T>
+py::array_t<T> arrayOf(const std::vector<T>& values) {
+  return arrayOf(std::span<const T>(values), {static_cast<py::ssize_t>(values.size())});
+}
+
+/// An array [N × columns], a row for each place, which `write(place, row)` fills.
+template <typename Write>
+py::array_t<double> rowsAt(const Doubles& places, std::size_t columns, const Write& write) {
+  const std::span<const double> at = numbersIn(places, "Times and parameters");
+  py::array_t<double> rows({at.size(), columns});
+  double* row = rows.mutable_data();
+  for (std::size_t k = 0; k < at.size(); ++k, row += columns)
+    write(at[k], std::span<double>(row, columns));
+  return rows;
+}
+
+// ---- Weights ----
+
+/// Weights [K] from None, a dict of names and weights, or K numbers.
+Weights weightsFrom(const Rig& rig, const py::object& given);
+/// Refuses weights that are not finite or too large to be meant.
+void checkWeights(std::span<const double> weights);
+
+std::vector<std::string> targetNamesOf(const Rig& rig);
+
+}  // namespace sweepface::python

@@ -1,0 +1,119 @@
+"""Faces prepared for playing."""
+
+import threading
+import unittest
+
+import numpy as np
+import sweepface
+from faces import FaceTest
+
+OPEN = {"jawOpen": 0.7, "eyeBlinkLeft": 0.4}
+
+
+class Faces(FaceTest):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.face = sweepface.Face(cls.rig)
+
+    def test_agree_with_the_reference(self):
+        pose = self.rig.pose(OPEN)
+        positions, normals = self.face.evaluate(OPEN, normals=True)
+        self.assertEqual((positions.dtype, positions.shape), (np.float32, (8216, 3)))
+        gap = np.linalg.norm(positions - pose.positions(), axis=1).max()
+        self.assertLessEqual(gap, self.face.bound(OPEN))
+        self.assertLess(self.face.bound(OPEN), 0.01)
+        cosine = (normals * pose.normals()).sum(axis=1)
+        self.assertGreater(np.percentile(cosine, 1), 0.999)
+
+    def test_evaluate_many_frames_at_once(self):
+        weights = np.random.default_rng(1).random((20, 42))
+        frames, normals = self.face.evaluate(weights, normals=True)
+        self.assertEqual(frames.shape, (20, 8216, 3))
+        for k in (0, 7, 19):
+            one, its = self.face.evaluate(weights[k], normals=True)
+            self.assertTrue(np.array_equal(frames[k], one))
+            self.assertTrue(np.array_equal(normals[k], its))
+        self.assertEqual(self.face.evaluate(weights[:0]).shape, (0, 8216, 3))
+
+    def test_write_to_arrays_that_are_given(self):
+        whole = np.full((8216, 8), -1, np.float32)
+        self.face.evaluate(OPEN, positions=whole[:, 1:4], normals=whole[:, 4:7])
+        positions, normals = self.face.evaluate(OPEN, normals=True)
+        self.assertTrue(np.array_equal(whole[:, 1:4], positions))
+        self.assertTrue(np.array_equal(whole[:, 4:7], normals))
+        self.assertTrue((whole[:, [0, 7]] == -1).all())
+        only = self.face.evaluate(OPEN, positions=False, normals=True)
+        self.assertTrue(np.array_equal(only, normals))
+        self.assertIsNone(self.face.evaluate(OPEN, positions=False))
+
+    def test_refuse_arrays_that_do_not_fit(self):
+        fixed = np.zeros((8216, 3), np.float32)
+        fixed.flags.writeable = False
+        for array in (
+            np.zeros((8216, 3)),
+            np.zeros((8215, 3), np.float32),
+            np.zeros((8216, 3), np.float32)[::-1],
+            np.zeros((3, 8216), np.float32).T,
+            np.broadcast_to(np.zeros(3, np.float32), (8216, 3)),
+            np.zeros(3 * 8216, np.float32),
+            np.zeros((8216, 3), np.dtype(">f4")),
+            fixed,
+        ):
+            with self.refuses(r"Positions must be written to a float32 array of shape \[8216, 3\]"):
+                self.face.evaluate(OPEN, positions=array)
+        with self.refuses("Normals must be written to"):
+            self.face.evaluate(np.zeros((2, 42)), normals=np.zeros((1, 8216, 3), np.float32))
+        with self.refuses("41 weights a frame for 42 targets"):
+            self.face.evaluate(np.zeros((2, 41)))
+        with self.refuses("Weights must be numbers"):
+            self.face.evaluate(np.full((2, 42), np.inf))
+
+    def test_have_the_mesh_that_graphics_cards_want(self):
+        corners = len(self.face.points)
+        self.assertEqual(self.face.texcoords.shape, (corners, 2))
+        self.assertLess(self.face.triangles.max(), corners)
+        self.assertEqual(len(self.face.triangles), 16204)
+        self.assertLess(self.face.points.max(), self.face.vertex_count)
+        places = self.face.evaluate()[self.face.points][self.face.triangles]
+        area = np.linalg.norm(np.cross(places[:, 1] - places[:, 0], places[:, 2] - places[:, 0]), axis=1)
+        self.assertGreater(np.median(area), 0)
+        self.assertGreater(self.face.bytes, 10000)
+
+    def test_come_at_levels_of_detail(self):
+        self.assertLessEqual(sweepface.Face(self.rig, vertices=3000).vertex_count, 3000)
+        fine = sweepface.Face(self.rig, 2, normals=False)
+        self.assertTrue(np.allclose(fine.evaluate(OPEN), self.rig.pose(OPEN).positions(level=2), atol=0.01))
+        coarse, close = (sweepface.Face(self.rig, error=e).vertex_count for e in (0.1, 0.01))
+        self.assertLess(coarse, close)
+        self.assertGreater(sweepface.Face(self.rig, edge_length=0.3).vertex_count, 100)
+        with self.refuses("one of vertices, edge_length and error"):
+            sweepface.Face(self.rig, vertices=3000, error=0.1)
+        with self.refuses("either a level or a budget"):
+            sweepface.Face(self.rig, 1, vertices=3000)
+        with self.refuses("between 0 and 64, not 65"):
+            sweepface.Face(self.rig, 65)
+        with self.refuses("."):
+            sweepface.Face(self.rig, vertices=3)
+        with self.refuses("made without normals"):
+            fine.evaluate(OPEN, normals=True)
+
+    def test_play_in_several_threads(self):
+        expected = self.face.evaluate(OPEN)
+        results = [None] * 4
+
+        def play(k):
+            for _ in range(20):
+                results[k] = self.face.evaluate(OPEN)
+
+        threads = [threading.Thread(target=play, args=(k,)) for k in range(4)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        for result in results:
+            self.assertTrue(np.array_equal(result, expected))
+
+
+if __name__ == "__main__":
+    unittest.main()

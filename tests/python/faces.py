@@ -1,0 +1,42 @@
+"""What the tests of the package share."""
+
+import os
+import tempfile
+import unittest
+import warnings
+
+import numpy as np
+import sweepface
+
+SAMPLE = os.environ["SWEEPFACE_SAMPLE"]
+FOLDER = os.path.dirname(SAMPLE)
+
+
+def sheet():
+    """A sheet of 6 x 5 vertices and a target that lifts its middle."""
+    x, y = np.meshgrid(np.arange(6.0), np.arange(5.0))
+    flat = np.stack([x.ravel(), y.ravel(), 0 * x.ravel()], axis=1)
+    lifted = flat + np.outer(np.exp(-((flat[:, 0] - 2.5) ** 2) - (flat[:, 1] - 2) ** 2), [0, 0, 1])
+    faces = [(6 * j + i, 6 * j + i + 1, 6 * j + i + 7, 6 * j + i + 6) for j in range(4) for i in range(5)]
+    return sweepface.Meshes(flat, faces, {"lift": lifted})
+
+
+class FaceTest(unittest.TestCase):
+    """Has the sample face, and a folder for files."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.rig = sweepface.load(SAMPLE)
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+        warnings.simplefilter("error")
+        self.addCleanup(warnings.resetwarnings)
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def refuses(self, sentence):
+        return self.assertRaisesRegex(sweepface.Error, sentence)

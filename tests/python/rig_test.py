@@ -1,0 +1,248 @@
+"""Faces from files and from meshes, what they hold, and the files made of them."""
+
+import json
+import os
+import subprocess
+import unittest
+
+import numpy as np
+import sweepface
+from faces import SAMPLE, FaceTest, sheet
+
+
+class Files(FaceTest):
+    def test_give_back_the_same_bytes(self):
+        with open(SAMPLE, "rb") as file:
+            stored = file.read()
+        self.assertEqual(self.rig.encode(), stored)
+        self.assertEqual(sweepface.decode(stored).encode(), stored)
+        self.rig.save(self.path("copy.sweep"))
+        self.assertEqual(sweepface.load(self.path("copy.sweep")).target_names, self.rig.target_names)
+
+    def test_say_what_is_wrong_with_them(self):
+        with self.refuses("none.sweep"):
+            sweepface.load(self.path("none.sweep"))
+        with self.refuses("The upload"):
+            sweepface.decode(b"not a face", "The upload")
+        with self.refuses("memory"):
+            sweepface.load(SAMPLE, memory=1000)
+        with self.assertRaises(sweepface.Error):
+            self.rig.save(self.path("no/folder.sweep"))
+
+    def test_are_packed_and_stripped_into_others(self):
+        packed = self.rig.packed(0.01)
+        bare = packed.stripped("order,uv")
+        self.assertLess(len(packed.encode()), len(self.rig.encode()) / 2)
+        self.assertLess(len(bare.encode()), len(packed.encode()))
+        gap = np.linalg.norm(packed.pose().positions() - self.rig.pose().positions(), axis=1)
+        self.assertGreater(gap.max(), 0)
+        self.assertLessEqual(gap.max(), 0.01)
+        with self.refuses("order, uv"):
+            self.rig.stripped("teeth")
+
+    def test_become_glbs_with_clips(self):
+        clip = sweepface.Clip(["JawOpen", "tail"], [0, 0.5, 1], [[0, 0], [1, 0], [0, 0]])
+        self.rig.save_glb(self.path("face.glb"), clip=clip, weights={"jawOpen": 0.5})
+        with open(self.path("face.glb"), "rb") as file:
+            data = file.read()
+        document = json.loads(data[20 : 20 + int.from_bytes(data[12:16], "little")])
+        self.assertEqual(document["meshes"][0]["extras"]["targetNames"], self.rig.target_names)
+        self.assertEqual(len(document["animations"]), 1)
+        back = sweepface.read_clip(self.path("face.glb")).weights_of(self.rig, [0.5])
+        self.assertAlmostEqual(back[0, self.rig.target_names.index("jawOpen")], 1, places=6)
+        with self.refuses("jawOpenn"):
+            self.rig.save_glb(self.path("face.glb"), weights={"jawOpenn": 0.5})
+
+
+class Contents(FaceTest):
+    def test_agree_with_the_tool(self):
+        info = json.loads(subprocess.run([os.environ["SWEEPFACE_TOOL"], "info", SAMPLE, "--json"], check=True, capture_output=True).stdout)
+        self.assertEqual(self.rig.target_names, info["targets"])
+        self.assertEqual(self.rig.patch_count, info["patches"])
+        self.assertEqual(self.rig.vertex_count, 8216)
+
+    def test_describe_the_wireframe(self):
+        arcs, edges = self.rig.arcs, self.rig.patch_edges
+        self.assertEqual(edges.shape, (self.rig.patch_count, 2))
+        sides = self.rig.patch_sides(3)
+        ends = [(arcs[arc] if forward else arcs[arc][::-1]) for side in sides for arc, forward in side]
+        for (_, end), (start, _) in zip(ends, ends[1:] + ends[:1]):
+            self.assertEqual(end, start)
+        self.assertEqual(self.rig.ribbons.shape[1], 3)
+        self.assertEqual(self.rig.units, "cm")
+        with self.refuses("There is no patch -1"):
+            self.rig.patch_sides(-1)
+
+    def test_are_linear_in_the_stored_vectors(self):
+        neutral, jaw = self.rig.vectors(), self.rig.vectors("jawOpen")
+        self.assertEqual(neutral.shape, jaw.shape)
+        self.assertGreater(np.abs(jaw).max(), 0.1)
+        with self.refuses("no target named 'frown'"):
+            self.rig.vectors("frown")
+
+    def test_are_shown(self):
+        self.assertEqual(repr(self.rig), f"<sweepface.Rig: 8216 vertices, {self.rig.patch_count} patches, 42 targets>")
+        picture = self.rig.render({"jawOpen": 1}, width=120, height=160)
+        self.assertEqual(picture.shape, (160, 120, 3))
+        self.assertGreater(picture.std(), 20)
+        self.assertTrue((picture != self.rig.render(width=120, height=160)).any())
+        with self.refuses("shaded, patches"):
+            self.rig.render(style="oil")
+        with self.refuses("needs meshes to compare with"):
+            self.rig.render(style="error")
+        with self.refuses("16"):
+            self.rig.render(width=1)
+
+
+class Poses(FaceTest):
+    def test_have_the_surface_and_its_derivatives_at_any_place(self):
+        pose = self.rig.pose({"jawOpen": 0.5, "eyeBlinkLeft": 1})
+        patch, h = np.arange(5), 1e-5
+        point = pose.at(patch, 0.5, 0.5)
+        self.assertEqual(point.shape, (5, 3))
+        along = (pose.at(patch, 0.5 + h, 0.5) - pose.at(patch, 0.5 - h, 0.5)) / (2 * h)
+        self.assertTrue(np.allclose(pose.at(patch, 0.5, 0.5, du=1), along, atol=1e-6))
+        across = pose.at(patch, 0.5, 0.5, dv=1)
+        normal = np.cross(along, across)
+        normal /= np.linalg.norm(normal, axis=1)[:, None]
+        self.assertTrue(np.allclose(pose.normal(patch, 0.5, 0.5), normal, atol=1e-6))
+        self.assertEqual(pose.at(0, [[0.1, 0.2], [0.3, 0.4]], 0.5).shape, (2, 2, 3))
+
+    def test_find_places_that_follow(self):
+        rest, smile = self.rig.pose(), self.rig.pose({"mouthSmileLeft": 1})
+        patch, u, v = rest.nearest(rest.positions()[[10, 2000, 5000]])
+        self.assertTrue(np.allclose(rest.at(patch, u, v), rest.positions()[[10, 2000, 5000]], atol=1e-6))
+        self.assertTrue(np.allclose(smile.at(patch, u, v), smile.positions()[[10, 2000, 5000]], atol=1e-5))
+
+    def test_are_linear_in_weights(self):
+        weights = np.zeros(42)
+        weights[3], weights[7] = 0.25, 0.5
+        rest, one, other = (self.rig.pose(w).positions() for w in (None, 4 * weights * (np.arange(42) == 3), 2 * weights * (np.arange(42) == 7)))
+        blended = self.rig.pose(weights).positions()
+        self.assertTrue(np.allclose(blended, rest + 0.25 * (one - rest) + 0.5 * (other - rest), atol=1e-12))
+
+    def test_are_watertight_at_any_level(self):
+        pose = self.rig.pose()
+        self.assertEqual(pose.positions().shape, (8216, 3))
+        self.assertGreater(len(pose.positions(level=2)), 2 * 8216)
+        normals = pose.normals(level=2)
+        self.assertTrue(np.allclose(np.linalg.norm(normals, axis=1), 1))
+        joins = pose.joins()
+        self.assertLessEqual({"boundary", "c2", "spoke"}, set(joins["join_class"]))
+        self.assertLess(joins["position_gap"].max(), 1e-13)
+        smooth = np.array(joins["join_class"]) == "c2"
+        self.assertLess(joins["second_jump"][smooth].max(), 1e-9)
+
+    def test_have_boundary_and_control_curves(self):
+        boundary, control = self.rig.pose().curves(per_edge=4)
+        self.assertEqual({len(curve) % 4 for curve in boundary}, {1})
+        self.assertGreater(len(control), 2 * len(boundary))
+
+    def test_refuse_places_that_there_are_not(self):
+        pose = self.rig.pose()
+        for place in ((-1, 0, 0), (self.rig.patch_count, 0, 0), (0, -0.1, 0), (0, 0, 1e9), (0, np.nan, 0)):
+            with self.refuses("There is no patch|outside of patch"):
+                pose.at(*place)
+        with self.refuses("orders 0 to 3"):
+            pose.at(0, 0, 0, du=4)
+        with self.refuses("between 0 and 64"):
+            pose.positions(level=65)
+        with self.refuses("Point 0 must have coordinates within"):
+            pose.nearest([[0, 0, np.inf]])
+
+    def test_refuse_weights_that_make_no_sense(self):
+        for weights, sentence in (
+            ({"jawOpenn": 1}, "jawOpenn"),
+            ({"jawOpen": np.nan}, "Weights must be numbers"),
+            (np.full(42, 1e9), "Weights must be numbers"),
+            ([1, 2], "2 weights for 42 targets"),
+        ):
+            with self.refuses(sentence):
+                self.rig.pose(weights)
+        with self.assertRaises((TypeError, ValueError)):
+            self.rig.pose("jawOpen")
+
+
+class Conversion(FaceTest):
+    def test_keeps_every_vertex_within_the_tolerance(self):
+        meshes = sheet()
+        rig = sweepface.convert(meshes, 0.01)
+        self.assertEqual((rig.tolerance, rig.target_names), (0.01, ["lift"]))
+        for weights, shape in ((None, meshes.positions), ({"lift": 1}, meshes.targets["lift"])):
+            gap = np.linalg.norm(rig.pose(weights).positions() - shape, axis=1)
+            self.assertLessEqual(gap.max(), 0.01)
+
+    def test_of_its_own_meshes_makes_the_round_trip(self):
+        meshes = self.rig.meshes()
+        self.assertEqual(len(meshes.faces), 8102)
+        self.assertEqual(list(meshes.targets), self.rig.target_names)
+        self.assertTrue(np.array_equal(meshes.positions, self.rig.pose().positions()))
+
+    def test_packs_and_reports_what_it_does(self):
+        told = []
+        rig = sweepface.convert(sheet(), 0.01, pack=True, progress=lambda what, done: told.append((what, done)))
+        self.assertLess(len(rig.encode()), 1500)
+        self.assertTrue(all(isinstance(what, str) and 0 <= done <= 1 for what, done in told))
+        small = sweepface.convert(sheet(), max_bytes=len(rig.encode()) + 20)
+        self.assertLessEqual(len(small.encode()), len(rig.encode()) + 20)
+        self.assertLess(small.tolerance, rig.tolerance)
+
+    def test_measures_the_result(self):
+        meshes = sheet()
+        measured = sweepface.measure(sweepface.convert(meshes, 0.01), meshes, mixtures=3)
+        self.assertEqual([shape.name for shape in measured.shapes], ["neutral", "lift"])
+        self.assertEqual(len(measured.mixtures), 3)
+        self.assertLessEqual(measured.worst.distance.max, 0.01)
+        self.assertGreaterEqual(measured.worst.distance.max, measured.worst.distance.p999)
+        self.assertEqual(measured.worst.folds, 0)
+        with self.refuses("vertices"):
+            sweepface.measure(self.rig, meshes)
+
+    def test_warns_as_python_does(self):
+        meshes = sheet()
+        still = sweepface.Meshes(meshes.positions, meshes.faces, {"faint": meshes.positions + [0, 0, 1e-5]})
+        with self.assertWarnsRegex(UserWarning, "faint"):
+            sweepface.convert(still, 0.01)
+
+    def test_ends_with_an_exception_of_progress(self):
+        def stop(what, done):
+            raise KeyboardInterrupt
+
+        meshes = self.rig.meshes()
+        with self.assertRaises(KeyboardInterrupt):
+            sweepface.convert(meshes, progress=stop)
+
+    def test_refuses_meshes_that_make_no_sense(self):
+        square = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
+        for arguments, sentence in (
+            ((square, [(0, 1, 2, 4)]), "Face 0 has vertex 4, but there are 4"),
+            ((square, [(0, 1, 2, -1)]), "Face 0 has vertex -1"),
+            (([[0, 0]], []), "three numbers a row"),
+            ((square, [(0, 1, 2, 3)], {"up": square[:3]}), "'up' has 3 vertices, but the neutral has 4"),
+        ):
+            with self.refuses(sentence):
+                sweepface.Meshes(*arguments)
+        with self.refuses("two numbers a row"):
+            sweepface.Meshes(square, [(0, 1, 2, 3)], texcoords=square)
+        with self.refuses("Every corner"):
+            sweepface.Meshes(square, [(0, 1, 2, 3)], texcoords=[[0, 0]], corner_texcoords=[0, 0, 0, 1])
+        with self.refuses("larger than the mesh"):
+            sweepface.convert(sheet(), 100)
+        with self.refuses("no place that a file could hold"):
+            sweepface.convert(sweepface.Meshes(np.full((4, 3), np.nan), [(0, 1, 2, 3)]))
+        with self.refuses("packed"):
+            sweepface.convert(sheet(), normal_tolerance=1)
+
+    def test_reads_and_writes_meshes(self):
+        sheet().save_glb(self.path("sheet.glb"))
+        back = sweepface.read_meshes(self.path("sheet.glb"))
+        self.assertEqual(repr(back), "<sweepface.Meshes: 30 vertices, 20 faces, 1 targets>")
+        with open(self.path("square.obj"), "w") as file:
+            file.write("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n")
+        self.assertEqual(sweepface.read_meshes(self.path("square.obj")).faces, [(0, 1, 2, 3)])
+        with self.refuses("none.obj"):
+            sweepface.read_meshes(self.path("none.obj"))
+
+
+if __name__ == "__main__":
+    unittest.main()
