@@ -35,7 +35,7 @@ class Halver {
         allowed_(allowed),
         shortest_(std::min(1 / kRate, seconds / 64) / 256) {}
 
-  /// The times of the keys for a series of increasing times.
+  /// Key times as written: those of `times`, which increase, and more where lines are too far off.
   std::vector<double> cut(const std::vector<double>& times) {
     cut_ = {written(times.front())};
     for (const double time : times)

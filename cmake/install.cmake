@@ -68,7 +68,7 @@ foreach(component IN LISTS shared_components)  # each can be found without the a
 endforeach()
 
 # pkg-config: `--libs` links what plays; add `--static` to link what converts and what it needs. Each shared library has
-# a file of its own. Its folders are relative to the file, unless absolute ones were configured.
+# a file of its own. The folders in all of them are relative to the file, unless absolute ones were configured.
 if(IS_ABSOLUTE "${CMAKE_INSTALL_LIBDIR}")
   set(pc_prefix ${CMAKE_INSTALL_PREFIX})
 else()

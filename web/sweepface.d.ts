@@ -75,7 +75,8 @@ export interface LoadOptions {
   /** 0: the source's own vertices; N: every edge of the source cut into N, up to 64. */
   lod?: number | undefined;
   /** One of these instead of `lod`, as fine as it demands: no curve has a segment longer than `edgeLength`, no edge of
-   * a triangle is further than `error` from the surface (both in model units), or the best with `vertices` points. */
+   * a triangle is further than `error` from the surface (both in model units), or the best with at most `vertices`
+   * points. */
   edgeLength?: number | undefined;
   error?: number | undefined;
   vertices?: number | undefined;

@@ -1,6 +1,6 @@
 import type {Bytes, Drive, Region, Sweepface, Weights} from './sweepface.js';
 
-/** A face, or a mesh of sweepface/three or sweepface/gpu. */
+/** A face, or a mesh of sweepface/three, sweepface/gpu or sweepface/webgpu. */
 export type Playable = Pick<Sweepface, 'names' | 'eyeCount' | 'setWeights' | 'moveTo' | 'advance' | 'look'> &
   Partial<Pick<Sweepface, 'regions'>>;
 

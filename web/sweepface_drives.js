@@ -84,7 +84,7 @@ export function writeDrive(runtime, at, drive, matters) {
   }
 }
 
-/** The least seconds in which the drive written at `at` brings a weight of this matter to rest. */
+/** Seconds before which the drive written at `at` brings no weight of this matter to rest. */
 export function secondsOf(runtime, at, matter) {
   const kind = KINDS[runtime.ints(at, 1)[0]], [delay, seconds] = runtime.doubles(at + 8, 2);
   return delay + (matter?.delay ?? 0) + (goesBy(kind, 'seconds') ? seconds : 0) * stretchOf(matter);

@@ -7,7 +7,7 @@ export class FaceMesh<Materials extends Material | Material[] = MeshStandardMate
   /** Materials: one for all, or one for each part of the face; unless given, plain ones named as in the source. If
    * several meshes show one face, only one of them may let its time pass. */
   protected constructor(face: Sweepface, geometry: BufferGeometry, materials?: Materials);
-  /** For reading: weights set there do not show. */
+  /** For reading: what is set there does not show. */
   readonly face: Sweepface;
   readonly names: string[];
   readonly eyeCount: number;

@@ -92,9 +92,10 @@ export function geometryOf(face, changing, fixed = {}) {
 }
 
 /**
- * What each kind of mesh defines for itself, under names that derived classes cannot have: `show` brings weights to the
- * screen, `follow` handles other changes, `meet` intersects rays with the face, `share` gives a clone what it need not
- * have twice, `materialsOfClone` makes a clone's materials, and `standing` returns the current positions.
+ * What each kind of mesh defines for itself, under names that no class derived from it has by chance: `show` brings
+ * weights to the screen, `follow` handles other changes, `meet` intersects rays with the face, `share` gives a clone
+ * what it need not have twice, `materialsOfClone` makes a clone's materials, and `standing` returns the current
+ * positions.
  */
 export const show = Symbol('show'), follow = Symbol('follow'), meet = Symbol('meet'), share = Symbol('share');
 export const materialsOfClone = Symbol('materialsOfClone'), standing = Symbol('standing');

@@ -19,7 +19,7 @@ export const isObject = (value) => typeof value === 'object' && value !== null &
 /** Lower case, of A to Z only. */
 export const lowered = (text) => text.replace(/[A-Z]/g, (letter) => letter.toLowerCase());
 
-/** How engines that give no position say that a text ends too soon. */
+/** How engines that do not count characters say that a text ends too soon. */
 const CUT_SHORT = /^(JSON.parse: |JSON Parse error: )?(unexpected )?(end|EOF|unterminated)/i;
 
 export function parseJson(text, name) {

@@ -92,7 +92,7 @@ struct Mesh {
   mutable std::once_flag shaderOnce = {};
   mutable ShaderTables shaderPositions = {}, shaderTangents = {};
 
-#ifndef __wasm__  // where shaders find tangents themselves
+#ifndef __wasm__  // the module is kept small, and shaders find tangents themselves
   /// The tangents of all vertices, for normal maps: with targets, or of the neutral alone, for
   /// which none need to be loaded.
   const Evaluator& mapTangents(bool moving) const;

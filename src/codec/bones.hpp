@@ -28,7 +28,7 @@ void levelOut(const Hierarchy& hierarchy, std::vector<Index>& bones);
 class Bones {
  public:
   Bones() = default;
-  /// `neutral` [S] places the vectors of each bone.
+  /// `neutral` [S] says where the vectors of each bone are.
   Bones(const Surface& surface, const Packing& packing, std::span<const Vec3> neutral);
 
   /// Adds the effect of the carries to vectors [S] of a pose, or subtracts it, by `sign`. False if

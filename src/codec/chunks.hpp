@@ -15,7 +15,7 @@ inline constexpr std::size_t kHeaderSize = 8;  // magic and version
 inline constexpr std::size_t kFrameSize = 12;  // kind, length and checksum
 
 /// The registry: the concatenated chunk codes of a version, in the order of the chunks in a file. A
-/// code never changes its meaning. A chunk whose code begins with a capital is critical: a reader
+/// code never changes its meaning. A chunk whose code begins with a capital is required: a reader
 /// that does not know it must refuse the file.
 constexpr std::string_view codesOf(int version) {
   using namespace std::string_view_literals;

@@ -10,7 +10,7 @@
 
 namespace sweepface::codec {
 
-/// Finds directed edges, which are counting-sorted by their end and then by their start. It is not
+/// Finds directed edges, sorted by start and then by end in two passes of counting sort. It is not
 /// a hash table, since a file chooses its edges freely and could slow down any hash table.
 class EdgeMap {
  public:
@@ -18,7 +18,7 @@ class EdgeMap {
     Index from = -1, to = -1;
   };
 
-  /// Ends of edges lie between -1 and `ends` - 1.
+  /// Both `from` and `to` of an edge lie between -1 and `ends` - 1.
   EdgeMap(std::span<const Edge> edges, Index ends);
 
   /// The index of the first such edge, or -1.

@@ -35,7 +35,7 @@ GridMirror mirrorGrid(const Surface& surface, std::span<const std::array<Index, 
     for (Index quad = first[p]; quad < first[p + 1]; ++quad) {
       const Index i = (quad - first[p]) % surface.edgesU(p),
                   j = (quad - first[p]) / surface.edgesU(p);
-      // u runs back along the side that ends at the corner, v on along the side that begins there.
+      // i runs back along the side that ends at the corner, j on along the side that begins there.
       const std::array<std::array<Index, 2>, 4> byTurn{
           {{j, i}, {m - 1 - i, j}, {m - 1 - j, n - 1 - i}, {i, n - 1 - j}}};
       const auto [u, v] = byTurn[turn];

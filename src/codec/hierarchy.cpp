@@ -355,7 +355,7 @@ class HierarchyBuilder {
   Hierarchy& out_;
   Lines lines_;
   std::vector<Candidate> all_;  // [sites] in the numbering of lines_
-  std::vector<Index> siteOf_;   // [nodes] in coding order
+  std::vector<Index> siteOf_;   // [nodes] numbered in coding order
   std::vector<Index> order_;
   std::vector<double> reach_;             // [vectors]
   Index guessed_ = -1, guessedToo_ = -1;  // nodes that must not predict themselves or each other

@@ -27,7 +27,8 @@ class Lattice {
   const Hierarchy& hierarchy() const { return hierarchy_; }
   int axis() const { return axis_; }
 
-  /// From here on targets are predicted from the positions in the neutral's stored vectors [S].
+  /// From here on the prediction of targets takes its weights from the positions and normals of the
+  /// neutral with these stored vectors [S]. Does nothing if `step` is 0.
   void learn(const Surface& surface, std::span<const Vec3> neutral, double step);
   /// The prediction for a pose, 0 being the neutral.
   const Prediction& prediction(Index pose) const {

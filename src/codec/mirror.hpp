@@ -20,7 +20,7 @@ struct Mirror {
 Mirror spreadMirror(const Wireframe& wireframe, const Connectivity& connectivity,
                     std::span<const std::array<HalfArc, 2>> seeds);
 
-/// The mirror of a model: its axis, and a few pairs that spread over all of it.
+/// The mirror of a model: its axis, and as few pairs as spread over all of it.
 struct MirrorSeeds {
   int axis = 0;
   std::vector<std::array<HalfArc, 2>> pairs;

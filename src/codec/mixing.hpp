@@ -60,7 +60,7 @@ struct Slot {
 template <typename Coder, int kInputs>
 class Model {
  public:
-  /// Bits seen more than `memory` times ago count less and less.
+  /// In a slot, bits that lie more than `memory` bits back count less and less.
   Model(Coder& coder, std::size_t slots, std::size_t sets, std::uint16_t memory = kMostSeen)
       : coder_(&coder),
         stretch_(stretchTable().data()),

@@ -46,7 +46,7 @@ class Symbols : public Refusal {
     return static_cast<std::uint32_t>(result - 1);
   }
 
-  /// 0, -1, 1, -2, 2 ... stand for 0, 1, 2, 3, 4 ...
+  /// 0, -1, 1, -2, 2 ... are coded as 0, 1, 2, 3, 4 ...
   std::int64_t signedNumber(std::uint32_t tag, std::uint32_t a, std::uint32_t b,
                             std::int64_t value) {
     const std::uint64_t folded =

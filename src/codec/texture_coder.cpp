@@ -302,7 +302,7 @@ class TextureCoder {
   std::vector<std::uint32_t> off_;  // how far off the guess of each was
   std::vector<Side> sides_;         // [corners]
   std::optional<EdgeMap> map_;
-  std::vector<Index> ofVertex_;         // the one that each vertex had last, or -2
+  std::vector<Index> ofVertex_;         // by vertex: the texture coordinate it had last, or -2
   std::vector<std::uint8_t> asBefore_;  // [corners] 1 + whether it has what its vertex had, else 0
   Index next_ = 0;
   Whole last_{};

@@ -22,7 +22,8 @@ using Row = std::vector<Term>;
 // Small enough that curves keep to their points, large enough that rounding does not decide.
 constexpr double kBending = 1e-8;
 
-// Gauss-Legendre points and weights on [0, 1], exact for squares of second derivatives of quintics.
+// Gauss-Legendre points and weights on [0, 1]: exact for squares of derivatives of quintics, and
+// nearly so for squares of quintics: S_uu is one in v.
 constexpr std::array<double, 5> kGauss{0.046910077030668, 0.230765344947158, 0.5, 0.769234655052842,
                                        0.953089922969332};
 constexpr std::array<double, 5> kGaussWeight{

@@ -31,8 +31,9 @@ class Lines {
 
   const Density& coarsest() const { return coarsest_; }
 
-  /// Refines a density that is too coarse, stopping beyond `most` vertices. Lines are allowed half
-  /// of an error: if they took all of it, the triangles beside them would have to be far smaller.
+  /// Refines a density that is too coarse. Triangles are no longer refined once there are more than
+  /// `most` vertices. Lines are allowed half of an error: if they took all of it, the triangles
+  /// beside them would have to be far smaller.
   Density cut(Density density, double value, std::int64_t most) {
     const bool byLength = kind_ == Budget::Kind::edgeLength;
     const double ofLines = byLength ? value : value / 2;
@@ -166,7 +167,7 @@ Density finest(Lines& lines, double vertices) {
   return best;
 }
 
-/// A tessellation may need a few more vertices than its density, to keep edges apart.
+/// A tessellation may need a few more vertices than Lines::count() gives, to keep edges apart.
 Result<Density> within(const Surface& surface, Lines& lines, double vertices) {
   const Index fewest = Tessellation(surface, lines.coarsest()).vertexCount();
   if (fewest > vertices) return fail("The face has ", fewest, " vertices at least; allow so many.");

@@ -11,8 +11,9 @@ std::size_t weightBytes(const EvaluatorTables& tables) {
   return sizeof(std::int16_t) * roundUp64(static_cast<std::size_t>(tables.weights) + 1);
 }
 
+// Targets with 16-bit and with 8-bit coefficients are paired apart; either may be odd in number.
 std::size_t pairsRoom(const EvaluatorTables& tables) {
-  return roundUp64(static_cast<std::size_t>(tables.weights) / 2 + 1);  // either count may be odd
+  return roundUp64(static_cast<std::size_t>(tables.weights) / 2 + 1);
 }
 
 constexpr double kMostFactor = 1e6;  // beyond it, normals overflow single precision
@@ -28,7 +29,7 @@ double largest(std::span<const double> weights) {
   return std::max({most[0], most[1], most[2], most[3]});
 }
 
-/// Writes weights in units of 2⁻¹⁴; returns what they were divided by.
+/// Writes weights in units of 2⁻¹⁴; returns what they were divided by, but at most kMostFactor.
 float quantise(std::span<const double> weights, std::span<std::int16_t> out) {
   constexpr int kUp = 1 << 15;  // truncation rounds what is above 0
   const double most = largest(weights), scale = kWeightUnit / most;

@@ -8,8 +8,8 @@
 namespace sweepface {
 namespace {
 
-constexpr double kSameCentre = 0.3;  // distance between balls of one eye, relative to the radius
-constexpr double kInside = 0.99;     // distance of what lies in a ball, relative to its radius
+constexpr double kSameCentre = 0.3;  // between centres of one eye's balls, relative to the radius
+constexpr double kInside = 0.99;     // from a ball's centre to what is in it, likewise
 constexpr double kPair = 0.7;        // the smaller eye's radius, relative to the larger one's
 
 struct Eyeball {

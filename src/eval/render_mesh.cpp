@@ -26,7 +26,7 @@ class Builder {
 
   Index vertex(Index point) const { return point; }
   Index vertex(Index point, const Vec2& texcoord) {
-    // A pole may have thousands, but consecutive faces share one: a few looks suffice.
+    // A pole may have thousands of vertices, but consecutive faces share one: a few looks suffice.
     constexpr int kLooks = 16;
     int looks = 0;
     for (Index v = point; v >= 0 && looks < kLooks; v = next_[v], ++looks) {

@@ -92,7 +92,7 @@ class TableCompiler {
   double usedTolerance() const {
     const double wanted = options_.tolerance;
     if (!(wanted > 0)) return std::max({0.3 * rig_.tolerance, 1e-5 * size_, 1e-30});
-    // The range whose squares fit single precision.
+    // Squares of differences, in units of the tolerance, must fit single precision.
     return std::clamp(wanted, std::max(1e-8 * size_, 1e-30), std::max(1e12 * size_, 1.0));
   }
   double usedDerivativeTolerance() const {
@@ -164,7 +164,7 @@ class TableCompiler {
     return both;
   }
 
-  /// Where the neutral has no normal, at a collapsed side, takes those a little further inside.
+  /// Where the neutral has no normal, at a collapsed side, takes the derivatives a little inside.
   Derivatives regularDerivatives(const Site& site) const {
     const Derivatives here = derivatives(site);
     const Vec3 &u = here[0].neutral, &v = here[1].neutral;

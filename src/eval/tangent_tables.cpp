@@ -18,7 +18,8 @@ struct AlongTangents {
     const Derivatives old = both;
     const double ofU = 1 / norm(old[0].neutral), ofV = 1 / norm(old[1].neutral);
     const Vec3 u = ofU * old[0].neutral, v = ofV * old[1].neutral, normal = cross(u, v);
-    // Nearly parallel derivatives would have to cancel each other, and lengths have to be finite.
+    // Nearly parallel derivatives would have to cancel each other, and no length may be 0 or
+    // infinite.
     constexpr double kLeastSine = 1e-3;
     const double sine = norm(normal);
     if (norm(tangents[vertex]) == 0 || !(sine > kLeastSine && std::isfinite(sine))) return;

@@ -11,7 +11,7 @@ namespace sweepface {
 /// Which numbers are stored in 8 bits.
 struct TileForms {
   double step = 0;            ///< longest step of 8-bit coefficients, in units; 0: all have 16 bits
-  int wideModes = kMostRows;  ///< the first modes, with a basis of 16 bits
+  int wideModes = kMostRows;  ///< how many modes, from the first on, have a basis of 16 bits
 };
 
 /// Modes as the integers that the tables hold.
@@ -26,7 +26,7 @@ struct TileIntegers {
 TileIntegers toIntegers(const LowRank& found, const Planes& wanted, TileForms forms);
 
 /// For each target at weight 1 [targets], the largest distance over all rows between the integers
-/// and what they represent. Stops once one exceeds `enough`, leaving the others as they are.
+/// and what they represent. Stops once one exceeds `enough`, leaving those not yet measured 0.
 std::vector<double> errorsOf(const TileIntegers& integers, const Planes& wanted, double enough);
 
 /// The most that rounded sums may be off in addition, for weights within [-1, 1].

@@ -42,7 +42,7 @@ constexpr Bytes kBytes;
 constexpr Small kSmall;
 constexpr Floats kFloats;
 constexpr int kLanes = static_cast<int>(hn::MaxLanes(kInts));
-constexpr int kParts = kGroup / kLanes;  // vectors in a group
+constexpr int kParts = kGroup / kLanes;  // registers in a group
 
 /// A sum of products of 16-bit integers, pair by pair. Where the instruction does not add up
 /// neighbouring products, `high` holds the rest until the end.
@@ -124,8 +124,8 @@ class TileWeights {
     }
   };
 
-  /// Among many weights, a tile's lie in a few windows. Takes four at a time, as the number of
-  /// windows cannot be predicted.
+  /// Among many weights, a tile's lie in a few windows. Always takes four of these, and any further
+  /// ones singly, as the number of windows cannot be predicted.
   HWY_INLINE void chooseByWindows(const Tile& tile, std::uint32_t* pairs) const {
     const std::uint64_t first = tile.head->windows, second = first & (first - 1),
                         third = second & (second - 1), fourth = third & (third - 1);

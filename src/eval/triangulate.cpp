@@ -33,7 +33,7 @@ class EarCutter {
 
  private:
   /// A remaining corner, and the cost of cutting it off. Ears come before other corners, which are
-  /// cut only if a twisted polygon has no ear; among each, the shortest cut comes first. Only the
+  /// cut only if a twisted polygon has no ear; of each kind, the shortest cut comes first. Only the
   /// neighbours of a cut corner are weighed again.
   struct Corner {
     Index index;

@@ -13,7 +13,7 @@ namespace sweepface {
 struct Columns {
   std::vector<Index> start;  ///< [S + 1]
   std::vector<Index> vertex;
-  /// For a step of 1: the factors on the vertex's position and on its tangents along u and v.
+  /// For a step of 1: how far it moves the vertex and changes the tangents along u and v there.
   std::vector<std::array<float, 3>> weight;
   /// The transpose: the coefficients that move a vertex, and how far.
   std::vector<Index> rowStart;  ///< [vertices + 1]

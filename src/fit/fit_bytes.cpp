@@ -59,8 +59,9 @@ Result<std::size_t> bytesOf(Rig rig, const FinishRig& finish) {
 
 }  // namespace
 
-// If the first tolerance cannot be met, some others are tried before anything else: smaller ones if
-// normals were out of reach, larger ones if distances were.
+// If the first tolerance cannot be met, some others are tried before anything else: smaller ones,
+// which bring normals nearer, if normals were out of reach and the tolerance is the default one;
+// otherwise larger ones, which are easier to meet.
 Result<Conversion> convertToBytes(const MeshRig& source, ConvertOptions options,
                                   std::size_t mostBytes, const FinishRig& finish) {
   options.pack = true;

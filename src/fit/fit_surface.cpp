@@ -13,7 +13,7 @@ namespace sweepface {
 namespace {
 
 constexpr int kMostRounds = 60;
-// Rounds of these for the sake of normals alone.
+// At most this many of them are for the sake of normals alone.
 constexpr int kMostForNormals = 8;
 
 // The stored vectors as they will be read back from the file: neutral and differences each rounded

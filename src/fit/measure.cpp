@@ -23,7 +23,7 @@ struct PoseSamples {
   // From the source's vertices to their points on the surface; those of other sheets come last.
   std::vector<Vec3> offsets;
   std::vector<double> distances, displacements, angles;
-  double shadingSquares = 0, shadingCount = 0;  // of the angles at places between vertices
+  double shadingSquares = 0, shadingCount = 0;  // of the angles at all vertices of level 4
 };
 
 /// The summary of errors in ascending order.

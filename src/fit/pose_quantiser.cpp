@@ -315,7 +315,7 @@ class PoseQuantiser {
   PoseCost errors_;
   Coefficients& q_;
   std::vector<Index> siteOf_;           // [S]
-  std::vector<int> inSite_, inVector_;  // coefficients that are not zero
+  std::vector<int> inSite_, inVector_;  // coefficients that are not as expected
   std::vector<char> wanted_;            // [S]
   std::vector<int> touched_;            // [vertices] the sweep in which it moved last
   int sweep_ = 0;

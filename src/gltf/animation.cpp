@@ -20,7 +20,8 @@ struct Keys {
   std::vector<double> in, values, out;  ///< [keys × targets]
 };
 
-/// A law as a cubic Hermite spline, which between two keys is a parabola if the speeds are right.
+/// A law exactly, as keys without tangents if it is linear, or else as a cubic Hermite spline: with
+/// the right speeds that is a parabola between two keys.
 Keys exactKeys(const Motion& motion, const std::vector<std::size_t>& targets) {
   const bool turns = motion.law() == TimeLaw::accelerateBrake;
   const std::vector<double> shares = turns ? std::vector{0.0, 0.5, 1.0} : std::vector{0.0, 1.0};

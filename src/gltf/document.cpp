@@ -209,7 +209,7 @@ class Loader {
     const MeshoptStream stream = readMeshopt(in, told_.size());
     if (in.ok()) checkRange(in, stream.buffer, stream.offset, stream.length);
     if (!in.ok()) return in.error();
-    // No byte belongs to two compressed views.
+    // Compressed views that share no bytes have no more than all buffers together.
     compressed_ += stream.length;
     if (compressed_ > total_) in.refuse("its bytes are those of other compressed views");
     if (!in.ok()) return in.error();

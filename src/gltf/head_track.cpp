@@ -42,7 +42,7 @@ std::vector<Quaternion> untwisted(std::vector<Quaternion> rotations) {
   return rotations;
 }
 
-/// Frames that suffice as keys: each piece is as long as all frames on it stay within the
+/// Frames that suffice as keys: each piece goes on while all frames on it stay within the
 /// tolerance.
 std::vector<std::size_t> keysOf(const HeadTrack& track, const std::vector<Quaternion>& rotations,
                                 double tolerance) {

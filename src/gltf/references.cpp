@@ -142,7 +142,8 @@ Result<void> checkAnimations(const Document& document) {
 
 // ---- Skins ----
 
-/// Reads each accessor once, and no more in all than a file of this size can mean.
+/// Reads matrices, and pairs of joints and weights, once each, and no more in all than a file of
+/// this size can mean.
 class SkinChecker {
  public:
   explicit SkinChecker(const Document& document)

@@ -140,7 +140,7 @@ inline Result<void> checkFrameRateIfGiven(double framesPerSecond) {
 }
 
 /// A word for a message: in quotes, printable and short. If the part that is shown is not UTF-8,
-/// only its ASCII characters are shown. No more than that part of a long word is looked at.
+/// what is not ASCII becomes '?'. No more than that part of a long word is looked at.
 inline std::string inQuotes(std::string_view word) {
   constexpr std::size_t longest = 40;
   const auto isInside = [](char c) { return (c & 0xC0) == 0x80; };  // of a character
@@ -162,7 +162,8 @@ inline std::string withoutPeriod(std::string sentence) {
   return sentence;
 }
 
-/// The same without the sentence's advice, "what is wrong; what to do.", where that would not help.
+/// The same for "what is wrong; what to do.", of which only the first part stays: the advice would
+/// not help there.
 inline std::string withoutAdvice(const std::string& sentence) {
   return withoutPeriod(sentence.substr(0, sentence.rfind(';')));
 }

@@ -4,7 +4,8 @@
 
 namespace sweepface {
 
-/// Refuses meshes whose counts or indices do not match; the error is a fragment of a sentence.
+/// Refuses meshes whose counts or indices do not match; the error says which, as a fragment of a
+/// sentence.
 Result<void> checkIndices(const MeshRig& meshes);
 
 }  // namespace sweepface

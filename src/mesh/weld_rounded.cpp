@@ -75,7 +75,7 @@ class Neighbours {
   using Cell = std::array<double, 3>;
 
   /// By the mean over all poses, no two of which have the same weight: vertices near each other in
-  /// all poses are near there, and those that one of them separates are not.
+  /// all poses are near there, and those that one pose separates are not.
   Cell cellOf(Index v, double size) const {
     double sum = 1, share = 0;
     Vec3 mean = rig_.neutral.positions[v];

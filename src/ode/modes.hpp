@@ -72,7 +72,7 @@ Modes<N> solveModes(const Atoms<N>& end, const Derivative<N>& d, double scale) {
 }
 
 /// The N functions of the end u = 0, then those of u = 1. By symmetry, an even and an odd solution
-/// with the same value at u = 1 have values of opposite sign at u = 0.
+/// with the same derivative of some order at u = 1 have opposite ones at u = 0.
 template <std::size_t N>
 std::array<double, 2 * N> combine(const Modes<N>& modes, const Atoms<N>& atoms, int order) {
   std::array<double, 2 * N> g{};

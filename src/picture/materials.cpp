@@ -15,7 +15,7 @@ struct Look {
   std::optional<Colour> colour;
 };
 
-// The first word found in a name decides.
+// The first of these words that a name contains decides.
 constexpr Look kLooks[] = {
     {"occlusion", {}}, {"lacrimal", {}},   {"tear", {}},        {"cornea", {}},
     {"fluid", {}},     {"eyeblend", {}},   {"lash", {}},        {"eyebrow", kHair},

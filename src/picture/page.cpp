@@ -23,7 +23,7 @@ Index footHeight(PictureSize panel) {
   return static_cast<Index>(std::lround(4.4 * textHeight(panel)));
 }
 
-/// Draws a text as large as fits the width, if it is then still readable.
+/// Draws a text as large as fits the width, `height` at most, if it is then still readable.
 void drawFitting(Image& image, std::string_view text, double x, double y, double height,
                  double width) {
   constexpr double kReadable = 4;  // height of capitals, pixels

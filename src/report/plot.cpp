@@ -21,7 +21,8 @@ Scale scaleOf(const std::vector<Series>& series, double Vec2::* along, const Axi
       low = std::min(low, p.*along);
       high = std::max(high, p.*along);
     }
-  // Scales start at 0 if that is not far away, or if the values hardly change, or only by rounding.
+  // Linear scales start at 0 if that is not far away, and start or end there if the values hardly
+  // change, or only by rounding.
   constexpr double kHardly = 1e-4;
   if (!axis.logarithmic && low > 0 && (low < 0.5 * high || high - low < kHardly * high)) low = 0;
   if (!axis.logarithmic && high < 0 && high - low < kHardly * -low) high = 0;

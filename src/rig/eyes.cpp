@@ -209,7 +209,7 @@ void EyeTurns::addLooks(Rig& rig, const Eye& eye, Turning& turning) {
       } else if (fit.left <= kRigid * kRigid * fit.moves) {
         turning.looks.push_back({index, fit.x, fit.y});
         for (const Index v : eye.stored) target.difference[v] -= added(rig, eye, v, fit.x, fit.y);
-        // The arc target bends straight paths; the eye, which now turns by itself, needs none.
+        // The arc target bends straight paths; the eye now turns by itself and must not follow it.
         if (const Index arc = rig.find(arcName(target.name)); arc >= 0)
           for (const Index v : eye.stored) rig.targets[arc].difference[v] = {};
       }
@@ -265,7 +265,7 @@ void EyeTurns::apply(const HeadPose& pose, std::span<double> weights) const noex
     // The rotation about an axis across the view that looks in the same direction.
     const Vec3 view = turned(quaternionOf({angles.yaw, angles.pitch, 0}), {0, 0, 1});
     const double x = -view.y, y = view.x;  // sin θ times the axis
-    // (1 − cos θ) / sin² θ, in the form that does not cancel on this side.
+    // (1 − cos θ) / sin² θ, in whichever form does not cancel.
     constexpr double kLeast = std::numeric_limits<double>::min();
     const double c = view.z > 0 ? 1 / (1 + view.z) : (1 - view.z) / std::max(x * x + y * y, kLeast);
     set(eye, {x, y, c * x * x, c * y * y, c * x * y}, weights);

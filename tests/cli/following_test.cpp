@@ -14,7 +14,7 @@ class Following : public Tool {
     Tool::SetUp();
     std::filesystem::create_directory(folder / "turns");
   }
-  /// Converts a face.sweep, each of whose expressions is the neutral changed by a function.
+  /// Converts meshes to face.sweep; each expression is the neutral changed by its function.
   void convertWith(const std::map<std::string, std::function<Vec3(const Vec3&)>>& expressions) {
     EXPECT_TRUE(writeFile(folder / "neutral.obj", sheet()));
     for (const auto& [name, place] : expressions)

@@ -264,7 +264,7 @@ TEST_F(Usage, DoesNotMixTheReportWithWhatItMakes) {
     const std::string command =
         fmt::format("cd '{}' && '{}' export face.sweep -o {} 2>.err | cat >.out",
                     (folder / "").string(), SWEEPFACE_TOOL, output);
-    EXPECT_EQ(std::system(command.c_str()), 0);  // of cat
+    EXPECT_EQ(std::system(command.c_str()), 0);  // the exit code of cat
     return contents(folder / ".out");
   };
   EXPECT_EQ(exportTo("/dev/stdout"), "");

@@ -30,8 +30,8 @@ Json strip(const std::vector<Vec2>& places) {
   return drawing;
 }
 
-// Four points of an arc, the middle two close together: the narrow patch between them must not
-// absorb the bend of the wide ones beside it.
+// Points of an arc, the middle two close together: the narrow patch between them must not absorb
+// the bend of the wide ones beside it.
 TEST(WhatNobodySays, spreadsABendOverNarrowAndWidePatches) {
   const auto onArc = [](double degrees) {
     const double angle = degrees * 3.14159265358979 / 180;

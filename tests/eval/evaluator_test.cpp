@@ -23,7 +23,7 @@ namespace {
 
 using namespace sweepface::testing;
 
-/// Faces made by the converter: smooth, with poles and irregular vertices, in two parts.
+/// Faces made by the converter: smooth, open and closed, with poles and irregular vertices.
 const std::vector<Rig>& convertedRigs() {
   static const std::vector<Rig> rigs = [] {
     ConvertOptions options;
@@ -261,7 +261,7 @@ TEST(Evaluator, bearsOneLargeWeight) {
   }
 }
 
-/// A face with enough tiles for every part.
+/// A face with enough tiles for several parts.
 const Rig& largeRig() {
   static const Rig rig = makeRig(onePatch(17, 13));
   return rig;

@@ -333,8 +333,8 @@ TEST(HeadAngles, AreFoundByTheirHeadings) {
   EXPECT_FALSE(none.head() || none.eyes());
 }
 
-/// As in the app's takes: where EyeLookOutLeft, EyeLookInRight and EyeLookUp are active, yaw and
-/// pitch are negative and roll is their product.
+/// As in takes of Live Link Face: where EyeLookOutLeft, EyeLookInRight and EyeLookUp are active,
+/// yaw and pitch are negative and roll is their product.
 TEST(HeadAngles, OfCapturesLookWhereItsWeightsDo) {
   const Clip take{{"EyeLookOutLeft", "LeftEyeYaw", "LeftEyePitch", "LeftEyeRoll"},
                   {0},

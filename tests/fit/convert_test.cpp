@@ -556,7 +556,7 @@ TEST(Refusal, ofAToleranceThatNoCoordinateButTheirDistanceExceeds) {
       << why;
 }
 
-// As coordinates in single-precision files are.
+// The large coordinates are single-precision numbers, as those in files often are.
 TEST(Convert, takesNumbersThatAFileHoldsFarFromTheOrigin) {
   MeshRig far = withTargets(plane(4, 4), 0);
   for (Vec3& p : far.neutral.positions) p.x = static_cast<float>(p.x + 1e6);

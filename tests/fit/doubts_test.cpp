@@ -71,7 +71,7 @@ TEST(Doubts, AreOfTargetsInAnotherOrder) {
 TEST(Doubts, AreOfTargetsOfOtherAxes) {
   EXPECT_EQ(doubtAbout(placed([](const Vec3& p) { return Vec3{p.x, -p.z, p.y}; })),
             "Targets that may have other axes: 'odd' (turned by 90 degrees).");
-  std::vector<Vec3> alsoOpen = opened();  // turned by slightly more than 90 degrees
+  std::vector<Vec3> alsoOpen = opened();  // turned by slightly less than 90 degrees
   for (Vec3& p : alsoOpen) p = {p.x, 0.02 * p.y - p.z, p.y + 0.02 * p.z};
   EXPECT_EQ(doubtAbout(alsoOpen),
             "Targets that may have other axes: 'odd' (turned by 90 degrees).");

@@ -67,7 +67,7 @@ TEST_P(FinerFaces, LieOnTheSurface) {
 
 // ---- Attributes ----
 // All attributes are mixed alike. So one of them stores a vertex's place in the source, to check
-// the others by: they are linear in it wherever they are in the source.
+// the others by: those that are linear in the place in the source stay so.
 
 void addPlaces(Glb& glb) {
   std::vector<Vec2> places;

@@ -417,8 +417,8 @@ TEST(RegionalClip, StraightLinesAreAsGoodWhereBlowsAddUp) {
   }
 }
 
-// Pieces get longer as an impulse decays; the last one before a recorded frame is no longer than
-// the others.
+// Pieces get longer as an impulse decays; the last one before a recorded frame is at most a quarter
+// longer than planned.
 TEST(RegionalClip, StraightLinesAreAsGoodRightBeforeARecordedFrame) {
   Clip jump{{"jawOpen"}, {}, {}};
   for (int f = 0; f < 12; ++f) {

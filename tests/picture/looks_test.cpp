@@ -7,8 +7,8 @@
 #include "picture/read_png.hpp"
 #include "picture/scenes.hpp"
 
-// Compares one picture of everything that is drawn with looks.png, which contains them all. After
-// an intended change, regenerate it with SWEEPFACE_LOOKS=tests/picture/looks.png and inspect it.
+// Compares a picture of each thing that is drawn with looks.png, which contains them all. After an
+// intended change, regenerate it with SWEEPFACE_LOOKS=tests/picture/looks.png and inspect it.
 namespace sweepface {
 namespace {
 

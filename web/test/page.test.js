@@ -545,7 +545,7 @@ test('the page', options, (t) => withPage('index.html', visit, async (page, comp
     const wide = await page.evaluate(() => document.documentElement.scrollWidth);
     assert.ok(wide <= 390);
     assert.ok((await view()).isWhole);
-    await page.setViewportSize({width: 320, height: 1400});  // as if the page shares the screen
+    await page.setViewportSize({width: 320, height: 1400});  // as when the page shares the screen
     await page.waitForTimeout(800);
     const narrow = await view(), {width, height} = await page.locator('#view').boundingBox();
     assert.ok(narrow.isWhole);

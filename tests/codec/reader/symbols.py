@@ -64,7 +64,7 @@ def toward_zero(a: int, b: int) -> int:
 
 STRETCH = stretch_table()
 TRUST = [0] + [16 * n // (n + 1) + 4 for n in range(1, 31)]
-# the output of an input: [count][probability / 16]
+# what an input contributes before its weight: [count][probability / 16]
 SAYS = [[toward_zero(s * trust, 16) for s in STRETCH] for trust in TRUST]
 
 
