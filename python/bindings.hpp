@@ -16,5 +16,7 @@ void addTrajectory(py::module_& m);
 void addMotion(py::module_& m);
 void addLiveMotion(py::module_& m);
 void addClip(py::module_& m);
+void addClipsOfRigs(py::module_& m);  // what is known of a clip with a rig
+void addPicture(py::module_& m);
 
 }  // namespace sweepface::python

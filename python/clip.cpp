@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <filesystem>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "sweepface/filter.hpp"
 #include "sweepface/gltf.hpp"
+#include "sweepface/head.hpp"
 #include "sweepface/io.hpp"
 #include "sweepface/keys.hpp"
 #include "sweepface/regional_clips.hpp"
@@ -75,27 +77,52 @@ Clip smoothed(Clip clip, double cutoff, double speedGain, double speedCutoff) {
   return clip;
 }
 
-Clip withNames(const Clip& clip, const py::dict& drives, const Rig& rig) {
+std::vector<NameMap::Drive> drivesFrom(const py::object& driven) {
+  if (py::isinstance<py::str>(driven)) return {{py::cast<std::string>(driven)}};
+  std::vector<NameMap::Drive> drives;
+  for (const auto& [target, factor] : mappingFrom(driven, "What a name drives"))
+    drives.push_back({textFrom(target, "A target's name"), numberFrom(factor, "A factor")});
+  return drives;
+}
+
+Clip withNames(Clip clip, const py::object& names, const Rig& rig) {
   NameMap map{"The map of names", {}};
-  for (const auto& [name, driven] : drives) {
-    auto& [from, to] =
-        map.drives.emplace_back(py::cast<std::string>(name), std::vector<NameMap::Drive>());
-    if (py::isinstance<py::str>(driven)) {
-      to.push_back({py::cast<std::string>(driven)});
-      continue;
-    }
-    for (const auto& [target, factor] : py::cast<py::dict>(driven))
-      to.push_back({py::cast<std::string>(target), py::cast<double>(factor)});
-  }
-  return valueOf(renamed(clip, map, targetNamesOf(rig)));
+  for (const auto& [name, driven] : mappingFrom(names, "Names"))
+    map.drives.emplace_back(textFrom(name, "A name"),
+                            drivesFrom(py::reinterpret_borrow<py::object>(driven)));
+  clip.warnings.clear();
+  Clip other = valueOf(renamed(std::move(clip), map, targetNamesOf(rig)));
+  warn(other.warnings);
+  return other;
 }
 
 // ---- Weights ----
 
+/// How a clip drives a rig. Warns of names that move and drive nothing, and of what else may
+/// surprise.
+ClipMatch matchWith(const Clip& clip, const Rig& rig) {
+  const std::vector<std::string> targets = targetNamesOf(rig);
+  ClipMatch match = matchClip(clip, targets);
+  if (!movesAnything(clip, match))
+    throw Failure(
+        fmt::format("None of the clip's {} names is a target of the rig.", clip.names.size()));
+  std::vector<std::string> idle;
+  for (std::size_t k = 0; k < clip.names.size(); ++k)
+    if (match.targets[k].empty() && clip.moves(k) && !ClipAngles::tells(clip.names[k]))
+      idle.push_back(clip.names[k]);
+  auto notes = notesOnClip(clip, match, 0, targets, "The clip");
+  if (!idle.empty())
+    notes.push_back(fmt::format("{} of the clip's {} names drive no target of the rig: {}.",
+                                idle.size(), clip.names.size(), fmt::join(idle, ", ")));
+  warn(notes);
+  return match;
+}
+
 py::array_t<double> weightsOver(const Clip& clip, const Rig& rig, const py::object& times) {
-  const ClipMatch match = matchClip(clip, targetNamesOf(rig));
+  const ClipMatch match = matchWith(clip, rig);
   const double first = clip.times.empty() ? 0 : clip.times.front();
-  const Doubles at = times.is_none() ? Doubles(arrayOf(clip.times)) : py::cast<Doubles>(times);
+  const Doubles at = times.is_none() ? Doubles(arrayOf(clip.times))
+                                     : as<Doubles>(times, "Times", "an array of numbers");
   return rowsAt(at, rig.targets.size(),
                 [&](double time, std::span<double> row) { match.spread(clip, time - first, row); });
 }
@@ -127,11 +154,9 @@ py::dict keysOf(const Clip& clip, double tolerance) {
 }  // namespace
 
 Clip clipOfTargets(const Rig& rig, const Clip& clip) {
-  const std::vector<std::string> targets = targetNamesOf(rig);
-  const ClipMatch match = matchClip(clip, targets);
-  warn(notesOnClip(clip, match, 0, targets, "The clip"));
-  Clip spread{targets, clip.times, {}, {}, clip.title};
-  std::vector<double> row(targets.size());
+  const ClipMatch match = matchWith(clip, rig);
+  Clip spread{targetNamesOf(rig), clip.times, {}, {}, clip.title};
+  std::vector<double> row(rig.targets.size());
   for (const double time : clip.times) {
     match.spread(clip, time - clip.times.front(), row);
     spread.weights.insert(spread.weights.end(), row.begin(), row.end());
@@ -157,29 +182,22 @@ void addClip(py::module_& m) {
                             static_cast<py::ssize_t>(clip.names.size())});
           },
           "[F, N]")
-      .def("weights_of", &weightsOver, "rig"_a, "times"_a = py::none(),
-           "Weights of the rig's targets at times (those of the frames if not given), linear "
-           "between frames and held at the ends: [T, K]. Names match as in `match`; targets that "
-           "nothing drives are at 0.")
-      .def("match", &matchOf, "rig"_a,
-           "The targets that each name drives. Case, '_', '-', '.', ' ' and whether a side is "
-           "spelt out do not count; a name without a side drives both.")
       .def("smoothed", &smoothed, "cutoff"_a = usual.cutoff, "speed_gain"_a = usual.speedGain,
            "speed_cutoff"_a = usual.speedCutoff,
            "Without a tracker's noise, by the one-euro filter from both ends, so that nothing "
            "lags.")
-      .def("renamed", &withNames, "names"_a, "rig"_a,
-           "For rigs whose targets are called otherwise: {'jawOpen': 'mouth-open', 'cheekPuff': "
-           "{'puff': 0.8}}.")
       .def("keys", &keysOf, "tolerance"_a,
            "As few cubic keys as keep every weight within the tolerance: times [T], values, "
            "slopes_in and slopes_out [T, N].")
       .def(
           "save_csv",
           [](const Clip& clip, const std::filesystem::path& path, double framesPerSecond) {
+            checkKind(path, ".csv");
             valueOf(writeFile(path, valueOf(formatLiveLinkCsv(clip, framesPerSecond))));
           },
-          "path"_a, "frames_per_second"_a = 60, "Writes a capture of the Live Link Face app.")
+          "path"_a, "frames_per_second"_a = 60,
+          "Writes a capture of the Live Link Face app, whose timecodes count frames of this rate; "
+          "the clip's own frames stay.")
       .def("__repr__", [](const Clip& clip) {
         return fmt::format("<sweepface.Clip: {} frames of {} weights, {:.2f} s>", clip.times.size(),
                            clip.names.size(), clip.seconds());
@@ -189,6 +207,21 @@ void addClip(py::module_& m) {
         "Reads a capture of Live Link Face (.csv), Audio2Face or MediaPipe (.json), an animation "
         "of morph targets (.glb, .gltf; the first, or that of the name), or a timeline (.json). "
         "frames_per_second, if given, is that of captures that do not tell.");
+}
+
+void addClipsOfRigs(py::module_& m) {
+  using namespace py::literals;
+  py::reinterpret_borrow<py::class_<Clip>>(m.attr("Clip"))
+      .def("weights_of", &weightsOver, "rig"_a, "times"_a = py::none(),
+           "Weights of the rig's targets at times (those of the frames if not given), linear "
+           "between frames and held at the ends: [T, K]. Names match as in `match`; targets that "
+           "nothing drives are at 0. Warns of names that drive none; raises Error if all do.")
+      .def("match", &matchOf, "rig"_a,
+           "The targets that each name drives. Case, '_', '-', '.', ' ' and whether a side is "
+           "spelt out do not count; a name without a side drives both.")
+      .def("renamed", &withNames, "names"_a, "rig"_a,
+           "For rigs whose targets are called otherwise: {'jawOpen': 'mouth-open', 'cheekPuff': "
+           "{'puff': 0.8}}.");
 }
 
 }  // namespace sweepface::python

@@ -19,7 +19,8 @@ std::shared_ptr<Rig> converted(const RigSource& meshes, double tolerance, bool p
   options.pack = pack || !maxBytes.is_none();
   if (!options.pack && normalTolerance > 0)
     throw Failure("normal_tolerance is for packed rigs; give pack or max_bytes as well.");
-  const std::size_t most = maxBytes.is_none() ? 0 : py::cast<std::size_t>(maxBytes);
+  const std::size_t most =
+      maxBytes.is_none() ? 0 : as<std::size_t>(maxBytes, "max_bytes", "a number of bytes");
   const std::string scene = options.pack ? packedScene(meshes.scene) : meshes.scene;
   const auto finish = [&](Rig& rig) -> Result<void> {
     rig.scene = scene;

@@ -20,11 +20,6 @@ py::array_t<double> functionsAt(const Basis& basis, const Doubles& u, int order)
   });
 }
 
-template <typename Basis>
-Basis basisOf(double eta, double lambda, double rho, double length) {
-  return valueOf(Basis::make({rho, eta, lambda}, length));
-}
-
 /// A boundary curve and two curves that belong to it, all with the same number of points.
 struct Curves {
   std::vector<Vec3> boundary, first, second;
@@ -74,8 +69,10 @@ void addEquation(py::module_& m) {
                          "The functions g1 to g6 of the sweep S(u) = sum of g_i(u) c_i, u in [0, "
                          "1], that solves rho S'''''' + eta S'''' + lambda S'' = 0: c1, c2, c3 are "
                          "S, S', S'' at u = 0 and c4, c5, c6 the same at u = 1.")
-      .def(py::init(&basisOf<SweepBasis>), py::arg("eta") = 0, py::arg("lambda_") = 0,
-           py::arg("rho") = 1, py::arg("length") = 1,
+      .def(py::init([](double rho, double eta, double lambda, double length) {
+             return valueOf(SweepBasis::make({rho, eta, lambda}, length));
+           }),
+           py::arg("rho") = 1, py::arg("eta") = 0, py::arg("lambda_") = 0, py::arg("length") = 1,
            "Shape parameters per unit length, and the length of the sweep. Always succeeds for "
            "eta / rho <= 0 and lambda / rho >= 0; refuses parameters near which there is no "
            "solution.")
@@ -85,7 +82,7 @@ void addEquation(py::module_& m) {
                            "The functions g1 to g4 of eta S'''' + lambda S'' = 0, u in [0, 1], for "
                            "S and S' at u = 0, then at u = 1.")
       .def(py::init([](double eta, double lambda, double length) {
-             return basisOf<TangentBasis>(eta, lambda, 1, length);
+             return valueOf(TangentBasis::make({1, eta, lambda}, length));
            }),
            py::arg("eta") = 1, py::arg("lambda_") = 0, py::arg("length") = 1,
            "Always succeeds for lambda / eta <= 0; refuses parameters near which there is no "

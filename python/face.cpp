@@ -30,34 +30,36 @@ std::optional<Budget> budgetFrom(const py::object& vertices, const py::object& e
         std::pair(Budget::Kind::edgeLength, edgeLength), std::pair(Budget::Kind::error, error)}) {
     if (value.is_none()) continue;
     if (budget) throw Failure("Give one of vertices, edge_length and error.");
-    budget = Budget{kind, py::cast<double>(value)};
+    budget = Budget{kind, numberFrom(value, "A budget")};
   }
   return budget;
 }
 
 Face withMesh(std::shared_ptr<const Rig> rig, const Tessellation& grid, RenderMesh mesh,
-              Index level, bool normals) {
-  EvaluatorOptions options;
-  options.level = level, options.normals = normals;
+              EvaluatorOptions options) {
   auto evaluator = valueOf(Evaluator::make(*rig, grid, options));
   return {std::move(rig), std::move(mesh), std::move(evaluator)};
 }
 
 Face faceOf(const std::shared_ptr<Rig>& rig, Index level, const py::object& vertices,
-            const py::object& edgeLength, const py::object& error, bool normals) {
+            const py::object& edgeLength, const py::object& error, bool normals,
+            const py::object& tolerance) {
   const auto budget = budgetFrom(vertices, edgeLength, error);
   if (budget && level != 0) throw Failure("Give either a level or a budget.");
   if (level < 0 || level > kMostLevel)
     throw Failure(fmt::format("A level is between 0 and {}, not {}.", kMostLevel, level));
+  EvaluatorOptions options;
+  options.level = budget ? 1 : level, options.normals = normals;
+  if (!tolerance.is_none()) options.tolerance = numberFrom(tolerance, "The tolerance");
   const py::gil_scoped_release others;
   if (budget) {
     const Tessellation grid(rig->surface,
                             valueOf(densityFor(rig->surface, blend(*rig, {}), *budget)));
-    return withMesh(rig, grid, renderDensity(*rig, grid), 1, normals);
+    return withMesh(rig, grid, renderDensity(*rig, grid), std::move(options));
   }
   const Tessellation grid(rig->surface, std::max(level, 1));
-  return withMesh(rig, grid, level == 0 ? renderSource(*rig, grid) : renderGrid(*rig, grid), level,
-                  normals);
+  return withMesh(rig, grid, level == 0 ? renderSource(*rig, grid) : renderGrid(*rig, grid),
+                  std::move(options));
 }
 
 // ---- Every frame ----
@@ -103,8 +105,8 @@ Output outputFrom(const py::object& given, const std::vector<py::ssize_t>& shape
   const auto array = py::cast<py::array>(given);
   if (!hasRoom(array, shape))
     throw Failure(fmt::format(
-        "{} must be written to a float32 array of shape {}, with the numbers of a vertex side by "
-        "side.",
+        "{} must be written to a float32 array of shape {} whose rows go forwards in memory, with "
+        "the numbers of a vertex side by side.",
         what, py::cast<std::string>(py::str(py::cast(shape)))));
   return Output(array);
 }
@@ -190,16 +192,20 @@ void addFace(py::module_& m) {
                    "it.")
       .def(py::init(&faceOf), "rig"_a, "level"_a = 0, py::kw_only(), "vertices"_a = py::none(),
            "edge_length"_a = py::none(), "error"_a = py::none(), "normals"_a = true,
+           "tolerance"_a = py::none(),
            "level 0 has the source's vertices in their order; level N every edge of the source cut "
            "into N. Instead of a level, a budget: as close to the surface as a number of vertices "
            "allows, edges no longer than a length, or triangles no further from the surface than "
-           "an error. Without normals it is made in half the time.")
-      .def("evaluate", &evaluate, "weights"_a = py::none(), py::kw_only(), "positions"_a = true,
-           "normals"_a = false,
-           "Vertices under weights: None, a dict of names and weights, or an array [K]; an array "
-           "[F, K] evaluates F frames on all cores. positions and normals are whether they are "
-           "wanted, or float32 arrays to write them to, [V, 3] or [F, V, 3]. Returns the array, or "
-           "both.")
+           "an error. Without normals it is made in half the time. Tables are rounded: a target of "
+           "weight 1 takes a vertex off the surface by up to the tolerance, three tenths of the "
+           "rig's own if none is given; a smaller one makes larger tables (see bound).")
+      .def(
+          "evaluate", &evaluate, "weights"_a = py::none(), py::kw_only(), "positions"_a = true,
+          "normals"_a = false,
+          "Vertices under weights: None, a dict of names and weights, or an array [K]; an array "
+          "[F, K] evaluates F frames on all cores. positions and normals are whether they are "
+          "wanted, or float32 arrays to write them to, [V, 3] or [F, V, 3]. Returns those that are "
+          "wanted.")
       .def_property_readonly("vertex_count", &Face::vertices)
       .def_property_readonly(
           "triangles",
@@ -210,9 +216,16 @@ void addFace(py::module_& m) {
           "[T, 3], counter-clockwise, of corners that have one texture coordinate each: "
           "positions[points] are where they are.")
       .def_property_readonly("points", &pointsOf, "The vertex that each corner repeats: [C].")
-      .def_property_readonly("texcoords", &texcoordsOf, "Of the corners, [C, 2], or None.")
+      .def("__repr__",
+           [](const Face& face) {
+             return fmt::format("<sweepface.Face: {} vertices, {} triangles, {} targets>",
+                                face.vertices(), face.mesh.triangles.size() / 3,
+                                face.rig->targets.size());
+           })
+      .def_property_readonly("texcoords", &texcoordsOf,
+                             "Of the corners, u to the right and v upwards, [C, 2], or None.")
       .def_property_readonly(
-          "bytes",
+          "table_bytes",
           [](const Face& face) {
             return face.evaluator.positionBytes() + face.evaluator.normalBytes();
           },

@@ -1,6 +1,9 @@
 #include "sweepface/live_motion.hpp"
 
+#include <algorithm>
+
 #include "bindings.hpp"
+#include "io/drive_numbers.hpp"
 
 namespace sweepface::python {
 namespace {
@@ -8,19 +11,14 @@ namespace {
 /// A drive by its name, and what else was told of it.
 Drive driveFrom(const std::string& name, const py::kwargs& told) {
   Drive drive = valueOf(driveFromName(name));
+  const auto numbers = io::numbersOf(drive);
   for (const auto& [key, value] : told) {
     const auto what = py::cast<std::string>(key);
-    double* const number = what == "seconds"       ? &drive.seconds
-                           : what == "turn"        ? &drive.turn
-                           : what == "frequency"   ? &drive.spring.frequency
-                           : what == "damping"     ? &drive.spring.damping
-                           : what == "restitution" ? &drive.restitution
-                           : what == "delay"       ? &drive.delay
-                                                   : nullptr;
-    if (!number)
-      throw Failure("A drive has no '" + what +
-                    "'; it has seconds, turn, frequency, damping, restitution and delay.");
-    *number = py::cast<double>(value);
+    const auto number =
+        std::ranges::find(numbers, what, [](const auto& pair) { return std::string(pair.first); });
+    if (number == numbers.end() || !io::takes(drive.kind, what))
+      throw Failure("The drive '" + name + "' has no use for '" + what + "'; leave it out.");
+    *number->second = numberFrom(value, what.c_str());
   }
   return drive;
 }
@@ -47,7 +45,14 @@ void addLiveMotion(py::module_& m) {
              return valueOf(MotionState::make(numbersIn(weights, "Weights")));
            }),
            "weights"_a, "At rest there.")
-      .def("advance", &MotionState::advance, "seconds"_a, "Lets time pass.")
+      .def(
+          "advance",
+          [](MotionState& state, double seconds) {
+            if (!(seconds >= 0 && seconds <= kMostSeconds))
+              throw Failure("Time passes by 0 to 1e10 seconds.");
+            state.advance(seconds);
+          },
+          "seconds"_a, "Lets time pass.")
       .def(
           "move_to",
           [](MotionState& state, const Doubles& goals, const std::string& drive,
@@ -56,8 +61,9 @@ void addLiveMotion(py::module_& m) {
           },
           "goals"_a, "drive"_a = "spring",
           "Sends all weights to goals [K] by a drive: cut, newton, linear-force, accelerate-brake, "
-          "spring or bounce, with seconds, turn, frequency, damping, restitution, delay as "
-          "keywords.")
+          "spring or bounce. Its numbers are given by keywords: seconds until it arrives (0.3; not "
+          "for cut and spring), turn (accelerate-brake), frequency and damping (spring), "
+          "restitution (bounce), and delay.")
       .def(
           "move_one",
           [](MotionState& state, std::size_t weight, double goal, const std::string& drive,

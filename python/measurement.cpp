@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <optional>
 
 #include "sweepface/io.hpp"
 #include "sweepface/measure.hpp"
@@ -9,13 +10,38 @@
 namespace sweepface::python {
 namespace {
 
-Measurement measured(const Rig& rig, const RigSource& meshes, int mixtures, unsigned seed,
-                     bool facets) {
+/// The errors of a pose, and whether they were measured between vertices, too.
+struct Measured {
+  PoseErrors errors;
+  bool facets;
+};
+
+struct Measurements {
+  std::vector<Measured> shapes, mixtures;
+  Measured worst;
+};
+
+Measurements measured(const Rig& rig, const RigSource& meshes, int mixtures, unsigned seed,
+                      bool facets) {
   if (mixtures < 0 || mixtures > 10000)
     throw Failure(fmt::format("There may be 0 to 10,000 mixtures, not {}.", mixtures));
   LongWork work(py::none{});
   const MeasureOptions options{mixtures, seed, facets, work.cancel()};
-  return valueOf(work.run([&] { return measure(rig, meshes.rig, options); }));
+  auto all = valueOf(work.run([&] { return measure(rig, meshes.rig, options); }));
+  Measurements measurements{{}, {}, {all.worst, facets}};
+  for (PoseErrors& errors : all.shapes) measurements.shapes.push_back({std::move(errors), facets});
+  for (PoseErrors& errors : all.mixtures)
+    measurements.mixtures.push_back({std::move(errors), facets});
+  return measurements;
+}
+
+template <auto what>
+auto atVertices(const Measured& m) {
+  return m.errors.*what;
+}
+template <auto what>
+auto betweenVertices(const Measured& m) {
+  return m.facets ? std::optional(m.errors.*what) : std::nullopt;
 }
 
 }  // namespace
@@ -33,30 +59,31 @@ void addMeasurement(py::module_& m) {
             "{:.4g}>",
             e.rms, e.p99, e.p999, e.max);
       });
-  py::class_<PoseErrors>(m, "PoseErrors",
-                         "How far one pose is from its source: lengths in model units, angles in "
-                         "degrees.")
-      .def_readonly("name", &PoseErrors::name)
-      .def_readonly("distance", &PoseErrors::distance, "Of vertices from the surface.")
-      .def_readonly("displacement", &PoseErrors::displacement,
-                    "Of their displacements from the neutral.")
-      .def_readonly("angle", &PoseErrors::angle, "Of normals at vertices.")
-      .def_readonly("shading_rms", &PoseErrors::shadingRms,
-                    "Of normals everywhere, to the source's blended across its faces.")
-      .def_readonly("facet_distance", &PoseErrors::facetDistance,
-                    "The largest distance between surface and facets.")
-      .def_readonly("facet_excess", &PoseErrors::facetExcess,
-                    "The same beyond the facets' own sag.")
-      .def_readonly("folds", &PoseErrors::folds,
-                    "Triangles that face the other way than their facet.")
-      .def("__repr__", [](const PoseErrors& e) {
-        return fmt::format("<sweepface.PoseErrors of {}: at most {:.4g}, {} folds>", e.name,
-                           e.distance.max, e.folds);
+  py::class_<Measured>(m, "PoseErrors",
+                       "How far one pose is from its source: lengths in model units, angles in "
+                       "degrees. What is between vertices is None if facets were not measured.")
+      .def_property_readonly("name", &atVertices<&PoseErrors::name>)
+      .def_property_readonly("distance", &atVertices<&PoseErrors::distance>,
+                             "Of vertices from the surface.")
+      .def_property_readonly("displacement", &atVertices<&PoseErrors::displacement>,
+                             "Of their displacements from the neutral.")
+      .def_property_readonly("angle", &atVertices<&PoseErrors::angle>, "Of normals at vertices.")
+      .def_property_readonly("shading_rms", &betweenVertices<&PoseErrors::shadingRms>,
+                             "Of normals everywhere, to the source's blended across its faces.")
+      .def_property_readonly("facet_distance", &betweenVertices<&PoseErrors::facetDistance>,
+                             "The largest distance between surface and facets.")
+      .def_property_readonly("facet_excess", &betweenVertices<&PoseErrors::facetExcess>,
+                             "The same beyond the facets' own sag.")
+      .def_property_readonly("folds", &betweenVertices<&PoseErrors::folds>,
+                             "Triangles that face the other way than their facet.")
+      .def("__repr__", [](const Measured& e) {
+        return fmt::format("<sweepface.PoseErrors of {}: at most {:.4g}>", e.errors.name,
+                           e.errors.distance.max);
       });
-  py::class_<Measurement>(m, "Measurement", "How far a rig is from its meshes.")
-      .def_readonly("shapes", &Measurement::shapes, "The neutral, then every target at weight 1.")
-      .def_readonly("mixtures", &Measurement::mixtures, "Random weights.")
-      .def_readonly("worst", &Measurement::worst, "Over all shapes.");
+  py::class_<Measurements>(m, "Measurement", "How far a rig is from its meshes.")
+      .def_readonly("shapes", &Measurements::shapes, "The neutral, then every target at weight 1.")
+      .def_readonly("mixtures", &Measurements::mixtures, "Random weights.")
+      .def_readonly("worst", &Measurements::worst, "Over all shapes.");
   const MeasureOptions usual;
   m.def("measure", &measured, "rig"_a, "meshes"_a, py::kw_only(), "mixtures"_a = usual.mixtures,
         "seed"_a = usual.seed, "facets"_a = usual.facets,

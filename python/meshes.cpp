@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <fmt/format.h>
-#include <limits>
 
 #include "sweepface/gltf.hpp"
 #include "sweepface/io.hpp"
@@ -12,10 +11,17 @@
 namespace sweepface::python {
 namespace {
 
+std::vector<Vec3> placesFrom(const py::object& array, const std::string& what) {
+  auto points = pointsFrom(as<Doubles>(array, what.c_str(), "an array of numbers"), what.c_str());
+  if (!std::ranges::all_of(points, isFinite)) throw Failure(what + " must be finite numbers.");
+  return points;
+}
+
 Polygons polygonsFrom(const py::iterable& faces, std::size_t vertices) {
   Polygons polygons;
   for (const py::handle face : faces) {
-    for (const auto v : py::cast<std::vector<std::int64_t>>(face)) {
+    for (const auto v :
+         as<std::vector<std::int64_t>>(face, "Every face", "a sequence of vertices")) {
       if (v < 0 || v >= static_cast<std::int64_t>(vertices))
         throw Failure(fmt::format("Face {} has vertex {}, but there are {} vertices, from 0 on.",
                                   polygons.faceCount(), v, vertices));
@@ -28,13 +34,14 @@ Polygons polygonsFrom(const py::iterable& faces, std::size_t vertices) {
 
 void setTexcoords(Polygons& polygons, const py::object& texcoords, const py::object& corners) {
   if (texcoords.is_none() && corners.is_none()) return;
-  const auto places = py::cast<Doubles>(texcoords);
+  const auto places = as<Doubles>(texcoords, "Texture coordinates", "an array of numbers");
   if (places.ndim() != 2 || places.shape(1) != 2)
     throw Failure("Texture coordinates must be an array of two numbers a row, [T, 2].");
   for (py::ssize_t k = 0; k < places.shape(0); ++k)
     polygons.texcoords.push_back({places.at(k, 0), places.at(k, 1)});
   polygons.cornerTexcoords =
-      corners.is_none() ? polygons.corners : py::cast<std::vector<Index>>(corners);
+      corners.is_none() ? polygons.corners
+                        : as<std::vector<Index>>(corners, "corner_texcoords", "whole numbers");
   const auto count = static_cast<Index>(polygons.texcoords.size());
   if (polygons.cornerTexcoords.size() != polygons.corners.size() ||
       std::ranges::any_of(polygons.cornerTexcoords, [&](Index t) { return t < -1 || t >= count; }))
@@ -43,30 +50,51 @@ void setTexcoords(Polygons& polygons, const py::object& texcoords, const py::obj
         count));
 }
 
-RigSource meshesFrom(const Doubles& positions, const py::iterable& faces, const py::dict& targets,
-                     const py::object& texcoords, const py::object& cornerTexcoords) {
+void setTargets(MeshRig& rig, const py::object& targets) {
+  rig.targets.clear();
+  for (const auto& [name, shape] : mappingFrom(targets, "Targets")) {
+    MeshTarget target{textFrom(name, "The name of a target"), {}};
+    target.positions = placesFrom(py::reinterpret_borrow<py::object>(shape),
+                                  fmt::format("The positions of '{}'", target.name));
+    if (target.positions.size() != rig.neutral.positions.size())
+      throw Failure(fmt::format("Target '{}' has {} vertices, but the neutral has {}.", target.name,
+                                target.positions.size(), rig.neutral.positions.size()));
+    rig.targets.push_back(std::move(target));
+  }
+}
+
+RigSource meshesFrom(const py::object& positions, const py::iterable& faces,
+                     const py::object& targets, const py::object& texcoords,
+                     const py::object& cornerTexcoords) {
   RigSource meshes;
   PolygonMesh& neutral = meshes.rig.neutral;
-  neutral.positions = pointsFrom(positions, "Positions");
-  if (neutral.positions.size() > static_cast<std::size_t>(std::numeric_limits<Index>::max()))
-    throw Failure("A mesh may have 2,147,483,647 vertices at most.");
+  neutral.positions = placesFrom(positions, "Positions");
   neutral.polygons = polygonsFrom(faces, neutral.positions.size());
   setTexcoords(neutral.polygons, texcoords, cornerTexcoords);
-  for (const auto& [name, shape] : targets) {
-    MeshTarget target{py::cast<std::string>(name),
-                      pointsFrom(py::cast<Doubles>(shape), "A target's positions")};
-    if (target.positions.size() != neutral.positions.size())
-      throw Failure(fmt::format("Target '{}' has {} vertices, but the neutral has {}.", target.name,
-                                target.positions.size(), neutral.positions.size()));
-    meshes.rig.targets.push_back(std::move(target));
-  }
+  setTargets(meshes.rig, targets);
   return meshes;
 }
 
-RigSource readMeshes(const std::filesystem::path& neutral,
-                     const std::vector<std::filesystem::path>& targets) {
+RigSource withShapes(RigSource meshes, const py::object& targets, const py::object& positions) {
+  if (!positions.is_none()) {
+    auto moved = placesFrom(positions, "Positions");
+    if (moved.size() != meshes.rig.neutral.positions.size())
+      throw Failure(fmt::format("There are {} positions for {} vertices.", moved.size(),
+                                meshes.rig.neutral.positions.size()));
+    meshes.rig.neutral.positions = std::move(moved);
+  }
+  setTargets(meshes.rig, targets);
+  return meshes;
+}
+
+RigSource readMeshes(const std::filesystem::path& neutral, const py::object& targets) {
+  using Paths = std::vector<std::filesystem::path>;
+  constexpr const char* kWhat = "The targets";
+  const bool isOne = py::isinstance<py::str>(targets) || py::hasattr(targets, "__fspath__");
+  const Paths paths = isOne ? Paths{as<std::filesystem::path>(targets, kWhat, "paths")}
+                            : as<Paths>(targets, kWhat, "paths");
   LongWork work(py::none{});
-  auto meshes = valueOf(work.run([&] { return readSource(neutral, targets); }));
+  auto meshes = valueOf(work.run([&] { return readSource(neutral, paths); }));
   warn(meshes.faceWarnings);
   warn(meshes.warnings);
   return meshes;
@@ -88,6 +116,14 @@ py::dict shapesOf(const MeshRig& rig) {
   return shapes;
 }
 
+py::object texcoordsOf(const Polygons& polygons) {
+  if (polygons.texcoords.empty()) return py::none();
+  py::array_t<double> array({polygons.texcoords.size(), std::size_t{2}});
+  double* x = array.mutable_data();
+  for (const Vec2& t : polygons.texcoords) x[0] = t.x, x[1] = t.y, x += 2;
+  return array;
+}
+
 }  // namespace
 
 void addMeshes(py::module_& m) {
@@ -107,9 +143,21 @@ void addMeshes(py::module_& m) {
       .def_property_readonly(
           "targets", [](const RigSource& s) { return shapesOf(s.rig); },
           "Positions at weight 1 by name: [V, 3] each.")
+      .def_property_readonly(
+          "texcoords", [](const RigSource& s) { return texcoordsOf(s.rig.neutral.polygons); },
+          "u to the right and v upwards, [T, 2], or None.")
+      .def_property_readonly(
+          "corner_texcoords",
+          [](const RigSource& s) { return arrayOf(s.rig.neutral.polygons.cornerTexcoords); },
+          "Which of them the corners of the faces have, face by face; -1: none. Empty if there are "
+          "none.")
+      .def("with_shapes", &withShapes, py::arg("targets"), py::arg("positions") = py::none(),
+           "The same faces, texture coordinates, materials and scene with other targets, and with "
+           "another neutral if positions are given.")
       .def(
           "save_glb",
           [](const RigSource& s, const std::filesystem::path& path) {
+            checkKind(path, ".glb");
             valueOf(writeFile(path, valueOf(formatGlb(s.rig))));
           },
           py::arg("path"), "Writes a GLB with the targets as morph targets.")
@@ -118,10 +166,9 @@ void addMeshes(py::module_& m) {
                            s.rig.neutral.positions.size(), s.rig.neutral.polygons.faceCount(),
                            s.rig.targets.size());
       });
-  m.def("read_meshes", &readMeshes, py::arg("neutral"),
-        py::arg("targets") = std::vector<std::filesystem::path>(),
-        "Reads an .obj or .ply file and its targets: files, each named after itself, or folders of "
-        "them; or a .glb or .gltf file, which holds its targets.");
+  m.def("read_meshes", &readMeshes, py::arg("neutral"), py::arg("targets") = py::tuple(),
+        "Reads an .obj or .ply file and its targets, a path or several: files, each named after "
+        "itself, or folders of them; or a .glb or .gltf file, which holds its targets.");
 }
 
 }  // namespace sweepface::python

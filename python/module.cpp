@@ -14,7 +14,9 @@ PYBIND11_MODULE(_core, m) {
   addPose(m);
   addClip(m);
   addRig(m);
+  addClipsOfRigs(m);
   addConversion(m);
   addMeasurement(m);
   addFace(m);
+  addPicture(m);
 }

@@ -1,6 +1,9 @@
+#include "picture.hpp"
+
+#include "sweepface/io.hpp"
 #include "sweepface/picture.hpp"
 
-#include "picture.hpp"
+#include "bindings.hpp"
 
 namespace sweepface::python {
 namespace {
@@ -10,6 +13,17 @@ Image shot(const Rig& rig, const Weights& weights, PictureSize size, const View&
   const FaceScenes scenes(rig, lodFor(rig.surface, style, size));
   const Camera camera = frameCamera(scenes.drawn(weights), view, size);
   return valueOf(render(scenes.scene(weights, style), camera, size));
+}
+
+void savePng(const std::filesystem::path& path,
+             const py::array_t<std::uint8_t, py::array::c_style>& picture) {
+  checkKind(path, ".png");
+  if (picture.ndim() != 3 || picture.shape(2) != 3)
+    throw Failure("A picture must be an array of 8-bit numbers [height, width, 3].");
+  Image image{static_cast<Index>(picture.shape(1)), static_cast<Index>(picture.shape(0)), {}};
+  valueOf(checkSize({image.width, image.height}));
+  image.rgb.assign(picture.data(), picture.data() + picture.size());
+  valueOf(writeFile(path, valueOf(encodePng(image))));
 }
 
 }  // namespace
@@ -22,8 +36,7 @@ py::array_t<std::uint8_t> renderRig(const Rig& rig, const py::object& weights, I
   const View from = valueOf(parseView(view));
   const Style how = valueOf(styleFromName(style));
   if (how == Style::error || how == Style::angle)
-    throw Failure("The style '" + style +
-                  "' needs meshes to compare with; use measure(), or the tool's `render`.");
+    throw Failure("The style '" + style + "' needs meshes to compare with: use the tool.");
   const Weights blended = weightsFrom(rig, weights);
   Image image;
   {
@@ -31,6 +44,11 @@ py::array_t<std::uint8_t> renderRig(const Rig& rig, const py::object& weights, I
     image = shot(rig, blended, size, from, how);
   }
   return arrayOf(std::span<const std::uint8_t>(image.rgb), {height, width, 3});
+}
+
+void addPicture(py::module_& m) {
+  m.def("save_png", &savePng, py::arg("path"), py::arg("picture"),
+        "Writes a picture [height, width, 3] of 8 bits, as Rig.render returns it.");
 }
 
 }  // namespace sweepface::python

@@ -20,7 +20,10 @@ struct Sites {
 
   Sites(const py::object& patches, const py::object& us, const py::object& vs) {
     const py::list same = py::module_::import("numpy").attr("broadcast_arrays")(patches, us, vs);
-    patch = py::object(same[0]), u = py::object(same[1]), v = py::object(same[2]);
+    const py::array numbers = same[0];
+    if (numbers.dtype().kind() != 'i' && numbers.dtype().kind() != 'u')
+      throw Failure("Patches are told by whole numbers.");
+    patch = numbers, u = py::object(same[1]), v = py::object(same[2]);
   }
 
   Site at(const Surface& surface, py::ssize_t k) const {
@@ -98,21 +101,29 @@ py::array_t<double> normalsOf(const Pose& pose, Index level) {
 
 // ---- Curves and joins ----
 
-py::list linesOf(const CurveNetwork& network, const std::vector<Curve>& curves) {
+/// Their points, and the arc that each is or lies beside.
+py::tuple linesOf(const CurveNetwork& network, const std::vector<Curve>& curves) {
   py::list lines;
+  std::vector<Index> arcs;
   for (const Curve& curve : curves) {
     std::vector<Vec3> points;
     for (const Index p : curve.points) points.push_back(network.points[p]);
     lines.append(arrayOfPoints(points));
+    arcs.push_back(arcOf(curve.along));
   }
-  return lines;
+  return py::make_tuple(lines, arrayOf(arcs));
 }
 
-py::tuple curvesOf(const Pose& pose, Index perEdge) {
+py::dict curvesOf(const Pose& pose, Index perEdge) {
   if (perEdge < 1 || perEdge > kMostLevel)
     throw Failure(fmt::format("An edge is cut into 1 to {}, not {}.", kMostLevel, perEdge));
   const CurveNetwork network = curveNetwork(pose.rig->surface, pose.vectors, perEdge);
-  return py::make_tuple(linesOf(network, network.boundary), linesOf(network, network.control));
+  const py::tuple boundary = linesOf(network, network.boundary),
+                  control = linesOf(network, network.control);
+  py::dict all;
+  all["boundary"] = boundary[0], all["boundary_arcs"] = boundary[1];
+  all["control"] = control[0], all["control_arcs"] = control[1];
+  return all;
 }
 
 const char* nameOfJoin(JoinClass joinClass) {
@@ -141,7 +152,7 @@ py::dict joinsOf(const Pose& pose, int samples) {
     return arrayOf(values);
   };
   py::dict table;
-  table["join_class"] = classes;
+  table["join_class"] = py::module_::import("numpy").attr("array")(classes, "U8");
   table["length"] = column(&JoinReport::length);
   table["position_gap"] = column(&JoinReport::positionGap);
   table["first_jump"] = column(&JoinReport::firstJump);
@@ -159,8 +170,8 @@ void addPose(py::module_& m) {
                    "compared with. Places on the surface are (u, v) in edges of the source from "
                    "the first corner of a patch.")
       .def("positions", &positionsOf, "level"_a = 0,
-           "Of the source's vertices in their order, [V, 3]; at level N of the tessellation with "
-           "every edge cut into N.")
+           "Of the source's vertices in their order, [V, 3]; at level N, with every edge cut into "
+           "N, of those of Face(rig, N) in its order.")
       .def("normals", &normalsOf, "level"_a = 0, "The surface's own, unit length: [V, 3].")
       .def("at", &evaluateAt, "patch"_a, "u"_a, "v"_a, "du"_a = 0, "dv"_a = 0,
            "The surface, or its derivative of orders du and dv up to 3, at places that are numbers "
@@ -171,11 +182,15 @@ void addPose(py::module_& m) {
            "The places nearest to points [N, 3]: a tuple of patch, u and v, [N] each. Points that "
            "were found in one pose are at the same places in every other.")
       .def("curves", &curvesOf, "per_edge"_a = 8,
-           "The boundary curves and the control curves beside them, each as points [N, 3].")
+           "The boundary curves and the control curves beside them: lists of points [N, 3], and "
+           "the arc that each is or lies beside.")
       .def("joins", &joinsOf, "samples"_a = 5,
            "How the two sides of every arc agree: its class (boundary, c2, spoke, crease), length, "
-           "largest gap, jumps of the first and second cross derivatives relative to the model's "
-           "largest, and largest angle between normals in degrees.");
+           "largest gap in model units, jumps of the first and second cross derivatives relative "
+           "to the model's largest, and largest angle between normals in degrees: arrays [A].")
+      .def("__repr__", [](const Pose& pose) {
+        return fmt::format("<sweepface.Pose of {} vertices>", pose.rig->source.gridVertex.size());
+      });
 }
 
 }  // namespace sweepface::python

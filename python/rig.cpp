@@ -31,6 +31,7 @@ SharedRig loaded(const std::filesystem::path& path, std::size_t memory) {
 
 void saveGlb(const Rig& rig, const std::filesystem::path& path, Index level, bool morphNormals,
              bool quantize, const py::object& weights, const Clip* clip, double keyTolerance) {
+  checkKind(path, ".glb");
   GlbOptions options;
   options.lod = level;
   options.morphNormals = morphNormals, options.quantize = quantize;
@@ -40,6 +41,16 @@ void saveGlb(const Rig& rig, const std::filesystem::path& path, Index level, boo
   options.keyTolerance = keyTolerance;
   const py::gil_scoped_release others;
   valueOf(writeFile(path, valueOf(formatGlb(rig, options))));
+}
+
+void saveObj(const Rig& rig, const std::filesystem::path& path, const py::object& weights) {
+  checkKind(path, ".obj");
+  const Weights blended = weightsFrom(rig, weights);
+  const std::vector<Vec3> vectors = blend(rig, blended);
+  const Tessellation level1(rig.surface, 1);
+  const auto positions = sourcePositions(rig, level1, vectors, blended);
+  const auto normals = sourceNormals(rig, level1, vectors);
+  valueOf(writeFile(path, formatObj({positions, normals, rig.source.polygons})));
 }
 
 // ---- Other rigs made of one ----
@@ -62,7 +73,7 @@ SharedRig stripped(const Rig& rig, const std::string& parts) {
 
 py::array_t<double> storedVectors(const Rig& rig, const py::object& target) {
   if (target.is_none()) return arrayOfPoints(rig.neutral);
-  const Index found = valueOf(findTarget(rig, py::cast<std::string>(target)));
+  const Index found = valueOf(findTarget(rig, textFrom(target, "A target's name")));
   return arrayOfPoints(rig.targets[found].difference);
 }
 
@@ -87,6 +98,12 @@ py::array_t<Index> patchEdgesOf(const Rig& rig) {
   });
 }
 
+py::array_t<Index> arcRibbonsOf(const Rig& rig) {
+  std::vector<Index> ribbons;
+  for (const Arc& arc : rig.surface.wireframe().arcs) ribbons.push_back(arc.ribbon);
+  return arrayOf(ribbons);
+}
+
 py::array_t<double> ribbonsOf(const Rig& rig) {
   std::vector<Vec3> shapes;
   for (const Shape& shape : rig.surface.wireframe().ribbons)
@@ -94,10 +111,20 @@ py::array_t<double> ribbonsOf(const Rig& rig) {
   return arrayOfPoints(shapes);
 }
 
-py::list patchSides(const Rig& rig, Index patch) {
+void checkPatch(const Rig& rig, Index patch) {
   if (patch < 0 || patch >= rig.surface.patchCount())
     throw Failure(fmt::format("There is no patch {}; there are {}, from 0 on.", patch,
                               rig.surface.patchCount()));
+}
+
+py::tuple basesOf(const Rig& rig, Index patch) {
+  checkPatch(rig, patch);
+  const auto [u, v0, v1] = rig.surface.patchBasis(patch);
+  return py::make_tuple(*u, *v0, *v1);
+}
+
+py::list patchSides(const Rig& rig, Index patch) {
+  checkPatch(rig, patch);
   py::list sides;
   for (int s = 0; s < 4; ++s) {
     py::list side;
@@ -116,6 +143,7 @@ void addFiles(py::class_<Rig, SharedRig>& rig) {
       .def(
           "save",
           [](const Rig& r, const std::filesystem::path& path) {
+            checkKind(path, ".sweep");
             valueOf(writeFile(path, encode(r)));
           },
           "path"_a, "Writes a .sweep file beside the path, then renames it.")
@@ -126,6 +154,8 @@ void addFiles(py::class_<Rig, SharedRig>& rig) {
            "if one did. level 0: the source's vertices; N: every edge cut into N. A clip becomes "
            "an animation, in as few keys as keep its weights within key_tolerance, if that is "
            "given.")
+      .def("save_obj", &saveObj, "path"_a, "weights"_a = py::none(),
+           "Writes an expression as an OBJ, in the source's order, with the surface's normals.")
       .def("packed", &packed, "tolerance"_a = 0, py::kw_only(), "texture_bits"_a = 0,
            "progress"_a = py::none(),
            "This rig packed: vectors become small whole numbers, most of them zero, and the file "
@@ -138,6 +168,15 @@ void addFiles(py::class_<Rig, SharedRig>& rig) {
 void addContents(py::class_<Rig, SharedRig>& rig) {
   using namespace py::literals;
   rig.def_property_readonly("target_names", &targetNamesOf, "[K]")
+      .def(
+          "target",
+          [](const Rig& r, const std::string& name) { return valueOf(findTarget(r, name)); },
+          "name"_a, "The number of a target.")
+      .def(
+          "weights",
+          [](const Rig& r, const py::object& given) { return arrayOf(weightsFrom(r, given)); },
+          "weights"_a = py::none(),
+          "Weights as an array [K]: of a dict of names and weights, or all 0.")
       .def_readonly("tolerance", &Rig::tolerance, "The error it was made for, in model units.")
       .def_property_readonly("units", [](const Rig& r) { return r.names.units; })
       .def_property_readonly(
@@ -145,7 +184,8 @@ void addContents(py::class_<Rig, SharedRig>& rig) {
           "Vertices of the source.")
       .def_property_readonly("patch_count", [](const Rig& r) { return r.surface.patchCount(); })
       .def("vectors", &storedVectors, "target"_a = py::none(),
-           "The stored vectors [S, 3]: of the neutral, or what a target adds to them.")
+           "The stored vectors [S, 3], which are the tool's points: of the neutral, or what a "
+           "target adds to them.")
       .def_property_readonly("arcs", &arcsOf, "The nodes at both ends of every curve: [A, 2].")
       .def_property_readonly("patch_edges", &patchEdgesOf,
                              "How many edges of the source a patch is long in u and in v: [P, 2].")
@@ -153,7 +193,12 @@ void addContents(py::class_<Rig, SharedRig>& rig) {
            "The curves along v = 0, u = 1, v = 1 and u = 0, counter-clockwise: lists of (arc, "
            "whether it is travelled from its first node).")
       .def_property_readonly("ribbons", &ribbonsOf,
-                             "The shape parameters rho, eta, lambda in use, per edge: [R, 3].")
+                             "Shape parameters rho, eta, lambda per edge of the source: [R, 3].")
+      .def_property_readonly("arc_ribbons", &arcRibbonsOf,
+                             "The ribbon whose parameters govern each curve: [A].")
+      .def("bases", &basesOf, "patch"_a,
+           "The functions of a patch, each over [0, 1]: of its sweep along u, and of its curves at "
+           "u = 0 and at u = 1, which go along v.")
       .def("__repr__", [](const Rig& r) {
         return fmt::format("<sweepface.Rig: {} vertices, {} patches, {} targets>",
                            r.source.gridVertex.size(), r.surface.patchCount(), r.targets.size());
@@ -186,8 +231,10 @@ void addRig(py::module_& m) {
         "Reads a .sweep file, for which it takes about `memory` bytes at most.");
   m.def(
       "decode",
-      [](const py::bytes& bytes, const std::string& name, std::size_t most) {
-        return decoded(std::string_view(bytes), name, most);
+      [](const py::buffer& bytes, const std::string& name, std::size_t most) {
+        const auto copy = py::reinterpret_steal<py::bytes>(PyBytes_FromObject(bytes.ptr()));
+        if (!copy) throw py::error_already_set();
+        return decoded(std::string_view(copy), name, most);
       },
       "bytes"_a, "name"_a = "The face", py::kw_only(), "memory"_a = memory,
       "The same from the bytes of a file, which messages call by the name.");

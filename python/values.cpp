@@ -2,11 +2,23 @@
 
 #include <algorithm>
 
+#include "sweepface/io.hpp"
+
 namespace sweepface::python {
 
 void warn(std::span<const std::string> sentences) {
   for (const std::string& sentence : sentences)
     if (PyErr_WarnEx(PyExc_UserWarning, sentence.c_str(), 1) != 0) throw py::error_already_set();
+}
+
+py::dict mappingFrom(const py::object& object, const char* what) {
+  if (!py::hasattr(object, "keys")) throw Failure(std::string(what) + " must be a dict.");
+  return py::dict(object);
+}
+
+void checkKind(const std::filesystem::path& path, const char* extension) {
+  if (extensionOf(path) == extension) return;
+  throw Failure(path.string() + " must end in " + extension + "; choose another name.");
 }
 
 std::vector<Vec3> pointsFrom(const Doubles& array, const char* what) {
@@ -39,9 +51,11 @@ namespace {
 
 Weights weightsByName(const Rig& rig, const py::dict& given) {
   Weights weights(rig.targets.size());
-  for (const auto& [name, weight] : given)
-    weights[static_cast<std::size_t>(valueOf(findTarget(rig, py::cast<std::string>(name))))] =
-        py::cast<double>(weight);
+  for (const auto& [key, value] : given) {
+    const std::string name = textFrom(key, "The name of a target");
+    weights[static_cast<std::size_t>(valueOf(findTarget(rig, name)))] =
+        numberFrom(value, ("The weight of '" + name + "'").c_str());
+  }
   return weights;
 }
 
@@ -49,10 +63,10 @@ Weights weightsByName(const Rig& rig, const py::dict& given) {
 
 Weights weightsFrom(const Rig& rig, const py::object& given) {
   Weights weights(rig.targets.size());
-  if (py::isinstance<py::dict>(given)) {
-    weights = weightsByName(rig, given);
+  if (py::hasattr(given, "keys")) {
+    weights = weightsByName(rig, mappingFrom(given, "Weights"));
   } else if (!given.is_none()) {
-    const auto array = py::cast<Doubles>(given);
+    const auto array = as<Doubles>(given, "Weights", "None, a dict, or an array of numbers [K]");
     const std::span<const double> numbers = numbersIn(array, "Weights");
     if (numbers.size() != weights.size())
       throw Failure("There are " + std::to_string(numbers.size()) + " weights for " +

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+#include <filesystem>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
@@ -27,6 +29,29 @@ T valueOf(Result<T> result) {
   if (!result) throw Failure(result.error().message);
   if constexpr (!std::is_void_v<T>) return std::move(*result);
 }
+
+/// A Python object as a C++ value; messages say that `what` must be `kind`.
+template <typename T>
+T as(const py::handle& object, const char* what, const char* kind) {
+  try {
+    return py::cast<T>(object);
+  } catch (const py::cast_error&) {
+  } catch (const py::error_already_set& error) {  // NumPy's own
+    if (!error.matches(PyExc_ValueError) && !error.matches(PyExc_TypeError)) throw;
+  }
+  throw Failure(std::string(what) + " must be " + kind + ".");
+}
+inline double numberFrom(const py::handle& object, const char* what) {
+  return as<double>(object, what, "a number");
+}
+inline std::string textFrom(const py::handle& object, const char* what) {
+  return as<std::string>(object, what, "a text");
+}
+/// The keys and values of any mapping.
+py::dict mappingFrom(const py::object& object, const char* what);
+
+/// Fails if a file to be written has another extension.
+void checkKind(const std::filesystem::path& path, const char* extension);
 
 /// Warns as Python's own libraries do, so that programs can filter the sentences.
 void warn(std::span<const std::string> sentences);
@@ -59,8 +84,10 @@ py::array_t<double> rowsAt(const Doubles& places, std::size_t columns, const Wri
   const std::span<const double> at = numbersIn(places, "Times and parameters");
   py::array_t<double> rows({at.size(), columns});
   double* row = rows.mutable_data();
-  for (std::size_t k = 0; k < at.size(); ++k, row += columns)
+  for (std::size_t k = 0; k < at.size(); ++k, row += columns) {
+    if (std::isnan(at[k])) throw Failure("Times and parameters must be numbers, not nan.");
     write(at[k], std::span<double>(row, columns));
+  }
   return rows;
 }
 

@@ -1,12 +1,12 @@
 #include <cmath>
 #include <fmt/format.h>
-#include <initializer_list>
 #include <map>
 #include <nlohmann/json.hpp>
 
 #include "sweepface/timeline.hpp"
 #include "sweepface/weights.hpp"
 
+#include "io/drive_numbers.hpp"
 #include "io/json_fields.hpp"
 #include "io/json_text.hpp"
 #include "io/text.hpp"
@@ -15,16 +15,6 @@ namespace sweepface {
 namespace {
 
 using Json = nlohmann::json;
-
-/// Whether a kind of drive uses a number; all use the time at which they start, and the delay.
-bool takes(Drive::Kind kind, std::string_view number) {
-  using Kind = Drive::Kind;
-  if (number == "seconds") return kind != Kind::cut && kind != Kind::spring;
-  if (number == "turn") return kind == Kind::accelerateBrake;
-  if (number == "frequency" || number == "damping") return kind == Kind::spring;
-  if (number == "restitution") return kind == Kind::bounce;
-  return true;
-}
 
 class TimelineReader {
  public:
@@ -86,19 +76,12 @@ class TimelineReader {
     const Result<Drive> named = driveFromName(drive);
     if (!named) return at.pass(named.error());
     event.drive = *named;
-    const std::initializer_list<std::pair<const char*, double*>> numbers{
-        {"at", &event.time},
-        {"seconds", &event.drive.seconds},
-        {"turn", &event.drive.turn},
-        {"frequency", &event.drive.spring.frequency},
-        {"damping", &event.drive.spring.damping},
-        {"restitution", &event.drive.restitution},
-        {"delay", &event.drive.delay}};
+    if (auto ok = at.number("at", event.time, true); !ok) return std::unexpected(ok.error());
+    const auto numbers = io::numbersOf(event.drive);
     for (const auto& [key, value] : numbers)
-      if (auto ok = at.number(key, *value, key == std::string_view("at")); !ok)
-        return std::unexpected(ok.error());
+      if (auto ok = at.number(key, *value); !ok) return std::unexpected(ok.error());
     for (const auto& [key, value] : numbers)
-      if (json.contains(key) && !takes(event.drive.kind, key))
+      if (json.contains(key) && !io::takes(event.drive.kind, key))
         return failAt(place,
                       fmt::format("has a '{}', which the drive '{}' has no use for; leave it "
                                   "out, or name another drive",

@@ -24,6 +24,10 @@ class Clips(FaceTest):
         between = self.clip().weights_of(self.rig, [-1, 0.25, 99])
         self.assertAlmostEqual(between[1].max(), 0.5)
         self.assertTrue((between[[0, 2]] == 0).all())
+        with self.assertWarnsRegex(UserWarning, "1 of the clip's 2 names drive no target of the rig: tail"):
+            sweepface.Clip(["jawOpen", "tail"], [0], [[1, 1]]).weights_of(self.rig)
+        with self.refuses("None of the clip's 1 names"):
+            sweepface.Clip(["tail"], [0], [[1]]).weights_of(self.rig)
 
     def test_make_the_round_trip_through_a_capture(self):
         self.clip().save_csv(self.path("take.csv"))
@@ -48,6 +52,10 @@ class Clips(FaceTest):
         renamed = self.clip().renamed({"tail": "jawOpen", "JawOpen": {"eyeBlinkLeft": 0.5}}, self.rig)
         weights = renamed.weights_of(self.rig, [0.5])[0]
         self.assertAlmostEqual(weights[self.rig.target_names.index("eyeBlinkLeft")], 0.5)
+        with self.assertWarnsRegex(UserWarning, "the clip has no horn"):
+            self.clip().renamed({"horn": "jawOpen"}, self.rig)
+        with self.refuses("A factor must be a number"):
+            self.clip().renamed({"tail": {"jawOpen": "half"}}, self.rig)
         with self.refuses("wings"):
             self.clip().renamed({"tail": "wings"}, self.rig)
 

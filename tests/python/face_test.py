@@ -23,6 +23,9 @@ class Faces(FaceTest):
         gap = np.linalg.norm(positions - pose.positions(), axis=1).max()
         self.assertLessEqual(gap, self.face.bound(OPEN))
         self.assertLess(self.face.bound(OPEN), 0.01)
+        fine = sweepface.Face(self.rig, tolerance=1e-4)
+        self.assertLess(fine.bound(OPEN), 0.5 * self.face.bound(OPEN))
+        self.assertLess(np.linalg.norm(fine.evaluate(OPEN) - pose.positions(), axis=1).max(), fine.bound(OPEN))
         cosine = (normals * pose.normals()).sum(axis=1)
         self.assertGreater(np.percentile(cosine, 1), 0.999)
 
@@ -46,6 +49,7 @@ class Faces(FaceTest):
         only = self.face.evaluate(OPEN, positions=False, normals=True)
         self.assertTrue(np.array_equal(only, normals))
         self.assertIsNone(self.face.evaluate(OPEN, positions=False))
+        self.assertEqual(repr(self.face), "<sweepface.Face: 8216 vertices, 16204 triangles, 42 targets>")
 
     def test_refuse_arrays_that_do_not_fit(self):
         fixed = np.zeros((8216, 3), np.float32)
@@ -78,7 +82,7 @@ class Faces(FaceTest):
         places = self.face.evaluate()[self.face.points][self.face.triangles]
         area = np.linalg.norm(np.cross(places[:, 1] - places[:, 0], places[:, 2] - places[:, 0]), axis=1)
         self.assertGreater(np.median(area), 0)
-        self.assertGreater(self.face.bytes, 10000)
+        self.assertGreater(self.face.table_bytes, 10000)
 
     def test_come_at_levels_of_detail(self):
         self.assertLessEqual(sweepface.Face(self.rig, vertices=3000).vertex_count, 3000)

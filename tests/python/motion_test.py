@@ -43,6 +43,8 @@ class Trajectories(FaceTest):
         self.assertFalse(path.moves(1.01))
 
     def test_refuse_what_makes_no_sense(self):
+        with self.refuses("must be numbers, not nan"):
+            self.all()["law"]([np.nan])
         with self.refuses("brake"):
             sweepface.Trajectory.by_law("slow", 0, 1, 1)
         with self.refuses("."):
@@ -91,8 +93,14 @@ class Live(FaceTest):
 
     def test_refuses_what_there_is_not(self):
         motion = sweepface.LiveMotion([0])
-        with self.refuses("has no 'speed'; it has seconds, turn"):
-            motion.move_to([1], "spring", speed=1)
+        for told in ({"speed": 1}, {"seconds": 1}):
+            with self.refuses("The drive 'spring' has no use for '(speed|seconds)'"):
+                motion.move_to([1], "spring", **told)
+        with self.refuses("frequency must be a number"):
+            motion.move_to([1], "spring", frequency="2")
+        for seconds in (-1, np.nan, np.inf):
+            with self.refuses("0 to 1e10 seconds"):
+                motion.advance(seconds)
         with self.refuses("cut"):
             motion.move_to([1], "jump")
         with self.refuses("."):

@@ -3,6 +3,7 @@
 import json
 import os
 import subprocess
+import types
 import unittest
 
 import numpy as np
@@ -15,7 +16,8 @@ class Files(FaceTest):
         with open(SAMPLE, "rb") as file:
             stored = file.read()
         self.assertEqual(self.rig.encode(), stored)
-        self.assertEqual(sweepface.decode(stored).encode(), stored)
+        for data in (stored, bytearray(stored), np.frombuffer(stored, np.uint8)):
+            self.assertEqual(sweepface.decode(data).encode(), stored)
         self.rig.save(self.path("copy.sweep"))
         self.assertEqual(sweepface.load(self.path("copy.sweep")).target_names, self.rig.target_names)
 
@@ -26,8 +28,11 @@ class Files(FaceTest):
             sweepface.decode(b"not a face", "The upload")
         with self.refuses("memory"):
             sweepface.load(SAMPLE, memory=1000)
-        with self.assertRaises(sweepface.Error):
+        with self.refuses("no/folder.sweep"):
             self.rig.save(self.path("no/folder.sweep"))
+        for save, name in ((self.rig.save, "a.glb"), (self.rig.save_glb, "a.sweep"), (self.rig.save_obj, "a.ply")):
+            with self.refuses("must end in"):
+                save(self.path(name))
 
     def test_are_packed_and_stripped_into_others(self):
         packed = self.rig.packed(0.01)
@@ -39,6 +44,12 @@ class Files(FaceTest):
         self.assertLessEqual(gap.max(), 0.01)
         with self.refuses("order, uv"):
             self.rig.stripped("teeth")
+
+    def test_become_objs(self):
+        self.rig.save_obj(self.path("open.obj"), {"jawOpen": 1})
+        back = sweepface.read_meshes(self.path("open.obj"))
+        self.assertTrue(np.array_equal(back.positions, self.rig.pose({"jawOpen": 1}).positions()))
+        self.assertTrue(np.array_equal(back.texcoords, self.rig.meshes().texcoords))
 
     def test_become_glbs_with_clips(self):
         clip = sweepface.Clip(["JawOpen", "tail"], [0, 0.5, 1], [[0, 0], [1, 0], [0, 0]])
@@ -70,6 +81,8 @@ class Contents(FaceTest):
             self.assertEqual(end, start)
         self.assertEqual(self.rig.ribbons.shape[1], 3)
         self.assertEqual(self.rig.units, "cm")
+        self.assertEqual(self.rig.arc_ribbons.shape, (len(arcs),))
+        self.assertLess(self.rig.arc_ribbons.max(), len(self.rig.ribbons))
         with self.refuses("There is no patch -1"):
             self.rig.patch_sides(-1)
 
@@ -85,6 +98,11 @@ class Contents(FaceTest):
         picture = self.rig.render({"jawOpen": 1}, width=120, height=160)
         self.assertEqual(picture.shape, (160, 120, 3))
         self.assertGreater(picture.std(), 20)
+        sweepface.save_png(self.path("open.png"), picture)
+        with open(self.path("open.png"), "rb") as file:
+            self.assertEqual(file.read(4), b"\x89PNG")
+        with self.refuses("8-bit numbers"):
+            sweepface.save_png(self.path("open.png"), picture[:, :, 0])
         self.assertTrue((picture != self.rig.render(width=120, height=160)).any())
         with self.refuses("shaded, patches"):
             self.rig.render(style="oil")
@@ -108,6 +126,13 @@ class Poses(FaceTest):
         self.assertTrue(np.allclose(pose.normal(patch, 0.5, 0.5), normal, atol=1e-6))
         self.assertEqual(pose.at(0, [[0.1, 0.2], [0.3, 0.4]], 0.5).shape, (2, 2, 3))
 
+    def test_of_patches_are_sweeps_of_their_sides(self):
+        pose, (m, n) = self.rig.pose({"jawOpen": 1}), self.rig.patch_edges[7]
+        basis, u, v = self.rig.bases(7)[0], np.linspace(0, m, 9), np.linspace(0, n, 5)
+        sides = np.stack([pose.at(7, end, v, du=k) * float(m) ** k for end in (0, m) for k in range(3)])
+        swept = np.einsum("ui,ivk->uvk", basis(u / m), sides)
+        self.assertTrue(np.allclose(swept, pose.at(7, u[:, None], v[None, :]), atol=1e-12))
+
     def test_find_places_that_follow(self):
         rest, smile = self.rig.pose(), self.rig.pose({"mouthSmileLeft": 1})
         patch, u, v = rest.nearest(rest.positions()[[10, 2000, 5000]])
@@ -130,13 +155,17 @@ class Poses(FaceTest):
         joins = pose.joins()
         self.assertLessEqual({"boundary", "c2", "spoke"}, set(joins["join_class"]))
         self.assertLess(joins["position_gap"].max(), 1e-13)
-        smooth = np.array(joins["join_class"]) == "c2"
+        smooth = joins["join_class"] == "c2"
         self.assertLess(joins["second_jump"][smooth].max(), 1e-9)
 
     def test_have_boundary_and_control_curves(self):
-        boundary, control = self.rig.pose().curves(per_edge=4)
-        self.assertEqual({len(curve) % 4 for curve in boundary}, {1})
-        self.assertGreater(len(control), 2 * len(boundary))
+        curves = self.rig.pose().curves(per_edge=4)
+        self.assertEqual({len(curve) % 4 for curve in curves["boundary"]}, {1})
+        self.assertEqual(len(curves["control"]), len(curves["control_arcs"]))
+        node = self.rig.arcs[curves["boundary_arcs"][0], 0]
+        for curve, arc in zip(curves["boundary"], curves["boundary_arcs"]):
+            if self.rig.arcs[arc, 0] == node:
+                self.assertTrue(np.allclose(curve[0], curves["boundary"][0][0]))
 
     def test_refuse_places_that_there_are_not(self):
         pose = self.rig.pose()
@@ -145,6 +174,8 @@ class Poses(FaceTest):
                 pose.at(*place)
         with self.refuses("orders 0 to 3"):
             pose.at(0, 0, 0, du=4)
+        with self.refuses("whole numbers"):
+            pose.at(0.5, 0, 0)
         with self.refuses("between 0 and 64"):
             pose.positions(level=65)
         with self.refuses("Point 0 must have coordinates within"):
@@ -156,11 +187,19 @@ class Poses(FaceTest):
             ({"jawOpen": np.nan}, "Weights must be numbers"),
             (np.full(42, 1e9), "Weights must be numbers"),
             ([1, 2], "2 weights for 42 targets"),
+            ({"jawOpen": None}, "The weight of 'jawOpen' must be a number"),
+            ({1: 1}, "The name of a target must be a text"),
+            ("jawOpen", "None, a dict, or an array of numbers"),
         ):
             with self.refuses(sentence):
                 self.rig.pose(weights)
-        with self.assertRaises((TypeError, ValueError)):
-            self.rig.pose("jawOpen")
+
+    def test_take_weights_by_name_in_any_mapping(self):
+        weights = self.rig.weights(types.MappingProxyType({"jawOpen": 0.5}))
+        self.assertEqual(weights[self.rig.target("jawOpen")], 0.5)
+        self.assertEqual(weights.sum(), 0.5)
+        with self.refuses("jawShut"):
+            self.rig.target("jawShut")
 
 
 class Conversion(FaceTest):
@@ -195,6 +234,10 @@ class Conversion(FaceTest):
         self.assertLessEqual(measured.worst.distance.max, 0.01)
         self.assertGreaterEqual(measured.worst.distance.max, measured.worst.distance.p999)
         self.assertEqual(measured.worst.folds, 0)
+        quick = sweepface.measure(sweepface.convert(meshes, 0.01), meshes, mixtures=0, facets=False)
+        self.assertEqual(quick.worst.distance.max, measured.worst.distance.max)
+        self.assertIsNone(quick.worst.folds)
+        self.assertIsNone(quick.worst.shading_rms)
         with self.refuses("vertices"):
             sweepface.measure(self.rig, meshes)
 
@@ -228,10 +271,27 @@ class Conversion(FaceTest):
             sweepface.Meshes(square, [(0, 1, 2, 3)], texcoords=[[0, 0]], corner_texcoords=[0, 0, 0, 1])
         with self.refuses("larger than the mesh"):
             sweepface.convert(sheet(), 100)
-        with self.refuses("no place that a file could hold"):
-            sweepface.convert(sweepface.Meshes(np.full((4, 3), np.nan), [(0, 1, 2, 3)]))
+        with self.refuses("Positions must be finite"):
+            sweepface.Meshes(np.full((4, 3), np.nan), [(0, 1, 2, 3)])
+        with self.refuses("Every face must be a sequence of vertices"):
+            sweepface.Meshes(square, [0, 1, 2, 3])
+        with self.refuses("Targets must be a dict"):
+            sweepface.Meshes(square, [(0, 1, 2, 3)], [square])
+        with self.refuses("max_bytes must be"):
+            sweepface.convert(sheet(), max_bytes=-1)
         with self.refuses("packed"):
             sweepface.convert(sheet(), normal_tolerance=1)
+
+    def test_changes_shapes_and_keeps_the_rest(self):
+        meshes = self.rig.meshes()
+        open_wide = 2 * meshes.targets["jawOpen"] - meshes.positions
+        other = meshes.with_shapes({"wide": open_wide})
+        self.assertEqual(list(other.targets), ["wide"])
+        self.assertTrue(np.array_equal(other.targets["wide"], open_wide))
+        self.assertTrue(np.array_equal(other.texcoords, meshes.texcoords))
+        self.assertEqual(len(other.corner_texcoords), sum(map(len, other.faces)))
+        with self.refuses("3 positions for 8216 vertices"):
+            meshes.with_shapes({}, positions=np.zeros((3, 3)))
 
     def test_reads_and_writes_meshes(self):
         sheet().save_glb(self.path("sheet.glb"))
@@ -240,6 +300,10 @@ class Conversion(FaceTest):
         with open(self.path("square.obj"), "w") as file:
             file.write("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n")
         self.assertEqual(sweepface.read_meshes(self.path("square.obj")).faces, [(0, 1, 2, 3)])
+        with open(self.path("square.obj")) as neutral, open(self.path("lifted.obj"), "w") as lifted:
+            lifted.write(neutral.read().replace("1 1 0", "1 1 1"))
+        both = sweepface.read_meshes(self.path("square.obj"), self.path("lifted.obj"))
+        self.assertEqual(both.targets["lifted"][2, 2], 1)
         with self.refuses("none.obj"):
             sweepface.read_meshes(self.path("none.obj"))
 
