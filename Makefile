@@ -54,8 +54,8 @@ tests/web/node_modules/.package-lock.json: tests/web/package-lock.json
 	  echo 'The npm packages could not be installed: the tests that need them are skipped.'
 
 test: deps tests/web/node_modules/.package-lock.json
-	scripts/install-deps python || \
-	  echo 'Some packages could not be installed: the package for Python is neither built nor tested.'
+	scripts/install-deps python csharp || \
+	  echo 'Some packages could not be installed: the tests in Python and C# that need them are skipped.'
 	cmake --preset release
 	cmake --build $(BUILD)
 	ctest --preset release --label-exclude '^long$$'

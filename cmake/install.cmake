@@ -43,6 +43,7 @@ list(TRANSFORM absent_headers REPLACE "(.+)" "PATTERN;\\1;EXCLUDE" OUTPUT_VARIAB
 if(SWEEPFACE_BUILD_TOOL AND NOT SWEEPFACE_RUNTIME_ONLY)
   install(TARGETS sweepface RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
   install(FILES ${PROJECT_SOURCE_DIR}/blender/sweepface_io.py DESTINATION ${CMAKE_INSTALL_DATADIR}/sweepface/blender)
+  install(FILES ${PROJECT_SOURCE_DIR}/csharp/Sweepface.cs DESTINATION ${CMAKE_INSTALL_DATADIR}/sweepface/csharp)
 endif()
 
 install(TARGETS ${installed_libraries} EXPORT sweepfaceTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})

@@ -1,0 +1,570 @@
+// Plays .sweep faces from C#: Unity, Godot, .NET. This file and the shared library of the C interface are all that is
+// needed (docs/csharp.md). What docs/c-interface.md says of handles and threads holds here as well.
+//
+// With SWEEPFACE_CLIPS defined it calls libsweepface_clips instead, which reads clips, too.
+using System;
+using System.Runtime.InteropServices;
+using System.Text;
+
+namespace Sweepface
+{
+    /// <summary>What was asked for cannot be done; the message says why and what to do.</summary>
+    public sealed class SweepfaceException : Exception
+    {
+        internal SweepfaceException(string message) : base(message) { }
+    }
+
+    /// <summary>How a weight moves to a goal (docs/motion.md).</summary>
+    public enum DriveKind { Cut, Newton, LinearForce, AccelerateBrake, Spring, Bounce }
+
+    /// <summary>A drive and its numbers; <see cref="Of"/> has the defaults.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public struct Drive
+    {
+        public DriveKind Kind;
+        /// <summary>Seconds before it sets out.</summary>
+        public double Delay;
+        /// <summary>Until it arrives; not for Cut and Spring.</summary>
+        public double Seconds;
+        /// <summary>AccelerateBrake: when the second force takes over, as a fraction of Seconds.</summary>
+        public double Turn;
+        /// <summary>Spring: oscillations a second without the damper; a Damping below 1 overshoots.</summary>
+        public double Frequency, Damping;
+        /// <summary>Bounce: the share of the speed kept at each bounce.</summary>
+        public double Restitution;
+
+        public static Drive Of(DriveKind kind) => Native.sweepface_drive_of((int)kind);
+    }
+
+    /// <summary>Angles in radians, right-handed: yaw to the face's left, pitch down, roll to its right.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public struct Angles
+    {
+        public double Yaw, Pitch, Roll;
+    }
+
+    /// <summary>How head and eyes stand (docs/eyes.md).</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public struct HeadPose
+    {
+        public Angles Head, LeftEye, RightEye;
+    }
+
+    /// <summary>Weights that follow from those that are set (docs/arcs.md).</summary>
+    [Flags]
+    public enum Following { None = 0, Arcs = 1, Combine = 2 }
+
+    /// <summary>Triangles of one material.</summary>
+    public struct FacePart
+    {
+        public string Material;
+        public int FirstTriangle, TriangleCount;
+    }
+
+    /// <summary>What a file holds. Any number of threads may read it; Follow and TurnEyes change it.</summary>
+    public sealed class FaceRig : IDisposable
+    {
+        internal readonly Handle Handle;
+
+        /// <summary>Reads a .sweep file; any bytes are safe. Messages call it by the name.</summary>
+        public FaceRig(byte[] bytes, string name = null)
+        {
+            if (bytes == null) throw new ArgumentNullException(nameof(bytes));
+            Native.Check(Native.sweepface_rig_load(bytes, (UIntPtr)bytes.Length, Native.Text(name), out IntPtr rig));
+            Handle = new Handle(rig, Native.sweepface_rig_free);
+            TargetNames = new string[Native.sweepface_rig_target_count(Handle)];
+            for (int k = 0; k < TargetNames.Length; ++k)
+                TargetNames[k] = Native.String(Native.sweepface_rig_target_name(Handle, (uint)k));
+        }
+
+        /// <summary>The expressions.</summary>
+        public string[] TargetNames { get; }
+
+        /// <summary>The number of a target; the exception lists the names there are.</summary>
+        public int Find(string name)
+        {
+            Native.Check(Native.sweepface_rig_find_target(Handle, Native.Text(name), out uint target));
+            return (int)target;
+        }
+
+        /// <summary>The targets that a tracker's name drives: EyeBlinkLeft drives eyeBlink_L.</summary>
+        public int[] Match(string name)
+        {
+            byte[] text = Native.Text(name);
+            var targets = new int[Native.sweepface_rig_match_targets(Handle, text, null, 0)];
+            Native.sweepface_rig_match_targets(Handle, text, targets, (uint)targets.Length);
+            return targets;
+        }
+
+        /// <summary>Lets weights follow from others; before the rig has meshes.</summary>
+        public void Follow(Following what) => Native.Check(Native.sweepface_rig_follow(Handle, (uint)what));
+
+        /// <summary>Makes eyeballs turn rigidly; before the rig has meshes. Returns how many there are.</summary>
+        public int TurnEyes()
+        {
+            Native.Check(Native.sweepface_rig_turn_eyes(Handle, out uint eyes));
+            return (int)eyes;
+        }
+
+        /// <summary>How far any vertex may be off in any expression, in model units.</summary>
+        public double Tolerance => Native.sweepface_rig_tolerance(Handle);
+
+        /// <summary>The corners of the neutral's box, in model units.</summary>
+        public void Box(out double[] low, out double[] high)
+        {
+            low = new double[3];
+            high = new double[3];
+            Native.sweepface_rig_box(Handle, low, high);
+        }
+
+        public void Dispose() => Handle.Dispose();
+    }
+
+    /// <summary>What a level of detail may cost or must achieve (docs/evaluation.md).</summary>
+    public enum Budget { EdgeLength, Error, Vertices }
+
+    /// <summary>The surface at one level of detail. Any number of threads may read it.</summary>
+    public sealed class FaceMesh : IDisposable
+    {
+        internal readonly Handle Handle;
+
+        /// <summary>0: the source's own vertices; N: every edge of the source cut into N.</summary>
+        public FaceMesh(FaceRig rig, int lod = 0)
+        {
+            Native.Check(Native.sweepface_mesh_create(rig.Handle, checked((uint)lod), out IntPtr mesh));
+            Handle = new Handle(mesh, Native.sweepface_mesh_free);
+        }
+
+        /// <summary>As fine as a budget demands, without cracks.</summary>
+        public FaceMesh(FaceRig rig, Budget budget, double value)
+        {
+            Native.Check(Native.sweepface_mesh_create_within(rig.Handle, (int)budget, value, out IntPtr mesh));
+            Handle = new Handle(mesh, Native.sweepface_mesh_free);
+        }
+
+        /// <summary>The places of the surface nearest to points [count x 3] in the neutral, for things attached to the
+        /// face.</summary>
+        public FaceMesh(FaceRig rig, double[] points)
+        {
+            var count = (UIntPtr)(points.Length / 3);
+            Native.Check(Native.sweepface_mesh_create_at(rig.Handle, points, count, out IntPtr mesh));
+            Handle = new Handle(mesh, Native.sweepface_mesh_free);
+        }
+
+        /// <summary>Builds the tables that move it now rather than in the first frame that needs them.</summary>
+        public void Prepare(bool normals = true, bool tangents = false)
+        {
+            Native.Check(Native.sweepface_mesh_prepare(Handle, normals ? 1 : 0));
+            if (tangents) Native.Check(Native.sweepface_mesh_prepare_tangents(Handle));
+        }
+
+        /// <summary>Vertices are first the points, then copies of points with other texture coordinates.</summary>
+        public int PointCount => (int)Native.sweepface_mesh_point_count(Handle);
+        public int VertexCount => (int)Native.sweepface_mesh_vertex_count(Handle);
+
+        /// <summary>The point that each vertex after the points repeats.</summary>
+        public int[] Copies => Ints(Native.sweepface_mesh_copies(Handle), VertexCount - PointCount);
+
+        /// <summary>[triangles x 3] counter-clockwise seen from outside, part by part.</summary>
+        public int[] Triangles =>
+            Ints(Native.sweepface_mesh_triangles(Handle), 3 * (int)Native.sweepface_mesh_triangle_count(Handle));
+
+        /// <summary>[vertices x 2] u to the right and v upwards, or null.</summary>
+        public float[] Texcoords
+        {
+            get
+            {
+                IntPtr first = Native.sweepface_mesh_texcoords(Handle);
+                if (first == IntPtr.Zero) return null;
+                var texcoords = new float[2 * VertexCount];
+                Marshal.Copy(first, texcoords, 0, texcoords.Length);
+                GC.KeepAlive(this);
+                return texcoords;
+            }
+        }
+
+        /// <summary>Triangles by their materials.</summary>
+        public FacePart[] Parts
+        {
+            get
+            {
+                var parts = new FacePart[Native.sweepface_mesh_part_count(Handle)];
+                for (int k = 0; k < parts.Length; ++k)
+                {
+                    Native.Check(Native.sweepface_mesh_part(Handle, (uint)k, out Native.PartOut part));
+                    parts[k] = new FacePart
+                    {
+                        Material = Native.String(part.Material),
+                        FirstTriangle = (int)part.FirstTriangle,
+                        TriangleCount = (int)part.TriangleCount
+                    };
+                }
+                GC.KeepAlive(this);
+                return parts;
+            }
+        }
+
+        public void Dispose() => Handle.Dispose();
+
+        int[] Ints(IntPtr first, int count)
+        {
+            var numbers = new int[count];
+            if (count > 0) Marshal.Copy(first, numbers, 0, count);
+            GC.KeepAlive(this);
+            return numbers;
+        }
+    }
+
+    /// <summary>A set of weights on a mesh, for one thread at a time. Evaluating allocates nothing.</summary>
+    public sealed class Face : IDisposable
+    {
+        readonly Handle handle;
+        readonly int vertices;
+
+        public Face(FaceMesh mesh)
+        {
+            Native.Check(Native.sweepface_face_create(mesh.Handle, out IntPtr face));
+            handle = new Handle(face, Native.sweepface_face_free);
+            vertices = mesh.VertexCount;
+        }
+
+        public void SetWeight(int target, double weight) =>
+            Native.Check(Native.sweepface_face_set_weight(handle, checked((uint)target), weight));
+
+        /// <summary>Sets the first weights.</summary>
+        public void SetWeights(double[] weights) =>
+            Native.Check(Native.sweepface_face_set_weights(handle, weights, (UIntPtr)weights.Length));
+
+        /// <summary>Writes positions, and normals unless null, of all vertices: [vertices x 3] each.</summary>
+        public void Evaluate(float[] positions, float[] normals = null)
+        {
+            CheckRoom(positions, 3, nameof(positions));
+            CheckRoom(normals, 3, nameof(normals));
+            using (var to = new Pinned(positions, normals))
+                Native.Check(Native.sweepface_face_evaluate(handle, (UIntPtr)vertices, to.First, to.Second));
+        }
+
+        /// <summary>The same into other memory: the first `count` vertices, `stride` bytes apart; IntPtr.Zero: not
+        /// wanted. It must have room for them.</summary>
+        public void Evaluate(int count, IntPtr positions, IntPtr normals, int stride = 12) =>
+            Native.Check(Native.sweepface_face_evaluate(handle, (UIntPtr)checked((uint)count),
+                                                        new Native.Vectors(positions, stride),
+                                                        new Native.Vectors(normals, stride)));
+
+        /// <summary>The same for memory that still holds what the last call wrote there: only what the weights have
+        /// moved since is written again.</summary>
+        public void Update(int count, IntPtr positions, IntPtr normals, int stride = 12) =>
+            Native.Check(Native.sweepface_face_update(handle, (UIntPtr)checked((uint)count),
+                                                      new Native.Vectors(positions, stride),
+                                                      new Native.Vectors(normals, stride)));
+
+        /// <summary>Writes the tangent space of normal maps: normals [vertices x 3], tangents [vertices x 4].</summary>
+        public void Tangents(float[] normals, float[] tangents)
+        {
+            CheckRoom(normals, 3, nameof(normals));
+            CheckRoom(tangents, 4, nameof(tangents));
+            using (var to = new Pinned(normals, tangents))
+                Native.Check(Native.sweepface_face_tangents(handle, (UIntPtr)vertices, to.First, to.Second));
+        }
+
+        /// <summary>The corners of a box that contains the face under its weights, for culling.</summary>
+        public void Box(double[] low, double[] high)
+        {
+            if (low == null || high == null || low.Length < 3 || high.Length < 3)
+                throw new ArgumentException("The corners of a box need three numbers each.");
+            Native.Check(Native.sweepface_face_box(handle, low, high));
+        }
+
+        /// <summary>How far any vertex may be from the exact surface now, in model units. Not for every
+        /// frame.</summary>
+        public double Error => Native.sweepface_face_error(handle);
+
+        /// <summary>Turns the eyes to these angles; null: by the weights of eyeLook targets.</summary>
+        public void Look(HeadPose? pose)
+        {
+            HeadPose told = pose.GetValueOrDefault();
+            Native.Check(pose.HasValue ? Native.sweepface_face_look(handle, ref told)
+                                       : Native.sweepface_face_look(handle, IntPtr.Zero));
+        }
+
+        public void Dispose() => handle.Dispose();
+
+        void CheckRoom(float[] array, int each, string name)
+        {
+            if (array != null && array.Length < (long)each * vertices)
+                throw new ArgumentException(each + " floats are written for each of " + vertices + " vertices.", name);
+        }
+    }
+
+    /// <summary>Weights in motion, for one thread at a time: they take new goals at any instant and go on from where
+    /// they are.</summary>
+    public sealed class FaceMotion : IDisposable
+    {
+        readonly Handle handle;
+
+        /// <summary>At rest at these weights.</summary>
+        public FaceMotion(double[] weights)
+        {
+            Native.Check(Native.sweepface_motion_create(weights, (UIntPtr)weights.Length, out IntPtr motion));
+            handle = new Handle(motion, Native.sweepface_motion_free);
+        }
+
+        FaceMotion(IntPtr motion) { handle = new Handle(motion, Native.sweepface_motion_free); }
+
+        /// <summary>A second motion in the same state, independent from then on.</summary>
+        public FaceMotion Copy()
+        {
+            Native.Check(Native.sweepface_motion_copy(handle, out IntPtr copy));
+            return new FaceMotion(copy);
+        }
+
+        /// <summary>Lets time pass.</summary>
+        public void Advance(double seconds) => Native.sweepface_motion_advance(handle, seconds);
+
+        /// <summary>Sends a weight to a goal.</summary>
+        public void MoveTo(int weight, double goal, Drive drive) =>
+            Native.Check(Native.sweepface_motion_move_to(handle, checked((uint)weight), goal, ref drive));
+
+        /// <summary>Sends the first weights to goals.</summary>
+        public void MoveTo(double[] goals, Drive drive) =>
+            Native.Check(Native.sweepface_motion_move_all(handle, goals, (UIntPtr)goals.Length, ref drive));
+
+        /// <summary>An impulse: adds to a velocity, which drag (per second) then takes away.</summary>
+        public void Push(int weight, double velocityChange, double drag) =>
+            Native.Check(Native.sweepface_motion_push(handle, checked((uint)weight), velocityChange, drag));
+
+        /// <summary>Writes the first weights, as many as the array takes.</summary>
+        public void Positions(double[] weights) =>
+            Native.Check(Native.sweepface_motion_positions(handle, weights, (UIntPtr)weights.Length));
+        public void Velocities(double[] velocities) =>
+            Native.Check(Native.sweepface_motion_velocities(handle, velocities, (UIntPtr)velocities.Length));
+
+        /// <summary>Whether any weight may still be further than that from where it comes to rest.</summary>
+        public bool Moves(double tolerance = 0.001) => Native.sweepface_motion_moves(handle, tolerance) != 0;
+
+        public void Dispose() => handle.Dispose();
+    }
+
+#if SWEEPFACE_CLIPS
+    /// <summary>A recording or a timeline for the targets of a rig (docs/clips.md). Any number of threads may read
+    /// it.</summary>
+    public sealed class FaceClip : IDisposable
+    {
+        readonly Handle handle;
+
+        /// <summary>Reads a capture of Live Link Face, Audio2Face or MediaPipe, a timeline or an animation of a .glb.
+        /// `framesPerSecond` is that of captures that do not tell; `smooth` removes a tracker's noise.</summary>
+        public FaceClip(FaceRig rig, byte[] bytes, string name = null, double framesPerSecond = 0, bool smooth = false)
+        {
+            if (bytes == null) throw new ArgumentNullException(nameof(bytes));
+            Native.ClipOptions options = Native.sweepface_clip_usual_options();
+            options.FramesPerSecond = framesPerSecond;
+            options.Smooth = smooth ? 1 : 0;
+            Native.Check(Native.sweepface_clip_read(rig.Handle, bytes, (UIntPtr)bytes.Length, Native.Text(name),
+                                                    ref options, out IntPtr clip));
+            handle = new Handle(clip, Native.sweepface_clip_free);
+        }
+
+        public double Seconds => Native.sweepface_clip_seconds(handle);
+
+        /// <summary>Names of the clip that drive no target.</summary>
+        public string[] Unmatched => Strings(Native.sweepface_clip_unmatched);
+        /// <summary>Targets that nothing drives.</summary>
+        public string[] Undriven => Strings(Native.sweepface_clip_undriven);
+        /// <summary>What was repaired or may be wrong in the file.</summary>
+        public string[] Warnings => Strings(Native.sweepface_clip_warning);
+
+        /// <summary>Writes the first weights at a time after the first frame.</summary>
+        public void Weights(double seconds, double[] weights) =>
+            Native.Check(Native.sweepface_clip_weights(handle, seconds, weights, (UIntPtr)weights.Length));
+
+        /// <summary>Whether there are angles of the head, and of eyes that ever turn.</summary>
+        public bool HasHead => Native.sweepface_clip_has_head(handle) != 0;
+        public bool HasEyes => Native.sweepface_clip_has_eyes(handle) != 0;
+
+        /// <summary>All angles at a time.</summary>
+        public HeadPose Pose(double seconds)
+        {
+            Native.Check(Native.sweepface_clip_pose(handle, seconds, out HeadPose pose));
+            return pose;
+        }
+
+        public void Dispose() => handle.Dispose();
+
+        string[] Strings(Func<Handle, uint, IntPtr> at)
+        {
+            var texts = new System.Collections.Generic.List<string>();
+            for (string text; (text = Native.String(at(handle, (uint)texts.Count))) != null;) texts.Add(text);
+            GC.KeepAlive(this);
+            return texts.ToArray();
+        }
+    }
+#endif
+
+    /// <summary>A handle of the C interface, freed once, whoever lets go of it last.</summary>
+    sealed class Handle : SafeHandle
+    {
+        readonly Action<IntPtr> free;
+
+        internal Handle(IntPtr value, Action<IntPtr> free) : base(IntPtr.Zero, true)
+        {
+            this.free = free;
+            SetHandle(value);
+        }
+
+        public override bool IsInvalid => handle == IntPtr.Zero;
+
+        protected override bool ReleaseHandle()
+        {
+            free(handle);
+            return true;
+        }
+    }
+
+    /// <summary>Two arrays that stay where they are while they are written to.</summary>
+    struct Pinned : IDisposable
+    {
+        GCHandle first, second;
+
+        internal Pinned(float[] first, float[] second)
+        {
+            this.first = first == null ? default(GCHandle) : GCHandle.Alloc(first, GCHandleType.Pinned);
+            this.second = second == null ? default(GCHandle) : GCHandle.Alloc(second, GCHandleType.Pinned);
+        }
+
+        internal Native.Vectors First => VectorsOf(first);
+        internal Native.Vectors Second => VectorsOf(second);
+
+        static Native.Vectors VectorsOf(GCHandle pin) =>
+            new Native.Vectors(pin.IsAllocated ? pin.AddrOfPinnedObject() : IntPtr.Zero, 0);
+
+        public void Dispose()
+        {
+            if (first.IsAllocated) first.Free();
+            if (second.IsAllocated) second.Free();
+        }
+    }
+
+    /// <summary>The C interface as sweepface.h, sweepface_head.h and sweepface_clips.h declare it.</summary>
+    static class Native
+    {
+#if SWEEPFACE_CLIPS
+        const string Library = "sweepface_clips";
+#else
+        const string Library = "sweepface";
+#endif
+        const CallingConvention C = CallingConvention.Cdecl;
+
+        [StructLayout(LayoutKind.Sequential)]
+        internal struct Vectors
+        {
+            readonly IntPtr data;
+            readonly UIntPtr stride;
+
+            internal Vectors(IntPtr data, int stride)
+            {
+                this.data = data;
+                this.stride = (UIntPtr)checked((uint)stride);
+            }
+        }
+
+        [StructLayout(LayoutKind.Sequential)]
+        internal struct PartOut
+        {
+            internal IntPtr Material;
+            internal uint FirstTriangle, TriangleCount;
+        }
+
+        internal static void Check(int status)
+        {
+            if (status != 0) throw new SweepfaceException(String(sweepface_message()));
+        }
+
+        /// <summary>A text as C reads it: UTF-8, ended by 0.</summary>
+        internal static byte[] Text(string text) => text == null ? null : Encoding.UTF8.GetBytes(text + "\0");
+
+        internal static string String(IntPtr text)
+        {
+            if (text == IntPtr.Zero) return null;
+            int length = 0;
+            while (Marshal.ReadByte(text, length) != 0) ++length;
+            var bytes = new byte[length];
+            Marshal.Copy(text, bytes, 0, length);
+            return Encoding.UTF8.GetString(bytes);
+        }
+
+        [DllImport(Library, CallingConvention = C)] static extern IntPtr sweepface_message();
+        [DllImport(Library, CallingConvention = C)] internal static extern int sweepface_rig_load(byte[] bytes, UIntPtr size, byte[] name, out IntPtr rig);
+        [DllImport(Library, CallingConvention = C)] internal static extern void sweepface_rig_free(IntPtr rig);
+        [DllImport(Library, CallingConvention = C)] internal static extern uint sweepface_rig_target_count(Handle rig);
+        [DllImport(Library, CallingConvention = C)] internal static extern IntPtr sweepface_rig_target_name(Handle rig, uint target);
+        [DllImport(Library, CallingConvention = C)] internal static extern int sweepface_rig_find_target(Handle rig, byte[] name, out uint target);
+        [DllImport(Library, CallingConvention = C)] internal static extern uint sweepface_rig_match_targets(Handle rig, byte[] name, [Out] int[] targets, uint room);
+        [DllImport(Library, CallingConvention = C)] internal static extern int sweepface_rig_follow(Handle rig, uint what);
+        [DllImport(Library, CallingConvention = C)] internal static extern int sweepface_rig_turn_eyes(Handle rig, out uint eyes);
+        [DllImport(Library, CallingConvention = C)] internal static extern double sweepface_rig_tolerance(Handle rig);
+        [DllImport(Library, CallingConvention = C)] internal static extern void sweepface_rig_box(Handle rig, [Out] double[] low, [Out] double[] high);
+
+        [DllImport(Library, CallingConvention = C)] internal static extern int sweepface_mesh_create(Handle rig, uint lod, out IntPtr mesh);
+        [DllImport(Library, CallingConvention = C)] internal static extern int sweepface_mesh_create_within(Handle rig, int budget, double value, out IntPtr mesh);
+        [DllImport(Library, CallingConvention = C)] internal static extern int sweepface_mesh_create_at(Handle rig, double[] points, UIntPtr count, out IntPtr mesh);
+        [DllImport(Library, CallingConvention = C)] internal static extern void sweepface_mesh_free(IntPtr mesh);
+        [DllImport(Library, CallingConvention = C)] internal static extern int sweepface_mesh_prepare(Handle mesh, int normals);
+        [DllImport(Library, CallingConvention = C)] internal static extern int sweepface_mesh_prepare_tangents(Handle mesh);
+        [DllImport(Library, CallingConvention = C)] internal static extern uint sweepface_mesh_point_count(Handle mesh);
+        [DllImport(Library, CallingConvention = C)] internal static extern uint sweepface_mesh_vertex_count(Handle mesh);
+        [DllImport(Library, CallingConvention = C)] internal static extern IntPtr sweepface_mesh_copies(Handle mesh);
+        [DllImport(Library, CallingConvention = C)] internal static extern uint sweepface_mesh_triangle_count(Handle mesh);
+        [DllImport(Library, CallingConvention = C)] internal static extern IntPtr sweepface_mesh_triangles(Handle mesh);
+        [DllImport(Library, CallingConvention = C)] internal static extern IntPtr sweepface_mesh_texcoords(Handle mesh);
+        [DllImport(Library, CallingConvention = C)] internal static extern uint sweepface_mesh_part_count(Handle mesh);
+        [DllImport(Library, CallingConvention = C)] internal static extern int sweepface_mesh_part(Handle mesh, uint part, out PartOut found);
+
+        [DllImport(Library, CallingConvention = C)] internal static extern int sweepface_face_create(Handle mesh, out IntPtr face);
+        [DllImport(Library, CallingConvention = C)] internal static extern void sweepface_face_free(IntPtr face);
+        [DllImport(Library, CallingConvention = C)] internal static extern int sweepface_face_set_weight(Handle face, uint target, double weight);
+        [DllImport(Library, CallingConvention = C)] internal static extern int sweepface_face_set_weights(Handle face, double[] weights, UIntPtr count);
+        [DllImport(Library, CallingConvention = C)] internal static extern int sweepface_face_evaluate(Handle face, UIntPtr count, Vectors positions, Vectors normals);
+        [DllImport(Library, CallingConvention = C)] internal static extern int sweepface_face_update(Handle face, UIntPtr count, Vectors positions, Vectors normals);
+        [DllImport(Library, CallingConvention = C)] internal static extern int sweepface_face_tangents(Handle face, UIntPtr count, Vectors normals, Vectors tangents);
+        [DllImport(Library, CallingConvention = C)] internal static extern int sweepface_face_box(Handle face, [Out] double[] low, [Out] double[] high);
+        [DllImport(Library, CallingConvention = C)] internal static extern double sweepface_face_error(Handle face);
+        [DllImport(Library, CallingConvention = C)] internal static extern int sweepface_face_look(Handle face, ref HeadPose pose);
+        [DllImport(Library, CallingConvention = C)] internal static extern int sweepface_face_look(Handle face, IntPtr none);
+
+        [DllImport(Library, CallingConvention = C)] internal static extern Drive sweepface_drive_of(int kind);
+        [DllImport(Library, CallingConvention = C)] internal static extern int sweepface_motion_create(double[] weights, UIntPtr count, out IntPtr motion);
+        [DllImport(Library, CallingConvention = C)] internal static extern int sweepface_motion_copy(Handle motion, out IntPtr copy);
+        [DllImport(Library, CallingConvention = C)] internal static extern void sweepface_motion_free(IntPtr motion);
+        [DllImport(Library, CallingConvention = C)] internal static extern void sweepface_motion_advance(Handle motion, double seconds);
+        [DllImport(Library, CallingConvention = C)] internal static extern int sweepface_motion_move_to(Handle motion, uint weight, double goal, ref Drive drive);
+        [DllImport(Library, CallingConvention = C)] internal static extern int sweepface_motion_move_all(Handle motion, double[] goals, UIntPtr count, ref Drive drive);
+        [DllImport(Library, CallingConvention = C)] internal static extern int sweepface_motion_push(Handle motion, uint weight, double velocityChange, double drag);
+        [DllImport(Library, CallingConvention = C)] internal static extern int sweepface_motion_positions(Handle motion, [Out] double[] to, UIntPtr count);
+        [DllImport(Library, CallingConvention = C)] internal static extern int sweepface_motion_velocities(Handle motion, [Out] double[] to, UIntPtr count);
+        [DllImport(Library, CallingConvention = C)] internal static extern int sweepface_motion_moves(Handle motion, double tolerance);
+
+#if SWEEPFACE_CLIPS
+        [StructLayout(LayoutKind.Sequential)]
+        internal struct ClipOptions
+        {
+            internal double FramesPerSecond;
+            internal int Smooth;
+            internal double Frequency, Damping;
+            internal IntPtr Animation, Names;
+        }
+
+        [DllImport(Library, CallingConvention = C)] internal static extern ClipOptions sweepface_clip_usual_options();
+        [DllImport(Library, CallingConvention = C)] internal static extern int sweepface_clip_read(Handle rig, byte[] bytes, UIntPtr size, byte[] name, ref ClipOptions options, out IntPtr clip);
+        [DllImport(Library, CallingConvention = C)] internal static extern void sweepface_clip_free(IntPtr clip);
+        [DllImport(Library, CallingConvention = C)] internal static extern double sweepface_clip_seconds(Handle clip);
+        [DllImport(Library, CallingConvention = C)] internal static extern IntPtr sweepface_clip_unmatched(Handle clip, uint index);
+        [DllImport(Library, CallingConvention = C)] internal static extern IntPtr sweepface_clip_undriven(Handle clip, uint index);
+        [DllImport(Library, CallingConvention = C)] internal static extern IntPtr sweepface_clip_warning(Handle clip, uint index);
+        [DllImport(Library, CallingConvention = C)] internal static extern int sweepface_clip_weights(Handle clip, double seconds, [Out] double[] to, UIntPtr count);
+        [DllImport(Library, CallingConvention = C)] internal static extern int sweepface_clip_has_head(Handle clip);
+        [DllImport(Library, CallingConvention = C)] internal static extern int sweepface_clip_has_eyes(Handle clip);
+        [DllImport(Library, CallingConvention = C)] internal static extern int sweepface_clip_pose(Handle clip, double seconds, out HeadPose pose);
+#endif
+    }
+}

@@ -1,0 +1,219 @@
+// Plays a face through csharp/Sweepface.cs and compares it with what the tool exports.
+// Usage: Plays FACE.sweep JAW_OPEN.obj TAKE.csv
+using System;
+using System.Collections.Generic;
+using System.Globalization;
+using System.IO;
+using System.Linq;
+using System.Runtime.InteropServices;
+using Sweepface;
+
+static class Plays
+{
+    static int failures;
+
+    static void Expect(bool holds, string what)
+    {
+        if (holds) return;
+        ++failures;
+        Console.WriteLine("failed: " + what);
+    }
+
+    static void Refuses<T>(Action action, string sentence) where T : Exception
+    {
+        try { action(); }
+        catch (T refusal)
+        {
+            Expect(refusal.Message.Contains(sentence), "'" + refusal.Message + "' has '" + sentence + "'");
+            return;
+        }
+        Expect(false, "refused with '" + sentence + "'");
+    }
+
+    static float[] VerticesOf(string obj) => (
+        from line in File.ReadLines(obj)
+        where line.StartsWith("v ", StringComparison.Ordinal)
+        from number in line.Split(' ').Skip(1)
+        select float.Parse(number, CultureInfo.InvariantCulture)).ToArray();
+
+    static double Farthest(float[] a, float[] b, int count) =>
+        Enumerable.Range(0, count).Max(k => Math.Abs((double)a[k] - b[k]));
+
+    static void PlaysExpressions(FaceRig rig, string exported)
+    {
+        Expect(rig.TargetNames.Length == 42 && rig.TargetNames[rig.Find("jawOpen")] == "jawOpen", "names of targets");
+        Expect(rig.Match("EyeBlink_L").Single() == rig.Find("eyeBlinkLeft"), "a tracker's name");
+        Refuses<SweepfaceException>(() => rig.Find("frown"), "no target named 'frown'");
+        using (var mesh = new FaceMesh(rig))
+        using (var face = new Face(mesh))
+        {
+            rig.Dispose();  // the mesh keeps what it needs
+            mesh.Prepare(tangents: true);
+            var positions = new float[3 * mesh.VertexCount];
+            var normals = new float[3 * mesh.VertexCount];
+            face.SetWeight(Array.IndexOf(rig.TargetNames, "jawOpen"), 1);
+            face.Evaluate(positions, normals);
+            float[] expected = VerticesOf(exported);
+            Expect(expected.Length == 3 * mesh.PointCount, "as many points as the source has vertices");
+            Expect(Farthest(positions, expected, expected.Length) <= face.Error && face.Error < 0.01, "positions");
+            Expect(Math.Abs(Length(normals, 17) - 1) < 1e-5, "unit normals");
+            int[] copies = mesh.Copies;
+            Expect(copies.Length == mesh.VertexCount - mesh.PointCount && copies.Length > 0, "copies");
+            Expect(positions[3 * mesh.PointCount] == positions[3 * copies[0]], "copies are where their points are");
+            Expect(mesh.Triangles.Length > 40000 && mesh.Triangles.Max() < mesh.VertexCount, "triangles");
+            Expect(mesh.Texcoords.Length == 2 * mesh.VertexCount, "texture coordinates");
+            Expect(mesh.Parts.Any(part => part.Material == "skin"), "materials");
+            Expect(mesh.Parts.Sum(part => part.TriangleCount) == mesh.Triangles.Length / 3, "parts");
+            var tangents = new float[4 * mesh.VertexCount];
+            face.Tangents(normals, tangents);
+            Expect(Math.Abs(tangents[3]) == 1, "signs of tangents");
+            var low = new double[3];
+            var high = new double[3];
+            face.Box(low, high);
+            Expect(Enumerable.Range(0, positions.Length).All(k => low[k % 3] <= positions[k] && positions[k] <= high[k % 3]),
+                   "a box around the face");
+            Refuses<ArgumentException>(() => face.Evaluate(new float[9]), "3 floats are written for each of");
+            Refuses<SweepfaceException>(() => face.SetWeight(42, 1), "42");
+            IsPlayedIntoOtherMemory(face, mesh, positions);
+            AllocatesNothing(face, positions, normals);
+        }
+        Refuses<ObjectDisposedException>(() => new FaceMesh(rig), "");
+    }
+
+    static double Length(float[] vectors, int k) => Math.Sqrt(
+        vectors[3 * k] * vectors[3 * k] + vectors[3 * k + 1] * vectors[3 * k + 1] + vectors[3 * k + 2] * vectors[3 * k + 2]);
+
+    static void IsPlayedIntoOtherMemory(Face face, FaceMesh mesh, float[] positions)
+    {
+        var vertices = new float[8 * mesh.VertexCount];  // position, normal, texture coordinate
+        GCHandle pin = GCHandle.Alloc(vertices, GCHandleType.Pinned);
+        try
+        {
+            IntPtr first = pin.AddrOfPinnedObject();
+            face.Update(mesh.VertexCount, first, IntPtr.Add(first, 12), 32);
+            Expect(Enumerable.Range(0, mesh.VertexCount).All(v => vertices[8 * v + 1] == positions[3 * v + 1]), "strides");
+            Refuses<SweepfaceException>(() => face.Evaluate(mesh.VertexCount, first, IntPtr.Zero, 11), "stride");
+            Refuses<SweepfaceException>(() => face.Evaluate(mesh.VertexCount + 1, first, IntPtr.Zero, 32), "vertices");
+        }
+        finally { pin.Free(); }
+    }
+
+    static void AllocatesNothing(Face face, float[] positions, float[] normals)
+    {
+        face.Evaluate(positions, normals);
+        long before = GC.GetTotalMemory(true);
+        for (int k = 0; k < 1000; ++k) face.Evaluate(positions, normals);
+        Expect(GC.GetTotalMemory(false) - before < 10000, "no allocation in a frame");
+    }
+
+    static void ComesAtLevelsOfDetail(byte[] bytes)
+    {
+        using (var rig = new FaceRig(bytes))
+        using (var coarse = new FaceMesh(rig, Budget.Vertices, 3000))
+        using (var fine = new FaceMesh(rig, 2))
+        {
+            Expect(coarse.PointCount <= 3000 && fine.PointCount > 16000, "levels of detail");
+            rig.Box(out double[] low, out double[] high);
+            using (var pin = new FaceMesh(rig, new[] { 0, (low[1] + high[1]) / 2, high[2] }))
+            using (var face = new Face(pin))
+            {
+                var place = new float[3];
+                face.Evaluate(place);
+                Expect(pin.VertexCount == 1 && place[2] > low[2] && place[2] <= high[2], "a point of the surface");
+            }
+            Refuses<SweepfaceException>(() => new FaceMesh(rig, 65), "64");
+            Refuses<OverflowException>(() => new FaceMesh(rig, -1), "");
+        }
+        Refuses<SweepfaceException>(() => new FaceRig(new byte[] { 1, 2, 3 }, "broken.sweep"), "broken.sweep");
+        Refuses<ArgumentNullException>(() => new FaceRig(null), "bytes");
+    }
+
+    static void MovesAndTurns(byte[] bytes)
+    {
+        var weights = new double[2];
+        using (var motion = new FaceMotion(weights))
+        {
+            Drive spring = Drive.Of(DriveKind.Spring);
+            spring.Damping = 0.3;
+            motion.MoveTo(new double[] { 1, 0 }, spring);
+            using (FaceMotion ahead = motion.Copy())
+            {
+                double most = 0;
+                for (int frame = 0; frame < 60; ++frame)
+                {
+                    ahead.Advance(1 / 60.0);
+                    ahead.Positions(weights);
+                    most = Math.Max(most, weights[0]);
+                }
+                Expect(most > 1.2 && most < 1.5, "a spring overshoots");
+            }
+            motion.Positions(weights);
+            Expect(weights[0] == 0 && motion.Moves(), "a copy moves alone");
+            motion.Push(1, 3, 1);
+            motion.Velocities(weights);
+            Expect(weights[1] == 3, "an impulse");
+            Refuses<SweepfaceException>(() => motion.MoveTo(2, 1, spring), "2");
+        }
+        using (var rig = new FaceRig(bytes))
+        {
+            rig.Follow(Following.Combine);
+            Expect(rig.TurnEyes() == 2 && rig.Tolerance >= 0, "eyes");
+            using (var mesh = new FaceMesh(rig))
+            using (var face = new Face(mesh))
+            {
+                var straight = new float[3 * mesh.VertexCount];
+                var left = new float[3 * mesh.VertexCount];
+                face.Evaluate(straight);
+                face.Look(new HeadPose { LeftEye = new Angles { Yaw = 0.3 }, RightEye = new Angles { Yaw = 0.3 } });
+                face.Evaluate(left);
+                Expect(Farthest(straight, left, left.Length) > 0.1, "eyes turn");
+                face.Look(null);
+                face.Evaluate(left);
+                Expect(Farthest(straight, left, left.Length) == 0, "and look straight again");
+            }
+        }
+    }
+
+#if SWEEPFACE_CLIPS
+    static void PlaysClips(byte[] bytes, string take)
+    {
+        using (var rig = new FaceRig(bytes))
+        using (var clip = new FaceClip(rig, File.ReadAllBytes(take), take))
+        {
+            var weights = new double[rig.TargetNames.Length];
+            clip.Weights(clip.Seconds / 2, weights);
+            Expect(Math.Abs(weights[rig.Find("jawOpen")] - 0.4) < 0.01 && Math.Abs(clip.Seconds - 0.5) < 1e-9, "weights of a clip");
+            Expect(clip.Unmatched.Single() == "TongueOut" && clip.Undriven.Length == 41 && clip.Warnings.Length == 0, "names of a clip");
+            Expect(clip.HasHead && !clip.HasEyes && Math.Abs(clip.Pose(0).Head.Yaw + 0.1) < 1e-9, "angles of a clip");
+        }
+    }
+#endif
+
+    static void PlaysInUnity(byte[] bytes)
+    {
+        var player = new SweepfacePlayer { file = new UnityEngine.TextAsset { bytes = bytes } };
+        player.Start();
+        UnityEngine.Mesh shown = player.filter.sharedMesh;
+        UnityEngine.Vector3[] before = shown.vertices.ToArray();
+        Expect(shown.triangles.Length > 40000 && shown.uv.Length == before.Length, "a mesh in Unity");
+        using (var rig = new FaceRig(bytes)) player.weights[rig.Find("jawOpen")] = 1;
+        for (int frame = 0; frame < 30; ++frame) player.Update();
+        double moved = before.Zip(shown.vertices, (a, b) => Math.Abs((double)a.y - b.y)).Max();
+        Expect(moved > 1 && moved < 3, "it opens its jaw there");
+        player.OnDestroy();
+    }
+
+    static int Main(string[] arguments)
+    {
+        byte[] bytes = File.ReadAllBytes(arguments[0]);
+        PlaysExpressions(new FaceRig(bytes, arguments[0]), arguments[1]);
+        ComesAtLevelsOfDetail(bytes);
+        MovesAndTurns(bytes);
+        PlaysInUnity(bytes);
+#if SWEEPFACE_CLIPS
+        PlaysClips(bytes, arguments[2]);
+#endif
+        Console.WriteLine(failures == 0 ? "all is well" : failures + " failed");
+        return failures == 0 ? 0 : 1;
+    }
+}
