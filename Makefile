@@ -44,7 +44,7 @@ python:
 	scripts/install-deps python
 	cmake --preset release
 	cmake --build $(BUILD) --target sweepface_python
-	@echo 'Now: PYTHONPATH=$(BUILD)/python python3, and import sweepface'
+	@sed -n 's|^SWEEPFACE_PYTHON:FILEPATH=|Now: PYTHONPATH=$(BUILD)/python |p' $(BUILD)/CMakeCache.txt
 
 # What the tests with other people's tools need; without it they are skipped.
 tests/web/node_modules/.package-lock.json: tests/web/package-lock.json

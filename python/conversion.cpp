@@ -1,3 +1,5 @@
+#include <memory>
+
 #include "sweepface/fit.hpp"
 #include "sweepface/gltf.hpp"
 #include "sweepface/io.hpp"
@@ -21,6 +23,7 @@ std::shared_ptr<Rig> converted(const RigSource& meshes, double tolerance, bool p
     throw Failure("normal_tolerance is for packed rigs; give pack or max_bytes as well.");
   const std::size_t most =
       maxBytes.is_none() ? 0 : as<std::size_t>(maxBytes, "max_bytes", "a number of bytes");
+  if (most == 0 && !maxBytes.is_none()) throw Failure("max_bytes must be at least 1.");
   const std::string scene = options.pack ? packedScene(meshes.scene) : meshes.scene;
   const auto finish = [&](Rig& rig) -> Result<void> {
     rig.scene = scene;

@@ -48,9 +48,12 @@ py::tuple derivatives(const Doubles& boundary, const Doubles& control2, const Do
 py::tuple controls(const Doubles& boundary, const Doubles& first, const Doubles& second, double u2,
                    double u3) {
   Curves curves(boundary, first, second, "The derivatives");
-  for (std::size_t k = 0; k < curves.boundary.size(); ++k)
+  for (std::size_t k = 0; k < curves.boundary.size(); ++k) {
     std::tie(curves.first[k], curves.second[k]) =
         controlsFromDerivatives(curves.boundary[k], {curves.first[k], curves.second[k]}, {u2, u3});
+    if (!isFinite(curves.first[k]) || !isFinite(curves.second[k]))
+      throw Failure("The curves would not be finite; give other parameters or derivatives.");
+  }
   return py::make_tuple(arrayOfPoints(curves.first), arrayOfPoints(curves.second));
 }
 

@@ -1,11 +1,14 @@
 #include <algorithm>
+#include <cstddef>
 #include <fmt/format.h>
+#include <memory>
 #include <optional>
 
 #include "sweepface/evaluator.hpp"
 #include "sweepface/render_mesh.hpp"
 
 #include "bindings.hpp"
+#include "output.hpp"
 #include "parallel/parallel.hpp"
 
 namespace sweepface::python {
@@ -51,7 +54,7 @@ Face faceOf(const std::shared_ptr<Rig>& rig, Index level, const py::object& vert
   EvaluatorOptions options;
   options.level = budget ? 1 : level, options.normals = normals;
   if (!tolerance.is_none()) options.tolerance = numberFrom(tolerance, "The tolerance");
-  const py::gil_scoped_release others;
+  const Released others;
   if (budget) {
     const Tessellation grid(rig->surface,
                             valueOf(densityFor(rig->surface, blend(*rig, {}), *budget)));
@@ -64,53 +67,6 @@ Face faceOf(const std::shared_ptr<Rig>& rig, Index level, const py::object& vert
 
 // ---- Every frame ----
 
-/// Where the vectors of all frames are written: an array [V × 3], or [F × V × 3].
-struct Output {
-  py::object array = py::none();
-  char* data = nullptr;                     // null: not wanted
-  std::size_t frameStride = 0, stride = 0;  // bytes
-
-  Output() = default;
-  explicit Output(py::array to) : array(to), data(static_cast<char*>(to.mutable_data())) {
-    const py::ssize_t* const last = to.strides() + to.ndim();
-    stride = static_cast<std::size_t>(last[-2]);
-    if (to.ndim() == 3) frameStride = static_cast<std::size_t>(last[-3]);
-  }
-  VectorsOut of(std::size_t frame, std::size_t vertices) const {
-    if (!data) return {};
-    return {reinterpret_cast<float*>(data + frame * frameStride), static_cast<Index>(vertices),
-            stride};
-  }
-};
-
-/// Whether an array has room for three floats a vertex, side by side, frames and vertices forwards.
-bool hasRoom(const py::array& array, const std::vector<py::ssize_t>& shape) {
-  constexpr py::ssize_t number = sizeof(float);
-  if (!py::isinstance<py::array_t<float>>(array) || !array.writeable() ||
-      !std::equal(shape.begin(), shape.end(), array.shape(), array.shape() + array.ndim()))
-    return false;
-  const std::span strides(array.strides(), shape.size());
-  return strides.back() == number &&
-         std::ranges::all_of(strides.first(shape.size() - 1), [](py::ssize_t bytes) {
-           return bytes >= 3 * number && bytes % number == 0;
-         });
-}
-
-/// Nothing, a new array, or the one that was given.
-Output outputFrom(const py::object& given, const std::vector<py::ssize_t>& shape,
-                  const char* what) {
-  if (py::isinstance<py::bool_>(given) && py::cast<bool>(given))
-    return Output(py::array_t<float>(shape));
-  if (py::isinstance<py::bool_>(given) || given.is_none()) return {};
-  const auto array = py::cast<py::array>(given);
-  if (!hasRoom(array, shape))
-    throw Failure(fmt::format(
-        "{} must be written to a float32 array of shape {} whose rows go forwards in memory, with "
-        "the numbers of a vertex side by side.",
-        what, py::cast<std::string>(py::str(py::cast(shape)))));
-  return Output(array);
-}
-
 /// Weights of one frame, or of many: [F × K].
 struct Frames {
   std::vector<double> weights;
@@ -118,11 +74,15 @@ struct Frames {
   bool isOne = true;
 
   Frames(const Rig& rig, const py::object& given) : targets(rig.targets.size()) {
-    if (!py::isinstance<py::array>(given) || py::cast<py::array>(given).ndim() != 2) {
+    if (given.is_none() || isMapping(given)) {
       weights = weightsFrom(rig, given);
       return;
     }
-    const auto rows = py::cast<Doubles>(given);
+    const auto rows = as<Doubles>(given, "Weights", "None, a dict, or an array [K] or [F, K]");
+    if (rows.ndim() != 2) {
+      weights = weightsFrom(rig, rows);
+      return;
+    }
     if (static_cast<std::size_t>(rows.shape(1)) != targets)
       throw Failure(
           fmt::format("There are {} weights a frame for {} targets.", rows.shape(1), targets));
@@ -138,7 +98,7 @@ struct Frames {
 
 void evaluateAll(const Face& face, const Frames& frames, const Output& positions,
                  const Output& normals) {
-  const py::gil_scoped_release others;
+  const Released others;
   parallelRanges(frames.count, [&](std::size_t first, std::size_t end) {
     std::vector<std::byte> scratch(face.evaluator.scratchBytes());
     for (std::size_t f = first; f < end; ++f) {
@@ -146,8 +106,8 @@ void evaluateAll(const Face& face, const Frames& frames, const Output& positions
       frame.evaluator = &face.evaluator;
       frame.weights = frames.of(f);
       frame.scratch = scratch;
-      frame.positions = positions.of(f, face.vertices());
-      frame.normals = normals.of(f, face.vertices());
+      frame.positions = positions.of(f);
+      frame.normals = normals.of(f);
       valueOf(frame.validate());
       frame.run();
     }
@@ -159,13 +119,16 @@ py::object evaluate(const Face& face, const py::object& weights, const py::objec
   const Frames frames(*face.rig, weights);
   std::vector<py::ssize_t> shape{static_cast<py::ssize_t>(face.vertices()), 3};
   if (!frames.isOne) shape.insert(shape.begin(), static_cast<py::ssize_t>(frames.count));
-  const Output places = outputFrom(positions, shape, "Positions");
-  const Output directions = outputFrom(normals, shape, "Normals");
-  if (directions.data && !face.evaluator.hasNormals())
+  const Output places = Output::from(positions, shape, "Positions");
+  const Output directions = Output::from(normals, shape, "Normals");
+  if (directions.isWanted() && !face.evaluator.hasNormals())
     throw Failure("The face was made without normals; make it with them.");
+  if (places.crosses(directions))
+    throw Failure("Positions and normals must be written to different places.");
   evaluateAll(face, frames, places, directions);
-  if (places.data && directions.data) return py::make_tuple(places.array, directions.array);
-  return places.data ? places.array : directions.array;
+  if (places.isWanted() && directions.isWanted())
+    return py::make_tuple(places.array(), directions.array());
+  return places.isWanted() ? places.array() : directions.array();
 }
 
 // ---- Its mesh ----
@@ -190,9 +153,9 @@ void addFace(py::module_& m) {
                    "A rig prepared for playing: a linear map from weights to vertices in tables "
                    "small enough for the cache. It never changes; any number of threads may use "
                    "it.")
-      .def(py::init(&faceOf), "rig"_a, "level"_a = 0, py::kw_only(), "vertices"_a = py::none(),
-           "edge_length"_a = py::none(), "error"_a = py::none(), "normals"_a = true,
-           "tolerance"_a = py::none(),
+      .def(py::init(&faceOf), py::arg("rig").none(false), "level"_a = 0, py::kw_only(),
+           "vertices"_a = py::none(), "edge_length"_a = py::none(), "error"_a = py::none(),
+           "normals"_a = true, "tolerance"_a = py::none(),
            "level 0 has the source's vertices in their order; level N every edge of the source cut "
            "into N. Instead of a level, a budget: as close to the surface as a number of vertices "
            "allows, edges no longer than a length, or triangles no further from the surface than "

@@ -2,6 +2,11 @@
 
 namespace sweepface::python {
 
+LongWork::LongWork(py::object progress) : progress_(std::move(progress)) {
+  if (!progress_.is_none() && !PyCallable_Check(progress_.ptr()))
+    throw Failure("progress must be a function of what is going on and how far it is.");
+}
+
 std::function<void(std::string_view, double)> LongWork::report() {
   return [this](std::string_view what, double done) {
     const std::scoped_lock lock(telling_);

@@ -16,7 +16,7 @@ namespace sweepface::python {
 /// and then (unless it is None) and lets Ctrl-C, or an exception of `progress`, end the work.
 class LongWork {
  public:
-  explicit LongWork(py::object progress) : progress_(std::move(progress)) {}
+  explicit LongWork(py::object progress = py::none());
 
   /// For the options of the work.
   std::function<void(std::string_view, double)> report();
@@ -27,14 +27,15 @@ class LongWork {
   auto run(const Work& work) {
     auto result = std::async(std::launch::async, work);
     const auto isDone = [&] {
-      const py::gil_scoped_release others;
+      const Released others;
       return result.wait_for(std::chrono::milliseconds(50)) == std::future_status::ready;
     };
     try {
       while (!isDone()) attend();
+      attend();  // the last report
     } catch (...) {
       cancelled_ = true;
-      const py::gil_scoped_release others;
+      const Released others;
       result.wait();
       throw;
     }

@@ -25,7 +25,7 @@ Measurements measured(const Rig& rig, const RigSource& meshes, int mixtures, uns
                       bool facets) {
   if (mixtures < 0 || mixtures > 10000)
     throw Failure(fmt::format("There may be 0 to 10,000 mixtures, not {}.", mixtures));
-  LongWork work(py::none{});
+  LongWork work;
   const MeasureOptions options{mixtures, seed, facets, work.cancel()};
   auto all = valueOf(work.run([&] { return measure(rig, meshes.rig, options); }));
   Measurements measurements{{}, {}, {all.worst, facets}};

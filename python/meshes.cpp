@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
 
@@ -6,14 +7,16 @@
 #include "sweepface/io.hpp"
 
 #include "bindings.hpp"
-#include "long_work.hpp"
 
 namespace sweepface::python {
 namespace {
 
 std::vector<Vec3> placesFrom(const py::object& array, const std::string& what) {
   auto points = pointsFrom(as<Doubles>(array, what.c_str(), "an array of numbers"), what.c_str());
-  if (!std::ranges::all_of(points, isFinite)) throw Failure(what + " must be finite numbers.");
+  constexpr double kMost = 1e30;  // files hold single precision, in which squares must be finite
+  for (const Vec3& p : points)
+    for (const double x : {p.x, p.y, p.z})
+      if (!(std::abs(x) <= kMost)) throw Failure(what + " must be numbers within 1e30 of 0.");
   return points;
 }
 
@@ -93,8 +96,7 @@ RigSource readMeshes(const std::filesystem::path& neutral, const py::object& tar
   const bool isOne = py::isinstance<py::str>(targets) || py::hasattr(targets, "__fspath__");
   const Paths paths = isOne ? Paths{as<std::filesystem::path>(targets, kWhat, "paths")}
                             : as<Paths>(targets, kWhat, "paths");
-  LongWork work(py::none{});
-  auto meshes = valueOf(work.run([&] { return readSource(neutral, paths); }));
+  auto meshes = valueOf(released([&] { return readSource(neutral, paths); }));
   warn(meshes.faceWarnings);
   warn(meshes.warnings);
   return meshes;
@@ -158,7 +160,7 @@ void addMeshes(py::module_& m) {
           "save_glb",
           [](const RigSource& s, const std::filesystem::path& path) {
             checkKind(path, ".glb");
-            valueOf(writeFile(path, valueOf(formatGlb(s.rig))));
+            valueOf(released([&] { return writeFile(path, valueOf(formatGlb(s.rig))); }));
           },
           py::arg("path"), "Writes a GLB with the targets as morph targets.")
       .def("__repr__", [](const RigSource& s) {

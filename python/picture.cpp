@@ -38,11 +38,7 @@ py::array_t<std::uint8_t> renderRig(const Rig& rig, const py::object& weights, I
   if (how == Style::error || how == Style::angle)
     throw Failure("The style '" + style + "' needs meshes to compare with: use the tool.");
   const Weights blended = weightsFrom(rig, weights);
-  Image image;
-  {
-    const py::gil_scoped_release others;
-    image = shot(rig, blended, size, from, how);
-  }
+  const Image image = released([&] { return shot(rig, blended, size, from, how); });
   return arrayOf(std::span<const std::uint8_t>(image.rgb), {height, width, 3});
 }
 

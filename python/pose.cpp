@@ -15,22 +15,23 @@ namespace {
 
 /// Arrays of the same shape: those of patches, u and v, each a number or an array.
 struct Sites {
-  py::array_t<Index, py::array::c_style | py::array::forcecast> patch;
+  py::array_t<std::int64_t, py::array::c_style | py::array::forcecast> patch;
   Doubles u, v;
 
   Sites(const py::object& patches, const py::object& us, const py::object& vs) {
     const py::list same = py::module_::import("numpy").attr("broadcast_arrays")(patches, us, vs);
     const py::array numbers = same[0];
-    if (numbers.dtype().kind() != 'i' && numbers.dtype().kind() != 'u')
+    if (numbers.size() > 0 && numbers.dtype().kind() != 'i' && numbers.dtype().kind() != 'u')
       throw Failure("Patches are told by whole numbers.");
     patch = numbers, u = py::object(same[1]), v = py::object(same[2]);
   }
 
   Site at(const Surface& surface, py::ssize_t k) const {
-    const Site site{patch.data()[k], u.data()[k], v.data()[k]};
-    if (site.patch < 0 || site.patch >= surface.patchCount())
-      throw Failure(fmt::format("There is no patch {}; there are {}, from 0 on.", site.patch,
-                                surface.patchCount()));
+    const std::int64_t p = patch.data()[k];
+    if (p < 0 || p >= surface.patchCount())
+      throw Failure(
+          fmt::format("There is no patch {}; there are {}, from 0 on.", p, surface.patchCount()));
+    const Site site{static_cast<Index>(p), u.data()[k], v.data()[k]};
     const Index edgesU = surface.edgesU(site.patch), edgesV = surface.edgesV(site.patch);
     if (!(site.u >= 0 && site.u <= edgesU && site.v >= 0 && site.v <= edgesV))
       throw Failure(fmt::format("({}, {}) is outside of patch {}, where u goes to {} and v to {}.",
@@ -68,8 +69,9 @@ py::array_t<double> normalAt(const Pose& pose, const py::object& patch, const py
 }
 
 py::tuple nearestTo(const Pose& pose, const Doubles& points) {
+  const std::vector<Vec3> places = pointsFrom(points, "The points");
   const auto sites =
-      valueOf(nearestSites(pose.rig->surface, pose.vectors, pointsFrom(points, "The points")));
+      valueOf(released([&] { return nearestSites(pose.rig->surface, pose.vectors, places); }));
   std::vector<Index> patches;
   std::vector<double> us, vs;
   for (const Site& site : sites) {
@@ -88,15 +90,18 @@ Tessellation gridAt(const Pose& pose, Index level) {
 }
 
 py::array_t<double> positionsOf(const Pose& pose, Index level) {
-  const Tessellation grid = gridAt(pose, level);
-  return arrayOfPoints(level > 0 ? grid.positions(pose.vectors)
-                                 : sourcePositions(*pose.rig, grid, pose.vectors, pose.weights));
+  return arrayOfPoints(released([&] {
+    const Tessellation grid = gridAt(pose, level);
+    return level > 0 ? grid.positions(pose.vectors)
+                     : sourcePositions(*pose.rig, grid, pose.vectors, pose.weights);
+  }));
 }
 
 py::array_t<double> normalsOf(const Pose& pose, Index level) {
-  const Tessellation grid = gridAt(pose, level);
-  return arrayOfPoints(level > 0 ? grid.normals(pose.vectors)
-                                 : sourceNormals(*pose.rig, grid, pose.vectors));
+  return arrayOfPoints(released([&] {
+    const Tessellation grid = gridAt(pose, level);
+    return level > 0 ? grid.normals(pose.vectors) : sourceNormals(*pose.rig, grid, pose.vectors);
+  }));
 }
 
 // ---- Curves and joins ----
@@ -143,7 +148,8 @@ const char* nameOfJoin(JoinClass joinClass) {
 py::dict joinsOf(const Pose& pose, int samples) {
   if (samples < 1 || samples > 1000)
     throw Failure(fmt::format("Joins are compared at 1 to 1000 points, not {}.", samples));
-  const auto joins = examineJoins(pose.rig->surface, pose.vectors, samples);
+  const auto joins =
+      released([&] { return examineJoins(pose.rig->surface, pose.vectors, samples); });
   py::list classes;
   for (const JoinReport& join : joins) classes.append(nameOfJoin(join.joinClass));
   const auto column = [&](double JoinReport::* what) {

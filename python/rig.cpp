@@ -21,8 +21,7 @@ using SharedRig = std::shared_ptr<Rig>;  // never changes once Python has it
 // ---- Files ----
 
 SharedRig decoded(const std::string_view bytes, const std::string& name, std::size_t memory) {
-  const py::gil_scoped_release others;
-  return std::make_shared<Rig>(valueOf(decode(bytes, name, {memory})));
+  return released([&] { return std::make_shared<Rig>(valueOf(decode(bytes, name, {memory}))); });
 }
 
 SharedRig loaded(const std::filesystem::path& path, std::size_t memory) {
@@ -39,8 +38,7 @@ void saveGlb(const Rig& rig, const std::filesystem::path& path, Index level, boo
   Clip played;
   if (clip) played = clipOfTargets(rig, *clip), options.clip = &played;
   options.keyTolerance = keyTolerance;
-  const py::gil_scoped_release others;
-  valueOf(writeFile(path, valueOf(formatGlb(rig, options))));
+  released([&] { return valueOf(writeFile(path, valueOf(formatGlb(rig, options)))); });
 }
 
 void saveObj(const Rig& rig, const std::filesystem::path& path, const py::object& weights) {

@@ -16,13 +16,11 @@ Trajectory periodic(double start, double end, double seconds, double period,
 
 /// Positions, velocities and accelerations at times [N].
 py::tuple kinematicsAt(const Trajectory& path, const Doubles& times) {
-  py::array_t<double> parts[3];
-  for (int part = 0; part < 3; ++part)
-    parts[part] = rowsAt(times, 1, [&](double time, std::span<double> out) {
-                    const Kinematics k = path.at(time);
-                    out[0] = std::array{k.position, k.velocity, k.acceleration}[part];
-                  }).reshape({times.size()});
-  return py::make_tuple(parts[0], parts[1], parts[2]);
+  const auto rows = rowsAt(times, 3, [&](double time, std::span<double> row) {
+    const Kinematics k = path.at(time);
+    row[0] = k.position, row[1] = k.velocity, row[2] = k.acceleration;
+  });
+  return py::tuple(rows.attr("T"));
 }
 
 }  // namespace

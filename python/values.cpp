@@ -1,19 +1,41 @@
 #include "values.hpp"
 
 #include <algorithm>
+#include <chrono>
+#include <thread>
 
 #include "sweepface/io.hpp"
 
 namespace sweepface::python {
 
 void warn(std::span<const std::string> sentences) {
+  const py::handle category(PyExc_UserWarning);
   for (const std::string& sentence : sentences)
-    if (PyErr_WarnEx(PyExc_UserWarning, sentence.c_str(), 1) != 0) throw py::error_already_set();
+    py::module_::import("warnings").attr("warn")(textOf(sentence), category);
+}
+
+py::str textOf(std::string_view text) {
+  PyObject* const decoded =
+      PyUnicode_DecodeUTF8(text.data(), static_cast<py::ssize_t>(text.size()), "backslashreplace");
+  if (!decoded) throw py::error_already_set();
+  return py::reinterpret_steal<py::str>(decoded);
+}
+
+Released::~Released() {
+  try {
+    PyEval_RestoreThread(state_);
+  } catch (...) {  // the unwinding by which Python ends threads
+    for (;;) std::this_thread::sleep_for(std::chrono::hours(1));
+  }
 }
 
 py::dict mappingFrom(const py::object& object, const char* what) {
-  if (!py::hasattr(object, "keys")) throw Failure(std::string(what) + " must be a dict.");
-  return py::dict(object);
+  if (!isMapping(object)) throw Failure(std::string(what) + " must be a dict.");
+  return py::reinterpret_steal<py::dict>(PyDict_Copy(py::dict(object).ptr()));
+}
+
+bool isMapping(const py::object& object) {
+  return py::hasattr(object, "keys") && !py::hasattr(object, "__array__");
 }
 
 void checkKind(const std::filesystem::path& path, const char* extension) {
@@ -63,7 +85,7 @@ Weights weightsByName(const Rig& rig, const py::dict& given) {
 
 Weights weightsFrom(const Rig& rig, const py::object& given) {
   Weights weights(rig.targets.size());
-  if (py::hasattr(given, "keys")) {
+  if (isMapping(given)) {
     weights = weightsByName(rig, mappingFrom(given, "Weights"));
   } else if (!given.is_none()) {
     const auto array = as<Doubles>(given, "Weights", "None, a dict, or an array of numbers [K]");

@@ -9,6 +9,7 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -22,6 +23,27 @@ namespace py = pybind11;
 struct Failure : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
+/// A text for Python, with the bytes escaped that are not UTF-8, as those of paths may be.
+py::str textOf(std::string_view text);
+
+/// Leaves the interpreter to other threads. A thread that comes back after the interpreter has
+/// ended waits for the process to end, too: Python would unwind it, which ends the process by
+/// std::terminate.
+class Released {
+ public:
+  Released() : state_(PyEval_SaveThread()) {}
+  Released(const Released&) = delete;
+  ~Released();
+
+ private:
+  PyThreadState* state_;
+};
+/// What `work()` returns, which must not touch Python.
+template <typename Work>
+auto released(const Work& work) {
+  const Released others;
+  return work();
+}
 
 /// The value of a result; its error becomes an exception, as Python expects.
 template <typename T>
@@ -47,7 +69,9 @@ inline double numberFrom(const py::handle& object, const char* what) {
 inline std::string textFrom(const py::handle& object, const char* what) {
   return as<std::string>(object, what, "a text");
 }
-/// The keys and values of any mapping.
+/// Whether it has keys; tables of numbers that have keys, too, count as arrays.
+bool isMapping(const py::object& object);
+/// The keys and values of any mapping, copied: converting them may run code that changes it.
 py::dict mappingFrom(const py::object& object, const char* what);
 
 /// Fails if a file to be written has another extension.

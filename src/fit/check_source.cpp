@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 #include <set>
 
 #include "sweepface/box.hpp"
@@ -98,13 +99,16 @@ Result<void> checkNames(const std::vector<MeshTarget>& targets) {
   return {};
 }
 
-/// Files hold finite numbers.
+/// Texture coordinates are played in single precision.
 Result<void> checkTexcoords(const std::vector<Vec2>& texcoords) {
-  const auto isFinite = [](const Vec2& t) { return std::isfinite(t.x) && std::isfinite(t.y); };
+  constexpr double kMost = std::numeric_limits<float>::max();
+  const auto isFinite = [](const Vec2& t) {
+    return std::abs(t.x) <= kMost && std::abs(t.y) <= kMost;
+  };
   const auto bad = std::ranges::find_if_not(texcoords, isFinite);
   if (bad == texcoords.end()) return {};
   return fail("texture coordinate ", bad - texcoords.begin(),
-              " of the mesh is not finite; give it a place in the texture");
+              " of the mesh is not finite in single precision; give it a place in the texture");
 }
 
 /// Files hold what targets add to the neutral in single precision.

@@ -446,7 +446,7 @@ TEST(Convert, RefusesMeshesWhoseIndicesDoNotBelongTogether) {
       for (Index v = 0; v < size; ++v) p.corners.push_back(v);
       p.faceStart.push_back(static_cast<Index>(p.corners.size()));
     });
-  for (const Vec2 bad : {Vec2{HUGE_VAL, 0}, Vec2{0, std::nan("")}})
+  for (const Vec2 bad : {Vec2{HUGE_VAL, 0}, Vec2{0, std::nan("")}, Vec2{0, 1e39}})
     expect("texture coordinate 1 of the mesh is not finite",
            [&](auto&, Polygons& p) { p.texcoords = {{0, 0}, bad}; });
   expect("no place that a file", [](auto& m, auto&) { m.neutral.positions[2].y = std::nan(""); });

@@ -26,7 +26,7 @@ consume(${CONSUMER} by_cmake -DCMAKE_PREFIX_PATH=${prefix})
 
 # The package for Python needs nothing of the build folder.
 if(PYTHON)
-  run(${CMAKE_COMMAND} -E env PYTHONPATH=${prefix}/${PYTHON_DIR} PYTHONDONTWRITEBYTECODE=1
+  run(${CMAKE_COMMAND} -E env PYTHONPATH=${prefix}/${SITE_PACKAGES} PYTHONDONTWRITEBYTECODE=1
       ${PYTHON} -c "import sweepface; assert '${prefix}' in sweepface.__file__")
 endif()
 

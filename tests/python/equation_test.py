@@ -73,6 +73,8 @@ class Controls(FaceTest):
             sweepface.derivatives_from_controls(self.boundary, self.second, self.third, 0.1, 0.1)
         with self.refuses("as many points as the boundary curve, 5"):
             sweepface.derivatives_from_controls(self.boundary, self.second[1:], self.third, 0.1, 0.2)
+        with self.refuses("would not be finite"):
+            sweepface.controls_from_derivatives(self.boundary, self.second, self.third, np.nan, 1)
         with self.refuses("three numbers a row"):
             sweepface.controls_from_derivatives([1, 2, 3], self.second, self.third, 0.1, 0.2)
 

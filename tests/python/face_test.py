@@ -1,11 +1,13 @@
 """Faces prepared for playing."""
 
+import subprocess
+import sys
 import threading
 import unittest
 
 import numpy as np
 import sweepface
-from faces import FaceTest
+from faces import SAMPLE, FaceTest
 
 OPEN = {"jawOpen": 0.7, "eyeBlinkLeft": 0.4}
 
@@ -33,6 +35,10 @@ class Faces(FaceTest):
         weights = np.random.default_rng(1).random((20, 42))
         frames, normals = self.face.evaluate(weights, normals=True)
         self.assertEqual(frames.shape, (20, 8216, 3))
+        self.assertTrue(np.array_equal(self.face.evaluate(weights.tolist()), frames))
+        byVertex = np.zeros((8216, 20, 3), np.float32)
+        self.face.evaluate(weights, positions=byVertex.transpose(1, 0, 2))
+        self.assertTrue(np.array_equal(byVertex[:, 7], frames[7]))
         for k in (0, 7, 19):
             one, its = self.face.evaluate(weights[k], normals=True)
             self.assertTrue(np.array_equal(frames[k], one))
@@ -62,12 +68,21 @@ class Faces(FaceTest):
             np.broadcast_to(np.zeros(3, np.float32), (8216, 3)),
             np.zeros(3 * 8216, np.float32),
             np.zeros((8216, 3), np.dtype(">f4")),
+            np.frombuffer(bytearray(12 * 8216 + 1), np.float32, 3 * 8216, offset=1).reshape(-1, 3),
+            list(np.zeros((8216, 3), np.float32)),
             fixed,
         ):
             with self.refuses(r"Positions must be written to a float32 array of shape \[8216, 3\]"):
                 self.face.evaluate(OPEN, positions=array)
         with self.refuses("Normals must be written to"):
             self.face.evaluate(np.zeros((2, 42)), normals=np.zeros((1, 8216, 3), np.float32))
+        same = np.zeros((8217, 3), np.float32)
+        for shift in (0, 1):
+            with self.refuses("different places"):
+                self.face.evaluate(OPEN, positions=same[:-1], normals=same[shift:][:8216])
+        folded = np.lib.stride_tricks.as_strided(same, (2, 8216, 3), (12, 12, 4))
+        with self.refuses("Positions must be written to"):
+            self.face.evaluate(np.zeros((2, 42)), positions=folded)
         with self.refuses("41 weights a frame for 42 targets"):
             self.face.evaluate(np.zeros((2, 41)))
         with self.refuses("Weights must be numbers"):
@@ -101,6 +116,22 @@ class Faces(FaceTest):
             sweepface.Face(self.rig, vertices=3)
         with self.refuses("made without normals"):
             fine.evaluate(OPEN, normals=True)
+
+    def test_are_made_of_rigs_alone(self):
+        with self.assertRaises(TypeError):
+            sweepface.Face(None)
+
+    def test_may_still_play_when_the_program_ends(self):
+        program = (
+            "import sweepface, threading, time\n"
+            f"face = sweepface.Face(sweepface.load({SAMPLE!r}))\n"
+            "def play():\n"
+            "    while True: face.evaluate()\n"
+            "threading.Thread(target=play, daemon=True).start()\n"
+            "time.sleep(0.1)\n"
+        )
+        for _ in range(3):
+            subprocess.run([sys.executable, "-c", program], check=True, timeout=60)
 
     def test_play_in_several_threads(self):
         expected = self.face.evaluate(OPEN)

@@ -24,6 +24,8 @@ class Files(FaceTest):
     def test_say_what_is_wrong_with_them(self):
         with self.refuses("none.sweep"):
             sweepface.load(self.path("none.sweep"))
+        with self.refuses(r"\\xff.sweep"):
+            sweepface.load(self.path("\udcff.sweep"))
         with self.refuses("The upload"):
             sweepface.decode(b"not a face", "The upload")
         with self.refuses("memory"):
@@ -169,13 +171,14 @@ class Poses(FaceTest):
 
     def test_refuse_places_that_there_are_not(self):
         pose = self.rig.pose()
-        for place in ((-1, 0, 0), (self.rig.patch_count, 0, 0), (0, -0.1, 0), (0, 0, 1e9), (0, np.nan, 0)):
+        for place in ((-1, 0, 0), (self.rig.patch_count, 0, 0), (2**32, 0, 0), (0, -0.1, 0), (0, 0, 1e9), (0, np.nan, 0)):
             with self.refuses("There is no patch|outside of patch"):
                 pose.at(*place)
         with self.refuses("orders 0 to 3"):
             pose.at(0, 0, 0, du=4)
         with self.refuses("whole numbers"):
             pose.at(0.5, 0, 0)
+        self.assertEqual(pose.at([], [], []).shape, (0, 3))
         with self.refuses("between 0 and 64"):
             pose.positions(level=65)
         with self.refuses("Point 0 must have coordinates within"):
@@ -193,6 +196,16 @@ class Poses(FaceTest):
         ):
             with self.refuses(sentence):
                 self.rig.pose(weights)
+
+    def test_refuse_weights_that_change_while_they_are_read(self):
+        class Hostile:
+            def __float__(self):
+                weights.clear()
+                raise ValueError
+
+        weights = {"jawOpen": Hostile(), "eyeBlinkLeft": 1.0}
+        with self.refuses("must be a number"):
+            self.rig.pose(weights)
 
     def test_take_weights_by_name_in_any_mapping(self):
         weights = self.rig.weights(types.MappingProxyType({"jawOpen": 0.5}))
@@ -271,14 +284,17 @@ class Conversion(FaceTest):
             sweepface.Meshes(square, [(0, 1, 2, 3)], texcoords=[[0, 0]], corner_texcoords=[0, 0, 0, 1])
         with self.refuses("larger than the mesh"):
             sweepface.convert(sheet(), 100)
-        with self.refuses("Positions must be finite"):
+        with self.refuses("Positions must be numbers within 1e30 of 0"):
             sweepface.Meshes(np.full((4, 3), np.nan), [(0, 1, 2, 3)])
         with self.refuses("Every face must be a sequence of vertices"):
             sweepface.Meshes(square, [0, 1, 2, 3])
         with self.refuses("Targets must be a dict"):
             sweepface.Meshes(square, [(0, 1, 2, 3)], [square])
-        with self.refuses("max_bytes must be"):
-            sweepface.convert(sheet(), max_bytes=-1)
+        for most in (-1, 0, "many"):
+            with self.refuses("max_bytes must be"):
+                sweepface.convert(sheet(), max_bytes=most)
+        with self.refuses("progress must be a function"):
+            sweepface.convert(sheet(), progress=3)
         with self.refuses("packed"):
             sweepface.convert(sheet(), normal_tolerance=1)
 
