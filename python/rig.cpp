@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "sweepface/codec.hpp"
+#include "sweepface/eval.hpp"
 #include "sweepface/fit.hpp"
 #include "sweepface/gltf.hpp"
 #include "sweepface/io.hpp"
