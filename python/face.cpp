@@ -8,6 +8,7 @@
 #include "sweepface/render_mesh.hpp"
 
 #include "bindings.hpp"
+#include "following.hpp"
 #include "output.hpp"
 #include "parallel/parallel.hpp"
 
@@ -19,6 +20,7 @@ namespace {
 /// A rig prepared for playing.
 struct Face {
   std::shared_ptr<const Rig> rig;
+  Following following;
   RenderMesh mesh;
   Evaluator evaluator;
 
@@ -38,15 +40,22 @@ std::optional<Budget> budgetFrom(const py::object& vertices, const py::object& e
   return budget;
 }
 
-Face withMesh(std::shared_ptr<const Rig> rig, const Tessellation& grid, RenderMesh mesh,
-              EvaluatorOptions options) {
-  auto evaluator = valueOf(Evaluator::make(*rig, grid, options));
-  return {std::move(rig), std::move(mesh), std::move(evaluator)};
+/// The mesh that cards draw, and the evaluator of its points.
+std::pair<RenderMesh, Evaluator> withMesh(const Rig& rig, const std::optional<Budget>& budget,
+                                          const EvaluatorOptions& options) {
+  const Surface& surface = rig.surface;
+  if (budget) {
+    const Tessellation grid(surface, valueOf(densityFor(surface, blend(rig, {}), *budget)));
+    return {renderDensity(rig, grid), valueOf(Evaluator::make(rig, grid, options))};
+  }
+  const Tessellation grid(surface, std::max(options.level, 1));
+  return {options.level == 0 ? renderSource(rig, grid) : renderGrid(rig, grid),
+          valueOf(Evaluator::make(rig, grid, options))};
 }
 
 Face faceOf(const std::shared_ptr<Rig>& rig, Index level, const py::object& vertices,
             const py::object& edgeLength, const py::object& error, bool normals,
-            const py::object& tolerance) {
+            const py::object& tolerance, bool arcs, bool combine, bool eyes) {
   const auto budget = budgetFrom(vertices, edgeLength, error);
   if (budget && level != 0) throw Failure("Give either a level or a budget.");
   if (level < 0 || level > kMostLevel)
@@ -55,51 +64,56 @@ Face faceOf(const std::shared_ptr<Rig>& rig, Index level, const py::object& vert
   options.level = budget ? 1 : level, options.normals = normals;
   if (!tolerance.is_none()) options.tolerance = numberFrom(tolerance, "The tolerance");
   const Released others;
-  if (budget) {
-    const Tessellation grid(rig->surface,
-                            valueOf(densityFor(rig->surface, blend(*rig, {}), *budget)));
-    return withMesh(rig, grid, renderDensity(*rig, grid), std::move(options));
-  }
-  const Tessellation grid(rig->surface, std::max(level, 1));
-  return withMesh(rig, grid, level == 0 ? renderSource(*rig, grid) : renderGrid(*rig, grid),
-                  std::move(options));
+  Following following(rig, {arcs, combine, eyes});
+  auto [mesh, evaluator] = withMesh(following.rig(), budget, options);
+  return {rig, std::move(following), std::move(mesh), std::move(evaluator)};
 }
 
 // ---- Every frame ----
 
-/// Weights of one frame, or of many: [F × K].
-struct Frames {
-  std::vector<double> weights;
-  std::size_t count = 1, targets = 0;
-  bool isOne = true;
+/// Weights of one frame, or of many, with all that follows from them: [F × K].
+class Frames {
+ public:
+  Frames(const Face& face, const py::object& given)
+      : targets_(face.following.rig().targets.size()) {
+    const std::size_t own = face.rig->targets.size();
+    const Weights told = toldBy(*face.rig, given);
+    weights_.resize(count_ * targets_);
+    for (std::size_t f = 0; f < count_; ++f)
+      face.following.extend(std::span(told).subspan(f * own, own),
+                            std::span(weights_).subspan(f * targets_, targets_));
+  }
 
-  Frames(const Rig& rig, const py::object& given) : targets(rig.targets.size()) {
-    if (given.is_none() || isMapping(given)) {
-      weights = weightsFrom(rig, given);
-      return;
-    }
-    const auto rows = as<Doubles>(given, "Weights", "None, a dict, or an array [K] or [F, K]");
-    if (rows.ndim() != 2) {
-      weights = weightsFrom(rig, rows);
-      return;
-    }
-    if (static_cast<std::size_t>(rows.shape(1)) != targets)
-      throw Failure(
-          fmt::format("There are {} weights a frame for {} targets.", rows.shape(1), targets));
-    weights.assign(rows.data(), rows.data() + rows.size());
-    count = static_cast<std::size_t>(rows.shape(0));
-    isOne = false;
-    checkWeights(weights);
-  }
+  bool isOne() const { return isOne_; }
+  std::size_t count() const { return count_; }
   std::span<const double> of(std::size_t frame) const {
-    return std::span(weights).subspan(frame * targets, targets);
+    return std::span(weights_).subspan(frame * targets_, targets_);
   }
+
+ private:
+  Weights toldBy(const Rig& rig, const py::object& given) {
+    if (given.is_none() || isMapping(given)) return weightsFrom(rig, given);
+    const auto rows = as<Doubles>(given, "Weights", "None, a dict, or an array [K] or [F, K]");
+    if (rows.ndim() != 2) return weightsFrom(rig, rows);
+    if (static_cast<std::size_t>(rows.shape(1)) != rig.targets.size())
+      throw Failure(fmt::format("There are {} weights a frame for {} targets.", rows.shape(1),
+                                rig.targets.size()));
+    count_ = static_cast<std::size_t>(rows.shape(0));
+    isOne_ = false;
+    Weights weights(rows.data(), rows.data() + rows.size());
+    checkWeights(weights);
+    return weights;
+  }
+
+  std::size_t targets_, count_ = 1;
+  bool isOne_ = true;
+  Weights weights_;
 };
 
 void evaluateAll(const Face& face, const Frames& frames, const Output& positions,
                  const Output& normals) {
   const Released others;
-  parallelRanges(frames.count, [&](std::size_t first, std::size_t end) {
+  parallelRanges(frames.count(), [&](std::size_t first, std::size_t end) {
     std::vector<std::byte> scratch(face.evaluator.scratchBytes());
     for (std::size_t f = first; f < end; ++f) {
       Evaluation frame;
@@ -116,9 +130,9 @@ void evaluateAll(const Face& face, const Frames& frames, const Output& positions
 
 py::object evaluate(const Face& face, const py::object& weights, const py::object& positions,
                     const py::object& normals) {
-  const Frames frames(*face.rig, weights);
+  const Frames frames(face, weights);
   std::vector<py::ssize_t> shape{static_cast<py::ssize_t>(face.vertices()), 3};
-  if (!frames.isOne) shape.insert(shape.begin(), static_cast<py::ssize_t>(frames.count));
+  if (!frames.isOne()) shape.insert(shape.begin(), static_cast<py::ssize_t>(frames.count()));
   const Output places = Output::from(positions, shape, "Positions");
   const Output directions = Output::from(normals, shape, "Normals");
   if (directions.isWanted() && !face.evaluator.hasNormals())
@@ -155,13 +169,17 @@ void addFace(py::module_& m) {
                    "it.")
       .def(py::init(&faceOf), py::arg("rig").none(false), "level"_a = 0, py::kw_only(),
            "vertices"_a = py::none(), "edge_length"_a = py::none(), "error"_a = py::none(),
-           "normals"_a = true, "tolerance"_a = py::none(),
+           "normals"_a = true, "tolerance"_a = py::none(), "arcs"_a = false, "combine"_a = false,
+           "eyes"_a = false,
            "level 0 has the source's vertices in their order; level N every edge of the source cut "
            "into N. Instead of a level, a budget: as close to the surface as a number of vertices "
            "allows, edges no longer than a length, or triangles no further from the surface than "
            "an error. Without normals it is made in half the time. Tables are rounded: a target of "
            "weight 1 takes a vertex off the surface by up to the tolerance, three tenths of the "
-           "rig's own if none is given; a smaller one makes larger tables (see bound).")
+           "rig's own if none is given; a smaller one makes larger tables (see bound). With "
+           "arcs, targets that turn something move it on arcs; with combine, A_B goes by the "
+           "product of A and B, and A_50 stands in for A at 0.5; with eyes, eyeballs turn rigidly "
+           "by the eyeLook targets.")
       .def(
           "evaluate", &evaluate, "weights"_a = py::none(), py::kw_only(), "positions"_a = true,
           "normals"_a = false,
@@ -196,7 +214,7 @@ void addFace(py::module_& m) {
       .def(
           "bound",
           [](const Face& face, const py::object& weights) {
-            return face.evaluator.positionBound(weightsFrom(*face.rig, weights));
+            return face.evaluator.positionBound(Frames(face, weights).of(0));
           },
           "weights"_a = py::none(),
           "How far any vertex may be from the surface under weights, in model units.");

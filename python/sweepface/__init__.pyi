@@ -268,6 +268,9 @@ class Face:
         error: Optional[float] = None,
         normals: bool = True,
         tolerance: Optional[float] = None,
+        arcs: bool = False,
+        combine: bool = False,
+        eyes: bool = False,
     ) -> None: ...
     @overload
     def evaluate(

@@ -7,7 +7,7 @@ import unittest
 
 import numpy as np
 import sweepface
-from faces import SAMPLE, FaceTest
+from faces import SAMPLE, FaceTest, sheet
 
 OPEN = {"jawOpen": 0.7, "eyeBlinkLeft": 0.4}
 
@@ -116,6 +116,35 @@ class Faces(FaceTest):
             sweepface.Face(self.rig, vertices=3)
         with self.refuses("made without normals"):
             fine.evaluate(OPEN, normals=True)
+
+    def test_move_on_arcs(self):
+        arcs = sweepface.Face(self.rig, arcs=True)
+        for weight, least, most in ((0, 0, 1e-6), (0.5, 0.05, 1), (1, 0, 0.01)):
+            gap = np.abs(arcs.evaluate({"jawOpen": weight}) - self.face.evaluate({"jawOpen": weight})).max()
+            self.assertTrue(least <= gap <= most, (weight, gap))
+        with self.refuses("No target turns anything"):
+            sweepface.Face(sweepface.convert(sheet(), 0.01), arcs=True)
+
+    def test_turn_eyes(self):
+        turning = sweepface.Face(self.rig, eyes=True)
+        rest = turning.evaluate()
+        moved = np.linalg.norm(turning.evaluate({"eyeLookOutLeft": 1}) - rest, axis=1)
+        ball = np.flatnonzero(moved > 0.5 * moved.max())
+        apart = [np.linalg.norm(p[ball[0]] - p[ball[1:]], axis=1) for p in (rest, turning.evaluate({"eyeLookOutLeft": 0.5}))]
+        self.assertLess(np.abs(apart[0] - apart[1]).max(), 0.005)
+        with self.refuses("no eyeballs"):
+            sweepface.Face(sweepface.convert(sheet(), 0.01), eyes=True)
+
+    def test_combine_targets(self):
+        flat = sheet().positions
+        meshes = sheet().with_shapes({"a": flat + [0, 0, 1], "b": flat + [0, 1, 0], "a_b": flat + [1, 0, 0]})
+        face = sweepface.Face(sweepface.convert(meshes, 0.01), combine=True)
+        moved = face.evaluate({"a": 0.5, "b": 0.5, "a_b": 9}) - face.evaluate()
+        self.assertTrue(np.allclose(moved, [0.25, 0.5, 0.5], atol=0.02))
+        many = face.evaluate([[0.5, 0.5, 9], [1, 0, 0]])
+        self.assertTrue(np.allclose(many[0] - many[1], [0.25, 0.5, -0.5], atol=0.02))
+        with self.refuses("No target is named after others"):
+            sweepface.Face(self.rig, combine=True)
 
     def test_are_made_of_rigs_alone(self):
         with self.assertRaises(TypeError):
