@@ -43,7 +43,6 @@ list(TRANSFORM absent_headers REPLACE "(.+)" "PATTERN;\\1;EXCLUDE" OUTPUT_VARIAB
 if(SWEEPFACE_BUILD_TOOL AND NOT SWEEPFACE_RUNTIME_ONLY)
   install(TARGETS sweepface RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
   install(FILES ${PROJECT_SOURCE_DIR}/blender/sweepface_io.py DESTINATION ${CMAKE_INSTALL_DATADIR}/sweepface/blender)
-  install(FILES ${PROJECT_SOURCE_DIR}/csharp/Sweepface.cs DESTINATION ${CMAKE_INSTALL_DATADIR}/sweepface/csharp)
 endif()
 
 install(TARGETS ${installed_libraries} EXPORT sweepfaceTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
@@ -62,6 +61,9 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/sweepfaceConfigVersion.cm
 install(FILES ${PROJECT_BINARY_DIR}/sweepfaceConfig.cmake ${PROJECT_BINARY_DIR}/sweepfaceConfigVersion.cmake
         DESTINATION ${package_dir})
 install(EXPORT sweepfaceTargets NAMESPACE sweepface:: DESTINATION ${package_dir})
+if(shared_components)
+  install(FILES ${PROJECT_SOURCE_DIR}/csharp/Sweepface.cs DESTINATION ${CMAKE_INSTALL_DATADIR}/sweepface/csharp)
+endif()
 foreach(component IN LISTS shared_components)  # each can be found without the archives, too
   set(targets sweepface_${component}_targets)
   install(TARGETS sweepface_${component} EXPORT ${targets} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})

@@ -2,6 +2,7 @@
 // needed (docs/csharp.md). What docs/c-interface.md says of handles and threads holds here as well.
 //
 // With SWEEPFACE_CLIPS defined it calls libsweepface_clips instead, which reads clips, too.
+#pragma warning disable 8600, 8601, 8602, 8603, 8604, 8618, 8625  // where null is allowed, comments say so
 using System;
 using System.Runtime.InteropServices;
 using System.Text;
@@ -18,6 +19,7 @@ namespace Sweepface
     public enum DriveKind { Cut, Newton, LinearForce, AccelerateBrake, Spring, Bounce }
 
     /// <summary>A drive and its numbers; <see cref="Of"/> has the defaults.</summary>
+    [Serializable]
     [StructLayout(LayoutKind.Sequential)]
     public struct Drive
     {
@@ -37,13 +39,22 @@ namespace Sweepface
     }
 
     /// <summary>Angles in radians, right-handed: yaw to the face's left, pitch down, roll to its right.</summary>
+    [Serializable]
     [StructLayout(LayoutKind.Sequential)]
     public struct Angles
     {
         public double Yaw, Pitch, Roll;
+
+        /// <summary>Writes x, y, z and w of the quaternion that turns the model by them.</summary>
+        public void Quaternion(double[] to)
+        {
+            Native.NeedRoom(to, 4, nameof(to));
+            Native.sweepface_rotation(ref this, to);
+        }
     }
 
     /// <summary>How head and eyes stand (docs/eyes.md).</summary>
+    [Serializable]
     [StructLayout(LayoutKind.Sequential)]
     public struct HeadPose
     {
@@ -55,6 +66,7 @@ namespace Sweepface
     public enum Following { None = 0, Arcs = 1, Combine = 2 }
 
     /// <summary>Triangles of one material.</summary>
+    [Serializable]
     public struct FacePart
     {
         public string Material;
@@ -66,15 +78,21 @@ namespace Sweepface
     {
         internal readonly Handle Handle;
 
-        /// <summary>Reads a .sweep file; any bytes are safe. Messages call it by the name.</summary>
-        public FaceRig(byte[] bytes, string name = null)
+        /// <summary>Reads a .sweep file within about `memory` bytes. Messages call it by the name, which may be
+        /// null.</summary>
+        public FaceRig(byte[] bytes, string name = null, long memory = 1L << 31)
         {
             if (bytes == null) throw new ArgumentNullException(nameof(bytes));
-            Native.Check(Native.sweepface_rig_load(bytes, (UIntPtr)bytes.Length, Native.Text(name), out IntPtr rig));
+            if (memory <= 0) throw new ArgumentOutOfRangeException(nameof(memory));
+            Native.CheckVersion();
+            UIntPtr most = IntPtr.Size == 4 ? (UIntPtr)(uint)Math.Min(memory, uint.MaxValue) : (UIntPtr)(ulong)memory;
+            Native.Check(Native.sweepface_rig_load_within(bytes, (UIntPtr)bytes.Length, Native.Text(name), most,
+                                                          out IntPtr rig));
             Handle = new Handle(rig, Native.sweepface_rig_free);
             TargetNames = new string[Native.sweepface_rig_target_count(Handle)];
             for (int k = 0; k < TargetNames.Length; ++k)
                 TargetNames[k] = Native.String(Native.sweepface_rig_target_name(Handle, (uint)k));
+            GC.KeepAlive(this);
         }
 
         /// <summary>The expressions.</summary>
@@ -96,10 +114,14 @@ namespace Sweepface
             return targets;
         }
 
+        /// <summary>How many targets the file says turn about something: those that Arcs moves.</summary>
+        public int TurnCount => (int)Native.sweepface_rig_turn_count(Handle);
+
         /// <summary>Lets weights follow from others; before the rig has meshes.</summary>
         public void Follow(Following what) => Native.Check(Native.sweepface_rig_follow(Handle, (uint)what));
 
-        /// <summary>Makes eyeballs turn rigidly; before the rig has meshes. Returns how many there are.</summary>
+        /// <summary>Makes eyeballs turn rigidly; after Follow and before the rig has meshes. Returns how many there
+        /// are.</summary>
         public int TurnEyes()
         {
             Native.Check(Native.sweepface_rig_turn_eyes(Handle, out uint eyes));
@@ -131,14 +153,14 @@ namespace Sweepface
         /// <summary>0: the source's own vertices; N: every edge of the source cut into N.</summary>
         public FaceMesh(FaceRig rig, int lod = 0)
         {
-            Native.Check(Native.sweepface_mesh_create(rig.Handle, checked((uint)lod), out IntPtr mesh));
+            Native.Check(Native.sweepface_mesh_create(HandleOf(rig), Native.Index(lod, nameof(lod)), out IntPtr mesh));
             Handle = new Handle(mesh, Native.sweepface_mesh_free);
         }
 
         /// <summary>As fine as a budget demands, without cracks.</summary>
         public FaceMesh(FaceRig rig, Budget budget, double value)
         {
-            Native.Check(Native.sweepface_mesh_create_within(rig.Handle, (int)budget, value, out IntPtr mesh));
+            Native.Check(Native.sweepface_mesh_create_within(HandleOf(rig), (int)budget, value, out IntPtr mesh));
             Handle = new Handle(mesh, Native.sweepface_mesh_free);
         }
 
@@ -146,10 +168,14 @@ namespace Sweepface
         /// face.</summary>
         public FaceMesh(FaceRig rig, double[] points)
         {
+            if (points == null) throw new ArgumentNullException(nameof(points));
+            if (points.Length % 3 != 0) throw new ArgumentException("Points are three numbers each.", nameof(points));
             var count = (UIntPtr)(points.Length / 3);
-            Native.Check(Native.sweepface_mesh_create_at(rig.Handle, points, count, out IntPtr mesh));
+            Native.Check(Native.sweepface_mesh_create_at(HandleOf(rig), points, count, out IntPtr mesh));
             Handle = new Handle(mesh, Native.sweepface_mesh_free);
         }
+
+        static Handle HandleOf(FaceRig rig) => (rig ?? throw new ArgumentNullException(nameof(rig))).Handle;
 
         /// <summary>Builds the tables that move it now rather than in the first frame that needs them.</summary>
         public void Prepare(bool normals = true, bool tangents = false)
@@ -161,13 +187,15 @@ namespace Sweepface
         /// <summary>Vertices are first the points, then copies of points with other texture coordinates.</summary>
         public int PointCount => (int)Native.sweepface_mesh_point_count(Handle);
         public int VertexCount => (int)Native.sweepface_mesh_vertex_count(Handle);
+        public int TriangleCount => (int)Native.sweepface_mesh_triangle_count(Handle);
+
+        // What follows is copied each time.
 
         /// <summary>The point that each vertex after the points repeats.</summary>
         public int[] Copies => Ints(Native.sweepface_mesh_copies(Handle), VertexCount - PointCount);
 
         /// <summary>[triangles x 3] counter-clockwise seen from outside, part by part.</summary>
-        public int[] Triangles =>
-            Ints(Native.sweepface_mesh_triangles(Handle), 3 * (int)Native.sweepface_mesh_triangle_count(Handle));
+        public int[] Triangles => Ints(Native.sweepface_mesh_triangles(Handle), 3 * TriangleCount);
 
         /// <summary>[vertices x 2] u to the right and v upwards, or null.</summary>
         public float[] Texcoords
@@ -204,6 +232,15 @@ namespace Sweepface
             }
         }
 
+        /// <summary>Between which of the source's vertices the points lie, for their skin weights or colours: four
+        /// vertices and shares of each point.</summary>
+        public void Origins(out int[] sources, out float[] shares)
+        {
+            sources = new int[4 * PointCount];
+            shares = new float[4 * PointCount];
+            Native.Check(Native.sweepface_mesh_origins(Handle, (UIntPtr)PointCount, sources, shares));
+        }
+
         public void Dispose() => Handle.Dispose();
 
         int[] Ints(IntPtr first, int count)
@@ -220,26 +257,43 @@ namespace Sweepface
     {
         readonly Handle handle;
         readonly int vertices;
+        readonly HeadPose[] pose = new HeadPose[1];
 
+        /// <summary>Shows the neutral: all weights are 0.</summary>
         public Face(FaceMesh mesh)
         {
+            if (mesh == null) throw new ArgumentNullException(nameof(mesh));
             Native.Check(Native.sweepface_face_create(mesh.Handle, out IntPtr face));
             handle = new Handle(face, Native.sweepface_face_free);
             vertices = mesh.VertexCount;
         }
 
         public void SetWeight(int target, double weight) =>
-            Native.Check(Native.sweepface_face_set_weight(handle, checked((uint)target), weight));
+            Native.Check(Native.sweepface_face_set_weight(handle, Native.Index(target, nameof(target)), weight));
 
         /// <summary>Sets the first weights.</summary>
         public void SetWeights(double[] weights) =>
-            Native.Check(Native.sweepface_face_set_weights(handle, weights, (UIntPtr)weights.Length));
+            Native.Check(Native.sweepface_face_set_weights(handle, weights, Native.Count(weights)));
 
         /// <summary>Writes positions, and normals unless null, of all vertices: [vertices x 3] each.</summary>
         public void Evaluate(float[] positions, float[] normals = null)
         {
             CheckRoom(positions, 3, nameof(positions));
             CheckRoom(normals, 3, nameof(normals));
+            EvaluateInto(positions, normals);
+        }
+
+        /// <summary>The same to vectors of three floats each: those of Unity, Godot or System.Numerics.</summary>
+        public void Evaluate<T>(T[] positions, T[] normals = null) where T : struct
+        {
+            if (Marshal.SizeOf<T>() != 12) throw new ArgumentException("A vector must be three floats.");
+            if (positions?.Length < vertices || normals?.Length < vertices)
+                throw new ArgumentException("There are " + vertices + " vertices to write.");
+            EvaluateInto(positions, normals);
+        }
+
+        void EvaluateInto(Array positions, Array normals)
+        {
             using (var to = new Pinned(positions, normals))
                 Native.Check(Native.sweepface_face_evaluate(handle, (UIntPtr)vertices, to.First, to.Second));
         }
@@ -247,14 +301,15 @@ namespace Sweepface
         /// <summary>The same into other memory: the first `count` vertices, `stride` bytes apart; IntPtr.Zero: not
         /// wanted. It must have room for them.</summary>
         public void Evaluate(int count, IntPtr positions, IntPtr normals, int stride = 12) =>
-            Native.Check(Native.sweepface_face_evaluate(handle, (UIntPtr)checked((uint)count),
+            Native.Check(Native.sweepface_face_evaluate(handle, (UIntPtr)Native.Index(count, nameof(count)),
                                                         new Native.Vectors(positions, stride),
                                                         new Native.Vectors(normals, stride)));
 
         /// <summary>The same for memory that still holds what the last call wrote there: only what the weights have
-        /// moved since is written again.</summary>
+        /// moved since is written again. Call Evaluate the first time with any memory: new memory may be where older
+        /// was.</summary>
         public void Update(int count, IntPtr positions, IntPtr normals, int stride = 12) =>
-            Native.Check(Native.sweepface_face_update(handle, (UIntPtr)checked((uint)count),
+            Native.Check(Native.sweepface_face_update(handle, (UIntPtr)Native.Index(count, nameof(count)),
                                                       new Native.Vectors(positions, stride),
                                                       new Native.Vectors(normals, stride)));
 
@@ -270,8 +325,8 @@ namespace Sweepface
         /// <summary>The corners of a box that contains the face under its weights, for culling.</summary>
         public void Box(double[] low, double[] high)
         {
-            if (low == null || high == null || low.Length < 3 || high.Length < 3)
-                throw new ArgumentException("The corners of a box need three numbers each.");
+            Native.NeedRoom(low, 3, nameof(low));
+            Native.NeedRoom(high, 3, nameof(high));
             Native.Check(Native.sweepface_face_box(handle, low, high));
         }
 
@@ -280,11 +335,10 @@ namespace Sweepface
         public double Error => Native.sweepface_face_error(handle);
 
         /// <summary>Turns the eyes to these angles; null: by the weights of eyeLook targets.</summary>
-        public void Look(HeadPose? pose)
+        public void Look(HeadPose? angles)
         {
-            HeadPose told = pose.GetValueOrDefault();
-            Native.Check(pose.HasValue ? Native.sweepface_face_look(handle, ref told)
-                                       : Native.sweepface_face_look(handle, IntPtr.Zero));
+            pose[0] = angles.GetValueOrDefault();
+            Native.Check(Native.sweepface_face_look(handle, angles.HasValue ? pose : null));
         }
 
         public void Dispose() => handle.Dispose();
@@ -301,11 +355,13 @@ namespace Sweepface
     public sealed class FaceMotion : IDisposable
     {
         readonly Handle handle;
+        readonly Drive[] told = new Drive[1];
 
         /// <summary>At rest at these weights.</summary>
         public FaceMotion(double[] weights)
         {
-            Native.Check(Native.sweepface_motion_create(weights, (UIntPtr)weights.Length, out IntPtr motion));
+            Native.CheckVersion();
+            Native.Check(Native.sweepface_motion_create(weights, Native.Count(weights), out IntPtr motion));
             handle = new Handle(motion, Native.sweepface_motion_free);
         }
 
@@ -321,23 +377,31 @@ namespace Sweepface
         /// <summary>Lets time pass.</summary>
         public void Advance(double seconds) => Native.sweepface_motion_advance(handle, seconds);
 
-        /// <summary>Sends a weight to a goal.</summary>
-        public void MoveTo(int weight, double goal, Drive drive) =>
-            Native.Check(Native.sweepface_motion_move_to(handle, checked((uint)weight), goal, ref drive));
+        /// <summary>Sends a weight to a goal, by a critically damped spring if drive is null.</summary>
+        public void MoveTo(int weight, double goal, Drive? drive = null) =>
+            Native.Check(Native.sweepface_motion_move_to(handle, Native.Index(weight, nameof(weight)), goal,
+                                                         DriveOf(drive)));
 
         /// <summary>Sends the first weights to goals.</summary>
-        public void MoveTo(double[] goals, Drive drive) =>
-            Native.Check(Native.sweepface_motion_move_all(handle, goals, (UIntPtr)goals.Length, ref drive));
+        public void MoveTo(double[] goals, Drive? drive = null) =>
+            Native.Check(Native.sweepface_motion_move_all(handle, goals, Native.Count(goals), DriveOf(drive)));
+
+        Drive[] DriveOf(Drive? drive)
+        {
+            told[0] = drive.GetValueOrDefault();
+            return drive.HasValue ? told : null;
+        }
 
         /// <summary>An impulse: adds to a velocity, which drag (per second) then takes away.</summary>
         public void Push(int weight, double velocityChange, double drag) =>
-            Native.Check(Native.sweepface_motion_push(handle, checked((uint)weight), velocityChange, drag));
+            Native.Check(Native.sweepface_motion_push(handle, Native.Index(weight, nameof(weight)), velocityChange,
+                                                      drag));
 
         /// <summary>Writes the first weights, as many as the array takes.</summary>
         public void Positions(double[] weights) =>
-            Native.Check(Native.sweepface_motion_positions(handle, weights, (UIntPtr)weights.Length));
+            Native.Check(Native.sweepface_motion_positions(handle, weights, Native.Count(weights)));
         public void Velocities(double[] velocities) =>
-            Native.Check(Native.sweepface_motion_velocities(handle, velocities, (UIntPtr)velocities.Length));
+            Native.Check(Native.sweepface_motion_velocities(handle, velocities, Native.Count(velocities)));
 
         /// <summary>Whether any weight may still be further than that from where it comes to rest.</summary>
         public bool Moves(double tolerance = 0.001) => Native.sweepface_motion_moves(handle, tolerance) != 0;
@@ -353,16 +417,25 @@ namespace Sweepface
         readonly Handle handle;
 
         /// <summary>Reads a capture of Live Link Face, Audio2Face or MediaPipe, a timeline or an animation of a .glb.
-        /// `framesPerSecond` is that of captures that do not tell; `smooth` removes a tracker's noise.</summary>
-        public FaceClip(FaceRig rig, byte[] bytes, string name = null, double framesPerSecond = 0, bool smooth = false)
+        /// `framesPerSecond` is that of captures that do not tell; `smooth` removes a tracker's noise; `animation` is
+        /// the name of one of several in a .glb, or null; `names` is a JSON text for targets that are called
+        /// otherwise, or null.</summary>
+        public FaceClip(FaceRig rig, byte[] bytes, string name = null, double framesPerSecond = 0, bool smooth = false,
+                        string animation = null, string names = null)
         {
+            if (rig == null) throw new ArgumentNullException(nameof(rig));
             if (bytes == null) throw new ArgumentNullException(nameof(bytes));
             Native.ClipOptions options = Native.sweepface_clip_usual_options();
             options.FramesPerSecond = framesPerSecond;
             options.Smooth = smooth ? 1 : 0;
-            Native.Check(Native.sweepface_clip_read(rig.Handle, bytes, (UIntPtr)bytes.Length, Native.Text(name),
-                                                    ref options, out IntPtr clip));
-            handle = new Handle(clip, Native.sweepface_clip_free);
+            using (var texts = new Pinned(Native.Text(animation), Native.Text(names)))
+            {
+                options.Animation = texts.First.Data;
+                options.Names = texts.Second.Data;
+                Native.Check(Native.sweepface_clip_read(rig.Handle, bytes, (UIntPtr)bytes.Length, Native.Text(name),
+                                                        ref options, out IntPtr clip));
+                handle = new Handle(clip, Native.sweepface_clip_free);
+            }
         }
 
         public double Seconds => Native.sweepface_clip_seconds(handle);
@@ -376,7 +449,7 @@ namespace Sweepface
 
         /// <summary>Writes the first weights at a time after the first frame.</summary>
         public void Weights(double seconds, double[] weights) =>
-            Native.Check(Native.sweepface_clip_weights(handle, seconds, weights, (UIntPtr)weights.Length));
+            Native.Check(Native.sweepface_clip_weights(handle, seconds, weights, Native.Count(weights)));
 
         /// <summary>Whether there are angles of the head, and of eyes that ever turn.</summary>
         public bool HasHead => Native.sweepface_clip_has_head(handle) != 0;
@@ -426,7 +499,7 @@ namespace Sweepface
     {
         GCHandle first, second;
 
-        internal Pinned(float[] first, float[] second)
+        internal Pinned(Array first, Array second)
         {
             this.first = first == null ? default(GCHandle) : GCHandle.Alloc(first, GCHandleType.Pinned);
             this.second = second == null ? default(GCHandle) : GCHandle.Alloc(second, GCHandleType.Pinned);
@@ -448,7 +521,9 @@ namespace Sweepface
     /// <summary>The C interface as sweepface.h, sweepface_head.h and sweepface_clips.h declare it.</summary>
     static class Native
     {
-#if SWEEPFACE_CLIPS
+#if !UNITY_EDITOR && (UNITY_IOS || UNITY_TVOS || UNITY_VISIONOS)
+        const string Library = "__Internal";  // these link it statically
+#elif SWEEPFACE_CLIPS
         const string Library = "sweepface_clips";
 #else
         const string Library = "sweepface";
@@ -458,13 +533,13 @@ namespace Sweepface
         [StructLayout(LayoutKind.Sequential)]
         internal struct Vectors
         {
-            readonly IntPtr data;
+            internal readonly IntPtr Data;
             readonly UIntPtr stride;
 
             internal Vectors(IntPtr data, int stride)
             {
-                this.data = data;
-                this.stride = (UIntPtr)checked((uint)stride);
+                Data = data;
+                this.stride = (UIntPtr)Index(stride, nameof(stride));
             }
         }
 
@@ -478,6 +553,26 @@ namespace Sweepface
         internal static void Check(int status)
         {
             if (status != 0) throw new SweepfaceException(String(sweepface_message()));
+        }
+
+        /// <summary>Before 1.0 every minor version is an interface of its own.</summary>
+        internal static void CheckVersion()
+        {
+            uint version = sweepface_version();
+            if (version / 100 != 1)
+                throw new SweepfaceException("The library " + Library + " is version " + version / 10000 + "." +
+                                             version / 100 % 100 + ", but Sweepface.cs is for 0.1; use those of one version.");
+        }
+
+        internal static uint Index(int index, string name) =>
+            index >= 0 ? (uint)index : throw new ArgumentOutOfRangeException(name);
+
+        internal static UIntPtr Count(double[] numbers) =>
+            (UIntPtr)(numbers ?? throw new ArgumentNullException(nameof(numbers))).Length;
+
+        internal static void NeedRoom(double[] to, int count, string name)
+        {
+            if (to == null || to.Length < count) throw new ArgumentException(count + " numbers are written.", name);
         }
 
         /// <summary>A text as C reads it: UTF-8, ended by 0.</summary>
@@ -494,12 +589,16 @@ namespace Sweepface
         }
 
         [DllImport(Library, CallingConvention = C)] static extern IntPtr sweepface_message();
-        [DllImport(Library, CallingConvention = C)] internal static extern int sweepface_rig_load(byte[] bytes, UIntPtr size, byte[] name, out IntPtr rig);
+        [DllImport(Library, CallingConvention = C)] static extern uint sweepface_version();
+        [DllImport(Library, CallingConvention = C)] internal static extern void sweepface_rotation(ref Angles angles, [Out] double[] quaternion);
+
+        [DllImport(Library, CallingConvention = C)] internal static extern int sweepface_rig_load_within(byte[] bytes, UIntPtr size, byte[] name, UIntPtr memory, out IntPtr rig);
         [DllImport(Library, CallingConvention = C)] internal static extern void sweepface_rig_free(IntPtr rig);
         [DllImport(Library, CallingConvention = C)] internal static extern uint sweepface_rig_target_count(Handle rig);
         [DllImport(Library, CallingConvention = C)] internal static extern IntPtr sweepface_rig_target_name(Handle rig, uint target);
         [DllImport(Library, CallingConvention = C)] internal static extern int sweepface_rig_find_target(Handle rig, byte[] name, out uint target);
         [DllImport(Library, CallingConvention = C)] internal static extern uint sweepface_rig_match_targets(Handle rig, byte[] name, [Out] int[] targets, uint room);
+        [DllImport(Library, CallingConvention = C)] internal static extern uint sweepface_rig_turn_count(Handle rig);
         [DllImport(Library, CallingConvention = C)] internal static extern int sweepface_rig_follow(Handle rig, uint what);
         [DllImport(Library, CallingConvention = C)] internal static extern int sweepface_rig_turn_eyes(Handle rig, out uint eyes);
         [DllImport(Library, CallingConvention = C)] internal static extern double sweepface_rig_tolerance(Handle rig);
@@ -514,6 +613,7 @@ namespace Sweepface
         [DllImport(Library, CallingConvention = C)] internal static extern uint sweepface_mesh_point_count(Handle mesh);
         [DllImport(Library, CallingConvention = C)] internal static extern uint sweepface_mesh_vertex_count(Handle mesh);
         [DllImport(Library, CallingConvention = C)] internal static extern IntPtr sweepface_mesh_copies(Handle mesh);
+        [DllImport(Library, CallingConvention = C)] internal static extern int sweepface_mesh_origins(Handle mesh, UIntPtr count, [Out] int[] vertices, [Out] float[] shares);
         [DllImport(Library, CallingConvention = C)] internal static extern uint sweepface_mesh_triangle_count(Handle mesh);
         [DllImport(Library, CallingConvention = C)] internal static extern IntPtr sweepface_mesh_triangles(Handle mesh);
         [DllImport(Library, CallingConvention = C)] internal static extern IntPtr sweepface_mesh_texcoords(Handle mesh);
@@ -529,16 +629,15 @@ namespace Sweepface
         [DllImport(Library, CallingConvention = C)] internal static extern int sweepface_face_tangents(Handle face, UIntPtr count, Vectors normals, Vectors tangents);
         [DllImport(Library, CallingConvention = C)] internal static extern int sweepface_face_box(Handle face, [Out] double[] low, [Out] double[] high);
         [DllImport(Library, CallingConvention = C)] internal static extern double sweepface_face_error(Handle face);
-        [DllImport(Library, CallingConvention = C)] internal static extern int sweepface_face_look(Handle face, ref HeadPose pose);
-        [DllImport(Library, CallingConvention = C)] internal static extern int sweepface_face_look(Handle face, IntPtr none);
+        [DllImport(Library, CallingConvention = C)] internal static extern int sweepface_face_look(Handle face, [In] HeadPose[] pose);
 
         [DllImport(Library, CallingConvention = C)] internal static extern Drive sweepface_drive_of(int kind);
         [DllImport(Library, CallingConvention = C)] internal static extern int sweepface_motion_create(double[] weights, UIntPtr count, out IntPtr motion);
         [DllImport(Library, CallingConvention = C)] internal static extern int sweepface_motion_copy(Handle motion, out IntPtr copy);
         [DllImport(Library, CallingConvention = C)] internal static extern void sweepface_motion_free(IntPtr motion);
         [DllImport(Library, CallingConvention = C)] internal static extern void sweepface_motion_advance(Handle motion, double seconds);
-        [DllImport(Library, CallingConvention = C)] internal static extern int sweepface_motion_move_to(Handle motion, uint weight, double goal, ref Drive drive);
-        [DllImport(Library, CallingConvention = C)] internal static extern int sweepface_motion_move_all(Handle motion, double[] goals, UIntPtr count, ref Drive drive);
+        [DllImport(Library, CallingConvention = C)] internal static extern int sweepface_motion_move_to(Handle motion, uint weight, double goal, [In] Drive[] drive);
+        [DllImport(Library, CallingConvention = C)] internal static extern int sweepface_motion_move_all(Handle motion, double[] goals, UIntPtr count, [In] Drive[] drive);
         [DllImport(Library, CallingConvention = C)] internal static extern int sweepface_motion_push(Handle motion, uint weight, double velocityChange, double drag);
         [DllImport(Library, CallingConvention = C)] internal static extern int sweepface_motion_positions(Handle motion, [Out] double[] to, UIntPtr count);
         [DllImport(Library, CallingConvention = C)] internal static extern int sweepface_motion_velocities(Handle motion, [Out] double[] to, UIntPtr count);

@@ -72,6 +72,11 @@ static class Plays
             face.Box(low, high);
             Expect(Enumerable.Range(0, positions.Length).All(k => low[k % 3] <= positions[k] && positions[k] <= high[k % 3]),
                    "a box around the face");
+            var vectors = new UnityEngine.Vector3[mesh.VertexCount];
+            face.Evaluate(vectors);
+            Expect(vectors[5].y == positions[16], "vectors");
+            Refuses<ArgumentException>(() => face.Evaluate(new UnityEngine.Vector3[9]), "vertices to write");
+            Refuses<ArgumentException>(() => face.Evaluate(new double[99999]), "three floats");
             Refuses<ArgumentException>(() => face.Evaluate(new float[9]), "3 floats are written for each of");
             Refuses<SweepfaceException>(() => face.SetWeight(42, 1), "42");
             IsPlayedIntoOtherMemory(face, mesh, positions);
@@ -122,10 +127,17 @@ static class Plays
                 Expect(pin.VertexCount == 1 && place[2] > low[2] && place[2] <= high[2], "a point of the surface");
             }
             Refuses<SweepfaceException>(() => new FaceMesh(rig, 65), "64");
-            Refuses<OverflowException>(() => new FaceMesh(rig, -1), "");
+            Refuses<ArgumentOutOfRangeException>(() => new FaceMesh(rig, -1), "lod");
+            Refuses<ArgumentException>(() => new FaceMesh(rig, new double[4]), "three numbers each");
+            fine.Origins(out int[] sources, out float[] shares);
+            Expect(sources.Max() < 8216 && Math.Abs(shares.Take(4).Sum() - 1) < 1e-6, "origins");
         }
         Refuses<SweepfaceException>(() => new FaceRig(new byte[] { 1, 2, 3 }, "broken.sweep"), "broken.sweep");
+        Refuses<SweepfaceException>(() => new FaceRig(bytes, "face.sweep", 1000), "memory");
         Refuses<ArgumentNullException>(() => new FaceRig(null), "bytes");
+        Refuses<ArgumentNullException>(() => new FaceMesh((FaceRig)null), "rig");
+        Refuses<ArgumentNullException>(() => new Face(null), "mesh");
+        Refuses<ArgumentNullException>(() => new FaceMotion(null), "numbers");
     }
 
     static void MovesAndTurns(byte[] bytes)
@@ -153,6 +165,11 @@ static class Plays
             motion.Velocities(weights);
             Expect(weights[1] == 3, "an impulse");
             Refuses<SweepfaceException>(() => motion.MoveTo(2, 1, spring), "2");
+            motion.MoveTo(0, 1, Drive.Of(DriveKind.Cut));
+            motion.MoveTo(1, 2);  // by a spring
+            motion.Advance(10);
+            motion.Positions(weights);
+            Expect(weights[0] == 1 && Math.Abs(weights[1] - 2) < 1e-3, "a cut, and a spring without a drive");
         }
         using (var rig = new FaceRig(bytes))
         {
@@ -170,6 +187,9 @@ static class Plays
                 face.Look(null);
                 face.Evaluate(left);
                 Expect(Farthest(straight, left, left.Length) == 0, "and look straight again");
+                var quaternion = new double[4];
+                new Angles { Yaw = Math.PI / 2 }.Quaternion(quaternion);
+                Expect(Math.Abs(quaternion[1] - Math.Sqrt(0.5)) < 1e-12, "a quaternion about y");
             }
         }
     }
@@ -184,6 +204,8 @@ static class Plays
             clip.Weights(clip.Seconds / 2, weights);
             Expect(Math.Abs(weights[rig.Find("jawOpen")] - 0.4) < 0.01 && Math.Abs(clip.Seconds - 0.5) < 1e-9, "weights of a clip");
             Expect(clip.Unmatched.Single() == "TongueOut" && clip.Undriven.Length == 41 && clip.Warnings.Length == 0, "names of a clip");
+            using (var other = new FaceClip(rig, File.ReadAllBytes(take), take, names: "{\"TongueOut\": \"mouthSmileLeft\"}"))
+                Expect(other.Unmatched.Length == 0, "a map of names");
             Expect(clip.HasHead && !clip.HasEyes && Math.Abs(clip.Pose(0).Head.Yaw + 0.1) < 1e-9, "angles of a clip");
         }
     }
@@ -191,16 +213,34 @@ static class Plays
 
     static void PlaysInUnity(byte[] bytes)
     {
-        var player = new SweepfacePlayer { file = new UnityEngine.TextAsset { bytes = bytes } };
-        player.Start();
-        UnityEngine.Mesh shown = player.filter.sharedMesh;
-        UnityEngine.Vector3[] before = shown.vertices.ToArray();
-        Expect(shown.triangles.Length > 40000 && shown.uv.Length == before.Length, "a mesh in Unity");
-        using (var rig = new FaceRig(bytes)) player.weights[rig.Find("jawOpen")] = 1;
-        for (int frame = 0; frame < 30; ++frame) player.Update();
+        var player = new SweepfacePlayer();
+        player.OnDisable();  // though it was never enabled
+        player.Update();
+        int jaw;
+        using (var rig = new FaceRig(bytes)) jaw = rig.Find("jawOpen");
+        player.file = new UnityEngine.TextAsset { bytes = bytes };
+        player.OnEnable();
+        UnityEngine.Mesh shown = player.GetComponent<UnityEngine.MeshFilter>().sharedMesh;
+        UnityEngine.Vector3[] before = shown.vertices;
+        Expect(shown.subMeshes.Length > 3 && shown.subMeshes.Sum(part => part.Length) > 40000, "a submesh for each part");
+        Expect(shown.uv.Length == before.Length && player.transform.localScale.x == -0.01f, "a mesh in Unity");
+        player.weights[jaw] = 1;
+        UnityEngine.Time.deltaTime = 0.5f;  // a single long frame arrives, too
+        player.Update();
         double moved = before.Zip(shown.vertices, (a, b) => Math.Abs((double)a.y - b.y)).Max();
         Expect(moved > 1 && moved < 3, "it opens its jaw there");
-        player.OnDestroy();
+        Expect(shown.vertices.All(v => shown.bounds.min.y <= v.y && v.y <= shown.bounds.max.y), "within its bounds");
+        UnityEngine.Vector3[] open = shown.vertices;
+        player.Update();
+        Expect(shown.vertices == open, "nothing is drawn at rest");
+        player.OnDisable();
+        player.Update();
+        Expect(shown.isDestroyed, "it frees its mesh");
+        player.OnEnable();
+        Expect(player.weights[jaw] == 1 &&
+               player.GetComponent<UnityEngine.MeshFilter>().sharedMesh.vertices.Zip(open, (a, b) => Math.Abs(a.y - b.y)).Max() < 0.01,
+               "it comes back where it was");
+        player.OnDisable();
     }
 
     static int Main(string[] arguments)
