@@ -23,7 +23,10 @@ else()
   if(NOT Python_FOUND)
     set(lacking "no headers of ${SWEEPFACE_PYTHON}")
   else()
-    find_package(pybind11 2.10 QUIET)
+    # That of pip tells where it is.
+    execute_process(COMMAND ${SWEEPFACE_PYTHON} -m pybind11 --cmakedir OUTPUT_VARIABLE hint ERROR_QUIET
+                    OUTPUT_STRIP_TRAILING_WHITESPACE)
+    find_package(pybind11 2.10 QUIET HINTS ${hint})
     if(NOT pybind11_FOUND)
       set(lacking "no pybind11 2.10 or later")
     endif()

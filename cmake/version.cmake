@@ -9,6 +9,7 @@ endfunction()
 
 check_version(include/sweepface/sweepface.h
   "_MAJOR ${PROJECT_VERSION_MAJOR}\n.*_MINOR ${PROJECT_VERSION_MINOR}\n.*_PATCH ${PROJECT_VERSION_PATCH}\n")
+check_version(python/pyproject.toml "version = \"${PROJECT_VERSION}\"\n")
 set(version "\"version\": \"${PROJECT_VERSION}\",\n")
 check_version(web/package.json "${version}")
 check_version(web/package-lock.json "${version}  \"lockfileVersion\".*${version}      \"license\"")

@@ -72,7 +72,7 @@ inline void requireSame(const PolygonMesh& a, const PolygonMesh& b) {
 
 /// An error is a sentence; a mesh is whole and stays the same when written and read again.
 inline void requireSound(const Result<PolygonMesh>& mesh) {
-  if (!mesh) return require(mesh.error().message.ends_with('.'));
+  if (!mesh) return require(isSentence(mesh.error().message));
   requireWhole(*mesh);
   const auto again = parseObj(formatObj({mesh->positions, {}, mesh->polygons}), "again");
   require(again.has_value());
