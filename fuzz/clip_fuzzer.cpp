@@ -19,7 +19,7 @@ template <typename T>
 bool isRead(const Result<T>& result) {
   if (result) return true;
   const std::string& message = result.error().message;
-  require(message.starts_with(kName) && fuzzing::isSentence(message));
+  require(message.starts_with(kName) && isSentence(message));
   return false;
 }
 
