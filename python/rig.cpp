@@ -221,6 +221,10 @@ void addRig(py::module_& m) {
       .def(
           "meshes", [](const Rig& r) { return RigSource{meshesOf(r), r.scene, {}}; },
           "The neutral and its targets as meshes, in the source's order.")
+      .def(py::pickle([](const Rig& r) { return py::bytes(encode(r)); },
+                      [](const py::bytes& bytes) {
+                        return decoded(std::string_view(bytes), "The pickled face", memory);
+                      }))
       .def("render", &renderRig, "weights"_a = py::none(), py::kw_only(), "width"_a = 640,
            "height"_a = 800, "view"_a = "front", "style"_a = "shaded",
            "A picture [height, width, 3] of 8 bits. Views are front, side, three-quarter, back or "

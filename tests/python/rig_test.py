@@ -2,6 +2,7 @@
 
 import json
 import os
+import pickle
 import subprocess
 import types
 import unittest
@@ -20,6 +21,9 @@ class Files(FaceTest):
             self.assertEqual(sweepface.decode(data).encode(), stored)
         self.rig.save(self.path("copy.sweep"))
         self.assertEqual(sweepface.load(self.path("copy.sweep")).target_names, self.rig.target_names)
+
+    def test_may_be_pickled_for_other_processes(self):
+        self.assertEqual(pickle.loads(pickle.dumps(self.rig)).encode(), self.rig.encode())
 
     def test_say_what_is_wrong_with_them(self):
         with self.refuses("none.sweep"):
