@@ -23,7 +23,7 @@ else()
   if(NOT Python_FOUND)
     set(lacking "no headers of ${SWEEPFACE_PYTHON}")
   else()
-    # That of pip tells where it is.
+    # A pybind11 that pip installed says where it is.
     execute_process(COMMAND ${SWEEPFACE_PYTHON} -m pybind11 --cmakedir OUTPUT_VARIABLE hint ERROR_QUIET
                     OUTPUT_STRIP_TRAILING_WHITESPACE)
     find_package(pybind11 2.10 QUIET HINTS ${hint})
@@ -33,7 +33,7 @@ else()
   endif()
 endif()
 if(lacking)
-  message(STATUS "The package for Python is not built: there is ${lacking}.")
+  message(STATUS "The package for Python is not built: ${lacking}.")
 else()
   add_subdirectory(python)
 endif()

@@ -61,7 +61,8 @@ namespace Sweepface
         public Angles Head, LeftEye, RightEye;
     }
 
-    /// <summary>Weights that follow from those that are set (docs/arcs.md).</summary>
+    /// <summary>Weights that follow from those that are set (docs/arcs.md). Arcs needs a file made with `convert
+    /// --arcs` (see FaceRig.TurnCount).</summary>
     [Flags]
     public enum Following { None = 0, Arcs = 1, Combine = 2 }
 
@@ -252,7 +253,8 @@ namespace Sweepface
         }
     }
 
-    /// <summary>A set of weights on a mesh, for one thread at a time. Evaluating allocates nothing.</summary>
+    /// <summary>A set of weights on a mesh, for one thread at a time. Evaluating allocates nothing once the mesh is
+    /// prepared.</summary>
     public sealed class Face : IDisposable
     {
         readonly Handle handle;
@@ -382,7 +384,7 @@ namespace Sweepface
             Native.Check(Native.sweepface_motion_move_to(handle, Native.Index(weight, nameof(weight)), goal,
                                                          DriveOf(drive)));
 
-        /// <summary>Sends the first weights to goals.</summary>
+        /// <summary>Sends all weights to goals, one each.</summary>
         public void MoveTo(double[] goals, Drive? drive = null) =>
             Native.Check(Native.sweepface_motion_move_all(handle, goals, Native.Count(goals), DriveOf(drive)));
 
@@ -397,7 +399,7 @@ namespace Sweepface
             Native.Check(Native.sweepface_motion_push(handle, Native.Index(weight, nameof(weight)), velocityChange,
                                                       drag));
 
-        /// <summary>Writes the first weights, as many as the array takes.</summary>
+        /// <summary>Fills the array with the first weights; it may not be longer than there are weights.</summary>
         public void Positions(double[] weights) =>
             Native.Check(Native.sweepface_motion_positions(handle, weights, Native.Count(weights)));
         public void Velocities(double[] velocities) =>
@@ -447,7 +449,7 @@ namespace Sweepface
         /// <summary>What was repaired or may be wrong in the file.</summary>
         public string[] Warnings => Strings(Native.sweepface_clip_warning);
 
-        /// <summary>Writes the first weights at a time after the first frame.</summary>
+        /// <summary>Fills the array with the first weights, `seconds` after the first frame.</summary>
         public void Weights(double seconds, double[] weights) =>
             Native.Check(Native.sweepface_clip_weights(handle, seconds, weights, Native.Count(weights)));
 

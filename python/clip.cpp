@@ -215,10 +215,12 @@ void addClipsOfRigs(py::module_& m) {
       .def("weights_of", &weightsOver, "rig"_a, "times"_a = py::none(),
            "Weights of the rig's targets at times (those of the frames if not given), linear "
            "between frames and held at the ends: [T, K]. Names match as in `match`; targets that "
-           "nothing drives are at 0. Warns of names that drive none; raises Error if all do.")
+           "nothing drives are at 0. Warns of names that move and drive none; raises Error if no "
+           "name drives one.")
       .def("match", &matchOf, "rig"_a,
            "The targets that each name drives. Case, '_', '-', '.', ' ' and whether a side is "
-           "spelt out do not count; a name without a side drives both.")
+           "spelt out do not count; a name without a side drives both, except a side that has "
+           "a name of its own.")
       .def("renamed", &withNames, "names"_a, "rig"_a,
            "For rigs whose targets are called otherwise: {'jawOpen': 'mouth-open', 'cheekPuff': "
            "{'puff': 0.8}}.");

@@ -52,7 +52,13 @@ void addConversion(py::module_& m) {
         "Turns meshes into a rig whose vertices are all within the tolerance, in the neutral and "
         "in every target; in model units, 0: 0.02 % of the diagonal. Raises Error rather than "
         "miss it. pack makes the smallest file; max_bytes looks for the smallest tolerance whose "
-        "file takes at most so many. Uses all cores; Ctrl-C ends it, and progress(what, done) is "
+        "file takes at most so many. normal_limit refines where normals are further off than this, "
+        "in "
+        "degrees (0: in proportion to the tolerance, 180: nowhere); with pack, normal_tolerance is "
+        "the "
+        "RMS that all normals must keep to and texture_bits the bits of texture coordinates. "
+        "choose_shapes=False is faster and makes slightly larger files. Uses all cores; Ctrl-C "
+        "ends it, and progress(what, done) is "
         "called now and then with what is going on and how far it is, 0 to 1. Warnings are "
         "Python's.");
 }

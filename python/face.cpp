@@ -167,19 +167,21 @@ void addFace(py::module_& m) {
                    "A rig prepared for playing: a linear map from weights to vertices in tables "
                    "small enough for the cache. It never changes; any number of threads may use "
                    "it.")
-      .def(py::init(&faceOf), py::arg("rig").none(false), "level"_a = 0, py::kw_only(),
-           "vertices"_a = py::none(), "edge_length"_a = py::none(), "error"_a = py::none(),
-           "normals"_a = true, "tolerance"_a = py::none(), "arcs"_a = false, "combine"_a = false,
-           "eyes"_a = false,
-           "level 0 has the source's vertices in their order; level N every edge of the source cut "
-           "into N. Instead of a level, a budget: as close to the surface as a number of vertices "
-           "allows, edges no longer than a length, or triangles no further from the surface than "
-           "an error. Without normals it is made in half the time. Tables are rounded: a target of "
-           "weight 1 takes a vertex off the surface by up to the tolerance, three tenths of the "
-           "rig's own if none is given; a smaller one makes larger tables (see bound). With "
-           "arcs, targets that turn something move it on arcs; with combine, A_B goes by the "
-           "product of A and B, and A_50 stands in for A at 0.5; with eyes, eyeballs turn rigidly "
-           "by the eyeLook targets.")
+      .def(
+          py::init(&faceOf), py::arg("rig").none(false), "level"_a = 0, py::kw_only(),
+          "vertices"_a = py::none(), "edge_length"_a = py::none(), "error"_a = py::none(),
+          "normals"_a = true, "tolerance"_a = py::none(), "arcs"_a = false, "combine"_a = false,
+          "eyes"_a = false,
+          "level 0 has the source's vertices in their order; level N every edge of the source cut "
+          "into N. Instead of a level, a budget: as close to the surface as a number of vertices "
+          "allows, edges no longer than a length, or triangles no further from the surface than "
+          "an error. Without normals it is made in half the time. Tables are rounded: a target of "
+          "weight 1 adds up to the tolerance to a vertex's distance from the surface, three tenths "
+          "of the rig's own if none is given, and rounding comes on top (see bound); a smaller "
+          "one makes larger tables. With "
+          "arcs, targets that turn something move it on arcs; with combine, A_B goes by the "
+          "product of A and B, and A_50 stands in for A at 0.5; with eyes, eyeballs turn rigidly "
+          "by the eyeLook targets.")
       .def(
           "evaluate", &evaluate, "weights"_a = py::none(), py::kw_only(), "positions"_a = true,
           "normals"_a = false,
@@ -187,34 +189,38 @@ void addFace(py::module_& m) {
           "[F, K] evaluates F frames on all cores. positions and normals are whether they are "
           "wanted, or float32 arrays to write them to, [V, 3] or [F, V, 3]. Returns those that are "
           "wanted.")
-      .def_property_readonly("vertex_count", &Face::vertices)
+      .def_property_readonly("vertex_count", &Face::vertices, "Rows of positions.")
       .def_property_readonly(
           "triangles",
           [](const Face& face) {
             return arrayOf(std::span<const std::uint32_t>(face.mesh.triangles),
                            {static_cast<py::ssize_t>(face.mesh.triangles.size() / 3), 3});
           },
-          "[T, 3], counter-clockwise, of corners that have one texture coordinate each: "
-          "positions[points] are where they are.")
-      .def_property_readonly("points", &pointsOf, "The vertex that each corner repeats: [C].")
+          "The mesh for the GPU: [T, 3] of its vertices, counter-clockwise, which are at "
+          "positions[points] and have one texture coordinate each.")
+      .def_property_readonly("points", &pointsOf,
+                             "The vertex in positions of each vertex for the GPU: [C].")
       .def("__repr__",
            [](const Face& face) {
              return fmt::format("<sweepface.Face: {} vertices, {} triangles, {} targets>",
                                 face.vertices(), face.mesh.triangles.size() / 3,
                                 face.rig->targets.size());
            })
-      .def_property_readonly("texcoords", &texcoordsOf,
-                             "Of the corners, u to the right and v upwards, [C, 2], or None.")
+      .def_property_readonly(
+          "texcoords", &texcoordsOf,
+          "Of the vertices for the GPU, u to the right and v upwards, [C, 2], or None.")
       .def_property_readonly(
           "table_bytes",
           [](const Face& face) {
             return face.evaluator.positionBytes() + face.evaluator.normalBytes();
           },
-          "What is read to evaluate it.")
+          "Bytes that are read to evaluate a frame.")
       .def(
           "bound",
           [](const Face& face, const py::object& weights) {
-            return face.evaluator.positionBound(Frames(face, weights).of(0));
+            const Frames frames(face, weights);
+            if (!frames.isOne()) throw Failure("A bound is that of one frame: weights [K].");
+            return face.evaluator.positionBound(frames.of(0));
           },
           "weights"_a = py::none(),
           "How far any vertex may be from the surface under weights, in model units.");

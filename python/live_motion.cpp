@@ -62,8 +62,8 @@ void addLiveMotion(py::module_& m) {
           "goals"_a, "drive"_a = "spring",
           "Sends all weights to goals [K] by a drive: cut, newton, linear-force, accelerate-brake, "
           "spring or bounce. Its numbers are given by keywords: seconds until it arrives (0.3; not "
-          "for cut and spring), turn (accelerate-brake), frequency and damping (spring), "
-          "restitution (bounce), and delay.")
+          "for cut and spring), turn (0.5; accelerate-brake), frequency (2) and damping (1; "
+          "spring), restitution (0.4; bounce), and delay (0).")
       .def(
           "move_one",
           [](MotionState& state, std::size_t weight, double goal, const std::string& drive,

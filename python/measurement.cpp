@@ -85,10 +85,12 @@ void addMeasurement(py::module_& m) {
       .def_readonly("mixtures", &Measurements::mixtures, "Random weights.")
       .def_readonly("worst", &Measurements::worst, "Over all shapes.");
   const MeasureOptions usual;
-  m.def("measure", &measured, "rig"_a, "meshes"_a, py::kw_only(), "mixtures"_a = usual.mixtures,
-        "seed"_a = usual.seed, "facets"_a = usual.facets,
-        "Compares a rig with the meshes it was made from: at vertices and, with facets, between "
-        "them, which takes most of the time.");
+  m.def(
+      "measure", &measured, "rig"_a, "meshes"_a, py::kw_only(), "mixtures"_a = usual.mixtures,
+      "seed"_a = usual.seed, "facets"_a = usual.facets,
+      "Compares a rig with the meshes it was made from: at vertices and, with facets, between "
+      "them, which takes most of the time; also in as many mixtures of targets by random weights, "
+      "which the seed decides.");
 }
 
 }  // namespace sweepface::python

@@ -188,12 +188,14 @@ void addPose(py::module_& m) {
            "The places nearest to points [N, 3]: a tuple of patch, u and v, [N] each. Points that "
            "were found in one pose are at the same places in every other.")
       .def("curves", &curvesOf, "per_edge"_a = 8,
-           "The boundary curves and the control curves beside them: lists of points [N, 3], and "
-           "the arc that each is or lies beside.")
-      .def("joins", &joinsOf, "samples"_a = 5,
-           "How the two sides of every arc agree: its class (boundary, c2, spoke, crease), length, "
-           "largest gap in model units, jumps of the first and second cross derivatives relative "
-           "to the model's largest, and largest angle between normals in degrees: arrays [A].")
+           "The boundary curves and the control curves beside them, by 'boundary' and 'control': "
+           "lists of points [N, 3]; by 'boundary_arcs' and 'control_arcs', the arc that each is or "
+           "lies beside.")
+      .def(
+          "joins", &joinsOf, "samples"_a = 5,
+          "How the two sides of every arc agree, by names of arrays [A]: join_class (boundary, c2, "
+          "spoke, crease), length, position_gap in model units, first_jump and second_jump of the "
+          "cross derivatives relative to the model's largest, normal_jump in degrees.")
       .def("__repr__", [](const Pose& pose) {
         return fmt::format("<sweepface.Pose of {} vertices>", pose.rig->source.gridVertex.size());
       });

@@ -150,7 +150,10 @@ void addFiles(py::class_<Rig, SharedRig>& rig) {
            "quantize"_a = false, "weights"_a = py::none(), "clip"_a = nullptr,
            "key_tolerance"_a = 0,
            "Writes a GLB with the targets as morph targets, in the scene that came with the rig, "
-           "if one did. level 0: the source's vertices; N: every edge cut into N. A clip becomes "
+           "if one did. level 0: the source's vertices; N: every edge cut into N. morph_normals "
+           "writes "
+           "normals of the targets, too; quantize stores whole numbers (KHR_mesh_quantization); "
+           "weights are those at which the face is shown. A clip becomes "
            "an animation, in as few keys as keep its weights within key_tolerance, if that is "
            "given.")
       .def("save_obj", &saveObj, "path"_a, "weights"_a = py::none(),
@@ -159,7 +162,8 @@ void addFiles(py::class_<Rig, SharedRig>& rig) {
            "progress"_a = py::none(),
            "This rig packed: vectors become small whole numbers, most of them zero, and the file "
            "several times smaller. No vertex moves by more than the tolerance in any target (0: "
-           "the rig's own). convert(pack=True) makes smaller files still.")
+           "the rig's own). texture_bits are those of texture coordinates (0: as packed before, or "
+           "14). convert(pack=True) makes smaller files still.")
       .def("stripped", &stripped, "parts"_a,
            "This rig without parts of its file: order, uv, groups, scene, with commas between.");
 }

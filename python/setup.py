@@ -24,8 +24,9 @@ OPTIONS = {
 class BuildByCMake(build_ext):
     def build_extension(self, extension):
         """Builds it, unless SWEEPFACE_BUILD names a build folder that has it."""
-        folder = Path(os.environ.get("SWEEPFACE_BUILD") or self.build_temp).resolve()
-        if "SWEEPFACE_BUILD" not in os.environ:
+        built = os.environ.get("SWEEPFACE_BUILD")
+        folder = Path(built or self.build_temp).resolve()
+        if not built:
             told = [f"-D{name}={value}" for name, value in OPTIONS.items()]
             subprocess.run(["cmake", "-S", PROJECT, "-B", folder, *told], check=True)
             subprocess.run(["cmake", "--build", folder, "--target", "sweepface_python", "--parallel"], check=True)

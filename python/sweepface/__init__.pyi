@@ -44,7 +44,7 @@ class Meshes:
         targets: Mapping[str, ArrayLike] = ...,
         *,
         texcoords: Optional[ArrayLike] = None,
-        corner_texcoords: Optional[Sequence[int]] = None,
+        corner_texcoords: Union[None, Sequence[int], NDArray[Any]] = None,
     ) -> None: ...
     @property
     def positions(self) -> Doubles: ...
@@ -300,6 +300,10 @@ class Face:
     def evaluate(
         self, weights: Weights = None, *, positions: Literal[False], normals: Literal[False] = False
     ) -> None: ...
+    @overload
+    def evaluate(
+        self, weights: Weights = None, *, positions: Union[bool, Floats] = True, normals: Union[bool, Floats] = False
+    ) -> Union[None, Floats, Tuple[Floats, Floats]]: ...
     @property
     def vertex_count(self) -> int: ...
     @property

@@ -45,7 +45,10 @@ class Formatter {
     std::string result = "\"";
     for (const char c : text) {
       if (c == '"' || c == '\\') result += '\\';
-      result += c;
+      if (static_cast<unsigned char>(c) < ' ')
+        result += fmt::format("\\u{:04x}", c);
+      else
+        result += c;
     }
     return result + '"';
   }

@@ -410,6 +410,17 @@ TEST(Names, areNeitherNumbersNorTooLong) {
   }
 }
 
+TEST(References, areWrittenAsTheyWereReadWhateverTheyName) {
+  Json drawing = square();
+  const std::string name = "a\fb\t\"\\\x1f\xc3\xa9";
+  drawing["curves"][0]["from"] = name;
+  const auto read = parseDrawing(drawing.dump(), "drawn.json");
+  ASSERT_TRUE(read) << read.error().message;
+  const auto again = parseDrawing(formatDrawing(*read), "again.json");
+  ASSERT_TRUE(again) << again.error().message;
+  EXPECT_EQ(again->curves[0].from, name);
+}
+
 TEST(Rings, mayBeOnePatchAndOneCurve) {
   const Rig rig = made(tube());
   EXPECT_EQ(rig.surface.connectivity().kinds, std::vector<NodeKind>(2, NodeKind::crossing));
