@@ -54,14 +54,13 @@ void addOptions(CLI::App& app, ConvertArguments& a) {
   addStrip(app, a.strip);
   app.add_option("--normal-tolerance", a.normalTolerance,
                  "With --pack or --max-bytes: largest allowed angle between the surface's normals "
-                 "and the mesh's, "
-                 "in degrees, as the root mean square over all vertices of all expressions")
+                 "and the mesh's, in degrees, as the root mean square over all vertices of all "
+                 "expressions")
       ->check(positiveNumber(90))
       ->type_name("DEGREES");
   addUvBits(app, a.uvBits,
             "With --pack or --max-bytes: texture coordinates become multiples of 1/2^N of the "
-            "texture, N from 8 "
-            "to 16; default: 14");
+            "texture, N from 8 to 16; default: 14");
   app.add_option("--max-bytes", a.maxBytes,
                  "Pack, and search for the smallest tolerance (not below --tolerance, if given) "
                  "whose file takes at most N bytes; converts several times")

@@ -87,19 +87,6 @@ std::string firstOf(std::span<const std::string> names) {
   return fmt::format("{} and {} more", fmt::join(names.first(most), ", "), names.size() - most);
 }
 
-/// Notes names that drive nothing: recordings have columns for all shapes of the app, whatever the
-/// face has.
-void noteIdleNames(const ClipMatch& match, const Clip& clip, const std::string& file,
-                   std::vector<std::string>& notes) {
-  std::vector<std::string> idle;
-  for (std::size_t k = 0; k < clip.names.size(); ++k)
-    if (match.targets[k].empty() && clip.moves(k) && !ClipAngles::tells(clip.names[k]))
-      idle.push_back(clip.names[k]);
-  if (!idle.empty())
-    notes.push_back(fmt::format("{}: {} of {} names drive no target of the face: {}.", file,
-                                idle.size(), clip.names.size(), firstOf(idle)));
-}
-
 }  // namespace
 
 Result<std::vector<Performance>> byClip(const PerformanceArguments& a, const std::string& text,
@@ -123,7 +110,9 @@ Result<std::vector<Performance>> byClip(const PerformanceArguments& a, const std
   shared.called = a.clip;
   shared.frameMiss = clips->missed;
   shared.notes = whole->warnings;
-  noteIdleNames(match, *whole, a.clip, shared.notes);
+  if (const auto idle = idleNames(*whole, match); !idle.empty())
+    shared.notes.push_back(fmt::format("{}: {} of {} names drive no target of the face: {}.",
+                                       a.clip, idle.size(), whole->names.size(), firstOf(idle)));
   std::ranges::move(notesOnClip(*whole, match, clips->missed, targets, a.clip),
                     std::back_inserter(shared.notes));
   if (!read->isAuthored && !match.undriven.empty())

@@ -106,12 +106,8 @@ ClipMatch matchWith(const Clip& clip, const Rig& rig) {
   if (!movesAnything(clip, match))
     throw Failure(
         fmt::format("None of the clip's {} names is a target of the rig.", clip.names.size()));
-  std::vector<std::string> idle;
-  for (std::size_t k = 0; k < clip.names.size(); ++k)
-    if (match.targets[k].empty() && clip.moves(k) && !ClipAngles::tells(clip.names[k]))
-      idle.push_back(clip.names[k]);
   auto notes = notesOnClip(clip, match, 0, targets, "The clip");
-  if (!idle.empty())
+  if (const auto idle = idleNames(clip, match); !idle.empty())
     notes.push_back(fmt::format("{} of the clip's {} names drive no target of the rig: {}.",
                                 idle.size(), clip.names.size(), fmt::join(idle, ", ")));
   warn(notes);

@@ -58,8 +58,7 @@ Face faceOf(const std::shared_ptr<Rig>& rig, Index level, const py::object& vert
             const py::object& tolerance, bool arcs, bool combine, bool eyes) {
   const auto budget = budgetFrom(vertices, edgeLength, error);
   if (budget && level != 0) throw Failure("Give either a level or a budget.");
-  if (level < 0 || level > kMostLevel)
-    throw Failure(fmt::format("A level is between 0 and {}, not {}.", kMostLevel, level));
+  checkLevel(level);
   EvaluatorOptions options;
   options.level = budget ? 1 : level, options.normals = normals;
   if (!tolerance.is_none()) options.tolerance = numberFrom(tolerance, "The tolerance");

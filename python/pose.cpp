@@ -28,9 +28,7 @@ struct Sites {
 
   Site at(const Surface& surface, py::ssize_t k) const {
     const std::int64_t p = patch.data()[k];
-    if (p < 0 || p >= surface.patchCount())
-      throw Failure(
-          fmt::format("There is no patch {}; there are {}, from 0 on.", p, surface.patchCount()));
+    checkPatch(surface, p);
     const Site site{static_cast<Index>(p), u.data()[k], v.data()[k]};
     const Index edgesU = surface.edgesU(site.patch), edgesV = surface.edgesV(site.patch);
     if (!(site.u >= 0 && site.u <= edgesU && site.v >= 0 && site.v <= edgesV))
@@ -84,8 +82,7 @@ py::tuple nearestTo(const Pose& pose, const Doubles& points) {
 // ---- At all vertices ----
 
 Tessellation gridAt(const Pose& pose, Index level) {
-  if (level < 0 || level > kMostLevel)
-    throw Failure(fmt::format("A level is between 0 and {}, not {}.", kMostLevel, level));
+  checkLevel(level);
   return {pose.rig->surface, std::max(level, 1)};
 }
 

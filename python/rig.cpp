@@ -110,20 +110,14 @@ py::array_t<double> ribbonsOf(const Rig& rig) {
   return arrayOfPoints(shapes);
 }
 
-void checkPatch(const Rig& rig, Index patch) {
-  if (patch < 0 || patch >= rig.surface.patchCount())
-    throw Failure(fmt::format("There is no patch {}; there are {}, from 0 on.", patch,
-                              rig.surface.patchCount()));
-}
-
 py::tuple basesOf(const Rig& rig, Index patch) {
-  checkPatch(rig, patch);
+  checkPatch(rig.surface, patch);
   const auto [u, v0, v1] = rig.surface.patchBasis(patch);
   return py::make_tuple(*u, *v0, *v1);
 }
 
 py::list patchSides(const Rig& rig, Index patch) {
-  checkPatch(rig, patch);
+  checkPatch(rig.surface, patch);
   py::list sides;
   for (int s = 0; s < 4; ++s) {
     py::list side;

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <fmt/format.h>
 #include <thread>
 
+#include "sweepface/evaluator.hpp"
 #include "sweepface/io.hpp"
 
 namespace sweepface::python {
@@ -36,6 +38,17 @@ py::dict mappingFrom(const py::object& object, const char* what) {
 
 bool isMapping(const py::object& object) {
   return py::hasattr(object, "keys") && !py::hasattr(object, "__array__");
+}
+
+void checkPatch(const Surface& surface, std::int64_t patch) {
+  if (patch >= 0 && patch < surface.patchCount()) return;
+  throw Failure(
+      fmt::format("There is no patch {}; there are {}, from 0 on.", patch, surface.patchCount()));
+}
+
+void checkLevel(Index level) {
+  if (level >= 0 && level <= kMostLevel) return;
+  throw Failure(fmt::format("A level is between 0 and {}, not {}.", kMostLevel, level));
 }
 
 void checkKind(const std::filesystem::path& path, const char* extension) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
@@ -73,6 +74,11 @@ inline std::string textFrom(const py::handle& object, const char* what) {
 bool isMapping(const py::object& object);
 /// The keys and values of any mapping, copied: converting them may run code that changes it.
 py::dict mappingFrom(const py::object& object, const char* what);
+
+/// Fails unless there is such a patch.
+void checkPatch(const Surface& surface, std::int64_t patch);
+/// Fails unless edges can be cut into so many; 0: the source's own vertices.
+void checkLevel(Index level);
 
 /// Fails if a file to be written has another extension.
 void checkKind(const std::filesystem::path& path, const char* extension);

@@ -80,6 +80,10 @@ Result<NameMap> parseNameMap(std::string_view text, std::string_view name);
 /// are not in the map stay. Refuses targets that do not exist, and weights beyond ±1,000,000.
 Result<Clip> renamed(Clip clip, const NameMap& map, std::span<const std::string> targets);
 
+/// Names of a clip that are ever other than 0 and drive nothing, without the angles of Live Link
+/// Face (head.hpp). Recordings have columns for all shapes of the app, whatever the face has.
+std::vector<std::string> idleNames(const Clip& clip, const ClipMatch& match);
+
 /// Sentences about what may surprise when a clip, called `name`, drives `targets`: names that drive
 /// one target together, and frames that miss more than a timeline promises (`missed`, as in
 /// RegionalClips).

@@ -45,17 +45,16 @@ class Refiner {
     if (auto ok = mixAll(part.run, primitive["attributes"]); !ok) return ok;
     if (Json* const targets = find(primitive, "targets"))
       for (Json& target : *targets) {
-        eraseSkin(target);
+        eraseSkin(target);  // morph targets have none, whatever a file says
         if (auto ok = mixAll(part.run, target); !ok) return ok;
       }
     return {};
   }
 
-  /// A morph target has none, whatever a file says.
-  static void eraseSkin(Json& target) {
-    const Json before = target;
+  static void eraseSkin(Json& attributes, const std::set<std::string>& except = {}) {
+    const Json before = attributes;
     for (const auto& [name, number] : before.items())
-      if (isSkin(name)) target.erase(name);
+      if (isSkin(name) && !except.contains(name)) attributes.erase(name);
   }
 
   Result<void> mixAll(std::size_t run, Json& attributes) {
@@ -99,9 +98,7 @@ class Refiner {
         paired.insert(name);
       }
     }
-    const Json before = attributes;
-    for (const auto& [name, number] : before.items())
-      if (isSkin(name) && !paired.contains(name)) attributes.erase(name);
+    eraseSkin(attributes, paired);
     return skin;
   }
 

@@ -3,8 +3,17 @@
 #include <map>
 
 #include "sweepface/clip.hpp"
+#include "sweepface/head.hpp"
 
 namespace sweepface {
+
+std::vector<std::string> idleNames(const Clip& clip, const ClipMatch& match) {
+  std::vector<std::string> idle;
+  for (std::size_t k = 0; k < clip.names.size(); ++k)
+    if (match.targets[k].empty() && clip.moves(k) && !ClipAngles::tells(clip.names[k]))
+      idle.push_back(clip.names[k]);
+  return idle;
+}
 
 std::vector<std::string> notesOnClip(const Clip& clip, const ClipMatch& match, double missed,
                                      std::span<const std::string> targets, std::string_view name) {

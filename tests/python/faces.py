@@ -9,7 +9,6 @@ import numpy as np
 import sweepface
 
 SAMPLE = os.environ["SWEEPFACE_SAMPLE"]
-FOLDER = os.path.dirname(SAMPLE)
 
 
 def sheet():

@@ -6,7 +6,7 @@ import re
 import unittest
 
 import sweepface
-from faces import SAMPLE, FaceTest
+from faces import FaceTest
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.join(HERE, "..", "..")
