@@ -2,16 +2,18 @@
 BUILD := build/release
 FUZZ_SECONDS ?= 60
 
-.PHONY: help deps build demo web python test test-long test-arm bench fuzz format clean
+.PHONY: help deps build demo web python windows test test-long test-arm test-windows bench fuzz format clean
 
 help:
 	@echo 'make build      build the tool, build/release/sweepface'
 	@echo 'make demo       install what is missing, build, and show the tool on a sample face'
 	@echo 'make web        build the page in web/ and what it shows'
 	@echo 'make python     build the package for Python'
+	@echo 'make windows    build the tool and the libraries for Windows'
 	@echo 'make test       install what is missing, build everything, run the tests'
 	@echo 'make test-long  the long tests, the benchmarks briefly, and all tests under sanitizers and with clang'
 	@echo 'make test-arm   the tests of what plays, built for 64-bit ARM and run in an emulator'
+	@echo 'make test-windows   the tests but those of the tool, built for Windows and run in Wine'
 	@echo 'make bench      build and run the benchmarks'
 	@echo 'make fuzz       run each fuzz target for FUZZ_SECONDS (60)'
 	@echo 'make format     format the sources'
@@ -46,6 +48,12 @@ python:
 	cmake --build $(BUILD) --target sweepface_python
 	@sed -n 's|^SWEEPFACE_PYTHON:FILEPATH=|Now: PYTHONPATH=$(BUILD)/python |p' $(BUILD)/CMakeCache.txt
 
+windows:
+	scripts/install-deps windows
+	scripts/windows-root
+	cmake --preset windows
+	cmake --build --preset windows --target sweepface sweepface_shared sweepface_shared_clips
+
 # What the tests with other people's tools need; without it they are skipped.
 tests/web/node_modules/.package-lock.json: tests/web/package-lock.json
 	scripts/install-deps wasm web || \
@@ -77,6 +85,10 @@ test-arm:
 	scripts/install-deps arm
 	scripts/arm-root
 	cmake --workflow --preset arm
+
+test-windows: windows
+	cmake --build --preset windows
+	ctest --preset windows
 
 bench:
 	scripts/install-deps bench

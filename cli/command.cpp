@@ -43,7 +43,7 @@ CLI::Validator number(Allowed isAllowed, const std::string& what) {
 /// Whether `path` is the pipe that the report goes to, where the two would mix.
 bool isPipeOfReport(const fs::path& path) {
   struct stat there{}, report{};
-  return stat(path.c_str(), &there) == 0 && fstat(STDOUT_FILENO, &report) == 0 &&
+  return stat(path.string().c_str(), &there) == 0 && fstat(STDOUT_FILENO, &report) == 0 &&
          S_ISFIFO(there.st_mode) && there.st_dev == report.st_dev && there.st_ino == report.st_ino;
 }
 
@@ -352,12 +352,12 @@ Result<void> checkOutput(const fs::path& output, const std::vector<std::string>&
   const bool device = fs::exists(output, ignored) && !fs::is_regular_file(output, ignored);
   if (!device && std::ranges::none_of(kinds, [&](auto kind) { return isOfKind(output, kind); }))
     return cannot(fmt::format("its name must end in {}", fmt::join(kinds, " or ")));
-  if (!device && fs::exists(output, ignored) && access(output.c_str(), W_OK) != 0)
+  if (!device && fs::exists(output, ignored) && access(output.string().c_str(), W_OK) != 0)
     return cannot("it is write-protected; make it writable, or choose another name");
   const fs::path folder = folderOf(output);
   if (!device && !fs::is_directory(folder, ignored))
     return cannot(fmt::format("there is no folder {}; create it first", folder.string()));
-  if (access((device ? output : folder).c_str(), W_OK) != 0)
+  if (access((device ? output : folder).string().c_str(), W_OK) != 0)
     return cannot(fmt::format("{}; choose another place, or change the permissions of this one",
                               std::generic_category().message(errno)));
   return {};

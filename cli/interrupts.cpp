@@ -1,9 +1,11 @@
 #include "interrupts.hpp"
 
+#include <chrono>
 #include <csignal>
 #include <optional>
 #include <string_view>
 #include <tbb/global_control.h>
+#include <thread>
 #include <tuple>
 #include <unistd.h>
 
@@ -21,9 +23,31 @@ bool leavesBar = false;  // messages then start on a new line
 void endAnyway(int) {
   std::string_view text = "\nsweepface: Interrupted; nothing was written.\n";
   if (!leavesBar) text.remove_prefix(1);
-  std::ignore = ::write(STDERR_FILENO, text.data(), text.size());
+  std::ignore = ::write(STDERR_FILENO, text.data(), static_cast<unsigned>(text.size()));
   ::_exit(kInterrupted);
 }
+
+#ifdef _WIN32
+
+std::atomic<Patience> patienceNow{};
+
+/// Windows has no alarms, but handles each signal in a thread of its own, which may wait.
+void ask(int) {
+  interrupted = true;
+  if (patienceNow == Patience::endless) return;
+  std::this_thread::sleep_for(std::chrono::seconds(2));
+  if (patienceNow == Patience::twoSeconds) endAnyway(0);
+}
+
+}  // namespace
+
+void catchInterrupts(Patience patience) {
+  patienceNow = patience;
+  leavesBar = ::isatty(STDERR_FILENO) != 0;
+  for (const int signal : {SIGINT, SIGBREAK}) std::signal(signal, ask);
+}
+
+#else
 
 void ask(int) { interrupted = true; }
 
@@ -47,6 +71,8 @@ void catchInterrupts(Patience patience) {
     if (before.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);
   }
 }
+
+#endif
 
 Result<int> doLongWork(int threads, const std::function<Result<int>()>& work) {
   std::optional<tbb::global_control> limit;

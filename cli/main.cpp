@@ -9,6 +9,10 @@
 #include "command.hpp"
 #include "output.hpp"
 
+#ifdef _WIN32
+#include "windows/console.hpp"
+#endif
+
 namespace sweepface::cli {
 namespace {
 
@@ -35,6 +39,7 @@ int run(int argc, char** argv) {
       "Turns a face mesh and its expressions into a network of smooth surfaces with a "
       "guaranteed error,\nand moves it by Newton's second law.",
       "sweepface");
+  tool.allow_windows_style_options(false);  // a path may begin with a slash there, too
   tool.formatter(std::make_shared<HelpFormatter>());
   tool.set_version_flag("--version", "sweepface " SWEEPFACE_VERSION, "Print the version and exit");
   tool.require_subcommand(1);
@@ -78,6 +83,9 @@ int run(int argc, char** argv) {
 }  // namespace sweepface::cli
 
 int main(int argc, char** argv) {
+#ifdef _WIN32
+  const sweepface::cli::Console console;
+#endif
   try {
     return sweepface::cli::run(argc, argv);
   } catch (const std::bad_alloc&) {

@@ -12,7 +12,9 @@ function(sweepface_shared_library target output)
   target_link_libraries(sweepface_${target} PRIVATE sweepface_runtime)  # for the libraries it links
   # If a project asks for fast math, GCC would link start-up code that rounds small numbers to 0 in the whole program.
   target_link_options(sweepface_${target} PRIVATE -O2 -fno-fast-math -fno-unsafe-math-optimizations)
-  if(NOT APPLE)
+  if(WIN32)  # sweepface.dll, and sweepface.lib for linkers
+    set_target_properties(sweepface_${target} PROPERTIES PREFIX "" IMPORT_PREFIX "" IMPORT_SUFFIX .lib)
+  elseif(NOT APPLE)
     target_link_options(sweepface_${target} PRIVATE -Wl,--version-script=${exports})
   endif()
 endfunction()

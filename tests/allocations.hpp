@@ -6,6 +6,10 @@
 #include <malloc.h>
 #include <new>
 
+#ifdef _WIN32
+#define malloc_usable_size _msize
+#endif
+
 // Tracks every allocation of a test program. Include it in exactly one of the program's files.
 
 namespace sweepface::testing {

@@ -15,6 +15,10 @@
 
 #include "io/text.hpp"
 
+#ifndef O_BINARY
+#define O_BINARY 0  // only Windows translates line ends
+#endif
+
 namespace sweepface {
 namespace {
 
@@ -27,8 +31,15 @@ using File = std::unique_ptr<std::FILE, CloseFile>;
 
 std::string reason(int code) { return std::generic_category().message(code); }
 
+bool isFull(int code) {
+#ifdef EDQUOT
+  if (code == EDQUOT) return true;
+#endif
+  return code == ENOSPC;
+}
+
 std::unexpected<Error> cannotWrite(const fs::path& path, int code) {
-  const char* const advice = code == ENOSPC || code == EDQUOT
+  const char* const advice = isFull(code)
                                  ? "; make room there, or choose another place"
                              : code == EACCES || code == EPERM || code == EROFS
                                  ? "; choose another place, or change its permissions"
@@ -60,11 +71,17 @@ struct Temporary {
   int code = EEXIST;  ///< why there is no file
 };
 
+/// Creates a file that must not exist yet; fopen's "x" is not known to every C library.
+File createNew(const fs::path& path) {
+  const int file = ::open(path.string().c_str(), O_CREAT | O_EXCL | O_WRONLY | O_BINARY, 0666);
+  return File(file < 0 ? nullptr : ::fdopen(file, "wb"));
+}
+
 /// Creates a new file in the folder.
 Temporary createTemporary(const fs::path& folder) {
   for (int number = 0; number < kMostTemporaries; ++number) {
     fs::path path = temporaryName(folder, number);
-    File file(std::fopen(path.string().c_str(), "wbx"));
+    File file = createNew(path);
     const int code = file ? 0 : errno;
     if (code != EEXIST) return {std::move(path), std::move(file), code};
   }
@@ -140,7 +157,8 @@ std::optional<int> replaceByNameless(const fs::path&, const fs::path&, std::stri
 Result<void> replaceFile(const fs::path& path, std::string_view bytes) {
   const fs::path folder = folderOf(path);
   // A folder's permissions alone would let a write-protected file be replaced.
-  if (::access(path.c_str(), F_OK) == 0 && ::access(path.c_str(), W_OK) != 0)
+  const std::string name = path.string();
+  if (::access(name.c_str(), F_OK) == 0 && ::access(name.c_str(), W_OK) != 0)
     return cannotWrite(path, errno);
   if (const auto code = replaceByNameless(path, folder, bytes)) {
     if (*code == 0) return {};
@@ -159,7 +177,7 @@ Result<void> replaceFile(const fs::path& path, std::string_view bytes) {
   fs::rename(temporary.path, path, error);
   if (!error) return {};
   fs::remove(temporary.path, ignored);
-  return cannotWrite(path, error.value());
+  return cannotWrite(path, error.default_error_condition().value());
 }
 
 /// What a link finally points to, which need not exist; an empty path if links form a cycle.

@@ -1,13 +1,24 @@
 #include "report/program.hpp"
 
+#include <fmt/format.h>
+#include <random>
+
+#ifndef _WIN32
 #include <cerrno>
-#include <cstdlib>
 #include <fcntl.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
+#endif
 
 namespace sweepface {
+
+#ifdef _WIN32
+
+/// What npm and others install there are scripts for a shell.
+Ran run(const std::vector<std::string>&) { return Ran::missing; }
+
+#else
 
 Ran run(const std::vector<std::string>& words) {
   std::vector<char*> arguments;
@@ -28,11 +39,16 @@ Ran run(const std::vector<std::string>& words) {
   return WIFEXITED(status) && WEXITSTATUS(status) == 0 ? Ran::well : Ran::badly;
 }
 
+#endif
+
 ScratchFolder::ScratchFolder() {
-  std::error_code none;
-  const auto parent = std::filesystem::temp_directory_path(none);
-  std::string path = (parent / "sweepface-XXXXXX").string();
-  if (!none && mkdtemp(path.data())) path_ = path;
+  namespace fs = std::filesystem;
+  std::error_code error;
+  const fs::path path =
+      fs::temp_directory_path(error) / fmt::format("sweepface-{:08x}", std::random_device()());
+  if (error || !fs::create_directory(path, error)) return;
+  path_ = path;
+  fs::permissions(path, fs::perms::owner_all, error);
 }
 
 ScratchFolder::~ScratchFolder() {

@@ -120,6 +120,9 @@ TEST_F(RigReader, RefusesTargetsWithoutAName) {
 }
 
 TEST_F(RigReader, RefusesNamesThatNoFileHolds) {
+#ifdef _WIN32  // knows neither
+  GTEST_SKIP();
+#endif
   for (const char* name : {"a\nb.obj", "sm\xeele.obj"})
     EXPECT_TRUE(failsWith(read({folder.file(name, triangle)}),
                           {"The name of the target", ".obj", "rename the file"}));
