@@ -117,9 +117,9 @@ Result<void> writeFrames(const AnimateArguments& a, const Rig& rig, const Perfor
     return head ? meshes.obj(weights, head->rotations[frame], head->pivot) : meshes.obj(weights);
   };
   const auto path = [&](std::size_t frame) {
-    return fs::path(a.output) / fmt::format("frame_{:04}.obj", frame);
+    return utf8Path(a.output) / fmt::format("frame_{:04}.obj", frame);
   };
-  return writeMeshes({times.size(), "frames", a.face, path, text}, a.quiet);
+  return writeMeshes({times.size(), "frames", utf8Path(a.face), path, text}, a.quiet);
 }
 
 void printFrames(const AnimateArguments& a, std::size_t count, const Performance& performance) {
@@ -134,7 +134,7 @@ Result<void> animateMeshes(const AnimateArguments& a, const Rig& rig,
   if (!times) return std::unexpected(times.error());
   const auto head = headTrack(a.head, rig, performance, *times);
   if (!head) return std::unexpected(head.error());
-  if (auto made = makeFolder(a.output); !made) return made;
+  if (auto made = makeFolder(utf8Path(a.output)); !made) return made;
   if (auto written = writeFrames(a, rig, performance, *times, *head); !written) return written;
   if (!a.quiet) printFrames(a, times->size(), performance);
   return {};
@@ -187,7 +187,7 @@ Result<void> animateGlb(const AnimateArguments& a, const Rig& rig, const Perform
   if (*head) options.head = &**head;
   const Result<std::string> bytes = formatGlb(rig, options);
   if (!bytes) return std::unexpected(bytes.error());
-  if (auto written = writeFile(a.output, *bytes); !written) return written;
+  if (auto written = writeFile(utf8Path(a.output), *bytes); !written) return written;
   if (!a.quiet)
     fmt::print("{}: {:.6g} s, {}, {} bytes\n", a.output, performance.seconds, performance.name,
                bytes->size());
@@ -208,7 +208,7 @@ Result<void> animateCsv(const AnimateArguments& a, const Rig& rig, const Perform
   if (performance.pose) addAngles(clip, performance.pose);
   const Result<std::string> text = formatLiveLinkCsv(clip, a.what.writtenRate());
   if (!text) return std::unexpected(text.error());
-  if (auto written = writeFile(a.output, *text); !written) return written;
+  if (auto written = writeFile(utf8Path(a.output), *text); !written) return written;
   if (!a.quiet) printFrames(a, clip.times.size(), performance);
   return {};
 }
@@ -255,7 +255,7 @@ Result<void> checkKeys(const AnimateArguments& a, const Performance& performance
 
 Result<int> runAnimate(const AnimateArguments& a) {
   const bool glb = isOfKind(a.output, ".glb"), csv = isOfKind(a.output, ".csv");
-  if (!glb && !csv && !meansFolder(a.output))
+  if (!glb && !csv && !meansFolder(utf8Path(a.output)))
     return fail(fmt::format(
         "Cannot write {}: its name must end in .glb or .csv, or be a folder's, without an ending "
         "or with a / behind it.",

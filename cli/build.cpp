@@ -66,7 +66,7 @@ Result<int> runBuild(const BuildArguments& a) {
   if (!a.source.empty()) inputs.push_back(a.source);
   if (auto ok = checkOutput(a.output, inputs, {".sweep"}, !a.quiet); !ok)
     return std::unexpected(ok.error());
-  const Result<std::string> text = readFile(a.drawing);
+  const Result<std::string> text = readFile(utf8Path(a.drawing));
   if (!text) return std::unexpected(text.error());
   const Result<Drawing> drawing = parseDrawing(*text, a.drawing);
   if (!drawing) return std::unexpected(drawing.error());
@@ -83,7 +83,7 @@ Result<int> runBuild(const BuildArguments& a) {
   if (hasArcs) built->rig.turns = findTurns(built->rig);
   const Result<std::string> bytes = encodeReadable(built->rig, a.output);
   if (!bytes) return std::unexpected(bytes.error());
-  if (auto written = writeFile(a.output, *bytes); !written) return std::unexpected(written.error());
+  if (auto written = writeFile(utf8Path(a.output), *bytes); !written) return std::unexpected(written.error());
   if (a.arcs && built->rig.turns.empty()) printWarning(kNoTurns);
   for (const Target& target : built->rig.targets)
     if (!canBeListed(target.name)) printWarning(cannotBeListed(target.name));

@@ -228,7 +228,7 @@ CLI::Validator onOrOff() {
 }
 
 Result<Rig> readFace(const std::string& path) {
-  const Result<std::string> bytes = readFile(path);
+  const Result<std::string> bytes = readFile(utf8Path(path));
   if (!bytes) return std::unexpected(bytes.error());
   return opened(*bytes, path);
 }
@@ -322,27 +322,31 @@ Result<Weights> weightsGiven(std::string_view option, std::string_view text, con
   return fail(fmt::format("{}: {}{}", option, hint, weights.error().message));
 }
 
-bool isOfKind(const fs::path& path, std::string_view kind) { return extensionOf(path) == kind; }
+bool isOfKind(std::string_view path, std::string_view kind) {
+  return extensionOf(utf8Path(path)) == kind;
+}
 
-bool isGltf(const fs::path& path) { return isOfKind(path, ".glb") || isOfKind(path, ".gltf"); }
+bool isGltf(std::string_view path) { return isOfKind(path, ".glb") || isOfKind(path, ".gltf"); }
 
 Result<RigSource> readMeshes(const std::string& neutral, const std::vector<std::string>& targets,
                              ProgressBar& bar) {
-  const std::vector<fs::path> paths(targets.begin(), targets.end());
-  return readSource(neutral, paths, [&](std::size_t done, std::size_t total) {
+  std::vector<fs::path> paths;
+  for (const std::string& target : targets) paths.push_back(utf8Path(target));
+  return readSource(utf8Path(neutral), paths, [&](std::size_t done, std::size_t total) {
     bar.show("reading", static_cast<double>(done) / static_cast<double>(total));
   });
 }
 
-Result<void> checkOutput(const fs::path& output, const std::vector<std::string>& inputs,
+Result<void> checkOutput(const std::string& name, const std::vector<std::string>& inputs,
                          std::initializer_list<std::string_view> kinds, bool reports) {
   const auto cannot = [&](std::string_view why) {
-    return fail(fmt::format("Cannot write {}: {}.", output.string(), why));
+    return fail(fmt::format("Cannot write {}: {}.", name, why));
   };
+  const fs::path output = utf8Path(name);
   if (output.empty()) return fail("The name of the output is empty; name a file.");
   std::error_code ignored;
   for (const std::string& input : inputs)
-    if (fs::equivalent(output, input, ignored))
+    if (fs::equivalent(output, utf8Path(input), ignored))
       return cannot("it is what is read; choose another name");
   if (!output.has_filename() || fs::is_directory(output, ignored))
     return cannot("it is a folder; name a file");
@@ -350,7 +354,7 @@ Result<void> checkOutput(const fs::path& output, const std::vector<std::string>&
   if (leadsToFile(output)) return cannot("it leads into a file; name that file");
   // A device is written to directly; any other file is replaced within its folder.
   const bool device = fs::exists(output, ignored) && !fs::is_regular_file(output, ignored);
-  if (!device && std::ranges::none_of(kinds, [&](auto kind) { return isOfKind(output, kind); }))
+  if (!device && std::ranges::none_of(kinds, [&](auto kind) { return isOfKind(name, kind); }))
     return cannot(fmt::format("its name must end in {}", fmt::join(kinds, " or ")));
   if (!device && fs::exists(output, ignored) && access(output.string().c_str(), W_OK) != 0)
     return cannot("it is write-protected; make it writable, or choose another name");

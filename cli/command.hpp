@@ -136,9 +136,9 @@ Result<Rig> readBack(std::string_view bytes, const std::string& path);
 Result<std::string> encodeReadable(const Rig& rig, const std::string& path);
 
 /// Whether a file's name has an ending like ".glb", in lower or upper case.
-bool isOfKind(const std::filesystem::path& path, std::string_view kind);
+bool isOfKind(std::string_view path, std::string_view kind);
 /// Whether it is a .glb or .gltf.
-bool isGltf(const std::filesystem::path& path);
+bool isGltf(std::string_view path);
 
 /// Reads the meshes that the options of addMeshes() name.
 Result<RigSource> readMeshes(const std::string& neutral, const std::vector<std::string>& targets,
@@ -147,8 +147,7 @@ Result<RigSource> readMeshes(const std::string& neutral, const std::vector<std::
 /// Checks, before the long work, that a file can be made at `output` without overwriting an input.
 /// Its name must end in one of `kinds`, so that nobody takes it for another kind of file. If
 /// `reports`, a report goes to the standard output, so the file cannot.
-Result<void> checkOutput(const std::filesystem::path& output,
-                         const std::vector<std::string>& inputs,
+Result<void> checkOutput(const std::string& output, const std::vector<std::string>& inputs,
                          std::initializer_list<std::string_view> kinds, bool reports = true);
 
 }  // namespace sweepface::cli

@@ -226,7 +226,7 @@ Result<int> convertAndWrite(const ConvertArguments& a) {
   if (!verified) return std::unexpected(verified.error());
   catchInterrupts();  // writing must not end half-way
   if (interrupted) return kInterrupted;
-  if (auto written = writeAndReadBack(a.output, bytes); !written)
+  if (auto written = writeAndReadBack(utf8Path(a.output), bytes); !written)
     return std::unexpected(written.error());
   bar.reset();
 

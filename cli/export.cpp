@@ -67,7 +67,7 @@ void addOptions(CLI::App& app, ExportArguments& a) {
 }
 
 bool isOfFolder(const ExportArguments& a) {
-  return !isOfKind(a.output, ".obj") && !isOfKind(a.output, ".glb") && meansFolder(a.output);
+  return !isOfKind(a.output, ".obj") && !isOfKind(a.output, ".glb") && meansFolder(utf8Path(a.output));
 }
 
 Budget budgetOf(const ExportArguments& a) {
@@ -79,7 +79,7 @@ Budget budgetOf(const ExportArguments& a) {
 Result<void> writeWithin(const ExportArguments& a, const Rig& rig, const Weights& weights) {
   const auto mesh = meshWithin(rig, budgetOf(a), weights);
   if (!mesh) return std::unexpected(mesh.error());
-  if (auto written = writeFile(a.output, mesh->obj); !written) return written;
+  if (auto written = writeFile(utf8Path(a.output), mesh->obj); !written) return written;
   if (!a.quiet)
     fmt::print("{}: {} vertices, {} triangles\n", a.output, mesh->vertices, mesh->triangles);
   if (mesh->cutMost > 0)
@@ -94,7 +94,7 @@ Result<void> writeObj(const ExportArguments& a, const Rig& rig, const Weights& w
   if (budgetOf(a).value > 0) return writeWithin(a, rig, weights);
   if (auto ok = checkLod(rig, a.lod); !ok) return ok;
   const MeshMaker meshes(rig, a.lod);
-  if (auto written = writeFile(a.output, meshes.obj(weights)); !written) return written;
+  if (auto written = writeFile(utf8Path(a.output), meshes.obj(weights)); !written) return written;
   if (!a.quiet) fmt::print("{}: {} faces\n", a.output, meshes.polygons().faceCount());
   return {};
 }
@@ -105,11 +105,17 @@ Result<void> writeGlb(const ExportArguments& a, const Rig& rig, const Weights& w
   if (auto ok = checkFineness(rig.surface, a.lod); !ok) return ok;
   const Result<std::string> bytes = formatGlb(rig, options);
   if (!bytes) return std::unexpected(bytes.error());
-  if (auto written = writeFile(a.output, *bytes); !written) return written;
+  if (auto written = writeFile(utf8Path(a.output), *bytes); !written) return written;
   if (!a.quiet)
     fmt::print("{}: {} targets, {} bytes\n", a.output, rig.targets.size(), bytes->size());
   return {};
 }
+
+#ifdef _WIN32
+constexpr std::string_view kForbidden = R"(/\:*?"<>|)";
+#else
+constexpr std::string_view kForbidden = "/";
+#endif
 
 /// The file names of the first targets: their own names, altered where file systems would refuse
 /// the file or `convert` would skip it in a folder.
@@ -118,7 +124,7 @@ Result<std::vector<std::string>> fileNames(const Rig& rig, std::size_t count) {
   for (std::size_t k = 0; k < count; ++k) {
     const std::string& target = rig.targets[k].name;
     std::string name = target + ".obj";
-    std::ranges::replace(name, '/', '_');
+    std::ranges::replace_if(name, [](char c) { return kForbidden.contains(c); }, '_');
     if (name.starts_with('.')) name[0] = '_';
     if (const auto twin = std::ranges::find(names, name); twin != names.end())
       return fail(fmt::format("The targets '{}' and '{}' would both be in {}; write a .glb.",
@@ -133,7 +139,7 @@ Result<std::vector<std::string>> fileNames(const Rig& rig, std::size_t count) {
 
 /// Writes what `convert` reads: neutral.obj, and every target by its name in expressions/.
 Result<void> writeFolder(const ExportArguments& a, const Rig& rig, const Following& following) {
-  const std::filesystem::path folder(a.output), expressions = folder / "expressions";
+  const std::filesystem::path folder = utf8Path(a.output), expressions = folder / "expressions";
   if (auto ok = checkLod(rig, a.lod); !ok) return ok;
   const auto names = fileNames(rig, following.count);
   if (!names) return std::unexpected(names.error());
@@ -142,7 +148,7 @@ Result<void> writeFolder(const ExportArguments& a, const Rig& rig, const Followi
     if (auto made = makeFolder(expressions); !made) return made;
   const MeshMaker meshes(rig, a.lod);
   const auto path = [&](std::size_t k) {
-    return k == 0 ? folder / "neutral.obj" : expressions / (*names)[k - 1];
+    return k == 0 ? folder / "neutral.obj" : expressions / utf8Path((*names)[k - 1]);
   };
   const auto text = [&](std::size_t k) {
     Weights weights(rig.targets.size());
@@ -150,7 +156,7 @@ Result<void> writeFolder(const ExportArguments& a, const Rig& rig, const Followi
     following.apply(weights);
     return meshes.obj(weights);
   };
-  if (auto ok = writeMeshes({following.count + 1, "meshes", a.face, path, text}, a.quiet); !ok)
+  if (auto ok = writeMeshes({following.count + 1, "meshes", utf8Path(a.face), path, text}, a.quiet); !ok)
     return ok;
   if (!a.quiet)
     fmt::print("{}: {} targets, {} faces each\n", a.output, following.count,

@@ -180,7 +180,7 @@ void printList(const nlohmann::ordered_json& list) {
 Result<int> runInfo(const InfoArguments& a) {
   const auto point = a.near.empty() ? Vec3{} : pointGiven("--near", a.near);
   if (!point) return std::unexpected(point.error());
-  const Result<std::string> bytes = readFile(a.face);
+  const Result<std::string> bytes = readFile(utf8Path(a.face));
   if (!bytes) return std::unexpected(bytes.error());
   const Result<Rig> rig = opened(*bytes, a.face);
   if (!rig) return std::unexpected(rig.error());

@@ -24,7 +24,7 @@ void addOptions(CLI::App& app, LawsArguments& a) {
 Result<int> runLaws(const LawsArguments& a) {
   if (auto ok = checkOutput(a.output, {}, {".svg"}, !a.quiet); !ok)
     return std::unexpected(ok.error());
-  if (auto written = writeFile(a.output, lawSheet()); !written)
+  if (auto written = writeFile(utf8Path(a.output), lawSheet()); !written)
     return std::unexpected(written.error());
   if (!a.quiet) fmt::print("{}: {} laws\n", a.output, everyLaw().size());
   return 0;

@@ -70,7 +70,7 @@ Result<int> packAndWrite(const PackArguments& a) {
   const Result<Strip> parts = a.strip.empty() ? Strip{} : parseStrip(a.strip);
   if (!parts) return std::unexpected(parts.error());
   if (auto ok = checkUvBits(a.uvBits, *parts); !ok) return std::unexpected(ok.error());
-  const Result<std::string> file = readFile(a.face);
+  const Result<std::string> file = readFile(utf8Path(a.face));
   if (!file) return std::unexpected(file.error());
   const Result<Rig> before = opened(*file, a.face);
   if (!before) return std::unexpected(before.error());
@@ -94,7 +94,7 @@ Result<int> packAndWrite(const PackArguments& a) {
   if (!verified) return std::unexpected(verified.error());
   catchInterrupts();  // writing must not end half-way
   if (interrupted) return kInterrupted;
-  if (auto written = writeAndReadBack(a.output, bytes); !written)
+  if (auto written = writeAndReadBack(utf8Path(a.output), bytes); !written)
     return std::unexpected(written.error());
   bar.reset();
   if (auto lost = lostMovement(meshes, verified->kept); !lost.empty()) printWarning(lost);

@@ -34,7 +34,7 @@ Result<Clip> readCapture(const PerformanceArguments& a, const std::string& text)
     return fail(fmt::format(
         "{} has no animations to choose from, as a .glb has; leave --animation out.", a.clip));
   auto clip = isJson ? parseClipJson(text, a.clip, a.clipRate)
-              : gltf ? parseGltfClip(text, a.clip, folderOf(a.clip), a.animation)
+              : gltf ? parseGltfClip(text, a.clip, folderOf(utf8Path(a.clip)), a.animation)
                      : parseLiveLinkCsv(text, a.clip, a.clipRate);
   if (clip && isJson && a.tellsRate && parseClipJson(text, a.clip))
     clip->warnings.push_back(
@@ -46,7 +46,7 @@ Result<Clip> readCapture(const PerformanceArguments& a, const std::string& text)
 Result<Clip> withNames(Clip clip, const PerformanceArguments& a,
                        std::span<const std::string> targets) {
   if (a.clipNames.empty()) return clip;
-  const auto text = readFile(a.clipNames);
+  const auto text = readFile(utf8Path(a.clipNames));
   if (!text) return std::unexpected(text.error());
   const auto map = parseNameMap(*text, a.clipNames);
   if (!map) return std::unexpected(map.error());
@@ -103,7 +103,7 @@ Result<std::vector<Performance>> byClip(const PerformanceArguments& a, const std
                     "lists the targets.",
                     a.clip, whole->names.size(), firstOf(whole->names)));
   Performance shared;
-  shared.name = std::filesystem::path(a.clip).stem().string();
+  shared.name = utf8Path(a.clip).stem().string();
   if (!whole->title.empty()) shared.name += " " + whole->title;
   // The name is printed on a single line, whatever the file calls it.
   std::ranges::replace_if(shared.name, [](unsigned char c) { return c < ' '; }, ' ');

@@ -18,7 +18,7 @@ Result<std::vector<Region>> readRegions(const PerformanceArguments& what, const 
   const bool own = a.file.empty() && isOfKind(what.clip, ".json");
   const std::string& file = own ? what.clip : a.file;
   if (file.empty()) return dividedFace(rig, {});
-  const Result<std::string> text = file == what.clip ? clip : readFile(file);
+  const Result<std::string> text = file == what.clip ? clip : readFile(utf8Path(file));
   if (!text) return std::unexpected(text.error());
   const auto painted = parseRegions(*text, file);
   if (!painted) return std::unexpected(painted.error());
@@ -136,7 +136,7 @@ void addRegions(CLI::App& app, RegionArguments& a) {
 Result<Performance> perform(const PerformanceArguments& what, const RegionArguments& a,
                             const FollowingArguments& following, Rig& rig) {
   // Read once, as it may be a pipe.
-  const Result<std::string> clip = what.clip.empty() ? std::string() : readFile(what.clip);
+  const Result<std::string> clip = what.clip.empty() ? std::string() : readFile(utf8Path(what.clip));
   if (!clip) return std::unexpected(clip.error());
   auto regions = regionsOf(what, *clip, a, rig);
   if (!regions) return std::unexpected(regions.error());

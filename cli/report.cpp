@@ -65,7 +65,7 @@ void addOptions(CLI::App& app, ReportArguments& a) {
 
 Result<ReportOptions> optionsOf(const ReportArguments& a, const Rig& rig, std::size_t bytes) {
   ReportOptions options;
-  options.name = std::filesystem::path(a.face).filename().string();
+  options.name = utf8Path(a.face).filename().string();
   options.bytes = bytes;
   if (!a.weights.empty()) {
     const Result<Weights> weights = weightsGiven("--weights", a.weights, rig);
@@ -76,7 +76,7 @@ Result<ReportOptions> optionsOf(const ReportArguments& a, const Rig& rig, std::s
   if (!a.gltfpack.empty()) {
     // A name without a folder is searched for only when it is run.
     std::error_code ignored;
-    if (a.gltfpack.contains('/') && !std::filesystem::is_regular_file(a.gltfpack, ignored))
+    if (a.gltfpack.contains('/') && !std::filesystem::is_regular_file(utf8Path(a.gltfpack), ignored))
       return fail(fmt::format("There is no program {}; --gltfpack says where it is.", a.gltfpack));
     options.gltfpack = a.gltfpack;
   }
@@ -85,7 +85,7 @@ Result<ReportOptions> optionsOf(const ReportArguments& a, const Rig& rig, std::s
 }
 
 Result<std::string> reportOf(const ReportArguments& a) {
-  const Result<std::string> bytes = readFile(a.face);
+  const Result<std::string> bytes = readFile(utf8Path(a.face));
   if (!bytes) return std::unexpected(bytes.error());
   const Result<Rig> rig = opened(*bytes, a.face);  // a pipe is read once
   if (!rig) return std::unexpected(rig.error());
@@ -116,7 +116,7 @@ Result<int> runReport(const ReportArguments& a) {
   const Result<std::string> page = reportOf(a);
   if (interrupted) return endInterrupted();
   if (!page) return std::unexpected(page.error());
-  if (auto written = writeFile(a.output, *page); !written) return std::unexpected(written.error());
+  if (auto written = writeFile(utf8Path(a.output), *page); !written) return std::unexpected(written.error());
   if (!a.quiet) fmt::print("{}: {} bytes\n", a.output, page->size());
   return 0;
 }

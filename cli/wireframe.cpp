@@ -59,7 +59,7 @@ Result<int> writeDrawing(const WireframeArguments& a, const Rig& rig) {
         "A .json file holds the curves of the neutral and all expressions as they are; --weights "
         "and --lod are for .obj.");
   const Drawing drawing = draw(rig);
-  if (auto written = writeFile(a.output, formatDrawing(drawing)); !written)
+  if (auto written = writeFile(utf8Path(a.output), formatDrawing(drawing)); !written)
     return std::unexpected(written.error());
   if (!a.quiet)
     fmt::print("{}: {} nodes, {} curves, {} patches, {} expressions\n", a.output,
@@ -77,7 +77,7 @@ Result<int> runWireframe(const WireframeArguments& a) {
     return std::unexpected(ok.error());
   if (isOfKind(a.output, ".json")) return writeDrawing(a, *rig);
   const CurveNetwork net = curveNetwork(rig->surface, blend(*rig, *weights), a.lod > 0 ? a.lod : 8);
-  if (auto written = writeFile(a.output, objLines(net)); !written)
+  if (auto written = writeFile(utf8Path(a.output), objLines(net)); !written)
     return std::unexpected(written.error());
   if (!a.quiet)
     fmt::print("{}: {} nodes, {} curves\n", a.output, net.nodes.size(),

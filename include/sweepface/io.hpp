@@ -60,6 +60,9 @@ struct ObjOutput {
 /// A Wavefront OBJ text. Its numbers read back as exactly the same doubles.
 std::string formatObj(const ObjOutput& output);
 
+/// The path that a text in UTF-8 names. On Windows a path made of `char` is in another encoding.
+std::filesystem::path utf8Path(std::string_view text);
+
 /// All bytes of a file.
 Result<std::string> readFile(const std::filesystem::path& path);
 

@@ -119,7 +119,7 @@ Result<fs::path> pathOf(std::string_view uri, const fs::path& folder) {
   if (folder.empty()) return refuse(uri, "is not read here; store everything in one .glb file");
   std::error_code error;
   const fs::path home = fs::canonical(folder, error);
-  const fs::path path = error ? fs::path() : fs::canonical(home / *decoded, error);
+  const fs::path path = error ? fs::path() : fs::canonical(home / utf8Path(*decoded), error);
   if (error)
     return refuse(uri, fmt::format("cannot be read ({}); put it beside the glTF", error.message()));
   const auto [end, unused] = std::mismatch(home.begin(), home.end(), path.begin(), path.end());

@@ -195,6 +195,10 @@ fs::path pointedTo(fs::path path) {
 
 }  // namespace
 
+fs::path utf8Path(std::string_view text) {
+  return std::u8string(text.begin(), text.end());
+}
+
 Result<std::string> readFile(const fs::path& path) {
   const auto cannotRead = [&](std::string_view why) {
     return fail(fmt::format("Cannot read {}: {}.", path.string(), why));

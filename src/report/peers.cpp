@@ -64,7 +64,7 @@ std::size_t brotliBytes(const std::string& file) {
       run({"node", "-e", script, file, out}) != Ran::well)
     return 0;
   std::error_code none;
-  const auto size = std::filesystem::file_size(out, none);
+  const auto size = std::filesystem::file_size(utf8Path(out), none);
   return none ? 0 : size;
 }
 
@@ -86,7 +86,7 @@ Result<PeerFile> packed(const std::string& gltfpack, const std::filesystem::path
     case Ran::well:
       break;
   }
-  const Result<std::string> bytes = readFile(out);
+  const Result<std::string> bytes = readFile(utf8Path(out));
   const auto measured = bytes ? measureFile(file, *bytes, source, reachOf(source, bits))
                               : std::unexpected(bytes.error());
   if (!measured)
